@@ -1,0 +1,89 @@
+#include "campaign/campaign.hpp"
+
+#include <set>
+
+#include "campaign/run_one.hpp"
+#include "campaign/task_pool.hpp"
+#include "core/random.hpp"
+#include "storage/archive.hpp"
+
+namespace fleetproof {
+namespace {
+
+// Runs between the oldest unfinished and the newest handed out: one slow run stalls nothing, and memory stays bounded.
+constexpr std::uint64_t kLiveWindow = 65'536;
+
+// Counts the gap-free prefix of a set of run indices that arrive in any order.
+class Prefix {
+ public:
+  void add(std::uint64_t index) {
+    ahead_.insert(index);
+    while (!ahead_.empty() && *ahead_.begin() == length_) {
+      ahead_.erase(ahead_.begin());
+      ++length_;
+    }
+  }
+  std::uint64_t length() const { return length_; }
+
+ private:
+  std::uint64_t length_ = 0;
+  std::set<std::uint64_t> ahead_;
+};
+
+bool must_stop(const RunOptions& options, double elapsed_s) {
+  const bool interrupted = options.interrupted != nullptr && options.interrupted->load() != 0;
+  return interrupted || (options.max_time && elapsed_s >= static_cast<double>(options.max_time->count()));
+}
+
+}  // namespace
+
+CampaignRecord campaign_record(const CampaignPlan& plan) {
+  CampaignRecord record;
+  record.name = plan.name;
+  record.kind = plan.kind;
+  record.seed = plan.seed;
+  record.replicates = plan.replicates;
+  record.plan_json = plan_text(plan);
+  record.plan_hash = name_hash(record.plan_json);
+  record.engine = engine_identity();
+  return record;
+}
+
+CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& path, const RunOptions& options,
+                            const CampaignListener& listener) {
+  using Clock = std::chrono::steady_clock;
+  const RunOne run_one(plan, programs);
+  ArchiveWriter archive(path, campaign_record(plan), plan.cells(), plan.gates);
+  CampaignResult result;
+  result.progress.planned = plan.run_count();
+  Prefix prefix;
+  const auto started = Clock::now();
+  auto last_tick = started;
+  {
+    TaskPool pool(options.workers, 0, plan.run_count(), kLiveWindow, [&](std::uint64_t index) { return run_one(index); });
+    while (!pool.finished()) {
+      const auto record = pool.next(std::chrono::milliseconds(100));
+      const auto now = Clock::now();
+      result.progress.elapsed_s = std::chrono::duration<double>(now - started).count();
+      if (record) {
+        ++result.progress.done;
+        result.progress.violating += record->outcome.violation ? 1 : 0;
+        result.progress.engine_errors += record->outcome.engine_error ? 1 : 0;
+        prefix.add(record->run_index);
+        archive.add(*record);
+        listener.run_finished(*record);
+      }
+      if (must_stop(options, result.progress.elapsed_s)) pool.stop();
+      if (now - last_tick >= std::chrono::milliseconds(100)) {
+        last_tick = now;
+        listener.tick(result.progress);
+      }
+    }
+    result.threads = pool.threads_seen();
+  }
+  result.stored = prefix.length();
+  archive.publish(result.stored);
+  return result;
+}
+
+}  // namespace fleetproof

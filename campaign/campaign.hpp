@@ -1,0 +1,48 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "campaign/agent_programs.hpp"
+#include "campaign/plan.hpp"
+#include "storage/records.hpp"
+
+namespace fleetproof {
+
+struct RunOptions {
+  int workers = 1;
+  std::optional<std::chrono::seconds> max_time;    // stop cleanly by itself
+  const std::atomic<int>* interrupted = nullptr;   // non-zero: a signal number; stop handing out runs
+};
+
+struct Progress {
+  std::uint64_t done = 0, planned = 0, violating = 0, engine_errors = 0;
+  double elapsed_s = 0.0;
+};
+
+struct CampaignResult {
+  Progress progress;
+  std::uint64_t stored = 0;   // the gap-free prefix that the campaign file holds
+  int threads = 0;
+  bool complete() const { return stored == progress.planned; }
+};
+
+// What a campaign tells while it runs, on the caller's thread.
+struct CampaignListener {
+  std::function<void(const RunRecord&)> run_finished = [](const RunRecord&) {};
+  std::function<void(const Progress&)> tick = [](const Progress&) {};  // about ten times a second
+};
+
+// Runs the plan and leaves its campaign file at `path`. Rows are stored as runs finish; the file holds the gap-free prefix of run indices, so the
+// same runs give the same bytes on any number of workers, in any order of finishing.
+CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& path, const RunOptions& options,
+                            const CampaignListener& listener);
+
+CampaignRecord campaign_record(const CampaignPlan& plan);
+EngineIdentity engine_identity();
+
+}  // namespace fleetproof

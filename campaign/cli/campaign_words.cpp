@@ -1,0 +1,24 @@
+#include "campaign/cli/campaign_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace fleetproof::cli {
+
+CampaignFile load_campaign(const std::string& path, AgentPrograms& programs) {
+  CampaignFile file = read_campaign_file(path);
+  for (const std::string& plugin : file.plugins) {
+    const std::string name = programs.load(plugin);
+    std::ranges::replace(file.plan.agents, plugin, name);
+  }
+  check_plan(file.plan, path);
+  for (const std::string& agent : file.plan.agents) programs.find(agent, path);
+  constexpr std::size_t kTold = 3;
+  for (std::size_t i = 0; i < std::min(kTold, file.warnings.size()); ++i) fmt::print(stderr, "warning: {}\n", file.warnings[i]);
+  if (file.warnings.size() > kTold) fmt::print(stderr, "warning: {} more of this kind\n", file.warnings.size() - kTold);
+  return file;
+}
+
+}  // namespace fleetproof::cli

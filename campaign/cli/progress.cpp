@@ -1,0 +1,75 @@
+#include "campaign/cli/progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <string_view>
+
+namespace fleetproof::cli {
+namespace {
+
+constexpr double kLineEvery_s = 30.0;
+
+bool is_terminal() {
+  const char* term = std::getenv("TERM");
+  return isatty(STDERR_FILENO) != 0 && term != nullptr && std::string_view(term) != "dumb";
+}
+
+std::string duration_text(double seconds) {
+  const auto whole = static_cast<long>(seconds + 0.5);
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{}m{:02}s", whole / 60, whole % 60);
+  return fmt::format("{}h{:02}m", whole / 3600, whole / 60 % 60);
+}
+
+}  // namespace
+
+ProgressTalk::ProgressTalk(const CampaignPlan& plan, std::string archive_path)
+    : cells_(plan.cells()), archive_path_(std::move(archive_path)), terminal_(is_terminal()) {}
+
+ProgressTalk::~ProgressTalk() { clear_line(); }
+
+CampaignListener ProgressTalk::listener() {
+  return {[this](const RunRecord& record) { run_finished(record); }, [this](const Progress& progress) { tick(progress); }};
+}
+
+void ProgressTalk::run_finished(const RunRecord& record) {
+  const Outcome& outcome = record.outcome;
+  if (outcome.outcome_class() > OutcomeClass::Hang) return;
+  const CellRecord& cell = cells_[record.cell];
+  if (std::ranges::find(told_agents_, cell.agent) != told_agents_.end()) return;
+  told_agents_.push_back(cell.agent);
+  clear_line();
+  fmt::print(stderr, "first failure of {}: {} in run {} ({}, {} AGVs, {:g} % loss, {:g} s delay)\n  replay: fleetproof replay {} {}\n", cell.agent,
+             name_of(outcome.outcome_class()), record.run_index, cell.layout, cell.fleet_size, 100.0 * cell.loss, cell.delay_s, archive_path_, record.run_index);
+}
+
+std::string ProgressTalk::counter_line(const Progress& progress) const {
+  const double rate = progress.elapsed_s > 0.0 ? static_cast<double>(progress.done) / progress.elapsed_s : 0.0;
+  const double left_s = rate > 0.0 ? static_cast<double>(progress.planned - progress.done) / rate : 0.0;
+  return fmt::format("{}/{} runs  {:.0f} %  {:.0f} runs/s  ETA {} | violating {}{}", progress.done, progress.planned,
+                     100.0 * static_cast<double>(progress.done) / static_cast<double>(progress.planned), rate, duration_text(left_s), progress.violating,
+                     progress.engine_errors == 0 ? "" : fmt::format("  engine errors {}", progress.engine_errors));
+}
+
+void ProgressTalk::tick(const Progress& progress) {
+  if (terminal_) {
+    fmt::print(stderr, "\r\033[K{}", counter_line(progress));
+    std::fflush(stderr);
+    line_open_ = true;
+  } else if (progress.elapsed_s - last_line_s_ >= kLineEvery_s) {
+    last_line_s_ = progress.elapsed_s;
+    fmt::print(stderr, "{}\n", counter_line(progress));
+  }
+}
+
+void ProgressTalk::clear_line() {
+  if (!line_open_) return;
+  fmt::print(stderr, "\r\033[K");
+  line_open_ = false;
+}
+
+}  // namespace fleetproof::cli

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+
+#include "campaign/campaign.hpp"
+
+namespace fleetproof::cli {
+
+// Talk on stderr while a campaign runs: one line rewritten at most ten times a second on a terminal, a counter line every 30 s elsewhere, and at
+// once the first failure of each agent with the line that replays it.
+class ProgressTalk {
+ public:
+  ProgressTalk(const CampaignPlan& plan, std::string archive_path);
+  ~ProgressTalk();
+  ProgressTalk(const ProgressTalk&) = delete;
+  ProgressTalk& operator=(const ProgressTalk&) = delete;
+
+  CampaignListener listener();
+
+ private:
+  void run_finished(const RunRecord& record);
+  void tick(const Progress& progress);
+  std::string counter_line(const Progress& progress) const;
+  void clear_line();
+
+  const std::vector<CellRecord> cells_;
+  const std::string archive_path_;
+  const bool terminal_;
+  std::vector<std::string> told_agents_;
+  double last_line_s_ = 0.0;
+  bool line_open_ = false;
+};
+
+}  // namespace fleetproof::cli

@@ -1,0 +1,70 @@
+#include "campaign/cli/run_text.hpp"
+
+#include <fmt/format.h>
+
+#include "core/activity.hpp"
+#include "core/sdk/fleetproof/agent.h"
+
+namespace fleetproof::cli {
+namespace {
+
+std::string counters_text(const Outcome& outcome) {
+  const Counters& c = outcome.counters;
+  const double hours = static_cast<double>(outcome.agv_count) * static_cast<double>(outcome.simulated_ns) / 3.6e12;
+  std::string text = fmt::format("  {} drives, {} turns, {:.0f} m; transports {} of {} done", c.drives, c.turns, static_cast<double>(c.distance_um) * 1e-6,
+                                 c.transports_done, c.transports_released);
+  if (hours > 0.0) text += fmt::format(" ({:.2f} per AGV-hour)", static_cast<double>(c.transports_done) / hours);
+  const double lost = c.receptions == 0 ? 0.0 : 100.0 * static_cast<double>(c.receptions_lost) / static_cast<double>(c.receptions);
+  const double delay = c.receptions == 0 ? 0.0 : static_cast<double>(c.delay_sum_ns) * 1e-9 / static_cast<double>(c.receptions);
+  text += fmt::format("\n  {} messages sent; of {} receptions {:.1f} % lost, mean delay {:.2f} s; {} events\n", c.messages_sent, c.receptions, lost, delay, c.events);
+  return text;
+}
+
+}  // namespace
+
+std::string body_name(const Scenario& scenario, EntityId id) {
+  return id.index() < scenario.agvs.size() ? scenario.agvs[id.index()].name : scenario.obstacles[id.index() - scenario.agvs.size()].name;
+}
+
+std::string outcome_text(const Scenario& scenario, const Outcome& outcome) {
+  std::string text = fmt::format("{}: {}\n", scenario.name, name_of(outcome.outcome_class()));
+  if (!outcome.message.empty()) text += fmt::format("  {}\n", outcome.message);
+  for (const Violation& v : outcome.violations) {
+    text += fmt::format("  {} and {} closer than {:.2f} m from {:.3f} s to {:.3f} s; closest {:.3f} m at {:.3f} s near ({:.2f}, {:.2f}), {:.2f} m/s apart{}\n",
+                        body_name(scenario, v.a), body_name(scenario, v.b), scenario.law.safety_distance_m, to_seconds(v.first), to_seconds(v.last),
+                        static_cast<double>(v.min_clearance_um) * 1e-6, to_seconds(v.closest_at), static_cast<double>(v.x_um) * 1e-6,
+                        static_cast<double>(v.y_um) * 1e-6, static_cast<double>(v.relative_speed_um_s) * 1e-6, v.contact ? ", contact" : "");
+  }
+  if (outcome.min_clearance_um) {
+    text += fmt::format("  smallest clearance {:.2f} m\n", static_cast<double>(*outcome.min_clearance_um) * 1e-6);
+  } else {
+    text += "  smallest clearance > 0.5 m\n";
+  }
+  return text + counters_text(outcome) + fmt::format("  trace digest {:016x}\n", outcome.digest);
+}
+
+void TracePrinter::record(const TraceRecord& record, std::string_view text) {
+  std::string what;
+  switch (record.kind) {
+    case TraceKind::ActivityBegins:
+    case TraceKind::ActivityEnds: {
+      what = name_of(static_cast<ActivityKind>(record.a));
+      if (record.kind == TraceKind::ActivityBegins && static_cast<ActivityKind>(record.a) == ActivityKind::Drive) {
+        what += " " + scenario_.map->segment(SegmentId{static_cast<std::uint32_t>(record.b)}).name;
+      }
+      if (record.kind == TraceKind::ActivityEnds && record.b == 0) what += " (cut short)";
+      break;
+    }
+    case TraceKind::Sent: what = record.a == FP_NONE ? "to all" : "to " + body_name(scenario_, EntityId{static_cast<std::uint32_t>(record.a)}); break;
+    case TraceKind::Lost:
+    case TraceKind::Received: what = "from " + body_name(scenario_, EntityId{static_cast<std::uint32_t>(record.a)}); break;
+    case TraceKind::Contact: what = "with " + body_name(scenario_, EntityId{static_cast<std::uint32_t>(record.a)}); break;
+    case TraceKind::WaitingFor: what = record.a == FP_NONE ? "nobody" : body_name(scenario_, EntityId{static_cast<std::uint32_t>(record.a)}); break;
+    case TraceKind::Probe:
+    case TraceKind::Log: what = std::string(text); break;
+    default: what = fmt::format("{}", record.a); break;
+  }
+  fmt::print(stderr, "{:>12.6f}  {:<6} {:<14} {}\n", to_seconds(record.at), body_name(scenario_, record.entity), name_of(record.kind), what);
+}
+
+}  // namespace fleetproof::cli

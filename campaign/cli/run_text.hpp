@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/outcome.hpp"
+#include "core/scenario.hpp"
+#include "core/trace.hpp"
+
+namespace fleetproof::cli {
+
+std::string body_name(const Scenario& scenario, EntityId id);
+
+// One run for a person: what happened, in times of 0.01 s and lengths of 1 cm (violations to 1 ms and 1 mm, where the centimetre would hide them).
+std::string outcome_text(const Scenario& scenario, const Outcome& outcome);
+
+// Prints the trace of a run on stderr, one event a line.
+class TracePrinter final : public TraceSink {
+ public:
+  explicit TracePrinter(const Scenario& scenario) : scenario_(scenario) {}
+  void record(const TraceRecord& record, std::string_view text) override;
+
+ private:
+  const Scenario& scenario_;
+};
+
+}  // namespace fleetproof::cli

@@ -1,0 +1,105 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "campaign/agent_programs.hpp"
+#include "campaign/cli/run_text.hpp"
+#include "campaign/cli/verbs.hpp"
+#include "core/error.hpp"
+#include "core/simulation.hpp"
+#include "generators/scenario_file.hpp"
+#include "laws/laws.hpp"
+
+namespace fleetproof::cli {
+namespace {
+
+struct SimulateWords {
+  std::string scenario, agent = "scripted", law = "exact", config;
+  std::vector<std::string> plugins;
+  std::optional<double> granularity_s;
+  bool json = false, trace = false;
+};
+
+nlohmann::ordered_json to_json(const Violation& violation, const Scenario& scenario) {
+  return {{"entities", {body_name(scenario, violation.a), body_name(scenario, violation.b)}},
+          {"first_s", to_seconds(violation.first)},
+          {"last_s", to_seconds(violation.last)},
+          {"min_clearance_m", static_cast<double>(violation.min_clearance_um) * 1e-6},
+          {"at_s", to_seconds(violation.closest_at)},
+          {"contact", violation.contact},
+          {"relative_speed_mps", static_cast<double>(violation.relative_speed_um_s) * 1e-6},
+          {"x_m", static_cast<double>(violation.x_um) * 1e-6},
+          {"y_m", static_cast<double>(violation.y_um) * 1e-6}};
+}
+
+void print_json(const Scenario& scenario, const Outcome& outcome, const SimulateWords& words) {
+  nlohmann::ordered_json json;
+  json["schema_version"] = 1;
+  json["scenario"] = scenario.name;
+  json["agent"] = words.agent;
+  json["law"] = words.law;
+  json["outcome"] = name_of(outcome.outcome_class());
+  json["violations"] = nlohmann::ordered_json::array();
+  for (const Violation& violation : outcome.violations) json["violations"].push_back(to_json(violation, scenario));
+  json["min_clearance_m"] = nullptr;
+  if (outcome.min_clearance_um) json["min_clearance_m"] = static_cast<double>(*outcome.min_clearance_um) * 1e-6;
+  const Counters& c = outcome.counters;
+  json["counters"] = {{"perimeter_checks", c.perimeter_checks},
+                      {"distance_evaluations", c.distance_evaluations},
+                      {"events", c.events},
+                      {"messages_sent", c.messages_sent},
+                      {"receptions", c.receptions},
+                      {"receptions_lost", c.receptions_lost},
+                      {"drives", c.drives},
+                      {"turns", c.turns},
+                      {"contacts", c.contacts},
+                      {"transports_released", c.transports_released},
+                      {"transports_done", c.transports_done}};
+  json["digest"] = fmt::format("{:016x}", outcome.digest);
+  if (!outcome.message.empty()) json["message"] = outcome.message;
+  fmt::print("{}\n", json.dump(2));
+}
+
+int simulate_scenario(const SimulateWords& words) {
+  Scenario scenario = read_scenario(words.scenario);
+  if (words.granularity_s) {
+    if (!(*words.granularity_s > 0.0)) throw InputError("--granularity", fmt::format("is {}; it must be above 0 s", *words.granularity_s));
+    scenario.law.snapshot_s = *words.granularity_s;
+  }
+  AgentPrograms programs;
+  for (const std::string& plugin : words.plugins) programs.load(plugin);
+  const fp_agent_type& agent = programs.find(words.agent, "--agent");
+  const auto* law = find_entry(laws(), words.law);
+  if (law == nullptr) {
+    const auto names = names_of(laws());
+    throw InputError("--law", fmt::format("\"{}\" is not a law{} (see: fleetproof list laws)", words.law, name_hint(words.law, names)));
+  }
+  std::vector<std::unique_ptr<Law>> observers;
+  observers.push_back(law->make(scenario));
+  TracePrinter printer(scenario);
+  const Outcome outcome = simulate(scenario, agent, observers, words.trace ? &printer : nullptr, words.config.c_str());
+  if (words.json) {
+    print_json(scenario, outcome, words);
+  } else {
+    fmt::print("{}", outcome_text(scenario, outcome));
+  }
+  if (outcome.engine_error) return kEngineFault;
+  return outcome.violation || outcome.contact ? kViolated : kDemonstrated;
+}
+
+}  // namespace
+
+Action prepare_simulate(Options& options) {
+  auto words = std::make_shared<SimulateWords>();
+  options.positional("SCENARIO", words->scenario, "scenario file (JSON)");
+  options.option("--agent", words->agent, "control software under test (default: scripted, which plays the scenario's script)");
+  options.option("--agent-config", words->config, "text handed to the agent as its own parameters");
+  options.option("--plugin", words->plugins, "shared object with an agent; may be given several times");
+  options.option("--law", words->law, "law that judges (default: exact)");
+  options.option("--granularity", words->granularity_s, "snapshot step of the published laws, in seconds (default: the scenario's, 0.0025)");
+  options.flag("--json", words->json, "print JSON");
+  options.flag("--trace", words->trace, "print every event on stderr");
+  return [words] { return simulate_scenario(*words); };
+}
+
+}  // namespace fleetproof::cli

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "campaign/cli/command_line.hpp"
+
+// One file per verb: what it takes, and what it does.
+namespace fleetproof::cli {
+
+Action prepare_run(Options& options);
+Action prepare_report(Options& options);
+Action prepare_replay(Options& options);
+Action prepare_simulate(Options& options);
+Action prepare_check(Options& options);
+Action prepare_list(Options& options);
+
+}  // namespace fleetproof::cli

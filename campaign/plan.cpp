@@ -1,0 +1,116 @@
+#include "campaign/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace fleetproof {
+
+std::vector<CellRecord> CampaignPlan::cells() const {
+  std::vector<CellRecord> all;
+  for (const LayoutFactor& layout : layouts) {
+    for (const std::uint32_t fleet : fleet_sizes) {
+      for (const double one_loss : loss) {
+        for (const double delay : delay_s) {
+          for (const std::string& agent : agents) {
+            all.push_back({static_cast<std::uint32_t>(all.size()), agent, layout.name, fleet, one_loss, delay});
+          }
+        }
+      }
+    }
+  }
+  return all;
+}
+
+std::uint64_t CampaignPlan::cell_count() const {
+  return layouts.size() * fleet_sizes.size() * loss.size() * delay_s.size() * agents.size();
+}
+
+namespace {
+
+void demand(bool holds, const std::string& where, const std::string& what) {
+  if (!holds) throw InputError(where, what);
+}
+
+template <class T>
+bool has_duplicates(std::vector<T> values) {
+  std::ranges::sort(values);
+  return std::ranges::adjacent_find(values) != values.end();
+}
+
+void check_factors(const CampaignPlan& plan, const std::string& where) {
+  demand(!plan.agents.empty(), where, "factors.agents is empty; name at least one (see: fleetproof list agents)");
+  demand(!plan.layouts.empty(), where, "factors.layouts is empty; name at least one family or layout file (see: fleetproof list generators)");
+  demand(!plan.loss.empty() && !plan.delay_s.empty(), where, "factors.loss and factors.delay_s need at least one value each");
+  demand(!plan.fleet_sizes.empty(), where, "factors.fleet_sizes is empty; it needs at least one value");
+  for (const double value : plan.loss) {
+    demand(value >= 0.0 && value <= 1.0, where, fmt::format("factors.loss holds {}; a share of lost messages lies between 0 and 1", value));
+  }
+  for (const double value : plan.delay_s) {
+    demand(value >= 0.0 && value <= 3600.0, where, fmt::format("factors.delay_s holds {}; a delay lies between 0 and 3600 s", value));
+  }
+  for (const auto value : plan.fleet_sizes) {
+    demand(value >= 1 && value <= 1000, where, fmt::format("factors.fleet_sizes holds {}; a fleet has 1 to 1000 AGVs", value));
+  }
+  std::vector<std::string> layout_names;
+  for (const auto& layout : plan.layouts) layout_names.push_back(layout.name);
+  const bool repeated = has_duplicates(plan.agents) || has_duplicates(plan.loss) || has_duplicates(plan.delay_s) ||
+                        has_duplicates(plan.fleet_sizes) || has_duplicates(layout_names);
+  demand(!repeated, where, "a factor names one value twice; each combination is one cell, so every value may stand once");
+}
+
+void check_gates(const CampaignPlan& plan, const std::string& where) {
+  for (const GateRecord& gate : plan.gates) {
+    const std::string at = fmt::format("gate \"{}\": ", gate.name);
+    std::vector<std::string_view> names(plan.agents.begin(), plan.agents.end());
+    demand(std::ranges::find(plan.agents, gate.agent) != plan.agents.end(), where,
+           fmt::format("{}agent \"{}\" is not among factors.agents{}", at, gate.agent, name_hint(gate.agent, names)));
+    demand(gate.limit >= 0.0 && gate.limit < 1.0, where, fmt::format("{}limit is {}; it lies from 0 to below 1", at, gate.limit));
+    demand(gate.confidence > 0.5 && gate.confidence < 1.0, where, fmt::format("{}confidence is {}; it lies between 0.5 and 1", at, gate.confidence));
+    const auto cells = plan.cells();
+    const bool covers = std::ranges::any_of(cells, [&](const CellRecord& cell) {
+      return cell.agent == gate.agent &&
+             (gate.region == Region::All || (gate.region == Region::Contract && cell.in_contract()) ||
+              (gate.region == Region::WorstCase && cell.is_worst_case()));
+    });
+    demand(covers, where, fmt::format("{}no cell of this campaign lies in region \"{}\"; add the loss and delay it needs", at, name_of(gate.region)));
+  }
+}
+
+void check_vehicle(const VehicleType& vehicle, const std::string& where) {
+  const auto positive = [&](double value, const char* key) {
+    demand(value > 0.0 && std::isfinite(value), where, fmt::format("vehicle.{} is {}; it must be above 0", key, value));
+  };
+  positive(vehicle.footprint.length_m, "length_m");
+  positive(vehicle.footprint.width_m, "width_m");
+  positive(vehicle.drive.speed_mps, "speed_mps");
+  positive(vehicle.drive.acceleration_mps2, "acceleration_mps2");
+  positive(vehicle.drive.deceleration_mps2, "deceleration_mps2");
+  positive(vehicle.turn.speed_mps, "turn_speed_radps");
+  positive(vehicle.turn.acceleration_mps2, "turn_acceleration_radps2");
+  positive(vehicle.turn.deceleration_mps2, "turn_deceleration_radps2");
+}
+
+}  // namespace
+
+void check_plan(const CampaignPlan& plan, const std::string& where) {
+  demand(plan.kind == "claim" || plan.kind == "search", where, fmt::format("kind is \"{}\"; it is \"claim\" or \"search\"", plan.kind));
+  demand(plan.replicates >= 1, where, "replicates is 0; at least one is needed");
+  demand(plan.horizon_s > 0.0 && plan.horizon_s <= 1e6, where, fmt::format("horizon_s is {}; it lies above 0 and at most 1e6", plan.horizon_s));
+  demand(plan.stuck_after_s > 0.0, where, fmt::format("stuck_after_s is {}; it must be above 0", plan.stuck_after_s));
+  demand(plan.transports_per_agv_hour >= 0.0 && plan.transports_per_agv_hour <= 3600.0, where,
+         fmt::format("world.transports_per_agv_hour is {}; it lies between 0 and 3600", plan.transports_per_agv_hour));
+  demand(plan.law.safety_distance_m > 0.0 && plan.law.safety_distance_m < 0.5, where,
+         fmt::format("law.safety_distance_m is {}; it lies between 0 and 0.5 m", plan.law.safety_distance_m));
+  demand(plan.radio.range_m > 0.0, where, fmt::format("radio.range_m is {}; it must be above 0", plan.radio.range_m));
+  demand(plan.agent_clock.call_cost_s >= 0.0 && plan.agent_clock.call_cost_s <= 10.0, where,
+         fmt::format("agent_clock.call_cost_s is {}; it lies between 0 and 10", plan.agent_clock.call_cost_s));
+  check_vehicle(plan.vehicle, where);
+  check_factors(plan, where);
+  check_gates(plan, where);
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/scenario.hpp"
+#include "storage/records.hpp"
+
+namespace fleetproof {
+
+// A layout of the campaign: a family that draws a new one per replicate, or one read from a file and embedded by content.
+struct LayoutFactor {
+  std::string name;
+  std::shared_ptr<const LogicalMap> map;  // null: `name` is a family
+};
+
+// A campaign as resolved from its file: everything that decides its outcomes, and nothing else (no path, no number of jobs).
+struct CampaignPlan {
+  std::string name = "campaign";
+  std::string kind = "claim";             // "claim" or "search"
+  std::uint64_t seed = 1;
+  std::uint64_t replicates = 1;
+  double horizon_s = 600.0, stuck_after_s = 120.0;
+
+  std::vector<std::string> agents;        // catalogue names, or names of plug-ins that the caller loads
+  std::string agent_config;
+  std::vector<double> loss{0.0}, delay_s{0.0};
+  std::vector<LayoutFactor> layouts;
+  std::vector<std::uint32_t> fleet_sizes{5};
+
+  double transports_per_agv_hour = 30.0;
+  VehicleType vehicle;
+  RadioSetup radio;                       // loss and delay_s come from the cell
+  AgentClockSetup agent_clock;
+  LawSetup law;
+  bool contact_stops = true;
+  std::vector<GateRecord> gates;
+
+  // Agents vary fastest, then delay, loss, fleet size and layout.
+  std::vector<CellRecord> cells() const;
+  std::uint64_t cell_count() const;
+  std::uint64_t run_count() const { return replicates * cell_count(); }
+};
+
+// The plan as one canonical JSON text, and back: parse_plan(plan_text(p)) describes the same runs, bit for bit.
+std::string plan_text(const CampaignPlan& plan);
+CampaignPlan parse_plan(const std::string& text);  // throws EngineError: only the archive holds such texts
+
+// Throws InputError (`where` names the file) for what no run could mean: a loss of 1.4, no agents, an unknown gate agent.
+void check_plan(const CampaignPlan& plan, const std::string& where);
+
+}  // namespace fleetproof

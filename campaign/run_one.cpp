@@ -1,0 +1,30 @@
+#include "campaign/run_one.hpp"
+
+#include <algorithm>
+
+#include "core/simulation.hpp"
+#include "generators/scenario_file.hpp"
+#include "laws/laws.hpp"
+
+namespace fleetproof {
+
+RunOne::RunOne(const CampaignPlan& plan, const AgentPrograms& programs) : plan_(plan), scenarios_(plan) {
+  for (const std::string& name : plan.agents) agents_.push_back(&programs.find(name, "factors.agents"));
+}
+
+RunRecord RunOne::operator()(std::uint64_t run_index, TraceSink* sink) const {
+  const RunPlace place = scenarios_.place(run_index);
+  const Scenario scenario = scenarios_.scenario(run_index);
+  const auto agent = std::ranges::find(plan_.agents, place.cell.agent) - plan_.agents.begin();
+  std::vector<std::unique_ptr<Law>> laws;
+  laws.push_back(find_entry(fleetproof::laws(), "exact")->make(scenario));
+  RunRecord record;
+  record.run_index = run_index;
+  record.cell = place.cell.index;
+  record.replicate = place.replicate;
+  record.scenario_digest = scenario_digest(scenario);
+  record.outcome = simulate(scenario, *agents_[static_cast<std::size_t>(agent)], laws, sink, plan_.agent_config.c_str());
+  return record;
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,40 @@
+#include "campaign/scenario_source.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/random.hpp"
+#include "generators/world.hpp"
+
+namespace fleetproof {
+
+ScenarioSource::ScenarioSource(const CampaignPlan& plan) : plan_(plan), cells_(plan.cells()) {}
+
+RunPlace ScenarioSource::place(std::uint64_t run_index) const { return {run_index / cells_.size(), cells_[run_index % cells_.size()]}; }
+
+Scenario ScenarioSource::scenario(std::uint64_t run_index) const {
+  const auto [replicate, cell] = place(run_index);
+  const LayoutFactor& layout = *std::ranges::find(plan_.layouts, cell.layout, &LayoutFactor::name);
+  WorldSpec spec;
+  spec.layout_family = layout.name;
+  spec.map = layout.map;
+  spec.fleet_size = cell.fleet_size;
+  spec.transports_per_agv_hour = plan_.transports_per_agv_hour;
+  spec.vehicle = plan_.vehicle;
+  spec.horizon = seconds(plan_.horizon_s);
+  const std::uint64_t factors = name_hash(fmt::format("{}/{}", cell.layout, cell.fleet_size));
+  RejectionCounts rejected;
+  Scenario scenario = generate_world(spec, world_seed(plan_.seed, replicate, factors), rejected);
+  scenario.name = fmt::format("{} run {}", plan_.name, run_index);
+  scenario.radio = plan_.radio;
+  scenario.radio.loss = cell.loss;
+  scenario.radio.delay_s = cell.delay_s;
+  scenario.agent_clock = plan_.agent_clock;
+  scenario.law = plan_.law;
+  scenario.contact_stops = plan_.contact_stops;
+  scenario.stuck_after = seconds(plan_.stuck_after_s);
+  return scenario;
+}
+
+}  // namespace fleetproof

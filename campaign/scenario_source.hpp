@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+
+#include "campaign/plan.hpp"
+#include "core/scenario.hpp"
+
+namespace fleetproof {
+
+// What run number `run_index` is about.
+struct RunPlace {
+  std::uint64_t replicate = 0;
+  CellRecord cell;
+};
+
+// run index -> scenario, a pure function of the plan. All agents and radio qualities of a replicate get the same world. Threads: any number.
+class ScenarioSource {
+ public:
+  explicit ScenarioSource(const CampaignPlan& plan);
+  RunPlace place(std::uint64_t run_index) const;
+  Scenario scenario(std::uint64_t run_index) const;
+
+ private:
+  const CampaignPlan& plan_;
+  std::vector<CellRecord> cells_;
+};
+
+}  // namespace fleetproof

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fleetproof {
+
+// One table of a TOML file, read key by key. Every error names file, line, column and the key; keys that nobody asked for are errors too.
+// A thin view: toml++ stays in toml_table.cpp.
+class TomlTable {
+ public:
+  // Parses the file. Throws InputError: no such file, or a syntax error with its line and column.
+  static TomlTable read(const std::string& path);
+  ~TomlTable();
+  TomlTable(TomlTable&&) noexcept;
+  TomlTable& operator=(TomlTable&&) = delete;
+
+  // Absent keys leave the value as it is.
+  void get(std::string_view key, std::string& value);
+  void get(std::string_view key, double& value);
+  void get(std::string_view key, bool& value);
+  void get(std::string_view key, std::uint64_t& value);
+  void get(std::string_view key, std::vector<double>& value);
+  void get(std::string_view key, std::vector<std::uint32_t>& value);
+  void get(std::string_view key, std::vector<std::string>& value);
+
+  bool has(std::string_view key) const;
+  std::optional<TomlTable> table(std::string_view key);        // [key]
+  std::vector<TomlTable> tables(std::string_view key);          // [[key]]
+  void finish() const;                                         // throws InputError if a key is left that was never asked for
+  std::string place(std::string_view key) const;               // "file:line:column" of a key, or of the table
+
+ private:
+  struct Impl;
+  explicit TomlTable(Impl* impl);
+  Impl* impl_;
+};
+
+}  // namespace fleetproof

@@ -1,0 +1,18 @@
+/* The catalogue of the reference agents: they see the world through fleetproof/agent.h and nothing else. */
+#ifndef FLEETPROOF_AGENTS_H
+#define FLEETPROOF_AGENTS_H
+
+#include "core/sdk/fleetproof/agent.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+extern const fp_agent_type* const fp_reference_agents[];
+extern const uint32_t fp_reference_agent_count;
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,152 @@
+#include "core/engine.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "core/random.hpp"
+
+namespace fleetproof {
+namespace {
+
+// Reception needs a range test only where the floor is larger than the range.
+bool covers_floor(const RadioSetup& radio, const LogicalMap& map) {
+  Box box;
+  for (const Station& station : map.layout().stations) box.add(station.position_m);
+  for (const Segment& segment : map.layout().segments) {
+    for (const Vec2& point : segment.control_points_m) box.add(point);
+  }
+  return radio.range_m > (box.high_m - box.low_m).norm();
+}
+
+}  // namespace
+
+Engine::Engine(const Scenario& scenario, const fp_agent_type& agent, std::span<const std::unique_ptr<Law>> laws, TraceSink* sink,
+               const char* agent_config)
+    : scenario_(scenario),
+      agent_type_(agent),
+      laws_(laws),
+      sink_(sink),
+      briefings_(scenario, agent_config),
+      radio_(scenario.radio, scenario.seed),
+      unlimited_range_(covers_floor(scenario.radio, *scenario.map)),
+      agent_key_(stream_key(scenario.seed, Stream::Agent)),
+      world_(scenario, laws),
+      agvs_(scenario.agvs.size()),
+      controllers_(scenario.agvs.size()) {
+  std::uint64_t transports = 0;
+  for (std::size_t i = 0; i < agvs_.size(); ++i) {
+    agvs_[i].id = AgvId{i};
+    agvs_[i].station = scenario.agvs[i].start;
+    agvs_[i].battery = scenario.agvs[i].battery;
+    controllers_[i] = {this, AgvId{i}};
+    first_transport_.push_back(transports);
+    transports += scenario.agvs[i].transports.size();
+  }
+}
+
+Engine::~Engine() {
+  for (Agv& agv : agvs_) {
+    if (agv.agent != nullptr) agent_type_.destroy(agv.agent);
+  }
+}
+
+void Engine::run() {
+  start();
+  const SimTime end = kStart + scenario_.horizon;
+  while (!queue_.empty() && queue_.next_at() <= end) {
+    const Event event = queue_.pop();
+    now_ = event.at;
+    handle(event);
+  }
+  now_ = end;
+  for (Agv& agv : agvs_) apply_safe_mode(agv, false, end);
+  world_.finish(end);
+}
+
+void Engine::start() {
+  for (Agv& agv : agvs_) {
+    queue_.push(kStart, agv.id, Event::Kind::Start);
+    const auto& transports = scenario_.agvs[agv.id.index()].transports;
+    for (std::size_t i = 0; i < transports.size(); ++i) queue_.push(kStart + transports[i].release, agv.id, Event::Kind::OrderReleased, i);
+    predict_touches(agv.id);
+  }
+}
+
+void Engine::handle(const Event& event) {
+  if (event.kind == Event::Kind::Contact) {
+    bodies_touch(event.entity, event.payload);
+    return;
+  }
+  Agv& agv = agvs_[event.entity.index()];
+  switch (event.kind) {
+    case Event::Kind::Start: {
+      fp_event start{};
+      start.kind = FP_EVENT_START;
+      tell(agv, start);
+      break;
+    }
+    case Event::Kind::OrderReleased: order_released(agv, event.payload); break;
+    case Event::Kind::ActivityEnds:
+      if (event.stamp == agv.activity_stamp && agv.activity) activity_ends(agv);
+      break;
+    case Event::Kind::CallTakesEffect: call_takes_effect(agv); break;
+    case Event::Kind::MessageArrives: message_arrives(agv, static_cast<std::uint32_t>(event.payload)); break;
+    case Event::Kind::TimerGoesOff: timer_goes_off(agv, static_cast<std::uint32_t>(event.payload), event.stamp); break;
+    case Event::Kind::AgentIsFree: agent_is_free(agv); break;
+    case Event::Kind::Contact: break;
+  }
+}
+
+void Engine::trace(EntityId entity, TraceKind kind, std::uint64_t a, std::uint64_t b, std::string_view text) {
+  const TraceRecord record{now_, entity, kind, a, b};
+  digest_.append(record);
+  if (sink_ != nullptr) sink_->record(record, text);
+}
+
+void Engine::note(Agv& agv, TraceKind kind, std::string_view text) { trace(agv.id, kind, name_hash(text), 0, text); }
+
+Outcome Engine::outcome() {
+  Counters& counters = outcome_.counters;
+  for (const Agv& agv : agvs_) counters.safe_mode_ns += agv.safe_mode_ns;
+  counters.events = digest_.record_count();
+  outcome_.simulated_ns = static_cast<std::uint64_t>(scenario_.horizon.count());
+  outcome_.agv_count = static_cast<std::uint32_t>(agvs_.size());
+  const bool open = counters.transports_done < counters.transports_released;
+  outcome_.stuck = open && now_ - last_progress_ >= scenario_.stuck_after;
+  if (!laws_.empty()) {
+    LawFindings findings = laws_.front()->findings();
+    file_violations(outcome_, std::move(findings.violations));
+    if (findings.min_clearance_m) outcome_.min_clearance_um = static_cast<std::int64_t>(std::floor(*findings.min_clearance_m * 1e6));
+    counters.distance_evaluations = findings.distance_evaluations;
+    counters.perimeter_checks = findings.perimeter_checks;
+  }
+  outcome_.contact = outcome_.contact || counters.contacts > 0;
+  outcome_.digest = digest_.value();
+  outcome_.running_digests = digest_.running();
+  return std::move(outcome_);
+}
+
+void check_abi(const fp_agent_type& agent) {
+  if (agent.abi_major != FP_ABI_MAJOR || agent.struct_size < sizeof(fp_agent_type)) {
+    throw InputError(agent.name == nullptr ? "agent" : agent.name, "speaks another version of fleetproof/agent.h (this program: " +
+                                                                       std::to_string(FP_ABI_MAJOR) + "); rebuild it against this version's header");
+  }
+}
+
+Outcome simulate(const Scenario& scenario, const fp_agent_type& agent, std::span<const std::unique_ptr<Law>> laws, TraceSink* sink,
+                 const char* agent_config) {
+  try {
+    Engine engine(scenario, agent, laws, sink, agent_config);
+    engine.run();
+    return engine.outcome();
+  } catch (const InvariantViolation& bug) {
+    Outcome failed;
+    failed.engine_error = true;
+    failed.message = bug.what();
+    failed.agv_count = static_cast<std::uint32_t>(scenario.agvs.size());
+    failed.simulated_ns = static_cast<std::uint64_t>(scenario.horizon.count());
+    return failed;
+  }
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,121 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/agent_map.hpp"
+#include "core/agv.hpp"
+#include "core/event_queue.hpp"
+#include "core/radio.hpp"
+#include "core/simulation.hpp"
+#include "core/world.hpp"
+
+namespace fleetproof {
+
+class Engine;
+
+}  // namespace fleetproof
+
+// The handle an agent holds: which AGV of which run.
+struct fp_controller {
+  fleetproof::Engine* engine = nullptr;
+  fleetproof::AgvId agv;
+};
+
+namespace fleetproof {
+
+// The event loop of one run. A local variable of simulate(); thousands can live at once.
+// Its member functions stand in four files: engine.cpp (the loop), engine_motion.cpp (activities of AGVs), engine_radio.cpp (messages),
+// engine_agents.cpp (activations and the agent's clock). controller.cpp translates the C interface.
+class Engine {
+ public:
+  Engine(const Scenario& scenario, const fp_agent_type& agent, std::span<const std::unique_ptr<Law>> laws, TraceSink* sink, const char* agent_config);
+  ~Engine();
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
+
+  void run();
+  Outcome outcome();
+
+  // ---- what a controller call does, called by the C interface
+  Agv& agv(AgvId id) { return agvs_[id.index()]; }
+  // Counts the call against the activation's limit; false: the agent has been given up.
+  bool admit_call(Agv& agv);
+  std::int32_t act(Agv& agv, fp_call call, std::uint32_t segment);
+  std::int32_t send(Agv& agv, std::string_view bytes, std::uint32_t receiver);
+  std::int32_t read_message(Agv& agv, fp_message& out);
+  std::int32_t set_timer(Agv& agv, std::uint32_t number, std::int64_t at_ns);
+  std::int32_t declare_safe_mode(Agv& agv, bool on);
+  std::int32_t declare_waiting(Agv& agv, std::uint32_t for_whom);
+  void note(Agv& agv, TraceKind kind, std::string_view text);
+  Pose pose_of(const Agv& agv) const { return world_.pose_of(agv.id, now_); }
+  double battery_of(const Agv& agv) const;
+  bool is_loaded(const Agv& agv) const { return world_.carried_load(agv.id).valid(); }
+  SimTime now() const { return now_; }
+  std::uint64_t random(const Agv& agv, std::uint32_t purpose, std::uint64_t index) const;
+
+ private:
+  void trace(EntityId entity, TraceKind kind, std::uint64_t a = 0, std::uint64_t b = 0, std::string_view text = {});
+  void handle(const Event& event);
+  void start();
+
+  // ---- motion
+  void begin_action(Agv& agv, fp_call call, std::uint32_t segment);
+  void continue_plan(Agv& agv);
+  void begin_motion(Agv& agv, ActivityKind kind, Piece piece);
+  void begin_stay(Agv& agv);
+  void begin_activity(Agv& agv, Activity activity, std::uint64_t subject);
+  void activity_ends(Agv& agv);
+  void end_activity(Agv& agv, bool as_planned);
+  void transfer(Agv& agv, const ContainmentEvolution& transfer);
+  void bodies_touch(EntityId a, std::uint64_t prediction);
+  void stop_for_good(EntityId id);
+  void predict_touches(EntityId id);
+  void action_done(Agv& agv, fp_result result);
+
+  // ---- radio
+  void transmit(Agv& sender, std::uint32_t slot, std::uint32_t receiver);
+  void transmit_to(Agv& sender, AgvId receiver, std::uint32_t slot, const Pose& from, std::uint32_t ordinal);
+  void message_arrives(Agv& receiver, std::uint32_t slot);
+  void drop_message_in_hand(Agv& agv);
+
+  // ---- agents
+  void tell(Agv& agv, fp_event event);
+  void activate(Agv& agv, const fp_event& event);
+  void wake(Agv& agv);
+  void agent_is_free(Agv& agv);
+  void give_up(Agv& agv, bool hang, std::string_view message);
+  bool takes_effect_now(const Agv& agv) const { return agv.cost == Duration::zero(); }
+  void take_effect_later(Agv& agv, PendingCall call);
+  void call_takes_effect(Agv& agv);
+  void order_released(Agv& agv, std::uint64_t transport);
+  void timer_goes_off(Agv& agv, std::uint32_t number, std::uint64_t stamp);
+  void apply_safe_mode(Agv& agv, bool on, SimTime at);
+  void apply_timer(Agv& agv, std::uint32_t number, std::int64_t at_ns);
+
+  const Scenario& scenario_;
+  const fp_agent_type& agent_type_;
+  std::span<const std::unique_ptr<Law>> laws_;
+  TraceSink* sink_;
+  Briefings briefings_;
+  Radio radio_;
+  bool unlimited_range_;
+  std::uint64_t agent_key_;
+  World world_;
+  EventQueue queue_;
+  MessagePool messages_;
+  TraceDigest digest_;
+  std::vector<Agv> agvs_;
+  std::vector<fp_controller> controllers_;
+  std::vector<TouchPrediction> touches_;
+  std::vector<std::uint64_t> first_transport_;  // by AGV: number of its first transport
+  SimTime now_ = kStart;
+  SimTime last_progress_ = kStart;
+  Outcome outcome_;
+};
+
+extern const fp_host kHost;
+
+}  // namespace fleetproof

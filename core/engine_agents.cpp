@@ -1,0 +1,183 @@
+// Activations: when an agent is called, what its thinking costs, and what happens when it crashes or hangs.
+#include <exception>
+
+#include "core/engine.hpp"
+#include "core/error.hpp"
+#include "core/random.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr std::uint32_t kCallsMax = 10'000;        // in one activation
+constexpr std::uint32_t kActivationsMax = 10'000;  // of one agent without time advancing
+
+}  // namespace
+
+void Engine::tell(Agv& agv, fp_event event) {
+  event.struct_size = sizeof(fp_event);
+  if (agv.agent_failed) return;
+  if (agv.in_activation || now_ < agv.free_at || !agv.waiting_events.empty()) {
+    agv.waiting_events.push_back(event);
+    if (!agv.in_activation) wake(agv);
+    return;
+  }
+  activate(agv, event);
+}
+
+void Engine::wake(Agv& agv) {
+  if (agv.wake_scheduled || agv.waiting_events.empty()) return;
+  agv.wake_scheduled = true;
+  queue_.push(std::max(now_, agv.free_at), agv.id, Event::Kind::AgentIsFree);
+}
+
+void Engine::agent_is_free(Agv& agv) {
+  agv.wake_scheduled = false;
+  if (agv.agent_failed || agv.waiting_events.empty()) return;
+  const fp_event event = agv.waiting_events.front();
+  agv.waiting_events.pop_front();
+  activate(agv, event);
+}
+
+void Engine::activate(Agv& agv, const fp_event& what) {
+  agv.activations_at_instant = agv.last_activation == now_ ? agv.activations_at_instant + 1 : 1;
+  agv.last_activation = now_;
+  if (agv.activations_at_instant > kActivationsMax) return give_up(agv, true, "10 000 activations without time advancing");
+  ++outcome_.counters.activations;
+  agv.in_activation = true;
+  agv.calls = 0;
+  agv.cost = Duration::zero();
+  fp_event event = what;
+  event.now_ns = to_ns(now_);
+  try {
+    if (event.kind == FP_EVENT_START) {
+      agv.agent = agent_type_.create(&kHost, &controllers_[agv.id.index()], &briefings_.of(agv.id));
+      if (agv.agent == nullptr) throw std::runtime_error("create() returned null");
+    }
+    agent_type_.on_event(agv.agent, &event);
+  } catch (const InvariantViolation&) {
+    throw;  // ours, not the agent's
+  } catch (const std::exception& error) {
+    give_up(agv, false, error.what());
+  } catch (...) {
+    give_up(agv, false, "unknown exception");
+  }
+  drop_message_in_hand(agv);
+  agv.in_activation = false;
+  outcome_.counters.agent_calls += agv.calls;
+  if (agv.calls > kCallsMax) give_up(agv, true, "10 000 controller calls in one activation");
+  agv.free_at = now_ + agv.cost;
+  agv.cost = Duration::zero();
+  wake(agv);
+}
+
+void Engine::give_up(Agv& agv, bool hang, std::string_view message) {
+  if (agv.agent_failed) return;
+  agv.agent_failed = true;
+  agv.waiting_events.clear();
+  (hang ? outcome_.hang : outcome_.crash) = true;
+  if (outcome_.message.empty()) {
+    outcome_.message = "agent of " + scenario_.agvs[agv.id.index()].name + ": " + std::string(message);
+  }
+  trace(agv.id, hang ? TraceKind::AgentHung : TraceKind::AgentCrashed);
+}
+
+bool Engine::admit_call(Agv& agv) {
+  // A call from outside an activation (another thread, a stored pointer) has no instant at which it could act.
+  if (!agv.in_activation || ++agv.calls > kCallsMax) return false;
+  agv.cost += seconds(scenario_.agent_clock.call_cost_s);
+  return true;
+}
+
+std::uint64_t Engine::random(const Agv& agv, std::uint32_t purpose, std::uint64_t index) const {
+  return word64(philox(agent_key_, {static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(index >> 32), purpose, agv.id.value}), 0);
+}
+
+void Engine::take_effect_later(Agv& agv, PendingCall call) {
+  agv.pending_calls.push_back(call);
+  queue_.push(now_ + agv.cost, agv.id, Event::Kind::CallTakesEffect);
+}
+
+void Engine::call_takes_effect(Agv& agv) {
+  const PendingCall call = agv.pending_calls.front();
+  agv.pending_calls.pop_front();
+  switch (call.kind) {
+    case PendingCall::Kind::Action: begin_action(agv, static_cast<fp_call>(call.what), call.segment); break;
+    case PendingCall::Kind::Send: transmit(agv, call.message, call.what); break;
+    case PendingCall::Kind::SafeMode: apply_safe_mode(agv, call.what != 0, now_); break;
+    case PendingCall::Kind::WaitingFor: trace(agv.id, TraceKind::WaitingFor, call.what); break;
+    case PendingCall::Kind::Timer: apply_timer(agv, call.what, call.instant_ns); break;
+  }
+}
+
+void Engine::order_released(Agv& agv, std::uint64_t transport) {
+  const TransportOrder& order = scenario_.agvs[agv.id.index()].transports[transport];
+  const TransportId id{static_cast<std::uint32_t>(first_transport_[agv.id.index()] + transport)};
+  ++outcome_.counters.transports_released;
+  world_.add_load(id, agv.id, order.from, order.to);
+  trace(agv.id, TraceKind::OrderReleased, id.value);
+  fp_event event{};
+  event.kind = FP_EVENT_ORDER;
+  event.order_id = id.value;
+  event.from = order.from.value;
+  event.to = order.to.value;
+  tell(agv, event);
+}
+
+std::int32_t Engine::set_timer(Agv& agv, std::uint32_t number, std::int64_t at) {
+  if (takes_effect_now(agv)) {
+    apply_timer(agv, number, at);
+  } else {
+    take_effect_later(agv, {.kind = PendingCall::Kind::Timer, .what = number, .instant_ns = at});
+  }
+  return FP_OK;
+}
+
+void Engine::apply_timer(Agv& agv, std::uint32_t number, std::int64_t at) {
+  auto timer = std::ranges::find(agv.timers, number, &Timer::number);
+  if (timer == agv.timers.end()) timer = agv.timers.insert(timer, {number, 0});
+  timer->stamp = at < 0 ? 0 : ++agv.timer_stamp;
+  if (at >= 0) queue_.push(std::max(now_, at_ns(at)), agv.id, Event::Kind::TimerGoesOff, number, timer->stamp);
+}
+
+void Engine::timer_goes_off(Agv& agv, std::uint32_t number, std::uint64_t stamp) {
+  const auto timer = std::ranges::find(agv.timers, number, &Timer::number);
+  if (timer == agv.timers.end() || timer->stamp != stamp) return;
+  timer->stamp = 0;
+  trace(agv.id, TraceKind::TimerWentOff, number);
+  fp_event event{};
+  event.kind = FP_EVENT_TIMER;
+  event.timer = number;
+  tell(agv, event);
+}
+
+std::int32_t Engine::declare_safe_mode(Agv& agv, bool on) {
+  if (takes_effect_now(agv)) {
+    apply_safe_mode(agv, on, now_);
+  } else {
+    take_effect_later(agv, {.kind = PendingCall::Kind::SafeMode, .what = on ? 1U : 0U});
+  }
+  return FP_OK;
+}
+
+void Engine::apply_safe_mode(Agv& agv, bool on, SimTime at) {
+  if (on == agv.safe_since.has_value()) return;
+  if (on) {
+    agv.safe_since = at;
+  } else {
+    agv.safe_mode_ns += static_cast<std::uint64_t>((at - *agv.safe_since).count());
+    agv.safe_since.reset();
+  }
+  trace(agv.id, TraceKind::SafeMode, on ? 1 : 0);
+}
+
+std::int32_t Engine::declare_waiting(Agv& agv, std::uint32_t for_whom) {
+  if (for_whom != FP_NONE && for_whom >= agvs_.size()) return FP_INVALID;
+  if (takes_effect_now(agv)) {
+    trace(agv.id, TraceKind::WaitingFor, for_whom);
+  } else {
+    take_effect_later(agv, {.kind = PendingCall::Kind::WaitingFor, .what = for_whom});
+  }
+  return FP_OK;
+}
+
+}  // namespace fleetproof

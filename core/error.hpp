@@ -1,0 +1,33 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace fleetproof {
+
+// Input that a person has to mend. `where` is a file with line and column, or a command-line word; the text names the field, the value and the remedy.
+class InputError : public std::runtime_error {
+ public:
+  InputError(std::string_view where, std::string_view what);
+};
+
+// Damage or failure that no user caused by the words of the call: a broken archive, a full disk.
+class EngineError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// Our own bug. On in every build; a run that meets one is filed as `engine_error`.
+class InvariantViolation : public std::logic_error {
+ public:
+  using std::logic_error::logic_error;
+};
+
+[[noreturn]] void invariant_violated(const char* sentence);
+
+inline void ensure(bool holds, const char* sentence) {
+  if (!holds) [[unlikely]] invariant_violated(sentence);
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "core/geometry/pose.hpp"
+
+namespace fleetproof {
+
+// Size of a body seen from above; its reference point is the centre, its length lies along the heading.
+struct Footprint {
+  double length_m = 1.6;
+  double width_m = 1.0;
+
+  double half_diagonal_m() const;
+  friend bool operator==(const Footprint&, const Footprint&) = default;
+};
+
+// A footprint somewhere on the floor.
+struct OrientedRectangle {
+  Vec2 centre_m = Vec2::Zero();
+  Vec2 heading = Vec2::UnitX();  // unit vector along the length
+  double half_length_m = 0.0;
+  double half_width_m = 0.0;
+
+  // Corner i = 0..3, counter-clockwise from front left.
+  Vec2 corner_m(int i) const;
+};
+
+OrientedRectangle placed(const Footprint& footprint, const Pose& pose);
+// Every side moved outwards by `margin_m`: a superset of all points within `margin_m` (its corners are square: up to 0.414 margins too far).
+OrientedRectangle widened(const OrientedRectangle& rectangle, double margin_m);
+
+// Where two rectangles stand to each other.
+struct Separation {
+  double clearance_m = 0.0;          // > 0: Euclidean distance; <= 0: minus the depth of the shallowest overlap over the side directions
+  Vec2 direction = Vec2::UnitX();    // unit, from the first towards the second, along the closest points (or the shallowest axis)
+};
+
+// Exact planar distance (error below 1e-12 m for bodies within 1 km); the sign is always right beyond that error.
+Separation separation(const OrientedRectangle& first, const OrientedRectangle& second);
+double clearance_m(const OrientedRectangle& first, const OrientedRectangle& second);
+
+// Axis-aligned box: a filter for candidates, never a verdict.
+struct Box {
+  Vec2 low_m = Vec2::Constant(1e300);
+  Vec2 high_m = Vec2::Constant(-1e300);
+
+  void add(const Vec2& point_m) {
+    low_m = low_m.cwiseMin(point_m);
+    high_m = high_m.cwiseMax(point_m);
+  }
+  void add(const OrientedRectangle& rectangle);
+  Box grown(double margin_m) const { return {low_m - Vec2::Constant(margin_m), high_m + Vec2::Constant(margin_m)}; }
+  bool overlaps(const Box& other) const {
+    return low_m.x() <= other.high_m.x() && other.low_m.x() <= high_m.x() && low_m.y() <= other.high_m.y() && other.low_m.y() <= high_m.y();
+  }
+};
+
+}  // namespace fleetproof

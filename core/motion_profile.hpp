@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+
+#include "core/sim_time.hpp"
+
+namespace fleetproof {
+
+// How fast a vehicle type may be. Defaults are the paper's (Sect. 3.3): 2 m/s, 4 s to reach it, 2 s to stop.
+struct MotionLimits {
+  double speed_mps = 2.0;
+  double acceleration_mps2 = 0.5;
+  double deceleration_mps2 = 1.0;
+
+  friend bool operator==(const MotionLimits&, const MotionLimits&) = default;
+};
+
+// Distance as a function of time from rest to rest: a trapezoid of speed, or a triangle where the way is too short for the speed limit.
+// Piecewise quadratic, never stepped. Works for metres and, in a turn, for radians.
+class MotionProfile {
+ public:
+  MotionProfile() = default;
+  MotionProfile(double distance, const MotionLimits& limits);
+
+  double distance() const { return distance_; }
+  Duration duration() const { return duration_; }
+
+  double position(double t_s) const;
+  double speed(double t_s) const;
+  // Constant within a phase: up, level, down.
+  double acceleration(double t_s) const;
+  // First instant at which `position` reaches `distance`.
+  double time_at(double distance) const;
+  // Ends of the three phases in seconds from the start; a missing phase ends where the one before it does.
+  const std::array<double, 3>& phase_ends_s() const { return phase_ends_s_; }
+
+ private:
+  double distance_ = 0.0, peak_ = 0.0, up_ = 1.0, down_ = 1.0;
+  std::array<double, 3> phase_ends_s_{};
+  Duration duration_{};
+};
+
+}  // namespace fleetproof

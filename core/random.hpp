@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace fleetproof {
+
+// Every source of chance in a run. Each has its own key, so that a draw more in one leaves all others as they were.
+enum class Stream : std::uint32_t { Layout = 1, Placement, Transports, Motion, Radio, Faults, Agent };
+
+// Four 32-bit words, a pure function of key and counter (Philox4x32-10, Salmon et al. 2011).
+using Block = std::array<std::uint32_t, 4>;
+Block philox(std::uint64_t key, const Block& counter);
+
+// The seed of a world: the same for every agent and every radio quality of a replicate (common random numbers).
+// `world_factors` hashes what shapes the world (layout, fleet), never agent nor radio.
+std::uint64_t world_seed(std::uint64_t campaign_seed, std::uint64_t replicate, std::uint64_t world_factors);
+
+std::uint64_t stream_key(std::uint64_t world_seed, Stream stream);
+
+// 64-bit hash of a name, stable for ever; used for keys, never for lookups.
+std::uint64_t name_hash(std::string_view name);
+
+// [0, 1) with 53 bits.
+constexpr double unit_interval(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1.0p-53; }
+constexpr std::uint64_t word64(const Block& block, int half) {
+  return (static_cast<std::uint64_t>(block[static_cast<std::size_t>(2 * half + 1)]) << 32) | block[static_cast<std::size_t>(2 * half)];
+}
+
+// A sequence of draws under (key, topic, item): for generators, where the order of draws is part of the definition.
+class Draws {
+ public:
+  explicit Draws(std::uint64_t key, std::uint32_t topic = 0, std::uint32_t item = 0) : key_(key), topic_(topic), item_(item) {}
+
+  std::uint64_t next();
+  double uniform() { return unit_interval(next()); }
+  double uniform(double low, double high) { return low + (high - low) * uniform(); }
+  std::uint32_t below(std::uint32_t bound);  // 0 .. bound-1, unbiased to 2^-32; bound >= 1
+  double exponential(double mean);
+
+ private:
+  std::uint64_t key_;
+  std::uint32_t topic_, item_;
+  std::uint64_t drawn_ = 0;
+};
+
+// Natural logarithm of a positive normal number from + - * / alone, so that every CPU gives the same bits. Relative error below 1e-15.
+double natural_log(double x);
+
+}  // namespace fleetproof

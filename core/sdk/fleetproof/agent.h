@@ -1,0 +1,208 @@
+/* fleetproof/agent.h: the contract between a simulated warehouse and the control software of an AGV.
+ *
+ * Plain C, so that any language can implement it. An agent is a table of functions (fp_agent_type). The engine makes one agent per AGV, tells
+ * it about the world once (fp_briefing) and then calls it whenever something happens to its AGV (fp_event). The agent answers through the AGV
+ * controller (fp_host), which offers the actions and perceptions of a real AGV controller and nothing more.
+ *
+ * Time. An activation starts at an instant t and sees the AGV, the inbox and the clock as of t. Its k-th controller call takes effect at t plus
+ * the costs so far (the scenario's cost per call, plus what the agent declares). What arrives while the agent is busy wakes it when it is free.
+ *
+ * Rules for the agent. Keep no state outside the instance that create() returned; many instances live in one process, on several threads, but
+ * one instance is never called from two threads at once. Use no clock, no random source and no thread of your own: now_ns and random give both,
+ * and a run can only be replayed if nothing else decides. Let no exception leave a C function table of another language than C++.
+ *
+ * Versions. Every struct that may grow begins with its size in bytes as the side that filled it knows it. Arrays of structs have a stride.
+ * A host refuses an agent of another FP_ABI_MAJOR; a higher minor only adds members at the end.
+ *
+ * Units: metres, metres per second, nanoseconds (64-bit, since the start of the run), radians. Headings are unit vectors in the world frame.
+ */
+#ifndef FLEETPROOF_AGENT_H
+#define FLEETPROOF_AGENT_H
+
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define FP_ABI_MAJOR 1u
+#define FP_ABI_MINOR 0u
+
+#define FP_NONE 0xffffffffu /* no station, no segment, no AGV */
+#define FP_HERE FP_NONE     /* as the segment of pick, drop, park and charge: where the AGV stands, without driving */
+#define FP_MESSAGE_BYTES_MAX 1024u
+
+/* What a controller call answers. */
+typedef enum fp_result {
+  FP_OK = 0,
+  FP_EMPTY = 1,     /* get_message: no more messages */
+  FP_REFUSED = -1,  /* the AGV is busy, out of order, or not at an end of that segment (or the segment is one-way) */
+  FP_INVALID = -2,  /* an argument that makes no sense: no such segment, receiver or purpose; a message too long */
+  FP_SUSPENDED = -3 /* the engine has given this agent up (10 000 calls in one activation): return at once */
+} fp_result;
+
+typedef enum fp_purpose { FP_ROUTING = 1, FP_STORAGE = 2, FP_CHARGING = 4, FP_PARKING = 8 } fp_purpose;
+
+/* What the AGV is doing, as the controller knows it. */
+typedef enum fp_action { FP_IDLE = 0, FP_DRIVING, FP_TURNING, FP_PICKING, FP_DROPPING, FP_PARKED, FP_CHARGING_NOW, FP_OUT_OF_ORDER } fp_action;
+
+/* ---- the logical map ------------------------------------------------------------------------------------------------------------------ */
+
+typedef struct fp_pose {
+  double x_m, y_m;
+  double heading_x, heading_y;
+} fp_pose;
+
+typedef struct fp_station {
+  const char* name;
+  double x_m, y_m;
+  uint32_t purposes; /* fp_purpose, or-ed */
+  uint32_t lane_count;
+  const uint32_t* lanes; /* indices of the lanes that leave this station */
+} fp_station;
+
+/* A straight line (curvature 0) or a circular arc (positive curvature turns left) from `start` along its heading. */
+typedef struct fp_arc {
+  fp_pose start;
+  double length_m;
+  double curvature_per_m;
+} fp_arc;
+
+/* One way to drive a segment. A bidirectional segment has two lanes with the same segment id. AGVs drive nose first. */
+typedef struct fp_lane {
+  uint32_t segment;
+  uint32_t from, to; /* stations */
+  double length_m;
+  uint32_t arc_count;
+  const fp_arc* arcs;
+} fp_lane;
+
+typedef struct fp_map {
+  uint32_t struct_size;
+  uint32_t station_count, lane_count, segment_count;
+  uint32_t station_stride, lane_stride, arc_stride; /* in bytes */
+  const fp_station* stations;                       /* by station id */
+  const fp_lane* lanes;
+} fp_map;
+
+/* ---- the briefing --------------------------------------------------------------------------------------------------------------------- */
+
+/* An AGV of the fleet, oneself included. The reference point is the centre of the footprint, whose length lies along the heading. */
+typedef struct fp_agv {
+  double length_m, width_m;
+  double speed_mps, acceleration_mps2, deceleration_mps2;
+  double turn_speed_radps, turn_acceleration_radps2, turn_deceleration_radps2;
+} fp_agv;
+
+/* A controller call at a fixed time; only the `scripted` agent is given any. */
+typedef struct fp_scripted_call {
+  int64_t at_ns;
+  uint32_t action; /* fp_call */
+  uint32_t segment;
+} fp_scripted_call;
+
+typedef enum fp_call { FP_CALL_MOVE = 0, FP_CALL_PICK, FP_CALL_DROP, FP_CALL_PARK, FP_CALL_CHARGE } fp_call;
+
+/* All pointers stay valid and unchanged for the life of the agent. */
+typedef struct fp_briefing {
+  uint32_t struct_size;
+  uint32_t self; /* own AGV id; the fleet's ids are 0 .. fleet_count-1 */
+  uint32_t fleet_count;
+  uint32_t agv_stride;
+  const fp_agv* fleet;
+  const fp_map* map;
+  uint32_t start_station;
+  uint32_t script_count;
+  const fp_scripted_call* script;
+  double safety_distance_m;
+  double radio_range_m;
+  const char* config; /* the agent's own parameters, as text; never null */
+} fp_briefing;
+
+/* ---- events --------------------------------------------------------------------------------------------------------------------------- */
+
+typedef enum fp_event_kind {
+  FP_EVENT_START = 0,       /* the run begins */
+  FP_EVENT_ORDER,           /* a transport was released for this AGV: order_id, from, to */
+  FP_EVENT_MESSAGE,         /* the inbox is not empty; read it until FP_EMPTY */
+  FP_EVENT_TIMER,           /* a timer went off: timer */
+  FP_EVENT_ACTION_DONE      /* the last action ended: result FP_OK, or FP_REFUSED if the AGV was stopped and is out of order */
+} fp_event_kind;
+
+typedef struct fp_event {
+  uint32_t struct_size;
+  uint32_t kind; /* fp_event_kind */
+  int64_t now_ns;
+  uint32_t timer;
+  int32_t result;
+  uint32_t order_id, from, to;
+} fp_event;
+
+typedef struct fp_message {
+  uint32_t struct_size;
+  uint32_t sender;
+  uint32_t size;
+  const void* bytes; /* valid until the next get_message or the end of the activation */
+} fp_message;
+
+/* ---- the AGV controller --------------------------------------------------------------------------------------------------------------- */
+
+typedef struct fp_controller fp_controller;
+
+typedef struct fp_host {
+  uint32_t struct_size;
+  uint32_t abi_major, abi_minor;
+
+  /* Actions. The AGV must be idle at a station; it first turns towards the segment, then drives it from where it stands to the other end. pick
+   * and drop then transfer a load there; park and charge stay. One FP_EVENT_ACTION_DONE follows for every action that was accepted. */
+  int32_t (*move)(fp_controller*, uint32_t segment);
+  int32_t (*pick)(fp_controller*, uint32_t segment);
+  int32_t (*drop)(fp_controller*, uint32_t segment);
+  int32_t (*park)(fp_controller*, uint32_t segment);
+  int32_t (*charge)(fp_controller*, uint32_t segment); /* done once connected; charging goes on until full or until the next action */
+  int32_t (*send_broadcast)(fp_controller*, const void* bytes, uint32_t size);
+  int32_t (*send_unicast)(fp_controller*, const void* bytes, uint32_t size, uint32_t receiver);
+
+  /* Perceptions. */
+  int32_t (*get_position)(fp_controller*, fp_pose* out);
+  int32_t (*get_battery_level)(fp_controller*, double* out); /* 0 .. 1 */
+  int32_t (*get_message)(fp_controller*, fp_message* out);   /* set out->struct_size first */
+  int32_t (*is_loaded)(fp_controller*, uint32_t* out);       /* 0 or 1 */
+  int32_t (*get_action)(fp_controller*, uint32_t* out);      /* fp_action */
+
+  /* Services that stand for the agent's computer. */
+  int64_t (*now_ns)(fp_controller*);
+  int32_t (*set_timer)(fp_controller*, uint32_t timer, int64_t at_ns); /* one instant per timer number; setting it again replaces it, at_ns < 0 clears it */
+  uint64_t (*random)(fp_controller*, uint32_t purpose, uint64_t index); /* a pure function of run, AGV, purpose and index */
+  int32_t (*declare_cost_ns)(fp_controller*, int64_t cost_ns);         /* thinking time: later calls of this activation act that much later */
+  int32_t (*safe_mode)(fp_controller*, uint32_t on);                   /* declared: the AGV stands still because of the radio */
+  int32_t (*waiting_for)(fp_controller*, uint32_t agv);                /* declared: whom it waits for; FP_NONE: nobody */
+  int32_t (*sometimes)(fp_controller*, const char* probe);             /* "this was reached": counted, for the question whether a test met what it claims */
+  int32_t (*log)(fp_controller*, const char* text);
+} fp_host;
+
+/* ---- the agent ------------------------------------------------------------------------------------------------------------------------ */
+
+#define FP_DETERMINISTIC 1u /* the agent promises: same briefing and events, same calls */
+
+typedef struct fp_agent_type {
+  uint32_t struct_size;
+  uint32_t abi_major, abi_minor;
+  uint32_t flags;
+  const char* name;
+  const char* description;
+  /* host and briefing outlive the agent. Null means that it cannot start: filed as a crash. */
+  void* (*create)(const fp_host* host, fp_controller* controller, const fp_briefing* briefing);
+  void (*on_event)(void* agent, const fp_event* event);
+  void (*destroy)(void* agent);
+} fp_agent_type;
+
+/* A shared object exports this one symbol. Null refuses the host's version. */
+typedef const fp_agent_type* (*fp_agent_query_function)(uint32_t host_abi_major);
+#define FP_AGENT_QUERY_SYMBOL "fp_agent_query"
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

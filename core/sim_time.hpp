@@ -1,0 +1,35 @@
+#pragma once
+
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+
+namespace fleetproof {
+
+// Simulated time: whole nanoseconds since the start of the run. It never meets a wall clock.
+struct SimClock {
+  using rep = std::int64_t;
+  using period = std::nano;
+  using duration = std::chrono::duration<rep, period>;
+  using time_point = std::chrono::time_point<SimClock>;
+  static constexpr bool is_steady = true;
+};
+
+using Duration = SimClock::duration;
+using SimTime = SimClock::time_point;
+
+inline constexpr SimTime kStart{};
+inline constexpr SimTime kForever = SimTime::max();
+
+// Rounds to the nearest nanosecond, so that 25/6 m at the paper's accelerations takes 5 s exactly.
+inline Duration seconds(double value_s) {
+  return Duration{static_cast<std::int64_t>(std::nearbyint(value_s * 1e9))};
+}
+
+constexpr double to_seconds(Duration d) { return static_cast<double>(d.count()) * 1e-9; }
+constexpr double to_seconds(SimTime t) { return to_seconds(t.time_since_epoch()); }
+constexpr std::int64_t to_ns(SimTime t) { return t.time_since_epoch().count(); }
+constexpr SimTime at_ns(std::int64_t ns) { return SimTime{Duration{ns}}; }
+inline SimTime at_seconds(double value_s) { return SimTime{seconds(value_s)}; }
+
+}  // namespace fleetproof

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace fleetproof {
+
+// An index into one kind of thing. Ids of different kinds do not mix.
+template <class Tag>
+struct StrongId {
+  std::uint32_t value = std::numeric_limits<std::uint32_t>::max();
+
+  constexpr StrongId() = default;
+  constexpr explicit StrongId(std::uint32_t v) : value(v) {}
+  constexpr explicit StrongId(std::size_t v) : value(static_cast<std::uint32_t>(v)) {}
+
+  constexpr bool valid() const { return value != std::numeric_limits<std::uint32_t>::max(); }
+  constexpr std::size_t index() const { return value; }
+  friend constexpr auto operator<=>(StrongId, StrongId) = default;
+};
+
+// Entities that occupy floor: AGVs first (0 .. fleet-1), then obstacles. One numbering, so that a law names any body by one id.
+using EntityId = StrongId<struct EntityTag>;
+using AgvId = EntityId;
+using StationId = StrongId<struct StationTag>;
+using SegmentId = StrongId<struct SegmentTag>;
+using LoadId = StrongId<struct LoadTag>;
+using TransportId = StrongId<struct TransportTag>;
+
+}  // namespace fleetproof

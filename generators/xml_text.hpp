@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pugi {
+class xml_node;
+class xml_document;
+}  // namespace pugi
+
+namespace fleetproof {
+
+// An XML text under a name: reads attributes and says "file:line" about what it finds.
+class XmlText {
+ public:
+  // Both outlive it.
+  XmlText(std::string_view text, std::string_view source);
+
+  // InputError with line and column if the text is not well-formed.
+  void load(pugi::xml_document& document) const;
+
+  std::string place(const pugi::xml_node& node) const;  // "file:line"
+  [[noreturn]] void refuse(const pugi::xml_node& node, std::string_view sentence) const;
+
+  bool has(const pugi::xml_node& node, const char* attribute) const;
+  // InputError if the attribute is missing or, for a number, not finite.
+  std::string text(const pugi::xml_node& node, const char* attribute) const;
+  double number(const pugi::xml_node& node, const char* attribute) const;
+
+ private:
+  std::string_view text_, source_;
+  std::vector<std::size_t> line_ends_;
+};
+
+// Whether the whole of `text` is a finite decimal number, which goes to `value`.
+bool read_number(std::string_view text, double& value);
+
+}  // namespace fleetproof

@@ -1,0 +1,143 @@
+#include "laws/exact_law.hpp"
+
+#include <algorithm>
+
+#include "core/clearance_over_time.hpp"
+#include "core/error.hpp"
+#include "laws/second_opinion.hpp"
+#include "laws/stretch.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr double kMeasuredBelow_m = 0.5;
+// first_below and last_below are right to a nanosecond, each from its side of a seam.
+constexpr Duration kSeam{2};
+constexpr Duration kRiseNoticed = std::chrono::milliseconds(100);
+
+class ExactLaw final : public Law {
+ public:
+  explicit ExactLaw(const Scenario& scenario)
+      : agv_count_(scenario.agvs.size()),
+        threshold_m_(violation_threshold_m(scenario.law)),
+        current_(agv_count_ + scenario.obstacles.size()),
+        swept_(current_.size()) {}
+
+  void piece_started(const Piece& piece) override;
+  void piece_ended(const Piece& piece) override;
+  void finish(SimTime end) override;
+  LawFindings findings() const override;
+
+ private:
+  void settle(const Piece& a, const Piece& b, Interval within);
+  void settle_standing(const Piece& a, const Piece& b, Interval within);
+  void settle_moving(const Piece& a, const Piece& b, Interval within);
+  void collect_stretches(const Piece& a, const Piece& b, SimTime first, SimTime last);
+  void collect(const Piece& a, const Piece& b, SimTime first, SimTime last);
+  double clearance_at(const Piece& a, const Piece& b, SimTime t);
+
+  std::size_t agv_count_;
+  double threshold_m_;
+  double smallest_m_ = kMeasuredBelow_m;
+  std::vector<Piece> current_;
+  std::vector<Box> swept_;  // by current_, as planned; empty between a piece and the next
+  EvaluationCount evaluations_;
+  std::vector<Stretch> stretches_;
+};
+
+void ExactLaw::piece_started(const Piece& piece) {
+  ensure(piece.entity.index() < current_.size(), "a law hears only of the bodies of its scenario");
+  current_[piece.entity.index()] = piece;
+  swept_[piece.entity.index()] = piece.swept_box(piece.end);
+}
+
+void ExactLaw::piece_ended(const Piece& piece) {
+  const std::size_t mine = piece.entity.index();
+  const double reach_m = std::max(smallest_m_, threshold_m_);
+  const Box near = swept_[mine].grown(reach_m);
+  swept_[mine] = Box{};
+  // Two obstacles never matter: an obstacle looks at AGVs alone.
+  const std::size_t others = mine < agv_count_ ? current_.size() : agv_count_;
+  for (std::size_t i = 0; i < others; ++i) {
+    if (!near.overlaps(swept_[i])) continue;
+    const Piece& other = current_[i];
+    const Interval common{std::max(piece.begin, other.begin), piece.end};
+    // The same order of the pair whichever piece ends first, so that the order of announcements leaves no trace in the arithmetic.
+    if (mine < i) {
+      settle(piece, other, common);
+    } else {
+      settle(other, piece, common);
+    }
+  }
+}
+
+void ExactLaw::settle(const Piece& a, const Piece& b, Interval within) {
+  const bool instant = within.begin == within.end;
+  // An instant after the start is the last one of an interval already settled.
+  if (instant && within.begin > kStart) return;
+  if (instant || (a.manner == Manner::Rest && b.manner == Manner::Rest)) {
+    settle_standing(a, b, within);
+  } else {
+    settle_moving(a, b, within);
+  }
+}
+
+void ExactLaw::settle_standing(const Piece& a, const Piece& b, Interval within) {
+  const double clearance = clearance_at(a, b, within.begin);
+  smallest_m_ = std::min(smallest_m_, clearance);
+  if (clearance < threshold_m_) stretches_.push_back(stretch_of(a, b, within.begin, within.end, {clearance, within.begin}));
+}
+
+void ExactLaw::settle_moving(const Piece& a, const Piece& b, Interval within) {
+  const auto approach = closest_approach(a, b, within, std::max(smallest_m_, threshold_m_), evaluations_);
+  if (!approach) return;
+  smallest_m_ = std::min(smallest_m_, approach->clearance_m);
+  // `approach` depends, within its tolerance, on what was met before. Whether there is a violation must not.
+  if (approach->clearance_m >= threshold_m_ + kBuiltToTheLimit_m) return;
+  const auto first = first_below(a, b, within, threshold_m_, evaluations_);
+  if (!first) return;
+  const auto last = last_below(a, b, {*first, within.end}, threshold_m_, evaluations_);
+  collect_stretches(a, b, *first, last.value_or(*first));
+}
+
+// Any rise of kRiseNoticed or longer contains a probe; exit and return are then found exactly, on either side of it.
+void ExactLaw::collect_stretches(const Piece& a, const Piece& b, SimTime first, SimTime last) {
+  for (SimTime probe = first + kRiseNoticed; probe < last; probe += kRiseNoticed) {
+    if (clearance_at(a, b, probe) < threshold_m_) continue;
+    collect(a, b, first, last_below(a, b, {first, probe}, threshold_m_, evaluations_).value_or(first));
+    first = first_below(a, b, {probe, last}, threshold_m_, evaluations_).value_or(last);
+    probe = first;
+  }
+  collect(a, b, first, last);
+}
+
+void ExactLaw::collect(const Piece& a, const Piece& b, SimTime first, SimTime last) {
+  auto closest = closest_approach(a, b, {first, last}, threshold_m_, evaluations_);
+  if (!closest) closest = ClosestApproach{clearance_at(a, b, first), first};  // a graze shallower than the search resolves
+  stretches_.push_back(stretch_of(a, b, first, last, *closest));
+}
+
+double ExactLaw::clearance_at(const Piece& a, const Piece& b, SimTime t) {
+  ++evaluations_.distance;
+  return clearance_m(a.body_at(t), b.body_at(t));
+}
+
+void ExactLaw::finish(SimTime) {
+  stretches_ = joined(std::move(stretches_), kSeam);
+  for (const Stretch& stretch : stretches_) confirm_clearance(stretch.body_a, stretch.body_b, stretch.closest.clearance_m);
+}
+
+LawFindings ExactLaw::findings() const {
+  LawFindings findings;
+  findings.violations = filed(stretches_);
+  if (smallest_m_ < kMeasuredBelow_m) findings.min_clearance_m = smallest_m_;
+  findings.distance_evaluations = evaluations_.distance;
+  findings.perimeter_checks = evaluations_.distance;
+  return findings;
+}
+
+}  // namespace
+
+std::unique_ptr<Law> make_exact_law(const Scenario& scenario) { return std::make_unique<ExactLaw>(scenario); }
+
+}  // namespace fleetproof

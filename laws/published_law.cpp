@@ -1,0 +1,90 @@
+#include "laws/published_law.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "laws/second_opinion.hpp"
+
+namespace fleetproof {
+namespace {
+
+double half_diagonal_m(const OrientedRectangle& rectangle) { return Vec2(rectangle.half_length_m, rectangle.half_width_m).norm(); }
+
+bool overlap(const OrientedRectangle& first, const OrientedRectangle& second) {
+  const double reach_m = half_diagonal_m(first) + half_diagonal_m(second);
+  if ((first.centre_m - second.centre_m).squaredNorm() > reach_m * reach_m) return false;  // most pairs of a warehouse
+  return overlap_by_fcl(first, second);
+}
+
+}  // namespace
+
+PublishedLaw::PublishedLaw(const Scenario& scenario)
+    : threshold_m_(violation_threshold_m(scenario.law)),
+      step_(seconds(scenario.law.snapshot_s)),
+      timelines_(scenario.agvs.size() + scenario.obstacles.size()) {
+  ensure(step_ > Duration::zero(), "snapshots are at least a nanosecond apart");
+}
+
+void PublishedLaw::piece_ended(const Piece& piece) {
+  ensure(piece.entity.index() < timelines_.size(), "a law hears only of the bodies of its scenario");
+  timelines_[piece.entity.index()].push_back(piece);
+}
+
+void PublishedLaw::finish(SimTime) {
+  for (const auto& pieces : timelines_) {
+    for (const Piece& piece : pieces) {
+      if (piece.manner == Manner::Drive) inspect(piece);
+    }
+  }
+  stretches_ = joined(std::move(stretches_), step_);
+}
+
+LawFindings PublishedLaw::findings() const {
+  LawFindings findings;
+  findings.violations = filed(stretches_);
+  findings.perimeter_checks = perimeter_checks_;
+  findings.distance_evaluations = distance_evaluations_;
+  return findings;
+}
+
+const Piece& PublishedLaw::piece_at(EntityId entity, SimTime t) const {
+  const auto pieces = timeline(entity);
+  const auto later = std::ranges::upper_bound(pieces, t, {}, &Piece::begin);
+  ensure(later != pieces.begin(), "the pieces of a body cover the run");
+  return *(later - 1);
+}
+
+bool PublishedLaw::checked(bool overlap) {
+  ++perimeter_checks_;
+  return overlap;
+}
+
+void PublishedLaw::check_snapshot(const Piece& drive, const Piece& other, SimTime t) {
+  const OrientedRectangle mine = drive.body_at(t), theirs = other.body_at(t);
+  if (!checked(overlap(widened(mine, threshold_m_), theirs))) return;
+  ++distance_evaluations_;
+  accuse(stretch_of(drive, other, t, t, {clearance_m(mine, theirs), t}));
+}
+
+void PublishedLaw::accuse_throughout(const Piece& drive, EntityId entity) {
+  const auto seen_at = [&](SimTime t) {
+    ++distance_evaluations_;
+    const Piece& other = piece_at(entity, t);
+    return stretch_of(drive, other, t, t, {clearance_m(drive.body_at(t), other.body_at(t)), t});
+  };
+  Stretch whole = seen_at(drive.end);
+  for (SimTime t = drive.begin; t < drive.end; t += step_) whole.absorb(seen_at(t));
+  accuse(whole);
+}
+
+void PublishedLaw::accuse(const Stretch& stretch) {
+  const bool goes_on = !stretches_.empty() && stretches_.back().a == stretch.a && stretches_.back().b == stretch.b &&
+                       stretch.first >= stretches_.back().first && stretch.first - stretches_.back().last <= step_;
+  if (goes_on) {
+    stretches_.back().absorb(stretch);
+  } else {
+    stretches_.push_back(stretch);
+  }
+}
+
+}  // namespace fleetproof

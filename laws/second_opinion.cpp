@@ -1,0 +1,57 @@
+#include "laws/second_opinion.hpp"
+
+#include <fcl/geometry/shape/box.h>
+#include <fcl/narrowphase/collision.h>
+#include <fcl/narrowphase/distance.h>
+
+#include <cmath>
+#include <memory>
+
+#include "core/error.hpp"
+
+namespace fleetproof {
+namespace {
+
+// A planar question asked of a solver for space: boxes so tall that height decides nothing.
+constexpr double kTall_m = 20.0;
+constexpr double kAgreed_m = 1e-4;
+constexpr double kSurelyApart_m = 1e-6;
+
+// Placed relative to `origin_m`, as a solver loses digits far from the origin.
+fcl::CollisionObjectd box_of(const OrientedRectangle& rectangle, const Vec2& origin_m) {
+  const auto shape = std::make_shared<fcl::Boxd>(2.0 * rectangle.half_length_m, 2.0 * rectangle.half_width_m, kTall_m);
+  const Vec2 at_m = rectangle.centre_m - origin_m;
+  fcl::Matrix3d rotation;
+  rotation << rectangle.heading.x(), -rectangle.heading.y(), 0.0,  //
+      rectangle.heading.y(), rectangle.heading.x(), 0.0,           //
+      0.0, 0.0, 1.0;
+  return {shape, rotation, fcl::Vector3d(at_m.x(), at_m.y(), 0.0)};
+}
+
+}  // namespace
+
+bool overlap_by_fcl(const OrientedRectangle& first, const OrientedRectangle& second) {
+  const fcl::CollisionObjectd one = box_of(first, first.centre_m), other = box_of(second, first.centre_m);
+  fcl::CollisionResultd result;
+  return fcl::collide(&one, &other, fcl::CollisionRequestd(), result) > 0;
+}
+
+double clearance_by_fcl(const OrientedRectangle& first, const OrientedRectangle& second) {
+  const fcl::CollisionObjectd one = box_of(first, first.centre_m), other = box_of(second, first.centre_m);
+  // The default solver, GST_LIBCCD, reports distances up to metres too large; the signed mode aborts (FCL issue 508).
+  fcl::DistanceRequestd request;
+  request.enable_signed_distance = false;
+  request.gjk_solver_type = fcl::GST_INDEP;
+  fcl::DistanceResultd result;
+  return fcl::distance(&one, &other, request, result);
+}
+
+void confirm_clearance(const OrientedRectangle& first, const OrientedRectangle& second, double clearance_m) {
+  const bool overlap = overlap_by_fcl(first, second);
+  ensure(!(overlap && clearance_m > kSurelyApart_m), "a second opinion says that two bodies overlap which the law found apart");
+  ensure(!(!overlap && clearance_m < -kSurelyApart_m), "a second opinion says that two bodies are apart which the law found overlapping");
+  if (overlap || clearance_m < 0.0) return;
+  ensure(std::abs(clearance_by_fcl(first, second) - clearance_m) <= kAgreed_m, "a second opinion measures another clearance than the law");
+}
+
+}  // namespace fleetproof

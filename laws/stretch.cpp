@@ -1,0 +1,63 @@
+#include "laws/stretch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace fleetproof {
+namespace {
+
+Vec2 velocity_mps(const Piece& piece, SimTime t) { return piece.speed_at(t) * piece.pose_at(t).heading; }
+
+std::int64_t nearest_um(double value_m) { return std::llround(value_m * 1e6); }
+
+Violation filed(const Stretch& stretch) {
+  const Vec2 middle_m = 0.5 * (stretch.body_a.centre_m + stretch.body_b.centre_m);
+  Violation violation{.a = stretch.a, .b = stretch.b, .first = stretch.first, .last = stretch.last, .closest_at = stretch.closest.at};
+  violation.min_clearance_um = static_cast<std::int64_t>(std::floor(stretch.closest.clearance_m * 1e6));
+  violation.relative_speed_um_s = nearest_um(stretch.relative_velocity_mps.norm());
+  violation.x_um = nearest_um(middle_m.x());
+  violation.y_um = nearest_um(middle_m.y());
+  violation.contact = violation.min_clearance_um <= 1;
+  return violation;
+}
+
+}  // namespace
+
+void Stretch::absorb(const Stretch& other) {
+  const auto closeness = [](const Stretch& s) { return std::tuple(s.closest.clearance_m, s.closest.at); };
+  const SimTime from = std::min(first, other.first), to = std::max(last, other.last);
+  if (closeness(other) < closeness(*this)) *this = other;
+  first = from;
+  last = to;
+}
+
+Stretch stretch_of(const Piece& one, const Piece& other, SimTime first, SimTime last, const ClosestApproach& closest) {
+  const Piece& a = one.entity < other.entity ? one : other;
+  const Piece& b = one.entity < other.entity ? other : one;
+  const SimTime at = closest.at;
+  return {a.entity, b.entity, first, last, closest, a.body_at(at), b.body_at(at), velocity_mps(a, at) - velocity_mps(b, at)};
+}
+
+std::vector<Stretch> joined(std::vector<Stretch> stretches, Duration seam) {
+  std::ranges::sort(stretches, {}, [](const Stretch& s) { return std::tuple(s.a, s.b, s.first, s.last); });
+  std::vector<Stretch> result;
+  for (const Stretch& next : stretches) {
+    const bool same_pair = !result.empty() && result.back().a == next.a && result.back().b == next.b;
+    if (same_pair && next.first - result.back().last <= seam) {
+      result.back().absorb(next);
+    } else {
+      result.push_back(next);
+    }
+  }
+  return result;
+}
+
+std::vector<Violation> filed(const std::vector<Stretch>& stretches) {
+  std::vector<Violation> violations;
+  for (const Stretch& stretch : stretches) violations.push_back(filed(stretch));
+  std::ranges::sort(violations, {}, [](const Violation& v) { return std::tuple(v.first, v.a, v.b); });
+  return violations;
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,121 @@
+#include "reports/condition_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <tuple>
+
+#include "reports/evidence/binomial.hpp"
+#include "reports/evidence/rounding.hpp"
+#include "reports/wording.hpp"
+
+namespace fleetproof {
+namespace {
+
+std::vector<Column> columns(bool counts_only, const std::string& upper_head) {
+  std::vector<Column> list{{"agent", false}, {"loss"}, {"delay"}, {"runs"}, {"violating"}};
+  if (!counts_only) {
+    list.push_back({"units failed"});
+    list.push_back({"rate"});
+    list.push_back({"95 % interval"});
+    list.push_back({upper_head});
+  }
+  for (const auto* head : {"contact", "stuck", "crash/hang", "closest", "transports/AGV-h"}) list.push_back({head});
+  return list;
+}
+
+std::vector<std::string> row(const Condition& condition, bool counts_only, double confidence) {
+  const auto& tally = condition.tally;
+  std::vector<std::string> cells{printable(condition.agent, 40), percent(condition.loss), seconds_text(condition.delay_s), std::to_string(tally.runs),
+                                 std::to_string(tally.violating_runs)};
+  if (!counts_only) {
+    const auto& pool = condition.pool;
+    const auto k = pool.failing_or_unknown, n = pool.units;
+    const auto interval = two_sided_interval(k, n, 0.95);
+    cells.push_back(fmt::format("{}/{}", k, n));
+    cells.push_back(n == 0 ? "-" : rounded_rate(static_cast<double>(k) / static_cast<double>(n)));
+    cells.push_back(fmt::format("[{}, {}]", rounded_down(interval.lower), rounded_up(interval.upper)));
+    cells.push_back(rounded_up(upper_bound(k, n, confidence)));
+  }
+  const auto ended_early = tally.crash_runs + tally.hang_runs;
+  for (const auto count : {tally.contact_runs, tally.stuck_runs, ended_early}) cells.push_back(std::to_string(count));
+  cells.push_back(clearance_text(tally));
+  cells.push_back(per_hour_text(tally.transports_per_agv_hour()));
+  return cells;
+}
+
+// Failures first; without any, the fewest transports.
+bool more_interesting(const Condition& a, const Condition& b) {
+  const auto rank = [](const Condition& c) {
+    const auto failing = c.pool.failing_or_unknown;
+    return std::tuple(-static_cast<double>(failing), -static_cast<double>(c.tally.violating_runs), c.tally.transports_per_agv_hour().value_or(0.0));
+  };
+  return rank(a) < rank(b);
+}
+
+std::size_t keep_most_interesting(std::vector<Condition>& conditions, std::size_t most_rows) {
+  if (conditions.size() <= most_rows) return 0;
+  std::vector<std::size_t> order(conditions.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return more_interesting(conditions[a], conditions[b]); });
+  order.resize(most_rows);
+  std::ranges::sort(order);
+  std::vector<Condition> kept;
+  for (const auto i : order) kept.push_back(std::move(conditions[i]));
+  const auto left_out = conditions.size() - kept.size();
+  conditions = std::move(kept);
+  return left_out;
+}
+
+// What a unit of the rows is, and which confidence their bound has.
+std::vector<Remark> legend(const Evidence& evidence, const std::vector<Condition>& rows, bool one_confidence) {
+  std::vector<Remark> remarks;
+  const bool pooled = std::ranges::any_of(rows, [](const Condition& c) { return c.pool.cells.size() > 1; });
+  if (pooled) {
+    remarks.push_back({"A row pools several cells (layouts, fleet sizes). Its unit is the replicate, which fails if any of its runs does: the cells of a replicate share "
+                       "their world and are not independent. The JSON report has every cell by itself.",
+                       ""});
+  }
+  if (!one_confidence) {
+    std::vector<std::string> parts;
+    std::set<std::string> seen;
+    for (const auto& row : rows) {
+      if (seen.insert(row.agent).second) parts.push_back(fmt::format("{} for {}", percent(bound_confidence(evidence, row.agent)), printable(row.agent, 40)));
+    }
+    remarks.push_back({"One-sided upper bound at " + joined(parts) + ".", ""});
+  }
+  return remarks;
+}
+
+}  // namespace
+
+double bound_confidence(const Evidence& evidence, const std::string& agent) {
+  const auto gate = std::ranges::find(evidence.gates(), agent, &GateRecord::agent);
+  return gate == evidence.gates().end() ? 0.95 : gate->confidence;
+}
+
+Section condition_section(const ReportInput& input, std::string title, const std::function<bool(const Condition&)>& wanted, std::size_t most_rows) {
+  const auto& evidence = input.evidence;
+  std::vector<Condition> conditions;
+  for (auto& condition : evidence.conditions()) {
+    if (wanted(condition)) conditions.push_back(std::move(condition));
+  }
+  Section section{std::move(title), {}, {}};
+  if (conditions.empty()) {
+    section.remarks.push_back({"The campaign has no such cell.", ""});
+    return section;
+  }
+  const auto left_out = keep_most_interesting(conditions, most_rows);
+  std::set<double> confidences;
+  for (const auto& condition : conditions) confidences.insert(bound_confidence(evidence, condition.agent));
+  const bool one_confidence = confidences.size() == 1;
+  const bool counts_only = evidence.counts_only();
+  section.table.columns = columns(counts_only, one_confidence ? "upper " + percent(*confidences.begin()) : "upper");
+  for (const auto& condition : conditions) section.table.rows.push_back(row(condition, counts_only, bound_confidence(evidence, condition.agent)));
+  if (!counts_only) section.remarks = legend(evidence, conditions, one_confidence);
+  if (left_out > 0) section.remarks.push_back({fmt::format("{} with fewer failures are left out here; the JSON report has them all.", count_text(left_out, "row")), ""});
+  return section;
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,148 @@
+#include "reports/evidence/evidence.hpp"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace fleetproof {
+namespace {
+
+bool covers(const GateRecord& gate, const CellRecord& cell) {
+  if (cell.agent != gate.agent) return false;
+  switch (gate.region) {
+    case Region::Contract: return cell.in_contract();
+    case Region::WorstCase: return cell.is_worst_case();
+    case Region::All: return true;
+  }
+  invariant_violated("a region is known");
+}
+
+// Rows of the tables: agents in the order in which the campaign names them, so that the same campaign always prints the same page.
+std::vector<Pool> condition_pools(const std::vector<CellRecord>& cells) {
+  std::map<std::string, std::size_t> order;
+  std::map<std::tuple<std::size_t, double, double>, Pool> pools;
+  for (const auto& cell : cells) {
+    const auto agent = order.try_emplace(cell.agent, order.size()).first->second;
+    pools[{agent, cell.loss, cell.delay_s}].cells.push_back(cell.index);
+  }
+  std::vector<Pool> list;
+  for (auto& [key, pool] : pools) list.push_back(std::move(pool));
+  return list;
+}
+
+}  // namespace
+
+Evidence::Evidence(const CampaignRecord& campaign, std::vector<CellRecord> cells, std::vector<GateRecord> gates)
+    : counts_only_(campaign.kind == "search"),
+      cells_(std::move(cells)),
+      gates_(std::move(gates)),
+      tallies_(cells_.size()),
+      pending_tallies_(cells_.size()),
+      pools_of_cell_(cells_.size()) {
+  for (std::size_t i = 0; i < cells_.size(); ++i) ensure(cells_[i].index == i, "cells are numbered from 0 on");
+  for (const auto& gate : gates_) {
+    Pool pool;
+    pool.end_point = gate.end_point;
+    for (const auto& cell : cells_) {
+      if (covers(gate, cell)) pool.cells.push_back(cell.index);
+    }
+    pools_.push_back(std::move(pool));
+  }
+  for (auto& pool : condition_pools(cells_)) pools_.push_back(std::move(pool));
+  pending_flags_.resize(pools_.size());
+  worst_of_pool_.resize(pools_.size(), WorstRuns(1));
+  for (std::size_t i = 0; i < pools_.size(); ++i) {
+    for (const auto cell : pools_[i].cells) pools_of_cell_[cell].push_back(i);
+  }
+}
+
+void Evidence::add(const RunRecord& run) {
+  ensure(run.run_index == runs_, "evidence takes runs in order of their index, without gaps");
+  ensure(run.cell < cells_.size() && run.run_index == run.replicate * cells_.size() + run.cell, "run_index = replicate x cells + cell");
+  ++runs_;
+  engine_errors_ += run.outcome.engine_error;
+  pending_tallies_[run.cell].add(run.outcome);
+  if (const auto failing = FailingRun::of(run)) {
+    (cells_[run.cell].in_contract() ? worst_inside_ : worst_outside_).add(*failing);
+  }
+  for (const auto pool : pools_of_cell_[run.cell]) add_to_pool(pool, run);
+  if (run.cell + 1 == cells_.size()) finish_replicate();
+}
+
+void Evidence::add_to_pool(std::size_t index, const RunRecord& run) {
+  auto& pool = pools_[index];
+  const auto result = result_of(run.outcome, pool.end_point);
+  if (result == RunResult::Passed) return;
+  pending_flags_[index].failed |= result == RunResult::Failed;
+  pending_flags_[index].unknown |= result == RunResult::Unknown;
+  if (result == RunResult::Failed) ++pool.failing_runs;
+  worst_of_pool_[index].add(*FailingRun::of(run));
+}
+
+void Evidence::finish_replicate() {
+  ++replicates_;
+  for (std::size_t i = 0; i < tallies_.size(); ++i) tallies_[i].add(std::exchange(pending_tallies_[i], Tally{}));
+  for (std::size_t i = 0; i < pools_.size(); ++i) {
+    const auto flags = std::exchange(pending_flags_[i], Flags{});
+    if (pools_[i].cells.empty()) continue;
+    ++pools_[i].units;
+    pools_[i].failing += flags.failed;
+    pools_[i].failing_or_unknown += flags.failed || flags.unknown;
+  }
+}
+
+GateResult Evidence::judge(std::size_t index) const {
+  ensure(index < gates_.size(), "a gate of the campaign is judged");
+  const auto& pool = pools_[index];
+  // Outside the contract safe mode, standing still, is legal: progress is due inside, or everywhere if the gate has no cell inside.
+  std::vector<std::uint32_t> due;
+  std::ranges::copy_if(pool.cells, std::back_inserter(due), [&](std::uint32_t cell) { return cells_[cell].in_contract(); });
+  if (due.empty()) due = pool.cells;
+  Tally progress;
+  GateCounts counts;
+  for (const auto cell : due) {
+    progress.add(tallies_[cell]);
+    counts.idle_cells += tallies_[cell].transports_done == 0;
+  }
+  counts.cells = pool.cells.size();
+  counts.units = pool.units;
+  counts.failing = pool.failing;
+  counts.failing_or_unknown = pool.failing_or_unknown;
+  counts.failing_runs = pool.failing_runs;
+  counts.transports_per_agv_hour = progress.transports_per_agv_hour();
+  counts.counts_only = counts_only_;
+  auto result = judge_gate(gates_[index], counts);
+  if (const auto& worst = worst_of_pool_[index].list(); !worst.empty()) result.worst = worst.front();
+  return result;
+}
+
+std::vector<GateResult> Evidence::judge_all() const {
+  std::vector<GateResult> results;
+  for (std::size_t i = 0; i < gates_.size(); ++i) results.push_back(judge(i));
+  return results;
+}
+
+std::vector<Condition> Evidence::conditions() const {
+  std::vector<Condition> list;
+  for (std::size_t i = gates_.size(); i < pools_.size(); ++i) {
+    const auto& first = cells_[pools_[i].cells.front()];
+    Condition condition{first.agent, first.loss, first.delay_s, first.in_contract(), first.is_worst_case(), {}, pools_[i], {}};
+    for (const auto cell : pools_[i].cells) condition.tally.add(tallies_[cell]);
+    if (const auto& worst = worst_of_pool_[i].list(); !worst.empty()) condition.worst = worst.front();
+    list.push_back(std::move(condition));
+  }
+  return list;
+}
+
+int exit_code(const Evidence& evidence, const std::vector<GateResult>& gates) {
+  if (evidence.engine_errors() > 0) return 3;
+  const auto any = [&](Verdict verdict) { return std::ranges::any_of(gates, [&](const GateResult& gate) { return gate.verdict == verdict; }); };
+  if (any(Verdict::Violated)) return 1;
+  if (gates.empty() || evidence.runs() == 0 || any(Verdict::NotDemonstrated)) return 4;
+  return 0;
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reports/evidence/failing_run.hpp"
+#include "reports/evidence/gate_verdict.hpp"
+#include "reports/evidence/tally.hpp"
+#include "storage/records.hpp"
+
+namespace fleetproof {
+
+// Cells judged together, and how often that unit failed. The unit is the replicate: one draw of the world, run in every cell; it fails if any of its runs
+// does. Cells share worlds and are not independent, so their runs may not be counted one by one. With one cell, replicates are runs.
+struct Pool {
+  EndPoint end_point = EndPoint::Violation;
+  std::vector<std::uint32_t> cells;
+  std::uint64_t units = 0, failing = 0, failing_or_unknown = 0;  // over complete replicates
+  std::uint64_t failing_runs = 0;                                // over all runs read so far
+};
+
+// All cells of one agent at one radio quality: a row of a table.
+struct Condition {
+  std::string agent;
+  double loss = 0.0, delay_s = 0.0;
+  bool in_contract = false, is_worst_case = false;
+  Tally tally;
+  Pool pool;
+  std::optional<FailingRun> worst;  // the most serious run that violated, or ended unknown
+};
+
+// Counts the runs of a campaign, in order of run index, without gaps. Only complete replicates are counted, so that every cell has the same weight;
+// the failures of an incomplete one are still remembered as failures.
+// The stopping rule of a campaign and its report both judge with this. Threads: one.
+class Evidence {
+ public:
+  static constexpr std::size_t kWorstRuns = 10;
+
+  Evidence(const CampaignRecord& campaign, std::vector<CellRecord> cells, std::vector<GateRecord> gates);
+
+  // The next run: run_index == runs().
+  void add(const RunRecord& run);
+
+  bool counts_only() const { return counts_only_; }                  // a campaign of kind "search"
+  std::uint64_t runs() const { return runs_; }                       // read so far
+  std::uint64_t complete_replicates() const { return replicates_; }
+  std::uint64_t engine_errors() const { return engine_errors_; }     // among the runs read so far
+  const std::vector<CellRecord>& cells() const { return cells_; }
+  const std::vector<GateRecord>& gates() const { return gates_; }
+  const Tally& tally(std::uint32_t cell) const { return tallies_.at(cell); }
+  const std::vector<std::uint32_t>& cells_of(std::size_t gate) const { return pools_.at(gate).cells; }
+
+  GateResult judge(std::size_t gate) const;
+  std::vector<GateResult> judge_all() const;
+
+  std::vector<Condition> conditions() const;                         // by agent as the campaign names them, then loss, then delay
+  const std::vector<FailingRun>& worst_runs(bool in_contract) const { return (in_contract ? worst_inside_ : worst_outside_).list(); }
+
+ private:
+  struct Flags {
+    bool failed = false, unknown = false;
+  };
+  void add_to_pool(std::size_t index, const RunRecord& run);
+  void finish_replicate();
+
+  bool counts_only_ = false;
+  std::vector<CellRecord> cells_;
+  std::vector<GateRecord> gates_;
+  std::uint64_t runs_ = 0, replicates_ = 0, engine_errors_ = 0;
+  std::vector<Tally> tallies_, pending_tallies_;   // by cell
+  std::vector<Pool> pools_;                        // one for each gate, then one for each condition
+  std::vector<Flags> pending_flags_;               // in the same order
+  std::vector<std::vector<std::size_t>> pools_of_cell_;
+  std::vector<WorstRuns> worst_of_pool_;           // in the same order
+  WorstRuns worst_inside_{kWorstRuns}, worst_outside_{kWorstRuns};
+};
+
+// 3 after an engine error; else 1 if a gate is violated; else 4 if one is not demonstrated, or there is nothing to judge; else 0.
+int exit_code(const Evidence& evidence, const std::vector<GateResult>& gates);
+
+}  // namespace fleetproof

@@ -1,0 +1,66 @@
+#include "reports/evidence/failing_run.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+
+#include "core/error.hpp"
+
+namespace fleetproof {
+namespace {
+
+std::optional<Severity> severity_of(const Outcome& o) {
+  if (o.contact) return Severity::Contact;
+  if (o.violation) return Severity::Violation;
+  if (o.crash) return Severity::Crash;
+  if (o.hang) return Severity::Hang;
+  if (o.indeterminate) return Severity::Indeterminate;
+  if (o.engine_error) return Severity::EngineError;
+  if (o.stuck) return Severity::Stuck;
+  return std::nullopt;
+}
+
+}  // namespace
+
+const char* name_of(Severity severity) {
+  switch (severity) {
+    case Severity::Contact: return "contact";
+    case Severity::Violation: return "violation";
+    case Severity::Crash: return "crash";
+    case Severity::Hang: return "hang";
+    case Severity::Indeterminate: return "indeterminate";
+    case Severity::EngineError: return "engine error";
+    case Severity::Stuck: return "stuck";
+  }
+  invariant_violated("a severity has a name");
+}
+
+std::optional<FailingRun> FailingRun::of(const RunRecord& run) {
+  const auto severity = severity_of(run.outcome);
+  if (!severity) return std::nullopt;
+  FailingRun failing;
+  failing.run_index = run.run_index;
+  failing.replicate = run.replicate;
+  failing.cell = run.cell;
+  failing.severity = *severity;
+  failing.min_clearance_um = run.outcome.min_clearance_um;
+  failing.violations = run.outcome.violations.size();
+  failing.message = run.outcome.message;
+  const auto closest = std::ranges::min_element(run.outcome.violations, {}, &Violation::min_clearance_um);
+  if (closest != run.outcome.violations.end()) failing.closest = *closest;
+  return failing;
+}
+
+bool more_serious(const FailingRun& a, const FailingRun& b) {
+  const auto rank = [](const FailingRun& run) {
+    return std::tuple(run.severity, run.min_clearance_um.value_or(std::numeric_limits<std::int64_t>::max()), run.run_index);
+  };
+  return rank(a) < rank(b);
+}
+
+void WorstRuns::add(const FailingRun& run) {
+  list_.insert(std::ranges::upper_bound(list_, run, more_serious), run);
+  if (list_.size() > capacity_) list_.pop_back();
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "storage/records.hpp"
+
+namespace fleetproof {
+
+// Most serious first.
+enum class Severity : std::uint8_t { Contact, Violation, Crash, Hang, Indeterminate, EngineError, Stuck };
+const char* name_of(Severity severity);
+
+// A run that did not go as it should: enough to name it, to sort it and to replay it.
+struct FailingRun {
+  std::uint64_t run_index = 0, replicate = 0;
+  std::uint32_t cell = 0;
+  Severity severity = Severity::Stuck;
+  std::optional<std::int64_t> min_clearance_um;
+  std::size_t violations = 0;
+  std::optional<Violation> closest;  // the violation with the smallest clearance
+  std::string message;
+
+  // Absent for a run in which nothing went wrong.
+  static std::optional<FailingRun> of(const RunRecord& run);
+};
+
+// By severity, then by smallest clearance, then by run index.
+bool more_serious(const FailingRun& a, const FailingRun& b);
+
+// The most serious few of all runs added, in that order; the same for any order of adding.
+class WorstRuns {
+ public:
+  explicit WorstRuns(std::size_t capacity) : capacity_(capacity) {}
+  void add(const FailingRun& run);
+  const std::vector<FailingRun>& list() const { return list_; }
+
+ private:
+  std::size_t capacity_;
+  std::vector<FailingRun> list_;
+};
+
+}  // namespace fleetproof

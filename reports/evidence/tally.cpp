@@ -1,0 +1,46 @@
+#include "reports/evidence/tally.hpp"
+
+namespace fleetproof {
+
+RunResult result_of(const Outcome& outcome, EndPoint end_point) {
+  const bool failed = end_point == EndPoint::Contact ? outcome.contact : outcome.violation || outcome.contact;
+  if (failed) return RunResult::Failed;
+  return outcome.crash || outcome.hang || outcome.indeterminate || outcome.engine_error ? RunResult::Unknown : RunResult::Passed;
+}
+
+void Tally::add(const Outcome& outcome) {
+  const auto result = result_of(outcome, EndPoint::Violation);
+  Tally one;
+  one.runs = 1;
+  one.violating_runs = result == RunResult::Failed;
+  one.unknown_runs = result == RunResult::Unknown;
+  one.contact_runs = outcome.contact;
+  one.stuck_runs = outcome.stuck;
+  one.crash_runs = outcome.crash;
+  one.hang_runs = outcome.hang;
+  one.indeterminate_runs = outcome.indeterminate;
+  one.engine_error_runs = outcome.engine_error;
+  one.transports_done = outcome.counters.transports_done;
+  one.agv_us = outcome.simulated_ns / 1000 * outcome.agv_count;
+  one.longest_ns = outcome.simulated_ns;
+  one.agvs = outcome.agv_count;
+  one.min_clearance_um = outcome.min_clearance_um;
+  add(one);
+}
+
+void Tally::add(const Tally& other) {
+  for (const auto count : {&Tally::runs, &Tally::violating_runs, &Tally::contact_runs, &Tally::stuck_runs, &Tally::crash_runs, &Tally::hang_runs,
+                           &Tally::indeterminate_runs, &Tally::engine_error_runs, &Tally::unknown_runs, &Tally::transports_done, &Tally::agv_us}) {
+    this->*count += other.*count;
+  }
+  longest_ns = std::max(longest_ns, other.longest_ns);
+  agvs = std::max(agvs, other.agvs);
+  if (other.min_clearance_um) min_clearance_um = std::min(min_clearance_um.value_or(*other.min_clearance_um), *other.min_clearance_um);
+}
+
+std::optional<double> Tally::transports_per_agv_hour() const {
+  if (agv_us == 0) return std::nullopt;
+  return static_cast<double>(transports_done) / agv_hours();
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,183 @@
+#include "reports/json_report.hpp"
+
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "reports/condition_table.hpp"
+#include "reports/verdict_sentences.hpp"
+#include "reports/weak_points.hpp"
+#include "reports/wording.hpp"
+
+namespace fleetproof {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kSchemaVersion = 1;
+
+template <class T>
+Json maybe(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json metres(const std::optional<std::int64_t>& value_um) { return value_um ? Json(static_cast<double>(*value_um) / 1e6) : Json(nullptr); }
+
+Json estimate_json(const std::optional<Estimate>& estimate) {
+  if (!estimate) return nullptr;
+  return {{"units", estimate->units},
+          {"failing", estimate->failing},
+          {"rate", maybe(estimate->rate())},
+          {"lower_bound", estimate->lower},
+          {"upper_bound", estimate->upper},
+          {"interval_95", {estimate->interval_95.lower, estimate->interval_95.upper}}};
+}
+
+Json cell_json(const CellRecord& cell) {
+  return {{"cell", cell.index},       {"agent", cell.agent},     {"layout", cell.layout},           {"fleet_size", cell.fleet_size},
+          {"loss", cell.loss},        {"delay_s", cell.delay_s}, {"in_contract", cell.in_contract()}, {"is_worst_case", cell.is_worst_case()}};
+}
+
+Json violation_json(const Violation& v) {
+  return {{"a", v.a.value},
+          {"b", v.b.value},
+          {"first_s", to_seconds(v.first)},
+          {"last_s", to_seconds(v.last)},
+          {"closest_at_s", to_seconds(v.closest_at)},
+          {"min_clearance_m", static_cast<double>(v.min_clearance_um) / 1e6},
+          {"relative_speed_mps", static_cast<double>(v.relative_speed_um_s) / 1e6},
+          {"x_m", static_cast<double>(v.x_um) / 1e6},
+          {"y_m", static_cast<double>(v.y_um) / 1e6},
+          {"contact", v.contact}};
+}
+
+Json failing_run_json(const ReportInput& input, const std::optional<FailingRun>& run) {
+  if (!run) return nullptr;
+  auto json = cell_json(input.evidence.cells()[run->cell]);
+  json["run_index"] = run->run_index;
+  json["replicate"] = run->replicate;
+  json["severity"] = name_of(run->severity);
+  json["min_clearance_m"] = metres(run->min_clearance_um);
+  json["violations"] = run->violations;
+  json["closest"] = run->closest ? violation_json(*run->closest) : Json(nullptr);
+  json["message"] = run->message;
+  json["replay"] = replay_command(input.archive_path, run->run_index);
+  return json;
+}
+
+void add_tally(Json& json, const Tally& tally) {
+  json["runs"] = tally.runs;
+  json["violating_runs"] = tally.violating_runs;
+  json["contact_runs"] = tally.contact_runs;
+  json["stuck_runs"] = tally.stuck_runs;
+  json["crash_runs"] = tally.crash_runs;
+  json["hang_runs"] = tally.hang_runs;
+  json["indeterminate_runs"] = tally.indeterminate_runs;
+  json["engine_error_runs"] = tally.engine_error_runs;
+  json["unknown_runs"] = tally.unknown_runs;
+  json["min_clearance_m"] = metres(tally.min_clearance_um);
+  json["transports_done"] = tally.transports_done;
+  json["agv_hours"] = tally.agv_hours();
+  json["transports_per_agv_hour"] = maybe(tally.transports_per_agv_hour());
+}
+
+Json gate_json(const ReportInput& input, std::size_t index) {
+  const auto& gate = input.evidence.gates()[index];
+  const auto& result = input.gates[index];
+  const auto& cells = input.evidence.cells_of(index);
+  return {{"gate", gate.index},
+          {"name", gate.name},
+          {"agent", gate.agent},
+          {"kind", name_of(gate.kind)},
+          {"end_point", name_of(gate.end_point)},
+          {"region", name_of(gate.region)},
+          {"limit", gate.limit},
+          {"confidence", gate.confidence},
+          {"min_transports_per_agv_hour", gate.min_transports_per_agv_hour},
+          {"verdict", name_of(result.verdict)},
+          {"reason", result.reason},
+          {"unit", result.unit},
+          {"claim", estimate_json(result.claim)},
+          {"optimistic", estimate_json(result.optimistic)},
+          {"failing_runs", result.counts.failing_runs},
+          {"transports_per_agv_hour", maybe(result.counts.transports_per_agv_hour)},
+          {"units_needed", maybe(result.units_needed)},
+          {"cells", cells},
+          {"sampled", cells.empty() ? Json(nullptr) : Json(sampled(input.evidence, cells))},
+          {"worst_run", failing_run_json(input, result.worst)}};
+}
+
+Json condition_json(const ReportInput& input, const Condition& condition) {
+  Json json{{"agent", condition.agent}, {"loss", condition.loss}, {"delay_s", condition.delay_s}, {"in_contract", condition.in_contract},
+            {"is_worst_case", condition.is_worst_case}, {"cells", condition.pool.cells}};
+  add_tally(json, condition.tally);
+  const auto confidence = bound_confidence(input.evidence, condition.agent);
+  const auto& pool = condition.pool;
+  if (!input.evidence.counts_only()) {
+    json["unit"] = pool.cells.size() == 1 ? "runs" : "replicates";
+    json["confidence"] = confidence;
+    json["claim"] = estimate_json(estimate(pool.failing_or_unknown, pool.units, confidence));
+    json["optimistic"] = estimate_json(estimate(pool.failing, pool.units, confidence));
+  }
+  json["worst_run"] = failing_run_json(input, condition.worst);
+  return json;
+}
+
+Json one_cell_json(const ReportInput& input, const CellRecord& cell) {
+  auto json = cell_json(cell);
+  const auto& tally = input.evidence.tally(cell.index);
+  add_tally(json, tally);
+  if (!input.evidence.counts_only()) {
+    const auto confidence = bound_confidence(input.evidence, cell.agent);
+    json["confidence"] = confidence;
+    json["claim"] = estimate_json(estimate(tally.violating_runs + tally.unknown_runs, tally.runs, confidence));
+    json["optimistic"] = estimate_json(estimate(tally.violating_runs, tally.runs, confidence));
+  }
+  return json;
+}
+
+Json campaign_json(const ReportInput& input) {
+  const auto& campaign = input.campaign;
+  return {{"name", campaign.name},
+          {"kind", campaign.kind},
+          {"seed", campaign.seed},
+          {"planned_replicates", campaign.replicates},
+          {"complete_replicates", input.evidence.complete_replicates()},
+          {"stored_runs", input.stored_runs},
+          {"judged_runs", input.evidence.complete_replicates() * input.evidence.cells().size()},
+          {"engine_errors", input.evidence.engine_errors()},
+          {"plan_hash", hex_text(campaign.plan_hash)}};
+}
+
+// Every key, with an empty list where there is nothing to tell: a program that reads it need not ask first.
+Json list_of(std::size_t count, const std::function<Json(std::size_t)>& item) {
+  auto list = Json::array();
+  for (std::size_t i = 0; i < count; ++i) list.push_back(item(i));
+  return list;
+}
+
+}  // namespace
+
+std::string render_json(const ReportInput& input) {
+  const auto& evidence = input.evidence;
+  const auto& engine = input.campaign.engine;
+  const auto conditions = evidence.conditions();
+  Json json;
+  json["schema_version"] = kSchemaVersion;
+  json["archive"] = input.archive_path;
+  json["exit_code"] = input.exit_code;
+  json["campaign"] = campaign_json(input);
+  json["gates"] = list_of(input.gates.size(), [&](std::size_t i) { return gate_json(input, i); });
+  json["conditions"] = list_of(conditions.size(), [&](std::size_t i) { return condition_json(input, conditions[i]); });
+  json["cells"] = list_of(evidence.cells().size(), [&](std::size_t i) { return one_cell_json(input, evidence.cells()[i]); });
+  json["weak_points"] = weak_points(input);
+  for (const bool in_contract : {true, false}) {
+    const auto& worst = evidence.worst_runs(in_contract);
+    json[in_contract ? "worst_runs_in_contract" : "worst_runs_outside_contract"] =
+        list_of(worst.size(), [&](std::size_t i) { return failing_run_json(input, worst[i]); });
+  }
+  json["engine"] = {{"version", engine.version}, {"program_sha256", engine.program_sha256}, {"compiler", engine.compiler}, {"flags", engine.flags}, {"libraries", engine.libraries}};
+  // A name or a message from outside may hold bytes that are no UTF-8: they are replaced, not refused.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,59 @@
+#include "reports/markdown_report.hpp"
+
+#include <fmt/format.h>
+
+#include "reports/page.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr std::size_t kMostRows = 60;
+
+// Names come from outside; they may not start a tag, a link, a column or a span of code.
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '<') {
+      out += "&lt;";
+      continue;
+    }
+    if (c == '|' || c == '`' || c == '\\' || c == '*' || (c == '(' && out.ends_with(']'))) out += '\\';
+    out += c;
+  }
+  return out;
+}
+
+std::string code_block(const std::string& command, const std::string& indent) {
+  return command.empty() ? "" : fmt::format("\n{0}```sh\n{0}{1}\n{0}```\n", indent, command);
+}
+
+void print(std::string& out, const Table& table) {
+  for (const auto& column : table.columns) out += "| " + escaped(column.head) + " ";
+  out += "|\n";
+  for (const auto& column : table.columns) out += column.right_aligned ? "|---:" : "|---";
+  out += "|\n";
+  for (const auto& row : table.rows) {
+    for (const auto& cell : row) out += "| " + escaped(cell) + " ";
+    out += "|\n";
+  }
+  out += "\n";
+}
+
+}  // namespace
+
+std::string render_markdown(const ReportInput& input) {
+  const auto page = build_page(input, kMostRows);
+  std::string out = "# " + escaped(page.title) + "\n\n";
+  for (const auto& headline : page.headlines) {
+    out += fmt::format("**{}**: {}\n{}\n", headline.word, escaped(headline.remark.text), code_block(headline.remark.command, ""));
+  }
+  for (const auto& section : page.sections) {
+    out += "## " + escaped(section.title) + "\n\n";
+    if (!section.table.columns.empty()) print(out, section.table);
+    for (const auto& remark : section.remarks) out += "- " + escaped(remark.text) + "\n" + code_block(remark.command, "  ");
+    out += "\n";
+  }
+  return out;
+}
+
+}  // namespace fleetproof

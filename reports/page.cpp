@@ -1,0 +1,88 @@
+#include "reports/page.hpp"
+
+#include <fmt/format.h>
+
+#include "reports/condition_table.hpp"
+#include "reports/verdict_sentences.hpp"
+#include "reports/weak_points.hpp"
+#include "reports/wording.hpp"
+
+namespace fleetproof {
+namespace {
+
+Section weak_point_section(const ReportInput& input) {
+  Section section{"Weak points of this evidence", {}, {}};
+  for (auto& point : weak_points(input)) section.remarks.push_back({std::move(point), ""});
+  if (section.remarks.empty()) section.remarks.push_back({"None found by the checks of this page.", ""});
+  return section;
+}
+
+Section worst_run_section(const ReportInput& input) {
+  Section section{"Worst runs, and how to see them", {}, {}};
+  for (const bool in_contract : {true, false}) {
+    for (const auto& run : input.evidence.worst_runs(in_contract)) {
+      auto remark = describe(input, run);
+      if (!in_contract) remark.text += " (outside the contract)";
+      section.remarks.push_back(std::move(remark));
+    }
+  }
+  if (section.remarks.empty()) section.remarks.push_back({"No run failed.", ""});
+  return section;
+}
+
+Section provenance_section(const ReportInput& input) {
+  const auto& campaign = input.campaign;
+  const auto& engine = campaign.engine;
+  Section section{"Provenance", {}, {}};
+  const auto add = [&](const std::string& name, const std::string& value) { section.remarks.push_back({name + ": " + printable(value, 400), ""}); };
+  add("archive", input.archive_path);
+  add("campaign", fmt::format("{}, kind {}, seed {}, {}, {}", campaign.name, campaign.kind, campaign.seed, count_text(input.evidence.cells().size(), "cell"),
+                              count_text(campaign.replicates, "planned replicate")));
+  add("plan hash", hex_text(campaign.plan_hash));
+  add("fleetproof", engine.version);
+  add("program sha256", engine.program_sha256);
+  add("compiler", engine.compiler);
+  add("flags", engine.flags);
+  add("libraries", engine.libraries);
+  return section;
+}
+
+Section method_section(const ReportInput& input) {
+  Section section{"How to read this", {}, {}};
+  const auto add = [&](const char* text) { section.remarks.push_back({text, ""}); };
+  if (input.evidence.counts_only()) {
+    add("A search looks for failures where it expects them. Its counts are no sample of normal operation: there are no rates and no bounds.");
+  } else {
+    add("A replicate is one draw of all randomness, run in every cell (test condition). Where several cells are judged together, the replicate is the unit and fails if any of "
+        "its runs does. Intervals and bounds are exact (Clopper-Pearson), for a number of replicates fixed beforehand.");
+    add("Runs that crashed, hung or stayed indeterminate count as failures in every rate and bound; stuck runs stay in the count of runs. An upper bound is rounded up, a lower "
+        "one down.");
+    add("\"Demonstrated\" says: if the true rate were above the limit, a result this good would be rarer than one minus the confidence. It speaks of the sampled scenarios in "
+        "the simulator, not of other conditions, and not of real vehicles beyond what the simulator has been validated for.");
+  }
+  add("A violation is a clearance below the minimal safety distance (0.10 m unless the scenario says otherwise). Clearances are rounded down to 1 cm; \"> 0.5 m\" means that none "
+      "below that was met. The contract region is loss <= 40 % and delay <= 2 s; outside it standing still is legal, a violation is still one.");
+  return section;
+}
+
+}  // namespace
+
+Page build_page(const ReportInput& input, std::size_t most_rows) {
+  Page page;
+  const auto& evidence = input.evidence;
+  page.title = fmt::format("fleetproof report: {} ({}), {} complete of {} cells each, {} judged", printable(input.campaign.name, 80), printable(input.campaign.kind, 20),
+                           count_text(evidence.complete_replicates(), "replicate"), evidence.cells().size(),
+                           count_text(evidence.complete_replicates() * evidence.cells().size(), "run"));
+  page.headlines = warnings(input);
+  for (auto& verdict : verdicts(input)) page.headlines.push_back(std::move(verdict));
+  page.sections.push_back(condition_section(input, "Worst case of the contract: 40 % loss, 2 s delay", [](const Condition& c) { return c.is_worst_case; }, most_rows));
+  page.sections.push_back(condition_section(input, "Contract region: loss <= 40 %, delay <= 2 s", [](const Condition& c) { return c.in_contract; }, most_rows));
+  page.sections.push_back(condition_section(input, "Outside the contract", [](const Condition& c) { return !c.in_contract; }, most_rows));
+  page.sections.push_back(weak_point_section(input));
+  page.sections.push_back(worst_run_section(input));
+  page.sections.push_back(provenance_section(input));
+  page.sections.push_back(method_section(input));
+  return page;
+}
+
+}  // namespace fleetproof

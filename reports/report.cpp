@@ -1,0 +1,34 @@
+#include "reports/report.hpp"
+
+#include <array>
+#include <utility>
+
+#include "reports/json_report.hpp"
+#include "reports/markdown_report.hpp"
+#include "reports/text_report.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr std::array<Entry<RenderReport>, 3> kFormats{{
+    {"text", "for a terminal: verdicts first, then tables", render_text},
+    {"markdown", "for a CI summary: the same page, under 60 KB", render_markdown},
+    {"json", "for programs: every cell and every figure in full", render_json},
+}};
+
+}  // namespace
+
+std::span<const Entry<RenderReport>> report_formats() { return kFormats; }
+
+ReportInput read_report_input(const ArchiveReader& archive, std::string archive_path) {
+  ReportInput input{std::move(archive_path), archive.campaign(), Evidence(archive.campaign(), archive.cells(), archive.gates()), {}, 0, 4};
+  archive.for_each_run([&](const RunRecord& run) {
+    ++input.stored_runs;
+    if (run.run_index == input.evidence.runs()) input.evidence.add(run);
+  });
+  input.gates = input.evidence.judge_all();
+  input.exit_code = exit_code(input.evidence, input.gates);
+  return input;
+}
+
+}  // namespace fleetproof

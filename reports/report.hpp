@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/catalogue.hpp"
+#include "reports/evidence/evidence.hpp"
+#include "storage/archive.hpp"
+
+namespace fleetproof {
+
+// Everything a report tells, judged once: every format prints the same verdict.
+struct ReportInput {
+  std::string archive_path;         // as the user typed it: it goes into the replay lines
+  CampaignRecord campaign;
+  Evidence evidence;
+  std::vector<GateResult> gates;    // in the order of evidence.gates()
+  std::uint64_t stored_runs = 0;    // in the file; evidence.runs() of them are before the first gap
+  int exit_code = 4;
+};
+
+// Reads all runs of the archive; judges those before the first gap. Throws EngineError if the archive is damaged.
+ReportInput read_report_input(const ArchiveReader& archive, std::string archive_path);
+
+// A whole report as one text.
+using RenderReport = std::string (*)(const ReportInput& input);
+
+// Every format that `fleetproof report --format` knows.
+std::span<const Entry<RenderReport>> report_formats();
+
+}  // namespace fleetproof

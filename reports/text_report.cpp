@@ -1,0 +1,81 @@
+#include "reports/text_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "reports/page.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr std::size_t kWidth = 118;
+constexpr std::size_t kMostRows = 500;
+
+// In characters, not bytes.
+std::size_t width_of(const std::string& text) {
+  return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+}
+
+// Words in lines of at most kWidth; the first line starts with `first`, the others with as many blanks as `indent` says.
+std::string wrapped(const std::string& text, const std::string& first, std::size_t indent) {
+  std::string out, line = first;
+  std::size_t start = 0;
+  while (start < text.size()) {
+    const auto end = std::min(text.find(' ', start), text.size());
+    const auto word = text.substr(start, end - start);
+    if (width_of(line) + 1 + width_of(word) > kWidth && width_of(line) > indent) {
+      out += line + "\n";
+      line = std::string(indent, ' ');
+    }
+    line += (line.empty() || line.ends_with(' ') ? "" : " ") + word;
+    start = end + 1;
+  }
+  return out + line + "\n";
+}
+
+std::string aligned(const std::string& text, std::size_t width, bool right) {
+  const std::string blanks(width - std::min(width, width_of(text)), ' ');
+  return right ? blanks + text : text + blanks;
+}
+
+void print(std::string& out, const Table& table) {
+  std::vector<std::size_t> widths;
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    auto width = width_of(table.columns[c].head);
+    for (const auto& row : table.rows) width = std::max(width, width_of(row[c]));
+    widths.push_back(width);
+  }
+  const auto print_row = [&](const auto& text_of) {
+    std::string line;
+    for (std::size_t c = 0; c < table.columns.size(); ++c) line += (c == 0 ? "  " : "  ") + aligned(text_of(c), widths[c], table.columns[c].right_aligned);
+    line.erase(line.find_last_not_of(' ') + 1);
+    out += line + "\n";
+  };
+  print_row([&](std::size_t c) { return table.columns[c].head; });
+  for (const auto& row : table.rows) print_row([&](std::size_t c) { return row[c]; });
+}
+
+}  // namespace
+
+std::string render_text(const ReportInput& input) {
+  const auto page = build_page(input, kMostRows);
+  std::string out = page.title + "\n\n";
+  for (const auto& headline : page.headlines) {
+    out += wrapped(headline.remark.text, headline.word + " |", 4);
+    if (!headline.remark.command.empty()) out += "    -> " + headline.remark.command + "\n";
+    out += "\n";
+  }
+  for (const auto& section : page.sections) {
+    out += section.title + "\n" + std::string(width_of(section.title), '-') + "\n";
+    if (!section.table.columns.empty()) print(out, section.table);
+    for (const auto& remark : section.remarks) {
+      out += wrapped(remark.text, "  *", 4);
+      if (!remark.command.empty()) out += "    -> " + remark.command + "\n";
+    }
+    out += "\n";
+  }
+  return out;
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,159 @@
+#include "reports/verdict_sentences.hpp"
+
+#include <fmt/format.h>
+
+#include <set>
+
+#include "reports/evidence/rounding.hpp"
+#include "reports/wording.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr std::size_t kMostListed = 8;
+
+std::string region_text(Region region) {
+  switch (region) {
+    case Region::Contract: return "contract region (loss <= 40 %, delay <= 2 s)";
+    case Region::WorstCase: return "worst case (40 %, 2 s)";
+    case Region::All: return "all cells";
+  }
+  return {};
+}
+
+template <class Values>
+std::string listed(const Values& values, std::string (*text)(double)) {
+  std::vector<std::string> words;
+  for (const double value : values) words.push_back(text(value));
+  if (words.size() > kMostListed) words = {words.front(), "...", words.back()};
+  return joined(words);
+}
+
+std::string listed(const std::set<std::string>& names) {
+  std::vector<std::string> words;
+  for (const auto& name : names) words.push_back(printable(name, 40));
+  const auto all = words.size();
+  if (all > kMostListed) words.resize(kMostListed);
+  return joined(words) + (all > kMostListed ? fmt::format(" and {} more", all - kMostListed) : "");
+}
+
+// Losses and delays: the two lists if every pair of them was run, else the pairs.
+std::string combinations(const std::set<std::pair<double, double>>& pairs) {
+  std::set<double> losses, delays_s;
+  for (const auto& [loss, delay_s] : pairs) {
+    losses.insert(loss);
+    delays_s.insert(delay_s);
+  }
+  if (pairs.size() == losses.size() * delays_s.size()) return fmt::format("loss {}; delay {}", listed(losses, percent), listed(delays_s, seconds_text));
+  std::vector<std::string> words;
+  for (const auto& [loss, delay_s] : pairs) {
+    if (words.size() < kMostListed) words.push_back(fmt::format("{} with {}", percent(loss), seconds_text(delay_s)));
+  }
+  return joined(words, "; ") + (pairs.size() > kMostListed ? fmt::format("; and {} more", pairs.size() - kMostListed) : "");
+}
+
+std::string estimate_text(const GateRecord& gate, const GateResult& result) {
+  const auto& claim = *result.claim;
+  auto text = fmt::format("{} of {} {} failed", claim.failing, claim.units, result.unit);
+  if (claim.rate()) {
+    text += fmt::format(": rate {}, exact two-sided 95 % interval [{}, {}]", rounded_rate(*claim.rate()), rounded_down(claim.interval_95.lower),
+                        rounded_up(claim.interval_95.upper));
+  }
+  text += fmt::format(", one-sided {} upper bound {}, limit {:g}.", percent(gate.confidence), rounded_up(claim.upper), gate.limit);
+  if (result.optimistic->failing != claim.failing) {
+    text += fmt::format(" Crashed, hung and indeterminate runs are counted as failures; if none of them had failed: {} of {}, upper bound {}.", result.optimistic->failing,
+                        claim.units, rounded_up(result.optimistic->upper));
+  }
+  return text;
+}
+
+Headline verdict_of(const ReportInput& input, std::size_t index) {
+  const auto& gate = input.evidence.gates()[index];
+  const auto& result = input.gates[index];
+  const auto* allows = gate.kind == GateKind::None ? "none allowed" : "rate limited";
+  auto text = fmt::format("gate \"{}\": {} of agent {}, {}, {}. ", printable(gate.name, 60), name_of(gate.end_point), printable(gate.agent, 40),
+                          region_text(gate.region), allows);
+  if (result.claim) {
+    text += estimate_text(gate, result);
+  } else {
+    text += fmt::format("{} failed.", count_text(result.counts.failing_runs, "run"));
+  }
+  text += fmt::format(" {}: {}.", name_of(result.verdict), result.reason);
+  const auto& cells = input.evidence.cells_of(index);
+  if (!cells.empty()) text += " Sampled: " + sampled(input.evidence, cells) + ".";
+  Headline headline{name_of(result.verdict), {text, ""}};
+  if (result.worst) headline.remark.command = replay_command(input.archive_path, result.worst->run_index);
+  return headline;
+}
+
+}  // namespace
+
+std::string sampled(const Evidence& evidence, const std::vector<std::uint32_t>& cells) {
+  std::set<std::pair<double, double>> pairs;
+  std::set<std::string> layouts;
+  std::set<std::uint32_t> fleets;
+  Tally tally;
+  for (const auto index : cells) {
+    const auto& cell = evidence.cells()[index];
+    pairs.emplace(cell.loss, cell.delay_s);
+    layouts.insert(cell.layout);
+    fleets.insert(cell.fleet_size);
+    tally.add(evidence.tally(index));
+  }
+  std::vector<std::string> sizes;
+  for (const auto size : fleets) sizes.push_back(std::to_string(size));
+  auto text = fmt::format("{} at {} ({}), {} {}, fleets of {}", count_text(evidence.complete_replicates(), "replicate"),
+                          pairs.size() == 1 ? "this combination" : fmt::format("these {} combinations", pairs.size()), combinations(pairs),
+                          layouts.size() == 1 ? "layout" : "layouts", listed(layouts), joined(sizes, " or "));
+  if (tally.longest_ns > 0) text += fmt::format(", {} a run", seconds_text(static_cast<double>(tally.longest_ns) * 1e-9));
+  return text;
+}
+
+Remark describe(const ReportInput& input, const FailingRun& run) {
+  const auto& cell = input.evidence.cells()[run.cell];
+  auto text = fmt::format("run {}: {}", run.run_index, name_of(run.severity));
+  if (run.closest) {
+    text += fmt::format(", {} at {} between {} and {}", metres_text(run.closest->min_clearance_um), seconds_text(to_seconds(run.closest->closest_at)),
+                        body_name(run.closest->a, cell), body_name(run.closest->b, cell));
+    if (run.violations > 1) text += fmt::format(" (the closest of {})", run.violations);
+  }
+  text += fmt::format("; agent {}, layout {}, fleet of {}, loss {}, delay {}", printable(cell.agent, 40), printable(cell.layout, 40), cell.fleet_size, percent(cell.loss),
+                      seconds_text(cell.delay_s));
+  if (!run.message.empty()) text += fmt::format("; \"{}\"", printable(run.message));
+  return {text, replay_command(input.archive_path, run.run_index)};
+}
+
+std::vector<Headline> warnings(const ReportInput& input) {
+  std::vector<Headline> list;
+  if (const auto errors = input.evidence.engine_errors(); errors > 0) {
+    list.push_back({"engine error", {fmt::format("{} ended in an error of the simulator itself: nothing here is evidence until that is mended.", count_text(errors, "run")), ""}});
+  }
+  struct Failures {
+    std::uint64_t runs = 0;
+    std::optional<FailingRun> worst;
+  };
+  std::vector<std::pair<std::string, Failures>> agents;  // in the order of the conditions
+  for (const auto& condition : input.evidence.conditions()) {
+    if (!condition.in_contract || condition.pool.failing_runs == 0) continue;
+    if (agents.empty() || agents.back().first != condition.agent) agents.emplace_back(condition.agent, Failures{});
+    auto& failures = agents.back().second;
+    failures.runs += condition.pool.failing_runs;
+    if (condition.worst && (!failures.worst || more_serious(*condition.worst, *failures.worst))) failures.worst = condition.worst;
+  }
+  for (const auto& [agent, failures] : agents) {
+    auto worst = describe(input, *failures.worst);
+    list.push_back({"violation", {fmt::format("agent {} broke the safety distance in {} within the contract region. The most serious is {}.", printable(agent, 40),
+                                              count_text(failures.runs, "run"), worst.text),
+                                  worst.command}});
+  }
+  return list;
+}
+
+std::vector<Headline> verdicts(const ReportInput& input) {
+  std::vector<Headline> list;
+  for (std::size_t i = 0; i < input.gates.size(); ++i) list.push_back(verdict_of(input, i));
+  if (list.empty()) list.push_back({name_of(Verdict::NotDemonstrated), {"this campaign has no gate (acceptance criterion), so nothing can be demonstrated.", ""}});
+  return list;
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,83 @@
+#include "reports/weak_points.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "reports/evidence/binomial.hpp"
+#include "reports/wording.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr std::size_t kMostNamed = 4;
+
+std::string cell_name(const CellRecord& cell) {
+  return fmt::format("{} on {}, fleet of {}, {}, {}", printable(cell.agent, 40), printable(cell.layout, 40), cell.fleet_size, percent(cell.loss), seconds_text(cell.delay_s));
+}
+
+// "3 of 12 cells ...: a; b; c", or nothing.
+void name_cells(std::vector<std::string>& points, const Evidence& evidence, const std::string& what, const std::function<bool(const CellRecord&, const Tally&)>& concerned) {
+  std::vector<std::string> names;
+  std::size_t count = 0;
+  for (const auto& cell : evidence.cells()) {
+    if (!concerned(cell, evidence.tally(cell.index))) continue;
+    if (++count <= kMostNamed) names.push_back(cell_name(cell));
+  }
+  if (count == 0) return;
+  if (count == evidence.cells().size()) {
+    points.push_back(fmt::format("All {} {}.", count_text(count, "cell"), what));
+  } else {
+    points.push_back(fmt::format("{} of {} cells {}: {}{}.", count, evidence.cells().size(), what, joined(names, "; "),
+                                 count > kMostNamed ? fmt::format("; and {} more", count - kMostNamed) : ""));
+  }
+}
+
+// A gate that pools its cells says little about one of them alone.
+void name_short_gates(std::vector<std::string>& points, const Evidence& evidence) {
+  if (evidence.counts_only()) return;
+  for (std::size_t i = 0; i < evidence.gates().size(); ++i) {
+    const auto& gate = evidence.gates()[i];
+    const auto needed = units_needed(0, gate.limit, gate.confidence);
+    const auto done = evidence.complete_replicates();
+    if (!needed || done >= *needed || evidence.cells_of(i).empty()) continue;
+    points.push_back(fmt::format("Gate \"{}\": every cell of it has {}; even without a failure a limit of {:g} at {} takes {}.", printable(gate.name, 60), count_text(done, "run"),
+                                 gate.limit, percent(gate.confidence), *needed));
+  }
+}
+
+void name_agents_without_gate(std::vector<std::string>& points, const Evidence& evidence) {
+  std::vector<std::string> agents;
+  for (const auto& cell : evidence.cells()) {
+    const auto name = printable(cell.agent, 40);
+    const bool has_gate = std::ranges::find(evidence.gates(), cell.agent, &GateRecord::agent) != evidence.gates().end();
+    if (!has_gate && std::ranges::find(agents, name) == agents.end()) agents.push_back(name);
+  }
+  if (!agents.empty()) points.push_back(fmt::format("No gate judges agent {}.", joined(agents)));
+}
+
+}  // namespace
+
+std::vector<std::string> weak_points(const ReportInput& input) {
+  const auto& evidence = input.evidence;
+  std::vector<std::string> points;
+  const auto judged = evidence.complete_replicates() * evidence.cells().size();
+  if (input.stored_runs > judged) {
+    points.push_back(fmt::format("{} of {} stored runs are not counted: they belong to replicates that are not complete.", input.stored_runs - judged, input.stored_runs));
+  }
+  if (evidence.complete_replicates() < input.campaign.replicates) {
+    points.push_back(fmt::format("{} of {} planned replicates are complete.", evidence.complete_replicates(), input.campaign.replicates));
+  }
+  name_short_gates(points, evidence);
+  name_cells(points, evidence, "have no run", [](const CellRecord&, const Tally& tally) { return tally.runs == 0; });
+  name_cells(points, evidence, "of the contract region completed no transport",
+             [](const CellRecord& cell, const Tally& tally) { return cell.in_contract() && tally.runs > 0 && tally.transports_done == 0; });
+  name_cells(points, evidence, "have runs with an unknown outcome (crash, hang, indeterminate, engine error)",
+             [](const CellRecord&, const Tally& tally) { return tally.unknown_runs > 0; });
+  name_cells(points, evidence, "of the contract region have stuck runs", [](const CellRecord& cell, const Tally& tally) { return cell.in_contract() && tally.stuck_runs > 0; });
+  name_agents_without_gate(points, evidence);
+  return points;
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,73 @@
+#include "reports/wording.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fleetproof {
+namespace {
+
+// Two decimals at most, none that say nothing.
+std::string hundredths(double value) {
+  auto text = fmt::format("{:.2f}", value);
+  while (text.ends_with('0')) text.pop_back();
+  if (text.ends_with('.')) text.pop_back();
+  return text == "-0" ? "0" : text;
+}
+
+bool plain_in_a_shell(std::string_view word) {
+  return !word.empty() && !word.starts_with('-') && std::ranges::all_of(word, [](unsigned char c) {
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || std::string_view("_-./+:@%,=").find(static_cast<char>(c)) != std::string_view::npos;
+  });
+}
+
+std::string shell_word(const std::string& word) {
+  if (plain_in_a_shell(word)) return word;
+  std::string quoted = word.starts_with('-') ? "'./" : "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+}  // namespace
+
+std::string percent(double fraction) { return hundredths(fraction * 100.0) + " %"; }
+std::string seconds_text(double value_s) { return hundredths(value_s) + " s"; }
+
+std::string metres_text(std::int64_t value_um) { return fmt::format("{:.2f} m", std::floor(static_cast<double>(value_um) / 10'000.0) / 100.0); }
+
+std::string clearance_text(const Tally& tally) {
+  if (tally.min_clearance_um) return metres_text(*tally.min_clearance_um);
+  if (tally.runs == 0) return "-";
+  return tally.contact_runs > 0 ? "contact" : "> 0.5 m";
+}
+
+std::string per_hour_text(const std::optional<double>& rate) { return rate ? fmt::format("{:.2f}", *rate) : "-"; }
+std::string count_text(std::uint64_t count, std::string_view singular) { return fmt::format("{} {}{}", count, singular, count == 1 ? "" : "s"); }
+std::string hex_text(std::uint64_t digest) { return fmt::format("{:016x}", digest); }
+
+std::string body_name(EntityId body, const CellRecord& cell) {
+  if (body.value < cell.fleet_size) return fmt::format("AGV {}", body.value);
+  return fmt::format("obstacle {}", body.value - cell.fleet_size);
+}
+
+std::string printable(std::string_view text, std::size_t limit) {
+  std::string line;
+  std::size_t length = 0;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool starts_character = (byte & 0xc0) != 0x80;
+    if (starts_character && ++length > limit) return line + "...";
+    line += byte < 0x20 || byte == 0x7f ? ' ' : c;
+  }
+  return line;
+}
+
+std::string replay_command(const std::string& archive_path, std::uint64_t run_index) {
+  return fmt::format("fleetproof replay {} {}", shell_word(archive_path), run_index);
+}
+
+std::string joined(const std::vector<std::string>& parts, std::string_view separator) { return fmt::format("{}", fmt::join(parts, separator)); }
+
+}  // namespace fleetproof

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/sim_time.hpp"
+#include "reports/evidence/tally.hpp"
+#include "storage/records.hpp"
+
+namespace fleetproof {
+
+// How figures read on a page: hundredths of a second, whole centimetres (rounded down, towards the unsafe side), percent with a blank before the sign.
+std::string percent(double fraction);
+std::string seconds_text(double value_s);
+std::string metres_text(std::int64_t value_um);
+// "> 0.5 m" if no clearance below that was met, "-" without runs.
+std::string clearance_text(const Tally& tally);
+std::string per_hour_text(const std::optional<double>& rate);
+std::string count_text(std::uint64_t count, std::string_view singular);  // "1 run", "3 runs"
+std::string hex_text(std::uint64_t digest);                              // 16 digits
+std::string body_name(EntityId body, const CellRecord& cell);            // "AGV 3", "obstacle 0"
+
+// A name or message from outside as one printable line of at most `limit` characters.
+std::string printable(std::string_view text, std::size_t limit = 120);
+
+// One line for a shell, whatever the path holds.
+std::string replay_command(const std::string& archive_path, std::uint64_t run_index);
+
+std::string joined(const std::vector<std::string>& parts, std::string_view separator = ", ");
+
+}  // namespace fleetproof

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "storage/records.hpp"
+
+namespace fleetproof {
+
+// The live file of a campaign under way: NAME.partial beside NAME, write-ahead log, one connection that writes and checkpoints.
+// Rows are stored as they finish; a kill loses at most what came after the last commit (at most 2 s).
+// Threads: one.
+class ArchiveWriter {
+ public:
+  // Throws InputError if `path` or its live file exists already (the remedy is named), EngineError if the disk refuses.
+  ArchiveWriter(const std::string& path, const CampaignRecord& campaign, const std::vector<CellRecord>& cells, const std::vector<GateRecord>& gates);
+  ~ArchiveWriter();
+  ArchiveWriter(const ArchiveWriter&) = delete;
+  ArchiveWriter& operator=(const ArchiveWriter&) = delete;
+
+  void add(const RunRecord& run);  // commits by itself every 512 rows or 2 s, whichever comes first
+  void commit();
+
+  // Writes the canonical file: rows below `stop_index` only, fixed page size and order, no journal; the same bytes for any order of `add`.
+  // Then renames it to `path` and removes the live file. The writer is closed afterwards.
+  void publish(std::uint64_t stop_index);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// Reads a published (or live) campaign file. Every row's checksum is verified as it is read; a bad one throws EngineError and names the row.
+// Threads: one.
+class ArchiveReader {
+ public:
+  // Throws InputError if there is no such file, or it is not a campaign file of ours, or of a newer schema; EngineError if it is damaged.
+  explicit ArchiveReader(const std::string& path);
+  ~ArchiveReader();
+  ArchiveReader(const ArchiveReader&) = delete;
+  ArchiveReader& operator=(const ArchiveReader&) = delete;
+
+  const CampaignRecord& campaign() const;
+  const std::vector<CellRecord>& cells() const;
+  const std::vector<GateRecord>& gates() const;
+  std::uint64_t run_count() const;
+  std::optional<RunRecord> run(std::uint64_t run_index) const;
+  // In order of run index, with violations.
+  void for_each_run(const std::function<void(const RunRecord&)>& visit) const;
+  // One digest over plan, cells, gates and all rows: equal exactly for equal content.
+  std::uint64_t content_digest() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace fleetproof

@@ -1,0 +1,224 @@
+#include <SQLiteCpp/Database.h>
+#include <SQLiteCpp/Statement.h>
+#include <fmt/format.h>
+#include <sqlite3.h>
+
+#include <bit>
+#include <filesystem>
+
+#include "core/error.hpp"
+#include "storage/archive.hpp"
+#include "storage/checksum.hpp"
+#include "storage/rows.hpp"
+#include "storage/schema.hpp"
+#include "storage/sqlite_errors.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr int kBusyTimeoutMs = 5000;
+
+// By file type and size only: opening the file ourselves would drop SQLite's locks on it in this process.
+void require_readable(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (path.empty()) throw InputError("", "name a campaign file");
+  if (fs::is_directory(path, error)) throw InputError(path, "this is a folder; name a campaign file in it");
+  if (!fs::exists(path, error)) {
+    if (fs::exists(path + ".partial", error)) {
+      throw InputError(path, fmt::format("there is no such file yet; the campaign is under way or was interrupted, what it stored so far is in {}.partial", path));
+    }
+    throw InputError(path, "there is no such file");
+  }
+  if (!fs::is_regular_file(path, error)) throw InputError(path, "this is no regular file; name a campaign file");
+  if (fs::file_size(path, error) == 0) throw InputError(path, "this file is empty; name a campaign file");
+}
+
+// One state of the file for several statements, even while a campaign writes it. Within another snapshot it is that one.
+class Snapshot {
+ public:
+  explicit Snapshot(SQLite::Database& db) : db_(db), outermost_(sqlite3_get_autocommit(db.getHandle()) != 0) {
+    if (outermost_) db_.exec("BEGIN");
+  }
+  ~Snapshot() {
+    if (outermost_) db_.tryExec("ROLLBACK");
+  }
+  Snapshot(const Snapshot&) = delete;
+  Snapshot& operator=(const Snapshot&) = delete;
+
+ private:
+  SQLite::Database& db_;
+  bool outermost_;
+};
+
+std::int64_t pragma(SQLite::Database& db, const char* name) { return db.execAndGet(fmt::format("PRAGMA {}", name)).getInt64(); }
+
+std::optional<std::uint64_t> maybe(const SQLite::Column& column) {
+  if (column.isNull()) return std::nullopt;
+  return std::bit_cast<std::uint64_t>(column.getInt64());
+}
+
+}  // namespace
+
+struct ArchiveReader::Impl {
+  std::string path;
+  mutable std::unique_ptr<SQLite::Database> db;
+  CampaignRecord campaign;
+  std::vector<CellRecord> cells;
+  std::vector<GateRecord> gates;
+  std::uint64_t plan = 0;
+  std::optional<std::uint64_t> sealed_count, sealed_digest;  // absent in a live file
+
+  void open();
+  void require_ours();
+  void read_plan();
+  StoredRun take_run(const SQLite::Statement& row) const;
+  void take_violation(const SQLite::Statement& row, StoredRun& stored) const;
+  void verify(const StoredRun& stored) const;
+  std::uint64_t read_all(const std::function<void(const RunRecord&)>& visit) const;
+
+  // SQLite's refusals become ours.
+  template <class Action>
+  auto guarded(Action action) const {
+    try {
+      return action();
+    } catch (const SQLite::Exception&) {
+      throw_archive_error(path);
+    }
+  }
+  [[noreturn]] void damaged(const std::string& what) const {
+    throw EngineError(fmt::format("{}: the file is damaged: {}; use a copy of it, or run the campaign again", path, what));
+  }
+};
+
+void ArchiveReader::Impl::open() {
+  guarded([&] {
+    db = std::make_unique<SQLite::Database>(std::filesystem::absolute(path).string(), SQLite::OPEN_READONLY, kBusyTimeoutMs);
+    // The writer alone checkpoints: SQLite 3.40 may damage the file if two do it at the same instant.
+    sqlite3_db_config(db->getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+  });
+  require_ours();
+  guarded([&] {
+    const Snapshot snapshot(*db);
+    read_plan();
+  });
+}
+
+void ArchiveReader::Impl::require_ours() {
+  std::int64_t application = 0, version = 0;
+  try {
+    application = pragma(*db, "application_id");
+    version = pragma(*db, "user_version");
+  } catch (const SQLite::Exception& e) {
+    if (e.getErrorCode() != SQLITE_NOTADB) throw_archive_error(path);
+  }
+  if (application != kApplicationId) throw InputError(path, "this is not a campaign file of fleetproof; name a file that `fleetproof run` wrote");
+  if (version > kSchemaVersion) {
+    throw InputError(path, fmt::format("a newer fleetproof wrote this file (schema {}, this program reads {}); use that version or a later one", version, kSchemaVersion));
+  }
+  if (version != kSchemaVersion) damaged(fmt::format("its schema number is {}", version));
+}
+
+void ArchiveReader::Impl::read_plan() {
+  SQLite::Statement row(*db, fmt::format("SELECT {}, run_count, rows_digest FROM campaign", kCampaignColumns));
+  if (!row.executeStep()) damaged("it holds no plan");
+  campaign = read_campaign(row);
+  plan = read_plan_checksum(row);
+  sealed_count = maybe(row.getColumn("run_count"));
+  sealed_digest = maybe(row.getColumn("rows_digest"));
+  SQLite::Statement cell_rows(*db, fmt::format("SELECT {} FROM cells ORDER BY cell", kCellColumns));
+  while (cell_rows.executeStep()) cells.push_back(read_cell(cell_rows));
+  SQLite::Statement gate_rows(*db, fmt::format("SELECT {} FROM gates ORDER BY gate", kGateColumns));
+  while (gate_rows.executeStep()) gates.push_back(read_gate(gate_rows));
+  if (plan_checksum(campaign, cells, gates) != plan) damaged("its plan (campaign, cells, gates) does not match its checksum");
+}
+
+StoredRun ArchiveReader::Impl::take_run(const SQLite::Statement& row) const {
+  try {
+    return read_run(row);
+  } catch (const EngineError& e) {
+    damaged(fmt::format("run {}: {}", row.getColumn(0).getInt64(), e.what()));
+  }
+}
+
+void ArchiveReader::Impl::take_violation(const SQLite::Statement& row, StoredRun& stored) const {
+  try {
+    stored.run.outcome.violations.push_back(read_violation(row));
+  } catch (const EngineError& e) {
+    damaged(fmt::format("a violation of run {}: {}", stored.run.run_index, e.what()));
+  }
+}
+
+void ArchiveReader::Impl::verify(const StoredRun& stored) const {
+  const auto& run = stored.run;
+  const bool sound = row_checksum(run) == stored.checksum && stored.outcome_class == name_of(run.outcome.outcome_class()) && run.cell < cells.size() &&
+                     run.run_index == run.replicate * cells.size() + run.cell;
+  if (!sound) damaged(fmt::format("run {} does not match its checksum", run.run_index));
+}
+
+// Both tables are stored in the order of their keys, so one pass over each is enough. Returns the digest of the rows.
+std::uint64_t ArchiveReader::Impl::read_all(const std::function<void(const RunRecord&)>& visit) const {
+  const Snapshot snapshot(*db);
+  SQLite::Statement runs(*db, fmt::format("SELECT {} FROM runs ORDER BY run_index", run_columns()));
+  SQLite::Statement violations(*db, fmt::format("SELECT {} FROM violations ORDER BY run_index, ordinal", violation_columns()));
+  bool more = violations.executeStep();
+  RowsDigest digest;
+  std::uint64_t count = 0;
+  for (; runs.executeStep(); ++count) {
+    auto stored = take_run(runs);
+    while (more && std::bit_cast<std::uint64_t>(violations.getColumn(0).getInt64()) == stored.run.run_index) {
+      take_violation(violations, stored);
+      more = violations.executeStep();
+    }
+    verify(stored);
+    digest.add(stored.checksum);
+    visit(stored.run);
+  }
+  if (more) damaged(fmt::format("it holds a violation of run {}, but not the run", violations.getColumn(0).getInt64()));
+  if (sealed_count && (count != *sealed_count || digest.value() != sealed_digest)) {
+    damaged(fmt::format("it was published with {} runs and holds {}, or others", *sealed_count, count));
+  }
+  return digest.value();
+}
+
+ArchiveReader::ArchiveReader(const std::string& path) : impl_(std::make_unique<Impl>()) {
+  impl_->path = path;
+  require_readable(path);
+  impl_->open();
+}
+
+ArchiveReader::~ArchiveReader() = default;
+
+const CampaignRecord& ArchiveReader::campaign() const { return impl_->campaign; }
+const std::vector<CellRecord>& ArchiveReader::cells() const { return impl_->cells; }
+const std::vector<GateRecord>& ArchiveReader::gates() const { return impl_->gates; }
+
+std::uint64_t ArchiveReader::run_count() const {
+  if (impl_->sealed_count) return *impl_->sealed_count;
+  return impl_->guarded([&] { return static_cast<std::uint64_t>(impl_->db->execAndGet("SELECT count(*) FROM runs").getInt64()); });
+}
+
+std::optional<RunRecord> ArchiveReader::run(std::uint64_t run_index) const {
+  return impl_->guarded([&]() -> std::optional<RunRecord> {
+    const Snapshot snapshot(*impl_->db);
+    SQLite::Statement rows(*impl_->db, fmt::format("SELECT {} FROM runs WHERE run_index = ?", run_columns()));
+    rows.bind(1, std::bit_cast<std::int64_t>(run_index));
+    if (!rows.executeStep()) return std::nullopt;
+    auto stored = impl_->take_run(rows);
+    SQLite::Statement violations(*impl_->db, fmt::format("SELECT {} FROM violations WHERE run_index = ? ORDER BY ordinal", violation_columns()));
+    violations.bind(1, std::bit_cast<std::int64_t>(run_index));
+    while (violations.executeStep()) impl_->take_violation(violations, stored);
+    impl_->verify(stored);
+    return std::move(stored.run);
+  });
+}
+
+void ArchiveReader::for_each_run(const std::function<void(const RunRecord&)>& visit) const {
+  impl_->guarded([&] { impl_->read_all(visit); });
+}
+
+std::uint64_t ArchiveReader::content_digest() const {
+  return impl_->guarded([&] { return content_digest_of(impl_->plan, impl_->read_all([](const RunRecord&) {})); });
+}
+
+}  // namespace fleetproof

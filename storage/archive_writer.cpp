@@ -1,0 +1,203 @@
+#include <SQLiteCpp/Database.h>
+#include <SQLiteCpp/Statement.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <bit>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+
+#include "core/error.hpp"
+#include "storage/archive.hpp"
+#include "storage/canonical_file.hpp"
+#include "storage/checksum.hpp"
+#include "storage/rows.hpp"
+#include "storage/schema.hpp"
+#include "storage/sqlite_errors.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr unsigned kRowsPerCommit = 512;
+constexpr std::chrono::seconds kCommitPeriod{2};
+
+// SQLite gives some names a meaning of their own (":memory:", "file:..."); an absolute path is only ever a path.
+std::string absolute(const std::string& path) { return std::filesystem::absolute(path).string(); }
+
+void require_free_name(const std::string& path, const std::string& live_path) {
+  namespace fs = std::filesystem;
+  if (path.empty()) throw InputError("", "the campaign file needs a name");
+  if (fs::is_directory(path)) throw InputError(path, "this is a folder; name a file in it");
+  if (fs::exists(path)) throw InputError(path, "this file exists already; give another name, or remove it to start again");
+  if (fs::exists(live_path)) {
+    throw InputError(live_path, "a campaign of this name is under way or was interrupted; remove this file to start again, or give another name");
+  }
+  const auto folder = fs::path(absolute(path)).parent_path();
+  if (!fs::is_directory(folder)) throw InputError(path, fmt::format("there is no folder {}; make it first, or give another name", folder.string()));
+}
+
+// Of two programs that start at once, one wins.
+void create_exclusively(const std::string& live_path) {
+  const int fd = ::open(live_path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  if (fd < 0) throw EngineError(fmt::format("{}: the disk refused to make the file: {}", live_path, std::strerror(errno)));
+  ::close(fd);
+}
+
+void remove_live_file(const std::string& live_path) {
+  std::error_code ignored;
+  for (const auto* suffix : {"", "-wal", "-shm", "-journal"}) std::filesystem::remove(live_path + suffix, ignored);
+}
+
+}  // namespace
+
+struct ArchiveWriter::Impl {
+  std::string path, live_path;
+  std::uint64_t cells = 0;
+  std::unique_ptr<SQLite::Database> db;
+  std::unique_ptr<SQLite::Statement> insert_run, insert_violation, stored_checksum;
+  unsigned pending = 0;
+  std::chrono::steady_clock::time_point last_commit = std::chrono::steady_clock::now();
+
+  void open(const CampaignRecord& campaign, const std::vector<CellRecord>& cell_records, const std::vector<GateRecord>& gates);
+  void store(const RunRecord& run);
+  void commit();
+  void close();
+};
+
+void ArchiveWriter::Impl::open(const CampaignRecord& campaign, const std::vector<CellRecord>& cell_records, const std::vector<GateRecord>& gates) {
+  db = std::make_unique<SQLite::Database>(live_path, SQLite::OPEN_READWRITE);
+  db->exec(fmt::format("PRAGMA page_size={}; PRAGMA application_id={}; PRAGMA user_version={}", kPageSize, kApplicationId, kSchemaVersion));
+  // FULL brings the log to the disk at every commit: a power cut then costs no more than a kill.
+  db->exec("PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL");
+  db->exec("BEGIN");
+  db->exec(schema_ddl());
+  const auto insert_into = [&](const std::string& table, const std::string& columns) {
+    return SQLite::Statement(*db, fmt::format("INSERT INTO {} ({}) VALUES ({})", table, columns, placeholders(columns)));
+  };
+  auto insert_campaign = insert_into("campaign", kCampaignColumns);
+  bind_campaign(insert_campaign, campaign, plan_checksum(campaign, cell_records, gates));
+  insert_campaign.exec();
+  auto insert_cell = insert_into("cells", kCellColumns);
+  for (const auto& cell : cell_records) {
+    insert_cell.reset();
+    bind_cell(insert_cell, cell);
+    insert_cell.exec();
+  }
+  auto insert_gate = insert_into("gates", kGateColumns);
+  for (const auto& gate : gates) {
+    insert_gate.reset();
+    bind_gate(insert_gate, gate);
+    insert_gate.exec();
+  }
+  db->exec("COMMIT");
+  const auto runs = run_columns();
+  insert_run = std::make_unique<SQLite::Statement>(
+      *db, fmt::format("INSERT INTO runs ({}) VALUES ({}) ON CONFLICT (run_index) DO NOTHING", runs, placeholders(runs)));
+  insert_violation = std::make_unique<SQLite::Statement>(insert_into("violations", violation_columns()));
+  stored_checksum = std::make_unique<SQLite::Statement>(*db, "SELECT checksum FROM runs WHERE run_index = ?");
+}
+
+void ArchiveWriter::Impl::store(const RunRecord& run) {
+  if (pending == 0) db->exec("BEGIN");
+  ++pending;
+  const auto checksum = row_checksum(run);
+  insert_run->reset();
+  bind_run(*insert_run, run, checksum);
+  if (insert_run->exec() == 1) {
+    for (std::size_t i = 0; i < run.outcome.violations.size(); ++i) {
+      insert_violation->reset();
+      bind_violation(*insert_violation, run.run_index, i, run.outcome.violations[i]);
+      insert_violation->exec();
+    }
+    return;
+  }
+  // A run may be simulated twice, after an interruption; it may not end in two ways.
+  stored_checksum->reset();
+  stored_checksum->bind(1, static_cast<std::int64_t>(run.run_index));
+  const bool same = stored_checksum->executeStep() && std::bit_cast<std::uint64_t>(stored_checksum->getColumn(0).getInt64()) == checksum;
+  stored_checksum->reset();
+  if (!same) throw EngineError(fmt::format("{}: run {} is stored already, with another outcome: the same run ended in two ways", live_path, run.run_index));
+}
+
+void ArchiveWriter::Impl::commit() {
+  last_commit = std::chrono::steady_clock::now();
+  if (pending == 0) return;
+  pending = 0;
+  db->exec("COMMIT");
+}
+
+void ArchiveWriter::Impl::close() {
+  commit();
+  insert_run.reset();
+  insert_violation.reset();
+  stored_checksum.reset();
+  db.reset();
+}
+
+ArchiveWriter::ArchiveWriter(const std::string& path, const CampaignRecord& campaign, const std::vector<CellRecord>& cells,
+                             const std::vector<GateRecord>& gates)
+    : impl_(std::make_unique<Impl>()) {
+  require_free_name(path, path + ".partial");
+  impl_->path = absolute(path);
+  impl_->live_path = impl_->path + ".partial";
+  impl_->cells = cells.size();
+  create_exclusively(impl_->live_path);
+  try {
+    impl_->open(campaign, cells, gates);
+  } catch (const SQLite::Exception&) {
+    impl_->db.reset();
+    remove_live_file(impl_->live_path);  // it holds no run yet, and would stand in the way of the next try
+    throw_archive_error(impl_->live_path);
+  }
+}
+
+ArchiveWriter::~ArchiveWriter() {
+  if (!impl_->db) return;
+  try {
+    impl_->close();
+  } catch (const SQLite::Exception&) {  // what was committed stays; a destructor has nobody to tell
+  }
+}
+
+void ArchiveWriter::add(const RunRecord& run) {
+  ensure(impl_->db != nullptr, "a run is added before the archive is published");
+  ensure(run.cell < impl_->cells, "a stored run belongs to a cell of its campaign");
+  ensure(run.run_index == run.replicate * impl_->cells + run.cell, "run_index = replicate x cells + cell");
+  ensure(run.run_index <= std::numeric_limits<std::int64_t>::max(), "a run index fits the archive");
+  try {
+    impl_->store(run);
+    if (impl_->pending >= kRowsPerCommit || std::chrono::steady_clock::now() - impl_->last_commit >= kCommitPeriod) impl_->commit();
+  } catch (const SQLite::Exception&) {
+    throw_archive_error(impl_->live_path);
+  }
+}
+
+void ArchiveWriter::commit() {
+  ensure(impl_->db != nullptr, "an archive is committed before it is published");
+  try {
+    impl_->commit();
+  } catch (const SQLite::Exception&) {
+    throw_archive_error(impl_->live_path);
+  }
+}
+
+void ArchiveWriter::publish(std::uint64_t stop_index) {
+  ensure(impl_->db != nullptr, "an archive is published once");
+  const auto unfinished = impl_->path + ".unfinished";
+  try {
+    impl_->close();
+  } catch (const SQLite::Exception&) {
+    throw_archive_error(impl_->live_path);
+  }
+  write_canonical_file(impl_->live_path, unfinished, stop_index);
+  if (std::filesystem::exists(impl_->path)) {
+    throw InputError(impl_->path, fmt::format("this file appeared while the campaign ran; the results are in {} and {}", unfinished, impl_->live_path));
+  }
+  move_durably(unfinished, impl_->path);
+  remove_live_file(impl_->live_path);
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,101 @@
+#include "storage/canonical_file.hpp"
+
+#include <SQLiteCpp/Database.h>
+#include <SQLiteCpp/Statement.h>
+#include <SQLiteCpp/Transaction.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <bit>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+
+#include "core/error.hpp"
+#include "storage/checksum.hpp"
+#include "storage/schema.hpp"
+#include "storage/sqlite_errors.hpp"
+
+namespace fleetproof {
+namespace {
+
+// Whatever SQLite could choose by itself is chosen here, or the bytes would depend on how a distribution built it.
+void fix_format(SQLite::Database& db) {
+  db.exec(fmt::format("PRAGMA page_size={}; PRAGMA encoding='UTF-8'; PRAGMA auto_vacuum=NONE; PRAGMA secure_delete=ON", kPageSize));
+  db.exec("PRAGMA journal_mode=DELETE; PRAGMA synchronous=FULL");
+}
+
+void copy_rows(SQLite::Database& db, std::uint64_t stop_index) {
+  db.exec(fmt::format("INSERT INTO campaign ({0}) SELECT {0} FROM live.campaign ORDER BY id", kCampaignColumns));
+  db.exec(fmt::format("INSERT INTO cells ({0}) SELECT {0} FROM live.cells ORDER BY cell", kCellColumns));
+  db.exec(fmt::format("INSERT INTO gates ({0}) SELECT {0} FROM live.gates ORDER BY gate", kGateColumns));
+  const auto copy_below_stop = [&](const std::string& table, const std::string& columns, const std::string& key) {
+    SQLite::Statement copy(db, fmt::format("INSERT INTO {0} ({1}) SELECT {1} FROM live.{0} WHERE run_index < ? ORDER BY {2}", table, columns, key));
+    copy.bind(1, static_cast<std::int64_t>(std::min<std::uint64_t>(stop_index, std::numeric_limits<std::int64_t>::max())));
+    copy.exec();
+  };
+  copy_below_stop("runs", run_columns(), "run_index");
+  copy_below_stop("violations", violation_columns(), "run_index, ordinal");
+}
+
+// So that a row lost or added later is noticed, not only one that was changed.
+void seal(SQLite::Database& db) {
+  RowsDigest digest;
+  std::int64_t count = 0;
+  SQLite::Statement rows(db, "SELECT checksum FROM main.runs ORDER BY run_index");
+  for (; rows.executeStep(); ++count) digest.add(std::bit_cast<std::uint64_t>(rows.getColumn(0).getInt64()));
+  SQLite::Statement update(db, "UPDATE main.campaign SET run_count = ?, rows_digest = ?");
+  update.bind(1, count);
+  update.bind(2, std::bit_cast<std::int64_t>(digest.value()));
+  update.exec();
+}
+
+void sync_to_disk(const std::string& path, int flags) {
+  const int fd = ::open(path.c_str(), flags | O_CLOEXEC);
+  const bool synced = fd >= 0 && ::fsync(fd) == 0;
+  const int error = errno;
+  if (fd >= 0) ::close(fd);
+  if (!synced) throw EngineError(fmt::format("{}: cannot be brought to the disk: {}", path, std::strerror(error)));
+}
+
+void remove_with_journal(const std::string& path) {
+  std::error_code ignored;
+  std::filesystem::remove(path, ignored);
+  std::filesystem::remove(path + "-journal", ignored);
+}
+
+}  // namespace
+
+void write_canonical_file(const std::string& live_path, const std::string& target, std::uint64_t stop_index) {
+  remove_with_journal(target);
+  try {
+    SQLite::Database db(target, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    fix_format(db);
+    SQLite::Statement attach(db, "ATTACH ? AS live");
+    attach.bind(1, live_path);
+    attach.exec();
+    SQLite::Transaction transaction(db);
+    db.exec(fmt::format("PRAGMA main.application_id={}; PRAGMA main.user_version={}", kApplicationId, kSchemaVersion));
+    db.exec(schema_ddl());
+    copy_rows(db, stop_index);
+    seal(db);
+    transaction.commit();
+  } catch (const SQLite::Exception&) {
+    remove_with_journal(target);
+    throw_archive_error(target);
+  }
+}
+
+void move_durably(const std::string& from, const std::string& to) {
+  sync_to_disk(from, O_RDONLY);
+  std::error_code error;
+  std::filesystem::rename(from, to, error);
+  if (error) throw EngineError(fmt::format("{}: cannot be renamed to {}: {}", from, to, error.message()));
+  const auto folder = std::filesystem::path(to).parent_path();
+  sync_to_disk(folder.empty() ? "." : folder.string(), O_RDONLY | O_DIRECTORY);
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,87 @@
+#include "storage/checksum.hpp"
+
+#include <xxhash.h>
+
+#include <array>
+#include <bit>
+
+#include "core/error.hpp"
+
+namespace fleetproof {
+namespace {
+
+std::array<char, 8> little_endian(std::uint64_t value) {
+  std::array<char, 8> bytes{};
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(static_cast<std::uint8_t>(value >> (8 * i)));
+  return bytes;
+}
+
+// Every text goes in with its length before it, so that no two different records share their bytes.
+class Bytes {
+ public:
+  Bytes& operator<<(std::uint64_t value) {
+    const auto bytes = little_endian(value);
+    text_.append(bytes.data(), bytes.size());
+    return *this;
+  }
+  // 2.0 and 2 are stored alike, and -0.0 comes back as 0: fold the two zeros.
+  Bytes& operator<<(double value) { return *this << std::bit_cast<std::uint64_t>(value == 0.0 ? 0.0 : value); }
+  Bytes& operator<<(const std::string& value) {
+    *this << std::uint64_t{value.size()};
+    text_ += value;
+    return *this;
+  }
+  std::uint64_t hash() const { return XXH3_64bits(text_.data(), text_.size()); }
+
+ private:
+  std::string text_;
+};
+
+}  // namespace
+
+std::uint64_t row_checksum(const RunRecord& run) {
+  Bytes bytes;
+  bytes << run.run_index << std::uint64_t{run.cell} << run.replicate << run.scenario_digest << encode(run.outcome);
+  return bytes.hash();
+}
+
+std::uint64_t plan_checksum(const CampaignRecord& campaign, const std::vector<CellRecord>& cells, const std::vector<GateRecord>& gates) {
+  Bytes bytes;
+  bytes << campaign.name << campaign.kind << campaign.seed << campaign.replicates << campaign.plan_json << campaign.plan_hash;
+  bytes << campaign.engine.version << campaign.engine.program_sha256 << campaign.engine.compiler << campaign.engine.flags << campaign.engine.libraries;
+  bytes << std::uint64_t{cells.size()};
+  for (const auto& cell : cells) {
+    bytes << std::uint64_t{cell.index} << cell.agent << cell.layout << std::uint64_t{cell.fleet_size} << cell.loss << cell.delay_s;
+  }
+  bytes << std::uint64_t{gates.size()};
+  for (const auto& gate : gates) {
+    bytes << std::uint64_t{gate.index} << gate.name << gate.agent << std::string(name_of(gate.kind)) << std::string(name_of(gate.end_point));
+    bytes << std::string(name_of(gate.region)) << gate.limit << gate.confidence << gate.min_transports_per_agv_hour;
+  }
+  return bytes.hash();
+}
+
+struct RowsDigest::State {
+  XXH3_state_t* hash = XXH3_createState();
+  State() {
+    ensure(hash != nullptr, "there is memory for a digest");
+    XXH3_64bits_reset(hash);
+  }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+  ~State() { XXH3_freeState(hash); }
+};
+
+RowsDigest::RowsDigest() : state_(std::make_unique<State>()) {}
+RowsDigest::~RowsDigest() = default;
+
+void RowsDigest::add(std::uint64_t checksum) {
+  const auto bytes = little_endian(checksum);
+  XXH3_64bits_update(state_->hash, bytes.data(), bytes.size());
+}
+
+std::uint64_t RowsDigest::value() const { return XXH3_64bits_digest(state_->hash); }
+
+std::uint64_t content_digest_of(std::uint64_t plan, std::uint64_t rows) { return (Bytes{} << plan << rows).hash(); }
+
+}  // namespace fleetproof

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/outcome.hpp"
+
+namespace fleetproof {
+
+// What a campaign file remembers of its plan, in the plan's own terms. Nothing here names a path, a host, a time or a number of jobs.
+
+// One combination of a campaign's factors.
+struct CellRecord {
+  std::uint32_t index = 0;
+  std::string agent, layout;
+  std::uint32_t fleet_size = 0;
+  double loss = 0.0, delay_s = 0.0;
+
+  // The region in which safe *and normal* operation is required (Sect. 2.4), and its corner.
+  bool in_contract() const { return loss <= 0.40 && delay_s <= 2.0; }
+  bool is_worst_case() const { return loss == 0.40 && delay_s == 2.0; }
+  friend bool operator==(const CellRecord&, const CellRecord&) = default;
+};
+
+enum class EndPoint : std::uint8_t { Violation, Contact };
+enum class Region : std::uint8_t { Contract, WorstCase, All };
+enum class GateKind : std::uint8_t { None, Rate };  // None: any failing run refutes. Rate: the bounds decide.
+
+const char* name_of(EndPoint end_point);
+const char* name_of(Region region);
+const char* name_of(GateKind kind);
+
+// A requirement on a campaign, fixed before its first run.
+struct GateRecord {
+  std::uint32_t index = 0;
+  std::string name, agent;
+  GateKind kind = GateKind::Rate;
+  EndPoint end_point = EndPoint::Violation;
+  Region region = Region::Contract;
+  double limit = 1e-3;                         // upper bound must be at or below it
+  double confidence = 0.95;                    // one-sided
+  double min_transports_per_agv_hour = 1.0;    // a parked fleet is safe and useless
+  friend bool operator==(const GateRecord&, const GateRecord&) = default;
+};
+
+struct EngineIdentity {
+  std::string version, program_sha256, compiler, flags, libraries;
+  friend bool operator==(const EngineIdentity&, const EngineIdentity&) = default;
+};
+
+struct CampaignRecord {
+  std::string name, kind;                      // kind: "claim" (rates and bounds) or "search" (counts only)
+  std::uint64_t seed = 0, replicates = 0;
+  std::string plan_json;                       // the resolved campaign, layouts embedded by content: enough to build every scenario again
+  std::uint64_t plan_hash = 0;                 // of plan_json
+  EngineIdentity engine;
+  friend bool operator==(const CampaignRecord&, const CampaignRecord&) = default;
+};
+
+// run_index = replicate x cells + cell, so that every prefix of a campaign is balanced over its cells.
+struct RunRecord {
+  std::uint64_t run_index = 0;
+  std::uint32_t cell = 0;
+  std::uint64_t replicate = 0;
+  std::uint64_t scenario_digest = 0;           // of the canonical scenario text
+  Outcome outcome;
+};
+
+}  // namespace fleetproof

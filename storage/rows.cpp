@@ -1,0 +1,216 @@
+#include "storage/rows.hpp"
+
+#include <SQLiteCpp/Column.h>
+#include <SQLiteCpp/Statement.h>
+#include <fmt/format.h>
+
+#include <array>
+#include <bit>
+
+#include "core/error.hpp"
+#include "storage/schema.hpp"
+
+namespace fleetproof {
+namespace {
+
+// Fills the parameters of a statement from left to right.
+class Binder {
+ public:
+  explicit Binder(SQLite::Statement& statement) : statement_(statement) {}
+
+  Binder& operator<<(std::int64_t value) { return statement_.bind(next_++, value), *this; }
+  // SQLite knows 64-bit integers with a sign only: the same bits.
+  Binder& operator<<(std::uint64_t value) { return *this << std::bit_cast<std::int64_t>(value); }
+  Binder& operator<<(std::uint32_t value) { return *this << std::int64_t{value}; }
+  Binder& operator<<(bool value) { return *this << std::int64_t{value ? 1 : 0}; }
+  Binder& operator<<(double value) { return statement_.bind(next_++, value), *this; }
+  Binder& operator<<(const std::string& value) { return statement_.bind(next_++, value), *this; }
+  Binder& operator<<(const char* value) { return *this << std::string(value); }
+  Binder& operator<<(std::optional<std::int64_t> value) {
+    if (value) return *this << *value;
+    statement_.bind(next_++);
+    return *this;
+  }
+  Binder& operator<<(const std::vector<std::uint64_t>& digests) {
+    std::string bytes;
+    for (const auto digest : digests) {
+      for (int i = 0; i < 8; ++i) bytes.push_back(static_cast<char>(static_cast<std::uint8_t>(digest >> (8 * i))));
+    }
+    statement_.bind(next_++, static_cast<const void*>(bytes.data()), static_cast<int>(bytes.size()));
+    return *this;
+  }
+
+ private:
+  SQLite::Statement& statement_;
+  int next_ = 1;
+};
+
+// Takes the columns of a row from left to right.
+class Taker {
+ public:
+  explicit Taker(const SQLite::Statement& row) : row_(row) {}
+
+  std::int64_t i64() { return next().getInt64(); }
+  std::uint64_t u64() { return std::bit_cast<std::uint64_t>(i64()); }
+  std::uint32_t u32() {
+    const auto value = i64();
+    if (value < 0 || value > 0xffffffffLL) throw EngineError("a row holds a number out of range");
+    return static_cast<std::uint32_t>(value);
+  }
+  bool flag() {
+    const auto value = i64();
+    if (value != 0 && value != 1) throw EngineError("a row holds a yes-or-no field with neither");
+    return value == 1;
+  }
+  double real() { return next().getDouble(); }
+  std::string text() { return next().getString(); }
+  std::optional<std::int64_t> maybe_i64() {
+    const auto column = next();
+    if (column.isNull()) return std::nullopt;
+    return column.getInt64();
+  }
+  std::vector<std::uint64_t> digests() {
+    const auto bytes = next().getString();
+    if (bytes.size() % 8 != 0) throw EngineError("a row holds running digests of a broken length");
+    std::vector<std::uint64_t> values(bytes.size() / 8);
+    for (std::size_t i = 0; i < bytes.size(); ++i) values[i / 8] |= std::uint64_t{static_cast<unsigned char>(bytes[i])} << (8 * (i % 8));
+    return values;
+  }
+
+ private:
+  SQLite::Column next() { return row_.getColumn(next_++); }
+  const SQLite::Statement& row_;
+  int next_ = 0;
+};
+
+template <class Enum, std::size_t N>
+Enum word_to(const std::string& word, const std::array<Enum, N>& values) {
+  for (const auto value : values) {
+    if (word == name_of(value)) return value;
+  }
+  throw EngineError(fmt::format("a gate holds the unknown word \"{}\"", word));
+}
+
+}  // namespace
+
+void bind_campaign(SQLite::Statement& insert, const CampaignRecord& campaign, std::uint64_t plan_checksum) {
+  Binder(insert) << std::uint32_t{1} << campaign.name << campaign.kind << campaign.seed << campaign.replicates << campaign.plan_json << campaign.plan_hash
+                 << campaign.engine.version << campaign.engine.program_sha256 << campaign.engine.compiler << campaign.engine.flags << campaign.engine.libraries
+                 << plan_checksum;
+}
+
+void bind_cell(SQLite::Statement& insert, const CellRecord& cell) {
+  Binder(insert) << cell.index << cell.agent << cell.layout << cell.fleet_size << cell.loss << cell.delay_s;
+}
+
+void bind_gate(SQLite::Statement& insert, const GateRecord& gate) {
+  Binder(insert) << gate.index << gate.name << gate.agent << name_of(gate.kind) << name_of(gate.end_point) << name_of(gate.region) << gate.limit
+                 << gate.confidence << gate.min_transports_per_agv_hour;
+}
+
+void bind_run(SQLite::Statement& insert, const RunRecord& run, std::uint64_t checksum) {
+  const auto& o = run.outcome;
+  Binder to(insert);
+  to << run.run_index << run.cell << run.replicate << run.scenario_digest << name_of(o.outcome_class());
+  to << o.violation << o.contact << o.stuck << o.crash << o.hang << o.indeterminate << o.engine_error;
+  to << o.min_clearance_um << o.simulated_ns << o.agv_count << o.digest << o.running_digests << o.message;
+  for (const auto& column : kCounterColumns) to << o.counters.*column.member;
+  to << checksum;
+}
+
+void bind_violation(SQLite::Statement& insert, std::uint64_t run_index, std::size_t ordinal, const Violation& v) {
+  Binder(insert) << run_index << std::uint64_t{ordinal} << v.a.value << v.b.value << to_ns(v.first) << to_ns(v.last) << to_ns(v.closest_at) << v.min_clearance_um
+                 << v.relative_speed_um_s << v.x_um << v.y_um << v.contact;
+}
+
+CampaignRecord read_campaign(const SQLite::Statement& row) {
+  Taker from(row);
+  CampaignRecord campaign;
+  from.i64();
+  campaign.name = from.text();
+  campaign.kind = from.text();
+  campaign.seed = from.u64();
+  campaign.replicates = from.u64();
+  campaign.plan_json = from.text();
+  campaign.plan_hash = from.u64();
+  campaign.engine.version = from.text();
+  campaign.engine.program_sha256 = from.text();
+  campaign.engine.compiler = from.text();
+  campaign.engine.flags = from.text();
+  campaign.engine.libraries = from.text();
+  return campaign;
+}
+
+std::uint64_t read_plan_checksum(const SQLite::Statement& row) { return std::bit_cast<std::uint64_t>(row.getColumn("plan_checksum").getInt64()); }
+
+CellRecord read_cell(const SQLite::Statement& row) {
+  Taker from(row);
+  CellRecord cell;
+  cell.index = from.u32();
+  cell.agent = from.text();
+  cell.layout = from.text();
+  cell.fleet_size = from.u32();
+  cell.loss = from.real();
+  cell.delay_s = from.real();
+  return cell;
+}
+
+GateRecord read_gate(const SQLite::Statement& row) {
+  Taker from(row);
+  GateRecord gate;
+  gate.index = from.u32();
+  gate.name = from.text();
+  gate.agent = from.text();
+  gate.kind = word_to(from.text(), std::array{GateKind::None, GateKind::Rate});
+  gate.end_point = word_to(from.text(), std::array{EndPoint::Violation, EndPoint::Contact});
+  gate.region = word_to(from.text(), std::array{Region::Contract, Region::WorstCase, Region::All});
+  gate.limit = from.real();
+  gate.confidence = from.real();
+  gate.min_transports_per_agv_hour = from.real();
+  return gate;
+}
+
+StoredRun read_run(const SQLite::Statement& row) {
+  Taker from(row);
+  StoredRun stored;
+  auto& run = stored.run;
+  auto& o = run.outcome;
+  run.run_index = from.u64();
+  run.cell = from.u32();
+  run.replicate = from.u64();
+  run.scenario_digest = from.u64();
+  stored.outcome_class = from.text();
+  for (const auto flag : {&Outcome::violation, &Outcome::contact, &Outcome::stuck, &Outcome::crash, &Outcome::hang, &Outcome::indeterminate,
+                          &Outcome::engine_error}) {
+    o.*flag = from.flag();
+  }
+  o.min_clearance_um = from.maybe_i64();
+  o.simulated_ns = from.u64();
+  o.agv_count = from.u32();
+  o.digest = from.u64();
+  o.running_digests = from.digests();
+  o.message = from.text();
+  for (const auto& column : kCounterColumns) o.counters.*column.member = from.u64();
+  stored.checksum = from.u64();
+  return stored;
+}
+
+Violation read_violation(const SQLite::Statement& row) {
+  Taker from(row);
+  Violation v;
+  from.i64();  // run_index
+  from.i64();  // ordinal
+  v.a = EntityId{from.u32()};
+  v.b = EntityId{from.u32()};
+  v.first = at_ns(from.i64());
+  v.last = at_ns(from.i64());
+  v.closest_at = at_ns(from.i64());
+  v.min_clearance_um = from.i64();
+  v.relative_speed_um_s = from.i64();
+  v.x_um = from.i64();
+  v.y_um = from.i64();
+  v.contact = from.flag();
+  return v;
+}
+
+}  // namespace fleetproof

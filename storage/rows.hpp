@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "storage/records.hpp"
+
+namespace SQLite {
+class Statement;
+}
+
+namespace fleetproof {
+
+// Between records and rows: binds a record to an INSERT over the column lists of schema.hpp, and reads one from a SELECT over the same lists.
+void bind_campaign(SQLite::Statement& insert, const CampaignRecord& campaign, std::uint64_t plan_checksum);
+void bind_cell(SQLite::Statement& insert, const CellRecord& cell);
+void bind_gate(SQLite::Statement& insert, const GateRecord& gate);
+void bind_run(SQLite::Statement& insert, const RunRecord& run, std::uint64_t checksum);
+void bind_violation(SQLite::Statement& insert, std::uint64_t run_index, std::size_t ordinal, const Violation& violation);
+
+CampaignRecord read_campaign(const SQLite::Statement& row);
+std::uint64_t read_plan_checksum(const SQLite::Statement& row);
+CellRecord read_cell(const SQLite::Statement& row);
+// Throws EngineError on a word that no gate has.
+GateRecord read_gate(const SQLite::Statement& row);
+
+// A row as stored; the outcome is still without its violations.
+struct StoredRun {
+  RunRecord run;
+  std::string outcome_class;
+  std::uint64_t checksum = 0;
+};
+// Throws EngineError if a field holds what no writer of ours put there.
+StoredRun read_run(const SQLite::Statement& row);
+Violation read_violation(const SQLite::Statement& row);
+
+}  // namespace fleetproof

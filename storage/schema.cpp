@@ -1,0 +1,161 @@
+#include "storage/schema.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace fleetproof {
+namespace {
+
+constexpr const char* kPlanTables = R"sql(
+CREATE TABLE campaign (
+  id INTEGER PRIMARY KEY CHECK (id = 1),
+  name TEXT NOT NULL,
+  kind TEXT NOT NULL,
+  seed INTEGER NOT NULL,
+  replicates INTEGER NOT NULL,
+  plan_json TEXT NOT NULL,
+  plan_hash INTEGER NOT NULL,
+  engine_version TEXT NOT NULL,
+  program_sha256 TEXT NOT NULL,
+  compiler TEXT NOT NULL,
+  flags TEXT NOT NULL,
+  libraries TEXT NOT NULL,
+  plan_checksum INTEGER NOT NULL,
+  run_count INTEGER,
+  rows_digest INTEGER
+) STRICT, WITHOUT ROWID;
+CREATE TABLE cells (
+  cell INTEGER PRIMARY KEY,
+  agent TEXT NOT NULL,
+  layout TEXT NOT NULL,
+  fleet_size INTEGER NOT NULL,
+  loss REAL NOT NULL,
+  delay_s REAL NOT NULL
+) STRICT, WITHOUT ROWID;
+CREATE TABLE gates (
+  gate INTEGER PRIMARY KEY,
+  name TEXT NOT NULL,
+  agent TEXT NOT NULL,
+  kind TEXT NOT NULL,
+  end_point TEXT NOT NULL,
+  region TEXT NOT NULL,
+  limit_rate REAL NOT NULL,
+  confidence REAL NOT NULL,
+  min_transports_per_agv_hour REAL NOT NULL
+) STRICT, WITHOUT ROWID;
+)sql";
+
+constexpr const char* kRunTables = R"sql(
+CREATE TABLE runs (
+  run_index INTEGER PRIMARY KEY,
+  cell INTEGER NOT NULL,
+  replicate INTEGER NOT NULL,
+  scenario_digest INTEGER NOT NULL,
+  outcome_class TEXT NOT NULL,
+  violation INTEGER NOT NULL,
+  contact INTEGER NOT NULL,
+  stuck INTEGER NOT NULL,
+  crash INTEGER NOT NULL,
+  hang INTEGER NOT NULL,
+  indeterminate INTEGER NOT NULL,
+  engine_error INTEGER NOT NULL,
+  min_clearance_um INTEGER,
+  simulated_ns INTEGER NOT NULL,
+  agv_count INTEGER NOT NULL,
+  digest INTEGER NOT NULL,
+  running_digests BLOB NOT NULL,
+  message TEXT NOT NULL,
+{counters}  checksum INTEGER NOT NULL
+) STRICT, WITHOUT ROWID;
+CREATE TABLE violations (
+  run_index INTEGER NOT NULL,
+  ordinal INTEGER NOT NULL,
+  entity_a INTEGER NOT NULL,
+  entity_b INTEGER NOT NULL,
+  first_ns INTEGER NOT NULL,
+  last_ns INTEGER NOT NULL,
+  closest_at_ns INTEGER NOT NULL,
+  min_clearance_um INTEGER NOT NULL,
+  relative_speed_um_s INTEGER NOT NULL,
+  x_um INTEGER NOT NULL,
+  y_um INTEGER NOT NULL,
+  contact INTEGER NOT NULL,
+  PRIMARY KEY (run_index, ordinal)
+) STRICT, WITHOUT ROWID;
+)sql";
+
+// The region's bounds are those of CellRecord::in_contract and is_worst_case.
+constexpr const char* kViews = R"sql(
+CREATE VIEW v1_cells AS
+SELECT c.cell, c.agent, c.layout, c.fleet_size, c.loss, c.delay_s,
+       c.loss <= 0.40 AND c.delay_s <= 2.0 AS in_contract,
+       c.loss = 0.40 AND c.delay_s = 2.0 AS is_worst_case,
+       count(r.run_index) AS runs,
+       coalesce(sum(r.violation), 0) AS violation_runs,
+       coalesce(sum(r.contact), 0) AS contact_runs,
+       coalesce(sum(r.stuck), 0) AS stuck_runs,
+       coalesce(sum(r.crash), 0) AS crash_runs,
+       coalesce(sum(r.hang), 0) AS hang_runs,
+       coalesce(sum(r.indeterminate), 0) AS indeterminate_runs,
+       coalesce(sum(r.engine_error), 0) AS engine_error_runs,
+       min(r.min_clearance_um) AS min_clearance_um,
+       coalesce(sum(r.transports_done), 0) AS transports_done,
+       total(r.simulated_ns * 1e-9 * r.agv_count / 3600.0) AS agv_hours
+FROM cells c LEFT JOIN runs r ON r.cell = c.cell GROUP BY c.cell;
+CREATE VIEW v1_runs AS
+SELECT r.run_index, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, c.loss, c.delay_s,
+       c.loss <= 0.40 AND c.delay_s <= 2.0 AS in_contract,
+       r.outcome_class, r.violation, r.contact, r.stuck, r.crash, r.hang, r.indeterminate, r.engine_error,
+       r.min_clearance_um, r.simulated_ns, r.agv_count, r.message,
+{run_counters},
+       printf('%016x', r.digest) AS digest,
+       printf('%016x', r.scenario_digest) AS scenario_digest
+FROM runs r JOIN cells c ON c.cell = r.cell;
+CREATE VIEW v1_violations AS
+SELECT v.run_index, v.ordinal, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, c.loss, c.delay_s,
+       c.loss <= 0.40 AND c.delay_s <= 2.0 AS in_contract,
+       v.entity_a, v.entity_b, v.first_ns, v.last_ns, v.closest_at_ns, v.min_clearance_um,
+       v.relative_speed_um_s, v.x_um, v.y_um, v.contact
+FROM violations v JOIN runs r ON r.run_index = v.run_index JOIN cells c ON c.cell = r.cell;
+)sql";
+
+std::string with_prefix(const std::string& prefix, std::initializer_list<const char*> names) {
+  std::string list;
+  for (const auto* name : names) list += fmt::format("{}{}{}", list.empty() ? "" : ", ", prefix, name);
+  return list;
+}
+
+std::string counter_list(const std::string& prefix) {
+  std::string list;
+  for (const auto& column : kCounterColumns) list += fmt::format("{}{}{}", list.empty() ? "" : ", ", prefix, column.name);
+  return list;
+}
+
+}  // namespace
+
+std::string schema_ddl() {
+  std::string definitions;
+  for (const auto& column : kCounterColumns) definitions += fmt::format("  {} INTEGER NOT NULL,\n", column.name);
+  return std::string(kPlanTables) + fmt::format(fmt::runtime(kRunTables), fmt::arg("counters", definitions)) +
+         fmt::format(fmt::runtime(kViews), fmt::arg("run_counters", "       " + counter_list("r.")));
+}
+
+std::string run_columns(const std::string& prefix) {
+  return with_prefix(prefix, {"run_index", "cell", "replicate", "scenario_digest", "outcome_class", "violation", "contact", "stuck", "crash", "hang",
+                              "indeterminate", "engine_error", "min_clearance_um", "simulated_ns", "agv_count", "digest", "running_digests", "message"}) +
+         ", " + counter_list(prefix) + ", " + prefix + "checksum";
+}
+
+std::string violation_columns() {
+  return with_prefix("", {"run_index", "ordinal", "entity_a", "entity_b", "first_ns", "last_ns", "closest_at_ns", "min_clearance_um", "relative_speed_um_s", "x_um",
+                          "y_um", "contact"});
+}
+
+std::string placeholders(const std::string& columns) {
+  std::string list = "?";
+  for (auto commas = std::ranges::count(columns, ','); commas > 0; --commas) list += ", ?";
+  return list;
+}
+
+}  // namespace fleetproof

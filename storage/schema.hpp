@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "core/outcome.hpp"
+
+namespace fleetproof {
+
+inline constexpr std::int32_t kApplicationId = 0x464C5046;  // "FLPF": tells a campaign file from any other SQLite file
+inline constexpr std::int32_t kSchemaVersion = 1;
+inline constexpr std::int32_t kPageSize = 4096;
+
+// A counter of the outcome and the column of `runs` that holds it.
+struct CounterColumn {
+  const char* name;
+  std::uint64_t Counters::*member;
+};
+
+inline constexpr std::array<CounterColumn, 18> kCounterColumns{{
+    {"events", &Counters::events},
+    {"activations", &Counters::activations},
+    {"agent_calls", &Counters::agent_calls},
+    {"messages_sent", &Counters::messages_sent},
+    {"receptions", &Counters::receptions},
+    {"receptions_lost", &Counters::receptions_lost},
+    {"out_of_range", &Counters::out_of_range},
+    {"delay_sum_ns", &Counters::delay_sum_ns},
+    {"drives", &Counters::drives},
+    {"turns", &Counters::turns},
+    {"refused_calls", &Counters::refused_calls},
+    {"transports_released", &Counters::transports_released},
+    {"transports_done", &Counters::transports_done},
+    {"distance_um", &Counters::distance_um},
+    {"safe_mode_ns", &Counters::safe_mode_ns},
+    {"contacts", &Counters::contacts},
+    {"distance_evaluations", &Counters::distance_evaluations},
+    {"perimeter_checks", &Counters::perimeter_checks},
+}};
+static_assert(sizeof(Counters) == kCounterColumns.size() * sizeof(std::uint64_t), "every counter has a column");
+
+// Tables and the public views, as one script. The same text for the live and the canonical file.
+std::string schema_ddl();
+
+// Column lists, comma-separated, in the order in which rows.hpp binds and reads them. `prefix` (as in "r.") goes before every name.
+std::string run_columns(const std::string& prefix = "");
+std::string violation_columns();
+inline constexpr const char* kCellColumns = "cell, agent, layout, fleet_size, loss, delay_s";
+inline constexpr const char* kGateColumns = "gate, name, agent, kind, end_point, region, limit_rate, confidence, min_transports_per_agv_hour";
+inline constexpr const char* kCampaignColumns =
+    "id, name, kind, seed, replicates, plan_json, plan_hash, engine_version, program_sha256, compiler, flags, libraries, plan_checksum";
+
+// "?, ?, ?": one for each name in a comma-separated list.
+std::string placeholders(const std::string& columns);
+
+}  // namespace fleetproof

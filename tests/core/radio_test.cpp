@@ -1,0 +1,114 @@
+#include "core/radio.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/support/worlds.hpp"
+
+namespace fleetproof {
+namespace {
+
+const AgvId kA{0U}, kB{1U}, kC{2U};
+
+TEST(Radio, HigherLossOnlyAddsLosses) {
+  const Radio calm({.loss = 0.2, .delay_s = 1.0}, 7), harsh({.loss = 0.4, .delay_s = 1.0}, 7);
+  int lost_calm = 0, lost_harsh = 0;
+  constexpr int n = 20000;
+  for (int i = 0; i < n; ++i) {
+    const SimTime at = at_ns(i * 1'000'003LL);
+    const bool calm_lost = calm.fate(kA, kB, at, 0).lost, harsh_lost = harsh.fate(kA, kB, at, 0).lost;
+    lost_calm += calm_lost;
+    lost_harsh += harsh_lost;
+    EXPECT_TRUE(!calm_lost || harsh_lost);
+  }
+  // Six standard deviations of a binomial with n = 20000.
+  EXPECT_NEAR(lost_calm, 0.2 * n, 6 * 57);
+  EXPECT_NEAR(lost_harsh, 0.4 * n, 6 * 70);
+}
+
+TEST(Radio, FateDependsOnEveryPartOfItsKey) {
+  const Radio radio({.loss = 0.0, .delay_s = 1.0, .delay_model = RadioSetup::DelayModel::Uniform}, 7);
+  const Radio other_world({.loss = 0.0, .delay_s = 1.0, .delay_model = RadioSetup::DelayModel::Uniform}, 8);
+  const SimTime t = at_seconds(1.0);
+  const std::set<Duration> delays = {radio.fate(kA, kB, t, 0).delay, radio.fate(kB, kA, t, 0).delay, radio.fate(kA, kC, t, 0).delay,
+                                     radio.fate(kA, kB, t, 1).delay, radio.fate(kA, kB, t + Duration{1}, 0).delay, other_world.fate(kA, kB, t, 0).delay};
+  EXPECT_EQ(delays.size(), 6U);
+}
+
+TEST(Radio, DelayModels) {
+  const Radio constant({.delay_s = 2.0}, 1);
+  EXPECT_EQ(constant.fate(kA, kB, at_seconds(3.0), 0).delay, seconds(2.0));
+  const Radio uniform({.delay_s = 2.0, .delay_model = RadioSetup::DelayModel::Uniform}, 1);
+  double sum_s = 0.0;
+  for (int i = 0; i < 10000; ++i) {
+    const Duration delay = uniform.fate(kA, kB, at_ns(i), 0).delay;
+    EXPECT_LT(delay, seconds(2.0));
+    sum_s += to_seconds(delay);
+  }
+  EXPECT_NEAR(sum_s / 10000, 1.0, 6 * 0.58 / 100);
+  const Radio instant({.delay_s = 0.0, .air_time_s = 0.001}, 1);
+  EXPECT_EQ(instant.fate(kA, kB, kStart, 0).delay, seconds(0.001));
+}
+
+TEST(Radio, OneMessageMoreMovesNoOthersFate) {
+  Scenario scenario = test::row_scenario(6, {0, 3, 5}, 20.0);
+  scenario.radio.loss = 0.5;
+  const auto received_by_b = [&](bool chatter) {
+    test::Recorder recorder;
+    test::simulate_with(
+        scenario,
+        [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& event) {
+          fp_message message{.struct_size = sizeof(fp_message), .sender = 0, .size = 0, .bytes = nullptr};
+          while (host.get_message(c, &message) == FP_OK) {
+          }
+          if (event.kind == FP_EVENT_START || event.kind == FP_EVENT_TIMER) {
+            if (b.self == 0) host.send_unicast(c, "ping", 4, 1);
+            if (b.self == 2 && chatter) host.send_broadcast(c, "noise", 5);
+            host.set_timer(c, 1, event.now_ns + 100'000'000);
+          }
+        },
+        &recorder);
+    std::vector<SimTime> times;
+    for (const TraceRecord& r : recorder.of(TraceKind::Received)) {
+      if (r.entity == kB && r.a == 0) times.push_back(r.at);
+    }
+    return times;
+  };
+  const auto quiet = received_by_b(false);
+  EXPECT_GT(quiet.size(), 60U);
+  EXPECT_LT(quiet.size(), 140U);
+  EXPECT_EQ(quiet, received_by_b(true));
+}
+
+TEST(Radio, BeyondTheRangeNothingArrives) {
+  Scenario scenario = test::row_scenario(6, {0, 1, 5}, 5.0);
+  scenario.radio.range_m = 10.0;
+  std::vector<int> received(3, 0);
+  const Outcome outcome = test::simulate_with(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& event) {
+    if (event.kind == FP_EVENT_START && b.self == 0) host.send_broadcast(c, "hello", 5);
+    if (event.kind == FP_EVENT_MESSAGE) {
+      fp_message message{.struct_size = sizeof(fp_message), .sender = 9, .size = 0, .bytes = nullptr};
+      EXPECT_EQ(host.get_message(c, &message), FP_OK);
+      EXPECT_EQ(std::string(static_cast<const char*>(message.bytes), message.size), "hello");
+      EXPECT_EQ(message.sender, 0U);
+      EXPECT_EQ(host.get_message(c, &message), FP_EMPTY);
+      ++received[b.self];
+    }
+  });
+  EXPECT_EQ(received, (std::vector<int>{0, 1, 0}));
+  EXPECT_EQ(outcome.counters.out_of_range, 1U);
+}
+
+TEST(MessagePool, ReusesSlots) {
+  MessagePool pool;
+  const auto first = pool.add(kA, "one", 2);
+  pool.release(first);
+  EXPECT_NE(pool.add(kB, "two", 1), first);
+  pool.release(first);
+  EXPECT_EQ(pool.add(kB, "three", 1), first);
+  EXPECT_EQ(pool[first].bytes, "three");
+}
+
+}  // namespace
+}  // namespace fleetproof

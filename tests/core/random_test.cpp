@@ -1,0 +1,53 @@
+#include "core/random.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+namespace fleetproof {
+namespace {
+
+TEST(Philox, KnownAnswers) {  // from the Random123 distribution's kat_vectors, philox4x32-10
+  EXPECT_EQ(philox(0, {0, 0, 0, 0}), (Block{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));
+  EXPECT_EQ(philox(~0ULL, {~0U, ~0U, ~0U, ~0U}), (Block{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd}));
+  EXPECT_EQ(philox(0x299f31d0a4093822ULL, {0x243f6a88, 0x85a308d3, 0x13198a2e, 0x03707344}), (Block{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}));
+}
+
+TEST(Keys, DifferPerReplicateFactorsAndStream) {
+  std::set<std::uint64_t> keys;
+  for (std::uint64_t replicate = 0; replicate < 100; ++replicate) {
+    for (std::uint64_t factors = 0; factors < 10; ++factors) {
+      const auto seed = world_seed(1, replicate, factors);
+      keys.insert(seed);
+      for (const Stream stream : {Stream::Layout, Stream::Placement, Stream::Transports, Stream::Radio, Stream::Agent}) keys.insert(stream_key(seed, stream));
+    }
+  }
+  EXPECT_EQ(keys.size(), 100U * 10U * 6U);
+}
+
+TEST(NaturalLog, AgreesWithTheLibrary) {
+  Draws draws(3);
+  for (int i = 0; i < 100000; ++i) {
+    const double x = std::ldexp(1.0 + draws.uniform(), static_cast<int>(draws.below(120)) - 60);
+    EXPECT_NEAR(natural_log(x), std::log(x), 2e-15 * std::max(1.0, std::abs(std::log(x)))) << x;
+  }
+}
+
+TEST(Draws, HaveTheMomentsOfTheirDistribution) {
+  Draws draws(5);
+  double uniform = 0.0, exponential = 0.0;
+  std::vector<int> faces(6);
+  constexpr int n = 60000;
+  for (int i = 0; i < n; ++i) {
+    uniform += draws.uniform();
+    exponential += draws.exponential(2.0);
+    ++faces[draws.below(6)];
+  }
+  EXPECT_NEAR(uniform / n, 0.5, 6 * 0.289 / std::sqrt(n));
+  EXPECT_NEAR(exponential / n, 2.0, 6 * 2.0 / std::sqrt(n));
+  for (const int count : faces) EXPECT_NEAR(count, n / 6, 6 * std::sqrt(n * 5.0 / 36.0));
+}
+
+}  // namespace
+}  // namespace fleetproof

@@ -1,0 +1,183 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+#include <sys/resource.h>
+
+#include <csignal>
+
+#include "core/error.hpp"
+#include "storage/archive.hpp"
+#include "tests/storage/sample_records.hpp"
+
+namespace fleetproof {
+namespace {
+
+using samples::TemporaryFolder;
+using testing::HasSubstr;
+
+void write_archive(const std::string& path, std::uint64_t runs = 60) {
+  ArchiveWriter writer(path, samples::campaign(), samples::cells(), samples::gates());
+  for (const auto& run : samples::runs(runs)) writer.add(run);
+  writer.publish(runs);
+}
+
+// As a person with the sqlite3 program would.
+void tamper(const std::string& path, const std::string& sql) {
+  sqlite3* db = nullptr;
+  ASSERT_EQ(sqlite3_open(path.c_str(), &db), SQLITE_OK);
+  EXPECT_EQ(sqlite3_exec(db, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK) << sqlite3_errmsg(db);
+  sqlite3_close(db);
+}
+
+void read_everything(const std::string& path) {
+  ArchiveReader(path).for_each_run([](const RunRecord&) {});
+}
+
+template <class Error, class Action>
+std::string sentence_of(Action action) {
+  try {
+    action();
+  } catch (const Error& e) {
+    return e.what();
+  } catch (const std::exception& e) {
+    ADD_FAILURE() << "another kind of error: " << e.what();
+    return {};
+  }
+  ADD_FAILURE() << "no error";
+  return {};
+}
+
+TEST(ArchiveReader, refuses_what_is_not_a_campaign_file) {
+  const TemporaryFolder folder;
+  const auto refusal = [&](const std::string& path) { return sentence_of<InputError>([&] { ArchiveReader reader(path); }); };
+  EXPECT_THAT(refusal(folder / "none.fp"), HasSubstr("there is no such file"));
+  EXPECT_THAT(refusal(folder / "."), HasSubstr("folder"));
+  samples::write_bytes(folder / "empty.fp", "");
+  EXPECT_THAT(refusal(folder / "empty.fp"), HasSubstr("empty"));
+  samples::write_bytes(folder / "text.fp", std::string(5000, 'x'));
+  EXPECT_THAT(refusal(folder / "text.fp"), HasSubstr("not a campaign file"));
+  samples::write_bytes(folder / "short.fp", "x");
+  EXPECT_THAT(refusal(folder / "short.fp"), HasSubstr("not a campaign file"));
+  tamper(folder / "other.db", "CREATE TABLE t(x); INSERT INTO t VALUES (1)");
+  EXPECT_THAT(refusal(folder / "other.db"), HasSubstr("not a campaign file"));
+  EXPECT_THAT(refusal("/dev/null"), HasSubstr("no regular file"));
+}
+
+TEST(ArchiveReader, names_the_live_file_of_an_interrupted_campaign) {
+  const TemporaryFolder folder;
+  { ArchiveWriter writer(folder / "a.fp", samples::campaign(), samples::cells(), samples::gates()); }
+  EXPECT_THAT(sentence_of<InputError>([&] { ArchiveReader reader(folder / "a.fp"); }), HasSubstr("a.fp.partial"));
+}
+
+TEST(ArchiveReader, refuses_a_newer_schema_and_says_what_to_do) {
+  const TemporaryFolder folder;
+  write_archive(folder / "a.fp");
+  tamper(folder / "a.fp", "PRAGMA user_version = 2");
+  EXPECT_THAT(sentence_of<InputError>([&] { ArchiveReader reader(folder / "a.fp"); }), HasSubstr("newer fleetproof"));
+}
+
+TEST(ArchiveReader, every_truncation_is_noticed) {
+  const TemporaryFolder folder;
+  write_archive(folder / "a.fp");
+  const auto bytes = samples::bytes_of(folder / "a.fp");
+  for (std::size_t length = 4096; length < bytes.size(); length += 4096) {
+    samples::write_bytes(folder / "cut.fp", bytes.substr(0, length));
+    EXPECT_THROW(read_everything(folder / "cut.fp"), EngineError) << length;
+  }
+  samples::write_bytes(folder / "cut.fp", bytes.substr(0, bytes.size() - 100));
+  EXPECT_THROW(read_everything(folder / "cut.fp"), EngineError);
+}
+
+TEST(ArchiveReader, a_changed_row_is_named) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> changes{
+      "UPDATE runs SET violation = 1 - violation WHERE run_index = 17", "UPDATE runs SET transports_done = transports_done + 1 WHERE run_index = 17",
+      "UPDATE runs SET min_clearance_um = 100000 WHERE run_index = 17", "UPDATE runs SET outcome_class = 'clean' WHERE run_index = 17",
+      "UPDATE runs SET contact = 2 WHERE run_index = 17",               "UPDATE runs SET running_digests = x'00' WHERE run_index = 17",
+      "INSERT INTO violations SELECT 17, 99, entity_a, entity_b, first_ns, last_ns, closest_at_ns, min_clearance_um, relative_speed_um_s, x_um, y_um, contact FROM "
+      "violations LIMIT 1"};
+  for (const auto& change : changes) {
+    const auto path = folder / ("a" + std::to_string(&change - changes.data()) + ".fp");
+    write_archive(path);
+    read_everything(path);
+    tamper(path, change);
+    EXPECT_THAT(sentence_of<EngineError>([&] { read_everything(path); }), HasSubstr("run 17")) << change;
+    EXPECT_THROW(ArchiveReader(path).run(17), EngineError) << change;
+    EXPECT_NO_THROW(ArchiveReader(path).run(16)) << change;
+  }
+}
+
+TEST(ArchiveReader, a_row_or_a_violation_taken_away_is_noticed) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> changes{"DELETE FROM violations WHERE run_index = (SELECT max(run_index) FROM violations)",
+                                         "DELETE FROM violations WHERE run_index = 59; DELETE FROM runs WHERE run_index = 59",
+                                         "DELETE FROM runs WHERE run_index = (SELECT max(run_index) FROM violations)"};
+  for (const auto& change : changes) {
+    const auto path = folder / ("a" + std::to_string(&change - changes.data()) + ".fp");
+    write_archive(path);
+    tamper(path, change);
+    EXPECT_THROW(read_everything(path), EngineError) << change;
+  }
+}
+
+TEST(ArchiveReader, a_changed_plan_is_noticed) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> changes{"UPDATE cells SET loss = 0.1 WHERE cell = 3", "UPDATE gates SET limit_rate = 0.5", "UPDATE campaign SET seed = 1",
+                                         "DELETE FROM gates WHERE gate = 1", "UPDATE gates SET kind = 'perhaps'"};
+  for (const auto& change : changes) {
+    const auto path = folder / ("a" + std::to_string(&change - changes.data()) + ".fp");
+    write_archive(path);
+    tamper(path, change);
+    EXPECT_THROW(ArchiveReader reader(path), EngineError) << change;
+  }
+}
+
+TEST(ArchiveWriter, refuses_names_that_are_taken_or_cannot_be) {
+  const TemporaryFolder folder;
+  const auto refusal = [&](const std::string& path) {
+    return sentence_of<InputError>([&] { ArchiveWriter writer(path, samples::campaign(), samples::cells(), samples::gates()); });
+  };
+  write_archive(folder / "a.fp");
+  const auto before = samples::bytes_of(folder / "a.fp");
+  EXPECT_THAT(refusal(folder / "a.fp"), HasSubstr("exists already"));
+  EXPECT_TRUE(samples::bytes_of(folder / "a.fp") == before);
+  { ArchiveWriter writer(folder / "b.fp", samples::campaign(), samples::cells(), samples::gates()); }
+  EXPECT_THAT(refusal(folder / "b.fp"), HasSubstr("interrupted"));
+  EXPECT_THAT(refusal(folder / "."), HasSubstr("folder"));
+  EXPECT_THAT(refusal(folder / "no/such/a.fp"), HasSubstr("there is no folder"));
+  EXPECT_THAT(refusal(""), HasSubstr("needs a name"));
+}
+
+TEST(ArchiveWriter, says_so_when_the_disk_refuses_to_make_the_file) {
+  const auto sentence = sentence_of<EngineError>([] { ArchiveWriter writer("/proc/a.fp", samples::campaign(), samples::cells(), samples::gates()); });
+  EXPECT_THAT(sentence, HasSubstr("/proc/a.fp.partial"));
+}
+
+TEST(ArchiveWriter, a_disk_that_fills_up_is_an_engine_error_and_keeps_what_was_committed) {
+  const TemporaryFolder folder;
+  const auto runs = samples::runs(3000);
+  auto* const former_handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit former{};
+  ::getrlimit(RLIMIT_FSIZE, &former);
+  std::string sentence;
+  {
+    ArchiveWriter writer(folder / "a.fp", samples::campaign(), samples::cells(), samples::gates());
+    for (std::size_t i = 0; i < 100; ++i) writer.add(runs[i]);
+    writer.commit();
+    const rlimit low{400'000, former.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &low);
+    sentence = sentence_of<EngineError>([&] {
+      for (std::size_t i = 100; i < runs.size(); ++i) writer.add(runs[i]);
+    });
+    ::setrlimit(RLIMIT_FSIZE, &former);
+  }
+  std::signal(SIGXFSZ, former_handler);
+  EXPECT_THAT(sentence, HasSubstr("disk"));
+  EXPECT_THAT(sentence, HasSubstr("a.fp.partial"));
+  const ArchiveReader reader(folder / "a.fp.partial");
+  EXPECT_GE(reader.run_count(), 100u);
+  EXPECT_EQ(reader.run(99)->outcome, runs[99].outcome);
+}
+
+}  // namespace
+}  // namespace fleetproof

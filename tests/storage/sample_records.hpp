@@ -1,0 +1,121 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "storage/records.hpp"
+
+namespace fleetproof::samples {
+
+inline CampaignRecord campaign() {
+  CampaignRecord record;
+  record.name = "nightly";
+  record.kind = "claim";
+  record.seed = 0xfedcba9876543210ULL;  // its top bit is set: it must survive a signed column
+  record.replicates = 40;
+  record.plan_json = R"({"layouts":{"ring":{}}})";
+  record.plan_hash = 0x8000000000000001ULL;
+  record.engine = {"0.1.0", "ab12", "g++ 12.2.0", "-O2", "SQLite 3.40.1"};
+  return record;
+}
+
+inline std::vector<CellRecord> cells() {
+  std::vector<CellRecord> list;
+  for (const double loss : {0.0, 0.4}) {
+    for (const double delay_s : {0.0, 2.0, 5.0}) {
+      list.push_back({static_cast<std::uint32_t>(list.size()), "sound", "ring", 5, loss, delay_s});
+    }
+  }
+  return list;
+}
+
+inline std::vector<GateRecord> gates() {
+  GateRecord none{0, "safe", "sound", GateKind::None, EndPoint::Violation, Region::Contract, 1e-3, 0.95, 1.0};
+  GateRecord rate{1, "rare contact", "sound", GateKind::Rate, EndPoint::Contact, Region::WorstCase, 1e-2, 0.99, 0.5};
+  return {none, rate};
+}
+
+// Every field filled at random, with whole words of 64 bits.
+inline Outcome random_outcome(std::mt19937_64& random) {
+  Outcome o;
+  for (const auto flag : {&Outcome::violation, &Outcome::contact, &Outcome::stuck, &Outcome::crash, &Outcome::hang, &Outcome::indeterminate,
+                          &Outcome::engine_error}) {
+    o.*flag = random() % 2 == 0;
+  }
+  if (random() % 3 != 0) o.min_clearance_um = static_cast<std::int64_t>(random());
+  auto& c = o.counters;
+  for (auto* counter : {&c.events, &c.activations, &c.agent_calls, &c.messages_sent, &c.receptions, &c.receptions_lost, &c.out_of_range, &c.delay_sum_ns, &c.drives,
+                        &c.turns, &c.refused_calls, &c.transports_released, &c.transports_done, &c.distance_um, &c.safe_mode_ns, &c.contacts,
+                        &c.distance_evaluations, &c.perimeter_checks}) {
+    *counter = random();
+  }
+  o.simulated_ns = random();
+  o.agv_count = static_cast<std::uint32_t>(random());
+  o.digest = random();
+  for (auto i = random() % 5; i > 0; --i) o.running_digests.push_back(random());
+  for (auto i = random() % 20; i > 0; --i) o.message.push_back(static_cast<char>(random()));  // zero bytes and broken UTF-8 included
+  for (auto i = random() % 4; i > 0; --i) {
+    Violation v;
+    v.a = EntityId{static_cast<std::uint32_t>(random())};
+    v.b = EntityId{static_cast<std::uint32_t>(random())};
+    v.first = at_ns(static_cast<std::int64_t>(random()));
+    v.last = at_ns(static_cast<std::int64_t>(random()));
+    v.closest_at = at_ns(static_cast<std::int64_t>(random()));
+    v.min_clearance_um = static_cast<std::int64_t>(random());
+    v.relative_speed_um_s = static_cast<std::int64_t>(random());
+    v.x_um = static_cast<std::int64_t>(random());
+    v.y_um = static_cast<std::int64_t>(random());
+    v.contact = random() % 2 == 0;
+    o.violations.push_back(v);
+  }
+  return o;
+}
+
+// Runs 0 .. count-1 of the sample campaign.
+inline std::vector<RunRecord> runs(std::uint64_t count, std::uint64_t seed = 7) {
+  std::mt19937_64 random(seed);
+  std::vector<RunRecord> list;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    RunRecord run;
+    run.run_index = i;
+    run.cell = static_cast<std::uint32_t>(i % cells().size());
+    run.replicate = i / cells().size();
+    run.scenario_digest = random();
+    run.outcome = random_outcome(random);
+    list.push_back(run);
+  }
+  return list;
+}
+
+// A folder that goes with the test.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "fleetproof-XXXXXX").string();
+    path_ = ::mkdtemp(name.data());
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline std::string bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+inline void write_bytes(const std::string& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
+
+}  // namespace fleetproof::samples

@@ -1,0 +1,85 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+
+#include "storage/archive.hpp"
+#include "tests/storage/sample_records.hpp"
+
+namespace fleetproof {
+namespace {
+
+using samples::TemporaryFolder;
+
+// One row as text, columns separated by "|".
+std::string query(const std::string& path, const std::string& sql) {
+  sqlite3* db = nullptr;
+  sqlite3_open_v2(path.c_str(), &db, SQLITE_OPEN_READONLY, nullptr);
+  std::string row;
+  const auto append = [](void* out, int count, char** values, char**) {
+    auto& text = *static_cast<std::string*>(out);
+    for (int i = 0; i < count; ++i) text += (text.empty() ? "" : "|") + std::string(values[i] == nullptr ? "null" : values[i]);
+    return 0;
+  };
+  EXPECT_EQ(sqlite3_exec(db, sql.c_str(), append, &row, nullptr), SQLITE_OK) << sqlite3_errmsg(db);
+  sqlite3_close(db);
+  return row;
+}
+
+class Views : public testing::Test {
+ protected:
+  Views() {
+    RunRecord run;
+    ArchiveWriter writer(path_, samples::campaign(), samples::cells(), samples::gates());
+    for (std::uint32_t i = 0; i < 12; ++i) {
+      run.run_index = i;
+      run.cell = i % 6;
+      run.replicate = i / 6;
+      run.outcome = Outcome{};
+      run.outcome.simulated_ns = 3'600'000'000'000;
+      run.outcome.agv_count = 5;
+      run.outcome.counters.transports_done = 2;
+      if (i == 4) {  // loss 0.4, delay 2 s
+        run.scenario_digest = 0xff;
+        run.outcome.digest = 0xfedcba9876543210ULL;
+        Violation violation;
+        violation.a = EntityId{1u};
+        violation.b = EntityId{3u};
+        violation.first = at_seconds(1.5);
+        violation.min_clearance_um = 70'000;
+        file_violations(run.outcome, {violation});
+      }
+      writer.add(run);
+    }
+    writer.publish(12);
+  }
+  TemporaryFolder folder_;
+  std::string path_ = folder_ / "a.fp";
+};
+
+TEST_F(Views, v1_runs_joins_the_factors_of_the_cell) {
+  EXPECT_EQ(query(path_, "SELECT agent, layout, fleet_size, loss, delay_s, in_contract, outcome_class, violation, contact, min_clearance_um, transports_done, digest, "
+                         "scenario_digest FROM v1_runs WHERE run_index = 4"),
+            "sound|ring|5|0.4|2.0|1|violation|1|0|70000|2|fedcba9876543210|00000000000000ff");
+  EXPECT_EQ(query(path_, "SELECT outcome_class, min_clearance_um, in_contract FROM v1_runs WHERE run_index = 5"), "clean|null|0");
+}
+
+TEST_F(Views, v1_cells_counts) {
+  EXPECT_EQ(query(path_, "SELECT is_worst_case, runs, violation_runs, contact_runs, min_clearance_um, transports_done, agv_hours FROM v1_cells WHERE cell = 4"),
+            "1|2|1|0|70000|4|10.0");
+}
+
+TEST_F(Views, v1_violations_tells_where_it_happened) {
+  EXPECT_EQ(query(path_, "SELECT run_index, ordinal, loss, delay_s, entity_a, entity_b, first_ns, min_clearance_um FROM v1_violations"),
+            "4|0|0.4|2.0|1|3|1500000000|70000");
+}
+
+TEST_F(Views, the_file_names_its_kind_and_version) {
+  EXPECT_EQ(query(path_, "PRAGMA application_id"), std::to_string(0x464C5046));
+  EXPECT_EQ(query(path_, "PRAGMA user_version"), "1");
+  EXPECT_EQ(query(path_, "PRAGMA page_size"), "4096");
+  EXPECT_EQ(query(path_, "PRAGMA journal_mode"), "delete");
+  EXPECT_EQ(query(path_, "PRAGMA integrity_check"), "ok");
+}
+
+}  // namespace
+}  // namespace fleetproof
