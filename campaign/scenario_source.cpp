@@ -17,8 +17,11 @@ Scenario ScenarioSource::scenario(std::uint64_t run_index) const {
   const auto [replicate, cell] = place(run_index);
   const LayoutFactor& layout = *std::ranges::find(plan_.layouts, cell.layout, &LayoutFactor::name);
   WorldSpec spec;
-  spec.layout_family = layout.name;
-  spec.map = layout.map;
+  if (layout.map != nullptr) {
+    spec.layout = layout.map;
+  } else {
+    spec.layout = layout.name;
+  }
   spec.fleet_size = cell.fleet_size;
   spec.transports_per_agv_hour = plan_.transports_per_agv_hour;
   spec.vehicle = plan_.vehicle;

@@ -139,7 +139,9 @@ struct ScalarText {
   std::string operator()(bool value) const { return value ? "true" : "false"; }
   std::string operator()(const std::string& value) const { return in_quotes(value); }
   template <class Number>
-  std::string operator()(Number value) const { return fmt::format("{}", value); }
+  std::string operator()(Number value) const {
+    return fmt::format("{}", value);
+  }
 };
 
 std::string shown(const JsonValue& value) {

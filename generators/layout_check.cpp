@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_set>
+#include <set>
 
 #include "core/geometry/rectangle.hpp"
 #include "core/geometry/rotation.hpp"
@@ -55,7 +55,7 @@ class Check {
 
   template <class Named>
   void names(std::string_view what, const std::vector<Named>& all) {
-    std::unordered_set<std::string_view> seen;
+    std::set<std::string_view> seen;
     for (std::size_t i = 0; i < all.size(); ++i) {
       const auto pointer = [&] { return fmt::format("/{}/{}/name", what, i); };
       if (const char* fault = fault_of_name(all[i].name)) add(ProblemKind::BadName, pointer(), fault);

@@ -9,7 +9,7 @@ namespace fleetproof {
 
 inline constexpr double kLargestCoordinate_m = 100'000.0;  // from the origin
 inline constexpr double kShortestSegment_m = 0.01;
-inline constexpr double kSharpestBend_m = 0.05;            // radius
+inline constexpr double kSharpestBend_m = 0.05;  // radius
 
 // What keeps a layout from becoming a LogicalMap; empty if nothing does. Pointers are relative to the layout.
 Problems problems_of(const Layout& layout);

@@ -11,9 +11,9 @@ namespace fleetproof {
 namespace {
 
 constexpr Entry<MakeLayout> kFamilies[] = {
-    {"aisle-grid", "4-6 aisles between 2-3 cross aisles, one-way or two-way, with storage bays, docks, parking and chargers; 50-85 segments",
+    {"aisle-grid", "4-6 aisles between 2-3 cross aisles, one-way or two-way, with storage bays, docks, parking and chargers; 49-83 segments",
      make_aisle_grid},
-    {"corridor-sidings", "one two-way lane of 30-60 m with sidings to let others pass, storage spurs at both ends and along it; 25-45 segments",
+    {"corridor-sidings", "one two-way lane of 30-60 m with sidings to let others pass, storage spurs at both ends and along it; 17-39 segments",
      make_corridor_sidings},
 };
 

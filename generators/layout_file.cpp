@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <unordered_map>
+#include <map>
 
 #include "core/catalogue.hpp"
 #include "generators/json_value.hpp"
@@ -20,7 +20,7 @@ constexpr std::string_view kStationKeys[] = {"name", "position_m", "purposes"};
 constexpr std::string_view kSegmentKeys[] = {"name", "from", "to", "bidirectional", "control_points_m"};
 constexpr std::string_view kPurposeNames[] = {"routing", "storage", "charging", "parking"};  // by bit
 
-using StationsByName = std::unordered_map<std::string, StationId>;
+using StationsByName = std::map<std::string, StationId>;
 
 Purposes read_purposes(const JsonReader& reader) {
   Purposes purposes = Purposes::from_bits(0);
@@ -51,7 +51,6 @@ StationId station_named(const JsonReader& reader, const StationsByName& stations
   if (const auto found = stations.find(name); found != stations.end()) return found->second;
   std::vector<std::string_view> known;
   for (const auto& [other, id] : stations) known.push_back(other);
-  std::ranges::sort(known);
   const auto nearest = nearest_name(name, known);
   reader.refuse(nearest ? fmt::format("there is no such station; did you mean {}?", in_quotes(*nearest)) : "there is no such station");
 }

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <pugixml.hpp>
-#include <unordered_map>
-#include <unordered_set>
+#include <set>
 
 #include "core/catalogue.hpp"
 #include "core/error.hpp"
@@ -18,9 +18,9 @@ namespace fleetproof {
 namespace {
 
 constexpr double kNewestVersion = 7.0;
-constexpr double kDefaultScale_mm = 50.0;     // of a layout unit, where the model does not say
-constexpr double kToleratedLength = 0.02;     // share by which a stored length may be off
-constexpr double kSmoothedKink_rad = 0.2;     // a joint of Beziers beyond it is no slip of the mouse
+constexpr double kDefaultScale_mm = 50.0;  // of a layout unit, where the model does not say
+constexpr double kToleratedLength = 0.02;  // share by which a stored length may be off
+constexpr double kSmoothedKink_rad = 0.2;  // a joint of Beziers beyond it is no slip of the mouse
 
 // A word in the name of a location type, or of its symbol, and what it says about the points linked to such locations.
 struct PurposeWord {
@@ -90,7 +90,7 @@ class ModelReader {
     if (!(scale_mm_.minCoeff() > 0.0)) xml_.refuse(layout, fmt::format("scale {} x {} is not positive", scale_mm_.x(), scale_mm_.y()));
   }
 
-  std::string name_of_new(const pugi::xml_node& node, std::unordered_set<std::string>& taken) {
+  std::string name_of_new(const pugi::xml_node& node, std::set<std::string>& taken) {
     auto name = xml_.text(node, "name");
     if (const char* fault = fault_of_name(name)) xml_.refuse(node, fmt::format("name {}: {}", in_quotes(name), fault));
     if (!taken.insert(name).second) xml_.refuse(node, fmt::format("a second <{}> is named {}; rename one", node.name(), in_quotes(name)));
@@ -101,7 +101,8 @@ class ModelReader {
     Station station;
     station.name = name_of_new(point, point_names_);
     const bool old_spelling = !xml_.has(point, "positionX") && xml_.has(point, "xPosition");
-    const double x_mm = xml_.number(point, old_spelling ? "xPosition" : "positionX"), y_mm = xml_.number(point, old_spelling ? "yPosition" : "positionY");
+    const double x_mm = xml_.number(point, old_spelling ? "xPosition" : "positionX"),
+                 y_mm = xml_.number(point, old_spelling ? "yPosition" : "positionY");
     station.position_m = Vec2(x_mm, y_mm) / 1000.0;
     const std::string_view type = point.attribute("type").value();
     if (type == "PARK_POSITION") station.purposes = station.purposes | Purpose::Parking;
@@ -141,7 +142,8 @@ class ModelReader {
     }
     const std::size_t expected = type == "BEZIER" ? 2 : type == "BEZIER_3" ? 5 : 0;
     if (expected == 0) {
-      if (type == "POLYPATH" && !points.empty()) warn(path, fmt::format("path {} is a polyline; a straight line takes its place", in_quotes(segment.name)));
+      if (type == "POLYPATH" && !points.empty())
+        warn(path, fmt::format("path {} is a polyline; a straight line takes its place", in_quotes(segment.name)));
       return;
     }
     if (points.size() != expected) {
@@ -151,12 +153,14 @@ class ModelReader {
     const double kink = largest_kink_rad(segment);
     if (kink > 1e-9 && kink <= kSmoothedKink_rad) {
       smooth_joints(segment);
-      warn(path, fmt::format("the two curves of path {} meet at an angle of {:.3f} rad; their control points were aligned", in_quotes(segment.name), kink));
+      warn(path,
+           fmt::format("the two curves of path {} meet at an angle of {:.3f} rad; their control points were aligned", in_quotes(segment.name), kink));
     }
   }
 
   void note_reversible(const pugi::xml_node& model) {
-    const auto count = std::ranges::count_if(paths_, [](const pugi::xml_node& path) { return path.attribute("maxReverseVelocity").as_double() > 0.0; });
+    const auto count =
+        std::ranges::count_if(paths_, [](const pugi::xml_node& path) { return path.attribute("maxReverseVelocity").as_double() > 0.0; });
     if (count > 0) warn(model, fmt::format("{} paths may be driven in reverse; here AGVs drive nose first, from source to destination only", count));
   }
 
@@ -204,7 +208,8 @@ class ModelReader {
       double stored_mm = 0.0;
       const double length_m = segment_curve(layout_, layout_.segments[i]).length_m();
       if (!read_number(paths_[i].attribute("length").value(), stored_mm)) {
-        warn(paths_[i], fmt::format("path {} has no length that can be read; its geometry has {:.3f} m", in_quotes(layout_.segments[i].name), length_m));
+        warn(paths_[i],
+             fmt::format("path {} has no length that can be read; its geometry has {:.3f} m", in_quotes(layout_.segments[i].name), length_m));
       } else if (std::abs(stored_mm / 1000.0 - length_m) > kToleratedLength * length_m) {
         warn(paths_[i], fmt::format("path {} is stored with a length of {:.3f} m; its geometry has {:.3f} m, which counts",
                                     in_quotes(layout_.segments[i].name), stored_mm / 1000.0, length_m));
@@ -218,9 +223,9 @@ class ModelReader {
   Vec2 scale_mm_ = Vec2::Constant(kDefaultScale_mm);
   Layout layout_;
   std::vector<pugi::xml_node> paths_;  // by segment
-  std::unordered_set<std::string> point_names_, path_names_;
-  std::unordered_map<std::string, StationId> stations_;
-  std::unordered_map<std::string, Purposes> location_types_;
+  std::set<std::string> point_names_, path_names_;
+  std::map<std::string, StationId> stations_;
+  std::map<std::string, Purposes> location_types_;
 };
 
 }  // namespace

@@ -63,7 +63,10 @@ bool place_fleet(Scenario& scenario, std::uint32_t fleet_size, const Reachabilit
     agv.name = fmt::format("agv{}", number + 1);
     while (true) {
       const auto station = candidates.draw(draws);
-      if (!station) return false;
+      if (!station) {
+        ++counts.fleets_without_room;
+        return false;
+      }
       ++counts.starts_tried;
       const auto& lanes = map.lanes_from(*station);
       if (lanes.empty()) {

@@ -15,7 +15,7 @@ enum class ProblemKind : std::uint8_t {
   UnknownReference,  // to a station, segment or vehicle type that is not there
   BadGeometry,       // a segment that cannot be built as a smooth curve
   EmptyFleet,
-  WeakCore,          // less than 90 % of the stations can all reach each other
+  WeakCore,  // less than 90 % of the stations can all reach each other
   StartsTooClose,
   StartNearObstacle,
   StartWithoutLane,  // no lane leaves the start

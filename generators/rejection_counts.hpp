@@ -9,11 +9,12 @@ namespace fleetproof {
 
 // What generating cost: sums over any number of worlds.
 struct RejectionCounts {
-  std::uint64_t worlds = 0;                              // made
-  std::uint64_t worlds_rejected = 0;                     // thrown away whole; the next draw replaced them
-  std::uint64_t starts_tried = 0;                        // stations drawn for an AGV
-  std::uint64_t worlds_without_storage = 0;              // transports between any stations, as fewer than two are for storage
-  std::array<std::uint64_t, kProblemKinds> reasons{};    // of rejected starts and worlds, by ProblemKind
+  std::uint64_t worlds = 0;                            // made
+  std::uint64_t worlds_rejected = 0;                   // thrown away whole; the next draw replaced them
+  std::uint64_t fleets_without_room = 0;               // attempts that ran out of stations
+  std::uint64_t starts_tried = 0;                      // stations drawn for an AGV
+  std::uint64_t worlds_without_storage = 0;            // transports between any stations, as fewer than two are for storage
+  std::array<std::uint64_t, kProblemKinds> reasons{};  // of rejected starts and worlds, by ProblemKind
 
   std::uint64_t& of(ProblemKind kind) { return reasons[static_cast<std::size_t>(kind)]; }
   std::uint64_t of(ProblemKind kind) const { return reasons[static_cast<std::size_t>(kind)]; }
@@ -21,6 +22,7 @@ struct RejectionCounts {
   void add(const RejectionCounts& other) {
     worlds += other.worlds;
     worlds_rejected += other.worlds_rejected;
+    fleets_without_room += other.fleets_without_room;
     starts_tried += other.starts_tried;
     worlds_without_storage += other.worlds_without_storage;
     for (std::size_t i = 0; i < reasons.size(); ++i) reasons[i] += other.reasons[i];

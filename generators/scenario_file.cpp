@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <unordered_map>
+#include <map>
 
 #include "core/catalogue.hpp"
 #include "generators/json_value.hpp"
@@ -31,14 +32,13 @@ class Names {
     if (const auto found = ids_.find(name); found != ids_.end()) return found->second;
     std::vector<std::string_view> known;
     for (const auto& [other, id] : ids_) known.push_back(other);
-    std::ranges::sort(known);
     const auto nearest = nearest_name(name, known);
     reader.refuse(fmt::format("there is no such {}{}", noun_, nearest ? "; did you mean " + in_quotes(*nearest) + "?" : ""));
   }
 
  private:
   std::string_view noun_;
-  std::unordered_map<std::string, Id> ids_;
+  std::map<std::string, Id> ids_;
 };
 
 using VehicleTypeId = StrongId<struct VehicleTypeTag>;

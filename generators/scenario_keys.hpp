@@ -8,9 +8,9 @@ namespace fleetproof::scenario_keys {
 
 inline constexpr std::int64_t kVersion = 1;
 
-inline constexpr std::string_view kScenario[] = {"version",     "name", "seed",          "horizon_s", "horizon_ns", "stuck_after_s", "stuck_after_ns",
-                                                 "contact_stops", "radio", "agent_clock", "law",       "vehicle_types", "agvs",        "obstacles",
-                                                 "layout"};
+inline constexpr std::string_view kScenario[] = {"version",       "name",           "seed",          "horizon_s", "horizon_ns",
+                                                 "stuck_after_s", "stuck_after_ns", "contact_stops", "radio",     "agent_clock",
+                                                 "law",           "vehicle_types",  "agvs",          "obstacles", "layout"};
 inline constexpr std::string_view kVehicle[] = {"name", "length_m", "width_m", "drive", "turn", "battery_per_m", "charge_per_s", "pick_s", "drop_s"};
 inline constexpr std::string_view kDriveLimits[] = {"speed_mps", "acceleration_mps2", "deceleration_mps2"};
 inline constexpr std::string_view kTurnLimits[] = {"speed_radps", "acceleration_radps2", "deceleration_radps2"};

@@ -84,7 +84,8 @@ class RangeCheck {
     for (std::size_t i = 0; i < all.size(); ++i) {
       const Field field{list, i, "/name"};
       if (const char* fault = fault_of_name(all[i].name)) add(ProblemKind::BadName, field.pointer(), fault);
-      if (!seen.insert(all[i].name).second) add(ProblemKind::BadName, field.pointer(), fmt::format("the name {} is taken; choose another", in_quotes(all[i].name)));
+      if (!seen.insert(all[i].name).second)
+        add(ProblemKind::BadName, field.pointer(), fmt::format("the name {} is taken; choose another", in_quotes(all[i].name)));
     }
   }
 
@@ -119,7 +120,8 @@ class RangeCheck {
   void agv(std::size_t i) {
     constexpr std::string_view kList = "/agvs";
     const auto& a = scenario_.agvs[i];
-    if (a.type >= scenario_.vehicle_types.size()) add(ProblemKind::UnknownReference, Field{kList, i, "/type"}.pointer(), "there is no such vehicle type");
+    if (a.type >= scenario_.vehicle_types.size())
+      add(ProblemKind::UnknownReference, Field{kList, i, "/type"}.pointer(), "there is no such vehicle type");
     if (!has_station(a.start)) add(ProblemKind::UnknownReference, Field{kList, i, "/start"}.pointer(), "there is no such station");
     heading({kList, i, "/heading"}, a.heading);
     within({kList, i, "/battery"}, a.battery, 0.0, 1.0);
@@ -165,8 +167,9 @@ class WorldCheck {
 
   Problems run() {
     if (reachability_.core_share() < kSmallestCoreShare) {
-      add(ProblemKind::WeakCore, "/layout", fmt::format("only {} of {} stations can all reach each other, less than 90 %; add segments that lead back",
-                                                        reachability_.core().size(), scenario_.map->station_count()));
+      add(ProblemKind::WeakCore, "/layout",
+          fmt::format("only {} of {} stations can all reach each other, less than 90 %; add segments that lead back", reachability_.core().size(),
+                      scenario_.map->station_count()));
     }
     starts();
     for (std::size_t i = 0; i < scenario_.agvs.size(); ++i) transports(i);
@@ -186,7 +189,8 @@ class WorldCheck {
       for (std::size_t k = 0; k < i; ++k) {
         if (!closer_than(bodies[k], bodies[i], distance_m)) continue;
         add(ProblemKind::StartsTooClose, pointer(),
-            fmt::format("{} starts closer than {} m to {}; choose another start", in_quotes(agv.name), distance_m, in_quotes(scenario_.agvs[k].name)));
+            fmt::format("{} starts closer than {} m to {}; choose another start", in_quotes(agv.name), distance_m,
+                        in_quotes(scenario_.agvs[k].name)));
       }
       for (const auto& obstacle : scenario_.obstacles) {
         if (!closer_than(placed(obstacle.footprint, obstacle.pose), bodies[i], distance_m)) continue;
@@ -206,7 +210,8 @@ class WorldCheck {
       const auto need = [&](StationId from, StationId to, std::string_view field) {
         if (reachability_.reaches(from, to)) return;
         const auto name = [&](StationId id) { return in_quotes(scenario_.map->station(id).name); };
-        add(ProblemKind::Unreachable, fmt::format("/agvs/{}/transports/{}{}", i, k, field), fmt::format("no way leads from {} to {}", name(from), name(to)));
+        add(ProblemKind::Unreachable, fmt::format("/agvs/{}/transports/{}{}", i, k, field),
+            fmt::format("no way leads from {} to {}", name(from), name(to)));
       };
       need(agv.start, order.from, "/from");
       need(order.from, order.to, "/to");

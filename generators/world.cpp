@@ -24,18 +24,17 @@ void check(const WorldSpec& spec) {
   }
   if (spec.horizon <= Duration::zero()) throw InputError("horizon_s", fmt::format("{} is not above 0", to_seconds(spec.horizon)));
   if (const auto* map = std::get_if<SharedMap>(&spec.layout); map != nullptr && spec.fleet_size > (*map)->station_count()) {
-    throw InputError("fleet_size", fmt::format("{} AGVs cannot start on the {} stations of this layout; ask for fewer", spec.fleet_size,
-                                               (*map)->station_count()));
+    throw InputError("fleet_size",
+                     fmt::format("{} AGVs cannot start on the {} stations of this layout; ask for fewer", spec.fleet_size, (*map)->station_count()));
   }
 }
 
 std::string reasons(const RejectionCounts& counts) {
-  std::string text;
+  std::string text = fmt::format("out of stations {} times", counts.fleets_without_room);
   for (std::size_t i = 0; i < kProblemKinds; ++i) {
-    if (counts.reasons[i] == 0) continue;
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name_of(static_cast<ProblemKind>(i)), counts.reasons[i]);
+    if (counts.reasons[i] > 0) text += fmt::format(", {} {}", name_of(static_cast<ProblemKind>(i)), counts.reasons[i]);
   }
-  return text.empty() ? "too few stations that reach each other" : text;
+  return text;
 }
 
 // The worlds of one seed, one after the other until one is sound.
@@ -43,6 +42,7 @@ class WorldMaker {
  public:
   WorldMaker(const WorldSpec& spec, std::uint64_t seed) : spec_(spec), seed_(seed), family_(std::get_if<std::string>(&spec.layout)) {
     scenario_.vehicle_types = {spec.vehicle};
+    scenario_.law = spec.law;
     scenario_.horizon = spec.horizon;
     scenario_.seed = seed;
     if (family_ != nullptr) return;
@@ -97,10 +97,9 @@ Scenario generate_world(const WorldSpec& spec, std::uint64_t seed, RejectionCoun
     }
     ++maker.counts.worlds_rejected;
   }
-  const auto refused = maker.counts;
-  counts.add(refused);
+  counts.add(maker.counts);
   throw InputError("fleet_size", fmt::format("cannot place {} AGVs on this layout in {} draws ({}); ask for fewer or for a larger layout",
-                                             spec.fleet_size, kAttempts, reasons(refused)));
+                                             spec.fleet_size, kAttempts, reasons(maker.counts)));
 }
 
 }  // namespace fleetproof

@@ -14,14 +14,14 @@ namespace fleetproof {
 namespace {
 
 std::vector<Column> columns(bool counts_only, const std::string& upper_head) {
-  std::vector<Column> list{{"agent", false}, {"loss"}, {"delay"}, {"runs"}, {"violating"}};
+  std::vector<Column> list{{"agent", false}, {"loss"}, {"delay"}, {"runs"}, {"viol."}};
   if (!counts_only) {
-    list.push_back({"units failed"});
+    list.push_back({"failed"});
     list.push_back({"rate"});
     list.push_back({"95 % interval"});
     list.push_back({upper_head});
   }
-  for (const auto* head : {"contact", "stuck", "crash/hang", "closest", "transports/AGV-h"}) list.push_back({head});
+  for (const auto* head : {"contact", "stuck", "crash/hang", "closest", "done/AGV-h"}) list.push_back({head});
   return list;
 }
 
@@ -70,7 +70,9 @@ std::size_t keep_most_interesting(std::vector<Condition>& conditions, std::size_
 
 // What a unit of the rows is, and which confidence their bound has.
 std::vector<Remark> legend(const Evidence& evidence, const std::vector<Condition>& rows, bool one_confidence) {
-  std::vector<Remark> remarks;
+  std::vector<Remark> remarks{{"viol. = runs that broke the safety distance; failed = units with a violation or an unknown outcome, of all units: rate, interval and bound "
+                               "are theirs; done/AGV-h = transports completed per AGV-hour.",
+                               ""}};
   const bool pooled = std::ranges::any_of(rows, [](const Condition& c) { return c.pool.cells.size() > 1; });
   if (pooled) {
     remarks.push_back({"A row pools several cells (layouts, fleet sizes). Its unit is the replicate, which fails if any of its runs does: the cells of a replicate share "

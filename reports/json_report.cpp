@@ -164,6 +164,7 @@ std::string render_json(const ReportInput& input) {
   Json json;
   json["schema_version"] = kSchemaVersion;
   json["archive"] = input.archive_path;
+  json["verdict"] = name_of(overall_verdict(evidence, input.gates));
   json["exit_code"] = input.exit_code;
   json["campaign"] = campaign_json(input);
   json["gates"] = list_of(input.gates.size(), [&](std::size_t i) { return gate_json(input, i); });

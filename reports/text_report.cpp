@@ -9,7 +9,9 @@
 namespace fleetproof {
 namespace {
 
-constexpr std::size_t kWidth = 118;
+constexpr std::size_t kWidth = 118;  // of sentences
+constexpr std::size_t kWidestTable = 140;
+constexpr std::size_t kGap = 2;
 constexpr std::size_t kMostRows = 500;
 
 // In characters, not bytes.
@@ -39,21 +41,35 @@ std::string aligned(const std::string& text, std::size_t width, bool right) {
   return right ? blanks + text : text + blanks;
 }
 
-void print(std::string& out, const Table& table) {
+std::vector<std::size_t> column_widths(const Table& table) {
   std::vector<std::size_t> widths;
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
     auto width = width_of(table.columns[c].head);
     for (const auto& row : table.rows) width = std::max(width, width_of(row[c]));
     widths.push_back(width);
   }
+  return widths;
+}
+
+// A table that is too wide gives up its first column: the name then stands on a line of its own above its rows.
+void print(std::string& out, const Table& table) {
+  const auto widths = column_widths(table);
+  std::size_t all = 0;
+  for (const auto width : widths) all += kGap + width;
+  const bool grouped = all > kWidestTable;
   const auto print_row = [&](const auto& text_of) {
     std::string line;
-    for (std::size_t c = 0; c < table.columns.size(); ++c) line += (c == 0 ? "  " : "  ") + aligned(text_of(c), widths[c], table.columns[c].right_aligned);
+    for (std::size_t c = grouped ? 1 : 0; c < table.columns.size(); ++c) line += std::string(kGap, ' ') + aligned(text_of(c), widths[c], table.columns[c].right_aligned);
     line.erase(line.find_last_not_of(' ') + 1);
     out += line + "\n";
   };
   print_row([&](std::size_t c) { return table.columns[c].head; });
-  for (const auto& row : table.rows) print_row([&](std::size_t c) { return row[c]; });
+  std::string group;
+  for (const auto& row : table.rows) {
+    if (grouped && row[0] != group) out += " " + row[0] + "\n";
+    group = row[0];
+    print_row([&](std::size_t c) { return row[c]; });
+  }
 }
 
 }  // namespace

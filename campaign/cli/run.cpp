@@ -10,6 +10,7 @@
 #include "campaign/campaign_file.hpp"
 #include "campaign/cli/campaign_words.hpp"
 #include "campaign/cli/progress.hpp"
+#include "campaign/cli/render.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "core/error.hpp"
 #include "reports/report.hpp"
@@ -54,10 +55,13 @@ int finish(const CampaignResult& result, const RunWords& words) {
              result.progress.elapsed_s, static_cast<double>(result.progress.done) / std::max(1e-9, result.progress.elapsed_s));
   const int signal_number = interrupted.load();
   if (signal_number != 0) fmt::print(stderr, "interrupted: the file holds the runs finished so far and says that it is incomplete\n");
-  const ReportInput input = read_report(words.archive);
-  fmt::print("{}", words.json ? report_json(input) : report_summary(input));
-  if (signal_number != 0) return 128 + signal_number;
-  return exit_code(input);
+  const ReportInput input = read_report_input(ArchiveReader(words.archive), words.archive);
+  if (words.json) {
+    fmt::print("{}", render(input, "json"));
+  } else {
+    fmt::print("{}report: fleetproof report {}\n", render(input, "summary"), words.archive);
+  }
+  return signal_number != 0 ? 128 + signal_number : input.exit_code;
 }
 
 int run(RunWords words) {

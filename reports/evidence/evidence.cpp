@@ -137,12 +137,21 @@ std::vector<Condition> Evidence::conditions() const {
   return list;
 }
 
+Verdict overall_verdict(const Evidence& evidence, const std::vector<GateResult>& gates) {
+  const auto any = [&](Verdict verdict) { return std::ranges::find(gates, verdict, &GateResult::verdict) != gates.end(); };
+  if (any(Verdict::Violated)) return Verdict::Violated;
+  if (gates.empty() || evidence.runs() == 0 || any(Verdict::NotDemonstrated)) return Verdict::NotDemonstrated;
+  return Verdict::Demonstrated;
+}
+
 int exit_code(const Evidence& evidence, const std::vector<GateResult>& gates) {
   if (evidence.engine_errors() > 0) return 3;
-  const auto any = [&](Verdict verdict) { return std::ranges::any_of(gates, [&](const GateResult& gate) { return gate.verdict == verdict; }); };
-  if (any(Verdict::Violated)) return 1;
-  if (gates.empty() || evidence.runs() == 0 || any(Verdict::NotDemonstrated)) return 4;
-  return 0;
+  switch (overall_verdict(evidence, gates)) {
+    case Verdict::Demonstrated: return 0;
+    case Verdict::Violated: return 1;
+    case Verdict::NotDemonstrated: return 4;
+  }
+  invariant_violated("a verdict has an exit code");
 }
 
 }  // namespace fleetproof

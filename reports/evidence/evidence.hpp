@@ -77,6 +77,9 @@ class Evidence {
   WorstRuns worst_inside_{kWorstRuns}, worst_outside_{kWorstRuns};
 };
 
+// Violated if one of the gates is; demonstrated if all are; not demonstrated else, and if there is nothing to judge.
+Verdict overall_verdict(const Evidence& evidence, const std::vector<GateResult>& gates);
+
 // 3 after an engine error; else 1 if a gate is violated; else 4 if one is not demonstrated, or there is nothing to judge; else 0.
 int exit_code(const Evidence& evidence, const std::vector<GateResult>& gates);
 

@@ -1,57 +1,198 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <deque>
+#include <limits>
+#include <string_view>
 #include <vector>
 
+#include "core/geometry/rotation.hpp"
 #include "core/law.hpp"
+#include "laws/laws.hpp"
 
+// Runs made of nothing but pieces, built by hand, and how a law hears of them.
 namespace fleetproof::test {
 
-// The timeline of one body, built by hand: it stands where it is told to and then waits, drives and turns.
+// The timeline of one body: it stands where it is put, then waits, drives and turns. Pieces point into it: it is moved, never copied.
 class Timeline {
  public:
-  Timeline(EntityId entity, const Pose& start, const Footprint& footprint = {});
+  Timeline(EntityId entity, const Pose& start, const Footprint& footprint) : entity_(entity), footprint_(footprint), pose_(start) {}
+  Timeline(Timeline&&) = default;
+  Timeline& operator=(Timeline&&) = default;
 
-  Timeline& wait_until(double t_s);
-  Timeline& drive(const Curve& curve, const MotionLimits& limits = {});
-  Timeline& drive_straight(double length_m) ;
-  Timeline& turn(double angle_rad);
+  Timeline& wait_until(double t_s) {
+    Piece piece = blank();
+    piece.end = at_seconds(t_s);
+    return add(piece);
+  }
+
+  Timeline& drive(const Curve& curve, const MotionLimits& limits = {}) {
+    curves_.push_back(curve);
+    Piece piece = blank();
+    piece.manner = Manner::Drive;
+    piece.curve = &curves_.back();
+    piece.profile = MotionProfile(curve.length_m(), limits);
+    piece.end = piece.begin + piece.profile.duration();
+    return add(piece);
+  }
+
+  Timeline& drive(double length_m, const MotionLimits& limits = {}) {
+    return drive(Curve::straight(pose_.position_m, pose_.position_m + length_m * pose_.heading), limits);
+  }
+
+  Timeline& turn(double angle_rad, const MotionLimits& limits = {1.0, 1.0, 1.0}) {
+    Piece piece = blank();
+    piece.manner = Manner::Turn;
+    piece.turn_rad = angle_rad;
+    piece.profile = MotionProfile(std::abs(angle_rad), limits);
+    piece.end = piece.begin + piece.profile.duration();
+    return add(piece);
+  }
+
   // Ends the last piece early, as a breakdown does.
-  Timeline& cut_short_at(double t_s);
+  Timeline& cut_short_at(double t_s) {
+    Piece& last = pieces_.back();
+    last.end = now_ = at_seconds(t_s);
+    pose_ = last.pose_at(now_);
+    return *this;
+  }
 
   SimTime now() const { return now_; }
   const Pose& pose() const { return pose_; }
-  // Pieces up to `end`, which cuts the last one, or is filled with rest. `planned` keeps the ends as they were announced.
-  std::vector<Piece> until(SimTime end) const;
+
+  // The pieces up to `end`, which cuts what goes beyond it and is reached by standing still.
+  std::vector<Piece> until(SimTime end) const {
+    std::vector<Piece> pieces;
+    for (const Piece& piece : pieces_) {
+      if (piece.begin < end) pieces.push_back(piece);
+    }
+    if (now_ < end || pieces.empty()) pieces.push_back(blank());
+    pieces.back().end = end;
+    return pieces;
+  }
 
  private:
-  void add(Piece piece, SimTime end);
+  Piece blank() const { return rest_piece(entity_, footprint_, pose_, now_); }
+
+  Timeline& add(const Piece& piece) {
+    pieces_.push_back(piece);
+    now_ = piece.end;
+    pose_ = piece.pose_at(now_);
+    return *this;
+  }
 
   EntityId entity_;
   Footprint footprint_;
   Pose pose_;
   SimTime now_ = kStart;
-  std::deque<Curve> curves_;  // a deque: pieces point into it
+  std::deque<Curve> curves_;
   std::vector<Piece> pieces_;
 };
+
+// A run: a scenario as far as a law reads it, and what its bodies do. AGVs come first, obstacles last.
+struct Scene {
+  Scenario scenario;
+  SimTime end;
+  std::deque<Timeline> bodies;
+
+  explicit Scene(double end_s) : end(at_seconds(end_s)) {}
+
+  Timeline& agv(const Pose& start, const Footprint& footprint = {}) {
+    scenario.agvs.emplace_back();
+    return bodies.emplace_back(EntityId{bodies.size()}, start, footprint);
+  }
+
+  Timeline& obstacle(const Pose& pose, const Footprint& footprint = {}) {
+    scenario.obstacles.push_back({"obstacle", footprint, pose});
+    return bodies.emplace_back(EntityId{bodies.size()}, pose, footprint);
+  }
+};
+
+inline Pose facing(double x_m, double y_m, double heading_x, double heading_y) { return {Vec2(x_m, y_m), Vec2(heading_x, heading_y)}; }
 
 // In which order a law hears of pieces that end at the same instant.
 enum class Order { ByEntity, Backwards, AllEndsFirst };
 
-// A run of nothing but pieces.
-struct Scene {
-  Scenario scenario;
-  SimTime end = kStart;
-  std::deque<Timeline> bodies;
+// Announces the pieces of a scene to a law as a world does.
+class Announcer {
+ public:
+  Announcer(const Scene& scene, Law& law) : law_(law), end_(scene.end) {
+    for (const Timeline& body : scene.bodies) pieces_.push_back(body.until(scene.end));
+    current_.resize(pieces_.size());
+  }
 
-  Scene(std::size_t agvs, double end_s, std::size_t obstacles = 0);
-  Timeline& add(const Pose& start, const Footprint& footprint = {});
+  void announce(Order order) {
+    for (std::size_t i = 0; i < pieces_.size(); ++i) start(i);
+    while (true) {
+      SimTime now = end_;
+      for (std::size_t i = 0; i < pieces_.size(); ++i) now = std::min(now, piece(i).end);
+      if (now == end_) break;
+      at_instant(now, order);
+    }
+    for (std::size_t i : in_order(end_, order)) finish(i);
+    law_.finish(end_);
+  }
+
+ private:
+  const Piece& piece(std::size_t body) const { return pieces_[body][current_[body]]; }
+  bool is_last(std::size_t body) const { return current_[body] + 1 == pieces_[body].size(); }
+
+  void start(std::size_t body) {
+    Piece planned = piece(body);
+    planned.number = number_++;
+    planned.end = planned.manner == Manner::Rest ? kForever : planned.begin + planned.profile.duration();
+    law_.piece_started(planned);
+  }
+  void stop(std::size_t body) { law_.piece_ended(piece(body)); }
+
+  // A body may have several pieces that end at `now`, those of no length.
+  std::vector<std::size_t> in_order(SimTime now, Order order) const {
+    std::vector<std::size_t> ending;
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      if (piece(i).end == now) ending.push_back(i);
+    }
+    if (order == Order::Backwards) std::ranges::reverse(ending);
+    return ending;
+  }
+
+  void at_instant(SimTime now, Order order) {
+    for (auto ending = in_order(now, order); !ending.empty(); ending = in_order(now, order)) {
+      if (order == Order::AllEndsFirst) {
+        for (const std::size_t i : ending) stop(i);
+      }
+      for (const std::size_t i : ending) {
+        if (order != Order::AllEndsFirst) stop(i);
+        ++current_[i];
+        start(i);
+      }
+    }
+  }
+
+  // Pieces of no length may stand at the very end.
+  void finish(std::size_t body) {
+    for (stop(body); !is_last(body); stop(body)) {
+      ++current_[body];
+      start(body);
+    }
+  }
+
+  Law& law_;
+  SimTime end_;
+  std::vector<std::vector<Piece>> pieces_;
+  std::vector<std::size_t> current_;
+  std::uint64_t number_ = 0;
 };
 
-// Announces the scene to a fresh law as a world does, and returns what it finds.
-LawFindings play(const Scene& scene, MakeLaw make, Order order = Order::ByEntity);
-LawFindings play(const Scene& scene, std::string_view law, Order order = Order::ByEntity);
+// What a fresh law finds in the scene.
+inline LawFindings play(const Scene& scene, MakeLaw make, Order order = Order::ByEntity) {
+  const auto law = make(scene.scenario);
+  Announcer(scene, *law).announce(order);
+  return law->findings();
+}
 
-inline Pose facing(double x_m, double y_m, double heading_x, double heading_y) { return {Vec2(x_m, y_m), Vec2(heading_x, heading_y)}; }
+inline LawFindings play(const Scene& scene, std::string_view law, Order order = Order::ByEntity) {
+  return play(scene, find_entry(laws(), law)->make, order);
+}
 
 }  // namespace fleetproof::test

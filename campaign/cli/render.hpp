@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "reports/report.hpp"
+
+namespace fleetproof::cli {
+
+// The report in a format of the catalogue. Throws InputError with the nearest name.
+std::string render(const ReportInput& input, std::string_view format);
+
+}  // namespace fleetproof::cli

@@ -1,0 +1,76 @@
+// Whole runs: how many a second, and what each costs in counts that no machine changes.
+#include <benchmark/benchmark.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "campaign/agent_programs.hpp"
+#include "core/simulation.hpp"
+#include "laws/laws.hpp"
+#include "tests/support/grid_world.hpp"
+
+namespace {
+std::atomic<std::uint64_t> allocations{0};
+}
+
+void* operator new(std::size_t size) {
+  allocations.fetch_add(1, std::memory_order_relaxed);
+  if (void* memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace fleetproof {
+namespace {
+
+struct World {
+  int rows, columns;
+  std::uint32_t fleet;
+  double horizon_s;
+};
+constexpr World kSmall{4, 8, 5, 60.0};     // 56 segments
+constexpr World kLarge{12, 24, 50, 600.0}; // 552 segments
+
+void run(benchmark::State& state, const World& world, const char* agent_name, bool with_law) {
+  const AgentPrograms programs;
+  const fp_agent_type& agent = programs.find(agent_name, "bench");
+  Scenario scenario = test::grid_world(world.rows, world.columns, world.fleet, world.horizon_s, 1);
+  scenario.radio.loss = 0.4;
+  scenario.radio.delay_s = 2.0;
+  Counters sum;
+  std::uint64_t runs = 0;
+  const std::uint64_t allocated_before = allocations;
+  for (auto _ : state) {
+    scenario.seed = ++runs;
+    std::vector<std::unique_ptr<Law>> laws;
+    if (with_law) laws.push_back(find_entry(fleetproof::laws(), "exact")->make(scenario));
+    const Outcome outcome = simulate(scenario, agent, laws);
+    sum.events += outcome.counters.events;
+    sum.messages_sent += outcome.counters.messages_sent;
+    sum.receptions += outcome.counters.receptions;
+    sum.distance_evaluations += outcome.counters.distance_evaluations;
+    sum.drives += outcome.counters.drives;
+    sum.transports_done += outcome.counters.transports_done;
+  }
+  const auto per_run = [&](std::uint64_t count) { return static_cast<double>(count) / static_cast<double>(runs); };
+  state.counters["events"] = per_run(sum.events);
+  state.counters["sent"] = per_run(sum.messages_sent);
+  state.counters["receptions"] = per_run(sum.receptions);
+  state.counters["evaluations"] = per_run(sum.distance_evaluations);
+  state.counters["drives"] = per_run(sum.drives);
+  state.counters["transports"] = per_run(sum.transports_done);
+  state.counters["allocations"] = per_run(allocations - allocated_before);
+  state.counters["runs/s"] = benchmark::Counter(static_cast<double>(runs), benchmark::Counter::kIsRate);
+}
+
+BENCHMARK_CAPTURE(run, 5x60_hull_lock, kSmall, "hull-lock", true)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(run, 5x60_hull_lock_no_law, kSmall, "hull-lock", false)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(run, 5x60_reckless, kSmall, "reckless", true)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(run, 50x600_hull_lock, kLarge, "hull-lock", true)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(run, 50x600_hull_lock_no_law, kLarge, "hull-lock", false)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(run, 50x600_reckless, kLarge, "reckless", true)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace fleetproof

@@ -1,0 +1,62 @@
+// The paper's own scenario through the program, with the figures of its Sect. 5.2.
+#include <nlohmann/json.hpp>
+
+#include "tests/support/program.hpp"
+
+namespace fleetproof {
+namespace {
+
+class Figure4 : public test::ProgramTest {
+ protected:
+  nlohmann::json simulate(const std::string& scenario, const std::string& law, int expected_exit) {
+    const auto finished = run("simulate " + test::source("tests/scenarios/" + scenario) + " --law " + law + " --json");
+    EXPECT_EQ(finished.exit_code, expected_exit) << finished.err;
+    return nlohmann::json::parse(finished.out);
+  }
+  static void expect_only_a_and_d(const nlohmann::json& json) {
+    ASSERT_EQ(json["violations"].size(), 1U) << json.dump(1);
+    EXPECT_EQ(json["violations"][0]["entities"], (nlohmann::json{"A", "D"}));
+    EXPECT_EQ(json["violations"][0]["contact"], false);
+  }
+};
+
+TEST_F(Figure4, ThePublishedLawMakes4020Checks) {
+  const auto json = simulate("figure4.json", "paper", 1);
+  EXPECT_EQ(json["counters"]["perimeter_checks"], 4020);
+  expect_only_a_and_d(json);
+}
+
+TEST_F(Figure4, AGlobalTimeStepMakes38400Checks) {
+  const auto json = simulate("figure4.json", "global-step", 1);
+  EXPECT_EQ(json["counters"]["perimeter_checks"], 38400);
+  expect_only_a_and_d(json);
+}
+
+TEST_F(Figure4, TheExactLawFindsTheInstants) {
+  const auto json = simulate("figure4.json", "exact", 1);
+  expect_only_a_and_d(json);
+  const auto& violation = json["violations"][0];
+  EXPECT_NEAR(violation["first_s"], 7.990, 0.001);
+  EXPECT_NEAR(violation["last_s"], 8.129, 0.001);
+  EXPECT_NEAR(violation["min_clearance_m"], 0.0148, 0.0001);
+  EXPECT_NEAR(violation["at_s"], 8.080, 0.001);
+  EXPECT_LE(json["counters"]["perimeter_checks"], 200);
+}
+
+TEST_F(Figure4, TheHoleInThePublishedLaw) {
+  EXPECT_EQ(simulate("parked_then_leaves.json", "paper", 0)["violations"].size(), 0U);
+  const auto json = simulate("parked_then_leaves.json", "exact", 1);
+  ASSERT_EQ(json["violations"].size(), 1U);
+  EXPECT_NEAR(json["violations"][0]["first_s"], 2.540, 0.001);
+  EXPECT_NEAR(json["violations"][0]["last_s"], 4.193, 0.001);
+  EXPECT_NEAR(json["violations"][0]["min_clearance_m"], 0.05, 0.0001);
+}
+
+TEST_F(Figure4, NoLawMovesTheTrace) {
+  const auto digest = simulate("figure4.json", "exact", 1)["digest"];
+  EXPECT_EQ(simulate("figure4.json", "paper", 1)["digest"], digest);
+  EXPECT_EQ(simulate("figure4.json", "global-step", 1)["digest"], digest);
+}
+
+}  // namespace
+}  // namespace fleetproof

@@ -1,0 +1,82 @@
+#include "campaign/task_pool.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <set>
+#include <stdexcept>
+#include <thread>
+
+namespace fleetproof {
+namespace {
+
+RunRecord record_of(std::uint64_t index) {
+  RunRecord record;
+  record.run_index = index;
+  return record;
+}
+
+std::multiset<std::uint64_t> drain(TaskPool& pool) {
+  std::multiset<std::uint64_t> indices;
+  while (!pool.finished()) {
+    if (const auto record = pool.next(std::chrono::milliseconds(50))) indices.insert(record->run_index);
+  }
+  return indices;
+}
+
+TEST(TaskPool, GivesEveryIndexExactlyOnce) {
+  for (const int workers : {1, 2, 7}) {
+    TaskPool pool(workers, 10, 510, 64, record_of);
+    const auto indices = drain(pool);
+    ASSERT_EQ(indices.size(), 500U) << workers;
+    EXPECT_EQ(std::set<std::uint64_t>(indices.begin(), indices.end()).size(), 500U);
+    EXPECT_EQ(*indices.begin(), 10U);
+    EXPECT_EQ(*indices.rbegin(), 509U);
+  }
+}
+
+TEST(TaskPool, ReallyRunsOnAsManyThreadsAsAsked) {
+  std::atomic<int> inside{0};
+  // Seven runs that can only end together: fewer threads would wait for ever, so there is a way out after five seconds.
+  TaskPool pool(7, 0, 7, 64, [&](std::uint64_t index) {
+    ++inside;
+    for (int i = 0; i < 5000 && inside < 7; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return record_of(index);
+  });
+  EXPECT_EQ(drain(pool).size(), 7U);
+  EXPECT_EQ(pool.threads_seen(), 7);
+}
+
+TEST(TaskPool, OneSlowRunStallsNothingButTheWindow) {
+  std::atomic<bool> release{false};
+  TaskPool pool(2, 0, 1000, 50, [&](std::uint64_t index) {
+    while (index == 0 && !release) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return record_of(index);
+  });
+  std::set<std::uint64_t> before;
+  while (before.size() < 49) {
+    if (const auto record = pool.next(std::chrono::milliseconds(50))) before.insert(record->run_index);
+  }
+  EXPECT_FALSE(pool.next(std::chrono::milliseconds(50))) << "run 50 would be more than a window ahead of run 0";
+  EXPECT_EQ(*before.rbegin(), 49U);
+  release = true;
+  EXPECT_EQ(drain(pool).size(), 951U);
+}
+
+TEST(TaskPool, StopsHandingOut) {
+  TaskPool pool(2, 0, 1'000'000'000, 1000, record_of);
+  (void)pool.next(std::chrono::milliseconds(1000));
+  pool.stop();
+  EXPECT_LT(drain(pool).size(), 100'000U);
+}
+
+TEST(TaskPool, PassesOnWhatARunThrows) {
+  TaskPool pool(2, 0, 100, 64, [](std::uint64_t index) {
+    if (index == 5) throw std::runtime_error("planted");
+    return record_of(index);
+  });
+  EXPECT_THROW(drain(pool), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace fleetproof

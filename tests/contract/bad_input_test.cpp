@@ -1,0 +1,94 @@
+// Bad input: one clear error on stderr, exit code 2, nothing written.
+#include <gmock/gmock.h>
+
+#include "tests/support/program.hpp"
+
+namespace fleetproof {
+namespace {
+
+using testing::HasSubstr;
+
+class BadInput : public test::ProgramTest {
+ protected:
+  void expect_refused(const std::string& words, const std::string& part_of_error) {
+    const auto before = names();
+    const auto finished = run(words);
+    EXPECT_EQ(finished.exit_code, 2) << words << "\n" << finished.err;
+    EXPECT_THAT(finished.err, HasSubstr(part_of_error)) << words;
+    EXPECT_EQ(finished.out, "") << words;
+    EXPECT_EQ(std::ranges::count(finished.err, '\n'), 1) << "one line: " << finished.err;
+    EXPECT_EQ(names(), before) << "nothing written: " << words;
+  }
+  std::set<std::string> names() const {
+    std::set<std::string> all{"stdout.txt", "stderr.txt"};
+    for (const auto& entry : std::filesystem::directory_iterator(folder_)) all.insert(entry.path().filename());
+    return all;
+  }
+  static std::string campaign(const std::string& factors, const std::string& before = "") {
+    return before + "[factors]\n" + factors + "\n";
+  }
+};
+
+TEST_F(BadInput, CampaignFiles) {
+  expect_refused("run none.toml", "none.toml: there is no such file");
+  write("syntax.toml", "name = \"a\"\nseed = = 1\n");
+  expect_refused("run syntax.toml", "syntax.toml:2:8");
+  write("key.toml", campaign("agents = [\"reckless\"]\nlayouts = [\"aisle-grid\"]", "replicatse = 1\n"));
+  expect_refused("run key.toml", "did you mean \"replicates\"?");
+  write("loss.toml", campaign("agents = [\"reckless\"]\nlayouts = [\"aisle-grid\"]\nloss = [1.4]"));
+  expect_refused("run loss.toml", "factors.loss holds 1.4");
+  write("zero.toml", campaign("agents = [\"reckless\"]\nlayouts = [\"aisle-grid\"]\nfleet_sizes = [0]"));
+  expect_refused("run zero.toml", "factors.fleet_sizes holds 0");
+  write("agent.toml", campaign("agents = [\"hull-look\"]\nlayouts = [\"aisle-grid\"]"));
+  expect_refused("run agent.toml", "did you mean \"hull-lock\"?");
+}
+
+TEST_F(BadInput, AnOpenTcsFileCutInHalf) {
+  const std::string whole = read(test::source("tests/layouts/crossdock.xml"));
+  ASSERT_GT(whole.size(), 1000U);
+  write("half.xml", whole.substr(0, whole.size() / 2));
+  write("half.toml", campaign("agents = [\"reckless\"]\nlayouts = [\"./half.xml\"]"));
+  expect_refused("run half.toml", "half.xml:");
+}
+
+TEST_F(BadInput, AFleetThatFindsNoPlace) {
+  write("crowd.toml", campaign("agents = [\"reckless\"]\nlayouts = [\"aisle-grid\"]\nfleet_sizes = [900]"));
+  expect_refused("run crowd.toml", "900");
+}
+
+TEST_F(BadInput, Archives) {
+  expect_refused("report none.db", "none.db: there is no such file");
+  write("text.db", "this is no database, only a text that is long enough to be read as one page of something\n");
+  expect_refused("report text.db", "not a campaign file");
+  expect_refused("replay text.db 0", "not a campaign file");
+  ASSERT_EQ(std::system(("cd '" + folder_.string() + "' && cp /dev/null empty.db").c_str()), 0);
+  expect_refused("report empty.db", "empty");
+}
+
+TEST_F(BadInput, ARunThatDoesNotExist) {
+  write("tiny.toml", campaign("agents = [\"reckless\"]\nlayouts = [\"aisle-grid\"]\nfleet_sizes = [2]", "horizon_s = 10\n"));
+  run("run tiny.toml --db tiny.db");
+  expect_refused("replay tiny.db 1", "1 does not exist; the campaign has runs 0 to 0");
+  expect_refused("replay tiny.db many", "RUN");
+  expect_refused("run tiny.toml --db tiny.db", "tiny.db");  // would overwrite
+}
+
+TEST_F(BadInput, Words) {
+  expect_refused("runn a.toml", "did you mean \"run\"?");
+  expect_refused("run", "CAMPAIGN");
+  expect_refused("simulate x.json --law exakt", "x.json");
+  expect_refused("simulate " + test::source("tests/scenarios/figure4.json") + " --law exakt", "did you mean \"exact\"?");
+  expect_refused("simulate " + test::source("tests/scenarios/figure4.json") + " --agent recless", "did you mean \"reckless\"?");
+  expect_refused("list lawss", "did you mean \"laws\"?");
+  expect_refused("run a.toml --jobs many", "--jobs");
+}
+
+TEST_F(BadInput, ScenarioFiles) {
+  write("broken.json", "{\"version\": 1,\n  \"name\": }");
+  expect_refused("simulate broken.json", "broken.json:2");
+  write("empty.json", "{}");
+  expect_refused("simulate empty.json", "empty.json");
+}
+
+}  // namespace
+}  // namespace fleetproof

@@ -1,0 +1,37 @@
+// A race planted in a run, for the thread sanitizer to find: the agent counts its events in a variable that all runs share.
+#include <cstdio>
+
+#include "campaign/task_pool.hpp"
+#include "core/simulation.hpp"
+#include "tests/support/worlds.hpp"
+
+namespace {
+
+std::uint64_t shared_events = 0;
+
+const fp_agent_type kRacyAgent = {sizeof(fp_agent_type),
+                                  FP_ABI_MAJOR,
+                                  FP_ABI_MINOR,
+                                  0,
+                                  "racy",
+                                  "keeps state outside its instance",
+                                  [](const fp_host*, fp_controller*, const fp_briefing*) -> void* { return &shared_events; },
+                                  [](void* agent, const fp_event*) { ++*static_cast<std::uint64_t*>(agent); },
+                                  [](void*) {}};
+
+}  // namespace
+
+int main() {
+  using namespace fleetproof;
+  const Scenario scenario = test::row_scenario(3, {0, 2});
+  TaskPool pool(2, 0, 2000, 1000, [&](std::uint64_t index) {
+    RunRecord record;
+    record.run_index = index;
+    record.outcome = simulate(scenario, kRacyAgent, {});
+    return record;
+  });
+  std::uint64_t runs = 0;
+  while (!pool.finished()) runs += pool.next(std::chrono::milliseconds(50)) ? 1 : 0;
+  std::printf("%llu runs, %llu events counted\n", static_cast<unsigned long long>(runs), static_cast<unsigned long long>(shared_events));
+  return 0;
+}

@@ -1,0 +1,127 @@
+// Every layout family over many seeds: room, reachability and sizes, measured without the generators' own judges.
+#include "generators/layout_family.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "generators/layout_check.hpp"
+#include "generators/layout_file.hpp"
+#include "independent_check.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr std::uint64_t kSeeds = 300;
+
+Layout make(const Entry<MakeLayout>& family, std::uint64_t seed) {
+  Draws draws(stream_key(seed, Stream::Layout));
+  return family.make(draws);
+}
+
+class LayoutFamily : public testing::TestWithParam<Entry<MakeLayout>> {};
+
+TEST_P(LayoutFamily, IsSoundAndStronglyConnected) {
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    const Layout layout = make(GetParam(), seed);
+    EXPECT_TRUE(problems_of(layout).empty()) << seed << ": " << problems_of(layout)[0].sentence;
+    EXPECT_TRUE(independent::all_reach_all(layout)) << seed;
+    EXPECT_NO_THROW(LogicalMap{layout});
+  }
+}
+
+bool is_place_to_wait(const Station& s) { return s.purposes.has(Purpose::Storage) || s.purposes.has(Purpose::Parking) || s.purposes.has(Purpose::Charging); }
+
+TEST_P(LayoutFamily, LeavesRoomToTurnAndToWait) {
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    const Layout layout = make(GetParam(), seed);
+    for (std::size_t i = 0; i < layout.stations.size(); ++i) {
+      const auto& station = layout.stations[i];
+      for (std::size_t k = 0; k < i; ++k) {
+        ASSERT_GE((station.position_m - layout.stations[k].position_m).norm(), 2.1) << seed << ": " << station.name << ", " << layout.stations[k].name;
+      }
+      if (!is_place_to_wait(station)) continue;
+      for (const auto& segment : layout.segments) {
+        if (segment.from == StationId{i} || segment.to == StationId{i}) continue;
+        ASSERT_GE(independent::distance_to_segment_m(layout, segment, station.position_m), 2.2) << seed << ": " << station.name << ", " << segment.name;
+      }
+    }
+  }
+}
+
+TEST_P(LayoutFamily, HasPlacesForEveryPurposeAndSegmentsOfUsualLength) {
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    const Layout layout = make(GetParam(), seed);
+    const auto count = [&](Purpose p) { return std::ranges::count_if(layout.stations, [&](const Station& s) { return s.purposes.has(p); }); };
+    EXPECT_GE(count(Purpose::Storage), 6) << seed;
+    EXPECT_GE(count(Purpose::Parking), 1) << seed;
+    EXPECT_GE(count(Purpose::Charging), 1) << seed;
+    EXPECT_LE(layout.segments.size(), 90U) << seed;
+    for (const auto& segment : layout.segments) {
+      const double length = independent::length_m(layout, segment);
+      EXPECT_GE(length, 3.0 - 1e-9) << seed << ": " << segment.name;
+      EXPECT_LE(length, segment.control_points_m.empty() ? 5.0 : 6.5) << seed << ": " << segment.name;
+    }
+  }
+}
+
+TEST_P(LayoutFamily, IsAFunctionOfTheDraws) {
+  std::vector<std::string> texts;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    texts.push_back(to_text(make(GetParam(), seed)));
+    EXPECT_EQ(texts.back(), to_text(make(GetParam(), seed)));
+  }
+  std::ranges::sort(texts);
+  EXPECT_TRUE(std::ranges::adjacent_find(texts) == texts.end()) << "two of 40 seeds gave the same layout";
+}
+
+INSTANTIATE_TEST_SUITE_P(All, LayoutFamily, testing::ValuesIn(layout_families().begin(), layout_families().end()), [](const auto& test) {
+  std::string name(test.param.name);
+  std::ranges::replace(name, '-', '_');
+  return name;
+});
+
+TEST(AisleGrid, HasTheSizeOfAPickingArea) {
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    const Layout layout = make(layout_family("aisle-grid"), seed);
+    EXPECT_GE(layout.segments.size(), 49U);
+    EXPECT_LE(layout.segments.size(), 83U);
+  }
+}
+
+TEST(AisleGrid, MixesOneWayAndTwoWayLines) {
+  std::size_t one_way = 0, two_way = 0;
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    for (const auto& s : make(layout_family("aisle-grid"), seed).segments) {
+      if (s.name.find_first_of("Bpd") == std::string::npos && !s.name.ends_with("charge")) ++(s.bidirectional ? two_way : one_way);
+    }
+  }
+  EXPECT_GT(one_way, two_way / 3);
+  EXPECT_GT(two_way, one_way / 3);
+}
+
+TEST(CorridorSidings, IsThirtyToSixtyMetresLongWithBends) {
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    const Layout layout = make(layout_family("corridor-sidings"), seed);
+    double length = 0.0;
+    for (const auto& s : layout.stations) {
+      if (s.name.starts_with("C")) length = std::max(length, s.position_m.x());
+    }
+    EXPECT_GE(length, 30.0) << seed;
+    EXPECT_LE(length, 60.0) << seed;
+    EXPECT_GE(std::ranges::count_if(layout.segments, [](const Segment& s) { return !s.control_points_m.empty(); }), 2) << seed;
+  }
+}
+
+TEST(LayoutFamilies, UnknownNameIsAnInputErrorWithAHint) {
+  try {
+    layout_family("aisle-gird");
+    FAIL() << "no such family exists";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("did you mean \"aisle-grid\""), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace fleetproof

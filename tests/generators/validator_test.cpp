@@ -1,0 +1,163 @@
+// Planted bad scenarios: each must be refused for the reason that was planted.
+#include "generators/validator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "generators/layout_check.hpp"
+#include "generators/world.hpp"
+
+namespace fleetproof {
+namespace {
+
+Scenario sound() {
+  RejectionCounts counts;
+  return generate_world(WorldSpec{}, 11, counts);
+}
+
+Layout with_layout(const Scenario& s, const std::function<void(Layout&)>& change) {
+  Layout layout = s.map->layout();
+  change(layout);
+  return layout;
+}
+
+struct Plant {
+  const char* name;
+  ProblemKind kind;
+  const char* pointer;
+  std::function<void(Scenario&)> change;
+};
+
+const double kNan = std::numeric_limits<double>::quiet_NaN();
+
+const Plant kPlants[] = {
+    {"loss", ProblemKind::NumberOutOfRange, "/radio/loss", [](Scenario& s) { s.radio.loss = 1.01; }},
+    {"loss_nan", ProblemKind::NumberOutOfRange, "/radio/loss", [](Scenario& s) { s.radio.loss = kNan; }},
+    {"delay", ProblemKind::NumberOutOfRange, "/radio/delay_s", [](Scenario& s) { s.radio.delay_s = -1; }},
+    {"range", ProblemKind::NumberOutOfRange, "/radio/range_m", [](Scenario& s) { s.radio.range_m = 0; }},
+    {"air_time", ProblemKind::NumberOutOfRange, "/radio/air_time_s", [](Scenario& s) { s.radio.air_time_s = -1; }},
+    {"call_cost", ProblemKind::NumberOutOfRange, "/agent_clock/call_cost_s", [](Scenario& s) { s.agent_clock.call_cost_s = -1; }},
+    {"safety", ProblemKind::NumberOutOfRange, "/law/safety_distance_m", [](Scenario& s) { s.law.safety_distance_m = -0.1; }},
+    {"snapshot", ProblemKind::NumberOutOfRange, "/law/snapshot_s", [](Scenario& s) { s.law.snapshot_s = 0; }},
+    {"horizon", ProblemKind::NumberOutOfRange, "/horizon_ns", [](Scenario& s) { s.horizon = Duration::zero(); }},
+    {"stuck", ProblemKind::NumberOutOfRange, "/stuck_after_ns", [](Scenario& s) { s.stuck_after = Duration{-1}; }},
+    {"no_agv", ProblemKind::EmptyFleet, "/agvs", [](Scenario& s) { s.agvs.clear(); }},
+    {"same_name", ProblemKind::BadName, "/agvs/1/name", [](Scenario& s) { s.agvs[1].name = s.agvs[0].name; }},
+    {"no_name", ProblemKind::BadName, "/agvs/0/name", [](Scenario& s) { s.agvs[0].name = ""; }},
+    {"latin1_name", ProblemKind::BadName, "/agvs/0/name", [](Scenario& s) { s.agvs[0].name = "caf\xe9"; }},
+    {"type", ProblemKind::UnknownReference, "/agvs/0/type", [](Scenario& s) { s.agvs[0].type = 1; }},
+    {"no_type", ProblemKind::UnknownReference, "/vehicle_types", [](Scenario& s) { s.vehicle_types.clear(); }},
+    {"start", ProblemKind::UnknownReference, "/agvs/2/start", [](Scenario& s) { s.agvs[2].start = StationId{9999U}; }},
+    {"heading", ProblemKind::NumberOutOfRange, "/agvs/0/heading", [](Scenario& s) { s.agvs[0].heading = {2, 0}; }},
+    {"battery", ProblemKind::NumberOutOfRange, "/agvs/0/battery", [](Scenario& s) { s.agvs[0].battery = 1.5; }},
+    {"length", ProblemKind::NumberOutOfRange, "/vehicle_types/0/length_m", [](Scenario& s) { s.vehicle_types[0].footprint.length_m = 0; }},
+    {"speed", ProblemKind::NumberOutOfRange, "/vehicle_types/0/drive/speed_mps", [](Scenario& s) { s.vehicle_types[0].drive.speed_mps = kNan; }},
+    {"turn", ProblemKind::NumberOutOfRange, "/vehicle_types/0/turn/acceleration_radps2",
+     [](Scenario& s) { s.vehicle_types[0].turn.acceleration_mps2 = 0; }},
+    {"pick", ProblemKind::NumberOutOfRange, "/vehicle_types/0/pick_s", [](Scenario& s) { s.vehicle_types[0].pick_s = -5; }},
+    {"to", ProblemKind::UnknownReference, "/agvs/0/transports/0/to", [](Scenario& s) { s.agvs[0].transports[0].to = StationId{}; }},
+    {"to_itself", ProblemKind::UnknownReference, "/agvs/0/transports/0/to", [](Scenario& s) { s.agvs[0].transports[0].to = s.agvs[0].transports[0].from; }},
+    {"release", ProblemKind::NumberOutOfRange, "/agvs/0/transports/0/release_ns", [](Scenario& s) { s.agvs[0].transports[0].release = Duration{-1}; }},
+    {"script", ProblemKind::UnknownReference, "/agvs/0/script/0/segment",
+     [](Scenario& s) { s.agvs[0].script = {{Duration{}, ScriptedCall::Action::Move, SegmentId{}}}; }},
+    {"script_order", ProblemKind::NumberOutOfRange, "/agvs/0/script/1/at_ns",
+     [](Scenario& s) {
+       s.agvs[0].script = {{Duration{5}, ScriptedCall::Action::Move, SegmentId{0U}}, {Duration{4}, ScriptedCall::Action::Move, SegmentId{0U}}};
+     }},
+    {"obstacle", ProblemKind::NumberOutOfRange, "/obstacles/0/width_m", [](Scenario& s) { s.obstacles = {{"rack", {1.0, -1.0}, {}}}; }},
+    {"starts", ProblemKind::StartsTooClose, "/agvs/1/start", [](Scenario& s) { s.agvs[1].start = s.agvs[0].start; }},
+    {"on_obstacle", ProblemKind::StartNearObstacle, "/agvs/3/start",
+     [](Scenario& s) { s.obstacles = {{"rack", {1.0, 1.0}, {s.map->station(s.agvs[3].start).position_m + 1.35 * s.agvs[3].heading, Vec2::UnitX()}}}; }},
+    {"weak_core", ProblemKind::WeakCore, "/layout",
+     [](Scenario& s) {
+       s.map = std::make_shared<const LogicalMap>(with_layout(s, [](Layout& l) {
+         for (auto& segment : l.segments) segment.bidirectional = false;
+       }));
+     }},
+};
+
+class PlantedScenario : public testing::TestWithParam<Plant> {};
+
+TEST_P(PlantedScenario, IsRefusedForWhatWasPlanted) {
+  Scenario s = sound();
+  ASSERT_TRUE(problems_of(s).empty());
+  GetParam().change(s);
+  const auto problems = problems_of(s);
+  ASSERT_FALSE(problems.empty());
+  EXPECT_EQ(problems[0].kind, GetParam().kind) << problems[0].sentence;
+  EXPECT_EQ(problems[0].pointer, GetParam().pointer);
+  EXPECT_FALSE(problems[0].sentence.empty());
+  EXPECT_EQ(unusable_problems(s).empty(), !is_unusable(GetParam().kind));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, PlantedScenario, testing::ValuesIn(kPlants), [](const auto& test) { return test.param.name; });
+
+TEST(Validator, AStationWithoutWayBackIsFoundAsUnreachable) {
+  Scenario s = sound();
+  StationId lost{};
+  // One of many stations becomes a trap: the core stays above 90 %.
+  s.map = std::make_shared<const LogicalMap>(with_layout(s, [&](Layout& l) {
+    for (std::size_t i = 0; i < l.stations.size(); ++i) {
+      if (l.stations[i].name == "dock1") lost = StationId{i};
+    }
+    for (auto& segment : l.segments) {
+      if (segment.to == lost) segment.bidirectional = false;
+    }
+  }));
+  auto& order = s.agvs[0].transports[0];
+  if (order.from == lost) std::swap(order.from, order.to);
+  order.to = lost;
+  s.agvs.resize(1);
+  s.agvs[0].transports.resize(1);
+  const auto problems = problems_of(s);
+  ASSERT_FALSE(problems.empty());
+  EXPECT_EQ(problems.back().kind, ProblemKind::Unreachable);
+}
+
+TEST(Validator, StartsAtExactlyTheSafetyDistanceAreAllowed) {
+  Scenario s = sound();
+  s.agvs.resize(2);
+  for (auto& agv : s.agvs) agv.transports.clear();
+  Layout layout;
+  layout.stations = {{"a", {0, 0}, Purpose::Parking}, {"b", {0, 1.1}, Purpose::Parking}};
+  layout.segments = {{"ab", StationId{0U}, StationId{1U}, true, {}}};
+  s.agvs[0].start = StationId{0U};
+  s.agvs[1].start = StationId{1U};
+  s.agvs[0].heading = s.agvs[1].heading = Vec2::UnitX();
+  s.map = std::make_shared<const LogicalMap>(layout);
+  EXPECT_TRUE(problems_of(s).empty());
+  layout.stations[1].position_m.y() = 1.0999;
+  s.map = std::make_shared<const LogicalMap>(layout);
+  EXPECT_EQ(problems_of(s).size(), 1U);
+}
+
+TEST(LayoutCheck, FindsWhatCannotBeDriven) {
+  const auto kind_after = [](const std::function<void(Layout&)>& change) {
+    const auto problems = problems_of(with_layout(sound(), change));
+    return problems.empty() ? std::string("sound") : std::string(name_of(problems[0].kind)) + problems[0].pointer;
+  };
+  EXPECT_EQ(kind_after([](Layout&) {}), "sound");
+  EXPECT_EQ(kind_after([](Layout& l) { l.stations.clear(); }), "bad-geometry/stations");
+  EXPECT_EQ(kind_after([](Layout& l) { l.stations[3].name = l.stations[2].name; }), "bad-name/stations/3/name");
+  EXPECT_EQ(kind_after([](Layout& l) { l.stations[3].position_m.x() = kNan; }), "number-out-of-range/stations/3/position_m");
+  EXPECT_EQ(kind_after([](Layout& l) { l.segments[0].to = l.segments[0].from; }), "bad-geometry/segments/0");
+  EXPECT_EQ(kind_after([](Layout& l) { l.segments[0].to = StationId{}; }), "unknown-reference/segments/0/to");
+  EXPECT_EQ(kind_after([](Layout& l) { l.segments[0].control_points_m = {{0, 0}}; }), "bad-geometry/segments/0/control_points_m");
+  EXPECT_EQ(kind_after([](Layout& l) { l.segments[0].control_points_m = {{kNan, 0}, {1, 1}}; }), "number-out-of-range/segments/0/control_points_m");
+  EXPECT_EQ(kind_after([](Layout& l) { std::swap(l.floor_low_m, l.floor_high_m); }), "number-out-of-range/floor_high_m");
+  EXPECT_EQ(kind_after([](Layout& l) {  // a cusp: the curve turns back on itself
+              const Vec2 a = l.stations[l.segments[0].from.index()].position_m, b = l.stations[l.segments[0].to.index()].position_m;
+              l.segments[0].control_points_m = {a + 3.0 * (b - a), b + 3.0 * (a - b)};
+            }),
+            "bad-geometry/segments/0");
+  EXPECT_EQ(kind_after([](Layout& l) {  // two pieces that meet at a right angle
+              const Vec2 a = l.stations[l.segments[0].from.index()].position_m;
+              l.segments[0].control_points_m = {a + Vec2(1, 0), a + Vec2(2, 0), a + Vec2(3, 0), a + Vec2(3, 1), a + Vec2(3, 2)};
+            }),
+            "bad-geometry/segments/0");
+}
+
+}  // namespace
+}  // namespace fleetproof

@@ -1,0 +1,260 @@
+#include "reports/report.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "reports/wording.hpp"
+#include "tests/reports/sample_campaign.hpp"
+#include "tests/storage/sample_records.hpp"
+
+namespace fleetproof {
+namespace {
+
+using samples::campaign_of;
+using samples::gate_of;
+using samples::grid;
+using samples::report_of;
+using testing::HasSubstr;
+using testing::Not;
+
+std::string render(const std::string& format, const ReportInput& input) { return find_entry(report_formats(), format)->make(input); }
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+ReportInput clean_campaign(std::uint64_t replicates = 200) {
+  return report_of(campaign_of("claim", replicates), grid({"sound"}, {0.0, 0.2, 0.4}, {0.0, 0.5, 1.0, 2.0}), {gate_of("sound", GateKind::None, Region::Contract, 1e-3)});
+}
+
+ReportInput failing_campaign(GateKind kind = GateKind::Rate) {
+  return report_of(campaign_of("claim", 5000), grid({"sound"}, {0.0, 0.4, 0.8}, {2.0}), {gate_of("sound", kind, Region::Contract, 1e-2)}, [](RunRecord& run) {
+    if (run.run_index == 3001) samples::violate(run);  // at 40 %, 2 s
+  });
+}
+
+TEST(Report, without_a_violation_the_bound_is_printed_all_the_same) {
+  for (const auto* format : {"text", "markdown"}) {
+    auto page = render(format, clean_campaign());
+    std::ranges::replace(page, '\n', ' ');
+    EXPECT_THAT(page, HasSubstr("not demonstrated")) << format;
+    EXPECT_THAT(page, HasSubstr("0 of 200 replicates failed")) << format;
+    EXPECT_THAT(page, HasSubstr("0.0149")) << format;
+    EXPECT_THAT(page, HasSubstr("2995 replicates")) << format;
+  }
+}
+
+TEST(Report, the_verdict_claims_what_was_sampled) {
+  auto page = render("markdown", clean_campaign());
+  EXPECT_THAT(page, HasSubstr("200 replicates at these 12 combinations (loss 0 %, 20 %, 40 %; delay 0 s, 0.5 s, 1 s, 2 s), layout ring, fleets of 5, 600 s a run"));
+  EXPECT_THAT(render("markdown", clean_campaign(3000)), HasSubstr("**demonstrated**"));
+}
+
+TEST(Report, one_violation_in_the_contract_region_heads_the_page_even_if_the_rate_is_met) {
+  const auto input = failing_campaign();
+  EXPECT_EQ(input.gates[0].verdict, Verdict::Demonstrated);
+  const auto lines = lines_of(render("text", input));
+  ASSERT_GT(lines.size(), 3u);
+  EXPECT_THAT(lines[2], HasSubstr("violation | agent sound broke the safety distance in 1 run within the contract region"));
+  const auto page = render("text", input);
+  EXPECT_LT(page.find("-> fleetproof replay night.fp 3001"), page.find("demonstrated |"));
+}
+
+TEST(Report, a_refuted_gate_shows_its_run) {
+  const auto page = render("text", failing_campaign(GateKind::None));
+  EXPECT_THAT(page, HasSubstr("violated | gate \"safe\""));
+  EXPECT_THAT(page, HasSubstr("fleetproof replay night.fp 3001"));
+}
+
+TEST(Report, sections_stand_in_their_order) {
+  const auto page = render("text", failing_campaign());
+  std::size_t last = 0;
+  for (const auto* title : {"demonstrated |", "Worst case of the contract", "Contract region: loss", "Outside the contract\n", "Weak points", "Worst runs", "Provenance",
+                            "How to read this"}) {
+    const auto at = page.find(title, last);
+    ASSERT_NE(at, std::string::npos) << title;
+    last = at;
+  }
+}
+
+TEST(Report, a_table_row_has_interval_bound_clearance_and_progress) {
+  const auto page = render("text", failing_campaign());
+  const auto lines = lines_of(page);
+  const auto row = std::ranges::find_if(lines, [](const std::string& line) { return line.find("sound") != std::string::npos && line.find("  40 %") != std::string::npos; });
+  ASSERT_NE(row, lines.end());
+  EXPECT_THAT(*row, testing::ContainsRegex("1/5000 +0.0002 +\\[5.06e-06, 0.00112\\] +0.000949 +0 +0 +0 +0.07 m +12.00"));
+}
+
+TEST(Report, no_text_line_is_wider_than_150_columns) {
+  for (const auto& input : {clean_campaign(), failing_campaign(), report_of(campaign_of("claim", 3), grid({"sound-with-timeouts-and-a-long-name", "sound"}, {0.4}, {2.0}, {"ring", "cross"}), {})}) {
+    for (const auto& line : lines_of(render("text", input))) EXPECT_LE(line.size(), 150u) << line;
+  }
+}
+
+TEST(Report, a_table_too_wide_for_a_terminal_still_names_every_agent) {
+  const auto input = report_of(campaign_of("claim", 3000), grid({"an-agent-with-a-name-that-is-very-long", "sound"}, {0.4}, {2.0}), {}, [](RunRecord& run) {
+    if (run.run_index == 7) samples::violate(run);
+  });
+  const auto lines = lines_of(render("text", input));
+  const auto name = std::ranges::find(lines, " an-agent-with-a-name-that-is-very-long");
+  ASSERT_NE(name, lines.end());
+  EXPECT_THAT(*std::next(name), HasSubstr("0/3000"));
+  EXPECT_EQ(*std::next(name, 2), " sound");
+  EXPECT_THAT(*std::next(name, 3), HasSubstr("1/3000"));
+}
+
+TEST(Report, a_search_prints_counts_and_no_rates) {
+  const auto input = report_of(campaign_of("search", 50), grid({"sound"}, {0.4}, {2.0, 5.0}), {gate_of("sound", GateKind::None, Region::Contract, 1e-3)}, [](RunRecord& run) {
+    if (run.run_index == 10) samples::violate(run);
+  });
+  for (const auto* format : {"text", "markdown"}) {
+    const auto page = render(format, input);
+    EXPECT_THAT(page, HasSubstr("1 run failed"));
+    EXPECT_THAT(page, Not(HasSubstr("interval")));
+    EXPECT_THAT(page, Not(HasSubstr("upper")));
+  }
+  const auto json = nlohmann::json::parse(render("json", input));
+  EXPECT_TRUE(json["gates"][0]["claim"].is_null());
+  EXPECT_FALSE(json["cells"][0].contains("claim"));
+  EXPECT_EQ(json["verdict"], "violated");
+}
+
+TEST(Report, pooled_rows_say_that_their_unit_is_the_replicate) {
+  const auto pooled = report_of(campaign_of("claim", 20), grid({"sound"}, {0.4}, {2.0}, {"ring", "cross", "aisle"}), {}, [](RunRecord& run) {
+    if (run.replicate == 4) samples::violate(run);
+  });
+  EXPECT_THAT(render("text", pooled), HasSubstr("Its unit is the replicate"));
+  EXPECT_THAT(render("text", pooled), HasSubstr("1/20"));
+  EXPECT_THAT(render("text", pooled), HasSubstr("3 runs"));
+  EXPECT_THAT(render("text", clean_campaign()), Not(HasSubstr("Its unit is the replicate")));
+  EXPECT_EQ(nlohmann::json::parse(render("json", pooled))["cells"].size(), 3u);
+}
+
+TEST(Report, weak_points_are_named) {
+  const auto input = report_of(campaign_of("claim", 10), grid({"sound", "other"}, {0.0, 0.4}, {2.0}), {gate_of("sound", GateKind::None, Region::Contract, 1e-3)},
+                               [](RunRecord& run) {
+                                 if (run.cell == 1) run.outcome.counters.transports_done = 0;
+                                 if (run.cell == 2 && run.replicate == 5) run.outcome.crash = true;
+                               },
+                               2);
+  const auto json = nlohmann::json::parse(render("json", input));
+  const auto points = json["weak_points"].dump();
+  EXPECT_THAT(points, HasSubstr("2 of 42 stored runs are not counted"));
+  EXPECT_THAT(points, HasSubstr("takes 2995"));
+  EXPECT_THAT(points, HasSubstr("1 of 4 cells of the contract region completed no transport: sound on ring, fleet of 5, 40 %, 2 s"));
+  EXPECT_THAT(points, HasSubstr("1 of 4 cells have runs with an unknown outcome"));
+  EXPECT_THAT(points, HasSubstr("No gate judges agent other"));
+}
+
+TEST(Report, unknown_outcomes_have_their_optimistic_line) {
+  const auto input = report_of(campaign_of("claim", 100), grid({"sound"}, {0.4}, {2.0}), {gate_of("sound", GateKind::Rate, Region::WorstCase, 1e-3)}, [](RunRecord& run) {
+    run.outcome.crash = run.run_index % 10 == 0;
+  });
+  const auto page = render("markdown", input);
+  EXPECT_THAT(page, HasSubstr("10 of 100 runs failed"));
+  EXPECT_THAT(page, HasSubstr("if none of them had failed: 0 of 100, upper bound 0.0296"));
+}
+
+TEST(Report, json_has_full_digits_units_and_hexadecimal_digests) {
+  const auto json = nlohmann::json::parse(render("json", failing_campaign()));
+  EXPECT_EQ(json["schema_version"], 1);
+  EXPECT_EQ(json["exit_code"], 0);
+  EXPECT_EQ(json["verdict"], "demonstrated");
+  EXPECT_EQ(json["campaign"]["plan_hash"], "0000000000000abc");
+  EXPECT_EQ(json["campaign"]["judged_runs"], 15000);
+  const auto& gate = json["gates"][0];
+  EXPECT_EQ(gate["verdict"], "demonstrated");
+  EXPECT_NEAR(gate["claim"]["upper_bound"].get<double>(), upper_bound(1, 5000, 0.95), 1e-17);
+  EXPECT_EQ(gate["worst_run"]["replay"], "fleetproof replay night.fp 3001");
+  EXPECT_EQ(gate["worst_run"]["closest"]["closest_at_s"], 12.345);
+  const auto& cell = json["cells"][1];
+  for (const auto* key : {"delay_s", "loss", "runs", "violating_runs", "stuck_runs", "min_clearance_m", "agv_hours", "transports_per_agv_hour", "claim", "optimistic"}) {
+    EXPECT_TRUE(cell.contains(key)) << key;
+  }
+  EXPECT_EQ(cell["min_clearance_m"], 0.07);
+  EXPECT_TRUE(json["cells"][0]["min_clearance_m"].is_null());
+}
+
+TEST(Report, markdown_of_500_cells_stays_under_60_kilobytes_and_keeps_the_failing_rows) {
+  std::vector<double> losses, delays_s;
+  for (int i = 0; i < 25; ++i) losses.push_back(0.02 * i);
+  for (int i = 0; i < 20; ++i) delays_s.push_back(0.2 * i);
+  const auto cells = grid({"a-rather-long-name-of-an-agent-under-test"}, losses, delays_s);
+  ASSERT_EQ(cells.size(), 500u);
+  const auto input = report_of(campaign_of("claim", 3), cells, {gate_of(cells[0].agent, GateKind::None, Region::Contract, 1e-3)}, [](RunRecord& run) {
+    if (run.cell == 205) samples::violate(run);
+    if (run.cell > 400) {
+      run.outcome.crash = true;
+      run.outcome.message = std::string(5000, 'x');
+    }
+  });
+  const auto page = render("markdown", input);
+  EXPECT_LT(page.size(), 60'000u);
+  EXPECT_THAT(page, HasSubstr("rows with fewer failures are left out"));
+  EXPECT_THAT(page, HasSubstr("| 20 % | 1 s | 3 | 3 | 3/3 |"));
+  EXPECT_EQ(nlohmann::json::parse(render("json", input))["cells"].size(), 500u);
+}
+
+TEST(Report, names_from_outside_cannot_break_the_page) {
+  auto campaign = campaign_of("claim", 1);
+  campaign.name = "a|b\n<script>\x1b[31m\xff";
+  const auto input = report_of(campaign, grid({"ag|ent`"}, {0.4}, {2.0}), {}, [](RunRecord& run) {
+    run.outcome.crash = true;
+    run.outcome.message = "line one\nline two\x1b[0m";
+  });
+  const auto text = render("text", input);
+  EXPECT_EQ(text.find('\x1b'), std::string::npos);
+  EXPECT_THAT(text, HasSubstr("line one line two"));
+  const auto markdown = render("markdown", input);
+  EXPECT_EQ(markdown.find("<script>"), std::string::npos);
+  EXPECT_THAT(markdown, HasSubstr("ag\\|ent\\`"));
+  EXPECT_TRUE(nlohmann::json::accept(render("json", input)));
+}
+
+TEST(Report, the_replay_line_survives_a_shell) {
+  EXPECT_EQ(replay_command("out/night.fp", 7), "fleetproof replay out/night.fp 7");
+  EXPECT_EQ(replay_command("my night.fp", 7), "fleetproof replay 'my night.fp' 7");
+  EXPECT_EQ(replay_command("it's.fp", 7), "fleetproof replay 'it'\\''s.fp' 7");
+  EXPECT_EQ(replay_command("-x.fp", 7), "fleetproof replay './-x.fp' 7");
+}
+
+TEST(Report, clearances_round_towards_the_unsafe_side) {
+  EXPECT_EQ(metres_text(99'999), "0.09 m");
+  EXPECT_EQ(metres_text(100'000), "0.10 m");
+  EXPECT_EQ(metres_text(-1), "-0.01 m");
+  EXPECT_EQ(percent(0.4), "40 %");
+  EXPECT_EQ(percent(0.125), "12.5 %");
+  EXPECT_EQ(seconds_text(2.0), "2 s");
+  EXPECT_EQ(seconds_text(0.255), "0.26 s");
+}
+
+TEST(Report, reads_an_archive_up_to_its_first_gap) {
+  const samples::TemporaryFolder folder;
+  const auto cells = grid({"sound"}, {0.4}, {1.0, 2.0});
+  ArchiveWriter writer(folder / "night.fp", campaign_of("claim", 10), cells, {gate_of("sound", GateKind::None, Region::Contract, 1e-3)});
+  for (const std::uint64_t i : {0u, 1u, 2u, 3u, 5u}) writer.add(samples::clean_run(i, 2));
+  writer.publish(20);
+  const auto input = read_report_input(ArchiveReader(folder / "night.fp"), "typed.fp");
+  EXPECT_EQ(input.stored_runs, 5u);
+  EXPECT_EQ(input.evidence.runs(), 4u);
+  EXPECT_EQ(input.evidence.complete_replicates(), 2u);
+  EXPECT_EQ(input.exit_code, 4);
+  EXPECT_THAT(render("text", input), HasSubstr("archive: typed.fp"));
+}
+
+TEST(Report, every_format_renders_an_empty_campaign) {
+  const auto input = report_of(campaign_of("claim", 0), grid({"sound"}, {0.4}, {2.0}), {gate_of("sound", GateKind::None, Region::Contract, 1e-3)});
+  for (const auto& format : report_formats()) {
+    EXPECT_FALSE(format.description.empty());
+    EXPECT_THAT(format.make(input), HasSubstr("no replicate is complete")) << format.name;
+  }
+}
+
+}  // namespace
+}  // namespace fleetproof

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "reports/report.hpp"
+
+namespace fleetproof::samples {
+
+inline CampaignRecord campaign_of(std::string kind, std::uint64_t replicates) {
+  CampaignRecord record;
+  record.name = "nightly";
+  record.kind = std::move(kind);
+  record.seed = 42;
+  record.replicates = replicates;
+  record.plan_hash = 0xabcULL;
+  record.engine = {"0.1.0", "f00d", "g++ 12.2.0", "-O2 -ffp-contract=off", "SQLite 3.40.1"};
+  return record;
+}
+
+// agents x layouts x losses x delays, fleets of 5.
+inline std::vector<CellRecord> grid(const std::vector<std::string>& agents, const std::vector<double>& losses, const std::vector<double>& delays_s,
+                                    const std::vector<std::string>& layouts = {"ring"}) {
+  std::vector<CellRecord> cells;
+  for (const auto& agent : agents) {
+    for (const auto& layout : layouts) {
+      for (const double loss : losses) {
+        for (const double delay_s : delays_s) cells.push_back({static_cast<std::uint32_t>(cells.size()), agent, layout, 5, loss, delay_s});
+      }
+    }
+  }
+  return cells;
+}
+
+inline GateRecord gate_of(std::string agent, GateKind kind, Region region, double limit, double floor = 1.0) {
+  return {0, "safe", std::move(agent), kind, EndPoint::Violation, region, limit, 0.95, floor};
+}
+
+// 600 s with 5 AGVs and ten transports: 12 per AGV-hour.
+inline RunRecord clean_run(std::uint64_t run_index, std::size_t cells) {
+  RunRecord run;
+  run.run_index = run_index;
+  run.cell = static_cast<std::uint32_t>(run_index % cells);
+  run.replicate = run_index / cells;
+  run.outcome.simulated_ns = 600'000'000'000;
+  run.outcome.agv_count = 5;
+  run.outcome.counters.transports_done = 10;
+  return run;
+}
+
+inline void violate(RunRecord& run, std::int64_t clearance_um = 70'000, bool contact = false) {
+  Violation violation;
+  violation.a = EntityId{1u};
+  violation.b = EntityId{3u};
+  violation.first = at_seconds(12.3);
+  violation.closest_at = at_seconds(12.345);
+  violation.min_clearance_um = clearance_um;
+  violation.contact = contact;
+  file_violations(run.outcome, {violation});
+}
+
+using Change = std::function<void(RunRecord&)>;
+
+// The judged evidence of `replicates` replicates, each run changed by `change`.
+inline ReportInput report_of(CampaignRecord campaign, const std::vector<CellRecord>& cells, const std::vector<GateRecord>& gates, const Change& change = {},
+                             std::uint64_t extra_runs = 0) {
+  ReportInput input{"night.fp", campaign, Evidence(campaign, cells, gates), {}, 0, 4};
+  for (std::uint64_t i = 0; i < campaign.replicates * cells.size() + extra_runs; ++i) {
+    auto run = clean_run(i, cells.size());
+    if (change) change(run);
+    input.evidence.add(run);
+    ++input.stored_runs;
+  }
+  input.gates = input.evidence.judge_all();
+  input.exit_code = exit_code(input.evidence, input.gates);
+  return input;
+}
+
+}  // namespace fleetproof::samples
