@@ -35,6 +35,12 @@ bool must_stop(const RunOptions& options, double elapsed_s) {
   return interrupted || (options.max_time && elapsed_s >= static_cast<double>(options.max_time->count()));
 }
 
+// One world per layout and fleet size: what cannot be built at all is said before anything is written.
+void build_first_worlds(const CampaignPlan& plan, const ScenarioSource& scenarios) {
+  const std::uint64_t cells_per_world = plan.loss.size() * plan.delay_s.size() * plan.agents.size();
+  for (std::uint64_t index = 0; index < plan.cell_count(); index += cells_per_world) (void)scenarios.scenario(index);
+}
+
 }  // namespace
 
 CampaignRecord campaign_record(const CampaignPlan& plan) {
@@ -53,12 +59,14 @@ CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& progr
                             const CampaignListener& listener) {
   using Clock = std::chrono::steady_clock;
   const RunOne run_one(plan, programs);
+  build_first_worlds(plan, run_one.scenarios());
   ArchiveWriter archive(path, campaign_record(plan), plan.cells(), plan.gates);
   CampaignResult result;
   result.progress.planned = plan.run_count();
+  listener.started();
   Prefix prefix;
   const auto started = Clock::now();
-  auto last_tick = started;
+  auto last_tick = started, last_commit = started;
   {
     TaskPool pool(options.workers, 0, plan.run_count(), kLiveWindow, [&](std::uint64_t index) { return run_one(index); });
     while (!pool.finished()) {
@@ -77,6 +85,10 @@ CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& progr
       if (now - last_tick >= std::chrono::milliseconds(100)) {
         last_tick = now;
         listener.tick(result.progress);
+      }
+      if (now - last_commit >= std::chrono::seconds(1)) {  // even while one slow run lets no other finish
+        last_commit = now;
+        archive.commit();
       }
     }
     result.threads = pool.threads_seen();

@@ -33,12 +33,14 @@ struct CampaignResult {
 
 // What a campaign tells while it runs, on the caller's thread.
 struct CampaignListener {
+  std::function<void()> started = [] {};  // the file is open, no run has begun
   std::function<void(const RunRecord&)> run_finished = [](const RunRecord&) {};
   std::function<void(const Progress&)> tick = [](const Progress&) {};  // about ten times a second
 };
 
 // Runs the plan and leaves its campaign file at `path`. Rows are stored as runs finish; the file holds the gap-free prefix of run indices, so the
-// same runs give the same bytes on any number of workers, in any order of finishing.
+// same runs give the same bytes on any number of workers, in any order of finishing. Throws InputError, with nothing written, if an agent is not known,
+// a layout has no room for its fleet, or the file exists.
 CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& path, const RunOptions& options,
                             const CampaignListener& listener);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/catalogue.hpp"
 #include "core/error.hpp"
 
 namespace fleetproof {

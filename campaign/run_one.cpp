@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/error.hpp"
 #include "core/simulation.hpp"
 #include "generators/scenario_file.hpp"
 #include "laws/laws.hpp"
@@ -14,14 +15,22 @@ RunOne::RunOne(const CampaignPlan& plan, const AgentPrograms& programs) : plan_(
 
 RunRecord RunOne::operator()(std::uint64_t run_index, TraceSink* sink) const {
   const RunPlace place = scenarios_.place(run_index);
-  const Scenario scenario = scenarios_.scenario(run_index);
-  const auto agent = std::ranges::find(plan_.agents, place.cell.agent) - plan_.agents.begin();
-  std::vector<std::unique_ptr<Law>> laws;
-  laws.push_back(find_entry(fleetproof::laws(), "exact")->make(scenario));
   RunRecord record;
   record.run_index = run_index;
   record.cell = place.cell.index;
   record.replicate = place.replicate;
+  Scenario scenario;
+  try {
+    scenario = scenarios_.scenario(run_index);
+  } catch (const InputError& no_world) {
+    // This seed found no room for the fleet. The run stays in the count, as one of which nothing is known.
+    record.outcome.indeterminate = true;
+    record.outcome.message = no_world.what();
+    return record;
+  }
+  const auto agent = std::ranges::find(plan_.agents, place.cell.agent) - plan_.agents.begin();
+  std::vector<std::unique_ptr<Law>> laws;
+  laws.push_back(find_entry(fleetproof::laws(), "exact")->make(scenario));
   record.scenario_digest = scenario_digest(scenario);
   record.outcome = simulate(scenario, *agents_[static_cast<std::size_t>(agent)], laws, sink, plan_.agent_config.c_str());
   return record;

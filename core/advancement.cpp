@@ -35,7 +35,9 @@ class Walk {
  private:
   static std::int64_t ns_between(SimTime s, SimTime t) { return std::abs((t - s).count()); }
   static double seconds_between(SimTime s, SimTime t) { return to_seconds(Duration{ns_between(s, t)}); }
-  SimTime after(SimTime t, double wait_s) const { return t + Duration{static_cast<std::int64_t>(wait_s * 1e9) * static_cast<int>(sense_)}; }
+  SimTime later(SimTime t, std::int64_t by_ns) const { return t + Duration{by_ns * static_cast<int>(sense_)}; }
+  // Rounded down: never beyond what has been proved.
+  SimTime after(SimTime t, double wait_s) const { return later(t, static_cast<std::int64_t>(wait_s * 1e9)); }
   SimTime nearer(SimTime s, SimTime t) const { return sense_ == TimeSense::Forward ? std::min(s, t) : std::max(s, t); }
 
   void arrive(SimTime t) {
@@ -54,12 +56,12 @@ class Walk {
   // To the end of the phase, or to where the bound meets the level and the clearance is measured anew.
   void jump() {
     const PhaseMotion first = motion_from(a_, body_a_, now_, to_, sense_), second = motion_from(b_, body_b_, now_, to_, sense_);
-    if (measured_) axis_ = Axis(apart_.direction, first, second);
+    if (measured_) axis_ = Axis(apart_, first, second);
     GapBound bound(first, second, axis_);
     if (!measured_ && !bound.exact() && bound.now_m() - level_m_ < kWorn * (apart_.clearance_m - level_m_)) {
       measure();
       if (apart_.clearance_m < level_m_) return;
-      axis_ = Axis(apart_.direction, first, second);
+      axis_ = Axis(apart_, first, second);
       bound = GapBound(first, second, axis_);
     }
     from_ = now_;
@@ -72,7 +74,7 @@ class Walk {
     if (next != now_) {
       arrive(next);
     } else if (fresh) {
-      arrive(after(now_, 1.5e-9));
+      arrive(later(now_, 1));
     }
     measure();
   }

@@ -31,7 +31,8 @@ std::optional<SimTime> first_below(const Piece& a, const Piece& b, Interval with
 // Last such instant: first_below seen backwards in time.
 std::optional<SimTime> last_below(const Piece& a, const Piece& b, Interval within, double level_m, EvaluationCount& count);
 
-// Smallest clearance over the interval, to `tolerance_m`, with an instant at which it is met; nothing if it stays at or above `below_m`.
+// Smallest clearance over the interval, to `tolerance_m`, with an instant at which it is met; nothing if it stays at or above `below_m`. If the
+// bodies touch, the first instant at which they do, with the clearance (zero or less) of that instant.
 std::optional<ClosestApproach> closest_approach(const Piece& a, const Piece& b, Interval within, double below_m, EvaluationCount& count,
                                                 double tolerance_m = 1e-7);
 

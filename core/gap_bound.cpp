@@ -17,26 +17,41 @@ double first_root(double value, double rate, double bend) {
   return bend < 0.0 ? (rate + std::sqrt(square)) / -bend : kNotMet;
 }
 
-// The corners that can be the foremost along a direction while the phase lasts, from the reference point.
-struct Arms {
-  std::array<Vec2, 4> arm_m;
-  std::size_t count = 4;
+// From the reference point.
+std::array<Vec2, 4> corner_arms(const OrientedRectangle& body) {
+  const Vec2 along = body.half_length_m * body.heading, aside = body.half_width_m * left_of(body.heading);
+  return {along + aside, aside - along, -along - aside, along - aside};
+}
+
+Vec2 foremost_corner(const OrientedRectangle& body, const Vec2& direction) {
+  const double ahead = direction.dot(body.heading) < 0.0 ? -body.half_length_m : body.half_length_m;
+  const double beside = cross(body.heading, direction) < 0.0 ? -body.half_width_m : body.half_width_m;
+  return ahead * body.heading + beside * left_of(body.heading);
+}
+
+// The corners that can be the foremost along a direction while the phase lasts.
+struct Corners {
+  std::array<PointMotion, 4> at;
+  std::size_t count = 0;
+
+  Corners(const PhaseMotion& motion, const Vec2& direction) {
+    if (!motion.rotates()) {
+      at[count++] = motion.point(foremost_corner(motion.body, direction));
+    } else {
+      for (const Vec2& arm : corner_arms(motion.body)) at[count++] = motion.point(arm);
+    }
+  }
 };
 
-Arms all_corners(const OrientedRectangle& body) {
-  const Vec2 along = body.half_length_m * body.heading, aside = body.half_width_m * left_of(body.heading);
-  return {{along + aside, aside - along, -along - aside, along - aside}};
-}
-
-Arms foremost_corners(const PhaseMotion& motion, const Vec2& direction) {
-  Arms arms = all_corners(motion.body);
-  if (motion.rotates()) return arms;
-  for (std::size_t i = 1; i < 4; ++i) {
-    if (direction.dot(arms.arm_m[i]) > direction.dot(arms.arm_m[0])) arms.arm_m[0] = arms.arm_m[i];
+// The most that turning at a rate (and its own rate, constant) can give a lever of length 1: its second derivative, its third.
+struct TurningBound {
+  double second, third;
+  TurningBound(double top_rad_s, double rad_s2) {
+    const double w2 = top_rad_s * top_rad_s, a2 = rad_s2 * rad_s2;
+    second = std::sqrt(a2 + w2 * w2);
+    third = std::abs(top_rad_s) * std::sqrt(9.0 * a2 + w2 * w2);
   }
-  arms.count = 1;
-  return arms;
-}
+};
 
 bool is_side(const Vec2& direction, const OrientedRectangle& body) {
   constexpr double kAligned = 1e-9;
@@ -47,15 +62,25 @@ Vec2 into_frame(const Vec2& direction, const Vec2& heading) { return {direction.
 
 }  // namespace
 
-Axis::Axis(const Vec2& direction, const PhaseMotion& first, const PhaseMotion& second) : local_(direction) {
-  const bool first_side = is_side(direction, first.body), second_side = is_side(direction, second.body);
-  if (first_side && first.rotates() && !(second_side && !second.rotates())) {
-    tie_ = Tie::First;
-    local_ = into_frame(direction, first.body.heading);
-  } else if (second_side && second.rotates() && !(first_side && !first.rotates())) {
-    tie_ = Tie::Second;
-    local_ = into_frame(direction, second.body.heading);
+Axis::Axis(const Separation& apart, const PhaseMotion& first, const PhaseMotion& second) : local_(apart.direction) {
+  const bool first_side = is_side(apart.direction, first.body), second_side = is_side(apart.direction, second.body);
+  if (first_side || second_side) {
+    const bool floor = (first_side && !first.rotates()) || (second_side && !second.rotates());
+    tie_ = floor ? Tie::Floor : first_side ? Tie::First : Tie::Second;
+  } else if (first.rotates() || second.rotates()) {
+    tie_ = tie_between_corners(apart, first, second);
   }
+  if (tie_ != Tie::Floor) local_ = into_frame(apart.direction, tie_ == Tie::First ? first.body.heading : second.body.heading);
+}
+
+Axis::Tie Axis::tie_between_corners(const Separation& apart, const PhaseMotion& first, const PhaseMotion& second) {
+  const Vec2 passing_mps = second.point(foremost_corner(second.body, -apart.direction)).velocity_mps -
+                           first.point(foremost_corner(first.body, apart.direction)).velocity_mps;
+  const double turning = cross(apart.direction, passing_mps) / std::max(apart.clearance_m, 1e-9);
+  const double off_floor = std::abs(turning), off_first = std::abs(turning - first.turning_rad_s());
+  const double off_second = std::abs(turning - second.turning_rad_s());
+  if (first.rotates() && off_first < off_floor && off_first <= off_second) return Tie::First;
+  return second.rotates() && off_second < off_floor ? Tie::Second : Tie::Floor;
 }
 
 Vec2 Axis::direction(const OrientedRectangle& first, const OrientedRectangle& second) const {
@@ -66,9 +91,9 @@ Vec2 Axis::direction(const OrientedRectangle& first, const OrientedRectangle& se
 GapBound::GapBound(const PhaseMotion& first, const PhaseMotion& second, const Axis& axis) {
   const Vec2 direction = axis.direction(first.body, second.body);
   if (axis.tie() == Axis::Tie::First) {
-    add_corners_from_side(first, second, direction);
+    add_corners_seen_from(first, second, direction);
   } else if (axis.tie() == Axis::Tie::Second) {
-    add_corners_from_side(second, first, -direction);
+    add_corners_seen_from(second, first, -direction);
   } else {
     add_corners_apart(first, second, direction);
     exact_ = count_ == 1;
@@ -76,33 +101,32 @@ GapBound::GapBound(const PhaseMotion& first, const PhaseMotion& second, const Ax
 }
 
 void GapBound::add_corners_apart(const PhaseMotion& first, const PhaseMotion& second, const Vec2& direction) {
-  const Arms near = foremost_corners(first, direction), far = foremost_corners(second, -direction);
-  std::array<PointMotion, 4> theirs;
-  for (std::size_t j = 0; j < far.count; ++j) theirs[j] = second.point(far.arm_m[j]);
+  const Corners near(first, direction), far(second, -direction);
   for (std::size_t i = 0; i < near.count; ++i) {
-    const PointMotion p = first.point(near.arm_m[i]);
+    const PointMotion& p = near.at[i];
     for (std::size_t j = 0; j < far.count; ++j) {
-      const PointMotion& q = theirs[j];
-      Term& term = terms_[count_++];
-      term.value = direction.dot(q.position_m - p.position_m);
-      term.rate = direction.dot(q.velocity_mps - p.velocity_mps);
-      term.bend = direction.dot(q.acceleration_mps2 - p.acceleration_mps2);
-      term.loss = (p.top_mps3 + q.top_mps3) / 3.0;
-      term.least = -(p.top_mps2 + q.top_mps2);
+      const PointMotion& q = far.at[j];
+      terms_[count_++] = {direction.dot(q.position_m - p.position_m),
+                          direction.dot(q.velocity_mps - p.velocity_mps),
+                          direction.dot(q.acceleration_mps2 - p.acceleration_mps2),
+                          (p.top_mps3 + q.top_mps3) / 3.0,
+                          0.0,
+                          -(p.top_mps2 + q.top_mps2),
+                          0.0};
     }
   }
 }
 
-// Seen from the body whose side it is, the side rests, and a corner at r (from the reference point) of the other has the derivatives that a turning
-// frame gives it: r' - w Jr, r'' - 2w Jr' - a Jr - w^2 r, and a third one below r''' + 3w r'' + 3(a + w^2) r' + (3wa + w^3) r in magnitude; J is
-// left_of, w the frame's rate of turning and a the rate's own.
-void GapBound::add_corners_from_side(const PhaseMotion& sided, const PhaseMotion& other, const Vec2& outward) {
-  const PointMotion origin = sided.point(Vec2::Zero());
-  const double w = sided.turning_rad_s(), a = sided.curvature * sided.acceleration;
-  const double top_w = std::abs(sided.curvature) * sided.top_speed, top_a = std::abs(a);
-  const double half_m = sided.half_extent_m(outward);
+// Seen from the body that the axis turns with, that body rests, and a corner at r (from the reference point) of the other has the derivatives that
+// a turning frame gives it: r' - w Jr, r'' - 2w Jr' - a Jr - w^2 r, and a third one below r''' + 3w r'' + 3(a + w^2) r' + (3wa + w^3) r in magnitude;
+// J is left_of, w the frame's rate of turning and a the rate's own.
+void GapBound::add_corners_seen_from(const PhaseMotion& frame, const PhaseMotion& other, const Vec2& outward) {
+  const PointMotion origin = frame.point(Vec2::Zero());
+  const double w = frame.turning_rad_s(), a = frame.turning_rad_s2();
+  const double top_w = std::abs(frame.curvature) * frame.top_speed, top_a = std::abs(a);
+  const double half_m = frame.half_extent_m(outward);
   const double second = top_a + top_w * top_w, third = 3.0 * top_w * top_a + top_w * top_w * top_w;
-  for (const Vec2& arm : all_corners(other.body).arm_m) {
+  for (const Vec2& arm : corner_arms(other.body)) {
     const PointMotion corner = other.point(arm);
     const Vec2 r = corner.position_m - origin.position_m, v = corner.velocity_mps - origin.velocity_mps;
     const double top_v = corner.top_mps + origin.top_mps, top_r2 = corner.top_mps2 + origin.top_mps2, length = r.norm();
@@ -114,6 +138,27 @@ void GapBound::add_corners_from_side(const PhaseMotion& sided, const PhaseMotion
     term.loss_growth = third * top_v / 3.0;
     term.least = -(top_r2 + 2.0 * top_w * top_v + second * length);
     term.least_growth = -second * top_v;
+  }
+  if (other.rotates()) tighten_by_pivots(frame, other);
+}
+
+// Where both rotate, the frame shows the other's pivot turning about its own, and a corner turning about the other's pivot at the difference of both
+// rates. Bodies that follow each other round the same bend do not move at all.
+void GapBound::tighten_by_pivots(const PhaseMotion& frame, const PhaseMotion& other) {
+  const Vec2 pivot_m = other.pivot_m();
+  const double between_m = (pivot_m - frame.pivot_m()).norm();
+  const double w = other.turning_rad_s() - frame.turning_rad_s(), a = other.turning_rad_s2() - frame.turning_rad_s2();
+  const double later_w = w + a * std::min(frame.lasts_s, other.lasts_s);
+  const TurningBound pivots(std::abs(frame.curvature) * frame.top_speed, frame.turning_rad_s2());
+  const TurningBound corners(std::max(std::abs(w), std::abs(later_w)), a);
+  const std::array<Vec2, 4> arms = corner_arms(other.body);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double radius_m = (other.body.centre_m + arms[i] - pivot_m).norm();
+    const double loss = (between_m * pivots.third + radius_m * corners.third) / 3.0;
+    const double least = -(between_m * pivots.second + radius_m * corners.second);
+    Term& term = terms_[i];
+    if (loss < term.loss) term.loss = loss, term.loss_growth = 0.0;
+    if (least > term.least) term.least = least, term.least_growth = 0.0;
   }
 }
 
@@ -137,16 +182,10 @@ double GapBound::safe_within_s(double level_m, double horizon_s) const {
 }
 
 double GapBound::safe_s(double level_m, double horizon_s) const {
-  constexpr int kLooks = 4;
-  double safe_s = safe_within_s(level_m, horizon_s), open_s = horizon_s;
-  if (exact_) return safe_s;
-  // The nearer the horizon, the better the bound: look whether it holds a little longer than it has proved to.
-  for (int i = 0; i < kLooks && safe_s > 0.0 && safe_s < 0.9 * open_s; ++i) {
-    const double h_s = std::min(3.0 * safe_s, 0.5 * (safe_s + open_s)), proved_s = safe_within_s(level_m, h_s);
-    if (proved_s < h_s) open_s = h_s;
-    safe_s = std::max(safe_s, proved_s);
-  }
-  return safe_s;
+  const double safe_s = safe_within_s(level_m, horizon_s);
+  if (exact_ || safe_s <= 0.0 || safe_s >= horizon_s) return safe_s;
+  // The nearer the horizon, the better the bound: does it hold a little longer than it has proved to?
+  return std::max(safe_s, safe_within_s(level_m, std::min(3.0 * safe_s, 0.5 * (safe_s + horizon_s))));
 }
 
 }  // namespace fleetproof

@@ -50,16 +50,14 @@ Stretch next_stretch(const Piece& piece, Elapsed now, double way, TimeSense sens
 
 PointMotion PhaseMotion::point(const Vec2& arm) const {
   const Vec2 lever = turns_on_spot ? left_of(arm) : Vec2(body.heading + curvature * left_of(arm));
-  // The lever turns at the rate curvature * speed, which adds a pull square to it.
-  const double pull = curvature * speed * speed, top_pull = std::abs(curvature) * top_speed * top_speed;
-  const double squared = acceleration * acceleration, length = lever.norm();
+  const double length = lever.norm();
   PointMotion motion;
   motion.position_m = body.centre_m + arm;
   motion.velocity_mps = speed * lever;
-  motion.acceleration_mps2 = acceleration * lever + pull * left_of(lever);
+  motion.acceleration_mps2 = acceleration * lever + curvature * speed * speed * left_of(lever);
   motion.top_mps = length * top_speed;
-  motion.top_mps2 = length * std::sqrt(squared + top_pull * top_pull);
-  motion.top_mps3 = length * std::abs(curvature) * top_speed * std::sqrt(9.0 * squared + top_pull * top_pull);
+  motion.top_mps2 = length * top_acceleration;
+  motion.top_mps3 = length * top_jerk;
   return motion;
 }
 
@@ -71,6 +69,7 @@ PhaseMotion motion_from(const Piece& piece, const OrientedRectangle& body, SimTi
   PhaseMotion motion;
   motion.body = body;
   motion.change = limit;
+  motion.lasts_s = to_seconds(Duration{std::abs((limit - t).count())});
   const bool forward = sense == TimeSense::Forward;
   const Elapsed now = (t - piece.begin).count(), last = (limit - piece.begin).count();
   const Elapsed arrival = piece.profile.duration().count();
@@ -80,6 +79,7 @@ PhaseMotion motion_from(const Piece& piece, const OrientedRectangle& body, SimTi
   const Stretch stretch = next_stretch(piece, now, piece.profile.position(now_s), sense);
   const Elapsed change = forward ? std::min(stretch.change, last) : std::max(stretch.change, last);
   motion.change = piece.begin + Duration{change};
+  motion.lasts_s = to_seconds(Duration{std::abs(change - now)});
   if (now > arrival) return motion;
   const double change_s = to_seconds(Duration{change});
   const double sign = piece.manner == Manner::Turn && piece.turn_rad < 0.0 ? -1.0 : 1.0;
@@ -88,6 +88,11 @@ PhaseMotion motion_from(const Piece& piece, const OrientedRectangle& body, SimTi
   motion.top_speed = std::max(std::abs(motion.speed), piece.profile.speed(change_s));
   motion.turns_on_spot = piece.manner == Manner::Turn;
   motion.curvature = motion.turns_on_spot ? 1.0 : piece.curve->arcs()[stretch.arc].curvature_per_m;
+  // A lever turns at the rate curvature * speed, which pulls square to it.
+  const double squared = motion.acceleration * motion.acceleration, top_turning = std::abs(motion.curvature) * motion.top_speed;
+  const double top_pull = top_turning * motion.top_speed;
+  motion.top_acceleration = std::sqrt(squared + top_pull * top_pull);
+  motion.top_jerk = top_turning * std::sqrt(9.0 * squared + top_pull * top_pull);
   return motion;
 }
 

@@ -21,13 +21,18 @@ struct PhaseMotion {
   OrientedRectangle body;
   double speed = 0.0;         // now, in the sense walked: m/s; in a turn rad/s, left positive
   double acceleration = 0.0;  // constant
-  double top_speed = 0.0;     // largest magnitude before the change
-  double curvature = 0.0;     // 1/m; in a turn 1
+  double top_speed = 0.0;     // largest magnitudes before the change, per length of the lever
+  double top_acceleration = 0.0, top_jerk = 0.0;
+  double curvature = 0.0;  // 1/m; in a turn 1
   bool turns_on_spot = false;
   SimTime change = kForever;
+  double lasts_s = 0.0;  // until the change
 
   bool rotates() const { return curvature != 0.0; }
   double turning_rad_s() const { return curvature * speed; }
+  double turning_rad_s2() const { return curvature * acceleration; }
+  // What it rotates about.
+  Vec2 pivot_m() const { return turns_on_spot ? body.centre_m : Vec2(body.centre_m + left_of(body.heading) / curvature); }
   // `arm` leads from the reference point to the point.
   PointMotion point(const Vec2& arm) const;
   // Half of the body's width as seen along a direction.

@@ -8,17 +8,16 @@
 namespace fleetproof {
 namespace {
 
-// The part of an arc between two arc lengths, swept by a footprint. Each corner runs on a circle about the arc's centre and leaves its chord by
-// no more than radius * angle^2 / 8; the chords lie in the box of the bodies at their ends.
-void add_swept_arc(Box& box, const Arc& arc, double from_m, double to_m, const Footprint& footprint) {
-  constexpr double kStepRad = 0.25;
-  const double turned_rad = std::abs(arc.curvature_per_m) * (to_m - from_m);
-  const int steps = 1 + static_cast<int>(std::min(turned_rad / kStepRad, 1e4));
-  const double step_m = (to_m - from_m) / steps, step_rad = turned_rad / steps;
+// The part of an arc from its start to an arc length, swept by a footprint. Each corner runs on a circle about the arc's centre and leaves its chord
+// by no more than radius * angle^2 / 8; the chords lie in the box of the bodies at their ends.
+void add_swept_arc(Box& box, const Arc& arc, double length_m, const Footprint& footprint) {
+  constexpr double kBeyond_m = 0.02, kMostSteps = 1e4;
+  const double turned_rad = std::abs(arc.curvature_per_m) * length_m;
+  const double sagitta_m = (length_m + footprint.half_diagonal_m() * turned_rad) * turned_rad / 8.0;
+  const int steps = 1 + static_cast<int>(std::min(std::sqrt(sagitta_m / kBeyond_m), kMostSteps));
   Box bodies;
-  for (int i = 0; i <= steps; ++i) bodies.add(placed(footprint, arc.pose_at(from_m + i * step_m)));
-  const double sagitta_m = (step_m + footprint.half_diagonal_m() * step_rad) * step_rad / 8.0;
-  const Box grown = bodies.grown(sagitta_m);
+  for (int i = 0; i <= steps; ++i) bodies.add(placed(footprint, arc.pose_at(length_m * i / steps)));
+  const Box grown = bodies.grown(sagitta_m / steps / steps);
   box.add(grown.low_m);
   box.add(grown.high_m);
 }
@@ -30,7 +29,7 @@ Box swept_drive(const Piece& piece, double until_m) {
   const auto ends = piece.curve->ends_m();
   double begin_m = 0.0;
   for (std::size_t i = 0; i < arcs.size() && begin_m < until_m; ++i) {
-    add_swept_arc(box, arcs[i], 0.0, std::min(until_m, ends[i]) - begin_m, piece.footprint);
+    add_swept_arc(box, arcs[i], std::min(until_m, ends[i]) - begin_m, piece.footprint);
     begin_m = ends[i];
   }
   return box;

@@ -27,7 +27,7 @@ void JsonWriter::open(char opening, char closing, Style style) {
 void JsonWriter::close() {
   const Level level = levels_.back();
   levels_.pop_back();
-  if (level.style == Style::Block && !level.empty) new_line();
+  if (level.style == Style::Spread && !level.empty) new_line();
   text_ += level.closing;
 }
 
@@ -82,7 +82,7 @@ void JsonWriter::separate() {
   if (levels_.empty()) return;
   Level& level = levels_.back();
   if (!level.empty) text_ += ',';
-  if (level.style == Style::Block) {
+  if (level.style == Style::Spread) {
     new_line();
   } else if (!level.empty) {
     text_ += ' ';

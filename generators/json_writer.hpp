@@ -13,10 +13,10 @@ namespace fleetproof {
 // back to the same double. The same calls give the same bytes everywhere.
 class JsonWriter {
  public:
-  enum class Style : std::uint8_t { Block, Line };
+  enum class Style : std::uint8_t { Spread, Line };
 
-  void open_object(Style style = Style::Block) { open('{', '}', style); }
-  void open_array(Style style = Style::Block) { open('[', ']', style); }
+  void open_object(Style style = Style::Spread) { open('{', '}', style); }
+  void open_array(Style style = Style::Spread) { open('[', ']', style); }
   void close();
   JsonWriter& key(std::string_view name);
 

@@ -21,13 +21,13 @@ class Check {
   explicit Check(const Layout& layout) : layout_(layout) {}
 
   Problems run() {
-    floor();
     if (layout_.stations.empty()) add(ProblemKind::BadGeometry, "/stations", "a layout needs at least one station");
     names("stations", layout_.stations);
     names("segments", layout_.segments);
     for (std::size_t i = 0; i < layout_.stations.size(); ++i) {
       if (!on_the_floor(layout_.stations[i].position_m)) bad_number(fmt::format("/stations/{}/position_m", i));
     }
+    floor();
     // A curve is only built from sound numbers.
     if (!problems_.empty()) return std::move(problems_);
     for (std::size_t i = 0; i < layout_.segments.size(); ++i) segment(i);

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
+#include <span>
+
 #include "core/error.hpp"
 #include "generators/json_writer.hpp"
 #include "generators/layout_file.hpp"

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "core/error.hpp"
 #include "core/random.hpp"
 #include "generators/layout_family.hpp"

@@ -18,14 +18,15 @@ Violation filed(const Stretch& stretch) {
   violation.relative_speed_um_s = nearest_um(stretch.relative_velocity_mps.norm());
   violation.x_um = nearest_um(middle_m.x());
   violation.y_um = nearest_um(middle_m.y());
-  violation.contact = violation.min_clearance_um <= 1;
+  violation.contact = stretch.contact();
   return violation;
 }
 
 }  // namespace
 
 void Stretch::absorb(const Stretch& other) {
-  const auto closeness = [](const Stretch& s) { return std::tuple(s.closest.clearance_m, s.closest.at); };
+  // What stands after a touch may lie deeper, by rounding or by far; the touch has the speed that matters.
+  const auto closeness = [](const Stretch& s) { return std::tuple(s.contact() ? 0.0 : s.closest.clearance_m, s.closest.at); };
   const SimTime from = std::min(first, other.first), to = std::max(last, other.last);
   if (closeness(other) < closeness(*this)) *this = other;
   first = from;

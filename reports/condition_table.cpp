@@ -68,28 +68,6 @@ std::size_t keep_most_interesting(std::vector<Condition>& conditions, std::size_
   return left_out;
 }
 
-// What a unit of the rows is, and which confidence their bound has.
-std::vector<Remark> legend(const Evidence& evidence, const std::vector<Condition>& rows, bool one_confidence) {
-  std::vector<Remark> remarks{{"viol. = runs that broke the safety distance; failed = units with a violation or an unknown outcome, of all units: rate, interval and bound "
-                               "are theirs; done/AGV-h = transports completed per AGV-hour.",
-                               ""}};
-  const bool pooled = std::ranges::any_of(rows, [](const Condition& c) { return c.pool.cells.size() > 1; });
-  if (pooled) {
-    remarks.push_back({"A row pools several cells (layouts, fleet sizes). Its unit is the replicate, which fails if any of its runs does: the cells of a replicate share "
-                       "their world and are not independent. The JSON report has every cell by itself.",
-                       ""});
-  }
-  if (!one_confidence) {
-    std::vector<std::string> parts;
-    std::set<std::string> seen;
-    for (const auto& row : rows) {
-      if (seen.insert(row.agent).second) parts.push_back(fmt::format("{} for {}", percent(bound_confidence(evidence, row.agent)), printable(row.agent, 40)));
-    }
-    remarks.push_back({"One-sided upper bound at " + joined(parts) + ".", ""});
-  }
-  return remarks;
-}
-
 }  // namespace
 
 double bound_confidence(const Evidence& evidence, const std::string& agent) {
@@ -115,8 +93,38 @@ Section condition_section(const ReportInput& input, std::string title, const std
   const bool counts_only = evidence.counts_only();
   section.table.columns = columns(counts_only, one_confidence ? "upper " + percent(*confidences.begin()) : "upper");
   for (const auto& condition : conditions) section.table.rows.push_back(row(condition, counts_only, bound_confidence(evidence, condition.agent)));
-  if (!counts_only) section.remarks = legend(evidence, conditions, one_confidence);
   if (left_out > 0) section.remarks.push_back({fmt::format("{} with fewer failures are left out here; the JSON report has them all.", count_text(left_out, "row")), ""});
+  return section;
+}
+
+Section table_legend(const ReportInput& input) {
+  const auto& evidence = input.evidence;
+  const auto conditions = evidence.conditions();
+  Section section{"How to read the tables", {}, {}};
+  const auto add = [&](std::string text) { section.remarks.push_back({std::move(text), ""}); };
+  add("viol. = runs that broke the safety distance, contact = those that touched; stuck = runs without progress; closest = smallest clearance; done/AGV-h = transports (orders) "
+      "completed per AGV-hour.");
+  if (evidence.counts_only()) return section;
+  add("failed = units with a violation or an unknown outcome, of all units: rate, interval and bound are theirs.");
+  if (std::ranges::any_of(conditions, [](const Condition& c) { return c.pool.cells.size() > 1; })) {
+    add("A row pools several cells (layouts, fleet sizes). Its unit is the replicate, which fails if any of its runs does: the cells of a replicate share their world and are not "
+        "independent. The JSON report has every cell by itself.");
+  } else {
+    add("A row is one cell (test condition). Its unit is the run.");
+  }
+  std::vector<std::string> agents, confidences;
+  for (const auto& condition : conditions) {
+    if (!agents.empty() && agents.back() == condition.agent) continue;  // conditions come agent by agent
+    agents.push_back(condition.agent);
+    confidences.push_back(percent(bound_confidence(evidence, condition.agent)));
+  }
+  auto bound = std::string("interval = exact two-sided (Clopper-Pearson); upper = one-sided upper bound");
+  if (!agents.empty() && std::ranges::count(confidences, confidences.front()) == std::ranges::ssize(confidences)) {
+    bound += " at " + confidences.front();
+  } else {
+    for (std::size_t i = 0; i < agents.size(); ++i) bound += fmt::format("{} {} for {}", i == 0 ? ", at" : ",", confidences[i], printable(agents[i], 40));
+  }
+  add(bound + ".");
   return section;
 }
 

@@ -12,6 +12,9 @@ namespace fleetproof {
 // rows with the highest bound are kept, and a remark counts the others.
 Section condition_section(const ReportInput& input, std::string title, const std::function<bool(const Condition&)>& wanted, std::size_t most_rows);
 
+// What the columns of those tables mean, and what a unit is.
+Section table_legend(const ReportInput& input);
+
 // Confidence of the one-sided bound for an agent: that of its first gate, or 95 %.
 double bound_confidence(const Evidence& evidence, const std::string& agent);
 

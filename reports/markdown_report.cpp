@@ -12,8 +12,10 @@ constexpr std::size_t kMostRows = 60;
 // Names come from outside; they may not start a tag, a link, a column or a span of code.
 std::string escaped(const std::string& text) {
   std::string out;
-  for (const char c : text) {
-    if (c == '<') {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    const bool starts_tag = c == '<' && i + 1 < text.size() && text[i + 1] != '=' && text[i + 1] != ' ';
+    if (starts_tag) {
       out += "&lt;";
       continue;
     }
@@ -39,19 +41,24 @@ void print(std::string& out, const Table& table) {
   out += "\n";
 }
 
+void print(std::string& out, const std::vector<Remark>& remarks) {
+  for (const auto& remark : remarks) out += "- " + escaped(remark.text) + "\n" + code_block(remark.command, "  ");
+  out += "\n";
+}
+
 }  // namespace
 
 std::string render_markdown(const ReportInput& input) {
   const auto page = build_page(input, kMostRows);
   std::string out = "# " + escaped(page.title) + "\n\n";
   for (const auto& headline : page.headlines) {
-    out += fmt::format("**{}**: {}\n{}\n", headline.word, escaped(headline.remark.text), code_block(headline.remark.command, ""));
+    out += fmt::format("**{}**: {}\n\n", headline.word, escaped(headline.text));
+    print(out, headline.details);
   }
   for (const auto& section : page.sections) {
     out += "## " + escaped(section.title) + "\n\n";
     if (!section.table.columns.empty()) print(out, section.table);
-    for (const auto& remark : section.remarks) out += "- " + escaped(remark.text) + "\n" + code_block(remark.command, "  ");
-    out += "\n";
+    print(out, section.remarks);
   }
   return out;
 }

@@ -78,6 +78,7 @@ Page build_page(const ReportInput& input, std::size_t most_rows) {
   page.sections.push_back(condition_section(input, "Worst case of the contract: 40 % loss, 2 s delay", [](const Condition& c) { return c.is_worst_case; }, most_rows));
   page.sections.push_back(condition_section(input, "Contract region: loss <= 40 %, delay <= 2 s", [](const Condition& c) { return c.in_contract; }, most_rows));
   page.sections.push_back(condition_section(input, "Outside the contract", [](const Condition& c) { return !c.in_contract; }, most_rows));
+  page.sections.push_back(table_legend(input));
   page.sections.push_back(weak_point_section(input));
   page.sections.push_back(worst_run_section(input));
   page.sections.push_back(provenance_section(input));

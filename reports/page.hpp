@@ -16,10 +16,10 @@ struct Remark {
   std::string command;
 };
 
-// A remark that stands above everything else; `word` is the verdict, or a warning.
+// What stands above everything else; `word` is the verdict, or a warning.
 struct Headline {
-  std::string word;
-  Remark remark;
+  std::string word, text;
+  std::vector<Remark> details;
 };
 
 struct Column {

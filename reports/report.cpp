@@ -10,8 +10,9 @@
 namespace fleetproof {
 namespace {
 
-constexpr std::array<Entry<RenderReport>, 3> kFormats{{
+constexpr std::array<Entry<RenderReport>, 4> kFormats{{
     {"text", "for a terminal: verdicts first, then tables", render_text},
+    {"summary", "for a terminal: the verdicts alone", render_summary},
     {"markdown", "for a CI summary: the same page, under 60 KB", render_markdown},
     {"json", "for programs: every cell and every figure in full", render_json},
 }};

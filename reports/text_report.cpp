@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 
 #include "reports/page.hpp"
 
@@ -19,12 +20,19 @@ std::size_t width_of(const std::string& text) {
   return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
 }
 
+// "%", "s" and "m" stay on the line of their figure.
+bool is_unit(const std::string& text, std::size_t at) {
+  const auto letter = [&](std::size_t i) { return i < text.size() && ((text[i] >= 'a' && text[i] <= 'z') || (text[i] >= 'A' && text[i] <= 'Z')); };
+  return at < text.size() && std::string_view("%sm").find(text[at]) != std::string_view::npos && !letter(at + 1);
+}
+
 // Words in lines of at most kWidth; the first line starts with `first`, the others with as many blanks as `indent` says.
 std::string wrapped(const std::string& text, const std::string& first, std::size_t indent) {
   std::string out, line = first;
   std::size_t start = 0;
   while (start < text.size()) {
-    const auto end = std::min(text.find(' ', start), text.size());
+    auto end = std::min(text.find(' ', start), text.size());
+    while (end < text.size() && is_unit(text, end + 1)) end = std::min(text.find(' ', end + 1), text.size());
     const auto word = text.substr(start, end - start);
     if (width_of(line) + 1 + width_of(word) > kWidth && width_of(line) > indent) {
       out += line + "\n";
@@ -34,6 +42,11 @@ std::string wrapped(const std::string& text, const std::string& first, std::size
     start = end + 1;
   }
   return out + line + "\n";
+}
+
+void print(std::string& out, const Remark& remark, const std::string& first, std::size_t indent) {
+  out += wrapped(remark.text, first, indent);
+  if (!remark.command.empty()) out += std::string(indent, ' ') + "-> " + remark.command + "\n";
 }
 
 std::string aligned(const std::string& text, std::size_t width, bool right) {
@@ -72,23 +85,27 @@ void print(std::string& out, const Table& table) {
   }
 }
 
+std::string top_of(const Page& page) {
+  std::string out = page.title + "\n\n";
+  for (const auto& headline : page.headlines) {
+    out += wrapped(headline.text, headline.word + " |", 4);
+    for (const auto& detail : headline.details) print(out, detail, "    -", 6);
+    out += "\n";
+  }
+  return out;
+}
+
 }  // namespace
+
+std::string render_summary(const ReportInput& input) { return top_of(build_page(input, kMostRows)); }
 
 std::string render_text(const ReportInput& input) {
   const auto page = build_page(input, kMostRows);
-  std::string out = page.title + "\n\n";
-  for (const auto& headline : page.headlines) {
-    out += wrapped(headline.remark.text, headline.word + " |", 4);
-    if (!headline.remark.command.empty()) out += "    -> " + headline.remark.command + "\n";
-    out += "\n";
-  }
+  std::string out = top_of(page);
   for (const auto& section : page.sections) {
     out += section.title + "\n" + std::string(width_of(section.title), '-') + "\n";
     if (!section.table.columns.empty()) print(out, section.table);
-    for (const auto& remark : section.remarks) {
-      out += wrapped(remark.text, "  *", 4);
-      if (!remark.command.empty()) out += "    -> " + remark.command + "\n";
-    }
+    for (const auto& remark : section.remarks) print(out, remark, "  *", 4);
     out += "\n";
   }
   return out;

@@ -59,30 +59,30 @@ std::string estimate_text(const GateRecord& gate, const GateResult& result) {
     text += fmt::format(": rate {}, exact two-sided 95 % interval [{}, {}]", rounded_rate(*claim.rate()), rounded_down(claim.interval_95.lower),
                         rounded_up(claim.interval_95.upper));
   }
-  text += fmt::format(", one-sided {} upper bound {}, limit {:g}.", percent(gate.confidence), rounded_up(claim.upper), gate.limit);
-  if (result.optimistic->failing != claim.failing) {
-    text += fmt::format(" Crashed, hung and indeterminate runs are counted as failures; if none of them had failed: {} of {}, upper bound {}.", result.optimistic->failing,
-                        claim.units, rounded_up(result.optimistic->upper));
-  }
-  return text;
+  return text + fmt::format(", one-sided {} upper bound {}, limit {:g}.", percent(gate.confidence), rounded_up(claim.upper), gate.limit);
+}
+
+std::string optimistic_text(const GateResult& result) {
+  return fmt::format("Crashed, hung and indeterminate runs are counted as failures; if none of them had failed: {} of {}, upper bound {}.", result.optimistic->failing,
+                     result.optimistic->units, rounded_up(result.optimistic->upper));
 }
 
 Headline verdict_of(const ReportInput& input, std::size_t index) {
   const auto& gate = input.evidence.gates()[index];
   const auto& result = input.gates[index];
-  const auto* allows = gate.kind == GateKind::None ? "none allowed" : "rate limited";
-  auto text = fmt::format("gate \"{}\": {} of agent {}, {}, {}. ", printable(gate.name, 60), name_of(gate.end_point), printable(gate.agent, 40),
-                          region_text(gate.region), allows);
-  if (result.claim) {
-    text += estimate_text(gate, result);
-  } else {
-    text += fmt::format("{} failed.", count_text(result.counts.failing_runs, "run"));
+  Headline headline{name_of(result.verdict),
+                    fmt::format("gate \"{}\": {} of agent {}, {}, {}", printable(gate.name, 60), name_of(gate.end_point), printable(gate.agent, 40),
+                                region_text(gate.region), gate.kind == GateKind::None ? "none allowed" : "rate limited"),
+                    {}};
+  const auto add = [&](std::string text) { headline.details.push_back({std::move(text), ""}); };
+  add(result.claim ? estimate_text(gate, result) : count_text(result.counts.failing_runs, "run") + " failed.");
+  if (result.claim && result.optimistic->failing != result.claim->failing) add(optimistic_text(result));
+  add(fmt::format("Why {}: {}.", name_of(result.verdict), result.reason));
+  if (const auto& cells = input.evidence.cells_of(index); !cells.empty()) add("Sampled: " + sampled(input.evidence, cells) + ".");
+  if (result.worst) {
+    headline.details.push_back({fmt::format("Its most serious run is {} ({}):", result.worst->run_index, name_of(result.worst->severity)),
+                                replay_command(input.archive_path, result.worst->run_index)});
   }
-  text += fmt::format(" {}: {}.", name_of(result.verdict), result.reason);
-  const auto& cells = input.evidence.cells_of(index);
-  if (!cells.empty()) text += " Sampled: " + sampled(input.evidence, cells) + ".";
-  Headline headline{name_of(result.verdict), {text, ""}};
-  if (result.worst) headline.remark.command = replay_command(input.archive_path, result.worst->run_index);
   return headline;
 }
 
@@ -126,7 +126,9 @@ Remark describe(const ReportInput& input, const FailingRun& run) {
 std::vector<Headline> warnings(const ReportInput& input) {
   std::vector<Headline> list;
   if (const auto errors = input.evidence.engine_errors(); errors > 0) {
-    list.push_back({"engine error", {fmt::format("{} ended in an error of the simulator itself: nothing here is evidence until that is mended.", count_text(errors, "run")), ""}});
+    list.push_back({"engine error",
+                    fmt::format("{} ended in an error of the simulator itself: nothing here is evidence until that is mended.", count_text(errors, "run")),
+                    {}});
   }
   struct Failures {
     std::uint64_t runs = 0;
@@ -141,10 +143,9 @@ std::vector<Headline> warnings(const ReportInput& input) {
     if (condition.worst && (!failures.worst || more_serious(*condition.worst, *failures.worst))) failures.worst = condition.worst;
   }
   for (const auto& [agent, failures] : agents) {
-    auto worst = describe(input, *failures.worst);
-    list.push_back({"violation", {fmt::format("agent {} broke the safety distance in {} within the contract region. The most serious is {}.", printable(agent, 40),
-                                              count_text(failures.runs, "run"), worst.text),
-                                  worst.command}});
+    list.push_back({"violation",
+                    fmt::format("agent {} broke the safety distance in {} within the contract region. The most serious:", printable(agent, 40), count_text(failures.runs, "run")),
+                    {describe(input, *failures.worst)}});
   }
   return list;
 }
@@ -152,7 +153,7 @@ std::vector<Headline> warnings(const ReportInput& input) {
 std::vector<Headline> verdicts(const ReportInput& input) {
   std::vector<Headline> list;
   for (std::size_t i = 0; i < input.gates.size(); ++i) list.push_back(verdict_of(input, i));
-  if (list.empty()) list.push_back({name_of(Verdict::NotDemonstrated), {"this campaign has no gate (acceptance criterion), so nothing can be demonstrated.", ""}});
+  if (list.empty()) list.push_back({name_of(Verdict::NotDemonstrated), "this campaign has no gate (acceptance criterion), so nothing can be demonstrated.", {}});
   return list;
 }
 

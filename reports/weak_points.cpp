@@ -17,21 +17,21 @@ std::string cell_name(const CellRecord& cell) {
   return fmt::format("{} on {}, fleet of {}, {}, {}", printable(cell.agent, 40), printable(cell.layout, 40), cell.fleet_size, percent(cell.loss), seconds_text(cell.delay_s));
 }
 
-// "3 of 12 cells ...: a; b; c", or nothing.
-void name_cells(std::vector<std::string>& points, const Evidence& evidence, const std::string& what, const std::function<bool(const CellRecord&, const Tally&)>& concerned) {
+enum class Scope { Contract, All };
+
+// "3 of 12 cells in the contract region ...: a; b; c", or nothing.
+void name_cells(std::vector<std::string>& points, const Evidence& evidence, Scope scope, const std::string& what, const std::function<bool(const Tally&)>& concerned) {
   std::vector<std::string> names;
-  std::size_t count = 0;
+  std::size_t all = 0, count = 0;
   for (const auto& cell : evidence.cells()) {
-    if (!concerned(cell, evidence.tally(cell.index))) continue;
-    if (++count <= kMostNamed) names.push_back(cell_name(cell));
+    if (scope == Scope::Contract && !cell.in_contract()) continue;
+    ++all;
+    if (concerned(evidence.tally(cell.index)) && ++count <= kMostNamed) names.push_back(cell_name(cell));
   }
   if (count == 0) return;
-  if (count == evidence.cells().size()) {
-    points.push_back(fmt::format("All {} {}.", count_text(count, "cell"), what));
-  } else {
-    points.push_back(fmt::format("{} of {} cells {}: {}{}.", count, evidence.cells().size(), what, joined(names, "; "),
-                                 count > kMostNamed ? fmt::format("; and {} more", count - kMostNamed) : ""));
-  }
+  auto text = fmt::format("{} of {} cells{} {}", count, all, scope == Scope::Contract ? " in the contract region" : "", what);
+  if (count < all) text += ": " + joined(names, "; ") + (count > kMostNamed ? fmt::format("; and {} more", count - kMostNamed) : "");
+  points.push_back(text + ".");
 }
 
 // A gate that pools its cells says little about one of them alone.
@@ -70,12 +70,11 @@ std::vector<std::string> weak_points(const ReportInput& input) {
     points.push_back(fmt::format("{} of {} planned replicates are complete.", evidence.complete_replicates(), input.campaign.replicates));
   }
   name_short_gates(points, evidence);
-  name_cells(points, evidence, "have no run", [](const CellRecord&, const Tally& tally) { return tally.runs == 0; });
-  name_cells(points, evidence, "of the contract region completed no transport",
-             [](const CellRecord& cell, const Tally& tally) { return cell.in_contract() && tally.runs > 0 && tally.transports_done == 0; });
-  name_cells(points, evidence, "have runs with an unknown outcome (crash, hang, indeterminate, engine error)",
-             [](const CellRecord&, const Tally& tally) { return tally.unknown_runs > 0; });
-  name_cells(points, evidence, "of the contract region have stuck runs", [](const CellRecord& cell, const Tally& tally) { return cell.in_contract() && tally.stuck_runs > 0; });
+  name_cells(points, evidence, Scope::All, "have no run", [](const Tally& tally) { return tally.runs == 0; });
+  name_cells(points, evidence, Scope::Contract, "completed no transport", [](const Tally& tally) { return tally.runs > 0 && tally.transports_done == 0; });
+  name_cells(points, evidence, Scope::All, "have runs with an unknown outcome (crash, hang, indeterminate, engine error)",
+             [](const Tally& tally) { return tally.unknown_runs > 0; });
+  name_cells(points, evidence, Scope::Contract, "have stuck runs", [](const Tally& tally) { return tally.stuck_runs > 0; });
   name_agents_without_gate(points, evidence);
   return points;
 }

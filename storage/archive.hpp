@@ -35,12 +35,14 @@ class ArchiveWriter {
   std::unique_ptr<Impl> impl_;
 };
 
-// Reads a published (or live) campaign file. Every row's checksum is verified as it is read; a bad one throws EngineError and names the row.
-// Threads: one.
+// Verify: a checksum that does not match throws EngineError and names the row. Ignore: for a replay, which is asked to find out what was changed.
+enum class Checksums : std::uint8_t { Verify, Ignore };
+
+// Reads a published (or live) campaign file. Threads: one.
 class ArchiveReader {
  public:
   // Throws InputError if there is no such file, or it is not a campaign file of ours, or of a newer schema; EngineError if it is damaged.
-  explicit ArchiveReader(const std::string& path);
+  explicit ArchiveReader(const std::string& path, Checksums checksums = Checksums::Verify);
   ~ArchiveReader();
   ArchiveReader(const ArchiveReader&) = delete;
   ArchiveReader& operator=(const ArchiveReader&) = delete;

@@ -27,14 +27,20 @@ std::string duration_text(double seconds) {
 
 }  // namespace
 
-ProgressTalk::ProgressTalk(const CampaignPlan& plan, std::string archive_path)
-    : cells_(plan.cells()), archive_path_(std::move(archive_path)), terminal_(is_terminal()) {}
+ProgressTalk::ProgressTalk(const CampaignPlan& plan, std::string archive_path, int workers)
+    : opening_(fmt::format("campaign {}: {} cells x {} replicates = {} runs, seed {}, {} workers", plan.name, plan.cell_count(), plan.replicates,
+                           plan.run_count(), plan.seed, workers)),
+      cells_(plan.cells()),
+      archive_path_(std::move(archive_path)),
+      terminal_(is_terminal()) {}
 
 ProgressTalk::~ProgressTalk() { clear_line(); }
 
 CampaignListener ProgressTalk::listener() {
-  return {[this](const RunRecord& record) { run_finished(record); }, [this](const Progress& progress) { tick(progress); }};
+  return {[this] { started(); }, [this](const RunRecord& record) { run_finished(record); }, [this](const Progress& progress) { tick(progress); }};
 }
+
+void ProgressTalk::started() { fmt::print(stderr, "{}\n", opening_); }
 
 void ProgressTalk::run_finished(const RunRecord& record) {
   const Outcome& outcome = record.outcome;

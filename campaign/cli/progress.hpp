@@ -10,7 +10,7 @@ namespace fleetproof::cli {
 // once the first failure of each agent with the line that replays it.
 class ProgressTalk {
  public:
-  ProgressTalk(const CampaignPlan& plan, std::string archive_path);
+  ProgressTalk(const CampaignPlan& plan, std::string archive_path, int workers);
   ~ProgressTalk();
   ProgressTalk(const ProgressTalk&) = delete;
   ProgressTalk& operator=(const ProgressTalk&) = delete;
@@ -18,11 +18,13 @@ class ProgressTalk {
   CampaignListener listener();
 
  private:
+  void started();
   void run_finished(const RunRecord& record);
   void tick(const Progress& progress);
   std::string counter_line(const Progress& progress) const;
   void clear_line();
 
+  const std::string opening_;
   const std::vector<CellRecord> cells_;
   const std::string archive_path_;
   const bool terminal_;

@@ -75,11 +75,9 @@ int run(RunWords words) {
   if (words.overwrite) remove_earlier(words.archive);
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
-  fmt::print(stderr, "campaign {}: {} cells x {} replicates = {} runs, seed {}, {} workers\n", file.plan.name, file.plan.cell_count(), file.plan.replicates,
-             file.plan.run_count(), file.plan.seed, options.workers);
   CampaignResult result;
   {
-    ProgressTalk talk(file.plan, words.archive);
+    ProgressTalk talk(file.plan, words.archive, options.workers);
     result = run_campaign(file.plan, programs, words.archive, options, talk.listener());
   }
   return finish(result, words);

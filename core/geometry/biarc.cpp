@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/geometry/rotation.hpp"
 
@@ -10,6 +11,7 @@ namespace {
 
 constexpr int kDeepest = 12;
 constexpr double kNothing_m = 1e-12;
+constexpr double kBack = -0.99;  // cosine between a heading and a way that leads back
 
 Vec2 direction_of(const Vec2& way, const Vec2& otherwise) {
   const double length = way.norm();
@@ -31,17 +33,20 @@ Arc arc_to(const Pose& start, const Vec2& end_m) {
 std::array<Arc, 2> biarc(const Pose& from, const Pose& to) {
   const Vec2 way = to.position_m - from.position_m;
   const double squared = way.squaredNorm();
+  if (squared <= kNothing_m * kNothing_m) return {Arc{from, 0.0, 0.0}, Arc{from, 0.0, 0.0}};
   // Leg d of both triangles: d^2 (2 - 2 cos) + 2 d (way . sum) = way^2, where cos is that of the turn from one heading to the other.
   const auto leg_m = [&](const Vec2& heading) {
     const double along = way.dot(from.heading + heading), spread = (from.heading - heading).squaredNorm();
     const double root = std::sqrt(along * along + spread * squared);
-    return along > 0.0 ? squared / (along + root) : (root - along) / spread;
+    if (along > 0.0) return squared / (along + root);
+    return spread > 0.0 ? (root - along) / spread : std::numeric_limits<double>::infinity();
   };
   Vec2 heading = to.heading;
   double leg = leg_m(heading);
-  // Headings that point back need circles far larger than the gap, or infinite ones. Arrive along the way instead: the next arcs turn the rest.
-  if (!(leg * leg < 1e4 * squared)) {
-    heading = direction_of(way, from.heading);
+  // Headings that point back along the way need vast circles, or find no joint at all. Arrive otherwise: the next arcs turn the rest.
+  const Vec2 ahead = direction_of(way, from.heading);
+  if (!(leg * leg < 1e4 * squared) || ahead.dot(from.heading) < kBack) {
+    heading = ahead.dot(from.heading) < kBack ? left_of(ahead) : ahead;
     leg = leg_m(heading);
   }
   const Vec2 joint = 0.5 * (from.position_m + to.position_m + leg * (from.heading - heading));
@@ -135,7 +140,7 @@ bool is_straight(const std::array<Vec2, 4>& p) {
   return std::all_of(p.begin() + 1, p.begin() + 3, [&](const Vec2& point) {
     if ((point - p[0]).norm() <= kNothing_m || (point - p[3]).norm() <= kNothing_m) return true;
     const double along = way.dot(point - p[0]), aside = cross(way, point - p[0]);
-    return std::abs(aside) <= 1e-11 * length && along >= 0.0 && along <= length * length;
+    return length > kNothing_m && std::abs(aside) <= 1e-11 * length && along >= 0.0 && along <= length * length;
   });
 }
 
@@ -143,13 +148,14 @@ bool is_straight(const std::array<Vec2, 4>& p) {
 
 std::vector<Arc> biarc_chain(const std::array<Vec2, 4>& control_points_m, double tolerance_m) {
   const Vec2 origin = control_points_m[0], way = control_points_m[3] - origin;
-  if (is_straight(control_points_m)) return {Arc{{origin, direction_of(way, Vec2::UnitX())}, way.norm(), 0.0}};
+  const std::vector<Arc> line{Arc{{origin, direction_of(way, Vec2::UnitX())}, way.norm(), 0.0}};
+  if (is_straight(control_points_m)) return line;
   // Relative to the first point: far from the world's origin the arcs would lose digits.
   std::array<Vec2, 4> relative;
   std::transform(control_points_m.begin(), control_points_m.end(), relative.begin(), [&](const Vec2& p) { return Vec2(p - origin); });
   std::vector<Arc> arcs = Chain(relative, tolerance_m).arcs();
   for (Arc& arc : arcs) arc.start.position_m += origin;
-  return arcs;
+  return arcs.empty() ? line : arcs;
 }
 
 }  // namespace fleetproof

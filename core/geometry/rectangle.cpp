@@ -71,8 +71,8 @@ inline CornerOffset nearer(const CornerOffset& a, const CornerOffset& b) {
   const Both rear_x = view.x - view.length_x, rear_y = view.y - view.length_y;
   const CornerOffset front = nearer(corner_offset(view, front_x + view.width_x, front_y + view.width_y),
                                     corner_offset(view, front_x - view.width_x, front_y - view.width_y));
-  const CornerOffset rear = nearer(corner_offset(view, rear_x + view.width_x, rear_y + view.width_y),
-                                   corner_offset(view, rear_x - view.width_x, rear_y - view.width_y));
+  const CornerOffset rear =
+      nearer(corner_offset(view, rear_x + view.width_x, rear_y + view.width_y), corner_offset(view, rear_x - view.width_x, rear_y - view.width_y));
   return nearer(front, rear);
 }
 

@@ -35,7 +35,8 @@ double small_cosine(double r) {
   return 1.0 - (0.5 * z - z * (z * sum));
 }
 
-// atan on [0, 1] to 1e-4 or better (Hastings' polynomial): a start for one Newton step, which takes the error below 1e-12, and a second below all bits.
+// atan on [0, 1] to 1e-4 or better (Hastings' polynomial): a start for one Newton step, which takes the error below 1e-12, and a second below all
+// bits.
 double rough_arctangent(double t) {
   const double z = t * t;
   return t * (0.9998660 + z * (-0.3302995 + z * (0.1801410 + z * (-0.0851330 + z * 0.0208351))));
@@ -48,10 +49,14 @@ Vec2 unit_vector(double angle_rad) {
   const double r = (angle_rad - quadrant * kHalfPiHigh) - quadrant * kHalfPiLow;
   const double s = small_sine(r), c = small_cosine(r);
   switch (quadrant & 3) {
-    case 0: return {c, s};
-    case 1: return {-s, c};
-    case 2: return {-c, -s};
-    default: return {s, -c};
+    case 0:
+      return {c, s};
+    case 1:
+      return {-s, c};
+    case 2:
+      return {-c, -s};
+    default:
+      return {s, -c};
   }
 }
 

@@ -10,7 +10,7 @@ inline constexpr double kPi = 3.14159265358979323846;
 // (cos, sin) of an angle, |angle| <= 1e4 rad.
 Vec2 unit_vector(double angle_rad);
 
-// The angle in (-pi, pi] that turns unit vector `from` into unit vector `to`; exactly opposite headings give +pi.
+// The angle in (-pi, pi] that turns unit vector `from` into unit vector `to`; headings opposite to 1e-15 give +pi.
 double angle_between(const Vec2& from, const Vec2& to);
 
 // `v` rotated by the angle whose (cos, sin) is `rotation`.

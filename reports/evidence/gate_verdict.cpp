@@ -25,8 +25,8 @@ std::string bound_too_high(const GateRecord& gate, GateResult& result) {
     return text + fmt::format(" and the rate seen, {}, is not below it: more runs will not help", rounded_rate(*claim.rate()));
   }
   result.units_needed = needed;
-  const auto in_all = claim.failing == 0 ? "" : fmt::format(" in all, with no failure beyond the {} counted", claim.failing);
-  return text + fmt::format("; {} {}{} are needed ({} more)", *needed, result.unit, claim.failing == 0 ? " without a failure" : in_all, *needed - claim.units);
+  const auto clean = claim.failing == 0 ? " without a failure" : fmt::format(" in all, with no failure beyond the {} counted,", claim.failing);
+  return text + fmt::format("; {} {}{} are needed ({} more)", *needed, result.unit, clean, *needed - claim.units);
 }
 
 // Everything that is missing for "demonstrated"; empty if nothing is.

@@ -6,7 +6,7 @@
 namespace fleetproof {
 namespace {
 
-class Figure4 : public test::ProgramTest {
+class Figure4Program : public test::ProgramTest {
  protected:
   nlohmann::json simulate(const std::string& scenario, const std::string& law, int expected_exit) {
     const auto finished = run("simulate " + test::source("tests/scenarios/" + scenario) + " --law " + law + " --json");
@@ -20,19 +20,19 @@ class Figure4 : public test::ProgramTest {
   }
 };
 
-TEST_F(Figure4, ThePublishedLawMakes4020Checks) {
+TEST_F(Figure4Program, ThePublishedLawMakes4020Checks) {
   const auto json = simulate("figure4.json", "paper", 1);
   EXPECT_EQ(json["counters"]["perimeter_checks"], 4020);
   expect_only_a_and_d(json);
 }
 
-TEST_F(Figure4, AGlobalTimeStepMakes38400Checks) {
+TEST_F(Figure4Program, AGlobalTimeStepMakes38400Checks) {
   const auto json = simulate("figure4.json", "global-step", 1);
   EXPECT_EQ(json["counters"]["perimeter_checks"], 38400);
   expect_only_a_and_d(json);
 }
 
-TEST_F(Figure4, TheExactLawFindsTheInstants) {
+TEST_F(Figure4Program, TheExactLawFindsTheInstants) {
   const auto json = simulate("figure4.json", "exact", 1);
   expect_only_a_and_d(json);
   const auto& violation = json["violations"][0];
@@ -43,7 +43,7 @@ TEST_F(Figure4, TheExactLawFindsTheInstants) {
   EXPECT_LE(json["counters"]["perimeter_checks"], 200);
 }
 
-TEST_F(Figure4, TheHoleInThePublishedLaw) {
+TEST_F(Figure4Program, TheHoleInThePublishedLaw) {
   EXPECT_EQ(simulate("parked_then_leaves.json", "paper", 0)["violations"].size(), 0U);
   const auto json = simulate("parked_then_leaves.json", "exact", 1);
   ASSERT_EQ(json["violations"].size(), 1U);
@@ -52,7 +52,7 @@ TEST_F(Figure4, TheHoleInThePublishedLaw) {
   EXPECT_NEAR(json["violations"][0]["min_clearance_m"], 0.05, 0.0001);
 }
 
-TEST_F(Figure4, NoLawMovesTheTrace) {
+TEST_F(Figure4Program, NoLawMovesTheTrace) {
   const auto digest = simulate("figure4.json", "exact", 1)["digest"];
   EXPECT_EQ(simulate("figure4.json", "paper", 1)["digest"], digest);
   EXPECT_EQ(simulate("figure4.json", "global-step", 1)["digest"], digest);

@@ -67,7 +67,9 @@ TEST(Controller, CarriesALoadFromStationToStation) {
           EXPECT_EQ(host.pick(c, 0), FP_OK);
         }
         if (event.kind == FP_EVENT_ACTION_DONE) {
-          if (loaded.empty()) EXPECT_EQ(host.drop(c, 1), FP_OK);
+          if (loaded.empty()) {
+            EXPECT_EQ(host.drop(c, 1), FP_OK);
+          }
           loaded.push_back(is_loaded);
         }
       },

@@ -31,7 +31,9 @@ TEST_P(LayoutFamily, IsSoundAndStronglyConnected) {
   }
 }
 
-bool is_place_to_wait(const Station& s) { return s.purposes.has(Purpose::Storage) || s.purposes.has(Purpose::Parking) || s.purposes.has(Purpose::Charging); }
+bool is_place_to_wait(const Station& s) {
+  return s.purposes.has(Purpose::Storage) || s.purposes.has(Purpose::Parking) || s.purposes.has(Purpose::Charging);
+}
 
 TEST_P(LayoutFamily, LeavesRoomToTurnAndToWait) {
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
@@ -39,12 +41,14 @@ TEST_P(LayoutFamily, LeavesRoomToTurnAndToWait) {
     for (std::size_t i = 0; i < layout.stations.size(); ++i) {
       const auto& station = layout.stations[i];
       for (std::size_t k = 0; k < i; ++k) {
-        ASSERT_GE((station.position_m - layout.stations[k].position_m).norm(), 2.1) << seed << ": " << station.name << ", " << layout.stations[k].name;
+        ASSERT_GE((station.position_m - layout.stations[k].position_m).norm(), 2.1)
+            << seed << ": " << station.name << ", " << layout.stations[k].name;
       }
       if (!is_place_to_wait(station)) continue;
       for (const auto& segment : layout.segments) {
         if (segment.from == StationId{i} || segment.to == StationId{i}) continue;
-        ASSERT_GE(independent::distance_to_segment_m(layout, segment, station.position_m), 2.2) << seed << ": " << station.name << ", " << segment.name;
+        ASSERT_GE(independent::distance_to_segment_m(layout, segment, station.position_m), 2.2)
+            << seed << ": " << station.name << ", " << segment.name;
       }
     }
   }

@@ -28,6 +28,8 @@ struct Plant {
   ProblemKind kind;
   const char* pointer;
   std::function<void(Scenario&)> change;
+
+  friend void PrintTo(const Plant& plant, std::ostream* out) { *out << plant.name; }
 };
 
 const double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -50,7 +52,10 @@ const Plant kPlants[] = {
     {"type", ProblemKind::UnknownReference, "/agvs/0/type", [](Scenario& s) { s.agvs[0].type = 1; }},
     {"no_type", ProblemKind::UnknownReference, "/vehicle_types", [](Scenario& s) { s.vehicle_types.clear(); }},
     {"start", ProblemKind::UnknownReference, "/agvs/2/start", [](Scenario& s) { s.agvs[2].start = StationId{9999U}; }},
-    {"heading", ProblemKind::NumberOutOfRange, "/agvs/0/heading", [](Scenario& s) { s.agvs[0].heading = {2, 0}; }},
+    {"heading", ProblemKind::NumberOutOfRange, "/agvs/0/heading",
+     [](Scenario& s) {
+       s.agvs[0].heading = {2, 0};
+     }},
     {"battery", ProblemKind::NumberOutOfRange, "/agvs/0/battery", [](Scenario& s) { s.agvs[0].battery = 1.5; }},
     {"length", ProblemKind::NumberOutOfRange, "/vehicle_types/0/length_m", [](Scenario& s) { s.vehicle_types[0].footprint.length_m = 0; }},
     {"speed", ProblemKind::NumberOutOfRange, "/vehicle_types/0/drive/speed_mps", [](Scenario& s) { s.vehicle_types[0].drive.speed_mps = kNan; }},
@@ -58,18 +63,27 @@ const Plant kPlants[] = {
      [](Scenario& s) { s.vehicle_types[0].turn.acceleration_mps2 = 0; }},
     {"pick", ProblemKind::NumberOutOfRange, "/vehicle_types/0/pick_s", [](Scenario& s) { s.vehicle_types[0].pick_s = -5; }},
     {"to", ProblemKind::UnknownReference, "/agvs/0/transports/0/to", [](Scenario& s) { s.agvs[0].transports[0].to = StationId{}; }},
-    {"to_itself", ProblemKind::UnknownReference, "/agvs/0/transports/0/to", [](Scenario& s) { s.agvs[0].transports[0].to = s.agvs[0].transports[0].from; }},
-    {"release", ProblemKind::NumberOutOfRange, "/agvs/0/transports/0/release_ns", [](Scenario& s) { s.agvs[0].transports[0].release = Duration{-1}; }},
+    {"to_itself", ProblemKind::UnknownReference, "/agvs/0/transports/0/to",
+     [](Scenario& s) { s.agvs[0].transports[0].to = s.agvs[0].transports[0].from; }},
+    {"release", ProblemKind::NumberOutOfRange, "/agvs/0/transports/0/release_ns",
+     [](Scenario& s) { s.agvs[0].transports[0].release = Duration{-1}; }},
     {"script", ProblemKind::UnknownReference, "/agvs/0/script/0/segment",
-     [](Scenario& s) { s.agvs[0].script = {{Duration{}, ScriptedCall::Action::Move, SegmentId{}}}; }},
+     [](Scenario& s) {
+       s.agvs[0].script = {{Duration{}, ScriptedCall::Action::Move, SegmentId{}}};
+     }},
     {"script_order", ProblemKind::NumberOutOfRange, "/agvs/0/script/1/at_ns",
      [](Scenario& s) {
        s.agvs[0].script = {{Duration{5}, ScriptedCall::Action::Move, SegmentId{0U}}, {Duration{4}, ScriptedCall::Action::Move, SegmentId{0U}}};
      }},
-    {"obstacle", ProblemKind::NumberOutOfRange, "/obstacles/0/width_m", [](Scenario& s) { s.obstacles = {{"rack", {1.0, -1.0}, {}}}; }},
+    {"obstacle", ProblemKind::NumberOutOfRange, "/obstacles/0/width_m",
+     [](Scenario& s) {
+       s.obstacles = {{"rack", {1.0, -1.0}, {}}};
+     }},
     {"starts", ProblemKind::StartsTooClose, "/agvs/1/start", [](Scenario& s) { s.agvs[1].start = s.agvs[0].start; }},
     {"on_obstacle", ProblemKind::StartNearObstacle, "/agvs/3/start",
-     [](Scenario& s) { s.obstacles = {{"rack", {1.0, 1.0}, {s.map->station(s.agvs[3].start).position_m + 1.35 * s.agvs[3].heading, Vec2::UnitX()}}}; }},
+     [](Scenario& s) {
+       s.obstacles = {{"rack", {1.0, 1.0}, {s.map->station(s.agvs[3].start).position_m + 1.35 * s.agvs[3].heading, Vec2::UnitX()}}};
+     }},
     {"weak_core", ProblemKind::WeakCore, "/layout",
      [](Scenario& s) {
        s.map = std::make_shared<const LogicalMap>(with_layout(s, [](Layout& l) {
@@ -147,9 +161,9 @@ TEST(LayoutCheck, FindsWhatCannotBeDriven) {
   EXPECT_EQ(kind_after([](Layout& l) { l.segments[0].control_points_m = {{0, 0}}; }), "bad-geometry/segments/0/control_points_m");
   EXPECT_EQ(kind_after([](Layout& l) { l.segments[0].control_points_m = {{kNan, 0}, {1, 1}}; }), "number-out-of-range/segments/0/control_points_m");
   EXPECT_EQ(kind_after([](Layout& l) { std::swap(l.floor_low_m, l.floor_high_m); }), "number-out-of-range/floor_high_m");
-  EXPECT_EQ(kind_after([](Layout& l) {  // a cusp: the curve turns back on itself
+  EXPECT_EQ(kind_after([](Layout& l) {  // the tangents cross: a cusp half-way
               const Vec2 a = l.stations[l.segments[0].from.index()].position_m, b = l.stations[l.segments[0].to.index()].position_m;
-              l.segments[0].control_points_m = {a + 3.0 * (b - a), b + 3.0 * (a - b)};
+              l.segments[0].control_points_m = {b + left_of(b - a), a + left_of(b - a)};
             }),
             "bad-geometry/segments/0");
   EXPECT_EQ(kind_after([](Layout& l) {  // two pieces that meet at a right angle

@@ -22,7 +22,8 @@ Scenario world(const WorldSpec& spec, std::uint64_t seed) {
 // Names of what an AGV is told, so that scenarios can be compared.
 std::string told(const Scenario& s, const AgvSetup& agv) {
   std::string text = agv.name + " at " + s.map->station(agv.start).name;
-  for (const auto& t : agv.transports) text += " " + s.map->station(t.from).name + ">" + s.map->station(t.to).name + "@" + std::to_string(t.release.count());
+  for (const auto& t : agv.transports)
+    text += " " + s.map->station(t.from).name + ">" + s.map->station(t.to).name + "@" + std::to_string(t.release.count());
   return text;
 }
 
@@ -95,9 +96,8 @@ TEST_P(GenerateWorld, SameSeedSameTextOtherSeedOtherText) {
   EXPECT_EQ(texts.size(), 20U);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, GenerateWorld, testing::ValuesIn(layout_families().begin(), layout_families().end()), [](const auto& test) {
-  return "family_" + std::to_string(test.index);
-});
+INSTANTIATE_TEST_SUITE_P(All, GenerateWorld, testing::ValuesIn(layout_families().begin(), layout_families().end()),
+                         [](const auto& test) { return "family_" + std::to_string(test.index); });
 
 TEST(WorldStreams, MoreAgvsOrALongerHorizonLeaveTheRestAsItWas) {
   WorldSpec spec, more, longer;
@@ -207,6 +207,7 @@ TEST(WorldRejections, ALongVehicleIsTurnedAwayFromNeighbouringStations) {
   RejectionCounts counts;
   for (std::uint64_t seed = 0; seed < 20; ++seed) EXPECT_TRUE(problems_of(generate_world(spec, seed, counts)).empty());
   EXPECT_GT(counts.of(ProblemKind::StartsTooClose), 0U);
+  EXPECT_EQ(counts.worlds_rejected, 0U) << "the next station was tried, not the next world";
   EXPECT_EQ(counts.worlds, 20U);
 }
 

@@ -45,7 +45,7 @@ TEST_P(LawContract, IsSilentAboutLanesBuiltToTheLimit) {
   scene.agv(facing(0.0, 0.0, 1.0, 0.0)).drive(10.0);
   scene.agv(facing(10.0, 1.1, -1.0, 0.0)).drive(10.0);  // oncoming, bodies 0.10 m apart
   scene.obstacle(facing(5.0, -1.1, 1.0, 0.0));
-  scene.agv(facing(20.3, 1.7, 0.6, 0.8)).drive(8.0);    // the same beside a slanted lane
+  scene.agv(facing(20.3, 1.7, 0.6, 0.8)).drive(8.0);  // the same beside a slanted lane
   scene.agv(facing(20.3 - 1.1 * 0.8, 1.7 + 1.1 * 0.6, 0.6, 0.8)).wait_until(0.5).drive(8.0);
   EXPECT_TRUE(findings(scene).violations.empty());
 }
@@ -78,7 +78,7 @@ TEST_P(LawContract, FilesInOrderWithTheSmallerIdFirst) {
   Scene scene(14.0);
   scene.agv(facing(10.0, 0.0, -1.0, 0.0)).wait_until(1.0).drive(10.0);
   scene.agv(facing(0.0, 2.0, 1.0, 0.0)).drive(10.0);
-  scene.agv(facing(4.0, 0.9, 1.0, 0.0));
+  scene.agv(facing(4.0, 0.95, 1.0, 0.0));
   scene.agv(facing(2.0, 2.9, 1.0, 0.0));
   const auto violations = findings(scene).violations;
   ASSERT_EQ(violations.size(), 3U);

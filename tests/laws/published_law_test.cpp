@@ -32,20 +32,31 @@ TEST(PaperLaw, CountsAnObstacleAsAStationaryEntity) {
 
 TEST(PaperLaw, ChecksEachOtherDriveOfTheInterval) {
   Scene scene(12.0);
-  scene.agv(facing(0.0, 0.0, 1.0, 0.0)).drive(10.0);                                    // 0 .. 8
-  scene.agv(facing(0.0, 9.0, 1.0, 0.0)).drive(1.5).wait_until(5.0).drive(1.5);           // 0 .. 3 and 5 .. 8
+  scene.agv(facing(0.0, 0.0, 1.0, 0.0)).drive(10.0);                            // 0 .. 8
+  scene.agv(facing(0.0, 9.0, 1.0, 0.0)).drive(1.5).wait_until(5.0).drive(1.5);  // 0 .. 3 and 5 .. 8
   // The first drive meets two activities, each of the others one.
   EXPECT_EQ(play(scene, make_paper_law).perimeter_checks, 4U);
 }
 
 TEST(PaperLaw, DrivesThatOnlyTouchInTimeHaveNothingInCommon) {
   Scene scene(12.0);
-  scene.agv(facing(0.0, 0.0, 1.0, 0.0)).drive(1.5);                    // 0 .. 3
-  scene.agv(facing(3.0, 0.0, 1.0, 0.0)).wait_until(3.0).drive(1.5);    // 3 .. 6
-  // Each finds the other stationary; one of them inside its perimeter.
+  scene.agv(facing(0.0, 0.0, 1.0, 0.0)).drive(1.5);                   // 0 .. 3, to the other's side
+  scene.agv(facing(1.5, 1.05, 1.0, 0.0)).wait_until(3.0).drive(1.5);  // 3 .. 6
+  // Each finds the other stationary and in its perimeter.
   const LawFindings findings = play(scene, make_paper_law);
   EXPECT_EQ(findings.perimeter_checks, 2U);
-  EXPECT_EQ(findings.violations.size(), 0U);
+  ASSERT_EQ(findings.violations.size(), 1U);
+  EXPECT_EQ(findings.violations[0].first, kStart);
+  EXPECT_EQ(findings.violations[0].last, at_seconds(6.0));
+}
+
+TEST(PublishedLaws, AccuseAPairOnceWhicheverActivityItWasFoundFrom) {
+  Scene scene(12.0);
+  // The middle one of three, oncoming, is too close to both; each pair is found from two activities, with another pair between.
+  scene.agv(facing(10.0, -1.05, -1.0, 0.0)).drive(10.0);
+  scene.agv(facing(0.0, 0.0, 1.0, 0.0)).drive(10.0);
+  scene.agv(facing(10.0, 1.05, -1.0, 0.0)).drive(10.0);
+  for (const char* law : {"exact", "paper", "global-step"}) EXPECT_EQ(play(scene, law).violations.size(), 2U) << law;
 }
 
 // Hole 2: a violation shorter than the granularity.

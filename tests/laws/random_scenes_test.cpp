@@ -41,9 +41,14 @@ void live(Timeline& body, SimTime end, Dice& dice) {
   while (body.now() < end) {
     const double now_s = to_seconds(body.now());
     switch (dice.below(4)) {
-      case 0: body.wait_until(now_s + dice.within(0.0, 2.0)); break;
-      case 1: body.turn(dice.within(-3.0, 3.0)); break;
-      default: body.drive(random_curve(body.pose(), dice));
+      case 0:
+        body.wait_until(now_s + dice.within(0.0, 2.0));
+        break;
+      case 1:
+        body.turn(dice.within(-3.0, 3.0));
+        break;
+      default:
+        body.drive(random_curve(body.pose(), dice));
     }
     if (dice.one_in(8)) body.cut_short_at(dice.within(now_s, to_seconds(body.now())));
   }
@@ -105,6 +110,7 @@ double clearance_between(const Corners& one, const Corners& other) {
 struct Sampled {
   double min_m = 1e9;
   SimTime min_at;
+  SimTime touch_at = kForever;  // first sample in an overlap
   std::vector<Interval> below;  // runs of samples below the threshold
 };
 
@@ -146,6 +152,7 @@ class BruteForce {
       if ((one[0] + one[2] - other[0] - other[2]).norm() > 2.0 * (2.0 * 0.95 + 0.6)) continue;  // farther than 0.5 m apart
       const double clearance_m = clearance_between(one, other);
       if (clearance_m < sampled.min_m) sampled.min_m = clearance_m, sampled.min_at = t;
+      if (clearance_m <= 0.0) sampled.touch_at = std::min(sampled.touch_at, t);
       if (clearance_m >= threshold_m_) continue;
       if (!sampled.below.empty() && sampled.below.back().end == t - kStep) {
         sampled.below.back().end = t;
@@ -184,12 +191,29 @@ void expect_stretches(const std::vector<Violation>& violations, const Sampled& s
   }
 }
 
+// Closest instants of a pair's violations. Below zero the law looks no further than the touch.
+void expect_closest(const BruteForce& brute, std::size_t a, std::size_t b, const std::vector<Violation>& violations) {
+  const Sampled& sampled = brute.pairs.at({a, b});
+  double least_um = 1e12;
+  SimTime touch_at = kForever;
+  for (const Violation& violation : violations) {
+    const double there_um = 1e6 * brute.clearance_at(a, b, violation.closest_at);
+    EXPECT_NEAR(static_cast<double>(violation.min_clearance_um), there_um, 1.01);
+    least_um = std::min(least_um, there_um);
+    if (violation.contact) touch_at = std::min(touch_at, violation.closest_at);
+  }
+  EXPECT_LE(touch_at, sampled.touch_at);
+  if (sampled.min_m <= 0.0 || violations.empty()) return;
+  EXPECT_LE(least_um, 1e6 * brute.refined_m(a, b) + 0.2);
+  EXPECT_GE(least_um, 1e6 * (sampled.min_m - kBetweenSamples_m));
+}
+
 void expect_agreement(std::uint64_t seed) {
   const Scene scene = random_scene(seed);
   const double threshold_m = scene.scenario.law.safety_distance_m - 1e-6;
   const LawFindings findings = play(scene, "exact");
   const BruteForce brute(scene, threshold_m);
-  double refined_m = 1e9, sampled_m = 1e9;
+  double refined_m = 0.5, sampled_m = 0.5;
   for (const auto& [pair, sampled] : brute.pairs) {
     const auto [a, b] = pair;
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", bodies " << a << " and " << b);
@@ -201,21 +225,11 @@ void expect_agreement(std::uint64_t seed) {
       EXPECT_EQ(violations.empty(), pair_m >= threshold_m);
     }
     expect_stretches(violations, sampled);
-    double least_um = 1e12;
-    for (const Violation& violation : violations) {
-      const double there_um = 1e6 * brute.clearance_at(a, b, violation.closest_at);
-      EXPECT_NEAR(static_cast<double>(violation.min_clearance_um), there_um, 1.01);
-      least_um = std::min(least_um, static_cast<double>(violation.min_clearance_um));
-    }
-    if (!violations.empty()) {
-      EXPECT_LE(least_um, 1e6 * pair_m + 0.2);
-      EXPECT_GE(least_um, 1e6 * (sampled.min_m - kBetweenSamples_m));
-    }
+    expect_closest(brute, a, b, violations);
   }
-  if (refined_m < 0.5 || findings.min_clearance_m) {
-    EXPECT_LE(findings.min_clearance_m.value_or(0.5), refined_m + 1e-6) << seed;
-    EXPECT_GE(findings.min_clearance_m.value_or(0.5), sampled_m - kBetweenSamples_m) << seed;
-  }
+  const double found_m = findings.min_clearance_m.value_or(0.5);
+  EXPECT_LE(found_m, std::max(refined_m, 0.0) + 1e-6) << seed;
+  EXPECT_GE(found_m, sampled_m - kBetweenSamples_m) << seed;
 }
 
 TEST(RandomScenes, ExactLawAgreesWithBruteForce) {
@@ -228,7 +242,7 @@ TEST(RandomScenes, AreOfEveryKind) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     const LawFindings findings = play(random_scene(seed), "exact");
     violated += !findings.violations.empty();
-    many += findings.violations.size() > 3;
+    many += findings.violations.size() > 2;
     near += findings.violations.empty() && findings.min_clearance_m;
     free += !findings.min_clearance_m;
   }

@@ -122,6 +122,16 @@ TEST(Evidence, outside_the_contract_standing_still_is_legal) {
   EXPECT_EQ(report_of(campaign_of("claim", 3000), cells, {gate_of("sound", GateKind::None, Region::All, 1e-3)}, park_inside).gates[0].verdict, Verdict::NotDemonstrated);
 }
 
+TEST(Evidence, a_gate_with_cells_outside_the_contract_only_asks_for_progress_there) {
+  const auto cells = grid({"sound"}, {0.8, 0.9}, {0.0});
+  const auto verdict = [&](std::uint64_t done) {
+    return report_of(campaign_of("claim", 3000), cells, {gate_of("sound", GateKind::None, Region::All, 1e-3)},
+                     [&](RunRecord& run) { run.outcome.counters.transports_done = done; }).gates[0].verdict;
+  };
+  EXPECT_EQ(verdict(10), Verdict::Demonstrated);
+  EXPECT_EQ(verdict(0), Verdict::NotDemonstrated);
+}
+
 TEST(Evidence, conditions_pool_layouts_by_replicate) {
   const auto cells = grid({"sound"}, {0.4}, {2.0, 5.0}, {"ring", "cross"});
   const auto input = report_of(campaign_of("claim", 5), cells, {}, [](RunRecord& run) {

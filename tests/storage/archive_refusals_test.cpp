@@ -93,6 +93,7 @@ TEST(ArchiveReader, a_changed_row_is_named) {
   const std::vector<std::string> changes{
       "UPDATE runs SET violation = 1 - violation WHERE run_index = 17", "UPDATE runs SET transports_done = transports_done + 1 WHERE run_index = 17",
       "UPDATE runs SET min_clearance_um = 100000 WHERE run_index = 17", "UPDATE runs SET outcome_class = 'clean' WHERE run_index = 17",
+      "UPDATE runs SET scenario_digest = ~scenario_digest WHERE run_index = 17",
       "UPDATE runs SET contact = 2 WHERE run_index = 17",               "UPDATE runs SET running_digests = x'00' WHERE run_index = 17",
       "INSERT INTO violations SELECT 17, 99, entity_a, entity_b, first_ns, last_ns, closest_at_ns, min_clearance_um, relative_speed_um_s, x_um, y_um, contact FROM "
       "violations LIMIT 1"};
@@ -105,6 +106,16 @@ TEST(ArchiveReader, a_changed_row_is_named) {
     EXPECT_THROW(ArchiveReader(path).run(17), EngineError) << change;
     EXPECT_NO_THROW(ArchiveReader(path).run(16)) << change;
   }
+}
+
+TEST(ArchiveReader, a_replay_can_read_what_was_changed_but_no_run_without_a_cell) {
+  const TemporaryFolder folder;
+  write_archive(folder / "a.fp");
+  tamper(folder / "a.fp", "UPDATE runs SET drives = 123 WHERE run_index = 17; UPDATE cells SET loss = 0.1 WHERE cell = 3; UPDATE runs SET cell = 6 WHERE run_index = 18");
+  EXPECT_THROW(ArchiveReader(folder / "a.fp"), EngineError);
+  const ArchiveReader reader(folder / "a.fp", Checksums::Ignore);
+  EXPECT_EQ(reader.run(17)->outcome.counters.drives, 123u);
+  EXPECT_THAT(sentence_of<EngineError>([&] { reader.run(18); }), HasSubstr("no cell"));
 }
 
 TEST(ArchiveReader, a_row_or_a_violation_taken_away_is_noticed) {

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/agents/shapes.hpp"
+#include "core/sdk/fleetproof/agent.h"
+
+namespace fleetproof::agents {
+
+inline constexpr std::int64_t kSecond_ns = 1'000'000'000;
+
+// The AGV controller as the agents use it: the C table behind names of its own.
+class Controller {
+ public:
+  Controller(const fp_host& host, fp_controller* handle) : host_(host), handle_(handle) {}
+
+  // Actions: true if accepted. `segment` may be FP_HERE for pick and drop.
+  bool move(std::uint32_t segment) { return host_.move(handle_, segment) == FP_OK; }
+  bool pick(std::uint32_t segment) { return host_.pick(handle_, segment) == FP_OK; }
+  bool drop(std::uint32_t segment) { return host_.drop(handle_, segment) == FP_OK; }
+  bool park(std::uint32_t segment) { return host_.park(handle_, segment) == FP_OK; }
+  bool charge(std::uint32_t segment) { return host_.charge(handle_, segment) == FP_OK; }
+  void broadcast(std::span<const std::byte> bytes) { host_.send_broadcast(handle_, bytes.data(), static_cast<std::uint32_t>(bytes.size())); }
+  void send(std::span<const std::byte> bytes, std::uint32_t receiver) {
+    host_.send_unicast(handle_, bytes.data(), static_cast<std::uint32_t>(bytes.size()), receiver);
+  }
+
+  // False: no position to be had; `out` is as it was.
+  bool pose(fp_pose& out) { return host_.get_position(handle_, &out) == FP_OK; }
+  bool out_of_order() {
+    std::uint32_t action = FP_IDLE;
+    return host_.get_action(handle_, &action) == FP_OK && action == FP_OUT_OF_ORDER;
+  }
+  // Hands every waiting message to `receive(sender, bytes)`.
+  template <class Receive>
+  void drain_inbox(Receive receive) {
+    fp_message message{};
+    message.struct_size = sizeof(fp_message);
+    while (host_.get_message(handle_, &message) == FP_OK) {
+      receive(message.sender, std::span(static_cast<const std::byte*>(message.bytes), message.size));
+    }
+  }
+
+  std::int64_t now_ns() { return host_.now_ns(handle_); }
+  void set_timer(std::uint32_t timer, std::int64_t at_ns) { host_.set_timer(handle_, timer, at_ns); }
+  // The next draw of this stream, uniform on [0, 1).
+  double random(std::uint32_t purpose) { return static_cast<double>(host_.random(handle_, purpose, draws_++) >> 11) * 0x1p-53; }
+  void waiting_for(std::uint32_t agv) {
+    if (agv == declared_) return;
+    declared_ = agv;
+    host_.waiting_for(handle_, agv);
+  }
+  void sometimes(const char* probe) { host_.sometimes(handle_, probe); }
+
+ private:
+  const fp_host& host_;
+  fp_controller* handle_;
+  std::uint64_t draws_ = 0;
+  std::uint32_t declared_ = FP_NONE;
+};
+
+}  // namespace fleetproof::agents

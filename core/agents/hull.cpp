@@ -1,0 +1,135 @@
+#include "core/agents/hull.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fleetproof::agents {
+
+HullGeometry::HullGeometry(const MapView& map, const fp_briefing& briefing)
+    : map_(map), parts_per_kind_(map.lane_count() + map.station_count()), clearance_m_(briefing.safety_distance_m + kHullTolerance_m) {
+  for (std::uint32_t i = 0; i < briefing.fleet_count; ++i) {
+    const auto& agv = *reinterpret_cast<const fp_agv*>(reinterpret_cast<const char*>(briefing.fleet) + std::size_t{briefing.agv_stride} * i);
+    const auto known = std::ranges::find_if(kinds_, [&](const Kind& k) { return k.length_m == agv.length_m && k.width_m == agv.width_m; });
+    kind_of_.push_back(static_cast<std::uint32_t>(known - kinds_.begin()));
+    if (known == kinds_.end()) kinds_.push_back({agv.length_m, agv.width_m, length(Vec{agv.length_m, agv.width_m}) / 2.0});
+  }
+  parts_.resize(kinds_.size() * parts_per_kind_);
+  known_conflicts_.resize(parts_.size());
+}
+
+bool HullGeometry::conflict(std::uint32_t agv_a, const Path& a, std::uint32_t agv_b, const Path& b) {
+  Parts of_a, of_b;
+  collect(agv_a, a, of_a);
+  collect(agv_b, b, of_b);
+  if (of_a.count == 0) {
+    if (of_b.count == 0) return closer_than(of_a.body, of_b.body, clearance_m_);
+    return std::any_of(of_b.numbers, of_b.numbers + of_b.count, [&](std::uint32_t n) { return body_conflicts(of_a.body, n); });
+  }
+  return std::any_of(of_a.numbers, of_a.numbers + of_a.count, [&](std::uint32_t n) { return part_conflicts(n, of_b); });
+}
+
+bool HullGeometry::lane_conflict(std::uint32_t agv_a, std::uint32_t lane, std::uint32_t agv_b, const Path& b) {
+  Parts of_b;
+  collect(agv_b, b, of_b);
+  return part_conflicts(lane_part(agv_a, lane), of_b);
+}
+
+bool HullGeometry::turn_conflict(std::uint32_t agv_a, std::uint32_t station, std::uint32_t agv_b, const Path& b) {
+  Parts of_b;
+  collect(agv_b, b, of_b);
+  return part_conflicts(turn_part(agv_a, station), of_b);
+}
+
+bool HullGeometry::turning_blocks_lane(std::uint32_t station, std::uint32_t lane) {
+  for (std::uint32_t standing = 0; standing < kinds_.size(); ++standing) {
+    for (std::uint32_t driving = 0; driving < kinds_.size(); ++driving) {
+      if (parts_conflict(standing * parts_per_kind_ + map_.lane_count() + station, driving * parts_per_kind_ + lane)) return true;
+    }
+  }
+  return false;
+}
+
+double HullGeometry::distance_bound_m(Vec point_m, std::uint32_t agv, const Path& path) {
+  Parts parts;
+  collect(agv, path, parts);
+  if (parts.count == 0) return length(point_m - parts.body.centre_m) - parts.body.reach_m();
+  double least_m = INFINITY;
+  for (std::uint32_t i = 0; i < parts.count; ++i) {
+    const Part& p = part(parts.numbers[i]);
+    least_m = std::min(least_m, length(point_m - p.centre_m) - p.reach_m);
+  }
+  return least_m;
+}
+
+void HullGeometry::collect(std::uint32_t agv, const Path& path, Parts& parts) const {
+  Vec heading = path.heading;
+  for (const std::uint32_t lane : path.lanes()) {
+    if (!same_heading(heading, map_.start_heading(lane))) parts.numbers[parts.count++] = turn_part(agv, map_.lane(lane).from);
+    parts.numbers[parts.count++] = lane_part(agv, lane);
+    heading = map_.end_heading(lane);
+  }
+  const Kind& kind = kinds_[kind_of_[agv]];
+  if (parts.count == 0) parts.body = body_at(map_.position_m(path.station), path.heading, kind.length_m, kind.width_m);
+}
+
+const HullGeometry::Part& HullGeometry::part(std::uint32_t number) {
+  Part& p = parts_[number];
+  if (p.count == 0) work_out(number, p);
+  return p;
+}
+
+void HullGeometry::work_out(std::uint32_t number, Part& part) {
+  const Kind& kind = kinds_[number / parts_per_kind_];
+  const std::uint32_t what = number % parts_per_kind_;
+  part.first = static_cast<std::uint32_t>(shapes_.size());
+  if (what >= map_.lane_count()) {
+    shapes_.push_back(disc_at(map_.position_m(what - map_.lane_count()), kind.half_diagonal_m));
+  } else {
+    const fp_lane& lane = map_.lane(what);
+    for (std::uint32_t i = 0; i < lane.arc_count; ++i) append_sweep(map_.arc(lane, i), kind.length_m, kind.width_m, shapes_);
+  }
+  part.count = static_cast<std::uint32_t>(shapes_.size()) - part.first;
+  Vec sum;
+  for (std::uint32_t i = 0; i < part.count; ++i) sum = sum + shapes_[part.first + i].centre_m;
+  part.centre_m = sum * (1.0 / part.count);
+  for (std::uint32_t i = 0; i < part.count; ++i) {
+    const Shape& shape = shapes_[part.first + i];
+    part.reach_m = std::max(part.reach_m, length(shape.centre_m - part.centre_m) + shape.reach_m());
+  }
+}
+
+bool HullGeometry::parts_conflict(std::uint32_t a, std::uint32_t b) {
+  if (a > b) std::swap(a, b);
+  auto& row = known_conflicts_[a];
+  if (row.empty()) row.resize(parts_.size() - a);
+  std::uint8_t& known = row[b - a];
+  if (known != 0) return known == 2;
+  const Part& of_a = part(a);
+  const Part& of_b = part(b);
+  bool found = false;
+  if (length(of_a.centre_m - of_b.centre_m) < of_a.reach_m + of_b.reach_m + clearance_m_) {
+    for (std::uint32_t i = 0; i < of_a.count && !found; ++i) {
+      for (std::uint32_t k = 0; k < of_b.count && !found; ++k) {
+        found = closer_than(shapes_[of_a.first + i], shapes_[of_b.first + k], clearance_m_);
+      }
+    }
+  }
+  known = found ? 2 : 1;
+  return found;
+}
+
+bool HullGeometry::part_conflicts(std::uint32_t number, const Parts& others) {
+  if (others.count == 0) return body_conflicts(others.body, number);
+  return std::any_of(others.numbers, others.numbers + others.count, [&](std::uint32_t n) { return parts_conflict(number, n); });
+}
+
+bool HullGeometry::body_conflicts(const Shape& body, std::uint32_t number) {
+  const Part& p = part(number);
+  const double far_m = p.reach_m + body.reach_m() + clearance_m_;
+  const Vec d = body.centre_m - p.centre_m;
+  if (dot(d, d) >= far_m * far_m) return false;
+  return std::any_of(shapes_.begin() + p.first, shapes_.begin() + p.first + p.count,
+                     [&](const Shape& shape) { return closer_than(shape, body, clearance_m_); });
+}
+
+}  // namespace fleetproof::agents

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/agents/path.hpp"
+#include "core/sdk/fleetproof/agent.h"
+
+namespace fleetproof::agents {
+
+// What hulls keep between them beyond the safety distance: for rounding on the wire and for turns too small to count.
+inline constexpr double kHullTolerance_m = 0.02;
+
+// Hulls: everything an AGV may cover while it drives a path, as shapes on the floor. A path's hull consists of parts: a disc where it turns on the
+// spot, the sweep of every lane; without lanes, the standing body. Parts are worked out when first needed, and so is which of them conflict.
+class HullGeometry {
+ public:
+  HullGeometry(const MapView& map, const fp_briefing& briefing);
+
+  // True if the hulls of the two AGVs' paths come closer than the safety distance and the tolerance.
+  bool conflict(std::uint32_t agv_a, const Path& a, std::uint32_t agv_b, const Path& b);
+  // The same for one lane, or for turning at one station.
+  bool lane_conflict(std::uint32_t agv_a, std::uint32_t lane, std::uint32_t agv_b, const Path& b);
+  bool turn_conflict(std::uint32_t agv_a, std::uint32_t station, std::uint32_t agv_b, const Path& b);
+  // True if some kind of AGV turning at `station` conflicts with some kind of AGV on `lane`.
+  bool turning_blocks_lane(std::uint32_t station, std::uint32_t lane);
+  // At most the distance from `point_m` to the hull.
+  double distance_bound_m(Vec point_m, std::uint32_t agv, const Path& path);
+
+  double half_diagonal_m(std::uint32_t agv) const { return kinds_[kind_of_[agv]].half_diagonal_m; }
+  double clearance_m() const { return clearance_m_; }
+
+ private:
+  struct Kind {
+    double length_m, width_m, half_diagonal_m;
+  };
+  struct Part {
+    std::uint32_t first = 0, count = 0;  // in shapes_; count 0: not worked out yet
+    Vec centre_m;
+    double reach_m = 0.0;
+  };
+  // The parts of one path. `body` counts only if there are no parts.
+  struct Parts {
+    std::uint32_t count = 0;
+    std::uint32_t numbers[2 * kPathLanesMax];
+    Shape body;
+  };
+
+  std::uint32_t lane_part(std::uint32_t agv, std::uint32_t lane) const { return kind_of_[agv] * parts_per_kind_ + lane; }
+  std::uint32_t turn_part(std::uint32_t agv, std::uint32_t station) const { return kind_of_[agv] * parts_per_kind_ + map_.lane_count() + station; }
+  void collect(std::uint32_t agv, const Path& path, Parts& parts) const;
+  const Part& part(std::uint32_t number);
+  void work_out(std::uint32_t number, Part& part);
+  bool parts_conflict(std::uint32_t a, std::uint32_t b);
+  bool part_conflicts(std::uint32_t number, const Parts& others);
+  bool body_conflicts(const Shape& body, std::uint32_t number);
+
+  const MapView& map_;
+  std::vector<std::uint32_t> kind_of_;  // by AGV
+  std::vector<Kind> kinds_;             // different footprints
+  std::uint32_t parts_per_kind_;
+  double clearance_m_;
+  std::vector<Part> parts_;
+  std::vector<Shape> shapes_;
+  std::vector<std::vector<std::uint8_t>> known_conflicts_;  // by the smaller part number, then the larger: 0 unknown, 1 no, 2 yes
+};
+
+}  // namespace fleetproof::agents

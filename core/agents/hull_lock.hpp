@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+
+#include "core/agents/controller.hpp"
+#include "core/agents/hull.hpp"
+#include "core/agents/lock_protocol.hpp"
+#include "core/agents/map_view.hpp"
+#include "core/agents/neighbours.hpp"
+#include "core/agents/stretch_planner.hpp"
+#include "core/sdk/fleetproof/agent.h"
+
+namespace fleetproof::agents {
+
+// Control software that fetches and brings loads and moves only on what it has locked. Stretch after stretch: plan it, lock it, drive it; the next
+// one is asked for while the AGV still drives, as long before the end as locking usually takes.
+class HullLock {
+ public:
+  HullLock(const fp_host& host, fp_controller* handle, const fp_briefing& briefing, LockOptions options = {});
+  HullLock(const HullLock&) = delete;
+  HullLock& operator=(const HullLock&) = delete;
+
+  void on_event(const fp_event& event);
+
+  const LockProtocol& protocol() const { return protocol_; }
+
+ private:
+  enum class Purpose : std::uint8_t { Transport, MakeWay };
+
+  void start();
+  void action_done(std::int32_t result);
+  void break_down();
+  void tick();
+  // Everything that can be done now: act, lock, plan, ask.
+  void advance();
+  void act();
+  void begin(const Leg& leg);
+  void adopt_stretch();
+  void plan();
+  void plan_transport();
+  void plan_making_way();
+  void reconsider();
+  void request(Stretch stretch, Purpose purpose);
+  Stretch way_on();
+  Stretch way_out();
+  bool in_the_way_of(bool elder_only);
+  bool is_waiting() const { return !acting_ && legs_.empty(); }
+  bool is_idle() const { return is_waiting() && goals_.empty(); }
+  Budget budget() const;
+  double time_left_s();
+  double leg_time_s(const Leg& leg, Vec heading) const;
+  double now_s() { return static_cast<double>(controller_.now_ns()) * 1e-9; }
+
+  Controller controller_;
+  std::uint32_t start_station_;
+  MapView map_;
+  HullGeometry geometry_;
+  Neighbours neighbours_;
+  LockProtocol protocol_;
+  StretchPlanner planner_;
+  double longest_claim_m_;
+
+  std::deque<Goal> goals_;      // not covered by what is locked
+  std::deque<Leg> legs_;        // locked, not begun
+  bool acting_ = false;         // an action is under way
+  Leg current_;
+  double current_ends_s_ = 0.0; // expected
+  bool out_of_order_ = false;
+
+  Stretch stretch_;             // requested
+  Purpose purpose_ = Purpose::Transport;
+  double requested_at_s_ = 0.0;
+  std::int64_t demand_ns_ = -1; // since when it has wanted to get on with its transports; negative: it does not
+  double locking_takes_s_ = 1.0;
+  double plan_after_s_ = 0.0;
+  std::int64_t ask_timer_ns_ = -1;
+  double blocked_since_s_ = -1.0, patience_s_ = 0.0;
+};
+
+// For the C table. Null if the map is too large for the messages.
+void* create_hull_lock(const fp_host* host, fp_controller* controller, const fp_briefing* briefing, LockOptions options);
+
+}  // namespace fleetproof::agents

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/agents/shapes.hpp"
+#include "core/sdk/fleetproof/agent.h"
+
+namespace fleetproof::agents {
+
+// The logical map by index, with the headings at the ends of its lanes. The briefing's map outlives it.
+class MapView {
+ public:
+  explicit MapView(const fp_map& map);
+
+  std::uint32_t station_count() const { return map_.station_count; }
+  std::uint32_t lane_count() const { return map_.lane_count; }
+  const fp_station& station(std::uint32_t id) const { return at(map_.stations, map_.station_stride, id); }
+  const fp_lane& lane(std::uint32_t id) const { return at(map_.lanes, map_.lane_stride, id); }
+  const fp_arc& arc(const fp_lane& lane, std::uint32_t i) const { return at(lane.arcs, map_.arc_stride, i); }
+
+  Vec position_m(std::uint32_t station_id) const { return {station(station_id).x_m, station(station_id).y_m}; }
+  std::span<const std::uint32_t> lanes_from(std::uint32_t station_id) const { return {station(station_id).lanes, station(station_id).lane_count}; }
+  std::span<const std::uint32_t> lanes_to(std::uint32_t station_id) const;
+  Vec start_heading(std::uint32_t lane_id) const { return start_headings_[lane_id]; }
+  Vec end_heading(std::uint32_t lane_id) const { return end_headings_[lane_id]; }
+  // Of the segment that this lane drives, is there a lane the other way?
+  bool two_way(std::uint32_t lane_id) const { return lanes_of_segment_[lane(lane_id).segment] > 1; }
+
+ private:
+  template <class T>
+  static const T& at(const T* first, std::uint32_t stride, std::uint32_t i) {
+    return *reinterpret_cast<const T*>(reinterpret_cast<const char*>(first) + std::size_t{stride} * i);
+  }
+
+  const fp_map& map_;
+  std::vector<Vec> start_headings_, end_headings_;  // by lane
+  std::vector<std::uint8_t> lanes_of_segment_;
+  std::vector<std::uint32_t> arriving_, arriving_begin_;  // lanes by the station they end at
+};
+
+// Headings closer than this need no turn on the spot; what the body sweeps in between is within the tolerance of every hull.
+inline bool same_heading(Vec a, Vec b) { return dot(a, b) > 1.0 - 1e-6; }  // 1.4 mrad: 1.4 mm at the corner of a 2 m long AGV
+
+}  // namespace fleetproof::agents

@@ -1,0 +1,76 @@
+#include "core/agents/neighbours.hpp"
+
+#include <algorithm>
+
+namespace fleetproof::agents {
+namespace {
+
+constexpr double kUsualClaim_m = 40.0;
+constexpr double kPositionMargin_m = 1.0;   // rounding on the wire, deviation from the track
+constexpr double kSpeedMargin = 1.1;
+
+}  // namespace
+
+double longest_claim_m(const MapView& map) {
+  double longest_lane_m = 0.0;
+  for (std::uint32_t id = 0; id < map.lane_count(); ++id) longest_lane_m = std::max(longest_lane_m, map.lane(id).length_m);
+  return std::max(kUsualClaim_m, 2.0 * longest_lane_m);
+}
+
+Neighbours::Neighbours(const MapView& map, HullGeometry& geometry, const fp_briefing& briefing)
+    : map_(map), geometry_(geometry), self_(briefing.self), neighbours_(briefing.fleet_count), claim_m_(longest_claim_m(map)) {
+  for (std::uint32_t i = 0; i < briefing.fleet_count; ++i) {
+    const auto& agv = *reinterpret_cast<const fp_agv*>(reinterpret_cast<const char*>(briefing.fleet) + std::size_t{briefing.agv_stride} * i);
+    speeds_mps_.push_back(agv.speed_mps);
+  }
+}
+
+bool Neighbours::note(std::uint32_t sender, const Message& message, std::int64_t now_ns) {
+  const Status& status = message.status;
+  if (sender >= fleet_count() || sender == self_ || !is_driveable(map_, status.held)) return false;
+  if (status.requesting && status.epoch == 0) return false;
+  if (message.kind == MessageKind::Request && !is_driveable(map_, message.request)) return false;
+  Neighbour& n = neighbours_[sender];
+  if (!n.known || status.stamp_ms >= n.status.stamp_ms) n.status = status;
+  n.known = true;
+  n.newest_stamp_ms = std::max(n.newest_stamp_ms, status.stamp_ms);
+  const std::uint32_t closed = status.requesting ? status.epoch - 1 : status.epoch;
+  n.closed_epoch = std::max(n.closed_epoch, closed);
+  if (message.kind == MessageKind::Request && status.epoch > n.closed_epoch && status.epoch > n.request_epoch) {
+    n.request_epoch = status.epoch;
+    n.demand_ns = message.demand_ns;
+    n.request = message.request;
+  }
+  if (message.kind == MessageKind::State) note_acknowledgement(n, message, now_ns);
+  return true;
+}
+
+void Neighbours::note_acknowledgement(Neighbour& neighbour, const Message& message, std::int64_t now_ns) {
+  const HeardFrom& heard = message.heard;
+  if (self_ < heard.first || self_ - heard.first >= heard.count) return;
+  const std::int64_t stamp_ms = heard.stamps_ms[self_ - heard.first];
+  const std::int64_t sent_ns = (stamp_ms - 1) * 1'000'000;
+  if (stamp_ms == 0 || sent_ns > now_ns || sent_ns < neighbour.proved_after_ns) return;
+  neighbour.proved_after_ns = sent_ns;
+  neighbour.proved_position_m = message.status.position_m;
+}
+
+bool Neighbours::surely_beyond(std::uint32_t agv, const Path& path, std::int64_t now_ns) {
+  const Neighbour& n = neighbours_[agv];
+  if (n.proved_after_ns < 0) return false;
+  const double age_s = static_cast<double>(now_ns - n.proved_after_ns) * 1e-9;
+  const double hulls_m = claim_m_ + geometry_.half_diagonal_m(agv) + geometry_.clearance_m();
+  const double moved_m = kSpeedMargin * speeds_mps_[agv] * age_s + kPositionMargin_m;
+  const double needed_m = hulls_m + moved_m;
+  if (length(n.proved_position_m - map_.position_m(path.station)) <= needed_m) return false;  // mostly; saves looking at all parts
+  return geometry_.distance_bound_m(n.proved_position_m, self_, path) > needed_m;
+}
+
+void Neighbours::tell_heard_from(HeardFrom& heard) {
+  heard.first = next_heard_;
+  heard.count = std::min(HeardFrom::kMax, fleet_count() - next_heard_);
+  for (std::uint32_t i = 0; i < heard.count; ++i) heard.stamps_ms[i] = neighbours_[next_heard_ + i].newest_stamp_ms;
+  next_heard_ = next_heard_ + heard.count == fleet_count() ? 0 : next_heard_ + heard.count;
+}
+
+}  // namespace fleetproof::agents

@@ -1,0 +1,40 @@
+#include "core/agents/path.hpp"
+
+#include <algorithm>
+
+namespace fleetproof::agents {
+
+bool operator==(const Path& a, const Path& b) { return a.station == b.station && std::ranges::equal(a.lanes(), b.lanes()); }
+
+bool is_driveable(const MapView& map, const Path& path) {
+  std::uint32_t at = path.station;
+  if (at >= map.station_count()) return false;
+  for (const std::uint32_t lane : path.lanes()) {
+    if (lane >= map.lane_count() || map.lane(lane).from != at) return false;
+    at = map.lane(lane).to;
+  }
+  return true;
+}
+
+Path end_of(const MapView& map, const Path& path) {
+  Path end;
+  end.station = path.empty() ? path.station : map.lane(path.lanes().back()).to;
+  end.heading = path.empty() ? path.heading : map.end_heading(path.lanes().back());
+  return end;
+}
+
+double length_m(const MapView& map, const Path& path) {
+  double sum_m = 0.0;
+  for (const std::uint32_t lane : path.lanes()) sum_m += map.lane(lane).length_m;
+  return sum_m;
+}
+
+void pass_first_lane(const MapView& map, Path& path) {
+  const std::uint32_t passed = path.lane_ids[0];
+  path.station = map.lane(passed).to;
+  path.heading = map.end_heading(passed);
+  std::copy(path.lane_ids.begin() + 1, path.lane_ids.begin() + path.count, path.lane_ids.begin());
+  --path.count;
+}
+
+}  // namespace fleetproof::agents

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "core/agents/map_view.hpp"
+
+namespace fleetproof::agents {
+
+inline constexpr std::uint32_t kPathLanesMax = 64;
+
+// A way through the map: an AGV stands at `station` with `heading` and drives `lanes` one after the other. Without lanes it just stands there.
+struct Path {
+  std::uint32_t station = 0;
+  Vec heading{1.0, 0.0};
+  std::uint32_t count = 0;
+  std::array<std::uint32_t, kPathLanesMax> lane_ids;
+
+  std::span<const std::uint32_t> lanes() const { return {lane_ids.data(), count}; }
+  bool empty() const { return count == 0; }
+  // False if it is full.
+  bool append(std::uint32_t lane) {
+    if (count == kPathLanesMax) return false;
+    lane_ids[count++] = lane;
+    return true;
+  }
+};
+
+bool operator==(const Path& a, const Path& b);
+// True if every lane exists and begins where the one before it ends.
+bool is_driveable(const MapView& map, const Path& path);
+// Standing where the path ends.
+Path end_of(const MapView& map, const Path& path);
+double length_m(const MapView& map, const Path& path);
+// Standing at the end of the first lane, with the others still to drive.
+void pass_first_lane(const MapView& map, Path& path);
+
+}  // namespace fleetproof::agents

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/agents/map_view.hpp"
+#include "core/sdk/fleetproof/agent.h"
+
+namespace fleetproof::agents {
+
+// From rest to rest over a lane, for AGVs of this kind; without turns.
+double drive_time_s(double length_m, const fp_agv& agv);
+
+// Quickest ways from one station to all others (Dijkstra). Keeps its memory from one search to the next.
+class Routes {
+ public:
+  explicit Routes(const MapView& map) : map_(map) {}
+
+  // `cost_s` by lane.
+  void search(std::uint32_t from, std::span<const double> cost_s);
+  // Infinite if there is no way.
+  double cost_s(std::uint32_t to) const { return cost_s_[to]; }
+  // The lanes to drive; empty if there is no way, or nowhere to go. Valid until the next call.
+  std::span<const std::uint32_t> lanes(std::uint32_t to);
+
+ private:
+  struct Open {
+    double cost_s;
+    std::uint32_t station;
+  };
+
+  const MapView& map_;
+  std::vector<double> cost_s_;          // by station
+  std::vector<std::uint32_t> arrival_;  // lane by which one gets there
+  std::vector<Open> open_;              // heap, cheapest first
+  std::vector<std::uint32_t> lanes_;
+};
+
+}  // namespace fleetproof::agents

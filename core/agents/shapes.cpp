@@ -1,0 +1,117 @@
+#include "core/agents/shapes.hpp"
+
+#include <algorithm>
+
+namespace fleetproof::agents {
+namespace {
+
+constexpr double kSmallAngle_rad = 0.25;
+constexpr double kPieceAngle_rad = 0.1;  // of a bend that one rectangle covers
+constexpr double kRounding_m = 1e-6;
+
+struct Turn {
+  double cosine = 1.0, sine = 0.0;
+};
+
+// Taylor, exact to rounding for |angle| <= kSmallAngle_rad.
+Turn small_turn(double angle_rad) {
+  const double q = angle_rad * angle_rad;
+  const double sine = angle_rad * (1.0 - q / 6.0 * (1.0 - q / 20.0 * (1.0 - q / 42.0 * (1.0 - q / 72.0 * (1.0 - q / 110.0)))));
+  const double cosine = 1.0 - q / 2.0 * (1.0 - q / 12.0 * (1.0 - q / 30.0 * (1.0 - q / 56.0 * (1.0 - q / 90.0 * (1.0 - q / 132.0)))));
+  return {cosine, sine};
+}
+
+Vec apply(Turn t, Vec v) { return {t.cosine * v.x - t.sine * v.y, t.sine * v.x + t.cosine * v.y}; }
+
+bool is_straight(const fp_arc& arc) { return std::abs(arc.curvature_per_m * arc.length_m) < 1e-9; }
+
+// Distance of a point from the rectangle inside the shape, squared.
+double squared_distance(Vec point_m, const Shape& shape) {
+  const Vec d = point_m - shape.centre_m;
+  const double along = std::max(std::abs(dot(d, shape.axis)) - shape.half_length_m, 0.0);
+  const double across = std::max(std::abs(dot(d, left_of(shape.axis))) - shape.half_width_m, 0.0);
+  return along * along + across * across;
+}
+
+double smallest_corner_distance2(const Shape& corners_of, const Shape& from) {
+  const Vec u = corners_of.axis * corners_of.half_length_m, v = left_of(corners_of.axis) * corners_of.half_width_m;
+  const Vec c = corners_of.centre_m;
+  return std::min(std::min(squared_distance(c + u + v, from), squared_distance(c + u - v, from)),
+                  std::min(squared_distance(c - u + v, from), squared_distance(c - u - v, from)));
+}
+
+// Separating axes: those of either rectangle.
+bool overlap(const Shape& a, const Shape& b) {
+  const Vec d = b.centre_m - a.centre_m;
+  const double c = std::abs(dot(a.axis, b.axis)), s = std::abs(dot(a.axis, left_of(b.axis)));
+  return std::abs(dot(d, a.axis)) <= a.half_length_m + b.half_length_m * c + b.half_width_m * s &&
+         std::abs(dot(d, left_of(a.axis))) <= a.half_width_m + b.half_length_m * s + b.half_width_m * c &&
+         std::abs(dot(d, b.axis)) <= b.half_length_m + a.half_length_m * c + a.half_width_m * s &&
+         std::abs(dot(d, left_of(b.axis))) <= b.half_width_m + a.half_length_m * s + a.half_width_m * c;
+}
+
+}  // namespace
+
+Vec turned(Vec v, double angle_rad) {
+  const double steps = std::ceil(std::abs(angle_rad) / kSmallAngle_rad);
+  if (steps < 1.0) return v;
+  const Turn t = small_turn(angle_rad / steps);
+  for (double i = 0.0; i < steps; i += 1.0) v = apply(t, v);
+  return v;
+}
+
+fp_pose end_of(const fp_arc& arc) {
+  const Vec start{arc.start.x_m, arc.start.y_m}, heading{arc.start.heading_x, arc.start.heading_y};
+  if (is_straight(arc)) {
+    const Vec end = start + heading * arc.length_m;
+    return {end.x, end.y, heading.x, heading.y};
+  }
+  const Vec last = turned(heading, arc.curvature_per_m * arc.length_m);
+  const Vec centre = start + left_of(heading) * (1.0 / arc.curvature_per_m);
+  const Vec end = centre - left_of(last) * (1.0 / arc.curvature_per_m);
+  return {end.x, end.y, last.x, last.y};
+}
+
+Shape body_at(Vec centre_m, Vec heading, double length_m, double width_m) { return {centre_m, heading, length_m / 2.0, width_m / 2.0, 0.0}; }
+
+Shape disc_at(Vec centre_m, double radius_m) { return {centre_m, {1.0, 0.0}, 0.0, 0.0, radius_m}; }
+
+bool closer_than(const Shape& a, const Shape& b, double distance_m) {
+  const Vec d = b.centre_m - a.centre_m;
+  const double far = a.reach_m() + b.reach_m() + distance_m;
+  if (dot(d, d) >= far * far) return false;
+  if (overlap(a, b)) return true;
+  // Of two rectangles apart, the nearest points are a corner of one and a side of the other.
+  const double near = a.radius_m + b.radius_m + distance_m;
+  return std::min(smallest_corner_distance2(a, b), smallest_corner_distance2(b, a)) < near * near;
+}
+
+void append_sweep(const fp_arc& arc, double length_m, double width_m, std::vector<Shape>& shapes) {
+  Vec at{arc.start.x_m, arc.start.y_m}, heading{arc.start.heading_x, arc.start.heading_y};
+  if (is_straight(arc)) {
+    shapes.push_back({at + heading * (arc.length_m / 2.0), heading, (arc.length_m + length_m) / 2.0, width_m / 2.0, 0.0});
+    return;
+  }
+  const double angle_rad = std::abs(arc.curvature_per_m) * arc.length_m;
+  const double pieces = std::ceil(angle_rad / kPieceAngle_rad);
+  const double radius_m = 1.0 / std::abs(arc.curvature_per_m);
+  const double quarter_rad = angle_rad / pieces / 4.0;
+  const Turn quarter = small_turn(arc.curvature_per_m > 0.0 ? quarter_rad : -quarter_rad);
+  const Turn half = small_turn(2.0 * quarter_rad);
+  const double half_chord_m = radius_m * half.sine, sagitta_m = radius_m * (1.0 - half.cosine);
+  // The body on a piece is turned against the middle of the piece by at most half the piece's angle and lies off its tangent by at most the sagitta.
+  const double half_length_m = half_chord_m + length_m / 2.0 + width_m / 2.0 * half.sine + kRounding_m;
+  const double half_width_m = width_m / 2.0 + length_m / 2.0 * half.sine + sagitta_m + kRounding_m;
+  const auto advance_half = [&] {  // along the chord, which lies half-way between the two headings
+    heading = apply(quarter, heading);
+    at = at + heading * (2.0 * radius_m * std::abs(quarter.sine));
+    heading = apply(quarter, heading);
+  };
+  for (double i = 0.0; i < pieces; i += 1.0) {
+    advance_half();
+    shapes.push_back({at, heading, half_length_m, half_width_m, 0.0});
+    advance_half();
+  }
+}
+
+}  // namespace fleetproof::agents

@@ -1,0 +1,180 @@
+#include "core/agents/stretch_planner.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fleetproof::agents {
+namespace {
+
+constexpr double kLookAhead_m = 12.0;
+constexpr std::uint32_t kLookAheadLanes = 3;
+
+// What it costs to go where somebody stands or is going to: the time until he has moved, roughly.
+constexpr double kArrivingCost_s = 8.0;
+constexpr double kIdleCost_s = 10.0;
+constexpr double kWaitingCost_s = 20.0;
+constexpr double kNoWayCost_s = 1000.0;
+
+}  // namespace
+
+// A way that grows lane by lane and remembers the best place so far to end it.
+struct StretchPlanner::Walk {
+  struct End {
+    std::size_t legs = 0;
+    std::uint32_t lanes = 0, goals = 0;
+  };
+
+  Walk(StretchPlanner& of, const Path& standing, Budget allowed) : planner(of), budget(allowed) { stretch.path = standing; }
+
+  StretchPlanner& planner;
+  Budget budget;
+  Stretch stretch;
+  double length_m = 0.0;
+  bool blocked = false;  // it runs into what somebody is known to hold
+  End here, best, least_bad;
+  std::uint32_t least_burden = ~0U;
+
+  std::uint32_t station() const { return end_of(planner.map_, stretch.path).station; }
+
+  // False if the budget does not allow it.
+  bool drive(std::uint32_t lane) {
+    length_m += planner.map_.lane(lane).length_m;
+    if (length_m > budget.length_m || here.lanes >= budget.lanes || !stretch.path.append(lane)) return false;
+    stretch.legs.push_back({Leg::Kind::Drive, lane});
+    ++here.lanes;
+    const std::uint32_t self = planner.neighbours_.self();
+    planner.neighbours_.for_each([&](std::uint32_t agv, const Neighbour& n) {
+      blocked = blocked || (n.known && planner.geometry_.lane_conflict(self, lane, agv, n.status.held));
+    });
+    note_end();
+    return true;
+  }
+
+  void transfer(const Goal& goal) {
+    stretch.legs.push_back({goal.transfer, FP_NONE});
+    ++here.goals;
+    note_end();
+  }
+
+  void note_end() {
+    here.legs = stretch.legs.size();
+    if (here.lanes == 0) return;
+    const std::uint32_t burden = planner.places_.burden(station());
+    if (burden == 0 && (!blocked || best.lanes == 0)) best = here;
+    if (burden <= least_burden) {
+      least_burden = burden;
+      least_bad = here;
+    }
+  }
+
+  // True if going on would not make a better stretch.
+  bool is_done() const {
+    if (best.lanes == 0) return false;
+    if (blocked) return true;
+    const bool far_enough = length_m >= kLookAhead_m || here.lanes >= kLookAheadLanes || here.goals > 0;
+    return far_enough && best.lanes == here.lanes;
+  }
+
+  Stretch take() {
+    const End& end = best.lanes > 0 ? best : least_bad;
+    stretch.legs.resize(end.legs);
+    stretch.path.count = end.lanes;
+    stretch.goals = end.goals;
+    return std::move(stretch);
+  }
+};
+
+StretchPlanner::StretchPlanner(const MapView& map, HullGeometry& geometry, Neighbours& neighbours, const fp_agv& self)
+    : map_(map), geometry_(geometry), neighbours_(neighbours), places_(map, geometry), routes_(map) {
+  lane_times_s_.reserve(map.lane_count());
+  for (std::uint32_t id = 0; id < map.lane_count(); ++id) lane_times_s_.push_back(drive_time_s(map.lane(id).length_m, self));
+}
+
+Stretch StretchPlanner::towards(const Path& standing, Budget budget, std::span<const Goal> goals) {
+  price_lanes(kWaitingCost_s, kIdleCost_s);
+  Walk walk(*this, standing, budget);
+  for (const Goal& goal : goals) {
+    if (walk.station() != goal.station) {
+      routes_.search(walk.station(), costs_s_);
+      if (!follow(walk, goal.station)) return walk.take();
+    }
+    walk.transfer(goal);
+    if (walk.is_done()) return walk.take();
+  }
+  const std::uint32_t place = best_place(walk.station(), false, 0.0);
+  if (place != FP_NONE) follow(walk, place);
+  return walk.take();
+}
+
+Stretch StretchPlanner::out_of_the_way(const Path& standing, Budget budget, bool prefer_parking, double draw) {
+  price_lanes(kNoWayCost_s, kNoWayCost_s);
+  Walk walk(*this, standing, budget);
+  const std::uint32_t place = best_place(standing.station, prefer_parking, draw);
+  if (place == FP_NONE) return {};
+  for (const std::uint32_t lane : routes_.lanes(place)) {
+    if (!walk.drive(lane)) return walk.take();
+  }
+  walk.best = walk.here;  // chosen with care, even if it is no safe place
+  return walk.take();
+}
+
+// Drives on to a station; false if the walk is done before, or cannot go on.
+bool StretchPlanner::follow(Walk& walk, std::uint32_t to) {
+  const auto lanes = routes_.lanes(to);
+  if (lanes.empty()) return false;
+  for (const std::uint32_t lane : lanes) {
+    if (!walk.drive(lane)) return false;
+    if (lane != lanes.back() && walk.is_done()) return false;
+  }
+  return true;
+}
+
+void StretchPlanner::price_lanes(double waiting_s, double idle_s) {
+  costs_s_ = lane_times_s_;
+  neighbours_.for_each([&](std::uint32_t, const Neighbour& n) {
+    if (!n.known) return;
+    const Status& status = n.status;
+    const double extra_s = status.out_of_order ? kNoWayCost_s : !status.waiting ? kArrivingCost_s : status.idle ? idle_s : waiting_s;
+    price_station(end_of(map_, status.held).station, extra_s);
+  });
+}
+
+void StretchPlanner::price_station(std::uint32_t station, double extra_s) {
+  if (places_.burden(station) < WaitingPlaces::kFoulsLanes) {
+    for (const std::uint32_t lane : map_.lanes_to(station)) costs_s_[lane] += extra_s;
+    for (const std::uint32_t lane : map_.lanes_from(station)) costs_s_[lane] += extra_s;
+    return;
+  }
+  for (std::uint32_t lane = 0; lane < map_.lane_count(); ++lane) {
+    if (geometry_.turning_blocks_lane(station, lane)) costs_s_[lane] += extra_s;
+  }
+}
+
+// Leaves the routes searched from `from`.
+std::uint32_t StretchPlanner::best_place(std::uint32_t from, bool prefer_parking, double draw) {
+  routes_.search(from, costs_s_);
+  std::uint32_t best = FP_NONE;
+  double best_s = INFINITY;
+  for (std::uint32_t station = 0; station < map_.station_count(); ++station) {
+    double cost_s = routes_.cost_s(station);
+    if (station == from || cost_s >= kNoWayCost_s) continue;
+    if (prefer_parking && (map_.station(station).purposes & FP_PARKING) == 0) cost_s += 10.0;
+    // A different order of preference in every draw, for those who get into each other's way again and again.
+    cost_s += 12.0 * draw * ((station * 7 + 3) % 5) / 4.0;
+    if (cost_s >= best_s) continue;
+    cost_s += std::min(5.0 * places_.burden(station), 200.0);
+    if (cost_s >= best_s) continue;
+    bool held = false;
+    neighbours_.for_each([&](std::uint32_t agv, const Neighbour& n) {
+      if (held || !n.known || cost_s >= best_s) return;
+      held = geometry_.turn_conflict(neighbours_.self(), station, agv, n.status.held);
+      if (n.request_is_open() && geometry_.turn_conflict(neighbours_.self(), station, agv, n.request)) cost_s += 60.0;
+    });
+    if (held || cost_s >= best_s) continue;
+    best = station;
+    best_s = cost_s;
+  }
+  return best;
+}
+
+}  // namespace fleetproof::agents

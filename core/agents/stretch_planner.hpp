@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/agents/hull.hpp"
+#include "core/agents/neighbours.hpp"
+#include "core/agents/path.hpp"
+#include "core/agents/routes.hpp"
+#include "core/agents/waiting_places.hpp"
+
+namespace fleetproof::agents {
+
+// One controller call: drive a lane, or transfer a load where one stands.
+struct Leg {
+  enum class Kind : std::uint8_t { Drive, Pick, Drop };
+  Kind kind = Kind::Drive;
+  std::uint32_t lane = FP_NONE;
+};
+
+// A place to go to and what to do there.
+struct Goal {
+  std::uint32_t station = FP_NONE;
+  Leg::Kind transfer = Leg::Kind::Pick;
+};
+
+// What is locked in one piece: a path and the legs that drive it, transfers on the way included.
+struct Stretch {
+  Path path;
+  std::vector<Leg> legs;
+  std::uint32_t goals = 0;  // reached on the way
+  bool empty() const { return path.empty(); }
+};
+
+// How far one may plan: lanes held already count.
+struct Budget {
+  double length_m = 0.0;
+  std::uint32_t lanes = 0;
+};
+
+// Chooses the next stretch. It ends at a safe waiting place, so that nobody ever waits where he blocks those he waits for; beyond that it is long
+// enough to be worth the messages, and short enough to stop before what others are known to hold. Knowledge of others may be stale: a bad choice
+// costs time, never safety.
+class StretchPlanner {
+ public:
+  StretchPlanner(const MapView& map, HullGeometry& geometry, Neighbours& neighbours, const fp_agv& self);
+
+  WaitingPlaces& places() { return places_; }
+  double lane_time_s(std::uint32_t lane) const { return lane_times_s_[lane]; }
+
+  // On the way to the goals, from where `standing` stands. Empty if there is no way to the first.
+  Stretch towards(const Path& standing, Budget budget, std::span<const Goal> goals);
+  // To a place where one is in nobody's way, as far as is known. Empty if there is none. `draw` in [0, 1) varies the choice.
+  Stretch out_of_the_way(const Path& standing, Budget budget, bool prefer_parking, double draw);
+
+ private:
+  struct Walk;
+
+  void price_lanes(double waiting_s, double idle_s);
+  void price_station(std::uint32_t station, double extra_s);
+  bool is_claimed(std::uint32_t station, const Neighbour& neighbour, std::uint32_t agv);
+  std::uint32_t best_place(std::uint32_t from, bool prefer_parking, double draw);
+  bool follow(Walk& walk, std::uint32_t to);
+
+  const MapView& map_;
+  HullGeometry& geometry_;
+  Neighbours& neighbours_;
+  WaitingPlaces places_;
+  Routes routes_;
+  std::vector<double> lane_times_s_;  // by lane
+  std::vector<double> costs_s_;       // by lane: time and what it may cost that others stand there
+};
+
+}  // namespace fleetproof::agents

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/agents/hull.hpp"
+#include "core/agents/map_view.hpp"
+
+namespace fleetproof::agents {
+
+// Where an AGV may stand for long. A standing AGV must leave every lane clear that does not touch its station, and without its station the others
+// must still reach each other; or else all lanes here are one-way, and it only holds up those who follow. Judged when first asked.
+class WaitingPlaces {
+ public:
+  WaitingPlaces(const MapView& map, HullGeometry& geometry) : map_(map), geometry_(geometry), burdens_(map.station_count(), kUnknown) {}
+
+  bool is_safe(std::uint32_t station) { return burden(station) == 0; }
+  // How much an AGV standing here is in the way: stations it cuts off, or kFoulsLanes and more. 0: a safe place.
+  std::uint32_t burden(std::uint32_t station);
+
+  static constexpr std::uint32_t kFoulsLanes = 10'000;
+
+ private:
+  static constexpr std::uint32_t kUnknown = ~0U;
+
+  bool leaves_lanes_clear(std::uint32_t station);
+  std::uint32_t stations_cut_off(std::uint32_t station);
+  // Number of stations that `from` reaches and is reached by without passing `without`.
+  std::uint32_t strongly_connected_with(std::uint32_t from, std::uint32_t without);
+  void mark_reachable(std::uint32_t from, std::uint32_t without, bool backwards);
+
+  const MapView& map_;
+  HullGeometry& geometry_;
+  std::vector<std::uint32_t> burdens_;  // by station
+  std::vector<std::uint8_t> marks_;     // by station: 1 reached, 2 reaches
+  std::vector<std::uint32_t> stack_;
+};
+
+}  // namespace fleetproof::agents

@@ -1,0 +1,56 @@
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+#include "core/agents/agent_type.hpp"
+#include "core/agents/agents.h"
+#include "tests/agents/drawn_map.hpp"
+#include "tests/agents/fake_warehouse.hpp"
+
+namespace fleetproof::agents {
+namespace {
+
+TEST(ReferenceAgents, AreCompleteAndSpeakThisVersion) {
+  std::set<std::string> names;
+  for (std::uint32_t i = 0; i < fp_reference_agent_count; ++i) {
+    const fp_agent_type& type = *fp_reference_agents[i];
+    EXPECT_EQ(type.struct_size, sizeof(fp_agent_type));
+    EXPECT_EQ(type.abi_major, FP_ABI_MAJOR);
+    EXPECT_TRUE(type.create != nullptr && type.on_event != nullptr && type.destroy != nullptr);
+    EXPECT_FALSE(std::string(type.description).empty());
+    names.insert(type.name);
+  }
+  EXPECT_EQ(names, (std::set<std::string>{"scripted", "hull-lock", "timeout-grant", "reckless"}));
+}
+
+TEST(Scripted, CallsAtItsInstantsInTheirOrder) {
+  testing::DrawnMap drawn;
+  const auto a = drawn.station(0, 0), b = drawn.station(4, 0);
+  const auto segment = drawn.segment(a, b);
+  const fp_scripted_call script[] = {{20'000'000'000, FP_CALL_DROP, FP_HERE}, {2'000'000'000, FP_CALL_MOVE, segment}, {10'000'000'000, FP_CALL_PICK, segment}};
+  const testing::TestFleet fleet(drawn.map(), 1);
+  testing::FakeWarehouse warehouse(drawn, fleet, {a}, kScripted, {}, 1);
+  warehouse.script(0, script);
+  warehouse.run(60.0);
+  const std::vector<std::pair<double, std::uint32_t>> expected = {{2.0, FP_CALL_MOVE}, {10.0, FP_CALL_PICK}, {20.0, FP_CALL_DROP}};
+  EXPECT_EQ(warehouse.calls(), expected);
+}
+
+TEST(Reckless, DrivesItsTransportsByTheQuickestWay) {
+  testing::DrawnMap drawn;
+  const auto a = drawn.station(0, 0), b = drawn.station(4, 0), c = drawn.station(8, 0), detour = drawn.station(4, 9);
+  drawn.segment(a, detour), drawn.segment(detour, c), drawn.segment(a, b), drawn.segment(b, c);
+  const testing::TestFleet fleet(drawn.map(), 1);
+  testing::FakeWarehouse warehouse(drawn, fleet, {a}, kReckless, {}, 1);
+  warehouse.order(0, 1.0, a, c);
+  warehouse.order(0, 1.0, b, a);
+  warehouse.run(120.0);
+  EXPECT_EQ(warehouse.drops(), 2U);
+  std::vector<std::uint32_t> calls;
+  for (const auto& call : warehouse.calls()) calls.push_back(call.second);
+  EXPECT_EQ(calls, (std::vector<std::uint32_t>{FP_CALL_PICK, FP_CALL_MOVE, FP_CALL_DROP, FP_CALL_PICK, FP_CALL_DROP}));
+}
+
+}  // namespace
+}  // namespace fleetproof::agents

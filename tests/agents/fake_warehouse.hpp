@@ -1,0 +1,304 @@
+#pragma once
+
+#include <cmath>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <queue>
+#include <random>
+#include <set>
+#include <span>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "core/sdk/fleetproof/agent.h"
+#include "tests/agents/drawn_map.hpp"
+#include "tests/agents/rectangles.hpp"
+
+namespace fleetproof::agents::testing {
+
+struct FakeRadio {
+  double loss = 0.0;
+  double delay_s = 0.0;
+  bool uniform = false;     // on 0 .. delay, so that messages overtake each other
+  double duplicates = 0.0;  // share of receptions that come a second time, later
+};
+
+// As much of a warehouse as agents need: AGVs that turn and drive at the right times, transfers, timers, and a bad radio.
+class FakeWarehouse {
+ public:
+  FakeWarehouse(const DrawnMap& drawn, const TestFleet& fleet, std::vector<std::uint32_t> starts, const fp_agent_type& type, FakeRadio radio,
+                std::uint64_t seed)
+      : drawn_(drawn), fleet_(fleet), type_(type), radio_(radio), draws_(seed), seed_(seed), host_(make_host()) {
+    for (std::uint32_t id = 0; id < starts.size(); ++id) {
+      auto agv = std::make_unique<Agv>();
+      agv->handle = {this, id};
+      agv->station = starts[id];
+      const fp_station& s = fleet.map.stations[starts[id]];
+      agv->pose = {s.x_m, s.y_m, 1.0, 0.0};
+      agv->briefing = fleet.briefing(id, starts[id]);
+      agvs_.push_back(std::move(agv));
+    }
+  }
+  ~FakeWarehouse() {
+    for (auto& agv : agvs_) type_.destroy(agv->agent);
+  }
+  FakeWarehouse(const FakeWarehouse&) = delete;
+  FakeWarehouse& operator=(const FakeWarehouse&) = delete;
+
+  void heading(std::uint32_t agv, double x, double y) { agvs_[agv]->pose.heading_x = x, agvs_[agv]->pose.heading_y = y; }
+  void script(std::uint32_t agv, std::span<const fp_scripted_call> calls) {
+    agvs_[agv]->briefing.script = calls.data();
+    agvs_[agv]->briefing.script_count = static_cast<std::uint32_t>(calls.size());
+  }
+  void order(std::uint32_t agv, double at_s, std::uint32_t from, std::uint32_t to) {
+    at(seconds(at_s), [this, agv, from, to] {
+      fp_event event{};
+      event.kind = FP_EVENT_ORDER;
+      event.from = from;
+      event.to = to;
+      tell(agv, event);
+    });
+  }
+
+  // To that instant, or until a little after this number of loads has been dropped.
+  void run(double until_s, std::uint32_t enough_drops = ~0U) {
+    for (std::uint32_t id = 0; id < agvs_.size(); ++id) {
+      at(0, [this, id] {
+        agvs_[id]->agent = type_.create(&host_, reinterpret_cast<fp_controller*>(&agvs_[id]->handle), &agvs_[id]->briefing);
+        tell(id, fp_event{});
+      });
+    }
+    at(0, [this] { look(); });
+    while (!queue_.empty() && queue_.top().at_ns <= seconds(std::min(until_s, drops_ < enough_drops ? until_s : last_drop_s_ + 5.0))) {
+      const Event event = queue_.top();
+      queue_.pop();
+      now_ns_ = event.at_ns;
+      event.what();
+    }
+  }
+
+  // Called after every activation.
+  std::function<void(std::uint32_t agv)> after_activation;
+  void* agent(std::uint32_t id) { return agvs_[id]->agent; }
+  std::size_t fleet_size() const { return agvs_.size(); }
+  std::uint32_t drops() const { return drops_; }
+  double last_drop_s() const { return last_drop_s_; }
+  double least_clearance_m() const { return least_clearance_m_; }
+  const std::multiset<std::string>& probes() const { return probes_; }
+  const std::vector<std::pair<double, std::uint32_t>>& calls() const { return calls_; }  // instant and fp_call
+  void stop_motion_of(std::uint32_t id) { agvs_[id]->stopped = true; }
+
+ private:
+  struct Handle {
+    FakeWarehouse* warehouse;
+    std::uint32_t id;
+  };
+  struct Received {
+    std::uint32_t sender;
+    std::string bytes;
+  };
+  struct Agv {
+    Handle handle{};
+    fp_briefing briefing{};
+    void* agent = nullptr;
+    std::uint32_t station = 0;
+    fp_pose pose{};
+    const fp_lane* lane = nullptr;  // being driven
+    std::int64_t turn_begins_ns = 0, drive_begins_ns = 0, drive_ends_ns = 0;
+    bool busy = false, loaded = false, stopped = false;
+    std::deque<Received> inbox;
+    Received in_hand;
+    std::vector<std::pair<std::uint32_t, std::uint64_t>> timers;  // number, stamp
+  };
+  struct Event {
+    std::int64_t at_ns;
+    std::uint64_t order;
+    std::function<void()> what;
+    friend bool operator<(const Event& a, const Event& b) { return std::tie(a.at_ns, a.order) > std::tie(b.at_ns, b.order); }
+  };
+
+  static std::int64_t seconds(double s) { return static_cast<std::int64_t>(s * 1e9); }
+  static Handle& handle(fp_controller* controller) { return *reinterpret_cast<Handle*>(controller); }
+  void at(std::int64_t at_ns, std::function<void()> what) { queue_.push({at_ns, ++events_, std::move(what)}); }
+  double draw() { return std::uniform_real_distribution<double>()(draws_); }
+
+  void tell(std::uint32_t id, fp_event event) {
+    event.struct_size = sizeof(fp_event);
+    event.now_ns = now_ns_;
+    type_.on_event(agvs_[id]->agent, &event);
+    if (after_activation) after_activation(id);
+  }
+
+  fp_pose pose_of(const Agv& agv) const {
+    if (agv.lane == nullptr) return agv.pose;
+    if (now_ns_ < agv.drive_begins_ns) {  // turning: headings in between, the shorter way
+      const double share = static_cast<double>(now_ns_ - agv.turn_begins_ns) / static_cast<double>(agv.drive_begins_ns - agv.turn_begins_ns);
+      const fp_pose target = on_lane(*agv.lane, 0.0);
+      const double from = std::atan2(agv.pose.heading_y, agv.pose.heading_x);
+      const double by = std::remainder(std::atan2(target.heading_y, target.heading_x) - from, 2 * M_PI);
+      return {agv.pose.x_m, agv.pose.y_m, std::cos(from + share * by), std::sin(from + share * by)};
+    }
+    const double share = static_cast<double>(now_ns_ - agv.drive_begins_ns) / static_cast<double>(agv.drive_ends_ns - agv.drive_begins_ns);
+    return on_lane(*agv.lane, share * agv.lane->length_m);
+  }
+
+  void look() {
+    std::vector<std::array<Point, 4>> bodies;
+    for (const auto& agv : agvs_) bodies.push_back(corners(pose_of(*agv), kTestAgv.length_m, kTestAgv.width_m));
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      for (std::size_t k = i + 1; k < bodies.size(); ++k) least_clearance_m_ = std::min(least_clearance_m_, clearance_m(bodies[i], bodies[k]));
+    }
+    at(now_ns_ + seconds(0.1), [this] { look(); });
+  }
+
+  std::int32_t act(std::uint32_t id, fp_call call, std::uint32_t segment) {
+    calls_.emplace_back(static_cast<double>(now_ns_) * 1e-9, call);
+    Agv& agv = *agvs_[id];
+    if (agv.busy || agv.stopped) return FP_REFUSED;
+    const fp_lane* lane = nullptr;
+    for (std::uint32_t i = 0; i < fleet_.map.lane_count; ++i) {
+      const fp_lane& l = drawn_.lane_at(i);
+      if (l.segment == segment && l.from == agv.station) lane = &l;
+    }
+    if (lane == nullptr && (segment != FP_HERE || call == FP_CALL_MOVE)) return FP_REFUSED;
+    agv.busy = true;
+    std::int64_t ends_ns = now_ns_;
+    if (lane != nullptr) {
+      const fp_pose start = on_lane(*lane, 0.0);
+      const double turn = std::acos(std::clamp(start.heading_x * agv.pose.heading_x + start.heading_y * agv.pose.heading_y, -1.0, 1.0));
+      agv.turn_begins_ns = now_ns_;
+      agv.drive_begins_ns = now_ns_ + seconds(turn < 1e-6 ? 0.0 : turn + 1.0);
+      agv.drive_ends_ns = agv.drive_begins_ns + seconds(lane->length_m < 6.0 ? std::sqrt(6.0 * lane->length_m) : 3.0 + lane->length_m / 2.0);
+      agv.lane = lane;
+      ends_ns = agv.drive_ends_ns;
+    }
+    if (call == FP_CALL_PICK || call == FP_CALL_DROP) ends_ns += seconds(5.0);
+    at(ends_ns, [this, id, call] { done(id, call); });
+    return FP_OK;
+  }
+
+  void done(std::uint32_t id, fp_call call) {
+    Agv& agv = *agvs_[id];
+    fp_event event{};
+    event.kind = FP_EVENT_ACTION_DONE;
+    if (agv.stopped) {
+      event.result = FP_REFUSED;
+    } else if (agv.lane != nullptr) {
+      agv.pose = on_lane(*agv.lane, agv.lane->length_m);
+      agv.station = agv.lane->to;
+      agv.lane = nullptr;
+    }
+    agv.busy = false;
+    if (call == FP_CALL_DROP && agv.loaded) ++drops_, last_drop_s_ = static_cast<double>(now_ns_) * 1e-9;
+    if (call == FP_CALL_PICK || call == FP_CALL_DROP) agv.loaded = call == FP_CALL_PICK;
+    tell(id, event);
+  }
+
+  void send(std::uint32_t sender, std::uint32_t receiver, const std::string& bytes) {
+    for (int copy = 0; copy < 2; ++copy) {
+      const double delay_s = radio_.uniform ? draw() * radio_.delay_s : radio_.delay_s;
+      const bool lost = draw() < radio_.loss || (copy == 1 && draw() >= radio_.duplicates);
+      if (lost) continue;
+      at(now_ns_ + seconds(std::max(delay_s, 0.001)), [this, sender, receiver, bytes] {
+        agvs_[receiver]->inbox.push_back({sender, bytes});
+        fp_event event{};
+        event.kind = FP_EVENT_MESSAGE;
+        tell(receiver, event);
+      });
+    }
+  }
+
+  void set_timer(std::uint32_t id, std::uint32_t number, std::int64_t at_ns) {
+    Agv& agv = *agvs_[id];
+    auto timer = std::find_if(agv.timers.begin(), agv.timers.end(), [&](const auto& t) { return t.first == number; });
+    if (timer == agv.timers.end()) timer = agv.timers.insert(timer, {number, 0});
+    const std::uint64_t stamp = timer->second = ++stamps_;
+    if (at_ns < 0) return;
+    at(std::max(at_ns, now_ns_), [this, id, number, stamp] {
+      for (const auto& [n, s] : agvs_[id]->timers) {
+        if (n != number || s != stamp) continue;
+        fp_event event{};
+        event.kind = FP_EVENT_TIMER;
+        event.timer = number;
+        return tell(id, event);
+      }
+    });
+  }
+
+  static fp_host make_host();
+
+  const DrawnMap& drawn_;
+  const TestFleet& fleet_;
+  const fp_agent_type& type_;
+  FakeRadio radio_;
+  std::mt19937_64 draws_;
+  std::uint64_t seed_;
+  fp_host host_;
+  std::vector<std::unique_ptr<Agv>> agvs_;
+  std::priority_queue<Event> queue_;
+  std::int64_t now_ns_ = 0;
+  std::uint64_t events_ = 0, stamps_ = 0;
+  std::uint32_t drops_ = 0;
+  double last_drop_s_ = 0.0, least_clearance_m_ = 1e9;
+  std::multiset<std::string> probes_;
+  std::vector<std::pair<double, std::uint32_t>> calls_;
+};
+
+inline fp_host FakeWarehouse::make_host() {
+  fp_host host{};
+  host.struct_size = sizeof(fp_host);
+  host.abi_major = FP_ABI_MAJOR;
+  host.abi_minor = FP_ABI_MINOR;
+  host.move = [](fp_controller* c, std::uint32_t s) { return handle(c).warehouse->act(handle(c).id, FP_CALL_MOVE, s); };
+  host.pick = [](fp_controller* c, std::uint32_t s) { return handle(c).warehouse->act(handle(c).id, FP_CALL_PICK, s); };
+  host.drop = [](fp_controller* c, std::uint32_t s) { return handle(c).warehouse->act(handle(c).id, FP_CALL_DROP, s); };
+  host.park = [](fp_controller* c, std::uint32_t s) { return handle(c).warehouse->act(handle(c).id, FP_CALL_PARK, s); };
+  host.charge = [](fp_controller* c, std::uint32_t s) { return handle(c).warehouse->act(handle(c).id, FP_CALL_CHARGE, s); };
+  host.send_broadcast = [](fp_controller* c, const void* bytes, std::uint32_t size) -> std::int32_t {
+    FakeWarehouse& w = *handle(c).warehouse;
+    for (std::uint32_t i = 0; i < w.agvs_.size(); ++i) {
+      if (i != handle(c).id) w.send(handle(c).id, i, {static_cast<const char*>(bytes), size});
+    }
+    return FP_OK;
+  };
+  host.send_unicast = [](fp_controller* c, const void* bytes, std::uint32_t size, std::uint32_t receiver) -> std::int32_t {
+    handle(c).warehouse->send(handle(c).id, receiver, {static_cast<const char*>(bytes), size});
+    return FP_OK;
+  };
+  host.get_position = [](fp_controller* c, fp_pose* out) -> std::int32_t {
+    *out = handle(c).warehouse->pose_of(*handle(c).warehouse->agvs_[handle(c).id]);
+    return FP_OK;
+  };
+  host.get_message = [](fp_controller* c, fp_message* out) -> std::int32_t {
+    Agv& agv = *handle(c).warehouse->agvs_[handle(c).id];
+    if (agv.inbox.empty()) return FP_EMPTY;
+    agv.in_hand = std::move(agv.inbox.front());
+    agv.inbox.pop_front();
+    out->sender = agv.in_hand.sender;
+    out->size = static_cast<std::uint32_t>(agv.in_hand.bytes.size());
+    out->bytes = agv.in_hand.bytes.data();
+    return FP_OK;
+  };
+  host.get_action = [](fp_controller* c, std::uint32_t* out) -> std::int32_t {
+    *out = handle(c).warehouse->agvs_[handle(c).id]->stopped ? FP_OUT_OF_ORDER : FP_IDLE;
+    return FP_OK;
+  };
+  host.now_ns = [](fp_controller* c) { return handle(c).warehouse->now_ns_; };
+  host.set_timer = [](fp_controller* c, std::uint32_t timer, std::int64_t at_ns) -> std::int32_t {
+    handle(c).warehouse->set_timer(handle(c).id, timer, at_ns);
+    return FP_OK;
+  };
+  host.random = [](fp_controller* c, std::uint32_t purpose, std::uint64_t index) -> std::uint64_t {
+    return std::mt19937_64(handle(c).warehouse->seed_ * 1'000'003 + handle(c).id * 1009 + purpose * 101 + index)();
+  };
+  host.waiting_for = [](fp_controller*, std::uint32_t) -> std::int32_t { return FP_OK; };
+  host.sometimes = [](fp_controller* c, const char* probe) -> std::int32_t {
+    handle(c).warehouse->probes_.insert(probe);
+    return FP_OK;
+  };
+  return host;
+}
+
+}  // namespace fleetproof::agents::testing

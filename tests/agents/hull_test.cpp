@@ -1,0 +1,162 @@
+#include "core/agents/hull.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "core/agents/shapes.hpp"
+#include "tests/agents/drawn_map.hpp"
+#include "tests/agents/rectangles.hpp"
+
+namespace fleetproof::agents {
+namespace {
+
+using testing::DrawnMap;
+using testing::TestFleet;
+
+fp_pose pose(double x, double y, double angle) { return {x, y, std::cos(angle), std::sin(angle)}; }
+Shape body(const fp_pose& p, double length_m, double width_m) { return body_at({p.x_m, p.y_m}, {p.heading_x, p.heading_y}, length_m, width_m); }
+
+double distance_m(Vec p, const Shape& s) {
+  const Vec d = p - s.centre_m;
+  const double along = std::max(std::abs(dot(d, s.axis)) - s.half_length_m, 0.0), across = std::max(std::abs(dot(d, left_of(s.axis))) - s.half_width_m, 0.0);
+  return std::hypot(along, across) - s.radius_m;
+}
+
+TEST(AgentShapes, TurnLikeTheTrigonometricFunctions) {
+  for (double angle = -7.0; angle < 7.0; angle += 0.0371) {
+    const Vec v = turned({1.0, 0.0}, angle);
+    EXPECT_NEAR(v.x, std::cos(angle), 1e-14);
+    EXPECT_NEAR(v.y, std::sin(angle), 1e-14);
+  }
+}
+
+TEST(AgentShapes, CloserThanAgreesWithTheDistanceOfTheSides) {
+  std::mt19937_64 draws(1);
+  std::uniform_real_distribution<double> place(-3.0, 3.0), angle(-4.0, 4.0), size(0.2, 3.0);
+  int near = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const fp_pose a = pose(place(draws), place(draws), angle(draws)), b = pose(place(draws), place(draws), angle(draws));
+    const double la = size(draws), wa = size(draws), lb = size(draws), wb = size(draws);
+    const double clear_m = testing::clearance_m(testing::corners(a, la, wa), testing::corners(b, lb, wb));
+    EXPECT_EQ(closer_than(body(a, la, wa), body(b, lb, wb), clear_m + 1e-9), true);
+    if (clear_m > 1e-9) {
+      EXPECT_EQ(closer_than(body(a, la, wa), body(b, lb, wb), clear_m - 1e-9), false) << i;
+      ++near;
+    }
+  }
+  EXPECT_GT(near, 5000);
+}
+
+// Whatever the body covers at any point of the arc, the shapes cover; and not much more.
+TEST(AgentShapes, SweepCoversTheBodyEverywhereOnTheArc) {
+  std::mt19937_64 draws(2);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int i = 0; i < 60; ++i) {
+    const double radius_m = 0.8 + 4.0 * unit(draws), angle = 0.05 + 3.0 * unit(draws);
+    const fp_arc arc{pose(5.0 * unit(draws), 5.0 * unit(draws), 6.3 * unit(draws)), i % 6 == 0 ? 4.0 : radius_m * angle,
+                     i % 6 == 0 ? 0.0 : (i % 2 == 0 ? 1.0 : -1.0) / radius_m};
+    const double length_m = 1.0 + 1.6 * unit(draws), width_m = 0.6 + 0.7 * unit(draws);
+    std::vector<Shape> shapes;
+    append_sweep(arc, length_m, width_m, shapes);
+    double widest_m = 0.0;
+    for (const Shape& s : shapes) widest_m = std::max(widest_m, s.half_width_m - width_m / 2.0);
+    EXPECT_LT(widest_m, 0.08);
+    for (double t = 0.0; t <= 1.0; t += 1.0 / 512) {
+      for (const auto& corner : testing::corners(testing::on_arc(arc, t * arc.length_m), length_m, width_m)) {
+        double nearest_m = 1e9;
+        for (const Shape& s : shapes) nearest_m = std::min(nearest_m, distance_m({corner.x, corner.y}, s));
+        ASSERT_LE(nearest_m, 1e-9) << "arc " << i << " at " << t;
+      }
+    }
+  }
+}
+
+TEST(AgentShapes, EndOfAnArcIsWhereItLeads) {
+  const fp_arc arc{pose(1.0, 2.0, 0.7), 3.0, -0.6};
+  const fp_pose end = end_of(arc), expected = testing::on_arc(arc, 3.0);
+  EXPECT_NEAR(end.x_m, expected.x_m, 1e-12);
+  EXPECT_NEAR(end.y_m, expected.y_m, 1e-12);
+  EXPECT_NEAR(end.heading_x, expected.heading_x, 1e-12);
+  EXPECT_NEAR(end.heading_y, expected.heading_y, 1e-12);
+}
+
+class Crossing : public ::testing::Test {
+ protected:
+  // Two lanes that cross without a common station, and a third beside them at 1.15 m: bodies 1 m wide pass with 0.15 m.
+  static DrawnMap draw() {
+    DrawnMap d;
+    for (const auto& [x, y] : {std::pair(-4.0, 0.0), {4.0, 0.0}, {0.0, -4.0}, {0.0, 4.0}, {-4.0, 1.15}, {4.0, 1.15}}) d.station(x, y);
+    for (const std::uint32_t from : {0U, 2U, 4U}) d.segment(from, from + 1);
+    return d;
+  }
+
+  Path path(std::uint32_t from, std::uint32_t to) {
+    Path p;
+    p.station = from;
+    const std::uint32_t lane = drawn.lane_between(from, to);
+    p.heading = {drawn.lane_at(lane).arcs[0].start.heading_x, drawn.lane_at(lane).arcs[0].start.heading_y};
+    p.append(lane);
+    return p;
+  }
+
+  DrawnMap drawn = draw();
+  TestFleet fleet{drawn.map(), 2};
+  MapView map{drawn.map()};
+  HullGeometry geometry{map, fleet.briefing(0, 0)};
+};
+
+TEST_F(Crossing, LanesConflictWhereverTheyMeet) {
+  EXPECT_TRUE(geometry.conflict(0, path(0, 1), 1, path(2, 3)));
+  EXPECT_TRUE(geometry.conflict(0, path(0, 1), 1, path(1, 0))) << "both ways of one segment";
+  EXPECT_FALSE(geometry.conflict(0, path(0, 1), 1, path(4, 5))) << "0.15 m beside it";
+}
+
+TEST_F(Crossing, TurningOnTheSpotNeedsMoreRoomThanDrivingOff) {
+  Path turning = path(0, 1);
+  turning.heading = {0.0, 1.0};
+  EXPECT_TRUE(geometry.conflict(0, turning, 1, path(4, 5)));
+}
+
+TEST_F(Crossing, StandingAgvHoldsItsBody) {
+  Path standing;
+  standing.station = 0;
+  standing.heading = {1.0, 0.0};
+  EXPECT_TRUE(geometry.conflict(0, standing, 1, path(1, 0)));
+  EXPECT_FALSE(geometry.conflict(0, standing, 1, path(2, 3)));
+  EXPECT_FALSE(geometry.conflict(0, standing, 1, path(4, 5)));
+  standing.heading = {0.0, 1.0};
+  EXPECT_TRUE(geometry.conflict(0, standing, 1, path(4, 5)));
+}
+
+TEST_F(Crossing, TheSafetyDistanceCountsEverywhere) {
+  // Bodies 1 m wide beside each other, the centres 1.08 m or 1.15 m apart: 0.08 m is too near, driving or standing.
+  for (const auto& [y_m, conflict] : {std::pair(1.08, true), {1.15, false}}) {
+    DrawnMap beside;
+    for (const double y : {0.0, y_m}) beside.station(-4, y), beside.station(4, y);
+    beside.segment(0, 1), beside.segment(2, 3);
+    const MapView view(beside.map());
+    const TestFleet pair(beside.map(), 2);
+    HullGeometry hulls(view, pair.briefing(0, 0));
+    Path driving, standing, other;
+    driving.station = 0, standing.station = 0, other.station = 2;
+    EXPECT_EQ(hulls.conflict(0, standing, 1, other), conflict);
+    driving.append(beside.lane_between(0, 1));
+    EXPECT_EQ(hulls.conflict(0, driving, 1, other), conflict);
+    EXPECT_EQ(hulls.conflict(1, other, 0, driving), conflict);
+    other.append(beside.lane_between(2, 3));
+    EXPECT_EQ(hulls.conflict(0, driving, 1, other), conflict);
+  }
+}
+
+TEST_F(Crossing, DistanceBoundIsNoMoreThanTheDistance) {
+  const Path p = path(0, 1);
+  for (double x = -20.0; x < 20.0; x += 1.7) {
+    const double true_m = std::max(0.0, std::hypot(std::max(std::abs(x) - 4.8, 0.0), 9.5));
+    EXPECT_LE(geometry.distance_bound_m({x, 10.0}, 0, p), true_m + 1e-9);
+  }
+  EXPECT_GT(geometry.distance_bound_m({30.0, 0.0}, 0, p), 24.0);
+}
+
+}  // namespace
+}  // namespace fleetproof::agents

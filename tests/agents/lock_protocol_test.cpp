@@ -1,0 +1,265 @@
+#include "core/agents/lock_protocol.hpp"
+
+#include <gtest/gtest.h>
+
+#include <deque>
+#include <memory>
+
+#include "tests/agents/drawn_map.hpp"
+
+namespace fleetproof::agents {
+namespace {
+
+// Two or three AGVs around one crossing, and a radio that delivers what the test says when the test says so.
+class LockProtocolTest : public ::testing::Test {
+ protected:
+  struct Sent {
+    std::uint32_t from, to;
+    Message message;
+    std::vector<std::byte> bytes;
+  };
+  struct Member {
+    LockProtocolTest* test;
+    std::uint32_t id;
+    std::unique_ptr<Neighbours> neighbours;
+    std::unique_ptr<Controller> controller;
+    std::unique_ptr<LockProtocol> protocol;
+  };
+
+  LockProtocolTest() {
+    for (const auto& [x, y] : {std::pair(0, 0), {6, 0}, {-6, 0}, {0, 6}, {0, -6}}) drawn.station(x, y);
+    for (std::uint32_t arm = 1; arm < 5; ++arm) drawn.segment(0, arm);
+    drawn.map();
+    host.now_ns = [](fp_controller* c) { return member(c).test->now_ns; };
+    host.get_position = [](fp_controller*, fp_pose*) -> std::int32_t { return FP_REFUSED; };
+    host.random = [](fp_controller*, std::uint32_t, std::uint64_t) -> std::uint64_t { return std::uint64_t{1} << 63; };
+    host.waiting_for = [](fp_controller*, std::uint32_t) -> std::int32_t { return FP_OK; };
+    host.sometimes = [](fp_controller*, const char*) -> std::int32_t { return FP_OK; };
+    host.send_unicast = [](fp_controller* c, const void* bytes, std::uint32_t size, std::uint32_t to) -> std::int32_t {
+      const std::span span(static_cast<const std::byte*>(bytes), size);
+      member(c).test->sent.push_back({member(c).id, to, *decode(span), {span.begin(), span.end()}});
+      return FP_OK;
+    };
+    host.send_broadcast = [](fp_controller*, const void*, std::uint32_t) -> std::int32_t { return FP_OK; };
+  }
+
+  static Member& member(fp_controller* c) { return *reinterpret_cast<Member*>(c); }
+
+  void fleet_of(std::uint32_t count, LockOptions options = {}) {
+    fleet = std::make_unique<testing::TestFleet>(drawn.map(), count);
+    map = std::make_unique<MapView>(drawn.map());
+    geometry = std::make_unique<HullGeometry>(*map, fleet->briefing(0, 1));
+    for (std::uint32_t id = 0; id < count; ++id) {
+      auto m = std::make_unique<Member>();
+      m->test = this;
+      m->id = id;
+      m->neighbours = std::make_unique<Neighbours>(*map, *geometry, fleet->briefing(id, id + 1));
+      m->controller = std::make_unique<Controller>(host, reinterpret_cast<fp_controller*>(m.get()));
+      m->protocol = std::make_unique<LockProtocol>(*map, *geometry, *m->neighbours, *m->controller, options);
+      Path standing;
+      standing.station = id + 1;
+      m->protocol->stand(standing);
+      m->protocol->describe(true, false, false);
+      members.push_back(std::move(m));
+    }
+  }
+
+  // From its own arm across the crossing to the other.
+  void want(std::uint32_t id, std::uint32_t to, std::int64_t demand_ns) {
+    Path p = members[id]->protocol->held();
+    p.append(drawn.lane_between(p.station, 0));
+    p.append(drawn.lane_between(0, to));
+    members[id]->protocol->request(p, demand_ns);
+  }
+  bool settle(std::uint32_t id) { return members[id]->protocol->settle(); }
+  // The oldest undelivered message of this kind from one to the other; it stays in the air if `keep`.
+  bool deliver(MessageKind kind, std::uint32_t from, std::uint32_t to, bool keep = false) {
+    for (auto s = sent.begin(); s != sent.end(); ++s) {
+      if (s->from != from || s->to != to || s->message.kind != kind) continue;
+      const std::vector<std::byte> bytes = s->bytes;
+      if (!keep) sent.erase(s);
+      members[to]->protocol->receive(from, bytes);
+      return true;
+    }
+    return false;
+  }
+
+  testing::DrawnMap drawn;
+  fp_host host{};
+  std::int64_t now_ns = 0;
+  std::unique_ptr<testing::TestFleet> fleet;
+  std::unique_ptr<MapView> map;
+  std::unique_ptr<HullGeometry> geometry;
+  std::vector<std::unique_ptr<Member>> members;
+  std::deque<Sent> sent;
+};
+
+TEST_F(LockProtocolTest, AloneItLocksAtOnce) {
+  fleet_of(1);
+  want(0, 3, 0);
+  EXPECT_TRUE(settle(0));
+  EXPECT_EQ(members[0]->protocol->held().count, 2U);
+}
+
+TEST_F(LockProtocolTest, EverybodyMustGrant) {
+  fleet_of(3);
+  want(0, 4, 0);
+  EXPECT_FALSE(settle(0));
+  ASSERT_TRUE(deliver(MessageKind::Request, 0, 1));
+  ASSERT_TRUE(deliver(MessageKind::Grant, 1, 0));
+  EXPECT_FALSE(settle(0));
+  ASSERT_TRUE(deliver(MessageKind::Request, 0, 2));
+  ASSERT_TRUE(deliver(MessageKind::Grant, 2, 0, true));
+  ASSERT_TRUE(deliver(MessageKind::Grant, 2, 0));
+  EXPECT_TRUE(settle(0));
+}
+
+TEST_F(LockProtocolTest, ManyGrantsOfOneMemberAreOne) {
+  fleet_of(3);
+  want(0, 4, 0);
+  settle(0);
+  ASSERT_TRUE(deliver(MessageKind::Request, 0, 1));
+  for (int i = 0; i < 5; ++i) deliver(MessageKind::Grant, 1, 0, true);
+  EXPECT_FALSE(settle(0));
+}
+
+TEST_F(LockProtocolTest, AGrantCountsForItsEpochOnly) {
+  fleet_of(2);
+  want(0, 3, 0);
+  settle(0);
+  ASSERT_TRUE(deliver(MessageKind::Request, 0, 1));
+  want(0, 4, 0);  // another epoch
+  settle(0);
+  ASSERT_TRUE(deliver(MessageKind::Grant, 1, 0));
+  EXPECT_FALSE(settle(0));
+  ASSERT_TRUE(deliver(MessageKind::Request, 0, 1));
+  ASSERT_TRUE(deliver(MessageKind::Grant, 1, 0));
+  EXPECT_TRUE(settle(0));
+}
+
+TEST_F(LockProtocolTest, WhoHoldsDefersAndGrantsOnHisOwnWhenHeHasPassed) {
+  fleet_of(2);
+  want(0, 3, 0);
+  settle(0);
+  deliver(MessageKind::Request, 0, 1);
+  deliver(MessageKind::Grant, 1, 0);
+  ASSERT_TRUE(settle(0));
+  want(1, 4, 5);
+  settle(1);
+  ASSERT_TRUE(deliver(MessageKind::Request, 1, 0));
+  EXPECT_TRUE(deliver(MessageKind::Defer, 0, 1));
+  members[0]->protocol->lane_passed();
+  settle(0);
+  EXPECT_FALSE(deliver(MessageKind::Grant, 0, 1)) << "it still has the crossing to leave";
+  members[0]->protocol->lane_passed();
+  settle(0);
+  EXPECT_TRUE(deliver(MessageKind::Grant, 0, 1));
+  EXPECT_TRUE(settle(1));
+}
+
+// Rule 2 of the protocol, in the case that taking back only what one holds gets wrong: the grant is still in the air.
+TEST_F(LockProtocolTest, WhoLetsAnElderPassStepsBackEvenFromGrantsInFlight) {
+  fleet_of(2);
+  want(0, 3, 100);
+  settle(0);
+  ASSERT_TRUE(deliver(MessageKind::Request, 0, 1));  // 1 wants nothing yet and grants; the grant stays in the air
+  want(1, 4, 50);                                    // the elder demand
+  settle(1);
+  ASSERT_TRUE(deliver(MessageKind::Request, 1, 0));
+  ASSERT_TRUE(deliver(MessageKind::Grant, 0, 1));
+  EXPECT_TRUE(settle(1));
+  ASSERT_TRUE(deliver(MessageKind::Grant, 1, 0)) << "the old one";
+  EXPECT_FALSE(settle(0));
+}
+
+TEST_F(LockProtocolTest, DuplicateOfAGrantedRequestIsGrantedAgainWithoutSteppingBack) {
+  fleet_of(2);
+  want(1, 4, 50);
+  settle(1);
+  ASSERT_TRUE(deliver(MessageKind::Request, 1, 0, true));
+  want(0, 3, 100);
+  settle(0);
+  const std::uint32_t epoch = members[0]->protocol->epoch();
+  ASSERT_TRUE(deliver(MessageKind::Request, 1, 0));
+  EXPECT_EQ(members[0]->protocol->epoch(), epoch);
+  // Nor does it do harm: 1 is asked by that epoch and defers as long as it may use the grant.
+  ASSERT_TRUE(deliver(MessageKind::Request, 0, 1));
+  EXPECT_TRUE(deliver(MessageKind::Defer, 1, 0));
+  EXPECT_FALSE(settle(0));
+}
+
+TEST_F(LockProtocolTest, OfTwoWhoWantTheSameTheElderGoesFirst) {
+  for (const bool elder_first : {true, false}) {
+    members.clear();
+    sent.clear();
+    fleet_of(2);
+    want(0, 3, elder_first ? 1 : 9);
+    want(1, 4, 5);
+    settle(0), settle(1);
+    ASSERT_TRUE(deliver(MessageKind::Request, 0, 1));
+    ASSERT_TRUE(deliver(MessageKind::Request, 1, 0));
+    const std::uint32_t winner = elder_first ? 0 : 1;
+    EXPECT_TRUE(deliver(MessageKind::Grant, 1 - winner, winner));
+    EXPECT_TRUE(settle(winner));
+    EXPECT_FALSE(settle(1 - winner));
+  }
+}
+
+TEST_F(LockProtocolTest, OfTwoEquallyOldDemandsExactlyOneGoesFirst) {
+  fleet_of(2);
+  want(0, 3, 5);
+  want(1, 4, 5);
+  settle(0), settle(1);
+  ASSERT_TRUE(deliver(MessageKind::Request, 0, 1));
+  ASSERT_TRUE(deliver(MessageKind::Request, 1, 0));
+  EXPECT_TRUE(deliver(MessageKind::Grant, 1, 0));
+  EXPECT_TRUE(deliver(MessageKind::Defer, 0, 1));
+  EXPECT_TRUE(settle(0));
+}
+
+// The elder cannot move before the other has left: his request must not hold the other up.
+TEST_F(LockProtocolTest, WhoIsBlockedByAWaitingAgvLetsItPass) {
+  fleet_of(2);
+  want(0, 2, 1);  // to where 1 stands
+  want(1, 3, 9);
+  settle(0), settle(1);
+  ASSERT_TRUE(deliver(MessageKind::Request, 0, 1));
+  ASSERT_TRUE(deliver(MessageKind::Request, 1, 0));
+  EXPECT_TRUE(deliver(MessageKind::Grant, 0, 1));
+  EXPECT_TRUE(settle(1));
+}
+
+TEST_F(LockProtocolTest, SilenceIsNeverConsent) {
+  fleet_of(2);
+  want(0, 3, 0);
+  for (int i = 0; i < 1000; ++i) {
+    EXPECT_FALSE(settle(0));
+    members[0]->protocol->ask_again();
+    now_ns += kSecond_ns;
+  }
+  EXPECT_GT(sent.size(), 100U) << "but it goes on asking";
+  EXPECT_LT(sent.size(), 400U) << "ever more seldom";
+}
+
+TEST_F(LockProtocolTest, TheFaultTakesSilenceForConsent) {
+  fleet_of(2, {.silence_consents_after_ns = 3 * kSecond_ns});
+  want(0, 3, 0);
+  settle(0);
+  now_ns = 3 * kSecond_ns - 1;
+  EXPECT_FALSE(settle(0));
+  now_ns = 3 * kSecond_ns;
+  EXPECT_TRUE(settle(0));
+}
+
+TEST_F(LockProtocolTest, GarbageChangesNothing) {
+  fleet_of(2);
+  want(0, 3, 0);
+  settle(0);
+  const std::vector<std::byte> bytes(40, std::byte{0x5a});
+  EXPECT_FALSE(members[0]->protocol->receive(1, bytes));
+  EXPECT_FALSE(members[0]->protocol->receive(1, {}));
+  EXPECT_FALSE(settle(0));
+}
+
+}  // namespace
+}  // namespace fleetproof::agents

@@ -1,0 +1,104 @@
+#include "core/agents/neighbours.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/agents/controller.hpp"
+#include "tests/agents/drawn_map.hpp"
+
+namespace fleetproof::agents {
+namespace {
+
+class NeighboursTest : public ::testing::Test {
+ protected:
+  NeighboursTest() {
+    here.station = 0;
+    here.append(drawn.lane_between(0, 1));
+  }
+
+  // AGV 1 tells that it is at x, and that it has heard one's stamp of that instant; 0: none.
+  bool state_from_1(double x_m, std::int64_t heard_sent_ns, std::int64_t now_ns, std::uint32_t stamp_ms) {
+    Message m;
+    m.status.stamp_ms = stamp_ms;
+    m.status.position_m = {x_m, 0.0};
+    m.status.held.station = 1;
+    m.heard.count = 2;
+    m.heard.stamps_ms[0] = heard_sent_ns < 0 ? 0 : Neighbours::stamp_ms(heard_sent_ns);
+    return neighbours.note(1, m, now_ns);
+  }
+
+  testing::DrawnMap drawn = [] {
+    testing::DrawnMap d;
+    d.segment(d.station(0, 0), d.station(4, 0));
+    return d;
+  }();
+  testing::TestFleet fleet{drawn.map(), 2};
+  MapView map{drawn.map()};
+  HullGeometry geometry{map, fleet.briefing(0, 0)};
+  Neighbours neighbours{map, geometry, fleet.briefing(0, 0)};
+  Path here;
+};
+
+TEST_F(NeighboursTest, TheUnknownAndTheUnprovedAreNeverExcluded) {
+  EXPECT_FALSE(neighbours.surely_beyond(1, here, 0));
+  ASSERT_TRUE(state_from_1(500.0, -1, kSecond_ns, 1000));
+  EXPECT_FALSE(neighbours.surely_beyond(1, here, kSecond_ns)) << "far, but that may be long ago";
+}
+
+TEST_F(NeighboursTest, AProvedPositionExcludesUntilItIsTooOld) {
+  ASSERT_TRUE(state_from_1(100.0, 10 * kSecond_ns, 12 * kSecond_ns, 11'000));
+  EXPECT_TRUE(neighbours.surely_beyond(1, here, 12 * kSecond_ns));
+  EXPECT_TRUE(neighbours.surely_beyond(1, here, 30 * kSecond_ns));
+  // 100 m away from a hull that reaches to 4.8 m; claims of 40 m; 2.2 m/s: gone after some 24 s.
+  EXPECT_FALSE(neighbours.surely_beyond(1, here, 36 * kSecond_ns));
+}
+
+TEST_F(NeighboursTest, NearIsNeverExcluded) {
+  ASSERT_TRUE(state_from_1(44.0, 10 * kSecond_ns, 10 * kSecond_ns, 10'000));
+  EXPECT_FALSE(neighbours.surely_beyond(1, here, 10 * kSecond_ns));
+}
+
+TEST_F(NeighboursTest, AnOlderProofDoesNotReplaceANewerOne) {
+  ASSERT_TRUE(state_from_1(10.0, 20 * kSecond_ns, 21 * kSecond_ns, 20'500));
+  ASSERT_TRUE(state_from_1(200.0, 5 * kSecond_ns, 22 * kSecond_ns, 5'500));
+  EXPECT_FALSE(neighbours.surely_beyond(1, here, 22 * kSecond_ns));
+}
+
+TEST_F(NeighboursTest, AcknowledgementsFromTheFutureAreNoProof) {
+  ASSERT_TRUE(state_from_1(500.0, 50 * kSecond_ns, 10 * kSecond_ns, 10'000));
+  EXPECT_FALSE(neighbours.surely_beyond(1, here, 10 * kSecond_ns));
+}
+
+TEST_F(NeighboursTest, ImpossiblePathsAreRefused) {
+  Message m;
+  m.status.held.station = 2;
+  EXPECT_FALSE(neighbours.note(1, m, 0));
+  m.status.held.station = 1;
+  m.status.held.append(drawn.lane_between(0, 1));
+  EXPECT_FALSE(neighbours.note(1, m, 0)) << "a lane that does not begin there";
+  m.status.held = here;
+  EXPECT_TRUE(neighbours.note(1, m, 0));
+  EXPECT_FALSE(neighbours.note(0, m, 0)) << "from oneself";
+  EXPECT_FALSE(neighbours.note(2, m, 0)) << "from nobody of the fleet";
+}
+
+TEST_F(NeighboursTest, RequestsThatAreHistoryStayClosed) {
+  Message m;
+  m.kind = MessageKind::Request;
+  m.status.stamp_ms = 10;
+  m.status.epoch = 4;
+  m.status.requesting = true;
+  m.request = here;
+  ASSERT_TRUE(neighbours.note(1, m, 0));
+  EXPECT_TRUE(neighbours.of(1).request_is_open());
+  Message over = m;
+  over.kind = MessageKind::State;
+  over.status.stamp_ms = 20;
+  over.status.requesting = false;
+  ASSERT_TRUE(neighbours.note(1, over, 0));
+  EXPECT_FALSE(neighbours.of(1).request_is_open());
+  ASSERT_TRUE(neighbours.note(1, m, 0));
+  EXPECT_FALSE(neighbours.of(1).request_is_open()) << "a late duplicate";
+}
+
+}  // namespace
+}  // namespace fleetproof::agents

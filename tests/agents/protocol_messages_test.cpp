@@ -1,0 +1,104 @@
+#include "core/agents/protocol_messages.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace fleetproof::agents {
+namespace {
+
+Message sample(MessageKind kind) {
+  Message m;
+  m.kind = kind;
+  m.status.stamp_ms = 123'456;
+  m.status.position_m = {-12.345, 67.891};
+  m.status.epoch = 77;
+  m.status.requesting = true;
+  m.status.idle = true;
+  m.status.held.station = 300;
+  m.status.held.heading = {0.6, -0.8};
+  for (std::uint32_t lane : {5U, 600U, 65'000U}) m.status.held.append(lane);
+  m.heard.first = 2;
+  m.heard.count = 3;
+  m.heard.stamps_ms = {1, 0, 4'000'000'000U};
+  m.demand_ns = 98'765'432'101'234;
+  m.request.station = 301;
+  m.request.heading = {0.0, 1.0};
+  m.request.append(8);
+  m.echo = 41;
+  return m;
+}
+
+constexpr MessageKind kKinds[] = {MessageKind::State, MessageKind::Request, MessageKind::Grant, MessageKind::Defer};
+
+TEST(ProtocolMessages, ComeBackAsTheyWere) {
+  for (const MessageKind kind : kKinds) {
+    const Message sent = sample(kind);
+    const std::optional<Message> m = decode(WireMessage(sent).bytes());
+    ASSERT_TRUE(m);
+    EXPECT_EQ(m->kind, kind);
+    EXPECT_EQ(m->status.stamp_ms, sent.status.stamp_ms);
+    EXPECT_NEAR(m->status.position_m.x, -12.345, 5e-4);
+    EXPECT_NEAR(m->status.position_m.y, 67.891, 5e-4);
+    EXPECT_EQ(m->status.epoch, 77U);
+    EXPECT_TRUE(m->status.requesting && m->status.idle);
+    EXPECT_FALSE(m->status.waiting || m->status.out_of_order || m->status.blocked);
+    EXPECT_TRUE(m->status.held == sent.status.held);
+    EXPECT_NEAR(m->status.held.heading.x, 0.6, 1e-4);
+    EXPECT_NEAR(m->status.held.heading.y, -0.8, 1e-4);
+    if (kind == MessageKind::State) {
+      EXPECT_EQ(m->heard.first, 2U);
+      ASSERT_EQ(m->heard.count, 3U);
+      EXPECT_EQ(m->heard.stamps_ms[2], 4'000'000'000U);
+    } else if (kind == MessageKind::Request) {
+      EXPECT_EQ(m->demand_ns, sent.demand_ns);
+      EXPECT_TRUE(m->request == sent.request);
+    } else {
+      EXPECT_EQ(m->echo, 41U);
+    }
+  }
+}
+
+TEST(ProtocolMessages, LargestFitsTheRadio) {
+  Message m = sample(MessageKind::Request);
+  while (m.status.held.append(1)) {
+  }
+  while (m.request.append(1)) {
+  }
+  EXPECT_LE(WireMessage(m).bytes().size(), 1024U);
+  m.kind = MessageKind::State;
+  m.heard.count = HeardFrom::kMax;
+  EXPECT_LE(WireMessage(m).bytes().size(), 1024U);
+}
+
+TEST(ProtocolMessages, AnyOtherLengthIsRefused) {
+  for (const MessageKind kind : kKinds) {
+    const WireMessage wire(sample(kind));
+    std::vector<std::byte> bytes(wire.bytes().begin(), wire.bytes().end());
+    for (std::size_t size = 0; size < bytes.size(); ++size) EXPECT_FALSE(decode(std::span(bytes).first(size))) << size;
+    bytes.push_back(std::byte{0});
+    EXPECT_FALSE(decode(bytes));
+  }
+}
+
+TEST(ProtocolMessages, GarbageIsRefusedOrWithinBounds) {
+  std::mt19937_64 draws(3);
+  int accepted = 0;
+  for (int i = 0; i < 200'000; ++i) {
+    const WireMessage wire(sample(kKinds[i % 4]));
+    std::vector<std::byte> bytes(wire.bytes().begin(), wire.bytes().end());
+    for (int flips = 0; flips <= i % 7; ++flips) bytes[draws() % bytes.size()] = static_cast<std::byte>(draws());
+    if (i % 5 == 0) bytes.resize(draws() % 300);
+    const std::optional<Message> m = decode(bytes);
+    if (!m) continue;
+    ++accepted;
+    ASSERT_LE(m->status.held.count, kPathLanesMax);
+    ASSERT_LE(m->request.count, kPathLanesMax);
+    ASSERT_LE(m->heard.count, HeardFrom::kMax);
+    ASSERT_NEAR(length(m->status.held.heading), 1.0, 1e-9);
+  }
+  EXPECT_GT(accepted, 1000);
+}
+
+}  // namespace
+}  // namespace fleetproof::agents

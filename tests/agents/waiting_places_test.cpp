@@ -1,0 +1,141 @@
+#include "core/agents/waiting_places.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/agents/stretch_planner.hpp"
+#include "tests/agents/drawn_map.hpp"
+
+namespace fleetproof::agents {
+namespace {
+
+using testing::DrawnMap;
+using testing::TestFleet;
+
+// A street of five stations with a siding beside its middle and a spur at station 1:
+//            6---7
+//           /     \            (siding: 2-6-7-4... in corners)
+//   0---1---2---3---4---5
+//       |
+//       8
+struct Street {
+  Street() {
+    for (int i = 0; i < 6; ++i) drawn.station(4.0 * i, 0);
+    drawn.station(9, 3), drawn.station(15, 3), drawn.station(4, -3.5);
+    for (std::uint32_t i = 0; i < 5; ++i) drawn.segment(i, i + 1);
+    drawn.segment(2, 6), drawn.segment(6, 7), drawn.segment(7, 4), drawn.segment(1, 8);
+    drawn.map();
+  }
+  DrawnMap drawn;
+};
+
+TEST(WaitingPlaces, AreWhereNobodyElseIsCutOff) {
+  Street street;
+  const MapView map(street.drawn.map());
+  const TestFleet fleet(street.drawn.map(), 3);
+  HullGeometry geometry(map, fleet.briefing(0, 0));
+  WaitingPlaces places(map, geometry);
+  for (const std::uint32_t safe : {0U, 3U, 5U, 6U, 7U, 8U}) EXPECT_TRUE(places.is_safe(safe)) << safe;
+  EXPECT_EQ(places.burden(1), 2U) << "cuts off 0 and 8, one from the other and both from the rest";
+  EXPECT_EQ(places.burden(2), 3U);
+  EXPECT_EQ(places.burden(4), 1U);
+}
+
+TEST(WaitingPlaces, AreNotBesideALaneTooNear) {
+  DrawnMap drawn;
+  const auto a = drawn.station(0, 0), b = drawn.station(6, 0), c = drawn.station(3, 1.3), d = drawn.station(3, 6), e = drawn.station(12, 0);
+  drawn.segment(a, b), drawn.segment(c, d), drawn.segment(d, e), drawn.segment(b, e), drawn.segment(a, d);
+  const MapView map(drawn.map());
+  const TestFleet fleet(drawn.map(), 2);
+  HullGeometry geometry(map, fleet.briefing(0, 0));
+  WaitingPlaces places(map, geometry);
+  EXPECT_GE(places.burden(c), WaitingPlaces::kFoulsLanes) << "turning there would reach into the lane a-b";
+  EXPECT_TRUE(places.is_safe(e));
+}
+
+TEST(WaitingPlaces, OnAOneWayLoopOnlyFollowersWait) {
+  DrawnMap drawn;
+  for (const auto& [x, y] : {std::pair(0, 0), {8, 0}, {8, 8}, {0, 8}}) drawn.station(x, y);
+  for (std::uint32_t i = 0; i < 4; ++i) drawn.segment(i, (i + 1) % 4, false);
+  const auto spur = drawn.station(12, 8);
+  drawn.segment(2, spur);
+  const MapView map(drawn.map());
+  const TestFleet fleet(drawn.map(), 2);
+  HullGeometry geometry(map, fleet.briefing(0, 0));
+  WaitingPlaces places(map, geometry);
+  EXPECT_TRUE(places.is_safe(0) && places.is_safe(1) && places.is_safe(3) && places.is_safe(spur));
+  EXPECT_FALSE(places.is_safe(2)) << "who waits there locks in whoever is in the spur";
+}
+
+class Planning : public ::testing::Test {
+ protected:
+  Stretch towards(std::uint32_t from, std::vector<Goal> goals, double budget_m = 40.0) {
+    Path standing;
+    standing.station = from;
+    return planner.towards(standing, {budget_m, kPathLanesMax}, goals);
+  }
+  std::uint32_t end(const Stretch& s) { return end_of(map, s.path).station; }
+  void put(std::uint32_t agv, std::uint32_t station) {
+    Message m;
+    m.status.stamp_ms = ++stamp;
+    m.status.waiting = true;
+    m.status.held.station = station;
+    ASSERT_TRUE(neighbours.note(agv, m, 0));
+  }
+
+  Street street;
+  MapView map{street.drawn.map()};
+  TestFleet fleet{street.drawn.map(), 3};
+  HullGeometry geometry{map, fleet.briefing(0, 0)};
+  Neighbours neighbours{map, geometry, fleet.briefing(0, 0)};
+  StretchPlanner planner{map, geometry, neighbours, fleet.agvs[0]};
+  std::uint32_t stamp = 0;
+};
+
+TEST_F(Planning, StretchEndsAtAWaitingPlaceFarEnough) {
+  const Stretch s = towards(0, {{5, Leg::Kind::Pick}});
+  EXPECT_EQ(end(s), 3U);
+  EXPECT_EQ(s.goals, 0U);
+  EXPECT_EQ(s.legs.size(), 3U);
+}
+
+TEST_F(Planning, GoesOnFromAGoalWhereOneMustNotWait) {
+  const Stretch s = towards(0, {{1, Leg::Kind::Pick}, {8, Leg::Kind::Drop}});
+  EXPECT_EQ(end(s), 8U);
+  EXPECT_EQ(s.goals, 2U);
+  ASSERT_EQ(s.legs.size(), 4U);
+  EXPECT_EQ(s.legs[1].kind, Leg::Kind::Pick);
+  EXPECT_EQ(s.legs[3].kind, Leg::Kind::Drop);
+}
+
+TEST_F(Planning, AfterTheLastGoalItLeavesForAWaitingPlace) {
+  const Stretch s = towards(0, {{2, Leg::Kind::Drop}});
+  EXPECT_EQ(s.goals, 1U);
+  EXPECT_TRUE(planner.places().is_safe(end(s)));
+  EXPECT_EQ(s.legs.back().kind, Leg::Kind::Drive);
+}
+
+TEST_F(Planning, GoesRoundAWaitingAgv) {
+  put(1, 3);
+  const Stretch s = towards(0, {{5, Leg::Kind::Pick}});
+  EXPECT_TRUE(end(s) == 6U || end(s) == 7U) << end(s);
+}
+
+TEST_F(Planning, StaysWithinTheBudget) {
+  EXPECT_TRUE(towards(0, {{5, Leg::Kind::Pick}}, 3.0).empty());
+  EXPECT_LE(length_m(map, towards(0, {{5, Leg::Kind::Pick}}, 8.5).path), 8.5);
+}
+
+TEST_F(Planning, GetsOutOfTheWayOfWhatIsHeld) {
+  put(1, 8);
+  put(2, 5);
+  Path standing;
+  standing.station = 3;
+  for (const double draw : {0.0, 0.3, 0.6, 0.9}) {
+    const Stretch s = planner.out_of_the_way(standing, {40.0, kPathLanesMax}, false, draw);
+    ASSERT_FALSE(s.empty());
+    EXPECT_TRUE(end(s) == 0U || end(s) == 6U || end(s) == 7U) << end(s);
+  }
+}
+
+}  // namespace
+}  // namespace fleetproof::agents

@@ -1,0 +1,116 @@
+#include "generators/layout_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "core/random.hpp"
+#include "generators/layout_family.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr const char* kSmall = R"({
+  "version": 1,
+  "layout": {
+    "name": "hook",
+    "stations": [
+      {"name": "a", "position_m": [0, 0]},
+      {"name": "b", "position_m": [4, 3], "purposes": ["storage", "parking"]}
+    ],
+    "segments": [
+      {"from": "a", "to": "b", "control_points_m": [[2, 0], [4, 1]]}
+    ]
+  }
+})";
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+std::string refusal(const std::string& text) {
+  try {
+    parse_layout(text, "hook.json");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(LayoutFile, ReadsWhatIsThereAndFillsInTheRest) {
+  const Layout layout = parse_layout(kSmall, "hook.json");
+  ASSERT_EQ(layout.stations.size(), 2U);
+  EXPECT_EQ(layout.stations[0].purposes, Purposes(Purpose::Routing));
+  EXPECT_EQ(layout.stations[1].purposes, Purposes(Purpose::Storage) | Purpose::Parking);
+  ASSERT_EQ(layout.segments.size(), 1U);
+  EXPECT_EQ(layout.segments[0].name, "a-b");
+  EXPECT_FALSE(layout.segments[0].bidirectional);
+  EXPECT_EQ(layout.segments[0].control_points_m.size(), 2U);
+  EXPECT_EQ(layout.floor_low_m, Vec2(-3, -3));
+  EXPECT_EQ(layout.floor_high_m, Vec2(7, 6));
+}
+
+TEST(LayoutFile, TextIsCanonical) {
+  const auto text = to_text(parse_layout(kSmall, "hook.json"));
+  EXPECT_EQ(text, R"({
+  "version": 1,
+  "layout": {
+    "name": "hook",
+    "floor_low_m": [-3, -3],
+    "floor_high_m": [7, 6],
+    "stations": [
+      {"name": "a", "position_m": [0, 0], "purposes": ["routing"]},
+      {"name": "b", "position_m": [4, 3], "purposes": ["storage", "parking"]}
+    ],
+    "segments": [
+      {"name": "a-b", "from": "a", "to": "b", "bidirectional": false, "control_points_m": [[2, 0], [4, 1]]}
+    ]
+  }
+}
+)");
+  EXPECT_EQ(to_text(parse_layout(text, "again")), text);
+}
+
+TEST(LayoutFile, GeneratedLayoutsComeBackExactly) {
+  for (const auto& family : layout_families()) {
+    for (std::uint64_t seed = 0; seed < 50; ++seed) {
+      Draws draws(seed);
+      const Layout layout = family.make(draws);
+      const Layout back = parse_layout(to_text(layout), "text");
+      ASSERT_EQ(back.stations.size(), layout.stations.size());
+      for (std::size_t i = 0; i < layout.stations.size(); ++i) EXPECT_EQ(back.stations[i].position_m, layout.stations[i].position_m);
+      EXPECT_EQ(to_text(back), to_text(layout));
+    }
+  }
+}
+
+TEST(LayoutFile, NamesInAnyScriptSurvive) {
+  const auto text = replaced(kSmall, "\"hook\"", R"("Regal \"7\" \\ 仓库 \u00e9\u0041")");
+  const Layout layout = parse_layout(text, "hook.json");
+  EXPECT_EQ(layout.name, "Regal \"7\" \\ 仓库 éA");
+  EXPECT_EQ(parse_layout(to_text(layout), "again").name, layout.name);
+}
+
+TEST(LayoutFile, RefusalsNameLineFieldValueAndRemedy) {
+  EXPECT_EQ(refusal(replaced(kSmall, "\"to\": \"b\"", "\"to\": \"bb\"")),
+            "hook.json:10: /layout/segments/0/to: \"bb\" is refused: there is no such station; did you mean \"b\"?");
+  EXPECT_EQ(refusal(replaced(kSmall, "[0, 0]", "[0, \"0\"]")), "hook.json:6: /layout/stations/0/position_m/1: \"0\" is refused: expected a number");
+  EXPECT_EQ(refusal(replaced(kSmall, "\"storage\"", "\"storag\"")),
+            "hook.json:7: /layout/stations/1/purposes/0: \"storag\" is refused: there is no such purpose; did you mean \"storage\"?");
+  EXPECT_EQ(refusal(replaced(kSmall, "\"position_m\": [4, 3], ", "")), "hook.json:7: /layout/stations/1: \"position_m\" is missing; add it");
+  EXPECT_EQ(refusal(replaced(kSmall, "\"from\"", "\"form\"")), "hook.json:10: /layout/segments/0: unknown key \"form\"; did you mean \"from\"?");
+  EXPECT_EQ(refusal(replaced(kSmall, "\"version\": 1", "\"version\": 2")), "hook.json:2: /version: 2 is refused: this program reads version 1");
+  EXPECT_NE(refusal(replaced(kSmall, "    ],\n    \"seg", ", {\"name\": \"a\", \"position_m\": [9, 9]}\n    ],\n    \"seg"))
+                .find("hook.json:8: /layout/stations/2/name: \"a\""),
+            std::string::npos);
+  EXPECT_NE(refusal(replaced(kSmall, "[[2, 0], [4, 1]]", "[[2, 0]]")).find("1 control points; a curve has 2, 5, 8"), std::string::npos);
+  EXPECT_NE(refusal(replaced(kSmall, "\"to\": \"b\"", "\"to\": \"a\"")).find("hook.json:10: /layout/segments/0"), std::string::npos);
+  EXPECT_NE(refusal(replaced(kSmall, "[4, 3]", "[4e9, 3]")).find("/layout/stations/1/position_m"), std::string::npos);
+}
+
+TEST(LayoutFile, AMissingFileIsAnInputError) { EXPECT_THROW(read_layout("/nowhere/layout.json"), InputError); }
+TEST(LayoutFile, ADirectoryIsAnInputError) { EXPECT_THROW(read_layout("/tmp"), InputError); }
+
+}  // namespace
+}  // namespace fleetproof

@@ -1,0 +1,179 @@
+#include "generators/opentcs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+#include "core/error.hpp"
+#include "generators/layout_file.hpp"
+#include "generators/reachability.hpp"
+#include "generators/world.hpp"
+#include "independent_check.hpp"
+
+namespace fleetproof {
+namespace {
+
+const std::string kCrossdock = independent::source_file("tests/layouts/crossdock.xml");
+
+Layout crossdock() {
+  std::vector<std::string> warnings;
+  return read_opentcs(kCrossdock, warnings);
+}
+
+std::size_t curved(const Layout& layout) {
+  return static_cast<std::size_t>(std::ranges::count_if(layout.segments, [](const Segment& s) { return !s.control_points_m.empty(); }));
+}
+
+const Station& station(const Layout& layout, std::string_view name) { return *std::ranges::find(layout.stations, name, &Station::name); }
+
+TEST(OpenTcs, ReadsTheCrossdock) {
+  std::vector<std::string> warnings;
+  const Layout layout = read_opentcs(kCrossdock, warnings);
+  EXPECT_TRUE(warnings.empty()) << warnings[0];
+  EXPECT_EQ(layout.name, "Small cross-dock");
+  EXPECT_EQ(layout.stations.size(), 30U);
+  EXPECT_EQ(layout.segments.size(), 43U);
+  EXPECT_EQ(curved(layout), 4U);
+  EXPECT_TRUE(independent::all_reach_all(layout));
+  EXPECT_TRUE(std::ranges::none_of(layout.segments, &Segment::bidirectional)) << "paths stay one-way";
+  EXPECT_EQ(station(layout, "South-2").position_m, Vec2(7.5, 0.0));
+  EXPECT_EQ(station(layout, "South-2").purposes, Purposes(Purpose::Routing));
+  EXPECT_EQ(station(layout, "Door-In-1").purposes, Purposes(Purpose::Routing) | Purpose::Storage);
+  EXPECT_EQ(station(layout, "Power-1").purposes, Purposes(Purpose::Routing) | Purpose::Parking | Purpose::Charging);
+}
+
+TEST(OpenTcs, BendsAreQuarterCirclesInMetresWithTheYAxisUp) {
+  const Layout layout = crossdock();
+  const LogicalMap map(layout);
+  for (const auto& lane : map.lanes()) {
+    if (lane.curve.is_straight()) continue;
+    EXPECT_NEAR(lane.curve.length_m(), 4.712, 0.02);
+    for (const auto& arc : lane.curve.arcs()) EXPECT_NEAR(arc.curvature_per_m, 1.0 / 3.0, 0.05) << "left turns of 3 m radius";
+  }
+}
+
+TEST(OpenTcs, TheCrossdockLeavesRoomToTurnAndToWait) {
+  const Layout layout = crossdock();
+  for (std::size_t i = 0; i < layout.stations.size(); ++i) {
+    const auto& s = layout.stations[i];
+    for (std::size_t k = 0; k < i; ++k) EXPECT_GE((s.position_m - layout.stations[k].position_m).norm(), 2.1) << s.name;
+    if (s.purposes == Purposes(Purpose::Routing)) continue;
+    for (const auto& segment : layout.segments) {
+      if (segment.from == StationId{i} || segment.to == StationId{i}) continue;
+      EXPECT_GE(independent::distance_to_segment_m(layout, segment, s.position_m), 2.2) << s.name << ", " << segment.name;
+    }
+  }
+}
+
+TEST(OpenTcs, ImportedLayoutsMakeWorlds) {
+  WorldSpec spec;
+  spec.layout = std::make_shared<const LogicalMap>(crossdock());
+  RejectionCounts counts;
+  for (std::uint64_t seed = 0; seed < 50; ++seed) EXPECT_EQ(generate_world(spec, seed, counts).agvs.size(), 5U);
+  EXPECT_EQ(counts.worlds_without_storage, 0U);
+  EXPECT_EQ(counts.worlds_rejected, 0U);
+}
+
+constexpr const char* kModel = R"(<model version="6.0.0" name="tiny">
+  <point name="a" positionX="0" positionY="0" type="HALT_POSITION"/>
+  <point name="b" positionX="4000" positionY="0" type="PARK_POSITION"/>
+  <path name="ab" sourcePoint="a" destinationPoint="b" length="4000" locked="false"><pathLayout connectionType="DIRECT"/></path>
+  <path name="ba" sourcePoint="b" destinationPoint="a" length="4000" locked="false"><pathLayout connectionType="ELBOW"/></path>
+  <locationType name="Rack"/>
+  <location name="r" type="Rack" positionX="0" positionY="2000"><link point="a"/></location>
+  <visualLayout name="v" scaleX="100.0" scaleY="50.0"/>
+</model>
+)";
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+struct Import {
+  Layout layout;
+  std::vector<std::string> warnings;
+};
+
+Import import(const std::string& text) {
+  Import result;
+  result.layout = parse_opentcs(text, "m.xml", result.warnings);
+  return result;
+}
+
+TEST(OpenTcs, WarnsOfWhatItLeavesOutGuessesAndChanges) {
+  EXPECT_EQ(import(kModel).warnings,
+            std::vector<std::string>{"m.xml:6: location type \"Rack\" names no purpose that is known here; points keep theirs"});
+  const auto model = replaced(kModel, "Rack\"/>", "Storage rack\"/>"), plain = replaced(model, "type=\"Rack\"", "type=\"Storage rack\"");
+  ASSERT_TRUE(import(plain).warnings.empty());
+  const auto warning = [&](const std::string& from, const std::string& to) {
+    const auto result = import(replaced(plain, from, to));
+    return result.warnings.size() == 1 ? result.warnings[0] : std::to_string(result.warnings.size()) + " warnings";
+  };
+  EXPECT_EQ(warning("length=\"4000\"", "length=\"4100\""),
+            "m.xml:4: path \"ab\" is stored with a length of 4.100 m; its geometry has 4.000 m, which counts");
+  EXPECT_EQ(warning("length=\"4000\"", "length=\"4079\""), "0 warnings");
+  EXPECT_EQ(warning("length=\"4000\"", ""), "m.xml:4: path \"ab\" has no length that can be read; its geometry has 4.000 m");
+  EXPECT_EQ(warning("version=\"6.0.0\"", "version=\"8.1\""), "m.xml:1: version \"8.1\" is newer than 7, as which it is read");
+  EXPECT_EQ(warning("HALT_POSITION", "REPORT_POSITION"), "m.xml:2: report position \"a\" becomes a station at which AGVs can stop");
+  EXPECT_EQ(warning("locked=\"false\"", "locked=\"true\""), "m.xml:4: locked path \"ab\" is left out");
+  EXPECT_EQ(warning("locked=\"false\"", "maxReverseVelocity=\"300\""),
+            "m.xml:1: 1 paths may be driven in reverse; here AGVs drive nose first, from source to destination only");
+  EXPECT_EQ(import(replaced(plain, "locked=\"false\"", "locked=\"true\"")).layout.segments.size(), 1U);
+}
+
+TEST(OpenTcs, ReadsOlderSpellingsAndBothScales) {
+  const auto old = replaced(kModel, "positionX=\"4000\" positionY=\"0\"", "xPosition=\"4000\" yPosition=\"0\"");
+  EXPECT_EQ(import(old).layout.stations[1].position_m, Vec2(4.0, 0.0));
+  const auto bent =
+      replaced(kModel, "<pathLayout connectionType=\"DIRECT\"/>",
+               "<pathLayout connectionType=\"BEZIER\"><controlPoint x=\"10\" y=\"20\"/><controlPoint x=\"30\" y=\"-20\"/></pathLayout>");
+  const auto layout = import(bent).layout;
+  ASSERT_EQ(layout.segments[0].control_points_m.size(), 2U);
+  EXPECT_EQ(layout.segments[0].control_points_m[0], Vec2(1.0, -1.0));
+  EXPECT_EQ(layout.segments[0].control_points_m[1], Vec2(3.0, 1.0));
+}
+
+// Other projects' layouts lie outside the tree; where they are absent their tests say so and pass.
+std::string real_layout(const std::string& name) {
+  const char* folder = std::getenv("FLEETPROOF_LAYOUTS");
+  return (folder != nullptr ? std::string(folder) : independent::source_file("../shared/layouts")) + "/opentcs/" + name;
+}
+
+TEST(RealLayouts, OpenTcsDemo) {
+  const auto path = real_layout("opentcs_demo-01_v7.xml");
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is absent; set FLEETPROOF_LAYOUTS to the folder of real layouts";
+  std::vector<std::string> warnings;
+  const Layout layout = read_opentcs(path, warnings);
+  EXPECT_EQ(layout.stations.size(), 59U);
+  EXPECT_EQ(layout.segments.size(), 75U);
+  EXPECT_EQ(curved(layout), 35U);
+  EXPECT_TRUE(independent::all_reach_all(layout));
+  EXPECT_EQ(std::ranges::count_if(warnings, [](const std::string& w) { return w.find("is stored with a length") != std::string::npos; }), 75 - 9);
+  const Vec2 size = layout.floor_high_m - layout.floor_low_m;
+  EXPECT_NEAR(size.x(), 55.0 + 6.0, 12.0);
+  EXPECT_EQ(to_text(parse_layout(to_text(layout), "text")), to_text(layout));
+  WorldSpec spec;
+  spec.layout = std::make_shared<const LogicalMap>(layout);
+  RejectionCounts counts;
+  for (std::uint64_t seed = 0; seed < 50; ++seed) generate_world(spec, seed, counts);
+  EXPECT_EQ(counts.worlds_without_storage, 0U);
+}
+
+TEST(RealLayouts, OpenTcsPersistenceSample) {
+  const auto path = real_layout("opentcs_persistence_sample_v7.xml");
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is absent; set FLEETPROOF_LAYOUTS to the folder of real layouts";
+  std::vector<std::string> warnings;
+  const Layout layout = read_opentcs(path, warnings);
+  EXPECT_EQ(layout.stations.size(), 15U);
+  EXPECT_EQ(layout.segments.size(), 6U);
+  EXPECT_EQ(curved(layout), 2U);
+  EXPECT_TRUE(
+      std::ranges::any_of(warnings, [](const std::string& w) { return w.find("locked path \"Point-0013 --- Point-0014\"") != std::string::npos; }));
+}
+
+}  // namespace
+}  // namespace fleetproof

@@ -1,0 +1,120 @@
+// What a person does wrong in a scenario file, and that nothing a machine does to it gets past an InputError.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "core/error.hpp"
+#include "core/random.hpp"
+#include "generators/scenario_file.hpp"
+#include "independent_check.hpp"
+
+namespace fleetproof {
+namespace {
+
+const std::string& figure4() {
+  static const std::string text = independent::file_text(independent::source_file("tests/scenarios/figure4.json"));
+  return text;
+}
+
+std::string refusal(const std::string& text) {
+  try {
+    parse_scenario(text, "s.json");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+struct Slip {
+  const char* from;
+  const char* to;
+  const char* says;  // the whole message, or its beginning
+
+  friend void PrintTo(const Slip& slip, std::ostream* out) { *out << slip.to; }
+};
+
+const Slip kSlips[] = {
+    {"\"version\": 1", "\"version\": 9", "s.json:2: /version: 9 is refused: this program reads scenario files of version 1"},
+    {"  \"version\": 1,\n", "", "s.json:1: top level: \"version\" is missing; add it"},
+    {"\"seed\": 4", "\"seed\": -4", "s.json:4: /seed: -4 is refused: expected a whole number"},
+    {"\"seed\": 4", "\"seed\": \"0xg\"", "s.json:4: /seed: \"0xg\" is refused: a seed is a whole number or"},
+    {"\"seed\"", "\"sede\"", "s.json:4: top level: unknown key \"sede\"; did you mean \"seed\"?"},
+    {"\"horizon_s\": 12", "\"horizon_s\": 0", "s.json:5: /horizon_s: 0 is refused: 0 s is not above 0"},
+    {"\"horizon_s\": 12", "\"horizon_s\": \"12\"", "s.json:5: /horizon_s: \"12\" is refused: expected a number"},
+    {"\"horizon_s\": 12", "\"horizon_s\": 1e300", "s.json:5: /horizon_s: 1e+300 is refused: a duration is shorter than 9e9 s"},
+    {"\"horizon_s\": 12", "\"horizon_s\": 12, \"horizon_ns\": 12", "s.json:5: /horizon_s: 12 is refused: the same duration is given as horizon_ns"},
+    {"\"horizon_s\": 12", "\"horizon_ns\": 1.5", "s.json:5: /horizon_ns: 1.5 is refused: expected a whole number"},
+    {"\"loss\": 0.4", "\"loss\": 40", "s.json:6: /radio/loss: 40 is refused: 40 is outside 0 .. 1"},
+    {"\"constant\"", "\"konstant\"", "s.json:6: /radio/delay_model: \"konstant\" is refused: there is no such word here; did you mean \"constant\"?"},
+    {"\"delay_s\"", "\"delay\"", "s.json:6: /radio: unknown key \"delay\"; did you mean \"delay_s\"?"},
+    {"\"width_m\": 1", "\"width_m\": -1", "s.json:12: /vehicle_types/0/width_m: -1 is refused"},
+    {"\"speed_mps\": 2", "\"speed_mps\": 0", "s.json:13: /vehicle_types/0/drive/speed_mps: 0 is refused"},
+    {"{\"name\": \"B\", ", "{\"name\": \"A\", ", "s.json:18: /agvs/1/name: \"A\" is refused: the name \"A\" is taken"},
+    {"{\"name\": \"B\", ", "{", "s.json:18: /agvs/1: \"name\" is missing; add it"},
+    {"\"start\": \"10\"", "\"start\": \"11\"", "s.json:17: /agvs/0/start: \"11\" is refused: there is no such station; did you mean \"1\"?"},
+    {"\"heading\": [1, 0]", "\"heading\": [0, 0]", "s.json:17: /agvs/0/heading: [0, 0] is refused: a heading is a direction"},
+    {"\"heading\": [1, 0]", "\"heading\": 90", "s.json:17: /agvs/0/heading: 90 is refused: expected two numbers [x, y]"},
+    {"\"action\": \"move\"", "\"action\": \"fly\"", "s.json:17: /agvs/0/script/0/action: \"fly\" is refused: there is no such word here"},
+    {"\"segment\": \"10-9\"", "\"segment\": \"9-10\"",
+     "s.json:17: /agvs/0/script/0/segment: \"9-10\" is refused: there is no such segment; did you mean"},
+    {"{\"at_s\": 2, ", "{", "s.json:17: /agvs/0/script/0: \"at_s\" is missing; add it"},
+    {"\"at_s\": 2", "\"at_s\": -2", "s.json:17: /agvs/0/script/0/at_s: -2 is refused"},
+    {"\"script\": [{", "\"script\": {", "s.json:17:"},
+    {"\"position_m\": [0, 4]", "\"position_m\": [0]", "s.json:33: /layout/stations/5/position_m: [0] is refused: expected two numbers [x, y]"},
+    {"\"from\": \"10\", \"to\": \"9\"", "\"from\": \"10\"", "s.json:40: /layout/segments/0: \"to\" is missing; add it"},
+};
+
+class ScenarioSlip : public testing::TestWithParam<Slip> {};
+
+TEST_P(ScenarioSlip, IsExplained) {
+  const auto [from, to, says] = GetParam();
+  auto text = figure4();
+  const auto at = text.find(from);
+  ASSERT_NE(at, std::string::npos) << from;
+  text.replace(at, std::string(from).size(), to);
+  const auto message = refusal(text);
+  EXPECT_TRUE(message.starts_with(says)) << message << "\nexpected: " << says;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ScenarioSlip, testing::ValuesIn(kSlips), [](const auto& test) { return "slip" + std::to_string(test.index); });
+
+TEST(ScenarioErrors, EmptyFleetAndWrongTopLevel) {
+  auto text = figure4();
+  const auto begin = text.find("  \"agvs\": ["), end = text.find("  \"layout\"");
+  EXPECT_EQ(refusal(text.replace(begin, end - begin, "  \"agvs\": [],\n")), "s.json:16: /agvs: [] is refused: a scenario needs at least one AGV");
+  EXPECT_EQ(refusal("[]"), "s.json:1: top level: [] is refused: expected an object { ... }");
+  EXPECT_THROW(read_scenario("/nowhere/s.json"), InputError);
+}
+
+TEST(ScenarioErrors, EveryPrefixIsRefusedWithoutACrash) {
+  const auto& text = figure4();
+  const auto whole = text.find_last_of('}') + 1;
+  for (std::size_t cut = 0; cut < whole; cut += 7) EXPECT_NE(refusal(text.substr(0, cut)), "accepted") << cut;
+}
+
+TEST(ScenarioErrors, RandomDamageIsReadOrRefused) {
+  Draws draws(1);
+  const std::string_view spice = "0123456789-.eE\"[]{},:\\ \ntnsau\x80\xff";
+  for (int round = 0; round < 3000; ++round) {
+    auto text = figure4();
+    for (std::uint32_t k = 1 + draws.below(4); k > 0; --k) {
+      const auto at = draws.below(static_cast<std::uint32_t>(text.size()));
+      const char c = spice[draws.below(static_cast<std::uint32_t>(spice.size()))];
+      switch (draws.below(3)) {
+        case 0:
+          text[at] = c;
+          break;
+        case 1:
+          text.insert(at, 1, c);
+          break;
+        default:
+          text.erase(at, 1 + draws.below(6));
+          break;
+      }
+    }
+    EXPECT_NO_FATAL_FAILURE(refusal(text));
+  }
+}
+
+}  // namespace
+}  // namespace fleetproof

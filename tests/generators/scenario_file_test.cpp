@@ -1,0 +1,151 @@
+#include "generators/scenario_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "generators/layout_family.hpp"
+#include "generators/validator.hpp"
+#include "generators/world.hpp"
+#include "independent_check.hpp"
+
+namespace fleetproof {
+namespace {
+
+const std::string kFigure4 = independent::source_file("tests/scenarios/figure4.json");
+const std::string kParked = independent::source_file("tests/scenarios/parked_then_leaves.json");
+
+// Every field different from its default.
+Scenario unusual() {
+  RejectionCounts counts;
+  Scenario s = generate_world(WorldSpec{}, 3, counts);
+  s.name = "odd \"one\"";
+  s.seed = 0xfedcba9876543210ULL;
+  s.horizon = Duration{123'456'789'012};
+  s.stuck_after = Duration{7};
+  s.contact_stops = false;
+  s.radio = {0.1 + 0.2, 1.0 / 3.0, RadioSetup::DelayModel::Uniform, 55.5, 0.25};
+  s.agent_clock.call_cost_s = 0.012;
+  s.law = {0.3, 0.01};
+  s.vehicle_types[0] = {"tug", {2.1, 0.9}, {1.5, 0.4, 0.7}, {0.9, 0.8, 0.6}, 1e-4, 2e-4, 3.0, 4.0};
+  s.vehicle_types.push_back({});
+  s.agvs[1].type = 1;
+  s.agvs[1].battery = 0.625;
+  s.agvs[2].heading = Vec2(0.6, 0.8);
+  s.agvs[2].script = {{Duration{5}, ScriptedCall::Action::Charge, SegmentId{3U}}, {Duration{6}, ScriptedCall::Action::Drop, SegmentId{2U}}};
+  s.obstacles = {{"rack", {0.5, 3.25}, {Vec2(-30.5, 40.25), Vec2::UnitY()}}};
+  return s;
+}
+
+TEST(ScenarioFile, EveryFieldComesBack) {
+  const Scenario s = unusual();
+  const auto text = to_text(s);
+  const Scenario back = parse_scenario(text, "text");
+  EXPECT_EQ(to_text(back), text);
+  EXPECT_EQ(back.name, s.name);
+  EXPECT_EQ(back.seed, s.seed);
+  EXPECT_EQ(back.horizon, s.horizon);
+  EXPECT_EQ(back.stuck_after, s.stuck_after);
+  EXPECT_EQ(back.contact_stops, false);
+  EXPECT_EQ(back.radio.loss, s.radio.loss);
+  EXPECT_EQ(back.radio.delay_s, s.radio.delay_s);
+  EXPECT_EQ(back.radio.delay_model, s.radio.delay_model);
+  EXPECT_EQ(back.radio.range_m, s.radio.range_m);
+  EXPECT_EQ(back.radio.air_time_s, s.radio.air_time_s);
+  EXPECT_EQ(back.agent_clock.call_cost_s, s.agent_clock.call_cost_s);
+  EXPECT_EQ(back.law.safety_distance_m, s.law.safety_distance_m);
+  EXPECT_EQ(back.law.snapshot_s, s.law.snapshot_s);
+  ASSERT_EQ(back.vehicle_types.size(), 2U);
+  EXPECT_EQ(back.vehicle_types[0].footprint, s.vehicle_types[0].footprint);
+  EXPECT_EQ(back.vehicle_types[0].drive, s.vehicle_types[0].drive);
+  EXPECT_EQ(back.vehicle_types[0].turn, s.vehicle_types[0].turn);
+  EXPECT_EQ(back.vehicle_types[0].drop_s, 4.0);
+  EXPECT_EQ(back.agvs[1].type, 1U);
+  EXPECT_EQ(back.agvs[1].battery, 0.625);
+  EXPECT_EQ(back.agvs[2].heading, s.agvs[2].heading);
+  EXPECT_EQ(back.agvs[2].script[0].action, ScriptedCall::Action::Charge);
+  EXPECT_EQ(back.agvs[2].script[1].segment, SegmentId{2U});
+  EXPECT_EQ(back.agvs[0].transports[0].release, s.agvs[0].transports[0].release);
+  EXPECT_EQ(back.obstacles[0].pose.position_m, s.obstacles[0].pose.position_m);
+}
+
+TEST(ScenarioFile, GeneratedScenariosComeBackToTheByte) {
+  for (const auto& family : layout_families()) {
+    WorldSpec spec;
+    spec.layout = std::string(family.name);
+    RejectionCounts counts;
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+      const auto text = to_text(generate_world(spec, seed, counts));
+      EXPECT_EQ(to_text(parse_scenario(text, "text")), text);
+    }
+  }
+}
+
+TEST(ScenarioFile, DigestsTellScenariosApart) {
+  Scenario s = unusual();
+  const auto digest = scenario_digest(s);
+  EXPECT_EQ(scenario_digest(parse_scenario(to_text(s), "text")), digest);
+  s.radio.loss = std::nextafter(s.radio.loss, 1.0);
+  EXPECT_NE(scenario_digest(s), digest);
+}
+
+// The same program and seed mean the same world on every machine and in every later version; a change here breaks stored campaigns.
+TEST(ScenarioFile, DigestsOfGeneratedWorldsArePinned) {
+  const std::uint64_t expected[] = {13336562179939622470ULL, 9366897282738997292ULL};
+  for (std::size_t i = 0; i < layout_families().size(); ++i) {
+    WorldSpec spec;
+    spec.layout = std::string(layout_families()[i].name);
+    RejectionCounts counts;
+    EXPECT_EQ(scenario_digest(generate_world(spec, 2005, counts)), expected[i]) << layout_families()[i].name;
+  }
+}
+
+TEST(ScenarioFile, Figure4IsThePaperScenario) {
+  const Scenario s = read_scenario(kFigure4);
+  EXPECT_EQ(s.map->station_count(), 10U);
+  EXPECT_EQ(s.map->segment_count(), 12U);
+  EXPECT_EQ(s.map->lanes().size(), 19U);
+  EXPECT_EQ(s.horizon, std::chrono::seconds(12));
+  EXPECT_EQ(s.radio.loss, 0.4);
+  EXPECT_EQ(s.radio.delay_s, 2.0);
+  const double lengths_m[] = {10.0, 25.0 / 6.0, 25.0 / 6.0, 1.5, 1.5};
+  const int begins_s[] = {2, 4, 7, 6, 2};
+  ASSERT_EQ(s.agvs.size(), 5U);
+  for (std::size_t i = 0; i < 5; ++i) {
+    const auto& agv = s.agvs[i];
+    EXPECT_EQ(agv.name, std::string(1, static_cast<char>('A' + i)));
+    EXPECT_TRUE(agv.transports.empty());
+    ASSERT_EQ(agv.script.size(), 1U);
+    EXPECT_EQ(agv.script[0].action, ScriptedCall::Action::Move);
+    EXPECT_EQ(agv.script[0].at, std::chrono::seconds(begins_s[i]));
+    const Lane* lane = s.map->lane(agv.script[0].segment, agv.start);
+    ASSERT_NE(lane, nullptr);
+    EXPECT_NEAR(lane->curve.length_m(), lengths_m[i], 1e-12);
+    EXPECT_EQ(lane->curve.pose_at(0.0).heading, agv.heading);
+  }
+  // Stations 5, 7 and 9 have no way back: a scenario for a script, not for transports.
+  const auto problems = problems_of(s);
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(problems[0].kind, ProblemKind::WeakCore);
+}
+
+TEST(ScenarioFile, ParkedThenLeavesStartsFiveCentimetresBesideTheTrack) {
+  const Scenario s = read_scenario(kParked);
+  ASSERT_EQ(s.agvs.size(), 2U);
+  EXPECT_EQ(s.agvs[0].name, "X");
+  EXPECT_EQ(s.map->lane(s.agvs[0].script[0].segment, s.agvs[0].start)->curve.length_m(), 10.0);
+  EXPECT_EQ(s.agvs[1].script[0].at, std::chrono::seconds(5));
+  EXPECT_NEAR(s.map->lane(s.agvs[1].script[0].segment, s.agvs[1].start)->curve.length_m(), 25.0 / 6.0, 1e-12);
+  const auto y = independent::corners(s.map->station(s.agvs[1].start).position_m, s.agvs[1].heading, s.vehicle_types[0].footprint);
+  const auto x = independent::corners({3.0, 0.0}, s.agvs[0].heading, s.vehicle_types[0].footprint);
+  EXPECT_NEAR(independent::gap_m(x, y), 0.05, 1e-12);
+}
+
+TEST(ScenarioFile, FixturesAreReadTheSameAsTheirCanonicalText) {
+  for (const auto& path : {kFigure4, kParked}) {
+    const auto text = to_text(read_scenario(path));
+    EXPECT_EQ(to_text(parse_scenario(text, path)), text);
+  }
+}
+
+}  // namespace
+}  // namespace fleetproof
