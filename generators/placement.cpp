@@ -60,7 +60,7 @@ bool place_fleet(Scenario& scenario, std::uint32_t fleet_size, const Reachabilit
     const auto number = static_cast<std::uint32_t>(scenario.agvs.size());
     Draws draws(key, attempt, number);
     AgvSetup agv;
-    agv.name = fmt::format("agv{}", number + 1);
+    agv.name = fmt::format("AGV {}", number);  // the id that archive, report and agents use
     while (true) {
       const auto station = candidates.draw(draws);
       if (!station) {

@@ -198,7 +198,7 @@ void HullLock::reconsider() {
     return request(std::move(other), purpose);
   }
   const double waited_s = now_s() - blocked_since_s_;
-  if (waited_s < kPatienceInTheWay_s || (waited_s < patience_s_ && !in_the_way_of(true))) return;
+  if (waited_s < kPatienceInTheWay_s || !in_the_way_of(waited_s < patience_s_)) return;
   Stretch retreat = way_out();
   if (retreat.empty()) return;
   controller_.sometimes("hull-lock: retreat");

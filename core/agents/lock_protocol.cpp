@@ -68,9 +68,13 @@ void LockProtocol::describe(bool waiting, bool idle, bool out_of_order) {
 
 bool LockProtocol::receive(std::uint32_t sender, std::span<const std::byte> bytes) {
   const std::optional<Message> message = decode(bytes);
-  if (!message || !neighbours_.note(sender, *message, controller_.now_ns())) return false;
-  answers_may_change_ = true;
-  blocked_is_known_ = false;
+  if (!message) return false;
+  const Neighbours::News news = neighbours_.note(sender, *message, controller_.now_ns());
+  if (news == Neighbours::News::Refused) return false;
+  if (news == Neighbours::News::Changed) {
+    answers_may_change_ = true;
+    blocked_is_known_ = false;
+  }
   switch (message->kind) {
     case MessageKind::State: break;
     case MessageKind::Request:
@@ -210,7 +214,8 @@ std::int64_t LockProtocol::ask_again() {
   const std::int64_t now_ns = controller_.now_ns();
   std::int64_t next_ns = -1;
   neighbours_.for_each([&](std::uint32_t agv, Neighbour& n) {
-    if (n.asked_epoch != epoch_ || consents(agv, n, now_ns)) return;
+    if (n.asked_epoch != epoch_ || n.granted_us_epoch == epoch_) return;
+    if (n.ask_at_ns <= now_ns && consents(agv, n, now_ns)) n.ask_at_ns = now_ns + kAskAgainLatest_ns;
     if (n.ask_at_ns <= now_ns) {
       controller_.sometimes("hull-lock: request retransmitted");
       ask(agv, n, now_ns);

@@ -25,13 +25,20 @@ Neighbours::Neighbours(const MapView& map, HullGeometry& geometry, const fp_brie
   }
 }
 
-bool Neighbours::note(std::uint32_t sender, const Message& message, std::int64_t now_ns) {
+Neighbours::News Neighbours::note(std::uint32_t sender, const Message& message, std::int64_t now_ns) {
   const Status& status = message.status;
-  if (sender >= fleet_count() || sender == self_ || !is_driveable(map_, status.held)) return false;
-  if (status.requesting && status.epoch == 0) return false;
-  if (message.kind == MessageKind::Request && !is_driveable(map_, message.request)) return false;
+  if (sender >= fleet_count() || sender == self_ || !is_driveable(map_, status.held)) return News::Refused;
+  if (status.requesting && status.epoch == 0) return News::Refused;
+  if (message.kind == MessageKind::Request && !is_driveable(map_, message.request)) return News::Refused;
   Neighbour& n = neighbours_[sender];
-  if (!n.known || status.stamp_ms >= n.status.stamp_ms) n.status = status;
+  News news = News::Same;
+  if (!n.known || status.stamp_ms >= n.status.stamp_ms) {
+    const Status& before = n.status;
+    const bool same = n.known && before.waiting == status.waiting && before.blocked == status.blocked && before.out_of_order == status.out_of_order &&
+                      before.held == status.held;
+    if (!same) news = News::Changed;
+    n.status = status;
+  }
   n.known = true;
   n.newest_stamp_ms = std::max(n.newest_stamp_ms, status.stamp_ms);
   const std::uint32_t closed = status.requesting ? status.epoch - 1 : status.epoch;
@@ -42,7 +49,7 @@ bool Neighbours::note(std::uint32_t sender, const Message& message, std::int64_t
     n.request = message.request;
   }
   if (message.kind == MessageKind::State) note_acknowledgement(n, message, now_ns);
-  return true;
+  return news;
 }
 
 void Neighbours::note_acknowledgement(Neighbour& neighbour, const Message& message, std::int64_t now_ns) {

@@ -56,8 +56,11 @@ class Neighbours {
     }
   }
 
-  // Takes note of what a message tells about its sender. False if it cannot be: no such AGV, no such path. Messages may come in any order.
-  bool note(std::uint32_t sender, const Message& message, std::int64_t now_ns);
+  enum class News : std::uint8_t { Refused, Same, Changed };
+
+  // Takes note of what a message tells about its sender. Refused if it cannot be: no such AGV, no such path. Changed if the sender now stands,
+  // waits or holds otherwise than known. Messages may come in any order.
+  News note(std::uint32_t sender, const Message& message, std::int64_t now_ns);
 
   // True only if it is certain that no hull which `agv` holds or requests at this instant comes near one's own hull of `path`.
   // Needs neither a bound on delays nor common clocks: the other's STATE acknowledges a stamp of one's own, so it is younger than that.

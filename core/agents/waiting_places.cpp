@@ -25,6 +25,7 @@ bool WaitingPlaces::leaves_lanes_clear(std::uint32_t station) {
 }
 
 std::uint32_t WaitingPlaces::stations_cut_off(std::uint32_t station) {
+  if (is_dead_end(station)) return 0;
   const std::uint32_t before = strongly_connected_with(station, FP_NONE);
   std::uint32_t largest = 0;
   const auto try_from = [&](std::uint32_t neighbour) {
@@ -33,6 +34,13 @@ std::uint32_t WaitingPlaces::stations_cut_off(std::uint32_t station) {
   for (const std::uint32_t lane : map_.lanes_from(station)) try_from(map_.lane(lane).to);
   for (const std::uint32_t lane : map_.lanes_to(station)) try_from(map_.lane(lane).from);
   return largest + 1 >= before ? 0 : before - 1 - largest;
+}
+
+bool WaitingPlaces::is_dead_end(std::uint32_t station) const {
+  const auto leaving = map_.lanes_from(station);
+  const std::uint32_t only = leaving.empty() ? FP_NONE : map_.lane(leaving.front()).to;
+  return std::ranges::all_of(leaving, [&](std::uint32_t lane) { return map_.lane(lane).to == only; }) &&
+         std::ranges::all_of(map_.lanes_to(station), [&](std::uint32_t lane) { return map_.lane(lane).from == only; });
 }
 
 std::uint32_t WaitingPlaces::strongly_connected_with(std::uint32_t from, std::uint32_t without) {

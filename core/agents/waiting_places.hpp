@@ -24,6 +24,7 @@ class WaitingPlaces {
   static constexpr std::uint32_t kUnknown = ~0U;
 
   bool leaves_lanes_clear(std::uint32_t station);
+  bool is_dead_end(std::uint32_t station) const;
   std::uint32_t stations_cut_off(std::uint32_t station);
   // Number of stations that `from` reaches and is reached by without passing `without`.
   std::uint32_t strongly_connected_with(std::uint32_t from, std::uint32_t without);

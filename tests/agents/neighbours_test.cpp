@@ -23,7 +23,7 @@ class NeighboursTest : public ::testing::Test {
     m.status.held.station = 1;
     m.heard.count = 2;
     m.heard.stamps_ms[0] = heard_sent_ns < 0 ? 0 : Neighbours::stamp_ms(heard_sent_ns);
-    return neighbours.note(1, m, now_ns);
+    return neighbours.note(1, m, now_ns) != Neighbours::News::Refused;
   }
 
   testing::DrawnMap drawn = [] {
@@ -71,14 +71,14 @@ TEST_F(NeighboursTest, AcknowledgementsFromTheFutureAreNoProof) {
 TEST_F(NeighboursTest, ImpossiblePathsAreRefused) {
   Message m;
   m.status.held.station = 2;
-  EXPECT_FALSE(neighbours.note(1, m, 0));
+  EXPECT_EQ(neighbours.note(1, m, 0), Neighbours::News::Refused);
   m.status.held.station = 1;
   m.status.held.append(drawn.lane_between(0, 1));
-  EXPECT_FALSE(neighbours.note(1, m, 0)) << "a lane that does not begin there";
+  EXPECT_EQ(neighbours.note(1, m, 0), Neighbours::News::Refused) << "a lane that does not begin there";
   m.status.held = here;
-  EXPECT_TRUE(neighbours.note(1, m, 0));
-  EXPECT_FALSE(neighbours.note(0, m, 0)) << "from oneself";
-  EXPECT_FALSE(neighbours.note(2, m, 0)) << "from nobody of the fleet";
+  EXPECT_NE(neighbours.note(1, m, 0), Neighbours::News::Refused);
+  EXPECT_EQ(neighbours.note(0, m, 0), Neighbours::News::Refused) << "from oneself";
+  EXPECT_EQ(neighbours.note(2, m, 0), Neighbours::News::Refused) << "from nobody of the fleet";
 }
 
 TEST_F(NeighboursTest, RequestsThatAreHistoryStayClosed) {
@@ -88,15 +88,15 @@ TEST_F(NeighboursTest, RequestsThatAreHistoryStayClosed) {
   m.status.epoch = 4;
   m.status.requesting = true;
   m.request = here;
-  ASSERT_TRUE(neighbours.note(1, m, 0));
+  ASSERT_NE(neighbours.note(1, m, 0), Neighbours::News::Refused);
   EXPECT_TRUE(neighbours.of(1).request_is_open());
   Message over = m;
   over.kind = MessageKind::State;
   over.status.stamp_ms = 20;
   over.status.requesting = false;
-  ASSERT_TRUE(neighbours.note(1, over, 0));
+  ASSERT_NE(neighbours.note(1, over, 0), Neighbours::News::Refused);
   EXPECT_FALSE(neighbours.of(1).request_is_open());
-  ASSERT_TRUE(neighbours.note(1, m, 0));
+  ASSERT_NE(neighbours.note(1, m, 0), Neighbours::News::Refused);
   EXPECT_FALSE(neighbours.of(1).request_is_open()) << "a late duplicate";
 }
 

@@ -79,7 +79,7 @@ class Planning : public ::testing::Test {
     m.status.stamp_ms = ++stamp;
     m.status.waiting = true;
     m.status.held.station = station;
-    ASSERT_TRUE(neighbours.note(agv, m, 0));
+    ASSERT_NE(neighbours.note(agv, m, 0), Neighbours::News::Refused);
   }
 
   Street street;
