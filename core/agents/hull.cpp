@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/agents/fleet.hpp"
+
 namespace fleetproof::agents {
 
 HullGeometry::HullGeometry(const MapView& map, const fp_briefing& briefing)
     : map_(map), parts_per_kind_(map.lane_count() + map.station_count()), clearance_m_(briefing.safety_distance_m + kHullTolerance_m) {
   for (std::uint32_t i = 0; i < briefing.fleet_count; ++i) {
-    const auto& agv = *reinterpret_cast<const fp_agv*>(reinterpret_cast<const char*>(briefing.fleet) + std::size_t{briefing.agv_stride} * i);
+    const fp_agv& agv = agv_of(briefing, i);
     const auto known = std::ranges::find_if(kinds_, [&](const Kind& k) { return k.length_m == agv.length_m && k.width_m == agv.width_m; });
     kind_of_.push_back(static_cast<std::uint32_t>(known - kinds_.begin()));
     if (known == kinds_.end()) kinds_.push_back({agv.length_m, agv.width_m, length(Vec{agv.length_m, agv.width_m}) / 2.0});

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/agents/agent_type.hpp"
+#include "core/agents/fleet.hpp"
 
 namespace fleetproof::agents {
 namespace {
@@ -19,10 +20,6 @@ constexpr double kLongestLead_s = 8.0;    // how long before the end of a stretc
 constexpr double kPatience_s = 10.0;      // how long one waits for somebody who stands in the way, plus up to half of it
 constexpr double kPatienceInTheWay_s = 3.0;
 constexpr double kRetryPlanning_s = 2.0;
-
-const fp_agv& agv_of(const fp_briefing& briefing, std::uint32_t agv) {
-  return *reinterpret_cast<const fp_agv*>(reinterpret_cast<const char*>(briefing.fleet) + std::size_t{briefing.agv_stride} * agv);
-}
 
 }  // namespace
 
@@ -75,9 +72,7 @@ void HullLock::tick() {
 
 void HullLock::action_done(std::int32_t result) {
   acting_ = false;
-  if (result != FP_OK) {
-    return break_down();
-  }
+  if (result != FP_OK) return break_down();
   if (current_.kind == Leg::Kind::Drive) protocol_.lane_passed();
 }
 
@@ -140,7 +135,7 @@ void HullLock::plan() {
   const std::uint32_t end = end_of(map_, protocol_.held()).station;
   while (!goals_.empty() && goals_.front().station == end) {
     legs_.push_back({goals_.front().transfer, FP_NONE});
-    goals_.pop_front();
+    goals_.erase(goals_.begin());
   }
   if (now_s() < plan_after_s_) return;
   if (!goals_.empty()) {
@@ -164,7 +159,7 @@ void HullLock::plan_making_way() {
   request(way_out(), Purpose::MakeWay);
 }
 
-Stretch HullLock::way_on() { return planner_.towards(end_of(map_, protocol_.held()), budget(), std::vector<Goal>(goals_.begin(), goals_.end())); }
+Stretch HullLock::way_on() { return planner_.towards(end_of(map_, protocol_.held()), budget(), goals_); }
 
 Stretch HullLock::way_out() { return planner_.out_of_the_way(protocol_.held(), budget(), is_idle(), controller_.random(kPlaceDraws)); }
 

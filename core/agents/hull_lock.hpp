@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <vector>
 
 #include "core/agents/controller.hpp"
 #include "core/agents/hull.hpp"
@@ -61,7 +62,7 @@ class HullLock {
   StretchPlanner planner_;
   double longest_claim_m_;
 
-  std::deque<Goal> goals_;      // not covered by what is locked
+  std::vector<Goal> goals_;     // not covered by what is locked
   std::deque<Leg> legs_;        // locked, not begun
   bool acting_ = false;         // an action is under way
   Leg current_;

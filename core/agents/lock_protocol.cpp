@@ -228,7 +228,8 @@ std::int64_t LockProtocol::ask_again() {
 void LockProtocol::broadcast_state() {
   Message message;
   fill_in(message.status);
-  neighbours_.tell_heard_from(message.heard);
+  // Others take the table as proof that the position is newer than what it acknowledges.
+  if (position_at_ns_ == controller_.now_ns()) neighbours_.tell_heard_from(message.heard);
   controller_.broadcast(WireMessage(message).bytes());
 }
 

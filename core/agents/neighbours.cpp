@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/agents/fleet.hpp"
+
 namespace fleetproof::agents {
 namespace {
 
@@ -20,8 +22,7 @@ double longest_claim_m(const MapView& map) {
 Neighbours::Neighbours(const MapView& map, HullGeometry& geometry, const fp_briefing& briefing)
     : map_(map), geometry_(geometry), self_(briefing.self), neighbours_(briefing.fleet_count), claim_m_(longest_claim_m(map)) {
   for (std::uint32_t i = 0; i < briefing.fleet_count; ++i) {
-    const auto& agv = *reinterpret_cast<const fp_agv*>(reinterpret_cast<const char*>(briefing.fleet) + std::size_t{briefing.agv_stride} * i);
-    speeds_mps_.push_back(agv.speed_mps);
+    speeds_mps_.push_back(agv_of(briefing, i).speed_mps);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include "core/agents/agent_type.hpp"
 #include "core/agents/controller.hpp"
+#include "core/agents/fleet.hpp"
 #include "core/agents/map_view.hpp"
 #include "core/agents/routes.hpp"
 
@@ -13,7 +14,7 @@ class Reckless {
  public:
   Reckless(const fp_host& host, fp_controller* handle, const fp_briefing& briefing)
       : controller_(host, handle), map_(*briefing.map), routes_(map_), station_(briefing.start_station) {
-    const auto& self = *reinterpret_cast<const fp_agv*>(reinterpret_cast<const char*>(briefing.fleet) + std::size_t{briefing.agv_stride} * briefing.self);
+    const fp_agv& self = agv_of(briefing, briefing.self);
     for (std::uint32_t id = 0; id < map_.lane_count(); ++id) lane_times_s_.push_back(drive_time_s(map_.lane(id).length_m, self));
   }
 

@@ -9,22 +9,31 @@ namespace {
 
 std::uint64_t shared_events = 0;
 
+struct Agent {
+  const fp_host* host;
+  fp_controller* controller;
+};
+
 const fp_agent_type kRacyAgent = {sizeof(fp_agent_type),
                                   FP_ABI_MAJOR,
                                   FP_ABI_MINOR,
                                   0,
                                   "racy",
                                   "keeps state outside its instance",
-                                  [](const fp_host*, fp_controller*, const fp_briefing*) -> void* { return &shared_events; },
-                                  [](void* agent, const fp_event*) { ++*static_cast<std::uint64_t*>(agent); },
-                                  [](void*) {}};
+                                  [](const fp_host* host, fp_controller* controller, const fp_briefing*) -> void* { return new Agent{host, controller}; },
+                                  [](void* agent, const fp_event* event) {
+                                    const auto* self = static_cast<Agent*>(agent);
+                                    ++shared_events;
+                                    self->host->set_timer(self->controller, 1, event->now_ns + 10'000'000);
+                                  },
+                                  [](void* agent) { delete static_cast<Agent*>(agent); }};
 
 }  // namespace
 
 int main() {
   using namespace fleetproof;
   const Scenario scenario = test::row_scenario(3, {0, 2});
-  TaskPool pool(2, 0, 2000, 1000, [&](std::uint64_t index) {
+  TaskPool pool(2, 0, 100, 1000, [&](std::uint64_t index) {
     RunRecord record;
     record.run_index = index;
     record.outcome = simulate(scenario, kRacyAgent, {});
