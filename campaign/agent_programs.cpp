@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
+#include "campaign/sha256.hpp"
 #include "core/agents/agents.h"
 #include "core/catalogue.hpp"
 #include "core/error.hpp"
@@ -36,6 +39,8 @@ std::string AgentPrograms::load(const std::string& path) {
     }
   }
   types_.push_back(type);
+  std::ifstream file(path, std::ios::binary);
+  loaded_.push_back(fmt::format("{} sha256 {}", type->name, sha256_hex(std::string(std::istreambuf_iterator<char>(file), {}))));
   return type->name;
 }
 

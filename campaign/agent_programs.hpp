@@ -23,10 +23,13 @@ class AgentPrograms {
   // Throws InputError with the nearest known name.
   const fp_agent_type& find(std::string_view name, std::string_view where) const;
   const std::vector<const fp_agent_type*>& all() const { return types_; }
+  // "NAME sha256 HEX" of every shared object loaded: part of the engine's identity in the archive.
+  const std::vector<std::string>& loaded() const { return loaded_; }
 
  private:
   std::vector<const fp_agent_type*> types_;
   std::vector<void*> objects_;
+  std::vector<std::string> loaded_;
 };
 
 }  // namespace fleetproof

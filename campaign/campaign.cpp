@@ -43,7 +43,7 @@ void build_first_worlds(const CampaignPlan& plan, const ScenarioSource& scenario
 
 }  // namespace
 
-CampaignRecord campaign_record(const CampaignPlan& plan) {
+CampaignRecord campaign_record(const CampaignPlan& plan, const AgentPrograms& programs) {
   CampaignRecord record;
   record.name = plan.name;
   record.kind = plan.kind;
@@ -52,6 +52,7 @@ CampaignRecord campaign_record(const CampaignPlan& plan) {
   record.plan_json = plan_text(plan);
   record.plan_hash = name_hash(record.plan_json);
   record.engine = engine_identity();
+  for (const std::string& plugin : programs.loaded()) record.engine.libraries += ", plug-in " + plugin;
   return record;
 }
 
@@ -60,7 +61,7 @@ CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& progr
   using Clock = std::chrono::steady_clock;
   const RunOne run_one(plan, programs);
   build_first_worlds(plan, run_one.scenarios());
-  ArchiveWriter archive(path, campaign_record(plan), plan.cells(), plan.gates);
+  ArchiveWriter archive(path, campaign_record(plan, programs), plan.cells(), plan.gates);
   CampaignResult result;
   result.progress.planned = plan.run_count();
   listener.started();

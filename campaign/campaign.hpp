@@ -44,7 +44,7 @@ struct CampaignListener {
 CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& path, const RunOptions& options,
                             const CampaignListener& listener);
 
-CampaignRecord campaign_record(const CampaignPlan& plan);
+CampaignRecord campaign_record(const CampaignPlan& plan, const AgentPrograms& programs);
 EngineIdentity engine_identity();
 
 }  // namespace fleetproof

@@ -111,6 +111,9 @@ void check_plan(const CampaignPlan& plan, const std::string& where) {
          fmt::format("agent_clock.call_cost_s is {}; it lies between 0 and 10", plan.agent_clock.call_cost_s));
   check_vehicle(plan.vehicle, where);
   check_factors(plan, where);
+  constexpr std::uint64_t kRunsMax = 1'000'000'000'000;  // a thousand years of this engine; beyond it run indices would wrap
+  demand(plan.replicates <= kRunsMax / plan.cell_count(), where,
+         fmt::format("replicates is {}; with {} cells at most {} are possible", plan.replicates, plan.cell_count(), kRunsMax / plan.cell_count()));
   check_gates(plan, where);
 }
 

@@ -24,8 +24,8 @@ std::uint64_t name_hash(std::string_view name);
 
 // [0, 1) with 53 bits.
 constexpr double unit_interval(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1.0p-53; }
-constexpr std::uint64_t word64(const Block& block, int half) {
-  return (static_cast<std::uint64_t>(block[static_cast<std::size_t>(2 * half + 1)]) << 32) | block[static_cast<std::size_t>(2 * half)];
+constexpr std::uint64_t word64(const Block& block, std::size_t half) {
+  return (static_cast<std::uint64_t>(block[2 * half + 1]) << 32) | block[2 * half];
 }
 
 // A sequence of draws under (key, topic, item): for generators, where the order of draws is part of the definition.

@@ -17,12 +17,17 @@ class Cli11Options final : public Options {
  public:
   explicit Cli11Options(CLI::App& app) : app_(app) {}
   void positional(const std::string& name, std::string& value, const std::string& help) override { app_.add_option(name, value, help)->required(); }
-  void positional(const std::string& name, std::uint64_t& value, const std::string& help) override { app_.add_option(name, value, help)->required(); }
+  void positional(const std::string& name, std::uint64_t& value, const std::string& help) override {
+    app_.add_option(name, value, help)->required()->check(CLI::NonNegativeNumber);
+  }
   void positionals(const std::string& name, std::vector<std::string>& values, const std::string& help) override {
     app_.add_option(name, values, help)->required();
   }
   void option(const std::string& names, std::string& value, const std::string& help) override { app_.add_option(names, value, help); }
-  void option(const std::string& names, std::optional<std::uint64_t>& value, const std::string& help) override { app_.add_option(names, value, help); }
+  // CLI11 wraps a negative number round to a huge one where the target is unsigned.
+  void option(const std::string& names, std::optional<std::uint64_t>& value, const std::string& help) override {
+    app_.add_option(names, value, help)->check(CLI::NonNegativeNumber);
+  }
   void option(const std::string& names, std::optional<double>& value, const std::string& help) override { app_.add_option(names, value, help); }
   void option(const std::string& names, std::vector<std::string>& values, const std::string& help) override {
     app_.add_option(names, values, help)->expected(1)->take_all();

@@ -70,7 +70,7 @@ int replay_run(const ReplayWords& words) {
                cell.fleet_size, 100.0 * cell.loss, cell.delay_s, result.recomputed.replicate);
     if (!result.explanation.empty()) fmt::print("  {}\n", result.explanation);
     fmt::print("{}", outcome_text(scenario, result.recomputed.outcome));
-    const bool same_program = archive.campaign().engine == engine_identity();
+    const bool same_program = archive.campaign().engine == campaign_record(plan, programs).engine;
     if (!same_program && result.verdict != ReplayVerdict::Reproduced) fmt::print("  the file was written by another build of fleetproof\n");
   }
   return result.verdict == ReplayVerdict::Reproduced ? kDemonstrated : kEngineFault;

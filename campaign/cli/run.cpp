@@ -12,6 +12,7 @@
 #include "campaign/cli/progress.hpp"
 #include "campaign/cli/render.hpp"
 #include "campaign/cli/verbs.hpp"
+#include "campaign/session_log.hpp"
 #include "core/error.hpp"
 #include "reports/report.hpp"
 
@@ -78,7 +79,9 @@ int run(RunWords words) {
   CampaignResult result;
   {
     ProgressTalk talk(file.plan, words.archive, options.workers);
+    const std::string started_utc = utc_now();
     result = run_campaign(file.plan, programs, words.archive, options, talk.listener());
+    append_session(words.archive, started_utc, options, result);
   }
   return finish(result, words);
 }

@@ -81,6 +81,8 @@ TEST_F(BadInput, Words) {
   expect_refused("simulate " + test::source("tests/scenarios/figure4.json") + " --agent recless", "did you mean \"reckless\"?");
   expect_refused("list lawss", "did you mean \"laws\"?");
   expect_refused("run a.toml --jobs many", "--jobs");
+  expect_refused("run a.toml --replicates -3", "--replicates");
+  expect_refused("run a.toml --seed -1", "--seed");
 }
 
 TEST_F(BadInput, ScenarioFiles) {

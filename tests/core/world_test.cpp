@@ -1,0 +1,66 @@
+#include "core/world.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/worlds.hpp"
+
+namespace fleetproof {
+namespace {
+
+Scenario with_obstacle() {
+  Scenario scenario = test::row_scenario(3, {0, 2}, 60.0);
+  scenario.obstacles.push_back({"crate", {1.2, 0.8}, {Vec2{4.0, 3.0}, Vec2::UnitY()}});
+  return scenario;
+}
+
+TEST(World, StateHoldsEveryBodyAndItsPlace) {
+  const Scenario scenario = with_obstacle();
+  World world(scenario, {});
+  Piece drive;
+  drive.entity = AgvId{0U};
+  drive.manner = Manner::Drive;
+  drive.footprint = scenario.vehicle_types[0].footprint;
+  drive.begin = at_seconds(1.0);
+  drive.curve = &scenario.map->lane(SegmentId{0U}, StationId{0U})->curve;
+  drive.profile = MotionProfile(4.0, {});
+  drive.end = drive.begin + drive.profile.duration();
+  world.continue_with(AgvId{0U}, drive);
+  const State state = world.state_at(at_seconds(2.0));
+  ASSERT_EQ(state.spatial.size(), 3U);
+  EXPECT_TRUE(state.spatial[0].is_agv && state.spatial[0].moving);
+  EXPECT_NEAR(state.spatial[0].pose.position_m.x(), 0.25, 1e-12) << "half of 0.5 m/s2 times one second squared";
+  EXPECT_TRUE(state.spatial[1].is_agv && !state.spatial[1].moving);
+  EXPECT_FALSE(state.spatial[2].is_agv);
+  EXPECT_EQ(state.spatial[2].pose.position_m, Vec2(4.0, 3.0));
+}
+
+TEST(World, ContainmentFollowsALoad) {
+  const Scenario scenario = with_obstacle();
+  World world(scenario, {});
+  const LoadId load = world.add_load(TransportId{7U}, AgvId{0U}, StationId{1U}, StationId{2U});
+  EXPECT_EQ(world.waiting_load(AgvId{0U}, StationId{1U}), load);
+  EXPECT_FALSE(world.waiting_load(AgvId{1U}, StationId{1U}).valid()) << "assigned to the other AGV";
+  EXPECT_FALSE(world.carried_load(AgvId{0U}).valid());
+  world.load(load).holder = {Holder::Kind::Agv, 0};
+  EXPECT_EQ(world.carried_load(AgvId{0U}), load);
+  EXPECT_FALSE(world.waiting_load(AgvId{0U}, StationId{1U}).valid());
+  world.load(load).holder = {Holder::Kind::Station, 2};
+  EXPECT_FALSE(world.waiting_load(AgvId{0U}, StationId{2U}).valid()) << "arrived: nobody fetches it again";
+  const State state = world.state_at(kStart);
+  ASSERT_EQ(state.containment.size(), 1U);
+  EXPECT_EQ(state.containment[0].transport, TransportId{7U});
+}
+
+TEST(World, ADriveIntoAnObstacleIsForeseen) {
+  Scenario scenario = test::row_scenario(2, {0}, 60.0);
+  scenario.obstacles.push_back({"crate", {1.0, 1.0}, {Vec2{2.8, 0.0}, Vec2::UnitX()}});
+  const Outcome outcome = test::simulate_with(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& event) {
+    if (event.kind == FP_EVENT_START) host.move(c, 0);
+  });
+  EXPECT_TRUE(outcome.contact);
+  // Nose at 0.8 m, crate from 2.3 m on: 1.5 m to drive.
+  EXPECT_NEAR(static_cast<double>(outcome.counters.distance_um) * 1e-6, 1.5, 1e-5);
+}
+
+}  // namespace
+}  // namespace fleetproof
