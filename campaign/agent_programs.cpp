@@ -50,7 +50,7 @@ const fp_agent_type& AgentPrograms::find(std::string_view name, std::string_view
     if (name == type->name) return *type;
     names.emplace_back(type->name);
   }
-  throw InputError(where, fmt::format("agent \"{}\" is not known{} (see: fleetproof list agents)", name, name_hint(name, names)));
+  throw InputError(where, fmt::format("agent \"{}\" is not known{} (see: fleetproof list agents; a shared object is loaded by its path or with --plugin)", name, name_hint(name, names)));
 }
 
 }  // namespace fleetproof

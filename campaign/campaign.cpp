@@ -35,13 +35,13 @@ bool must_stop(const RunOptions& options, double elapsed_s) {
   return interrupted || (options.max_time && elapsed_s >= static_cast<double>(options.max_time->count()));
 }
 
-// One world per layout and fleet size: what cannot be built at all is said before anything is written.
-void build_first_worlds(const CampaignPlan& plan, const ScenarioSource& scenarios) {
+}  // namespace
+
+void build_first_worlds(const CampaignPlan& plan) {
+  const ScenarioSource scenarios(plan);
   const std::uint64_t cells_per_world = plan.loss.size() * plan.delay_s.size() * plan.agents.size();
   for (std::uint64_t index = 0; index < plan.cell_count(); index += cells_per_world) (void)scenarios.scenario(index);
 }
-
-}  // namespace
 
 CampaignRecord campaign_record(const CampaignPlan& plan, const AgentPrograms& programs) {
   CampaignRecord record;
@@ -60,8 +60,9 @@ CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& progr
                             const CampaignListener& listener) {
   using Clock = std::chrono::steady_clock;
   const RunOne run_one(plan, programs);
-  build_first_worlds(plan, run_one.scenarios());
-  ArchiveWriter archive(path, campaign_record(plan, programs), plan.cells(), plan.gates);
+  build_first_worlds(plan);  // what cannot be built at all is said before anything is written
+  ArchiveWriter archive(path, campaign_record(plan, programs), plan.cells(), plan.gates,
+                        options.overwrite ? Existing::Replace : Existing::Refuse);
   CampaignResult result;
   result.progress.planned = plan.run_count();
   listener.started();

@@ -15,6 +15,7 @@ namespace fleetproof {
 
 struct RunOptions {
   int workers = 1;
+  bool overwrite = false;                          // replace an existing campaign file, once the new one is complete
   std::optional<std::chrono::seconds> max_time;    // stop cleanly by itself
   const std::atomic<int>* interrupted = nullptr;   // non-zero: a signal number; stop handing out runs
 };
@@ -43,6 +44,9 @@ struct CampaignListener {
 // a layout has no room for its fleet, or the file exists.
 CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& path, const RunOptions& options,
                             const CampaignListener& listener);
+
+// One world per layout and fleet size. Throws InputError if a layout has no room for its fleet.
+void build_first_worlds(const CampaignPlan& plan);
 
 CampaignRecord campaign_record(const CampaignPlan& plan, const AgentPrograms& programs);
 EngineIdentity engine_identity();

@@ -85,14 +85,21 @@ void check_vehicle(const VehicleType& vehicle, const std::string& where) {
   const auto positive = [&](double value, const char* key) {
     demand(value > 0.0 && std::isfinite(value), where, fmt::format("vehicle.{} is {}; it must be above 0", key, value));
   };
+  const auto in_range = [&](double value, double low, double high, const char* key) {
+    demand(value >= low && value <= high, where, fmt::format("vehicle.{} is {}; it lies from {} to {}", key, value, low, high));
+  };
   positive(vehicle.footprint.length_m, "length_m");
   positive(vehicle.footprint.width_m, "width_m");
-  positive(vehicle.drive.speed_mps, "speed_mps");
-  positive(vehicle.drive.acceleration_mps2, "acceleration_mps2");
-  positive(vehicle.drive.deceleration_mps2, "deceleration_mps2");
-  positive(vehicle.turn.speed_mps, "turn_speed_radps");
-  positive(vehicle.turn.acceleration_mps2, "turn_acceleration_radps2");
-  positive(vehicle.turn.deceleration_mps2, "turn_deceleration_radps2");
+  in_range(vehicle.drive.speed_mps, 0.01, 100.0, "speed_mps");
+  in_range(vehicle.drive.acceleration_mps2, 0.01, 100.0, "acceleration_mps2");
+  in_range(vehicle.drive.deceleration_mps2, 0.01, 100.0, "deceleration_mps2");
+  in_range(vehicle.turn.speed_mps, 0.01, 100.0, "turn_speed_radps");
+  in_range(vehicle.turn.acceleration_mps2, 0.01, 100.0, "turn_acceleration_radps2");
+  in_range(vehicle.turn.deceleration_mps2, 0.01, 100.0, "turn_deceleration_radps2");
+  in_range(vehicle.battery_per_m, 0.0, 1.0, "battery_per_m");
+  in_range(vehicle.charge_per_s, 1e-6, 1.0, "charge_per_s");
+  in_range(vehicle.pick_s, 0.0, 3600.0, "pick_s");
+  in_range(vehicle.drop_s, 0.0, 3600.0, "drop_s");
 }
 
 }  // namespace

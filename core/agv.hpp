@@ -61,6 +61,7 @@ struct Agv {
   Duration cost{};
   std::uint32_t calls = 0;             // in this activation
   std::uint32_t activations_at_instant = 0;
+  std::uint64_t activations = 0;       // in this run
   SimTime last_activation = SimTime::min();
   std::deque<fp_event> waiting_events; // arrived while the agent was busy
   std::deque<PendingCall> pending_calls;

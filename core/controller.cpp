@@ -29,6 +29,7 @@ std::int32_t send_broadcast(fp_controller* controller, const void* bytes, std::u
 
 std::int32_t get_position(fp_controller* controller, fp_pose* out) {
   return admitted(controller, [&](Engine& engine, Agv& agv) -> std::int32_t {
+    if (out == nullptr) return FP_INVALID;
     const Pose pose = engine.pose_of(agv);
     *out = {pose.position_m.x(), pose.position_m.y(), pose.heading.x(), pose.heading.y()};
     return FP_OK;
@@ -37,6 +38,7 @@ std::int32_t get_position(fp_controller* controller, fp_pose* out) {
 
 std::int32_t get_battery_level(fp_controller* controller, double* out) {
   return admitted(controller, [&](Engine& engine, Agv& agv) -> std::int32_t {
+    if (out == nullptr) return FP_INVALID;
     *out = engine.battery_of(agv);
     return FP_OK;
   });
@@ -51,6 +53,7 @@ std::int32_t get_message(fp_controller* controller, fp_message* out) {
 
 std::int32_t is_loaded(fp_controller* controller, std::uint32_t* out) {
   return admitted(controller, [&](Engine& engine, Agv& agv) -> std::int32_t {
+    if (out == nullptr) return FP_INVALID;
     *out = engine.is_loaded(agv) ? 1 : 0;
     return FP_OK;
   });
@@ -58,6 +61,7 @@ std::int32_t is_loaded(fp_controller* controller, std::uint32_t* out) {
 
 std::int32_t get_action(fp_controller* controller, std::uint32_t* out) {
   return admitted(controller, [&](Engine&, Agv& agv) -> std::int32_t {
+    if (out == nullptr) return FP_INVALID;
     *out = agv.doing;
     return FP_OK;
   });

@@ -46,7 +46,11 @@ Engine::Engine(const Scenario& scenario, const fp_agent_type& agent, std::span<c
 
 Engine::~Engine() {
   for (Agv& agv : agvs_) {
-    if (agv.agent != nullptr) agent_type_.destroy(agv.agent);
+    if (agv.agent == nullptr) continue;
+    try {
+      agent_type_.destroy(agv.agent);
+    } catch (...) {  // its verdict stands; a destructor has nobody to tell
+    }
   }
 }
 
@@ -55,6 +59,7 @@ void Engine::run() {
   const SimTime end = kStart + scenario_.horizon;
   while (!queue_.empty() && queue_.next_at() <= end) {
     const Event event = queue_.pop();
+    ensure(event.at >= now_, "time goes forward");
     now_ = event.at;
     handle(event);
   }
@@ -127,9 +132,12 @@ Outcome Engine::outcome() {
 }
 
 void check_abi(const fp_agent_type& agent) {
-  if (agent.abi_major != FP_ABI_MAJOR || agent.struct_size < sizeof(fp_agent_type)) {
-    throw InputError(agent.name == nullptr ? "agent" : agent.name, "speaks another version of fleetproof/agent.h (this program: " +
-                                                                       std::to_string(FP_ABI_MAJOR) + "); rebuild it against this version's header");
+  if (agent.struct_size < sizeof(fp_agent_type) || agent.abi_major != FP_ABI_MAJOR) {
+    throw InputError("agent", "speaks another version of fleetproof/agent.h (this program: " + std::to_string(FP_ABI_MAJOR) + "); rebuild it against this version's header");
+  }
+  if (agent.name == nullptr || agent.name[0] == '\0') throw InputError("agent", "has no name; give its fp_agent_type one");
+  if (agent.description == nullptr || agent.create == nullptr || agent.on_event == nullptr || agent.destroy == nullptr) {
+    throw InputError(agent.name, "has a null member in its fp_agent_type; description, create, on_event and destroy must all be there");
   }
 }
 

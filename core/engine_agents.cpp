@@ -10,6 +10,17 @@ namespace {
 
 constexpr std::uint32_t kCallsMax = 10'000;        // in one activation
 constexpr std::uint32_t kActivationsMax = 10'000;  // of one agent without time advancing
+// Of one agent in a run: two million, and ten thousand more for every simulated second. Far beyond what any control software needs, and counted, so
+// that an agent that sets its timer a nanosecond ahead for ever is found out at the same event on every machine.
+constexpr std::uint64_t kActivationsPerRun = 2'000'000, kActivationsPerSecond = 10'000;
+
+// One line that any page and any JSON can hold: an agent may throw whatever it likes.
+std::string printable(std::string_view text) {
+  constexpr std::size_t kLongestMessage = 200;
+  std::string line;
+  for (const char c : text.substr(0, kLongestMessage)) line += c >= 0x20 && c < 0x7f ? c : '?';
+  return line + (text.size() > kLongestMessage ? "..." : "");
+}
 
 }  // namespace
 
@@ -42,6 +53,8 @@ void Engine::activate(Agv& agv, const fp_event& what) {
   agv.activations_at_instant = agv.last_activation == now_ ? agv.activations_at_instant + 1 : 1;
   agv.last_activation = now_;
   if (agv.activations_at_instant > kActivationsMax) return give_up(agv, true, "10 000 activations without time advancing");
+  const auto run_max = kActivationsPerRun + kActivationsPerSecond * static_cast<std::uint64_t>(to_seconds(scenario_.horizon));
+  if (++agv.activations > run_max) return give_up(agv, true, "woke up more often than any control software needs");
   ++outcome_.counters.activations;
   agv.in_activation = true;
   agv.calls = 0;
@@ -76,7 +89,7 @@ void Engine::give_up(Agv& agv, bool hang, std::string_view message) {
   agv.waiting_events.clear();
   (hang ? outcome_.hang : outcome_.crash) = true;
   if (outcome_.message.empty()) {
-    outcome_.message = "agent of " + scenario_.agvs[agv.id.index()].name + ": " + std::string(message);
+    outcome_.message = "agent of " + scenario_.agvs[agv.id.index()].name + ": " + printable(message);
   }
   trace(agv.id, hang ? TraceKind::AgentHung : TraceKind::AgentCrashed);
 }

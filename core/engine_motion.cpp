@@ -119,7 +119,7 @@ void Engine::begin_stay(Agv& agv) {
     activity.end = now_ + seconds(std::max(0.0, (1.0 - agv.battery) / type.charge_per_s));
     activity.evolution = BatteryEvolution{type.charge_per_s};
   }
-  last_progress_ = now_;
+  if (kind == ActivityKind::Pick || kind == ActivityKind::Drop) last_progress_ = now_;
   begin_activity(agv, std::move(activity), subject);
   if (kind == ActivityKind::Charge) action_done(agv, FP_OK);  // connected: done as far as the agent is concerned
 }
@@ -150,7 +150,7 @@ void Engine::end_activity(Agv& agv, bool as_planned) {
   const Activity activity = *agv.activity;
   agv.activity.reset();
   ++agv.activity_stamp;
-  last_progress_ = now_;
+  if (activity.kind != ActivityKind::Park && activity.kind != ActivityKind::Charge) last_progress_ = now_;
   if (const auto* spatial = std::get_if<SpatialEvolution>(&activity.evolution)) {
     const Piece& piece = spatial->piece;
     if (activity.kind == ActivityKind::Drive) {
@@ -214,7 +214,9 @@ void Engine::stop_for_good(EntityId id) {
   Agv& agv = agvs_[id.index()];
   world_.put_out_of_order(id);
   agv.out_of_order = true;
-  const bool acting = agv.committed && agv.pending_calls.empty();
+  // An action that has yet to take effect answers for itself when it finds the AGV out of order.
+  const bool action_pending = std::ranges::find(agv.pending_calls, PendingCall::Kind::Action, &PendingCall::kind) != agv.pending_calls.end();
+  const bool acting = agv.committed && !action_pending;
   if (agv.activity) end_activity(agv, false);
   agv.plan = {};
   agv.doing = FP_OUT_OF_ORDER;

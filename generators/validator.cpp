@@ -15,6 +15,7 @@ namespace fleetproof {
 namespace {
 
 constexpr double kLongest_s = 1e9, kLargestBody_m = 100.0, kLargestRate = 1e6;
+constexpr double kSmallestRate = 1e-3;  // slower than any vehicle; keeps every activity within the range of simulated time
 constexpr Duration kLongest = std::chrono::seconds(1'000'000'000);
 constexpr double kUnitTolerance = 1e-9;
 constexpr double kMicrometre_m = 1e-6;
@@ -103,12 +104,12 @@ class RangeCheck {
     constexpr std::string_view kList = "/vehicle_types";
     const auto& v = scenario_.vehicle_types[i];
     footprint(kList, i, v.footprint);
-    positive({kList, i, "/drive/speed_mps"}, v.drive.speed_mps, kLargestRate);
-    positive({kList, i, "/drive/acceleration_mps2"}, v.drive.acceleration_mps2, kLargestRate);
-    positive({kList, i, "/drive/deceleration_mps2"}, v.drive.deceleration_mps2, kLargestRate);
-    positive({kList, i, "/turn/speed_radps"}, v.turn.speed_mps, kLargestRate);
-    positive({kList, i, "/turn/acceleration_radps2"}, v.turn.acceleration_mps2, kLargestRate);
-    positive({kList, i, "/turn/deceleration_radps2"}, v.turn.deceleration_mps2, kLargestRate);
+    within({kList, i, "/drive/speed_mps"}, v.drive.speed_mps, kSmallestRate, kLargestRate);
+    within({kList, i, "/drive/acceleration_mps2"}, v.drive.acceleration_mps2, kSmallestRate, kLargestRate);
+    within({kList, i, "/drive/deceleration_mps2"}, v.drive.deceleration_mps2, kSmallestRate, kLargestRate);
+    within({kList, i, "/turn/speed_radps"}, v.turn.speed_mps, kSmallestRate, kLargestRate);
+    within({kList, i, "/turn/acceleration_radps2"}, v.turn.acceleration_mps2, kSmallestRate, kLargestRate);
+    within({kList, i, "/turn/deceleration_radps2"}, v.turn.deceleration_mps2, kSmallestRate, kLargestRate);
     within({kList, i, "/battery_per_m"}, v.battery_per_m, 0.0, 1.0);
     within({kList, i, "/charge_per_s"}, v.charge_per_s, 0.0, 1.0);
     within({kList, i, "/pick_s"}, v.pick_s, 0.0, kLongest_s);

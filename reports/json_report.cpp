@@ -166,6 +166,7 @@ std::string render_json(const ReportInput& input) {
   json["archive"] = input.archive_path;
   json["verdict"] = name_of(overall_verdict(evidence, input.gates));
   json["exit_code"] = input.exit_code;
+  json["complete"] = evidence.complete();
   json["campaign"] = campaign_json(input);
   json["gates"] = list_of(input.gates.size(), [&](std::size_t i) { return gate_json(input, i); });
   json["conditions"] = list_of(conditions.size(), [&](std::size_t i) { return condition_json(input, conditions[i]); });

@@ -65,13 +65,20 @@ Section method_section(const ReportInput& input) {
   return section;
 }
 
+// Whether the campaign is all there belongs where nobody can miss it.
+std::string replicates_text(const Evidence& evidence) {
+  const auto complete = evidence.complete_replicates();
+  if (!evidence.complete()) return fmt::format("INCOMPLETE: {} of {}", complete, count_text(evidence.planned_replicates(), "planned replicate"));
+  return count_text(complete, "replicate") + " complete";
+}
+
 }  // namespace
 
 Page build_page(const ReportInput& input, std::size_t most_rows) {
   Page page;
   const auto& evidence = input.evidence;
-  page.title = fmt::format("fleetproof report: {} ({}), {} complete of {} cells each, {} judged", printable(input.campaign.name, 80), printable(input.campaign.kind, 20),
-                           count_text(evidence.complete_replicates(), "replicate"), evidence.cells().size(),
+  page.title = fmt::format("fleetproof report: {} ({}), {} of {} cells each, {} judged", printable(input.campaign.name, 80), printable(input.campaign.kind, 20),
+                           replicates_text(evidence), evidence.cells().size(),
                            count_text(evidence.complete_replicates() * evidence.cells().size(), "run"));
   page.headlines = warnings(input);
   for (auto& verdict : verdicts(input)) page.headlines.push_back(std::move(verdict));

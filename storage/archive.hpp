@@ -12,13 +12,18 @@
 
 namespace fleetproof {
 
+// What becomes of a campaign file that is there already. Replace: it stays until the new one is published and takes its place at one instant.
+enum class Existing : std::uint8_t { Refuse, Replace };
+
 // The live file of a campaign under way: NAME.partial beside NAME, write-ahead log, one connection that writes and checkpoints.
 // Rows are stored as they finish; a kill loses at most what came after the last commit (at most 2 s).
-// Threads: one.
+// One writer at a time: it holds a lock on NAME.lock as long as it writes. Threads: one.
 class ArchiveWriter {
  public:
-  // Throws InputError if `path` or its live file exists already (the remedy is named), EngineError if the disk refuses.
-  ArchiveWriter(const std::string& path, const CampaignRecord& campaign, const std::vector<CellRecord>& cells, const std::vector<GateRecord>& gates);
+  // Throws InputError (the remedy is named) if another run writes this file, if the place cannot be written, or if a file stands in the way: with Refuse
+  // `path` or its live file, with Replace anything of these names that is no campaign file of ours. Throws EngineError if the disk refuses.
+  ArchiveWriter(const std::string& path, const CampaignRecord& campaign, const std::vector<CellRecord>& cells, const std::vector<GateRecord>& gates,
+                Existing existing = Existing::Refuse);
   ~ArchiveWriter();
   ArchiveWriter(const ArchiveWriter&) = delete;
   ArchiveWriter& operator=(const ArchiveWriter&) = delete;
@@ -27,7 +32,7 @@ class ArchiveWriter {
   void commit();
 
   // Writes the canonical file: rows below `stop_index` only, fixed page size and order, no journal; the same bytes for any order of `add`.
-  // Then renames it to `path` and removes the live file. The writer is closed afterwards.
+  // Then renames it to `path`, removes the live file and gives up the lock. The writer is closed afterwards.
   void publish(std::uint64_t stop_index);
 
  private:

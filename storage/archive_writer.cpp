@@ -6,9 +6,9 @@
 
 #include <bit>
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <limits>
+#include <optional>
 
 #include "core/error.hpp"
 #include "storage/archive.hpp"
@@ -17,6 +17,8 @@
 #include "storage/rows.hpp"
 #include "storage/schema.hpp"
 #include "storage/sqlite_errors.hpp"
+#include "storage/target_file.hpp"
+#include "storage/write_lock.hpp"
 
 namespace fleetproof {
 namespace {
@@ -24,25 +26,9 @@ namespace {
 constexpr unsigned kRowsPerCommit = 512;
 constexpr std::chrono::seconds kCommitPeriod{2};
 
-// SQLite gives some names a meaning of their own (":memory:", "file:..."); an absolute path is only ever a path.
-std::string absolute(const std::string& path) { return std::filesystem::absolute(path).string(); }
-
-void require_free_name(const std::string& path, const std::string& live_path) {
-  namespace fs = std::filesystem;
-  if (path.empty()) throw InputError("", "the campaign file needs a name");
-  if (fs::is_directory(path)) throw InputError(path, "this is a folder; name a file in it");
-  if (fs::exists(path)) throw InputError(path, "this file exists already; give another name, or remove it to start again");
-  if (fs::exists(live_path)) {
-    throw InputError(live_path, "a campaign of this name is under way or was interrupted; remove this file to start again, or give another name");
-  }
-  const auto folder = fs::path(absolute(path)).parent_path();
-  if (!fs::is_directory(folder)) throw InputError(path, fmt::format("there is no folder {}; make it first, or give another name", folder.string()));
-}
-
-// Of two programs that start at once, one wins.
-void create_exclusively(const std::string& live_path) {
+void make_live_file(const std::string& live_path) {
   const int fd = ::open(live_path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-  if (fd < 0) throw EngineError(fmt::format("{}: the disk refused to make the file: {}", live_path, std::strerror(errno)));
+  if (fd < 0) throw_cannot_make(live_path, errno);
   ::close(fd);
 }
 
@@ -54,7 +40,9 @@ void remove_live_file(const std::string& live_path) {
 }  // namespace
 
 struct ArchiveWriter::Impl {
+  std::optional<WriteLock> lock;  // first: it is given up last
   std::string path, live_path;
+  Existing existing = Existing::Refuse;
   std::uint64_t cells = 0;
   std::unique_ptr<SQLite::Database> db;
   std::unique_ptr<SQLite::Statement> insert_run, insert_violation, stored_checksum;
@@ -138,13 +126,18 @@ void ArchiveWriter::Impl::close() {
 }
 
 ArchiveWriter::ArchiveWriter(const std::string& path, const CampaignRecord& campaign, const std::vector<CellRecord>& cells,
-                             const std::vector<GateRecord>& gates)
+                             const std::vector<GateRecord>& gates, Existing existing)
     : impl_(std::make_unique<Impl>()) {
-  require_free_name(path, path + ".partial");
-  impl_->path = absolute(path);
+  require_place(path);
+  impl_->path = absolute_name(path);
   impl_->live_path = impl_->path + ".partial";
+  impl_->existing = existing;
   impl_->cells = cells.size();
-  create_exclusively(impl_->live_path);
+  impl_->lock.emplace(impl_->path);
+  require_free_name(impl_->path, existing);
+  require_free_live_name(impl_->live_path, existing);
+  if (existing == Existing::Replace) remove_live_file(impl_->live_path);
+  make_live_file(impl_->live_path);
   try {
     impl_->open(campaign, cells, gates);
   } catch (const SQLite::Exception&) {
@@ -193,11 +186,14 @@ void ArchiveWriter::publish(std::uint64_t stop_index) {
     throw_archive_error(impl_->live_path);
   }
   write_canonical_file(impl_->live_path, unfinished, stop_index);
-  if (std::filesystem::exists(impl_->path)) {
+  try {
+    require_free_name(impl_->path, impl_->existing);
+  } catch (const InputError&) {
     throw InputError(impl_->path, fmt::format("this file appeared while the campaign ran; the results are in {} and {}", unfinished, impl_->live_path));
   }
   move_durably(unfinished, impl_->path);
   remove_live_file(impl_->live_path);
+  impl_->lock.reset();
 }
 
 }  // namespace fleetproof

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <memory>
 
+#include "campaign/campaign.hpp"
 #include "campaign/cli/campaign_words.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "campaign/run_one.hpp"
@@ -30,6 +31,7 @@ void check_campaign(const std::string& path) {
   AgentPrograms programs;
   const CampaignFile file = load_campaign(path, programs);
   const CampaignPlan& plan = file.plan;
+  build_first_worlds(plan);
   const double total_s = mean_run_s(plan, programs) * static_cast<double>(plan.run_count());
   fmt::print("{}: ok, {} cells x {} replicates = {} runs of {:g} s; about {:.0f} s of one core\n", path, plan.cell_count(), plan.replicates, plan.run_count(),
              plan.horizon_s, total_s);

@@ -71,7 +71,7 @@ int replay_run(const ReplayWords& words) {
     if (!result.explanation.empty()) fmt::print("  {}\n", result.explanation);
     fmt::print("{}", outcome_text(scenario, result.recomputed.outcome));
     const bool same_program = archive.campaign().engine == campaign_record(plan, programs).engine;
-    if (!same_program && result.verdict != ReplayVerdict::Reproduced) fmt::print("  the file was written by another build of fleetproof\n");
+    if (!same_program) fmt::print("  note: the file was written by another build of fleetproof, or with other plug-ins (see the report's provenance)\n");
   }
   return result.verdict == ReplayVerdict::Reproduced ? kDemonstrated : kEngineFault;
 }

@@ -2,7 +2,6 @@
 
 #include <atomic>
 #include <csignal>
-#include <filesystem>
 #include <memory>
 #include <thread>
 
@@ -33,10 +32,6 @@ void on_signal(int number) {
   if (interrupted.exchange(number) != 0) std::_Exit(128 + number);
 }
 
-void remove_earlier(const std::string& archive) {
-  for (const char* ending : {"", ".partial", ".partial-wal", ".partial-shm"}) std::filesystem::remove(archive + ending);
-}
-
 RunOptions run_options(const RunWords& words) {
   RunOptions options;
   const std::uint64_t cores = std::max(1U, std::thread::hardware_concurrency());
@@ -47,6 +42,7 @@ RunOptions run_options(const RunWords& words) {
     if (!(*words.max_time_s >= 1.0 && *words.max_time_s <= 1e9)) throw InputError("--max-time", "must be at least 1 s");
     options.max_time = std::chrono::seconds(static_cast<long>(*words.max_time_s));
   }
+  options.overwrite = words.overwrite;
   options.interrupted = &interrupted;
   return options;
 }
@@ -73,7 +69,6 @@ int run(RunWords words) {
   check_plan(file.plan, words.campaign);
   const RunOptions options = run_options(words);
   if (words.archive.empty()) words.archive = file.plan.name + ".db";
-  if (words.overwrite) remove_earlier(words.archive);
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   CampaignResult result;

@@ -40,6 +40,7 @@ std::string outcome_text(const Scenario& scenario, const Outcome& outcome) {
   } else {
     text += "  smallest clearance > 0.5 m\n";
   }
+  if (outcome.counters.perimeter_checks > 0) text += fmt::format("  {} perimeter checks by the law\n", outcome.counters.perimeter_checks);
   return text + counters_text(outcome) + fmt::format("  trace digest {:016x}\n", outcome.digest);
 }
 

@@ -84,7 +84,8 @@ int simulate_scenario(const SimulateWords& words) {
     fmt::print("{}", outcome_text(scenario, outcome));
   }
   if (outcome.engine_error) return kEngineFault;
-  return outcome.violation || outcome.contact ? kViolated : kDemonstrated;
+  if (outcome.violation || outcome.contact) return kViolated;
+  return outcome.outcome_class() == OutcomeClass::Clean ? kDemonstrated : kNotDemonstrated;
 }
 
 }  // namespace

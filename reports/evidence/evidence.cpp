@@ -37,6 +37,7 @@ std::vector<Pool> condition_pools(const std::vector<CellRecord>& cells) {
 
 Evidence::Evidence(const CampaignRecord& campaign, std::vector<CellRecord> cells, std::vector<GateRecord> gates)
     : counts_only_(campaign.kind == "search"),
+      planned_(campaign.replicates),
       cells_(std::move(cells)),
       gates_(std::move(gates)),
       tallies_(cells_.size()),
@@ -109,6 +110,7 @@ GateResult Evidence::judge(std::size_t index) const {
   }
   counts.cells = pool.cells.size();
   counts.units = pool.units;
+  counts.planned = planned_;
   counts.failing = pool.failing;
   counts.failing_or_unknown = pool.failing_or_unknown;
   counts.failing_runs = pool.failing_runs;

@@ -46,6 +46,8 @@ class Evidence {
   bool counts_only() const { return counts_only_; }                  // a campaign of kind "search"
   std::uint64_t runs() const { return runs_; }                       // read so far
   std::uint64_t complete_replicates() const { return replicates_; }
+  std::uint64_t planned_replicates() const { return planned_; }
+  bool complete() const { return replicates_ >= planned_; }          // every planned replicate is
   std::uint64_t engine_errors() const { return engine_errors_; }     // among the runs read so far
   const std::vector<CellRecord>& cells() const { return cells_; }
   const std::vector<GateRecord>& gates() const { return gates_; }
@@ -66,6 +68,7 @@ class Evidence {
   void finish_replicate();
 
   bool counts_only_ = false;
+  std::uint64_t planned_ = 0;
   std::vector<CellRecord> cells_;
   std::vector<GateRecord> gates_;
   std::uint64_t runs_ = 0, replicates_ = 0, engine_errors_ = 0;

@@ -29,19 +29,23 @@ std::string bound_too_high(const GateRecord& gate, GateResult& result) {
   return text + fmt::format("; {} {}{} are needed ({} more)", *needed, result.unit, clean, *needed - claim.units);
 }
 
+bool asks_for_progress(const GateRecord& gate) { return !(gate.min_transports_per_agv_hour <= 0.0); }
+
 // Everything that is missing for "demonstrated"; empty if nothing is.
 std::string missing_for_demonstration(const GateRecord& gate, GateResult& result) {
   const auto& counts = result.counts;
   std::string missing;
+  if (!counts.complete()) {
+    add_sentence_part(missing, fmt::format("stopped after {} of {} planned replicates; the bound holds only for the number fixed beforehand", counts.units, counts.planned));
+  }
   if (result.claim->upper > gate.limit) add_sentence_part(missing, bound_too_high(gate, result));
-  if (!(gate.min_transports_per_agv_hour > 0.0)) return missing;  // the gate asks for no progress
+  if (!asks_for_progress(gate)) return missing;
   const double rate = counts.transports_per_agv_hour.value_or(0.0);
-  if (rate < gate.min_transports_per_agv_hour) {
+  if (!(rate >= gate.min_transports_per_agv_hour)) {
     add_sentence_part(missing, fmt::format("the fleet made too little progress: {:.2f} transports per AGV-hour, the floor is {:g} (a parked fleet is safe and useless)",
                                            rate, gate.min_transports_per_agv_hour));
-  } else if (counts.idle_cells > 0) {
-    add_sentence_part(missing, fmt::format("in {} of {} cells no transport was completed", counts.idle_cells, counts.cells));
   }
+  if (counts.idle_cells > 0) add_sentence_part(missing, fmt::format("in {} of {} cells no transport was completed", counts.idle_cells, counts.cells));
   return missing;
 }
 
@@ -51,7 +55,7 @@ std::optional<std::string> refutation(const GateRecord& gate, const GateResult& 
     if (counts.failing_runs == 0) return std::nullopt;
     return fmt::format("{} {} failed and this gate allows none", counts.failing_runs, counts.failing_runs == 1 ? "run" : "runs");
   }
-  if (counts.counts_only || counts.units == 0 || !(result.optimistic->lower > gate.limit)) return std::nullopt;
+  if (counts.counts_only || counts.units == 0 || !counts.complete() || !(result.optimistic->lower > gate.limit)) return std::nullopt;
   return fmt::format("the lower bound {} exceeds the limit {:g}", rounded_down(result.optimistic->lower), gate.limit);
 }
 
@@ -103,7 +107,8 @@ GateResult judge_gate(const GateRecord& gate, const GateCounts& counts) {
   if (!result.reason.empty()) return result;
   result.verdict = Verdict::Demonstrated;
   result.reason = fmt::format("the upper bound {} is at or below the limit {:g}", rounded_up(result.claim->upper), gate.limit);
-  if (counts.transports_per_agv_hour) result.reason += fmt::format(", and the fleet made progress ({:.2f} transports per AGV-hour)", *counts.transports_per_agv_hour);
+  result.reason += asks_for_progress(gate) ? fmt::format(", and the fleet made progress ({:.2f} transports per AGV-hour)", counts.transports_per_agv_hour.value_or(0.0))
+                                           : ", and no progress was asked for";
   return result;
 }
 

@@ -29,12 +29,14 @@ Estimate estimate(std::uint64_t failing, std::uint64_t units, double confidence)
 struct GateCounts {
   std::size_t cells = 0;
   std::uint64_t units = 0;              // complete replicates (with one cell: its runs)
+  std::uint64_t planned = 0;            // replicates fixed before the first run: the bounds hold for this number only
   std::uint64_t failing = 0;            // of the units: at least one run is known to have failed
   std::uint64_t failing_or_unknown = 0; // of the units: at least one run failed, or ended before it could be told
   std::uint64_t failing_runs = 0;       // known failures among all runs read so far, complete replicate or not
   std::optional<double> transports_per_agv_hour;
   std::size_t idle_cells = 0;           // cells in which progress is due and no transport was done
   bool counts_only = false;             // the campaign searches for failures: its counts are no sample of anything
+  bool complete() const { return units >= planned; }
 };
 
 struct GateResult {
@@ -50,6 +52,8 @@ struct GateResult {
 
 // Refuted only if the known failures alone refute; demonstrated only if the claim, in which every unknown counts as a failure, meets the limit and the
 // fleet made progress: both words are true however the unknown outcomes would have ended.
+// Bounds decide only on all planned replicates: whoever may stop when a bound looks good has no bound. Before that only a gate that allows no failure is decided,
+// by a failure.
 GateResult judge_gate(const GateRecord& gate, const GateCounts& counts);
 
 }  // namespace fleetproof

@@ -1,26 +1,11 @@
 // Whole runs: how many a second, and what each costs in counts that no machine changes.
 #include <benchmark/benchmark.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
 #include "campaign/agent_programs.hpp"
 #include "core/simulation.hpp"
 #include "laws/laws.hpp"
+#include "tests/bench/allocations.hpp"
 #include "tests/support/grid_world.hpp"
-
-namespace {
-std::atomic<std::uint64_t> allocations{0};
-}
-
-void* operator new(std::size_t size) {
-  allocations.fetch_add(1, std::memory_order_relaxed);
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace fleetproof {
 namespace {
@@ -30,8 +15,8 @@ struct World {
   std::uint32_t fleet;
   double horizon_s;
 };
-constexpr World kSmall{4, 8, 5, 60.0};     // 56 segments
-constexpr World kLarge{12, 24, 50, 600.0}; // 552 segments
+constexpr World kSmall{4, 8, 5, 60.0};      // 56 segments
+constexpr World kLarge{12, 24, 50, 600.0};  // 552 segments
 
 void run(benchmark::State& state, const World& world, const char* agent_name, bool with_law) {
   const AgentPrograms programs;
@@ -41,7 +26,7 @@ void run(benchmark::State& state, const World& world, const char* agent_name, bo
   scenario.radio.delay_s = 2.0;
   Counters sum;
   std::uint64_t runs = 0;
-  const std::uint64_t allocated_before = allocations;
+  const std::uint64_t allocated_before = allocations();
   for (auto _ : state) {
     scenario.seed = ++runs;
     std::vector<std::unique_ptr<Law>> laws;
@@ -61,7 +46,7 @@ void run(benchmark::State& state, const World& world, const char* agent_name, bo
   state.counters["evaluations"] = per_run(sum.distance_evaluations);
   state.counters["drives"] = per_run(sum.drives);
   state.counters["transports"] = per_run(sum.transports_done);
-  state.counters["allocations"] = per_run(allocations - allocated_before);
+  state.counters["allocations"] = per_run(allocations() - allocated_before);
   state.counters["runs/s"] = benchmark::Counter(static_cast<double>(runs), benchmark::Counter::kIsRate);
 }
 

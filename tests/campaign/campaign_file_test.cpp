@@ -102,7 +102,7 @@ TEST_F(CampaignFileTest, ErrorsNamePlaceValueAndRemedy) {
   EXPECT_THAT(error_of(kFactors + "[[gate]]\nagent = \"reckless\"\nregion = \"worst-case\"\n"), HasSubstr("no cell of this campaign lies in region"));
   EXPECT_THAT(error_of("name = \"x\"\n"), HasSubstr("has no [factors] table"));
   EXPECT_THAT(error_of(kFactors + "loss = [0.1, 0.1]\n"), HasSubstr("names one value twice"));
-  EXPECT_THAT(error_of("[vehicle]\nspeed_mps = 0\n" + kFactors), HasSubstr("vehicle.speed_mps is 0; it must be above 0"));
+  EXPECT_THAT(error_of("[vehicle]\nspeed_mps = 0\n" + kFactors), HasSubstr("vehicle.speed_mps is 0; it lies from 0.01 to 100"));
 }
 
 TEST_F(CampaignFileTest, AMissingFileSaysSo) {

@@ -73,6 +73,21 @@ TEST_F(BadInput, ARunThatDoesNotExist) {
   expect_refused("run tiny.toml --db tiny.db", "tiny.db");  // would overwrite
 }
 
+TEST_F(BadInput, OverwritingWhatIsNotOurs) {
+  write("notes.txt", "mine\n");
+  write("tiny.toml", campaign("agents = [\"reckless\"]\nlayouts = [\"aisle-grid\"]\nfleet_sizes = [2]", "horizon_s = 10\n"));
+  expect_refused("run tiny.toml --db notes.txt --overwrite", "not");
+  EXPECT_EQ(read(path("notes.txt")), "mine\n");
+  expect_refused("run tiny.toml --db tiny.toml --overwrite", "not");
+  ASSERT_EQ(run("run tiny.toml --db good.db").exit_code, 4);
+  const std::string good = read(path("good.db"));
+  write("crowd.toml", campaign("agents = [\"reckless\"]\nlayouts = [\"aisle-grid\"]\nfleet_sizes = [900]"));
+  expect_refused("run crowd.toml --db good.db --overwrite", "900");
+  EXPECT_TRUE(good == read(path("good.db"))) << "the old file stays until the new one is complete";
+  expect_refused("check crowd.toml", "900");
+  EXPECT_EQ(run("run tiny.toml --db good.db --overwrite").exit_code, 4);
+}
+
 TEST_F(BadInput, Words) {
   expect_refused("runn a.toml", "did you mean \"run\"?");
   expect_refused("run", "CAMPAIGN");

@@ -191,6 +191,77 @@ TEST(Contact, TwoBodiesThatTouchStandStillFromThenOn) {
   EXPECT_EQ(as_planned, (std::vector<std::uint64_t>{1, 0, 0})) << "one turn ended, both drives were cut short";
 }
 
+TEST(Contact, AStoppedActionIsAnsweredEvenWhileASendIsPending) {
+  Scenario scenario = row_scenario(2, {0, 1}, 30.0);
+  scenario.map = test::row_map(2, 20.0);
+  std::vector<std::int32_t> results(2, 99);
+  simulate_with(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& event) {
+    if (event.kind == FP_EVENT_START) {
+      host.move(c, 0);
+      host.set_timer(c, 1, 1'000'000'000);
+    }
+    if (event.kind == FP_EVENT_TIMER) {
+      host.declare_cost_ns(c, 12'000'000'000);  // beyond the contact
+      host.send_broadcast(c, "late", 4);
+    }
+    if (event.kind == FP_EVENT_ACTION_DONE) results[b.self] = event.result;
+  });
+  EXPECT_EQ(results, (std::vector<std::int32_t>{FP_REFUSED, FP_REFUSED}));
+}
+
+TEST(Controller, NullPointersAreInvalid) {
+  simulate_with(row_scenario(2, {0}), [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& event) {
+    if (event.kind != FP_EVENT_START) return;
+    EXPECT_EQ(host.get_position(c, nullptr), FP_INVALID);
+    EXPECT_EQ(host.get_battery_level(c, nullptr), FP_INVALID);
+    EXPECT_EQ(host.is_loaded(c, nullptr), FP_INVALID);
+    EXPECT_EQ(host.get_action(c, nullptr), FP_INVALID);
+    EXPECT_EQ(host.get_message(c, nullptr), FP_INVALID);
+    EXPECT_EQ(host.send_broadcast(c, nullptr, 3), FP_INVALID);
+    EXPECT_EQ(host.log(c, nullptr), FP_INVALID);
+  });
+}
+
+TEST(Controller, ChargingAtNoRateNeverEnds) {
+  Scenario scenario = row_scenario(2, {0}, 30.0);
+  scenario.agvs[0].battery = 0.5;
+  scenario.vehicle_types[0].charge_per_s = 0.0;
+  Recorder recorder;
+  simulate_with(
+      scenario,
+      [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& event) {
+        if (event.kind == FP_EVENT_START) host.charge(c, FP_HERE);
+      },
+      &recorder);
+  EXPECT_EQ(recorder.of(TraceKind::ActivityBegins).size(), 1U);
+  EXPECT_EQ(recorder.of(TraceKind::ActivityEnds).size(), 0U);
+}
+
+TEST(AgentClock, ATimerANanosecondAheadForEverIsAHang) {
+  const Outcome outcome = simulate_with(row_scenario(2, {0}, 10.0), [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& event) {
+    host.set_timer(c, 1, event.now_ns + 1);
+  });
+  EXPECT_TRUE(outcome.hang);
+}
+
+TEST(AgentClock, WhatAnAgentThrowsBecomesOnePrintableLine) {
+  const Outcome outcome = simulate_with(row_scenario(2, {0}), [&](const fp_host&, fp_controller*, const fp_briefing&, const fp_event&) {
+    throw std::runtime_error("bad \xff\n" + std::string(1000, 'x'));
+  });
+  EXPECT_LT(outcome.message.size(), 250U);
+  for (const char c : outcome.message) EXPECT_TRUE(c >= 0x20 && c < 0x7f);
+}
+
+TEST(Stuck, AParkedFleetWithOpenTransportsIsStuck) {
+  Scenario scenario = row_scenario(3, {0}, 300.0);
+  scenario.agvs[0].transports = {{StationId{1U}, StationId{2U}, seconds(1.0)}};
+  const Outcome outcome = simulate_with(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& event) {
+    host.park(c, FP_HERE);
+    host.set_timer(c, 1, event.now_ns + 10'000'000'000);
+  });
+  EXPECT_TRUE(outcome.stuck) << "parking again and again is no progress";
+}
+
 TEST(Trace, DigestTellsRunsApartAndRepeats) {
   const auto run = [](std::int64_t at) {
     return simulate_with(row_scenario(2, {0}), [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& event) {
@@ -206,6 +277,12 @@ TEST(Abi, AnotherMajorVersionIsRefused) {
   fp_agent_type other = test::handler_agent();
   other.abi_major = FP_ABI_MAJOR + 1;
   EXPECT_ANY_THROW(check_abi(other));
+  fp_agent_type null_member = test::handler_agent();
+  null_member.on_event = nullptr;
+  EXPECT_ANY_THROW(check_abi(null_member));
+  null_member = test::handler_agent();
+  null_member.name = nullptr;
+  EXPECT_ANY_THROW(check_abi(null_member));
 }
 
 }  // namespace

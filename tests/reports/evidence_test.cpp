@@ -193,6 +193,21 @@ TEST(ExitCode, engine_error_before_violated_before_not_demonstrated) {
   EXPECT_EQ(report_of(campaign_of("claim", 3000), cells, {}).exit_code, 4);
 }
 
+TEST(ExitCode, a_campaign_that_is_not_complete_is_not_demonstrated) {
+  const auto cells = grid({"sound"}, {0.0, 0.4}, {2.0});
+  const auto gate = gate_of("sound", GateKind::None, Region::Contract, 1e-3);
+  const auto whole = report_of(campaign_of("claim", 3001), cells, {gate});
+  EXPECT_TRUE(whole.evidence.complete());
+  EXPECT_EQ(whole.exit_code, 0);
+  const auto stopped = report_of(campaign_of("claim", 3001), cells, {gate}, {}, 0, 1);
+  EXPECT_FALSE(stopped.evidence.complete());
+  EXPECT_EQ(stopped.gates[0].counts.planned, 3001u);
+  EXPECT_EQ(stopped.gates[0].counts.units, 3000u);
+  EXPECT_EQ(stopped.exit_code, 4);
+  const auto refuted = report_of(campaign_of("claim", 3001), cells, {gate}, [](RunRecord& run) { if (run.run_index == 6000) samples::violate(run); }, 0, 1);
+  EXPECT_EQ(refuted.exit_code, 1);
+}
+
 TEST(ExitCode, one_violated_gate_outweighs_many_demonstrated_ones) {
   const auto cells = grid({"sound", "faulty"}, {0.4}, {2.0});
   const auto input = report_of(campaign_of("claim", 3000), cells,

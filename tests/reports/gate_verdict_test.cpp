@@ -16,7 +16,7 @@ GateRecord gate(GateKind kind, double limit) { return {0, "safe", "sound", kind,
 GateCounts counts(std::uint64_t units, std::uint64_t failing, std::uint64_t unknown = 0) {
   GateCounts c;
   c.cells = 12;
-  c.units = units;
+  c.units = c.planned = units;
   c.failing = failing;
   c.failing_or_unknown = failing + unknown;
   c.failing_runs = failing;
@@ -101,6 +101,56 @@ TEST(GateVerdict, a_parked_fleet_demonstrates_nothing) {
   auto no_floor = gate(GateKind::None, 1e-3);
   no_floor.min_transports_per_agv_hour = 0.0;
   EXPECT_EQ(judge_gate(no_floor, idle).verdict, Verdict::Demonstrated);
+}
+
+TEST(GateVerdict, a_floor_of_zero_is_no_praise_for_progress) {
+  for (const double floor : {0.0, -1.0}) {
+    for (const std::optional<double> rate : {std::optional<double>(0.0), std::optional<double>(12.0), std::optional<double>()}) {
+      auto no_floor = gate(GateKind::None, 1e-3);
+      no_floor.min_transports_per_agv_hour = floor;
+      auto parked = counts(5000, 0);
+      parked.transports_per_agv_hour = rate;
+      parked.idle_cells = 12;
+      const auto result = judge_gate(no_floor, parked);
+      EXPECT_EQ(result.verdict, Verdict::Demonstrated);
+      EXPECT_THAT(result.reason, HasSubstr("no progress was asked for"));
+      EXPECT_THAT(result.reason, testing::Not(HasSubstr("made progress")));
+    }
+  }
+}
+
+TEST(GateVerdict, however_low_the_floor_every_cell_has_to_move) {
+  auto low = gate(GateKind::None, 1e-3);
+  low.min_transports_per_agv_hour = 1e-9;
+  auto idle = counts(5000, 0);
+  idle.idle_cells = 2;
+  EXPECT_EQ(judge_gate(low, idle).verdict, Verdict::NotDemonstrated);
+  EXPECT_THAT(judge_gate(low, idle).reason, HasSubstr("in 2 of 12 cells no transport was completed"));
+  EXPECT_THAT(judge_gate(low, counts(5000, 0)).reason, HasSubstr("the fleet made progress (12.00"));
+}
+
+TEST(GateVerdict, a_campaign_stopped_early_demonstrates_nothing_however_good_the_bound) {
+  for (const auto kind : {GateKind::None, GateKind::Rate}) {
+    auto stopped = counts(4999, 0);
+    stopped.planned = 5000;
+    const auto result = judge_gate(gate(kind, 1e-3), stopped);
+    EXPECT_EQ(result.verdict, Verdict::NotDemonstrated);
+    EXPECT_EQ(result.reason, "stopped after 4999 of 5000 planned replicates; the bound holds only for the number fixed beforehand");
+    stopped.units = 5000;
+    EXPECT_EQ(judge_gate(gate(kind, 1e-3), stopped).verdict, Verdict::Demonstrated);
+  }
+}
+
+TEST(GateVerdict, a_campaign_stopped_early_is_refuted_by_a_forbidden_failure_but_by_no_rate) {
+  auto stopped = counts(200, 100);
+  stopped.planned = 201;
+  EXPECT_EQ(judge_gate(gate(GateKind::None, 1e-2), stopped).verdict, Verdict::Violated);
+  const auto rate = judge_gate(gate(GateKind::Rate, 1e-2), stopped);
+  EXPECT_EQ(rate.verdict, Verdict::NotDemonstrated);
+  EXPECT_THAT(rate.reason, HasSubstr("stopped after 200 of 201 planned replicates"));
+  EXPECT_EQ(rate.optimistic->failing, 100u);
+  stopped.planned = 200;
+  EXPECT_EQ(judge_gate(gate(GateKind::Rate, 1e-2), stopped).verdict, Verdict::Violated);
 }
 
 TEST(GateVerdict, a_gate_on_one_cell_counts_runs) {

@@ -251,6 +251,29 @@ TEST(Report, reads_an_archive_up_to_its_first_gap) {
   EXPECT_THAT(render("text", input), HasSubstr("archive: typed.fp"));
 }
 
+TEST(Report, a_campaign_that_is_not_complete_says_so_in_its_title) {
+  const auto cells = grid({"sound"}, {0.4}, {1.0, 2.0});
+  const std::vector<GateRecord> gates{gate_of("sound", GateKind::Rate, Region::Contract, 1e-2)};
+  const auto fail_once = [](RunRecord& run) {
+    if (run.run_index == 7) samples::violate(run);
+  };
+  const auto stopped = report_of(campaign_of("claim", 3000), cells, gates, fail_once, 0, 3);
+  const auto whole = report_of(campaign_of("claim", 3000), cells, gates, fail_once);
+  for (const auto* format : {"text", "summary", "markdown"}) {
+    const auto lines = lines_of(render(format, stopped));
+    EXPECT_THAT(lines[0], HasSubstr("INCOMPLETE: 2998 of 3000 planned replicates")) << format;
+    EXPECT_THAT(lines[2], HasSubstr("violation")) << format;  // what was seen still heads the page
+    auto page = render(format, stopped);
+    std::ranges::replace(page, '\n', ' ');
+    EXPECT_THAT(page, HasSubstr("stopped after 2998 of 3000 planned replicates")) << format;
+    EXPECT_THAT(render(format, whole), Not(HasSubstr("INCOMPLETE"))) << format;
+  }
+  EXPECT_EQ(nlohmann::json::parse(render("json", stopped))["complete"], false);
+  EXPECT_EQ(nlohmann::json::parse(render("json", stopped))["verdict"], "not demonstrated");
+  EXPECT_EQ(nlohmann::json::parse(render("json", whole))["complete"], true);
+  EXPECT_EQ(nlohmann::json::parse(render("json", whole))["verdict"], "demonstrated");
+}
+
 TEST(Report, every_format_renders_an_empty_campaign) {
   const auto input = report_of(campaign_of("claim", 0), grid({"sound"}, {0.4}, {2.0}), {gate_of("sound", GateKind::None, Region::Contract, 1e-3)});
   for (const auto& format : report_formats()) {

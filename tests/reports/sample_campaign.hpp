@@ -63,11 +63,11 @@ inline void violate(RunRecord& run, std::int64_t clearance_um = 70'000, bool con
 
 using Change = std::function<void(RunRecord&)>;
 
-// The judged evidence of `replicates` replicates, each run changed by `change`.
+// The judged evidence of all planned replicates, each run changed by `change`.
 inline ReportInput report_of(CampaignRecord campaign, const std::vector<CellRecord>& cells, const std::vector<GateRecord>& gates, const Change& change = {},
-                             std::uint64_t extra_runs = 0) {
+                             std::uint64_t extra_runs = 0, std::uint64_t missing_runs = 0) {
   ReportInput input{"night.fp", campaign, Evidence(campaign, cells, gates), {}, 0, 4};
-  for (std::uint64_t i = 0; i < campaign.replicates * cells.size() + extra_runs; ++i) {
+  for (std::uint64_t i = 0; i < campaign.replicates * cells.size() + extra_runs - missing_runs; ++i) {
     auto run = clean_run(i, cells.size());
     if (change) change(run);
     input.evidence.add(run);

@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 #include <sqlite3.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <csignal>
+#include <filesystem>
 
 #include "core/error.hpp"
 #include "storage/archive.hpp"
@@ -159,9 +161,140 @@ TEST(ArchiveWriter, refuses_names_that_are_taken_or_cannot_be) {
   EXPECT_THAT(refusal(""), HasSubstr("needs a name"));
 }
 
-TEST(ArchiveWriter, says_so_when_the_disk_refuses_to_make_the_file) {
-  const auto sentence = sentence_of<EngineError>([] { ArchiveWriter writer("/proc/a.fp", samples::campaign(), samples::cells(), samples::gates()); });
-  EXPECT_THAT(sentence, HasSubstr("/proc/a.fp.partial"));
+// A writer as a campaign would open it.
+void open_writer(const std::string& path, Existing existing = Existing::Refuse) {
+  ArchiveWriter writer(path, samples::campaign(), samples::cells(), samples::gates(), existing);
+}
+
+TEST(ArchiveWriter, a_place_that_cannot_be_written_is_for_the_user_to_mend) {
+  const TemporaryFolder folder;
+  samples::write_bytes(folder / "file", "x");
+  for (const auto existing : {Existing::Refuse, Existing::Replace}) {
+    const auto refusal = [&](const std::string& path) { return sentence_of<InputError>([&] { open_writer(path, existing); }); };
+    EXPECT_THAT(refusal("/proc/a.fp"), HasSubstr("name another folder"));
+    EXPECT_THAT(refusal(folder / "file/a.fp"), HasSubstr("give another name"));
+    EXPECT_THAT(refusal(folder / "file/deeper/a.fp"), HasSubstr("folder"));
+    EXPECT_THAT(refusal(folder / "none/a.fp"), HasSubstr("there is no folder"));
+    EXPECT_THAT(refusal(folder / std::string(300, 'x')), HasSubstr("too long"));
+    EXPECT_THAT(refusal(folder / (std::string(300, 'x') + "/a.fp")), HasSubstr("too long"));
+    EXPECT_THAT(refusal(folder / "."), HasSubstr("this is a folder"));
+  }
+}
+
+TEST(ArchiveWriter, a_folder_without_permission_is_for_the_user_to_mend) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
+  namespace fs = std::filesystem;
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "locked");
+  for (const auto rights : {fs::perms::owner_read | fs::perms::owner_exec, fs::perms::none}) {
+    fs::permissions(folder / "locked", rights);
+    EXPECT_THAT(sentence_of<InputError>([&] { open_writer(folder / "locked/a.fp"); }), HasSubstr("permissions"));
+  }
+  fs::permissions(folder / "locked", fs::perms::owner_all);
+}
+
+TEST(ArchiveWriter, a_second_writer_is_refused_while_the_first_is_alive) {
+  const TemporaryFolder folder;
+  const auto path = folder / "a.fp";
+  {
+    ArchiveWriter first(path, samples::campaign(), samples::cells(), samples::gates());
+    for (const auto& run : samples::runs(6)) first.add(run);
+    first.commit();
+    for (const auto existing : {Existing::Refuse, Existing::Replace}) {
+      EXPECT_THAT(sentence_of<InputError>([&] { open_writer(path, existing); }), HasSubstr("another fleetproof run is writing this file"));
+    }
+    EXPECT_TRUE(std::filesystem::exists(path + ".lock"));
+    EXPECT_EQ(ArchiveReader(path + ".partial").run_count(), 6u);
+    first.publish(6);
+    EXPECT_FALSE(std::filesystem::exists(path + ".lock"));
+    EXPECT_NO_THROW(open_writer(path, Existing::Replace));
+  }
+  EXPECT_EQ(ArchiveReader(path).run_count(), 6u);
+  EXPECT_FALSE(std::filesystem::exists(path + ".lock"));
+}
+
+TEST(ArchiveWriter, a_lock_left_behind_holds_nobody_up_but_a_foreign_file_of_its_name_stays) {
+  const TemporaryFolder folder;
+  samples::write_bytes(folder / "a.fp.lock", "");
+  EXPECT_NO_THROW(write_archive(folder / "a.fp"));
+  samples::write_bytes(folder / "b.fp.lock", "mine");
+  EXPECT_THAT(sentence_of<InputError>([&] { open_writer(folder / "b.fp"); }), HasSubstr("b.fp.lock"));
+  EXPECT_EQ(samples::bytes_of(folder / "b.fp.lock"), "mine");
+  std::filesystem::create_directory(folder / "c.fp.lock");
+  EXPECT_THAT(sentence_of<InputError>([&] { open_writer(folder / "c.fp"); }), HasSubstr("c.fp.lock"));
+}
+
+TEST(ArchiveWriter, replaces_a_campaign_file_only_when_the_new_one_is_published) {
+  const TemporaryFolder folder;
+  const auto path = folder / "a.fp";
+  write_archive(path, 60);
+  const auto before = samples::bytes_of(path);
+  open_writer(path, Existing::Replace);  // interrupted at once: its live file stays
+  EXPECT_TRUE(samples::bytes_of(path) == before);
+  ASSERT_TRUE(std::filesystem::exists(path + ".partial"));
+  samples::write_bytes(path + ".partial-wal", "left over");
+  {
+    ArchiveWriter writer(path, samples::campaign(), samples::cells(), samples::gates(), Existing::Replace);
+    for (const auto& run : samples::runs(12)) writer.add(run);
+    writer.commit();
+    EXPECT_TRUE(samples::bytes_of(path) == before);
+    writer.publish(12);
+  }
+  EXPECT_EQ(ArchiveReader(path).run_count(), 12u);
+  std::size_t files = 0;
+  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder / ".")) ++files;
+  EXPECT_EQ(files, 1u);
+}
+
+TEST(ArchiveWriter, replaces_a_damaged_campaign_file_and_makes_one_where_none_is) {
+  const TemporaryFolder folder;
+  write_archive(folder / "a.fp");
+  samples::write_bytes(folder / "a.fp", samples::bytes_of(folder / "a.fp").substr(0, 5000));
+  for (const auto* name : {"a.fp", "b.fp"}) {
+    {
+      ArchiveWriter writer(folder / name, samples::campaign(), samples::cells(), samples::gates(), Existing::Replace);
+      writer.publish(0);
+    }
+    EXPECT_EQ(ArchiveReader(folder / name).run_count(), 0u);
+  }
+}
+
+TEST(ArchiveWriter, replaces_nothing_that_is_not_a_campaign_file) {
+  const TemporaryFolder folder;
+  write_archive(folder / "ours.fp");
+  samples::write_bytes(folder / "text.fp", std::string(5000, 'x'));
+  samples::write_bytes(folder / "empty.fp", "");
+  tamper(folder / "other.fp", "CREATE TABLE t(x); INSERT INTO t VALUES (1)");
+  std::filesystem::create_symlink(folder / "ours.fp", folder / "link.fp");
+  for (const auto* name : {"text.fp", "empty.fp", "other.fp", "link.fp"}) {
+    const auto before = samples::bytes_of(folder / name);
+    EXPECT_THAT(sentence_of<InputError>([&] { open_writer(folder / name, Existing::Replace); }), HasSubstr("this is not a campaign file of fleetproof; it is not overwritten"))
+        << name;
+    EXPECT_TRUE(samples::bytes_of(folder / name) == before) << name;
+    EXPECT_FALSE(std::filesystem::exists((folder / name) + ".partial")) << name;
+    EXPECT_FALSE(std::filesystem::exists((folder / name) + ".lock")) << name;
+  }
+  std::filesystem::create_directory(folder / "folder.fp");
+  EXPECT_THAT(sentence_of<InputError>([&] { open_writer(folder / "folder.fp", Existing::Replace); }), HasSubstr("folder"));
+  EXPECT_TRUE(std::filesystem::is_directory(folder / "folder.fp"));
+}
+
+TEST(ArchiveWriter, a_foreign_file_named_like_the_live_file_stays) {
+  const TemporaryFolder folder;
+  samples::write_bytes(folder / "a.fp.partial", "half of a download");
+  EXPECT_THAT(sentence_of<InputError>([&] { open_writer(folder / "a.fp", Existing::Replace); }), HasSubstr("a.fp.partial"));
+  EXPECT_EQ(samples::bytes_of(folder / "a.fp.partial"), "half of a download");
+}
+
+TEST(ArchiveWriter, a_file_that_appears_while_the_campaign_runs_is_not_overwritten) {
+  const TemporaryFolder folder;
+  for (const auto existing : {Existing::Refuse, Existing::Replace}) {
+    const auto path = folder / (existing == Existing::Refuse ? "a.fp" : "b.fp");
+    ArchiveWriter writer(path, samples::campaign(), samples::cells(), samples::gates(), existing);
+    samples::write_bytes(path, "mine");
+    EXPECT_THAT(sentence_of<InputError>([&] { writer.publish(0); }), HasSubstr("appeared while the campaign ran"));
+    EXPECT_EQ(samples::bytes_of(path), "mine");
+  }
 }
 
 TEST(ArchiveWriter, a_disk_that_fills_up_is_an_engine_error_and_keeps_what_was_committed) {
