@@ -81,6 +81,9 @@ TEST_F(BadInput, Words) {
   expect_refused("simulate " + test::source("tests/scenarios/figure4.json") + " --agent recless", "did you mean \"reckless\"?");
   expect_refused("list lawss", "did you mean \"laws\"?");
   expect_refused("run a.toml --jobs many", "--jobs");
+  expect_refused("generate fishbones", "did you mean \"fishbone\"?");
+  expect_refused("generate fishbone --seed many", "--seed");
+  expect_refused("generate fishbone --svg nowhere/a.svg", "nowhere/a.svg: cannot be written; choose another path for --svg");
 }
 
 TEST_F(BadInput, ScenarioFiles) {
