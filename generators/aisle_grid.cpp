@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "generators/layout_builder.hpp"
 
 namespace fleetproof {
@@ -33,16 +31,6 @@ Sizes draw_sizes(Draws& draws) {
   s.charging = 1 + draws.below(2);
   s.docks = 1 + draws.below(2);
   return s;
-}
-
-// `wanted` of the numbers 0 .. count-1, in drawn order.
-std::vector<std::uint32_t> choose(Draws& draws, std::size_t count, std::uint32_t wanted) {
-  std::vector<std::uint32_t> numbers(count);
-  for (std::size_t i = 0; i < count; ++i) numbers[i] = static_cast<std::uint32_t>(i);
-  const std::size_t chosen = std::min<std::size_t>(wanted, count);
-  for (std::size_t i = 0; i < chosen; ++i) std::swap(numbers[i], numbers[i + draws.below(static_cast<std::uint32_t>(count - i))]);
-  numbers.resize(chosen);
-  return numbers;
 }
 
 class AisleGrid {
@@ -119,7 +107,7 @@ class AisleGrid {
         sites.push_back({i, j, false});
       }
     }
-    for (const auto n : choose(draws_, sites.size(), sizes_.bays)) {
+    for (const auto n : draw_some(draws_, sites.size(), sizes_.bays)) {
       const auto [aisle, row, left] = sites[n];
       const StationId from = aisles_[aisle][row];
       const PointMm at = builder_.position(from);
@@ -132,11 +120,11 @@ class AisleGrid {
     const auto& low = crosses_.front();
     const auto& high = crosses_.back();
     std::uint32_t number = 0;
-    for (const auto n : choose(draws_, low.size(), sizes_.parking)) {
+    for (const auto n : draw_some(draws_, low.size(), sizes_.parking)) {
       spur(low[n], {builder_.position(low[n]).x, -sizes_.spur}, fmt::format("park{}", ++number), Purpose::Parking);
     }
     number = 0;
-    for (const auto n : choose(draws_, high.size(), sizes_.charging + sizes_.docks)) {
+    for (const auto n : draw_some(draws_, high.size(), sizes_.charging + sizes_.docks)) {
       const PointMm at = builder_.position(high[n]);
       const bool charging = ++number <= sizes_.charging;
       spur(high[n], {at.x, at.y + sizes_.spur}, charging ? fmt::format("charge{}", number) : fmt::format("dock{}", number - sizes_.charging),

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "core/layout.hpp"
 #include "core/random.hpp"
@@ -16,6 +17,9 @@ struct PointMm {
 // low, low + step, ..., high with equal chances.
 std::int64_t draw_between(Draws& draws, std::int64_t low, std::int64_t high, std::int64_t step);
 
+// `wanted` of the numbers 0 .. count-1, or all of them if there are fewer, in drawn order.
+std::vector<std::uint32_t> draw_some(Draws& draws, std::size_t count, std::size_t wanted);
+
 enum class Way : std::uint8_t { Both, Forward, Backward };
 
 // Puts a generated layout together. Segments are named after their stations: "A1.0-A1.1".
@@ -27,13 +31,16 @@ class LayoutBuilder {
   void straight(StationId from, StationId to, Way way = Way::Both);
   // A curve that leaves both ends along the x axis.
   void s_bend(StationId from, StationId to, Way way = Way::Both);
+  // A quarter circle, the nearest that one cubic Bezier comes to it, that leaves `from` in the direction of `corner` and comes to `to` from there.
+  void quarter_bend(StationId from, PointMm corner, StationId to, Way way = Way::Both);
   PointMm position(StationId station) const { return positions_[station.index()]; }
 
   // The layout, its floor reaching 3 m beyond the outermost stations.
   Layout take();
 
  private:
-  void segment(StationId from, StationId to, Way way, bool bend);
+  // Control points are given for the way from `from` to `to`.
+  void segment(StationId from, StationId to, Way way, std::vector<PointMm> control_points);
 
   Layout layout_;
   std::vector<PointMm> positions_;

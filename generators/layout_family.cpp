@@ -5,6 +5,10 @@
 #include "core/error.hpp"
 #include "generators/aisle_grid.hpp"
 #include "generators/corridor_sidings.hpp"
+#include "generators/dense_crossing.hpp"
+#include "generators/fishbone.hpp"
+#include "generators/loop_spurs.hpp"
+#include "generators/random_planar.hpp"
 #include "generators/text_file.hpp"
 
 namespace fleetproof {
@@ -15,6 +19,15 @@ constexpr Entry<MakeLayout> kFamilies[] = {
      make_aisle_grid},
     {"corridor-sidings", "one two-way lane of 30-60 m with sidings to let others pass, storage spurs at both ends and along it; 17-39 segments",
      make_corridor_sidings},
+    {"loop-spurs", "a one-way loop of 60-200 m with Bezier bends and 8-30 spurs of 3.5-6 m: a queue has nowhere to overtake; 20-87 segments",
+     make_loop_spurs},
+    {"random-planar",
+     "16-34 stations strewn at random, lanes at every angle and 4-9 m long, 40-100 % two-way; places to wait lie in the middle of the traffic",
+     make_random_planar},
+    {"fishbone", "two diagonal cross aisles of 30-60 degrees with picking aisles above and below; goods lie in the aisle, so whoever picks closes it",
+     make_fishbone},
+    {"dense-crossing", "3-6 x 3-6 one-way lines 2.4-4 m apart: segments shorter than usual, every crossing contested; 10-24 spurs at the rim",
+     make_dense_crossing},
 };
 
 }  // namespace

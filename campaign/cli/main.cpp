@@ -9,6 +9,8 @@ int main(int argc, char** argv) {
       Verb{"report", "judge a campaign file and tell what it shows", "fleetproof report demo.db --format markdown", prepare_report},
       Verb{"replay", "simulate one run of a campaign again and compare it to the bit", "fleetproof replay demo.db 17", prepare_replay},
       Verb{"simulate", "simulate one scenario file", "fleetproof simulate tests/scenarios/figure4.json --law exact --json", prepare_simulate},
+      Verb{"generate", "draw the layout of a family and a seed, as JSON and as a picture",
+           "fleetproof generate fishbone --seed 7 -o layout.json --svg layout.svg", prepare_generate},
       Verb{"check", "check a campaign or scenario file without running it", "fleetproof check tests/campaigns/demo.toml", prepare_check},
       Verb{"list", "list agents, laws, generators or reports", "fleetproof list agents", prepare_list},
   };

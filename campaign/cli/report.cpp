@@ -1,9 +1,8 @@
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <fstream>
 #include <memory>
 
+#include "campaign/cli/output_file.hpp"
 #include "campaign/cli/render.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "core/error.hpp"
@@ -16,17 +15,6 @@ struct ReportWords {
   bool json = false, digest = false;
 };
 
-void write_whole(const std::string& path, const std::string& text) {
-  // Written beside and renamed: a reader never sees half a report.
-  const std::string draft = path + ".draft";
-  std::ofstream file(draft, std::ios::binary);
-  file << text;
-  file.close();
-  std::error_code failed;
-  if (file) std::filesystem::rename(draft, path, failed);
-  if (!file || failed) throw InputError(path, "cannot be written; choose another path for --output");
-}
-
 int report(const ReportWords& words) {
   const ArchiveReader archive(words.archive);
   if (words.digest) {
@@ -38,7 +26,7 @@ int report(const ReportWords& words) {
   if (words.out.empty()) {
     fmt::print("{}", text);
   } else {
-    write_whole(words.out, text);
+    write_whole(words.out, text, "--output");
   }
   return input.exit_code;
 }

@@ -98,6 +98,9 @@ TEST_F(BadInput, Words) {
   expect_refused("run a.toml --jobs many", "--jobs");
   expect_refused("run a.toml --replicates -3", "--replicates");
   expect_refused("run a.toml --seed -1", "--seed");
+  expect_refused("generate fishbones", "did you mean \"fishbone\"?");
+  expect_refused("generate fishbone --seed many", "--seed");
+  expect_refused("generate fishbone --svg nowhere/a.svg", "nowhere/a.svg: cannot be written; choose another path for --svg");
 }
 
 TEST_F(BadInput, ScenarioFiles) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.hpp"
 #include "generators/layout_check.hpp"
@@ -54,7 +55,21 @@ TEST_P(LayoutFamily, LeavesRoomToTurnAndToWait) {
   }
 }
 
+// Of straight segments. The paper's 3-5 m, but for the families that are there for something else.
+struct UsualLength {
+  double shortest_m = 3.0, longest_m = 5.0;
+};
+
+UsualLength usual_length(std::string_view family) {
+  if (family == "loop-spurs") return {3.0, 6.0};
+  if (family == "random-planar") return {4.0, 9.0};
+  if (family == "fishbone") return {3.0, 7.5};
+  if (family == "dense-crossing") return {2.4, 4.0};
+  return {};
+}
+
 TEST_P(LayoutFamily, HasPlacesForEveryPurposeAndSegmentsOfUsualLength) {
+  const auto usual = usual_length(GetParam().name);
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     const Layout layout = make(GetParam(), seed);
     const auto count = [&](Purpose p) { return std::ranges::count_if(layout.stations, [&](const Station& s) { return s.purposes.has(p); }); };
@@ -64,8 +79,8 @@ TEST_P(LayoutFamily, HasPlacesForEveryPurposeAndSegmentsOfUsualLength) {
     EXPECT_LE(layout.segments.size(), 90U) << seed;
     for (const auto& segment : layout.segments) {
       const double length = independent::length_m(layout, segment);
-      EXPECT_GE(length, 3.0 - 1e-9) << seed << ": " << segment.name;
-      EXPECT_LE(length, segment.control_points_m.empty() ? 5.0 : 6.5) << seed << ": " << segment.name;
+      EXPECT_GE(length, usual.shortest_m - 1e-9) << seed << ": " << segment.name;
+      EXPECT_LE(length, segment.control_points_m.empty() ? usual.longest_m + 1e-9 : 6.5) << seed << ": " << segment.name;
     }
   }
 }
@@ -115,6 +130,81 @@ TEST(CorridorSidings, IsThirtyToSixtyMetresLongWithBends) {
     EXPECT_GE(length, 30.0) << seed;
     EXPECT_LE(length, 60.0) << seed;
     EXPECT_GE(std::ranges::count_if(layout.segments, [](const Segment& s) { return !s.control_points_m.empty(); }), 2) << seed;
+  }
+}
+
+TEST(LoopSpurs, IsOneWayRoundSixtyToTwoHundredMetres) {
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    const Layout layout = make(layout_family("loop-spurs"), seed);
+    double loop_m = 0.0;
+    std::size_t spurs = 0, bends = 0;
+    for (const auto& s : layout.segments) {
+      if (s.bidirectional) {
+        ++spurs;
+        EXPECT_GE(independent::length_m(layout, s), 3.5 - 1e-9);
+      } else {
+        loop_m += independent::length_m(layout, s);
+        bends += s.control_points_m.empty() ? 0 : 1;
+      }
+    }
+    EXPECT_GE(loop_m, 60.0) << seed;
+    EXPECT_LE(loop_m, 200.0) << seed;
+    EXPECT_GE(spurs, 8U) << seed;
+    EXPECT_LE(spurs, 30U) << seed;
+    EXPECT_EQ(bends, 4U) << seed;
+    EXPECT_GE(layout.segments.size(), 20U) << seed;
+    EXPECT_LE(layout.segments.size(), 87U) << seed;
+  }
+}
+
+bool cross(const Layout& layout, const Segment& s, const Segment& t) {
+  const auto at = [&](StationId id) { return layout.stations[id.index()].position_m; };
+  const auto side = [](const Vec2& a, const Vec2& b, const Vec2& p) { return (b.x() - a.x()) * (p.y() - a.y()) - (b.y() - a.y()) * (p.x() - a.x()); };
+  const Vec2 a = at(s.from), b = at(s.to), c = at(t.from), d = at(t.to);
+  return side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0;
+}
+
+TEST(RandomPlanar, NoTwoLanesCrossAndFortyPercentOrMoreAreTwoWay) {
+  std::size_t two_way = 0, all = 0;
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    const Layout layout = make(layout_family("random-planar"), seed);
+    EXPECT_GE(layout.stations.size(), 16U) << seed;
+    EXPECT_LE(layout.stations.size(), 34U) << seed;
+    for (std::size_t i = 0; i < layout.segments.size(); ++i) {
+      for (std::size_t k = 0; k < i; ++k) {
+        EXPECT_FALSE(cross(layout, layout.segments[i], layout.segments[k]))
+            << seed << ": " << layout.segments[i].name << ", " << layout.segments[k].name;
+      }
+      two_way += layout.segments[i].bidirectional ? 1 : 0;
+      ++all;
+    }
+  }
+  EXPECT_GT(two_way, all / 2);
+  EXPECT_LT(two_way, all * 9 / 10);
+}
+
+TEST(Fishbone, DiagonalsRiseAtThirtyToSixtyDegrees) {
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    const Layout layout = make(layout_family("fishbone"), seed);
+    int diagonals = 0;
+    for (const auto& s : layout.segments) {
+      const Vec2 way = layout.stations[s.to.index()].position_m - layout.stations[s.from.index()].position_m;
+      if (way.x() == 0.0 || way.y() == 0.0) continue;
+      ++diagonals;
+      const double slope = std::abs(way.y() / way.x());
+      EXPECT_GE(slope, 0.577) << seed;
+      EXPECT_LE(slope, 1.733) << seed;
+    }
+    EXPECT_GE(diagonals, 6) << seed;
+  }
+}
+
+TEST(DenseCrossing, IsAOneWayGridOfThreeToSixLines) {
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    const Layout layout = make(layout_family("dense-crossing"), seed);
+    const auto one_way = std::ranges::count_if(layout.segments, [](const Segment& s) { return !s.bidirectional; });
+    EXPECT_TRUE(one_way == 12 || one_way == 24 || one_way == 40 || one_way == 60) << seed << ": " << one_way;
+    EXPECT_GE(static_cast<std::int64_t>(layout.segments.size()) - one_way, 10) << seed;
   }
 }
 

@@ -90,7 +90,9 @@ TEST(ScenarioFile, DigestsTellScenariosApart) {
 
 // The same program and seed mean the same world on every machine and in every later version; a change here breaks stored campaigns.
 TEST(ScenarioFile, DigestsOfGeneratedWorldsArePinned) {
-  const std::uint64_t expected[] = {5891412863720707766ULL, 14176292902692126038ULL};
+  const std::uint64_t expected[] = {5891412863720707766ULL, 14176292902692126038ULL, 8149003343592245291ULL,
+                                    6381169439561746560ULL, 13561162682273589070ULL, 2805226802133799419ULL};
+  ASSERT_EQ(std::size(expected), layout_families().size());
   for (std::size_t i = 0; i < layout_families().size(); ++i) {
     WorldSpec spec;
     spec.layout = std::string(layout_families()[i].name);

@@ -1,0 +1,102 @@
+#include "generators/dense_crossing.hpp"
+
+#include <fmt/format.h>
+
+#include "generators/layout_builder.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr std::int64_t kVehicleLength_mm = 1'600;
+
+struct Sizes {
+  std::uint32_t lines;       // in each direction
+  std::int64_t pitch, spur;  // millimetres
+  std::uint32_t spurs;
+};
+
+Sizes draw_sizes(Draws& draws) {
+  Sizes s{};
+  s.lines = 3 + draws.below(4);
+  s.pitch = draw_between(draws, kVehicleLength_mm * 3 / 2, kVehicleLength_mm * 5 / 2, 50);
+  s.spur = draw_between(draws, 3000, 3500, 50);
+  s.spurs = 10 + draws.below(4 * s.lines - 9);
+  return s;
+}
+
+class DenseCrossing {
+ public:
+  explicit DenseCrossing(Draws& draws) : draws_(draws), sizes_(draw_sizes(draws)) {}
+
+  Layout make() {
+    for (std::uint32_t i = 0; i < sizes_.lines; ++i) {
+      auto& column = crossings_.emplace_back();
+      for (std::uint32_t j = 0; j < sizes_.lines; ++j) {
+        column.push_back(builder_.station(fmt::format("X{}.{}", i + 1, j + 1), {i * sizes_.pitch, j * sizes_.pitch}));
+      }
+    }
+    connect();
+    add_spurs();
+    return builder_.take();
+  }
+
+ private:
+  // The outer lines run round in one direction and every inner line starts and ends on them: strongly connected whatever is drawn.
+  void connect() {
+    const std::uint32_t last = sizes_.lines - 1;
+    const bool clockwise = draws_.below(2) == 0;
+    const Way with = clockwise ? Way::Forward : Way::Backward, against = clockwise ? Way::Backward : Way::Forward;
+    const auto way = [&](std::uint32_t line, Way first, Way final) {
+      if (line == 0) return first;
+      if (line == last) return final;
+      return draws_.below(2) == 0 ? Way::Forward : Way::Backward;
+    };
+    for (std::uint32_t i = 0; i <= last; ++i) {
+      const Way column = way(i, with, against), row = way(i, against, with);
+      for (std::uint32_t k = 0; k < last; ++k) {
+        builder_.straight(crossings_[i][k], crossings_[i][k + 1], column);
+        builder_.straight(crossings_[k][i], crossings_[k + 1][i], row);
+      }
+    }
+  }
+
+  // Every line may go on beyond the rim, at both ends.
+  void add_spurs() {
+    struct Site {
+      StationId from;
+      PointMm outwards;
+    };
+    const std::uint32_t last = sizes_.lines - 1;
+    std::vector<Site> sites;
+    for (std::uint32_t i = 0; i <= last; ++i) {
+      sites.push_back({crossings_[i][0], {0, -sizes_.spur}});
+      sites.push_back({crossings_[i][last], {0, sizes_.spur}});
+      sites.push_back({crossings_[0][i], {-sizes_.spur, 0}});
+      sites.push_back({crossings_[last][i], {sizes_.spur, 0}});
+    }
+    std::uint32_t number = 0;
+    const std::uint32_t charging = 1, parking = 2 + draws_.below(2);
+    for (const auto n : draw_some(draws_, sites.size(), sizes_.spurs)) {
+      const auto& [from, outwards] = sites[n];
+      const PointMm at{builder_.position(from).x + outwards.x, builder_.position(from).y + outwards.y};
+      const bool charges = number < charging, parks = !charges && number < charging + parking;
+      const auto name = charges ? fmt::format("charge{}", number + 1)
+                        : parks ? fmt::format("park{}", number - charging + 1)
+                                : fmt::format("S{}", number - charging - parking + 1);
+      const auto purpose = charges ? Purpose::Charging : parks ? Purpose::Parking : Purpose::Storage;
+      builder_.straight(from, builder_.station(name, at, purpose));
+      ++number;
+    }
+  }
+
+  Draws& draws_;
+  Sizes sizes_;
+  LayoutBuilder builder_{"dense-crossing"};
+  std::vector<std::vector<StationId>> crossings_;  // by column, then row
+};
+
+}  // namespace
+
+Layout make_dense_crossing(Draws& draws) { return DenseCrossing(draws).make(); }
+
+}  // namespace fleetproof

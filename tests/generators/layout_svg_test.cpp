@@ -1,0 +1,92 @@
+// The picture of a layout: sound XML, everything in it, the right way up.
+#include "generators/layout_svg.hpp"
+
+#include <gtest/gtest.h>
+
+#include <pugixml.hpp>
+
+#include "generators/layout_check.hpp"
+#include "generators/layout_family.hpp"
+#include "independent_check.hpp"
+
+namespace fleetproof {
+namespace {
+
+pugi::xml_document parsed(const std::string& svg) {
+  pugi::xml_document document;
+  const auto result = document.load_string(svg.c_str());
+  EXPECT_TRUE(result) << result.description();
+  return document;
+}
+
+std::vector<pugi::xml_node> texts(const pugi::xml_document& document, const std::string& text) {
+  std::vector<pugi::xml_node> found;
+  for (const auto& node : document.child("svg").children("text")) {
+    if (node.text().get() == text) found.push_back(node);
+  }
+  return found;
+}
+
+Layout pair(bool bidirectional) {
+  Layout layout;
+  layout.name = "low & <high>";
+  layout.stations = {{"low", {0, 0}, Purpose::Storage}, {"high", {4, 5}, Purpose::Parking}};
+  layout.segments = {{"low-high", StationId{0U}, StationId{1U}, bidirectional, {}}};
+  fit_floor(layout, 3.0);
+  return layout;
+}
+
+TEST(LayoutSvg, EveryFamilyIsSoundXmlWithEveryLaneAndStation) {
+  for (const auto& family : layout_families()) {
+    Draws draws(stream_key(7, Stream::Layout));
+    const Layout layout = family.make(draws);
+    const std::string svg = layout_svg(layout);
+    const auto document = parsed(svg);
+    for (const auto& station : layout.stations) EXPECT_EQ(texts(document, station.name).size(), 1U) << family.name << ": " << station.name;
+    std::size_t lanes = 0;
+    for (const auto& node : document.child("svg").children("path")) lanes += std::string_view(node.attribute("fill").value()) == "none" ? 1 : 0;
+    EXPECT_EQ(lanes, layout.segments.size() + 1) << "and the scale bar";
+    EXPECT_EQ(svg.find("style"), std::string::npos);
+    EXPECT_EQ(svg.find("class"), std::string::npos);
+    EXPECT_EQ(svg.find("script"), std::string::npos);
+    EXPECT_EQ(svg, layout_svg(layout));
+  }
+}
+
+TEST(LayoutSvg, HigherIsHigherAndRightIsRight) {
+  const auto document = parsed(layout_svg(pair(true)));
+  const auto low = texts(document, "low"), high = texts(document, "high");
+  ASSERT_EQ(low.size() + high.size(), 2U);
+  EXPECT_GT(low[0].attribute("y").as_double(), high[0].attribute("y").as_double() + 50.0);
+  EXPECT_LT(low[0].attribute("x").as_double(), high[0].attribute("x").as_double() - 50.0);
+}
+
+TEST(LayoutSvg, NamesAreEscaped) {
+  const auto document = parsed(layout_svg(pair(true)));
+  EXPECT_EQ(std::string(document.child("svg").child("title").text().get()), "low & <high>: 2 stations, 1 segment");
+}
+
+TEST(LayoutSvg, OneWaySegmentsHaveAnArrowHead) {
+  EXPECT_NE(layout_svg(pair(true)), layout_svg(pair(false)));
+  const auto count = [](const std::string& svg) {
+    const auto document = parsed(svg);
+    int heads = 0;
+    for (const auto& node : document.child("svg").children("path")) heads += std::string_view(node.attribute("fill").value()) == "#c2410c" ? 1 : 0;
+    return heads;
+  };
+  EXPECT_EQ(count(layout_svg(pair(true))), 1) << "the legend's";
+  EXPECT_EQ(count(layout_svg(pair(false))), 2);
+}
+
+// The pictures of the front page are those that the program draws.
+TEST(LayoutSvg, TheGalleryIsUpToDate) {
+  for (const char* name : {"fishbone", "dense-crossing"}) {
+    Draws draws(stream_key(3, Stream::Layout));
+    EXPECT_EQ(layout_svg(layout_family(name).make(draws)),
+              independent::file_text(independent::source_file("tests/layouts/gallery/" + std::string(name) + ".svg")))
+        << "draw it again: fleetproof generate " << name << " --seed 3 -o /dev/null --svg tests/layouts/gallery/" << name << ".svg";
+  }
+}
+
+}  // namespace
+}  // namespace fleetproof
