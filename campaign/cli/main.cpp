@@ -9,8 +9,10 @@ int main(int argc, char** argv) {
       Verb{"report", "judge a campaign file and tell what it shows", "fleetproof report demo.db --format markdown", prepare_report},
       Verb{"replay", "simulate one run of a campaign again and compare it to the bit", "fleetproof replay demo.db 17", prepare_replay},
       Verb{"simulate", "simulate one scenario file", "fleetproof simulate tests/scenarios/figure4.json --law exact --json", prepare_simulate},
+      Verb{"import", "turn a layout of another program into a layout file, and back into LIF or CSV",
+           "fleetproof import opentcs tests/layouts/crossdock.xml --merge-antiparallel -o crossdock.json", prepare_import},
       Verb{"check", "check a campaign or scenario file without running it", "fleetproof check tests/campaigns/demo.toml", prepare_check},
-      Verb{"list", "list agents, laws, generators or reports", "fleetproof list agents", prepare_list},
+      Verb{"list", "list agents, laws, generators, importers or reports", "fleetproof list agents", prepare_list},
   };
   return run_command_line(verbs, argc, argv);
 }
