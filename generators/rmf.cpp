@@ -13,7 +13,7 @@
 #include "generators/antiparallel.hpp"
 #include "generators/layout_check.hpp"
 #include "generators/text_file.hpp"
-#include "generators/xml_text.hpp"
+#include "generators/yaml_text.hpp"
 
 namespace fleetproof {
 namespace {
@@ -24,18 +24,19 @@ constexpr const char* kUnreadLaneWords[] = {"orientation", "orientation_constrai
 class LevelReader {
  public:
   LevelReader(std::string_view text, std::string_view source, std::vector<std::string>& warnings, const RmfChoice& choice)
-      : source_(source), warnings_(warnings), choice_(choice), root_(YAML::Load(std::string(text))) {}
+      : yaml_(source), warnings_(warnings), choice_(choice), root_(YAML::Load(std::string(text))) {}
 
   Layout read() {
-    if (!root_.IsMap() || !root_["levels"].IsDefined()) throw InputError(source_, "has no \"levels\"; expected an Open-RMF building or nav graph");
+    if (!root_.IsMap() || !root_["levels"].IsDefined())
+      throw InputError(yaml_.source(), "has no \"levels\"; expected an Open-RMF building or nav graph");
     const auto level = choose_level();
-    const auto vertices = list_in(level, "vertices"), lanes = list_in(level, "lanes");
+    const auto vertices = yaml_.list(level, "vertices", "the level"), lanes = yaml_.list(level, "lanes", "the level");
     for (const auto vertex : vertices) vertices_.push_back(vertex);
-    if (vertices_.empty()) refuse(vertices, "the level is empty: it has no vertex");
+    if (vertices_.empty()) yaml_.refuse(vertices, "the level is empty: it has no vertex");
     is_nav_graph_ = vertices_[0].size() < 3 || vertices_[0][2].IsMap();
     read_scale(level);
     for (const auto lane : lanes) add_lane(lane);
-    if (layout_.segments.empty()) refuse(lanes, fmt::format("no lane belongs to graph {}; choose another graph or level", choice_.graph_idx));
+    if (layout_.segments.empty()) yaml_.refuse(lanes, fmt::format("no lane belongs to graph {}; choose another graph or level", choice_.graph_idx));
     for (const char* word : kUnreadLaneWords) {
       if (const auto count = unread_.find(word); count != unread_.end())
         warn(lanes, fmt::format("{} lanes have \"{}\", which is not read", count->second, word));
@@ -48,24 +49,15 @@ class LevelReader {
   }
 
  private:
-  std::string place(const YAML::Node& node) const {
-    const auto line = node.Mark().line;
-    return line < 0 ? std::string(source_) : at_line(source_, static_cast<std::size_t>(line) + 1);
-  }
-  void warn(const YAML::Node& node, std::string_view sentence) { warnings_.push_back(fmt::format("{}: {}", place(node), sentence)); }
-  [[noreturn]] void refuse(const YAML::Node& node, std::string_view sentence) const { throw InputError(place(node), sentence); }
-
-  static std::string shown(const YAML::Node& node) {
-    return node.IsScalar() ? in_quotes(node.Scalar()) : node.IsMap() ? "a map" : node.IsSequence() ? "a list" : "nothing";
-  }
+  void warn(const YAML::Node& node, std::string_view sentence) { warnings_.push_back(fmt::format("{}: {}", yaml_.place(node), sentence)); }
 
   YAML::Node choose_level() {
     const auto levels = root_["levels"];
-    if (!levels.IsMap() || levels.size() == 0) refuse(levels, "levels is no map of levels; expected levels: {L1: ...}");
+    if (!levels.IsMap() || levels.size() == 0) yaml_.refuse(levels, "levels is no map of levels; expected levels: {L1: ...}");
     std::vector<std::string> names;
     for (const auto entry : levels) {
       if (!entry.first.IsScalar() || !entry.second.IsMap())
-        refuse(levels, "a level is no map of vertices and lanes; expected L1: {vertices: ..., lanes: ...}");
+        yaml_.refuse(levels, "a level is no map of vertices and lanes; expected L1: {vertices: ..., lanes: ...}");
       names.push_back(entry.first.Scalar());
     }
     const auto& wanted = choice_.level.empty() ? names[0] : choice_.level;
@@ -79,37 +71,11 @@ class LevelReader {
       return entry.second;
     }
     const std::vector<std::string_view> known(names.begin(), names.end());
-    refuse(levels, fmt::format("there is no level {}{}", in_quotes(wanted), name_hint(wanted, known)));
-  }
-
-  YAML::Node list_in(const YAML::Node& level, const char* key) const {
-    const auto list = level[key];
-    if (!list.IsDefined()) refuse(level, fmt::format("the level has no \"{}\"; add them", key));
-    if (!list.IsSequence()) refuse(list, fmt::format("{} is {}; expected a list", key, shown(list)));
-    return list;
-  }
-
-  // An item of a list that stands for a vertex, a lane or a measurement.
-  YAML::Node item(const YAML::Node& list, std::size_t index, const char* what) const {
-    if (!list.IsSequence() || list.size() <= index) refuse(list, fmt::format("{} is {} of {} items; expected more", what, shown(list), list.size()));
-    return list[index];
-  }
-
-  double number(const YAML::Node& node, const char* what) const {
-    double value = 0.0;
-    if (!node.IsScalar() || !read_number(node.Scalar(), value)) refuse(node, fmt::format("{} is {}; expected a finite number", what, shown(node)));
-    return value;
+    yaml_.refuse(levels, fmt::format("there is no level {}{}", in_quotes(wanted), name_hint(wanted, known)));
   }
 
   std::size_t vertex_index(const YAML::Node& list, std::size_t at, const char* what) const {
-    const auto node = item(list, at, what);
-    std::size_t index = 0;
-    const auto text = node.IsScalar() ? node.Scalar() : std::string();
-    const auto read = std::from_chars(text.data(), text.data() + text.size(), index);
-    if (read.ec != std::errc() || read.ptr != text.data() + text.size() || index >= vertices_.size()) {
-      refuse(node, fmt::format("{} names vertex {}; there are vertices 0 to {}", what, shown(node), vertices_.size() - 1));
-    }
-    return index;
+    return yaml_.index_below(vertices_.size(), yaml_.item(list, at, what), fmt::format("{} names vertex", what));
   }
 
   // The building file says [type, value] where the nav graph says value. Undefined if the word is not there.
@@ -135,8 +101,8 @@ class LevelReader {
     const auto name = system.IsDefined() && system.IsScalar() ? system.Scalar() : "reference_image";
     if (name == "cartesian_meters") return;
     if (name != "reference_image") {
-      refuse(system,
-             fmt::format("coordinate_system is {}, which needs a map projection; generate nav graphs and import one of them", in_quotes(name)));
+      yaml_.refuse(system,
+                   fmt::format("coordinate_system is {}, which needs a map projection; generate nav graphs and import one of them", in_quotes(name)));
     }
     down_ = true;
     double sum = 0.0;
@@ -146,11 +112,11 @@ class LevelReader {
       for (const auto measurement : measurements) {
         const auto a = vertex_index(measurement, 0, "a measurement"), b = vertex_index(measurement, 1, "a measurement");
         const double pixels = (raw_position(a) - raw_position(b)).norm();
-        const auto distance = parameter(item(measurement, 2, "a measurement"), "distance");
-        if (!distance.IsDefined()) refuse(measurement, "the measurement has no distance; add {distance: [3, METRES]}");
-        const double metres = number(distance, "distance");
+        const auto distance = parameter(yaml_.item(measurement, 2, "a measurement"), "distance");
+        if (!distance.IsDefined()) yaml_.refuse(measurement, "the measurement has no distance; add {distance: [3, METRES]}");
+        const double metres = yaml_.number(distance, "distance");
         if (!(metres > 0.0 && pixels > 0.0))
-          refuse(measurement, fmt::format("{} m for {} pixels give no scale; correct the measurement", metres, pixels));
+          yaml_.refuse(measurement, fmt::format("{} m for {} pixels give no scale; correct the measurement", metres, pixels));
         sum += metres / pixels;
         ++count;
       }
@@ -161,7 +127,7 @@ class LevelReader {
 
   Vec2 raw_position(std::size_t vertex) const {
     const auto& node = vertices_[vertex];
-    return {number(item(node, 0, "a vertex"), "x of a vertex"), number(item(node, 1, "a vertex"), "y of a vertex")};
+    return {yaml_.number(yaml_.item(node, 0, "a vertex"), "x of a vertex"), yaml_.number(yaml_.item(node, 1, "a vertex"), "y of a vertex")};
   }
 
   StationId station_of(std::size_t vertex) {
@@ -172,7 +138,7 @@ class LevelReader {
     const auto name = is_nav_graph_ ? parameter(words, "name") : node.size() > 3 ? node[3] : YAML::Node();
     station.name = name.IsDefined() && name.IsScalar() ? name.Scalar() : "";
     if (station.name.empty()) station.name = fmt::format("v{}", vertex);
-    if (const char* fault = fault_of_name(station.name)) refuse(node, fmt::format("name {}: {}", in_quotes(station.name), fault));
+    if (const char* fault = fault_of_name(station.name)) yaml_.refuse(node, fmt::format("name {}: {}", in_quotes(station.name), fault));
     if (!names_.insert(station.name).second) {
       auto other = fmt::format("v{}", vertex);
       while (!names_.insert(other).second) other += '_';
@@ -200,13 +166,12 @@ class LevelReader {
   void add_lane(const YAML::Node& lane) {
     const auto from = vertex_index(lane, 0, "a lane"), to = vertex_index(lane, 1, "a lane");
     const auto words = words_of(lane);
-    if (const auto graph = parameter(words, "graph_idx"); !is_nav_graph_ && graph.IsDefined() && graph.IsScalar()) {
-      if (number(graph, "graph_idx") != static_cast<double>(choice_.graph_idx)) {
-        ++other_graphs_;
-        return;
-      }
+    const auto graph = parameter(words, "graph_idx");
+    if (!is_nav_graph_ && (graph.IsDefined() ? yaml_.number(graph, "graph_idx") : 0.0) != static_cast<double>(choice_.graph_idx)) {
+      ++other_graphs_;
+      return;
     }
-    if (from == to) refuse(lane, fmt::format("a lane leads from vertex {} to itself; leave it out", from));
+    if (from == to) yaml_.refuse(lane, fmt::format("a lane leads from vertex {} to itself; leave it out", from));
     Segment segment;
     segment.from = station_of(from);
     segment.to = station_of(to);
@@ -227,12 +192,12 @@ class LevelReader {
     if (const bool of_segment = pointer.starts_with("/segments/"); of_segment || pointer.starts_with("/stations/")) {
       const auto digits = pointer.substr(10);
       std::from_chars(digits.data(), digits.data() + digits.size(), index);
-      refuse(of_segment ? lanes_[index] : vertices_[used_[index]], fmt::format("{}: {}", of_segment ? "lane" : "vertex", problems[0].sentence));
+      yaml_.refuse(of_segment ? lanes_[index] : vertices_[used_[index]], fmt::format("{}: {}", of_segment ? "lane" : "vertex", problems[0].sentence));
     }
-    refuse(level, problems[0].sentence);
+    yaml_.refuse(level, problems[0].sentence);
   }
 
-  std::string_view source_;
+  YamlText yaml_;
   std::vector<std::string>& warnings_;
   const RmfChoice& choice_;
   const YAML::Node root_;

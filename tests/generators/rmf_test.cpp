@@ -77,6 +77,7 @@ TEST(Rmf, ABuildingIsScaledAndTurnedUp) {
 
 TEST(Rmf, AnotherGraphOrLevelCanBeChosen) {
   EXPECT_EQ(import_graph(kBuilding, {"", 1}).layout.segments.size(), 1U);
+  EXPECT_EQ(import(replaced(kBuilding, "{graph_idx: [2, 1]}", "{}")).layout.segments.size(), 3U) << "a lane without graph_idx belongs to graph 0";
   EXPECT_EQ(independent::refusal(
                 [](const std::string& text) {
                   import_graph(text, {"", 7});
@@ -112,8 +113,8 @@ TEST(Rmf, ScalesOfOtherKinds) {
 
 TEST(RmfErrors, NamePlaceValueAndRemedy) {
   const auto break_at = [](const std::string& from, const std::string& to) { return independent::refusal(import, replaced(kBuilding, from, to)); };
-  EXPECT_EQ(break_at("[0, 1, {bi", "[0, 9, {bi"), "b.yaml:6: a lane names vertex \"9\"; there are vertices 0 to 4");
-  EXPECT_EQ(break_at("[0, 1, {bi", "[0, -1, {bi"), "b.yaml:6: a lane names vertex \"-1\"; there are vertices 0 to 4");
+  EXPECT_EQ(break_at("[0, 1, {bi", "[0, 9, {bi"), "b.yaml:6: a lane names vertex \"9\"; there are 0 to 4");
+  EXPECT_EQ(break_at("[0, 1, {bi", "[0, -1, {bi"), "b.yaml:6: a lane names vertex \"-1\"; there are 0 to 4");
   EXPECT_EQ(break_at("[0, 1, {bi", "[1, 1, {bi"), "b.yaml:6: a lane leads from vertex 1 to itself; leave it out");
   EXPECT_EQ(break_at("[40, 10,", "[forty, 10,"), "b.yaml:14: x of a vertex is \"forty\"; expected a finite number");
   EXPECT_EQ(break_at("[40, 10,", "[.nan, 10,"), "b.yaml:14: x of a vertex is \".nan\"; expected a finite number");
