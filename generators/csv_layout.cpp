@@ -70,9 +70,11 @@ class TableReader {
     return fields;
   }
 
-  static bool is_heading(const std::vector<std::string>& fields) {
+  // Each table has one, at its top: below, stations may be named "from" and "to".
+  bool is_heading(const std::vector<std::string>& fields) const {
     const auto has = [&](std::string_view name) { return std::ranges::find(fields, name) != fields.end(); };
-    return (has("id") && has("x") && has("y")) || (has("from") && has("to"));
+    if (columns_.empty() && has("id") && has("x") && has("y")) return true;
+    return !of_edges_ && has("from") && has("to");
   }
 
   void take_heading(const std::vector<std::string>& fields) {

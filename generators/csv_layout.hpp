@@ -24,8 +24,8 @@ namespace fleetproof {
 Layout read_csv_layout(const std::string& path, std::vector<std::string>& warnings);
 Layout parse_csv_layout(std::string_view text, std::string_view source, std::vector<std::string>& warnings);
 
-// The layout in that form. Reading it gives the same layout again, but for its name and for the floor, which is fitted anew; lines for
-// stations that begin with # are kept apart from comments by quotes.
+// The layout in that form. Reading it gives the same layout again, but for its name, which is that of the file, and for the floor, which
+// is fitted anew.
 std::string to_csv(const Layout& layout);
 
 }  // namespace fleetproof

@@ -9,7 +9,7 @@ namespace fleetproof {
 namespace {
 
 constexpr std::size_t kHighestDegree = 9, kMostPoints = 10'000;
-constexpr int kStepsPerSpan = 8;
+constexpr int kStepsPerSpan = 16;
 constexpr double kNothing_m = 1e-6;
 constexpr double kStraight_m = 1e-6;  // a corner this near to the line beside it is none
 

@@ -27,7 +27,7 @@ struct CubicPieces {
 };
 
 // Exact for clamped curves of equal weights in Bezier form, up to degree 3, and for polylines without corners. Everything else
-// becomes a smooth curve through its corners, or through eight points per span. `nurbs` has no fault.
+// becomes a smooth curve through its corners, or through sixteen points per span. `nurbs` has no fault.
 CubicPieces cubic_pieces(const Nurbs& nurbs);
 
 }  // namespace fleetproof

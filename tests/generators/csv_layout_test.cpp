@@ -68,6 +68,8 @@ TEST(CsvLayout, WhatIsWrittenComesBack) {
   expect_round_trip(read_opentcs(independent::source_file("tests/layouts/crossdock.xml"), warnings));
   auto layout = import(kTables);
   layout.stations[0].name = "#1 \"best\"";
+  layout.stations[1].name = "from";
+  layout.stations[2].name = "to";
   expect_round_trip(layout);
 }
 
