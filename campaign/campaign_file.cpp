@@ -7,8 +7,8 @@
 
 #include "campaign/toml_table.hpp"
 #include "core/error.hpp"
+#include "generators/importer.hpp"
 #include "generators/layout_family.hpp"
-#include "generators/opentcs.hpp"
 
 namespace fleetproof {
 namespace {
@@ -75,11 +75,22 @@ GateRecord read_gate(TomlTable& table, std::size_t index) {
   return gate;
 }
 
-bool is_path(const std::string& word) { return word.find('/') != std::string::npos || word.ends_with(".xml") || word.ends_with(".so"); }
+bool is_plugin(const std::string& word) { return word.find('/') != std::string::npos || word.ends_with(".so"); }
+
+bool is_layout_path(const std::string& word) { return word.find('/') != std::string::npos || is_layout_file(word); }
 
 std::string beside(const std::string& campaign_path, const std::string& word) {
   const std::filesystem::path path(word);
   return path.is_absolute() ? word : (std::filesystem::path(campaign_path).parent_path() / path).string();
+}
+
+// "plant" for a/plant.xml, plant.lif.json and plant.building.yaml alike.
+std::string layout_name(const std::string& word) {
+  std::string name = std::filesystem::path(word).stem().string();
+  for (const std::string_view middle : {".lif", ".building"}) {
+    if (name.ends_with(middle) && name.size() > middle.size()) name = name.substr(0, name.size() - middle.size());
+  }
+  return name;
 }
 
 void read_layouts(TomlTable& factors, const std::string& path, CampaignFile& file) {
@@ -87,10 +98,10 @@ void read_layouts(TomlTable& factors, const std::string& path, CampaignFile& fil
   factors.get("layouts", words);
   for (const std::string& word : words) {
     LayoutFactor factor{word, nullptr};
-    if (is_path(word)) {
-      const Layout layout = read_opentcs(beside(path, word), file.warnings);
+    if (is_layout_path(word)) {
+      const Layout layout = import_layout(beside(path, word), {}, file.warnings);
       factor.map = std::make_shared<const LogicalMap>(layout);
-      factor.name = std::filesystem::path(word).stem().string();
+      factor.name = layout_name(word);
     } else if (find_entry(layout_families(), word) == nullptr) {
       const auto names = names_of(layout_families());
       throw InputError(factors.place("layouts"), fmt::format("factors.layouts names \"{}\", which is neither a family nor a file{}", word, name_hint(word, names)));
@@ -103,8 +114,8 @@ void read_factors(TomlTable& factors, const std::string& path, CampaignFile& fil
   std::vector<std::string> agents;
   factors.get("agents", agents);
   for (const std::string& agent : agents) {
-    if (is_path(agent)) file.plugins.push_back(beside(path, agent));
-    file.plan.agents.push_back(is_path(agent) ? file.plugins.back() : agent);
+    if (is_plugin(agent)) file.plugins.push_back(beside(path, agent));
+    file.plan.agents.push_back(is_plugin(agent) ? file.plugins.back() : agent);
   }
   read_layouts(factors, path, file);
   factors.get("fleet_sizes", file.plan.fleet_sizes);

@@ -14,8 +14,8 @@ struct CampaignFile {
   std::vector<std::string> warnings;  // what importing a layout dropped or guessed
 };
 
-// Reads a TOML campaign file. Layouts named by a path are read relative to it. Throws InputError with file, line and column, the key, its value
-// and the nearest valid key.
+// Reads a TOML campaign file. Layouts named by a file, in any format of importers() as its extension says, are read relative to it.
+// Throws InputError with file, line and column, the key, its value and the nearest valid key.
 CampaignFile read_campaign_file(const std::string& path);
 
 }  // namespace fleetproof

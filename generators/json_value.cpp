@@ -249,6 +249,8 @@ void JsonReader::read(std::string_view key, std::string& target) const {
   if (const auto found = find(key)) target = found->text();
 }
 
+std::string JsonReader::place() const { return at_line(source_, value_->line); }
+
 void JsonReader::refuse(std::string_view sentence) const {
   throw InputError(at_line(source_, value_->line),
                    fmt::format("{}: {} is refused: {}", pointer_.empty() ? "top level" : pointer_, shown(*value_), sentence));

@@ -58,6 +58,7 @@ class JsonReader {
   [[noreturn]] void refuse_below(std::string_view pointer, std::string_view sentence) const;
   bool is_text() const { return std::holds_alternative<std::string>(value_->scalar); }
   const std::string& pointer() const { return pointer_; }
+  std::string place() const;  // "file:line"
 
  private:
   const JsonValue* value_;

@@ -8,6 +8,7 @@
 #include "generators/json_value.hpp"
 #include "generators/json_writer.hpp"
 #include "generators/layout_check.hpp"
+#include "generators/purpose_words.hpp"
 #include "generators/text_file.hpp"
 
 namespace fleetproof {
@@ -18,7 +19,6 @@ constexpr std::string_view kFileKeys[] = {"version", "layout"};
 constexpr std::string_view kLayoutKeys[] = {"name", "floor_low_m", "floor_high_m", "stations", "segments"};
 constexpr std::string_view kStationKeys[] = {"name", "position_m", "purposes"};
 constexpr std::string_view kSegmentKeys[] = {"name", "from", "to", "bidirectional", "control_points_m"};
-constexpr std::string_view kPurposeNames[] = {"routing", "storage", "charging", "parking"};  // by bit
 
 using StationsByName = std::map<std::string, StationId>;
 

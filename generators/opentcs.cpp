@@ -10,6 +10,7 @@
 
 #include "core/catalogue.hpp"
 #include "core/error.hpp"
+#include "generators/antiparallel.hpp"
 #include "generators/layout_check.hpp"
 #include "generators/text_file.hpp"
 #include "generators/xml_text.hpp"
@@ -42,8 +43,8 @@ Purposes purposes_in(std::string name) {
 
 class ModelReader {
  public:
-  ModelReader(std::string_view text, std::string_view source, std::vector<std::string>& warnings)
-      : xml_(text, source), source_(source), warnings_(warnings) {}
+  ModelReader(std::string_view text, std::string_view source, std::vector<std::string>& warnings, TwinPaths twins)
+      : xml_(text, source), source_(source), warnings_(warnings), twins_(twins) {}
 
   Layout read() {
     pugi::xml_document document;
@@ -63,6 +64,7 @@ class ModelReader {
     fit_floor(layout_, 3.0);
     refuse_problems(model);
     compare_lengths();
+    if (twins_ == TwinPaths::Merge) merge_antiparallel(layout_);
     return std::move(layout_);
   }
 
@@ -220,9 +222,10 @@ class ModelReader {
   XmlText xml_;
   std::string_view source_;
   std::vector<std::string>& warnings_;
+  TwinPaths twins_;
   Vec2 scale_mm_ = Vec2::Constant(kDefaultScale_mm);
   Layout layout_;
-  std::vector<pugi::xml_node> paths_;  // by segment
+  std::vector<pugi::xml_node> paths_;  // by segment, as long as no two of them are merged
   std::set<std::string> point_names_, path_names_;
   std::map<std::string, StationId> stations_;
   std::map<std::string, Purposes> location_types_;
@@ -230,10 +233,12 @@ class ModelReader {
 
 }  // namespace
 
-Layout read_opentcs(const std::string& path, std::vector<std::string>& warnings) { return parse_opentcs(read_text_file(path), path, warnings); }
+Layout read_opentcs(const std::string& path, std::vector<std::string>& warnings, TwinPaths twins) {
+  return parse_opentcs(read_text_file(path), path, warnings, twins);
+}
 
-Layout parse_opentcs(std::string_view text, std::string_view source, std::vector<std::string>& warnings) {
-  return ModelReader(text, source, warnings).read();
+Layout parse_opentcs(std::string_view text, std::string_view source, std::vector<std::string>& warnings, TwinPaths twins) {
+  return ModelReader(text, source, warnings, twins).read();
 }
 
 }  // namespace fleetproof

@@ -62,6 +62,7 @@ const std::vector<Home> kHomes = {
     {"boost/graph", {"generators/"}},
     {"toml++/", {"campaign/toml_table.cpp"}},
     {"pugixml", {"generators/"}},
+    {"yaml-cpp/", {"generators/"}},
     {"nlohmann/", {"generators/", "reports/", "campaign/"}},
     {"Random123/", {"core/random.cpp"}},
     {"xxhash.h", {"core/", "generators/", "storage/"}},

@@ -7,6 +7,7 @@
 #include "campaign/agent_programs.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "core/error.hpp"
+#include "generators/importer.hpp"
 #include "generators/layout_family.hpp"
 #include "laws/laws.hpp"
 #include "reports/report.hpp"
@@ -41,6 +42,7 @@ constexpr std::array kinds = {
     Kind{"agents", agent_rows},
     Kind{"laws", [] { return rows_of(laws()); }},
     Kind{"generators", [] { return rows_of(layout_families()); }},
+    Kind{"importers", [] { return rows_of(importers()); }},
     Kind{"reports", [] { return rows_of(report_formats()); }},
 };
 
@@ -71,7 +73,7 @@ Action prepare_list(Options& options) {
     bool json = false;
   };
   auto words = std::make_shared<Words>();
-  options.positional("WHAT", words->what, "agents, laws, generators or reports");
+  options.positional("WHAT", words->what, "agents, laws, generators, importers or reports");
   options.flag("--json", words->json, "print JSON");
   return [words] { return list(words->what, words->json); };
 }

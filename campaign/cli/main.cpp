@@ -11,8 +11,10 @@ int main(int argc, char** argv) {
       Verb{"simulate", "simulate one scenario file", "fleetproof simulate tests/scenarios/figure4.json --law exact --json", prepare_simulate},
       Verb{"generate", "draw the layout of a family and a seed, as JSON and as a picture",
            "fleetproof generate fishbone --seed 7 -o layout.json --svg layout.svg", prepare_generate},
+      Verb{"import", "turn a layout of another program into a layout file, and back into LIF or CSV",
+           "fleetproof import opentcs tests/layouts/crossdock.xml --merge-antiparallel -o crossdock.json", prepare_import},
       Verb{"check", "check a campaign or scenario file without running it", "fleetproof check tests/campaigns/demo.toml", prepare_check},
-      Verb{"list", "list agents, laws, generators or reports", "fleetproof list agents", prepare_list},
+      Verb{"list", "list agents, laws, generators, importers or reports", "fleetproof list agents", prepare_list},
   };
   return run_command_line(verbs, argc, argv);
 }

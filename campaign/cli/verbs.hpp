@@ -10,6 +10,7 @@ Action prepare_report(Options& options);
 Action prepare_replay(Options& options);
 Action prepare_simulate(Options& options);
 Action prepare_generate(Options& options);
+Action prepare_import(Options& options);
 Action prepare_check(Options& options);
 Action prepare_list(Options& options);
 

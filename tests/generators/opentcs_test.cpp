@@ -137,6 +137,18 @@ TEST(OpenTcs, ReadsOlderSpellingsAndBothScales) {
   EXPECT_EQ(layout.segments[0].control_points_m[1], Vec2(3.0, 1.0));
 }
 
+TEST(OpenTcs, TwinPathsBecomeOneSegmentWhereAsked) {
+  std::vector<std::string> warnings;
+  EXPECT_EQ(parse_opentcs(kModel, "m.xml", warnings).segments.size(), 2U);
+  const auto merged = parse_opentcs(kModel, "m.xml", warnings, TwinPaths::Merge);
+  ASSERT_EQ(merged.segments.size(), 1U);
+  EXPECT_TRUE(merged.segments[0].bidirectional);
+  EXPECT_EQ(merged.segments[0].name, "ab");
+  const auto crossdock = read_opentcs(kCrossdock, warnings, TwinPaths::Merge);
+  EXPECT_EQ(crossdock.segments.size(), 31U);
+  EXPECT_TRUE(independent::all_reach_all(crossdock));
+}
+
 // Other projects' layouts lie outside the tree; where they are absent their tests say so and pass.
 std::string real_layout(const std::string& name) {
   const char* folder = std::getenv("FLEETPROOF_LAYOUTS");

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/catalogue.hpp"
+#include "core/layout.hpp"
+#include "generators/grid_map.hpp"
+#include "generators/opentcs.hpp"
+#include "generators/rmf.hpp"
+
+namespace fleetproof {
+
+// What a caller may choose; each word matters to the formats that know it.
+struct ImportChoice {
+  TwinPaths twins = TwinPaths::Keep;          // openTCS
+  RmfChoice rmf;                              // Open-RMF
+  double cell_pitch_m = kDefaultCellPitch_m;  // grid maps
+};
+
+// Reads a layout file; `warnings` receives what was left out, guessed or changed. InputError where the file is no sound layout.
+using ReadLayout = Layout (*)(const std::string& path, const ImportChoice& choice, std::vector<std::string>& warnings);
+
+std::span<const Entry<ReadLayout>> importers();
+
+// InputError with a hint if there is no such importer.
+const Entry<ReadLayout>& importer(std::string_view name);
+
+// Whether a file of this name is a layout file, by its extension.
+bool is_layout_file(std::string_view path);
+
+// Reads a layout file with the importer that its extension asks for. A .json file is LIF or a layout of our own, as its keys say.
+Layout import_layout(const std::string& path, const ImportChoice& choice, std::vector<std::string>& warnings);
+
+}  // namespace fleetproof

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/geometry/pose.hpp"
+
+namespace fleetproof {
+
+// A planar NURBS curve as layout files give it.
+struct Nurbs {
+  std::size_t degree = 1;
+  std::vector<double> knots;
+  std::vector<Vec2> points_m;
+  std::vector<double> weights;  // one per point
+};
+
+// What is wrong with the numbers of a curve, with a remedy; empty if nothing is.
+std::string fault_of(const Nurbs& nurbs);
+
+// The same curve as a segment takes it: cubic Bezier pieces between `begin_m` and `end_m`.
+struct CubicPieces {
+  Vec2 begin_m = Vec2::Zero(), end_m = Vec2::Zero();
+  std::vector<Vec2> control_points_m;  // none: straight; else 2, 5, 8, ...
+  bool exact = true;                   // else a smooth curve through points of the given one
+};
+
+// Exact for clamped curves of equal weights in Bezier form, up to degree 3, and for polylines without corners. Everything else
+// becomes a smooth curve through its corners, or through sixteen points per span. `nurbs` has no fault.
+CubicPieces cubic_pieces(const Nurbs& nurbs);
+
+}  // namespace fleetproof

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace YAML {
+class Node;
+}
+
+namespace fleetproof {
+
+// Reads values out of YAML and complains with file and line.
+class YamlText {
+ public:
+  // A view of the name: it outlives this.
+  explicit YamlText(std::string_view source) : source_(source) {}
+
+  std::string_view source() const { return source_; }
+  std::string place(const YAML::Node& node) const;  // "file:line"
+  [[noreturn]] void refuse(const YAML::Node& node, std::string_view sentence) const;
+
+  // `what` says what the list, number or index stands for.
+  YAML::Node item(const YAML::Node& list, std::size_t index, std::string_view what) const;
+  YAML::Node list(const YAML::Node& map, const char* key, std::string_view what) const;
+  double number(const YAML::Node& node, std::string_view what) const;
+  std::size_t index_below(std::size_t count, const YAML::Node& node, std::string_view what) const;
+
+ private:
+  std::string_view source_;
+};
+
+// A value as an error shows it.
+std::string shown(const YAML::Node& node);
+
+}  // namespace fleetproof

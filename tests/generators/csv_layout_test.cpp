@@ -1,0 +1,98 @@
+#include "generators/csv_layout.hpp"
+
+#include <gtest/gtest.h>
+
+#include "damage.hpp"
+#include "generators/layout_family.hpp"
+#include "generators/layout_file.hpp"
+#include "generators/opentcs.hpp"
+#include "real_layout.hpp"
+
+namespace fleetproof {
+namespace {
+
+const std::string kTables = R"(# a fork of three nodes
+id,x,y,purposes
+dock,0,0,storage parking
+fork,4.5,0,
+"end, of it",9,3
+
+from,to,bidirectional,control_points
+dock,fork,true
+fork,"end, of it",0,6.5 0 7 3
+)";
+
+Layout import(const std::string& text) {
+  std::vector<std::string> warnings;
+  return parse_csv_layout(text, "l.csv", warnings);
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+TEST(CsvLayout, ReadsBothTables) {
+  const auto layout = import(kTables);
+  EXPECT_EQ(layout.name, "l");
+  ASSERT_EQ(layout.stations.size(), 3U);
+  EXPECT_EQ(layout.stations[0].purposes, Purposes(Purpose::Storage) | Purpose::Parking);
+  EXPECT_EQ(layout.stations[1].purposes, Purposes(Purpose::Routing));
+  EXPECT_EQ(layout.stations[2].name, "end, of it");
+  ASSERT_EQ(layout.segments.size(), 2U);
+  EXPECT_TRUE(layout.segments[0].bidirectional);
+  EXPECT_EQ(layout.segments[0].name, "dock-fork");
+  EXPECT_EQ(layout.segments[1].control_points_m, (std::vector<Vec2>{{6.5, 0}, {7, 3}}));
+}
+
+TEST(CsvLayout, BearsWhatSpreadsheetsWrite) {
+  std::string text = "\xef\xbb\xbf" + kTables.substr(kTables.find("id,"));
+  for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.insert(at, 1, '\r');
+  EXPECT_EQ(import(text).segments.size(), 2U);
+}
+
+void expect_round_trip(Layout layout) {
+  layout.name = "l";
+  EXPECT_EQ(to_text(import(to_csv(layout))), to_text(layout));
+}
+
+TEST(CsvLayout, WhatIsWrittenComesBack) {
+  for (const auto& family : layout_families()) {
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      Draws draws(seed);
+      expect_round_trip(family.make(draws));
+    }
+  }
+  std::vector<std::string> warnings;
+  expect_round_trip(read_opentcs(independent::source_file("tests/layouts/crossdock.xml"), warnings));
+  auto layout = import(kTables);
+  layout.stations[0].name = "#1 \"best\"";
+  layout.stations[1].name = "from";
+  layout.stations[2].name = "to";
+  expect_round_trip(layout);
+}
+
+TEST(CsvLayoutErrors, NamePlaceValueAndRemedy) {
+  const auto break_at = [](const std::string& from, const std::string& to) { return independent::refusal(import, replaced(kTables, from, to)); };
+  EXPECT_EQ(break_at("dock,fork,true", "dok,fork,true"), "l.csv:8: from is \"dok\", but there is no such node above; did you mean \"dock\"?");
+  EXPECT_EQ(break_at("dock,fork,true", "dock,fork,yes"), "l.csv:8: bidirectional is \"yes\"; expected true or false");
+  EXPECT_EQ(break_at("dock,fork,true", "dock,dock,true"), "l.csv:8: edge \"dock-dock\": a segment leads from one station to another one");
+  EXPECT_EQ(break_at("4.5", "4m"), "l.csv:4: x is \"4m\"; expected a finite number");
+  EXPECT_EQ(break_at("fork,4.5", "dock,4.5"), "l.csv:8: to is \"fork\", but there is no such node above; did you mean \"dock\"?");
+  EXPECT_EQ(break_at("storage parking", "storing"),
+            "l.csv:3: purposes are \"storing\"; expected routing, storage, charging or parking, with blanks between them");
+  EXPECT_EQ(break_at("id,x,y,purposes", "id,x,y,purpose"), "l.csv:2: \"purpose\" is no column of nodes; did you mean \"purposes\"?");
+  EXPECT_EQ(break_at("id,x,y,purposes", "x,y"), "l.csv:2: expected a line with the names of the columns first: id,x,y,purposes");
+  EXPECT_EQ(break_at("6.5 0 7 3", "6.5 0 7"), "l.csv:9: control_points are 3 numbers; expected x y x y ...");
+  EXPECT_EQ(break_at("\"end, of it\",9,3", "\"end, of it,9,3"), "l.csv:5: a double quote is not closed; close it on the same line");
+  EXPECT_EQ(independent::refusal(import, ""), "l.csv: has no nodes; expected a line id,x,y,purposes and one line for each node");
+}
+
+TEST(CsvLayoutErrors, CutAndDamagedFilesAreReadOrRefused) {
+  independent::bear_cuts(import, kTables, 100);
+  independent::bear_damage(import, kTables, 3000, "0123456789-.,\"# \n\r\x80\xff");
+}
+
+}  // namespace
+}  // namespace fleetproof

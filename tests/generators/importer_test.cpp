@@ -1,0 +1,89 @@
+#include "generators/importer.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "core/error.hpp"
+#include "generators/csv_layout.hpp"
+#include "generators/layout_file.hpp"
+#include "generators/lif.hpp"
+#include "independent_check.hpp"
+
+namespace fleetproof {
+namespace {
+
+class ImporterTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() /
+              ("fleetproof-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + "-" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder_);
+    std::vector<std::string> warnings;
+    crossdock_ = read_opentcs(independent::source_file("tests/layouts/crossdock.xml"), warnings, TwinPaths::Merge);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string file(const std::string& name, const std::string& text) const {
+    const auto path = (folder_ / name).string();
+    std::ofstream(path, std::ios::binary) << text;
+    return path;
+  }
+
+  static Layout read(const std::string& path) {
+    std::vector<std::string> warnings;
+    return import_layout(path, {}, warnings);
+  }
+
+  static std::string refusal(const std::string& path) {
+    try {
+      read(path);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+
+  std::filesystem::path folder_;
+  Layout crossdock_;
+};
+
+TEST_F(ImporterTest, TheExtensionChooses) {
+  EXPECT_EQ(read(independent::source_file("tests/layouts/crossdock.xml")).segments.size(), 43U);
+  EXPECT_EQ(read(file("a.lif.json", to_lif(crossdock_))).segments.size(), 31U);
+  EXPECT_EQ(read(file("b.json", to_lif(crossdock_))).segments.size(), 31U);
+  EXPECT_EQ(to_text(read(file("c.json", to_text(crossdock_)))), to_text(crossdock_));
+  EXPECT_EQ(read(file("d.csv", to_csv(crossdock_))).segments.size(), 31U);
+  EXPECT_EQ(read(file("e.map", "height 1\nwidth 3\nmap\n...\n")).segments.size(), 2U);
+  const std::string nav_graph = "levels: {L1: {vertices: [[0, 0, {}], [4, 0, {}]], lanes: [[0, 1, {}]]}}\n";
+  EXPECT_EQ(read(file("f.yaml", nav_graph)).segments.size(), 1U);
+  EXPECT_EQ(read(file("g.yml", nav_graph)).segments.size(), 1U);
+}
+
+TEST_F(ImporterTest, UnknownNamesAreExplained) {
+  EXPECT_EQ(refusal("plant.dwg"), "plant.dwg: has no extension of a layout file; known: .xml .json .yaml .yml .map .csv");
+  EXPECT_EQ(refusal("none.json"), "none.json: there is no such file");
+  EXPECT_FALSE(is_layout_file("aisle-grid"));
+  try {
+    importer("opentsc");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "import: there is no importer \"opentsc\"; did you mean \"opentcs\"?");
+  }
+}
+
+TEST_F(ImporterTest, EveryImporterRefusesWhatIsNoLayout) {
+  const auto empty = file("empty", ""), noise = file("noise", std::string("\x00\xff{[<a,\n:-", 10));
+  for (const auto& entry : importers()) {
+    std::vector<std::string> warnings;
+    EXPECT_FALSE(entry.description.empty());
+    EXPECT_THROW(entry.make(empty, {}, warnings), InputError) << entry.name;
+    EXPECT_THROW(entry.make(noise, {}, warnings), InputError) << entry.name;
+    EXPECT_THROW(entry.make("/nowhere/at.all", {}, warnings), InputError) << entry.name;
+  }
+}
+
+}  // namespace
+}  // namespace fleetproof

@@ -1,0 +1,182 @@
+#include "generators/lif.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "damage.hpp"
+#include "generators/antiparallel.hpp"
+#include "generators/layout_family.hpp"
+#include "generators/layout_file.hpp"
+#include "generators/opentcs.hpp"
+#include "real_layout.hpp"
+
+namespace fleetproof {
+namespace {
+
+struct Import {
+  Layout layout;
+  std::vector<std::string> warnings;
+};
+
+Import import(const std::string& text) {
+  Import result;
+  result.layout = parse_lif(text, "l.json", result.warnings);
+  return result;
+}
+
+std::string refusal(const std::string& text) { return independent::refusal(import, text); }
+
+// Two nodes, edges there and back, and a charger; `trajectory` goes into both edges.
+std::string sample(const std::string& there = "", const std::string& back = "") {
+  return R"({"metaInformation": {"projectIdentification": "p", "creator": "c", "exportTimestamp": "t", "lifVersion": "1.0.0"},
+"layouts": [{"layoutId": "L", "layoutVersion": "1",
+"nodes": [
+{"nodeId": "a", "nodePosition": {"x": 0, "y": 0}, "vehicleTypeNodeProperties": [{"vehicleTypeId": "v"}]},
+{"nodeId": "b", "nodePosition": {"x": 6, "y": 0}, "vehicleTypeNodeProperties": [{"vehicleTypeId": "v", "actions": [{"actionType": "startCharging"}]}]}],
+"edges": [
+{"edgeId": "ab", "startNodeId": "a", "endNodeId": "b", "vehicleTypeEdgeProperties": [{"vehicleTypeId": "v")" +
+         there + R"(}]},
+{"edgeId": "ba", "startNodeId": "b", "endNodeId": "a", "vehicleTypeEdgeProperties": [{"vehicleTypeId": "v")" +
+         back + R"(}]}]}]})";
+}
+
+std::string trajectory(int degree, const std::string& knots, const std::string& points) {
+  return ", \"trajectory\": {\"degree\": " + std::to_string(degree) + ", \"knotVector\": [" + knots + "], \"controlPoints\": [" + points + "]}";
+}
+
+const std::string kThere = trajectory(3, "0,0,0,0,1,1,1,1", R"({"x":0,"y":0},{"x":2,"y":1},{"x":4,"y":1},{"x":6,"y":0})");
+const std::string kBack = trajectory(3, "0,0,0,0,1,1,1,1", R"({"x":6,"y":0},{"x":4,"y":1},{"x":2,"y":1},{"x":0,"y":0})");
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+TEST(Lif, EdgesThereAndBackBecomeOneSegment) {
+  const auto [layout, warnings] = import(sample());
+  EXPECT_TRUE(warnings.empty());
+  ASSERT_EQ(layout.segments.size(), 1U);
+  EXPECT_TRUE(layout.segments[0].bidirectional);
+  EXPECT_EQ(layout.segments[0].name, "ab");
+  EXPECT_EQ(layout.stations[1].purposes, Purposes(Purpose::Routing) | Purpose::Charging);
+  EXPECT_EQ(import(sample(kThere, kBack)).layout.segments.size(), 1U);
+  EXPECT_EQ(import(sample(kThere)).layout.segments.size(), 2U) << "a curve and a straight line are two tracks";
+}
+
+TEST(Lif, ReadsTheSpellingsOfTheSecondVersion) {
+  auto text = replaced(sample(), "vehicleTypeNodeProperties", "mobileRobotTypeNodeProperties");
+  text = replaced(text, "vehicleTypeNodeProperties", "mobileRobotTypeNodeProperties");
+  text = replaced(text, "\"layouts\": [", "\"origins\": [{\"originId\": \"o\", \"layouts\": [");
+  const auto [layout, warnings] = import(text.insert(text.size() - 1, "}]"));
+  EXPECT_TRUE(warnings.empty());
+  EXPECT_TRUE(layout.stations[1].purposes.has(Purpose::Charging));
+}
+
+TEST(Lif, CubicAndQuadraticBezierCurvesAreExact) {
+  EXPECT_EQ(import(sample(kThere)).layout.segments[0].control_points_m, (std::vector<Vec2>{{2, 1}, {4, 1}}));
+  const auto quadratic = import(sample(trajectory(2, "0,0,0,1,1,1", R"({"x":0,"y":0},{"x":3,"y":3},{"x":6,"y":0})")));
+  EXPECT_TRUE(quadratic.warnings.empty());
+  EXPECT_EQ(quadratic.layout.segments[0].control_points_m, (std::vector<Vec2>{{2, 2}, {4, 2}}));
+  const auto line = import(sample(trajectory(1, "0,0,0.5,1,1", R"({"x":0,"y":0},{"x":3,"y":0},{"x":6,"y":0})")));
+  EXPECT_TRUE(line.warnings.empty());
+  EXPECT_TRUE(line.layout.segments[0].bidirectional);
+}
+
+TEST(Lif, RationalCurvesAreFollowedClosely) {
+  // A half circle from a to b with its middle in (3, 0), as two rational quadratic arcs.
+  const std::string w = "\"weight\": 0.7071067811865476";
+  const auto [layout, warnings] = import(sample(
+      trajectory(2, "0,0,0,0.5,0.5,1,1,1", R"({"x":0,"y":0},{"x":0,"y":3,)" + w + R"(},{"x":3,"y":3},{"x":6,"y":3,)" + w + R"(},{"x":6,"y":0})")));
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0], "l.json:7: the trajectory of edge \"ab\" is replaced by a smooth curve through points of it");
+  for (const auto& point : independent::samples(layout, layout.segments[0])) EXPECT_NEAR((point - Vec2(3, 0)).norm(), 3.0, 0.001);
+}
+
+TEST(Lif, WarnsOfTrajectoriesThatMissTheirNodesOrRunBackwards) {
+  EXPECT_EQ(import(sample(kBack)).warnings,
+            std::vector<std::string>{"l.json:7: the trajectory of edge \"ab\" runs from its end to its start; it is turned round"});
+  EXPECT_EQ(import(sample(kBack)).layout.segments[0].control_points_m, (std::vector<Vec2>{{2, 1}, {4, 1}}));
+  EXPECT_EQ(import(sample(replaced(kThere, "{\"x\":0,\"y\":0}", "{\"x\":0.25,\"y\":0}"))).warnings,
+            std::vector<std::string>{"l.json:7: the trajectory of edge \"ab\" ends 0.250 m beside its node; it is drawn to the node"});
+}
+
+void expect_round_trip(const Layout& layout) {
+  const auto again = import(to_lif(layout));
+  EXPECT_TRUE(again.warnings.empty()) << again.warnings[0];
+  EXPECT_EQ(to_text(again.layout), to_text(layout));
+}
+
+TEST(Lif, TheFamiliesComeBackAsTheyWere) {
+  for (const auto& family : layout_families()) {
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      Draws draws(seed);
+      expect_round_trip(family.make(draws));
+    }
+  }
+}
+
+TEST(Lif, TheCrossdockComesBackWithItsTwinsAsOne) {
+  std::vector<std::string> warnings;
+  auto layout = read_opentcs(independent::source_file("tests/layouts/crossdock.xml"), warnings);
+  const auto text = to_lif(layout);
+  EXPECT_EQ(merge_antiparallel(layout), 12U);
+  EXPECT_EQ(to_text(import(text).layout), to_text(layout));
+  expect_round_trip(layout);
+}
+
+TEST(Lif, JoinedCurvesAndHardNamesComeBack) {
+  Layout layout = import(sample()).layout;
+  layout.name = "quote \" and back\\slash";
+  layout.segments[0].control_points_m = {{1, 1}, {2, 1}, {3, 1}, {4, 1}, {5, 1}};
+  layout.segments.push_back(layout.segments[0]);
+  layout.segments[1].name = "ab~";
+  layout.segments[1].bidirectional = false;
+  layout.segments[1].control_points_m.clear();
+  layout.floor_high_m.y() = 4.0;
+  expect_round_trip(layout);
+}
+
+TEST(LifErrors, NamePlaceValueAndRemedy) {
+  const auto break_at = [](const std::string& from, const std::string& to) { return refusal(replaced(sample(kThere), from, to)); };
+  EXPECT_EQ(break_at("\"endNodeId\": \"b\"", "\"endNodeId\": \"bb\""),
+            "l.json:7: /layouts/0/edges/0/endNodeId: \"bb\" is refused: there is no such node; did you mean \"b\"?");
+  EXPECT_EQ(break_at("\"nodeId\": \"b\"", "\"nodeId\": \"a\""),
+            "l.json:5: /layouts/0/nodes/1/nodeId: \"a\" is refused: this id is taken already; rename one");
+  EXPECT_EQ(break_at("\"x\": 6", "\"x\": \"6\""), "l.json:5: /layouts/0/nodes/1/nodePosition/x: \"6\" is refused: expected a number");
+  EXPECT_EQ(break_at("\"edges\"", "\"edgs\""), "l.json:2: /layouts/0: \"edges\" is missing; add it");
+  EXPECT_NE(break_at("0,0,0,0,1", "0,0,0,1").find("4 control points of degree 3 need 8 knots; here are 7"), std::string::npos);
+  EXPECT_NE(break_at("0,0,0,0,1", "0,0,0,1,0").find("the knots do not ascend"), std::string::npos);
+  EXPECT_NE(break_at("\"x\": 6", "\"x\": 6e9").find("l.json:5: /layouts/0/nodes/1/nodeId: \"b\" is refused: coordinates lie within"),
+            std::string::npos);
+  EXPECT_NE(break_at("{\"x\":2,\"y\":1},{\"x\":4,\"y\":1}", "{\"x\":9,\"y\":0},{\"x\":-9,\"y\":0}").find("l.json:7: /layouts/0/edges/0/edgeId"),
+            std::string::npos);
+  EXPECT_EQ(refusal(""), "l.json: is empty; expected a JSON object");
+  EXPECT_EQ(refusal("[]"), "l.json:1: top level: \"layouts\" is missing; add it");
+}
+
+TEST(LifErrors, CutAndDamagedFilesAreReadOrRefused) {
+  const auto text = sample(kThere, trajectory(2, "0,0,0,0.5,1,1,1", R"({"x":6,"y":0},{"x":4,"y":1,"weight":2},{"x":2,"y":1},{"x":0,"y":0})"));
+  independent::bear_cuts(import, text, 100);
+  independent::bear_damage(import, text, 2000, "0123456789-.eE\"{}[],: \n\x80\xff");
+}
+
+TEST(RealLayouts, Lif) {
+  struct Expected {
+    const char* name;
+    std::size_t stations, segments, directed;
+  };
+  for (const auto& [name, stations, segments, lanes] : {Expected{"10_7", 5, 6, 6}, {"10_10", 6, 3, 6}, {"10_13", 2, 1, 2}}) {
+    const auto path = independent::real_layout(std::string("lif/vdma_lif_v1_example_") + name + ".lif.json");
+    FLEETPROOF_SKIP_IF_ABSENT(path);
+    std::vector<std::string> warnings;
+    const auto layout = read_lif(path, warnings);
+    EXPECT_EQ(layout.stations.size(), stations) << name;
+    EXPECT_EQ(layout.segments.size(), segments) << name;
+    EXPECT_EQ(independent::directed(layout), lanes) << name;
+  }
+}
+
+}  // namespace
+}  // namespace fleetproof

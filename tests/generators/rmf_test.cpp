@@ -1,0 +1,165 @@
+#include "generators/rmf.hpp"
+
+#include <gtest/gtest.h>
+
+#include "damage.hpp"
+#include "real_layout.hpp"
+
+namespace fleetproof {
+namespace {
+
+const std::string kBuilding = R"(name: depot
+coordinate_system: reference_image
+levels:
+  L1:
+    lanes:
+      - [0, 1, {bidirectional: [4, true], graph_idx: [2, 0], speed_limit: [3, 0]}]
+      - [1, 2, {bidirectional: [4, false], graph_idx: [2, 0], speed_limit: [3, 0.5]}]
+      - [2, 0, {graph_idx: [2, 1]}]
+    measurements:
+      - [3, 4, {distance: [3, 5]}]
+      - [3, 4, {distance: [3, 15]}]
+    vertices:
+      - [0, 0, 0, dock, {is_charger: [4, true], is_parking_spot: [4, true]}]
+      - [40, 10, 0, ""]
+      - [40, 60, 0, dock, {pickup_dispenser: [1, rack]}]
+      - [0, 0, 0, ""]
+      - [100, 0, 0, ""]
+)";
+
+const std::string kNavGraph = R"(building_name: depot
+levels:
+  L1:
+    lanes:
+      - [0, 1, {speed_limit: 0}]
+      - [1, 0, {speed_limit: 0}]
+      - [1, 2, {}]
+    vertices:
+      - [0.0, 0.0, {name: dock, is_charger: true}]
+      - [4.0, -1.0, {name: ""}]
+      - [4.0, -6.0, {name: end, is_parking_spot: false}]
+)";
+
+struct Import {
+  Layout layout;
+  std::vector<std::string> warnings;
+};
+
+Import import_graph(const std::string& text, const RmfChoice& choice) {
+  Import result;
+  result.layout = parse_rmf(text, "b.yaml", result.warnings, choice);
+  return result;
+}
+
+Import import(const std::string& text) { return import_graph(text, {}); }
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+TEST(Rmf, ABuildingIsScaledAndTurnedUp) {
+  const auto [layout, warnings] = import(kBuilding);
+  EXPECT_EQ(layout.name, "depot L1");
+  ASSERT_EQ(layout.stations.size(), 3U) << "vertices without a lane are walls";
+  EXPECT_EQ(layout.stations[1].position_m, Vec2(4.0, -1.0)) << "0.1 m per pixel, the mean of both measurements";
+  EXPECT_EQ(layout.stations[1].name, "v1");
+  EXPECT_EQ(layout.stations[0].purposes, Purposes(Purpose::Routing) | Purpose::Charging | Purpose::Parking);
+  EXPECT_EQ(layout.stations[2].purposes, Purposes(Purpose::Routing) | Purpose::Storage);
+  ASSERT_EQ(layout.segments.size(), 2U);
+  EXPECT_TRUE(layout.segments[0].bidirectional);
+  EXPECT_FALSE(layout.segments[1].bidirectional);
+  EXPECT_EQ(warnings, (std::vector<std::string>{"b.yaml:15: a second vertex is named \"dock\"; it becomes \"v2\"",
+                                                "b.yaml:6: 1 lanes have \"speed_limit\", which is not read",
+                                                "b.yaml:6: 1 lanes of other graphs are left out"}));
+}
+
+TEST(Rmf, AnotherGraphOrLevelCanBeChosen) {
+  EXPECT_EQ(import_graph(kBuilding, {"", 1}).layout.segments.size(), 1U);
+  EXPECT_EQ(import(replaced(kBuilding, "{graph_idx: [2, 1]}", "{}")).layout.segments.size(), 3U) << "a lane without graph_idx belongs to graph 0";
+  EXPECT_EQ(independent::refusal(
+                [](const std::string& text) {
+                  import_graph(text, {"", 7});
+                },
+                kBuilding),
+            "b.yaml:6: no lane belongs to graph 7; choose another graph or level");
+  EXPECT_EQ(independent::refusal(
+                [](const std::string& text) {
+                  import_graph(text, {"L2", 0});
+                },
+                kBuilding),
+            "b.yaml:4: there is no level \"L2\"; did you mean \"L1\"?");
+}
+
+TEST(Rmf, ANavGraphIsInMetresAndItsLanesArePaired) {
+  const auto [layout, warnings] = import(kNavGraph);
+  EXPECT_TRUE(warnings.empty()) << warnings[0];
+  ASSERT_EQ(layout.stations.size(), 3U);
+  EXPECT_EQ(layout.stations[1].position_m, Vec2(4.0, -1.0));
+  EXPECT_EQ(layout.stations[0].name, "dock");
+  EXPECT_EQ(layout.stations[2].purposes, Purposes(Purpose::Routing));
+  ASSERT_EQ(layout.segments.size(), 2U);
+  EXPECT_TRUE(layout.segments[0].bidirectional);
+}
+
+TEST(Rmf, ScalesOfOtherKinds) {
+  EXPECT_EQ(import(replaced(kBuilding, "reference_image", "cartesian_meters")).layout.stations[1].position_m, Vec2(40.0, 10.0));
+  auto unmeasured = replaced(kBuilding, "      - [3, 4, {distance: [3, 5]}]\n      - [3, 4, {distance: [3, 15]}]\n", "      []\n");
+  EXPECT_EQ(import(unmeasured).warnings[0], "b.yaml:5: there are no measurements; a pixel is taken as 1 m");
+  EXPECT_EQ(independent::refusal(import, replaced(kBuilding, "reference_image", "wgs84")),
+            "b.yaml:2: coordinate_system is \"wgs84\", which needs a map projection; generate nav graphs and import one of them");
+}
+
+TEST(RmfErrors, NamePlaceValueAndRemedy) {
+  const auto break_at = [](const std::string& from, const std::string& to) { return independent::refusal(import, replaced(kBuilding, from, to)); };
+  EXPECT_EQ(break_at("[0, 1, {bi", "[0, 9, {bi"), "b.yaml:6: a lane names vertex \"9\"; there are 0 to 4");
+  EXPECT_EQ(break_at("[0, 1, {bi", "[0, -1, {bi"), "b.yaml:6: a lane names vertex \"-1\"; there are 0 to 4");
+  EXPECT_EQ(break_at("[0, 1, {bi", "[1, 1, {bi"), "b.yaml:6: a lane leads from vertex 1 to itself; leave it out");
+  EXPECT_EQ(break_at("[40, 10,", "[forty, 10,"), "b.yaml:14: x of a vertex is \"forty\"; expected a finite number");
+  EXPECT_EQ(break_at("[40, 10,", "[.nan, 10,"), "b.yaml:14: x of a vertex is \".nan\"; expected a finite number");
+  EXPECT_EQ(break_at("[40, 10,", "[0, 0,"), "b.yaml:6: lane: it has no length; move its stations apart or leave it out");
+  EXPECT_EQ(break_at("[3, 5]", "[3, 0]"), "b.yaml:10: 0 m for 100 pixels give no scale; correct the measurement");
+  EXPECT_EQ(break_at("vertices:", "vertixes:"), "b.yaml:5: the level has no \"vertices\"; add them");
+  EXPECT_EQ(independent::refusal(import, "a: 1\n"), "b.yaml: has no \"levels\"; expected an Open-RMF building or nav graph");
+  EXPECT_EQ(independent::refusal(import, ""), "b.yaml: has no \"levels\"; expected an Open-RMF building or nav graph");
+  EXPECT_TRUE(independent::refusal(import, "a: [1, \n").starts_with("b.yaml:2:1: not YAML: "));
+}
+
+TEST(RmfErrors, CutAndDamagedFilesAreReadOrRefused) {
+  for (const auto& text : {kBuilding, kNavGraph}) {
+    independent::bear_cuts(import, text, 100);
+    independent::bear_damage(import, text, 1500, "0123456789-.:[]{},&*!|>'\"%@`#? \n\t\x80\xff");
+  }
+  EXPECT_NO_THROW(independent::refusal(import, std::string(100'000, '[')));
+  EXPECT_NO_THROW(independent::refusal(import, std::string(100'000, '{')));
+}
+
+TEST(RealLayouts, OpenRmf) {
+  struct Expected {
+    const char* name;
+    std::size_t stations, directed;
+  };
+  for (const auto& [name, stations, lanes] : {Expected{"triple_H", 23, 44}, {"office", 29, 60}}) {
+    const auto path = independent::real_layout(std::string("rmf/") + name + ".building.yaml");
+    FLEETPROOF_SKIP_IF_ABSENT(path);
+    std::vector<std::string> warnings;
+    const auto layout = read_rmf(path, warnings);
+    EXPECT_EQ(layout.stations.size(), stations) << name;
+    EXPECT_EQ(independent::directed(layout), lanes) << name;
+    EXPECT_TRUE(independent::all_reach_all(layout)) << name;
+  }
+}
+
+TEST(RealLayouts, TripleHIsScaledByItsMeasurement) {
+  const auto path = independent::real_layout("rmf/triple_H.building.yaml");
+  FLEETPROOF_SKIP_IF_ABSENT(path);
+  std::vector<std::string> warnings;
+  const auto layout = read_rmf(path, warnings);
+  EXPECT_EQ(layout.stations[0].name, "TopLeft");
+  EXPECT_NEAR(layout.stations[0].position_m.x(), 46.368 * 0.04417, 0.001);
+  EXPECT_NEAR(layout.stations[0].position_m.y(), -40.342 * 0.04417, 0.001);
+}
+
+}  // namespace
+}  // namespace fleetproof
