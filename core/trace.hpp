@@ -28,6 +28,14 @@ enum class TraceKind : std::uint32_t {
   Log = 14,             // a: hash of the text
   AgentCrashed = 15,
   AgentHung = 16,
+  LoadMoves = 17,       // a: load, b: new holder, kind in the upper half and index in the lower
+  BatteryEmpty = 18,
+  FaultStrikes = 19,    // a: kind of fault, b: its number in the scenario
+  FaultOver = 20,       // a: kind of fault, b: its number in the scenario
+  ScannerStops = 21,    // a: body in the protective field
+  OperatorAssists = 22, // a: what for
+  Appears = 23,         // a body comes onto the floor
+  Leaves = 24,          // and is taken away
 };
 const char* name_of(TraceKind kind);
 
