@@ -10,13 +10,13 @@
 namespace fleetproof {
 
 // Dynamism as a first-class thing (Sect. 3.3): who or what evolves, over which interval, and how. The numbers are part of the trace digest.
-enum class ActivityKind : std::uint8_t { Drive = 1, Turn, Transmit, Pick, Drop, Park, Charge };
+enum class ActivityKind : std::uint8_t { Drive = 1, Turn, Transmit, Pick, Drop, Park, Charge, Settle };
 const char* name_of(ActivityKind kind);
 
-// Where a load is: the containment relation (Sect. 3.2).
+// Where a load is: the containment relation (Sect. 3.2). On the floor it is a body itself; cleared away, it is out of the warehouse for good.
 struct Holder {
-  enum class Kind : std::uint8_t { Station, Agv } kind = Kind::Station;
-  std::uint32_t index = 0;
+  enum class Kind : std::uint8_t { Station, Agv, Floor, ClearedAway } kind = Kind::Station;
+  std::uint32_t index = 0;             // of the station, the AGV, or the body
   friend bool operator==(const Holder&, const Holder&) = default;
 };
 
@@ -35,7 +35,7 @@ struct Reception {               // transmit: the message reaches the receiver's
   AgvId receiver;
   std::uint32_t message = 0;
 };
-struct Standing {};              // park
+struct Standing {};              // park, settle
 
 struct Activity {
   ActivityKind kind = ActivityKind::Park;

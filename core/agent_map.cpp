@@ -6,8 +6,10 @@ namespace {
 fp_pose c_pose(const Pose& pose) { return {pose.position_m.x(), pose.position_m.y(), pose.heading.x(), pose.heading.y()}; }
 
 fp_agv c_agv(const VehicleType& type) {
-  return {type.footprint.length_m, type.footprint.width_m,        type.drive.speed_mps,        type.drive.acceleration_mps2, type.drive.deceleration_mps2,
-          type.turn.speed_mps,     type.turn.acceleration_mps2, type.turn.deceleration_mps2};
+  const Footprint loaded = type.footprint_with(true);
+  return {type.footprint.length_m, type.footprint.width_m,      type.drive.speed_mps,        type.drive.acceleration_mps2, type.drive.deceleration_mps2,
+          type.turn.speed_mps,     type.turn.acceleration_mps2, type.turn.deceleration_mps2, loaded.length_m,              loaded.width_m,
+          type.speed_deviation};
 }
 
 }  // namespace
@@ -29,8 +31,17 @@ Briefings::Briefings(const Scenario& scenario, const char* agent_config) {
     briefing.safety_distance_m = scenario.law.safety_distance_m;
     briefing.radio_range_m = scenario.radio.range_m;
     briefing.config = agent_config;
+    briefing.boot = 0;
+    briefing.start_segment = FP_NONE;
     briefings_.push_back(briefing);
   }
+}
+
+void Briefings::renew(AgvId agv, std::uint32_t boot, StationId station, const Lane* lane) {
+  fp_briefing& briefing = briefings_[agv.index()];
+  briefing.boot = boot;
+  briefing.start_station = station.value;
+  briefing.start_segment = lane != nullptr ? lane->segment.value : FP_NONE;
 }
 
 void Briefings::describe_map(const LogicalMap& map) {

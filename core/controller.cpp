@@ -30,7 +30,7 @@ std::int32_t send_broadcast(fp_controller* controller, const void* bytes, std::u
 std::int32_t get_position(fp_controller* controller, fp_pose* out) {
   return admitted(controller, [&](Engine& engine, Agv& agv) -> std::int32_t {
     if (out == nullptr) return FP_INVALID;
-    const Pose pose = engine.pose_of(agv);
+    const Pose pose = engine.perceived_pose(agv);
     *out = {pose.position_m.x(), pose.position_m.y(), pose.heading.x(), pose.heading.y()};
     return FP_OK;
   });
@@ -60,17 +60,18 @@ std::int32_t is_loaded(fp_controller* controller, std::uint32_t* out) {
 }
 
 std::int32_t get_action(fp_controller* controller, std::uint32_t* out) {
-  return admitted(controller, [&](Engine&, Agv& agv) -> std::int32_t {
+  return admitted(controller, [&](Engine& engine, Agv& agv) -> std::int32_t {
     if (out == nullptr) return FP_INVALID;
-    *out = agv.doing;
+    *out = engine.action_of(agv);
     return FP_OK;
   });
 }
 
 // The two calls that cannot answer with a result still count, so that an agent that spins on them is found out.
 std::int64_t now_ns(fp_controller* controller) {
-  (void)controller->engine->admit_call(controller->engine->agv(controller->agv));
-  return to_ns(controller->engine->now());
+  Agv& agv = controller->engine->agv(controller->agv);
+  (void)controller->engine->admit_call(agv);
+  return controller->engine->agent_now_ns(agv);
 }
 
 std::int32_t set_timer(fp_controller* controller, std::uint32_t timer, std::int64_t at) {

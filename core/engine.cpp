@@ -1,6 +1,7 @@
 #include "core/engine.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.hpp"
 #include "core/random.hpp"
@@ -30,6 +31,7 @@ Engine::Engine(const Scenario& scenario, const fp_agent_type& agent, std::span<c
       radio_(scenario.radio, scenario.seed),
       unlimited_range_(covers_floor(scenario.radio, *scenario.map)),
       agent_key_(stream_key(scenario.seed, Stream::Agent)),
+      motion_key_(stream_key(scenario.seed, Stream::Motion)),
       world_(scenario, laws),
       agvs_(scenario.agvs.size()),
       controllers_(scenario.agvs.size()) {
@@ -38,6 +40,7 @@ Engine::Engine(const Scenario& scenario, const fp_agent_type& agent, std::span<c
     agvs_[i].id = AgvId{i};
     agvs_[i].station = scenario.agvs[i].start;
     agvs_[i].battery = scenario.agvs[i].battery;
+    agvs_[i].clock = AgentClock(scenario.agvs[i].sensing);
     controllers_[i] = {this, AgvId{i}};
     first_transport_.push_back(transports);
     transports += scenario.agvs[i].transports.size();
@@ -45,13 +48,7 @@ Engine::Engine(const Scenario& scenario, const fp_agent_type& agent, std::span<c
 }
 
 Engine::~Engine() {
-  for (Agv& agv : agvs_) {
-    if (agv.agent == nullptr) continue;
-    try {
-      agent_type_.destroy(agv.agent);
-    } catch (...) {  // its verdict stands; a destructor has nobody to tell
-    }
-  }
+  for (Agv& agv : agvs_) destroy_agent(agv);
 }
 
 void Engine::run() {
@@ -64,7 +61,10 @@ void Engine::run() {
     handle(event);
   }
   now_ = end;
-  for (Agv& agv : agvs_) apply_safe_mode(agv, false, end);
+  for (Agv& agv : agvs_) {
+    apply_safe_mode(agv, false, end);
+    settle_battery(agv);
+  }
   world_.finish(end);
 }
 
@@ -74,13 +74,17 @@ void Engine::start() {
     const auto& transports = scenario_.agvs[agv.id.index()].transports;
     for (std::size_t i = 0; i < transports.size(); ++i) queue_.push(kStart + transports[i].release, agv.id, Event::Kind::OrderReleased, i);
     predict_touches(agv.id);
+    predict_empty_battery(agv);
   }
+  schedule_faults();
 }
 
 void Engine::handle(const Event& event) {
-  if (event.kind == Event::Kind::Contact) {
-    bodies_touch(event.entity, event.payload);
-    return;
+  switch (event.kind) {
+    case Event::Kind::Contact: return bodies_touch(event.entity, event.payload);
+    case Event::Kind::BodyAppears: return body_appears(event.entity);
+    case Event::Kind::BodyLeaves: return body_leaves(event.entity);
+    default: break;
   }
   Agv& agv = agvs_[event.entity.index()];
   switch (event.kind) {
@@ -98,7 +102,17 @@ void Engine::handle(const Event& event) {
     case Event::Kind::MessageArrives: message_arrives(agv, static_cast<std::uint32_t>(event.payload)); break;
     case Event::Kind::TimerGoesOff: timer_goes_off(agv, static_cast<std::uint32_t>(event.payload), event.stamp); break;
     case Event::Kind::AgentIsFree: agent_is_free(agv); break;
-    case Event::Kind::Contact: break;
+    case Event::Kind::BatteryEmpty:
+      if (event.stamp == agv.battery_stamp) battery_empty(agv);
+      break;
+    case Event::Kind::FaultStrikes: fault_strikes(agv, event.payload); break;
+    case Event::Kind::FaultOver: fault_over(agv, event.payload); break;
+    case Event::Kind::HaltOver: end_halt(agv, event.payload); break;
+    case Event::Kind::ScannerLooks:
+      if (event.stamp == agv.scanner_stamp) scanner_looks(agv);
+      break;
+    case Event::Kind::OperatorComes: operator_comes(agv, static_cast<Assist>(event.payload)); break;
+    default: break;
   }
 }
 
@@ -110,13 +124,37 @@ void Engine::trace(EntityId entity, TraceKind kind, std::uint64_t a, std::uint64
 
 void Engine::note(Agv& agv, TraceKind kind, std::string_view text) { trace(agv.id, kind, name_hash(text), 0, text); }
 
+// Sums over the fleet, each rounded once.
+void Engine::close_books() {
+  Counters& counters = outcome_.counters;
+  double driven_m = 0.0, start = 0.0, end = 0.0;
+  BatteryBook book;
+  for (const Agv& agv : agvs_) {
+    counters.safe_mode_ns += agv.safe_mode_ns;
+    driven_m += agv.driven_m;
+    start += scenario_.agvs[agv.id.index()].battery;
+    end += agv.battery;
+    book.driven += agv.book.driven;
+    book.idled += agv.book.idled;
+    book.charged += agv.book.charged;
+  }
+  const auto ppb = [](double share) { return static_cast<std::uint64_t>(std::llround(share * 1e9)); };
+  counters.distance_um = static_cast<std::uint64_t>(std::llround(driven_m * 1e6));
+  counters.battery_start_ppb = ppb(start);
+  counters.battery_end_ppb = ppb(end);
+  counters.battery_driven_ppb = ppb(book.driven);
+  counters.battery_idled_ppb = ppb(book.idled);
+  counters.battery_charged_ppb = ppb(book.charged);
+  counters.under_way = counters.receptions - counters.receptions_lost - counters.received;
+}
+
 Outcome Engine::outcome() {
   Counters& counters = outcome_.counters;
-  for (const Agv& agv : agvs_) counters.safe_mode_ns += agv.safe_mode_ns;
+  close_books();
   counters.events = digest_.record_count();
   outcome_.simulated_ns = static_cast<std::uint64_t>(scenario_.horizon.count());
   outcome_.agv_count = static_cast<std::uint32_t>(agvs_.size());
-  const bool open = counters.transports_done < counters.transports_released;
+  const bool open = counters.transports_done + counters.loads_cleared < counters.transports_released;
   outcome_.stuck = open && now_ - last_progress_ >= scenario_.stuck_after;
   if (!laws_.empty()) {
     LawFindings findings = laws_.front()->findings();

@@ -16,6 +16,12 @@ namespace fleetproof {
 
 class Engine;
 
+// What the draws of the motion stream are for; each is keyed by topic, AGV and number.
+enum class MotionTopic : std::uint32_t { Speed = 1, Settling, Transfer, Position };
+
+// What the operator is called for. The numbers are part of the trace digest.
+enum class Assist : std::uint8_t { Battery = 1, Jam = 2 };
+
 }  // namespace fleetproof
 
 // The handle an agent holds: which AGV of which run.
@@ -27,8 +33,9 @@ struct fp_controller {
 namespace fleetproof {
 
 // The event loop of one run. A local variable of simulate(); thousands can live at once.
-// Its member functions stand in four files: engine.cpp (the loop), engine_motion.cpp (activities of AGVs), engine_radio.cpp (messages),
-// engine_agents.cpp (activations and the agent's clock). controller.cpp translates the C interface.
+// Its member functions stand in files by subject: engine.cpp (the loop), engine_motion.cpp (actions), engine_drive.cpp (drives), engine_battery.cpp,
+// engine_faults.cpp (faults, halts, bodies that come and go), engine_scanner.cpp, engine_radio.cpp (messages), engine_agents.cpp (activations and
+// the agent's clock). controller.cpp translates the C interface.
 class Engine {
  public:
   Engine(const Scenario& scenario, const fp_agent_type& agent, std::span<const std::unique_ptr<Law>> laws, TraceSink* sink, const char* agent_config);
@@ -50,22 +57,33 @@ class Engine {
   std::int32_t declare_safe_mode(Agv& agv, bool on);
   std::int32_t declare_waiting(Agv& agv, std::uint32_t for_whom);
   void note(Agv& agv, TraceKind kind, std::string_view text);
-  Pose pose_of(const Agv& agv) const { return world_.pose_of(agv.id, now_); }
+  Pose perceived_pose(const Agv& agv) const;
+  fp_action action_of(const Agv& agv) const;
+  std::int64_t agent_now_ns(const Agv& agv) const { return agv.clock.shows_ns(now_); }
   double battery_of(const Agv& agv) const;
   bool is_loaded(const Agv& agv) const { return world_.carried_load(agv.id).valid(); }
-  SimTime now() const { return now_; }
   std::uint64_t random(const Agv& agv, std::uint32_t purpose, std::uint64_t index) const;
 
  private:
   void trace(EntityId entity, TraceKind kind, std::uint64_t a = 0, std::uint64_t b = 0, std::string_view text = {});
   void handle(const Event& event);
   void start();
+  void close_books();
 
-  // ---- motion
+  const VehicleType& type_of(const Agv& agv) const { return scenario_.type_of(scenario_.agvs[agv.id.index()]); }
+  double motion_draw(MotionTopic topic, const Agv& agv, std::uint32_t number) const;
+
+  // ---- actions
   void begin_action(Agv& agv, fp_call call, std::uint32_t segment);
-  void continue_plan(Agv& agv);
-  void begin_motion(Agv& agv, ActivityKind kind, Piece piece);
+  void begin_plan(Agv& agv, fp_call call, const Lane* lane, double entry_mps);
+  void continue_plan(Agv& agv, double entry_mps);
+  void finish_action(Agv& agv, double speed_mps);
+  void turn_or_drive(Agv& agv, double entry_mps);
+  void begin_settling(Agv& agv);
   void begin_stay(Agv& agv);
+  Piece standing_piece(const Agv& agv, const Pose& pose) const;
+  void set_piece(Agv& agv, const Piece& piece);
+  void stand(Agv& agv, const Pose& pose);
   void begin_activity(Agv& agv, Activity activity, std::uint64_t subject);
   void activity_ends(Agv& agv);
   void end_activity(Agv& agv, bool as_planned);
@@ -73,7 +91,50 @@ class Engine {
   void bodies_touch(EntityId a, std::uint64_t prediction);
   void stop_for_good(EntityId id);
   void predict_touches(EntityId id);
-  void action_done(Agv& agv, fp_result result);
+  bool is_current(const TouchPrediction& touch) const;
+  void action_done(Agv& agv, fp_result result, bool another_under_way = false);
+
+  // ---- drives
+  bool aligned(const Lane& arriving, const Lane& leaving) const;
+  void begin_drive(Agv& agv, double entry_mps);
+  void plan_rest_of_drive(Agv& agv, double from_m, double speed_mps);
+  double exit_speed_mps(const Agv& agv) const;
+  Piece first_leg_piece(const Agv& agv) const;
+  void begin_leg(Agv& agv);
+  void replan_drive(Agv& agv);
+  void leg_ends(Agv& agv);
+  void roll_on(Agv& agv, double speed_mps);
+  void drive_halts(Agv& agv, double way_m);
+  void take_next(Agv& agv, fp_call call, std::uint32_t segment);
+
+  // ---- batteries
+  void settle_battery(Agv& agv);
+  void predict_empty_battery(Agv& agv);
+  void battery_empty(Agv& agv);
+
+  // ---- faults
+  void schedule_faults();
+  void load_taken_up(const Agv& agv, TransportId transport);
+  void fault_strikes(Agv& agv, std::uint64_t number);
+  void fault_over(Agv& agv, std::uint64_t number);
+  std::uint64_t halt(Agv& agv, Halt::Reason reason);
+  void end_halt(Agv& agv, std::uint64_t number);
+  void end_halts(Agv& agv, Halt::Reason reason);
+  void body_appears(EntityId id);
+  void body_leaves(EntityId id);
+  bool load_drops(Agv& agv, const Fault& fault, std::uint64_t number);
+  void move_load(EntityId by, LoadId id, Holder to);
+  void call_operator(Agv& agv, Assist what);
+  void operator_comes(Agv& agv, Assist what);
+  void agent_goes_away(Agv& agv);
+  void agent_comes_back(Agv& agv);
+
+  // ---- scanner
+  void scanner_wakes(Agv& agv);
+  OrientedRectangle protective_field(const Agv& agv) const;
+  std::optional<EntityId> intruder(const Agv& agv) const;
+  void scanner_looks(Agv& agv);
+  void scanner_stops(Agv& agv, EntityId body);
 
   // ---- radio
   void transmit(Agv& sender, std::uint32_t slot, std::uint32_t receiver);
@@ -91,6 +152,8 @@ class Engine {
   void take_effect_later(Agv& agv, PendingCall call);
   void call_takes_effect(Agv& agv);
   void order_released(Agv& agv, std::uint64_t transport);
+  void tell_order(Agv& agv, TransportId id, const TransportOrder& order);
+  void destroy_agent(Agv& agv);
   void timer_goes_off(Agv& agv, std::uint32_t number, std::uint64_t stamp);
   void apply_safe_mode(Agv& agv, bool on, SimTime at);
   void apply_timer(Agv& agv, std::uint32_t number, std::int64_t at_ns);
@@ -102,7 +165,7 @@ class Engine {
   Briefings briefings_;
   Radio radio_;
   bool unlimited_range_;
-  std::uint64_t agent_key_;
+  std::uint64_t agent_key_, motion_key_;
   World world_;
   EventQueue queue_;
   MessagePool messages_;
@@ -111,6 +174,7 @@ class Engine {
   std::vector<fp_controller> controllers_;
   std::vector<TouchPrediction> touches_;
   std::vector<std::uint64_t> first_transport_;  // by AGV: number of its first transport
+  std::vector<std::uint64_t> fault_halts_;      // by fault: number of the halt it caused
   SimTime now_ = kStart;
   SimTime last_progress_ = kStart;
   Outcome outcome_;

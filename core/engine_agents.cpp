@@ -26,7 +26,7 @@ std::string printable(std::string_view text) {
 
 void Engine::tell(Agv& agv, fp_event event) {
   event.struct_size = sizeof(fp_event);
-  if (agv.agent_failed) return;
+  if (agv.agent_failed || agv.agent_away) return;
   if (agv.in_activation || now_ < agv.free_at || !agv.waiting_events.empty()) {
     agv.waiting_events.push_back(event);
     if (!agv.in_activation) wake(agv);
@@ -60,7 +60,7 @@ void Engine::activate(Agv& agv, const fp_event& what) {
   agv.calls = 0;
   agv.cost = Duration::zero();
   fp_event event = what;
-  event.now_ns = to_ns(now_);
+  event.now_ns = agent_now_ns(agv);
   try {
     if (event.kind == FP_EVENT_START) {
       agv.agent = agent_type_.create(&kHost, &controllers_[agv.id.index()], &briefings_.of(agv.id));
@@ -119,6 +119,7 @@ void Engine::call_takes_effect(Agv& agv) {
     case PendingCall::Kind::SafeMode: apply_safe_mode(agv, call.what != 0, now_); break;
     case PendingCall::Kind::WaitingFor: trace(agv.id, TraceKind::WaitingFor, call.what); break;
     case PendingCall::Kind::Timer: apply_timer(agv, call.what, call.instant_ns); break;
+    case PendingCall::Kind::Nothing: break;
   }
 }
 
@@ -128,12 +129,77 @@ void Engine::order_released(Agv& agv, std::uint64_t transport) {
   ++outcome_.counters.transports_released;
   world_.add_load(id, agv.id, order.from, order.to);
   trace(agv.id, TraceKind::OrderReleased, id.value);
+  tell_order(agv, id, order);
+}
+
+void Engine::tell_order(Agv& agv, TransportId id, const TransportOrder& order) {
   fp_event event{};
   event.kind = FP_EVENT_ORDER;
   event.order_id = id.value;
   event.from = order.from.value;
   event.to = order.to.value;
   tell(agv, event);
+}
+
+// The computer goes down: what the agent knew, was told and was about to do is lost. Orders already given to the AGV are carried out.
+void Engine::agent_goes_away(Agv& agv) {
+  agv.agent_away = true;
+  destroy_agent(agv);
+  agv.waiting_events.clear();
+  agv.timers.clear();
+  for (std::size_t i = agv.inbox_read; i < agv.inbox.size(); ++i) messages_.release(agv.inbox[i]);
+  agv.inbox.clear();
+  agv.inbox_read = 0;
+  for (PendingCall& call : agv.pending_calls) {
+    if (call.kind == PendingCall::Kind::Send) messages_.release_unsent(call.message);
+    if (call.kind == PendingCall::Kind::Action) agv.committed = agv.activity.has_value() && agv.plan.lane != nullptr;
+    call.kind = PendingCall::Kind::Nothing;
+  }
+  apply_safe_mode(agv, false, now_);
+}
+
+void Engine::agent_comes_back(Agv& agv) {
+  agv.agent_away = false;
+  ++agv.boot;
+  const bool driving = agv.activity && agv.plan.lane != nullptr;
+  briefings_.renew(agv.id, agv.boot, agv.station, driving || agv.plan_waits ? agv.plan.lane : nullptr);
+  fp_event start{};
+  start.kind = FP_EVENT_START;
+  tell(agv, start);
+  // Who hands out the transports asks again for those that are not done.
+  for (std::size_t i = 0; i < world_.loads().size(); ++i) {
+    const Load& load = world_.loads()[i];
+    const bool over = load.holder == Holder{Holder::Kind::Station, load.destination.value} || load.holder.kind == Holder::Kind::ClearedAway;
+    if (load.carrier != agv.id || over) continue;
+    TransportOrder order = scenario_.agvs[agv.id.index()].transports[load.transport.value - first_transport_[agv.id.index()]];
+    if (load.holder.kind == Holder::Kind::Station) order.from = StationId{load.holder.index};
+    tell_order(agv, load.transport, order);
+  }
+}
+
+void Engine::destroy_agent(Agv& agv) {
+  if (agv.agent == nullptr) return;
+  try {
+    agent_type_.destroy(agv.agent);
+  } catch (...) {  // its verdict stands, and a destructor has nobody to tell
+  }
+  agv.agent = nullptr;
+}
+
+// Late, and wrong by another error every tenth of a second.
+Pose Engine::perceived_pose(const Agv& agv) const {
+  constexpr std::int64_t kErrorLasts_ns = 100'000'000;
+  const SensingSetup& sensing = scenario_.agvs[agv.id.index()].sensing;
+  const SimTime seen = std::max(kStart, now_ - seconds(sensing.position_late_s));
+  const auto past = std::ranges::find_if(agv.past, [&](const Piece& piece) { return seen < piece.end; });
+  Pose pose = past != agv.past.end() ? past->pose_at(seen) : world_.pose_of(agv.id, seen);
+  if (sensing.position_error_m == 0.0) return pose;
+  const auto slot = static_cast<std::uint64_t>(to_ns(now_) / kErrorLasts_ns);
+  const Block block = philox(motion_key_, {static_cast<std::uint32_t>(slot), static_cast<std::uint32_t>(slot >> 32),
+                                           static_cast<std::uint32_t>(MotionTopic::Position), agv.id.value});
+  const auto error_m = [&](std::size_t half) { return sensing.position_error_m * (2.0 * unit_interval(word64(block, half)) - 1.0); };
+  pose.position_m += Vec2{error_m(0), error_m(1)};
+  return pose;
 }
 
 std::int32_t Engine::set_timer(Agv& agv, std::uint32_t number, std::int64_t at) {
@@ -149,7 +215,7 @@ void Engine::apply_timer(Agv& agv, std::uint32_t number, std::int64_t at) {
   auto timer = std::ranges::find(agv.timers, number, &Timer::number);
   if (timer == agv.timers.end()) timer = agv.timers.insert(timer, {number, 0});
   timer->stamp = at < 0 ? 0 : ++agv.timer_stamp;
-  if (at >= 0) queue_.push(std::max(now_, at_ns(at)), agv.id, Event::Kind::TimerGoesOff, number, timer->stamp);
+  if (at >= 0) queue_.push(std::max(now_, agv.clock.when_it_shows(at)), agv.id, Event::Kind::TimerGoesOff, number, timer->stamp);
 }
 
 void Engine::timer_goes_off(Agv& agv, std::uint32_t number, std::uint64_t stamp) {

@@ -1,9 +1,10 @@
-// Activities of AGVs: how a call becomes turn, drive and stay, how each ends or is cut short, and what two bodies that touch do to each other.
+// Actions of AGVs: how a call becomes turn, drive and stay, how each ends or is cut short, and what two bodies that touch do to each other.
 #include <algorithm>
 
 #include "core/engine.hpp"
 #include "core/error.hpp"
 #include "core/geometry/rotation.hpp"
+#include "core/random.hpp"
 
 namespace fleetproof {
 namespace {
@@ -22,7 +23,8 @@ ActivityKind stay_of(fp_call call) {
 
 fp_action doing(ActivityKind kind) {
   switch (kind) {
-    case ActivityKind::Drive: return FP_DRIVING;
+    case ActivityKind::Drive:
+    case ActivityKind::Settle: return FP_DRIVING;
     case ActivityKind::Turn: return FP_TURNING;
     case ActivityKind::Pick: return FP_PICKING;
     case ActivityKind::Drop: return FP_DROPPING;
@@ -31,77 +33,110 @@ fp_action doing(ActivityKind kind) {
   }
 }
 
+bool on_its_way(const Agv& agv) { return agv.activity && agv.plan.lane != nullptr && agv.plan.call == FP_CALL_MOVE && !agv.next; }
+
 }  // namespace
+
+double Engine::motion_draw(MotionTopic topic, const Agv& agv, std::uint32_t number) const {
+  return unit_interval(word64(philox(motion_key_, {number, 0, static_cast<std::uint32_t>(topic), agv.id.value}), 0));
+}
+
+bool Engine::aligned(const Lane& arriving, const Lane& leaving) const {
+  const Vec2 in = arriving.curve.pose_at(arriving.curve.length_m()).heading, out = leaving.curve.pose_at(0.0).heading;
+  return std::abs(angle_between(in, out)) <= kAligned_rad;
+}
 
 std::int32_t Engine::act(Agv& agv, fp_call call, std::uint32_t segment) {
   const bool here = segment == FP_HERE && call != FP_CALL_MOVE;
   if (!here && segment >= scenario_.map->segment_count()) return FP_INVALID;
-  const bool possible = !agv.committed && !agv.out_of_order && (here || scenario_.map->lane(SegmentId{segment}, agv.station) != nullptr);
+  const bool pending = std::ranges::find(agv.pending_calls, PendingCall::Kind::Action, &PendingCall::kind) != agv.pending_calls.end();
+  bool possible = !agv.out_of_order && !pending;
+  if (agv.committed) {
+    possible = possible && !here && on_its_way(agv) && scenario_.map->lane(SegmentId{segment}, agv.plan.lane->to) != nullptr;
+  } else {
+    possible = possible && (here || scenario_.map->lane(SegmentId{segment}, agv.station) != nullptr);
+  }
   if (!possible) {
     ++outcome_.counters.refused_calls;
     trace(agv.id, TraceKind::CallRefused, static_cast<std::uint64_t>(call), segment);
     return FP_REFUSED;
   }
+  const bool first = !agv.committed;
   agv.committed = true;
-  if (takes_effect_now(agv)) {
+  if (!takes_effect_now(agv)) {
+    take_effect_later(agv, {.kind = PendingCall::Kind::Action, .what = static_cast<std::uint32_t>(call), .segment = segment});
+  } else if (first) {
     begin_action(agv, call, segment);
   } else {
-    take_effect_later(agv, {.kind = PendingCall::Kind::Action, .what = static_cast<std::uint32_t>(call), .segment = segment});
+    take_next(agv, call, segment);
   }
   return FP_OK;
 }
 
 void Engine::begin_action(Agv& agv, fp_call call, std::uint32_t segment) {
   if (agv.out_of_order) return action_done(agv, FP_REFUSED);
+  if (on_its_way(agv)) return take_next(agv, call, segment);  // the action before this one is not over yet
   if (agv.activity) end_activity(agv, false);  // charging goes on until the next action
   const Lane* lane = segment == FP_HERE ? nullptr : scenario_.map->lane(SegmentId{segment}, agv.station);
-  agv.plan = {call, lane, lane != nullptr, call != FP_CALL_MOVE};
-  continue_plan(agv);
+  begin_plan(agv, call, lane, 0.0);
 }
 
-void Engine::continue_plan(Agv& agv) {
-  if (agv.plan.drive_due) {
-    const VehicleType& type = scenario_.type_of(scenario_.agvs[agv.id.index()]);
-    const Pose pose = world_.pose_of(agv.id, now_);
-    Piece piece;
-    piece.entity = agv.id;
-    piece.footprint = type.footprint;
-    piece.begin = now_;
-    piece.start = pose;
-    const double turn_rad = angle_between(pose.heading, agv.plan.lane->curve.pose_at(0.0).heading);
-    if (std::abs(turn_rad) > kAligned_rad) {
-      piece.manner = Manner::Turn;
-      piece.turn_rad = turn_rad;
-      piece.profile = MotionProfile(std::abs(turn_rad), type.turn);
-      return begin_motion(agv, ActivityKind::Turn, piece);
-    }
-    agv.plan.drive_due = false;
-    piece.manner = Manner::Drive;
-    piece.segment = agv.plan.lane->segment;
-    piece.curve = &agv.plan.lane->curve;
-    piece.profile = MotionProfile(piece.curve->length_m(), type.drive);
-    return begin_motion(agv, ActivityKind::Drive, piece);
-  }
+void Engine::begin_plan(Agv& agv, fp_call call, const Lane* lane, double entry_mps) {
+  agv.plan = {call, lane, lane != nullptr, false, call != FP_CALL_MOVE, 0.0};
+  continue_plan(agv, entry_mps);
+}
+
+void Engine::continue_plan(Agv& agv, double entry_mps) {
+  agv.plan_waits = !agv.halts.empty() && entry_mps == 0.0;
+  if (agv.plan_waits) return;  // the end of the halt continues it
+  if (agv.plan.drive_due) return turn_or_drive(agv, entry_mps);
+  if (agv.plan.settle_due) return begin_settling(agv);
   if (agv.plan.stay_due) {
     agv.plan.stay_due = false;
     return begin_stay(agv);
   }
   agv.doing = FP_IDLE;
-  action_done(agv, FP_OK);
+  finish_action(agv, 0.0);
 }
 
-void Engine::begin_motion(Agv& agv, ActivityKind kind, Piece piece) {
+// The action is over; the one released before that begins at once, rolling if the AGV has not stopped.
+void Engine::finish_action(Agv& agv, double speed_mps) {
+  const auto next = agv.next;
+  agv.next.reset();
+  if (next) begin_plan(agv, next->call, next->lane, speed_mps);
+  action_done(agv, FP_OK, next.has_value());
+}
+
+void Engine::turn_or_drive(Agv& agv, double entry_mps) {
+  const VehicleType& type = type_of(agv);
+  const Pose pose = world_.pose_of(agv.id, now_);
+  const double turn_rad = entry_mps > 0.0 ? 0.0 : angle_between(pose.heading, agv.plan.lane->curve.pose_at(agv.plan.way_m).heading);
+  if (std::abs(turn_rad) <= kAligned_rad) return begin_drive(agv, entry_mps);
+  Piece piece = standing_piece(agv, pose);
+  piece.manner = Manner::Turn;
+  piece.turn_rad = turn_rad;
+  piece.profile = MotionProfile(std::abs(turn_rad), type.turn);
   piece.end = piece.begin + piece.profile.duration();
-  ++(kind == ActivityKind::Drive ? outcome_.counters.drives : outcome_.counters.turns);
-  world_.continue_with(agv.id, piece);
+  ++outcome_.counters.turns;
+  set_piece(agv, piece);
   last_progress_ = now_;
-  const std::uint64_t subject = kind == ActivityKind::Drive ? piece.segment.value : agv.station.value;
-  begin_activity(agv, {kind, agv.id, piece.begin, piece.end, SpatialEvolution{piece}}, subject);
+  begin_activity(agv, {ActivityKind::Turn, agv.id, piece.begin, piece.end, SpatialEvolution{piece}}, agv.station.value);
   predict_touches(agv.id);
 }
 
+// A piece of the AGV's body as it is now, for the caller to set in motion.
+Piece Engine::standing_piece(const Agv& agv, const Pose& pose) const {
+  return rest_piece(agv.id, type_of(agv).footprint_with(is_loaded(agv)), pose, now_);
+}
+
+void Engine::begin_settling(Agv& agv) {
+  agv.plan.settle_due = false;
+  const Duration lasts = seconds(type_of(agv).settle_s * motion_draw(MotionTopic::Settling, agv, agv.drives));
+  begin_activity(agv, {ActivityKind::Settle, agv.id, now_, now_ + lasts, Standing{}}, agv.station.value);
+}
+
 void Engine::begin_stay(Agv& agv) {
-  const VehicleType& type = scenario_.type_of(scenario_.agvs[agv.id.index()]);
+  const VehicleType& type = type_of(agv);
   const ActivityKind kind = stay_of(agv.plan.call);
   Activity activity{kind, agv.id, now_, now_, Standing{}};
   std::uint64_t subject = agv.station.value;
@@ -112,16 +147,19 @@ void Engine::begin_stay(Agv& agv) {
     if (pick && !carried.valid()) evolution.load = world_.waiting_load(agv.id, agv.station);
     if (!pick) evolution.load = carried;
     evolution.to = pick ? Holder{Holder::Kind::Agv, agv.id.value} : Holder{Holder::Kind::Station, agv.station.value};
-    activity.end = now_ + seconds(pick ? type.pick_s : type.drop_s);
+    const bool at_storage = scenario_.map->station(agv.station).purposes.has(Purpose::Storage);
+    const double spread_s = at_storage ? type.storage_spread_s : type.other_spread_s;
+    activity.end = now_ + seconds((pick ? type.pick_s : type.drop_s) + spread_s * motion_draw(MotionTopic::Transfer, agv, ++agv.stays));
     activity.evolution = evolution;
     subject = evolution.load.value;
+    last_progress_ = now_;
   } else if (kind == ActivityKind::Charge) {
+    settle_battery(agv);
     activity.end = now_ + seconds(std::max(0.0, (1.0 - agv.battery) / type.charge_per_s));
     activity.evolution = BatteryEvolution{type.charge_per_s};
   }
-  if (kind == ActivityKind::Pick || kind == ActivityKind::Drop) last_progress_ = now_;
   begin_activity(agv, std::move(activity), subject);
-  if (kind == ActivityKind::Charge) action_done(agv, FP_OK);  // connected: done as far as the agent is concerned
+  if (kind == ActivityKind::Charge) finish_action(agv, 0.0);  // connected: done as far as the agent is concerned
 }
 
 void Engine::begin_activity(Agv& agv, Activity activity, std::uint64_t subject) {
@@ -129,66 +167,70 @@ void Engine::begin_activity(Agv& agv, Activity activity, std::uint64_t subject) 
   trace(agv.id, TraceKind::ActivityBegins, static_cast<std::uint64_t>(activity.kind), subject);
   queue_.push(activity.end, agv.id, Event::Kind::ActivityEnds, 0, ++agv.activity_stamp);
   agv.activity = std::move(activity);
+  predict_empty_battery(agv);
 }
 
 void Engine::activity_ends(Agv& agv) {
-  const bool charging = agv.activity->kind == ActivityKind::Charge;
-  const bool parking = agv.activity->kind == ActivityKind::Park;
+  const ActivityKind kind = agv.activity->kind;
+  if (kind == ActivityKind::Drive) return leg_ends(agv);
   end_activity(agv, true);
-  if (charging) {
+  if (kind == ActivityKind::Charge) {
     agv.doing = agv.committed ? agv.doing : FP_IDLE;
     return;
   }
-  if (parking) {
+  if (kind == ActivityKind::Park) {
     agv.doing = FP_PARKED;
     return action_done(agv, FP_OK);
   }
-  continue_plan(agv);
+  continue_plan(agv, 0.0);
 }
 
 void Engine::end_activity(Agv& agv, bool as_planned) {
+  settle_battery(agv);
   const Activity activity = *agv.activity;
   agv.activity.reset();
   ++agv.activity_stamp;
   if (activity.kind != ActivityKind::Park && activity.kind != ActivityKind::Charge) last_progress_ = now_;
   if (const auto* spatial = std::get_if<SpatialEvolution>(&activity.evolution)) {
     const Piece& piece = spatial->piece;
-    if (activity.kind == ActivityKind::Drive) {
-      const double driven_m = piece.profile.position(to_seconds(now_ - piece.begin));
-      agv.battery = std::max(0.0, agv.battery - driven_m * scenario_.type_of(scenario_.agvs[agv.id.index()]).battery_per_m);
-      outcome_.counters.distance_um += static_cast<std::uint64_t>(driven_m * 1e6);
-      if (as_planned) agv.station = agv.plan.lane->to;
-    }
     const Pose pose = as_planned && activity.kind == ActivityKind::Turn
-                          ? Pose{piece.start.position_m, agv.plan.lane->curve.pose_at(0.0).heading}  // exactly the lane's heading
+                          ? Pose{piece.start.position_m, agv.plan.lane->curve.pose_at(agv.plan.way_m).heading}  // exactly the lane's heading
                           : piece.pose_at(now_);
-    world_.continue_with(agv.id, rest_piece(agv.id, piece.footprint, pose, now_));
-    predict_touches(agv.id);
+    stand(agv, pose);
   } else if (const auto* containment = std::get_if<ContainmentEvolution>(&activity.evolution)) {
     if (as_planned) transfer(agv, *containment);
-  } else if (const auto* charge = std::get_if<BatteryEvolution>(&activity.evolution)) {
-    agv.battery = std::min(1.0, agv.battery + charge->per_s * to_seconds(now_ - activity.begin));
   }
   trace(agv.id, TraceKind::ActivityEnds, static_cast<std::uint64_t>(activity.kind), as_planned ? 1 : 0);
+  predict_empty_battery(agv);
+}
+
+void Engine::set_piece(Agv& agv, const Piece& piece) {
+  const Duration late = seconds(scenario_.agvs[agv.id.index()].sensing.position_late_s);
+  if (late > Duration::zero()) {
+    agv.past.push_back(world_.body(agv.id).piece);
+    agv.past.back().end = now_;
+    while (agv.past.front().end < now_ - late) agv.past.pop_front();
+  }
+  world_.continue_with(agv.id, piece);
+}
+
+void Engine::stand(Agv& agv, const Pose& pose) {
+  set_piece(agv, standing_piece(agv, pose));
+  predict_touches(agv.id);
 }
 
 void Engine::transfer(Agv& agv, const ContainmentEvolution& evolution) {
   if (!evolution.load.valid()) return;
-  Load& load = world_.load(evolution.load);
-  load.holder = evolution.to;
-  if (evolution.to == Holder{Holder::Kind::Station, load.destination.value}) {
+  const Load& load = world_.load(evolution.load);
+  if (load.holder.kind == Holder::Kind::Floor) return;  // it fell off meanwhile
+  move_load(agv.id, evolution.load, evolution.to);
+  if (type_of(agv).loaded != LoadEffect{}) stand(agv, world_.pose_of(agv.id, now_));  // the body has grown or shrunk
+  if (evolution.to.kind == Holder::Kind::Agv) {
+    load_taken_up(agv, load.transport);
+  } else if (evolution.to == Holder{Holder::Kind::Station, load.destination.value}) {
     ++outcome_.counters.transports_done;
     trace(agv.id, TraceKind::TransportDone, load.transport.value);
   }
-}
-
-double Engine::battery_of(const Agv& agv) const {
-  if (!agv.activity) return agv.battery;
-  const double elapsed_s = to_seconds(now_ - agv.activity->begin);
-  if (const auto* charge = std::get_if<BatteryEvolution>(&agv.activity->evolution)) return std::min(1.0, agv.battery + charge->per_s * elapsed_s);
-  if (agv.activity->kind != ActivityKind::Drive) return agv.battery;
-  const auto& piece = std::get<SpatialEvolution>(agv.activity->evolution).piece;
-  return std::max(0.0, agv.battery - piece.profile.position(elapsed_s) * scenario_.type_of(scenario_.agvs[agv.id.index()]).battery_per_m);
 }
 
 void Engine::predict_touches(EntityId id) {
@@ -197,10 +239,14 @@ void Engine::predict_touches(EntityId id) {
   for (std::size_t i = before; i < touches_.size(); ++i) queue_.push(touches_[i].at, touches_[i].a, Event::Kind::Contact, i);
 }
 
+bool Engine::is_current(const TouchPrediction& touch) const {
+  const Body &a = world_.body(touch.a), &b = world_.body(touch.b);
+  return a.on_floor && b.on_floor && a.piece.number == touch.piece_a && b.piece.number == touch.piece_b;
+}
+
 void Engine::bodies_touch(EntityId, std::uint64_t prediction) {
   const TouchPrediction touch = touches_[prediction];
-  const bool current = world_.body(touch.a).piece.number == touch.piece_a && world_.body(touch.b).piece.number == touch.piece_b;
-  if (!current || world_.have_touched(touch.a, touch.b)) return;
+  if (!is_current(touch) || world_.have_touched(touch.a, touch.b)) return;
   world_.remember_touch(touch.a, touch.b);
   ++outcome_.counters.contacts;
   trace(touch.a, TraceKind::Contact, touch.b.value);
@@ -210,21 +256,23 @@ void Engine::bodies_touch(EntityId, std::uint64_t prediction) {
 }
 
 void Engine::stop_for_good(EntityId id) {
-  if (!world_.body(id).is_agv || world_.body(id).out_of_order) return;
+  if (!world_.body(id).is_agv || agvs_[id.index()].out_of_order) return;
   Agv& agv = agvs_[id.index()];
-  world_.put_out_of_order(id);
   agv.out_of_order = true;
   // An action that has yet to take effect answers for itself when it finds the AGV out of order.
-  const bool action_pending = std::ranges::find(agv.pending_calls, PendingCall::Kind::Action, &PendingCall::kind) != agv.pending_calls.end();
-  const bool acting = agv.committed && !action_pending;
+  const bool pending = std::ranges::find(agv.pending_calls, PendingCall::Kind::Action, &PendingCall::kind) != agv.pending_calls.end();
+  const int accepted = (agv.committed ? 1 : 0) + (agv.next ? 1 : 0);
+  const bool acting = agv.committed && (!pending || on_its_way(agv));
   if (agv.activity) end_activity(agv, false);
   agv.plan = {};
+  agv.next.reset();
   agv.doing = FP_OUT_OF_ORDER;
-  if (acting) action_done(agv, FP_REFUSED);
+  if (!acting) return;
+  for (int i = 0; i < accepted; ++i) action_done(agv, FP_REFUSED, pending);
 }
 
-void Engine::action_done(Agv& agv, fp_result result) {
-  agv.committed = false;
+void Engine::action_done(Agv& agv, fp_result result, bool another_under_way) {
+  agv.committed = another_under_way;
   fp_event done{};
   done.kind = FP_EVENT_ACTION_DONE;
   done.result = result;

@@ -55,7 +55,8 @@ void Engine::transmit_to(Agv& sender, AgvId receiver, std::uint32_t slot, const 
 
 void Engine::message_arrives(Agv& receiver, std::uint32_t slot) {
   trace(receiver.id, TraceKind::Received, messages_[slot].sender.value, messages_[slot].hash);
-  if (receiver.agent_failed) return messages_.release(slot);
+  ++outcome_.counters.received;
+  if (receiver.agent_failed || receiver.agent_away) return messages_.release(slot);
   const bool was_empty = receiver.inbox_read == receiver.inbox.size();
   receiver.inbox.push_back(slot);
   if (!was_empty && !receiver.waiting_events.empty()) return;  // it is going to look into its inbox anyway

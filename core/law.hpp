@@ -22,7 +22,7 @@ struct LawFindings {
 
 // A rule about what must never happen: a read-only observer of the pieces of a run. A law never reaches the world or its trace.
 //
-// Every body's pieces are contiguous from kStart to the end of the run. A piece is announced when it begins, with its planned end, and again
+// Every body's pieces are contiguous while it is on the floor: an AGV's from kStart to the end of the run, an obstacle's from its appearing to its leaving. A piece is announced when it begins, with its planned end, and again
 // when it ends, with the end that it really had. Pieces that end at the same instant are announced one after the other. At the end of the run
 // every open piece is ended first, then `finish` is called once.
 class Law {

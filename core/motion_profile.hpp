@@ -15,18 +15,24 @@ struct MotionLimits {
   friend bool operator==(const MotionLimits&, const MotionLimits&) = default;
 };
 
-// Distance as a function of time from rest to rest: a trapezoid of speed, or a triangle where the way is too short for the speed limit.
-// Piecewise quadratic, never stepped. Works for metres and, in a turn, for radians.
+// Speeds at the two ends of a way; from rest to rest unless an AGV rolls on.
+struct EndSpeeds {
+  double entry_mps = 0.0, exit_mps = 0.0;
+};
+
+// Distance as a function of time: a trapezoid of speed, or a triangle where the way is too short for the speed limit. Piecewise quadratic, never
+// stepped. Works for metres and, in a turn, for radians.
 class MotionProfile {
  public:
   MotionProfile() = default;
-  MotionProfile(double distance, const MotionLimits& limits);
+  // The end speeds must be reachable: within the speed limit, and from one to the other within the distance.
+  MotionProfile(double distance, const MotionLimits& limits, const EndSpeeds& ends = {});
 
   double distance() const { return distance_; }
   Duration duration() const { return duration_; }
 
   double position(double t_s) const;
-  double speed(double t_s) const;
+  double speed(double t_s) const;      // before and after the way: its end speeds
   // Constant within a phase: up, level, down.
   double acceleration(double t_s) const;
   // First instant at which `position` reaches `distance`.
@@ -36,6 +42,7 @@ class MotionProfile {
 
  private:
   double distance_ = 0.0, peak_ = 0.0, up_ = 1.0, down_ = 1.0;
+  EndSpeeds ends_;
   std::array<double, 3> phase_ends_s_{};
   Duration duration_{};
 };

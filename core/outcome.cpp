@@ -12,7 +12,7 @@
 namespace fleetproof {
 namespace {
 
-constexpr std::uint32_t kEncodingVersion = 1;
+constexpr std::uint32_t kEncodingVersion = 2;
 
 // The order of the fields in the encoding. Append only, together with a new version.
 constexpr std::array kFlags{&Outcome::violation, &Outcome::contact, &Outcome::stuck, &Outcome::crash, &Outcome::hang, &Outcome::indeterminate, &Outcome::engine_error};
@@ -20,7 +20,10 @@ constexpr std::array kCounters{
     &Counters::events,         &Counters::activations,   &Counters::agent_calls,         &Counters::messages_sent,        &Counters::receptions,
     &Counters::receptions_lost, &Counters::out_of_range, &Counters::delay_sum_ns,        &Counters::drives,               &Counters::turns,
     &Counters::refused_calls,  &Counters::transports_released, &Counters::transports_done, &Counters::distance_um,        &Counters::safe_mode_ns,
-    &Counters::contacts,       &Counters::distance_evaluations, &Counters::perimeter_checks};
+    &Counters::contacts,       &Counters::distance_evaluations, &Counters::perimeter_checks,
+    &Counters::rolls, &Counters::faults, &Counters::batteries_empty, &Counters::loads_cleared, &Counters::assists, &Counters::scanner_stops,
+    &Counters::scanner_saves, &Counters::received, &Counters::under_way, &Counters::battery_start_ppb, &Counters::battery_end_ppb,
+    &Counters::battery_driven_ppb, &Counters::battery_idled_ppb, &Counters::battery_charged_ppb};
 static_assert(sizeof(Counters) == kCounters.size() * sizeof(std::uint64_t), "every counter is in the encoding");
 
 class ByteSink {

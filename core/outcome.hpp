@@ -37,6 +37,12 @@ struct Counters {
   std::uint64_t distance_um = 0;
   std::uint64_t safe_mode_ns = 0, contacts = 0;
   std::uint64_t distance_evaluations = 0, perimeter_checks = 0;  // spent by the laws
+  std::uint64_t rolls = 0;                       // stations passed without a stop
+  std::uint64_t faults = 0, batteries_empty = 0, loads_cleared = 0, assists = 0;
+  std::uint64_t scanner_stops = 0, scanner_saves = 0;  // saves: a touch was under way
+  std::uint64_t received = 0, under_way = 0;     // receptions that reached an AGV; still in the air at the end
+  // The energy book of the fleet, in billionths of a full battery: start + charged = end + driven + idled.
+  std::uint64_t battery_start_ppb = 0, battery_end_ppb = 0, battery_driven_ppb = 0, battery_idled_ppb = 0, battery_charged_ppb = 0;
 
   friend bool operator==(const Counters&, const Counters&) = default;
 };

@@ -34,7 +34,7 @@ Stretch next_stretch(const Piece& piece, Elapsed now, double way, TimeSense sens
   Stretch stretch{next_phase(piece.profile, now, sense)};
   if (piece.manner != Manner::Drive || piece.curve->arcs().size() < 2) return stretch;
   const auto ends = piece.curve->ends_m();
-  const auto joint = [&](std::size_t i) { return seconds(piece.profile.time_at(ends[i])).count(); };
+  const auto joint = [&](std::size_t i) { return seconds(piece.profile.time_at(ends[i] - piece.way_begin_m)).count(); };
   stretch.arc = static_cast<std::size_t>(&piece.curve->arc_at(way) - piece.curve->arcs().data());
   if (sense == TimeSense::Forward) {
     while (stretch.arc + 1 < ends.size() && joint(stretch.arc) <= now) ++stretch.arc;
@@ -76,7 +76,7 @@ PhaseMotion motion_from(const Piece& piece, const OrientedRectangle& body, SimTi
   // At rest, also before it has begun to move (seen backwards) and after it has arrived.
   if (piece.manner == Manner::Rest || (forward ? now >= arrival : now <= 0)) return motion;
   const double now_s = to_seconds(Duration{now});
-  const Stretch stretch = next_stretch(piece, now, piece.profile.position(now_s), sense);
+  const Stretch stretch = next_stretch(piece, now, piece.way_begin_m + piece.profile.position(now_s), sense);
   const Elapsed change = forward ? std::min(stretch.change, last) : std::max(stretch.change, last);
   motion.change = piece.begin + Duration{change};
   motion.lasts_s = to_seconds(Duration{std::abs(change - now)});

@@ -24,12 +24,17 @@ void add_swept_arc(Box& box, const Arc& arc, double length_m, const Footprint& f
 
 Box swept_drive(const Piece& piece, double until_m) {
   Box box;
-  box.add(placed(piece.footprint, piece.curve->pose_at(0.0)));
+  box.add(placed(piece.footprint, piece.curve->pose_at(piece.way_begin_m)));
   const auto arcs = piece.curve->arcs();
   const auto ends = piece.curve->ends_m();
   double begin_m = 0.0;
   for (std::size_t i = 0; i < arcs.size() && begin_m < until_m; ++i) {
-    add_swept_arc(box, arcs[i], std::min(until_m, ends[i]) - begin_m, piece.footprint);
+    const double skipped_m = std::max(0.0, piece.way_begin_m - begin_m);
+    if (piece.way_begin_m < ends[i]) {
+      Arc rest = arcs[i];
+      if (skipped_m > 0.0) rest.start = rest.pose_at(skipped_m);
+      add_swept_arc(box, rest, std::min(until_m, ends[i]) - begin_m - skipped_m, piece.footprint);
+    }
     begin_m = ends[i];
   }
   return box;
@@ -42,16 +47,18 @@ double elapsed_s(const Piece& piece, SimTime t) { return to_seconds(std::clamp(t
 Pose Piece::pose_at(SimTime t) const {
   if (manner == Manner::Rest) return start;
   const double done = profile.position(elapsed_s(*this, t));
-  if (manner == Manner::Drive) return curve->pose_at(done);
+  if (manner == Manner::Drive) return curve->pose_at(way_begin_m + done);
   return {start.position_m, rotated(start.heading, unit_vector(turn_rad < 0.0 ? -done : done))};
 }
+
+double Piece::way_at(SimTime t) const { return way_begin_m + profile.position(elapsed_s(*this, t)); }
 
 OrientedRectangle Piece::body_at(SimTime t) const { return placed(footprint, pose_at(t)); }
 
 double Piece::speed_at(SimTime t) const { return manner == Manner::Drive ? profile.speed(elapsed_s(*this, t)) : 0.0; }
 
 Box Piece::swept_box(SimTime until) const {
-  if (manner == Manner::Drive) return swept_drive(*this, profile.position(elapsed_s(*this, until)));
+  if (manner == Manner::Drive) return swept_drive(*this, way_at(until));
   Box box;
   if (manner == Manner::Rest) {
     box.add(placed(footprint, start));

@@ -26,11 +26,14 @@ struct Piece {
   Footprint footprint;
   Pose start;                // pose at begin
   const Curve* curve = nullptr;  // Drive only
+  double way_begin_m = 0.0;      // Drive only: where on the curve the piece begins
   double turn_rad = 0.0;         // Turn only: signed, left positive
-  MotionProfile profile;         // Drive: metres along the curve; Turn: radians
+  MotionProfile profile;         // Drive: metres along the curve from way_begin_m; Turn: radians
 
   Pose pose_at(SimTime t) const;
   OrientedRectangle body_at(SimTime t) const;
+  // Drive only: metres along the curve.
+  double way_at(SimTime t) const;
   // Speed of the reference point.
   double speed_at(SimTime t) const;
   // Everything the body covers from begin to `until`, boxed.

@@ -42,4 +42,9 @@ void MessagePool::release(std::uint32_t slot) {
   if (--messages_[slot].copies == 0) free_.push_back(slot);
 }
 
+void MessagePool::release_unsent(std::uint32_t slot) {
+  messages_[slot].copies = 1;
+  release(slot);
+}
+
 }  // namespace fleetproof

@@ -43,6 +43,8 @@ class MessagePool {
   std::uint32_t add(AgvId sender, std::string_view bytes, std::uint32_t copies);
   const Message& operator[](std::uint32_t slot) const { return messages_[slot]; }
   void release(std::uint32_t slot);
+  // Of a message that is never going to be sent: all its copies.
+  void release_unsent(std::uint32_t slot);
 
  private:
   std::vector<Message> messages_;

@@ -5,24 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "core/geometry/rectangle.hpp"
+#include "core/faults.hpp"
 #include "core/layout.hpp"
-#include "core/motion_profile.hpp"
 #include "core/sim_time.hpp"
 #include "core/strong_id.hpp"
+#include "core/vehicle_type.hpp"
 
 namespace fleetproof {
-
-// A kind of AGV. `turn` is in radians where MotionLimits says metres.
-struct VehicleType {
-  std::string name = "pallet-agv";
-  Footprint footprint;
-  MotionLimits drive;
-  MotionLimits turn{.speed_mps = 1.0, .acceleration_mps2 = 1.0, .deceleration_mps2 = 1.0};
-  double battery_per_m = 1.0 / 20000.0;        // share of a full battery
-  double charge_per_s = 1.0 / 3600.0;
-  double pick_s = 5.0, drop_s = 5.0;
-};
 
 struct TransportOrder {
   StationId from, to;
@@ -37,21 +26,35 @@ struct ScriptedCall {
   SegmentId segment;
 };
 
+// How wrong an AGV's own clock and position are. Both are what its agent sees, not what happens.
+struct SensingSetup {
+  double clock_offset_s = 0.0;         // ahead of the true time; never below 0
+  double clock_drift_ppm = 0.0;        // and running that much too fast
+  double position_error_m = 0.0;       // each coordinate wrong by up to this much, another error every 0.1 s
+  double position_late_s = 0.0;        // where it was that long ago
+
+  friend bool operator==(const SensingSetup&, const SensingSetup&) = default;
+};
+
 struct AgvSetup {
   std::string name;
   std::uint32_t type = 0;              // index into vehicle_types
   StationId start;
   Vec2 heading = Vec2::UnitX();
   double battery = 1.0;
+  SensingSetup sensing;
   std::vector<TransportOrder> transports;  // assigned by the scenario; the agent is told at release
   std::vector<ScriptedCall> script;
 };
 
-// A body that stands on the floor for the whole run.
+// A body that stands on the floor, for the whole run unless it says otherwise. One that appears later does so when its place is clear of every
+// other body by the safety distance and 5 cm: it is tried every second.
 struct ObstacleSetup {
   std::string name;
   Footprint footprint;
   Pose pose;
+  Duration appears{};
+  Duration leaves = kLongestDuration;
 };
 
 // The radio as a function of time and place (design rule: traffic does not change it).
@@ -80,6 +83,9 @@ struct Scenario {
   std::vector<VehicleType> vehicle_types{VehicleType{}};
   std::vector<AgvSetup> agvs;
   std::vector<ObstacleSetup> obstacles;
+  std::vector<Fault> faults;
+  ScannerSetup scanner;
+  OperatorSetup operator_help;
   RadioSetup radio;
   AgentClockSetup agent_clock;
   LawSetup law;
@@ -89,6 +95,8 @@ struct Scenario {
   std::uint64_t seed = 0;              // of the world: keys of radio and agent randomness derive from it
 
   const VehicleType& type_of(const AgvSetup& agv) const { return vehicle_types[agv.type]; }
+  // AGVs, then obstacles, then the loads that fall, in order of their faults: that is how bodies are numbered.
+  std::size_t body_count() const;
 };
 
 }  // namespace fleetproof

@@ -18,29 +18,21 @@ const char* name_of(ActivityKind kind) {
     case ActivityKind::Drop: return "drop";
     case ActivityKind::Park: return "park";
     case ActivityKind::Charge: return "charge";
+    case ActivityKind::Settle: return "settle";
   }
   return "?";
 }
 
 World::World(const Scenario& scenario, std::span<const std::unique_ptr<Law>> laws) : scenario_(scenario), laws_(laws) {
-  bodies_.resize(scenario.agvs.size() + scenario.obstacles.size());
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    Body& body = bodies_[i];
-    body.is_agv = i < scenario.agvs.size();
-    Pose pose;
-    if (body.is_agv) {
-      const AgvSetup& agv = scenario.agvs[i];
-      body.footprint = scenario.type_of(agv).footprint;
-      pose = {scenario.map->station(agv.start).position_m, agv.heading};
-    } else {
-      const ObstacleSetup& obstacle = scenario.obstacles[i - scenario.agvs.size()];
-      body.footprint = obstacle.footprint;
-      pose = obstacle.pose;
-    }
-    body.piece = rest_piece(EntityId{i}, body.footprint, pose, kStart);
-    body.piece.number = pieces_++;
-    body.planned_box = body.piece.swept_box(kForever);
-    for (const auto& law : laws_) law->piece_started(body.piece);
+  bodies_.resize(scenario.body_count());
+  for (std::size_t i = 0; i < scenario.agvs.size(); ++i) {
+    const AgvSetup& agv = scenario.agvs[i];
+    bodies_[i].is_agv = true;
+    put_on_floor(EntityId{i}, scenario.type_of(agv).footprint, {scenario.map->station(agv.start).position_m, agv.heading}, kStart);
+  }
+  for (std::size_t i = 0; i < scenario.obstacles.size(); ++i) {
+    const ObstacleSetup& obstacle = scenario.obstacles[i];
+    if (obstacle.appears == Duration::zero()) put_on_floor(EntityId{scenario.agvs.size() + i}, obstacle.footprint, obstacle.pose, kStart);
   }
 }
 
@@ -48,20 +40,45 @@ State World::state_at(SimTime t) const {
   State state{.at = t, .spatial = {}, .containment = loads_};
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Body& body = bodies_[i];
-    state.spatial.push_back({EntityId{i}, body.piece.pose_at(t), body.footprint, body.is_agv, body.piece.manner != Manner::Rest});
+    if (!body.on_floor) continue;
+    state.spatial.push_back({EntityId{i}, body.piece.pose_at(t), body.piece.footprint, body.is_agv, body.piece.manner != Manner::Rest});
   }
   return state;
 }
 
-void World::continue_with(EntityId id, Piece next) {
+void World::put_on_floor(EntityId id, const Footprint& footprint, const Pose& pose, SimTime t) {
+  Body& body = bodies_[id.index()];
+  body.on_floor = true;
+  begin(body, rest_piece(id, footprint, pose, t));
+}
+
+void World::take_off_floor(EntityId id, SimTime t) {
+  Body& body = bodies_[id.index()];
+  body.on_floor = false;
+  body.piece.end = t;
+  for (const auto& law : laws_) law->piece_ended(body.piece);
+}
+
+bool World::is_free(const OrientedRectangle& place, double margin_m, SimTime t, EntityId but) const {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (bodies_[i].on_floor && EntityId{i} != but && clearance_m(bodies_[i].piece.body_at(t), place) <= margin_m) return false;
+  }
+  return true;
+}
+
+void World::begin(Body& body, const Piece& piece) {
+  body.piece = piece;
+  body.piece.number = pieces_++;
+  body.planned_box = piece.swept_box(piece.end);
+  for (const auto& law : laws_) law->piece_started(body.piece);
+}
+
+void World::continue_with(EntityId id, const Piece& next) {
   Body& body = bodies_[id.index()];
   ensure(next.begin >= body.piece.begin && next.begin <= body.piece.end, "a piece ends within its planned interval");
   body.piece.end = next.begin;
   for (const auto& law : laws_) law->piece_ended(body.piece);
-  next.number = pieces_++;
-  body.piece = next;
-  body.planned_box = next.swept_box(next.end);
-  for (const auto& law : laws_) law->piece_started(body.piece);
+  begin(body, next);
 }
 
 void World::predict_touches(EntityId id, std::vector<TouchPrediction>& out) {
@@ -69,8 +86,7 @@ void World::predict_touches(EntityId id, std::vector<TouchPrediction>& out) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Body& other = bodies_[i];
     const EntityId other_id{i};
-    if (other_id == id || !mine.planned_box.overlaps(other.planned_box)) continue;
-    if (mine.piece.manner == Manner::Rest && other.piece.manner == Manner::Rest && mine.piece.begin > kStart) continue;
+    if (other_id == id || !other.on_floor || !mine.planned_box.overlaps(other.planned_box)) continue;
     if (have_touched(id, other_id)) continue;
     const Interval common{std::max(mine.piece.begin, other.piece.begin), std::min({mine.piece.end, other.piece.end, kStart + scenario_.horizon})};
     if (common.begin > common.end) continue;
@@ -88,6 +104,7 @@ bool World::have_touched(EntityId a, EntityId b) const {
 
 void World::finish(SimTime end) {
   for (Body& body : bodies_) {
+    if (!body.on_floor) continue;
     body.piece.end = std::min(body.piece.end, end);
     for (const auto& law : laws_) law->piece_ended(body.piece);
   }

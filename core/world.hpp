@@ -11,9 +11,9 @@
 
 namespace fleetproof {
 
-// A body on the floor: an AGV or an obstacle. Its current piece is its spatial relation to the floor, as a function of time.
+// An AGV, an obstacle or a fallen load. Its current piece is its spatial relation to the floor, as a function of time.
 struct Body {
-  Footprint footprint;
+  bool on_floor = false;      // else it has no piece
   Piece piece;
   Box planned_box;            // of the whole piece
   bool is_agv = false;
@@ -58,7 +58,11 @@ class World {
   State state_at(SimTime t) const;  // t: now
 
   // Ends the body's current piece at `next.begin` and begins the next one.
-  void continue_with(EntityId id, Piece next);
+  void continue_with(EntityId id, const Piece& next);
+  void put_on_floor(EntityId id, const Footprint& footprint, const Pose& pose, SimTime t);
+  void take_off_floor(EntityId id, SimTime t);
+  // Whether every body other than `but` is farther than `margin_m` from a place at `t`, which is now.
+  bool is_free(const OrientedRectangle& place, double margin_m, SimTime t, EntityId but = {}) const;
   void put_out_of_order(EntityId id) { bodies_[id.index()].out_of_order = true; }
   // First touch of each other body within both current pieces, appended to `out`; pairs that touched before are left out.
   void predict_touches(EntityId id, std::vector<TouchPrediction>& out);
@@ -66,6 +70,7 @@ class World {
   bool have_touched(EntityId a, EntityId b) const;
   void finish(SimTime end);
 
+  std::span<const Load> loads() const { return loads_; }
   LoadId add_load(TransportId transport, AgvId carrier, StationId at, StationId destination);
   Load& load(LoadId id) { return loads_[id.index()]; }
   // The oldest load that `agv` has to fetch at `station`; invalid if there is none.
@@ -73,6 +78,8 @@ class World {
   LoadId carried_load(AgvId agv) const;
 
  private:
+  void begin(Body& body, const Piece& piece);
+
   const Scenario& scenario_;
   std::span<const std::unique_ptr<Law>> laws_;
   std::vector<Body> bodies_;

@@ -43,7 +43,7 @@ std::optional<ProblemKind> rejection(const Scenario& scenario, const AgvSetup& a
     if (closer_than(other, body, distance_m)) return ProblemKind::StartsTooClose;
   }
   for (const auto& obstacle : scenario.obstacles) {
-    if (closer_than(placed(obstacle.footprint, obstacle.pose), body, distance_m)) return ProblemKind::StartNearObstacle;
+    if (obstacle.appears == Duration::zero() && closer_than(placed(obstacle.footprint, obstacle.pose), body, distance_m)) return ProblemKind::StartNearObstacle;
   }
   return std::nullopt;
 }

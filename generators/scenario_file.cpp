@@ -96,10 +96,23 @@ VehicleType read_vehicle(const JsonReader& reader) {
   reader.read("width_m", vehicle.footprint.width_m);
   read_limits(reader, "drive", keys::kDriveLimits, vehicle.drive);
   read_limits(reader, "turn", keys::kTurnLimits, vehicle.turn);
+  if (const auto loaded = reader.find("loaded")) {
+    loaded->expect_object(keys::kLoaded);
+    loaded->read("extra_length_m", vehicle.loaded.extra_length_m);
+    loaded->read("extra_width_m", vehicle.loaded.extra_width_m);
+    loaded->read("speed_share", vehicle.loaded.speed_share);
+    loaded->read("acceleration_share", vehicle.loaded.acceleration_share);
+  }
+  reader.read("lateral_mps2", vehicle.lateral_mps2);
+  reader.read("speed_deviation", vehicle.speed_deviation);
+  reader.read("settle_s", vehicle.settle_s);
   reader.read("battery_per_m", vehicle.battery_per_m);
+  reader.read("battery_idle_per_s", vehicle.battery_idle_per_s);
   reader.read("charge_per_s", vehicle.charge_per_s);
   reader.read("pick_s", vehicle.pick_s);
   reader.read("drop_s", vehicle.drop_s);
+  reader.read("storage_spread_s", vehicle.storage_spread_s);
+  reader.read("other_spread_s", vehicle.other_spread_s);
   return vehicle;
 }
 
@@ -110,7 +123,55 @@ ObstacleSetup read_obstacle(const JsonReader& reader) {
   obstacle.footprint = {reader.at("length_m").number(), reader.at("width_m").number()};
   obstacle.pose.position_m = reader.at("position_m").vector();
   if (const auto heading = reader.find("heading")) obstacle.pose.heading = read_heading(*heading);
+  read_duration(reader, "appears", obstacle.appears);
+  read_duration(reader, "leaves", obstacle.leaves);
   return obstacle;
+}
+
+SensingSetup read_sensing(const JsonReader& reader) {
+  reader.expect_object(keys::kSensing);
+  SensingSetup sensing;
+  reader.read("clock_offset_s", sensing.clock_offset_s);
+  reader.read("clock_drift_ppm", sensing.clock_drift_ppm);
+  reader.read("position_error_m", sensing.position_error_m);
+  reader.read("position_late_s", sensing.position_late_s);
+  return sensing;
+}
+
+Fault read_fault(const JsonReader& reader, const Names<AgvId>& agvs) {
+  reader.expect_object(keys::kFault);
+  Fault fault;
+  fault.kind = static_cast<Fault::Kind>(one_of(reader.at("kind"), keys::kFaultKinds) + 1);
+  fault.agv = agvs.at(reader.at("agv"));
+  fault.at = duration_at(reader, "at");
+  if (const auto transport = reader.find("transport")) fault.transport = static_cast<std::uint32_t>(std::min<std::uint64_t>(transport->natural(), 0xffffffff));
+  fault.lasts = duration_at(reader, "lasts");
+  reader.read("length_m", fault.load.length_m);
+  reader.read("width_m", fault.load.width_m);
+  reader.read("ahead_m", fault.ahead_m);
+  reader.read("left_m", fault.left_m);
+  return fault;
+}
+
+void read_faults(const JsonReader& reader, Scenario& scenario) {
+  if (const auto faults = reader.find("faults")) {
+    const Names<AgvId> agvs("AGV", scenario.agvs);
+    for (const auto& item : faults->items()) scenario.faults.push_back(read_fault(item, agvs));
+  }
+  if (const auto scanner = reader.find("scanner")) {
+    scanner->expect_object(keys::kScanner);
+    scanner->read("on", scenario.scanner.on);
+    scanner->read("reaction_s", scenario.scanner.reaction_s);
+    scanner->read("margin_m", scenario.scanner.margin_m);
+    scanner->read("resume_s", scenario.scanner.resume_s);
+  }
+  if (const auto help = reader.find("operator")) {
+    help->expect_object(keys::kOperator);
+    help->read("on", scenario.operator_help.on);
+    help->read("least_s", scenario.operator_help.least_s);
+    help->read("most_s", scenario.operator_help.most_s);
+    help->read("battery", scenario.operator_help.battery);
+  }
 }
 
 class AgvReader {
@@ -128,6 +189,7 @@ class AgvReader {
     agv.start = stations_.at(reader.at("start"));
     if (const auto heading = reader.find("heading")) agv.heading = read_heading(*heading);
     reader.read("battery", agv.battery);
+    if (const auto sensing = reader.find("sensing")) agv.sensing = read_sensing(*sensing);
     if (const auto transports = reader.find("transports")) {
       for (const auto& item : transports->items()) agv.transports.push_back(transport(item));
     }
@@ -217,6 +279,7 @@ Scenario parse_scenario(std::string_view text, std::string_view source) {
   if (const auto obstacles = reader.find("obstacles")) {
     for (const auto& item : obstacles->items()) scenario.obstacles.push_back(read_obstacle(item));
   }
+  read_faults(reader, scenario);
   const auto problems = unusable_problems(scenario);
   if (!problems.empty()) reader.refuse_below(problems[0].pointer, problems[0].sentence);
   return scenario;

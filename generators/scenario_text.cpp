@@ -22,7 +22,7 @@ class ScenarioWriter {
   explicit ScenarioWriter(const Scenario& scenario) : scenario_(scenario) {}
 
   std::string write() {
-    const auto& [name, map, vehicle_types, agvs, obstacles, radio, agent_clock, law, contact_stops, horizon, stuck_after, seed] = scenario_;
+    const auto& [name, map, vehicle_types, agvs, obstacles, faults, scanner, operator_help, radio, agent_clock, law, contact_stops, horizon, stuck_after, seed] = scenario_;
     ensure(map != nullptr, "a scenario has a map");
     json_.open_object();
     json_.key("version").value(keys::kVersion);
@@ -50,6 +50,8 @@ class ScenarioWriter {
     json_.key("obstacles").open_array();
     for (const auto& obstacle : obstacles) write_obstacle(obstacle);
     json_.close();
+    write_faults(faults);
+    write_helpers(scanner, operator_help);
     json_.key("layout");
     write_layout(json_, map->layout());
     json_.close();
@@ -84,27 +86,42 @@ class ScenarioWriter {
   }
 
   void write_vehicle(const VehicleType& vehicle) {
-    const auto& [name, footprint, drive, turn, battery_per_m, charge_per_s, pick_s, drop_s] = vehicle;
+    const auto& [name, footprint, drive, turn, loaded, lateral_mps2, speed_deviation, settle_s, battery_per_m, battery_idle_per_s, charge_per_s, pick_s,
+                 drop_s, storage_spread_s, other_spread_s] = vehicle;
+    const auto& [extra_length_m, extra_width_m, speed_share, acceleration_share] = loaded;
     json_.open_object();
     json_.key("name").value(name);
     write_footprint(footprint);
     write_limits("drive", drive, keys::kDriveLimits);
     write_limits("turn", turn, keys::kTurnLimits);
+    json_.key("loaded").open_object(kLine);
+    json_.key("extra_length_m").value(extra_length_m);
+    json_.key("extra_width_m").value(extra_width_m);
+    json_.key("speed_share").value(speed_share);
+    json_.key("acceleration_share").value(acceleration_share);
+    json_.close();
+    json_.key("lateral_mps2").value(lateral_mps2);
+    json_.key("speed_deviation").value(speed_deviation);
+    json_.key("settle_s").value(settle_s);
     json_.key("battery_per_m").value(battery_per_m);
+    json_.key("battery_idle_per_s").value(battery_idle_per_s);
     json_.key("charge_per_s").value(charge_per_s);
     json_.key("pick_s").value(pick_s);
     json_.key("drop_s").value(drop_s);
+    json_.key("storage_spread_s").value(storage_spread_s);
+    json_.key("other_spread_s").value(other_spread_s);
     json_.close();
   }
 
   void write_agv(const AgvSetup& agv) {
-    const auto& [name, type, start, heading, battery, transports, script] = agv;
+    const auto& [name, type, start, heading, battery, sensing, transports, script] = agv;
     json_.open_object();
     json_.key("name").value(name);
     json_.key("type").value(scenario_.vehicle_types.at(type).name);
     json_.key("start").value(station(start));
     json_.key("heading").value(heading);
     json_.key("battery").value(battery);
+    if (sensing != SensingSetup{}) write_sensing(sensing);
     json_.key("transports").open_array();
     for (const auto& [from, to, release] : transports) {
       json_.open_object(kLine);
@@ -126,14 +143,68 @@ class ScenarioWriter {
     json_.close();
   }
 
+  void write_sensing(const SensingSetup& sensing) {
+    const auto& [clock_offset_s, clock_drift_ppm, position_error_m, position_late_s] = sensing;
+    json_.key("sensing").open_object(kLine);
+    json_.key("clock_offset_s").value(clock_offset_s);
+    json_.key("clock_drift_ppm").value(clock_drift_ppm);
+    json_.key("position_error_m").value(position_error_m);
+    json_.key("position_late_s").value(position_late_s);
+    json_.close();
+  }
+
   void write_obstacle(const ObstacleSetup& obstacle) {
-    const auto& [name, footprint, pose] = obstacle;
+    const auto& [name, footprint, pose, appears, leaves] = obstacle;
     json_.open_object(kLine);
     json_.key("name").value(name);
     write_footprint(footprint);
     json_.key("position_m").value(pose.position_m);
     json_.key("heading").value(pose.heading);
+    if (appears != Duration::zero()) json_.key("appears_ns").value(appears.count());
+    if (leaves != kLongestDuration) json_.key("leaves_ns").value(leaves.count());
     json_.close();
+  }
+
+  void write_faults(const std::vector<Fault>& faults) {
+    if (faults.empty()) return;
+    json_.key("faults").open_array();
+    for (const auto& [kind, agv, at, transport, lasts, load, ahead_m, left_m] : faults) {
+      json_.open_object(kLine);
+      json_.key("kind").value(name_of(kind));
+      json_.key("agv").value(scenario_.agvs.at(agv.index()).name);
+      json_.key("at_ns").value(at.count());
+      if (transport) json_.key("transport").value(std::int64_t{*transport});
+      json_.key("lasts_ns").value(lasts.count());
+      if (kind == Fault::Kind::LoadDrop) {
+        write_footprint(load);
+        json_.key("ahead_m").value(ahead_m);
+        json_.key("left_m").value(left_m);
+      }
+      json_.close();
+    }
+    json_.close();
+  }
+
+  // Left out where they are as if nobody had spoken of them.
+  void write_helpers(const ScannerSetup& scanner, const OperatorSetup& operator_help) {
+    if (scanner != ScannerSetup{}) {
+      const auto& [on, reaction_s, margin_m, resume_s] = scanner;
+      json_.key("scanner").open_object(kLine);
+      json_.key("on").value(on);
+      json_.key("reaction_s").value(reaction_s);
+      json_.key("margin_m").value(margin_m);
+      json_.key("resume_s").value(resume_s);
+      json_.close();
+    }
+    if (operator_help != OperatorSetup{}) {
+      const auto& [on, least_s, most_s, battery] = operator_help;
+      json_.key("operator").open_object(kLine);
+      json_.key("on").value(on);
+      json_.key("least_s").value(least_s);
+      json_.key("most_s").value(most_s);
+      json_.key("battery").value(battery);
+      json_.close();
+    }
   }
 
   std::string_view station(StationId id) const { return scenario_.map->layout().stations.at(id.index()).name; }

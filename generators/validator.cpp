@@ -47,6 +47,8 @@ class RangeCheck {
     for (std::size_t i = 0; i < scenario_.agvs.size(); ++i) agv(i);
     names("/obstacles", scenario_.obstacles);
     for (std::size_t i = 0; i < scenario_.obstacles.size(); ++i) obstacle(i);
+    for (std::size_t i = 0; i < scenario_.faults.size(); ++i) fault(i);
+    scanner_and_operator();
     return std::move(problems_);
   }
 
@@ -114,6 +116,57 @@ class RangeCheck {
     within({kList, i, "/charge_per_s"}, v.charge_per_s, 0.0, 1.0);
     within({kList, i, "/pick_s"}, v.pick_s, 0.0, kLongest_s);
     within({kList, i, "/drop_s"}, v.drop_s, 0.0, kLongest_s);
+    within({kList, i, "/storage_spread_s"}, v.storage_spread_s, 0.0, kLongest_s);
+    within({kList, i, "/other_spread_s"}, v.other_spread_s, 0.0, kLongest_s);
+    within({kList, i, "/settle_s"}, v.settle_s, 0.0, kLongest_s);
+    within({kList, i, "/battery_idle_per_s"}, v.battery_idle_per_s, 0.0, 1.0);
+    within({kList, i, "/lateral_mps2"}, v.lateral_mps2, 0.0, kLargestRate);
+    within({kList, i, "/speed_deviation"}, v.speed_deviation, 0.0, 0.5);
+    within({kList, i, "/loaded/extra_length_m"}, v.loaded.extra_length_m, 0.0, kLargestBody_m);
+    within({kList, i, "/loaded/extra_width_m"}, v.loaded.extra_width_m, 0.0, kLargestBody_m);
+    within({kList, i, "/loaded/speed_share"}, v.loaded.speed_share, 0.1, 1.0);
+    within({kList, i, "/loaded/acceleration_share"}, v.loaded.acceleration_share, 0.1, 1.0);
+  }
+
+  void from_zero_on(const Field& field, Duration value, Duration most) {
+    if (value >= Duration::zero() && value <= most) return;
+    add(ProblemKind::NumberOutOfRange, field.pointer(), fmt::format("{} s is outside 0 .. 1e9 s", to_seconds(value)));
+  }
+
+  void sensing(std::size_t i, const SensingSetup& s) {
+    constexpr std::string_view kList = "/agvs";
+    within({kList, i, "/sensing/clock_offset_s"}, s.clock_offset_s, 0.0, 1e6);
+    within({kList, i, "/sensing/clock_drift_ppm"}, s.clock_drift_ppm, -1e5, 1e5);
+    within({kList, i, "/sensing/position_error_m"}, s.position_error_m, 0.0, kLargestBody_m);
+    within({kList, i, "/sensing/position_late_s"}, s.position_late_s, 0.0, 3600.0);
+  }
+
+  void fault(std::size_t i) {
+    constexpr std::string_view kList = "/faults";
+    const Fault& f = scenario_.faults[i];
+    from_zero_on({kList, i, "/at_ns"}, f.at, kLongest);
+    from_zero_on({kList, i, "/lasts_ns"}, f.lasts, kLongest);
+    if (f.agv.index() >= scenario_.agvs.size()) return add(ProblemKind::UnknownReference, Field{kList, i, "/agv"}.pointer(), "there is no such AGV");
+    if (f.transport && *f.transport >= scenario_.agvs[f.agv.index()].transports.size()) {
+      add(ProblemKind::UnknownReference, Field{kList, i, "/transport"}.pointer(),
+          fmt::format("{} has {} transports; they count from 0", in_quotes(scenario_.agvs[f.agv.index()].name),
+                      scenario_.agvs[f.agv.index()].transports.size()));
+    }
+    if (f.kind != Fault::Kind::LoadDrop) return;
+    footprint(kList, i, f.load);
+    within({kList, i, "/ahead_m"}, f.ahead_m, -kLargestBody_m, kLargestBody_m);
+    within({kList, i, "/left_m"}, f.left_m, -kLargestBody_m, kLargestBody_m);
+  }
+
+  void scanner_and_operator() {
+    const auto& s = scenario_.scanner;
+    within({{}, 0, "/scanner/reaction_s"}, s.reaction_s, 1e-3, 10.0);
+    within({{}, 0, "/scanner/margin_m"}, s.margin_m, 0.0, kLargestBody_m);
+    within({{}, 0, "/scanner/resume_s"}, s.resume_s, 0.0, kLongest_s);
+    const auto& o = scenario_.operator_help;
+    within({{}, 0, "/operator/least_s"}, o.least_s, 0.0, kLongest_s);
+    within({{}, 0, "/operator/most_s"}, o.most_s, o.least_s, kLongest_s);
+    within({{}, 0, "/operator/battery"}, o.battery, 0.0, 1.0);
   }
 
   bool has_station(StationId id) const { return id.index() < scenario_.map->station_count(); }
@@ -126,6 +179,7 @@ class RangeCheck {
     if (!has_station(a.start)) add(ProblemKind::UnknownReference, Field{kList, i, "/start"}.pointer(), "there is no such station");
     heading({kList, i, "/heading"}, a.heading);
     within({kList, i, "/battery"}, a.battery, 0.0, 1.0);
+    sensing(i, a.sensing);
     for (std::size_t k = 0; k < a.transports.size(); ++k) transport(i, k, a.transports[k]);
     Duration last{};
     for (std::size_t k = 0; k < a.script.size(); ++k) {
@@ -156,6 +210,9 @@ class RangeCheck {
     heading({kList, i, "/heading"}, o.pose.heading);
     within({kList, i, "/position_m"}, o.pose.position_m.x(), -kLargestCoordinate_m, kLargestCoordinate_m);
     within({kList, i, "/position_m"}, o.pose.position_m.y(), -kLargestCoordinate_m, kLargestCoordinate_m);
+    from_zero_on({kList, i, "/appears_ns"}, o.appears, kLongest);
+    if (o.leaves != kLongestDuration) from_zero_on({kList, i, "/leaves_ns"}, o.leaves, kLongest);
+    if (o.leaves <= o.appears) add(ProblemKind::NumberOutOfRange, Field{kList, i, "/leaves_ns"}.pointer(), "an obstacle leaves after it has appeared");
   }
 
   const Scenario& scenario_;
@@ -194,7 +251,7 @@ class WorldCheck {
                         in_quotes(scenario_.agvs[k].name)));
       }
       for (const auto& obstacle : scenario_.obstacles) {
-        if (!closer_than(placed(obstacle.footprint, obstacle.pose), bodies[i], distance_m)) continue;
+        if (obstacle.appears > Duration::zero() || !closer_than(placed(obstacle.footprint, obstacle.pose), bodies[i], distance_m)) continue;
         add(ProblemKind::StartNearObstacle, pointer(),
             fmt::format("{} starts closer than {} m to obstacle {}; move one", in_quotes(agv.name), distance_m, in_quotes(obstacle.name)));
       }

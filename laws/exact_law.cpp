@@ -20,7 +20,7 @@ class ExactLaw final : public Law {
   explicit ExactLaw(const Scenario& scenario)
       : agv_count_(scenario.agvs.size()),
         threshold_m_(violation_threshold_m(scenario.law)),
-        current_(agv_count_ + scenario.obstacles.size()),
+        current_(scenario.body_count()),
         swept_(current_.size()) {}
 
   void piece_started(const Piece& piece) override;

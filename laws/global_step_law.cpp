@@ -14,7 +14,9 @@ class GlobalStepLaw final : public PublishedLaw {
     for (std::size_t i = 0; i < entity_count(); ++i) {
       const EntityId entity{i};
       if (entity == drive.entity) continue;
-      for (SimTime t = drive.begin; t < drive.end; t += step()) check_snapshot(drive, piece_at(entity, t), t);
+      for (SimTime t = drive.begin; t < drive.end; t += step()) {
+        if (const Piece* other = piece_at(entity, t)) check_snapshot(drive, *other, t);
+      }
     }
   }
 };

@@ -21,7 +21,7 @@ bool overlap(const OrientedRectangle& first, const OrientedRectangle& second) {
 PublishedLaw::PublishedLaw(const Scenario& scenario)
     : threshold_m_(violation_threshold_m(scenario.law)),
       step_(seconds(scenario.law.snapshot_s)),
-      timelines_(scenario.agvs.size() + scenario.obstacles.size()) {
+      timelines_(scenario.body_count()) {
   ensure(step_ > Duration::zero(), "snapshots are at least a nanosecond apart");
 }
 
@@ -47,11 +47,10 @@ LawFindings PublishedLaw::findings() const {
   return findings;
 }
 
-const Piece& PublishedLaw::piece_at(EntityId entity, SimTime t) const {
+const Piece* PublishedLaw::piece_at(EntityId entity, SimTime t) const {
   const auto pieces = timeline(entity);
   const auto later = std::ranges::upper_bound(pieces, t, {}, &Piece::begin);
-  ensure(later != pieces.begin(), "the pieces of a body cover the run");
-  return *(later - 1);
+  return later == pieces.begin() || (later - 1)->end < t ? nullptr : &*(later - 1);
 }
 
 bool PublishedLaw::checked(bool overlap) {
@@ -69,8 +68,9 @@ void PublishedLaw::check_snapshot(const Piece& drive, const Piece& other, SimTim
 void PublishedLaw::accuse_throughout(const Piece& drive, EntityId entity) {
   const auto seen_at = [&](SimTime t) {
     ++distance_evaluations_;
-    const Piece& other = piece_at(entity, t);
-    return stretch_of(drive, other, t, t, {clearance_m(drive.body_at(t), other.body_at(t)), t});
+    const Piece* other = piece_at(entity, t);
+    ensure(other != nullptr, "who stood there when the drive began stands there throughout");
+    return stretch_of(drive, *other, t, t, {clearance_m(drive.body_at(t), other->body_at(t)), t});
   };
   Stretch whole = seen_at(drive.end);
   for (SimTime t = drive.begin; t < drive.end; t += step_) whole.absorb(seen_at(t));

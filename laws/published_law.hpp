@@ -27,8 +27,8 @@ class PublishedLaw : public Law {
 
   std::size_t entity_count() const { return timelines_.size(); }
   std::span<const Piece> timeline(EntityId entity) const { return timelines_[entity.index()]; }
-  // The piece that covers `t`; at a seam the later one.
-  const Piece& piece_at(EntityId entity, SimTime t) const;
+  // The piece that covers `t`; at a seam the later one. Null while the entity is not on the floor.
+  const Piece* piece_at(EntityId entity, SimTime t) const;
   double threshold_m() const { return threshold_m_; }
   Duration step() const { return step_; }
 

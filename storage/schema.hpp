@@ -9,7 +9,7 @@
 namespace fleetproof {
 
 inline constexpr std::int32_t kApplicationId = 0x464C5046;  // "FLPF": tells a campaign file from any other SQLite file
-inline constexpr std::int32_t kSchemaVersion = 1;
+inline constexpr std::int32_t kSchemaVersion = 2;
 inline constexpr std::int32_t kPageSize = 4096;
 
 // A counter of the outcome and the column of `runs` that holds it.
@@ -18,7 +18,7 @@ struct CounterColumn {
   std::uint64_t Counters::*member;
 };
 
-inline constexpr std::array<CounterColumn, 18> kCounterColumns{{
+inline constexpr std::array<CounterColumn, 32> kCounterColumns{{
     {"events", &Counters::events},
     {"activations", &Counters::activations},
     {"agent_calls", &Counters::agent_calls},
@@ -37,6 +37,20 @@ inline constexpr std::array<CounterColumn, 18> kCounterColumns{{
     {"contacts", &Counters::contacts},
     {"distance_evaluations", &Counters::distance_evaluations},
     {"perimeter_checks", &Counters::perimeter_checks},
+    {"rolls", &Counters::rolls},
+    {"faults", &Counters::faults},
+    {"batteries_empty", &Counters::batteries_empty},
+    {"loads_cleared", &Counters::loads_cleared},
+    {"assists", &Counters::assists},
+    {"scanner_stops", &Counters::scanner_stops},
+    {"scanner_saves", &Counters::scanner_saves},
+    {"received", &Counters::received},
+    {"under_way", &Counters::under_way},
+    {"battery_start_ppb", &Counters::battery_start_ppb},
+    {"battery_end_ppb", &Counters::battery_end_ppb},
+    {"battery_driven_ppb", &Counters::battery_driven_ppb},
+    {"battery_idled_ppb", &Counters::battery_idled_ppb},
+    {"battery_charged_ppb", &Counters::battery_charged_ppb},
 }};
 static_assert(sizeof(Counters) == kCounterColumns.size() * sizeof(std::uint64_t), "every counter has a column");
 

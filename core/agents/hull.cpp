@@ -11,9 +11,11 @@ HullGeometry::HullGeometry(const MapView& map, const fp_briefing& briefing)
     : map_(map), parts_per_kind_(map.lane_count() + map.station_count()), clearance_m_(briefing.safety_distance_m + kHullTolerance_m) {
   for (std::uint32_t i = 0; i < briefing.fleet_count; ++i) {
     const fp_agv& agv = agv_of(briefing, i);
-    const auto known = std::ranges::find_if(kinds_, [&](const Kind& k) { return k.length_m == agv.length_m && k.width_m == agv.width_m; });
+    // As large as with a load, always: whether another AGV is loaded is not known when it matters.
+    const double length_m = std::max(agv.length_m, agv.loaded_length_m), width_m = std::max(agv.width_m, agv.loaded_width_m);
+    const auto known = std::ranges::find_if(kinds_, [&](const Kind& k) { return k.length_m == length_m && k.width_m == width_m; });
     kind_of_.push_back(static_cast<std::uint32_t>(known - kinds_.begin()));
-    if (known == kinds_.end()) kinds_.push_back({agv.length_m, agv.width_m, length(Vec{agv.length_m, agv.width_m}) / 2.0});
+    if (known == kinds_.end()) kinds_.push_back({length_m, width_m, length(Vec{length_m, width_m}) / 2.0});
   }
   parts_.resize(kinds_.size() * parts_per_kind_);
   known_conflicts_.resize(parts_.size());

@@ -9,7 +9,7 @@
 // Maps for the tests of the agents, built without the project's own layouts: the agents see nothing but the C header, and so do their tests.
 namespace fleetproof::agents::testing {
 
-inline constexpr fp_agv kTestAgv{1.6, 1.0, 2.0, 0.5, 1.0, 1.0, 1.0, 1.0};
+inline constexpr fp_agv kTestAgv{1.6, 1.0, 2.0, 0.5, 1.0, 1.0, 1.0, 1.0, 1.6, 1.0, 0.0};
 
 // Stations and segments by number, in the order in which they were added. Finish with map().
 class DrawnMap {
@@ -87,7 +87,7 @@ struct TestFleet {
   TestFleet(const fp_map& of_map, std::uint32_t count, const fp_agv& agv = kTestAgv) : map(of_map), agvs(count, agv) {}
 
   fp_briefing briefing(std::uint32_t self, std::uint32_t start) const {
-    return {sizeof(fp_briefing), self, static_cast<std::uint32_t>(agvs.size()), sizeof(fp_agv), agvs.data(), &map, start, 0, nullptr, 0.10, 1000.0, ""};
+    return {sizeof(fp_briefing), self, static_cast<std::uint32_t>(agvs.size()), sizeof(fp_agv), agvs.data(), &map, start, 0, nullptr, 0.10, 1000.0, "", 0, FP_NONE};
   }
 
   const fp_map& map;

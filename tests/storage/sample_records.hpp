@@ -51,7 +51,7 @@ inline Outcome random_outcome(std::mt19937_64& random) {
   auto& c = o.counters;
   for (auto* counter : {&c.events, &c.activations, &c.agent_calls, &c.messages_sent, &c.receptions, &c.receptions_lost, &c.out_of_range, &c.delay_sum_ns, &c.drives,
                         &c.turns, &c.refused_calls, &c.transports_released, &c.transports_done, &c.distance_um, &c.safe_mode_ns, &c.contacts,
-                        &c.distance_evaluations, &c.perimeter_checks}) {
+                        &c.distance_evaluations, &c.perimeter_checks, &c.rolls, &c.faults, &c.batteries_empty, &c.loads_cleared, &c.assists, &c.scanner_stops, &c.scanner_saves, &c.received, &c.under_way, &c.battery_start_ppb, &c.battery_end_ppb, &c.battery_driven_ppb, &c.battery_idled_ppb, &c.battery_charged_ppb}) {
     *counter = random();
   }
   o.simulated_ns = random();

@@ -26,7 +26,7 @@ extern "C" {
 #endif
 
 #define FP_ABI_MAJOR 1u
-#define FP_ABI_MINOR 0u
+#define FP_ABI_MINOR 1u
 
 #define FP_NONE 0xffffffffu /* no station, no segment, no AGV */
 #define FP_HERE FP_NONE     /* as the segment of pick, drop, park and charge: where the AGV stands, without driving */
@@ -43,8 +43,9 @@ typedef enum fp_result {
 
 typedef enum fp_purpose { FP_ROUTING = 1, FP_STORAGE = 2, FP_CHARGING = 4, FP_PARKING = 8 } fp_purpose;
 
-/* What the AGV is doing, as the controller knows it. */
-typedef enum fp_action { FP_IDLE = 0, FP_DRIVING, FP_TURNING, FP_PICKING, FP_DROPPING, FP_PARKED, FP_CHARGING_NOW, FP_OUT_OF_ORDER } fp_action;
+/* What the AGV is doing, as the controller knows it. FP_STOPPED: it stands in the middle of an action because something stopped it, and will go on by
+ * itself. FP_OUT_OF_ORDER: broken down or empty; it may be repaired, and then goes on too. */
+typedef enum fp_action { FP_IDLE = 0, FP_DRIVING, FP_TURNING, FP_PICKING, FP_DROPPING, FP_PARKED, FP_CHARGING_NOW, FP_OUT_OF_ORDER, FP_STOPPED } fp_action;
 
 /* ---- the logical map ------------------------------------------------------------------------------------------------------------------ */
 
@@ -92,6 +93,9 @@ typedef struct fp_agv {
   double length_m, width_m;
   double speed_mps, acceleration_mps2, deceleration_mps2;
   double turn_speed_radps, turn_acceleration_radps2, turn_deceleration_radps2;
+  /* Since minor 1: its size with a load, and by what share of the above a drive may be faster or slower. */
+  double loaded_length_m, loaded_width_m;
+  double speed_deviation;
 } fp_agv;
 
 /* A controller call at a fixed time; only the `scripted` agent is given any. */
@@ -117,13 +121,17 @@ typedef struct fp_briefing {
   double safety_distance_m;
   double radio_range_m;
   const char* config; /* the agent's own parameters, as text; never null */
+  /* Since minor 1. How often this AGV's computer has restarted in this run: it keeps that number in stable storage, and nothing else. After a
+   * restart start_station is where the AGV stands, or the station it left last; start_segment is the segment that it is driving, else FP_NONE. */
+  uint32_t boot;
+  uint32_t start_segment;
 } fp_briefing;
 
 /* ---- events --------------------------------------------------------------------------------------------------------------------------- */
 
 typedef enum fp_event_kind {
-  FP_EVENT_START = 0,       /* the run begins */
-  FP_EVENT_ORDER,           /* a transport was released for this AGV: order_id, from, to */
+  FP_EVENT_START = 0,       /* the run begins, or the agent begins again after a restart */
+  FP_EVENT_ORDER,           /* a transport was released for this AGV: order_id, from, to; after a restart again, for each that is not done */
   FP_EVENT_MESSAGE,         /* the inbox is not empty; read it until FP_EMPTY */
   FP_EVENT_TIMER,           /* a timer went off: timer */
   FP_EVENT_ACTION_DONE      /* the last action ended: result FP_OK, or FP_REFUSED if the AGV was stopped and is out of order */
@@ -154,7 +162,9 @@ typedef struct fp_host {
   uint32_t abi_major, abi_minor;
 
   /* Actions. The AGV must be idle at a station; it first turns towards the segment, then drives it from where it stands to the other end. pick
-   * and drop then transfer a load there; park and charge stay. One FP_EVENT_ACTION_DONE follows for every action that was accepted. */
+   * and drop then transfer a load there; park and charge stay. One FP_EVENT_ACTION_DONE follows for every action that was accepted.
+   * While a move is under way one more action may be given, with a segment that leaves the station where that move ends. It begins when the move is
+   * over. Given before the AGV brakes, and if the segment goes straight on, the AGV rolls through the station without a stop. */
   int32_t (*move)(fp_controller*, uint32_t segment);
   int32_t (*pick)(fp_controller*, uint32_t segment);
   int32_t (*drop)(fp_controller*, uint32_t segment);

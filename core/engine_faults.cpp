@@ -1,0 +1,186 @@
+// Faults strike, bodies come and go, an AGV halts wherever it is and goes on, the operator helps.
+#include <algorithm>
+
+#include "core/engine.hpp"
+#include "core/error.hpp"
+#include "core/random.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr double kAppearsClear_m = 0.05;  // beyond the safety distance
+constexpr Duration kTriesAgain = std::chrono::seconds(1);
+constexpr std::uint32_t kAssistTopic = 100;  // of the faults stream, which the generator draws from under lower topics
+
+Halt::Reason halt_of(Fault::Kind kind) { return kind == Fault::Kind::Breakdown ? Halt::Reason::Breakdown : Halt::Reason::ProtectiveStop; }
+
+bool halts(Fault::Kind kind) { return kind == Fault::Kind::Breakdown || kind == Fault::Kind::ProtectiveStop; }
+
+}  // namespace
+
+void Engine::schedule_faults() {
+  fault_halts_.resize(scenario_.faults.size());
+  for (std::size_t i = 0; i < scenario_.faults.size(); ++i) {
+    const Fault& fault = scenario_.faults[i];
+    if (!fault.transport) queue_.push(kStart + fault.at, fault.agv, Event::Kind::FaultStrikes, i);
+  }
+  for (std::size_t i = 0; i < scenario_.obstacles.size(); ++i) {
+    const EntityId id{scenario_.agvs.size() + i};
+    const ObstacleSetup& obstacle = scenario_.obstacles[i];
+    if (obstacle.appears > Duration::zero()) queue_.push(kStart + obstacle.appears, id, Event::Kind::BodyAppears);
+    if (obstacle.leaves < scenario_.horizon) queue_.push(kStart + obstacle.leaves, id, Event::Kind::BodyLeaves);
+  }
+}
+
+void Engine::load_taken_up(const Agv& agv, TransportId transport) {
+  const std::uint64_t own = transport.value - first_transport_[agv.id.index()];
+  for (std::size_t i = 0; i < scenario_.faults.size(); ++i) {
+    const Fault& fault = scenario_.faults[i];
+    if (fault.agv == agv.id && fault.transport && *fault.transport == own) queue_.push(now_ + fault.at, agv.id, Event::Kind::FaultStrikes, i);
+  }
+}
+
+void Engine::fault_strikes(Agv& agv, std::uint64_t number) {
+  const Fault& fault = scenario_.faults[number];
+  const bool agents = fault.kind == Fault::Kind::Restart || fault.kind == Fault::Kind::Freeze;
+  if (agents ? agv.agent_failed || agv.agent_away : agv.out_of_order) return;  // what is out of order already cannot fail
+  if (fault.kind == Fault::Kind::LoadDrop && !load_drops(agv, fault, number)) return;
+  ++outcome_.counters.faults;
+  trace(agv.id, TraceKind::FaultStrikes, static_cast<std::uint64_t>(fault.kind), number);
+  if (halts(fault.kind)) fault_halts_[number] = halt(agv, halt_of(fault.kind));
+  if (fault.kind == Fault::Kind::Restart) agent_goes_away(agv);
+  if (fault.kind == Fault::Kind::Freeze) agv.free_at = std::max(agv.free_at, now_ + fault.lasts);
+  queue_.push(now_ + fault.lasts, agv.id, Event::Kind::FaultOver, number);
+}
+
+void Engine::fault_over(Agv& agv, std::uint64_t number) {
+  const Fault& fault = scenario_.faults[number];
+  trace(agv.id, TraceKind::FaultOver, static_cast<std::uint64_t>(fault.kind), number);
+  if (halts(fault.kind)) end_halt(agv, fault_halts_[number]);
+  if (fault.kind == Fault::Kind::Restart) agent_comes_back(agv);
+}
+
+// ---- halts
+
+std::uint64_t Engine::halt(Agv& agv, Halt::Reason reason) {
+  agv.halts.push_back({reason, ++agv.halts_ever});
+  const std::uint64_t number = agv.halts.back().number;
+  if (agv.halts.size() > 1 || !agv.activity) return number;
+  switch (agv.activity->kind) {
+    case ActivityKind::Drive: replan_drive(agv); break;
+    case ActivityKind::Pick:
+    case ActivityKind::Drop:
+      agv.plan.stay_due = true;  // from its beginning
+      [[fallthrough]];
+    case ActivityKind::Turn:
+    case ActivityKind::Settle:
+      end_activity(agv, false);
+      continue_plan(agv, 0.0);
+      break;
+    default: break;  // it stands already
+  }
+  return number;
+}
+
+void Engine::end_halt(Agv& agv, std::uint64_t number) {
+  if (std::erase_if(agv.halts, [&](const Halt& halt) { return halt.number == number; }) == 0 || !agv.halts.empty() || agv.out_of_order) return;
+  if (agv.activity && agv.activity->kind == ActivityKind::Drive) return replan_drive(agv);  // it was still braking
+  if (!agv.plan_waits) return;
+  agv.plan_waits = false;
+  continue_plan(agv, 0.0);
+}
+
+void Engine::end_halts(Agv& agv, Halt::Reason reason) {
+  while (true) {
+    const auto found = std::ranges::find(agv.halts, reason, &Halt::reason);
+    if (found == agv.halts.end()) return;
+    end_halt(agv, found->number);
+  }
+}
+
+fp_action Engine::action_of(const Agv& agv) const {
+  if (std::ranges::any_of(agv.halts, &Halt::out_of_order)) return FP_OUT_OF_ORDER;
+  return agv.halts.empty() || agv.activity ? agv.doing : FP_STOPPED;
+}
+
+// ---- bodies that come and go
+
+void Engine::body_appears(EntityId id) {
+  const ObstacleSetup& obstacle = scenario_.obstacles[id.index() - scenario_.agvs.size()];
+  if (now_ >= kStart + obstacle.leaves) return;
+  const double margin_m = scenario_.law.safety_distance_m + kAppearsClear_m;
+  if (!world_.is_free(placed(obstacle.footprint, obstacle.pose), margin_m, now_)) {
+    return queue_.push(now_ + kTriesAgain, id, Event::Kind::BodyAppears);
+  }
+  trace(id, TraceKind::Appears);
+  world_.put_on_floor(id, obstacle.footprint, obstacle.pose, now_);
+  predict_touches(id);
+}
+
+void Engine::body_leaves(EntityId id) {
+  if (!world_.body(id).on_floor) return;
+  trace(id, TraceKind::Leaves);
+  world_.take_off_floor(id, now_);
+  for (std::size_t i = 0; i < world_.loads().size(); ++i) {
+    if (world_.loads()[i].holder != Holder{Holder::Kind::Floor, id.value}) continue;
+    move_load(id, LoadId{i}, {Holder::Kind::ClearedAway, 0});
+    ++outcome_.counters.loads_cleared;
+    ++outcome_.counters.assists;
+  }
+}
+
+// False if the AGV carries nothing, or the load would fall on something: then it does not fall.
+bool Engine::load_drops(Agv& agv, const Fault& fault, std::uint64_t number) {
+  const LoadId load = world_.carried_load(agv.id);
+  if (!load.valid()) return false;
+  const auto is_drop = [](const Fault& f) { return f.kind == Fault::Kind::LoadDrop; };
+  const auto drops_before = std::count_if(scenario_.faults.begin(), scenario_.faults.begin() + static_cast<std::ptrdiff_t>(number), is_drop);
+  const EntityId body{scenario_.agvs.size() + scenario_.obstacles.size() + static_cast<std::size_t>(drops_before)};
+  const Pose from = world_.pose_of(agv.id, now_);
+  const Pose pose{from.position_m + fault.ahead_m * from.heading + fault.left_m * left_of(from.heading), from.heading};
+  if (!world_.is_free(placed(fault.load, pose), scenario_.law.safety_distance_m, now_)) return false;
+  move_load(agv.id, load, {Holder::Kind::Floor, body.value});
+  if (agv.activity && agv.activity->kind == ActivityKind::Drive) {
+    replan_drive(agv);  // with the smaller body
+  } else if (world_.body(agv.id).piece.manner == Manner::Rest) {
+    stand(agv, from);
+  }
+  trace(body, TraceKind::Appears);
+  world_.put_on_floor(body, fault.load, pose, now_);
+  predict_touches(body);
+  queue_.push(now_ + fault.lasts, body, Event::Kind::BodyLeaves);
+  return true;
+}
+
+void Engine::move_load(EntityId by, LoadId id, Holder to) {
+  world_.load(id).holder = to;
+  trace(by, TraceKind::LoadMoves, id.value, (std::uint64_t{static_cast<std::uint32_t>(to.kind)} << 32) | to.index);
+}
+
+// ---- the operator
+
+void Engine::call_operator(Agv& agv, Assist what) {
+  const OperatorSetup& help = scenario_.operator_help;
+  if (!help.on) return;
+  const auto draw = unit_interval(word64(philox(stream_key(scenario_.seed, Stream::Faults), {agv.assists++, 0, kAssistTopic, agv.id.value}), 0));
+  queue_.push(now_ + seconds(help.least_s + (help.most_s - help.least_s) * draw), agv.id, Event::Kind::OperatorComes, static_cast<std::uint64_t>(what));
+}
+
+void Engine::operator_comes(Agv& agv, Assist what) {
+  const bool jammed = std::ranges::find(agv.halts, Halt::Reason::Scanner, &Halt::reason) != agv.halts.end();
+  if (agv.out_of_order || (what == Assist::Jam && !jammed)) return;
+  ++outcome_.counters.assists;
+  trace(agv.id, TraceKind::OperatorAssists, static_cast<std::uint64_t>(what));
+  if (what == Assist::Jam) {
+    agv.scanner_muted = true;
+    return end_halts(agv, Halt::Reason::Scanner);
+  }
+  agv.book.charged += scenario_.operator_help.battery - agv.battery;
+  agv.battery = scenario_.operator_help.battery;
+  agv.battery_at = now_;
+  agv.battery_out = false;
+  predict_empty_battery(agv);
+  end_halts(agv, Halt::Reason::EmptyBattery);
+}
+
+}  // namespace fleetproof

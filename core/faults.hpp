@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/geometry/rectangle.hpp"
+#include "core/sim_time.hpp"
+#include "core/strong_id.hpp"
+
+namespace fleetproof {
+
+// Something that goes wrong with one AGV, at a time that the scenario fixes: drawn by a generator, or written by hand.
+struct Fault {
+  // The numbers are part of the trace digest.
+  enum class Kind : std::uint8_t {
+    Breakdown = 1,       // brakes, is out of order while it lasts, then goes on
+    ProtectiveStop = 2,  // brakes, stands while it lasts, then goes on
+    LoadDrop = 3,        // the load falls off and lies on the floor while it lasts; nothing happens to an empty AGV
+    Restart = 4,         // the agent loses its memory and is away while it lasts; the AGV finishes what it was doing
+    Freeze = 5,          // the agent does not answer while it lasts, and then sees everything at once
+  };
+  Kind kind = Kind::Breakdown;
+  AgvId agv;
+  Duration at{};                           // since the start of the run, or since the AGV took up that transport's load
+  std::optional<std::uint32_t> transport;  // number among the AGV's own
+  Duration lasts{};
+  // LoadDrop only: the load on the floor, with its centre seen from the AGV's (along its heading, and to its left), and aligned with it.
+  Footprint load{.length_m = 1.2, .width_m = 0.8};
+  double ahead_m = -1.6, left_m = 0.0;
+};
+const char* name_of(Fault::Kind kind);
+inline constexpr std::size_t kFaultKinds = 5;
+
+// The laser scanner of an AGV: it stops the AGV when a body stands in its protective field, and lets it go on some time after it is clear. The field
+// is a rectangle before the front: v * reaction + v^2 / (2 deceleration) + margin long, and margin wider than the AGV on either side.
+struct ScannerSetup {
+  bool on = false;
+  double reaction_s = 0.08;  // it looks as often
+  double margin_m = 0.15;    // more than the safety distance, or it does not keep it
+  double resume_s = 2.0;     // after the field is clear
+
+  friend bool operator==(const ScannerSetup&, const ScannerSetup&) = default;
+};
+
+// The person who helps: changes empty batteries, and sends on an AGV that its scanner has held for long (its field is muted until it is clear).
+struct OperatorSetup {
+  bool on = false;
+  double least_s = 60.0, most_s = 300.0;  // until help comes, uniform
+  double battery = 1.0;                   // level after the change
+
+  friend bool operator==(const OperatorSetup&, const OperatorSetup&) = default;
+};
+
+}  // namespace fleetproof
