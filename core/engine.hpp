@@ -60,6 +60,7 @@ class Engine {
   void trace(EntityId entity, TraceKind kind, std::uint64_t a = 0, std::uint64_t b = 0, std::string_view text = {});
   void handle(const Event& event);
   void start();
+  void file_findings();
 
   // ---- motion
   void begin_action(Agv& agv, fp_call call, std::uint32_t segment);
@@ -70,6 +71,7 @@ class Engine {
   void activity_ends(Agv& agv);
   void end_activity(Agv& agv, bool as_planned);
   void transfer(Agv& agv, const ContainmentEvolution& transfer);
+  void trace_load(const Agv& agv, LoadId id);
   void bodies_touch(EntityId a, std::uint64_t prediction);
   void stop_for_good(EntityId id);
   void predict_touches(EntityId id);
@@ -98,6 +100,8 @@ class Engine {
   const Scenario& scenario_;
   const fp_agent_type& agent_type_;
   std::span<const std::unique_ptr<Law>> laws_;
+  std::vector<std::pair<Law*, TraceKinds>> readers_;  // of the trace
+  TraceKinds read_by_laws_;
   TraceSink* sink_;
   Briefings briefings_;
   Radio radio_;
@@ -113,6 +117,7 @@ class Engine {
   std::vector<std::uint64_t> first_transport_;  // by AGV: number of its first transport
   SimTime now_ = kStart;
   SimTime last_progress_ = kStart;
+  ProbeTally probes_;
   Outcome outcome_;
 };
 

@@ -176,10 +176,16 @@ void Engine::transfer(Agv& agv, const ContainmentEvolution& evolution) {
   if (!evolution.load.valid()) return;
   Load& load = world_.load(evolution.load);
   load.holder = evolution.to;
+  trace_load(agv, evolution.load);
   if (evolution.to == Holder{Holder::Kind::Station, load.destination.value}) {
     ++outcome_.counters.transports_done;
     trace(agv.id, TraceKind::TransportDone, load.transport.value);
   }
+}
+
+void Engine::trace_load(const Agv& agv, LoadId id) {
+  const Holder& holder = world_.load(id).holder;
+  trace(agv.id, TraceKind::LoadMoves, id.value, static_cast<std::uint64_t>(holder.kind) << 32 | holder.index);
 }
 
 double Engine::battery_of(const Agv& agv) const {

@@ -9,7 +9,7 @@
 namespace fleetproof {
 
 inline constexpr std::int32_t kApplicationId = 0x464C5046;  // "FLPF": tells a campaign file from any other SQLite file
-inline constexpr std::int32_t kSchemaVersion = 1;
+inline constexpr std::int32_t kSchemaVersion = 2;
 inline constexpr std::int32_t kPageSize = 4096;
 
 // A counter of the outcome and the column of `runs` that holds it.
@@ -18,7 +18,7 @@ struct CounterColumn {
   std::uint64_t Counters::*member;
 };
 
-inline constexpr std::array<CounterColumn, 18> kCounterColumns{{
+inline constexpr std::array<CounterColumn, 20> kCounterColumns{{
     {"events", &Counters::events},
     {"activations", &Counters::activations},
     {"agent_calls", &Counters::agent_calls},
@@ -37,6 +37,8 @@ inline constexpr std::array<CounterColumn, 18> kCounterColumns{{
     {"contacts", &Counters::contacts},
     {"distance_evaluations", &Counters::distance_evaluations},
     {"perimeter_checks", &Counters::perimeter_checks},
+    {"incidents_left_out", &Counters::incidents_left_out},
+    {"probes_left_out", &Counters::probes_left_out},
 }};
 static_assert(sizeof(Counters) == kCounterColumns.size() * sizeof(std::uint64_t), "every counter has a column");
 
@@ -46,10 +48,12 @@ std::string schema_ddl();
 // Column lists, comma-separated, in the order in which rows.hpp binds and reads them. `prefix` (as in "r.") goes before every name.
 std::string run_columns(const std::string& prefix = "");
 std::string violation_columns();
+inline constexpr const char* kIncidentColumns = "run_index, ordinal, kind, entity_a, entity_b, first_ns, last_ns, value";
+inline constexpr const char* kProbeColumns = "run_index, ordinal, source, name, count";
 inline constexpr const char* kCellColumns = "cell, agent, layout, fleet_size, loss, delay_s";
 inline constexpr const char* kGateColumns = "gate, name, agent, kind, end_point, region, limit_rate, confidence, min_transports_per_agv_hour";
 inline constexpr const char* kCampaignColumns =
-    "id, name, kind, seed, replicates, plan_json, plan_hash, engine_version, program_sha256, compiler, flags, libraries, plan_checksum";
+    "id, name, kind, seed, replicates, plan_json, plan_hash, engine_version, program_sha256, compiler, flags, libraries, required_probes, plan_checksum";
 
 // "?, ?, ?": one for each name in a comma-separated list.
 std::string placeholders(const std::string& columns);
