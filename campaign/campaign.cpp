@@ -51,6 +51,7 @@ CampaignRecord campaign_record(const CampaignPlan& plan, const AgentPrograms& pr
   record.replicates = plan.replicates;
   record.plan_json = plan_text(plan);
   record.plan_hash = name_hash(record.plan_json);
+  record.required_probes = plan.probes_to_meet();
   record.engine = engine_identity();
   for (const std::string& plugin : programs.loaded()) record.engine.libraries += ", plug-in " + plugin;
   return record;

@@ -156,7 +156,14 @@ CampaignFile read_campaign_file(const std::string& path) {
   }
   if (auto law = root.table("law")) {
     law->get("safety_distance_m", plan.law.safety_distance_m);
+    law->get("leave_out", plan.laws_left_out);
     law->finish();
+  }
+  if (auto coverage = root.table("coverage")) {
+    std::vector<std::string> probes = plan.probes_to_meet();
+    coverage->get("probes", probes);
+    plan.required_probes = std::move(probes);
+    coverage->finish();
   }
   for (TomlTable& gate : root.tables("gate")) plan.gates.push_back(read_gate(gate, plan.gates.size()));
   root.finish();

@@ -7,6 +7,7 @@
 
 #include "core/catalogue.hpp"
 #include "core/error.hpp"
+#include "laws/laws.hpp"
 
 namespace fleetproof {
 
@@ -28,6 +29,12 @@ std::vector<CellRecord> CampaignPlan::cells() const {
 
 std::uint64_t CampaignPlan::cell_count() const {
   return layouts.size() * fleet_sizes.size() * loss.size() * delay_s.size() * agents.size();
+}
+
+std::vector<std::string> CampaignPlan::probes_to_meet() const {
+  if (required_probes) return *required_probes;
+  if (kind == "search") return {};
+  return {"encounter", "negotiation?"};
 }
 
 namespace {
@@ -102,6 +109,21 @@ void check_vehicle(const VehicleType& vehicle, const std::string& where) {
   in_range(vehicle.drop_s, 0.0, 3600.0, "drop_s");
 }
 
+void check_laws_and_coverage(const CampaignPlan& plan, const std::string& where) {
+  for (const std::string& name : plan.laws_left_out) {
+    const auto names = names_of(default_laws());
+    demand(std::ranges::find(names, name) != names.end(), where, fmt::format("law.leave_out names \"{}\", which no campaign runs{}", name, name_hint(name, names)));
+    demand(name != default_laws().front().name, where, fmt::format("law.leave_out names \"{}\", the judge of violations; without it there is nothing to count", name));
+  }
+  for (const std::string& probe : plan.probes_to_meet()) {
+    const bool printable = std::ranges::all_of(probe, [](unsigned char c) { return c >= 0x20 && c != 0x7f; });
+    demand(!probe.empty() && printable && probe.size() <= 1 + ProbeTally::kNameBytesMax, where,
+           fmt::format("coverage.probes holds \"{}\"; a probe has a printable name of 1 to {} bytes", printable ? probe : "?", ProbeTally::kNameBytesMax));
+  }
+  const bool counted = std::ranges::find(plan.laws_left_out, "coverage") == plan.laws_left_out.end();
+  demand(counted || plan.probes_to_meet().empty(), where, "law.leave_out names \"coverage\", which counts what a run met; set coverage.probes = [] as well, or keep it");
+}
+
 }  // namespace
 
 void check_plan(const CampaignPlan& plan, const std::string& where) {
@@ -118,6 +140,7 @@ void check_plan(const CampaignPlan& plan, const std::string& where) {
          fmt::format("agent_clock.call_cost_s is {}; it lies between 0 and 10", plan.agent_clock.call_cost_s));
   check_vehicle(plan.vehicle, where);
   check_factors(plan, where);
+  check_laws_and_coverage(plan, where);
   constexpr std::uint64_t kRunsMax = 1'000'000'000'000;  // a thousand years of this engine; beyond it run indices would wrap
   demand(plan.replicates <= kRunsMax / plan.cell_count(), where,
          fmt::format("replicates is {}; with {} cells at most {} are possible", plan.replicates, plan.cell_count(), kRunsMax / plan.cell_count()));

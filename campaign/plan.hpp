@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,8 +36,13 @@ struct CampaignPlan {
   RadioSetup radio;                       // loss and delay_s come from the cell
   AgentClockSetup agent_clock;
   LawSetup law;
+  std::vector<std::string> laws_left_out; // of the default set
+  std::optional<std::vector<std::string>> required_probes;  // of [coverage]; absent: what its kind asks for
   bool contact_stops = true;
   std::vector<GateRecord> gates;
+
+  // What has to be met for the evidence not to be weak. A claim asks for an encounter and, of an agent that declares anything, for a negotiation.
+  std::vector<std::string> probes_to_meet() const;
 
   // Agents vary fastest, then delay, loss, fleet size and layout.
   std::vector<CellRecord> cells() const;
@@ -44,7 +50,7 @@ struct CampaignPlan {
   std::uint64_t run_count() const { return replicates * cell_count(); }
 };
 
-// The plan as one canonical JSON text, and back: parse_plan(plan_text(p)) describes the same runs, bit for bit.
+// The plan as one canonical JSON text, and back: parse_plan(plan_text(p)) describes the same runs, bit for bit, and asks for the same evidence.
 std::string plan_text(const CampaignPlan& plan);
 CampaignPlan parse_plan(const std::string& text);  // throws EngineError: only the archive holds such texts
 

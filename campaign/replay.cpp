@@ -34,6 +34,12 @@ std::string first_difference(const Outcome& stored, const Outcome& recomputed) {
   }
   const auto pair = std::ranges::mismatch(stored.violations, recomputed.violations);
   if (pair.in1 != stored.violations.end()) return fmt::format("violation {}", pair.in1 - stored.violations.begin());
+  if (stored.incidents.size() != recomputed.incidents.size()) {
+    return fmt::format("incidents: stored {}, recomputed {}", stored.incidents.size(), recomputed.incidents.size());
+  }
+  const auto incident = std::ranges::mismatch(stored.incidents, recomputed.incidents);
+  if (incident.in1 != stored.incidents.end()) return fmt::format("incident {}", incident.in1 - stored.incidents.begin());
+  if (stored.probes != recomputed.probes) return "what the run met";
   if (stored.min_clearance_um != recomputed.min_clearance_um) return "smallest clearance";
   if (!(stored.counters == recomputed.counters)) return "counters";
   return "end points";

@@ -29,8 +29,7 @@ RunRecord RunOne::operator()(std::uint64_t run_index, TraceSink* sink) const {
     return record;
   }
   const auto agent = std::ranges::find(plan_.agents, place.cell.agent) - plan_.agents.begin();
-  std::vector<std::unique_ptr<Law>> laws;
-  laws.push_back(find_entry(fleetproof::laws(), "exact")->make(scenario));
+  const auto laws = make_default_laws(scenario, plan_.laws_left_out);
   record.scenario_digest = scenario_digest(scenario);
   record.outcome = simulate(scenario, *agents_[static_cast<std::size_t>(agent)], laws, sink, plan_.agent_config.c_str());
   return record;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/error.hpp"
 #include "core/random.hpp"
@@ -35,6 +36,11 @@ Engine::Engine(const Scenario& scenario, const fp_agent_type& agent, std::span<c
       world_(scenario, laws),
       agvs_(scenario.agvs.size()),
       controllers_(scenario.agvs.size()) {
+  for (const auto& law : laws) {
+    const TraceKinds kinds = law->reads();
+    if (!kinds.empty()) readers_.emplace_back(law.get(), kinds);
+    read_by_laws_ = read_by_laws_ | kinds;
+  }
   std::uint64_t transports = 0;
   for (std::size_t i = 0; i < agvs_.size(); ++i) {
     agvs_[i].id = AgvId{i};
@@ -120,9 +126,35 @@ void Engine::trace(EntityId entity, TraceKind kind, std::uint64_t a, std::uint64
   const TraceRecord record{now_, entity, kind, a, b};
   digest_.append(record);
   if (sink_ != nullptr) sink_->record(record, text);
+  if (!read_by_laws_.has(kind)) return;
+  for (const auto& [law, kinds] : readers_) {
+    if (kinds.has(kind)) law->happened(record);
+  }
 }
 
-void Engine::note(Agv& agv, TraceKind kind, std::string_view text) { trace(agv.id, kind, name_hash(text), 0, text); }
+void Engine::note(Agv& agv, TraceKind kind, std::string_view text) {
+  const std::uint64_t hash = name_hash(text);
+  if (kind == TraceKind::Probe) probes_.declare(text, hash);
+  trace(agv.id, kind, hash, 0, text);
+}
+
+void Engine::file_findings() {
+  std::vector<Incident> incidents;
+  std::vector<ProbeCount> probes = probes_.counts();
+  outcome_.counters.probes_left_out = probes_.left_out();
+  for (const auto& law : laws_) {
+    LawFindings findings = law->findings();
+    std::ranges::move(findings.incidents, std::back_inserter(incidents));
+    std::ranges::move(findings.met, std::back_inserter(probes));
+    if (law != laws_.front()) continue;
+    file_violations(outcome_, std::move(findings.violations));
+    if (findings.min_clearance_m) outcome_.min_clearance_um = static_cast<std::int64_t>(std::floor(*findings.min_clearance_m * 1e6));
+    outcome_.counters.distance_evaluations = findings.distance_evaluations;
+    outcome_.counters.perimeter_checks = findings.perimeter_checks;
+  }
+  file_incidents(outcome_, std::move(incidents));
+  file_probes(outcome_, std::move(probes));
+}
 
 // Sums over the fleet, each rounded once.
 void Engine::close_books() {
@@ -156,13 +188,7 @@ Outcome Engine::outcome() {
   outcome_.agv_count = static_cast<std::uint32_t>(agvs_.size());
   const bool open = counters.transports_done + counters.loads_cleared < counters.transports_released;
   outcome_.stuck = open && now_ - last_progress_ >= scenario_.stuck_after;
-  if (!laws_.empty()) {
-    LawFindings findings = laws_.front()->findings();
-    file_violations(outcome_, std::move(findings.violations));
-    if (findings.min_clearance_m) outcome_.min_clearance_um = static_cast<std::int64_t>(std::floor(*findings.min_clearance_m * 1e6));
-    counters.distance_evaluations = findings.distance_evaluations;
-    counters.perimeter_checks = findings.perimeter_checks;
-  }
+  file_findings();
   outcome_.contact = outcome_.contact || counters.contacts > 0;
   outcome_.digest = digest_.value();
   outcome_.running_digests = digest_.running();

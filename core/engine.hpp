@@ -69,6 +69,7 @@ class Engine {
   void handle(const Event& event);
   void start();
   void close_books();
+  void file_findings();
 
   const VehicleType& type_of(const Agv& agv) const { return scenario_.type_of(scenario_.agvs[agv.id.index()]); }
   double motion_draw(MotionTopic topic, const Agv& agv, std::uint32_t number) const;
@@ -124,6 +125,7 @@ class Engine {
   void body_leaves(EntityId id);
   bool load_drops(Agv& agv, const Fault& fault, std::uint64_t number);
   void move_load(EntityId by, LoadId id, Holder to);
+  void trace_load(EntityId by, LoadId id);
   void call_operator(Agv& agv, Assist what);
   void operator_comes(Agv& agv, Assist what);
   void agent_goes_away(Agv& agv);
@@ -161,6 +163,8 @@ class Engine {
   const Scenario& scenario_;
   const fp_agent_type& agent_type_;
   std::span<const std::unique_ptr<Law>> laws_;
+  std::vector<std::pair<Law*, TraceKinds>> readers_;  // of the trace
+  TraceKinds read_by_laws_;
   TraceSink* sink_;
   Briefings briefings_;
   Radio radio_;
@@ -177,6 +181,7 @@ class Engine {
   std::vector<std::uint64_t> fault_halts_;      // by fault: number of the halt it caused
   SimTime now_ = kStart;
   SimTime last_progress_ = kStart;
+  ProbeTally probes_;
   Outcome outcome_;
 };
 

@@ -127,8 +127,9 @@ void Engine::order_released(Agv& agv, std::uint64_t transport) {
   const TransportOrder& order = scenario_.agvs[agv.id.index()].transports[transport];
   const TransportId id{static_cast<std::uint32_t>(first_transport_[agv.id.index()] + transport)};
   ++outcome_.counters.transports_released;
-  world_.add_load(id, agv.id, order.from, order.to);
+  const LoadId load = world_.add_load(id, agv.id, order.from, order.to);
   trace(agv.id, TraceKind::OrderReleased, id.value);
+  trace_load(agv.id, load);
   tell_order(agv, id, order);
 }
 

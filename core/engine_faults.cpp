@@ -154,7 +154,12 @@ bool Engine::load_drops(Agv& agv, const Fault& fault, std::uint64_t number) {
 
 void Engine::move_load(EntityId by, LoadId id, Holder to) {
   world_.load(id).holder = to;
-  trace(by, TraceKind::LoadMoves, id.value, (std::uint64_t{static_cast<std::uint32_t>(to.kind)} << 32) | to.index);
+  trace_load(by, id);
+}
+
+void Engine::trace_load(EntityId by, LoadId id) {
+  const Holder& holder = world_.load(id).holder;
+  trace(by, TraceKind::LoadMoves, id.value, (std::uint64_t{static_cast<std::uint32_t>(holder.kind)} << 32) | holder.index);
 }
 
 // ---- the operator

@@ -23,7 +23,8 @@ constexpr std::array kCounters{
     &Counters::contacts,       &Counters::distance_evaluations, &Counters::perimeter_checks,
     &Counters::rolls, &Counters::faults, &Counters::batteries_empty, &Counters::loads_cleared, &Counters::assists, &Counters::scanner_stops,
     &Counters::scanner_saves, &Counters::received, &Counters::under_way, &Counters::battery_start_ppb, &Counters::battery_end_ppb,
-    &Counters::battery_driven_ppb, &Counters::battery_idled_ppb, &Counters::battery_charged_ppb};
+    &Counters::battery_driven_ppb, &Counters::battery_idled_ppb, &Counters::battery_charged_ppb,
+    &Counters::incidents_left_out, &Counters::probes_left_out};
 static_assert(sizeof(Counters) == kCounters.size() * sizeof(std::uint64_t), "every counter is in the encoding");
 
 class ByteSink {
@@ -113,7 +114,60 @@ Violation get_violation(ByteSource& source) {
   return v;
 }
 
+constexpr std::size_t kIncidentBytes = 3 * 4 + 3 * 8;
+constexpr std::size_t kShortestProbeBytes = 1 + 4 + 8;
+
+void put(ByteSink& sink, const Incident& incident) {
+  sink.u32(static_cast<std::uint32_t>(incident.kind));
+  sink.u32(incident.a.value);
+  sink.u32(incident.b.value);
+  sink.i64(to_ns(incident.first));
+  sink.i64(to_ns(incident.last));
+  sink.i64(incident.value);
+}
+
+Incident get_incident(ByteSource& source) {
+  const auto kind = source.u32();
+  if (!is_incident_kind(kind)) throw EngineError("an encoded outcome is damaged: it holds an incident of no known kind");
+  Incident incident;
+  incident.kind = static_cast<IncidentKind>(kind);
+  incident.a = EntityId{source.u32()};
+  incident.b = EntityId{source.u32()};
+  incident.first = at_ns(source.i64());
+  incident.last = at_ns(source.i64());
+  incident.value = source.i64();
+  return incident;
+}
+
+void put(ByteSink& sink, const ProbeCount& probe) {
+  sink.u8(static_cast<std::uint8_t>(probe.source));
+  sink.text(probe.name);
+  sink.u64(probe.count);
+}
+
+ProbeCount get_probe(ByteSource& source) {
+  ProbeCount probe;
+  probe.source = source.flag() ? ProbeSource::Agent : ProbeSource::World;
+  probe.name = source.text();
+  probe.count = source.u64();
+  return probe;
+}
+
 }  // namespace
+
+ViolationLevel level_of(const Violation& violation) {
+  if (!violation.contact) return ViolationLevel::SafetyDistance;
+  return violation.relative_speed_um_s > kHazardousSpeed_um_s ? ViolationLevel::HazardousContact : ViolationLevel::Contact;
+}
+
+const char* name_of(ViolationLevel level) {
+  switch (level) {
+    case ViolationLevel::SafetyDistance: return "safety distance broken";
+    case ViolationLevel::Contact: return "contact";
+    case ViolationLevel::HazardousContact: return "contact at hazardous speed";
+  }
+  invariant_violated("a level of violation has a name");
+}
 
 const char* name_of(OutcomeClass c) {
   switch (c) {
@@ -155,6 +209,10 @@ std::string encode(const Outcome& outcome) {
   sink.text(outcome.message);
   sink.u32(static_cast<std::uint32_t>(outcome.violations.size()));
   for (const auto& violation : outcome.violations) put(sink, violation);
+  sink.u32(static_cast<std::uint32_t>(outcome.incidents.size()));
+  for (const auto& incident : outcome.incidents) put(sink, incident);
+  sink.u32(static_cast<std::uint32_t>(outcome.probes.size()));
+  for (const auto& probe : outcome.probes) put(sink, probe);
   return sink.take();
 }
 
@@ -173,6 +231,10 @@ Outcome decode_outcome(std::string_view bytes) {
   outcome.message = source.text();
   const auto violations = source.count(kViolationBytes);
   for (std::size_t i = 0; i < violations; ++i) outcome.violations.push_back(get_violation(source));
+  const auto incidents = source.count(kIncidentBytes);
+  for (std::size_t i = 0; i < incidents; ++i) outcome.incidents.push_back(get_incident(source));
+  const auto probes = source.count(kShortestProbeBytes);
+  for (std::size_t i = 0; i < probes; ++i) outcome.probes.push_back(get_probe(source));
   if (!source.empty()) throw EngineError("an encoded outcome is damaged: bytes follow its end");
   return outcome;
 }
@@ -185,6 +247,21 @@ void file_violations(Outcome& outcome, std::vector<Violation> violations) {
     outcome.min_clearance_um = std::min(outcome.min_clearance_um.value_or(violation.min_clearance_um), violation.min_clearance_um);
   }
   outcome.violations = std::move(violations);
+}
+
+void file_incidents(Outcome& outcome, std::vector<Incident> incidents) {
+  std::ranges::sort(incidents, {}, [](const Incident& i) { return std::tuple(i.first, i.kind, i.a, i.b, i.last, i.value); });
+  if (incidents.size() > kIncidentsMax) {
+    outcome.counters.incidents_left_out += incidents.size() - kIncidentsMax;
+    incidents.resize(kIncidentsMax);
+  }
+  outcome.incidents = std::move(incidents);
+}
+
+void file_probes(Outcome& outcome, std::vector<ProbeCount> probes) {
+  std::erase_if(probes, [](const ProbeCount& probe) { return probe.count == 0; });
+  std::ranges::sort(probes, {}, [](const ProbeCount& probe) { return std::tie(probe.source, probe.name); });
+  outcome.probes = std::move(probes);
 }
 
 }  // namespace fleetproof

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/incident.hpp"
 #include "core/sim_time.hpp"
 #include "core/strong_id.hpp"
 
@@ -27,6 +28,12 @@ struct Violation {
   friend bool operator==(const Violation&, const Violation&) = default;
 };
 
+// The three levels of a violation. Hazardous: the two met faster than kHazardousSpeed_um_s.
+enum class ViolationLevel : std::uint8_t { SafetyDistance, Contact, HazardousContact };
+inline constexpr std::int64_t kHazardousSpeed_um_s = 300'000;
+ViolationLevel level_of(const Violation& violation);
+const char* name_of(ViolationLevel level);
+
 // Sums of whole numbers: they do not depend on the order of adding.
 struct Counters {
   std::uint64_t events = 0, activations = 0, agent_calls = 0;
@@ -43,6 +50,7 @@ struct Counters {
   std::uint64_t received = 0, under_way = 0;     // receptions that reached an AGV; still in the air at the end
   // The energy book of the fleet, in billionths of a full battery: start + charged = end + driven + idled.
   std::uint64_t battery_start_ppb = 0, battery_end_ppb = 0, battery_driven_ppb = 0, battery_idled_ppb = 0, battery_charged_ppb = 0;
+  std::uint64_t incidents_left_out = 0, probes_left_out = 0;     // beyond what an outcome holds
 
   friend bool operator==(const Counters&, const Counters&) = default;
 };
@@ -52,6 +60,8 @@ struct Outcome {
   bool violation = false, contact = false, stuck = false, crash = false, hang = false, indeterminate = false, engine_error = false;
   std::optional<std::int64_t> min_clearance_um;  // absent: more than 0.5 m all the time, or no law measured it
   std::vector<Violation> violations;             // in order of (first, a, b)
+  std::vector<Incident> incidents;               // of all laws that ran, in order of (first, kind, a, b)
+  std::vector<ProbeCount> probes;                // what the run met, in order of (source, name); never a count of zero
   Counters counters;
   std::uint64_t simulated_ns = 0;
   std::uint32_t agv_count = 0;
@@ -70,5 +80,10 @@ Outcome decode_outcome(std::string_view bytes);
 
 // Sets violation, contact and smallest clearance from the violations a law filed.
 void file_violations(Outcome& outcome, std::vector<Violation> violations);
+
+// At most so many incidents are kept of a run, the earliest; the others are counted.
+inline constexpr std::size_t kIncidentsMax = 1000;
+void file_incidents(Outcome& outcome, std::vector<Incident> incidents);
+void file_probes(Outcome& outcome, std::vector<ProbeCount> probes);
 
 }  // namespace fleetproof

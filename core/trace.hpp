@@ -28,7 +28,7 @@ enum class TraceKind : std::uint32_t {
   Log = 14,             // a: hash of the text
   AgentCrashed = 15,
   AgentHung = 16,
-  LoadMoves = 17,       // a: load, b: new holder, kind in the upper half and index in the lower
+  LoadMoves = 17,       // entity: the AGV of its transport, a: load, b: new holder, kind (Holder::Kind) in the upper half and index in the lower
   BatteryEmpty = 18,
   FaultStrikes = 19,    // a: kind of fault, b: its number in the scenario
   FaultOver = 20,       // a: kind of fault, b: its number in the scenario

@@ -1,5 +1,10 @@
 #include "laws/laws.hpp"
 
+#include <algorithm>
+
+#include "laws/battery_law.hpp"
+#include "laws/containment_law.hpp"
+#include "laws/coverage_law.hpp"
 #include "laws/exact_law.hpp"
 #include "laws/global_step_law.hpp"
 #include "laws/paper_law.hpp"
@@ -8,10 +13,20 @@ namespace fleetproof {
 namespace {
 
 constexpr Entry<MakeLaw> kLaws[] = {
-    {"exact",
+    {"safety-distance",
      "Finds every stretch of time in which an AGV is closer than the safety distance to another body, while either drives, turns or rests, to the "
      "nanosecond and the micrometre; it does not see dips of less than 1 micrometre, and may join stretches less than 0.1 s apart.",
      make_exact_law},
+    {"battery",
+     "Finds every AGV whose battery runs empty away from a charging station, to the nanosecond; it does not see what the world does not record.", make_battery_law},
+    {"containment",
+     "Finds every load that is held by two, has vanished, lies at a station its transport does not name, is taken by a full AGV, moves by itself or is "
+     "delivered twice, to the nanosecond; it does not see a load that moves without a record.",
+     make_containment_law},
+    {"coverage",
+     "Accuses nobody but counts what a run met: encounters of two AGVs by kind (drives no more than 10 s apart, by their planned tracks), near misses "
+     "below 0.3 m and faults; it does not see AGVs that wait for each other without driving.",
+     make_coverage_law},
     {"paper",
      "Finds what the published rule of Figure 5 does, by axis-aligned perimeters of whole drives and, between two drives, snapshots (1 cm at the "
      "default 2.5 ms); it does not see turns, who rests for part of a drive, arrivals, or what passes between two snapshots.",
@@ -22,8 +37,23 @@ constexpr Entry<MakeLaw> kLaws[] = {
      make_global_step_law},
 };
 
+constexpr std::size_t kToCompareWith = 2;  // the last ones
+
 }  // namespace
 
 std::span<const Entry<MakeLaw>> laws() { return kLaws; }
+std::span<const Entry<MakeLaw>> default_laws() { return laws().first(std::size(kLaws) - kToCompareWith); }
+
+bool is_to_compare_with(const Entry<MakeLaw>& law) { return &law >= default_laws().data() + default_laws().size(); }
+
+const Entry<MakeLaw>* find_law(std::string_view name) { return find_entry(laws(), name == "exact" ? "safety-distance" : name); }
+
+std::vector<std::unique_ptr<Law>> make_default_laws(const Scenario& scenario, std::span<const std::string> left_out) {
+  std::vector<std::unique_ptr<Law>> set;
+  for (const auto& entry : default_laws()) {
+    if (std::ranges::find(left_out, entry.name) == left_out.end()) set.push_back(entry.make(scenario));
+  }
+  return set;
+}
 
 }  // namespace fleetproof

@@ -46,7 +46,7 @@ enum class Checksums : std::uint8_t { Verify, Ignore };
 // Reads a published (or live) campaign file. Threads: one.
 class ArchiveReader {
  public:
-  // Throws InputError if there is no such file, or it is not a campaign file of ours, or of a newer schema; EngineError if it is damaged.
+  // Throws InputError if there is no such file, or it is not a campaign file of ours, or of another schema; EngineError if it is damaged.
   explicit ArchiveReader(const std::string& path, Checksums checksums = Checksums::Verify);
   ~ArchiveReader();
   ArchiveReader(const ArchiveReader&) = delete;
@@ -57,7 +57,7 @@ class ArchiveReader {
   const std::vector<GateRecord>& gates() const;
   std::uint64_t run_count() const;
   std::optional<RunRecord> run(std::uint64_t run_index) const;
-  // In order of run index, with violations.
+  // In order of run index, whole.
   void for_each_run(const std::function<void(const RunRecord&)>& visit) const;
   // One digest over plan, cells, gates and all rows: equal exactly for equal content.
   std::uint64_t content_digest() const;

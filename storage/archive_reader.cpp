@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include <array>
 #include <bit>
 #include <filesystem>
 
@@ -51,6 +52,24 @@ class Snapshot {
   bool outermost_;
 };
 
+// A table that holds parts of runs, by run and ordinal.
+struct PartTable {
+  const char* name;
+  std::string columns;
+  void (*take)(const SQLite::Statement& row, Outcome& outcome);
+};
+
+const std::array<PartTable, 3>& part_tables() {
+  static const std::array<PartTable, 3> tables{{
+      {"violations", violation_columns(), [](const SQLite::Statement& row, Outcome& o) { o.violations.push_back(read_violation(row)); }},
+      {"incidents", kIncidentColumns, [](const SQLite::Statement& row, Outcome& o) { o.incidents.push_back(read_incident(row)); }},
+      {"probes", kProbeColumns, [](const SQLite::Statement& row, Outcome& o) { o.probes.push_back(read_probe(row)); }},
+  }};
+  return tables;
+}
+
+std::uint64_t run_of(const SQLite::Statement& part) { return std::bit_cast<std::uint64_t>(part.getColumn(0).getInt64()); }
+
 std::int64_t pragma(SQLite::Database& db, const char* name) { return db.execAndGet(fmt::format("PRAGMA {}", name)).getInt64(); }
 
 std::optional<std::uint64_t> maybe(const SQLite::Column& column) {
@@ -74,7 +93,7 @@ struct ArchiveReader::Impl {
   void require_ours();
   void read_plan();
   StoredRun take_run(const SQLite::Statement& row) const;
-  void take_violation(const SQLite::Statement& row, StoredRun& stored) const;
+  void take_part(const PartTable& table, const SQLite::Statement& row, StoredRun& stored) const;
   void verify(const StoredRun& stored) const;
   std::uint64_t read_all(const std::function<void(const RunRecord&)>& visit) const;
 
@@ -117,6 +136,10 @@ void ArchiveReader::Impl::require_ours() {
   if (version > kSchemaVersion) {
     throw InputError(path, fmt::format("a newer fleetproof wrote this file (schema {}, this program reads {}); use that version or a later one", version, kSchemaVersion));
   }
+  if (version >= 1 && version < kSchemaVersion) {
+    throw InputError(path, fmt::format("an older fleetproof wrote this file (schema {}, this program reads {}); use that version, or run the campaign again", version,
+                                       kSchemaVersion));
+  }
   if (version != kSchemaVersion) damaged(fmt::format("its schema number is {}", version));
 }
 
@@ -142,11 +165,11 @@ StoredRun ArchiveReader::Impl::take_run(const SQLite::Statement& row) const {
   }
 }
 
-void ArchiveReader::Impl::take_violation(const SQLite::Statement& row, StoredRun& stored) const {
+void ArchiveReader::Impl::take_part(const PartTable& table, const SQLite::Statement& row, StoredRun& stored) const {
   try {
-    stored.run.outcome.violations.push_back(read_violation(row));
+    table.take(row, stored.run.outcome);
   } catch (const EngineError& e) {
-    damaged(fmt::format("a violation of run {}: {}", stored.run.run_index, e.what()));
+    damaged(fmt::format("{} of run {}: {}", table.name, stored.run.run_index, e.what()));
   }
 }
 
@@ -160,25 +183,35 @@ void ArchiveReader::Impl::verify(const StoredRun& stored) const {
   if (!sound) damaged(fmt::format("run {} does not match its checksum", run.run_index));
 }
 
-// Both tables are stored in the order of their keys, so one pass over each is enough. Returns the digest of the rows.
+// The tables are stored in the order of their keys, so one pass over each is enough. Returns the digest of the rows.
 std::uint64_t ArchiveReader::Impl::read_all(const std::function<void(const RunRecord&)>& visit) const {
   const Snapshot snapshot(*db);
   SQLite::Statement runs(*db, fmt::format("SELECT {} FROM runs ORDER BY run_index", run_columns()));
-  SQLite::Statement violations(*db, fmt::format("SELECT {} FROM violations ORDER BY run_index, ordinal", violation_columns()));
-  bool more = violations.executeStep();
+  struct Cursor {
+    const PartTable& table;
+    SQLite::Statement rows;
+    bool more;
+  };
+  std::vector<Cursor> parts;
+  for (const auto& table : part_tables()) {
+    SQLite::Statement rows(*db, fmt::format("SELECT {} FROM {} ORDER BY run_index, ordinal", table.columns, table.name));
+    const bool more = rows.executeStep();
+    parts.push_back({table, std::move(rows), more});
+  }
   RowsDigest digest;
   std::uint64_t count = 0;
   for (; runs.executeStep(); ++count) {
     auto stored = take_run(runs);
-    while (more && std::bit_cast<std::uint64_t>(violations.getColumn(0).getInt64()) == stored.run.run_index) {
-      take_violation(violations, stored);
-      more = violations.executeStep();
+    for (auto& part : parts) {
+      for (; part.more && run_of(part.rows) == stored.run.run_index; part.more = part.rows.executeStep()) take_part(part.table, part.rows, stored);
     }
     verify(stored);
     digest.add(stored.checksum);
     visit(stored.run);
   }
-  if (more) damaged(fmt::format("it holds a violation of run {}, but not the run", violations.getColumn(0).getInt64()));
+  for (const auto& part : parts) {
+    if (part.more) damaged(fmt::format("it holds {} of run {}, but not the run", part.table.name, run_of(part.rows)));
+  }
   if (sealed_count && (count != *sealed_count || digest.value() != sealed_digest)) {
     damaged(fmt::format("it was published with {} runs and holds {}, or others", *sealed_count, count));
   }
@@ -210,9 +243,11 @@ std::optional<RunRecord> ArchiveReader::run(std::uint64_t run_index) const {
     rows.bind(1, std::bit_cast<std::int64_t>(run_index));
     if (!rows.executeStep()) return std::nullopt;
     auto stored = impl_->take_run(rows);
-    SQLite::Statement violations(*impl_->db, fmt::format("SELECT {} FROM violations WHERE run_index = ? ORDER BY ordinal", violation_columns()));
-    violations.bind(1, std::bit_cast<std::int64_t>(run_index));
-    while (violations.executeStep()) impl_->take_violation(violations, stored);
+    for (const auto& table : part_tables()) {
+      SQLite::Statement parts(*impl_->db, fmt::format("SELECT {} FROM {} WHERE run_index = ? ORDER BY ordinal", table.columns, table.name));
+      parts.bind(1, std::bit_cast<std::int64_t>(run_index));
+      while (parts.executeStep()) impl_->take_part(table, parts, stored);
+    }
     impl_->verify(stored);
     return std::move(stored.run);
   });

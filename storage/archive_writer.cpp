@@ -37,6 +37,16 @@ void remove_live_file(const std::string& live_path) {
   for (const auto* suffix : {"", "-wal", "-shm", "-journal"}) std::filesystem::remove(live_path + suffix, ignored);
 }
 
+template <class Part>
+void insert_all(SQLite::Statement& insert, std::uint64_t run_index, const std::vector<Part>& parts,
+                void (*bind)(SQLite::Statement&, std::uint64_t, std::size_t, const Part&)) {
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    insert.reset();
+    bind(insert, run_index, i, parts[i]);
+    insert.exec();
+  }
+}
+
 }  // namespace
 
 struct ArchiveWriter::Impl {
@@ -45,7 +55,7 @@ struct ArchiveWriter::Impl {
   Existing existing = Existing::Refuse;
   std::uint64_t cells = 0;
   std::unique_ptr<SQLite::Database> db;
-  std::unique_ptr<SQLite::Statement> insert_run, insert_violation, stored_checksum;
+  std::unique_ptr<SQLite::Statement> insert_run, insert_violation, insert_incident, insert_probe, stored_checksum;
   unsigned pending = 0;
   std::chrono::steady_clock::time_point last_commit = std::chrono::steady_clock::now();
 
@@ -85,6 +95,8 @@ void ArchiveWriter::Impl::open(const CampaignRecord& campaign, const std::vector
   insert_run = std::make_unique<SQLite::Statement>(
       *db, fmt::format("INSERT INTO runs ({}) VALUES ({}) ON CONFLICT (run_index) DO NOTHING", runs, placeholders(runs)));
   insert_violation = std::make_unique<SQLite::Statement>(insert_into("violations", violation_columns()));
+  insert_incident = std::make_unique<SQLite::Statement>(insert_into("incidents", kIncidentColumns));
+  insert_probe = std::make_unique<SQLite::Statement>(insert_into("probes", kProbeColumns));
   stored_checksum = std::make_unique<SQLite::Statement>(*db, "SELECT checksum FROM runs WHERE run_index = ?");
 }
 
@@ -95,11 +107,9 @@ void ArchiveWriter::Impl::store(const RunRecord& run) {
   insert_run->reset();
   bind_run(*insert_run, run, checksum);
   if (insert_run->exec() == 1) {
-    for (std::size_t i = 0; i < run.outcome.violations.size(); ++i) {
-      insert_violation->reset();
-      bind_violation(*insert_violation, run.run_index, i, run.outcome.violations[i]);
-      insert_violation->exec();
-    }
+    insert_all(*insert_violation, run.run_index, run.outcome.violations, bind_violation);
+    insert_all(*insert_incident, run.run_index, run.outcome.incidents, bind_incident);
+    insert_all(*insert_probe, run.run_index, run.outcome.probes, bind_probe);
     return;
   }
   // A run may be simulated twice, after an interruption; it may not end in two ways.
@@ -121,6 +131,8 @@ void ArchiveWriter::Impl::close() {
   commit();
   insert_run.reset();
   insert_violation.reset();
+  insert_incident.reset();
+  insert_probe.reset();
   stored_checksum.reset();
   db.reset();
 }

@@ -39,6 +39,8 @@ void copy_rows(SQLite::Database& db, std::uint64_t stop_index) {
   };
   copy_below_stop("runs", run_columns(), "run_index");
   copy_below_stop("violations", violation_columns(), "run_index, ordinal");
+  copy_below_stop("incidents", kIncidentColumns, "run_index, ordinal");
+  copy_below_stop("probes", kProbeColumns, "run_index, ordinal");
 }
 
 // So that a row lost or added later is noticed, not only one that was changed.

@@ -49,6 +49,8 @@ std::uint64_t plan_checksum(const CampaignRecord& campaign, const std::vector<Ce
   Bytes bytes;
   bytes << campaign.name << campaign.kind << campaign.seed << campaign.replicates << campaign.plan_json << campaign.plan_hash;
   bytes << campaign.engine.version << campaign.engine.program_sha256 << campaign.engine.compiler << campaign.engine.flags << campaign.engine.libraries;
+  bytes << std::uint64_t{campaign.required_probes.size()};
+  for (const auto& probe : campaign.required_probes) bytes << probe;
   bytes << std::uint64_t{cells.size()};
   for (const auto& cell : cells) {
     bytes << std::uint64_t{cell.index} << cell.agent << cell.layout << std::uint64_t{cell.fleet_size} << cell.loss << cell.delay_s;

@@ -9,7 +9,7 @@
 
 namespace fleetproof {
 
-// XXH3 over run index, cell, replicate, scenario digest and the canonical bytes of the outcome (which hold the violations as well).
+// XXH3 over run index, cell, replicate, scenario digest and the canonical bytes of the outcome (which hold violations, incidents and probes as well).
 std::uint64_t row_checksum(const RunRecord& run);
 
 // XXH3 over everything that is fixed before the first run: campaign, cells, gates.

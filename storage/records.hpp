@@ -55,6 +55,8 @@ struct CampaignRecord {
   std::string plan_json;                       // the resolved campaign, layouts embedded by content: enough to build every scenario again
   std::uint64_t plan_hash = 0;                 // of plan_json
   EngineIdentity engine;
+  // What must have been met for the evidence not to be weak (reports/evidence/coverage.hpp says what the words mean); none of them holds a line end.
+  std::vector<std::string> required_probes;
   friend bool operator==(const CampaignRecord&, const CampaignRecord&) = default;
 };
 

@@ -31,6 +31,8 @@ class Binder {
     statement_.bind(next_++);
     return *this;
   }
+  // Whatever an agent calls things: bytes, not text.
+  void bytes(const std::string& value) { statement_.bind(next_++, static_cast<const void*>(value.data()), static_cast<int>(value.size())); }
   Binder& operator<<(const std::vector<std::uint64_t>& digests) {
     std::string bytes;
     for (const auto digest : digests) {
@@ -69,6 +71,12 @@ class Taker {
     if (column.isNull()) return std::nullopt;
     return column.getInt64();
   }
+  EntityId entity() {
+    const auto value = maybe_i64();
+    if (!value) return {};
+    if (*value < 0 || *value > 0xffffffffLL) throw EngineError("a row holds a number out of range");
+    return EntityId{static_cast<std::uint32_t>(*value)};
+  }
   std::vector<std::uint64_t> digests() {
     const auto bytes = next().getString();
     if (bytes.size() % 8 != 0) throw EngineError("a row holds running digests of a broken length");
@@ -83,6 +91,24 @@ class Taker {
   int next_ = 0;
 };
 
+std::optional<std::int64_t> maybe(EntityId id) { return id.valid() ? std::optional<std::int64_t>(id.value) : std::nullopt; }
+
+std::string in_lines(const std::vector<std::string>& words) {
+  std::string text;
+  for (const auto& word : words) text += word + "\n";
+  return text;
+}
+
+std::vector<std::string> from_lines(const std::string& text) {
+  std::vector<std::string> words;
+  for (std::size_t start = 0; start < text.size();) {
+    const auto end = std::min(text.find('\n', start), text.size());
+    words.push_back(text.substr(start, end - start));
+    start = end + 1;
+  }
+  return words;
+}
+
 template <class Enum, std::size_t N>
 Enum word_to(const std::string& word, const std::array<Enum, N>& values) {
   for (const auto value : values) {
@@ -96,7 +122,7 @@ Enum word_to(const std::string& word, const std::array<Enum, N>& values) {
 void bind_campaign(SQLite::Statement& insert, const CampaignRecord& campaign, std::uint64_t plan_checksum) {
   Binder(insert) << std::uint32_t{1} << campaign.name << campaign.kind << campaign.seed << campaign.replicates << campaign.plan_json << campaign.plan_hash
                  << campaign.engine.version << campaign.engine.program_sha256 << campaign.engine.compiler << campaign.engine.flags << campaign.engine.libraries
-                 << plan_checksum;
+                 << in_lines(campaign.required_probes) << plan_checksum;
 }
 
 void bind_cell(SQLite::Statement& insert, const CellRecord& cell) {
@@ -123,6 +149,17 @@ void bind_violation(SQLite::Statement& insert, std::uint64_t run_index, std::siz
                  << v.relative_speed_um_s << v.x_um << v.y_um << v.contact;
 }
 
+void bind_incident(SQLite::Statement& insert, std::uint64_t run_index, std::size_t ordinal, const Incident& i) {
+  Binder(insert) << run_index << std::uint64_t{ordinal} << static_cast<std::uint32_t>(i.kind) << maybe(i.a) << maybe(i.b) << to_ns(i.first) << to_ns(i.last) << i.value;
+}
+
+void bind_probe(SQLite::Statement& insert, std::uint64_t run_index, std::size_t ordinal, const ProbeCount& probe) {
+  Binder to(insert);
+  to << run_index << std::uint64_t{ordinal} << static_cast<std::uint32_t>(probe.source);
+  to.bytes(probe.name);
+  to << probe.count;
+}
+
 CampaignRecord read_campaign(const SQLite::Statement& row) {
   Taker from(row);
   CampaignRecord campaign;
@@ -138,6 +175,7 @@ CampaignRecord read_campaign(const SQLite::Statement& row) {
   campaign.engine.compiler = from.text();
   campaign.engine.flags = from.text();
   campaign.engine.libraries = from.text();
+  campaign.required_probes = from_lines(from.text());
   return campaign;
 }
 
@@ -211,6 +249,33 @@ Violation read_violation(const SQLite::Statement& row) {
   v.y_um = from.i64();
   v.contact = from.flag();
   return v;
+}
+
+Incident read_incident(const SQLite::Statement& row) {
+  Taker from(row);
+  Incident incident;
+  from.i64();  // run_index
+  from.i64();  // ordinal
+  const auto kind = from.u32();
+  if (!is_incident_kind(kind)) throw EngineError(fmt::format("an incident holds the unknown kind {}", kind));
+  incident.kind = static_cast<IncidentKind>(kind);
+  incident.a = from.entity();
+  incident.b = from.entity();
+  incident.first = at_ns(from.i64());
+  incident.last = at_ns(from.i64());
+  incident.value = from.i64();
+  return incident;
+}
+
+ProbeCount read_probe(const SQLite::Statement& row) {
+  Taker from(row);
+  ProbeCount probe;
+  from.i64();  // run_index
+  from.i64();  // ordinal
+  probe.source = from.flag() ? ProbeSource::Agent : ProbeSource::World;
+  probe.name = from.text();
+  probe.count = from.u64();
+  return probe;
 }
 
 }  // namespace fleetproof

@@ -18,6 +18,8 @@ void bind_campaign(SQLite::Statement& insert, const CampaignRecord& campaign, st
 void bind_cell(SQLite::Statement& insert, const CellRecord& cell);
 void bind_gate(SQLite::Statement& insert, const GateRecord& gate);
 void bind_run(SQLite::Statement& insert, const RunRecord& run, std::uint64_t checksum);
+void bind_incident(SQLite::Statement& insert, std::uint64_t run_index, std::size_t ordinal, const Incident& incident);
+void bind_probe(SQLite::Statement& insert, std::uint64_t run_index, std::size_t ordinal, const ProbeCount& probe);
 void bind_violation(SQLite::Statement& insert, std::uint64_t run_index, std::size_t ordinal, const Violation& violation);
 
 CampaignRecord read_campaign(const SQLite::Statement& row);
@@ -26,7 +28,7 @@ CellRecord read_cell(const SQLite::Statement& row);
 // Throws EngineError on a word that no gate has.
 GateRecord read_gate(const SQLite::Statement& row);
 
-// A row as stored; the outcome is still without its violations.
+// A row as stored; the outcome is still without its violations, incidents and probes.
 struct StoredRun {
   RunRecord run;
   std::string outcome_class;
@@ -35,5 +37,7 @@ struct StoredRun {
 // Throws EngineError if a field holds what no writer of ours put there.
 StoredRun read_run(const SQLite::Statement& row);
 Violation read_violation(const SQLite::Statement& row);
+Incident read_incident(const SQLite::Statement& row);
+ProbeCount read_probe(const SQLite::Statement& row);
 
 }  // namespace fleetproof

@@ -21,6 +21,7 @@ CREATE TABLE campaign (
   compiler TEXT NOT NULL,
   flags TEXT NOT NULL,
   libraries TEXT NOT NULL,
+  required_probes TEXT NOT NULL,
   plan_checksum INTEGER NOT NULL,
   run_count INTEGER,
   rows_digest INTEGER
@@ -83,6 +84,25 @@ CREATE TABLE violations (
   contact INTEGER NOT NULL,
   PRIMARY KEY (run_index, ordinal)
 ) STRICT, WITHOUT ROWID;
+CREATE TABLE incidents (
+  run_index INTEGER NOT NULL,
+  ordinal INTEGER NOT NULL,
+  kind INTEGER NOT NULL,
+  entity_a INTEGER,
+  entity_b INTEGER,
+  first_ns INTEGER NOT NULL,
+  last_ns INTEGER NOT NULL,
+  value INTEGER NOT NULL,
+  PRIMARY KEY (run_index, ordinal)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE probes (
+  run_index INTEGER NOT NULL,
+  ordinal INTEGER NOT NULL,
+  source INTEGER NOT NULL,
+  name BLOB NOT NULL,
+  count INTEGER NOT NULL,
+  PRIMARY KEY (run_index, ordinal)
+) STRICT, WITHOUT ROWID;
 )sql";
 
 // The region's bounds are those of CellRecord::in_contract and is_worst_case.
@@ -116,8 +136,21 @@ CREATE VIEW v1_violations AS
 SELECT v.run_index, v.ordinal, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, c.loss, c.delay_s,
        c.loss <= 0.40 AND c.delay_s <= 2.0 AS in_contract,
        v.entity_a, v.entity_b, v.first_ns, v.last_ns, v.closest_at_ns, v.min_clearance_um,
-       v.relative_speed_um_s, v.x_um, v.y_um, v.contact
+       v.relative_speed_um_s, v.x_um, v.y_um, v.contact,
+       CASE WHEN NOT v.contact THEN 'safety distance broken' WHEN v.relative_speed_um_s > {hazardous} THEN 'contact at hazardous speed' ELSE 'contact' END AS level,
+       CASE WHEN v.entity_b < r.agv_count THEN 'AGV-AGV' ELSE 'AGV-obstacle' END AS entities
 FROM violations v JOIN runs r ON r.run_index = v.run_index JOIN cells c ON c.cell = r.cell;
+CREATE VIEW v1_incidents AS
+SELECT i.run_index, i.ordinal, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, c.loss, c.delay_s,
+       c.loss <= 0.40 AND c.delay_s <= 2.0 AS in_contract,
+       CASE i.kind{incident_names} END AS kind, i.entity_a, i.entity_b, i.first_ns, i.last_ns, i.value,
+       CASE i.kind{incident_units} END AS unit
+FROM incidents i JOIN runs r ON r.run_index = i.run_index JOIN cells c ON c.cell = r.cell;
+CREATE VIEW v1_probes AS
+SELECT p.run_index, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, c.loss, c.delay_s,
+       c.loss <= 0.40 AND c.delay_s <= 2.0 AS in_contract,
+       CASE p.source WHEN 0 THEN 'world' ELSE 'agent' END AS source, CAST(p.name AS TEXT) AS name, p.count
+FROM probes p JOIN runs r ON r.run_index = p.run_index JOIN cells c ON c.cell = r.cell;
 )sql";
 
 std::string with_prefix(const std::string& prefix, std::initializer_list<const char*> names) {
@@ -132,13 +165,22 @@ std::string counter_list(const std::string& prefix) {
   return list;
 }
 
+// " WHEN 1 THEN 'battery-empty' ...", from the catalogue of kinds.
+std::string incident_words(std::string_view IncidentKindInfo::*word) {
+  std::string cases;
+  for (const auto& info : incident_kinds()) cases += fmt::format(" WHEN {} THEN '{}'", static_cast<std::uint32_t>(info.kind), info.*word);
+  return cases;
+}
+
 }  // namespace
 
 std::string schema_ddl() {
   std::string definitions;
   for (const auto& column : kCounterColumns) definitions += fmt::format("  {} INTEGER NOT NULL,\n", column.name);
   return std::string(kPlanTables) + fmt::format(fmt::runtime(kRunTables), fmt::arg("counters", definitions)) +
-         fmt::format(fmt::runtime(kViews), fmt::arg("run_counters", "       " + counter_list("r.")));
+         fmt::format(fmt::runtime(kViews), fmt::arg("run_counters", "       " + counter_list("r.")),
+                     fmt::arg("hazardous", kHazardousSpeed_um_s), fmt::arg("incident_names", incident_words(&IncidentKindInfo::name)),
+                     fmt::arg("incident_units", incident_words(&IncidentKindInfo::unit)));
 }
 
 std::string run_columns(const std::string& prefix) {

@@ -18,7 +18,7 @@ struct CounterColumn {
   std::uint64_t Counters::*member;
 };
 
-inline constexpr std::array<CounterColumn, 32> kCounterColumns{{
+inline constexpr auto kCounterColumns = std::to_array<CounterColumn>({
     {"events", &Counters::events},
     {"activations", &Counters::activations},
     {"agent_calls", &Counters::agent_calls},
@@ -51,7 +51,9 @@ inline constexpr std::array<CounterColumn, 32> kCounterColumns{{
     {"battery_driven_ppb", &Counters::battery_driven_ppb},
     {"battery_idled_ppb", &Counters::battery_idled_ppb},
     {"battery_charged_ppb", &Counters::battery_charged_ppb},
-}};
+    {"incidents_left_out", &Counters::incidents_left_out},
+    {"probes_left_out", &Counters::probes_left_out},
+});
 static_assert(sizeof(Counters) == kCounterColumns.size() * sizeof(std::uint64_t), "every counter has a column");
 
 // Tables and the public views, as one script. The same text for the live and the canonical file.
@@ -60,10 +62,12 @@ std::string schema_ddl();
 // Column lists, comma-separated, in the order in which rows.hpp binds and reads them. `prefix` (as in "r.") goes before every name.
 std::string run_columns(const std::string& prefix = "");
 std::string violation_columns();
+inline constexpr const char* kIncidentColumns = "run_index, ordinal, kind, entity_a, entity_b, first_ns, last_ns, value";
+inline constexpr const char* kProbeColumns = "run_index, ordinal, source, name, count";
 inline constexpr const char* kCellColumns = "cell, agent, layout, fleet_size, loss, delay_s";
 inline constexpr const char* kGateColumns = "gate, name, agent, kind, end_point, region, limit_rate, confidence, min_transports_per_agv_hour";
 inline constexpr const char* kCampaignColumns =
-    "id, name, kind, seed, replicates, plan_json, plan_hash, engine_version, program_sha256, compiler, flags, libraries, plan_checksum";
+    "id, name, kind, seed, replicates, plan_json, plan_hash, engine_version, program_sha256, compiler, flags, libraries, required_probes, plan_checksum";
 
 // "?, ?, ?": one for each name in a comma-separated list.
 std::string placeholders(const std::string& columns);

@@ -20,10 +20,35 @@ std::string counters_text(const Outcome& outcome) {
   return text;
 }
 
+// What an agent calls its probes may be anything.
+std::string printable_name(std::string_view name) {
+  std::string line;
+  for (const char c : name) line += c >= 0x20 && c < 0x7f ? c : '?';
+  return line;
+}
+
 }  // namespace
 
 std::string body_name(const Scenario& scenario, EntityId id) {
   return id.index() < scenario.agvs.size() ? scenario.agvs[id.index()].name : scenario.obstacles[id.index() - scenario.agvs.size()].name;
+}
+
+std::string incident_text(const Scenario& scenario, const Incident& incident) {
+  const IncidentKindInfo& info = info_of(incident.kind);
+  std::string whom;
+  if (incident.a.valid()) whom += " " + body_name(scenario, incident.a);
+  if (incident.b.valid()) whom += std::string(incident.a.valid() ? " ->" : "") + " " + body_name(scenario, incident.b);
+  const std::string until = incident.last > incident.first ? fmt::format(" to {:.3f} s", to_seconds(incident.last)) : "";
+  return fmt::format("{}:{} from {:.3f} s{}; {} ({}: {})", info.name, whom, to_seconds(incident.first), until, info.meaning, info.unit, incident.value);
+}
+
+std::string met_text(const Outcome& outcome) {
+  std::string text;
+  for (const ProbeCount& probe : outcome.probes) {
+    text += fmt::format("{}{}{} {}", text.empty() ? "  met: " : ", ", probe.source == ProbeSource::Agent ? "agent: " : "", printable_name(probe.name), probe.count);
+  }
+  if (outcome.counters.probes_left_out > 0) text += fmt::format("; {} declarations beyond what is kept", outcome.counters.probes_left_out);
+  return text.empty() ? text : text + "\n";
 }
 
 std::string outcome_text(const Scenario& scenario, const Outcome& outcome) {
@@ -33,15 +58,16 @@ std::string outcome_text(const Scenario& scenario, const Outcome& outcome) {
     text += fmt::format("  {} and {} closer than {:.2f} m from {:.3f} s to {:.3f} s; closest {:.3f} m at {:.3f} s near ({:.2f}, {:.2f}), {:.2f} m/s apart{}\n",
                         body_name(scenario, v.a), body_name(scenario, v.b), scenario.law.safety_distance_m, to_seconds(v.first), to_seconds(v.last),
                         static_cast<double>(v.min_clearance_um) * 1e-6, to_seconds(v.closest_at), static_cast<double>(v.x_um) * 1e-6,
-                        static_cast<double>(v.y_um) * 1e-6, static_cast<double>(v.relative_speed_um_s) * 1e-6, v.contact ? ", contact" : "");
+                        static_cast<double>(v.y_um) * 1e-6, static_cast<double>(v.relative_speed_um_s) * 1e-6, v.contact ? std::string(", ") + name_of(level_of(v)) : "");
   }
+  for (const Incident& incident : outcome.incidents) text += "  " + incident_text(scenario, incident) + "\n";
   if (outcome.min_clearance_um) {
     text += fmt::format("  smallest clearance {:.2f} m\n", static_cast<double>(*outcome.min_clearance_um) * 1e-6);
   } else {
     text += "  smallest clearance > 0.5 m\n";
   }
   if (outcome.counters.perimeter_checks > 0) text += fmt::format("  {} perimeter checks by the law\n", outcome.counters.perimeter_checks);
-  return text + counters_text(outcome) + fmt::format("  trace digest {:016x}\n", outcome.digest);
+  return text + counters_text(outcome) + met_text(outcome) + fmt::format("  trace digest {:016x}\n", outcome.digest);
 }
 
 void TracePrinter::record(const TraceRecord& record, std::string_view text) {

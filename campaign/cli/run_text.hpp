@@ -11,6 +11,9 @@ namespace fleetproof::cli {
 
 std::string body_name(const Scenario& scenario, EntityId id);
 
+std::string incident_text(const Scenario& scenario, const Incident& incident);
+// "met: head-on 3, agent: negotiation 17", or nothing.
+std::string met_text(const Outcome& outcome);
 // One run for a person: what happened, in times of 0.01 s and lengths of 1 cm (violations to 1 ms and 1 mm, where the centimetre would hide them).
 std::string outcome_text(const Scenario& scenario, const Outcome& outcome);
 

@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include <nlohmann/json.hpp>
 
 #include "campaign/agent_programs.hpp"
@@ -14,7 +17,7 @@ namespace fleetproof::cli {
 namespace {
 
 struct SimulateWords {
-  std::string scenario, agent = "scripted", law = "exact", config;
+  std::string scenario, agent = "scripted", law, config;
   std::vector<std::string> plugins;
   std::optional<double> granularity_s;
   bool json = false, trace = false;
@@ -27,9 +30,18 @@ nlohmann::ordered_json to_json(const Violation& violation, const Scenario& scena
           {"min_clearance_m", static_cast<double>(violation.min_clearance_um) * 1e-6},
           {"at_s", to_seconds(violation.closest_at)},
           {"contact", violation.contact},
+          {"level", name_of(level_of(violation))},
+          {"entity_kinds", violation.b.index() < scenario.agvs.size() ? "AGV-AGV" : "AGV-obstacle"},
           {"relative_speed_mps", static_cast<double>(violation.relative_speed_um_s) * 1e-6},
           {"x_m", static_cast<double>(violation.x_um) * 1e-6},
           {"y_m", static_cast<double>(violation.y_um) * 1e-6}};
+}
+
+nlohmann::ordered_json to_json(const Incident& incident, const Scenario& scenario) {
+  const IncidentKindInfo& info = info_of(incident.kind);
+  const auto name = [&](EntityId id) { return id.valid() ? nlohmann::ordered_json(body_name(scenario, id)) : nlohmann::ordered_json(nullptr); };
+  return {{"kind", info.name},           {"a", name(incident.a)},         {"b", name(incident.b)},
+          {"first_s", to_seconds(incident.first)}, {"last_s", to_seconds(incident.last)}, {"value", incident.value}, {"unit", info.unit}};
 }
 
 void print_json(const Scenario& scenario, const Outcome& outcome, const SimulateWords& words) {
@@ -37,10 +49,14 @@ void print_json(const Scenario& scenario, const Outcome& outcome, const Simulate
   json["schema_version"] = 1;
   json["scenario"] = scenario.name;
   json["agent"] = words.agent;
-  json["law"] = words.law;
+  json["law"] = find_law(words.law)->name;
   json["outcome"] = name_of(outcome.outcome_class());
   json["violations"] = nlohmann::ordered_json::array();
   for (const Violation& violation : outcome.violations) json["violations"].push_back(to_json(violation, scenario));
+  json["incidents"] = nlohmann::ordered_json::array();
+  for (const Incident& incident : outcome.incidents) json["incidents"].push_back(to_json(incident, scenario));
+  json["met"] = nlohmann::ordered_json::array();
+  for (const ProbeCount& probe : outcome.probes) json["met"].push_back({{"source", name_of(probe.source)}, {"name", probe.name}, {"count", probe.count}});
   json["min_clearance_m"] = nullptr;
   if (outcome.min_clearance_um) json["min_clearance_m"] = static_cast<double>(*outcome.min_clearance_um) * 1e-6;
   const Counters& c = outcome.counters;
@@ -57,7 +73,22 @@ void print_json(const Scenario& scenario, const Outcome& outcome, const Simulate
                       {"transports_done", c.transports_done}};
   json["digest"] = fmt::format("{:016x}", outcome.digest);
   if (!outcome.message.empty()) json["message"] = outcome.message;
-  fmt::print("{}\n", json.dump(2));
+  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
+
+// The judge named, and what observes beside it: the default set. A law that is no judge of clearances is asked alone.
+std::vector<std::unique_ptr<Law>> observers_of(const std::string& name, const Scenario& scenario) {
+  const auto* law = find_law(name);
+  if (law == nullptr) {
+    auto names = names_of(laws());
+    names.emplace_back("exact");
+    throw InputError("--law", fmt::format("\"{}\" is not a law{} (see: fleetproof list laws)", name, name_hint(name, names)));
+  }
+  if (law == &laws().front()) return make_default_laws(scenario);
+  std::vector<std::unique_ptr<Law>> observers;
+  observers.push_back(law->make(scenario));
+  if (is_to_compare_with(*law)) std::ranges::move(make_default_laws(scenario), std::back_inserter(observers));
+  return observers;
 }
 
 int simulate_scenario(const SimulateWords& words) {
@@ -69,13 +100,7 @@ int simulate_scenario(const SimulateWords& words) {
   AgentPrograms programs;
   for (const std::string& plugin : words.plugins) programs.load(plugin);
   const fp_agent_type& agent = programs.find(words.agent, "--agent");
-  const auto* law = find_entry(laws(), words.law);
-  if (law == nullptr) {
-    const auto names = names_of(laws());
-    throw InputError("--law", fmt::format("\"{}\" is not a law{} (see: fleetproof list laws)", words.law, name_hint(words.law, names)));
-  }
-  std::vector<std::unique_ptr<Law>> observers;
-  observers.push_back(law->make(scenario));
+  std::vector<std::unique_ptr<Law>> observers = observers_of(words.law, scenario);
   TracePrinter printer(scenario);
   const Outcome outcome = simulate(scenario, agent, observers, words.trace ? &printer : nullptr, words.config.c_str());
   if (words.json) {
@@ -92,11 +117,12 @@ int simulate_scenario(const SimulateWords& words) {
 
 Action prepare_simulate(Options& options) {
   auto words = std::make_shared<SimulateWords>();
+  words->law = laws().front().name;
   options.positional("SCENARIO", words->scenario, "scenario file (JSON)");
   options.option("--agent", words->agent, "control software under test (default: scripted, which plays the scenario's script)");
   options.option("--agent-config", words->config, "text handed to the agent as its own parameters");
   options.option("--plugin", words->plugins, "shared object with an agent; may be given several times");
-  options.option("--law", words->law, "law that judges (default: exact)");
+  options.option("--law", words->law, "law that judges (default: safety-distance, also called exact)");
   options.option("--granularity", words->granularity_s, "snapshot step of the published laws, in seconds (default: the scenario's, 0.0025)");
   options.flag("--json", words->json, "print JSON");
   options.flag("--trace", words->trace, "print every event on stderr");

@@ -155,7 +155,7 @@ void HullLock::plan_transport() {
 void HullLock::plan_making_way() {
   const bool asked = in_the_way_of(false);
   if (!asked && (planner_.places().is_safe(protocol_.held().station) || now_s() < 2.0)) return;
-  if (asked) controller_.sometimes("hull-lock: idle AGV makes way");
+  if (asked) controller_.sometimes("makes-way");
   request(way_out(), Purpose::MakeWay);
 }
 
@@ -189,14 +189,14 @@ void HullLock::reconsider() {
   const Purpose purpose = goals_.empty() ? Purpose::MakeWay : Purpose::Transport;
   Stretch other = purpose == Purpose::Transport ? way_on() : way_out();
   if (!other.empty() && !(other.path == protocol_.requested()) && protocol_.waiting_inside(other.path) == FP_NONE) {
-    controller_.sometimes("hull-lock: another way round");
+    controller_.sometimes("another-way-round");
     return request(std::move(other), purpose);
   }
   const double waited_s = now_s() - blocked_since_s_;
   if (waited_s < kPatienceInTheWay_s || !in_the_way_of(waited_s < patience_s_)) return;
   Stretch retreat = way_out();
   if (retreat.empty()) return;
-  controller_.sometimes("hull-lock: retreat");
+  controller_.sometimes("retreat");
   request(std::move(retreat), Purpose::MakeWay);
 }
 

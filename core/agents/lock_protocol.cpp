@@ -88,10 +88,13 @@ bool LockProtocol::receive(std::uint32_t sender, std::span<const std::byte> byte
 
 void LockProtocol::answer_request(std::uint32_t sender) {
   Neighbour& n = neighbours_.of(sender);
-  if (n.granted_epoch == n.request_epoch) return send(MessageKind::Grant, sender, n.request_epoch);
+  if (n.granted_epoch == n.request_epoch) {  // he asks again: the grant got lost, or is still on its way
+    controller_.sometimes("grant-lost");
+    return send(MessageKind::Grant, sender, n.request_epoch);
+  }
   const Answer answer = answer_to(sender, n);
   if (answer != Answer::Defer) return grant(sender, n, answer);
-  controller_.sometimes("hull-lock: deferred");
+  controller_.sometimes("deferred");
   send(MessageKind::Defer, sender, n.request_epoch);
 }
 
@@ -124,7 +127,7 @@ std::uint32_t LockProtocol::waiting_inside(const Path& path) {
 void LockProtocol::grant(std::uint32_t agv, Neighbour& neighbour, Answer answer) {
   neighbour.granted_epoch = neighbour.request_epoch;
   if (answer == Answer::GrantAndStepBack) {
-    controller_.sometimes("hull-lock: overtaken");
+    controller_.sometimes("overtaken");
     open_epoch();
   }
   send(MessageKind::Grant, agv, neighbour.request_epoch);
@@ -142,7 +145,7 @@ void LockProtocol::answer_those_deferred() {
 
 void LockProtocol::receive_answer(std::uint32_t sender, const Message& message) {
   if (!requesting_ || message.echo != epoch_) {
-    if (message.kind == MessageKind::Grant && requesting_) controller_.sometimes("hull-lock: grant after epoch change");
+    if (message.kind == MessageKind::Grant && requesting_) controller_.sometimes("late-grant");
     return;
   }
   Neighbour& n = neighbours_.of(sender);
@@ -168,12 +171,14 @@ bool LockProtocol::settle() {
 bool LockProtocol::all_consent() {
   const std::int64_t now_ns = controller_.now_ns();
   const bool first = !asked_;
-  bool all = true;
+  bool all = true, asked_anybody = false;
   neighbours_.for_each([&](std::uint32_t agv, Neighbour& n) {
     if (consents(agv, n, now_ns)) return;
     all = false;
     if (n.asked_epoch == epoch_) return;
-    if (!first) controller_.sometimes("hull-lock: newcomer when about to lock");
+    if (first && !asked_anybody) controller_.sometimes("negotiation");
+    asked_anybody = true;
+    if (!first) controller_.sometimes("newcomer");
     n.asked_epoch = epoch_;
     n.times_asked = 0;
     n.silent_since_ns = now_ns;
@@ -187,7 +192,7 @@ bool LockProtocol::consents(std::uint32_t agv, const Neighbour& neighbour, std::
   if (neighbour.granted_us_epoch == epoch_) return true;
   if (options_.silence_consents_after_ns > 0 && neighbour.asked_epoch == epoch_ &&
       now_ns - neighbour.silent_since_ns >= options_.silence_consents_after_ns) {
-    controller_.sometimes("timeout-grant: silence taken for consent");
+    controller_.sometimes("silence-taken-for-consent");
     return true;
   }
   return neighbours_.surely_beyond(agv, request_, now_ns);
@@ -217,7 +222,7 @@ std::int64_t LockProtocol::ask_again() {
     if (n.asked_epoch != epoch_ || n.granted_us_epoch == epoch_) return;
     if (n.ask_at_ns <= now_ns && consents(agv, n, now_ns)) n.ask_at_ns = now_ns + kAskAgainLatest_ns;
     if (n.ask_at_ns <= now_ns) {
-      controller_.sometimes("hull-lock: request retransmitted");
+      controller_.sometimes("retransmission");
       ask(agv, n, now_ns);
     }
     if (next_ns < 0 || n.ask_at_ns < next_ns) next_ns = n.ask_at_ns;

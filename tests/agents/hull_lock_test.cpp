@@ -70,7 +70,7 @@ void finish(const FakeWarehouse& warehouse, Tally& tally) {
   ++tally.runs;
   tally.violations += warehouse.least_clearance_m() < 0.10 - 1e-6;
   tally.drops += warehouse.drops();
-  tally.overtaken += warehouse.probes().contains("hull-lock: overtaken");
+  tally.overtaken += warehouse.probes().contains("overtaken");
   tally.latest_drop_s = std::max(tally.latest_drop_s, warehouse.last_drop_s());
 }
 
@@ -185,7 +185,7 @@ TEST(HullLock, IdleAgvMakesWay) {
   warehouse.order(0, 0.1, 0, 3);
   warehouse.run(100.0);
   EXPECT_EQ(warehouse.drops(), 1U);
-  EXPECT_TRUE(warehouse.probes().contains("hull-lock: idle AGV makes way"));
+  EXPECT_TRUE(warehouse.probes().contains("makes-way"));
 }
 
 // It stands somewhere on a lane, for good; others must keep clear of all it held, and not of more.

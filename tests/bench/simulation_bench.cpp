@@ -30,7 +30,7 @@ void run(benchmark::State& state, const World& world, const char* agent_name, bo
   for (auto _ : state) {
     scenario.seed = ++runs;
     std::vector<std::unique_ptr<Law>> laws;
-    if (with_law) laws.push_back(find_entry(fleetproof::laws(), "exact")->make(scenario));
+    if (with_law) laws.push_back(find_law("safety-distance")->make(scenario));
     const Outcome outcome = simulate(scenario, agent, laws);
     sum.events += outcome.counters.events;
     sum.messages_sent += outcome.counters.messages_sent;

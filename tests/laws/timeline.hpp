@@ -96,7 +96,7 @@ struct Scene {
   SimTime end;
   std::deque<Timeline> bodies;
 
-  explicit Scene(double end_s) : end(at_seconds(end_s)) {}
+  explicit Scene(double end_s) : end(at_seconds(end_s)) { scenario.map = std::make_shared<const LogicalMap>(Layout{}); }
 
   Timeline& agv(const Pose& start, const Footprint& footprint = {}) {
     scenario.agvs.emplace_back();
@@ -192,7 +192,7 @@ inline LawFindings play(const Scene& scene, MakeLaw make, Order order = Order::B
 }
 
 inline LawFindings play(const Scene& scene, std::string_view law, Order order = Order::ByEntity) {
-  return play(scene, find_entry(laws(), law)->make, order);
+  return play(scene, find_law(law)->make, order);
 }
 
 }  // namespace fleetproof::test

@@ -71,11 +71,13 @@ TEST(ArchiveReader, names_the_live_file_of_an_interrupted_campaign) {
   EXPECT_THAT(sentence_of<InputError>([&] { ArchiveReader reader(folder / "a.fp"); }), HasSubstr("a.fp.partial"));
 }
 
-TEST(ArchiveReader, refuses_a_newer_schema_and_says_what_to_do) {
+TEST(ArchiveReader, refuses_another_schema_and_says_what_to_do) {
   const TemporaryFolder folder;
   write_archive(folder / "a.fp");
   tamper(folder / "a.fp", "PRAGMA user_version = 3");
   EXPECT_THAT(sentence_of<InputError>([&] { ArchiveReader reader(folder / "a.fp"); }), HasSubstr("newer fleetproof"));
+  tamper(folder / "a.fp", "PRAGMA user_version = 1");
+  EXPECT_THAT(sentence_of<InputError>([&] { ArchiveReader reader(folder / "a.fp"); }), HasSubstr("older fleetproof"));
 }
 
 TEST(ArchiveReader, every_truncation_is_noticed) {
@@ -98,7 +100,10 @@ TEST(ArchiveReader, a_changed_row_is_named) {
       "UPDATE runs SET scenario_digest = ~scenario_digest WHERE run_index = 17",
       "UPDATE runs SET contact = 2 WHERE run_index = 17",               "UPDATE runs SET running_digests = x'00' WHERE run_index = 17",
       "INSERT INTO violations SELECT 17, 99, entity_a, entity_b, first_ns, last_ns, closest_at_ns, min_clearance_um, relative_speed_um_s, x_um, y_um, contact FROM "
-      "violations LIMIT 1"};
+      "violations LIMIT 1",
+      "INSERT INTO incidents SELECT 17, 99, kind, entity_a, entity_b, first_ns, last_ns, value FROM incidents LIMIT 1",
+      "INSERT INTO incidents SELECT 17, 99, 4711, entity_a, entity_b, first_ns, last_ns, value FROM incidents LIMIT 1",
+      "INSERT INTO probes VALUES (17, 99, 0, x'61', 1)", "INSERT INTO probes VALUES (17, 99, 2, x'61', 1)"};
   for (const auto& change : changes) {
     const auto path = folder / ("a" + std::to_string(&change - changes.data()) + ".fp");
     write_archive(path);
@@ -123,6 +128,8 @@ TEST(ArchiveReader, a_replay_can_read_what_was_changed_but_no_run_without_a_cell
 TEST(ArchiveReader, a_row_or_a_violation_taken_away_is_noticed) {
   const TemporaryFolder folder;
   const std::vector<std::string> changes{"DELETE FROM violations WHERE run_index = (SELECT max(run_index) FROM violations)",
+                                         "DELETE FROM incidents WHERE run_index = (SELECT max(run_index) FROM incidents)",
+                                         "DELETE FROM probes WHERE run_index = (SELECT max(run_index) FROM probes)",
                                          "DELETE FROM violations WHERE run_index = 59; DELETE FROM runs WHERE run_index = 59",
                                          "DELETE FROM runs WHERE run_index = (SELECT max(run_index) FROM violations)"};
   for (const auto& change : changes) {
@@ -135,7 +142,7 @@ TEST(ArchiveReader, a_row_or_a_violation_taken_away_is_noticed) {
 
 TEST(ArchiveReader, a_changed_plan_is_noticed) {
   const TemporaryFolder folder;
-  const std::vector<std::string> changes{"UPDATE cells SET loss = 0.1 WHERE cell = 3", "UPDATE gates SET limit_rate = 0.5", "UPDATE campaign SET seed = 1",
+  const std::vector<std::string> changes{"UPDATE cells SET loss = 0.1 WHERE cell = 3", "UPDATE gates SET limit_rate = 0.5", "UPDATE campaign SET seed = 1", "UPDATE campaign SET required_probes = ''",
                                          "DELETE FROM gates WHERE gate = 1", "UPDATE gates SET kind = 'perhaps'"};
   for (const auto& change : changes) {
     const auto path = folder / ("a" + std::to_string(&change - changes.data()) + ".fp");

@@ -56,8 +56,11 @@ TEST(OutcomeEncoding, refuses_another_version_and_lengths_beyond_the_end) {
   flag[4] = 2;
   EXPECT_THROW(decode_outcome(flag), EngineError);
   auto many = bytes;
-  many.replace(many.size() - 4, 4, "\xff\xff\xff\xff");  // four thousand million violations
-  EXPECT_THROW(decode_outcome(many), EngineError);
+  for (const std::size_t tail : {4U, 8U, 12U}) {  // four thousand million probes, incidents, violations
+    many = bytes;
+    many.replace(many.size() - tail, 4, "\xff\xff\xff\xff");
+    EXPECT_THROW(decode_outcome(many), EngineError);
+  }
 }
 
 TEST(OutcomeClass, is_the_worst_end_point) {
@@ -100,6 +103,64 @@ TEST(FileViolations, sets_the_end_points_and_the_smallest_clearance_and_sorts) {
   EXPECT_EQ(outcome.min_clearance_um, -3'000);
   ASSERT_EQ(outcome.violations.size(), 2u);
   EXPECT_EQ(outcome.violations.front().first, at_seconds(2));
+}
+
+TEST(OutcomeEncoding, refuses_an_incident_of_no_known_kind) {
+  for (const std::uint32_t kind : {0U, static_cast<std::uint32_t>(incident_kinds().size()) + 1}) {
+    Outcome outcome;
+    outcome.incidents.emplace_back();
+    outcome.incidents[0].kind = static_cast<IncidentKind>(kind);
+    EXPECT_THROW(decode_outcome(encode(outcome)), EngineError);
+  }
+}
+
+TEST(ViolationLevel, has_three_steps) {
+  Violation violation;
+  violation.relative_speed_um_s = 2'000'000;
+  EXPECT_EQ(level_of(violation), ViolationLevel::SafetyDistance);
+  violation.contact = true;
+  EXPECT_EQ(level_of(violation), ViolationLevel::HazardousContact);
+  violation.relative_speed_um_s = 300'000;
+  EXPECT_EQ(level_of(violation), ViolationLevel::Contact) << "hazardous is faster than 0.3 m/s";
+}
+
+TEST(FileIncidents, sorts_and_keeps_the_earliest) {
+  std::vector<Incident> many;
+  for (std::uint32_t i = 0; i < kIncidentsMax + 7; ++i) many.push_back({IncidentKind::Deadlock, EntityId{i}, {}, at_ns(5000 - i), at_ns(9000), 0});
+  Outcome outcome;
+  file_incidents(outcome, many);
+  ASSERT_EQ(outcome.incidents.size(), kIncidentsMax);
+  EXPECT_EQ(outcome.counters.incidents_left_out, 7u);
+  EXPECT_EQ(outcome.incidents.front().first, at_ns(5000 - static_cast<std::int64_t>(kIncidentsMax) - 6));
+  EXPECT_TRUE(std::ranges::is_sorted(outcome.incidents, {}, &Incident::first));
+}
+
+TEST(ProbeTally, is_bounded_and_counts_the_excess) {
+  ProbeTally tally;
+  for (std::uint64_t i = 0; i < 100; ++i) tally.declare("probe " + std::to_string(i), i);
+  for (std::uint64_t i = 0; i < 3; ++i) tally.declare("probe 7", 7);
+  EXPECT_EQ(tally.counts().size(), 64u);
+  EXPECT_EQ(tally.left_out(), 36u);
+  EXPECT_TRUE(std::ranges::is_sorted(tally.counts(), {}, &ProbeCount::name));
+  const auto counts = tally.counts();
+  EXPECT_EQ(std::ranges::find(counts, "probe 7", &ProbeCount::name)->count, 4u);
+  ProbeTally long_names;
+  long_names.declare(std::string(64, 'x'), 1);
+  long_names.declare(std::string(65, 'y'), 2);
+  EXPECT_EQ(long_names.counts().size(), 1u);
+  EXPECT_EQ(long_names.left_out(), 1u);
+}
+
+TEST(IncidentKinds, have_names_and_units_of_their_own) {
+  std::set<std::string_view> names;
+  for (const auto& info : incident_kinds()) {
+    names.insert(info.name);
+    EXPECT_FALSE(info.unit.empty()) << info.name;
+    EXPECT_EQ(info.name.find('\''), std::string_view::npos) << "it goes into SQL";
+    EXPECT_EQ(info.unit.find('\''), std::string_view::npos) << "it goes into SQL";
+    EXPECT_EQ(info_of(info.kind).name, info.name);
+  }
+  EXPECT_EQ(names.size(), incident_kinds().size());
 }
 
 TEST(FileViolations, none_leave_the_outcome_clean) {

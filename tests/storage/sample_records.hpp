@@ -21,6 +21,7 @@ inline CampaignRecord campaign() {
   record.plan_json = R"({"layouts":{"ring":{}}})";
   record.plan_hash = 0x8000000000000001ULL;
   record.engine = {"0.1.0", "ab12", "g++ 12.2.0", "-O2", "SQLite 3.40.1"};
+  record.required_probes = {"encounter", "negotiation?"};
   return record;
 }
 
@@ -51,7 +52,9 @@ inline Outcome random_outcome(std::mt19937_64& random) {
   auto& c = o.counters;
   for (auto* counter : {&c.events, &c.activations, &c.agent_calls, &c.messages_sent, &c.receptions, &c.receptions_lost, &c.out_of_range, &c.delay_sum_ns, &c.drives,
                         &c.turns, &c.refused_calls, &c.transports_released, &c.transports_done, &c.distance_um, &c.safe_mode_ns, &c.contacts,
-                        &c.distance_evaluations, &c.perimeter_checks, &c.rolls, &c.faults, &c.batteries_empty, &c.loads_cleared, &c.assists, &c.scanner_stops, &c.scanner_saves, &c.received, &c.under_way, &c.battery_start_ppb, &c.battery_end_ppb, &c.battery_driven_ppb, &c.battery_idled_ppb, &c.battery_charged_ppb}) {
+                        &c.distance_evaluations, &c.perimeter_checks, &c.rolls, &c.faults, &c.batteries_empty, &c.loads_cleared, &c.assists,
+                        &c.scanner_stops, &c.scanner_saves, &c.received, &c.under_way, &c.battery_start_ppb, &c.battery_end_ppb, &c.battery_driven_ppb,
+                        &c.battery_idled_ppb, &c.battery_charged_ppb, &c.incidents_left_out, &c.probes_left_out}) {
     *counter = random();
   }
   o.simulated_ns = random();
@@ -72,6 +75,21 @@ inline Outcome random_outcome(std::mt19937_64& random) {
     v.y_um = static_cast<std::int64_t>(random());
     v.contact = random() % 2 == 0;
     o.violations.push_back(v);
+  }
+  for (auto i = random() % 4; i > 0; --i) {
+    Incident incident;
+    incident.kind = static_cast<IncidentKind>(1 + random() % incident_kinds().size());
+    if (random() % 2 == 0) incident.a = EntityId{static_cast<std::uint32_t>(random() % 1000)};
+    if (random() % 2 == 0) incident.b = EntityId{static_cast<std::uint32_t>(random() % 1000)};
+    incident.first = at_ns(static_cast<std::int64_t>(random()));
+    incident.last = at_ns(static_cast<std::int64_t>(random()));
+    incident.value = static_cast<std::int64_t>(random());
+    o.incidents.push_back(incident);
+  }
+  for (auto i = random() % 4; i > 0; --i) {
+    ProbeCount probe{random() % 2 == 0 ? ProbeSource::World : ProbeSource::Agent, {}, random()};
+    for (auto length = random() % 20; length > 0; --length) probe.name.push_back(static_cast<char>(random()));
+    o.probes.push_back(probe);
   }
   return o;
 }

@@ -47,6 +47,8 @@ class Views : public testing::Test {
         violation.first = at_seconds(1.5);
         violation.min_clearance_um = 70'000;
         file_violations(run.outcome, {violation});
+        file_incidents(run.outcome, {{IncidentKind::Deadlock, EntityId{2u}, {}, at_seconds(3.0), at_seconds(9.0), 2}});
+        file_probes(run.outcome, {{ProbeSource::World, "head-on", 3}, {ProbeSource::Agent, "negotiation", 17}});
       }
       writer.add(run);
     }
@@ -71,6 +73,17 @@ TEST_F(Views, v1_cells_counts) {
 TEST_F(Views, v1_violations_tells_where_it_happened) {
   EXPECT_EQ(query(path_, "SELECT run_index, ordinal, loss, delay_s, entity_a, entity_b, first_ns, min_clearance_um FROM v1_violations"),
             "4|0|0.4|2.0|1|3|1500000000|70000");
+}
+
+TEST_F(Views, v1_violations_tells_level_and_kind_of_entities) { EXPECT_EQ(query(path_, "SELECT level, entities FROM v1_violations"), "safety distance broken|AGV-AGV"); }
+
+TEST_F(Views, v1_incidents_names_kind_and_unit) {
+  EXPECT_EQ(query(path_, "SELECT run_index, ordinal, agent, in_contract, kind, entity_a, entity_b, first_ns, last_ns, value, unit FROM v1_incidents"),
+            "4|0|sound|1|deadlock|2|null|3000000000|9000000000|2|AGVs in the circle; 0: no circle known");
+}
+
+TEST_F(Views, v1_probes_tells_what_was_met) {
+  EXPECT_EQ(query(path_, "SELECT run_index, agent, loss, source, name, count FROM v1_probes ORDER BY name"), "4|sound|0.4|world|head-on|3|4|sound|0.4|agent|negotiation|17");
 }
 
 TEST_F(Views, the_file_names_its_kind_and_version) {

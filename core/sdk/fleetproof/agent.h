@@ -187,7 +187,10 @@ typedef struct fp_host {
   int32_t (*declare_cost_ns)(fp_controller*, int64_t cost_ns);         /* thinking time: later calls of this activation act that much later */
   int32_t (*safe_mode)(fp_controller*, uint32_t on);                   /* declared: the AGV stands still because of the radio */
   int32_t (*waiting_for)(fp_controller*, uint32_t agv);                /* declared: whom it waits for; FP_NONE: nobody */
-  int32_t (*sometimes)(fp_controller*, const char* probe);             /* "this was reached": recorded in the trace of the run */
+  /* "This was reached": recorded in the trace, and counted by name in the outcome. Reports list how many runs reached what, and a campaign can name
+     probes without which its evidence is weak; the reference agents say "negotiation", "deferred", "grant-lost", "retransmission" and others. Of one run
+     64 names of at most 64 bytes are kept; what goes beyond is counted without its name. */
+  int32_t (*sometimes)(fp_controller*, const char* probe);
   int32_t (*log)(fp_controller*, const char* text);
 } fp_host;
 

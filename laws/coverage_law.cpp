@@ -1,0 +1,122 @@
+#include "laws/coverage_law.hpp"
+
+#include <algorithm>
+#include <array>
+#include <deque>
+#include <map>
+#include <string>
+
+#include "core/clearance_over_time.hpp"
+#include "laws/encounter.hpp"
+#include "laws/stretch.hpp"
+#include "laws/whereabouts.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr Duration kLookAhead = std::chrono::seconds(10);
+constexpr double kNearMiss_m = 0.3;
+constexpr Duration kSameNearMiss = std::chrono::seconds(1);
+
+class CoverageLaw final : public Law {
+ public:
+  explicit CoverageLaw(const Scenario& scenario)
+      : margin_m_(violation_threshold_m(scenario.law)), bodies_(scenario), swept_(scenario.agvs.size()), drives_(scenario.agvs.size()) {}
+
+  void piece_started(const Piece& piece) override;
+  void piece_ended(const Piece& piece) override;
+  TraceKinds reads() const override { return {TraceKind::FaultStrikes}; }
+  void happened(const TraceRecord& record) override { ++faults_[record.a]; }
+  void finish(SimTime end) override;
+  LawFindings findings() const override;
+
+ private:
+  // The nearness of a pair under way, or the last one.
+  struct Near {
+    SimTime until = kStart;
+    double clearance_m = 0.0;
+  };
+  void meet(Track track);
+  void look_closer(const Piece& a, const Piece& b, Interval within);
+  void close(const Near& near) { near_misses_ += near.clearance_m >= margin_m_; }
+
+  double margin_m_;
+  Whereabouts bodies_;
+  std::vector<Box> swept_;                 // by AGV, as planned; empty between a piece and the next
+  std::vector<std::deque<Track>> drives_;  // by AGV: those not over for long
+  std::array<std::uint64_t, kEncounterKinds> encounters_{};
+  std::map<std::pair<EntityId, EntityId>, Near> near_;
+  std::uint64_t near_misses_ = 0;
+  std::map<std::uint64_t, std::uint64_t> faults_;
+  EvaluationCount evaluations_;
+};
+
+void CoverageLaw::piece_started(const Piece& piece) {
+  bodies_.note(piece);
+  if (piece.entity.index() >= swept_.size()) return;
+  swept_[piece.entity.index()] = piece.swept_box(piece.end);
+  if (piece.manner == Manner::Drive) meet(Track::of(piece));
+}
+
+void CoverageLaw::meet(Track track) {
+  for (std::size_t other = 0; other < drives_.size(); ++other) {
+    if (other == track.agv.index()) continue;
+    auto& drives = drives_[other];
+    while (!drives.empty() && drives.front().end + kLookAhead < track.begin) drives.pop_front();
+    for (const Track& earlier : drives) {
+      if (const auto kind = encounter_of(earlier, track, margin_m_)) ++encounters_[static_cast<std::size_t>(*kind)];
+    }
+  }
+  drives_[track.agv.index()].push_back(std::move(track));
+}
+
+void CoverageLaw::piece_ended(const Piece& piece) {
+  const std::size_t mine = piece.entity.index();
+  if (mine >= swept_.size()) return;
+  const Box near = swept_[mine].grown(kNearMiss_m);
+  swept_[mine] = Box{};
+  for (std::size_t i = 0; i < swept_.size(); ++i) {
+    if (!near.overlaps(swept_[i])) continue;
+    const Piece& other = bodies_.of(EntityId{i});
+    const Interval common{std::max(piece.begin, other.begin), piece.end};
+    if (common.begin >= common.end || (piece.manner == Manner::Rest && other.manner == Manner::Rest)) continue;
+    if (mine < i) {
+      look_closer(piece, other, common);
+    } else {
+      look_closer(other, piece, common);
+    }
+  }
+}
+
+void CoverageLaw::look_closer(const Piece& a, const Piece& b, Interval within) {
+  const auto approach = closest_approach(a, b, within, kNearMiss_m, evaluations_);
+  if (!approach) return;
+  const auto [at, is_new] = near_.try_emplace({a.entity, b.entity}, Near{within.end, approach->clearance_m});
+  if (is_new) return;
+  Near& near = at->second;
+  if (within.begin - near.until > kSameNearMiss) {
+    close(near);
+    near = {within.end, approach->clearance_m};
+  } else {
+    near = {std::max(near.until, within.end), std::min(near.clearance_m, approach->clearance_m)};
+  }
+}
+
+void CoverageLaw::finish(SimTime) {
+  for (const auto& [pair, near] : near_) close(near);
+}
+
+LawFindings CoverageLaw::findings() const {
+  LawFindings findings;
+  const auto met = [&](std::string name, std::uint64_t count) { findings.met.push_back({ProbeSource::World, std::move(name), count}); };
+  for (std::size_t i = 0; i < kEncounterKinds; ++i) met(name_of(static_cast<EncounterKind>(i)), encounters_[i]);
+  met("near-miss", near_misses_);
+  for (const auto& [kind, count] : faults_) met("fault-" + std::to_string(kind), count);
+  return findings;
+}
+
+}  // namespace
+
+std::unique_ptr<Law> make_coverage_law(const Scenario& scenario) { return std::make_unique<CoverageLaw>(scenario); }
+
+}  // namespace fleetproof

@@ -1,0 +1,88 @@
+#include "laws/encounter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr double kStep_m = 0.4;       // between points of a track: well below any width
+constexpr double kSameWay = 0.5;      // cosine of 60 degrees
+
+struct Closest {
+  double distance_m = 0.0;
+  const Track::Point* a = nullptr;
+  const Track::Point* b = nullptr;
+  double first_a_m = 0.0, first_b_m = 0.0;  // where each first comes within reach of the other
+};
+
+std::optional<Closest> closest_points(const Track& a, const Track& b, double reach_m) {
+  Closest closest{reach_m, nullptr, nullptr, 1e300, 1e300};
+  for (const auto& p : a.points) {
+    if (!b.box.grown(reach_m).overlaps({p.position_m, p.position_m})) continue;
+    for (const auto& q : b.points) {
+      const double distance_m = (p.position_m - q.position_m).norm();
+      if (distance_m >= reach_m) continue;
+      closest.first_a_m = std::min(closest.first_a_m, p.s_m);
+      closest.first_b_m = std::min(closest.first_b_m, q.s_m);
+      if (distance_m < closest.distance_m) {
+        closest.distance_m = distance_m;
+        closest.a = &p;
+        closest.b = &q;
+      }
+    }
+  }
+  if (closest.a == nullptr) return std::nullopt;
+  return closest;
+}
+
+bool at_start(const Track& track, double s_m) { return s_m <= 0.5 * track.footprint.length_m; }
+bool at_end(const Track& track, double s_m) { return s_m >= track.length_m - 0.5 * track.footprint.length_m; }
+
+}  // namespace
+
+const char* name_of(EncounterKind kind) {
+  switch (kind) {
+    case EncounterKind::HeadOn: return "head-on";
+    case EncounterKind::Crossing: return "crossing";
+    case EncounterKind::Following: return "following";
+    case EncounterKind::Merging: return "merging";
+  }
+  invariant_violated("a kind of encounter has a name");
+}
+
+Track Track::of(const Piece& drive) {
+  Track track{drive.entity, drive.begin, drive.end, drive.curve->length_m(), drive.footprint, {}, {}};
+  const double half_m = 0.5 * drive.footprint.length_m, whole_m = track.length_m + 2.0 * half_m;
+  const int steps = std::max(1, static_cast<int>(std::ceil(whole_m / kStep_m)));
+  for (int i = 0; i <= steps; ++i) {
+    const double s_m = -half_m + whole_m * i / steps;
+    const Pose pose = drive.curve->pose_at(s_m);
+    const double beyond_m = s_m - std::clamp(s_m, 0.0, track.length_m);
+    track.points.push_back({s_m, pose.position_m + beyond_m * pose.heading, pose.heading});
+    track.box.add(track.points.back().position_m);
+  }
+  return track;
+}
+
+std::optional<EncounterKind> encounter_of(const Track& a, const Track& b, double margin_m) {
+  const double reach_m = 0.5 * (a.footprint.width_m + b.footprint.width_m) + margin_m;
+  if (!a.box.grown(reach_m).overlaps(b.box)) return std::nullopt;
+  const auto closest = closest_points(a, b, reach_m);
+  if (!closest) return std::nullopt;
+  const double cosine = closest->a->heading.dot(closest->b->heading);
+  const bool from_start = at_start(a, closest->a->s_m) || at_start(b, closest->b->s_m);
+  const bool both_from_start = at_start(a, closest->a->s_m) && at_start(b, closest->b->s_m);
+  if (cosine >= kSameWay) {
+    const bool from_different_sides = !at_start(a, closest->first_a_m) && !at_start(b, closest->first_b_m);
+    return from_different_sides ? EncounterKind::Merging : EncounterKind::Following;
+  }
+  if (both_from_start) return std::nullopt;
+  if (cosine <= -kSameWay) return EncounterKind::HeadOn;
+  if (from_start) return EncounterKind::Following;
+  return at_end(a, closest->a->s_m) && at_end(b, closest->b->s_m) ? EncounterKind::Merging : EncounterKind::Crossing;
+}
+
+}  // namespace fleetproof
