@@ -39,7 +39,7 @@ Layout pair(bool bidirectional) {
 TEST(LayoutSvg, EveryFamilyIsSoundXmlWithEveryLaneAndStation) {
   for (const auto& family : layout_families()) {
     Draws draws(stream_key(7, Stream::Layout));
-    const Layout layout = family.make(draws);
+    const Layout layout = family.make(draws, Range::Normal);
     const std::string svg = layout_svg(layout);
     const auto document = parsed(svg);
     for (const auto& station : layout.stations) EXPECT_EQ(texts(document, station.name).size(), 1U) << family.name << ": " << station.name;
@@ -82,7 +82,7 @@ TEST(LayoutSvg, OneWaySegmentsHaveAnArrowHead) {
 TEST(LayoutSvg, TheGalleryIsUpToDate) {
   for (const char* name : {"fishbone", "dense-crossing"}) {
     Draws draws(stream_key(3, Stream::Layout));
-    EXPECT_EQ(layout_svg(layout_family(name).make(draws)),
+    EXPECT_EQ(layout_svg(layout_family(name).make(draws, Range::Normal)),
               independent::file_text(independent::source_file("tests/layouts/gallery/" + std::string(name) + ".svg")))
         << "draw it again: fleetproof generate " << name << " --seed 3 -o /dev/null --svg tests/layouts/gallery/" << name << ".svg";
   }
