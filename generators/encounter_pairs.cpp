@@ -42,9 +42,9 @@ class PairMaker {
     for (std::uint32_t i = 0; i < kTries; ++i) {
       // Where places to wait are few, or lie so that nobody meets, any station serves.
       auto found = draw(draws, i < kTries / 2 ? starts_ : core_);
-      if (!found || (best && best->meeting.apart <= found->meeting.apart)) continue;
+      if (!found || (best && !is_better(found->meeting, best->meeting))) continue;
       best = found;
-      if (!ties_ || best->meeting.apart <= kTie) break;
+      if (ties_ ? best->meeting.apart <= kTie : best->meeting.head_on) break;
     }
     if (!best) return std::nullopt;
     const auto first = static_cast<std::uint32_t>(before);
@@ -60,6 +60,8 @@ class PairMaker {
     StationId start, goal, other_goal;
     Meeting meeting;
   };
+
+  bool is_better(const Meeting& a, const Meeting& b) const { return ties_ ? a.apart < b.apart : a.head_on && !b.head_on; }
 
   std::optional<Found> draw(Draws& draws, const std::vector<StationId>& starts) {
     const auto start = starts[draws.below(static_cast<std::uint32_t>(starts.size()))];

@@ -41,11 +41,13 @@ void move(Layout& layout, Draws& draws) {
 
 void thin_out(Layout& layout, Draws& draws) {
   const std::uint32_t left_out_percent = draws.below(kMostLeftOut_percent + 1), turned_percent = draws.below(kMostTurned_percent + 1);
+  // One turned alone usually cuts off what lies on its line; all of them turned keep every way round.
+  const bool all_turned = draws.below(4) == 0;
   std::vector<Segment> kept;
   for (auto& segment : layout.segments) {
     const bool left_out = draws.below(100) < left_out_percent, turned = draws.below(100) < turned_percent;
     if (left_out) continue;
-    if (turned && !segment.bidirectional) {
+    if (turned != all_turned && !segment.bidirectional) {
       std::swap(segment.from, segment.to);
       std::ranges::reverse(segment.control_points_m);
     }
