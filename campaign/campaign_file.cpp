@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "generators/importer.hpp"
 #include "generators/layout_family.hpp"
+#include "generators/mutated_import.hpp"
 
 namespace fleetproof {
 namespace {
@@ -84,6 +85,38 @@ std::string beside(const std::string& campaign_path, const std::string& word) {
   return path.is_absolute() ? word : (std::filesystem::path(campaign_path).parent_path() / path).string();
 }
 
+// A family with its range; a name that only looks like one is refused.
+bool is_family(const std::string& word) {
+  if (find_entry(layout_families(), word) != nullptr) return true;
+  const bool named = !is_layout_file(word) && find_entry(layout_families(), word.substr(0, word.find('/'))) != nullptr;
+  if (named || word.ends_with(kStressSuffix)) family_range(word);
+  return named;
+}
+
+std::shared_ptr<const LogicalMap> read_map(const std::string& path, const ImportChoice& choice, CampaignFile& file) {
+  return std::make_shared<const LogicalMap>(import_layout(path, choice, file.warnings));
+}
+
+// The keys of the options that `fleetproof import` has; a key that the format does not know would silently change nothing.
+ImportChoice import_choice(TomlTable& table, const std::string& path) {
+  const auto format = importer_of_file(path);
+  for (const auto& [key, owner] : {std::pair{"merge_antiparallel", "opentcs"}, {"cell_pitch_m", "grid"}, {"level", "rmf"}, {"graph", "rmf"}}) {
+    if (!table.has(key) || format == owner) continue;
+    throw InputError(table.place(key), fmt::format("{} has no meaning for format \"{}\"; it belongs to \"{}\"", key, format, owner));
+  }
+  ImportChoice choice;
+  bool merge = false;
+  std::uint64_t graph = 0;
+  table.get("merge_antiparallel", merge);
+  table.get("cell_pitch_m", choice.cell_pitch_m);
+  table.get("level", choice.rmf.level);
+  table.get("graph", graph);
+  if (graph > 1'000'000) throw InputError(table.place("graph"), fmt::format("graph is {}; graphs count from 0", graph));
+  choice.rmf.graph_idx = static_cast<std::int64_t>(graph);
+  choice.twins = merge ? TwinPaths::Merge : TwinPaths::Keep;
+  return choice;
+}
+
 // "plant" for a/plant.xml, plant.lif.json and plant.building.yaml alike.
 std::string layout_name(const std::string& word) {
   std::string name = std::filesystem::path(word).stem().string();
@@ -93,21 +126,42 @@ std::string layout_name(const std::string& word) {
   return name;
 }
 
+LayoutFactor layout_from_word(const TomlTable& factors, const std::string& word, const std::string& path, CampaignFile& file) {
+  if (is_family(word)) return {word, nullptr};
+  if (is_layout_path(word)) return {layout_name(word), read_map(beside(path, word), {}, file)};
+  const auto names = names_of(layout_families());
+  throw InputError(factors.place("layouts"), fmt::format("factors.layouts names \"{}\", which is neither a family nor a file{}", word, name_hint(word, names)));
+}
+
+// { file = "plant.xml" } or { mutate = "plant.xml" }, with what the importer of such files lets one choose.
+LayoutFactor layout_from_table(TomlTable& table, const std::string& path, CampaignFile& file) {
+  std::string word, base, name;
+  table.get("file", word);
+  table.get("mutate", base);
+  table.get("name", name);
+  if (word.empty() == base.empty()) throw InputError(table.place("file"), "a table under factors.layouts has either file = \"...\" or mutate = \"...\"");
+  const bool mutate = word.empty();
+  const std::string at = beside(path, mutate ? base : word);
+  const ImportChoice choice = import_choice(table, at);
+  table.finish();
+  if (name.empty()) name = (mutate ? std::string(kMutatedImport) + "/" : "") + layout_name(at);
+  return {name, read_map(at, choice, file), mutate};
+}
+
 void read_layouts(TomlTable& factors, const std::string& path, CampaignFile& file) {
-  std::vector<std::string> words;
-  factors.get("layouts", words);
-  for (const std::string& word : words) {
-    LayoutFactor factor{word, nullptr};
-    if (is_layout_path(word)) {
-      const Layout layout = import_layout(beside(path, word), {}, file.warnings);
-      factor.map = std::make_shared<const LogicalMap>(layout);
-      factor.name = layout_name(word);
-    } else if (find_entry(layout_families(), word) == nullptr) {
-      const auto names = names_of(layout_families());
-      throw InputError(factors.place("layouts"), fmt::format("factors.layouts names \"{}\", which is neither a family nor a file{}", word, name_hint(word, names)));
-    }
-    file.plan.layouts.push_back(std::move(factor));
+  for (TomlTable::Item& item : factors.words_or_tables("layouts")) {
+    file.plan.layouts.push_back(item.table ? layout_from_table(*item.table, path, file) : layout_from_word(factors, item.word, path, file));
   }
+}
+
+void read_world(TomlTable& world, const std::string& path, CampaignPlan& plan) {
+  std::string orders;
+  world.get("transports_per_agv_hour", plan.transports_per_agv_hour);
+  get_name(world, "placement", plan.placement, kPlacements);
+  world.get("hot_spot_skew", plan.hot_spot_skew);
+  world.get("orders", orders);
+  if (!orders.empty()) plan.orders = std::make_shared<const OrderList>(read_order_list(beside(path, orders)));
+  world.finish();
 }
 
 void read_factors(TomlTable& factors, const std::string& path, CampaignFile& file) {
@@ -145,8 +199,7 @@ CampaignFile read_campaign_file(const std::string& path) {
     throw InputError(path, "has no [factors] table; it names the agents, layouts, fleet sizes, loss and delay to combine");
   }
   if (auto world = root.table("world")) {
-    world->get("transports_per_agv_hour", plan.transports_per_agv_hour);
-    world->finish();
+    read_world(*world, path, plan);
   }
   if (auto vehicle = root.table("vehicle")) read_vehicle(*vehicle, plan.vehicle);
   if (auto radio = root.table("radio")) read_radio(*radio, plan.radio);

@@ -124,6 +124,18 @@ void check_laws_and_coverage(const CampaignPlan& plan, const std::string& where)
   demand(counted || plan.probes_to_meet().empty(), where, "law.leave_out names \"coverage\", which counts what a run met; set coverage.probes = [] as well, or keep it");
 }
 
+void check_world(const CampaignPlan& plan, const std::string& where) {
+  demand(plan.hot_spot_skew >= 0.0 && plan.hot_spot_skew <= 4.0, where,
+         fmt::format("world.hot_spot_skew is {}; it lies between 0 and 4", plan.hot_spot_skew));
+  if (plan.orders == nullptr) return;
+  demand(plan.placement == Placement::Random || plan.placement == Placement::ChargerBank, where,
+         fmt::format("world.placement \"{}\" chooses first orders itself; with world.orders it is \"random\" or \"charger-bank\"", name_of(plan.placement)));
+  for (const auto& layout : plan.layouts) {
+    demand(layout.map != nullptr && !layout.mutate, where,
+           fmt::format("world.orders names stations, but layout \"{}\" is drawn anew for every replicate; use layout files only", layout.name));
+  }
+}
+
 }  // namespace
 
 void check_plan(const CampaignPlan& plan, const std::string& where) {
@@ -133,6 +145,7 @@ void check_plan(const CampaignPlan& plan, const std::string& where) {
   demand(plan.stuck_after_s > 0.0, where, fmt::format("stuck_after_s is {}; it must be above 0", plan.stuck_after_s));
   demand(plan.transports_per_agv_hour >= 0.0 && plan.transports_per_agv_hour <= 3600.0, where,
          fmt::format("world.transports_per_agv_hour is {}; it lies between 0 and 3600", plan.transports_per_agv_hour));
+  check_world(plan, where);
   demand(plan.law.safety_distance_m > 0.0 && plan.law.safety_distance_m < 0.5, where,
          fmt::format("law.safety_distance_m is {}; it lies between 0 and 0.5 m", plan.law.safety_distance_m));
   demand(plan.radio.range_m > 0.0, where, fmt::format("radio.range_m is {}; it must be above 0", plan.radio.range_m));

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "core/scenario.hpp"
+#include "generators/order_list.hpp"
+#include "generators/placement.hpp"
 #include "storage/records.hpp"
 
 namespace fleetproof {
@@ -14,7 +16,8 @@ namespace fleetproof {
 // A layout of the campaign: a family that draws a new one per replicate, or one read from a file and embedded by content.
 struct LayoutFactor {
   std::string name;
-  std::shared_ptr<const LogicalMap> map;  // null: `name` is a family
+  std::shared_ptr<const LogicalMap> map;  // null: `name` is a family and its range
+  bool mutate = false;                    // every replicate draws a mutation of `map`
 };
 
 // A campaign as resolved from its file: everything that decides its outcomes, and nothing else (no path, no number of jobs).
@@ -32,6 +35,9 @@ struct CampaignPlan {
   std::vector<std::uint32_t> fleet_sizes{5};
 
   double transports_per_agv_hour = 30.0;
+  Placement placement = Placement::Random;
+  double hot_spot_skew = 0.0;
+  std::shared_ptr<const OrderList> orders;  // instead of drawn transports; null: none
   VehicleType vehicle;
   RadioSetup radio;                       // loss and delay_s come from the cell
   AgentClockSetup agent_clock;

@@ -77,10 +77,41 @@ Json layouts_json(const CampaignPlan& plan) {
   Json layouts = Json::array();
   for (const LayoutFactor& layout : plan.layouts) {
     Json entry = {{"name", layout.name}};
+    if (layout.mutate) entry["mutate"] = true;
     if (layout.map != nullptr) entry["content"] = Json::parse(to_text(layout.map->layout()));
     layouts.push_back(std::move(entry));
   }
   return layouts;
+}
+
+Json world_json(const CampaignPlan& plan) {
+  Json world = {{"transports_per_agv_hour", plan.transports_per_agv_hour},
+                {"placement", name_of(plan.placement)},
+                {"hot_spot_skew", plan.hot_spot_skew}};
+  if (plan.orders == nullptr) return world;
+  Json orders = Json::array();
+  for (const ListedOrder& order : plan.orders->orders) {
+    const Json agv = order.agv ? Json(*order.agv) : Json(nullptr);
+    orders.push_back({{"line", order.line}, {"release_ns", order.release.count()}, {"from", order.from}, {"to", order.to}, {"agv", agv}});
+  }
+  world["orders"] = {{"source", plan.orders->source}, {"orders", orders}};
+  return world;
+}
+
+void read_world(const Json& world, CampaignPlan& plan) {
+  plan.transports_per_agv_hour = world.at("transports_per_agv_hour");
+  plan.placement = enum_from(world.at("placement"),
+                             {Placement::Random, Placement::ChargerBank, Placement::Adversarial, Placement::Symmetric, Placement::Mixed});
+  plan.hot_spot_skew = world.at("hot_spot_skew");
+  if (!world.contains("orders")) return;
+  OrderList list;
+  list.source = world.at("orders").at("source");
+  for (const Json& json : world.at("orders").at("orders")) {
+    ListedOrder order{Duration{json.at("release_ns").get<std::int64_t>()}, json.at("from"), json.at("to"), {}, json.at("line")};
+    if (!json.at("agv").is_null()) order.agv = json.at("agv").get<std::uint32_t>();
+    list.orders.push_back(std::move(order));
+  }
+  plan.orders = std::make_shared<const OrderList>(std::move(list));
 }
 
 CampaignPlan plan_from(const Json& json) {
@@ -98,12 +129,12 @@ CampaignPlan plan_from(const Json& json) {
   plan.loss = factors.at("loss").get<std::vector<double>>();
   plan.delay_s = factors.at("delay_s").get<std::vector<double>>();
   for (const Json& entry : factors.at("layouts")) {
-    LayoutFactor layout{entry.at("name"), nullptr};
+    LayoutFactor layout{entry.at("name"), nullptr, entry.value("mutate", false)};
     if (entry.contains("content")) layout.map = std::make_shared<const LogicalMap>(parse_layout(entry.at("content").dump(), "layout " + layout.name));
     plan.layouts.push_back(std::move(layout));
   }
   plan.agent_config = json.at("agent_config");
-  plan.transports_per_agv_hour = json.at("world").at("transports_per_agv_hour");
+  read_world(json.at("world"), plan);
   plan.vehicle = vehicle_from(json.at("vehicle"));
   const Json& radio = json.at("radio");
   plan.radio.delay_model = radio.at("delay_model") == "uniform" ? RadioSetup::DelayModel::Uniform : RadioSetup::DelayModel::Constant;
@@ -134,7 +165,7 @@ std::string plan_text(const CampaignPlan& plan) {
       {"factors",
        {{"agents", plan.agents}, {"layouts", layouts_json(plan)}, {"fleet_sizes", plan.fleet_sizes}, {"loss", plan.loss}, {"delay_s", plan.delay_s}}},
       {"agent_config", plan.agent_config},
-      {"world", {{"transports_per_agv_hour", plan.transports_per_agv_hour}}},
+      {"world", world_json(plan)},
       {"vehicle", to_json(plan.vehicle)},
       {"radio",
        {{"delay_model", plan.radio.delay_model == RadioSetup::DelayModel::Uniform ? "uniform" : "constant"},

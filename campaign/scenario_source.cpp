@@ -22,6 +22,10 @@ Scenario ScenarioSource::scenario(std::uint64_t run_index) const {
   } else {
     spec.layout = layout.name;
   }
+  spec.mutate = layout.mutate;
+  spec.placement = plan_.placement;
+  spec.hot_spot_skew = plan_.hot_spot_skew;
+  spec.orders = plan_.orders;
   spec.fleet_size = cell.fleet_size;
   spec.transports_per_agv_hour = plan_.transports_per_agv_hour;
   spec.vehicle = plan_.vehicle;

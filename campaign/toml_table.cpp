@@ -177,6 +177,25 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) {
   return parts;
 }
 
+std::vector<TomlTable::Item> TomlTable::words_or_tables(std::string_view key) {
+  std::vector<Item> items;
+  const std::string name = impl_->path_in_file + std::string(key);
+  with(*impl_->table, impl_->known, key, [&](const toml::node& node) {
+    const toml::array* array = node.as_array();
+    if (array == nullptr) wrong_type(impl_->file, node, name, "an array, as in [\"a\", { file = \"b\" }]");
+    for (const toml::node& element : *array) {
+      if (element.is_string()) {
+        items.push_back({*element.value<std::string>(), std::nullopt});
+      } else if (element.is_table()) {
+        items.push_back({"", TomlTable(new Impl{impl_->file, name + ".", impl_->root, element.as_table(), {}})});
+      } else {
+        wrong_type(impl_->file, element, name, "an array of strings and tables");
+      }
+    }
+  });
+  return items;
+}
+
 void TomlTable::finish() const {
   const std::vector<std::string_view> known(impl_->known.begin(), impl_->known.end());
   for (const auto& [key, node] : *impl_->table) {

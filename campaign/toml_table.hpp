@@ -27,6 +27,10 @@ class TomlTable {
   void get(std::string_view key, std::vector<std::uint32_t>& value);
   void get(std::string_view key, std::vector<std::string>& value);
 
+  struct Item;
+  // An array of strings and tables, as in ["a", { file = "b" }]. Empty if the key is absent.
+  std::vector<Item> words_or_tables(std::string_view key);
+
   bool has(std::string_view key) const;
   std::optional<TomlTable> table(std::string_view key);        // [key]
   std::vector<TomlTable> tables(std::string_view key);          // [[key]]
@@ -37,6 +41,11 @@ class TomlTable {
   struct Impl;
   explicit TomlTable(Impl* impl);
   Impl* impl_;
+};
+
+struct TomlTable::Item {
+  std::string word;
+  std::optional<TomlTable> table;  // instead of a word
 };
 
 }  // namespace fleetproof

@@ -65,4 +65,14 @@ double natural_log(double x) {
   return static_cast<double>(exponent) * 0.6931471805599453 + 2.0 * z * sum;
 }
 
+double natural_exp(double x) {
+  // x = k ln 2 + r with |r| <= 0.347; ln 2 in two parts, of which k times the first is exact.
+  constexpr double kHigh = 0x1.62e42fee00000p-1, kLow = 0x1.a39ef35793c76p-33;
+  const double k = static_cast<double>(static_cast<int>(x * 1.4426950408889634 + (x < 0.0 ? -0.5 : 0.5)));
+  const double r = (x - k * kHigh) - k * kLow;
+  double sum = 1.0;
+  for (int n = 14; n >= 1; --n) sum = 1.0 + sum * r / n;
+  return sum * std::bit_cast<double>(static_cast<std::uint64_t>(static_cast<std::int64_t>(k) + 1023) << 52);
+}
+
 }  // namespace fleetproof

@@ -48,4 +48,7 @@ class Draws {
 // Natural logarithm of a positive normal number from + - * / alone, so that every CPU gives the same bits. Relative error below 1e-15.
 double natural_log(double x);
 
+// e to the power of x, |x| <= 700, in the same way. Relative error below 1e-15.
+double natural_exp(double x);
+
 }  // namespace fleetproof

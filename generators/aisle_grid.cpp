@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "generators/dead_end_aisles.hpp"
 #include "generators/layout_builder.hpp"
 
 namespace fleetproof {
@@ -141,6 +142,6 @@ class AisleGrid {
 
 }  // namespace
 
-Layout make_aisle_grid(Draws& draws) { return AisleGrid(draws).make(); }
+Layout make_aisle_grid(Draws& draws, Range range) { return range == Range::Stress ? make_dead_end_aisles(draws) : AisleGrid(draws).make(); }
 
 }  // namespace fleetproof

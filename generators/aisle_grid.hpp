@@ -2,10 +2,12 @@
 
 #include "core/layout.hpp"
 #include "core/random.hpp"
+#include "generators/range.hpp"
 
 namespace fleetproof {
 
 // Aisles between two or three cross aisles; storage bays are short spurs off the aisles, so that a picking AGV does not block the aisle.
-Layout make_aisle_grid(Draws& draws);
+// Stress: dead_end_aisles.hpp.
+Layout make_aisle_grid(Draws& draws, Range range);
 
 }  // namespace fleetproof

@@ -21,23 +21,24 @@ struct Sizes {
   std::uint32_t steps;               // segments of the corridor
 };
 
-Sizes draw_sizes(Draws& draws) {
+Sizes draw_sizes(Draws& draws, Range range) {
   Sizes s{};
   s.pitch = draw_between(draws, 3600, 4800, 50);
   s.spur = draw_between(draws, 3000, 3500, 50);
   s.offset = draw_between(draws, 2400, 3000, 50);
-  s.steps = static_cast<std::uint32_t>(draw_between(draws, (30'000 + s.pitch - 1) / s.pitch, 60'000 / s.pitch, 1));
+  const std::int64_t shortest = range == Range::Stress ? 60'000 : 30'000, longest = range == Range::Stress ? 100'000 : 60'000;
+  s.steps = static_cast<std::uint32_t>(draw_between(draws, (shortest + s.pitch - 1) / s.pitch, longest / s.pitch, 1));
   return s;
 }
 
 class CorridorSidings {
  public:
-  explicit CorridorSidings(Draws& draws) : draws_(draws), sizes_(draw_sizes(draws)) {}
+  CorridorSidings(Draws& draws, Range range) : draws_(draws), range_(range), sizes_(draw_sizes(draws, range)), builder_(family_name("corridor-sidings", range)) {}
 
   Layout make() {
     for (std::uint32_t i = 0; i <= sizes_.steps; ++i) corridor_.push_back(builder_.station(fmt::format("C{}", i), {i * sizes_.pitch, 0}));
     for (std::uint32_t i = 0; i < sizes_.steps; ++i) builder_.straight(corridor_[i], corridor_[i + 1]);
-    draw_sidings();
+    range_ == Range::Stress ? draw_one_siding_or_none() : draw_sidings();
     for (const auto& siding : sidings_) add_siding(siding);
     add_end(0, -1);
     add_end(sizes_.steps, 1);
@@ -59,6 +60,13 @@ class CorridorSidings {
       sidings_.push_back({at, at + steps, left, way});
       at += steps + gap;
     }
+  }
+
+  // Whoever meets in the corridor has to back out of it: there is one place to pass, or none.
+  void draw_one_siding_or_none() {
+    if (draws_.below(2) == 0) return;
+    const std::uint32_t at = 1 + draws_.below(sizes_.steps - 3);
+    sidings_.push_back({at, at + 2, draws_.below(2) == 0, Way::Both});
   }
 
   // Branches off in a gentle bend, runs beside the corridor, comes back in another; every inner station of it is a place to wait.
@@ -115,13 +123,19 @@ class CorridorSidings {
       const auto n = draws_.below(static_cast<std::uint32_t>(sites.size()));
       const auto [station, left] = sites[n];
       sites.erase(sites.begin() + n);
-      add_spur(corridor_[station], {station * sizes_.pitch, left ? sizes_.spur : -sizes_.spur}, false);
+      const PointMm at{station * sizes_.pitch, left ? sizes_.spur : -sizes_.spur};
+      if (parking_ == 0) {
+        builder_.straight(corridor_[station], builder_.station(fmt::format("park{}", ++parking_), at, Purpose::Parking));
+      } else {
+        add_spur(corridor_[station], at, false);
+      }
     }
   }
 
   Draws& draws_;
+  Range range_;
   Sizes sizes_;
-  LayoutBuilder builder_{"corridor-sidings"};
+  LayoutBuilder builder_;
   std::vector<StationId> corridor_;
   std::vector<Siding> sidings_;
   std::uint32_t parking_ = 0, storage_ = 0;
@@ -129,6 +143,6 @@ class CorridorSidings {
 
 }  // namespace
 
-Layout make_corridor_sidings(Draws& draws) { return CorridorSidings(draws).make(); }
+Layout make_corridor_sidings(Draws& draws, Range range) { return CorridorSidings(draws, range).make(); }
 
 }  // namespace fleetproof

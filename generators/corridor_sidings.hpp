@@ -2,10 +2,12 @@
 
 #include "core/layout.hpp"
 #include "core/random.hpp"
+#include "generators/range.hpp"
 
 namespace fleetproof {
 
 // A corridor that is one two-way lane, with parallel sidings to let others pass: the layout on which fleets lock each other out.
-Layout make_corridor_sidings(Draws& draws);
+// Stress: 60-100 m with one siding or none.
+Layout make_corridor_sidings(Draws& draws, Range range);
 
 }  // namespace fleetproof

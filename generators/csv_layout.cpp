@@ -9,6 +9,7 @@
 
 #include "core/catalogue.hpp"
 #include "core/error.hpp"
+#include "generators/csv_fields.hpp"
 #include "generators/layout_check.hpp"
 #include "generators/purpose_words.hpp"
 #include "generators/text_file.hpp"
@@ -20,7 +21,6 @@ namespace {
 
 constexpr std::string_view kNodeColumns[] = {"id", "x", "y", "purposes"};
 constexpr std::string_view kEdgeColumns[] = {"from", "to", "bidirectional", "name", "control_points"};
-constexpr std::size_t kMostFields = 100;
 
 class TableReader {
  public:
@@ -30,8 +30,8 @@ class TableReader {
     layout_.name = std::filesystem::path(source_).stem().string();
     if (!is_plain_utf8(layout_.name)) layout_.name = "layout";
     while (const auto line = lines_.next()) {
-      if (line->find_first_not_of(" ,\t") == std::string_view::npos || line->starts_with('#')) continue;
-      const auto fields = split(*line);
+      if (is_csv_remark(*line)) continue;
+      const auto fields = csv_fields(*line, source_, lines_.number());
       if (is_heading(fields)) {
         take_heading(fields);
       } else if (columns_.empty()) {
@@ -49,26 +49,6 @@ class TableReader {
 
  private:
   [[noreturn]] void refuse(std::string_view sentence) const { throw InputError(at_line(source_, lines_.number()), sentence); }
-
-  std::vector<std::string> split(std::string_view line) const {
-    std::vector<std::string> fields(1);
-    bool quoted = false;
-    for (std::size_t i = 0; i < line.size(); ++i) {
-      const char c = line[i];
-      if (c == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"') {
-        fields.back() += line[i++];
-      } else if (c == '"' && (quoted || fields.back().empty())) {
-        quoted = !quoted;
-      } else if (c == ',' && !quoted) {
-        fields.emplace_back();
-      } else {
-        fields.back() += c;
-      }
-    }
-    if (quoted) refuse("a double quote is not closed; close it on the same line");
-    if (fields.size() > kMostFields) refuse(fmt::format("the line has more than {} fields", kMostFields));
-    return fields;
-  }
 
   // Each table has one, at its top: below, stations may be named "from" and "to".
   bool is_heading(const std::vector<std::string>& fields) const {

@@ -15,10 +15,12 @@ struct Sizes {
   std::uint32_t spurs;
 };
 
-Sizes draw_sizes(Draws& draws) {
+Sizes draw_sizes(Draws& draws, Range range) {
   Sizes s{};
-  s.lines = 3 + draws.below(4);
-  s.pitch = draw_between(draws, kVehicleLength_mm * 3 / 2, kVehicleLength_mm * 5 / 2, 50);
+  const bool stress = range == Range::Stress;
+  s.lines = stress ? 4 + draws.below(3) : 3 + draws.below(4);
+  s.pitch = stress ? draw_between(draws, kVehicleLength_mm, kVehicleLength_mm * 2, 100)
+                   : draw_between(draws, kVehicleLength_mm * 3 / 2, kVehicleLength_mm * 5 / 2, 50);
   s.spur = draw_between(draws, 3000, 3500, 50);
   s.spurs = 10 + draws.below(4 * s.lines - 9);
   return s;
@@ -26,24 +28,42 @@ Sizes draw_sizes(Draws& draws) {
 
 class DenseCrossing {
  public:
-  explicit DenseCrossing(Draws& draws) : draws_(draws), sizes_(draw_sizes(draws)) {}
+  DenseCrossing(Draws& draws, Range range) : draws_(draws), range_(range), sizes_(draw_sizes(draws, range)), builder_(family_name("dense-crossing", range)) {}
 
   Layout make() {
-    for (std::uint32_t i = 0; i < sizes_.lines; ++i) {
-      auto& column = crossings_.emplace_back();
-      for (std::uint32_t j = 0; j < sizes_.lines; ++j) {
-        column.push_back(builder_.station(fmt::format("X{}.{}", i + 1, j + 1), {i * sizes_.pitch, j * sizes_.pitch}));
-      }
-    }
-    connect();
+    crossings_ = grid("X", sizes_.lines, 0);
+    connect(crossings_);
+    if (range_ == Range::Stress) overlay();
     add_spurs();
     return builder_.take();
   }
 
  private:
+  using Grid = std::vector<std::vector<StationId>>;  // by column, then row
+
+  Grid grid(std::string_view letter, std::uint32_t lines, std::int64_t offset) {
+    Grid made;
+    for (std::uint32_t i = 0; i < lines; ++i) {
+      auto& column = made.emplace_back();
+      for (std::uint32_t j = 0; j < lines; ++j) {
+        column.push_back(builder_.station(fmt::format("{}{}.{}", letter, i + 1, j + 1), {offset + i * sizes_.pitch, offset + j * sizes_.pitch}));
+      }
+    }
+    return made;
+  }
+
+  // A second grid half a pitch aside, as of a fleet with a graph of its own: its lanes cross those of the first where neither has a
+  // station. Only two opposite corners join the two.
+  void overlay() {
+    const Grid second = grid("Y", sizes_.lines - 1, sizes_.pitch / 2);
+    connect(second);
+    builder_.straight(crossings_.front().front(), second.front().front());
+    builder_.straight(crossings_.back().back(), second.back().back());
+  }
+
   // The outer lines run round in one direction and every inner line starts and ends on them: strongly connected whatever is drawn.
-  void connect() {
-    const std::uint32_t last = sizes_.lines - 1;
+  void connect(const Grid& stations) {
+    const auto last = static_cast<std::uint32_t>(stations.size()) - 1;
     const bool clockwise = draws_.below(2) == 0;
     const Way with = clockwise ? Way::Forward : Way::Backward, against = clockwise ? Way::Backward : Way::Forward;
     const auto way = [&](std::uint32_t line, Way first, Way final) {
@@ -54,8 +74,8 @@ class DenseCrossing {
     for (std::uint32_t i = 0; i <= last; ++i) {
       const Way column = way(i, with, against), row = way(i, against, with);
       for (std::uint32_t k = 0; k < last; ++k) {
-        builder_.straight(crossings_[i][k], crossings_[i][k + 1], column);
-        builder_.straight(crossings_[k][i], crossings_[k + 1][i], row);
+        builder_.straight(stations[i][k], stations[i][k + 1], column);
+        builder_.straight(stations[k][i], stations[k + 1][i], row);
       }
     }
   }
@@ -90,13 +110,14 @@ class DenseCrossing {
   }
 
   Draws& draws_;
+  Range range_;
   Sizes sizes_;
-  LayoutBuilder builder_{"dense-crossing"};
-  std::vector<std::vector<StationId>> crossings_;  // by column, then row
+  LayoutBuilder builder_;
+  Grid crossings_;
 };
 
 }  // namespace
 
-Layout make_dense_crossing(Draws& draws) { return DenseCrossing(draws).make(); }
+Layout make_dense_crossing(Draws& draws, Range range) { return DenseCrossing(draws, range).make(); }
 
 }  // namespace fleetproof

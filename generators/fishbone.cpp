@@ -20,10 +20,13 @@ struct Sizes {
 std::int64_t whole_mm(double mm) { return static_cast<std::int64_t>(mm + 0.5); }
 
 // Both legs of the diagonal's angle are at least `shorter`: at 45 degrees a station beside the diagonal is then 0.707 of it away.
-Sizes draw_sizes(Draws& draws) {
+// Stress: flatter or steeper, and so narrow that bodies on neighbouring aisles pass within a hand's breadth.
+Sizes draw_sizes(Draws& draws, Range range) {
   Sizes s{};
-  const double shorter = static_cast<double>(draw_between(draws, 3150, 3700, 50));
-  const Vec2 diagonal = unit_vector(static_cast<double>(draw_between(draws, 30, 60, 1)) * kPi / 180.0);
+  const bool stress = range == Range::Stress, steep = stress && draws.below(2) == 0;
+  const double shorter = static_cast<double>(stress ? draw_between(draws, 2100, 2600, 50) : draw_between(draws, 3150, 3700, 50));
+  const std::int64_t degrees = !stress ? draw_between(draws, 30, 60, 1) : steep ? draw_between(draws, 60, 70, 1) : draw_between(draws, 20, 30, 1);
+  const Vec2 diagonal = unit_vector(static_cast<double>(degrees) * kPi / 180.0);
   const double scale = shorter / std::min(diagonal.x(), diagonal.y());
   s.dx = whole_mm(scale * diagonal.x());
   s.dy = whole_mm(scale * diagonal.y());
@@ -38,7 +41,7 @@ Sizes draw_sizes(Draws& draws) {
 // Stations lie on a grid: column 0 in the middle, row 0 in front. Diagonals run through |column| = row.
 class Fishbone {
  public:
-  explicit Fishbone(Draws& draws) : draws_(draws), sizes_(draw_sizes(draws)) {}
+  Fishbone(Draws& draws, Range range) : draws_(draws), range_(range), sizes_(draw_sizes(draws, range)), builder_(family_name("fishbone", range)) {}
 
   Layout make() {
     for (std::int32_t column = -sizes_.steps; column <= sizes_.steps; ++column) {
@@ -80,7 +83,7 @@ class Fishbone {
     for (std::int32_t row = std::abs(column); row < sizes_.steps; ++row) connect({column, row}, {column, row + 1}, way);
   }
 
-  Way draw_way() { return draws_.below(2) == 0 ? Way::Both : draws_.below(2) == 0 ? Way::Forward : Way::Backward; }
+  Way draw_way() { return range_ == Range::Stress || draws_.below(2) == 0 ? Way::Both : draws_.below(2) == 0 ? Way::Forward : Way::Backward; }
 
   using Place = std::pair<std::int32_t, std::int32_t>;
   void connect(Place from, Place to, Way way) { builder_.straight(at_.at(from), at_.at(to), way); }
@@ -102,13 +105,14 @@ class Fishbone {
   }
 
   Draws& draws_;
+  Range range_;
   Sizes sizes_;
-  LayoutBuilder builder_{"fishbone"};
+  LayoutBuilder builder_;
   std::map<Place, StationId> at_;
 };
 
 }  // namespace
 
-Layout make_fishbone(Draws& draws) { return Fishbone(draws).make(); }
+Layout make_fishbone(Draws& draws, Range range) { return Fishbone(draws, range).make(); }
 
 }  // namespace fleetproof

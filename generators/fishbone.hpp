@@ -2,11 +2,13 @@
 
 #include "core/layout.hpp"
 #include "core/random.hpp"
+#include "generators/range.hpp"
 
 namespace fleetproof {
 
 // Two diagonal cross aisles that rise from the middle of the front; picking aisles above them stand upright, those below lie flat
 // (Gue and Meller). Goods are picked in the aisle: whoever picks closes it.
-Layout make_fishbone(Draws& draws);
+// Stress: diagonals of 20-30 or 60-70 degrees, stations from 2.1 m apart, every aisle two-way.
+Layout make_fishbone(Draws& draws, Range range);
 
 }  // namespace fleetproof

@@ -56,11 +56,15 @@ const Entry<ReadLayout>& importer(std::string_view name) {
 
 bool is_layout_file(std::string_view path) { return extension_of(path) != nullptr; }
 
-Layout import_layout(const std::string& path, const ImportChoice& choice, Warnings& warnings) {
+std::string_view importer_of_file(const std::string& path) {
   const auto* extension = extension_of(path);
   if (extension == nullptr) throw InputError(path, "has no extension of a layout file; known: .xml .json .yaml .yml .map .csv");
   const bool lif = extension->importer == "layout" && (path.ends_with(".lif.json") || is_lif(path));
-  return importer(lif ? "lif" : extension->importer).make(path, choice, warnings);
+  return lif ? "lif" : extension->importer;
+}
+
+Layout import_layout(const std::string& path, const ImportChoice& choice, Warnings& warnings) {
+  return importer(importer_of_file(path)).make(path, choice, warnings);
 }
 
 }  // namespace fleetproof

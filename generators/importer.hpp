@@ -31,7 +31,10 @@ const Entry<ReadLayout>& importer(std::string_view name);
 // Whether a file of this name is a layout file, by its extension.
 bool is_layout_file(std::string_view path);
 
-// Reads a layout file with the importer that its extension asks for. A .json file is LIF or a layout of our own, as its keys say.
+// The importer that a file's extension asks for. A .json file is LIF or a layout of our own, as its keys say.
+std::string_view importer_of_file(const std::string& path);
+
+// Reads a layout file with the importer of importer_of_file().
 Layout import_layout(const std::string& path, const ImportChoice& choice, std::vector<std::string>& warnings);
 
 }  // namespace fleetproof

@@ -10,9 +10,12 @@
 #include "generators/loop_spurs.hpp"
 #include "generators/random_planar.hpp"
 #include "generators/text_file.hpp"
+#include "generators/waiting_room.hpp"
 
 namespace fleetproof {
 namespace {
+
+constexpr std::uint32_t kClosedOneIn = 10;
 
 constexpr Entry<MakeLayout> kFamilies[] = {
     {"aisle-grid", "4-6 aisles between 2-3 cross aisles, one-way or two-way, with storage bays, docks, parking and chargers; 49-83 segments",
@@ -37,6 +40,33 @@ std::span<const Entry<MakeLayout>> layout_families() { return kFamilies; }
 const Entry<MakeLayout>& layout_family(std::string_view name) {
   if (const auto* found = find_entry(layout_families(), name)) return *found;
   throw InputError("layout", fmt::format("there is no layout family {}{}", in_quotes(name), name_hint(name, names_of(layout_families()))));
+}
+
+FamilyRange family_range(std::string_view name) {
+  const auto slash = name.find('/');
+  const auto& family = layout_family(name.substr(0, slash));
+  if (slash == std::string_view::npos) return {&family, Range::Normal};
+  const auto range = name.substr(slash);
+  if (range != kStressSuffix) {
+    constexpr std::string_view kRanges[] = {"stress"};
+    throw InputError("layout", fmt::format("{} has no range {}{}; without one it is normal", family.name, in_quotes(range.substr(1)),
+                                           name_hint(range.substr(1), kRanges)));
+  }
+  return {&family, Range::Stress};
+}
+
+Layout draw_layout(FamilyRange choice, Draws& draws) {
+  if (choice.range == Range::Normal) return choice.family->make(draws, Range::Normal);
+  const bool closed = draws.below(kClosedOneIn) == 0;
+  while (true) {
+    Layout layout = choice.family->make(draws, Range::Stress);
+    if (closed) {
+      if (close_waiting_places(layout)) return layout;
+      continue;
+    }
+    const LogicalMap map(layout);
+    if (open_waiting_places(map, Reachability(map)) > 0) return layout;
+  }
 }
 
 }  // namespace fleetproof

@@ -116,13 +116,14 @@ class Picture {
         std::clamp(0.08 * scale_, 1.0, 2.5));
   }
 
-  // Half-way, and on long segments more of them; never so near to a station that its mark hides them.
+  // A little beyond half-way, where lanes that cross most often do, and on long segments more of them; never so near to a station that its mark
+  // hides them.
   void arrows(const Segment& segment) {
     const Curve curve = segment_curve(layout_, segment);
     const double size_px = std::min(1.1 * radius_px(), 8.0);
     const int count = std::max(1, static_cast<int>(curve.length_m() / kArrowEvery_m));
     for (int i = 0; i < count; ++i) {
-      const Pose pose = curve.pose_at(curve.length_m() * (i + 0.5) / count);
+      const Pose pose = curve.pose_at(curve.length_m() * (i + 0.6) / count);
       const Vec2 ahead(pose.heading.x() * size_px, -pose.heading.y() * size_px), aside(-0.7 * ahead.y(), 0.7 * ahead.x());
       const Vec2 tip = pixel(pose.position_m) + ahead, left = tip - 2.0 * ahead + aside, right = tip - 2.0 * ahead - aside;
       add(R"(<path d="M{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}Z" fill="#c2410c"/>)", tip.x(), tip.y(), left.x(), left.y(), right.x(), right.y());

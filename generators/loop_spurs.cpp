@@ -35,11 +35,13 @@ Sizes draw_sizes(Draws& draws) {
 
 class LoopSpurs {
  public:
-  explicit LoopSpurs(Draws& draws) : draws_(draws), sizes_(draw_sizes(draws)), way_(draws.below(2) == 0 ? Way::Forward : Way::Backward) {}
+  LoopSpurs(Draws& draws, Range range)
+      : draws_(draws), range_(range), sizes_(draw_sizes(draws)), way_(draws.below(2) == 0 ? Way::Forward : Way::Backward), builder_(family_name("loop-spurs", range)) {}
 
   Layout make() {
     place_loop();
     connect_loop();
+    if (range_ == Range::Stress) add_chords();
     add_spurs();
     return builder_.take();
   }
@@ -83,10 +85,25 @@ class LoopSpurs {
     }
   }
 
+  // Lanes across the loop, two by two: the two of a pair cross each other where there is no station.
+  void add_chords() {
+    const std::uint32_t pairs = 1 + draws_.below(2), half = sizes_.along / 2;
+    for (std::uint32_t k = 0; k < pairs; ++k) {
+      const std::uint32_t span = 1 + draws_.below(2), left = k * half + draws_.below(half - span + 1), right = left + span;
+      add_chord(left, right);
+      add_chord(right, left);
+    }
+  }
+
+  // From the lower long side to the upper one, whose stations run the other way.
+  void add_chord(std::uint32_t low, std::uint32_t high) {
+    builder_.straight(sides_[0].stations[low], sides_[2].stations[sizes_.along - high], draws_.below(2) == 0 ? Way::Forward : Way::Backward);
+  }
+
   // Outwards everywhere; inwards from the long sides only, as far as the loop is wide enough for waiting there.
   std::vector<Site> sites() const {
     const std::int64_t spur = sizes_.spur, inside = height() + 2 * sizes_.radius;
-    const bool lower_inwards = inside >= spur + kRoomToWait_mm, upper_inwards = inside >= 2 * spur + kRoomToWait_mm;
+    const bool lower_inwards = range_ == Range::Normal && inside >= spur + kRoomToWait_mm, upper_inwards = range_ == Range::Normal && inside >= 2 * spur + kRoomToWait_mm;
     std::vector<Site> found;
     for (std::size_t k = 0; k < sides_.size(); ++k) {
       const PointMm outwards{k == 1 ? spur : k == 3 ? -spur : 0, k == 0 ? -spur : k == 2 ? spur : 0};
@@ -105,7 +122,7 @@ class LoopSpurs {
     const auto chosen = draw_some(draws_, all.size(), sizes_.spurs);
     const std::size_t charging = chosen.size() >= 16 ? 2 : 1, parking = chosen.size() / 6;
     for (std::size_t i = 0; i < chosen.size(); ++i) {
-      const auto& site = all[chosen[i]];
+      const auto site = range_ == Range::Stress ? shortened(all[chosen[i]], i == 0) : all[chosen[i]];
       if (i < charging) {
         add_spur(site, fmt::format("charge{}", i + 1), Purpose::Charging);
       } else if (i < charging + parking) {
@@ -116,19 +133,28 @@ class LoopSpurs {
     }
   }
 
+  // In every second spur, and in one at least, a vehicle sticks out into the loop.
+  Site shortened(const Site& site, bool certainly) {
+    if (draws_.below(2) == 0 && !certainly) return site;
+    const std::int64_t spur = draw_between(draws_, 900, 1500, 50);
+    const PointMm root = builder_.position(site.from);
+    return {site.from, {root.x + (site.to.x - root.x) * spur / sizes_.spur, root.y + (site.to.y - root.y) * spur / sizes_.spur}};
+  }
+
   void add_spur(const Site& site, std::string name, Purpose purpose) {
     builder_.straight(site.from, builder_.station(std::move(name), site.to, purpose));
   }
 
   Draws& draws_;
+  Range range_;
   Sizes sizes_;
   Way way_;
-  LayoutBuilder builder_{"loop-spurs"};
+  LayoutBuilder builder_;
   std::vector<Side> sides_;
 };
 
 }  // namespace
 
-Layout make_loop_spurs(Draws& draws) { return LoopSpurs(draws).make(); }
+Layout make_loop_spurs(Draws& draws, Range range) { return LoopSpurs(draws, range).make(); }
 
 }  // namespace fleetproof

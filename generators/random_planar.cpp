@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "generators/layout_builder.hpp"
 #include "generators/reachability.hpp"
@@ -11,7 +12,7 @@ namespace fleetproof {
 namespace {
 
 constexpr std::int64_t kLeastDistance_mm = 4'000, kLongestSegment_mm = 9'000;
-constexpr std::uint32_t kThrows = 400, kMostStations = 34, kFewestStations = 16;
+constexpr std::uint32_t kThrows = 400, kMostStations = 34, kFewestStations = 16, kFewestUnderStress = 12;
 constexpr std::uint32_t kFirstGentleTry = 8;  // of drawing a network whose core is large enough
 
 std::int64_t squared(std::int64_t x) { return x * x; }
@@ -22,9 +23,11 @@ struct Edge {
   Way way;
 };
 
+std::int64_t whole_mm(double mm) { return static_cast<std::int64_t>(std::floor(mm + 0.5)); }
+
 class RandomPlanar {
  public:
-  explicit RandomPlanar(Draws& draws) : draws_(draws) {}
+  RandomPlanar(Draws& draws, Range range) : draws_(draws), range_(range) {}
 
   // The first tries leave edges out and make some one-way; a core too small is drawn anew, in the end with every edge two-way.
   Layout make() {
@@ -32,7 +35,8 @@ class RandomPlanar {
       strew();
       join(attempt >= kFirstGentleTry);
       keep_core();
-      if (points_.size() < kFewestStations) continue;
+      if (points_.size() < (range_ == Range::Stress ? kFewestUnderStress : kFewestStations)) continue;
+      if (range_ == Range::Stress && !squeeze_in_lanes()) continue;
       return build();
     }
   }
@@ -63,7 +67,8 @@ class RandomPlanar {
   }
 
   void join(bool gentle) {
-    const std::uint32_t left_out_percent = gentle ? 0 : draws_.below(31), two_way_percent = gentle ? 100 : 40 + draws_.below(61);
+    const std::uint32_t least_percent = range_ == Range::Stress ? 30 : 0;
+    const std::uint32_t left_out_percent = gentle ? least_percent : least_percent + draws_.below(31), two_way_percent = gentle ? 100 : 40 + draws_.below(61);
     edges_.clear();
     for (std::uint32_t a = 0; a < points_.size(); ++a) {
       for (std::uint32_t b = a + 1; b < points_.size(); ++b) {
@@ -92,6 +97,37 @@ class RandomPlanar {
     points_ = std::move(kept);
   }
 
+  // Beside up to three of the longer edges, a lane that leaves one end under less than 30 degrees, runs along at 1.2 to 1.5 vehicle
+  // widths and comes back to the other end in the same way. Two bodies side by side there share no station, yet little or no room.
+  bool squeeze_in_lanes() {
+    const std::size_t before = edges_.size();
+    std::size_t squeezed = 0;
+    for (const auto n : draw_some(draws_, before, before)) {
+      if (squeezed == 3) break;
+      if (squeeze_in_beside(edges_[n])) ++squeezed;
+    }
+    return squeezed > 0;
+  }
+
+  bool squeeze_in_beside(const Edge edge) {
+    const PointMm a = points_[edge.a], b = points_[edge.b];
+    const double dx = static_cast<double>(b.x - a.x), dy = static_cast<double>(b.y - a.y), length = std::sqrt(dx * dx + dy * dy);
+    const auto aside = static_cast<double>(draw_between(draws_, 1200, 1500, 10));
+    const double side = draws_.below(2) == 0 ? 1.0 : -1.0, along = 1.9 * aside;  // 27.8 degrees
+    if (length < 2.0 * along + 1'000.0) return false;
+    const auto beside = [&](double s) {
+      return PointMm{a.x + whole_mm((s * dx - side * aside * dy) / length), a.y + whole_mm((s * dy + side * aside * dx) / length)};
+    };
+    const PointMm p = beside(along), q = beside(length - along);
+    const auto near = [&](PointMm other) { return std::min(squared_distance(p, other), squared_distance(q, other)) < squared(1'000); };
+    if (std::ranges::any_of(points_, near)) return false;
+    const auto first = static_cast<std::uint32_t>(points_.size());
+    points_.push_back(p);
+    points_.push_back(q);
+    for (const Edge& e : {Edge{edge.a, first, edge.way}, Edge{first, first + 1, edge.way}, Edge{first + 1, edge.b, edge.way}}) edges_.push_back(e);
+    return true;
+  }
+
   Layout build() {
     struct Place {
       std::string name;
@@ -111,19 +147,20 @@ class RandomPlanar {
       }
       ++k;
     }
-    LayoutBuilder builder("random-planar");
+    LayoutBuilder builder(family_name("random-planar", range_));
     for (std::size_t i = 0; i < points_.size(); ++i) builder.station(places[i].name, points_[i], places[i].purpose);
     for (const auto& e : edges_) builder.straight(StationId{e.a}, StationId{e.b}, e.way);
     return builder.take();
   }
 
   Draws& draws_;
+  Range range_;
   std::vector<PointMm> points_;
   std::vector<Edge> edges_;
 };
 
 }  // namespace
 
-Layout make_random_planar(Draws& draws) { return RandomPlanar(draws).make(); }
+Layout make_random_planar(Draws& draws, Range range) { return RandomPlanar(draws, range).make(); }
 
 }  // namespace fleetproof

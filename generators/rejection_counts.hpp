@@ -14,6 +14,7 @@ struct RejectionCounts {
   std::uint64_t fleets_without_room = 0;               // attempts that ran out of stations
   std::uint64_t starts_tried = 0;                      // stations drawn for an AGV
   std::uint64_t worlds_without_storage = 0;            // transports between any stations, as fewer than two are for storage
+  std::uint64_t pairs_wanted = 0, pairs_made = 0;      // of AGVs that are to meet
   std::array<std::uint64_t, kProblemKinds> reasons{};  // of rejected starts and worlds, by ProblemKind
 
   std::uint64_t& of(ProblemKind kind) { return reasons[static_cast<std::size_t>(kind)]; }
@@ -25,6 +26,8 @@ struct RejectionCounts {
     fleets_without_room += other.fleets_without_room;
     starts_tried += other.starts_tried;
     worlds_without_storage += other.worlds_without_storage;
+    pairs_wanted += other.pairs_wanted;
+    pairs_made += other.pairs_made;
     for (std::size_t i = 0; i < reasons.size(); ++i) reasons[i] += other.reasons[i];
   }
   friend bool operator==(const RejectionCounts&, const RejectionCounts&) = default;

@@ -6,8 +6,11 @@
 
 #include "core/error.hpp"
 #include "core/random.hpp"
+#include "generators/encounter_pairs.hpp"
 #include "generators/layout_family.hpp"
+#include "generators/mutated_import.hpp"
 #include "generators/placement.hpp"
+#include "generators/text_file.hpp"
 #include "generators/transports.hpp"
 #include "generators/validator.hpp"
 
@@ -15,7 +18,7 @@ namespace fleetproof {
 namespace {
 
 constexpr std::uint32_t kAttempts = 32;
-constexpr double kMostTransports_per_h = 3600.0;
+constexpr double kMostTransports_per_h = 3600.0, kLargestSkew = 4.0;
 
 using SharedMap = std::shared_ptr<const LogicalMap>;
 
@@ -24,7 +27,18 @@ void check(const WorldSpec& spec) {
   if (!(spec.transports_per_agv_hour >= 0.0 && spec.transports_per_agv_hour <= kMostTransports_per_h)) {
     throw InputError("transports_per_agv_hour", fmt::format("{} is outside 0 .. {}", spec.transports_per_agv_hour, kMostTransports_per_h));
   }
+  if (!(spec.hot_spot_skew >= 0.0 && spec.hot_spot_skew <= kLargestSkew)) {
+    throw InputError("hot_spot_skew", fmt::format("{} is outside 0 .. {}", spec.hot_spot_skew, kLargestSkew));
+  }
   if (spec.horizon <= Duration::zero()) throw InputError("horizon_s", fmt::format("{} is not above 0", to_seconds(spec.horizon)));
+  if (spec.orders != nullptr) {
+    if (spec.mutate || std::holds_alternative<std::string>(spec.layout)) {
+      throw InputError("orders", "a list of orders names stations, but this layout is drawn anew for every world; use a layout file as it is");
+    }
+    if (spec.placement != Placement::Random && spec.placement != Placement::ChargerBank) {
+      throw InputError("orders", fmt::format("placement {} chooses the first orders itself; drop one of the two", in_quotes(name_of(spec.placement))));
+    }
+  }
   if (const auto* map = std::get_if<SharedMap>(&spec.layout); map != nullptr && spec.fleet_size > (*map)->station_count()) {
     throw InputError("fleet_size",
                      fmt::format("{} AGVs cannot start on the {} stations of this layout; ask for fewer", spec.fleet_size, (*map)->station_count()));
@@ -49,17 +63,14 @@ class WorldMaker {
     scenario_.seed = seed;
     if (family_ != nullptr) return;
     set_map(std::get<SharedMap>(spec.layout));
+    if (spec.mutate) return;
     // No other draw mends a fixed layout.
     for (const auto& problem : world_problems(scenario_, *reachability_)) throw InputError(scenario_.map->layout().name, problem.sentence);
   }
 
   bool attempt(std::uint32_t number) {
-    if (family_ != nullptr) {
-      Draws draws(stream_key(seed_, Stream::Layout), number);
-      set_map(std::make_shared<const LogicalMap>(layout_family(*family_).make(draws)));
-    }
-    if (!place_fleet(scenario_, spec_.fleet_size, *reachability_, stream_key(seed_, Stream::Placement), number, counts)) return false;
-    const bool stored = assign_transports(scenario_, spec_.transports_per_agv_hour, *reachability_, stream_key(seed_, Stream::Transports), number);
+    if (!draw_map(number) || !place(number)) return false;
+    const bool stored = assign_orders(number);
     if (const auto problems = unusable_problems(scenario_); !problems.empty()) throw InputError(problems[0].pointer, problems[0].sentence);
     const auto problems = world_problems(scenario_, *reachability_);
     for (const auto& problem : problems) ++counts.of(problem.kind);
@@ -73,6 +84,40 @@ class WorldMaker {
   RejectionCounts counts;
 
  private:
+  bool draw_map(std::uint32_t number) {
+    Draws draws(stream_key(seed_, Stream::Layout), number);
+    if (family_ != nullptr) {
+      set_map(std::make_shared<const LogicalMap>(draw_layout(family_range(*family_), draws)));
+    } else if (spec_.mutate) {
+      const auto layout = draw_mutation(std::get<SharedMap>(spec_.layout)->layout(), draws, counts);
+      if (!layout) return false;
+      set_map(std::make_shared<const LogicalMap>(*layout));
+    }
+    return true;
+  }
+
+  bool place(std::uint32_t number) {
+    const auto key = stream_key(seed_, Stream::Placement);
+    const auto placement = placement_of_world(spec_.placement, key);
+    scenario_.agvs.clear();
+    pairs_.clear();
+    if (placement == Placement::ChargerBank) return place_at_charger_bank(scenario_, spec_.fleet_size, *reachability_, key, number, counts);
+    if (placement != Placement::Random) pairs_ = place_pairs(scenario_, spec_.fleet_size, placement, *reachability_, key, number, counts);
+    return place_fleet(scenario_, spec_.fleet_size, *reachability_, key, number, counts);
+  }
+
+  // False if transports lead between any stations, as too few are for storage.
+  bool assign_orders(std::uint32_t number) {
+    if (spec_.orders != nullptr) {
+      assign_listed_orders(scenario_, *spec_.orders, *reachability_);
+      return true;
+    }
+    const Demand demand{spec_.transports_per_agv_hour, spec_.hot_spot_skew};
+    const bool stored = assign_transports(scenario_, demand, *reachability_, stream_key(seed_, Stream::Transports), number);
+    send_to_meet(scenario_, pairs_);
+    return stored;
+  }
+
   void set_map(SharedMap map) {
     scenario_.map = std::move(map);
     reachability_.emplace(*scenario_.map);
@@ -84,6 +129,7 @@ class WorldMaker {
   const std::string* family_;
   Scenario scenario_;
   std::optional<Reachability> reachability_;
+  std::vector<EncounterPair> pairs_;
 };
 
 }  // namespace

@@ -6,16 +6,22 @@
 #include <variant>
 
 #include "core/scenario.hpp"
+#include "generators/order_list.hpp"
+#include "generators/placement.hpp"
 #include "generators/rejection_counts.hpp"
 
 namespace fleetproof {
 
 // What a campaign fixes about its worlds; the seed draws the rest.
 struct WorldSpec {
-  // Name of a family (layout_family.hpp): a new layout in every world. Or one map, built once and shared by all of them.
+  // Name of a family and its range (family_range()): a new layout in every world. Or one map, built once and shared by all of them.
   std::variant<std::string, std::shared_ptr<const LogicalMap>> layout = std::string("aisle-grid");
+  bool mutate = false;  // a map is only where to begin: every world has a mutation of it (mutated_import.hpp)
   std::uint32_t fleet_size = 5;
+  Placement placement = Placement::Random;
   double transports_per_agv_hour = 20.0;  // 0: none; at most 3600
+  double hot_spot_skew = 0.0;             // at most 4; transports.hpp
+  std::shared_ptr<const OrderList> orders;  // instead of drawn transports; for a map that stays as it is, and no placement in pairs
   VehicleType vehicle;
   LawSetup law;  // starts keep its safety distance
   Duration horizon = std::chrono::seconds(600);

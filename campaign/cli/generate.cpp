@@ -4,23 +4,63 @@
 
 #include "campaign/cli/output_file.hpp"
 #include "campaign/cli/verbs.hpp"
+#include "core/error.hpp"
 #include "core/random.hpp"
+#include "generators/importer.hpp"
 #include "generators/layout_family.hpp"
 #include "generators/layout_file.hpp"
 #include "generators/layout_svg.hpp"
+#include "generators/mutated_import.hpp"
 
 namespace fleetproof::cli {
 namespace {
 
+constexpr std::uint32_t kAttempts = 32;  // as for worlds
+
 struct GenerateWords {
-  std::string family, out, picture;
+  std::string family, from, out, picture;
   std::optional<std::uint64_t> seed;
+  bool stress = false;
 };
 
+std::string rejections(const RejectionCounts& counts) {
+  std::string text;
+  for (std::size_t i = 0; i < kProblemKinds; ++i) {
+    if (counts.reasons[i] > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name_of(static_cast<ProblemKind>(i)), counts.reasons[i]);
+  }
+  return text;
+}
+
+Layout mutation(const GenerateWords& words, std::uint64_t key) {
+  if (words.from.empty()) throw InputError("--from", "is missing; name the layout file to begin with");
+  if (words.stress) throw InputError("--stress", fmt::format("has no meaning for {}; it has one range", kMutatedImport));
+  std::vector<std::string> warnings;
+  const Layout base = import_layout(words.from, {}, warnings);
+  for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
+  RejectionCounts counts;
+  for (std::uint32_t number = 0; number < kAttempts; ++number) {
+    Draws draws(key, number);
+    const auto layout = draw_mutation(base, draws, counts);
+    if (!layout) continue;
+    if (number > 0) fmt::print(stderr, "{} of {} draws refused: {}\n", number, number + 1, rejections(counts));
+    return *layout;
+  }
+  throw InputError(words.from, fmt::format("none of {} mutations is sound ({}); choose another seed or a layout with more ways round", kAttempts, rejections(counts)));
+}
+
 // The layout of the world with this seed: the same that a scenario of that seed holds, unless its first draw was refused.
+Layout drawn(const GenerateWords& words) {
+  const auto key = stream_key(words.seed.value_or(1), Stream::Layout);
+  if (words.family == kMutatedImport) return mutation(words, key);
+  if (!words.from.empty()) throw InputError("--from", fmt::format("belongs to {} alone", kMutatedImport));
+  FamilyRange choice = family_range(words.family);
+  if (words.stress) choice.range = Range::Stress;
+  Draws draws(key);
+  return draw_layout(choice, draws);
+}
+
 int generate(const GenerateWords& words) {
-  Draws draws(stream_key(words.seed.value_or(1), Stream::Layout));
-  const Layout layout = layout_family(words.family).make(draws);
+  const Layout layout = drawn(words);
   if (!words.picture.empty()) write_whole(words.picture, layout_svg(layout), "--svg");
   if (words.out.empty()) {
     fmt::print("{}", to_text(layout));
@@ -34,8 +74,10 @@ int generate(const GenerateWords& words) {
 
 Action prepare_generate(Options& options) {
   auto words = std::make_shared<GenerateWords>();
-  options.positional("FAMILY", words->family, "layout family (see: fleetproof list generators)");
+  options.positional("FAMILY", words->family, "layout family (see: fleetproof list generators), or mutated-import");
   options.option("--seed", words->seed, "seed of the drawn layout (default: 1)");
+  options.flag("--stress", words->stress, "draw from the family's stress range; the same as FAMILY/stress");
+  options.option("--from", words->from, "mutated-import: layout file to begin with");
   options.option("-o,--output", words->out, "write the layout to this file (JSON) instead of standard output");
   options.option("--svg", words->picture, "draw the layout into this file as well (SVG)");
   return [words] { return generate(*words); };

@@ -4,18 +4,20 @@
 #include <limits>
 #include <memory>
 
+#include "campaign/cli/output_file.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "core/error.hpp"
 #include "generators/csv_layout.hpp"
 #include "generators/importer.hpp"
 #include "generators/layout_file.hpp"
+#include "generators/layout_svg.hpp"
 #include "generators/lif.hpp"
 
 namespace fleetproof::cli {
 namespace {
 
 struct ImportWords {
-  std::string format, file, out, level;
+  std::string format, file, out, picture, level;
   std::optional<std::uint64_t> graph;
   std::optional<double> cell_pitch_m;
   bool merge_antiparallel = false;
@@ -53,6 +55,7 @@ int import_file(const ImportWords& words) {
   const Layout layout = entry.make(words.file, choice, warnings);
   for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
   fmt::print(stderr, "{}: {} stations, {} segments, {} warnings\n", words.file, layout.stations.size(), layout.segments.size(), warnings.size());
+  if (!words.picture.empty()) write_whole(words.picture, layout_svg(layout), "--svg");
   const std::string text = text_for(layout, words.out);
   if (words.out.empty()) {
     fmt::print("{}", text);
@@ -73,6 +76,7 @@ Action prepare_import(Options& options) {
   options.positional("FILE", words->file, "file to read");
   options.option("-o,--output", words->out,
                  "write to this file instead of standard output: LIF if it ends in .lif.json, tables if in .csv, else our layout file");
+  options.option("--svg", words->picture, "draw the layout into this file as well (SVG)");
   options.flag("--merge-antiparallel", words->merge_antiparallel, "opentcs: two paths back and forth on one track become one bidirectional segment");
   options.option("--graph", words->graph, "rmf: graph_idx of the lanes to read (default: 0)");
   options.option("--level", words->level, "rmf: level to read (default: the first)");

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "generators/importer.hpp"
 #include "generators/layout_family.hpp"
+#include "generators/mutated_import.hpp"
 #include "laws/laws.hpp"
 #include "reports/report.hpp"
 
@@ -33,6 +34,12 @@ std::vector<Row> agent_rows() {
   return rows;
 }
 
+std::vector<Row> generator_rows() {
+  auto rows = rows_of(layout_families());
+  rows.push_back({std::string(kMutatedImport), "a layout file of yours with segments left out or turned round, stations moved and all of it scaled; see generate --from"});
+  return rows;
+}
+
 struct Kind {
   std::string_view name;
   std::vector<Row> (*rows)();
@@ -41,7 +48,7 @@ struct Kind {
 constexpr std::array kinds = {
     Kind{"agents", agent_rows},
     Kind{"laws", [] { return rows_of(laws()); }},
-    Kind{"generators", [] { return rows_of(layout_families()); }},
+    Kind{"generators", generator_rows},
     Kind{"importers", [] { return rows_of(importers()); }},
     Kind{"reports", [] { return rows_of(report_formats()); }},
 };

@@ -86,6 +86,62 @@ TEST_F(CampaignFileTest, PlanTextSurvivesTheRoundTrip) {
   EXPECT_EQ(again.cells(), plan.cells());
 }
 
+TEST_F(CampaignFileTest, LayoutsMayBeRangesMutationsAndFilesWithOptions) {
+  std::ofstream(folder_ / "m.map") << "height 1\nwidth 4\nmap\nS..S\n";
+  const std::string text =
+      "[factors]\nagents = [\"reckless\"]\nfleet_sizes = [1]\n"
+      "layouts = [\"aisle-grid\", \"aisle-grid/stress\", \"m.map\", { file = \"m.map\", cell_pitch_m = 1.5, name = \"wide\" }, { mutate = \"m.map\" }]\n";
+  const CampaignPlan plan = read(text).plan;
+  ASSERT_EQ(plan.layouts.size(), 5U);
+  EXPECT_EQ(plan.layouts[1].name, "aisle-grid/stress");
+  EXPECT_EQ(plan.layouts[1].map, nullptr);
+  EXPECT_EQ(plan.layouts[3].name, "wide");
+  EXPECT_EQ(plan.layouts[3].map->layout().stations[3].position_m.x() - plan.layouts[3].map->layout().stations[0].position_m.x(), 4.5);
+  EXPECT_EQ(plan.layouts[4].name, "mutated-import/m");
+  EXPECT_TRUE(plan.layouts[4].mutate);
+  const CampaignPlan again = parse_plan(plan_text(plan));
+  EXPECT_EQ(plan_text(again), plan_text(plan));
+  EXPECT_TRUE(again.layouts[4].mutate);
+  EXPECT_FALSE(again.layouts[3].mutate);
+  EXPECT_EQ(again.cells()[1].layout, "aisle-grid/stress");
+}
+
+TEST_F(CampaignFileTest, WorldsMayBePlacedAndOrderedOtherwise) {
+  std::ofstream(folder_ / "m.map") << "height 1\nwidth 4\nmap\nS..S\n";
+  std::ofstream(folder_ / "o.csv") << "release_s,from,to,agv\n1.5,a,b,\n2,b,a,0\n";
+  const std::string head = "[factors]\nagents = [\"reckless\"]\nfleet_sizes = [1]\nlayouts = [\"m.map\"]\n[world]\n";
+  const CampaignPlan plan = read(head + "placement = \"charger-bank\"\nhot_spot_skew = 0.9\norders = \"o.csv\"\n").plan;
+  EXPECT_EQ(plan.placement, Placement::ChargerBank);
+  EXPECT_EQ(plan.hot_spot_skew, 0.9);
+  ASSERT_NE(plan.orders, nullptr);
+  const CampaignPlan again = parse_plan(plan_text(plan));
+  EXPECT_EQ(plan_text(again), plan_text(plan));
+  EXPECT_EQ(again.orders->orders, plan.orders->orders);
+  EXPECT_EQ(again.orders->source, "o.csv");
+  EXPECT_EQ(again.orders->orders[1].agv, 0U);
+  EXPECT_EQ(again.orders->orders[0].release, std::chrono::milliseconds(1500));
+  EXPECT_THAT(error_of(head + "placement = \"advesarial\"\n"), HasSubstr("did you mean \"adversarial\"?"));
+  EXPECT_THAT(error_of(head + "hot_spot_skew = 9\n"), HasSubstr("world.hot_spot_skew is 9; it lies between 0 and 4"));
+  EXPECT_THAT(error_of(head + "orders = \"none.csv\"\n"), HasSubstr("none.csv: there is no such file"));
+  EXPECT_THAT(error_of(head + "placement = \"mixed\"\norders = \"o.csv\"\n"), HasSubstr("with world.orders it is \"random\" or \"charger-bank\""));
+  EXPECT_THAT(error_of(kFactors + "[world]\norders = \"o.csv\"\n"), HasSubstr("layout \"aisle-grid\" is drawn anew"));
+}
+
+TEST_F(CampaignFileTest, LayoutTablesAreRefusedByPlaceAndRemedy) {
+  std::ofstream(folder_ / "m.map") << "height 1\nwidth 4\nmap\nS..S\n";
+  const auto error = [&](const std::string& layout) { return error_of("[factors]\nagents = [\"reckless\"]\nlayouts = [" + layout + "]\n"); };
+  EXPECT_THAT(error("{ file = \"m.map\", merge_antiparallel = true }"),
+              HasSubstr("c.toml:3:51: merge_antiparallel has no meaning for format \"grid\"; it belongs to \"opentcs\""));
+  EXPECT_THAT(error("{ file = \"m.map\", mutate = \"m.map\" }"), HasSubstr("has either file = \"...\" or mutate = \"...\""));
+  EXPECT_THAT(error("{ name = \"x\" }"), HasSubstr("has either file = \"...\" or mutate = \"...\""));
+  EXPECT_THAT(error("{ file = \"m.map\", cell_pitch = 1 }"), HasSubstr("cell_pitch is not a known key; did you mean \"cell_pitch_m\"?"));
+  EXPECT_THAT(error("{ file = \"none.map\" }"), HasSubstr("none.map: there is no such file"));
+  EXPECT_THAT(error("3"), HasSubstr("it must be an array of strings and tables"));
+  EXPECT_THAT(error("\"aisle-grid/stres\""), HasSubstr("did you mean \"stress\"?"));
+  EXPECT_THAT(error("\"aisle-gird/stress\""), HasSubstr("did you mean \"aisle-grid\"?"));
+  EXPECT_THAT(error("\"m.map\", { file = \"m.map\" }"), HasSubstr("names one value twice"));
+}
+
 TEST_F(CampaignFileTest, ErrorsNamePlaceValueAndRemedy) {
   EXPECT_THAT(error_of("seed = \n"), HasSubstr("c.toml:1:"));
   EXPECT_THAT(error_of("replicats = 3\n" + kFactors), HasSubstr("c.toml:1:1: replicats is not a known key; did you mean \"replicates\"?"));

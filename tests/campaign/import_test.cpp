@@ -27,6 +27,13 @@ TEST_F(ImportTest, WritesLayoutsLifAndCsv) {
   EXPECT_EQ(run("import lif merged.lif.json").out, read(path("merged.json"))) << "without -o the layout goes to standard output";
 }
 
+TEST_F(ImportTest, DrawsWhatItRead) {
+  const auto finished = run("import opentcs " + kCrossdock + " -o plain.json --svg plain.svg");
+  EXPECT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_THAT(read(path("plain.svg")), StartsWith("<svg "));
+  EXPECT_THAT(run("import opentcs " + kCrossdock + " --svg no/where.svg").err, HasSubstr("no/where.svg: cannot be written; choose another path for --svg"));
+}
+
 TEST_F(ImportTest, TellsWhatItGuessed) {
   write("m.map", "height 1\nwidth 3\nmap\n.S.\n");
   const auto finished = run("import grid m.map --cell-pitch 1.5");

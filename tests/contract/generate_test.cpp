@@ -33,5 +33,37 @@ TEST_F(Generate, WritesFilesInsteadAndDrawsAPicture) {
   EXPECT_EQ(read((folder_ / "layout.svg").string()), read(test::source("tests/layouts/gallery/fishbone.svg")));
 }
 
+// As for /dev/null: an output that is no file is written to and stays what it is.
+TEST_F(Generate, WritesIntoAPipeInsteadOfReplacingIt) {
+  const std::string generate = std::string(FLEETPROOF_PROGRAM) + " generate fishbone --seed 3";
+  ASSERT_EQ(std::system(("cd '" + folder_.string() + "' && mkfifo pipe && (timeout 5 cat pipe > got & " + generate + " -o pipe; wait)").c_str()), 0);
+  EXPECT_TRUE(std::filesystem::is_fifo(folder_ / "pipe"));
+  EXPECT_EQ(read(path("got")), run("generate fishbone --seed 3").out);
+}
+
+TEST_F(Generate, StressIsARangeOfEveryFamily) {
+  for (const auto& family : layout_families()) {
+    const std::string name(family.name);
+    const auto finished = run("generate " + name + " --seed 4 --stress");
+    EXPECT_EQ(finished.exit_code, 0) << finished.err;
+    EXPECT_EQ(finished.out, run("generate " + name + "/stress --seed 4").out);
+    EXPECT_NE(finished.out, run("generate " + name + " --seed 4").out);
+  }
+}
+
+TEST_F(Generate, MutatesALayoutFileAndTellsWhatWasRefused) {
+  const std::string from = " --from '" + test::source("tests/layouts/crossdock.xml") + "'";
+  const auto finished = run("generate mutated-import --seed 3" + from);
+  EXPECT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_EQ(finished.out, run("generate mutated-import --seed 3" + from).out);
+  EXPECT_NE(finished.out, run("generate mutated-import --seed 4" + from).out);
+  std::string talk;
+  for (int seed = 0; seed < 8; ++seed) talk += run("generate mutated-import --seed " + std::to_string(seed) + from).err;
+  EXPECT_NE(talk.find("draws refused: weak-core"), std::string::npos) << talk;
+  EXPECT_NE(run("generate mutated-import").err.find("--from: is missing"), std::string::npos);
+  EXPECT_NE(run("generate mutated-import --stress" + from).err.find("--stress: has no meaning"), std::string::npos);
+  EXPECT_NE(run("generate fishbone" + from).err.find("--from: belongs to mutated-import alone"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace fleetproof

@@ -34,6 +34,17 @@ TEST(NaturalLog, AgreesWithTheLibrary) {
   }
 }
 
+TEST(NaturalExp, AgreesWithTheLibrary) {
+  Draws draws(4);
+  for (int i = 0; i < 100000; ++i) {
+    const double x = draws.uniform(-700.0, 700.0), small = draws.uniform(-4.0, 4.0);
+    EXPECT_NEAR(natural_exp(x) / std::exp(x), 1.0, 1e-15) << x;
+    EXPECT_NEAR(natural_exp(small) / std::exp(small), 1.0, 1e-15) << small;
+    EXPECT_NEAR(natural_exp(natural_log(std::exp(small))), std::exp(small), 1e-13) << small;
+  }
+  EXPECT_EQ(natural_exp(0.0), 1.0);
+}
+
 TEST(Draws, HaveTheMomentsOfTheirDistribution) {
   Draws draws(5);
   double uniform = 0.0, exponential = 0.0;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bitset>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -14,33 +16,49 @@
 // Judges layouts and scenarios without any code of the generators or of the geometry kernel: plain matrices, corners and samples.
 namespace fleetproof::independent {
 
-// reach[a][b]: station b can be reached from a (Floyd and Warshall).
-inline std::vector<std::vector<bool>> reach(const Layout& layout) {
+inline constexpr std::size_t kMostStations = 256;
+using Row = std::bitset<kMostStations>;
+
+// reach[a][b]: station b can be reached from a (Warshall), without passing station `without` if that is given.
+inline std::vector<Row> reach(const Layout& layout, std::size_t without = kMostStations) {
   const auto n = layout.stations.size();
-  std::vector<std::vector<bool>> r(n, std::vector<bool>(n, false));
+  if (n > kMostStations) std::abort();
+  std::vector<Row> r(n);
   for (std::size_t i = 0; i < n; ++i) r[i][i] = true;
   for (const auto& s : layout.segments) {
+    if (s.from.index() == without || s.to.index() == without) continue;
     r[s.from.index()][s.to.index()] = true;
     if (s.bidirectional) r[s.to.index()][s.from.index()] = true;
   }
   for (std::size_t k = 0; k < n; ++k) {
     for (std::size_t i = 0; i < n; ++i) {
-      if (!r[i][k]) continue;
-      for (std::size_t j = 0; j < n; ++j) {
-        if (r[k][j]) r[i][j] = true;
-      }
+      if (r[i][k]) r[i] |= r[k];
     }
   }
   return r;
 }
 
 inline bool all_reach_all(const Layout& layout) {
+  const auto n = layout.stations.size();
   for (const auto& row : reach(layout)) {
-    for (const bool reached : row) {
-      if (!reached) return false;
-    }
+    if (row.count() != n) return false;
   }
   return true;
+}
+
+// Whether the others still all reach each other when somebody stands on `station` and lets nobody through.
+inline bool leaves_a_way(const Layout& layout, std::size_t station) {
+  const auto r = reach(layout, station);
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    if (i != station && r[i].count() != r.size() - 1) return false;
+  }
+  return true;
+}
+
+// How many seeds a test goes through: 300, or what FLEETPROOF_SEEDS says.
+inline std::uint64_t seed_count() {
+  const char* wanted = std::getenv("FLEETPROOF_SEEDS");
+  return wanted != nullptr ? std::strtoull(wanted, nullptr, 10) : 300;
 }
 
 inline double distance_to_line_m(const Vec2& p, const Vec2& a, const Vec2& b) {

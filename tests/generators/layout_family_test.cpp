@@ -14,11 +14,11 @@
 namespace fleetproof {
 namespace {
 
-constexpr std::uint64_t kSeeds = 300;
+const std::uint64_t kSeeds = independent::seed_count();
 
 Layout make(const Entry<MakeLayout>& family, std::uint64_t seed) {
   Draws draws(stream_key(seed, Stream::Layout));
-  return family.make(draws);
+  return family.make(draws, Range::Normal);
 }
 
 class LayoutFamily : public testing::TestWithParam<Entry<MakeLayout>> {};

@@ -76,7 +76,7 @@ TEST(LayoutFile, GeneratedLayoutsComeBackExactly) {
   for (const auto& family : layout_families()) {
     for (std::uint64_t seed = 0; seed < 50; ++seed) {
       Draws draws(seed);
-      const Layout layout = family.make(draws);
+      const Layout layout = family.make(draws, Range::Normal);
       const Layout back = parse_layout(to_text(layout), "text");
       ASSERT_EQ(back.stations.size(), layout.stations.size());
       for (std::size_t i = 0; i < layout.stations.size(); ++i) EXPECT_EQ(back.stations[i].position_m, layout.stations[i].position_m);

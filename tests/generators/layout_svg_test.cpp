@@ -39,7 +39,7 @@ Layout pair(bool bidirectional) {
 TEST(LayoutSvg, EveryFamilyIsSoundXmlWithEveryLaneAndStation) {
   for (const auto& family : layout_families()) {
     Draws draws(stream_key(7, Stream::Layout));
-    const Layout layout = family.make(draws);
+    const Layout layout = family.make(draws, Range::Normal);
     const std::string svg = layout_svg(layout);
     const auto document = parsed(svg);
     for (const auto& station : layout.stations) EXPECT_EQ(texts(document, station.name).size(), 1U) << family.name << ": " << station.name;
@@ -78,13 +78,17 @@ TEST(LayoutSvg, OneWaySegmentsHaveAnArrowHead) {
   EXPECT_EQ(count(layout_svg(pair(false))), 2);
 }
 
-// The pictures of the front page are those that the program draws.
+// The pictures of the gallery are those that the program draws.
 TEST(LayoutSvg, TheGalleryIsUpToDate) {
-  for (const char* name : {"fishbone", "dense-crossing"}) {
-    Draws draws(stream_key(3, Stream::Layout));
-    EXPECT_EQ(layout_svg(layout_family(name).make(draws)),
-              independent::file_text(independent::source_file("tests/layouts/gallery/" + std::string(name) + ".svg")))
-        << "draw it again: fleetproof generate " << name << " --seed 3 -o /dev/null --svg tests/layouts/gallery/" << name << ".svg";
+  for (const auto& family : layout_families()) {
+    for (const Range range : {Range::Normal, Range::Stress}) {
+      Draws draws(stream_key(3, Stream::Layout));
+      const auto name = std::string(family.name) + (range == Range::Stress ? "-stress" : "");
+      EXPECT_TRUE(layout_svg(draw_layout({&family, range}, draws)) ==
+                  independent::file_text(independent::source_file("tests/layouts/gallery/" + name + ".svg")))
+          << "draw it again: fleetproof generate " << family.name << " --seed 3 " << (range == Range::Stress ? "--stress " : "")
+          << "--svg tests/layouts/gallery/" << name << ".svg > layout.json";
+    }
   }
 }
 

@@ -112,7 +112,7 @@ TEST(Lif, TheFamiliesComeBackAsTheyWere) {
   for (const auto& family : layout_families()) {
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
       Draws draws(seed);
-      expect_round_trip(family.make(draws));
+      expect_round_trip(family.make(draws, Range::Normal));
     }
   }
 }

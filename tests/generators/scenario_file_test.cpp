@@ -118,6 +118,20 @@ TEST(ScenarioFile, DigestsOfGeneratedWorldsArePinned) {
   }
 }
 
+TEST(ScenarioFile, DigestsOfWorldsUnderStressArePinned) {
+  const std::uint64_t expected[] = {11618434686936819167ULL, 2625618071437931087ULL, 13086036671049046215ULL,
+                                    12886832591725578091ULL, 7568168073580230940ULL, 3606114347447977009ULL};
+  ASSERT_EQ(std::size(expected), layout_families().size());
+  for (std::size_t i = 0; i < layout_families().size(); ++i) {
+    WorldSpec spec;
+    spec.layout = family_name(layout_families()[i].name, Range::Stress);
+    spec.placement = Placement::Adversarial;
+    spec.hot_spot_skew = 1.0;
+    RejectionCounts counts;
+    EXPECT_EQ(scenario_digest(generate_world(spec, 2005, counts)), expected[i]) << layout_families()[i].name;
+  }
+}
+
 TEST(ScenarioFile, Figure4IsThePaperScenario) {
   const Scenario s = read_scenario(kFigure4);
   EXPECT_EQ(s.map->station_count(), 10U);

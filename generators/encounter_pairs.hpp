@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/scenario.hpp"
+#include "generators/placement.hpp"
+#include "generators/reachability.hpp"
+#include "generators/rejection_counts.hpp"
+
+namespace fleetproof {
+
+// Two AGVs made to meet on their first drives, from the start to where their first transports begin.
+struct EncounterPair {
+  std::uint32_t first = 0, second = 0;  // indices of AGVs
+  StationId first_goal, second_goal;
+};
+
+// Puts pairs of AGVs, AGV 2k and 2k+1, on their starts until the fleet has fewer than two places left or no pair is found; the rest is for
+// place_fleet. If both AGVs of a pair leave at the same instant and drive the quickest way (timetable.hpp), no other being as quick,
+// * Adversarial: they begin to drive one two-way segment from its two ends, or failing that reach a station by different segments,
+//   less than 1 s apart;
+// * Symmetric: they reach a station by different segments at the same instant, or as nearly so as sixteen draws bring it.
+// Goals are stations where transports begin (order_ends()). The scenario needs map, vehicle type and law; obstacles are regarded.
+std::vector<EncounterPair> place_pairs(Scenario& scenario, std::uint32_t fleet_size, Placement placement, const Reachability& reachability,
+                                       std::uint64_t key, std::uint32_t attempt, RejectionCounts& counts);
+
+// Lets the first transports of every pair begin at its goals and be released together, at the earlier of the two instants drawn.
+void send_to_meet(Scenario& scenario, const std::vector<EncounterPair>& pairs);
+
+}  // namespace fleetproof

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/layout.hpp"
+#include "generators/reachability.hpp"
+
+namespace fleetproof {
+
+// A place to wait is a station to park, charge or store at.
+bool is_place_to_wait(const Station& station);
+
+// By station of the core: whether the rest of the core falls apart when an AGV stands here and lets nobody through, as on an end of a
+// two-way lane that is the only way to some part of the map. Stations outside the core count as false.
+std::vector<bool> cut_stations(const LogicalMap& map, const Reachability& reachability);
+
+// Places to wait in the core that cut nobody off.
+std::size_t open_waiting_places(const LogicalMap& map, const Reachability& reachability);
+
+// Moves the purposes of every open place to wait to the nearest cut station that has none, storage first: whoever waits is then in somebody's
+// way. False, and nothing changed, if the layout has fewer than three cut stations.
+bool close_waiting_places(Layout& layout);
+
+}  // namespace fleetproof
