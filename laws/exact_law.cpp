@@ -32,7 +32,7 @@ class ExactLaw final : public Law {
   void settle(const Piece& a, const Piece& b, Interval within);
   void settle_standing(const Piece& a, const Piece& b, Interval within);
   void settle_moving(const Piece& a, const Piece& b, Interval within);
-  void collect_stretches(const Piece& a, const Piece& b, SimTime first, SimTime last);
+  void collect_stretches(const Piece& a, const Piece& b, const Approach& approach, SimTime last);
   void collect(const Piece& a, const Piece& b, SimTime first, SimTime last);
   double clearance_at(const Piece& a, const Piece& b, SimTime t);
 
@@ -89,26 +89,32 @@ void ExactLaw::settle_standing(const Piece& a, const Piece& b, Interval within) 
 }
 
 void ExactLaw::settle_moving(const Piece& a, const Piece& b, Interval within) {
-  const auto approach = closest_approach(a, b, within, std::max(smallest_m_, threshold_m_), evaluations_);
-  if (!approach) return;
-  smallest_m_ = std::min(smallest_m_, approach->clearance_m);
-  // `approach` depends, within its tolerance, on what was met before. Whether there is a violation must not.
-  if (approach->clearance_m >= threshold_m_ + kBuiltToTheLimit_m) return;
-  const auto first = first_below(a, b, within, threshold_m_, evaluations_);
-  if (!first) return;
-  const auto last = last_below(a, b, {*first, within.end}, threshold_m_, evaluations_);
-  collect_stretches(a, b, *first, last.value_or(*first));
+  // Most pairs come nowhere near the smallest clearance so far, and that settles both questions. What was met before decides no more than that:
+  // a violation is dated and measured from the start of the interval, and comes out the same in whatever order the pieces are announced.
+  const bool lower = smallest_m_ > threshold_m_ + kBuiltToTheLimit_m;
+  if (lower && !comes_below(a, b, within, smallest_m_, evaluations_)) return;
+  if (const auto approach = approach_below(a, b, within, threshold_m_, evaluations_)) {
+    smallest_m_ = std::min(smallest_m_, approach->closest.clearance_m);
+    const auto last = last_below(a, b, {approach->first, within.end}, threshold_m_, evaluations_);
+    // A dip of a nanometre is met from one side in time and not from the other.
+    collect_stretches(a, b, *approach, std::max(last.value_or(approach->first), approach->closest.at));
+  } else if (lower) {
+    const auto closest = closest_approach(a, b, within, smallest_m_, evaluations_);
+    if (closest) smallest_m_ = std::min(smallest_m_, closest->clearance_m);
+  }
 }
 
 // Any rise of kRiseNoticed or longer contains a probe; exit and return are then found exactly, on either side of it.
-void ExactLaw::collect_stretches(const Piece& a, const Piece& b, SimTime first, SimTime last) {
+void ExactLaw::collect_stretches(const Piece& a, const Piece& b, const Approach& approach, SimTime last) {
+  SimTime first = approach.first;
   for (SimTime probe = first + kRiseNoticed; probe < last; probe += kRiseNoticed) {
     if (clearance_at(a, b, probe) < threshold_m_) continue;
     collect(a, b, first, last_below(a, b, {first, probe}, threshold_m_, evaluations_).value_or(first));
     first = first_below(a, b, {probe, last}, threshold_m_, evaluations_).value_or(last);
     probe = first;
   }
-  collect(a, b, first, last);
+  if (first > approach.first) return collect(a, b, first, last);
+  stretches_.push_back(stretch_of(a, b, first, last, approach.closest));
 }
 
 void ExactLaw::collect(const Piece& a, const Piece& b, SimTime first, SimTime last) {
