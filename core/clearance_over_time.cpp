@@ -39,8 +39,7 @@ std::optional<ClosestApproach> closest_approach(const Piece& a, const Piece& b, 
   return approach ? std::optional(approach->closest) : std::nullopt;
 }
 
-std::optional<Approach> approach_below(const Piece& a, const Piece& b, Interval within, double level_m, EvaluationCount& count,
-                                       double tolerance_m) {
+std::optional<Approach> approach_below(const Piece& a, const Piece& b, Interval within, double level_m, EvaluationCount& count, double tolerance_m) {
   return approach_below(a, b, within, level_m, count, tolerance_m, Dating::Exact);
 }
 

@@ -4,6 +4,7 @@
 
 #include "core/clearance_over_time.hpp"
 #include "core/error.hpp"
+#include "laws/broad_phase.hpp"
 #include "laws/second_opinion.hpp"
 #include "laws/stretch.hpp"
 
@@ -40,7 +41,7 @@ class ExactLaw final : public Law {
   double threshold_m_;
   double smallest_m_ = kMeasuredBelow_m;
   std::vector<Piece> current_;
-  std::vector<Box> swept_;  // by current_, as planned; empty between a piece and the next
+  BroadPhase swept_;  // boxes of current_, as planned; none between a piece and the next
   EvaluationCount evaluations_;
   std::vector<Stretch> stretches_;
 };
@@ -48,18 +49,16 @@ class ExactLaw final : public Law {
 void ExactLaw::piece_started(const Piece& piece) {
   ensure(piece.entity.index() < current_.size(), "a law hears only of the bodies of its scenario");
   current_[piece.entity.index()] = piece;
-  swept_[piece.entity.index()] = piece.swept_box(piece.end);
+  swept_.place(piece.entity.index(), piece.swept_box(piece.end));
 }
 
 void ExactLaw::piece_ended(const Piece& piece) {
   const std::size_t mine = piece.entity.index();
   const double reach_m = std::max(smallest_m_, threshold_m_);
-  const Box near = swept_[mine].grown(reach_m);
-  swept_[mine] = Box{};
-  // Two obstacles never matter: an obstacle looks at AGVs alone.
-  const std::size_t others = mine < agv_count_ ? current_.size() : agv_count_;
-  for (std::size_t i = 0; i < others; ++i) {
-    if (!near.overlaps(swept_[i])) continue;
+  const Box near = swept_.box_of(mine).grown(reach_m);
+  swept_.remove(mine);
+  for (const std::size_t i : swept_.overlapping(near)) {
+    if (mine >= agv_count_ && i >= agv_count_) continue;  // two obstacles never matter
     const Piece& other = current_[i];
     const Interval common{std::max(piece.begin, other.begin), piece.end};
     // The same order of the pair whichever piece ends first, so that the order of announcements leaves no trace in the arithmetic.

@@ -50,7 +50,8 @@ class PairSource {
     for (;;) {
       TrajectoryPair pair = draw(relation);
       if (!in_common(pair)) continue;
-      if (relation == Relation::Tangent && !tune(pair, level_m + either(1.0) * std::pow(10.0, one_in(3) ? within(-5.0, -2.0) : within(-9.0, -5.0)))) continue;
+      if (relation == Relation::Tangent && !tune(pair, level_m + either(1.0) * std::pow(10.0, one_in(3) ? within(-5.0, -2.0) : within(-9.0, -5.0))))
+        continue;
       if (relation == Relation::StartsInViolation && !(clearance_m(pair, pair.begin) < level_m)) continue;
       if (clearance_m(pair, pair.begin + (pair.end - pair.begin) / 2) < 3.0) return pair;
     }
@@ -156,7 +157,8 @@ class PairSource {
       pair.a = any(path, here, angle_rad, instant(20.0, 21.0));
       pair.b = any(path == Path::Rest ? driven_path() : any_path(), there, within(-3.2, 3.2), instant(18.0, 23.0));
     }
-    if (relation == Relation::CutShort) pair.b.end = pair.b.begin + static_cast<Nanoseconds>(within(0.2, 0.9) * static_cast<double>(pair.b.end - pair.b.begin));
+    if (relation == Relation::CutShort)
+      pair.b.end = pair.b.begin + static_cast<Nanoseconds>(within(0.2, 0.9) * static_cast<double>(pair.b.end - pair.b.begin));
     if (relation != Relation::Parallel) dress(pair);
     return pair;
   }

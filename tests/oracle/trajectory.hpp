@@ -72,9 +72,9 @@ struct Trajectory {
   Manner manner = Manner::Rest;
   Nanoseconds begin = 0, end = 0;
   double body_length = 1.8, body_width = 1.2;
-  Point at, heading{1.0, 0.0};   // Rest and Turn
-  std::vector<Stroke> strokes;   // Drive
-  double turn_rad = 0.0;         // Turn, left positive
+  Point at, heading{1.0, 0.0};  // Rest and Turn
+  std::vector<Stroke> strokes;  // Drive
+  double turn_rad = 0.0;        // Turn, left positive
   Limits limits;
   Trapezoid profile;
 
