@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "core/gap_bound.hpp"
 
@@ -22,15 +23,23 @@ class Walk {
     arrive(from);
   }
 
-  std::optional<Hit> run() {
-    measure();
-    if (apart_.clearance_m < level_m_) return Hit{now_, apart_.clearance_m};
+  // `start`: what was measured where the walk begins.
+  std::optional<Hit> run(Dating dating, const Separation* start = nullptr) {
+    if (start == nullptr) {
+      measure();
+    } else {
+      apart_ = *start;
+      measured_ = true;
+    }
+    if (apart_.clearance_m < level_m_) return Hit{now_, apart_};
     while (now_ != to_) {
       jump();
-      if (measured_ && apart_.clearance_m < level_m_) return first_of_hit();
+      if (measured_ && apart_.clearance_m < level_m_) return dating == Dating::Exact ? first_of_hit() : Hit{now_, apart_};
     }
     return std::nullopt;
   }
+
+  const Hit& lowest() const { return lowest_; }
 
  private:
   static std::int64_t ns_between(SimTime s, SimTime t) { return std::abs((t - s).count()); }
@@ -51,6 +60,7 @@ class Walk {
     ++count_.distance;
     apart_ = separation(body_a_, body_b_);
     measured_ = true;
+    if (apart_.clearance_m < lowest_.apart.clearance_m) lowest_ = {now_, apart_};
   }
 
   // To the end of the phase, or to where the bound meets the level and the clearance is measured anew.
@@ -82,7 +92,7 @@ class Walk {
   // The hit lies where the bound had fallen a dip below the level; in a slow approach, the clearance did so long before. Halve the way back to
   // where the bound met the level itself.
   Hit first_of_hit() {
-    Hit hit{now_, apart_.clearance_m};
+    Hit hit{now_, apart_};
     arrive(from_);
     const GapBound bound(motion_from(a_, body_a_, now_, hit.at, sense_), motion_from(b_, body_b_, now_, hit.at, sense_), axis_);
     SimTime above = after(now_, bound.safe_s(level_m_, seconds_between(now_, hit.at)));
@@ -90,7 +100,7 @@ class Walk {
       arrive(above + (hit.at - above) / 2);
       measure();
       if (apart_.clearance_m < level_m_) {
-        hit = {now_, apart_.clearance_m};
+        hit = {now_, apart_};
       } else {
         above = now_;
       }
@@ -109,12 +119,21 @@ class Walk {
   Separation apart_;  // when last measured
   Axis axis_;         // of that measurement
   SimTime from_;      // where the last jump began
+  Hit lowest_{kStart, {std::numeric_limits<double>::infinity()}};
 };
 
 }  // namespace
 
-std::optional<Hit> advance(const Piece& a, const Piece& b, SimTime from, SimTime to, double level_m, EvaluationCount& count) {
-  return Walk(a, b, from, to, level_m, count).run();
+std::optional<Hit> advance(const Piece& a, const Piece& b, SimTime from, SimTime to, double level_m, EvaluationCount& count, Dating dating) {
+  return Walk(a, b, from, to, level_m, count).run(dating);
+}
+
+std::optional<Hit> advance(const Piece& a, const Piece& b, const Hit& from, SimTime to, double level_m, EvaluationCount& count, Dating dating,
+                           Hit& lowest) {
+  Walk walk(a, b, from.at, to, level_m, count);
+  const auto hit = walk.run(dating, &from.apart);
+  if (walk.lowest().apart.clearance_m < lowest.apart.clearance_m) lowest = walk.lowest();
+  return hit;
 }
 
 }  // namespace fleetproof

@@ -168,6 +168,17 @@ double GapBound::now_m() const {
   return least;
 }
 
+GapBound::Trend GapBound::trend() const {
+  constexpr double kLevel_m = 1e-9;  // corners so equally near that the one which comes nearer decides
+  const double least = now_m();
+  Trend trend{least, kNotMet, 0.0};
+  for (std::size_t i = 0; i < count_; ++i) {
+    const Term& term = terms_[i];
+    if (term.value - least < kLevel_m && term.rate < trend.rate_mps) trend = {term.value, term.rate, term.bend};
+  }
+  return trend;
+}
+
 double GapBound::safe_within_s(double level_m, double horizon_s) const {
   double safe_s = horizon_s;
   for (std::size_t i = 0; i < count_; ++i) {

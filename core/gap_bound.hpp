@@ -34,6 +34,12 @@ class GapBound {
   // The gap, not a bound of it.
   bool exact() const { return exact_; }
   double now_m() const;
+  // The gap of the corners that are nearest now, as far as its second derivative. With an axis just measured, value and rate are those of the
+  // clearance: it is the largest gap over all axes, and so stationary in the axis.
+  struct Trend {
+    double value_m, rate_mps, bend_mps2;
+  };
+  Trend trend() const;
   // The gap stays at or above the level for at least this many seconds, or up to `horizon_s`. A time within rounding of the true one.
   double safe_s(double level_m, double horizon_s) const;
 

@@ -19,7 +19,7 @@ struct Stretch {
 };
 
 // Ends of phases and joints are rounded to whole nanoseconds. What that misplaces is less than what a body does in one nanosecond, and not
-// carried along: every phase starts from the exact pose.
+// carried along: every phase starts from the exact pose, and with the speed that belongs to it (speed_in_phase).
 Elapsed next_phase(const MotionProfile& profile, Elapsed now, TimeSense sense) {
   Elapsed before = 0;
   for (const double end_s : profile.phase_ends_s()) {
@@ -44,6 +44,16 @@ Stretch next_stretch(const Piece& piece, Elapsed now, double way, TimeSense sens
     if (stretch.arc > 0) stretch.change = std::max(stretch.change, joint(stretch.arc - 1));
   }
   return stretch;
+}
+
+// The speed at an instant seen as part of the phase with this acceleration. At a rounded end the profile may still be in the neighbouring phase: a
+// speed wrong by a nanometre per second, which over seconds would move a body by nanometres.
+double speed_in_phase(const MotionProfile& profile, double now_s, double acceleration) {
+  constexpr double kRounded_s = 1e-9;
+  for (const double end_s : profile.phase_ends_s()) {
+    if (std::abs(now_s - end_s) < kRounded_s) return profile.speed(end_s) + acceleration * (now_s - end_s);
+  }
+  return profile.speed(now_s);
 }
 
 }  // namespace
@@ -83,8 +93,9 @@ PhaseMotion motion_from(const Piece& piece, const OrientedRectangle& body, SimTi
   if (now > arrival) return motion;
   const double change_s = to_seconds(Duration{change});
   const double sign = piece.manner == Manner::Turn && piece.turn_rad < 0.0 ? -1.0 : 1.0;
-  motion.speed = piece.profile.speed(now_s) * (forward ? sign : -sign);
-  motion.acceleration = piece.profile.acceleration(0.5 * (now_s + change_s)) * sign;
+  const double acceleration = piece.profile.acceleration(0.5 * (now_s + change_s));
+  motion.speed = speed_in_phase(piece.profile, now_s, acceleration) * (forward ? sign : -sign);
+  motion.acceleration = acceleration * sign;
   motion.top_speed = std::max(std::abs(motion.speed), piece.profile.speed(change_s));
   motion.turns_on_spot = piece.manner == Manner::Turn;
   motion.curvature = motion.turns_on_spot ? 1.0 : piece.curve->arcs()[stretch.arc].curvature_per_m;

@@ -4,6 +4,7 @@
 
 #include "core/clearance_over_time.hpp"
 #include "core/error.hpp"
+#include "laws/broad_phase.hpp"
 #include "laws/second_opinion.hpp"
 #include "laws/stretch.hpp"
 
@@ -32,7 +33,7 @@ class ExactLaw final : public Law {
   void settle(const Piece& a, const Piece& b, Interval within);
   void settle_standing(const Piece& a, const Piece& b, Interval within);
   void settle_moving(const Piece& a, const Piece& b, Interval within);
-  void collect_stretches(const Piece& a, const Piece& b, SimTime first, SimTime last);
+  void collect_stretches(const Piece& a, const Piece& b, const Approach& approach, SimTime last);
   void collect(const Piece& a, const Piece& b, SimTime first, SimTime last);
   double clearance_at(const Piece& a, const Piece& b, SimTime t);
 
@@ -40,7 +41,7 @@ class ExactLaw final : public Law {
   double threshold_m_;
   double smallest_m_ = kMeasuredBelow_m;
   std::vector<Piece> current_;
-  std::vector<Box> swept_;  // by current_, as planned; empty between a piece and the next
+  BroadPhase swept_;  // boxes of current_, as planned; none between a piece and the next
   EvaluationCount evaluations_;
   std::vector<Stretch> stretches_;
 };
@@ -48,18 +49,16 @@ class ExactLaw final : public Law {
 void ExactLaw::piece_started(const Piece& piece) {
   ensure(piece.entity.index() < current_.size(), "a law hears only of the bodies of its scenario");
   current_[piece.entity.index()] = piece;
-  swept_[piece.entity.index()] = piece.swept_box(piece.end);
+  swept_.place(piece.entity.index(), piece.swept_box(piece.end));
 }
 
 void ExactLaw::piece_ended(const Piece& piece) {
   const std::size_t mine = piece.entity.index();
   const double reach_m = std::max(smallest_m_, threshold_m_);
-  const Box near = swept_[mine].grown(reach_m);
-  swept_[mine] = Box{};
-  // Two obstacles never matter: an obstacle looks at AGVs alone.
-  const std::size_t others = mine < agv_count_ ? current_.size() : agv_count_;
-  for (std::size_t i = 0; i < others; ++i) {
-    if (!near.overlaps(swept_[i])) continue;
+  const Box near = swept_.box_of(mine).grown(reach_m);
+  swept_.remove(mine);
+  for (const std::size_t i : swept_.overlapping(near)) {
+    if (mine >= agv_count_ && i >= agv_count_) continue;  // two obstacles never matter
     const Piece& other = current_[i];
     const Interval common{std::max(piece.begin, other.begin), piece.end};
     // The same order of the pair whichever piece ends first, so that the order of announcements leaves no trace in the arithmetic.
@@ -89,26 +88,32 @@ void ExactLaw::settle_standing(const Piece& a, const Piece& b, Interval within) 
 }
 
 void ExactLaw::settle_moving(const Piece& a, const Piece& b, Interval within) {
-  const auto approach = closest_approach(a, b, within, std::max(smallest_m_, threshold_m_), evaluations_);
-  if (!approach) return;
-  smallest_m_ = std::min(smallest_m_, approach->clearance_m);
-  // `approach` depends, within its tolerance, on what was met before. Whether there is a violation must not.
-  if (approach->clearance_m >= threshold_m_ + kBuiltToTheLimit_m) return;
-  const auto first = first_below(a, b, within, threshold_m_, evaluations_);
-  if (!first) return;
-  const auto last = last_below(a, b, {*first, within.end}, threshold_m_, evaluations_);
-  collect_stretches(a, b, *first, last.value_or(*first));
+  // Most pairs come nowhere near the smallest clearance so far, and that settles both questions. What was met before decides no more than that:
+  // a violation is dated and measured from the start of the interval, and comes out the same in whatever order the pieces are announced.
+  const bool lower = smallest_m_ > threshold_m_ + kBuiltToTheLimit_m;
+  if (lower && !comes_below(a, b, within, smallest_m_, evaluations_)) return;
+  if (const auto approach = approach_below(a, b, within, threshold_m_, evaluations_)) {
+    smallest_m_ = std::min(smallest_m_, approach->closest.clearance_m);
+    const auto last = last_below(a, b, {approach->first, within.end}, threshold_m_, evaluations_);
+    // A dip of a nanometre is met from one side in time and not from the other.
+    collect_stretches(a, b, *approach, std::max(last.value_or(approach->first), approach->closest.at));
+  } else if (lower) {
+    const auto closest = closest_approach(a, b, within, smallest_m_, evaluations_);
+    if (closest) smallest_m_ = std::min(smallest_m_, closest->clearance_m);
+  }
 }
 
 // Any rise of kRiseNoticed or longer contains a probe; exit and return are then found exactly, on either side of it.
-void ExactLaw::collect_stretches(const Piece& a, const Piece& b, SimTime first, SimTime last) {
+void ExactLaw::collect_stretches(const Piece& a, const Piece& b, const Approach& approach, SimTime last) {
+  SimTime first = approach.first;
   for (SimTime probe = first + kRiseNoticed; probe < last; probe += kRiseNoticed) {
     if (clearance_at(a, b, probe) < threshold_m_) continue;
     collect(a, b, first, last_below(a, b, {first, probe}, threshold_m_, evaluations_).value_or(first));
     first = first_below(a, b, {probe, last}, threshold_m_, evaluations_).value_or(last);
     probe = first;
   }
-  collect(a, b, first, last);
+  if (first > approach.first) return collect(a, b, first, last);
+  stretches_.push_back(stretch_of(a, b, first, last, approach.closest));
 }
 
 void ExactLaw::collect(const Piece& a, const Piece& b, SimTime first, SimTime last) {

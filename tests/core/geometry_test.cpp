@@ -3,60 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <random>
 
 #include "core/geometry/curve.hpp"
-#include "core/geometry/rectangle.hpp"
 #include "core/geometry/rotation.hpp"
+#include "tests/oracle/rectangle_check.hpp"
 
 namespace fleetproof {
 namespace {
 
-// An oracle that shares nothing with the kernel: corners, sides and long doubles.
-struct LongPoint {
-  long double x, y;
-};
-using LongRectangle = std::array<LongPoint, 4>;
-
-LongRectangle corners_of(const OrientedRectangle& r) {
-  const long double hx = r.heading.x(), hy = r.heading.y(), l = r.half_length_m, w = r.half_width_m, cx = r.centre_m.x(), cy = r.centre_m.y();
-  const auto at = [&](long double a, long double b) { return LongPoint{cx + a * hx - b * hy, cy + a * hy + b * hx}; };
-  return {at(l, w), at(-l, w), at(-l, -w), at(l, -w)};
-}
-
-long double area(const LongPoint& a, const LongPoint& b, const LongPoint& c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
-
-long double distance_to_side(const LongPoint& p, const LongPoint& a, const LongPoint& b) {
-  const long double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
-  const long double t = square > 0 ? std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / square, 0.0L, 1.0L) : 0.0L;
-  return std::sqrt((p.x - a.x - t * dx) * (p.x - a.x - t * dx) + (p.y - a.y - t * dy) * (p.y - a.y - t * dy));
-}
-
-bool contains(const LongRectangle& r, const LongPoint& p) {
-  for (std::size_t i = 0; i < 4; ++i) {
-    if (area(r[i], r[(i + 1) % 4], p) < 0) return false;
-  }
-  return true;
-}
-
-bool sides_cross(const LongPoint& a, const LongPoint& b, const LongPoint& c, const LongPoint& d) {
-  return area(a, b, c) * area(a, b, d) < 0 && area(c, d, a) * area(c, d, b) < 0;
-}
-
-// Distance between the outlines, negative if the rectangles share a point.
-long double oracle_m(const OrientedRectangle& first, const OrientedRectangle& second) {
-  const LongRectangle a = corners_of(first), b = corners_of(second);
-  long double least = 1e30L;
-  bool meet = false;
-  for (std::size_t i = 0; i < 4; ++i) {
-    meet = meet || contains(a, b[i]) || contains(b, a[i]);
-    for (std::size_t j = 0; j < 4; ++j) {
-      least = std::min({least, distance_to_side(a[i], b[j], b[(j + 1) % 4]), distance_to_side(b[i], a[j], a[(j + 1) % 4])});
-      meet = meet || sides_cross(a[i], a[(i + 1) % 4], b[j], b[(j + 1) % 4]);
-    }
-  }
-  return meet ? -least : least;
-}
+using namespace test;
 
 // Depth of an overlap: the nearest edge of the hull of all differences of corners, seen from the origin.
 long double depth_oracle_m(const OrientedRectangle& first, const OrientedRectangle& second) {
@@ -75,42 +30,6 @@ long double depth_oracle_m(const OrientedRectangle& first, const OrientedRectang
     }
   }
   return depth;
-}
-
-double extent_m(const OrientedRectangle& r, const Vec2& direction) {
-  double most = -1e300;
-  for (int i = 0; i < 4; ++i) most = std::max(most, direction.dot(r.corner_m(i)));
-  return most;
-}
-
-class Random {
- public:
-  double in(double low, double high) { return low + (high - low) * std::uniform_real_distribution<double>(0.0, 1.0)(engine_); }
-  int whole(int low, int high) { return std::uniform_int_distribution<int>(low, high)(engine_); }
-  OrientedRectangle anywhere(double range_m) { return {{in(0, range_m), in(0, range_m)}, unit_vector(in(-kPi, kPi)), in(0.05, 1.5), in(0.05, 1.5)}; }
-  OrientedRectangle on_lattice() {
-    return {{0.25 * whole(0, 20), 0.25 * whole(0, 20)}, unit_vector(0.25 * kPi * whole(-4, 4)), 0.25 * whole(1, 5), 0.25 * whole(1, 5)};
-  }
-
- private:
-  std::mt19937_64 engine_{20240601};
-};
-
-// Clearance, sign and direction of one pair against the oracle.
-void check_pair(const OrientedRectangle& a, const OrientedRectangle& b) {
-  const auto truth = static_cast<double>(oracle_m(a, b));
-  const Separation apart = separation(a, b);
-  ASSERT_NEAR(apart.direction.norm(), 1.0, 1e-12);
-  ASSERT_NEAR(clearance_m(a, b), apart.clearance_m, 1e-13);
-  ASSERT_NEAR(separation(b, a).clearance_m, apart.clearance_m, 1e-13);
-  // The gap along the direction is the clearance itself, or the depth.
-  ASSERT_NEAR(-extent_m(b, -apart.direction) - extent_m(a, apart.direction), apart.clearance_m, 1e-11);
-  if (truth > 0.0) {
-    ASSERT_NEAR(apart.clearance_m, truth, 1e-12);
-  } else {
-    ASSERT_LT(apart.clearance_m, 1e-12);
-    ASSERT_LE(-truth, -apart.clearance_m + 1e-12);
-  }
 }
 
 TEST(Rectangle, SeparationAgreesWithLongDoubleOracleAnywhere) {
@@ -140,11 +59,8 @@ TEST(Rectangle, SeparationAgreesWithLongDoubleOracleOnALattice) {
 TEST(Rectangle, ParallelAndTouchingPairsKeepTheirGap) {
   Random random;
   for (int i = 0; i < 20'000; ++i) {
-    OrientedRectangle a = random.anywhere(500.0), b = random.anywhere(1.0);
     const double gap_m = i % 4 == 0 ? 0.0 : i % 4 == 1 ? 1e-9 : 0.10;
-    b.heading = a.heading;
-    const double beside = a.half_width_m + b.half_width_m + gap_m, along = random.in(-1.0, 1.0) * (a.half_length_m + b.half_length_m);
-    b.centre_m = a.centre_m + along * a.heading + beside * left_of(a.heading);
+    const auto [a, b] = random.beside(500.0, gap_m);
     ASSERT_NO_FATAL_FAILURE(check_pair(a, b)) << i;
     ASSERT_NEAR(separation(a, b).clearance_m, gap_m, 1e-12);
     ASSERT_NEAR((separation(a, b).direction - left_of(a.heading)).norm(), 0.0, gap_m < 1e-6 ? 2e-3 : 1e-9);

@@ -1,0 +1,166 @@
+// What a law costs, apart from the run it watches: the pieces of one run are recorded and announced to the law again.
+//
+//   detection_cost FLEET SECONDS LAW...      times, in one process; ratios to the first law
+//   detection_cost --walk FLEET SECONDS LAW  one replay, for valgrind --tool=callgrind --toggle-collect='*replay_to*'
+//
+// LAW may be "none". Runs are those of the whole-run benchmark (simulation_bench.cpp); their agent is hull-lock, or what the environment variable
+// AGENT names. A walk is no run but pieces made up: on 400 m2 for each AGV, as in those runs, everybody turns, drives and waits about its own middle
+// and now and then passes a neighbour. It is as dense for 500 AGVs as for 5, and nobody's rules slow it down.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "campaign/agent_programs.hpp"
+#include "core/simulation.hpp"
+#include "laws/laws.hpp"
+#include "tests/laws/timeline.hpp"
+#include "tests/support/grid_world.hpp"
+
+namespace fleetproof {
+namespace {
+
+struct Announcement {
+  Piece piece;
+  bool started = false;
+};
+
+class Recorder final : public Law {
+ public:
+  Recorder(std::vector<Announcement>& all, SimTime& end) : all_(all), end_(end) {}
+  void piece_started(const Piece& piece) override { all_.push_back({piece, true}); }
+  void piece_ended(const Piece& piece) override { all_.push_back({piece, false}); }
+  void finish(SimTime end) override { end_ = end; }
+  LawFindings findings() const override { return {}; }
+
+ private:
+  std::vector<Announcement>& all_;
+  SimTime& end_;
+};
+
+struct Recording {
+  Scenario scenario;
+  std::vector<Announcement> all;
+  SimTime end;
+  std::uint64_t drives = 0;
+};
+
+Scenario world(std::uint32_t fleet, double horizon_s) {
+  Scenario scenario = fleet <= 5 ? test::grid_world(4, 8, fleet, horizon_s, 1) : test::grid_world(12, 24, fleet, horizon_s, 1);
+  scenario.radio.loss = 0.4;
+  scenario.radio.delay_s = 2.0;
+  return scenario;
+}
+
+const fp_agent_type& agent(const AgentPrograms& programs) {
+  const char* name = std::getenv("AGENT");
+  return programs.find(name != nullptr ? name : "hull-lock", "bench");
+}
+
+Recording record(std::uint32_t fleet, double horizon_s) {
+  const AgentPrograms programs;
+  Recording recording{world(fleet, horizon_s), {}, kStart, 0};
+  std::vector<std::unique_ptr<Law>> laws;
+  laws.push_back(std::make_unique<Recorder>(recording.all, recording.end));
+  simulate(recording.scenario, agent(programs), laws);
+  for (const Announcement& a : recording.all) recording.drives += a.started && a.piece.manner == Manner::Drive;
+  return recording;
+}
+
+test::Scene walk(std::uint32_t fleet, double horizon_s) {
+  constexpr double kPitch_m = 20.0, kReach_m = 10.5;
+  test::Scene scene(horizon_s);
+  Draws draws(7);
+  const auto columns = static_cast<std::uint32_t>(std::ceil(std::sqrt(fleet)));
+  for (std::uint32_t i = 0; i < fleet; ++i) {
+    const Vec2 middle(kPitch_m * (i % columns), kPitch_m * (i / columns));
+    test::Timeline& body = scene.agv({middle, Vec2::UnitX()});
+    while (body.now() < scene.end) {
+      body.wait_until(to_seconds(body.now()) + draws.uniform(0.0, 8.0));
+      const double length_m = draws.uniform(3.0, 9.0);
+      const int quarters = static_cast<int>(draws.below(4));
+      const Vec2 heading = rotated(body.pose().heading, unit_vector(0.5 * kPi * (quarters - 1)));
+      if (((body.pose().position_m + length_m * heading) - middle).cwiseAbs().maxCoeff() > kReach_m) continue;
+      if (quarters != 1) body.turn(0.5 * kPi * (quarters - 1));
+      body.drive(length_m);
+    }
+  }
+  return scene;
+}
+
+LawFindings __attribute__((noinline)) replay_to(Law& law, const Recording& recording) {
+  for (const Announcement& a : recording.all) a.started ? law.piece_started(a.piece) : law.piece_ended(a.piece);
+  law.finish(recording.end);
+  return law.findings();
+}
+
+double seconds_of(auto&& work) {
+  const auto begin = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+// Median of an odd number of repetitions; fewer where one takes long.
+double median_s(auto&& work) {
+  std::vector<double> all{seconds_of(work)};
+  const int more = all[0] > 2.0 ? 0 : all[0] > 0.1 ? 4 : 20;
+  for (int i = 0; i < more; ++i) all.push_back(seconds_of(work));
+  std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2), all.end());
+  return all[all.size() / 2];
+}
+
+void compare(std::uint32_t fleet, double horizon_s, std::span<char*> names) {
+  const Recording recording = record(fleet, horizon_s);
+  fmt::print("{} AGVs, {} s: {} pieces, {} drives\n", fleet, horizon_s, recording.all.size() / 2, recording.drives);
+  const AgentPrograms programs;
+  double first_alone_s = 0.0, first_whole_s = 0.0;
+  for (const std::string name : names) {
+    LawFindings findings;
+    const MakeLaw make = name == "none" ? nullptr : find_entry(laws(), name)->make;
+    const double alone_s = make == nullptr ? 0.0 : median_s([&] { findings = replay_to(*make(recording.scenario), recording); });
+    const double whole_s = median_s([&] {
+      std::vector<std::unique_ptr<Law>> laws;
+      if (make != nullptr) laws.push_back(make(recording.scenario));
+      simulate(recording.scenario, agent(programs), laws);
+    });
+    if (first_whole_s == 0.0) first_alone_s = alone_s, first_whole_s = whole_s;
+    fmt::print("{:12} detection {:12.3f} ms ({:8.1f}x)  run {:12.3f} ms ({:6.2f}x)  {} evaluations, {} checks, {} violations\n", name, 1e3 * alone_s,
+               alone_s / first_alone_s, 1e3 * whole_s, whole_s / first_whole_s, findings.distance_evaluations, findings.perimeter_checks,
+               findings.violations.size());
+    std::fflush(stdout);
+  }
+}
+
+void replay_walk(std::uint32_t fleet, double horizon_s, const char* name) {
+  const test::Scene scene = walk(fleet, horizon_s);
+  Recording recording{scene.scenario, {}, kStart, 0};
+  Recorder recorder(recording.all, recording.end);
+  test::Announcer(scene, recorder).announce(test::Order::ByEntity);
+  for (const Announcement& a : recording.all) recording.drives += a.started && a.piece.manner == Manner::Drive;
+  LawFindings findings;
+  const auto law = find_entry(laws(), name)->make(recording.scenario);
+  const double spent_s = seconds_of([&] { findings = replay_to(*law, recording); });
+  fmt::print("{} AGVs, {} s, {}: {} pieces, {} drives, {} evaluations, {} violations, {:.0f} ns a drive\n", fleet, horizon_s, name,
+             recording.all.size() / 2, recording.drives, findings.distance_evaluations, findings.violations.size(),
+             1e9 * spent_s / static_cast<double>(recording.drives));
+}
+
+}  // namespace
+}  // namespace fleetproof
+
+int main(int argc, char** argv) {
+  const bool once = argc > 1 && std::strcmp(argv[1], "--walk") == 0;
+  const std::span<char*> words(argv + (once ? 2 : 1), argv + argc);
+  if (words.size() < 3) return fmt::print("detection_cost [--walk] FLEET SECONDS LAW...\n"), 2;
+  const auto fleet = static_cast<std::uint32_t>(std::atoi(words[0]));
+  const double horizon_s = std::atof(words[1]);
+  if (once) {
+    fleetproof::replay_walk(fleet, horizon_s, words[2]);
+  } else {
+    fleetproof::compare(fleet, horizon_s, words.subspan(2));
+  }
+  return 0;
+}
