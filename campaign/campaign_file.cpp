@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 
+#include "campaign/plan_fields.hpp"
 #include "campaign/toml_table.hpp"
 #include "core/error.hpp"
 #include "generators/importer.hpp"
@@ -29,21 +30,42 @@ void get_name(TomlTable& table, std::string_view key, Enum& value, const std::ar
   throw InputError(table.place(key), fmt::format("{} is \"{}\"{}", key, word, name_hint(word, names)));
 }
 
-void read_vehicle(TomlTable& table, VehicleType& vehicle) {
-  table.get("name", vehicle.name);
-  table.get("length_m", vehicle.footprint.length_m);
-  table.get("width_m", vehicle.footprint.width_m);
-  table.get("speed_mps", vehicle.drive.speed_mps);
-  table.get("acceleration_mps2", vehicle.drive.acceleration_mps2);
-  table.get("deceleration_mps2", vehicle.drive.deceleration_mps2);
-  table.get("turn_speed_radps", vehicle.turn.speed_mps);
-  table.get("turn_acceleration_radps2", vehicle.turn.acceleration_mps2);
-  table.get("turn_deceleration_radps2", vehicle.turn.deceleration_mps2);
-  table.get("battery_per_m", vehicle.battery_per_m);
-  table.get("charge_per_s", vehicle.charge_per_s);
-  table.get("pick_s", vehicle.pick_s);
-  table.get("drop_s", vehicle.drop_s);
+template <class Table>
+void read_numbers(TomlTable& table, Table& target) {
+  for (const NumberField& field : number_fields(target)) table.get(field.key, *field.value);
+}
+
+VehicleShare read_vehicle(TomlTable& table) {
+  VehicleShare vehicle;
+  table.get("name", vehicle.type.name);
+  table.get("share", vehicle.share);
+  read_numbers(table, vehicle.type);
   table.finish();
+  return vehicle;
+}
+
+// One [vehicle], or several [[vehicle]] with their shares of the fleet.
+void read_vehicles(TomlTable& root, CampaignPlan& plan) {
+  if (root.is_table("vehicle")) {
+    auto vehicle = root.table("vehicle");
+    plan.vehicles = {read_vehicle(*vehicle)};
+    return;
+  }
+  auto vehicles = root.tables("vehicle");
+  if (vehicles.empty()) return;
+  plan.vehicles.clear();
+  for (TomlTable& vehicle : vehicles) plan.vehicles.push_back(read_vehicle(vehicle));
+}
+
+// [scanner] and [operator]: to name the table is to switch it on, unless it says otherwise.
+template <class Helper>
+void read_helper(TomlTable& root, const char* key, Helper& helper) {
+  auto table = root.table(key);
+  if (!table) return;
+  helper.on = true;
+  table->get("on", helper.on);
+  read_numbers(*table, helper);
+  table->finish();
 }
 
 void read_radio(TomlTable& table, RadioSetup& radio) {
@@ -201,7 +223,13 @@ CampaignFile read_campaign_file(const std::string& path) {
   if (auto world = root.table("world")) {
     read_world(*world, path, plan);
   }
-  if (auto vehicle = root.table("vehicle")) read_vehicle(*vehicle, plan.vehicle);
+  read_vehicles(root, plan);
+  if (auto faults = root.table("faults")) {
+    read_numbers(*faults, plan.faults);
+    faults->finish();
+  }
+  read_helper(root, "scanner", plan.scanner);
+  read_helper(root, "operator", plan.operator_help);
   if (auto radio = root.table("radio")) read_radio(*radio, plan.radio);
   if (auto clock = root.table("agent_clock")) {
     clock->get("call_cost_s", plan.agent_clock.call_cost_s);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "campaign/plan_fields.hpp"
 #include "core/catalogue.hpp"
 #include "core/error.hpp"
 #include "laws/laws.hpp"
@@ -88,25 +89,23 @@ void check_gates(const CampaignPlan& plan, const std::string& where) {
   }
 }
 
-void check_vehicle(const VehicleType& vehicle, const std::string& where) {
-  const auto positive = [&](double value, const char* key) {
-    demand(value > 0.0 && std::isfinite(value), where, fmt::format("vehicle.{} is {}; it must be above 0", key, value));
-  };
-  const auto in_range = [&](double value, double low, double high, const char* key) {
-    demand(value >= low && value <= high, where, fmt::format("vehicle.{} is {}; it lies from {} to {}", key, value, low, high));
-  };
-  positive(vehicle.footprint.length_m, "length_m");
-  positive(vehicle.footprint.width_m, "width_m");
-  in_range(vehicle.drive.speed_mps, 0.01, 100.0, "speed_mps");
-  in_range(vehicle.drive.acceleration_mps2, 0.01, 100.0, "acceleration_mps2");
-  in_range(vehicle.drive.deceleration_mps2, 0.01, 100.0, "deceleration_mps2");
-  in_range(vehicle.turn.speed_mps, 0.01, 100.0, "turn_speed_radps");
-  in_range(vehicle.turn.acceleration_mps2, 0.01, 100.0, "turn_acceleration_radps2");
-  in_range(vehicle.turn.deceleration_mps2, 0.01, 100.0, "turn_deceleration_radps2");
-  in_range(vehicle.battery_per_m, 0.0, 1.0, "battery_per_m");
-  in_range(vehicle.charge_per_s, 1e-6, 1.0, "charge_per_s");
-  in_range(vehicle.pick_s, 0.0, 3600.0, "pick_s");
-  in_range(vehicle.drop_s, 0.0, 3600.0, "drop_s");
+template <class Table>
+void check_numbers(Table table, const std::string& name, const std::string& where) {
+  for (const NumberField& field : number_fields(table)) {
+    demand(*field.value >= field.least && *field.value <= field.most, where,
+           fmt::format("{}.{} is {}; it lies from {} to {}", name, field.key, *field.value, field.least, field.most));
+  }
+}
+
+void check_vehicles(const CampaignPlan& plan, const std::string& where) {
+  demand(!plan.vehicles.empty(), where, "vehicle is empty; a fleet needs at least one type");
+  std::vector<std::string> names;
+  for (const auto& [type, share] : plan.vehicles) {
+    check_numbers(type, "vehicle", where);
+    demand(share > 0.0 && share <= 1e6, where, fmt::format("vehicle.share is {}; it lies above 0 and at most 1e6", share));
+    names.push_back(type.name);
+  }
+  demand(!has_duplicates(names), where, "two vehicles have one name; give each its own");
 }
 
 void check_laws_and_coverage(const CampaignPlan& plan, const std::string& where) {
@@ -151,7 +150,10 @@ void check_plan(const CampaignPlan& plan, const std::string& where) {
   demand(plan.radio.range_m > 0.0, where, fmt::format("radio.range_m is {}; it must be above 0", plan.radio.range_m));
   demand(plan.agent_clock.call_cost_s >= 0.0 && plan.agent_clock.call_cost_s <= 10.0, where,
          fmt::format("agent_clock.call_cost_s is {}; it lies between 0 and 10", plan.agent_clock.call_cost_s));
-  check_vehicle(plan.vehicle, where);
+  check_vehicles(plan, where);
+  check_numbers(plan.faults, "faults", where);
+  check_numbers(plan.scanner, "scanner", where);
+  check_numbers(plan.operator_help, "operator", where);
   check_factors(plan, where);
   check_laws_and_coverage(plan, where);
   constexpr std::uint64_t kRunsMax = 1'000'000'000'000;  // a thousand years of this engine; beyond it run indices would wrap

@@ -9,6 +9,7 @@
 #include "core/scenario.hpp"
 #include "generators/order_list.hpp"
 #include "generators/placement.hpp"
+#include "generators/world.hpp"
 #include "storage/records.hpp"
 
 namespace fleetproof {
@@ -38,7 +39,10 @@ struct CampaignPlan {
   Placement placement = Placement::Random;
   double hot_spot_skew = 0.0;
   std::shared_ptr<const OrderList> orders;  // instead of drawn transports; null: none
-  VehicleType vehicle;
+  std::vector<VehicleShare> vehicles{VehicleShare{}};
+  FaultRates faults;
+  ScannerSetup scanner;
+  OperatorSetup operator_help;
   RadioSetup radio;                       // loss and delay_s come from the cell
   AgentClockSetup agent_clock;
   LawSetup law;

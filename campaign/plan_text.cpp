@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "campaign/plan.hpp"
+#include "campaign/plan_fields.hpp"
 #include "core/error.hpp"
 #include "generators/layout_file.hpp"
 
@@ -11,33 +12,51 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json to_json(const VehicleType& vehicle) {
-  return {{"name", vehicle.name},
-          {"length_m", vehicle.footprint.length_m},
-          {"width_m", vehicle.footprint.width_m},
-          {"speed_mps", vehicle.drive.speed_mps},
-          {"acceleration_mps2", vehicle.drive.acceleration_mps2},
-          {"deceleration_mps2", vehicle.drive.deceleration_mps2},
-          {"turn_speed_radps", vehicle.turn.speed_mps},
-          {"turn_acceleration_radps2", vehicle.turn.acceleration_mps2},
-          {"turn_deceleration_radps2", vehicle.turn.deceleration_mps2},
-          {"battery_per_m", vehicle.battery_per_m},
-          {"charge_per_s", vehicle.charge_per_s},
-          {"pick_s", vehicle.pick_s},
-          {"drop_s", vehicle.drop_s}};
+template <class Table>
+Json numbers_json(Table table) {
+  Json json = Json::object();
+  for (const NumberField& field : number_fields(table)) json[field.key] = *field.value;
+  return json;
 }
 
-VehicleType vehicle_from(const Json& json) {
-  VehicleType vehicle;
-  vehicle.name = json.at("name");
-  vehicle.footprint = {json.at("length_m"), json.at("width_m")};
-  vehicle.drive = {json.at("speed_mps"), json.at("acceleration_mps2"), json.at("deceleration_mps2")};
-  vehicle.turn = {json.at("turn_speed_radps"), json.at("turn_acceleration_radps2"), json.at("turn_deceleration_radps2")};
-  vehicle.battery_per_m = json.at("battery_per_m");
-  vehicle.charge_per_s = json.at("charge_per_s");
-  vehicle.pick_s = json.at("pick_s");
-  vehicle.drop_s = json.at("drop_s");
-  return vehicle;
+template <class Table>
+void read_numbers(const Json& json, Table& table) {
+  for (const NumberField& field : number_fields(table)) *field.value = json.at(field.key);
+}
+
+Json vehicles_json(const std::vector<VehicleShare>& vehicles) {
+  Json list = Json::array();
+  for (const auto& [type, share] : vehicles) {
+    Json json = numbers_json(type);
+    json["name"] = type.name;
+    json["share"] = share;
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
+std::vector<VehicleShare> vehicles_from(const Json& list) {
+  std::vector<VehicleShare> vehicles;
+  for (const Json& json : list) {
+    VehicleShare& vehicle = vehicles.emplace_back();
+    read_numbers(json, vehicle.type);
+    vehicle.type.name = json.at("name");
+    vehicle.share = json.at("share");
+  }
+  return vehicles;
+}
+
+template <class Helper>
+Json helper_json(const Helper& helper) {
+  Json json = numbers_json(helper);
+  json["on"] = helper.on;
+  return json;
+}
+
+template <class Helper>
+void read_helper(const Json& json, Helper& helper) {
+  read_numbers(json, helper);
+  helper.on = json.at("on");
 }
 
 Json to_json(const GateRecord& gate) {
@@ -135,7 +154,10 @@ CampaignPlan plan_from(const Json& json) {
   }
   plan.agent_config = json.at("agent_config");
   read_world(json.at("world"), plan);
-  plan.vehicle = vehicle_from(json.at("vehicle"));
+  plan.vehicles = vehicles_from(json.at("vehicles"));
+  read_numbers(json.at("faults"), plan.faults);
+  read_helper(json.at("scanner"), plan.scanner);
+  read_helper(json.at("operator"), plan.operator_help);
   const Json& radio = json.at("radio");
   plan.radio.delay_model = radio.at("delay_model") == "uniform" ? RadioSetup::DelayModel::Uniform : RadioSetup::DelayModel::Constant;
   plan.radio.range_m = radio.at("range_m");
@@ -166,7 +188,10 @@ std::string plan_text(const CampaignPlan& plan) {
        {{"agents", plan.agents}, {"layouts", layouts_json(plan)}, {"fleet_sizes", plan.fleet_sizes}, {"loss", plan.loss}, {"delay_s", plan.delay_s}}},
       {"agent_config", plan.agent_config},
       {"world", world_json(plan)},
-      {"vehicle", to_json(plan.vehicle)},
+      {"vehicles", vehicles_json(plan.vehicles)},
+      {"faults", numbers_json(plan.faults)},
+      {"scanner", helper_json(plan.scanner)},
+      {"operator", helper_json(plan.operator_help)},
       {"radio",
        {{"delay_model", plan.radio.delay_model == RadioSetup::DelayModel::Uniform ? "uniform" : "constant"},
         {"range_m", plan.radio.range_m},

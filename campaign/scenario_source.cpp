@@ -28,7 +28,8 @@ Scenario ScenarioSource::scenario(std::uint64_t run_index) const {
   spec.orders = plan_.orders;
   spec.fleet_size = cell.fleet_size;
   spec.transports_per_agv_hour = plan_.transports_per_agv_hour;
-  spec.vehicle = plan_.vehicle;
+  spec.vehicles = plan_.vehicles;
+  spec.faults = plan_.faults;
   spec.law = plan_.law;
   spec.horizon = seconds(plan_.horizon_s);
   const std::uint64_t factors = name_hash(fmt::format("{}/{}", cell.layout, cell.fleet_size));
@@ -39,6 +40,8 @@ Scenario ScenarioSource::scenario(std::uint64_t run_index) const {
   scenario.radio.loss = cell.loss;
   scenario.radio.delay_s = cell.delay_s;
   scenario.agent_clock = plan_.agent_clock;
+  scenario.scanner = plan_.scanner;
+  scenario.operator_help = plan_.operator_help;
   scenario.contact_stops = plan_.contact_stops;
   scenario.stuck_after = seconds(plan_.stuck_after_s);
   return scenario;

@@ -83,6 +83,11 @@ TomlTable TomlTable::read(const std::string& path) {
 
 bool TomlTable::has(std::string_view key) const { return impl_->table->contains(key); }
 
+bool TomlTable::is_table(std::string_view key) const {
+  const toml::node* node = impl_->table->get(key);
+  return node != nullptr && node->is_table();
+}
+
 std::string TomlTable::place(std::string_view key) const {
   const toml::node* node = impl_->table->get(key);
   return at(impl_->file, node != nullptr ? node->source() : impl_->table->source());

@@ -32,6 +32,7 @@ class TomlTable {
   std::vector<Item> words_or_tables(std::string_view key);
 
   bool has(std::string_view key) const;
+  bool is_table(std::string_view key) const;                   // written [key], not [[key]]
   std::optional<TomlTable> table(std::string_view key);        // [key]
   std::vector<TomlTable> tables(std::string_view key);          // [[key]]
   void finish() const;                                         // throws InputError if a key is left that was never asked for

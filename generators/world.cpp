@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "core/error.hpp"
@@ -18,11 +19,13 @@ namespace fleetproof {
 namespace {
 
 constexpr std::uint32_t kAttempts = 32;
+constexpr std::uint32_t kTypeTopic = 0x74000000;  // of the placement stream, beyond any attempt
 constexpr double kMostTransports_per_h = 3600.0, kLargestSkew = 4.0;
 
 using SharedMap = std::shared_ptr<const LogicalMap>;
 
 void check(const WorldSpec& spec) {
+  if (spec.vehicles.empty()) throw InputError("vehicle", "a fleet needs at least one type of vehicle");
   if (spec.fleet_size == 0) throw InputError("fleet_size", "0 AGVs are no fleet; ask for at least 1");
   if (!(spec.transports_per_agv_hour >= 0.0 && spec.transports_per_agv_hour <= kMostTransports_per_h)) {
     throw InputError("transports_per_agv_hour", fmt::format("{} is outside 0 .. {}", spec.transports_per_agv_hour, kMostTransports_per_h));
@@ -53,11 +56,21 @@ std::string reasons(const RejectionCounts& counts) {
   return text;
 }
 
+// The first type, as long and as wide as any of them.
+VehicleType envelope(const std::vector<VehicleShare>& vehicles) {
+  VehicleType type = vehicles.front().type;
+  for (const auto& [other, share] : vehicles) {
+    type.footprint.length_m = std::max(type.footprint.length_m, other.footprint.length_m);
+    type.footprint.width_m = std::max(type.footprint.width_m, other.footprint.width_m);
+  }
+  return type;
+}
+
 // The worlds of one seed, one after the other until one is sound.
 class WorldMaker {
  public:
   WorldMaker(const WorldSpec& spec, std::uint64_t seed) : spec_(spec), seed_(seed), family_(std::get_if<std::string>(&spec.layout)) {
-    scenario_.vehicle_types = {spec.vehicle};
+    scenario_.vehicle_types = {envelope(spec.vehicles)};
     scenario_.law = spec.law;
     scenario_.horizon = spec.horizon;
     scenario_.seed = seed;
@@ -69,8 +82,13 @@ class WorldMaker {
   }
 
   bool attempt(std::uint32_t number) {
+    scenario_.vehicle_types = {envelope(spec_.vehicles)};
     if (!draw_map(number) || !place(number)) return false;
     const bool stored = assign_orders(number);
+    draw_types(number);
+    scenario_.obstacles.clear();
+    scenario_.faults.clear();
+    draw_faults(scenario_, spec_.faults, stream_key(seed_, Stream::Faults));
     if (const auto problems = unusable_problems(scenario_); !problems.empty()) throw InputError(problems[0].pointer, problems[0].sentence);
     const auto problems = world_problems(scenario_, *reachability_);
     for (const auto& problem : problems) ++counts.of(problem.kind);
@@ -116,6 +134,24 @@ class WorldMaker {
     const bool stored = assign_transports(scenario_, demand, *reachability_, stream_key(seed_, Stream::Transports), number);
     send_to_meet(scenario_, pairs_);
     return stored;
+  }
+
+  // Once everybody has a place that would do for the largest.
+  void draw_types(std::uint32_t number) {
+    scenario_.vehicle_types.clear();
+    double total = 0.0;
+    for (const auto& [type, share] : spec_.vehicles) {
+      scenario_.vehicle_types.push_back(type);
+      total += share;
+    }
+    if (spec_.vehicles.size() == 1) return;
+    for (std::size_t i = 0; i < scenario_.agvs.size(); ++i) {
+      Draws draws(stream_key(seed_, Stream::Placement), kTypeTopic + number, static_cast<std::uint32_t>(i));
+      double left = draws.uniform(0.0, total);
+      std::uint32_t type = 0;
+      while (type + 1 < spec_.vehicles.size() && left >= spec_.vehicles[type].share) left -= spec_.vehicles[type++].share;
+      scenario_.agvs[i].type = type;
+    }
   }
 
   void set_map(SharedMap map) {

@@ -6,11 +6,18 @@
 #include <variant>
 
 #include "core/scenario.hpp"
+#include "generators/faults.hpp"
 #include "generators/order_list.hpp"
 #include "generators/placement.hpp"
 #include "generators/rejection_counts.hpp"
 
 namespace fleetproof {
+
+// A kind of vehicle and how much of the fleet is of it, relative to the others.
+struct VehicleShare {
+  VehicleType type;
+  double share = 1.0;
+};
 
 // What a campaign fixes about its worlds; the seed draws the rest.
 struct WorldSpec {
@@ -22,7 +29,8 @@ struct WorldSpec {
   double transports_per_agv_hour = 20.0;  // 0: none; at most 3600
   double hot_spot_skew = 0.0;             // at most 4; transports.hpp
   std::shared_ptr<const OrderList> orders;  // instead of drawn transports; for a map that stays as it is, and no placement in pairs
-  VehicleType vehicle;
+  std::vector<VehicleShare> vehicles{VehicleShare{}};  // at least one; every AGV is drawn from them
+  FaultRates faults;
   LawSetup law;  // starts keep its safety distance
   Duration horizon = std::chrono::seconds(600);
 };

@@ -104,7 +104,11 @@ void ContainmentLaw::moves(const TraceRecord& record, Booked& load, const Holder
   const EntityId agv{to.kind == Holder::Kind::Agv ? to.index : from.index};
   if (to.kind == Holder::Kind::Agv && from.kind == Holder::Kind::Agv) {
     accuse(IncidentKind::LoadHeldByTwo, EntityId{from.index}, EntityId{to.index}, record.at, record.a);
-  } else if (to.kind == Holder::Kind::Station && from.kind == Holder::Kind::Station) {
+  } else if (to.kind == Holder::Kind::Floor || to.kind == Holder::Kind::ClearedAway) {
+    // It falls from an AGV, and is cleared away from the floor.
+    const auto must_come_from = to.kind == Holder::Kind::Floor ? Holder::Kind::Agv : Holder::Kind::Floor;
+    if (from.kind != must_come_from) accuse(IncidentKind::LoadMovedByNobody, record.entity, {}, record.at, record.a);
+  } else if (to.kind == from.kind || from.kind == Holder::Kind::Floor || from.kind == Holder::Kind::ClearedAway) {
     accuse(IncidentKind::LoadMovedByNobody, record.entity, {}, record.at, record.a);
   } else {
     const bool taken = to.kind == Holder::Kind::Agv;

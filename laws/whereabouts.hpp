@@ -12,7 +12,7 @@ inline constexpr double kAtStation_m = 0.05;
 // What every body does at present, as announced.
 class Whereabouts {
  public:
-  explicit Whereabouts(const Scenario& scenario) : scenario_(scenario), current_(scenario.agvs.size() + scenario.obstacles.size()) {}
+  explicit Whereabouts(const Scenario& scenario) : scenario_(scenario), current_(scenario.body_count()) {}
 
   void note(const Piece& piece) { current_[piece.entity.index()] = piece; }
   std::size_t agv_count() const { return scenario_.agvs.size(); }

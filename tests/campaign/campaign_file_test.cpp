@@ -48,9 +48,9 @@ TEST_F(CampaignFileTest, DefaultsAreThePapers) {
   const CampaignPlan plan = read(kFactors).plan;
   EXPECT_EQ(plan.name, "c");
   EXPECT_EQ(plan.horizon_s, 600.0);
-  EXPECT_EQ(plan.vehicle.drive.speed_mps, 2.0);
-  EXPECT_EQ(plan.vehicle.drive.acceleration_mps2, 0.5);
-  EXPECT_EQ(plan.vehicle.drive.deceleration_mps2, 1.0);
+  EXPECT_EQ(plan.vehicles[0].type.drive.speed_mps, 2.0);
+  EXPECT_EQ(plan.vehicles[0].type.drive.acceleration_mps2, 0.5);
+  EXPECT_EQ(plan.vehicles[0].type.drive.deceleration_mps2, 1.0);
   EXPECT_EQ(plan.law.safety_distance_m, 0.10);
   EXPECT_EQ(plan.run_count(), 1U);
 }
@@ -79,7 +79,7 @@ TEST_F(CampaignFileTest, PlanTextSurvivesTheRoundTrip) {
   const CampaignPlan again = parse_plan(text);
   EXPECT_EQ(plan_text(again), text);
   EXPECT_EQ(again.seed, 9U);
-  EXPECT_EQ(again.vehicle.footprint.length_m, 1.9);
+  EXPECT_EQ(again.vehicles[0].type.footprint.length_m, 1.9);
   EXPECT_EQ(again.radio.delay_model, RadioSetup::DelayModel::Uniform);
   ASSERT_EQ(again.gates.size(), 1U);
   EXPECT_EQ(again.gates[0].kind, GateKind::None);

@@ -213,7 +213,7 @@ TEST(WorldRefusals, NameFieldAndRemedy) {
   crowd.fleet_size = 1000;
   narrow.layout = two_station_map(Purpose::Parking);
   narrow.fleet_size = 3;
-  vehicle.vehicle.footprint.width_m = -1.0;
+  vehicle.vehicles[0].type.footprint.width_m = -1.0;
   EXPECT_NE(refusal(empty).find("fleet_size"), std::string::npos);
   EXPECT_NE(refusal(rate).find("transports_per_agv_hour"), std::string::npos);
   EXPECT_NE(refusal(time).find("horizon"), std::string::npos);
@@ -234,7 +234,7 @@ TEST(WorldRefusals, AMapWithoutWaysBackIsNamed) {
 
 TEST(WorldRejections, ALongVehicleIsTurnedAwayFromNeighbouringStations) {
   WorldSpec spec;
-  spec.vehicle.footprint = {3.9, 3.0};  // neighbours 3-4.6 m away are out of the question
+  spec.vehicles[0].type.footprint = {3.9, 3.0};  // neighbours 3-4.6 m away are out of the question
   spec.fleet_size = 8;
   RejectionCounts counts;
   for (std::uint64_t seed = 0; seed < 20; ++seed) EXPECT_TRUE(problems_of(generate_world(spec, seed, counts)).empty());

@@ -1,0 +1,167 @@
+// The books of a run, kept a second time by a law that sees nothing but pieces and trace: distance, energy, loads and messages must balance at the
+// end of ten thousand random runs in which everything goes wrong that can.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "core/agents/agents.h"
+#include "core/error.hpp"
+#include "generators/layout_family.hpp"
+#include "generators/world.hpp"
+#include "tests/support/worlds.hpp"
+
+namespace fleetproof {
+namespace {
+
+class Bookkeeper final : public Law {
+ public:
+  explicit Bookkeeper(const Scenario& scenario) : fleet_(scenario.agvs.size()) {}
+
+  TraceKinds reads() const override {
+    return TraceKinds{TraceKind::LoadMoves, TraceKind::Sent, TraceKind::Lost, TraceKind::Received, TraceKind::TransportDone};
+  }
+  void happened(const TraceRecord& record) override {
+    switch (record.kind) {
+      case TraceKind::LoadMoves: holders[record.a] = record.b; break;
+      case TraceKind::Sent: receptions += record.a == FP_NONE ? fleet_ - 1 : 1; break;
+      case TraceKind::Lost: ++lost; break;
+      case TraceKind::Received: ++received; break;
+      case TraceKind::TransportDone: ++done; break;
+      default: break;
+    }
+  }
+  // Along the curve for a drive, by the poses for the rest, which must not have moved.
+  void piece_ended(const Piece& piece) override {
+    if (piece.entity.index() >= fleet_) return;
+    const Pose from = piece.pose_at(piece.begin), to = piece.pose_at(piece.end);
+    const auto known = last_.find(piece.entity.index());
+    if (known != last_.end()) largest_jump_m = std::max(largest_jump_m, (known->second.position_m - from.position_m).norm());
+    last_[piece.entity.index()] = to;
+    if (piece.manner == Manner::Drive) driven_m += piece.way_at(piece.end) - piece.way_begin_m;
+  }
+  LawFindings findings() const override { return {}; }
+
+  std::map<std::uint64_t, std::uint64_t> holders;
+  std::uint64_t receptions = 0, lost = 0, received = 0, done = 0;
+  double driven_m = 0.0, largest_jump_m = 0.0;
+
+ private:
+  std::size_t fleet_;
+  std::map<std::size_t, Pose> last_;
+};
+
+WorldSpec everything_goes_wrong() {
+  WorldSpec spec;
+  spec.horizon = seconds(120.0);
+  spec.transports_per_agv_hour = 60.0;
+  VehicleType& small = spec.vehicles[0].type;
+  small.loaded = {.extra_length_m = 0.1, .extra_width_m = 0.1, .speed_share = 0.8, .acceleration_share = 0.9};
+  small.lateral_mps2 = 0.4;
+  small.speed_deviation = 0.05;
+  small.settle_s = 0.5;
+  small.battery_per_m = 0.002;
+  small.battery_idle_per_s = 0.0005;
+  small.storage_spread_s = 10.0;
+  VehicleType slow = small;
+  slow.name = "slow";
+  slow.drive.speed_mps = 1.0;
+  spec.vehicles.push_back({slow, 0.5});
+  FaultRates& f = spec.faults;
+  f.breakdowns_per_agv_hour = 20.0;
+  f.breakdowns_per_transport = 0.2;
+  f.repair_s = 10.0;
+  f.protective_stops_per_agv_hour = 60.0;
+  f.load_drops_per_transport = 0.3;
+  f.load_lies_s = 20.0;
+  f.obstacles_per_hour = 60.0;
+  f.obstacle_stays_s = 20.0;
+  f.restarts_per_agv_hour = 20.0;
+  f.freezes_per_agv_hour = 60.0;
+  f.clock_offset_s = 1.0;
+  f.clock_drift_ppm = 500.0;
+  f.position_error_m = 0.01;
+  f.position_late_s = 0.2;
+  f.low_battery_share = 0.5;
+  return spec;
+}
+
+struct Totals {
+  std::uint64_t runs = 0, faults = 0, empty = 0, cleared = 0, stops = 0, assists = 0, done = 0, contacts = 0, restarts = 0;
+};
+
+void check(const Scenario& scenario, const Outcome& outcome, const Bookkeeper& books, const std::string& which) {
+  const Counters& c = outcome.counters;
+  ASSERT_FALSE(outcome.engine_error) << which << ": " << outcome.message;
+  EXPECT_LT(books.largest_jump_m, 1e-6) << which << ": a body never jumps";
+  EXPECT_NEAR(static_cast<double>(c.distance_um), books.driven_m * 1e6, 2.0) << which;
+  const double slack_ppb = 5.0;
+  EXPECT_NEAR(static_cast<double>(c.battery_start_ppb + c.battery_charged_ppb),
+              static_cast<double>(c.battery_end_ppb + c.battery_driven_ppb + c.battery_idled_ppb), slack_ppb) << which;
+  const double needed_ppb = books.driven_m * scenario.vehicle_types[0].battery_per_m * 1e9;
+  EXPECT_LE(static_cast<double>(c.battery_driven_ppb), needed_ppb + slack_ppb) << which;
+  if (c.batteries_empty == 0) EXPECT_NEAR(static_cast<double>(c.battery_driven_ppb), needed_ppb, slack_ppb) << which;
+  EXPECT_EQ(books.holders.size(), c.transports_released) << which << ": every load is somewhere";
+  std::uint64_t cleared = 0;
+  for (const auto& [load, holder] : books.holders) cleared += holder >> 32 == static_cast<std::uint64_t>(Holder::Kind::ClearedAway) ? 1 : 0;
+  EXPECT_EQ(cleared, c.loads_cleared) << which;
+  EXPECT_EQ(books.done, c.transports_done) << which;
+  EXPECT_EQ(books.receptions, c.receptions) << which;
+  EXPECT_EQ(books.lost, c.receptions_lost) << which;
+  EXPECT_EQ(books.received, c.received) << which;
+  EXPECT_EQ(c.receptions, c.receptions_lost + c.received + c.under_way) << which;
+}
+
+void run(const fp_agent_type& agent, std::uint64_t runs, Totals& totals) {
+  const auto families = layout_families();
+  for (std::uint64_t i = 0; i < runs; ++i) {
+    WorldSpec spec = everything_goes_wrong();
+    spec.layout = std::string(families[i % families.size()].name);
+    RejectionCounts counts;
+    Scenario scenario = generate_world(spec, 1000 + i, counts);
+    scenario.radio.loss = 0.4;
+    scenario.radio.delay_s = 2.0;
+    scenario.radio.delay_model = RadioSetup::DelayModel::Uniform;
+    scenario.agent_clock.call_cost_s = i % 3 == 0 ? 0.01 : 0.0;
+    scenario.scanner.on = i % 2 == 0;
+    scenario.operator_help = {.on = i % 5 != 0, .least_s = 5.0, .most_s = 20.0, .battery = 0.7};
+    std::vector<std::unique_ptr<Law>> laws;
+    laws.push_back(std::make_unique<Bookkeeper>(scenario));
+    const Outcome outcome = simulate(scenario, agent, laws);
+    check(scenario, outcome, dynamic_cast<const Bookkeeper&>(*laws[0]), spec.layout.index() == 0 ? std::get<std::string>(spec.layout) + " " + std::to_string(1000 + i) : "");
+    if (::testing::Test::HasFailure()) return;
+    const Counters& c = outcome.counters;
+    ++totals.runs;
+    totals.faults += c.faults;
+    totals.empty += c.batteries_empty;
+    totals.cleared += c.loads_cleared;
+    totals.stops += c.scanner_stops;
+    totals.assists += c.assists;
+    totals.done += c.transports_done;
+    totals.contacts += c.contacts;
+  }
+}
+
+const fp_agent_type& agent_named(std::string_view name) {
+  for (std::uint32_t i = 0; i < fp_reference_agent_count; ++i) {
+    if (fp_reference_agents[i]->name == name) return *fp_reference_agents[i];
+  }
+  throw InputError("agent", "no such reference agent");
+}
+
+TEST(Books, BalanceAfterTenThousandRunsInWhichEverythingGoesWrong) {
+  Totals totals;
+  run(agent_named("reckless"), 9'000, totals);
+  run(agent_named("hull-lock"), 1'000, totals);
+  EXPECT_EQ(totals.runs, 10'000U);
+  EXPECT_GT(totals.faults, 10'000U) << "or nothing went wrong";
+  EXPECT_GT(totals.empty, 100U);
+  EXPECT_GT(totals.cleared, 100U);
+  EXPECT_GT(totals.stops, 100U);
+  EXPECT_GT(totals.assists, 100U);
+  EXPECT_GT(totals.done, 1'000U);
+  EXPECT_GT(totals.contacts, 100U);
+}
+
+}  // namespace
+}  // namespace fleetproof
