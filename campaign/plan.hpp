@@ -26,19 +26,19 @@ struct CampaignPlan {
 
   std::vector<std::string> agents;        // catalogue names, or names of plug-ins that the caller loads
   std::string agent_config;
-  std::vector<double> loss{0.0}, delay_s{0.0};
+  std::vector<double> loss{0.0}, delay_s{0.0}, mean_outage_s{0.0};
   std::vector<LayoutFactor> layouts;
   std::vector<std::uint32_t> fleet_sizes{5};
 
   double transports_per_agv_hour = 30.0;
   VehicleType vehicle;
-  RadioSetup radio;                       // loss and delay_s come from the cell
+  RadioSetup radio;                       // loss, delay_s and mean_outage_s come from the cell
   AgentClockSetup agent_clock;
   LawSetup law;
   bool contact_stops = true;
   std::vector<GateRecord> gates;
 
-  // Agents vary fastest, then delay, loss, fleet size and layout.
+  // Agents vary fastest, then delay, mean outage, loss, fleet size and layout.
   std::vector<CellRecord> cells() const;
   std::uint64_t cell_count() const;
   std::uint64_t run_count() const { return replicates * cell_count(); }

@@ -28,6 +28,7 @@ Engine::Engine(const Scenario& scenario, const fp_agent_type& agent, std::span<c
       sink_(sink),
       briefings_(scenario, agent_config),
       radio_(scenario.radio, scenario.seed),
+      channel_(scenario.radio, scenario.seed),
       unlimited_range_(covers_floor(scenario.radio, *scenario.map)),
       agent_key_(stream_key(scenario.seed, Stream::Agent)),
       world_(scenario, laws),

@@ -12,7 +12,7 @@
 namespace fleetproof {
 namespace {
 
-constexpr std::uint32_t kEncodingVersion = 1;
+constexpr std::uint32_t kEncodingVersion = 2;
 
 // The order of the fields in the encoding. Append only, together with a new version.
 constexpr std::array kFlags{&Outcome::violation, &Outcome::contact, &Outcome::stuck, &Outcome::crash, &Outcome::hang, &Outcome::indeterminate, &Outcome::engine_error};
@@ -20,7 +20,8 @@ constexpr std::array kCounters{
     &Counters::events,         &Counters::activations,   &Counters::agent_calls,         &Counters::messages_sent,        &Counters::receptions,
     &Counters::receptions_lost, &Counters::out_of_range, &Counters::delay_sum_ns,        &Counters::drives,               &Counters::turns,
     &Counters::refused_calls,  &Counters::transports_released, &Counters::transports_done, &Counters::distance_um,        &Counters::safe_mode_ns,
-    &Counters::contacts,       &Counters::distance_evaluations, &Counters::perimeter_checks};
+    &Counters::contacts,       &Counters::distance_evaluations, &Counters::perimeter_checks,
+    &Counters::lost_in_outage, &Counters::lost_by_interference, &Counters::duplicates};
 static_assert(sizeof(Counters) == kCounters.size() * sizeof(std::uint64_t), "every counter is in the encoding");
 
 class ByteSink {

@@ -37,6 +37,8 @@ struct Counters {
   std::uint64_t distance_um = 0;
   std::uint64_t safe_mode_ns = 0, contacts = 0;
   std::uint64_t distance_evaluations = 0, perimeter_checks = 0;  // spent by the laws
+  // Of the receptions lost: while the link or place was in an outage | by other transmissions. Copies delivered on top of the receptions.
+  std::uint64_t lost_in_outage = 0, lost_by_interference = 0, duplicates = 0;
 
   friend bool operator==(const Counters&, const Counters&) = default;
 };

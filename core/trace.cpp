@@ -19,6 +19,8 @@ XXH3_state_t* hash(void* state) { return static_cast<XXH3_state_t*>(state); }
 const char* name_of(TraceKind kind) {
   constexpr std::array names = {"?",      "begins", "ends",    "order",    "transport done", "sent",     "lost",          "received", "timer",
                                 "refused", "contact", "safe mode", "waiting for", "probe",       "log",      "agent crashed", "agent hung"};
+  if (kind == TraceKind::LostInOutage) return "lost in an outage";
+  if (kind == TraceKind::LostByInterference) return "lost by interference";
   const auto i = static_cast<std::size_t>(kind);
   return i < names.size() ? names[i] : names[0];
 }

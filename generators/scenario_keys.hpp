@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string_view>
 
-// The words of the scenario file, for its reader and its writer.
+// The words of the scenario file, for its reader and its writer. Those of the radio stand in radio_fields.hpp.
 namespace fleetproof::scenario_keys {
 
 inline constexpr std::int64_t kVersion = 1;
@@ -18,11 +18,9 @@ inline constexpr std::string_view kAgv[] = {"name", "type", "start", "heading", 
 inline constexpr std::string_view kTransport[] = {"from", "to", "release_s", "release_ns"};
 inline constexpr std::string_view kCall[] = {"at_s", "at_ns", "action", "segment"};
 inline constexpr std::string_view kObstacle[] = {"name", "length_m", "width_m", "position_m", "heading"};
-inline constexpr std::string_view kRadio[] = {"loss", "delay_s", "delay_model", "range_m", "air_time_s"};
 inline constexpr std::string_view kAgentClock[] = {"call_cost_s"};
 inline constexpr std::string_view kLaw[] = {"safety_distance_m", "snapshot_s"};
 
 inline constexpr std::string_view kActions[] = {"move", "pick", "drop", "park", "charge"};  // by ScriptedCall::Action
-inline constexpr std::string_view kDelayModels[] = {"constant", "uniform"};                 // by RadioSetup::DelayModel
 
 }  // namespace fleetproof::scenario_keys

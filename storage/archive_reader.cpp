@@ -117,7 +117,11 @@ void ArchiveReader::Impl::require_ours() {
   if (version > kSchemaVersion) {
     throw InputError(path, fmt::format("a newer fleetproof wrote this file (schema {}, this program reads {}); use that version or a later one", version, kSchemaVersion));
   }
-  if (version != kSchemaVersion) damaged(fmt::format("its schema number is {}", version));
+  if (version < 1) damaged(fmt::format("its schema number is {}", version));
+  if (version < kSchemaVersion) {
+    throw InputError(path, fmt::format("an older fleetproof wrote this file (schema {}, this program reads {}); use that version, or run the campaign again", version,
+                                       kSchemaVersion));
+  }
 }
 
 void ArchiveReader::Impl::read_plan() {

@@ -9,7 +9,7 @@
 namespace fleetproof {
 
 inline constexpr std::int32_t kApplicationId = 0x464C5046;  // "FLPF": tells a campaign file from any other SQLite file
-inline constexpr std::int32_t kSchemaVersion = 1;
+inline constexpr std::int32_t kSchemaVersion = 2;
 inline constexpr std::int32_t kPageSize = 4096;
 
 // A counter of the outcome and the column of `runs` that holds it.
@@ -18,7 +18,7 @@ struct CounterColumn {
   std::uint64_t Counters::*member;
 };
 
-inline constexpr std::array<CounterColumn, 18> kCounterColumns{{
+inline constexpr std::array<CounterColumn, 21> kCounterColumns{{
     {"events", &Counters::events},
     {"activations", &Counters::activations},
     {"agent_calls", &Counters::agent_calls},
@@ -37,6 +37,9 @@ inline constexpr std::array<CounterColumn, 18> kCounterColumns{{
     {"contacts", &Counters::contacts},
     {"distance_evaluations", &Counters::distance_evaluations},
     {"perimeter_checks", &Counters::perimeter_checks},
+    {"lost_in_outage", &Counters::lost_in_outage},
+    {"lost_by_interference", &Counters::lost_by_interference},
+    {"duplicates", &Counters::duplicates},
 }};
 static_assert(sizeof(Counters) == kCounterColumns.size() * sizeof(std::uint64_t), "every counter has a column");
 
@@ -46,7 +49,7 @@ std::string schema_ddl();
 // Column lists, comma-separated, in the order in which rows.hpp binds and reads them. `prefix` (as in "r.") goes before every name.
 std::string run_columns(const std::string& prefix = "");
 std::string violation_columns();
-inline constexpr const char* kCellColumns = "cell, agent, layout, fleet_size, loss, delay_s";
+inline constexpr const char* kCellColumns = "cell, agent, layout, fleet_size, loss, delay_s, mean_outage_s";
 inline constexpr const char* kGateColumns = "gate, name, agent, kind, end_point, region, limit_rate, confidence, min_transports_per_agv_hour";
 inline constexpr const char* kCampaignColumns =
     "id, name, kind, seed, replicates, plan_json, plan_hash, engine_version, program_sha256, compiler, flags, libraries, plan_checksum";

@@ -34,6 +34,17 @@ TEST(NaturalLog, AgreesWithTheLibrary) {
   }
 }
 
+TEST(NaturalExp, AgreesWithTheLibrary) {
+  Draws draws(4);
+  for (int i = 0; i < 200000; ++i) {
+    const double x = i % 2 == 0 ? draws.uniform(-700.0, 700.0) : draws.uniform(-2.0, 2.0);
+    EXPECT_NEAR(natural_exp(x) / std::exp(x), 1.0, 4e-16) << x;
+  }
+  EXPECT_EQ(natural_exp(0.0), 1.0);
+  EXPECT_EQ(natural_exp(1e9), natural_exp(700.0));
+  EXPECT_GT(natural_exp(-1e9), 0.0);
+}
+
 TEST(Draws, HaveTheMomentsOfTheirDistribution) {
   Draws draws(5);
   double uniform = 0.0, exponential = 0.0;

@@ -51,7 +51,8 @@ inline Outcome random_outcome(std::mt19937_64& random) {
   auto& c = o.counters;
   for (auto* counter : {&c.events, &c.activations, &c.agent_calls, &c.messages_sent, &c.receptions, &c.receptions_lost, &c.out_of_range, &c.delay_sum_ns, &c.drives,
                         &c.turns, &c.refused_calls, &c.transports_released, &c.transports_done, &c.distance_um, &c.safe_mode_ns, &c.contacts,
-                        &c.distance_evaluations, &c.perimeter_checks}) {
+                        &c.distance_evaluations, &c.perimeter_checks, &c.lost_in_outage,
+                        &c.lost_by_interference, &c.duplicates}) {
     *counter = random();
   }
   o.simulated_ns = random();

@@ -75,7 +75,7 @@ TEST_F(Views, v1_violations_tells_where_it_happened) {
 
 TEST_F(Views, the_file_names_its_kind_and_version) {
   EXPECT_EQ(query(path_, "PRAGMA application_id"), std::to_string(0x464C5046));
-  EXPECT_EQ(query(path_, "PRAGMA user_version"), "1");
+  EXPECT_EQ(query(path_, "PRAGMA user_version"), "2");
   EXPECT_EQ(query(path_, "PRAGMA page_size"), "4096");
   EXPECT_EQ(query(path_, "PRAGMA journal_mode"), "delete");
   EXPECT_EQ(query(path_, "PRAGMA integrity_check"), "ok");
