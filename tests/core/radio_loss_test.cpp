@@ -80,6 +80,16 @@ INSTANTIATE_TEST_SUITE_P(
              std::to_string(static_cast<int>(100 * c.loss)) + "At" + std::to_string(to_ns(c.at) / 1'000'000);
     });
 
+TEST(RadioLoss, OtherLossesOfTheTwoStatesKeepTheNominalShare) {
+  for (const Model model : {Model::GilbertElliott, Model::HeavyTail}) {
+    const RadioSetup setup{.loss = 0.3, .outages = {.mean_outage_s = 0.5, .model = model, .loss_good = 0.1, .loss_bad = 0.6}};
+    const Tally tally = a_million_messages(setup, at_seconds(0.8));
+    EXPECT_TRUE(is_binomial(tally.lost, kMessages, 0.3));
+    EXPECT_TRUE(is_binomial(tally.in_outage, kMessages, 0.4));
+    EXPECT_TRUE(is_binomial(tally.lost_in_outage, tally.in_outage, 0.6));
+  }
+}
+
 TEST(RadioLoss, OutsideTheLossesOfTheTwoStatesOneStateIsLeft) {
   const RadioSetup base{.outages = {.mean_outage_s = 0.5}};
   for (const double loss : {0.0, 0.03, 0.05}) {
