@@ -39,7 +39,7 @@ bool must_stop(const RunOptions& options, double elapsed_s) {
 
 void build_first_worlds(const CampaignPlan& plan) {
   const ScenarioSource scenarios(plan);
-  const std::uint64_t cells_per_world = plan.loss.size() * plan.delay_s.size() * plan.agents.size();
+  const std::uint64_t cells_per_world = plan.loss.size() * plan.mean_outage_s.size() * plan.delay_s.size() * plan.agents.size();
   for (std::uint64_t index = 0; index < plan.cell_count(); index += cells_per_world) (void)scenarios.scenario(index);
 }
 

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
+#include <limits>
+#include <type_traits>
 
 #include "campaign/plan_fields.hpp"
 #include "campaign/toml_table.hpp"
@@ -11,6 +14,8 @@
 #include "generators/importer.hpp"
 #include "generators/layout_family.hpp"
 #include "generators/mutated_import.hpp"
+#include "generators/radio_fields.hpp"
+#include "generators/radio_trace.hpp"
 
 namespace fleetproof {
 namespace {
@@ -66,19 +71,6 @@ void read_helper(TomlTable& root, const char* key, Helper& helper) {
   table->get("on", helper.on);
   read_numbers(*table, helper);
   table->finish();
-}
-
-void read_radio(TomlTable& table, RadioSetup& radio) {
-  std::string model = "constant";
-  table.get("delay_model", model);
-  if (model != "constant" && model != "uniform") {
-    constexpr std::array<std::string_view, 2> models = {"constant", "uniform"};
-    throw InputError(table.place("delay_model"), fmt::format("radio.delay_model is \"{}\"{}", model, name_hint(model, models)));
-  }
-  radio.delay_model = model == "uniform" ? RadioSetup::DelayModel::Uniform : RadioSetup::DelayModel::Constant;
-  table.get("range_m", radio.range_m);
-  table.get("air_time_s", radio.air_time_s);
-  table.finish();
 }
 
 GateRecord read_gate(TomlTable& table, std::size_t index) {
@@ -139,6 +131,32 @@ ImportChoice import_choice(TomlTable& table, const std::string& path) {
   return choice;
 }
 
+void read_radio(TomlTable& table, const std::string& path, RadioSetup& radio) {
+  for_each_radio_field(radio, [&](const RadioField& field, auto& value) {
+    using Value = std::remove_cvref_t<decltype(value)>;
+    if (field.is_factor) return;
+    if constexpr (std::is_enum_v<Value>) {
+      std::string word(field.words[static_cast<std::size_t>(value)]);
+      table.get(field.key, word);
+      const auto found = std::ranges::find(field.words, word);
+      if (found == field.words.end()) {
+        throw InputError(table.place(field.key), fmt::format("radio.{} is \"{}\"{}", field.key, word, name_hint(word, field.words)));
+      }
+      value = static_cast<Value>(found - field.words.begin());
+    } else if constexpr (std::is_same_v<Value, std::uint32_t>) {
+      std::uint64_t number = value;
+      table.get(field.key, number);
+      value = static_cast<Value>(std::min<std::uint64_t>(number, std::numeric_limits<Value>::max()));  // out of range all the same: check_plan says so
+    } else {
+      table.get(field.key, value);
+    }
+  });
+  std::string trace;
+  table.get("trace", trace);
+  if (!trace.empty()) radio.trace = std::make_shared<const RadioTrace>(read_radio_trace(beside(path, trace)));
+  table.finish();
+}
+
 // "plant" for a/plant.xml, plant.lif.json and plant.building.yaml alike.
 std::string layout_name(const std::string& word) {
   std::string name = std::filesystem::path(word).stem().string();
@@ -197,6 +215,7 @@ void read_factors(TomlTable& factors, const std::string& path, CampaignFile& fil
   factors.get("fleet_sizes", file.plan.fleet_sizes);
   factors.get("loss", file.plan.loss);
   factors.get("delay_s", file.plan.delay_s);
+  factors.get("mean_outage_s", file.plan.mean_outage_s);
   factors.finish();
 }
 
@@ -230,7 +249,7 @@ CampaignFile read_campaign_file(const std::string& path) {
   }
   read_helper(root, "scanner", plan.scanner);
   read_helper(root, "operator", plan.operator_help);
-  if (auto radio = root.table("radio")) read_radio(*radio, plan.radio);
+  if (auto radio = root.table("radio")) read_radio(*radio, path, plan.radio);
   if (auto clock = root.table("agent_clock")) {
     clock->get("call_cost_s", plan.agent_clock.call_cost_s);
     clock->finish();

@@ -8,6 +8,7 @@
 #include "campaign/plan_fields.hpp"
 #include "core/catalogue.hpp"
 #include "core/error.hpp"
+#include "generators/radio_fields.hpp"
 #include "laws/laws.hpp"
 
 namespace fleetproof {
@@ -17,9 +18,11 @@ std::vector<CellRecord> CampaignPlan::cells() const {
   for (const LayoutFactor& layout : layouts) {
     for (const std::uint32_t fleet : fleet_sizes) {
       for (const double one_loss : loss) {
-        for (const double delay : delay_s) {
-          for (const std::string& agent : agents) {
-            all.push_back({static_cast<std::uint32_t>(all.size()), agent, layout.name, fleet, one_loss, delay});
+        for (const double outage : mean_outage_s) {
+          for (const double delay : delay_s) {
+            for (const std::string& agent : agents) {
+              all.push_back({static_cast<std::uint32_t>(all.size()), agent, layout.name, fleet, one_loss, delay, outage});
+            }
           }
         }
       }
@@ -29,7 +32,7 @@ std::vector<CellRecord> CampaignPlan::cells() const {
 }
 
 std::uint64_t CampaignPlan::cell_count() const {
-  return layouts.size() * fleet_sizes.size() * loss.size() * delay_s.size() * agents.size();
+  return layouts.size() * fleet_sizes.size() * loss.size() * mean_outage_s.size() * delay_s.size() * agents.size();
 }
 
 std::vector<std::string> CampaignPlan::probes_to_meet() const {
@@ -61,12 +64,17 @@ void check_factors(const CampaignPlan& plan, const std::string& where) {
   for (const double value : plan.delay_s) {
     demand(value >= 0.0 && value <= 3600.0, where, fmt::format("factors.delay_s holds {}; a delay lies between 0 and 3600 s", value));
   }
+  demand(!plan.mean_outage_s.empty(), where, "factors.mean_outage_s is empty; it needs at least one value (0: independent losses)");
+  for (const double value : plan.mean_outage_s) {
+    demand(value == 0.0 || (value >= 0.001 && value <= 1e6), where,
+           fmt::format("factors.mean_outage_s holds {}; outages last from 0.001 to 1e6 s on average, 0 stands for independent losses", value));
+  }
   for (const auto value : plan.fleet_sizes) {
     demand(value >= 1 && value <= 1000, where, fmt::format("factors.fleet_sizes holds {}; a fleet has 1 to 1000 AGVs", value));
   }
   std::vector<std::string> layout_names;
   for (const auto& layout : plan.layouts) layout_names.push_back(layout.name);
-  const bool repeated = has_duplicates(plan.agents) || has_duplicates(plan.loss) || has_duplicates(plan.delay_s) ||
+  const bool repeated = has_duplicates(plan.agents) || has_duplicates(plan.loss) || has_duplicates(plan.delay_s) || has_duplicates(plan.mean_outage_s) ||
                         has_duplicates(plan.fleet_sizes) || has_duplicates(layout_names);
   demand(!repeated, where, "a factor names one value twice; each combination is one cell, so every value may stand once");
 }
@@ -87,6 +95,16 @@ void check_gates(const CampaignPlan& plan, const std::string& where) {
     });
     demand(covers, where, fmt::format("{}no cell of this campaign lies in region \"{}\"; add the loss and delay it needs", at, name_of(gate.region)));
   }
+}
+
+void check_radio(const CampaignPlan& plan, const std::string& where) {
+  RadioSetup radio = plan.radio;
+  radio.outages.mean_outage_s = std::ranges::max(plan.mean_outage_s);  // checked together with the other fields
+  for (const auto& [key, sentence] : radio_faults(radio)) throw InputError(where, fmt::format("radio.{}: {}", key, sentence));
+  const bool delay_is_bounded = radio.delay_model != RadioSetup::DelayModel::HeavyTail || (radio.delay_tail.cap_share > 0.0 && radio.delay_tail.cap_share <= 1.0);
+  demand(plan.kind != "claim" || delay_is_bounded, where,
+         fmt::format("radio.delay_cap_share is {}; a claim about the contract region needs delay_s to be the longest delay: set it to 1, or kind to \"search\"",
+                     radio.delay_tail.cap_share));
 }
 
 template <class Table>
@@ -147,7 +165,6 @@ void check_plan(const CampaignPlan& plan, const std::string& where) {
   check_world(plan, where);
   demand(plan.law.safety_distance_m > 0.0 && plan.law.safety_distance_m < 0.5, where,
          fmt::format("law.safety_distance_m is {}; it lies between 0 and 0.5 m", plan.law.safety_distance_m));
-  demand(plan.radio.range_m > 0.0, where, fmt::format("radio.range_m is {}; it must be above 0", plan.radio.range_m));
   demand(plan.agent_clock.call_cost_s >= 0.0 && plan.agent_clock.call_cost_s <= 10.0, where,
          fmt::format("agent_clock.call_cost_s is {}; it lies between 0 and 10", plan.agent_clock.call_cost_s));
   check_vehicles(plan, where);
@@ -156,6 +173,7 @@ void check_plan(const CampaignPlan& plan, const std::string& where) {
   check_numbers(plan.operator_help, "operator", where);
   check_factors(plan, where);
   check_laws_and_coverage(plan, where);
+  check_radio(plan, where);
   constexpr std::uint64_t kRunsMax = 1'000'000'000'000;  // a thousand years of this engine; beyond it run indices would wrap
   demand(plan.replicates <= kRunsMax / plan.cell_count(), where,
          fmt::format("replicates is {}; with {} cells at most {} are possible", plan.replicates, plan.cell_count(), kRunsMax / plan.cell_count()));

@@ -31,7 +31,7 @@ struct CampaignPlan {
 
   std::vector<std::string> agents;        // catalogue names, or names of plug-ins that the caller loads
   std::string agent_config;
-  std::vector<double> loss{0.0}, delay_s{0.0};
+  std::vector<double> loss{0.0}, delay_s{0.0}, mean_outage_s{0.0};
   std::vector<LayoutFactor> layouts;
   std::vector<std::uint32_t> fleet_sizes{5};
 
@@ -43,7 +43,7 @@ struct CampaignPlan {
   FaultRates faults;
   ScannerSetup scanner;
   OperatorSetup operator_help;
-  RadioSetup radio;                       // loss and delay_s come from the cell
+  RadioSetup radio;                       // loss, delay_s and mean_outage_s come from the cell
   AgentClockSetup agent_clock;
   LawSetup law;
   std::vector<std::string> laws_left_out; // of the default set
@@ -54,7 +54,7 @@ struct CampaignPlan {
   // What has to be met for the evidence not to be weak. A claim asks for an encounter and, of an agent that declares anything, for a negotiation.
   std::vector<std::string> probes_to_meet() const;
 
-  // Agents vary fastest, then delay, loss, fleet size and layout.
+  // Agents vary fastest, then delay, mean outage, loss, fleet size and layout.
   std::vector<CellRecord> cells() const;
   std::uint64_t cell_count() const;
   std::uint64_t run_count() const { return replicates * cell_count(); }

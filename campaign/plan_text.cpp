@@ -1,11 +1,14 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <type_traits>
 
 #include "campaign/plan.hpp"
 #include "campaign/plan_fields.hpp"
 #include "core/error.hpp"
 #include "generators/layout_file.hpp"
+#include "generators/radio_fields.hpp"
 
 namespace fleetproof {
 namespace {
@@ -57,6 +60,50 @@ template <class Helper>
 void read_helper(const Json& json, Helper& helper) {
   read_numbers(json, helper);
   helper.on = json.at("on");
+}
+
+// A recorded message is [sender, receiver, sent_ns, delay_ns], without a delay if it was lost.
+Json to_json(const RadioSetup& radio) {
+  Json json = Json::object();
+  for_each_radio_field(radio, [&](const RadioField& field, const auto& value) {
+    if (field.is_factor) return;
+    if constexpr (std::is_enum_v<std::remove_cvref_t<decltype(value)>>) {
+      json[std::string(field.key)] = field.words[static_cast<std::size_t>(value)];
+    } else {
+      json[std::string(field.key)] = value;
+    }
+  });
+  if (radio.trace == nullptr) return json;
+  Json& messages = json["trace"] = Json::array();
+  for (const auto& [sender, receiver, sent, delay] : *radio.trace) {
+    Json message = {sender.value, receiver.value, sent.count()};
+    if (delay) message.push_back(delay->count());
+    messages.push_back(std::move(message));
+  }
+  return json;
+}
+
+void radio_from(const Json& json, RadioSetup& radio) {
+  for_each_radio_field(radio, [&](const RadioField& field, auto& value) {
+    using Value = std::remove_cvref_t<decltype(value)>;
+    if (field.is_factor) return;
+    const Json& entry = json.at(std::string(field.key));
+    if constexpr (std::is_enum_v<Value>) {
+      const auto found = std::ranges::find(field.words, entry.get<std::string>());
+      if (found == field.words.end()) throw EngineError(fmt::format("the plan in the archive names {}, which this version does not know", entry.dump()));
+      value = static_cast<Value>(found - field.words.begin());
+    } else {
+      value = entry.get<Value>();
+    }
+  });
+  if (!json.contains("trace")) return;
+  RadioTrace trace;
+  for (const Json& entry : json.at("trace")) {
+    RecordedMessage message{AgvId{entry.at(0).get<std::uint32_t>()}, AgvId{entry.at(1).get<std::uint32_t>()}, Duration{entry.at(2).get<std::int64_t>()}, std::nullopt};
+    if (entry.size() > 3) message.delay = Duration{entry.at(3).get<std::int64_t>()};
+    trace.push_back(message);
+  }
+  radio.trace = std::make_shared<const RadioTrace>(std::move(trace));
 }
 
 Json to_json(const GateRecord& gate) {
@@ -147,6 +194,7 @@ CampaignPlan plan_from(const Json& json) {
   plan.fleet_sizes = factors.at("fleet_sizes").get<std::vector<std::uint32_t>>();
   plan.loss = factors.at("loss").get<std::vector<double>>();
   plan.delay_s = factors.at("delay_s").get<std::vector<double>>();
+  plan.mean_outage_s = factors.at("mean_outage_s").get<std::vector<double>>();
   for (const Json& entry : factors.at("layouts")) {
     LayoutFactor layout{entry.at("name"), nullptr, entry.value("mutate", false)};
     if (entry.contains("content")) layout.map = std::make_shared<const LogicalMap>(parse_layout(entry.at("content").dump(), "layout " + layout.name));
@@ -158,10 +206,7 @@ CampaignPlan plan_from(const Json& json) {
   read_numbers(json.at("faults"), plan.faults);
   read_helper(json.at("scanner"), plan.scanner);
   read_helper(json.at("operator"), plan.operator_help);
-  const Json& radio = json.at("radio");
-  plan.radio.delay_model = radio.at("delay_model") == "uniform" ? RadioSetup::DelayModel::Uniform : RadioSetup::DelayModel::Constant;
-  plan.radio.range_m = radio.at("range_m");
-  plan.radio.air_time_s = radio.at("air_time_s");
+  radio_from(json.at("radio"), plan.radio);
   plan.agent_clock.call_cost_s = json.at("agent_clock").at("call_cost_s");
   plan.law.safety_distance_m = json.at("law").at("safety_distance_m");
   plan.laws_left_out = json.at("law").at("leave_out").get<std::vector<std::string>>();
@@ -185,17 +230,14 @@ std::string plan_text(const CampaignPlan& plan) {
       {"stuck_after_s", plan.stuck_after_s},
       {"contact_stops", plan.contact_stops},
       {"factors",
-       {{"agents", plan.agents}, {"layouts", layouts_json(plan)}, {"fleet_sizes", plan.fleet_sizes}, {"loss", plan.loss}, {"delay_s", plan.delay_s}}},
+       {{"agents", plan.agents}, {"layouts", layouts_json(plan)}, {"fleet_sizes", plan.fleet_sizes}, {"loss", plan.loss}, {"delay_s", plan.delay_s}, {"mean_outage_s", plan.mean_outage_s}}},
       {"agent_config", plan.agent_config},
       {"world", world_json(plan)},
       {"vehicles", vehicles_json(plan.vehicles)},
       {"faults", numbers_json(plan.faults)},
       {"scanner", helper_json(plan.scanner)},
       {"operator", helper_json(plan.operator_help)},
-      {"radio",
-       {{"delay_model", plan.radio.delay_model == RadioSetup::DelayModel::Uniform ? "uniform" : "constant"},
-        {"range_m", plan.radio.range_m},
-        {"air_time_s", plan.radio.air_time_s}}},
+      {"radio", to_json(plan.radio)},
       {"agent_clock", {{"call_cost_s", plan.agent_clock.call_cost_s}}},
       {"law", {{"safety_distance_m", plan.law.safety_distance_m}, {"leave_out", plan.laws_left_out}}},
       {"coverage", {{"probes", plan.probes_to_meet()}}},

@@ -39,6 +39,7 @@ Scenario ScenarioSource::scenario(std::uint64_t run_index) const {
   scenario.radio = plan_.radio;
   scenario.radio.loss = cell.loss;
   scenario.radio.delay_s = cell.delay_s;
+  scenario.radio.outages.mean_outage_s = cell.mean_outage_s;
   scenario.agent_clock = plan_.agent_clock;
   scenario.scanner = plan_.scanner;
   scenario.operator_help = plan_.operator_help;

@@ -30,6 +30,7 @@ Engine::Engine(const Scenario& scenario, const fp_agent_type& agent, std::span<c
       sink_(sink),
       briefings_(scenario, agent_config),
       radio_(scenario.radio, scenario.seed),
+      channel_(scenario.radio, scenario.seed),
       unlimited_range_(covers_floor(scenario.radio, *scenario.map)),
       agent_key_(stream_key(scenario.seed, Stream::Agent)),
       motion_key_(stream_key(scenario.seed, Stream::Motion)),
@@ -177,7 +178,7 @@ void Engine::close_books() {
   counters.battery_driven_ppb = ppb(book.driven);
   counters.battery_idled_ppb = ppb(book.idled);
   counters.battery_charged_ppb = ppb(book.charged);
-  counters.under_way = counters.receptions - counters.receptions_lost - counters.received;
+  counters.under_way = counters.receptions + counters.duplicates - counters.receptions_lost - counters.received;
 }
 
 Outcome Engine::outcome() {

@@ -9,6 +9,7 @@
 #include "core/agv.hpp"
 #include "core/event_queue.hpp"
 #include "core/radio.hpp"
+#include "core/radio_channel.hpp"
 #include "core/simulation.hpp"
 #include "core/world.hpp"
 
@@ -141,7 +142,9 @@ class Engine {
   // ---- radio
   void transmit(Agv& sender, std::uint32_t slot, std::uint32_t receiver);
   void transmit_to(Agv& sender, AgvId receiver, std::uint32_t slot, const Pose& from, std::uint32_t ordinal);
-  void message_arrives(Agv& receiver, std::uint32_t slot);
+  void message_arrives(Agv& receiver, std::uint32_t payload);
+  void air_time_ends(Agv& receiver, std::uint32_t slot);
+  bool is_drowned(AgvId receiver, const Message& message) const;
   void drop_message_in_hand(Agv& agv);
 
   // ---- agents
@@ -168,6 +171,7 @@ class Engine {
   TraceSink* sink_;
   Briefings briefings_;
   Radio radio_;
+  RadioChannel channel_;
   bool unlimited_range_;
   std::uint64_t agent_key_, motion_key_;
   World world_;

@@ -1,7 +1,16 @@
 // Messages: a transmission is an activity with an interval of its own, one reception per receiver in range.
+#include <algorithm>
+
 #include "core/engine.hpp"
 
 namespace fleetproof {
+namespace {
+
+// A reception may have three events of one kind; two bits of the payload tell them apart (no run has 2^30 messages at a time): with interference
+// the end of the air time, the arrival of the message, the arrival of its copy.
+constexpr std::uint32_t kAirTimeEnds = 0x80000000U, kCopy = 0x40000000U, kSlot = 0x3fffffffU;
+
+}  // namespace
 
 std::int32_t Engine::send(Agv& agv, std::string_view bytes, std::uint32_t receiver) {
   const bool broadcast = receiver == FP_NONE;
@@ -24,7 +33,9 @@ void Engine::transmit(Agv& sender, std::uint32_t slot, std::uint32_t receiver) {
   const std::uint32_t ordinal = sender.sent_at_that_instant++;
   ++outcome_.counters.messages_sent;
   trace(sender.id, TraceKind::Sent, receiver, messages_[slot].hash);
-  const Pose from = unlimited_range_ ? Pose{} : world_.pose_of(sender.id, now_);
+  const bool needs_place = !unlimited_range_ || radio_.depends_on_place();
+  const Pose from = needs_place ? world_.pose_of(sender.id, now_) : Pose{};
+  if (scenario_.radio.contention.interference) messages_.goes_out_in(slot, channel_.contend(sender.id, now_, ordinal));
   if (receiver != FP_NONE) {
     transmit_to(sender, AgvId{receiver}, slot, from, ordinal);
   } else {
@@ -36,24 +47,59 @@ void Engine::transmit(Agv& sender, std::uint32_t slot, std::uint32_t receiver) {
 }
 
 void Engine::transmit_to(Agv& sender, AgvId receiver, std::uint32_t slot, const Pose& from, std::uint32_t ordinal) {
-  if (!unlimited_range_ && (world_.pose_of(receiver, now_).position_m - from.position_m).norm() > scenario_.radio.range_m) {
-    ++outcome_.counters.out_of_range;
+  Counters& counters = outcome_.counters;
+  LinkPlaces places{from.position_m, {}};
+  if (!unlimited_range_ || radio_.depends_on_place()) places.receiver_m = world_.pose_of(receiver, now_).position_m;
+  if (!unlimited_range_ && (places.receiver_m - places.sender_m).norm() > scenario_.radio.range_m) {
+    ++counters.out_of_range;
     messages_.release(slot);
     return;
   }
-  const Fate fate = radio_.fate(sender.id, receiver, now_, ordinal);
-  ++outcome_.counters.receptions;
-  outcome_.counters.delay_sum_ns += static_cast<std::uint64_t>(fate.delay.count());
+  const Fate fate = radio_.fate(sender.id, receiver, now_, ordinal, places);
+  const bool contended = scenario_.radio.contention.interference;
+  const SimTime on_air_until = contended ? channel_.end_of(messages_[slot].air_slot) : now_;
+  const SimTime arrival = std::max(now_ + fate.delay, on_air_until);
+  ++counters.receptions;
+  counters.delay_sum_ns += static_cast<std::uint64_t>((arrival - now_).count());
   if (fate.lost) {
-    ++outcome_.counters.receptions_lost;
-    trace(receiver, TraceKind::Lost, sender.id.value, messages_[slot].hash);
+    ++counters.receptions_lost;
+    counters.lost_in_outage += fate.in_outage ? 1 : 0;
+    trace(receiver, fate.in_outage ? TraceKind::LostInOutage : TraceKind::Lost, sender.id.value, messages_[slot].hash);
     messages_.release(slot);
     return;
   }
-  queue_.push(now_ + fate.delay, receiver, Event::Kind::MessageArrives, slot);
+  if (contended) queue_.push(on_air_until, receiver, Event::Kind::MessageArrives, slot | kAirTimeEnds);
+  queue_.push(arrival, receiver, Event::Kind::MessageArrives, slot);
+  if (fate.copy_delay) {
+    messages_.hold(slot);
+    queue_.push(std::max(now_ + *fate.copy_delay, on_air_until), receiver, Event::Kind::MessageArrives, slot | kCopy);
+  }
 }
 
-void Engine::message_arrives(Agv& receiver, std::uint32_t slot) {
+// At the end of its slot a message is destroyed at this receiver, or nothing can happen to it any more.
+void Engine::air_time_ends(Agv& receiver, std::uint32_t slot) {
+  const Message& message = messages_[slot];
+  if (!is_drowned(receiver.id, message)) return;
+  ++outcome_.counters.receptions_lost;
+  ++outcome_.counters.lost_by_interference;
+  trace(receiver.id, TraceKind::LostByInterference, message.sender.value, message.hash);
+  messages_.destroy_at(slot, receiver.id);
+}
+
+bool Engine::is_drowned(AgvId receiver, const Message& message) const {
+  for (const AgvId other : channel_.senders_in(message.air_slot)) {
+    if (other == message.sender) continue;
+    if (other == receiver || unlimited_range_) return true;
+    if ((world_.pose_of(other, now_).position_m - world_.pose_of(receiver, now_).position_m).norm() <= scenario_.radio.range_m) return true;
+  }
+  return false;
+}
+
+void Engine::message_arrives(Agv& receiver, std::uint32_t payload) {
+  const std::uint32_t slot = payload & kSlot;
+  if ((payload & kAirTimeEnds) != 0) return air_time_ends(receiver, slot);
+  if (messages_[slot].is_destroyed_at(receiver.id)) return messages_.release(slot);
+  if ((payload & kCopy) != 0) ++outcome_.counters.duplicates;
   trace(receiver.id, TraceKind::Received, messages_[slot].sender.value, messages_[slot].hash);
   ++outcome_.counters.received;
   if (receiver.agent_failed || receiver.agent_away) return messages_.release(slot);

@@ -24,7 +24,8 @@ constexpr std::array kCounters{
     &Counters::rolls, &Counters::faults, &Counters::batteries_empty, &Counters::loads_cleared, &Counters::assists, &Counters::scanner_stops,
     &Counters::scanner_saves, &Counters::received, &Counters::under_way, &Counters::battery_start_ppb, &Counters::battery_end_ppb,
     &Counters::battery_driven_ppb, &Counters::battery_idled_ppb, &Counters::battery_charged_ppb,
-    &Counters::incidents_left_out, &Counters::probes_left_out};
+    &Counters::incidents_left_out, &Counters::probes_left_out,
+    &Counters::lost_in_outage, &Counters::lost_by_interference, &Counters::duplicates};
 static_assert(sizeof(Counters) == kCounters.size() * sizeof(std::uint64_t), "every counter is in the encoding");
 
 class ByteSink {

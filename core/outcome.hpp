@@ -51,6 +51,8 @@ struct Counters {
   // The energy book of the fleet, in billionths of a full battery: start + charged = end + driven + idled.
   std::uint64_t battery_start_ppb = 0, battery_end_ppb = 0, battery_driven_ppb = 0, battery_idled_ppb = 0, battery_charged_ppb = 0;
   std::uint64_t incidents_left_out = 0, probes_left_out = 0;     // beyond what an outcome holds
+  // Of the receptions lost: while the link or place was in an outage | by other transmissions. Copies delivered on top of the receptions.
+  std::uint64_t lost_in_outage = 0, lost_by_interference = 0, duplicates = 0;
 
   friend bool operator==(const Counters&, const Counters&) = default;
 };

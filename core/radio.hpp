@@ -1,32 +1,60 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "core/scenario.hpp"
+#include "core/delay_model.hpp"
+#include "core/outage_process.hpp"
+#include "core/radio_places.hpp"
+#include "core/radio_setup.hpp"
+#include "core/recorded_radio.hpp"
 
 namespace fleetproof {
 
-// What becomes of one transmission at one receiver.
+// What becomes of one transmission at one receiver, interference apart.
 struct Fate {
   bool lost = false;
-  Duration delay{};  // from sending to the inbox; for a lost one too, so that losses shift nothing
+  bool in_outage = false;              // lost or not: the link or the place is in an outage, or an AGV is changing its access point
+  Duration delay{};                    // from sending to the inbox; for a lost one too, so that losses shift nothing
+  std::optional<Duration> copy_delay;  // of a second copy, likewise
 };
 
-// The radio as a function of (sender, receiver, instant, number among the messages of that instant): one message more moves no other's fate, and
-// a higher loss rate only adds losses. Threads: any.
+// Reference points of both ends at the instant of sending. Needed only where the radio depends on place.
+struct LinkPlaces {
+  Vec2 sender_m = Vec2::Zero(), receiver_m = Vec2::Zero();
+};
+
+// The radio as a function of (sender, receiver, places, instant, number among the messages of that instant): one message more moves no other's fate,
+// and a higher loss rate only adds losses. It remembers where each outage process has got to, for speed alone: for one run, on one thread.
 class Radio {
  public:
   Radio(const RadioSetup& setup, std::uint64_t world_seed);
-  Fate fate(AgvId sender, AgvId receiver, SimTime sent, std::uint32_t ordinal) const;
+  bool depends_on_place() const { return depends_on_place_; }
+  Fate fate(AgvId sender, AgvId receiver, SimTime sent, std::uint32_t ordinal, const LinkPlaces& places = {});
+  // The outage process that this receiver meets on messages of this sender. Scope Place has none.
+  OutageProcess& process_of(AgvId sender, AgvId receiver);
 
  private:
+  struct StateLoss {
+    double good, bad;
+  };
+  StateLoss losses_by_state(double loss) const;
+  OutageLaw outage_law(double loss) const;
+  double loss_of(AgvId sender, AgvId receiver) const;
+  void weigh_states(Fate& fate, double loss_draw, AgvId sender, AgvId receiver, SimTime sent, const LinkPlaces& places);
+  std::optional<Duration> copy_of(AgvId sender, AgvId receiver, SimTime sent, std::uint32_t ordinal) const;
+
   RadioSetup setup_;
-  std::uint64_t key_;
-  Duration floor_;
+  std::uint64_t key_, state_key_, copy_key_;
+  DelayModel delay_;
+  bool has_states_, depends_on_place_;
+  RecordedRadio recorded_;
+  RadioPlaces places_;
+  std::vector<std::vector<std::optional<OutageProcess>>> links_;  // by sender (the smaller id where directions share one), receiver
 };
 
 // A message in the air or in inboxes.
@@ -35,6 +63,10 @@ struct Message {
   std::string bytes;
   std::uint64_t hash = 0;
   std::uint32_t copies = 0;  // receptions still under way or unread
+  // With interference only: the slot in which it goes out, and the receivers at which it was destroyed there.
+  std::int64_t air_slot = 0;
+  std::vector<AgvId> destroyed_at;
+  bool is_destroyed_at(AgvId receiver) const { return std::ranges::find(destroyed_at, receiver) != destroyed_at.end(); }
 };
 
 // Messages by slot; a slot is used again when its last copy has been read or lost.
@@ -42,6 +74,9 @@ class MessagePool {
  public:
   std::uint32_t add(AgvId sender, std::string_view bytes, std::uint32_t copies);
   const Message& operator[](std::uint32_t slot) const { return messages_[slot]; }
+  void hold(std::uint32_t slot) { ++messages_[slot].copies; }
+  void goes_out_in(std::uint32_t slot, std::int64_t air_slot) { messages_[slot].air_slot = air_slot; }
+  void destroy_at(std::uint32_t slot, AgvId receiver) { messages_[slot].destroyed_at.push_back(receiver); }
   void release(std::uint32_t slot);
   // Of a message that is never going to be sent: all its copies.
   void release_unsent(std::uint32_t slot);

@@ -2,6 +2,7 @@
 
 #include <Random123/philox.h>
 
+#include <algorithm>
 #include <bit>
 
 namespace fleetproof {
@@ -66,13 +67,16 @@ double natural_log(double x) {
 }
 
 double natural_exp(double x) {
-  // x = k ln 2 + r with |r| <= 0.347; ln 2 in two parts, of which k times the first is exact.
-  constexpr double kHigh = 0x1.62e42fee00000p-1, kLow = 0x1.a39ef35793c76p-33;
-  const double k = static_cast<double>(static_cast<int>(x * 1.4426950408889634 + (x < 0.0 ? -0.5 : 0.5)));
-  const double r = (x - k * kHigh) - k * kLow;
-  double sum = 1.0;
-  for (int n = 14; n >= 1; --n) sum = 1.0 + sum * r / n;
-  return sum * std::bit_cast<double>(static_cast<std::uint64_t>(static_cast<std::int64_t>(k) + 1023) << 52);
+  constexpr double kLimit = 700.0;
+  x = std::clamp(x, -kLimit, kLimit);
+  const double scaled = x * 1.4426950408889634;  // 1 / ln 2
+  const int exponent = static_cast<int>(scaled < 0.0 ? scaled - 0.5 : scaled + 0.5);
+  // ln 2 in two parts: the first has 32 bits, so that its product with the exponent is exact.
+  const double rest = (x - exponent * 0x1.62e42feep-1) - exponent * 0x1.a39ef35793c76p-33;
+  // The series of e^rest, |rest| <= 0.347: fourteen terms reach 1e-17.
+  double sum = 0.0;
+  for (int k = 14; k >= 1; --k) sum = (sum + 1.0) * rest / k;
+  return (1.0 + sum) * std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52);
 }
 
 }  // namespace fleetproof

@@ -7,7 +7,7 @@
 namespace fleetproof {
 
 // Every source of chance in a run. Each has its own key, so that a draw more in one leaves all others as they were.
-enum class Stream : std::uint32_t { Layout = 1, Placement, Transports, Motion, Radio, Faults, Agent };
+enum class Stream : std::uint32_t { Layout = 1, Placement, Transports, Motion, Radio, Faults, Agent, RadioState = 16, RadioCopy, RadioBackoff };
 
 // Four 32-bit words, a pure function of key and counter (Philox4x32-10, Salmon et al. 2011).
 using Block = std::array<std::uint32_t, 4>;
@@ -48,7 +48,7 @@ class Draws {
 // Natural logarithm of a positive normal number from + - * / alone, so that every CPU gives the same bits. Relative error below 1e-15.
 double natural_log(double x);
 
-// e to the power of x, |x| <= 700, in the same way. Relative error below 1e-15.
+// e to the x, likewise. Relative error below 4e-16 for |x| <= 700; beyond, the value at that limit, so that it is finite and positive.
 double natural_exp(double x);
 
 }  // namespace fleetproof

@@ -7,6 +7,7 @@
 
 #include "core/faults.hpp"
 #include "core/layout.hpp"
+#include "core/radio_setup.hpp"
 #include "core/sim_time.hpp"
 #include "core/strong_id.hpp"
 #include "core/vehicle_type.hpp"
@@ -55,16 +56,6 @@ struct ObstacleSetup {
   Pose pose;
   Duration appears{};
   Duration leaves = kLongestDuration;
-};
-
-// The radio as a function of time and place (design rule: traffic does not change it).
-struct RadioSetup {
-  enum class DelayModel : std::uint8_t { Constant, Uniform };  // always delay_s | uniform on [0, delay_s), which reorders
-  double loss = 0.0;                   // share of receptions lost, independently
-  double delay_s = 0.0;
-  DelayModel delay_model = DelayModel::Constant;
-  double range_m = 1000.0;             // between reference points at the instant of sending
-  double air_time_s = 0.001;           // of the transmission itself; contained in the delay where that is longer
 };
 
 struct AgentClockSetup {

@@ -20,6 +20,8 @@ const char* name_of(TraceKind kind) {
   constexpr std::array names = {"?",      "begins", "ends",    "order",    "transport done", "sent",     "lost",          "received", "timer",
                                 "refused", "contact", "safe mode", "waiting for", "probe",       "log",      "agent crashed", "agent hung", "load moves",
                                 "battery empty", "fault", "fault over", "scanner stops", "operator assists", "appears", "leaves"};
+  if (kind == TraceKind::LostInOutage) return "lost in an outage";
+  if (kind == TraceKind::LostByInterference) return "lost by interference";
   const auto i = static_cast<std::size_t>(kind);
   return i < names.size() ? names[i] : names[0];
 }

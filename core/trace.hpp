@@ -17,7 +17,7 @@ enum class TraceKind : std::uint32_t {
   OrderReleased = 3,    // a: transport
   TransportDone = 4,    // a: transport
   Sent = 5,             // a: receiver or FP_NONE, b: hash of the bytes
-  Lost = 6,             // entity: receiver, a: sender, b: hash of the bytes
+  Lost = 6,             // entity: receiver, a: sender, b: hash of the bytes; by chance, at the instant of sending
   Received = 7,         // entity: receiver, a: sender, b: hash of the bytes
   TimerWentOff = 8,     // a: timer
   CallRefused = 9,      // a: fp_call, b: segment
@@ -36,6 +36,8 @@ enum class TraceKind : std::uint32_t {
   OperatorAssists = 22, // a: what for
   Appears = 23,         // a body comes onto the floor
   Leaves = 24,          // and is taken away
+  LostInOutage = 32,         // as Lost, while the link or place was in an outage
+  LostByInterference = 33,   // as Lost, at the end of the transmission: another one, or one of the receiver's own, was in the air
 };
 const char* name_of(TraceKind kind);
 

@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <type_traits>
 
 #include "core/catalogue.hpp"
 #include "generators/json_value.hpp"
 #include "generators/layout_file.hpp"
+#include "generators/radio_fields.hpp"
 #include "generators/scenario_keys.hpp"
 #include "generators/text_file.hpp"
 #include "generators/validator.hpp"
@@ -216,13 +219,40 @@ class AgvReader {
   Names<SegmentId> segments_;
 };
 
+RecordedMessage read_recorded(const JsonReader& reader) {
+  const auto items = reader.items();
+  if (items.size() != 3 && items.size() != 4) reader.refuse("a recorded message is [sender, receiver, sent_ns, delay_ns], without a delay if it was lost");
+  const auto agv = [](const JsonReader& number) {
+    if (number.natural() > 0xffff) number.refuse("an AGV has a number below 65536");
+    return AgvId{static_cast<std::uint32_t>(number.natural())};
+  };
+  RecordedMessage message{agv(items[0]), agv(items[1]), Duration{items[2].integer()}, std::nullopt};
+  if (items.size() == 4) message.delay = Duration{items[3].integer()};
+  return message;
+}
+
 void read_radio(const JsonReader& reader, RadioSetup& radio) {
-  reader.expect_object(keys::kRadio);
-  reader.read("loss", radio.loss);
-  reader.read("delay_s", radio.delay_s);
-  if (const auto model = reader.find("delay_model")) radio.delay_model = static_cast<RadioSetup::DelayModel>(one_of(*model, keys::kDelayModels));
-  reader.read("range_m", radio.range_m);
-  reader.read("air_time_s", radio.air_time_s);
+  std::vector<std::string_view> known;
+  for_each_radio_field(radio, [&](const RadioField& field, const auto&) { known.push_back(field.key); });
+  known.push_back("trace");
+  reader.expect_object(known);
+  for_each_radio_field(radio, [&](const RadioField& field, auto& value) {
+    using Value = std::remove_cvref_t<decltype(value)>;
+    if constexpr (std::is_enum_v<Value>) {
+      if (const auto word = reader.find(field.key)) value = static_cast<Value>(one_of(*word, field.words));
+    } else if constexpr (std::is_same_v<Value, std::uint32_t>) {
+      const auto number = reader.find(field.key);
+      if (number && number->natural() > std::numeric_limits<std::uint32_t>::max()) number->refuse(fmt::format("it is at most {}", field.high));
+      if (number) value = static_cast<std::uint32_t>(number->natural());
+    } else {
+      reader.read(field.key, value);
+    }
+  });
+  if (const auto trace = reader.find("trace")) {
+    RadioTrace messages;
+    for (const auto& item : trace->items()) messages.push_back(read_recorded(item));
+    if (!messages.empty()) radio.trace = std::make_shared<const RadioTrace>(std::move(messages));
+  }
 }
 
 void read_settings(const JsonReader& reader, Scenario& scenario) {

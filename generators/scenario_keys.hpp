@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string_view>
 
-// The words of the scenario file, for its reader and its writer.
+// The words of the scenario file, for its reader and its writer. Those of the radio stand in radio_fields.hpp.
 namespace fleetproof::scenario_keys {
 
 inline constexpr std::int64_t kVersion = 1;
@@ -26,12 +26,10 @@ inline constexpr std::string_view kFault[] = {"kind",     "agv",      "at_s",   
                                               "lasts_ns", "length_m", "width_m", "ahead_m", "left_m"};
 inline constexpr std::string_view kScanner[] = {"on", "reaction_s", "margin_m", "resume_s"};
 inline constexpr std::string_view kOperator[] = {"on", "least_s", "most_s", "battery"};
-inline constexpr std::string_view kRadio[] = {"loss", "delay_s", "delay_model", "range_m", "air_time_s"};
 inline constexpr std::string_view kAgentClock[] = {"call_cost_s"};
 inline constexpr std::string_view kLaw[] = {"safety_distance_m", "snapshot_s"};
 
 inline constexpr std::string_view kActions[] = {"move", "pick", "drop", "park", "charge"};  // by ScriptedCall::Action
-inline constexpr std::string_view kDelayModels[] = {"constant", "uniform"};                 // by RadioSetup::DelayModel
 inline constexpr std::string_view kFaultKinds[] = {"breakdown", "protective-stop", "load-drop", "restart", "freeze"};  // by Fault::Kind, from 1 on
 
 }  // namespace fleetproof::scenario_keys

@@ -2,10 +2,12 @@
 #include <xxhash.h>
 
 #include <span>
+#include <type_traits>
 
 #include "core/error.hpp"
 #include "generators/json_writer.hpp"
 #include "generators/layout_file.hpp"
+#include "generators/radio_fields.hpp"
 #include "generators/scenario_file.hpp"
 #include "generators/scenario_keys.hpp"
 
@@ -60,13 +62,33 @@ class ScenarioWriter {
 
  private:
   void write_radio(const RadioSetup& radio) {
-    const auto& [loss, delay_s, delay_model, range_m, air_time_s] = radio;
-    json_.key("radio").open_object(kLine);
-    json_.key("loss").value(loss);
-    json_.key("delay_s").value(delay_s);
-    json_.key("delay_model").value(keys::kDelayModels[static_cast<std::size_t>(delay_model)]);
-    json_.key("range_m").value(range_m);
-    json_.key("air_time_s").value(air_time_s);
+    json_.key("radio").open_object();
+    for_each_radio_field(radio, [&](const RadioField& field, const auto& value) {
+      using Value = std::remove_cvref_t<decltype(value)>;
+      json_.key(field.key);
+      if constexpr (std::is_enum_v<Value>) {
+        json_.value(field.words[static_cast<std::size_t>(value)]);
+      } else if constexpr (std::is_same_v<Value, std::uint32_t>) {
+        json_.value(std::uint64_t{value});
+      } else {
+        json_.value(value);
+      }
+    });
+    if (radio.trace != nullptr) write_trace(*radio.trace);
+    json_.close();
+  }
+
+  // [sender, receiver, sent_ns, delay_ns], without a delay if the message was lost.
+  void write_trace(const RadioTrace& trace) {
+    json_.key("trace").open_array();
+    for (const auto& [sender, receiver, sent, delay] : trace) {
+      json_.open_array(kLine);
+      json_.value(std::uint64_t{sender.value});
+      json_.value(std::uint64_t{receiver.value});
+      json_.value(sent.count());
+      if (delay) json_.value(delay->count());
+      json_.close();
+    }
     json_.close();
   }
 

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "generators/layout_check.hpp"
+#include "generators/radio_fields.hpp"
 #include "generators/text_file.hpp"
 
 namespace fleetproof {
@@ -71,11 +72,7 @@ class RangeCheck {
   }
 
   void radio_and_laws() {
-    const auto& r = scenario_.radio;
-    within({{}, 0, "/radio/loss"}, r.loss, 0.0, 1.0);
-    within({{}, 0, "/radio/delay_s"}, r.delay_s, 0.0, kLongest_s);
-    positive({{}, 0, "/radio/range_m"}, r.range_m, 1e9);
-    within({{}, 0, "/radio/air_time_s"}, r.air_time_s, 0.0, kLongest_s);
+    for (const auto& [key, sentence] : radio_faults(scenario_.radio)) add(ProblemKind::NumberOutOfRange, "/radio/" + key, sentence);
     within({{}, 0, "/agent_clock/call_cost_s"}, scenario_.agent_clock.call_cost_s, 0.0, kLongest_s);
     within({{}, 0, "/law/safety_distance_m"}, scenario_.law.safety_distance_m, 0.0, kLargestBody_m);
     within({{}, 0, "/law/snapshot_s"}, scenario_.law.snapshot_s, 1e-6, kLongest_s);

@@ -13,9 +13,18 @@
 namespace fleetproof {
 namespace {
 
-std::vector<Column> columns(bool counts_only, const std::string& upper_head) {
-  std::vector<Column> list{{"agent", false}, {"loss"}, {"delay"}, {"runs"}, {"viol."}};
-  if (!counts_only) {
+// What a table shows beside the columns that all of them have.
+struct Shown {
+  bool counts_only = false;
+  bool outages = false;  // the campaign has outages
+};
+
+std::vector<Column> columns(const Shown& shown, const std::string& upper_head) {
+  std::vector<Column> list{{"agent", false}, {"loss"}, {"delay"}};
+  if (shown.outages) list.push_back({"outage"});
+  list.push_back({"runs"});
+  list.push_back({"viol."});
+  if (!shown.counts_only) {
     list.push_back({"failed"});
     list.push_back({"rate"});
     list.push_back({"95 % interval"});
@@ -25,11 +34,13 @@ std::vector<Column> columns(bool counts_only, const std::string& upper_head) {
   return list;
 }
 
-std::vector<std::string> row(const Condition& condition, bool counts_only, double confidence) {
+std::vector<std::string> row(const Condition& condition, const Shown& shown, double confidence) {
   const auto& tally = condition.tally;
-  std::vector<std::string> cells{printable(condition.agent, 40), percent(condition.loss), seconds_text(condition.delay_s), std::to_string(tally.runs),
-                                 std::to_string(tally.violating_runs)};
-  if (!counts_only) {
+  std::vector<std::string> cells{printable(condition.agent, 40), percent(condition.loss), seconds_text(condition.delay_s)};
+  if (shown.outages) cells.push_back(condition.mean_outage_s > 0.0 ? seconds_text(condition.mean_outage_s) : "none");
+  cells.push_back(std::to_string(tally.runs));
+  cells.push_back(std::to_string(tally.violating_runs));
+  if (!shown.counts_only) {
     const auto& pool = condition.pool;
     const auto k = pool.failing_or_unknown, n = pool.units;
     const auto interval = two_sided_interval(k, n, 0.95);
@@ -43,6 +54,10 @@ std::vector<std::string> row(const Condition& condition, bool counts_only, doubl
   cells.push_back(clearance_text(tally));
   cells.push_back(per_hour_text(tally.transports_per_agv_hour()));
   return cells;
+}
+
+bool has_outages(const Evidence& evidence) {
+  return std::ranges::any_of(evidence.cells(), [](const CellRecord& cell) { return cell.mean_outage_s > 0.0; });
 }
 
 // Failures first; without any, the fewest transports.
@@ -90,9 +105,9 @@ Section condition_section(const ReportInput& input, std::string title, const std
   std::set<double> confidences;
   for (const auto& condition : conditions) confidences.insert(bound_confidence(evidence, condition.agent));
   const bool one_confidence = confidences.size() == 1;
-  const bool counts_only = evidence.counts_only();
-  section.table.columns = columns(counts_only, one_confidence ? "upper " + percent(*confidences.begin()) : "upper");
-  for (const auto& condition : conditions) section.table.rows.push_back(row(condition, counts_only, bound_confidence(evidence, condition.agent)));
+  const Shown shown{evidence.counts_only(), has_outages(evidence)};
+  section.table.columns = columns(shown, one_confidence ? "upper " + percent(*confidences.begin()) : "upper");
+  for (const auto& condition : conditions) section.table.rows.push_back(row(condition, shown, bound_confidence(evidence, condition.agent)));
   if (left_out > 0) section.remarks.push_back({fmt::format("{} with fewer failures are left out here; the JSON report has them all.", count_text(left_out, "row")), ""});
   return section;
 }
@@ -104,6 +119,7 @@ Section table_legend(const ReportInput& input) {
   const auto add = [&](std::string text) { section.remarks.push_back({std::move(text), ""}); };
   add("viol. = runs that broke the safety distance, contact = those that touched; stuck = runs without progress; closest = smallest clearance; done/AGV-h = transports (orders) "
       "completed per AGV-hour.");
+  if (has_outages(evidence)) add("outage = mean length of an outage of the radio; none = losses are independent of each other. The loss is the same on average.");
   if (evidence.counts_only()) return section;
   add("failed = units with a violation or an unknown outcome, of all units: rate, interval and bound are theirs.");
   if (std::ranges::any_of(conditions, [](const Condition& c) { return c.pool.cells.size() > 1; })) {

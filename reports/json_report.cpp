@@ -34,7 +34,8 @@ Json estimate_json(const std::optional<Estimate>& estimate) {
 
 Json cell_json(const CellRecord& cell) {
   return {{"cell", cell.index},       {"agent", cell.agent},     {"layout", cell.layout},           {"fleet_size", cell.fleet_size},
-          {"loss", cell.loss},        {"delay_s", cell.delay_s}, {"in_contract", cell.in_contract()}, {"is_worst_case", cell.is_worst_case()}};
+          {"loss", cell.loss},        {"delay_s", cell.delay_s}, {"mean_outage_s", cell.mean_outage_s}, {"in_contract", cell.in_contract()},
+          {"is_worst_case", cell.is_worst_case()}};
 }
 
 Json violation_json(const Violation& v) {
@@ -107,8 +108,8 @@ Json gate_json(const ReportInput& input, std::size_t index) {
 }
 
 Json condition_json(const ReportInput& input, const Condition& condition) {
-  Json json{{"agent", condition.agent}, {"loss", condition.loss}, {"delay_s", condition.delay_s}, {"in_contract", condition.in_contract},
-            {"is_worst_case", condition.is_worst_case}, {"cells", condition.pool.cells}};
+  Json json{{"agent", condition.agent}, {"loss", condition.loss}, {"delay_s", condition.delay_s}, {"mean_outage_s", condition.mean_outage_s},
+            {"in_contract", condition.in_contract}, {"is_worst_case", condition.is_worst_case}, {"cells", condition.pool.cells}};
   add_tally(json, condition.tally);
   const auto confidence = bound_confidence(input.evidence, condition.agent);
   const auto& pool = condition.pool;

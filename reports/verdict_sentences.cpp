@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <set>
+#include <tuple>
 
 #include "reports/evidence/rounding.hpp"
 #include "reports/wording.hpp"
@@ -37,19 +38,27 @@ std::string listed(const std::set<std::string>& names) {
   return joined(words) + (all > kMostListed ? fmt::format(" and {} more", all - kMostListed) : "");
 }
 
-// Losses and delays: the two lists if every pair of them was run, else the pairs.
-std::string combinations(const std::set<std::pair<double, double>>& pairs) {
-  std::set<double> losses, delays_s;
-  for (const auto& [loss, delay_s] : pairs) {
+// Loss, delay, mean outage.
+using Radio = std::tuple<double, double, double>;
+
+// The lists of losses, delays and outages if every combination of them was run, else the combinations. Outages only where there are any.
+std::string combinations(const std::set<Radio>& radios) {
+  std::set<double> losses, delays_s, outages_s;
+  for (const auto& [loss, delay_s, outage_s] : radios) {
     losses.insert(loss);
     delays_s.insert(delay_s);
+    outages_s.insert(outage_s);
   }
-  if (pairs.size() == losses.size() * delays_s.size()) return fmt::format("loss {}; delay {}", listed(losses, percent), listed(delays_s, seconds_text));
+  if (radios.size() == losses.size() * delays_s.size() * outages_s.size()) {
+    const bool has_outages = *outages_s.rbegin() > 0.0;
+    return fmt::format("loss {}; delay {}{}", listed(losses, percent), listed(delays_s, seconds_text),
+                       has_outages ? "; mean outage " + listed(outages_s, seconds_text) : "");
+  }
   std::vector<std::string> words;
-  for (const auto& [loss, delay_s] : pairs) {
-    if (words.size() < kMostListed) words.push_back(fmt::format("{} with {}", percent(loss), seconds_text(delay_s)));
+  for (const auto& [loss, delay_s, outage_s] : radios) {
+    if (words.size() < kMostListed) words.push_back(fmt::format("{} with {}{}", percent(loss), seconds_text(delay_s), outage_text(outage_s)));
   }
-  return joined(words, "; ") + (pairs.size() > kMostListed ? fmt::format("; and {} more", pairs.size() - kMostListed) : "");
+  return joined(words, "; ") + (radios.size() > kMostListed ? fmt::format("; and {} more", radios.size() - kMostListed) : "");
 }
 
 std::string estimate_text(const GateRecord& gate, const GateResult& result) {
@@ -89,13 +98,13 @@ Headline verdict_of(const ReportInput& input, std::size_t index) {
 }  // namespace
 
 std::string sampled(const Evidence& evidence, const std::vector<std::uint32_t>& cells) {
-  std::set<std::pair<double, double>> pairs;
+  std::set<Radio> radios;
   std::set<std::string> layouts;
   std::set<std::uint32_t> fleets;
   Tally tally;
   for (const auto index : cells) {
     const auto& cell = evidence.cells()[index];
-    pairs.emplace(cell.loss, cell.delay_s);
+    radios.emplace(cell.loss, cell.delay_s, cell.mean_outage_s);
     layouts.insert(cell.layout);
     fleets.insert(cell.fleet_size);
     tally.add(evidence.tally(index));
@@ -103,7 +112,7 @@ std::string sampled(const Evidence& evidence, const std::vector<std::uint32_t>& 
   std::vector<std::string> sizes;
   for (const auto size : fleets) sizes.push_back(std::to_string(size));
   auto text = fmt::format("{} at {} ({}), {} {}, fleets of {}", count_text(evidence.complete_replicates(), "replicate"),
-                          pairs.size() == 1 ? "this combination" : fmt::format("these {} combinations", pairs.size()), combinations(pairs),
+                          radios.size() == 1 ? "this combination" : fmt::format("these {} combinations", radios.size()), combinations(radios),
                           layouts.size() == 1 ? "layout" : "layouts", listed(layouts), joined(sizes, " or "));
   if (tally.longest_ns > 0) text += fmt::format(", {} a run", seconds_text(static_cast<double>(tally.longest_ns) * 1e-9));
   return text;
@@ -117,8 +126,8 @@ Remark describe(const ReportInput& input, const FailingRun& run) {
                         body_name(run.closest->a, cell), body_name(run.closest->b, cell));
     if (run.violations > 1) text += fmt::format(" (the closest of {})", run.violations);
   }
-  text += fmt::format("; agent {}, layout {}, fleet of {}, loss {}, delay {}", printable(cell.agent, 40), printable(cell.layout, 40), cell.fleet_size, percent(cell.loss),
-                      seconds_text(cell.delay_s));
+  text += fmt::format("; agent {}, layout {}, fleet of {}, loss {}, delay {}{}", printable(cell.agent, 40), printable(cell.layout, 40), cell.fleet_size,
+                      percent(cell.loss), seconds_text(cell.delay_s), outage_text(cell.mean_outage_s));
   if (!run.message.empty()) text += fmt::format("; \"{}\"", printable(run.message));
   return {text, replay_command(input.archive_path, run.run_index)};
 }

@@ -33,6 +33,8 @@ std::string shell_word(const std::string& word) {
 }  // namespace
 
 std::string percent(double fraction) { return hundredths(fraction * 100.0) + " %"; }
+std::string outage_text(double mean_outage_s) { return mean_outage_s > 0.0 ? ", outages of " + seconds_text(mean_outage_s) : ""; }
+
 std::string seconds_text(double value_s) { return hundredths(value_s) + " s"; }
 
 std::string metres_text(std::int64_t value_um) { return fmt::format("{:.2f} m", std::floor(static_cast<double>(value_um) / 10'000.0) / 100.0); }

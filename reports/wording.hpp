@@ -15,6 +15,8 @@ namespace fleetproof {
 // How figures read on a page: hundredths of a second, whole centimetres (rounded down, towards the unsafe side), percent with a blank before the sign.
 std::string percent(double fraction);
 std::string seconds_text(double value_s);
+// ", outages of 0.5 s", to follow loss and delay; nothing for independent losses, which need no word.
+std::string outage_text(double mean_outage_s);
 std::string metres_text(std::int64_t value_um);
 // "> 0.5 m" if no clearance below that was met, "-" without runs.
 std::string clearance_text(const Tally& tally);

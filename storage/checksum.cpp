@@ -53,7 +53,7 @@ std::uint64_t plan_checksum(const CampaignRecord& campaign, const std::vector<Ce
   for (const auto& probe : campaign.required_probes) bytes << probe;
   bytes << std::uint64_t{cells.size()};
   for (const auto& cell : cells) {
-    bytes << std::uint64_t{cell.index} << cell.agent << cell.layout << std::uint64_t{cell.fleet_size} << cell.loss << cell.delay_s;
+    bytes << std::uint64_t{cell.index} << cell.agent << cell.layout << std::uint64_t{cell.fleet_size} << cell.loss << cell.delay_s << cell.mean_outage_s;
   }
   bytes << std::uint64_t{gates.size()};
   for (const auto& gate : gates) {

@@ -15,7 +15,7 @@ struct CellRecord {
   std::uint32_t index = 0;
   std::string agent, layout;
   std::uint32_t fleet_size = 0;
-  double loss = 0.0, delay_s = 0.0;
+  double loss = 0.0, delay_s = 0.0, mean_outage_s = 0.0;
 
   // The region in which safe *and normal* operation is required (Sect. 2.4), and its corner.
   bool in_contract() const { return loss <= 0.40 && delay_s <= 2.0; }

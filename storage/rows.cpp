@@ -126,7 +126,7 @@ void bind_campaign(SQLite::Statement& insert, const CampaignRecord& campaign, st
 }
 
 void bind_cell(SQLite::Statement& insert, const CellRecord& cell) {
-  Binder(insert) << cell.index << cell.agent << cell.layout << cell.fleet_size << cell.loss << cell.delay_s;
+  Binder(insert) << cell.index << cell.agent << cell.layout << cell.fleet_size << cell.loss << cell.delay_s << cell.mean_outage_s;
 }
 
 void bind_gate(SQLite::Statement& insert, const GateRecord& gate) {
@@ -190,6 +190,7 @@ CellRecord read_cell(const SQLite::Statement& row) {
   cell.fleet_size = from.u32();
   cell.loss = from.real();
   cell.delay_s = from.real();
+  cell.mean_outage_s = from.real();
   return cell;
 }
 

@@ -32,7 +32,8 @@ CREATE TABLE cells (
   layout TEXT NOT NULL,
   fleet_size INTEGER NOT NULL,
   loss REAL NOT NULL,
-  delay_s REAL NOT NULL
+  delay_s REAL NOT NULL,
+  mean_outage_s REAL NOT NULL
 ) STRICT, WITHOUT ROWID;
 CREATE TABLE gates (
   gate INTEGER PRIMARY KEY,
@@ -121,7 +122,8 @@ SELECT c.cell, c.agent, c.layout, c.fleet_size, c.loss, c.delay_s,
        coalesce(sum(r.engine_error), 0) AS engine_error_runs,
        min(r.min_clearance_um) AS min_clearance_um,
        coalesce(sum(r.transports_done), 0) AS transports_done,
-       total(r.simulated_ns * 1e-9 * r.agv_count / 3600.0) AS agv_hours
+       total(r.simulated_ns * 1e-9 * r.agv_count / 3600.0) AS agv_hours,
+       c.mean_outage_s
 FROM cells c LEFT JOIN runs r ON r.cell = c.cell GROUP BY c.cell;
 CREATE VIEW v1_runs AS
 SELECT r.run_index, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, c.loss, c.delay_s,
@@ -130,13 +132,14 @@ SELECT r.run_index, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, c.loss
        r.min_clearance_um, r.simulated_ns, r.agv_count, r.message,
 {run_counters},
        printf('%016x', r.digest) AS digest,
-       printf('%016x', r.scenario_digest) AS scenario_digest
+       printf('%016x', r.scenario_digest) AS scenario_digest,
+       c.mean_outage_s
 FROM runs r JOIN cells c ON c.cell = r.cell;
 CREATE VIEW v1_violations AS
 SELECT v.run_index, v.ordinal, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, c.loss, c.delay_s,
        c.loss <= 0.40 AND c.delay_s <= 2.0 AS in_contract,
        v.entity_a, v.entity_b, v.first_ns, v.last_ns, v.closest_at_ns, v.min_clearance_um,
-       v.relative_speed_um_s, v.x_um, v.y_um, v.contact,
+       v.relative_speed_um_s, v.x_um, v.y_um, v.contact, c.mean_outage_s,
        CASE WHEN NOT v.contact THEN 'safety distance broken' WHEN v.relative_speed_um_s > {hazardous} THEN 'contact at hazardous speed' ELSE 'contact' END AS level,
        CASE WHEN v.entity_b < r.agv_count THEN 'AGV-AGV' ELSE 'AGV-obstacle' END AS entities
 FROM violations v JOIN runs r ON r.run_index = v.run_index JOIN cells c ON c.cell = r.cell;

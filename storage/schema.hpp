@@ -53,6 +53,9 @@ inline constexpr auto kCounterColumns = std::to_array<CounterColumn>({
     {"battery_charged_ppb", &Counters::battery_charged_ppb},
     {"incidents_left_out", &Counters::incidents_left_out},
     {"probes_left_out", &Counters::probes_left_out},
+    {"lost_in_outage", &Counters::lost_in_outage},
+    {"lost_by_interference", &Counters::lost_by_interference},
+    {"duplicates", &Counters::duplicates},
 });
 static_assert(sizeof(Counters) == kCounterColumns.size() * sizeof(std::uint64_t), "every counter has a column");
 
@@ -64,7 +67,7 @@ std::string run_columns(const std::string& prefix = "");
 std::string violation_columns();
 inline constexpr const char* kIncidentColumns = "run_index, ordinal, kind, entity_a, entity_b, first_ns, last_ns, value";
 inline constexpr const char* kProbeColumns = "run_index, ordinal, source, name, count";
-inline constexpr const char* kCellColumns = "cell, agent, layout, fleet_size, loss, delay_s";
+inline constexpr const char* kCellColumns = "cell, agent, layout, fleet_size, loss, delay_s, mean_outage_s";
 inline constexpr const char* kGateColumns = "gate, name, agent, kind, end_point, region, limit_rate, confidence, min_transports_per_agv_hour";
 inline constexpr const char* kCampaignColumns =
     "id, name, kind, seed, replicates, plan_json, plan_hash, engine_version, program_sha256, compiler, flags, libraries, required_probes, plan_checksum";

@@ -1,4 +1,5 @@
 #include "campaign/cli/progress.hpp"
+#include "reports/wording.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -49,8 +50,9 @@ void ProgressTalk::run_finished(const RunRecord& record) {
   if (std::ranges::find(told_agents_, cell.agent) != told_agents_.end()) return;
   told_agents_.push_back(cell.agent);
   clear_line();
-  fmt::print(stderr, "first failure of {}: {} in run {} ({}, {} AGVs, {:g} % loss, {:g} s delay)\n  replay: fleetproof replay {} {}\n", cell.agent,
-             name_of(outcome.outcome_class()), record.run_index, cell.layout, cell.fleet_size, 100.0 * cell.loss, cell.delay_s, archive_path_, record.run_index);
+  fmt::print(stderr, "first failure of {}: {} in run {} ({}, {} AGVs, {:g} % loss, {:g} s delay{})\n  replay: fleetproof replay {} {}\n", cell.agent,
+             name_of(outcome.outcome_class()), record.run_index, cell.layout, cell.fleet_size, 100.0 * cell.loss, cell.delay_s,
+             outage_text(cell.mean_outage_s), archive_path_, record.run_index);
 }
 
 std::string ProgressTalk::counter_line(const Progress& progress) const {

@@ -13,6 +13,7 @@
 #include "campaign/scenario_source.hpp"
 #include "core/error.hpp"
 #include "generators/scenario_file.hpp"
+#include "reports/wording.hpp"
 
 namespace fleetproof::cli {
 namespace {
@@ -42,6 +43,7 @@ void print_json(const ReplayResult& result, const CellRecord& cell) {
                                  {"fleet_size", cell.fleet_size},
                                  {"loss", cell.loss},
                                  {"delay_s", cell.delay_s},
+                                 {"mean_outage_s", cell.mean_outage_s},
                                  {"outcome", name_of(outcome.outcome_class())},
                                  {"violations", outcome.violations.size()},
                                  {"digest_stored", fmt::format("{:016x}", result.stored.outcome.digest)},
@@ -66,8 +68,9 @@ int replay_run(const ReplayWords& words) {
   if (words.json) {
     print_json(result, cell);
   } else {
-    fmt::print("{}  run {}: {}, {}, {} AGVs, loss {:g} %, delay {:g} s, replicate {}\n", name_of(result.verdict), words.run, cell.agent, cell.layout,
-               cell.fleet_size, 100.0 * cell.loss, cell.delay_s, result.recomputed.replicate);
+    fmt::print("{}  run {}: {}, {}, {} AGVs, loss {:g} %, delay {:g} s{}, replicate {}\n", name_of(result.verdict), words.run, cell.agent, cell.layout,
+               cell.fleet_size, 100.0 * cell.loss, cell.delay_s, outage_text(cell.mean_outage_s),
+               result.recomputed.replicate);
     if (!result.explanation.empty()) fmt::print("  {}\n", result.explanation);
     fmt::print("{}", outcome_text(scenario, result.recomputed.outcome));
     const bool same_program = archive.campaign().engine == campaign_record(plan, programs).engine;

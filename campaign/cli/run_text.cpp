@@ -17,6 +17,9 @@ std::string counters_text(const Outcome& outcome) {
   const double lost = c.receptions == 0 ? 0.0 : 100.0 * static_cast<double>(c.receptions_lost) / static_cast<double>(c.receptions);
   const double delay = c.receptions == 0 ? 0.0 : static_cast<double>(c.delay_sum_ns) * 1e-9 / static_cast<double>(c.receptions);
   text += fmt::format("\n  {} messages sent; of {} receptions {:.1f} % lost, mean delay {:.2f} s; {} events\n", c.messages_sent, c.receptions, lost, delay, c.events);
+  if (c.lost_in_outage + c.lost_by_interference + c.duplicates > 0) {
+    text += fmt::format("  of {} lost: {} in outages, {} by interference; {} came twice\n", c.receptions_lost, c.lost_in_outage, c.lost_by_interference, c.duplicates);
+  }
   return text;
 }
 
@@ -84,6 +87,8 @@ void TracePrinter::record(const TraceRecord& record, std::string_view text) {
     }
     case TraceKind::Sent: what = record.a == FP_NONE ? "to all" : "to " + body_name(scenario_, EntityId{static_cast<std::uint32_t>(record.a)}); break;
     case TraceKind::Lost:
+    case TraceKind::LostInOutage:
+    case TraceKind::LostByInterference:
     case TraceKind::Received: what = "from " + body_name(scenario_, EntityId{static_cast<std::uint32_t>(record.a)}); break;
     case TraceKind::Contact: what = "with " + body_name(scenario_, EntityId{static_cast<std::uint32_t>(record.a)}); break;
     case TraceKind::WaitingFor: what = record.a == FP_NONE ? "nobody" : body_name(scenario_, EntityId{static_cast<std::uint32_t>(record.a)}); break;

@@ -23,10 +23,10 @@ bool covers(const GateRecord& gate, const CellRecord& cell) {
 // Rows of the tables: agents in the order in which the campaign names them, so that the same campaign always prints the same page.
 std::vector<Pool> condition_pools(const std::vector<CellRecord>& cells) {
   std::map<std::string, std::size_t> order;
-  std::map<std::tuple<std::size_t, double, double>, Pool> pools;
+  std::map<std::tuple<std::size_t, double, double, double>, Pool> pools;
   for (const auto& cell : cells) {
     const auto agent = order.try_emplace(cell.agent, order.size()).first->second;
-    pools[{agent, cell.loss, cell.delay_s}].cells.push_back(cell.index);
+    pools[{agent, cell.loss, cell.delay_s, cell.mean_outage_s}].cells.push_back(cell.index);
   }
   std::vector<Pool> list;
   for (auto& [key, pool] : pools) list.push_back(std::move(pool));
@@ -131,7 +131,7 @@ std::vector<Condition> Evidence::conditions() const {
   std::vector<Condition> list;
   for (std::size_t i = gates_.size(); i < pools_.size(); ++i) {
     const auto& first = cells_[pools_[i].cells.front()];
-    Condition condition{first.agent, first.loss, first.delay_s, first.in_contract(), first.is_worst_case(), {}, pools_[i], {}};
+    Condition condition{first.agent, first.loss, first.delay_s, first.mean_outage_s, first.in_contract(), first.is_worst_case(), {}, pools_[i], {}};
     for (const auto cell : pools_[i].cells) condition.tally.add(tallies_[cell]);
     if (const auto& worst = worst_of_pool_[i].list(); !worst.empty()) condition.worst = worst.front();
     list.push_back(std::move(condition));

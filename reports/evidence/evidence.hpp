@@ -24,7 +24,7 @@ struct Pool {
 // All cells of one agent at one radio quality: a row of a table.
 struct Condition {
   std::string agent;
-  double loss = 0.0, delay_s = 0.0;
+  double loss = 0.0, delay_s = 0.0, mean_outage_s = 0.0;
   bool in_contract = false, is_worst_case = false;
   Tally tally;
   Pool pool;
@@ -57,7 +57,7 @@ class Evidence {
   GateResult judge(std::size_t gate) const;
   std::vector<GateResult> judge_all() const;
 
-  std::vector<Condition> conditions() const;                         // by agent as the campaign names them, then loss, then delay
+  std::vector<Condition> conditions() const;                         // by agent as the campaign names them, then loss, delay, mean outage
   const std::vector<FailingRun>& worst_runs(bool in_contract) const { return (in_contract ? worst_inside_ : worst_outside_).list(); }
 
  private:

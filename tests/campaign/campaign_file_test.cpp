@@ -6,7 +6,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include "campaign/scenario_source.hpp"
 #include "core/error.hpp"
+#include "generators/radio_fields.hpp"
 
 namespace fleetproof {
 namespace {
@@ -159,6 +161,63 @@ TEST_F(CampaignFileTest, ErrorsNamePlaceValueAndRemedy) {
   EXPECT_THAT(error_of("name = \"x\"\n"), HasSubstr("has no [factors] table"));
   EXPECT_THAT(error_of(kFactors + "loss = [0.1, 0.1]\n"), HasSubstr("names one value twice"));
   EXPECT_THAT(error_of("[vehicle]\nspeed_mps = 0\n" + kFactors), HasSubstr("vehicle.speed_mps is 0; it lies from 0.01 to 100"));
+}
+
+TEST_F(CampaignFileTest, MeanOutageIsAFactorThatShapesNoWorld) {
+  EXPECT_EQ(read(kFactors).plan.cells()[0].mean_outage_s, 0.0);
+  const CampaignPlan plan = read(kFactors + "loss = [0.2, 0.4]\ndelay_s = [0, 1]\nmean_outage_s = [0, 0.5, 5]\n[radio]\noutage_model = \"heavy-tail\"\n").plan;
+  EXPECT_EQ(plan.cell_count(), 12U);
+  const auto cells = plan.cells();
+  EXPECT_EQ(cells[1].delay_s, 1.0);
+  EXPECT_EQ(cells[2].mean_outage_s, 0.5);
+  EXPECT_EQ(cells[6].loss, 0.4);
+  EXPECT_EQ(parse_plan(plan_text(plan)).cells(), cells);
+  const ScenarioSource source(plan);
+  const Scenario calm = source.scenario(0), harsh = source.scenario(11);
+  EXPECT_EQ(calm.seed, harsh.seed);
+  EXPECT_EQ(harsh.radio.outages.mean_outage_s, 5.0);
+  EXPECT_EQ(harsh.radio.outages.model, OutageSetup::Model::HeavyTail);
+  EXPECT_EQ(calm.radio.outages.mean_outage_s, 0.0);
+}
+
+TEST_F(CampaignFileTest, EveryRadioKeySurvivesThePlan) {
+  std::ofstream(folder_ / "hall.csv") << "sender,receiver,t_send_s,t_recv_s\n0,1,5,5.25\n0,1,6,lost\n";
+  const CampaignPlan plan = read(kFactors +
+                                 "[radio]\ndelay_model = \"heavy-tail\"\nrange_m = 55\nair_time_s = 0.002\noutage_model = \"heavy-tail\"\noutage_shape = 1.2\noutage_scope = "
+                                 "\"direction\"\nloss_good = 0.01\nloss_bad = 0.9\ndelay_min_share = 0.2\ndelay_median_share = 0.3\ndelay_tail_shape = 2\ndelay_cap_share = "
+                                 "0.9\nasymmetry = 0.1\nduplicates = 0.03\nap_spacing_m = 30\nroaming_border_m = 2\nroaming_min_s = 0.02\nroaming_max_s = 0.05\nroaming_gap_s = "
+                                 "9\ninterference = true\ncontention_window = 15\ntrace = \"hall.csv\"\n")
+                                .plan;
+  const CampaignPlan again = parse_plan(plan_text(plan));
+  EXPECT_EQ(plan_text(again), plan_text(plan));
+  const RadioSetup defaults;
+  const auto values = [](const RadioSetup& radio) {
+    std::vector<double> list;
+    for_each_radio_field(radio, [&](const RadioField& field, const auto& value) {
+      if (!field.is_factor) list.push_back(static_cast<double>(value));
+    });
+    return list;
+  };
+  EXPECT_EQ(values(again.radio), values(plan.radio));
+  for (std::size_t i = 0; i < values(defaults).size(); ++i) EXPECT_NE(values(plan.radio)[i], values(defaults)[i]) << "key " << i << " is not tested";
+  ASSERT_NE(again.radio.trace, nullptr);
+  EXPECT_EQ(*again.radio.trace,
+            (RadioTrace{{AgvId{0U}, AgvId{1U}, Duration{0}, Duration{250'000'000}}, {AgvId{0U}, AgvId{1U}, Duration{1'000'000'000}, std::nullopt}}));
+}
+
+TEST_F(CampaignFileTest, RadioErrorsNameKeyValueAndRemedy) {
+  const auto radio = [](const std::string& line) { return kFactors + "[radio]\n" + line + "\n"; };
+  EXPECT_THAT(error_of(kFactors + "mean_outage_s = [-1]\n"), HasSubstr("factors.mean_outage_s holds -1; outages last from 0.001 to 1e6 s"));
+  EXPECT_THAT(error_of(kFactors + "mean_outage_s = []\n"), HasSubstr("factors.mean_outage_s is empty"));
+  EXPECT_THAT(error_of(kFactors + "mean_outage_s = [1, 1]\n"), HasSubstr("names one value twice"));
+  EXPECT_THAT(error_of(radio("outage_model = \"gilbert\"")), HasSubstr("c.toml:6:16: radio.outage_model is \"gilbert\""));
+  EXPECT_THAT(error_of(radio("duplicates = 2")), HasSubstr("radio.duplicates: 2 is outside 0 .. 1"));
+  EXPECT_THAT(error_of(radio("contention_window = 5000000000")), HasSubstr("radio.contention_window: 4294967295 is outside 0 .. 1023"));
+  EXPECT_THAT(error_of(radio("range_m = 0")), HasSubstr("radio.range_m: 0 is not above 0"));
+  EXPECT_THAT(error_of(radio("mean_outage_s = 1")), HasSubstr("radio.mean_outage_s is not a known key"));
+  EXPECT_THAT(error_of(radio("delay_model = \"heavy-tail\"\ndelay_cap_share = 0")), HasSubstr("radio.delay_cap_share is 0; a claim about the contract region"));
+  EXPECT_EQ(error_of("kind = \"search\"\n" + radio("delay_model = \"heavy-tail\"\ndelay_cap_share = 0")), "no error");
+  EXPECT_THAT(error_of(radio("trace = \"missing.csv\"")), HasSubstr("missing.csv"));
 }
 
 TEST_F(CampaignFileTest, AMissingFileSaysSo) {

@@ -12,7 +12,7 @@ namespace {
 const AgvId kA{0U}, kB{1U}, kC{2U};
 
 TEST(Radio, HigherLossOnlyAddsLosses) {
-  const Radio calm({.loss = 0.2, .delay_s = 1.0}, 7), harsh({.loss = 0.4, .delay_s = 1.0}, 7);
+  Radio calm({.loss = 0.2, .delay_s = 1.0}, 7), harsh({.loss = 0.4, .delay_s = 1.0}, 7);
   int lost_calm = 0, lost_harsh = 0;
   constexpr int n = 20000;
   for (int i = 0; i < n; ++i) {
@@ -28,8 +28,8 @@ TEST(Radio, HigherLossOnlyAddsLosses) {
 }
 
 TEST(Radio, FateDependsOnEveryPartOfItsKey) {
-  const Radio radio({.loss = 0.0, .delay_s = 1.0, .delay_model = RadioSetup::DelayModel::Uniform}, 7);
-  const Radio other_world({.loss = 0.0, .delay_s = 1.0, .delay_model = RadioSetup::DelayModel::Uniform}, 8);
+  Radio radio({.loss = 0.0, .delay_s = 1.0, .delay_model = RadioSetup::DelayModel::Uniform}, 7);
+  Radio other_world({.loss = 0.0, .delay_s = 1.0, .delay_model = RadioSetup::DelayModel::Uniform}, 8);
   const SimTime t = at_seconds(1.0);
   const std::set<Duration> delays = {radio.fate(kA, kB, t, 0).delay, radio.fate(kB, kA, t, 0).delay, radio.fate(kA, kC, t, 0).delay,
                                      radio.fate(kA, kB, t, 1).delay, radio.fate(kA, kB, t + Duration{1}, 0).delay, other_world.fate(kA, kB, t, 0).delay};
@@ -37,9 +37,9 @@ TEST(Radio, FateDependsOnEveryPartOfItsKey) {
 }
 
 TEST(Radio, DelayModels) {
-  const Radio constant({.delay_s = 2.0}, 1);
+  Radio constant({.delay_s = 2.0}, 1);
   EXPECT_EQ(constant.fate(kA, kB, at_seconds(3.0), 0).delay, seconds(2.0));
-  const Radio uniform({.delay_s = 2.0, .delay_model = RadioSetup::DelayModel::Uniform}, 1);
+  Radio uniform({.delay_s = 2.0, .delay_model = RadioSetup::DelayModel::Uniform}, 1);
   double sum_s = 0.0;
   for (int i = 0; i < 10000; ++i) {
     const Duration delay = uniform.fate(kA, kB, at_ns(i), 0).delay;
@@ -47,7 +47,7 @@ TEST(Radio, DelayModels) {
     sum_s += to_seconds(delay);
   }
   EXPECT_NEAR(sum_s / 10000, 1.0, 6 * 0.58 / 100);
-  const Radio instant({.delay_s = 0.0, .air_time_s = 0.001}, 1);
+  Radio instant({.delay_s = 0.0, .air_time_s = 0.001}, 1);
   EXPECT_EQ(instant.fate(kA, kB, kStart, 0).delay, seconds(0.001));
 }
 

@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "generators/layout_family.hpp"
+#include "generators/radio_fields.hpp"
 #include "generators/validator.hpp"
 #include "generators/world.hpp"
 #include "independent_check.hpp"
@@ -24,6 +25,13 @@ Scenario unusual() {
   s.stuck_after = Duration{7};
   s.contact_stops = false;
   s.radio = {0.1 + 0.2, 1.0 / 3.0, RadioSetup::DelayModel::Uniform, 55.5, 0.25};
+  s.radio.outages = {0.75, OutageSetup::Model::HeavyTail, 1.25, OutageSetup::Scope::Direction, 0.02, 0.98};
+  s.radio.delay_tail = {0.2, 0.3, 2.5, 0.0};
+  s.radio.asymmetry = 0.4;
+  s.radio.duplicates = 0.05;
+  s.radio.places = {30.0, 2.5, 0.02, 0.05, 7.0};
+  s.radio.contention = {true, 15};
+  s.radio.trace = std::make_shared<const RadioTrace>(RadioTrace{{AgvId{0U}, AgvId{1U}, Duration{5}, Duration{17}}, {AgvId{0U}, AgvId{1U}, Duration{9}, std::nullopt}});
   s.agent_clock.call_cost_s = 0.012;
   s.law = {0.3, 0.01};
   s.vehicle_types[0] = {"tug", {2.1, 0.9}, {1.5, 0.4, 0.7}, {0.9, 0.8, 0.6}, {0.3, 0.2, 0.8, 0.7}, 0.4, 0.05, 2.5, 1e-4, 1e-5, 2e-4, 3.0, 4.0, 20.0, 6.0};
@@ -56,6 +64,16 @@ TEST(ScenarioFile, EveryFieldComesBack) {
   EXPECT_EQ(back.radio.delay_model, s.radio.delay_model);
   EXPECT_EQ(back.radio.range_m, s.radio.range_m);
   EXPECT_EQ(back.radio.air_time_s, s.radio.air_time_s);
+  const auto values = [](const RadioSetup& radio) {
+    std::vector<double> list;
+    for_each_radio_field(radio, [&](const RadioField&, const auto& value) { list.push_back(static_cast<double>(value)); });
+    return list;
+  };
+  EXPECT_EQ(values(back.radio), values(s.radio));
+  const RadioSetup defaults;
+  for (std::size_t i = 0; i < values(defaults).size(); ++i) EXPECT_NE(values(s.radio)[i], values(defaults)[i]) << "field " << i << " is not tested";
+  ASSERT_NE(back.radio.trace, nullptr);
+  EXPECT_EQ(*back.radio.trace, *s.radio.trace);
   EXPECT_EQ(back.agent_clock.call_cost_s, s.agent_clock.call_cost_s);
   EXPECT_EQ(back.law.safety_distance_m, s.law.safety_distance_m);
   EXPECT_EQ(back.law.snapshot_s, s.law.snapshot_s);

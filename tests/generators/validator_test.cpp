@@ -36,6 +36,24 @@ const double kNan = std::numeric_limits<double>::quiet_NaN();
 
 const Plant kPlants[] = {
     {"loss", ProblemKind::NumberOutOfRange, "/radio/loss", [](Scenario& s) { s.radio.loss = 1.01; }},
+    {"mean_outage", ProblemKind::NumberOutOfRange, "/radio/mean_outage_s", [](Scenario& s) { s.radio.outages.mean_outage_s = -1.0; }},
+    {"mean_outage_nan", ProblemKind::NumberOutOfRange, "/radio/mean_outage_s", [](Scenario& s) { s.radio.outages.mean_outage_s = kNan; }},
+    {"delay_median", ProblemKind::NumberOutOfRange, "/radio/delay_median_share", [](Scenario& s) { s.radio.delay_tail.median_share = 0.1; }},
+    {"delay_cap", ProblemKind::NumberOutOfRange, "/radio/delay_cap_share", [](Scenario& s) { s.radio.delay_tail.cap_share = 0.1; }},
+    {"asymmetric_places", ProblemKind::NumberOutOfRange, "/radio/asymmetry",
+     [](Scenario& s) {
+       s.radio.outages = {.mean_outage_s = 1.0, .scope = OutageSetup::Scope::Place};
+       s.radio.asymmetry = 0.1;
+     }},
+    {"border", ProblemKind::NumberOutOfRange, "/radio/roaming_border_m", [](Scenario& s) { s.radio.places.roaming_border_m = 14.1; }},
+    {"roaming", ProblemKind::NumberOutOfRange, "/radio/roaming_max_s", [](Scenario& s) { s.radio.places.roaming_max_s = 1.0; }},
+    {"slot", ProblemKind::NumberOutOfRange, "/radio/air_time_s",
+     [](Scenario& s) {
+       s.radio.contention.interference = true;
+       s.radio.air_time_s = 0.0;
+     }},
+    {"recorded_to_itself", ProblemKind::NumberOutOfRange, "/radio/trace/0",
+     [](Scenario& s) { s.radio.trace = std::make_shared<const RadioTrace>(RadioTrace{{AgvId{1U}, AgvId{1U}, Duration{0}, Duration{1}}}); }},
     {"loss_nan", ProblemKind::NumberOutOfRange, "/radio/loss", [](Scenario& s) { s.radio.loss = kNan; }},
     {"delay", ProblemKind::NumberOutOfRange, "/radio/delay_s", [](Scenario& s) { s.radio.delay_s = -1; }},
     {"range", ProblemKind::NumberOutOfRange, "/radio/range_m", [](Scenario& s) { s.radio.range_m = 0; }},

@@ -91,6 +91,30 @@ TEST(Report, a_table_row_has_interval_bound_clearance_and_progress) {
   EXPECT_THAT(*row, testing::ContainsRegex("1/5000 +0.0002 +\\[5.06e-06, 0.00112\\] +0.000949 +0 +0 +0 +0.07 m +12.00"));
 }
 
+TEST(Report, outages_are_shown_where_the_campaign_has_them) {
+  const auto without = render("text", clean_campaign());
+  EXPECT_THAT(without, Not(HasSubstr("outage")));
+  auto cells = grid({"sound"}, {0.4}, {0.0, 2.0});
+  for (const auto& cell : grid({"sound"}, {0.4}, {0.0, 2.0})) {
+    cells.push_back(cell);
+    cells.back().index = static_cast<std::uint32_t>(cells.size() - 1);
+    cells.back().mean_outage_s = 0.5;
+  }
+  const auto input = report_of(campaign_of("claim", 200), cells, {gate_of("sound", GateKind::None, Region::Contract, 1e-3)}, [](RunRecord& run) {
+    if (run.run_index == 403) samples::violate(run);  // at 40 %, 2 s, outages of 0.5 s
+  });
+  auto page = render("text", input);
+  const auto lines = lines_of(page);
+  const auto head = std::ranges::find_if(lines, [](const std::string& line) { return line.find("outage") != std::string::npos && line.find("95 %") != std::string::npos; });
+  ASSERT_NE(head, lines.end()) << page;
+  EXPECT_THAT(page, HasSubstr("40 %    2 s    none"));
+  EXPECT_THAT(page, HasSubstr("40 %    2 s   0.5 s"));
+  std::ranges::replace(page, '\n', ' ');
+  EXPECT_THAT(page, testing::ContainsRegex("loss 40 %, +delay 2 s, outages of 0.5 s"));
+  EXPECT_THAT(page, HasSubstr("mean outage 0 s, 0.5 s"));
+  EXPECT_THAT(render("json", input), HasSubstr("\"mean_outage_s\": 0.5"));
+}
+
 TEST(Report, no_text_line_is_wider_than_150_columns) {
   for (const auto& input : {clean_campaign(), failing_campaign(), report_of(campaign_of("claim", 3), grid({"sound-with-timeouts-and-a-long-name", "sound"}, {0.4}, {2.0}, {"ring", "cross"}), {})}) {
     for (const auto& line : lines_of(render("text", input))) EXPECT_LE(line.size(), 150u) << line;
