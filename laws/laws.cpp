@@ -8,6 +8,7 @@
 #include "laws/exact_law.hpp"
 #include "laws/global_step_law.hpp"
 #include "laws/paper_law.hpp"
+#include "laws/progress_law.hpp"
 
 namespace fleetproof {
 namespace {
@@ -23,6 +24,10 @@ constexpr Entry<MakeLaw> kLaws[] = {
      "Finds every load that is held by two, has vanished, lies at a station its transport does not name, is taken by a full AGV, moves by itself or is "
      "delivered twice, to the nanosecond; it does not see a load that moves without a record.",
      make_containment_law},
+    {"progress",
+     "Finds deadlocks with who waits for whom, livelocks and AGVs that starve, by looking every twelfth of stuck_after at who has open transports and gets "
+     "nowhere; it does not see why, and where a drive takes longer than twice stuck_after it accuses it.",
+     make_progress_law},
     {"coverage",
      "Accuses nobody but counts what a run met: encounters of two AGVs by kind (drives no more than 10 s apart, by their planned tracks), near misses "
      "below 0.3 m and faults; it does not see AGVs that wait for each other without driving.",
