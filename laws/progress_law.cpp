@@ -83,6 +83,7 @@ class ProgressLaw final : public Law {
   SimTime fleet_advanced_at_ = kStart, next_look_ = kStart;
   std::map<Key, std::size_t> under_way_, before_;   // as of this look and the one before
   std::vector<Incident> incidents_;
+  std::map<std::size_t, std::size_t> deadlock_of_wait_;  // by place in incidents_
 };
 
 ProgressLaw::ProgressLaw(const Scenario& scenario)
@@ -235,10 +236,14 @@ void ProgressLaw::file_circle(const std::vector<EntityId>& circle, const std::ma
   if (goes_on(deadlock)) file_waits(circle, waits, first, now, 1);
 }
 
+// The deadlock was filed just before.
 void ProgressLaw::file_waits(const std::vector<EntityId>& agvs, const std::map<EntityId, Wait>& waits, SimTime first, SimTime now, std::int64_t value) {
+  const std::size_t deadlock = incidents_.size() - 1;
   for (const EntityId agv : agvs) {
     const Wait& wait = waits.at(agv);
-    if (wait.for_whom.valid()) incidents_.push_back({wait.inferred ? IncidentKind::WaitsInferred : IncidentKind::WaitsDeclared, agv, wait.for_whom, first, now, value});
+    if (!wait.for_whom.valid()) continue;
+    deadlock_of_wait_[incidents_.size()] = deadlock;
+    incidents_.push_back({wait.inferred ? IncidentKind::WaitsInferred : IncidentKind::WaitsDeclared, agv, wait.for_whom, first, now, value});
   }
 }
 
@@ -262,6 +267,7 @@ void ProgressLaw::look_for_starvation(SimTime now) {
 void ProgressLaw::finish(SimTime end) {
   look_before(end);
   look(end);
+  for (const auto& [wait, deadlock] : deadlock_of_wait_) incidents_[wait].last = incidents_[deadlock].last;
 }
 
 LawFindings ProgressLaw::findings() const {

@@ -96,6 +96,7 @@ TEST_F(Progress, ADeadlockThatDissolvesEnds) {
   ASSERT_THAT(kinds_of(found), ElementsAre(Deadlock, WaitsDeclared, WaitsDeclared));
   EXPECT_LE(found[0].last, at_seconds(200.0));
   EXPECT_GE(found[0].last, at_seconds(190.0)) << "to within one look";
+  EXPECT_EQ(found[1].last, found[0].last);
 }
 
 TEST_F(Progress, MovingToAndFroWithoutALoadIsALivelock) {
