@@ -135,6 +135,9 @@ void check_plan(const CampaignPlan& plan, const std::string& where) {
          fmt::format("world.transports_per_agv_hour is {}; it lies between 0 and 3600", plan.transports_per_agv_hour));
   demand(plan.law.safety_distance_m > 0.0 && plan.law.safety_distance_m < 0.5, where,
          fmt::format("law.safety_distance_m is {}; it lies between 0 and 0.5 m", plan.law.safety_distance_m));
+  demand(plan.law.reaction_s >= 0.0 && plan.law.reaction_s <= 3600.0, where, fmt::format("law.reaction_s is {}; it lies between 0 and 3600", plan.law.reaction_s));
+  demand(plan.law.min_transports_per_agv_hour >= 0.0 && plan.law.min_transports_per_agv_hour <= 3600.0, where,
+         fmt::format("law.min_transports_per_agv_hour is {}; it lies between 0 and 3600", plan.law.min_transports_per_agv_hour));
   demand(plan.radio.range_m > 0.0, where, fmt::format("radio.range_m is {}; it must be above 0", plan.radio.range_m));
   demand(plan.agent_clock.call_cost_s >= 0.0 && plan.agent_clock.call_cost_s <= 10.0, where,
          fmt::format("agent_clock.call_cost_s is {}; it lies between 0 and 10", plan.agent_clock.call_cost_s));
