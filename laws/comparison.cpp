@@ -96,13 +96,20 @@ class Explainer {
 
 const char* name_of(DifferenceCause cause) {
   switch (cause) {
-    case DifferenceCause::RestPhase: return "rest phase";
-    case DifferenceCause::BetweenSnapshots: return "between snapshots";
-    case DifferenceCause::LastInstant: return "last instant";
-    case DifferenceCause::NoDriveActivity: return "no drive activity";
-    case DifferenceCause::AxisAlignedPerimeter: return "axis-aligned perimeter";
-    case DifferenceCause::SquareCorners: return "square corners";
-    case DifferenceCause::Unexplained: return "unexplained";
+    case DifferenceCause::RestPhase:
+      return "rest phase";
+    case DifferenceCause::BetweenSnapshots:
+      return "between snapshots";
+    case DifferenceCause::LastInstant:
+      return "last instant";
+    case DifferenceCause::NoDriveActivity:
+      return "no drive activity";
+    case DifferenceCause::AxisAlignedPerimeter:
+      return "axis-aligned perimeter";
+    case DifferenceCause::SquareCorners:
+      return "square corners";
+    case DifferenceCause::Unexplained:
+      return "unexplained";
   }
   invariant_violated("a cause has a name");
 }

@@ -23,12 +23,12 @@ class TimelineKeeper final : public Law {
 
 // Why a published rule says something else than the judge (laws/README.md, "The five holes").
 enum class DifferenceCause : std::uint8_t {
-  RestPhase,               // missed: one of the two rests while the other drives, and drives at another time of that drive: its rest is checked by nobody
-  BetweenSnapshots,        // missed: over before the next snapshot
-  LastInstant,             // missed: from after the last snapshot to the end of a drive, the arrival
-  NoDriveActivity,         // missed: nobody drives, one turns on the spot or both stand
-  AxisAlignedPerimeter,    // accused wrongly: in the box of the whole drive, not near what the AGV sweeps
-  SquareCorners,           // accused wrongly: nearest corner to corner, where a widened box reaches farther than the safety distance
+  RestPhase,         // missed: one of the two rests while the other drives, and drives at another time of that drive: its rest is checked by nobody
+  BetweenSnapshots,  // missed: over before the next snapshot
+  LastInstant,       // missed: from after the last snapshot to the end of a drive, the arrival
+  NoDriveActivity,   // missed: nobody drives, one turns on the spot or both stand
+  AxisAlignedPerimeter,  // accused wrongly: in the box of the whole drive, not near what the AGV sweeps
+  SquareCorners,         // accused wrongly: nearest corner to corner, where a widened box reaches farther than the safety distance
   Unexplained,
 };
 const char* name_of(DifferenceCause cause);

@@ -16,9 +16,7 @@ constexpr std::uint64_t kFewestInterfered = 5;
 // Kinds of records that tell of a reception destroyed by another transmission: each goes into this list, and the law hears of it.
 constexpr std::array<TraceKind, 0> kDestroyedByInterference{};
 
-constexpr bool is_interference(TraceKind kind) {
-  return std::ranges::find(kDestroyedByInterference, kind) != kDestroyedByInterference.end();
-}
+constexpr bool is_interference(TraceKind kind) { return std::ranges::find(kDestroyedByInterference, kind) != kDestroyedByInterference.end(); }
 
 class CongestionLaw final : public Law {
  public:
@@ -51,7 +49,8 @@ class CongestionLaw final : public Law {
   void windows_before(SimTime t) {
     for (; window_ + kWindow <= t; window_ += kWindow) {
       judge(IncidentKind::ChannelSaturated, saturated_, kWhole_ppm * offered_.count() / kWindow.count(), kSaturated_ppm, true);
-      const std::int64_t share_ppm = receptions_ == 0 ? 0 : kWhole_ppm * static_cast<std::int64_t>(destroyed_) / static_cast<std::int64_t>(receptions_);
+      const std::int64_t share_ppm =
+          receptions_ == 0 ? 0 : kWhole_ppm * static_cast<std::int64_t>(destroyed_) / static_cast<std::int64_t>(receptions_);
       judge(IncidentKind::InterferenceLosses, interfered_, share_ppm, kInterference_ppm, destroyed_ >= kFewestInterfered);
       offered_ = Duration::zero();
       receptions_ = destroyed_ = 0;

@@ -54,8 +54,12 @@ void NormalOperationLaw::happened(const TraceRecord& record) {
   switch (record.kind) {
     case TraceKind::Sent:
     case TraceKind::Lost:
-    case TraceKind::Received: quality_.note(record); break;
-    case TraceKind::SafeMode: agvs_[record.entity.index()].safe = record.a != 0; break;
+    case TraceKind::Received:
+      quality_.note(record);
+      break;
+    case TraceKind::SafeMode:
+      agvs_[record.entity.index()].safe = record.a != 0;
+      break;
     case TraceKind::OrderReleased:
       if (open_++ == 0) active_at_ = record.at;  // from now on there is something to do
       break;

@@ -17,11 +17,11 @@ constexpr Duration kShortestLook = std::chrono::seconds(1);
 constexpr std::uint64_t kOvertaken = 2;  // transports finished by each of the others, on average
 
 struct AgvState {
-  std::deque<std::uint64_t> open;          // transports released and not done
-  std::optional<std::uint64_t> carried;    // transport of the load on it
+  std::deque<std::uint64_t> open;        // transports released and not done
+  std::optional<std::uint64_t> carried;  // transport of the load on it
   SimTime open_since = kStart, active_at = kStart, advanced_at = kStart;
   bool busy = false;
-  EntityId declared;                       // whom it says it waits for
+  EntityId declared;                             // whom it says it waits for
   std::uint64_t done = 0, others_done_then = 0;  // when it last advanced
 
   bool has_work() const { return !open.empty(); }
@@ -34,7 +34,9 @@ struct Wait {
   bool inferred = false;
 };
 
-bool is_work(ActivityKind kind) { return kind == ActivityKind::Drive || kind == ActivityKind::Turn || kind == ActivityKind::Pick || kind == ActivityKind::Drop; }
+bool is_work(ActivityKind kind) {
+  return kind == ActivityKind::Drive || kind == ActivityKind::Turn || kind == ActivityKind::Pick || kind == ActivityKind::Drop;
+}
 
 class ProgressLaw final : public Law {
  public:
@@ -46,7 +48,8 @@ class ProgressLaw final : public Law {
   }
   void piece_ended(const Piece&) override {}
   TraceKinds reads() const override {
-    return {TraceKind::OrderReleased, TraceKind::TransportDone, TraceKind::ActivityBegins, TraceKind::ActivityEnds, TraceKind::WaitingFor, TraceKind::LoadMoves};
+    return {TraceKind::OrderReleased, TraceKind::TransportDone, TraceKind::ActivityBegins,
+            TraceKind::ActivityEnds,  TraceKind::WaitingFor,    TraceKind::LoadMoves};
   }
   void happened(const TraceRecord& record) override;
   void finish(SimTime end) override;
@@ -75,13 +78,13 @@ class ProgressLaw final : public Law {
   Duration stuck_after_, look_every_;
   Whereabouts bodies_;
   std::vector<AgvState> agvs_;
-  std::vector<TransportOrder> orders_;              // by number of the transport
-  std::vector<std::uint32_t> owner_;                // likewise
+  std::vector<TransportOrder> orders_;  // by number of the transport
+  std::vector<std::uint32_t> owner_;    // likewise
   std::map<std::uint64_t, std::uint64_t> transport_of_load_;
   std::optional<std::uint64_t> released_;
   std::uint64_t done_ = 0, motions_ = 0, motions_then_ = 0;  // then: when the fleet last advanced
   SimTime fleet_advanced_at_ = kStart, next_look_ = kStart;
-  std::map<Key, std::size_t> under_way_, before_;   // as of this look and the one before
+  std::map<Key, std::size_t> under_way_, before_;  // as of this look and the one before
   std::vector<Incident> incidents_;
   std::map<std::size_t, std::size_t> deadlock_of_wait_;  // by place in incidents_
 };
@@ -104,10 +107,18 @@ ProgressLaw::ProgressLaw(const Scenario& scenario)
 void ProgressLaw::happened(const TraceRecord& record) {
   look_before(record.at);
   switch (record.kind) {
-    case TraceKind::OrderReleased: order_released(record); break;
-    case TraceKind::LoadMoves: load_moves(record); break;
-    case TraceKind::TransportDone: transport_done(record); break;
-    case TraceKind::WaitingFor: agvs_[record.entity.index()].declared = EntityId{static_cast<std::uint32_t>(record.a)}; break;
+    case TraceKind::OrderReleased:
+      order_released(record);
+      break;
+    case TraceKind::LoadMoves:
+      load_moves(record);
+      break;
+    case TraceKind::TransportDone:
+      transport_done(record);
+      break;
+    case TraceKind::WaitingFor:
+      agvs_[record.entity.index()].declared = EntityId{static_cast<std::uint32_t>(record.a)};
+      break;
     case TraceKind::ActivityBegins:
     case TraceKind::ActivityEnds: {
       if (!is_work(static_cast<ActivityKind>(record.a))) break;
@@ -117,7 +128,8 @@ void ProgressLaw::happened(const TraceRecord& record) {
       motions_ += agv.busy ? 1 : 0;
       break;
     }
-    default: break;
+    default:
+      break;
   }
 }
 
@@ -232,12 +244,14 @@ void ProgressLaw::look_for_deadlocks(SimTime now) {
 void ProgressLaw::file_circle(const std::vector<EntityId>& circle, const std::map<EntityId, Wait>& waits, SimTime now) {
   SimTime first = kStart;
   for (const EntityId agv : circle) first = std::max(first, agvs_[agv.index()].still_since());
-  const Incident deadlock{IncidentKind::Deadlock, circle.front(), waits.at(circle.front()).for_whom, first, now, static_cast<std::int64_t>(circle.size())};
+  const Incident deadlock{
+      IncidentKind::Deadlock, circle.front(), waits.at(circle.front()).for_whom, first, now, static_cast<std::int64_t>(circle.size())};
   if (goes_on(deadlock)) file_waits(circle, waits, first, now, 1);
 }
 
 // The deadlock was filed just before.
-void ProgressLaw::file_waits(const std::vector<EntityId>& agvs, const std::map<EntityId, Wait>& waits, SimTime first, SimTime now, std::int64_t value) {
+void ProgressLaw::file_waits(const std::vector<EntityId>& agvs, const std::map<EntityId, Wait>& waits, SimTime first, SimTime now,
+                             std::int64_t value) {
   const std::size_t deadlock = incidents_.size() - 1;
   for (const EntityId agv : agvs) {
     const Wait& wait = waits.at(agv);

@@ -42,8 +42,13 @@ nlohmann::ordered_json to_json(const Violation& violation, const Scenario& scena
 nlohmann::ordered_json to_json(const Incident& incident, const Scenario& scenario) {
   const IncidentKindInfo& info = info_of(incident.kind);
   const auto name = [&](EntityId id) { return id.valid() ? nlohmann::ordered_json(body_name(scenario, id)) : nlohmann::ordered_json(nullptr); };
-  return {{"kind", info.name},           {"a", name(incident.a)},         {"b", name(incident.b)},
-          {"first_s", to_seconds(incident.first)}, {"last_s", to_seconds(incident.last)}, {"value", incident.value}, {"unit", info.unit}};
+  return {{"kind", info.name},
+          {"a", name(incident.a)},
+          {"b", name(incident.b)},
+          {"first_s", to_seconds(incident.first)},
+          {"last_s", to_seconds(incident.last)},
+          {"value", incident.value},
+          {"unit", info.unit}};
 }
 
 // "1s", "2.5ms", "0.0025". A microsecond at least: below, a run has more snapshots than anybody can wait for.
@@ -55,13 +60,14 @@ double granularity_s(const std::string& text) {
     throw InputError("--granularity", fmt::format("\"{}\" is no duration; write 1s, 2.5ms or plain seconds", text));
   }
   const double in_seconds = unit == "ms" ? value / 1000.0 : value;
-  if (!(in_seconds >= 1e-6 && in_seconds <= 1e6)) throw InputError("--granularity", fmt::format("is {} s; it lies from 0.000001 to 1000000 s", in_seconds));
+  if (!(in_seconds >= 1e-6 && in_seconds <= 1e6))
+    throw InputError("--granularity", fmt::format("is {} s; it lies from 0.000001 to 1000000 s", in_seconds));
   return in_seconds;
 }
 
 struct Observers {
-  std::vector<std::unique_ptr<Law>> laws;            // the judge first
-  const Law* compared_with = nullptr;                // safety-distance, beside a published rule
+  std::vector<std::unique_ptr<Law>> laws;  // the judge first
+  const Law* compared_with = nullptr;      // safety-distance, beside a published rule
   const TimelineKeeper* timelines = nullptr;
   std::vector<Difference> differences(const Scenario& scenario) const {
     if (compared_with == nullptr) return {};
@@ -102,13 +108,15 @@ void print_json(const Scenario& scenario, const Outcome& outcome, const Simulate
   json["incidents"] = nlohmann::ordered_json::array();
   for (const Incident& incident : outcome.incidents) json["incidents"].push_back(to_json(incident, scenario));
   json["met"] = nlohmann::ordered_json::array();
-  for (const ProbeCount& probe : outcome.probes) json["met"].push_back({{"source", name_of(probe.source)}, {"name", probe.name}, {"count", probe.count}});
+  for (const ProbeCount& probe : outcome.probes)
+    json["met"].push_back({{"source", name_of(probe.source)}, {"name", probe.name}, {"count", probe.count}});
   if (observers.compared_with != nullptr) {
     json["compared_with"] = laws().front().name;
     json["differences"] = nlohmann::ordered_json::array();
     for (const Difference& difference : observers.differences(scenario)) {
-      json["differences"].push_back(
-          {{"what", difference.missed ? "missed" : "accused wrongly"}, {"cause", name_of(difference.cause)}, {"violation", to_json(difference.violation, scenario)}});
+      json["differences"].push_back({{"what", difference.missed ? "missed" : "accused wrongly"},
+                                     {"cause", name_of(difference.cause)},
+                                     {"violation", to_json(difference.violation, scenario)}});
     }
   }
   json["min_clearance_m"] = nullptr;
@@ -160,7 +168,8 @@ Action prepare_simulate(Options& options) {
   options.option("--agent-config", words->config, "text handed to the agent as its own parameters");
   options.option("--plugin", words->plugins, "shared object with an agent; may be given several times");
   options.option("--law", words->law, "law that judges (default: safety-distance, also called exact)");
-  options.option("--granularity", words->granularity, "snapshot step of the published laws: 1s, 2.5ms or plain seconds (default: the scenario's, 0.0025)");
+  options.option("--granularity", words->granularity,
+                 "snapshot step of the published laws: 1s, 2.5ms or plain seconds (default: the scenario's, 0.0025)");
   options.flag("--json", words->json, "print JSON");
   options.flag("--trace", words->trace, "print every event on stderr");
   return [words] { return simulate_scenario(*words); };

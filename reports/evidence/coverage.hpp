@@ -17,8 +17,8 @@ struct Seen {
 
 // What some runs met.
 //
-// Names of probes. Told by the world: "head-on", "crossing", "following", "merging", "near-miss", "fault-N", and derived here: "encounter" (any of the first
-// four), "safe-mode". Told by agents: whatever they declare. An agent that uses a name of the world is not heard: the world knows better.
+// Names of probes. Told by the world: "head-on", "crossing", "following", "merging", "near-miss", "fault-N", and derived here: "encounter" (any of
+// the first four), "safe-mode". Told by agents: whatever they declare. An agent that uses a name of the world is not heard: the world knows better.
 class Coverage {
  public:
   void add(const Outcome& outcome);

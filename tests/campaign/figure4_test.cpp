@@ -66,7 +66,9 @@ TEST_F(Figure4Program, ThePublishedLawIsComparedWithTheJudge) {
 }
 
 TEST_F(Figure4Program, GranularityHasAUnit) {
-  const auto checks = [&](const std::string& granularity) { return simulate("figure4.json", "global-step --granularity " + granularity, 1)["counters"]["perimeter_checks"]; };
+  const auto checks = [&](const std::string& granularity) {
+    return simulate("figure4.json", "global-step --granularity " + granularity, 1)["counters"]["perimeter_checks"];
+  };
   EXPECT_EQ(checks("10ms"), 9600);
   EXPECT_EQ(checks("0.01s"), 9600);
   EXPECT_EQ(checks("0.01"), 9600);

@@ -16,7 +16,8 @@ using enum IncidentKind;
 // P(X >= k) by summing binomial terms in logarithms: another way than the law's.
 double upper_tail(int n, int k, double p) {
   double sum = 0.0;
-  for (int i = k; i <= n; ++i) sum += std::exp(std::lgamma(n + 1.0) - std::lgamma(i + 1.0) - std::lgamma(n - i + 1.0) + i * std::log(p) + (n - i) * std::log1p(-p));
+  for (int i = k; i <= n; ++i)
+    sum += std::exp(std::lgamma(n + 1.0) - std::lgamma(i + 1.0) - std::lgamma(n - i + 1.0) + i * std::log(p) + (n - i) * std::log1p(-p));
   return sum;
 }
 
@@ -80,9 +81,7 @@ TEST_F(NormalOperation, SafeModeUnderMoreLossOrMoreDelayIsLegal) {
   EXPECT_THAT(run(60.0, 0, 2.1, safe_from_20), IsEmpty());
 }
 
-TEST_F(NormalOperation, TheContractsOwnLimitsAreWithinIt) {
-  EXPECT_THAT(kinds_of(run(60.0, 4, 2.0, safe_from_20)), ElementsAre(SafeModeInContract));
-}
+TEST_F(NormalOperation, TheContractsOwnLimitsAreWithinIt) { EXPECT_THAT(kinds_of(run(60.0, 4, 2.0, safe_from_20)), ElementsAre(SafeModeInContract)); }
 
 TEST_F(NormalOperation, AnAgentMayTakeItsTimeToLeaveSafeMode) {
   // All is lost up to 20 s, nothing later: safe mode is legal until the bad seconds have left the window, and for the reaction time from then on.

@@ -116,7 +116,10 @@ TEST_F(Progress, WhoPicksNowAndThenIsNoLivelock) {
   for (std::uint64_t i = 0; i < 3; ++i) released(law, 1.0, 0, i, 3);
   for (std::uint64_t i = 0; i < 3; ++i) {
     const double t_s = 150.0 * static_cast<double>(i + 1);
-    law.begins(t_s - 50.0, 0, ActivityKind::Drive).ends(t_s - 10.0, 0, ActivityKind::Drive).load_on_agv(t_s, 0, i).load_at_station(t_s + 20.0, 0, i, 4);
+    law.begins(t_s - 50.0, 0, ActivityKind::Drive)
+        .ends(t_s - 10.0, 0, ActivityKind::Drive)
+        .load_on_agv(t_s, 0, i)
+        .load_at_station(t_s + 20.0, 0, i, 4);
     law.record(t_s + 20.0, 0, TraceKind::TransportDone, i);
   }
   EXPECT_THAT(law.finish(600.0).incidents, IsEmpty());
@@ -129,7 +132,10 @@ TEST_F(Progress, OneThatIsNeverServedStarves) {
   released(law, 2.0, 1, 4, 0);
   for (std::uint64_t i = 0; i < 4; ++i) {
     const double t_s = 100.0 * static_cast<double>(i + 1);
-    law.begins(t_s - 50.0, 0, ActivityKind::Drive).ends(t_s - 10.0, 0, ActivityKind::Drive).load_on_agv(t_s, 0, i).load_at_station(t_s + 20.0, 0, i, 4);
+    law.begins(t_s - 50.0, 0, ActivityKind::Drive)
+        .ends(t_s - 10.0, 0, ActivityKind::Drive)
+        .load_on_agv(t_s, 0, i)
+        .load_at_station(t_s + 20.0, 0, i, 4);
     law.record(t_s + 20.0, 0, TraceKind::TransportDone, i);
     law.begins(t_s, 1, ActivityKind::Turn).ends(t_s + 1.0, 1, ActivityKind::Turn);
   }
