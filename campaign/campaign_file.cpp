@@ -256,6 +256,8 @@ CampaignFile read_campaign_file(const std::string& path) {
   }
   if (auto law = root.table("law")) {
     law->get("safety_distance_m", plan.law.safety_distance_m);
+    law->get("reaction_s", plan.law.reaction_s);
+    law->get("min_transports_per_agv_hour", plan.law.min_transports_per_agv_hour);
     law->get("leave_out", plan.laws_left_out);
     law->finish();
   }

@@ -165,6 +165,9 @@ void check_plan(const CampaignPlan& plan, const std::string& where) {
   check_world(plan, where);
   demand(plan.law.safety_distance_m > 0.0 && plan.law.safety_distance_m < 0.5, where,
          fmt::format("law.safety_distance_m is {}; it lies between 0 and 0.5 m", plan.law.safety_distance_m));
+  demand(plan.law.reaction_s >= 0.0 && plan.law.reaction_s <= 3600.0, where, fmt::format("law.reaction_s is {}; it lies between 0 and 3600", plan.law.reaction_s));
+  demand(plan.law.min_transports_per_agv_hour >= 0.0 && plan.law.min_transports_per_agv_hour <= 3600.0, where,
+         fmt::format("law.min_transports_per_agv_hour is {}; it lies between 0 and 3600", plan.law.min_transports_per_agv_hour));
   demand(plan.agent_clock.call_cost_s >= 0.0 && plan.agent_clock.call_cost_s <= 10.0, where,
          fmt::format("agent_clock.call_cost_s is {}; it lies between 0 and 10", plan.agent_clock.call_cost_s));
   check_vehicles(plan, where);

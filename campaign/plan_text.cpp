@@ -209,6 +209,8 @@ CampaignPlan plan_from(const Json& json) {
   radio_from(json.at("radio"), plan.radio);
   plan.agent_clock.call_cost_s = json.at("agent_clock").at("call_cost_s");
   plan.law.safety_distance_m = json.at("law").at("safety_distance_m");
+  plan.law.reaction_s = json.at("law").at("reaction_s");
+  plan.law.min_transports_per_agv_hour = json.at("law").at("min_transports_per_agv_hour");
   plan.laws_left_out = json.at("law").at("leave_out").get<std::vector<std::string>>();
   plan.required_probes = json.at("coverage").at("probes").get<std::vector<std::string>>();
   for (const Json& gate : json.at("gates")) plan.gates.push_back(gate_from(gate, plan.gates.size()));
@@ -239,7 +241,11 @@ std::string plan_text(const CampaignPlan& plan) {
       {"operator", helper_json(plan.operator_help)},
       {"radio", to_json(plan.radio)},
       {"agent_clock", {{"call_cost_s", plan.agent_clock.call_cost_s}}},
-      {"law", {{"safety_distance_m", plan.law.safety_distance_m}, {"leave_out", plan.laws_left_out}}},
+      {"law",
+       {{"safety_distance_m", plan.law.safety_distance_m},
+        {"reaction_s", plan.law.reaction_s},
+        {"min_transports_per_agv_hour", plan.law.min_transports_per_agv_hour},
+        {"leave_out", plan.laws_left_out}}},
       {"coverage", {{"probes", plan.probes_to_meet()}}},
       {"gates", gates},
   };

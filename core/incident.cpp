@@ -12,7 +12,8 @@ using enum IncidentKind;
 
 constexpr std::array<IncidentKindInfo, 17> kKinds{{
     {BatteryEmpty, "battery-empty", "micrometres to the nearest charging station", "the battery of an AGV ran empty away from a charging station"},
-    {ChannelSaturated, "channel-saturated", "millionths of the air time, at the peak", "the fleet asked for more of the radio channel than it can carry"},
+    {ChannelSaturated, "channel-saturated", "millionths of the air time, at the peak",
+     "the fleet asked for more of the radio channel than it can carry"},
     {InterferenceLosses, "interference-losses", "millionths of the receptions, at the peak", "transmissions destroyed each other"},
     {LoadHeldByTwo, "load-held-by-two", "load", "a load passed to an AGV while another one held it"},
     {LoadVanished, "load-vanished", "load", "a load was picked or dropped and is nowhere since"},
@@ -25,9 +26,11 @@ constexpr std::array<IncidentKindInfo, 17> kKinds{{
     {WaitsInferred, "waits-inferred", "1: in the circle", "another one stood in the way of an AGV of a deadlock; inferred from the geometry"},
     {Livelock, "livelock", "drives and turns begun", "AGVs moved, yet no transport got on"},
     {Starvation, "starvation", "open transports", "one AGV got nowhere with its transports while others finished theirs"},
-    {SafeModeInContract, "safe-mode-in-contract", "millionths of receptions lost, on its worst link", "an AGV was in safe mode while the radio kept its contract"},
+    {SafeModeInContract, "safe-mode-in-contract", "millionths of receptions lost, on its worst link",
+     "an AGV was in safe mode while the radio kept its contract"},
     {StandstillInContract, "standstill-in-contract", "open transports", "the fleet stood still while the radio kept its contract"},
-    {ThroughputBelowFloor, "throughput-below-floor", "thousandths of a transport per AGV-hour", "the fleet finished fewer transports than the floor asks for"},
+    {ThroughputBelowFloor, "throughput-below-floor", "thousandths of a transport per AGV-hour",
+     "the fleet finished fewer transports than the floor asks for"},
 }};
 
 static_assert([] {

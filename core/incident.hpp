@@ -37,7 +37,7 @@ struct IncidentKindInfo {
   IncidentKind kind;
   std::string_view name, unit, meaning;
 };
-std::span<const IncidentKindInfo> incident_kinds();          // in order of their numbers, without gaps
+std::span<const IncidentKindInfo> incident_kinds();  // in order of their numbers, without gaps
 const IncidentKindInfo& info_of(IncidentKind kind);
 bool is_incident_kind(std::uint32_t number);
 
@@ -67,12 +67,12 @@ struct ProbeCount {
 // What the agents of a run declare, summed by name. Bounded, so that an agent that makes up names costs its run nothing but a number.
 class ProbeTally {
  public:
-  static constexpr std::size_t kNamesMax = 64;     // different names in a run
+  static constexpr std::size_t kNamesMax = 64;  // different names in a run
   static constexpr std::size_t kNameBytesMax = 64;
 
   // `hash` identifies the name.
   void declare(std::string_view name, std::uint64_t hash);
-  std::vector<ProbeCount> counts() const;          // by name
+  std::vector<ProbeCount> counts() const;               // by name
   std::uint64_t left_out() const { return left_out_; }  // declarations beyond the bounds
 
  private:

@@ -65,6 +65,8 @@ struct AgentClockSetup {
 struct LawSetup {
   double safety_distance_m = 0.10;
   double snapshot_s = 0.0025;          // granularity of the published laws (400 a second)
+  double reaction_s = 10.0;            // normal-operation: an agent may leave safe mode so much later than it could
+  double min_transports_per_agv_hour = 0.0;  // normal-operation: a floor for the throughput of a run; 0: none
 };
 
 // Everything one simulation needs, as plain data.

@@ -266,6 +266,8 @@ void read_settings(const JsonReader& reader, Scenario& scenario) {
     law->expect_object(keys::kLaw);
     law->read("safety_distance_m", scenario.law.safety_distance_m);
     law->read("snapshot_s", scenario.law.snapshot_s);
+    law->read("reaction_s", scenario.law.reaction_s);
+    law->read("min_transports_per_agv_hour", scenario.law.min_transports_per_agv_hour);
   }
   reader.read("contact_stops", scenario.contact_stops);
   read_duration(reader, "horizon", scenario.horizon);

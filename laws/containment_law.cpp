@@ -52,8 +52,8 @@ class ContainmentLaw final : public Law {
   }
 
   Whereabouts bodies_;
-  std::vector<TransportOrder> orders_;         // by number of the transport
-  std::optional<std::uint64_t> released_;      // its load is about to appear
+  std::vector<TransportOrder> orders_;     // by number of the transport
+  std::optional<std::uint64_t> released_;  // its load is about to appear
   std::map<std::uint64_t, Booked> loads_;
   std::map<EntityId, Handling> handling_;
   std::vector<Incident> incidents_;
@@ -65,9 +65,15 @@ ContainmentLaw::ContainmentLaw(const Scenario& scenario) : bodies_(scenario) {
 
 void ContainmentLaw::happened(const TraceRecord& record) {
   switch (record.kind) {
-    case TraceKind::OrderReleased: released_ = record.a; break;
-    case TraceKind::TransportDone: transport_done(record); break;
-    case TraceKind::ActivityEnds: handling_ends(record); break;
+    case TraceKind::OrderReleased:
+      released_ = record.a;
+      break;
+    case TraceKind::TransportDone:
+      transport_done(record);
+      break;
+    case TraceKind::ActivityEnds:
+      handling_ends(record);
+      break;
     case TraceKind::ActivityBegins: {
       const auto kind = static_cast<ActivityKind>(record.a);
       if (kind == ActivityKind::Pick || kind == ActivityKind::Drop) handling_[record.entity] = {kind, record.b, false};
@@ -83,7 +89,8 @@ void ContainmentLaw::happened(const TraceRecord& record) {
       }
       break;
     }
-    default: break;
+    default:
+      break;
   }
 }
 

@@ -8,8 +8,8 @@
 namespace fleetproof {
 namespace {
 
-constexpr double kStep_m = 0.4;       // between points of a track: well below any width
-constexpr double kSameWay = 0.5;      // cosine of 60 degrees
+constexpr double kStep_m = 0.4;   // between points of a track: well below any width
+constexpr double kSameWay = 0.5;  // cosine of 60 degrees
 
 struct Closest {
   double distance_m = 0.0;
@@ -45,10 +45,14 @@ bool at_end(const Track& track, double s_m) { return s_m >= track.length_m - 0.5
 
 const char* name_of(EncounterKind kind) {
   switch (kind) {
-    case EncounterKind::HeadOn: return "head-on";
-    case EncounterKind::Crossing: return "crossing";
-    case EncounterKind::Following: return "following";
-    case EncounterKind::Merging: return "merging";
+    case EncounterKind::HeadOn:
+      return "head-on";
+    case EncounterKind::Crossing:
+      return "crossing";
+    case EncounterKind::Following:
+      return "following";
+    case EncounterKind::Merging:
+      return "merging";
   }
   invariant_violated("a kind of encounter has a name");
 }

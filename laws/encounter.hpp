@@ -20,7 +20,7 @@ struct Track {
     Vec2 position_m, heading;
   };
   EntityId agv;
-  SimTime begin, end;      // as planned
+  SimTime begin, end;  // as planned
   double length_m = 0.0;
   Footprint footprint;
   Box box;

@@ -3,11 +3,14 @@
 #include <algorithm>
 
 #include "laws/battery_law.hpp"
+#include "laws/congestion_law.hpp"
 #include "laws/containment_law.hpp"
 #include "laws/coverage_law.hpp"
 #include "laws/exact_law.hpp"
 #include "laws/global_step_law.hpp"
+#include "laws/normal_operation_law.hpp"
 #include "laws/paper_law.hpp"
+#include "laws/progress_law.hpp"
 
 namespace fleetproof {
 namespace {
@@ -18,13 +21,31 @@ constexpr Entry<MakeLaw> kLaws[] = {
      "nanosecond and the micrometre; it does not see dips of less than 1 micrometre, and may join stretches less than 0.1 s apart.",
      make_exact_law},
     {"battery",
-     "Finds every AGV whose battery runs empty away from a charging station, to the nanosecond; it does not see what the world does not record.", make_battery_law},
+     "Finds every AGV whose battery runs empty away from a charging station, to the nanosecond; it does not see what the world does not record.",
+     make_battery_law},
     {"containment",
-     "Finds every load that is held by two, has vanished, lies at a station its transport does not name, is taken by a full AGV, moves by itself or is "
+     "Finds every load that is held by two, has vanished, lies at a station its transport does not name, is taken by a full AGV, moves by itself or "
+     "is "
      "delivered twice, to the nanosecond; it does not see a load that moves without a record.",
      make_containment_law},
+    {"progress",
+     "Finds deadlocks with who waits for whom, livelocks and AGVs that starve, by looking every twelfth of stuck_after at who has open transports "
+     "and gets "
+     "nowhere; it does not see why, and where a drive takes longer than twice stuck_after it accuses it.",
+     make_progress_law},
+    {"normal-operation",
+     "Finds safe mode and standstill while the radio keeps its contract, judged every second by the last 10 s of every link, and too little "
+     "throughput if a "
+     "floor is set; it does not see safe mode that nobody declares.",
+     make_normal_operation_law},
+    {"congestion",
+     "Finds seconds in which the fleet asks for half of the radio channel or more, or loses a tenth of its receptions by interference; it counts the "
+     "whole floor "
+     "as one channel and does not see messages that are only late.",
+     make_congestion_law},
     {"coverage",
-     "Accuses nobody but counts what a run met: encounters of two AGVs by kind (drives no more than 10 s apart, by their planned tracks), near misses "
+     "Accuses nobody but counts what a run met: encounters of two AGVs by kind (drives no more than 10 s apart, by their planned tracks), near "
+     "misses "
      "below 0.3 m and faults; it does not see AGVs that wait for each other without driving.",
      make_coverage_law},
     {"paper",

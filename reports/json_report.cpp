@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "reports/condition_table.hpp"
+#include "reports/coverage_section.hpp"
 #include "reports/verdict_sentences.hpp"
 #include "reports/weak_points.hpp"
 #include "reports/wording.hpp"
@@ -48,7 +49,8 @@ Json violation_json(const Violation& v) {
           {"relative_speed_mps", static_cast<double>(v.relative_speed_um_s) / 1e6},
           {"x_m", static_cast<double>(v.x_um) / 1e6},
           {"y_m", static_cast<double>(v.y_um) / 1e6},
-          {"contact", v.contact}};
+          {"contact", v.contact},
+          {"level", name_of(level_of(v))}};
 }
 
 Json failing_run_json(const ReportInput& input, const std::optional<FailingRun>& run) {
@@ -69,6 +71,7 @@ void add_tally(Json& json, const Tally& tally) {
   json["runs"] = tally.runs;
   json["violating_runs"] = tally.violating_runs;
   json["contact_runs"] = tally.contact_runs;
+  json["hazardous_contact_runs"] = tally.hazardous_contact_runs;
   json["stuck_runs"] = tally.stuck_runs;
   json["crash_runs"] = tally.crash_runs;
   json["hang_runs"] = tally.hang_runs;
@@ -79,6 +82,41 @@ void add_tally(Json& json, const Tally& tally) {
   json["transports_done"] = tally.transports_done;
   json["agv_hours"] = tally.agv_hours();
   json["transports_per_agv_hour"] = maybe(tally.transports_per_agv_hour());
+}
+
+Json missing_json(const std::vector<MissingProbe>& missing) {
+  auto list = Json::array();
+  for (const auto& probe : missing) list.push_back({{"probe", probe.name}, {"runs_with", probe.runs_with}, {"runs", probe.runs}});
+  return list;
+}
+
+Json coverage_json(const ReportInput& input) {
+  Json json{{"required", input.campaign.required_probes}, {"runs_per_probe", kRunsPerProbe}, {"agents", Json::array()}};
+  for (const auto& agent : input.evidence.agent_coverage()) {
+    auto met = Json::array();
+    for (const bool world : {true, false}) {
+      for (const auto& [name, seen] : world ? agent.coverage.by_the_world() : agent.coverage.by_agents()) {
+        met.push_back({{"probe", name}, {"source", world ? "world" : "agent"}, {"runs_with", seen.runs}, {"times", seen.times}});
+      }
+    }
+    json["agents"].push_back({{"agent", agent.agent}, {"runs", agent.coverage.runs()}, {"met", met}, {"missing_probes", missing_json(agent.missing)}});
+  }
+  return json;
+}
+
+Json incidents_json(const ReportInput& input) {
+  auto list = Json::array();
+  for (const auto& agent : input.evidence.agent_coverage()) {
+    for (const auto& [kind, tally] : agent.incidents) {
+      list.push_back({{"agent", agent.agent},
+                      {"kind", info_of(kind).name},
+                      {"runs_with", tally.runs},
+                      {"incidents", tally.incidents},
+                      {"example_run", tally.example_run},
+                      {"replay", replay_command(input.archive_path, tally.example_run)}});
+    }
+  }
+  return list;
 }
 
 Json gate_json(const ReportInput& input, std::size_t index) {
@@ -97,6 +135,8 @@ Json gate_json(const ReportInput& input, std::size_t index) {
           {"verdict", name_of(result.verdict)},
           {"reason", result.reason},
           {"unit", result.unit},
+          {"weak", !result.missing.empty()},
+          {"missing_probes", missing_json(result.missing)},
           {"claim", estimate_json(result.claim)},
           {"optimistic", estimate_json(result.optimistic)},
           {"failing_runs", result.counts.failing_runs},
@@ -168,10 +208,13 @@ std::string render_json(const ReportInput& input) {
   json["verdict"] = name_of(overall_verdict(evidence, input.gates));
   json["exit_code"] = input.exit_code;
   json["complete"] = evidence.complete();
+  json["weak"] = is_weak(input);
   json["campaign"] = campaign_json(input);
   json["gates"] = list_of(input.gates.size(), [&](std::size_t i) { return gate_json(input, i); });
   json["conditions"] = list_of(conditions.size(), [&](std::size_t i) { return condition_json(input, conditions[i]); });
   json["cells"] = list_of(evidence.cells().size(), [&](std::size_t i) { return one_cell_json(input, evidence.cells()[i]); });
+  json["coverage"] = coverage_json(input);
+  json["incidents"] = incidents_json(input);
   json["weak_points"] = weak_points(input);
   for (const bool in_contract : {true, false}) {
     const auto& worst = evidence.worst_runs(in_contract);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "reports/condition_table.hpp"
+#include "reports/coverage_section.hpp"
 #include "reports/verdict_sentences.hpp"
 #include "reports/weak_points.hpp"
 #include "reports/wording.hpp"
@@ -81,11 +82,14 @@ Page build_page(const ReportInput& input, std::size_t most_rows) {
                            replicates_text(evidence), evidence.cells().size(),
                            count_text(evidence.complete_replicates() * evidence.cells().size(), "run"));
   page.headlines = warnings(input);
+  for (auto& weak : weak_headlines(input)) page.headlines.push_back(std::move(weak));
   for (auto& verdict : verdicts(input)) page.headlines.push_back(std::move(verdict));
   page.sections.push_back(condition_section(input, "Worst case of the contract: 40 % loss, 2 s delay", [](const Condition& c) { return c.is_worst_case; }, most_rows));
   page.sections.push_back(condition_section(input, "Contract region: loss <= 40 %, delay <= 2 s", [](const Condition& c) { return c.in_contract; }, most_rows));
   page.sections.push_back(condition_section(input, "Outside the contract", [](const Condition& c) { return !c.in_contract; }, most_rows));
   page.sections.push_back(table_legend(input));
+  page.sections.push_back(coverage_section(input, most_rows));
+  page.sections.push_back(incident_section(input, most_rows));
   page.sections.push_back(weak_point_section(input));
   page.sections.push_back(worst_run_section(input));
   page.sections.push_back(provenance_section(input));

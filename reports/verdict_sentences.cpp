@@ -5,6 +5,7 @@
 #include <set>
 #include <tuple>
 
+#include "reports/coverage_section.hpp"
 #include "reports/evidence/rounding.hpp"
 #include "reports/wording.hpp"
 
@@ -81,12 +82,14 @@ Headline verdict_of(const ReportInput& input, std::size_t index) {
   const auto& result = input.gates[index];
   Headline headline{name_of(result.verdict),
                     fmt::format("gate \"{}\": {} of agent {}, {}, {}", printable(gate.name, 60), name_of(gate.end_point), printable(gate.agent, 40),
-                                region_text(gate.region), gate.kind == GateKind::None ? "none allowed" : "rate limited"),
+                                region_text(gate.region), gate.kind == GateKind::None ? "none allowed" : "rate limited") +
+                        (result.missing.empty() ? "" : "; the evidence is weak"),
                     {}};
   const auto add = [&](std::string text) { headline.details.push_back({std::move(text), ""}); };
   add(result.claim ? estimate_text(gate, result) : count_text(result.counts.failing_runs, "run") + " failed.");
   if (result.claim && result.optimistic->failing != result.claim->failing) add(optimistic_text(result));
   add(fmt::format("Why {}: {}.", name_of(result.verdict), result.reason));
+  if (!result.missing.empty()) add("Weak: " + missing_text(result.missing) + ".");
   if (const auto& cells = input.evidence.cells_of(index); !cells.empty()) add("Sampled: " + sampled(input.evidence, cells) + ".");
   if (result.worst) {
     headline.details.push_back({fmt::format("Its most serious run is {} ({}):", result.worst->run_index, name_of(result.worst->severity)),
@@ -121,6 +124,9 @@ std::string sampled(const Evidence& evidence, const std::vector<std::uint32_t>& 
 Remark describe(const ReportInput& input, const FailingRun& run) {
   const auto& cell = input.evidence.cells()[run.cell];
   auto text = fmt::format("run {}: {}", run.run_index, name_of(run.severity));
+  if (run.closest && level_of(*run.closest) == ViolationLevel::HazardousContact) {
+    text += fmt::format(" at hazardous speed ({:.1f} m/s)", static_cast<double>(run.closest->relative_speed_um_s) * 1e-6);
+  }
   if (run.closest) {
     text += fmt::format(", {} at {} between {} and {}", metres_text(run.closest->min_clearance_um), seconds_text(to_seconds(run.closest->closest_at)),
                         body_name(run.closest->a, cell), body_name(run.closest->b, cell));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "reports/coverage_section.hpp"
 #include "reports/evidence/binomial.hpp"
 #include "reports/wording.hpp"
 
@@ -69,6 +70,9 @@ std::vector<std::string> weak_points(const ReportInput& input) {
   }
   if (evidence.complete_replicates() < input.campaign.replicates) {
     points.push_back(fmt::format("{} of {} planned replicates are complete.", evidence.complete_replicates(), input.campaign.replicates));
+  }
+  for (const auto& agent : evidence.agent_coverage()) {
+    if (!agent.missing.empty()) points.push_back(fmt::format("The runs of agent {}: {}.", printable(agent.agent, 40), missing_text(agent.missing)));
   }
   name_short_gates(points, evidence);
   name_cells(points, evidence, Scope::All, "have no run", [](const Tally& tally) { return tally.runs == 0; });

@@ -70,7 +70,8 @@ inline constexpr const char* kProbeColumns = "run_index, ordinal, source, name, 
 inline constexpr const char* kCellColumns = "cell, agent, layout, fleet_size, loss, delay_s, mean_outage_s";
 inline constexpr const char* kGateColumns = "gate, name, agent, kind, end_point, region, limit_rate, confidence, min_transports_per_agv_hour";
 inline constexpr const char* kCampaignColumns =
-    "id, name, kind, seed, replicates, plan_json, plan_hash, engine_version, program_sha256, compiler, flags, libraries, required_probes, plan_checksum";
+    "id, name, kind, seed, replicates, plan_json, plan_hash, engine_version, program_sha256, compiler, flags, libraries, required_probes, "
+    "plan_checksum";
 
 // "?, ?, ?": one for each name in a comma-separated list.
 std::string placeholders(const std::string& columns);

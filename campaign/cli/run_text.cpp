@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/activity.hpp"
 #include "core/sdk/fleetproof/agent.h"
 
@@ -43,6 +45,20 @@ std::string incident_text(const Scenario& scenario, const Incident& incident) {
   if (incident.b.valid()) whom += std::string(incident.a.valid() ? " ->" : "") + " " + body_name(scenario, incident.b);
   const std::string until = incident.last > incident.first ? fmt::format(" to {:.3f} s", to_seconds(incident.last)) : "";
   return fmt::format("{}:{} from {:.3f} s{}; {} ({}: {})", info.name, whom, to_seconds(incident.first), until, info.meaning, info.unit, incident.value);
+}
+
+std::string differences_text(const Scenario& scenario, const std::vector<Difference>& differences, std::string_view published) {
+  std::string text = fmt::format("  beside safety-distance, {} ", published);
+  if (differences.empty()) return text + "accuses the same pairs at the same time\n";
+  const auto missed = std::ranges::count(differences, true, &Difference::missed);
+  text += fmt::format("misses {} and accuses {} wrongly:\n", missed, differences.size() - static_cast<std::size_t>(missed));
+  for (const Difference& d : differences) {
+    const Violation& v = d.violation;
+    text += fmt::format("    {} ({}): {} and {} from {:.3f} s to {:.3f} s, closest {:.3f} m at {:.3f} s\n", d.missed ? "missed" : "accused wrongly", name_of(d.cause),
+                        body_name(scenario, v.a), body_name(scenario, v.b), to_seconds(v.first), to_seconds(v.last), static_cast<double>(v.min_clearance_um) * 1e-6,
+                        to_seconds(v.closest_at));
+  }
+  return text;
 }
 
 std::string met_text(const Outcome& outcome) {

@@ -6,11 +6,14 @@
 #include "core/outcome.hpp"
 #include "core/scenario.hpp"
 #include "core/trace.hpp"
+#include "laws/comparison.hpp"
 
 namespace fleetproof::cli {
 
 std::string body_name(const Scenario& scenario, EntityId id);
 
+// What a published rule says otherwise than safety-distance.
+std::string differences_text(const Scenario& scenario, const std::vector<Difference>& differences, std::string_view published);
 std::string incident_text(const Scenario& scenario, const Incident& incident);
 // "met: head-on 3, agent: negotiation 17", or nothing.
 std::string met_text(const Outcome& outcome);

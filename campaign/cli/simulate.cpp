@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <iterator>
 
 #include <nlohmann/json.hpp>
@@ -11,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/simulation.hpp"
 #include "generators/scenario_file.hpp"
+#include "laws/comparison.hpp"
 #include "laws/laws.hpp"
 
 namespace fleetproof::cli {
@@ -19,7 +21,7 @@ namespace {
 struct SimulateWords {
   std::string scenario, agent = "scripted", law, config;
   std::vector<std::string> plugins;
-  std::optional<double> granularity_s;
+  std::string granularity;
   bool json = false, trace = false;
 };
 
@@ -40,11 +42,61 @@ nlohmann::ordered_json to_json(const Violation& violation, const Scenario& scena
 nlohmann::ordered_json to_json(const Incident& incident, const Scenario& scenario) {
   const IncidentKindInfo& info = info_of(incident.kind);
   const auto name = [&](EntityId id) { return id.valid() ? nlohmann::ordered_json(body_name(scenario, id)) : nlohmann::ordered_json(nullptr); };
-  return {{"kind", info.name},           {"a", name(incident.a)},         {"b", name(incident.b)},
-          {"first_s", to_seconds(incident.first)}, {"last_s", to_seconds(incident.last)}, {"value", incident.value}, {"unit", info.unit}};
+  return {{"kind", info.name},
+          {"a", name(incident.a)},
+          {"b", name(incident.b)},
+          {"first_s", to_seconds(incident.first)},
+          {"last_s", to_seconds(incident.last)},
+          {"value", incident.value},
+          {"unit", info.unit}};
 }
 
-void print_json(const Scenario& scenario, const Outcome& outcome, const SimulateWords& words) {
+// "1s", "2.5ms", "0.0025". A microsecond at least: below, a run has more snapshots than anybody can wait for.
+double granularity_s(const std::string& text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const std::string_view unit(end, static_cast<std::size_t>(text.data() + text.size() - end));
+  if (error != std::errc{} || (unit != "" && unit != "s" && unit != "ms")) {
+    throw InputError("--granularity", fmt::format("\"{}\" is no duration; write 1s, 2.5ms or plain seconds", text));
+  }
+  const double in_seconds = unit == "ms" ? value / 1000.0 : value;
+  if (!(in_seconds >= 1e-6 && in_seconds <= 1e6))
+    throw InputError("--granularity", fmt::format("is {} s; it lies from 0.000001 to 1000000 s", in_seconds));
+  return in_seconds;
+}
+
+struct Observers {
+  std::vector<std::unique_ptr<Law>> laws;  // the judge first
+  const Law* compared_with = nullptr;      // safety-distance, beside a published rule
+  const TimelineKeeper* timelines = nullptr;
+  std::vector<Difference> differences(const Scenario& scenario) const {
+    if (compared_with == nullptr) return {};
+    return compare(scenario, laws.front()->findings(), compared_with->findings(), *timelines);
+  }
+};
+
+// The judge named, and what observes beside it: the default set. A law that is no judge of clearances is asked alone.
+Observers observers_of(const std::string& name, const Scenario& scenario) {
+  const auto* law = find_law(name);
+  if (law == nullptr) {
+    auto names = names_of(laws());
+    names.emplace_back("exact");
+    throw InputError("--law", fmt::format("\"{}\" is not a law{} (see: fleetproof list laws)", name, name_hint(name, names)));
+  }
+  Observers observers;
+  if (law != &laws().front()) observers.laws.push_back(law->make(scenario));
+  const bool published = is_to_compare_with(*law);
+  if (!observers.laws.empty() && !published) return observers;
+  std::ranges::move(make_default_laws(scenario), std::back_inserter(observers.laws));
+  if (!published) return observers;
+  observers.compared_with = observers.laws[1].get();
+  auto timelines = std::make_unique<TimelineKeeper>(scenario);
+  observers.timelines = timelines.get();
+  observers.laws.push_back(std::move(timelines));
+  return observers;
+}
+
+void print_json(const Scenario& scenario, const Outcome& outcome, const SimulateWords& words, const Observers& observers) {
   nlohmann::ordered_json json;
   json["schema_version"] = 1;
   json["scenario"] = scenario.name;
@@ -56,7 +108,17 @@ void print_json(const Scenario& scenario, const Outcome& outcome, const Simulate
   json["incidents"] = nlohmann::ordered_json::array();
   for (const Incident& incident : outcome.incidents) json["incidents"].push_back(to_json(incident, scenario));
   json["met"] = nlohmann::ordered_json::array();
-  for (const ProbeCount& probe : outcome.probes) json["met"].push_back({{"source", name_of(probe.source)}, {"name", probe.name}, {"count", probe.count}});
+  for (const ProbeCount& probe : outcome.probes)
+    json["met"].push_back({{"source", name_of(probe.source)}, {"name", probe.name}, {"count", probe.count}});
+  if (observers.compared_with != nullptr) {
+    json["compared_with"] = laws().front().name;
+    json["differences"] = nlohmann::ordered_json::array();
+    for (const Difference& difference : observers.differences(scenario)) {
+      json["differences"].push_back({{"what", difference.missed ? "missed" : "accused wrongly"},
+                                     {"cause", name_of(difference.cause)},
+                                     {"violation", to_json(difference.violation, scenario)}});
+    }
+  }
   json["min_clearance_m"] = nullptr;
   if (outcome.min_clearance_um) json["min_clearance_m"] = static_cast<double>(*outcome.min_clearance_um) * 1e-6;
   const Counters& c = outcome.counters;
@@ -76,37 +138,20 @@ void print_json(const Scenario& scenario, const Outcome& outcome, const Simulate
   fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
-// The judge named, and what observes beside it: the default set. A law that is no judge of clearances is asked alone.
-std::vector<std::unique_ptr<Law>> observers_of(const std::string& name, const Scenario& scenario) {
-  const auto* law = find_law(name);
-  if (law == nullptr) {
-    auto names = names_of(laws());
-    names.emplace_back("exact");
-    throw InputError("--law", fmt::format("\"{}\" is not a law{} (see: fleetproof list laws)", name, name_hint(name, names)));
-  }
-  if (law == &laws().front()) return make_default_laws(scenario);
-  std::vector<std::unique_ptr<Law>> observers;
-  observers.push_back(law->make(scenario));
-  if (is_to_compare_with(*law)) std::ranges::move(make_default_laws(scenario), std::back_inserter(observers));
-  return observers;
-}
-
 int simulate_scenario(const SimulateWords& words) {
   Scenario scenario = read_scenario(words.scenario);
-  if (words.granularity_s) {
-    if (!(*words.granularity_s > 0.0)) throw InputError("--granularity", fmt::format("is {}; it must be above 0 s", *words.granularity_s));
-    scenario.law.snapshot_s = *words.granularity_s;
-  }
+  if (!words.granularity.empty()) scenario.law.snapshot_s = granularity_s(words.granularity);
   AgentPrograms programs;
   for (const std::string& plugin : words.plugins) programs.load(plugin);
   const fp_agent_type& agent = programs.find(words.agent, "--agent");
-  std::vector<std::unique_ptr<Law>> observers = observers_of(words.law, scenario);
+  const Observers observers = observers_of(words.law, scenario);
   TracePrinter printer(scenario);
-  const Outcome outcome = simulate(scenario, agent, observers, words.trace ? &printer : nullptr, words.config.c_str());
+  const Outcome outcome = simulate(scenario, agent, observers.laws, words.trace ? &printer : nullptr, words.config.c_str());
   if (words.json) {
-    print_json(scenario, outcome, words);
+    print_json(scenario, outcome, words, observers);
   } else {
     fmt::print("{}", outcome_text(scenario, outcome));
+    if (observers.compared_with != nullptr) fmt::print("{}", differences_text(scenario, observers.differences(scenario), find_law(words.law)->name));
   }
   if (outcome.engine_error) return kEngineFault;
   if (outcome.violation || outcome.contact) return kViolated;
@@ -123,7 +168,8 @@ Action prepare_simulate(Options& options) {
   options.option("--agent-config", words->config, "text handed to the agent as its own parameters");
   options.option("--plugin", words->plugins, "shared object with an agent; may be given several times");
   options.option("--law", words->law, "law that judges (default: safety-distance, also called exact)");
-  options.option("--granularity", words->granularity_s, "snapshot step of the published laws, in seconds (default: the scenario's, 0.0025)");
+  options.option("--granularity", words->granularity,
+                 "snapshot step of the published laws: 1s, 2.5ms or plain seconds (default: the scenario's, 0.0025)");
   options.flag("--json", words->json, "print JSON");
   options.flag("--trace", words->trace, "print every event on stderr");
   return [words] { return simulate_scenario(*words); };

@@ -53,6 +53,9 @@ Evidence::Evidence(const CampaignRecord& campaign, std::vector<CellRecord> cells
     pools_.push_back(std::move(pool));
   }
   for (auto& pool : condition_pools(cells_)) pools_.push_back(std::move(pool));
+  required_probes_ = campaign.required_probes;
+  coverage_.resize(pools_.size());
+  pending_coverage_.resize(pools_.size());
   pending_flags_.resize(pools_.size());
   worst_of_pool_.resize(pools_.size(), WorstRuns(1));
   for (std::size_t i = 0; i < pools_.size(); ++i) {
@@ -69,7 +72,19 @@ void Evidence::add(const RunRecord& run) {
   if (const auto failing = FailingRun::of(run)) {
     (cells_[run.cell].in_contract() ? worst_inside_ : worst_outside_).add(*failing);
   }
-  for (const auto pool : pools_of_cell_[run.cell]) add_to_pool(pool, run);
+  std::map<IncidentKind, std::uint64_t> incidents;
+  for (const auto& incident : run.outcome.incidents) ++incidents[incident.kind];
+  for (const auto& [kind, count] : incidents) {
+    auto& tally = incidents_[cells_[run.cell].agent].try_emplace(kind, IncidentTally{0, 0, run.run_index}).first->second;
+    ++tally.runs;
+    tally.incidents += count;
+  }
+  Coverage met;
+  met.add(run.outcome);
+  for (const auto pool : pools_of_cell_[run.cell]) {
+    pending_coverage_[pool].add(met);
+    add_to_pool(pool, run);
+  }
   if (run.cell + 1 == cells_.size()) finish_replicate();
 }
 
@@ -87,6 +102,7 @@ void Evidence::finish_replicate() {
   ++replicates_;
   for (std::size_t i = 0; i < tallies_.size(); ++i) tallies_[i].add(std::exchange(pending_tallies_[i], Tally{}));
   for (std::size_t i = 0; i < pools_.size(); ++i) {
+    coverage_[i].add(std::exchange(pending_coverage_[i], Coverage{}));
     const auto flags = std::exchange(pending_flags_[i], Flags{});
     if (pools_[i].cells.empty()) continue;
     ++pools_[i].units;
@@ -116,7 +132,10 @@ GateResult Evidence::judge(std::size_t index) const {
   counts.failing_runs = pool.failing_runs;
   counts.transports_per_agv_hour = progress.transports_per_agv_hour();
   counts.counts_only = counts_only_;
+  const bool asks_for_encounters = std::ranges::find(required_probes_, "encounter") != required_probes_.end();
+  counts.met_nobody = asks_for_encounters && coverage_[index].seen("encounter").runs == 0;
   auto result = judge_gate(gates_[index], counts);
+  if (!pool.cells.empty()) result.missing = missing_probes(coverage_[index], required_probes_);
   if (const auto& worst = worst_of_pool_[index].list(); !worst.empty()) result.worst = worst.front();
   return result;
 }
@@ -135,6 +154,20 @@ std::vector<Condition> Evidence::conditions() const {
     for (const auto cell : pools_[i].cells) condition.tally.add(tallies_[cell]);
     if (const auto& worst = worst_of_pool_[i].list(); !worst.empty()) condition.worst = worst.front();
     list.push_back(std::move(condition));
+  }
+  return list;
+}
+
+std::vector<AgentCoverage> Evidence::agent_coverage() const {
+  std::vector<AgentCoverage> list;
+  for (std::size_t i = gates_.size(); i < pools_.size(); ++i) {
+    const auto& agent = cells_[pools_[i].cells.front()].agent;
+    if (list.empty() || list.back().agent != agent) list.push_back({agent, {}, {}, {}});
+    list.back().coverage.add(coverage_[i]);
+  }
+  for (auto& agent : list) {
+    agent.missing = missing_probes(agent.coverage, required_probes_);
+    if (const auto found = incidents_.find(agent.agent); found != incidents_.end()) agent.incidents = found->second;
   }
   return list;
 }

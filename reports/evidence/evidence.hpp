@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "reports/evidence/coverage.hpp"
 #include "reports/evidence/failing_run.hpp"
 #include "reports/evidence/gate_verdict.hpp"
 #include "reports/evidence/tally.hpp"
@@ -29,6 +31,14 @@ struct Condition {
   Tally tally;
   Pool pool;
   std::optional<FailingRun> worst;  // the most serious run that violated, or ended unknown
+};
+
+// What the runs of one agent met, what they were to meet and did not, and what the laws found besides pairs that were too close.
+struct AgentCoverage {
+  std::string agent;
+  Coverage coverage;
+  std::vector<MissingProbe> missing;
+  std::map<IncidentKind, IncidentTally> incidents;
 };
 
 // Counts the runs of a campaign, in order of run index, without gaps. Only complete replicates are counted, so that every cell has the same weight;
@@ -58,6 +68,8 @@ class Evidence {
   std::vector<GateResult> judge_all() const;
 
   std::vector<Condition> conditions() const;                         // by agent as the campaign names them, then loss, delay, mean outage
+  const Coverage& coverage_of(std::size_t gate) const { return coverage_.at(gate); }
+  std::vector<AgentCoverage> agent_coverage() const;                 // as the campaign names them
   const std::vector<FailingRun>& worst_runs(bool in_contract) const { return (in_contract ? worst_inside_ : worst_outside_).list(); }
 
  private:
@@ -77,6 +89,9 @@ class Evidence {
   std::vector<Flags> pending_flags_;               // in the same order
   std::vector<std::vector<std::size_t>> pools_of_cell_;
   std::vector<WorstRuns> worst_of_pool_;           // in the same order
+  std::vector<Coverage> coverage_, pending_coverage_;  // in the same order
+  std::vector<std::string> required_probes_;
+  std::map<std::string, std::map<IncidentKind, IncidentTally>> incidents_;  // by agent, of the runs read so far
   WorstRuns worst_inside_{kWorstRuns}, worst_outside_{kWorstRuns};
 };
 

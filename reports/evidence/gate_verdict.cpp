@@ -39,6 +39,7 @@ std::string missing_for_demonstration(const GateRecord& gate, GateResult& result
     add_sentence_part(missing, fmt::format("stopped after {} of {} planned replicates; the bound holds only for the number fixed beforehand", counts.units, counts.planned));
   }
   if (result.claim->upper > gate.limit) add_sentence_part(missing, bound_too_high(gate, result));
+  if (counts.met_nobody) add_sentence_part(missing, "no run met an encounter of two AGVs: what this gate claims was never put to the test");
   if (!asks_for_progress(gate)) return missing;
   const double rate = counts.transports_per_agv_hour.value_or(0.0);
   if (!(rate >= gate.min_transports_per_agv_hour)) {

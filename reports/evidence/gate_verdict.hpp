@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "reports/evidence/binomial.hpp"
+#include "reports/evidence/coverage.hpp"
 #include "reports/evidence/failing_run.hpp"
 #include "storage/records.hpp"
 
@@ -35,6 +36,7 @@ struct GateCounts {
   std::uint64_t failing_runs = 0;       // known failures among all runs read so far, complete replicate or not
   std::optional<double> transports_per_agv_hour;
   std::size_t idle_cells = 0;           // cells in which progress is due and no transport was done
+  bool met_nobody = false;              // encounters are asked for and no run met any
   bool counts_only = false;             // the campaign searches for failures: its counts are no sample of anything
   bool complete() const { return units >= planned; }
 };
@@ -47,11 +49,12 @@ struct GateResult {
   std::optional<Estimate> claim;          // unknown outcomes count as failing; absent in a search
   std::optional<Estimate> optimistic;     // unknown outcomes count as passed
   std::optional<std::uint64_t> units_needed;  // in all, if no further one fails, before the bound can meet the limit; set while that is the obstacle
+  std::vector<MissingProbe> missing;      // not empty: the evidence is weak, whatever the verdict
   std::optional<FailingRun> worst;        // the most serious run that did not pass
 };
 
 // Refuted only if the known failures alone refute; demonstrated only if the claim, in which every unknown counts as a failure, meets the limit and the
-// fleet made progress: both words are true however the unknown outcomes would have ended.
+// fleet made progress, and met other AGVs if encounters are asked for: both words are true however the unknown outcomes would have ended.
 // Bounds decide only on all planned replicates: whoever may stop when a bound looks good has no bound. Before that only a gate that allows no failure is decided,
 // by a failure.
 GateResult judge_gate(const GateRecord& gate, const GateCounts& counts);

@@ -16,7 +16,7 @@ RunResult result_of(const Outcome& outcome, EndPoint end_point);
 struct Tally {
   std::uint64_t runs = 0;
   std::uint64_t violating_runs = 0;  // broke the safety distance, or touched
-  std::uint64_t contact_runs = 0, stuck_runs = 0, crash_runs = 0, hang_runs = 0, indeterminate_runs = 0, engine_error_runs = 0;
+  std::uint64_t contact_runs = 0, hazardous_contact_runs = 0, stuck_runs = 0, crash_runs = 0, hang_runs = 0, indeterminate_runs = 0, engine_error_runs = 0;
   std::uint64_t unknown_runs = 0;    // ended early, and had not violated before
   std::uint64_t transports_done = 0;
   std::uint64_t agv_us = 0;          // AGVs x simulated time

@@ -18,7 +18,16 @@ struct World {
 constexpr World kSmall{4, 8, 5, 60.0};      // 56 segments
 constexpr World kLarge{12, 24, 50, 600.0};  // 552 segments
 
-void run(benchmark::State& state, const World& world, const char* agent_name, bool with_law) {
+enum class Watch { Nobody, Judge, DefaultSet };
+
+std::vector<std::unique_ptr<Law>> observers(Watch watch, const Scenario& scenario) {
+  if (watch == Watch::DefaultSet) return make_default_laws(scenario);
+  std::vector<std::unique_ptr<Law>> laws;
+  if (watch == Watch::Judge) laws.push_back(find_law("safety-distance")->make(scenario));
+  return laws;
+}
+
+void run(benchmark::State& state, const World& world, const char* agent_name, Watch watch) {
   const AgentPrograms programs;
   const fp_agent_type& agent = programs.find(agent_name, "bench");
   Scenario scenario = test::grid_world(world.rows, world.columns, world.fleet, world.horizon_s, 1);
@@ -29,8 +38,7 @@ void run(benchmark::State& state, const World& world, const char* agent_name, bo
   const std::uint64_t allocated_before = allocations();
   for (auto _ : state) {
     scenario.seed = ++runs;
-    std::vector<std::unique_ptr<Law>> laws;
-    if (with_law) laws.push_back(find_law("safety-distance")->make(scenario));
+    const auto laws = observers(watch, scenario);
     const Outcome outcome = simulate(scenario, agent, laws);
     sum.events += outcome.counters.events;
     sum.messages_sent += outcome.counters.messages_sent;
@@ -50,12 +58,14 @@ void run(benchmark::State& state, const World& world, const char* agent_name, bo
   state.counters["runs/s"] = benchmark::Counter(static_cast<double>(runs), benchmark::Counter::kIsRate);
 }
 
-BENCHMARK_CAPTURE(run, 5x60_hull_lock, kSmall, "hull-lock", true)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(run, 5x60_hull_lock_no_law, kSmall, "hull-lock", false)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(run, 5x60_reckless, kSmall, "reckless", true)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(run, 50x600_hull_lock, kLarge, "hull-lock", true)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(run, 50x600_hull_lock_no_law, kLarge, "hull-lock", false)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(run, 50x600_reckless, kLarge, "reckless", true)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(run, 5x60_hull_lock, kSmall, "hull-lock", Watch::Judge)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(run, 5x60_hull_lock_no_law, kSmall, "hull-lock", Watch::Nobody)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(run, 5x60_hull_lock_all_laws, kSmall, "hull-lock", Watch::DefaultSet)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(run, 5x60_reckless, kSmall, "reckless", Watch::Judge)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(run, 50x600_hull_lock, kLarge, "hull-lock", Watch::Judge)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(run, 50x600_hull_lock_no_law, kLarge, "hull-lock", Watch::Nobody)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(run, 50x600_hull_lock_all_laws, kLarge, "hull-lock", Watch::DefaultSet)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(run, 50x600_reckless, kLarge, "reckless", Watch::Judge)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace fleetproof

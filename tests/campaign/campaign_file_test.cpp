@@ -57,6 +57,33 @@ TEST_F(CampaignFileTest, DefaultsAreThePapers) {
   EXPECT_EQ(plan.run_count(), 1U);
 }
 
+TEST_F(CampaignFileTest, LawsMayBeLeftOutButNotTheJudge) {
+  EXPECT_TRUE(read(kFactors).plan.laws_left_out.empty());
+  const CampaignPlan plan = read(kFactors + "[law]\nleave_out = [\"congestion\"]\nreaction_s = 3.0\nmin_transports_per_agv_hour = 2.0\n").plan;
+  EXPECT_EQ(plan.laws_left_out, (std::vector<std::string>{"congestion"}));
+  const CampaignPlan back = parse_plan(plan_text(plan));
+  EXPECT_EQ(back.laws_left_out, plan.laws_left_out);
+  EXPECT_EQ(back.law.reaction_s, 3.0);
+  EXPECT_EQ(back.law.min_transports_per_agv_hour, 2.0);
+  EXPECT_EQ(plan_text(back), plan_text(plan));
+  EXPECT_THAT(error_of(kFactors + "[law]\nleave_out = [\"safety-distance\"]\n"), HasSubstr("the judge of violations"));
+  EXPECT_THAT(error_of(kFactors + "[law]\nleave_out = [\"congestoin\"]\n"), HasSubstr("did you mean \"congestion\"?"));
+  EXPECT_THAT(error_of(kFactors + "[law]\nleave_out = [\"coverage\"]\n"), HasSubstr("set coverage.probes = []"));
+  EXPECT_THAT(error_of(kFactors + "[law]\nreaction_s = -1\n"), HasSubstr("law.reaction_s is -1"));
+}
+
+TEST_F(CampaignFileTest, AClaimAsksForEncountersAndASearchForNothing) {
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(read(kFactors).plan.probes_to_meet(), (Names{"encounter", "negotiation?"}));
+  EXPECT_EQ(read("kind = \"search\"\n" + kFactors).plan.probes_to_meet(), Names{});
+  const CampaignPlan plan = read("kind = \"search\"\n" + kFactors + "[coverage]\nprobes = [\"head-on\"]\n").plan;
+  EXPECT_EQ(plan.probes_to_meet(), (Names{"head-on"}));
+  EXPECT_EQ(parse_plan(plan_text(plan)).probes_to_meet(), (Names{"head-on"}));
+  EXPECT_EQ(read(kFactors + "[coverage]\nprobes = []\n").plan.probes_to_meet(), Names{});
+  EXPECT_THAT(error_of(kFactors + "[coverage]\nprobes = [\"\"]\n"), HasSubstr("coverage.probes holds"));
+  EXPECT_THAT(error_of(kFactors + "[coverage]\nprobse = []\n"), HasSubstr("did you mean"));
+}
+
 TEST_F(CampaignFileTest, CellsAreAllCombinations) {
   const CampaignPlan plan =
       read("replicates = 3\n[factors]\nagents = [\"reckless\", \"hull-lock\"]\nlayouts = [\"aisle-grid\", \"corridor-sidings\"]\nfleet_sizes = [2, 5]\nloss = [0, "

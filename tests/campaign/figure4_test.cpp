@@ -52,6 +52,31 @@ TEST_F(Figure4Program, TheHoleInThePublishedLaw) {
   EXPECT_NEAR(json["violations"][0]["min_clearance_m"], 0.05, 0.0001);
 }
 
+TEST_F(Figure4Program, ThePublishedLawIsComparedWithTheJudge) {
+  const auto json = simulate("parked_then_leaves.json", "paper --granularity 10ms", 0);
+  EXPECT_EQ(json["compared_with"], "safety-distance");
+  ASSERT_EQ(json["differences"].size(), 1U);
+  EXPECT_EQ(json["differences"][0]["what"], "missed");
+  EXPECT_EQ(json["differences"][0]["cause"], "rest phase");
+  EXPECT_EQ(json["differences"][0]["violation"]["entities"], (nlohmann::json{"X", "Y"}));
+  EXPECT_TRUE(simulate("figure4.json", "paper", 1)["differences"].empty());
+  EXPECT_FALSE(simulate("figure4.json", "exact", 1).contains("differences")) << "there is nothing to compare with";
+  const auto text = run("simulate " + test::source("tests/scenarios/parked_then_leaves.json") + " --law paper --granularity 1s");
+  EXPECT_NE(text.out.find("missed (rest phase): X and Y from 2.540 s to 4.193 s"), std::string::npos) << text.out;
+}
+
+TEST_F(Figure4Program, GranularityHasAUnit) {
+  const auto checks = [&](const std::string& granularity) {
+    return simulate("figure4.json", "global-step --granularity " + granularity, 1)["counters"]["perimeter_checks"];
+  };
+  EXPECT_EQ(checks("10ms"), 9600);
+  EXPECT_EQ(checks("0.01s"), 9600);
+  EXPECT_EQ(checks("0.01"), 9600);
+  for (const char* bad : {"ms", "1h", "1 s", "-1s", "0", "nan", "1e-9"}) {
+    EXPECT_EQ(run("simulate " + test::source("tests/scenarios/figure4.json") + " --law paper --granularity '" + bad + "'").exit_code, 2) << bad;
+  }
+}
+
 TEST_F(Figure4Program, NoLawMovesTheTrace) {
   const auto digest = simulate("figure4.json", "exact", 1)["digest"];
   EXPECT_EQ(simulate("figure4.json", "paper", 1)["digest"], digest);

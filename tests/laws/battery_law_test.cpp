@@ -26,8 +26,12 @@ TEST(BatteryLaw, AccusesAnAgvThatRunsEmptyOnTheTrack) {
 
 TEST(BatteryLaw, TheIncidentEndsWhenItIsCharged) {
   const Scenario scenario = with_charger();
-  const auto found =
-      Told(scenario, "battery").record(7.0, 0, TraceKind::BatteryEmpty).begins(20.0, 0, ActivityKind::Park).begins(30.0, 0, ActivityKind::Charge).finish(60.0).incidents;
+  const auto found = Told(scenario, "battery")
+                         .record(7.0, 0, TraceKind::BatteryEmpty)
+                         .begins(20.0, 0, ActivityKind::Park)
+                         .begins(30.0, 0, ActivityKind::Charge)
+                         .finish(60.0)
+                         .incidents;
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].last, at_seconds(30.0));
 }

@@ -29,7 +29,12 @@ class Containment : public testing::Test {
   Told& released() { return told_.record(1.0, 0, TraceKind::OrderReleased, 0).load_at_station(1.0, 0, 0, 1); }
   Told& picked() { return released().begins(5.0, 0, kPick, 0).load_on_agv(10.0, 0, 0).ends(10.0, 0, kPick); }
   Told& done() {
-    return picked().stand(0, station_m(3), 20.0).begins(20.0, 0, kDrop, 0).load_at_station(25.0, 0, 0, 3).record(25.0, 0, TraceKind::TransportDone, 0).ends(25.0, 0, kDrop);
+    return picked()
+        .stand(0, station_m(3), 20.0)
+        .begins(20.0, 0, kDrop, 0)
+        .load_at_station(25.0, 0, 0, 3)
+        .record(25.0, 0, TraceKind::TransportDone, 0)
+        .ends(25.0, 0, kDrop);
   }
   std::vector<IncidentKind> found() { return kinds_of(incidents()); }
   std::vector<Incident> incidents() { return told_.finish(60.0).incidents; }

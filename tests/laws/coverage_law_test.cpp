@@ -33,7 +33,7 @@ TEST(Encounters, OneAgainstTheOtherIsHeadOn) {
 
 TEST(Encounters, WhoeverWaitsUntilTheOtherHasPassedHasStillMetIt) {
   Scene scene(40.0);
-  scene.agv(facing(0.0, 0.0, 1.0, 0.0)).drive(10.0);                                  // until 8 s, past the crossing
+  scene.agv(facing(0.0, 0.0, 1.0, 0.0)).drive(10.0);  // until 8 s, past the crossing
   scene.agv(facing(5.0, -5.0, 0.0, 1.0)).wait_until(15.0).drive(10.0);
   EXPECT_EQ(met(scene), (Met{{"crossing", 1}}));
 }
@@ -134,12 +134,13 @@ TEST(Faults, AreCountedByKind) {
 }
 
 TEST(Probes, WhatAnAgentDeclaresIsSummedByName) {
-  const Outcome outcome = simulate_with(row_scenario(4, {0, 3}), [](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& event) {
-    if (event.kind != FP_EVENT_START) return;
-    host.sometimes(c, "negotiation");
-    if (b.self == 1) host.sometimes(c, "deferred");
-    host.log(c, "a log is no probe");
-  });
+  const Outcome outcome =
+      simulate_with(row_scenario(4, {0, 3}), [](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& event) {
+        if (event.kind != FP_EVENT_START) return;
+        host.sometimes(c, "negotiation");
+        if (b.self == 1) host.sometimes(c, "deferred");
+        host.log(c, "a log is no probe");
+      });
   EXPECT_EQ(outcome.probes, (std::vector<ProbeCount>{{ProbeSource::Agent, "deferred", 1}, {ProbeSource::Agent, "negotiation", 2}}));
 }
 

@@ -23,7 +23,8 @@ std::string suite_name(const testing::TestParamInfo<Entry<MakeLaw>>& law) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Catalogue, LawContract, testing::ValuesIn(laws().begin(), laws().end()), suite_name);
-INSTANTIATE_TEST_SUITE_P(Catalogue, ClearanceLawContract, testing::Values(*find_law("safety-distance"), *find_law("paper"), *find_law("global-step")), suite_name);
+INSTANTIATE_TEST_SUITE_P(Catalogue, ClearanceLawContract, testing::Values(*find_law("safety-distance"), *find_law("paper"), *find_law("global-step")),
+                         suite_name);
 
 TEST(LawCatalogue, BeginsWithTheDefaultAndRepeatsNoName) {
   ASSERT_EQ(laws().front().name, "safety-distance");

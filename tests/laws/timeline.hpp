@@ -191,8 +191,6 @@ inline LawFindings play(const Scene& scene, MakeLaw make, Order order = Order::B
   return law->findings();
 }
 
-inline LawFindings play(const Scene& scene, std::string_view law, Order order = Order::ByEntity) {
-  return play(scene, find_law(law)->make, order);
-}
+inline LawFindings play(const Scene& scene, std::string_view law, Order order = Order::ByEntity) { return play(scene, find_law(law)->make, order); }
 
 }  // namespace fleetproof::test

@@ -14,14 +14,16 @@ class Told {
  public:
   // Every AGV stands at its start, every obstacle where it is.
   Told(const Scenario& scenario, std::string_view law) : scenario_(scenario), law_(find_law(law)->make(scenario)), kinds_(law_->reads()) {
-    for (std::size_t i = 0; i < scenario.agvs.size(); ++i) stand(static_cast<std::uint32_t>(i), scenario.map->station(scenario.agvs[i].start).position_m, 0.0);
+    for (std::size_t i = 0; i < scenario.agvs.size(); ++i)
+      stand(static_cast<std::uint32_t>(i), scenario.map->station(scenario.agvs[i].start).position_m, 0.0);
     for (std::size_t i = 0; i < scenario.obstacles.size(); ++i) {
       begin(rest_piece(EntityId{scenario.agvs.size() + i}, scenario.obstacles[i].footprint, scenario.obstacles[i].pose, kStart));
     }
   }
 
   Told& stand(std::uint32_t agv, const Vec2& at_m, double from_s) {
-    return begin(rest_piece(EntityId{agv}, scenario_.type_of(scenario_.agvs[agv]).footprint, {at_m, scenario_.agvs[agv].heading}, at_seconds(from_s)));
+    return begin(
+        rest_piece(EntityId{agv}, scenario_.type_of(scenario_.agvs[agv]).footprint, {at_m, scenario_.agvs[agv].heading}, at_seconds(from_s)));
   }
 
   // Records a kind that the law does not read, it does not hear of.
@@ -35,8 +37,12 @@ class Told {
   Told& ends(double at_s, std::uint32_t agv, ActivityKind kind, bool as_planned = true) {
     return record(at_s, agv, TraceKind::ActivityEnds, static_cast<std::uint64_t>(kind), as_planned ? 1 : 0);
   }
-  Told& load_at_station(double at_s, std::uint32_t agv, std::uint64_t load, std::uint32_t station) { return record(at_s, agv, TraceKind::LoadMoves, load, station); }
-  Told& load_on_agv(double at_s, std::uint32_t agv, std::uint64_t load) { return record(at_s, agv, TraceKind::LoadMoves, load, std::uint64_t{1} << 32 | agv); }
+  Told& load_at_station(double at_s, std::uint32_t agv, std::uint64_t load, std::uint32_t station) {
+    return record(at_s, agv, TraceKind::LoadMoves, load, station);
+  }
+  Told& load_on_agv(double at_s, std::uint32_t agv, std::uint64_t load) {
+    return record(at_s, agv, TraceKind::LoadMoves, load, std::uint64_t{1} << 32 | agv);
+  }
 
   LawFindings finish(double end_s) {
     for (auto& [entity, piece] : open_) {

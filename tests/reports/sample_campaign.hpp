@@ -17,6 +17,7 @@ inline CampaignRecord campaign_of(std::string kind, std::uint64_t replicates) {
   record.replicates = replicates;
   record.plan_hash = 0xabcULL;
   record.engine = {"0.1.0", "f00d", "g++ 12.2.0", "-O2 -ffp-contract=off", "SQLite 3.40.1"};
+  if (record.kind == "claim") record.required_probes = {"encounter", "negotiation?"};
   return record;
 }
 
@@ -47,6 +48,7 @@ inline RunRecord clean_run(std::uint64_t run_index, std::size_t cells) {
   run.outcome.simulated_ns = 600'000'000'000;
   run.outcome.agv_count = 5;
   run.outcome.counters.transports_done = 10;
+  file_probes(run.outcome, {{ProbeSource::World, "crossing", 4}, {ProbeSource::World, "head-on", 2}, {ProbeSource::Agent, "negotiation", 30}});
   return run;
 }
 

@@ -1,0 +1,86 @@
+#include "laws/congestion_law.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+namespace fleetproof {
+namespace {
+
+constexpr Duration kWindow = std::chrono::seconds(1);
+constexpr std::int64_t kWhole_ppm = 1'000'000;
+constexpr std::int64_t kSaturated_ppm = 500'000;
+constexpr std::int64_t kInterference_ppm = 100'000;
+constexpr std::uint64_t kFewestInterfered = 5;
+
+// Kinds of records that tell of a reception destroyed by another transmission: each goes into this list, and the law hears of it.
+constexpr std::array<TraceKind, 0> kDestroyedByInterference{};
+
+constexpr bool is_interference(TraceKind kind) { return std::ranges::find(kDestroyedByInterference, kind) != kDestroyedByInterference.end(); }
+
+class CongestionLaw final : public Law {
+ public:
+  explicit CongestionLaw(const Scenario& scenario) : air_time_(seconds(scenario.radio.air_time_s)) {}
+
+  void piece_ended(const Piece&) override {}
+  TraceKinds reads() const override {
+    TraceKinds kinds{TraceKind::Sent, TraceKind::Lost, TraceKind::Received};
+    for (const TraceKind kind : kDestroyedByInterference) kinds = kinds | TraceKinds{kind};
+    return kinds;
+  }
+  void happened(const TraceRecord& record) override {
+    windows_before(record.at);
+    if (record.kind == TraceKind::Sent) {
+      offered_ += air_time_;
+    } else {
+      ++receptions_;
+      destroyed_ += is_interference(record.kind) ? 1 : 0;
+    }
+  }
+  void finish(SimTime end) override { windows_before(end + kWindow); }
+  LawFindings findings() const override {
+    LawFindings findings;
+    findings.incidents = incidents_;
+    return findings;
+  }
+
+ private:
+  // Closes every window that ends at or before `t`.
+  void windows_before(SimTime t) {
+    for (; window_ + kWindow <= t; window_ += kWindow) {
+      judge(IncidentKind::ChannelSaturated, saturated_, kWhole_ppm * offered_.count() / kWindow.count(), kSaturated_ppm, true);
+      const std::int64_t share_ppm =
+          receptions_ == 0 ? 0 : kWhole_ppm * static_cast<std::int64_t>(destroyed_) / static_cast<std::int64_t>(receptions_);
+      judge(IncidentKind::InterferenceLosses, interfered_, share_ppm, kInterference_ppm, destroyed_ >= kFewestInterfered);
+      offered_ = Duration::zero();
+      receptions_ = destroyed_ = 0;
+    }
+  }
+
+  void judge(IncidentKind kind, std::optional<std::size_t>& under_way, std::int64_t value_ppm, std::int64_t limit_ppm, bool enough) {
+    if (value_ppm < limit_ppm || !enough) {
+      under_way.reset();
+      return;
+    }
+    if (!under_way) {
+      under_way = incidents_.size();
+      incidents_.push_back({kind, {}, {}, window_, window_, 0});
+    }
+    Incident& incident = incidents_[*under_way];
+    incident.last = window_ + kWindow;
+    incident.value = std::max(incident.value, value_ppm);
+  }
+
+  Duration air_time_;
+  SimTime window_ = kStart;
+  Duration offered_{};
+  std::uint64_t receptions_ = 0, destroyed_ = 0;
+  std::optional<std::size_t> saturated_, interfered_;
+  std::vector<Incident> incidents_;
+};
+
+}  // namespace
+
+std::unique_ptr<Law> make_congestion_law(const Scenario& scenario) { return std::make_unique<CongestionLaw>(scenario); }
+
+}  // namespace fleetproof

@@ -1,0 +1,102 @@
+#include "laws/link_quality.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fleetproof {
+namespace {
+
+constexpr double kSignificance = 1e-4;
+constexpr double kNormalQuantile = 3.7190164854556804;  // of 1 - 1e-4
+constexpr std::uint32_t kExactUpTo = 512;
+
+std::uint32_t exact_rejection(std::uint32_t n) {
+  // From above: the tail P(X >= k) grows term by term until it passes the significance.
+  double term = 1.0;  // P(X = n) = p^n
+  for (std::uint32_t i = 0; i < n; ++i) term *= kContractLoss;
+  double tail = 0.0;
+  std::uint32_t k = n + 1;
+  while (k > 0 && tail + term < kSignificance) {
+    tail += term;
+    --k;
+    if (k == 0) break;
+    // P(X = k - 1) from P(X = k)
+    term *= static_cast<double>(k) / static_cast<double>(n - k + 1) * (1.0 - kContractLoss) / kContractLoss;
+  }
+  return k;
+}
+
+}  // namespace
+
+std::uint32_t losses_that_reject(std::uint32_t receptions) {
+  static const std::vector<std::uint32_t> table = [] {
+    std::vector<std::uint32_t> all;
+    for (std::uint32_t n = 0; n <= kExactUpTo; ++n) all.push_back(exact_rejection(n));
+    return all;
+  }();
+  if (receptions <= kExactUpTo) return table[receptions];
+  const double n = static_cast<double>(receptions);
+  return static_cast<std::uint32_t>(std::ceil(kContractLoss * n + kNormalQuantile * std::sqrt(n * kContractLoss * (1.0 - kContractLoss)) + 0.5));
+}
+
+LinkQuality::LinkQuality(std::size_t agvs) : agvs_(agvs), seconds_(agvs * agvs), sent_(agvs), next_(agvs, 0) {}
+
+LinkQuality::Link& LinkQuality::now(std::size_t sender, std::size_t receiver, SimTime at) {
+  const std::int64_t number = to_ns(at) / 1'000'000'000;
+  Second& second = seconds_[receiver * agvs_ + sender][static_cast<std::size_t>(number % kQualityWindow_s)];
+  if (second.number != number) second = {number, {}};
+  return second.link;
+}
+
+void LinkQuality::note(const TraceRecord& record) {
+  if (record.kind == TraceKind::Sent) {
+    auto& next = next_[record.entity.index()];
+    sent_[record.entity.index()][next] = {record.b, record.at};
+    next = (next + 1) % kRemembered;
+    return;
+  }
+  if (record.a >= agvs_ || record.entity.index() >= agvs_) return;
+  Link& link = now(record.a, record.entity.index(), record.at);
+  ++link.receptions;
+  if (record.kind == TraceKind::Lost) {
+    ++link.lost;
+    return;
+  }
+  const auto& ring = sent_[record.a];
+  const std::size_t newest = next_[record.a] + kRemembered - 1;
+  for (std::size_t back = 0; back < kRemembered; ++back) {
+    const SentMessage& message = ring[(newest - back) % kRemembered];
+    if (message.hash != record.b || message.at == SimTime::min()) continue;
+    link.longest = std::max(link.longest, record.at - message.at);
+    return;
+  }
+}
+
+LinkQuality::Link LinkQuality::link(std::size_t sender, std::size_t receiver, std::int64_t second) const {
+  Link sum;
+  for (const Second& one : seconds_[receiver * agvs_ + sender]) {
+    if (one.number < 0 || one.number > second || one.number <= second - kQualityWindow_s) continue;
+    sum.receptions += one.link.receptions;
+    sum.lost += one.link.lost;
+    sum.longest = std::max(sum.longest, one.link.longest);
+  }
+  return sum;
+}
+
+bool LinkQuality::all_in_contract(std::size_t receiver, std::int64_t second) const {
+  for (std::size_t sender = 0; sender < agvs_; ++sender) {
+    if (sender != receiver && !link(sender, receiver, second).in_contract()) return false;
+  }
+  return true;
+}
+
+std::int64_t LinkQuality::worst_loss_ppm(std::size_t receiver, std::int64_t second) const {
+  std::int64_t worst = 0;
+  for (std::size_t sender = 0; sender < agvs_; ++sender) {
+    const Link one = link(sender, receiver, second);
+    if (one.receptions > 0) worst = std::max(worst, std::int64_t{1'000'000} * one.lost / one.receptions);
+  }
+  return worst;
+}
+
+}  // namespace fleetproof

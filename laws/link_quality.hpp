@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/law.hpp"
+
+namespace fleetproof {
+
+// The contract of the radio (Sect. 2.4 of the paper), and how it is judged at an instant.
+inline constexpr double kContractLoss = 0.40;
+inline constexpr Duration kContractDelay = std::chrono::seconds(2);
+inline constexpr int kQualityWindow_s = 10;
+
+// The number of losses among `receptions` from which on "at most 40 % are lost" is rejected, by a one-sided binomial test at 1e-4; more than
+// `receptions` if no number of losses can reject it.
+std::uint32_t losses_that_reject(std::uint32_t receptions);
+
+// The links of a fleet over the last ten whole seconds, from what the trace records. A loss counts when it was sent, a reception when it arrived. Of
+// several messages with equal bytes, the last one sent is taken for the one received: the delay is never overrated.
+class LinkQuality {
+ public:
+  explicit LinkQuality(std::size_t agvs);
+
+  static TraceKinds reads() { return {TraceKind::Sent, TraceKind::Lost, TraceKind::Received}; }
+  void note(const TraceRecord& record);
+
+  struct Link {
+    std::uint32_t receptions = 0, lost = 0;
+    Duration longest{};
+    bool in_contract() const { return longest <= kContractDelay && lost < losses_that_reject(receptions); }
+  };
+  // The second that begins at `second` and the nine before it.
+  Link link(std::size_t sender, std::size_t receiver, std::int64_t second) const;
+  // Whether every link to `receiver` kept the contract, and the largest share lost on one of them, in millionths.
+  bool all_in_contract(std::size_t receiver, std::int64_t second) const;
+  std::int64_t worst_loss_ppm(std::size_t receiver, std::int64_t second) const;
+
+ private:
+  struct Second {
+    std::int64_t number = -1;
+    Link link;
+  };
+  struct SentMessage {
+    std::uint64_t hash = 0;
+    SimTime at = SimTime::min();
+  };
+  static constexpr std::size_t kRemembered = 128;  // messages of a sender; what arrives after so many more is not dated
+
+  Link& now(std::size_t sender, std::size_t receiver, SimTime at);
+
+  std::size_t agvs_;
+  std::vector<std::array<Second, kQualityWindow_s>> seconds_;  // by receiver x AGVs + sender
+  std::vector<std::array<SentMessage, kRemembered>> sent_;     // by sender, as a ring
+  std::vector<std::size_t> next_;
+};
+
+}  // namespace fleetproof

@@ -1,0 +1,149 @@
+#include "laws/normal_operation_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/activity.hpp"
+#include "laws/link_quality.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr Duration kSecond = std::chrono::seconds(1);
+
+class NormalOperationLaw final : public Law {
+ public:
+  explicit NormalOperationLaw(const Scenario& scenario)
+      : scenario_(scenario), reaction_(seconds(scenario.law.reaction_s)), quality_(scenario.agvs.size()), agvs_(scenario.agvs.size()) {}
+
+  void piece_ended(const Piece&) override {}
+  TraceKinds reads() const override {
+    return LinkQuality::reads() |
+           TraceKinds{TraceKind::SafeMode, TraceKind::OrderReleased, TraceKind::TransportDone, TraceKind::ActivityBegins, TraceKind::ActivityEnds};
+  }
+  void happened(const TraceRecord& record) override;
+  void finish(SimTime end) override;
+  LawFindings findings() const override;
+
+ private:
+  struct AgvState {
+    bool safe = false, busy = false;
+    SimTime in_contract_since = kStart;
+    std::optional<std::size_t> incident;  // its safe mode, being accused
+  };
+
+  void seconds_before(SimTime t);
+  void look(SimTime now);
+  void look_at_safe_mode(std::size_t agv, SimTime now, std::int64_t second);
+  void look_at_standstill(SimTime now);
+
+  const Scenario& scenario_;
+  Duration reaction_;
+  LinkQuality quality_;
+  std::vector<AgvState> agvs_;
+  std::uint64_t open_ = 0, done_ = 0;
+  SimTime active_at_ = kStart, all_in_contract_since_ = kStart, next_ = kStart + kSecond;
+  bool always_in_contract_ = true;
+  std::optional<std::size_t> standstill_;
+  std::vector<Incident> incidents_;
+};
+
+void NormalOperationLaw::happened(const TraceRecord& record) {
+  seconds_before(record.at);
+  switch (record.kind) {
+    case TraceKind::Sent:
+    case TraceKind::Lost:
+    case TraceKind::Received:
+      quality_.note(record);
+      break;
+    case TraceKind::SafeMode:
+      agvs_[record.entity.index()].safe = record.a != 0;
+      break;
+    case TraceKind::OrderReleased:
+      if (open_++ == 0) active_at_ = record.at;  // from now on there is something to do
+      break;
+    case TraceKind::TransportDone:
+      open_ -= open_ > 0 ? 1 : 0;
+      ++done_;
+      break;
+    default: {
+      const auto kind = static_cast<ActivityKind>(record.a);
+      if (kind == ActivityKind::Park || kind == ActivityKind::Charge || kind == ActivityKind::Transmit) break;
+      agvs_[record.entity.index()].busy = record.kind == TraceKind::ActivityBegins;
+      active_at_ = record.at;
+    }
+  }
+}
+
+// A look at the end of every second that is over before `t`.
+void NormalOperationLaw::seconds_before(SimTime t) {
+  for (; next_ < t; next_ += kSecond) look(next_);
+}
+
+void NormalOperationLaw::look(SimTime now) {
+  const std::int64_t second = (to_ns(now) - 1) / 1'000'000'000;  // the one that ends now
+  bool all = true;
+  for (std::size_t i = 0; i < agvs_.size(); ++i) {
+    const bool kept = quality_.all_in_contract(i, second);
+    if (!kept) agvs_[i].in_contract_since = now;
+    all = all && kept;
+    look_at_safe_mode(i, now, second);
+  }
+  if (!all) all_in_contract_since_ = now;
+  always_in_contract_ = always_in_contract_ && all;
+  look_at_standstill(now);
+}
+
+void NormalOperationLaw::look_at_safe_mode(std::size_t agv, SimTime now, std::int64_t second) {
+  AgvState& state = agvs_[agv];
+  if (!state.safe || now - state.in_contract_since <= reaction_) {
+    state.incident.reset();
+    return;
+  }
+  const std::int64_t loss_ppm = quality_.worst_loss_ppm(agv, second);
+  if (!state.incident) {
+    state.incident = incidents_.size();
+    incidents_.push_back({IncidentKind::SafeModeInContract, EntityId{agv}, {}, now, now, loss_ppm});
+  }
+  Incident& incident = incidents_[*state.incident];
+  incident.last = now;
+  incident.value = std::max(incident.value, loss_ppm);
+}
+
+void NormalOperationLaw::look_at_standstill(SimTime now) {
+  const SimTime since = std::max(active_at_, all_in_contract_since_);
+  const bool busy = std::ranges::any_of(agvs_, &AgvState::busy);
+  if (open_ == 0 || busy || now - since < scenario_.stuck_after) {
+    standstill_.reset();
+    return;
+  }
+  if (!standstill_) {
+    standstill_ = incidents_.size();
+    incidents_.push_back({IncidentKind::StandstillInContract, {}, {}, since, now, 0});
+  }
+  incidents_[*standstill_].last = now;
+  incidents_[*standstill_].value = static_cast<std::int64_t>(open_);
+}
+
+void NormalOperationLaw::finish(SimTime end) {
+  seconds_before(end + Duration{1});
+  const double agv_hours = to_seconds(end) * static_cast<double>(agvs_.size()) / 3600.0;
+  if (!(scenario_.law.min_transports_per_agv_hour > 0.0) || open_ == 0 || !always_in_contract_ || !(agv_hours > 0.0)) return;
+  const double rate = static_cast<double>(done_) / agv_hours;
+  if (rate < scenario_.law.min_transports_per_agv_hour) {
+    incidents_.push_back({IncidentKind::ThroughputBelowFloor, {}, {}, kStart, end, std::llround(rate * 1000.0)});
+  }
+}
+
+LawFindings NormalOperationLaw::findings() const {
+  LawFindings findings;
+  findings.incidents = incidents_;
+  return findings;
+}
+
+}  // namespace
+
+std::unique_ptr<Law> make_normal_operation_law(const Scenario& scenario) { return std::make_unique<NormalOperationLaw>(scenario); }
+
+}  // namespace fleetproof

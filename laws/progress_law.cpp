@@ -1,0 +1,297 @@
+#include "laws/progress_law.hpp"
+
+#include <algorithm>
+#include <deque>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "core/activity.hpp"
+#include "laws/standing_in_the_way.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr int kLooksPerStuckAfter = 12;
+constexpr Duration kShortestLook = std::chrono::seconds(1);
+constexpr std::uint64_t kOvertaken = 2;  // transports finished by each of the others, on average
+
+struct AgvState {
+  std::deque<std::uint64_t> open;        // transports released and not done
+  std::optional<std::uint64_t> carried;  // transport of the load on it
+  SimTime open_since = kStart, active_at = kStart, advanced_at = kStart;
+  bool busy = false;
+  EntityId declared;                             // whom it says it waits for
+  std::uint64_t done = 0, others_done_then = 0;  // when it last advanced
+
+  bool has_work() const { return !open.empty(); }
+  SimTime still_since() const { return std::max(open_since, active_at); }
+  SimTime without_success_since() const { return std::max(open_since, advanced_at); }
+};
+
+struct Wait {
+  EntityId for_whom;
+  bool inferred = false;
+};
+
+bool is_work(ActivityKind kind) {
+  return kind == ActivityKind::Drive || kind == ActivityKind::Turn || kind == ActivityKind::Pick || kind == ActivityKind::Drop;
+}
+
+class ProgressLaw final : public Law {
+ public:
+  explicit ProgressLaw(const Scenario& scenario);
+
+  void piece_started(const Piece& piece) override {
+    look_before(piece.begin);
+    bodies_.note(piece);
+  }
+  void piece_ended(const Piece&) override {}
+  TraceKinds reads() const override {
+    return {TraceKind::OrderReleased, TraceKind::TransportDone, TraceKind::ActivityBegins,
+            TraceKind::ActivityEnds,  TraceKind::WaitingFor,    TraceKind::LoadMoves};
+  }
+  void happened(const TraceRecord& record) override;
+  void finish(SimTime end) override;
+  LawFindings findings() const override;
+
+ private:
+  using Key = std::pair<IncidentKind, EntityId>;
+
+  void order_released(const TraceRecord& record);
+  void load_moves(const TraceRecord& record);
+  void transport_done(const TraceRecord& record);
+  void advanced(AgvState& agv, SimTime at);
+  void look_before(SimTime t);
+  void look(SimTime now);
+  bool is_stalled(const AgvState& agv, SimTime now) const { return agv.has_work() && !agv.busy && now - agv.still_since() >= stuck_after_; }
+  void look_for_deadlocks(SimTime now);
+  void look_for_livelock(SimTime now);
+  void look_for_starvation(SimTime now);
+  Wait wait_of(EntityId agv, SimTime now) const;
+  void file_circle(const std::vector<EntityId>& circle, const std::map<EntityId, Wait>& waits, SimTime now);
+  void file_waits(const std::vector<EntityId>& agvs, const std::map<EntityId, Wait>& waits, SimTime first, SimTime now, std::int64_t value);
+  // Files the incident, or lets the one that is under way go on. True: it is new.
+  bool goes_on(const Incident& incident);
+
+  const Scenario& scenario_;
+  Duration stuck_after_, look_every_;
+  Whereabouts bodies_;
+  std::vector<AgvState> agvs_;
+  std::vector<TransportOrder> orders_;  // by number of the transport
+  std::vector<std::uint32_t> owner_;    // likewise
+  std::map<std::uint64_t, std::uint64_t> transport_of_load_;
+  std::optional<std::uint64_t> released_;
+  std::uint64_t done_ = 0, motions_ = 0, motions_then_ = 0;  // then: when the fleet last advanced
+  SimTime fleet_advanced_at_ = kStart, next_look_ = kStart;
+  std::map<Key, std::size_t> under_way_, before_;  // as of this look and the one before
+  std::vector<Incident> incidents_;
+  std::map<std::size_t, std::size_t> deadlock_of_wait_;  // by place in incidents_
+};
+
+ProgressLaw::ProgressLaw(const Scenario& scenario)
+    : scenario_(scenario),
+      stuck_after_(scenario.stuck_after),
+      look_every_(std::max(kShortestLook, stuck_after_ / kLooksPerStuckAfter)),
+      bodies_(scenario),
+      agvs_(scenario.agvs.size()),
+      next_look_(kStart + look_every_) {
+  for (std::size_t i = 0; i < scenario.agvs.size(); ++i) {
+    for (const TransportOrder& order : scenario.agvs[i].transports) {
+      orders_.push_back(order);
+      owner_.push_back(static_cast<std::uint32_t>(i));
+    }
+  }
+}
+
+void ProgressLaw::happened(const TraceRecord& record) {
+  look_before(record.at);
+  switch (record.kind) {
+    case TraceKind::OrderReleased:
+      order_released(record);
+      break;
+    case TraceKind::LoadMoves:
+      load_moves(record);
+      break;
+    case TraceKind::TransportDone:
+      transport_done(record);
+      break;
+    case TraceKind::WaitingFor:
+      agvs_[record.entity.index()].declared = EntityId{static_cast<std::uint32_t>(record.a)};
+      break;
+    case TraceKind::ActivityBegins:
+    case TraceKind::ActivityEnds: {
+      if (!is_work(static_cast<ActivityKind>(record.a))) break;
+      AgvState& agv = agvs_[record.entity.index()];
+      agv.busy = record.kind == TraceKind::ActivityBegins;
+      agv.active_at = record.at;
+      motions_ += agv.busy ? 1 : 0;
+      break;
+    }
+    default:
+      break;
+  }
+}
+
+void ProgressLaw::order_released(const TraceRecord& record) {
+  AgvState& agv = agvs_[record.entity.index()];
+  const bool fleet_idle = std::ranges::none_of(agvs_, &AgvState::has_work);
+  if (!agv.has_work()) {
+    agv.open_since = record.at;
+    agv.others_done_then = done_ - agv.done;
+  }
+  if (fleet_idle) {
+    fleet_advanced_at_ = record.at;
+    motions_then_ = motions_;
+  }
+  agv.open.push_back(record.a);
+  released_ = record.a;
+}
+
+void ProgressLaw::load_moves(const TraceRecord& record) {
+  AgvState& agv = agvs_[record.entity.index()];
+  if (released_) {
+    transport_of_load_[record.a] = *std::exchange(released_, std::nullopt);
+  } else if (record.b >> 32 == static_cast<std::uint64_t>(Holder::Kind::Agv)) {
+    agv.carried = transport_of_load_[record.a];
+    advanced(agv, record.at);
+  } else {
+    agv.carried.reset();
+  }
+}
+
+void ProgressLaw::transport_done(const TraceRecord& record) {
+  if (record.a >= owner_.size()) return;
+  AgvState& agv = agvs_[owner_[record.a]];
+  std::erase(agv.open, record.a);
+  ++agv.done;
+  ++done_;
+  advanced(agv, record.at);
+}
+
+void ProgressLaw::advanced(AgvState& agv, SimTime at) {
+  agv.advanced_at = fleet_advanced_at_ = at;
+  agv.others_done_then = done_ - agv.done;
+  motions_then_ = motions_;
+}
+
+// What happens at the instant of a look is seen by that look, in whatever order it is told.
+void ProgressLaw::look_before(SimTime t) {
+  for (; next_look_ < t; next_look_ += look_every_) look(next_look_);
+}
+
+void ProgressLaw::look(SimTime now) {
+  before_ = std::exchange(under_way_, {});
+  look_for_deadlocks(now);
+  look_for_livelock(now);
+  look_for_starvation(now);
+}
+
+bool ProgressLaw::goes_on(const Incident& incident) {
+  const Key key{incident.kind, incident.a};
+  const auto before = before_.find(key);
+  const bool is_new = before == before_.end();
+  under_way_[key] = is_new ? incidents_.size() : before->second;
+  if (is_new) {
+    incidents_.push_back(incident);
+  } else {
+    incidents_[before->second].last = incident.last;
+    incidents_[before->second].value = incident.value;
+  }
+  return is_new;
+}
+
+Wait ProgressLaw::wait_of(EntityId agv, SimTime now) const {
+  const AgvState& state = agvs_[agv.index()];
+  if (state.declared.valid()) return {state.declared, false};
+  const StationId here = station_of(*scenario_.map, bodies_.position_m(agv, now));
+  if (!here.valid()) return {};
+  const TransportOrder& order = orders_[state.carried.value_or(state.open.front())];
+  const Lane* lane = first_lane_of_way(*scenario_.map, here, state.carried ? order.to : order.from);
+  return lane == nullptr ? Wait{} : Wait{first_in_the_way(scenario_, bodies_, agv, *lane, now), true};
+}
+
+void ProgressLaw::look_for_deadlocks(SimTime now) {
+  std::map<EntityId, Wait> waits;  // of those that are stalled
+  std::vector<EntityId> stalled;
+  std::size_t at_work = 0;
+  for (std::size_t i = 0; i < agvs_.size(); ++i) {
+    at_work += agvs_[i].has_work() ? 1 : 0;
+    if (!is_stalled(agvs_[i], now)) continue;
+    stalled.push_back(EntityId{i});
+    waits[EntityId{i}] = wait_of(EntityId{i}, now);
+  }
+  bool any_circle = false;
+  for (const EntityId start : stalled) {
+    std::vector<EntityId> way;
+    EntityId at = start;
+    while (waits.contains(at) && std::ranges::find(way, at) == way.end()) {
+      way.push_back(at);
+      at = waits[at].for_whom;
+    }
+    // A circle is filed from its first member, once.
+    if (!way.empty() && at == start && std::ranges::min(way) == start) {
+      any_circle = true;
+      file_circle(way, waits, now);
+    }
+  }
+  if (any_circle || stalled.empty() || stalled.size() < at_work) return;
+  SimTime first = kStart;
+  for (const EntityId agv : stalled) first = std::max(first, agvs_[agv.index()].still_since());
+  if (goes_on({IncidentKind::Deadlock, stalled.front(), waits[stalled.front()].for_whom, first, now, 0})) file_waits(stalled, waits, first, now, 0);
+}
+
+void ProgressLaw::file_circle(const std::vector<EntityId>& circle, const std::map<EntityId, Wait>& waits, SimTime now) {
+  SimTime first = kStart;
+  for (const EntityId agv : circle) first = std::max(first, agvs_[agv.index()].still_since());
+  const Incident deadlock{
+      IncidentKind::Deadlock, circle.front(), waits.at(circle.front()).for_whom, first, now, static_cast<std::int64_t>(circle.size())};
+  if (goes_on(deadlock)) file_waits(circle, waits, first, now, 1);
+}
+
+// The deadlock was filed just before.
+void ProgressLaw::file_waits(const std::vector<EntityId>& agvs, const std::map<EntityId, Wait>& waits, SimTime first, SimTime now,
+                             std::int64_t value) {
+  const std::size_t deadlock = incidents_.size() - 1;
+  for (const EntityId agv : agvs) {
+    const Wait& wait = waits.at(agv);
+    if (!wait.for_whom.valid()) continue;
+    deadlock_of_wait_[incidents_.size()] = deadlock;
+    incidents_.push_back({wait.inferred ? IncidentKind::WaitsInferred : IncidentKind::WaitsDeclared, agv, wait.for_whom, first, now, value});
+  }
+}
+
+void ProgressLaw::look_for_livelock(SimTime now) {
+  const bool any_work = std::ranges::any_of(agvs_, &AgvState::has_work);
+  const bool still = std::ranges::none_of(agvs_, [&](const AgvState& agv) { return agv.busy || now - agv.active_at < stuck_after_; });
+  if (!any_work || still || now - fleet_advanced_at_ < 2 * stuck_after_ || motions_ == motions_then_) return;
+  goes_on({IncidentKind::Livelock, {}, {}, fleet_advanced_at_, now, static_cast<std::int64_t>(motions_ - motions_then_)});
+}
+
+void ProgressLaw::look_for_starvation(SimTime now) {
+  if (agvs_.size() < 2) return;
+  for (std::size_t i = 0; i < agvs_.size(); ++i) {
+    const AgvState& agv = agvs_[i];
+    const std::uint64_t others_done = done_ - agv.done - agv.others_done_then;
+    if (!agv.has_work() || now - agv.without_success_since() < 2 * stuck_after_ || others_done < kOvertaken * (agvs_.size() - 1)) continue;
+    goes_on({IncidentKind::Starvation, EntityId{i}, {}, agv.without_success_since(), now, static_cast<std::int64_t>(agv.open.size())});
+  }
+}
+
+void ProgressLaw::finish(SimTime end) {
+  look_before(end);
+  look(end);
+  for (const auto& [wait, deadlock] : deadlock_of_wait_) incidents_[wait].last = incidents_[deadlock].last;
+}
+
+LawFindings ProgressLaw::findings() const {
+  LawFindings findings;
+  findings.incidents = incidents_;
+  return findings;
+}
+
+}  // namespace
+
+std::unique_ptr<Law> make_progress_law(const Scenario& scenario) { return std::make_unique<ProgressLaw>(scenario); }
+
+}  // namespace fleetproof

@@ -1,0 +1,107 @@
+#include "reports/coverage_section.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "reports/wording.hpp"
+
+namespace fleetproof {
+namespace {
+
+std::string share_text(const Seen& seen, std::uint64_t runs) {
+  return runs == 0 ? "-" : percent(static_cast<double>(seen.runs) / static_cast<double>(runs));
+}
+
+void add_rows(Section& section, const AgentCoverage& agent) {
+  const auto add = [&](const std::string& name, const char* by, const Seen& seen) {
+    section.table.rows.push_back({printable(agent.agent, 40), printable(name, 64), by, std::to_string(seen.runs),
+                                  share_text(seen, agent.coverage.runs()), std::to_string(seen.times)});
+  };
+  for (const auto& [name, seen] : agent.coverage.by_the_world()) add(name, "world", seen);
+  for (const auto& [name, seen] : agent.coverage.by_agents()) add(name, "agent", seen);
+  for (const auto& missing : agent.missing) {
+    if (missing.runs_with == 0) add(missing.name, "nobody", {});
+  }
+}
+
+void cut(Section& section, std::size_t most_rows) {
+  auto& rows = section.table.rows;
+  if (rows.size() <= most_rows) return;
+  section.remarks.push_back({fmt::format("{} more rows are left out.", rows.size() - most_rows), ""});
+  rows.resize(most_rows);
+}
+
+}  // namespace
+
+std::string missing_text(const std::vector<MissingProbe>& missing) {
+  std::vector<std::string> never, rare;
+  for (const auto& probe : missing) {
+    const auto name = printable(probe.name, 64);
+    if (probe.runs_with == 0) {
+      never.push_back(name);
+    } else {
+      rare.push_back(fmt::format("{} ({} of {} runs)", name, probe.runs_with, probe.runs));
+    }
+  }
+  std::vector<std::string> parts;
+  if (!never.empty()) parts.push_back("never met: " + joined(never));
+  if (!rare.empty()) parts.push_back("too rare: " + joined(rare));
+  return joined(parts, "; ");
+}
+
+std::vector<Headline> weak_headlines(const ReportInput& input) {
+  std::vector<Headline> list;
+  for (const auto& agent : input.evidence.agent_coverage()) {
+    if (agent.missing.empty()) continue;
+    list.push_back(
+        {"weak",
+         fmt::format("this campaign is weak evidence for agent {}: its {} did not meet what a test has to meet ({}). Few failures say little then.",
+                     printable(agent.agent, 40), count_text(agent.coverage.runs(), "run"), missing_text(agent.missing)),
+         {}});
+  }
+  return list;
+}
+
+bool is_weak(const ReportInput& input) {
+  return std::ranges::any_of(input.evidence.agent_coverage(), [](const AgentCoverage& agent) { return !agent.missing.empty(); }) ||
+         std::ranges::any_of(input.gates, [](const GateResult& gate) { return !gate.missing.empty(); });
+}
+
+Section coverage_section(const ReportInput& input, std::size_t most_rows) {
+  Section section{"What the runs met",
+                  {{{"agent", false}, {"what", false}, {"told by", false}, {"runs with it", true}, {"share", true}, {"times", true}}, {}},
+                  {}};
+  for (const auto& agent : input.evidence.agent_coverage()) add_rows(section, agent);
+  cut(section, most_rows);
+  const auto& required = input.campaign.required_probes;
+  section.remarks.push_back({required.empty()
+                                 ? std::string("This campaign asks for nothing to be met ([coverage] probes).")
+                                 : fmt::format("To be met, in at least one of {} runs: {}{}.", kRunsPerProbe, printable(joined(required), 400),
+                                               required.back().ends_with('?') ? " (\"?\": if the agent declares anything)" : ""),
+                             ""});
+  return section;
+}
+
+Section incident_section(const ReportInput& input, std::size_t most_rows) {
+  Section section{"What the other laws found",
+                  {{{"agent", false}, {"incident", false}, {"runs with it", true}, {"incidents", true}, {"what it means", false}}, {}},
+                  {}};
+  for (const auto& agent : input.evidence.agent_coverage()) {
+    for (const auto& [kind, tally] : agent.incidents) {
+      const auto& info = info_of(kind);
+      section.table.rows.push_back({printable(agent.agent, 40), std::string(info.name), std::to_string(tally.runs), std::to_string(tally.incidents),
+                                    std::string(info.meaning)});
+      section.remarks.push_back({fmt::format("{} of agent {}, for instance in run {}:", info.name, printable(agent.agent, 40), tally.example_run),
+                                 replay_command(input.archive_path, tally.example_run)});
+    }
+  }
+  if (section.table.rows.empty()) {
+    section.table.columns.clear();
+    section.remarks.push_back({"Nothing, or none of them ran.", ""});
+  }
+  cut(section, most_rows);
+  return section;
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,63 @@
+#include "reports/evidence/coverage.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace fleetproof {
+namespace {
+
+constexpr std::array<std::string_view, 4> kEncounters{"head-on", "crossing", "following", "merging"};
+constexpr std::array<std::string_view, 7> kOfTheWorld{"head-on", "crossing", "following", "merging", "near-miss", "encounter", "safe-mode"};
+
+bool is_of_the_world(std::string_view name) { return std::ranges::find(kOfTheWorld, name) != kOfTheWorld.end() || name.starts_with("fault-"); }
+
+void note(Seen& seen, std::uint64_t times) {
+  ++seen.runs;
+  seen.times += times;
+}
+
+}  // namespace
+
+void Coverage::add(const Outcome& outcome) {
+  ++runs_;
+  std::uint64_t encounters = 0;
+  for (const ProbeCount& probe : outcome.probes) {
+    const bool world = probe.source == ProbeSource::World;
+    if (!world && is_of_the_world(probe.name)) continue;
+    note((world ? by_the_world_ : by_agents_)[probe.name], probe.count);
+    if (world && std::ranges::find(kEncounters, probe.name) != kEncounters.end()) encounters += probe.count;
+  }
+  if (encounters > 0) note(by_the_world_["encounter"], encounters);
+  if (outcome.counters.safe_mode_ns > 0) note(by_the_world_["safe-mode"], 1);
+}
+
+void Coverage::add(const Coverage& other) {
+  runs_ += other.runs_;
+  for (const auto& [mine, theirs] : {std::pair(&by_the_world_, &other.by_the_world_), std::pair(&by_agents_, &other.by_agents_)}) {
+    for (const auto& [name, seen] : *theirs) {
+      (*mine)[name].runs += seen.runs;
+      (*mine)[name].times += seen.times;
+    }
+  }
+}
+
+Seen Coverage::seen(std::string_view probe) const {
+  const auto& told = is_of_the_world(probe) ? by_the_world_ : by_agents_;
+  const auto found = told.find(probe);
+  return found == told.end() ? Seen{} : found->second;
+}
+
+std::vector<MissingProbe> missing_probes(const Coverage& coverage, const std::vector<std::string>& required) {
+  std::vector<MissingProbe> missing;
+  for (std::string name : required) {
+    if (name.ends_with('?')) {
+      if (!coverage.agents_declare_anything()) continue;
+      name.pop_back();
+    }
+    const auto with = coverage.seen(name).runs;
+    if (with == 0 || with * kRunsPerProbe < coverage.runs()) missing.push_back({name, with, coverage.runs()});
+  }
+  return missing;
+}
+
+}  // namespace fleetproof

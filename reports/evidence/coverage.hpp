@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/outcome.hpp"
+
+namespace fleetproof {
+
+// In how many runs something was met, and how often in all.
+struct Seen {
+  std::uint64_t runs = 0, times = 0;
+};
+
+// What some runs met.
+//
+// Names of probes. Told by the world: "head-on", "crossing", "following", "merging", "near-miss", "fault-N", and derived here: "encounter" (any of
+// the first four), "safe-mode". Told by agents: whatever they declare. An agent that uses a name of the world is not heard: the world knows better.
+class Coverage {
+ public:
+  void add(const Outcome& outcome);
+  void add(const Coverage& other);
+
+  std::uint64_t runs() const { return runs_; }
+  bool agents_declare_anything() const { return !by_agents_.empty(); }
+  Seen seen(std::string_view probe) const;
+  const std::map<std::string, Seen, std::less<>>& by_the_world() const { return by_the_world_; }
+  const std::map<std::string, Seen, std::less<>>& by_agents() const { return by_agents_; }
+
+ private:
+  std::uint64_t runs_ = 0;
+  std::map<std::string, Seen, std::less<>> by_the_world_, by_agents_;
+};
+
+// A probe that was to be met and was not, or in too few runs.
+struct MissingProbe {
+  std::string name;
+  std::uint64_t runs_with = 0, runs = 0;
+};
+
+// Met in fewer than one of so many runs is too rare to have tested anything. Never met is too rare however few the runs.
+inline constexpr std::uint64_t kRunsPerProbe = 20'000;
+
+// A required name that ends in "?" is asked only of agents that declare anything at all.
+std::vector<MissingProbe> missing_probes(const Coverage& coverage, const std::vector<std::string>& required);
+
+// Incidents of one kind over many runs.
+struct IncidentTally {
+  std::uint64_t runs = 0, incidents = 0;
+  std::uint64_t example_run = 0;  // the first run with one
+};
+
+}  // namespace fleetproof

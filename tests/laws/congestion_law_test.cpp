@@ -1,0 +1,52 @@
+#include "laws/congestion_law.hpp"
+
+#include <gmock/gmock.h>
+
+#include "tests/laws/told.hpp"
+#include "tests/support/worlds.hpp"
+
+namespace fleetproof::test {
+namespace {
+
+// `rate` messages a second for each second from `from_s` to `to_s`, each 10 ms long.
+void send(Told& told, int from_s, int to_s, int rate) {
+  for (int second = from_s; second < to_s; ++second) {
+    for (int i = 0; i < rate; ++i) told.record(second + static_cast<double>(i) / rate, 0, TraceKind::Sent, 1, static_cast<std::uint64_t>(i));
+  }
+}
+
+std::vector<Incident> congestion(const std::function<void(Told&)>& story) {
+  Scenario scenario = row_scenario(2, {0, 1}, 60.0);
+  scenario.radio.air_time_s = 0.01;
+  Told told(scenario, "congestion");
+  story(told);
+  return told.finish(60.0).incidents;
+}
+
+TEST(CongestionLaw, HalfTheAirTimeIsSaturation) {
+  const auto found = congestion([](Told& told) {
+    send(told, 0, 3, 49);
+    send(told, 3, 5, 50);
+    send(told, 5, 7, 80);
+    send(told, 7, 9, 49);
+    send(told, 20, 21, 51);
+  });
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0], (Incident{IncidentKind::ChannelSaturated, {}, {}, at_seconds(3.0), at_seconds(7.0), 800'000}));
+  EXPECT_EQ(found[1], (Incident{IncidentKind::ChannelSaturated, {}, {}, at_seconds(20.0), at_seconds(21.0), 510'000}));
+}
+
+TEST(CongestionLaw, IsSilentBelowAndAboutOrdinaryLosses) {
+  const auto found = congestion([](Told& told) {
+    send(told, 0, 60, 49);
+    for (int i = 0; i < 500; ++i) told.record(59.99, 1, TraceKind::Lost, 0, 1);
+  });
+  EXPECT_THAT(found, testing::IsEmpty());
+}
+
+TEST(CongestionLaw, TheLastWindowOfARunCountsToo) {
+  EXPECT_EQ(congestion([](Told& told) { send(told, 59, 60, 70); }).size(), 1U);
+}
+
+}  // namespace
+}  // namespace fleetproof::test

@@ -1,0 +1,168 @@
+#include "laws/progress_law.hpp"
+
+#include <gmock/gmock.h>
+
+#include "tests/laws/told.hpp"
+#include "tests/support/worlds.hpp"
+
+namespace fleetproof::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+using enum IncidentKind;
+
+constexpr std::uint32_t kNobody = 0xffffffff;
+
+// Six stations in a row, 4 m apart; AGV 0 stands at s1 and AGV 1 at s2, each has to fetch a load beyond the other, if `busy` says so.
+class Progress : public testing::Test {
+ protected:
+  Progress() {
+    scenario_ = row_scenario(6, {1, 2}, 600.0);
+    scenario_.agvs[0].transports = {{StationId{3U}, StationId{4U}, seconds(1.0)}};
+    scenario_.agvs[1].transports = {{StationId{0U}, StationId{5U}, seconds(2.0)}};
+    scenario_.stuck_after = seconds(120.0);
+  }
+  Told told() { return {scenario_, "progress"}; }
+  static void released(Told& told, double at_s, std::uint32_t agv, std::uint64_t transport, std::uint32_t from) {
+    told.record(at_s, agv, TraceKind::OrderReleased, transport).load_at_station(at_s, agv, transport, from);
+  }
+  static void both_released(Told& told) {
+    released(told, 1.0, 0, 0, 3);
+    released(told, 2.0, 1, 1, 0);
+  }
+  Scenario scenario_;
+};
+
+TEST_F(Progress, ADeadlockIsFiledWithWhoWaitsForWhomByTheirOwnWord) {
+  Told law = told();
+  both_released(law);
+  law.record(3.0, 0, TraceKind::WaitingFor, 1).record(4.0, 1, TraceKind::WaitingFor, 0);
+  const auto found = law.finish(600.0).incidents;
+  ASSERT_THAT(kinds_of(found), ElementsAre(Deadlock, WaitsDeclared, WaitsDeclared));
+  EXPECT_EQ(found[0].a, EntityId{0U});
+  EXPECT_EQ(found[0].b, EntityId{1U});
+  EXPECT_EQ(found[0].value, 2) << "AGVs in the circle";
+  EXPECT_EQ(found[0].first, at_seconds(2.0)) << "when the last of them had work and did nothing";
+  EXPECT_EQ(found[0].last, at_seconds(600.0));
+  EXPECT_EQ(found[2].a, EntityId{1U});
+  EXPECT_EQ(found[2].b, EntityId{0U});
+}
+
+TEST_F(Progress, ASilentFleetsWaitsAreInferredFromWhoStandsInTheWay) {
+  Told law = told();
+  both_released(law);
+  const auto found = law.finish(600.0).incidents;
+  ASSERT_THAT(kinds_of(found), ElementsAre(Deadlock, WaitsInferred, WaitsInferred));
+  EXPECT_EQ(found[0].value, 2);
+}
+
+TEST_F(Progress, AllStandingWithoutACircleIsADeadlockOfUnknownKind) {
+  scenario_.agvs[1].transports.clear();
+  Told law = told();
+  released(law, 1.0, 0, 0, 3);
+  const auto found = law.finish(600.0).incidents;  // the idle AGV 1 stands in the way
+  ASSERT_THAT(kinds_of(found), ElementsAre(Deadlock, WaitsInferred));
+  EXPECT_EQ(found[0].value, 0);
+  EXPECT_EQ(found[1].b, EntityId{1U});
+}
+
+TEST_F(Progress, StandingForLessThanStuckAfterIsNone) {
+  Told law = told();
+  both_released(law);
+  EXPECT_THAT(law.finish(121.0).incidents, IsEmpty());
+}
+
+TEST_F(Progress, AFleetWithoutWorkMayStand) {
+  Told law = told();
+  EXPECT_THAT(law.finish(600.0).incidents, IsEmpty());
+}
+
+TEST_F(Progress, AFleetThatHasDoneItsWorkMayStand) {
+  scenario_.agvs[1].transports.clear();
+  Told law = told();
+  released(law, 1.0, 0, 0, 3);
+  law.begins(5.0, 0, ActivityKind::Pick).load_on_agv(10.0, 0, 0).ends(10.0, 0, ActivityKind::Pick);
+  law.load_at_station(60.0, 0, 0, 4).record(60.0, 0, TraceKind::TransportDone, 0);
+  EXPECT_THAT(law.finish(600.0).incidents, IsEmpty());
+}
+
+TEST_F(Progress, ADeadlockThatDissolvesEnds) {
+  Told law = told();
+  both_released(law);
+  law.record(3.0, 0, TraceKind::WaitingFor, 1).record(4.0, 1, TraceKind::WaitingFor, 0);
+  law.begins(200.0, 1, ActivityKind::Drive).ends(210.0, 1, ActivityKind::Drive);
+  const auto found = law.finish(235.0).incidents;
+  ASSERT_THAT(kinds_of(found), ElementsAre(Deadlock, WaitsDeclared, WaitsDeclared));
+  EXPECT_LE(found[0].last, at_seconds(200.0));
+  EXPECT_GE(found[0].last, at_seconds(190.0)) << "to within one look";
+  EXPECT_EQ(found[1].last, found[0].last);
+}
+
+TEST_F(Progress, MovingToAndFroWithoutALoadIsALivelock) {
+  Told law = told();
+  both_released(law);
+  for (int i = 0; i < 29; ++i) law.begins(10.0 + 20.0 * i, 0, ActivityKind::Drive).ends(15.0 + 20.0 * i, 0, ActivityKind::Drive);
+  const auto found = law.finish(600.0).incidents;
+  ASSERT_THAT(kinds_of(found), ElementsAre(Livelock));
+  EXPECT_EQ(found[0].first, at_seconds(1.0));
+  EXPECT_EQ(found[0].value, 29);
+}
+
+TEST_F(Progress, WhoPicksNowAndThenIsNoLivelock) {
+  scenario_.agvs[0].transports.resize(3, scenario_.agvs[0].transports[0]);
+  scenario_.agvs[1].transports.clear();
+  Told law = told();
+  for (std::uint64_t i = 0; i < 3; ++i) released(law, 1.0, 0, i, 3);
+  for (std::uint64_t i = 0; i < 3; ++i) {
+    const double t_s = 150.0 * static_cast<double>(i + 1);
+    law.begins(t_s - 50.0, 0, ActivityKind::Drive)
+        .ends(t_s - 10.0, 0, ActivityKind::Drive)
+        .load_on_agv(t_s, 0, i)
+        .load_at_station(t_s + 20.0, 0, i, 4);
+    law.record(t_s + 20.0, 0, TraceKind::TransportDone, i);
+  }
+  EXPECT_THAT(law.finish(600.0).incidents, IsEmpty());
+}
+
+TEST_F(Progress, OneThatIsNeverServedStarves) {
+  scenario_.agvs[0].transports.resize(4, scenario_.agvs[0].transports[0]);
+  Told law = told();
+  for (std::uint64_t i = 0; i < 4; ++i) released(law, 1.0, 0, i, 3);
+  released(law, 2.0, 1, 4, 0);
+  for (std::uint64_t i = 0; i < 4; ++i) {
+    const double t_s = 100.0 * static_cast<double>(i + 1);
+    law.begins(t_s - 50.0, 0, ActivityKind::Drive)
+        .ends(t_s - 10.0, 0, ActivityKind::Drive)
+        .load_on_agv(t_s, 0, i)
+        .load_at_station(t_s + 20.0, 0, i, 4);
+    law.record(t_s + 20.0, 0, TraceKind::TransportDone, i);
+    law.begins(t_s, 1, ActivityKind::Turn).ends(t_s + 1.0, 1, ActivityKind::Turn);
+  }
+  const auto found = law.finish(430.0).incidents;
+  ASSERT_THAT(kinds_of(found), ElementsAre(Starvation));
+  EXPECT_EQ(found[0].a, EntityId{1U});
+  EXPECT_EQ(found[0].first, at_seconds(2.0));
+}
+
+TEST_F(Progress, ACircleOfSomeIsADeadlockWhileOthersWork) {
+  scenario_ = row_scenario(8, {1, 2, 6}, 600.0);
+  scenario_.agvs[0].transports = {{StationId{3U}, StationId{4U}, seconds(1.0)}};
+  scenario_.agvs[1].transports = {{StationId{0U}, StationId{5U}, seconds(2.0)}};
+  Told law = told();
+  both_released(law);
+  law.record(3.0, 0, TraceKind::WaitingFor, 1).record(4.0, 1, TraceKind::WaitingFor, 0);
+  for (int i = 0; i < 10; ++i) law.begins(10.0 + 20.0 * i, 2, ActivityKind::Drive).ends(15.0 + 20.0 * i, 2, ActivityKind::Drive);
+  EXPECT_THAT(kinds_of(law.finish(220.0).incidents), ElementsAre(Deadlock, WaitsDeclared, WaitsDeclared));
+}
+
+TEST_F(Progress, AWaitThatIsTakenBackIsNone) {
+  Told law = told();
+  both_released(law);
+  law.record(3.0, 0, TraceKind::WaitingFor, 1).record(4.0, 1, TraceKind::WaitingFor, 0).record(5.0, 1, TraceKind::WaitingFor, kNobody);
+  const auto found = law.finish(600.0).incidents;
+  EXPECT_THAT(kinds_of(found), ElementsAre(Deadlock, WaitsDeclared, WaitsInferred)) << "what it no longer says is inferred";
+}
+
+}  // namespace
+}  // namespace fleetproof::test

@@ -1,0 +1,185 @@
+// What a campaign met, and when its evidence is called weak.
+#include "reports/evidence/coverage.hpp"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/reports/sample_campaign.hpp"
+
+namespace fleetproof {
+namespace {
+
+using samples::campaign_of;
+using samples::gate_of;
+using samples::grid;
+using samples::report_of;
+using testing::HasSubstr;
+using testing::Not;
+
+Outcome with(std::vector<ProbeCount> probes) {
+  Outcome outcome;
+  file_probes(outcome, std::move(probes));
+  return outcome;
+}
+
+Coverage many(std::uint64_t runs, std::uint64_t with_crossing) {
+  Coverage coverage;
+  for (std::uint64_t i = 0; i < runs; ++i) coverage.add(i < with_crossing ? with({{ProbeSource::World, "crossing", 2}}) : Outcome{});
+  return coverage;
+}
+
+std::string render(const char* format, const ReportInput& input) {
+  auto text = find_entry(report_formats(), format)->make(input);
+  if (std::string_view(format) != "json") std::ranges::replace(text, '\n', ' ');
+  for (auto at = text.find("  "); at != std::string::npos; at = text.find("  ")) text.erase(at, 1);
+  return text;
+}
+
+void meet_nobody(RunRecord& run) { run.outcome.probes.clear(); }
+
+TEST(Coverage, CountsRunsAndTimes) {
+  Coverage coverage;
+  coverage.add(with({{ProbeSource::World, "crossing", 2}, {ProbeSource::World, "head-on", 1}, {ProbeSource::Agent, "negotiation", 7}}));
+  coverage.add(with({{ProbeSource::World, "crossing", 3}}));
+  coverage.add(Outcome{});
+  EXPECT_EQ(coverage.runs(), 3u);
+  EXPECT_EQ(coverage.seen("crossing").runs, 2u);
+  EXPECT_EQ(coverage.seen("crossing").times, 5u);
+  EXPECT_EQ(coverage.seen("encounter").runs, 2u) << "once a run, of whatever kind";
+  EXPECT_EQ(coverage.seen("encounter").times, 6u);
+  EXPECT_EQ(coverage.seen("negotiation").times, 7u);
+  EXPECT_EQ(coverage.seen("deferred").runs, 0u);
+  Coverage twice = coverage;
+  twice.add(coverage);
+  EXPECT_EQ(twice.seen("crossing").runs, 4u);
+  EXPECT_EQ(twice.runs(), 6u);
+}
+
+TEST(Coverage, AnAgentCannotClaimWhatTheWorldTells) {
+  Coverage coverage;
+  for (const char* name : {"head-on", "encounter", "fault-1", "safe-mode"}) coverage.add(with({{ProbeSource::Agent, name, 5}}));
+  for (const char* name : {"head-on", "encounter", "fault-1", "safe-mode"}) EXPECT_EQ(coverage.seen(name).runs, 0u) << name;
+  EXPECT_FALSE(coverage.agents_declare_anything());
+}
+
+TEST(Coverage, TooRareIsFewerThanOneOfTwentyThousandRuns) {
+  const std::vector<std::string> required{"crossing"};
+  EXPECT_TRUE(missing_probes(many(20'000, 1), required).empty());
+  EXPECT_EQ(missing_probes(many(20'001, 1), required).size(), 1u);
+  EXPECT_TRUE(missing_probes(many(40'000, 2), required).empty());
+  EXPECT_EQ(missing_probes(many(10, 0), required).size(), 1u) << "never, however few the runs";
+  EXPECT_EQ(missing_probes(Coverage{}, required).size(), 1u);
+  EXPECT_TRUE(missing_probes(Coverage{}, {}).empty());
+}
+
+TEST(Coverage, AQuestionMarkAsksOnlyAgentsThatDeclareSomething) {
+  const std::vector<std::string> required{"negotiation?"};
+  Coverage silent, talking;
+  silent.add(Outcome{});
+  talking.add(with({{ProbeSource::Agent, "deferred", 1}}));
+  EXPECT_TRUE(missing_probes(silent, required).empty());
+  ASSERT_EQ(missing_probes(talking, required).size(), 1u);
+  EXPECT_EQ(missing_probes(talking, required)[0].name, "negotiation");
+  EXPECT_EQ(missing_probes(silent, {"negotiation"}).size(), 1u);
+}
+
+class WeakReport : public testing::Test {
+ protected:
+  std::vector<CellRecord> cells_ = grid({"sound"}, {0.4}, {1.0, 2.0});
+  std::vector<GateRecord> gates_{gate_of("sound", GateKind::Rate, Region::Contract, 1e-2)};
+};
+
+TEST_F(WeakReport, ACampaignThatMetEverythingIsNotWeak) {
+  const auto input = report_of(campaign_of("claim", 400), cells_, gates_);
+  EXPECT_EQ(input.gates[0].verdict, Verdict::Demonstrated);
+  for (const auto* format : {"text", "summary", "markdown"}) EXPECT_THAT(render(format, input), Not(HasSubstr("weak evidence"))) << format;
+  const auto json = nlohmann::json::parse(render("json", input));
+  EXPECT_EQ(json["weak"], false);
+  EXPECT_EQ(json["gates"][0]["weak"], false);
+  EXPECT_THAT(render("text", input), HasSubstr("head-on world 800 100 % 1600"));
+  EXPECT_THAT(render("text", input), HasSubstr("negotiation agent 800 100 % 24000"));
+  EXPECT_EQ(json["coverage"]["agents"][0]["runs"], 800);
+}
+
+TEST_F(WeakReport, AListedProbeThatIsMissingLeavesTheVerdictAndSaysWeakBesideIt) {
+  auto campaign = campaign_of("claim", 400);
+  campaign.required_probes = {"encounter", "head-on", "following"};
+  const auto input = report_of(campaign, cells_, gates_);
+  EXPECT_EQ(input.gates[0].verdict, Verdict::Demonstrated);
+  EXPECT_EQ(input.exit_code, 0);
+  for (const auto* format : {"text", "summary", "markdown"}) {
+    const auto page = render(format, input);
+    EXPECT_THAT(page, HasSubstr("this campaign is weak evidence for agent sound")) << format;
+    EXPECT_LT(page.find("weak evidence"), page.find("gate \"safe\"")) << "at the head";
+    EXPECT_THAT(page, HasSubstr("rate limited; the evidence is weak")) << format;
+    EXPECT_THAT(page, HasSubstr("never met: following")) << format;
+  }
+  const auto json = nlohmann::json::parse(render("json", input));
+  EXPECT_EQ(json["weak"], true);
+  EXPECT_EQ(json["verdict"], "demonstrated");
+  EXPECT_EQ(json["gates"][0]["missing_probes"][0]["probe"], "following");
+}
+
+TEST_F(WeakReport, AGateWhoseRunsMetNobodyIsNotDemonstrated) {
+  const auto input = report_of(campaign_of("claim", 400), cells_, gates_, meet_nobody);
+  EXPECT_EQ(input.gates[0].verdict, Verdict::NotDemonstrated);
+  EXPECT_EQ(input.exit_code, 4);
+  EXPECT_THAT(render("text", input), HasSubstr("was never put to the test"));
+  EXPECT_THAT(render("text", input), HasSubstr("never met: encounter"));
+}
+
+TEST_F(WeakReport, WhoAsksForNothingGetsNoWarning) {
+  auto campaign = campaign_of("claim", 400);
+  campaign.required_probes.clear();
+  const auto input = report_of(campaign, cells_, gates_, meet_nobody);
+  EXPECT_EQ(input.gates[0].verdict, Verdict::Demonstrated);
+  EXPECT_EQ(nlohmann::json::parse(render("json", input))["weak"], false);
+  EXPECT_THAT(render("text", input), HasSubstr("asks for nothing to be met"));
+}
+
+TEST_F(WeakReport, AViolationStaysAViolation) {
+  const auto input = report_of(campaign_of("claim", 400), cells_, {gate_of("sound", GateKind::None, Region::Contract, 1e-2)}, [](RunRecord& run) {
+    meet_nobody(run);
+    if (run.run_index == 3) samples::violate(run);
+  });
+  EXPECT_EQ(input.gates[0].verdict, Verdict::Violated);
+}
+
+TEST_F(WeakReport, TheGateLooksAtItsOwnCells) {
+  const auto cells = grid({"sound"}, {0.4, 0.6}, {2.0});
+  const auto input = report_of(campaign_of("claim", 400), cells, gates_, [](RunRecord& run) {
+    if (run.cell == 0) meet_nobody(run);  // the only cell of the contract
+  });
+  EXPECT_EQ(input.gates[0].verdict, Verdict::NotDemonstrated);
+  EXPECT_EQ(nlohmann::json::parse(render("json", input))["weak"], true);
+}
+
+TEST_F(WeakReport, IncidentsOfTheOtherLawsAreListedWithAReplayLine) {
+  const auto input = report_of(campaign_of("claim", 40), cells_, gates_, [](RunRecord& run) {
+    if (run.run_index % 10 == 7) {
+      file_incidents(run.outcome, {{IncidentKind::Deadlock, EntityId{0u}, EntityId{1u}, at_seconds(3.0), at_seconds(9.0), 2},
+                                   {IncidentKind::Deadlock, EntityId{2u}, EntityId{3u}, at_seconds(4.0), at_seconds(9.0), 2}});
+    }
+  });
+  const auto text = render("text", input);
+  EXPECT_THAT(text, HasSubstr("deadlock 8 16"));
+  EXPECT_THAT(text, HasSubstr("fleetproof replay night.fp 7"));
+  const auto json = nlohmann::json::parse(render("json", input));
+  EXPECT_EQ(json["incidents"][0]["runs_with"], 8);
+  EXPECT_EQ(json["incidents"][0]["incidents"], 16);
+  EXPECT_EQ(json["incidents"][0]["kind"], "deadlock");
+}
+
+TEST_F(WeakReport, AContactAtHazardousSpeedIsCalledOne) {
+  const auto input = report_of(campaign_of("claim", 4), cells_, gates_, [](RunRecord& run) {
+    if (run.run_index != 3) return;
+    samples::violate(run, 0, true);
+    run.outcome.violations[0].relative_speed_um_s = 1'200'000;
+  });
+  EXPECT_THAT(render("text", input), HasSubstr("contact at hazardous speed (1.2 m/s)"));
+  EXPECT_EQ(nlohmann::json::parse(render("json", input))["cells"][1]["hazardous_contact_runs"], 1);
+}
+
+}  // namespace
+}  // namespace fleetproof
