@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/geometry/rotation.hpp"
 #include "generators/layout_builder.hpp"
 
@@ -89,7 +91,7 @@ class LoopSpurs {
   void add_chords() {
     const std::uint32_t pairs = 1 + draws_.below(2), half = sizes_.along / 2;
     for (std::uint32_t k = 0; k < pairs; ++k) {
-      const std::uint32_t span = 1 + draws_.below(2), left = k * half + draws_.below(half - span + 1), right = left + span;
+      const std::uint32_t span = 1 + draws_.below(std::min(2U, half)), left = k * half + draws_.below(half - span + 1), right = left + span;
       add_chord(left, right);
       add_chord(right, left);
     }

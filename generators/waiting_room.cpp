@@ -86,18 +86,20 @@ std::size_t open_waiting_places(const LogicalMap& map, const Reachability& reach
 bool close_waiting_places(Layout& layout) {
   const LogicalMap map(layout);
   const auto cut = cut_stations(map, Reachability(map));
-  if (std::ranges::count(cut, true) < 3) return false;
+  auto stations = layout.stations;
   for (const auto i : in_order_of_need(layout)) {
     if (cut[i]) continue;
     Station* nearest = nullptr;
-    const auto distance = [&](const Station& s) { return (s.position_m - layout.stations[i].position_m).squaredNorm(); };
+    const auto distance = [&](const Station& s) { return (s.position_m - stations[i].position_m).squaredNorm(); };
     for (std::size_t k = 0; k < cut.size(); ++k) {
-      auto& candidate = layout.stations[k];
+      auto& candidate = stations[k];
       if (cut[k] && !is_place_to_wait(candidate) && (nearest == nullptr || distance(candidate) < distance(*nearest))) nearest = &candidate;
     }
-    if (nearest != nullptr) nearest->purposes = layout.stations[i].purposes;
-    layout.stations[i].purposes = Purpose::Routing;
+    if (nearest != nullptr) nearest->purposes = stations[i].purposes;
+    stations[i].purposes = Purpose::Routing;
   }
+  if (std::ranges::count_if(stations, [](const Station& s) { return s.purposes.has(Purpose::Storage); }) < 2) return false;
+  layout.stations = std::move(stations);
   return true;
 }
 
