@@ -45,14 +45,6 @@ void check(const WorldSpec& spec) {
   }
 }
 
-std::string reasons(const RejectionCounts& counts) {
-  std::string text = fmt::format("out of stations {} times", counts.fleets_without_room);
-  for (std::size_t i = 0; i < kProblemKinds; ++i) {
-    if (counts.reasons[i] > 0) text += fmt::format(", {} {}", name_of(static_cast<ProblemKind>(i)), counts.reasons[i]);
-  }
-  return text;
-}
-
 // The worlds of one seed, one after the other until one is sound.
 class WorldMaker {
  public:
@@ -147,7 +139,17 @@ Scenario generate_world(const WorldSpec& spec, std::uint64_t seed, RejectionCoun
   }
   counts.add(maker.counts);
   throw InputError("fleet_size", fmt::format("cannot place {} AGVs on this layout in {} draws ({}); ask for fewer or for a larger layout",
-                                             spec.fleet_size, kAttempts, reasons(maker.counts)));
+                                             spec.fleet_size, kAttempts, rejection_text(maker.counts)));
+}
+
+std::string rejection_text(const RejectionCounts& counts) {
+  std::string text;
+  const auto add = [&](const char* what, std::uint64_t times) {
+    if (times > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", what, times);
+  };
+  add("out of stations", counts.fleets_without_room);
+  for (std::size_t i = 0; i < kProblemKinds; ++i) add(name_of(static_cast<ProblemKind>(i)), counts.reasons[i]);
+  return text;
 }
 
 }  // namespace fleetproof

@@ -32,4 +32,7 @@ struct WorldSpec {
 // InputError if the spec is unusable or the fleet finds no place in 32 draws.
 Scenario generate_world(const WorldSpec& spec, std::uint64_t seed, RejectionCounts& counts);
 
+// What was refused and how often: "out of stations 3, weak-core 2"; empty if nothing was.
+std::string rejection_text(const RejectionCounts& counts);
+
 }  // namespace fleetproof
