@@ -96,7 +96,8 @@ class PairMaker {
       const auto& other = timetable_.from(start);
       for (const auto l : lanes) {
         const auto& lane = map_.lanes()[l];
-        if (!ties_) consider(found, {start, lane.from, apart(ways.drives_off[lane.to.index()], other.drives_off[lane.from.index()]), true}, other, lane);
+        if (!ties_)
+          consider(found, {start, lane.from, apart(ways.drives_off[lane.to.index()], other.drives_off[lane.from.index()]), true}, other, lane);
         consider(found, {start, lane.to, apart(ways.arrives[lane.to.index()], other.arrives[lane.to.index()]), false}, other, lane);
       }
     }
@@ -129,9 +130,7 @@ class PairMaker {
     return through[draws.below(static_cast<std::uint32_t>(through.size()))];
   }
 
-  Vec2 heading(StationId start, StationId goal) {
-    return map_.lanes()[timetable_.from(start).lanes(map_, goal).front()].curve.pose_at(0.0).heading;
-  }
+  Vec2 heading(StationId start, StationId goal) { return map_.lanes()[timetable_.from(start).lanes(map_, goal).front()].curve.pose_at(0.0).heading; }
 
   bool add(StationId start, StationId goal, RejectionCounts& counts) { return add_agv(scenario_, start, heading(start, goal), counts); }
 

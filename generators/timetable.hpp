@@ -14,9 +14,9 @@ struct QuickestWays {
   static constexpr std::uint32_t kNone = ~0U;
 
   StationId from;
-  std::vector<std::uint32_t> arrival_lane;   // by station; kNone at `from` and where no way leads
+  std::vector<std::uint32_t> arrival_lane;    // by station; kNone at `from` and where no way leads
   std::vector<Duration> drives_off, arrives;  // by station: when the arrival lane is begun, after the turn, and ended
-  std::vector<std::uint8_t> unique;          // by station: no other way is as quick, to the microsecond
+  std::vector<std::uint8_t> unique;           // by station: no other way is as quick, to the microsecond
 
   bool reaches(StationId station) const { return station == from || arrival_lane[station.index()] != kNone; }
   // Lanes from `from` to `station`, in the order they are driven.
@@ -42,8 +42,8 @@ class Timetable {
     Duration drive;
   };
   std::vector<Hop> hops_;
-  std::vector<std::pair<Vec2, Vec2>> headings_;       // by lane, at its start and at its end
-  std::vector<std::vector<Duration>> turns_;          // by lane, and number of the next one in lanes_from(); negative: not asked for yet
+  std::vector<std::pair<Vec2, Vec2>> headings_;  // by lane, at its start and at its end
+  std::vector<std::vector<Duration>> turns_;     // by lane, and number of the next one in lanes_from(); negative: not asked for yet
   std::vector<QuickestWays> ways_;
   std::vector<bool> known_;
 

@@ -36,7 +36,8 @@ void check(const WorldSpec& spec) {
       throw InputError("orders", "a list of orders names stations, but this layout is drawn anew for every world; use a layout file as it is");
     }
     if (spec.placement != Placement::Random && spec.placement != Placement::ChargerBank) {
-      throw InputError("orders", fmt::format("placement {} chooses the first orders itself; drop one of the two", in_quotes(name_of(spec.placement))));
+      throw InputError("orders",
+                       fmt::format("placement {} chooses the first orders itself; drop one of the two", in_quotes(name_of(spec.placement))));
     }
   }
   if (const auto* map = std::get_if<SharedMap>(&spec.layout); map != nullptr && spec.fleet_size > (*map)->station_count()) {

@@ -19,8 +19,8 @@ struct WorldSpec {
   bool mutate = false;  // a map is only where to begin: every world has a mutation of it (mutated_import.hpp)
   std::uint32_t fleet_size = 5;
   Placement placement = Placement::Random;
-  double transports_per_agv_hour = 20.0;  // 0: none; at most 3600
-  double hot_spot_skew = 0.0;             // at most 4; transports.hpp
+  double transports_per_agv_hour = 20.0;    // 0: none; at most 3600
+  double hot_spot_skew = 0.0;               // at most 4; transports.hpp
   std::shared_ptr<const OrderList> orders;  // instead of drawn transports; for a map that stays as it is, and no placement in pairs
   VehicleType vehicle;
   LawSetup law;  // starts keep its safety distance

@@ -38,7 +38,8 @@ Layout mutation(const GenerateWords& words, std::uint64_t key) {
     if (number > 0) fmt::print(stderr, "{} of {} draws refused: {}\n", number, number + 1, rejection_text(counts));
     return *layout;
   }
-  throw InputError(words.from, fmt::format("none of {} mutations is sound ({}); choose another seed or a layout with more ways round", kAttempts, rejection_text(counts)));
+  throw InputError(words.from, fmt::format("none of {} mutations is sound ({}); choose another seed or a layout with more ways round", kAttempts,
+                                           rejection_text(counts)));
 }
 
 // The layout of the world with this seed: the same that a scenario of that seed holds, unless its first draw was refused.
