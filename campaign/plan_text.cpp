@@ -151,9 +151,8 @@ Json layouts_json(const CampaignPlan& plan) {
 }
 
 Json world_json(const CampaignPlan& plan) {
-  Json world = {{"transports_per_agv_hour", plan.transports_per_agv_hour},
-                {"placement", name_of(plan.placement)},
-                {"hot_spot_skew", plan.hot_spot_skew}};
+  Json world = {
+      {"transports_per_agv_hour", plan.transports_per_agv_hour}, {"placement", name_of(plan.placement)}, {"hot_spot_skew", plan.hot_spot_skew}};
   if (plan.orders == nullptr) return world;
   Json orders = Json::array();
   for (const ListedOrder& order : plan.orders->orders) {
@@ -166,8 +165,8 @@ Json world_json(const CampaignPlan& plan) {
 
 void read_world(const Json& world, CampaignPlan& plan) {
   plan.transports_per_agv_hour = world.at("transports_per_agv_hour");
-  plan.placement = enum_from(world.at("placement"),
-                             {Placement::Random, Placement::ChargerBank, Placement::Adversarial, Placement::Symmetric, Placement::Mixed});
+  plan.placement =
+      enum_from(world.at("placement"), {Placement::Random, Placement::ChargerBank, Placement::Adversarial, Placement::Symmetric, Placement::Mixed});
   plan.hot_spot_skew = world.at("hot_spot_skew");
   if (!world.contains("orders")) return;
   OrderList list;

@@ -14,6 +14,11 @@ ScenarioSource::ScenarioSource(const CampaignPlan& plan) : plan_(plan), cells_(p
 RunPlace ScenarioSource::place(std::uint64_t run_index) const { return {run_index / cells_.size(), cells_[run_index % cells_.size()]}; }
 
 Scenario ScenarioSource::scenario(std::uint64_t run_index) const {
+  RejectionCounts ignored;
+  return scenario(run_index, ignored);
+}
+
+Scenario ScenarioSource::scenario(std::uint64_t run_index, RejectionCounts& rejected) const {
   const auto [replicate, cell] = place(run_index);
   const LayoutFactor& layout = *std::ranges::find(plan_.layouts, cell.layout, &LayoutFactor::name);
   WorldSpec spec;
@@ -33,7 +38,6 @@ Scenario ScenarioSource::scenario(std::uint64_t run_index) const {
   spec.law = plan_.law;
   spec.horizon = seconds(plan_.horizon_s);
   const std::uint64_t factors = name_hash(fmt::format("{}/{}", cell.layout, cell.fleet_size));
-  RejectionCounts rejected;
   Scenario scenario = generate_world(spec, world_seed(plan_.seed, replicate, factors), rejected);
   scenario.name = fmt::format("{} run {}", plan_.name, run_index);
   scenario.radio = plan_.radio;

@@ -4,6 +4,7 @@
 
 #include "campaign/plan.hpp"
 #include "core/scenario.hpp"
+#include "generators/rejection_counts.hpp"
 
 namespace fleetproof {
 
@@ -19,6 +20,7 @@ class ScenarioSource {
   explicit ScenarioSource(const CampaignPlan& plan);
   RunPlace place(std::uint64_t run_index) const;
   Scenario scenario(std::uint64_t run_index) const;
+  Scenario scenario(std::uint64_t run_index, RejectionCounts& rejected) const;  // adds what drawing its world cost
 
  private:
   const CampaignPlan& plan_;

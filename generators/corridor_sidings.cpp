@@ -33,7 +33,8 @@ Sizes draw_sizes(Draws& draws, Range range) {
 
 class CorridorSidings {
  public:
-  CorridorSidings(Draws& draws, Range range) : draws_(draws), range_(range), sizes_(draw_sizes(draws, range)), builder_(family_name("corridor-sidings", range)) {}
+  CorridorSidings(Draws& draws, Range range)
+      : draws_(draws), range_(range), sizes_(draw_sizes(draws, range)), builder_(family_name("corridor-sidings", range)) {}
 
   Layout make() {
     for (std::uint32_t i = 0; i <= sizes_.steps; ++i) corridor_.push_back(builder_.station(fmt::format("C{}", i), {i * sizes_.pitch, 0}));

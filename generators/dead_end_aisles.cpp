@@ -9,7 +9,8 @@ namespace fleetproof {
 
 Layout make_dead_end_aisles(Draws& draws) {
   const std::uint32_t aisles = 4 + draws.below(7), steps = 3 + draws.below(4);
-  const std::int64_t distance = draw_between(draws, 2800, 4000, 50), pitch = draw_between(draws, 3000, 5000, 50), spur = draw_between(draws, 3000, 3500, 50);
+  const std::int64_t distance = draw_between(draws, 2800, 4000, 50), pitch = draw_between(draws, 3000, 5000, 50),
+                     spur = draw_between(draws, 3000, 3500, 50);
   const std::uint32_t parking = 2, charging = 1, docks = 1;
   LayoutBuilder builder(family_name("aisle-grid", Range::Stress));
   std::vector<StationId> cross;

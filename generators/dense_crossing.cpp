@@ -28,7 +28,8 @@ Sizes draw_sizes(Draws& draws, Range range) {
 
 class DenseCrossing {
  public:
-  DenseCrossing(Draws& draws, Range range) : draws_(draws), range_(range), sizes_(draw_sizes(draws, range)), builder_(family_name("dense-crossing", range)) {}
+  DenseCrossing(Draws& draws, Range range)
+      : draws_(draws), range_(range), sizes_(draw_sizes(draws, range)), builder_(family_name("dense-crossing", range)) {}
 
   Layout make() {
     crossings_ = grid("X", sizes_.lines, 0);

@@ -14,7 +14,9 @@ namespace {
 
 constexpr Duration kWithin = std::chrono::seconds(1);
 constexpr Duration kTie = std::chrono::milliseconds(1);
-constexpr std::uint32_t kTries = 16;
+constexpr std::uint32_t kTries = 16;  // drawings of the first AGV
+// Starts of the second one that are looked at in each of the first tries; later, and for ties, all are.
+constexpr std::uint32_t kFewOthers = 10, kHastyTries = 3;
 
 // Where the second AGV may start so that the two meet: its quickest way to `through` ends with the lane on which, or after which, they do.
 struct Meeting {
@@ -41,7 +43,7 @@ class PairMaker {
     std::optional<Found> best;
     for (std::uint32_t i = 0; i < kTries; ++i) {
       // Where places to wait are few, or lie so that nobody meets, any station serves.
-      auto found = draw(draws, i < kTries / 2 ? starts_ : core_);
+      const auto found = draw(draws, i < kTries / 2 ? starts_ : core_, i < kHastyTries && !ties_ ? kFewOthers : core_.size());
       if (!found || (best && !is_better(found->meeting, best->meeting))) continue;
       best = found;
       if (ties_ ? best->meeting.apart <= kTie : best->meeting.head_on) break;
@@ -63,12 +65,14 @@ class PairMaker {
 
   bool is_better(const Meeting& a, const Meeting& b) const { return ties_ ? a.apart < b.apart : a.head_on && !b.head_on; }
 
-  std::optional<Found> draw(Draws& draws, const std::vector<StationId>& starts) {
+  std::optional<Found> draw(Draws& draws, const std::vector<StationId>& starts, std::size_t others_looked_at) {
     const auto start = starts[draws.below(static_cast<std::uint32_t>(starts.size()))];
     const auto goal = goals_[draws.below(static_cast<std::uint32_t>(goals_.size()))];
     const auto& ways = timetable_.from(start);
-    if (start == goal || !ways.unique[goal.index()] || !has_room(start, goal, std::nullopt)) return std::nullopt;
-    auto meetings = meetings_with(ways, goal, starts);
+    if (start == goal || ways.unique[goal.index()] == 0 || !has_room(start, goal, std::nullopt)) return std::nullopt;
+    std::vector<StationId> others;
+    for (const auto n : draw_some(draws, starts.size(), others_looked_at)) others.push_back(starts[n]);
+    const auto meetings = meetings_with(ways, goal, others);
     // In drawn order, the best kind first.
     std::vector<Meeting> in_order;
     for (const auto n : draw_some(draws, meetings.size(), meetings.size())) in_order.push_back(meetings[n]);
@@ -92,7 +96,8 @@ class PairMaker {
       const auto& other = timetable_.from(start);
       for (const auto l : lanes) {
         const auto& lane = map_.lanes()[l];
-        if (!ties_) consider(found, {start, lane.from, apart(ways.drives_off[lane.to.index()], other.drives_off[lane.from.index()]), true}, other, lane);
+        if (!ties_)
+          consider(found, {start, lane.from, apart(ways.drives_off[lane.to.index()], other.drives_off[lane.from.index()]), true}, other, lane);
         consider(found, {start, lane.to, apart(ways.arrives[lane.to.index()], other.arrives[lane.to.index()]), false}, other, lane);
       }
     }
@@ -102,7 +107,7 @@ class PairMaker {
   static Duration apart(Duration a, Duration b) { return a < b ? b - a : a - b; }
 
   void consider(std::vector<Meeting>& found, const Meeting& meeting, const QuickestWays& other, const Lane& lane) const {
-    if (meeting.apart >= kWithin || !other.unique[meeting.through.index()]) return;
+    if (meeting.apart >= kWithin || other.unique[meeting.through.index()] == 0) return;
     const auto last = other.arrival_lane[meeting.through.index()];
     if (last == QuickestWays::kNone) return;
     // Head-on the other drives the same segment; at a station it comes by another one.
@@ -114,7 +119,7 @@ class PairMaker {
     const auto& ways = timetable_.from(meeting.start);
     std::vector<StationId> through;
     for (const auto goal : goals_) {
-      if (goal == meeting.start || !ways.unique[goal.index()]) continue;
+      if (goal == meeting.start || ways.unique[goal.index()] == 0) continue;
       for (StationId s = goal; s != meeting.start; s = map_.lanes()[ways.arrival_lane[s.index()]].from) {
         if (s != meeting.through) continue;
         through.push_back(goal);
@@ -125,9 +130,7 @@ class PairMaker {
     return through[draws.below(static_cast<std::uint32_t>(through.size()))];
   }
 
-  Vec2 heading(StationId start, StationId goal) {
-    return map_.lanes()[timetable_.from(start).lanes(map_, goal).front()].curve.pose_at(0.0).heading;
-  }
+  Vec2 heading(StationId start, StationId goal) { return map_.lanes()[timetable_.from(start).lanes(map_, goal).front()].curve.pose_at(0.0).heading; }
 
   bool add(StationId start, StationId goal, RejectionCounts& counts) { return add_agv(scenario_, start, heading(start, goal), counts); }
 

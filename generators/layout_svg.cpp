@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <vector>
 
 namespace fleetproof {
 namespace {
@@ -11,6 +12,7 @@ namespace {
 constexpr double kWidth_px = 960.0, kMargin_px = 24.0, kHead_px = 40.0, kFoot_px = 56.0;
 constexpr double kLargestScale = 40.0;  // pixels per metre
 constexpr double kArrowEvery_m = 12.0;
+constexpr std::size_t kFewStations = 150;  // up to here every name is written
 
 struct Look {
   Purpose purpose;
@@ -51,6 +53,15 @@ std::string escaped(std::string_view text) {
   }
   return out;
 }
+
+// Where a name stands.
+struct Written {
+  Vec2 low_px, high_px;
+
+  bool covers(const Written& o) const {
+    return low_px.x() < o.high_px.x() && o.low_px.x() < high_px.x() && low_px.y() < o.high_px.y() && o.low_px.y() < high_px.y();
+  }
+};
 
 class Picture {
  public:
@@ -152,11 +163,17 @@ class Picture {
     }
   }
 
-  // Names stand to the upper right; on maps too crowded for them they are tooltips only.
+  // Names stand to the upper right; on maps too crowded for them they are tooltips only, all of them or those that would cover another.
   void label(const Station& station) {
     const Vec2 at = pixel(station.position_m);
     const double size_px = std::clamp(0.5 * scale_, 8.0, 11.0), r = radius_px();
     if (scale_ < 6.0) return;
+    if (layout_.stations.size() > kFewStations) {
+      const Vec2 low(at.x() + r, at.y() - r - size_px), high(low.x() + 0.6 * size_px * static_cast<double>(station.name.size()), at.y() - r);
+      const Written written{low, high};
+      if (std::ranges::any_of(written_, [&](const Written& other) { return written.covers(other); })) return;
+      written_.push_back(written);
+    }
     add(R"(<text x="{:.1f}" y="{:.1f}" font-size="{:.1f}" fill="#444444">{}</text>)", at.x() + r, at.y() - r, size_px, escaped(station.name));
   }
 
@@ -187,6 +204,7 @@ class Picture {
   }
 
   const Layout& layout_;
+  std::vector<Written> written_;
   double scale_ = 1.0, width_px_ = 0.0, height_px_ = 0.0, left_px_ = 0.0;
   std::string text_;
 };

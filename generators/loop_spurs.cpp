@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/geometry/rotation.hpp"
 #include "generators/layout_builder.hpp"
 
@@ -36,7 +38,11 @@ Sizes draw_sizes(Draws& draws) {
 class LoopSpurs {
  public:
   LoopSpurs(Draws& draws, Range range)
-      : draws_(draws), range_(range), sizes_(draw_sizes(draws)), way_(draws.below(2) == 0 ? Way::Forward : Way::Backward), builder_(family_name("loop-spurs", range)) {}
+      : draws_(draws),
+        range_(range),
+        sizes_(draw_sizes(draws)),
+        way_(draws.below(2) == 0 ? Way::Forward : Way::Backward),
+        builder_(family_name("loop-spurs", range)) {}
 
   Layout make() {
     place_loop();
@@ -89,7 +95,7 @@ class LoopSpurs {
   void add_chords() {
     const std::uint32_t pairs = 1 + draws_.below(2), half = sizes_.along / 2;
     for (std::uint32_t k = 0; k < pairs; ++k) {
-      const std::uint32_t span = 1 + draws_.below(2), left = k * half + draws_.below(half - span + 1), right = left + span;
+      const std::uint32_t span = 1 + draws_.below(std::min(2U, half)), left = k * half + draws_.below(half - span + 1), right = left + span;
       add_chord(left, right);
       add_chord(right, left);
     }
@@ -103,7 +109,8 @@ class LoopSpurs {
   // Outwards everywhere; inwards from the long sides only, as far as the loop is wide enough for waiting there.
   std::vector<Site> sites() const {
     const std::int64_t spur = sizes_.spur, inside = height() + 2 * sizes_.radius;
-    const bool lower_inwards = range_ == Range::Normal && inside >= spur + kRoomToWait_mm, upper_inwards = range_ == Range::Normal && inside >= 2 * spur + kRoomToWait_mm;
+    const bool lower_inwards = range_ == Range::Normal && inside >= spur + kRoomToWait_mm,
+               upper_inwards = range_ == Range::Normal && inside >= 2 * spur + kRoomToWait_mm;
     std::vector<Site> found;
     for (std::size_t k = 0; k < sides_.size(); ++k) {
       const PointMm outwards{k == 1 ? spur : k == 3 ? -spur : 0, k == 0 ? -spur : k == 2 ? spur : 0};

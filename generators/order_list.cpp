@@ -60,6 +60,7 @@ class OrderReader {
   std::string station(const std::vector<std::string>& fields, std::string_view column) const {
     auto name = field(fields, column);
     if (name.empty()) refuse(fmt::format("{} is empty; expected the name of a station", column));
+    if (!is_plain_utf8(name)) refuse(fmt::format("{} is {}; a name is UTF-8 without control characters", column, in_quotes(name)));
     return name;
   }
 

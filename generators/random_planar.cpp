@@ -68,7 +68,8 @@ class RandomPlanar {
 
   void join(bool gentle) {
     const std::uint32_t least_percent = range_ == Range::Stress ? 30 : 0;
-    const std::uint32_t left_out_percent = gentle ? least_percent : least_percent + draws_.below(31), two_way_percent = gentle ? 100 : 40 + draws_.below(61);
+    const std::uint32_t left_out_percent = gentle ? least_percent : least_percent + draws_.below(31),
+                        two_way_percent = gentle ? 100 : 40 + draws_.below(61);
     edges_.clear();
     for (std::uint32_t a = 0; a < points_.size(); ++a) {
       for (std::uint32_t b = a + 1; b < points_.size(); ++b) {

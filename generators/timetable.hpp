@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/scenario.hpp"
@@ -13,9 +14,9 @@ struct QuickestWays {
   static constexpr std::uint32_t kNone = ~0U;
 
   StationId from;
-  std::vector<std::uint32_t> arrival_lane;   // by station; kNone at `from` and where no way leads
+  std::vector<std::uint32_t> arrival_lane;    // by station; kNone at `from` and where no way leads
   std::vector<Duration> drives_off, arrives;  // by station: when the arrival lane is begun, after the turn, and ended
-  std::vector<bool> unique;                  // by station: no other way is as quick, to the microsecond
+  std::vector<std::uint8_t> unique;           // by station: no other way is as quick, to the microsecond
 
   bool reaches(StationId station) const { return station == from || arrival_lane[station.index()] != kNone; }
   // Lanes from `from` to `station`, in the order they are driven.
@@ -30,14 +31,27 @@ class Timetable {
   const QuickestWays& from(StationId station);
 
  private:
-  QuickestWays search(StationId from) const;
-  Duration turn(std::uint32_t before, std::uint32_t after) const;
+  QuickestWays search(StationId from);
+  Duration turn(std::uint32_t before, std::uint32_t after);
 
   const LogicalMap& map_;
   const VehicleType& type_;
-  std::vector<Duration> drive_;  // by lane
+  // By lane, side by side for the search.
+  struct Hop {
+    std::uint32_t from, to;
+    Duration drive;
+  };
+  std::vector<Hop> hops_;
+  std::vector<std::pair<Vec2, Vec2>> headings_;  // by lane, at its start and at its end
+  std::vector<std::vector<Duration>> turns_;     // by lane, and number of the next one in lanes_from(); negative: not asked for yet
   std::vector<QuickestWays> ways_;
   std::vector<bool> known_;
+
+  // Memory of a search, kept for the next.
+  using Open = std::pair<Duration, std::uint32_t>;
+  std::vector<Open> open_;
+  std::vector<Duration> cost_;
+  std::vector<std::uint32_t> order_, quickest_;
 };
 
 }  // namespace fleetproof

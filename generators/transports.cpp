@@ -1,6 +1,7 @@
 #include "generators/transports.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "core/random.hpp"
 #include "generators/layout_builder.hpp"
@@ -72,14 +73,15 @@ bool assign_transports(Scenario& scenario, const Demand& demand, const Reachabil
   const bool enough = stations.size() >= 2 && scenario.map->station(stations[0]).purposes.has(Purpose::Storage) &&
                       scenario.map->station(stations[1]).purposes.has(Purpose::Storage);
   if (stations.size() < 2 || demand.transports_per_agv_hour <= 0.0) return enough;
-  const HotSpots hot_spots(stations, demand.hot_spot_skew, Draws(key, attempt, kNoAgv));
+  std::optional<HotSpots> hot_spots;
+  if (demand.hot_spot_skew > 0.0) hot_spots.emplace(stations, demand.hot_spot_skew, Draws(key, attempt, kNoAgv));
   const double mean_s = 3600.0 / demand.transports_per_agv_hour, horizon_s = to_seconds(scenario.horizon);
   for (std::size_t i = 0; i < scenario.agvs.size(); ++i) {
     Draws draws(key, attempt, static_cast<std::uint32_t>(i));
     auto& transports = scenario.agvs[i].transports;
     transports.clear();
     for (double t_s = draws.uniform(0.0, kFirstWithin_s); t_s < horizon_s; t_s += draws.exponential(mean_s)) {
-      auto order = demand.hot_spot_skew > 0.0 ? hot_spots.draw_order(draws) : draw_order(draws, stations);
+      auto order = hot_spots ? hot_spots->draw_order(draws) : draw_order(draws, stations);
       order.release = seconds(t_s);
       transports.push_back(order);
     }

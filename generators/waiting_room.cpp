@@ -50,7 +50,8 @@ bool cuts(Search& search, StationId station, const Reachability& reachability) {
 // Two places of storage before all else, so that there is still something to transport; then one to park and one to charge.
 std::vector<std::size_t> in_order_of_need(const Layout& layout) {
   std::vector<std::size_t> order;
-  for (const auto& [purpose, count] : {std::pair{Purpose::Storage, 2}, {Purpose::Parking, 1}, {Purpose::Charging, 1}, {Purpose::Storage, 1'000'000}}) {
+  for (const auto& [purpose, count] :
+       {std::pair{Purpose::Storage, 2}, {Purpose::Parking, 1}, {Purpose::Charging, 1}, {Purpose::Storage, 1'000'000}}) {
     int taken = 0;
     for (std::size_t i = 0; i < layout.stations.size() && taken < count; ++i) {
       if (!layout.stations[i].purposes.has(purpose) || std::ranges::find(order, i) != order.end()) continue;
@@ -79,25 +80,27 @@ std::vector<bool> cut_stations(const LogicalMap& map, const Reachability& reacha
 
 std::size_t open_waiting_places(const LogicalMap& map, const Reachability& reachability) {
   Search search(map, reachability);
-  return static_cast<std::size_t>(std::ranges::count_if(
-      reachability.core(), [&](StationId s) { return is_place_to_wait(map.station(s)) && !cuts(search, s, reachability); }));
+  return static_cast<std::size_t>(
+      std::ranges::count_if(reachability.core(), [&](StationId s) { return is_place_to_wait(map.station(s)) && !cuts(search, s, reachability); }));
 }
 
 bool close_waiting_places(Layout& layout) {
   const LogicalMap map(layout);
   const auto cut = cut_stations(map, Reachability(map));
-  if (std::ranges::count(cut, true) < 3) return false;
+  auto stations = layout.stations;
   for (const auto i : in_order_of_need(layout)) {
     if (cut[i]) continue;
     Station* nearest = nullptr;
-    const auto distance = [&](const Station& s) { return (s.position_m - layout.stations[i].position_m).squaredNorm(); };
+    const auto distance = [&](const Station& s) { return (s.position_m - stations[i].position_m).squaredNorm(); };
     for (std::size_t k = 0; k < cut.size(); ++k) {
-      auto& candidate = layout.stations[k];
+      auto& candidate = stations[k];
       if (cut[k] && !is_place_to_wait(candidate) && (nearest == nullptr || distance(candidate) < distance(*nearest))) nearest = &candidate;
     }
-    if (nearest != nullptr) nearest->purposes = layout.stations[i].purposes;
-    layout.stations[i].purposes = Purpose::Routing;
+    if (nearest != nullptr) nearest->purposes = stations[i].purposes;
+    stations[i].purposes = Purpose::Routing;
   }
+  if (std::ranges::count_if(stations, [](const Station& s) { return s.purposes.has(Purpose::Storage); }) < 2) return false;
+  layout.stations = std::move(stations);
   return true;
 }
 

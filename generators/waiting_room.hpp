@@ -19,7 +19,7 @@ std::vector<bool> cut_stations(const LogicalMap& map, const Reachability& reacha
 std::size_t open_waiting_places(const LogicalMap& map, const Reachability& reachability);
 
 // Moves the purposes of every open place to wait to the nearest cut station that has none, storage first: whoever waits is then in somebody's
-// way. False, and nothing changed, if the layout has fewer than three cut stations.
+// way. False, and nothing changed, if that leaves fewer than two places of storage.
 bool close_waiting_places(Layout& layout);
 
 }  // namespace fleetproof

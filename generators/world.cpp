@@ -39,21 +39,14 @@ void check(const WorldSpec& spec) {
       throw InputError("orders", "a list of orders names stations, but this layout is drawn anew for every world; use a layout file as it is");
     }
     if (spec.placement != Placement::Random && spec.placement != Placement::ChargerBank) {
-      throw InputError("orders", fmt::format("placement {} chooses the first orders itself; drop one of the two", in_quotes(name_of(spec.placement))));
+      throw InputError("orders",
+                       fmt::format("placement {} chooses the first orders itself; drop one of the two", in_quotes(name_of(spec.placement))));
     }
   }
   if (const auto* map = std::get_if<SharedMap>(&spec.layout); map != nullptr && spec.fleet_size > (*map)->station_count()) {
     throw InputError("fleet_size",
                      fmt::format("{} AGVs cannot start on the {} stations of this layout; ask for fewer", spec.fleet_size, (*map)->station_count()));
   }
-}
-
-std::string reasons(const RejectionCounts& counts) {
-  std::string text = fmt::format("out of stations {} times", counts.fleets_without_room);
-  for (std::size_t i = 0; i < kProblemKinds; ++i) {
-    if (counts.reasons[i] > 0) text += fmt::format(", {} {}", name_of(static_cast<ProblemKind>(i)), counts.reasons[i]);
-  }
-  return text;
 }
 
 // The first type, as long and as wide as any of them.
@@ -183,7 +176,17 @@ Scenario generate_world(const WorldSpec& spec, std::uint64_t seed, RejectionCoun
   }
   counts.add(maker.counts);
   throw InputError("fleet_size", fmt::format("cannot place {} AGVs on this layout in {} draws ({}); ask for fewer or for a larger layout",
-                                             spec.fleet_size, kAttempts, reasons(maker.counts)));
+                                             spec.fleet_size, kAttempts, rejection_text(maker.counts)));
+}
+
+std::string rejection_text(const RejectionCounts& counts) {
+  std::string text;
+  const auto add = [&](const char* what, std::uint64_t times) {
+    if (times > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", what, times);
+  };
+  add("out of stations", counts.fleets_without_room);
+  for (std::size_t i = 0; i < kProblemKinds; ++i) add(name_of(static_cast<ProblemKind>(i)), counts.reasons[i]);
+  return text;
 }
 
 }  // namespace fleetproof

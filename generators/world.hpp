@@ -26,8 +26,8 @@ struct WorldSpec {
   bool mutate = false;  // a map is only where to begin: every world has a mutation of it (mutated_import.hpp)
   std::uint32_t fleet_size = 5;
   Placement placement = Placement::Random;
-  double transports_per_agv_hour = 20.0;  // 0: none; at most 3600
-  double hot_spot_skew = 0.0;             // at most 4; transports.hpp
+  double transports_per_agv_hour = 20.0;    // 0: none; at most 3600
+  double hot_spot_skew = 0.0;               // at most 4; transports.hpp
   std::shared_ptr<const OrderList> orders;  // instead of drawn transports; for a map that stays as it is, and no placement in pairs
   std::vector<VehicleShare> vehicles{VehicleShare{}};  // at least one; every AGV is drawn from them
   FaultRates faults;
@@ -39,5 +39,8 @@ struct WorldSpec {
 // replaced by the next draw; counts are added to `counts`. Radio and agent clock keep their defaults, for the caller to set.
 // InputError if the spec is unusable or the fleet finds no place in 32 draws.
 Scenario generate_world(const WorldSpec& spec, std::uint64_t seed, RejectionCounts& counts);
+
+// What was refused and how often: "out of stations 3, weak-core 2"; empty if nothing was.
+std::string rejection_text(const RejectionCounts& counts);
 
 }  // namespace fleetproof

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 
@@ -7,11 +8,15 @@
 #include "campaign/cli/campaign_words.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "campaign/run_one.hpp"
+#include "campaign/scenario_source.hpp"
 #include "generators/scenario_file.hpp"
 #include "generators/validator.hpp"
+#include "generators/world.hpp"
 
 namespace fleetproof::cli {
 namespace {
+
+constexpr std::uint64_t kReplicatesDrawn = 20;
 
 // One run per cell until a second is over: enough for an estimate, and every world of the first replicate that it reaches is really built.
 double mean_run_s(const CampaignPlan& plan, const AgentPrograms& programs) {
@@ -27,6 +32,21 @@ double mean_run_s(const CampaignPlan& plan, const AgentPrograms& programs) {
   return elapsed_s / static_cast<double>(runs);
 }
 
+// Draws the worlds of the first replicates, one for each layout and fleet size, and says what was refused on the way.
+void tell_rejections(const CampaignPlan& plan) {
+  const ScenarioSource source(plan);
+  const std::uint64_t qualities = plan.loss.size() * plan.delay_s.size() * plan.agents.size(), replicates = std::min(plan.replicates, kReplicatesDrawn);
+  RejectionCounts counts;
+  for (std::uint64_t replicate = 0; replicate < replicates; ++replicate) {
+    for (std::uint64_t cell = 0; cell < plan.cell_count(); cell += qualities) source.scenario(replicate * plan.cell_count() + cell, counts);
+  }
+  const auto text = rejection_text(counts);
+  fmt::print("worlds of the first {} replicates: {} drawn, {} more refused{}{}", replicates, counts.worlds, counts.worlds_rejected,
+             text.empty() ? "" : ": ", text);
+  if (counts.pairs_wanted > 0) fmt::print("; {} of {} pairs made to meet", counts.pairs_made, counts.pairs_wanted);
+  fmt::print("\n");
+}
+
 void check_campaign(const std::string& path) {
   AgentPrograms programs;
   const CampaignFile file = load_campaign(path, programs);
@@ -35,6 +55,7 @@ void check_campaign(const std::string& path) {
   const double total_s = mean_run_s(plan, programs) * static_cast<double>(plan.run_count());
   fmt::print("{}: ok, {} cells x {} replicates = {} runs of {:g} s; about {:.0f} s of one core\n", path, plan.cell_count(), plan.replicates, plan.run_count(),
              plan.horizon_s, total_s);
+  tell_rejections(plan);
 }
 
 void check_scenario(const std::string& path) {

@@ -11,6 +11,7 @@
 #include "generators/layout_file.hpp"
 #include "generators/layout_svg.hpp"
 #include "generators/mutated_import.hpp"
+#include "generators/world.hpp"
 
 namespace fleetproof::cli {
 namespace {
@@ -23,14 +24,6 @@ struct GenerateWords {
   bool stress = false;
 };
 
-std::string rejections(const RejectionCounts& counts) {
-  std::string text;
-  for (std::size_t i = 0; i < kProblemKinds; ++i) {
-    if (counts.reasons[i] > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name_of(static_cast<ProblemKind>(i)), counts.reasons[i]);
-  }
-  return text;
-}
-
 Layout mutation(const GenerateWords& words, std::uint64_t key) {
   if (words.from.empty()) throw InputError("--from", "is missing; name the layout file to begin with");
   if (words.stress) throw InputError("--stress", fmt::format("has no meaning for {}; it has one range", kMutatedImport));
@@ -42,10 +35,11 @@ Layout mutation(const GenerateWords& words, std::uint64_t key) {
     Draws draws(key, number);
     const auto layout = draw_mutation(base, draws, counts);
     if (!layout) continue;
-    if (number > 0) fmt::print(stderr, "{} of {} draws refused: {}\n", number, number + 1, rejections(counts));
+    if (number > 0) fmt::print(stderr, "{} of {} draws refused: {}\n", number, number + 1, rejection_text(counts));
     return *layout;
   }
-  throw InputError(words.from, fmt::format("none of {} mutations is sound ({}); choose another seed or a layout with more ways round", kAttempts, rejections(counts)));
+  throw InputError(words.from, fmt::format("none of {} mutations is sound ({}); choose another seed or a layout with more ways round", kAttempts,
+                                           rejection_text(counts)));
 }
 
 // The layout of the world with this seed: the same that a scenario of that seed holds, unless its first draw was refused.

@@ -36,7 +36,8 @@ std::vector<Row> agent_rows() {
 
 std::vector<Row> generator_rows() {
   auto rows = rows_of(layout_families());
-  rows.push_back({std::string(kMutatedImport), "a layout file of yours with segments left out or turned round, stations moved and all of it scaled; see generate --from"});
+  rows.push_back({std::string(kMutatedImport),
+                  "a layout file of yours with segments left out or turned round, stations moved and all of it scaled; see generate --from"});
   return rows;
 }
 

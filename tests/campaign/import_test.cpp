@@ -31,7 +31,8 @@ TEST_F(ImportTest, DrawsWhatItRead) {
   const auto finished = run("import opentcs " + kCrossdock + " -o plain.json --svg plain.svg");
   EXPECT_EQ(finished.exit_code, 0) << finished.err;
   EXPECT_THAT(read(path("plain.svg")), StartsWith("<svg "));
-  EXPECT_THAT(run("import opentcs " + kCrossdock + " --svg no/where.svg").err, HasSubstr("no/where.svg: cannot be written; choose another path for --svg"));
+  EXPECT_THAT(run("import opentcs " + kCrossdock + " --svg no/where.svg").err,
+              HasSubstr("no/where.svg: cannot be written; choose another path for --svg"));
 }
 
 TEST_F(ImportTest, TellsWhatItGuessed) {

@@ -21,7 +21,8 @@ using testing::HasSubstr;
 std::shared_ptr<const LogicalMap> ring(std::size_t storage) {
   Layout layout;
   layout.name = "ring";
-  for (std::size_t i = 0; i < storage; ++i) layout.stations.push_back({"S" + std::to_string(i), {4.0 * static_cast<double>(i), 0.0}, Purpose::Storage});
+  for (std::size_t i = 0; i < storage; ++i)
+    layout.stations.push_back({"S" + std::to_string(i), {4.0 * static_cast<double>(i), 0.0}, Purpose::Storage});
   layout.stations.push_back({"park", {0.0, 8.0}, Purpose::Parking});
   layout.stations.push_back({"charge", {8.0, 8.0}, Purpose::Charging});
   for (std::size_t i = 0; i + 1 < layout.stations.size(); ++i) {
@@ -154,7 +155,15 @@ TEST(ListedOrders, ErrorsNameFileLineAndField) {
   EXPECT_THAT(refusal(head + "1,S0,s1,0\n"), HasSubstr("orders.csv:2: to is \"s1\", but layout \"ring\" has no such station; did you mean \"S1\"?"));
   EXPECT_THAT(refusal(head + "1,S0,charge,0\n"), HasSubstr("orders.csv:2: to is \"charge\", a station for charging or parking"));
   EXPECT_THAT(refusal(head + "1,park,S1,0\n"), HasSubstr("orders.csv:2: from is \"park\", a station for charging or parking"));
+  EXPECT_THAT(refusal(head + "1,S0,caf\xe9,0\n"), HasSubstr("orders.csv:2: to is \"caf?\"; a name is UTF-8"));
   EXPECT_THAT(refusal(head + "1,\"S0,S1,0\n"), HasSubstr("orders.csv:2: a double quote is not closed"));
+}
+
+TEST(ListedOrders, BearDamage) {
+  const std::string text = "release_s,from,to,agv\n20,S0,S1,\n5.5,S1,\"S2\",1\n# remark\n30,S2,S3,0\n";
+  const auto take = [](const std::string& damaged) { with_orders(damaged); };
+  independent::bear_cuts(take, text, 100);
+  independent::bear_damage(take, text, 2000, "0123456789-.,\"# \n\r\x80\xff");
 }
 
 TEST(ListedOrders, NeedALayoutThatStaysAndNoPairs) {

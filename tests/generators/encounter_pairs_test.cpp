@@ -11,8 +11,8 @@
 #include <optional>
 #include <queue>
 
-#include "core/simulation.hpp"
 #include "campaign/agent_programs.hpp"
+#include "core/simulation.hpp"
 #include "generators/layout_family.hpp"
 #include "generators/validator.hpp"
 #include "generators/world.hpp"
@@ -100,7 +100,8 @@ Encounter encounter(const Scenario& s, const AgvSetup& one, const AgvSetup& two)
   Encounter found;
   for (const auto& x : a) {
     for (const auto& y : b) {
-      if (x.way->segment == y.way->segment && x.way->from == y.way->to) found.head_on_s = std::min(found.head_on_s, std::abs(x.begins_s - y.begins_s));
+      if (x.way->segment == y.way->segment && x.way->from == y.way->to)
+        found.head_on_s = std::min(found.head_on_s, std::abs(x.begins_s - y.begins_s));
       if (x.way->to == y.way->to && x.way->segment != y.way->segment) found.station_s = std::min(found.station_s, std::abs(x.ends_s - y.ends_s));
     }
   }
@@ -202,7 +203,8 @@ TEST(ChargerBank, TheFleetStandsRoundOneCharger) {
     EXPECT_TRUE(s.map->station(s.agvs[0].start).purposes.has(Purpose::Charging)) << seed;
     const auto spread = [](const Scenario& world) {
       double sum = 0.0;
-      for (const auto& agv : world.agvs) sum += (world.map->station(agv.start).position_m - world.map->station(world.agvs[0].start).position_m).norm();
+      for (const auto& agv : world.agvs)
+        sum += (world.map->station(agv.start).position_m - world.map->station(world.agvs[0].start).position_m).norm();
       return sum;
     };
     together_m += spread(s);

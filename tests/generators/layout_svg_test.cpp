@@ -78,6 +78,30 @@ TEST(LayoutSvg, OneWaySegmentsHaveAnArrowHead) {
   EXPECT_EQ(count(layout_svg(pair(false))), 2);
 }
 
+TEST(LayoutSvg, OnCrowdedMapsNoNameCoversAnother) {
+  Layout crowd;
+  crowd.name = "crowd";
+  for (std::size_t i = 0; i < 400; ++i) {
+    crowd.stations.push_back({"station-" + std::to_string(i), {static_cast<double>(i % 20), static_cast<double>(i / 20)}, Purpose::Routing});
+    if (i > 0) crowd.segments.push_back({"s" + std::to_string(i), StationId{i - 1}, StationId{i}, true, {}});
+  }
+  fit_floor(crowd, 3.0);
+  const auto document = parsed(layout_svg(crowd));
+  std::vector<std::pair<double, double>> written;
+  for (const auto& node : document.child("svg").children("text")) {
+    if (!std::string_view(node.text().get()).starts_with("station-")) continue;
+    written.emplace_back(node.attribute("x").as_double(), node.attribute("y").as_double());
+  }
+  EXPECT_GT(written.size(), 50U);
+  EXPECT_LT(written.size(), 400U);
+  for (std::size_t i = 0; i < written.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const bool same_line = std::abs(written[i].second - written[k].second) < 8.0;
+      EXPECT_TRUE(!same_line || std::abs(written[i].first - written[k].first) > 40.0) << i << ", " << k;
+    }
+  }
+}
+
 // The pictures of the gallery are those that the program draws.
 TEST(LayoutSvg, TheGalleryIsUpToDate) {
   for (const auto& family : layout_families()) {

@@ -96,8 +96,9 @@ void expect_sound_worlds(const Layout& base, std::uint64_t seeds) {
     ASSERT_TRUE(problems_of(s).empty()) << seed;
     ASSERT_TRUE(independent::all_reach_all(s.map->layout())) << seed;
   }
-  std::cout << base.name << ": " << counts.worlds << " worlds, " << counts.worlds_rejected << " refused (weak-core " << counts.of(ProblemKind::WeakCore)
-            << ", bad-geometry " << counts.of(ProblemKind::BadGeometry) << ", starts-too-close " << counts.of(ProblemKind::StartsTooClose) << ")\n";
+  std::cout << base.name << ": " << counts.worlds << " worlds, " << counts.worlds_rejected << " refused (weak-core "
+            << counts.of(ProblemKind::WeakCore) << ", bad-geometry " << counts.of(ProblemKind::BadGeometry) << ", starts-too-close "
+            << counts.of(ProblemKind::StartsTooClose) << ")\n";
 }
 
 TEST_P(MutatedImport, WorldsAreSoundAndCountWhatWasRefused) { expect_sound_worlds(GetParam()(), independent::seed_count()); }

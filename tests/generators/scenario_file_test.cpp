@@ -139,8 +139,8 @@ TEST(ScenarioFile, DigestsOfGeneratedWorldsArePinned) {
 }
 
 TEST(ScenarioFile, DigestsOfWorldsUnderStressArePinned) {
-  const std::uint64_t expected[] = {11618434686936819167ULL, 2625618071437931087ULL, 13086036671049046215ULL,
-                                    12886832591725578091ULL, 7568168073580230940ULL, 3606114347447977009ULL};
+  const std::uint64_t expected[] = {15198895631629148891ULL, 7591407021687076190ULL, 3517901793218237560ULL,
+                                    16887782200280568844ULL, 5614831104643415336ULL, 1686144733170366736ULL};
   ASSERT_EQ(std::size(expected), layout_families().size());
   for (std::size_t i = 0; i < layout_families().size(); ++i) {
     WorldSpec spec;

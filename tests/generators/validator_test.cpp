@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <limits>
+#include <set>
 
 #include "generators/layout_check.hpp"
 #include "generators/world.hpp"
@@ -21,6 +22,16 @@ Layout with_layout(const Scenario& s, const std::function<void(Layout&)>& change
   Layout layout = s.map->layout();
   change(layout);
   return layout;
+}
+
+// All lanes lead to the station, none away: one of many, so that the core stays above 90 %. Only for spurs.
+Layout with_trap(const Scenario& s, StationId station) {
+  return with_layout(s, [&](Layout& l) {
+    for (auto& segment : l.segments) {
+      if (segment.from == station) std::swap(segment.from, segment.to);
+      if (segment.to == station) segment.bidirectional = false;
+    }
+  });
 }
 
 struct Plant {
@@ -101,6 +112,53 @@ const Plant kPlants[] = {
     {"on_obstacle", ProblemKind::StartNearObstacle, "/agvs/3/start",
      [](Scenario& s) {
        s.obstacles = {{"rack", {1.0, 1.0}, {s.map->station(s.agvs[3].start).position_m + 1.35 * s.agvs[3].heading, Vec2::UnitX()}}};
+     }},
+    {"width", ProblemKind::NumberOutOfRange, "/vehicle_types/0/width_m", [](Scenario& s) { s.vehicle_types[0].footprint.width_m = 101; }},
+    {"acceleration", ProblemKind::NumberOutOfRange, "/vehicle_types/0/drive/acceleration_mps2",
+     [](Scenario& s) { s.vehicle_types[0].drive.acceleration_mps2 = 0; }},
+    {"deceleration", ProblemKind::NumberOutOfRange, "/vehicle_types/0/drive/deceleration_mps2",
+     [](Scenario& s) { s.vehicle_types[0].drive.deceleration_mps2 = 2e6; }},
+    {"turn_speed", ProblemKind::NumberOutOfRange, "/vehicle_types/0/turn/speed_radps", [](Scenario& s) { s.vehicle_types[0].turn.speed_mps = -1; }},
+    {"turn_deceleration", ProblemKind::NumberOutOfRange, "/vehicle_types/0/turn/deceleration_radps2",
+     [](Scenario& s) { s.vehicle_types[0].turn.deceleration_mps2 = kNan; }},
+    {"battery_per_m", ProblemKind::NumberOutOfRange, "/vehicle_types/0/battery_per_m", [](Scenario& s) { s.vehicle_types[0].battery_per_m = -0.1; }},
+    {"charge", ProblemKind::NumberOutOfRange, "/vehicle_types/0/charge_per_s", [](Scenario& s) { s.vehicle_types[0].charge_per_s = 1.1; }},
+    {"drop", ProblemKind::NumberOutOfRange, "/vehicle_types/0/drop_s", [](Scenario& s) { s.vehicle_types[0].drop_s = 2e9; }},
+    {"release_late", ProblemKind::NumberOutOfRange, "/agvs/0/transports/0/release_ns",
+     [](Scenario& s) { s.agvs[0].transports[0].release = std::chrono::seconds(1'000'000'001); }},
+    {"obstacle_length", ProblemKind::NumberOutOfRange, "/obstacles/0/length_m",
+     [](Scenario& s) {
+       s.obstacles = {{"rack", {0.0, 1.0}, {}}};
+     }},
+    {"obstacle_heading", ProblemKind::NumberOutOfRange, "/obstacles/0/heading",
+     [](Scenario& s) {
+       s.obstacles = {{"rack", {1.0, 1.0}, {{90.0, 90.0}, {0.5, 0.5}}}};
+     }},
+    {"obstacle_position", ProblemKind::NumberOutOfRange, "/obstacles/0/position_m",
+     [](Scenario& s) {
+       s.obstacles = {{"rack", {1.0, 1.0}, {{kNan, 90.0}, Vec2::UnitX()}}};
+     }},
+    {"scenario_name", ProblemKind::BadName, "/name", [](Scenario& s) { s.name = "line\nbreak"; }},
+    {"type_name", ProblemKind::BadName, "/vehicle_types/0/name", [](Scenario& s) { s.vehicle_types[0].name = ""; }},
+    {"same_type_name", ProblemKind::BadName, "/vehicle_types/1/name", [](Scenario& s) { s.vehicle_types.push_back(s.vehicle_types[0]); }},
+    {"obstacle_name", ProblemKind::BadName, "/obstacles/0/name",
+     [](Scenario& s) {
+       s.obstacles = {{"", {1.0, 1.0}, {{90.0, 90.0}, Vec2::UnitX()}}};
+     }},
+    {"long_name", ProblemKind::BadName, "/agvs/0/name", [](Scenario& s) { s.agvs[0].name = std::string(201, 'a'); }},
+    {"from", ProblemKind::UnknownReference, "/agvs/0/transports/0/from", [](Scenario& s) { s.agvs[0].transports[0].from = StationId{}; }},
+    {"start_without_lane", ProblemKind::StartWithoutLane, "/agvs/0/start",
+     [](Scenario& s) {
+       s.agvs.resize(1);
+       s.map = std::make_shared<const LogicalMap>(with_trap(s, s.agvs[0].start));
+     }},
+    {"unreachable", ProblemKind::Unreachable, "/agvs/0/transports/0/from",
+     [](Scenario& s) {
+       const StationId lost = s.agvs[0].transports[0].to;
+       s.agvs.resize(1);
+       s.agvs[0].transports.resize(1);
+       if (s.agvs[0].start == lost) s.agvs[0].start = s.agvs[0].transports[0].from;
+       s.map = std::make_shared<const LogicalMap>(with_trap(s, lost));
      }},
     {"weak_core", ProblemKind::WeakCore, "/layout",
      [](Scenario& s) {
@@ -189,6 +247,13 @@ TEST(LayoutCheck, FindsWhatCannotBeDriven) {
               l.segments[0].control_points_m = {a + Vec2(1, 0), a + Vec2(2, 0), a + Vec2(3, 0), a + Vec2(3, 1), a + Vec2(3, 2)};
             }),
             "bad-geometry/segments/0");
+}
+
+// The list is complete as far as kinds go: of those that a layout in use cannot have (BadGeometry), LayoutCheck has its own.
+TEST(PlantedScenarios, CoverEveryKindOfProblem) {
+  std::set<ProblemKind> planted{ProblemKind::BadGeometry};
+  for (const auto& plant : kPlants) planted.insert(plant.kind);
+  EXPECT_EQ(planted.size(), kProblemKinds);
 }
 
 }  // namespace
