@@ -3,9 +3,10 @@
 //   detection_cost FLEET SECONDS LAW...      times, in one process; ratios to the first law
 //   detection_cost --walk FLEET SECONDS LAW  one replay, for valgrind --tool=callgrind --toggle-collect='*replay_to*'
 //
-// LAW may be "none". Runs are those of the whole-run benchmark (simulation_bench.cpp); their agent is hull-lock, or what the environment variable
-// AGENT names. A walk is no run but pieces made up: on 400 m2 for each AGV, as in those runs, everybody turns, drives and waits about its own middle
-// and now and then passes a neighbour. It is as dense for 500 AGVs as for 5, and nobody's rules slow it down.
+// LAW may be "none", or "all-pairs": the exact distance of every pair of bodies every 2.5 ms. Runs are those of the whole-run benchmark
+// (simulation_bench.cpp); their agent is hull-lock, or what the environment variable AGENT names. A walk is no run but pieces made up: on 400 m2 for
+// each AGV, as in those runs, everybody turns, drives and waits about its own middle and now and then passes a neighbour. It is as dense for 500 AGVs
+// as for 5, and nobody's rules slow it down.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -40,6 +41,47 @@ class Recorder final : public Law {
   std::vector<Announcement>& all_;
   SimTime& end_;
 };
+
+// The plainest detector: a global step, and the kernel's distance of all pairs.
+class AllPairs final : public Law {
+ public:
+  explicit AllPairs(const Scenario& scenario) : agvs_(scenario.agvs.size()), step_(seconds(scenario.law.snapshot_s)) {
+    pieces_.resize(agvs_ + scenario.obstacles.size());
+  }
+  void piece_ended(const Piece& piece) override { pieces_[piece.entity.index()].push_back(piece); }
+  void finish(SimTime end) override {
+    std::vector<std::size_t> now(pieces_.size());
+    std::vector<OrientedRectangle> bodies(pieces_.size());
+    for (SimTime t = kStart; t <= end; t += step_) {
+      for (std::size_t i = 0; i < pieces_.size(); ++i) {
+        while (now[i] + 1 < pieces_[i].size() && pieces_[i][now[i]].end <= t) ++now[i];
+        bodies[i] = pieces_[i][now[i]].body_at(t);
+      }
+      for (std::size_t b = 1; b < bodies.size(); ++b) {
+        for (std::size_t a = 0; a < std::min(b, agvs_); ++a)
+          smallest_m_ = std::min(smallest_m_, clearance_m(bodies[a], bodies[b])), ++findings_.distance_evaluations;
+      }
+    }
+  }
+  LawFindings findings() const override {
+    LawFindings findings = findings_;
+    findings.min_clearance_m = smallest_m_;
+    return findings;
+  }
+
+ private:
+  std::size_t agvs_;
+  Duration step_;
+  double smallest_m_ = 1e9;
+  std::vector<std::vector<Piece>> pieces_;
+  LawFindings findings_;
+};
+std::unique_ptr<Law> make_all_pairs(const Scenario& scenario) { return std::make_unique<AllPairs>(scenario); }
+
+MakeLaw law_named(const std::string& name) {
+  if (name == "none") return nullptr;
+  return name == "all-pairs" ? &make_all_pairs : find_entry(laws(), name)->make;
+}
 
 struct Recording {
   Scenario scenario;
@@ -119,7 +161,7 @@ void compare(std::uint32_t fleet, double horizon_s, std::span<char*> names) {
   double first_alone_s = 0.0, first_whole_s = 0.0;
   for (const std::string name : names) {
     LawFindings findings;
-    const MakeLaw make = name == "none" ? nullptr : find_entry(laws(), name)->make;
+    const MakeLaw make = law_named(name);
     const double alone_s = make == nullptr ? 0.0 : median_s([&] { findings = replay_to(*make(recording.scenario), recording); });
     const double whole_s = median_s([&] {
       std::vector<std::unique_ptr<Law>> laws;
@@ -141,7 +183,7 @@ void replay_walk(std::uint32_t fleet, double horizon_s, const char* name) {
   test::Announcer(scene, recorder).announce(test::Order::ByEntity);
   for (const Announcement& a : recording.all) recording.drives += a.started && a.piece.manner == Manner::Drive;
   LawFindings findings;
-  const auto law = find_entry(laws(), name)->make(recording.scenario);
+  const auto law = law_named(name)(recording.scenario);
   const double spent_s = seconds_of([&] { findings = replay_to(*law, recording); });
   fmt::print("{} AGVs, {} s, {}: {} pieces, {} drives, {} evaluations, {} violations, {:.0f} ns a drive\n", fleet, horizon_s, name,
              recording.all.size() / 2, recording.drives, findings.distance_evaluations, findings.violations.size(),

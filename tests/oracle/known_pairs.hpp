@@ -66,7 +66,22 @@ class PairSource {
     for (Stroke& s : t.strokes) s.from = s.from + by;
   }
 
+  static Trajectory drive(std::vector<Stroke> strokes, Nanoseconds begin, const Limits& limits) {
+    Trajectory t;
+    t.manner = Manner::Drive, t.begin = begin, t.limits = limits;
+    t.strokes = std::move(strokes);
+    double way = 0.0;
+    for (const Stroke& s : t.strokes) way += s.length;
+    finish(t, way);
+    return t;
+  }
+
  private:
+  static void finish(Trajectory& t, double way) {
+    t.profile = Trapezoid(way, t.limits);
+    t.end = t.begin + static_cast<Nanoseconds>(std::llround(1e9 * t.profile.duration_s()));
+  }
+
   static bool in_common(TrajectoryPair& pair) {
     pair.begin = std::max(pair.a.begin, pair.b.begin), pair.end = std::min(pair.a.end, pair.b.end);
     return pair.begin < pair.end;
@@ -88,21 +103,6 @@ class PairSource {
     }
     pair = moved(high);
     return true;
-  }
-
-  static void finish(Trajectory& t, double way) {
-    t.profile = Trapezoid(way, t.limits);
-    t.end = t.begin + static_cast<Nanoseconds>(std::llround(1e9 * t.profile.duration_s()));
-  }
-
-  static Trajectory drive(std::vector<Stroke> strokes, Nanoseconds begin, const Limits& limits) {
-    Trajectory t;
-    t.manner = Manner::Drive, t.begin = begin, t.limits = limits;
-    t.strokes = std::move(strokes);
-    double way = 0.0;
-    for (const Stroke& s : t.strokes) way += s.length;
-    finish(t, way);
-    return t;
   }
 
   double way_m() { return one_in(5) ? within(5.0, 20.0) : within(3.0, 5.0); }

@@ -1,0 +1,154 @@
+#pragma once
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "campaign/agent_programs.hpp"
+#include "core/simulation.hpp"
+#include "generators/layout_family.hpp"
+#include "generators/world.hpp"
+#include "laws/laws.hpp"
+#include "tests/oracle/brute_force.hpp"
+
+// Whole runs under the exact law and under a clock of 2.5 ms that looks at every pair of bodies, whatever they do, with the oracle's distance.
+namespace fleetproof::oracle {
+
+class GlobalClock final : public Law {
+ public:
+  static constexpr Duration kStep{2'500'000};
+
+  struct Seen {
+    double lowest_m = 1e9;
+    int steps_below = 0;
+    SimTime at;
+  };
+  using Pairs = std::map<std::pair<std::uint64_t, std::uint64_t>, Seen>;
+
+  GlobalClock(const Scenario& scenario, Pairs& below) : agvs_(scenario.agvs.size()), below_(below), level_m_(scenario.law.safety_distance_m - 1e-6) {
+    pieces_.resize(agvs_ + scenario.obstacles.size());
+  }
+  void piece_ended(const Piece& piece) override { pieces_[piece.entity.index()].push_back(piece); }
+  void finish(SimTime end) override {
+    std::vector<std::size_t> now(pieces_.size());
+    std::vector<Placed> placed(pieces_.size());
+    for (SimTime t = kStart; t <= end; t += kStep) {
+      for (std::size_t i = 0; i < pieces_.size(); ++i) {
+        const std::size_t before = now[i];
+        while (now[i] + 1 < pieces_[i].size() && pieces_[i][now[i]].end <= t) ++now[i];
+        const Piece& piece = pieces_[i][now[i]];
+        if (piece.manner == fleetproof::Manner::Rest && before == now[i] && t > kStart) continue;
+        placed[i] = place(piece, t);
+      }
+      look(placed, t);
+    }
+  }
+  LawFindings findings() const override { return {}; }
+
+ private:
+  struct Placed {
+    Point centre;
+    double reach_m = 0.0;
+    Corners corners;
+  };
+
+  static Placed place(const Piece& piece, SimTime t) {
+    const Pose pose = piece.pose_at(t);
+    const Point centre{pose.position_m.x(), pose.position_m.y()}, nose{pose.heading.x(), pose.heading.y()};
+    const Point l = 0.5 * piece.footprint.length_m * nose, w = 0.5 * piece.footprint.width_m * left_of(nose);
+    return {centre,
+            0.5 * std::hypot(piece.footprint.length_m, piece.footprint.width_m),
+            {centre + l + w, centre - l + w, centre - l - w, centre + l - w}};
+  }
+
+  void look(const std::vector<Placed>& placed, SimTime t) {
+    for (std::size_t b = 1; b < placed.size(); ++b) {
+      for (std::size_t a = 0; a < std::min(b, agvs_); ++a) {
+        if (length(placed[b].centre - placed[a].centre) > placed[a].reach_m + placed[b].reach_m + level_m_) continue;
+        const double apart_m = distance_m(placed[a].corners, placed[b].corners);
+        if (apart_m >= level_m_) continue;
+        Seen& seen = below_[{a, b}];
+        if (seen.steps_below++ == 0) seen.at = t;
+        seen.lowest_m = std::min(seen.lowest_m, apart_m);
+      }
+    }
+  }
+
+  std::size_t agvs_;
+  Pairs& below_;
+  double level_m_;
+  std::vector<std::vector<Piece>> pieces_;
+};
+
+struct Comparison {
+  int runs = 0, pairs = 0, same = 0, only_exact = 0;
+  std::vector<std::string> differences;
+};
+
+inline Scenario run_of(int number, std::string_view family, double horizon_s) {
+  WorldSpec spec;
+  spec.layout = std::string(family);
+  spec.fleet_size = 4 + static_cast<std::uint32_t>(number % 5);
+  spec.transports_per_agv_hour = 120.0;
+  spec.horizon = seconds(horizon_s);
+  RejectionCounts counts;
+  Scenario scenario = generate_world(spec, 7'000 + static_cast<std::uint64_t>(number), counts);
+  scenario.radio.loss = 0.4;
+  scenario.radio.delay_s = 2.0;
+  scenario.contact_stops = number % 4 != 1;
+  return scenario;
+}
+
+// A pair that only the exact law accuses was below for less than a step, or no instant of the clock fell into its stretches.
+inline bool between_steps(const Violation& violation) {
+  const std::int64_t step = GlobalClock::kStep.count();
+  return to_ns(violation.last) / step * step < to_ns(violation.first);
+}
+
+inline void compare(int number, const Scenario& scenario, const fp_agent_type& agent, Comparison& sum) {
+  GlobalClock::Pairs seen;
+  std::vector<std::unique_ptr<Law>> laws;
+  laws.push_back(find_entry(fleetproof::laws(), "exact")->make(scenario));
+  laws.push_back(std::make_unique<GlobalClock>(scenario, seen));
+  simulate(scenario, agent, laws);
+  std::map<std::pair<std::uint64_t, std::uint64_t>, std::vector<Violation>> found;
+  for (const Violation& v : laws[0]->findings().violations) found[{v.a.index(), v.b.index()}].push_back(v);
+  ++sum.runs;
+  for (const auto& [pair, below] : seen) {
+    ++sum.pairs;
+    sum.same += found.contains(pair);
+    EXPECT_TRUE(found.contains(pair)) << "run " << number << ": the clock sees " << pair.first << " and " << pair.second << " " << below.lowest_m
+                                      << " m apart, first at " << to_seconds(below.at) << " s; the exact law does not";
+  }
+  for (const auto& [pair, violations] : found) {
+    if (seen.contains(pair)) continue;
+    ++sum.pairs, ++sum.only_exact;
+    const Violation& v = violations[0];
+    sum.differences.push_back(fmt::format("run {}, pair {} and {}: between two steps, {:.3f} ms from {:.6f} s, closest {} um", number, pair.first,
+                                          pair.second, 1e3 * to_seconds(v.last - v.first), to_seconds(v.first), v.min_clearance_um));
+    for (const Violation& violation : violations) EXPECT_TRUE(between_steps(violation)) << sum.differences.back();
+  }
+}
+
+// Every family in turn, two of three runs with the reckless agent, one with timeout-grant.
+inline Comparison compare_runs(int first, int runs, double horizon_s) {
+  const AgentPrograms programs;
+  const auto families = layout_families();
+  Comparison sum;
+  for (int i = first; i < first + runs; ++i) {
+    const auto& family = families[static_cast<std::size_t>(i) % families.size()];
+    const bool grant = (static_cast<std::size_t>(i) / families.size()) % 3 == 2;
+    compare(i, run_of(i, family.name, horizon_s), programs.find(grant ? "timeout-grant" : "reckless", "test"), sum);
+  }
+  fmt::print("{} runs: {} violated pairs, {} of them seen by both; {} fell between two steps of the clock\n", sum.runs, sum.pairs, sum.same,
+             sum.only_exact);
+  for (const std::string& difference : sum.differences) fmt::print("  {}\n", difference);
+  EXPECT_EQ(sum.same + sum.only_exact, sum.pairs);
+  EXPECT_GT(sum.same, runs / 4);
+  return sum;
+}
+
+}  // namespace fleetproof::oracle
