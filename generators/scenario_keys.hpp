@@ -20,7 +20,7 @@ inline constexpr std::string_view kCall[] = {"at_s", "at_ns", "action", "segment
 inline constexpr std::string_view kObstacle[] = {"name", "length_m", "width_m", "position_m", "heading"};
 inline constexpr std::string_view kRadio[] = {"loss", "delay_s", "delay_model", "range_m", "air_time_s"};
 inline constexpr std::string_view kAgentClock[] = {"call_cost_s"};
-inline constexpr std::string_view kLaw[] = {"safety_distance_m", "snapshot_s", "reaction_s", "min_transports_per_agv_hour"};
+inline constexpr std::string_view kLaw[] = {"safety_distance_m", "snapshot_s", "reaction_s", "min_transports_per_agv_hour", "exempt_purposes", "exempt_radius_m"};
 
 inline constexpr std::string_view kActions[] = {"move", "pick", "drop", "park", "charge"};  // by ScriptedCall::Action
 inline constexpr std::string_view kDelayModels[] = {"constant", "uniform"};                 // by RadioSetup::DelayModel
