@@ -87,6 +87,8 @@ struct Agv {
 
   std::uint64_t scanner_stamp = 0;
   bool scanner_muted = false;          // by the operator, until the field is clear
+  double field_m = 0.0;                // length of the field when it stopped the AGV, and where that was: so much has to be clear again
+  Vec2 field_from_m = Vec2::Zero();
   std::optional<SimTime> field_clear_since;
   std::uint32_t assists = 0;
 

@@ -134,8 +134,8 @@ class Engine {
 
   // ---- scanner
   void scanner_wakes(Agv& agv);
-  OrientedRectangle protective_field(const Agv& agv) const;
-  std::optional<EntityId> intruder(const Agv& agv) const;
+  double field_length_m(const Agv& agv) const;
+  std::optional<EntityId> intruder(const Agv& agv, double length_m) const;
   void scanner_looks(Agv& agv);
   void scanner_stops(Agv& agv, EntityId body);
 

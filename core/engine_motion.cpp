@@ -222,7 +222,7 @@ void Engine::stand(Agv& agv, const Pose& pose) {
 void Engine::transfer(Agv& agv, const ContainmentEvolution& evolution) {
   if (!evolution.load.valid()) return;
   const Load& load = world_.load(evolution.load);
-  if (load.holder.kind == Holder::Kind::Floor) return;  // it fell off meanwhile
+  if (evolution.to.kind == Holder::Kind::Station && load.holder != Holder{Holder::Kind::Agv, agv.id.value}) return;  // it fell off meanwhile
   move_load(agv.id, evolution.load, evolution.to);
   if (type_of(agv).loaded != LoadEffect{}) stand(agv, world_.pose_of(agv.id, now_));  // the body has grown or shrunk
   if (evolution.to.kind == Holder::Kind::Agv) {

@@ -7,18 +7,17 @@ namespace fleetproof {
 
 void Engine::scanner_wakes(Agv& agv) { queue_.push(now_, agv.id, Event::Kind::ScannerLooks, 0, ++agv.scanner_stamp); }
 
-OrientedRectangle Engine::protective_field(const Agv& agv) const {
+double Engine::field_length_m(const Agv& agv) const {
   const ScannerSetup& scanner = scenario_.scanner;
-  const Piece& piece = world_.body(agv.id).piece;
-  const double speed = piece.speed_at(now_), braking = type_of(agv).drive_with(is_loaded(agv)).deceleration_mps2;
-  const double length_m = speed * scanner.reaction_s + speed * speed / (2.0 * braking) + scanner.margin_m;
-  const OrientedRectangle body = piece.body_at(now_);
-  return {body.centre_m + (body.half_length_m + 0.5 * length_m) * body.heading, body.heading, 0.5 * length_m, body.half_width_m + scanner.margin_m};
+  const double speed = world_.body(agv.id).piece.speed_at(now_), braking = type_of(agv).drive_with(is_loaded(agv)).deceleration_mps2;
+  return speed * scanner.reaction_s + speed * speed / (2.0 * braking) + scanner.margin_m;
 }
 
 // The first body, by number, that stands in the field.
-std::optional<EntityId> Engine::intruder(const Agv& agv) const {
-  const OrientedRectangle field = protective_field(agv);
+std::optional<EntityId> Engine::intruder(const Agv& agv, double length_m) const {
+  const OrientedRectangle own = world_.body(agv.id).piece.body_at(now_);
+  const OrientedRectangle field{own.centre_m + (own.half_length_m + 0.5 * length_m) * own.heading, own.heading, 0.5 * length_m,
+                                own.half_width_m + scenario_.scanner.margin_m};
   for (std::size_t i = 0; i < world_.body_count(); ++i) {
     const Body& body = world_.body(EntityId{i});
     if (body.on_floor && EntityId{i} != agv.id && clearance_m(field, body.piece.body_at(now_)) <= 0.0) return EntityId{i};
@@ -30,7 +29,9 @@ void Engine::scanner_looks(Agv& agv) {
   const bool driving = agv.activity && agv.activity->kind == ActivityKind::Drive;
   const bool held = std::ranges::find(agv.halts, Halt::Reason::Scanner, &Halt::reason) != agv.halts.end();
   if (agv.out_of_order || (!driving && !held)) return;  // it wakes with the next drive
-  const auto body = intruder(agv);
+  double length_m = field_length_m(agv);
+  if (held || agv.scanner_muted) length_m = std::max(length_m, agv.field_m - (world_.pose_of(agv.id, now_).position_m - agv.field_from_m).norm());
+  const auto body = intruder(agv, length_m);
   if (!body) agv.scanner_muted = false;
   if (body && !held && !agv.scanner_muted) {
     scanner_stops(agv, *body);
@@ -53,6 +54,8 @@ void Engine::scanner_stops(Agv& agv, EntityId body) {
   });
   if (would_touch) ++outcome_.counters.scanner_saves;
   agv.field_clear_since.reset();
+  agv.field_m = field_length_m(agv);
+  agv.field_from_m = world_.pose_of(agv.id, now_).position_m;
   halt(agv, Halt::Reason::Scanner);
   call_operator(agv, Assist::Jam);
 }

@@ -67,6 +67,8 @@ struct LawSetup {
   double snapshot_s = 0.0025;          // granularity of the published laws (400 a second)
   double reaction_s = 10.0;            // normal-operation: an agent may leave safe mode so much later than it could
   double min_transports_per_agv_hour = 0.0;  // normal-operation: a floor for the throughput of a run; 0: none
+  Purposes exempt_purposes;            // safety-distance: bodies that both stay so near a station of such a purpose may be close to each other
+  double exempt_radius_m = 0.0;
 };
 
 // Everything one simulation needs, as plain data.

@@ -41,6 +41,9 @@ enum class TraceKind : std::uint32_t {
 };
 const char* name_of(TraceKind kind);
 
+// A reception lost, whatever for.
+constexpr bool is_loss(TraceKind kind) { return kind == TraceKind::Lost || kind == TraceKind::LostInOutage || kind == TraceKind::LostByInterference; }
+
 struct TraceRecord {
   SimTime at;
   EntityId entity;

@@ -12,6 +12,7 @@
 #include "core/catalogue.hpp"
 #include "generators/json_value.hpp"
 #include "generators/layout_file.hpp"
+#include "generators/purpose_words.hpp"
 #include "generators/radio_fields.hpp"
 #include "generators/scenario_keys.hpp"
 #include "generators/text_file.hpp"
@@ -268,6 +269,12 @@ void read_settings(const JsonReader& reader, Scenario& scenario) {
     law->read("snapshot_s", scenario.law.snapshot_s);
     law->read("reaction_s", scenario.law.reaction_s);
     law->read("min_transports_per_agv_hour", scenario.law.min_transports_per_agv_hour);
+    law->read("exempt_radius_m", scenario.law.exempt_radius_m);
+    if (const auto words = law->find("exempt_purposes")) {
+      const auto purposes = purposes_of_text(words->text());
+      if (!purposes) words->refuse("holds a word that is no purpose; known: routing, storage, charging, parking");
+      scenario.law.exempt_purposes = *purposes;
+    }
   }
   reader.read("contact_stops", scenario.contact_stops);
   read_duration(reader, "horizon", scenario.horizon);

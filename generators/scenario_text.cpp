@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "generators/json_writer.hpp"
 #include "generators/layout_file.hpp"
+#include "generators/purpose_words.hpp"
 #include "generators/radio_fields.hpp"
 #include "generators/scenario_file.hpp"
 #include "generators/scenario_keys.hpp"
@@ -38,12 +39,14 @@ class ScenarioWriter {
     json_.key("agent_clock").open_object(kLine);
     json_.key("call_cost_s").value(call_cost_s);
     json_.close();
-    const auto& [safety_distance_m, snapshot_s, reaction_s, min_transports_per_agv_hour] = law;
+    const auto& [safety_distance_m, snapshot_s, reaction_s, min_transports_per_agv_hour, exempt_purposes, exempt_radius_m] = law;
     json_.key("law").open_object(kLine);
     json_.key("safety_distance_m").value(safety_distance_m);
     json_.key("snapshot_s").value(snapshot_s);
     json_.key("reaction_s").value(reaction_s);
     json_.key("min_transports_per_agv_hour").value(min_transports_per_agv_hour);
+    json_.key("exempt_purposes").value(purposes_text(exempt_purposes));
+    json_.key("exempt_radius_m").value(exempt_radius_m);
     json_.close();
     json_.key("vehicle_types").open_array();
     for (const auto& vehicle : vehicle_types) write_vehicle(vehicle);

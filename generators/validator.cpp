@@ -77,6 +77,7 @@ class RangeCheck {
     within({{}, 0, "/law/safety_distance_m"}, scenario_.law.safety_distance_m, 0.0, kLargestBody_m);
     within({{}, 0, "/law/snapshot_s"}, scenario_.law.snapshot_s, 1e-6, kLongest_s);
     within({{}, 0, "/law/reaction_s"}, scenario_.law.reaction_s, 0.0, kLongest_s);
+    within({{}, 0, "/law/exempt_radius_m"}, scenario_.law.exempt_radius_m, 0.0, 100.0);
     within({{}, 0, "/law/min_transports_per_agv_hour"}, scenario_.law.min_transports_per_agv_hour, 0.0, 1e6);
   }
 

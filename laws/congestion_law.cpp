@@ -13,20 +13,13 @@ constexpr std::int64_t kSaturated_ppm = 500'000;
 constexpr std::int64_t kInterference_ppm = 100'000;
 constexpr std::uint64_t kFewestInterfered = 5;
 
-// Kinds of records that tell of a reception destroyed by another transmission: each goes into this list, and the law hears of it.
-constexpr std::array<TraceKind, 0> kDestroyedByInterference{};
-
-constexpr bool is_interference(TraceKind kind) { return std::ranges::find(kDestroyedByInterference, kind) != kDestroyedByInterference.end(); }
-
 class CongestionLaw final : public Law {
  public:
   explicit CongestionLaw(const Scenario& scenario) : air_time_(seconds(scenario.radio.air_time_s)) {}
 
   void piece_ended(const Piece&) override {}
   TraceKinds reads() const override {
-    TraceKinds kinds{TraceKind::Sent, TraceKind::Lost, TraceKind::Received};
-    for (const TraceKind kind : kDestroyedByInterference) kinds = kinds | TraceKinds{kind};
-    return kinds;
+    return {TraceKind::Sent, TraceKind::Lost, TraceKind::LostInOutage, TraceKind::LostByInterference, TraceKind::Received};
   }
   void happened(const TraceRecord& record) override {
     windows_before(record.at);
@@ -34,7 +27,7 @@ class CongestionLaw final : public Law {
       offered_ += air_time_;
     } else {
       ++receptions_;
-      destroyed_ += is_interference(record.kind) ? 1 : 0;
+      destroyed_ += record.kind == TraceKind::LostByInterference ? 1 : 0;
     }
   }
   void finish(SimTime end) override { windows_before(end + kWindow); }

@@ -6,7 +6,7 @@
 #include "laws/congestion_law.hpp"
 #include "laws/containment_law.hpp"
 #include "laws/coverage_law.hpp"
-#include "laws/exact_law.hpp"
+#include "laws/exempting_law.hpp"
 #include "laws/global_step_law.hpp"
 #include "laws/normal_operation_law.hpp"
 #include "laws/paper_law.hpp"
@@ -19,7 +19,7 @@ constexpr Entry<MakeLaw> kLaws[] = {
     {"safety-distance",
      "Finds every stretch of time in which an AGV is closer than the safety distance to another body, while either drives, turns or rests, to the "
      "nanosecond and the micrometre; it does not see dips of less than 1 micrometre, and may join stretches less than 0.1 s apart.",
-     make_exact_law},
+     make_safety_distance_law},
     {"battery",
      "Finds every AGV whose battery runs empty away from a charging station, to the nanosecond; it does not see what the world does not record.",
      make_battery_law},

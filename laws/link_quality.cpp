@@ -58,7 +58,7 @@ void LinkQuality::note(const TraceRecord& record) {
   if (record.a >= agvs_ || record.entity.index() >= agvs_) return;
   Link& link = now(record.a, record.entity.index(), record.at);
   ++link.receptions;
-  if (record.kind == TraceKind::Lost) {
+  if (is_loss(record.kind)) {
     ++link.lost;
     return;
   }

@@ -54,6 +54,8 @@ void NormalOperationLaw::happened(const TraceRecord& record) {
   switch (record.kind) {
     case TraceKind::Sent:
     case TraceKind::Lost:
+    case TraceKind::LostInOutage:
+    case TraceKind::LostByInterference:
     case TraceKind::Received:
       quality_.note(record);
       break;

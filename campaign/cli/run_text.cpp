@@ -6,6 +6,7 @@
 
 #include "core/activity.hpp"
 #include "core/sdk/fleetproof/agent.h"
+#include "generators/purpose_words.hpp"
 
 namespace fleetproof::cli {
 namespace {
@@ -78,6 +79,10 @@ std::string outcome_text(const Scenario& scenario, const Outcome& outcome) {
                         body_name(scenario, v.a), body_name(scenario, v.b), scenario.law.safety_distance_m, to_seconds(v.first), to_seconds(v.last),
                         static_cast<double>(v.min_clearance_um) * 1e-6, to_seconds(v.closest_at), static_cast<double>(v.x_um) * 1e-6,
                         static_cast<double>(v.y_um) * 1e-6, static_cast<double>(v.relative_speed_um_s) * 1e-6, v.contact ? std::string(", ") + name_of(level_of(v)) : "");
+  }
+  if (scenario.law.exempt_purposes.bits() != 0) {
+    text += fmt::format("  exempt from the safety distance (contact is not): within {:g} m of stations for {}\n", scenario.law.exempt_radius_m,
+                        purposes_text(scenario.law.exempt_purposes));
   }
   for (const Incident& incident : outcome.incidents) text += "  " + incident_text(scenario, incident) + "\n";
   if (outcome.min_clearance_um) {

@@ -11,6 +11,7 @@
 #include "campaign/cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/simulation.hpp"
+#include "generators/purpose_words.hpp"
 #include "generators/scenario_file.hpp"
 #include "laws/comparison.hpp"
 #include "laws/laws.hpp"
@@ -102,6 +103,8 @@ void print_json(const Scenario& scenario, const Outcome& outcome, const Simulate
   json["scenario"] = scenario.name;
   json["agent"] = words.agent;
   json["law"] = find_law(words.law)->name;
+  json["exempt_purposes"] = purposes_text(scenario.law.exempt_purposes);
+  json["exempt_radius_m"] = scenario.law.exempt_radius_m;
   json["outcome"] = name_of(outcome.outcome_class());
   json["violations"] = nlohmann::ordered_json::array();
   for (const Violation& violation : outcome.violations) json["violations"].push_back(to_json(violation, scenario));

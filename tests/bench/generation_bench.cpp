@@ -44,7 +44,7 @@ void simulate_worlds(benchmark::State& state, const std::string& layout) {
   for (auto _ : state) {
     const Scenario& scenario = worlds[n++ % kWorlds];
     std::vector<std::unique_ptr<Law>> laws;
-    laws.push_back(find_entry(fleetproof::laws(), "exact")->make(scenario));
+    laws.push_back(find_law("exact")->make(scenario));
     benchmark::DoNotOptimize(simulate(scenario, agent, laws));
   }
 }

@@ -132,7 +132,9 @@ TEST(Rolling, AMoveReleasedWhileBrakingStopsFirst) {
       EXPECT_EQ(host.move(c, 0), FP_OK);
       host.set_timer(c, 1, 6'500'000'000);  // braking begins at 6 s
     }
-    if (e.kind == FP_EVENT_TIMER) EXPECT_EQ(host.move(c, 1), FP_OK);
+    if (e.kind == FP_EVENT_TIMER) {
+      EXPECT_EQ(host.move(c, 1), FP_OK);
+    }
   }, &outcome);
   EXPECT_EQ(times, (std::vector<double>{8.0, 16.0}));
   EXPECT_EQ(outcome.counters.rolls, 0U);
@@ -144,7 +146,9 @@ TEST(Rolling, ReleasedJustBeforeTheBrakesItGoesOnAtFullSpeed) {
       EXPECT_EQ(host.move(c, 0), FP_OK);
       host.set_timer(c, 1, 5'999'000'000);
     }
-    if (e.kind == FP_EVENT_TIMER) EXPECT_EQ(host.move(c, 1), FP_OK);
+    if (e.kind == FP_EVENT_TIMER) {
+      EXPECT_EQ(host.move(c, 1), FP_OK);
+    }
   });
   ASSERT_EQ(times.size(), 2U);
   EXPECT_NEAR(times[0], 7.0, 1e-8);
@@ -186,10 +190,14 @@ TEST(Drive, ALoadMakesTheBodyLargerAndTheDriveSlower) {
   std::vector<double> times;
   const Handler handler = [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
     EXPECT_NEAR(b.fleet[0].loaded_length_m, 1.8, 1e-12);
-    if (e.kind == FP_EVENT_ORDER) EXPECT_EQ(host.pick(c, FP_HERE), FP_OK);
+    if (e.kind == FP_EVENT_ORDER) {
+      EXPECT_EQ(host.pick(c, FP_HERE), FP_OK);
+    }
     if (e.kind == FP_EVENT_ACTION_DONE) {
       times.push_back(static_cast<double>(e.now_ns) * 1e-9);
-      if (times.size() == 1) EXPECT_EQ(host.drop(c, 0), FP_OK);
+      if (times.size() == 1) {
+        EXPECT_EQ(host.drop(c, 0), FP_OK);
+      }
     }
   };
   const Outcome outcome = test::simulate_with(scenario, handler, &recorder);

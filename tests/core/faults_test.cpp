@@ -1,6 +1,7 @@
 // What goes wrong, one fault at a time, on stations 10 m apart (a drive takes 8 s: 4 s up, 2 s level, 2 s down).
 #include <gtest/gtest.h>
 
+#include "core/activity.hpp"
 #include "core/agent_clock.hpp"
 #include "core/random.hpp"
 #include "tests/support/worlds.hpp"
@@ -104,7 +105,9 @@ TEST(Halt, ATransferBeginsAgain) {
   std::vector<std::int64_t> done;
   test::Recorder trace;
   test::simulate_with(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& e) {
-    if (e.kind == FP_EVENT_ORDER) EXPECT_EQ(host.pick(c, FP_HERE), FP_OK);
+    if (e.kind == FP_EVENT_ORDER) {
+      EXPECT_EQ(host.pick(c, FP_HERE), FP_OK);
+    }
     if (e.kind == FP_EVENT_ACTION_DONE) done.push_back(e.now_ns);
   }, &trace);
   EXPECT_EQ(done, (std::vector<std::int64_t>{19'000'000'000}));
@@ -298,7 +301,9 @@ TEST(AgentClock, WhenItShowsIsTheFirstInstantThatDoes) {
     const auto wanted = static_cast<std::int64_t>(draws.uniform(0.0, 1e12));
     const SimTime t = clock.when_it_shows(wanted);
     EXPECT_GE(clock.shows_ns(t), wanted);
-    if (t > kStart) EXPECT_LT(clock.shows_ns(t - Duration{1}), wanted);
+    if (t > kStart) {
+      EXPECT_LT(clock.shows_ns(t - Duration{1}), wanted);
+    }
   }
 }
 

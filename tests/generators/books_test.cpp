@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/activity.hpp"
 #include "core/agents/agents.h"
 #include "core/error.hpp"
 #include "generators/layout_family.hpp"
@@ -100,7 +101,9 @@ void check(const Scenario& scenario, const Outcome& outcome, const Bookkeeper& b
               static_cast<double>(c.battery_end_ppb + c.battery_driven_ppb + c.battery_idled_ppb), slack_ppb) << which;
   const double needed_ppb = books.driven_m * scenario.vehicle_types[0].battery_per_m * 1e9;
   EXPECT_LE(static_cast<double>(c.battery_driven_ppb), needed_ppb + slack_ppb) << which;
-  if (c.batteries_empty == 0) EXPECT_NEAR(static_cast<double>(c.battery_driven_ppb), needed_ppb, slack_ppb) << which;
+  if (c.batteries_empty == 0) {
+    EXPECT_NEAR(static_cast<double>(c.battery_driven_ppb), needed_ppb, slack_ppb) << which;
+  }
   EXPECT_EQ(books.holders.size(), c.transports_released) << which << ": every load is somewhere";
   std::uint64_t cleared = 0;
   for (const auto& [load, holder] : books.holders) cleared += holder >> 32 == static_cast<std::uint64_t>(Holder::Kind::ClearedAway) ? 1 : 0;
@@ -112,10 +115,11 @@ void check(const Scenario& scenario, const Outcome& outcome, const Bookkeeper& b
   EXPECT_EQ(c.receptions, c.receptions_lost + c.received + c.under_way) << which;
 }
 
-void run(const fp_agent_type& agent, std::uint64_t runs, Totals& totals) {
+void run(const fp_agent_type& agent, std::uint64_t runs, Totals& totals, bool restarts = true) {
   const auto families = layout_families();
   for (std::uint64_t i = 0; i < runs; ++i) {
     WorldSpec spec = everything_goes_wrong();
+    if (!restarts) spec.faults.restarts_per_agv_hour = 0.0;
     spec.layout = std::string(families[i % families.size()].name);
     RejectionCounts counts;
     Scenario scenario = generate_world(spec, 1000 + i, counts);
@@ -152,7 +156,7 @@ const fp_agent_type& agent_named(std::string_view name) {
 TEST(Books, BalanceAfterTenThousandRunsInWhichEverythingGoesWrong) {
   Totals totals;
   run(agent_named("reckless"), 9'000, totals);
-  run(agent_named("hull-lock"), 1'000, totals);
+  run(agent_named("hull-lock"), 1'000, totals, false);
   EXPECT_EQ(totals.runs, 10'000U);
   EXPECT_GT(totals.faults, 10'000U) << "or nothing went wrong";
   EXPECT_GT(totals.empty, 100U);

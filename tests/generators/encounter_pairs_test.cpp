@@ -235,7 +235,7 @@ TEST(AdversarialPlacement, TheRecklessAgentViolatesMoreOftenPerRun) {
       for (std::uint64_t seed = 0; seed < 25; ++seed) {
         const Scenario s = generate_world(spec, seed, counts);
         std::vector<std::unique_ptr<Law>> laws;
-        laws.push_back(find_entry(fleetproof::laws(), "exact")->make(s));
+        laws.push_back(find_law("exact")->make(s));
         runs += simulate(s, programs.find("reckless", "test"), laws).violation ? 1 : 0;
       }
     }

@@ -74,7 +74,7 @@ TEST(BroadPhase, InACrowdPairsViolateAsTheyDoAlone) {
   const auto alone = [&](std::size_t a, std::size_t b) {
     Scenario scenario;
     scenario.agvs.resize(crowd.bodies.size());
-    const auto law = find_entry(laws(), "exact")->make(scenario);
+    const auto law = find_law("exact")->make(scenario);
     std::vector<std::pair<Piece, bool>> all;  // in the order of announcement: by instant, ends before beginnings
     for (const std::size_t i : {a, b}) {
       for (const Piece& piece : pieces[i]) all.emplace_back(piece, true), all.emplace_back(piece, false);

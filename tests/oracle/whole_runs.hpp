@@ -111,7 +111,7 @@ inline bool between_steps(const Violation& violation) {
 inline void compare(int number, const Scenario& scenario, const fp_agent_type& agent, Comparison& sum) {
   GlobalClock::Pairs seen;
   std::vector<std::unique_ptr<Law>> laws;
-  laws.push_back(find_entry(fleetproof::laws(), "exact")->make(scenario));
+  laws.push_back(find_law("exact")->make(scenario));
   laws.push_back(std::make_unique<GlobalClock>(scenario, seen));
   simulate(scenario, agent, laws);
   std::map<std::pair<std::uint64_t, std::uint64_t>, std::vector<Violation>> found;

@@ -1,0 +1,63 @@
+#include "laws/exempting_law.hpp"
+
+#include <algorithm>
+
+#include "laws/comparison.hpp"
+#include "laws/exact_law.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr Duration kSample = std::chrono::milliseconds(10);  // on a straight line the ends would do: a disc is convex
+
+class ExemptingLaw final : public Law {
+ public:
+  explicit ExemptingLaw(const Scenario& scenario) : exact_(make_exact_law(scenario)), timelines_(scenario), radius_m_(scenario.law.exempt_radius_m) {
+    for (const Station& station : scenario.map->layout().stations) {
+      if ((station.purposes.bits() & scenario.law.exempt_purposes.bits()) != 0) places_m_.push_back(station.position_m);
+    }
+  }
+
+  void piece_started(const Piece& piece) override { exact_->piece_started(piece); }
+  void piece_ended(const Piece& piece) override {
+    exact_->piece_ended(piece);
+    timelines_.piece_ended(piece);
+  }
+  void finish(SimTime end) override { exact_->finish(end); }
+  LawFindings findings() const override {
+    LawFindings findings = exact_->findings();
+    std::erase_if(findings.violations, [&](const Violation& v) { return !v.contact && is_exempt(v); });
+    return findings;
+  }
+
+ private:
+  bool is_exempt(const Violation& v) const {
+    return std::ranges::any_of(places_m_, [&](const Vec2& place_m) { return stays_at(place_m, v.a, v) && stays_at(place_m, v.b, v); });
+  }
+
+  bool stays_at(const Vec2& place_m, EntityId entity, const Violation& v) const {
+    for (const Piece& piece : timelines_.of(entity)) {
+      const SimTime from = std::max(piece.begin, v.first), to = std::min(piece.end, v.last);
+      if (from > to) continue;
+      for (SimTime t = from;; t = std::min(t + kSample, to)) {
+        if ((piece.pose_at(t).position_m - place_m).norm() > radius_m_) return false;
+        if (t == to || piece.manner == Manner::Rest) break;
+      }
+    }
+    return true;
+  }
+
+  std::unique_ptr<Law> exact_;
+  TimelineKeeper timelines_;
+  double radius_m_;
+  std::vector<Vec2> places_m_;
+};
+
+}  // namespace
+
+std::unique_ptr<Law> make_safety_distance_law(const Scenario& scenario) {
+  if (scenario.law.exempt_purposes.bits() == 0) return make_exact_law(scenario);
+  return std::make_unique<ExemptingLaw>(scenario);
+}
+
+}  // namespace fleetproof
