@@ -65,7 +65,8 @@ struct Agv {
   AgvId id;
   StationId station;                   // where it stands, or the last it left
   bool out_of_order = false;           // for good
-  bool committed = false;              // an accepted action is under way or about to take effect
+  bool acting = false;                 // an action is under way
+  bool committed = false;              // or one has been accepted and is about to take effect
   std::optional<Activity> activity;
   Plan plan;
   std::optional<NextAction> next;

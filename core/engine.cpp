@@ -114,7 +114,6 @@ void Engine::handle(const Event& event) {
       break;
     case Event::Kind::FaultStrikes: fault_strikes(agv, event.payload); break;
     case Event::Kind::FaultOver: fault_over(agv, event.payload); break;
-    case Event::Kind::HaltOver: end_halt(agv, event.payload); break;
     case Event::Kind::ScannerLooks:
       if (event.stamp == agv.scanner_stamp) scanner_looks(agv);
       break;

@@ -94,7 +94,7 @@ class Engine {
   void stop_for_good(EntityId id);
   void predict_touches(EntityId id);
   bool is_current(const TouchPrediction& touch) const;
-  void action_done(Agv& agv, fp_result result, bool another_under_way = false);
+  void action_done(Agv& agv, fp_result result);
 
   // ---- drives
   bool aligned(const Lane& arriving, const Lane& leaving) const;
@@ -125,8 +125,8 @@ class Engine {
   void body_appears(EntityId id);
   void body_leaves(EntityId id);
   bool load_drops(Agv& agv, const Fault& fault, std::uint64_t number);
-  void move_load(EntityId by, LoadId id, Holder to);
-  void trace_load(EntityId by, LoadId id);
+  void move_load(LoadId id, Holder to);
+  void trace_load(LoadId id);
   void call_operator(Agv& agv, Assist what);
   void operator_comes(Agv& agv, Assist what);
   void agent_goes_away(Agv& agv);

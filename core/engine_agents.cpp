@@ -129,7 +129,7 @@ void Engine::order_released(Agv& agv, std::uint64_t transport) {
   ++outcome_.counters.transports_released;
   const LoadId load = world_.add_load(id, agv.id, order.from, order.to);
   trace(agv.id, TraceKind::OrderReleased, id.value);
-  trace_load(agv.id, load);
+  trace_load(load);
   tell_order(agv, id, order);
 }
 
@@ -153,7 +153,7 @@ void Engine::agent_goes_away(Agv& agv) {
   agv.inbox_read = 0;
   for (PendingCall& call : agv.pending_calls) {
     if (call.kind == PendingCall::Kind::Send) messages_.release_unsent(call.message);
-    if (call.kind == PendingCall::Kind::Action) agv.committed = agv.activity.has_value() && agv.plan.lane != nullptr;
+    if (call.kind == PendingCall::Kind::Action) agv.committed = agv.acting;
     call.kind = PendingCall::Kind::Nothing;
   }
   apply_safe_mode(agv, false, now_);
@@ -162,8 +162,8 @@ void Engine::agent_goes_away(Agv& agv) {
 void Engine::agent_comes_back(Agv& agv) {
   agv.agent_away = false;
   ++agv.boot;
-  const bool driving = agv.activity && agv.plan.lane != nullptr;
-  briefings_.renew(agv.id, agv.boot, agv.station, driving || agv.plan_waits ? agv.plan.lane : nullptr);
+  const bool driving = agv.activity && agv.activity->kind == ActivityKind::Drive;
+  briefings_.renew(agv.id, agv.boot, agv.station, agv.acting && (driving || agv.plan.drive_due) ? agv.plan.lane : nullptr);
   fp_event start{};
   start.kind = FP_EVENT_START;
   tell(agv, start);

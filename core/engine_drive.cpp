@@ -115,7 +115,7 @@ void Engine::take_next(Agv& agv, fp_call call, std::uint32_t segment) {
   const Lane* lane = scenario_.map->lane(SegmentId{segment}, agv.plan.lane->to);
   ensure(lane != nullptr, "the next action begins where this one ends");
   agv.next = NextAction{call, lane};
-  if (agv.activity->kind != ActivityKind::Drive || !agv.halts.empty() || exit_speed_mps(agv) == 0.0) return;
+  if (!agv.activity || agv.activity->kind != ActivityKind::Drive || !agv.halts.empty() || exit_speed_mps(agv) == 0.0) return;
   const Piece& piece = std::get<SpatialEvolution>(agv.activity->evolution).piece;
   const bool last_leg = agv.drive.leg + 1 == agv.drive.legs.size();
   const bool braking = last_leg && to_seconds(now_ - piece.begin) >= piece.profile.phase_ends_s()[1];

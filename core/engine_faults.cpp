@@ -123,7 +123,7 @@ void Engine::body_leaves(EntityId id) {
   world_.take_off_floor(id, now_);
   for (std::size_t i = 0; i < world_.loads().size(); ++i) {
     if (world_.loads()[i].holder != Holder{Holder::Kind::Floor, id.value}) continue;
-    move_load(id, LoadId{i}, {Holder::Kind::ClearedAway, 0});
+    move_load(LoadId{i}, {Holder::Kind::ClearedAway, 0});
     ++outcome_.counters.loads_cleared;
     ++outcome_.counters.assists;
   }
@@ -139,7 +139,7 @@ bool Engine::load_drops(Agv& agv, const Fault& fault, std::uint64_t number) {
   const Pose from = world_.pose_of(agv.id, now_);
   const Pose pose{from.position_m + fault.ahead_m * from.heading + fault.left_m * left_of(from.heading), from.heading};
   if (!world_.is_free(placed(fault.load, pose), scenario_.law.safety_distance_m, now_)) return false;
-  move_load(agv.id, load, {Holder::Kind::Floor, body.value});
+  move_load(load, {Holder::Kind::Floor, body.value});
   if (agv.activity && agv.activity->kind == ActivityKind::Drive) {
     replan_drive(agv);  // with the smaller body
   } else if (world_.body(agv.id).piece.manner == Manner::Rest) {
@@ -152,14 +152,14 @@ bool Engine::load_drops(Agv& agv, const Fault& fault, std::uint64_t number) {
   return true;
 }
 
-void Engine::move_load(EntityId by, LoadId id, Holder to) {
+void Engine::move_load(LoadId id, Holder to) {
   world_.load(id).holder = to;
-  trace_load(by, id);
+  trace_load(id);
 }
 
-void Engine::trace_load(EntityId by, LoadId id) {
-  const Holder& holder = world_.load(id).holder;
-  trace(by, TraceKind::LoadMoves, id.value, (std::uint64_t{static_cast<std::uint32_t>(holder.kind)} << 32) | holder.index);
+void Engine::trace_load(LoadId id) {
+  const auto& [transport, carrier, holder, destination] = world_.load(id);
+  trace(carrier, TraceKind::LoadMoves, id.value, (std::uint64_t{static_cast<std::uint32_t>(holder.kind)} << 32) | holder.index);
 }
 
 // ---- the operator
@@ -180,6 +180,7 @@ void Engine::operator_comes(Agv& agv, Assist what) {
     agv.scanner_muted = true;
     return end_halts(agv, Halt::Reason::Scanner);
   }
+  settle_battery(agv);  // it may still be braking
   agv.book.charged += scenario_.operator_help.battery - agv.battery;
   agv.battery = scenario_.operator_help.battery;
   agv.battery_at = now_;

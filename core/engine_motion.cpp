@@ -33,7 +33,7 @@ fp_action doing(ActivityKind kind) {
   }
 }
 
-bool on_its_way(const Agv& agv) { return agv.activity && agv.plan.lane != nullptr && agv.plan.call == FP_CALL_MOVE && !agv.next; }
+bool on_its_way(const Agv& agv) { return agv.acting && agv.plan.lane != nullptr && agv.plan.call == FP_CALL_MOVE && !agv.next; }
 
 }  // namespace
 
@@ -75,13 +75,14 @@ std::int32_t Engine::act(Agv& agv, fp_call call, std::uint32_t segment) {
 
 void Engine::begin_action(Agv& agv, fp_call call, std::uint32_t segment) {
   if (agv.out_of_order) return action_done(agv, FP_REFUSED);
-  if (on_its_way(agv)) return take_next(agv, call, segment);  // the action before this one is not over yet
+  if (agv.acting) return take_next(agv, call, segment);  // the action before this one is not over yet
   if (agv.activity) end_activity(agv, false);  // charging goes on until the next action
   const Lane* lane = segment == FP_HERE ? nullptr : scenario_.map->lane(SegmentId{segment}, agv.station);
   begin_plan(agv, call, lane, 0.0);
 }
 
 void Engine::begin_plan(Agv& agv, fp_call call, const Lane* lane, double entry_mps) {
+  agv.acting = agv.committed = true;
   agv.plan = {call, lane, lane != nullptr, false, call != FP_CALL_MOVE, 0.0};
   continue_plan(agv, entry_mps);
 }
@@ -103,8 +104,9 @@ void Engine::continue_plan(Agv& agv, double entry_mps) {
 void Engine::finish_action(Agv& agv, double speed_mps) {
   const auto next = agv.next;
   agv.next.reset();
+  agv.acting = agv.committed = false;
   if (next) begin_plan(agv, next->call, next->lane, speed_mps);
-  action_done(agv, FP_OK, next.has_value());
+  action_done(agv, FP_OK);
 }
 
 void Engine::turn_or_drive(Agv& agv, double entry_mps) {
@@ -180,7 +182,7 @@ void Engine::activity_ends(Agv& agv) {
   }
   if (kind == ActivityKind::Park) {
     agv.doing = FP_PARKED;
-    return action_done(agv, FP_OK);
+    return finish_action(agv, 0.0);
   }
   continue_plan(agv, 0.0);
 }
@@ -223,7 +225,7 @@ void Engine::transfer(Agv& agv, const ContainmentEvolution& evolution) {
   if (!evolution.load.valid()) return;
   const Load& load = world_.load(evolution.load);
   if (evolution.to.kind == Holder::Kind::Station && load.holder != Holder{Holder::Kind::Agv, agv.id.value}) return;  // it fell off meanwhile
-  move_load(agv.id, evolution.load, evolution.to);
+  move_load(evolution.load, evolution.to);
   if (type_of(agv).loaded != LoadEffect{}) stand(agv, world_.pose_of(agv.id, now_));  // the body has grown or shrunk
   if (evolution.to.kind == Holder::Kind::Agv) {
     load_taken_up(agv, load.transport);
@@ -261,18 +263,17 @@ void Engine::stop_for_good(EntityId id) {
   agv.out_of_order = true;
   // An action that has yet to take effect answers for itself when it finds the AGV out of order.
   const bool pending = std::ranges::find(agv.pending_calls, PendingCall::Kind::Action, &PendingCall::kind) != agv.pending_calls.end();
-  const int accepted = (agv.committed ? 1 : 0) + (agv.next ? 1 : 0);
-  const bool acting = agv.committed && (!pending || on_its_way(agv));
+  const int under_way = (agv.acting ? 1 : 0) + (agv.next ? 1 : 0);
   if (agv.activity) end_activity(agv, false);
   agv.plan = {};
   agv.next.reset();
   agv.doing = FP_OUT_OF_ORDER;
-  if (!acting) return;
-  for (int i = 0; i < accepted; ++i) action_done(agv, FP_REFUSED, pending);
+  for (int i = 0; i < under_way; ++i) action_done(agv, FP_REFUSED);
+  agv.committed = pending;
 }
 
-void Engine::action_done(Agv& agv, fp_result result, bool another_under_way) {
-  agv.committed = another_under_way;
+void Engine::action_done(Agv& agv, fp_result result) {
+  if (result != FP_OK) agv.acting = agv.committed = false;
   fp_event done{};
   done.kind = FP_EVENT_ACTION_DONE;
   done.result = result;

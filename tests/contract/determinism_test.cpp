@@ -47,6 +47,32 @@ TEST_F(Determinism, OneTwoAndSevenWorkersWriteTheSameBytes) {
   EXPECT_NE(digest.out, run("report other.db --digest").out);
 }
 
+TEST_F(Determinism, WithEverythingThatCanGoWrongToo) {
+  const CampaignPlan plan = test::hostile_plan();
+  for (const int workers : {1, 3}) EXPECT_TRUE(campaign(plan, workers, std::to_string(workers) + ".db").complete());
+  EXPECT_TRUE(read(path("1.db")) == read(path("3.db")));
+  const ArchiveReader archive(path("1.db"));
+  EXPECT_EQ(plan_text(parse_plan(archive.campaign().plan_json)), archive.campaign().plan_json);
+  const CampaignPlan stored = parse_plan(archive.campaign().plan_json);
+  const AgentPrograms programs;
+  const RunOne again(stored, programs);
+  Counters met;
+  std::uint64_t index = 0;
+  archive.for_each_run([&](const RunRecord& record) {
+    met.faults += record.outcome.counters.faults;
+    met.scanner_stops += record.outcome.counters.scanner_stops;
+    met.duplicates += record.outcome.counters.duplicates;
+    met.lost_in_outage += record.outcome.counters.lost_in_outage;
+    if (index++ % 7 == 0) {
+      EXPECT_TRUE(again(record.run_index).outcome == record.outcome) << record.run_index;
+    }
+  });
+  EXPECT_GT(met.faults, 100U);
+  EXPECT_GT(met.scanner_stops, 10U);
+  EXPECT_GT(met.duplicates, 10U);
+  EXPECT_GT(met.lost_in_outage, 10U);
+}
+
 TEST_F(Determinism, RunsDoNotKnowWhatRanBefore) {
   const CampaignPlan plan = test::small_plan();
   const AgentPrograms programs;

@@ -27,4 +27,34 @@ inline CampaignPlan small_plan() {
   return plan;
 }
 
+// The same with everything on that can go wrong.
+inline CampaignPlan hostile_plan() {
+  CampaignPlan plan = small_plan();
+  plan.name = "hostile";
+  plan.mean_outage_s = {0.0, 1.0};
+  plan.placement = Placement::Mixed;
+  plan.radio.delay_model = RadioSetup::DelayModel::Uniform;
+  plan.radio.duplicates = 0.05;
+  VehicleType& type = plan.vehicles[0].type;
+  type.loaded = {.extra_length_m = 0.1, .extra_width_m = 0.1, .speed_share = 0.8, .acceleration_share = 0.9};
+  type.lateral_mps2 = 0.4;
+  type.speed_deviation = 0.05;
+  type.battery_per_m = 0.002;
+  VehicleType slow = type;
+  slow.name = "slow";
+  slow.drive.speed_mps = 1.0;
+  plan.vehicles.push_back({slow, 0.5});
+  plan.faults.breakdowns_per_agv_hour = 20.0;
+  plan.faults.repair_s = 10.0;
+  plan.faults.protective_stops_per_agv_hour = 60.0;
+  plan.faults.load_drops_per_transport = 0.3;
+  plan.faults.obstacles_per_hour = 60.0;
+  plan.faults.freezes_per_agv_hour = 60.0;
+  plan.faults.clock_drift_ppm = 100.0;
+  plan.faults.low_battery_share = 0.5;
+  plan.scanner.on = true;
+  plan.operator_help.on = true;
+  return plan;
+}
+
 }  // namespace fleetproof::test

@@ -1,60 +1,13 @@
-// What goes wrong, one fault at a time, on stations 10 m apart (a drive takes 8 s: 4 s up, 2 s level, 2 s down).
-#include <gtest/gtest.h>
-
-#include "core/activity.hpp"
-#include "core/agent_clock.hpp"
-#include "core/random.hpp"
-#include "tests/support/worlds.hpp"
+// What goes wrong, one fault at a time.
+#include "tests/core/row_of_tens.hpp"
 
 namespace fleetproof {
 namespace {
 
-using test::Handler;
-
-Scenario row_of_tens(std::vector<std::uint32_t> starts, double horizon_s = 60.0) {
-  Scenario scenario = test::row_scenario(4, std::move(starts), horizon_s);
-  scenario.map = test::row_map(4, 10.0);
-  return scenario;
-}
-
-Fault fault(Fault::Kind kind, double at_s, double lasts_s) {
-  Fault f;
-  f.kind = kind;
-  f.agv = AgvId{0U};
-  f.at = seconds(at_s);
-  f.lasts = seconds(lasts_s);
-  return f;
-}
-
-struct Seen {
-  std::vector<double> done_s;
-  std::vector<std::uint32_t> actions;   // of get_action, at every timer
-  std::vector<double> x_m;              // of get_position, at every timer
-  Outcome outcome;
-  test::Recorder trace;
-};
-
-// AGV 0 moves over segment 0 and looks at itself at the given times.
-Seen drive_and_look(const Scenario& scenario, std::vector<double> looks_s = {}) {
-  Seen seen;
-  const Handler handler = [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
-    if (b.self != 0) return;
-    if (e.kind == FP_EVENT_ACTION_DONE) seen.done_s.push_back(static_cast<double>(e.now_ns) * 1e-9);
-    if (e.kind == FP_EVENT_START && b.boot == 0) {
-      EXPECT_EQ(host.move(c, 0), FP_OK);
-      for (std::uint32_t i = 0; i < looks_s.size(); ++i) host.set_timer(c, i, static_cast<std::int64_t>(looks_s[i] * 1e9));
-    }
-    if (e.kind != FP_EVENT_TIMER) return;
-    fp_pose pose{};
-    std::uint32_t action = 0;
-    EXPECT_EQ(host.get_position(c, &pose), FP_OK);
-    EXPECT_EQ(host.get_action(c, &action), FP_OK);
-    seen.x_m.push_back(pose.x_m);
-    seen.actions.push_back(action);
-  };
-  seen.outcome = test::simulate_with(scenario, handler, &seen.trace);
-  return seen;
-}
+using test::drive_and_look;
+using test::fault;
+using test::row_of_tens;
+using test::Seen;
 
 TEST(Halt, AProtectiveStopBrakesStandsAndGoesOn) {
   Scenario scenario = row_of_tens({0});
@@ -270,90 +223,62 @@ TEST(Restart, BackBeforeTheDriveIsOverItIsToldWhatIsUnderWay) {
   EXPECT_EQ(done, (std::vector<std::int64_t>{8'000'000'000}));
 }
 
+TEST(Restart, WhatTheAgentWasAboutToDoIsLost) {
+  Scenario scenario = row_of_tens({0});
+  scenario.agent_clock.call_cost_s = 1.0;
+  scenario.faults = {fault(Fault::Kind::Restart, 0.5, 5.0)};
+  int accepted = 0, done = 0;
+  test::simulate_with(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
+    if (e.kind == FP_EVENT_START && host.move(c, 0) == FP_OK) ++accepted;
+    if (e.kind == FP_EVENT_ACTION_DONE) ++done;
+    EXPECT_EQ(b.start_segment, FP_NONE);
+  });
+  EXPECT_EQ(accepted, 2) << "the call of the first agent never took effect, so the AGV is free for the second";
+  EXPECT_EQ(done, 1);
+}
+
+TEST(Restart, AtAStationThereIsNoSegmentUnderWay) {
+  Scenario scenario = row_of_tens({0});
+  scenario.agvs[0].transports = {{StationId{1U}, StationId{2U}, Duration{}}};
+  scenario.faults = {fault(Fault::Kind::Restart, 9.0, 1.0)};  // while it picks, at the end of its way
+  std::uint32_t segment = 7, station = 7;
+  test::simulate_with(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
+    if (e.kind == FP_EVENT_ORDER && b.boot == 0) {
+      host.pick(c, 0);
+    }
+    if (b.boot == 1) {
+      segment = b.start_segment;
+      station = b.start_station;
+    }
+  });
+  EXPECT_EQ(segment, FP_NONE);
+  EXPECT_EQ(station, 1U);
+}
+
+TEST(Halt, ACallThatTakesEffectWhileItStandsInMidSegmentWaitsForItsTurn) {
+  Scenario scenario = row_of_tens({0});
+  scenario.agent_clock.call_cost_s = 2.0;
+  scenario.faults = {fault(Fault::Kind::ProtectiveStop, 6.0, 10.0)};
+  std::vector<double> done_s;
+  const Outcome outcome = test::simulate_with(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& e) {
+    if (e.kind == FP_EVENT_START) {
+      host.move(c, 0);
+      host.set_timer(c, 1, 7'000'000'000);  // it brakes; the call takes effect when it stands
+    }
+    if (e.kind == FP_EVENT_TIMER) {
+      EXPECT_EQ(host.move(c, 1), FP_OK);
+    }
+    if (e.kind == FP_EVENT_ACTION_DONE) done_s.push_back(static_cast<double>(e.now_ns) * 1e-9);
+  });
+  EXPECT_EQ(done_s.size(), 2U);
+  EXPECT_EQ(outcome.counters.distance_um, 20'000'000U);
+}
+
 TEST(Freeze, EventsWaitUntilItIsOver) {
   Scenario scenario = row_of_tens({0});
   scenario.faults = {fault(Fault::Kind::Freeze, 7.0, 5.0)};
   const Seen seen = drive_and_look(scenario);
   EXPECT_EQ(seen.done_s, (std::vector<double>{12.0}));
-}
-
-TEST(AgentClock, IsAheadAndDriftsAndTimersFollowIt) {
-  Scenario scenario = row_of_tens({0});
-  scenario.agvs[0].sensing.clock_offset_s = 2.0;
-  scenario.agvs[0].sensing.clock_drift_ppm = 1000.0;  // a millisecond every second
-  test::Recorder trace;
-  std::vector<std::int64_t> shown;
-  test::simulate_with(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& e) {
-    shown.push_back(e.now_ns);
-    EXPECT_EQ(host.now_ns(c), e.now_ns);
-    if (e.kind == FP_EVENT_START) host.set_timer(c, 1, 12'010'000'000);
-  }, &trace);
-  ASSERT_EQ(shown.size(), 2U);
-  EXPECT_EQ(shown[0], 2'000'000'000);
-  EXPECT_EQ(shown[1], 12'010'000'000);
-  EXPECT_EQ(to_seconds(trace.of(TraceKind::TimerWentOff).at(0).at), 10.0);
-}
-
-TEST(AgentClock, WhenItShowsIsTheFirstInstantThatDoes) {
-  Draws draws(3);
-  for (int i = 0; i < 3000; ++i) {
-    const AgentClock clock({draws.uniform(0.0, 10.0), draws.uniform(-10'000.0, 10'000.0), 0.0, 0.0});
-    const auto wanted = static_cast<std::int64_t>(draws.uniform(0.0, 1e12));
-    const SimTime t = clock.when_it_shows(wanted);
-    EXPECT_GE(clock.shows_ns(t), wanted);
-    if (t > kStart) {
-      EXPECT_LT(clock.shows_ns(t - Duration{1}), wanted);
-    }
-  }
-}
-
-TEST(Sensing, ThePositionIsLateAndWrongWithinItsBounds) {
-  Scenario scenario = row_of_tens({0});
-  scenario.agvs[0].sensing.position_late_s = 1.0;
-  const Seen late = drive_and_look(scenario, {0.5, 3.0, 8.5, 9.0, 12.0});
-  EXPECT_EQ(late.x_m[0], 0.0);
-  EXPECT_NEAR(late.x_m[1], 1.0, 1e-9) << "where it was at 2 s";
-  EXPECT_NEAR(late.x_m[2], 10.0 - 0.125, 1e-9) << "where it was at 7.5 s, though it stands";
-  EXPECT_NEAR(late.x_m[3], 10.0, 1e-9);
-  scenario.agvs[0].sensing = {.position_error_m = 0.05};
-  const Seen wrong = drive_and_look(scenario, {10.0, 10.05, 11.0, 12.0, 13.0});
-  EXPECT_EQ(wrong.x_m[0], wrong.x_m[1]) << "the same tenth of a second";
-  EXPECT_NE(wrong.x_m[1], wrong.x_m[2]);
-  for (const double x : wrong.x_m) {
-    EXPECT_LE(std::abs(x - 10.0), 0.05);
-    EXPECT_NE(x, 10.0);
-  }
-}
-
-TEST(Scanner, StopsBeforeAnObstacleAndGoesOnWhenItIsGone) {
-  Scenario scenario = row_of_tens({0});
-  scenario.obstacles = {{"box", {0.5, 0.5}, {Vec2{8.0, 0.0}, Vec2::UnitX()}, seconds(0.5), seconds(20.0)}};
-  scenario.scanner.on = true;
-  const Seen seen = drive_and_look(scenario, {15.0});
-  EXPECT_EQ(seen.outcome.counters.contacts, 0U);
-  EXPECT_EQ(seen.outcome.counters.scanner_stops, 1U);
-  EXPECT_EQ(seen.outcome.counters.scanner_saves, 1U);
-  const double gap_m = 8.0 - 0.25 - (seen.x_m.at(0) + 0.8);
-  EXPECT_GT(gap_m, 0.10);
-  EXPECT_LT(gap_m, 0.60);
-  EXPECT_EQ(seen.actions[0], static_cast<std::uint32_t>(FP_STOPPED));
-  ASSERT_EQ(seen.done_s.size(), 1U);
-  EXPECT_GT(seen.done_s[0], 22.0);
-  EXPECT_LT(seen.done_s[0], 30.0);
-  scenario.scanner.on = false;
-  EXPECT_EQ(drive_and_look(scenario).outcome.counters.contacts, 1U) << "the same without it";
-}
-
-TEST(Scanner, TheOperatorSendsOnWhoIsHeldForLong) {
-  Scenario scenario = row_of_tens({0, 1});
-  scenario.agvs[1].heading = Vec2::UnitY();
-  scenario.scanner.on = true;
-  scenario.operator_help = {.on = true, .least_s = 10.0, .most_s = 10.0};
-  scenario.contact_stops = false;
-  const Seen seen = drive_and_look(scenario, {12.0});
-  EXPECT_EQ(seen.actions.at(0), static_cast<std::uint32_t>(FP_STOPPED));
-  EXPECT_EQ(seen.outcome.counters.assists, 1U);
-  EXPECT_EQ(seen.done_s.size(), 1U) << "muted, it drives to its station and into who stands there";
 }
 
 TEST(Faults, AnAgvThatIsOutOfOrderForGoodCannotFail) {
