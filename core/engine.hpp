@@ -20,9 +20,6 @@ class Engine;
 // What the draws of the motion stream are for; each is keyed by topic, AGV and number.
 enum class MotionTopic : std::uint32_t { Speed = 1, Settling, Transfer, Position };
 
-// What the operator is called for. The numbers are part of the trace digest.
-enum class Assist : std::uint8_t { Battery = 1, Jam = 2 };
-
 }  // namespace fleetproof
 
 // The handle an agent holds: which AGV of which run.

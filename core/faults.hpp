@@ -43,6 +43,9 @@ struct ScannerSetup {
   friend bool operator==(const ScannerSetup&, const ScannerSetup&) = default;
 };
 
+// What the operator is called for. The numbers are part of the trace digest.
+enum class Assist : std::uint8_t { Battery = 1, Jam = 2 };
+
 // The person who helps: changes empty batteries, and sends on an AGV that its scanner has held for long (its field is muted until it is clear).
 struct OperatorSetup {
   bool on = false;

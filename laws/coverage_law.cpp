@@ -111,7 +111,7 @@ LawFindings CoverageLaw::findings() const {
   const auto met = [&](std::string name, std::uint64_t count) { findings.met.push_back({ProbeSource::World, std::move(name), count}); };
   for (std::size_t i = 0; i < kEncounterKinds; ++i) met(name_of(static_cast<EncounterKind>(i)), encounters_[i]);
   met("near-miss", near_misses_);
-  for (const auto& [kind, count] : faults_) met("fault-" + std::to_string(kind), count);
+  for (const auto& [kind, count] : faults_) met(std::string("fault: ") + name_of(static_cast<Fault::Kind>(kind)), count);
   return findings;
 }
 

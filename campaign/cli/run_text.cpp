@@ -23,7 +23,22 @@ std::string counters_text(const Outcome& outcome) {
   if (c.lost_in_outage + c.lost_by_interference + c.duplicates > 0) {
     text += fmt::format("  of {} lost: {} in outages, {} by interference; {} came twice\n", c.receptions_lost, c.lost_in_outage, c.lost_by_interference, c.duplicates);
   }
+  if (c.faults + c.batteries_empty + c.scanner_stops + c.assists > 0) {
+    text += fmt::format("  {} faults struck, {} batteries ran empty, {} loads cleared away; scanner: {} stops, {} saves; {} assists\n", c.faults, c.batteries_empty,
+                        c.loads_cleared, c.scanner_stops, c.scanner_saves, c.assists);
+  }
   return text;
+}
+
+std::string holder_text(const Scenario& scenario, std::uint64_t holder) {
+  const auto index = static_cast<std::uint32_t>(holder);
+  switch (static_cast<Holder::Kind>(holder >> 32)) {
+    case Holder::Kind::Station: return "at " + scenario.map->station(StationId{index}).name;
+    case Holder::Kind::Agv: return "on " + body_name(scenario, EntityId{index});
+    case Holder::Kind::Floor: return "on the floor";
+    case Holder::Kind::ClearedAway: return "cleared away";
+  }
+  return "?";
 }
 
 // What an agent calls its probes may be anything.
@@ -36,7 +51,14 @@ std::string printable_name(std::string_view name) {
 }  // namespace
 
 std::string body_name(const Scenario& scenario, EntityId id) {
-  return id.index() < scenario.agvs.size() ? scenario.agvs[id.index()].name : scenario.obstacles[id.index() - scenario.agvs.size()].name;
+  if (id.index() < scenario.agvs.size()) return scenario.agvs[id.index()].name;
+  std::size_t number = id.index() - scenario.agvs.size();
+  if (number < scenario.obstacles.size()) return scenario.obstacles[number].name;
+  number -= scenario.obstacles.size();
+  for (const Fault& fault : scenario.faults) {
+    if (fault.kind == Fault::Kind::LoadDrop && number-- == 0) return "load dropped by " + scenario.agvs[fault.agv.index()].name;
+  }
+  return "?";
 }
 
 std::string incident_text(const Scenario& scenario, const Incident& incident) {
@@ -113,6 +135,14 @@ void TracePrinter::record(const TraceRecord& record, std::string_view text) {
     case TraceKind::Received: what = "from " + body_name(scenario_, EntityId{static_cast<std::uint32_t>(record.a)}); break;
     case TraceKind::Contact: what = "with " + body_name(scenario_, EntityId{static_cast<std::uint32_t>(record.a)}); break;
     case TraceKind::WaitingFor: what = record.a == FP_NONE ? "nobody" : body_name(scenario_, EntityId{static_cast<std::uint32_t>(record.a)}); break;
+    case TraceKind::LoadMoves: what = fmt::format("{} {}", record.a, holder_text(scenario_, record.b)); break;
+    case TraceKind::FaultStrikes:
+    case TraceKind::FaultOver: what = name_of(static_cast<Fault::Kind>(record.a)); break;
+    case TraceKind::ScannerStops: what = "for " + body_name(scenario_, EntityId{static_cast<std::uint32_t>(record.a)}); break;
+    case TraceKind::OperatorAssists: what = static_cast<Assist>(record.a) == Assist::Battery ? "with the battery" : "past what the scanner sees"; break;
+    case TraceKind::BatteryEmpty:
+    case TraceKind::Appears:
+    case TraceKind::Leaves: break;
     case TraceKind::Probe:
     case TraceKind::Log: what = std::string(text); break;
     default: what = fmt::format("{}", record.a); break;

@@ -130,7 +130,7 @@ TEST(Faults, AreCountedByKind) {
   const Scenario scenario = row_scenario(2, {0, 1});
   Told told(scenario, "coverage");
   told.record(1.0, 0, TraceKind::FaultStrikes, 2).record(2.0, 0, TraceKind::FaultStrikes, 2).record(3.0, 1, TraceKind::FaultStrikes, 5);
-  EXPECT_EQ(met(told.finish(10.0)), (Met{{"fault-2", 2}, {"fault-5", 1}}));
+  EXPECT_EQ(met(told.finish(10.0)), (Met{{"fault: freeze", 1}, {"fault: protective-stop", 2}}));
 }
 
 TEST(Probes, WhatAnAgentDeclaresIsSummedByName) {
