@@ -61,7 +61,7 @@ std::vector<NumberField> number_fields(ScannerSetup& s) {
 }
 
 std::vector<NumberField> number_fields(OperatorSetup& o) {
-  return {{"least_s", &o.least_s, 0.0, kDay_s}, {"most_s", &o.most_s, o.least_s, kDay_s}, {"battery", &o.battery, 0.0, 1.0}};
+  return {{"least_s", &o.least_s, 1.0, kDay_s}, {"most_s", &o.most_s, o.least_s, kDay_s}, {"battery", &o.battery, 0.01, 1.0}};
 }
 
 }  // namespace fleetproof

@@ -33,15 +33,17 @@ Briefings::Briefings(const Scenario& scenario, const char* agent_config) {
     briefing.config = agent_config;
     briefing.boot = 0;
     briefing.start_segment = FP_NONE;
+    briefing.next_segment = FP_NONE;
     briefings_.push_back(briefing);
   }
 }
 
-void Briefings::renew(AgvId agv, std::uint32_t boot, StationId station, const Lane* lane) {
+void Briefings::renew(AgvId agv, std::uint32_t boot, StationId station, const Lane* lane, const Lane* next) {
   fp_briefing& briefing = briefings_[agv.index()];
   briefing.boot = boot;
   briefing.start_station = station.value;
   briefing.start_segment = lane != nullptr ? lane->segment.value : FP_NONE;
+  briefing.next_segment = next != nullptr ? next->segment.value : FP_NONE;
 }
 
 void Briefings::describe_map(const LogicalMap& map) {

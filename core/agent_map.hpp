@@ -15,8 +15,8 @@ class Briefings {
   Briefings& operator=(const Briefings&) = delete;
 
   const fp_briefing& of(AgvId agv) const { return briefings_[agv.index()]; }
-  // After a restart: the station it stands at or left last; `lane`: what it is driving, or null.
-  void renew(AgvId agv, std::uint32_t boot, StationId station, const Lane* lane);
+  // After a restart: the station it stands at or left last; `lane`: what it is driving, or null; `next`: what it will drive then, or null.
+  void renew(AgvId agv, std::uint32_t boot, StationId station, const Lane* lane, const Lane* next);
 
  private:
   void describe_map(const LogicalMap& map);

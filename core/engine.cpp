@@ -117,7 +117,7 @@ void Engine::handle(const Event& event) {
     case Event::Kind::ScannerLooks:
       if (event.stamp == agv.scanner_stamp) scanner_looks(agv);
       break;
-    case Event::Kind::OperatorComes: operator_comes(agv, static_cast<Assist>(event.payload)); break;
+    case Event::Kind::OperatorComes: operator_comes(agv, static_cast<Assist>(event.payload), event.stamp); break;
     default: break;
   }
 }
@@ -187,7 +187,9 @@ Outcome Engine::outcome() {
   outcome_.simulated_ns = static_cast<std::uint64_t>(scenario_.horizon.count());
   outcome_.agv_count = static_cast<std::uint32_t>(agvs_.size());
   const bool open = counters.transports_done + counters.loads_cleared < counters.transports_released;
-  outcome_.stuck = open && now_ - last_progress_ >= scenario_.stuck_after;
+  const auto held_by_fault = [](const Halt& halt) { return halt.reason == Halt::Reason::Breakdown || halt.reason == Halt::Reason::ProtectiveStop; };
+  const bool excused = std::ranges::any_of(agvs_, [&](const Agv& agv) { return std::ranges::any_of(agv.halts, held_by_fault); });
+  outcome_.stuck = open && !excused && now_ - last_progress_ >= scenario_.stuck_after;
   file_findings();
   outcome_.contact = outcome_.contact || counters.contacts > 0;
   outcome_.digest = digest_.value();

@@ -124,8 +124,8 @@ class Engine {
   bool load_drops(Agv& agv, const Fault& fault, std::uint64_t number);
   void move_load(LoadId id, Holder to);
   void trace_load(LoadId id);
-  void call_operator(Agv& agv, Assist what);
-  void operator_comes(Agv& agv, Assist what);
+  void call_operator(Agv& agv, Assist what, std::uint64_t halt);
+  void operator_comes(Agv& agv, Assist what, std::uint64_t halt);
   void agent_goes_away(Agv& agv);
   void agent_comes_back(Agv& agv);
 
@@ -155,6 +155,7 @@ class Engine {
   void call_takes_effect(Agv& agv);
   void order_released(Agv& agv, std::uint64_t transport);
   void tell_order(Agv& agv, TransportId id, const TransportOrder& order);
+  void renew_briefing(const Agv& agv);
   void destroy_agent(Agv& agv);
   void timer_goes_off(Agv& agv, std::uint32_t number, std::uint64_t stamp);
   void apply_safe_mode(Agv& agv, bool on, SimTime at);
@@ -180,6 +181,7 @@ class Engine {
   std::vector<TouchPrediction> touches_;
   std::vector<std::uint64_t> first_transport_;  // by AGV: number of its first transport
   std::vector<std::uint64_t> fault_halts_;      // by fault: number of the halt it caused
+  std::vector<bool> fault_came_;                // likewise: those counted from a pick
   SimTime now_ = kStart;
   SimTime last_progress_ = kStart;
   ProbeTally probes_;

@@ -44,6 +44,7 @@ void Engine::wake(Agv& agv) {
 void Engine::agent_is_free(Agv& agv) {
   agv.wake_scheduled = false;
   if (agv.agent_failed || agv.waiting_events.empty()) return;
+  if (now_ < agv.free_at) return wake(agv);  // frozen since
   const fp_event event = agv.waiting_events.front();
   agv.waiting_events.pop_front();
   activate(agv, event);
@@ -63,6 +64,7 @@ void Engine::activate(Agv& agv, const fp_event& what) {
   event.now_ns = agent_now_ns(agv);
   try {
     if (event.kind == FP_EVENT_START) {
+      if (agv.boot > 0) renew_briefing(agv);
       agv.agent = agent_type_.create(&kHost, &controllers_[agv.id.index()], &briefings_.of(agv.id));
       if (agv.agent == nullptr) throw std::runtime_error("create() returned null");
     }
@@ -78,7 +80,7 @@ void Engine::activate(Agv& agv, const fp_event& what) {
   agv.in_activation = false;
   outcome_.counters.agent_calls += agv.calls;
   if (agv.calls > kCallsMax) give_up(agv, true, "10 000 controller calls in one activation");
-  agv.free_at = now_ + agv.cost;
+  agv.free_at = std::max(agv.free_at, now_ + agv.cost);
   agv.cost = Duration::zero();
   wake(agv);
 }
@@ -157,13 +159,12 @@ void Engine::agent_goes_away(Agv& agv) {
     call.kind = PendingCall::Kind::Nothing;
   }
   apply_safe_mode(agv, false, now_);
+  trace(agv.id, TraceKind::WaitingFor, FP_NONE);
 }
 
 void Engine::agent_comes_back(Agv& agv) {
   agv.agent_away = false;
   ++agv.boot;
-  const bool driving = agv.activity && agv.activity->kind == ActivityKind::Drive;
-  briefings_.renew(agv.id, agv.boot, agv.station, agv.acting && (driving || agv.plan.drive_due) ? agv.plan.lane : nullptr);
   fp_event start{};
   start.kind = FP_EVENT_START;
   tell(agv, start);
@@ -176,6 +177,12 @@ void Engine::agent_comes_back(Agv& agv) {
     if (load.holder.kind == Holder::Kind::Station) order.from = StationId{load.holder.index};
     tell_order(agv, load.transport, order);
   }
+}
+
+void Engine::renew_briefing(const Agv& agv) {
+  const bool driving = agv.activity && agv.activity->kind == ActivityKind::Drive;
+  const Lane* lane = agv.acting && (driving || agv.plan.drive_due) ? agv.plan.lane : nullptr;
+  briefings_.renew(agv.id, agv.boot, agv.station, lane, agv.next ? agv.next->lane : nullptr);
 }
 
 void Engine::destroy_agent(Agv& agv) {

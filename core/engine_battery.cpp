@@ -71,8 +71,7 @@ void Engine::battery_empty(Agv& agv) {
   agv.battery_out = true;
   ++outcome_.counters.batteries_empty;
   trace(agv.id, TraceKind::BatteryEmpty);
-  halt(agv, Halt::Reason::EmptyBattery);
-  call_operator(agv, Assist::Battery);
+  call_operator(agv, Assist::Battery, halt(agv, Halt::Reason::EmptyBattery));
 }
 
 }  // namespace fleetproof

@@ -31,6 +31,7 @@ void Engine::begin_drive(Agv& agv, double entry_mps) {
 
 void Engine::plan_rest_of_drive(Agv& agv, double from_m, double speed_mps) {
   const Curve& curve = agv.plan.lane->curve;
+  from_m = std::min(from_m, curve.length_m());  // legs that begin in the middle round
   agv.drive.leg = 0;
   if (!agv.halts.empty()) {
     plan_stop(curve, agv.drive.limits, from_m, speed_mps, agv.drive.legs);

@@ -20,6 +20,7 @@ bool halts(Fault::Kind kind) { return kind == Fault::Kind::Breakdown || kind == 
 
 void Engine::schedule_faults() {
   fault_halts_.resize(scenario_.faults.size());
+  fault_came_.resize(scenario_.faults.size());
   for (std::size_t i = 0; i < scenario_.faults.size(); ++i) {
     const Fault& fault = scenario_.faults[i];
     if (!fault.transport) queue_.push(kStart + fault.at, fault.agv, Event::Kind::FaultStrikes, i);
@@ -36,7 +37,9 @@ void Engine::load_taken_up(const Agv& agv, TransportId transport) {
   const std::uint64_t own = transport.value - first_transport_[agv.id.index()];
   for (std::size_t i = 0; i < scenario_.faults.size(); ++i) {
     const Fault& fault = scenario_.faults[i];
-    if (fault.agv == agv.id && fault.transport && *fault.transport == own) queue_.push(now_ + fault.at, agv.id, Event::Kind::FaultStrikes, i);
+    if (fault.agv != agv.id || fault.transport != own || fault_came_[i]) continue;
+    fault_came_[i] = true;  // the first time that it is taken up
+    queue_.push(now_ + fault.at, agv.id, Event::Kind::FaultStrikes, i);
   }
 }
 
@@ -85,6 +88,7 @@ std::uint64_t Engine::halt(Agv& agv, Halt::Reason reason) {
 void Engine::end_halt(Agv& agv, std::uint64_t number) {
   if (std::erase_if(agv.halts, [&](const Halt& halt) { return halt.number == number; }) == 0 || !agv.halts.empty() || agv.out_of_order) return;
   if (agv.activity && agv.activity->kind == ActivityKind::Drive) return replan_drive(agv);  // it was still braking
+  last_progress_ = now_;
   if (!agv.plan_waits) return;
   agv.plan_waits = false;
   continue_plan(agv, 0.0);
@@ -99,7 +103,7 @@ void Engine::end_halts(Agv& agv, Halt::Reason reason) {
 }
 
 fp_action Engine::action_of(const Agv& agv) const {
-  if (std::ranges::any_of(agv.halts, &Halt::out_of_order)) return FP_OUT_OF_ORDER;
+  if (agv.out_of_order || std::ranges::any_of(agv.halts, &Halt::out_of_order)) return FP_OUT_OF_ORDER;
   return agv.halts.empty() || agv.activity ? agv.doing : FP_STOPPED;
 }
 
@@ -133,6 +137,7 @@ void Engine::body_leaves(EntityId id) {
 bool Engine::load_drops(Agv& agv, const Fault& fault, std::uint64_t number) {
   const LoadId load = world_.carried_load(agv.id);
   if (!load.valid()) return false;
+  if (fault.transport && world_.load(load).transport.value - first_transport_[agv.id.index()] != *fault.transport) return false;  // another one's
   const auto is_drop = [](const Fault& f) { return f.kind == Fault::Kind::LoadDrop; };
   const auto drops_before = std::count_if(scenario_.faults.begin(), scenario_.faults.begin() + static_cast<std::ptrdiff_t>(number), is_drop);
   const EntityId body{scenario_.agvs.size() + scenario_.obstacles.size() + static_cast<std::size_t>(drops_before)};
@@ -164,29 +169,32 @@ void Engine::trace_load(LoadId id) {
 
 // ---- the operator
 
-void Engine::call_operator(Agv& agv, Assist what) {
+// Of a jam, `halt` says which: help for one that has passed is no help for the next.
+void Engine::call_operator(Agv& agv, Assist what, std::uint64_t halt) {
   const OperatorSetup& help = scenario_.operator_help;
   if (!help.on) return;
   const auto draw = unit_interval(word64(philox(stream_key(scenario_.seed, Stream::Faults), {agv.assists++, 0, kAssistTopic, agv.id.value}), 0));
-  queue_.push(now_ + seconds(help.least_s + (help.most_s - help.least_s) * draw), agv.id, Event::Kind::OperatorComes, static_cast<std::uint64_t>(what));
+  queue_.push(now_ + seconds(help.least_s + (help.most_s - help.least_s) * draw), agv.id, Event::Kind::OperatorComes, static_cast<std::uint64_t>(what), halt);
 }
 
-void Engine::operator_comes(Agv& agv, Assist what) {
-  const bool jammed = std::ranges::find(agv.halts, Halt::Reason::Scanner, &Halt::reason) != agv.halts.end();
-  if (agv.out_of_order || (what == Assist::Jam && !jammed)) return;
+void Engine::operator_comes(Agv& agv, Assist what, std::uint64_t halt) {
+  if (agv.out_of_order || std::ranges::find(agv.halts, halt, &Halt::number) == agv.halts.end()) return;
+  if (agv.activity && agv.activity->kind == ActivityKind::Drive) {  // nobody walks up to an AGV that still moves
+    return queue_.push(now_ + kTriesAgain, agv.id, Event::Kind::OperatorComes, static_cast<std::uint64_t>(what), halt);
+  }
   ++outcome_.counters.assists;
   trace(agv.id, TraceKind::OperatorAssists, static_cast<std::uint64_t>(what));
   if (what == Assist::Jam) {
     agv.scanner_muted = true;
-    return end_halts(agv, Halt::Reason::Scanner);
+    return end_halt(agv, halt);
   }
-  settle_battery(agv);  // it may still be braking
+  settle_battery(agv);
   agv.book.charged += scenario_.operator_help.battery - agv.battery;
   agv.battery = scenario_.operator_help.battery;
   agv.battery_at = now_;
   agv.battery_out = false;
   predict_empty_battery(agv);
-  end_halts(agv, Halt::Reason::EmptyBattery);
+  end_halt(agv, halt);
 }
 
 }  // namespace fleetproof

@@ -26,6 +26,7 @@ std::optional<EntityId> Engine::intruder(const Agv& agv, double length_m) const 
 }
 
 void Engine::scanner_looks(Agv& agv) {
+  const std::uint64_t stamp = agv.scanner_stamp;  // a drive that begins meanwhile wakes it anew
   const bool driving = agv.activity && agv.activity->kind == ActivityKind::Drive;
   const bool held = std::ranges::find(agv.halts, Halt::Reason::Scanner, &Halt::reason) != agv.halts.end();
   if (agv.out_of_order || (!driving && !held)) return;  // it wakes with the next drive
@@ -41,7 +42,6 @@ void Engine::scanner_looks(Agv& agv) {
     if (!agv.field_clear_since) agv.field_clear_since = now_;
     if (now_ - *agv.field_clear_since >= seconds(scenario_.scanner.resume_s)) end_halts(agv, Halt::Reason::Scanner);
   }
-  const std::uint64_t stamp = agv.scanner_stamp;  // a new drive may have woken it meanwhile
   queue_.push(now_ + seconds(scenario_.scanner.reaction_s), agv.id, Event::Kind::ScannerLooks, 0, stamp);
 }
 
@@ -56,8 +56,7 @@ void Engine::scanner_stops(Agv& agv, EntityId body) {
   agv.field_clear_since.reset();
   agv.field_m = field_length_m(agv);
   agv.field_from_m = world_.pose_of(agv.id, now_).position_m;
-  halt(agv, Halt::Reason::Scanner);
-  call_operator(agv, Assist::Jam);
+  call_operator(agv, Assist::Jam, halt(agv, Halt::Reason::Scanner));
 }
 
 }  // namespace fleetproof

@@ -15,8 +15,9 @@
 namespace fleetproof {
 namespace {
 
-constexpr double kLongest_s = 1e9, kLargestBody_m = 100.0, kLargestRate = 1e6;
+constexpr double kLongestCall_s = 60.0, kLongest_s = 1e9, kLargestBody_m = 100.0, kLargestRate = 1e6;
 constexpr double kSmallestRate = 1e-3;  // slower than any vehicle; keeps every activity within the range of simulated time
+constexpr Duration kLongestRun = std::chrono::seconds(10'000'000);
 constexpr Duration kLongest = std::chrono::seconds(1'000'000'000);
 constexpr double kUnitTolerance = 1e-9;
 constexpr double kMicrometre_m = 1e-6;
@@ -38,6 +39,7 @@ class RangeCheck {
     ensure(scenario_.map != nullptr, "a scenario has a map");
     if (!is_plain_utf8(scenario_.name)) add(ProblemKind::BadName, Field{{}, 0, "/name"}.pointer(), "a name is UTF-8 without control characters");
     duration({{}, 0, "/horizon_ns"}, scenario_.horizon);
+    if (scenario_.horizon > kLongestRun) add(ProblemKind::NumberOutOfRange, "/horizon_ns", "a run lasts at most 1e7 s, which is four months");
     duration({{}, 0, "/stuck_after_ns"}, scenario_.stuck_after);
     radio_and_laws();
     if (scenario_.vehicle_types.empty()) add(ProblemKind::UnknownReference, "/vehicle_types", "at least one vehicle type is needed");
@@ -73,7 +75,7 @@ class RangeCheck {
 
   void radio_and_laws() {
     for (const auto& [key, sentence] : radio_faults(scenario_.radio)) add(ProblemKind::NumberOutOfRange, "/radio/" + key, sentence);
-    within({{}, 0, "/agent_clock/call_cost_s"}, scenario_.agent_clock.call_cost_s, 0.0, kLongest_s);
+    within({{}, 0, "/agent_clock/call_cost_s"}, scenario_.agent_clock.call_cost_s, 0.0, kLongestCall_s);
     within({{}, 0, "/law/safety_distance_m"}, scenario_.law.safety_distance_m, 0.0, kLargestBody_m);
     within({{}, 0, "/law/snapshot_s"}, scenario_.law.snapshot_s, 1e-6, kLongest_s);
     within({{}, 0, "/law/reaction_s"}, scenario_.law.reaction_s, 0.0, kLongest_s);
@@ -164,9 +166,9 @@ class RangeCheck {
     within({{}, 0, "/scanner/margin_m"}, s.margin_m, 0.0, kLargestBody_m);
     within({{}, 0, "/scanner/resume_s"}, s.resume_s, 0.0, kLongest_s);
     const auto& o = scenario_.operator_help;
-    within({{}, 0, "/operator/least_s"}, o.least_s, 0.0, kLongest_s);
+    within({{}, 0, "/operator/least_s"}, o.least_s, 1.0, kLongest_s);
     within({{}, 0, "/operator/most_s"}, o.most_s, o.least_s, kLongest_s);
-    within({{}, 0, "/operator/battery"}, o.battery, 0.0, 1.0);
+    within({{}, 0, "/operator/battery"}, o.battery, 0.01, 1.0);
   }
 
   bool has_station(StationId id) const { return id.index() < scenario_.map->station_count(); }

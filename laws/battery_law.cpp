@@ -16,7 +16,7 @@ class BatteryLaw final : public Law {
 
   void piece_started(const Piece& piece) override { bodies_.note(piece); }
   void piece_ended(const Piece&) override {}
-  TraceKinds reads() const override { return {TraceKind::BatteryEmpty, TraceKind::ActivityBegins}; }
+  TraceKinds reads() const override { return {TraceKind::BatteryEmpty, TraceKind::ActivityBegins, TraceKind::OperatorAssists}; }
   void happened(const TraceRecord& record) override;
   void finish(SimTime end) override;
   LawFindings findings() const override;
@@ -31,8 +31,10 @@ class BatteryLaw final : public Law {
 };
 
 void BatteryLaw::happened(const TraceRecord& record) {
-  if (record.kind == TraceKind::ActivityBegins) {
-    if (record.a != static_cast<std::uint64_t>(ActivityKind::Charge)) return;
+  if (record.kind != TraceKind::BatteryEmpty) {
+    const bool charged = record.kind == TraceKind::ActivityBegins ? record.a == static_cast<std::uint64_t>(ActivityKind::Charge)
+                                                                  : record.a == static_cast<std::uint64_t>(Assist::Battery);
+    if (!charged) return;
     const auto standing = standing_.find(record.entity);
     if (standing == standing_.end()) return;
     incidents_[standing->second].last = record.at;

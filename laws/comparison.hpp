@@ -11,7 +11,7 @@ namespace fleetproof {
 // Keeps the timelines of a run for a comparison; finds nothing.
 class TimelineKeeper final : public Law {
  public:
-  explicit TimelineKeeper(const Scenario& scenario) : timelines_(scenario.agvs.size() + scenario.obstacles.size()) {}
+  explicit TimelineKeeper(const Scenario& scenario) : timelines_(scenario.body_count()) {}
 
   void piece_ended(const Piece& piece) override { timelines_[piece.entity.index()].push_back(piece); }
   LawFindings findings() const override { return {}; }

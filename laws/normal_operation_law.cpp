@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/activity.hpp"
+#include "laws/fault_watch.hpp"
 #include "laws/link_quality.hpp"
 
 namespace fleetproof {
@@ -20,7 +21,9 @@ class NormalOperationLaw final : public Law {
   void piece_ended(const Piece&) override {}
   TraceKinds reads() const override {
     return LinkQuality::reads() |
-           TraceKinds{TraceKind::SafeMode, TraceKind::OrderReleased, TraceKind::TransportDone, TraceKind::ActivityBegins, TraceKind::ActivityEnds};
+           TraceKinds{TraceKind::SafeMode,       TraceKind::OrderReleased, TraceKind::TransportDone,
+                      TraceKind::ActivityBegins, TraceKind::ActivityEnds,  TraceKind::LoadMoves} |
+           FaultWatch::reads();
   }
   void happened(const TraceRecord& record) override;
   void finish(SimTime end) override;
@@ -42,6 +45,7 @@ class NormalOperationLaw final : public Law {
   Duration reaction_;
   LinkQuality quality_;
   std::vector<AgvState> agvs_;
+  FaultWatch faults_;
   std::uint64_t open_ = 0, done_ = 0;
   SimTime active_at_ = kStart, all_in_contract_since_ = kStart, next_ = kStart + kSecond;
   bool always_in_contract_ = true;
@@ -51,6 +55,7 @@ class NormalOperationLaw final : public Law {
 
 void NormalOperationLaw::happened(const TraceRecord& record) {
   seconds_before(record.at);
+  if (faults_.note(record)) return;
   switch (record.kind) {
     case TraceKind::Sent:
     case TraceKind::Lost:
@@ -68,6 +73,9 @@ void NormalOperationLaw::happened(const TraceRecord& record) {
     case TraceKind::TransportDone:
       open_ -= open_ > 0 ? 1 : 0;
       ++done_;
+      break;
+    case TraceKind::LoadMoves:
+      if (record.b >> 32 == static_cast<std::uint64_t>(Holder::Kind::ClearedAway)) open_ -= open_ > 0 ? 1 : 0;  // nobody can do it any more
       break;
     default: {
       const auto kind = static_cast<ActivityKind>(record.a);
@@ -114,9 +122,9 @@ void NormalOperationLaw::look_at_safe_mode(std::size_t agv, SimTime now, std::in
 }
 
 void NormalOperationLaw::look_at_standstill(SimTime now) {
-  const SimTime since = std::max(active_at_, all_in_contract_since_);
+  const SimTime since = std::max({active_at_, all_in_contract_since_, faults_.last()});
   const bool busy = std::ranges::any_of(agvs_, &AgvState::busy);
-  if (open_ == 0 || busy || now - since < scenario_.stuck_after) {
+  if (open_ == 0 || busy || faults_.holds_anybody() || now - since < scenario_.stuck_after) {
     standstill_.reset();
     return;
   }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/activity.hpp"
+#include "laws/fault_watch.hpp"
 #include "laws/standing_in_the_way.hpp"
 
 namespace fleetproof {
@@ -35,7 +36,7 @@ struct Wait {
 };
 
 bool is_work(ActivityKind kind) {
-  return kind == ActivityKind::Drive || kind == ActivityKind::Turn || kind == ActivityKind::Pick || kind == ActivityKind::Drop;
+  return kind == ActivityKind::Drive || kind == ActivityKind::Turn || kind == ActivityKind::Settle || kind == ActivityKind::Pick || kind == ActivityKind::Drop;
 }
 
 class ProgressLaw final : public Law {
@@ -46,10 +47,14 @@ class ProgressLaw final : public Law {
     look_before(piece.begin);
     bodies_.note(piece);
   }
-  void piece_ended(const Piece&) override {}
+  void piece_ended(const Piece& piece) override {
+    look_before(piece.end);
+    bodies_.note_end(piece);
+  }
   TraceKinds reads() const override {
-    return {TraceKind::OrderReleased, TraceKind::TransportDone, TraceKind::ActivityBegins,
-            TraceKind::ActivityEnds,  TraceKind::WaitingFor,    TraceKind::LoadMoves};
+    return TraceKinds{TraceKind::OrderReleased, TraceKind::TransportDone, TraceKind::ActivityBegins,
+                      TraceKind::ActivityEnds,  TraceKind::WaitingFor,    TraceKind::LoadMoves} |
+           FaultWatch::reads();
   }
   void happened(const TraceRecord& record) override;
   void finish(SimTime end) override;
@@ -60,11 +65,12 @@ class ProgressLaw final : public Law {
 
   void order_released(const TraceRecord& record);
   void load_moves(const TraceRecord& record);
-  void transport_done(const TraceRecord& record);
+  void transport_over(std::uint64_t transport, bool done, SimTime at);
   void advanced(AgvState& agv, SimTime at);
   void look_before(SimTime t);
   void look(SimTime now);
-  bool is_stalled(const AgvState& agv, SimTime now) const { return agv.has_work() && !agv.busy && now - agv.still_since() >= stuck_after_; }
+  bool is_stalled(const AgvState& agv, SimTime now) const { return agv.has_work() && !agv.busy && now - still_since(agv) >= stuck_after_; }
+  SimTime still_since(const AgvState& agv) const { return std::max(agv.still_since(), faults_.last()); }
   void look_for_deadlocks(SimTime now);
   void look_for_livelock(SimTime now);
   void look_for_starvation(SimTime now);
@@ -77,6 +83,7 @@ class ProgressLaw final : public Law {
   const Scenario& scenario_;
   Duration stuck_after_, look_every_;
   Whereabouts bodies_;
+  FaultWatch faults_;
   std::vector<AgvState> agvs_;
   std::vector<TransportOrder> orders_;  // by number of the transport
   std::vector<std::uint32_t> owner_;    // likewise
@@ -106,6 +113,7 @@ ProgressLaw::ProgressLaw(const Scenario& scenario)
 
 void ProgressLaw::happened(const TraceRecord& record) {
   look_before(record.at);
+  if (faults_.note(record)) return;
   switch (record.kind) {
     case TraceKind::OrderReleased:
       order_released(record);
@@ -114,7 +122,7 @@ void ProgressLaw::happened(const TraceRecord& record) {
       load_moves(record);
       break;
     case TraceKind::TransportDone:
-      transport_done(record);
+      transport_over(record.a, true, record.at);
       break;
     case TraceKind::WaitingFor:
       agvs_[record.entity.index()].declared = EntityId{static_cast<std::uint32_t>(record.a)};
@@ -150,23 +158,26 @@ void ProgressLaw::order_released(const TraceRecord& record) {
 
 void ProgressLaw::load_moves(const TraceRecord& record) {
   AgvState& agv = agvs_[record.entity.index()];
+  const auto to = static_cast<Holder::Kind>(record.b >> 32);
   if (released_) {
     transport_of_load_[record.a] = *std::exchange(released_, std::nullopt);
-  } else if (record.b >> 32 == static_cast<std::uint64_t>(Holder::Kind::Agv)) {
+  } else if (to == Holder::Kind::Agv) {
     agv.carried = transport_of_load_[record.a];
     advanced(agv, record.at);
+  } else if (to == Holder::Kind::ClearedAway) {
+    transport_over(transport_of_load_[record.a], false, record.at);  // nobody can do it any more
   } else {
     agv.carried.reset();
   }
 }
 
-void ProgressLaw::transport_done(const TraceRecord& record) {
-  if (record.a >= owner_.size()) return;
-  AgvState& agv = agvs_[owner_[record.a]];
-  std::erase(agv.open, record.a);
-  ++agv.done;
-  ++done_;
-  advanced(agv, record.at);
+void ProgressLaw::transport_over(std::uint64_t transport, bool done, SimTime at) {
+  if (transport >= owner_.size()) return;
+  AgvState& agv = agvs_[owner_[transport]];
+  std::erase(agv.open, transport);
+  agv.done += done ? 1 : 0;
+  done_ += done ? 1 : 0;
+  advanced(agv, at);
 }
 
 void ProgressLaw::advanced(AgvState& agv, SimTime at) {
@@ -182,6 +193,7 @@ void ProgressLaw::look_before(SimTime t) {
 
 void ProgressLaw::look(SimTime now) {
   before_ = std::exchange(under_way_, {});
+  if (faults_.holds_anybody()) return;
   look_for_deadlocks(now);
   look_for_livelock(now);
   look_for_starvation(now);
@@ -237,13 +249,13 @@ void ProgressLaw::look_for_deadlocks(SimTime now) {
   }
   if (any_circle || stalled.empty() || stalled.size() < at_work) return;
   SimTime first = kStart;
-  for (const EntityId agv : stalled) first = std::max(first, agvs_[agv.index()].still_since());
+  for (const EntityId agv : stalled) first = std::max(first, still_since(agvs_[agv.index()]));
   if (goes_on({IncidentKind::Deadlock, stalled.front(), waits[stalled.front()].for_whom, first, now, 0})) file_waits(stalled, waits, first, now, 0);
 }
 
 void ProgressLaw::file_circle(const std::vector<EntityId>& circle, const std::map<EntityId, Wait>& waits, SimTime now) {
   SimTime first = kStart;
-  for (const EntityId agv : circle) first = std::max(first, agvs_[agv.index()].still_since());
+  for (const EntityId agv : circle) first = std::max(first, still_since(agvs_[agv.index()]));
   const Incident deadlock{
       IncidentKind::Deadlock, circle.front(), waits.at(circle.front()).for_whom, first, now, static_cast<std::int64_t>(circle.size())};
   if (goes_on(deadlock)) file_waits(circle, waits, first, now, 1);
@@ -264,7 +276,7 @@ void ProgressLaw::file_waits(const std::vector<EntityId>& agvs, const std::map<E
 void ProgressLaw::look_for_livelock(SimTime now) {
   const bool any_work = std::ranges::any_of(agvs_, &AgvState::has_work);
   const bool still = std::ranges::none_of(agvs_, [&](const AgvState& agv) { return agv.busy || now - agv.active_at < stuck_after_; });
-  if (!any_work || still || now - fleet_advanced_at_ < 2 * stuck_after_ || motions_ == motions_then_) return;
+  if (!any_work || still || now - std::max(fleet_advanced_at_, faults_.last()) < 2 * stuck_after_ || motions_ == motions_then_) return;
   goes_on({IncidentKind::Livelock, {}, {}, fleet_advanced_at_, now, static_cast<std::int64_t>(motions_ - motions_then_)});
 }
 
@@ -273,7 +285,7 @@ void ProgressLaw::look_for_starvation(SimTime now) {
   for (std::size_t i = 0; i < agvs_.size(); ++i) {
     const AgvState& agv = agvs_[i];
     const std::uint64_t others_done = done_ - agv.done - agv.others_done_then;
-    if (!agv.has_work() || now - agv.without_success_since() < 2 * stuck_after_ || others_done < kOvertaken * (agvs_.size() - 1)) continue;
+    if (!agv.has_work() || now - std::max(agv.without_success_since(), faults_.last()) < 2 * stuck_after_ || others_done < kOvertaken * (agvs_.size() - 1)) continue;
     goes_on({IncidentKind::Starvation, EntityId{i}, {}, agv.without_success_since(), now, static_cast<std::int64_t>(agv.open.size())});
   }
 }

@@ -51,7 +51,7 @@ EntityId first_in_the_way(const Scenario& scenario, const Whereabouts& bodies, E
     const OrientedRectangle mine = placed(footprint, lane.curve.pose_at(lane.curve.length_m() * step / steps));
     for (std::size_t i = 0; i < bodies.body_count(); ++i) {
       const EntityId other{i};
-      if (other == agv || bodies.moves(other)) continue;
+      if (other == agv || !bodies.on_floor(other) || bodies.moves(other)) continue;
       if (clearance_m(mine, bodies.of(other).body_at(now)) < scenario.law.safety_distance_m) return other;
     }
   }

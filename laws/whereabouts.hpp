@@ -9,12 +9,20 @@ namespace fleetproof {
 // An AGV stands at a station if its reference point is no farther from it.
 inline constexpr double kAtStation_m = 0.05;
 
-// What every body does at present, as announced.
+// What every body on the floor does at present, as announced.
 class Whereabouts {
  public:
-  explicit Whereabouts(const Scenario& scenario) : scenario_(scenario), current_(scenario.body_count()) {}
+  explicit Whereabouts(const Scenario& scenario) : scenario_(scenario), current_(scenario.body_count()), on_floor_(scenario.body_count()) {}
 
-  void note(const Piece& piece) { current_[piece.entity.index()] = piece; }
+  void note(const Piece& piece) {
+    current_[piece.entity.index()] = piece;
+    on_floor_[piece.entity.index()] = true;
+  }
+  // A body other than an AGV has one piece: with its end it is gone.
+  void note_end(const Piece& piece) {
+    if (piece.entity.index() >= agv_count()) on_floor_[piece.entity.index()] = false;
+  }
+  bool on_floor(EntityId body) const { return on_floor_[body.index()]; }
   std::size_t agv_count() const { return scenario_.agvs.size(); }
   std::size_t body_count() const { return current_.size(); }
   const Piece& of(EntityId body) const { return current_[body.index()]; }
@@ -28,6 +36,7 @@ class Whereabouts {
  private:
   const Scenario& scenario_;
   std::vector<Piece> current_;
+  std::vector<bool> on_floor_;
 };
 
 }  // namespace fleetproof

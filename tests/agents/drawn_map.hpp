@@ -87,7 +87,7 @@ struct TestFleet {
   TestFleet(const fp_map& of_map, std::uint32_t count, const fp_agv& agv = kTestAgv) : map(of_map), agvs(count, agv) {}
 
   fp_briefing briefing(std::uint32_t self, std::uint32_t start) const {
-    return {sizeof(fp_briefing), self, static_cast<std::uint32_t>(agvs.size()), sizeof(fp_agv), agvs.data(), &map, start, 0, nullptr, 0.10, 1000.0, "", 0, FP_NONE};
+    return {sizeof(fp_briefing), self, static_cast<std::uint32_t>(agvs.size()), sizeof(fp_agv), agvs.data(), &map, start, 0, nullptr, 0.10, 1000.0, "", 0, FP_NONE, FP_NONE};
   }
 
   const fp_map& map;

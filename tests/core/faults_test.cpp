@@ -281,6 +281,57 @@ TEST(Freeze, EventsWaitUntilItIsOver) {
   EXPECT_EQ(seen.done_s, (std::vector<double>{12.0}));
 }
 
+TEST(Freeze, AnotherOneHoldsOnUntilTheLaterIsOver) {
+  Scenario scenario = row_of_tens({0}, 100.0);
+  scenario.faults = {fault(Fault::Kind::Freeze, 1.0, 10.0), fault(Fault::Kind::Freeze, 5.0, 50.0)};
+  const Seen seen = drive_and_look(scenario, {2.0});
+  EXPECT_EQ(seen.done_s, (std::vector<double>{55.0})) << "not at 11 s, when the first is over";
+}
+
+TEST(Faults, CountedFromAPickTheyStrikeOnce) {
+  Scenario scenario = row_of_tens({0}, 200.0);
+  scenario.agvs[0].transports = {{StationId{0U}, StationId{2U}, Duration{}}};
+  Fault stop = fault(Fault::Kind::ProtectiveStop, 1.0, 30.0);
+  stop.transport = 0;
+  scenario.faults = {stop};
+  int done = 0;
+  test::Recorder trace;
+  test::simulate_with(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& e) {
+    if (e.kind == FP_EVENT_ORDER) host.pick(c, FP_HERE);
+    if (e.kind != FP_EVENT_ACTION_DONE) return;
+    if (++done == 1) host.drop(c, 0);  // at the wrong station
+    if (done == 2) host.pick(c, FP_HERE);
+    if (done == 3) host.drop(c, 1);
+  }, &trace);
+  EXPECT_EQ(done, 4) << "and the AGV goes on after it";
+  EXPECT_EQ(trace.of(TraceKind::FaultStrikes).size(), 1U);
+  EXPECT_EQ(trace.of(TraceKind::TransportDone).size(), 1U);
+}
+
+TEST(Halt, InTheLastNanosecondOfALaneRoundingIsNoEngineError) {
+  Scenario scenario = row_of_tens({0});
+  scenario.map = test::row_map(2, 25.67);
+  for (const double second_s : {27.836552325, 27.836552326, 27.836552327}) {
+    scenario.faults = {fault(Fault::Kind::ProtectiveStop, 5.640971823, 10.0), fault(Fault::Kind::ProtectiveStop, second_s, 1.0)};
+    const Seen seen = drive_and_look(scenario);
+    EXPECT_FALSE(seen.outcome.engine_error) << seen.outcome.message;
+    EXPECT_EQ(seen.done_s.size(), 1U);
+  }
+}
+
+TEST(Halt, WhoIsHitWhileHeldIsOutOfOrder) {
+  Scenario scenario = row_of_tens({0, 1});
+  scenario.agvs[1].heading = -Vec2::UnitX();
+  scenario.faults = {fault(Fault::Kind::ProtectiveStop, 1.0, 50.0)};
+  std::uint32_t action = 0;
+  test::simulate_with(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
+    if (e.kind == FP_EVENT_START) host.move(c, 0);
+    if (b.self == 0 && e.kind == FP_EVENT_START) host.set_timer(c, 1, 40'000'000'000);
+    if (b.self == 0 && e.kind == FP_EVENT_TIMER) host.get_action(c, &action);
+  });
+  EXPECT_EQ(action, static_cast<std::uint32_t>(FP_OUT_OF_ORDER));
+}
+
 TEST(Faults, AnAgvThatIsOutOfOrderForGoodCannotFail) {
   Scenario scenario = row_of_tens({0, 1});
   scenario.faults = {fault(Fault::Kind::Breakdown, 30.0, 5.0)};

@@ -77,6 +77,17 @@ TEST(Scanner, StopsBeforeAnObstacleAndGoesOnWhenItIsGone) {
   EXPECT_EQ(drive_and_look(scenario).outcome.counters.contacts, 1U) << "the same without it";
 }
 
+TEST(Scanner, HelpForAStopThatHasPassedIsNoHelpForTheNext) {
+  Scenario scenario = row_of_tens({0}, 100.0);
+  scenario.obstacles = {{"first", {0.5, 0.5}, {Vec2{5.0, 0.0}, Vec2::UnitX()}, seconds(0.5), seconds(20.0)},
+                        {"second", {0.5, 0.5}, {Vec2{8.0, 0.0}, Vec2::UnitX()}, seconds(10.0)}};
+  scenario.scanner.on = true;
+  scenario.operator_help = {.on = true, .least_s = 24.0, .most_s = 24.0};
+  const Seen seen = drive_and_look(scenario, {40.0});
+  EXPECT_EQ(seen.outcome.counters.scanner_stops, 2U);
+  EXPECT_EQ(seen.actions.at(0), static_cast<std::uint32_t>(FP_STOPPED)) << "the first call is answered at about 27 s: too early for the second stop";
+}
+
 TEST(Scanner, TheOperatorSendsOnWhoIsHeldForLong) {
   Scenario scenario = row_of_tens({0, 1});
   scenario.agvs[1].heading = Vec2::UnitY();

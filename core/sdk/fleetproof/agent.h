@@ -122,9 +122,12 @@ typedef struct fp_briefing {
   double radio_range_m;
   const char* config; /* the agent's own parameters, as text; never null */
   /* Since minor 1. How often this AGV's computer has restarted in this run: it keeps that number in stable storage, and nothing else. After a
-   * restart start_station is where the AGV stands, or the station it left last; start_segment is the segment that it is driving, else FP_NONE. */
+   * restart start_station is where the AGV stands, or the station it left last; start_segment is the segment that it is driving, else FP_NONE;
+   * next_segment the one that it is going to drive after that because it was told so before the restart, else FP_NONE. For what was under way,
+   * FP_EVENT_ACTION_DONE still comes. */
   uint32_t boot;
   uint32_t start_segment;
+  uint32_t next_segment;
 } fp_briefing;
 
 /* ---- events --------------------------------------------------------------------------------------------------------------------------- */

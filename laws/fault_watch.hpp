@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/faults.hpp"
+#include "core/law.hpp"
+
+namespace fleetproof {
+
+// Whether a breakdown or a protective stop holds anybody: what the fleet does not do meanwhile is nobody's fault.
+class FaultWatch {
+ public:
+  static constexpr TraceKinds reads() { return {TraceKind::FaultStrikes, TraceKind::FaultOver}; }
+  // True if the record was one of these.
+  bool note(const TraceRecord& record) {
+    if (record.kind != TraceKind::FaultStrikes && record.kind != TraceKind::FaultOver) return false;
+    const auto kind = static_cast<Fault::Kind>(record.a);
+    const bool holds = kind == Fault::Kind::Breakdown || kind == Fault::Kind::ProtectiveStop;
+    if (holds) held_ = record.kind == TraceKind::FaultStrikes ? held_ + 1 : held_ - 1;
+    if (holds) last_ = record.at;
+    return true;
+  }
+  bool holds_anybody() const { return held_ > 0; }
+  SimTime last() const { return last_; }  // when that was last so, if it is not now
+
+ private:
+  int held_ = 0;
+  SimTime last_ = kStart;
+};
+
+}  // namespace fleetproof
