@@ -162,8 +162,9 @@ void Engine::agent_goes_away(Agv& agv) {
 void Engine::agent_comes_back(Agv& agv) {
   agv.agent_away = false;
   ++agv.boot;
-  const bool driving = agv.activity && agv.plan.lane != nullptr;
-  briefings_.renew(agv.id, agv.boot, agv.station, driving || agv.plan_waits ? agv.plan.lane : nullptr);
+  // Of an action with a segment, only until its end is reached: what follows is settling or a transfer at that station.
+  const bool driving = (agv.activity || agv.plan_waits) && agv.plan.lane != nullptr && agv.plan.lane->from == agv.station;
+  briefings_.renew(agv.id, agv.boot, agv.station, driving ? agv.plan.lane : nullptr);
   fp_event start{};
   start.kind = FP_EVENT_START;
   tell(agv, start);
