@@ -104,6 +104,29 @@ TEST(Restart, DuringATransferItWaitsForItsEndAndNeitherPicksNorDropsTwice) {
   }
 }
 
+// Its end would otherwise be taken for the end of what the new self began.
+TEST(Restart, NothingIsBegunBeforeTheActionOfTheFormerSelfIsOver) {
+  Corridor corridor;
+  const TestFleet fleet(corridor.drawn.map(), 1);
+  FakeWarehouse warehouse(corridor.drawn, fleet, {0}, kHullLock, {}, 1);
+  warehouse.order(0, 0.1, 0, 3);  // picks until 5.1 s
+  warehouse.restart(0, 0.5, 0.1);
+  warehouse.run(60.0);
+  for (const auto& [at_s, call] : warehouse.calls()) EXPECT_TRUE(at_s < 0.5 || at_s > 5.0) << at_s;
+  EXPECT_EQ(warehouse.drops(), 1U);
+}
+
+TEST(Restart, ALoadOnBoardIsNotFetchedAgain) {
+  Corridor corridor;
+  const TestFleet fleet(corridor.drawn.map(), 1);
+  FakeWarehouse warehouse(corridor.drawn, fleet, {0}, kHullLock, {}, 1);
+  warehouse.order(0, 0.1, 0, 3);
+  warehouse.restart(0, 7.0, 1.0);
+  warehouse.run(100.0);
+  EXPECT_EQ(std::ranges::count(warehouse.calls(), static_cast<std::uint32_t>(FP_CALL_PICK), [](const auto& call) { return call.second; }), 1);
+  EXPECT_EQ(warehouse.drops(), 1U);
+}
+
 TEST(Charging, AnEmptyAgvDrivesToTheChargerAndGoesOnAfterwards) {
   Corridor corridor;
   const auto charger = corridor.drawn.station(8, 4, FP_CHARGING);
