@@ -14,7 +14,8 @@ inline constexpr std::int64_t kSecond_ns = 1'000'000'000;
 // The AGV controller as the agents use it: the C table behind names of its own.
 class Controller {
  public:
-  Controller(const fp_host& host, fp_controller* handle) : host_(host), handle_(handle) {}
+  // `boot`: of the computer; it must not draw the same numbers again.
+  Controller(const fp_host& host, fp_controller* handle, std::uint32_t boot = 0) : host_(host), handle_(handle), draws_(std::uint64_t{boot} << 32) {}
 
   // Actions: true if accepted. `segment` may be FP_HERE for pick and drop.
   bool move(std::uint32_t segment) { return host_.move(handle_, segment) == FP_OK; }
@@ -29,9 +30,20 @@ class Controller {
 
   // False: no position to be had; `out` is as it was.
   bool pose(fp_pose& out) { return host_.get_position(handle_, &out) == FP_OK; }
-  bool out_of_order() {
-    std::uint32_t action = FP_IDLE;
-    return host_.get_action(handle_, &action) == FP_OK && action == FP_OUT_OF_ORDER;
+  // What the AGV is doing; FP_STOPPED if there is no telling.
+  std::uint32_t action() {
+    std::uint32_t action = FP_STOPPED;
+    return host_.get_action(handle_, &action) == FP_OK ? action : std::uint32_t{FP_STOPPED};
+  }
+  bool out_of_order() { return action() == FP_OUT_OF_ORDER; }
+  bool loaded() {
+    std::uint32_t loaded = 0;
+    return host_.is_loaded(handle_, &loaded) == FP_OK && loaded != 0;
+  }
+  // Full if it cannot be told.
+  double battery_level() {
+    double level = 1.0;
+    return host_.get_battery_level(handle_, &level) == FP_OK ? level : 1.0;
   }
   // Hands every waiting message to `receive(sender, bytes)`.
   template <class Receive>
@@ -44,7 +56,7 @@ class Controller {
   }
 
   std::int64_t now_ns() { return host_.now_ns(handle_); }
-  void set_timer(std::uint32_t timer, std::int64_t at_ns) { host_.set_timer(handle_, timer, at_ns); }
+  void set_timer(std::uint32_t timer, std::int64_t at_ns) { host_.set_timer(handle_, timer, at_ns < 0 ? 0 : at_ns); }  // below 0 would clear it
   // The next draw of this stream, uniform on [0, 1).
   double random(std::uint32_t purpose) { return static_cast<double>(host_.random(handle_, purpose, draws_++) >> 11) * 0x1p-53; }
   void waiting_for(std::uint32_t agv) {
@@ -57,7 +69,7 @@ class Controller {
  private:
   const fp_host& host_;
   fp_controller* handle_;
-  std::uint64_t draws_ = 0;
+  std::uint64_t draws_;
   std::uint32_t declared_ = FP_NONE;
 };
 

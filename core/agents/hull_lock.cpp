@@ -1,6 +1,7 @@
 #include "core/agents/hull_lock.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <tuple>
 #include <utility>
 
@@ -20,26 +21,41 @@ constexpr double kLongestLead_s = 8.0;    // how long before the end of a stretc
 constexpr double kPatience_s = 10.0;      // how long one waits for somebody who stands in the way, plus up to half of it
 constexpr double kPatienceInTheWay_s = 3.0;
 constexpr double kRetryPlanning_s = 2.0;
+constexpr double kOverdue_s = 5.0;        // an action that takes so much longer than expected may have been stopped
+constexpr double kClockMargin = 1.02;     // clocks may run wrong by up to 1 %
+constexpr double kFarEnoughCharged = 0.5; // battery level with which it lets others have the place
+constexpr std::uint32_t kTicksPerLookAtBattery = 8;
+
+// Members that a host of minor 0 does not know.
+bool knows_restarts(const fp_briefing& briefing) { return briefing.struct_size >= offsetof(fp_briefing, start_segment) + sizeof(briefing.start_segment); }
+
+bool has_chargers(const MapView& map) {
+  for (std::uint32_t id = 0; id < map.station_count(); ++id) {
+    if ((map.station(id).purposes & FP_CHARGING) != 0) return true;
+  }
+  return false;
+}
 
 }  // namespace
 
 HullLock::HullLock(const fp_host& host, fp_controller* handle, const fp_briefing& briefing, LockOptions options)
-    : controller_(host, handle),
+    : settings_(read_settings(briefing.config)),
+      boot_(knows_restarts(briefing) ? briefing.boot : 0),
       start_station_(briefing.start_station),
+      start_segment_(boot_ > 0 ? briefing.start_segment : FP_NONE),
+      controller_(host, handle, boot_),
       map_(*briefing.map),
       geometry_(map_, briefing),
-      neighbours_(map_, geometry_, briefing),
-      protocol_(map_, geometry_, neighbours_, controller_, options),
+      neighbours_(map_, geometry_, briefing, settings_),
+      protocol_(map_, geometry_, neighbours_, controller_, options, boot_),
       planner_(map_, geometry_, neighbours_, agv_of(briefing, briefing.self)),
-      longest_claim_m_(longest_claim_m(map_)) {}
+      longest_claim_m_(longest_claim_m(map_)),
+      has_chargers_(has_chargers(map_)) {}
 
 void HullLock::on_event(const fp_event& event) {
   switch (event.kind) {
     case FP_EVENT_START: start(); break;
-    case FP_EVENT_ORDER:
-      goals_.push_back({event.from, Leg::Kind::Pick});
-      goals_.push_back({event.to, Leg::Kind::Drop});
-      break;
+    case FP_EVENT_ORDER: take_order(event); break;
     case FP_EVENT_MESSAGE:
       controller_.drain_inbox([&](std::uint32_t sender, std::span<const std::byte> bytes) { protocol_.receive(sender, bytes); });
       break;
@@ -58,28 +74,121 @@ void HullLock::start() {
   fp_pose pose{};
   if (controller_.pose(pose)) standing.heading = {pose.heading_x, pose.heading_y};
   protocol_.stand(standing);
+  started_s_ = now_s();
+  if (boot_ > 0) start_again(standing);
   tick();
+}
+
+// The AGV may be in the middle of what the former self told it to do. That is held until it is over.
+void HullLock::start_again(const Path& standing) {
+  controller_.sometimes("restarted");
+  acting_ = true;
+  for (const std::uint32_t lane : map_.lanes_from(start_station_)) {
+    if (map_.lane(lane).segment != start_segment_) continue;
+    current_ = {Leg::Kind::Drive, lane};
+    Path driving = standing;
+    driving.heading = map_.start_heading(lane) * -1.0;  // it may still be turning, from wherever
+    current_ends_s_ = now_s() + leg_time_s(current_, driving.heading);
+    driving.append(lane);
+    return protocol_.stand(driving);
+  }
+  current_ = {Leg::Kind::Inherited, FP_NONE};
+  current_ends_s_ = now_s();
+  place_known_ = false;
+  place_known_after_s_ = now_s() + kClockMargin * settings_.position_late_s + 0.1;
+  protocol_.know_own_place(false);
+}
+
+// After a restart orders are told again, the oldest first: a load that is on board belongs to that one.
+void HullLock::take_order(const fp_event& event) {
+  const bool on_board = boot_ > 0 && !order_seen_ && controller_.loaded();
+  order_seen_ = true;
+  if (!on_board) goals_.push_back({event.from, Leg::Kind::Pick});
+  goals_.push_back({event.to, Leg::Kind::Drop});
 }
 
 void HullLock::tick() {
   const double pause_s = kBeacon_s * (0.8 + 0.4 * controller_.random(kBeaconDraws));
   controller_.set_timer(kBeaconTimer, controller_.now_ns() + static_cast<std::int64_t>(pause_s * 1e9));
-  if (!out_of_order_ && is_waiting() && controller_.out_of_order()) break_down();
+  find_own_place();
+  look_for_inherited_action();
+  look_whether_out_of_order();
+  if (has_chargers_ && (charging_ || ++ticks_ % kTicksPerLookAtBattery == 0)) look_at_battery();
   protocol_.describe(is_waiting(), is_idle(), out_of_order_);
   reconsider();
   protocol_.broadcast_state();
 }
 
 void HullLock::action_done(std::int32_t result) {
+  if (!acting_) return;
   acting_ = false;
-  if (result != FP_OK) return break_down();
+  if (result != FP_OK) {  // it stands where it is for good; what it holds covers that
+    wrecked_ = true;
+    return set_out_of_order(true);
+  }
   if (current_.kind == Leg::Kind::Drive) protocol_.lane_passed();
+  if (current_.kind == Leg::Kind::Charge) charging_ = true;
 }
 
-// It stands where it is for good. What it holds covers that.
-void HullLock::break_down() {
-  out_of_order_ = true;
-  protocol_.withdraw();
+// At rest at a station since the restart: once no position can be older than that, the heading is right.
+void HullLock::find_own_place() {
+  if (place_known_ || now_s() < place_known_after_s_) return;
+  fp_pose pose{};
+  if (!controller_.pose(pose)) return;
+  const double off_m = length(Vec{pose.x_m, pose.y_m} - map_.position_m(start_station_));
+  if (off_m > 2.0 * settings_.position_error_m + kHullTolerance_m) return;  // somewhere on a lane: nobody may come near before it has been found out which
+  Path standing;
+  standing.station = start_station_;
+  standing.heading = {pose.heading_x, pose.heading_y};
+  protocol_.stand(standing);
+  protocol_.know_own_place(true);
+  place_known_ = true;
+}
+
+// Nobody says whether an action of the former self was under way. If so, its end is told. If the AGV was idle at one tick and nothing has been told
+// until the next, there was none: what happened before the first has been told before the second.
+void HullLock::look_for_inherited_action() {
+  if (!acting_ || current_.kind != Leg::Kind::Inherited) return;
+  const std::uint32_t action = controller_.action();
+  const bool idle = action == FP_IDLE || action == FP_CHARGING_NOW;
+  if (idle && seen_idle_) acting_ = false, charging_ = action == FP_CHARGING_NOW;
+  seen_idle_ = idle;
+}
+
+void HullLock::look_whether_out_of_order() {
+  if (wrecked_ || !(out_of_order_ || is_waiting() || now_s() > current_ends_s_ + kOverdue_s)) return;
+  set_out_of_order(controller_.out_of_order());
+}
+
+// It keeps what it holds, and goes on when it has been repaired.
+void HullLock::set_out_of_order(bool out) {
+  if (out && !out_of_order_) protocol_.withdraw();
+  out_of_order_ = out;
+}
+
+void HullLock::look_at_battery() {
+  const double level = controller_.battery_level();
+  if (level >= settings_.charge_to) charging_ = false;
+  const bool in_between = goals_.empty() || goals_.front().transfer != Leg::Kind::Drop;
+  const bool under_way = std::ranges::any_of(legs_, [](const Leg& leg) { return leg.kind == Leg::Kind::Pick; }) || going_to_charge() ||
+                         (acting_ && current_.kind != Leg::Kind::Drive);
+  if (level < settings_.charge_below && !charging_ && in_between && !under_way && place_known_ && !out_of_order_) drive_to_charger();
+}
+
+bool HullLock::going_to_charge() const {
+  return (acting_ && current_.kind == Leg::Kind::Charge) || std::ranges::any_of(legs_, [](const Leg& leg) { return leg.kind == Leg::Kind::Charge; });
+}
+
+// To the one that is best now: another one may have become free, or this one taken.
+void HullLock::drive_to_charger() {
+  const bool bound = !goals_.empty() && goals_.front().transfer == Leg::Kind::Charge;
+  if (bound && !protocol_.requesting()) return;
+  const std::uint32_t charger = planner_.free_charger(end_of(map_, protocol_.held()).station);
+  if (charger == FP_NONE || (bound && goals_.front().station == charger)) return;
+  protocol_.withdraw();  // what is requested counts goals by their places in the row
+  if (bound) goals_.erase(goals_.begin());
+  goals_.insert(goals_.begin(), {charger, Leg::Kind::Charge});
+  controller_.sometimes("drives-to-charger");
 }
 
 void HullLock::advance() {
@@ -88,7 +197,7 @@ void HullLock::advance() {
     protocol_.describe(is_waiting(), is_idle(), out_of_order_);
     if (protocol_.settle()) {
       adopt_stretch();
-    } else if (!protocol_.requesting() && !out_of_order_) {
+    } else if (!protocol_.requesting() && !out_of_order_ && place_known_) {
       plan();
       if (!protocol_.requesting() && (acting_ || legs_.empty())) break;
     } else {
@@ -102,7 +211,7 @@ void HullLock::advance() {
 }
 
 void HullLock::act() {
-  if (acting_ || legs_.empty() || out_of_order_) return;
+  if (acting_ || charging_ || legs_.empty() || out_of_order_) return;
   begin(legs_.front());
 }
 
@@ -112,11 +221,10 @@ void HullLock::begin(const Leg& leg) {
     case Leg::Kind::Drive: accepted = controller_.move(map_.lane(leg.lane).segment); break;
     case Leg::Kind::Pick: accepted = controller_.pick(FP_HERE); break;
     case Leg::Kind::Drop: accepted = controller_.drop(FP_HERE); break;
+    case Leg::Kind::Charge: accepted = controller_.charge(FP_HERE); break;
+    case Leg::Kind::Inherited: break;
   }
-  if (!accepted) {
-    if (controller_.out_of_order()) break_down();
-    return;
-  }
+  if (!accepted) return set_out_of_order(controller_.out_of_order());
   current_ = leg;
   current_ends_s_ = now_s() + leg_time_s(leg, protocol_.held().heading);
   acting_ = true;
@@ -127,6 +235,7 @@ void HullLock::adopt_stretch() {
   legs_.insert(legs_.end(), stretch_.legs.begin(), stretch_.legs.end());
   goals_.erase(goals_.begin(), goals_.begin() + stretch_.goals);
   if (purpose_ == Purpose::Transport) demand_ns_ = -1;
+  charging_ = false;  // of those who charge, only who makes way locks anything
   const double took_s = std::min(now_s() - requested_at_s_, kLongestLead_s);
   locking_takes_s_ += 0.3 * (took_s - locking_takes_s_);
 }
@@ -138,7 +247,9 @@ void HullLock::plan() {
     goals_.erase(goals_.begin());
   }
   if (now_s() < plan_after_s_) return;
-  if (!goals_.empty()) {
+  if (charging_ || going_to_charge()) {
+    if (charging_ && in_the_way_of(false) && controller_.battery_level() >= kFarEnoughCharged) plan_making_way();
+  } else if (!goals_.empty()) {
     plan_transport();
   } else if (is_idle()) {
     plan_making_way();
@@ -154,7 +265,7 @@ void HullLock::plan_transport() {
 // An AGV without transports gets out of the way of those who ask, and of everybody if it stands at a bad place.
 void HullLock::plan_making_way() {
   const bool asked = in_the_way_of(false);
-  if (!asked && (planner_.places().is_safe(protocol_.held().station) || now_s() < 2.0)) return;
+  if (!asked && (planner_.places().is_safe(protocol_.held().station) || now_s() - started_s_ < 2.0)) return;
   if (asked) controller_.sometimes("makes-way");
   request(way_out(), Purpose::MakeWay);
 }

@@ -9,6 +9,7 @@
 #include "core/agents/lock_protocol.hpp"
 #include "core/agents/map_view.hpp"
 #include "core/agents/neighbours.hpp"
+#include "core/agents/settings.hpp"
 #include "core/agents/stretch_planner.hpp"
 #include "core/sdk/fleetproof/agent.h"
 
@@ -30,9 +31,17 @@ class HullLock {
   enum class Purpose : std::uint8_t { Transport, MakeWay };
 
   void start();
+  void start_again(const Path& standing);
+  void take_order(const fp_event& event);
   void action_done(std::int32_t result);
-  void break_down();
   void tick();
+  void find_own_place();
+  void look_for_inherited_action();
+  void look_whether_out_of_order();
+  void set_out_of_order(bool out);
+  void look_at_battery();
+  void drive_to_charger();
+  bool going_to_charge() const;
   // Everything that can be done now: act, lock, plan, ask.
   void advance();
   void act();
@@ -53,8 +62,9 @@ class HullLock {
   double leg_time_s(const Leg& leg, Vec heading) const;
   double now_s() { return static_cast<double>(controller_.now_ns()) * 1e-9; }
 
+  Settings settings_;
+  std::uint32_t boot_, start_station_, start_segment_;
   Controller controller_;
-  std::uint32_t start_station_;
   MapView map_;
   HullGeometry geometry_;
   Neighbours neighbours_;
@@ -67,7 +77,18 @@ class HullLock {
   bool acting_ = false;         // an action is under way
   Leg current_;
   double current_ends_s_ = 0.0; // expected
-  bool out_of_order_ = false;
+  double started_s_ = 0.0;
+  bool out_of_order_ = false;   // broken down or empty; may be repaired
+  bool wrecked_ = false;        // stopped in the middle of an action for good
+
+  // After a restart.
+  bool order_seen_ = false;
+  bool place_known_ = true;     // where it stands, heading included
+  double place_known_after_s_ = 0.0;
+  bool seen_idle_ = false;      // when last looked; the end of an inherited action may not have been told yet
+
+  bool has_chargers_ = false, charging_ = false;
+  std::uint32_t ticks_ = 0;
 
   Stretch stretch_;             // requested
   Purpose purpose_ = Purpose::Transport;

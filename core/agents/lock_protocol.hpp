@@ -19,21 +19,23 @@ struct LockOptions {
 // conflict. An AGV always holds the path it stands on or drives, and may ask for a longer one. Why it is sound stands at the head of the source.
 class LockProtocol {
  public:
-  LockProtocol(const MapView& map, HullGeometry& geometry, Neighbours& neighbours, Controller& controller, LockOptions options)
-      : map_(map), geometry_(geometry), neighbours_(neighbours), controller_(controller), options_(options) {}
+  LockProtocol(const MapView& map, HullGeometry& geometry, Neighbours& neighbours, Controller& controller, LockOptions options, std::uint32_t boot = 0)
+      : map_(map), geometry_(geometry), neighbours_(neighbours), controller_(controller), options_(options), epoch_(first_epoch(boot)) {}
 
-  // Where the AGV stands when the run begins: held from then on.
+  // Where the AGV stands when the agent begins, and the lane it is driving if it is: held from then on.
   void stand(const Path& standing) { held_ = standing; }
+  // While it does not know for certain what it covers, it grants nothing to anybody. Nor must anything be requested.
+  void know_own_place(bool known);
   const Path& held() const { return held_; }
   bool requesting() const { return requesting_; }
   const Path& requested() const { return request_; }
-  std::uint32_t epoch() const { return epoch_; }
+  Epoch epoch() const { return epoch_; }
 
   // Wants to hold `stretch`, which begins where the held path ends, as well. Replaces an open request. `demand_ns`: since when it has wanted to
   // go on; of two that wait for each other, the older demand comes first.
   void request(const Path& stretch, std::int64_t demand_ns);
   void withdraw();
-  // The first held lane has been driven to its end; its hull is given up.
+  // The first held lane has been driven to its end; its hull is given up. Nothing happens if no lane is held.
   void lane_passed();
   // What the next messages tell about the AGV besides what the protocol knows.
   void describe(bool waiting, bool idle, bool out_of_order);
@@ -64,7 +66,7 @@ class LockProtocol {
   bool all_consent();
   void ask(std::uint32_t agv, Neighbour& neighbour, std::int64_t now_ns);
   std::int64_t jittered(std::int64_t pause_ns);
-  void send(MessageKind kind, std::uint32_t receiver, std::uint32_t echo);
+  void send(MessageKind kind, std::uint32_t receiver, Epoch echo);
   void fill_in(Status& status);
 
   const MapView& map_;
@@ -74,10 +76,11 @@ class LockProtocol {
   LockOptions options_;
 
   Path held_;
+  bool own_place_known_ = true;
   bool requesting_ = false;
   Path request_;
   std::int64_t demand_ns_ = 0;
-  std::uint32_t epoch_ = 0;
+  Epoch epoch_;
   bool asked_ = false;                  // in this epoch, whoever had to be asked when it began
   bool answers_may_change_ = false;     // since deferred requests were last looked at
 

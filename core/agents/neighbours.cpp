@@ -8,8 +8,8 @@ namespace fleetproof::agents {
 namespace {
 
 constexpr double kUsualClaim_m = 40.0;
-constexpr double kPositionMargin_m = 1.0;   // rounding on the wire, deviation from the track
-constexpr double kSpeedMargin = 1.1;
+constexpr double kPositionMargin_m = 1.0;   // at least: rounding on the wire, deviation from the track
+constexpr double kSpeedMargin = 1.1;        // clocks that run wrong by up to 1 % are within it
 
 }  // namespace
 
@@ -19,21 +19,26 @@ double longest_claim_m(const MapView& map) {
   return std::max(kUsualClaim_m, 2.0 * longest_lane_m);
 }
 
-Neighbours::Neighbours(const MapView& map, HullGeometry& geometry, const fp_briefing& briefing)
-    : map_(map), geometry_(geometry), self_(briefing.self), neighbours_(briefing.fleet_count), claim_m_(longest_claim_m(map)) {
+Neighbours::Neighbours(const MapView& map, HullGeometry& geometry, const fp_briefing& briefing, const Settings& settings)
+    : map_(map), geometry_(geometry), self_(briefing.self), neighbours_(briefing.fleet_count),
+      position_margin_m_(std::max(kPositionMargin_m, 2.0 * settings.position_error_m)),
+      position_late_s_(settings.position_late_s),
+      claim_m_(longest_claim_m(map)) {
   for (std::uint32_t i = 0; i < briefing.fleet_count; ++i) {
-    speeds_mps_.push_back(agv_of(briefing, i).speed_mps);
+    const fp_agv& agv = agv_of(briefing, i);
+    fastest_mps_.push_back(kSpeedMargin * (1.0 + agv.speed_deviation) * agv.speed_mps);
   }
 }
 
 Neighbours::News Neighbours::note(std::uint32_t sender, const Message& message, std::int64_t now_ns) {
   const Status& status = message.status;
   if (sender >= fleet_count() || sender == self_ || !is_driveable(map_, status.held)) return News::Refused;
-  if (status.requesting && status.epoch == 0) return News::Refused;
+  if (status.requesting && number_of(status.epoch) == 0) return News::Refused;
   if (message.kind == MessageKind::Request && !is_driveable(map_, message.request)) return News::Refused;
   Neighbour& n = neighbours_[sender];
   News news = News::Same;
-  if (!n.known || status.stamp_ms >= n.status.stamp_ms) {
+  const std::uint32_t boot = boot_of(status.epoch), newest_boot = boot_of(n.status.epoch);
+  if (!n.known || boot > newest_boot || (boot == newest_boot && status.stamp_ms >= n.status.stamp_ms)) {
     const Status& before = n.status;
     const bool same = n.known && before.waiting == status.waiting && before.blocked == status.blocked && before.out_of_order == status.out_of_order &&
                       before.held == status.held;
@@ -41,8 +46,7 @@ Neighbours::News Neighbours::note(std::uint32_t sender, const Message& message, 
     n.status = status;
   }
   n.known = true;
-  n.newest_stamp_ms = std::max(n.newest_stamp_ms, status.stamp_ms);
-  const std::uint32_t closed = status.requesting ? status.epoch - 1 : status.epoch;
+  const Epoch closed = status.requesting ? status.epoch - 1 : status.epoch;
   n.closed_epoch = std::max(n.closed_epoch, closed);
   if (message.kind == MessageKind::Request && status.epoch > n.closed_epoch && status.epoch > n.request_epoch) {
     n.request_epoch = status.epoch;
@@ -68,7 +72,7 @@ bool Neighbours::surely_beyond(std::uint32_t agv, const Path& path, std::int64_t
   if (n.proved_after_ns < 0) return false;
   const double age_s = static_cast<double>(now_ns - n.proved_after_ns) * 1e-9;
   const double hulls_m = claim_m_ + geometry_.half_diagonal_m(agv) + geometry_.clearance_m();
-  const double moved_m = kSpeedMargin * speeds_mps_[agv] * age_s + kPositionMargin_m;
+  const double moved_m = fastest_mps_[agv] * (age_s + position_late_s_) + position_margin_m_;
   const double needed_m = hulls_m + moved_m;
   if (length(n.proved_position_m - map_.position_m(path.station)) <= needed_m) return false;  // mostly; saves looking at all parts
   return geometry_.distance_bound_m(n.proved_position_m, self_, path) > needed_m;
@@ -77,7 +81,7 @@ bool Neighbours::surely_beyond(std::uint32_t agv, const Path& path, std::int64_t
 void Neighbours::tell_heard_from(HeardFrom& heard) {
   heard.first = next_heard_;
   heard.count = std::min(HeardFrom::kMax, fleet_count() - next_heard_);
-  for (std::uint32_t i = 0; i < heard.count; ++i) heard.stamps_ms[i] = neighbours_[next_heard_ + i].newest_stamp_ms;
+  for (std::uint32_t i = 0; i < heard.count; ++i) heard.stamps_ms[i] = neighbours_[next_heard_ + i].status.stamp_ms;
   next_heard_ = next_heard_ + heard.count == fleet_count() ? 0 : next_heard_ + heard.count;
 }
 

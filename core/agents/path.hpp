@@ -33,7 +33,7 @@ bool is_driveable(const MapView& map, const Path& path);
 // Standing where the path ends.
 Path end_of(const MapView& map, const Path& path);
 double length_m(const MapView& map, const Path& path);
-// Standing at the end of the first lane, with the others still to drive.
+// Standing at the end of the first lane, with the others still to drive. The path must not be empty.
 void pass_first_lane(const MapView& map, Path& path);
 
 }  // namespace fleetproof::agents

@@ -10,9 +10,11 @@ constexpr double kPerMetre = 1000.0;   // positions travel as millimetres
 constexpr double kPerUnit = 32767.0;   // headings as 15-bit fractions
 
 constexpr std::uint64_t kRequesting = 1, kWaiting = 2, kIdle = 4, kOutOfOrder = 8, kBlocked = 16;  // bits of the flags
+constexpr std::uint64_t kEpochHasBoot = 32, kEchoHasBoot = 64;
 
-std::uint64_t flags_of(const Status& s) {
-  return (s.requesting ? kRequesting : 0U) | (s.waiting ? kWaiting : 0U) | (s.idle ? kIdle : 0U) | (s.out_of_order ? kOutOfOrder : 0U) |
+std::uint64_t flags_of(const Message& message) {
+  const Status& s = message.status;
+  return (boot_of(s.epoch) > 0 ? kEpochHasBoot : 0U) | (boot_of(message.echo) > 0 ? kEchoHasBoot : 0U) | (s.requesting ? kRequesting : 0U) | (s.waiting ? kWaiting : 0U) | (s.idle ? kIdle : 0U) | (s.out_of_order ? kOutOfOrder : 0U) |
          (s.blocked ? kBlocked : 0U);
 }
 
@@ -34,6 +36,10 @@ class Reader {
     return value;
   }
   std::uint32_t take32() { return static_cast<std::uint32_t>(take(4)); }
+  Epoch take_epoch(bool has_boot) {
+    const std::uint32_t number = take32();
+    return has_boot ? first_epoch(take32()) | number : number;
+  }
   double take_metres() { return static_cast<std::int32_t>(take32()) / kPerMetre; }
   double take_fraction() { return static_cast<std::int16_t>(take(2)) / kPerUnit; }
 
@@ -73,8 +79,8 @@ WireMessage::WireMessage(const Message& message) {
   put(status.stamp_ms, 4);
   put(rounded(status.position_m.x * kPerMetre), 4);
   put(rounded(status.position_m.y * kPerMetre), 4);
-  put(flags_of(status), 1);
-  put(status.epoch, 4);
+  put(flags_of(message), 1);
+  put_epoch(status.epoch);
   put_path(status.held);
   switch (message.kind) {
     case MessageKind::State:
@@ -87,12 +93,17 @@ WireMessage::WireMessage(const Message& message) {
       put_path(message.request);
       break;
     case MessageKind::Grant:
-    case MessageKind::Defer: put(message.echo, 4); break;
+    case MessageKind::Defer: put_epoch(message.echo); break;
   }
 }
 
 void WireMessage::put(std::uint64_t value, std::uint32_t size) {
   for (std::uint32_t i = 0; i < size; ++i) bytes_[size_++] = static_cast<std::byte>(value >> (8 * i));
+}
+
+void WireMessage::put_epoch(Epoch epoch) {
+  put(number_of(epoch), 4);
+  if (boot_of(epoch) > 0) put(boot_of(epoch), 4);
 }
 
 void WireMessage::put_path(const Path& path) {
@@ -119,7 +130,7 @@ std::optional<Message> decode(std::span<const std::byte> bytes) {
   status.idle = (flags & kIdle) != 0;
   status.out_of_order = (flags & kOutOfOrder) != 0;
   status.blocked = (flags & kBlocked) != 0;
-  status.epoch = reader.take32();
+  status.epoch = reader.take_epoch((flags & kEpochHasBoot) != 0);
   reader.take_path(status.held);
   switch (message.kind) {
     case MessageKind::State: reader.take_heard(message.heard); break;
@@ -128,7 +139,7 @@ std::optional<Message> decode(std::span<const std::byte> bytes) {
       reader.take_path(message.request);
       break;
     case MessageKind::Grant:
-    case MessageKind::Defer: message.echo = reader.take32(); break;
+    case MessageKind::Defer: message.echo = reader.take_epoch((flags & kEchoHasBoot) != 0); break;
     default: return std::nullopt;
   }
   if (!reader.complete()) return std::nullopt;

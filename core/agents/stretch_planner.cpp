@@ -118,6 +118,24 @@ Stretch StretchPlanner::out_of_the_way(const Path& standing, Budget budget, bool
   return walk.take();
 }
 
+std::uint32_t StretchPlanner::free_charger(std::uint32_t from) {
+  price_lanes(kWaitingCost_s, kIdleCost_s);
+  routes_.search(from, costs_s_);
+  std::uint32_t best = FP_NONE;
+  double best_s = kNoWayCost_s;
+  for (std::uint32_t station = 0; station < map_.station_count(); ++station) {
+    if ((map_.station(station).purposes & FP_CHARGING) == 0 || routes_.cost_s(station) >= best_s || !places_.is_safe(station)) continue;
+    bool taken = false;
+    neighbours_.for_each([&](std::uint32_t agv, const Neighbour& n) {
+      taken = taken || (n.known && geometry_.turn_conflict(neighbours_.self(), station, agv, end_of(map_, n.status.held)));
+    });
+    if (taken) continue;
+    best = station;
+    best_s = routes_.cost_s(station);
+  }
+  return best;
+}
+
 // Drives on to a station; false if the walk is done before, or cannot go on.
 bool StretchPlanner::follow(Walk& walk, std::uint32_t to) {
   const auto lanes = routes_.lanes(to);

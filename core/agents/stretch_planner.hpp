@@ -12,9 +12,9 @@
 
 namespace fleetproof::agents {
 
-// One controller call: drive a lane, or transfer a load where one stands.
+// One controller call: drive a lane, or transfer a load or charge where one stands. Inherited: whatever the agent was doing before it restarted.
 struct Leg {
-  enum class Kind : std::uint8_t { Drive, Pick, Drop };
+  enum class Kind : std::uint8_t { Drive, Pick, Drop, Charge, Inherited };
   Kind kind = Kind::Drive;
   std::uint32_t lane = FP_NONE;
 };
@@ -53,6 +53,8 @@ class StretchPlanner {
   Stretch towards(const Path& standing, Budget budget, std::span<const Goal> goals);
   // To a place where one is in nobody's way, as far as is known. Empty if there is none. `draw` in [0, 1) varies the choice.
   Stretch out_of_the_way(const Path& standing, Budget budget, bool prefer_parking, double draw);
+  // The charging station that is quickest to reach, where one is in nobody's way and nobody is known to be. FP_NONE if there is none.
+  std::uint32_t free_charger(std::uint32_t from);
 
  private:
   struct Walk;

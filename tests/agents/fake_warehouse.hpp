@@ -54,11 +54,27 @@ class FakeWarehouse {
   }
   void order(std::uint32_t agv, double at_s, std::uint32_t from, std::uint32_t to) {
     at(seconds(at_s), [this, agv, from, to] {
-      fp_event event{};
-      event.kind = FP_EVENT_ORDER;
-      event.from = from;
-      event.to = to;
-      tell(agv, event);
+      agvs_[agv]->orders.push_back({from, to});
+      tell_order(agv, from, to);
+    });
+  }
+  // The agent's computer goes down, and comes up again without memory; the AGV finishes what it is doing.
+  void restart(std::uint32_t id, double at_s, double away_s) {
+    at(seconds(at_s), [this, id] {
+      Agv& agv = *agvs_[id];
+      type_.destroy(agv.agent);
+      agv.agent = nullptr;
+      agv.timers.clear();
+      agv.inbox.clear();
+    });
+    at(seconds(at_s + away_s), [this, id] {
+      Agv& agv = *agvs_[id];
+      ++agv.briefing.boot;
+      agv.briefing.start_station = agv.station;
+      agv.briefing.start_segment = agv.lane != nullptr ? agv.lane->segment : FP_NONE;
+      agv.agent = type_.create(&host_, reinterpret_cast<fp_controller*>(&agv.handle), &agv.briefing);
+      tell(id, fp_event{});
+      for (const auto& [from, to] : agv.orders) tell_order(id, from, to);
     });
   }
 
@@ -85,6 +101,16 @@ class FakeWarehouse {
   std::size_t fleet_size() const { return agvs_.size(); }
   std::uint32_t drops() const { return drops_; }
   double last_drop_s() const { return last_drop_s_; }
+  std::uint32_t misplaced() const { return misplaced_; }  // drops elsewhere than ordered
+  std::uint32_t boot_of(std::uint32_t id) const { return agvs_[id]->briefing.boot; }
+  std::uint32_t station_of(std::uint32_t id) const { return agvs_[id]->station; }
+  // A battery that keeps its level, and gains 2 % per second at a charger.
+  void battery(std::uint32_t id, double level) { agvs_[id]->battery = level; }
+  double battery_of(std::uint32_t id) const {
+    const Agv& agv = *agvs_[id];
+    const double charged_s = agv.doing == FP_CHARGING_NOW && !agv.busy ? static_cast<double>(now_ns_ - agv.charging_since_ns) * 1e-9 : 0.0;
+    return std::min(1.0, agv.battery + 0.02 * charged_s);
+  }
   double least_clearance_m() const { return least_clearance_m_; }
   const std::multiset<std::string>& probes() const { return probes_; }
   const std::vector<std::pair<double, std::uint32_t>>& calls() const { return calls_; }  // instant and fp_call
@@ -108,6 +134,10 @@ class FakeWarehouse {
     const fp_lane* lane = nullptr;  // being driven
     std::int64_t turn_begins_ns = 0, drive_begins_ns = 0, drive_ends_ns = 0;
     bool busy = false, loaded = false, stopped = false;
+    std::uint32_t doing = FP_IDLE;
+    double battery = 1.0;
+    std::int64_t charging_since_ns = 0;
+    std::deque<std::pair<std::uint32_t, std::uint32_t>> orders;  // not done
     std::deque<Received> inbox;
     Received in_hand;
     std::vector<std::pair<std::uint32_t, std::uint64_t>> timers;  // number, stamp
@@ -124,7 +154,16 @@ class FakeWarehouse {
   void at(std::int64_t at_ns, std::function<void()> what) { queue_.push({at_ns, ++events_, std::move(what)}); }
   double draw() { return std::uniform_real_distribution<double>()(draws_); }
 
+  void tell_order(std::uint32_t agv, std::uint32_t from, std::uint32_t to) {
+    fp_event event{};
+    event.kind = FP_EVENT_ORDER;
+    event.from = from;
+    event.to = to;
+    tell(agv, event);
+  }
+
   void tell(std::uint32_t id, fp_event event) {
+    if (agvs_[id]->agent == nullptr) return;  // away
     event.struct_size = sizeof(fp_event);
     event.now_ns = now_ns_;
     type_.on_event(agvs_[id]->agent, &event);
@@ -163,7 +202,9 @@ class FakeWarehouse {
       if (l.segment == segment && l.from == agv.station) lane = &l;
     }
     if (lane == nullptr && (segment != FP_HERE || call == FP_CALL_MOVE)) return FP_REFUSED;
+    agv.battery = battery_of(id);
     agv.busy = true;
+    agv.doing = call == FP_CALL_PICK ? FP_PICKING : call == FP_CALL_DROP ? FP_DROPPING : call == FP_CALL_CHARGE ? FP_CHARGING_NOW : FP_DRIVING;
     std::int64_t ends_ns = now_ns_;
     if (lane != nullptr) {
       const fp_pose start = on_lane(*lane, 0.0);
@@ -191,8 +232,16 @@ class FakeWarehouse {
       agv.lane = nullptr;
     }
     agv.busy = false;
-    if (call == FP_CALL_DROP && agv.loaded) ++drops_, last_drop_s_ = static_cast<double>(now_ns_) * 1e-9;
-    if (call == FP_CALL_PICK || call == FP_CALL_DROP) agv.loaded = call == FP_CALL_PICK;
+    if (call != FP_CALL_CHARGE) agv.doing = FP_IDLE;
+    if (call == FP_CALL_DROP && agv.loaded) {
+      ++drops_, last_drop_s_ = static_cast<double>(now_ns_) * 1e-9;
+      misplaced_ += agv.orders.empty() || agv.orders.front().second != agv.station;
+      if (!agv.orders.empty()) agv.orders.pop_front();
+    }
+    // Who picks where no load of his waits has none afterwards, unless he had one.
+    if (call == FP_CALL_PICK) agv.loaded = agv.loaded || (!agv.orders.empty() && agv.orders.front().first == agv.station);
+    if (call == FP_CALL_DROP) agv.loaded = false;
+    if (call == FP_CALL_CHARGE) agv.charging_since_ns = now_ns_;
     tell(id, event);
   }
 
@@ -202,6 +251,7 @@ class FakeWarehouse {
       const bool lost = draw() < radio_.loss || (copy == 1 && draw() >= radio_.duplicates);
       if (lost) continue;
       at(now_ns_ + seconds(std::max(delay_s, 0.001)), [this, sender, receiver, bytes] {
+        if (agvs_[receiver]->agent == nullptr) return;
         agvs_[receiver]->inbox.push_back({sender, bytes});
         fp_event event{};
         event.kind = FP_EVENT_MESSAGE;
@@ -240,7 +290,7 @@ class FakeWarehouse {
   std::priority_queue<Event> queue_;
   std::int64_t now_ns_ = 0;
   std::uint64_t events_ = 0, stamps_ = 0;
-  std::uint32_t drops_ = 0;
+  std::uint32_t drops_ = 0, misplaced_ = 0;
   double last_drop_s_ = 0.0, least_clearance_m_ = 1e9;
   std::multiset<std::string> probes_;
   std::vector<std::pair<double, std::uint32_t>> calls_;
@@ -282,7 +332,16 @@ inline fp_host FakeWarehouse::make_host() {
     return FP_OK;
   };
   host.get_action = [](fp_controller* c, std::uint32_t* out) -> std::int32_t {
-    *out = handle(c).warehouse->agvs_[handle(c).id]->stopped ? FP_OUT_OF_ORDER : FP_IDLE;
+    const Agv& agv = *handle(c).warehouse->agvs_[handle(c).id];
+    *out = agv.stopped ? static_cast<std::uint32_t>(FP_OUT_OF_ORDER) : agv.doing;
+    return FP_OK;
+  };
+  host.is_loaded = [](fp_controller* c, std::uint32_t* out) -> std::int32_t {
+    *out = handle(c).warehouse->agvs_[handle(c).id]->loaded ? 1 : 0;
+    return FP_OK;
+  };
+  host.get_battery_level = [](fp_controller* c, double* out) -> std::int32_t {
+    *out = handle(c).warehouse->battery_of(handle(c).id);
     return FP_OK;
   };
   host.now_ns = [](fp_controller* c) { return handle(c).warehouse->now_ns_; };

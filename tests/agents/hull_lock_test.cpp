@@ -5,6 +5,7 @@
 #include "core/agents/agent_type.hpp"
 #include "tests/agents/drawn_map.hpp"
 #include "tests/agents/fake_warehouse.hpp"
+#include "tests/agents/junction.hpp"
 
 namespace fleetproof::agents {
 namespace {
@@ -12,67 +13,10 @@ namespace {
 using testing::DrawnMap;
 using testing::FakeRadio;
 using testing::FakeWarehouse;
+using testing::Junction;
+using testing::Tally;
 using testing::TestFleet;
-
-// Four arms of one crossing, with two bays at the end of each: AGVs start in the first bay of their arm.
-struct Junction {
-  Junction() {
-    const auto centre = drawn.station(0, 0);
-    for (const auto& [x, y] : {std::pair(1.0, 0.0), {0.0, 1.0}, {-1.0, 0.0}, {0.0, -1.0}}) {
-      const auto arm = drawn.station(6 * x, 6 * y);
-      drawn.segment(centre, arm);
-      const auto first = drawn.station(6 * x - 3.5 * y, 6 * y + 3.5 * x, FP_STORAGE), second = drawn.station(6 * x + 3.5 * y, 6 * y - 3.5 * x, FP_STORAGE);
-      drawn.segment(arm, first), drawn.segment(arm, second);
-      bays.push_back({first, second});
-    }
-    drawn.map();
-  }
-  std::uint32_t start(std::uint32_t agv) const { return bays[agv].first; }
-  std::uint32_t opposite(std::uint32_t agv) const { return bays[(agv + 2) % 4].second; }
-
-  DrawnMap drawn;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> bays;
-};
-
-struct Tally {
-  std::uint32_t runs = 0, conflicting_holds = 0, claims_too_long = 0, violations = 0, drops = 0, locks = 0;
-  std::uint32_t overtaken = 0;
-  double latest_drop_s = 0.0;
-};
-
-// Watches what AGVs hold: whenever one holds more, nobody else may hold what conflicts with it. And nobody claims more than all others count on.
-void watch_holds(FakeWarehouse& warehouse, const TestFleet& fleet, Tally& tally) {
-  struct Watch {
-    Watch(const TestFleet& fleet, std::size_t count) : map(fleet.map), geometry(map, fleet.briefing(0, 0)), held(count) {}
-    MapView map;
-    HullGeometry geometry;
-    std::vector<std::uint32_t> held;  // lanes
-  };
-  auto watch = std::make_shared<Watch>(fleet, warehouse.fleet_size());
-  warehouse.after_activation = [&warehouse, &tally, watch](std::uint32_t id) {
-    const LockProtocol& protocol = static_cast<const HullLock*>(warehouse.agent(id))->protocol();
-    const Path& mine = protocol.held();
-    const double requested_m = protocol.requesting() ? length_m(watch->map, protocol.requested()) : 0.0;
-    tally.claims_too_long += length_m(watch->map, mine) + requested_m > longest_claim_m(watch->map);
-    const bool more = mine.count > watch->held[id];
-    watch->held[id] = mine.count;
-    if (!more) return;
-    ++tally.locks;
-    for (std::uint32_t other = 0; other < warehouse.fleet_size(); ++other) {
-      if (other == id || warehouse.agent(other) == nullptr) continue;
-      const Path& theirs = static_cast<const HullLock*>(warehouse.agent(other))->protocol().held();
-      if (watch->geometry.conflict(id, mine, other, theirs)) ++tally.conflicting_holds;
-    }
-  };
-}
-
-void finish(const FakeWarehouse& warehouse, Tally& tally) {
-  ++tally.runs;
-  tally.violations += warehouse.least_clearance_m() < 0.10 - 1e-6;
-  tally.drops += warehouse.drops();
-  tally.overtaken += warehouse.probes().contains("overtaken");
-  tally.latest_drop_s = std::max(tally.latest_drop_s, warehouse.last_drop_s());
-}
+using testing::watch_holds;
 
 Tally cross_the_junction(const fp_agent_type& type, const FakeRadio& radio, std::uint32_t seeds, double until_s) {
   Junction junction;

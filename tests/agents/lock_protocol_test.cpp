@@ -4,6 +4,7 @@
 
 #include <deque>
 #include <memory>
+#include <random>
 
 #include "tests/agents/drawn_map.hpp"
 
@@ -44,6 +45,17 @@ class LockProtocolTest : public ::testing::Test {
   }
 
   static Member& member(fp_controller* c) { return *reinterpret_cast<Member*>(c); }
+
+  // A new self where the former one stands, holding what the AGV still covers.
+  void restart(std::uint32_t id, std::uint32_t boot) {
+    Member& m = *members[id];
+    Path standing = m.protocol->held();
+    if (standing.count > 1) standing.count = 1;
+    m.neighbours = std::make_unique<Neighbours>(*map, *geometry, fleet->briefing(id, id + 1));
+    m.protocol = std::make_unique<LockProtocol>(*map, *geometry, *m.neighbours, *m.controller, LockOptions{}, boot);
+    m.protocol->stand(standing);
+    m.protocol->describe(true, false, false);
+  }
 
   void fleet_of(std::uint32_t count, LockOptions options = {}) {
     fleet = std::make_unique<testing::TestFleet>(drawn.map(), count);
@@ -179,7 +191,7 @@ TEST_F(LockProtocolTest, DuplicateOfAGrantedRequestIsGrantedAgainWithoutStepping
   ASSERT_TRUE(deliver(MessageKind::Request, 1, 0, true));
   want(0, 3, 100);
   settle(0);
-  const std::uint32_t epoch = members[0]->protocol->epoch();
+  const Epoch epoch = members[0]->protocol->epoch();
   ASSERT_TRUE(deliver(MessageKind::Request, 1, 0));
   EXPECT_EQ(members[0]->protocol->epoch(), epoch);
   // Nor does it do harm: 1 is asked by that epoch and defers as long as it may use the grant.
@@ -249,6 +261,99 @@ TEST_F(LockProtocolTest, TheFaultTakesSilenceForConsent) {
   EXPECT_FALSE(settle(0));
   now_ns = 3 * kSecond_ns;
   EXPECT_TRUE(settle(0));
+}
+
+// The grant of the former self is in the air when the new self asks for the same floor: the other gives up his request, and with it that grant.
+TEST_F(LockProtocolTest, AGrantOfTheFormerSelfIsNeverCombinedWithALockOfTheNewOne) {
+  fleet_of(2);
+  want(0, 3, 100);
+  settle(0);
+  ASSERT_TRUE(deliver(MessageKind::Request, 0, 1));  // 1 grants; the grant stays in the air
+  restart(1, 1);
+  want(1, 4, 50);  // the elder demand
+  EXPECT_FALSE(settle(1));
+  ASSERT_TRUE(deliver(MessageKind::Request, 1, 0));
+  ASSERT_TRUE(deliver(MessageKind::Grant, 0, 1));
+  EXPECT_TRUE(settle(1));
+  ASSERT_TRUE(deliver(MessageKind::Grant, 1, 0)) << "the former self's";
+  EXPECT_FALSE(settle(0));
+}
+
+TEST_F(LockProtocolTest, WhoUsesAGrantOfTheFormerSelfDefersTheNewOne) {
+  fleet_of(2);
+  want(0, 3, 100);
+  settle(0);
+  ASSERT_TRUE(deliver(MessageKind::Request, 0, 1));
+  restart(1, 1);
+  want(1, 4, 50);
+  settle(1);
+  ASSERT_TRUE(deliver(MessageKind::Grant, 1, 0));
+  EXPECT_TRUE(settle(0));
+  ASSERT_TRUE(deliver(MessageKind::Request, 1, 0));
+  EXPECT_TRUE(deliver(MessageKind::Defer, 0, 1));
+  EXPECT_FALSE(settle(1));
+}
+
+TEST_F(LockProtocolTest, AGrantForARequestOfTheFormerSelfIsNoAnswerToTheNewOne) {
+  fleet_of(2);
+  want(0, 3, 0);
+  settle(0);
+  ASSERT_TRUE(deliver(MessageKind::Request, 0, 1));  // granted: number 1 of boot 0
+  restart(0, 1);
+  want(0, 4, 0);  // number 1 of boot 1
+  settle(0);
+  ASSERT_TRUE(deliver(MessageKind::Grant, 1, 0));
+  EXPECT_FALSE(settle(0));
+  ASSERT_TRUE(deliver(MessageKind::Request, 0, 1));
+  ASSERT_TRUE(deliver(MessageKind::Grant, 1, 0));
+  EXPECT_TRUE(settle(0));
+}
+
+TEST_F(LockProtocolTest, WhoDoesNotKnowItsPlaceGrantsNothingUntilItDoes) {
+  fleet_of(2);
+  restart(1, 1);
+  members[1]->protocol->know_own_place(false);
+  want(0, 3, 0);
+  settle(0);
+  ASSERT_TRUE(deliver(MessageKind::Request, 0, 1));
+  EXPECT_TRUE(deliver(MessageKind::Defer, 1, 0));
+  EXPECT_FALSE(settle(1));
+  EXPECT_FALSE(deliver(MessageKind::Grant, 1, 0));
+  members[1]->protocol->know_own_place(true);
+  settle(1);
+  EXPECT_TRUE(deliver(MessageKind::Grant, 1, 0));
+  EXPECT_TRUE(settle(0));
+}
+
+TEST_F(LockProtocolTest, TheEndOfADriveThatNobodyHoldsChangesNothing) {
+  fleet_of(1);
+  members[0]->protocol->lane_passed();
+  EXPECT_EQ(members[0]->protocol->held().station, 1U);
+  EXPECT_EQ(members[0]->protocol->held().count, 0U);
+}
+
+// Bytes of former boots, of boots that never were, doubled, mixed up and damaged: none leads out of bounds, and what is held stays a way on the map.
+TEST_F(LockProtocolTest, NoBytesFromAnybodyLeadOutOfBounds) {
+  std::mt19937_64 draws(11);
+  fleet_of(3);
+  std::vector<std::vector<std::byte>> heard;
+  for (int round = 0; round < 20'000; ++round) {
+    const auto id = static_cast<std::uint32_t>(draws() % 3);
+    if (draws() % 50 == 0) restart(id, static_cast<std::uint32_t>(round));
+    if (!members[id]->protocol->requesting() && members[id]->protocol->held().empty()) want(id, static_cast<std::uint32_t>(1 + draws() % 4), round);
+    settle(id);
+    if (!sent.empty()) heard.push_back(sent.front().bytes), sent.pop_front();
+    if (heard.size() > 50) heard.erase(heard.begin() + static_cast<std::ptrdiff_t>(draws() % heard.size()));
+    if (heard.empty()) continue;
+    std::vector<std::byte> bytes = heard[draws() % heard.size()];
+    for (std::uint64_t flips = draws() % 4; flips > 0; --flips) bytes[draws() % bytes.size()] = static_cast<std::byte>(draws());
+    if (draws() % 10 == 0) bytes.resize(draws() % 64);
+    members[id]->protocol->receive(static_cast<std::uint32_t>(draws() % 5), bytes);
+    if (draws() % 8 == 0) members[id]->protocol->lane_passed();
+    members[id]->protocol->ask_again();
+    now_ns += kSecond_ns / 10;
+    ASSERT_TRUE(is_driveable(*map, members[id]->protocol->held()));
+  }
 }
 
 TEST_F(LockProtocolTest, GarbageChangesNothing) {

@@ -100,5 +100,53 @@ TEST_F(NeighboursTest, RequestsThatAreHistoryStayClosed) {
   EXPECT_FALSE(neighbours.of(1).request_is_open()) << "a late duplicate";
 }
 
+// 100 m away; claims of 40 m; the hull reaches to 4.8 m: 54 m are left, of which late positions and errors take theirs.
+TEST_F(NeighboursTest, LatePositionsAndFasterDrivesShortenTheProof) {
+  const auto beyond = [&](double late_s, double error_m, double deviation, std::int64_t age_s) {
+    fp_agv agv = testing::kTestAgv;
+    agv.speed_deviation = deviation;
+    const testing::TestFleet two(drawn.map(), 2, agv);
+    Settings settings;
+    settings.position_late_s = late_s;
+    settings.position_error_m = error_m;
+    Neighbours n(map, geometry, two.briefing(0, 0), settings);
+    Message m;
+    m.status.position_m = {100.0, 0.0};
+    m.status.held.station = 1;
+    m.heard.count = 1;
+    m.heard.stamps_ms[0] = Neighbours::stamp_ms(0);
+    EXPECT_NE(n.note(1, m, 0), Neighbours::News::Refused);
+    return n.surely_beyond(1, here, age_s * kSecond_ns);
+  };
+  EXPECT_TRUE(beyond(0.0, 0.0, 0.0, 20));
+  EXPECT_FALSE(beyond(10.0, 0.0, 0.0, 20)) << "22 m driven since that position";
+  EXPECT_FALSE(beyond(0.0, 8.0, 0.0, 20));
+  EXPECT_FALSE(beyond(0.0, 0.0, 0.3, 20));
+}
+
+TEST_F(NeighboursTest, ANewBootEndsWhatTheFormerOneAskedFor) {
+  Message m;
+  m.kind = MessageKind::Request;
+  m.status.stamp_ms = 50;
+  m.status.epoch = 4;
+  m.status.requesting = true;
+  m.request = here;
+  ASSERT_NE(neighbours.note(1, m, 0), Neighbours::News::Refused);
+  Message again;
+  again.status.stamp_ms = 20;  // a clock that has been set back does not make it older
+  again.status.epoch = first_epoch(1);
+  again.status.waiting = true;
+  ASSERT_NE(neighbours.note(1, again, 0), Neighbours::News::Refused);
+  EXPECT_FALSE(neighbours.of(1).request_is_open());
+  EXPECT_TRUE(neighbours.of(1).status.waiting);
+  m.status.stamp_ms = 60;
+  ASSERT_NE(neighbours.note(1, m, 0), Neighbours::News::Refused);
+  EXPECT_FALSE(neighbours.of(1).request_is_open()) << "late, of the former boot";
+  EXPECT_TRUE(neighbours.of(1).status.waiting);
+  m.status.epoch = first_epoch(1) + 1;
+  ASSERT_NE(neighbours.note(1, m, 0), Neighbours::News::Refused);
+  EXPECT_TRUE(neighbours.of(1).request_is_open());
+}
+
 }  // namespace
 }  // namespace fleetproof::agents

@@ -59,8 +59,26 @@ TEST(ProtocolMessages, ComeBackAsTheyWere) {
   }
 }
 
+TEST(ProtocolMessages, EpochsOfLaterBootsComeBackAsTheyWere) {
+  for (const MessageKind kind : {MessageKind::Grant, MessageKind::Defer}) {
+    for (const Epoch mine : {Epoch{7}, first_epoch(1), first_epoch(0xffffffff) + 9}) {
+      for (const Epoch theirs : {Epoch{7}, first_epoch(2) + 0xffffffff}) {
+        Message sent = sample(kind);
+        sent.status.epoch = mine;
+        sent.echo = theirs;
+        const std::optional<Message> m = decode(WireMessage(sent).bytes());
+        ASSERT_TRUE(m);
+        EXPECT_EQ(m->status.epoch, mine);
+        EXPECT_EQ(m->echo, theirs);
+      }
+    }
+  }
+  EXPECT_LT(first_epoch(1) + 0xffffffff, first_epoch(2));
+}
+
 TEST(ProtocolMessages, LargestFitsTheRadio) {
   Message m = sample(MessageKind::Request);
+  m.status.epoch = first_epoch(1) + 1;
   while (m.status.held.append(1)) {
   }
   while (m.request.append(1)) {
@@ -85,7 +103,9 @@ TEST(ProtocolMessages, GarbageIsRefusedOrWithinBounds) {
   std::mt19937_64 draws(3);
   int accepted = 0;
   for (int i = 0; i < 200'000; ++i) {
-    const WireMessage wire(sample(kKinds[i % 4]));
+    Message sent = sample(kKinds[i % 4]);
+    if (i % 3 == 0) sent.status.epoch = first_epoch(3) + 1, sent.echo = first_epoch(5);
+    const WireMessage wire(sent);
     std::vector<std::byte> bytes(wire.bytes().begin(), wire.bytes().end());
     for (int flips = 0; flips <= i % 7; ++flips) bytes[draws() % bytes.size()] = static_cast<std::byte>(draws());
     if (i % 5 == 0) bytes.resize(draws() % 300);

@@ -1,0 +1,148 @@
+// hull-lock when its computer restarts, again and again, at any moment: nobody ever holds in conflict, and all loads arrive where they should.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "core/agents/agent_type.hpp"
+#include "tests/agents/junction.hpp"
+
+namespace fleetproof::agents {
+namespace {
+
+using testing::DrawnMap;
+using testing::FakeRadio;
+using testing::FakeWarehouse;
+using testing::Junction;
+using testing::Tally;
+using testing::TestFleet;
+using testing::watch_holds;
+
+// Every AGV restarts four times within the first 100 s.
+Tally cross_with_restarts(const FakeRadio& radio, std::uint32_t seeds) {
+  Junction junction;
+  const TestFleet fleet(junction.drawn.map(), 4);
+  Tally tally;
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    FakeWarehouse warehouse(junction.drawn, fleet, {junction.start(0), junction.start(1), junction.start(2), junction.start(3)}, kHullLock, radio, seed);
+    std::mt19937_64 draws(seed);
+    std::uniform_real_distribution<double> share;
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      warehouse.order(i, 0.1, junction.start(i), junction.opposite(i));
+      warehouse.order(i, 30.0, junction.opposite(i), junction.start(i));
+      for (int k = 0; k < 4; ++k) warehouse.restart(i, 25.0 * k + 1.0 + 18.0 * share(draws), 0.1 + 5.0 * share(draws));
+    }
+    watch_holds(warehouse, fleet, tally);
+    warehouse.run(600.0, 8);
+    finish(warehouse, tally);
+  }
+  return tally;
+}
+
+class RestartCells : public ::testing::TestWithParam<FakeRadio> {};
+
+TEST_P(RestartCells, NobodyHoldsInConflictAndEveryLoadArrives) {
+  const Tally tally = cross_with_restarts(GetParam(), 100);
+  EXPECT_EQ(tally.conflicting_holds, 0U);
+  EXPECT_EQ(tally.claims_too_long, 0U);
+  EXPECT_EQ(tally.violations, 0U);
+  EXPECT_EQ(tally.misplaced, 0U);
+  EXPECT_EQ(tally.drops, 8 * tally.runs) << "latest " << tally.latest_drop_s << " s";
+  EXPECT_GT(tally.restarts, 10 * tally.runs) << "or this tests less than it should";
+  EXPECT_GT(tally.restarts_on_lanes, tally.runs);
+}
+
+INSTANTIATE_TEST_SUITE_P(LossAndDelay, RestartCells,
+                         ::testing::Values(FakeRadio{0.0, 0.0, false, 0.0}, FakeRadio{0.0, 2.0, true, 0.2}, FakeRadio{0.4, 2.0, true, 0.2}),
+                         [](const auto& cell) {
+                           return "Loss" + std::to_string(static_cast<int>(cell.param.loss * 100)) + "Delay" +
+                                  std::to_string(static_cast<int>(cell.param.delay_s));
+                         });
+
+struct Corridor {
+  Corridor() {
+    for (int i = 0; i < 4; ++i) drawn.station(8.0 * i, 0);
+    for (std::uint32_t i = 0; i < 3; ++i) drawn.segment(i, i + 1);
+    drawn.map();
+  }
+  DrawnMap drawn;
+};
+
+const Path& held_by(FakeWarehouse& warehouse, std::uint32_t id) { return static_cast<const HullLock*>(warehouse.agent(id))->protocol().held(); }
+
+TEST(Restart, HoldsTheWholeLaneUnderWayFromItsFirstInstantAndNothingBeyond) {
+  Corridor corridor;
+  const TestFleet fleet(corridor.drawn.map(), 1);
+  FakeWarehouse warehouse(corridor.drawn, fleet, {0}, kHullLock, {}, 1);
+  warehouse.order(0, 0.1, 0, 3);  // 5 s of picking, then lanes of 7 s
+  warehouse.restart(0, 7.0, 2.0);
+  std::vector<std::uint32_t> counts;
+  warehouse.after_activation = [&](std::uint32_t) {
+    if (warehouse.boot_of(0) == 1 && counts.empty()) {
+      EXPECT_EQ(held_by(warehouse, 0).station, 0U);
+      EXPECT_EQ(held_by(warehouse, 0).lane_ids[0], corridor.drawn.lane_between(0, 1));
+    }
+    if (warehouse.boot_of(0) == 1) counts.push_back(held_by(warehouse, 0).count);
+  };
+  warehouse.run(100.0);
+  ASSERT_FALSE(counts.empty());
+  EXPECT_EQ(counts.front(), 1U);
+  EXPECT_EQ(warehouse.drops(), 1U);
+  EXPECT_EQ(warehouse.misplaced(), 0U);
+}
+
+TEST(Restart, DuringATransferItWaitsForItsEndAndNeitherPicksNorDropsTwice) {
+  Corridor corridor;
+  const TestFleet fleet(corridor.drawn.map(), 1);
+  for (const double at_s : {0.5, 3.0, 5.05, 5.5, 27.0, 29.0, 31.0, 33.0}) {
+    FakeWarehouse warehouse(corridor.drawn, fleet, {0}, kHullLock, {}, 1);
+    warehouse.order(0, 0.1, 0, 3);
+    warehouse.order(0, 0.2, 3, 1);
+    warehouse.restart(0, at_s, 1.0);
+    warehouse.run(200.0);
+    EXPECT_EQ(warehouse.drops(), 2U) << at_s;
+    EXPECT_EQ(warehouse.misplaced(), 0U) << at_s;
+  }
+}
+
+// Its end would otherwise be taken for the end of what the new self began.
+TEST(Restart, NothingIsBegunBeforeTheActionOfTheFormerSelfIsOver) {
+  Corridor corridor;
+  const TestFleet fleet(corridor.drawn.map(), 1);
+  FakeWarehouse warehouse(corridor.drawn, fleet, {0}, kHullLock, {}, 1);
+  warehouse.order(0, 0.1, 0, 3);  // picks until 5.1 s
+  warehouse.restart(0, 0.5, 0.1);
+  warehouse.run(60.0);
+  for (const auto& [at_s, call] : warehouse.calls()) EXPECT_TRUE(at_s < 0.5 || at_s > 5.0) << at_s;
+  EXPECT_EQ(warehouse.drops(), 1U);
+}
+
+TEST(Restart, ALoadOnBoardIsNotFetchedAgain) {
+  Corridor corridor;
+  const TestFleet fleet(corridor.drawn.map(), 1);
+  FakeWarehouse warehouse(corridor.drawn, fleet, {0}, kHullLock, {}, 1);
+  warehouse.order(0, 0.1, 0, 3);
+  warehouse.restart(0, 7.0, 1.0);
+  warehouse.run(100.0);
+  EXPECT_EQ(std::ranges::count(warehouse.calls(), static_cast<std::uint32_t>(FP_CALL_PICK), [](const auto& call) { return call.second; }), 1);
+  EXPECT_EQ(warehouse.drops(), 1U);
+}
+
+TEST(Charging, AnEmptyAgvDrivesToTheChargerAndGoesOnAfterwards) {
+  Corridor corridor;
+  const auto charger = corridor.drawn.station(8, 4, FP_CHARGING);
+  corridor.drawn.segment(1, charger);
+  const TestFleet fleet(corridor.drawn.map(), 1);
+  FakeWarehouse warehouse(corridor.drawn, fleet, {0}, kHullLock, {}, 1);
+  warehouse.battery(0, 0.2);
+  bool was_there = false;
+  warehouse.after_activation = [&](std::uint32_t) { was_there = was_there || (warehouse.station_of(0) == charger && warehouse.battery_of(0) > 0.85); };
+  warehouse.order(0, 20.0, 0, 3);
+  warehouse.run(300.0);
+  EXPECT_TRUE(was_there);
+  EXPECT_TRUE(warehouse.probes().contains("drives-to-charger"));
+  EXPECT_EQ(warehouse.drops(), 1U);
+  EXPECT_GE(warehouse.battery_of(0), 0.9);
+}
+
+}  // namespace
+}  // namespace fleetproof::agents
