@@ -219,10 +219,7 @@ void read_factors(TomlTable& factors, const std::string& path, CampaignFile& fil
   factors.finish();
 }
 
-}  // namespace
-
-CampaignFile read_campaign_file(const std::string& path) {
-  TomlTable root = TomlTable::read(path);
+CampaignFile read_root(TomlTable root, const std::string& path) {
   CampaignFile file;
   CampaignPlan& plan = file.plan;
   plan.name = std::filesystem::path(path).stem().string();
@@ -271,5 +268,11 @@ CampaignFile read_campaign_file(const std::string& path) {
   root.finish();
   return file;
 }
+
+}  // namespace
+
+CampaignFile read_campaign_file(const std::string& path) { return read_root(TomlTable::read(path), path); }
+
+CampaignFile parse_campaign_file(std::string_view text, const std::string& path) { return read_root(TomlTable::parse(text, path), path); }
 
 }  // namespace fleetproof

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "campaign/plan.hpp"
@@ -17,5 +18,6 @@ struct CampaignFile {
 // Reads a TOML campaign file. Layouts named by a file, in any format of importers() as its extension says, are read relative to it.
 // Throws InputError with file, line and column, the key, its value and the nearest valid key.
 CampaignFile read_campaign_file(const std::string& path);
+CampaignFile parse_campaign_file(std::string_view text, const std::string& path);
 
 }  // namespace fleetproof

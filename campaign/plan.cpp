@@ -77,9 +77,18 @@ void check_factors(const CampaignPlan& plan, const std::string& where) {
   const bool repeated = has_duplicates(plan.agents) || has_duplicates(plan.loss) || has_duplicates(plan.delay_s) || has_duplicates(plan.mean_outage_s) ||
                         has_duplicates(plan.fleet_sizes) || has_duplicates(layout_names);
   demand(!repeated, where, "a factor names one value twice; each combination is one cell, so every value may stand once");
+  constexpr std::uint64_t kCellsMax = 1'000'000;  // each is kept in memory and told in reports
+  std::uint64_t cells = 1;
+  for (const auto count :
+       {plan.layouts.size(), plan.fleet_sizes.size(), plan.loss.size(), plan.mean_outage_s.size(), plan.delay_s.size(), plan.agents.size()}) {
+    demand(count <= kCellsMax / cells, where, fmt::format("the factors make more than {} cells; combine fewer values", kCellsMax));
+    cells *= count;
+  }
 }
 
 void check_gates(const CampaignPlan& plan, const std::string& where) {
+  if (plan.gates.empty()) return;
+  const auto cells = plan.cells();
   for (const GateRecord& gate : plan.gates) {
     const std::string at = fmt::format("gate \"{}\": ", gate.name);
     std::vector<std::string_view> names(plan.agents.begin(), plan.agents.end());
@@ -87,7 +96,6 @@ void check_gates(const CampaignPlan& plan, const std::string& where) {
            fmt::format("{}agent \"{}\" is not among factors.agents{}", at, gate.agent, name_hint(gate.agent, names)));
     demand(gate.limit >= 0.0 && gate.limit < 1.0, where, fmt::format("{}limit is {}; it lies from 0 to below 1", at, gate.limit));
     demand(gate.confidence > 0.5 && gate.confidence < 1.0, where, fmt::format("{}confidence is {}; it lies between 0.5 and 1", at, gate.confidence));
-    const auto cells = plan.cells();
     const bool covers = std::ranges::any_of(cells, [&](const CellRecord& cell) {
       return cell.agent == gate.agent &&
              (gate.region == Region::All || (gate.region == Region::Contract && cell.in_contract()) ||
@@ -159,7 +167,8 @@ void check_plan(const CampaignPlan& plan, const std::string& where) {
   demand(plan.kind == "claim" || plan.kind == "search", where, fmt::format("kind is \"{}\"; it is \"claim\" or \"search\"", plan.kind));
   demand(plan.replicates >= 1, where, "replicates is 0; at least one is needed");
   demand(plan.horizon_s > 0.0 && plan.horizon_s <= 1e6, where, fmt::format("horizon_s is {}; it lies above 0 and at most 1e6", plan.horizon_s));
-  demand(plan.stuck_after_s > 0.0, where, fmt::format("stuck_after_s is {}; it must be above 0", plan.stuck_after_s));
+  demand(plan.stuck_after_s > 0.0 && plan.stuck_after_s <= 1e9, where,
+         fmt::format("stuck_after_s is {}; it lies above 0 and at most 1e9", plan.stuck_after_s));
   demand(plan.transports_per_agv_hour >= 0.0 && plan.transports_per_agv_hour <= 3600.0, where,
          fmt::format("world.transports_per_agv_hour is {}; it lies between 0 and 3600", plan.transports_per_agv_hour));
   check_world(plan, where);

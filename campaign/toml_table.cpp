@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 #include <memory>
-#include <sstream>
 #include <toml++/toml.h>
 
 #include "core/catalogue.hpp"
 #include "core/error.hpp"
+#include "generators/text_file.hpp"
 
 namespace fleetproof {
 
@@ -58,6 +57,27 @@ std::uint64_t whole(const std::string& file, const toml::node& node, const std::
   return static_cast<std::uint64_t>(value);
 }
 
+// toml++ bounds the depth of values, but not that of keys such as a.b.c, each part of which is a table within the one before: the
+// destructors of a million of them overflow the stack. Dots in a string count too, as long as no other sign of TOML stands between them.
+void refuse_deep_keys(std::string_view text, const std::string& file) {
+  constexpr std::size_t kMostDots = 32;
+  const bool remarks = text.find("\"\"\"") == std::string_view::npos && text.find("'''") == std::string_view::npos;  // else a # may stand in a string
+  std::size_t number = 0;
+  while (!text.empty()) {
+    const auto line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+    ++number;
+    if (const auto first = line.find_first_not_of(" \t"); remarks && first != std::string_view::npos && line[first] == '#') continue;
+    std::size_t dots = 0;
+    for (const char c : line) {
+      if (c == '.' && ++dots > kMostDots) {
+        throw InputError(fmt::format("{}:{}", file, number), "more than 32 dots in a key; no key has more than one");
+      }
+      if (std::string_view("=,[]{}").find(c) != std::string_view::npos) dots = 0;
+    }
+  }
+}
+
 }  // namespace
 
 TomlTable::TomlTable(Impl* impl) : impl_(impl) {}
@@ -67,13 +87,13 @@ TomlTable::TomlTable(TomlTable&& other) noexcept : impl_(std::exchange(other.imp
 TomlTable TomlTable::read(const std::string& path) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) throw InputError(path, "there is no such file; check the path of the campaign file");
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (!in) throw InputError(path, "cannot be read; check its permissions");
-  const std::string content = text.str();
+  return parse(read_text_file(path), path);
+}
+
+TomlTable TomlTable::parse(std::string_view text, const std::string& path) {
+  refuse_deep_keys(text, path);
   try {
-    auto root = std::make_shared<toml::table>(toml::parse(std::string_view(content), std::string_view(path)));
+    auto root = std::make_shared<toml::table>(toml::parse(text, std::string_view(path)));
     const toml::table* table = root.get();
     return TomlTable(new Impl{path, "", std::move(root), table, {}});
   } catch (const toml::parse_error& error) {

@@ -14,6 +14,7 @@ class TomlTable {
  public:
   // Parses the file. Throws InputError: no such file, or a syntax error with its line and column.
   static TomlTable read(const std::string& path);
+  static TomlTable parse(std::string_view text, const std::string& path);  // `path` is what errors call it
   ~TomlTable();
   TomlTable(TomlTable&&) noexcept;
   TomlTable& operator=(TomlTable&&) = delete;

@@ -22,13 +22,14 @@ std::vector<std::string> csv_fields(std::string_view line, std::string_view sour
     } else if (c == '"' && (quoted || fields.back().empty())) {
       quoted = !quoted;
     } else if (c == ',' && !quoted) {
+      // At once: a line of commas alone would fill the memory with empty fields.
+      if (fields.size() == kMostFields) throw InputError(at_line(source, number), fmt::format("the line has more than {} fields", kMostFields));
       fields.emplace_back();
     } else {
       fields.back() += c;
     }
   }
   if (quoted) throw InputError(at_line(source, number), "a double quote is not closed; close it on the same line");
-  if (fields.size() > kMostFields) throw InputError(at_line(source, number), fmt::format("the line has more than {} fields", kMostFields));
   return fields;
 }
 

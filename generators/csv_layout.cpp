@@ -22,6 +22,8 @@ namespace {
 constexpr std::string_view kNodeColumns[] = {"id", "x", "y", "purposes"};
 constexpr std::string_view kEdgeColumns[] = {"from", "to", "bidirectional", "name", "control_points"};
 
+constexpr std::string_view kNoPurpose = "none";
+
 class TableReader {
  public:
   TableReader(std::string_view text, std::string_view source) : lines_(text), source_(source) {}
@@ -90,7 +92,9 @@ class TableReader {
     Station station;
     station.name = field(fields, "id");
     station.position_m = {number(field(fields, "x"), "x"), number(field(fields, "y"), "y")};
-    if (const auto words = field(fields, "purposes"); words.find_first_not_of(' ') != std::string::npos) {
+    if (const auto words = field(fields, "purposes"); words == kNoPurpose) {
+      station.purposes = Purposes::from_bits(0);
+    } else if (words.find_first_not_of(' ') != std::string::npos) {
       const auto purposes = purposes_of_text(words);
       if (!purposes)
         refuse(fmt::format("purposes are {}; expected routing, storage, charging or parking, with blanks between them", in_quotes(words)));
@@ -174,7 +178,8 @@ Layout parse_csv_layout(std::string_view text, std::string_view source, std::vec
 std::string to_csv(const Layout& layout) {
   std::string text = "id,x,y,purposes\n";
   for (const auto& s : layout.stations) {
-    text += fmt::format("{},{},{},{}\n", quoted(s.name), s.position_m.x(), s.position_m.y(), purposes_text(s.purposes));
+    const auto purposes = purposes_text(s.purposes);
+    text += fmt::format("{},{},{},{}\n", quoted(s.name), s.position_m.x(), s.position_m.y(), purposes.empty() ? kNoPurpose : purposes);
   }
   text += "from,to,bidirectional,name,control_points\n";
   for (const auto& s : layout.segments) {

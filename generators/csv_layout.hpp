@@ -16,9 +16,9 @@ namespace fleetproof {
 //   from,to,bidirectional
 //   dock,fork,true
 //
-// Columns come in any order. `purposes` (blanks between words; none: routing), `bidirectional` (true, false, 1, 0; none: false), `name`
-// of an edge (none: "dock-fork") and `control_points` (x y x y ...; none: straight) may be left out. Metres. Fields with a comma or a
-// double quote stand in double quotes. Lines that are empty or begin with # are skipped.
+// Columns come in any order. `purposes` (blanks between words; nothing: routing; the word none: no purpose at all), `bidirectional` (true,
+// false, 1, 0; none: false), `name` of an edge (none: "dock-fork") and `control_points` (x y x y ...; none: straight) may be left out.
+// Metres. Fields with a comma or a double quote stand in double quotes. Lines that are empty or begin with # are skipped.
 //
 // InputError with file, line, field, value and remedy where the layout cannot be driven on. No warnings: nothing is left out or guessed.
 Layout read_csv_layout(const std::string& path, std::vector<std::string>& warnings);

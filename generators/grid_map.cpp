@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -16,16 +17,21 @@ namespace {
 
 constexpr std::string_view kFree = ".GSE", kBlocked = "@OTW", kService = "SE";
 constexpr std::size_t kLongestSide = 10'000;
+constexpr std::ptrdiff_t kMostFree = 1 << 20;  // stations take a kilobyte each; the largest published maps have 2^20 cells, blocked ones among them
 
 class MapReader {
  public:
   MapReader(std::string_view text, std::string_view source, std::vector<std::string>& warnings, double pitch_m)
-      : lines_(text), source_(source), warnings_(warnings), pitch_m_(pitch_m) {}
+      : text_(text), lines_(text), source_(source), warnings_(warnings), pitch_m_(pitch_m) {}
 
   Layout read() {
     if (!(pitch_m_ >= 0.1 && pitch_m_ <= 100.0))
       throw InputError(source_, fmt::format("a cell pitch of {} m is not between 0.1 m and 100 m", pitch_m_));
     read_header();
+    // The few letters of the header count too.
+    if (std::ranges::count_if(text_, [](char c) { return kFree.find(c) != std::string_view::npos; }) > kMostFree) {
+      throw InputError(source_, fmt::format("the map has more than {} free cells; cut out a part", kMostFree));
+    }
     layout_.name = std::filesystem::path(source_).stem().string();
     if (!is_plain_utf8(layout_.name)) layout_.name = "grid map";
     std::vector<StationId> above(width_), row(width_);  // not valid where blocked
@@ -107,6 +113,7 @@ class MapReader {
     layout_.segments.push_back(std::move(segment));
   }
 
+  std::string_view text_;
   TextLines lines_;
   std::string_view source_;
   std::vector<std::string>& warnings_;

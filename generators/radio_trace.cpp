@@ -16,6 +16,8 @@ namespace {
 constexpr std::string_view kHeading = "sender,receiver,t_send_s,t_recv_s";
 constexpr std::uint32_t kMostAgvs = 65536;
 constexpr std::size_t kMostWholeDigits = 10, kFractionDigits = 9;
+constexpr std::int64_t kLatest_s = 9'000'000'000, kNanoseconds = 1'000'000'000;  // beyond, nanoseconds leave 64 bits
+constexpr Duration kLongest = std::chrono::seconds(1'000'000'000);               // of a recording, and of a delay: as runs have it
 
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
@@ -45,7 +47,12 @@ class RecordingReader {
     }
     if (trace_.empty()) throw InputError(source_, fmt::format("holds no message; expected the line {} and one line for each message", kHeading));
     const Duration epoch = std::ranges::min_element(trace_, {}, &RecordedMessage::sent)->sent;
-    for (auto& message : trace_) message.sent -= epoch;
+    for (std::size_t i = 0; i < trace_.size(); ++i) {
+      trace_[i].sent -= epoch;
+      if (trace_[i].sent > kLongest) {
+        throw InputError(at_line(source_, numbers_[i]), "t_send_s is more than 1e9 s after the first; leave out what another clock has dated");
+      }
+    }
     put_in_order(trace_);
     return std::move(trace_);
   }
@@ -70,8 +77,10 @@ class RecordingReader {
     if (!fields[3].empty() && fields[3] != "lost") {
       message.delay = time("t_recv_s", fields[3]) - message.sent;
       if (*message.delay < Duration::zero()) refuse("t_recv_s", fields[3], "it is before t_send_s; both clocks must agree");
+      if (*message.delay > kLongest) refuse("t_recv_s", fields[3], "it is more than 1e9 s after t_send_s; both clocks must agree");
     }
     trace_.push_back(message);
+    numbers_.push_back(lines_.number());
   }
 
   AgvId agv(std::string_view column, std::string_view value) const {
@@ -89,17 +98,20 @@ class RecordingReader {
     const auto whole = value.substr(0, point);
     const auto fraction = point == std::string_view::npos ? std::string_view{} : value.substr(point + 1);
     if (whole.empty() || whole.size() > kMostWholeDigits || !all_digits(whole) || !all_digits(fraction)) {
-      refuse(column, value, "a time is a number of seconds such as 12.0375, from 0 to below 1e10");
+      refuse(column, value, "a time is a number of seconds such as 12.0375, from 0 to below 9e9");
     }
+    std::int64_t whole_s = 0;
+    for (const char c : whole) whole_s = 10 * whole_s + (c - '0');
+    if (whole_s >= kLatest_s) refuse(column, value, "a time is a number of seconds such as 12.0375, from 0 to below 9e9");
     std::int64_t ns = 0;
-    for (const char c : whole) ns = 10 * ns + (c - '0');
     for (std::size_t i = 0; i < kFractionDigits; ++i) ns = 10 * ns + (i < fraction.size() ? fraction[i] - '0' : 0);
-    return Duration{ns};
+    return Duration{whole_s * kNanoseconds + ns};
   }
 
   TextLines lines_;
   std::string source_;
   RadioTrace trace_;
+  std::vector<std::size_t> numbers_;  // of the lines where its messages stand
 };
 
 }  // namespace

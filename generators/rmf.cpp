@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -33,7 +34,7 @@ class LevelReader {
     const auto vertices = yaml_.list(level, "vertices", "the level"), lanes = yaml_.list(level, "lanes", "the level");
     for (const auto vertex : vertices) vertices_.push_back(vertex);
     if (vertices_.empty()) yaml_.refuse(vertices, "the level is empty: it has no vertex");
-    is_nav_graph_ = vertices_[0].size() < 3 || vertices_[0][2].IsMap();
+    is_nav_graph_ = !vertices_[0].IsSequence() || vertices_[0].size() < 3 || vertices_[0][2].IsMap();
     read_scale(level);
     for (const auto lane : lanes) add_lane(lane);
     if (layout_.segments.empty()) yaml_.refuse(lanes, fmt::format("no lane belongs to graph {}; choose another graph or level", choice_.graph_idx));
@@ -93,7 +94,9 @@ class LevelReader {
   }
 
   // The words about a vertex or lane: its last item, where that is a map.
-  static YAML::Node words_of(const YAML::Node& list) { return list.size() > 2 ? list[list.size() - 1] : YAML::Node(YAML::NodeType::Undefined); }
+  static YAML::Node words_of(const YAML::Node& list) {
+    return list.IsSequence() && list.size() > 2 ? list[list.size() - 1] : YAML::Node(YAML::NodeType::Undefined);
+  }
 
   void read_scale(const YAML::Node& level) {
     if (is_nav_graph_) return;
@@ -222,8 +225,11 @@ Layout parse_rmf(std::string_view text, std::string_view source, std::vector<std
   try {
     return LevelReader(text, source, warnings, choice).read();
   } catch (const YAML::Exception& error) {
-    if (error.mark.is_null()) throw InputError(source, "not YAML: " + error.msg);
-    throw InputError(fmt::format("{}:{}:{}", source, error.mark.line + 1, error.mark.column + 1), "not YAML: " + error.msg);
+    // yaml-cpp quotes single bytes and whole names of the file.
+    std::string reason = "not YAML: " + error.msg.substr(0, 200);
+    std::ranges::replace_if(reason, [](char c) { return c < ' ' || c > '~'; }, '?');
+    if (error.mark.is_null()) throw InputError(source, reason);
+    throw InputError(fmt::format("{}:{}:{}", source, error.mark.line + 1, error.mark.column + 1), reason);
   }
 }
 

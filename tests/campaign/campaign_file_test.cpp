@@ -247,6 +247,21 @@ TEST_F(CampaignFileTest, RadioErrorsNameKeyValueAndRemedy) {
   EXPECT_THAT(error_of(radio("trace = \"missing.csv\"")), HasSubstr("missing.csv"));
 }
 
+TEST_F(CampaignFileTest, FilesThatNobodyWroteByHandAreRefusedAllTheSame) {
+  std::string numbers = "0";
+  for (int i = 1; i <= 1000; ++i) numbers += ", " + std::to_string(i);
+  EXPECT_THAT(error_of(kFactors + "delay_s = [" + numbers + "]\nmean_outage_s = [" + numbers + "]\n"),
+              HasSubstr("c.toml: the factors make more than 1000000 cells"));
+  std::string key = "a";
+  for (int i = 0; i < 1'000'000; ++i) key += ".a";
+  EXPECT_THAT(error_of(kFactors + key + " = 1\n"), HasSubstr("c.toml:5: more than 32 dots in a key"));
+  EXPECT_THAT(error_of("[" + key + "]\n"), HasSubstr("c.toml:1: more than 32 dots in a key"));
+  EXPECT_EQ(error_of("# " + std::string(200, '.') + "\n" + kFactors), "no error");
+  EXPECT_THAT(error_of(std::string(100'000, '[')), HasSubstr("not valid TOML"));
+  EXPECT_THAT(error_of("stuck_after_s = 1e299\n" + kFactors), HasSubstr("stuck_after_s is 1e+299; it lies above 0 and at most 1e9"));
+  EXPECT_THAT(error_of("kind = \"\\u001b[31m\"\n" + kFactors), HasSubstr("kind is \"?[31m\""));
+}
+
 TEST_F(CampaignFileTest, AMissingFileSaysSo) {
   try {
     read_campaign_file((folder_ / "none.toml").string());

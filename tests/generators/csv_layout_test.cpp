@@ -73,6 +73,14 @@ TEST(CsvLayout, WhatIsWrittenComesBack) {
   expect_round_trip(layout);
 }
 
+TEST(CsvLayout, AStationMayHaveNoPurposeAtAll) {
+  auto layout = import(kTables);
+  layout.stations[1].purposes = Purposes::from_bits(0);
+  const auto again = import(to_csv(layout));
+  EXPECT_EQ(again.stations[1].purposes, Purposes::from_bits(0));
+  EXPECT_EQ(again.stations[2].purposes, Purposes(Purpose::Routing));
+}
+
 TEST(CsvLayoutErrors, NamePlaceValueAndRemedy) {
   const auto break_at = [](const std::string& from, const std::string& to) { return independent::refusal(import, replaced(kTables, from, to)); };
   EXPECT_EQ(break_at("dock,fork,true", "dok,fork,true"), "l.csv:8: from is \"dok\", but there is no such node above; did you mean \"dock\"?");
@@ -86,6 +94,8 @@ TEST(CsvLayoutErrors, NamePlaceValueAndRemedy) {
   EXPECT_EQ(break_at("id,x,y,purposes", "x,y"), "l.csv:2: expected a line with the names of the columns first: id,x,y,purposes");
   EXPECT_EQ(break_at("6.5 0 7 3", "6.5 0 7"), "l.csv:9: control_points are 3 numbers; expected x y x y ...");
   EXPECT_EQ(break_at("\"end, of it\",9,3", "\"end, of it,9,3"), "l.csv:5: a double quote is not closed; close it on the same line");
+  EXPECT_EQ(break_at("storage parking", std::string(96, ',')), "l.csv:3: the line has 100 fields, its table 4 columns");
+  EXPECT_EQ(break_at("storage parking", std::string(97, ',') + "\""), "l.csv:3: the line has more than 100 fields");
   EXPECT_EQ(independent::refusal(import, ""), "l.csv: has no nodes; expected a line id,x,y,purposes and one line for each node");
 }
 

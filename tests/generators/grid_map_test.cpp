@@ -49,6 +49,9 @@ TEST(GridMapErrors, NamePlaceValueAndRemedy) {
   EXPECT_EQ(refusal("height 1\nwidth 3\nmap\n...\n...\n"), "m.map:5: the map has more than the 1 rows that its header says");
   EXPECT_EQ(refusal("height 1\nwidth 3\nmap\n.@.\n"), "m.map: no two free cells of the map are neighbours; expected cells with . between @");
   EXPECT_EQ(refusal(""), "m.map:1: the file ends before the line \"map\" of the header; is it complete?");
+  std::string vast = "height 1025\nwidth 1024\nmap\n";
+  for (int row = 0; row < 1025; ++row) vast += std::string(1024, '.') + "\n";
+  EXPECT_EQ(refusal(vast), "m.map: the map has more than 1048576 free cells; cut out a part");
   std::vector<std::string> warnings;
   EXPECT_THROW(parse_grid_map(kMap, "m.map", warnings, 0.0), InputError);
 }

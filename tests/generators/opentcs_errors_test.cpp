@@ -3,6 +3,7 @@
 
 #include "core/error.hpp"
 #include "core/random.hpp"
+#include "damage.hpp"
 #include "generators/opentcs.hpp"
 #include "independent_check.hpp"
 
@@ -14,15 +15,12 @@ const std::string& crossdock() {
   return text;
 }
 
-std::string refusal(const std::string& text) {
+void import(const std::string& text) {
   std::vector<std::string> warnings;
-  try {
-    parse_opentcs(text, "m.xml", warnings);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  parse_opentcs(text, "m.xml", warnings);
 }
+
+std::string refusal(const std::string& text) { return independent::refusal(import, text); }
 
 struct Break {
   const char* name;
@@ -100,27 +98,7 @@ TEST(OpenTcsErrors, EveryPrefixIsReadOrRefused) {
 }
 
 TEST(OpenTcsErrors, RandomDamageIsReadOrRefused) {
-  Draws draws(2);
-  const std::string_view spice = "0123456789-.eEN\"'<>/=& \n\x80\xff";
-  for (int round = 0; round < 1500; ++round) {
-    auto text = crossdock();
-    for (std::uint32_t k = 1 + draws.below(4); k > 0; --k) {
-      const auto at = draws.below(static_cast<std::uint32_t>(text.size()));
-      const char c = spice[draws.below(static_cast<std::uint32_t>(spice.size()))];
-      switch (draws.below(3)) {
-        case 0:
-          text[at] = c;
-          break;
-        case 1:
-          text.insert(at, 1, c);
-          break;
-        default:
-          text.erase(at, 1 + draws.below(40));
-          break;
-      }
-    }
-    EXPECT_NO_FATAL_FAILURE(refusal(text));
-  }
+  independent::bear_damage(import, crossdock(), 1500, "0123456789-.eEN\"'<>/=& \n\x80\xff");
 }
 
 TEST(OpenTcsErrors, RandomControlPointsAreReadOrRefused) {

@@ -48,6 +48,10 @@ TEST(RadioTraceFile, ErrorsNamePlaceColumnValueAndRemedy) {
   EXPECT_THAT(error_of(kHeading + "0,1,1e3,3\n"), HasSubstr("t_send_s is \"1e3\""));
   EXPECT_THAT(error_of(kHeading + "0,1,,3\n"), HasSubstr("t_send_s is \"\""));
   EXPECT_THAT(error_of(kHeading + "0,1,99999999999,3\n"), HasSubstr("t_send_s is \"99999999999\""));
+  EXPECT_THAT(error_of(kHeading + "0,1,9000000000,\n"), HasSubstr("r.csv:2: t_send_s is \"9000000000\"; a time is a number of seconds"));
+  EXPECT_THAT(error_of(kHeading + "0,1,9999999999.999999999,\n"), HasSubstr("t_send_s is \"9999999999.999999999\""));
+  EXPECT_THAT(error_of(kHeading + "0,1,2000000000,\n\n0,1,0,\n"), HasSubstr("r.csv:2: t_send_s is more than 1e9 s after the first"));
+  EXPECT_THAT(error_of(kHeading + "0,1,0,1000000001\n"), HasSubstr("r.csv:2: t_recv_s is \"1000000001\"; it is more than 1e9 s after t_send_s"));
   EXPECT_THAT(error_of(kHeading + "0,1,2,1.9\n"), HasSubstr("r.csv:2: t_recv_s is \"1.9\"; it is before t_send_s"));
   EXPECT_THAT(error_of(kHeading + "0,1,2,Lost\n"), HasSubstr("r.csv:2: t_recv_s is \"Lost\""));
   try {

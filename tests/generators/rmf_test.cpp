@@ -126,6 +126,16 @@ TEST(RmfErrors, NamePlaceValueAndRemedy) {
   EXPECT_TRUE(independent::refusal(import, "a: [1, \n").starts_with("b.yaml:2:1: not YAML: "));
 }
 
+TEST(RmfErrors, CanBePrintedWhateverTheFileHolds) {
+  EXPECT_EQ(independent::refusal(import, "levels: \"\\\x80\"\n"), "b.yaml:1:12: not YAML: unknown escape character: ?");
+  EXPECT_LT(independent::refusal(import, "levels: *" + std::string(5000, 'x') + "\n").size(), 300U);
+}
+
+TEST(RmfErrors, AVertexThatIsNoListIsNamed) {
+  EXPECT_EQ(independent::refusal(import, "levels: {L: {vertices: [{a: 1, b: 2, c: 3}, [1, 2]], lanes: [[0, 1]]}}\n"),
+            "b.yaml:1: a vertex is a map of 3 items; expected more");
+}
+
 TEST(RmfErrors, CutAndDamagedFilesAreReadOrRefused) {
   for (const auto& text : {kBuilding, kNavGraph}) {
     independent::bear_cuts(import, text, 100);

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "core/error.hpp"
-#include "core/random.hpp"
+#include "damage.hpp"
 #include "generators/scenario_file.hpp"
 #include "independent_check.hpp"
 
@@ -16,14 +16,9 @@ const std::string& figure4() {
   return text;
 }
 
-std::string refusal(const std::string& text) {
-  try {
-    parse_scenario(text, "s.json");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
+void import(const std::string& text) { parse_scenario(text, "s.json"); }
+
+std::string refusal(const std::string& text) { return independent::refusal(import, text); }
 
 struct Slip {
   const char* from;
@@ -101,27 +96,7 @@ TEST(ScenarioErrors, EveryPrefixIsRefusedWithoutACrash) {
 }
 
 TEST(ScenarioErrors, RandomDamageIsReadOrRefused) {
-  Draws draws(1);
-  const std::string_view spice = "0123456789-.eE\"[]{},:\\ \ntnsau\x80\xff";
-  for (int round = 0; round < 3000; ++round) {
-    auto text = figure4();
-    for (std::uint32_t k = 1 + draws.below(4); k > 0; --k) {
-      const auto at = draws.below(static_cast<std::uint32_t>(text.size()));
-      const char c = spice[draws.below(static_cast<std::uint32_t>(spice.size()))];
-      switch (draws.below(3)) {
-        case 0:
-          text[at] = c;
-          break;
-        case 1:
-          text.insert(at, 1, c);
-          break;
-        default:
-          text.erase(at, 1 + draws.below(6));
-          break;
-      }
-    }
-    EXPECT_NO_FATAL_FAILURE(refusal(text));
-  }
+  independent::bear_damage(import, figure4(), 3000, "0123456789-.eE\"[]{},:\\ \ntnsau\x80\xff");
 }
 
 }  // namespace

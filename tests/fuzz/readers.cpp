@@ -1,0 +1,148 @@
+#include "readers.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "campaign/campaign_file.hpp"
+#include "core/scenario.hpp"
+#include "generators/csv_layout.hpp"
+#include "generators/grid_map.hpp"
+#include "generators/layout_file.hpp"
+#include "generators/lif.hpp"
+#include "generators/opentcs.hpp"
+#include "generators/order_list.hpp"
+#include "generators/radio_fields.hpp"
+#include "generators/radio_trace.hpp"
+#include "generators/rmf.hpp"
+#include "generators/scenario_file.hpp"
+#include "generators/text_file.hpp"
+#include "generators/validator.hpp"
+#include "seeds.hpp"
+#include "verdict.hpp"
+
+namespace fleetproof::fuzz {
+namespace {
+
+constexpr std::string_view kFile = "fuzzed.file";
+
+template <class Parse>
+bool accepts_layout(Parse parse) {
+  std::vector<std::string> warnings;
+  const auto layout = accepted([&] { return parse(warnings); }, kFile);
+  if (layout) require_sound(*layout, warnings, kFile);
+  return layout.has_value();
+}
+
+bool accepts_opentcs(std::string_view bytes) {
+  const auto with = [&](TwinPaths twins) { return accepts_layout([&](auto& warnings) { return parse_opentcs(bytes, kFile, warnings, twins); }); };
+  return with(TwinPaths::Keep) && with(TwinPaths::Merge);
+}
+
+bool accepts_lif(std::string_view bytes) {
+  return accepts_layout([&](auto& warnings) { return parse_lif(bytes, kFile, warnings); });
+}
+
+bool accepts_rmf(std::string_view bytes) {
+  return accepts_layout([&](auto& warnings) { return parse_rmf(bytes, kFile, warnings); });
+}
+
+bool accepts_grid_map(std::string_view bytes) {
+  return accepts_layout([&](auto& warnings) { return parse_grid_map(bytes, kFile, warnings); });
+}
+
+bool accepts_csv_layout(std::string_view bytes) {
+  return accepts_layout([&](auto& warnings) { return parse_csv_layout(bytes, kFile, warnings); });
+}
+
+bool accepts_layout_file(std::string_view bytes) {
+  return accepts_layout([&](auto&) { return parse_layout(bytes, kFile); });
+}
+
+bool accepts_scenario(std::string_view bytes) {
+  const auto scenario = accepted([&] { return parse_scenario(bytes, kFile); }, kFile);
+  if (!scenario) return false;
+  problems_of(*scenario);  // a poor test is accepted; to judge it must be possible
+  require(unusable_problems(*scenario).empty(), "an accepted scenario cannot be used");
+  const auto text = to_text(*scenario);
+  require(to_text(parse_scenario(text, "written.json")) == text, "the scenario file is not the same after reading it");
+  return true;
+}
+
+bool accepts_radio_trace(std::string_view bytes) {
+  const auto trace = accepted([&] { return parse_radio_trace(bytes, kFile); }, kFile);
+  if (!trace) return false;
+  RadioSetup radio;
+  radio.trace = std::make_shared<const RadioTrace>(*trace);
+  const auto faults = radio_faults(radio);
+  require(faults.empty(), faults.empty() ? "" : "an accepted recording cannot be used: " + faults[0].sentence);
+  return true;
+}
+
+bool accepts_orders(std::string_view bytes) {
+  const auto list = accepted([&] { return parse_order_list(bytes, kFile); }, kFile);
+  if (!list) return false;
+  require(!list->orders.empty(), "an accepted list has no orders");
+  for (const auto& order : list->orders) {
+    require(order.release >= Duration::zero() && order.release <= seconds(1e6), "an order is released at no time that can be");
+    require(is_plain_utf8(order.from) && is_plain_utf8(order.to) && order.from != order.to, "an order has unusable ends");
+  }
+  return true;
+}
+
+// Files that a campaign names are looked for beside those of this folder; a message may be about one of them.
+bool accepts_campaign(std::string_view bytes) {
+  const auto plan = accepted(
+      [&] {
+        auto read = parse_campaign_file(bytes, source_file("tests/campaigns/fuzzed.toml"));
+        check_plan(read.plan, "fuzzed.toml");
+        return read.plan;
+      },
+      "");
+  if (!plan) return false;
+  require(plan->cells().size() == plan->cell_count(), "an accepted campaign has another number of cells");
+  const auto text = plan_text(*plan);
+  require(plan_text(parse_plan(text)) == text, "the plan is not the same after reading it");
+  return true;
+}
+
+constexpr std::string_view kXmlSpice = "0123456789-.eEN\"'<>/=& \n\x80\xff", kJsonSpice = "0123456789-.eE\"[]{},:\\ \ntnsau\x80\xff",
+                           kYamlSpice = "0123456789-.:[]{},&*!|>'\"%@`#? \n\t\x80\xff", kCsvSpice = "0123456789-.,\"# \n\r\x80\xff",
+                           kMapSpice = "0123456789-.@TSE \n\r\x80\xff", kTomlSpice = "0123456789-.eE\"'[]{},=# \n\\_tnu\x80\xff";
+
+constexpr std::string_view kXmlWords[] = {"BEZIER",    "BEZIER_3",        "<!--", "<![CDATA[", "&#10;", "&lt;", "<?xml",
+                                          "<!DOCTYPE", "locked=\"true\"", "NaN",  "1e308"};
+constexpr std::string_view kJsonWords[] = {"null",    "true",    "1e308", "-0.0", "18446744073709551616", "-9223372036854775808",
+                                           "\\u0000", "\\ud800", "[[",    "{}"};
+constexpr std::string_view kYamlWords[] = {"&a ", "*a", "<<: *a", "!!str ", "? ", "---\n", "...\n", "- - ", "[[", "{[", "|2\n", ".inf", ".nan", "~"};
+constexpr std::string_view kCsvWords[] = {"\"\"", "lost", "1e308", "-1e-308", "9999999999", "routing", "from,to", "id,x,y"};
+constexpr std::string_view kMapWords[] = {"height ", "width ", "map\n", "10000", "1000000000", "type octile\n"};
+constexpr std::string_view kTomlWords[] = {"[[gate]]",   "a.a.a.a", "\"\"\"",           "'''", "inf", "nan", "0x",
+                                           "1979-05-27", "\\u0007", "{ file = \"x\" }", "[[[["};
+
+constexpr Reader kReaders[] = {
+    {"opentcs", accepts_opentcs, opentcs_seeds, kXmlSpice, kXmlWords},
+    {"lif", accepts_lif, lif_seeds, kJsonSpice, kJsonWords},
+    {"rmf-building", accepts_rmf, rmf_building_seeds, kYamlSpice, kYamlWords},
+    {"rmf-nav-graph", accepts_rmf, rmf_nav_graph_seeds, kYamlSpice, kYamlWords},
+    {"grid", accepts_grid_map, grid_map_seeds, kMapSpice, kMapWords},
+    {"csv", accepts_csv_layout, csv_layout_seeds, kCsvSpice, kCsvWords},
+    {"layout", accepts_layout_file, layout_seeds, kJsonSpice, kJsonWords},
+    {"scenario", accepts_scenario, scenario_seeds, kJsonSpice, kJsonWords},
+    {"radio-trace", accepts_radio_trace, radio_trace_seeds, kCsvSpice, kCsvWords},
+    {"orders", accepts_orders, order_seeds, kCsvSpice, kCsvWords},
+    {"campaign", accepts_campaign, campaign_seeds, kTomlSpice, kTomlWords},
+};
+
+}  // namespace
+
+std::span<const Reader> readers() { return kReaders; }
+
+const Reader& reader(std::string_view name) {
+  for (const auto& one : kReaders) {
+    if (one.name == name) return one;
+  }
+  std::fprintf(stderr, "there is no reader %s\n", std::string(name).c_str());
+  std::exit(2);
+}
+
+}  // namespace fleetproof::fuzz

@@ -1,0 +1,200 @@
+#include "seeds.hpp"
+
+#include <fstream>
+#include <iterator>
+
+#include "core/random.hpp"
+#include "generators/csv_layout.hpp"
+#include "generators/layout_family.hpp"
+#include "generators/layout_file.hpp"
+#include "generators/lif.hpp"
+#include "generators/scenario_file.hpp"
+#include "generators/world.hpp"
+
+namespace fleetproof::fuzz {
+namespace {
+
+std::string text_of(const std::string& relative) {
+  std::ifstream in(source_file(relative), std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// One station of every purpose, a straight segment, a curve and two curves in a row.
+Layout small_layout() {
+  Layout layout;
+  layout.name = "small";
+  layout.floor_low_m = Vec2(-3.0, -3.0);
+  layout.floor_high_m = Vec2(13.0, 13.0);
+  layout.stations = {{"a", Vec2(0.0, 0.0), Purpose::Routing},
+                     {"b, \"#2\"", Vec2(10.0, 0.0), Purposes(Purpose::Storage) | Purpose::Routing},
+                     {"c", Vec2(10.0, 10.0), Purposes(Purpose::Charging) | Purpose::Parking},
+                     {"\xc3\xa9", Vec2(0.0, 10.0), Purpose::Storage}};
+  const auto id = [](std::uint32_t index) { return StationId{index}; };
+  layout.segments = {{"ab", id(0), id(1), true, {}},
+                     {"bc", id(1), id(2), false, {Vec2(12.0, 3.0), Vec2(12.0, 7.0)}},
+                     {"cd", id(2), id(3), true, {Vec2(9.0, 11.0), Vec2(7.0, 12.0), Vec2(5.0, 12.0), Vec2(3.0, 12.0), Vec2(1.0, 11.0)}},
+                     {"da", id(3), id(0), false, {}}};
+  return layout;
+}
+
+// A layout of a family that has curves.
+Layout drawn_layout() {
+  Draws draws(3);
+  return draw_layout(family_range("loop-spurs"), draws);
+}
+
+std::string busy_scenario() {
+  WorldSpec spec;
+  spec.layout = std::string("corridor-sidings");
+  spec.fleet_size = 2;
+  spec.faults.breakdowns_per_agv_hour = 20.0;
+  spec.faults.load_drops_per_transport = 0.5;
+  spec.faults.obstacles_per_hour = 30.0;
+  spec.faults.position_error_m = 0.1;
+  RejectionCounts counts;
+  auto scenario = generate_world(spec, 5, counts);
+  scenario.radio.outages.mean_outage_s = 2.0;
+  scenario.radio.trace = std::make_shared<const RadioTrace>(
+      RadioTrace{{AgvId{0U}, AgvId{1U}, Duration{0}, Duration{5}}, {AgvId{1U}, AgvId{0U}, Duration{7}, std::nullopt}});
+  scenario.scanner.on = true;
+  scenario.operator_help.on = true;
+  return to_text(scenario);
+}
+
+constexpr const char* kModel = R"(<model version="6.0.0" name="tiny">
+ <point name="a" positionX="0" positionY="0" type="HALT_POSITION"/>
+ <point name="b" positionX="4000" positionY="0" type="PARK_POSITION"/>
+ <point name="c" xPosition="4000" yPosition="4000" type="REPORT_POSITION"/>
+ <path name="ab" sourcePoint="a" destinationPoint="b" length="4000" locked="false"><pathLayout connectionType="DIRECT"/></path>
+ <path name="ba" sourcePoint="b" destinationPoint="a" length="4000" maxReverseVelocity="1"><pathLayout connectionType="ELBOW"/></path>
+ <path name="bc" sourcePoint="b" destinationPoint="c" length="4000"><pathLayout connectionType="BEZIER">
+  <controlPoint x="50" y="-20"/><controlPoint x="50" y="-50"/></pathLayout></path>
+ <path name="ca" sourcePoint="c" destinationPoint="a" length="6000"><pathLayout connectionType="BEZIER_3">
+  <controlPoint x="30" y="-80"/><controlPoint x="25" y="-60"/><controlPoint x="20" y="-40"/><controlPoint x="15" y="-20"/><controlPoint x="5" y="-5"/>
+ </pathLayout></path>
+ <path name="ac" sourcePoint="a" destinationPoint="c" length="1" locked="true"/>
+ <locationType name="Storage rack"/>
+ <location name="r" type="Storage rack" positionX="0" positionY="2000"><link point="a"/></location>
+ <visualLayout name="v" scaleX="100.0" scaleY="50.0"/>
+</model>
+)";
+
+constexpr const char* kLif = R"({"metaInformation": {"lifVersion": "1.0.0"}, "origins": [{"layouts": [{"layoutId": "L", "nodes": [
+{"nodeId": "a", "nodePosition": {"x": 0, "y": 0}, "mobileRobotTypeNodeProperties": [{"actions": [{"actionType": "pick"}]}]},
+{"nodeId": "b", "nodePosition": {"x": 6, "y": 0}, "nodeDescription": "purposes: parking"}],
+"edges": [
+{"edgeId": "ab", "startNodeId": "a", "endNodeId": "b", "mobileRobotTypeEdgeProperties": [{"maxSpeed": 1, "trajectory":
+ {"degree": 2, "knotVector": [0,0,0,0.5,1,1,1], "controlPoints": [{"x":0,"y":0},{"x":2,"y":1,"weight":2},{"x":4,"y":1},{"x":6,"y":0}]}}]},
+{"edgeId": "ba", "startNodeId": "b", "endNodeId": "a", "vehicleTypeEdgeProperties": [{"trajectory":
+ {"degree": 3, "knotVector": [0,0,0,0,1,1,1,1], "controlPoints": [{"x":0,"y":0},{"x":2,"y":-1},{"x":4,"y":-1},{"x":6,"y":0}]}}]}],
+"stations": [{"stationId": "s", "interactionNodeIds": ["b"]}]}]}]}
+)";
+
+constexpr const char* kBuilding = R"(name: depot
+coordinate_system: reference_image
+levels:
+  L1:
+    lanes:
+      - [0, 1, {bidirectional: [4, true], graph_idx: [2, 0], speed_limit: [3, 0]}]
+      - [1, 2, {bidirectional: [4, false], graph_idx: [2, 0]}]
+      - [2, 0, {graph_idx: [2, 1]}]
+    measurements:
+      - [3, 4, {distance: [3, 5]}]
+    vertices:
+      - [0, 0, 0, dock, {is_charger: [4, true], is_parking_spot: [4, true]}]
+      - [40, 10, 0, ""]
+      - [40, 60, 0, dock, {pickup_dispenser: [1, rack]}]
+      - [0, 0, 0, ""]
+      - [100, 0, 0, ""]
+)";
+
+constexpr const char* kNavGraph = R"(building_name: depot
+levels:
+  L1:
+    lanes:
+      - [0, 1, {speed_limit: 0}]
+      - [1, 0, &words {speed_limit: 0}]
+      - [1, 2, *words]
+    vertices:
+      - [0.0, 0.0, {name: dock, is_charger: true}]
+      - [4.0, -1.0, {name: ""}]
+      - [4.0, -6.0, {name: end, is_parking_spot: false}]
+)";
+
+constexpr const char* kCampaign = R"(kind = "search"
+seed = 9
+replicates = 2
+agent_config = "x=1"
+[factors]
+agents = ["reckless", "hull-lock"]
+layouts = ["aisle-grid", "fishbone/stress"]
+fleet_sizes = [1, 2]
+loss = [0, 0.4]
+delay_s = [0.5]
+mean_outage_s = [0, 2]
+[world]
+placement = "charger-bank"
+hot_spot_skew = 1.5
+[[vehicle]]
+name = "small"
+share = 2
+length_m = 1.2
+[[vehicle]]
+name = "large"
+[faults]
+breakdowns_per_agv_hour = 1
+[scanner]
+[operator]
+on = false
+[radio]
+delay_model = "heavy-tail"
+contention_window = 31
+[agent_clock]
+call_cost_s = 0.001
+[law]
+reaction_s = 5
+leave_out = ["congestion"]
+[coverage]
+probes = ["encounter"]
+[[gate]]
+agent = "reckless"
+region = "contract"
+kind = "rate"
+limit = 0.1
+)";
+
+}  // namespace
+
+std::string source_file(const std::string& relative) { return std::string(FLEETPROOF_SOURCE_DIR) + "/" + relative; }
+
+std::vector<std::string> opentcs_seeds() { return {kModel, text_of("tests/layouts/crossdock.xml")}; }
+
+std::vector<std::string> lif_seeds() { return {kLif, to_lif(small_layout()), to_lif(drawn_layout())}; }
+
+std::vector<std::string> rmf_building_seeds() { return {kBuilding}; }
+
+std::vector<std::string> rmf_nav_graph_seeds() { return {kNavGraph}; }
+
+std::vector<std::string> grid_map_seeds() { return {"type octile\nheight 3\nwidth 4\nmap\n..@.\n.TS.\n@...\n", "width 2\nheight 1\nmap\r\nEG\r\n"}; }
+
+std::vector<std::string> csv_layout_seeds() { return {to_csv(small_layout()), to_csv(drawn_layout())}; }
+
+std::vector<std::string> layout_seeds() { return {to_text(small_layout()), to_text(drawn_layout())}; }
+
+std::vector<std::string> scenario_seeds() {
+  return {text_of("tests/scenarios/figure4.json"), text_of("tests/scenarios/parked_then_leaves.json"), busy_scenario()};
+}
+
+std::vector<std::string> radio_trace_seeds() {
+  return {
+      "\xEF\xBB\xBF# hall 3\r\nsender,receiver,t_send_s,t_recv_s\r\n1,0,1700000000.250000001,1700000000.3\r\n0, 1, 1700000000.5, "
+      "lost\n0,1,1700000000,\n"};
+}
+
+std::vector<std::string> order_seeds() { return {"release_s,from,to,agv\n0,a,\"b, \"\"2\"\"\",\n12.5,b,a,1\n# later\n1e3,c,d\n"}; }
+
+std::vector<std::string> campaign_seeds() {
+  return {kCampaign, text_of("tests/campaigns/families.toml"), text_of("tests/campaigns/soak.toml"), text_of("tests/campaigns/demo.toml")};
+}
+
+}  // namespace fleetproof::fuzz

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/layout.hpp"
+
+namespace fleetproof::fuzz {
+
+// Throws std::logic_error with the sentence unless it holds: the reader, or its writer, is at fault.
+void require(bool holds, const std::string& sentence);
+
+// A message or warning can be printed, has an end, and begins with the name of the file.
+void require_sentence(std::string_view sentence, std::string_view file);
+
+// What `read` makes of its bytes; none: it refused them, with a message as it should be.
+template <class Read>
+auto accepted(Read read, std::string_view file) -> std::optional<decltype(read())> {
+  try {
+    return read();
+  } catch (const InputError& error) {
+    require_sentence(error.what(), file);
+    return std::nullopt;
+  }
+}
+
+// A layout that a reader accepted has no fault, can be driven on, and comes back from every format in which layouts are written.
+void require_sound(const Layout& layout, const std::vector<std::string>& warnings, std::string_view file);
+
+}  // namespace fleetproof::fuzz
