@@ -3,9 +3,11 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <ranges>
 
 #include "campaign/sha256.hpp"
 #include "core/agents/agents.h"
@@ -51,6 +53,10 @@ const fp_agent_type& AgentPrograms::find(std::string_view name, std::string_view
     names.emplace_back(type->name);
   }
   throw InputError(where, fmt::format("agent \"{}\" is not known{} (see: fleetproof list agents; a shared object is loaded by its path or with --plugin)", name, name_hint(name, names)));
+}
+
+bool AgentPrograms::is_loaded(std::string_view name) const {
+  return std::ranges::any_of(types_ | std::views::drop(fp_reference_agent_count), [&](const fp_agent_type* type) { return name == type->name; });
 }
 
 }  // namespace fleetproof

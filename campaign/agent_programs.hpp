@@ -23,6 +23,7 @@ class AgentPrograms {
   // Throws InputError with the nearest known name.
   const fp_agent_type& find(std::string_view name, std::string_view where) const;
   const std::vector<const fp_agent_type*>& all() const { return types_; }
+  bool is_loaded(std::string_view name) const;  // from a shared object, not built in
   // "NAME sha256 HEX" of every shared object loaded: part of the engine's identity in the archive.
   const std::vector<std::string>& loaded() const { return loaded_; }
 

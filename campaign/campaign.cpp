@@ -1,10 +1,13 @@
 #include "campaign/campaign.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <set>
 
 #include "campaign/run_one.hpp"
 #include "campaign/task_pool.hpp"
 #include "core/random.hpp"
+#include "generators/purpose_words.hpp"
 #include "storage/archive.hpp"
 
 namespace fleetproof {
@@ -39,8 +42,13 @@ bool must_stop(const RunOptions& options, double elapsed_s) {
 
 void build_first_worlds(const CampaignPlan& plan) {
   const ScenarioSource scenarios(plan);
-  const std::uint64_t cells_per_world = plan.loss.size() * plan.mean_outage_s.size() * plan.delay_s.size() * plan.agents.size();
-  for (std::uint64_t index = 0; index < plan.cell_count(); index += cells_per_world) (void)scenarios.scenario(index);
+  for (std::uint64_t index = 0; index < plan.cell_count(); index += plan.cells_per_world()) (void)scenarios.scenario(index);
+}
+
+std::vector<std::string> plugin_agents(const CampaignPlan& plan, const AgentPrograms& programs) {
+  std::vector<std::string> names;
+  std::ranges::copy_if(plan.agents, std::back_inserter(names), [&](const std::string& name) { return programs.is_loaded(name); });
+  return names;
 }
 
 CampaignRecord campaign_record(const CampaignPlan& plan, const AgentPrograms& programs) {
@@ -52,6 +60,12 @@ CampaignRecord campaign_record(const CampaignPlan& plan, const AgentPrograms& pr
   record.plan_json = plan_text(plan);
   record.plan_hash = name_hash(record.plan_json);
   record.required_probes = plan.probes_to_meet();
+  if (plan.is_drawn()) record.sampling = name_of(plan.sampling);
+  for (const Stream stream : plan.held_streams) record.held_streams.emplace_back(name_of(stream));
+  record.held_replicate = plan.held_replicate;
+  record.exempt_purposes = purposes_text(plan.law.exempt_purposes);
+  record.exempt_radius_m = plan.law.exempt_radius_m;
+  record.plugin_agents = plugin_agents(plan, programs);
   record.engine = engine_identity();
   for (const std::string& plugin : programs.loaded()) record.engine.libraries += ", plug-in " + plugin;
   return record;

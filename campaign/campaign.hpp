@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "campaign/agent_programs.hpp"
 #include "campaign/plan.hpp"
@@ -47,6 +48,9 @@ CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& progr
 
 // One world per layout and fleet size. Throws InputError if a layout has no room for its fleet.
 void build_first_worlds(const CampaignPlan& plan);
+
+// Those of the plan's agents that come from shared objects.
+std::vector<std::string> plugin_agents(const CampaignPlan& plan, const AgentPrograms& programs);
 
 CampaignRecord campaign_record(const CampaignPlan& plan, const AgentPrograms& programs);
 EngineIdentity engine_identity();

@@ -14,6 +14,7 @@
 #include "generators/importer.hpp"
 #include "generators/layout_family.hpp"
 #include "generators/mutated_import.hpp"
+#include "generators/purpose_words.hpp"
 #include "generators/radio_fields.hpp"
 #include "generators/radio_trace.hpp"
 
@@ -204,6 +205,60 @@ void read_world(TomlTable& world, const std::string& path, CampaignPlan& plan) {
   world.finish();
 }
 
+// An array of values, or { from = 0.0, to = 0.4 }.
+void read_span(TomlTable& factors, std::string_view key, std::vector<FactorSpan>& factor) {
+  if (!factors.is_table(key)) {
+    std::vector<double> values;
+    factors.get(key, values);
+    if (factors.has(key)) factor.assign(values.begin(), values.end());
+    return;
+  }
+  auto bounds = factors.table(key);
+  FactorSpan span;
+  bounds->get("from", span.from);
+  bounds->get("to", span.to);
+  bounds->finish();
+  if (!bounds->has("from") || !bounds->has("to") || !(span.from < span.to)) {
+    throw InputError(factors.place(key), fmt::format("factors.{} needs bounds with from below to, as in {{ from = 0.0, to = 0.4 }}; single values stand in an array", key));
+  }
+  factor = {span};
+}
+
+void read_vary(TomlTable& table, CampaignPlan& plan) {
+  std::vector<std::string> names;
+  std::vector<std::string_view> known;
+  for (const Stream stream : kRunStreams) known.emplace_back(name_of(stream));
+  table.get("hold", names);
+  table.get("held_replicate", plan.held_replicate);
+  table.finish();
+  for (const std::string& name : names) {
+    const auto stream = stream_of_name(name);
+    if (!stream) throw InputError(table.place("hold"), fmt::format("vary.hold names \"{}\", which is no stream of randomness{}", name, name_hint(name, known)));
+    plan.held_streams.push_back(*stream);
+  }
+  std::ranges::sort(plan.held_streams);
+}
+
+void read_law(TomlTable& table, CampaignPlan& plan) {
+  std::vector<std::string> purposes;
+  const std::vector<std::string_view> known(kPurposeNames.begin(), kPurposeNames.end());
+  table.get("safety_distance_m", plan.law.safety_distance_m);
+  table.get("reaction_s", plan.law.reaction_s);
+  table.get("min_transports_per_agv_hour", plan.law.min_transports_per_agv_hour);
+  table.get("leave_out", plan.laws_left_out);
+  table.get("exempt_purposes", purposes);
+  table.get("exempt_radius_m", plan.law.exempt_radius_m);
+  table.finish();
+  std::string words;
+  for (const std::string& purpose : purposes) {
+    if (std::ranges::find(known, purpose) == known.end()) {
+      throw InputError(table.place("exempt_purposes"), fmt::format("law.exempt_purposes names \"{}\", which is no purpose of stations{}", purpose, name_hint(purpose, known)));
+    }
+    words += purpose + " ";
+  }
+  if (!purposes.empty()) plan.law.exempt_purposes = purposes_of_text(words).value();
+}
+
 void read_factors(TomlTable& factors, const std::string& path, CampaignFile& file) {
   std::vector<std::string> agents;
   factors.get("agents", agents);
@@ -213,9 +268,10 @@ void read_factors(TomlTable& factors, const std::string& path, CampaignFile& fil
   }
   read_layouts(factors, path, file);
   factors.get("fleet_sizes", file.plan.fleet_sizes);
-  factors.get("loss", file.plan.loss);
-  factors.get("delay_s", file.plan.delay_s);
-  factors.get("mean_outage_s", file.plan.mean_outage_s);
+  read_span(factors, "loss", file.plan.loss);
+  read_span(factors, "delay_s", file.plan.delay_s);
+  read_span(factors, "mean_outage_s", file.plan.mean_outage_s);
+  get_name(factors, "sampling", file.plan.sampling, kSamplings);
   factors.finish();
 }
 
@@ -236,6 +292,7 @@ CampaignFile read_root(TomlTable root, const std::string& path) {
   } else {
     throw InputError(path, "has no [factors] table; it names the agents, layouts, fleet sizes, loss and delay to combine");
   }
+  if (auto vary = root.table("vary")) read_vary(*vary, plan);
   if (auto world = root.table("world")) {
     read_world(*world, path, plan);
   }
@@ -251,13 +308,7 @@ CampaignFile read_root(TomlTable root, const std::string& path) {
     clock->get("call_cost_s", plan.agent_clock.call_cost_s);
     clock->finish();
   }
-  if (auto law = root.table("law")) {
-    law->get("safety_distance_m", plan.law.safety_distance_m);
-    law->get("reaction_s", plan.law.reaction_s);
-    law->get("min_transports_per_agv_hour", plan.law.min_transports_per_agv_hour);
-    law->get("leave_out", plan.laws_left_out);
-    law->finish();
-  }
+  if (auto law = root.table("law")) read_law(*law, plan);
   if (auto coverage = root.table("coverage")) {
     std::vector<std::string> probes = plan.probes_to_meet();
     coverage->get("probes", probes);

@@ -17,11 +17,12 @@ std::vector<CellRecord> CampaignPlan::cells() const {
   std::vector<CellRecord> all;
   for (const LayoutFactor& layout : layouts) {
     for (const std::uint32_t fleet : fleet_sizes) {
-      for (const double one_loss : loss) {
-        for (const double outage : mean_outage_s) {
-          for (const double delay : delay_s) {
+      for (const FactorSpan one_loss : loss) {
+        for (const FactorSpan outage : mean_outage_s) {
+          for (const FactorSpan delay : delay_s) {
             for (const std::string& agent : agents) {
-              all.push_back({static_cast<std::uint32_t>(all.size()), agent, layout.name, fleet, one_loss, delay, outage});
+              all.push_back({static_cast<std::uint32_t>(all.size()), agent, layout.name, fleet, one_loss.from, delay.from, outage.from, one_loss.to, delay.to,
+                             outage.to});
             }
           }
         }
@@ -32,7 +33,14 @@ std::vector<CellRecord> CampaignPlan::cells() const {
 }
 
 std::uint64_t CampaignPlan::cell_count() const {
-  return layouts.size() * fleet_sizes.size() * loss.size() * mean_outage_s.size() * delay_s.size() * agents.size();
+  return layouts.size() * fleet_sizes.size() * cells_per_world();
+}
+
+std::uint64_t CampaignPlan::cells_per_world() const { return loss.size() * mean_outage_s.size() * delay_s.size() * agents.size(); }
+
+bool CampaignPlan::is_drawn() const {
+  const auto drawn = [](const std::vector<FactorSpan>& factor) { return std::ranges::any_of(factor, &FactorSpan::is_drawn); };
+  return drawn(loss) || drawn(delay_s) || drawn(mean_outage_s);
 }
 
 std::vector<std::string> CampaignPlan::probes_to_meet() const {
@@ -53,21 +61,27 @@ bool has_duplicates(std::vector<T> values) {
   return std::ranges::adjacent_find(values) != values.end();
 }
 
+template <class Valid>
+void check_spans(const std::vector<FactorSpan>& factor, const char* key, const std::string& where, const char* sentence, Valid valid) {
+  for (const FactorSpan span : factor) {
+    for (const double value : {span.from, span.to}) demand(valid(value), where, fmt::format("factors.{} holds {}; {}", key, value, sentence));
+    demand(span.from <= span.to, where, fmt::format("factors.{} goes from {} to {}; the upper bound comes last", key, span.from, span.to));
+  }
+}
+
 void check_factors(const CampaignPlan& plan, const std::string& where) {
   demand(!plan.agents.empty(), where, "factors.agents is empty; name at least one (see: fleetproof list agents)");
   demand(!plan.layouts.empty(), where, "factors.layouts is empty; name at least one family or layout file (see: fleetproof list generators)");
   demand(!plan.loss.empty() && !plan.delay_s.empty(), where, "factors.loss and factors.delay_s need at least one value each");
   demand(!plan.fleet_sizes.empty(), where, "factors.fleet_sizes is empty; it needs at least one value");
-  for (const double value : plan.loss) {
-    demand(value >= 0.0 && value <= 1.0, where, fmt::format("factors.loss holds {}; a share of lost messages lies between 0 and 1", value));
-  }
-  for (const double value : plan.delay_s) {
-    demand(value >= 0.0 && value <= 3600.0, where, fmt::format("factors.delay_s holds {}; a delay lies between 0 and 3600 s", value));
-  }
   demand(!plan.mean_outage_s.empty(), where, "factors.mean_outage_s is empty; it needs at least one value (0: independent losses)");
-  for (const double value : plan.mean_outage_s) {
-    demand(value == 0.0 || (value >= 0.001 && value <= 1e6), where,
-           fmt::format("factors.mean_outage_s holds {}; outages last from 0.001 to 1e6 s on average, 0 stands for independent losses", value));
+  check_spans(plan.loss, "loss", where, "a share of lost messages lies between 0 and 1", [](double value) { return value >= 0.0 && value <= 1.0; });
+  check_spans(plan.delay_s, "delay_s", where, "a delay lies between 0 and 3600 s", [](double value) { return value >= 0.0 && value <= 3600.0; });
+  check_spans(plan.mean_outage_s, "mean_outage_s", where, "outages last from 0.001 to 1e6 s on average, 0 stands for independent losses",
+              [](double value) { return value == 0.0 || (value >= 0.001 && value <= 1e6); });
+  for (const FactorSpan span : plan.mean_outage_s) {
+    demand(!span.is_drawn() || span.from > 0.0, where,
+           "factors.mean_outage_s is drawn from 0 on, which stands for independent losses and not for short outages; begin at 0.001 or above");
   }
   for (const auto value : plan.fleet_sizes) {
     demand(value >= 1 && value <= 1000, where, fmt::format("factors.fleet_sizes holds {}; a fleet has 1 to 1000 AGVs", value));
@@ -84,6 +98,34 @@ void check_factors(const CampaignPlan& plan, const std::string& where) {
     demand(count <= kCellsMax / cells, where, fmt::format("the factors make more than {} cells; combine fewer values", kCellsMax));
     cells *= count;
   }
+}
+
+// Exact bounds are those of independent draws; a claim rests on them.
+void check_sampling(const CampaignPlan& plan, const std::string& where) {
+  if (plan.sampling == Sampling::Uniform) return;
+  const char* word = name_of(plan.sampling);
+  demand(plan.is_drawn(), where, fmt::format("factors.sampling is \"{}\", but no factor is drawn; write one as {{ from = 0.0, to = 0.4 }}, or leave sampling out", word));
+  demand(plan.kind != "claim", where,
+         fmt::format("factors.sampling is \"{}\", whose replicates are not independent of each other: the exact bounds of a claim would not hold; "
+                     "set it to \"uniform\", or kind to \"search\"",
+                     word));
+}
+
+void check_held(const CampaignPlan& plan, const std::string& where) {
+  demand(!has_duplicates(plan.held_streams), where, "vary.hold names one stream twice; once is enough");
+  demand(!plan.held_streams.empty() || plan.held_replicate == 0, where, "vary.held_replicate says from which replicate, but vary.hold names no stream; name one");
+  demand(plan.held_replicate <= 1'000'000'000'000, where, fmt::format("vary.held_replicate is {}; it is at most 1e12", plan.held_replicate));
+  demand(plan.held_streams.size() < kRunStreams.size() || plan.is_drawn(), where,
+         "vary.hold names every stream, so that all replicates would be the same; leave out the one to vary");
+}
+
+void check_exemption(const LawSetup& law, const std::string& where) {
+  const bool purposes = law.exempt_purposes.bits() != 0;
+  demand(law.exempt_radius_m >= 0.0 && law.exempt_radius_m <= 100.0, where, fmt::format("law.exempt_radius_m is {}; it lies between 0 and 100", law.exempt_radius_m));
+  demand(!purposes || law.exempt_radius_m > 0.0, where,
+         "law.exempt_purposes names stations, but law.exempt_radius_m is 0, which exempts nothing; give a radius, or leave both out");
+  demand(purposes || law.exempt_radius_m == 0.0, where,
+         "law.exempt_radius_m is given, but law.exempt_purposes names no stations; name their purposes, as in [\"charging\"], or leave both out");
 }
 
 void check_gates(const CampaignPlan& plan, const std::string& where) {
@@ -107,7 +149,7 @@ void check_gates(const CampaignPlan& plan, const std::string& where) {
 
 void check_radio(const CampaignPlan& plan, const std::string& where) {
   RadioSetup radio = plan.radio;
-  radio.outages.mean_outage_s = std::ranges::max(plan.mean_outage_s);  // checked together with the other fields
+  radio.outages.mean_outage_s = std::ranges::max(plan.mean_outage_s, {}, &FactorSpan::to).to;  // checked together with the other fields
   for (const auto& [key, sentence] : radio_faults(radio)) throw InputError(where, fmt::format("radio.{}: {}", key, sentence));
   const bool delay_is_bounded = radio.delay_model != RadioSetup::DelayModel::HeavyTail || (radio.delay_tail.cap_share > 0.0 && radio.delay_tail.cap_share <= 1.0);
   demand(plan.kind != "claim" || delay_is_bounded, where,
@@ -184,6 +226,9 @@ void check_plan(const CampaignPlan& plan, const std::string& where) {
   check_numbers(plan.scanner, "scanner", where);
   check_numbers(plan.operator_help, "operator", where);
   check_factors(plan, where);
+  check_sampling(plan, where);
+  check_held(plan, where);
+  check_exemption(plan.law, where);
   check_laws_and_coverage(plan, where);
   check_radio(plan, where);
   constexpr std::uint64_t kRunsMax = 1'000'000'000'000;  // a thousand years of this engine; beyond it run indices would wrap

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "campaign/unit_sample.hpp"
 #include "core/scenario.hpp"
 #include "generators/order_list.hpp"
 #include "generators/placement.hpp"
@@ -13,6 +15,17 @@
 #include "storage/records.hpp"
 
 namespace fleetproof {
+
+// What a cell has of a factor of the radio: a value, or bounds between which every replicate draws its own, the same for all agents, layouts and fleets.
+struct FactorSpan {
+  double from = 0.0, to = 0.0;
+
+  FactorSpan() = default;
+  FactorSpan(double value) : from(value), to(value) {}  // implicit: a value is a span
+  FactorSpan(double low, double high) : from(low), to(high) {}
+  bool is_drawn() const { return from != to; }
+  friend auto operator<=>(const FactorSpan&, const FactorSpan&) = default;
+};
 
 // A layout of the campaign: a family that draws a new one per replicate, or one read from a file and embedded by content.
 struct LayoutFactor {
@@ -31,9 +44,13 @@ struct CampaignPlan {
 
   std::vector<std::string> agents;        // catalogue names, or names of plug-ins that the caller loads
   std::string agent_config;
-  std::vector<double> loss{0.0}, delay_s{0.0}, mean_outage_s{0.0};
+  std::vector<FactorSpan> loss{0.0}, delay_s{0.0}, mean_outage_s{0.0};
+  Sampling sampling = Sampling::Uniform;  // where there are bounds
   std::vector<LayoutFactor> layouts;
   std::vector<std::uint32_t> fleet_sizes{5};
+
+  std::vector<Stream> held_streams;       // the same in all replicates, in the order of kRunStreams
+  std::uint64_t held_replicate = 0;       // whose they are
 
   double transports_per_agv_hour = 30.0;
   Placement placement = Placement::Random;
@@ -57,6 +74,8 @@ struct CampaignPlan {
   // Agents vary fastest, then delay, mean outage, loss, fleet size and layout.
   std::vector<CellRecord> cells() const;
   std::uint64_t cell_count() const;
+  std::uint64_t cells_per_world() const;  // neighbours that differ in radio or agent alone
+  bool is_drawn() const;                  // some factor has bounds
   std::uint64_t run_count() const { return replicates * cell_count(); }
 };
 

@@ -8,6 +8,7 @@
 #include "campaign/plan_fields.hpp"
 #include "core/error.hpp"
 #include "generators/layout_file.hpp"
+#include "generators/purpose_words.hpp"
 #include "generators/radio_fields.hpp"
 
 namespace fleetproof {
@@ -139,6 +140,60 @@ GateRecord gate_from(const Json& json, std::size_t index) {
   return gate;
 }
 
+// A value, or its bounds.
+Json spans_json(const std::vector<FactorSpan>& factor) {
+  Json list = Json::array();
+  for (const FactorSpan span : factor) list.push_back(span.is_drawn() ? Json{{"from", span.from}, {"to", span.to}} : Json(span.from));
+  return list;
+}
+
+std::vector<FactorSpan> spans_from(const Json& list) {
+  std::vector<FactorSpan> factor;
+  for (const Json& json : list) {
+    if (json.is_object()) {
+      factor.emplace_back(json.at("from").get<double>(), json.at("to").get<double>());
+    } else {
+      factor.emplace_back(json.get<double>());
+    }
+  }
+  return factor;
+}
+
+Json vary_json(const CampaignPlan& plan) {
+  Json hold = Json::array();
+  for (const Stream stream : plan.held_streams) hold.push_back(name_of(stream));
+  return {{"hold", hold}, {"held_replicate", plan.held_replicate}};
+}
+
+void read_vary(const Json& json, CampaignPlan& plan) {
+  for (const Json& name : json.at("hold")) {
+    const auto stream = stream_of_name(name.get<std::string>());
+    if (!stream) throw EngineError(fmt::format("the plan in the archive names {}, which this version does not know", name.dump()));
+    plan.held_streams.push_back(*stream);
+  }
+  plan.held_replicate = json.at("held_replicate");
+}
+
+Json law_json(const CampaignPlan& plan) {
+  return {{"safety_distance_m", plan.law.safety_distance_m},
+          {"reaction_s", plan.law.reaction_s},
+          {"min_transports_per_agv_hour", plan.law.min_transports_per_agv_hour},
+          {"leave_out", plan.laws_left_out},
+          {"exempt_purposes", purposes_text(plan.law.exempt_purposes)},
+          {"exempt_radius_m", plan.law.exempt_radius_m}};
+}
+
+void read_law(const Json& json, CampaignPlan& plan) {
+  plan.law.safety_distance_m = json.at("safety_distance_m");
+  plan.law.reaction_s = json.at("reaction_s");
+  plan.law.min_transports_per_agv_hour = json.at("min_transports_per_agv_hour");
+  plan.laws_left_out = json.at("leave_out").get<std::vector<std::string>>();
+  const auto purposes = purposes_of_text(json.at("exempt_purposes").get<std::string>());
+  if (!purposes) throw EngineError(fmt::format("the plan in the archive exempts {}, which this version does not know", json.at("exempt_purposes").dump()));
+  plan.law.exempt_purposes = *purposes;
+  plan.law.exempt_radius_m = json.at("exempt_radius_m");
+}
+
 Json layouts_json(const CampaignPlan& plan) {
   Json layouts = Json::array();
   for (const LayoutFactor& layout : plan.layouts) {
@@ -148,6 +203,16 @@ Json layouts_json(const CampaignPlan& plan) {
     layouts.push_back(std::move(entry));
   }
   return layouts;
+}
+
+Json factors_json(const CampaignPlan& plan) {
+  return {{"agents", plan.agents},
+          {"layouts", layouts_json(plan)},
+          {"fleet_sizes", plan.fleet_sizes},
+          {"loss", spans_json(plan.loss)},
+          {"delay_s", spans_json(plan.delay_s)},
+          {"mean_outage_s", spans_json(plan.mean_outage_s)},
+          {"sampling", name_of(plan.sampling)}};
 }
 
 Json world_json(const CampaignPlan& plan) {
@@ -191,14 +256,16 @@ CampaignPlan plan_from(const Json& json) {
   const Json& factors = json.at("factors");
   plan.agents = factors.at("agents").get<std::vector<std::string>>();
   plan.fleet_sizes = factors.at("fleet_sizes").get<std::vector<std::uint32_t>>();
-  plan.loss = factors.at("loss").get<std::vector<double>>();
-  plan.delay_s = factors.at("delay_s").get<std::vector<double>>();
-  plan.mean_outage_s = factors.at("mean_outage_s").get<std::vector<double>>();
+  plan.loss = spans_from(factors.at("loss"));
+  plan.delay_s = spans_from(factors.at("delay_s"));
+  plan.mean_outage_s = spans_from(factors.at("mean_outage_s"));
+  plan.sampling = enum_from(factors.at("sampling"), {Sampling::Uniform, Sampling::LatinHypercube, Sampling::Sobol});
   for (const Json& entry : factors.at("layouts")) {
     LayoutFactor layout{entry.at("name"), nullptr, entry.value("mutate", false)};
     if (entry.contains("content")) layout.map = std::make_shared<const LogicalMap>(parse_layout(entry.at("content").dump(), "layout " + layout.name));
     plan.layouts.push_back(std::move(layout));
   }
+  read_vary(json.at("vary"), plan);
   plan.agent_config = json.at("agent_config");
   read_world(json.at("world"), plan);
   plan.vehicles = vehicles_from(json.at("vehicles"));
@@ -207,10 +274,7 @@ CampaignPlan plan_from(const Json& json) {
   read_helper(json.at("operator"), plan.operator_help);
   radio_from(json.at("radio"), plan.radio);
   plan.agent_clock.call_cost_s = json.at("agent_clock").at("call_cost_s");
-  plan.law.safety_distance_m = json.at("law").at("safety_distance_m");
-  plan.law.reaction_s = json.at("law").at("reaction_s");
-  plan.law.min_transports_per_agv_hour = json.at("law").at("min_transports_per_agv_hour");
-  plan.laws_left_out = json.at("law").at("leave_out").get<std::vector<std::string>>();
+  read_law(json.at("law"), plan);
   plan.required_probes = json.at("coverage").at("probes").get<std::vector<std::string>>();
   for (const Json& gate : json.at("gates")) plan.gates.push_back(gate_from(gate, plan.gates.size()));
   return plan;
@@ -230,8 +294,8 @@ std::string plan_text(const CampaignPlan& plan) {
       {"horizon_s", plan.horizon_s},
       {"stuck_after_s", plan.stuck_after_s},
       {"contact_stops", plan.contact_stops},
-      {"factors",
-       {{"agents", plan.agents}, {"layouts", layouts_json(plan)}, {"fleet_sizes", plan.fleet_sizes}, {"loss", plan.loss}, {"delay_s", plan.delay_s}, {"mean_outage_s", plan.mean_outage_s}}},
+      {"factors", factors_json(plan)},
+      {"vary", vary_json(plan)},
       {"agent_config", plan.agent_config},
       {"world", world_json(plan)},
       {"vehicles", vehicles_json(plan.vehicles)},
@@ -240,11 +304,7 @@ std::string plan_text(const CampaignPlan& plan) {
       {"operator", helper_json(plan.operator_help)},
       {"radio", to_json(plan.radio)},
       {"agent_clock", {{"call_cost_s", plan.agent_clock.call_cost_s}}},
-      {"law",
-       {{"safety_distance_m", plan.law.safety_distance_m},
-        {"reaction_s", plan.law.reaction_s},
-        {"min_transports_per_agv_hour", plan.law.min_transports_per_agv_hour},
-        {"leave_out", plan.laws_left_out}}},
+      {"law", law_json(plan)},
       {"coverage", {{"probes", plan.probes_to_meet()}}},
       {"gates", gates},
   };

@@ -57,6 +57,10 @@ ReplayResult compare_runs(RunRecord stored, RunRecord recomputed) {
   } else if (stored.cell != recomputed.cell || stored.replicate != recomputed.replicate) {
     result.verdict = ReplayVerdict::ScenarioDiffers;
     result.explanation = fmt::format("cell or replicate: stored {} and {}, recomputed {} and {}", stored.cell, stored.replicate, recomputed.cell, recomputed.replicate);
+  } else if (!(stored.radio == recomputed.radio)) {
+    result.verdict = ReplayVerdict::ScenarioDiffers;
+    const auto text = [](const RadioQuality& q) { return fmt::format("{}, {} s, outages of {} s", q.loss, q.delay_s, q.mean_outage_s); };
+    result.explanation = fmt::format("the radio of the run: stored {}; recomputed {}", text(stored.radio), text(recomputed.radio));
   } else if (!(stored.outcome == recomputed.outcome)) {
     result.verdict = ReplayVerdict::Diverged;
     result.explanation = first_difference(stored.outcome, recomputed.outcome);

@@ -12,9 +12,11 @@ namespace fleetproof {
 struct RunPlace {
   std::uint64_t replicate = 0;
   CellRecord cell;
+  RadioQuality radio;  // the cell's, or what this replicate drew within its bounds
 };
 
-// run index -> scenario, a pure function of the plan. All agents and radio qualities of a replicate get the same world. Threads: any number.
+// run index -> scenario, a pure function of the plan. All agents and radio qualities of a replicate get the same world, and all
+// worlds and agents of a replicate the same draw of the continuous factors. Threads: any number.
 class ScenarioSource {
  public:
   explicit ScenarioSource(const CampaignPlan& plan);
@@ -25,6 +27,7 @@ class ScenarioSource {
  private:
   const CampaignPlan& plan_;
   std::vector<CellRecord> cells_;
+  UnitSample sample_;
 };
 
 }  // namespace fleetproof

@@ -173,7 +173,8 @@ void Engine::trace_load(LoadId id) {
 void Engine::call_operator(Agv& agv, Assist what, std::uint64_t halt) {
   const OperatorSetup& help = scenario_.operator_help;
   if (!help.on) return;
-  const auto draw = unit_interval(word64(philox(stream_key(scenario_.seed, Stream::Faults), {agv.assists++, 0, kAssistTopic, agv.id.value}), 0));
+  const auto key = stream_key(scenario_.seed_of(Stream::Faults), Stream::Faults);
+  const auto draw = unit_interval(word64(philox(key, {agv.assists++, 0, kAssistTopic, agv.id.value}), 0));
   queue_.push(now_ + seconds(help.least_s + (help.most_s - help.least_s) * draw), agv.id, Event::Kind::OperatorComes, static_cast<std::uint64_t>(what), halt);
 }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "core/error.hpp"
+
 namespace fleetproof {
 
 Block philox(std::uint64_t key, const Block& counter) {
@@ -31,6 +33,30 @@ std::uint64_t world_seed(std::uint64_t campaign_seed, std::uint64_t replicate, s
 
 std::uint64_t stream_key(std::uint64_t world_seed, Stream stream) {
   return mix(world_seed, static_cast<std::uint64_t>(stream), kStreamDomain);
+}
+
+const char* name_of(Stream stream) {
+  switch (stream) {
+    case Stream::Layout: return "layout";
+    case Stream::Placement: return "placement";
+    case Stream::Transports: return "transports";
+    case Stream::Motion: return "motion";
+    case Stream::Faults: return "faults";
+    case Stream::Agent: return "agent";
+    case Stream::Factors: return "factors";
+    case Stream::Radio:
+    case Stream::RadioState:
+    case Stream::RadioCopy:
+    case Stream::RadioBackoff: return "radio";
+  }
+  invariant_violated("a stream has a name");
+}
+
+std::optional<Stream> stream_of_name(std::string_view name) {
+  for (const Stream stream : kRunStreams) {
+    if (name == name_of(stream)) return stream;
+  }
+  return std::nullopt;
 }
 
 std::uint64_t name_hash(std::string_view name) {

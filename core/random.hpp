@@ -2,12 +2,26 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 namespace fleetproof {
 
 // Every source of chance in a run. Each has its own key, so that a draw more in one leaves all others as they were.
-enum class Stream : std::uint32_t { Layout = 1, Placement, Transports, Motion, Radio, Faults, Agent, RadioState = 16, RadioCopy, RadioBackoff };
+// `Factors` draws a campaign's continuous factors, under the campaign's seed; a run has no such stream.
+enum class Stream : std::uint32_t { Layout = 1, Placement, Transports, Motion, Radio, Faults, Agent, Factors, RadioState = 16, RadioCopy, RadioBackoff };
+
+// The streams of a run by their names: "layout", "placement", "transports", "motion", "radio", "faults", "agent".
+inline constexpr std::array kRunStreams = {Stream::Layout, Stream::Placement, Stream::Transports, Stream::Motion, Stream::Radio, Stream::Faults, Stream::Agent};
+const char* name_of(Stream stream);  // those that are drawn beside the radio's are part of "radio"
+std::optional<Stream> stream_of_name(std::string_view name);
+
+// A stream that has another seed than its world.
+struct StreamSeed {
+  Stream stream = Stream::Layout;  // one of kRunStreams
+  std::uint64_t seed = 0;
+  friend bool operator==(const StreamSeed&, const StreamSeed&) = default;
+};
 
 // Four 32-bit words, a pure function of key and counter (Philox4x32-10, Salmon et al. 2011).
 using Block = std::array<std::uint32_t, 4>;

@@ -15,6 +15,13 @@ const char* name_of(Fault::Kind kind) {
   return "?";
 }
 
+std::uint64_t Scenario::seed_of(Stream stream) const {
+  for (const StreamSeed& own : stream_seeds) {
+    if (own.stream == stream) return own.seed;
+  }
+  return seed;
+}
+
 std::size_t Scenario::body_count() const {
   const auto drops = std::ranges::count(faults, Fault::Kind::LoadDrop, &Fault::kind);
   return agvs.size() + obstacles.size() + static_cast<std::size_t>(drops);

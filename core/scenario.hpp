@@ -8,6 +8,7 @@
 #include "core/faults.hpp"
 #include "core/layout.hpp"
 #include "core/radio_setup.hpp"
+#include "core/random.hpp"
 #include "core/sim_time.hpp"
 #include "core/strong_id.hpp"
 #include "core/vehicle_type.hpp"
@@ -88,7 +89,9 @@ struct Scenario {
   Duration horizon = std::chrono::seconds(600);
   Duration stuck_after = std::chrono::seconds(120);
   std::uint64_t seed = 0;              // of the world: keys of radio and agent randomness derive from it
+  std::vector<StreamSeed> stream_seeds;  // streams drawn from another seed, each at most once, in the order of kRunStreams
 
+  std::uint64_t seed_of(Stream stream) const;  // `stream` is one of kRunStreams
   const VehicleType& type_of(const AgvSetup& agv) const { return vehicle_types[agv.type]; }
   // AGVs, then obstacles, then the loads that fall, in order of their faults: that is how bodies are numbered.
   std::size_t body_count() const;

@@ -294,6 +294,15 @@ std::uint64_t read_seed(const JsonReader& reader) {
   reader.refuse("a seed is a whole number or a text of \"0x\" and up to 16 hexadecimal digits");
 }
 
+void read_stream_seeds(const JsonReader& reader, Scenario& scenario) {
+  std::vector<std::string_view> names;
+  for (const Stream stream : kRunStreams) names.emplace_back(name_of(stream));
+  reader.expect_object(names);
+  for (const Stream stream : kRunStreams) {
+    if (const auto seed = reader.find(name_of(stream))) scenario.stream_seeds.push_back({stream, read_seed(*seed)});
+  }
+}
+
 }  // namespace
 
 Scenario read_scenario(const std::string& path) { return parse_scenario(read_text_file(path), path); }
@@ -308,6 +317,7 @@ Scenario parse_scenario(std::string_view text, std::string_view source) {
   Scenario scenario;
   read_settings(reader, scenario);
   if (const auto seed = reader.find("seed")) scenario.seed = read_seed(*seed);
+  if (const auto seeds = reader.find("stream_seeds")) read_stream_seeds(*seeds, scenario);
   scenario.map = std::make_shared<const LogicalMap>(read_layout(reader.at("layout")));
   if (const auto types = reader.find("vehicle_types")) {
     scenario.vehicle_types.clear();

@@ -8,7 +8,7 @@ namespace fleetproof::scenario_keys {
 
 inline constexpr std::int64_t kVersion = 1;
 
-inline constexpr std::string_view kScenario[] = {"version",       "name",           "seed",          "horizon_s", "horizon_ns",
+inline constexpr std::string_view kScenario[] = {"version",       "name",           "seed",          "stream_seeds", "horizon_s", "horizon_ns",
                                                  "stuck_after_s", "stuck_after_ns", "contact_stops", "radio",     "agent_clock",
                                                  "law",           "vehicle_types",  "agvs",          "obstacles", "faults",
                                                  "scanner",       "operator",       "layout"};

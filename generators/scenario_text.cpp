@@ -25,12 +25,14 @@ class ScenarioWriter {
   explicit ScenarioWriter(const Scenario& scenario) : scenario_(scenario) {}
 
   std::string write() {
-    const auto& [name, map, vehicle_types, agvs, obstacles, faults, scanner, operator_help, radio, agent_clock, law, contact_stops, horizon, stuck_after, seed] = scenario_;
+    const auto& [name, map, vehicle_types, agvs, obstacles, faults, scanner, operator_help, radio, agent_clock, law, contact_stops, horizon, stuck_after, seed, stream_seeds] =
+        scenario_;
     ensure(map != nullptr, "a scenario has a map");
     json_.open_object();
     json_.key("version").value(keys::kVersion);
     json_.key("name").value(name);
-    json_.key("seed").value(fmt::format("0x{:016x}", seed));  // as text: many JSON readers keep 53 bits only
+    json_.key("seed").value(seed_text(seed));
+    write_stream_seeds(stream_seeds);
     json_.key("horizon_ns").value(horizon.count());
     json_.key("stuck_after_ns").value(stuck_after.count());
     json_.key("contact_stops").value(contact_stops);
@@ -66,6 +68,16 @@ class ScenarioWriter {
   }
 
  private:
+  // As text: many JSON readers keep 53 bits only.
+  static std::string seed_text(std::uint64_t seed) { return fmt::format("0x{:016x}", seed); }
+
+  void write_stream_seeds(const std::vector<StreamSeed>& stream_seeds) {
+    if (stream_seeds.empty()) return;
+    json_.key("stream_seeds").open_object(kLine);
+    for (const auto& [stream, seed] : stream_seeds) json_.key(name_of(stream)).value(seed_text(seed));
+    json_.close();
+  }
+
   void write_radio(const RadioSetup& radio) {
     json_.key("radio").open_object();
     for_each_radio_field(radio, [&](const RadioField& field, const auto& value) {

@@ -62,11 +62,16 @@ VehicleType envelope(const std::vector<VehicleShare>& vehicles) {
 // The worlds of one seed, one after the other until one is sound.
 class WorldMaker {
  public:
-  WorldMaker(const WorldSpec& spec, std::uint64_t seed) : spec_(spec), seed_(seed), family_(std::get_if<std::string>(&spec.layout)) {
+  // `held_attempt`: of which attempt the held streams are.
+  WorldMaker(const WorldSpec& spec, std::uint64_t seed, std::uint32_t held_attempt)
+      : spec_(spec), held_attempt_(held_attempt), family_(std::get_if<std::string>(&spec.layout)) {
     scenario_.vehicle_types = {envelope(spec.vehicles)};
     scenario_.law = spec.law;
     scenario_.horizon = spec.horizon;
     scenario_.seed = seed;
+    if (spec.held.seed != seed) {
+      for (const Stream stream : spec.held.streams) scenario_.stream_seeds.push_back({stream, spec.held.seed});
+    }
     if (family_ != nullptr) return;
     set_map(std::get<SharedMap>(spec.layout));
     if (spec.mutate) return;
@@ -81,7 +86,7 @@ class WorldMaker {
     draw_types(number);
     scenario_.obstacles.clear();
     scenario_.faults.clear();
-    draw_faults(scenario_, spec_.faults, stream_key(seed_, Stream::Faults));
+    draw_faults(scenario_, spec_.faults, key_of(Stream::Faults));
     if (const auto problems = unusable_problems(scenario_); !problems.empty()) throw InputError(problems[0].pointer, problems[0].sentence);
     const auto problems = world_problems(scenario_, *reachability_);
     for (const auto& problem : problems) ++counts.of(problem.kind);
@@ -96,7 +101,7 @@ class WorldMaker {
 
  private:
   bool draw_map(std::uint32_t number) {
-    Draws draws(stream_key(seed_, Stream::Layout), number);
+    Draws draws(key_of(Stream::Layout), attempt_of(Stream::Layout, number));
     if (family_ != nullptr) {
       set_map(std::make_shared<const LogicalMap>(draw_layout(family_range(*family_), draws)));
     } else if (spec_.mutate) {
@@ -107,8 +112,9 @@ class WorldMaker {
     return true;
   }
 
-  bool place(std::uint32_t number) {
-    const auto key = stream_key(seed_, Stream::Placement);
+  bool place(std::uint32_t attempt) {
+    const auto key = key_of(Stream::Placement);
+    const auto number = attempt_of(Stream::Placement, attempt);
     const auto placement = placement_of_world(spec_.placement, key);
     scenario_.agvs.clear();
     pairs_.clear();
@@ -124,7 +130,7 @@ class WorldMaker {
       return true;
     }
     const Demand demand{spec_.transports_per_agv_hour, spec_.hot_spot_skew};
-    const bool stored = assign_transports(scenario_, demand, *reachability_, stream_key(seed_, Stream::Transports), number);
+    const bool stored = assign_transports(scenario_, demand, *reachability_, key_of(Stream::Transports), attempt_of(Stream::Transports, number));
     send_to_meet(scenario_, pairs_);
     return stored;
   }
@@ -139,12 +145,19 @@ class WorldMaker {
     }
     if (spec_.vehicles.size() == 1) return;
     for (std::size_t i = 0; i < scenario_.agvs.size(); ++i) {
-      Draws draws(stream_key(seed_, Stream::Placement), kTypeTopic + number, static_cast<std::uint32_t>(i));
+      Draws draws(key_of(Stream::Placement), kTypeTopic + attempt_of(Stream::Placement, number), static_cast<std::uint32_t>(i));
       double left = draws.uniform(0.0, total);
       std::uint32_t type = 0;
       while (type + 1 < spec_.vehicles.size() && left >= spec_.vehicles[type].share) left -= spec_.vehicles[type++].share;
       scenario_.agvs[i].type = type;
     }
+  }
+
+  std::uint64_t key_of(Stream stream) const { return stream_key(scenario_.seed_of(stream), stream); }
+
+  // A stream that is held stays at the attempt that made the world it is held from: an attempt more because of something else leaves it as it was.
+  std::uint32_t attempt_of(Stream stream, std::uint32_t number) const {
+    return std::ranges::find(scenario_.stream_seeds, stream, &StreamSeed::stream) == scenario_.stream_seeds.end() ? number : held_attempt_;
   }
 
   void set_map(SharedMap map) {
@@ -154,29 +167,47 @@ class WorldMaker {
   }
 
   const WorldSpec& spec_;
-  std::uint64_t seed_;
+  std::uint32_t held_attempt_;
   const std::string* family_;
   Scenario scenario_;
   std::optional<Reachability> reachability_;
   std::vector<EncounterPair> pairs_;
 };
 
-}  // namespace
+struct MadeWorld {
+  Scenario scenario;
+  std::uint32_t attempt = 0;
+};
 
-Scenario generate_world(const WorldSpec& spec, std::uint64_t seed, RejectionCounts& counts) {
-  check(spec);
-  WorldMaker maker(spec, seed);
+MadeWorld make_world(const WorldSpec& spec, std::uint64_t seed, std::uint32_t held_attempt, RejectionCounts& counts) {
+  WorldMaker maker(spec, seed, held_attempt);
   for (std::uint32_t number = 0; number < kAttempts; ++number) {
     if (maker.attempt(number)) {
       ++maker.counts.worlds;
       counts.add(maker.counts);
-      return maker.take();
+      return {maker.take(), number};
     }
     ++maker.counts.worlds_rejected;
   }
   counts.add(maker.counts);
   throw InputError("fleet_size", fmt::format("cannot place {} AGVs on this layout in {} draws ({}); ask for fewer or for a larger layout",
                                              spec.fleet_size, kAttempts, rejection_text(maker.counts)));
+}
+
+bool shapes_world(Stream stream) { return stream == Stream::Layout || stream == Stream::Placement || stream == Stream::Transports; }
+
+}  // namespace
+
+Scenario generate_world(const WorldSpec& spec, std::uint64_t seed, RejectionCounts& counts) {
+  check(spec);
+  std::uint32_t held_attempt = 0;
+  if (spec.held.seed != seed && std::ranges::any_of(spec.held.streams, shapes_world)) {
+    WorldSpec unheld = spec;
+    unheld.held = {};
+    RejectionCounts ignored;
+    held_attempt = make_world(unheld, spec.held.seed, 0, ignored).attempt;
+  }
+  return make_world(spec, seed, held_attempt, counts).scenario;
 }
 
 std::string rejection_text(const RejectionCounts& counts) {

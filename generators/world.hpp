@@ -4,7 +4,9 @@
 #include <memory>
 #include <string>
 #include <variant>
+#include <vector>
 
+#include "core/random.hpp"
 #include "core/scenario.hpp"
 #include "generators/faults.hpp"
 #include "generators/order_list.hpp"
@@ -17,6 +19,13 @@ namespace fleetproof {
 struct VehicleShare {
   VehicleType type;
   double share = 1.0;
+};
+
+// Streams that are those of another world, the one that the same spec holding nothing has for `seed`: a layout that is held is the same layout, whatever
+// else is drawn on it. What a stream amounts to may hang on others: placement that is held on a layout that is not gives other starts.
+struct HeldStreams {
+  std::vector<Stream> streams;  // of kRunStreams, in that order
+  std::uint64_t seed = 0;
 };
 
 // What a campaign fixes about its worlds; the seed draws the rest.
@@ -33,6 +42,7 @@ struct WorldSpec {
   FaultRates faults;
   LawSetup law;  // starts keep its safety distance
   Duration horizon = std::chrono::seconds(600);
+  HeldStreams held;
 };
 
 // A pure function of spec and seed: layout, placement and transports from their own streams. A world that the validator refuses is

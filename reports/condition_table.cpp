@@ -36,8 +36,10 @@ std::vector<Column> columns(const Shown& shown, const std::string& upper_head) {
 
 std::vector<std::string> row(const Condition& condition, const Shown& shown, double confidence) {
   const auto& tally = condition.tally;
-  std::vector<std::string> cells{printable(condition.agent, 40), percent(condition.loss), seconds_text(condition.delay_s)};
-  if (shown.outages) cells.push_back(condition.mean_outage_s > 0.0 ? seconds_text(condition.mean_outage_s) : "none");
+  std::vector<std::string> cells{printable(condition.agent, 40), percent_span(condition.lowest.loss, condition.highest.loss),
+                                 seconds_span(condition.lowest.delay_s, condition.highest.delay_s)};
+  const double outage_s = condition.lowest.mean_outage_s, outage_to_s = condition.highest.mean_outage_s;
+  if (shown.outages) cells.push_back(outage_to_s > 0.0 ? seconds_span(outage_s, outage_to_s) : "none");
   cells.push_back(std::to_string(tally.runs));
   cells.push_back(std::to_string(tally.violating_runs));
   if (!shown.counts_only) {
@@ -57,7 +59,7 @@ std::vector<std::string> row(const Condition& condition, const Shown& shown, dou
 }
 
 bool has_outages(const Evidence& evidence) {
-  return std::ranges::any_of(evidence.cells(), [](const CellRecord& cell) { return cell.mean_outage_s > 0.0; });
+  return std::ranges::any_of(evidence.cells(), [](const CellRecord& cell) { return cell.mean_outage_to_s > 0.0; });
 }
 
 // Failures first; without any, the fewest transports.
@@ -120,6 +122,7 @@ Section table_legend(const ReportInput& input) {
   add("viol. = runs that broke the safety distance, contact = those that touched; stuck = runs without progress; closest = smallest clearance; done/AGV-h = transports (orders) "
       "completed per AGV-hour.");
   if (has_outages(evidence)) add("outage = mean length of an outage of the radio; none = losses are independent of each other. The loss is the same on average.");
+  if (!evidence.sampling().empty()) add("0 .. 40 % = every replicate draws its own value in between, the same for all agents, layouts and fleets; a rate is the mean over the region.");
   if (evidence.counts_only()) return section;
   add("failed = units with a violation or an unknown outcome, of all units: rate, interval and bound are theirs.");
   if (std::ranges::any_of(conditions, [](const Condition& c) { return c.pool.cells.size() > 1; })) {

@@ -93,7 +93,7 @@ Section incident_section(const ReportInput& input, std::size_t most_rows) {
       section.table.rows.push_back({printable(agent.agent, 40), std::string(info.name), std::to_string(tally.runs), std::to_string(tally.incidents),
                                     std::string(info.meaning)});
       section.remarks.push_back({fmt::format("{} of agent {}, for instance in run {}:", info.name, printable(agent.agent, 40), tally.example_run),
-                                 replay_command(input.archive_path, tally.example_run)});
+                                 replay_line(input, tally.example_run)});
     }
   }
   if (section.table.rows.empty()) {

@@ -5,6 +5,7 @@
 
 #include "reports/condition_table.hpp"
 #include "reports/coverage_section.hpp"
+#include "reports/sample_sentence.hpp"
 #include "reports/verdict_sentences.hpp"
 #include "reports/weak_points.hpp"
 #include "reports/wording.hpp"
@@ -36,7 +37,7 @@ Json estimate_json(const std::optional<Estimate>& estimate) {
 Json cell_json(const CellRecord& cell) {
   return {{"cell", cell.index},       {"agent", cell.agent},     {"layout", cell.layout},           {"fleet_size", cell.fleet_size},
           {"loss", cell.loss},        {"delay_s", cell.delay_s}, {"mean_outage_s", cell.mean_outage_s}, {"in_contract", cell.in_contract()},
-          {"is_worst_case", cell.is_worst_case()}};
+          {"is_worst_case", cell.is_worst_case()}, {"loss_to", cell.loss_to}, {"delay_to_s", cell.delay_to_s}, {"mean_outage_to_s", cell.mean_outage_to_s}};
 }
 
 Json violation_json(const Violation& v) {
@@ -55,7 +56,13 @@ Json violation_json(const Violation& v) {
 
 Json failing_run_json(const ReportInput& input, const std::optional<FailingRun>& run) {
   if (!run) return nullptr;
-  auto json = cell_json(input.evidence.cells()[run->cell]);
+  // The run's own quality, where its cell has bounds.
+  auto cell = input.evidence.cells()[run->cell];
+  const auto& [loss, delay_s, mean_outage_s] = run->radio;
+  cell.loss = cell.loss_to = loss;
+  cell.delay_s = cell.delay_to_s = delay_s;
+  cell.mean_outage_s = cell.mean_outage_to_s = mean_outage_s;
+  auto json = cell_json(cell);
   json["run_index"] = run->run_index;
   json["replicate"] = run->replicate;
   json["severity"] = name_of(run->severity);
@@ -63,7 +70,7 @@ Json failing_run_json(const ReportInput& input, const std::optional<FailingRun>&
   json["violations"] = run->violations;
   json["closest"] = run->closest ? violation_json(*run->closest) : Json(nullptr);
   json["message"] = run->message;
-  json["replay"] = replay_command(input.archive_path, run->run_index);
+  json["replay"] = replay_line(input, run->run_index);
   return json;
 }
 
@@ -113,7 +120,7 @@ Json incidents_json(const ReportInput& input) {
                       {"runs_with", tally.runs},
                       {"incidents", tally.incidents},
                       {"example_run", tally.example_run},
-                      {"replay", replay_command(input.archive_path, tally.example_run)}});
+                      {"replay", replay_line(input, tally.example_run)}});
     }
   }
   return list;
@@ -148,7 +155,8 @@ Json gate_json(const ReportInput& input, std::size_t index) {
 }
 
 Json condition_json(const ReportInput& input, const Condition& condition) {
-  Json json{{"agent", condition.agent}, {"loss", condition.loss}, {"delay_s", condition.delay_s}, {"mean_outage_s", condition.mean_outage_s},
+  Json json{{"agent", condition.agent}, {"loss", condition.lowest.loss}, {"delay_s", condition.lowest.delay_s}, {"mean_outage_s", condition.lowest.mean_outage_s},
+            {"loss_to", condition.highest.loss}, {"delay_to_s", condition.highest.delay_s}, {"mean_outage_to_s", condition.highest.mean_outage_s},
             {"in_contract", condition.in_contract}, {"is_worst_case", condition.is_worst_case}, {"cells", condition.pool.cells}};
   add_tally(json, condition.tally);
   const auto confidence = bound_confidence(input.evidence, condition.agent);
@@ -186,7 +194,16 @@ Json campaign_json(const ReportInput& input) {
           {"stored_runs", input.stored_runs},
           {"judged_runs", input.evidence.complete_replicates() * input.evidence.cells().size()},
           {"engine_errors", input.evidence.engine_errors()},
-          {"plan_hash", hex_text(campaign.plan_hash)}};
+          {"plan_hash", hex_text(campaign.plan_hash)},
+          {"sampling", campaign.sampling.empty() ? Json(nullptr) : Json(campaign.sampling)},
+          {"held_streams", campaign.held_streams},
+          {"held_replicate", campaign.held_streams.empty() ? Json(nullptr) : Json(campaign.held_replicate)}};
+}
+
+Json exemptions_json(const CampaignRecord& campaign) {
+  auto list = Json::array();
+  if (!campaign.exempt_purposes.empty()) list.push_back({{"purposes", campaign.exempt_purposes}, {"radius_m", campaign.exempt_radius_m}});
+  return list;
 }
 
 // Every key, with an empty list where there is nothing to tell: a program that reads it need not ask first.
@@ -209,6 +226,7 @@ std::string render_json(const ReportInput& input) {
   json["exit_code"] = input.exit_code;
   json["complete"] = evidence.complete();
   json["weak"] = is_weak(input);
+  json["exemptions"] = exemptions_json(input.campaign);
   json["campaign"] = campaign_json(input);
   json["gates"] = list_of(input.gates.size(), [&](std::size_t i) { return gate_json(input, i); });
   json["conditions"] = list_of(conditions.size(), [&](std::size_t i) { return condition_json(input, conditions[i]); });

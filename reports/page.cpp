@@ -4,6 +4,7 @@
 
 #include "reports/condition_table.hpp"
 #include "reports/coverage_section.hpp"
+#include "reports/sample_sentence.hpp"
 #include "reports/verdict_sentences.hpp"
 #include "reports/weak_points.hpp"
 #include "reports/wording.hpp"
@@ -61,6 +62,14 @@ Section method_section(const ReportInput& input) {
     add("\"Demonstrated\" says: if the true rate were above the limit, a result this good would be rarer than one minus the confidence. It speaks of the sampled scenarios in "
         "the simulator, not of other conditions, and not of real vehicles beyond what the simulator has been validated for.");
   }
+  const auto& sampling = input.campaign.sampling;
+  if (sampling == "uniform") {
+    add("Where a factor was drawn, every replicate has a point of its own, drawn uniformly and independently: the bounds hold for the rate of such draws, the mean over the "
+        "region. They say nothing of its worst point by itself.");
+  } else if (!sampling.empty()) {
+    add("Points drawn as a Latin hypercube or a Sobol sequence cover a region more evenly than independent ones. A mean over them varies no more in the long run, but they are not "
+        "independent, so exact binomial bounds are not guaranteed to hold, and none is given.");
+  }
   add("A violation is a clearance below the minimal safety distance (0.10 m unless the scenario says otherwise). Clearances are rounded down to 1 cm; \"> 0.5 m\" means that none "
       "below that was met. The contract region is loss <= 40 % and delay <= 2 s; outside it standing still is legal, a violation is still one.");
   return section;
@@ -81,7 +90,8 @@ Page build_page(const ReportInput& input, std::size_t most_rows) {
   page.title = fmt::format("fleetproof report: {} ({}), {} of {} cells each, {} judged", printable(input.campaign.name, 80), printable(input.campaign.kind, 20),
                            replicates_text(evidence), evidence.cells().size(),
                            count_text(evidence.complete_replicates() * evidence.cells().size(), "run"));
-  page.headlines = warnings(input);
+  page.headlines = reservations(input);
+  for (auto& warning : warnings(input)) page.headlines.push_back(std::move(warning));
   for (auto& weak : weak_headlines(input)) page.headlines.push_back(std::move(weak));
   for (auto& verdict : verdicts(input)) page.headlines.push_back(std::move(verdict));
   page.sections.push_back(condition_section(input, "Worst case of the contract: 40 % loss, 2 s delay", [](const Condition& c) { return c.is_worst_case; }, most_rows));

@@ -1,11 +1,13 @@
 #include "reports/report.hpp"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
 #include "reports/json_report.hpp"
 #include "reports/markdown_report.hpp"
 #include "reports/text_report.hpp"
+#include "reports/wording.hpp"
 
 namespace fleetproof {
 namespace {
@@ -20,6 +22,13 @@ constexpr std::array<Entry<RenderReport>, 4> kFormats{{
 }  // namespace
 
 std::span<const Entry<RenderReport>> report_formats() { return kFormats; }
+
+std::string replay_line(const ReportInput& input, std::uint64_t run_index) {
+  const auto& cells = input.evidence.cells();
+  const auto& agent = cells[run_index % cells.size()].agent;
+  const bool plugin = std::ranges::find(input.campaign.plugin_agents, agent) != input.campaign.plugin_agents.end();
+  return replay_command(input.archive_path, run_index, plugin ? agent : "");
+}
 
 ReportInput read_report_input(const ArchiveReader& archive, std::string archive_path) {
   ReportInput input{std::move(archive_path), archive.campaign(), Evidence(archive.campaign(), archive.cells(), archive.gates()), {}, 0, 4};

@@ -24,6 +24,9 @@ struct ReportInput {
 // Reads all runs of the archive; judges those before the first gap. Throws EngineError if the archive is damaged.
 ReportInput read_report_input(const ArchiveReader& archive, std::string archive_path);
 
+// The command that replays a run.
+std::string replay_line(const ReportInput& input, std::uint64_t run_index);
+
 // A whole report as one text.
 using RenderReport = std::string (*)(const ReportInput& input);
 

@@ -2,17 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <set>
-#include <tuple>
-
 #include "reports/coverage_section.hpp"
 #include "reports/evidence/rounding.hpp"
+#include "reports/sample_sentence.hpp"
 #include "reports/wording.hpp"
 
 namespace fleetproof {
 namespace {
-
-constexpr std::size_t kMostListed = 8;
 
 std::string region_text(Region region) {
   switch (region) {
@@ -21,45 +17,6 @@ std::string region_text(Region region) {
     case Region::All: return "all cells";
   }
   return {};
-}
-
-template <class Values>
-std::string listed(const Values& values, std::string (*text)(double)) {
-  std::vector<std::string> words;
-  for (const double value : values) words.push_back(text(value));
-  if (words.size() > kMostListed) words = {words.front(), "...", words.back()};
-  return joined(words);
-}
-
-std::string listed(const std::set<std::string>& names) {
-  std::vector<std::string> words;
-  for (const auto& name : names) words.push_back(printable(name, 40));
-  const auto all = words.size();
-  if (all > kMostListed) words.resize(kMostListed);
-  return joined(words) + (all > kMostListed ? fmt::format(" and {} more", all - kMostListed) : "");
-}
-
-// Loss, delay, mean outage.
-using Radio = std::tuple<double, double, double>;
-
-// The lists of losses, delays and outages if every combination of them was run, else the combinations. Outages only where there are any.
-std::string combinations(const std::set<Radio>& radios) {
-  std::set<double> losses, delays_s, outages_s;
-  for (const auto& [loss, delay_s, outage_s] : radios) {
-    losses.insert(loss);
-    delays_s.insert(delay_s);
-    outages_s.insert(outage_s);
-  }
-  if (radios.size() == losses.size() * delays_s.size() * outages_s.size()) {
-    const bool has_outages = *outages_s.rbegin() > 0.0;
-    return fmt::format("loss {}; delay {}{}", listed(losses, percent), listed(delays_s, seconds_text),
-                       has_outages ? "; mean outage " + listed(outages_s, seconds_text) : "");
-  }
-  std::vector<std::string> words;
-  for (const auto& [loss, delay_s, outage_s] : radios) {
-    if (words.size() < kMostListed) words.push_back(fmt::format("{} with {}{}", percent(loss), seconds_text(delay_s), outage_text(outage_s)));
-  }
-  return joined(words, "; ") + (radios.size() > kMostListed ? fmt::format("; and {} more", radios.size() - kMostListed) : "");
 }
 
 std::string estimate_text(const GateRecord& gate, const GateResult& result) {
@@ -93,33 +50,12 @@ Headline verdict_of(const ReportInput& input, std::size_t index) {
   if (const auto& cells = input.evidence.cells_of(index); !cells.empty()) add("Sampled: " + sampled(input.evidence, cells) + ".");
   if (result.worst) {
     headline.details.push_back({fmt::format("Its most serious run is {} ({}):", result.worst->run_index, name_of(result.worst->severity)),
-                                replay_command(input.archive_path, result.worst->run_index)});
+                                replay_line(input, result.worst->run_index)});
   }
   return headline;
 }
 
 }  // namespace
-
-std::string sampled(const Evidence& evidence, const std::vector<std::uint32_t>& cells) {
-  std::set<Radio> radios;
-  std::set<std::string> layouts;
-  std::set<std::uint32_t> fleets;
-  Tally tally;
-  for (const auto index : cells) {
-    const auto& cell = evidence.cells()[index];
-    radios.emplace(cell.loss, cell.delay_s, cell.mean_outage_s);
-    layouts.insert(cell.layout);
-    fleets.insert(cell.fleet_size);
-    tally.add(evidence.tally(index));
-  }
-  std::vector<std::string> sizes;
-  for (const auto size : fleets) sizes.push_back(std::to_string(size));
-  auto text = fmt::format("{} at {} ({}), {} {}, fleets of {}", count_text(evidence.complete_replicates(), "replicate"),
-                          radios.size() == 1 ? "this combination" : fmt::format("these {} combinations", radios.size()), combinations(radios),
-                          layouts.size() == 1 ? "layout" : "layouts", listed(layouts), joined(sizes, " or "));
-  if (tally.longest_ns > 0) text += fmt::format(", {} a run", seconds_text(static_cast<double>(tally.longest_ns) * 1e-9));
-  return text;
-}
 
 Remark describe(const ReportInput& input, const FailingRun& run) {
   const auto& cell = input.evidence.cells()[run.cell];
@@ -133,9 +69,9 @@ Remark describe(const ReportInput& input, const FailingRun& run) {
     if (run.violations > 1) text += fmt::format(" (the closest of {})", run.violations);
   }
   text += fmt::format("; agent {}, layout {}, fleet of {}, loss {}, delay {}{}", printable(cell.agent, 40), printable(cell.layout, 40), cell.fleet_size,
-                      percent(cell.loss), seconds_text(cell.delay_s), outage_text(cell.mean_outage_s));
+                      percent(run.radio.loss), seconds_text(run.radio.delay_s), outage_text(run.radio.mean_outage_s));
   if (!run.message.empty()) text += fmt::format("; \"{}\"", printable(run.message));
-  return {text, replay_command(input.archive_path, run.run_index)};
+  return {text, replay_line(input, run.run_index)};
 }
 
 std::vector<Headline> warnings(const ReportInput& input) {
@@ -145,22 +81,10 @@ std::vector<Headline> warnings(const ReportInput& input) {
                     fmt::format("{} ended in an error of the simulator itself: nothing here is evidence until that is mended.", count_text(errors, "run")),
                     {}});
   }
-  struct Failures {
-    std::uint64_t runs = 0;
-    std::optional<FailingRun> worst;
-  };
-  std::vector<std::pair<std::string, Failures>> agents;  // in the order of the conditions
-  for (const auto& condition : input.evidence.conditions()) {
-    if (!condition.in_contract || condition.pool.failing_runs == 0) continue;
-    if (agents.empty() || agents.back().first != condition.agent) agents.emplace_back(condition.agent, Failures{});
-    auto& failures = agents.back().second;
-    failures.runs += condition.pool.failing_runs;
-    if (condition.worst && (!failures.worst || more_serious(*condition.worst, *failures.worst))) failures.worst = condition.worst;
-  }
-  for (const auto& [agent, failures] : agents) {
+  for (const auto& [agent, runs, worst] : input.evidence.contract_failures()) {
     list.push_back({"violation",
-                    fmt::format("agent {} broke the safety distance in {} within the contract region. The most serious:", printable(agent, 40), count_text(failures.runs, "run")),
-                    {describe(input, *failures.worst)}});
+                    fmt::format("agent {} broke the safety distance in {} within the contract region. The most serious:", printable(agent, 40), count_text(runs, "run")),
+                    {describe(input, worst)}});
   }
   return list;
 }

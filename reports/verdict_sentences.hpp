@@ -13,9 +13,6 @@ std::vector<Headline> warnings(const ReportInput& input);
 // One for each gate: verdict, count, rate, interval, bound, limit, reason, what was sampled.
 std::vector<Headline> verdicts(const ReportInput& input);
 
-// "200 replicates at these 12 combinations (...), layout ring, fleets of 5, 600 s a run": a verdict claims no more than this.
-std::string sampled(const Evidence& evidence, const std::vector<std::uint32_t>& cells);
-
 // "violation, smallest clearance 0.07 m at 12.34 s between AGV 1 and AGV 3; agent sound, layout ring, fleet of 5, loss 40 %, delay 2 s"
 Remark describe(const ReportInput& input, const FailingRun& run);
 

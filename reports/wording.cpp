@@ -33,9 +33,13 @@ std::string shell_word(const std::string& word) {
 }  // namespace
 
 std::string percent(double fraction) { return hundredths(fraction * 100.0) + " %"; }
-std::string outage_text(double mean_outage_s) { return mean_outage_s > 0.0 ? ", outages of " + seconds_text(mean_outage_s) : ""; }
-
 std::string seconds_text(double value_s) { return hundredths(value_s) + " s"; }
+
+std::string percent_span(double from, double to) { return from == to ? percent(from) : hundredths(from * 100.0) + " .. " + percent(to); }
+std::string seconds_span(double from_s, double to_s) { return from_s == to_s ? seconds_text(from_s) : hundredths(from_s) + " .. " + seconds_text(to_s); }
+
+std::string outage_text(double mean_outage_s) { return outage_span(mean_outage_s, mean_outage_s); }
+std::string outage_span(double from_s, double to_s) { return to_s > 0.0 ? ", outages of " + seconds_span(from_s, to_s) : ""; }
 
 std::string metres_text(std::int64_t value_um) { return fmt::format("{:.2f} m", std::floor(static_cast<double>(value_um) / 10'000.0) / 100.0); }
 
@@ -66,8 +70,9 @@ std::string printable(std::string_view text, std::size_t limit) {
   return line;
 }
 
-std::string replay_command(const std::string& archive_path, std::uint64_t run_index) {
-  return fmt::format("fleetproof replay {} {}", shell_word(archive_path), run_index);
+std::string replay_command(const std::string& archive_path, std::uint64_t run_index, std::string_view plugin_agent) {
+  const auto command = fmt::format("fleetproof replay {} {}", shell_word(archive_path), run_index);
+  return plugin_agent.empty() ? command : fmt::format("{} --plugin {}", command, shell_word(fmt::format("<path of {}>", printable(plugin_agent, 40))));
 }
 
 std::string joined(const std::vector<std::string>& parts, std::string_view separator) { return fmt::format("{}", fmt::join(parts, separator)); }

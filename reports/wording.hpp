@@ -15,8 +15,12 @@ namespace fleetproof {
 // How figures read on a page: hundredths of a second, whole centimetres (rounded down, towards the unsafe side), percent with a blank before the sign.
 std::string percent(double fraction);
 std::string seconds_text(double value_s);
+// "40 %", or "0 .. 40 %" between two bounds.
+std::string percent_span(double from, double to);
+std::string seconds_span(double from_s, double to_s);
 // ", outages of 0.5 s", to follow loss and delay; nothing for independent losses, which need no word.
 std::string outage_text(double mean_outage_s);
+std::string outage_span(double from_s, double to_s);
 std::string metres_text(std::int64_t value_um);
 // "> 0.5 m" if no clearance below that was met, "-" without runs.
 std::string clearance_text(const Tally& tally);
@@ -28,8 +32,9 @@ std::string body_name(EntityId body, const CellRecord& cell);            // "AGV
 // A name or message from outside as one printable line of at most `limit` characters.
 std::string printable(std::string_view text, std::size_t limit = 120);
 
-// One line for a shell, whatever the path holds.
-std::string replay_command(const std::string& archive_path, std::uint64_t run_index);
+// One line for a shell, whatever the path holds. With the name of an agent from a shared object it says where that object's path belongs, which no
+// campaign file knows.
+std::string replay_command(const std::string& archive_path, std::uint64_t run_index, std::string_view plugin_agent = "");
 
 std::string joined(const std::vector<std::string>& parts, std::string_view separator = ", ");
 

@@ -41,7 +41,7 @@ class Bytes {
 
 std::uint64_t row_checksum(const RunRecord& run) {
   Bytes bytes;
-  bytes << run.run_index << std::uint64_t{run.cell} << run.replicate << run.scenario_digest << encode(run.outcome);
+  bytes << run.run_index << std::uint64_t{run.cell} << run.replicate << run.scenario_digest << run.radio.loss << run.radio.delay_s << run.radio.mean_outage_s << encode(run.outcome);
   return bytes.hash();
 }
 
@@ -51,9 +51,14 @@ std::uint64_t plan_checksum(const CampaignRecord& campaign, const std::vector<Ce
   bytes << campaign.engine.version << campaign.engine.program_sha256 << campaign.engine.compiler << campaign.engine.flags << campaign.engine.libraries;
   bytes << std::uint64_t{campaign.required_probes.size()};
   for (const auto& probe : campaign.required_probes) bytes << probe;
+  bytes << campaign.sampling << std::uint64_t{campaign.held_streams.size()};
+  for (const auto& stream : campaign.held_streams) bytes << stream;
+  bytes << campaign.held_replicate << campaign.exempt_purposes << campaign.exempt_radius_m << std::uint64_t{campaign.plugin_agents.size()};
+  for (const auto& agent : campaign.plugin_agents) bytes << agent;
   bytes << std::uint64_t{cells.size()};
   for (const auto& cell : cells) {
     bytes << std::uint64_t{cell.index} << cell.agent << cell.layout << std::uint64_t{cell.fleet_size} << cell.loss << cell.delay_s << cell.mean_outage_s;
+    bytes << cell.loss_to << cell.delay_to_s << cell.mean_outage_to_s;
   }
   bytes << std::uint64_t{gates.size()};
   for (const auto& gate : gates) {

@@ -10,16 +10,30 @@ namespace fleetproof {
 
 // What a campaign file remembers of its plan, in the plan's own terms. Nothing here names a path, a host, a time or a number of jobs.
 
-// One combination of a campaign's factors.
-struct CellRecord {
-  std::uint32_t index = 0;
-  std::string agent, layout;
-  std::uint32_t fleet_size = 0;
+// The nominal quality of the radio in one run.
+struct RadioQuality {
   double loss = 0.0, delay_s = 0.0, mean_outage_s = 0.0;
 
   // The region in which safe *and normal* operation is required (Sect. 2.4), and its corner.
   bool in_contract() const { return loss <= 0.40 && delay_s <= 2.0; }
   bool is_worst_case() const { return loss == 0.40 && delay_s == 2.0; }
+  friend bool operator==(const RadioQuality&, const RadioQuality&) = default;
+};
+
+// One combination of a campaign's factors. A factor of the radio has one value, or is drawn between two bounds, for each replicate anew.
+struct CellRecord {
+  std::uint32_t index = 0;
+  std::string agent, layout;
+  std::uint32_t fleet_size = 0;
+  double loss = 0.0, delay_s = 0.0, mean_outage_s = 0.0;                           // the value, or the lower bound
+  double loss_to = loss, delay_to_s = delay_s, mean_outage_to_s = mean_outage_s;  // the same again, or the upper bound
+
+  bool is_drawn() const { return lowest() != highest(); }
+  RadioQuality lowest() const { return {loss, delay_s, mean_outage_s}; }
+  RadioQuality highest() const { return {loss_to, delay_to_s, mean_outage_to_s}; }
+  // Every run of the cell is.
+  bool in_contract() const { return highest().in_contract(); }
+  bool is_worst_case() const { return lowest().is_worst_case() && highest().is_worst_case(); }
   friend bool operator==(const CellRecord&, const CellRecord&) = default;
 };
 
@@ -57,6 +71,12 @@ struct CampaignRecord {
   EngineIdentity engine;
   // What must have been met for the evidence not to be weak (reports/evidence/coverage.hpp says what the words mean); none of them holds a line end.
   std::vector<std::string> required_probes;
+  std::string sampling;                        // how replicates draw where a cell has bounds: "uniform", "latin-hypercube", "sobol"; empty: no cell has
+  std::vector<std::string> held_streams;       // of randomness: the same in all replicates, those of replicate `held_replicate`
+  std::uint64_t held_replicate = 0;
+  std::string exempt_purposes;                 // of stations near which the safety distance is not asked for, with blanks between; empty: nowhere
+  double exempt_radius_m = 0.0;
+  std::vector<std::string> plugin_agents;      // names of the agents that came from shared objects; none of them holds a line end
   friend bool operator==(const CampaignRecord&, const CampaignRecord&) = default;
 };
 
@@ -66,6 +86,7 @@ struct RunRecord {
   std::uint32_t cell = 0;
   std::uint64_t replicate = 0;
   std::uint64_t scenario_digest = 0;           // of the canonical scenario text
+  RadioQuality radio;                          // the cell's, or what the replicate drew within its bounds
   Outcome outcome;
 };
 

@@ -122,11 +122,13 @@ Enum word_to(const std::string& word, const std::array<Enum, N>& values) {
 void bind_campaign(SQLite::Statement& insert, const CampaignRecord& campaign, std::uint64_t plan_checksum) {
   Binder(insert) << std::uint32_t{1} << campaign.name << campaign.kind << campaign.seed << campaign.replicates << campaign.plan_json << campaign.plan_hash
                  << campaign.engine.version << campaign.engine.program_sha256 << campaign.engine.compiler << campaign.engine.flags << campaign.engine.libraries
-                 << in_lines(campaign.required_probes) << plan_checksum;
+                 << in_lines(campaign.required_probes) << campaign.sampling << in_lines(campaign.held_streams) << campaign.held_replicate
+                 << campaign.exempt_purposes << campaign.exempt_radius_m << in_lines(campaign.plugin_agents) << plan_checksum;
 }
 
 void bind_cell(SQLite::Statement& insert, const CellRecord& cell) {
-  Binder(insert) << cell.index << cell.agent << cell.layout << cell.fleet_size << cell.loss << cell.delay_s << cell.mean_outage_s;
+  Binder(insert) << cell.index << cell.agent << cell.layout << cell.fleet_size << cell.loss << cell.delay_s << cell.mean_outage_s << cell.loss_to
+                 << cell.delay_to_s << cell.mean_outage_to_s;
 }
 
 void bind_gate(SQLite::Statement& insert, const GateRecord& gate) {
@@ -137,7 +139,8 @@ void bind_gate(SQLite::Statement& insert, const GateRecord& gate) {
 void bind_run(SQLite::Statement& insert, const RunRecord& run, std::uint64_t checksum) {
   const auto& o = run.outcome;
   Binder to(insert);
-  to << run.run_index << run.cell << run.replicate << run.scenario_digest << name_of(o.outcome_class());
+  to << run.run_index << run.cell << run.replicate << run.scenario_digest << run.radio.loss << run.radio.delay_s << run.radio.mean_outage_s;
+  to << name_of(o.outcome_class());
   to << o.violation << o.contact << o.stuck << o.crash << o.hang << o.indeterminate << o.engine_error;
   to << o.min_clearance_um << o.simulated_ns << o.agv_count << o.digest << o.running_digests << o.message;
   for (const auto& column : kCounterColumns) to << o.counters.*column.member;
@@ -176,6 +179,12 @@ CampaignRecord read_campaign(const SQLite::Statement& row) {
   campaign.engine.flags = from.text();
   campaign.engine.libraries = from.text();
   campaign.required_probes = from_lines(from.text());
+  campaign.sampling = from.text();
+  campaign.held_streams = from_lines(from.text());
+  campaign.held_replicate = from.u64();
+  campaign.exempt_purposes = from.text();
+  campaign.exempt_radius_m = from.real();
+  campaign.plugin_agents = from_lines(from.text());
   return campaign;
 }
 
@@ -191,6 +200,9 @@ CellRecord read_cell(const SQLite::Statement& row) {
   cell.loss = from.real();
   cell.delay_s = from.real();
   cell.mean_outage_s = from.real();
+  cell.loss_to = from.real();
+  cell.delay_to_s = from.real();
+  cell.mean_outage_to_s = from.real();
   return cell;
 }
 
@@ -218,6 +230,9 @@ StoredRun read_run(const SQLite::Statement& row) {
   run.cell = from.u32();
   run.replicate = from.u64();
   run.scenario_digest = from.u64();
+  run.radio.loss = from.real();
+  run.radio.delay_s = from.real();
+  run.radio.mean_outage_s = from.real();
   stored.outcome_class = from.text();
   for (const auto flag : {&Outcome::violation, &Outcome::contact, &Outcome::stuck, &Outcome::crash, &Outcome::hang, &Outcome::indeterminate,
                           &Outcome::engine_error}) {

@@ -22,6 +22,12 @@ CREATE TABLE campaign (
   flags TEXT NOT NULL,
   libraries TEXT NOT NULL,
   required_probes TEXT NOT NULL,
+  sampling TEXT NOT NULL,
+  held_streams TEXT NOT NULL,
+  held_replicate INTEGER NOT NULL,
+  exempt_purposes TEXT NOT NULL,
+  exempt_radius_m REAL NOT NULL,
+  plugin_agents TEXT NOT NULL,
   plan_checksum INTEGER NOT NULL,
   run_count INTEGER,
   rows_digest INTEGER
@@ -33,7 +39,10 @@ CREATE TABLE cells (
   fleet_size INTEGER NOT NULL,
   loss REAL NOT NULL,
   delay_s REAL NOT NULL,
-  mean_outage_s REAL NOT NULL
+  mean_outage_s REAL NOT NULL,
+  loss_to REAL NOT NULL,
+  delay_to_s REAL NOT NULL,
+  mean_outage_to_s REAL NOT NULL
 ) STRICT, WITHOUT ROWID;
 CREATE TABLE gates (
   gate INTEGER PRIMARY KEY,
@@ -54,6 +63,9 @@ CREATE TABLE runs (
   cell INTEGER NOT NULL,
   replicate INTEGER NOT NULL,
   scenario_digest INTEGER NOT NULL,
+  loss REAL NOT NULL,
+  delay_s REAL NOT NULL,
+  mean_outage_s REAL NOT NULL,
   outcome_class TEXT NOT NULL,
   violation INTEGER NOT NULL,
   contact INTEGER NOT NULL,
@@ -106,12 +118,12 @@ CREATE TABLE probes (
 ) STRICT, WITHOUT ROWID;
 )sql";
 
-// The region's bounds are those of CellRecord::in_contract and is_worst_case.
+// The region's bounds are those of RadioQuality. A run has the quality it was drawn with; a cell with bounds is in the contract if all of it is.
 constexpr const char* kViews = R"sql(
 CREATE VIEW v1_cells AS
 SELECT c.cell, c.agent, c.layout, c.fleet_size, c.loss, c.delay_s,
-       c.loss <= 0.40 AND c.delay_s <= 2.0 AS in_contract,
-       c.loss = 0.40 AND c.delay_s = 2.0 AS is_worst_case,
+       c.loss_to <= 0.40 AND c.delay_to_s <= 2.0 AS in_contract,
+       c.loss = 0.40 AND c.loss_to = 0.40 AND c.delay_s = 2.0 AND c.delay_to_s = 2.0 AS is_worst_case,
        count(r.run_index) AS runs,
        coalesce(sum(r.violation), 0) AS violation_runs,
        coalesce(sum(r.contact), 0) AS contact_runs,
@@ -123,35 +135,35 @@ SELECT c.cell, c.agent, c.layout, c.fleet_size, c.loss, c.delay_s,
        min(r.min_clearance_um) AS min_clearance_um,
        coalesce(sum(r.transports_done), 0) AS transports_done,
        total(r.simulated_ns * 1e-9 * r.agv_count / 3600.0) AS agv_hours,
-       c.mean_outage_s
+       c.mean_outage_s, c.loss_to, c.delay_to_s, c.mean_outage_to_s
 FROM cells c LEFT JOIN runs r ON r.cell = c.cell GROUP BY c.cell;
 CREATE VIEW v1_runs AS
-SELECT r.run_index, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, c.loss, c.delay_s,
-       c.loss <= 0.40 AND c.delay_s <= 2.0 AS in_contract,
+SELECT r.run_index, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, r.loss, r.delay_s,
+       r.loss <= 0.40 AND r.delay_s <= 2.0 AS in_contract,
        r.outcome_class, r.violation, r.contact, r.stuck, r.crash, r.hang, r.indeterminate, r.engine_error,
        r.min_clearance_um, r.simulated_ns, r.agv_count, r.message,
 {run_counters},
        printf('%016x', r.digest) AS digest,
        printf('%016x', r.scenario_digest) AS scenario_digest,
-       c.mean_outage_s
+       r.mean_outage_s
 FROM runs r JOIN cells c ON c.cell = r.cell;
 CREATE VIEW v1_violations AS
-SELECT v.run_index, v.ordinal, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, c.loss, c.delay_s,
-       c.loss <= 0.40 AND c.delay_s <= 2.0 AS in_contract,
+SELECT v.run_index, v.ordinal, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, r.loss, r.delay_s,
+       r.loss <= 0.40 AND r.delay_s <= 2.0 AS in_contract,
        v.entity_a, v.entity_b, v.first_ns, v.last_ns, v.closest_at_ns, v.min_clearance_um,
-       v.relative_speed_um_s, v.x_um, v.y_um, v.contact, c.mean_outage_s,
+       v.relative_speed_um_s, v.x_um, v.y_um, v.contact, r.mean_outage_s,
        CASE WHEN NOT v.contact THEN 'safety distance broken' WHEN v.relative_speed_um_s > {hazardous} THEN 'contact at hazardous speed' ELSE 'contact' END AS level,
        CASE WHEN v.entity_b < r.agv_count THEN 'AGV-AGV' ELSE 'AGV-obstacle' END AS entities
 FROM violations v JOIN runs r ON r.run_index = v.run_index JOIN cells c ON c.cell = r.cell;
 CREATE VIEW v1_incidents AS
-SELECT i.run_index, i.ordinal, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, c.loss, c.delay_s,
-       c.loss <= 0.40 AND c.delay_s <= 2.0 AS in_contract,
+SELECT i.run_index, i.ordinal, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, r.loss, r.delay_s,
+       r.loss <= 0.40 AND r.delay_s <= 2.0 AS in_contract,
        CASE i.kind{incident_names} END AS kind, i.entity_a, i.entity_b, i.first_ns, i.last_ns, i.value,
        CASE i.kind{incident_units} END AS unit
 FROM incidents i JOIN runs r ON r.run_index = i.run_index JOIN cells c ON c.cell = r.cell;
 CREATE VIEW v1_probes AS
-SELECT p.run_index, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, c.loss, c.delay_s,
-       c.loss <= 0.40 AND c.delay_s <= 2.0 AS in_contract,
+SELECT p.run_index, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, r.loss, r.delay_s,
+       r.loss <= 0.40 AND r.delay_s <= 2.0 AS in_contract,
        CASE p.source WHEN 0 THEN 'world' ELSE 'agent' END AS source, CAST(p.name AS TEXT) AS name, p.count
 FROM probes p JOIN runs r ON r.run_index = p.run_index JOIN cells c ON c.cell = r.cell;
 )sql";
@@ -187,8 +199,8 @@ std::string schema_ddl() {
 }
 
 std::string run_columns(const std::string& prefix) {
-  return with_prefix(prefix, {"run_index", "cell", "replicate", "scenario_digest", "outcome_class", "violation", "contact", "stuck", "crash", "hang",
-                              "indeterminate", "engine_error", "min_clearance_um", "simulated_ns", "agv_count", "digest", "running_digests", "message"}) +
+  return with_prefix(prefix, {"run_index", "cell", "replicate", "scenario_digest", "loss", "delay_s", "mean_outage_s", "outcome_class", "violation", "contact",
+                              "stuck", "crash", "hang", "indeterminate", "engine_error", "min_clearance_um", "simulated_ns", "agv_count", "digest", "running_digests", "message"}) +
          ", " + counter_list(prefix) + ", " + prefix + "checksum";
 }
 

@@ -9,7 +9,7 @@
 namespace fleetproof {
 
 inline constexpr std::int32_t kApplicationId = 0x464C5046;  // "FLPF": tells a campaign file from any other SQLite file
-inline constexpr std::int32_t kSchemaVersion = 2;
+inline constexpr std::int32_t kSchemaVersion = 3;
 inline constexpr std::int32_t kPageSize = 4096;
 
 // A counter of the outcome and the column of `runs` that holds it.
@@ -67,11 +67,11 @@ std::string run_columns(const std::string& prefix = "");
 std::string violation_columns();
 inline constexpr const char* kIncidentColumns = "run_index, ordinal, kind, entity_a, entity_b, first_ns, last_ns, value";
 inline constexpr const char* kProbeColumns = "run_index, ordinal, source, name, count";
-inline constexpr const char* kCellColumns = "cell, agent, layout, fleet_size, loss, delay_s, mean_outage_s";
+inline constexpr const char* kCellColumns = "cell, agent, layout, fleet_size, loss, delay_s, mean_outage_s, loss_to, delay_to_s, mean_outage_to_s";
 inline constexpr const char* kGateColumns = "gate, name, agent, kind, end_point, region, limit_rate, confidence, min_transports_per_agv_hour";
 inline constexpr const char* kCampaignColumns =
     "id, name, kind, seed, replicates, plan_json, plan_hash, engine_version, program_sha256, compiler, flags, libraries, required_probes, "
-    "plan_checksum";
+    "sampling, held_streams, held_replicate, exempt_purposes, exempt_radius_m, plugin_agents, plan_checksum";
 
 // "?, ?, ?": one for each name in a comma-separated list.
 std::string placeholders(const std::string& columns);

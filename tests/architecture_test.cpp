@@ -60,6 +60,7 @@ const std::vector<Home> kHomes = {
     {"CLI/", {"campaign/cli/command_line.cpp"}},
     {"boost/math", {"reports/evidence/"}},
     {"boost/graph", {"generators/"}},
+    {"boost/random", {"campaign/sobol.cpp"}},
     {"toml++/", {"campaign/toml_table.cpp"}},
     {"pugixml", {"generators/"}},
     {"yaml-cpp/", {"generators/"}},

@@ -35,10 +35,10 @@ double mean_run_s(const CampaignPlan& plan, const AgentPrograms& programs) {
 // Draws the worlds of the first replicates, one for each layout and fleet size, and says what was refused on the way.
 void tell_rejections(const CampaignPlan& plan) {
   const ScenarioSource source(plan);
-  const std::uint64_t qualities = plan.loss.size() * plan.delay_s.size() * plan.agents.size(), replicates = std::min(plan.replicates, kReplicatesDrawn);
+  const std::uint64_t replicates = std::min(plan.replicates, kReplicatesDrawn);
   RejectionCounts counts;
   for (std::uint64_t replicate = 0; replicate < replicates; ++replicate) {
-    for (std::uint64_t cell = 0; cell < plan.cell_count(); cell += qualities) source.scenario(replicate * plan.cell_count() + cell, counts);
+    for (std::uint64_t cell = 0; cell < plan.cell_count(); cell += plan.cells_per_world()) source.scenario(replicate * plan.cell_count() + cell, counts);
   }
   const auto text = rejection_text(counts);
   fmt::print("worlds of the first {} replicates: {} drawn, {} more refused{}{}", replicates, counts.worlds, counts.worlds_rejected,

@@ -28,10 +28,11 @@ std::string duration_text(double seconds) {
 
 }  // namespace
 
-ProgressTalk::ProgressTalk(const CampaignPlan& plan, std::string archive_path, int workers)
+ProgressTalk::ProgressTalk(const CampaignPlan& plan, std::vector<std::string> plugins, std::string archive_path, int workers)
     : opening_(fmt::format("campaign {}: {} cells x {} replicates = {} runs, seed {}, {} workers", plan.name, plan.cell_count(), plan.replicates,
                            plan.run_count(), plan.seed, workers)),
       cells_(plan.cells()),
+      plugins_(std::move(plugins)),
       archive_path_(std::move(archive_path)),
       terminal_(is_terminal()) {}
 
@@ -50,9 +51,10 @@ void ProgressTalk::run_finished(const RunRecord& record) {
   if (std::ranges::find(told_agents_, cell.agent) != told_agents_.end()) return;
   told_agents_.push_back(cell.agent);
   clear_line();
-  fmt::print(stderr, "first failure of {}: {} in run {} ({}, {} AGVs, {:g} % loss, {:g} s delay{})\n  replay: fleetproof replay {} {}\n", cell.agent,
-             name_of(outcome.outcome_class()), record.run_index, cell.layout, cell.fleet_size, 100.0 * cell.loss, cell.delay_s,
-             outage_text(cell.mean_outage_s), archive_path_, record.run_index);
+  fmt::print(stderr, "first failure of {}: {} in run {} ({}, {} AGVs, {:g} % loss, {:g} s delay{})\n  replay: {}\n", cell.agent,
+             name_of(outcome.outcome_class()), record.run_index, cell.layout, cell.fleet_size, 100.0 * record.radio.loss, record.radio.delay_s,
+             outage_text(record.radio.mean_outage_s),
+             replay_command(archive_path_, record.run_index, std::ranges::find(plugins_, cell.agent) == plugins_.end() ? "" : cell.agent));
 }
 
 std::string ProgressTalk::counter_line(const Progress& progress) const {

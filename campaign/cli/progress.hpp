@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "campaign/campaign.hpp"
 
@@ -10,7 +11,8 @@ namespace fleetproof::cli {
 // once the first failure of each agent with the line that replays it.
 class ProgressTalk {
  public:
-  ProgressTalk(const CampaignPlan& plan, std::string archive_path, int workers);
+  // `plugins`: the agents that come from shared objects.
+  ProgressTalk(const CampaignPlan& plan, std::vector<std::string> plugins, std::string archive_path, int workers);
   ~ProgressTalk();
   ProgressTalk(const ProgressTalk&) = delete;
   ProgressTalk& operator=(const ProgressTalk&) = delete;
@@ -26,6 +28,7 @@ class ProgressTalk {
 
   const std::string opening_;
   const std::vector<CellRecord> cells_;
+  const std::vector<std::string> plugins_;
   const std::string archive_path_;
   const bool terminal_;
   std::vector<std::string> told_agents_;

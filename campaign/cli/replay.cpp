@@ -41,9 +41,9 @@ void print_json(const ReplayResult& result, const CellRecord& cell) {
                                  {"agent", cell.agent},
                                  {"layout", cell.layout},
                                  {"fleet_size", cell.fleet_size},
-                                 {"loss", cell.loss},
-                                 {"delay_s", cell.delay_s},
-                                 {"mean_outage_s", cell.mean_outage_s},
+                                 {"loss", result.recomputed.radio.loss},
+                                 {"delay_s", result.recomputed.radio.delay_s},
+                                 {"mean_outage_s", result.recomputed.radio.mean_outage_s},
                                  {"outcome", name_of(outcome.outcome_class())},
                                  {"violations", outcome.violations.size()},
                                  {"digest_stored", fmt::format("{:016x}", result.stored.outcome.digest)},
@@ -65,12 +65,12 @@ int replay_run(const ReplayWords& words) {
   const ReplayResult result = replay(archive, words.run, programs, words.trace ? &printer : nullptr);
   if (!words.scenario_out.empty()) write_scenario(scenario, words.scenario_out);
   const CellRecord cell = source.place(words.run).cell;
+  const RadioQuality& radio = result.recomputed.radio;
   if (words.json) {
     print_json(result, cell);
   } else {
     fmt::print("{}  run {}: {}, {}, {} AGVs, loss {:g} %, delay {:g} s{}, replicate {}\n", name_of(result.verdict), words.run, cell.agent, cell.layout,
-               cell.fleet_size, 100.0 * cell.loss, cell.delay_s, outage_text(cell.mean_outage_s),
-               result.recomputed.replicate);
+               cell.fleet_size, 100.0 * radio.loss, radio.delay_s, outage_text(radio.mean_outage_s), result.recomputed.replicate);
     if (!result.explanation.empty()) fmt::print("  {}\n", result.explanation);
     fmt::print("{}", outcome_text(scenario, result.recomputed.outcome));
     const bool same_program = archive.campaign().engine == campaign_record(plan, programs).engine;

@@ -73,7 +73,7 @@ int run(RunWords words) {
   std::signal(SIGTERM, on_signal);
   CampaignResult result;
   {
-    ProgressTalk talk(file.plan, words.archive, options.workers);
+    ProgressTalk talk(file.plan, plugin_agents(file.plan, programs), words.archive, options.workers);
     const std::string started_utc = utc_now();
     result = run_campaign(file.plan, programs, words.archive, options, talk.listener());
     append_session(words.archive, started_utc, options, result);

@@ -93,7 +93,7 @@ std::string met_text(const Outcome& outcome) {
   return text.empty() ? text : text + "\n";
 }
 
-std::string outcome_text(const Scenario& scenario, const Outcome& outcome) {
+std::string outcome_text(const Scenario& scenario, const Outcome& outcome, bool clearance_measured) {
   std::string text = fmt::format("{}: {}\n", scenario.name, name_of(outcome.outcome_class()));
   if (!outcome.message.empty()) text += fmt::format("  {}\n", outcome.message);
   for (const Violation& v : outcome.violations) {
@@ -110,7 +110,7 @@ std::string outcome_text(const Scenario& scenario, const Outcome& outcome) {
   if (outcome.min_clearance_um) {
     text += fmt::format("  smallest clearance {:.2f} m\n", static_cast<double>(*outcome.min_clearance_um) * 1e-6);
   } else {
-    text += "  smallest clearance > 0.5 m\n";
+    text += clearance_measured ? "  smallest clearance > 0.5 m\n" : "  smallest clearance not measured\n";
   }
   if (outcome.counters.perimeter_checks > 0) text += fmt::format("  {} perimeter checks by the law\n", outcome.counters.perimeter_checks);
   return text + counters_text(outcome) + met_text(outcome) + fmt::format("  trace digest {:016x}\n", outcome.digest);

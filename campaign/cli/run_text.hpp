@@ -18,7 +18,8 @@ std::string incident_text(const Scenario& scenario, const Incident& incident);
 // "met: head-on 3, agent: negotiation 17", or nothing.
 std::string met_text(const Outcome& outcome);
 // One run for a person: what happened, in times of 0.01 s and lengths of 1 cm (violations to 1 ms and 1 mm, where the centimetre would hide them).
-std::string outcome_text(const Scenario& scenario, const Outcome& outcome);
+// Published laws leave the clearance of bodies that they do not accuse unmeasured.
+std::string outcome_text(const Scenario& scenario, const Outcome& outcome, bool clearance_measured = true);
 
 // Prints the trace of a run on stderr, one event a line.
 class TracePrinter final : public TraceSink {

@@ -97,6 +97,9 @@ Observers observers_of(const std::string& name, const Scenario& scenario) {
   return observers;
 }
 
+// Only the judge of clearances by itself tells the smallest one.
+bool measures_clearance(const SimulateWords& words) { return find_law(words.law) == &laws().front(); }
+
 void print_json(const Scenario& scenario, const Outcome& outcome, const SimulateWords& words, const Observers& observers) {
   nlohmann::ordered_json json;
   json["schema_version"] = 1;
@@ -122,6 +125,7 @@ void print_json(const Scenario& scenario, const Outcome& outcome, const Simulate
                                      {"violation", to_json(difference.violation, scenario)}});
     }
   }
+  json["clearance_measured"] = measures_clearance(words);
   json["min_clearance_m"] = nullptr;
   if (outcome.min_clearance_um) json["min_clearance_m"] = static_cast<double>(*outcome.min_clearance_um) * 1e-6;
   const Counters& c = outcome.counters;
@@ -153,7 +157,7 @@ int simulate_scenario(const SimulateWords& words) {
   if (words.json) {
     print_json(scenario, outcome, words, observers);
   } else {
-    fmt::print("{}", outcome_text(scenario, outcome));
+    fmt::print("{}", outcome_text(scenario, outcome, measures_clearance(words)));
     if (observers.compared_with != nullptr) fmt::print("{}", differences_text(scenario, observers.differences(scenario), find_law(words.law)->name));
   }
   if (outcome.engine_error) return kEngineFault;

@@ -23,10 +23,12 @@ bool covers(const GateRecord& gate, const CellRecord& cell) {
 // Rows of the tables: agents in the order in which the campaign names them, so that the same campaign always prints the same page.
 std::vector<Pool> condition_pools(const std::vector<CellRecord>& cells) {
   std::map<std::string, std::size_t> order;
-  std::map<std::tuple<std::size_t, double, double, double>, Pool> pools;
+  const auto key_of = [](const RadioQuality& q) { return std::tuple(q.loss, q.delay_s, q.mean_outage_s); };
+  using Quality = std::tuple<double, double, double>;
+  std::map<std::tuple<std::size_t, Quality, Quality>, Pool> pools;
   for (const auto& cell : cells) {
     const auto agent = order.try_emplace(cell.agent, order.size()).first->second;
-    pools[{agent, cell.loss, cell.delay_s, cell.mean_outage_s}].cells.push_back(cell.index);
+    pools[{agent, key_of(cell.lowest()), key_of(cell.highest())}].cells.push_back(cell.index);
   }
   std::vector<Pool> list;
   for (auto& [key, pool] : pools) list.push_back(std::move(pool));
@@ -38,12 +40,18 @@ std::vector<Pool> condition_pools(const std::vector<CellRecord>& cells) {
 Evidence::Evidence(const CampaignRecord& campaign, std::vector<CellRecord> cells, std::vector<GateRecord> gates)
     : counts_only_(campaign.kind == "search"),
       planned_(campaign.replicates),
+      sampling_(campaign.sampling),
+      held_streams_(campaign.held_streams),
+      held_replicate_(campaign.held_replicate),
       cells_(std::move(cells)),
       gates_(std::move(gates)),
       tallies_(cells_.size()),
       pending_tallies_(cells_.size()),
       pools_of_cell_(cells_.size()) {
   for (std::size_t i = 0; i < cells_.size(); ++i) ensure(cells_[i].index == i, "cells are numbered from 0 on");
+  for (const auto& cell : cells_) {
+    ensure(cell.loss <= cell.loss_to && cell.delay_s <= cell.delay_to_s && cell.mean_outage_s <= cell.mean_outage_to_s, "the upper bound is not below the lower");
+  }
   for (const auto& gate : gates_) {
     Pool pool;
     pool.end_point = gate.end_point;
@@ -70,7 +78,8 @@ void Evidence::add(const RunRecord& run) {
   engine_errors_ += run.outcome.engine_error;
   pending_tallies_[run.cell].add(run.outcome);
   if (const auto failing = FailingRun::of(run)) {
-    (cells_[run.cell].in_contract() ? worst_inside_ : worst_outside_).add(*failing);
+    (run.radio.in_contract() ? worst_inside_ : worst_outside_).add(*failing);
+    if (run.radio.in_contract() && result_of(run.outcome, EndPoint::Violation) == RunResult::Failed) add_contract_failure(*failing);
   }
   std::map<IncidentKind, std::uint64_t> incidents;
   for (const auto& incident : run.outcome.incidents) ++incidents[incident.kind];
@@ -86,6 +95,23 @@ void Evidence::add(const RunRecord& run) {
     add_to_pool(pool, run);
   }
   if (run.cell + 1 == cells_.size()) finish_replicate();
+}
+
+void Evidence::add_contract_failure(const FailingRun& run) {
+  const auto& agent = cells_[run.cell].agent;
+  auto& failures = contract_failures_.try_emplace(agent, ContractFailures{agent, 0, run}).first->second;
+  ++failures.runs;
+  if (more_serious(run, failures.worst)) failures.worst = run;
+}
+
+std::vector<ContractFailures> Evidence::contract_failures() const {
+  std::vector<ContractFailures> list;
+  for (std::size_t i = gates_.size(); i < pools_.size(); ++i) {
+    const auto found = contract_failures_.find(cells_[pools_[i].cells.front()].agent);
+    const bool listed = !list.empty() && found != contract_failures_.end() && list.back().agent == found->first;  // conditions come agent by agent
+    if (found != contract_failures_.end() && !listed) list.push_back(found->second);
+  }
+  return list;
 }
 
 void Evidence::add_to_pool(std::size_t index, const RunRecord& run) {
@@ -150,7 +176,7 @@ std::vector<Condition> Evidence::conditions() const {
   std::vector<Condition> list;
   for (std::size_t i = gates_.size(); i < pools_.size(); ++i) {
     const auto& first = cells_[pools_[i].cells.front()];
-    Condition condition{first.agent, first.loss, first.delay_s, first.mean_outage_s, first.in_contract(), first.is_worst_case(), {}, pools_[i], {}};
+    Condition condition{first.agent, first.lowest(), first.highest(), first.in_contract(), first.is_worst_case(), {}, pools_[i], {}};
     for (const auto cell : pools_[i].cells) condition.tally.add(tallies_[cell]);
     if (const auto& worst = worst_of_pool_[i].list(); !worst.empty()) condition.worst = worst.front();
     list.push_back(std::move(condition));

@@ -23,14 +23,21 @@ struct Pool {
   std::uint64_t failing_runs = 0;                                // over all runs read so far
 };
 
-// All cells of one agent at one radio quality: a row of a table.
+// All cells of one agent at one radio quality, or between the same bounds: a row of a table.
 struct Condition {
   std::string agent;
-  double loss = 0.0, delay_s = 0.0, mean_outage_s = 0.0;
+  RadioQuality lowest, highest;     // the same, unless replicates draw theirs in between
   bool in_contract = false, is_worst_case = false;
   Tally tally;
   Pool pool;
   std::optional<FailingRun> worst;  // the most serious run that violated, or ended unknown
+};
+
+// The runs of one agent that broke the safety distance within the contract region, by the radio quality of the run itself.
+struct ContractFailures {
+  std::string agent;
+  std::uint64_t runs = 0;
+  FailingRun worst;
 };
 
 // What the runs of one agent met, what they were to meet and did not, and what the laws found besides pairs that were too close.
@@ -59,6 +66,9 @@ class Evidence {
   std::uint64_t planned_replicates() const { return planned_; }
   bool complete() const { return replicates_ >= planned_; }          // every planned replicate is
   std::uint64_t engine_errors() const { return engine_errors_; }     // among the runs read so far
+  const std::string& sampling() const { return sampling_; }          // of cells with bounds; empty if there is none
+  const std::vector<std::string>& held_streams() const { return held_streams_; }
+  std::uint64_t held_replicate() const { return held_replicate_; }
   const std::vector<CellRecord>& cells() const { return cells_; }
   const std::vector<GateRecord>& gates() const { return gates_; }
   const Tally& tally(std::uint32_t cell) const { return tallies_.at(cell); }
@@ -70,17 +80,22 @@ class Evidence {
   std::vector<Condition> conditions() const;                         // by agent as the campaign names them, then loss, delay, mean outage
   const Coverage& coverage_of(std::size_t gate) const { return coverage_.at(gate); }
   std::vector<AgentCoverage> agent_coverage() const;                 // as the campaign names them
+  std::vector<ContractFailures> contract_failures() const;           // as the campaign names the agents; without those that have none
   const std::vector<FailingRun>& worst_runs(bool in_contract) const { return (in_contract ? worst_inside_ : worst_outside_).list(); }
 
  private:
   struct Flags {
     bool failed = false, unknown = false;
   };
+  void add_contract_failure(const FailingRun& run);
   void add_to_pool(std::size_t index, const RunRecord& run);
   void finish_replicate();
 
   bool counts_only_ = false;
   std::uint64_t planned_ = 0;
+  std::string sampling_;
+  std::vector<std::string> held_streams_;
+  std::uint64_t held_replicate_ = 0;
   std::vector<CellRecord> cells_;
   std::vector<GateRecord> gates_;
   std::uint64_t runs_ = 0, replicates_ = 0, engine_errors_ = 0;
@@ -92,6 +107,7 @@ class Evidence {
   std::vector<Coverage> coverage_, pending_coverage_;  // in the same order
   std::vector<std::string> required_probes_;
   std::map<std::string, std::map<IncidentKind, IncidentTally>> incidents_;  // by agent, of the runs read so far
+  std::map<std::string, ContractFailures> contract_failures_;               // likewise
   WorstRuns worst_inside_{kWorstRuns}, worst_outside_{kWorstRuns};
 };
 

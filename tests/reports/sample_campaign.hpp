@@ -71,6 +71,7 @@ inline ReportInput report_of(CampaignRecord campaign, const std::vector<CellReco
   ReportInput input{"night.fp", campaign, Evidence(campaign, cells, gates), {}, 0, 4};
   for (std::uint64_t i = 0; i < campaign.replicates * cells.size() + extra_runs - missing_runs; ++i) {
     auto run = clean_run(i, cells.size());
+    run.radio = cells[run.cell].lowest();
     if (change) change(run);
     input.evidence.add(run);
     ++input.stored_runs;

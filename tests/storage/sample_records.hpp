@@ -22,6 +22,11 @@ inline CampaignRecord campaign() {
   record.plan_hash = 0x8000000000000001ULL;
   record.engine = {"0.1.0", "ab12", "g++ 12.2.0", "-O2", "SQLite 3.40.1"};
   record.required_probes = {"encounter", "negotiation?"};
+  record.held_streams = {"layout", "radio"};
+  record.held_replicate = 3;
+  record.exempt_purposes = "charging parking";
+  record.exempt_radius_m = 1.25;
+  record.plugin_agents = {"sound"};
   return record;
 }
 
@@ -104,6 +109,7 @@ inline std::vector<RunRecord> runs(std::uint64_t count, std::uint64_t seed = 7) 
     run.cell = static_cast<std::uint32_t>(i % cells().size());
     run.replicate = i / cells().size();
     run.scenario_digest = random();
+    run.radio = cells()[run.cell].lowest();
     run.outcome = random_outcome(random);
     list.push_back(run);
   }

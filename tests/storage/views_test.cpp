@@ -34,6 +34,7 @@ class Views : public testing::Test {
       run.run_index = i;
       run.cell = i % 6;
       run.replicate = i / 6;
+      run.radio = samples::cells()[run.cell].lowest();
       run.outcome = Outcome{};
       run.outcome.simulated_ns = 3'600'000'000'000;
       run.outcome.agv_count = 5;
@@ -86,9 +87,37 @@ TEST_F(Views, v1_probes_tells_what_was_met) {
   EXPECT_EQ(query(path_, "SELECT run_index, agent, loss, source, name, count FROM v1_probes ORDER BY name"), "4|sound|0.4|world|head-on|3|4|sound|0.4|agent|negotiation|17");
 }
 
+TEST_F(Views, runs_have_the_quality_they_drew_and_cells_their_bounds) {
+  TemporaryFolder folder;
+  const std::string path = folder / "drawn.fp";
+  auto campaign = samples::campaign();
+  campaign.sampling = "uniform";
+  const std::vector<CellRecord> cells{{0, "sound", "ring", 5, 0.0, 1.0, 0.5, 0.8, 2.0, 2.5}, {1, "sound", "ring", 5, 0.0, 0.0, 0.0, 0.4, 2.0, 0.0}};
+  ArchiveWriter writer(path, campaign, cells, samples::gates());
+  RunRecord run;
+  run.radio = {0.125, 1.5, 0.75};
+  writer.add(run);
+  run.run_index = run.cell = 1;
+  run.radio = {0.4, 2.0, 0.0};
+  writer.add(run);
+  run = {2, 0, 1, 0, {0.75, 1.25, 0.5}, {}};
+  file_violations(run.outcome, {Violation{}});
+  writer.add(run);
+  writer.publish(3);
+  EXPECT_EQ(query(path, "SELECT loss, loss_to, delay_s, delay_to_s, mean_outage_s, mean_outage_to_s, in_contract, is_worst_case FROM v1_cells WHERE cell = 0"),
+            "0.0|0.8|1.0|2.0|0.5|2.5|0|0");
+  EXPECT_EQ(query(path, "SELECT in_contract, is_worst_case FROM v1_cells WHERE cell = 1"), "1|0");
+  EXPECT_EQ(query(path, "SELECT loss, delay_s, mean_outage_s, in_contract FROM v1_runs"), "0.125|1.5|0.75|1|0.4|2.0|0.0|1|0.75|1.25|0.5|0");
+  EXPECT_EQ(query(path, "SELECT loss, delay_s, mean_outage_s, in_contract FROM v1_violations"), "0.75|1.25|0.5|0");
+  const ArchiveReader reader(path);
+  EXPECT_EQ(reader.cells(), cells);
+  EXPECT_EQ(reader.campaign(), campaign);
+  EXPECT_EQ(reader.run(2)->radio, (RadioQuality{0.75, 1.25, 0.5}));
+}
+
 TEST_F(Views, the_file_names_its_kind_and_version) {
   EXPECT_EQ(query(path_, "PRAGMA application_id"), std::to_string(0x464C5046));
-  EXPECT_EQ(query(path_, "PRAGMA user_version"), "2");
+  EXPECT_EQ(query(path_, "PRAGMA user_version"), "3");
   EXPECT_EQ(query(path_, "PRAGMA page_size"), "4096");
   EXPECT_EQ(query(path_, "PRAGMA journal_mode"), "delete");
   EXPECT_EQ(query(path_, "PRAGMA integrity_check"), "ok");

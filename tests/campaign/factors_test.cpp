@@ -1,0 +1,242 @@
+// Continuous factors, held streams and exemptions: from the campaign file to the scenario of a run.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "campaign/agent_programs.hpp"
+#include "campaign/campaign_file.hpp"
+#include "campaign/scenario_source.hpp"
+#include "core/error.hpp"
+#include "core/radio.hpp"
+#include "core/simulation.hpp"
+#include "generators/layout_file.hpp"
+#include "generators/scenario_file.hpp"
+#include "tests/storage/sample_records.hpp"
+
+namespace fleetproof {
+namespace {
+
+using testing::HasSubstr;
+
+CampaignPlan read(const std::string& text) {
+  const samples::TemporaryFolder folder;
+  const std::string path = folder / "c.toml";
+  samples::write_bytes(path, text);
+  CampaignFile file = read_campaign_file(path);
+  check_plan(file.plan, path);
+  return file.plan;
+}
+
+std::string error_of(const std::string& text) {
+  try {
+    read(text);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+const std::string kFactors =
+    "[factors]\nagents = [\"reckless\", \"hull-lock\"]\nlayouts = [\"aisle-grid\", \"corridor-sidings\"]\nfleet_sizes = [2, 3]\n";
+const std::string kDrawn = "loss = { from = 0.0, to = 0.4 }\ndelay_s = { from = 0, to = 2 }\n";
+const std::string kSearch = "kind = \"search\"\n";
+
+TEST(DrawnFactors, MakeOneCellAndSurviveThePlansText) {
+  const CampaignPlan plan =
+      read("replicates = 30\n" + kSearch + kFactors + kDrawn + "sampling = \"sobol\"\nmean_outage_s = { from = 0.1, to = 2.5 }\n");
+  EXPECT_EQ(plan.cell_count(), 8U);
+  const CellRecord cell = plan.cells()[3];
+  EXPECT_EQ(cell.lowest(), (RadioQuality{0.0, 0.0, 0.1}));
+  EXPECT_EQ(cell.highest(), (RadioQuality{0.4, 2.0, 2.5}));
+  EXPECT_TRUE(cell.in_contract());
+  EXPECT_FALSE(cell.is_worst_case());
+  const CampaignPlan back = parse_plan(plan_text(plan));
+  EXPECT_EQ(plan_text(back), plan_text(plan));
+  EXPECT_EQ(back.cells(), plan.cells());
+  EXPECT_EQ(back.sampling, Sampling::Sobol);
+  EXPECT_FALSE(read(kFactors + "loss = { from = 0, to = 0.5 }\n").cells()[0].in_contract());
+  EXPECT_EQ(read(kFactors + kDrawn).sampling, Sampling::Uniform);
+}
+
+TEST(DrawnFactors, AreTheSameForEveryCellOfAReplicateAndOtherInTheNext) {
+  for (const Sampling sampling : kSamplings) {
+    CampaignPlan plan = read("replicates = 40\n" + kFactors + kDrawn);
+    plan.sampling = sampling;
+    const ScenarioSource source(plan);
+    std::set<double> losses, delays;
+    for (std::uint64_t run = 0; run < plan.run_count(); ++run) {
+      const RadioQuality radio = source.place(run).radio;
+      EXPECT_EQ(radio, source.place(run - run % plan.cell_count()).radio);
+      EXPECT_GE(radio.loss, 0.0);
+      EXPECT_LT(radio.loss, 0.4);
+      EXPECT_LT(radio.delay_s, 2.0);
+      EXPECT_NE(5.0 * radio.loss, radio.delay_s) << "one draw for two factors";
+      losses.insert(radio.loss);
+      delays.insert(radio.delay_s);
+    }
+    EXPECT_EQ(losses.size(), 40U);
+    EXPECT_EQ(delays.size(), 40U);
+  }
+}
+
+TEST(DrawnFactors, LeaveTheWorldAndOneAnotherAsTheyWere) {
+  const CampaignPlan grid = read("replicates = 3\n" + kFactors + "loss = [0.4]\ndelay_s = [2]\n"),
+                     drawn = read("replicates = 3\n" + kFactors + kDrawn);
+  const CampaignPlan one = read("replicates = 3\n" + kFactors + "delay_s = { from = 0, to = 2 }\n");
+  const ScenarioSource fixed(grid), varied(drawn), delay_only(one);
+  for (const std::uint64_t run : {0U, 5U, 9U, 23U}) {
+    const Scenario a = fixed.scenario(run);
+    Scenario b = varied.scenario(run);
+    EXPECT_EQ(b.radio.loss, varied.place(run).radio.loss);
+    EXPECT_EQ(b.radio.delay_s, varied.place(run).radio.delay_s);
+    EXPECT_EQ(delay_only.place(run).radio.delay_s, b.radio.delay_s);
+    b.radio = a.radio;
+    EXPECT_EQ(to_text(a), to_text(b));
+  }
+}
+
+TEST(DrawnFactors, AreRefusedWithARemedy) {
+  EXPECT_THAT(error_of(kFactors + "loss = { from = 0.4, to = 0.4 }\n"), HasSubstr("from below to"));
+  EXPECT_THAT(error_of(kFactors + "loss = { from = 0.1 }\n"), HasSubstr("from below to"));
+  EXPECT_THAT(error_of(kFactors + "loss = { from = 0, to = 1.5 }\n"), HasSubstr("lies between 0 and 1"));
+  EXPECT_THAT(error_of(kFactors + "loss = { form = 0, to = 1 }\n"), HasSubstr("did you mean \"from\"?"));
+  EXPECT_THAT(error_of(kFactors + "mean_outage_s = { from = 0, to = 1 }\n"), HasSubstr("begin at 0.001"));
+  EXPECT_THAT(error_of(kFactors + kDrawn + "sampling = \"sobl\"\n"), HasSubstr("did you mean \"sobol\"?"));
+  EXPECT_THAT(error_of(kFactors + kDrawn + "sampling = \"sobol\"\n"), HasSubstr("set it to \"uniform\", or kind to \"search\""));
+  EXPECT_THAT(error_of(kFactors + kDrawn + "sampling = \"latin-hypercube\"\n"), HasSubstr("set it to \"uniform\", or kind to \"search\""));
+  EXPECT_EQ(error_of(kSearch + kFactors + kDrawn + "sampling = \"latin-hypercube\"\n"), "no error");
+  EXPECT_THAT(error_of(kSearch + kFactors + "sampling = \"sobol\"\n"), HasSubstr("no factor is drawn"));
+  EXPECT_THAT(error_of(kFactors + kDrawn + "[[gate]]\nagent = \"hull-lock\"\nregion = \"worst-case\"\n"),
+              HasSubstr("no cell of this campaign lies in region"));
+}
+
+std::vector<std::string> starts(const Scenario& scenario) {
+  std::vector<std::string> names;
+  for (const AgvSetup& agv : scenario.agvs) names.push_back(scenario.map->layout().stations.at(agv.start.index()).name);
+  return names;
+}
+
+std::string orders(const Scenario& scenario) {
+  std::string text;
+  for (const AgvSetup& agv : scenario.agvs) {
+    for (const auto& [from, to, release] : agv.transports)
+      text += std::to_string(from.value) + " " + std::to_string(to.value) + " " + std::to_string(release.count()) + "\n";
+  }
+  return text;
+}
+
+// The fates of a hundred messages as the engine would draw them.
+std::string fates(const Scenario& scenario) {
+  Radio radio({.loss = 0.5}, scenario.seed_of(Stream::Radio));
+  std::string text;
+  for (int i = 0; i < 100; ++i) text += radio.fate(AgvId{0U}, AgvId{1U}, at_seconds(i), 0, {}).lost ? 'x' : '.';
+  return text;
+}
+
+const std::string kHeldFactors =
+    "replicates = 6\nhorizon_s = 100\n[factors]\nagents = [\"hull-lock\"]\nlayouts = [\"aisle-grid/stress\"]\nfleet_sizes = [4]\nloss = [0.4]\n";
+
+TEST(HeldStreams, ALayoutAndItsFleetStayWhileTheRadioVaries) {
+  const CampaignPlan plan = read(kHeldFactors + "[vary]\nhold = [\"transports\", \"layout\", \"placement\"]\nheld_replicate = 2\n");
+  EXPECT_EQ(plan.held_streams, (std::vector{Stream::Layout, Stream::Placement, Stream::Transports}));
+  const ScenarioSource source(plan);
+  const Scenario held = source.scenario(2);
+  EXPECT_TRUE(held.stream_seeds.empty());
+  std::set<std::string> radios;
+  for (std::uint64_t run = 0; run < 6; ++run) {
+    const Scenario scenario = source.scenario(run);
+    EXPECT_EQ(to_text(scenario.map->layout()), to_text(held.map->layout())) << run;
+    EXPECT_EQ(starts(scenario), starts(held));
+    EXPECT_EQ(orders(scenario), orders(held));
+    radios.insert(fates(scenario));
+  }
+  EXPECT_EQ(radios.size(), 6U);
+  CampaignPlan free = plan;
+  free.held_streams.clear();
+  EXPECT_EQ(to_text(ScenarioSource(free).scenario(2)), to_text(held)) << "the replicate that is held is what it would have been";
+}
+
+TEST(HeldStreams, TheRadioStaysWhileTheWorldVaries) {
+  const CampaignPlan plan = read(kHeldFactors + "[vary]\nhold = [\"radio\"]\n");
+  const ScenarioSource source(plan);
+  CampaignPlan free = plan;
+  free.held_streams.clear();
+  std::set<std::string> layouts;
+  for (std::uint64_t run = 0; run < 6; ++run) {
+    const Scenario scenario = source.scenario(run), unheld = ScenarioSource(free).scenario(run);
+    EXPECT_EQ(fates(scenario), fates(source.scenario(0)));
+    EXPECT_EQ(starts(scenario), starts(unheld));
+    EXPECT_EQ(orders(scenario), orders(unheld));
+    layouts.insert(to_text(scenario.map->layout()));
+  }
+  EXPECT_EQ(layouts.size(), 6U);
+}
+
+// Whether all streams but some have seed B, or these have seed A under a world of B: the run is one and the same. Every stream of a run is asked for.
+TEST(HeldStreams, TheEngineTakesEveryStreamFromItsOwnSeed) {
+  CampaignPlan plan = read(kHeldFactors + "mean_outage_s = [0.5]\n");
+  plan.vehicles[0].type.speed_deviation = 0.1;
+  plan.faults.breakdowns_per_agv_hour = 60.0;
+  plan.operator_help = {true, 5.0, 30.0, 1.0};
+  plan.radio.contention.interference = true;
+  plan.radio.duplicates = 0.2;
+  plan.vehicles[0].type.battery_idle_per_s = 0.001;
+  Scenario world = ScenarioSource(plan).scenario(0);
+  for (AgvSetup& agv : world.agvs) agv.battery = 0.02;  // so that the operator comes
+  const AgentPrograms programs;
+  const auto run = [&](std::uint64_t seed, std::vector<StreamSeed> seeds) {
+    Scenario scenario = parse_scenario(to_text(world), "text");
+    scenario.seed = seed;
+    scenario.stream_seeds = std::move(seeds);
+    const Scenario read_back = parse_scenario(to_text(scenario), "text");
+    EXPECT_EQ(read_back.stream_seeds, scenario.stream_seeds);
+    EXPECT_EQ(scenario_digest(read_back), scenario_digest(scenario));
+    return simulate(read_back, programs.find("hull-lock", "test"), {});
+  };
+  constexpr std::uint64_t kA = 0xfedcba9876543210ULL, kB = 4711;
+  const Outcome all_a = run(kA, {});
+  EXPECT_GT(all_a.counters.assists, 0U);
+  for (const Stream held : kRunStreams) {
+    std::vector<StreamSeed> others;
+    for (const Stream stream : kRunStreams) {
+      if (stream != held) others.push_back({stream, kA});
+    }
+    const Outcome one = run(kA, {{held, kB}}), other = run(kB, others);
+    EXPECT_EQ(one, other) << name_of(held);
+    const bool drawn_while_running = held == Stream::Radio || held == Stream::Motion || held == Stream::Faults;
+    const bool drawn_before = held == Stream::Layout || held == Stream::Placement || held == Stream::Transports;
+    EXPECT_TRUE(!drawn_while_running || one.digest != all_a.digest) << name_of(held);
+    EXPECT_TRUE(!drawn_before || one == all_a) << name_of(held);
+  }
+}
+
+TEST(HeldStreams, AreRefusedWithARemedy) {
+  EXPECT_THAT(error_of(kFactors + "[vary]\nhold = [\"layuot\"]\n"), HasSubstr("did you mean \"layout\"?"));
+  EXPECT_THAT(error_of(kFactors + "[vary]\nhold = [\"radio\", \"radio\"]\n"), HasSubstr("once is enough"));
+  EXPECT_THAT(error_of(kFactors + "[vary]\nheld_replicate = 3\n"), HasSubstr("name one"));
+  const std::string all = "[vary]\nhold = [\"layout\", \"placement\", \"transports\", \"motion\", \"radio\", \"faults\", \"agent\"]\n";
+  EXPECT_THAT(error_of(kFactors + all), HasSubstr("leave out the one to vary"));
+  EXPECT_EQ(error_of(kFactors + kDrawn + all), "no error");
+  const CampaignPlan plan = read(kFactors + "[vary]\nhold = [\"agent\", \"layout\"]\nheld_replicate = 5\n"), back = parse_plan(plan_text(plan));
+  EXPECT_EQ(back.held_streams, plan.held_streams);
+  EXPECT_EQ(back.held_replicate, 5U);
+}
+
+TEST(Exemptions, ReachEveryScenarioAndThePlansText) {
+  const CampaignPlan plan = read(kFactors + "[law]\nexempt_purposes = [\"charging\", \"parking\"]\nexempt_radius_m = 1.5\n"),
+                     back = parse_plan(plan_text(plan));
+  const Scenario scenario = ScenarioSource(back).scenario(0);
+  EXPECT_TRUE(scenario.law.exempt_purposes.has(Purpose::Charging));
+  EXPECT_TRUE(scenario.law.exempt_purposes.has(Purpose::Parking));
+  EXPECT_FALSE(scenario.law.exempt_purposes.has(Purpose::Storage));
+  EXPECT_EQ(scenario.law.exempt_radius_m, 1.5);
+  EXPECT_EQ(plan_text(back), plan_text(plan));
+  EXPECT_THAT(error_of(kFactors + "[law]\nexempt_purposes = [\"charging\"]\n"), HasSubstr("give a radius"));
+  EXPECT_THAT(error_of(kFactors + "[law]\nexempt_radius_m = 1.0\n"), HasSubstr("name their purposes"));
+  EXPECT_THAT(error_of(kFactors + "[law]\nexempt_purposes = [\"chargign\"]\nexempt_radius_m = 1\n"), HasSubstr("did you mean \"charging\"?"));
+  EXPECT_THAT(error_of(kFactors + "[law]\nexempt_purposes = [\"charging\"]\nexempt_radius_m = 101\n"), HasSubstr("between 0 and 100"));
+}
+
+}  // namespace
+}  // namespace fleetproof
