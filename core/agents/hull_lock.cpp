@@ -27,7 +27,9 @@ constexpr double kFarEnoughCharged = 0.5; // battery level with which it lets ot
 constexpr std::uint32_t kTicksPerLookAtBattery = 8;
 
 // Members that a host of minor 0 does not know.
-bool knows_restarts(const fp_briefing& briefing) { return briefing.struct_size >= offsetof(fp_briefing, start_segment) + sizeof(briefing.start_segment); }
+bool knows_restarts(const fp_briefing& briefing) {
+  return briefing.struct_size >= offsetof(fp_briefing, start_segment) + sizeof(briefing.start_segment);
+}
 
 bool has_chargers(const MapView& map) {
   for (std::uint32_t id = 0; id < map.station_count(); ++id) {
@@ -136,7 +138,7 @@ void HullLock::find_own_place() {
   fp_pose pose{};
   if (!controller_.pose(pose)) return;
   const double off_m = length(Vec{pose.x_m, pose.y_m} - map_.position_m(start_station_));
-  if (off_m > 2.0 * settings_.position_error_m + kHullTolerance_m) return;  // somewhere on a lane: nobody may come near before it has been found out which
+  if (off_m > 2.0 * settings_.position_error_m + kHullTolerance_m) return;  // somewhere on an unknown lane: nobody may come near
   Path standing;
   standing.station = start_station_;
   standing.heading = {pose.heading_x, pose.heading_y};

@@ -19,7 +19,8 @@ struct LockOptions {
 // conflict. An AGV always holds the path it stands on or drives, and may ask for a longer one. Why it is sound stands at the head of the source.
 class LockProtocol {
  public:
-  LockProtocol(const MapView& map, HullGeometry& geometry, Neighbours& neighbours, Controller& controller, LockOptions options, std::uint32_t boot = 0)
+  LockProtocol(const MapView& map, HullGeometry& geometry, Neighbours& neighbours, Controller& controller, LockOptions options,
+               std::uint32_t boot = 0)
       : map_(map), geometry_(geometry), neighbours_(neighbours), controller_(controller), options_(options), epoch_(first_epoch(boot)) {}
 
   // Where the AGV stands when the agent begins, and the lane it is driving if it is: held from then on.

@@ -64,8 +64,8 @@ class Neighbours {
   News note(std::uint32_t sender, const Message& message, std::int64_t now_ns);
 
   // True only if it is certain that no hull which `agv` holds or requests at this instant comes near one's own hull of `path`.
-  // Needs neither a bound on delays nor common clocks: the other's STATE acknowledges a stamp of one's own, so it is younger than that. Only one's own
-  // clock is read; how wrong it may run is within a margin. So is how far off and how late the position was that the other perceived.
+  // Needs neither a bound on delays nor common clocks: the other's STATE acknowledges a stamp of one's own, so it is younger than that. Only one's
+  // own clock is read; how wrong it may run is within a margin. So is how far off and how late the position was that the other perceived.
   bool surely_beyond(std::uint32_t agv, const Path& path, std::int64_t now_ns);
 
   // The next part of the table of newest stamps; tables of large fleets take several messages.

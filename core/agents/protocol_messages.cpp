@@ -14,8 +14,8 @@ constexpr std::uint64_t kEpochHasBoot = 32, kEchoHasBoot = 64;
 
 std::uint64_t flags_of(const Message& message) {
   const Status& s = message.status;
-  return (boot_of(s.epoch) > 0 ? kEpochHasBoot : 0U) | (boot_of(message.echo) > 0 ? kEchoHasBoot : 0U) | (s.requesting ? kRequesting : 0U) | (s.waiting ? kWaiting : 0U) | (s.idle ? kIdle : 0U) | (s.out_of_order ? kOutOfOrder : 0U) |
-         (s.blocked ? kBlocked : 0U);
+  return (s.requesting ? kRequesting : 0U) | (s.waiting ? kWaiting : 0U) | (s.idle ? kIdle : 0U) | (s.out_of_order ? kOutOfOrder : 0U) |
+         (s.blocked ? kBlocked : 0U) | (boot_of(s.epoch) > 0 ? kEpochHasBoot : 0U) | (boot_of(message.echo) > 0 ? kEchoHasBoot : 0U);
 }
 
 // Two's complement; what the wire cannot hold becomes something at its edge.

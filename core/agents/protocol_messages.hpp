@@ -12,8 +12,8 @@ namespace fleetproof::agents {
 
 enum class MessageKind : std::uint8_t { State = 1, Request, Grant, Defer };
 
-// A numbered request of one AGV: how often its computer has restarted, then which of its requests since. Numbers grow and none comes twice, as that of
-// the boot outlives a restart; compared whole, never modulo.
+// A numbered request of one AGV: how often its computer has restarted, then which of its requests since. Numbers grow and none comes twice, as that
+// of the boot outlives a restart; compared whole, never modulo.
 using Epoch = std::uint64_t;
 constexpr Epoch first_epoch(std::uint32_t boot) { return Epoch{boot} << 32; }  // before any request
 constexpr std::uint32_t boot_of(Epoch epoch) { return static_cast<std::uint32_t>(epoch >> 32); }
@@ -48,7 +48,8 @@ struct Message {
   Epoch echo = 0;               // Grant, Defer: epoch of the request that is answered
 };
 
-// A message as bytes: little-endian fields of fixed size, and the boot of an epoch only if it is not the first. Stations and lanes must have numbers below 65 536.
+// A message as bytes: little-endian fields of fixed size, and the boot of an epoch only if it is not the first. Stations and lanes must have numbers
+// below 65 536.
 class WireMessage {
  public:
   explicit WireMessage(const Message& message);

@@ -17,7 +17,8 @@ struct Junction {
     for (const auto& [x, y] : {std::pair(1.0, 0.0), {0.0, 1.0}, {-1.0, 0.0}, {0.0, -1.0}}) {
       const auto arm = drawn.station(6 * x, 6 * y);
       drawn.segment(centre, arm);
-      const auto first = drawn.station(6 * x - 3.5 * y, 6 * y + 3.5 * x, FP_STORAGE), second = drawn.station(6 * x + 3.5 * y, 6 * y - 3.5 * x, FP_STORAGE);
+      const auto first = drawn.station(6 * x - 3.5 * y, 6 * y + 3.5 * x, FP_STORAGE),
+                 second = drawn.station(6 * x + 3.5 * y, 6 * y - 3.5 * x, FP_STORAGE);
       drawn.segment(arm, first), drawn.segment(arm, second);
       bays.push_back({first, second});
     }
@@ -39,7 +40,8 @@ struct Tally {
 // Watches what AGVs hold: whenever one holds more, nobody else may hold what conflicts with it. And nobody claims more than all others count on.
 inline void watch_holds(FakeWarehouse& warehouse, const TestFleet& fleet, Tally& tally) {
   struct Watch {
-    Watch(const TestFleet& fleet, std::size_t count) : map(fleet.map), geometry(map, fleet.briefing(0, 0)), held(count), boots(count), seen(count), locked(count) {}
+    Watch(const TestFleet& fleet, std::size_t count)
+        : map(fleet.map), geometry(map, fleet.briefing(0, 0)), held(count), boots(count), seen(count), locked(count) {}
     MapView map;
     HullGeometry geometry;
     std::vector<std::uint32_t> held;  // lanes

@@ -23,7 +23,8 @@ Tally cross_with_restarts(const FakeRadio& radio, std::uint32_t seeds) {
   const TestFleet fleet(junction.drawn.map(), 4);
   Tally tally;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-    FakeWarehouse warehouse(junction.drawn, fleet, {junction.start(0), junction.start(1), junction.start(2), junction.start(3)}, kHullLock, radio, seed);
+    FakeWarehouse warehouse(junction.drawn, fleet, {junction.start(0), junction.start(1), junction.start(2), junction.start(3)}, kHullLock, radio,
+                            seed);
     std::mt19937_64 draws(seed);
     std::uniform_real_distribution<double> share;
     for (std::uint32_t i = 0; i < 4; ++i) {
@@ -135,7 +136,9 @@ TEST(Charging, AnEmptyAgvDrivesToTheChargerAndGoesOnAfterwards) {
   FakeWarehouse warehouse(corridor.drawn, fleet, {0}, kHullLock, {}, 1);
   warehouse.battery(0, 0.2);
   bool was_there = false;
-  warehouse.after_activation = [&](std::uint32_t) { was_there = was_there || (warehouse.station_of(0) == charger && warehouse.battery_of(0) > 0.85); };
+  warehouse.after_activation = [&](std::uint32_t) {
+    was_there = was_there || (warehouse.station_of(0) == charger && warehouse.battery_of(0) > 0.85);
+  };
   warehouse.order(0, 20.0, 0, 3);
   warehouse.run(300.0);
   EXPECT_TRUE(was_there);

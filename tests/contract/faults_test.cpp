@@ -49,7 +49,8 @@ struct Totals {
 };
 
 const fp_agent_type& hull_lock() {
-  return **std::find_if(fp_reference_agents, fp_reference_agents + fp_reference_agent_count, [](const fp_agent_type* type) { return type->name == std::string("hull-lock"); });
+  return **std::find_if(fp_reference_agents, fp_reference_agents + fp_reference_agent_count,
+                        [](const fp_agent_type* type) { return type->name == std::string("hull-lock"); });
 }
 
 void run_one(std::uint64_t number, Totals& totals) {

@@ -274,6 +274,22 @@ TEST(Halt, ACallThatTakesEffectWhileItStandsInMidSegmentWaitsForItsTurn) {
   EXPECT_EQ(outcome.counters.distance_um, 20'000'000U);
 }
 
+TEST(Restart, WhoHasReachedTheEndOfItsSegmentDrivesItNoLonger) {
+  Scenario scenario = row_of_tens({0});
+  scenario.faults = {fault(Fault::Kind::Restart, 8.5, 1.0)};  // the drive is over at 8 s, the transfer lasts
+  std::uint32_t segment = 0, station = 0, action = FP_IDLE;
+  test::simulate_with(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
+    if (e.kind != FP_EVENT_START) return;
+    if (b.boot == 0) host.pick(c, 0);
+    segment = b.start_segment;
+    station = b.start_station;
+    host.get_action(c, &action);
+  });
+  EXPECT_EQ(segment, FP_NONE);
+  EXPECT_EQ(station, 1U);
+  EXPECT_EQ(action, static_cast<std::uint32_t>(FP_PICKING));
+}
+
 TEST(Freeze, EventsWaitUntilItIsOver) {
   Scenario scenario = row_of_tens({0});
   scenario.faults = {fault(Fault::Kind::Freeze, 7.0, 5.0)};
