@@ -25,7 +25,7 @@ Layout read_csv_layout(const std::string& path, std::vector<std::string>& warnin
 Layout parse_csv_layout(std::string_view text, std::string_view source, std::vector<std::string>& warnings);
 
 // The layout in that form. Reading it gives the same layout again, but for its name, which is that of the file, and for the floor, which
-// is fitted anew.
+// is fitted anew. A layout without segments is not read again.
 std::string to_csv(const Layout& layout);
 
 }  // namespace fleetproof

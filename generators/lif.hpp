@@ -20,7 +20,7 @@ Layout parse_lif(std::string_view text, std::string_view source, std::vector<std
 
 // The layout as LIF 1.0. What the format has no words for, the purposes of a station, is told in the description of its node, which
 // parse_lif understands; so that reading it gives the same layout again, with two exceptions: two one-way segments on one track come
-// back as one (merge_antiparallel), and the floor is fitted anew.
+// back as one (merge_antiparallel), and the floor is fitted anew. A layout without segments is not read again.
 std::string to_lif(const Layout& layout);
 
 // The words for purposes in a description, as to_lif writes and parse_lif reads them: "purposes: storage charging".

@@ -68,6 +68,8 @@ TEST(Verdict, NoticesLayoutsThatCannotBeDrivenOn) {
   EXPECT_THROW(require_sound(layout, {}, "f.csv"), std::logic_error) << "no length";
   layout.stations[1].position_m.x() = 1.0;
   EXPECT_NO_THROW(require_sound(layout, {}, "f.csv"));
+  layout.segments.clear();
+  EXPECT_NO_THROW(require_sound(layout, {}, "f.json")) << "one may stand on it";
   EXPECT_THROW(require_sound(layout, {"m.csv: another file"}, "f.csv"), std::logic_error);
 }
 

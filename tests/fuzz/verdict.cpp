@@ -66,6 +66,7 @@ void require_sound(const Layout& layout, const std::vector<std::string>& warning
   const auto text = to_text(layout);
   require(to_text(parse_layout(text, "written.json")) == text, "the layout file is not the same after reading it");
 
+  if (layout.segments.empty()) return;  // only a layout file may say so: importers take it for a mistake
   std::vector<std::string> none;
   const auto from_csv = parse_csv_layout(to_csv(layout), "written.csv", none);
   require(same_stations(layout, from_csv), "CSV gives other stations");
