@@ -1,6 +1,7 @@
 // Same input, same bits: any number of workers, any set of laws, built in or loaded.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
