@@ -59,11 +59,8 @@ void World::take_off_floor(EntityId id, SimTime t) {
   for (const auto& law : laws_) law->piece_ended(body.piece);
 }
 
-bool World::is_free(const OrientedRectangle& place, double margin_m, SimTime t, EntityId but) const {
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (bodies_[i].on_floor && EntityId{i} != but && clearance_m(bodies_[i].piece.body_at(t), place) <= margin_m) return false;
-  }
-  return true;
+bool World::is_free(const OrientedRectangle& place, double margin_m, SimTime t) const {
+  return std::ranges::none_of(bodies_, [&](const Body& body) { return body.on_floor && clearance_m(body.piece.body_at(t), place) <= margin_m; });
 }
 
 void World::begin(Body& body, const Piece& piece) {

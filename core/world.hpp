@@ -17,7 +17,6 @@ struct Body {
   Piece piece;
   Box planned_box;            // of the whole piece
   bool is_agv = false;
-  bool out_of_order = false;  // touched another body: stands as an obstacle from then on
 };
 
 struct Load {
@@ -61,9 +60,8 @@ class World {
   void continue_with(EntityId id, const Piece& next);
   void put_on_floor(EntityId id, const Footprint& footprint, const Pose& pose, SimTime t);
   void take_off_floor(EntityId id, SimTime t);
-  // Whether every body other than `but` is farther than `margin_m` from a place at `t`, which is now.
-  bool is_free(const OrientedRectangle& place, double margin_m, SimTime t, EntityId but = {}) const;
-  void put_out_of_order(EntityId id) { bodies_[id.index()].out_of_order = true; }
+  // Whether every body is farther than `margin_m` from a place at `t`, which is now.
+  bool is_free(const OrientedRectangle& place, double margin_m, SimTime t) const;
   // First touch of each other body within both current pieces, appended to `out`; pairs that touched before are left out.
   void predict_touches(EntityId id, std::vector<TouchPrediction>& out);
   void remember_touch(EntityId a, EntityId b);

@@ -8,41 +8,11 @@
 #include "generators/layout_family.hpp"
 #include "generators/world.hpp"
 #include "laws/laws.hpp"
+#include "tests/support/hard_world.hpp"
 #include "tests/support/worlds.hpp"
 
 namespace fleetproof {
 namespace {
-
-WorldSpec faulty_world() {
-  WorldSpec spec;
-  spec.horizon = seconds(300.0);
-  spec.transports_per_agv_hour = 60.0;
-  VehicleType& type = spec.vehicles[0].type;
-  type.loaded = {.extra_length_m = 0.1, .extra_width_m = 0.1, .speed_share = 0.8, .acceleration_share = 0.9};
-  type.lateral_mps2 = 0.4;
-  type.speed_deviation = 0.05;
-  type.settle_s = 0.5;
-  type.battery_per_m = 0.002;
-  type.battery_idle_per_s = 0.0005;
-  type.storage_spread_s = 10.0;
-  VehicleType slow = type;
-  slow.name = "slow";
-  slow.drive.speed_mps = 1.0;
-  spec.vehicles.push_back({slow, 0.5});
-  FaultRates& f = spec.faults;
-  f.breakdowns_per_agv_hour = 20.0;
-  f.breakdowns_per_transport = 0.2;
-  f.repair_s = 10.0;
-  f.protective_stops_per_agv_hour = 60.0;
-  f.restarts_per_agv_hour = 40.0;
-  f.freezes_per_agv_hour = 60.0;
-  f.clock_offset_s = 1.0;
-  f.clock_drift_ppm = 500.0;
-  f.position_error_m = 0.05;
-  f.position_late_s = 1.0;
-  f.low_battery_share = 0.5;
-  return spec;
-}
 
 struct Totals {
   std::uint64_t runs = 0, violating = 0, crashed = 0, done = 0, faults = 0, duplicates = 0, restarted = 0, charged = 0;
@@ -55,7 +25,7 @@ const fp_agent_type& hull_lock() {
 
 void run_one(std::uint64_t number, Totals& totals) {
   const auto families = layout_families();
-  WorldSpec spec = faulty_world();
+  WorldSpec spec = test::hard_world(300.0);
   spec.layout = std::string(families[number % families.size()].name);
   RejectionCounts counts;
   Scenario scenario = generate_world(spec, 7000 + number, counts);

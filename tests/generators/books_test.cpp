@@ -11,6 +11,7 @@
 #include "generators/layout_family.hpp"
 #include "generators/world.hpp"
 #include "laws/laws.hpp"
+#include "tests/support/hard_world.hpp"
 #include "tests/support/worlds.hpp"
 
 namespace fleetproof {
@@ -54,42 +55,16 @@ class Bookkeeper final : public Law {
 };
 
 WorldSpec everything_goes_wrong() {
-  WorldSpec spec;
-  spec.horizon = seconds(120.0);
-  spec.transports_per_agv_hour = 60.0;
-  VehicleType& small = spec.vehicles[0].type;
-  small.loaded = {.extra_length_m = 0.1, .extra_width_m = 0.1, .speed_share = 0.8, .acceleration_share = 0.9};
-  small.lateral_mps2 = 0.4;
-  small.speed_deviation = 0.05;
-  small.settle_s = 0.5;
-  small.battery_per_m = 0.002;
-  small.battery_idle_per_s = 0.0005;
-  small.storage_spread_s = 10.0;
-  VehicleType slow = small;
-  slow.name = "slow";
-  slow.drive.speed_mps = 1.0;
-  spec.vehicles.push_back({slow, 0.5});
-  FaultRates& f = spec.faults;
-  f.breakdowns_per_agv_hour = 20.0;
-  f.breakdowns_per_transport = 0.2;
-  f.repair_s = 10.0;
-  f.protective_stops_per_agv_hour = 60.0;
-  f.load_drops_per_transport = 0.3;
-  f.load_lies_s = 20.0;
-  f.obstacles_per_hour = 60.0;
-  f.obstacle_stays_s = 20.0;
-  f.restarts_per_agv_hour = 20.0;
-  f.freezes_per_agv_hour = 60.0;
-  f.clock_offset_s = 1.0;
-  f.clock_drift_ppm = 500.0;
-  f.position_error_m = 0.01;
-  f.position_late_s = 0.2;
-  f.low_battery_share = 0.5;
+  WorldSpec spec = test::hard_world(120.0);
+  spec.faults.load_drops_per_transport = 0.3;
+  spec.faults.load_lies_s = 20.0;
+  spec.faults.obstacles_per_hour = 60.0;
+  spec.faults.obstacle_stays_s = 20.0;
   return spec;
 }
 
 struct Totals {
-  std::uint64_t runs = 0, faults = 0, empty = 0, cleared = 0, stops = 0, assists = 0, done = 0, contacts = 0, restarts = 0;
+  std::uint64_t runs = 0, faults = 0, empty = 0, cleared = 0, stops = 0, assists = 0, done = 0, contacts = 0;
 };
 
 void check(const Scenario& scenario, const Outcome& outcome, const Bookkeeper& books, const std::string& which) {
