@@ -86,6 +86,7 @@ TEST(Scanner, HelpForAStopThatHasPassedIsNoHelpForTheNext) {
   const Seen seen = drive_and_look(scenario, {40.0});
   EXPECT_EQ(seen.outcome.counters.scanner_stops, 2U);
   EXPECT_EQ(seen.actions.at(0), static_cast<std::uint32_t>(FP_STOPPED)) << "the first call is answered at about 27 s: too early for the second stop";
+  EXPECT_EQ(seen.outcome.counters.assists, 1U) << "the second call's";
 }
 
 TEST(Scanner, TheOperatorSendsOnWhoIsHeldForLong) {
