@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <ranges>
+#include <span>
 
 #include "campaign/sha256.hpp"
 #include "core/agents/agents.h"
@@ -56,7 +56,8 @@ const fp_agent_type& AgentPrograms::find(std::string_view name, std::string_view
 }
 
 bool AgentPrograms::is_loaded(std::string_view name) const {
-  return std::ranges::any_of(types_ | std::views::drop(fp_reference_agent_count), [&](const fp_agent_type* type) { return name == type->name; });
+  const auto loaded = std::span(types_).subspan(fp_reference_agent_count);
+  return std::ranges::any_of(loaded, [&](const fp_agent_type* type) { return name == type->name; });
 }
 
 }  // namespace fleetproof
