@@ -25,7 +25,7 @@ INSTANTIATE_TEST_SUITE_P(All, EveryReader, testing::ValuesIn(readers().begin(), 
 });
 
 TEST_P(EveryReader, AcceptsItsSeeds) {
-  for (const auto& seed : GetParam().seeds()) EXPECT_TRUE(GetParam().accepts(seed)) << seed.substr(0, 200);
+  for (const auto& seed : GetParam().seeds()) EXPECT_TRUE(GetParam().accepts(seed, Depth::WrittenToo)) << seed.substr(0, 200);
 }
 
 TEST_P(EveryReader, ReadsOrRefusesEveryDamagedFile) {
@@ -42,7 +42,7 @@ TEST_P(EveryReader, ReadsOrRefusesEveryDamagedFile) {
     }
     bytes += text.size();
     try {
-      accepted += reader.accepts(text) ? 1 : 0;
+      accepted += reader.accepts(text, Depth::WrittenToo) ? 1 : 0;
     } catch (const std::exception& error) {
       ADD_FAILURE() << "file " << files << ": " << error.what() << "\n" << in_quotes(text);
     }

@@ -27,7 +27,10 @@ auto accepted(Read read, std::string_view file) -> std::optional<decltype(read()
   }
 }
 
-// A layout that a reader accepted has no fault, can be driven on, and comes back from every format in which layouts are written.
+// A layout that a reader accepted has no fault and can be driven on.
 void require_sound(const Layout& layout, const std::vector<std::string>& warnings, std::string_view file);
+
+// It comes back from every format in which layouts are written.
+void require_same_when_written(const Layout& layout);
 
 }  // namespace fleetproof::fuzz
