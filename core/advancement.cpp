@@ -63,8 +63,26 @@ class Walk {
     if (apart_.clearance_m < lowest_.apart.clearance_m) lowest_ = {now_, apart_};
   }
 
+  // How far a body that keeps its heading still gets along a direction before the walk ends.
+  double comes_nearer_m(const Piece& piece, const OrientedRectangle& body, const Vec2& direction) const {
+    if (piece.manner == Manner::Rest) return 0.0;
+    return std::max(0.0, (piece.way_at(to_) - piece.way_at(now_)) * direction.dot(body.heading));
+  }
+
+  // Bodies that keep their headings come nearer along a direction by no more than what is left of their ways, whatever their phases.
+  bool never_meets_level() const {
+    if (!measured_ || !a_.keeps_heading() || !b_.keeps_heading()) return false;
+    const double nearer_m = comes_nearer_m(a_, body_a_, apart_.direction) + comes_nearer_m(b_, body_b_, -apart_.direction);
+    return apart_.clearance_m - nearer_m >= level_m_;
+  }
+
   // To the end of the phase, or to where the bound meets the level and the clearance is measured anew.
   void jump() {
+    if (never_meets_level()) {
+      now_ = to_;
+      measured_ = false;
+      return;
+    }
     const PhaseMotion first = motion_from(a_, body_a_, now_, to_, sense_), second = motion_from(b_, body_b_, now_, to_, sense_);
     if (measured_) axis_ = Axis(apart_, first, second);
     GapBound bound(first, second, axis_);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/geometry/rotation.hpp"
 
@@ -29,16 +30,34 @@ Vec2 foremost_corner(const OrientedRectangle& body, const Vec2& direction) {
   return ahead * body.heading + beside * left_of(body.heading);
 }
 
+// How far a corner reaches from the reference point along a direction fixed to the floor, and how that changes with the corner's motion.
+struct Reach {
+  double value, rate, bend;
+  double loss, most;  // a third of the bound on the third derivative; the bound on the second
+};
+
 // The corners that can be the foremost along a direction while the phase lasts.
-struct Corners {
-  std::array<PointMotion, 4> at;
+struct Reaches {
+  std::array<Reach, 4> of;
   std::size_t count = 0;
 
-  Corners(const PhaseMotion& motion, const Vec2& direction) {
+  Reaches(const PhaseMotion& motion, const Vec2& direction) {
+    const OrientedRectangle& body = motion.body;
+    const double ahead = direction.dot(body.heading), beside = cross(body.heading, direction);
     if (!motion.rotates()) {
-      at[count++] = motion.point(foremost_corner(motion.body, direction));
-    } else {
-      for (const Vec2& arm : corner_arms(motion.body)) at[count++] = motion.point(arm);
+      const double value = body.half_length_m * std::abs(ahead) + body.half_width_m * std::abs(beside);
+      of[count++] = {value, motion.speed * ahead, motion.acceleration * ahead, 0.0, motion.top_acceleration};
+      return;
+    }
+    // In the body's own frame: the corner at (x, y) has a lever there, and is pulled square to it.
+    const double k = motion.curvature, pull = k * motion.speed * motion.speed;
+    for (const auto& [x, y] : {std::pair{body.half_length_m, body.half_width_m}, std::pair{-body.half_length_m, body.half_width_m},
+                               std::pair{-body.half_length_m, -body.half_width_m}, std::pair{body.half_length_m, -body.half_width_m}}) {
+      const double lever_x = motion.turns_on_spot ? -y : 1.0 - k * y, lever_y = motion.turns_on_spot ? x : k * x;
+      const double along = lever_x * ahead + lever_y * beside, square = lever_x * beside - lever_y * ahead;
+      const double length = std::sqrt(lever_x * lever_x + lever_y * lever_y);
+      of[count++] = {x * ahead + y * beside, motion.speed * along, motion.acceleration * along + pull * square, length * motion.top_jerk / 3.0,
+                     length * motion.top_acceleration};
     }
   }
 };
@@ -101,18 +120,13 @@ GapBound::GapBound(const PhaseMotion& first, const PhaseMotion& second, const Ax
 }
 
 void GapBound::add_corners_apart(const PhaseMotion& first, const PhaseMotion& second, const Vec2& direction) {
-  const Corners near(first, direction), far(second, -direction);
+  const Reaches near(first, direction), far(second, -direction);
+  const double apart = direction.dot(second.body.centre_m - first.body.centre_m);
   for (std::size_t i = 0; i < near.count; ++i) {
-    const PointMotion& p = near.at[i];
+    const Reach& p = near.of[i];
     for (std::size_t j = 0; j < far.count; ++j) {
-      const PointMotion& q = far.at[j];
-      terms_[count_++] = {direction.dot(q.position_m - p.position_m),
-                          direction.dot(q.velocity_mps - p.velocity_mps),
-                          direction.dot(q.acceleration_mps2 - p.acceleration_mps2),
-                          (p.top_mps3 + q.top_mps3) / 3.0,
-                          0.0,
-                          -(p.top_mps2 + q.top_mps2),
-                          0.0};
+      const Reach& q = far.of[j];
+      terms_[count_++] = {apart - p.value - q.value, -(p.rate + q.rate), -(p.bend + q.bend), p.loss + q.loss, 0.0, -(p.most + q.most), 0.0};
     }
   }
 }

@@ -28,13 +28,13 @@ MotionProfile::MotionProfile(double distance, const MotionLimits& limits, const 
   phase_ends_s_[0] = (peak_ - ends.entry_mps) / up_;
   phase_ends_s_[1] = phase_ends_s_[0] + (level ? (distance - ramps) / limit : 0.0);
   phase_ends_s_[2] = phase_ends_s_[1] + (peak_ - ends.exit_mps) / down_;
-  duration_ = seconds(phase_ends_s_[2]);
+  for (std::size_t i = 0; i < 3; ++i) phase_ends_[i] = seconds(phase_ends_s_[i]);
 }
 
 double MotionProfile::position(double t_s) const {
   const auto& ends = phase_ends_s_;
   if (t_s <= 0.0) return 0.0;
-  if (t_s >= ends[2] || t_s >= to_seconds(duration_)) return distance_;
+  if (t_s >= ends[2] || t_s >= to_seconds(duration())) return distance_;
   if (t_s < ends[0]) return ends_.entry_mps * t_s + 0.5 * up_ * t_s * t_s;
   if (t_s < ends[1]) return peak_ * (t_s - 0.5 * ends[0] * (1.0 - ends_.entry_mps / peak_));
   const double left_s = ends[2] - t_s;
@@ -45,8 +45,12 @@ double MotionProfile::speed(double t_s) const {
   const auto& ends = phase_ends_s_;
   if (t_s <= 0.0) return ends_.entry_mps;
   if (t_s >= ends[2]) return ends_.exit_mps;
-  if (t_s < ends[0]) return ends_.entry_mps + up_ * t_s;
-  return t_s < ends[1] ? peak_ : ends_.exit_mps + down_ * (ends[2] - t_s);
+  return speed_in_phase(t_s < ends[0] ? 0 : t_s < ends[1] ? 1 : 2, t_s);
+}
+
+double MotionProfile::speed_in_phase(std::size_t phase, double t_s) const {
+  if (phase == 0) return ends_.entry_mps + up_ * t_s;
+  return phase == 1 ? peak_ : ends_.exit_mps + down_ * (phase_ends_s_[2] - t_s);
 }
 
 double MotionProfile::acceleration(double t_s) const {

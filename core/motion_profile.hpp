@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 #include "core/sim_time.hpp"
 
@@ -29,7 +30,7 @@ class MotionProfile {
   MotionProfile(double distance, const MotionLimits& limits, const EndSpeeds& ends = {});
 
   double distance() const { return distance_; }
-  Duration duration() const { return duration_; }
+  Duration duration() const { return phase_ends_[2]; }
 
   double position(double t_s) const;
   double speed(double t_s) const;      // before and after the way: its end speeds
@@ -37,14 +38,18 @@ class MotionProfile {
   double acceleration(double t_s) const;
   // First instant at which `position` reaches `distance`.
   double time_at(double distance) const;
-  // Ends of the three phases in seconds from the start; a missing phase ends where the one before it does.
+  // Ends of the three phases from the start, in seconds and to the nanosecond; a missing phase ends where the one before it does.
   const std::array<double, 3>& phase_ends_s() const { return phase_ends_s_; }
+  const std::array<Duration, 3>& phase_ends() const { return phase_ends_; }
+  // What one phase (0, 1, 2) says, also of instants beyond its ends.
+  double speed_in_phase(std::size_t phase, double t_s) const;
+  double acceleration_in_phase(std::size_t phase) const { return phase == 0 ? up_ : phase == 1 ? 0.0 : -down_; }
 
  private:
   double distance_ = 0.0, peak_ = 0.0, up_ = 1.0, down_ = 1.0;
   EndSpeeds ends_;
   std::array<double, 3> phase_ends_s_{};
-  Duration duration_{};
+  std::array<Duration, 3> phase_ends_{};
 };
 
 }  // namespace fleetproof

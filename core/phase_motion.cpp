@@ -11,29 +11,32 @@ namespace {
 
 // Nanoseconds since the piece began.
 using Elapsed = std::int64_t;
-constexpr Elapsed kNever = std::int64_t{1} << 62;
 
+// A phase of the profile on one arc of the curve.
 struct Stretch {
-  Elapsed change;  // -kNever or kNever: none
-  std::size_t arc = 0;
+  Elapsed change;  // where it ends, in the sense walked
+  std::size_t phase = 0, arc = 0;
 };
 
 // Ends of phases and joints are rounded to whole nanoseconds. What that misplaces is less than what a body does in one nanosecond, and not
-// carried along: every phase starts from the exact pose, and with the speed that belongs to it (speed_in_phase).
-Elapsed next_phase(const MotionProfile& profile, Elapsed now, TimeSense sense) {
-  Elapsed before = 0;
-  for (const double end_s : profile.phase_ends_s()) {
-    const Elapsed end = seconds(end_s).count();
-    if (sense == TimeSense::Forward ? end > now : end >= now) return sense == TimeSense::Forward ? end : before;
-    before = end;
+// carried along: every phase starts from the exact pose, and with the speed that the phase itself gives the instant. The profile's speed there may
+// still be that of the neighbouring phase: wrong by a nanometre per second, which over seconds would move a body by nanometres.
+Stretch phase_from(const MotionProfile& profile, Elapsed now, TimeSense sense) {
+  const auto& ends = profile.phase_ends();
+  std::size_t phase = 0;
+  if (sense == TimeSense::Forward) {
+    while (phase < 2 && ends[phase].count() <= now) ++phase;
+    return {ends[phase].count(), phase};
   }
-  return sense == TimeSense::Forward ? kNever : before;
+  while (phase < 2 && ends[phase].count() < now) ++phase;
+  return {phase == 0 ? 0 : ends[phase - 1].count(), phase};
 }
 
-Stretch next_stretch(const Piece& piece, Elapsed now, double way, TimeSense sense) {
-  Stretch stretch{next_phase(piece.profile, now, sense)};
+Stretch stretch_from(const Piece& piece, Elapsed now, TimeSense sense) {
+  Stretch stretch = phase_from(piece.profile, now, sense);
   if (piece.manner != Manner::Drive || piece.curve->arcs().size() < 2) return stretch;
   const auto ends = piece.curve->ends_m();
+  const double way = piece.way_begin_m + piece.profile.position(to_seconds(Duration{now}));
   const auto joint = [&](std::size_t i) { return seconds(piece.profile.time_at(ends[i] - piece.way_begin_m)).count(); };
   stretch.arc = static_cast<std::size_t>(&piece.curve->arc_at(way) - piece.curve->arcs().data());
   if (sense == TimeSense::Forward) {
@@ -44,16 +47,6 @@ Stretch next_stretch(const Piece& piece, Elapsed now, double way, TimeSense sens
     if (stretch.arc > 0) stretch.change = std::max(stretch.change, joint(stretch.arc - 1));
   }
   return stretch;
-}
-
-// The speed at an instant seen as part of the phase with this acceleration. At a rounded end the profile may still be in the neighbouring phase: a
-// speed wrong by a nanometre per second, which over seconds would move a body by nanometres.
-double speed_in_phase(const MotionProfile& profile, double now_s, double acceleration) {
-  constexpr double kRounded_s = 1e-9;
-  for (const double end_s : profile.phase_ends_s()) {
-    if (std::abs(now_s - end_s) < kRounded_s) return profile.speed(end_s) + acceleration * (now_s - end_s);
-  }
-  return profile.speed(now_s);
 }
 
 }  // namespace
@@ -85,20 +78,21 @@ PhaseMotion motion_from(const Piece& piece, const OrientedRectangle& body, SimTi
   const Elapsed arrival = piece.profile.duration().count();
   // At rest, also before it has begun to move (seen backwards) and after it has arrived.
   if (piece.manner == Manner::Rest || (forward ? now >= arrival : now <= 0)) return motion;
-  const double now_s = to_seconds(Duration{now});
-  const Stretch stretch = next_stretch(piece, now, piece.way_begin_m + piece.profile.position(now_s), sense);
+  const bool has_arrived = now > arrival;
+  const Stretch stretch = has_arrived ? Stretch{arrival} : stretch_from(piece, now, sense);
   const Elapsed change = forward ? std::min(stretch.change, last) : std::max(stretch.change, last);
   motion.change = piece.begin + Duration{change};
   motion.lasts_s = to_seconds(Duration{std::abs(change - now)});
-  if (now > arrival) return motion;
-  const double change_s = to_seconds(Duration{change});
+  if (has_arrived) return motion;
   const double sign = piece.manner == Manner::Turn && piece.turn_rad < 0.0 ? -1.0 : 1.0;
-  const double acceleration = piece.profile.acceleration(0.5 * (now_s + change_s));
-  motion.speed = speed_in_phase(piece.profile, now_s, acceleration) * (forward ? sign : -sign);
-  motion.acceleration = acceleration * sign;
-  motion.top_speed = std::max(std::abs(motion.speed), piece.profile.speed(change_s));
+  motion.speed = piece.profile.speed_in_phase(stretch.phase, to_seconds(Duration{now})) * (forward ? sign : -sign);
+  motion.acceleration = piece.profile.acceleration_in_phase(stretch.phase) * sign;
   motion.turns_on_spot = piece.manner == Manner::Turn;
   motion.curvature = motion.turns_on_spot ? 1.0 : piece.curve->arcs()[stretch.arc].curvature_per_m;
+  const double later = piece.profile.speed_in_phase(stretch.phase, to_seconds(Duration{change}));
+  motion.top_speed = std::max(std::abs(motion.speed), std::abs(later));
+  motion.top_acceleration = std::abs(motion.acceleration);
+  if (motion.curvature == 0.0) return motion;
   // A lever turns at the rate curvature * speed, which pulls square to it.
   const double squared = motion.acceleration * motion.acceleration, top_turning = std::abs(motion.curvature) * motion.top_speed;
   const double top_pull = top_turning * motion.top_speed;

@@ -29,11 +29,14 @@ struct Piece {
   double way_begin_m = 0.0;      // Drive only: where on the curve the piece begins
   double turn_rad = 0.0;         // Turn only: signed, left positive
   MotionProfile profile;         // Drive: metres along the curve from way_begin_m; Turn: radians
+  Box planned_box;               // swept_box(end) as planned; the world fills it in when the piece begins, before it announces it
 
   Pose pose_at(SimTime t) const;
   OrientedRectangle body_at(SimTime t) const;
   // Drive only: metres along the curve.
   double way_at(SimTime t) const;
+  // It rests, or drives along one straight line.
+  bool keeps_heading() const { return manner == Manner::Rest || (manner == Manner::Drive && curve->is_straight()); }
   // Speed of the reference point.
   double speed_at(SimTime t) const;
   // Everything the body covers from begin to `until`, boxed.

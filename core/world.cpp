@@ -66,7 +66,7 @@ bool World::is_free(const OrientedRectangle& place, double margin_m, SimTime t) 
 void World::begin(Body& body, const Piece& piece) {
   body.piece = piece;
   body.piece.number = pieces_++;
-  body.planned_box = piece.swept_box(piece.end);
+  body.piece.planned_box = piece.swept_box(piece.end);
   for (const auto& law : laws_) law->piece_started(body.piece);
 }
 
@@ -83,7 +83,7 @@ void World::predict_touches(EntityId id, std::vector<TouchPrediction>& out) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Body& other = bodies_[i];
     const EntityId other_id{i};
-    if (other_id == id || !other.on_floor || !mine.planned_box.overlaps(other.planned_box)) continue;
+    if (other_id == id || !other.on_floor || !mine.piece.planned_box.overlaps(other.piece.planned_box)) continue;
     if (have_touched(id, other_id)) continue;
     const Interval common{std::max(mine.piece.begin, other.piece.begin), std::min({mine.piece.end, other.piece.end, kStart + scenario_.horizon})};
     if (common.begin > common.end) continue;

@@ -15,7 +15,6 @@ namespace fleetproof {
 struct Body {
   bool on_floor = false;      // else it has no piece
   Piece piece;
-  Box planned_box;            // of the whole piece
   bool is_agv = false;
 };
 

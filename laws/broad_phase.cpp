@@ -2,100 +2,138 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 
 namespace fleetproof {
 namespace {
 
-// A drive of one segment touches two or three cells.
-constexpr double kCell_m = 8.0;
-// A box over more cells is cheaper looked at by every question than filed. (A wall of a warehouse, say.)
+// Cells of the grids: drives of one segment; drives of long ones; the ways across a hall.
+constexpr std::array kCell_m = {12.0, 48.0, 192.0};
+// Half a cell, less what rounding can do to the middle of a box.
+constexpr double kHalf = 0.49;
+// A question over more cells is answered by a scan.
 constexpr std::int64_t kMostCells = 32;
 
-std::int64_t cell(double at_m) {
+// Far out all cells are one, long before rounding moves the middle of a box by what is left of its half cell.
+std::int64_t cell(std::uint32_t level, double at_m) {
   constexpr double kFar = 1e12;
-  const double cells = std::clamp(at_m / kCell_m, -kFar, kFar);
+  const double cells = std::min(std::max(at_m / kCell_m[level], -kFar), kFar);
   const auto towards_zero = static_cast<std::int64_t>(cells);
   return towards_zero - (cells < static_cast<double>(towards_zero));
 }
 
+std::uint32_t level_of(const Box& box) {
+  const Vec2 size_m = box.high_m - box.low_m;
+  const double half_m = 0.5 * std::max(size_m.x(), size_m.y());
+  std::uint32_t level = 0;
+  while (level < kCell_m.size() && !(half_m <= kHalf * kCell_m[level])) ++level;
+  return level;
+}
+
+using Both [[gnu::vector_size(16)]] = double;
+
+Both both(const std::array<double, 2>& of) {
+  Both result;
+  std::memcpy(&result, of.data(), sizeof result);
+  return result;
+}
+
 }  // namespace
 
-BroadPhase::BroadPhase(std::size_t bodies, std::size_t scanned) : boxes_(bodies), asked_(bodies) {
-  if (bodies > scanned) buckets_.resize(std::bit_ceil(4 * bodies));
+BroadPhase::BroadPhase(std::size_t bodies, std::size_t scanned) : boxes_(bodies), twos_((bodies + 1) / 2) {
+  for (std::size_t i = 0; i < 2 * twos_.size(); ++i) set_scanned(i, Box{});
+  found_.resize(bodies + 2);
+  if (bodies <= scanned) return;
+  heads_.assign(std::bit_ceil(2 * bodies) + 1, kNobody);
+  links_.resize(bodies);
+}
+
+void BroadPhase::set_scanned(std::size_t body, const Box& box) {
+  Two& two = twos_[body / 2];
+  two.left[body % 2] = box.low_m.x(), two.bottom[body % 2] = box.low_m.y();
+  two.right[body % 2] = box.high_m.x(), two.top[body % 2] = box.high_m.y();
+}
+
+inline void BroadPhase::look_into(std::size_t chain, const Box& box) {
+  for (std::uint32_t body = heads_[chain]; body != kNobody; body = links_[body].after) {
+    if (!box.overlaps(boxes_[body])) continue;
+    if (count_ == found_.size()) found_.resize(2 * count_);
+    found_[count_++] = body;
+  }
+}
+
+inline std::size_t BroadPhase::chain_of(std::uint32_t level, std::int64_t x, std::int64_t y) const {
+  const std::uint64_t mixed = (static_cast<std::uint64_t>(x) * 0x9E3779B97F4A7C15U) ^ (static_cast<std::uint64_t>(y) * 0xC2B2AE3D27D4EB4FU) ^ level;
+  return (mixed ^ mixed >> 32) & (heads_.size() - 2);
 }
 
 void BroadPhase::place(std::size_t body, const Box& box) {
   boxes_[body] = box;
-  if (buckets_.empty()) return;
+  set_scanned(body, box);
+  if (!files()) return;
   const auto id = static_cast<std::uint32_t>(body);
-  const Cells cells = cells_of(box);
-  if (cells.count() > kMostCells) {
-    wide_.push_back(id);
-  } else {
-    for_each_bucket(cells, [id](auto& bucket) { bucket.push_back(id); });
-  }
+  const std::uint32_t level = level_of(box);
+  const Vec2 middle_m = 0.5 * (box.low_m + box.high_m);
+  const std::size_t chain = level == kLevels ? heads_.size() - 1 : chain_of(level, cell(level, middle_m.x()), cell(level, middle_m.y()));
+  std::uint32_t& head = heads_[chain];
+  links_[body] = {kNobody, head, static_cast<std::uint32_t>(chain), level};
+  if (head != kNobody) links_[head].before = id;
+  head = id;
+  ++filed_[level];
 }
 
 void BroadPhase::remove(std::size_t body) {
-  const Box box = boxes_[body];
+  const bool was_placed = boxes_[body].low_m.x() <= boxes_[body].high_m.x();
   boxes_[body] = Box{};
-  if (buckets_.empty() || box.low_m.x() > box.high_m.x()) return;
-  const auto strike = [id = static_cast<std::uint32_t>(body)](auto& list) {
-    const auto at = std::ranges::find(list, id);
-    *at = list.back();
-    list.pop_back();
-  };
-  const Cells cells = cells_of(box);
-  if (cells.count() > kMostCells) {
-    strike(wide_);
-  } else {
-    for_each_bucket(cells, strike);
-  }
+  set_scanned(body, Box{});
+  if (!files() || !was_placed) return;
+  const auto [before, after, chain, level] = links_[body];
+  (before == kNobody ? heads_[chain] : links_[before].after) = after;
+  if (after != kNobody) links_[after].before = before;
+  --filed_[level];
 }
 
 std::span<const std::uint32_t> BroadPhase::overlapping(const Box& box) {
-  found_.clear();
-  if (buckets_.empty()) return scanned(box);
-  const Cells cells = cells_of(box);
-  if (cells.count() > kMostCells) return scanned(box);
-  ++question_;
-  for (const std::uint32_t body : wide_) offer(body, box);
-  for_each_bucket(cells, [&](const auto& bucket) {
-    for (const std::uint32_t body : bucket) offer(body, box);
-  });
-  std::ranges::sort(found_);
-  return found_;
-}
-
-std::span<const std::uint32_t> BroadPhase::scanned(const Box& box) {
-  for (std::size_t i = 0; i < boxes_.size(); ++i) {
-    if (box.overlaps(boxes_[i])) found_.push_back(static_cast<std::uint32_t>(i));
+  count_ = 0;
+  bool found_all = files();
+  for (std::uint32_t level = 0; found_all && level < kLevels; ++level) found_all = filed_[level] == 0 || look_around(level, box);
+  if (found_all) {
+    look_into(heads_.size() - 1, box);
+    const auto found = std::span(found_).first(count_);
+    std::ranges::sort(found);
+    count_ -= std::ranges::unique(found).size();  // cells may share a bucket
+  } else {
+    scan(box);
   }
-  return found_;
+  return std::span(found_).first(count_);
 }
 
-// Once, in however many cells the two meet.
-void BroadPhase::offer(std::uint32_t body, const Box& box) {
-  if (asked_[body] == question_) return;
-  asked_[body] = question_;
-  if (box.overlaps(boxes_[body])) found_.push_back(body);
-}
-
-BroadPhase::Cells BroadPhase::cells_of(const Box& box) {
-  return {cell(box.low_m.x()), cell(box.low_m.y()), cell(box.high_m.x()), cell(box.high_m.y())};
-}
-
-template <class Visit>
-void BroadPhase::for_each_bucket(const Cells& cells, Visit visit) {
-  for (std::int64_t x = cells.left; x <= cells.right; ++x) {
-    for (std::int64_t y = cells.bottom; y <= cells.top; ++y) visit(bucket(x, y));
+void BroadPhase::scan(const Box& box) {
+  const double left_m = box.low_m.x(), bottom_m = box.low_m.y(), right_m = box.high_m.x(), top_m = box.high_m.y();
+  const Both left = {left_m, left_m}, bottom = {bottom_m, bottom_m}, right = {right_m, right_m}, top = {top_m, top_m};
+  // Without branches: every body is written down, and stays if it is met.
+  std::uint32_t* last = found_.data();
+  std::uint32_t body = 0;
+  for (const Two& two : twos_) {
+    const auto meets = (both(two.left) <= right) & (left <= both(two.right)) & (both(two.bottom) <= top) & (bottom <= both(two.top));
+    *last = body++;
+    last -= meets[0];
+    *last = body++;
+    last -= meets[1];
   }
+  count_ = static_cast<std::size_t>(last - found_.data());
 }
 
-// Cells that share a bucket cost a look at a box, no more.
-std::vector<std::uint32_t>& BroadPhase::bucket(std::int64_t x, std::int64_t y) {
-  const std::uint64_t mixed = (static_cast<std::uint64_t>(x) * 0x9E3779B97F4A7C15U) ^ (static_cast<std::uint64_t>(y) * 0xC2B2AE3D27D4EB4FU);
-  return buckets_[(mixed ^ mixed >> 32) & (buckets_.size() - 1)];
+// Whoever is filed with cells of this size: its middle is no farther from its rim than half a cell. False if that would be too many cells.
+bool BroadPhase::look_around(std::uint32_t level, const Box& box) {
+  const double beyond_m = 0.5 * kCell_m[level];
+  const std::int64_t left = cell(level, box.low_m.x() - beyond_m), right = cell(level, box.high_m.x() + beyond_m);
+  const std::int64_t bottom = cell(level, box.low_m.y() - beyond_m), top = cell(level, box.high_m.y() + beyond_m);
+  if (right - left >= kMostCells || top - bottom >= kMostCells || (right - left + 1) * (top - bottom + 1) > kMostCells) return false;
+  for (std::int64_t x = left; x <= right; ++x) {
+    for (std::int64_t y = bottom; y <= top; ++y) look_into(chain_of(level, x, y), box);
+  }
+  return true;
 }
 
 }  // namespace fleetproof

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -8,8 +9,9 @@
 
 namespace fleetproof {
 
-// Which bodies' boxes overlap a given one, as boxes come and go. A fleet of up to kScanned bodies is scanned; above, boxes are filed in the cells of
-// a uniform grid that they touch, and a question looks into the cells that it touches. Answers do not depend on which of the two it is.
+// Which bodies' boxes overlap a given one, as boxes come and go. A fleet of up to kScanned bodies is scanned; above, a box is filed by its middle, in
+// one cell of the grid whose cells are no smaller than it (a loose grid), and a question looks half a cell beyond its own box.
+// Answers do not depend on which of the two it is.
 class BroadPhase {
  public:
   static constexpr std::size_t kScanned = 32;
@@ -25,23 +27,31 @@ class BroadPhase {
   std::span<const std::uint32_t> overlapping(const Box& box);
 
  private:
-  struct Cells {
-    std::int64_t left, bottom, right, top;
-    std::int64_t count() const { return (right - left + 1) * (top - bottom + 1); }
+  // Boxes of two bodies, for one comparison of both.
+  struct Two {
+    std::array<double, 2> left, bottom, right, top;
   };
-  static Cells cells_of(const Box& box);
-  std::vector<std::uint32_t>& bucket(std::int64_t x, std::int64_t y);
-  template <class Visit>
-  void for_each_bucket(const Cells& cells, Visit visit);
-  std::span<const std::uint32_t> scanned(const Box& box);
-  void offer(std::uint32_t body, const Box& box);
+  // Where a body is filed: in a chain of those whose cells share a bucket, by the size of the cells.
+  struct Link {
+    std::uint32_t before, after, chain, level;
+  };
+  static constexpr std::uint32_t kLevels = 3;
+  static constexpr std::uint32_t kNobody = ~std::uint32_t{0};
+
+  void set_scanned(std::size_t body, const Box& box);
+  void scan(const Box& box);
+  bool look_around(std::uint32_t level, const Box& box);
+  void look_into(std::size_t chain, const Box& box);
+  std::size_t chain_of(std::uint32_t level, std::int64_t x, std::int64_t y) const;
+  bool files() const { return !heads_.empty(); }
 
   std::vector<Box> boxes_;
-  std::vector<std::vector<std::uint32_t>> buckets_;  // of cells, by hash; none if bodies are scanned
-  std::vector<std::uint32_t> wide_;                  // bodies whose boxes touch so many cells that no cell lists them
-  std::vector<std::uint64_t> asked_;                 // by body: the last question that met it
-  std::uint64_t question_ = 0;
-  std::vector<std::uint32_t> found_;
+  std::vector<Two> twos_;
+  std::vector<std::uint32_t> heads_;              // of the chains; the last one is of those too large for any cell. Empty if bodies are scanned
+  std::vector<Link> links_;                       // by body
+  std::array<std::size_t, kLevels + 1> filed_{};  // bodies by level
+  std::vector<std::uint32_t> found_;  // the first count_
+  std::size_t count_ = 0;
 };
 
 }  // namespace fleetproof

@@ -54,7 +54,7 @@ class CoverageLaw final : public Law {
 void CoverageLaw::piece_started(const Piece& piece) {
   bodies_.note(piece);
   if (piece.entity.index() >= swept_.size()) return;
-  swept_[piece.entity.index()] = piece.swept_box(piece.end);
+  swept_[piece.entity.index()] = piece.planned_box;
   if (piece.manner == Manner::Drive) meet(Track::of(piece));
 }
 

@@ -49,7 +49,7 @@ class ExactLaw final : public Law {
 void ExactLaw::piece_started(const Piece& piece) {
   ensure(piece.entity.index() < current_.size(), "a law hears only of the bodies of its scenario");
   current_[piece.entity.index()] = piece;
-  swept_.place(piece.entity.index(), piece.swept_box(piece.end));
+  swept_.place(piece.entity.index(), piece.planned_box);
 }
 
 void ExactLaw::piece_ended(const Piece& piece) {

@@ -29,30 +29,39 @@ fcl::CollisionObjectd box_of(const OrientedRectangle& rectangle, const Vec2& ori
   return {shape, rotation, fcl::Vector3d(at_m.x(), at_m.y(), 0.0)};
 }
 
+struct TwoBoxes {
+  fcl::CollisionObjectd first, second;
+
+  TwoBoxes(const OrientedRectangle& one, const OrientedRectangle& other) : first(box_of(one, one.centre_m)), second(box_of(other, one.centre_m)) {}
+
+  bool overlap() const {
+    fcl::CollisionResultd result;
+    return fcl::collide(&first, &second, fcl::CollisionRequestd(), result) > 0;
+  }
+
+  double clearance_m() const {
+    // The default solver, GST_LIBCCD, reports distances up to metres too large; the signed mode aborts (FCL issue 508).
+    fcl::DistanceRequestd request;
+    request.enable_signed_distance = false;
+    request.gjk_solver_type = fcl::GST_INDEP;
+    fcl::DistanceResultd result;
+    return std::max(0.0, fcl::distance(&first, &second, request, result));  // -1 stands for an overlap
+  }
+};
+
 }  // namespace
 
-bool overlap_by_fcl(const OrientedRectangle& first, const OrientedRectangle& second) {
-  const fcl::CollisionObjectd one = box_of(first, first.centre_m), other = box_of(second, first.centre_m);
-  fcl::CollisionResultd result;
-  return fcl::collide(&one, &other, fcl::CollisionRequestd(), result) > 0;
-}
+bool overlap_by_fcl(const OrientedRectangle& first, const OrientedRectangle& second) { return TwoBoxes(first, second).overlap(); }
 
-double clearance_by_fcl(const OrientedRectangle& first, const OrientedRectangle& second) {
-  const fcl::CollisionObjectd one = box_of(first, first.centre_m), other = box_of(second, first.centre_m);
-  // The default solver, GST_LIBCCD, reports distances up to metres too large; the signed mode aborts (FCL issue 508).
-  fcl::DistanceRequestd request;
-  request.enable_signed_distance = false;
-  request.gjk_solver_type = fcl::GST_INDEP;
-  fcl::DistanceResultd result;
-  return std::max(0.0, fcl::distance(&one, &other, request, result));  // -1 stands for an overlap
-}
+double clearance_by_fcl(const OrientedRectangle& first, const OrientedRectangle& second) { return TwoBoxes(first, second).clearance_m(); }
 
 void confirm_clearance(const OrientedRectangle& first, const OrientedRectangle& second, double clearance_m) {
-  const bool overlap = overlap_by_fcl(first, second);
+  const TwoBoxes boxes(first, second);
+  const bool overlap = boxes.overlap();
   ensure(!(overlap && clearance_m > kSurelyApart_m), "a second opinion says that two bodies overlap which the law found apart");
   ensure(!(!overlap && clearance_m < -kSurelyApart_m), "a second opinion says that two bodies are apart which the law found overlapping");
   const double expected_m = std::max(0.0, clearance_m);
-  ensure(std::abs(clearance_by_fcl(first, second) - expected_m) <= kAgreed_m, "a second opinion measures another clearance than the law");
+  ensure(std::abs(boxes.clearance_m() - expected_m) <= kAgreed_m, "a second opinion measures another clearance than the law");
 }
 
 }  // namespace fleetproof

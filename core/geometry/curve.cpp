@@ -40,6 +40,7 @@ Curve Curve::joined(std::span<const Curve> parts) {
 Pose Curve::pose_at(double s_m) const {
   if (arcs_.empty()) return {};
   const double s = std::clamp(s_m, 0.0, length_m());
+  if (arcs_.size() == 1) return arcs_[0].pose_at(s);
   const Arc& arc = arc_at(s);
   const auto index = static_cast<std::size_t>(&arc - arcs_.data());
   return arc.pose_at(index == 0 ? s : s - ends_m_[index - 1]);

@@ -1,6 +1,6 @@
 // What a law costs, apart from the run it watches: the pieces of one run are recorded and announced to the law again.
 //
-//   detection_cost FLEET SECONDS LAW...      times, in one process; ratios to the first law
+//   detection_cost FLEET SECONDS LAW...      times, in one process; ratios to the first law. Means of WORLDS worlds (environment variable; 1)
 //   detection_cost --walk FLEET SECONDS LAW  one replay, for valgrind --tool=callgrind --toggle-collect='*replay_to*'
 //
 // LAW may be "none", or "all-pairs": the exact distance of every pair of bodies every 2.5 ms. Runs are those of the whole-run benchmark
@@ -80,7 +80,10 @@ std::unique_ptr<Law> make_all_pairs(const Scenario& scenario) { return std::make
 
 MakeLaw law_named(const std::string& name) {
   if (name == "none") return nullptr;
-  return name == "all-pairs" ? &make_all_pairs : find_entry(laws(), name)->make;
+  if (name == "all-pairs") return &make_all_pairs;
+  if (const auto* law = find_law(name)) return law->make;
+  fmt::print(stderr, "there is no law {}\n", name);
+  std::exit(2);
 }
 
 struct Recording {
@@ -90,8 +93,8 @@ struct Recording {
   std::uint64_t drives = 0;
 };
 
-Scenario world(std::uint32_t fleet, double horizon_s) {
-  Scenario scenario = fleet <= 5 ? test::grid_world(4, 8, fleet, horizon_s, 1) : test::grid_world(12, 24, fleet, horizon_s, 1);
+Scenario world(std::uint32_t fleet, double horizon_s, std::uint64_t seed) {
+  Scenario scenario = fleet <= 5 ? test::grid_world(4, 8, fleet, horizon_s, seed) : test::grid_world(12, 24, fleet, horizon_s, seed);
   scenario.radio.loss = 0.4;
   scenario.radio.delay_s = 2.0;
   return scenario;
@@ -102,9 +105,9 @@ const fp_agent_type& agent(const AgentPrograms& programs) {
   return programs.find(name != nullptr ? name : "hull-lock", "bench");
 }
 
-Recording record(std::uint32_t fleet, double horizon_s) {
+Recording record(std::uint32_t fleet, double horizon_s, std::uint64_t seed) {
   const AgentPrograms programs;
-  Recording recording{world(fleet, horizon_s), {}, kStart, 0};
+  Recording recording{world(fleet, horizon_s, seed), {}, kStart, 0};
   std::vector<std::unique_ptr<Law>> laws;
   laws.push_back(std::make_unique<Recorder>(recording.all, recording.end));
   simulate(recording.scenario, agent(programs), laws);
@@ -155,23 +158,33 @@ double median_s(auto&& work) {
 }
 
 void compare(std::uint32_t fleet, double horizon_s, std::span<char*> names) {
-  const Recording recording = record(fleet, horizon_s);
-  fmt::print("{} AGVs, {} s: {} pieces, {} drives\n", fleet, horizon_s, recording.all.size() / 2, recording.drives);
+  const char* worlds = std::getenv("WORLDS");
+  std::vector<Recording> recordings;
+  for (int seed = 1; seed <= (worlds != nullptr ? std::atoi(worlds) : 1); ++seed) recordings.push_back(record(fleet, horizon_s, static_cast<std::uint64_t>(seed)));
+  std::uint64_t drives = 0, pieces = 0;
+  for (const Recording& recording : recordings) drives += recording.drives, pieces += recording.all.size() / 2;
+  fmt::print("{} worlds of {} AGVs, {} s: {} pieces, {} drives\n", recordings.size(), fleet, horizon_s, pieces, drives);
+  const auto worlds_count = static_cast<double>(recordings.size());
   const AgentPrograms programs;
   double first_alone_s = 0.0, first_whole_s = 0.0;
   for (const std::string name : names) {
-    LawFindings findings;
     const MakeLaw make = law_named(name);
-    const double alone_s = make == nullptr ? 0.0 : median_s([&] { findings = replay_to(*make(recording.scenario), recording); });
-    const double whole_s = median_s([&] {
-      std::vector<std::unique_ptr<Law>> laws;
-      if (make != nullptr) laws.push_back(make(recording.scenario));
-      simulate(recording.scenario, agent(programs), laws);
-    });
+    std::uint64_t evaluations = 0, checks = 0, violations = 0;
+    double alone_s = 0.0, whole_s = 0.0;
+    for (const Recording& recording : recordings) {
+      LawFindings findings;
+      if (make != nullptr) alone_s += median_s([&] { findings = replay_to(*make(recording.scenario), recording); }) / worlds_count;
+      whole_s += median_s([&] {
+                   std::vector<std::unique_ptr<Law>> laws;
+                   if (make != nullptr) laws.push_back(make(recording.scenario));
+                   simulate(recording.scenario, agent(programs), laws);
+                 }) /
+                 worlds_count;
+      evaluations += findings.distance_evaluations, checks += findings.perimeter_checks, violations += findings.violations.size();
+    }
     if (first_whole_s == 0.0) first_alone_s = alone_s, first_whole_s = whole_s;
-    fmt::print("{:12} detection {:12.3f} ms ({:8.1f}x)  run {:12.3f} ms ({:6.2f}x)  {} evaluations, {} checks, {} violations\n", name, 1e3 * alone_s,
-               alone_s / first_alone_s, 1e3 * whole_s, whole_s / first_whole_s, findings.distance_evaluations, findings.perimeter_checks,
-               findings.violations.size());
+    fmt::print("{:12} detection {:12.4f} ms ({:8.1f}x)  run {:12.3f} ms ({:6.2f}x)  {} evaluations, {} checks, {} violations\n", name, 1e3 * alone_s,
+               alone_s / first_alone_s, 1e3 * whole_s, whole_s / first_whole_s, evaluations, checks, violations);
     std::fflush(stdout);
   }
 }

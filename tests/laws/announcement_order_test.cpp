@@ -27,6 +27,7 @@ TEST(AnnouncementOrder, LeavesNoTraceInTheArithmetic) {
     pair.a.end = pair.b.end = pair.end;
     OwnPiece a(pair.a), b(pair.b);
     a.piece.entity = EntityId{0U}, b.piece.entity = EntityId{1U};
+    for (Piece* piece : {&a.piece, &b.piece}) piece->planned_box = piece->swept_box(piece->end);
     const auto expected = filed(a.piece, b.piece);
     violations += expected.size();
     ASSERT_EQ(filed(b.piece, a.piece), expected) << i;

@@ -77,7 +77,7 @@ TEST(BroadPhase, InACrowdPairsViolateAsTheyDoAlone) {
     const auto law = find_law("exact")->make(scenario);
     std::vector<std::pair<Piece, bool>> all;  // in the order of announcement: by instant, ends before beginnings
     for (const std::size_t i : {a, b}) {
-      for (const Piece& piece : pieces[i]) all.emplace_back(piece, true), all.emplace_back(piece, false);
+      for (Piece& piece : pieces[i]) piece.planned_box = piece.swept_box(piece.end), all.emplace_back(piece, true), all.emplace_back(piece, false);
     }
     std::ranges::stable_sort(all, {}, [](const auto& p) { return std::pair(p.second ? p.first.begin : p.first.end, p.second); });
     for (const auto& [piece, begins] : all) begins ? law->piece_started(piece) : law->piece_ended(piece);

@@ -142,6 +142,7 @@ class Announcer {
     Piece planned = piece(body);
     planned.number = number_++;
     planned.end = planned.manner == Manner::Rest ? kForever : planned.begin + planned.profile.duration();
+    planned.planned_box = planned.swept_box(planned.end);
     law_.piece_started(planned);
   }
   void stop(std::size_t body) { law_.piece_ended(piece(body)); }

@@ -64,6 +64,7 @@ class Told {
       law_->piece_ended(before->second);
     }
     piece.number = number_++;
+    piece.planned_box = piece.swept_box(piece.end);
     law_->piece_started(piece);
     open_[piece.entity] = piece;
     return *this;
