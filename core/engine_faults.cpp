@@ -14,8 +14,6 @@ constexpr std::uint32_t kAssistTopic = 100;  // of the faults stream, which the 
 
 Halt::Reason halt_of(Fault::Kind kind) { return kind == Fault::Kind::Breakdown ? Halt::Reason::Breakdown : Halt::Reason::ProtectiveStop; }
 
-bool halts(Fault::Kind kind) { return kind == Fault::Kind::Breakdown || kind == Fault::Kind::ProtectiveStop; }
-
 }  // namespace
 
 void Engine::schedule_faults() {
@@ -50,7 +48,7 @@ void Engine::fault_strikes(Agv& agv, std::uint64_t number) {
   if (fault.kind == Fault::Kind::LoadDrop && !load_drops(agv, fault, number)) return;
   ++outcome_.counters.faults;
   trace(agv.id, TraceKind::FaultStrikes, static_cast<std::uint64_t>(fault.kind), number);
-  if (halts(fault.kind)) fault_halts_[number] = halt(agv, halt_of(fault.kind));
+  if (holds_agv(fault.kind)) fault_halts_[number] = halt(agv, halt_of(fault.kind));
   if (fault.kind == Fault::Kind::Restart) agent_goes_away(agv);
   if (fault.kind == Fault::Kind::Freeze) agv.free_at = std::max(agv.free_at, now_ + fault.lasts);
   queue_.push(now_ + fault.lasts, agv.id, Event::Kind::FaultOver, number);
@@ -59,7 +57,7 @@ void Engine::fault_strikes(Agv& agv, std::uint64_t number) {
 void Engine::fault_over(Agv& agv, std::uint64_t number) {
   const Fault& fault = scenario_.faults[number];
   trace(agv.id, TraceKind::FaultOver, static_cast<std::uint64_t>(fault.kind), number);
-  if (halts(fault.kind)) end_halt(agv, fault_halts_[number]);
+  if (holds_agv(fault.kind)) end_halt(agv, fault_halts_[number]);
   if (fault.kind == Fault::Kind::Restart) agent_comes_back(agv);
 }
 

@@ -31,6 +31,9 @@ struct Fault {
 };
 const char* name_of(Fault::Kind kind);
 inline constexpr std::size_t kFaultKinds = 5;
+// Whether the fault holds its AGV where it is for as long as it lasts: the AGV brakes, stands and then goes on. What does not get done meanwhile is
+// nobody's fault.
+constexpr bool holds_agv(Fault::Kind kind) { return kind == Fault::Kind::Breakdown || kind == Fault::Kind::ProtectiveStop; }
 
 // The laser scanner of an AGV: it stops the AGV when a body stands in its protective field, and lets it go on some time after it is clear. The field
 // is a rectangle before the front: v * reaction + v^2 / (2 deceleration) + margin long, and margin wider than the AGV on either side.
