@@ -170,6 +170,15 @@ TEST(AfterAContact, ThatFarFromItThePlaceIsFree) {
   EXPECT_NEAR(seen.set_down_s(EntityId{0U}), 21.0, 1e-8);
 }
 
+TEST(AfterAContact, SoItIsBesideAnObliqueWallWhoseBoxReachesIntoIt) {
+  Scenario scenario = box_in_the_way({0});
+  scenario.obstacles.push_back({"wall", {2.0, 0.02}, {Vec2{11.012, 0.712}, Vec2{1.0, -1.0}.normalized()}});  // 0.29 m from its front left corner
+  const Helped seen = run(scenario, [](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
+    if (e.kind == FP_EVENT_START && b.boot == 0) host.move(c, 0);
+  });
+  EXPECT_EQ(seen.set_down_at(EntityId{0U}), 1U);
+}
+
 TEST(AfterAContact, NobodyIsSetDownInFrontOfOneThatDrives) {
   Scenario scenario = box_in_the_way({0, 2});
   scenario.agvs[1].heading = -Vec2::UnitX();
@@ -212,6 +221,21 @@ TEST(AfterAContact, WhatHeldTheAgvHoldsItNoLonger) {
   const double set_down_s = to_seconds(seen.trace.of(TraceKind::Contact).at(0).at) + seen.set_down_s(EntityId{0U});
   ASSERT_EQ(done_s.size(), 1U);
   EXPECT_NEAR(done_s[0], set_down_s + 8.0, 1e-8);
+}
+
+TEST(AfterAContact, WhatItWasAboutToDoIsForgotten) {
+  Scenario scenario = row_of_tens({1, 0}, 200.0);
+  scenario.faults = {fault(Fault::Kind::ProtectiveStop, 1.0, 150.0), fault(Fault::Kind::ProtectiveStop, 60.0, 5.0)};
+  scenario.operator_help = comes_after(20.0);
+  int done = 0;
+  const Helped seen = run(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
+    if (e.kind == FP_EVENT_START && b.self == 1 && b.boot == 0) host.move(c, 0);
+    if (b.self == 0 && e.kind == FP_EVENT_START && b.boot == 0) host.set_timer(c, 1, 2'000'000'000);
+    if (b.self == 0 && e.kind == FP_EVENT_TIMER) host.move(c, 1);  // waits for the end of the stop, and is hit meanwhile
+    if (b.self == 0 && b.boot == 1 && e.kind == FP_EVENT_ACTION_DONE) ++done;
+  });
+  EXPECT_EQ(seen.set_down_at(EntityId{0U}), 1U);
+  EXPECT_EQ(done, 0) << "the end of the second stop ends nothing else";
 }
 
 TEST(AfterAContact, AnEmptyBatteryIsChangedOnTheOccasion) {
@@ -371,14 +395,37 @@ TEST(AtAStandstill, NorIsARepair) {
 }
 
 TEST(AtAStandstill, NorIsWaitingForHelpAfterAContact) {
-  Scenario scenario = somebody_in_the_way();
-  scenario.stuck_after = seconds(15.0);
-  scenario.horizon = seconds(100.0);
-  scenario.operator_help = comes_after(40.0);
-  Told told;
-  const Helped seen = run(scenario, bring_the_load(told));
-  EXPECT_TRUE(seen.assists(kStandstill).empty()) << "though nothing moves for 40 s";
-  EXPECT_EQ(seen.outcome.counters.transports_done, 1U);
+  int restarts = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Scenario scenario = somebody_in_the_way();
+    scenario.agvs.push_back(scenario.agvs[0]);  // has something to do and never does it
+    scenario.agvs[2].start = StationId{3U};
+    scenario.seed = seed;
+    scenario.stuck_after = seconds(5.0);
+    scenario.operator_help = {.on = true, .least_s = 5.0, .most_s = 80.0};
+    Told told;
+    const Helped seen = run(scenario, bring_the_load(told));
+    const SimTime contact = seen.trace.of(TraceKind::Contact).at(0).at, both_back = seen.trace.of(TraceKind::Appears).at(1).at;
+    for (const TraceRecord& record : seen.assists(kStandstill)) {
+      EXPECT_TRUE(record.at < contact || record.at > both_back) << "seed " << seed;
+      restarts += record.entity == EntityId{2U} ? 1 : 0;
+    }
+  }
+  EXPECT_GT(restarts, 0) << "afterwards";
+}
+
+TEST(AtAStandstill, HeIsCalledOnceAndComesWhenHeCan) {
+  double sum_s = 0.0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Scenario scenario = head_on(300.0);
+    scenario.seed = seed;
+    scenario.operator_help = {.on = true, .least_s = 10.0, .most_s = 200.0};
+    const double wait_s = to_seconds(run(scenario, carry_once_restarted).assists(kStandstill).at(0).at) - 30.0;
+    EXPECT_GE(wait_s, 10.0);
+    EXPECT_LE(wait_s, 200.0);
+    sum_s += wait_s;
+  }
+  EXPECT_NEAR(sum_s / 20.0, 105.0, 40.0) << "uniform; three standard errors are 37 s";
 }
 
 }  // namespace
