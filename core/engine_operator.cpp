@@ -92,7 +92,6 @@ void Engine::look_for_place(Agv& agv) {
 
 void Engine::is_set_down(Agv& agv) {
   agv.out_of_order = false;
-  agv.stopped_on = nullptr;
   agv.doing = FP_IDLE;
   agv.past.clear();  // its position is of here from the first
   progressed(agv);
@@ -141,7 +140,7 @@ void Engine::operator_looks() {
 Agv* Engine::longest_idle() {
   Agv* longest = nullptr;
   for (Agv& agv : agvs_) {
-    if (agv.agent_failed || agv.agent_away > 0 || agv.out_of_order || agv.activity || !has_open_transport(agv)) continue;
+    if (agv.agent_failed || agv.agent_away > 0 || agv.activity || !has_open_transport(agv)) continue;
     if (longest == nullptr || agv.last_progress < longest->last_progress) longest = &agv;
   }
   return longest;

@@ -238,6 +238,65 @@ TEST(AfterAContact, WhatItWasAboutToDoIsForgotten) {
   EXPECT_EQ(done, 0) << "the end of the second stop ends nothing else";
 }
 
+TEST(AfterAContact, HeldInMidSegmentItStandsOnThatSegment) {
+  Scenario scenario = row_of_tens({0, 1}, 100.0);
+  scenario.faults = {fault(Fault::Kind::ProtectiveStop, 3.0, 90.0)};  // it stands at 3.375 m
+  scenario.agvs[1].heading = -Vec2::UnitX();
+  scenario.operator_help = comes_after(20.0);
+  fp_pose pose{};
+  const Helped seen = run(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
+    if (e.kind != FP_EVENT_START) return;
+    if (b.boot == 0) host.set_timer(c, 1, 0);
+    if (b.boot == 0) host.move(c, 0);
+    if (b.boot == 1 && b.self == 0) host.get_position(c, &pose);
+  });
+  EXPECT_EQ(seen.outcome.counters.contacts, 1U);
+  EXPECT_EQ(seen.set_down_at(EntityId{0U}), 1U);
+  EXPECT_EQ(pose.x_m, 10.0);
+}
+
+TEST(AfterAContact, ALatePositionIsNotOfWhereItWas) {
+  Scenario scenario = somebody_in_the_way();
+  scenario.agvs[0].sensing.position_late_s = 60.0;
+  scenario.operator_help = comes_after(20.0);
+  fp_pose pose{};
+  run(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
+    if (b.self != 0 || e.kind != FP_EVENT_START) return;
+    if (b.boot == 0) host.move(c, 0);
+    if (b.boot == 1) host.get_position(c, &pose);
+  });
+  EXPECT_EQ(pose.x_m, 10.0);
+}
+
+TEST(AfterAContact, TheSetDownIsProgressAsTheEndOfAnyHaltIs) {
+  Scenario scenario = somebody_in_the_way();
+  scenario.operator_help = comes_after(100.0);
+  scenario.stuck_after = seconds(30.0);
+  scenario.horizon = seconds(130.0);
+  const auto nothing_more = [](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
+    if (b.self == 0 && b.boot == 0 && e.kind == FP_EVENT_START) host.move(c, 0);
+  };
+  EXPECT_FALSE(run(scenario, nothing_more).outcome.stuck);
+  scenario.horizon = seconds(150.0);
+  EXPECT_TRUE(run(scenario, nothing_more).outcome.stuck);
+}
+
+TEST(AfterAContact, ItsScannerIsNoLongerMuted) {
+  Scenario scenario = row_of_tens({0, 1});
+  scenario.agvs[1].heading = Vec2::UnitY();
+  scenario.obstacles = {{"box", {0.5, 0.5}, {Vec2{11.17, 0.0}, Vec2::UnitX()}}};  // 12 cm before the AGV at station 1: in its field, and no nearer than it may be
+  scenario.scanner.on = true;
+  scenario.operator_help = comes_after(10.0);
+  const Helped seen = run(scenario, [](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
+    if (b.self == 0 && e.kind == FP_EVENT_START) host.move(c, b.boot);
+  });
+  const auto contacts = seen.trace.of(TraceKind::Contact);
+  ASSERT_FALSE(contacts.empty()) << "sent on, it drives into AGV 1";
+  const double set_down_s = seen.set_down_s(EntityId{0U});
+  EXPECT_GT(set_down_s, 0.0);
+  for (std::size_t i = 1; i < contacts.size(); ++i) EXPECT_GT(to_seconds(contacts[i].at - contacts[0].at), set_down_s + 9.0) << "before anybody mutes it again";
+}
+
 TEST(AfterAContact, AnEmptyBatteryIsChangedOnTheOccasion) {
   Scenario scenario = somebody_in_the_way();
   scenario.vehicle_types[0].battery_idle_per_s = 0.01;
@@ -363,6 +422,30 @@ TEST(AtAStandstill, OnlyWhoHasSomethingToDoIsRestarted) {
   const Helped seen = run(scenario, carry_once_restarted);
   ASSERT_EQ(seen.assists(kStandstill).size(), 1U);
   EXPECT_EQ(seen.assists(kStandstill)[0].entity, EntityId{1U});
+}
+
+EntityId first_restarted(const Scenario& scenario, const test::Handler& handler) {
+  const auto assists = run(scenario, handler).assists(kStandstill);
+  return assists.empty() ? EntityId{} : assists[0].entity;
+}
+
+TEST(AtAStandstill, NoAgentIsRestartedThatIsGoneOrWhoseAgvCharges) {
+  Scenario scenario = head_on(60.0);
+  scenario.operator_help = comes_after(10.0);
+  const test::Handler nothing = [](const fp_host&, fp_controller*, const fp_briefing&, const fp_event&) {};
+  EXPECT_EQ(first_restarted(scenario, nothing), EntityId{0U});
+  EXPECT_EQ(first_restarted(scenario, [](const fp_host&, fp_controller*, const fp_briefing& b, const fp_event&) {
+    if (b.self == 0) throw std::runtime_error("crash");
+  }), EntityId{1U});
+  scenario.faults = {fault(Fault::Kind::Restart, 20.0, 30.0)};
+  EXPECT_EQ(first_restarted(scenario, nothing), EntityId{1U}) << "0 restarts by itself when he is called";
+  scenario.faults = {fault(Fault::Kind::Restart, 35.0, 10.0)};
+  EXPECT_EQ(first_restarted(scenario, nothing), EntityId{1U}) << "and here when he comes: he is called anew";
+  scenario.faults.clear();
+  scenario.agvs[0].battery = 0.1;
+  EXPECT_EQ(first_restarted(scenario, [](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
+    if (b.self == 0 && e.kind == FP_EVENT_START) host.charge(c, FP_HERE);
+  }), EntityId{1U});
 }
 
 TEST(AtAStandstill, NobodyIsCalledBeforeThereIsSomethingToDo) {
