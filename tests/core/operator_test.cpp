@@ -1,90 +1,25 @@
-// What the operator does about contacts and standstills, one at a time.
-#include "tests/core/row_of_tens.hpp"
+// What the operator does after a contact, one thing at a time.
+#include "tests/core/helped.hpp"
 
 namespace fleetproof {
 namespace {
 
+using test::bring_the_load;
+using test::comes_after;
 using test::fault;
+using test::Helped;
+using test::kBattery;
+using test::kContact;
 using test::row_of_tens;
-
-constexpr auto kContact = static_cast<std::uint64_t>(Assist::Contact), kBattery = static_cast<std::uint64_t>(Assist::Battery),
-               kStandstill = static_cast<std::uint64_t>(Assist::Standstill);
-
-OperatorSetup comes_after(double help_s) { return {.on = true, .least_s = help_s, .most_s = help_s, .battery = 0.5}; }
-
-struct Helped {
-  Outcome outcome;
-  test::Recorder trace;
-
-  std::vector<TraceRecord> assists(std::uint64_t what) const {
-    auto found = trace.of(TraceKind::OperatorAssists);
-    std::erase_if(found, [&](const TraceRecord& record) { return record.a != what; });
-    return found;
-  }
-  // When an AGV is set down again, in seconds after the first contact.
-  double set_down_s(EntityId agv) const {
-    for (const TraceRecord& record : trace.of(TraceKind::Appears)) {
-      if (record.entity == agv) return to_seconds(record.at - trace.of(TraceKind::Contact).at(0).at);
-    }
-    return -1.0;
-  }
-  std::uint64_t set_down_at(EntityId agv) const {
-    for (const TraceRecord& record : trace.of(TraceKind::Appears)) {
-      if (record.entity == agv) return record.a;
-    }
-    return 999;
-  }
-};
-
-Helped run(const Scenario& scenario, const test::Handler& handler) {
-  Helped seen;
-  seen.outcome = test::simulate_with(scenario, handler, &seen.trace);
-  EXPECT_FALSE(seen.outcome.engine_error) << seen.outcome.message;
-  return seen;
-}
-
-// AGV 0 brings a load from station 0 to station 2; AGV 1 stands in its way at station 1 and never does anything.
-Scenario somebody_in_the_way() {
-  Scenario scenario = row_of_tens({0, 1}, 200.0);
-  scenario.agvs[0].transports = {{StationId{0U}, StationId{2U}, Duration{}}};
-  return scenario;
-}
-
-struct Told {
-  std::vector<std::uint32_t> boots, stations, segments, loaded, actions;
-  std::vector<double> at_s;
-  int orders = 0;
-};
-
-// Of AGV 0: it drives on with its load from wherever it starts.
-test::Handler bring_the_load(Told& told) {
-  return [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
-    if (b.self != 0) return;
-    std::uint32_t loaded = 0, action = 0;
-    host.is_loaded(c, &loaded);
-    host.get_action(c, &action);
-    if (e.kind == FP_EVENT_START) {
-      told.boots.push_back(b.boot);
-      told.stations.push_back(b.start_station);
-      told.segments.push_back(b.start_segment);
-      told.loaded.push_back(loaded);
-      told.actions.push_back(action);
-      told.at_s.push_back(static_cast<double>(e.now_ns) * 1e-9);
-    }
-    if (e.kind == FP_EVENT_ORDER) {
-      ++told.orders;
-      if (loaded == 0) host.pick(c, FP_HERE);
-      if (loaded == 1) host.drop(c, 1);
-    }
-    if (e.kind == FP_EVENT_ACTION_DONE && e.result == FP_OK && loaded == 1 && b.boot == 0) host.move(c, 0);
-  };
-}
+using test::run;
+using test::somebody_in_the_way;
+using test::Heard;
 
 TEST(AfterAContact, TheAgvIsSetDownAtTheEndOfItsSegmentAndDelivers) {
   Scenario scenario = somebody_in_the_way();
   scenario.operator_help = comes_after(20.0);
-  Told told;
-  const Helped seen = run(scenario, bring_the_load(told));
+  Heard heard;
+  const Helped seen = run(scenario, bring_the_load(heard));
   EXPECT_EQ(seen.outcome.counters.contacts, 1U);
   EXPECT_TRUE(seen.outcome.contact) << "help undoes nothing";
   EXPECT_EQ(seen.outcome.counters.assists, 2U);
@@ -94,12 +29,12 @@ TEST(AfterAContact, TheAgvIsSetDownAtTheEndOfItsSegmentAndDelivers) {
   EXPECT_EQ(seen.trace.of(TraceKind::Leaves).size(), 2U);
   EXPECT_EQ(seen.set_down_at(EntityId{0U}), 1U);
   EXPECT_NEAR(seen.set_down_s(EntityId{0U}), 21.0, 1e-8);
-  EXPECT_EQ(told.boots, (std::vector<std::uint32_t>{0, 1}));
-  EXPECT_EQ(told.stations, (std::vector<std::uint32_t>{0, 1}));
-  EXPECT_EQ(told.segments, (std::vector<std::uint32_t>{FP_NONE, FP_NONE}));
-  EXPECT_EQ(told.loaded, (std::vector<std::uint32_t>{0, 1})) << "it keeps its load";
-  EXPECT_EQ(told.actions.at(1), static_cast<std::uint32_t>(FP_IDLE));
-  EXPECT_EQ(told.orders, 2) << "told again";
+  EXPECT_EQ(heard.boots, (std::vector<std::uint32_t>{0, 1}));
+  EXPECT_EQ(heard.stations, (std::vector<std::uint32_t>{0, 1}));
+  EXPECT_EQ(heard.segments, (std::vector<std::uint32_t>{FP_NONE, FP_NONE}));
+  EXPECT_EQ(heard.loaded, (std::vector<std::uint32_t>{0, 1})) << "it keeps its load";
+  EXPECT_EQ(heard.actions.at(1), static_cast<std::uint32_t>(FP_IDLE));
+  EXPECT_EQ(heard.orders, 2) << "told again";
   EXPECT_EQ(seen.outcome.counters.transports_done, 1U);
   EXPECT_FALSE(seen.outcome.stuck);
 }
@@ -107,14 +42,14 @@ TEST(AfterAContact, TheAgvIsSetDownAtTheEndOfItsSegmentAndDelivers) {
 TEST(AfterAContact, WhoseStationIsTakenComesToTheNearestThatIsFree) {
   Scenario scenario = somebody_in_the_way();
   scenario.operator_help = comes_after(20.0);
-  Told told;
-  const Helped seen = run(scenario, bring_the_load(told));
+  Heard heard;
+  const Helped seen = run(scenario, bring_the_load(heard));
   EXPECT_EQ(seen.set_down_at(EntityId{1U}), 0U) << "AGV 0 stands at station 1 by then; 0 and 2 are as near, and 0 is the first";
 }
 
 TEST(AfterAContact, WithoutTheOperatorItStandsForGood) {
-  Told told;
-  const Helped seen = run(somebody_in_the_way(), bring_the_load(told));
+  Heard heard;
+  const Helped seen = run(somebody_in_the_way(), bring_the_load(heard));
   EXPECT_EQ(seen.outcome.counters.contacts, 1U);
   EXPECT_EQ(seen.outcome.counters.assists, 0U);
   EXPECT_EQ(seen.outcome.counters.transports_done, 0U);
@@ -302,8 +237,8 @@ TEST(AfterAContact, AnEmptyBatteryIsChangedOnTheOccasion) {
   scenario.vehicle_types[0].battery_idle_per_s = 0.01;
   scenario.agvs[0].battery = 0.2;
   scenario.operator_help = comes_after(30.0);
-  Told told;
-  const Helped seen = run(scenario, bring_the_load(told));
+  Heard heard;
+  const Helped seen = run(scenario, bring_the_load(heard));
   const auto changed = seen.assists(kBattery);
   ASSERT_GE(changed.size(), 1U);
   EXPECT_EQ(changed[0].entity, EntityId{0U});
@@ -319,13 +254,13 @@ TEST(AfterAContact, AnAgentThatIsRestartingStartsWhenItsAgvStandsAndTheRestartIs
     Scenario scenario = somebody_in_the_way();
     scenario.faults = {fault(Fault::Kind::Restart, 10.0, lasts_s)};
     scenario.operator_help = comes_after(20.0);
-    Told told;
-    const Helped seen = run(scenario, bring_the_load(told));
+    Heard heard;
+    const Helped seen = run(scenario, bring_the_load(heard));
     const double set_down_s = to_seconds(seen.trace.of(TraceKind::Contact).at(0).at) + seen.set_down_s(EntityId{0U});
     EXPECT_GT(set_down_s, 31.7);
     EXPECT_LT(set_down_s - 1.0, 31.7);
-    EXPECT_EQ(told.boots, (std::vector<std::uint32_t>{0, 1}));
-    EXPECT_NEAR(told.at_s.at(1), std::max(set_down_s, 10.0 + lasts_s), 1e-8);
+    EXPECT_EQ(heard.boots, (std::vector<std::uint32_t>{0, 1}));
+    EXPECT_NEAR(heard.at_s.at(1), std::max(set_down_s, 10.0 + lasts_s), 1e-8);
     EXPECT_EQ(seen.outcome.counters.transports_done, 1U);
   }
 }
@@ -343,172 +278,6 @@ TEST(AfterAContact, ACrashedAgentStaysCrashed) {
   EXPECT_EQ(starts, 1);
   EXPECT_TRUE(seen.outcome.crash);
   EXPECT_EQ(seen.set_down_at(EntityId{0U}), 1U);
-}
-
-// ---- standstills
-
-// Two who face each other, with a transport each, and whose agents do nothing before they are restarted.
-Scenario head_on(double horizon_s) {
-  Scenario scenario = row_of_tens({1, 2}, horizon_s);
-  scenario.agvs[1].heading = -Vec2::UnitX();
-  scenario.agvs[0].transports = {{StationId{1U}, StationId{0U}, Duration{}}};
-  scenario.agvs[1].transports = {{StationId{2U}, StationId{1U}, Duration{}}};
-  scenario.stuck_after = seconds(30.0);
-  return scenario;
-}
-
-void carry_once_restarted(const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
-  if (b.boot == 0) return;
-  if (e.kind == FP_EVENT_ORDER) host.pick(c, FP_HERE);
-  std::uint32_t loaded = 0;
-  if (e.kind == FP_EVENT_ACTION_DONE && host.is_loaded(c, &loaded) == FP_OK && loaded == 1) host.drop(c, b.self == 0 ? 0 : 1);
-}
-
-TEST(AtAStandstill, OneAgentAfterTheOtherIsRestartedUntilAllIsDone) {
-  Scenario scenario = head_on(300.0);
-  scenario.operator_help = comes_after(10.0);
-  const Helped seen = run(scenario, carry_once_restarted);
-  const auto assists = seen.assists(kStandstill);
-  ASSERT_EQ(assists.size(), 2U);
-  EXPECT_EQ(assists[0].entity, EntityId{0U}) << "of two that have done as little the first";
-  EXPECT_NEAR(to_seconds(assists[0].at), 40.0, 1e-8);
-  EXPECT_EQ(assists[1].entity, EntityId{1U});
-  SimTime last_action = kStart;
-  for (const TraceRecord& record : seen.trace.of(TraceKind::ActivityEnds)) {
-    if (record.at < assists[1].at) last_action = record.at;
-  }
-  EXPECT_GE(to_seconds(assists[1].at - last_action), 40.0);
-  EXPECT_LE(to_seconds(assists[1].at - last_action), 41.0) << "he looks every second";
-  EXPECT_EQ(seen.outcome.counters.transports_done, 2U);
-  EXPECT_EQ(seen.outcome.counters.assists, 2U);
-  EXPECT_FALSE(seen.outcome.stuck);
-  EXPECT_TRUE(seen.trace.of(TraceKind::Leaves).empty()) << "nobody is moved";
-}
-
-TEST(AtAStandstill, WithoutTheOperatorItLasts) {
-  const Helped seen = run(head_on(300.0), carry_once_restarted);
-  EXPECT_EQ(seen.outcome.counters.transports_done, 0U);
-  EXPECT_EQ(seen.outcome.counters.assists, 0U);
-  EXPECT_TRUE(seen.outcome.stuck);
-}
-
-TEST(AtAStandstill, WhereNoRestartHelpsTheyTakeTurnsAndTheRunIsStuck) {
-  Scenario scenario = head_on(170.0);
-  scenario.operator_help = comes_after(10.0);
-  const Helped seen = run(scenario, [](const fp_host&, fp_controller*, const fp_briefing&, const fp_event&) {});
-  const auto assists = seen.assists(kStandstill);
-  ASSERT_EQ(assists.size(), 4U);
-  for (std::size_t i = 0; i < assists.size(); ++i) {
-    EXPECT_NEAR(to_seconds(assists[i].at), 40.0 * static_cast<double>(i + 1), 1e-8);
-    EXPECT_EQ(assists[i].entity, EntityId{i % 2});
-  }
-  EXPECT_TRUE(seen.outcome.stuck) << "a restart is no action";
-}
-
-TEST(AtAStandstill, OneThatHasPassedNeedsNoHelp) {
-  Scenario scenario = head_on(65.0);
-  scenario.operator_help = comes_after(10.0);
-  const Helped seen = run(scenario, [](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
-    if (e.kind == FP_EVENT_START && b.self == 1) host.set_timer(c, 1, 32'000'000'000);
-    if (e.kind == FP_EVENT_TIMER) host.pick(c, FP_HERE);  // over at 37 s; he comes at 40 s
-  });
-  EXPECT_TRUE(seen.assists(kStandstill).empty());
-}
-
-TEST(AtAStandstill, OnlyWhoHasSomethingToDoIsRestarted) {
-  Scenario scenario = head_on(60.0);
-  scenario.agvs[0].transports.clear();
-  scenario.operator_help = comes_after(10.0);
-  const Helped seen = run(scenario, carry_once_restarted);
-  ASSERT_EQ(seen.assists(kStandstill).size(), 1U);
-  EXPECT_EQ(seen.assists(kStandstill)[0].entity, EntityId{1U});
-}
-
-EntityId first_restarted(const Scenario& scenario, const test::Handler& handler) {
-  const auto assists = run(scenario, handler).assists(kStandstill);
-  return assists.empty() ? EntityId{} : assists[0].entity;
-}
-
-TEST(AtAStandstill, NoAgentIsRestartedThatIsGoneOrWhoseAgvCharges) {
-  Scenario scenario = head_on(60.0);
-  scenario.operator_help = comes_after(10.0);
-  const test::Handler nothing = [](const fp_host&, fp_controller*, const fp_briefing&, const fp_event&) {};
-  EXPECT_EQ(first_restarted(scenario, nothing), EntityId{0U});
-  EXPECT_EQ(first_restarted(scenario, [](const fp_host&, fp_controller*, const fp_briefing& b, const fp_event&) {
-    if (b.self == 0) throw std::runtime_error("crash");
-  }), EntityId{1U});
-  scenario.faults = {fault(Fault::Kind::Restart, 20.0, 30.0)};
-  EXPECT_EQ(first_restarted(scenario, nothing), EntityId{1U}) << "0 restarts by itself when he is called";
-  scenario.faults = {fault(Fault::Kind::Restart, 35.0, 10.0)};
-  EXPECT_EQ(first_restarted(scenario, nothing), EntityId{1U}) << "and here when he comes: he is called anew";
-  scenario.faults.clear();
-  scenario.agvs[0].battery = 0.1;
-  EXPECT_EQ(first_restarted(scenario, [](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
-    if (b.self == 0 && e.kind == FP_EVENT_START) host.charge(c, FP_HERE);
-  }), EntityId{1U});
-}
-
-TEST(AtAStandstill, NobodyIsCalledBeforeThereIsSomethingToDo) {
-  Scenario scenario = head_on(100.0);
-  for (AgvSetup& agv : scenario.agvs) agv.transports[0].release = seconds(50.0);
-  scenario.operator_help = comes_after(10.0);
-  const Helped seen = run(scenario, carry_once_restarted);
-  ASSERT_EQ(seen.assists(kStandstill).size(), 1U);
-  EXPECT_NEAR(to_seconds(seen.assists(kStandstill)[0].at), 90.0, 1.0);
-}
-
-TEST(AtAStandstill, ALongDriveIsNone) {
-  Scenario scenario = head_on(60.0);
-  scenario.stuck_after = seconds(5.0);
-  scenario.vehicle_types[0].drive.speed_mps = 0.3;  // more than half a minute from station to station
-  scenario.operator_help = comes_after(2.0);
-  const Helped seen = run(scenario, [](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
-    if (e.kind == FP_EVENT_START && b.self == 1) host.move(c, 2);
-  });
-  ASSERT_FALSE(seen.assists(kStandstill).empty());
-  EXPECT_GT(to_seconds(seen.assists(kStandstill)[0].at), 33.0 + 5.0);
-}
-
-TEST(AtAStandstill, NorIsARepair) {
-  Scenario scenario = head_on(100.0);
-  scenario.faults = {fault(Fault::Kind::Breakdown, 1.0, 60.0)};
-  scenario.operator_help = comes_after(10.0);
-  const Helped seen = run(scenario, carry_once_restarted);
-  ASSERT_EQ(seen.assists(kStandstill).size(), 0U) << "not before 61 + 30 + 10 s";
-}
-
-TEST(AtAStandstill, NorIsWaitingForHelpAfterAContact) {
-  int restarts = 0;
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    Scenario scenario = somebody_in_the_way();
-    scenario.agvs.push_back(scenario.agvs[0]);  // has something to do and never does it
-    scenario.agvs[2].start = StationId{3U};
-    scenario.seed = seed;
-    scenario.stuck_after = seconds(5.0);
-    scenario.operator_help = {.on = true, .least_s = 5.0, .most_s = 80.0};
-    Told told;
-    const Helped seen = run(scenario, bring_the_load(told));
-    const SimTime contact = seen.trace.of(TraceKind::Contact).at(0).at, both_back = seen.trace.of(TraceKind::Appears).at(1).at;
-    for (const TraceRecord& record : seen.assists(kStandstill)) {
-      EXPECT_TRUE(record.at < contact || record.at > both_back) << "seed " << seed;
-      restarts += record.entity == EntityId{2U} ? 1 : 0;
-    }
-  }
-  EXPECT_GT(restarts, 0) << "afterwards";
-}
-
-TEST(AtAStandstill, HeIsCalledOnceAndComesWhenHeCan) {
-  double sum_s = 0.0;
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    Scenario scenario = head_on(300.0);
-    scenario.seed = seed;
-    scenario.operator_help = {.on = true, .least_s = 10.0, .most_s = 200.0};
-    const double wait_s = to_seconds(run(scenario, carry_once_restarted).assists(kStandstill).at(0).at) - 30.0;
-    EXPECT_GE(wait_s, 10.0);
-    EXPECT_LE(wait_s, 200.0);
-    sum_s += wait_s;
-  }
-  EXPECT_NEAR(sum_s / 20.0, 105.0, 40.0) << "uniform; three standard errors are 37 s";
 }
 
 }  // namespace

@@ -80,6 +80,18 @@ TEST_F(Progress, WhomTheOperatorHasTakenOffTheFloorWaitsForNobodyAndIsInNobodysW
   EXPECT_THAT(law.finish(600.0).incidents, IsEmpty());
 }
 
+TEST_F(Progress, NobodyWaitsForIt) {
+  for (const bool away : {false, true}) {
+    Told law = told();
+    released(law, 2.0, 1, 1, 0);  // beyond AGV 0, which has nothing to do
+    if (away) law.record(3.0, 0, TraceKind::Leaves);
+    const auto found = law.finish(600.0).incidents;
+    ASSERT_FALSE(found.empty());
+    EXPECT_EQ(found[0].kind, Deadlock);
+    EXPECT_EQ(found.size(), away ? 1U : 2U) << "the wait for AGV 0";
+  }
+}
+
 TEST_F(Progress, AndStartsAfreshWhereItIsSetDown) {
   Told law = told();
   both_released(law);
