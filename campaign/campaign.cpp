@@ -7,6 +7,7 @@
 #include "campaign/run_one.hpp"
 #include "campaign/task_pool.hpp"
 #include "core/random.hpp"
+#include "generators/exempt_pairs.hpp"
 #include "generators/purpose_words.hpp"
 #include "storage/archive.hpp"
 
@@ -65,6 +66,7 @@ CampaignRecord campaign_record(const CampaignPlan& plan, const AgentPrograms& pr
   record.held_replicate = plan.held_replicate;
   record.exempt_purposes = purposes_text(plan.law.exempt_purposes);
   record.exempt_radius_m = plan.law.exempt_radius_m;
+  for (const ExemptPair& pair : plan.law.exempt_pairs) record.exempt_pairs.push_back(text_of(pair));
   record.plugin_agents = plugin_agents(plan, programs);
   record.engine = engine_identity();
   for (const std::string& plugin : programs.loaded()) record.engine.libraries += ", plug-in " + plugin;

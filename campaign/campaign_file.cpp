@@ -248,6 +248,7 @@ void read_law(TomlTable& table, CampaignPlan& plan) {
   table.get("leave_out", plan.laws_left_out);
   table.get("exempt_purposes", purposes);
   table.get("exempt_radius_m", plan.law.exempt_radius_m);
+  for (auto& [one, other] : table.pairs("exempt_pairs")) plan.law.exempt_pairs.push_back({one, other});
   table.finish();
   std::string words;
   for (const std::string& purpose : purposes) {

@@ -8,6 +8,7 @@
 #include "campaign/plan_fields.hpp"
 #include "core/catalogue.hpp"
 #include "core/error.hpp"
+#include "generators/exempt_pairs.hpp"
 #include "generators/radio_fields.hpp"
 #include "laws/laws.hpp"
 
@@ -117,6 +118,15 @@ void check_held(const CampaignPlan& plan, const std::string& where) {
   demand(plan.held_replicate <= 1'000'000'000'000, where, fmt::format("vary.held_replicate is {}; it is at most 1e12", plan.held_replicate));
   demand(plan.held_streams.size() < kRunStreams.size() || plan.is_drawn(), where,
          "vary.hold names every stream, so that all replicates would be the same; leave out the one to vary");
+}
+
+void check_exempt_pairs(const CampaignPlan& plan, const std::string& where) {
+  std::vector<std::string> types;
+  for (const auto& [type, share] : plan.vehicles) types.push_back(type.name);
+  for (const ExemptPair& pair : plan.law.exempt_pairs) {
+    const std::string fault = fault_of_exempt_pair(pair, types);
+    demand(fault.empty(), where, "law.exempt_pairs: " + fault);
+  }
 }
 
 void check_exemption(const LawSetup& law, const std::string& where) {
@@ -229,6 +239,7 @@ void check_plan(const CampaignPlan& plan, const std::string& where) {
   check_sampling(plan, where);
   check_held(plan, where);
   check_exemption(plan.law, where);
+  check_exempt_pairs(plan, where);
   check_laws_and_coverage(plan, where);
   check_radio(plan, where);
   constexpr std::uint64_t kRunsMax = 1'000'000'000'000;  // a thousand years of this engine; beyond it run indices would wrap

@@ -175,12 +175,15 @@ void read_vary(const Json& json, CampaignPlan& plan) {
 }
 
 Json law_json(const CampaignPlan& plan) {
+  Json pairs = Json::array();
+  for (const auto& [one, other] : plan.law.exempt_pairs) pairs.push_back({one, other});
   return {{"safety_distance_m", plan.law.safety_distance_m},
           {"reaction_s", plan.law.reaction_s},
           {"min_transports_per_agv_hour", plan.law.min_transports_per_agv_hour},
           {"leave_out", plan.laws_left_out},
           {"exempt_purposes", purposes_text(plan.law.exempt_purposes)},
-          {"exempt_radius_m", plan.law.exempt_radius_m}};
+          {"exempt_radius_m", plan.law.exempt_radius_m},
+          {"exempt_pairs", pairs}};
 }
 
 void read_law(const Json& json, CampaignPlan& plan) {
@@ -192,6 +195,7 @@ void read_law(const Json& json, CampaignPlan& plan) {
   if (!purposes) throw EngineError(fmt::format("the plan in the archive exempts {}, which this version does not know", json.at("exempt_purposes").dump()));
   plan.law.exempt_purposes = *purposes;
   plan.law.exempt_radius_m = json.at("exempt_radius_m");
+  for (const Json& pair : json.at("exempt_pairs")) plan.law.exempt_pairs.push_back({pair.at(0).get<std::string>(), pair.at(1).get<std::string>()});
 }
 
 Json layouts_json(const CampaignPlan& plan) {

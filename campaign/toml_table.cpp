@@ -221,6 +221,22 @@ std::vector<TomlTable::Item> TomlTable::words_or_tables(std::string_view key) {
   return items;
 }
 
+std::vector<std::pair<std::string, std::string>> TomlTable::pairs(std::string_view key) {
+  constexpr const char* kWanted = "an array of pairs, as in [[\"a\", \"b\"]]";
+  std::vector<std::pair<std::string, std::string>> pairs;
+  const std::string name = impl_->path_in_file + std::string(key);
+  with(*impl_->table, impl_->known, key, [&](const toml::node& node) {
+    const toml::array* array = node.as_array();
+    if (array == nullptr) wrong_type(impl_->file, node, name, kWanted);
+    for (const toml::node& element : *array) {
+      const toml::array* pair = element.as_array();
+      if (pair == nullptr || pair->size() != 2 || !pair->get(0)->is_string() || !pair->get(1)->is_string()) wrong_type(impl_->file, element, name, kWanted);
+      pairs.emplace_back(*pair->get(0)->value<std::string>(), *pair->get(1)->value<std::string>());
+    }
+  });
+  return pairs;
+}
+
 void TomlTable::finish() const {
   const std::vector<std::string_view> known(impl_->known.begin(), impl_->known.end());
   for (const auto& [key, node] : *impl_->table) {

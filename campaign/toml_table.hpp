@@ -4,6 +4,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace fleetproof {
@@ -31,6 +32,9 @@ class TomlTable {
   struct Item;
   // An array of strings and tables, as in ["a", { file = "b" }]. Empty if the key is absent.
   std::vector<Item> words_or_tables(std::string_view key);
+
+  // An array of arrays of two strings, as in [["a", "b"]]. Empty if the key is absent.
+  std::vector<std::pair<std::string, std::string>> pairs(std::string_view key);
 
   bool has(std::string_view key) const;
   bool is_table(std::string_view key) const;                   // written [key], not [[key]]

@@ -64,7 +64,8 @@ struct Timer {
 struct Agv {
   AgvId id;
   StationId station;                   // where it stands, or the last it left
-  bool out_of_order = false;           // for good
+  bool out_of_order = false;           // for good, or until the operator has set it down somewhere else
+  const Lane* stopped_on = nullptr;    // then: the lane on which it stands; null: it stands at its station
   bool acting = false;                 // an action is under way
   bool committed = false;              // or one has been accepted and is about to take effect
   std::optional<Activity> activity;
@@ -78,6 +79,7 @@ struct Agv {
   bool plan_waits = false;             // for the end of its halts
   std::uint64_t activity_stamp = 0;    // tells an ActivityEnds event of the current activity from a stale one
   fp_action doing = FP_IDLE;
+  SimTime last_progress = kStart;      // an action begun or ended, or the agent restarted by the operator
 
   double battery = 1.0;                // as of battery_at
   SimTime battery_at = kStart;
@@ -104,7 +106,7 @@ struct Agv {
   // The agent's clock.
   void* agent = nullptr;
   bool agent_failed = false;
-  bool agent_away = false;             // restarting
+  std::uint32_t agent_away = 0;        // for so many reasons: a restart, the AGV off the floor
   std::uint32_t boot = 0;
   bool in_activation = false;
   bool wake_scheduled = false;

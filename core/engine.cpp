@@ -84,6 +84,7 @@ void Engine::start() {
     predict_empty_battery(agv);
   }
   schedule_faults();
+  if (scenario_.operator_help.on) queue_.push(kStart, EntityId{}, Event::Kind::OperatorLooks);
 }
 
 void Engine::handle(const Event& event) {
@@ -91,6 +92,7 @@ void Engine::handle(const Event& event) {
     case Event::Kind::Contact: return bodies_touch(event.entity, event.payload);
     case Event::Kind::BodyAppears: return body_appears(event.entity);
     case Event::Kind::BodyLeaves: return body_leaves(event.entity);
+    case Event::Kind::OperatorLooks: return operator_looks();
     default: break;
   }
   Agv& agv = agvs_[event.entity.index()];
@@ -186,10 +188,9 @@ Outcome Engine::outcome() {
   counters.events = digest_.record_count();
   outcome_.simulated_ns = static_cast<std::uint64_t>(scenario_.horizon.count());
   outcome_.agv_count = static_cast<std::uint32_t>(agvs_.size());
-  const bool open = counters.transports_done + counters.loads_cleared < counters.transports_released;
   const auto held_by_fault = [](const Halt& halt) { return halt.reason == Halt::Reason::Breakdown || halt.reason == Halt::Reason::ProtectiveStop; };
   const bool excused = std::ranges::any_of(agvs_, [&](const Agv& agv) { return std::ranges::any_of(agv.halts, held_by_fault); });
-  outcome_.stuck = open && !excused && now_ - last_progress_ >= scenario_.stuck_after;
+  outcome_.stuck = transports_are_open() && !excused && now_ - last_progress_ >= scenario_.stuck_after;
   file_findings();
   outcome_.contact = outcome_.contact || counters.contacts > 0;
   outcome_.digest = digest_.value();

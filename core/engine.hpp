@@ -32,8 +32,8 @@ namespace fleetproof {
 
 // The event loop of one run. A local variable of simulate(); thousands can live at once.
 // Its member functions stand in files by subject: engine.cpp (the loop), engine_motion.cpp (actions), engine_drive.cpp (drives), engine_battery.cpp,
-// engine_faults.cpp (faults, halts, bodies that come and go), engine_scanner.cpp, engine_radio.cpp (messages), engine_agents.cpp (activations and
-// the agent's clock). controller.cpp translates the C interface.
+// engine_faults.cpp (faults, halts, bodies that come and go), engine_operator.cpp, engine_scanner.cpp, engine_radio.cpp (messages),
+// engine_agents.cpp (activations and the agent's clock). controller.cpp translates the C interface.
 class Engine {
  public:
   Engine(const Scenario& scenario, const fp_agent_type& agent, std::span<const std::unique_ptr<Law>> laws, TraceSink* sink, const char* agent_config);
@@ -70,6 +70,7 @@ class Engine {
   void file_findings();
 
   const VehicleType& type_of(const Agv& agv) const { return scenario_.type_of(scenario_.agvs[agv.id.index()]); }
+  void progressed(Agv& agv) { last_progress_ = agv.last_progress = now_; }
   double motion_draw(MotionTopic topic, const Agv& agv, std::uint32_t number) const;
 
   // ---- actions
@@ -124,10 +125,25 @@ class Engine {
   bool load_drops(Agv& agv, const Fault& fault, std::uint64_t number);
   void move_load(LoadId id, Holder to);
   void trace_load(LoadId id);
-  void call_operator(Agv& agv, Assist what, std::uint64_t halt);
-  void operator_comes(Agv& agv, Assist what, std::uint64_t halt);
   void agent_goes_away(Agv& agv);
   void agent_comes_back(Agv& agv);
+
+  // ---- the operator
+  Duration until_help_comes(const Agv& agv, std::uint32_t topic, std::uint32_t number) const;
+  void call_operator(Agv& agv, Assist what, std::uint64_t halt);
+  void operator_comes(Agv& agv, Assist what, std::uint64_t stamp);
+  void assisted(const Agv& agv, Assist what);
+  void change_battery(Agv& agv);
+  void take_off_floor(Agv& agv);
+  void look_for_place(Agv& agv);
+  void is_set_down(Agv& agv);
+  bool transports_are_open() const;
+  bool has_open_transport(const Agv& agv) const;
+  bool stands_still() const;
+  void operator_looks();
+  Agv* longest_idle();
+  std::uint64_t standstill_stamp() const;
+  void help_at_standstill(Agv& agv, std::uint64_t stamp);
 
   // ---- scanner
   void scanner_wakes(Agv& agv);
@@ -184,6 +200,9 @@ class Engine {
   std::vector<bool> fault_came_;                // likewise: those counted from a pick
   SimTime now_ = kStart;
   SimTime last_progress_ = kStart;
+  SimTime still_since_ = kStart;                // when the operator last saw somebody at work, or restarted an agent
+  bool standstill_called_ = false;
+  std::uint32_t standstills_ = 0;               // he was called to
   ProbeTally probes_;
   Outcome outcome_;
 };

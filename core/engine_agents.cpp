@@ -26,7 +26,7 @@ std::string printable(std::string_view text) {
 
 void Engine::tell(Agv& agv, fp_event event) {
   event.struct_size = sizeof(fp_event);
-  if (agv.agent_failed || agv.agent_away) return;
+  if (agv.agent_failed || agv.agent_away > 0) return;
   if (agv.in_activation || now_ < agv.free_at || !agv.waiting_events.empty()) {
     agv.waiting_events.push_back(event);
     if (!agv.in_activation) wake(agv);
@@ -146,7 +146,7 @@ void Engine::tell_order(Agv& agv, TransportId id, const TransportOrder& order) {
 
 // The computer goes down: what the agent knew, was told and was about to do is lost. Orders already given to the AGV are carried out.
 void Engine::agent_goes_away(Agv& agv) {
-  agv.agent_away = true;
+  ++agv.agent_away;
   destroy_agent(agv);
   agv.waiting_events.clear();
   agv.timers.clear();
@@ -163,7 +163,7 @@ void Engine::agent_goes_away(Agv& agv) {
 }
 
 void Engine::agent_comes_back(Agv& agv) {
-  agv.agent_away = false;
+  if (--agv.agent_away > 0) return;  // not for that reason alone
   ++agv.boot;
   fp_event start{};
   start.kind = FP_EVENT_START;
@@ -171,8 +171,7 @@ void Engine::agent_comes_back(Agv& agv) {
   // Who hands out the transports asks again for those that are not done.
   for (std::size_t i = 0; i < world_.loads().size(); ++i) {
     const Load& load = world_.loads()[i];
-    const bool over = load.holder == Holder{Holder::Kind::Station, load.destination.value} || load.holder.kind == Holder::Kind::ClearedAway;
-    if (load.carrier != agv.id || over) continue;
+    if (load.carrier != agv.id || load.is_over()) continue;
     TransportOrder order = scenario_.agvs[agv.id.index()].transports[load.transport.value - first_transport_[agv.id.index()]];
     if (load.holder.kind == Holder::Kind::Station) order.from = StationId{load.holder.index};
     tell_order(agv, load.transport, order);

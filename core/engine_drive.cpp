@@ -19,7 +19,7 @@ void Engine::begin_drive(Agv& agv, double entry_mps) {
     limits.acceleration_mps2 *= factor;  // not the brakes: that a stop is possible must stay true
   }
   ++outcome_.counters.drives;
-  last_progress_ = now_;
+  progressed(agv);
   plan_rest_of_drive(agv, agv.plan.way_m, entry_mps);
   Activity activity{ActivityKind::Drive, agv.id, now_, now_, SpatialEvolution{first_leg_piece(agv)}};
   activity.end = std::get<SpatialEvolution>(activity.evolution).piece.end;

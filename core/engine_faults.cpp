@@ -1,20 +1,16 @@
-// Faults strike, bodies come and go, an AGV halts wherever it is and goes on, the operator helps.
+// Faults strike, bodies come and go, an AGV halts wherever it is and goes on.
 #include <algorithm>
 
 #include "core/engine.hpp"
 #include "core/error.hpp"
-#include "core/random.hpp"
 
 namespace fleetproof {
 namespace {
 
 constexpr double kAppearsClear_m = 0.05;  // beyond the safety distance
 constexpr Duration kTriesAgain = std::chrono::seconds(1);
-constexpr std::uint32_t kAssistTopic = 100;  // of the faults stream, which the generator draws from under lower topics
 
 Halt::Reason halt_of(Fault::Kind kind) { return kind == Fault::Kind::Breakdown ? Halt::Reason::Breakdown : Halt::Reason::ProtectiveStop; }
-
-bool halts(Fault::Kind kind) { return kind == Fault::Kind::Breakdown || kind == Fault::Kind::ProtectiveStop; }
 
 }  // namespace
 
@@ -46,11 +42,11 @@ void Engine::load_taken_up(const Agv& agv, TransportId transport) {
 void Engine::fault_strikes(Agv& agv, std::uint64_t number) {
   const Fault& fault = scenario_.faults[number];
   const bool agents = fault.kind == Fault::Kind::Restart || fault.kind == Fault::Kind::Freeze;
-  if (agents ? agv.agent_failed || agv.agent_away : agv.out_of_order) return;  // what is out of order already cannot fail
+  if (agents ? agv.agent_failed || agv.agent_away > 0 : agv.out_of_order) return;  // what is out of order already cannot fail
   if (fault.kind == Fault::Kind::LoadDrop && !load_drops(agv, fault, number)) return;
   ++outcome_.counters.faults;
   trace(agv.id, TraceKind::FaultStrikes, static_cast<std::uint64_t>(fault.kind), number);
-  if (halts(fault.kind)) fault_halts_[number] = halt(agv, halt_of(fault.kind));
+  if (holds_agv(fault.kind)) fault_halts_[number] = halt(agv, halt_of(fault.kind));
   if (fault.kind == Fault::Kind::Restart) agent_goes_away(agv);
   if (fault.kind == Fault::Kind::Freeze) agv.free_at = std::max(agv.free_at, now_ + fault.lasts);
   queue_.push(now_ + fault.lasts, agv.id, Event::Kind::FaultOver, number);
@@ -59,7 +55,7 @@ void Engine::fault_strikes(Agv& agv, std::uint64_t number) {
 void Engine::fault_over(Agv& agv, std::uint64_t number) {
   const Fault& fault = scenario_.faults[number];
   trace(agv.id, TraceKind::FaultOver, static_cast<std::uint64_t>(fault.kind), number);
-  if (halts(fault.kind)) end_halt(agv, fault_halts_[number]);
+  if (holds_agv(fault.kind)) end_halt(agv, fault_halts_[number]);
   if (fault.kind == Fault::Kind::Restart) agent_comes_back(agv);
 }
 
@@ -88,7 +84,7 @@ std::uint64_t Engine::halt(Agv& agv, Halt::Reason reason) {
 void Engine::end_halt(Agv& agv, std::uint64_t number) {
   if (std::erase_if(agv.halts, [&](const Halt& halt) { return halt.number == number; }) == 0 || !agv.halts.empty() || agv.out_of_order) return;
   if (agv.activity && agv.activity->kind == ActivityKind::Drive) return replan_drive(agv);  // it was still braking
-  last_progress_ = now_;
+  progressed(agv);
   if (!agv.plan_waits) return;
   agv.plan_waits = false;
   continue_plan(agv, 0.0);
@@ -110,6 +106,7 @@ fp_action Engine::action_of(const Agv& agv) const {
 // ---- bodies that come and go
 
 void Engine::body_appears(EntityId id) {
+  if (world_.body(id).is_agv) return look_for_place(agvs_[id.index()]);
   const ObstacleSetup& obstacle = scenario_.obstacles[id.index() - scenario_.agvs.size()];
   if (now_ >= kStart + obstacle.leaves) return;
   const double margin_m = scenario_.law.safety_distance_m + kAppearsClear_m;
@@ -165,37 +162,6 @@ void Engine::move_load(LoadId id, Holder to) {
 void Engine::trace_load(LoadId id) {
   const auto& [transport, carrier, holder, destination] = world_.load(id);
   trace(carrier, TraceKind::LoadMoves, id.value, (std::uint64_t{static_cast<std::uint32_t>(holder.kind)} << 32) | holder.index);
-}
-
-// ---- the operator
-
-// Of a jam, `halt` says which: help for one that has passed is no help for the next.
-void Engine::call_operator(Agv& agv, Assist what, std::uint64_t halt) {
-  const OperatorSetup& help = scenario_.operator_help;
-  if (!help.on) return;
-  const auto key = stream_key(scenario_.seed_of(Stream::Faults), Stream::Faults);
-  const auto draw = unit_interval(word64(philox(key, {agv.assists++, 0, kAssistTopic, agv.id.value}), 0));
-  queue_.push(now_ + seconds(help.least_s + (help.most_s - help.least_s) * draw), agv.id, Event::Kind::OperatorComes, static_cast<std::uint64_t>(what), halt);
-}
-
-void Engine::operator_comes(Agv& agv, Assist what, std::uint64_t halt) {
-  if (agv.out_of_order || std::ranges::find(agv.halts, halt, &Halt::number) == agv.halts.end()) return;
-  if (agv.activity && agv.activity->kind == ActivityKind::Drive) {  // nobody walks up to an AGV that still moves
-    return queue_.push(now_ + kTriesAgain, agv.id, Event::Kind::OperatorComes, static_cast<std::uint64_t>(what), halt);
-  }
-  ++outcome_.counters.assists;
-  trace(agv.id, TraceKind::OperatorAssists, static_cast<std::uint64_t>(what));
-  if (what == Assist::Jam) {
-    agv.scanner_muted = true;
-    return end_halt(agv, halt);
-  }
-  settle_battery(agv);
-  agv.book.charged += scenario_.operator_help.battery - agv.battery;
-  agv.battery = scenario_.operator_help.battery;
-  agv.battery_at = now_;
-  agv.battery_out = false;
-  predict_empty_battery(agv);
-  end_halt(agv, halt);
 }
 
 }  // namespace fleetproof

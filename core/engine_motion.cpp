@@ -121,7 +121,7 @@ void Engine::turn_or_drive(Agv& agv, double entry_mps) {
   piece.end = piece.begin + piece.profile.duration();
   ++outcome_.counters.turns;
   set_piece(agv, piece);
-  last_progress_ = now_;
+  progressed(agv);
   begin_activity(agv, {ActivityKind::Turn, agv.id, piece.begin, piece.end, SpatialEvolution{piece}}, agv.station.value);
   predict_touches(agv.id);
 }
@@ -154,7 +154,7 @@ void Engine::begin_stay(Agv& agv) {
     activity.end = now_ + seconds((pick ? type.pick_s : type.drop_s) + spread_s * motion_draw(MotionTopic::Transfer, agv, ++agv.stays));
     activity.evolution = evolution;
     subject = evolution.load.value;
-    last_progress_ = now_;
+    progressed(agv);
   } else if (kind == ActivityKind::Charge) {
     settle_battery(agv);
     activity.end = now_ + seconds(std::max(0.0, (1.0 - agv.battery) / type.charge_per_s));
@@ -192,7 +192,7 @@ void Engine::end_activity(Agv& agv, bool as_planned) {
   const Activity activity = *agv.activity;
   agv.activity.reset();
   ++agv.activity_stamp;
-  if (activity.kind != ActivityKind::Park && activity.kind != ActivityKind::Charge) last_progress_ = now_;
+  if (activity.kind != ActivityKind::Park && activity.kind != ActivityKind::Charge) progressed(agv);
   if (const auto* spatial = std::get_if<SpatialEvolution>(&activity.evolution)) {
     const Piece& piece = spatial->piece;
     const Pose pose = as_planned && activity.kind == ActivityKind::Turn
@@ -264,12 +264,15 @@ void Engine::stop_for_good(EntityId id) {
   // An action that has yet to take effect answers for itself when it finds the AGV out of order.
   const bool pending = std::ranges::find(agv.pending_calls, PendingCall::Kind::Action, &PendingCall::kind) != agv.pending_calls.end();
   const int under_way = (agv.acting ? 1 : 0) + (agv.next ? 1 : 0);
+  const bool driving = agv.activity && agv.activity->kind == ActivityKind::Drive;
+  agv.stopped_on = agv.acting && (driving || (agv.plan.drive_due && agv.plan.way_m > 0.0)) ? agv.plan.lane : nullptr;
   if (agv.activity) end_activity(agv, false);
   agv.plan = {};
   agv.next.reset();
   agv.doing = FP_OUT_OF_ORDER;
   for (int i = 0; i < under_way; ++i) action_done(agv, FP_REFUSED);
   agv.committed = pending;
+  call_operator(agv, Assist::Contact, 0);
 }
 
 void Engine::action_done(Agv& agv, fp_result result) {

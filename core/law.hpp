@@ -49,8 +49,9 @@ class TraceKinds {
 // `happened` is called for the kinds that `reads` names, as they are recorded, and for no other: what nobody reads costs nothing. Of a record and a
 // piece of the same instant, the piece that it caused was announced before.
 //
-// Every body's pieces are contiguous while it is on the floor: an AGV's from kStart to the end of the run, an obstacle's from its appearing to its leaving. A piece is announced when it begins, with its planned end, and again
-// when it ends, with the end that it really had. Pieces that end at the same instant are announced one after the other. At the end of the run
+// Every body's pieces are contiguous while it is on the floor: an obstacle's from its appearing to its leaving, an AGV's from kStart to the end of the
+// run, less the times between `Leaves` and `Appears` in which the operator has taken it off the floor: it comes back somewhere else. A piece is
+// announced when it begins, with its planned end, and again when it ends, with the end that it really had. Pieces that end at the same instant are announced one after the other. At the end of the run
 // every open piece is ended first, then `finish` is called once.
 class Law {
  public:

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/faults.hpp"
@@ -63,6 +64,14 @@ struct AgentClockSetup {
   double call_cost_s = 0.0;            // simulated time that every controller call takes
 };
 
+// Two kinds of bodies: names of vehicle types, or kAnyObstacle.
+struct ExemptPair {
+  std::string one, other;
+
+  friend bool operator==(const ExemptPair&, const ExemptPair&) = default;
+};
+inline constexpr std::string_view kAnyObstacle = "obstacle";  // every body that is no AGV: obstacles and fallen loads
+
 struct LawSetup {
   double safety_distance_m = 0.10;
   double snapshot_s = 0.0025;          // granularity of the published laws (400 a second)
@@ -70,6 +79,7 @@ struct LawSetup {
   double min_transports_per_agv_hour = 0.0;  // normal-operation: a floor for the throughput of a run; 0: none
   Purposes exempt_purposes;            // safety-distance: bodies that both stay so near a station of such a purpose may be close to each other
   double exempt_radius_m = 0.0;
+  std::vector<ExemptPair> exempt_pairs;  // safety-distance: such bodies may be close to each other anywhere
 };
 
 // Everything one simulation needs, as plain data.

@@ -34,7 +34,7 @@ enum class TraceKind : std::uint32_t {
   FaultOver = 20,       // a: kind of fault, b: its number in the scenario
   ScannerStops = 21,    // a: body in the protective field
   OperatorAssists = 22, // a: what for
-  Appears = 23,         // a body comes onto the floor
+  Appears = 23,         // a body comes onto the floor; a: of an AGV, the station at which it is set down
   Leaves = 24,          // and is taken away
   LostInOutage = 32,         // as Lost, while the link or place was in an outage
   LostByInterference = 33,   // as Lost, at the end of the transmission: another one, or one of the receiver's own, was in the air

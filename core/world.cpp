@@ -63,6 +63,15 @@ bool World::is_free(const OrientedRectangle& place, double margin_m, SimTime t) 
   return std::ranges::none_of(bodies_, [&](const Body& body) { return body.on_floor && clearance_m(body.piece.body_at(t), place) <= margin_m; });
 }
 
+bool World::stays_free(const OrientedRectangle& place, double margin_m, SimTime t) const {
+  Box box;
+  box.add(place);
+  box = box.grown(margin_m);
+  return is_free(place, margin_m, t) && std::ranges::none_of(bodies_, [&](const Body& body) {
+           return body.on_floor && body.piece.manner != Manner::Rest && body.planned_box.overlaps(box);
+         });
+}
+
 void World::begin(Body& body, const Piece& piece) {
   body.piece = piece;
   body.piece.number = pieces_++;
@@ -97,6 +106,10 @@ void World::remember_touch(EntityId a, EntityId b) { touched_.emplace_back(std::
 
 bool World::have_touched(EntityId a, EntityId b) const {
   return std::ranges::find(touched_, std::pair{std::min(a, b), std::max(a, b)}) != touched_.end();
+}
+
+void World::forget_touches(EntityId id) {
+  std::erase_if(touched_, [&](const auto& pair) { return pair.first == id || pair.second == id; });
 }
 
 void World::finish(SimTime end) {

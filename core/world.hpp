@@ -23,6 +23,8 @@ struct Load {
   AgvId carrier;              // whom the transport is assigned to
   Holder holder;
   StationId destination;
+  // Nothing is left to do about it: it is where it belongs, or out of the warehouse.
+  bool is_over() const { return holder == Holder{Holder::Kind::Station, destination.value} || holder.kind == Holder::Kind::ClearedAway; }
 };
 
 // The state of the warehouse at one instant (Sect. 3.2): entities with their relations, as plain data.
@@ -61,10 +63,14 @@ class World {
   void take_off_floor(EntityId id, SimTime t);
   // Whether every body is farther than `margin_m` from a place at `t`, which is now.
   bool is_free(const OrientedRectangle& place, double margin_m, SimTime t) const;
+  // Likewise, and every body that moves stays so with its whole present piece, boxed.
+  bool stays_free(const OrientedRectangle& place, double margin_m, SimTime t) const;
   // First touch of each other body within both current pieces, appended to `out`; pairs that touched before are left out.
   void predict_touches(EntityId id, std::vector<TouchPrediction>& out);
   void remember_touch(EntityId a, EntityId b);
   bool have_touched(EntityId a, EntityId b) const;
+  // It has been moved away from whatever it touched.
+  void forget_touches(EntityId id);
   void finish(SimTime end);
 
   std::span<const Load> loads() const { return loads_; }

@@ -275,6 +275,13 @@ void read_settings(const JsonReader& reader, Scenario& scenario) {
       if (!purposes) words->refuse("holds a word that is no purpose; known: routing, storage, charging, parking");
       scenario.law.exempt_purposes = *purposes;
     }
+    if (const auto pairs = law->find("exempt_pairs")) {
+      for (const JsonReader& pair : pairs->items()) {
+        const auto names = pair.items();
+        if (names.size() != 2) pair.refuse("is no pair; give the names of two vehicle types, or of one and \"obstacle\"");
+        scenario.law.exempt_pairs.push_back({names[0].text(), names[1].text()});
+      }
+    }
   }
   reader.read("contact_stops", scenario.contact_stops);
   read_duration(reader, "horizon", scenario.horizon);

@@ -27,7 +27,8 @@ inline constexpr std::string_view kFault[] = {"kind",     "agv",      "at_s",   
 inline constexpr std::string_view kScanner[] = {"on", "reaction_s", "margin_m", "resume_s"};
 inline constexpr std::string_view kOperator[] = {"on", "least_s", "most_s", "battery"};
 inline constexpr std::string_view kAgentClock[] = {"call_cost_s"};
-inline constexpr std::string_view kLaw[] = {"safety_distance_m", "snapshot_s", "reaction_s", "min_transports_per_agv_hour", "exempt_purposes", "exempt_radius_m"};
+inline constexpr std::string_view kLaw[] = {"safety_distance_m", "snapshot_s",      "reaction_s",  "min_transports_per_agv_hour",
+                                            "exempt_purposes",   "exempt_radius_m", "exempt_pairs"};
 
 inline constexpr std::string_view kActions[] = {"move", "pick", "drop", "park", "charge"};  // by ScriptedCall::Action
 inline constexpr std::string_view kFaultKinds[] = {"breakdown", "protective-stop", "load-drop", "restart", "freeze"};  // by Fault::Kind, from 1 on

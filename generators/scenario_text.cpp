@@ -41,7 +41,7 @@ class ScenarioWriter {
     json_.key("agent_clock").open_object(kLine);
     json_.key("call_cost_s").value(call_cost_s);
     json_.close();
-    const auto& [safety_distance_m, snapshot_s, reaction_s, min_transports_per_agv_hour, exempt_purposes, exempt_radius_m] = law;
+    const auto& [safety_distance_m, snapshot_s, reaction_s, min_transports_per_agv_hour, exempt_purposes, exempt_radius_m, exempt_pairs] = law;
     json_.key("law").open_object(kLine);
     json_.key("safety_distance_m").value(safety_distance_m);
     json_.key("snapshot_s").value(snapshot_s);
@@ -49,6 +49,7 @@ class ScenarioWriter {
     json_.key("min_transports_per_agv_hour").value(min_transports_per_agv_hour);
     json_.key("exempt_purposes").value(purposes_text(exempt_purposes));
     json_.key("exempt_radius_m").value(exempt_radius_m);
+    write_exempt_pairs(exempt_pairs);
     json_.close();
     json_.key("vehicle_types").open_array();
     for (const auto& vehicle : vehicle_types) write_vehicle(vehicle);
@@ -70,6 +71,18 @@ class ScenarioWriter {
  private:
   // As text: many JSON readers keep 53 bits only.
   static std::string seed_text(std::uint64_t seed) { return fmt::format("0x{:016x}", seed); }
+
+  void write_exempt_pairs(const std::vector<ExemptPair>& pairs) {
+    if (pairs.empty()) return;
+    json_.key("exempt_pairs").open_array(kLine);
+    for (const auto& [one, other] : pairs) {
+      json_.open_array(kLine);
+      json_.value(one);
+      json_.value(other);
+      json_.close();
+    }
+    json_.close();
+  }
 
   void write_stream_seeds(const std::vector<StreamSeed>& stream_seeds) {
     if (stream_seeds.empty()) return;

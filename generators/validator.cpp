@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/error.hpp"
+#include "generators/exempt_pairs.hpp"
 #include "generators/layout_check.hpp"
 #include "generators/radio_fields.hpp"
 #include "generators/text_file.hpp"
@@ -81,6 +82,15 @@ class RangeCheck {
     within({{}, 0, "/law/reaction_s"}, scenario_.law.reaction_s, 0.0, kLongest_s);
     within({{}, 0, "/law/exempt_radius_m"}, scenario_.law.exempt_radius_m, 0.0, 100.0);
     within({{}, 0, "/law/min_transports_per_agv_hour"}, scenario_.law.min_transports_per_agv_hour, 0.0, 1e6);
+    for (std::size_t i = 0; i < scenario_.law.exempt_pairs.size(); ++i) exempt_pair(i);
+  }
+
+  void exempt_pair(std::size_t i) {
+    constexpr std::string_view kList = "/law/exempt_pairs";
+    std::vector<std::string> types;
+    for (const VehicleType& type : scenario_.vehicle_types) types.push_back(type.name);
+    const auto fault = fault_of_exempt_pair(scenario_.law.exempt_pairs[i], types);
+    if (!fault.empty()) add(ProblemKind::UnknownReference, Field{kList, i, {}}.pointer(), fault);
   }
 
   template <class Named>

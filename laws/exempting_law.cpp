@@ -12,7 +12,7 @@ constexpr Duration kSample = std::chrono::milliseconds(10);  // on a straight li
 
 class ExemptingLaw final : public Law {
  public:
-  explicit ExemptingLaw(const Scenario& scenario) : exact_(make_exact_law(scenario)), timelines_(scenario), radius_m_(scenario.law.exempt_radius_m) {
+  explicit ExemptingLaw(const Scenario& scenario) : exact_(make_exact_law(scenario)), timelines_(scenario), scenario_(scenario), radius_m_(scenario.law.exempt_radius_m) {
     for (const Station& station : scenario.map->layout().stations) {
       if ((station.purposes.bits() & scenario.law.exempt_purposes.bits()) != 0) places_m_.push_back(station.position_m);
     }
@@ -26,12 +26,24 @@ class ExemptingLaw final : public Law {
   void finish(SimTime end) override { exact_->finish(end); }
   LawFindings findings() const override {
     LawFindings findings = exact_->findings();
-    std::erase_if(findings.violations, [&](const Violation& v) { return !v.contact && is_exempt(v); });
+    std::erase_if(findings.violations, [&](const Violation& v) { return !v.contact && (is_exempt_pair(v) || is_at_exempt_place(v)); });
     return findings;
   }
 
  private:
-  bool is_exempt(const Violation& v) const {
+  bool is_exempt_pair(const Violation& v) const {
+    const std::string_view a = kind_of(v.a), b = kind_of(v.b);
+    return std::ranges::any_of(scenario_.law.exempt_pairs, [&](const ExemptPair& pair) {
+      return (pair.one == a && pair.other == b) || (pair.one == b && pair.other == a);
+    });
+  }
+
+  std::string_view kind_of(EntityId body) const {
+    if (body.index() >= scenario_.agvs.size()) return kAnyObstacle;
+    return scenario_.type_of(scenario_.agvs[body.index()]).name;
+  }
+
+  bool is_at_exempt_place(const Violation& v) const {
     return std::ranges::any_of(places_m_, [&](const Vec2& place_m) { return stays_at(place_m, v.a, v) && stays_at(place_m, v.b, v); });
   }
 
@@ -49,6 +61,7 @@ class ExemptingLaw final : public Law {
 
   std::unique_ptr<Law> exact_;
   TimelineKeeper timelines_;
+  const Scenario& scenario_;
   double radius_m_;
   std::vector<Vec2> places_m_;
 };
@@ -56,7 +69,7 @@ class ExemptingLaw final : public Law {
 }  // namespace
 
 std::unique_ptr<Law> make_safety_distance_law(const Scenario& scenario) {
-  if (scenario.law.exempt_purposes.bits() == 0) return make_exact_law(scenario);
+  if (scenario.law.exempt_purposes.bits() == 0 && scenario.law.exempt_pairs.empty()) return make_exact_law(scenario);
   return std::make_unique<ExemptingLaw>(scenario);
 }
 

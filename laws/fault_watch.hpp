@@ -7,7 +7,7 @@
 
 namespace fleetproof {
 
-// Whether a breakdown or a protective stop holds anybody: what the fleet does not do meanwhile is nobody's fault.
+// Whether a fault holds anybody where it is: what the fleet does not do meanwhile is nobody's fault.
 class FaultWatch {
  public:
   static constexpr TraceKinds reads() { return {TraceKind::FaultStrikes, TraceKind::FaultOver}; }
@@ -15,9 +15,9 @@ class FaultWatch {
   bool note(const TraceRecord& record) {
     if (record.kind != TraceKind::FaultStrikes && record.kind != TraceKind::FaultOver) return false;
     const auto kind = static_cast<Fault::Kind>(record.a);
-    const bool holds = kind == Fault::Kind::Breakdown || kind == Fault::Kind::ProtectiveStop;
-    if (holds) held_ = record.kind == TraceKind::FaultStrikes ? held_ + 1 : held_ - 1;
-    if (holds) last_ = record.at;
+    if (!holds_agv(kind)) return true;
+    held_ += record.kind == TraceKind::FaultStrikes ? 1 : -1;
+    last_ = record.at;
     return true;
   }
   bool holds_anybody() const { return held_ > 0; }

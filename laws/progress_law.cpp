@@ -21,7 +21,7 @@ struct AgvState {
   std::deque<std::uint64_t> open;        // transports released and not done
   std::optional<std::uint64_t> carried;  // transport of the load on it
   SimTime open_since = kStart, active_at = kStart, advanced_at = kStart;
-  bool busy = false;
+  bool busy = false, off_floor = false;          // off: in the hands of the operator
   EntityId declared;                             // whom it says it waits for
   std::uint64_t done = 0, others_done_then = 0;  // when it last advanced
 
@@ -53,7 +53,8 @@ class ProgressLaw final : public Law {
   }
   TraceKinds reads() const override {
     return TraceKinds{TraceKind::OrderReleased, TraceKind::TransportDone, TraceKind::ActivityBegins,
-                      TraceKind::ActivityEnds,  TraceKind::WaitingFor,    TraceKind::LoadMoves} |
+                      TraceKind::ActivityEnds,  TraceKind::WaitingFor,    TraceKind::LoadMoves,
+                      TraceKind::Appears,       TraceKind::Leaves} |
            FaultWatch::reads();
   }
   void happened(const TraceRecord& record) override;
@@ -69,7 +70,10 @@ class ProgressLaw final : public Law {
   void advanced(AgvState& agv, SimTime at);
   void look_before(SimTime t);
   void look(SimTime now);
-  bool is_stalled(const AgvState& agv, SimTime now) const { return agv.has_work() && !agv.busy && now - still_since(agv) >= stuck_after_; }
+  bool is_stalled(const AgvState& agv, SimTime now) const {
+    return agv.has_work() && !agv.busy && !agv.off_floor && now - still_since(agv) >= stuck_after_;
+  }
+  void comes_or_goes(const TraceRecord& record);
   SimTime still_since(const AgvState& agv) const { return std::max(agv.still_since(), faults_.last()); }
   void look_for_deadlocks(SimTime now);
   void look_for_livelock(SimTime now);
@@ -136,9 +140,22 @@ void ProgressLaw::happened(const TraceRecord& record) {
       motions_ += agv.busy ? 1 : 0;
       break;
     }
+    case TraceKind::Appears:
+    case TraceKind::Leaves:
+      comes_or_goes(record);
+      break;
     default:
       break;
   }
+}
+
+// An AGV that the operator takes off the floor waits for nobody and is in nobody's way, and starts afresh where he sets it down.
+void ProgressLaw::comes_or_goes(const TraceRecord& record) {
+  if (record.entity.index() >= agvs_.size()) return;
+  AgvState& agv = agvs_[record.entity.index()];
+  agv.off_floor = record.kind == TraceKind::Leaves;
+  agv.active_at = record.at;
+  if (agv.off_floor) bodies_.note_leaving(record.entity);
 }
 
 void ProgressLaw::order_released(const TraceRecord& record) {

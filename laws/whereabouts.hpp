@@ -18,10 +18,11 @@ class Whereabouts {
     current_[piece.entity.index()] = piece;
     on_floor_[piece.entity.index()] = true;
   }
-  // A body other than an AGV has one piece: with its end it is gone.
+  // A body other than an AGV has one piece: with its end it is gone. An AGV is, if it is said to leave.
   void note_end(const Piece& piece) {
     if (piece.entity.index() >= agv_count()) on_floor_[piece.entity.index()] = false;
   }
+  void note_leaving(EntityId body) { on_floor_[body.index()] = false; }
   bool on_floor(EntityId body) const { return on_floor_[body.index()]; }
   std::size_t agv_count() const { return scenario_.agvs.size(); }
   std::size_t body_count() const { return current_.size(); }

@@ -203,6 +203,7 @@ Json campaign_json(const ReportInput& input) {
 Json exemptions_json(const CampaignRecord& campaign) {
   auto list = Json::array();
   if (!campaign.exempt_purposes.empty()) list.push_back({{"purposes", campaign.exempt_purposes}, {"radius_m", campaign.exempt_radius_m}});
+  for (const std::string& pair : campaign.exempt_pairs) list.push_back({{"pair", pair}});
   return list;
 }
 

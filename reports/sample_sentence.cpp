@@ -148,6 +148,12 @@ std::vector<Headline> reservations(const ReportInput& input) {
              campaign.exempt_radius_m, purposes),
          {}});
   }
+  for (const std::string& pair : campaign.exempt_pairs) {
+    list.push_back({"exempt",
+                    fmt::format("{} may be closer than the safety distance to each other: that is not counted as a violation here. Contact is.",
+                                printable(pair, 200)),
+                    {}});
+  }
   if (!campaign.held_streams.empty()) {
     list.push_back({"held",
                     fmt::format("every replicate has the {} of replicate {}: what follows speaks of {} alone.",

@@ -12,7 +12,7 @@ namespace fleetproof {
 // were drawn between bounds, it names the region: "200 replicates wherever loss <= 40 % and delay <= 2 s, drawn uniformly ...".
 std::string sampled(const Evidence& evidence, const std::vector<std::uint32_t>& cells);
 
-// What every format says before its verdicts: places that are exempt from the safety distance, and randomness that was held.
+// What every format says before its verdicts: places and pairs of bodies that are exempt from the safety distance, and randomness that was held.
 std::vector<Headline> reservations(const ReportInput& input);
 
 }  // namespace fleetproof

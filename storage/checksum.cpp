@@ -53,7 +53,9 @@ std::uint64_t plan_checksum(const CampaignRecord& campaign, const std::vector<Ce
   for (const auto& probe : campaign.required_probes) bytes << probe;
   bytes << campaign.sampling << std::uint64_t{campaign.held_streams.size()};
   for (const auto& stream : campaign.held_streams) bytes << stream;
-  bytes << campaign.held_replicate << campaign.exempt_purposes << campaign.exempt_radius_m << std::uint64_t{campaign.plugin_agents.size()};
+  bytes << campaign.held_replicate << campaign.exempt_purposes << campaign.exempt_radius_m << std::uint64_t{campaign.exempt_pairs.size()};
+  for (const auto& pair : campaign.exempt_pairs) bytes << pair;
+  bytes << std::uint64_t{campaign.plugin_agents.size()};
   for (const auto& agent : campaign.plugin_agents) bytes << agent;
   bytes << std::uint64_t{cells.size()};
   for (const auto& cell : cells) {

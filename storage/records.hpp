@@ -76,6 +76,7 @@ struct CampaignRecord {
   std::uint64_t held_replicate = 0;
   std::string exempt_purposes;                 // of stations near which the safety distance is not asked for, with blanks between; empty: nowhere
   double exempt_radius_m = 0.0;
+  std::vector<std::string> exempt_pairs;       // "tugger and cart": kinds of bodies that it is not asked of, anywhere
   std::vector<std::string> plugin_agents;      // names of the agents that came from shared objects; none of them holds a line end
   friend bool operator==(const CampaignRecord&, const CampaignRecord&) = default;
 };

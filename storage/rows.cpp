@@ -123,7 +123,7 @@ void bind_campaign(SQLite::Statement& insert, const CampaignRecord& campaign, st
   Binder(insert) << std::uint32_t{1} << campaign.name << campaign.kind << campaign.seed << campaign.replicates << campaign.plan_json << campaign.plan_hash
                  << campaign.engine.version << campaign.engine.program_sha256 << campaign.engine.compiler << campaign.engine.flags << campaign.engine.libraries
                  << in_lines(campaign.required_probes) << campaign.sampling << in_lines(campaign.held_streams) << campaign.held_replicate
-                 << campaign.exempt_purposes << campaign.exempt_radius_m << in_lines(campaign.plugin_agents) << plan_checksum;
+                 << campaign.exempt_purposes << campaign.exempt_radius_m << in_lines(campaign.exempt_pairs) << in_lines(campaign.plugin_agents) << plan_checksum;
 }
 
 void bind_cell(SQLite::Statement& insert, const CellRecord& cell) {
@@ -184,6 +184,7 @@ CampaignRecord read_campaign(const SQLite::Statement& row) {
   campaign.held_replicate = from.u64();
   campaign.exempt_purposes = from.text();
   campaign.exempt_radius_m = from.real();
+  campaign.exempt_pairs = from_lines(from.text());
   campaign.plugin_agents = from_lines(from.text());
   return campaign;
 }

@@ -27,6 +27,7 @@ CREATE TABLE campaign (
   held_replicate INTEGER NOT NULL,
   exempt_purposes TEXT NOT NULL,
   exempt_radius_m REAL NOT NULL,
+  exempt_pairs TEXT NOT NULL,
   plugin_agents TEXT NOT NULL,
   plan_checksum INTEGER NOT NULL,
   run_count INTEGER,

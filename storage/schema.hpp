@@ -9,7 +9,7 @@
 namespace fleetproof {
 
 inline constexpr std::int32_t kApplicationId = 0x464C5046;  // "FLPF": tells a campaign file from any other SQLite file
-inline constexpr std::int32_t kSchemaVersion = 3;
+inline constexpr std::int32_t kSchemaVersion = 4;
 inline constexpr std::int32_t kPageSize = 4096;
 
 // A counter of the outcome and the column of `runs` that holds it.
@@ -71,7 +71,7 @@ inline constexpr const char* kCellColumns = "cell, agent, layout, fleet_size, lo
 inline constexpr const char* kGateColumns = "gate, name, agent, kind, end_point, region, limit_rate, confidence, min_transports_per_agv_hour";
 inline constexpr const char* kCampaignColumns =
     "id, name, kind, seed, replicates, plan_json, plan_hash, engine_version, program_sha256, compiler, flags, libraries, required_probes, "
-    "sampling, held_streams, held_replicate, exempt_purposes, exempt_radius_m, plugin_agents, plan_checksum";
+    "sampling, held_streams, held_replicate, exempt_purposes, exempt_radius_m, exempt_pairs, plugin_agents, plan_checksum";
 
 // "?, ?, ?": one for each name in a comma-separated list.
 std::string placeholders(const std::string& columns);

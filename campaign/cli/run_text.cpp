@@ -6,6 +6,7 @@
 
 #include "core/activity.hpp"
 #include "core/sdk/fleetproof/agent.h"
+#include "generators/exempt_pairs.hpp"
 #include "generators/purpose_words.hpp"
 
 namespace fleetproof::cli {
@@ -105,6 +106,9 @@ std::string outcome_text(const Scenario& scenario, const Outcome& outcome, bool 
   if (scenario.law.exempt_purposes.bits() != 0) {
     text += fmt::format("  exempt from the safety distance (contact is not): within {:g} m of stations for {}\n", scenario.law.exempt_radius_m,
                         purposes_text(scenario.law.exempt_purposes));
+  }
+  for (const ExemptPair& pair : scenario.law.exempt_pairs) {
+    text += fmt::format("  exempt from the safety distance (contact is not): {}\n", text_of(pair));
   }
   for (const Incident& incident : outcome.incidents) text += "  " + incident_text(scenario, incident) + "\n";
   if (outcome.min_clearance_um) {

@@ -108,6 +108,8 @@ void print_json(const Scenario& scenario, const Outcome& outcome, const Simulate
   json["law"] = find_law(words.law)->name;
   json["exempt_purposes"] = purposes_text(scenario.law.exempt_purposes);
   json["exempt_radius_m"] = scenario.law.exempt_radius_m;
+  json["exempt_pairs"] = nlohmann::ordered_json::array();
+  for (const auto& [one, other] : scenario.law.exempt_pairs) json["exempt_pairs"].push_back({one, other});
   json["outcome"] = name_of(outcome.outcome_class());
   json["violations"] = nlohmann::ordered_json::array();
   for (const Violation& violation : outcome.violations) json["violations"].push_back(to_json(violation, scenario));

@@ -238,5 +238,28 @@ TEST(Exemptions, ReachEveryScenarioAndThePlansText) {
   EXPECT_THAT(error_of(kFactors + "[law]\nexempt_purposes = [\"charging\"]\nexempt_radius_m = 101\n"), HasSubstr("between 0 and 100"));
 }
 
+const std::string kTwoTypes = "[[vehicle]]\nname = \"tugger\"\n[[vehicle]]\nname = \"cart\"\n";
+
+TEST(Exemptions, PairsReachEveryScenarioThePlansTextAndTheArchive) {
+  const CampaignPlan plan = read(kFactors + kTwoTypes + "[law]\nexempt_pairs = [[\"tugger\", \"cart\"], [\"cart\", \"obstacle\"]]\n"),
+                     back = parse_plan(plan_text(plan));
+  const std::vector<ExemptPair> pairs{{"tugger", "cart"}, {"cart", "obstacle"}};
+  EXPECT_EQ(ScenarioSource(back).scenario(0).law.exempt_pairs, pairs);
+  EXPECT_EQ(plan_text(back), plan_text(plan));
+  EXPECT_NE(plan_text(plan), plan_text(read(kFactors + kTwoTypes)));
+}
+
+TEST(Exemptions, PairsNameKindsOfThisFleet) {
+  const auto error = [](const std::string& pairs) { return error_of(kFactors + kTwoTypes + "[law]\nexempt_pairs = " + pairs + "\n"); };
+  EXPECT_EQ(error("[[\"cart\", \"cart\"]]"), "no error") << "two of one kind";
+  EXPECT_THAT(error("[[\"tugger\", \"crat\"]]"), HasSubstr("law.exempt_pairs: \"crat\" is no vehicle type of this fleet, nor \"obstacle\"; did you mean \"cart\"?"));
+  EXPECT_THAT(error("[[\"obstacle\", \"obstacle\"]]"), HasSubstr("name a vehicle type"));
+  EXPECT_THAT(error("[[\"tugger\"]]"), HasSubstr("an array of pairs"));
+  EXPECT_THAT(error("[[\"tugger\", 1]]"), HasSubstr("an array of pairs"));
+  EXPECT_THAT(error("[\"tugger\", \"cart\"]"), HasSubstr("an array of pairs"));
+  EXPECT_THAT(error("\"tugger\""), HasSubstr("an array of pairs"));
+  EXPECT_THAT(error_of(kFactors + "[[vehicle]]\nname = \"obstacle\"\n[law]\nexempt_pairs = [[\"obstacle\", \"obstacle\"]]\n"), HasSubstr("give the type another name"));
+}
+
 }  // namespace
 }  // namespace fleetproof

@@ -107,6 +107,16 @@ TEST_F(DrawnFactors, ExemptionsHeadTheReportAndAreReplayed) {
   expect_replayed("17");
 }
 
+TEST_F(DrawnFactors, ExemptPairsHeadTheReportAndAreReplayed) {
+  const auto page = campaign(kHead + kFactors + "[[vehicle]]\nname = \"tugger\"\n[law]\nexempt_pairs = [[\"tugger\", \"obstacle\"]]\n" + kGate);
+  EXPECT_LT(page.find("tugger and obstacle may be closer than the safety distance"), page.find("gate \"gate 1\""));
+  EXPECT_THAT(run("report c.db --format json").out, HasSubstr("\"exemptions\": [\n    {\n      \"pair\": \"tugger and obstacle\""));
+  expect_replayed("17");
+  run("replay c.db 0 --scenario s.json");
+  EXPECT_THAT(run("simulate s.json --agent hull-lock").out, HasSubstr("exempt from the safety distance (contact is not): tugger and obstacle\n"));
+  EXPECT_THAT(run("simulate s.json --agent hull-lock --json").out, HasSubstr("\"exempt_pairs\": [\n    [\n      \"tugger\",\n      \"obstacle\"\n    ]\n  ]"));
+}
+
 TEST_F(DrawnFactors, TheReplayLineOfASharedObjectsAgentAsksForIt) {
   write("c.toml", "replicates = 2\nhorizon_s = 300.0\n[factors]\nagents = [\"" + std::string(FLEETPROOF_PLUGIN) +
                       "\"]\nlayouts = [\"corridor-sidings\"]\nfleet_sizes = [6]\nloss = [1.0]\n");

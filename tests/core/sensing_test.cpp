@@ -86,7 +86,10 @@ TEST(Scanner, HelpForAStopThatHasPassedIsNoHelpForTheNext) {
   const Seen seen = drive_and_look(scenario, {40.0});
   EXPECT_EQ(seen.outcome.counters.scanner_stops, 2U);
   EXPECT_EQ(seen.actions.at(0), static_cast<std::uint32_t>(FP_STOPPED)) << "the first call is answered at about 27 s: too early for the second stop";
-  EXPECT_EQ(seen.outcome.counters.assists, 1U) << "the second call's";
+  std::vector<std::uint64_t> helped;
+  for (const TraceRecord& record : seen.trace.of(TraceKind::OperatorAssists)) helped.push_back(record.a);
+  EXPECT_EQ(helped, (std::vector<std::uint64_t>{static_cast<std::uint64_t>(Assist::Jam), static_cast<std::uint64_t>(Assist::Contact)}))
+      << "the second call's; sent on, it drives into the box";
 }
 
 TEST(Scanner, TheOperatorSendsOnWhoIsHeldForLong) {

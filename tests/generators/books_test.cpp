@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "core/activity.hpp"
 #include "core/agents/agents.h"
@@ -22,7 +23,8 @@ class Bookkeeper final : public Law {
   explicit Bookkeeper(const Scenario& scenario) : fleet_(scenario.agvs.size()) {}
 
   TraceKinds reads() const override {
-    return TraceKinds{TraceKind::LoadMoves, TraceKind::Sent, TraceKind::Lost, TraceKind::Received, TraceKind::TransportDone};
+    return TraceKinds{TraceKind::LoadMoves, TraceKind::Sent,          TraceKind::Lost,           TraceKind::Received,
+                      TraceKind::TransportDone, TraceKind::Appears, TraceKind::Leaves,        TraceKind::OperatorAssists};
   }
   void happened(const TraceRecord& record) override {
     switch (record.kind) {
@@ -31,12 +33,27 @@ class Bookkeeper final : public Law {
       case TraceKind::Lost: ++lost; break;
       case TraceKind::Received: ++received; break;
       case TraceKind::TransportDone: ++done; break;
+      case TraceKind::OperatorAssists: ++helped[record.a]; break;
+      case TraceKind::Leaves:
+        if (record.entity.index() >= fleet_) break;
+        EXPECT_TRUE(off_floor_.insert(record.entity.index()).second);
+        EXPECT_EQ(ended_[record.entity.index()], record.at) << "with its last piece";
+        last_.erase(record.entity.index());  // it may come back anywhere
+        break;
+      case TraceKind::Appears:
+        if (record.entity.index() >= fleet_) break;
+        EXPECT_EQ(off_floor_.erase(record.entity.index()), 1U);
+        ++set_down;
+        break;
       default: break;
     }
   }
   // Along the curve for a drive, by the poses for the rest, which must not have moved.
   void piece_ended(const Piece& piece) override {
     if (piece.entity.index() >= fleet_) return;
+    const auto before = ended_.find(piece.entity.index());
+    if (before != ended_.end() && last_.contains(piece.entity.index())) gaps += before->second != piece.begin ? 1 : 0;
+    ended_[piece.entity.index()] = piece.end;
     const Pose from = piece.pose_at(piece.begin), to = piece.pose_at(piece.end);
     const auto known = last_.find(piece.entity.index());
     if (known != last_.end()) largest_jump_m = std::max(largest_jump_m, (known->second.position_m - from.position_m).norm());
@@ -46,12 +63,16 @@ class Bookkeeper final : public Law {
   LawFindings findings() const override { return {}; }
 
   std::map<std::uint64_t, std::uint64_t> holders;
-  std::uint64_t receptions = 0, lost = 0, received = 0, done = 0;
+  std::map<std::uint64_t, std::uint64_t> helped;  // by what for
+  std::uint64_t receptions = 0, lost = 0, received = 0, done = 0, set_down = 0, gaps = 0;
+  std::size_t off_floor() const { return off_floor_.size(); }
   double driven_m = 0.0, largest_jump_m = 0.0;
 
  private:
   std::size_t fleet_;
   std::map<std::size_t, Pose> last_;
+  std::map<std::size_t, SimTime> ended_;
+  std::set<std::size_t> off_floor_;
 };
 
 WorldSpec everything_goes_wrong() {
@@ -65,7 +86,14 @@ WorldSpec everything_goes_wrong() {
 
 struct Totals {
   std::uint64_t runs = 0, faults = 0, empty = 0, cleared = 0, stops = 0, assists = 0, done = 0, contacts = 0;
+  std::uint64_t recovered = 0, restarted = 0;
 };
+
+// Where nothing happens that would stir a fleet that stands still.
+void leave_alone(FaultRates& faults) {
+  faults.protective_stops_per_agv_hour = faults.freezes_per_agv_hour = faults.restarts_per_agv_hour = 0.0;
+  faults.breakdowns_per_agv_hour = faults.breakdowns_per_transport = 0.0;
+}
 
 void check(const Scenario& scenario, const Outcome& outcome, const Bookkeeper& books, const std::string& which) {
   const Counters& c = outcome.counters;
@@ -85,6 +113,12 @@ void check(const Scenario& scenario, const Outcome& outcome, const Bookkeeper& b
   for (const auto& [load, holder] : books.holders) cleared += holder >> 32 == static_cast<std::uint64_t>(Holder::Kind::ClearedAway) ? 1 : 0;
   EXPECT_EQ(cleared, c.loads_cleared) << which;
   EXPECT_EQ(books.done, c.transports_done) << which;
+  EXPECT_EQ(books.gaps, 0U) << which << ": on the floor, piece follows piece";
+  std::uint64_t assists = c.loads_cleared;
+  for (const auto& [what, count] : books.helped) assists += count;
+  EXPECT_EQ(assists, c.assists) << which;
+  const auto taken_off = books.helped.find(static_cast<std::uint64_t>(Assist::Contact));
+  EXPECT_EQ(taken_off == books.helped.end() ? 0 : taken_off->second, books.set_down + books.off_floor()) << which;
   EXPECT_EQ(books.receptions, c.receptions) << which;
   EXPECT_EQ(books.lost, c.receptions_lost) << which;
   EXPECT_EQ(books.received, c.received) << which;
@@ -96,6 +130,7 @@ void run(const fp_agent_type& agent, std::uint64_t runs, Totals& totals) {
   for (std::uint64_t i = 0; i < runs; ++i) {
     WorldSpec spec = everything_goes_wrong();
     spec.layout = std::string(families[i % families.size()].name);
+    if (i % 4 == 3) leave_alone(spec.faults);
     RejectionCounts counts;
     Scenario scenario = generate_world(spec, 1000 + i, counts);
     scenario.radio.loss = 0.4;
@@ -104,6 +139,10 @@ void run(const fp_agent_type& agent, std::uint64_t runs, Totals& totals) {
     scenario.agent_clock.call_cost_s = i % 3 == 0 ? 0.01 : 0.0;
     scenario.scanner.on = i % 2 == 0;
     scenario.operator_help = {.on = i % 5 != 0, .least_s = 5.0, .most_s = 20.0, .battery = 0.7};
+    if (i % 4 == 3) {  // at once, before they move by themselves
+      scenario.stuck_after = seconds(5.0);
+      scenario.operator_help.least_s = scenario.operator_help.most_s = 1.0;
+    }
     std::vector<std::unique_ptr<Law>> laws;
     laws.push_back(std::make_unique<Bookkeeper>(scenario));
     if (i % 25 == 0) {  // every law survives such a run
@@ -114,7 +153,8 @@ void run(const fp_agent_type& agent, std::uint64_t runs, Totals& totals) {
       }
     }
     const Outcome outcome = simulate(scenario, agent, laws);
-    check(scenario, outcome, dynamic_cast<const Bookkeeper&>(*laws[0]), spec.layout.index() == 0 ? std::get<std::string>(spec.layout) + " " + std::to_string(1000 + i) : "");
+    const auto& books = dynamic_cast<const Bookkeeper&>(*laws[0]);
+    check(scenario, outcome, books, spec.layout.index() == 0 ? std::get<std::string>(spec.layout) + " " + std::to_string(1000 + i) : "");
     if (::testing::Test::HasFailure()) return;
     const Counters& c = outcome.counters;
     ++totals.runs;
@@ -125,6 +165,9 @@ void run(const fp_agent_type& agent, std::uint64_t runs, Totals& totals) {
     totals.assists += c.assists;
     totals.done += c.transports_done;
     totals.contacts += c.contacts;
+    totals.recovered += books.set_down;
+    const auto restarted = books.helped.find(static_cast<std::uint64_t>(Assist::Standstill));
+    totals.restarted += restarted == books.helped.end() ? 0 : restarted->second;
   }
 }
 
@@ -147,6 +190,8 @@ TEST(Books, BalanceAfterTenThousandRunsInWhichEverythingGoesWrong) {
   EXPECT_GT(totals.assists, 100U);
   EXPECT_GT(totals.done, 1'000U);
   EXPECT_GT(totals.contacts, 100U);
+  EXPECT_GT(totals.recovered, 1'000U);
+  EXPECT_GT(totals.restarted, 10U);
 }
 
 }  // namespace

@@ -31,6 +31,9 @@ struct Slip {
 const Slip kSlips[] = {
     {"\"version\": 1", "\"version\": 9", "s.json:2: /version: 9 is refused: this program reads scenario files of version 1"},
     {"  \"version\": 1,\n", "", "s.json:1: top level: \"version\" is missing; add it"},
+    {"\"law\": {", "\"law\": {\"exempt_pairs\": [[\"pallet-agv\"]], ", "s.json:7: /law/exempt_pairs/0: [\"pallet-agv\"] is refused: is no pair; give"},
+    {"\"law\": {", "\"law\": {\"exempt_pairs\": [[\"pallet-agv\", \"palet-agv\"]], ", "s.json:7: /law/exempt_pairs/0: [\"pallet-agv\", \"palet-agv\"] is refused: \"palet-agv\" is no vehicle type of this fleet, nor \"obstacle\"; did you mean \"pallet-agv\"?"},
+    {"\"law\": {", "\"law\": {\"exempt_pairs\": [[\"pallet-agv\", 4]], ", "s.json:7: /law/exempt_pairs/0/1: 4 is refused: expected"},
     {"\"seed\": 4", "\"seed\": -4", "s.json:4: /seed: -4 is refused: expected a whole number"},
     {"\"seed\": 4", "\"seed\": \"0xg\"", "s.json:4: /seed: \"0xg\" is refused: a seed is a whole number or"},
     {"\"seed\"", "\"sede\"", "s.json:4: top level: unknown key \"sede\"; did you mean \"seed\"?"},

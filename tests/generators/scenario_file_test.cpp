@@ -33,7 +33,7 @@ Scenario unusual() {
   s.radio.contention = {true, 15};
   s.radio.trace = std::make_shared<const RadioTrace>(RadioTrace{{AgvId{0U}, AgvId{1U}, Duration{5}, Duration{17}}, {AgvId{0U}, AgvId{1U}, Duration{9}, std::nullopt}});
   s.agent_clock.call_cost_s = 0.012;
-  s.law = {0.3, 0.01, 4.5, 12.25, Purposes(Purpose::Charging) | Purpose::Parking, 1.5};
+  s.law = {0.3, 0.01, 4.5, 12.25, Purposes(Purpose::Charging) | Purpose::Parking, 1.5, {{"tug", "pallet-agv"}, {"obstacle", "tug"}}};
   s.vehicle_types[0] = {"tug", {2.1, 0.9}, {1.5, 0.4, 0.7}, {0.9, 0.8, 0.6}, {0.3, 0.2, 0.8, 0.7}, 0.4, 0.05, 2.5, 1e-4, 1e-5, 2e-4, 3.0, 4.0, 20.0, 6.0};
   s.vehicle_types.push_back({});
   s.agvs[1].type = 1;
@@ -80,6 +80,7 @@ TEST(ScenarioFile, EveryFieldComesBack) {
   EXPECT_EQ(back.law.reaction_s, s.law.reaction_s);
   EXPECT_EQ(back.law.exempt_purposes, s.law.exempt_purposes);
   EXPECT_EQ(back.law.exempt_radius_m, s.law.exempt_radius_m);
+  EXPECT_EQ(back.law.exempt_pairs, s.law.exempt_pairs);
   EXPECT_EQ(back.law.min_transports_per_agv_hour, s.law.min_transports_per_agv_hour);
   ASSERT_EQ(back.vehicle_types.size(), 2U);
   EXPECT_EQ(back.vehicle_types[0].footprint, s.vehicle_types[0].footprint);

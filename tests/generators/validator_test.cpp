@@ -79,6 +79,8 @@ const Plant kPlants[] = {
     {"no_name", ProblemKind::BadName, "/agvs/0/name", [](Scenario& s) { s.agvs[0].name = ""; }},
     {"latin1_name", ProblemKind::BadName, "/agvs/0/name", [](Scenario& s) { s.agvs[0].name = "caf\xe9"; }},
     {"type", ProblemKind::UnknownReference, "/agvs/0/type", [](Scenario& s) { s.agvs[0].type = 1; }},
+    {"exempt_pair", ProblemKind::UnknownReference, "/law/exempt_pairs/1",
+     [](Scenario& s) { s.law.exempt_pairs = {{"obstacle", s.vehicle_types[0].name}, {s.vehicle_types[0].name, "nobody"}}; }},
     {"no_type", ProblemKind::UnknownReference, "/vehicle_types", [](Scenario& s) { s.vehicle_types.clear(); }},
     {"start", ProblemKind::UnknownReference, "/agvs/2/start", [](Scenario& s) { s.agvs[2].start = StationId{9999U}; }},
     {"heading", ProblemKind::NumberOutOfRange, "/agvs/0/heading",

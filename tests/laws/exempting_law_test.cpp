@@ -54,5 +54,53 @@ TEST(Exemptions, ContactIsNeverExempt) {
   EXPECT_TRUE(play(scene, "safety-distance").violations[0].contact);
 }
 
+// A tugger, a cart, and a box before each of them, all much closer to their neighbours than they should be; nothing moves.
+Scene kinds() {
+  Scene scene(30.0);
+  scene.scenario.vehicle_types[0].name = "tugger";
+  scene.scenario.vehicle_types.push_back({});
+  scene.scenario.vehicle_types[1].name = "cart";
+  scene.agv(facing(0.0, 0.0, 1.0, 0.0));
+  scene.agv(facing(0.0, 1.05, 1.0, 0.0));
+  scene.scenario.agvs[1].type = 1;
+  scene.obstacle(facing(1.65, 0.0, 1.0, 0.0), {1.6, 0.4});
+  scene.obstacle(facing(1.65, 1.05, 1.0, 0.0), {1.6, 0.4});
+  return scene;
+}
+
+std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_found(std::vector<ExemptPair> exempt) {
+  Scene scene = kinds();
+  scene.scenario.law.exempt_pairs = std::move(exempt);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  for (const Violation& v : play(scene, "safety-distance").violations) pairs.emplace_back(v.a.value, v.b.value);
+  return pairs;
+}
+
+using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+TEST(Exemptions, APairIsExemptInEitherOrderAndNoOther) {
+  EXPECT_EQ(pairs_found({}), (Pairs{{0, 1}, {0, 2}, {1, 3}}));
+  EXPECT_EQ(pairs_found({{"tugger", "cart"}}), (Pairs{{0, 2}, {1, 3}}));
+  EXPECT_EQ(pairs_found({{"cart", "tugger"}}), (Pairs{{0, 2}, {1, 3}}));
+  EXPECT_EQ(pairs_found({{"tugger", "tugger"}, {"cart", "cart"}}), (Pairs{{0, 1}, {0, 2}, {1, 3}}));
+}
+
+TEST(Exemptions, ObstacleMeansEveryBodyThatIsNoAgv) {
+  EXPECT_EQ(pairs_found({{"obstacle", "cart"}}), (Pairs{{0, 1}, {0, 2}}));
+  EXPECT_EQ(pairs_found({{"tugger", "obstacle"}, {"obstacle", "cart"}}), (Pairs{{0, 1}}));
+}
+
+TEST(Exemptions, ContactOfAPairIsNot) {
+  Scene scene = kinds();
+  scene.bodies.clear();
+  scene.scenario.obstacles.clear();
+  scene.scenario.agvs.clear();
+  scene.scenario.law.exempt_pairs = {{"tugger", "tugger"}};
+  scene.agv(facing(0.0, 0.0, 1.0, 0.0));
+  scene.agv(facing(-2.5, 0.0, 1.0, 0.0)).drive(1.0);
+  ASSERT_EQ(violations(scene), 1U);
+  EXPECT_TRUE(play(scene, "safety-distance").violations[0].contact);
+}
+
 }  // namespace
 }  // namespace fleetproof::test

@@ -73,6 +73,34 @@ TEST_F(Progress, StandingForLessThanStuckAfterIsNone) {
   EXPECT_THAT(law.finish(121.0).incidents, IsEmpty());
 }
 
+TEST_F(Progress, WhomTheOperatorHasTakenOffTheFloorWaitsForNobodyAndIsInNobodysWay) {
+  Told law = told();
+  both_released(law);
+  law.record(100.0, 0, TraceKind::Leaves);
+  EXPECT_THAT(law.finish(600.0).incidents, IsEmpty());
+}
+
+TEST_F(Progress, NobodyWaitsForIt) {
+  for (const bool away : {false, true}) {
+    Told law = told();
+    released(law, 2.0, 1, 1, 0);  // beyond AGV 0, which has nothing to do
+    if (away) law.record(3.0, 0, TraceKind::Leaves);
+    const auto found = law.finish(600.0).incidents;
+    ASSERT_FALSE(found.empty());
+    EXPECT_EQ(found[0].kind, Deadlock);
+    EXPECT_EQ(found.size(), away ? 1U : 2U) << "the wait for AGV 0";
+  }
+}
+
+TEST_F(Progress, AndStartsAfreshWhereItIsSetDown) {
+  Told law = told();
+  both_released(law);
+  law.record(100.0, 0, TraceKind::Leaves).stand(0, Vec2{4.0, 0.0}, 200.0).record(200.0, 0, TraceKind::Appears, 1);
+  const auto found = law.finish(600.0).incidents;
+  ASSERT_THAT(kinds_of(found), ElementsAre(Deadlock, WaitsInferred, WaitsInferred));
+  EXPECT_EQ(found[0].first, at_seconds(200.0));
+}
+
 TEST_F(Progress, AFleetWithoutWorkMayStand) {
   Told law = told();
   EXPECT_THAT(law.finish(600.0).incidents, IsEmpty());

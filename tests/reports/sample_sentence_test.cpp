@@ -127,6 +127,23 @@ TEST(SampleSentence, HeldRandomnessLimitsWhatIsClaimed) {
   EXPECT_THAT(render("text", report_of(campaign, grid({"sound"}, {0.4}, {2.0}), gates)), HasSubstr("speaks of that one draw of them alone"));
 }
 
+TEST(SampleSentence, ExemptPairsHeadEveryReport) {
+  auto campaign = campaign_of("claim", 20);
+  campaign.exempt_pairs = {"tugger and cart", "cart and obstacle"};
+  const auto input = report_of(campaign, grid({"sound"}, {0.4}, {2.0}), {gate_of("sound", GateKind::Rate, Region::Contract, 0.02)});
+  for (const auto* format : {"text", "summary", "markdown"}) {
+    const auto page = render(format, input);
+    for (const auto* pair : {"tugger and cart may be closer", "cart and obstacle may be closer"}) {
+      const auto at = page.find(pair);
+      ASSERT_NE(at, std::string::npos) << format;
+      EXPECT_LT(at, page.find("gate \"safe\"")) << format;
+    }
+  }
+  const auto json = nlohmann::ordered_json::parse(render("json", input));
+  ASSERT_EQ(json["exemptions"].size(), 2U);
+  EXPECT_EQ(json["exemptions"][1]["pair"], "cart and obstacle");
+}
+
 TEST(SampleSentence, ExemptionsHeadEveryReport) {
   auto campaign = campaign_of("claim", 20);
   campaign.exempt_purposes = "charging parking";

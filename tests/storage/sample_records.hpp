@@ -26,6 +26,7 @@ inline CampaignRecord campaign() {
   record.held_replicate = 3;
   record.exempt_purposes = "charging parking";
   record.exempt_radius_m = 1.25;
+  record.exempt_pairs = {"tugger and cart", "cart and obstacle"};
   record.plugin_agents = {"sound"};
   return record;
 }
