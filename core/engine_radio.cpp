@@ -63,8 +63,10 @@ void Engine::transmit_to(Agv& sender, AgvId receiver, std::uint32_t slot, const 
   counters.delay_sum_ns += static_cast<std::uint64_t>((arrival - now_).count());
   if (fate.lost) {
     ++counters.receptions_lost;
-    counters.lost_in_outage += fate.in_outage ? 1 : 0;
-    trace(receiver, fate.in_outage ? TraceKind::LostInOutage : TraceKind::Lost, sender.id.value, messages_[slot].hash);
+    const TraceKind cause = fate.to_source ? TraceKind::LostToSource : fate.in_outage ? TraceKind::LostInOutage : TraceKind::Lost;
+    counters.lost_in_outage += cause == TraceKind::LostInOutage ? 1 : 0;
+    counters.lost_to_sources += cause == TraceKind::LostToSource ? 1 : 0;
+    trace(receiver, cause, sender.id.value, messages_[slot].hash);
     messages_.release(slot);
     return;
   }

@@ -12,11 +12,6 @@ namespace {
 // Kinds of processes and draws under the key of radio states; RadioPlaces has 1 to 3.
 constexpr std::uint32_t kLinkProcess = 8, kAsymmetryDraw = 9;
 
-Block draw_of(std::uint64_t key, AgvId sender, AgvId receiver, SimTime sent, std::uint32_t ordinal) {
-  const auto t = static_cast<std::uint64_t>(to_ns(sent));
-  return philox(key, {static_cast<std::uint32_t>(t), static_cast<std::uint32_t>(t >> 32), (sender.value << 16) | receiver.value, ordinal});
-}
-
 }  // namespace
 
 Radio::Radio(const RadioSetup& setup, std::uint64_t world_seed)
@@ -26,12 +21,15 @@ Radio::Radio(const RadioSetup& setup, std::uint64_t world_seed)
       copy_key_(stream_key(world_seed, Stream::RadioCopy)),
       delay_(setup),
       has_states_(setup.outages.mean_outage_s > 0.0 || setup.asymmetry > 0.0 || setup.places.roaming_border_m > 0.0),
-      depends_on_place_(setup.places.roaming_border_m > 0.0 || (setup.outages.mean_outage_s > 0.0 && setup.outages.scope == OutageSetup::Scope::Place)),
+      depends_on_place_(setup.places.roaming_border_m > 0.0 || !setup.sources.empty() ||
+                        (setup.outages.mean_outage_s > 0.0 && setup.outages.scope == OutageSetup::Scope::Place)),
       recorded_(setup.trace),
-      places_(setup.places, outage_law(setup.loss), state_key_) {}
+      places_(setup.places, outage_law(setup.loss), state_key_),
+      sources_(setup.sources, stream_key(world_seed, Stream::RadioSources)) {}
 
 Fate Radio::fate(AgvId sender, AgvId receiver, SimTime sent, std::uint32_t ordinal, const LinkPlaces& places) {
-  const Block block = draw_of(key_, sender, receiver, sent, ordinal);
+  const MessageKey message{sender, receiver, sent, ordinal};
+  const Block block = draw_for(message, key_);
   const double loss_draw = unit_interval(word64(block, 0));
   Fate fate;
   fate.lost = loss_draw < setup_.loss;
@@ -39,10 +37,12 @@ Fate Radio::fate(AgvId sender, AgvId receiver, SimTime sent, std::uint32_t ordin
   if (has_states_) weigh_states(fate, loss_draw, sender, receiver, sent, places);
   if (!recorded_.empty()) {
     if (const auto* recorded = recorded_.at(sender, receiver, sent)) {
-      fate = {.lost = !recorded->delay, .in_outage = false, .delay = std::max(recorded->delay.value_or(Duration::zero()), delay_.floor()), .copy_delay = {}};
+      fate = Fate{.lost = !recorded->delay, .delay = std::max(recorded->delay.value_or(Duration::zero()), delay_.floor())};
     }
   }
-  if (setup_.duplicates > 0.0) fate.copy_delay = copy_of(sender, receiver, sent, ordinal);
+  // What is lost anyway keeps its cause: a source more leaves the other causes' counts as they were.
+  if (!fate.lost) fate.lost = fate.to_source = sources_.destroy(message, places.receiver_m);
+  if (setup_.duplicates > 0.0) fate.copy_delay = copy_of(message);
   return fate;
 }
 
@@ -96,8 +96,8 @@ OutageProcess& Radio::process_of(AgvId sender, AgvId receiver) {
   return *process;
 }
 
-std::optional<Duration> Radio::copy_of(AgvId sender, AgvId receiver, SimTime sent, std::uint32_t ordinal) const {
-  const Block block = draw_of(copy_key_, sender, receiver, sent, ordinal);
+std::optional<Duration> Radio::copy_of(const MessageKey& message) const {
+  const Block block = draw_for(message, copy_key_);
   if (unit_interval(word64(block, 0)) >= setup_.duplicates) return std::nullopt;
   return delay_.at(unit_interval(word64(block, 1)));
 }

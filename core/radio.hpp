@@ -11,6 +11,7 @@
 #include "core/outage_process.hpp"
 #include "core/radio_places.hpp"
 #include "core/radio_setup.hpp"
+#include "core/radio_sources.hpp"
 #include "core/recorded_radio.hpp"
 
 namespace fleetproof {
@@ -18,9 +19,10 @@ namespace fleetproof {
 // What becomes of one transmission at one receiver, interference apart.
 struct Fate {
   bool lost = false;
-  bool in_outage = false;              // lost or not: the link or the place is in an outage, or an AGV is changing its access point
-  Duration delay{};                    // from sending to the inbox; for a lost one too, so that losses shift nothing
-  std::optional<Duration> copy_delay;  // of a second copy, likewise
+  bool in_outage = false;                // lost or not: the link or the place is in an outage, or an AGV is changing its access point
+  bool to_source = false;                // lost, and but for an external source it would not be
+  Duration delay{};                      // from sending to the inbox; for a lost one too, so that losses shift nothing
+  std::optional<Duration> copy_delay{};  // of a second copy, likewise
 };
 
 // Reference points of both ends at the instant of sending. Needed only where the radio depends on place.
@@ -46,7 +48,7 @@ class Radio {
   OutageLaw outage_law(double loss) const;
   double loss_of(AgvId sender, AgvId receiver) const;
   void weigh_states(Fate& fate, double loss_draw, AgvId sender, AgvId receiver, SimTime sent, const LinkPlaces& places);
-  std::optional<Duration> copy_of(AgvId sender, AgvId receiver, SimTime sent, std::uint32_t ordinal) const;
+  std::optional<Duration> copy_of(const MessageKey& message) const;
 
   RadioSetup setup_;
   std::uint64_t key_, state_key_, copy_key_;
@@ -54,6 +56,7 @@ class Radio {
   bool has_states_, depends_on_place_;
   RecordedRadio recorded_;
   RadioPlaces places_;
+  RadioSources sources_;
   std::vector<std::vector<std::optional<OutageProcess>>> links_;  // by sender (the smaller id where directions share one), receiver
 };
 

@@ -53,6 +53,18 @@ struct InterferenceSetup {
   std::uint32_t contention_window = 31;  // CW of IEEE 802.11: 31 (b), 15 (a, g, n)
 };
 
+// Something that sends and is no AGV: another network, a microwave oven, a welding robot. It is on and off in turns, exponential both; while it is
+// on, every receiver within range_m of it loses the share `loss` of its messages. A message is judged at the instant of sending, where its receiver
+// is then. Where the sender is does not matter.
+struct RadioSource {
+  double x_m = 0.0, y_m = 0.0;
+  double range_m = 15.0;
+  double mean_on_s = 1.0, mean_off_s = 9.0;  // off 0: always on
+  double loss = 1.0;
+
+  friend bool operator==(const RadioSource&, const RadioSource&) = default;
+};
+
 // What became of one recorded message.
 struct RecordedMessage {
   AgvId sender, receiver;
@@ -68,7 +80,7 @@ using RadioTrace = std::vector<RecordedMessage>;
 struct RadioSetup {
   // Always delay_s | uniform on [0, delay_s), which reorders | mostly short, seldom long, see DelayTailSetup.
   enum class DelayModel : std::uint8_t { Constant, Uniform, HeavyTail };
-  double loss = 0.0;  // nominal share of receptions lost; roaming and interference come on top
+  double loss = 0.0;  // nominal share of receptions lost; roaming, interference and external sources come on top
   double delay_s = 0.0;
   DelayModel delay_model = DelayModel::Constant;
   double range_m = 1000.0;    // between reference points at the instant of sending
@@ -80,6 +92,7 @@ struct RadioSetup {
   double duplicates = 0.0;  // share of the messages received that come twice, the copy with a delay of its own
   PlaceSetup places{};
   InterferenceSetup contention{};
+  std::vector<RadioSource> sources{};  // one more only adds losses, to recorded pairs as well
   // Decides the fate of every message between the pairs it holds: that of the first recorded message at or after the instant of sending. Beyond
   // its last instant it starts over. Other pairs keep to the models above. Shared: the runs of a campaign read the same recording.
   std::shared_ptr<const RadioTrace> trace{};

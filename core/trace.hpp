@@ -38,11 +38,14 @@ enum class TraceKind : std::uint32_t {
   Leaves = 24,          // and is taken away
   LostInOutage = 32,         // as Lost, while the link or place was in an outage
   LostByInterference = 33,   // as Lost, at the end of the transmission: another one, or one of the receiver's own, was in the air
+  LostToSource = 34,         // as Lost, to an external source near the receiver; it would have come through otherwise
 };
 const char* name_of(TraceKind kind);
 
 // A reception lost, whatever for.
-constexpr bool is_loss(TraceKind kind) { return kind == TraceKind::Lost || kind == TraceKind::LostInOutage || kind == TraceKind::LostByInterference; }
+constexpr bool is_loss(TraceKind kind) {
+  return kind == TraceKind::Lost || kind == TraceKind::LostInOutage || kind == TraceKind::LostByInterference || kind == TraceKind::LostToSource;
+}
 
 struct TraceRecord {
   SimTime at;

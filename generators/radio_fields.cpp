@@ -19,6 +19,10 @@ class RadioCheck {
   std::vector<RadioFault> run() {
     ranges();
     between_fields();
+    for (std::size_t i = 0; i < radio_.sources.size(); ++i) {
+      for_each_source_field(radio_.sources[i],
+                            [&](const RadioField& field, double value) { range(fmt::format("sources/{}/{}", i, field.key), field, value); });
+    }
     if (radio_.trace != nullptr) trace(*radio_.trace);
     return std::move(faults_);
   }
@@ -33,13 +37,16 @@ class RadioCheck {
     for_each_radio_field(radio_, [&](const RadioField& field, const auto& value) {
       if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, double> ||
                     std::is_same_v<std::remove_cvref_t<decltype(value)>, std::uint32_t>) {
-        const auto number = static_cast<double>(value);
-        const bool in_range = (field.above_low ? number > field.low : number >= field.low) && number <= field.high;  // false for NaN
-        demand(in_range, field.key,
-               field.above_low ? fmt::format("{} is not above {} and at most {}", number, field.low, field.high)
-                               : fmt::format("{} is outside {} .. {}", number, field.low, field.high));
+        range(field.key, field, static_cast<double>(value));
       }
     });
+  }
+
+  void range(std::string_view key, const RadioField& field, double number) {
+    const bool in_range = (field.above_low ? number > field.low : number >= field.low) && number <= field.high;  // false for NaN
+    demand(in_range, key,
+           field.above_low ? fmt::format("{} is not above {} and at most {}", number, field.low, field.high)
+                           : fmt::format("{} is outside {} .. {}", number, field.low, field.high));
   }
 
   void between_fields() {

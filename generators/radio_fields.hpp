@@ -22,11 +22,12 @@ inline constexpr std::string_view kDelayModels[] = {"constant", "uniform", "heav
 inline constexpr std::string_view kOutageModels[] = {"gilbert-elliott", "heavy-tail"};
 inline constexpr std::string_view kOutageScopes[] = {"link", "direction", "place"};
 
-// Calls visit(field, value) for every number, switch and word, in the order of files; the recording is left to the caller. Structured bindings: a
-// field that is added to the radio does not compile until it stands here.
+// Calls visit(field, value) for every number, switch and word, in the order of files; sources and the recording are left to the caller. Structured
+// bindings: a field that is added to the radio does not compile until it stands here.
 template <class Radio, class Visit>
 void for_each_radio_field(Radio& radio, Visit visit) {
-  auto& [loss, delay_s, delay_model, range_m, air_time_s, outages, delay_tail, asymmetry, duplicates, places, contention, trace] = radio;
+  auto& [loss, delay_s, delay_model, range_m, air_time_s, outages, delay_tail, asymmetry, duplicates, places, contention, sources, trace] = radio;
+  (void)sources;
   (void)trace;
   visit(RadioField{.key = "loss", .is_factor = true}, loss);
   visit(RadioField{.key = "delay_s", .high = 1e9, .is_factor = true}, delay_s);
@@ -58,7 +59,19 @@ void for_each_radio_field(Radio& radio, Visit visit) {
   visit(RadioField{.key = "contention_window", .high = 1023.0}, contention_window);
 }
 
-// What is wrong with a field (its key, or "trace/7"), one entry for each.
+// The same for an external source, all of them numbers.
+template <class Source, class Visit>
+void for_each_source_field(Source& source, Visit visit) {
+  auto& [x_m, y_m, range_m, mean_on_s, mean_off_s, loss] = source;
+  visit(RadioField{.key = "x_m", .low = -1e9, .high = 1e9}, x_m);
+  visit(RadioField{.key = "y_m", .low = -1e9, .high = 1e9}, y_m);
+  visit(RadioField{.key = "range_m", .high = 1e9, .above_low = true}, range_m);
+  visit(RadioField{.key = "mean_on_s", .low = 0.001, .high = 1e6}, mean_on_s);
+  visit(RadioField{.key = "mean_off_s", .high = 1e6}, mean_off_s);
+  visit(RadioField{.key = "loss"}, loss);
+}
+
+// What is wrong with a field (its key, "sources/0/loss" or "trace/7"), one entry for each.
 struct RadioFault {
   std::string key, sentence;
 };

@@ -18,9 +18,7 @@ class CongestionLaw final : public Law {
   explicit CongestionLaw(const Scenario& scenario) : air_time_(seconds(scenario.radio.air_time_s)) {}
 
   void piece_ended(const Piece&) override {}
-  TraceKinds reads() const override {
-    return {TraceKind::Sent, TraceKind::Lost, TraceKind::LostInOutage, TraceKind::LostByInterference, TraceKind::Received};
-  }
+  TraceKinds reads() const override { return kMessageKinds; }
   void happened(const TraceRecord& record) override {
     windows_before(record.at);
     if (record.kind == TraceKind::Sent) {

@@ -9,7 +9,7 @@
 namespace fleetproof {
 
 inline constexpr std::int32_t kApplicationId = 0x464C5046;  // "FLPF": tells a campaign file from any other SQLite file
-inline constexpr std::int32_t kSchemaVersion = 3;
+inline constexpr std::int32_t kSchemaVersion = 4;
 inline constexpr std::int32_t kPageSize = 4096;
 
 // A counter of the outcome and the column of `runs` that holds it.
@@ -56,6 +56,7 @@ inline constexpr auto kCounterColumns = std::to_array<CounterColumn>({
     {"lost_in_outage", &Counters::lost_in_outage},
     {"lost_by_interference", &Counters::lost_by_interference},
     {"duplicates", &Counters::duplicates},
+    {"lost_to_sources", &Counters::lost_to_sources},
 });
 static_assert(sizeof(Counters) == kCounterColumns.size() * sizeof(std::uint64_t), "every counter has a column");
 

@@ -31,6 +31,7 @@ Scenario unusual() {
   s.radio.duplicates = 0.05;
   s.radio.places = {30.0, 2.5, 0.02, 0.05, 7.0};
   s.radio.contention = {true, 15};
+  s.radio.sources = {{1.5, -2.5, 3.25, 0.125, 0.5, 0.75}, {.x_m = 1e-3, .y_m = 7.0}};
   s.radio.trace = std::make_shared<const RadioTrace>(RadioTrace{{AgvId{0U}, AgvId{1U}, Duration{5}, Duration{17}}, {AgvId{0U}, AgvId{1U}, Duration{9}, std::nullopt}});
   s.agent_clock.call_cost_s = 0.012;
   s.law = {0.3, 0.01, 4.5, 12.25, Purposes(Purpose::Charging) | Purpose::Parking, 1.5};
@@ -72,6 +73,7 @@ TEST(ScenarioFile, EveryFieldComesBack) {
   EXPECT_EQ(values(back.radio), values(s.radio));
   const RadioSetup defaults;
   for (std::size_t i = 0; i < values(defaults).size(); ++i) EXPECT_NE(values(s.radio)[i], values(defaults)[i]) << "field " << i << " is not tested";
+  EXPECT_EQ(back.radio.sources, s.radio.sources);
   ASSERT_NE(back.radio.trace, nullptr);
   EXPECT_EQ(*back.radio.trace, *s.radio.trace);
   EXPECT_EQ(back.agent_clock.call_cost_s, s.agent_clock.call_cost_s);

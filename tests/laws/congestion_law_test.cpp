@@ -44,6 +44,34 @@ TEST(CongestionLaw, IsSilentBelowAndAboutOrdinaryLosses) {
   EXPECT_THAT(found, testing::IsEmpty());
 }
 
+// Six receptions of ten are destroyed: a fault of the fleet only if its own transmissions did it.
+TEST(CongestionLaw, ExternalSourcesAreNoCongestion) {
+  const auto destroyed = [](TraceKind cause) {
+    return congestion([&](Told& told) {
+      for (int i = 0; i < 300; ++i) told.record(i * 0.1, 1, i % 10 < 6 ? cause : TraceKind::Received, 0, 1);
+    });
+  };
+  EXPECT_THAT(destroyed(TraceKind::LostToSource), testing::IsEmpty());
+  const auto accused = destroyed(TraceKind::LostByInterference);
+  ASSERT_EQ(accused.size(), 1U);
+  EXPECT_EQ(accused[0].kind, IncidentKind::InterferenceLosses);
+}
+
+// What a source destroys is a reception all the same: it makes the share of the others smaller.
+TEST(CongestionLaw, WhatSourcesDestroyCountsAsReceptions) {
+  const auto share = [](int to_sources) {
+    return congestion([&](Told& told) {
+      for (int i = 0; i < 10; ++i) told.record(0.01 * i, 1, TraceKind::LostByInterference, 0, 1);
+      for (int i = 0; i < 40; ++i) told.record(0.2 + 0.01 * i, 1, TraceKind::Received, 0, 1);
+      for (int i = 0; i < to_sources; ++i) told.record(0.7 + 0.001 * i, 1, TraceKind::LostToSource, 0, 1);
+    });
+  };
+  ASSERT_EQ(share(0).size(), 1U);
+  EXPECT_EQ(share(0)[0].value, 200'000);
+  EXPECT_EQ(share(40)[0].value, 10 * 1'000'000 / 90);
+  EXPECT_THAT(share(60), testing::IsEmpty());
+}
+
 TEST(CongestionLaw, TheLastWindowOfARunCountsToo) {
   EXPECT_EQ(congestion([](Told& told) { send(told, 59, 60, 70); }).size(), 1U);
 }
