@@ -37,7 +37,7 @@ Fate Radio::fate(AgvId sender, AgvId receiver, SimTime sent, std::uint32_t ordin
   if (has_states_) weigh_states(fate, loss_draw, sender, receiver, sent, places);
   if (!recorded_.empty()) {
     if (const auto* recorded = recorded_.at(sender, receiver, sent)) {
-      fate = Fate{.lost = !recorded->delay, .delay = std::max(recorded->delay.value_or(Duration::zero()), delay_.floor())};
+      fate = Fate{.lost = !recorded->delay, .delay = recorded->delay.value_or(Duration::zero())};
     }
   }
   // What is lost anyway keeps its cause: a source more leaves the other causes' counts as they were.

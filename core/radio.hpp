@@ -9,6 +9,7 @@
 
 #include "core/delay_model.hpp"
 #include "core/outage_process.hpp"
+#include "core/radio_channel.hpp"
 #include "core/radio_places.hpp"
 #include "core/radio_setup.hpp"
 #include "core/radio_sources.hpp"
@@ -16,12 +17,12 @@
 
 namespace fleetproof {
 
-// What becomes of one transmission at one receiver, interference apart.
+// What becomes of one transmission at one receiver, air time and interference apart.
 struct Fate {
   bool lost = false;
   bool in_outage = false;                // lost or not: the link or the place is in an outage, or an AGV is changing its access point
   bool to_source = false;                // lost, and but for an external source it would not be
-  Duration delay{};                      // from sending to the inbox; for a lost one too, so that losses shift nothing
+  Duration delay{};                      // from sending to the inbox if the air time is no longer; for a lost one too, so that losses shift nothing
   std::optional<Duration> copy_delay{};  // of a second copy, likewise
 };
 
@@ -66,8 +67,8 @@ struct Message {
   std::string bytes;
   std::uint64_t hash = 0;
   std::uint32_t copies = 0;  // receptions still under way or unread
-  // With interference only: the slot in which it goes out, and the receivers at which it was destroyed there.
-  std::int64_t air_slot = 0;
+  // With interference: the receivers at which it was destroyed.
+  AirInterval on_air;
   std::vector<AgvId> destroyed_at;
   bool is_destroyed_at(AgvId receiver) const { return std::ranges::find(destroyed_at, receiver) != destroyed_at.end(); }
 };
@@ -78,7 +79,7 @@ class MessagePool {
   std::uint32_t add(AgvId sender, std::string_view bytes, std::uint32_t copies);
   const Message& operator[](std::uint32_t slot) const { return messages_[slot]; }
   void hold(std::uint32_t slot) { ++messages_[slot].copies; }
-  void goes_out_in(std::uint32_t slot, std::int64_t air_slot) { messages_[slot].air_slot = air_slot; }
+  void goes_out(std::uint32_t slot, const AirInterval& on_air) { messages_[slot].on_air = on_air; }
   void destroy_at(std::uint32_t slot, AgvId receiver) { messages_[slot].destroyed_at.push_back(receiver); }
   void release(std::uint32_t slot);
   // Of a message that is never going to be sent: all its copies.

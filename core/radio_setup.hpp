@@ -45,9 +45,9 @@ struct PlaceSetup {
   double roaming_gap_s = 5.0;                       // mean time between windows of a border, exponential; 0: one follows the other
 };
 
-// Transmissions compete for air. Time is divided into slots of one air time; a message goes out in the slot number 1 + k after the one in which
-// it was sent (after the sender's previous message, if that is later), k uniform in 0 .. contention_window. Two transmissions of one slot
-// destroy each other at every receiver in range of both, and nobody hears while it sends.
+// Transmissions compete for air. A message sees time divided into slots of its own air time; it goes out in the slot number 1 + k after the one in
+// which it was sent (after the sender's previous message, if that is later), k uniform in 0 .. contention_window. Two transmissions that are in the
+// air at once, if only in part, destroy each other at every receiver in range of both, and nobody hears while it sends.
 struct InterferenceSetup {
   bool interference = false;
   std::uint32_t contention_window = 31;  // CW of IEEE 802.11: 31 (b), 15 (a, g, n)
@@ -83,8 +83,10 @@ struct RadioSetup {
   double loss = 0.0;  // nominal share of receptions lost; roaming, interference and external sources come on top
   double delay_s = 0.0;
   DelayModel delay_model = DelayModel::Constant;
-  double range_m = 1000.0;    // between reference points at the instant of sending
-  double air_time_s = 0.001;  // of the transmission itself; contained in the delay where that is longer
+  double range_m = 1000.0;  // between reference points at the instant of sending
+  // Of the transmission itself, contained in the delay where that is longer: of an empty message (preamble, headers, gap), and for each byte of the
+  // message (8 / bit rate; 0: size does not matter).
+  double air_time_s = 0.001, air_time_per_byte_s = 0.0;
   OutageSetup outages{};
   DelayTailSetup delay_tail{};
   // 0 .. 1. The loss of a to b is loss + x loss (1 - loss), of b to a loss - x loss (1 - loss); x is drawn per pair, uniform in +-asymmetry.
@@ -96,6 +98,8 @@ struct RadioSetup {
   // Decides the fate of every message between the pairs it holds: that of the first recorded message at or after the instant of sending. Beyond
   // its last instant it starts over. Other pairs keep to the models above. Shared: the runs of a campaign read the same recording.
   std::shared_ptr<const RadioTrace> trace{};
+
+  Duration air_time(std::size_t bytes) const { return seconds(air_time_s + air_time_per_byte_s * static_cast<double>(bytes)); }
 };
 
 }  // namespace fleetproof

@@ -52,6 +52,7 @@ struct TraceRecord {
   EntityId entity;
   TraceKind kind = TraceKind::ActivityBegins;
   std::uint64_t a = 0, b = 0;
+  std::uint32_t bytes = 0;  // Sent: size of the message. For those who read along; the digest has the hash
 };
 
 // Whoever wants to read along. `text` is the probe's or log's words, else empty; valid during the call.

@@ -5,10 +5,12 @@
 #include <tuple>
 #include <type_traits>
 
+#include "core/radio_channel.hpp"
+
 namespace fleetproof {
 namespace {
 
-constexpr double kShortestOutage_s = 0.001, kShortestSlot_s = 1e-6;
+constexpr double kShortestOutage_s = 0.001, kShortestSlot_s = 1e-6, kLongestSlot_s = 1.0;
 constexpr std::uint32_t kMostAgvs = 65536;
 constexpr Duration kLongest = std::chrono::seconds(1'000'000'000);
 
@@ -68,6 +70,11 @@ class RadioCheck {
            fmt::format("{} is below roaming_min_s = {}", places.roaming_max_s, places.roaming_min_s));
     demand(!radio_.contention.interference || !(radio_.air_time_s < kShortestSlot_s), "air_time_s",
            fmt::format("{} is too short for interference; give at least {} s", radio_.air_time_s, kShortestSlot_s));
+    const double longest_s = to_seconds(radio_.air_time(kLongestMessage_bytes));
+    demand(!radio_.contention.interference || !(longest_s > kLongestSlot_s),
+           radio_.air_time_s > kLongestSlot_s ? "air_time_s" : "air_time_per_byte_s",
+           fmt::format("a message of {} bytes would be {} s in the air, too long for interference; at most {} s", kLongestMessage_bytes, longest_s,
+                       kLongestSlot_s));
   }
 
   void trace(const RadioTrace& trace) {

@@ -26,7 +26,8 @@ inline constexpr std::string_view kOutageScopes[] = {"link", "direction", "place
 // bindings: a field that is added to the radio does not compile until it stands here.
 template <class Radio, class Visit>
 void for_each_radio_field(Radio& radio, Visit visit) {
-  auto& [loss, delay_s, delay_model, range_m, air_time_s, outages, delay_tail, asymmetry, duplicates, places, contention, sources, trace] = radio;
+  auto& [loss, delay_s, delay_model, range_m, air_time_s, air_time_per_byte_s, outages, delay_tail, asymmetry, duplicates, places, contention,
+         sources, trace] = radio;
   (void)sources;
   (void)trace;
   visit(RadioField{.key = "loss", .is_factor = true}, loss);
@@ -34,6 +35,7 @@ void for_each_radio_field(Radio& radio, Visit visit) {
   visit(RadioField{.key = "delay_model", .words = kDelayModels}, delay_model);
   visit(RadioField{.key = "range_m", .high = 1e9, .above_low = true}, range_m);
   visit(RadioField{.key = "air_time_s", .high = 1e9}, air_time_s);
+  visit(RadioField{.key = "air_time_per_byte_s"}, air_time_per_byte_s);
   auto& [mean_outage_s, outage_model, outage_shape, outage_scope, loss_good, loss_bad] = outages;
   visit(RadioField{.key = "mean_outage_s", .high = 1e6, .is_factor = true}, mean_outage_s);
   visit(RadioField{.key = "outage_model", .words = kOutageModels}, outage_model);

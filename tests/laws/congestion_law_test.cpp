@@ -72,6 +72,19 @@ TEST(CongestionLaw, WhatSourcesDestroyCountsAsReceptions) {
   EXPECT_THAT(share(60), testing::IsEmpty());
 }
 
+// 10 ms each and 0.1 ms a byte: 25 messages of 100 bytes ask for half of a second.
+TEST(CongestionLaw, LongMessagesAskForMoreAirTime) {
+  Scenario scenario = row_scenario(2, {0, 1}, 60.0);
+  scenario.radio.air_time_s = 0.01;
+  scenario.radio.air_time_per_byte_s = 0.0001;
+  Told told(scenario, "congestion");
+  for (int i = 0; i < 25; ++i) told.record(3.0 + 0.03 * i, 0, TraceKind::Sent, 1, 7, 100);
+  for (int i = 0; i < 25; ++i) told.record(5.0 + 0.03 * i, 0, TraceKind::Sent, 1, 7, 99);
+  const auto found = told.finish(60.0).incidents;
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0], (Incident{IncidentKind::ChannelSaturated, {}, {}, at_seconds(3.0), at_seconds(4.0), 500'000}));
+}
+
 TEST(CongestionLaw, TheLastWindowOfARunCountsToo) {
   EXPECT_EQ(congestion([](Told& told) { send(told, 59, 60, 70); }).size(), 1U);
 }
