@@ -9,7 +9,7 @@
 namespace fleetproof {
 namespace {
 
-// Kinds of processes and draws under the key of radio states; RadioPlaces has 1 to 3.
+// Kinds of processes and draws under the key of radio states; RadioPlaces has 1 to 3, RadioCrossings 10.
 constexpr std::uint32_t kLinkProcess = 8, kAsymmetryDraw = 9;
 
 }  // namespace
@@ -20,11 +20,12 @@ Radio::Radio(const RadioSetup& setup, std::uint64_t world_seed)
       state_key_(stream_key(world_seed, Stream::RadioState)),
       copy_key_(stream_key(world_seed, Stream::RadioCopy)),
       delay_(setup),
-      has_states_(setup.outages.mean_outage_s > 0.0 || setup.asymmetry > 0.0 || setup.places.roaming_border_m > 0.0),
+      has_states_(setup.outages.mean_outage_s > 0.0 || setup.asymmetry > 0.0 || setup.places.roaming_border_m > 0.0 || setup.places.roaming_at_crossing),
       depends_on_place_(setup.places.roaming_border_m > 0.0 || !setup.sources.empty() ||
                         (setup.outages.mean_outage_s > 0.0 && setup.outages.scope == OutageSetup::Scope::Place)),
       recorded_(setup.trace),
       places_(setup.places, outage_law(setup.loss), state_key_),
+      crossings_(setup.places, state_key_),
       sources_(setup.sources, stream_key(world_seed, Stream::RadioSources)) {}
 
 Fate Radio::fate(AgvId sender, AgvId receiver, SimTime sent, std::uint32_t ordinal, const LinkPlaces& places) {
@@ -55,9 +56,8 @@ void Radio::weigh_states(Fate& fate, double loss_draw, AgvId sender, AgvId recei
     loss = fate.in_outage ? bad : good;
   }
   fate.lost = loss_draw < loss;
-  if (places_.has_borders() && (places_.is_roaming(places.sender_m, sent) || places_.is_roaming(places.receiver_m, sent))) {
-    fate.lost = fate.in_outage = true;
-  }
+  const bool at_border = places_.has_borders() && (places_.is_roaming(places.sender_m, sent) || places_.is_roaming(places.receiver_m, sent));
+  if (at_border || crossings_.is_deaf(sender, sent) || crossings_.is_deaf(receiver, sent)) fate.lost = fate.in_outage = true;
 }
 
 // A nominal loss outside [loss_good, loss_bad] needs no second state: the only one left has that loss. All three figures (both losses and the bad

@@ -10,6 +10,7 @@
 #include "core/delay_model.hpp"
 #include "core/outage_process.hpp"
 #include "core/radio_channel.hpp"
+#include "core/radio_crossings.hpp"
 #include "core/radio_places.hpp"
 #include "core/radio_setup.hpp"
 #include "core/radio_sources.hpp"
@@ -37,6 +38,10 @@ class Radio {
  public:
   Radio(const RadioSetup& setup, std::uint64_t world_seed);
   bool depends_on_place() const { return depends_on_place_; }
+  // To be told of every piece of every AGV, but for those with which they begin: what comes of the AGV's way hangs on them.
+  void piece_begins(const Piece& piece) {
+    if (crossings_.is_on()) crossings_.piece_begins(piece);
+  }
   Fate fate(AgvId sender, AgvId receiver, SimTime sent, std::uint32_t ordinal, const LinkPlaces& places = {});
   // The outage process that this receiver meets on messages of this sender. Scope Place has none.
   OutageProcess& process_of(AgvId sender, AgvId receiver);
@@ -57,6 +62,7 @@ class Radio {
   bool has_states_, depends_on_place_;
   RecordedRadio recorded_;
   RadioPlaces places_;
+  RadioCrossings crossings_;
   RadioSources sources_;
   std::vector<std::vector<std::optional<OutageProcess>>> links_;  // by sender (the smaller id where directions share one), receiver
 };

@@ -35,13 +35,16 @@ struct DelayTailSetup {
   double cap_share = 1.0;     // 1: delay_s is the longest delay, as in the other models; 0: no cap
 };
 
-// Access points stand on a square grid, one of them at (0, 0); each serves the square cell around it.
-// Near a border of two cells AGVs change over from one to the other. Each border has handover windows of its own: in a window, whoever is within
-// border_m of the border neither hears nor is heard, so two AGVs that meet there go deaf together.
+// Access points stand on a square grid, one of them at (0, 0); each serves the square cell around it. AGVs change over from one to the other, and
+// neither hear nor are heard meanwhile:
+// - at_crossing: an AGV does so when its reference point crosses a border of two cells, from that instant on for a time drawn for this crossing.
+// - border_m: near a border. Each border has handover windows in time, and in them everybody within border_m of it is concerned, moving or not.
+// With either, two AGVs that meet at a border go deaf together. With both, either suffices.
 struct PlaceSetup {
   double ap_spacing_m = 28.0;
-  double roaming_border_m = 0.0;                    // 0: no handovers
-  double roaming_min_s = 1.2, roaming_max_s = 4.7;  // length of a window, uniform; with 802.11r below 0.05 s
+  bool roaming_at_crossing = false;
+  double roaming_border_m = 0.0;                    // 0: no windows
+  double roaming_min_s = 1.2, roaming_max_s = 4.7;  // length of a change or a window, uniform; with 802.11r below 0.05 s
   double roaming_gap_s = 5.0;                       // mean time between windows of a border, exponential; 0: one follows the other
 };
 

@@ -50,8 +50,9 @@ void for_each_radio_field(Radio& radio, Visit visit) {
   visit(RadioField{.key = "delay_cap_share", .high = 1e6}, cap_share);
   visit(RadioField{.key = "asymmetry"}, asymmetry);
   visit(RadioField{.key = "duplicates"}, duplicates);
-  auto& [ap_spacing_m, roaming_border_m, roaming_min_s, roaming_max_s, roaming_gap_s] = places;
+  auto& [ap_spacing_m, roaming_at_crossing, roaming_border_m, roaming_min_s, roaming_max_s, roaming_gap_s] = places;
   visit(RadioField{.key = "ap_spacing_m", .low = 1.0, .high = 1e6}, ap_spacing_m);
+  visit(RadioField{.key = "roaming_at_crossing"}, roaming_at_crossing);
   visit(RadioField{.key = "roaming_border_m", .high = 1e6}, roaming_border_m);
   visit(RadioField{.key = "roaming_min_s", .low = 0.001, .high = 3600.0}, roaming_min_s);
   visit(RadioField{.key = "roaming_max_s", .low = 0.001, .high = 3600.0}, roaming_max_s);

@@ -215,7 +215,7 @@ TEST_F(CampaignFileTest, EveryRadioKeySurvivesThePlan) {
   const CampaignPlan plan = read(kFactors +
                                  "[radio]\ndelay_model = \"heavy-tail\"\nrange_m = 55\nair_time_s = 0.002\nair_time_per_byte_s = 8e-6\noutage_model = \"heavy-tail\"\noutage_shape = 1.2\noutage_scope = "
                                  "\"direction\"\nloss_good = 0.01\nloss_bad = 0.9\ndelay_min_share = 0.2\ndelay_median_share = 0.3\ndelay_tail_shape = 2\ndelay_cap_share = "
-                                 "0.9\nasymmetry = 0.1\nduplicates = 0.03\nap_spacing_m = 30\nroaming_border_m = 2\nroaming_min_s = 0.02\nroaming_max_s = 0.05\nroaming_gap_s = "
+                                 "0.9\nasymmetry = 0.1\nduplicates = 0.03\nap_spacing_m = 30\nroaming_at_crossing = true\nroaming_border_m = 2\nroaming_min_s = 0.02\nroaming_max_s = 0.05\nroaming_gap_s = "
                                  "9\ninterference = true\ncontention_window = 15\nsources = 2\nsource_range_m = 8.5\nsource_mean_on_s = 0.25\nsource_mean_off_s = 0.75\nsource_loss = "
                                  "0.6\ntrace = \"hall.csv\"\n")
                                 .plan;

@@ -37,6 +37,7 @@ std::vector<double> arrivals_s(const RadioSetup& radio, std::size_t bytes) {
         if (b.self == 0 && event.kind == FP_EVENT_START) host.send_unicast(c, text.data(), static_cast<std::uint32_t>(text.size()), 1);
       },
       &recorder);
+  EXPECT_EQ(recorder.of(TraceKind::Sent).at(0).bytes, bytes);  // what laws reckon with
   std::vector<double> found;
   for (const TraceRecord& r : recorder.of(TraceKind::Received)) found.push_back(to_seconds(r.at));
   return found;
