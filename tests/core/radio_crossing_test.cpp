@@ -43,7 +43,7 @@ bool deaf_at(const RadioCrossings& crossings, AgvId agv, double t_s) {
   return copy.is_deaf(agv, at_seconds(t_s));
 }
 
-TEST(Crossing, MakesDeafFromTheInstantOfTheBorderForTheTimeDrawn) {
+TEST(CellCrossing, MakesDeafFromTheInstantOfTheBorderForTheTimeDrawn) {
   const Curve curve = Curve::straight({0.0, 1.0}, {40.0, 1.0});  // borders at 10 m, 7 s after the start, and at 30 m, 10 s later
   RadioCrossings crossings(crossing(1.5, 1.5), 3);
   tell(crossings, kA, curve);
@@ -57,7 +57,7 @@ TEST(Crossing, MakesDeafFromTheInstantOfTheBorderForTheTimeDrawn) {
   EXPECT_FALSE(deaf_at(crossings, kB, 18.0));
 }
 
-TEST(Crossing, TwoThatMeetAtABorderAreDeafTogether) {
+TEST(CellCrossing, TwoThatMeetAtABorderAreDeafTogether) {
   const Curve from_left = Curve::straight({0.0, 1.0}, {20.0, 1.0}), from_right = Curve::straight({20.0, 3.0}, {0.0, 3.0});
   RadioCrossings crossings(crossing(1.2, 4.7), 3);
   tell(crossings, kA, from_left);
@@ -66,7 +66,7 @@ TEST(Crossing, TwoThatMeetAtABorderAreDeafTogether) {
   for (const double t_s : {16.999, 21.701}) EXPECT_FALSE(deaf_at(crossings, kA, t_s) || deaf_at(crossings, kB, t_s)) << t_s;
 }
 
-TEST(Crossing, StandingOnABorderOrDrivingAlongItCostsNothing) {
+TEST(CellCrossing, StandingOnABorderOrDrivingAlongItCostsNothing) {
   const Curve along = Curve::straight({10.0, -9.0}, {10.0, 9.0}), up_to = Curve::straight({0.0, 0.0}, {10.0, 0.0}),
               back = Curve::straight({10.0, 0.0}, {0.0, 0.0});
   // A line that rounding wriggles about the border.
@@ -81,7 +81,7 @@ TEST(Crossing, StandingOnABorderOrDrivingAlongItCostsNothing) {
   }
 }
 
-TEST(Crossing, OnlyWhatIsDrivenCounts) {
+TEST(CellCrossing, OnlyWhatIsDrivenCounts) {
   const Curve curve = Curve::straight({0.0, 1.0}, {40.0, 1.0});
   RadioCrossings crossings(crossing(1.0, 4.0), 3), undisturbed(crossing(1.0, 4.0), 3);
   tell(undisturbed, kA, curve);
@@ -102,7 +102,7 @@ TEST(Crossing, OnlyWhatIsDrivenCounts) {
   EXPECT_FALSE(deaf_at(replanned, kA, 19.1));
 }
 
-TEST(Crossing, IsTheSameWhoeverAsks) {
+TEST(CellCrossing, IsTheSameWhoeverAsks) {
   const Curve curve = Curve::straight({0.0, 1.0}, {40.0, 1.0});
   RadioCrossings often(crossing(1.0, 4.0), 3), seldom(crossing(1.0, 4.0), 3);
   tell(often, kA, curve);
@@ -116,7 +116,7 @@ TEST(Crossing, IsTheSameWhoeverAsks) {
   }
 }
 
-TEST(Crossing, LastsAsLongAsTheUniformLawSays) {
+TEST(CellCrossing, LastsAsLongAsTheUniformLawSays) {
   const Curve curve = Curve::straight({0.0, 1.0}, {20.0, 1.0});
   std::vector<double> lasts_s, second_s;
   for (std::uint64_t world = 0; world < 20'000; ++world) {
@@ -139,7 +139,7 @@ TEST(Crossing, LastsAsLongAsTheUniformLawSays) {
   EXPECT_TRUE(test::is_binomial(both_long, lasts_s.size(), 0.25));
 }
 
-TEST(Crossing, ACornerCutCountsTwice) {
+TEST(CellCrossing, ACornerCutCountsTwice) {
   const Curve curve = Curve::straight({0.0, 0.1}, {20.0, 20.1});  // over y = 10 at x = 9.9, and then over x = 10
   RadioCrossings crossings(crossing(0.05, 0.05), 3);
   tell(crossings, kA, curve);
@@ -153,7 +153,7 @@ TEST(Crossing, ACornerCutCountsTwice) {
 }
 
 // Bends against a walk in steps of a tenth of a millisecond, which has its own idea of cells.
-TEST(Crossing, OnBendsAgreesWithAFineWalk) {
+TEST(CellCrossing, OnBendsAgreesWithAFineWalk) {
   constexpr double kSpacing_m = 5.0;
   std::size_t all = 0;
   for (int k = 0; k < 40; ++k) {
@@ -181,7 +181,7 @@ TEST(Crossing, OnBendsAgreesWithAFineWalk) {
   EXPECT_GT(all, 80U);
 }
 
-TEST(Crossing, ABendThatCutsIntoACellIsSeen) {
+TEST(CellCrossing, ABendThatCutsIntoACellIsSeen) {
   for (const double beyond_m : {0.01, 0.001, -0.001}) {                                 // the border at 10 m
     const Curve shifted({Arc{{Vec2(8.0 + beyond_m, -2.0), Vec2::UnitX()}, 6.2, 0.5}});  // a half circle of 2 m
     RadioCrossings crossings(crossing(1.0, 1.0), 3);
