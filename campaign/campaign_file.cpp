@@ -132,7 +132,8 @@ ImportChoice import_choice(TomlTable& table, const std::string& path) {
   return choice;
 }
 
-void read_radio(TomlTable& table, const std::string& path, RadioSetup& radio) {
+void read_radio(TomlTable& table, const std::string& path, CampaignPlan& plan) {
+  RadioSetup& radio = plan.radio;
   for_each_radio_field(radio, [&](const RadioField& field, auto& value) {
     using Value = std::remove_cvref_t<decltype(value)>;
     if (field.is_factor) return;
@@ -152,6 +153,10 @@ void read_radio(TomlTable& table, const std::string& path, RadioSetup& radio) {
       table.get(field.key, value);
     }
   });
+  std::uint64_t sources = plan.sources.count;
+  table.get("sources", sources);
+  plan.sources.count = static_cast<std::uint32_t>(std::min<std::uint64_t>(sources, std::numeric_limits<std::uint32_t>::max()));  // likewise
+  read_numbers(table, plan.sources);
   std::string trace;
   table.get("trace", trace);
   if (!trace.empty()) radio.trace = std::make_shared<const RadioTrace>(read_radio_trace(beside(path, trace)));
@@ -304,7 +309,7 @@ CampaignFile read_root(TomlTable root, const std::string& path) {
   }
   read_helper(root, "scanner", plan.scanner);
   read_helper(root, "operator", plan.operator_help);
-  if (auto radio = root.table("radio")) read_radio(*radio, path, plan.radio);
+  if (auto radio = root.table("radio")) read_radio(*radio, path, plan);
   if (auto clock = root.table("agent_clock")) {
     clock->get("call_cost_s", plan.agent_clock.call_cost_s);
     clock->finish();

@@ -157,22 +157,25 @@ void check_gates(const CampaignPlan& plan, const std::string& where) {
   }
 }
 
-void check_radio(const CampaignPlan& plan, const std::string& where) {
-  RadioSetup radio = plan.radio;
-  radio.outages.mean_outage_s = std::ranges::max(plan.mean_outage_s, {}, &FactorSpan::to).to;  // checked together with the other fields
-  for (const auto& [key, sentence] : radio_faults(radio)) throw InputError(where, fmt::format("radio.{}: {}", key, sentence));
-  const bool delay_is_bounded = radio.delay_model != RadioSetup::DelayModel::HeavyTail || (radio.delay_tail.cap_share > 0.0 && radio.delay_tail.cap_share <= 1.0);
-  demand(plan.kind != "claim" || delay_is_bounded, where,
-         fmt::format("radio.delay_cap_share is {}; a claim about the contract region needs delay_s to be the longest delay: set it to 1, or kind to \"search\"",
-                     radio.delay_tail.cap_share));
-}
-
 template <class Table>
 void check_numbers(Table table, const std::string& name, const std::string& where) {
   for (const NumberField& field : number_fields(table)) {
     demand(*field.value >= field.least && *field.value <= field.most, where,
            fmt::format("{}.{} is {}; it lies from {} to {}", name, field.key, *field.value, field.least, field.most));
   }
+}
+
+void check_radio(const CampaignPlan& plan, const std::string& where) {
+  RadioSetup radio = plan.radio;
+  radio.outages.mean_outage_s = std::ranges::max(plan.mean_outage_s, {}, &FactorSpan::to).to;  // checked together with the other fields
+  for (const auto& [key, sentence] : radio_faults(radio)) throw InputError(where, fmt::format("radio.{}: {}", key, sentence));
+  constexpr std::uint32_t kMostSources = 1000;
+  demand(plan.sources.count <= kMostSources, where, fmt::format("radio.sources is {}; at most {} are possible", plan.sources.count, kMostSources));
+  check_numbers(plan.sources, "radio", where);
+  const bool delay_is_bounded = radio.delay_model != RadioSetup::DelayModel::HeavyTail || (radio.delay_tail.cap_share > 0.0 && radio.delay_tail.cap_share <= 1.0);
+  demand(plan.kind != "claim" || delay_is_bounded, where,
+         fmt::format("radio.delay_cap_share is {}; a claim about the contract region needs delay_s to be the longest delay: set it to 1, or kind to \"search\"",
+                     radio.delay_tail.cap_share));
 }
 
 void check_vehicles(const CampaignPlan& plan, const std::string& where) {

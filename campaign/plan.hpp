@@ -11,6 +11,7 @@
 #include "core/scenario.hpp"
 #include "generators/order_list.hpp"
 #include "generators/placement.hpp"
+#include "generators/radio_sources.hpp"
 #include "generators/world.hpp"
 #include "storage/records.hpp"
 
@@ -60,7 +61,8 @@ struct CampaignPlan {
   FaultRates faults;
   ScannerSetup scanner;
   OperatorSetup operator_help;
-  RadioSetup radio;                       // loss, delay_s and mean_outage_s come from the cell
+  RadioSetup radio;                       // loss, delay_s and mean_outage_s come from the cell, sources from the line below
+  DrawnSources sources;
   AgentClockSetup agent_clock;
   LawSetup law;
   std::vector<std::string> laws_left_out; // of the default set

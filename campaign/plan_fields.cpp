@@ -64,4 +64,11 @@ std::vector<NumberField> number_fields(OperatorSetup& o) {
   return {{"least_s", &o.least_s, 1.0, kDay_s}, {"most_s", &o.most_s, o.least_s, kDay_s}, {"battery", &o.battery, 0.01, 1.0}};
 }
 
+std::vector<NumberField> number_fields(DrawnSources& s) {
+  return {{"source_range_m", &s.like.range_m, 1e-3, 1e9},
+          {"source_mean_on_s", &s.like.mean_on_s, 1e-3, 1e6},
+          {"source_mean_off_s", &s.like.mean_off_s, 0.0, 1e6},
+          {"source_loss", &s.like.loss, 0.0, 1.0}};
+}
+
 }  // namespace fleetproof

@@ -4,6 +4,7 @@
 
 #include "core/scenario.hpp"
 #include "generators/faults.hpp"
+#include "generators/radio_sources.hpp"
 
 namespace fleetproof {
 
@@ -19,5 +20,6 @@ std::vector<NumberField> number_fields(VehicleType& vehicle);
 std::vector<NumberField> number_fields(FaultRates& rates);
 std::vector<NumberField> number_fields(ScannerSetup& scanner);
 std::vector<NumberField> number_fields(OperatorSetup& help);
+std::vector<NumberField> number_fields(DrawnSources& sources);  // of the table `radio`
 
 }  // namespace fleetproof

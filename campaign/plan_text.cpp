@@ -64,7 +64,8 @@ void read_helper(const Json& json, Helper& helper) {
 }
 
 // A recorded message is [sender, receiver, sent_ns, delay_ns], without a delay if it was lost.
-Json to_json(const RadioSetup& radio) {
+Json radio_json(const CampaignPlan& plan) {
+  const RadioSetup& radio = plan.radio;
   Json json = Json::object();
   for_each_radio_field(radio, [&](const RadioField& field, const auto& value) {
     if (field.is_factor) return;
@@ -74,6 +75,8 @@ Json to_json(const RadioSetup& radio) {
       json[std::string(field.key)] = value;
     }
   });
+  json["sources"] = plan.sources.count;
+  json.update(numbers_json(plan.sources));
   if (radio.trace == nullptr) return json;
   Json& messages = json["trace"] = Json::array();
   for (const auto& [sender, receiver, sent, delay] : *radio.trace) {
@@ -84,7 +87,8 @@ Json to_json(const RadioSetup& radio) {
   return json;
 }
 
-void radio_from(const Json& json, RadioSetup& radio) {
+void read_radio(const Json& json, CampaignPlan& plan) {
+  RadioSetup& radio = plan.radio;
   for_each_radio_field(radio, [&](const RadioField& field, auto& value) {
     using Value = std::remove_cvref_t<decltype(value)>;
     if (field.is_factor) return;
@@ -97,6 +101,8 @@ void radio_from(const Json& json, RadioSetup& radio) {
       value = entry.get<Value>();
     }
   });
+  plan.sources.count = json.at("sources").get<std::uint32_t>();
+  read_numbers(json, plan.sources);
   if (!json.contains("trace")) return;
   RadioTrace trace;
   for (const Json& entry : json.at("trace")) {
@@ -276,7 +282,7 @@ CampaignPlan plan_from(const Json& json) {
   read_numbers(json.at("faults"), plan.faults);
   read_helper(json.at("scanner"), plan.scanner);
   read_helper(json.at("operator"), plan.operator_help);
-  radio_from(json.at("radio"), plan.radio);
+  read_radio(json.at("radio"), plan);
   plan.agent_clock.call_cost_s = json.at("agent_clock").at("call_cost_s");
   read_law(json.at("law"), plan);
   plan.required_probes = json.at("coverage").at("probes").get<std::vector<std::string>>();
@@ -306,7 +312,7 @@ std::string plan_text(const CampaignPlan& plan) {
       {"faults", numbers_json(plan.faults)},
       {"scanner", helper_json(plan.scanner)},
       {"operator", helper_json(plan.operator_help)},
-      {"radio", to_json(plan.radio)},
+      {"radio", radio_json(plan)},
       {"agent_clock", {{"call_cost_s", plan.agent_clock.call_cost_s}}},
       {"law", law_json(plan)},
       {"coverage", {{"probes", plan.probes_to_meet()}}},

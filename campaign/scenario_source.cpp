@@ -64,6 +64,7 @@ Scenario ScenarioSource::scenario(std::uint64_t run_index, RejectionCounts& reje
   scenario.radio.loss = radio.loss;
   scenario.radio.delay_s = radio.delay_s;
   scenario.radio.outages.mean_outage_s = radio.mean_outage_s;
+  scenario.radio.sources = draw_radio_sources(plan_.sources, scenario.map->layout(), scenario.seed_of(Stream::Radio));
   scenario.agent_clock = plan_.agent_clock;
   scenario.scanner = plan_.scanner;
   scenario.operator_help = plan_.operator_help;

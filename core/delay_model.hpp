@@ -1,29 +1,25 @@
 #pragma once
 
-#include <algorithm>
-
 #include "core/radio_setup.hpp"
 
 namespace fleetproof {
 
 // The delay of a transmission as a function of one uniform draw: its quantile function, so that the same draw gives comparable delays at every
-// nominal delay.
+// nominal delay. Of the network alone: the air time of the message counts instead where it is longer.
 class DelayModel {
  public:
   explicit DelayModel(const RadioSetup& setup);
-  // share: in [0, 1). Never below the air time.
+  // share: in [0, 1).
   Duration at(double share) const {
     if (model_ == RadioSetup::DelayModel::HeavyTail) return heavy_tail(share);
-    return std::max(seconds(delay_s_ * (model_ == RadioSetup::DelayModel::Uniform ? share : 1.0)), floor_);
+    return seconds(delay_s_ * (model_ == RadioSetup::DelayModel::Uniform ? share : 1.0));
   }
-  Duration floor() const { return floor_; }
 
  private:
   Duration heavy_tail(double share) const;
 
   RadioSetup::DelayModel model_;
   double delay_s_;
-  Duration floor_;
   DelayTailSetup tail_;
   double scale_ = 0.0;  // of the Lomax part, as a share of delay_s
 };

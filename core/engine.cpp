@@ -124,8 +124,8 @@ void Engine::handle(const Event& event) {
   }
 }
 
-void Engine::trace(EntityId entity, TraceKind kind, std::uint64_t a, std::uint64_t b, std::string_view text) {
-  const TraceRecord record{now_, entity, kind, a, b};
+void Engine::trace(EntityId entity, TraceKind kind, std::uint64_t a, std::uint64_t b, std::string_view text, std::uint32_t bytes) {
+  const TraceRecord record{now_, entity, kind, a, b, bytes};
   digest_.append(record);
   if (sink_ != nullptr) sink_->record(record, text);
   if (!read_by_laws_.has(kind)) return;

@@ -63,7 +63,7 @@ class Engine {
   std::uint64_t random(const Agv& agv, std::uint32_t purpose, std::uint64_t index) const;
 
  private:
-  void trace(EntityId entity, TraceKind kind, std::uint64_t a = 0, std::uint64_t b = 0, std::string_view text = {});
+  void trace(EntityId entity, TraceKind kind, std::uint64_t a = 0, std::uint64_t b = 0, std::string_view text = {}, std::uint32_t bytes = 0);
   void handle(const Event& event);
   void start();
   void close_books();

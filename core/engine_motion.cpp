@@ -213,6 +213,7 @@ void Engine::set_piece(Agv& agv, const Piece& piece) {
     agv.past.back().end = now_;
     while (agv.past.front().end < now_ - late) agv.past.pop_front();
   }
+  radio_.piece_begins(piece);
   world_.continue_with(agv.id, piece);
 }
 

@@ -9,6 +9,7 @@ namespace {
 // A reception may have three events of one kind; two bits of the payload tell them apart (no run has 2^30 messages at a time): with interference
 // the end of the air time, the arrival of the message, the arrival of its copy.
 constexpr std::uint32_t kAirTimeEnds = 0x80000000U, kCopy = 0x40000000U, kSlot = 0x3fffffffU;
+static_assert(kLongestMessage_bytes == FP_MESSAGE_BYTES_MAX);
 
 }  // namespace
 
@@ -32,10 +33,13 @@ void Engine::transmit(Agv& sender, std::uint32_t slot, std::uint32_t receiver) {
   }
   const std::uint32_t ordinal = sender.sent_at_that_instant++;
   ++outcome_.counters.messages_sent;
-  trace(sender.id, TraceKind::Sent, receiver, messages_[slot].hash);
+  const std::string& bytes = messages_[slot].bytes;
+  trace(sender.id, TraceKind::Sent, receiver, messages_[slot].hash, {}, static_cast<std::uint32_t>(bytes.size()));
   const bool needs_place = !unlimited_range_ || radio_.depends_on_place();
   const Pose from = needs_place ? world_.pose_of(sender.id, now_) : Pose{};
-  if (scenario_.radio.contention.interference) messages_.goes_out_in(slot, channel_.contend(sender.id, now_, ordinal));
+  const Duration air_time = scenario_.radio.air_time(bytes.size());
+  const bool contended = scenario_.radio.contention.interference;
+  messages_.goes_out(slot, contended ? channel_.contend(sender.id, now_, ordinal, air_time) : AirInterval{now_, now_ + air_time});
   if (receiver != FP_NONE) {
     transmit_to(sender, AgvId{receiver}, slot, from, ordinal);
   } else {
@@ -56,19 +60,20 @@ void Engine::transmit_to(Agv& sender, AgvId receiver, std::uint32_t slot, const 
     return;
   }
   const Fate fate = radio_.fate(sender.id, receiver, now_, ordinal, places);
-  const bool contended = scenario_.radio.contention.interference;
-  const SimTime on_air_until = contended ? channel_.end_of(messages_[slot].air_slot) : now_;
+  const SimTime on_air_until = messages_[slot].on_air.end;
   const SimTime arrival = std::max(now_ + fate.delay, on_air_until);
   ++counters.receptions;
   counters.delay_sum_ns += static_cast<std::uint64_t>((arrival - now_).count());
   if (fate.lost) {
     ++counters.receptions_lost;
-    counters.lost_in_outage += fate.in_outage ? 1 : 0;
-    trace(receiver, fate.in_outage ? TraceKind::LostInOutage : TraceKind::Lost, sender.id.value, messages_[slot].hash);
+    const TraceKind cause = fate.to_source ? TraceKind::LostToSource : fate.in_outage ? TraceKind::LostInOutage : TraceKind::Lost;
+    counters.lost_in_outage += cause == TraceKind::LostInOutage ? 1 : 0;
+    counters.lost_to_sources += cause == TraceKind::LostToSource ? 1 : 0;
+    trace(receiver, cause, sender.id.value, messages_[slot].hash);
     messages_.release(slot);
     return;
   }
-  if (contended) queue_.push(on_air_until, receiver, Event::Kind::MessageArrives, slot | kAirTimeEnds);
+  if (scenario_.radio.contention.interference) queue_.push(on_air_until, receiver, Event::Kind::MessageArrives, slot | kAirTimeEnds);
   queue_.push(arrival, receiver, Event::Kind::MessageArrives, slot);
   if (fate.copy_delay) {
     messages_.hold(slot);
@@ -76,7 +81,7 @@ void Engine::transmit_to(Agv& sender, AgvId receiver, std::uint32_t slot, const 
   }
 }
 
-// At the end of its slot a message is destroyed at this receiver, or nothing can happen to it any more.
+// At the end of its air time a message is destroyed at this receiver, or nothing can happen to it any more.
 void Engine::air_time_ends(Agv& receiver, std::uint32_t slot) {
   const Message& message = messages_[slot];
   if (!is_drowned(receiver.id, message)) return;
@@ -87,12 +92,10 @@ void Engine::air_time_ends(Agv& receiver, std::uint32_t slot) {
 }
 
 bool Engine::is_drowned(AgvId receiver, const Message& message) const {
-  for (const AgvId other : channel_.senders_in(message.air_slot)) {
-    if (other == message.sender) continue;
+  return channel_.any_other_on_air(message.sender, message.on_air, [&](AgvId other) {
     if (other == receiver || unlimited_range_) return true;
-    if ((world_.pose_of(other, now_).position_m - world_.pose_of(receiver, now_).position_m).norm() <= scenario_.radio.range_m) return true;
-  }
-  return false;
+    return (world_.pose_of(other, now_).position_m - world_.pose_of(receiver, now_).position_m).norm() <= scenario_.radio.range_m;
+  });
 }
 
 void Engine::message_arrives(Agv& receiver, std::uint32_t payload) {

@@ -43,6 +43,10 @@ class TraceKinds {
   std::uint64_t bits_ = 0;
 };
 
+// Everything that becomes of messages.
+inline constexpr TraceKinds kMessageKinds{TraceKind::Sent, TraceKind::Lost, TraceKind::LostInOutage, TraceKind::LostByInterference, TraceKind::LostToSource,
+                                          TraceKind::Received};
+
 // A rule about what must never happen: a read-only observer of the pieces of a run, and of what its trace records. A law never reaches the world or
 // its trace.
 //

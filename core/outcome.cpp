@@ -12,7 +12,7 @@
 namespace fleetproof {
 namespace {
 
-constexpr std::uint32_t kEncodingVersion = 2;
+constexpr std::uint32_t kEncodingVersion = 3;
 
 // The order of the fields in the encoding. Append only, together with a new version.
 constexpr std::array kFlags{&Outcome::violation, &Outcome::contact, &Outcome::stuck, &Outcome::crash, &Outcome::hang, &Outcome::indeterminate, &Outcome::engine_error};
@@ -25,7 +25,7 @@ constexpr std::array kCounters{
     &Counters::scanner_saves, &Counters::received, &Counters::under_way, &Counters::battery_start_ppb, &Counters::battery_end_ppb,
     &Counters::battery_driven_ppb, &Counters::battery_idled_ppb, &Counters::battery_charged_ppb,
     &Counters::incidents_left_out, &Counters::probes_left_out,
-    &Counters::lost_in_outage, &Counters::lost_by_interference, &Counters::duplicates};
+    &Counters::lost_in_outage, &Counters::lost_by_interference, &Counters::duplicates, &Counters::lost_to_sources};
 static_assert(sizeof(Counters) == kCounters.size() * sizeof(std::uint64_t), "every counter is in the encoding");
 
 class ByteSink {

@@ -53,6 +53,7 @@ struct Counters {
   std::uint64_t incidents_left_out = 0, probes_left_out = 0;     // beyond what an outcome holds
   // Of the receptions lost: while the link or place was in an outage | by other transmissions. Copies delivered on top of the receptions.
   std::uint64_t lost_in_outage = 0, lost_by_interference = 0, duplicates = 0;
+  std::uint64_t lost_to_sources = 0;             // likewise: to external sources alone
 
   friend bool operator==(const Counters&, const Counters&) = default;
 };

@@ -9,13 +9,8 @@
 namespace fleetproof {
 namespace {
 
-// Kinds of processes and draws under the key of radio states; RadioPlaces has 1 to 3.
+// Kinds of processes and draws under the key of radio states; RadioPlaces has 1 to 3, RadioCrossings 10.
 constexpr std::uint32_t kLinkProcess = 8, kAsymmetryDraw = 9;
-
-Block draw_of(std::uint64_t key, AgvId sender, AgvId receiver, SimTime sent, std::uint32_t ordinal) {
-  const auto t = static_cast<std::uint64_t>(to_ns(sent));
-  return philox(key, {static_cast<std::uint32_t>(t), static_cast<std::uint32_t>(t >> 32), (sender.value << 16) | receiver.value, ordinal});
-}
 
 }  // namespace
 
@@ -25,13 +20,17 @@ Radio::Radio(const RadioSetup& setup, std::uint64_t world_seed)
       state_key_(stream_key(world_seed, Stream::RadioState)),
       copy_key_(stream_key(world_seed, Stream::RadioCopy)),
       delay_(setup),
-      has_states_(setup.outages.mean_outage_s > 0.0 || setup.asymmetry > 0.0 || setup.places.roaming_border_m > 0.0),
-      depends_on_place_(setup.places.roaming_border_m > 0.0 || (setup.outages.mean_outage_s > 0.0 && setup.outages.scope == OutageSetup::Scope::Place)),
+      has_states_(setup.outages.mean_outage_s > 0.0 || setup.asymmetry > 0.0 || setup.places.roaming_border_m > 0.0 || setup.places.roaming_at_crossing),
+      depends_on_place_(setup.places.roaming_border_m > 0.0 || !setup.sources.empty() ||
+                        (setup.outages.mean_outage_s > 0.0 && setup.outages.scope == OutageSetup::Scope::Place)),
       recorded_(setup.trace),
-      places_(setup.places, outage_law(setup.loss), state_key_) {}
+      places_(setup.places, outage_law(setup.loss), state_key_),
+      crossings_(setup.places, state_key_),
+      sources_(setup.sources, stream_key(world_seed, Stream::RadioSources)) {}
 
 Fate Radio::fate(AgvId sender, AgvId receiver, SimTime sent, std::uint32_t ordinal, const LinkPlaces& places) {
-  const Block block = draw_of(key_, sender, receiver, sent, ordinal);
+  const MessageKey message{sender, receiver, sent, ordinal};
+  const Block block = draw_for(message, key_);
   const double loss_draw = unit_interval(word64(block, 0));
   Fate fate;
   fate.lost = loss_draw < setup_.loss;
@@ -39,10 +38,12 @@ Fate Radio::fate(AgvId sender, AgvId receiver, SimTime sent, std::uint32_t ordin
   if (has_states_) weigh_states(fate, loss_draw, sender, receiver, sent, places);
   if (!recorded_.empty()) {
     if (const auto* recorded = recorded_.at(sender, receiver, sent)) {
-      fate = {.lost = !recorded->delay, .in_outage = false, .delay = std::max(recorded->delay.value_or(Duration::zero()), delay_.floor()), .copy_delay = {}};
+      fate = Fate{.lost = !recorded->delay, .delay = recorded->delay.value_or(Duration::zero())};
     }
   }
-  if (setup_.duplicates > 0.0) fate.copy_delay = copy_of(sender, receiver, sent, ordinal);
+  // What is lost anyway keeps its cause: a source more leaves the other causes' counts as they were.
+  if (!fate.lost) fate.lost = fate.to_source = sources_.destroy(message, places.receiver_m);
+  if (setup_.duplicates > 0.0) fate.copy_delay = copy_of(message);
   return fate;
 }
 
@@ -55,9 +56,8 @@ void Radio::weigh_states(Fate& fate, double loss_draw, AgvId sender, AgvId recei
     loss = fate.in_outage ? bad : good;
   }
   fate.lost = loss_draw < loss;
-  if (places_.has_borders() && (places_.is_roaming(places.sender_m, sent) || places_.is_roaming(places.receiver_m, sent))) {
-    fate.lost = fate.in_outage = true;
-  }
+  const bool at_border = places_.has_borders() && (places_.is_roaming(places.sender_m, sent) || places_.is_roaming(places.receiver_m, sent));
+  if (at_border || crossings_.is_deaf(sender, sent) || crossings_.is_deaf(receiver, sent)) fate.lost = fate.in_outage = true;
 }
 
 // A nominal loss outside [loss_good, loss_bad] needs no second state: the only one left has that loss. All three figures (both losses and the bad
@@ -96,8 +96,8 @@ OutageProcess& Radio::process_of(AgvId sender, AgvId receiver) {
   return *process;
 }
 
-std::optional<Duration> Radio::copy_of(AgvId sender, AgvId receiver, SimTime sent, std::uint32_t ordinal) const {
-  const Block block = draw_of(copy_key_, sender, receiver, sent, ordinal);
+std::optional<Duration> Radio::copy_of(const MessageKey& message) const {
+  const Block block = draw_for(message, copy_key_);
   if (unit_interval(word64(block, 0)) >= setup_.duplicates) return std::nullopt;
   return delay_.at(unit_interval(word64(block, 1)));
 }

@@ -9,18 +9,22 @@
 
 #include "core/delay_model.hpp"
 #include "core/outage_process.hpp"
+#include "core/radio_channel.hpp"
+#include "core/radio_crossings.hpp"
 #include "core/radio_places.hpp"
 #include "core/radio_setup.hpp"
+#include "core/radio_sources.hpp"
 #include "core/recorded_radio.hpp"
 
 namespace fleetproof {
 
-// What becomes of one transmission at one receiver, interference apart.
+// What becomes of one transmission at one receiver, air time and interference apart.
 struct Fate {
   bool lost = false;
-  bool in_outage = false;              // lost or not: the link or the place is in an outage, or an AGV is changing its access point
-  Duration delay{};                    // from sending to the inbox; for a lost one too, so that losses shift nothing
-  std::optional<Duration> copy_delay;  // of a second copy, likewise
+  bool in_outage = false;                // lost or not: the link or the place is in an outage, or an AGV is changing its access point
+  bool to_source = false;                // lost, and but for an external source it would not be
+  Duration delay{};                      // from sending to the inbox if the air time is no longer; for a lost one too, so that losses shift nothing
+  std::optional<Duration> copy_delay{};  // of a second copy, likewise
 };
 
 // Reference points of both ends at the instant of sending. Needed only where the radio depends on place.
@@ -34,6 +38,10 @@ class Radio {
  public:
   Radio(const RadioSetup& setup, std::uint64_t world_seed);
   bool depends_on_place() const { return depends_on_place_; }
+  // To be told of every piece of every AGV, but for those with which they begin: what comes of the AGV's way hangs on them.
+  void piece_begins(const Piece& piece) {
+    if (crossings_.is_on()) crossings_.piece_begins(piece);
+  }
   Fate fate(AgvId sender, AgvId receiver, SimTime sent, std::uint32_t ordinal, const LinkPlaces& places = {});
   // The outage process that this receiver meets on messages of this sender. Scope Place has none.
   OutageProcess& process_of(AgvId sender, AgvId receiver);
@@ -46,7 +54,7 @@ class Radio {
   OutageLaw outage_law(double loss) const;
   double loss_of(AgvId sender, AgvId receiver) const;
   void weigh_states(Fate& fate, double loss_draw, AgvId sender, AgvId receiver, SimTime sent, const LinkPlaces& places);
-  std::optional<Duration> copy_of(AgvId sender, AgvId receiver, SimTime sent, std::uint32_t ordinal) const;
+  std::optional<Duration> copy_of(const MessageKey& message) const;
 
   RadioSetup setup_;
   std::uint64_t key_, state_key_, copy_key_;
@@ -54,6 +62,8 @@ class Radio {
   bool has_states_, depends_on_place_;
   RecordedRadio recorded_;
   RadioPlaces places_;
+  RadioCrossings crossings_;
+  RadioSources sources_;
   std::vector<std::vector<std::optional<OutageProcess>>> links_;  // by sender (the smaller id where directions share one), receiver
 };
 
@@ -63,8 +73,8 @@ struct Message {
   std::string bytes;
   std::uint64_t hash = 0;
   std::uint32_t copies = 0;  // receptions still under way or unread
-  // With interference only: the slot in which it goes out, and the receivers at which it was destroyed there.
-  std::int64_t air_slot = 0;
+  // With interference: the receivers at which it was destroyed.
+  AirInterval on_air;
   std::vector<AgvId> destroyed_at;
   bool is_destroyed_at(AgvId receiver) const { return std::ranges::find(destroyed_at, receiver) != destroyed_at.end(); }
 };
@@ -75,7 +85,7 @@ class MessagePool {
   std::uint32_t add(AgvId sender, std::string_view bytes, std::uint32_t copies);
   const Message& operator[](std::uint32_t slot) const { return messages_[slot]; }
   void hold(std::uint32_t slot) { ++messages_[slot].copies; }
-  void goes_out_in(std::uint32_t slot, std::int64_t air_slot) { messages_[slot].air_slot = air_slot; }
+  void goes_out(std::uint32_t slot, const AirInterval& on_air) { messages_[slot].on_air = on_air; }
   void destroy_at(std::uint32_t slot, AgvId receiver) { messages_[slot].destroyed_at.push_back(receiver); }
   void release(std::uint32_t slot);
   // Of a message that is never going to be sent: all its copies.

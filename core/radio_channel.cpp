@@ -1,33 +1,28 @@
 #include "core/radio_channel.hpp"
 
-#include <algorithm>
-
 #include "core/random.hpp"
 
 namespace fleetproof {
 
 RadioChannel::RadioChannel(const RadioSetup& setup, std::uint64_t world_seed)
-    : slot_(std::max(seconds(setup.air_time_s), Duration{1})),
-      contention_window_(setup.contention.contention_window),
-      key_(stream_key(world_seed, Stream::RadioBackoff)) {}
+    : contention_window_(setup.contention.contention_window), key_(stream_key(world_seed, Stream::RadioBackoff)) {}
 
-std::int64_t RadioChannel::contend(AgvId sender, SimTime sent, std::uint32_t ordinal) {
-  const std::int64_t now = slot_at(sent);
-  // An event of this instant may still ask about the slot that has just ended.
-  while (!senders_.empty() && senders_.begin()->first < now - 1) senders_.erase(senders_.begin());
-  if (last_slot_.size() <= sender.index()) last_slot_.resize(sender.index() + 1, -1);
+AirInterval RadioChannel::contend(AgvId sender, SimTime sent, std::uint32_t ordinal, Duration air_time) {
+  const Duration slot = std::max(air_time, Duration{1});
+  longest_ = std::max(longest_, slot);
+  // Whoever is still to be asked about ends now or later, so it began after now - longest: what was over by then touches nobody any more.
+  while (!on_air_.empty() && on_air_.begin()->second <= sent - longest_) on_air_.erase(on_air_.begin());
+  if (free_from_.size() <= sender.index()) free_from_.resize(sender.index() + 1, kStart);
   const auto t = static_cast<std::uint64_t>(to_ns(sent));
   const auto block = philox(key_, {static_cast<std::uint32_t>(t), static_cast<std::uint32_t>(t >> 32), sender.value, ordinal});
   const auto backoff = static_cast<std::int64_t>(((word64(block, 0) >> 32) * (std::uint64_t{contention_window_} + 1)) >> 32);
-  std::int64_t& last = last_slot_[sender.index()];
-  last = std::max(now, last) + 1 + backoff;
-  senders_[last].push_back(sender);
-  return last;
-}
-
-std::span<const AgvId> RadioChannel::senders_in(std::int64_t slot) const {
-  const auto found = senders_.find(slot);
-  return found == senders_.end() ? std::span<const AgvId>{} : std::span<const AgvId>(found->second);
+  SimTime& free_from = free_from_[sender.index()];
+  const std::int64_t slot_of_sending = sent.time_since_epoch() / slot;
+  const std::int64_t first_free_slot = (free_from.time_since_epoch() + slot - Duration{1}) / slot;
+  const SimTime begin = kStart + slot * (std::max(slot_of_sending + 1, first_free_slot) + backoff);
+  free_from = begin + slot;
+  on_air_.emplace(std::pair(begin, sender), free_from);
+  return {begin, free_from};
 }
 
 }  // namespace fleetproof

@@ -1,37 +1,54 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
-#include <span>
+#include <utility>
 #include <vector>
 
 #include "core/radio_setup.hpp"
+#include "core/strong_id.hpp"
 
 namespace fleetproof {
 
-// The air that transmissions share, see InterferenceSetup. With n senders that always have something to send, each sends in a slot with
-// probability 2 / (CW + 2), independently of the others, so a message is lost at a listener with probability 1 - (1 - 2 / (CW + 2))^(n - 1):
+inline constexpr std::uint32_t kLongestMessage_bytes = 1024;
+
+// From the first instant of a transmission to its last, which is not part of it: one that begins as another ends does not touch it.
+struct AirInterval {
+  SimTime begin{}, end{};
+  bool overlaps(const AirInterval& other) const { return begin < other.end && other.begin < end; }
+  friend bool operator==(const AirInterval&, const AirInterval&) = default;
+};
+
+// The air that transmissions share, see InterferenceSetup. With n senders that always have something to send, all of one length, each sends in a slot
+// with probability 2 / (CW + 2), independently of the others, so a message is lost at a listener with probability 1 - (1 - 2 / (CW + 2))^(n - 1):
 // the saturated broadcast of IEEE 802.11, which has neither acknowledgement nor retry. Slots are of equal length here, busy or idle, so waiting for a
-// free one takes longer than in a real network of little load.
+// free one takes longer than in a real network of little load. Nobody listens before it sends: among transmissions of unlike length, which share no
+// slots, a long one is hit by each short one that begins meanwhile, as if all senders were hidden from each other.
 // For one run, on one thread.
 class RadioChannel {
  public:
   RadioChannel(const RadioSetup& setup, std::uint64_t world_seed);
 
-  // The slot in which this message goes out. Instants do not decrease from call to call.
-  std::int64_t contend(AgvId sender, SimTime sent, std::uint32_t ordinal);
-  SimTime end_of(std::int64_t slot) const { return kStart + slot_ * (slot + 1); }
-  // Who sends in a slot; complete as soon as the slot has begun, kept until all of it is over.
-  std::span<const AgvId> senders_in(std::int64_t slot) const;
+  // When this message is in the air. Instants do not decrease from call to call.
+  AirInterval contend(AgvId sender, SimTime sent, std::uint32_t ordinal, Duration air_time);
+
+  // Whether `is_one` holds for another sender with a transmission in the air during this one. Known at this one's last instant, and only then.
+  template <class Predicate>
+  bool any_other_on_air(AgvId sender, const AirInterval& during, Predicate is_one) const {
+    for (auto it = on_air_.lower_bound({during.begin - longest_, AgvId{0U}}); it != on_air_.end() && it->first.first < during.end; ++it) {
+      const auto& [begin, other] = it->first;
+      if (other != sender && during.overlaps({begin, it->second}) && is_one(other)) return true;
+    }
+    return false;
+  }
 
  private:
-  std::int64_t slot_at(SimTime t) const { return t.time_since_epoch() / slot_; }
-
-  Duration slot_;
   std::uint32_t contention_window_;
   std::uint64_t key_;
-  std::vector<std::int64_t> last_slot_;  // by sender; -1: has not sent
-  std::map<std::int64_t, std::vector<AgvId>> senders_;
+  Duration longest_{};                                   // of all so far
+  std::vector<SimTime> free_from_;                       // by sender: end of its last transmission
+  std::map<std::pair<SimTime, AgvId>, SimTime> on_air_;  // by begin and sender, which tell transmissions apart: end
 };
 
 }  // namespace fleetproof

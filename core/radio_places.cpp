@@ -15,12 +15,13 @@ OutageLaw windows(const PlaceSetup& setup) {
 
 }  // namespace
 
+AccessCell access_cell(const Vec2& at_m, double spacing_m) {
+  const auto number = [&](double coordinate_m) { return static_cast<std::int32_t>(std::floor(coordinate_m / spacing_m + 0.5)); };
+  return {number(at_m.x()), number(at_m.y())};
+}
+
 RadioPlaces::RadioPlaces(const PlaceSetup& setup, const OutageLaw& cell_law, std::uint64_t key)
     : setup_(setup), cell_law_(cell_law), border_law_(windows(setup)), key_(key) {}
-
-std::int32_t RadioPlaces::cell_of(double coordinate_m) const {
-  return static_cast<std::int32_t>(std::floor(coordinate_m / setup_.ap_spacing_m + 0.5));
-}
 
 bool RadioPlaces::near_border(double coordinate_m, std::int32_t& number) const {
   number = static_cast<std::int32_t>(std::floor(coordinate_m / setup_.ap_spacing_m));
@@ -35,12 +36,16 @@ bool RadioPlaces::bad_at(Kind kind, std::int32_t i, std::int32_t k, const Outage
   return place->second.bad_at(t);
 }
 
-bool RadioPlaces::cell_is_out(const Vec2& at_m, SimTime t) { return bad_at(Kind::Cell, cell_of(at_m.x()), cell_of(at_m.y()), cell_law_, t); }
+bool RadioPlaces::cell_is_out(const Vec2& at_m, SimTime t) {
+  const auto [column, row] = access_cell(at_m, setup_.ap_spacing_m);
+  return bad_at(Kind::Cell, column, row, cell_law_, t);
+}
 
 bool RadioPlaces::is_roaming(const Vec2& at_m, SimTime t) {
+  const auto [column, row] = access_cell(at_m, setup_.ap_spacing_m);
   std::int32_t border = 0;
-  if (near_border(at_m.x(), border) && bad_at(Kind::BorderAcrossX, border, cell_of(at_m.y()), border_law_, t)) return true;
-  return near_border(at_m.y(), border) && bad_at(Kind::BorderAcrossY, cell_of(at_m.x()), border, border_law_, t);
+  if (near_border(at_m.x(), border) && bad_at(Kind::BorderAcrossX, border, row, border_law_, t)) return true;
+  return near_border(at_m.y(), border) && bad_at(Kind::BorderAcrossY, column, border, border_law_, t);
 }
 
 }  // namespace fleetproof

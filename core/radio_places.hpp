@@ -9,6 +9,12 @@
 
 namespace fleetproof {
 
+// The square around an access point: column and row of the grid.
+struct AccessCell {
+  std::int32_t column = 0, row = 0;
+};
+AccessCell access_cell(const Vec2& at_m, double spacing_m);
+
 // Outages that belong to a place: cells of access points, and the borders between them. Pure functions of place and time; the maps only remember
 // where each process has got to. For one run, on one thread.
 class RadioPlaces {
@@ -27,7 +33,6 @@ class RadioPlaces {
   bool bad_at(Kind kind, std::int32_t i, std::int32_t k, const OutageLaw& law, SimTime t);
   // Number of the border near this coordinate, if one is: the line between the access points number and number + 1.
   bool near_border(double coordinate_m, std::int32_t& number) const;
-  std::int32_t cell_of(double coordinate_m) const;
 
   PlaceSetup setup_;
   OutageLaw cell_law_, border_law_;

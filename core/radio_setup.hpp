@@ -35,22 +35,37 @@ struct DelayTailSetup {
   double cap_share = 1.0;     // 1: delay_s is the longest delay, as in the other models; 0: no cap
 };
 
-// Access points stand on a square grid, one of them at (0, 0); each serves the square cell around it.
-// Near a border of two cells AGVs change over from one to the other. Each border has handover windows of its own: in a window, whoever is within
-// border_m of the border neither hears nor is heard, so two AGVs that meet there go deaf together.
+// Access points stand on a square grid, one of them at (0, 0); each serves the square cell around it. AGVs change over from one to the other, and
+// neither hear nor are heard meanwhile:
+// - at_crossing: an AGV does so when its reference point crosses a border of two cells, from that instant on for a time drawn for this crossing.
+// - border_m: near a border. Each border has handover windows in time, and in them everybody within border_m of it is concerned, moving or not.
+// With either, two AGVs that meet at a border go deaf together. With both, either suffices.
 struct PlaceSetup {
   double ap_spacing_m = 28.0;
-  double roaming_border_m = 0.0;                    // 0: no handovers
-  double roaming_min_s = 1.2, roaming_max_s = 4.7;  // length of a window, uniform; with 802.11r below 0.05 s
+  bool roaming_at_crossing = false;
+  double roaming_border_m = 0.0;                    // 0: no windows
+  double roaming_min_s = 1.2, roaming_max_s = 4.7;  // length of a change or a window, uniform; with 802.11r below 0.05 s
   double roaming_gap_s = 5.0;                       // mean time between windows of a border, exponential; 0: one follows the other
 };
 
-// Transmissions compete for air. Time is divided into slots of one air time; a message goes out in the slot number 1 + k after the one in which
-// it was sent (after the sender's previous message, if that is later), k uniform in 0 .. contention_window. Two transmissions of one slot
-// destroy each other at every receiver in range of both, and nobody hears while it sends.
+// Transmissions compete for air. A message sees time divided into slots of its own air time; it goes out in the slot number 1 + k after the one in
+// which it was sent (after the sender's previous message, if that is later), k uniform in 0 .. contention_window. Two transmissions that are in the
+// air at once, if only in part, destroy each other at every receiver in range of both, and nobody hears while it sends.
 struct InterferenceSetup {
   bool interference = false;
   std::uint32_t contention_window = 31;  // CW of IEEE 802.11: 31 (b), 15 (a, g, n)
+};
+
+// Something that sends and is no AGV: another network, a microwave oven, a welding robot. It is on and off in turns, exponential both; while it is
+// on, every receiver within range_m of it loses the share `loss` of its messages. A message is judged at the instant of sending, where its receiver
+// is then. Where the sender is does not matter.
+struct RadioSource {
+  double x_m = 0.0, y_m = 0.0;
+  double range_m = 15.0;
+  double mean_on_s = 1.0, mean_off_s = 9.0;  // off 0: always on
+  double loss = 1.0;
+
+  friend bool operator==(const RadioSource&, const RadioSource&) = default;
 };
 
 // What became of one recorded message.
@@ -68,11 +83,13 @@ using RadioTrace = std::vector<RecordedMessage>;
 struct RadioSetup {
   // Always delay_s | uniform on [0, delay_s), which reorders | mostly short, seldom long, see DelayTailSetup.
   enum class DelayModel : std::uint8_t { Constant, Uniform, HeavyTail };
-  double loss = 0.0;  // nominal share of receptions lost; roaming and interference come on top
+  double loss = 0.0;  // nominal share of receptions lost; roaming, interference and external sources come on top
   double delay_s = 0.0;
   DelayModel delay_model = DelayModel::Constant;
-  double range_m = 1000.0;    // between reference points at the instant of sending
-  double air_time_s = 0.001;  // of the transmission itself; contained in the delay where that is longer
+  double range_m = 1000.0;  // between reference points at the instant of sending
+  // Of the transmission itself, contained in the delay where that is longer: of an empty message (preamble, headers, gap), and for each byte of the
+  // message (8 / bit rate; 0: size does not matter).
+  double air_time_s = 0.001, air_time_per_byte_s = 0.0;
   OutageSetup outages{};
   DelayTailSetup delay_tail{};
   // 0 .. 1. The loss of a to b is loss + x loss (1 - loss), of b to a loss - x loss (1 - loss); x is drawn per pair, uniform in +-asymmetry.
@@ -80,9 +97,12 @@ struct RadioSetup {
   double duplicates = 0.0;  // share of the messages received that come twice, the copy with a delay of its own
   PlaceSetup places{};
   InterferenceSetup contention{};
+  std::vector<RadioSource> sources{};  // one more only adds losses, to recorded pairs as well
   // Decides the fate of every message between the pairs it holds: that of the first recorded message at or after the instant of sending. Beyond
   // its last instant it starts over. Other pairs keep to the models above. Shared: the runs of a campaign read the same recording.
   std::shared_ptr<const RadioTrace> trace{};
+
+  Duration air_time(std::size_t bytes) const { return seconds(air_time_s + air_time_per_byte_s * static_cast<double>(bytes)); }
 };
 
 }  // namespace fleetproof

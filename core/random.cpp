@@ -47,7 +47,8 @@ const char* name_of(Stream stream) {
     case Stream::Radio:
     case Stream::RadioState:
     case Stream::RadioCopy:
-    case Stream::RadioBackoff: return "radio";
+    case Stream::RadioBackoff:
+    case Stream::RadioSources: return "radio";
   }
   invariant_violated("a stream has a name");
 }

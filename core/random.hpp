@@ -9,7 +9,7 @@ namespace fleetproof {
 
 // Every source of chance in a run. Each has its own key, so that a draw more in one leaves all others as they were.
 // `Factors` draws a campaign's continuous factors, under the campaign's seed; a run has no such stream.
-enum class Stream : std::uint32_t { Layout = 1, Placement, Transports, Motion, Radio, Faults, Agent, Factors, RadioState = 16, RadioCopy, RadioBackoff };
+enum class Stream : std::uint32_t { Layout = 1, Placement, Transports, Motion, Radio, Faults, Agent, Factors, RadioState = 16, RadioCopy, RadioBackoff, RadioSources };
 
 // The streams of a run by their names: "layout", "placement", "transports", "motion", "radio", "faults", "agent".
 inline constexpr std::array kRunStreams = {Stream::Layout, Stream::Placement, Stream::Transports, Stream::Motion, Stream::Radio, Stream::Faults, Stream::Agent};

@@ -22,6 +22,7 @@ const char* name_of(TraceKind kind) {
                                 "battery empty", "fault", "fault over", "scanner stops", "operator assists", "appears", "leaves"};
   if (kind == TraceKind::LostInOutage) return "lost in an outage";
   if (kind == TraceKind::LostByInterference) return "lost by interference";
+  if (kind == TraceKind::LostToSource) return "lost to an external source";
   const auto i = static_cast<std::size_t>(kind);
   return i < names.size() ? names[i] : names[0];
 }

@@ -38,17 +38,21 @@ enum class TraceKind : std::uint32_t {
   Leaves = 24,          // and is taken away
   LostInOutage = 32,         // as Lost, while the link or place was in an outage
   LostByInterference = 33,   // as Lost, at the end of the transmission: another one, or one of the receiver's own, was in the air
+  LostToSource = 34,         // as Lost, to an external source near the receiver; it would have come through otherwise
 };
 const char* name_of(TraceKind kind);
 
 // A reception lost, whatever for.
-constexpr bool is_loss(TraceKind kind) { return kind == TraceKind::Lost || kind == TraceKind::LostInOutage || kind == TraceKind::LostByInterference; }
+constexpr bool is_loss(TraceKind kind) {
+  return kind == TraceKind::Lost || kind == TraceKind::LostInOutage || kind == TraceKind::LostByInterference || kind == TraceKind::LostToSource;
+}
 
 struct TraceRecord {
   SimTime at;
   EntityId entity;
   TraceKind kind = TraceKind::ActivityBegins;
   std::uint64_t a = 0, b = 0;
+  std::uint32_t bytes = 0;  // Sent: size of the message. For those who read along; the digest has the hash
 };
 
 // Whoever wants to read along. `text` is the probe's or log's words, else empty; valid during the call.

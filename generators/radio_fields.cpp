@@ -5,10 +5,12 @@
 #include <tuple>
 #include <type_traits>
 
+#include "core/radio_channel.hpp"
+
 namespace fleetproof {
 namespace {
 
-constexpr double kShortestOutage_s = 0.001, kShortestSlot_s = 1e-6;
+constexpr double kShortestOutage_s = 0.001, kShortestSlot_s = 1e-6, kLongestSlot_s = 1.0;
 constexpr std::uint32_t kMostAgvs = 65536;
 constexpr Duration kLongest = std::chrono::seconds(1'000'000'000);
 
@@ -19,6 +21,10 @@ class RadioCheck {
   std::vector<RadioFault> run() {
     ranges();
     between_fields();
+    for (std::size_t i = 0; i < radio_.sources.size(); ++i) {
+      for_each_source_field(radio_.sources[i],
+                            [&](const RadioField& field, double value) { range(fmt::format("sources/{}/{}", i, field.key), field, value); });
+    }
     if (radio_.trace != nullptr) trace(*radio_.trace);
     return std::move(faults_);
   }
@@ -33,13 +39,16 @@ class RadioCheck {
     for_each_radio_field(radio_, [&](const RadioField& field, const auto& value) {
       if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, double> ||
                     std::is_same_v<std::remove_cvref_t<decltype(value)>, std::uint32_t>) {
-        const auto number = static_cast<double>(value);
-        const bool in_range = (field.above_low ? number > field.low : number >= field.low) && number <= field.high;  // false for NaN
-        demand(in_range, field.key,
-               field.above_low ? fmt::format("{} is not above {} and at most {}", number, field.low, field.high)
-                               : fmt::format("{} is outside {} .. {}", number, field.low, field.high));
+        range(field.key, field, static_cast<double>(value));
       }
     });
+  }
+
+  void range(std::string_view key, const RadioField& field, double number) {
+    const bool in_range = (field.above_low ? number > field.low : number >= field.low) && number <= field.high;  // false for NaN
+    demand(in_range, key,
+           field.above_low ? fmt::format("{} is not above {} and at most {}", number, field.low, field.high)
+                           : fmt::format("{} is outside {} .. {}", number, field.low, field.high));
   }
 
   void between_fields() {
@@ -61,6 +70,11 @@ class RadioCheck {
            fmt::format("{} is below roaming_min_s = {}", places.roaming_max_s, places.roaming_min_s));
     demand(!radio_.contention.interference || !(radio_.air_time_s < kShortestSlot_s), "air_time_s",
            fmt::format("{} is too short for interference; give at least {} s", radio_.air_time_s, kShortestSlot_s));
+    const double longest_s = to_seconds(radio_.air_time(kLongestMessage_bytes));
+    demand(!radio_.contention.interference || !(longest_s > kLongestSlot_s),
+           radio_.air_time_s > kLongestSlot_s ? "air_time_s" : "air_time_per_byte_s",
+           fmt::format("a message of {} bytes would be {} s in the air, too long for interference; at most {} s", kLongestMessage_bytes, longest_s,
+                       kLongestSlot_s));
   }
 
   void trace(const RadioTrace& trace) {

@@ -22,17 +22,20 @@ inline constexpr std::string_view kDelayModels[] = {"constant", "uniform", "heav
 inline constexpr std::string_view kOutageModels[] = {"gilbert-elliott", "heavy-tail"};
 inline constexpr std::string_view kOutageScopes[] = {"link", "direction", "place"};
 
-// Calls visit(field, value) for every number, switch and word, in the order of files; the recording is left to the caller. Structured bindings: a
-// field that is added to the radio does not compile until it stands here.
+// Calls visit(field, value) for every number, switch and word, in the order of files; sources and the recording are left to the caller. Structured
+// bindings: a field that is added to the radio does not compile until it stands here.
 template <class Radio, class Visit>
 void for_each_radio_field(Radio& radio, Visit visit) {
-  auto& [loss, delay_s, delay_model, range_m, air_time_s, outages, delay_tail, asymmetry, duplicates, places, contention, trace] = radio;
+  auto& [loss, delay_s, delay_model, range_m, air_time_s, air_time_per_byte_s, outages, delay_tail, asymmetry, duplicates, places, contention,
+         sources, trace] = radio;
+  (void)sources;
   (void)trace;
   visit(RadioField{.key = "loss", .is_factor = true}, loss);
   visit(RadioField{.key = "delay_s", .high = 1e9, .is_factor = true}, delay_s);
   visit(RadioField{.key = "delay_model", .words = kDelayModels}, delay_model);
   visit(RadioField{.key = "range_m", .high = 1e9, .above_low = true}, range_m);
   visit(RadioField{.key = "air_time_s", .high = 1e9}, air_time_s);
+  visit(RadioField{.key = "air_time_per_byte_s"}, air_time_per_byte_s);
   auto& [mean_outage_s, outage_model, outage_shape, outage_scope, loss_good, loss_bad] = outages;
   visit(RadioField{.key = "mean_outage_s", .high = 1e6, .is_factor = true}, mean_outage_s);
   visit(RadioField{.key = "outage_model", .words = kOutageModels}, outage_model);
@@ -47,8 +50,9 @@ void for_each_radio_field(Radio& radio, Visit visit) {
   visit(RadioField{.key = "delay_cap_share", .high = 1e6}, cap_share);
   visit(RadioField{.key = "asymmetry"}, asymmetry);
   visit(RadioField{.key = "duplicates"}, duplicates);
-  auto& [ap_spacing_m, roaming_border_m, roaming_min_s, roaming_max_s, roaming_gap_s] = places;
+  auto& [ap_spacing_m, roaming_at_crossing, roaming_border_m, roaming_min_s, roaming_max_s, roaming_gap_s] = places;
   visit(RadioField{.key = "ap_spacing_m", .low = 1.0, .high = 1e6}, ap_spacing_m);
+  visit(RadioField{.key = "roaming_at_crossing"}, roaming_at_crossing);
   visit(RadioField{.key = "roaming_border_m", .high = 1e6}, roaming_border_m);
   visit(RadioField{.key = "roaming_min_s", .low = 0.001, .high = 3600.0}, roaming_min_s);
   visit(RadioField{.key = "roaming_max_s", .low = 0.001, .high = 3600.0}, roaming_max_s);
@@ -58,7 +62,19 @@ void for_each_radio_field(Radio& radio, Visit visit) {
   visit(RadioField{.key = "contention_window", .high = 1023.0}, contention_window);
 }
 
-// What is wrong with a field (its key, or "trace/7"), one entry for each.
+// The same for an external source, all of them numbers.
+template <class Source, class Visit>
+void for_each_source_field(Source& source, Visit visit) {
+  auto& [x_m, y_m, range_m, mean_on_s, mean_off_s, loss] = source;
+  visit(RadioField{.key = "x_m", .low = -1e9, .high = 1e9}, x_m);
+  visit(RadioField{.key = "y_m", .low = -1e9, .high = 1e9}, y_m);
+  visit(RadioField{.key = "range_m", .high = 1e9, .above_low = true}, range_m);
+  visit(RadioField{.key = "mean_on_s", .low = 0.001, .high = 1e6}, mean_on_s);
+  visit(RadioField{.key = "mean_off_s", .high = 1e6}, mean_off_s);
+  visit(RadioField{.key = "loss"}, loss);
+}
+
+// What is wrong with a field (its key, "sources/0/loss" or "trace/7"), one entry for each.
 struct RadioFault {
   std::string key, sentence;
 };

@@ -232,9 +232,22 @@ RecordedMessage read_recorded(const JsonReader& reader) {
   return message;
 }
 
+RadioSource read_source(const JsonReader& reader) {
+  RadioSource source;
+  std::vector<std::string_view> known;
+  for_each_source_field(source, [&](const RadioField& field, double) { known.push_back(field.key); });
+  reader.expect_object(known);
+  for (const std::string_view key : {"x_m", "y_m"}) {
+    if (!reader.find(key)) reader.refuse("an external source needs its place, x_m and y_m");
+  }
+  for_each_source_field(source, [&](const RadioField& field, double& value) { reader.read(field.key, value); });
+  return source;
+}
+
 void read_radio(const JsonReader& reader, RadioSetup& radio) {
   std::vector<std::string_view> known;
   for_each_radio_field(radio, [&](const RadioField& field, const auto&) { known.push_back(field.key); });
+  known.push_back("sources");
   known.push_back("trace");
   reader.expect_object(known);
   for_each_radio_field(radio, [&](const RadioField& field, auto& value) {
@@ -249,6 +262,9 @@ void read_radio(const JsonReader& reader, RadioSetup& radio) {
       reader.read(field.key, value);
     }
   });
+  if (const auto sources = reader.find("sources")) {
+    for (const auto& item : sources->items()) radio.sources.push_back(read_source(item));
+  }
   if (const auto trace = reader.find("trace")) {
     RadioTrace messages;
     for (const auto& item : trace->items()) messages.push_back(read_recorded(item));

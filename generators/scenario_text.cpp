@@ -104,7 +104,18 @@ class ScenarioWriter {
         json_.value(value);
       }
     });
+    if (!radio.sources.empty()) write_sources(radio.sources);
     if (radio.trace != nullptr) write_trace(*radio.trace);
+    json_.close();
+  }
+
+  void write_sources(const std::vector<RadioSource>& sources) {
+    json_.key("sources").open_array();
+    for (const RadioSource& source : sources) {
+      json_.open_object(kLine);
+      for_each_source_field(source, [&](const RadioField& field, double value) { json_.key(field.key).value(value); });
+      json_.close();
+    }
     json_.close();
   }
 

@@ -15,16 +15,14 @@ constexpr std::uint64_t kFewestInterfered = 5;
 
 class CongestionLaw final : public Law {
  public:
-  explicit CongestionLaw(const Scenario& scenario) : air_time_(seconds(scenario.radio.air_time_s)) {}
+  explicit CongestionLaw(const Scenario& scenario) : radio_(scenario.radio) {}
 
   void piece_ended(const Piece&) override {}
-  TraceKinds reads() const override {
-    return {TraceKind::Sent, TraceKind::Lost, TraceKind::LostInOutage, TraceKind::LostByInterference, TraceKind::Received};
-  }
+  TraceKinds reads() const override { return kMessageKinds; }
   void happened(const TraceRecord& record) override {
     windows_before(record.at);
     if (record.kind == TraceKind::Sent) {
-      offered_ += air_time_;
+      offered_ += radio_.air_time(record.bytes);
     } else {
       ++receptions_;
       destroyed_ += record.kind == TraceKind::LostByInterference ? 1 : 0;
@@ -64,7 +62,7 @@ class CongestionLaw final : public Law {
     incident.value = std::max(incident.value, value_ppm);
   }
 
-  Duration air_time_;
+  const RadioSetup& radio_;
   SimTime window_ = kStart;
   Duration offered_{};
   std::uint64_t receptions_ = 0, destroyed_ = 0;

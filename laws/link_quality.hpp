@@ -23,7 +23,7 @@ class LinkQuality {
  public:
   explicit LinkQuality(std::size_t agvs);
 
-  static TraceKinds reads() { return {TraceKind::Sent, TraceKind::Lost, TraceKind::LostInOutage, TraceKind::LostByInterference, TraceKind::Received}; }
+  static TraceKinds reads() { return kMessageKinds; }
   void note(const TraceRecord& record);
 
   struct Link {

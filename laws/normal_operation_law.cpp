@@ -61,6 +61,7 @@ void NormalOperationLaw::happened(const TraceRecord& record) {
     case TraceKind::Lost:
     case TraceKind::LostInOutage:
     case TraceKind::LostByInterference:
+    case TraceKind::LostToSource:
     case TraceKind::Received:
       quality_.note(record);
       break;

@@ -56,6 +56,7 @@ inline constexpr auto kCounterColumns = std::to_array<CounterColumn>({
     {"lost_in_outage", &Counters::lost_in_outage},
     {"lost_by_interference", &Counters::lost_by_interference},
     {"duplicates", &Counters::duplicates},
+    {"lost_to_sources", &Counters::lost_to_sources},
 });
 static_assert(sizeof(Counters) == kCounterColumns.size() * sizeof(std::uint64_t), "every counter has a column");
 

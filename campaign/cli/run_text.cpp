@@ -21,8 +21,9 @@ std::string counters_text(const Outcome& outcome) {
   const double lost = c.receptions == 0 ? 0.0 : 100.0 * static_cast<double>(c.receptions_lost) / static_cast<double>(c.receptions);
   const double delay = c.receptions == 0 ? 0.0 : static_cast<double>(c.delay_sum_ns) * 1e-9 / static_cast<double>(c.receptions);
   text += fmt::format("\n  {} messages sent; of {} receptions {:.1f} % lost, mean delay {:.2f} s; {} events\n", c.messages_sent, c.receptions, lost, delay, c.events);
-  if (c.lost_in_outage + c.lost_by_interference + c.duplicates > 0) {
-    text += fmt::format("  of {} lost: {} in outages, {} by interference; {} came twice\n", c.receptions_lost, c.lost_in_outage, c.lost_by_interference, c.duplicates);
+  if (c.lost_in_outage + c.lost_by_interference + c.lost_to_sources + c.duplicates > 0) {
+    text += fmt::format("  of {} lost: {} in outages, {} by interference, {} to external sources; {} came twice\n", c.receptions_lost, c.lost_in_outage,
+                        c.lost_by_interference, c.lost_to_sources, c.duplicates);
   }
   if (c.faults + c.batteries_empty + c.scanner_stops + c.assists > 0) {
     text += fmt::format("  {} faults struck, {} batteries ran empty, {} loads cleared away; scanner: {} stops, {} saves; {} assists\n", c.faults, c.batteries_empty,
@@ -136,6 +137,7 @@ void TracePrinter::record(const TraceRecord& record, std::string_view text) {
     case TraceKind::Lost:
     case TraceKind::LostInOutage:
     case TraceKind::LostByInterference:
+    case TraceKind::LostToSource:
     case TraceKind::Received: what = "from " + body_name(scenario_, EntityId{static_cast<std::uint32_t>(record.a)}); break;
     case TraceKind::Contact: what = "with " + body_name(scenario_, EntityId{static_cast<std::uint32_t>(record.a)}); break;
     case TraceKind::WaitingFor: what = record.a == FP_NONE ? "nobody" : body_name(scenario_, EntityId{static_cast<std::uint32_t>(record.a)}); break;

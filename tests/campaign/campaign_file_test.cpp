@@ -3,12 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "campaign/scenario_source.hpp"
 #include "core/error.hpp"
 #include "generators/radio_fields.hpp"
+#include "generators/scenario_file.hpp"
 
 namespace fleetproof {
 namespace {
@@ -210,10 +213,11 @@ TEST_F(CampaignFileTest, MeanOutageIsAFactorThatShapesNoWorld) {
 TEST_F(CampaignFileTest, EveryRadioKeySurvivesThePlan) {
   std::ofstream(folder_ / "hall.csv") << "sender,receiver,t_send_s,t_recv_s\n0,1,5,5.25\n0,1,6,lost\n";
   const CampaignPlan plan = read(kFactors +
-                                 "[radio]\ndelay_model = \"heavy-tail\"\nrange_m = 55\nair_time_s = 0.002\noutage_model = \"heavy-tail\"\noutage_shape = 1.2\noutage_scope = "
+                                 "[radio]\ndelay_model = \"heavy-tail\"\nrange_m = 55\nair_time_s = 0.002\nair_time_per_byte_s = 8e-6\noutage_model = \"heavy-tail\"\noutage_shape = 1.2\noutage_scope = "
                                  "\"direction\"\nloss_good = 0.01\nloss_bad = 0.9\ndelay_min_share = 0.2\ndelay_median_share = 0.3\ndelay_tail_shape = 2\ndelay_cap_share = "
-                                 "0.9\nasymmetry = 0.1\nduplicates = 0.03\nap_spacing_m = 30\nroaming_border_m = 2\nroaming_min_s = 0.02\nroaming_max_s = 0.05\nroaming_gap_s = "
-                                 "9\ninterference = true\ncontention_window = 15\ntrace = \"hall.csv\"\n")
+                                 "0.9\nasymmetry = 0.1\nduplicates = 0.03\nap_spacing_m = 30\nroaming_at_crossing = true\nroaming_border_m = 2\nroaming_min_s = 0.02\nroaming_max_s = 0.05\nroaming_gap_s = "
+                                 "9\ninterference = true\ncontention_window = 15\nsources = 2\nsource_range_m = 8.5\nsource_mean_on_s = 0.25\nsource_mean_off_s = 0.75\nsource_loss = "
+                                 "0.6\ntrace = \"hall.csv\"\n")
                                 .plan;
   const CampaignPlan again = parse_plan(plan_text(plan));
   EXPECT_EQ(plan_text(again), plan_text(plan));
@@ -227,9 +231,33 @@ TEST_F(CampaignFileTest, EveryRadioKeySurvivesThePlan) {
   };
   EXPECT_EQ(values(again.radio), values(plan.radio));
   for (std::size_t i = 0; i < values(defaults).size(); ++i) EXPECT_NE(values(plan.radio)[i], values(defaults)[i]) << "key " << i << " is not tested";
+  EXPECT_EQ(again.sources.count, 2U);
+  EXPECT_EQ(again.sources.like, (RadioSource{.range_m = 8.5, .mean_on_s = 0.25, .mean_off_s = 0.75, .loss = 0.6}));
   ASSERT_NE(again.radio.trace, nullptr);
   EXPECT_EQ(*again.radio.trace,
             (RadioTrace{{AgvId{0U}, AgvId{1U}, Duration{0}, Duration{250'000'000}}, {AgvId{0U}, AgvId{1U}, Duration{1'000'000'000}, std::nullopt}}));
+}
+
+TEST_F(CampaignFileTest, ExternalSourcesMoveNothingElseAndHoldWithTheRadio) {
+  const std::string some = "replicates = 3\n" + kFactors, sources = "[radio]\nsources = 2\nsource_range_m = 8.5\n";
+  const CampaignPlan without = read(some).plan, with = read(some + sources).plan, held = read(some + sources + "[vary]\nhold = [\"radio\"]\n").plan;
+  std::set<double> places, held_places;
+  for (std::uint64_t run = 0; run < without.run_count(); run += without.cell_count()) {
+    Scenario scenario = ScenarioSource(with).scenario(run);
+    ASSERT_EQ(scenario.radio.sources.size(), 2U);
+    EXPECT_EQ(scenario.radio.sources[1].range_m, 8.5);
+    places.insert(scenario.radio.sources[0].x_m);
+    const Layout& layout = scenario.map->layout();
+    const Scenario same_radio = ScenarioSource(held).scenario(run);  // the same point of another floor
+    const Layout& other = same_radio.map->layout();
+    held_places.insert(std::round(1e6 * (same_radio.radio.sources[0].x_m - other.floor_low_m.x()) / (other.floor_high_m.x() - other.floor_low_m.x())));
+    EXPECT_GE(scenario.radio.sources[0].x_m, layout.floor_low_m.x());
+    EXPECT_LT(scenario.radio.sources[0].x_m, layout.floor_high_m.x());
+    scenario.radio.sources.clear();
+    EXPECT_EQ(to_text(scenario), to_text(ScenarioSource(without).scenario(run)));
+  }
+  EXPECT_EQ(places.size(), 3U);
+  EXPECT_EQ(held_places.size(), 1U);
 }
 
 TEST_F(CampaignFileTest, RadioErrorsNameKeyValueAndRemedy) {
@@ -240,6 +268,8 @@ TEST_F(CampaignFileTest, RadioErrorsNameKeyValueAndRemedy) {
   EXPECT_THAT(error_of(radio("outage_model = \"gilbert\"")), HasSubstr("c.toml:6:16: radio.outage_model is \"gilbert\""));
   EXPECT_THAT(error_of(radio("duplicates = 2")), HasSubstr("radio.duplicates: 2 is outside 0 .. 1"));
   EXPECT_THAT(error_of(radio("contention_window = 5000000000")), HasSubstr("radio.contention_window: 4294967295 is outside 0 .. 1023"));
+  EXPECT_THAT(error_of(radio("sources = 5000000000")), HasSubstr("radio.sources is 4294967295; at most 1000 are possible"));
+  EXPECT_THAT(error_of(radio("source_loss = 1.1")), HasSubstr("radio.source_loss is 1.1; it lies from 0 to 1"));
   EXPECT_THAT(error_of(radio("range_m = 0")), HasSubstr("radio.range_m: 0 is not above 0"));
   EXPECT_THAT(error_of(radio("mean_outage_s = 1")), HasSubstr("radio.mean_outage_s is not a known key"));
   EXPECT_THAT(error_of(radio("delay_model = \"heavy-tail\"\ndelay_cap_share = 0")), HasSubstr("radio.delay_cap_share is 0; a claim about the contract region"));

@@ -21,8 +21,9 @@ CampaignPlan hostile_plan(OutageSetup::Scope scope) {
   plan.radio.outages.scope = scope;
   plan.radio.asymmetry = scope == OutageSetup::Scope::Place ? 0.0 : 0.5;
   plan.radio.duplicates = 0.1;
-  plan.radio.places = {.ap_spacing_m = 10.0, .roaming_border_m = 1.0};
+  plan.radio.places = {.ap_spacing_m = 10.0, .roaming_at_crossing = scope == OutageSetup::Scope::Link, .roaming_border_m = 1.0};
   plan.radio.contention.interference = true;
+  plan.sources = {.count = 3, .like = {.mean_on_s = 2.0, .mean_off_s = 4.0}};
   RadioTrace trace;
   for (int i = 0; i < 100; ++i) {
     trace.push_back({AgvId{0U}, AgvId{1U}, Duration{i * 37'000'000LL}, i % 3 == 0 ? std::nullopt : std::optional(Duration{i * 11'000'000LL})});
@@ -62,10 +63,12 @@ TEST_F(HostileRadio, ARunIsTheSameFromItsScenarioFile) {
       EXPECT_EQ(first, second);
       sum.lost_in_outage += first.counters.lost_in_outage;
       sum.lost_by_interference += first.counters.lost_by_interference;
+      sum.lost_to_sources += first.counters.lost_to_sources;
       sum.duplicates += first.counters.duplicates;
     }
     EXPECT_GT(sum.lost_in_outage, 1000U);
     EXPECT_GT(sum.lost_by_interference, 10U);
+    EXPECT_GT(sum.lost_to_sources, 100U);
     EXPECT_GT(sum.duplicates, 100U);
   }
 }

@@ -33,7 +33,7 @@ TEST(RadioDelay, ConstantIsConstant) {
 }
 
 TEST(RadioDelay, UniformIsUniform) {
-  const auto samples = delays_s({.delay_s = 2.0, .delay_model = DelayModel::Uniform, .air_time_s = 0.0});
+  const auto samples = delays_s({.delay_s = 2.0, .delay_model = DelayModel::Uniform});
   expect_quantiles(samples, [](double p) { return 2.0 * p; });
   EXPECT_LT(std::ranges::max(samples), 2.0);
 }
@@ -59,16 +59,9 @@ TEST(RadioDelay, ACapHoldsAndTakesWhatIsBeyondIt) {
   EXPECT_TRUE(test::is_binomial(static_cast<std::uint64_t>(std::ranges::count_if(samples, [&](double d) { return d <= median; })), kMessages, 0.5));
 }
 
-TEST(RadioDelay, NoDelayIsShorterThanTheTransmission) {
-  for (const DelayModel model : {DelayModel::Constant, DelayModel::Uniform, DelayModel::HeavyTail}) {
-    Radio radio({.delay_s = 0.0, .delay_model = model, .air_time_s = 0.002}, 1);
-    EXPECT_EQ(radio.fate(kA, kB, kStart, 0).delay, seconds(0.002));
-  }
-}
-
 TEST(RadioCopies, HaveTheirShareAndADelayOfTheirOwn) {
-  Radio with({.loss = 0.4, .delay_s = 2.0, .delay_model = DelayModel::Uniform, .air_time_s = 0.0, .duplicates = 0.03}, 8);
-  Radio without({.loss = 0.4, .delay_s = 2.0, .delay_model = DelayModel::Uniform, .air_time_s = 0.0}, 8);
+  Radio with({.loss = 0.4, .delay_s = 2.0, .delay_model = DelayModel::Uniform, .duplicates = 0.03}, 8);
+  Radio without({.loss = 0.4, .delay_s = 2.0, .delay_model = DelayModel::Uniform}, 8);
   std::vector<double> copies_s;
   std::uint64_t copy_comes_first = 0, copies_of_received = 0, received = 0;
   for (int i = 0; i < kMessages; ++i) {

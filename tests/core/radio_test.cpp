@@ -47,8 +47,6 @@ TEST(Radio, DelayModels) {
     sum_s += to_seconds(delay);
   }
   EXPECT_NEAR(sum_s / 10000, 1.0, 6 * 0.58 / 100);
-  Radio instant({.delay_s = 0.0, .air_time_s = 0.001}, 1);
-  EXPECT_EQ(instant.fate(kA, kB, kStart, 0).delay, seconds(0.001));
 }
 
 TEST(Radio, OneMessageMoreMovesNoOthersFate) {

@@ -63,6 +63,16 @@ const Plant kPlants[] = {
        s.radio.contention.interference = true;
        s.radio.air_time_s = 0.0;
      }},
+    {"long_slot", ProblemKind::NumberOutOfRange, "/radio/air_time_per_byte_s",
+     [](Scenario& s) {
+       s.radio.contention.interference = true;
+       s.radio.air_time_per_byte_s = 0.001;
+     }},
+    {"air_time_per_byte", ProblemKind::NumberOutOfRange, "/radio/air_time_per_byte_s", [](Scenario& s) { s.radio.air_time_per_byte_s = -1e-9; }},
+    {"source_off", ProblemKind::NumberOutOfRange, "/radio/sources/1/mean_off_s", [](Scenario& s) { s.radio.sources = {{}, {.mean_off_s = -0.1}}; }},
+    {"source_on", ProblemKind::NumberOutOfRange, "/radio/sources/0/mean_on_s", [](Scenario& s) { s.radio.sources = {{.mean_on_s = 0.0}}; }},
+    {"source_range", ProblemKind::NumberOutOfRange, "/radio/sources/0/range_m", [](Scenario& s) { s.radio.sources = {{.range_m = 0.0}}; }},
+    {"source_place", ProblemKind::NumberOutOfRange, "/radio/sources/0/x_m", [](Scenario& s) { s.radio.sources = {{.x_m = kNan}}; }},
     {"recorded_to_itself", ProblemKind::NumberOutOfRange, "/radio/trace/0",
      [](Scenario& s) { s.radio.trace = std::make_shared<const RadioTrace>(RadioTrace{{AgvId{1U}, AgvId{1U}, Duration{0}, Duration{1}}}); }},
     {"loss_nan", ProblemKind::NumberOutOfRange, "/radio/loss", [](Scenario& s) { s.radio.loss = kNan; }},

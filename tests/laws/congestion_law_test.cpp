@@ -44,6 +44,47 @@ TEST(CongestionLaw, IsSilentBelowAndAboutOrdinaryLosses) {
   EXPECT_THAT(found, testing::IsEmpty());
 }
 
+// Six receptions of ten are destroyed: a fault of the fleet only if its own transmissions did it.
+TEST(CongestionLaw, ExternalSourcesAreNoCongestion) {
+  const auto destroyed = [](TraceKind cause) {
+    return congestion([&](Told& told) {
+      for (int i = 0; i < 300; ++i) told.record(i * 0.1, 1, i % 10 < 6 ? cause : TraceKind::Received, 0, 1);
+    });
+  };
+  EXPECT_THAT(destroyed(TraceKind::LostToSource), testing::IsEmpty());
+  const auto accused = destroyed(TraceKind::LostByInterference);
+  ASSERT_EQ(accused.size(), 1U);
+  EXPECT_EQ(accused[0].kind, IncidentKind::InterferenceLosses);
+}
+
+// What a source destroys is a reception all the same: it makes the share of the others smaller.
+TEST(CongestionLaw, WhatSourcesDestroyCountsAsReceptions) {
+  const auto share = [](int to_sources) {
+    return congestion([&](Told& told) {
+      for (int i = 0; i < 10; ++i) told.record(0.01 * i, 1, TraceKind::LostByInterference, 0, 1);
+      for (int i = 0; i < 40; ++i) told.record(0.2 + 0.01 * i, 1, TraceKind::Received, 0, 1);
+      for (int i = 0; i < to_sources; ++i) told.record(0.7 + 0.001 * i, 1, TraceKind::LostToSource, 0, 1);
+    });
+  };
+  ASSERT_EQ(share(0).size(), 1U);
+  EXPECT_EQ(share(0)[0].value, 200'000);
+  EXPECT_EQ(share(40)[0].value, 10 * 1'000'000 / 90);
+  EXPECT_THAT(share(60), testing::IsEmpty());
+}
+
+// 10 ms each and 0.1 ms a byte: 25 messages of 100 bytes ask for half of a second.
+TEST(CongestionLaw, LongMessagesAskForMoreAirTime) {
+  Scenario scenario = row_scenario(2, {0, 1}, 60.0);
+  scenario.radio.air_time_s = 0.01;
+  scenario.radio.air_time_per_byte_s = 0.0001;
+  Told told(scenario, "congestion");
+  for (int i = 0; i < 25; ++i) told.record(3.0 + 0.03 * i, 0, TraceKind::Sent, 1, 7, 100);
+  for (int i = 0; i < 25; ++i) told.record(5.0 + 0.03 * i, 0, TraceKind::Sent, 1, 7, 99);
+  const auto found = told.finish(60.0).incidents;
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0], (Incident{IncidentKind::ChannelSaturated, {}, {}, at_seconds(3.0), at_seconds(4.0), 500'000}));
+}
+
 TEST(CongestionLaw, TheLastWindowOfARunCountsToo) {
   EXPECT_EQ(congestion([](Told& told) { send(told, 59, 60, 70); }).size(), 1U);
 }

@@ -27,8 +27,8 @@ class Told {
   }
 
   // Records a kind that the law does not read, it does not hear of.
-  Told& record(double at_s, std::uint32_t entity, TraceKind kind, std::uint64_t a = 0, std::uint64_t b = 0) {
-    if (kinds_.has(kind)) law_->happened({at_seconds(at_s), EntityId{entity}, kind, a, b});
+  Told& record(double at_s, std::uint32_t entity, TraceKind kind, std::uint64_t a = 0, std::uint64_t b = 0, std::uint32_t bytes = 0) {
+    if (kinds_.has(kind)) law_->happened({at_seconds(at_s), EntityId{entity}, kind, a, b, bytes});
     return *this;
   }
   Told& begins(double at_s, std::uint32_t agv, ActivityKind kind, std::uint64_t subject = 0) {

@@ -60,7 +60,7 @@ inline Outcome random_outcome(std::mt19937_64& random) {
                         &c.turns, &c.refused_calls, &c.transports_released, &c.transports_done, &c.distance_um, &c.safe_mode_ns, &c.contacts,
                         &c.distance_evaluations, &c.perimeter_checks, &c.rolls, &c.faults, &c.batteries_empty, &c.loads_cleared, &c.assists,
                         &c.scanner_stops, &c.scanner_saves, &c.received, &c.under_way, &c.battery_start_ppb, &c.battery_end_ppb, &c.battery_driven_ppb,
-                        &c.battery_idled_ppb, &c.battery_charged_ppb, &c.incidents_left_out, &c.probes_left_out, &c.lost_in_outage, &c.lost_by_interference, &c.duplicates}) {
+                        &c.battery_idled_ppb, &c.battery_charged_ppb, &c.incidents_left_out, &c.probes_left_out, &c.lost_in_outage, &c.lost_by_interference, &c.duplicates, &c.lost_to_sources}) {
     *counter = random();
   }
   o.simulated_ns = random();
