@@ -55,18 +55,17 @@ FamilyRange family_range(std::string_view name) {
   return {&family, Range::Stress};
 }
 
-Layout draw_layout(FamilyRange choice, Draws& draws) {
-  if (choice.range == Range::Normal) return choice.family->make(draws, Range::Normal);
+std::shared_ptr<const LogicalMap> draw_map(FamilyRange choice, Draws& draws) {
+  if (choice.range == Range::Normal) return std::make_shared<const LogicalMap>(choice.family->make(draws, Range::Normal));
   const bool closed = draws.below(kClosedOneIn) == 0;
   while (true) {
     Layout layout = choice.family->make(draws, Range::Stress);
-    if (closed) {
-      if (close_waiting_places(layout)) return layout;
-      continue;
-    }
-    const LogicalMap map(layout);
-    if (open_waiting_places(map, Reachability(map)) > 0) return layout;
+    if (closed && !close_waiting_places(layout)) continue;
+    auto map = std::make_shared<const LogicalMap>(layout);
+    if (closed || has_open_waiting_place(*map, Reachability(*map))) return map;
   }
 }
+
+Layout draw_layout(FamilyRange choice, Draws& draws) { return draw_map(choice, draws)->layout(); }
 
 }  // namespace fleetproof

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 
 #include "core/catalogue.hpp"
@@ -27,7 +28,8 @@ struct FamilyRange {
 FamilyRange family_range(std::string_view name);
 
 // Draws a layout. Of those under stress one in ten has no place to wait but where it cuts off others (waiting_room.hpp), on purpose;
-// each of the others has one at least.
+// each of the others has one at least. The map is built for that anyway: who needs it spares building it again.
+std::shared_ptr<const LogicalMap> draw_map(FamilyRange choice, Draws& draws);
 Layout draw_layout(FamilyRange choice, Draws& draws);
 
 // InputError with a hint if there is no such family.

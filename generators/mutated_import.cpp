@@ -56,19 +56,27 @@ void thin_out(Layout& layout, Draws& draws) {
   layout.segments = std::move(kept);
 }
 
-void keep_core(Layout& layout) {
-  const LogicalMap map(layout);
-  const Reachability reachability(map);
-  std::vector<StationId> number(layout.stations.size());
+// The stations of the core. Who reaches whom hangs on no bend.
+std::vector<StationId> core_of(const Layout& layout) {
+  Layout straight;
+  straight.stations = layout.stations;
+  for (const auto& segment : layout.segments) straight.segments.push_back({{}, segment.from, segment.to, segment.bidirectional, {}});
+  const LogicalMap map(straight);
+  return Reachability(map).core();
+}
+
+void keep(Layout& layout, const std::vector<StationId>& core) {
+  constexpr auto kGone = ~0U;
+  std::vector<std::uint32_t> number(layout.stations.size(), kGone);
   std::vector<Station> stations;
-  for (const auto station : reachability.core()) {
-    number[station.index()] = StationId{stations.size()};
-    stations.push_back(layout.stations[station.index()]);
+  for (const auto station : core) {
+    number[station.index()] = static_cast<std::uint32_t>(stations.size());
+    stations.push_back(std::move(layout.stations[station.index()]));
   }
-  std::erase_if(layout.segments, [&](const Segment& s) { return !reachability.in_core(s.from) || !reachability.in_core(s.to); });
+  std::erase_if(layout.segments, [&](const Segment& s) { return number[s.from.index()] == kGone || number[s.to.index()] == kGone; });
   for (auto& segment : layout.segments) {
-    segment.from = number[segment.from.index()];
-    segment.to = number[segment.to.index()];
+    segment.from = StationId{number[segment.from.index()]};
+    segment.to = StationId{number[segment.to.index()]};
   }
   layout.stations = std::move(stations);
 }
@@ -79,17 +87,19 @@ std::optional<Layout> draw_mutation(const Layout& base, Draws& draws, RejectionC
   Layout layout = base;
   layout.name = fmt::format("{}/{}", kMutatedImport, base.name);
   thin_out(layout, draws);
+  // Most draws that are refused are so for this, and it is known before anything is moved.
+  const auto core = core_of(layout);
+  if (2 * core.size() < base.stations.size() || core.size() < 2) {
+    ++counts.of(ProblemKind::WeakCore);
+    return std::nullopt;
+  }
   move(layout, draws);
   fit_floor(layout, 3.0);
   if (const auto problems = problems_of(layout); !problems.empty()) {
     ++counts.of(problems[0].kind);
     return std::nullopt;
   }
-  keep_core(layout);
-  if (2 * layout.stations.size() < base.stations.size() || layout.stations.size() < 2) {
-    ++counts.of(ProblemKind::WeakCore);
-    return std::nullopt;
-  }
+  keep(layout, core);
   fit_floor(layout, 3.0);
   return layout;
 }

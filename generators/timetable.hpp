@@ -1,10 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <utility>
+#include <optional>
 #include <vector>
 
 #include "core/scenario.hpp"
+#include "generators/calendar_queue.hpp"
 
 namespace fleetproof {
 
@@ -13,12 +14,17 @@ namespace fleetproof {
 struct QuickestWays {
   static constexpr std::uint32_t kNone = ~0U;
 
-  StationId from;
-  std::vector<std::uint32_t> arrival_lane;    // by station; kNone at `from` and where no way leads
-  std::vector<Duration> drives_off, arrives;  // by station: when the arrival lane is begun, after the turn, and ended
-  std::vector<std::uint8_t> unique;           // by station: no other way is as quick, to the microsecond
+  struct Arrival {
+    Duration drives_off{}, arrives{};  // when the last lane is begun, after the turn, and ended
+    std::uint32_t lane = kNone;        // the last one; kNone at `from` and where no way leads
+    std::uint32_t first = kNone;       // lane on which the way begins; likewise
+    bool unique = false;               // no other way is as quick, to the microsecond
+  };
 
-  bool reaches(StationId station) const { return station == from || arrival_lane[station.index()] != kNone; }
+  StationId from;
+  std::vector<Arrival> arrivals;  // by station
+
+  const Arrival& at(StationId station) const { return arrivals[station.index()]; }
   // Lanes from `from` to `station`, in the order they are driven.
   std::vector<std::uint32_t> lanes(const LogicalMap& map, StationId station) const;
 };
@@ -31,8 +37,10 @@ class Timetable {
   const QuickestWays& from(StationId station);
 
  private:
-  QuickestWays search(StationId from);
-  Duration turn(std::uint32_t before, std::uint32_t after);
+  void search(QuickestWays& ways);
+  bool follow_only_lane(QuickestWays& ways);
+  void arrive(QuickestWays& ways, std::uint32_t station) const;
+  Duration turn(std::uint32_t before, std::uint32_t after) const;
 
   const LogicalMap& map_;
   const VehicleType& type_;
@@ -40,18 +48,20 @@ class Timetable {
   struct Hop {
     std::uint32_t from, to;
     Duration drive;
+    std::uint32_t place;       // number of the lane in lanes_from() its start
+    std::uint32_t first_turn;  // of those at its end, in turns_
   };
   std::vector<Hop> hops_;
-  std::vector<std::pair<Vec2, Vec2>> headings_;  // by lane, at its start and at its end
-  std::vector<std::vector<Duration>> turns_;     // by lane, and number of the next one in lanes_from(); negative: not asked for yet
-  std::vector<QuickestWays> ways_;
-  std::vector<bool> known_;
+  mutable std::vector<Duration> turns_;  // by lane, and place of the next one; negative: not asked for yet
+  std::vector<QuickestWays> ways_;       // by station; empty: not asked for yet
 
   // Memory of a search, kept for the next.
-  using Open = std::pair<Duration, std::uint32_t>;
-  std::vector<Open> open_;
-  std::vector<Duration> cost_;
-  std::vector<std::uint32_t> order_, quickest_;
+  struct Reached {
+    Duration cost, next_best;  // by the quickest way and by the quickest that ends with another lane
+    std::uint32_t lane;
+  };
+  std::vector<Reached> reached_;  // by station
+  std::optional<CalendarQueue> open_;
 };
 
 }  // namespace fleetproof

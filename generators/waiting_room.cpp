@@ -78,10 +78,9 @@ std::vector<bool> cut_stations(const LogicalMap& map, const Reachability& reacha
   return cut;
 }
 
-std::size_t open_waiting_places(const LogicalMap& map, const Reachability& reachability) {
+bool has_open_waiting_place(const LogicalMap& map, const Reachability& reachability) {
   Search search(map, reachability);
-  return static_cast<std::size_t>(
-      std::ranges::count_if(reachability.core(), [&](StationId s) { return is_place_to_wait(map.station(s)) && !cuts(search, s, reachability); }));
+  return std::ranges::any_of(reachability.core(), [&](StationId s) { return is_place_to_wait(map.station(s)) && !cuts(search, s, reachability); });
 }
 
 bool close_waiting_places(Layout& layout) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include "core/layout.hpp"
@@ -15,8 +14,8 @@ bool is_place_to_wait(const Station& station);
 // two-way lane that is the only way to some part of the map. Stations outside the core count as false.
 std::vector<bool> cut_stations(const LogicalMap& map, const Reachability& reachability);
 
-// Places to wait in the core that cut nobody off.
-std::size_t open_waiting_places(const LogicalMap& map, const Reachability& reachability);
+// Whether a place to wait in the core cuts nobody off.
+bool has_open_waiting_place(const LogicalMap& map, const Reachability& reachability);
 
 // Moves the purposes of every open place to wait to the nearest cut station that has none, storage first: whoever waits is then in somebody's
 // way. False, and nothing changed, if that leaves fewer than two places of storage.

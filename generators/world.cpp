@@ -103,7 +103,7 @@ class WorldMaker {
   bool draw_map(std::uint32_t number) {
     Draws draws(key_of(Stream::Layout), attempt_of(Stream::Layout, number));
     if (family_ != nullptr) {
-      set_map(std::make_shared<const LogicalMap>(draw_layout(family_range(*family_), draws)));
+      set_map(::fleetproof::draw_map(family_range(*family_), draws));
     } else if (spec_.mutate) {
       const auto layout = draw_mutation(std::get<SharedMap>(spec_.layout)->layout(), draws, counts);
       if (!layout) return false;

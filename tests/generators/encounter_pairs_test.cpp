@@ -89,7 +89,7 @@ std::vector<Leg> quickest(const Layout& layout, const std::vector<Way>& ways, co
 }
 
 struct Encounter {
-  double head_on_s = 1e300, station_s = 1e300;  // least difference in time
+  double head_on_s = 1e300, station_s = 1e300;  // least difference in time, of AGVs that leave when they are told to
 };
 
 Encounter encounter(const Scenario& s, const AgvSetup& one, const AgvSetup& two) {
@@ -97,12 +97,14 @@ Encounter encounter(const Scenario& s, const AgvSetup& one, const AgvSetup& two)
   const auto ways = ways_of(layout, s.vehicle_types[0]);
   const auto a = quickest(layout, ways, s.vehicle_types[0], one.start.index(), one.transports[0].from.index());
   const auto b = quickest(layout, ways, s.vehicle_types[0], two.start.index(), two.transports[0].from.index());
+  const double later_s = 1e-9 * static_cast<double>((two.transports[0].release - one.transports[0].release).count());
   Encounter found;
   for (const auto& x : a) {
     for (const auto& y : b) {
       if (x.way->segment == y.way->segment && x.way->from == y.way->to)
-        found.head_on_s = std::min(found.head_on_s, std::abs(x.begins_s - y.begins_s));
-      if (x.way->to == y.way->to && x.way->segment != y.way->segment) found.station_s = std::min(found.station_s, std::abs(x.ends_s - y.ends_s));
+        found.head_on_s = std::min(found.head_on_s, std::abs(x.begins_s - y.begins_s - later_s));
+      if (x.way->to == y.way->to && x.way->segment != y.way->segment)
+        found.station_s = std::min(found.station_s, std::abs(x.ends_s - y.ends_s - later_s));
     }
   }
   return found;
@@ -144,7 +146,8 @@ TEST_P(Encounters, AdversarialPairsMeetWithinASecond) {
   }
   std::cout << GetParam() << ": " << met << " of " << worlds << " worlds meet, " << head_on << " head-on; pairs made " << counts.pairs_made << " of "
             << counts.pairs_wanted << "\n";
-  EXPECT_GT(met, worlds * 9 / 10);
+  EXPECT_GE(met, worlds * 19 / 20);
+  EXPECT_GE(head_on, worlds * 17 / 20);
 }
 
 TEST_P(Encounters, RandomPlacementsSeldomDo) {
@@ -158,19 +161,22 @@ TEST_P(Encounters, RandomPlacementsSeldomDo) {
   EXPECT_LT(met, 60) << "the oracle can say no";
 }
 
+// To the oracle's own rounding. On a one-way loop with chords two AGVs seldom reach a station within a second of each other by different segments;
+// who finds no partner starts at random.
 TEST_P(Encounters, SymmetricPairsReachOneStationAtOnce) {
   RejectionCounts counts;
-  int worlds = 0, near = 0, ties = 0;
-  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+  int worlds = 0, at_once = 0, told_together = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
     const Scenario s = generate_world(spec(Placement::Symmetric), seed, counts);
     ASSERT_TRUE(problems_of(s).empty()) << seed;
-    const auto found = encounter(s, s.agvs[0], s.agvs[1]);
+    const auto &one = s.agvs[0].transports, &two = s.agvs[1].transports;
     ++worlds;
-    near += found.station_s < 0.1 ? 1 : 0;
-    ties += found.station_s < 1.1e-3 ? 1 : 0;
+    at_once += encounter(s, s.agvs[0], s.agvs[1]).station_s < 1e-5 ? 1 : 0;
+    told_together += std::abs((one[0].release - two[0].release).count()) < 10'000'000 ? 1 : 0;
+    for (const auto* orders : {&one, &two}) EXPECT_TRUE(std::ranges::is_sorted(*orders, {}, &TransportOrder::release)) << seed;
   }
-  std::cout << GetParam() << ": " << ties << " of " << worlds << " worlds tie to the millisecond, " << near << " to 0.1 s\n";
-  EXPECT_GT(near, worlds / 3);
+  std::cout << GetParam() << ": " << at_once << " of " << worlds << " worlds meet to 10 us, " << told_together << " told to leave within 10 ms\n";
+  EXPECT_GE(at_once, worlds * (GetParam() == "loop-spurs/stress" ? 6 : 9) / 10);
 }
 
 TEST_P(Encounters, SameSeedSameWorld) {
