@@ -68,7 +68,7 @@ bool World::stays_free(const OrientedRectangle& place, double margin_m, SimTime 
   box.add(place);
   box = box.grown(margin_m);
   return is_free(place, margin_m, t) && std::ranges::none_of(bodies_, [&](const Body& body) {
-           return body.on_floor && body.piece.manner != Manner::Rest && body.planned_box.overlaps(box);
+           return body.on_floor && body.piece.manner != Manner::Rest && body.piece.planned_box.overlaps(box);
          });
 }
 

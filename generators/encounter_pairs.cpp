@@ -82,6 +82,7 @@ class PairMaker {
     if (start == goal || !ways.at(goal).unique || !has_room(start, goal, std::nullopt)) return std::nullopt;
     const auto way = passed_on(ways, goal);
     std::vector<StationId> others;
+    others.reserve(starts.size());
     for (const auto other : starts) {
       if (other != start && (!head_on || may_come_head_on(other, way))) others.push_back(other);
     }
@@ -98,6 +99,7 @@ class PairMaker {
 
   static std::vector<StationId> some_of(Draws& draws, const std::vector<StationId>& stations, std::size_t wanted) {
     std::vector<StationId> some;
+    some.reserve(wanted);
     for (const auto n : draw_some(draws, stations.size(), wanted)) some.push_back(stations[n]);
     return some;
   }
@@ -126,8 +128,10 @@ class PairMaker {
   };
 
   std::vector<Passed> passed_on(const QuickestWays& ways, StationId goal) const {
+    const auto lanes = ways.lanes(map_, goal);
     std::vector<Passed> all;
-    for (const auto l : ways.lanes(map_, goal)) {
+    all.reserve(lanes.size());
+    for (const auto l : lanes) {
       const auto& lane = map_.lanes()[l];
       const auto* back = map_.lane(lane.segment, lane.to);
       const auto& arrival = ways.at(lane.to);
@@ -157,9 +161,10 @@ class PairMaker {
     for (const auto start : starts) {
       const auto& other = timetable_.from(start);
       for (const auto& passed : way) {
-        const auto &here = other.at(passed.from), &there = other.at(passed.to);
-        if (here.lane == passed.twin && passed.twin != QuickestWays::kNone && !ties_ && here.unique) {
-          consider({start, passed.from, passed.begun - here.drives_off, true});
+        const auto& there = other.at(passed.to);
+        if (!ties_ && passed.twin != QuickestWays::kNone) {
+          const auto& here = other.at(passed.from);
+          if (here.lane == passed.twin && here.unique) consider({start, passed.from, passed.begun - here.drives_off, true});
         }
         if (!head_on && there.lane != passed.lane && there.lane != QuickestWays::kNone && there.unique) {
           consider({start, passed.to, passed.ended - there.arrives, false});
@@ -174,6 +179,7 @@ class PairMaker {
     const auto& ways = timetable_.from(meeting.start);
     const Duration met = ways.at(meeting.through).arrives;
     std::vector<StationId> through;
+    through.reserve(goals_.size());
     for (const auto goal : goals_) {
       if (goal == meeting.start || !ways.at(goal).unique) continue;
       StationId s = goal;

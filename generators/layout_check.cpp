@@ -37,8 +37,6 @@ class Check {
  private:
   void add(ProblemKind kind, std::string pointer, std::string sentence) { problems_.push_back({kind, std::move(pointer), std::move(sentence)}); }
 
-  static bool on_the_floor(const Vec2& p) { return std::abs(p.x()) <= kLargestCoordinate_m && std::abs(p.y()) <= kLargestCoordinate_m; }
-
   void bad_number(std::string pointer) {
     add(ProblemKind::NumberOutOfRange, std::move(pointer), fmt::format("coordinates lie within {} m of the origin", kLargestCoordinate_m));
   }
@@ -76,25 +74,7 @@ class Check {
     if (!c.empty() && c.size() % 3 != 2) {
       return add(ProblemKind::BadGeometry, pointer + "/control_points_m", fmt::format("{} control points; a curve has 2, 5, 8, ...", c.size()));
     }
-    if (const auto fault = fault_of_curve(s); !fault.empty()) add(ProblemKind::BadGeometry, pointer, fault);
-  }
-
-  // Beziers with cusps and loops are easier tried than judged.
-  std::string fault_of_curve(const Segment& s) const {
-    const Curve curve = segment_curve(layout_, s);
-    if (!(curve.length_m() >= kShortestSegment_m)) return "it has no length; move its stations apart or leave it out";
-    const auto arcs = curve.arcs();
-    for (std::size_t i = 0; i < arcs.size(); ++i) {
-      if (!(std::abs(arcs[i].curvature_per_m) <= 1.0 / kSharpestBend_m)) {
-        return "it bends more sharply than a radius of 5 cm; move its control points apart, or put a station there";
-      }
-      if (i == 0) continue;
-      const double kink = std::abs(angle_between(arcs[i - 1].pose_at(arcs[i - 1].length_m).heading, arcs[i].start.heading));
-      if (kink > kLargestKink_rad) {
-        return fmt::format("it has a kink of {:.3g} rad; align the control points beside the joint, or put a station there", kink);
-      }
-    }
-    return "";
+    if (const auto fault = fault_of_curve(segment_curve(layout_, s)); !fault.empty()) add(ProblemKind::BadGeometry, pointer, fault);
   }
 
   const Layout& layout_;
@@ -104,6 +84,25 @@ class Check {
 }  // namespace
 
 Problems problems_of(const Layout& layout) { return Check(layout).run(); }
+
+bool on_the_floor(const Vec2& p) { return std::abs(p.x()) <= kLargestCoordinate_m && std::abs(p.y()) <= kLargestCoordinate_m; }
+
+// Beziers with cusps and loops are easier tried than judged.
+std::string fault_of_curve(const Curve& curve) {
+  if (!(curve.length_m() >= kShortestSegment_m)) return "it has no length; move its stations apart or leave it out";
+  const auto arcs = curve.arcs();
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    if (!(std::abs(arcs[i].curvature_per_m) <= 1.0 / kSharpestBend_m)) {
+      return "it bends more sharply than a radius of 5 cm; move its control points apart, or put a station there";
+    }
+    if (i == 0) continue;
+    const double kink = std::abs(angle_between(arcs[i - 1].pose_at(arcs[i - 1].length_m).heading, arcs[i].start.heading));
+    if (kink > kLargestKink_rad) {
+      return fmt::format("it has a kink of {:.3g} rad; align the control points beside the joint, or put a station there", kink);
+    }
+  }
+  return "";
+}
 
 const char* fault_of_name(std::string_view name) {
   if (name.empty()) return "the name is empty";

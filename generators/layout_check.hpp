@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "core/layout.hpp"
@@ -13,6 +14,12 @@ inline constexpr double kSharpestBend_m = 0.05;  // radius
 
 // What keeps a layout from becoming a LogicalMap; empty if nothing does. Pointers are relative to the layout.
 Problems problems_of(const Layout& layout);
+
+// Whether a point is within the range of coordinates.
+bool on_the_floor(const Vec2& point_m);
+
+// What keeps an AGV from driving a segment with this curve; empty if nothing does.
+std::string fault_of_curve(const Curve& curve);
 
 // How a name breaks the rules for names (1 to 200 bytes of UTF-8 without control characters); null if it does not.
 const char* fault_of_name(std::string_view name);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/scenario.hpp"
@@ -38,9 +39,13 @@ class Timetable {
 
  private:
   void search(QuickestWays& ways);
-  bool follow_only_lane(QuickestWays& ways);
+  void find_ways_on();
+  std::span<const std::uint32_t> followed_from(StationId start);
+  Duration pass(std::span<const std::uint32_t> followed);
+  bool follow(QuickestWays& ways);
   void arrive(QuickestWays& ways, std::uint32_t station) const;
   Duration turn(std::uint32_t before, std::uint32_t after) const;
+  Duration duration_of_turn(std::uint32_t before, std::uint32_t after) const;
 
   const LogicalMap& map_;
   const VehicleType& type_;
@@ -52,6 +57,7 @@ class Timetable {
     std::uint32_t first_turn;  // of those at its end, in turns_
   };
   std::vector<Hop> hops_;
+  std::vector<std::uint32_t> onward_;    // by station: the one lane on, apart from those into dead ends; kNone if there are none or several
   mutable std::vector<Duration> turns_;  // by lane, and place of the next one; negative: not asked for yet
   std::vector<QuickestWays> ways_;       // by station; empty: not asked for yet
 
@@ -61,6 +67,9 @@ class Timetable {
     std::uint32_t lane;
   };
   std::vector<Reached> reached_;  // by station
+  std::vector<std::uint32_t> followed_;
+  std::vector<QuickestWays::Arrival> passed_;
+  std::vector<Duration> later_;  // by lane from the end of those followed
   std::optional<CalendarQueue> open_;
 };
 

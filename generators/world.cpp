@@ -72,9 +72,8 @@ class WorldMaker {
     if (spec.held.seed != seed) {
       for (const Stream stream : spec.held.streams) scenario_.stream_seeds.push_back({stream, spec.held.seed});
     }
-    if (family_ != nullptr) return;
+    if (family_ != nullptr || spec.mutate) return;
     set_map(std::get<SharedMap>(spec.layout));
-    if (spec.mutate) return;
     // No other draw mends a fixed layout.
     for (const auto& problem : world_problems(scenario_, *reachability_)) throw InputError(scenario_.map->layout().name, problem.sentence);
   }
@@ -105,9 +104,9 @@ class WorldMaker {
     if (family_ != nullptr) {
       set_map(::fleetproof::draw_map(family_range(*family_), draws));
     } else if (spec_.mutate) {
-      const auto layout = draw_mutation(std::get<SharedMap>(spec_.layout)->layout(), draws, counts);
-      if (!layout) return false;
-      set_map(std::make_shared<const LogicalMap>(*layout));
+      auto map = draw_mutated_map(std::get<SharedMap>(spec_.layout)->layout(), draws, counts);
+      if (map == nullptr) return false;
+      set_map(std::move(map));
     }
     return true;
   }

@@ -3,6 +3,7 @@
 #include "campaign/campaign.hpp"
 #include "campaign/run_one.hpp"
 #include "core/simulation.hpp"
+#include "tests/support/hard_world.hpp"
 
 namespace fleetproof::test {
 
@@ -27,10 +28,11 @@ inline CampaignPlan small_plan() {
   return plan;
 }
 
-// The same with everything on that can go wrong.
+// The same with everything on that can go wrong, round bends too.
 inline CampaignPlan hostile_plan() {
   CampaignPlan plan = small_plan();
   plan.name = "hostile";
+  plan.layouts = {{"loop-spurs", nullptr}, {"bent", bent_map(family_range("random-planar"), 5)}};
   plan.mean_outage_s = {0.0, 1.0};
   plan.placement = Placement::Mixed;
   plan.radio.delay_model = RadioSetup::DelayModel::Uniform;

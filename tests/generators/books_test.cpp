@@ -2,6 +2,7 @@
 // end of ten thousand random runs in which everything goes wrong that can.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -85,7 +86,7 @@ WorldSpec everything_goes_wrong() {
 }
 
 struct Totals {
-  std::uint64_t runs = 0, faults = 0, empty = 0, cleared = 0, stops = 0, assists = 0, done = 0, contacts = 0;
+  std::uint64_t runs = 0, faults = 0, empty = 0, cleared = 0, stops = 0, assists = 0, done = 0, contacts = 0, bends = 0;
   std::uint64_t recovered = 0, restarted = 0;
 };
 
@@ -93,6 +94,10 @@ struct Totals {
 void leave_alone(FaultRates& faults) {
   faults.protective_stops_per_agv_hour = faults.freezes_per_agv_hour = faults.restarts_per_agv_hour = 0.0;
   faults.breakdowns_per_agv_hour = faults.breakdowns_per_transport = 0.0;
+}
+
+std::uint64_t bends(const LogicalMap& map) {
+  return static_cast<std::uint64_t>(std::ranges::count_if(map.lanes(), [](const Lane& lane) { return !lane.curve.is_straight(); }));
 }
 
 void check(const Scenario& scenario, const Outcome& outcome, const Bookkeeper& books, const std::string& which) {
@@ -129,10 +134,18 @@ void run(const fp_agent_type& agent, std::uint64_t runs, Totals& totals) {
   const auto families = layout_families();
   for (std::uint64_t i = 0; i < runs; ++i) {
     WorldSpec spec = everything_goes_wrong();
-    spec.layout = std::string(families[i % families.size()].name);
-    if (i % 4 == 3) leave_alone(spec.faults);
+    // Each family in turn: as it is and bent, then both under stress.
+    const FamilyRange choice{&families[i % families.size()], i / families.size() % 4 < 2 ? Range::Normal : Range::Stress};
+    const bool bent = i / families.size() % 2 == 1;
+    if (bent) {
+      spec.layout = test::bent_map(choice, 1000 + i);
+    } else {
+      spec.layout = family_name(choice.family->name, choice.range);
+    }
+    if (i % 5 == 3) leave_alone(spec.faults);
     RejectionCounts counts;
     Scenario scenario = generate_world(spec, 1000 + i, counts);
+    totals.bends += bends(*scenario.map);
     scenario.radio.loss = 0.4;
     scenario.radio.delay_s = 2.0;
     scenario.radio.delay_model = RadioSetup::DelayModel::Uniform;
@@ -154,7 +167,7 @@ void run(const fp_agent_type& agent, std::uint64_t runs, Totals& totals) {
     }
     const Outcome outcome = simulate(scenario, agent, laws);
     const auto& books = dynamic_cast<const Bookkeeper&>(*laws[0]);
-    check(scenario, outcome, books, spec.layout.index() == 0 ? std::get<std::string>(spec.layout) + " " + std::to_string(1000 + i) : "");
+    check(scenario, outcome, books, scenario.name + ", seed " + std::to_string(1000 + i));
     if (::testing::Test::HasFailure()) return;
     const Counters& c = outcome.counters;
     ++totals.runs;
@@ -192,6 +205,7 @@ TEST(Books, BalanceAfterTenThousandRunsInWhichEverythingGoesWrong) {
   EXPECT_GT(totals.contacts, 100U);
   EXPECT_GT(totals.recovered, 1'000U);
   EXPECT_GT(totals.restarted, 10U);
+  EXPECT_GT(totals.bends, 10 * totals.runs);
 }
 
 }  // namespace

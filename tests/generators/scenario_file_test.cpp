@@ -144,8 +144,8 @@ TEST(ScenarioFile, DigestsOfGeneratedWorldsArePinned) {
 }
 
 TEST(ScenarioFile, DigestsOfWorldsUnderStressArePinned) {
-  const std::uint64_t expected[] = {901111448471517213ULL,  4703569700768066118ULL, 16596420551516519777ULL,
-                                    2049300039178019395ULL, 9890828918027524651ULL, 12088911884921300200ULL};
+  const std::uint64_t expected[] = {2925142691423221084ULL, 11282292425435228295ULL, 8541360667406339398ULL,
+                                    4157751639488008629ULL, 6403376830343473151ULL,  7859744103334385378ULL};
   ASSERT_EQ(std::size(expected), layout_families().size());
   for (std::size_t i = 0; i < layout_families().size(); ++i) {
     WorldSpec spec;

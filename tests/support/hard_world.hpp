@@ -1,8 +1,37 @@
 #pragma once
 
+#include "generators/layout_check.hpp"
+#include "generators/layout_family.hpp"
 #include "generators/world.hpp"
 
 namespace fleetproof::test {
+
+// A bow, or an S of two Beziers, instead of every straight segment but one in four: up to a fifth of its length off the straight line.
+inline void bend(Segment& segment, const Vec2& from_m, const Vec2& to_m, Draws& draws) {
+  if (!segment.control_points_m.empty() || draws.below(4) == 0) return;
+  const Vec2 way_m = to_m - from_m, left_m(-way_m.y(), way_m.x());
+  const auto beside = [&](double along) { return Vec2(from_m + along * way_m + draws.uniform(-0.2, 0.2) * left_m); };
+  if (draws.below(2) == 0) {
+    segment.control_points_m = {beside(0.3), beside(0.7)};
+  } else {
+    segment.control_points_m = {beside(0.2), beside(0.4), beside(0.5), beside(0.6), beside(0.8)};
+    smooth_joints(segment);
+  }
+}
+
+// A layout of a family, its lanes bent: what straight lanes hide in the books of curves, of hulls in bends and of speeds there.
+inline std::shared_ptr<const LogicalMap> bent_map(FamilyRange choice, std::uint64_t seed) {
+  Draws draws(stream_key(seed, Stream::Layout));
+  while (true) {
+    Layout layout = draw_layout(choice, draws);
+    layout.name += ", bent";
+    for (Segment& segment : layout.segments) {
+      bend(segment, layout.stations[segment.from.index()].position_m, layout.stations[segment.to.index()].position_m, draws);
+    }
+    fit_floor(layout, 3.0);
+    if (problems_of(layout).empty()) return std::make_shared<const LogicalMap>(layout);
+  }
+}
 
 // A fleet of two types whose drives deviate, whose loads matter and whose batteries run low, among faults of everything but the floor: no load falls
 // and nothing foreign stands about.
