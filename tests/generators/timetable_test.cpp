@@ -1,0 +1,105 @@
+// Quickest ways from every station to every other one, against Bellman and Ford and a drive along the lanes: one-way rings with dead ends and ways
+// into them, where most ways are copied from another station's, and whatever random lanes make.
+#include "generators/timetable.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/geometry/rotation.hpp"
+#include "core/motion_profile.hpp"
+#include "generators/layout_builder.hpp"
+
+namespace fleetproof {
+namespace {
+
+std::int64_t drive_ns(const Lane& lane, const VehicleType& type) { return MotionProfile(lane.curve.length_m(), type.drive).duration().count(); }
+
+std::vector<std::int64_t> quickest_ns(const LogicalMap& map, const VehicleType& type, StationId from) {
+  constexpr std::int64_t kFar = std::int64_t{1} << 60;
+  std::vector<std::int64_t> best(map.station_count(), kFar);
+  best[from.index()] = 0;
+  for (std::size_t round = 0; round < map.station_count(); ++round) {
+    for (const Lane& lane : map.lanes()) {
+      auto& there = best[lane.to.index()];
+      there = std::min(there, best[lane.from.index()] + drive_ns(lane, type));
+    }
+  }
+  for (auto& cost : best) cost = cost < kFar ? cost : -1;
+  return best;
+}
+
+// A ring of three to twelve stations, dead ends and one-way ways into it hung on anywhere, now and then a chord. No two lanes lead
+// from one station to the same other one.
+Layout ring(Draws& draws) {
+  Layout layout;
+  const auto station = [&] {
+    const auto n = std::to_string(layout.stations.size());
+    layout.stations.push_back({n, {draws.uniform(0.0, 50.0), draws.uniform(0.0, 50.0)}, Purpose::Routing});
+    return StationId{layout.stations.size() - 1};
+  };
+  const auto lane = [&](StationId from, StationId to, bool both) {
+    layout.segments.push_back({std::to_string(layout.segments.size()), from, to, both, {}});
+  };
+  const std::uint32_t n = 3 + draws.below(10);
+  for (std::uint32_t i = 0; i < n; ++i) station();
+  for (std::uint32_t i = 0; i < n; ++i) lane(StationId{i}, StationId{(i + 1) % n}, draws.below(20) == 0);
+  for (std::uint32_t k = draws.below(10); k > 0; --k) {
+    const StationId root{draws.below(static_cast<std::uint32_t>(layout.stations.size()))}, end = station();
+    if (draws.below(3) == 0) {
+      lane(end, root, false);
+    } else {
+      lane(root, end, true);
+    }
+  }
+  const std::uint32_t from = draws.below(n), steps = 2 + draws.below(n - 2);  // n - 1 leads back, beside the lane of the ring
+  if (draws.below(3) == 0 && steps < n - 1) lane(StationId{from}, StationId{(from + steps) % n}, false);
+  return layout;
+}
+
+void expect_quickest(const LogicalMap& map, const VehicleType& type, const QuickestWays& ways, std::uint64_t seed) {
+  const auto best = quickest_ns(map, type, ways.from);
+  for (std::size_t s = 0; s < map.station_count(); ++s) {
+    const StationId to{s};
+    const auto lanes = ways.lanes(map, to);
+    ASSERT_EQ(lanes.empty(), best[s] <= 0) << seed << ": " << ways.from.value << " to " << s;
+    if (lanes.empty()) continue;
+    std::int64_t driven_ns = 0;
+    Duration now{}, begun{};
+    StationId here = ways.from;
+    for (std::size_t i = 0; i < lanes.size(); ++i) {
+      const Lane& lane = map.lanes()[lanes[i]];
+      ASSERT_EQ(lane.from, here);
+      if (i > 0) {
+        const Curve& in = map.lanes()[lanes[i - 1]].curve;
+        const double angle = std::abs(angle_between(in.pose_at(in.length_m()).heading, lane.curve.pose_at(0.0).heading));
+        if (angle > 1e-7) now += MotionProfile(angle, type.turn).duration();
+      }
+      begun = now;
+      now += Duration(drive_ns(lane, type));
+      driven_ns += drive_ns(lane, type);
+      here = lane.to;
+    }
+    EXPECT_EQ(here, to);
+    EXPECT_EQ(driven_ns, best[s]) << seed << ": " << ways.from.value << " to " << s;
+    EXPECT_EQ(ways.at(to).drives_off, begun);
+    EXPECT_EQ(ways.at(to).arrives, now);
+    EXPECT_EQ(ways.at(to).first, lanes.front());
+    EXPECT_TRUE(ways.at(to).unique) << "no two ways are as quick between stations at random places";
+  }
+}
+
+TEST(Timetable, KnowsTheQuickestWaysInWhateverOrderItIsAsked) {
+  const VehicleType type;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    Draws draws(seed);
+    const LogicalMap map(ring(draws));
+    Timetable timetable(map, type);
+    for (const auto s : draw_some(draws, map.station_count(), map.station_count())) expect_quickest(map, type, timetable.from(StationId{s}), seed);
+    if (HasFailure()) return;
+  }
+}
+
+}  // namespace
+}  // namespace fleetproof
