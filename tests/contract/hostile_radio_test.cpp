@@ -22,7 +22,7 @@ CampaignPlan hostile_plan(OutageSetup::Scope scope) {
   plan.radio.asymmetry = scope == OutageSetup::Scope::Place ? 0.0 : 0.5;
   plan.radio.duplicates = 0.1;
   plan.radio.places = {.ap_spacing_m = 10.0, .roaming_at_crossing = scope == OutageSetup::Scope::Link, .roaming_border_m = 1.0};
-  plan.radio.contention.interference = true;
+  plan.radio.contention = {.interference = true, .contention_window = 7};
   plan.sources = {.count = 3, .like = {.mean_on_s = 2.0, .mean_off_s = 4.0}};
   RadioTrace trace;
   for (int i = 0; i < 100; ++i) {
