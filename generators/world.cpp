@@ -80,11 +80,11 @@ class WorldMaker {
 
   bool attempt(std::uint32_t number) {
     scenario_.vehicle_types = {envelope(spec_.vehicles)};
+    scenario_.obstacles.clear();
+    scenario_.faults.clear();
     if (!draw_map(number) || !place(number)) return false;
     const bool stored = assign_orders(number);
     draw_types(number);
-    scenario_.obstacles.clear();
-    scenario_.faults.clear();
     draw_faults(scenario_, spec_.faults, key_of(Stream::Faults));
     if (const auto problems = unusable_problems(scenario_); !problems.empty()) throw InputError(problems[0].pointer, problems[0].sentence);
     const auto problems = world_problems(scenario_, *reachability_);
