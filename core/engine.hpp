@@ -117,6 +117,7 @@ class Engine {
   void load_taken_up(const Agv& agv, TransportId transport);
   void fault_strikes(Agv& agv, std::uint64_t number);
   void fault_over(Agv& agv, std::uint64_t number);
+  void fault_halt_ends(Agv& agv, std::uint64_t number);
   std::uint64_t halt(Agv& agv, Halt::Reason reason);
   void end_halt(Agv& agv, std::uint64_t number);
   void end_halts(Agv& agv, Halt::Reason reason);
@@ -137,6 +138,7 @@ class Engine {
   void take_off_floor(Agv& agv);
   void look_for_place(Agv& agv);
   void is_set_down(Agv& agv);
+  bool is_on_the_way(const OrientedRectangle& place, double margin_m) const;
   bool transports_are_open() const;
   bool has_open_transport(const Agv& agv) const;
   bool stands_still() const;

@@ -1,5 +1,6 @@
 // Faults strike, bodies come and go, an AGV halts wherever it is and goes on.
 #include <algorithm>
+#include <utility>
 
 #include "core/engine.hpp"
 #include "core/error.hpp"
@@ -54,9 +55,17 @@ void Engine::fault_strikes(Agv& agv, std::uint64_t number) {
 
 void Engine::fault_over(Agv& agv, std::uint64_t number) {
   const Fault& fault = scenario_.faults[number];
+  if (holds_agv(fault.kind)) return fault_halt_ends(agv, number);
   trace(agv.id, TraceKind::FaultOver, static_cast<std::uint64_t>(fault.kind), number);
-  if (holds_agv(fault.kind)) end_halt(agv, fault_halts_[number]);
   if (fault.kind == Fault::Kind::Restart) agent_comes_back(agv);
+}
+
+// At its time, or before it in the hands of the operator.
+void Engine::fault_halt_ends(Agv& agv, std::uint64_t number) {
+  const std::uint64_t halt = std::exchange(fault_halts_[number], std::uint64_t{0});
+  if (halt == 0) return;
+  trace(agv.id, TraceKind::FaultOver, static_cast<std::uint64_t>(scenario_.faults[number].kind), number);
+  end_halt(agv, halt);
 }
 
 // ---- halts

@@ -68,6 +68,9 @@ void Engine::change_battery(Agv& agv) {
 // Everything that holds the AGV ends here, but it stays out of order until it is set down.
 void Engine::take_off_floor(Agv& agv) {
   assisted(agv, Assist::Contact);
+  for (std::size_t i = 0; i < scenario_.faults.size(); ++i) {
+    if (scenario_.faults[i].agv == agv.id) fault_halt_ends(agv, i);
+  }
   agv.halts.clear();
   agv.plan_waits = false;
   agv.scanner_muted = false;
@@ -81,13 +84,35 @@ void Engine::look_for_place(Agv& agv) {
   const Footprint footprint = type_of(agv).footprint_with(is_loaded(agv));
   const double margin_m = std::max(0.0, scenario_.law.safety_distance_m - kBuiltExactly_m);
   const auto places = recovery_places(*scenario_.map, agv.station, agv.stopped_on, world_.pose_of(agv.id, now_));
-  const auto place = std::ranges::find_if(places, [&](const RecoveryPlace& p) { return world_.stays_free(placed(footprint, p.pose), margin_m, now_); });
+  const auto place = std::ranges::find_if(places, [&](const RecoveryPlace& p) {
+    const OrientedRectangle body = placed(footprint, p.pose);
+    return world_.stays_free(body, margin_m, now_) && !is_on_the_way(body, margin_m);
+  });
   if (place == places.end()) return queue_.push(now_ + kTriesAgain, agv.id, Event::Kind::BodyAppears);
   world_.forget_touches(agv.id);
+  radio_.is_carried(agv.id);
   world_.put_on_floor(agv.id, footprint, place->pose, now_);
   trace(agv.id, TraceKind::Appears, place->station.value);
   agv.station = place->station;
   is_set_down(agv);
+}
+
+// Whether a lane passes there that an AGV has begun to drive or will drive next.
+bool Engine::is_on_the_way(const OrientedRectangle& place, double margin_m) const {
+  Box box;
+  box.add(place);
+  const auto passes = [&](const Agv& agv, const Lane* lane) {
+    if (lane == nullptr) return false;
+    Piece drive = rest_piece(agv.id, type_of(agv).footprint_with(is_loaded(agv)), lane->curve.pose_at(0.0), now_);
+    drive.manner = Manner::Drive;
+    drive.curve = &lane->curve;
+    drive.profile = MotionProfile(lane->curve.length_m(), type_of(agv).drive);
+    return drive.swept_box(drive.begin + drive.profile.duration()).grown(margin_m).overlaps(box);
+  };
+  return std::ranges::any_of(agvs_, [&](const Agv& agv) {
+    if (agv.out_of_order) return false;
+    return ((agv.acting || agv.committed) && passes(agv, agv.plan.lane)) || (agv.next && passes(agv, agv.next->lane));
+  });
 }
 
 void Engine::is_set_down(Agv& agv) {

@@ -55,8 +55,8 @@ enum class Assist : std::uint8_t {
 };
 
 // The person who helps, somebody for each call. Only a contact lets him move an AGV: he takes it off the floor, ends what holds it, changes the
-// battery if that is empty, and sets it down, with its load, as soon as the place is clear by the safety distance of every body and of where its
-// present drive or turn takes it; he tries every second. The agent starts there, without memory and with the next boot number; orders not done are
+// battery if that is empty, and sets it down, with its load, as soon as the place is clear by the safety distance of every body, of where its
+// present drive or turn takes it, and of the lanes that AGVs have begun to drive or will drive next; he tries every second. The agent starts there, without memory and with the next boot number; orders not done are
 // told again. What the contact was counted as stays. At a standstill he restarts the agent whose AGV, with a transport open, has begun and ended
 // nothing for the longest (of equals the first) and which nothing else holds; he is called again when that has helped nobody for another
 // `stuck_after`. A restart is no action: whether the run ends stuck is judged as ever.

@@ -42,6 +42,7 @@ class Radio {
   void piece_begins(const Piece& piece) {
     if (crossings_.is_on()) crossings_.piece_begins(piece);
   }
+  void is_carried(AgvId agv) { crossings_.is_carried(agv); }
   Fate fate(AgvId sender, AgvId receiver, SimTime sent, std::uint32_t ordinal, const LinkPlaces& places = {});
   // The outage process that this receiver meets on messages of this sender. Scope Place has none.
   OutageProcess& process_of(AgvId sender, AgvId receiver);

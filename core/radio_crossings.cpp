@@ -77,6 +77,12 @@ void RadioCrossings::piece_begins(const Piece& piece) {
   }
 }
 
+void RadioCrossings::is_carried(AgvId agv) {
+  if (agv.index() >= tracks_.size()) return;
+  tracks_[agv.index()].is_known = false;
+  tracks_[agv.index()].ahead.clear();
+}
+
 void RadioCrossings::catch_up(AgvId agv, Track& track, SimTime t) {
   for (; !track.ahead.empty() && track.ahead.front().at <= t; track.ahead.pop_front()) {
     const double share = unit_interval(word64(philox(key_, {track.crossings++, kCrossingDraw << 1, agv.value, 0}), 0));

@@ -23,6 +23,8 @@ class RadioCrossings {
   bool is_on() const { return setup_.roaming_at_crossing; }
   // The AGV does this from now on, and did what it was doing until now.
   void piece_begins(const Piece& piece);
+  // Somebody moves it to where its next piece begins, which is no crossing.
+  void is_carried(AgvId agv);
   // Whether it is changing over at t, which lies in its latest piece and does not decrease from call to call.
   bool is_deaf(AgvId agv, SimTime t);
 

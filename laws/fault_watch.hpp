@@ -1,29 +1,48 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "core/faults.hpp"
 #include "core/law.hpp"
+#include "core/scenario.hpp"
 
 namespace fleetproof {
 
-// Whether a fault holds anybody where it is: what the fleet does not do meanwhile is nobody's fault.
+// Whether anybody is held by a breakdown, by a protective stop, or out of order until the operator has set it down somewhere else: what the fleet does
+// not do meanwhile is nobody's fault.
 class FaultWatch {
  public:
-  static constexpr TraceKinds reads() { return {TraceKind::FaultStrikes, TraceKind::FaultOver}; }
-  // True if the record was one of these.
+  explicit FaultWatch(const Scenario& scenario)
+      : out_of_order_(scenario.operator_help.on && scenario.contact_stops ? scenario.agvs.size() : 0) {}
+
+  static constexpr TraceKinds reads() { return {TraceKind::FaultStrikes, TraceKind::FaultOver, TraceKind::Contact, TraceKind::Appears}; }
+  // True if the record was one of a fault, and of interest to nobody else.
   bool note(const TraceRecord& record) {
+    if (record.kind == TraceKind::Contact) {
+      is_out_of_order(record.entity.index(), true, record.at);
+      is_out_of_order(record.a, true, record.at);
+    }
+    if (record.kind == TraceKind::Appears) is_out_of_order(record.entity.index(), false, record.at);
     if (record.kind != TraceKind::FaultStrikes && record.kind != TraceKind::FaultOver) return false;
-    const auto kind = static_cast<Fault::Kind>(record.a);
-    if (!holds_agv(kind)) return true;
-    held_ += record.kind == TraceKind::FaultStrikes ? 1 : -1;
-    last_ = record.at;
+    if (holds_agv(static_cast<Fault::Kind>(record.a))) changes(record.kind == TraceKind::FaultStrikes, record.at);
     return true;
   }
   bool holds_anybody() const { return held_ > 0; }
   SimTime last() const { return last_; }  // when that was last so, if it is not now
 
  private:
+  void is_out_of_order(std::uint64_t agv, bool now, SimTime at) {
+    if (agv >= out_of_order_.size() || out_of_order_[agv] == now) return;
+    out_of_order_[agv] = now;
+    changes(now, at);
+  }
+  void changes(bool one_more, SimTime at) {
+    held_ += one_more ? 1 : -1;
+    last_ = at;
+  }
+
+  std::vector<bool> out_of_order_;  // by AGV; empty if contacts are left alone, or for good
   int held_ = 0;
   SimTime last_ = kStart;
 };

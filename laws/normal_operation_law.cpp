@@ -16,7 +16,7 @@ constexpr Duration kSecond = std::chrono::seconds(1);
 class NormalOperationLaw final : public Law {
  public:
   explicit NormalOperationLaw(const Scenario& scenario)
-      : scenario_(scenario), reaction_(seconds(scenario.law.reaction_s)), quality_(scenario.agvs.size()), agvs_(scenario.agvs.size()) {}
+      : scenario_(scenario), reaction_(seconds(scenario.law.reaction_s)), quality_(scenario.agvs.size()), agvs_(scenario.agvs.size()), faults_(scenario) {}
 
   void piece_ended(const Piece&) override {}
   TraceKinds reads() const override {
@@ -78,12 +78,16 @@ void NormalOperationLaw::happened(const TraceRecord& record) {
     case TraceKind::LoadMoves:
       if (record.b >> 32 == static_cast<std::uint64_t>(Holder::Kind::ClearedAway)) open_ -= open_ > 0 ? 1 : 0;  // nobody can do it any more
       break;
-    default: {
+    case TraceKind::ActivityBegins:
+    case TraceKind::ActivityEnds: {
       const auto kind = static_cast<ActivityKind>(record.a);
       if (kind == ActivityKind::Park || kind == ActivityKind::Charge || kind == ActivityKind::Transmit) break;
       agvs_[record.entity.index()].busy = record.kind == TraceKind::ActivityBegins;
       active_at_ = record.at;
+      break;
     }
+    default:
+      break;
   }
 }
 

@@ -105,6 +105,7 @@ ProgressLaw::ProgressLaw(const Scenario& scenario)
       stuck_after_(scenario.stuck_after),
       look_every_(std::max(kShortestLook, stuck_after_ / kLooksPerStuckAfter)),
       bodies_(scenario),
+      faults_(scenario),
       agvs_(scenario.agvs.size()),
       next_look_(kStart + look_every_) {
   for (std::size_t i = 0; i < scenario.agvs.size(); ++i) {

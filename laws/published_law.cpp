@@ -53,6 +53,14 @@ const Piece* PublishedLaw::piece_at(EntityId entity, SimTime t) const {
   return later == pieces.begin() || (later - 1)->end < t ? nullptr : &*(later - 1);
 }
 
+bool PublishedLaw::is_there_throughout(EntityId entity, SimTime begin, SimTime end) const {
+  SimTime covered = begin;
+  for (const Piece& piece : timeline(entity)) {
+    if (piece.begin <= covered) covered = std::max(covered, piece.end);
+  }
+  return covered >= end && piece_at(entity, begin) != nullptr;
+}
+
 bool PublishedLaw::checked(bool overlap) {
   ++perimeter_checks_;
   return overlap;

@@ -29,6 +29,8 @@ class PublishedLaw : public Law {
   std::span<const Piece> timeline(EntityId entity) const { return timelines_[entity.index()]; }
   // The piece that covers `t`; at a seam the later one. Null while the entity is not on the floor.
   const Piece* piece_at(EntityId entity, SimTime t) const;
+  // Whether its pieces cover the interval: it is not taken off the floor meanwhile.
+  bool is_there_throughout(EntityId entity, SimTime begin, SimTime end) const;
   double threshold_m() const { return threshold_m_; }
   Duration step() const { return step_; }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/activity.hpp"
+#include "core/faults.hpp"
 #include "core/sdk/fleetproof/agent.h"
 #include "generators/exempt_pairs.hpp"
 #include "generators/purpose_words.hpp"
@@ -30,6 +31,16 @@ std::string counters_text(const Outcome& outcome) {
                         c.loads_cleared, c.scanner_stops, c.scanner_saves, c.assists);
   }
   return text;
+}
+
+const char* text_of(Assist assist) {
+  switch (assist) {
+    case Assist::Battery: return "with the battery";
+    case Assist::Jam: return "past what the scanner sees";
+    case Assist::Contact: return "after a contact: takes it off the floor";
+    case Assist::Standstill: return "at a standstill: restarts the agent";
+  }
+  return "?";
 }
 
 std::string holder_text(const Scenario& scenario, std::uint64_t holder) {
@@ -145,10 +156,12 @@ void TracePrinter::record(const TraceRecord& record, std::string_view text) {
     case TraceKind::FaultStrikes:
     case TraceKind::FaultOver: what = name_of(static_cast<Fault::Kind>(record.a)); break;
     case TraceKind::ScannerStops: what = "for " + body_name(scenario_, EntityId{static_cast<std::uint32_t>(record.a)}); break;
-    case TraceKind::OperatorAssists: what = static_cast<Assist>(record.a) == Assist::Battery ? "with the battery" : "past what the scanner sees"; break;
+    case TraceKind::OperatorAssists: what = text_of(static_cast<Assist>(record.a)); break;
     case TraceKind::BatteryEmpty:
-    case TraceKind::Appears:
     case TraceKind::Leaves: break;
+    case TraceKind::Appears:
+      if (record.entity.index() < scenario_.agvs.size()) what = "at " + scenario_.map->station(StationId{static_cast<std::uint32_t>(record.a)}).name;
+      break;
     case TraceKind::Probe:
     case TraceKind::Log: what = std::string(text); break;
     default: what = fmt::format("{}", record.a); break;

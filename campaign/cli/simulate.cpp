@@ -14,6 +14,7 @@
 #include "generators/purpose_words.hpp"
 #include "generators/scenario_file.hpp"
 #include "laws/comparison.hpp"
+#include "laws/exact_law.hpp"
 #include "laws/laws.hpp"
 
 namespace fleetproof::cli {
@@ -90,6 +91,8 @@ Observers observers_of(const std::string& name, const Scenario& scenario) {
   if (!observers.laws.empty() && !published) return observers;
   std::ranges::move(make_default_laws(scenario), std::back_inserter(observers.laws));
   if (!published) return observers;
+  // What is exempt is no mistake of a rule that knows no exemptions.
+  observers.laws[1] = make_exact_law(scenario);
   observers.compared_with = observers.laws[1].get();
   auto timelines = std::make_unique<TimelineKeeper>(scenario);
   observers.timelines = timelines.get();

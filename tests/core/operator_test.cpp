@@ -133,7 +133,10 @@ TEST(AfterAContact, TheSameTwoMayTouchAgain) {
   Scenario scenario = row_of_tens({0, 1}, 100.0);
   scenario.operator_help = comes_after(20.0);
   const Helped seen = run(scenario, [](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
-    if (e.kind == FP_EVENT_START && b.self == 0 && b.boot < 2) host.move(c, 0);
+    if (b.self != 0) return;
+    if (e.kind == FP_EVENT_START && b.boot == 0) host.move(c, 0);
+    if (e.kind == FP_EVENT_START && b.boot == 1) host.set_timer(c, 1, 60'000'000'000);
+    if (e.kind == FP_EVENT_TIMER) host.move(c, 0);
   });
   EXPECT_EQ(seen.outcome.counters.contacts, 2U) << "0 at station 1 drives back to station 0, where 1 stands by then";
   EXPECT_EQ(seen.assists(kContact).size(), 4U);
@@ -156,6 +159,8 @@ TEST(AfterAContact, WhatHeldTheAgvHoldsItNoLonger) {
   const double set_down_s = to_seconds(seen.trace.of(TraceKind::Contact).at(0).at) + seen.set_down_s(EntityId{0U});
   ASSERT_EQ(done_s.size(), 1U);
   EXPECT_NEAR(done_s[0], set_down_s + 8.0, 1e-8);
+  ASSERT_EQ(seen.trace.of(TraceKind::FaultOver).size(), 1U);
+  EXPECT_EQ(seen.trace.of(TraceKind::FaultOver)[0].at, seen.assists(kContact)[0].at) << "the stop, which would have lasted on";
 }
 
 TEST(AfterAContact, WhatItWasAboutToDoIsForgotten) {

@@ -20,6 +20,19 @@ TEST(PaperLaw, AccusesWhatStandsInAnActivityPerimeterForTheWholeActivity) {
   EXPECT_EQ(findings.perimeter_checks, 1U);
 }
 
+TEST(PaperLaw, LeavesOutWhoIsTakenOffTheFloorMeanwhile) {
+  Scene scene(12.0);
+  scene.agv(facing(0.0, 0.0, 1.0, 0.0)).drive(10.0);
+  const Timeline& stands = scene.agv(facing(5.0, 1.05, 1.0, 0.0));
+  const auto law = make_paper_law(scene.scenario);
+  for (const Piece& piece : scene.bodies[0].until(scene.end)) law->piece_started(piece), law->piece_ended(piece);
+  Piece before = stands.until(at_seconds(3.0))[0], after = before;
+  after.begin = at_seconds(5.0), after.end = scene.end;
+  for (const Piece& piece : {before, after}) law->piece_started(piece), law->piece_ended(piece);
+  law->finish(scene.end);
+  EXPECT_TRUE(law->findings().violations.empty());
+}
+
 TEST(PaperLaw, CountsAnObstacleAsAStationaryEntity) {
   Scene scene(12.0);
   scene.agv(facing(0.0, 0.0, 1.0, 0.0)).drive(10.0);
