@@ -102,6 +102,16 @@ TEST_F(NormalOperation, AnAgentMayTakeItsTimeToLeaveSafeMode) {
   EXPECT_THAT(quiet_later(50.0), IsEmpty());
 }
 
+TEST_F(NormalOperation, WhoWaitsForTheOperatorAfterAContactIsExcused) {
+  for (const bool comes : {false, true}) {
+    scenario_.operator_help.on = comes;
+    const auto found = run(200.0, 1, 0.1, [](Told& told, int second) {
+      if (second == 1) told.record(1.0, 0, TraceKind::OrderReleased, 0).record(1.0, 0, TraceKind::Contact, 1).record(1.0, 99, TraceKind::Appears);
+    });
+    EXPECT_EQ(found.empty(), comes) << "the last of the records is about none of the fleet";
+  }
+}
+
 TEST_F(NormalOperation, AFleetThatStandsWithOpenTransportsIsAccused) {
   scenario_.stuck_after = seconds(20.0);
   const auto order = [](Told& told, int second) {

@@ -92,6 +92,16 @@ TEST_F(Progress, NobodyWaitsForIt) {
   }
 }
 
+TEST_F(Progress, WhoWaitsForTheOperatorAfterAContactIsExcused) {
+  for (const bool comes : {false, true}) {
+    scenario_.operator_help.on = comes;
+    Told law = told();
+    both_released(law);
+    law.record(3.0, 0, TraceKind::Contact, 1).record(5.0, 99, TraceKind::Appears);  // the latter is none of the fleet
+    EXPECT_EQ(law.finish(600.0).incidents.empty(), comes);
+  }
+}
+
 TEST_F(Progress, AndStartsAfreshWhereItIsSetDown) {
   Told law = told();
   both_released(law);
