@@ -142,6 +142,15 @@ TEST(AfterAContact, TheSameTwoMayTouchAgain) {
   EXPECT_EQ(seen.assists(kContact).size(), 4U);
 }
 
+TEST(AfterAContact, NobodyIsSetDownOnALaneThatWillBeDriven) {
+  Scenario scenario = row_of_tens({0, 1}, 100.0);
+  scenario.operator_help = comes_after(20.0);
+  const Helped seen = run(scenario, [](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
+    if (e.kind == FP_EVENT_START && b.self == 0 && b.boot < 2) host.move(c, 0);
+  });
+  EXPECT_EQ(seen.outcome.counters.contacts, 1U) << "0, which has to turn first, drives back from station 1 to station 0";
+}
+
 TEST(AfterAContact, WhatHeldTheAgvHoldsItNoLonger) {
   Scenario scenario = row_of_tens({1, 0}, 200.0);
   scenario.faults = {fault(Fault::Kind::ProtectiveStop, 1.0, 150.0)};

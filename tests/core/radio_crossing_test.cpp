@@ -43,6 +43,16 @@ bool deaf_at(const RadioCrossings& crossings, AgvId agv, double t_s) {
   return copy.is_deaf(agv, at_seconds(t_s));
 }
 
+TEST(CellCrossing, BeingCarriedIsNone) {
+  for (const bool carried : {false, true}) {
+    RadioCrossings crossings(crossing(1.5, 1.5), 3);
+    crossings.piece_begins(rest(kA, {0.0, 0.0}));
+    if (carried) crossings.is_carried(kA);
+    crossings.piece_begins(rest(kA, {25.0, 0.0}, at_seconds(20.0)));
+    EXPECT_EQ(deaf_at(crossings, kA, 21.0), !carried);
+  }
+}
+
 TEST(CellCrossing, MakesDeafFromTheInstantOfTheBorderForTheTimeDrawn) {
   const Curve curve = Curve::straight({0.0, 1.0}, {40.0, 1.0});  // borders at 10 m, 7 s after the start, and at 30 m, 10 s later
   RadioCrossings crossings(crossing(1.5, 1.5), 3);
