@@ -4,7 +4,7 @@
 #include <limits>
 #include <map>
 
-#include "core/activity.hpp"
+#include "core/motion/activity.hpp"
 #include "laws/whereabouts.hpp"
 
 namespace fleetproof {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "laws/stretch.hpp"
 
 namespace fleetproof {

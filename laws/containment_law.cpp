@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/activity.hpp"
+#include "core/motion/activity.hpp"
 #include "laws/whereabouts.hpp"
 
 namespace fleetproof {

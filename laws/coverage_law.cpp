@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-#include "core/clearance_over_time.hpp"
+#include "core/clearance/clearance_over_time.hpp"
 #include "laws/encounter.hpp"
 #include "laws/stretch.hpp"
 #include "laws/whereabouts.hpp"

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/piece.hpp"
+#include "core/motion/piece.hpp"
 
 namespace fleetproof {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "core/clearance_over_time.hpp"
-#include "core/error.hpp"
+#include "core/clearance/clearance_over_time.hpp"
+#include "core/base/error.hpp"
 #include "laws/broad_phase.hpp"
 #include "laws/second_opinion.hpp"
 #include "laws/stretch.hpp"

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/faults.hpp"
-#include "core/law.hpp"
-#include "core/scenario.hpp"
+#include "core/scenario/faults.hpp"
+#include "core/outcome/law.hpp"
+#include "core/scenario/scenario.hpp"
 
 namespace fleetproof {
 

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "core/law.hpp"
+#include "core/outcome/law.hpp"
 
 namespace fleetproof {
 

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/catalogue.hpp"
-#include "core/law.hpp"
+#include "core/base/catalogue.hpp"
+#include "core/outcome/law.hpp"
 
 namespace fleetproof {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/law.hpp"
+#include "core/outcome/law.hpp"
 
 namespace fleetproof {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "core/activity.hpp"
+#include "core/motion/activity.hpp"
 #include "laws/fault_watch.hpp"
 #include "laws/link_quality.hpp"
 

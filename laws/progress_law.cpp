@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/activity.hpp"
+#include "core/motion/activity.hpp"
 #include "laws/fault_watch.hpp"
 #include "laws/standing_in_the_way.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "laws/second_opinion.hpp"
 
 namespace fleetproof {

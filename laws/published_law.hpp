@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "core/law.hpp"
+#include "core/outcome/law.hpp"
 #include "laws/stretch.hpp"
 
 namespace fleetproof {

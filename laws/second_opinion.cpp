@@ -8,7 +8,7 @@
 #include <cmath>
 #include <memory>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace fleetproof {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "core/clearance_over_time.hpp"
-#include "core/outcome.hpp"
-#include "core/scenario.hpp"
+#include "core/clearance/clearance_over_time.hpp"
+#include "core/outcome/outcome.hpp"
+#include "core/scenario/scenario.hpp"
 
 namespace fleetproof {
 

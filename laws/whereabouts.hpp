@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/law.hpp"
+#include "core/outcome/law.hpp"
 
 namespace fleetproof {
 

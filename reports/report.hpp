@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/catalogue.hpp"
+#include "core/base/catalogue.hpp"
 #include "reports/evidence/evidence.hpp"
 #include "storage/archive.hpp"
 

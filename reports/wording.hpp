@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/sim_time.hpp"
+#include "core/base/sim_time.hpp"
 #include "reports/evidence/tally.hpp"
 #include "storage/records.hpp"
 

@@ -7,7 +7,7 @@
 #include <bit>
 #include <filesystem>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "storage/archive.hpp"
 #include "storage/checksum.hpp"
 #include "storage/rows.hpp"

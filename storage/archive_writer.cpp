@@ -10,7 +10,7 @@
 #include <limits>
 #include <optional>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "storage/archive.hpp"
 #include "storage/canonical_file.hpp"
 #include "storage/checksum.hpp"

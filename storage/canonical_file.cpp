@@ -14,7 +14,7 @@
 #include <filesystem>
 #include <limits>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "storage/checksum.hpp"
 #include "storage/schema.hpp"
 #include "storage/sqlite_errors.hpp"

@@ -5,7 +5,7 @@
 #include <array>
 #include <bit>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace fleetproof {
 namespace {

@@ -7,7 +7,7 @@
 #include <array>
 #include <bit>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "storage/schema.hpp"
 
 namespace fleetproof {

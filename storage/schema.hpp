@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/outcome.hpp"
+#include "core/outcome/outcome.hpp"
 
 namespace fleetproof {
 

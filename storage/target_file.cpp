@@ -9,7 +9,7 @@
 #include <fstream>
 #include <string_view>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "storage/schema.hpp"
 
 namespace fleetproof {

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "campaign/agent_programs.hpp"
-#include "campaign/campaign_file.hpp"
+#include "campaign/run/agent_programs.hpp"
+#include "campaign/plan/campaign_file.hpp"
 
 namespace fleetproof::cli {
 

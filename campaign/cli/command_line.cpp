@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <memory>
 
-#include "campaign/campaign.hpp"
-#include "core/catalogue.hpp"
-#include "core/error.hpp"
+#include "campaign/run/campaign.hpp"
+#include "core/base/catalogue.hpp"
+#include "core/base/error.hpp"
 
 namespace fleetproof::cli {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "campaign/campaign.hpp"
+#include "campaign/run/campaign.hpp"
 
 namespace fleetproof::cli {
 

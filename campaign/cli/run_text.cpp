@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
-#include "core/activity.hpp"
-#include "core/faults.hpp"
+#include "core/motion/activity.hpp"
+#include "core/scenario/faults.hpp"
 #include "core/sdk/fleetproof/agent.h"
-#include "generators/exempt_pairs.hpp"
-#include "generators/purpose_words.hpp"
+#include "generators/scenario_file/exempt_pairs.hpp"
+#include "generators/formats/purpose_words.hpp"
 
 namespace fleetproof::cli {
 namespace {

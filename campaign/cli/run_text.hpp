@@ -3,9 +3,9 @@
 #include <string>
 #include <string_view>
 
-#include "core/outcome.hpp"
-#include "core/scenario.hpp"
-#include "core/trace.hpp"
+#include "core/outcome/outcome.hpp"
+#include "core/scenario/scenario.hpp"
+#include "core/outcome/trace.hpp"
 #include "laws/comparison.hpp"
 
 namespace fleetproof::cli {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace fleetproof {
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/outcome.hpp"
+#include "core/outcome/outcome.hpp"
 
 namespace fleetproof {
 

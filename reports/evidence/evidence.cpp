@@ -5,7 +5,7 @@
 #include <tuple>
 #include <utility>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace fleetproof {
 namespace {

@@ -4,7 +4,7 @@
 #include <limits>
 #include <tuple>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace fleetproof {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "core/geometry/rectangle.hpp"
 #include "core/geometry/rotation.hpp"
-#include "core/random.hpp"
+#include "core/base/random.hpp"
 
 namespace fleetproof {
 namespace {

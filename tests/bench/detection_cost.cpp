@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "campaign/agent_programs.hpp"
-#include "core/simulation.hpp"
+#include "campaign/run/agent_programs.hpp"
+#include "core/engine/simulation.hpp"
 #include "laws/laws.hpp"
 #include "tests/laws/timeline.hpp"
 #include "tests/support/grid_world.hpp"

@@ -3,10 +3,10 @@
 
 #include <deque>
 
-#include "campaign/agent_programs.hpp"
-#include "core/simulation.hpp"
-#include "generators/layout_family.hpp"
-#include "generators/world.hpp"
+#include "campaign/run/agent_programs.hpp"
+#include "core/engine/simulation.hpp"
+#include "generators/families/layout_family.hpp"
+#include "generators/worlds/world_maker.hpp"
 #include "laws/laws.hpp"
 
 namespace fleetproof {

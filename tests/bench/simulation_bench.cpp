@@ -1,8 +1,8 @@
 // Whole runs: how many a second, and what each costs in counts that no machine changes.
 #include <benchmark/benchmark.h>
 
-#include "campaign/agent_programs.hpp"
-#include "core/simulation.hpp"
+#include "campaign/run/agent_programs.hpp"
+#include "core/engine/simulation.hpp"
 #include "laws/laws.hpp"
 #include "tests/bench/allocations.hpp"
 #include "tests/support/grid_world.hpp"

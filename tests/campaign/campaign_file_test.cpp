@@ -1,4 +1,4 @@
-#include "campaign/campaign_file.hpp"
+#include "campaign/plan/campaign_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,10 +8,10 @@
 #include <fstream>
 #include <set>
 
-#include "campaign/scenario_source.hpp"
-#include "core/error.hpp"
-#include "generators/radio_fields.hpp"
-#include "generators/scenario_file.hpp"
+#include "campaign/plan/scenario_source.hpp"
+#include "core/base/error.hpp"
+#include "generators/scenario_file/radio_fields.hpp"
+#include "generators/scenario_file/scenario_file.hpp"
 
 namespace fleetproof {
 namespace {

@@ -4,14 +4,14 @@
 
 #include <set>
 
-#include "campaign/agent_programs.hpp"
-#include "campaign/campaign_file.hpp"
-#include "campaign/scenario_source.hpp"
-#include "core/error.hpp"
-#include "core/radio.hpp"
-#include "core/simulation.hpp"
-#include "generators/layout_file.hpp"
-#include "generators/scenario_file.hpp"
+#include "campaign/run/agent_programs.hpp"
+#include "campaign/plan/campaign_file.hpp"
+#include "campaign/plan/scenario_source.hpp"
+#include "core/base/error.hpp"
+#include "core/radio/radio.hpp"
+#include "core/engine/simulation.hpp"
+#include "generators/formats/layout_file.hpp"
+#include "generators/scenario_file/scenario_file.hpp"
 #include "tests/storage/sample_records.hpp"
 
 namespace fleetproof {

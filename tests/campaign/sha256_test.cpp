@@ -1,4 +1,4 @@
-#include "campaign/sha256.hpp"
+#include "campaign/run/sha256.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "campaign/task_pool.hpp"
+#include "campaign/run/task_pool.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "campaign/unit_sample.hpp"
+#include "campaign/plan/unit_sample.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <set>
 #include <vector>
 
-#include "campaign/sobol.hpp"
+#include "campaign/plan/sobol.hpp"
 
 namespace fleetproof {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <map>
 
-#include "campaign/campaign.hpp"
-#include "campaign/campaign_file.hpp"
+#include "campaign/run/campaign.hpp"
+#include "campaign/plan/campaign_file.hpp"
 #include "reports/evidence/binomial.hpp"
 #include "storage/archive.hpp"
 #include "tests/support/program.hpp"

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "core/random.hpp"
+#include "core/base/random.hpp"
 #include "laws/laws.hpp"
 #include "storage/archive.hpp"
 #include "tests/contract/small_campaign.hpp"

@@ -1,9 +1,9 @@
 // The verb that draws layouts: the same seed gives the same file, and the layout that worlds of this seed are built on.
 #include <gtest/gtest.h>
 
-#include "generators/layout_family.hpp"
-#include "generators/layout_file.hpp"
-#include "generators/world.hpp"
+#include "generators/families/layout_family.hpp"
+#include "generators/formats/layout_file.hpp"
+#include "generators/worlds/world_maker.hpp"
 #include "tests/support/program.hpp"
 
 namespace fleetproof {

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "generators/scenario_file.hpp"
+#include "generators/scenario_file/scenario_file.hpp"
 #include "storage/archive.hpp"
 #include "tests/contract/small_campaign.hpp"
 #include "tests/support/program.hpp"

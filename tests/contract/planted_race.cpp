@@ -1,8 +1,8 @@
 // A race planted in a run, for the thread sanitizer to find: the agent counts its events in a variable that all runs share.
 #include <cstdio>
 
-#include "campaign/task_pool.hpp"
-#include "core/simulation.hpp"
+#include "campaign/run/task_pool.hpp"
+#include "core/engine/simulation.hpp"
 #include "tests/support/worlds.hpp"
 
 namespace {

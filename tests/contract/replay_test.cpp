@@ -1,5 +1,5 @@
 // Every failing run comes back to the bit, and a file that was tampered with says so.
-#include "campaign/replay.hpp"
+#include "campaign/run/replay.hpp"
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>

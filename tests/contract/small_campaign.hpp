@@ -1,8 +1,8 @@
 #pragma once
 
-#include "campaign/campaign.hpp"
-#include "campaign/run_one.hpp"
-#include "core/simulation.hpp"
+#include "campaign/run/campaign.hpp"
+#include "campaign/run/run_one.hpp"
+#include "core/engine/simulation.hpp"
 #include "tests/support/hard_world.hpp"
 
 namespace fleetproof::test {

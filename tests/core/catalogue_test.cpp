@@ -1,4 +1,4 @@
-#include "core/catalogue.hpp"
+#include "core/base/catalogue.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/clearance_over_time.hpp"
+#include "core/clearance/clearance_over_time.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 
 #include <map>
 
-#include "core/random.hpp"
-#include "core/speed_plan.hpp"
+#include "core/base/random.hpp"
+#include "core/motion/speed_plan.hpp"
 #include "tests/support/worlds.hpp"
 
 namespace fleetproof {

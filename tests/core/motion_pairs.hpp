@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "core/clearance_over_time.hpp"
+#include "core/clearance/clearance_over_time.hpp"
 #include "core/geometry/rotation.hpp"
 
 // Random pairs of pieces that meet or nearly meet.

@@ -1,11 +1,11 @@
-#include "core/motion_profile.hpp"
+#include "core/motion/motion_profile.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace fleetproof {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/piece.hpp"
+#include "core/motion/piece.hpp"
 
 #include <gtest/gtest.h>
 

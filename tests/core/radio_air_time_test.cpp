@@ -5,7 +5,7 @@
 #include <random>
 #include <set>
 
-#include "core/radio_channel.hpp"
+#include "core/radio/radio_channel.hpp"
 #include "tests/support/exact_binomial.hpp"
 #include "tests/support/worlds.hpp"
 

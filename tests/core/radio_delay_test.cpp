@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/radio.hpp"
+#include "core/radio/radio.hpp"
 #include "tests/support/exact_binomial.hpp"
 
 namespace fleetproof {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "core/radio_channel.hpp"
+#include "core/radio/radio_channel.hpp"
 #include "tests/support/exact_binomial.hpp"
 #include "tests/support/worlds.hpp"
 

@@ -5,8 +5,8 @@
 #include <random>
 #include <set>
 
-#include "core/outage_process.hpp"
-#include "core/radio.hpp"
+#include "core/radio/outage_process.hpp"
+#include "core/radio/radio.hpp"
 #include "tests/support/exact_binomial.hpp"
 
 namespace fleetproof {

@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "core/radio.hpp"
+#include "core/radio/radio.hpp"
 #include "tests/support/exact_binomial.hpp"
 #include "tests/support/worlds.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/radio.hpp"
+#include "core/radio/radio.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/activity.hpp"
+#include "core/motion/activity.hpp"
 #include "tests/support/worlds.hpp"
 
 // What goes wrong, one fault at a time, on stations 10 m apart (a drive takes 8 s: 4 s up, 2 s level, 2 s down).

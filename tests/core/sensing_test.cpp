@@ -1,6 +1,6 @@
 // What an AGV's own clock, position and scanner make of the world.
-#include "core/agent_clock.hpp"
-#include "core/random.hpp"
+#include "core/engine/agent_clock.hpp"
+#include "core/base/random.hpp"
 #include "tests/core/row_of_tens.hpp"
 
 namespace fleetproof {

@@ -1,10 +1,10 @@
-#include "core/simulation.hpp"
+#include "core/engine/simulation.hpp"
 
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 
-#include "core/activity.hpp"
+#include "core/motion/activity.hpp"
 #include "tests/support/worlds.hpp"
 
 namespace fleetproof {

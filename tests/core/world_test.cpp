@@ -1,4 +1,4 @@
-#include "core/world.hpp"
+#include "core/engine/world.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "../generators/damage.hpp"
-#include "core/error.hpp"
-#include "generators/text_file.hpp"
+#include "core/base/error.hpp"
+#include "generators/text/text_file.hpp"
 #include "verdict.hpp"
 
 namespace fleetproof::fuzz {

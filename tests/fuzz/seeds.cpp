@@ -3,13 +3,13 @@
 #include <fstream>
 #include <iterator>
 
-#include "core/random.hpp"
-#include "generators/csv_layout.hpp"
-#include "generators/layout_family.hpp"
-#include "generators/layout_file.hpp"
-#include "generators/lif.hpp"
-#include "generators/scenario_file.hpp"
-#include "generators/world.hpp"
+#include "core/base/random.hpp"
+#include "generators/formats/csv_layout.hpp"
+#include "generators/families/layout_family.hpp"
+#include "generators/formats/layout_file.hpp"
+#include "generators/formats/lif.hpp"
+#include "generators/scenario_file/scenario_file.hpp"
+#include "generators/worlds/world_maker.hpp"
 
 namespace fleetproof::fuzz {
 namespace {

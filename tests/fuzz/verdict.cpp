@@ -5,11 +5,11 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "generators/csv_layout.hpp"
-#include "generators/layout_check.hpp"
-#include "generators/layout_file.hpp"
-#include "generators/lif.hpp"
-#include "generators/text_file.hpp"
+#include "generators/formats/csv_layout.hpp"
+#include "generators/map/layout_check.hpp"
+#include "generators/formats/layout_file.hpp"
+#include "generators/formats/lif.hpp"
+#include "generators/text/text_file.hpp"
 
 namespace fleetproof::fuzz {
 namespace {

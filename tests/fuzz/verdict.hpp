@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/layout.hpp"
+#include "core/base/error.hpp"
+#include "core/scenario/layout.hpp"
 
 namespace fleetproof::fuzz {
 

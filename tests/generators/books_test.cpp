@@ -7,11 +7,11 @@
 #include <map>
 #include <set>
 
-#include "core/activity.hpp"
+#include "core/motion/activity.hpp"
 #include "core/agents/agents.h"
-#include "core/error.hpp"
-#include "generators/layout_family.hpp"
-#include "generators/world.hpp"
+#include "core/base/error.hpp"
+#include "generators/families/layout_family.hpp"
+#include "generators/worlds/world_maker.hpp"
 #include "laws/laws.hpp"
 #include "tests/support/hard_world.hpp"
 #include "tests/support/worlds.hpp"

@@ -1,5 +1,5 @@
 // The queue of the search for quickest ways, against the one of the standard library.
-#include "generators/calendar_queue.hpp"
+#include "generators/map/calendar_queue.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <queue>
 #include <set>
 
-#include "core/random.hpp"
+#include "core/base/random.hpp"
 
 namespace fleetproof {
 namespace {

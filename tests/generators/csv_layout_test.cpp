@@ -1,11 +1,11 @@
-#include "generators/csv_layout.hpp"
+#include "generators/formats/csv_layout.hpp"
 
 #include <gtest/gtest.h>
 
 #include "damage.hpp"
-#include "generators/layout_family.hpp"
-#include "generators/layout_file.hpp"
-#include "generators/opentcs.hpp"
+#include "generators/families/layout_family.hpp"
+#include "generators/formats/layout_file.hpp"
+#include "generators/formats/opentcs.hpp"
 #include "real_layout.hpp"
 
 namespace fleetproof {

@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include "core/error.hpp"
-#include "core/random.hpp"
+#include "core/base/error.hpp"
+#include "core/base/random.hpp"
 
 // What every importer has to bear: cut and damaged files are read or refused with an InputError; nothing else comes out of it.
 namespace fleetproof::independent {

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <map>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "damage.hpp"
-#include "generators/order_list.hpp"
-#include "generators/reachability.hpp"
-#include "generators/scenario_file.hpp"
-#include "generators/transports.hpp"
-#include "generators/world.hpp"
+#include "generators/worlds/order_list.hpp"
+#include "generators/map/reachability.hpp"
+#include "generators/scenario_file/scenario_file.hpp"
+#include "generators/worlds/transports.hpp"
+#include "generators/worlds/world_maker.hpp"
 
 namespace fleetproof {
 namespace {

@@ -1,5 +1,5 @@
 // Placements in pairs, judged by an oracle of its own: Dijkstra in seconds over the plain layout, times of drives and turns in closed form.
-#include "generators/encounter_pairs.hpp"
+#include "generators/worlds/encounter_pairs.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,11 +11,11 @@
 #include <optional>
 #include <queue>
 
-#include "campaign/agent_programs.hpp"
-#include "core/simulation.hpp"
-#include "generators/layout_family.hpp"
-#include "generators/validator.hpp"
-#include "generators/world.hpp"
+#include "campaign/run/agent_programs.hpp"
+#include "core/engine/simulation.hpp"
+#include "generators/families/layout_family.hpp"
+#include "generators/scenario_file/validator.hpp"
+#include "generators/worlds/world_maker.hpp"
 #include "independent_check.hpp"
 #include "laws/laws.hpp"
 

@@ -1,4 +1,4 @@
-#include "generators/grid_map.hpp"
+#include "generators/formats/grid_map.hpp"
 
 #include <gtest/gtest.h>
 

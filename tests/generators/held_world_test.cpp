@@ -1,8 +1,8 @@
 // Streams held from another world, in families whose worlds are often refused and drawn again.
 #include <gtest/gtest.h>
 
-#include "generators/layout_file.hpp"
-#include "generators/world.hpp"
+#include "generators/formats/layout_file.hpp"
+#include "generators/worlds/world_maker.hpp"
 
 namespace fleetproof {
 namespace {

@@ -1,4 +1,4 @@
-#include "generators/importer.hpp"
+#include "generators/formats/importer.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "core/error.hpp"
-#include "generators/csv_layout.hpp"
-#include "generators/layout_file.hpp"
-#include "generators/lif.hpp"
+#include "core/base/error.hpp"
+#include "generators/formats/csv_layout.hpp"
+#include "generators/formats/layout_file.hpp"
+#include "generators/formats/lif.hpp"
 #include "independent_check.hpp"
 
 namespace fleetproof {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 
 // Judges layouts and scenarios without any code of the generators or of the geometry kernel: plain matrices, corners and samples.
 namespace fleetproof::independent {

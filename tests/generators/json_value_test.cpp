@@ -1,12 +1,12 @@
-#include "generators/json_value.hpp"
+#include "generators/text/json_value.hpp"
 
 #include <gtest/gtest.h>
 
 #include <bit>
 
-#include "core/error.hpp"
-#include "core/random.hpp"
-#include "generators/json_writer.hpp"
+#include "core/base/error.hpp"
+#include "core/base/random.hpp"
+#include "generators/text/json_writer.hpp"
 
 namespace fleetproof {
 namespace {

@@ -1,14 +1,14 @@
 // Every layout family over many seeds: room, reachability and sizes, measured without the generators' own judges.
-#include "generators/layout_family.hpp"
+#include "generators/families/layout_family.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
-#include "generators/layout_check.hpp"
-#include "generators/layout_file.hpp"
+#include "core/base/error.hpp"
+#include "generators/map/layout_check.hpp"
+#include "generators/formats/layout_file.hpp"
 #include "independent_check.hpp"
 
 namespace fleetproof {

@@ -1,10 +1,10 @@
-#include "generators/layout_file.hpp"
+#include "generators/formats/layout_file.hpp"
 
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
-#include "core/random.hpp"
-#include "generators/layout_family.hpp"
+#include "core/base/error.hpp"
+#include "core/base/random.hpp"
+#include "generators/families/layout_family.hpp"
 
 namespace fleetproof {
 namespace {

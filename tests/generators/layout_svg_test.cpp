@@ -1,12 +1,12 @@
 // The picture of a layout: sound XML, everything in it, the right way up.
-#include "generators/layout_svg.hpp"
+#include "generators/map/layout_svg.hpp"
 
 #include <gtest/gtest.h>
 
 #include <pugixml.hpp>
 
-#include "generators/layout_check.hpp"
-#include "generators/layout_family.hpp"
+#include "generators/map/layout_check.hpp"
+#include "generators/families/layout_family.hpp"
 #include "independent_check.hpp"
 
 namespace fleetproof {

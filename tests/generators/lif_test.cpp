@@ -1,14 +1,14 @@
-#include "generators/lif.hpp"
+#include "generators/formats/lif.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "damage.hpp"
-#include "generators/antiparallel.hpp"
-#include "generators/layout_family.hpp"
-#include "generators/layout_file.hpp"
-#include "generators/opentcs.hpp"
+#include "generators/map/antiparallel.hpp"
+#include "generators/families/layout_family.hpp"
+#include "generators/formats/layout_file.hpp"
+#include "generators/formats/opentcs.hpp"
 #include "real_layout.hpp"
 
 namespace fleetproof {

@@ -1,5 +1,5 @@
 // Mutations of a layout file: near to it, sound, strongly connected, and each one different.
-#include "generators/mutated_import.hpp"
+#include "generators/families/mutated_import.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,12 +8,12 @@
 #include <map>
 #include <set>
 
-#include "generators/importer.hpp"
-#include "generators/layout_check.hpp"
-#include "generators/layout_family.hpp"
-#include "generators/layout_file.hpp"
-#include "generators/validator.hpp"
-#include "generators/world.hpp"
+#include "generators/formats/importer.hpp"
+#include "generators/map/layout_check.hpp"
+#include "generators/families/layout_family.hpp"
+#include "generators/formats/layout_file.hpp"
+#include "generators/scenario_file/validator.hpp"
+#include "generators/worlds/world_maker.hpp"
 #include "independent_check.hpp"
 #include "real_layout.hpp"
 

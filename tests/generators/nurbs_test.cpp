@@ -1,4 +1,4 @@
-#include "generators/nurbs.hpp"
+#include "generators/formats/nurbs.hpp"
 
 #include <gtest/gtest.h>
 

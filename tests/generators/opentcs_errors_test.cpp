@@ -1,10 +1,10 @@
 // Broken plant models: a person is told where and what; a machine's garbage never gets past an InputError.
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
-#include "core/random.hpp"
+#include "core/base/error.hpp"
+#include "core/base/random.hpp"
 #include "damage.hpp"
-#include "generators/opentcs.hpp"
+#include "generators/formats/opentcs.hpp"
 #include "independent_check.hpp"
 
 namespace fleetproof {

@@ -1,4 +1,4 @@
-#include "generators/opentcs.hpp"
+#include "generators/formats/opentcs.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,10 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "core/error.hpp"
-#include "generators/layout_file.hpp"
-#include "generators/reachability.hpp"
-#include "generators/world.hpp"
+#include "core/base/error.hpp"
+#include "generators/formats/layout_file.hpp"
+#include "generators/map/reachability.hpp"
+#include "generators/worlds/world_maker.hpp"
 #include "independent_check.hpp"
 
 namespace fleetproof {

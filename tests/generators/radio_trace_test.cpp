@@ -1,9 +1,9 @@
-#include "generators/radio_trace.hpp"
+#include "generators/scenario_file/radio_trace.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace fleetproof {
 namespace {

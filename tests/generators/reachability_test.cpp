@@ -1,8 +1,8 @@
-#include "generators/reachability.hpp"
+#include "generators/map/reachability.hpp"
 
 #include <gtest/gtest.h>
 
-#include "core/random.hpp"
+#include "core/base/random.hpp"
 #include "independent_check.hpp"
 
 namespace fleetproof {

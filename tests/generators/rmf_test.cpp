@@ -1,4 +1,4 @@
-#include "generators/rmf.hpp"
+#include "generators/formats/rmf.hpp"
 
 #include <gtest/gtest.h>
 

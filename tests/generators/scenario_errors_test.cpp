@@ -3,9 +3,9 @@
 
 #include <set>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "damage.hpp"
-#include "generators/scenario_file.hpp"
+#include "generators/scenario_file/scenario_file.hpp"
 #include "independent_check.hpp"
 
 namespace fleetproof {

@@ -1,12 +1,12 @@
-#include "generators/scenario_file.hpp"
+#include "generators/scenario_file/scenario_file.hpp"
 
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
-#include "generators/layout_family.hpp"
-#include "generators/radio_fields.hpp"
-#include "generators/validator.hpp"
-#include "generators/world.hpp"
+#include "core/base/error.hpp"
+#include "generators/families/layout_family.hpp"
+#include "generators/scenario_file/radio_fields.hpp"
+#include "generators/scenario_file/validator.hpp"
+#include "generators/worlds/world_maker.hpp"
 #include "independent_check.hpp"
 
 namespace fleetproof {

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
-#include "generators/layout_check.hpp"
-#include "generators/layout_family.hpp"
-#include "generators/layout_file.hpp"
+#include "core/base/error.hpp"
+#include "generators/map/layout_check.hpp"
+#include "generators/families/layout_family.hpp"
+#include "generators/formats/layout_file.hpp"
 #include "independent_check.hpp"
 
 namespace fleetproof {

@@ -1,6 +1,6 @@
 // Quickest ways from every station to every other one, against Bellman and Ford and a drive along the lanes: one-way rings with dead ends and ways
 // into them, where most ways are copied from another station's, and whatever random lanes make.
-#include "generators/timetable.hpp"
+#include "generators/map/timetable.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "core/geometry/rotation.hpp"
-#include "core/motion_profile.hpp"
-#include "generators/layout_builder.hpp"
+#include "core/motion/motion_profile.hpp"
+#include "generators/families/layout_builder.hpp"
 
 namespace fleetproof {
 namespace {

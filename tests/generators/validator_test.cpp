@@ -1,5 +1,5 @@
 // Planted bad scenarios: each must be refused for the reason that was planted.
-#include "generators/validator.hpp"
+#include "generators/scenario_file/validator.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <limits>
 #include <set>
 
-#include "generators/layout_check.hpp"
-#include "generators/world.hpp"
+#include "generators/map/layout_check.hpp"
+#include "generators/worlds/world_maker.hpp"
 
 namespace fleetproof {
 namespace {

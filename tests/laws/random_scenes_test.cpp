@@ -7,7 +7,7 @@
 #include <random>
 #include <set>
 
-#include "core/clearance_over_time.hpp"
+#include "core/clearance/clearance_over_time.hpp"
 #include "tests/laws/timeline.hpp"
 
 namespace fleetproof::test {

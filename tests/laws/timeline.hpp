@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/geometry/rotation.hpp"
-#include "core/law.hpp"
+#include "core/outcome/law.hpp"
 #include "laws/laws.hpp"
 
 // Runs made of nothing but pieces, built by hand, and how a law hears of them.

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/activity.hpp"
+#include "core/motion/activity.hpp"
 #include "laws/laws.hpp"
 
 // A law that is told by hand what happens, record by record.

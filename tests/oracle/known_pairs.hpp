@@ -3,7 +3,7 @@
 #include <memory>
 #include <random>
 
-#include "core/clearance_over_time.hpp"
+#include "core/clearance/clearance_over_time.hpp"
 #include "tests/oracle/brute_force.hpp"
 
 // Random pairs of trajectories, and the same as pieces of the program under test.

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "campaign/agent_programs.hpp"
-#include "core/simulation.hpp"
-#include "generators/layout_family.hpp"
-#include "generators/world.hpp"
+#include "campaign/run/agent_programs.hpp"
+#include "core/engine/simulation.hpp"
+#include "generators/families/layout_family.hpp"
+#include "generators/worlds/world_maker.hpp"
 #include "laws/laws.hpp"
 #include "tests/oracle/brute_force.hpp"
 

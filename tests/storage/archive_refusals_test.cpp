@@ -7,7 +7,7 @@
 #include <csignal>
 #include <filesystem>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "storage/archive.hpp"
 #include "tests/storage/sample_records.hpp"
 

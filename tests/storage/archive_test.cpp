@@ -7,7 +7,7 @@
 
 #include <set>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "tests/storage/sample_records.hpp"
 
 namespace fleetproof {

@@ -2,8 +2,8 @@
 
 #include <set>
 
-#include "core/error.hpp"
-#include "core/outcome.hpp"
+#include "core/base/error.hpp"
+#include "core/outcome/outcome.hpp"
 #include "tests/storage/sample_records.hpp"
 
 namespace fleetproof {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/random.hpp"
-#include "core/scenario.hpp"
+#include "core/base/random.hpp"
+#include "core/scenario/scenario.hpp"
 
 namespace fleetproof::test {
 

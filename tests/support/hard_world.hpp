@@ -1,8 +1,8 @@
 #pragma once
 
-#include "generators/layout_check.hpp"
-#include "generators/layout_family.hpp"
-#include "generators/world.hpp"
+#include "generators/map/layout_check.hpp"
+#include "generators/families/layout_family.hpp"
+#include "generators/worlds/world_maker.hpp"
 
 namespace fleetproof::test {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "core/sdk/fleetproof/agent.h"
-#include "core/simulation.hpp"
+#include "core/engine/simulation.hpp"
 
 // Small worlds and agents that tests and benchmarks share.
 namespace fleetproof::test {

@@ -1,0 +1,80 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "campaign/cli/output_file.hpp"
+#include "campaign/cli/verbs.hpp"
+#include "core/base/error.hpp"
+#include "core/base/random.hpp"
+#include "generators/formats/importer.hpp"
+#include "generators/families/layout_family.hpp"
+#include "generators/formats/layout_file.hpp"
+#include "generators/map/layout_svg.hpp"
+#include "generators/families/mutated_import.hpp"
+#include "generators/worlds/world_maker.hpp"
+
+namespace fleetproof::cli {
+namespace {
+
+constexpr std::uint32_t kAttempts = 32;  // as for worlds
+
+struct GenerateWords {
+  std::string family, from, out, picture;
+  std::optional<std::uint64_t> seed;
+  bool stress = false;
+};
+
+Layout mutation(const GenerateWords& words, std::uint64_t key) {
+  if (words.from.empty()) throw InputError("--from", "is missing; name the layout file to begin with");
+  if (words.stress) throw InputError("--stress", fmt::format("has no meaning for {}; it has one range", kMutatedImport));
+  std::vector<std::string> warnings;
+  const Layout base = import_layout(words.from, {}, warnings);
+  for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
+  RejectionCounts counts;
+  for (std::uint32_t number = 0; number < kAttempts; ++number) {
+    Draws draws(key, number);
+    const auto layout = draw_mutation(base, draws, counts);
+    if (!layout) continue;
+    if (number > 0) fmt::print(stderr, "{} of {} draws refused: {}\n", number, number + 1, rejection_text(counts));
+    return *layout;
+  }
+  throw InputError(words.from, fmt::format("none of {} mutations is sound ({}); choose another seed or a layout with more ways round", kAttempts,
+                                           rejection_text(counts)));
+}
+
+// The layout of the world with this seed: the same that a scenario of that seed holds, unless its first draw was refused.
+Layout drawn(const GenerateWords& words) {
+  const auto key = stream_key(words.seed.value_or(1), Stream::Layout);
+  if (words.family == kMutatedImport) return mutation(words, key);
+  if (!words.from.empty()) throw InputError("--from", fmt::format("belongs to {} alone", kMutatedImport));
+  FamilyRange choice = family_range(words.family);
+  if (words.stress) choice.range = Range::Stress;
+  Draws draws(key);
+  return draw_layout(choice, draws);
+}
+
+int generate(const GenerateWords& words) {
+  const Layout layout = drawn(words);
+  if (!words.picture.empty()) write_whole(words.picture, layout_svg(layout), "--svg");
+  if (words.out.empty()) {
+    fmt::print("{}", to_text(layout));
+  } else {
+    write_whole(words.out, to_text(layout), "--output");
+  }
+  return kDemonstrated;
+}
+
+}  // namespace
+
+Action prepare_generate(Options& options) {
+  auto words = std::make_shared<GenerateWords>();
+  options.positional("FAMILY", words->family, "layout family (see: fleetproof list generators), or mutated-import");
+  options.option("--seed", words->seed, "seed of the drawn layout (default: 1)");
+  options.flag("--stress", words->stress, "draw from the family's stress range; the same as FAMILY/stress");
+  options.option("--from", words->from, "mutated-import: layout file to begin with");
+  options.option("-o,--output", words->out, "write the layout to this file (JSON) instead of standard output");
+  options.option("--svg", words->picture, "draw the layout into this file as well (SVG)");
+  return [words] { return generate(*words); };
+}
+
+}  // namespace fleetproof::cli

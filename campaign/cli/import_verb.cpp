@@ -1,0 +1,87 @@
+#include <fmt/format.h>
+
+#include <fstream>
+#include <limits>
+#include <memory>
+
+#include "campaign/cli/output_file.hpp"
+#include "campaign/cli/verbs.hpp"
+#include "core/base/error.hpp"
+#include "generators/formats/csv_layout.hpp"
+#include "generators/formats/importer.hpp"
+#include "generators/formats/layout_file.hpp"
+#include "generators/map/layout_svg.hpp"
+#include "generators/formats/lif.hpp"
+
+namespace fleetproof::cli {
+namespace {
+
+struct ImportWords {
+  std::string format, file, out, picture, level;
+  std::optional<std::uint64_t> graph;
+  std::optional<double> cell_pitch_m;
+  bool merge_antiparallel = false;
+};
+
+// A word that the format does not know would silently change nothing.
+void expect_format(const ImportWords& words, bool given, std::string_view option, std::string_view format) {
+  if (given && words.format != format)
+    throw InputError(option, fmt::format("has no meaning for format \"{}\"; it belongs to \"{}\"", words.format, format));
+}
+
+ImportChoice choice_of(const ImportWords& words) {
+  expect_format(words, words.merge_antiparallel, "--merge-antiparallel", "opentcs");
+  expect_format(words, words.graph.has_value(), "--graph", "rmf");
+  expect_format(words, !words.level.empty(), "--level", "rmf");
+  expect_format(words, words.cell_pitch_m.has_value(), "--cell-pitch", "grid");
+  ImportChoice choice;
+  if (words.merge_antiparallel) choice.twins = TwinPaths::Merge;
+  if (words.graph.value_or(0) > std::numeric_limits<std::uint32_t>::max())
+    throw InputError("--graph", fmt::format("is {}; graphs count from 0", *words.graph));
+  choice.rmf = {words.level, static_cast<std::int64_t>(words.graph.value_or(0))};
+  choice.cell_pitch_m = words.cell_pitch_m.value_or(kDefaultCellPitch_m);
+  return choice;
+}
+
+std::string text_for(const Layout& layout, const std::string& path) {
+  if (path.ends_with(".lif.json")) return to_lif(layout);
+  return path.ends_with(".csv") ? to_csv(layout) : to_text(layout);
+}
+
+int import_file(const ImportWords& words) {
+  const auto& entry = importer(words.format);
+  const ImportChoice choice = choice_of(words);
+  std::vector<std::string> warnings;
+  const Layout layout = entry.make(words.file, choice, warnings);
+  for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
+  fmt::print(stderr, "{}: {} stations, {} segments, {} warnings\n", words.file, layout.stations.size(), layout.segments.size(), warnings.size());
+  if (!words.picture.empty()) write_whole(words.picture, layout_svg(layout), "--svg");
+  const std::string text = text_for(layout, words.out);
+  if (words.out.empty()) {
+    fmt::print("{}", text);
+    return kDemonstrated;
+  }
+  std::ofstream out(words.out, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw InputError(words.out, "cannot be written; choose another path for --output");
+  return kDemonstrated;
+}
+
+}  // namespace
+
+Action prepare_import(Options& options) {
+  auto words = std::make_shared<ImportWords>();
+  options.positional("FORMAT", words->format, "opentcs, lif, rmf, grid, csv or layout (see: fleetproof list importers)");
+  options.positional("FILE", words->file, "file to read");
+  options.option("-o,--output", words->out,
+                 "write to this file instead of standard output: LIF if it ends in .lif.json, tables if in .csv, else our layout file");
+  options.option("--svg", words->picture, "draw the layout into this file as well (SVG)");
+  options.flag("--merge-antiparallel", words->merge_antiparallel, "opentcs: two paths back and forth on one track become one bidirectional segment");
+  options.option("--graph", words->graph, "rmf: graph_idx of the lanes to read (default: 0)");
+  options.option("--level", words->level, "rmf: level to read (default: the first)");
+  options.option("--cell-pitch", words->cell_pitch_m, "grid: distance of neighbouring cells in metres (default: 1.2)");
+  return [words] { return import_file(*words); };
+}
+
+}  // namespace fleetproof::cli

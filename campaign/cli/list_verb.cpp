@@ -1,0 +1,89 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "campaign/run/agent_programs.hpp"
+#include "campaign/cli/verbs.hpp"
+#include "core/base/error.hpp"
+#include "generators/formats/importer.hpp"
+#include "generators/families/layout_family.hpp"
+#include "generators/families/mutated_import.hpp"
+#include "laws/laws.hpp"
+#include "reports/report.hpp"
+
+namespace fleetproof::cli {
+namespace {
+
+struct Row {
+  std::string name, description;
+};
+
+template <class Entries>
+std::vector<Row> rows_of(const Entries& entries) {
+  std::vector<Row> rows;
+  for (const auto& entry : entries) rows.push_back({std::string(entry.name), std::string(entry.description)});
+  return rows;
+}
+
+std::vector<Row> agent_rows() {
+  const AgentPrograms programs;
+  std::vector<Row> rows;
+  for (const fp_agent_type* agent : programs.all()) rows.push_back({agent->name, agent->description});
+  return rows;
+}
+
+std::vector<Row> generator_rows() {
+  auto rows = rows_of(layout_families());
+  rows.push_back({std::string(kMutatedImport),
+                  "a layout file of yours with segments left out or turned round, stations moved and all of it scaled; see generate --from"});
+  return rows;
+}
+
+struct Kind {
+  std::string_view name;
+  std::vector<Row> (*rows)();
+};
+
+constexpr std::array kinds = {
+    Kind{"agents", agent_rows},
+    Kind{"laws", [] { return rows_of(laws()); }},
+    Kind{"generators", generator_rows},
+    Kind{"importers", [] { return rows_of(importers()); }},
+    Kind{"reports", [] { return rows_of(report_formats()); }},
+};
+
+int list(const std::string& what, bool json) {
+  std::vector<std::string_view> names;
+  for (const Kind& kind : kinds) {
+    names.push_back(kind.name);
+    if (kind.name != what) continue;
+    nlohmann::ordered_json all = nlohmann::ordered_json::array();
+    for (const Row& row : kind.rows()) {
+      if (json) {
+        all.push_back({{"name", row.name}, {"description", row.description}});
+      } else {
+        fmt::print("{:<18} {}\n", row.name, row.description);
+      }
+    }
+    if (json) fmt::print("{}\n", nlohmann::ordered_json{{"schema_version", 1}, {what, all}}.dump(2));
+    return kDemonstrated;
+  }
+  throw InputError("list", fmt::format("\"{}\" is not a catalogue{}", what, name_hint(what, names)));
+}
+
+}  // namespace
+
+Action prepare_list(Options& options) {
+  struct Words {
+    std::string what;
+    bool json = false;
+  };
+  auto words = std::make_shared<Words>();
+  options.positional("WHAT", words->what, "agents, laws, generators, importers or reports");
+  options.flag("--json", words->json, "print JSON");
+  return [words] { return list(words->what, words->json); };
+}
+
+}  // namespace fleetproof::cli

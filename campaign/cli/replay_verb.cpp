@@ -1,0 +1,95 @@
+#include "campaign/run/replay.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "campaign/run/campaign.hpp"
+#include "campaign/cli/run_text.hpp"
+#include "campaign/cli/verbs.hpp"
+#include "campaign/plan/scenario_source.hpp"
+#include "core/base/error.hpp"
+#include "generators/scenario_file/scenario_file.hpp"
+#include "reports/wording.hpp"
+
+namespace fleetproof::cli {
+namespace {
+
+struct ReplayWords {
+  std::string archive, scenario_out;
+  std::uint64_t run = 0;
+  std::vector<std::string> plugins;
+  bool json = false, trace = false;
+};
+
+void write_scenario(const Scenario& scenario, const std::string& path) {
+  std::ofstream out(path, std::ios::binary);
+  out << to_text(scenario);
+  out.close();
+  if (!out) throw InputError(path, "cannot be written; choose another path for --scenario");
+}
+
+void print_json(const ReplayResult& result, const CellRecord& cell) {
+  const Outcome& outcome = result.recomputed.outcome;
+  nlohmann::ordered_json json = {{"schema_version", 1},
+                                 {"verdict", name_of(result.verdict)},
+                                 {"explanation", result.explanation},
+                                 {"run", result.recomputed.run_index},
+                                 {"agent", cell.agent},
+                                 {"layout", cell.layout},
+                                 {"fleet_size", cell.fleet_size},
+                                 {"loss", result.recomputed.radio.loss},
+                                 {"delay_s", result.recomputed.radio.delay_s},
+                                 {"mean_outage_s", result.recomputed.radio.mean_outage_s},
+                                 {"outcome", name_of(outcome.outcome_class())},
+                                 {"violations", outcome.violations.size()},
+                                 {"digest_stored", fmt::format("{:016x}", result.stored.outcome.digest)},
+                                 {"digest_recomputed", fmt::format("{:016x}", outcome.digest)}};
+  fmt::print("{}\n", json.dump(2));
+}
+
+int replay_run(const ReplayWords& words) {
+  const ArchiveReader archive(words.archive, Checksums::Ignore);
+  AgentPrograms programs;
+  for (const std::string& plugin : words.plugins) programs.load(plugin);
+  const CampaignPlan plan = parse_plan(archive.campaign().plan_json);
+  const ScenarioSource source(plan);
+  if (words.run >= plan.run_count()) {
+    throw InputError("run", fmt::format("{} does not exist; the campaign has runs 0 to {}", words.run, plan.run_count() - 1));
+  }
+  const Scenario scenario = source.scenario(words.run);
+  TracePrinter printer(scenario);
+  const ReplayResult result = replay(archive, words.run, programs, words.trace ? &printer : nullptr);
+  if (!words.scenario_out.empty()) write_scenario(scenario, words.scenario_out);
+  const CellRecord cell = source.place(words.run).cell;
+  const RadioQuality& radio = result.recomputed.radio;
+  if (words.json) {
+    print_json(result, cell);
+  } else {
+    fmt::print("{}  run {}: {}, {}, {} AGVs, loss {:g} %, delay {:g} s{}, replicate {}\n", name_of(result.verdict), words.run, cell.agent, cell.layout,
+               cell.fleet_size, 100.0 * radio.loss, radio.delay_s, outage_text(radio.mean_outage_s), result.recomputed.replicate);
+    if (!result.explanation.empty()) fmt::print("  {}\n", result.explanation);
+    fmt::print("{}", outcome_text(scenario, result.recomputed.outcome));
+    const bool same_program = archive.campaign().engine == campaign_record(plan, programs).engine;
+    if (!same_program) fmt::print("  note: the file was written by another build of fleetproof, or with other plug-ins (see the report's provenance)\n");
+  }
+  return result.verdict == ReplayVerdict::Reproduced ? kDemonstrated : kEngineFault;
+}
+
+}  // namespace
+
+Action prepare_replay(Options& options) {
+  auto words = std::make_shared<ReplayWords>();
+  options.positional("DB", words->archive, "campaign file");
+  options.positional("RUN", words->run, "run index");
+  options.option("--plugin", words->plugins, "shared object with the agent of that run; may be given several times");
+  options.option("--scenario", words->scenario_out, "also write the run's scenario to this file (see: fleetproof simulate)");
+  options.flag("--json", words->json, "print JSON");
+  options.flag("--trace", words->trace, "print every event on stderr");
+  return [words] { return replay_run(*words); };
+}
+
+}  // namespace fleetproof::cli

@@ -1,0 +1,190 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <iterator>
+
+#include <nlohmann/json.hpp>
+
+#include "campaign/run/agent_programs.hpp"
+#include "campaign/cli/run_text.hpp"
+#include "campaign/cli/verbs.hpp"
+#include "core/base/error.hpp"
+#include "core/engine/simulation.hpp"
+#include "generators/formats/purpose_words.hpp"
+#include "generators/scenario_file/scenario_file.hpp"
+#include "laws/comparison.hpp"
+#include "laws/exact_law.hpp"
+#include "laws/laws.hpp"
+
+namespace fleetproof::cli {
+namespace {
+
+struct SimulateWords {
+  std::string scenario, agent = "scripted", law, config;
+  std::vector<std::string> plugins;
+  std::string granularity;
+  bool json = false, trace = false;
+};
+
+nlohmann::ordered_json to_json(const Violation& violation, const Scenario& scenario) {
+  return {{"entities", {body_name(scenario, violation.a), body_name(scenario, violation.b)}},
+          {"first_s", to_seconds(violation.first)},
+          {"last_s", to_seconds(violation.last)},
+          {"min_clearance_m", static_cast<double>(violation.min_clearance_um) * 1e-6},
+          {"at_s", to_seconds(violation.closest_at)},
+          {"contact", violation.contact},
+          {"level", name_of(level_of(violation))},
+          {"entity_kinds", violation.b.index() < scenario.agvs.size() ? "AGV-AGV" : "AGV-obstacle"},
+          {"relative_speed_mps", static_cast<double>(violation.relative_speed_um_s) * 1e-6},
+          {"x_m", static_cast<double>(violation.x_um) * 1e-6},
+          {"y_m", static_cast<double>(violation.y_um) * 1e-6}};
+}
+
+nlohmann::ordered_json to_json(const Incident& incident, const Scenario& scenario) {
+  const IncidentKindInfo& info = info_of(incident.kind);
+  const auto name = [&](EntityId id) { return id.valid() ? nlohmann::ordered_json(body_name(scenario, id)) : nlohmann::ordered_json(nullptr); };
+  return {{"kind", info.name},
+          {"a", name(incident.a)},
+          {"b", name(incident.b)},
+          {"first_s", to_seconds(incident.first)},
+          {"last_s", to_seconds(incident.last)},
+          {"value", incident.value},
+          {"unit", info.unit}};
+}
+
+// "1s", "2.5ms", "0.0025". A microsecond at least: below, a run has more snapshots than anybody can wait for.
+double granularity_s(const std::string& text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const std::string_view unit(end, static_cast<std::size_t>(text.data() + text.size() - end));
+  if (error != std::errc{} || (unit != "" && unit != "s" && unit != "ms")) {
+    throw InputError("--granularity", fmt::format("\"{}\" is no duration; write 1s, 2.5ms or plain seconds", text));
+  }
+  const double in_seconds = unit == "ms" ? value / 1000.0 : value;
+  if (!(in_seconds >= 1e-6 && in_seconds <= 1e6))
+    throw InputError("--granularity", fmt::format("is {} s; it lies from 0.000001 to 1000000 s", in_seconds));
+  return in_seconds;
+}
+
+struct Observers {
+  std::vector<std::unique_ptr<Law>> laws;  // the judge first
+  const Law* compared_with = nullptr;      // safety-distance, beside a published rule
+  const TimelineKeeper* timelines = nullptr;
+  std::vector<Difference> differences(const Scenario& scenario) const {
+    if (compared_with == nullptr) return {};
+    return compare(scenario, laws.front()->findings(), compared_with->findings(), *timelines);
+  }
+};
+
+// The judge named, and what observes beside it: the default set. A law that is no judge of clearances is asked alone.
+Observers observers_of(const std::string& name, const Scenario& scenario) {
+  const auto* law = find_law(name);
+  if (law == nullptr) {
+    auto names = names_of(laws());
+    names.emplace_back("exact");
+    throw InputError("--law", fmt::format("\"{}\" is not a law{} (see: fleetproof list laws)", name, name_hint(name, names)));
+  }
+  Observers observers;
+  if (law != &laws().front()) observers.laws.push_back(law->make(scenario));
+  const bool published = is_to_compare_with(*law);
+  if (!observers.laws.empty() && !published) return observers;
+  std::ranges::move(make_default_laws(scenario), std::back_inserter(observers.laws));
+  if (!published) return observers;
+  // What is exempt is no mistake of a rule that knows no exemptions.
+  observers.laws[1] = make_exact_law(scenario);
+  observers.compared_with = observers.laws[1].get();
+  auto timelines = std::make_unique<TimelineKeeper>(scenario);
+  observers.timelines = timelines.get();
+  observers.laws.push_back(std::move(timelines));
+  return observers;
+}
+
+// Only the judge of clearances by itself tells the smallest one.
+bool measures_clearance(const SimulateWords& words) { return find_law(words.law) == &laws().front(); }
+
+void print_json(const Scenario& scenario, const Outcome& outcome, const SimulateWords& words, const Observers& observers) {
+  nlohmann::ordered_json json;
+  json["schema_version"] = 1;
+  json["scenario"] = scenario.name;
+  json["agent"] = words.agent;
+  json["law"] = find_law(words.law)->name;
+  json["exempt_purposes"] = purposes_text(scenario.law.exempt_purposes);
+  json["exempt_radius_m"] = scenario.law.exempt_radius_m;
+  json["exempt_pairs"] = nlohmann::ordered_json::array();
+  for (const auto& [one, other] : scenario.law.exempt_pairs) json["exempt_pairs"].push_back({one, other});
+  json["outcome"] = name_of(outcome.outcome_class());
+  json["violations"] = nlohmann::ordered_json::array();
+  for (const Violation& violation : outcome.violations) json["violations"].push_back(to_json(violation, scenario));
+  json["incidents"] = nlohmann::ordered_json::array();
+  for (const Incident& incident : outcome.incidents) json["incidents"].push_back(to_json(incident, scenario));
+  json["met"] = nlohmann::ordered_json::array();
+  for (const ProbeCount& probe : outcome.probes)
+    json["met"].push_back({{"source", name_of(probe.source)}, {"name", probe.name}, {"count", probe.count}});
+  if (observers.compared_with != nullptr) {
+    json["compared_with"] = laws().front().name;
+    json["differences"] = nlohmann::ordered_json::array();
+    for (const Difference& difference : observers.differences(scenario)) {
+      json["differences"].push_back({{"what", difference.missed ? "missed" : "accused wrongly"},
+                                     {"cause", name_of(difference.cause)},
+                                     {"violation", to_json(difference.violation, scenario)}});
+    }
+  }
+  json["clearance_measured"] = measures_clearance(words);
+  json["min_clearance_m"] = nullptr;
+  if (outcome.min_clearance_um) json["min_clearance_m"] = static_cast<double>(*outcome.min_clearance_um) * 1e-6;
+  const Counters& c = outcome.counters;
+  json["counters"] = {{"perimeter_checks", c.perimeter_checks},
+                      {"distance_evaluations", c.distance_evaluations},
+                      {"events", c.events},
+                      {"messages_sent", c.messages_sent},
+                      {"receptions", c.receptions},
+                      {"receptions_lost", c.receptions_lost},
+                      {"drives", c.drives},
+                      {"turns", c.turns},
+                      {"contacts", c.contacts},
+                      {"transports_released", c.transports_released},
+                      {"transports_done", c.transports_done}};
+  json["digest"] = fmt::format("{:016x}", outcome.digest);
+  if (!outcome.message.empty()) json["message"] = outcome.message;
+  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
+
+int simulate_scenario(const SimulateWords& words) {
+  Scenario scenario = read_scenario(words.scenario);
+  if (!words.granularity.empty()) scenario.law.snapshot_s = granularity_s(words.granularity);
+  AgentPrograms programs;
+  for (const std::string& plugin : words.plugins) programs.load(plugin);
+  const fp_agent_type& agent = programs.find(words.agent, "--agent");
+  const Observers observers = observers_of(words.law, scenario);
+  TracePrinter printer(scenario);
+  const Outcome outcome = simulate(scenario, agent, observers.laws, words.trace ? &printer : nullptr, words.config.c_str());
+  if (words.json) {
+    print_json(scenario, outcome, words, observers);
+  } else {
+    fmt::print("{}", outcome_text(scenario, outcome, measures_clearance(words)));
+    if (observers.compared_with != nullptr) fmt::print("{}", differences_text(scenario, observers.differences(scenario), find_law(words.law)->name));
+  }
+  if (outcome.engine_error) return kEngineFault;
+  if (outcome.violation || outcome.contact) return kViolated;
+  return outcome.outcome_class() == OutcomeClass::Clean ? kDemonstrated : kNotDemonstrated;
+}
+
+}  // namespace
+
+Action prepare_simulate(Options& options) {
+  auto words = std::make_shared<SimulateWords>();
+  words->law = laws().front().name;
+  options.positional("SCENARIO", words->scenario, "scenario file (JSON)");
+  options.option("--agent", words->agent, "control software under test (default: scripted, which plays the scenario's script)");
+  options.option("--agent-config", words->config, "text handed to the agent as its own parameters");
+  options.option("--plugin", words->plugins, "shared object with an agent; may be given several times");
+  options.option("--law", words->law, "law that judges (default: safety-distance, also called exact)");
+  options.option("--granularity", words->granularity,
+                 "snapshot step of the published laws: 1s, 2.5ms or plain seconds (default: the scenario's, 0.0025)");
+  options.flag("--json", words->json, "print JSON");
+  options.flag("--trace", words->trace, "print every event on stderr");
+  return [words] { return simulate_scenario(*words); };
+}
+
+}  // namespace fleetproof::cli

@@ -1,0 +1,76 @@
+#include "campaign/plan/scenario_source.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/base/random.hpp"
+#include "generators/worlds/world_maker.hpp"
+
+namespace fleetproof {
+
+namespace {
+
+// Each factor has its dimension whether it is drawn or not, so that drawing one more leaves the others as they were.
+constexpr std::uint32_t kLossDimension = 0, kDelayDimension = 1, kOutageDimension = 2;
+
+double between(double from, double to, double unit) { return from == to ? from : std::min(to, from + (to - from) * unit); }
+
+}  // namespace
+
+ScenarioSource::ScenarioSource(const CampaignPlan& plan) : plan_(plan), cells_(plan.cells()), sample_(plan.sampling, plan.seed, plan.replicates) {}
+
+RunPlace ScenarioSource::place(std::uint64_t run_index) const {
+  RunPlace place{run_index / cells_.size(), cells_[run_index % cells_.size()], {}};
+  const CellRecord& cell = place.cell;
+  place.radio = cell.lowest();
+  if (!cell.is_drawn()) return place;
+  const auto unit = [&](std::uint32_t dimension) { return sample_.at(place.replicate, dimension); };
+  place.radio.loss = between(cell.loss, cell.loss_to, unit(kLossDimension));
+  place.radio.delay_s = between(cell.delay_s, cell.delay_to_s, unit(kDelayDimension));
+  place.radio.mean_outage_s = between(cell.mean_outage_s, cell.mean_outage_to_s, unit(kOutageDimension));
+  return place;
+}
+
+Scenario ScenarioSource::scenario(std::uint64_t run_index) const {
+  RejectionCounts ignored;
+  return scenario(run_index, ignored);
+}
+
+Scenario ScenarioSource::scenario(std::uint64_t run_index, RejectionCounts& rejected) const {
+  const auto [replicate, cell, radio] = place(run_index);
+  const LayoutFactor& layout = *std::ranges::find(plan_.layouts, cell.layout, &LayoutFactor::name);
+  WorldSpec spec;
+  if (layout.map != nullptr) {
+    spec.layout = layout.map;
+  } else {
+    spec.layout = layout.name;
+  }
+  spec.mutate = layout.mutate;
+  spec.placement = plan_.placement;
+  spec.hot_spot_skew = plan_.hot_spot_skew;
+  spec.orders = plan_.orders;
+  spec.fleet_size = cell.fleet_size;
+  spec.transports_per_agv_hour = plan_.transports_per_agv_hour;
+  spec.vehicles = plan_.vehicles;
+  spec.faults = plan_.faults;
+  spec.law = plan_.law;
+  spec.horizon = seconds(plan_.horizon_s);
+  const std::uint64_t factors = name_hash(fmt::format("{}/{}", cell.layout, cell.fleet_size));
+  spec.held = {plan_.held_streams, world_seed(plan_.seed, plan_.held_replicate, factors)};
+  Scenario scenario = generate_world(spec, world_seed(plan_.seed, replicate, factors), rejected);
+  scenario.name = fmt::format("{} run {}", plan_.name, run_index);
+  scenario.radio = plan_.radio;
+  scenario.radio.loss = radio.loss;
+  scenario.radio.delay_s = radio.delay_s;
+  scenario.radio.outages.mean_outage_s = radio.mean_outage_s;
+  scenario.radio.sources = draw_radio_sources(plan_.sources, scenario.map->layout(), scenario.seed_of(Stream::Radio));
+  scenario.agent_clock = plan_.agent_clock;
+  scenario.scanner = plan_.scanner;
+  scenario.operator_help = plan_.operator_help;
+  scenario.contact_stops = plan_.contact_stops;
+  scenario.stuck_after = seconds(plan_.stuck_after_s);
+  return scenario;
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+
+#include "campaign/plan/plan.hpp"
+#include "core/scenario/scenario.hpp"
+#include "generators/map/rejection_counts.hpp"
+
+namespace fleetproof {
+
+// What run number `run_index` is about.
+struct RunPlace {
+  std::uint64_t replicate = 0;
+  CellRecord cell;
+  RadioQuality radio;  // the cell's, or what this replicate drew within its bounds
+};
+
+// run index -> scenario, a pure function of the plan. All agents and radio qualities of a replicate get the same world, and all
+// worlds and agents of a replicate the same draw of the continuous factors. Threads: any number.
+class ScenarioSource {
+ public:
+  explicit ScenarioSource(const CampaignPlan& plan);
+  RunPlace place(std::uint64_t run_index) const;
+  Scenario scenario(std::uint64_t run_index) const;
+  Scenario scenario(std::uint64_t run_index, RejectionCounts& rejected) const;  // adds what drawing its world cost
+
+ private:
+  const CampaignPlan& plan_;
+  std::vector<CellRecord> cells_;
+  UnitSample sample_;
+};
+
+}  // namespace fleetproof

@@ -1,0 +1,39 @@
+#include "campaign/run/run_one.hpp"
+
+#include <algorithm>
+
+#include "core/base/error.hpp"
+#include "core/engine/simulation.hpp"
+#include "generators/scenario_file/scenario_file.hpp"
+#include "laws/laws.hpp"
+
+namespace fleetproof {
+
+RunOne::RunOne(const CampaignPlan& plan, const AgentPrograms& programs) : plan_(plan), scenarios_(plan) {
+  for (const std::string& name : plan.agents) agents_.push_back(&programs.find(name, "factors.agents"));
+}
+
+RunRecord RunOne::operator()(std::uint64_t run_index, TraceSink* sink) const {
+  const RunPlace place = scenarios_.place(run_index);
+  RunRecord record;
+  record.run_index = run_index;
+  record.cell = place.cell.index;
+  record.replicate = place.replicate;
+  record.radio = place.radio;
+  Scenario scenario;
+  try {
+    scenario = scenarios_.scenario(run_index);
+  } catch (const InputError& no_world) {
+    // This seed found no room for the fleet. The run stays in the count, as one of which nothing is known.
+    record.outcome.indeterminate = true;
+    record.outcome.message = no_world.what();
+    return record;
+  }
+  const auto agent = std::ranges::find(plan_.agents, place.cell.agent) - plan_.agents.begin();
+  const auto laws = make_default_laws(scenario, plan_.laws_left_out);
+  record.scenario_digest = scenario_digest(scenario);
+  record.outcome = simulate(scenario, *agents_[static_cast<std::size_t>(agent)], laws, sink, plan_.agent_config.c_str());
+  return record;
+}
+
+}  // namespace fleetproof

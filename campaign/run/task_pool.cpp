@@ -1,0 +1,163 @@
+#include "campaign/run/task_pool.hpp"
+
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+#include <tbb/task_group.h>
+
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <mutex>
+#include <set>
+#include <thread>
+
+#include "core/base/error.hpp"
+
+namespace fleetproof {
+namespace {
+
+// Debian's TBB is not instrumented, so the thread sanitizer sees no order between submitting a task and running it. This counter restates that order
+// where it can be seen.
+std::atomic<std::uint64_t> handed_over{0};
+
+}  // namespace
+
+struct TaskPool::Impl {
+  const int workers;
+  const std::uint64_t end, window;
+  const Simulate simulate;
+
+  mutable std::mutex mutex;
+  std::condition_variable room, results;
+  std::uint64_t next_index;              // to hand out
+  std::set<std::uint64_t> under_way;     // handed out, not yet finished
+  std::deque<RunRecord> done;
+  std::set<std::thread::id> threads;
+  std::exception_ptr failure;
+  std::size_t tasks = 0;                 // in the pool's queue or running
+  bool stopping = false, crew_gone = false;
+  std::thread crew;
+
+  Impl(int worker_count, std::uint64_t begin, std::uint64_t end_index, std::uint64_t window_size, Simulate function)
+      : workers(worker_count), end(end_index), window(window_size), simulate(std::move(function)), next_index(begin) {
+    ensure(workers >= 1 && window >= 1, "a pool has at least one worker and room for one run");
+    crew = std::thread([this] { feed(); });
+  }
+
+  // The one functor that TBB copies from thread to thread. tests/tsan.supp names this type, so it must do nothing but forward.
+  struct ForwardToPool {
+    Impl* pool;
+    void operator()() const {
+      (void)handed_over.load(std::memory_order_acquire);
+      pool->run_one();
+    }
+  };
+
+  // The feeder occupies one slot of the arena but never simulates, so exactly `workers` threads do, however many cores there are.
+  void feed() {
+    const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(workers) + 1);
+    tbb::task_arena arena(workers + 1, 1);
+    tbb::task_group group;
+    arena.initialize();
+    while (wait_for_room()) {
+      handed_over.fetch_add(1, std::memory_order_release);
+      arena.execute([&] { group.run(ForwardToPool{this}); });
+    }
+    wait_for_tasks();
+    arena.execute([&] { group.wait(); });
+    const std::lock_guard lock(mutex);
+    crew_gone = true;
+    results.notify_all();
+  }
+
+  bool more_to_do() const { return !stopping && next_index < end; }
+
+  bool wait_for_room() {
+    std::unique_lock lock(mutex);
+    room.wait(lock, [&] {
+      const bool slot_free = tasks < 4 * static_cast<std::size_t>(workers);
+      return !more_to_do() || (slot_free && done.size() < window);
+    });
+    if (!more_to_do()) return false;
+    ++tasks;
+    return true;
+  }
+
+  // group.wait() would lend the feeder to the pool as one more worker; so it waits until nothing is left to lend it for.
+  void wait_for_tasks() {
+    std::unique_lock lock(mutex);
+    room.wait(lock, [&] { return tasks == 0; });
+  }
+
+  // Takes the index from our own queue rather than from the task: the task itself carries no data.
+  void run_one() {
+    std::uint64_t index = 0;
+    {
+      std::unique_lock lock(mutex);
+      room.wait(lock, [&] { return !more_to_do() || under_way.empty() || next_index - *under_way.begin() < window; });
+      if (!more_to_do()) return task_ends();
+      index = next_index++;
+      under_way.insert(index);
+      threads.insert(std::this_thread::get_id());
+    }
+    std::optional<RunRecord> record;
+    std::exception_ptr error;
+    try {
+      record = simulate(index);
+    } catch (...) {
+      error = std::current_exception();
+    }
+    const std::lock_guard lock(mutex);
+    under_way.erase(index);
+    if (record) done.push_back(std::move(*record));
+    if (error && !failure) failure = error;
+    if (error) stopping = true;
+    task_ends();
+  }
+
+  void task_ends() {  // with the lock held
+    --tasks;
+    room.notify_all();
+    results.notify_all();
+  }
+};
+
+TaskPool::TaskPool(int workers, std::uint64_t begin, std::uint64_t end, std::uint64_t window, Simulate simulate)
+    : impl_(std::make_unique<Impl>(workers, begin, end, window, std::move(simulate))) {}
+
+TaskPool::~TaskPool() {
+  stop();
+  impl_->crew.join();
+}
+
+void TaskPool::stop() {
+  const std::lock_guard lock(impl_->mutex);
+  impl_->stopping = true;
+  impl_->room.notify_all();
+}
+
+std::optional<RunRecord> TaskPool::next(std::chrono::milliseconds patience) {
+  std::unique_lock lock(impl_->mutex);
+  impl_->results.wait_for(lock, patience, [&] { return !impl_->done.empty() || impl_->crew_gone; });
+  if (impl_->done.empty()) {
+    if (impl_->crew_gone && impl_->failure) std::rethrow_exception(impl_->failure);
+    return std::nullopt;
+  }
+  RunRecord record = std::move(impl_->done.front());
+  impl_->done.pop_front();
+  impl_->room.notify_all();
+  return record;
+}
+
+bool TaskPool::finished() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->crew_gone && impl_->done.empty() && !impl_->failure;
+}
+
+int TaskPool::threads_seen() const {
+  const std::lock_guard lock(impl_->mutex);
+  return static_cast<int>(impl_->threads.size());
+}
+
+}  // namespace fleetproof

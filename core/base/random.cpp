@@ -1,0 +1,109 @@
+#include "core/base/random.hpp"
+
+#include <Random123/philox.h>
+
+#include <algorithm>
+#include <bit>
+
+#include "core/base/error.hpp"
+
+namespace fleetproof {
+
+Block philox(std::uint64_t key, const Block& counter) {
+  const r123::Philox4x32::ctr_type ctr = {{counter[0], counter[1], counter[2], counter[3]}};
+  const r123::Philox4x32::key_type k = {{static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(key >> 32)}};
+  const auto out = r123::Philox4x32{}(ctr, k);
+  return {out[0], out[1], out[2], out[3]};
+}
+
+namespace {
+
+std::uint64_t mix(std::uint64_t key, std::uint64_t value, std::uint32_t domain) {
+  return word64(philox(key, {static_cast<std::uint32_t>(value), static_cast<std::uint32_t>(value >> 32), domain, 0}), 0);
+}
+
+// Domains keep the two uses of `mix` apart: a replicate number never collides with a stream number.
+constexpr std::uint32_t kReplicateDomain = 0x52455031, kFactorsDomain = 0x46414331, kStreamDomain = 0x53545231;
+
+}  // namespace
+
+std::uint64_t world_seed(std::uint64_t campaign_seed, std::uint64_t replicate, std::uint64_t world_factors) {
+  return mix(mix(campaign_seed, replicate, kReplicateDomain), world_factors, kFactorsDomain);
+}
+
+std::uint64_t stream_key(std::uint64_t world_seed, Stream stream) {
+  return mix(world_seed, static_cast<std::uint64_t>(stream), kStreamDomain);
+}
+
+const char* name_of(Stream stream) {
+  switch (stream) {
+    case Stream::Layout: return "layout";
+    case Stream::Placement: return "placement";
+    case Stream::Transports: return "transports";
+    case Stream::Motion: return "motion";
+    case Stream::Faults: return "faults";
+    case Stream::Agent: return "agent";
+    case Stream::Factors: return "factors";
+    case Stream::Radio:
+    case Stream::RadioState:
+    case Stream::RadioCopy:
+    case Stream::RadioBackoff:
+    case Stream::RadioSources: return "radio";
+  }
+  invariant_violated("a stream has a name");
+}
+
+std::optional<Stream> stream_of_name(std::string_view name) {
+  for (const Stream stream : kRunStreams) {
+    if (name == name_of(stream)) return stream;
+  }
+  return std::nullopt;
+}
+
+std::uint64_t name_hash(std::string_view name) {
+  std::uint64_t hash = 0xcbf29ce484222325ULL;  // FNV-1a
+  for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
+  return hash;
+}
+
+std::uint64_t Draws::next() {
+  const auto block = philox(key_, {static_cast<std::uint32_t>(drawn_), static_cast<std::uint32_t>(drawn_ >> 32), topic_, item_});
+  ++drawn_;
+  return word64(block, 0);
+}
+
+std::uint32_t Draws::below(std::uint32_t bound) {
+  return static_cast<std::uint32_t>(((next() >> 32) * static_cast<std::uint64_t>(bound)) >> 32);
+}
+
+double Draws::exponential(double mean) { return -mean * natural_log(1.0 - uniform()); }
+
+double natural_log(double x) {
+  const auto bits = std::bit_cast<std::uint64_t>(x);
+  int exponent = static_cast<int>(bits >> 52) - 1023;
+  double mantissa = std::bit_cast<double>((bits & 0x000fffffffffffffULL) | 0x3ff0000000000000ULL);
+  if (mantissa > 1.4142135623730951) {
+    mantissa *= 0.5;
+    ++exponent;
+  }
+  // ln m = 2 artanh((m-1)/(m+1)), |argument| <= 0.172: eleven terms reach 1e-17.
+  const double z = (mantissa - 1.0) / (mantissa + 1.0), z2 = z * z;
+  double sum = 0.0;
+  for (int k = 21; k >= 1; k -= 2) sum = sum * z2 + 1.0 / k;
+  return static_cast<double>(exponent) * 0.6931471805599453 + 2.0 * z * sum;
+}
+
+double natural_exp(double x) {
+  constexpr double kLimit = 700.0;
+  x = std::clamp(x, -kLimit, kLimit);
+  const double scaled = x * 1.4426950408889634;  // 1 / ln 2
+  const int exponent = static_cast<int>(scaled < 0.0 ? scaled - 0.5 : scaled + 0.5);
+  // ln 2 in two parts: the first has 32 bits, so that its product with the exponent is exact.
+  const double rest = (x - exponent * 0x1.62e42feep-1) - exponent * 0x1.a39ef35793c76p-33;
+  // The series of e^rest, |rest| <= 0.347: fourteen terms reach 1e-17.
+  double sum = 0.0;
+  for (int k = 14; k >= 1; --k) sum = (sum + 1.0) * rest / k;
+  return (1.0 + sum) * std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52);
+}
+
+}  // namespace fleetproof

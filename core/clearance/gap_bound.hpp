@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "core/clearance/phase_motion.hpp"
+
+namespace fleetproof {
+
+// The direction along which a gap is watched, from the first body towards the second. Any unit vector at any instant bounds the clearance from
+// below; the bound is good as long as the vector stays near that of the closest points. It is tied to the body whose side that vector stands on, if
+// that one rotates (else the far end of the side would swing into the gap), and between two corners to what turns most as they do about each other.
+class Axis {
+ public:
+  Axis() = default;
+  Axis(const Separation& apart, const PhaseMotion& first, const PhaseMotion& second);
+
+  enum class Tie { Floor, First, Second };
+  Tie tie() const { return tie_; }
+  Vec2 direction(const OrientedRectangle& first, const OrientedRectangle& second) const;
+
+ private:
+  static Tie tie_between_corners(const Separation& apart, const PhaseMotion& first, const PhaseMotion& second);
+
+  Tie tie_ = Tie::Floor;
+  Vec2 local_ = Vec2::UnitX();  // in the frame it is tied to
+};
+
+// The gap between two bodies along an axis, from below, until one of them changes its law of motion.
+class GapBound {
+ public:
+  GapBound(const PhaseMotion& first, const PhaseMotion& second, const Axis& axis);
+
+  // The gap, not a bound of it.
+  bool exact() const { return exact_; }
+  double now_m() const;
+  // The gap of the corners that are nearest now, as far as its second derivative. With an axis just measured, value and rate are those of the
+  // clearance: it is the largest gap over all axes, and so stationary in the axis.
+  struct Trend {
+    double value_m, rate_mps, bend_mps2;
+  };
+  Trend trend() const;
+  // The gap stays at or above the level for at least this many seconds, or up to `horizon_s`. A time within rounding of the true one.
+  double safe_s(double level_m, double horizon_s) const;
+
+ private:
+  // One pair of corners, x seconds from now: no less than value + rate * x + bend_within(h) * x^2 / 2 for x <= h.
+  struct Term {
+    double value, rate, bend;
+    double loss, loss_growth;    // of the bend: a third of the bound on the third derivative
+    double least, least_growth;  // the second derivative's bound, negative
+
+    double bend_within(double h_s) const { return std::max(bend - (loss + loss_growth * h_s) * h_s, least + least_growth * h_s); }
+  };
+
+  void add_corners_apart(const PhaseMotion& first, const PhaseMotion& second, const Vec2& direction);
+  void add_corners_seen_from(const PhaseMotion& frame, const PhaseMotion& other, const Vec2& outward);
+  void tighten_by_pivots(const PhaseMotion& frame, const PhaseMotion& other);
+  double safe_within_s(double level_m, double horizon_s) const;
+
+  std::array<Term, 16> terms_;  // only the first count_ are ever touched: most bounds have one
+  std::size_t count_ = 0;
+  bool exact_ = false;
+};
+
+}  // namespace fleetproof

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <algorithm>
+
+#include "core/motion/piece.hpp"
+
+namespace fleetproof {
+
+// Which way time is walked.
+enum class TimeSense : int { Forward = 1, Backward = -1 };
+
+// A point of a body now, and bounds that hold until its phase ends.
+struct PointMotion {
+  Vec2 position_m, velocity_mps, acceleration_mps2;
+  double top_mps = 0.0, top_mps2 = 0.0, top_mps3 = 0.0;  // largest magnitudes of velocity, acceleration, jerk
+};
+
+// How a body moves from an instant on, until its law of motion next changes: where its profile begins another phase or its curve another arc.
+// Every point of it has the velocity speed * lever, where the lever is fixed to the body and turns by `curvature` times the way made.
+struct PhaseMotion {
+  OrientedRectangle body;
+  double speed = 0.0;         // now, in the sense walked: m/s; in a turn rad/s, left positive
+  double acceleration = 0.0;  // constant
+  double top_speed = 0.0;     // largest magnitudes before the change, per length of the lever
+  double top_acceleration = 0.0, top_jerk = 0.0;
+  double curvature = 0.0;  // 1/m; in a turn 1
+  bool turns_on_spot = false;
+  SimTime change = kForever;
+  double lasts_s = 0.0;  // until the change
+
+  bool rotates() const { return curvature != 0.0; }
+  double turning_rad_s() const { return curvature * speed; }
+  double turning_rad_s2() const { return curvature * acceleration; }
+  // What it rotates about.
+  Vec2 pivot_m() const { return turns_on_spot ? body.centre_m : Vec2(body.centre_m + left_of(body.heading) / curvature); }
+  // `arm` leads from the reference point to the point.
+  PointMotion point(const Vec2& arm) const;
+  // Half of the body's width as seen along a direction.
+  double half_extent_m(const Vec2& direction) const;
+};
+
+// The motion of `piece` from `t` on, when its body is `body`; `limit` bounds the change.
+PhaseMotion motion_from(const Piece& piece, const OrientedRectangle& body, SimTime t, SimTime limit, TimeSense sense);
+
+}  // namespace fleetproof

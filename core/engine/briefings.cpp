@@ -1,0 +1,84 @@
+#include "core/engine/briefings.hpp"
+
+namespace fleetproof {
+namespace {
+
+fp_pose c_pose(const Pose& pose) { return {pose.position_m.x(), pose.position_m.y(), pose.heading.x(), pose.heading.y()}; }
+
+fp_agv c_agv(const VehicleType& type) {
+  const Footprint loaded = type.footprint_with(true);
+  return {type.footprint.length_m, type.footprint.width_m,      type.drive.speed_mps,        type.drive.acceleration_mps2, type.drive.deceleration_mps2,
+          type.turn.speed_mps,     type.turn.acceleration_mps2, type.turn.deceleration_mps2, loaded.length_m,              loaded.width_m,
+          type.speed_deviation};
+}
+
+}  // namespace
+
+Briefings::Briefings(const Scenario& scenario, const char* agent_config) {
+  describe_map(*scenario.map);
+  describe_fleet(scenario);
+  for (std::size_t i = 0; i < scenario.agvs.size(); ++i) {
+    fp_briefing briefing{};
+    briefing.struct_size = sizeof(fp_briefing);
+    briefing.self = static_cast<std::uint32_t>(i);
+    briefing.fleet_count = static_cast<std::uint32_t>(fleet_.size());
+    briefing.agv_stride = sizeof(fp_agv);
+    briefing.fleet = fleet_.data();
+    briefing.map = &map_;
+    briefing.start_station = scenario.agvs[i].start.value;
+    briefing.script_count = static_cast<std::uint32_t>(scripts_[i].size());
+    briefing.script = scripts_[i].data();
+    briefing.safety_distance_m = scenario.law.safety_distance_m;
+    briefing.radio_range_m = scenario.radio.range_m;
+    briefing.config = agent_config;
+    briefing.boot = 0;
+    briefing.start_segment = FP_NONE;
+    briefing.next_segment = FP_NONE;
+    briefings_.push_back(briefing);
+  }
+}
+
+void Briefings::renew(AgvId agv, std::uint32_t boot, StationId station, const Lane* lane, const Lane* next) {
+  fp_briefing& briefing = briefings_[agv.index()];
+  briefing.boot = boot;
+  briefing.start_station = station.value;
+  briefing.start_segment = lane != nullptr ? lane->segment.value : FP_NONE;
+  briefing.next_segment = next != nullptr ? next->segment.value : FP_NONE;
+}
+
+void Briefings::describe_map(const LogicalMap& map) {
+  std::size_t arc_count = 0;
+  for (const Lane& lane : map.lanes()) arc_count += lane.curve.arcs().size();
+  arcs_.reserve(arc_count);  // the lanes point into it
+  for (const Lane& lane : map.lanes()) {
+    const fp_arc* first = arcs_.data() + arcs_.size();
+    for (const Arc& arc : lane.curve.arcs()) arcs_.push_back({c_pose(arc.start), arc.length_m, arc.curvature_per_m});
+    lanes_.push_back({lane.segment.value, lane.from.value, lane.to.value, lane.curve.length_m(),
+                      static_cast<std::uint32_t>(lane.curve.arcs().size()), first});
+  }
+  for (std::size_t i = 0; i < map.station_count(); ++i) {
+    const Station& station = map.station(StationId{i});
+    const auto& leaving = map.lanes_from(StationId{i});
+    stations_.push_back({station.name.c_str(), station.position_m.x(), station.position_m.y(), station.purposes.bits(),
+                         static_cast<std::uint32_t>(leaving.size()), leaving.data()});
+  }
+  map_ = {sizeof(fp_map),
+          static_cast<std::uint32_t>(stations_.size()),
+          static_cast<std::uint32_t>(lanes_.size()),
+          static_cast<std::uint32_t>(map.segment_count()),
+          sizeof(fp_station),
+          sizeof(fp_lane),
+          sizeof(fp_arc),
+          stations_.data(),
+          lanes_.data()};
+}
+
+void Briefings::describe_fleet(const Scenario& scenario) {
+  for (const AgvSetup& agv : scenario.agvs) {
+    fleet_.push_back(c_agv(scenario.type_of(agv)));
+    auto& script = scripts_.emplace_back();
+    for (const ScriptedCall& call : agv.script) script.push_back({call.at.count(), static_cast<std::uint32_t>(call.action), call.segment.value});
+  }
+}
+
+}  // namespace fleetproof

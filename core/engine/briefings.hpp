@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "core/scenario/scenario.hpp"
+#include "core/sdk/fleetproof/agent.h"
+
+namespace fleetproof {
+
+// What the agents are told before the run: the map with its geometry, the fleet, the scripts. Holds the storage that the C structs point into.
+class Briefings {
+ public:
+  Briefings(const Scenario& scenario, const char* agent_config);
+  Briefings(const Briefings&) = delete;
+  Briefings& operator=(const Briefings&) = delete;
+
+  const fp_briefing& of(AgvId agv) const { return briefings_[agv.index()]; }
+  // After a restart: the station it stands at or left last; `lane`: what it is driving, or null; `next`: what it will drive then, or null.
+  void renew(AgvId agv, std::uint32_t boot, StationId station, const Lane* lane, const Lane* next);
+
+ private:
+  void describe_map(const LogicalMap& map);
+  void describe_fleet(const Scenario& scenario);
+
+  std::vector<fp_arc> arcs_;
+  std::vector<fp_lane> lanes_;
+  std::vector<fp_station> stations_;
+  fp_map map_{};
+  std::vector<fp_agv> fleet_;
+  std::vector<std::vector<fp_scripted_call>> scripts_;
+  std::vector<fp_briefing> briefings_;
+};
+
+}  // namespace fleetproof

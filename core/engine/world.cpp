@@ -1,0 +1,144 @@
+#include "core/engine/world.hpp"
+
+#include <algorithm>
+
+#include "core/base/error.hpp"
+
+namespace fleetproof {
+
+// Two bodies touch when less than this is between them: well below any clearance a person would measure, well above rounding.
+constexpr double kTouch_m = 1e-6;
+
+const char* name_of(ActivityKind kind) {
+  switch (kind) {
+    case ActivityKind::Drive: return "drive";
+    case ActivityKind::Turn: return "turn";
+    case ActivityKind::Transmit: return "transmit";
+    case ActivityKind::Pick: return "pick";
+    case ActivityKind::Drop: return "drop";
+    case ActivityKind::Park: return "park";
+    case ActivityKind::Charge: return "charge";
+    case ActivityKind::Settle: return "settle";
+  }
+  return "?";
+}
+
+World::World(const Scenario& scenario, std::span<const std::unique_ptr<Law>> laws) : scenario_(scenario), laws_(laws) {
+  bodies_.resize(scenario.body_count());
+  for (std::size_t i = 0; i < scenario.agvs.size(); ++i) {
+    const AgvSetup& agv = scenario.agvs[i];
+    bodies_[i].is_agv = true;
+    put_on_floor(EntityId{i}, scenario.type_of(agv).footprint, {scenario.map->station(agv.start).position_m, agv.heading}, kStart);
+  }
+  for (std::size_t i = 0; i < scenario.obstacles.size(); ++i) {
+    const ObstacleSetup& obstacle = scenario.obstacles[i];
+    if (obstacle.appears == Duration::zero()) put_on_floor(EntityId{scenario.agvs.size() + i}, obstacle.footprint, obstacle.pose, kStart);
+  }
+}
+
+State World::state_at(SimTime t) const {
+  State state{.at = t, .spatial = {}, .containment = loads_};
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Body& body = bodies_[i];
+    if (!body.on_floor) continue;
+    state.spatial.push_back({EntityId{i}, body.piece.pose_at(t), body.piece.footprint, body.is_agv, body.piece.manner != Manner::Rest});
+  }
+  return state;
+}
+
+void World::put_on_floor(EntityId id, const Footprint& footprint, const Pose& pose, SimTime t) {
+  Body& body = bodies_[id.index()];
+  body.on_floor = true;
+  begin(body, rest_piece(id, footprint, pose, t));
+}
+
+void World::take_off_floor(EntityId id, SimTime t) {
+  Body& body = bodies_[id.index()];
+  body.on_floor = false;
+  body.piece.end = t;
+  for (const auto& law : laws_) law->piece_ended(body.piece);
+}
+
+bool World::is_free(const OrientedRectangle& place, double margin_m, SimTime t) const {
+  return std::ranges::none_of(bodies_, [&](const Body& body) { return body.on_floor && clearance_m(body.piece.body_at(t), place) <= margin_m; });
+}
+
+bool World::stays_free(const OrientedRectangle& place, double margin_m, SimTime t) const {
+  Box box;
+  box.add(place);
+  box = box.grown(margin_m);
+  return is_free(place, margin_m, t) && std::ranges::none_of(bodies_, [&](const Body& body) {
+           return body.on_floor && body.piece.manner != Manner::Rest && body.piece.planned_box.overlaps(box);
+         });
+}
+
+void World::begin(Body& body, const Piece& piece) {
+  body.piece = piece;
+  body.piece.number = pieces_++;
+  body.piece.planned_box = piece.swept_box(piece.end);
+  for (const auto& law : laws_) law->piece_started(body.piece);
+}
+
+void World::continue_with(EntityId id, const Piece& next) {
+  Body& body = bodies_[id.index()];
+  ensure(next.begin >= body.piece.begin && next.begin <= body.piece.end, "a piece ends within its planned interval");
+  body.piece.end = next.begin;
+  for (const auto& law : laws_) law->piece_ended(body.piece);
+  begin(body, next);
+}
+
+void World::predict_touches(EntityId id, std::vector<TouchPrediction>& out) {
+  const Body& mine = body(id);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Body& other = bodies_[i];
+    const EntityId other_id{i};
+    if (other_id == id || !other.on_floor || !mine.piece.planned_box.overlaps(other.piece.planned_box)) continue;
+    if (have_touched(id, other_id)) continue;
+    const Interval common{std::max(mine.piece.begin, other.piece.begin), std::min({mine.piece.end, other.piece.end, kStart + scenario_.horizon})};
+    if (common.begin > common.end) continue;
+    if (const auto at = first_below(mine.piece, other.piece, common, kTouch_m, evaluations_)) {
+      out.push_back({*at, id, other_id, mine.piece.number, other.piece.number});
+    }
+  }
+}
+
+void World::remember_touch(EntityId a, EntityId b) { touched_.emplace_back(std::min(a, b), std::max(a, b)); }
+
+bool World::have_touched(EntityId a, EntityId b) const {
+  return std::ranges::find(touched_, std::pair{std::min(a, b), std::max(a, b)}) != touched_.end();
+}
+
+void World::forget_touches(EntityId id) {
+  std::erase_if(touched_, [&](const auto& pair) { return pair.first == id || pair.second == id; });
+}
+
+void World::finish(SimTime end) {
+  for (Body& body : bodies_) {
+    if (!body.on_floor) continue;
+    body.piece.end = std::min(body.piece.end, end);
+    for (const auto& law : laws_) law->piece_ended(body.piece);
+  }
+  for (const auto& law : laws_) law->finish(end);
+}
+
+LoadId World::add_load(TransportId transport, AgvId carrier, StationId at, StationId destination) {
+  loads_.push_back({transport, carrier, {Holder::Kind::Station, at.value}, destination});
+  return LoadId{loads_.size() - 1};
+}
+
+LoadId World::waiting_load(AgvId agv, StationId station) const {
+  for (std::size_t i = 0; i < loads_.size(); ++i) {
+    const Load& load = loads_[i];
+    if (load.carrier == agv && load.holder == Holder{Holder::Kind::Station, station.value} && load.destination != station) return LoadId{i};
+  }
+  return {};
+}
+
+LoadId World::carried_load(AgvId agv) const {
+  for (std::size_t i = 0; i < loads_.size(); ++i) {
+    if (loads_[i].holder == Holder{Holder::Kind::Agv, agv.value}) return LoadId{i};
+  }
+  return {};
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/motion/activity.hpp"
+#include "core/clearance/clearance_over_time.hpp"
+#include "core/outcome/law.hpp"
+#include "core/scenario/scenario.hpp"
+
+namespace fleetproof {
+
+// An AGV, an obstacle or a fallen load. Its current piece is its spatial relation to the floor, as a function of time.
+struct Body {
+  bool on_floor = false;      // else it has no piece
+  Piece piece;
+  bool is_agv = false;
+};
+
+struct Load {
+  TransportId transport;
+  AgvId carrier;              // whom the transport is assigned to
+  Holder holder;
+  StationId destination;
+  // Nothing is left to do about it: it is where it belongs, or out of the warehouse.
+  bool is_over() const { return holder == Holder{Holder::Kind::Station, destination.value} || holder.kind == Holder::Kind::ClearedAway; }
+};
+
+// The state of the warehouse at one instant (Sect. 3.2): entities with their relations, as plain data.
+struct State {
+  struct Placed {
+    EntityId entity;
+    Pose pose;
+    Footprint footprint;
+    bool is_agv = false;
+    bool moving = false;
+  };
+  SimTime at;
+  std::vector<Placed> spatial;      // every AGV and obstacle on the floor
+  std::vector<Load> containment;    // every load released so far and who holds it
+};
+
+struct TouchPrediction {
+  SimTime at;
+  EntityId a, b;
+  std::uint64_t piece_a = 0, piece_b = 0;  // stale once either body has another piece
+};
+
+// The bodies and loads of one run, and what happens to them. Laws observe its pieces; they cannot change it.
+class World {
+ public:
+  World(const Scenario& scenario, std::span<const std::unique_ptr<Law>> laws);
+
+  std::size_t body_count() const { return bodies_.size(); }
+  const Body& body(EntityId id) const { return bodies_[id.index()]; }
+  Pose pose_of(EntityId id, SimTime t) const { return body(id).piece.pose_at(t); }
+  State state_at(SimTime t) const;  // t: now
+
+  // Ends the body's current piece at `next.begin` and begins the next one.
+  void continue_with(EntityId id, const Piece& next);
+  void put_on_floor(EntityId id, const Footprint& footprint, const Pose& pose, SimTime t);
+  void take_off_floor(EntityId id, SimTime t);
+  // Whether every body is farther than `margin_m` from a place at `t`, which is now.
+  bool is_free(const OrientedRectangle& place, double margin_m, SimTime t) const;
+  // Likewise, and every body that moves stays so with its whole present piece, boxed.
+  bool stays_free(const OrientedRectangle& place, double margin_m, SimTime t) const;
+  // First touch of each other body within both current pieces, appended to `out`; pairs that touched before are left out.
+  void predict_touches(EntityId id, std::vector<TouchPrediction>& out);
+  void remember_touch(EntityId a, EntityId b);
+  bool have_touched(EntityId a, EntityId b) const;
+  // It has been moved away from whatever it touched.
+  void forget_touches(EntityId id);
+  void finish(SimTime end);
+
+  std::span<const Load> loads() const { return loads_; }
+  LoadId add_load(TransportId transport, AgvId carrier, StationId at, StationId destination);
+  Load& load(LoadId id) { return loads_[id.index()]; }
+  // The oldest load that `agv` has to fetch at `station`; invalid if there is none.
+  LoadId waiting_load(AgvId agv, StationId station) const;
+  LoadId carried_load(AgvId agv) const;
+
+ private:
+  void begin(Body& body, const Piece& piece);
+
+  const Scenario& scenario_;
+  std::span<const std::unique_ptr<Law>> laws_;
+  std::vector<Body> bodies_;
+  std::vector<Load> loads_;
+  std::vector<std::pair<EntityId, EntityId>> touched_;
+  std::uint64_t pieces_ = 0;
+  EvaluationCount evaluations_;
+};
+
+}  // namespace fleetproof

@@ -1,0 +1,81 @@
+#include "core/motion/piece.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/geometry/rotation.hpp"
+
+namespace fleetproof {
+namespace {
+
+// The part of an arc from its start to an arc length, swept by a footprint. Each corner runs on a circle about the arc's centre and leaves its chord
+// by no more than radius * angle^2 / 8; the chords lie in the box of the bodies at their ends.
+void add_swept_arc(Box& box, const Arc& arc, double length_m, const Footprint& footprint) {
+  constexpr double kBeyond_m = 0.02, kMostSteps = 1e4;
+  const double turned_rad = std::abs(arc.curvature_per_m) * length_m;
+  const double sagitta_m = (length_m + footprint.half_diagonal_m() * turned_rad) * turned_rad / 8.0;
+  const int steps = 1 + static_cast<int>(std::min(std::sqrt(sagitta_m / kBeyond_m), kMostSteps));
+  Box bodies;
+  for (int i = 0; i <= steps; ++i) bodies.add(placed(footprint, arc.pose_at(length_m * i / steps)));
+  const Box grown = bodies.grown(sagitta_m / steps / steps);
+  box.add(grown.low_m);
+  box.add(grown.high_m);
+}
+
+Box swept_drive(const Piece& piece, double until_m) {
+  Box box;
+  box.add(placed(piece.footprint, piece.curve->pose_at(piece.way_begin_m)));
+  const auto arcs = piece.curve->arcs();
+  const auto ends = piece.curve->ends_m();
+  double begin_m = 0.0;
+  for (std::size_t i = 0; i < arcs.size() && begin_m < until_m; ++i) {
+    const double skipped_m = std::max(0.0, piece.way_begin_m - begin_m);
+    if (piece.way_begin_m < ends[i]) {
+      Arc rest = arcs[i];
+      if (skipped_m > 0.0) rest.start = rest.pose_at(skipped_m);
+      add_swept_arc(box, rest, std::min(until_m, ends[i]) - begin_m - skipped_m, piece.footprint);
+    }
+    begin_m = ends[i];
+  }
+  return box;
+}
+
+double elapsed_s(const Piece& piece, SimTime t) { return to_seconds(std::clamp(t, piece.begin, piece.end) - piece.begin); }
+
+}  // namespace
+
+Pose Piece::pose_at(SimTime t) const {
+  if (manner == Manner::Rest) return start;
+  const double done = profile.position(elapsed_s(*this, t));
+  if (manner == Manner::Drive) return curve->pose_at(way_begin_m + done);
+  return {start.position_m, rotated(start.heading, unit_vector(turn_rad < 0.0 ? -done : done))};
+}
+
+double Piece::way_at(SimTime t) const { return way_begin_m + profile.position(elapsed_s(*this, t)); }
+
+OrientedRectangle Piece::body_at(SimTime t) const { return placed(footprint, pose_at(t)); }
+
+double Piece::speed_at(SimTime t) const { return manner == Manner::Drive ? profile.speed(elapsed_s(*this, t)) : 0.0; }
+
+Box Piece::swept_box(SimTime until) const {
+  if (manner == Manner::Drive) return swept_drive(*this, way_at(until));
+  Box box;
+  if (manner == Manner::Rest) {
+    box.add(placed(footprint, start));
+  } else {
+    box.add(start.position_m);
+    box = box.grown(footprint.half_diagonal_m());
+  }
+  return box;
+}
+
+Piece rest_piece(EntityId entity, const Footprint& footprint, const Pose& pose, SimTime begin) {
+  Piece piece;
+  piece.entity = entity;
+  piece.begin = begin;
+  piece.footprint = footprint;
+  piece.start = pose;
+  return piece;
+}
+
+}  // namespace fleetproof

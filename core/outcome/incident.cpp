@@ -1,0 +1,75 @@
+#include "core/outcome/incident.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "core/base/error.hpp"
+
+namespace fleetproof {
+namespace {
+
+using enum IncidentKind;
+
+constexpr std::array<IncidentKindInfo, 17> kKinds{{
+    {BatteryEmpty, "battery-empty", "micrometres to the nearest charging station", "the battery of an AGV ran empty away from a charging station"},
+    {ChannelSaturated, "channel-saturated", "millionths of the air time, at the peak",
+     "the fleet asked for more of the radio channel than it can carry"},
+    {InterferenceLosses, "interference-losses", "millionths of the receptions, at the peak", "transmissions destroyed each other"},
+    {LoadHeldByTwo, "load-held-by-two", "load", "a load passed to an AGV while another one held it"},
+    {LoadVanished, "load-vanished", "load", "a load was picked or dropped and is nowhere since"},
+    {LoadDeliveredTwice, "load-delivered-twice", "load", "a transport was reported done that had been done before"},
+    {LoadPickedByFullAgv, "load-picked-by-full-agv", "load", "an AGV took a load while it carried another one"},
+    {LoadAtWrongStation, "load-at-wrong-station", "load", "a load lay at a station that its transport does not name"},
+    {LoadMovedByNobody, "load-moved-by-nobody", "load", "a load moved although no AGV at its place was picking or dropping it"},
+    {Deadlock, "deadlock", "AGVs in the circle; 0: no circle known", "AGVs with open transports waited for each other"},
+    {WaitsDeclared, "waits", "1: in the circle", "an AGV of a deadlock waited for another one, by its own word"},
+    {WaitsInferred, "waits-inferred", "1: in the circle", "another one stood in the way of an AGV of a deadlock; inferred from the geometry"},
+    {Livelock, "livelock", "drives and turns begun", "AGVs moved, yet no transport got on"},
+    {Starvation, "starvation", "open transports", "one AGV got nowhere with its transports while others finished theirs"},
+    {SafeModeInContract, "safe-mode-in-contract", "millionths of receptions lost, on its worst link",
+     "an AGV was in safe mode while the radio kept its contract"},
+    {StandstillInContract, "standstill-in-contract", "open transports", "the fleet stood still while the radio kept its contract"},
+    {ThroughputBelowFloor, "throughput-below-floor", "thousandths of a transport per AGV-hour",
+     "the fleet finished fewer transports than the floor asks for"},
+}};
+
+static_assert([] {
+  for (std::size_t i = 0; i < kKinds.size(); ++i) {
+    if (static_cast<std::size_t>(kKinds[i].kind) != i + 1) return false;
+  }
+  return true;
+}());
+
+}  // namespace
+
+std::span<const IncidentKindInfo> incident_kinds() { return kKinds; }
+
+bool is_incident_kind(std::uint32_t number) { return number >= 1 && number <= kKinds.size(); }
+
+const IncidentKindInfo& info_of(IncidentKind kind) {
+  const auto number = static_cast<std::uint32_t>(kind);
+  ensure(is_incident_kind(number), "a kind of incident is in its catalogue");
+  return kKinds[number - 1];
+}
+
+const char* name_of(ProbeSource source) { return source == ProbeSource::World ? "world" : "agent"; }
+
+void ProbeTally::declare(std::string_view name, std::uint64_t hash) {
+  const auto seen = std::ranges::find(seen_, hash, &Seen::hash);
+  if (seen != seen_.end()) {
+    ++seen->count;
+  } else if (seen_.size() < kNamesMax && name.size() <= kNameBytesMax) {
+    seen_.push_back({hash, 1, std::string(name)});
+  } else {
+    ++left_out_;
+  }
+}
+
+std::vector<ProbeCount> ProbeTally::counts() const {
+  std::vector<ProbeCount> counts;
+  for (const Seen& seen : seen_) counts.push_back({ProbeSource::Agent, seen.name, seen.count});
+  std::ranges::sort(counts, {}, &ProbeCount::name);
+  return counts;
+}
+
+}  // namespace fleetproof

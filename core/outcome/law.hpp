@@ -1,0 +1,74 @@
+#pragma once
+
+#include <initializer_list>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/base/catalogue.hpp"
+#include "core/outcome/outcome.hpp"
+#include "core/motion/piece.hpp"
+#include "core/scenario/scenario.hpp"
+#include "core/outcome/trace.hpp"
+
+namespace fleetproof {
+
+struct LawFindings {
+  std::vector<Violation> violations;             // ordered by (first, a, b); one entry per uninterrupted stretch
+  std::vector<Incident> incidents;               // everything else that the law accuses
+  std::vector<ProbeCount> met;                   // what the run met, told by a law that counts and accuses nothing
+  std::optional<double> min_clearance_m;         // exact below 0.5 m, else absent; laws of snapshots leave it absent
+  std::uint64_t perimeter_checks = 0;
+  std::uint64_t distance_evaluations = 0;
+};
+
+// The kinds of trace records that a law wants to read.
+class TraceKinds {
+ public:
+  constexpr TraceKinds() = default;
+  constexpr TraceKinds(std::initializer_list<TraceKind> kinds) {
+    for (const TraceKind kind : kinds) bits_ |= bit(kind);
+  }
+  constexpr bool has(TraceKind kind) const { return (bits_ & bit(kind)) != 0; }
+  constexpr bool empty() const { return bits_ == 0; }
+  constexpr TraceKinds operator|(TraceKinds other) const {
+    other.bits_ |= bits_;
+    return other;
+  }
+
+ private:
+  static constexpr std::uint64_t bit(TraceKind kind) { return std::uint64_t{1} << (static_cast<std::uint32_t>(kind) & 63U); }
+  std::uint64_t bits_ = 0;
+};
+
+// Everything that becomes of messages.
+inline constexpr TraceKinds kMessageKinds{TraceKind::Sent, TraceKind::Lost, TraceKind::LostInOutage, TraceKind::LostByInterference, TraceKind::LostToSource,
+                                          TraceKind::Received};
+
+// A rule about what must never happen: a read-only observer of the pieces of a run, and of what its trace records. A law never reaches the world or
+// its trace.
+//
+// `happened` is called for the kinds that `reads` names, as they are recorded, and for no other: what nobody reads costs nothing. Of a record and a
+// piece of the same instant, the piece that it caused was announced before.
+//
+// Every body's pieces are contiguous while it is on the floor: an obstacle's from its appearing to its leaving, an AGV's from kStart to the end of the
+// run, less the times between `Leaves` and `Appears` in which the operator has taken it off the floor: it comes back somewhere else. A piece is
+// announced when it begins, with its planned end, and again when it ends, with the end that it really had. Pieces that end at the same instant are announced one after the other. At the end of the run
+// every open piece is ended first, then `finish` is called once.
+class Law {
+ public:
+  virtual ~Law() = default;
+  virtual void piece_started(const Piece& piece) { (void)piece; }
+  virtual void piece_ended(const Piece& piece) = 0;
+  virtual TraceKinds reads() const { return {}; }  // asked once, before the run
+  virtual void happened(const TraceRecord& record) { (void)record; }
+  virtual void finish(SimTime end) { (void)end; }
+  virtual LawFindings findings() const = 0;
+};
+
+// Makes a law for one run of `scenario`, which outlives it.
+using MakeLaw = std::unique_ptr<Law> (*)(const Scenario& scenario);
+
+}  // namespace fleetproof

@@ -1,0 +1,268 @@
+#include "core/outcome/outcome.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include "core/base/error.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr std::uint32_t kEncodingVersion = 3;
+
+// The order of the fields in the encoding. Append only, together with a new version.
+constexpr std::array kFlags{&Outcome::violation, &Outcome::contact, &Outcome::stuck, &Outcome::crash, &Outcome::hang, &Outcome::indeterminate, &Outcome::engine_error};
+constexpr std::array kCounters{
+    &Counters::events,         &Counters::activations,   &Counters::agent_calls,         &Counters::messages_sent,        &Counters::receptions,
+    &Counters::receptions_lost, &Counters::out_of_range, &Counters::delay_sum_ns,        &Counters::drives,               &Counters::turns,
+    &Counters::refused_calls,  &Counters::transports_released, &Counters::transports_done, &Counters::distance_um,        &Counters::safe_mode_ns,
+    &Counters::contacts,       &Counters::distance_evaluations, &Counters::perimeter_checks,
+    &Counters::rolls, &Counters::faults, &Counters::batteries_empty, &Counters::loads_cleared, &Counters::assists, &Counters::scanner_stops,
+    &Counters::scanner_saves, &Counters::received, &Counters::under_way, &Counters::battery_start_ppb, &Counters::battery_end_ppb,
+    &Counters::battery_driven_ppb, &Counters::battery_idled_ppb, &Counters::battery_charged_ppb,
+    &Counters::incidents_left_out, &Counters::probes_left_out,
+    &Counters::lost_in_outage, &Counters::lost_by_interference, &Counters::duplicates, &Counters::lost_to_sources};
+static_assert(sizeof(Counters) == kCounters.size() * sizeof(std::uint64_t), "every counter is in the encoding");
+
+class ByteSink {
+ public:
+  void u8(std::uint8_t value) { bytes_.push_back(static_cast<char>(value)); }
+  void u32(std::uint32_t value) { little_endian(value, 4); }
+  void u64(std::uint64_t value) { little_endian(value, 8); }
+  void i64(std::int64_t value) { u64(std::bit_cast<std::uint64_t>(value)); }
+  void text(std::string_view value) {
+    u32(static_cast<std::uint32_t>(value.size()));
+    bytes_.append(value);
+  }
+  std::string take() { return std::move(bytes_); }
+
+ private:
+  void little_endian(std::uint64_t value, int count) {
+    for (int i = 0; i < count; ++i) u8(static_cast<std::uint8_t>(value >> (8 * i)));
+  }
+  std::string bytes_;
+};
+
+class ByteSource {
+ public:
+  explicit ByteSource(std::string_view bytes) : bytes_(bytes) {}
+
+  std::uint8_t u8() { return static_cast<std::uint8_t>(little_endian(1)); }
+  std::uint32_t u32() { return static_cast<std::uint32_t>(little_endian(4)); }
+  std::uint64_t u64() { return little_endian(8); }
+  std::int64_t i64() { return std::bit_cast<std::int64_t>(u64()); }
+  bool flag() {
+    const auto value = u8();
+    if (value > 1) throw EngineError("an encoded outcome is damaged: a yes-or-no field holds neither");
+    return value == 1;
+  }
+  // A count of items of `item_bytes` each: checked against what is left, so that damaged bytes cannot ask for terabytes.
+  std::size_t count(std::size_t item_bytes) {
+    const std::size_t value = u32();
+    if (value > bytes_.size() / item_bytes) throw EngineError("an encoded outcome is damaged: it ends too early");
+    return value;
+  }
+  std::string text() {
+    const auto length = count(1);
+    std::string value(bytes_.substr(0, length));
+    bytes_.remove_prefix(length);
+    return value;
+  }
+  bool empty() const { return bytes_.empty(); }
+
+ private:
+  std::uint64_t little_endian(std::size_t count) {
+    if (bytes_.size() < count) throw EngineError("an encoded outcome is damaged: it ends too early");
+    std::uint64_t value = 0;
+    for (std::size_t i = 0; i < count; ++i) value |= std::uint64_t{static_cast<unsigned char>(bytes_[i])} << (8 * i);
+    bytes_.remove_prefix(count);
+    return value;
+  }
+  std::string_view bytes_;
+};
+
+constexpr std::size_t kViolationBytes = 2 * 4 + 7 * 8 + 1;
+
+void put(ByteSink& sink, const Violation& v) {
+  sink.u32(v.a.value);
+  sink.u32(v.b.value);
+  sink.i64(to_ns(v.first));
+  sink.i64(to_ns(v.last));
+  sink.i64(to_ns(v.closest_at));
+  sink.i64(v.min_clearance_um);
+  sink.i64(v.relative_speed_um_s);
+  sink.i64(v.x_um);
+  sink.i64(v.y_um);
+  sink.u8(v.contact ? 1 : 0);
+}
+
+Violation get_violation(ByteSource& source) {
+  Violation v;
+  v.a = EntityId{source.u32()};
+  v.b = EntityId{source.u32()};
+  v.first = at_ns(source.i64());
+  v.last = at_ns(source.i64());
+  v.closest_at = at_ns(source.i64());
+  v.min_clearance_um = source.i64();
+  v.relative_speed_um_s = source.i64();
+  v.x_um = source.i64();
+  v.y_um = source.i64();
+  v.contact = source.flag();
+  return v;
+}
+
+constexpr std::size_t kIncidentBytes = 3 * 4 + 3 * 8;
+constexpr std::size_t kShortestProbeBytes = 1 + 4 + 8;
+
+void put(ByteSink& sink, const Incident& incident) {
+  sink.u32(static_cast<std::uint32_t>(incident.kind));
+  sink.u32(incident.a.value);
+  sink.u32(incident.b.value);
+  sink.i64(to_ns(incident.first));
+  sink.i64(to_ns(incident.last));
+  sink.i64(incident.value);
+}
+
+Incident get_incident(ByteSource& source) {
+  const auto kind = source.u32();
+  if (!is_incident_kind(kind)) throw EngineError("an encoded outcome is damaged: it holds an incident of no known kind");
+  Incident incident;
+  incident.kind = static_cast<IncidentKind>(kind);
+  incident.a = EntityId{source.u32()};
+  incident.b = EntityId{source.u32()};
+  incident.first = at_ns(source.i64());
+  incident.last = at_ns(source.i64());
+  incident.value = source.i64();
+  return incident;
+}
+
+void put(ByteSink& sink, const ProbeCount& probe) {
+  sink.u8(static_cast<std::uint8_t>(probe.source));
+  sink.text(probe.name);
+  sink.u64(probe.count);
+}
+
+ProbeCount get_probe(ByteSource& source) {
+  ProbeCount probe;
+  probe.source = source.flag() ? ProbeSource::Agent : ProbeSource::World;
+  probe.name = source.text();
+  probe.count = source.u64();
+  return probe;
+}
+
+}  // namespace
+
+ViolationLevel level_of(const Violation& violation) {
+  if (!violation.contact) return ViolationLevel::SafetyDistance;
+  return violation.relative_speed_um_s > kHazardousSpeed_um_s ? ViolationLevel::HazardousContact : ViolationLevel::Contact;
+}
+
+const char* name_of(ViolationLevel level) {
+  switch (level) {
+    case ViolationLevel::SafetyDistance: return "safety distance broken";
+    case ViolationLevel::Contact: return "contact";
+    case ViolationLevel::HazardousContact: return "contact at hazardous speed";
+  }
+  invariant_violated("a level of violation has a name");
+}
+
+const char* name_of(OutcomeClass c) {
+  switch (c) {
+    case OutcomeClass::EngineError: return "engine_error";
+    case OutcomeClass::Contact: return "contact";
+    case OutcomeClass::Violation: return "violation";
+    case OutcomeClass::Crash: return "crash";
+    case OutcomeClass::Hang: return "hang";
+    case OutcomeClass::Indeterminate: return "indeterminate";
+    case OutcomeClass::Stuck: return "stuck";
+    case OutcomeClass::Clean: return "clean";
+  }
+  invariant_violated("an outcome class has a name");
+}
+
+OutcomeClass Outcome::outcome_class() const {
+  if (engine_error) return OutcomeClass::EngineError;
+  if (contact) return OutcomeClass::Contact;
+  if (violation) return OutcomeClass::Violation;
+  if (crash) return OutcomeClass::Crash;
+  if (hang) return OutcomeClass::Hang;
+  if (indeterminate) return OutcomeClass::Indeterminate;
+  if (stuck) return OutcomeClass::Stuck;
+  return OutcomeClass::Clean;
+}
+
+std::string encode(const Outcome& outcome) {
+  ByteSink sink;
+  sink.u32(kEncodingVersion);
+  for (const auto flag : kFlags) sink.u8(outcome.*flag ? 1 : 0);
+  sink.u8(outcome.min_clearance_um ? 1 : 0);
+  if (outcome.min_clearance_um) sink.i64(*outcome.min_clearance_um);
+  for (const auto counter : kCounters) sink.u64(outcome.counters.*counter);
+  sink.u64(outcome.simulated_ns);
+  sink.u32(outcome.agv_count);
+  sink.u64(outcome.digest);
+  sink.u32(static_cast<std::uint32_t>(outcome.running_digests.size()));
+  for (const auto digest : outcome.running_digests) sink.u64(digest);
+  sink.text(outcome.message);
+  sink.u32(static_cast<std::uint32_t>(outcome.violations.size()));
+  for (const auto& violation : outcome.violations) put(sink, violation);
+  sink.u32(static_cast<std::uint32_t>(outcome.incidents.size()));
+  for (const auto& incident : outcome.incidents) put(sink, incident);
+  sink.u32(static_cast<std::uint32_t>(outcome.probes.size()));
+  for (const auto& probe : outcome.probes) put(sink, probe);
+  return sink.take();
+}
+
+Outcome decode_outcome(std::string_view bytes) {
+  ByteSource source(bytes);
+  if (source.u32() != kEncodingVersion) throw EngineError("an encoded outcome is of another version, or is no outcome at all");
+  Outcome outcome;
+  for (const auto flag : kFlags) outcome.*flag = source.flag();
+  if (source.flag()) outcome.min_clearance_um = source.i64();
+  for (const auto counter : kCounters) outcome.counters.*counter = source.u64();
+  outcome.simulated_ns = source.u64();
+  outcome.agv_count = source.u32();
+  outcome.digest = source.u64();
+  outcome.running_digests.resize(source.count(sizeof(std::uint64_t)));
+  for (auto& digest : outcome.running_digests) digest = source.u64();
+  outcome.message = source.text();
+  const auto violations = source.count(kViolationBytes);
+  for (std::size_t i = 0; i < violations; ++i) outcome.violations.push_back(get_violation(source));
+  const auto incidents = source.count(kIncidentBytes);
+  for (std::size_t i = 0; i < incidents; ++i) outcome.incidents.push_back(get_incident(source));
+  const auto probes = source.count(kShortestProbeBytes);
+  for (std::size_t i = 0; i < probes; ++i) outcome.probes.push_back(get_probe(source));
+  if (!source.empty()) throw EngineError("an encoded outcome is damaged: bytes follow its end");
+  return outcome;
+}
+
+void file_violations(Outcome& outcome, std::vector<Violation> violations) {
+  std::ranges::sort(violations, {}, [](const Violation& v) { return std::tuple(v.first, v.a, v.b); });
+  for (const auto& violation : violations) {
+    outcome.violation = true;
+    outcome.contact = outcome.contact || violation.contact;
+    outcome.min_clearance_um = std::min(outcome.min_clearance_um.value_or(violation.min_clearance_um), violation.min_clearance_um);
+  }
+  outcome.violations = std::move(violations);
+}
+
+void file_incidents(Outcome& outcome, std::vector<Incident> incidents) {
+  std::ranges::sort(incidents, {}, [](const Incident& i) { return std::tuple(i.first, i.kind, i.a, i.b, i.last, i.value); });
+  if (incidents.size() > kIncidentsMax) {
+    outcome.counters.incidents_left_out += incidents.size() - kIncidentsMax;
+    incidents.resize(kIncidentsMax);
+  }
+  outcome.incidents = std::move(incidents);
+}
+
+void file_probes(Outcome& outcome, std::vector<ProbeCount> probes) {
+  std::erase_if(probes, [](const ProbeCount& probe) { return probe.count == 0; });
+  std::ranges::sort(probes, {}, [](const ProbeCount& probe) { return std::tie(probe.source, probe.name); });
+  outcome.probes = std::move(probes);
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/outcome/incident.hpp"
+#include "core/base/sim_time.hpp"
+#include "core/base/strong_id.hpp"
+
+namespace fleetproof {
+
+// What a run is called in one word: its worst end point. Worst first, so that a violation before a crash is not hidden.
+enum class OutcomeClass : std::uint8_t { EngineError, Contact, Violation, Crash, Hang, Indeterminate, Stuck, Clean };
+const char* name_of(OutcomeClass c);
+
+// A stretch of time in which two bodies were closer than the minimal safety distance. `a` < `b`.
+struct Violation {
+  EntityId a, b;
+  SimTime first{}, last{};
+  SimTime closest_at{};
+  std::int64_t min_clearance_um = 0;   // rounded down; below zero in an overlap
+  std::int64_t relative_speed_um_s = 0;  // between the reference points at `closest_at`
+  std::int64_t x_um = 0, y_um = 0;     // midway between the reference points at `closest_at`
+  bool contact = false;
+
+  friend bool operator==(const Violation&, const Violation&) = default;
+};
+
+// The three levels of a violation. Hazardous: the two met faster than kHazardousSpeed_um_s.
+enum class ViolationLevel : std::uint8_t { SafetyDistance, Contact, HazardousContact };
+inline constexpr std::int64_t kHazardousSpeed_um_s = 300'000;
+ViolationLevel level_of(const Violation& violation);
+const char* name_of(ViolationLevel level);
+
+// Sums of whole numbers: they do not depend on the order of adding.
+struct Counters {
+  std::uint64_t events = 0, activations = 0, agent_calls = 0;
+  std::uint64_t messages_sent = 0, receptions = 0, receptions_lost = 0, out_of_range = 0;
+  std::uint64_t delay_sum_ns = 0;
+  std::uint64_t drives = 0, turns = 0, refused_calls = 0;
+  std::uint64_t transports_released = 0, transports_done = 0;
+  std::uint64_t distance_um = 0;
+  std::uint64_t safe_mode_ns = 0, contacts = 0;
+  std::uint64_t distance_evaluations = 0, perimeter_checks = 0;  // spent by the laws
+  std::uint64_t rolls = 0;                       // stations passed without a stop
+  std::uint64_t faults = 0, batteries_empty = 0, loads_cleared = 0, assists = 0;
+  std::uint64_t scanner_stops = 0, scanner_saves = 0;  // saves: a touch was under way
+  std::uint64_t received = 0, under_way = 0;     // receptions that reached an AGV; still in the air at the end
+  // The energy book of the fleet, in billionths of a full battery: start + charged = end + driven + idled.
+  std::uint64_t battery_start_ppb = 0, battery_end_ppb = 0, battery_driven_ppb = 0, battery_idled_ppb = 0, battery_charged_ppb = 0;
+  std::uint64_t incidents_left_out = 0, probes_left_out = 0;     // beyond what an outcome holds
+  // Of the receptions lost: while the link or place was in an outage | by other transmissions. Copies delivered on top of the receptions.
+  std::uint64_t lost_in_outage = 0, lost_by_interference = 0, duplicates = 0;
+  std::uint64_t lost_to_sources = 0;             // likewise: to external sources alone
+
+  friend bool operator==(const Counters&, const Counters&) = default;
+};
+
+// The result of one run: flat, whole numbers only.
+struct Outcome {
+  bool violation = false, contact = false, stuck = false, crash = false, hang = false, indeterminate = false, engine_error = false;
+  std::optional<std::int64_t> min_clearance_um;  // absent: more than 0.5 m all the time, or no law measured it
+  std::vector<Violation> violations;             // in order of (first, a, b)
+  std::vector<Incident> incidents;               // of all laws that ran, in order of (first, kind, a, b)
+  std::vector<ProbeCount> probes;                // what the run met, in order of (source, name); never a count of zero
+  Counters counters;
+  std::uint64_t simulated_ns = 0;
+  std::uint32_t agv_count = 0;
+  std::uint64_t digest = 0;                      // of the whole trace
+  std::vector<std::uint64_t> running_digests;    // after events 1, 2, 4, 8, ...
+  std::string message;                           // of a crash, hang or engine error
+
+  OutcomeClass outcome_class() const;
+  friend bool operator==(const Outcome&, const Outcome&) = default;
+};
+
+// The one canonical byte encoding (little-endian, version first): what a pipe carries and what a row's checksum covers.
+std::string encode(const Outcome& outcome);
+// Throws EngineError on bytes that `encode` did not write.
+Outcome decode_outcome(std::string_view bytes);
+
+// Sets violation, contact and smallest clearance from the violations a law filed.
+void file_violations(Outcome& outcome, std::vector<Violation> violations);
+
+// At most so many incidents are kept of a run, the earliest; the others are counted.
+inline constexpr std::size_t kIncidentsMax = 1000;
+void file_incidents(Outcome& outcome, std::vector<Incident> incidents);
+void file_probes(Outcome& outcome, std::vector<ProbeCount> probes);
+
+}  // namespace fleetproof

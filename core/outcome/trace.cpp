@@ -1,0 +1,59 @@
+#include "core/outcome/trace.hpp"
+
+#include <xxhash.h>
+
+#include <bit>
+
+namespace fleetproof {
+namespace {
+
+template <class Integer>
+void put(unsigned char*& at, Integer value) {
+  for (std::size_t i = 0; i < sizeof(Integer); ++i) *at++ = static_cast<unsigned char>(value >> (8 * i));
+}
+
+XXH3_state_t* hash(void* state) { return static_cast<XXH3_state_t*>(state); }
+
+}  // namespace
+
+const char* name_of(TraceKind kind) {
+  constexpr std::array names = {"?",      "begins", "ends",    "order",    "transport done", "sent",     "lost",          "received", "timer",
+                                "refused", "contact", "safe mode", "waiting for", "probe",       "log",      "agent crashed", "agent hung", "load moves",
+                                "battery empty", "fault", "fault over", "scanner stops", "operator assists", "appears", "leaves"};
+  if (kind == TraceKind::LostInOutage) return "lost in an outage";
+  if (kind == TraceKind::LostByInterference) return "lost by interference";
+  if (kind == TraceKind::LostToSource) return "lost to an external source";
+  const auto i = static_cast<std::size_t>(kind);
+  return i < names.size() ? names[i] : names[0];
+}
+
+TraceDigest::TraceDigest() : state_(XXH3_createState()) { XXH3_64bits_reset(hash(state_)); }
+TraceDigest::~TraceDigest() { XXH3_freeState(hash(state_)); }
+
+void TraceDigest::append(const TraceRecord& record) {
+  unsigned char* at = buffer_.data() + used_;
+  put(at, static_cast<std::uint64_t>(to_ns(record.at)));
+  put(at, record.entity.value);
+  put(at, static_cast<std::uint32_t>(record.kind));
+  put(at, record.a);
+  put(at, record.b);
+  used_ += 32;
+  ++count_;
+  if (std::has_single_bit(count_)) {
+    running_.push_back(value());
+  } else if (used_ == buffer_.size()) {
+    flush();
+  }
+}
+
+std::uint64_t TraceDigest::value() {
+  flush();
+  return XXH3_64bits_digest(hash(state_));
+}
+
+void TraceDigest::flush() {
+  XXH3_64bits_update(hash(state_), buffer_.data(), used_);
+  used_ = 0;
+}
+
+}  // namespace fleetproof

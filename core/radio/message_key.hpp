@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/base/random.hpp"
+#include "core/base/sim_time.hpp"
+#include "core/base/strong_id.hpp"
+
+namespace fleetproof {
+
+// Which transmission, to whom: what the radio's draws for one reception hang on.
+struct MessageKey {
+  AgvId sender, receiver;
+  SimTime sent{};
+  std::uint32_t ordinal = 0;  // among the sender's messages of that instant
+};
+
+inline Block draw_for(const MessageKey& message, std::uint64_t key) {
+  const auto t = static_cast<std::uint64_t>(to_ns(message.sent));
+  return philox(key, {static_cast<std::uint32_t>(t), static_cast<std::uint32_t>(t >> 32), (message.sender.value << 16) | message.receiver.value,
+                      message.ordinal});
+}
+
+}  // namespace fleetproof

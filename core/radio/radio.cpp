@@ -1,0 +1,132 @@
+#include "core/radio/radio.hpp"
+
+#include <xxhash.h>
+
+#include <algorithm>
+
+#include "core/base/random.hpp"
+
+namespace fleetproof {
+namespace {
+
+// Kinds of processes and draws under the key of radio states; RadioPlaces has 1 to 3, RadioCrossings 10.
+constexpr std::uint32_t kLinkProcess = 8, kAsymmetryDraw = 9;
+
+}  // namespace
+
+Radio::Radio(const RadioSetup& setup, std::uint64_t world_seed)
+    : setup_(setup),
+      key_(stream_key(world_seed, Stream::Radio)),
+      state_key_(stream_key(world_seed, Stream::RadioState)),
+      copy_key_(stream_key(world_seed, Stream::RadioCopy)),
+      delay_(setup),
+      has_states_(setup.outages.mean_outage_s > 0.0 || setup.asymmetry > 0.0 || setup.places.roaming_border_m > 0.0 || setup.places.roaming_at_crossing),
+      depends_on_place_(setup.places.roaming_border_m > 0.0 || !setup.sources.empty() ||
+                        (setup.outages.mean_outage_s > 0.0 && setup.outages.scope == OutageSetup::Scope::Place)),
+      recorded_(setup.trace),
+      places_(setup.places, outage_law(setup.loss), state_key_),
+      crossings_(setup.places, state_key_),
+      sources_(setup.sources, stream_key(world_seed, Stream::RadioSources)) {}
+
+Fate Radio::fate(AgvId sender, AgvId receiver, SimTime sent, std::uint32_t ordinal, const LinkPlaces& places) {
+  const MessageKey message{sender, receiver, sent, ordinal};
+  const Block block = draw_for(message, key_);
+  const double loss_draw = unit_interval(word64(block, 0));
+  Fate fate;
+  fate.lost = loss_draw < setup_.loss;
+  fate.delay = delay_.at(unit_interval(word64(block, 1)));
+  if (has_states_) weigh_states(fate, loss_draw, sender, receiver, sent, places);
+  if (!recorded_.empty()) {
+    if (const auto* recorded = recorded_.at(sender, receiver, sent)) {
+      fate = Fate{.lost = !recorded->delay, .delay = recorded->delay.value_or(Duration::zero())};
+    }
+  }
+  // What is lost anyway keeps its cause: a source more leaves the other causes' counts as they were.
+  if (!fate.lost) fate.lost = fate.to_source = sources_.destroy(message, places.receiver_m);
+  if (setup_.duplicates > 0.0) fate.copy_delay = copy_of(message);
+  return fate;
+}
+
+void Radio::weigh_states(Fate& fate, double loss_draw, AgvId sender, AgvId receiver, SimTime sent, const LinkPlaces& places) {
+  double loss = setup_.asymmetry > 0.0 ? loss_of(sender, receiver) : setup_.loss;
+  if (setup_.outages.mean_outage_s > 0.0) {
+    const bool by_place = setup_.outages.scope == OutageSetup::Scope::Place;
+    fate.in_outage = by_place ? places_.cell_is_out(places.receiver_m, sent) : process_of(sender, receiver).bad_at(sent);
+    const auto [good, bad] = losses_by_state(loss);
+    loss = fate.in_outage ? bad : good;
+  }
+  fate.lost = loss_draw < loss;
+  const bool at_border = places_.has_borders() && (places_.is_roaming(places.sender_m, sent) || places_.is_roaming(places.receiver_m, sent));
+  if (at_border || crossings_.is_deaf(sender, sent) || crossings_.is_deaf(receiver, sent)) fate.lost = fate.in_outage = true;
+}
+
+// A nominal loss outside [loss_good, loss_bad] needs no second state: the only one left has that loss. All three figures (both losses and the bad
+// share) grow with the nominal loss, which is why a higher one only adds losses.
+Radio::StateLoss Radio::losses_by_state(double loss) const { return {std::min(setup_.outages.loss_good, loss), std::max(setup_.outages.loss_bad, loss)}; }
+
+OutageLaw Radio::outage_law(double loss) const {
+  const auto& outages = setup_.outages;
+  const bool lomax = outages.model == OutageSetup::Model::HeavyTail;
+  return {.sojourn = lomax ? OutageLaw::Sojourn::Lomax : OutageLaw::Sojourn::Exponential,
+          .bad_share = std::clamp((loss - outages.loss_good) / (outages.loss_bad - outages.loss_good), 0.0, 1.0),
+          .mean_bad_s = outages.mean_outage_s,
+          .shape = outages.shape};
+}
+
+double Radio::loss_of(AgvId sender, AgvId receiver) const {
+  const auto [low, high] = std::minmax(sender.value, receiver.value);
+  const double draw = unit_interval(word64(philox(state_key_, {0, kAsymmetryDraw << 1, low, high}), 0));
+  const double shift = setup_.asymmetry * (2.0 * draw - 1.0) * setup_.loss * (1.0 - setup_.loss);
+  return sender < receiver ? setup_.loss + shift : setup_.loss - shift;
+}
+
+OutageProcess& Radio::process_of(AgvId sender, AgvId receiver) {
+  const auto [low, high] = std::minmax(sender.value, receiver.value);
+  const bool keyed_by_direction = setup_.outages.scope == OutageSetup::Scope::Direction;
+  // Directions of unlike loss share the randomness, so that the outages of the better lie within those of the worse.
+  const bool one_for_both = !keyed_by_direction && setup_.asymmetry == 0.0;
+  const std::uint32_t row = one_for_both ? low : sender.value, column = one_for_both ? high : receiver.value;
+  if (links_.size() <= row) links_.resize(row + 1);
+  if (links_[row].size() <= column) links_[row].resize(column + 1);
+  auto& process = links_[row][column];
+  if (!process) {
+    const double loss = setup_.asymmetry > 0.0 ? loss_of(sender, receiver) : setup_.loss;
+    process.emplace(outage_law(loss), ProcessKey{state_key_, kLinkProcess, keyed_by_direction ? sender.value : low, keyed_by_direction ? receiver.value : high});
+  }
+  return *process;
+}
+
+std::optional<Duration> Radio::copy_of(const MessageKey& message) const {
+  const Block block = draw_for(message, copy_key_);
+  if (unit_interval(word64(block, 0)) >= setup_.duplicates) return std::nullopt;
+  return delay_.at(unit_interval(word64(block, 1)));
+}
+
+std::uint32_t MessagePool::add(AgvId sender, std::string_view bytes, std::uint32_t copies) {
+  std::uint32_t slot = 0;
+  if (free_.empty()) {
+    slot = static_cast<std::uint32_t>(messages_.size());
+    messages_.emplace_back();
+  } else {
+    slot = free_.back();
+    free_.pop_back();
+  }
+  Message& message = messages_[slot];
+  message.sender = sender;
+  message.bytes.assign(bytes);  // keeps the slot's capacity: no allocation in the steady state
+  message.hash = XXH3_64bits(bytes.data(), bytes.size());
+  message.copies = copies;
+  message.destroyed_at.clear();
+  return slot;
+}
+
+void MessagePool::release(std::uint32_t slot) {
+  if (--messages_[slot].copies == 0) free_.push_back(slot);
+}
+
+void MessagePool::release_unsent(std::uint32_t slot) {
+  messages_[slot].copies = 1;
+  release(slot);
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "core/geometry/pose.hpp"
+#include "core/radio/message_key.hpp"
+#include "core/radio/outage_process.hpp"
+#include "core/scenario/radio_setup.hpp"
+
+namespace fleetproof {
+
+// External sources, see RadioSource. Each has its own randomness, keyed by its number: when it is on depends on key and time alone, whom it hits on
+// the message and the receiver's place, and no other source's draws enter. For one run, on one thread.
+class RadioSources {
+ public:
+  RadioSources(const std::vector<RadioSource>& sources, std::uint64_t key);
+
+  // Whether one of them destroys this message at a receiver at this place.
+  bool destroy(const MessageKey& message, const Vec2& receiver_m);
+  OutageProcess& on_process(std::size_t source) { return sources_[source].on; }  // "bad": it is on
+
+ private:
+  struct Source {
+    Vec2 at_m;
+    double range_m, loss;
+    OutageProcess on;
+    std::uint64_t loss_key;
+  };
+  std::vector<Source> sources_;
+};
+
+}  // namespace fleetproof

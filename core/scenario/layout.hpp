@@ -1,0 +1,86 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/geometry/curve.hpp"
+#include "core/base/strong_id.hpp"
+
+namespace fleetproof {
+
+// What a station may be used for: a set, as one spot often serves several purposes (Sect. 2.2).
+enum class Purpose : std::uint8_t { Routing = 1, Storage = 2, Charging = 4, Parking = 8 };
+
+class Purposes {
+ public:
+  constexpr Purposes() = default;
+  constexpr Purposes(Purpose p) : bits_(static_cast<std::uint8_t>(p)) {}  // NOLINT: one purpose is a set of one
+  static constexpr Purposes from_bits(std::uint8_t bits) { return Purposes(bits, 0); }
+  constexpr bool has(Purpose p) const { return (bits_ & static_cast<std::uint8_t>(p)) != 0; }
+  constexpr Purposes operator|(Purposes other) const { return from_bits(static_cast<std::uint8_t>(bits_ | other.bits_)); }
+  constexpr std::uint8_t bits() const { return bits_; }
+  friend constexpr bool operator==(Purposes, Purposes) = default;
+
+ private:
+  constexpr Purposes(std::uint8_t bits, int) : bits_(bits) {}
+  std::uint8_t bits_ = 0;
+};
+
+// A node of the logical map: a spot on the magnet track where an AGV can stop and change direction.
+struct Station {
+  std::string name;
+  Vec2 position_m = Vec2::Zero();
+  Purposes purposes = Purpose::Routing;
+};
+
+// An edge of the logical map. Driven from `from` to `to`; a bidirectional segment also the other way. AGVs drive nose first.
+struct Segment {
+  std::string name;
+  StationId from, to;
+  bool bidirectional = false;
+  std::vector<Vec2> control_points_m;  // none: straight; 2 per cubic Bezier plus the joints between them (2, 5, 8, ...)
+};
+
+// The logical map of a warehouse (Sect. 2.2), as plain data: what a layout file says and nothing derived.
+struct Layout {
+  std::string name;
+  Vec2 floor_low_m = Vec2::Zero(), floor_high_m = Vec2::Zero();
+  std::vector<Station> stations;
+  std::vector<Segment> segments;
+};
+
+// One way to drive a segment.
+struct Lane {
+  SegmentId segment;
+  StationId from, to;
+  Curve curve;
+};
+
+// A layout with what follows from it: the curves of its segments and who leaves where. Built once, shared read-only by every run on it.
+class LogicalMap {
+ public:
+  explicit LogicalMap(const Layout& layout);
+
+  const Layout& layout() const { return layout_; }
+  std::size_t station_count() const { return layout_.stations.size(); }
+  std::size_t segment_count() const { return layout_.segments.size(); }
+  const Station& station(StationId id) const { return layout_.stations[id.index()]; }
+  const Segment& segment(SegmentId id) const { return layout_.segments[id.index()]; }
+
+  // The lane on `segment` that leaves `from`; null if the segment cannot be driven from there.
+  const Lane* lane(SegmentId segment, StationId from) const;
+  const std::vector<Lane>& lanes() const { return lanes_; }
+  // Indices into lanes(), of those that leave a station.
+  const std::vector<std::uint32_t>& lanes_from(StationId station) const { return lanes_from_[station.index()]; }
+
+ private:
+  Layout layout_;
+  std::vector<Lane> lanes_;                          // by segment; forward before backward
+  std::vector<std::vector<std::uint32_t>> lanes_from_;  // by station
+};
+
+// The curve of a segment driven forward.
+Curve segment_curve(const Layout& layout, const Segment& segment);
+
+}  // namespace fleetproof

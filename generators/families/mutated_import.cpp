@@ -1,0 +1,141 @@
+#include "generators/families/mutated_import.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "generators/map/layout_check.hpp"
+#include "generators/map/strong_components.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr std::uint32_t kMostLeftOut_percent = 10, kMostTurned_percent = 10;
+constexpr double kFarthestMove_m = 0.3, kMargin_m = 3.0;
+
+// Uniform in a disc.
+Vec2 draw_move(Draws& draws) {
+  while (true) {
+    const double x = draws.uniform(-kFarthestMove_m, kFarthestMove_m), y = draws.uniform(-kFarthestMove_m, kFarthestMove_m);
+    if (x * x + y * y <= kFarthestMove_m * kFarthestMove_m) return {x, y};
+  }
+}
+
+// Control points go along with the nearer end of their segment.
+void move(Layout& layout, Draws& draws) {
+  const double scale = draws.uniform(0.8, 1.2);
+  std::vector<Vec2> moves;
+  for (auto& station : layout.stations) {
+    moves.push_back(draw_move(draws));
+    station.position_m = scale * station.position_m + moves.back();
+  }
+  for (auto& segment : layout.segments) {
+    auto& points = segment.control_points_m;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      points[i] = scale * points[i] + moves[(2 * i < points.size() ? segment.from : segment.to).index()];
+    }
+    smooth_joints(segment);
+  }
+}
+
+enum class Fate : std::uint8_t { AsItIs, Turned, LeftOut };
+
+// By segment.
+std::vector<Fate> draw_fates(const Layout& base, Draws& draws) {
+  const std::uint32_t left_out_percent = draws.below(kMostLeftOut_percent + 1), turned_percent = draws.below(kMostTurned_percent + 1);
+  // One turned alone usually cuts off what lies on its line; all of them turned keep every way round.
+  const bool all_turned = draws.below(4) == 0;
+  std::vector<Fate> fates(base.segments.size());
+  for (std::size_t i = 0; i < fates.size(); ++i) {
+    const bool left_out = draws.below(100) < left_out_percent, turned = draws.below(100) < turned_percent;
+    fates[i] = left_out ? Fate::LeftOut : turned != all_turned && !base.segments[i].bidirectional ? Fate::Turned : Fate::AsItIs;
+  }
+  return fates;
+}
+
+// Who reaches whom then, before a segment is copied: most draws that are refused are so for this.
+StrongComponents parts_left(const Layout& base, const std::vector<Fate>& fates) {
+  std::vector<Arrow> arrows;
+  arrows.reserve(2 * fates.size());
+  for (std::size_t i = 0; i < fates.size(); ++i) {
+    const auto& segment = base.segments[i];
+    if (fates[i] == Fate::LeftOut) continue;
+    if (segment.bidirectional || fates[i] == Fate::AsItIs) arrows.push_back({segment.from.value, segment.to.value});
+    if (segment.bidirectional || fates[i] == Fate::Turned) arrows.push_back({segment.to.value, segment.from.value});
+  }
+  return strong_components(base.stations.size(), arrows);
+}
+
+Layout what_is_left(const Layout& base, const std::vector<Fate>& fates) {
+  Layout layout;
+  layout.name = fmt::format("{}/{}", kMutatedImport, base.name);
+  layout.stations = base.stations;
+  layout.segments.reserve(fates.size());
+  for (std::size_t i = 0; i < fates.size(); ++i) {
+    if (fates[i] == Fate::LeftOut) continue;
+    auto& segment = layout.segments.emplace_back(base.segments[i]);
+    if (fates[i] != Fate::Turned) continue;
+    std::swap(segment.from, segment.to);
+    std::ranges::reverse(segment.control_points_m);
+  }
+  return layout;
+}
+
+bool is_kept(const Segment& segment, const StrongComponents& parts) {
+  return parts.in_largest(segment.from.index()) && parts.in_largest(segment.to.index());
+}
+
+void keep_largest(Layout& layout, const StrongComponents& parts) {
+  std::erase_if(layout.segments, [&](const Segment& s) { return !is_kept(s, parts); });
+  std::vector<std::uint32_t> number(layout.stations.size(), 0);
+  std::uint32_t kept = 0;
+  for (std::size_t i = 0; i < number.size(); ++i) {
+    if (!parts.in_largest(i)) continue;
+    number[i] = kept;
+    if (kept < i) layout.stations[kept] = std::move(layout.stations[i]);
+    ++kept;
+  }
+  layout.stations.erase(layout.stations.begin() + kept, layout.stations.end());
+  for (auto& segment : layout.segments) {
+    segment.from = StationId{number[segment.from.index()]};
+    segment.to = StationId{number[segment.to.index()]};
+  }
+}
+
+bool is_drivable(const Curve& curve) { return fault_of_curve(curve).empty(); }
+
+}  // namespace
+
+// As problems_of() judges the whole, without what no mutation changes: names, references and numbers of control points are those of the base.
+std::shared_ptr<const LogicalMap> draw_mutated_map(const Layout& base, Draws& draws, RejectionCounts& counts) {
+  const auto refused = [&](ProblemKind kind) -> std::shared_ptr<const LogicalMap> {
+    ++counts.of(kind);
+    return nullptr;
+  };
+  const auto fates = draw_fates(base, draws);
+  const auto parts = parts_left(base, fates);
+  if (2 * parts.largest_size < base.stations.size() || parts.largest_size < 2) return refused(ProblemKind::WeakCore);
+  Layout layout = what_is_left(base, fates);
+  move(layout, draws);
+  fit_floor(layout, kMargin_m);  // it holds all points
+  if (!on_the_floor(layout.floor_low_m) || !on_the_floor(layout.floor_high_m)) return refused(ProblemKind::NumberOutOfRange);
+  for (const auto& segment : layout.segments) {
+    if (!is_kept(segment, parts) && !is_drivable(segment_curve(layout, segment))) return refused(ProblemKind::BadGeometry);
+  }
+  keep_largest(layout, parts);
+  fit_floor(layout, kMargin_m);
+  auto map = std::make_shared<const LogicalMap>(layout);
+  for (const auto& lane : map->lanes()) {
+    const bool forward = lane.from == map->segment(lane.segment).from;
+    if (forward && !is_drivable(lane.curve)) return refused(ProblemKind::BadGeometry);
+  }
+  return map;
+}
+
+std::optional<Layout> draw_mutation(const Layout& base, Draws& draws, RejectionCounts& counts) {
+  if (const auto map = draw_mutated_map(base, draws, counts)) return map->layout();
+  return std::nullopt;
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/catalogue.hpp"
+#include "core/scenario/layout.hpp"
+#include "generators/formats/grid_map.hpp"
+#include "generators/formats/opentcs.hpp"
+#include "generators/formats/rmf.hpp"
+
+namespace fleetproof {
+
+// What a caller may choose; each word matters to the formats that know it.
+struct ImportChoice {
+  TwinPaths twins = TwinPaths::Keep;          // openTCS
+  RmfChoice rmf;                              // Open-RMF
+  double cell_pitch_m = kDefaultCellPitch_m;  // grid maps
+};
+
+// Reads a layout file; `warnings` receives what was left out, guessed or changed. InputError where the file is no sound layout.
+using ReadLayout = Layout (*)(const std::string& path, const ImportChoice& choice, std::vector<std::string>& warnings);
+
+std::span<const Entry<ReadLayout>> importers();
+
+// InputError with a hint if there is no such importer.
+const Entry<ReadLayout>& importer(std::string_view name);
+
+// Whether a file of this name is a layout file, by its extension.
+bool is_layout_file(std::string_view path);
+
+// The importer that a file's extension asks for. A .json file is LIF or a layout of our own, as its keys say.
+std::string_view importer_of_file(const std::string& path);
+
+// Reads a layout file with the importer of importer_of_file().
+Layout import_layout(const std::string& path, const ImportChoice& choice, std::vector<std::string>& warnings);
+
+}  // namespace fleetproof

@@ -1,0 +1,242 @@
+#include "generators/formats/lif.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "core/base/catalogue.hpp"
+#include "core/base/error.hpp"
+#include "generators/map/antiparallel.hpp"
+#include "generators/text/json_value.hpp"
+#include "generators/map/layout_check.hpp"
+#include "generators/formats/nurbs.hpp"
+#include "generators/formats/purpose_words.hpp"
+#include "generators/text/text_file.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr double kOnTheNode_m = 0.001;     // how far a trajectory may end beside its node
+constexpr double kSmoothedKink_rad = 0.2;  // a joint of curves beyond it is no rounding error
+
+// The first of two spellings that is there: LIF 1.0 says vehicleType where its successor says mobileRobotType.
+std::optional<JsonReader> either(const JsonReader& object, std::string_view old_key, std::string_view new_key) {
+  auto found = object.find(old_key);
+  return found ? found : object.find(new_key);
+}
+
+Purposes purpose_of_action(std::string_view type) {
+  if (type == "pick" || type == "drop") return Purpose::Storage;
+  return type == "startCharging" ? Purposes(Purpose::Charging) : Purposes::from_bits(0);
+}
+
+// What the vehicles of all types do on one node or edge.
+Purposes purposes_of_actions(const std::optional<JsonReader>& vehicle_types) {
+  auto purposes = Purposes::from_bits(0);
+  if (!vehicle_types) return purposes;
+  for (const auto& type : vehicle_types->items()) {
+    const auto actions = type.find("actions");
+    if (!actions) continue;
+    for (const auto& action : actions->items()) purposes = purposes | purpose_of_action(action.at("actionType").text());
+  }
+  return purposes;
+}
+
+class LifReader {
+ public:
+  LifReader(std::string_view text, std::string_view source, std::vector<std::string>& warnings)
+      : root_(parse_json(text, source)), source_(source), warnings_(warnings) {}
+
+  Layout read() {
+    const auto layout = choose_layout(JsonReader(root_, source_));
+    layout.read("layoutId", layout_.name);
+    layout.read("layoutName", layout_.name);
+    for (const auto& node : layout.at("nodes").items()) add_node(node);
+    if (layout_.stations.empty()) layout.refuse("the layout is empty: it has no node");
+    const auto edges = layout.at("edges").items();
+    for (const auto& edge : edges) add_edge(edge);
+    if (layout_.segments.empty()) layout.refuse("the layout has no edge that can be driven; add some");
+    if (const auto stations = layout.find("stations")) {
+      for (const auto& station : stations->items()) note_station(station);
+    }
+    for (const auto& [index, purposes] : stated_) layout_.stations[index].purposes = purposes;
+    if (limited_ > 0)
+      warn(layout, fmt::format("{} edges limit speed, rotation or load; here every AGV drives every segment at its own speed", limited_));
+    fit_floor(layout_, 3.0);
+    refuse_problems(layout);
+    merge_antiparallel(layout_);
+    return std::move(layout_);
+  }
+
+ private:
+  void warn(const JsonReader& at, std::string_view sentence) { warnings_.push_back(fmt::format("{}: {}", at.place(), sentence)); }
+
+  JsonReader choose_layout(const JsonReader& root) {
+    auto holder = root;
+    if (const auto origins = root.find("origins"); origins && !root.find("layouts")) {
+      const auto all = origins->items();
+      if (all.empty()) origins->refuse("there is no origin; expected a layout in LIF");
+      if (all.size() > 1) warn(*origins, fmt::format("the first of {} origins is read", all.size()));
+      holder = all[0];
+    }
+    const auto layouts = holder.at("layouts");
+    const auto all = layouts.items();
+    if (all.empty()) layouts.refuse("there is no layout; add one");
+    if (all.size() > 1) warn(layouts, fmt::format("the first of {} layouts is read; the others are left out", all.size()));
+    for (const auto& other : std::span(all).subspan(1)) {
+      if (const auto nodes = other.find("nodes")) {
+        for (const auto& node : nodes->items()) elsewhere_.insert(node.at("nodeId").text());
+      }
+    }
+    return all[0];
+  }
+
+  static std::string name_in(const JsonReader& id, std::set<std::string>& taken) {
+    auto name = id.text();
+    if (const char* fault = fault_of_name(name)) id.refuse(fault);
+    if (!taken.insert(name).second) id.refuse("this id is taken already; rename one");
+    return name;
+  }
+
+  void add_node(const JsonReader& node) {
+    Station station;
+    station.name = name_in(node.at("nodeId"), node_names_);
+    const auto position = node.at("nodePosition");
+    station.position_m = {position.at("x").number(), position.at("y").number()};
+    station.purposes = station.purposes | purposes_of_actions(either(node, "vehicleTypeNodeProperties", "mobileRobotTypeNodeProperties"));
+    const auto index = layout_.stations.size();
+    std::string description;
+    if (const auto found = node.find("nodeDescription"); found && found->is_text()) description = found->text();
+    if (description.starts_with(kPurposesMark)) {
+      if (const auto stated = purposes_of_text(std::string_view(description).substr(kPurposesMark.size()))) stated_.emplace(index, *stated);
+    }
+    stations_.emplace(station.name, StationId{index});
+    layout_.stations.push_back(std::move(station));
+    nodes_.push_back(node);
+  }
+
+  // None: a node of another layout.
+  std::optional<StationId> station_in(const JsonReader& id) {
+    const auto name = id.text();
+    if (const auto found = stations_.find(name); found != stations_.end()) return found->second;
+    if (elsewhere_.contains(name)) return std::nullopt;
+    std::vector<std::string_view> known;
+    for (const auto& station : layout_.stations) known.push_back(station.name);
+    const auto nearest = nearest_name(name, known);
+    id.refuse(nearest ? fmt::format("there is no such node; did you mean {}?", in_quotes(*nearest))
+                      : "there is no such node; add it or correct the id");
+  }
+
+  void add_edge(const JsonReader& edge) {
+    Segment segment;
+    segment.name = name_in(edge.at("edgeId"), edge_names_);
+    const auto from = station_in(edge.at("startNodeId")), to = station_in(edge.at("endNodeId"));
+    if (!from || !to) return warn(edge, fmt::format("edge {} leads to another layout and is left out", in_quotes(segment.name)));
+    if (*from == *to) edge.at("endNodeId").refuse("the edge leads from a node to itself; leave it out");
+    segment.from = *from;
+    segment.to = *to;
+    const auto types = either(edge, "vehicleTypeEdgeProperties", "mobileRobotTypeEdgeProperties");
+    auto& purposes = layout_.stations[to->index()].purposes;
+    purposes = purposes | purposes_of_actions(types);
+    std::optional<JsonReader> trajectory;
+    bool limited = false;
+    if (types) {
+      for (const auto& type : types->items()) {
+        if (!trajectory) trajectory = type.find("trajectory");
+        for (const auto key : {"maxSpeed", "maximumSpeed", "maxRotationSpeed", "maximumRotationSpeed", "loadRestriction"})
+          limited |= type.find(key).has_value();
+      }
+    }
+    limited_ += limited ? 1 : 0;
+    if (trajectory) bend(*trajectory, segment);
+    layout_.segments.push_back(std::move(segment));
+    edges_.push_back(edge);
+  }
+
+  static Nurbs nurbs_of(const JsonReader& trajectory) {
+    Nurbs nurbs;
+    if (const auto degree = trajectory.find("degree")) {
+      const double value = degree->number();
+      if (!(value >= 1.0 && value <= 9.0)) degree->refuse("expected a degree of 1 to 9");
+      nurbs.degree = static_cast<std::size_t>(value);
+    }
+    for (const auto& knot : trajectory.at("knotVector").items()) nurbs.knots.push_back(knot.number());
+    for (const auto& point : trajectory.at("controlPoints").items()) {
+      nurbs.points_m.emplace_back(point.at("x").number(), point.at("y").number());
+      nurbs.weights.push_back(1.0);
+      point.read("weight", nurbs.weights.back());
+    }
+    if (const auto fault = fault_of(nurbs); !fault.empty()) trajectory.refuse(fault);
+    return nurbs;
+  }
+
+  void bend(const JsonReader& trajectory, Segment& segment) {
+    auto pieces = cubic_pieces(nurbs_of(trajectory));
+    const Vec2 from = layout_.stations[segment.from.index()].position_m, to = layout_.stations[segment.to.index()].position_m;
+    const auto name = in_quotes(segment.name);
+    const auto miss = [&](const Vec2& begin, const Vec2& end) { return std::max((begin - from).norm(), (end - to).norm()); };
+    if (miss(pieces.end_m, pieces.begin_m) < std::min(kOnTheNode_m, miss(pieces.begin_m, pieces.end_m))) {
+      std::swap(pieces.begin_m, pieces.end_m);
+      std::ranges::reverse(pieces.control_points_m);
+      warn(trajectory, fmt::format("the trajectory of edge {} runs from its end to its start; it is turned round", name));
+    }
+    if (!pieces.exact) warn(trajectory, fmt::format("the trajectory of edge {} is replaced by a smooth curve through points of it", name));
+    if (const double off_m = miss(pieces.begin_m, pieces.end_m); off_m > kOnTheNode_m) {
+      warn(trajectory, fmt::format("the trajectory of edge {} ends {:.3f} m beside its node; it is drawn to the node", name, off_m));
+    }
+    segment.control_points_m = std::move(pieces.control_points_m);
+    const double kink = largest_kink_rad(segment);
+    if (kink > 1e-9 && kink <= kSmoothedKink_rad) {
+      smooth_joints(segment);
+      warn(trajectory, fmt::format("two curves of edge {} meet at an angle of {:.3f} rad; their control points were aligned", name, kink));
+    }
+  }
+
+  void note_station(const JsonReader& station) {
+    for (const auto& id : station.at("interactionNodeIds").items()) {
+      const auto node = station_in(id);
+      if (!node || stated_.contains(node->index())) continue;
+      auto& purposes = layout_.stations[node->index()].purposes;
+      if (purposes != Purposes(Purpose::Routing)) continue;
+      purposes = purposes | Purpose::Storage;
+      warn(id, fmt::format("no action is named at node {}, which belongs to a station; it is taken to be for storage", in_quotes(id.text())));
+    }
+  }
+
+  // Refuses the first fault of the finished layout where it was written.
+  void refuse_problems(const JsonReader& layout) const {
+    const auto problems = problems_of(layout_);
+    if (problems.empty()) return;
+    const std::string_view pointer = problems[0].pointer;
+    const bool of_segment = pointer.starts_with("/segments/"), of_station = pointer.starts_with("/stations/");
+    if (!of_segment && !of_station) layout.refuse(problems[0].sentence);
+    const auto digits = pointer.substr(10);
+    std::size_t index = 0;
+    std::from_chars(digits.data(), digits.data() + digits.size(), index);
+    (of_segment ? edges_ : nodes_)[index].at(of_segment ? "edgeId" : "nodeId").refuse(problems[0].sentence);
+  }
+
+  JsonValue root_;
+  std::string_view source_;
+  std::vector<std::string>& warnings_;
+  Layout layout_;
+  std::vector<JsonReader> nodes_, edges_;  // by station and by segment, as long as no two segments are merged
+  std::set<std::string> node_names_, edge_names_, elsewhere_;
+  std::map<std::string, StationId> stations_;
+  std::map<std::size_t, Purposes> stated_;  // by station: told in its description
+  std::size_t limited_ = 0;
+};
+
+}  // namespace
+
+Layout read_lif(const std::string& path, std::vector<std::string>& warnings) { return parse_lif(read_text_file(path), path, warnings); }
+
+Layout parse_lif(std::string_view text, std::string_view source, std::vector<std::string>& warnings) {
+  return LifReader(text, source, warnings).read();
+}
+
+}  // namespace fleetproof

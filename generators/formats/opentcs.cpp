@@ -1,0 +1,244 @@
+#include "generators/formats/opentcs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <pugixml.hpp>
+#include <set>
+
+#include "core/base/catalogue.hpp"
+#include "core/base/error.hpp"
+#include "generators/map/antiparallel.hpp"
+#include "generators/map/layout_check.hpp"
+#include "generators/text/text_file.hpp"
+#include "generators/text/xml_text.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr double kNewestVersion = 7.0;
+constexpr double kDefaultScale_mm = 50.0;  // of a layout unit, where the model does not say
+constexpr double kToleratedLength = 0.02;  // share by which a stored length may be off
+constexpr double kSmoothedKink_rad = 0.2;  // a joint of Beziers beyond it is no slip of the mouse
+
+// A word in the name of a location type, or of its symbol, and what it says about the points linked to such locations.
+struct PurposeWord {
+  std::string_view word;
+  Purpose purpose;
+};
+constexpr PurposeWord kPurposeWords[] = {{"charg", Purpose::Charging}, {"transfer", Purpose::Storage}, {"storage", Purpose::Storage},
+                                         {"work", Purpose::Storage},   {"load", Purpose::Storage},     {"pick", Purpose::Storage},
+                                         {"drop", Purpose::Storage}};
+
+Purposes purposes_in(std::string name) {
+  for (char& c : name) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  auto purposes = Purposes::from_bits(0);
+  for (const auto& [word, purpose] : kPurposeWords) {
+    if (name.find(word) != std::string::npos) purposes = purposes | purpose;
+  }
+  return purposes;
+}
+
+class ModelReader {
+ public:
+  ModelReader(std::string_view text, std::string_view source, std::vector<std::string>& warnings, TwinPaths twins)
+      : xml_(text, source), source_(source), warnings_(warnings), twins_(twins) {}
+
+  Layout read() {
+    pugi::xml_document document;
+    xml_.load(document);
+    const auto model = document.child("model");
+    if (!model) throw InputError(std::string(source_), "has no <model>; expected an openTCS plant model");
+    layout_.name = model.attribute("name").as_string("openTCS model");
+    check_version(model);
+    read_scale(model);
+    for (const auto point : model.children("point")) add_point(point);
+    if (layout_.stations.empty()) xml_.refuse(model, "the model is empty: it has no <point>");
+    for (const auto path : model.children("path")) add_path(path);
+    if (layout_.segments.empty()) xml_.refuse(model, "the model has no <path> that may be driven; add or unlock some");
+    note_reversible(model);
+    for (const auto type : model.children("locationType")) add_location_type(type);
+    for (const auto location : model.children("location")) add_location(location);
+    fit_floor(layout_, 3.0);
+    refuse_problems(model);
+    compare_lengths();
+    if (twins_ == TwinPaths::Merge) merge_antiparallel(layout_);
+    return std::move(layout_);
+  }
+
+ private:
+  void warn(const pugi::xml_node& node, std::string_view sentence) { warnings_.push_back(fmt::format("{}: {}", xml_.place(node), sentence)); }
+
+  void check_version(const pugi::xml_node& model) {
+    const std::string version = model.attribute("version").as_string();
+    double major = 0.0;
+    if (!read_number(version.substr(0, version.find('.')), major)) {
+      warn(model, fmt::format("version {} is read as version 7", in_quotes(version)));
+    } else if (major > kNewestVersion) {
+      warn(model, fmt::format("version {} is newer than 7, as which it is read", in_quotes(version)));
+    }
+  }
+
+  // Control points of paths are in layout units, their y axis pointing down.
+  void read_scale(const pugi::xml_node& model) {
+    const auto layout = model.child("visualLayout");
+    if (!layout) {
+      warn(model, fmt::format("there is no <visualLayout>; control points are taken as units of {} mm", kDefaultScale_mm));
+      return;
+    }
+    scale_mm_ = {xml_.number(layout, "scaleX"), xml_.number(layout, "scaleY")};
+    if (!(scale_mm_.minCoeff() > 0.0)) xml_.refuse(layout, fmt::format("scale {} x {} is not positive", scale_mm_.x(), scale_mm_.y()));
+  }
+
+  std::string name_of_new(const pugi::xml_node& node, std::set<std::string>& taken) {
+    auto name = xml_.text(node, "name");
+    if (const char* fault = fault_of_name(name)) xml_.refuse(node, fmt::format("name {}: {}", in_quotes(name), fault));
+    if (!taken.insert(name).second) xml_.refuse(node, fmt::format("a second <{}> is named {}; rename one", node.name(), in_quotes(name)));
+    return name;
+  }
+
+  void add_point(const pugi::xml_node& point) {
+    Station station;
+    station.name = name_of_new(point, point_names_);
+    const bool old_spelling = !xml_.has(point, "positionX") && xml_.has(point, "xPosition");
+    const double x_mm = xml_.number(point, old_spelling ? "xPosition" : "positionX"),
+                 y_mm = xml_.number(point, old_spelling ? "yPosition" : "positionY");
+    station.position_m = Vec2(x_mm, y_mm) / 1000.0;
+    const std::string_view type = point.attribute("type").value();
+    if (type == "PARK_POSITION") station.purposes = station.purposes | Purpose::Parking;
+    if (type == "REPORT_POSITION") warn(point, fmt::format("report position {} becomes a station at which AGVs can stop", in_quotes(station.name)));
+    stations_.emplace(station.name, StationId{layout_.stations.size()});
+    layout_.stations.push_back(std::move(station));
+  }
+
+  StationId station_in(const pugi::xml_node& node, const char* attribute) {
+    const auto name = xml_.text(node, attribute);
+    if (const auto found = stations_.find(name); found != stations_.end()) return found->second;
+    std::vector<std::string_view> known;
+    for (const auto& station : layout_.stations) known.push_back(station.name);
+    const auto nearest = nearest_name(name, known);
+    xml_.refuse(node, fmt::format("{} of <{}> is {}, but there is no such point{}", attribute, node.name(), in_quotes(name),
+                                  nearest ? "; did you mean " + in_quotes(*nearest) + "?" : "; add it or correct the name"));
+  }
+
+  void add_path(const pugi::xml_node& path) {
+    Segment segment;
+    segment.name = name_of_new(path, path_names_);
+    segment.from = station_in(path, "sourcePoint");
+    segment.to = station_in(path, "destinationPoint");
+    if (path.attribute("locked").as_bool()) return warn(path, fmt::format("locked path {} is left out", in_quotes(segment.name)));
+    if (segment.from == segment.to) xml_.refuse(path, fmt::format("path {} leads from a point to itself; leave it out", in_quotes(segment.name)));
+    bend(path, segment);
+    layout_.segments.push_back(std::move(segment));
+    paths_.push_back(path);
+  }
+
+  void bend(const pugi::xml_node& path, Segment& segment) {
+    const auto drawing = path.child("pathLayout");
+    const std::string_view type = drawing.attribute("connectionType").value();
+    std::vector<Vec2> points;
+    for (const auto point : drawing.children("controlPoint")) {
+      points.emplace_back(xml_.number(point, "x") * scale_mm_.x() / 1000.0, 0.0 - xml_.number(point, "y") * scale_mm_.y() / 1000.0);
+    }
+    const std::size_t expected = type == "BEZIER" ? 2 : type == "BEZIER_3" ? 5 : 0;
+    if (expected == 0) {
+      if (type == "POLYPATH" && !points.empty())
+        warn(path, fmt::format("path {} is a polyline; a straight line takes its place", in_quotes(segment.name)));
+      return;
+    }
+    if (points.size() != expected) {
+      xml_.refuse(drawing, fmt::format("path {} has {} control points; {} needs {}", in_quotes(segment.name), points.size(), type, expected));
+    }
+    segment.control_points_m = std::move(points);
+    const double kink = largest_kink_rad(segment);
+    if (kink > 1e-9 && kink <= kSmoothedKink_rad) {
+      smooth_joints(segment);
+      warn(path,
+           fmt::format("the two curves of path {} meet at an angle of {:.3f} rad; their control points were aligned", in_quotes(segment.name), kink));
+    }
+  }
+
+  void note_reversible(const pugi::xml_node& model) {
+    const auto count =
+        std::ranges::count_if(paths_, [](const pugi::xml_node& path) { return path.attribute("maxReverseVelocity").as_double() > 0.0; });
+    if (count > 0) warn(model, fmt::format("{} paths may be driven in reverse; here AGVs drive nose first, from source to destination only", count));
+  }
+
+  void add_location_type(const pugi::xml_node& type) {
+    const auto name = xml_.text(type, "name");
+    auto purposes = purposes_in(name);
+    if (purposes.bits() == 0) purposes = purposes_in(type.child("locationTypeLayout").attribute("locationRepresentation").as_string());
+    if (purposes.bits() == 0) warn(type, fmt::format("location type {} names no purpose that is known here; points keep theirs", in_quotes(name)));
+    location_types_.emplace(name, purposes);
+  }
+
+  void add_location(const pugi::xml_node& location) {
+    const auto name = xml_.text(location, "name"), type = xml_.text(location, "type");
+    const auto found = location_types_.find(type);
+    if (found == location_types_.end()) {
+      xml_.refuse(location, fmt::format("type of location {} is {}, but there is no such location type", in_quotes(name), in_quotes(type)));
+    }
+    const bool locked = location.attribute("locked").as_bool();
+    if (locked) warn(location, fmt::format("location {} is locked; points linked to it keep their purposes", in_quotes(name)));
+    for (const auto link : location.children("link")) {
+      const auto station = station_in(link, "point");
+      if (!locked) layout_.stations[station.index()].purposes = layout_.stations[station.index()].purposes | found->second;
+    }
+  }
+
+  // Where a fault of the finished layout was written.
+  pugi::xml_node origin(std::string_view pointer, const pugi::xml_node& model) const {
+    const bool of_segment = pointer.starts_with("/segments/");
+    double index = 0.0;
+    const auto digits = pointer.substr(std::min(pointer.size(), pointer.find('/', 1) + 1));
+    if (!read_number(digits.substr(0, digits.find('/')), index)) return model;
+    if (of_segment) return paths_[static_cast<std::size_t>(index)];
+    return pointer.starts_with("/stations/") ? *std::next(model.children("point").begin(), static_cast<std::ptrdiff_t>(index)) : model;
+  }
+
+  void refuse_problems(const pugi::xml_node& model) {
+    const auto problems = problems_of(layout_);
+    if (problems.empty()) return;
+    const auto node = origin(problems[0].pointer, model);
+    xml_.refuse(node, fmt::format("<{}> {}: {}", node.name(), in_quotes(node.attribute("name").value()), problems[0].sentence));
+  }
+
+  void compare_lengths() {
+    for (std::size_t i = 0; i < paths_.size(); ++i) {
+      double stored_mm = 0.0;
+      const double length_m = segment_curve(layout_, layout_.segments[i]).length_m();
+      if (!read_number(paths_[i].attribute("length").value(), stored_mm)) {
+        warn(paths_[i],
+             fmt::format("path {} has no length that can be read; its geometry has {:.3f} m", in_quotes(layout_.segments[i].name), length_m));
+      } else if (std::abs(stored_mm / 1000.0 - length_m) > kToleratedLength * length_m) {
+        warn(paths_[i], fmt::format("path {} is stored with a length of {:.3f} m; its geometry has {:.3f} m, which counts",
+                                    in_quotes(layout_.segments[i].name), stored_mm / 1000.0, length_m));
+      }
+    }
+  }
+
+  XmlText xml_;
+  std::string_view source_;
+  std::vector<std::string>& warnings_;
+  TwinPaths twins_;
+  Vec2 scale_mm_ = Vec2::Constant(kDefaultScale_mm);
+  Layout layout_;
+  std::vector<pugi::xml_node> paths_;  // by segment, as long as no two of them are merged
+  std::set<std::string> point_names_, path_names_;
+  std::map<std::string, StationId> stations_;
+  std::map<std::string, Purposes> location_types_;
+};
+
+}  // namespace
+
+Layout read_opentcs(const std::string& path, std::vector<std::string>& warnings, TwinPaths twins) {
+  return parse_opentcs(read_text_file(path), path, warnings, twins);
+}
+
+Layout parse_opentcs(std::string_view text, std::string_view source, std::vector<std::string>& warnings, TwinPaths twins) {
+  return ModelReader(text, source, warnings, twins).read();
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,237 @@
+#include "generators/formats/rmf.hpp"
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "core/base/catalogue.hpp"
+#include "core/base/error.hpp"
+#include "generators/map/antiparallel.hpp"
+#include "generators/map/layout_check.hpp"
+#include "generators/text/text_file.hpp"
+#include "generators/text/yaml_text.hpp"
+
+namespace fleetproof {
+namespace {
+
+// Attributes of lanes that change how a fleet drives them, and have no counterpart here.
+constexpr const char* kUnreadLaneWords[] = {"orientation", "orientation_constraint", "speed_limit", "mutex", "dock_name", "door_name", "lift"};
+
+class LevelReader {
+ public:
+  LevelReader(std::string_view text, std::string_view source, std::vector<std::string>& warnings, const RmfChoice& choice)
+      : yaml_(source), warnings_(warnings), choice_(choice), root_(YAML::Load(std::string(text))) {}
+
+  Layout read() {
+    if (!root_.IsMap() || !root_["levels"].IsDefined())
+      throw InputError(yaml_.source(), "has no \"levels\"; expected an Open-RMF building or nav graph");
+    const auto level = choose_level();
+    const auto vertices = yaml_.list(level, "vertices", "the level"), lanes = yaml_.list(level, "lanes", "the level");
+    for (const auto vertex : vertices) vertices_.push_back(vertex);
+    if (vertices_.empty()) yaml_.refuse(vertices, "the level is empty: it has no vertex");
+    is_nav_graph_ = !vertices_[0].IsSequence() || vertices_[0].size() < 3 || vertices_[0][2].IsMap();
+    read_scale(level);
+    for (const auto lane : lanes) add_lane(lane);
+    if (layout_.segments.empty()) yaml_.refuse(lanes, fmt::format("no lane belongs to graph {}; choose another graph or level", choice_.graph_idx));
+    for (const char* word : kUnreadLaneWords) {
+      if (const auto count = unread_.find(word); count != unread_.end())
+        warn(lanes, fmt::format("{} lanes have \"{}\", which is not read", count->second, word));
+    }
+    if (other_graphs_ > 0) warn(lanes, fmt::format("{} lanes of other graphs are left out", other_graphs_));
+    fit_floor(layout_, 3.0);
+    refuse_problems(level);
+    merge_antiparallel(layout_);
+    return std::move(layout_);
+  }
+
+ private:
+  void warn(const YAML::Node& node, std::string_view sentence) { warnings_.push_back(fmt::format("{}: {}", yaml_.place(node), sentence)); }
+
+  YAML::Node choose_level() {
+    const auto levels = root_["levels"];
+    if (!levels.IsMap() || levels.size() == 0) yaml_.refuse(levels, "levels is no map of levels; expected levels: {L1: ...}");
+    std::vector<std::string> names;
+    for (const auto entry : levels) {
+      if (!entry.first.IsScalar() || !entry.second.IsMap())
+        yaml_.refuse(levels, "a level is no map of vertices and lanes; expected L1: {vertices: ..., lanes: ...}");
+      names.push_back(entry.first.Scalar());
+    }
+    const auto& wanted = choice_.level.empty() ? names[0] : choice_.level;
+    for (const auto entry : levels) {
+      if (entry.first.Scalar() != wanted) continue;
+      if (names.size() > 1) warn(levels, fmt::format("of {} levels, {} is read", names.size(), in_quotes(wanted)));
+      layout_.name = wanted;
+      for (const char* key : {"building_name", "name"}) {
+        if (const auto name = root_[key]; name.IsDefined() && name.IsScalar()) layout_.name = name.Scalar() + " " + wanted;
+      }
+      return entry.second;
+    }
+    const std::vector<std::string_view> known(names.begin(), names.end());
+    yaml_.refuse(levels, fmt::format("there is no level {}{}", in_quotes(wanted), name_hint(wanted, known)));
+  }
+
+  std::size_t vertex_index(const YAML::Node& list, std::size_t at, const char* what) const {
+    return yaml_.index_below(vertices_.size(), yaml_.item(list, at, what), fmt::format("{} names vertex", what));
+  }
+
+  // The building file says [type, value] where the nav graph says value. Undefined if the word is not there.
+  static YAML::Node parameter(const YAML::Node& words, const char* word) {
+    if (!words.IsMap()) return YAML::Node(YAML::NodeType::Undefined);
+    const auto found = words[word];
+    return found.IsDefined() && found.IsSequence() && found.size() == 2 ? found[1] : found;
+  }
+
+  // Whether a word is there and says something: not false, empty or 0.
+  static bool is_set(const YAML::Node& words, const char* word) {
+    const auto value = parameter(words, word);
+    if (!value.IsDefined() || value.IsNull()) return false;
+    return !value.IsScalar() || (value.Scalar() != "false" && !value.Scalar().empty() && value.Scalar() != "0");
+  }
+
+  // The words about a vertex or lane: its last item, where that is a map.
+  static YAML::Node words_of(const YAML::Node& list) {
+    return list.IsSequence() && list.size() > 2 ? list[list.size() - 1] : YAML::Node(YAML::NodeType::Undefined);
+  }
+
+  void read_scale(const YAML::Node& level) {
+    if (is_nav_graph_) return;
+    const auto system = root_["coordinate_system"];
+    const auto name = system.IsDefined() && system.IsScalar() ? system.Scalar() : "reference_image";
+    if (name == "cartesian_meters") return;
+    if (name != "reference_image") {
+      yaml_.refuse(system,
+                   fmt::format("coordinate_system is {}, which needs a map projection; generate nav graphs and import one of them", in_quotes(name)));
+    }
+    down_ = true;
+    double sum = 0.0;
+    std::size_t count = 0;
+    const auto measurements = level["measurements"];
+    if (measurements.IsDefined() && measurements.IsSequence()) {
+      for (const auto measurement : measurements) {
+        const auto a = vertex_index(measurement, 0, "a measurement"), b = vertex_index(measurement, 1, "a measurement");
+        const double pixels = (raw_position(a) - raw_position(b)).norm();
+        const auto distance = parameter(yaml_.item(measurement, 2, "a measurement"), "distance");
+        if (!distance.IsDefined()) yaml_.refuse(measurement, "the measurement has no distance; add {distance: [3, METRES]}");
+        const double metres = yaml_.number(distance, "distance");
+        if (!(metres > 0.0 && pixels > 0.0))
+          yaml_.refuse(measurement, fmt::format("{} m for {} pixels give no scale; correct the measurement", metres, pixels));
+        sum += metres / pixels;
+        ++count;
+      }
+    }
+    if (count == 0) return warn(level, "there are no measurements; a pixel is taken as 1 m");
+    scale_m_ = sum / static_cast<double>(count);
+  }
+
+  Vec2 raw_position(std::size_t vertex) const {
+    const auto& node = vertices_[vertex];
+    return {yaml_.number(yaml_.item(node, 0, "a vertex"), "x of a vertex"), yaml_.number(yaml_.item(node, 1, "a vertex"), "y of a vertex")};
+  }
+
+  StationId station_of(std::size_t vertex) {
+    if (const auto found = stations_.find(vertex); found != stations_.end()) return found->second;
+    const auto& node = vertices_[vertex];
+    const auto words = words_of(node);
+    Station station;
+    const auto name = is_nav_graph_ ? parameter(words, "name") : node.size() > 3 ? node[3] : YAML::Node();
+    station.name = name.IsDefined() && name.IsScalar() ? name.Scalar() : "";
+    if (station.name.empty()) station.name = fmt::format("v{}", vertex);
+    if (const char* fault = fault_of_name(station.name)) yaml_.refuse(node, fmt::format("name {}: {}", in_quotes(station.name), fault));
+    if (!names_.insert(station.name).second) {
+      auto other = fmt::format("v{}", vertex);
+      while (!names_.insert(other).second) other += '_';
+      warn(node, fmt::format("a second vertex is named {}; it becomes {}", in_quotes(station.name), in_quotes(other)));
+      station.name = std::move(other);
+    }
+    const Vec2 position = raw_position(vertex) * scale_m_;
+    station.position_m = {position.x(), down_ ? 0.0 - position.y() : position.y()};
+    const auto give = [&](const char* word, Purpose purpose) {
+      if (is_set(words, word)) station.purposes = station.purposes | purpose;
+    };
+    give("is_charger", Purpose::Charging);
+    give("is_parking_spot", Purpose::Parking);
+    give("pickup_dispenser", Purpose::Storage);
+    give("dropoff_ingestor", Purpose::Storage);
+    if (is_set(words, "lift_cabin") || is_set(words, "lift"))
+      warn(node, fmt::format("vertex {} lies in a lift; here it is part of the floor", in_quotes(station.name)));
+    const StationId id{layout_.stations.size()};
+    layout_.stations.push_back(std::move(station));
+    used_.push_back(vertex);
+    stations_.emplace(vertex, id);
+    return id;
+  }
+
+  void add_lane(const YAML::Node& lane) {
+    const auto from = vertex_index(lane, 0, "a lane"), to = vertex_index(lane, 1, "a lane");
+    const auto words = words_of(lane);
+    const auto graph = parameter(words, "graph_idx");
+    if (!is_nav_graph_ && (graph.IsDefined() ? yaml_.number(graph, "graph_idx") : 0.0) != static_cast<double>(choice_.graph_idx)) {
+      ++other_graphs_;
+      return;
+    }
+    if (from == to) yaml_.refuse(lane, fmt::format("a lane leads from vertex {} to itself; leave it out", from));
+    Segment segment;
+    segment.from = station_of(from);
+    segment.to = station_of(to);
+    segment.bidirectional = is_set(words, "bidirectional");
+    segment.name = fmt::format("lane {}", lanes_.size());
+    for (const char* word : kUnreadLaneWords) {
+      if (is_set(words, word)) ++unread_[word];
+    }
+    layout_.segments.push_back(std::move(segment));
+    lanes_.push_back(lane);
+  }
+
+  void refuse_problems(const YAML::Node& level) const {
+    const auto problems = problems_of(layout_);
+    if (problems.empty()) return;
+    const std::string_view pointer = problems[0].pointer;
+    std::size_t index = 0;
+    if (const bool of_segment = pointer.starts_with("/segments/"); of_segment || pointer.starts_with("/stations/")) {
+      const auto digits = pointer.substr(10);
+      std::from_chars(digits.data(), digits.data() + digits.size(), index);
+      yaml_.refuse(of_segment ? lanes_[index] : vertices_[used_[index]], fmt::format("{}: {}", of_segment ? "lane" : "vertex", problems[0].sentence));
+    }
+    yaml_.refuse(level, problems[0].sentence);
+  }
+
+  YamlText yaml_;
+  std::vector<std::string>& warnings_;
+  const RmfChoice& choice_;
+  const YAML::Node root_;
+  std::vector<YAML::Node> vertices_, lanes_;  // as in the file; by segment
+  bool is_nav_graph_ = false, down_ = false;
+  double scale_m_ = 1.0;
+  Layout layout_;
+  std::map<std::size_t, StationId> stations_;  // by vertex
+  std::vector<std::size_t> used_;              // vertex, by station
+  std::set<std::string> names_;
+  std::map<std::string_view, std::size_t> unread_;  // lanes, by word
+  std::size_t other_graphs_ = 0;
+};
+
+}  // namespace
+
+Layout read_rmf(const std::string& path, std::vector<std::string>& warnings, const RmfChoice& choice) {
+  return parse_rmf(read_text_file(path), path, warnings, choice);
+}
+
+Layout parse_rmf(std::string_view text, std::string_view source, std::vector<std::string>& warnings, const RmfChoice& choice) {
+  try {
+    return LevelReader(text, source, warnings, choice).read();
+  } catch (const YAML::Exception& error) {
+    // yaml-cpp quotes single bytes and whole names of the file.
+    std::string reason = "not YAML: " + error.msg.substr(0, 200);
+    std::ranges::replace_if(
+        reason, [](char c) { return c < ' ' || c > '~'; }, '?');
+    if (error.mark.is_null()) throw InputError(source, reason);
+    throw InputError(fmt::format("{}:{}:{}", source, error.mark.line + 1, error.mark.column + 1), reason);
+  }
+}
+
+}  // namespace fleetproof

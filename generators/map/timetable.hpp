@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/scenario/scenario.hpp"
+#include "generators/map/calendar_queue.hpp"
+
+namespace fleetproof {
+
+// The quickest ways from one station to all others: from rest to rest over every lane, the way agents that ask nobody drive. Ways are
+// chosen without regard to turns; the times of arrival contain them. The first lane is driven without turning.
+struct QuickestWays {
+  static constexpr std::uint32_t kNone = ~0U;
+
+  struct Arrival {
+    Duration drives_off{}, arrives{};  // when the last lane is begun, after the turn, and ended
+    std::uint32_t lane = kNone;        // the last one; kNone at `from` and where no way leads
+    std::uint32_t first = kNone;       // lane on which the way begins; likewise
+    bool unique = false;               // no other way is as quick, to the microsecond
+  };
+
+  StationId from;
+  std::vector<Arrival> arrivals;  // by station
+
+  const Arrival& at(StationId station) const { return arrivals[station.index()]; }
+  // Lanes from `from` to `station`, in the order they are driven.
+  std::vector<std::uint32_t> lanes(const LogicalMap& map, StationId station) const;
+};
+
+// Quickest ways of one vehicle type, searched when first asked for. Map and type outlive it.
+class Timetable {
+ public:
+  Timetable(const LogicalMap& map, const VehicleType& type);
+
+  const QuickestWays& from(StationId station);
+
+ private:
+  void search(QuickestWays& ways);
+  void find_ways_on();
+  std::span<const std::uint32_t> followed_from(StationId start);
+  Duration pass(std::span<const std::uint32_t> followed);
+  bool follow(QuickestWays& ways);
+  void arrive(QuickestWays& ways, std::uint32_t station) const;
+  Duration turn(std::uint32_t before, std::uint32_t after) const;
+  Duration duration_of_turn(std::uint32_t before, std::uint32_t after) const;
+
+  const LogicalMap& map_;
+  const VehicleType& type_;
+  // By lane, side by side for the search.
+  struct Hop {
+    std::uint32_t from, to;
+    Duration drive;
+    std::uint32_t place;       // number of the lane in lanes_from() its start
+    std::uint32_t first_turn;  // of those at its end, in turns_
+  };
+  std::vector<Hop> hops_;
+  std::vector<std::uint32_t> onward_;    // by station: the one lane on, apart from those into dead ends; kNone if there are none or several
+  mutable std::vector<Duration> turns_;  // by lane, and place of the next one; negative: not asked for yet
+  std::vector<QuickestWays> ways_;       // by station; empty: not asked for yet
+
+  // Memory of a search, kept for the next.
+  struct Reached {
+    Duration cost, next_best;  // by the quickest way and by the quickest that ends with another lane
+    std::uint32_t lane;
+  };
+  std::vector<Reached> reached_;  // by station
+  std::vector<std::uint32_t> followed_;
+  std::vector<QuickestWays::Arrival> passed_;
+  std::vector<Duration> later_;  // by lane from the end of those followed
+  std::optional<CalendarQueue> open_;
+};
+
+}  // namespace fleetproof

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "core/scenario/scenario.hpp"
+
+namespace fleetproof {
+
+// What is wrong with a pair of kinds of bodies that may be close to each other, as a sentence with its remedy; empty: nothing.
+std::string fault_of_exempt_pair(const ExemptPair& pair, std::span<const std::string> vehicle_types);
+
+// "tugger and cart", as pages say it.
+std::string text_of(const ExemptPair& pair);
+
+}  // namespace fleetproof

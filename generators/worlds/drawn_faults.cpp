@@ -1,0 +1,118 @@
+#include "generators/worlds/drawn_faults.hpp"
+
+#include <fmt/format.h>
+
+#include "core/geometry/rotation.hpp"
+#include "core/base/random.hpp"
+
+namespace fleetproof {
+namespace {
+
+// Topics of the faults stream; with the AGV's number they key every sequence of draws.
+enum class Topic : std::uint32_t { Breakdown = 1, MissionBreakdown, ProtectiveStop, LoadDrop, Obstacle, Restart, Freeze, Clock, Battery };
+
+constexpr double kHour_s = 3600.0;
+constexpr double kWithinMission_s = 60.0;  // after the pick
+constexpr double kFallsClear_m = 0.2;      // between the AGV and the load that fell off behind it
+constexpr double kBesideTrack_m = 1.5;
+constexpr Footprint kObstacle{.length_m = 0.8, .width_m = 0.6};
+constexpr double kLowBattery = 0.12, kLowBatteryMost = 0.20;
+
+class FaultDraws {
+ public:
+  FaultDraws(Scenario& scenario, const FaultRates& rates, std::uint64_t key) : scenario_(scenario), rates_(rates), key_(key) {}
+
+  void run() {
+    for (std::size_t i = 0; i < scenario_.agvs.size(); ++i) agv(AgvId{i});
+    obstacles();
+  }
+
+ private:
+  Draws draws(Topic topic, std::uint32_t item) const { return Draws(key_, static_cast<std::uint32_t>(topic), item); }
+
+  void agv(AgvId id) {
+    poisson(id, Topic::Breakdown, Fault::Kind::Breakdown, rates_.breakdowns_per_agv_hour, [&](Draws& d) { return d.exponential(rates_.repair_s); });
+    poisson(id, Topic::ProtectiveStop, Fault::Kind::ProtectiveStop, rates_.protective_stops_per_agv_hour,
+            [&](Draws& d) { return d.uniform(rates_.protective_stop_least_s, rates_.protective_stop_most_s); });
+    poisson(id, Topic::Restart, Fault::Kind::Restart, rates_.restarts_per_agv_hour, [&](Draws&) { return rates_.restart_s; });
+    poisson(id, Topic::Freeze, Fault::Kind::Freeze, rates_.freezes_per_agv_hour,
+            [&](Draws& d) { return d.uniform(rates_.freeze_least_s, rates_.freeze_most_s); });
+    missions(id);
+    sensing(id);
+    Draws battery = draws(Topic::Battery, id.value);
+    if (battery.uniform() < rates_.low_battery_share) scenario_.agvs[id.index()].battery = battery.uniform(kLowBattery, kLowBatteryMost);
+  }
+
+  template <class Lasts>
+  void poisson(AgvId id, Topic topic, Fault::Kind kind, double per_hour, Lasts lasts) {
+    if (per_hour <= 0.0) return;
+    Draws d = draws(topic, id.value);
+    const double horizon_s = to_seconds(scenario_.horizon);
+    for (double t_s = d.exponential(kHour_s / per_hour); t_s < horizon_s; t_s += d.exponential(kHour_s / per_hour)) {
+      Fault fault;
+      fault.kind = kind;
+      fault.agv = id;
+      fault.at = seconds(t_s);
+      fault.lasts = seconds(lasts(d));
+      scenario_.faults.push_back(fault);
+    }
+  }
+
+  void missions(AgvId id) {
+    Draws breakdown = draws(Topic::MissionBreakdown, id.value), drop = draws(Topic::LoadDrop, id.value);
+    const AgvSetup& agv = scenario_.agvs[id.index()];
+    const double length_m = scenario_.type_of(agv).footprint_with(true).length_m;
+    for (std::uint32_t transport = 0; transport < agv.transports.size(); ++transport) {
+      Fault fault;
+      fault.agv = id;
+      fault.transport = transport;
+      const bool breaks = breakdown.uniform() < rates_.breakdowns_per_transport;
+      fault.at = seconds(breakdown.uniform(0.0, kWithinMission_s));
+      fault.lasts = seconds(breakdown.exponential(rates_.repair_s));
+      if (breaks) scenario_.faults.push_back(fault);
+      const bool falls = drop.uniform() < rates_.load_drops_per_transport;
+      fault.kind = Fault::Kind::LoadDrop;
+      fault.at = seconds(drop.uniform(0.0, kWithinMission_s));
+      fault.lasts = seconds(drop.exponential(rates_.load_lies_s));
+      fault.ahead_m = -(0.5 * length_m + 0.5 * fault.load.length_m + kFallsClear_m);
+      fault.left_m = drop.uniform(-0.8, 0.8);
+      if (falls) scenario_.faults.push_back(fault);
+    }
+  }
+
+  void sensing(AgvId id) {
+    Draws clock = draws(Topic::Clock, id.value);
+    scenario_.agvs[id.index()].sensing = {clock.uniform(0.0, rates_.clock_offset_s), clock.uniform(-rates_.clock_drift_ppm, rates_.clock_drift_ppm) + 0.0,
+                                          rates_.position_error_m, rates_.position_late_s};
+  }
+
+  void obstacles() {
+    if (rates_.obstacles_per_hour <= 0.0) return;
+    Draws d = draws(Topic::Obstacle, 0);
+    const double horizon_s = to_seconds(scenario_.horizon), mean_s = kHour_s / rates_.obstacles_per_hour;
+    for (double t_s = d.exponential(mean_s); t_s < horizon_s; t_s += d.exponential(mean_s)) {
+      const auto& lanes = scenario_.map->lanes();
+      const Curve& curve = lanes[d.below(static_cast<std::uint32_t>(lanes.size()))].curve;
+      const Pose on_track = curve.pose_at(d.uniform(0.0, curve.length_m()));
+      ObstacleSetup obstacle;
+      obstacle.name = fmt::format("foreign obstacle {}", scenario_.obstacles.size());
+      obstacle.footprint = kObstacle;
+      obstacle.pose = {on_track.position_m + d.uniform(-kBesideTrack_m, kBesideTrack_m) * left_of(on_track.heading), on_track.heading + Vec2::Zero()};
+      obstacle.appears = seconds(t_s);
+      obstacle.leaves = obstacle.appears + seconds(d.exponential(rates_.obstacle_stays_s)) + Duration{1};
+      scenario_.obstacles.push_back(obstacle);
+    }
+  }
+
+  Scenario& scenario_;
+  const FaultRates& rates_;
+  std::uint64_t key_;
+};
+
+}  // namespace
+
+void draw_faults(Scenario& scenario, const FaultRates& rates, std::uint64_t key) {
+  if (rates != FaultRates{}) FaultDraws(scenario, rates, key).run();
+}
+
+}  // namespace fleetproof

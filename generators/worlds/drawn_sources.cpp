@@ -1,0 +1,19 @@
+#include "generators/worlds/drawn_sources.hpp"
+
+#include "core/base/random.hpp"
+
+namespace fleetproof {
+
+std::vector<RadioSource> draw_radio_sources(const DrawnSources& drawn, const Layout& layout, std::uint64_t seed) {
+  constexpr std::uint32_t kPlaceTopic = 1;
+  const std::uint64_t key = stream_key(seed, Stream::RadioSources);
+  std::vector<RadioSource> sources(drawn.count, drawn.like);
+  for (std::uint32_t i = 0; i < drawn.count; ++i) {
+    Draws draws(key, kPlaceTopic, i);
+    sources[i].x_m = draws.uniform(layout.floor_low_m.x(), layout.floor_high_m.x());
+    sources[i].y_m = draws.uniform(layout.floor_low_m.y(), layout.floor_high_m.y());
+  }
+  return sources;
+}
+
+}  // namespace fleetproof

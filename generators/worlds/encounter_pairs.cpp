@@ -1,0 +1,255 @@
+#include "generators/worlds/encounter_pairs.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <optional>
+
+#include "core/base/random.hpp"
+#include "generators/families/layout_builder.hpp"
+#include "generators/map/timetable.hpp"
+#include "generators/worlds/transports.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr Duration kWithin = std::chrono::seconds(1);
+constexpr Duration kTie = std::chrono::milliseconds(1);
+// Drawings of the first AGV. The first ones look for the second on a few places to wait; later ones start both anywhere and look at more, at all
+// that may come head-on: where all places to wait are dead ends off one-way lanes nobody does otherwise.
+constexpr std::uint32_t kTries = 64, kHastyTries = 3, kHastyTriesForTies = 7, kFewOthers = 8, kManyOthers = 24;
+
+// Where the second AGV may start so that the two meet: its quickest way to `through` ends with the lane on which, or after which, they do.
+struct Meeting {
+  StationId start, through;
+  Duration earlier{};  // than the first
+  bool head_on = false;
+
+  Duration apart() const { return earlier < Duration::zero() ? -earlier : earlier; }
+};
+
+class PairMaker {
+ public:
+  PairMaker(Scenario& scenario, const Reachability& reachability, bool ties, RejectionCounts& counts)
+      : scenario_(scenario),
+        map_(*scenario.map),
+        counts_(counts),
+        ties_(ties),
+        type_(scenario.vehicle_types[0]),
+        timetable_(map_, type_),
+        starts_(places_to_start(map_, reachability)),
+        core_(reachability.core()),
+        goals_(order_ends(map_, reachability)),
+        lanes_to_(map_.station_count(), 0) {
+    for (const auto& lane : map_.lanes()) ++lanes_to_[lane.to.index()];
+  }
+
+  // Adds both AGVs, or none.
+  std::optional<EncounterPair> make(Draws draws) {
+    const std::size_t before = scenario_.agvs.size();
+    std::optional<Found> best;
+    for (std::uint32_t i = 0; i < kTries; ++i) {
+      const bool hasty = i < (ties_ ? kHastyTriesForTies : kHastyTries);
+      if (ties_ && best && !hasty) break;  // what is left apart is made up by leaving later
+      const bool head_on = best && !ties_;
+      const std::size_t looked_at = hasty && !ties_ ? kFewOthers : head_on ? core_.size() : kManyOthers;
+      const auto found = draw(draws, hasty ? starts_ : core_, looked_at, head_on);
+      if (!found || (best && !is_better(found->meeting, best->meeting))) continue;
+      best = found;
+      if (ties_ ? best->meeting.apart() <= kTie : best->meeting.head_on) break;
+    }
+    if (!best) return std::nullopt;
+    const auto first = static_cast<std::uint32_t>(before);
+    if (!add(best->start, best->goal, counts_) || !add(best->meeting.start, best->other_goal, counts_)) {
+      scenario_.agvs.resize(before);
+      return std::nullopt;
+    }
+    return EncounterPair{first, first + 1, best->goal, best->other_goal, ties_ ? best->meeting.earlier : Duration::zero()};
+  }
+
+ private:
+  struct Found {
+    StationId start, goal, other_goal;
+    Meeting meeting;
+  };
+
+  bool is_better(const Meeting& a, const Meeting& b) const { return ties_ ? a.apart() < b.apart() : a.head_on && !b.head_on; }
+
+  // `head_on`: nothing else will do.
+  std::optional<Found> draw(Draws& draws, const std::vector<StationId>& starts, std::size_t others_looked_at, bool head_on) {
+    const auto start = starts[draws.below(static_cast<std::uint32_t>(starts.size()))];
+    const auto goal = goals_[draws.below(static_cast<std::uint32_t>(goals_.size()))];
+    const auto& ways = timetable_.from(start);
+    if (start == goal || !ways.at(goal).unique || !has_room(start, goal, std::nullopt)) return std::nullopt;
+    const auto way = passed_on(ways, goal);
+    std::vector<StationId> others;
+    others.reserve(starts.size());
+    for (const auto other : starts) {
+      if (other != start && (!head_on || may_come_head_on(other, way))) others.push_back(other);
+    }
+    if (others_looked_at < others.size()) others = some_of(draws, others, others_looked_at);
+    const auto meetings = meetings_with(way, others, head_on);
+    const auto order = draw_some(draws, meetings.size(), meetings.size());
+    for (const auto n : ties_ ? by_time_apart(meetings, order) : head_on_first(meetings, order)) {
+      const auto& meeting = meetings[n];
+      const auto other_goal = goal_through(meeting, draws);
+      if (other_goal && has_room(meeting.start, *other_goal, std::pair(start, goal))) return Found{start, goal, *other_goal, meeting};
+    }
+    return std::nullopt;
+  }
+
+  static std::vector<StationId> some_of(Draws& draws, const std::vector<StationId>& stations, std::size_t wanted) {
+    std::vector<StationId> some;
+    some.reserve(wanted);
+    for (const auto n : draw_some(draws, stations.size(), wanted)) some.push_back(stations[n]);
+    return some;
+  }
+
+  // In drawn order, the best kind first.
+  static std::vector<std::uint32_t> by_time_apart(const std::vector<Meeting>& meetings, std::vector<std::uint32_t> order) {
+    std::ranges::stable_sort(order, {}, [&](std::uint32_t n) { return meetings[n].apart(); });
+    return order;
+  }
+  static std::vector<std::uint32_t> head_on_first(const std::vector<Meeting>& meetings, const std::vector<std::uint32_t>& order) {
+    std::vector<std::uint32_t> sorted;
+    sorted.reserve(order.size());
+    for (const bool head_on : {true, false}) {
+      for (const auto n : order) {
+        if (meetings[n].head_on == head_on) sorted.push_back(n);
+      }
+    }
+    return sorted;
+  }
+
+  // A lane on the way of the first AGV.
+  struct Passed {
+    StationId from, to;
+    std::uint32_t lane, twin;  // twin: the same segment the other way; kNone if it is one-way
+    Duration begun, ended;
+  };
+
+  std::vector<Passed> passed_on(const QuickestWays& ways, StationId goal) const {
+    const auto lanes = ways.lanes(map_, goal);
+    std::vector<Passed> all;
+    all.reserve(lanes.size());
+    for (const auto l : lanes) {
+      const auto& lane = map_.lanes()[l];
+      const auto* back = map_.lane(lane.segment, lane.to);
+      const auto& arrival = ways.at(lane.to);
+      all.push_back({lane.from, lane.to, l, back == nullptr ? QuickestWays::kNone : static_cast<std::uint32_t>(back - map_.lanes().data()),
+                     arrival.drives_off, arrival.arrives});
+    }
+    return all;
+  }
+
+  // False if bounds that cost no search rule it out: only who starts in a dead end drives out of it, and nobody is faster than as the crow flies.
+  bool may_come_head_on(StationId other, const std::vector<Passed>& way) const {
+    return std::ranges::any_of(way, [&](const Passed& passed) {
+      if (passed.twin == QuickestWays::kNone) return false;
+      if (other == passed.to) return passed.begun < kWithin;
+      const double reach_m = type_.drive.speed_mps * to_seconds(passed.begun + kWithin);
+      const Vec2 away_m = map_.station(other).position_m - map_.station(passed.to).position_m;
+      return lanes_to_[passed.to.index()] > 1 && away_m.squaredNorm() < reach_m * reach_m;
+    });
+  }
+
+  // Head-on the other drives the same segment; at a station it comes by another one.
+  std::vector<Meeting> meetings_with(const std::vector<Passed>& way, const std::vector<StationId>& starts, bool head_on) {
+    std::vector<Meeting> found;
+    const auto consider = [&](const Meeting& meeting) {
+      if (meeting.apart() < kWithin) found.push_back(meeting);
+    };
+    for (const auto start : starts) {
+      const auto& other = timetable_.from(start);
+      for (const auto& passed : way) {
+        const auto& there = other.at(passed.to);
+        if (!ties_ && passed.twin != QuickestWays::kNone) {
+          const auto& here = other.at(passed.from);
+          if (here.lane == passed.twin && here.unique) consider({start, passed.from, passed.begun - here.drives_off, true});
+        }
+        if (!head_on && there.lane != passed.lane && there.lane != QuickestWays::kNone && there.unique) {
+          consider({start, passed.to, passed.ended - there.arrives, false});
+        }
+      }
+    }
+    return found;
+  }
+
+  // Of the goals to which the quickest way from the start leads through the meeting, or ends there.
+  std::optional<StationId> goal_through(const Meeting& meeting, Draws& draws) {
+    const auto& ways = timetable_.from(meeting.start);
+    const Duration met = ways.at(meeting.through).arrives;
+    std::vector<StationId> through;
+    through.reserve(goals_.size());
+    for (const auto goal : goals_) {
+      if (goal == meeting.start || !ways.at(goal).unique) continue;
+      StationId s = goal;
+      while (ways.at(s).arrives > met) s = map_.lanes()[ways.at(s).lane].from;
+      if (s == meeting.through) through.push_back(goal);
+    }
+    if (through.empty()) return std::nullopt;
+    return through[draws.below(static_cast<std::uint32_t>(through.size()))];
+  }
+
+  Vec2 heading(StationId start, StationId goal) { return map_.lanes()[timetable_.from(start).at(goal).first].curve.pose_at(0.0).heading; }
+
+  bool add(StationId start, StationId goal, RejectionCounts& counts) { return add_agv(scenario_, start, heading(start, goal), counts); }
+
+  // Whether an AGV finds room, after the first of its pair if that is given. Nobody is left standing.
+  bool has_room(StationId start, StationId goal, std::optional<std::pair<StationId, StationId>> after) {
+    const std::size_t before = scenario_.agvs.size();
+    RejectionCounts tried;
+    const bool room = (!after || add(after->first, after->second, tried)) && add(start, goal, tried);
+    scenario_.agvs.resize(before);
+    return room;
+  }
+
+  Scenario& scenario_;
+  const LogicalMap& map_;
+  RejectionCounts& counts_;
+  bool ties_;
+  const VehicleType& type_;
+  Timetable timetable_;
+  std::vector<StationId> starts_, core_, goals_;
+  std::vector<std::uint32_t> lanes_to_;  // how many, by station
+};
+
+}  // namespace
+
+std::vector<EncounterPair> place_pairs(Scenario& scenario, std::uint32_t fleet_size, Placement placement, const Reachability& reachability,
+                                       std::uint64_t key, std::uint32_t attempt, RejectionCounts& counts) {
+  std::vector<EncounterPair> pairs;
+  if (reachability.core().size() < 2) return pairs;
+  PairMaker maker(scenario, reachability, placement == Placement::Symmetric, counts);
+  while (scenario.agvs.size() + 2 <= fleet_size) {
+    ++counts.pairs_wanted;
+    const auto pair = maker.make(Draws(key, attempt, static_cast<std::uint32_t>(scenario.agvs.size())));
+    if (!pair) break;
+    pairs.push_back(*pair);
+    ++counts.pairs_made;
+  }
+  return pairs;
+}
+
+void send_to_meet(Scenario& scenario, const std::vector<EncounterPair>& pairs) {
+  const auto begin_at = [](TransportOrder& order, StationId goal) {
+    if (order.to == goal) order.to = order.from;
+    order.from = goal;
+  };
+  const auto release = [](std::vector<TransportOrder>& orders, Duration at) {
+    orders[0].release = at;
+    for (std::size_t i = 1; i < orders.size() && orders[i].release < at; ++i) orders[i].release = at;
+  };
+  for (const auto& pair : pairs) {
+    auto& first = scenario.agvs[pair.first].transports;
+    auto& second = scenario.agvs[pair.second].transports;
+    if (first.empty() || second.empty()) continue;
+    const Duration earlier = std::min(first[0].release, second[0].release);
+    const Duration later = std::min(earlier + (pair.second_after < Duration::zero() ? -pair.second_after : pair.second_after), scenario.horizon);
+    release(first, pair.second_after < Duration::zero() ? later : earlier);
+    release(second, pair.second_after > Duration::zero() ? later : earlier);
+    begin_at(first[0], pair.first_goal);
+    begin_at(second[0], pair.second_goal);
+  }
+}
+
+}  // namespace fleetproof

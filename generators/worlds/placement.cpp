@@ -1,0 +1,148 @@
+#include "generators/worlds/placement.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "core/base/random.hpp"
+#include "generators/scenario_file/validator.hpp"
+#include "generators/map/waiting_room.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr std::uint32_t kNoAgv = ~0U;  // item of draws that belong to no AGV
+
+// Where the next AGV may stand: stations not drawn yet.
+class Candidates {
+ public:
+  Candidates(const LogicalMap& map, const Reachability& reachability) {
+    for (const auto station : reachability.core()) (is_place_to_wait(map.station(station)) ? waiting_ : others_).push_back(station);
+  }
+
+  std::optional<StationId> draw(Draws& draws) {
+    auto& from = waiting_.empty() ? others_ : waiting_;
+    if (from.empty()) return std::nullopt;
+    const auto n = draws.below(static_cast<std::uint32_t>(from.size()));
+    const auto station = from[n];
+    from[n] = from.back();
+    from.pop_back();
+    return station;
+  }
+
+ private:
+  std::vector<StationId> waiting_, others_;
+};
+
+// Why an AGV cannot start like this; nothing if it can.
+std::optional<ProblemKind> rejection(const Scenario& scenario, const AgvSetup& agv) {
+  const double distance_m = scenario.law.safety_distance_m;
+  const auto body = start_body(scenario, agv);
+  for (const auto& other : scenario.agvs) {
+    if (closer_than(start_body(scenario, other), body, distance_m)) return ProblemKind::StartsTooClose;
+  }
+  for (const auto& obstacle : scenario.obstacles) {
+    if (obstacle.appears == Duration::zero() && closer_than(placed(obstacle.footprint, obstacle.pose), body, distance_m)) return ProblemKind::StartNearObstacle;
+  }
+  return std::nullopt;
+}
+
+// Heading along one of the lanes that leave the station.
+bool add_agv_at(Scenario& scenario, StationId station, Draws& draws, RejectionCounts& counts) {
+  const auto& lanes = scenario.map->lanes_from(station);
+  if (lanes.empty()) {
+    ++counts.starts_tried;
+    ++counts.of(ProblemKind::StartWithoutLane);
+    return false;
+  }
+  const auto& lane = scenario.map->lanes()[lanes[draws.below(static_cast<std::uint32_t>(lanes.size()))]];
+  return add_agv(scenario, station, lane.curve.pose_at(0.0).heading, counts);
+}
+
+}  // namespace
+
+const char* name_of(Placement placement) {
+  switch (placement) {
+    case Placement::Random:
+      return "random";
+    case Placement::ChargerBank:
+      return "charger-bank";
+    case Placement::Adversarial:
+      return "adversarial";
+    case Placement::Symmetric:
+      return "symmetric";
+    case Placement::Mixed:
+      return "mixed";
+  }
+  return "unknown";
+}
+
+Placement placement_of_world(Placement placement, std::uint64_t key) {
+  if (placement != Placement::Mixed) return placement;
+  const auto n = Draws(key, kNoAgv, kNoAgv).below(10);
+  return n < 4 ? Placement::Adversarial : n < 7 ? Placement::Random : n < 9 ? Placement::ChargerBank : Placement::Symmetric;
+}
+
+bool place_fleet(Scenario& scenario, std::uint32_t fleet_size, const Reachability& reachability, std::uint64_t key, std::uint32_t attempt,
+                 RejectionCounts& counts) {
+  Candidates candidates(*scenario.map, reachability);
+  while (scenario.agvs.size() < fleet_size) {
+    Draws draws(key, attempt, static_cast<std::uint32_t>(scenario.agvs.size()));
+    while (true) {
+      const auto station = candidates.draw(draws);
+      if (!station) {
+        ++counts.fleets_without_room;
+        return false;
+      }
+      if (add_agv_at(scenario, *station, draws, counts)) break;
+    }
+  }
+  return true;
+}
+
+bool place_at_charger_bank(Scenario& scenario, std::uint32_t fleet_size, const Reachability& reachability, std::uint64_t key, std::uint32_t attempt,
+                           RejectionCounts& counts) {
+  const LogicalMap& map = *scenario.map;
+  std::vector<StationId> banks;
+  for (const auto s : reachability.core()) {
+    if (map.station(s).purposes.has(Purpose::Charging)) banks.push_back(s);
+  }
+  if (banks.empty()) banks = places_to_start(map, reachability);
+  const auto bank = banks[Draws(key, attempt, kNoAgv).below(static_cast<std::uint32_t>(banks.size()))];
+  auto stations = reachability.core();
+  const auto distance = [&](StationId s) { return (map.station(s).position_m - map.station(bank).position_m).squaredNorm(); };
+  std::ranges::stable_sort(stations, {}, distance);
+  for (const auto station : stations) {
+    if (scenario.agvs.size() == fleet_size) break;
+    Draws draws(key, attempt, static_cast<std::uint32_t>(scenario.agvs.size()));
+    add_agv_at(scenario, station, draws, counts);
+  }
+  if (scenario.agvs.size() == fleet_size) return true;
+  ++counts.fleets_without_room;
+  return false;
+}
+
+std::vector<StationId> places_to_start(const LogicalMap& map, const Reachability& reachability) {
+  std::vector<StationId> places;
+  for (const auto s : reachability.core()) {
+    if (is_place_to_wait(map.station(s))) places.push_back(s);
+  }
+  return places.empty() ? reachability.core() : places;
+}
+
+bool add_agv(Scenario& scenario, StationId start, const Vec2& heading, RejectionCounts& counts) {
+  AgvSetup agv;
+  agv.name = fmt::format("AGV {}", scenario.agvs.size());  // the id that archive, report and agents use
+  agv.start = start;
+  agv.heading = heading + Vec2::Zero();  // without negative zeros, which files do not keep
+  ++counts.starts_tried;
+  if (const auto reason = rejection(scenario, agv)) {
+    ++counts.of(*reason);
+    return false;
+  }
+  scenario.agvs.push_back(std::move(agv));
+  return true;
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,222 @@
+#include "generators/worlds/world_maker.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "core/base/error.hpp"
+#include "core/base/random.hpp"
+#include "generators/worlds/encounter_pairs.hpp"
+#include "generators/families/layout_family.hpp"
+#include "generators/families/mutated_import.hpp"
+#include "generators/worlds/placement.hpp"
+#include "generators/text/text_file.hpp"
+#include "generators/worlds/transports.hpp"
+#include "generators/scenario_file/validator.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr std::uint32_t kAttempts = 32;
+constexpr std::uint32_t kTypeTopic = 0x74000000;  // of the placement stream, beyond any attempt
+constexpr double kMostTransports_per_h = 3600.0, kLargestSkew = 4.0;
+
+using SharedMap = std::shared_ptr<const LogicalMap>;
+
+void check(const WorldSpec& spec) {
+  if (spec.vehicles.empty()) throw InputError("vehicle", "a fleet needs at least one type of vehicle");
+  if (spec.fleet_size == 0) throw InputError("fleet_size", "0 AGVs are no fleet; ask for at least 1");
+  if (!(spec.transports_per_agv_hour >= 0.0 && spec.transports_per_agv_hour <= kMostTransports_per_h)) {
+    throw InputError("transports_per_agv_hour", fmt::format("{} is outside 0 .. {}", spec.transports_per_agv_hour, kMostTransports_per_h));
+  }
+  if (!(spec.hot_spot_skew >= 0.0 && spec.hot_spot_skew <= kLargestSkew)) {
+    throw InputError("hot_spot_skew", fmt::format("{} is outside 0 .. {}", spec.hot_spot_skew, kLargestSkew));
+  }
+  if (spec.horizon <= Duration::zero()) throw InputError("horizon_s", fmt::format("{} is not above 0", to_seconds(spec.horizon)));
+  if (spec.orders != nullptr) {
+    if (spec.mutate || std::holds_alternative<std::string>(spec.layout)) {
+      throw InputError("orders", "a list of orders names stations, but this layout is drawn anew for every world; use a layout file as it is");
+    }
+    if (spec.placement != Placement::Random && spec.placement != Placement::ChargerBank) {
+      throw InputError("orders",
+                       fmt::format("placement {} chooses the first orders itself; drop one of the two", in_quotes(name_of(spec.placement))));
+    }
+  }
+  if (const auto* map = std::get_if<SharedMap>(&spec.layout); map != nullptr && spec.fleet_size > (*map)->station_count()) {
+    throw InputError("fleet_size",
+                     fmt::format("{} AGVs cannot start on the {} stations of this layout; ask for fewer", spec.fleet_size, (*map)->station_count()));
+  }
+}
+
+// The first type, as long and as wide as any of them.
+VehicleType envelope(const std::vector<VehicleShare>& vehicles) {
+  VehicleType type = vehicles.front().type;
+  for (const auto& [other, share] : vehicles) {
+    type.footprint.length_m = std::max(type.footprint.length_m, other.footprint.length_m);
+    type.footprint.width_m = std::max(type.footprint.width_m, other.footprint.width_m);
+  }
+  return type;
+}
+
+// The worlds of one seed, one after the other until one is sound.
+class WorldMaker {
+ public:
+  // `held_attempt`: of which attempt the held streams are.
+  WorldMaker(const WorldSpec& spec, std::uint64_t seed, std::uint32_t held_attempt)
+      : spec_(spec), held_attempt_(held_attempt), family_(std::get_if<std::string>(&spec.layout)) {
+    scenario_.vehicle_types = {envelope(spec.vehicles)};
+    scenario_.law = spec.law;
+    scenario_.horizon = spec.horizon;
+    scenario_.seed = seed;
+    if (spec.held.seed != seed) {
+      for (const Stream stream : spec.held.streams) scenario_.stream_seeds.push_back({stream, spec.held.seed});
+    }
+    if (family_ != nullptr || spec.mutate) return;
+    set_map(std::get<SharedMap>(spec.layout));
+    // No other draw mends a fixed layout.
+    for (const auto& problem : world_problems(scenario_, *reachability_)) throw InputError(scenario_.map->layout().name, problem.sentence);
+  }
+
+  bool attempt(std::uint32_t number) {
+    scenario_.vehicle_types = {envelope(spec_.vehicles)};
+    scenario_.obstacles.clear();
+    scenario_.faults.clear();
+    if (!draw_map(number) || !place(number)) return false;
+    const bool stored = assign_orders(number);
+    draw_types(number);
+    draw_faults(scenario_, spec_.faults, key_of(Stream::Faults));
+    if (const auto problems = unusable_problems(scenario_); !problems.empty()) throw InputError(problems[0].pointer, problems[0].sentence);
+    const auto problems = world_problems(scenario_, *reachability_);
+    for (const auto& problem : problems) ++counts.of(problem.kind);
+    if (!problems.empty()) return false;
+    if (!stored) ++counts.worlds_without_storage;
+    return true;
+  }
+
+  Scenario take() { return std::move(scenario_); }
+
+  RejectionCounts counts;
+
+ private:
+  bool draw_map(std::uint32_t number) {
+    Draws draws(key_of(Stream::Layout), attempt_of(Stream::Layout, number));
+    if (family_ != nullptr) {
+      set_map(::fleetproof::draw_map(family_range(*family_), draws));
+    } else if (spec_.mutate) {
+      auto map = draw_mutated_map(std::get<SharedMap>(spec_.layout)->layout(), draws, counts);
+      if (map == nullptr) return false;
+      set_map(std::move(map));
+    }
+    return true;
+  }
+
+  bool place(std::uint32_t attempt) {
+    const auto key = key_of(Stream::Placement);
+    const auto number = attempt_of(Stream::Placement, attempt);
+    const auto placement = placement_of_world(spec_.placement, key);
+    scenario_.agvs.clear();
+    pairs_.clear();
+    if (placement == Placement::ChargerBank) return place_at_charger_bank(scenario_, spec_.fleet_size, *reachability_, key, number, counts);
+    if (placement != Placement::Random) pairs_ = place_pairs(scenario_, spec_.fleet_size, placement, *reachability_, key, number, counts);
+    return place_fleet(scenario_, spec_.fleet_size, *reachability_, key, number, counts);
+  }
+
+  // False if transports lead between any stations, as too few are for storage.
+  bool assign_orders(std::uint32_t number) {
+    if (spec_.orders != nullptr) {
+      assign_listed_orders(scenario_, *spec_.orders, *reachability_);
+      return true;
+    }
+    const Demand demand{spec_.transports_per_agv_hour, spec_.hot_spot_skew};
+    const bool stored = assign_transports(scenario_, demand, *reachability_, key_of(Stream::Transports), attempt_of(Stream::Transports, number));
+    send_to_meet(scenario_, pairs_);
+    return stored;
+  }
+
+  // Once everybody has a place that would do for the largest.
+  void draw_types(std::uint32_t number) {
+    scenario_.vehicle_types.clear();
+    double total = 0.0;
+    for (const auto& [type, share] : spec_.vehicles) {
+      scenario_.vehicle_types.push_back(type);
+      total += share;
+    }
+    if (spec_.vehicles.size() == 1) return;
+    for (std::size_t i = 0; i < scenario_.agvs.size(); ++i) {
+      Draws draws(key_of(Stream::Placement), kTypeTopic + attempt_of(Stream::Placement, number), static_cast<std::uint32_t>(i));
+      double left = draws.uniform(0.0, total);
+      std::uint32_t type = 0;
+      while (type + 1 < spec_.vehicles.size() && left >= spec_.vehicles[type].share) left -= spec_.vehicles[type++].share;
+      scenario_.agvs[i].type = type;
+    }
+  }
+
+  std::uint64_t key_of(Stream stream) const { return stream_key(scenario_.seed_of(stream), stream); }
+
+  // A stream that is held stays at the attempt that made the world it is held from: an attempt more because of something else leaves it as it was.
+  std::uint32_t attempt_of(Stream stream, std::uint32_t number) const {
+    return std::ranges::find(scenario_.stream_seeds, stream, &StreamSeed::stream) == scenario_.stream_seeds.end() ? number : held_attempt_;
+  }
+
+  void set_map(SharedMap map) {
+    scenario_.map = std::move(map);
+    reachability_.emplace(*scenario_.map);
+    scenario_.name = fmt::format("{}, {} AGVs", scenario_.map->layout().name, spec_.fleet_size);
+  }
+
+  const WorldSpec& spec_;
+  std::uint32_t held_attempt_;
+  const std::string* family_;
+  Scenario scenario_;
+  std::optional<Reachability> reachability_;
+  std::vector<EncounterPair> pairs_;
+};
+
+struct MadeWorld {
+  Scenario scenario;
+  std::uint32_t attempt = 0;
+};
+
+MadeWorld make_world(const WorldSpec& spec, std::uint64_t seed, std::uint32_t held_attempt, RejectionCounts& counts) {
+  WorldMaker maker(spec, seed, held_attempt);
+  for (std::uint32_t number = 0; number < kAttempts; ++number) {
+    if (maker.attempt(number)) {
+      ++maker.counts.worlds;
+      counts.add(maker.counts);
+      return {maker.take(), number};
+    }
+    ++maker.counts.worlds_rejected;
+  }
+  counts.add(maker.counts);
+  throw InputError("fleet_size", fmt::format("cannot place {} AGVs on this layout in {} draws ({}); ask for fewer or for a larger layout",
+                                             spec.fleet_size, kAttempts, rejection_text(maker.counts)));
+}
+
+bool shapes_world(Stream stream) { return stream == Stream::Layout || stream == Stream::Placement || stream == Stream::Transports; }
+
+}  // namespace
+
+Scenario generate_world(const WorldSpec& spec, std::uint64_t seed, RejectionCounts& counts) {
+  check(spec);
+  std::uint32_t held_attempt = 0;
+  if (spec.held.seed != seed && std::ranges::any_of(spec.held.streams, shapes_world)) {
+    WorldSpec unheld = spec;
+    unheld.held = {};
+    RejectionCounts ignored;
+    held_attempt = make_world(unheld, spec.held.seed, 0, ignored).attempt;
+  }
+  return make_world(spec, seed, held_attempt, counts).scenario;
+}
+
+std::string rejection_text(const RejectionCounts& counts) {
+  std::string text;
+  const auto add = [&](const char* what, std::uint64_t times) {
+    if (times > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", what, times);
+  };
+  add("out of stations", counts.fleets_without_room);
+  for (std::size_t i = 0; i < kProblemKinds; ++i) add(name_of(static_cast<ProblemKind>(i)), counts.reasons[i]);
+  return text;
+}
+
+}  // namespace fleetproof
