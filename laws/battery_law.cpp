@@ -16,7 +16,9 @@ class BatteryLaw final : public Law {
 
   void piece_started(const Piece& piece) override { bodies_.note(piece); }
   void piece_ended(const Piece&) override {}
-  TraceKinds reads() const override { return {TraceKind::BatteryEmpty, TraceKind::ActivityBegins, TraceKind::OperatorAssists}; }
+  TraceKinds reads() const override {
+    return {TraceKind::BatteryEmpty, TraceKind::ActivityBegins, TraceKind::OperatorAssists};
+  }
   void happened(const TraceRecord& record) override;
   void finish(SimTime end) override;
   LawFindings findings() const override;
@@ -32,8 +34,9 @@ class BatteryLaw final : public Law {
 
 void BatteryLaw::happened(const TraceRecord& record) {
   if (record.kind != TraceKind::BatteryEmpty) {
-    const bool charged = record.kind == TraceKind::ActivityBegins ? record.a == static_cast<std::uint64_t>(ActivityKind::Charge)
-                                                                  : record.a == static_cast<std::uint64_t>(Assist::Battery);
+    const bool charged = record.kind == TraceKind::ActivityBegins
+                             ? record.a == static_cast<std::uint64_t>(ActivityKind::Charge)
+                             : record.a == static_cast<std::uint64_t>(Assist::Battery);
     if (!charged) return;
     const auto standing = standing_.find(record.entity);
     if (standing == standing_.end()) return;
@@ -60,7 +63,8 @@ LawFindings BatteryLaw::findings() const {
 std::int64_t BatteryLaw::to_nearest_charger_um(const Vec2& position_m) const {
   double nearest_m = std::numeric_limits<double>::infinity();
   for (const Station& station : scenario_.map->layout().stations) {
-    if (station.purposes.has(Purpose::Charging)) nearest_m = std::min(nearest_m, (station.position_m - position_m).norm());
+    if (station.purposes.has(Purpose::Charging))
+      nearest_m = std::min(nearest_m, (station.position_m - position_m).norm());
   }
   return std::isinf(nearest_m) ? std::numeric_limits<std::int64_t>::max() : std::llround(nearest_m * 1e6);
 }

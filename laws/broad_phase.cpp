@@ -63,7 +63,8 @@ inline void BroadPhase::look_into(std::size_t chain, const Box& box) {
 }
 
 inline std::size_t BroadPhase::chain_of(std::uint32_t level, std::int64_t x, std::int64_t y) const {
-  const std::uint64_t mixed = (static_cast<std::uint64_t>(x) * 0x9E3779B97F4A7C15U) ^ (static_cast<std::uint64_t>(y) * 0xC2B2AE3D27D4EB4FU) ^ level;
+  const std::uint64_t mixed = (static_cast<std::uint64_t>(x) * 0x9E3779B97F4A7C15U) ^
+                              (static_cast<std::uint64_t>(y) * 0xC2B2AE3D27D4EB4FU) ^ level;
   return (mixed ^ mixed >> 32) & (heads_.size() - 2);
 }
 
@@ -74,7 +75,8 @@ void BroadPhase::place(std::size_t body, const Box& box) {
   const auto id = static_cast<std::uint32_t>(body);
   const std::uint32_t level = level_of(box);
   const Vec2 middle_m = 0.5 * (box.low_m + box.high_m);
-  const std::size_t chain = level == kLevels ? heads_.size() - 1 : chain_of(level, cell(level, middle_m.x()), cell(level, middle_m.y()));
+  const std::size_t chain =
+      level == kLevels ? heads_.size() - 1 : chain_of(level, cell(level, middle_m.x()), cell(level, middle_m.y()));
   std::uint32_t& head = heads_[chain];
   links_[body] = {kNobody, head, static_cast<std::uint32_t>(chain), level};
   if (head != kNobody) links_[head].before = id;
@@ -96,7 +98,8 @@ void BroadPhase::remove(std::size_t body) {
 std::span<const std::uint32_t> BroadPhase::overlapping(const Box& box) {
   count_ = 0;
   bool found_all = files();
-  for (std::uint32_t level = 0; found_all && level < kLevels; ++level) found_all = filed_[level] == 0 || look_around(level, box);
+  for (std::uint32_t level = 0; found_all && level < kLevels; ++level)
+    found_all = filed_[level] == 0 || look_around(level, box);
   if (found_all) {
     look_into(heads_.size() - 1, box);
     const auto found = std::span(found_).first(count_);
@@ -115,7 +118,8 @@ void BroadPhase::scan(const Box& box) {
   std::uint32_t* last = found_.data();
   std::uint32_t body = 0;
   for (const Two& two : twos_) {
-    const auto meets = (both(two.left) <= right) & (left <= both(two.right)) & (both(two.bottom) <= top) & (bottom <= both(two.top));
+    const auto meets =
+        (both(two.left) <= right) & (left <= both(two.right)) & (both(two.bottom) <= top) & (bottom <= both(two.top));
     *last = body++;
     last -= meets[0];
     *last = body++;
@@ -124,12 +128,14 @@ void BroadPhase::scan(const Box& box) {
   count_ = static_cast<std::size_t>(last - found_.data());
 }
 
-// Whoever is filed with cells of this size: its middle is no farther from its rim than half a cell. False if that would be too many cells.
+// Whoever is filed with cells of this size: its middle is no farther from its rim than half a cell. False if that would
+// be too many cells.
 bool BroadPhase::look_around(std::uint32_t level, const Box& box) {
   const double beyond_m = 0.5 * kCell_m[level];
   const std::int64_t left = cell(level, box.low_m.x() - beyond_m), right = cell(level, box.high_m.x() + beyond_m);
   const std::int64_t bottom = cell(level, box.low_m.y() - beyond_m), top = cell(level, box.high_m.y() + beyond_m);
-  if (right - left >= kMostCells || top - bottom >= kMostCells || (right - left + 1) * (top - bottom + 1) > kMostCells) return false;
+  if (right - left >= kMostCells || top - bottom >= kMostCells || (right - left + 1) * (top - bottom + 1) > kMostCells)
+    return false;
   for (std::int64_t x = left; x <= right; ++x) {
     for (std::int64_t y = bottom; y <= top; ++y) look_into(chain_of(level, x, y), box);
   }

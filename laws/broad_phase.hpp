@@ -9,9 +9,9 @@
 
 namespace fleetproof {
 
-// Which bodies' boxes overlap a given one, as boxes come and go. A fleet of up to kScanned bodies is scanned; above, a box is filed by its middle, in
-// one cell of the grid whose cells are no smaller than it (a loose grid), and a question looks half a cell beyond its own box.
-// Answers do not depend on which of the two it is.
+// Which bodies' boxes overlap a given one, as boxes come and go. A fleet of up to kScanned bodies is scanned; above, a
+// box is filed by its middle, in one cell of the grid whose cells are no smaller than it (a loose grid), and a question
+// looks half a cell beyond its own box. Answers do not depend on which of the two it is.
 class BroadPhase {
  public:
   static constexpr std::size_t kScanned = 32;
@@ -47,10 +47,11 @@ class BroadPhase {
 
   std::vector<Box> boxes_;
   std::vector<Two> twos_;
-  std::vector<std::uint32_t> heads_;              // of the chains; the last one is of those too large for any cell. Empty if bodies are scanned
+  std::vector<std::uint32_t>
+      heads_;  // of the chains; the last one is of those too large for any cell. Empty if bodies are scanned
   std::vector<Link> links_;                       // by body
   std::array<std::size_t, kLevels + 1> filed_{};  // bodies by level
-  std::vector<std::uint32_t> found_;  // the first count_
+  std::vector<std::uint32_t> found_;              // the first count_
   std::size_t count_ = 0;
 };
 

@@ -16,21 +16,25 @@ struct Span {
 
 bool found_by(const std::vector<Violation>& others, const Violation& violation, Duration within) {
   return std::ranges::any_of(others, [&](const Violation& other) {
-    return other.a == violation.a && other.b == violation.b && other.first <= violation.last + within && violation.first <= other.last + within;
+    return other.a == violation.a && other.b == violation.b && other.first <= violation.last + within &&
+           violation.first <= other.last + within;
   });
 }
 
 class Explainer {
  public:
   Explainer(const Scenario& scenario, const TimelineKeeper& timelines)
-      : threshold_m_(violation_threshold_m(scenario.law)), step_(seconds(scenario.law.snapshot_s)), timelines_(timelines) {}
+      : threshold_m_(violation_threshold_m(scenario.law)),
+        step_(seconds(scenario.law.snapshot_s)),
+        timelines_(timelines) {}
 
   DifferenceCause of_miss(const Violation& v) const {
     const Span when{v.first, std::max(v.last, v.first + Duration{1})};
     if (const auto cause = two_drives(v, when)) return *cause;
     for (const auto& [mover, other] : {std::pair(v.a, v.b), std::pair(v.b, v.a)}) {
       for (const Piece& drive : timelines_.of(mover)) {
-        if (drive.manner == Manner::Drive && when.meets(drive) && drives_within(other, drive)) return DifferenceCause::RestPhase;
+        if (drive.manner == Manner::Drive && when.meets(drive) && drives_within(other, drive))
+          return DifferenceCause::RestPhase;
       }
     }
     if (drives_within(v.a, when) || drives_within(v.b, when)) return one_drive(v, when);
@@ -39,16 +43,22 @@ class Explainer {
 
   DifferenceCause of_accusation(const Violation& v) const {
     const OrientedRectangle a = body_at(v.a, v.closest_at), b = body_at(v.b, v.closest_at);
-    const auto within = [](const OrientedRectangle& one, const OrientedRectangle& other) { return clearance_m(one, other) <= 0.0; };
-    if (within(widened(a, threshold_m_), b) || within(widened(b, threshold_m_), a)) return DifferenceCause::SquareCorners;
+    const auto within = [](const OrientedRectangle& one, const OrientedRectangle& other) {
+      return clearance_m(one, other) <= 0.0;
+    };
+    if (within(widened(a, threshold_m_), b) || within(widened(b, threshold_m_), a))
+      return DifferenceCause::SquareCorners;
     return DifferenceCause::AxisAlignedPerimeter;
   }
 
  private:
   bool drives_within(EntityId entity, const Span& span) const {
-    return std::ranges::any_of(timelines_.of(entity), [&](const Piece& piece) { return piece.manner == Manner::Drive && span.meets(piece); });
+    return std::ranges::any_of(timelines_.of(entity),
+                               [&](const Piece& piece) { return piece.manner == Manner::Drive && span.meets(piece); });
   }
-  bool drives_within(EntityId entity, const Piece& drive) const { return drives_within(entity, Span{drive.begin, drive.end}); }
+  bool drives_within(EntityId entity, const Piece& drive) const {
+    return drives_within(entity, Span{drive.begin, drive.end});
+  }
 
   // Both drive at some time of the violation: which of the snapshots of their common time lie in it?
   std::optional<DifferenceCause> two_drives(const Violation& v, const Span& when) const {
@@ -56,7 +66,8 @@ class Explainer {
       for (const Piece& other : timelines_.of(v.b)) {
         if (one.manner != Manner::Drive || other.manner != Manner::Drive) continue;
         const Span common{std::max(one.begin, other.begin), std::min(one.end, other.end)};
-        if (common.begin >= common.end || std::max(common.begin, when.begin) >= std::min(common.end, when.end)) continue;
+        if (common.begin >= common.end || std::max(common.begin, when.begin) >= std::min(common.end, when.end))
+          continue;
         return snapshots_missed(common, when);
       }
     }
@@ -114,7 +125,8 @@ const char* name_of(DifferenceCause cause) {
   invariant_violated("a cause has a name");
 }
 
-std::vector<Difference> compare(const Scenario& scenario, const LawFindings& published, const LawFindings& judge, const TimelineKeeper& timelines) {
+std::vector<Difference> compare(const Scenario& scenario, const LawFindings& published, const LawFindings& judge,
+                                const TimelineKeeper& timelines) {
   const Explainer why(scenario, timelines);
   const Duration step = seconds(scenario.law.snapshot_s);
   std::vector<Difference> differences;
@@ -124,7 +136,8 @@ std::vector<Difference> compare(const Scenario& scenario, const LawFindings& pub
   for (const Violation& v : published.violations) {
     if (!found_by(judge.violations, v, step)) differences.push_back({false, why.of_accusation(v), v});
   }
-  std::ranges::stable_sort(differences, {}, [](const Difference& d) { return std::tuple(d.violation.first, d.violation.a, d.violation.b); });
+  std::ranges::stable_sort(
+      differences, {}, [](const Difference& d) { return std::tuple(d.violation.first, d.violation.a, d.violation.b); });
   return differences;
 }
 

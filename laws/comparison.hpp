@@ -23,12 +23,14 @@ class TimelineKeeper final : public Law {
 
 // Why a published rule says something else than the judge (laws/README.md, "The five holes").
 enum class DifferenceCause : std::uint8_t {
-  RestPhase,         // missed: one of the two rests while the other drives, and drives at another time of that drive: its rest is checked by nobody
-  BetweenSnapshots,  // missed: over before the next snapshot
-  LastInstant,       // missed: from after the last snapshot to the end of a drive, the arrival
-  NoDriveActivity,   // missed: nobody drives, one turns on the spot or both stand
+  RestPhase,  // missed: one of the two rests while the other drives, and drives at another time of that drive: its rest
+              // is checked by nobody
+  BetweenSnapshots,      // missed: over before the next snapshot
+  LastInstant,           // missed: from after the last snapshot to the end of a drive, the arrival
+  NoDriveActivity,       // missed: nobody drives, one turns on the spot or both stand
   AxisAlignedPerimeter,  // accused wrongly: in the box of the whole drive, not near what the AGV sweeps
-  SquareCorners,         // accused wrongly: nearest corner to corner, where a widened box reaches farther than the safety distance
+  SquareCorners,  // accused wrongly: nearest corner to corner, where a widened box reaches farther than the safety
+                  // distance
   Unexplained,
 };
 const char* name_of(DifferenceCause cause);
@@ -39,8 +41,10 @@ struct Difference {
   Violation violation;  // as the judge files it if missed, else as the published rule does
 };
 
-// What `published` misses of `judge`'s violations, and accuses beside them, in order of (first, a, b), both sorts together. A violation of the one
-// counts as found by the other if that files the same pair at a time that overlaps; an accusation also if it lies no more than one snapshot off.
-std::vector<Difference> compare(const Scenario& scenario, const LawFindings& published, const LawFindings& judge, const TimelineKeeper& timelines);
+// What `published` misses of `judge`'s violations, and accuses beside them, in order of (first, a, b), both sorts
+// together. A violation of the one counts as found by the other if that files the same pair at a time that overlaps; an
+// accusation also if it lies no more than one snapshot off.
+std::vector<Difference> compare(const Scenario& scenario, const LawFindings& published, const LawFindings& judge,
+                                const TimelineKeeper& timelines);
 
 }  // namespace fleetproof

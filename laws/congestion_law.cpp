@@ -39,16 +39,20 @@ class CongestionLaw final : public Law {
   // Closes every window that ends at or before `t`.
   void windows_before(SimTime t) {
     for (; window_ + kWindow <= t; window_ += kWindow) {
-      judge(IncidentKind::ChannelSaturated, saturated_, kWhole_ppm * offered_.count() / kWindow.count(), kSaturated_ppm, true);
-      const std::int64_t share_ppm =
-          receptions_ == 0 ? 0 : kWhole_ppm * static_cast<std::int64_t>(destroyed_) / static_cast<std::int64_t>(receptions_);
-      judge(IncidentKind::InterferenceLosses, interfered_, share_ppm, kInterference_ppm, destroyed_ >= kFewestInterfered);
+      judge(IncidentKind::ChannelSaturated, saturated_, kWhole_ppm * offered_.count() / kWindow.count(), kSaturated_ppm,
+            true);
+      const std::int64_t share_ppm = receptions_ == 0 ? 0
+                                                      : kWhole_ppm * static_cast<std::int64_t>(destroyed_) /
+                                                            static_cast<std::int64_t>(receptions_);
+      judge(IncidentKind::InterferenceLosses, interfered_, share_ppm, kInterference_ppm,
+            destroyed_ >= kFewestInterfered);
       offered_ = Duration::zero();
       receptions_ = destroyed_ = 0;
     }
   }
 
-  void judge(IncidentKind kind, std::optional<std::size_t>& under_way, std::int64_t value_ppm, std::int64_t limit_ppm, bool enough) {
+  void judge(IncidentKind kind, std::optional<std::size_t>& under_way, std::int64_t value_ppm, std::int64_t limit_ppm,
+             bool enough) {
     if (value_ppm < limit_ppm || !enough) {
       under_way.reset();
       return;

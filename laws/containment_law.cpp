@@ -31,7 +31,8 @@ class ContainmentLaw final : public Law {
   void piece_started(const Piece& piece) override { bodies_.note(piece); }
   void piece_ended(const Piece&) override {}
   TraceKinds reads() const override {
-    return {TraceKind::LoadMoves, TraceKind::OrderReleased, TraceKind::TransportDone, TraceKind::ActivityBegins, TraceKind::ActivityEnds};
+    return {TraceKind::LoadMoves, TraceKind::OrderReleased, TraceKind::TransportDone, TraceKind::ActivityBegins,
+            TraceKind::ActivityEnds};
   }
   void happened(const TraceRecord& record) override;
   void finish(SimTime end) override;
@@ -124,9 +125,11 @@ void ContainmentLaw::moves(const TraceRecord& record, Booked& load, const Holder
       accuse(IncidentKind::LoadMovedByNobody, agv, {}, record.at, record.a);
     }
   }
-  if (to.kind == Holder::Kind::Agv && carries_another(agv, record.a)) accuse(IncidentKind::LoadPickedByFullAgv, agv, {}, record.at, record.a);
+  if (to.kind == Holder::Kind::Agv && carries_another(agv, record.a))
+    accuse(IncidentKind::LoadPickedByFullAgv, agv, {}, record.at, record.a);
   if (to.kind == Holder::Kind::Station) check_put_down(record, load, StationId{to.index});
-  if (const auto handling = handling_.find(agv); handling != handling_.end() && handling->second.load == record.a) handling->second.moved = true;
+  if (const auto handling = handling_.find(agv); handling != handling_.end() && handling->second.load == record.a)
+    handling->second.moved = true;
 }
 
 void ContainmentLaw::check_put_down(const TraceRecord& record, Booked& load, StationId at) {
@@ -142,7 +145,8 @@ void ContainmentLaw::handling_ends(const TraceRecord& record) {
   if (handling == handling_.end() || record.a != static_cast<std::uint64_t>(handling->second.kind)) return;
   const bool had_load = loads_.contains(handling->second.load);  // an empty move has none
   const bool as_planned = record.b == 1;
-  if (had_load && as_planned && !handling->second.moved) accuse(IncidentKind::LoadVanished, record.entity, {}, record.at, handling->second.load);
+  if (had_load && as_planned && !handling->second.moved)
+    accuse(IncidentKind::LoadVanished, record.entity, {}, record.at, handling->second.load);
   handling_.erase(handling);
 }
 
@@ -151,7 +155,8 @@ void ContainmentLaw::transport_done(const TraceRecord& record) {
     if (load.transport != record.a) continue;
     if (load.delivered) accuse(IncidentKind::LoadDeliveredTwice, record.entity, {}, record.at, number);
     load.delivered = true;
-    const bool there = *load.transport < orders_.size() && load.holder == Holder{Holder::Kind::Station, orders_[*load.transport].to.value};
+    const bool there = *load.transport < orders_.size() &&
+                       load.holder == Holder{Holder::Kind::Station, orders_[*load.transport].to.value};
     if (!there && !load.misplaced) accuse(IncidentKind::LoadAtWrongStation, record.entity, {}, record.at, number);
   }
 }
@@ -183,6 +188,8 @@ LawFindings ContainmentLaw::findings() const {
 
 }  // namespace
 
-std::unique_ptr<Law> make_containment_law(const Scenario& scenario) { return std::make_unique<ContainmentLaw>(scenario); }
+std::unique_ptr<Law> make_containment_law(const Scenario& scenario) {
+  return std::make_unique<ContainmentLaw>(scenario);
+}
 
 }  // namespace fleetproof

@@ -21,7 +21,10 @@ constexpr Duration kSameNearMiss = std::chrono::seconds(1);
 class CoverageLaw final : public Law {
  public:
   explicit CoverageLaw(const Scenario& scenario)
-      : margin_m_(violation_threshold_m(scenario.law)), bodies_(scenario), swept_(scenario.agvs.size()), drives_(scenario.agvs.size()) {}
+      : margin_m_(violation_threshold_m(scenario.law)),
+        bodies_(scenario),
+        swept_(scenario.agvs.size()),
+        drives_(scenario.agvs.size()) {}
 
   void piece_started(const Piece& piece) override;
   void piece_ended(const Piece& piece) override;
@@ -108,10 +111,13 @@ void CoverageLaw::finish(SimTime) {
 
 LawFindings CoverageLaw::findings() const {
   LawFindings findings;
-  const auto met = [&](std::string name, std::uint64_t count) { findings.met.push_back({ProbeSource::World, std::move(name), count}); };
+  const auto met = [&](std::string name, std::uint64_t count) {
+    findings.met.push_back({ProbeSource::World, std::move(name), count});
+  };
   for (std::size_t i = 0; i < kEncounterKinds; ++i) met(name_of(static_cast<EncounterKind>(i)), encounters_[i]);
   met("near-miss", near_misses_);
-  for (const auto& [kind, count] : faults_) met(std::string("fault: ") + name_of(static_cast<Fault::Kind>(kind)), count);
+  for (const auto& [kind, count] : faults_)
+    met(std::string("fault: ") + name_of(static_cast<Fault::Kind>(kind)), count);
   return findings;
 }
 

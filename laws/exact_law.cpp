@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "core/clearance/clearance_over_time.hpp"
 #include "core/base/error.hpp"
+#include "core/clearance/clearance_over_time.hpp"
 #include "laws/broad_phase.hpp"
 #include "laws/second_opinion.hpp"
 #include "laws/stretch.hpp"
@@ -61,7 +61,8 @@ void ExactLaw::piece_ended(const Piece& piece) {
     if (mine >= agv_count_ && i >= agv_count_) continue;  // two obstacles never matter
     const Piece& other = current_[i];
     const Interval common{std::max(piece.begin, other.begin), piece.end};
-    // The same order of the pair whichever piece ends first, so that the order of announcements leaves no trace in the arithmetic.
+    // The same order of the pair whichever piece ends first, so that the order of announcements leaves no trace in the
+    // arithmetic.
     if (mine < i) {
       settle(piece, other, common);
     } else {
@@ -84,12 +85,14 @@ void ExactLaw::settle(const Piece& a, const Piece& b, Interval within) {
 void ExactLaw::settle_standing(const Piece& a, const Piece& b, Interval within) {
   const double clearance = clearance_at(a, b, within.begin);
   smallest_m_ = std::min(smallest_m_, clearance);
-  if (clearance < threshold_m_) stretches_.push_back(stretch_of(a, b, within.begin, within.end, {clearance, within.begin}));
+  if (clearance < threshold_m_)
+    stretches_.push_back(stretch_of(a, b, within.begin, within.end, {clearance, within.begin}));
 }
 
 void ExactLaw::settle_moving(const Piece& a, const Piece& b, Interval within) {
-  // Most pairs come nowhere near the smallest clearance so far, and that settles both questions. What was met before decides no more than that:
-  // a violation is dated and measured from the start of the interval, and comes out the same in whatever order the pieces are announced.
+  // Most pairs come nowhere near the smallest clearance so far, and that settles both questions. What was met before
+  // decides no more than that: a violation is dated and measured from the start of the interval, and comes out the same
+  // in whatever order the pieces are announced.
   const bool lower = smallest_m_ > threshold_m_ + kBuiltToTheLimit_m;
   if (lower && !comes_below(a, b, within, smallest_m_, evaluations_)) return;
   if (const auto approach = approach_below(a, b, within, threshold_m_, evaluations_)) {
@@ -118,7 +121,8 @@ void ExactLaw::collect_stretches(const Piece& a, const Piece& b, const Approach&
 
 void ExactLaw::collect(const Piece& a, const Piece& b, SimTime first, SimTime last) {
   auto closest = closest_approach(a, b, {first, last}, threshold_m_, evaluations_);
-  if (!closest) closest = ClosestApproach{clearance_at(a, b, first), first};  // a graze shallower than the search resolves
+  if (!closest)
+    closest = ClosestApproach{clearance_at(a, b, first), first};  // a graze shallower than the search resolves
   stretches_.push_back(stretch_of(a, b, first, last, *closest));
 }
 
@@ -129,7 +133,8 @@ double ExactLaw::clearance_at(const Piece& a, const Piece& b, SimTime t) {
 
 void ExactLaw::finish(SimTime) {
   stretches_ = joined(std::move(stretches_), kSeam);
-  for (const Stretch& stretch : stretches_) confirm_clearance(stretch.body_a, stretch.body_b, stretch.closest.clearance_m);
+  for (const Stretch& stretch : stretches_)
+    confirm_clearance(stretch.body_a, stretch.body_b, stretch.closest.clearance_m);
 }
 
 LawFindings ExactLaw::findings() const {

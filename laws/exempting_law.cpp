@@ -12,7 +12,11 @@ constexpr Duration kSample = std::chrono::milliseconds(10);  // on a straight li
 
 class ExemptingLaw final : public Law {
  public:
-  explicit ExemptingLaw(const Scenario& scenario) : exact_(make_exact_law(scenario)), timelines_(scenario), scenario_(scenario), radius_m_(scenario.law.exempt_radius_m) {
+  explicit ExemptingLaw(const Scenario& scenario)
+      : exact_(make_exact_law(scenario)),
+        timelines_(scenario),
+        scenario_(scenario),
+        radius_m_(scenario.law.exempt_radius_m) {
     for (const Station& station : scenario.map->layout().stations) {
       if ((station.purposes.bits() & scenario.law.exempt_purposes.bits()) != 0) places_m_.push_back(station.position_m);
     }
@@ -26,7 +30,8 @@ class ExemptingLaw final : public Law {
   void finish(SimTime end) override { exact_->finish(end); }
   LawFindings findings() const override {
     LawFindings findings = exact_->findings();
-    std::erase_if(findings.violations, [&](const Violation& v) { return !v.contact && (is_exempt_pair(v) || is_at_exempt_place(v)); });
+    std::erase_if(findings.violations,
+                  [&](const Violation& v) { return !v.contact && (is_exempt_pair(v) || is_at_exempt_place(v)); });
     return findings;
   }
 
@@ -44,7 +49,8 @@ class ExemptingLaw final : public Law {
   }
 
   bool is_at_exempt_place(const Violation& v) const {
-    return std::ranges::any_of(places_m_, [&](const Vec2& place_m) { return stays_at(place_m, v.a, v) && stays_at(place_m, v.b, v); });
+    return std::ranges::any_of(
+        places_m_, [&](const Vec2& place_m) { return stays_at(place_m, v.a, v) && stays_at(place_m, v.b, v); });
   }
 
   bool stays_at(const Vec2& place_m, EntityId entity, const Violation& v) const {

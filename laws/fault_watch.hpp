@@ -3,20 +3,22 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/scenario/faults.hpp"
 #include "core/outcome/law.hpp"
+#include "core/scenario/faults.hpp"
 #include "core/scenario/scenario.hpp"
 
 namespace fleetproof {
 
-// Whether anybody is held by a breakdown, by a protective stop, or out of order until the operator has set it down somewhere else: what the fleet does
-// not do meanwhile is nobody's fault.
+// Whether anybody is held by a breakdown, by a protective stop, or out of order until the operator has set it down
+// somewhere else: what the fleet does not do meanwhile is nobody's fault.
 class FaultWatch {
  public:
   explicit FaultWatch(const Scenario& scenario)
       : out_of_order_(scenario.operator_help.on && scenario.contact_stops ? scenario.agvs.size() : 0) {}
 
-  static constexpr TraceKinds reads() { return {TraceKind::FaultStrikes, TraceKind::FaultOver, TraceKind::Contact, TraceKind::Appears}; }
+  static constexpr TraceKinds reads() {
+    return {TraceKind::FaultStrikes, TraceKind::FaultOver, TraceKind::Contact, TraceKind::Appears};
+  }
   // True if the record was one of a fault, and of interest to nobody else.
   bool note(const TraceRecord& record) {
     if (record.kind == TraceKind::Contact) {

@@ -23,6 +23,8 @@ class GlobalStepLaw final : public PublishedLaw {
 
 }  // namespace
 
-std::unique_ptr<Law> make_global_step_law(const Scenario& scenario) { return std::make_unique<GlobalStepLaw>(scenario); }
+std::unique_ptr<Law> make_global_step_law(const Scenario& scenario) {
+  return std::make_unique<GlobalStepLaw>(scenario);
+}
 
 }  // namespace fleetproof

@@ -21,6 +21,7 @@ bool is_to_compare_with(const Entry<MakeLaw>& law);
 const Entry<MakeLaw>* find_law(std::string_view name);
 
 // The default set for one run, the judge first, without those named.
-std::vector<std::unique_ptr<Law>> make_default_laws(const Scenario& scenario, std::span<const std::string> left_out = {});
+std::vector<std::unique_ptr<Law>> make_default_laws(const Scenario& scenario,
+                                                    std::span<const std::string> left_out = {});
 
 }  // namespace fleetproof

@@ -36,7 +36,8 @@ std::uint32_t losses_that_reject(std::uint32_t receptions) {
   }();
   if (receptions <= kExactUpTo) return table[receptions];
   const double n = static_cast<double>(receptions);
-  return static_cast<std::uint32_t>(std::ceil(kContractLoss * n + kNormalQuantile * std::sqrt(n * kContractLoss * (1.0 - kContractLoss)) + 0.5));
+  return static_cast<std::uint32_t>(
+      std::ceil(kContractLoss * n + kNormalQuantile * std::sqrt(n * kContractLoss * (1.0 - kContractLoss)) + 0.5));
 }
 
 LinkQuality::LinkQuality(std::size_t agvs) : agvs_(agvs), seconds_(agvs * agvs), sent_(agvs), next_(agvs, 0) {}

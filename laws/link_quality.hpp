@@ -13,12 +13,13 @@ inline constexpr double kContractLoss = 0.40;
 inline constexpr Duration kContractDelay = std::chrono::seconds(2);
 inline constexpr int kQualityWindow_s = 10;
 
-// The number of losses among `receptions` from which on "at most 40 % are lost" is rejected, by a one-sided binomial test at 1e-4; more than
-// `receptions` if no number of losses can reject it.
+// The number of losses among `receptions` from which on "at most 40 % are lost" is rejected, by a one-sided binomial
+// test at 1e-4; more than `receptions` if no number of losses can reject it.
 std::uint32_t losses_that_reject(std::uint32_t receptions);
 
-// The links of a fleet over the last ten whole seconds, from what the trace records. A loss counts when it was sent, a reception when it arrived. Of
-// several messages with equal bytes, the last one sent is taken for the one received: the delay is never overrated.
+// The links of a fleet over the last ten whole seconds, from what the trace records. A loss counts when it was sent, a
+// reception when it arrived. Of several messages with equal bytes, the last one sent is taken for the one received: the
+// delay is never overrated.
 class LinkQuality {
  public:
   explicit LinkQuality(std::size_t agvs);

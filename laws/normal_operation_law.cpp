@@ -16,7 +16,11 @@ constexpr Duration kSecond = std::chrono::seconds(1);
 class NormalOperationLaw final : public Law {
  public:
   explicit NormalOperationLaw(const Scenario& scenario)
-      : scenario_(scenario), reaction_(seconds(scenario.law.reaction_s)), quality_(scenario.agvs.size()), agvs_(scenario.agvs.size()), faults_(scenario) {}
+      : scenario_(scenario),
+        reaction_(seconds(scenario.law.reaction_s)),
+        quality_(scenario.agvs.size()),
+        agvs_(scenario.agvs.size()),
+        faults_(scenario) {}
 
   void piece_ended(const Piece&) override {}
   TraceKinds reads() const override {
@@ -76,7 +80,8 @@ void NormalOperationLaw::happened(const TraceRecord& record) {
       ++done_;
       break;
     case TraceKind::LoadMoves:
-      if (record.b >> 32 == static_cast<std::uint64_t>(Holder::Kind::ClearedAway)) open_ -= open_ > 0 ? 1 : 0;  // nobody can do it any more
+      if (record.b >> 32 == static_cast<std::uint64_t>(Holder::Kind::ClearedAway))
+        open_ -= open_ > 0 ? 1 : 0;  // nobody can do it any more
       break;
     case TraceKind::ActivityBegins:
     case TraceKind::ActivityEnds: {
@@ -144,7 +149,8 @@ void NormalOperationLaw::look_at_standstill(SimTime now) {
 void NormalOperationLaw::finish(SimTime end) {
   seconds_before(end + Duration{1});
   const double agv_hours = to_seconds(end) * static_cast<double>(agvs_.size()) / 3600.0;
-  if (!(scenario_.law.min_transports_per_agv_hour > 0.0) || open_ == 0 || !always_in_contract_ || !(agv_hours > 0.0)) return;
+  if (!(scenario_.law.min_transports_per_agv_hour > 0.0) || open_ == 0 || !always_in_contract_ || !(agv_hours > 0.0))
+    return;
   const double rate = static_cast<double>(done_) / agv_hours;
   if (rate < scenario_.law.min_transports_per_agv_hour) {
     incidents_.push_back({IncidentKind::ThroughputBelowFloor, {}, {}, kStart, end, std::llround(rate * 1000.0)});
@@ -159,6 +165,8 @@ LawFindings NormalOperationLaw::findings() const {
 
 }  // namespace
 
-std::unique_ptr<Law> make_normal_operation_law(const Scenario& scenario) { return std::make_unique<NormalOperationLaw>(scenario); }
+std::unique_ptr<Law> make_normal_operation_law(const Scenario& scenario) {
+  return std::make_unique<NormalOperationLaw>(scenario);
+}
 
 }  // namespace fleetproof

@@ -43,7 +43,8 @@ void PaperLaw::inspect(const Piece& drive) {
 void PaperLaw::inspect_stationary(const Piece& drive, EntityId entity) {
   const OrientedRectangle perimeter = as_rectangle(activity_perimeter(drive));
   const Piece* standing = piece_at(entity, drive.begin);
-  if (standing == nullptr || !is_there_throughout(entity, drive.begin, drive.end)) return;  // the paper knows nobody who comes or goes
+  if (standing == nullptr || !is_there_throughout(entity, drive.begin, drive.end))
+    return;  // the paper knows nobody who comes or goes
   const OrientedRectangle body = standing->body_at(drive.begin);
   if (checked(overlap_by_fcl(perimeter, body))) accuse_throughout(drive, entity);
 }

@@ -36,7 +36,8 @@ struct Wait {
 };
 
 bool is_work(ActivityKind kind) {
-  return kind == ActivityKind::Drive || kind == ActivityKind::Turn || kind == ActivityKind::Settle || kind == ActivityKind::Pick || kind == ActivityKind::Drop;
+  return kind == ActivityKind::Drive || kind == ActivityKind::Turn || kind == ActivityKind::Settle ||
+         kind == ActivityKind::Pick || kind == ActivityKind::Drop;
 }
 
 class ProgressLaw final : public Law {
@@ -80,7 +81,8 @@ class ProgressLaw final : public Law {
   void look_for_starvation(SimTime now);
   Wait wait_of(EntityId agv, SimTime now) const;
   void file_circle(const std::vector<EntityId>& circle, const std::map<EntityId, Wait>& waits, SimTime now);
-  void file_waits(const std::vector<EntityId>& agvs, const std::map<EntityId, Wait>& waits, SimTime first, SimTime now, std::int64_t value);
+  void file_waits(const std::vector<EntityId>& agvs, const std::map<EntityId, Wait>& waits, SimTime first, SimTime now,
+                  std::int64_t value);
   // Files the incident, or lets the one that is under way go on. True: it is new.
   bool goes_on(const Incident& incident);
 
@@ -150,7 +152,8 @@ void ProgressLaw::happened(const TraceRecord& record) {
   }
 }
 
-// An AGV that the operator takes off the floor waits for nobody and is in nobody's way, and starts afresh where he sets it down.
+// An AGV that the operator takes off the floor waits for nobody and is in nobody's way, and starts afresh where he sets
+// it down.
 void ProgressLaw::comes_or_goes(const TraceRecord& record) {
   if (record.entity.index() >= agvs_.size()) return;
   AgvState& agv = agvs_[record.entity.index()];
@@ -268,34 +271,44 @@ void ProgressLaw::look_for_deadlocks(SimTime now) {
   if (any_circle || stalled.empty() || stalled.size() < at_work) return;
   SimTime first = kStart;
   for (const EntityId agv : stalled) first = std::max(first, still_since(agvs_[agv.index()]));
-  if (goes_on({IncidentKind::Deadlock, stalled.front(), waits[stalled.front()].for_whom, first, now, 0})) file_waits(stalled, waits, first, now, 0);
+  if (goes_on({IncidentKind::Deadlock, stalled.front(), waits[stalled.front()].for_whom, first, now, 0}))
+    file_waits(stalled, waits, first, now, 0);
 }
 
 void ProgressLaw::file_circle(const std::vector<EntityId>& circle, const std::map<EntityId, Wait>& waits, SimTime now) {
   SimTime first = kStart;
   for (const EntityId agv : circle) first = std::max(first, still_since(agvs_[agv.index()]));
-  const Incident deadlock{
-      IncidentKind::Deadlock, circle.front(), waits.at(circle.front()).for_whom, first, now, static_cast<std::int64_t>(circle.size())};
+  const Incident deadlock{IncidentKind::Deadlock,
+                          circle.front(),
+                          waits.at(circle.front()).for_whom,
+                          first,
+                          now,
+                          static_cast<std::int64_t>(circle.size())};
   if (goes_on(deadlock)) file_waits(circle, waits, first, now, 1);
 }
 
 // The deadlock was filed just before.
-void ProgressLaw::file_waits(const std::vector<EntityId>& agvs, const std::map<EntityId, Wait>& waits, SimTime first, SimTime now,
-                             std::int64_t value) {
+void ProgressLaw::file_waits(const std::vector<EntityId>& agvs, const std::map<EntityId, Wait>& waits, SimTime first,
+                             SimTime now, std::int64_t value) {
   const std::size_t deadlock = incidents_.size() - 1;
   for (const EntityId agv : agvs) {
     const Wait& wait = waits.at(agv);
     if (!wait.for_whom.valid()) continue;
     deadlock_of_wait_[incidents_.size()] = deadlock;
-    incidents_.push_back({wait.inferred ? IncidentKind::WaitsInferred : IncidentKind::WaitsDeclared, agv, wait.for_whom, first, now, value});
+    incidents_.push_back({wait.inferred ? IncidentKind::WaitsInferred : IncidentKind::WaitsDeclared, agv, wait.for_whom,
+                          first, now, value});
   }
 }
 
 void ProgressLaw::look_for_livelock(SimTime now) {
   const bool any_work = std::ranges::any_of(agvs_, &AgvState::has_work);
-  const bool still = std::ranges::none_of(agvs_, [&](const AgvState& agv) { return agv.busy || now - agv.active_at < stuck_after_; });
-  if (!any_work || still || now - std::max(fleet_advanced_at_, faults_.last()) < 2 * stuck_after_ || motions_ == motions_then_) return;
-  goes_on({IncidentKind::Livelock, {}, {}, fleet_advanced_at_, now, static_cast<std::int64_t>(motions_ - motions_then_)});
+  const bool still =
+      std::ranges::none_of(agvs_, [&](const AgvState& agv) { return agv.busy || now - agv.active_at < stuck_after_; });
+  if (!any_work || still || now - std::max(fleet_advanced_at_, faults_.last()) < 2 * stuck_after_ ||
+      motions_ == motions_then_)
+    return;
+  goes_on(
+      {IncidentKind::Livelock, {}, {}, fleet_advanced_at_, now, static_cast<std::int64_t>(motions_ - motions_then_)});
 }
 
 void ProgressLaw::look_for_starvation(SimTime now) {
@@ -303,8 +316,15 @@ void ProgressLaw::look_for_starvation(SimTime now) {
   for (std::size_t i = 0; i < agvs_.size(); ++i) {
     const AgvState& agv = agvs_[i];
     const std::uint64_t others_done = done_ - agv.done - agv.others_done_then;
-    if (!agv.has_work() || now - std::max(agv.without_success_since(), faults_.last()) < 2 * stuck_after_ || others_done < kOvertaken * (agvs_.size() - 1)) continue;
-    goes_on({IncidentKind::Starvation, EntityId{i}, {}, agv.without_success_since(), now, static_cast<std::int64_t>(agv.open.size())});
+    if (!agv.has_work() || now - std::max(agv.without_success_since(), faults_.last()) < 2 * stuck_after_ ||
+        others_done < kOvertaken * (agvs_.size() - 1))
+      continue;
+    goes_on({IncidentKind::Starvation,
+             EntityId{i},
+             {},
+             agv.without_success_since(),
+             now,
+             static_cast<std::int64_t>(agv.open.size())});
   }
 }
 

@@ -8,7 +8,9 @@
 namespace fleetproof {
 namespace {
 
-double half_diagonal_m(const OrientedRectangle& rectangle) { return Vec2(rectangle.half_length_m, rectangle.half_width_m).norm(); }
+double half_diagonal_m(const OrientedRectangle& rectangle) {
+  return Vec2(rectangle.half_length_m, rectangle.half_width_m).norm();
+}
 
 bool overlap(const OrientedRectangle& first, const OrientedRectangle& second) {
   const double reach_m = half_diagonal_m(first) + half_diagonal_m(second);

@@ -8,12 +8,14 @@
 
 namespace fleetproof {
 
-// What the paper's two ways of detecting have in common: both look at the drive activities of a finished run, one after the other, and check
-// perimeters at snapshots `scenario.law.snapshot_s` apart. A derived law says what it checks for one drive activity.
+// What the paper's two ways of detecting have in common: both look at the drive activities of a finished run, one after
+// the other, and check perimeters at snapshots `scenario.law.snapshot_s` apart. A derived law says what it checks for
+// one drive activity.
 //
-// The perimeter of an entity at an instant is its body with every side moved out by the threshold, an oriented box; it is checked against the
-// body of the other by FCL. A pair is accused once, whichever of the two activities it was found from: snapshots of a pair that follow each other
-// without a clean one between them are one violation, whose smallest clearance is the smallest at those snapshots.
+// The perimeter of an entity at an instant is its body with every side moved out by the threshold, an oriented box; it
+// is checked against the body of the other by FCL. A pair is accused once, whichever of the two activities it was found
+// from: snapshots of a pair that follow each other without a clean one between them are one violation, whose smallest
+// clearance is the smallest at those snapshots.
 class PublishedLaw : public Law {
  public:
   explicit PublishedLaw(const Scenario& scenario);

@@ -32,7 +32,8 @@ fcl::CollisionObjectd box_of(const OrientedRectangle& rectangle, const Vec2& ori
 struct TwoBoxes {
   fcl::CollisionObjectd first, second;
 
-  TwoBoxes(const OrientedRectangle& one, const OrientedRectangle& other) : first(box_of(one, one.centre_m)), second(box_of(other, one.centre_m)) {}
+  TwoBoxes(const OrientedRectangle& one, const OrientedRectangle& other)
+      : first(box_of(one, one.centre_m)), second(box_of(other, one.centre_m)) {}
 
   bool overlap() const {
     fcl::CollisionResultd result;
@@ -51,17 +52,24 @@ struct TwoBoxes {
 
 }  // namespace
 
-bool overlap_by_fcl(const OrientedRectangle& first, const OrientedRectangle& second) { return TwoBoxes(first, second).overlap(); }
+bool overlap_by_fcl(const OrientedRectangle& first, const OrientedRectangle& second) {
+  return TwoBoxes(first, second).overlap();
+}
 
-double clearance_by_fcl(const OrientedRectangle& first, const OrientedRectangle& second) { return TwoBoxes(first, second).clearance_m(); }
+double clearance_by_fcl(const OrientedRectangle& first, const OrientedRectangle& second) {
+  return TwoBoxes(first, second).clearance_m();
+}
 
 void confirm_clearance(const OrientedRectangle& first, const OrientedRectangle& second, double clearance_m) {
   const TwoBoxes boxes(first, second);
   const bool overlap = boxes.overlap();
-  ensure(!(overlap && clearance_m > kSurelyApart_m), "a second opinion says that two bodies overlap which the law found apart");
-  ensure(!(!overlap && clearance_m < -kSurelyApart_m), "a second opinion says that two bodies are apart which the law found overlapping");
+  ensure(!(overlap && clearance_m > kSurelyApart_m),
+         "a second opinion says that two bodies overlap which the law found apart");
+  ensure(!(!overlap && clearance_m < -kSurelyApart_m),
+         "a second opinion says that two bodies are apart which the law found overlapping");
   const double expected_m = std::max(0.0, clearance_m);
-  ensure(std::abs(boxes.clearance_m() - expected_m) <= kAgreed_m, "a second opinion measures another clearance than the law");
+  ensure(std::abs(boxes.clearance_m() - expected_m) <= kAgreed_m,
+         "a second opinion measures another clearance than the law");
 }
 
 }  // namespace fleetproof

@@ -44,7 +44,8 @@ StationId station_of(const LogicalMap& map, const Vec2& position_m) {
   return {};
 }
 
-EntityId first_in_the_way(const Scenario& scenario, const Whereabouts& bodies, EntityId agv, const Lane& lane, SimTime now) {
+EntityId first_in_the_way(const Scenario& scenario, const Whereabouts& bodies, EntityId agv, const Lane& lane,
+                          SimTime now) {
   const Footprint& footprint = bodies.of(agv).footprint;
   const int steps = static_cast<int>(lane.curve.length_m() / kStep_m) + 1;
   for (int step = 0; step <= steps; ++step) {

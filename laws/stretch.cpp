@@ -13,7 +13,8 @@ std::int64_t nearest_um(double value_m) { return std::llround(value_m * 1e6); }
 
 Violation filed(const Stretch& stretch) {
   const Vec2 middle_m = 0.5 * (stretch.body_a.centre_m + stretch.body_b.centre_m);
-  Violation violation{.a = stretch.a, .b = stretch.b, .first = stretch.first, .last = stretch.last, .closest_at = stretch.closest.at};
+  Violation violation{
+      .a = stretch.a, .b = stretch.b, .first = stretch.first, .last = stretch.last, .closest_at = stretch.closest.at};
   violation.min_clearance_um = static_cast<std::int64_t>(std::floor(stretch.closest.clearance_m * 1e6));
   violation.relative_speed_um_s = nearest_um(stretch.relative_velocity_mps.norm());
   violation.x_um = nearest_um(middle_m.x());
@@ -26,7 +27,9 @@ Violation filed(const Stretch& stretch) {
 
 void Stretch::absorb(const Stretch& other) {
   // What stands after a touch may lie deeper, by rounding or by far; the touch has the speed that matters.
-  const auto closeness = [](const Stretch& s) { return std::tuple(s.contact() ? 0.0 : s.closest.clearance_m, s.closest.at); };
+  const auto closeness = [](const Stretch& s) {
+    return std::tuple(s.contact() ? 0.0 : s.closest.clearance_m, s.closest.at);
+  };
   const SimTime from = std::min(first, other.first), to = std::max(last, other.last);
   if (closeness(other) < closeness(*this)) *this = other;
   first = from;
@@ -37,7 +40,8 @@ Stretch stretch_of(const Piece& one, const Piece& other, SimTime first, SimTime 
   const Piece& a = one.entity < other.entity ? one : other;
   const Piece& b = one.entity < other.entity ? other : one;
   const SimTime at = closest.at;
-  return {a.entity, b.entity, first, last, closest, a.body_at(at), b.body_at(at), velocity_mps(a, at) - velocity_mps(b, at)};
+  return {a.entity, b.entity,      first,         last,
+          closest,  a.body_at(at), b.body_at(at), velocity_mps(a, at) - velocity_mps(b, at)};
 }
 
 std::vector<Stretch> joined(std::vector<Stretch> stretches, Duration seam) {

@@ -12,7 +12,8 @@ inline constexpr double kAtStation_m = 0.05;
 // What every body on the floor does at present, as announced.
 class Whereabouts {
  public:
-  explicit Whereabouts(const Scenario& scenario) : scenario_(scenario), current_(scenario.body_count()), on_floor_(scenario.body_count()) {}
+  explicit Whereabouts(const Scenario& scenario)
+      : scenario_(scenario), current_(scenario.body_count()), on_floor_(scenario.body_count()) {}
 
   void note(const Piece& piece) {
     current_[piece.entity.index()] = piece;

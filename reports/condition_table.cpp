@@ -36,7 +36,8 @@ std::vector<Column> columns(const Shown& shown, const std::string& upper_head) {
 
 std::vector<std::string> row(const Condition& condition, const Shown& shown, double confidence) {
   const auto& tally = condition.tally;
-  std::vector<std::string> cells{printable(condition.agent, 40), percent_span(condition.lowest.loss, condition.highest.loss),
+  std::vector<std::string> cells{printable(condition.agent, 40),
+                                 percent_span(condition.lowest.loss, condition.highest.loss),
                                  seconds_span(condition.lowest.delay_s, condition.highest.delay_s)};
   const double outage_s = condition.lowest.mean_outage_s, outage_to_s = condition.highest.mean_outage_s;
   if (shown.outages) cells.push_back(outage_to_s > 0.0 ? seconds_span(outage_s, outage_to_s) : "none");
@@ -66,7 +67,8 @@ bool has_outages(const Evidence& evidence) {
 bool more_interesting(const Condition& a, const Condition& b) {
   const auto rank = [](const Condition& c) {
     const auto failing = c.pool.failing_or_unknown;
-    return std::tuple(-static_cast<double>(failing), -static_cast<double>(c.tally.violating_runs), c.tally.transports_per_agv_hour().value_or(0.0));
+    return std::tuple(-static_cast<double>(failing), -static_cast<double>(c.tally.violating_runs),
+                      c.tally.transports_per_agv_hour().value_or(0.0));
   };
   return rank(a) < rank(b);
 }
@@ -75,7 +77,8 @@ std::size_t keep_most_interesting(std::vector<Condition>& conditions, std::size_
   if (conditions.size() <= most_rows) return 0;
   std::vector<std::size_t> order(conditions.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return more_interesting(conditions[a], conditions[b]); });
+  std::ranges::stable_sort(
+      order, [&](std::size_t a, std::size_t b) { return more_interesting(conditions[a], conditions[b]); });
   order.resize(most_rows);
   std::ranges::sort(order);
   std::vector<Condition> kept;
@@ -92,7 +95,8 @@ double bound_confidence(const Evidence& evidence, const std::string& agent) {
   return gate == evidence.gates().end() ? 0.95 : gate->confidence;
 }
 
-Section condition_section(const ReportInput& input, std::string title, const std::function<bool(const Condition&)>& wanted, std::size_t most_rows) {
+Section condition_section(const ReportInput& input, std::string title,
+                          const std::function<bool(const Condition&)>& wanted, std::size_t most_rows) {
   const auto& evidence = input.evidence;
   std::vector<Condition> conditions;
   for (auto& condition : evidence.conditions()) {
@@ -109,8 +113,12 @@ Section condition_section(const ReportInput& input, std::string title, const std
   const bool one_confidence = confidences.size() == 1;
   const Shown shown{evidence.counts_only(), has_outages(evidence)};
   section.table.columns = columns(shown, one_confidence ? "upper " + percent(*confidences.begin()) : "upper");
-  for (const auto& condition : conditions) section.table.rows.push_back(row(condition, shown, bound_confidence(evidence, condition.agent)));
-  if (left_out > 0) section.remarks.push_back({fmt::format("{} with fewer failures are left out here; the JSON report has them all.", count_text(left_out, "row")), ""});
+  for (const auto& condition : conditions)
+    section.table.rows.push_back(row(condition, shown, bound_confidence(evidence, condition.agent)));
+  if (left_out > 0)
+    section.remarks.push_back({fmt::format("{} with fewer failures are left out here; the JSON report has them all.",
+                                           count_text(left_out, "row")),
+                               ""});
   return section;
 }
 
@@ -119,14 +127,20 @@ Section table_legend(const ReportInput& input) {
   const auto conditions = evidence.conditions();
   Section section{"How to read the tables", {}, {}};
   const auto add = [&](std::string text) { section.remarks.push_back({std::move(text), ""}); };
-  add("viol. = runs that broke the safety distance, contact = those that touched; stuck = runs without progress; closest = smallest clearance; done/AGV-h = transports (orders) "
+  add("viol. = runs that broke the safety distance, contact = those that touched; stuck = runs without progress; "
+      "closest = smallest clearance; done/AGV-h = transports (orders) "
       "completed per AGV-hour.");
-  if (has_outages(evidence)) add("outage = mean length of an outage of the radio; none = losses are independent of each other. The loss is the same on average.");
-  if (!evidence.sampling().empty()) add("0 .. 40 % = every replicate draws its own value in between, the same for all agents, layouts and fleets; a rate is the mean over the region.");
+  if (has_outages(evidence))
+    add("outage = mean length of an outage of the radio; none = losses are independent of each other. The loss is the "
+        "same on average.");
+  if (!evidence.sampling().empty())
+    add("0 .. 40 % = every replicate draws its own value in between, the same for all agents, layouts and fleets; a "
+        "rate is the mean over the region.");
   if (evidence.counts_only()) return section;
   add("failed = units with a violation or an unknown outcome, of all units: rate, interval and bound are theirs.");
   if (std::ranges::any_of(conditions, [](const Condition& c) { return c.pool.cells.size() > 1; })) {
-    add("A row pools several cells (layouts, fleet sizes). Its unit is the replicate, which fails if any of its runs does: the cells of a replicate share their world and are not "
+    add("A row pools several cells (layouts, fleet sizes). Its unit is the replicate, which fails if any of its runs "
+        "does: the cells of a replicate share their world and are not "
         "independent. The JSON report has every cell by itself.");
   } else {
     add("A row is one cell (test condition). Its unit is the run.");
@@ -141,7 +155,8 @@ Section table_legend(const ReportInput& input) {
   if (!agents.empty() && std::ranges::count(confidences, confidences.front()) == std::ranges::ssize(confidences)) {
     bound += " at " + confidences.front();
   } else {
-    for (std::size_t i = 0; i < agents.size(); ++i) bound += fmt::format("{} {} for {}", i == 0 ? ", at" : ",", confidences[i], printable(agents[i], 40));
+    for (std::size_t i = 0; i < agents.size(); ++i)
+      bound += fmt::format("{} {} for {}", i == 0 ? ", at" : ",", confidences[i], printable(agents[i], 40));
   }
   add(bound + ".");
   return section;

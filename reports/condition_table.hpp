@@ -8,9 +8,10 @@
 
 namespace fleetproof {
 
-// The conditions that `wanted` picks, one row each: counts, and in a claim the exact interval and bound over the units of that row. Beyond `most_rows` the
-// rows with the highest bound are kept, and a remark counts the others.
-Section condition_section(const ReportInput& input, std::string title, const std::function<bool(const Condition&)>& wanted, std::size_t most_rows);
+// The conditions that `wanted` picks, one row each: counts, and in a claim the exact interval and bound over the units
+// of that row. Beyond `most_rows` the rows with the highest bound are kept, and a remark counts the others.
+Section condition_section(const ReportInput& input, std::string title,
+                          const std::function<bool(const Condition&)>& wanted, std::size_t most_rows);
 
 // What the columns of those tables mean, and what a unit is.
 Section table_legend(const ReportInput& input);

@@ -56,7 +56,8 @@ std::vector<Headline> weak_headlines(const ReportInput& input) {
     if (agent.missing.empty()) continue;
     list.push_back(
         {"weak",
-         fmt::format("this campaign is weak evidence for agent {}: its {} did not meet what a test has to meet ({}). Few failures say little then.",
+         fmt::format("this campaign is weak evidence for agent {}: its {} did not meet what a test has to meet ({}). "
+                     "Few failures say little then.",
                      printable(agent.agent, 40), count_text(agent.coverage.runs(), "run"), missing_text(agent.missing)),
          {}});
   }
@@ -64,35 +65,46 @@ std::vector<Headline> weak_headlines(const ReportInput& input) {
 }
 
 bool is_weak(const ReportInput& input) {
-  return std::ranges::any_of(input.evidence.agent_coverage(), [](const AgentCoverage& agent) { return !agent.missing.empty(); }) ||
+  return std::ranges::any_of(input.evidence.agent_coverage(),
+                             [](const AgentCoverage& agent) { return !agent.missing.empty(); }) ||
          std::ranges::any_of(input.gates, [](const GateResult& gate) { return !gate.missing.empty(); });
 }
 
 Section coverage_section(const ReportInput& input, std::size_t most_rows) {
   Section section{"What the runs met",
-                  {{{"agent", false}, {"what", false}, {"told by", false}, {"runs with it", true}, {"share", true}, {"times", true}}, {}},
+                  {{{"agent", false},
+                    {"what", false},
+                    {"told by", false},
+                    {"runs with it", true},
+                    {"share", true},
+                    {"times", true}},
+                   {}},
                   {}};
   for (const auto& agent : input.evidence.agent_coverage()) add_rows(section, agent);
   cut(section, most_rows);
   const auto& required = input.campaign.required_probes;
-  section.remarks.push_back({required.empty()
-                                 ? std::string("This campaign asks for nothing to be met ([coverage] probes).")
-                                 : fmt::format("To be met, in at least one of {} runs: {}{}.", kRunsPerProbe, printable(joined(required), 400),
-                                               required.back().ends_with('?') ? " (\"?\": if the agent declares anything)" : ""),
-                             ""});
+  section.remarks.push_back(
+      {required.empty() ? std::string("This campaign asks for nothing to be met ([coverage] probes).")
+                        : fmt::format("To be met, in at least one of {} runs: {}{}.", kRunsPerProbe,
+                                      printable(joined(required), 400),
+                                      required.back().ends_with('?') ? " (\"?\": if the agent declares anything)" : ""),
+       ""});
   return section;
 }
 
 Section incident_section(const ReportInput& input, std::size_t most_rows) {
-  Section section{"What the other laws found",
-                  {{{"agent", false}, {"incident", false}, {"runs with it", true}, {"incidents", true}, {"what it means", false}}, {}},
-                  {}};
+  Section section{
+      "What the other laws found",
+      {{{"agent", false}, {"incident", false}, {"runs with it", true}, {"incidents", true}, {"what it means", false}},
+       {}},
+      {}};
   for (const auto& agent : input.evidence.agent_coverage()) {
     for (const auto& [kind, tally] : agent.incidents) {
       const auto& info = info_of(kind);
-      section.table.rows.push_back({printable(agent.agent, 40), std::string(info.name), std::to_string(tally.runs), std::to_string(tally.incidents),
-                                    std::string(info.meaning)});
-      section.remarks.push_back({fmt::format("{} of agent {}, for instance in run {}:", info.name, printable(agent.agent, 40), tally.example_run),
+      section.table.rows.push_back({printable(agent.agent, 40), std::string(info.name), std::to_string(tally.runs),
+                                    std::to_string(tally.incidents), std::string(info.meaning)});
+      section.remarks.push_back({fmt::format("{} of agent {}, for instance in run {}:", info.name,
+                                             printable(agent.agent, 40), tally.example_run),
                                  replay_line(input, tally.example_run)});
     }
   }

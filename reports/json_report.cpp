@@ -22,22 +22,31 @@ Json maybe(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-Json metres(const std::optional<std::int64_t>& value_um) { return value_um ? Json(static_cast<double>(*value_um) / 1e6) : Json(nullptr); }
+Json metres(const std::optional<std::int64_t>& value_um) {
+  return value_um ? Json(static_cast<double>(*value_um) / 1e6) : Json(nullptr);
+}
 
 Json estimate_json(const std::optional<Estimate>& estimate) {
   if (!estimate) return nullptr;
-  return {{"units", estimate->units},
-          {"failing", estimate->failing},
-          {"rate", maybe(estimate->rate())},
-          {"lower_bound", estimate->lower},
-          {"upper_bound", estimate->upper},
-          {"interval_95", {estimate->interval_95.lower, estimate->interval_95.upper}}};
+  return {
+      {"units", estimate->units},        {"failing", estimate->failing},
+      {"rate", maybe(estimate->rate())}, {"lower_bound", estimate->lower},
+      {"upper_bound", estimate->upper},  {"interval_95", {estimate->interval_95.lower, estimate->interval_95.upper}}};
 }
 
 Json cell_json(const CellRecord& cell) {
-  return {{"cell", cell.index},       {"agent", cell.agent},     {"layout", cell.layout},           {"fleet_size", cell.fleet_size},
-          {"loss", cell.loss},        {"delay_s", cell.delay_s}, {"mean_outage_s", cell.mean_outage_s}, {"in_contract", cell.in_contract()},
-          {"is_worst_case", cell.is_worst_case()}, {"loss_to", cell.loss_to}, {"delay_to_s", cell.delay_to_s}, {"mean_outage_to_s", cell.mean_outage_to_s}};
+  return {{"cell", cell.index},
+          {"agent", cell.agent},
+          {"layout", cell.layout},
+          {"fleet_size", cell.fleet_size},
+          {"loss", cell.loss},
+          {"delay_s", cell.delay_s},
+          {"mean_outage_s", cell.mean_outage_s},
+          {"in_contract", cell.in_contract()},
+          {"is_worst_case", cell.is_worst_case()},
+          {"loss_to", cell.loss_to},
+          {"delay_to_s", cell.delay_to_s},
+          {"mean_outage_to_s", cell.mean_outage_to_s}};
 }
 
 Json violation_json(const Violation& v) {
@@ -93,7 +102,8 @@ void add_tally(Json& json, const Tally& tally) {
 
 Json missing_json(const std::vector<MissingProbe>& missing) {
   auto list = Json::array();
-  for (const auto& probe : missing) list.push_back({{"probe", probe.name}, {"runs_with", probe.runs_with}, {"runs", probe.runs}});
+  for (const auto& probe : missing)
+    list.push_back({{"probe", probe.name}, {"runs_with", probe.runs_with}, {"runs", probe.runs}});
   return list;
 }
 
@@ -103,10 +113,14 @@ Json coverage_json(const ReportInput& input) {
     auto met = Json::array();
     for (const bool world : {true, false}) {
       for (const auto& [name, seen] : world ? agent.coverage.by_the_world() : agent.coverage.by_agents()) {
-        met.push_back({{"probe", name}, {"source", world ? "world" : "agent"}, {"runs_with", seen.runs}, {"times", seen.times}});
+        met.push_back(
+            {{"probe", name}, {"source", world ? "world" : "agent"}, {"runs_with", seen.runs}, {"times", seen.times}});
       }
     }
-    json["agents"].push_back({{"agent", agent.agent}, {"runs", agent.coverage.runs()}, {"met", met}, {"missing_probes", missing_json(agent.missing)}});
+    json["agents"].push_back({{"agent", agent.agent},
+                              {"runs", agent.coverage.runs()},
+                              {"met", met},
+                              {"missing_probes", missing_json(agent.missing)}});
   }
   return json;
 }
@@ -155,9 +169,16 @@ Json gate_json(const ReportInput& input, std::size_t index) {
 }
 
 Json condition_json(const ReportInput& input, const Condition& condition) {
-  Json json{{"agent", condition.agent}, {"loss", condition.lowest.loss}, {"delay_s", condition.lowest.delay_s}, {"mean_outage_s", condition.lowest.mean_outage_s},
-            {"loss_to", condition.highest.loss}, {"delay_to_s", condition.highest.delay_s}, {"mean_outage_to_s", condition.highest.mean_outage_s},
-            {"in_contract", condition.in_contract}, {"is_worst_case", condition.is_worst_case}, {"cells", condition.pool.cells}};
+  Json json{{"agent", condition.agent},
+            {"loss", condition.lowest.loss},
+            {"delay_s", condition.lowest.delay_s},
+            {"mean_outage_s", condition.lowest.mean_outage_s},
+            {"loss_to", condition.highest.loss},
+            {"delay_to_s", condition.highest.delay_s},
+            {"mean_outage_to_s", condition.highest.mean_outage_s},
+            {"in_contract", condition.in_contract},
+            {"is_worst_case", condition.is_worst_case},
+            {"cells", condition.pool.cells}};
   add_tally(json, condition.tally);
   const auto confidence = bound_confidence(input.evidence, condition.agent);
   const auto& pool = condition.pool;
@@ -202,7 +223,8 @@ Json campaign_json(const ReportInput& input) {
 
 Json exemptions_json(const CampaignRecord& campaign) {
   auto list = Json::array();
-  if (!campaign.exempt_purposes.empty()) list.push_back({{"purposes", campaign.exempt_purposes}, {"radius_m", campaign.exempt_radius_m}});
+  if (!campaign.exempt_purposes.empty())
+    list.push_back({{"purposes", campaign.exempt_purposes}, {"radius_m", campaign.exempt_radius_m}});
   for (const std::string& pair : campaign.exempt_pairs) list.push_back({{"pair", pair}});
   return list;
 }
@@ -231,7 +253,8 @@ std::string render_json(const ReportInput& input) {
   json["campaign"] = campaign_json(input);
   json["gates"] = list_of(input.gates.size(), [&](std::size_t i) { return gate_json(input, i); });
   json["conditions"] = list_of(conditions.size(), [&](std::size_t i) { return condition_json(input, conditions[i]); });
-  json["cells"] = list_of(evidence.cells().size(), [&](std::size_t i) { return one_cell_json(input, evidence.cells()[i]); });
+  json["cells"] =
+      list_of(evidence.cells().size(), [&](std::size_t i) { return one_cell_json(input, evidence.cells()[i]); });
   json["coverage"] = coverage_json(input);
   json["incidents"] = incidents_json(input);
   json["weak_points"] = weak_points(input);
@@ -240,7 +263,11 @@ std::string render_json(const ReportInput& input) {
     json[in_contract ? "worst_runs_in_contract" : "worst_runs_outside_contract"] =
         list_of(worst.size(), [&](std::size_t i) { return failing_run_json(input, worst[i]); });
   }
-  json["engine"] = {{"version", engine.version}, {"program_sha256", engine.program_sha256}, {"compiler", engine.compiler}, {"flags", engine.flags}, {"libraries", engine.libraries}};
+  json["engine"] = {{"version", engine.version},
+                    {"program_sha256", engine.program_sha256},
+                    {"compiler", engine.compiler},
+                    {"flags", engine.flags},
+                    {"libraries", engine.libraries}};
   // A name or a message from outside may hold bytes that are no UTF-8: they are replaced, not refused.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -36,9 +36,12 @@ Section provenance_section(const ReportInput& input) {
   const auto& campaign = input.campaign;
   const auto& engine = campaign.engine;
   Section section{"Provenance", {}, {}};
-  const auto add = [&](const std::string& name, const std::string& value) { section.remarks.push_back({name + ": " + printable(value, 400), ""}); };
+  const auto add = [&](const std::string& name, const std::string& value) {
+    section.remarks.push_back({name + ": " + printable(value, 400), ""});
+  };
   add("archive", input.archive_path);
-  add("campaign", fmt::format("{}, kind {}, seed {}, {}, {}", campaign.name, campaign.kind, campaign.seed, count_text(input.evidence.cells().size(), "cell"),
+  add("campaign", fmt::format("{}, kind {}, seed {}, {}, {}", campaign.name, campaign.kind, campaign.seed,
+                              count_text(input.evidence.cells().size(), "cell"),
                               count_text(campaign.replicates, "planned replicate")));
   add("plan hash", hex_text(campaign.plan_hash));
   add("fleetproof", engine.version);
@@ -53,32 +56,44 @@ Section method_section(const ReportInput& input) {
   Section section{"How to read this", {}, {}};
   const auto add = [&](const char* text) { section.remarks.push_back({text, ""}); };
   if (input.evidence.counts_only()) {
-    add("A search looks for failures where it expects them. Its counts are no sample of normal operation: there are no rates and no bounds.");
+    add("A search looks for failures where it expects them. Its counts are no sample of normal operation: there are no "
+        "rates and no bounds.");
   } else {
-    add("A replicate is one draw of all randomness, run in every cell (test condition). Where several cells are judged together, the replicate is the unit and fails if any of "
-        "its runs does. Intervals and bounds are exact (Clopper-Pearson), for a number of replicates fixed beforehand.");
-    add("Runs that crashed, hung or stayed indeterminate count as failures in every rate and bound; stuck runs stay in the count of runs. An upper bound is rounded up, a lower "
+    add("A replicate is one draw of all randomness, run in every cell (test condition). Where several cells are judged "
+        "together, the replicate is the unit and fails if any of "
+        "its runs does. Intervals and bounds are exact (Clopper-Pearson), for a number of replicates fixed "
+        "beforehand.");
+    add("Runs that crashed, hung or stayed indeterminate count as failures in every rate and bound; stuck runs stay in "
+        "the count of runs. An upper bound is rounded up, a lower "
         "one down.");
-    add("\"Demonstrated\" says: if the true rate were above the limit, a result this good would be rarer than one minus the confidence. It speaks of the sampled scenarios in "
-        "the simulator, not of other conditions, and not of real vehicles beyond what the simulator has been validated for.");
+    add("\"Demonstrated\" says: if the true rate were above the limit, a result this good would be rarer than one "
+        "minus the confidence. It speaks of the sampled scenarios in "
+        "the simulator, not of other conditions, and not of real vehicles beyond what the simulator has been validated "
+        "for.");
   }
   const auto& sampling = input.campaign.sampling;
   if (sampling == "uniform") {
-    add("Where a factor was drawn, every replicate has a point of its own, drawn uniformly and independently: the bounds hold for the rate of such draws, the mean over the "
+    add("Where a factor was drawn, every replicate has a point of its own, drawn uniformly and independently: the "
+        "bounds hold for the rate of such draws, the mean over the "
         "region. They say nothing of its worst point by itself.");
   } else if (!sampling.empty()) {
-    add("Points drawn as a Latin hypercube or a Sobol sequence cover a region more evenly than independent ones. A mean over them varies no more in the long run, but they are not "
+    add("Points drawn as a Latin hypercube or a Sobol sequence cover a region more evenly than independent ones. A "
+        "mean over them varies no more in the long run, but they are not "
         "independent, so exact binomial bounds are not guaranteed to hold, and none is given.");
   }
-  add("A violation is a clearance below the minimal safety distance (0.10 m unless the scenario says otherwise). Clearances are rounded down to 1 cm; \"> 0.5 m\" means that none "
-      "below that was met. The contract region is loss <= 40 % and delay <= 2 s; outside it standing still is legal, a violation is still one.");
+  add("A violation is a clearance below the minimal safety distance (0.10 m unless the scenario says otherwise). "
+      "Clearances are rounded down to 1 cm; \"> 0.5 m\" means that none "
+      "below that was met. The contract region is loss <= 40 % and delay <= 2 s; outside it standing still is legal, a "
+      "violation is still one.");
   return section;
 }
 
 // Whether the campaign is all there belongs where nobody can miss it.
 std::string replicates_text(const Evidence& evidence) {
   const auto complete = evidence.complete_replicates();
-  if (!evidence.complete()) return fmt::format("INCOMPLETE: {} of {}", complete, count_text(evidence.planned_replicates(), "planned replicate"));
+  if (!evidence.complete())
+    return fmt::format("INCOMPLETE: {} of {}", complete,
+                       count_text(evidence.planned_replicates(), "planned replicate"));
   return count_text(complete, "replicate") + " complete";
 }
 
@@ -87,16 +102,22 @@ std::string replicates_text(const Evidence& evidence) {
 Page build_page(const ReportInput& input, std::size_t most_rows) {
   Page page;
   const auto& evidence = input.evidence;
-  page.title = fmt::format("fleetproof report: {} ({}), {} of {} cells each, {} judged", printable(input.campaign.name, 80), printable(input.campaign.kind, 20),
-                           replicates_text(evidence), evidence.cells().size(),
-                           count_text(evidence.complete_replicates() * evidence.cells().size(), "run"));
+  page.title =
+      fmt::format("fleetproof report: {} ({}), {} of {} cells each, {} judged", printable(input.campaign.name, 80),
+                  printable(input.campaign.kind, 20), replicates_text(evidence), evidence.cells().size(),
+                  count_text(evidence.complete_replicates() * evidence.cells().size(), "run"));
   page.headlines = reservations(input);
   for (auto& warning : warnings(input)) page.headlines.push_back(std::move(warning));
   for (auto& weak : weak_headlines(input)) page.headlines.push_back(std::move(weak));
   for (auto& verdict : verdicts(input)) page.headlines.push_back(std::move(verdict));
-  page.sections.push_back(condition_section(input, "Worst case of the contract: 40 % loss, 2 s delay", [](const Condition& c) { return c.is_worst_case; }, most_rows));
-  page.sections.push_back(condition_section(input, "Contract region: loss <= 40 %, delay <= 2 s", [](const Condition& c) { return c.in_contract; }, most_rows));
-  page.sections.push_back(condition_section(input, "Outside the contract", [](const Condition& c) { return !c.in_contract; }, most_rows));
+  page.sections.push_back(condition_section(
+      input, "Worst case of the contract: 40 % loss, 2 s delay", [](const Condition& c) { return c.is_worst_case; },
+      most_rows));
+  page.sections.push_back(condition_section(
+      input, "Contract region: loss <= 40 %, delay <= 2 s", [](const Condition& c) { return c.in_contract; },
+      most_rows));
+  page.sections.push_back(condition_section(
+      input, "Outside the contract", [](const Condition& c) { return !c.in_contract; }, most_rows));
   page.sections.push_back(table_legend(input));
   page.sections.push_back(coverage_section(input, most_rows));
   page.sections.push_back(incident_section(input, most_rows));

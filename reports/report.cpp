@@ -31,7 +31,12 @@ std::string replay_line(const ReportInput& input, std::uint64_t run_index) {
 }
 
 ReportInput read_report_input(const ArchiveReader& archive, std::string archive_path) {
-  ReportInput input{std::move(archive_path), archive.campaign(), Evidence(archive.campaign(), archive.cells(), archive.gates()), {}, 0, 4};
+  ReportInput input{std::move(archive_path),
+                    archive.campaign(),
+                    Evidence(archive.campaign(), archive.cells(), archive.gates()),
+                    {},
+                    0,
+                    4};
   archive.for_each_run([&](const RunRecord& run) {
     ++input.stored_runs;
     if (run.run_index == input.evidence.runs()) input.evidence.add(run);

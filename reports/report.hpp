@@ -13,11 +13,11 @@ namespace fleetproof {
 
 // Everything a report tells, judged once: every format prints the same verdict.
 struct ReportInput {
-  std::string archive_path;         // as the user typed it: it goes into the replay lines
+  std::string archive_path;  // as the user typed it: it goes into the replay lines
   CampaignRecord campaign;
   Evidence evidence;
-  std::vector<GateResult> gates;    // in the order of evidence.gates()
-  std::uint64_t stored_runs = 0;    // in the file; evidence.runs() of them are before the first gap
+  std::vector<GateResult> gates;  // in the order of evidence.gates()
+  std::uint64_t stored_runs = 0;  // in the file; evidence.runs() of them are before the first gap
   int exit_code = 4;
 };
 

@@ -17,16 +17,20 @@ constexpr std::size_t kMostRows = 500;
 
 // In characters, not bytes.
 std::size_t width_of(const std::string& text) {
-  return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
 }
 
 // "%", "s" and "m" stay on the line of their figure.
 bool is_unit(const std::string& text, std::size_t at) {
-  const auto letter = [&](std::size_t i) { return i < text.size() && ((text[i] >= 'a' && text[i] <= 'z') || (text[i] >= 'A' && text[i] <= 'Z')); };
+  const auto letter = [&](std::size_t i) {
+    return i < text.size() && ((text[i] >= 'a' && text[i] <= 'z') || (text[i] >= 'A' && text[i] <= 'Z'));
+  };
   return at < text.size() && std::string_view("%sm").find(text[at]) != std::string_view::npos && !letter(at + 1);
 }
 
-// Words in lines of at most kWidth; the first line starts with `first`, the others with as many blanks as `indent` says.
+// Words in lines of at most kWidth; the first line starts with `first`, the others with as many blanks as `indent`
+// says.
 std::string wrapped(const std::string& text, const std::string& first, std::size_t indent) {
   std::string out, line = first;
   std::size_t start = 0;
@@ -72,7 +76,8 @@ void print(std::string& out, const Table& table) {
   const bool grouped = all > kWidestTable;
   const auto print_row = [&](const auto& text_of) {
     std::string line;
-    for (std::size_t c = grouped ? 1 : 0; c < table.columns.size(); ++c) line += std::string(kGap, ' ') + aligned(text_of(c), widths[c], table.columns[c].right_aligned);
+    for (std::size_t c = grouped ? 1 : 0; c < table.columns.size(); ++c)
+      line += std::string(kGap, ' ') + aligned(text_of(c), widths[c], table.columns[c].right_aligned);
     line.erase(line.find_last_not_of(' ') + 1);
     out += line + "\n";
   };

@@ -12,9 +12,12 @@ namespace {
 
 std::string region_text(Region region) {
   switch (region) {
-    case Region::Contract: return "contract region (loss <= 40 %, delay <= 2 s)";
-    case Region::WorstCase: return "worst case (40 %, 2 s)";
-    case Region::All: return "all cells";
+    case Region::Contract:
+      return "contract region (loss <= 40 %, delay <= 2 s)";
+    case Region::WorstCase:
+      return "worst case (40 %, 2 s)";
+    case Region::All:
+      return "all cells";
   }
   return {};
 }
@@ -23,23 +26,27 @@ std::string estimate_text(const GateRecord& gate, const GateResult& result) {
   const auto& claim = *result.claim;
   auto text = fmt::format("{} of {} {} failed", claim.failing, claim.units, result.unit);
   if (claim.rate()) {
-    text += fmt::format(": rate {}, exact two-sided 95 % interval [{}, {}]", rounded_rate(*claim.rate()), rounded_down(claim.interval_95.lower),
-                        rounded_up(claim.interval_95.upper));
+    text += fmt::format(": rate {}, exact two-sided 95 % interval [{}, {}]", rounded_rate(*claim.rate()),
+                        rounded_down(claim.interval_95.lower), rounded_up(claim.interval_95.upper));
   }
-  return text + fmt::format(", one-sided {} upper bound {}, limit {:g}.", percent(gate.confidence), rounded_up(claim.upper), gate.limit);
+  return text + fmt::format(", one-sided {} upper bound {}, limit {:g}.", percent(gate.confidence),
+                            rounded_up(claim.upper), gate.limit);
 }
 
 std::string optimistic_text(const GateResult& result) {
-  return fmt::format("Crashed, hung and indeterminate runs are counted as failures; if none of them had failed: {} of {}, upper bound {}.", result.optimistic->failing,
-                     result.optimistic->units, rounded_up(result.optimistic->upper));
+  return fmt::format(
+      "Crashed, hung and indeterminate runs are counted as failures; if none of them had failed: {} of {}, upper bound "
+      "{}.",
+      result.optimistic->failing, result.optimistic->units, rounded_up(result.optimistic->upper));
 }
 
 Headline verdict_of(const ReportInput& input, std::size_t index) {
   const auto& gate = input.evidence.gates()[index];
   const auto& result = input.gates[index];
   Headline headline{name_of(result.verdict),
-                    fmt::format("gate \"{}\": {} of agent {}, {}, {}", printable(gate.name, 60), name_of(gate.end_point), printable(gate.agent, 40),
-                                region_text(gate.region), gate.kind == GateKind::None ? "none allowed" : "rate limited") +
+                    fmt::format("gate \"{}\": {} of agent {}, {}, {}", printable(gate.name, 60),
+                                name_of(gate.end_point), printable(gate.agent, 40), region_text(gate.region),
+                                gate.kind == GateKind::None ? "none allowed" : "rate limited") +
                         (result.missing.empty() ? "" : "; the evidence is weak"),
                     {}};
   const auto add = [&](std::string text) { headline.details.push_back({std::move(text), ""}); };
@@ -47,10 +54,12 @@ Headline verdict_of(const ReportInput& input, std::size_t index) {
   if (result.claim && result.optimistic->failing != result.claim->failing) add(optimistic_text(result));
   add(fmt::format("Why {}: {}.", name_of(result.verdict), result.reason));
   if (!result.missing.empty()) add("Weak: " + missing_text(result.missing) + ".");
-  if (const auto& cells = input.evidence.cells_of(index); !cells.empty()) add("Sampled: " + sampled(input.evidence, cells) + ".");
+  if (const auto& cells = input.evidence.cells_of(index); !cells.empty())
+    add("Sampled: " + sampled(input.evidence, cells) + ".");
   if (result.worst) {
-    headline.details.push_back({fmt::format("Its most serious run is {} ({}):", result.worst->run_index, name_of(result.worst->severity)),
-                                replay_line(input, result.worst->run_index)});
+    headline.details.push_back(
+        {fmt::format("Its most serious run is {} ({}):", result.worst->run_index, name_of(result.worst->severity)),
+         replay_line(input, result.worst->run_index)});
   }
   return headline;
 }
@@ -61,15 +70,18 @@ Remark describe(const ReportInput& input, const FailingRun& run) {
   const auto& cell = input.evidence.cells()[run.cell];
   auto text = fmt::format("run {}: {}", run.run_index, name_of(run.severity));
   if (run.closest && level_of(*run.closest) == ViolationLevel::HazardousContact) {
-    text += fmt::format(" at hazardous speed ({:.1f} m/s)", static_cast<double>(run.closest->relative_speed_um_s) * 1e-6);
+    text +=
+        fmt::format(" at hazardous speed ({:.1f} m/s)", static_cast<double>(run.closest->relative_speed_um_s) * 1e-6);
   }
   if (run.closest) {
-    text += fmt::format(", {} at {} between {} and {}", metres_text(run.closest->min_clearance_um), seconds_text(to_seconds(run.closest->closest_at)),
-                        body_name(run.closest->a, cell), body_name(run.closest->b, cell));
+    text += fmt::format(", {} at {} between {} and {}", metres_text(run.closest->min_clearance_um),
+                        seconds_text(to_seconds(run.closest->closest_at)), body_name(run.closest->a, cell),
+                        body_name(run.closest->b, cell));
     if (run.violations > 1) text += fmt::format(" (the closest of {})", run.violations);
   }
-  text += fmt::format("; agent {}, layout {}, fleet of {}, loss {}, delay {}{}", printable(cell.agent, 40), printable(cell.layout, 40), cell.fleet_size,
-                      percent(run.radio.loss), seconds_text(run.radio.delay_s), outage_text(run.radio.mean_outage_s));
+  text += fmt::format("; agent {}, layout {}, fleet of {}, loss {}, delay {}{}", printable(cell.agent, 40),
+                      printable(cell.layout, 40), cell.fleet_size, percent(run.radio.loss),
+                      seconds_text(run.radio.delay_s), outage_text(run.radio.mean_outage_s));
   if (!run.message.empty()) text += fmt::format("; \"{}\"", printable(run.message));
   return {text, replay_line(input, run.run_index)};
 }
@@ -77,14 +89,18 @@ Remark describe(const ReportInput& input, const FailingRun& run) {
 std::vector<Headline> warnings(const ReportInput& input) {
   std::vector<Headline> list;
   if (const auto errors = input.evidence.engine_errors(); errors > 0) {
-    list.push_back({"engine error",
-                    fmt::format("{} ended in an error of the simulator itself: nothing here is evidence until that is mended.", count_text(errors, "run")),
-                    {}});
+    list.push_back(
+        {"engine error",
+         fmt::format("{} ended in an error of the simulator itself: nothing here is evidence until that is mended.",
+                     count_text(errors, "run")),
+         {}});
   }
   for (const auto& [agent, runs, worst] : input.evidence.contract_failures()) {
-    list.push_back({"violation",
-                    fmt::format("agent {} broke the safety distance in {} within the contract region. The most serious:", printable(agent, 40), count_text(runs, "run")),
-                    {describe(input, worst)}});
+    list.push_back(
+        {"violation",
+         fmt::format("agent {} broke the safety distance in {} within the contract region. The most serious:",
+                     printable(agent, 40), count_text(runs, "run")),
+         {describe(input, worst)}});
   }
   return list;
 }
@@ -92,7 +108,10 @@ std::vector<Headline> warnings(const ReportInput& input) {
 std::vector<Headline> verdicts(const ReportInput& input) {
   std::vector<Headline> list;
   for (std::size_t i = 0; i < input.gates.size(); ++i) list.push_back(verdict_of(input, i));
-  if (list.empty()) list.push_back({name_of(Verdict::NotDemonstrated), "this campaign has no gate (acceptance criterion), so nothing can be demonstrated.", {}});
+  if (list.empty())
+    list.push_back({name_of(Verdict::NotDemonstrated),
+                    "this campaign has no gate (acceptance criterion), so nothing can be demonstrated.",
+                    {}});
   return list;
 }
 

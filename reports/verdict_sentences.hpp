@@ -7,13 +7,15 @@
 
 namespace fleetproof {
 
-// Engine errors, and for each agent its failures in the contract region: above every verdict, whatever the gates tolerate.
+// Engine errors, and for each agent its failures in the contract region: above every verdict, whatever the gates
+// tolerate.
 std::vector<Headline> warnings(const ReportInput& input);
 
 // One for each gate: verdict, count, rate, interval, bound, limit, reason, what was sampled.
 std::vector<Headline> verdicts(const ReportInput& input);
 
-// "violation, smallest clearance 0.07 m at 12.34 s between AGV 1 and AGV 3; agent sound, layout ring, fleet of 5, loss 40 %, delay 2 s"
+// "violation, smallest clearance 0.07 m at 12.34 s between AGV 1 and AGV 3; agent sound, layout ring, fleet of 5, loss
+// 40 %, delay 2 s"
 Remark describe(const ReportInput& input, const FailingRun& run);
 
 }  // namespace fleetproof

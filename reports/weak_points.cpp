@@ -15,14 +15,17 @@ namespace {
 constexpr std::size_t kMostNamed = 4;
 
 std::string cell_name(const CellRecord& cell) {
-  return fmt::format("{} on {}, fleet of {}, {}, {}{}", printable(cell.agent, 40), printable(cell.layout, 40), cell.fleet_size, percent_span(cell.loss, cell.loss_to),
-                     seconds_span(cell.delay_s, cell.delay_to_s), outage_span(cell.mean_outage_s, cell.mean_outage_to_s));
+  return fmt::format("{} on {}, fleet of {}, {}, {}{}", printable(cell.agent, 40), printable(cell.layout, 40),
+                     cell.fleet_size, percent_span(cell.loss, cell.loss_to),
+                     seconds_span(cell.delay_s, cell.delay_to_s),
+                     outage_span(cell.mean_outage_s, cell.mean_outage_to_s));
 }
 
 enum class Scope { Contract, All };
 
 // "3 of 12 cells in the contract region ...: a; b; c", or nothing.
-void name_cells(std::vector<std::string>& points, const Evidence& evidence, Scope scope, const std::string& what, const std::function<bool(const Tally&)>& concerned) {
+void name_cells(std::vector<std::string>& points, const Evidence& evidence, Scope scope, const std::string& what,
+                const std::function<bool(const Tally&)>& concerned) {
   std::vector<std::string> names;
   std::size_t all = 0, count = 0;
   for (const auto& cell : evidence.cells()) {
@@ -31,8 +34,10 @@ void name_cells(std::vector<std::string>& points, const Evidence& evidence, Scop
     if (concerned(evidence.tally(cell.index)) && ++count <= kMostNamed) names.push_back(cell_name(cell));
   }
   if (count == 0) return;
-  auto text = fmt::format("{} of {} cells{} {}", count, all, scope == Scope::Contract ? " in the contract region" : "", what);
-  if (count < all) text += ": " + joined(names, "; ") + (count > kMostNamed ? fmt::format("; and {} more", count - kMostNamed) : "");
+  auto text =
+      fmt::format("{} of {} cells{} {}", count, all, scope == Scope::Contract ? " in the contract region" : "", what);
+  if (count < all)
+    text += ": " + joined(names, "; ") + (count > kMostNamed ? fmt::format("; and {} more", count - kMostNamed) : "");
   points.push_back(text + ".");
 }
 
@@ -44,8 +49,9 @@ void name_short_gates(std::vector<std::string>& points, const Evidence& evidence
     const auto needed = units_needed(0, gate.limit, gate.confidence);
     const auto done = evidence.complete_replicates();
     if (!needed || done >= *needed || evidence.cells_of(i).empty()) continue;
-    points.push_back(fmt::format("Gate \"{}\": every cell of it has {}; even without a failure a limit of {:g} at {} takes {}.", printable(gate.name, 60), count_text(done, "run"),
-                                 gate.limit, percent(gate.confidence), *needed));
+    points.push_back(
+        fmt::format("Gate \"{}\": every cell of it has {}; even without a failure a limit of {:g} at {} takes {}.",
+                    printable(gate.name, 60), count_text(done, "run"), gate.limit, percent(gate.confidence), *needed));
   }
 }
 
@@ -66,20 +72,28 @@ std::vector<std::string> weak_points(const ReportInput& input) {
   std::vector<std::string> points;
   const auto judged = evidence.complete_replicates() * evidence.cells().size();
   if (input.stored_runs > judged) {
-    points.push_back(fmt::format("{} of {} stored runs are not counted: they belong to replicates that are not complete.", input.stored_runs - judged, input.stored_runs));
+    points.push_back(
+        fmt::format("{} of {} stored runs are not counted: they belong to replicates that are not complete.",
+                    input.stored_runs - judged, input.stored_runs));
   }
   if (evidence.complete_replicates() < input.campaign.replicates) {
-    points.push_back(fmt::format("{} of {} planned replicates are complete.", evidence.complete_replicates(), input.campaign.replicates));
+    points.push_back(fmt::format("{} of {} planned replicates are complete.", evidence.complete_replicates(),
+                                 input.campaign.replicates));
   }
   for (const auto& agent : evidence.agent_coverage()) {
-    if (!agent.missing.empty()) points.push_back(fmt::format("The runs of agent {}: {}.", printable(agent.agent, 40), missing_text(agent.missing)));
+    if (!agent.missing.empty())
+      points.push_back(
+          fmt::format("The runs of agent {}: {}.", printable(agent.agent, 40), missing_text(agent.missing)));
   }
   name_short_gates(points, evidence);
   name_cells(points, evidence, Scope::All, "have no run", [](const Tally& tally) { return tally.runs == 0; });
-  name_cells(points, evidence, Scope::Contract, "completed no transport", [](const Tally& tally) { return tally.runs > 0 && tally.transports_done == 0; });
-  name_cells(points, evidence, Scope::All, "have runs with an unknown outcome (crash, hang, indeterminate, engine error)",
+  name_cells(points, evidence, Scope::Contract, "completed no transport",
+             [](const Tally& tally) { return tally.runs > 0 && tally.transports_done == 0; });
+  name_cells(points, evidence, Scope::All,
+             "have runs with an unknown outcome (crash, hang, indeterminate, engine error)",
              [](const Tally& tally) { return tally.unknown_runs > 0; });
-  name_cells(points, evidence, Scope::Contract, "have stuck runs", [](const Tally& tally) { return tally.stuck_runs > 0; });
+  name_cells(points, evidence, Scope::Contract, "have stuck runs",
+             [](const Tally& tally) { return tally.stuck_runs > 0; });
   name_agents_without_gate(points, evidence);
   return points;
 }

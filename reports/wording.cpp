@@ -19,7 +19,8 @@ std::string hundredths(double value) {
 
 bool plain_in_a_shell(std::string_view word) {
   return !word.empty() && !word.starts_with('-') && std::ranges::all_of(word, [](unsigned char c) {
-    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || std::string_view("_-./+:@%,=").find(static_cast<char>(c)) != std::string_view::npos;
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+           std::string_view("_-./+:@%,=").find(static_cast<char>(c)) != std::string_view::npos;
   });
 }
 
@@ -35,13 +36,21 @@ std::string shell_word(const std::string& word) {
 std::string percent(double fraction) { return hundredths(fraction * 100.0) + " %"; }
 std::string seconds_text(double value_s) { return hundredths(value_s) + " s"; }
 
-std::string percent_span(double from, double to) { return from == to ? percent(from) : hundredths(from * 100.0) + " .. " + percent(to); }
-std::string seconds_span(double from_s, double to_s) { return from_s == to_s ? seconds_text(from_s) : hundredths(from_s) + " .. " + seconds_text(to_s); }
+std::string percent_span(double from, double to) {
+  return from == to ? percent(from) : hundredths(from * 100.0) + " .. " + percent(to);
+}
+std::string seconds_span(double from_s, double to_s) {
+  return from_s == to_s ? seconds_text(from_s) : hundredths(from_s) + " .. " + seconds_text(to_s);
+}
 
 std::string outage_text(double mean_outage_s) { return outage_span(mean_outage_s, mean_outage_s); }
-std::string outage_span(double from_s, double to_s) { return to_s > 0.0 ? ", outages of " + seconds_span(from_s, to_s) : ""; }
+std::string outage_span(double from_s, double to_s) {
+  return to_s > 0.0 ? ", outages of " + seconds_span(from_s, to_s) : "";
+}
 
-std::string metres_text(std::int64_t value_um) { return fmt::format("{:.2f} m", std::floor(static_cast<double>(value_um) / 10'000.0) / 100.0); }
+std::string metres_text(std::int64_t value_um) {
+  return fmt::format("{:.2f} m", std::floor(static_cast<double>(value_um) / 10'000.0) / 100.0);
+}
 
 std::string clearance_text(const Tally& tally) {
   if (tally.min_clearance_um) return metres_text(*tally.min_clearance_um);
@@ -50,7 +59,9 @@ std::string clearance_text(const Tally& tally) {
 }
 
 std::string per_hour_text(const std::optional<double>& rate) { return rate ? fmt::format("{:.2f}", *rate) : "-"; }
-std::string count_text(std::uint64_t count, std::string_view singular) { return fmt::format("{} {}{}", count, singular, count == 1 ? "" : "s"); }
+std::string count_text(std::uint64_t count, std::string_view singular) {
+  return fmt::format("{} {}{}", count, singular, count == 1 ? "" : "s");
+}
 std::string hex_text(std::uint64_t digest) { return fmt::format("{:016x}", digest); }
 
 std::string body_name(EntityId body, const CellRecord& cell) {
@@ -72,9 +83,13 @@ std::string printable(std::string_view text, std::size_t limit) {
 
 std::string replay_command(const std::string& archive_path, std::uint64_t run_index, std::string_view plugin_agent) {
   const auto command = fmt::format("fleetproof replay {} {}", shell_word(archive_path), run_index);
-  return plugin_agent.empty() ? command : fmt::format("{} --plugin {}", command, shell_word(fmt::format("<path of {}>", printable(plugin_agent, 40))));
+  return plugin_agent.empty() ? command
+                              : fmt::format("{} --plugin {}", command,
+                                            shell_word(fmt::format("<path of {}>", printable(plugin_agent, 40))));
 }
 
-std::string joined(const std::vector<std::string>& parts, std::string_view separator) { return fmt::format("{}", fmt::join(parts, separator)); }
+std::string joined(const std::vector<std::string>& parts, std::string_view separator) {
+  return fmt::format("{}", fmt::join(parts, separator));
+}
 
 }  // namespace fleetproof

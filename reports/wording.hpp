@@ -12,7 +12,8 @@
 
 namespace fleetproof {
 
-// How figures read on a page: hundredths of a second, whole centimetres (rounded down, towards the unsafe side), percent with a blank before the sign.
+// How figures read on a page: hundredths of a second, whole centimetres (rounded down, towards the unsafe side),
+// percent with a blank before the sign.
 std::string percent(double fraction);
 std::string seconds_text(double value_s);
 // "40 %", or "0 .. 40 %" between two bounds.
@@ -32,9 +33,10 @@ std::string body_name(EntityId body, const CellRecord& cell);            // "AGV
 // A name or message from outside as one printable line of at most `limit` characters.
 std::string printable(std::string_view text, std::size_t limit = 120);
 
-// One line for a shell, whatever the path holds. With the name of an agent from a shared object it says where that object's path belongs, which no
-// campaign file knows.
-std::string replay_command(const std::string& archive_path, std::uint64_t run_index, std::string_view plugin_agent = "");
+// One line for a shell, whatever the path holds. With the name of an agent from a shared object it says where that
+// object's path belongs, which no campaign file knows.
+std::string replay_command(const std::string& archive_path, std::uint64_t run_index,
+                           std::string_view plugin_agent = "");
 
 std::string joined(const std::vector<std::string>& parts, std::string_view separator = ", ");
 

@@ -27,7 +27,9 @@ void require_readable(const std::string& path) {
   if (fs::is_directory(path, error)) throw InputError(path, "this is a folder; name a campaign file in it");
   if (!fs::exists(path, error)) {
     if (fs::exists(path + ".partial", error)) {
-      throw InputError(path, fmt::format("there is no such file yet; the campaign is under way or was interrupted, what it stored so far is in {}.partial", path));
+      throw InputError(path, fmt::format("there is no such file yet; the campaign is under way or was interrupted, "
+                                         "what it stored so far is in {}.partial",
+                                         path));
     }
     throw InputError(path, "there is no such file");
   }
@@ -35,7 +37,8 @@ void require_readable(const std::string& path) {
   if (fs::file_size(path, error) == 0) throw InputError(path, "this file is empty; name a campaign file");
 }
 
-// One state of the file for several statements, even while a campaign writes it. Within another snapshot it is that one.
+// One state of the file for several statements, even while a campaign writes it. Within another snapshot it is that
+// one.
 class Snapshot {
  public:
   explicit Snapshot(SQLite::Database& db) : db_(db), outermost_(sqlite3_get_autocommit(db.getHandle()) != 0) {
@@ -61,16 +64,22 @@ struct PartTable {
 
 const std::array<PartTable, 3>& part_tables() {
   static const std::array<PartTable, 3> tables{{
-      {"violations", violation_columns(), [](const SQLite::Statement& row, Outcome& o) { o.violations.push_back(read_violation(row)); }},
-      {"incidents", kIncidentColumns, [](const SQLite::Statement& row, Outcome& o) { o.incidents.push_back(read_incident(row)); }},
+      {"violations", violation_columns(),
+       [](const SQLite::Statement& row, Outcome& o) { o.violations.push_back(read_violation(row)); }},
+      {"incidents", kIncidentColumns,
+       [](const SQLite::Statement& row, Outcome& o) { o.incidents.push_back(read_incident(row)); }},
       {"probes", kProbeColumns, [](const SQLite::Statement& row, Outcome& o) { o.probes.push_back(read_probe(row)); }},
   }};
   return tables;
 }
 
-std::uint64_t run_of(const SQLite::Statement& part) { return std::bit_cast<std::uint64_t>(part.getColumn(0).getInt64()); }
+std::uint64_t run_of(const SQLite::Statement& part) {
+  return std::bit_cast<std::uint64_t>(part.getColumn(0).getInt64());
+}
 
-std::int64_t pragma(SQLite::Database& db, const char* name) { return db.execAndGet(fmt::format("PRAGMA {}", name)).getInt64(); }
+std::int64_t pragma(SQLite::Database& db, const char* name) {
+  return db.execAndGet(fmt::format("PRAGMA {}", name)).getInt64();
+}
 
 std::optional<std::uint64_t> maybe(const SQLite::Column& column) {
   if (column.isNull()) return std::nullopt;
@@ -107,13 +116,15 @@ struct ArchiveReader::Impl {
     }
   }
   [[noreturn]] void damaged(const std::string& what) const {
-    throw EngineError(fmt::format("{}: the file is damaged: {}; use a copy of it, or run the campaign again", path, what));
+    throw EngineError(
+        fmt::format("{}: the file is damaged: {}; use a copy of it, or run the campaign again", path, what));
   }
 };
 
 void ArchiveReader::Impl::open() {
   guarded([&] {
-    db = std::make_unique<SQLite::Database>(std::filesystem::absolute(path).string(), SQLite::OPEN_READONLY, kBusyTimeoutMs);
+    db = std::make_unique<SQLite::Database>(std::filesystem::absolute(path).string(), SQLite::OPEN_READONLY,
+                                            kBusyTimeoutMs);
     // The writer alone checkpoints: SQLite 3.40 may damage the file if two do it at the same instant.
     sqlite3_db_config(db->getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
   });
@@ -132,13 +143,19 @@ void ArchiveReader::Impl::require_ours() {
   } catch (const SQLite::Exception& e) {
     if (e.getErrorCode() != SQLITE_NOTADB) throw_archive_error(path);
   }
-  if (application != kApplicationId) throw InputError(path, "this is not a campaign file of fleetproof; name a file that `fleetproof run` wrote");
+  if (application != kApplicationId)
+    throw InputError(path, "this is not a campaign file of fleetproof; name a file that `fleetproof run` wrote");
   if (version > kSchemaVersion) {
-    throw InputError(path, fmt::format("a newer fleetproof wrote this file (schema {}, this program reads {}); use that version or a later one", version, kSchemaVersion));
+    throw InputError(
+        path,
+        fmt::format(
+            "a newer fleetproof wrote this file (schema {}, this program reads {}); use that version or a later one",
+            version, kSchemaVersion));
   }
   if (version >= 1 && version < kSchemaVersion) {
-    throw InputError(path, fmt::format("an older fleetproof wrote this file (schema {}, this program reads {}); use that version, or run the campaign again", version,
-                                       kSchemaVersion));
+    throw InputError(path, fmt::format("an older fleetproof wrote this file (schema {}, this program reads {}); use "
+                                       "that version, or run the campaign again",
+                                       version, kSchemaVersion));
   }
   if (version != kSchemaVersion) damaged(fmt::format("its schema number is {}", version));
 }
@@ -154,7 +171,8 @@ void ArchiveReader::Impl::read_plan() {
   while (cell_rows.executeStep()) cells.push_back(read_cell(cell_rows));
   SQLite::Statement gate_rows(*db, fmt::format("SELECT {} FROM gates ORDER BY gate", kGateColumns));
   while (gate_rows.executeStep()) gates.push_back(read_gate(gate_rows));
-  if (checksums == Checksums::Verify && plan_checksum(campaign, cells, gates) != plan) damaged("its plan (campaign, cells, gates) does not match its checksum");
+  if (checksums == Checksums::Verify && plan_checksum(campaign, cells, gates) != plan)
+    damaged("its plan (campaign, cells, gates) does not match its checksum");
 }
 
 StoredRun ArchiveReader::Impl::take_run(const SQLite::Statement& row) const {
@@ -178,7 +196,8 @@ void ArchiveReader::Impl::verify(const StoredRun& stored) const {
   // Whoever reads a run looks its cell up: that much holds even where checksums are ignored.
   if (run.cell >= cells.size()) damaged(fmt::format("run {} belongs to no cell of the plan", run.run_index));
   if (checksums == Checksums::Ignore) return;
-  const bool sound = row_checksum(run) == stored.checksum && stored.outcome_class == name_of(run.outcome.outcome_class()) &&
+  const bool sound = row_checksum(run) == stored.checksum &&
+                     stored.outcome_class == name_of(run.outcome.outcome_class()) &&
                      run.run_index == run.replicate * cells.size() + run.cell;
   if (!sound) damaged(fmt::format("run {} does not match its checksum", run.run_index));
 }
@@ -194,7 +213,8 @@ std::uint64_t ArchiveReader::Impl::read_all(const std::function<void(const RunRe
   };
   std::vector<Cursor> parts;
   for (const auto& table : part_tables()) {
-    SQLite::Statement rows(*db, fmt::format("SELECT {} FROM {} ORDER BY run_index, ordinal", table.columns, table.name));
+    SQLite::Statement rows(*db,
+                           fmt::format("SELECT {} FROM {} ORDER BY run_index, ordinal", table.columns, table.name));
     const bool more = rows.executeStep();
     parts.push_back({table, std::move(rows), more});
   }
@@ -203,7 +223,8 @@ std::uint64_t ArchiveReader::Impl::read_all(const std::function<void(const RunRe
   for (; runs.executeStep(); ++count) {
     auto stored = take_run(runs);
     for (auto& part : parts) {
-      for (; part.more && run_of(part.rows) == stored.run.run_index; part.more = part.rows.executeStep()) take_part(part.table, part.rows, stored);
+      for (; part.more && run_of(part.rows) == stored.run.run_index; part.more = part.rows.executeStep())
+        take_part(part.table, part.rows, stored);
     }
     verify(stored);
     digest.add(stored.checksum);
@@ -233,7 +254,8 @@ const std::vector<GateRecord>& ArchiveReader::gates() const { return impl_->gate
 
 std::uint64_t ArchiveReader::run_count() const {
   if (impl_->sealed_count) return *impl_->sealed_count;
-  return impl_->guarded([&] { return static_cast<std::uint64_t>(impl_->db->execAndGet("SELECT count(*) FROM runs").getInt64()); });
+  return impl_->guarded(
+      [&] { return static_cast<std::uint64_t>(impl_->db->execAndGet("SELECT count(*) FROM runs").getInt64()); });
 }
 
 std::optional<RunRecord> ArchiveReader::run(std::uint64_t run_index) const {
@@ -244,7 +266,8 @@ std::optional<RunRecord> ArchiveReader::run(std::uint64_t run_index) const {
     if (!rows.executeStep()) return std::nullopt;
     auto stored = impl_->take_run(rows);
     for (const auto& table : part_tables()) {
-      SQLite::Statement parts(*impl_->db, fmt::format("SELECT {} FROM {} WHERE run_index = ? ORDER BY ordinal", table.columns, table.name));
+      SQLite::Statement parts(
+          *impl_->db, fmt::format("SELECT {} FROM {} WHERE run_index = ? ORDER BY ordinal", table.columns, table.name));
       parts.bind(1, std::bit_cast<std::int64_t>(run_index));
       while (parts.executeStep()) impl_->take_part(table, parts, stored);
     }

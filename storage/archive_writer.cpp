@@ -59,21 +59,25 @@ struct ArchiveWriter::Impl {
   unsigned pending = 0;
   std::chrono::steady_clock::time_point last_commit = std::chrono::steady_clock::now();
 
-  void open(const CampaignRecord& campaign, const std::vector<CellRecord>& cell_records, const std::vector<GateRecord>& gates);
+  void open(const CampaignRecord& campaign, const std::vector<CellRecord>& cell_records,
+            const std::vector<GateRecord>& gates);
   void store(const RunRecord& run);
   void commit();
   void close();
 };
 
-void ArchiveWriter::Impl::open(const CampaignRecord& campaign, const std::vector<CellRecord>& cell_records, const std::vector<GateRecord>& gates) {
+void ArchiveWriter::Impl::open(const CampaignRecord& campaign, const std::vector<CellRecord>& cell_records,
+                               const std::vector<GateRecord>& gates) {
   db = std::make_unique<SQLite::Database>(live_path, SQLite::OPEN_READWRITE);
-  db->exec(fmt::format("PRAGMA page_size={}; PRAGMA application_id={}; PRAGMA user_version={}", kPageSize, kApplicationId, kSchemaVersion));
+  db->exec(fmt::format("PRAGMA page_size={}; PRAGMA application_id={}; PRAGMA user_version={}", kPageSize,
+                       kApplicationId, kSchemaVersion));
   // FULL brings the log to the disk at every commit: a power cut then costs no more than a kill.
   db->exec("PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL");
   db->exec("BEGIN");
   db->exec(schema_ddl());
   const auto insert_into = [&](const std::string& table, const std::string& columns) {
-    return SQLite::Statement(*db, fmt::format("INSERT INTO {} ({}) VALUES ({})", table, columns, placeholders(columns)));
+    return SQLite::Statement(*db,
+                             fmt::format("INSERT INTO {} ({}) VALUES ({})", table, columns, placeholders(columns)));
   };
   auto insert_campaign = insert_into("campaign", kCampaignColumns);
   bind_campaign(insert_campaign, campaign, plan_checksum(campaign, cell_records, gates));
@@ -93,7 +97,8 @@ void ArchiveWriter::Impl::open(const CampaignRecord& campaign, const std::vector
   db->exec("COMMIT");
   const auto runs = run_columns();
   insert_run = std::make_unique<SQLite::Statement>(
-      *db, fmt::format("INSERT INTO runs ({}) VALUES ({}) ON CONFLICT (run_index) DO NOTHING", runs, placeholders(runs)));
+      *db,
+      fmt::format("INSERT INTO runs ({}) VALUES ({}) ON CONFLICT (run_index) DO NOTHING", runs, placeholders(runs)));
   insert_violation = std::make_unique<SQLite::Statement>(insert_into("violations", violation_columns()));
   insert_incident = std::make_unique<SQLite::Statement>(insert_into("incidents", kIncidentColumns));
   insert_probe = std::make_unique<SQLite::Statement>(insert_into("probes", kProbeColumns));
@@ -115,9 +120,12 @@ void ArchiveWriter::Impl::store(const RunRecord& run) {
   // A run may be simulated twice, after an interruption; it may not end in two ways.
   stored_checksum->reset();
   stored_checksum->bind(1, static_cast<std::int64_t>(run.run_index));
-  const bool same = stored_checksum->executeStep() && std::bit_cast<std::uint64_t>(stored_checksum->getColumn(0).getInt64()) == checksum;
+  const bool same = stored_checksum->executeStep() &&
+                    std::bit_cast<std::uint64_t>(stored_checksum->getColumn(0).getInt64()) == checksum;
   stored_checksum->reset();
-  if (!same) throw EngineError(fmt::format("{}: run {} is stored already, with another outcome: the same run ended in two ways", live_path, run.run_index));
+  if (!same)
+    throw EngineError(fmt::format("{}: run {} is stored already, with another outcome: the same run ended in two ways",
+                                  live_path, run.run_index));
 }
 
 void ArchiveWriter::Impl::commit() {
@@ -137,8 +145,9 @@ void ArchiveWriter::Impl::close() {
   db.reset();
 }
 
-ArchiveWriter::ArchiveWriter(const std::string& path, const CampaignRecord& campaign, const std::vector<CellRecord>& cells,
-                             const std::vector<GateRecord>& gates, Existing existing)
+ArchiveWriter::ArchiveWriter(const std::string& path, const CampaignRecord& campaign,
+                             const std::vector<CellRecord>& cells, const std::vector<GateRecord>& gates,
+                             Existing existing)
     : impl_(std::make_unique<Impl>()) {
   require_place(path);
   impl_->path = absolute_name(path);
@@ -174,7 +183,8 @@ void ArchiveWriter::add(const RunRecord& run) {
   ensure(run.run_index <= std::numeric_limits<std::int64_t>::max(), "a run index fits the archive");
   try {
     impl_->store(run);
-    if (impl_->pending >= kRowsPerCommit || std::chrono::steady_clock::now() - impl_->last_commit >= kCommitPeriod) impl_->commit();
+    if (impl_->pending >= kRowsPerCommit || std::chrono::steady_clock::now() - impl_->last_commit >= kCommitPeriod)
+      impl_->commit();
   } catch (const SQLite::Exception&) {
     throw_archive_error(impl_->live_path);
   }
@@ -201,7 +211,8 @@ void ArchiveWriter::publish(std::uint64_t stop_index) {
   try {
     require_free_name(impl_->path, impl_->existing);
   } catch (const InputError&) {
-    throw InputError(impl_->path, fmt::format("this file appeared while the campaign ran; the results are in {} and {}", unfinished, impl_->live_path));
+    throw InputError(impl_->path, fmt::format("this file appeared while the campaign ran; the results are in {} and {}",
+                                              unfinished, impl_->live_path));
   }
   move_durably(unfinished, impl_->path);
   remove_live_file(impl_->live_path);

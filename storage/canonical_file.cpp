@@ -24,7 +24,8 @@ namespace {
 
 // Whatever SQLite could choose by itself is chosen here, or the bytes would depend on how a distribution built it.
 void fix_format(SQLite::Database& db) {
-  db.exec(fmt::format("PRAGMA page_size={}; PRAGMA encoding='UTF-8'; PRAGMA auto_vacuum=NONE; PRAGMA secure_delete=ON", kPageSize));
+  db.exec(fmt::format("PRAGMA page_size={}; PRAGMA encoding='UTF-8'; PRAGMA auto_vacuum=NONE; PRAGMA secure_delete=ON",
+                      kPageSize));
   db.exec("PRAGMA journal_mode=DELETE; PRAGMA synchronous=FULL");
 }
 
@@ -33,8 +34,11 @@ void copy_rows(SQLite::Database& db, std::uint64_t stop_index) {
   db.exec(fmt::format("INSERT INTO cells ({0}) SELECT {0} FROM live.cells ORDER BY cell", kCellColumns));
   db.exec(fmt::format("INSERT INTO gates ({0}) SELECT {0} FROM live.gates ORDER BY gate", kGateColumns));
   const auto copy_below_stop = [&](const std::string& table, const std::string& columns, const std::string& key) {
-    SQLite::Statement copy(db, fmt::format("INSERT INTO {0} ({1}) SELECT {1} FROM live.{0} WHERE run_index < ? ORDER BY {2}", table, columns, key));
-    copy.bind(1, static_cast<std::int64_t>(std::min<std::uint64_t>(stop_index, std::numeric_limits<std::int64_t>::max())));
+    SQLite::Statement copy(
+        db, fmt::format("INSERT INTO {0} ({1}) SELECT {1} FROM live.{0} WHERE run_index < ? ORDER BY {2}", table,
+                        columns, key));
+    copy.bind(1,
+              static_cast<std::int64_t>(std::min<std::uint64_t>(stop_index, std::numeric_limits<std::int64_t>::max())));
     copy.exec();
   };
   copy_below_stop("runs", run_columns(), "run_index");

@@ -12,7 +12,8 @@ namespace {
 
 std::array<char, 8> little_endian(std::uint64_t value) {
   std::array<char, 8> bytes{};
-  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(static_cast<std::uint8_t>(value >> (8 * i)));
+  for (std::size_t i = 0; i < bytes.size(); ++i)
+    bytes[i] = static_cast<char>(static_cast<std::uint8_t>(value >> (8 * i)));
   return bytes;
 }
 
@@ -41,30 +42,37 @@ class Bytes {
 
 std::uint64_t row_checksum(const RunRecord& run) {
   Bytes bytes;
-  bytes << run.run_index << std::uint64_t{run.cell} << run.replicate << run.scenario_digest << run.radio.loss << run.radio.delay_s << run.radio.mean_outage_s << encode(run.outcome);
+  bytes << run.run_index << std::uint64_t{run.cell} << run.replicate << run.scenario_digest << run.radio.loss
+        << run.radio.delay_s << run.radio.mean_outage_s << encode(run.outcome);
   return bytes.hash();
 }
 
-std::uint64_t plan_checksum(const CampaignRecord& campaign, const std::vector<CellRecord>& cells, const std::vector<GateRecord>& gates) {
+std::uint64_t plan_checksum(const CampaignRecord& campaign, const std::vector<CellRecord>& cells,
+                            const std::vector<GateRecord>& gates) {
   Bytes bytes;
-  bytes << campaign.name << campaign.kind << campaign.seed << campaign.replicates << campaign.plan_json << campaign.plan_hash;
-  bytes << campaign.engine.version << campaign.engine.program_sha256 << campaign.engine.compiler << campaign.engine.flags << campaign.engine.libraries;
+  bytes << campaign.name << campaign.kind << campaign.seed << campaign.replicates << campaign.plan_json
+        << campaign.plan_hash;
+  bytes << campaign.engine.version << campaign.engine.program_sha256 << campaign.engine.compiler
+        << campaign.engine.flags << campaign.engine.libraries;
   bytes << std::uint64_t{campaign.required_probes.size()};
   for (const auto& probe : campaign.required_probes) bytes << probe;
   bytes << campaign.sampling << std::uint64_t{campaign.held_streams.size()};
   for (const auto& stream : campaign.held_streams) bytes << stream;
-  bytes << campaign.held_replicate << campaign.exempt_purposes << campaign.exempt_radius_m << std::uint64_t{campaign.exempt_pairs.size()};
+  bytes << campaign.held_replicate << campaign.exempt_purposes << campaign.exempt_radius_m
+        << std::uint64_t{campaign.exempt_pairs.size()};
   for (const auto& pair : campaign.exempt_pairs) bytes << pair;
   bytes << std::uint64_t{campaign.plugin_agents.size()};
   for (const auto& agent : campaign.plugin_agents) bytes << agent;
   bytes << std::uint64_t{cells.size()};
   for (const auto& cell : cells) {
-    bytes << std::uint64_t{cell.index} << cell.agent << cell.layout << std::uint64_t{cell.fleet_size} << cell.loss << cell.delay_s << cell.mean_outage_s;
+    bytes << std::uint64_t{cell.index} << cell.agent << cell.layout << std::uint64_t{cell.fleet_size} << cell.loss
+          << cell.delay_s << cell.mean_outage_s;
     bytes << cell.loss_to << cell.delay_to_s << cell.mean_outage_to_s;
   }
   bytes << std::uint64_t{gates.size()};
   for (const auto& gate : gates) {
-    bytes << std::uint64_t{gate.index} << gate.name << gate.agent << std::string(name_of(gate.kind)) << std::string(name_of(gate.end_point));
+    bytes << std::uint64_t{gate.index} << gate.name << gate.agent << std::string(name_of(gate.kind))
+          << std::string(name_of(gate.end_point));
     bytes << std::string(name_of(gate.region)) << gate.limit << gate.confidence << gate.min_transports_per_agv_hour;
   }
   return bytes.hash();

@@ -8,7 +8,8 @@
 
 namespace fleetproof {
 
-// What a campaign file remembers of its plan, in the plan's own terms. Nothing here names a path, a host, a time or a number of jobs.
+// What a campaign file remembers of its plan, in the plan's own terms. Nothing here names a path, a host, a time or a
+// number of jobs.
 
 // The nominal quality of the radio in one run.
 struct RadioQuality {
@@ -20,12 +21,13 @@ struct RadioQuality {
   friend bool operator==(const RadioQuality&, const RadioQuality&) = default;
 };
 
-// One combination of a campaign's factors. A factor of the radio has one value, or is drawn between two bounds, for each replicate anew.
+// One combination of a campaign's factors. A factor of the radio has one value, or is drawn between two bounds, for
+// each replicate anew.
 struct CellRecord {
   std::uint32_t index = 0;
   std::string agent, layout;
   std::uint32_t fleet_size = 0;
-  double loss = 0.0, delay_s = 0.0, mean_outage_s = 0.0;                           // the value, or the lower bound
+  double loss = 0.0, delay_s = 0.0, mean_outage_s = 0.0;                          // the value, or the lower bound
   double loss_to = loss, delay_to_s = delay_s, mean_outage_to_s = mean_outage_s;  // the same again, or the upper bound
 
   bool is_drawn() const { return lowest() != highest(); }
@@ -52,9 +54,9 @@ struct GateRecord {
   GateKind kind = GateKind::Rate;
   EndPoint end_point = EndPoint::Violation;
   Region region = Region::Contract;
-  double limit = 1e-3;                         // upper bound must be at or below it
-  double confidence = 0.95;                    // one-sided
-  double min_transports_per_agv_hour = 1.0;    // a parked fleet is safe and useless
+  double limit = 1e-3;                       // upper bound must be at or below it
+  double confidence = 0.95;                  // one-sided
+  double min_transports_per_agv_hour = 1.0;  // a parked fleet is safe and useless
   friend bool operator==(const GateRecord&, const GateRecord&) = default;
 };
 
@@ -64,20 +66,25 @@ struct EngineIdentity {
 };
 
 struct CampaignRecord {
-  std::string name, kind;                      // kind: "claim" (rates and bounds) or "search" (counts only)
+  std::string name, kind;  // kind: "claim" (rates and bounds) or "search" (counts only)
   std::uint64_t seed = 0, replicates = 0;
-  std::string plan_json;                       // the resolved campaign, layouts embedded by content: enough to build every scenario again
-  std::uint64_t plan_hash = 0;                 // of plan_json
+  std::string plan_json;  // the resolved campaign, layouts embedded by content: enough to build every scenario again
+  std::uint64_t plan_hash = 0;  // of plan_json
   EngineIdentity engine;
-  // What must have been met for the evidence not to be weak (reports/evidence/coverage.hpp says what the words mean); none of them holds a line end.
+  // What must have been met for the evidence not to be weak (reports/evidence/coverage.hpp says what the words mean);
+  // none of them holds a line end.
   std::vector<std::string> required_probes;
-  std::string sampling;                        // how replicates draw where a cell has bounds: "uniform", "latin-hypercube", "sobol"; empty: no cell has
-  std::vector<std::string> held_streams;       // of randomness: the same in all replicates, those of replicate `held_replicate`
+  std::string sampling;  // how replicates draw where a cell has bounds: "uniform", "latin-hypercube", "sobol"; empty:
+                         // no cell has
+  std::vector<std::string>
+      held_streams;  // of randomness: the same in all replicates, those of replicate `held_replicate`
   std::uint64_t held_replicate = 0;
-  std::string exempt_purposes;                 // of stations near which the safety distance is not asked for, with blanks between; empty: nowhere
+  std::string exempt_purposes;  // of stations near which the safety distance is not asked for, with blanks between;
+                                // empty: nowhere
   double exempt_radius_m = 0.0;
-  std::vector<std::string> exempt_pairs;       // "tugger and cart": kinds of bodies that it is not asked of, anywhere
-  std::vector<std::string> plugin_agents;      // names of the agents that came from shared objects; none of them holds a line end
+  std::vector<std::string> exempt_pairs;  // "tugger and cart": kinds of bodies that it is not asked of, anywhere
+  std::vector<std::string>
+      plugin_agents;  // names of the agents that came from shared objects; none of them holds a line end
   friend bool operator==(const CampaignRecord&, const CampaignRecord&) = default;
 };
 
@@ -86,8 +93,8 @@ struct RunRecord {
   std::uint64_t run_index = 0;
   std::uint32_t cell = 0;
   std::uint64_t replicate = 0;
-  std::uint64_t scenario_digest = 0;           // of the canonical scenario text
-  RadioQuality radio;                          // the cell's, or what the replicate drew within its bounds
+  std::uint64_t scenario_digest = 0;  // of the canonical scenario text
+  RadioQuality radio;                 // the cell's, or what the replicate drew within its bounds
   Outcome outcome;
 };
 

@@ -32,7 +32,9 @@ class Binder {
     return *this;
   }
   // Whatever an agent calls things: bytes, not text.
-  void bytes(const std::string& value) { statement_.bind(next_++, static_cast<const void*>(value.data()), static_cast<int>(value.size())); }
+  void bytes(const std::string& value) {
+    statement_.bind(next_++, static_cast<const void*>(value.data()), static_cast<int>(value.size()));
+  }
   Binder& operator<<(const std::vector<std::uint64_t>& digests) {
     std::string bytes;
     for (const auto digest : digests) {
@@ -81,7 +83,8 @@ class Taker {
     const auto bytes = next().getString();
     if (bytes.size() % 8 != 0) throw EngineError("a row holds running digests of a broken length");
     std::vector<std::uint64_t> values(bytes.size() / 8);
-    for (std::size_t i = 0; i < bytes.size(); ++i) values[i / 8] |= std::uint64_t{static_cast<unsigned char>(bytes[i])} << (8 * (i % 8));
+    for (std::size_t i = 0; i < bytes.size(); ++i)
+      values[i / 8] |= std::uint64_t{static_cast<unsigned char>(bytes[i])} << (8 * (i % 8));
     return values;
   }
 
@@ -91,7 +94,9 @@ class Taker {
   int next_ = 0;
 };
 
-std::optional<std::int64_t> maybe(EntityId id) { return id.valid() ? std::optional<std::int64_t>(id.value) : std::nullopt; }
+std::optional<std::int64_t> maybe(EntityId id) {
+  return id.valid() ? std::optional<std::int64_t>(id.value) : std::nullopt;
+}
 
 std::string in_lines(const std::vector<std::string>& words) {
   std::string text;
@@ -120,26 +125,30 @@ Enum word_to(const std::string& word, const std::array<Enum, N>& values) {
 }  // namespace
 
 void bind_campaign(SQLite::Statement& insert, const CampaignRecord& campaign, std::uint64_t plan_checksum) {
-  Binder(insert) << std::uint32_t{1} << campaign.name << campaign.kind << campaign.seed << campaign.replicates << campaign.plan_json << campaign.plan_hash
-                 << campaign.engine.version << campaign.engine.program_sha256 << campaign.engine.compiler << campaign.engine.flags << campaign.engine.libraries
-                 << in_lines(campaign.required_probes) << campaign.sampling << in_lines(campaign.held_streams) << campaign.held_replicate
-                 << campaign.exempt_purposes << campaign.exempt_radius_m << in_lines(campaign.exempt_pairs) << in_lines(campaign.plugin_agents) << plan_checksum;
+  Binder(insert) << std::uint32_t{1} << campaign.name << campaign.kind << campaign.seed << campaign.replicates
+                 << campaign.plan_json << campaign.plan_hash << campaign.engine.version
+                 << campaign.engine.program_sha256 << campaign.engine.compiler << campaign.engine.flags
+                 << campaign.engine.libraries << in_lines(campaign.required_probes) << campaign.sampling
+                 << in_lines(campaign.held_streams) << campaign.held_replicate << campaign.exempt_purposes
+                 << campaign.exempt_radius_m << in_lines(campaign.exempt_pairs) << in_lines(campaign.plugin_agents)
+                 << plan_checksum;
 }
 
 void bind_cell(SQLite::Statement& insert, const CellRecord& cell) {
-  Binder(insert) << cell.index << cell.agent << cell.layout << cell.fleet_size << cell.loss << cell.delay_s << cell.mean_outage_s << cell.loss_to
-                 << cell.delay_to_s << cell.mean_outage_to_s;
+  Binder(insert) << cell.index << cell.agent << cell.layout << cell.fleet_size << cell.loss << cell.delay_s
+                 << cell.mean_outage_s << cell.loss_to << cell.delay_to_s << cell.mean_outage_to_s;
 }
 
 void bind_gate(SQLite::Statement& insert, const GateRecord& gate) {
-  Binder(insert) << gate.index << gate.name << gate.agent << name_of(gate.kind) << name_of(gate.end_point) << name_of(gate.region) << gate.limit
-                 << gate.confidence << gate.min_transports_per_agv_hour;
+  Binder(insert) << gate.index << gate.name << gate.agent << name_of(gate.kind) << name_of(gate.end_point)
+                 << name_of(gate.region) << gate.limit << gate.confidence << gate.min_transports_per_agv_hour;
 }
 
 void bind_run(SQLite::Statement& insert, const RunRecord& run, std::uint64_t checksum) {
   const auto& o = run.outcome;
   Binder to(insert);
-  to << run.run_index << run.cell << run.replicate << run.scenario_digest << run.radio.loss << run.radio.delay_s << run.radio.mean_outage_s;
+  to << run.run_index << run.cell << run.replicate << run.scenario_digest << run.radio.loss << run.radio.delay_s
+     << run.radio.mean_outage_s;
   to << name_of(o.outcome_class());
   to << o.violation << o.contact << o.stuck << o.crash << o.hang << o.indeterminate << o.engine_error;
   to << o.min_clearance_um << o.simulated_ns << o.agv_count << o.digest << o.running_digests << o.message;
@@ -148,12 +157,13 @@ void bind_run(SQLite::Statement& insert, const RunRecord& run, std::uint64_t che
 }
 
 void bind_violation(SQLite::Statement& insert, std::uint64_t run_index, std::size_t ordinal, const Violation& v) {
-  Binder(insert) << run_index << std::uint64_t{ordinal} << v.a.value << v.b.value << to_ns(v.first) << to_ns(v.last) << to_ns(v.closest_at) << v.min_clearance_um
-                 << v.relative_speed_um_s << v.x_um << v.y_um << v.contact;
+  Binder(insert) << run_index << std::uint64_t{ordinal} << v.a.value << v.b.value << to_ns(v.first) << to_ns(v.last)
+                 << to_ns(v.closest_at) << v.min_clearance_um << v.relative_speed_um_s << v.x_um << v.y_um << v.contact;
 }
 
 void bind_incident(SQLite::Statement& insert, std::uint64_t run_index, std::size_t ordinal, const Incident& i) {
-  Binder(insert) << run_index << std::uint64_t{ordinal} << static_cast<std::uint32_t>(i.kind) << maybe(i.a) << maybe(i.b) << to_ns(i.first) << to_ns(i.last) << i.value;
+  Binder(insert) << run_index << std::uint64_t{ordinal} << static_cast<std::uint32_t>(i.kind) << maybe(i.a)
+                 << maybe(i.b) << to_ns(i.first) << to_ns(i.last) << i.value;
 }
 
 void bind_probe(SQLite::Statement& insert, std::uint64_t run_index, std::size_t ordinal, const ProbeCount& probe) {
@@ -189,7 +199,9 @@ CampaignRecord read_campaign(const SQLite::Statement& row) {
   return campaign;
 }
 
-std::uint64_t read_plan_checksum(const SQLite::Statement& row) { return std::bit_cast<std::uint64_t>(row.getColumn("plan_checksum").getInt64()); }
+std::uint64_t read_plan_checksum(const SQLite::Statement& row) {
+  return std::bit_cast<std::uint64_t>(row.getColumn("plan_checksum").getInt64());
+}
 
 CellRecord read_cell(const SQLite::Statement& row) {
   Taker from(row);
@@ -235,8 +247,8 @@ StoredRun read_run(const SQLite::Statement& row) {
   run.radio.delay_s = from.real();
   run.radio.mean_outage_s = from.real();
   stored.outcome_class = from.text();
-  for (const auto flag : {&Outcome::violation, &Outcome::contact, &Outcome::stuck, &Outcome::crash, &Outcome::hang, &Outcome::indeterminate,
-                          &Outcome::engine_error}) {
+  for (const auto flag : {&Outcome::violation, &Outcome::contact, &Outcome::stuck, &Outcome::crash, &Outcome::hang,
+                          &Outcome::indeterminate, &Outcome::engine_error}) {
     o.*flag = from.flag();
   }
   o.min_clearance_um = from.maybe_i64();

@@ -13,14 +13,16 @@ class Statement;
 
 namespace fleetproof {
 
-// Between records and rows: binds a record to an INSERT over the column lists of schema.hpp, and reads one from a SELECT over the same lists.
+// Between records and rows: binds a record to an INSERT over the column lists of schema.hpp, and reads one from a
+// SELECT over the same lists.
 void bind_campaign(SQLite::Statement& insert, const CampaignRecord& campaign, std::uint64_t plan_checksum);
 void bind_cell(SQLite::Statement& insert, const CellRecord& cell);
 void bind_gate(SQLite::Statement& insert, const GateRecord& gate);
 void bind_run(SQLite::Statement& insert, const RunRecord& run, std::uint64_t checksum);
 void bind_incident(SQLite::Statement& insert, std::uint64_t run_index, std::size_t ordinal, const Incident& incident);
 void bind_probe(SQLite::Statement& insert, std::uint64_t run_index, std::size_t ordinal, const ProbeCount& probe);
-void bind_violation(SQLite::Statement& insert, std::uint64_t run_index, std::size_t ordinal, const Violation& violation);
+void bind_violation(SQLite::Statement& insert, std::uint64_t run_index, std::size_t ordinal,
+                    const Violation& violation);
 
 CampaignRecord read_campaign(const SQLite::Statement& row);
 std::uint64_t read_plan_checksum(const SQLite::Statement& row);

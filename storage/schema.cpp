@@ -119,7 +119,8 @@ CREATE TABLE probes (
 ) STRICT, WITHOUT ROWID;
 )sql";
 
-// The region's bounds are those of RadioQuality. A run has the quality it was drawn with; a cell with bounds is in the contract if all of it is.
+// The region's bounds are those of RadioQuality. A run has the quality it was drawn with; a cell with bounds is in the
+// contract if all of it is.
 constexpr const char* kViews = R"sql(
 CREATE VIEW v1_cells AS
 SELECT c.cell, c.agent, c.layout, c.fleet_size, c.loss, c.delay_s,
@@ -177,14 +178,16 @@ std::string with_prefix(const std::string& prefix, std::initializer_list<const c
 
 std::string counter_list(const std::string& prefix) {
   std::string list;
-  for (const auto& column : kCounterColumns) list += fmt::format("{}{}{}", list.empty() ? "" : ", ", prefix, column.name);
+  for (const auto& column : kCounterColumns)
+    list += fmt::format("{}{}{}", list.empty() ? "" : ", ", prefix, column.name);
   return list;
 }
 
 // " WHEN 1 THEN 'battery-empty' ...", from the catalogue of kinds.
 std::string incident_words(std::string_view IncidentKindInfo::*word) {
   std::string cases;
-  for (const auto& info : incident_kinds()) cases += fmt::format(" WHEN {} THEN '{}'", static_cast<std::uint32_t>(info.kind), info.*word);
+  for (const auto& info : incident_kinds())
+    cases += fmt::format(" WHEN {} THEN '{}'", static_cast<std::uint32_t>(info.kind), info.*word);
   return cases;
 }
 
@@ -195,19 +198,24 @@ std::string schema_ddl() {
   for (const auto& column : kCounterColumns) definitions += fmt::format("  {} INTEGER NOT NULL,\n", column.name);
   return std::string(kPlanTables) + fmt::format(fmt::runtime(kRunTables), fmt::arg("counters", definitions)) +
          fmt::format(fmt::runtime(kViews), fmt::arg("run_counters", "       " + counter_list("r.")),
-                     fmt::arg("hazardous", kHazardousSpeed_um_s), fmt::arg("incident_names", incident_words(&IncidentKindInfo::name)),
+                     fmt::arg("hazardous", kHazardousSpeed_um_s),
+                     fmt::arg("incident_names", incident_words(&IncidentKindInfo::name)),
                      fmt::arg("incident_units", incident_words(&IncidentKindInfo::unit)));
 }
 
 std::string run_columns(const std::string& prefix) {
-  return with_prefix(prefix, {"run_index", "cell", "replicate", "scenario_digest", "loss", "delay_s", "mean_outage_s", "outcome_class", "violation", "contact",
-                              "stuck", "crash", "hang", "indeterminate", "engine_error", "min_clearance_um", "simulated_ns", "agv_count", "digest", "running_digests", "message"}) +
+  return with_prefix(prefix, {"run_index",    "cell",          "replicate",     "scenario_digest",
+                              "loss",         "delay_s",       "mean_outage_s", "outcome_class",
+                              "violation",    "contact",       "stuck",         "crash",
+                              "hang",         "indeterminate", "engine_error",  "min_clearance_um",
+                              "simulated_ns", "agv_count",     "digest",        "running_digests",
+                              "message"}) +
          ", " + counter_list(prefix) + ", " + prefix + "checksum";
 }
 
 std::string violation_columns() {
-  return with_prefix("", {"run_index", "ordinal", "entity_a", "entity_b", "first_ns", "last_ns", "closest_at_ns", "min_clearance_um", "relative_speed_um_s", "x_um",
-                          "y_um", "contact"});
+  return with_prefix("", {"run_index", "ordinal", "entity_a", "entity_b", "first_ns", "last_ns", "closest_at_ns",
+                          "min_clearance_um", "relative_speed_um_s", "x_um", "y_um", "contact"});
 }
 
 std::string placeholders(const std::string& columns) {

@@ -63,16 +63,22 @@ static_assert(sizeof(Counters) == kCounterColumns.size() * sizeof(std::uint64_t)
 // Tables and the public views, as one script. The same text for the live and the canonical file.
 std::string schema_ddl();
 
-// Column lists, comma-separated, in the order in which rows.hpp binds and reads them. `prefix` (as in "r.") goes before every name.
+// Column lists, comma-separated, in the order in which rows.hpp binds and reads them. `prefix` (as in "r.") goes before
+// every name.
 std::string run_columns(const std::string& prefix = "");
 std::string violation_columns();
-inline constexpr const char* kIncidentColumns = "run_index, ordinal, kind, entity_a, entity_b, first_ns, last_ns, value";
+inline constexpr const char* kIncidentColumns =
+    "run_index, ordinal, kind, entity_a, entity_b, first_ns, last_ns, value";
 inline constexpr const char* kProbeColumns = "run_index, ordinal, source, name, count";
-inline constexpr const char* kCellColumns = "cell, agent, layout, fleet_size, loss, delay_s, mean_outage_s, loss_to, delay_to_s, mean_outage_to_s";
-inline constexpr const char* kGateColumns = "gate, name, agent, kind, end_point, region, limit_rate, confidence, min_transports_per_agv_hour";
+inline constexpr const char* kCellColumns =
+    "cell, agent, layout, fleet_size, loss, delay_s, mean_outage_s, loss_to, delay_to_s, mean_outage_to_s";
+inline constexpr const char* kGateColumns =
+    "gate, name, agent, kind, end_point, region, limit_rate, confidence, min_transports_per_agv_hour";
 inline constexpr const char* kCampaignColumns =
-    "id, name, kind, seed, replicates, plan_json, plan_hash, engine_version, program_sha256, compiler, flags, libraries, required_probes, "
-    "sampling, held_streams, held_replicate, exempt_purposes, exempt_radius_m, exempt_pairs, plugin_agents, plan_checksum";
+    "id, name, kind, seed, replicates, plan_json, plan_hash, engine_version, program_sha256, compiler, flags, "
+    "libraries, required_probes, "
+    "sampling, held_streams, held_replicate, exempt_purposes, exempt_radius_m, exempt_pairs, plugin_agents, "
+    "plan_checksum";
 
 // "?, ?, ?": one for each name in a comma-separated list.
 std::string placeholders(const std::string& columns);

@@ -11,16 +11,22 @@ namespace {
 
 std::string remedy_for(int code) {
   switch (code & 0xff) {
-    case SQLITE_FULL: return "the disk is full; free some space and start again (rows committed so far are kept)";
-    case SQLITE_IOERR: return "the disk refused to read or write; look at the disk and its quotas (rows committed so far are kept)";
+    case SQLITE_FULL:
+      return "the disk is full; free some space and start again (rows committed so far are kept)";
+    case SQLITE_IOERR:
+      return "the disk refused to read or write; look at the disk and its quotas (rows committed so far are kept)";
     case SQLITE_READONLY:
     case SQLITE_PERM:
-    case SQLITE_CANTOPEN: return "it cannot be opened or written; look at the permissions of the file and its folder";
+    case SQLITE_CANTOPEN:
+      return "it cannot be opened or written; look at the permissions of the file and its folder";
     case SQLITE_BUSY:
-    case SQLITE_LOCKED: return "another process holds it; wait for that one to end";
+    case SQLITE_LOCKED:
+      return "another process holds it; wait for that one to end";
     case SQLITE_CORRUPT:
-    case SQLITE_NOTADB: return "it is damaged; use a copy of it, or run the campaign again";
-    default: return "the database refused";
+    case SQLITE_NOTADB:
+      return "it is damaged; use a copy of it, or run the campaign again";
+    default:
+      return "the database refused";
   }
 }
 
@@ -30,7 +36,8 @@ void throw_archive_error(const std::string& path) {
   try {
     throw;
   } catch (const SQLite::Exception& e) {
-    throw EngineError(fmt::format("{}: {} (SQLite {}: {})", path, remedy_for(e.getErrorCode()), e.getExtendedErrorCode(), e.what()));
+    throw EngineError(
+        fmt::format("{}: {} (SQLite {}: {})", path, remedy_for(e.getErrorCode()), e.getExtendedErrorCode(), e.what()));
   }
 }
 

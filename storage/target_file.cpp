@@ -46,7 +46,8 @@ fs::file_status status_of(const std::string& path) {
 std::string absolute_name(const std::string& path) {
   std::error_code error;
   const auto absolute = fs::absolute(path, error);
-  if (error) throw InputError(path, fmt::format("the current folder cannot be found ({}); give a full path", error.message()));
+  if (error)
+    throw InputError(path, fmt::format("the current folder cannot be found ({}); give a full path", error.message()));
   return absolute.string();
 }
 
@@ -60,22 +61,27 @@ void require_place(const std::string& path) {
   if (status.type() == fs::file_type::not_found) {
     throw InputError(path, fmt::format("there is no folder {}; make it first, or give another name", folder.string()));
   }
-  if (!fs::is_directory(status)) throw InputError(path, fmt::format("{} is a file, not a folder; give another name", folder.string()));
+  if (!fs::is_directory(status))
+    throw InputError(path, fmt::format("{} is a file, not a folder; give another name", folder.string()));
 }
 
 void require_free_name(const std::string& path, Existing existing) {
   const auto status = status_of(path);
   if (!fs::exists(status)) return;
-  if (existing == Existing::Refuse) throw InputError(path, "this file exists already; give another name, or remove it to start again");
+  if (existing == Existing::Refuse)
+    throw InputError(path, "this file exists already; give another name, or remove it to start again");
   if (!fs::is_regular_file(status) || !is_campaign_file(path)) throw_not_ours(path);
 }
 
 void require_free_live_name(const std::string& live_path, Existing existing) {
   const auto status = status_of(live_path);
   if (!fs::exists(status)) return;
-  if (existing == Existing::Refuse) throw InputError(live_path, "a campaign of this name was interrupted; remove this file to start again, or give another name");
+  if (existing == Existing::Refuse)
+    throw InputError(live_path,
+                     "a campaign of this name was interrupted; remove this file to start again, or give another name");
   std::error_code error;
-  const bool empty = fs::is_regular_file(status) && fs::file_size(live_path, error) == 0;  // killed before it had a header
+  const bool empty =
+      fs::is_regular_file(status) && fs::file_size(live_path, error) == 0;  // killed before it had a header
   if (!empty && (!fs::is_regular_file(status) || !is_campaign_file(live_path))) throw_not_ours(live_path);
 }
 
@@ -83,17 +89,30 @@ void throw_cannot_make(const std::string& path, int error) {
   const auto* const cause = std::strerror(error);
   switch (error) {
     case EACCES:
-    case EPERM: throw InputError(path, fmt::format("this file may not be made here ({}); change the permissions of its folder, or name another folder", cause));
-    case EROFS: throw InputError(path, fmt::format("this place cannot be written ({}); name a folder on another disk", cause));
+    case EPERM:
+      throw InputError(
+          path, fmt::format(
+                    "this file may not be made here ({}); change the permissions of its folder, or name another folder",
+                    cause));
+    case EROFS:
+      throw InputError(path, fmt::format("this place cannot be written ({}); name a folder on another disk", cause));
     case ENOENT:
-    case ENOTDIR: throw InputError(path, fmt::format("no file can be made in this folder ({}); name another folder", cause));
-    case ENAMETOOLONG: throw InputError(path, fmt::format("this name is too long ({}); give a shorter one", cause));
+    case ENOTDIR:
+      throw InputError(path, fmt::format("no file can be made in this folder ({}); name another folder", cause));
+    case ENAMETOOLONG:
+      throw InputError(path, fmt::format("this name is too long ({}); give a shorter one", cause));
     case EISDIR:
     case ELOOP:
-    case EEXIST: throw InputError(path, fmt::format("something of this name stands in the way ({}); remove it, or give the campaign file another name", cause));
+    case EEXIST:
+      throw InputError(
+          path, fmt::format(
+                    "something of this name stands in the way ({}); remove it, or give the campaign file another name",
+                    cause));
     case ENOSPC:
-    case EDQUOT: throw EngineError(fmt::format("{}: the disk is full ({}); free some space and start again", path, cause));
-    default: throw EngineError(fmt::format("{}: the disk refused to make the file: {}", path, cause));
+    case EDQUOT:
+      throw EngineError(fmt::format("{}: the disk is full ({}); free some space and start again", path, cause));
+    default:
+      throw EngineError(fmt::format("{}: the disk refused to make the file: {}", path, cause));
   }
 }
 

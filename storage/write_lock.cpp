@@ -30,19 +30,28 @@ bool WriteLock::try_lock(const std::string& path) {
   const int fd = ::open(lock_path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0644);
   if (fd < 0) throw_cannot_make(lock_path_, errno);
   const int error = ::flock(fd, LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
-  struct stat opened {}, named {};
+  struct stat opened {
+  }, named{};
   const bool known = ::fstat(fd, &opened) == 0;
-  const bool still_named = known && ::lstat(lock_path_.c_str(), &named) == 0 && named.st_ino == opened.st_ino && named.st_dev == opened.st_dev;
+  const bool still_named = known && ::lstat(lock_path_.c_str(), &named) == 0 && named.st_ino == opened.st_ino &&
+                           named.st_dev == opened.st_dev;
   if (error == 0 && still_named && could_be_ours(opened)) {
     fd_ = fd;
     return true;
   }
   ::close(fd);
-  if (error == EWOULDBLOCK) throw InputError(path, "another fleetproof run is writing this file; wait for it to end, or give another name");
+  if (error == EWOULDBLOCK)
+    throw InputError(path, "another fleetproof run is writing this file; wait for it to end, or give another name");
   if (error != 0) {
-    throw InputError(lock_path_, fmt::format("this file cannot be locked ({}); name a folder on a disk that has locks, such as a local one", std::strerror(error)));
+    throw InputError(
+        lock_path_,
+        fmt::format("this file cannot be locked ({}); name a folder on a disk that has locks, such as a local one",
+                    std::strerror(error)));
   }
-  if (still_named) throw InputError(lock_path_, "this file is not of fleetproof and stands in the way; remove it, or give the campaign file another name");
+  if (still_named)
+    throw InputError(
+        lock_path_,
+        "this file is not of fleetproof and stands in the way; remove it, or give the campaign file another name");
   return false;
 }
 

@@ -4,11 +4,12 @@
 
 namespace fleetproof {
 
-// Of several programs that would write one campaign file, one holds PATH.lock. The lock goes with the process, even if it is killed; a file that is left
-// behind then holds nobody up. Threads: one.
+// Of several programs that would write one campaign file, one holds PATH.lock. The lock goes with the process, even if
+// it is killed; a file that is left behind then holds nobody up. Threads: one.
 class WriteLock {
  public:
-  // `path` is the campaign file. Throws InputError if another run holds the lock, or the place cannot be written; EngineError if the disk refuses.
+  // `path` is the campaign file. Throws InputError if another run holds the lock, or the place cannot be written;
+  // EngineError if the disk refuses.
   explicit WriteLock(const std::string& path);
   ~WriteLock() { release(); }
   WriteLock(const WriteLock&) = delete;

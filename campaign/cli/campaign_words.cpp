@@ -16,7 +16,8 @@ CampaignFile load_campaign(const std::string& path, AgentPrograms& programs) {
   check_plan(file.plan, path);
   for (const std::string& agent : file.plan.agents) programs.find(agent, path);
   constexpr std::size_t kTold = 3;
-  for (std::size_t i = 0; i < std::min(kTold, file.warnings.size()); ++i) fmt::print(stderr, "warning: {}\n", file.warnings[i]);
+  for (std::size_t i = 0; i < std::min(kTold, file.warnings.size()); ++i)
+    fmt::print(stderr, "warning: {}\n", file.warnings[i]);
   if (file.warnings.size() > kTold) fmt::print(stderr, "warning: {} more of this kind\n", file.warnings.size() - kTold);
   return file;
 }

@@ -4,11 +4,11 @@
 #include <chrono>
 #include <memory>
 
-#include "campaign/run/campaign.hpp"
 #include "campaign/cli/campaign_words.hpp"
 #include "campaign/cli/verbs.hpp"
-#include "campaign/run/run_one.hpp"
 #include "campaign/plan/scenario_source.hpp"
+#include "campaign/run/campaign.hpp"
+#include "campaign/run/run_one.hpp"
 #include "generators/scenario_file/scenario_file.hpp"
 #include "generators/scenario_file/validator.hpp"
 #include "generators/worlds/world_maker.hpp"
@@ -18,7 +18,8 @@ namespace {
 
 constexpr std::uint64_t kReplicatesDrawn = 20;
 
-// One run per cell until a second is over: enough for an estimate, and every world of the first replicate that it reaches is really built.
+// One run per cell until a second is over: enough for an estimate, and every world of the first replicate that it
+// reaches is really built.
 double mean_run_s(const CampaignPlan& plan, const AgentPrograms& programs) {
   using Clock = std::chrono::steady_clock;
   const RunOne run_one(plan, programs);
@@ -38,11 +39,12 @@ void tell_rejections(const CampaignPlan& plan) {
   const std::uint64_t replicates = std::min(plan.replicates, kReplicatesDrawn);
   RejectionCounts counts;
   for (std::uint64_t replicate = 0; replicate < replicates; ++replicate) {
-    for (std::uint64_t cell = 0; cell < plan.cell_count(); cell += plan.cells_per_world()) source.scenario(replicate * plan.cell_count() + cell, counts);
+    for (std::uint64_t cell = 0; cell < plan.cell_count(); cell += plan.cells_per_world())
+      source.scenario(replicate * plan.cell_count() + cell, counts);
   }
   const auto text = rejection_text(counts);
-  fmt::print("worlds of the first {} replicates: {} drawn, {} more refused{}{}", replicates, counts.worlds, counts.worlds_rejected,
-             text.empty() ? "" : ": ", text);
+  fmt::print("worlds of the first {} replicates: {} drawn, {} more refused{}{}", replicates, counts.worlds,
+             counts.worlds_rejected, text.empty() ? "" : ": ", text);
   if (counts.pairs_wanted > 0) fmt::print("; {} of {} pairs made to meet", counts.pairs_made, counts.pairs_wanted);
   fmt::print("\n");
 }
@@ -53,16 +55,16 @@ void check_campaign(const std::string& path) {
   const CampaignPlan& plan = file.plan;
   build_first_worlds(plan);
   const double total_s = mean_run_s(plan, programs) * static_cast<double>(plan.run_count());
-  fmt::print("{}: ok, {} cells x {} replicates = {} runs of {:g} s; about {:.0f} s of one core\n", path, plan.cell_count(), plan.replicates, plan.run_count(),
-             plan.horizon_s, total_s);
+  fmt::print("{}: ok, {} cells x {} replicates = {} runs of {:g} s; about {:.0f} s of one core\n", path,
+             plan.cell_count(), plan.replicates, plan.run_count(), plan.horizon_s, total_s);
   tell_rejections(plan);
 }
 
 void check_scenario(const std::string& path) {
   const Scenario scenario = read_scenario(path);
   for (const auto& problem : problems_of(scenario)) fmt::print(stderr, "warning: {}: {}\n", path, problem.sentence);
-  fmt::print("{}: ok, {} stations, {} segments, {} AGVs, {:g} s\n", path, scenario.map->station_count(), scenario.map->segment_count(), scenario.agvs.size(),
-             to_seconds(scenario.horizon));
+  fmt::print("{}: ok, {} stations, {} segments, {} AGVs, {:g} s\n", path, scenario.map->station_count(),
+             scenario.map->segment_count(), scenario.agvs.size(), to_seconds(scenario.horizon));
 }
 
 int check(const std::vector<std::string>& files) {

@@ -6,11 +6,11 @@
 #include "campaign/cli/verbs.hpp"
 #include "core/base/error.hpp"
 #include "core/base/random.hpp"
-#include "generators/formats/importer.hpp"
 #include "generators/families/layout_family.hpp"
+#include "generators/families/mutated_import.hpp"
+#include "generators/formats/importer.hpp"
 #include "generators/formats/layout_file.hpp"
 #include "generators/map/layout_svg.hpp"
-#include "generators/families/mutated_import.hpp"
 #include "generators/worlds/world_maker.hpp"
 
 namespace fleetproof::cli {
@@ -26,7 +26,8 @@ struct GenerateWords {
 
 Layout mutation(const GenerateWords& words, std::uint64_t key) {
   if (words.from.empty()) throw InputError("--from", "is missing; name the layout file to begin with");
-  if (words.stress) throw InputError("--stress", fmt::format("has no meaning for {}; it has one range", kMutatedImport));
+  if (words.stress)
+    throw InputError("--stress", fmt::format("has no meaning for {}; it has one range", kMutatedImport));
   std::vector<std::string> warnings;
   const Layout base = import_layout(words.from, {}, warnings);
   for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
@@ -38,11 +39,14 @@ Layout mutation(const GenerateWords& words, std::uint64_t key) {
     if (number > 0) fmt::print(stderr, "{} of {} draws refused: {}\n", number, number + 1, rejection_text(counts));
     return *layout;
   }
-  throw InputError(words.from, fmt::format("none of {} mutations is sound ({}); choose another seed or a layout with more ways round", kAttempts,
-                                           rejection_text(counts)));
+  throw InputError(
+      words.from,
+      fmt::format("none of {} mutations is sound ({}); choose another seed or a layout with more ways round", kAttempts,
+                  rejection_text(counts)));
 }
 
-// The layout of the world with this seed: the same that a scenario of that seed holds, unless its first draw was refused.
+// The layout of the world with this seed: the same that a scenario of that seed holds, unless its first draw was
+// refused.
 Layout drawn(const GenerateWords& words) {
   const auto key = stream_key(words.seed.value_or(1), Stream::Layout);
   if (words.family == kMutatedImport) return mutation(words, key);

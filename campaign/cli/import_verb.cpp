@@ -10,8 +10,8 @@
 #include "generators/formats/csv_layout.hpp"
 #include "generators/formats/importer.hpp"
 #include "generators/formats/layout_file.hpp"
-#include "generators/map/layout_svg.hpp"
 #include "generators/formats/lif.hpp"
+#include "generators/map/layout_svg.hpp"
 
 namespace fleetproof::cli {
 namespace {
@@ -26,7 +26,8 @@ struct ImportWords {
 // A word that the format does not know would silently change nothing.
 void expect_format(const ImportWords& words, bool given, std::string_view option, std::string_view format) {
   if (given && words.format != format)
-    throw InputError(option, fmt::format("has no meaning for format \"{}\"; it belongs to \"{}\"", words.format, format));
+    throw InputError(option,
+                     fmt::format("has no meaning for format \"{}\"; it belongs to \"{}\"", words.format, format));
 }
 
 ImportChoice choice_of(const ImportWords& words) {
@@ -54,7 +55,8 @@ int import_file(const ImportWords& words) {
   std::vector<std::string> warnings;
   const Layout layout = entry.make(words.file, choice, warnings);
   for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
-  fmt::print(stderr, "{}: {} stations, {} segments, {} warnings\n", words.file, layout.stations.size(), layout.segments.size(), warnings.size());
+  fmt::print(stderr, "{}: {} stations, {} segments, {} warnings\n", words.file, layout.stations.size(),
+             layout.segments.size(), warnings.size());
   if (!words.picture.empty()) write_whole(words.picture, layout_svg(layout), "--svg");
   const std::string text = text_for(layout, words.out);
   if (words.out.empty()) {
@@ -72,12 +74,15 @@ int import_file(const ImportWords& words) {
 
 Action prepare_import(Options& options) {
   auto words = std::make_shared<ImportWords>();
-  options.positional("FORMAT", words->format, "opentcs, lif, rmf, grid, csv or layout (see: fleetproof list importers)");
+  options.positional("FORMAT", words->format,
+                     "opentcs, lif, rmf, grid, csv or layout (see: fleetproof list importers)");
   options.positional("FILE", words->file, "file to read");
   options.option("-o,--output", words->out,
-                 "write to this file instead of standard output: LIF if it ends in .lif.json, tables if in .csv, else our layout file");
+                 "write to this file instead of standard output: LIF if it ends in .lif.json, tables if in .csv, else "
+                 "our layout file");
   options.option("--svg", words->picture, "draw the layout into this file as well (SVG)");
-  options.flag("--merge-antiparallel", words->merge_antiparallel, "opentcs: two paths back and forth on one track become one bidirectional segment");
+  options.flag("--merge-antiparallel", words->merge_antiparallel,
+               "opentcs: two paths back and forth on one track become one bidirectional segment");
   options.option("--graph", words->graph, "rmf: graph_idx of the lanes to read (default: 0)");
   options.option("--level", words->level, "rmf: level to read (default: the first)");
   options.option("--cell-pitch", words->cell_pitch_m, "grid: distance of neighbouring cells in metres (default: 1.2)");

@@ -4,12 +4,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "campaign/run/agent_programs.hpp"
 #include "campaign/cli/verbs.hpp"
+#include "campaign/run/agent_programs.hpp"
 #include "core/base/error.hpp"
-#include "generators/formats/importer.hpp"
 #include "generators/families/layout_family.hpp"
 #include "generators/families/mutated_import.hpp"
+#include "generators/formats/importer.hpp"
 #include "laws/laws.hpp"
 #include "reports/report.hpp"
 
@@ -37,7 +37,8 @@ std::vector<Row> agent_rows() {
 std::vector<Row> generator_rows() {
   auto rows = rows_of(layout_families());
   rows.push_back({std::string(kMutatedImport),
-                  "a layout file of yours with segments left out or turned round, stations moved and all of it scaled; see generate --from"});
+                  "a layout file of yours with segments left out or turned round, stations moved and all of it scaled; "
+                  "see generate --from"});
   return rows;
 }
 

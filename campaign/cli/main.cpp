@@ -5,15 +5,21 @@
 int main(int argc, char** argv) {
   using namespace fleetproof::cli;
   constexpr std::array verbs = {
-      Verb{"run", "run a campaign and leave its results in a file", "fleetproof run tests/campaigns/demo.toml --db demo.db", prepare_run},
-      Verb{"report", "judge a campaign file and tell what it shows", "fleetproof report demo.db --format markdown", prepare_report},
-      Verb{"replay", "simulate one run of a campaign again and compare it to the bit", "fleetproof replay demo.db 17", prepare_replay},
-      Verb{"simulate", "simulate one scenario file", "fleetproof simulate tests/scenarios/figure4.json --law exact --json", prepare_simulate},
+      Verb{"run", "run a campaign and leave its results in a file",
+           "fleetproof run tests/campaigns/demo.toml --db demo.db", prepare_run},
+      Verb{"report", "judge a campaign file and tell what it shows", "fleetproof report demo.db --format markdown",
+           prepare_report},
+      Verb{"replay", "simulate one run of a campaign again and compare it to the bit", "fleetproof replay demo.db 17",
+           prepare_replay},
+      Verb{"simulate", "simulate one scenario file",
+           "fleetproof simulate tests/scenarios/figure4.json --law exact --json", prepare_simulate},
       Verb{"generate", "draw the layout of a family and a seed, as JSON and as a picture",
            "fleetproof generate fishbone --seed 7 -o layout.json --svg layout.svg", prepare_generate},
       Verb{"import", "turn a layout of another program into a layout file, and back into LIF or CSV",
-           "fleetproof import opentcs tests/layouts/crossdock.xml --merge-antiparallel -o crossdock.json", prepare_import},
-      Verb{"check", "check a campaign or scenario file without running it", "fleetproof check tests/campaigns/demo.toml", prepare_check},
+           "fleetproof import opentcs tests/layouts/crossdock.xml --merge-antiparallel -o crossdock.json",
+           prepare_import},
+      Verb{"check", "check a campaign or scenario file without running it",
+           "fleetproof check tests/campaigns/demo.toml", prepare_check},
       Verb{"list", "list agents, laws, generators, importers or reports", "fleetproof list agents", prepare_list},
   };
   return run_command_line(verbs, argc, argv);

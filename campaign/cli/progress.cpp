@@ -28,9 +28,10 @@ std::string duration_text(double seconds) {
 
 }  // namespace
 
-ProgressTalk::ProgressTalk(const CampaignPlan& plan, std::vector<std::string> plugins, std::string archive_path, int workers)
-    : opening_(fmt::format("campaign {}: {} cells x {} replicates = {} runs, seed {}, {} workers", plan.name, plan.cell_count(), plan.replicates,
-                           plan.run_count(), plan.seed, workers)),
+ProgressTalk::ProgressTalk(const CampaignPlan& plan, std::vector<std::string> plugins, std::string archive_path,
+                           int workers)
+    : opening_(fmt::format("campaign {}: {} cells x {} replicates = {} runs, seed {}, {} workers", plan.name,
+                           plan.cell_count(), plan.replicates, plan.run_count(), plan.seed, workers)),
       cells_(plan.cells()),
       plugins_(std::move(plugins)),
       archive_path_(std::move(archive_path)),
@@ -39,7 +40,8 @@ ProgressTalk::ProgressTalk(const CampaignPlan& plan, std::vector<std::string> pl
 ProgressTalk::~ProgressTalk() { clear_line(); }
 
 CampaignListener ProgressTalk::listener() {
-  return {[this] { started(); }, [this](const RunRecord& record) { run_finished(record); }, [this](const Progress& progress) { tick(progress); }};
+  return {[this] { started(); }, [this](const RunRecord& record) { run_finished(record); },
+          [this](const Progress& progress) { tick(progress); }};
 }
 
 void ProgressTalk::started() { fmt::print(stderr, "{}\n", opening_); }
@@ -51,17 +53,19 @@ void ProgressTalk::run_finished(const RunRecord& record) {
   if (std::ranges::find(told_agents_, cell.agent) != told_agents_.end()) return;
   told_agents_.push_back(cell.agent);
   clear_line();
-  fmt::print(stderr, "first failure of {}: {} in run {} ({}, {} AGVs, {:g} % loss, {:g} s delay{})\n  replay: {}\n", cell.agent,
-             name_of(outcome.outcome_class()), record.run_index, cell.layout, cell.fleet_size, 100.0 * record.radio.loss, record.radio.delay_s,
-             outage_text(record.radio.mean_outage_s),
-             replay_command(archive_path_, record.run_index, std::ranges::find(plugins_, cell.agent) == plugins_.end() ? "" : cell.agent));
+  fmt::print(stderr, "first failure of {}: {} in run {} ({}, {} AGVs, {:g} % loss, {:g} s delay{})\n  replay: {}\n",
+             cell.agent, name_of(outcome.outcome_class()), record.run_index, cell.layout, cell.fleet_size,
+             100.0 * record.radio.loss, record.radio.delay_s, outage_text(record.radio.mean_outage_s),
+             replay_command(archive_path_, record.run_index,
+                            std::ranges::find(plugins_, cell.agent) == plugins_.end() ? "" : cell.agent));
 }
 
 std::string ProgressTalk::counter_line(const Progress& progress) const {
   const double rate = progress.elapsed_s > 0.0 ? static_cast<double>(progress.done) / progress.elapsed_s : 0.0;
   const double left_s = rate > 0.0 ? static_cast<double>(progress.planned - progress.done) / rate : 0.0;
   return fmt::format("{}/{} runs  {:.0f} %  {:.0f} runs/s  ETA {} | violating {}{}", progress.done, progress.planned,
-                     100.0 * static_cast<double>(progress.done) / static_cast<double>(progress.planned), rate, duration_text(left_s), progress.violating,
+                     100.0 * static_cast<double>(progress.done) / static_cast<double>(progress.planned), rate,
+                     duration_text(left_s), progress.violating,
                      progress.engine_errors == 0 ? "" : fmt::format("  engine errors {}", progress.engine_errors));
 }
 

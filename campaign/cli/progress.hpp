@@ -7,8 +7,8 @@
 
 namespace fleetproof::cli {
 
-// Talk on stderr while a campaign runs: one line rewritten at most ten times a second on a terminal, a counter line every 30 s elsewhere, and at
-// once the first failure of each agent with the line that replays it.
+// Talk on stderr while a campaign runs: one line rewritten at most ten times a second on a terminal, a counter line
+// every 30 s elsewhere, and at once the first failure of each agent with the line that replays it.
 class ProgressTalk {
  public:
   // `plugins`: the agents that come from shared objects.

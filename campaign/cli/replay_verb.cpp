@@ -7,10 +7,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "campaign/run/campaign.hpp"
 #include "campaign/cli/run_text.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "campaign/plan/scenario_source.hpp"
+#include "campaign/run/campaign.hpp"
 #include "core/base/error.hpp"
 #include "generators/scenario_file/scenario_file.hpp"
 #include "reports/wording.hpp"
@@ -58,7 +58,8 @@ int replay_run(const ReplayWords& words) {
   const CampaignPlan plan = parse_plan(archive.campaign().plan_json);
   const ScenarioSource source(plan);
   if (words.run >= plan.run_count()) {
-    throw InputError("run", fmt::format("{} does not exist; the campaign has runs 0 to {}", words.run, plan.run_count() - 1));
+    throw InputError("run",
+                     fmt::format("{} does not exist; the campaign has runs 0 to {}", words.run, plan.run_count() - 1));
   }
   const Scenario scenario = source.scenario(words.run);
   TracePrinter printer(scenario);
@@ -69,12 +70,16 @@ int replay_run(const ReplayWords& words) {
   if (words.json) {
     print_json(result, cell);
   } else {
-    fmt::print("{}  run {}: {}, {}, {} AGVs, loss {:g} %, delay {:g} s{}, replicate {}\n", name_of(result.verdict), words.run, cell.agent, cell.layout,
-               cell.fleet_size, 100.0 * radio.loss, radio.delay_s, outage_text(radio.mean_outage_s), result.recomputed.replicate);
+    fmt::print("{}  run {}: {}, {}, {} AGVs, loss {:g} %, delay {:g} s{}, replicate {}\n", name_of(result.verdict),
+               words.run, cell.agent, cell.layout, cell.fleet_size, 100.0 * radio.loss, radio.delay_s,
+               outage_text(radio.mean_outage_s), result.recomputed.replicate);
     if (!result.explanation.empty()) fmt::print("  {}\n", result.explanation);
     fmt::print("{}", outcome_text(scenario, result.recomputed.outcome));
     const bool same_program = archive.campaign().engine == campaign_record(plan, programs).engine;
-    if (!same_program) fmt::print("  note: the file was written by another build of fleetproof, or with other plug-ins (see the report's provenance)\n");
+    if (!same_program)
+      fmt::print(
+          "  note: the file was written by another build of fleetproof, or with other plug-ins (see the report's "
+          "provenance)\n");
   }
   return result.verdict == ReplayVerdict::Reproduced ? kDemonstrated : kEngineFault;
 }
@@ -86,7 +91,8 @@ Action prepare_replay(Options& options) {
   options.positional("DB", words->archive, "campaign file");
   options.positional("RUN", words->run, "run index");
   options.option("--plugin", words->plugins, "shared object with the agent of that run; may be given several times");
-  options.option("--scenario", words->scenario_out, "also write the run's scenario to this file (see: fleetproof simulate)");
+  options.option("--scenario", words->scenario_out,
+                 "also write the run's scenario to this file (see: fleetproof simulate)");
   options.flag("--json", words->json, "print JSON");
   options.flag("--trace", words->trace, "print every event on stderr");
   return [words] { return replay_run(*words); };

@@ -7,8 +7,8 @@
 #include "core/motion/activity.hpp"
 #include "core/scenario/faults.hpp"
 #include "core/sdk/fleetproof/agent.h"
-#include "generators/scenario_file/exempt_pairs.hpp"
 #include "generators/formats/purpose_words.hpp"
+#include "generators/scenario_file/exempt_pairs.hpp"
 
 namespace fleetproof::cli {
 namespace {
@@ -16,29 +16,37 @@ namespace {
 std::string counters_text(const Outcome& outcome) {
   const Counters& c = outcome.counters;
   const double hours = static_cast<double>(outcome.agv_count) * static_cast<double>(outcome.simulated_ns) / 3.6e12;
-  std::string text = fmt::format("  {} drives, {} turns, {:.0f} m; transports {} of {} done", c.drives, c.turns, static_cast<double>(c.distance_um) * 1e-6,
-                                 c.transports_done, c.transports_released);
+  std::string text = fmt::format("  {} drives, {} turns, {:.0f} m; transports {} of {} done", c.drives, c.turns,
+                                 static_cast<double>(c.distance_um) * 1e-6, c.transports_done, c.transports_released);
   if (hours > 0.0) text += fmt::format(" ({:.2f} per AGV-hour)", static_cast<double>(c.transports_done) / hours);
-  const double lost = c.receptions == 0 ? 0.0 : 100.0 * static_cast<double>(c.receptions_lost) / static_cast<double>(c.receptions);
-  const double delay = c.receptions == 0 ? 0.0 : static_cast<double>(c.delay_sum_ns) * 1e-9 / static_cast<double>(c.receptions);
-  text += fmt::format("\n  {} messages sent; of {} receptions {:.1f} % lost, mean delay {:.2f} s; {} events\n", c.messages_sent, c.receptions, lost, delay, c.events);
+  const double lost =
+      c.receptions == 0 ? 0.0 : 100.0 * static_cast<double>(c.receptions_lost) / static_cast<double>(c.receptions);
+  const double delay =
+      c.receptions == 0 ? 0.0 : static_cast<double>(c.delay_sum_ns) * 1e-9 / static_cast<double>(c.receptions);
+  text += fmt::format("\n  {} messages sent; of {} receptions {:.1f} % lost, mean delay {:.2f} s; {} events\n",
+                      c.messages_sent, c.receptions, lost, delay, c.events);
   if (c.lost_in_outage + c.lost_by_interference + c.lost_to_sources + c.duplicates > 0) {
-    text += fmt::format("  of {} lost: {} in outages, {} by interference, {} to external sources; {} came twice\n", c.receptions_lost, c.lost_in_outage,
-                        c.lost_by_interference, c.lost_to_sources, c.duplicates);
+    text += fmt::format("  of {} lost: {} in outages, {} by interference, {} to external sources; {} came twice\n",
+                        c.receptions_lost, c.lost_in_outage, c.lost_by_interference, c.lost_to_sources, c.duplicates);
   }
   if (c.faults + c.batteries_empty + c.scanner_stops + c.assists > 0) {
-    text += fmt::format("  {} faults struck, {} batteries ran empty, {} loads cleared away; scanner: {} stops, {} saves; {} assists\n", c.faults, c.batteries_empty,
-                        c.loads_cleared, c.scanner_stops, c.scanner_saves, c.assists);
+    text += fmt::format(
+        "  {} faults struck, {} batteries ran empty, {} loads cleared away; scanner: {} stops, {} saves; {} assists\n",
+        c.faults, c.batteries_empty, c.loads_cleared, c.scanner_stops, c.scanner_saves, c.assists);
   }
   return text;
 }
 
 const char* text_of(Assist assist) {
   switch (assist) {
-    case Assist::Battery: return "with the battery";
-    case Assist::Jam: return "past what the scanner sees";
-    case Assist::Contact: return "after a contact: takes it off the floor";
-    case Assist::Standstill: return "at a standstill: restarts the agent";
+    case Assist::Battery:
+      return "with the battery";
+    case Assist::Jam:
+      return "past what the scanner sees";
+    case Assist::Contact:
+      return "after a contact: takes it off the floor";
+    case Assist::Standstill:
+      return "at a standstill: restarts the agent";
   }
   return "?";
 }
@@ -46,10 +54,14 @@ const char* text_of(Assist assist) {
 std::string holder_text(const Scenario& scenario, std::uint64_t holder) {
   const auto index = static_cast<std::uint32_t>(holder);
   switch (static_cast<Holder::Kind>(holder >> 32)) {
-    case Holder::Kind::Station: return "at " + scenario.map->station(StationId{index}).name;
-    case Holder::Kind::Agv: return "on " + body_name(scenario, EntityId{index});
-    case Holder::Kind::Floor: return "on the floor";
-    case Holder::Kind::ClearedAway: return "cleared away";
+    case Holder::Kind::Station:
+      return "at " + scenario.map->station(StationId{index}).name;
+    case Holder::Kind::Agv:
+      return "on " + body_name(scenario, EntityId{index});
+    case Holder::Kind::Floor:
+      return "on the floor";
+    case Holder::Kind::ClearedAway:
+      return "cleared away";
   }
   return "?";
 }
@@ -69,7 +81,8 @@ std::string body_name(const Scenario& scenario, EntityId id) {
   if (number < scenario.obstacles.size()) return scenario.obstacles[number].name;
   number -= scenario.obstacles.size();
   for (const Fault& fault : scenario.faults) {
-    if (fault.kind == Fault::Kind::LoadDrop && number-- == 0) return "load dropped by " + scenario.agvs[fault.agv.index()].name;
+    if (fault.kind == Fault::Kind::LoadDrop && number-- == 0)
+      return "load dropped by " + scenario.agvs[fault.agv.index()].name;
   }
   return "?";
 }
@@ -79,20 +92,25 @@ std::string incident_text(const Scenario& scenario, const Incident& incident) {
   std::string whom;
   if (incident.a.valid()) whom += " " + body_name(scenario, incident.a);
   if (incident.b.valid()) whom += std::string(incident.a.valid() ? " ->" : "") + " " + body_name(scenario, incident.b);
-  const std::string until = incident.last > incident.first ? fmt::format(" to {:.3f} s", to_seconds(incident.last)) : "";
-  return fmt::format("{}:{} from {:.3f} s{}; {} ({}: {})", info.name, whom, to_seconds(incident.first), until, info.meaning, info.unit, incident.value);
+  const std::string until =
+      incident.last > incident.first ? fmt::format(" to {:.3f} s", to_seconds(incident.last)) : "";
+  return fmt::format("{}:{} from {:.3f} s{}; {} ({}: {})", info.name, whom, to_seconds(incident.first), until,
+                     info.meaning, info.unit, incident.value);
 }
 
-std::string differences_text(const Scenario& scenario, const std::vector<Difference>& differences, std::string_view published) {
+std::string differences_text(const Scenario& scenario, const std::vector<Difference>& differences,
+                             std::string_view published) {
   std::string text = fmt::format("  beside safety-distance, {} ", published);
   if (differences.empty()) return text + "accuses the same pairs at the same time\n";
   const auto missed = std::ranges::count(differences, true, &Difference::missed);
-  text += fmt::format("misses {} and accuses {} wrongly:\n", missed, differences.size() - static_cast<std::size_t>(missed));
+  text +=
+      fmt::format("misses {} and accuses {} wrongly:\n", missed, differences.size() - static_cast<std::size_t>(missed));
   for (const Difference& d : differences) {
     const Violation& v = d.violation;
-    text += fmt::format("    {} ({}): {} and {} from {:.3f} s to {:.3f} s, closest {:.3f} m at {:.3f} s\n", d.missed ? "missed" : "accused wrongly", name_of(d.cause),
-                        body_name(scenario, v.a), body_name(scenario, v.b), to_seconds(v.first), to_seconds(v.last), static_cast<double>(v.min_clearance_um) * 1e-6,
-                        to_seconds(v.closest_at));
+    text += fmt::format("    {} ({}): {} and {} from {:.3f} s to {:.3f} s, closest {:.3f} m at {:.3f} s\n",
+                        d.missed ? "missed" : "accused wrongly", name_of(d.cause), body_name(scenario, v.a),
+                        body_name(scenario, v.b), to_seconds(v.first), to_seconds(v.last),
+                        static_cast<double>(v.min_clearance_um) * 1e-6, to_seconds(v.closest_at));
   }
   return text;
 }
@@ -100,9 +118,11 @@ std::string differences_text(const Scenario& scenario, const std::vector<Differe
 std::string met_text(const Outcome& outcome) {
   std::string text;
   for (const ProbeCount& probe : outcome.probes) {
-    text += fmt::format("{}{}{} {}", text.empty() ? "  met: " : ", ", probe.source == ProbeSource::Agent ? "agent: " : "", printable_name(probe.name), probe.count);
+    text += fmt::format("{}{}{} {}", text.empty() ? "  met: " : ", ",
+                        probe.source == ProbeSource::Agent ? "agent: " : "", printable_name(probe.name), probe.count);
   }
-  if (outcome.counters.probes_left_out > 0) text += fmt::format("; {} declarations beyond what is kept", outcome.counters.probes_left_out);
+  if (outcome.counters.probes_left_out > 0)
+    text += fmt::format("; {} declarations beyond what is kept", outcome.counters.probes_left_out);
   return text.empty() ? text : text + "\n";
 }
 
@@ -110,14 +130,17 @@ std::string outcome_text(const Scenario& scenario, const Outcome& outcome, bool 
   std::string text = fmt::format("{}: {}\n", scenario.name, name_of(outcome.outcome_class()));
   if (!outcome.message.empty()) text += fmt::format("  {}\n", outcome.message);
   for (const Violation& v : outcome.violations) {
-    text += fmt::format("  {} and {} closer than {:.2f} m from {:.3f} s to {:.3f} s; closest {:.3f} m at {:.3f} s near ({:.2f}, {:.2f}), {:.2f} m/s apart{}\n",
-                        body_name(scenario, v.a), body_name(scenario, v.b), scenario.law.safety_distance_m, to_seconds(v.first), to_seconds(v.last),
-                        static_cast<double>(v.min_clearance_um) * 1e-6, to_seconds(v.closest_at), static_cast<double>(v.x_um) * 1e-6,
-                        static_cast<double>(v.y_um) * 1e-6, static_cast<double>(v.relative_speed_um_s) * 1e-6, v.contact ? std::string(", ") + name_of(level_of(v)) : "");
+    text += fmt::format(
+        "  {} and {} closer than {:.2f} m from {:.3f} s to {:.3f} s; closest {:.3f} m at {:.3f} s near ({:.2f}, "
+        "{:.2f}), {:.2f} m/s apart{}\n",
+        body_name(scenario, v.a), body_name(scenario, v.b), scenario.law.safety_distance_m, to_seconds(v.first),
+        to_seconds(v.last), static_cast<double>(v.min_clearance_um) * 1e-6, to_seconds(v.closest_at),
+        static_cast<double>(v.x_um) * 1e-6, static_cast<double>(v.y_um) * 1e-6,
+        static_cast<double>(v.relative_speed_um_s) * 1e-6, v.contact ? std::string(", ") + name_of(level_of(v)) : "");
   }
   if (scenario.law.exempt_purposes.bits() != 0) {
-    text += fmt::format("  exempt from the safety distance (contact is not): within {:g} m of stations for {}\n", scenario.law.exempt_radius_m,
-                        purposes_text(scenario.law.exempt_purposes));
+    text += fmt::format("  exempt from the safety distance (contact is not): within {:g} m of stations for {}\n",
+                        scenario.law.exempt_radius_m, purposes_text(scenario.law.exempt_purposes));
   }
   for (const ExemptPair& pair : scenario.law.exempt_pairs) {
     text += fmt::format("  exempt from the safety distance (contact is not): {}\n", text_of(pair));
@@ -128,7 +151,8 @@ std::string outcome_text(const Scenario& scenario, const Outcome& outcome, bool 
   } else {
     text += clearance_measured ? "  smallest clearance > 0.5 m\n" : "  smallest clearance not measured\n";
   }
-  if (outcome.counters.perimeter_checks > 0) text += fmt::format("  {} perimeter checks by the law\n", outcome.counters.perimeter_checks);
+  if (outcome.counters.perimeter_checks > 0)
+    text += fmt::format("  {} perimeter checks by the law\n", outcome.counters.perimeter_checks);
   return text + counters_text(outcome) + met_text(outcome) + fmt::format("  trace digest {:016x}\n", outcome.digest);
 }
 
@@ -144,29 +168,53 @@ void TracePrinter::record(const TraceRecord& record, std::string_view text) {
       if (record.kind == TraceKind::ActivityEnds && record.b == 0) what += " (cut short)";
       break;
     }
-    case TraceKind::Sent: what = record.a == FP_NONE ? "to all" : "to " + body_name(scenario_, EntityId{static_cast<std::uint32_t>(record.a)}); break;
+    case TraceKind::Sent:
+      what =
+          record.a == FP_NONE ? "to all" : "to " + body_name(scenario_, EntityId{static_cast<std::uint32_t>(record.a)});
+      break;
     case TraceKind::Lost:
     case TraceKind::LostInOutage:
     case TraceKind::LostByInterference:
     case TraceKind::LostToSource:
-    case TraceKind::Received: what = "from " + body_name(scenario_, EntityId{static_cast<std::uint32_t>(record.a)}); break;
-    case TraceKind::Contact: what = "with " + body_name(scenario_, EntityId{static_cast<std::uint32_t>(record.a)}); break;
-    case TraceKind::WaitingFor: what = record.a == FP_NONE ? "nobody" : body_name(scenario_, EntityId{static_cast<std::uint32_t>(record.a)}); break;
-    case TraceKind::LoadMoves: what = fmt::format("{} {}", record.a, holder_text(scenario_, record.b)); break;
+    case TraceKind::Received:
+      what = "from " + body_name(scenario_, EntityId{static_cast<std::uint32_t>(record.a)});
+      break;
+    case TraceKind::Contact:
+      what = "with " + body_name(scenario_, EntityId{static_cast<std::uint32_t>(record.a)});
+      break;
+    case TraceKind::WaitingFor:
+      what = record.a == FP_NONE ? "nobody" : body_name(scenario_, EntityId{static_cast<std::uint32_t>(record.a)});
+      break;
+    case TraceKind::LoadMoves:
+      what = fmt::format("{} {}", record.a, holder_text(scenario_, record.b));
+      break;
     case TraceKind::FaultStrikes:
-    case TraceKind::FaultOver: what = name_of(static_cast<Fault::Kind>(record.a)); break;
-    case TraceKind::ScannerStops: what = "for " + body_name(scenario_, EntityId{static_cast<std::uint32_t>(record.a)}); break;
-    case TraceKind::OperatorAssists: what = text_of(static_cast<Assist>(record.a)); break;
+    case TraceKind::FaultOver:
+      what = name_of(static_cast<Fault::Kind>(record.a));
+      break;
+    case TraceKind::ScannerStops:
+      what = "for " + body_name(scenario_, EntityId{static_cast<std::uint32_t>(record.a)});
+      break;
+    case TraceKind::OperatorAssists:
+      what = text_of(static_cast<Assist>(record.a));
+      break;
     case TraceKind::BatteryEmpty:
-    case TraceKind::Leaves: break;
+    case TraceKind::Leaves:
+      break;
     case TraceKind::Appears:
-      if (record.entity.index() < scenario_.agvs.size()) what = "at " + scenario_.map->station(StationId{static_cast<std::uint32_t>(record.a)}).name;
+      if (record.entity.index() < scenario_.agvs.size())
+        what = "at " + scenario_.map->station(StationId{static_cast<std::uint32_t>(record.a)}).name;
       break;
     case TraceKind::Probe:
-    case TraceKind::Log: what = std::string(text); break;
-    default: what = fmt::format("{}", record.a); break;
+    case TraceKind::Log:
+      what = std::string(text);
+      break;
+    default:
+      what = fmt::format("{}", record.a);
+      break;
   }
-  fmt::print(stderr, "{:>12.6f}  {:<6} {:<14} {}\n", to_seconds(record.at), body_name(scenario_, record.entity), name_of(record.kind), what);
+  fmt::print(stderr, "{:>12.6f}  {:<6} {:<14} {}\n", to_seconds(record.at), body_name(scenario_, record.entity),
+             name_of(record.kind), what);
 }
 
 }  // namespace fleetproof::cli

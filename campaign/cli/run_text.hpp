@@ -4,8 +4,8 @@
 #include <string_view>
 
 #include "core/outcome/outcome.hpp"
-#include "core/scenario/scenario.hpp"
 #include "core/outcome/trace.hpp"
+#include "core/scenario/scenario.hpp"
 #include "laws/comparison.hpp"
 
 namespace fleetproof::cli {
@@ -13,12 +13,13 @@ namespace fleetproof::cli {
 std::string body_name(const Scenario& scenario, EntityId id);
 
 // What a published rule says otherwise than safety-distance.
-std::string differences_text(const Scenario& scenario, const std::vector<Difference>& differences, std::string_view published);
+std::string differences_text(const Scenario& scenario, const std::vector<Difference>& differences,
+                             std::string_view published);
 std::string incident_text(const Scenario& scenario, const Incident& incident);
 // "met: head-on 3, agent: negotiation 17", or nothing.
 std::string met_text(const Outcome& outcome);
-// One run for a person: what happened, in times of 0.01 s and lengths of 1 cm (violations to 1 ms and 1 mm, where the centimetre would hide them).
-// Published laws leave the clearance of bodies that they do not accuse unmeasured.
+// One run for a person: what happened, in times of 0.01 s and lengths of 1 cm (violations to 1 ms and 1 mm, where the
+// centimetre would hide them). Published laws leave the clearance of bodies that they do not accuse unmeasured.
 std::string outcome_text(const Scenario& scenario, const Outcome& outcome, bool clearance_measured = true);
 
 // Prints the trace of a run on stderr, one event a line.

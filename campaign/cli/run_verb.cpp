@@ -5,12 +5,12 @@
 #include <memory>
 #include <thread>
 
-#include "campaign/run/campaign.hpp"
-#include "campaign/plan/campaign_file.hpp"
 #include "campaign/cli/campaign_words.hpp"
 #include "campaign/cli/progress.hpp"
 #include "campaign/cli/render.hpp"
 #include "campaign/cli/verbs.hpp"
+#include "campaign/plan/campaign_file.hpp"
+#include "campaign/run/campaign.hpp"
 #include "campaign/run/session_log.hpp"
 #include "core/base/error.hpp"
 #include "reports/report.hpp"
@@ -27,7 +27,8 @@ struct RunWords {
 
 std::atomic<int> interrupted{0};
 
-// First signal: finish what is under way and keep it. Second: leave at once; the live file stays as it was at its last commit.
+// First signal: finish what is under way and keep it. Second: leave at once; the live file stays as it was at its last
+// commit.
 void on_signal(int number) {
   if (interrupted.exchange(number) != 0) std::_Exit(128 + number);
 }
@@ -36,7 +37,8 @@ RunOptions run_options(const RunWords& words) {
   RunOptions options;
   const std::uint64_t cores = std::max(1U, std::thread::hardware_concurrency());
   const std::uint64_t workers = words.jobs.value_or(cores);
-  if (workers < 1 || workers > 1024) throw InputError("--jobs", fmt::format("is {}; it lies between 1 and 1024", workers));
+  if (workers < 1 || workers > 1024)
+    throw InputError("--jobs", fmt::format("is {}; it lies between 1 and 1024", workers));
   options.workers = static_cast<int>(workers);
   if (words.max_time_s) {
     if (!(*words.max_time_s >= 1.0 && *words.max_time_s <= 1e9)) throw InputError("--max-time", "must be at least 1 s");
@@ -48,10 +50,12 @@ RunOptions run_options(const RunWords& words) {
 }
 
 int finish(const CampaignResult& result, const RunWords& words) {
-  fmt::print(stderr, "{} of {} runs stored in {} after {:.1f} s ({:.0f} runs/s)\n", result.stored, result.progress.planned, words.archive,
-             result.progress.elapsed_s, static_cast<double>(result.progress.done) / std::max(1e-9, result.progress.elapsed_s));
+  fmt::print(stderr, "{} of {} runs stored in {} after {:.1f} s ({:.0f} runs/s)\n", result.stored,
+             result.progress.planned, words.archive, result.progress.elapsed_s,
+             static_cast<double>(result.progress.done) / std::max(1e-9, result.progress.elapsed_s));
   const int signal_number = interrupted.load();
-  if (signal_number != 0) fmt::print(stderr, "interrupted: the file holds the runs finished so far and says that it is incomplete\n");
+  if (signal_number != 0)
+    fmt::print(stderr, "interrupted: the file holds the runs finished so far and says that it is incomplete\n");
   const ReportInput input = read_report_input(ArchiveReader(words.archive), words.archive);
   if (words.json) {
     fmt::print("{}", render(input, "json"));

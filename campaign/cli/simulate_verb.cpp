@@ -6,9 +6,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "campaign/run/agent_programs.hpp"
 #include "campaign/cli/run_text.hpp"
 #include "campaign/cli/verbs.hpp"
+#include "campaign/run/agent_programs.hpp"
 #include "core/base/error.hpp"
 #include "core/engine/simulation.hpp"
 #include "generators/formats/purpose_words.hpp"
@@ -43,7 +43,9 @@ nlohmann::ordered_json to_json(const Violation& violation, const Scenario& scena
 
 nlohmann::ordered_json to_json(const Incident& incident, const Scenario& scenario) {
   const IncidentKindInfo& info = info_of(incident.kind);
-  const auto name = [&](EntityId id) { return id.valid() ? nlohmann::ordered_json(body_name(scenario, id)) : nlohmann::ordered_json(nullptr); };
+  const auto name = [&](EntityId id) {
+    return id.valid() ? nlohmann::ordered_json(body_name(scenario, id)) : nlohmann::ordered_json(nullptr);
+  };
   return {{"kind", info.name},
           {"a", name(incident.a)},
           {"b", name(incident.b)},
@@ -83,7 +85,8 @@ Observers observers_of(const std::string& name, const Scenario& scenario) {
   if (law == nullptr) {
     auto names = names_of(laws());
     names.emplace_back("exact");
-    throw InputError("--law", fmt::format("\"{}\" is not a law{} (see: fleetproof list laws)", name, name_hint(name, names)));
+    throw InputError("--law",
+                     fmt::format("\"{}\" is not a law{} (see: fleetproof list laws)", name, name_hint(name, names)));
   }
   Observers observers;
   if (law != &laws().front()) observers.laws.push_back(law->make(scenario));
@@ -103,7 +106,8 @@ Observers observers_of(const std::string& name, const Scenario& scenario) {
 // Only the judge of clearances by itself tells the smallest one.
 bool measures_clearance(const SimulateWords& words) { return find_law(words.law) == &laws().front(); }
 
-void print_json(const Scenario& scenario, const Outcome& outcome, const SimulateWords& words, const Observers& observers) {
+void print_json(const Scenario& scenario, const Outcome& outcome, const SimulateWords& words,
+                const Observers& observers) {
   nlohmann::ordered_json json;
   json["schema_version"] = 1;
   json["scenario"] = scenario.name;
@@ -158,12 +162,14 @@ int simulate_scenario(const SimulateWords& words) {
   const fp_agent_type& agent = programs.find(words.agent, "--agent");
   const Observers observers = observers_of(words.law, scenario);
   TracePrinter printer(scenario);
-  const Outcome outcome = simulate(scenario, agent, observers.laws, words.trace ? &printer : nullptr, words.config.c_str());
+  const Outcome outcome =
+      simulate(scenario, agent, observers.laws, words.trace ? &printer : nullptr, words.config.c_str());
   if (words.json) {
     print_json(scenario, outcome, words, observers);
   } else {
     fmt::print("{}", outcome_text(scenario, outcome, measures_clearance(words)));
-    if (observers.compared_with != nullptr) fmt::print("{}", differences_text(scenario, observers.differences(scenario), find_law(words.law)->name));
+    if (observers.compared_with != nullptr)
+      fmt::print("{}", differences_text(scenario, observers.differences(scenario), find_law(words.law)->name));
   }
   if (outcome.engine_error) return kEngineFault;
   if (outcome.violation || outcome.contact) return kViolated;
@@ -176,7 +182,8 @@ Action prepare_simulate(Options& options) {
   auto words = std::make_shared<SimulateWords>();
   words->law = laws().front().name;
   options.positional("SCENARIO", words->scenario, "scenario file (JSON)");
-  options.option("--agent", words->agent, "control software under test (default: scripted, which plays the scenario's script)");
+  options.option("--agent", words->agent,
+                 "control software under test (default: scripted, which plays the scenario's script)");
   options.option("--agent-config", words->config, "text handed to the agent as its own parameters");
   options.option("--plugin", words->plugins, "shared object with an agent; may be given several times");
   options.option("--law", words->law, "law that judges (default: safety-distance, also called exact)");

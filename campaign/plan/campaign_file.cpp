@@ -11,9 +11,9 @@
 #include "campaign/plan/plan_fields.hpp"
 #include "campaign/plan/toml_table.hpp"
 #include "core/base/error.hpp"
-#include "generators/formats/importer.hpp"
 #include "generators/families/layout_family.hpp"
 #include "generators/families/mutated_import.hpp"
+#include "generators/formats/importer.hpp"
 #include "generators/formats/purpose_words.hpp"
 #include "generators/scenario_file/radio_fields.hpp"
 #include "generators/scenario_file/radio_trace.hpp"
@@ -80,7 +80,8 @@ GateRecord read_gate(TomlTable& table, std::size_t index) {
   gate.name = fmt::format("gate {}", index + 1);
   table.get("name", gate.name);
   table.get("agent", gate.agent);
-  if (gate.agent.empty()) throw InputError(table.place("agent"), fmt::format("gate \"{}\" names no agent; add agent = \"...\"", gate.name));
+  if (gate.agent.empty())
+    throw InputError(table.place("agent"), fmt::format("gate \"{}\" names no agent; add agent = \"...\"", gate.name));
   get_name(table, "kind", gate.kind, std::array{GateKind::None, GateKind::Rate});
   get_name(table, "end_point", gate.end_point, std::array{EndPoint::Violation, EndPoint::Contact});
   get_name(table, "region", gate.region, std::array{Region::Contract, Region::WorstCase, Region::All});
@@ -112,12 +113,15 @@ std::shared_ptr<const LogicalMap> read_map(const std::string& path, const Import
   return std::make_shared<const LogicalMap>(import_layout(path, choice, file.warnings));
 }
 
-// The keys of the options that `fleetproof import` has; a key that the format does not know would silently change nothing.
+// The keys of the options that `fleetproof import` has; a key that the format does not know would silently change
+// nothing.
 ImportChoice import_choice(TomlTable& table, const std::string& path) {
   const auto format = importer_of_file(path);
-  for (const auto& [key, owner] : {std::pair{"merge_antiparallel", "opentcs"}, {"cell_pitch_m", "grid"}, {"level", "rmf"}, {"graph", "rmf"}}) {
+  for (const auto& [key, owner] :
+       {std::pair{"merge_antiparallel", "opentcs"}, {"cell_pitch_m", "grid"}, {"level", "rmf"}, {"graph", "rmf"}}) {
     if (!table.has(key) || format == owner) continue;
-    throw InputError(table.place(key), fmt::format("{} has no meaning for format \"{}\"; it belongs to \"{}\"", key, format, owner));
+    throw InputError(table.place(key),
+                     fmt::format("{} has no meaning for format \"{}\"; it belongs to \"{}\"", key, format, owner));
   }
   ImportChoice choice;
   bool merge = false;
@@ -142,20 +146,23 @@ void read_radio(TomlTable& table, const std::string& path, CampaignPlan& plan) {
       table.get(field.key, word);
       const auto found = std::ranges::find(field.words, word);
       if (found == field.words.end()) {
-        throw InputError(table.place(field.key), fmt::format("radio.{} is \"{}\"{}", field.key, word, name_hint(word, field.words)));
+        throw InputError(table.place(field.key),
+                         fmt::format("radio.{} is \"{}\"{}", field.key, word, name_hint(word, field.words)));
       }
       value = static_cast<Value>(found - field.words.begin());
     } else if constexpr (std::is_same_v<Value, std::uint32_t>) {
       std::uint64_t number = value;
       table.get(field.key, number);
-      value = static_cast<Value>(std::min<std::uint64_t>(number, std::numeric_limits<Value>::max()));  // out of range all the same: check_plan says so
+      value = static_cast<Value>(std::min<std::uint64_t>(
+          number, std::numeric_limits<Value>::max()));  // out of range all the same: check_plan says so
     } else {
       table.get(field.key, value);
     }
   });
   std::uint64_t sources = plan.sources.count;
   table.get("sources", sources);
-  plan.sources.count = static_cast<std::uint32_t>(std::min<std::uint64_t>(sources, std::numeric_limits<std::uint32_t>::max()));  // likewise
+  plan.sources.count = static_cast<std::uint32_t>(
+      std::min<std::uint64_t>(sources, std::numeric_limits<std::uint32_t>::max()));  // likewise
   read_numbers(table, plan.sources);
   std::string trace;
   table.get("trace", trace);
@@ -172,11 +179,14 @@ std::string layout_name(const std::string& word) {
   return name;
 }
 
-LayoutFactor layout_from_word(const TomlTable& factors, const std::string& word, const std::string& path, CampaignFile& file) {
+LayoutFactor layout_from_word(const TomlTable& factors, const std::string& word, const std::string& path,
+                              CampaignFile& file) {
   if (is_family(word)) return {word, nullptr};
   if (is_layout_path(word)) return {layout_name(word), read_map(beside(path, word), {}, file)};
   const auto names = names_of(layout_families());
-  throw InputError(factors.place("layouts"), fmt::format("factors.layouts names \"{}\", which is neither a family nor a file{}", word, name_hint(word, names)));
+  throw InputError(factors.place("layouts"),
+                   fmt::format("factors.layouts names \"{}\", which is neither a family nor a file{}", word,
+                               name_hint(word, names)));
 }
 
 // { file = "plant.xml" } or { mutate = "plant.xml" }, with what the importer of such files lets one choose.
@@ -185,7 +195,9 @@ LayoutFactor layout_from_table(TomlTable& table, const std::string& path, Campai
   table.get("file", word);
   table.get("mutate", base);
   table.get("name", name);
-  if (word.empty() == base.empty()) throw InputError(table.place("file"), "a table under factors.layouts has either file = \"...\" or mutate = \"...\"");
+  if (word.empty() == base.empty())
+    throw InputError(table.place("file"),
+                     "a table under factors.layouts has either file = \"...\" or mutate = \"...\"");
   const bool mutate = word.empty();
   const std::string at = beside(path, mutate ? base : word);
   const ImportChoice choice = import_choice(table, at);
@@ -196,7 +208,8 @@ LayoutFactor layout_from_table(TomlTable& table, const std::string& path, Campai
 
 void read_layouts(TomlTable& factors, const std::string& path, CampaignFile& file) {
   for (TomlTable::Item& item : factors.words_or_tables("layouts")) {
-    file.plan.layouts.push_back(item.table ? layout_from_table(*item.table, path, file) : layout_from_word(factors, item.word, path, file));
+    file.plan.layouts.push_back(item.table ? layout_from_table(*item.table, path, file)
+                                           : layout_from_word(factors, item.word, path, file));
   }
 }
 
@@ -224,7 +237,9 @@ void read_span(TomlTable& factors, std::string_view key, std::vector<FactorSpan>
   bounds->get("to", span.to);
   bounds->finish();
   if (!bounds->has("from") || !bounds->has("to") || !(span.from < span.to)) {
-    throw InputError(factors.place(key), fmt::format("factors.{} needs bounds with from below to, as in {{ from = 0.0, to = 0.4 }}; single values stand in an array", key));
+    throw InputError(factors.place(key), fmt::format("factors.{} needs bounds with from below to, as in {{ from = 0.0, "
+                                                     "to = 0.4 }}; single values stand in an array",
+                                                     key));
   }
   factor = {span};
 }
@@ -238,7 +253,9 @@ void read_vary(TomlTable& table, CampaignPlan& plan) {
   table.finish();
   for (const std::string& name : names) {
     const auto stream = stream_of_name(name);
-    if (!stream) throw InputError(table.place("hold"), fmt::format("vary.hold names \"{}\", which is no stream of randomness{}", name, name_hint(name, known)));
+    if (!stream)
+      throw InputError(table.place("hold"), fmt::format("vary.hold names \"{}\", which is no stream of randomness{}",
+                                                        name, name_hint(name, known)));
     plan.held_streams.push_back(*stream);
   }
   std::ranges::sort(plan.held_streams);
@@ -258,7 +275,9 @@ void read_law(TomlTable& table, CampaignPlan& plan) {
   std::string words;
   for (const std::string& purpose : purposes) {
     if (std::ranges::find(known, purpose) == known.end()) {
-      throw InputError(table.place("exempt_purposes"), fmt::format("law.exempt_purposes names \"{}\", which is no purpose of stations{}", purpose, name_hint(purpose, known)));
+      throw InputError(table.place("exempt_purposes"),
+                       fmt::format("law.exempt_purposes names \"{}\", which is no purpose of stations{}", purpose,
+                                   name_hint(purpose, known)));
     }
     words += purpose + " ";
   }
@@ -296,7 +315,8 @@ CampaignFile read_root(TomlTable root, const std::string& path) {
   if (auto factors = root.table("factors")) {
     read_factors(*factors, path, file);
   } else {
-    throw InputError(path, "has no [factors] table; it names the agents, layouts, fleet sizes, loss and delay to combine");
+    throw InputError(path,
+                     "has no [factors] table; it names the agents, layouts, fleet sizes, loss and delay to combine");
   }
   if (auto vary = root.table("vary")) read_vary(*vary, plan);
   if (auto world = root.table("world")) {
@@ -330,6 +350,8 @@ CampaignFile read_root(TomlTable root, const std::string& path) {
 
 CampaignFile read_campaign_file(const std::string& path) { return read_root(TomlTable::read(path), path); }
 
-CampaignFile parse_campaign_file(std::string_view text, const std::string& path) { return read_root(TomlTable::parse(text, path), path); }
+CampaignFile parse_campaign_file(std::string_view text, const std::string& path) {
+  return read_root(TomlTable::parse(text, path), path);
+}
 
 }  // namespace fleetproof

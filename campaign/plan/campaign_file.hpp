@@ -11,12 +11,13 @@ namespace fleetproof {
 // A campaign file with what does not belong into the plan.
 struct CampaignFile {
   CampaignPlan plan;
-  std::vector<std::string> plugins;   // shared objects named under `agents`, as paths; the plan holds the names they gave themselves later
+  std::vector<std::string>
+      plugins;  // shared objects named under `agents`, as paths; the plan holds the names they gave themselves later
   std::vector<std::string> warnings;  // what importing a layout dropped or guessed
 };
 
-// Reads a TOML campaign file. Layouts named by a file, in any format of importers() as its extension says, are read relative to it.
-// Throws InputError with file, line and column, the key, its value and the nearest valid key.
+// Reads a TOML campaign file. Layouts named by a file, in any format of importers() as its extension says, are read
+// relative to it. Throws InputError with file, line and column, the key, its value and the nearest valid key.
 CampaignFile read_campaign_file(const std::string& path);
 CampaignFile parse_campaign_file(std::string_view text, const std::string& path);
 

@@ -9,15 +9,16 @@
 
 #include "campaign/plan/unit_sample.hpp"
 #include "core/scenario/scenario.hpp"
+#include "generators/worlds/drawn_sources.hpp"
 #include "generators/worlds/order_list.hpp"
 #include "generators/worlds/placement.hpp"
-#include "generators/worlds/drawn_sources.hpp"
 #include "generators/worlds/world_maker.hpp"
 #include "storage/records.hpp"
 
 namespace fleetproof {
 
-// What a cell has of a factor of the radio: a value, or bounds between which every replicate draws its own, the same for all agents, layouts and fleets.
+// What a cell has of a factor of the radio: a value, or bounds between which every replicate draws its own, the same
+// for all agents, layouts and fleets.
 struct FactorSpan {
   double from = 0.0, to = 0.0;
 
@@ -28,30 +29,32 @@ struct FactorSpan {
   friend auto operator<=>(const FactorSpan&, const FactorSpan&) = default;
 };
 
-// A layout of the campaign: a family that draws a new one per replicate, or one read from a file and embedded by content.
+// A layout of the campaign: a family that draws a new one per replicate, or one read from a file and embedded by
+// content.
 struct LayoutFactor {
   std::string name;
   std::shared_ptr<const LogicalMap> map;  // null: `name` is a family and its range
   bool mutate = false;                    // every replicate draws a mutation of `map`
 };
 
-// A campaign as resolved from its file: everything that decides its outcomes, and nothing else (no path, no number of jobs).
+// A campaign as resolved from its file: everything that decides its outcomes, and nothing else (no path, no number of
+// jobs).
 struct CampaignPlan {
   std::string name = "campaign";
-  std::string kind = "claim";             // "claim" or "search"
+  std::string kind = "claim";  // "claim" or "search"
   std::uint64_t seed = 1;
   std::uint64_t replicates = 1;
   double horizon_s = 600.0, stuck_after_s = 120.0;
 
-  std::vector<std::string> agents;        // catalogue names, or names of plug-ins that the caller loads
+  std::vector<std::string> agents;  // catalogue names, or names of plug-ins that the caller loads
   std::string agent_config;
   std::vector<FactorSpan> loss{0.0}, delay_s{0.0}, mean_outage_s{0.0};
   Sampling sampling = Sampling::Uniform;  // where there are bounds
   std::vector<LayoutFactor> layouts;
   std::vector<std::uint32_t> fleet_sizes{5};
 
-  std::vector<Stream> held_streams;       // the same in all replicates, in the order of kRunStreams
-  std::uint64_t held_replicate = 0;       // whose they are
+  std::vector<Stream> held_streams;  // the same in all replicates, in the order of kRunStreams
+  std::uint64_t held_replicate = 0;  // whose they are
 
   double transports_per_agv_hour = 30.0;
   Placement placement = Placement::Random;
@@ -61,16 +64,17 @@ struct CampaignPlan {
   FaultRates faults;
   ScannerSetup scanner;
   OperatorSetup operator_help;
-  RadioSetup radio;                       // loss, delay_s and mean_outage_s come from the cell, sources from the line below
+  RadioSetup radio;  // loss, delay_s and mean_outage_s come from the cell, sources from the line below
   DrawnSources sources;
   AgentClockSetup agent_clock;
   LawSetup law;
-  std::vector<std::string> laws_left_out; // of the default set
+  std::vector<std::string> laws_left_out;                   // of the default set
   std::optional<std::vector<std::string>> required_probes;  // of [coverage]; absent: what its kind asks for
   bool contact_stops = true;
   std::vector<GateRecord> gates;
 
-  // What has to be met for the evidence not to be weak. A claim asks for an encounter and, of an agent that declares anything, for a negotiation.
+  // What has to be met for the evidence not to be weak. A claim asks for an encounter and, of an agent that declares
+  // anything, for a negotiation.
   std::vector<std::string> probes_to_meet() const;
 
   // Agents vary fastest, then delay, mean outage, loss, fleet size and layout.
@@ -81,11 +85,13 @@ struct CampaignPlan {
   std::uint64_t run_count() const { return replicates * cell_count(); }
 };
 
-// The plan as one canonical JSON text, and back: parse_plan(plan_text(p)) describes the same runs, bit for bit, and asks for the same evidence.
+// The plan as one canonical JSON text, and back: parse_plan(plan_text(p)) describes the same runs, bit for bit, and
+// asks for the same evidence.
 std::string plan_text(const CampaignPlan& plan);
 CampaignPlan parse_plan(const std::string& text);  // throws EngineError: only the archive holds such texts
 
-// Throws InputError (`where` names the file) for what no run could mean: a loss of 1.4, no agents, an unknown gate agent.
+// Throws InputError (`where` names the file) for what no run could mean: a loss of 1.4, no agents, an unknown gate
+// agent.
 void check_plan(const CampaignPlan& plan, const std::string& where);
 
 }  // namespace fleetproof

@@ -57,11 +57,15 @@ std::vector<NumberField> number_fields(FaultRates& f) {
 }
 
 std::vector<NumberField> number_fields(ScannerSetup& s) {
-  return {{"reaction_s", &s.reaction_s, 1e-3, 10.0}, {"margin_m", &s.margin_m, 0.0, kLargestBody_m}, {"resume_s", &s.resume_s, 0.0, kHour_s}};
+  return {{"reaction_s", &s.reaction_s, 1e-3, 10.0},
+          {"margin_m", &s.margin_m, 0.0, kLargestBody_m},
+          {"resume_s", &s.resume_s, 0.0, kHour_s}};
 }
 
 std::vector<NumberField> number_fields(OperatorSetup& o) {
-  return {{"least_s", &o.least_s, 1.0, kDay_s}, {"most_s", &o.most_s, o.least_s, kDay_s}, {"battery", &o.battery, 0.01, 1.0}};
+  return {{"least_s", &o.least_s, 1.0, kDay_s},
+          {"most_s", &o.most_s, o.least_s, kDay_s},
+          {"battery", &o.battery, 0.01, 1.0}};
 }
 
 std::vector<NumberField> number_fields(DrawnSources& s) {

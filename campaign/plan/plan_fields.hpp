@@ -8,8 +8,8 @@
 
 namespace fleetproof {
 
-// A number of a plan's table: its key in campaign files and plan texts, where it is kept, and what it may be. Reading, writing and checking all go
-// over these lists, so that no number can be missing from one of them.
+// A number of a plan's table: its key in campaign files and plan texts, where it is kept, and what it may be. Reading,
+// writing and checking all go over these lists, so that no number can be missing from one of them.
 struct NumberField {
   const char* key;
   double* value;

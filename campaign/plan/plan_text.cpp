@@ -95,7 +95,9 @@ void read_radio(const Json& json, CampaignPlan& plan) {
     const Json& entry = json.at(std::string(field.key));
     if constexpr (std::is_enum_v<Value>) {
       const auto found = std::ranges::find(field.words, entry.get<std::string>());
-      if (found == field.words.end()) throw EngineError(fmt::format("the plan in the archive names {}, which this version does not know", entry.dump()));
+      if (found == field.words.end())
+        throw EngineError(
+            fmt::format("the plan in the archive names {}, which this version does not know", entry.dump()));
       value = static_cast<Value>(found - field.words.begin());
     } else {
       value = entry.get<Value>();
@@ -106,7 +108,8 @@ void read_radio(const Json& json, CampaignPlan& plan) {
   if (!json.contains("trace")) return;
   RadioTrace trace;
   for (const Json& entry : json.at("trace")) {
-    RecordedMessage message{AgvId{entry.at(0).get<std::uint32_t>()}, AgvId{entry.at(1).get<std::uint32_t>()}, Duration{entry.at(2).get<std::int64_t>()}, std::nullopt};
+    RecordedMessage message{AgvId{entry.at(0).get<std::uint32_t>()}, AgvId{entry.at(1).get<std::uint32_t>()},
+                            Duration{entry.at(2).get<std::int64_t>()}, std::nullopt};
     if (entry.size() > 3) message.delay = Duration{entry.at(3).get<std::int64_t>()};
     trace.push_back(message);
   }
@@ -149,7 +152,8 @@ GateRecord gate_from(const Json& json, std::size_t index) {
 // A value, or its bounds.
 Json spans_json(const std::vector<FactorSpan>& factor) {
   Json list = Json::array();
-  for (const FactorSpan span : factor) list.push_back(span.is_drawn() ? Json{{"from", span.from}, {"to", span.to}} : Json(span.from));
+  for (const FactorSpan span : factor)
+    list.push_back(span.is_drawn() ? Json{{"from", span.from}, {"to", span.to}} : Json(span.from));
   return list;
 }
 
@@ -174,7 +178,8 @@ Json vary_json(const CampaignPlan& plan) {
 void read_vary(const Json& json, CampaignPlan& plan) {
   for (const Json& name : json.at("hold")) {
     const auto stream = stream_of_name(name.get<std::string>());
-    if (!stream) throw EngineError(fmt::format("the plan in the archive names {}, which this version does not know", name.dump()));
+    if (!stream)
+      throw EngineError(fmt::format("the plan in the archive names {}, which this version does not know", name.dump()));
     plan.held_streams.push_back(*stream);
   }
   plan.held_replicate = json.at("held_replicate");
@@ -198,10 +203,13 @@ void read_law(const Json& json, CampaignPlan& plan) {
   plan.law.min_transports_per_agv_hour = json.at("min_transports_per_agv_hour");
   plan.laws_left_out = json.at("leave_out").get<std::vector<std::string>>();
   const auto purposes = purposes_of_text(json.at("exempt_purposes").get<std::string>());
-  if (!purposes) throw EngineError(fmt::format("the plan in the archive exempts {}, which this version does not know", json.at("exempt_purposes").dump()));
+  if (!purposes)
+    throw EngineError(fmt::format("the plan in the archive exempts {}, which this version does not know",
+                                  json.at("exempt_purposes").dump()));
   plan.law.exempt_purposes = *purposes;
   plan.law.exempt_radius_m = json.at("exempt_radius_m");
-  for (const Json& pair : json.at("exempt_pairs")) plan.law.exempt_pairs.push_back({pair.at(0).get<std::string>(), pair.at(1).get<std::string>()});
+  for (const Json& pair : json.at("exempt_pairs"))
+    plan.law.exempt_pairs.push_back({pair.at(0).get<std::string>(), pair.at(1).get<std::string>()});
 }
 
 Json layouts_json(const CampaignPlan& plan) {
@@ -226,13 +234,18 @@ Json factors_json(const CampaignPlan& plan) {
 }
 
 Json world_json(const CampaignPlan& plan) {
-  Json world = {
-      {"transports_per_agv_hour", plan.transports_per_agv_hour}, {"placement", name_of(plan.placement)}, {"hot_spot_skew", plan.hot_spot_skew}};
+  Json world = {{"transports_per_agv_hour", plan.transports_per_agv_hour},
+                {"placement", name_of(plan.placement)},
+                {"hot_spot_skew", plan.hot_spot_skew}};
   if (plan.orders == nullptr) return world;
   Json orders = Json::array();
   for (const ListedOrder& order : plan.orders->orders) {
     const Json agv = order.agv ? Json(*order.agv) : Json(nullptr);
-    orders.push_back({{"line", order.line}, {"release_ns", order.release.count()}, {"from", order.from}, {"to", order.to}, {"agv", agv}});
+    orders.push_back({{"line", order.line},
+                      {"release_ns", order.release.count()},
+                      {"from", order.from},
+                      {"to", order.to},
+                      {"agv", agv}});
   }
   world["orders"] = {{"source", plan.orders->source}, {"orders", orders}};
   return world;
@@ -240,14 +253,15 @@ Json world_json(const CampaignPlan& plan) {
 
 void read_world(const Json& world, CampaignPlan& plan) {
   plan.transports_per_agv_hour = world.at("transports_per_agv_hour");
-  plan.placement =
-      enum_from(world.at("placement"), {Placement::Random, Placement::ChargerBank, Placement::Adversarial, Placement::Symmetric, Placement::Mixed});
+  plan.placement = enum_from(world.at("placement"), {Placement::Random, Placement::ChargerBank, Placement::Adversarial,
+                                                     Placement::Symmetric, Placement::Mixed});
   plan.hot_spot_skew = world.at("hot_spot_skew");
   if (!world.contains("orders")) return;
   OrderList list;
   list.source = world.at("orders").at("source");
   for (const Json& json : world.at("orders").at("orders")) {
-    ListedOrder order{Duration{json.at("release_ns").get<std::int64_t>()}, json.at("from"), json.at("to"), {}, json.at("line")};
+    ListedOrder order{
+        Duration{json.at("release_ns").get<std::int64_t>()}, json.at("from"), json.at("to"), {}, json.at("line")};
     if (!json.at("agv").is_null()) order.agv = json.at("agv").get<std::uint32_t>();
     list.orders.push_back(std::move(order));
   }
@@ -272,7 +286,9 @@ CampaignPlan plan_from(const Json& json) {
   plan.sampling = enum_from(factors.at("sampling"), {Sampling::Uniform, Sampling::LatinHypercube, Sampling::Sobol});
   for (const Json& entry : factors.at("layouts")) {
     LayoutFactor layout{entry.at("name"), nullptr, entry.value("mutate", false)};
-    if (entry.contains("content")) layout.map = std::make_shared<const LogicalMap>(parse_layout(entry.at("content").dump(), "layout " + layout.name));
+    if (entry.contains("content"))
+      layout.map =
+          std::make_shared<const LogicalMap>(parse_layout(entry.at("content").dump(), "layout " + layout.name));
     plan.layouts.push_back(std::move(layout));
   }
   read_vary(json.at("vary"), plan);

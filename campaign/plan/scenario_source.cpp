@@ -14,11 +14,14 @@ namespace {
 // Each factor has its dimension whether it is drawn or not, so that drawing one more leaves the others as they were.
 constexpr std::uint32_t kLossDimension = 0, kDelayDimension = 1, kOutageDimension = 2;
 
-double between(double from, double to, double unit) { return from == to ? from : std::min(to, from + (to - from) * unit); }
+double between(double from, double to, double unit) {
+  return from == to ? from : std::min(to, from + (to - from) * unit);
+}
 
 }  // namespace
 
-ScenarioSource::ScenarioSource(const CampaignPlan& plan) : plan_(plan), cells_(plan.cells()), sample_(plan.sampling, plan.seed, plan.replicates) {}
+ScenarioSource::ScenarioSource(const CampaignPlan& plan)
+    : plan_(plan), cells_(plan.cells()), sample_(plan.sampling, plan.seed, plan.replicates) {}
 
 RunPlace ScenarioSource::place(std::uint64_t run_index) const {
   RunPlace place{run_index / cells_.size(), cells_[run_index % cells_.size()], {}};

@@ -9,8 +9,8 @@
 
 namespace fleetproof {
 
-// One table of a TOML file, read key by key. Every error names file, line, column and the key; keys that nobody asked for are errors too.
-// A thin view: toml++ stays in toml_table.cpp.
+// One table of a TOML file, read key by key. Every error names file, line, column and the key; keys that nobody asked
+// for are errors too. A thin view: toml++ stays in toml_table.cpp.
 class TomlTable {
  public:
   // Parses the file. Throws InputError: no such file, or a syntax error with its line and column.
@@ -37,11 +37,11 @@ class TomlTable {
   std::vector<std::pair<std::string, std::string>> pairs(std::string_view key);
 
   bool has(std::string_view key) const;
-  bool is_table(std::string_view key) const;                   // written [key], not [[key]]
-  std::optional<TomlTable> table(std::string_view key);        // [key]
-  std::vector<TomlTable> tables(std::string_view key);          // [[key]]
-  void finish() const;                                         // throws InputError if a key is left that was never asked for
-  std::string place(std::string_view key) const;               // "file:line:column" of a key, or of the table
+  bool is_table(std::string_view key) const;             // written [key], not [[key]]
+  std::optional<TomlTable> table(std::string_view key);  // [key]
+  std::vector<TomlTable> tables(std::string_view key);   // [[key]]
+  void finish() const;                                   // throws InputError if a key is left that was never asked for
+  std::string place(std::string_view key) const;         // "file:line:column" of a key, or of the table
 
  private:
   struct Impl;

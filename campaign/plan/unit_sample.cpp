@@ -12,12 +12,15 @@ namespace fleetproof {
 namespace {
 
 // What is drawn under the key: the third word of the counter. The fourth is the dimension.
-constexpr std::uint32_t kUniformTopic = 1, kWithinStratumTopic = 2, kRotationTopic = 3, kShiftTopic = 4, kRoundTopic = 16;
+constexpr std::uint32_t kUniformTopic = 1, kWithinStratumTopic = 2, kRotationTopic = 3, kShiftTopic = 4,
+                        kRoundTopic = 16;
 constexpr std::uint32_t kRounds = 8;
 constexpr double kBelowOne = 1.0 - 0x1.0p-53;
 
 std::uint64_t draw(std::uint64_t key, std::uint64_t counter, std::uint32_t topic, std::uint32_t dimension) {
-  return word64(philox(key, {static_cast<std::uint32_t>(counter), static_cast<std::uint32_t>(counter >> 32), topic, dimension}), 0);
+  return word64(
+      philox(key, {static_cast<std::uint32_t>(counter), static_cast<std::uint32_t>(counter >> 32), topic, dimension}),
+      0);
 }
 
 // The upper half of a product of 64 bits: bits * size / 2^64.
@@ -26,12 +29,16 @@ std::uint64_t scaled(std::uint64_t bits, std::uint64_t size) {
   return static_cast<std::uint64_t>((static_cast<Wide>(bits) * size) >> 64);
 }
 
-// A permutation of 0 .. size-1 that need not be written down: a Feistel network over the next power of four, walked until it is back inside. The
-// rotation makes every image equally likely, whatever the network is worth on a small set.
+// A permutation of 0 .. size-1 that need not be written down: a Feistel network over the next power of four, walked
+// until it is back inside. The rotation makes every image equally likely, whatever the network is worth on a small set.
 class Permutation {
  public:
   Permutation(std::uint64_t key, std::uint64_t block, std::uint64_t size, std::uint32_t dimension)
-      : key_(key), block_(block), size_(size), dimension_(dimension), half_bits_((static_cast<int>(std::bit_width(size - 1)) + 1) / 2) {}
+      : key_(key),
+        block_(block),
+        size_(size),
+        dimension_(dimension),
+        half_bits_((static_cast<int>(std::bit_width(size - 1)) + 1) / 2) {}
 
   std::uint64_t at(std::uint64_t index) const {
     if (size_ == 1) return 0;
@@ -72,7 +79,9 @@ const char* name_of(Sampling sampling) {
 }
 
 UnitSample::UnitSample(Sampling sampling, std::uint64_t campaign_seed, std::uint64_t replicates)
-    : sampling_(sampling), key_(stream_key(campaign_seed, Stream::Factors)), replicates_(std::max<std::uint64_t>(1, replicates)) {}
+    : sampling_(sampling),
+      key_(stream_key(campaign_seed, Stream::Factors)),
+      replicates_(std::max<std::uint64_t>(1, replicates)) {}
 
 double UnitSample::at(std::uint64_t replicate, std::uint32_t dimension) const {
   ensure(dimension < kDimensions, "a factor has a dimension of its own");

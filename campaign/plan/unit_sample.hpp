@@ -8,19 +8,23 @@ namespace fleetproof {
 // How the points of continuous factors are drawn.
 //   Uniform         every replicate by itself: independent draws, for which exact binomial bounds hold
 //   LatinHypercube  of N planned replicates each has a stratum of width 1/N to itself, in every dimension
-//   Sobol           a Sobol sequence under a random digital shift: any 2^k replicates from a multiple of 2^k on have a stratum of width 2^-k each
-// Every single point is uniform on the unit cube in all three. The last two cover it more evenly; their points are not independent of each other.
+//   Sobol           a Sobol sequence under a random digital shift: any 2^k replicates from a multiple of 2^k on have a
+//   stratum of width 2^-k each
+// Every single point is uniform on the unit cube in all three. The last two cover it more evenly; their points are not
+// independent of each other.
 enum class Sampling : std::uint8_t { Uniform, LatinHypercube, Sobol };
 inline constexpr std::array kSamplings = {Sampling::Uniform, Sampling::LatinHypercube, Sampling::Sobol};
 const char* name_of(Sampling sampling);  // "uniform", "latin-hypercube", "sobol"
 
-// One point of the unit cube for each replicate, from a stream of the campaign's own: no world, radio or agent draws from it.
-// A pure function of what the constructor got, replicate and dimension, so that any run can be drawn first. Threads: any number.
+// One point of the unit cube for each replicate, from a stream of the campaign's own: no world, radio or agent draws
+// from it. A pure function of what the constructor got, replicate and dimension, so that any run can be drawn first.
+// Threads: any number.
 class UnitSample {
  public:
   static constexpr std::uint32_t kDimensions = 3;
 
-  // `replicates`: the size of a Latin hypercube, at least 1; beyond it the next one begins. Of no account for the others.
+  // `replicates`: the size of a Latin hypercube, at least 1; beyond it the next one begins. Of no account for the
+  // others.
   UnitSample(Sampling sampling, std::uint64_t campaign_seed, std::uint64_t replicates);
 
   double at(std::uint64_t replicate, std::uint32_t dimension) const;  // [0, 1)

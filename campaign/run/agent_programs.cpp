@@ -25,7 +25,8 @@ AgentPrograms::~AgentPrograms() {
 
 std::string AgentPrograms::load(const std::string& path) {
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) throw InputError(path, "there is no such agent file; build the shared object or correct the path");
+  if (!std::filesystem::is_regular_file(path, ignored))
+    throw InputError(path, "there is no such agent file; build the shared object or correct the path");
   // An absolute name keeps dlopen from searching the system's library folders.
   void* object = dlopen(std::filesystem::absolute(path).c_str(), RTLD_NOW | RTLD_LOCAL);
   if (object == nullptr) throw InputError(path, fmt::format("cannot be loaded as a shared object: {}", dlerror()));
@@ -37,12 +38,14 @@ std::string AgentPrograms::load(const std::string& path) {
   check_abi(*type);
   for (const fp_agent_type* known : types_) {
     if (std::string_view(known->name) == type->name) {
-      throw InputError(path, fmt::format("calls itself \"{}\", a name that is taken; give the agent another name", type->name));
+      throw InputError(
+          path, fmt::format("calls itself \"{}\", a name that is taken; give the agent another name", type->name));
     }
   }
   types_.push_back(type);
   std::ifstream file(path, std::ios::binary);
-  loaded_.push_back(fmt::format("{} sha256 {}", type->name, sha256_hex(std::string(std::istreambuf_iterator<char>(file), {}))));
+  loaded_.push_back(
+      fmt::format("{} sha256 {}", type->name, sha256_hex(std::string(std::istreambuf_iterator<char>(file), {}))));
   return type->name;
 }
 
@@ -52,7 +55,9 @@ const fp_agent_type& AgentPrograms::find(std::string_view name, std::string_view
     if (name == type->name) return *type;
     names.emplace_back(type->name);
   }
-  throw InputError(where, fmt::format("agent \"{}\" is not known{} (see: fleetproof list agents; a shared object is loaded by its path or with --plugin)", name, name_hint(name, names)));
+  throw InputError(where, fmt::format("agent \"{}\" is not known{} (see: fleetproof list agents; a shared object is "
+                                      "loaded by its path or with --plugin)",
+                                      name, name_hint(name, names)));
 }
 
 bool AgentPrograms::is_loaded(std::string_view name) const {

@@ -9,7 +9,8 @@
 
 namespace fleetproof {
 
-// The control software a campaign may test: the reference agents, and shared objects loaded by path. Owns the loaded objects.
+// The control software a campaign may test: the reference agents, and shared objects loaded by path. Owns the loaded
+// objects.
 class AgentPrograms {
  public:
   AgentPrograms();
@@ -17,7 +18,8 @@ class AgentPrograms {
   AgentPrograms(const AgentPrograms&) = delete;
   AgentPrograms& operator=(const AgentPrograms&) = delete;
 
-  // Loads a shared object and returns the name its agent gives itself. Throws InputError: no such file, no fp_agent_query, another ABI, a name taken.
+  // Loads a shared object and returns the name its agent gives itself. Throws InputError: no such file, no
+  // fp_agent_query, another ABI, a name taken.
   std::string load(const std::string& path);
 
   // Throws InputError with the nearest known name.

@@ -7,8 +7,8 @@
 #include "campaign/run/run_one.hpp"
 #include "campaign/run/task_pool.hpp"
 #include "core/base/random.hpp"
-#include "generators/scenario_file/exempt_pairs.hpp"
 #include "generators/formats/purpose_words.hpp"
+#include "generators/scenario_file/exempt_pairs.hpp"
 #include "storage/archive.hpp"
 
 namespace fleetproof {
@@ -43,12 +43,14 @@ bool must_stop(const RunOptions& options, double elapsed_s) {
 
 void build_first_worlds(const CampaignPlan& plan) {
   const ScenarioSource scenarios(plan);
-  for (std::uint64_t index = 0; index < plan.cell_count(); index += plan.cells_per_world()) (void)scenarios.scenario(index);
+  for (std::uint64_t index = 0; index < plan.cell_count(); index += plan.cells_per_world())
+    (void)scenarios.scenario(index);
 }
 
 std::vector<std::string> plugin_agents(const CampaignPlan& plan, const AgentPrograms& programs) {
   std::vector<std::string> names;
-  std::ranges::copy_if(plan.agents, std::back_inserter(names), [&](const std::string& name) { return programs.is_loaded(name); });
+  std::ranges::copy_if(plan.agents, std::back_inserter(names),
+                       [&](const std::string& name) { return programs.is_loaded(name); });
   return names;
 }
 
@@ -73,8 +75,8 @@ CampaignRecord campaign_record(const CampaignPlan& plan, const AgentPrograms& pr
   return record;
 }
 
-CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& path, const RunOptions& options,
-                            const CampaignListener& listener) {
+CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& path,
+                            const RunOptions& options, const CampaignListener& listener) {
   using Clock = std::chrono::steady_clock;
   const RunOne run_one(plan, programs);
   build_first_worlds(plan);  // what cannot be built at all is said before anything is written
@@ -87,7 +89,8 @@ CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& progr
   const auto started = Clock::now();
   auto last_tick = started, last_commit = started;
   {
-    TaskPool pool(options.workers, 0, plan.run_count(), kLiveWindow, [&](std::uint64_t index) { return run_one(index); });
+    TaskPool pool(options.workers, 0, plan.run_count(), kLiveWindow,
+                  [&](std::uint64_t index) { return run_one(index); });
     while (!pool.finished()) {
       const auto record = pool.next(std::chrono::milliseconds(100));
       const auto now = Clock::now();

@@ -8,17 +8,17 @@
 #include <string>
 #include <vector>
 
-#include "campaign/run/agent_programs.hpp"
 #include "campaign/plan/plan.hpp"
+#include "campaign/run/agent_programs.hpp"
 #include "storage/records.hpp"
 
 namespace fleetproof {
 
 struct RunOptions {
   int workers = 1;
-  bool overwrite = false;                          // replace an existing campaign file, once the new one is complete
-  std::optional<std::chrono::seconds> max_time;    // stop cleanly by itself
-  const std::atomic<int>* interrupted = nullptr;   // non-zero: a signal number; stop handing out runs
+  bool overwrite = false;                         // replace an existing campaign file, once the new one is complete
+  std::optional<std::chrono::seconds> max_time;   // stop cleanly by itself
+  const std::atomic<int>* interrupted = nullptr;  // non-zero: a signal number; stop handing out runs
 };
 
 struct Progress {
@@ -28,7 +28,7 @@ struct Progress {
 
 struct CampaignResult {
   Progress progress;
-  std::uint64_t stored = 0;   // the gap-free prefix that the campaign file holds
+  std::uint64_t stored = 0;  // the gap-free prefix that the campaign file holds
   int threads = 0;
   bool complete() const { return stored == progress.planned; }
 };
@@ -40,11 +40,12 @@ struct CampaignListener {
   std::function<void(const Progress&)> tick = [](const Progress&) {};  // about ten times a second
 };
 
-// Runs the plan and leaves its campaign file at `path`. Rows are stored as runs finish; the file holds the gap-free prefix of run indices, so the
-// same runs give the same bytes on any number of workers, in any order of finishing. Throws InputError, with nothing written, if an agent is not known,
-// a layout has no room for its fleet, or the file exists.
-CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& path, const RunOptions& options,
-                            const CampaignListener& listener);
+// Runs the plan and leaves its campaign file at `path`. Rows are stored as runs finish; the file holds the gap-free
+// prefix of run indices, so the same runs give the same bytes on any number of workers, in any order of finishing.
+// Throws InputError, with nothing written, if an agent is not known, a layout has no room for its fleet, or the file
+// exists.
+CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& path,
+                            const RunOptions& options, const CampaignListener& listener);
 
 // One world per layout and fleet size. Throws InputError if a layout has no room for its fleet.
 void build_first_worlds(const CampaignPlan& plan);

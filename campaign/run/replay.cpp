@@ -17,17 +17,20 @@ std::string bracket(const Outcome& stored, const Outcome& recomputed) {
   std::size_t same = 0;
   while (same < common && stored.running_digests[same] == recomputed.running_digests[same]) ++same;
   const std::uint64_t after = same == 0 ? 0 : std::uint64_t{1} << (same - 1);
-  const std::uint64_t until = same < common ? std::uint64_t{1} << same : std::max(stored.counters.events, recomputed.counters.events);
+  const std::uint64_t until =
+      same < common ? std::uint64_t{1} << same : std::max(stored.counters.events, recomputed.counters.events);
   return fmt::format("the traces part after event {} and not later than event {}", after, until);
 }
 
 std::string first_difference(const Outcome& stored, const Outcome& recomputed) {
   if (stored.digest != recomputed.digest) {
-    return fmt::format("trace digest: stored {:016x}, recomputed {:016x}; {}", stored.digest, recomputed.digest, bracket(stored, recomputed));
+    return fmt::format("trace digest: stored {:016x}, recomputed {:016x}; {}", stored.digest, recomputed.digest,
+                       bracket(stored, recomputed));
   }
   if (stored.running_digests != recomputed.running_digests) return "running digests: " + bracket(stored, recomputed);
   if (stored.outcome_class() != recomputed.outcome_class()) {
-    return fmt::format("outcome: stored {}, recomputed {}", name_of(stored.outcome_class()), name_of(recomputed.outcome_class()));
+    return fmt::format("outcome: stored {}, recomputed {}", name_of(stored.outcome_class()),
+                       name_of(recomputed.outcome_class()));
   }
   if (stored.violations.size() != recomputed.violations.size()) {
     return fmt::format("violations: stored {}, recomputed {}", stored.violations.size(), recomputed.violations.size());
@@ -38,7 +41,8 @@ std::string first_difference(const Outcome& stored, const Outcome& recomputed) {
     return fmt::format("incidents: stored {}, recomputed {}", stored.incidents.size(), recomputed.incidents.size());
   }
   const auto incident = std::ranges::mismatch(stored.incidents, recomputed.incidents);
-  if (incident.in1 != stored.incidents.end()) return fmt::format("incident {}", incident.in1 - stored.incidents.begin());
+  if (incident.in1 != stored.incidents.end())
+    return fmt::format("incident {}", incident.in1 - stored.incidents.begin());
   if (stored.probes != recomputed.probes) return "what the run met";
   if (stored.min_clearance_um != recomputed.min_clearance_um) return "smallest clearance";
   if (!(stored.counters == recomputed.counters)) return "counters";
@@ -53,14 +57,19 @@ ReplayResult compare_runs(RunRecord stored, RunRecord recomputed) {
   ReplayResult result;
   if (stored.scenario_digest != recomputed.scenario_digest) {
     result.verdict = ReplayVerdict::ScenarioDiffers;
-    result.explanation = fmt::format("the scenario differs: digest stored {:016x}, recomputed {:016x}", stored.scenario_digest, recomputed.scenario_digest);
+    result.explanation = fmt::format("the scenario differs: digest stored {:016x}, recomputed {:016x}",
+                                     stored.scenario_digest, recomputed.scenario_digest);
   } else if (stored.cell != recomputed.cell || stored.replicate != recomputed.replicate) {
     result.verdict = ReplayVerdict::ScenarioDiffers;
-    result.explanation = fmt::format("cell or replicate: stored {} and {}, recomputed {} and {}", stored.cell, stored.replicate, recomputed.cell, recomputed.replicate);
+    result.explanation = fmt::format("cell or replicate: stored {} and {}, recomputed {} and {}", stored.cell,
+                                     stored.replicate, recomputed.cell, recomputed.replicate);
   } else if (!(stored.radio == recomputed.radio)) {
     result.verdict = ReplayVerdict::ScenarioDiffers;
-    const auto text = [](const RadioQuality& q) { return fmt::format("{}, {} s, outages of {} s", q.loss, q.delay_s, q.mean_outage_s); };
-    result.explanation = fmt::format("the radio of the run: stored {}; recomputed {}", text(stored.radio), text(recomputed.radio));
+    const auto text = [](const RadioQuality& q) {
+      return fmt::format("{}, {} s, outages of {} s", q.loss, q.delay_s, q.mean_outage_s);
+    };
+    result.explanation =
+        fmt::format("the radio of the run: stored {}; recomputed {}", text(stored.radio), text(recomputed.radio));
   } else if (!(stored.outcome == recomputed.outcome)) {
     result.verdict = ReplayVerdict::Diverged;
     result.explanation = first_difference(stored.outcome, recomputed.outcome);
@@ -70,18 +79,22 @@ ReplayResult compare_runs(RunRecord stored, RunRecord recomputed) {
   return result;
 }
 
-ReplayResult replay(const ArchiveReader& archive, std::uint64_t run_index, const AgentPrograms& programs, TraceSink* sink) {
+ReplayResult replay(const ArchiveReader& archive, std::uint64_t run_index, const AgentPrograms& programs,
+                    TraceSink* sink) {
   const CampaignPlan plan = parse_plan(archive.campaign().plan_json);
   if (run_index >= plan.run_count()) {
-    throw InputError("run", fmt::format("{} does not exist; the campaign has runs 0 to {}", run_index, plan.run_count() - 1));
+    throw InputError("run",
+                     fmt::format("{} does not exist; the campaign has runs 0 to {}", run_index, plan.run_count() - 1));
   }
   auto stored = archive.run(run_index);
   if (!stored) {
-    throw InputError("run", fmt::format("{} is not in the file; it holds runs 0 to {} of {} planned", run_index, archive.run_count() - 1, plan.run_count()));
+    throw InputError("run", fmt::format("{} is not in the file; it holds runs 0 to {} of {} planned", run_index,
+                                        archive.run_count() - 1, plan.run_count()));
   }
   ReplayResult result = compare_runs(std::move(*stored), RunOne(plan, programs)(run_index, sink));
   if (name_hash(archive.campaign().plan_json) != archive.campaign().plan_hash) {
-    result.explanation = "the plan in the file was changed: its hash no longer matches" + (result.explanation.empty() ? "" : "; " + result.explanation);
+    result.explanation = "the plan in the file was changed: its hash no longer matches" +
+                         (result.explanation.empty() ? "" : "; " + result.explanation);
     if (result.verdict == ReplayVerdict::Reproduced) result.verdict = ReplayVerdict::ScenarioDiffers;
   }
   return result;

@@ -32,7 +32,8 @@ RunRecord RunOne::operator()(std::uint64_t run_index, TraceSink* sink) const {
   const auto agent = std::ranges::find(plan_.agents, place.cell.agent) - plan_.agents.begin();
   const auto laws = make_default_laws(scenario, plan_.laws_left_out);
   record.scenario_digest = scenario_digest(scenario);
-  record.outcome = simulate(scenario, *agents_[static_cast<std::size_t>(agent)], laws, sink, plan_.agent_config.c_str());
+  record.outcome =
+      simulate(scenario, *agents_[static_cast<std::size_t>(agent)], laws, sink, plan_.agent_config.c_str());
   return record;
 }
 

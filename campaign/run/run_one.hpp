@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "campaign/run/agent_programs.hpp"
 #include "campaign/plan/scenario_source.hpp"
+#include "campaign/run/agent_programs.hpp"
 #include "core/outcome/trace.hpp"
 #include "storage/records.hpp"
 

@@ -16,7 +16,8 @@ namespace fleetproof {
 
 std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
 
-void append_session(const std::string& archive_path, const std::string& started_utc, const RunOptions& options, const CampaignResult& result) {
+void append_session(const std::string& archive_path, const std::string& started_utc, const RunOptions& options,
+                    const CampaignResult& result) {
   std::array<char, 256> host{};
   gethostname(host.data(), host.size() - 1);
   const nlohmann::ordered_json line = {{"started_utc", started_utc},

@@ -17,8 +17,8 @@
 namespace fleetproof {
 namespace {
 
-// Debian's TBB is not instrumented, so the thread sanitizer sees no order between submitting a task and running it. This counter restates that order
-// where it can be seen.
+// Debian's TBB is not instrumented, so the thread sanitizer sees no order between submitting a task and running it.
+// This counter restates that order where it can be seen.
 std::atomic<std::uint64_t> handed_over{0};
 
 }  // namespace
@@ -30,12 +30,12 @@ struct TaskPool::Impl {
 
   mutable std::mutex mutex;
   std::condition_variable room, results;
-  std::uint64_t next_index;              // to hand out
-  std::set<std::uint64_t> under_way;     // handed out, not yet finished
+  std::uint64_t next_index;           // to hand out
+  std::set<std::uint64_t> under_way;  // handed out, not yet finished
   std::deque<RunRecord> done;
   std::set<std::thread::id> threads;
   std::exception_ptr failure;
-  std::size_t tasks = 0;                 // in the pool's queue or running
+  std::size_t tasks = 0;  // in the pool's queue or running
   bool stopping = false, crew_gone = false;
   std::thread crew;
 
@@ -45,7 +45,8 @@ struct TaskPool::Impl {
     crew = std::thread([this] { feed(); });
   }
 
-  // The one functor that TBB copies from thread to thread. tests/tsan.supp names this type, so it must do nothing but forward.
+  // The one functor that TBB copies from thread to thread. tests/tsan.supp names this type, so it must do nothing but
+  // forward.
   struct ForwardToPool {
     Impl* pool;
     void operator()() const {
@@ -54,9 +55,11 @@ struct TaskPool::Impl {
     }
   };
 
-  // The feeder occupies one slot of the arena but never simulates, so exactly `workers` threads do, however many cores there are.
+  // The feeder occupies one slot of the arena but never simulates, so exactly `workers` threads do, however many cores
+  // there are.
   void feed() {
-    const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(workers) + 1);
+    const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(workers) + 1);
     tbb::task_arena arena(workers + 1, 1);
     tbb::task_group group;
     arena.initialize();
@@ -84,7 +87,8 @@ struct TaskPool::Impl {
     return true;
   }
 
-  // group.wait() would lend the feeder to the pool as one more worker; so it waits until nothing is left to lend it for.
+  // group.wait() would lend the feeder to the pool as one more worker; so it waits until nothing is left to lend it
+  // for.
   void wait_for_tasks() {
     std::unique_lock lock(mutex);
     room.wait(lock, [&] { return tasks == 0; });

@@ -15,7 +15,8 @@ inline constexpr std::int64_t kSecond_ns = 1'000'000'000;
 class Controller {
  public:
   // `boot`: of the computer; it must not draw the same numbers again.
-  Controller(const fp_host& host, fp_controller* handle, std::uint32_t boot = 0) : host_(host), handle_(handle), draws_(std::uint64_t{boot} << 32) {}
+  Controller(const fp_host& host, fp_controller* handle, std::uint32_t boot = 0)
+      : host_(host), handle_(handle), draws_(std::uint64_t{boot} << 32) {}
 
   // Actions: true if accepted. `segment` may be FP_HERE for pick and drop.
   bool move(std::uint32_t segment) { return host_.move(handle_, segment) == FP_OK; }
@@ -23,7 +24,9 @@ class Controller {
   bool drop(std::uint32_t segment) { return host_.drop(handle_, segment) == FP_OK; }
   bool park(std::uint32_t segment) { return host_.park(handle_, segment) == FP_OK; }
   bool charge(std::uint32_t segment) { return host_.charge(handle_, segment) == FP_OK; }
-  void broadcast(std::span<const std::byte> bytes) { host_.send_broadcast(handle_, bytes.data(), static_cast<std::uint32_t>(bytes.size())); }
+  void broadcast(std::span<const std::byte> bytes) {
+    host_.send_broadcast(handle_, bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+  }
   void send(std::span<const std::byte> bytes, std::uint32_t receiver) {
     host_.send_unicast(handle_, bytes.data(), static_cast<std::uint32_t>(bytes.size()), receiver);
   }
@@ -56,9 +59,13 @@ class Controller {
   }
 
   std::int64_t now_ns() { return host_.now_ns(handle_); }
-  void set_timer(std::uint32_t timer, std::int64_t at_ns) { host_.set_timer(handle_, timer, at_ns < 0 ? 0 : at_ns); }  // below 0 would clear it
+  void set_timer(std::uint32_t timer, std::int64_t at_ns) {
+    host_.set_timer(handle_, timer, at_ns < 0 ? 0 : at_ns);
+  }  // below 0 would clear it
   // The next draw of this stream, uniform on [0, 1).
-  double random(std::uint32_t purpose) { return static_cast<double>(host_.random(handle_, purpose, draws_++) >> 11) * 0x1p-53; }
+  double random(std::uint32_t purpose) {
+    return static_cast<double>(host_.random(handle_, purpose, draws_++) >> 11) * 0x1p-53;
+  }
   void waiting_for(std::uint32_t agv) {
     if (agv == declared_) return;
     declared_ = agv;

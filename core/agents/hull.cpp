@@ -8,12 +8,16 @@
 namespace fleetproof::agents {
 
 HullGeometry::HullGeometry(const MapView& map, const fp_briefing& briefing)
-    : map_(map), parts_per_kind_(map.lane_count() + map.station_count()), clearance_m_(briefing.safety_distance_m + kHullTolerance_m) {
+    : map_(map),
+      parts_per_kind_(map.lane_count() + map.station_count()),
+      clearance_m_(briefing.safety_distance_m + kHullTolerance_m) {
   for (std::uint32_t i = 0; i < briefing.fleet_count; ++i) {
     const fp_agv& agv = agv_of(briefing, i);
     // As large as with a load, always: whether another AGV is loaded is not known when it matters.
-    const double length_m = std::max(agv.length_m, agv.loaded_length_m), width_m = std::max(agv.width_m, agv.loaded_width_m);
-    const auto known = std::ranges::find_if(kinds_, [&](const Kind& k) { return k.length_m == length_m && k.width_m == width_m; });
+    const double length_m = std::max(agv.length_m, agv.loaded_length_m),
+                 width_m = std::max(agv.width_m, agv.loaded_width_m);
+    const auto known =
+        std::ranges::find_if(kinds_, [&](const Kind& k) { return k.length_m == length_m && k.width_m == width_m; });
     kind_of_.push_back(static_cast<std::uint32_t>(known - kinds_.begin()));
     if (known == kinds_.end()) kinds_.push_back({length_m, width_m, length(Vec{length_m, width_m}) / 2.0});
   }
@@ -27,7 +31,8 @@ bool HullGeometry::conflict(std::uint32_t agv_a, const Path& a, std::uint32_t ag
   collect(agv_b, b, of_b);
   if (of_a.count == 0) {
     if (of_b.count == 0) return closer_than(of_a.body, of_b.body, clearance_m_);
-    return std::any_of(of_b.numbers, of_b.numbers + of_b.count, [&](std::uint32_t n) { return body_conflicts(of_a.body, n); });
+    return std::any_of(of_b.numbers, of_b.numbers + of_b.count,
+                       [&](std::uint32_t n) { return body_conflicts(of_a.body, n); });
   }
   return std::any_of(of_a.numbers, of_a.numbers + of_a.count, [&](std::uint32_t n) { return part_conflicts(n, of_b); });
 }
@@ -47,7 +52,8 @@ bool HullGeometry::turn_conflict(std::uint32_t agv_a, std::uint32_t station, std
 bool HullGeometry::turning_blocks_lane(std::uint32_t station, std::uint32_t lane) {
   for (std::uint32_t standing = 0; standing < kinds_.size(); ++standing) {
     for (std::uint32_t driving = 0; driving < kinds_.size(); ++driving) {
-      if (parts_conflict(standing * parts_per_kind_ + map_.lane_count() + station, driving * parts_per_kind_ + lane)) return true;
+      if (parts_conflict(standing * parts_per_kind_ + map_.lane_count() + station, driving * parts_per_kind_ + lane))
+        return true;
     }
   }
   return false;
@@ -68,7 +74,8 @@ double HullGeometry::distance_bound_m(Vec point_m, std::uint32_t agv, const Path
 void HullGeometry::collect(std::uint32_t agv, const Path& path, Parts& parts) const {
   Vec heading = path.heading;
   for (const std::uint32_t lane : path.lanes()) {
-    if (!same_heading(heading, map_.start_heading(lane))) parts.numbers[parts.count++] = turn_part(agv, map_.lane(lane).from);
+    if (!same_heading(heading, map_.start_heading(lane)))
+      parts.numbers[parts.count++] = turn_part(agv, map_.lane(lane).from);
     parts.numbers[parts.count++] = lane_part(agv, lane);
     heading = map_.end_heading(lane);
   }
@@ -90,7 +97,8 @@ void HullGeometry::work_out(std::uint32_t number, Part& part) {
     shapes_.push_back(disc_at(map_.position_m(what - map_.lane_count()), kind.half_diagonal_m));
   } else {
     const fp_lane& lane = map_.lane(what);
-    for (std::uint32_t i = 0; i < lane.arc_count; ++i) append_sweep(map_.arc(lane, i), kind.length_m, kind.width_m, shapes_);
+    for (std::uint32_t i = 0; i < lane.arc_count; ++i)
+      append_sweep(map_.arc(lane, i), kind.length_m, kind.width_m, shapes_);
   }
   part.count = static_cast<std::uint32_t>(shapes_.size()) - part.first;
   Vec sum;
@@ -124,7 +132,8 @@ bool HullGeometry::parts_conflict(std::uint32_t a, std::uint32_t b) {
 
 bool HullGeometry::part_conflicts(std::uint32_t number, const Parts& others) {
   if (others.count == 0) return body_conflicts(others.body, number);
-  return std::any_of(others.numbers, others.numbers + others.count, [&](std::uint32_t n) { return parts_conflict(number, n); });
+  return std::any_of(others.numbers, others.numbers + others.count,
+                     [&](std::uint32_t n) { return parts_conflict(number, n); });
 }
 
 bool HullGeometry::body_conflicts(const Shape& body, std::uint32_t number) {

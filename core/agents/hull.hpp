@@ -11,8 +11,9 @@ namespace fleetproof::agents {
 // What hulls keep between them beyond the safety distance: for rounding on the wire and for turns too small to count.
 inline constexpr double kHullTolerance_m = 0.02;
 
-// Hulls: everything an AGV may cover while it drives a path, as shapes on the floor. A path's hull consists of parts: a disc where it turns on the
-// spot, the sweep of every lane; without lanes, the standing body. Parts are worked out when first needed, and so is which of them conflict.
+// Hulls: everything an AGV may cover while it drives a path, as shapes on the floor. A path's hull consists of parts: a
+// disc where it turns on the spot, the sweep of every lane; without lanes, the standing body. Parts are worked out when
+// first needed, and so is which of them conflict.
 class HullGeometry {
  public:
   HullGeometry(const MapView& map, const fp_briefing& briefing);
@@ -46,8 +47,12 @@ class HullGeometry {
     Shape body;
   };
 
-  std::uint32_t lane_part(std::uint32_t agv, std::uint32_t lane) const { return kind_of_[agv] * parts_per_kind_ + lane; }
-  std::uint32_t turn_part(std::uint32_t agv, std::uint32_t station) const { return kind_of_[agv] * parts_per_kind_ + map_.lane_count() + station; }
+  std::uint32_t lane_part(std::uint32_t agv, std::uint32_t lane) const {
+    return kind_of_[agv] * parts_per_kind_ + lane;
+  }
+  std::uint32_t turn_part(std::uint32_t agv, std::uint32_t station) const {
+    return kind_of_[agv] * parts_per_kind_ + map_.lane_count() + station;
+  }
   void collect(std::uint32_t agv, const Path& path, Parts& parts) const;
   const Part& part(std::uint32_t number);
   void work_out(std::uint32_t number, Part& part);
@@ -62,7 +67,8 @@ class HullGeometry {
   double clearance_m_;
   std::vector<Part> parts_;
   std::vector<Shape> shapes_;
-  std::vector<std::vector<std::uint8_t>> known_conflicts_;  // by the smaller part number, then the larger: 0 unknown, 1 no, 2 yes
+  std::vector<std::vector<std::uint8_t>>
+      known_conflicts_;  // by the smaller part number, then the larger: 0 unknown, 1 no, 2 yes
 };
 
 }  // namespace fleetproof::agents

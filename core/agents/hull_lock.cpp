@@ -15,15 +15,15 @@ enum Timer : std::uint32_t { kBeaconTimer = 1, kAskTimer = 2 };
 enum Draws : std::uint32_t { kBeaconDraws = 10, kPatienceDraws = 11, kPlaceDraws = 12 };
 
 constexpr double kBeacon_s = 1.0;
-constexpr double kTransfer_s = 5.0;       // expected, of a pick or drop
-constexpr double kTurn_s = 3.0;           // expected, of a turn on the spot
-constexpr double kLongestLead_s = 8.0;    // how long before the end of a stretch the next one is asked for, at most
-constexpr double kPatience_s = 10.0;      // how long one waits for somebody who stands in the way, plus up to half of it
+constexpr double kTransfer_s = 5.0;     // expected, of a pick or drop
+constexpr double kTurn_s = 3.0;         // expected, of a turn on the spot
+constexpr double kLongestLead_s = 8.0;  // how long before the end of a stretch the next one is asked for, at most
+constexpr double kPatience_s = 10.0;    // how long one waits for somebody who stands in the way, plus up to half of it
 constexpr double kPatienceInTheWay_s = 3.0;
 constexpr double kRetryPlanning_s = 2.0;
-constexpr double kOverdue_s = 5.0;        // an action that takes so much longer than expected may have been stopped
-constexpr double kClockMargin = 1.02;     // clocks may run wrong by up to 1 %
-constexpr double kFarEnoughCharged = 0.5; // battery level with which it lets others have the place
+constexpr double kOverdue_s = 5.0;         // an action that takes so much longer than expected may have been stopped
+constexpr double kClockMargin = 1.02;      // clocks may run wrong by up to 1 %
+constexpr double kFarEnoughCharged = 0.5;  // battery level with which it lets others have the place
 constexpr std::uint32_t kTicksPerLookAtBattery = 8;
 
 // Members that a host of minor 0 does not know.
@@ -56,16 +56,24 @@ HullLock::HullLock(const fp_host& host, fp_controller* handle, const fp_briefing
 
 void HullLock::on_event(const fp_event& event) {
   switch (event.kind) {
-    case FP_EVENT_START: start(); break;
-    case FP_EVENT_ORDER: take_order(event); break;
+    case FP_EVENT_START:
+      start();
+      break;
+    case FP_EVENT_ORDER:
+      take_order(event);
+      break;
     case FP_EVENT_MESSAGE:
-      controller_.drain_inbox([&](std::uint32_t sender, std::span<const std::byte> bytes) { protocol_.receive(sender, bytes); });
+      controller_.drain_inbox(
+          [&](std::uint32_t sender, std::span<const std::byte> bytes) { protocol_.receive(sender, bytes); });
       break;
     case FP_EVENT_TIMER:
       if (event.timer == kBeaconTimer) tick();
       break;
-    case FP_EVENT_ACTION_DONE: action_done(event.result); break;
-    default: break;
+    case FP_EVENT_ACTION_DONE:
+      action_done(event.result);
+      break;
+    default:
+      break;
   }
   advance();
 }
@@ -138,7 +146,8 @@ void HullLock::find_own_place() {
   fp_pose pose{};
   if (!controller_.pose(pose)) return;
   const double off_m = length(Vec{pose.x_m, pose.y_m} - map_.position_m(start_station_));
-  if (off_m > 2.0 * settings_.position_error_m + kHullTolerance_m) return;  // somewhere on an unknown lane: nobody may come near
+  if (off_m > 2.0 * settings_.position_error_m + kHullTolerance_m)
+    return;  // somewhere on an unknown lane: nobody may come near
   Path standing;
   standing.station = start_station_;
   standing.heading = {pose.heading_x, pose.heading_y};
@@ -147,8 +156,9 @@ void HullLock::find_own_place() {
   place_known_ = true;
 }
 
-// Nobody says whether an action of the former self was under way. If so, its end is told. If the AGV was idle at one tick and nothing has been told
-// until the next, there was none: what happened before the first has been told before the second.
+// Nobody says whether an action of the former self was under way. If so, its end is told. If the AGV was idle at one
+// tick and nothing has been told until the next, there was none: what happened before the first has been told before
+// the second.
 void HullLock::look_for_inherited_action() {
   if (!acting_ || current_.kind != Leg::Kind::Inherited) return;
   const std::uint32_t action = controller_.action();
@@ -172,13 +182,15 @@ void HullLock::look_at_battery() {
   const double level = controller_.battery_level();
   if (level >= settings_.charge_to) charging_ = false;
   const bool in_between = goals_.empty() || goals_.front().transfer != Leg::Kind::Drop;
-  const bool under_way = std::ranges::any_of(legs_, [](const Leg& leg) { return leg.kind == Leg::Kind::Pick; }) || going_to_charge() ||
-                         (acting_ && current_.kind != Leg::Kind::Drive);
-  if (level < settings_.charge_below && !charging_ && in_between && !under_way && place_known_ && !out_of_order_) drive_to_charger();
+  const bool under_way = std::ranges::any_of(legs_, [](const Leg& leg) { return leg.kind == Leg::Kind::Pick; }) ||
+                         going_to_charge() || (acting_ && current_.kind != Leg::Kind::Drive);
+  if (level < settings_.charge_below && !charging_ && in_between && !under_way && place_known_ && !out_of_order_)
+    drive_to_charger();
 }
 
 bool HullLock::going_to_charge() const {
-  return (acting_ && current_.kind == Leg::Kind::Charge) || std::ranges::any_of(legs_, [](const Leg& leg) { return leg.kind == Leg::Kind::Charge; });
+  return (acting_ && current_.kind == Leg::Kind::Charge) ||
+         std::ranges::any_of(legs_, [](const Leg& leg) { return leg.kind == Leg::Kind::Charge; });
 }
 
 // To the one that is best now: another one may have become free, or this one taken.
@@ -220,11 +232,20 @@ void HullLock::act() {
 void HullLock::begin(const Leg& leg) {
   bool accepted = false;
   switch (leg.kind) {
-    case Leg::Kind::Drive: accepted = controller_.move(map_.lane(leg.lane).segment); break;
-    case Leg::Kind::Pick: accepted = controller_.pick(FP_HERE); break;
-    case Leg::Kind::Drop: accepted = controller_.drop(FP_HERE); break;
-    case Leg::Kind::Charge: accepted = controller_.charge(FP_HERE); break;
-    case Leg::Kind::Inherited: break;
+    case Leg::Kind::Drive:
+      accepted = controller_.move(map_.lane(leg.lane).segment);
+      break;
+    case Leg::Kind::Pick:
+      accepted = controller_.pick(FP_HERE);
+      break;
+    case Leg::Kind::Drop:
+      accepted = controller_.drop(FP_HERE);
+      break;
+    case Leg::Kind::Charge:
+      accepted = controller_.charge(FP_HERE);
+      break;
+    case Leg::Kind::Inherited:
+      break;
   }
   if (!accepted) return set_out_of_order(controller_.out_of_order());
   current_ = leg;
@@ -274,7 +295,9 @@ void HullLock::plan_making_way() {
 
 Stretch HullLock::way_on() { return planner_.towards(end_of(map_, protocol_.held()), budget(), goals_); }
 
-Stretch HullLock::way_out() { return planner_.out_of_the_way(protocol_.held(), budget(), is_idle(), controller_.random(kPlaceDraws)); }
+Stretch HullLock::way_out() {
+  return planner_.out_of_the_way(protocol_.held(), budget(), is_idle(), controller_.random(kPlaceDraws));
+}
 
 void HullLock::request(Stretch stretch, Purpose purpose) {
   if (stretch.empty()) {
@@ -325,7 +348,9 @@ bool HullLock::in_the_way_of(bool elder_only) {
   return found;
 }
 
-Budget HullLock::budget() const { return {longest_claim_m_ - length_m(map_, protocol_.held()), kPathLanesMax - protocol_.held().count}; }
+Budget HullLock::budget() const {
+  return {longest_claim_m_ - length_m(map_, protocol_.held()), kPathLanesMax - protocol_.held().count};
+}
 
 double HullLock::time_left_s() {
   double left_s = acting_ ? std::max(0.0, current_ends_s_ - now_s()) : 0.0;
@@ -342,7 +367,8 @@ double HullLock::leg_time_s(const Leg& leg, Vec heading) const {
   return planner_.lane_time_s(leg.lane) + (same_heading(heading, map_.start_heading(leg.lane)) ? 0.0 : kTurn_s);
 }
 
-void* create_hull_lock(const fp_host* host, fp_controller* controller, const fp_briefing* briefing, LockOptions options) {
+void* create_hull_lock(const fp_host* host, fp_controller* controller, const fp_briefing* briefing,
+                       LockOptions options) {
   constexpr std::uint32_t kNumbersOnTheWire = 0xffff;
   const fp_map& map = *briefing->map;
   if (map.station_count > kNumbersOnTheWire || map.lane_count > kNumbersOnTheWire) return nullptr;
@@ -351,6 +377,8 @@ void* create_hull_lock(const fp_host* host, fp_controller* controller, const fp_
 
 constinit const fp_agent_type kHullLock = agent_type<HullLock>(
     "hull-lock", "locks the floor it is going to cover before it drives; sound under any loss and delay",
-    [](const fp_host* host, fp_controller* controller, const fp_briefing* briefing) { return create_hull_lock(host, controller, briefing, {}); });
+    [](const fp_host* host, fp_controller* controller, const fp_briefing* briefing) {
+      return create_hull_lock(host, controller, briefing, {});
+    });
 
 }  // namespace fleetproof::agents

@@ -15,8 +15,9 @@
 
 namespace fleetproof::agents {
 
-// Control software that fetches and brings loads and moves only on what it has locked. Stretch after stretch: plan it, lock it, drive it; the next
-// one is asked for while the AGV still drives, as long before the end as locking usually takes.
+// Control software that fetches and brings loads and moves only on what it has locked. Stretch after stretch: plan it,
+// lock it, drive it; the next one is asked for while the AGV still drives, as long before the end as locking usually
+// takes.
 class HullLock {
  public:
   HullLock(const fp_host& host, fp_controller* handle, const fp_briefing& briefing, LockOptions options = {});
@@ -72,28 +73,28 @@ class HullLock {
   StretchPlanner planner_;
   double longest_claim_m_;
 
-  std::vector<Goal> goals_;     // not covered by what is locked
-  std::deque<Leg> legs_;        // locked, not begun
-  bool acting_ = false;         // an action is under way
+  std::vector<Goal> goals_;  // not covered by what is locked
+  std::deque<Leg> legs_;     // locked, not begun
+  bool acting_ = false;      // an action is under way
   Leg current_;
-  double current_ends_s_ = 0.0; // expected
+  double current_ends_s_ = 0.0;  // expected
   double started_s_ = 0.0;
-  bool out_of_order_ = false;   // broken down or empty; may be repaired
-  bool wrecked_ = false;        // stopped in the middle of an action for good
+  bool out_of_order_ = false;  // broken down or empty; may be repaired
+  bool wrecked_ = false;       // stopped in the middle of an action for good
 
   // After a restart.
   bool order_seen_ = false;
-  bool place_known_ = true;     // where it stands, heading included
+  bool place_known_ = true;  // where it stands, heading included
   double place_known_after_s_ = 0.0;
-  bool seen_idle_ = false;      // when last looked; the end of an inherited action may not have been told yet
+  bool seen_idle_ = false;  // when last looked; the end of an inherited action may not have been told yet
 
   bool has_chargers_ = false, charging_ = false;
   std::uint32_t ticks_ = 0;
 
-  Stretch stretch_;             // requested
+  Stretch stretch_;  // requested
   Purpose purpose_ = Purpose::Transport;
   double requested_at_s_ = 0.0;
-  std::int64_t demand_ns_ = -1; // since when it has wanted to get on with its transports; negative: it does not
+  std::int64_t demand_ns_ = -1;  // since when it has wanted to get on with its transports; negative: it does not
   double locking_takes_s_ = 1.0;
   double plan_after_s_ = 0.0;
   std::int64_t ask_timer_ns_ = -1;
@@ -101,6 +102,7 @@ class HullLock {
 };
 
 // For the C table. Null if the map is too large for the messages.
-void* create_hull_lock(const fp_host* host, fp_controller* controller, const fp_briefing* briefing, LockOptions options);
+void* create_hull_lock(const fp_host* host, fp_controller* controller, const fp_briefing* briefing,
+                       LockOptions options);
 
 }  // namespace fleetproof::agents

@@ -11,17 +11,24 @@
 namespace fleetproof::agents {
 
 struct LockOptions {
-  // A member of the fleet that has answered nothing for so long counts as having granted. 0: silence is never consent, the only safe setting.
+  // A member of the fleet that has answered nothing for so long counts as having granted. 0: silence is never consent,
+  // the only safe setting.
   std::int64_t silence_consents_after_ns = 0;
 };
 
-// Mutual exclusion of hulls by messages that may be lost, late, reordered or doubled: no two AGVs of a fleet that runs this ever hold hulls which
-// conflict. An AGV always holds the path it stands on or drives, and may ask for a longer one. Why it is sound stands at the head of the source.
+// Mutual exclusion of hulls by messages that may be lost, late, reordered or doubled: no two AGVs of a fleet that runs
+// this ever hold hulls which conflict. An AGV always holds the path it stands on or drives, and may ask for a longer
+// one. Why it is sound stands at the head of the source.
 class LockProtocol {
  public:
-  LockProtocol(const MapView& map, HullGeometry& geometry, Neighbours& neighbours, Controller& controller, LockOptions options,
-               std::uint32_t boot = 0)
-      : map_(map), geometry_(geometry), neighbours_(neighbours), controller_(controller), options_(options), epoch_(first_epoch(boot)) {}
+  LockProtocol(const MapView& map, HullGeometry& geometry, Neighbours& neighbours, Controller& controller,
+               LockOptions options, std::uint32_t boot = 0)
+      : map_(map),
+        geometry_(geometry),
+        neighbours_(neighbours),
+        controller_(controller),
+        options_(options),
+        epoch_(first_epoch(boot)) {}
 
   // Where the AGV stands when the agent begins, and the lane it is driving if it is: held from then on.
   void stand(const Path& standing) { held_ = standing; }
@@ -32,8 +39,8 @@ class LockProtocol {
   const Path& requested() const { return request_; }
   Epoch epoch() const { return epoch_; }
 
-  // Wants to hold `stretch`, which begins where the held path ends, as well. Replaces an open request. `demand_ns`: since when it has wanted to
-  // go on; of two that wait for each other, the older demand comes first.
+  // Wants to hold `stretch`, which begins where the held path ends, as well. Replaces an open request. `demand_ns`:
+  // since when it has wanted to go on; of two that wait for each other, the older demand comes first.
   void request(const Path& stretch, std::int64_t demand_ns);
   void withdraw();
   // The first held lane has been driven to its end; its hull is given up. Nothing happens if no lane is held.
@@ -43,8 +50,8 @@ class LockProtocol {
 
   // False if these bytes are no message of ours.
   bool receive(std::uint32_t sender, std::span<const std::byte> bytes);
-  // To be called at the end of every activation: answers what can be answered now, asks who has not been asked. True: the request is locked, the
-  // held path is longer by it.
+  // To be called at the end of every activation: answers what can be answered now, asks who has not been asked. True:
+  // the request is locked, the held path is longer by it.
   bool settle();
   // Asks again who has not granted, if it is time; and says when to call next. Negative: no request is open.
   std::int64_t ask_again();
@@ -82,8 +89,8 @@ class LockProtocol {
   Path request_;
   std::int64_t demand_ns_ = 0;
   Epoch epoch_;
-  bool asked_ = false;                  // in this epoch, whoever had to be asked when it began
-  bool answers_may_change_ = false;     // since deferred requests were last looked at
+  bool asked_ = false;               // in this epoch, whoever had to be asked when it began
+  bool answers_may_change_ = false;  // since deferred requests were last looked at
 
   bool blocked_ = false, blocked_is_known_ = false;  // somebody waits inside the hull it requests
   bool waiting_ = true, idle_ = true, out_of_order_ = false;

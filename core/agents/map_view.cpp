@@ -22,7 +22,8 @@ MapView::MapView(const fp_map& map) : map_(map), lanes_of_segment_(map.segment_c
 }
 
 std::span<const std::uint32_t> MapView::lanes_to(std::uint32_t station_id) const {
-  return std::span(arriving_).subspan(arriving_begin_[station_id], arriving_begin_[station_id + 1] - arriving_begin_[station_id]);
+  return std::span(arriving_).subspan(arriving_begin_[station_id],
+                                      arriving_begin_[station_id + 1] - arriving_begin_[station_id]);
 }
 
 }  // namespace fleetproof::agents

@@ -21,7 +21,9 @@ class MapView {
   const fp_arc& arc(const fp_lane& lane, std::uint32_t i) const { return at(lane.arcs, map_.arc_stride, i); }
 
   Vec position_m(std::uint32_t station_id) const { return {station(station_id).x_m, station(station_id).y_m}; }
-  std::span<const std::uint32_t> lanes_from(std::uint32_t station_id) const { return {station(station_id).lanes, station(station_id).lane_count}; }
+  std::span<const std::uint32_t> lanes_from(std::uint32_t station_id) const {
+    return {station(station_id).lanes, station(station_id).lane_count};
+  }
   std::span<const std::uint32_t> lanes_to(std::uint32_t station_id) const;
   Vec start_heading(std::uint32_t lane_id) const { return start_headings_[lane_id]; }
   Vec end_heading(std::uint32_t lane_id) const { return end_headings_[lane_id]; }
@@ -40,7 +42,10 @@ class MapView {
   std::vector<std::uint32_t> arriving_, arriving_begin_;  // lanes by the station they end at
 };
 
-// Headings closer than this need no turn on the spot; what the body sweeps in between is within the tolerance of every hull.
-inline bool same_heading(Vec a, Vec b) { return dot(a, b) > 1.0 - 1e-6; }  // 1.4 mrad: 1.4 mm at the corner of a 2 m long AGV
+// Headings closer than this need no turn on the spot; what the body sweeps in between is within the tolerance of every
+// hull.
+inline bool same_heading(Vec a, Vec b) {
+  return dot(a, b) > 1.0 - 1e-6;
+}  // 1.4 mrad: 1.4 mm at the corner of a 2 m long AGV
 
 }  // namespace fleetproof::agents

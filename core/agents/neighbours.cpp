@@ -8,19 +8,24 @@ namespace fleetproof::agents {
 namespace {
 
 constexpr double kUsualClaim_m = 40.0;
-constexpr double kPositionMargin_m = 1.0;   // at least: rounding on the wire, deviation from the track
-constexpr double kSpeedMargin = 1.1;        // clocks that run wrong by up to 1 % are within it
+constexpr double kPositionMargin_m = 1.0;  // at least: rounding on the wire, deviation from the track
+constexpr double kSpeedMargin = 1.1;       // clocks that run wrong by up to 1 % are within it
 
 }  // namespace
 
 double longest_claim_m(const MapView& map) {
   double longest_lane_m = 0.0;
-  for (std::uint32_t id = 0; id < map.lane_count(); ++id) longest_lane_m = std::max(longest_lane_m, map.lane(id).length_m);
+  for (std::uint32_t id = 0; id < map.lane_count(); ++id)
+    longest_lane_m = std::max(longest_lane_m, map.lane(id).length_m);
   return std::max(kUsualClaim_m, 2.0 * longest_lane_m);
 }
 
-Neighbours::Neighbours(const MapView& map, HullGeometry& geometry, const fp_briefing& briefing, const Settings& settings)
-    : map_(map), geometry_(geometry), self_(briefing.self), neighbours_(briefing.fleet_count),
+Neighbours::Neighbours(const MapView& map, HullGeometry& geometry, const fp_briefing& briefing,
+                       const Settings& settings)
+    : map_(map),
+      geometry_(geometry),
+      self_(briefing.self),
+      neighbours_(briefing.fleet_count),
       position_margin_m_(std::max(kPositionMargin_m, 2.0 * settings.position_error_m)),
       position_late_s_(settings.position_late_s),
       claim_m_(longest_claim_m(map)) {
@@ -40,8 +45,8 @@ Neighbours::News Neighbours::note(std::uint32_t sender, const Message& message, 
   const std::uint32_t boot = boot_of(status.epoch), newest_boot = boot_of(n.status.epoch);
   if (!n.known || boot > newest_boot || (boot == newest_boot && status.stamp_ms >= n.status.stamp_ms)) {
     const Status& before = n.status;
-    const bool same = n.known && before.waiting == status.waiting && before.blocked == status.blocked && before.out_of_order == status.out_of_order &&
-                      before.held == status.held;
+    const bool same = n.known && before.waiting == status.waiting && before.blocked == status.blocked &&
+                      before.out_of_order == status.out_of_order && before.held == status.held;
     if (!same) news = News::Changed;
     n.status = status;
   }
@@ -74,7 +79,8 @@ bool Neighbours::surely_beyond(std::uint32_t agv, const Path& path, std::int64_t
   const double hulls_m = claim_m_ + geometry_.half_diagonal_m(agv) + geometry_.clearance_m();
   const double moved_m = fastest_mps_[agv] * (age_s + position_late_s_) + position_margin_m_;
   const double needed_m = hulls_m + moved_m;
-  if (length(n.proved_position_m - map_.position_m(path.station)) <= needed_m) return false;  // mostly; saves looking at all parts
+  if (length(n.proved_position_m - map_.position_m(path.station)) <= needed_m)
+    return false;  // mostly; saves looking at all parts
   return geometry_.distance_bound_m(n.proved_position_m, self_, path) > needed_m;
 }
 

@@ -12,13 +12,14 @@
 
 namespace fleetproof::agents {
 
-// Paths that an AGV holds and requests are together no longer than this: whoever knows where an AGV is knows how far its hulls can extend.
+// Paths that an AGV holds and requests are together no longer than this: whoever knows where an AGV is knows how far
+// its hulls can extend.
 double longest_claim_m(const MapView& map);
 
 // What one knows of another AGV of the fleet.
 struct Neighbour {
   bool known = false;
-  Status status;                    // the newest it sent
+  Status status;  // the newest it sent
 
   // It was there after that instant of one's own clock; negative: never proved.
   Vec proved_position_m;
@@ -26,7 +27,7 @@ struct Neighbour {
 
   // Its newest request, and what one made of it.
   Epoch request_epoch = 0;
-  Epoch closed_epoch = 0;           // requests up to this one are history
+  Epoch closed_epoch = 0;  // requests up to this one are history
   Epoch granted_epoch = 0;
   std::int64_t demand_ns = 0;
   Path request;
@@ -59,20 +60,23 @@ class Neighbours {
 
   enum class News : std::uint8_t { Refused, Same, Changed };
 
-  // Takes note of what a message tells about its sender. Refused if it cannot be: no such AGV, no such path. Changed if the sender now stands,
-  // waits or holds otherwise than known. Messages may come in any order.
+  // Takes note of what a message tells about its sender. Refused if it cannot be: no such AGV, no such path. Changed if
+  // the sender now stands, waits or holds otherwise than known. Messages may come in any order.
   News note(std::uint32_t sender, const Message& message, std::int64_t now_ns);
 
-  // True only if it is certain that no hull which `agv` holds or requests at this instant comes near one's own hull of `path`.
-  // Needs neither a bound on delays nor common clocks: the other's STATE acknowledges a stamp of one's own, so it is younger than that. Only one's
-  // own clock is read; how wrong it may run is within a margin. So is how far off and how late the position was that the other perceived.
+  // True only if it is certain that no hull which `agv` holds or requests at this instant comes near one's own hull of
+  // `path`. Needs neither a bound on delays nor common clocks: the other's STATE acknowledges a stamp of one's own, so
+  // it is younger than that. Only one's own clock is read; how wrong it may run is within a margin. So is how far off
+  // and how late the position was that the other perceived.
   bool surely_beyond(std::uint32_t agv, const Path& path, std::int64_t now_ns);
 
   // The next part of the table of newest stamps; tables of large fleets take several messages.
   void tell_heard_from(HeardFrom& heard);
 
   // The stamp for a message sent now; never 0. A clock that starts below zero counts as zero until it is there.
-  static std::uint32_t stamp_ms(std::int64_t now_ns) { return static_cast<std::uint32_t>(std::max<std::int64_t>(now_ns, 0) / 1'000'000) + 1; }
+  static std::uint32_t stamp_ms(std::int64_t now_ns) {
+    return static_cast<std::uint32_t>(std::max<std::int64_t>(now_ns, 0) / 1'000'000) + 1;
+  }
 
  private:
   void note_acknowledgement(Neighbour& neighbour, const Message& message, std::int64_t now_ns);

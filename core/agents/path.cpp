@@ -4,7 +4,9 @@
 
 namespace fleetproof::agents {
 
-bool operator==(const Path& a, const Path& b) { return a.station == b.station && std::ranges::equal(a.lanes(), b.lanes()); }
+bool operator==(const Path& a, const Path& b) {
+  return a.station == b.station && std::ranges::equal(a.lanes(), b.lanes());
+}
 
 bool is_driveable(const MapView& map, const Path& path) {
   std::uint32_t at = path.station;

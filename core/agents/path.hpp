@@ -10,7 +10,8 @@ namespace fleetproof::agents {
 
 inline constexpr std::uint32_t kPathLanesMax = 64;
 
-// A way through the map: an AGV stands at `station` with `heading` and drives `lanes` one after the other. Without lanes it just stands there.
+// A way through the map: an AGV stands at `station` with `heading` and drives `lanes` one after the other. Without
+// lanes it just stands there.
 struct Path {
   std::uint32_t station = 0;
   Vec heading{1.0, 0.0};

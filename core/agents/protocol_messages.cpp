@@ -14,12 +14,16 @@ constexpr std::uint64_t kEpochHasBoot = 32, kEchoHasBoot = 64;
 
 std::uint64_t flags_of(const Message& message) {
   const Status& s = message.status;
-  return (s.requesting ? kRequesting : 0U) | (s.waiting ? kWaiting : 0U) | (s.idle ? kIdle : 0U) | (s.out_of_order ? kOutOfOrder : 0U) |
-         (s.blocked ? kBlocked : 0U) | (boot_of(s.epoch) > 0 ? kEpochHasBoot : 0U) | (boot_of(message.echo) > 0 ? kEchoHasBoot : 0U);
+  return (s.requesting ? kRequesting : 0U) | (s.waiting ? kWaiting : 0U) | (s.idle ? kIdle : 0U) |
+         (s.out_of_order ? kOutOfOrder : 0U) | (s.blocked ? kBlocked : 0U) |
+         (boot_of(s.epoch) > 0 ? kEpochHasBoot : 0U) | (boot_of(message.echo) > 0 ? kEchoHasBoot : 0U);
 }
 
 // Two's complement; what the wire cannot hold becomes something at its edge.
-std::uint64_t rounded(double value) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(std::fmin(std::fmax(value, -2e9), 2e9) + 0.5))); }
+std::uint64_t rounded(double value) {
+  return static_cast<std::uint64_t>(
+      static_cast<std::int64_t>(std::floor(std::fmin(std::fmax(value, -2e9), 2e9) + 0.5)));
+}
 
 class Reader {
  public:
@@ -93,7 +97,9 @@ WireMessage::WireMessage(const Message& message) {
       put_path(message.request);
       break;
     case MessageKind::Grant:
-    case MessageKind::Defer: put_epoch(message.echo); break;
+    case MessageKind::Defer:
+      put_epoch(message.echo);
+      break;
   }
 }
 
@@ -133,14 +139,19 @@ std::optional<Message> decode(std::span<const std::byte> bytes) {
   status.epoch = reader.take_epoch((flags & kEpochHasBoot) != 0);
   reader.take_path(status.held);
   switch (message.kind) {
-    case MessageKind::State: reader.take_heard(message.heard); break;
+    case MessageKind::State:
+      reader.take_heard(message.heard);
+      break;
     case MessageKind::Request:
       message.demand_ns = static_cast<std::int64_t>(reader.take(8));
       reader.take_path(message.request);
       break;
     case MessageKind::Grant:
-    case MessageKind::Defer: message.echo = reader.take_epoch((flags & kEchoHasBoot) != 0); break;
-    default: return std::nullopt;
+    case MessageKind::Defer:
+      message.echo = reader.take_epoch((flags & kEchoHasBoot) != 0);
+      break;
+    default:
+      return std::nullopt;
   }
   if (!reader.complete()) return std::nullopt;
   return decoded;

@@ -12,8 +12,8 @@ namespace fleetproof::agents {
 
 enum class MessageKind : std::uint8_t { State = 1, Request, Grant, Defer };
 
-// A numbered request of one AGV: how often its computer has restarted, then which of its requests since. Numbers grow and none comes twice, as that
-// of the boot outlives a restart; compared whole, never modulo.
+// A numbered request of one AGV: how often its computer has restarted, then which of its requests since. Numbers grow
+// and none comes twice, as that of the boot outlives a restart; compared whole, never modulo.
 using Epoch = std::uint64_t;
 constexpr Epoch first_epoch(std::uint32_t boot) { return Epoch{boot} << 32; }  // before any request
 constexpr std::uint32_t boot_of(Epoch epoch) { return static_cast<std::uint32_t>(epoch >> 32); }
@@ -21,15 +21,15 @@ constexpr std::uint32_t number_of(Epoch epoch) { return static_cast<std::uint32_
 
 // What every message tells about its sender.
 struct Status {
-  std::uint32_t stamp_ms = 0;   // the sender's clock when it sent this
+  std::uint32_t stamp_ms = 0;  // the sender's clock when it sent this
   Vec position_m;
-  Epoch epoch = 0;              // of its newest request
-  bool requesting = false;      // that request is still open
-  bool blocked = false;         // somebody stands in the way of that request, and waits
-  bool waiting = false;         // it stands with nothing left to do that needs no lock
-  bool idle = false;            // it waits and has no transport
+  Epoch epoch = 0;          // of its newest request
+  bool requesting = false;  // that request is still open
+  bool blocked = false;     // somebody stands in the way of that request, and waits
+  bool waiting = false;     // it stands with nothing left to do that needs no lock
+  bool idle = false;        // it waits and has no transport
   bool out_of_order = false;
-  Path held;                    // whose hull it holds
+  Path held;  // whose hull it holds
 };
 
 // The newest stamps its sender has seen on messages of AGVs first, first + 1, ...: 0 for none.
@@ -42,14 +42,14 @@ struct HeardFrom {
 struct Message {
   MessageKind kind = MessageKind::State;
   Status status;
-  HeardFrom heard;              // State
-  std::int64_t demand_ns = 0;   // Request: since when it has wanted to go on
-  Path request;                 // Request: what it wants to lock, from the end of what it holds. Its epoch is status.epoch
-  Epoch echo = 0;               // Grant, Defer: epoch of the request that is answered
+  HeardFrom heard;             // State
+  std::int64_t demand_ns = 0;  // Request: since when it has wanted to go on
+  Path request;    // Request: what it wants to lock, from the end of what it holds. Its epoch is status.epoch
+  Epoch echo = 0;  // Grant, Defer: epoch of the request that is answered
 };
 
-// A message as bytes: little-endian fields of fixed size, and the boot of an epoch only if it is not the first. Stations and lanes must have numbers
-// below 65 536.
+// A message as bytes: little-endian fields of fixed size, and the boot of an epoch only if it is not the first.
+// Stations and lanes must have numbers below 65 536.
 class WireMessage {
  public:
   explicit WireMessage(const Message& message);

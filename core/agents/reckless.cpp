@@ -15,7 +15,8 @@ class Reckless {
   Reckless(const fp_host& host, fp_controller* handle, const fp_briefing& briefing)
       : controller_(host, handle), map_(*briefing.map), routes_(map_), station_(briefing.start_station) {
     const fp_agv& self = agv_of(briefing, briefing.self);
-    for (std::uint32_t id = 0; id < map_.lane_count(); ++id) lane_times_s_.push_back(drive_time_s(map_.lane(id).length_m, self));
+    for (std::uint32_t id = 0; id < map_.lane_count(); ++id)
+      lane_times_s_.push_back(drive_time_s(map_.lane(id).length_m, self));
   }
 
   void on_event(const fp_event& event) {
@@ -68,9 +69,10 @@ class Reckless {
 
 }  // namespace
 
-constinit const fp_agent_type kReckless = agent_type<Reckless>("reckless", "drives its transports by the quickest ways and asks nobody",
-                                                     [](const fp_host* host, fp_controller* controller, const fp_briefing* briefing) -> void* {
-                                                       return new Reckless(*host, controller, *briefing);
-                                                     });
+constinit const fp_agent_type kReckless =
+    agent_type<Reckless>("reckless", "drives its transports by the quickest ways and asks nobody",
+                         [](const fp_host* host, fp_controller* controller, const fp_briefing* briefing) -> void* {
+                           return new Reckless(*host, controller, *briefing);
+                         });
 
 }  // namespace fleetproof::agents

@@ -13,7 +13,9 @@ double drive_time_s(double length_m, const fp_agv& agv) {
 }
 
 void Routes::search(std::uint32_t from, std::span<const double> cost_s) {
-  const auto dearer = [](const Open& a, const Open& b) { return a.cost_s > b.cost_s || (a.cost_s == b.cost_s && a.station > b.station); };
+  const auto dearer = [](const Open& a, const Open& b) {
+    return a.cost_s > b.cost_s || (a.cost_s == b.cost_s && a.station > b.station);
+  };
   cost_s_.assign(map_.station_count(), INFINITY);
   arrival_.assign(map_.station_count(), FP_NONE);
   open_.assign(1, {0.0, from});
@@ -37,7 +39,8 @@ void Routes::search(std::uint32_t from, std::span<const double> cost_s) {
 
 std::span<const std::uint32_t> Routes::lanes(std::uint32_t to) {
   lanes_.clear();
-  for (std::uint32_t lane = arrival_[to]; lane != FP_NONE; lane = arrival_[map_.lane(lane).from]) lanes_.push_back(lane);
+  for (std::uint32_t lane = arrival_[to]; lane != FP_NONE; lane = arrival_[map_.lane(lane).from])
+    lanes_.push_back(lane);
   std::ranges::reverse(lanes_);
   return lanes_;
 }

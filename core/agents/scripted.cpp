@@ -24,12 +24,23 @@ class Scripted {
  private:
   void play(const fp_scripted_call& call) {
     switch (call.action) {
-      case FP_CALL_MOVE: controller_.move(call.segment); break;
-      case FP_CALL_PICK: controller_.pick(call.segment); break;
-      case FP_CALL_DROP: controller_.drop(call.segment); break;
-      case FP_CALL_PARK: controller_.park(call.segment); break;
-      case FP_CALL_CHARGE: controller_.charge(call.segment); break;
-      default: break;
+      case FP_CALL_MOVE:
+        controller_.move(call.segment);
+        break;
+      case FP_CALL_PICK:
+        controller_.pick(call.segment);
+        break;
+      case FP_CALL_DROP:
+        controller_.drop(call.segment);
+        break;
+      case FP_CALL_PARK:
+        controller_.park(call.segment);
+        break;
+      case FP_CALL_CHARGE:
+        controller_.charge(call.segment);
+        break;
+      default:
+        break;
     }
   }
 
@@ -40,9 +51,10 @@ class Scripted {
 
 }  // namespace
 
-constinit const fp_agent_type kScripted = agent_type<Scripted>("scripted", "plays the controller calls that the scenario lists",
-                                                     [](const fp_host* host, fp_controller* controller, const fp_briefing* briefing) -> void* {
-                                                       return new Scripted(*host, controller, *briefing);
-                                                     });
+constinit const fp_agent_type kScripted =
+    agent_type<Scripted>("scripted", "plays the controller calls that the scenario lists",
+                         [](const fp_host* host, fp_controller* controller, const fp_briefing* briefing) -> void* {
+                           return new Scripted(*host, controller, *briefing);
+                         });
 
 }  // namespace fleetproof::agents

@@ -14,7 +14,8 @@ double number_in(std::string_view word, std::string_view value, double most) {
   double number = 0.0;
   const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
   if (error != std::errc{} || end != value.data() + value.size() || !(number >= 0.0 && number <= most)) {
-    throw std::invalid_argument("\"" + std::string(word) + "\" in the agent's configuration is not a number from 0 to " + std::to_string(most));
+    throw std::invalid_argument("\"" + std::string(word) +
+                                "\" in the agent's configuration is not a number from 0 to " + std::to_string(most));
   }
   return number;
 }

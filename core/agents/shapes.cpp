@@ -16,8 +16,10 @@ struct Turn {
 // Taylor, exact to rounding for |angle| <= kSmallAngle_rad.
 Turn small_turn(double angle_rad) {
   const double q = angle_rad * angle_rad;
-  const double sine = angle_rad * (1.0 - q / 6.0 * (1.0 - q / 20.0 * (1.0 - q / 42.0 * (1.0 - q / 72.0 * (1.0 - q / 110.0)))));
-  const double cosine = 1.0 - q / 2.0 * (1.0 - q / 12.0 * (1.0 - q / 30.0 * (1.0 - q / 56.0 * (1.0 - q / 90.0 * (1.0 - q / 132.0)))));
+  const double sine =
+      angle_rad * (1.0 - q / 6.0 * (1.0 - q / 20.0 * (1.0 - q / 42.0 * (1.0 - q / 72.0 * (1.0 - q / 110.0)))));
+  const double cosine =
+      1.0 - q / 2.0 * (1.0 - q / 12.0 * (1.0 - q / 30.0 * (1.0 - q / 56.0 * (1.0 - q / 90.0 * (1.0 - q / 132.0)))));
   return {cosine, sine};
 }
 
@@ -72,7 +74,9 @@ fp_pose end_of(const fp_arc& arc) {
   return {end.x, end.y, last.x, last.y};
 }
 
-Shape body_at(Vec centre_m, Vec heading, double length_m, double width_m) { return {centre_m, heading, length_m / 2.0, width_m / 2.0, 0.0}; }
+Shape body_at(Vec centre_m, Vec heading, double length_m, double width_m) {
+  return {centre_m, heading, length_m / 2.0, width_m / 2.0, 0.0};
+}
 
 Shape disc_at(Vec centre_m, double radius_m) { return {centre_m, {1.0, 0.0}, 0.0, 0.0, radius_m}; }
 
@@ -89,7 +93,8 @@ bool closer_than(const Shape& a, const Shape& b, double distance_m) {
 void append_sweep(const fp_arc& arc, double length_m, double width_m, std::vector<Shape>& shapes) {
   Vec at{arc.start.x_m, arc.start.y_m}, heading{arc.start.heading_x, arc.start.heading_y};
   if (is_straight(arc)) {
-    shapes.push_back({at + heading * (arc.length_m / 2.0), heading, (arc.length_m + length_m) / 2.0, width_m / 2.0, 0.0});
+    shapes.push_back(
+        {at + heading * (arc.length_m / 2.0), heading, (arc.length_m + length_m) / 2.0, width_m / 2.0, 0.0});
     return;
   }
   const double angle_rad = std::abs(arc.curvature_per_m) * arc.length_m;
@@ -99,7 +104,8 @@ void append_sweep(const fp_arc& arc, double length_m, double width_m, std::vecto
   const Turn quarter = small_turn(arc.curvature_per_m > 0.0 ? quarter_rad : -quarter_rad);
   const Turn half = small_turn(2.0 * quarter_rad);
   const double half_chord_m = radius_m * half.sine, sagitta_m = radius_m * (1.0 - half.cosine);
-  // The body on a piece is turned against the middle of the piece by at most half the piece's angle and lies off its tangent by at most the sagitta.
+  // The body on a piece is turned against the middle of the piece by at most half the piece's angle and lies off its
+  // tangent by at most the sagitta.
   const double half_length_m = half_chord_m + length_m / 2.0 + width_m / 2.0 * half.sine + kRounding_m;
   const double half_width_m = width_m / 2.0 + length_m / 2.0 * half.sine + sagitta_m + kRounding_m;
   const auto advance_half = [&] {  // along the chord, which lies half-way between the two headings

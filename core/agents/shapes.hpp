@@ -41,8 +41,8 @@ Shape disc_at(Vec centre_m, double radius_m);
 // True if less than `distance_m` lies between the two.
 bool closer_than(const Shape& a, const Shape& b, double distance_m);
 
-// Appends shapes that together cover everything a body of this size sweeps whose centre runs along `arc`, nose first. Exact for a straight line,
-// an overestimate of a few centimetres in bends.
+// Appends shapes that together cover everything a body of this size sweeps whose centre runs along `arc`, nose first.
+// Exact for a straight line, an overestimate of a few centimetres in bends.
 void append_sweep(const fp_arc& arc, double length_m, double width_m, std::vector<Shape>& shapes);
 
 }  // namespace fleetproof::agents

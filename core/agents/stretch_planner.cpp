@@ -24,7 +24,9 @@ struct StretchPlanner::Walk {
     std::uint32_t lanes = 0, goals = 0;
   };
 
-  Walk(StretchPlanner& of, const Path& standing, Budget allowed) : planner(of), budget(allowed) { stretch.path = standing; }
+  Walk(StretchPlanner& of, const Path& standing, Budget allowed) : planner(of), budget(allowed) {
+    stretch.path = standing;
+  }
 
   StretchPlanner& planner;
   Budget budget;
@@ -87,7 +89,8 @@ struct StretchPlanner::Walk {
 StretchPlanner::StretchPlanner(const MapView& map, HullGeometry& geometry, Neighbours& neighbours, const fp_agv& self)
     : map_(map), geometry_(geometry), neighbours_(neighbours), places_(map, geometry), routes_(map) {
   lane_times_s_.reserve(map.lane_count());
-  for (std::uint32_t id = 0; id < map.lane_count(); ++id) lane_times_s_.push_back(drive_time_s(map.lane(id).length_m, self));
+  for (std::uint32_t id = 0; id < map.lane_count(); ++id)
+    lane_times_s_.push_back(drive_time_s(map.lane(id).length_m, self));
 }
 
 Stretch StretchPlanner::towards(const Path& standing, Budget budget, std::span<const Goal> goals) {
@@ -124,10 +127,13 @@ std::uint32_t StretchPlanner::free_charger(std::uint32_t from) {
   std::uint32_t best = FP_NONE;
   double best_s = kNoWayCost_s;
   for (std::uint32_t station = 0; station < map_.station_count(); ++station) {
-    if ((map_.station(station).purposes & FP_CHARGING) == 0 || routes_.cost_s(station) >= best_s || !places_.is_safe(station)) continue;
+    if ((map_.station(station).purposes & FP_CHARGING) == 0 || routes_.cost_s(station) >= best_s ||
+        !places_.is_safe(station))
+      continue;
     bool taken = false;
     neighbours_.for_each([&](std::uint32_t agv, const Neighbour& n) {
-      taken = taken || (n.known && geometry_.turn_conflict(neighbours_.self(), station, agv, end_of(map_, n.status.held)));
+      taken =
+          taken || (n.known && geometry_.turn_conflict(neighbours_.self(), station, agv, end_of(map_, n.status.held)));
     });
     if (taken) continue;
     best = station;
@@ -152,7 +158,10 @@ void StretchPlanner::price_lanes(double waiting_s, double idle_s) {
   neighbours_.for_each([&](std::uint32_t, const Neighbour& n) {
     if (!n.known) return;
     const Status& status = n.status;
-    const double extra_s = status.out_of_order ? kNoWayCost_s : !status.waiting ? kArrivingCost_s : status.idle ? idle_s : waiting_s;
+    const double extra_s = status.out_of_order ? kNoWayCost_s
+                           : !status.waiting   ? kArrivingCost_s
+                           : status.idle       ? idle_s
+                                               : waiting_s;
     price_station(end_of(map_, status.held).station, extra_s);
   });
 }

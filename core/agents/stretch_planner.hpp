@@ -12,7 +12,8 @@
 
 namespace fleetproof::agents {
 
-// One controller call: drive a lane, or transfer a load or charge where one stands. Inherited: whatever the agent was doing before it restarted.
+// One controller call: drive a lane, or transfer a load or charge where one stands. Inherited: whatever the agent was
+// doing before it restarted.
 struct Leg {
   enum class Kind : std::uint8_t { Drive, Pick, Drop, Charge, Inherited };
   Kind kind = Kind::Drive;
@@ -39,9 +40,9 @@ struct Budget {
   std::uint32_t lanes = 0;
 };
 
-// Chooses the next stretch. It ends at a safe waiting place, so that nobody ever waits where he blocks those he waits for; beyond that it is long
-// enough to be worth the messages, and short enough to stop before what others are known to hold. Knowledge of others may be stale: a bad choice
-// costs time, never safety.
+// Chooses the next stretch. It ends at a safe waiting place, so that nobody ever waits where he blocks those he waits
+// for; beyond that it is long enough to be worth the messages, and short enough to stop before what others are known to
+// hold. Knowledge of others may be stale: a bad choice costs time, never safety.
 class StretchPlanner {
  public:
   StretchPlanner(const MapView& map, HullGeometry& geometry, Neighbours& neighbours, const fp_agv& self);
@@ -51,9 +52,11 @@ class StretchPlanner {
 
   // On the way to the goals, from where `standing` stands. Empty if there is no way to the first.
   Stretch towards(const Path& standing, Budget budget, std::span<const Goal> goals);
-  // To a place where one is in nobody's way, as far as is known. Empty if there is none. `draw` in [0, 1) varies the choice.
+  // To a place where one is in nobody's way, as far as is known. Empty if there is none. `draw` in [0, 1) varies the
+  // choice.
   Stretch out_of_the_way(const Path& standing, Budget budget, bool prefer_parking, double draw);
-  // The charging station that is quickest to reach, where one is in nobody's way and nobody is known to be. FP_NONE if there is none.
+  // The charging station that is quickest to reach, where one is in nobody's way and nobody is known to be. FP_NONE if
+  // there is none.
   std::uint32_t free_charger(std::uint32_t from);
 
  private:

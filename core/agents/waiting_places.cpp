@@ -8,8 +8,9 @@ std::uint32_t WaitingPlaces::burden(std::uint32_t station) {
   std::uint32_t& known = burdens_[station];
   if (known != kUnknown) return known;
   std::uint32_t burden = 0;
-  const bool all_one_way = std::ranges::none_of(map_.lanes_from(station), [&](std::uint32_t lane) { return map_.two_way(lane); }) &&
-                           std::ranges::none_of(map_.lanes_to(station), [&](std::uint32_t lane) { return map_.two_way(lane); });
+  const bool all_one_way =
+      std::ranges::none_of(map_.lanes_from(station), [&](std::uint32_t lane) { return map_.two_way(lane); }) &&
+      std::ranges::none_of(map_.lanes_to(station), [&](std::uint32_t lane) { return map_.two_way(lane); });
   if (!all_one_way) burden += stations_cut_off(station);
   if (!leaves_lanes_clear(station)) burden += kFoulsLanes;
   known = burden;
@@ -29,7 +30,8 @@ std::uint32_t WaitingPlaces::stations_cut_off(std::uint32_t station) {
   const std::uint32_t before = strongly_connected_with(station, FP_NONE);
   std::uint32_t largest = 0;
   const auto try_from = [&](std::uint32_t neighbour) {
-    if (neighbour != station && largest + 1 < before) largest = std::max(largest, strongly_connected_with(neighbour, station));
+    if (neighbour != station && largest + 1 < before)
+      largest = std::max(largest, strongly_connected_with(neighbour, station));
   };
   for (const std::uint32_t lane : map_.lanes_from(station)) try_from(map_.lane(lane).to);
   for (const std::uint32_t lane : map_.lanes_to(station)) try_from(map_.lane(lane).from);

@@ -8,11 +8,13 @@
 
 namespace fleetproof::agents {
 
-// Where an AGV may stand for long. A standing AGV must leave every lane clear that does not touch its station, and without its station the others
-// must still reach each other; or else all lanes here are one-way, and it only holds up those who follow. Judged when first asked.
+// Where an AGV may stand for long. A standing AGV must leave every lane clear that does not touch its station, and
+// without its station the others must still reach each other; or else all lanes here are one-way, and it only holds up
+// those who follow. Judged when first asked.
 class WaitingPlaces {
  public:
-  WaitingPlaces(const MapView& map, HullGeometry& geometry) : map_(map), geometry_(geometry), burdens_(map.station_count(), kUnknown) {}
+  WaitingPlaces(const MapView& map, HullGeometry& geometry)
+      : map_(map), geometry_(geometry), burdens_(map.station_count(), kUnknown) {}
 
   bool is_safe(std::uint32_t station) { return burden(station) == 0; }
   // How much an AGV standing here is in the way: stations it cuts off, or kFoulsLanes and more. 0: a safe place.

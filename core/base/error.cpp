@@ -26,7 +26,8 @@ std::string printable(std::string text) {
 }  // namespace
 
 InputError::InputError(std::string_view where, std::string_view what)
-    : std::runtime_error(printable(shortened(where.empty() ? std::string(what) : std::string(where) + ": " + std::string(what)))) {}
+    : std::runtime_error(
+          printable(shortened(where.empty() ? std::string(what) : std::string(where) + ": " + std::string(what)))) {}
 
 void invariant_violated(const char* sentence) { throw InvariantViolation(sentence); }
 

@@ -6,8 +6,9 @@
 
 namespace fleetproof {
 
-// Input that a person has to mend. `where` is a file with line and column, or a command-line word; the text names the field, the value and the remedy.
-// Control characters in either become question marks; of more than 1500 bytes the middle is left out.
+// Input that a person has to mend. `where` is a file with line and column, or a command-line word; the text names the
+// field, the value and the remedy. Control characters in either become question marks; of more than 1500 bytes the
+// middle is left out.
 class InputError : public std::runtime_error {
  public:
   InputError(std::string_view where, std::string_view what);
@@ -28,7 +29,8 @@ class InvariantViolation : public std::logic_error {
 [[noreturn]] void invariant_violated(const char* sentence);
 
 inline void ensure(bool holds, const char* sentence) {
-  if (!holds) [[unlikely]] invariant_violated(sentence);
+  if (!holds) [[unlikely]]
+    invariant_violated(sentence);
 }
 
 }  // namespace fleetproof

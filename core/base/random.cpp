@@ -19,7 +19,8 @@ Block philox(std::uint64_t key, const Block& counter) {
 namespace {
 
 std::uint64_t mix(std::uint64_t key, std::uint64_t value, std::uint32_t domain) {
-  return word64(philox(key, {static_cast<std::uint32_t>(value), static_cast<std::uint32_t>(value >> 32), domain, 0}), 0);
+  return word64(philox(key, {static_cast<std::uint32_t>(value), static_cast<std::uint32_t>(value >> 32), domain, 0}),
+                0);
 }
 
 // Domains keep the two uses of `mix` apart: a replicate number never collides with a stream number.
@@ -37,18 +38,26 @@ std::uint64_t stream_key(std::uint64_t world_seed, Stream stream) {
 
 const char* name_of(Stream stream) {
   switch (stream) {
-    case Stream::Layout: return "layout";
-    case Stream::Placement: return "placement";
-    case Stream::Transports: return "transports";
-    case Stream::Motion: return "motion";
-    case Stream::Faults: return "faults";
-    case Stream::Agent: return "agent";
-    case Stream::Factors: return "factors";
+    case Stream::Layout:
+      return "layout";
+    case Stream::Placement:
+      return "placement";
+    case Stream::Transports:
+      return "transports";
+    case Stream::Motion:
+      return "motion";
+    case Stream::Faults:
+      return "faults";
+    case Stream::Agent:
+      return "agent";
+    case Stream::Factors:
+      return "factors";
     case Stream::Radio:
     case Stream::RadioState:
     case Stream::RadioCopy:
     case Stream::RadioBackoff:
-    case Stream::RadioSources: return "radio";
+    case Stream::RadioSources:
+      return "radio";
   }
   invariant_violated("a stream has a name");
 }
@@ -67,7 +76,8 @@ std::uint64_t name_hash(std::string_view name) {
 }
 
 std::uint64_t Draws::next() {
-  const auto block = philox(key_, {static_cast<std::uint32_t>(drawn_), static_cast<std::uint32_t>(drawn_ >> 32), topic_, item_});
+  const auto block =
+      philox(key_, {static_cast<std::uint32_t>(drawn_), static_cast<std::uint32_t>(drawn_ >> 32), topic_, item_});
   ++drawn_;
   return word64(block, 0);
 }

@@ -9,10 +9,24 @@ namespace fleetproof {
 
 // Every source of chance in a run. Each has its own key, so that a draw more in one leaves all others as they were.
 // `Factors` draws a campaign's continuous factors, under the campaign's seed; a run has no such stream.
-enum class Stream : std::uint32_t { Layout = 1, Placement, Transports, Motion, Radio, Faults, Agent, Factors, RadioState = 16, RadioCopy, RadioBackoff, RadioSources };
+enum class Stream : std::uint32_t {
+  Layout = 1,
+  Placement,
+  Transports,
+  Motion,
+  Radio,
+  Faults,
+  Agent,
+  Factors,
+  RadioState = 16,
+  RadioCopy,
+  RadioBackoff,
+  RadioSources
+};
 
 // The streams of a run by their names: "layout", "placement", "transports", "motion", "radio", "faults", "agent".
-inline constexpr std::array kRunStreams = {Stream::Layout, Stream::Placement, Stream::Transports, Stream::Motion, Stream::Radio, Stream::Faults, Stream::Agent};
+inline constexpr std::array kRunStreams = {Stream::Layout, Stream::Placement, Stream::Transports, Stream::Motion,
+                                           Stream::Radio,  Stream::Faults,    Stream::Agent};
 const char* name_of(Stream stream);  // those that are drawn beside the radio's are part of "radio"
 std::optional<Stream> stream_of_name(std::string_view name);
 
@@ -45,7 +59,8 @@ constexpr std::uint64_t word64(const Block& block, std::size_t half) {
 // A sequence of draws under (key, topic, item): for generators, where the order of draws is part of the definition.
 class Draws {
  public:
-  explicit Draws(std::uint64_t key, std::uint32_t topic = 0, std::uint32_t item = 0) : key_(key), topic_(topic), item_(item) {}
+  explicit Draws(std::uint64_t key, std::uint32_t topic = 0, std::uint32_t item = 0)
+      : key_(key), topic_(topic), item_(item) {}
 
   std::uint64_t next();
   double uniform() { return unit_interval(next()); }
@@ -59,10 +74,12 @@ class Draws {
   std::uint64_t drawn_ = 0;
 };
 
-// Natural logarithm of a positive normal number from + - * / alone, so that every CPU gives the same bits. Relative error below 1e-15.
+// Natural logarithm of a positive normal number from + - * / alone, so that every CPU gives the same bits. Relative
+// error below 1e-15.
 double natural_log(double x);
 
-// e to the x, likewise. Relative error below 4e-16 for |x| <= 700; beyond, the value at that limit, so that it is finite and positive.
+// e to the x, likewise. Relative error below 4e-16 for |x| <= 700; beyond, the value at that limit, so that it is
+// finite and positive.
 double natural_exp(double x);
 
 }  // namespace fleetproof

@@ -21,13 +21,14 @@ using SimTime = SimClock::time_point;
 inline constexpr SimTime kStart{};
 inline constexpr SimTime kForever = SimTime::max();
 
-// Rounds to the nearest nanosecond, so that 25/6 m at the paper's accelerations takes 5 s exactly. What no run could reach, and what is not a number,
-// becomes kLongestDuration: about 146 years, so that sums of a few stay in range.
+// Rounds to the nearest nanosecond, so that 25/6 m at the paper's accelerations takes 5 s exactly. What no run could
+// reach, and what is not a number, becomes kLongestDuration: about 146 years, so that sums of a few stay in range.
 inline constexpr Duration kLongestDuration{std::int64_t{1} << 62};
 inline Duration seconds(double value_s) {
   const double ns = std::nearbyint(value_s * 1e9);
   if (!(ns < static_cast<double>(kLongestDuration.count()))) return kLongestDuration;
-  return Duration{ns > -static_cast<double>(kLongestDuration.count()) ? static_cast<std::int64_t>(ns) : -kLongestDuration.count()};
+  return Duration{ns > -static_cast<double>(kLongestDuration.count()) ? static_cast<std::int64_t>(ns)
+                                                                      : -kLongestDuration.count()};
 }
 
 constexpr double to_seconds(Duration d) { return static_cast<double>(d.count()) * 1e-9; }

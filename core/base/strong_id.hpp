@@ -21,7 +21,8 @@ struct StrongId {
   friend constexpr auto operator<=>(StrongId, StrongId) = default;
 };
 
-// Entities that occupy floor: AGVs first (0 .. fleet-1), then obstacles. One numbering, so that a law names any body by one id.
+// Entities that occupy floor: AGVs first (0 .. fleet-1), then obstacles. One numbering, so that a law names any body by
+// one id.
 using EntityId = StrongId<struct EntityTag>;
 using AgvId = EntityId;
 using StationId = StrongId<struct StationTag>;

@@ -10,16 +10,22 @@
 namespace fleetproof {
 namespace {
 
-// Dips below the level that may be passed over. Without them, bodies that run along exactly at the level would be stepped through nanosecond by
-// nanosecond.
+// Dips below the level that may be passed over. Without them, bodies that run along exactly at the level would be
+// stepped through nanosecond by nanosecond.
 constexpr double kDip_m = 1e-9;
-// A gap along an old direction is given up for a new measurement when it has lost this share of the clearance that was measured with it.
+// A gap along an old direction is given up for a new measurement when it has lost this share of the clearance that was
+// measured with it.
 constexpr double kWorn = 0.5;
 
 class Walk {
  public:
   Walk(const Piece& a, const Piece& b, SimTime from, SimTime to, double level_m, EvaluationCount& count)
-      : a_(a), b_(b), to_(to), sense_(to < from ? TimeSense::Backward : TimeSense::Forward), level_m_(level_m), count_(count) {
+      : a_(a),
+        b_(b),
+        to_(to),
+        sense_(to < from ? TimeSense::Backward : TimeSense::Forward),
+        level_m_(level_m),
+        count_(count) {
     arrive(from);
   }
 
@@ -34,7 +40,8 @@ class Walk {
     if (apart_.clearance_m < level_m_) return Hit{now_, apart_};
     while (now_ != to_) {
       jump();
-      if (measured_ && apart_.clearance_m < level_m_) return dating == Dating::Exact ? first_of_hit() : Hit{now_, apart_};
+      if (measured_ && apart_.clearance_m < level_m_)
+        return dating == Dating::Exact ? first_of_hit() : Hit{now_, apart_};
     }
     return std::nullopt;
   }
@@ -69,10 +76,12 @@ class Walk {
     return std::max(0.0, (piece.way_at(to_) - piece.way_at(now_)) * direction.dot(body.heading));
   }
 
-  // Bodies that keep their headings come nearer along a direction by no more than what is left of their ways, whatever their phases.
+  // Bodies that keep their headings come nearer along a direction by no more than what is left of their ways, whatever
+  // their phases.
   bool never_meets_level() const {
     if (!measured_ || !a_.keeps_heading() || !b_.keeps_heading()) return false;
-    const double nearer_m = comes_nearer_m(a_, body_a_, apart_.direction) + comes_nearer_m(b_, body_b_, -apart_.direction);
+    const double nearer_m =
+        comes_nearer_m(a_, body_a_, apart_.direction) + comes_nearer_m(b_, body_b_, -apart_.direction);
     return apart_.clearance_m - nearer_m >= level_m_;
   }
 
@@ -83,7 +92,8 @@ class Walk {
       measured_ = false;
       return;
     }
-    const PhaseMotion first = motion_from(a_, body_a_, now_, to_, sense_), second = motion_from(b_, body_b_, now_, to_, sense_);
+    const PhaseMotion first = motion_from(a_, body_a_, now_, to_, sense_),
+                      second = motion_from(b_, body_b_, now_, to_, sense_);
     if (measured_) axis_ = Axis(apart_, first, second);
     GapBound bound(first, second, axis_);
     if (!measured_ && !bound.exact() && bound.now_m() - level_m_ < kWorn * (apart_.clearance_m - level_m_)) {
@@ -107,12 +117,13 @@ class Walk {
     measure();
   }
 
-  // The hit lies where the bound had fallen a dip below the level; in a slow approach, the clearance did so long before. Halve the way back to
-  // where the bound met the level itself.
+  // The hit lies where the bound had fallen a dip below the level; in a slow approach, the clearance did so long
+  // before. Halve the way back to where the bound met the level itself.
   Hit first_of_hit() {
     Hit hit{now_, apart_};
     arrive(from_);
-    const GapBound bound(motion_from(a_, body_a_, now_, hit.at, sense_), motion_from(b_, body_b_, now_, hit.at, sense_), axis_);
+    const GapBound bound(motion_from(a_, body_a_, now_, hit.at, sense_), motion_from(b_, body_b_, now_, hit.at, sense_),
+                         axis_);
     SimTime above = after(now_, bound.safe_s(level_m_, seconds_between(now_, hit.at)));
     while (ns_between(above, hit.at) > 1) {
       arrive(above + (hit.at - above) / 2);
@@ -142,12 +153,13 @@ class Walk {
 
 }  // namespace
 
-std::optional<Hit> advance(const Piece& a, const Piece& b, SimTime from, SimTime to, double level_m, EvaluationCount& count, Dating dating) {
+std::optional<Hit> advance(const Piece& a, const Piece& b, SimTime from, SimTime to, double level_m,
+                           EvaluationCount& count, Dating dating) {
   return Walk(a, b, from, to, level_m, count).run(dating);
 }
 
-std::optional<Hit> advance(const Piece& a, const Piece& b, const Hit& from, SimTime to, double level_m, EvaluationCount& count, Dating dating,
-                           Hit& lowest) {
+std::optional<Hit> advance(const Piece& a, const Piece& b, const Hit& from, SimTime to, double level_m,
+                           EvaluationCount& count, Dating dating, Hit& lowest) {
   Walk walk(a, b, from.at, to, level_m, count);
   const auto hit = walk.run(dating, &from.apart);
   if (walk.lowest().apart.clearance_m < lowest.apart.clearance_m) lowest = walk.lowest();

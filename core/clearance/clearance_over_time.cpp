@@ -8,8 +8,8 @@ namespace {
 
 std::optional<SimTime> instant_of(const std::optional<Hit>& hit) { return hit ? std::optional(hit->at) : std::nullopt; }
 
-std::optional<Approach> approach_below(const Piece& a, const Piece& b, Interval within, double level_m, EvaluationCount& count, double tolerance_m,
-                                       Dating dating) {
+std::optional<Approach> approach_below(const Piece& a, const Piece& b, Interval within, double level_m,
+                                       EvaluationCount& count, double tolerance_m, Dating dating) {
   if (within.end < within.begin) return std::nullopt;
   const auto hit = advance(a, b, within.begin, within.end, level_m, count, dating);
   if (!hit) return std::nullopt;
@@ -19,27 +19,31 @@ std::optional<Approach> approach_below(const Piece& a, const Piece& b, Interval 
 
 }  // namespace
 
-std::optional<SimTime> first_below(const Piece& a, const Piece& b, Interval within, double level_m, EvaluationCount& count) {
+std::optional<SimTime> first_below(const Piece& a, const Piece& b, Interval within, double level_m,
+                                   EvaluationCount& count) {
   if (within.end < within.begin) return std::nullopt;
   return instant_of(advance(a, b, within.begin, within.end, level_m, count));
 }
 
-std::optional<SimTime> last_below(const Piece& a, const Piece& b, Interval within, double level_m, EvaluationCount& count) {
+std::optional<SimTime> last_below(const Piece& a, const Piece& b, Interval within, double level_m,
+                                  EvaluationCount& count) {
   if (within.end < within.begin) return std::nullopt;
   return instant_of(advance(a, b, within.end, within.begin, level_m, count));
 }
 
 bool comes_below(const Piece& a, const Piece& b, Interval within, double level_m, EvaluationCount& count) {
-  return within.begin <= within.end && advance(a, b, within.begin, within.end, level_m, count, Dating::Rough).has_value();
+  return within.begin <= within.end &&
+         advance(a, b, within.begin, within.end, level_m, count, Dating::Rough).has_value();
 }
 
-std::optional<ClosestApproach> closest_approach(const Piece& a, const Piece& b, Interval within, double below_m, EvaluationCount& count,
-                                                double tolerance_m) {
+std::optional<ClosestApproach> closest_approach(const Piece& a, const Piece& b, Interval within, double below_m,
+                                                EvaluationCount& count, double tolerance_m) {
   const auto approach = approach_below(a, b, within, below_m, count, tolerance_m, Dating::Rough);
   return approach ? std::optional(approach->closest) : std::nullopt;
 }
 
-std::optional<Approach> approach_below(const Piece& a, const Piece& b, Interval within, double level_m, EvaluationCount& count, double tolerance_m) {
+std::optional<Approach> approach_below(const Piece& a, const Piece& b, Interval within, double level_m,
+                                       EvaluationCount& count, double tolerance_m) {
   return approach_below(a, b, within, level_m, count, tolerance_m, Dating::Exact);
 }
 

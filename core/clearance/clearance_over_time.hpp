@@ -23,28 +23,32 @@ struct EvaluationCount {
   std::uint64_t distance = 0;
 };
 
-// First instant in the interval at which the clearance is below `level_m`, by directional conservative advancement: with the direction of the
-// closest points held fixed, the gap along it bounds the clearance from below, so the jump to where that bound meets the level skips nothing.
-// Never late by more than one nanosecond; dips less than one nanometre below the level may go unreported.
-std::optional<SimTime> first_below(const Piece& a, const Piece& b, Interval within, double level_m, EvaluationCount& count);
+// First instant in the interval at which the clearance is below `level_m`, by directional conservative advancement:
+// with the direction of the closest points held fixed, the gap along it bounds the clearance from below, so the jump to
+// where that bound meets the level skips nothing. Never late by more than one nanosecond; dips less than one nanometre
+// below the level may go unreported.
+std::optional<SimTime> first_below(const Piece& a, const Piece& b, Interval within, double level_m,
+                                   EvaluationCount& count);
 
 // Last such instant: first_below seen backwards in time.
-std::optional<SimTime> last_below(const Piece& a, const Piece& b, Interval within, double level_m, EvaluationCount& count);
+std::optional<SimTime> last_below(const Piece& a, const Piece& b, Interval within, double level_m,
+                                  EvaluationCount& count);
 
 // Whether the clearance is ever below `level_m`: first_below without the cost of the last nanoseconds.
 bool comes_below(const Piece& a, const Piece& b, Interval within, double level_m, EvaluationCount& count);
 
-// Smallest clearance over the interval, to `tolerance_m`, with an instant at which it is met; nothing if it stays at or above `below_m`. If the
-// bodies touch, the first instant at which they do, with the clearance (zero or less) of that instant.
-std::optional<ClosestApproach> closest_approach(const Piece& a, const Piece& b, Interval within, double below_m, EvaluationCount& count,
-                                                double tolerance_m = 1e-7);
+// Smallest clearance over the interval, to `tolerance_m`, with an instant at which it is met; nothing if it stays at or
+// above `below_m`. If the bodies touch, the first instant at which they do, with the clearance (zero or less) of that
+// instant.
+std::optional<ClosestApproach> closest_approach(const Piece& a, const Piece& b, Interval within, double below_m,
+                                                EvaluationCount& count, double tolerance_m = 1e-7);
 
 // first_below and closest_approach in one: the search for the second begins where the walk to the first ends.
 struct Approach {
   SimTime first = kStart;
   ClosestApproach closest;
 };
-std::optional<Approach> approach_below(const Piece& a, const Piece& b, Interval within, double level_m, EvaluationCount& count,
-                                       double tolerance_m = 1e-7);
+std::optional<Approach> approach_below(const Piece& a, const Piece& b, Interval within, double level_m,
+                                       EvaluationCount& count, double tolerance_m = 1e-7);
 
 }  // namespace fleetproof

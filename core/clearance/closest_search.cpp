@@ -30,7 +30,8 @@ Hit ClosestSearch::run(SimTime begin, const Hit& low, SimTime end) {
   } else {
     descend(low, end);
   }
-  // Outward from the minimum, where the gap along the direction of closest approach is stationary: most often one jump to either side.
+  // Outward from the minimum, where the gap along the direction of closest approach is stationary: most often one jump
+  // to either side.
   prove(low.at);
   prove(end);
   if (!below(0.0)) return best_;
@@ -47,7 +48,8 @@ Hit ClosestSearch::measure(SimTime t) {
 
 double ClosestSearch::rate_mps(const Hit& hit, SimTime to) const {
   const TimeSense sense = sense_of(hit.at, to);
-  const PhaseMotion first = motion_from(a_, a_.body_at(hit.at), hit.at, to, sense), second = motion_from(b_, b_.body_at(hit.at), hit.at, to, sense);
+  const PhaseMotion first = motion_from(a_, a_.body_at(hit.at), hit.at, to, sense),
+                    second = motion_from(b_, b_.body_at(hit.at), hit.at, to, sense);
   return GapBound(first, second, Axis(hit.apart, first, second)).trend().rate_mps;
 }
 
@@ -55,13 +57,16 @@ ClosestSearch::Outlook ClosestSearch::outlook(const Hit& from, SimTime to) const
   const TimeSense sense = sense_of(from.at, to);
   Axis axis;
   for (SimTime t = from.at; t != to;) {
-    const PhaseMotion first = motion_from(a_, a_.body_at(t), t, to, sense), second = motion_from(b_, b_.body_at(t), t, to, sense);
+    const PhaseMotion first = motion_from(a_, a_.body_at(t), t, to, sense),
+                      second = motion_from(b_, b_.body_at(t), t, to, sense);
     if (t == from.at) axis = Axis(from.apart, first, second);
     const auto [value, rate, bend] = GapBound(first, second, axis).trend();
     if (value <= 0.0) return {t, true};
     if (rate >= 0.0) return {t};
-    const SimTime change = sense == TimeSense::Forward ? std::min(first.change, second.change) : std::max(first.change, second.change);
-    const double left_s = seconds_between(t, change), turn_s = bend > 0.0 ? -rate / bend : left_s, x = std::min(turn_s, left_s);
+    const SimTime change =
+        sense == TimeSense::Forward ? std::min(first.change, second.change) : std::max(first.change, second.change);
+    const double left_s = seconds_between(t, change), turn_s = bend > 0.0 ? -rate / bend : left_s,
+                 x = std::min(turn_s, left_s);
     if (value + x * (rate + 0.5 * x * bend) <= 0.0) return {after(t, x, change), true};
     if (turn_s < left_s) return {after(t, turn_s, change)};
     t = change;
@@ -85,8 +90,8 @@ void ClosestSearch::descend(const Hit& from, SimTime to) {
   }
 }
 
-// Between a falling instant and one beyond the minimum: cubics through values and rates, tangents where a cubic gains little ground (a kink), then
-// halves.
+// Between a falling instant and one beyond the minimum: cubics through values and rates, tangents where a cubic gains
+// little ground (a kink), then halves.
 void ClosestSearch::narrow(Sample left, Sample right, SimTime to) {
   constexpr int kMost = 24;
   int slow = 0;
@@ -94,13 +99,15 @@ void ClosestSearch::narrow(Sample left, Sample right, SimTime to) {
     const double width = seconds_between(left.hit.at, right.hit.at), fall = left.rate_mps, rise = right.rate_mps;
     double x = 0.5 * width;
     if (rise > 0.0) {
-      // The clearance is not convex, but near enough to it that where the tangents meet is a fair guess of what there is to gain.
+      // The clearance is not convex, but near enough to it that where the tangents meet is a fair guess of what there
+      // is to gain.
       const double kink = (right.clearance_m() - left.clearance_m() - rise * width) / (fall - rise);
       if (kink > 0.0 && kink < width) {
         if (left.clearance_m() + fall * kink > best_.apart.clearance_m - 0.25 * tolerance_m_) return;
         if (slow == 1) x = kink;
       }
-      const double d1 = fall + rise - 3.0 * (right.clearance_m() - left.clearance_m()) / width, square = d1 * d1 - fall * rise;
+      const double d1 = fall + rise - 3.0 * (right.clearance_m() - left.clearance_m()) / width,
+                   square = d1 * d1 - fall * rise;
       if (slow == 0 && square > 0.0) {
         const double d2 = std::sqrt(square);
         x = width - width * (rise + d2 - d1) / (rise - fall + 2.0 * d2);
@@ -120,7 +127,8 @@ void ClosestSearch::prove(SimTime until) {
   while (!below(0.0)) {
     const Hit from = best_;
     Hit ignored = best_;
-    const auto lower = advance(a_, b_, from, until, from.apart.clearance_m - tolerance_m_, count_, Dating::Rough, ignored);
+    const auto lower =
+        advance(a_, b_, from, until, from.apart.clearance_m - tolerance_m_, count_, Dating::Rough, ignored);
     if (!lower) return;
     best_ = *lower;
     descend(*lower, until);

@@ -4,13 +4,15 @@
 
 namespace fleetproof {
 
-// The smallest clearance of a pair: a descent by rates and values gives an upper bound, advancement proves it or finds where it is undercut.
+// The smallest clearance of a pair: a descent by rates and values gives an upper bound, advancement proves it or finds
+// where it is undercut.
 class ClosestSearch {
  public:
   ClosestSearch(const Piece& a, const Piece& b, double tolerance_m, EvaluationCount& count)
       : a_(a), b_(b), tolerance_m_(tolerance_m), count_(count) {}
 
-  // `low`: where the search begins, an instant below whatever the clearance was before it since `begin`. The first touch, if there is one.
+  // `low`: where the search begins, an instant below whatever the clearance was before it since `begin`. The first
+  // touch, if there is one.
   Hit run(SimTime begin, const Hit& low, SimTime end);
 
  private:

@@ -30,7 +30,8 @@ Vec2 foremost_corner(const OrientedRectangle& body, const Vec2& direction) {
   return ahead * body.heading + beside * left_of(body.heading);
 }
 
-// How far a corner reaches from the reference point along a direction fixed to the floor, and how that changes with the corner's motion.
+// How far a corner reaches from the reference point along a direction fixed to the floor, and how that changes with the
+// corner's motion.
 struct Reach {
   double value, rate, bend;
   double loss, most;  // a third of the bound on the third derivative; the bound on the second
@@ -51,18 +52,20 @@ struct Reaches {
     }
     // In the body's own frame: the corner at (x, y) has a lever there, and is pulled square to it.
     const double k = motion.curvature, pull = k * motion.speed * motion.speed;
-    for (const auto& [x, y] : {std::pair{body.half_length_m, body.half_width_m}, std::pair{-body.half_length_m, body.half_width_m},
-                               std::pair{-body.half_length_m, -body.half_width_m}, std::pair{body.half_length_m, -body.half_width_m}}) {
+    for (const auto& [x, y] :
+         {std::pair{body.half_length_m, body.half_width_m}, std::pair{-body.half_length_m, body.half_width_m},
+          std::pair{-body.half_length_m, -body.half_width_m}, std::pair{body.half_length_m, -body.half_width_m}}) {
       const double lever_x = motion.turns_on_spot ? -y : 1.0 - k * y, lever_y = motion.turns_on_spot ? x : k * x;
       const double along = lever_x * ahead + lever_y * beside, square = lever_x * beside - lever_y * ahead;
       const double length = std::sqrt(lever_x * lever_x + lever_y * lever_y);
-      of[count++] = {x * ahead + y * beside, motion.speed * along, motion.acceleration * along + pull * square, length * motion.top_jerk / 3.0,
-                     length * motion.top_acceleration};
+      of[count++] = {x * ahead + y * beside, motion.speed * along, motion.acceleration * along + pull * square,
+                     length * motion.top_jerk / 3.0, length * motion.top_acceleration};
     }
   }
 };
 
-// The most that turning at a rate (and its own rate, constant) can give a lever of length 1: its second derivative, its third.
+// The most that turning at a rate (and its own rate, constant) can give a lever of length 1: its second derivative, its
+// third.
 struct TurningBound {
   double second, third;
   TurningBound(double top_rad_s, double rad_s2) {
@@ -77,7 +80,9 @@ bool is_side(const Vec2& direction, const OrientedRectangle& body) {
   return std::min(std::abs(direction.dot(body.heading)), std::abs(cross(body.heading, direction))) < kAligned;
 }
 
-Vec2 into_frame(const Vec2& direction, const Vec2& heading) { return {direction.dot(heading), cross(heading, direction)}; }
+Vec2 into_frame(const Vec2& direction, const Vec2& heading) {
+  return {direction.dot(heading), cross(heading, direction)};
+}
 
 }  // namespace
 
@@ -89,7 +94,8 @@ Axis::Axis(const Separation& apart, const PhaseMotion& first, const PhaseMotion&
   } else if (first.rotates() || second.rotates()) {
     tie_ = tie_between_corners(apart, first, second);
   }
-  if (tie_ != Tie::Floor) local_ = into_frame(apart.direction, tie_ == Tie::First ? first.body.heading : second.body.heading);
+  if (tie_ != Tie::Floor)
+    local_ = into_frame(apart.direction, tie_ == Tie::First ? first.body.heading : second.body.heading);
 }
 
 Axis::Tie Axis::tie_between_corners(const Separation& apart, const PhaseMotion& first, const PhaseMotion& second) {
@@ -126,14 +132,21 @@ void GapBound::add_corners_apart(const PhaseMotion& first, const PhaseMotion& se
     const Reach& p = near.of[i];
     for (std::size_t j = 0; j < far.count; ++j) {
       const Reach& q = far.of[j];
-      terms_[count_++] = {apart - p.value - q.value, -(p.rate + q.rate), -(p.bend + q.bend), p.loss + q.loss, 0.0, -(p.most + q.most), 0.0};
+      terms_[count_++] = {apart - p.value - q.value,
+                          -(p.rate + q.rate),
+                          -(p.bend + q.bend),
+                          p.loss + q.loss,
+                          0.0,
+                          -(p.most + q.most),
+                          0.0};
     }
   }
 }
 
-// Seen from the body that the axis turns with, that body rests, and a corner at r (from the reference point) of the other has the derivatives that
-// a turning frame gives it: r' - w Jr, r'' - 2w Jr' - a Jr - w^2 r, and a third one below r''' + 3w r'' + 3(a + w^2) r' + (3wa + w^3) r in magnitude;
-// J is left_of, w the frame's rate of turning and a the rate's own.
+// Seen from the body that the axis turns with, that body rests, and a corner at r (from the reference point) of the
+// other has the derivatives that a turning frame gives it: r' - w Jr, r'' - 2w Jr' - a Jr - w^2 r, and a third one
+// below r''' + 3w r'' + 3(a + w^2) r' + (3wa + w^3) r in magnitude; J is left_of, w the frame's rate of turning and a
+// the rate's own.
 void GapBound::add_corners_seen_from(const PhaseMotion& frame, const PhaseMotion& other, const Vec2& outward) {
   const PointMotion origin = frame.point(Vec2::Zero());
   const double w = frame.turning_rad_s(), a = frame.turning_rad_s2();
@@ -147,8 +160,10 @@ void GapBound::add_corners_seen_from(const PhaseMotion& frame, const PhaseMotion
     Term& term = terms_[count_++];
     term.value = outward.dot(r) - half_m;
     term.rate = outward.dot(v - w * left_of(r));
-    term.bend = outward.dot(corner.acceleration_mps2 - origin.acceleration_mps2 - 2.0 * w * left_of(v) - a * left_of(r) - w * w * r);
-    term.loss = (corner.top_mps3 + origin.top_mps3 + 3.0 * top_w * top_r2 + 3.0 * second * top_v + third * length) / 3.0;
+    term.bend = outward.dot(corner.acceleration_mps2 - origin.acceleration_mps2 - 2.0 * w * left_of(v) -
+                            a * left_of(r) - w * w * r);
+    term.loss =
+        (corner.top_mps3 + origin.top_mps3 + 3.0 * top_w * top_r2 + 3.0 * second * top_v + third * length) / 3.0;
     term.loss_growth = third * top_v / 3.0;
     term.least = -(top_r2 + 2.0 * top_w * top_v + second * length);
     term.least_growth = -second * top_v;
@@ -156,8 +171,8 @@ void GapBound::add_corners_seen_from(const PhaseMotion& frame, const PhaseMotion
   if (other.rotates()) tighten_by_pivots(frame, other);
 }
 
-// Where both rotate, the frame shows the other's pivot turning about its own, and a corner turning about the other's pivot at the difference of both
-// rates. Bodies that follow each other round the same bend do not move at all.
+// Where both rotate, the frame shows the other's pivot turning about its own, and a corner turning about the other's
+// pivot at the difference of both rates. Bodies that follow each other round the same bend do not move at all.
 void GapBound::tighten_by_pivots(const PhaseMotion& frame, const PhaseMotion& other) {
   const Vec2 pivot_m = other.pivot_m();
   const double between_m = (pivot_m - frame.pivot_m()).norm();

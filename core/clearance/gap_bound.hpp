@@ -7,9 +7,10 @@
 
 namespace fleetproof {
 
-// The direction along which a gap is watched, from the first body towards the second. Any unit vector at any instant bounds the clearance from
-// below; the bound is good as long as the vector stays near that of the closest points. It is tied to the body whose side that vector stands on, if
-// that one rotates (else the far end of the side would swing into the gap), and between two corners to what turns most as they do about each other.
+// The direction along which a gap is watched, from the first body towards the second. Any unit vector at any instant
+// bounds the clearance from below; the bound is good as long as the vector stays near that of the closest points. It is
+// tied to the body whose side that vector stands on, if that one rotates (else the far end of the side would swing into
+// the gap), and between two corners to what turns most as they do about each other.
 class Axis {
  public:
   Axis() = default;
@@ -34,13 +35,14 @@ class GapBound {
   // The gap, not a bound of it.
   bool exact() const { return exact_; }
   double now_m() const;
-  // The gap of the corners that are nearest now, as far as its second derivative. With an axis just measured, value and rate are those of the
-  // clearance: it is the largest gap over all axes, and so stationary in the axis.
+  // The gap of the corners that are nearest now, as far as its second derivative. With an axis just measured, value and
+  // rate are those of the clearance: it is the largest gap over all axes, and so stationary in the axis.
   struct Trend {
     double value_m, rate_mps, bend_mps2;
   };
   Trend trend() const;
-  // The gap stays at or above the level for at least this many seconds, or up to `horizon_s`. A time within rounding of the true one.
+  // The gap stays at or above the level for at least this many seconds, or up to `horizon_s`. A time within rounding of
+  // the true one.
   double safe_s(double level_m, double horizon_s) const;
 
  private:
@@ -50,7 +52,9 @@ class GapBound {
     double loss, loss_growth;    // of the bend: a third of the bound on the third derivative
     double least, least_growth;  // the second derivative's bound, negative
 
-    double bend_within(double h_s) const { return std::max(bend - (loss + loss_growth * h_s) * h_s, least + least_growth * h_s); }
+    double bend_within(double h_s) const {
+      return std::max(bend - (loss + loss_growth * h_s) * h_s, least + least_growth * h_s);
+    }
   };
 
   void add_corners_apart(const PhaseMotion& first, const PhaseMotion& second, const Vec2& direction);

@@ -18,9 +18,10 @@ struct Stretch {
   std::size_t phase = 0, arc = 0;
 };
 
-// Ends of phases and joints are rounded to whole nanoseconds. What that misplaces is less than what a body does in one nanosecond, and not
-// carried along: every phase starts from the exact pose, and with the speed that the phase itself gives the instant. The profile's speed there may
-// still be that of the neighbouring phase: wrong by a nanometre per second, which over seconds would move a body by nanometres.
+// Ends of phases and joints are rounded to whole nanoseconds. What that misplaces is less than what a body does in one
+// nanosecond, and not carried along: every phase starts from the exact pose, and with the speed that the phase itself
+// gives the instant. The profile's speed there may still be that of the neighbouring phase: wrong by a nanometre per
+// second, which over seconds would move a body by nanometres.
 Stretch phase_from(const MotionProfile& profile, Elapsed now, TimeSense sense) {
   const auto& ends = profile.phase_ends();
   std::size_t phase = 0;
@@ -65,7 +66,8 @@ PointMotion PhaseMotion::point(const Vec2& arm) const {
 }
 
 double PhaseMotion::half_extent_m(const Vec2& direction) const {
-  return body.half_length_m * std::abs(direction.dot(body.heading)) + body.half_width_m * std::abs(cross(body.heading, direction));
+  return body.half_length_m * std::abs(direction.dot(body.heading)) +
+         body.half_width_m * std::abs(cross(body.heading, direction));
 }
 
 PhaseMotion motion_from(const Piece& piece, const OrientedRectangle& body, SimTime t, SimTime limit, TimeSense sense) {
@@ -94,7 +96,8 @@ PhaseMotion motion_from(const Piece& piece, const OrientedRectangle& body, SimTi
   motion.top_acceleration = std::abs(motion.acceleration);
   if (motion.curvature == 0.0) return motion;
   // A lever turns at the rate curvature * speed, which pulls square to it.
-  const double squared = motion.acceleration * motion.acceleration, top_turning = std::abs(motion.curvature) * motion.top_speed;
+  const double squared = motion.acceleration * motion.acceleration,
+               top_turning = std::abs(motion.curvature) * motion.top_speed;
   const double top_pull = top_turning * motion.top_speed;
   motion.top_acceleration = std::sqrt(squared + top_pull * top_pull);
   motion.top_jerk = top_turning * std::sqrt(9.0 * squared + top_pull * top_pull);

@@ -15,8 +15,9 @@ struct PointMotion {
   double top_mps = 0.0, top_mps2 = 0.0, top_mps3 = 0.0;  // largest magnitudes of velocity, acceleration, jerk
 };
 
-// How a body moves from an instant on, until its law of motion next changes: where its profile begins another phase or its curve another arc.
-// Every point of it has the velocity speed * lever, where the lever is fixed to the body and turns by `curvature` times the way made.
+// How a body moves from an instant on, until its law of motion next changes: where its profile begins another phase or
+// its curve another arc. Every point of it has the velocity speed * lever, where the lever is fixed to the body and
+// turns by `curvature` times the way made.
 struct PhaseMotion {
   OrientedRectangle body;
   double speed = 0.0;         // now, in the sense walked: m/s; in a turn rad/s, left positive
@@ -32,7 +33,9 @@ struct PhaseMotion {
   double turning_rad_s() const { return curvature * speed; }
   double turning_rad_s2() const { return curvature * acceleration; }
   // What it rotates about.
-  Vec2 pivot_m() const { return turns_on_spot ? body.centre_m : Vec2(body.centre_m + left_of(body.heading) / curvature); }
+  Vec2 pivot_m() const {
+    return turns_on_spot ? body.centre_m : Vec2(body.centre_m + left_of(body.heading) / curvature);
+  }
   // `arm` leads from the reference point to the point.
   PointMotion point(const Vec2& arm) const;
   // Half of the body's width as seen along a direction.

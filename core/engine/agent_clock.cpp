@@ -10,7 +10,8 @@ constexpr std::int64_t kBillion = 1'000'000'000;
 }  // namespace
 
 AgentClock::AgentClock(const SensingSetup& setup)
-    : offset_ns_(seconds(setup.clock_offset_s).count()), drift_ppb_(static_cast<std::int64_t>(std::nearbyint(setup.clock_drift_ppm * 1000.0))) {}
+    : offset_ns_(seconds(setup.clock_offset_s).count()),
+      drift_ppb_(static_cast<std::int64_t>(std::nearbyint(setup.clock_drift_ppm * 1000.0))) {}
 
 // Second by second and what is left over, so that no product leaves 64 bits.
 std::int64_t AgentClock::shows_ns(SimTime t) const {

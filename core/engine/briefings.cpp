@@ -3,12 +3,22 @@
 namespace fleetproof {
 namespace {
 
-fp_pose c_pose(const Pose& pose) { return {pose.position_m.x(), pose.position_m.y(), pose.heading.x(), pose.heading.y()}; }
+fp_pose c_pose(const Pose& pose) {
+  return {pose.position_m.x(), pose.position_m.y(), pose.heading.x(), pose.heading.y()};
+}
 
 fp_agv c_agv(const VehicleType& type) {
   const Footprint loaded = type.footprint_with(true);
-  return {type.footprint.length_m, type.footprint.width_m,      type.drive.speed_mps,        type.drive.acceleration_mps2, type.drive.deceleration_mps2,
-          type.turn.speed_mps,     type.turn.acceleration_mps2, type.turn.deceleration_mps2, loaded.length_m,              loaded.width_m,
+  return {type.footprint.length_m,
+          type.footprint.width_m,
+          type.drive.speed_mps,
+          type.drive.acceleration_mps2,
+          type.drive.deceleration_mps2,
+          type.turn.speed_mps,
+          type.turn.acceleration_mps2,
+          type.turn.deceleration_mps2,
+          loaded.length_m,
+          loaded.width_m,
           type.speed_deviation};
 }
 
@@ -77,7 +87,8 @@ void Briefings::describe_fleet(const Scenario& scenario) {
   for (const AgvSetup& agv : scenario.agvs) {
     fleet_.push_back(c_agv(scenario.type_of(agv)));
     auto& script = scripts_.emplace_back();
-    for (const ScriptedCall& call : agv.script) script.push_back({call.at.count(), static_cast<std::uint32_t>(call.action), call.segment.value});
+    for (const ScriptedCall& call : agv.script)
+      script.push_back({call.at.count(), static_cast<std::uint32_t>(call.action), call.segment.value});
   }
 }
 

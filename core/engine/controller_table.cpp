@@ -1,4 +1,5 @@
-// The AGV controller as the agent sees it: the paper's interface (Sect. 2.2) in C, each call checked and passed on to the engine.
+// The AGV controller as the agent sees it: the paper's interface (Sect. 2.2) in C, each call checked and passed on to
+// the engine.
 #include "core/engine/engine.hpp"
 
 namespace fleetproof {
@@ -86,7 +87,8 @@ std::uint64_t random_bits(fp_controller* controller, std::uint32_t purpose, std:
 
 std::int32_t declare_cost_ns(fp_controller* controller, std::int64_t cost_ns) {
   return admitted(controller, [&](Engine&, Agv& agv) -> std::int32_t {
-    constexpr std::int64_t kCostMax_ns = 3'600'000'000'000;  // an agent that thinks for an hour is a hang of another kind
+    constexpr std::int64_t kCostMax_ns =
+        3'600'000'000'000;  // an agent that thinks for an hour is a hang of another kind
     if (cost_ns < 0 || cost_ns > kCostMax_ns) return FP_INVALID;
     agv.cost += Duration{cost_ns};
     return FP_OK;

@@ -22,8 +22,8 @@ bool covers_floor(const RadioSetup& radio, const LogicalMap& map) {
 
 }  // namespace
 
-Engine::Engine(const Scenario& scenario, const fp_agent_type& agent, std::span<const std::unique_ptr<Law>> laws, TraceSink* sink,
-               const char* agent_config)
+Engine::Engine(const Scenario& scenario, const fp_agent_type& agent, std::span<const std::unique_ptr<Law>> laws,
+               TraceSink* sink, const char* agent_config)
     : scenario_(scenario),
       agent_type_(agent),
       laws_(laws),
@@ -79,7 +79,8 @@ void Engine::start() {
   for (Agv& agv : agvs_) {
     queue_.push(kStart, agv.id, Event::Kind::Start);
     const auto& transports = scenario_.agvs[agv.id.index()].transports;
-    for (std::size_t i = 0; i < transports.size(); ++i) queue_.push(kStart + transports[i].release, agv.id, Event::Kind::OrderReleased, i);
+    for (std::size_t i = 0; i < transports.size(); ++i)
+      queue_.push(kStart + transports[i].release, agv.id, Event::Kind::OrderReleased, i);
     predict_touches(agv.id);
     predict_empty_battery(agv);
   }
@@ -89,11 +90,16 @@ void Engine::start() {
 
 void Engine::handle(const Event& event) {
   switch (event.kind) {
-    case Event::Kind::Contact: return bodies_touch(event.entity, event.payload);
-    case Event::Kind::BodyAppears: return body_appears(event.entity);
-    case Event::Kind::BodyLeaves: return body_leaves(event.entity);
-    case Event::Kind::OperatorLooks: return operator_looks();
-    default: break;
+    case Event::Kind::Contact:
+      return bodies_touch(event.entity, event.payload);
+    case Event::Kind::BodyAppears:
+      return body_appears(event.entity);
+    case Event::Kind::BodyLeaves:
+      return body_leaves(event.entity);
+    case Event::Kind::OperatorLooks:
+      return operator_looks();
+    default:
+      break;
   }
   Agv& agv = agvs_[event.entity.index()];
   switch (event.kind) {
@@ -103,28 +109,46 @@ void Engine::handle(const Event& event) {
       tell(agv, start);
       break;
     }
-    case Event::Kind::OrderReleased: order_released(agv, event.payload); break;
+    case Event::Kind::OrderReleased:
+      order_released(agv, event.payload);
+      break;
     case Event::Kind::ActivityEnds:
       if (event.stamp == agv.activity_stamp && agv.activity) activity_ends(agv);
       break;
-    case Event::Kind::CallTakesEffect: call_takes_effect(agv); break;
-    case Event::Kind::MessageArrives: message_arrives(agv, static_cast<std::uint32_t>(event.payload)); break;
-    case Event::Kind::TimerGoesOff: timer_goes_off(agv, static_cast<std::uint32_t>(event.payload), event.stamp); break;
-    case Event::Kind::AgentIsFree: agent_is_free(agv); break;
+    case Event::Kind::CallTakesEffect:
+      call_takes_effect(agv);
+      break;
+    case Event::Kind::MessageArrives:
+      message_arrives(agv, static_cast<std::uint32_t>(event.payload));
+      break;
+    case Event::Kind::TimerGoesOff:
+      timer_goes_off(agv, static_cast<std::uint32_t>(event.payload), event.stamp);
+      break;
+    case Event::Kind::AgentIsFree:
+      agent_is_free(agv);
+      break;
     case Event::Kind::BatteryEmpty:
       if (event.stamp == agv.battery_stamp) battery_empty(agv);
       break;
-    case Event::Kind::FaultStrikes: fault_strikes(agv, event.payload); break;
-    case Event::Kind::FaultOver: fault_over(agv, event.payload); break;
+    case Event::Kind::FaultStrikes:
+      fault_strikes(agv, event.payload);
+      break;
+    case Event::Kind::FaultOver:
+      fault_over(agv, event.payload);
+      break;
     case Event::Kind::ScannerLooks:
       if (event.stamp == agv.scanner_stamp) scanner_looks(agv);
       break;
-    case Event::Kind::OperatorComes: operator_comes(agv, static_cast<Assist>(event.payload), event.stamp); break;
-    default: break;
+    case Event::Kind::OperatorComes:
+      operator_comes(agv, static_cast<Assist>(event.payload), event.stamp);
+      break;
+    default:
+      break;
   }
 }
 
-void Engine::trace(EntityId entity, TraceKind kind, std::uint64_t a, std::uint64_t b, std::string_view text, std::uint32_t bytes) {
+void Engine::trace(EntityId entity, TraceKind kind, std::uint64_t a, std::uint64_t b, std::string_view text,
+                   std::uint32_t bytes) {
   const TraceRecord record{now_, entity, kind, a, b, bytes};
   digest_.append(record);
   if (sink_ != nullptr) sink_->record(record, text);
@@ -150,7 +174,8 @@ void Engine::file_findings() {
     std::ranges::move(findings.met, std::back_inserter(probes));
     if (law != laws_.front()) continue;
     file_violations(outcome_, std::move(findings.violations));
-    if (findings.min_clearance_m) outcome_.min_clearance_um = static_cast<std::int64_t>(std::floor(*findings.min_clearance_m * 1e6));
+    if (findings.min_clearance_m)
+      outcome_.min_clearance_um = static_cast<std::int64_t>(std::floor(*findings.min_clearance_m * 1e6));
     outcome_.counters.distance_evaluations = findings.distance_evaluations;
     outcome_.counters.perimeter_checks = findings.perimeter_checks;
   }
@@ -188,8 +213,11 @@ Outcome Engine::outcome() {
   counters.events = digest_.record_count();
   outcome_.simulated_ns = static_cast<std::uint64_t>(scenario_.horizon.count());
   outcome_.agv_count = static_cast<std::uint32_t>(agvs_.size());
-  const auto held_by_fault = [](const Halt& halt) { return halt.reason == Halt::Reason::Breakdown || halt.reason == Halt::Reason::ProtectiveStop; };
-  const bool excused = std::ranges::any_of(agvs_, [&](const Agv& agv) { return std::ranges::any_of(agv.halts, held_by_fault); });
+  const auto held_by_fault = [](const Halt& halt) {
+    return halt.reason == Halt::Reason::Breakdown || halt.reason == Halt::Reason::ProtectiveStop;
+  };
+  const bool excused =
+      std::ranges::any_of(agvs_, [&](const Agv& agv) { return std::ranges::any_of(agv.halts, held_by_fault); });
   outcome_.stuck = transports_are_open() && !excused && now_ - last_progress_ >= scenario_.stuck_after;
   file_findings();
   outcome_.contact = outcome_.contact || counters.contacts > 0;
@@ -200,16 +228,21 @@ Outcome Engine::outcome() {
 
 void check_abi(const fp_agent_type& agent) {
   if (agent.struct_size < sizeof(fp_agent_type) || agent.abi_major != FP_ABI_MAJOR) {
-    throw InputError("agent", "speaks another version of fleetproof/agent.h (this program: " + std::to_string(FP_ABI_MAJOR) + "); rebuild it against this version's header");
+    throw InputError("agent", "speaks another version of fleetproof/agent.h (this program: " +
+                                  std::to_string(FP_ABI_MAJOR) + "); rebuild it against this version's header");
   }
-  if (agent.name == nullptr || agent.name[0] == '\0') throw InputError("agent", "has no name; give its fp_agent_type one");
-  if (agent.description == nullptr || agent.create == nullptr || agent.on_event == nullptr || agent.destroy == nullptr) {
-    throw InputError(agent.name, "has a null member in its fp_agent_type; description, create, on_event and destroy must all be there");
+  if (agent.name == nullptr || agent.name[0] == '\0')
+    throw InputError("agent", "has no name; give its fp_agent_type one");
+  if (agent.description == nullptr || agent.create == nullptr || agent.on_event == nullptr ||
+      agent.destroy == nullptr) {
+    throw InputError(
+        agent.name,
+        "has a null member in its fp_agent_type; description, create, on_event and destroy must all be there");
   }
 }
 
-Outcome simulate(const Scenario& scenario, const fp_agent_type& agent, std::span<const std::unique_ptr<Law>> laws, TraceSink* sink,
-                 const char* agent_config) {
+Outcome simulate(const Scenario& scenario, const fp_agent_type& agent, std::span<const std::unique_ptr<Law>> laws,
+                 TraceSink* sink, const char* agent_config) {
   try {
     Engine engine(scenario, agent, laws, sink, agent_config);
     engine.run();

@@ -5,13 +5,13 @@
 #include <string_view>
 #include <vector>
 
-#include "core/engine/briefings.hpp"
 #include "core/engine/agv.hpp"
+#include "core/engine/briefings.hpp"
 #include "core/engine/event_queue.hpp"
-#include "core/radio/radio.hpp"
-#include "core/radio/radio_channel.hpp"
 #include "core/engine/simulation.hpp"
 #include "core/engine/world.hpp"
+#include "core/radio/radio.hpp"
+#include "core/radio/radio_channel.hpp"
 
 namespace fleetproof {
 
@@ -31,12 +31,14 @@ struct fp_controller {
 namespace fleetproof {
 
 // The event loop of one run. A local variable of simulate(); thousands can live at once.
-// Its member functions stand in files by subject: engine.cpp (the loop), engine_motion.cpp (actions), engine_drive.cpp (drives), engine_battery.cpp,
-// engine_faults.cpp (faults, halts, bodies that come and go), engine_operator.cpp, engine_scanner.cpp, engine_radio.cpp (messages),
-// engine_agents.cpp (activations and the agent's clock). controller_table.cpp translates the C interface.
+// Its member functions stand in files by subject: engine.cpp (the loop), engine_motion.cpp (actions), engine_drive.cpp
+// (drives), engine_battery.cpp, engine_faults.cpp (faults, halts, bodies that come and go), engine_operator.cpp,
+// engine_scanner.cpp, engine_radio.cpp (messages), engine_agents.cpp (activations and the agent's clock).
+// controller_table.cpp translates the C interface.
 class Engine {
  public:
-  Engine(const Scenario& scenario, const fp_agent_type& agent, std::span<const std::unique_ptr<Law>> laws, TraceSink* sink, const char* agent_config);
+  Engine(const Scenario& scenario, const fp_agent_type& agent, std::span<const std::unique_ptr<Law>> laws,
+         TraceSink* sink, const char* agent_config);
   ~Engine();
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
@@ -63,7 +65,8 @@ class Engine {
   std::uint64_t random(const Agv& agv, std::uint32_t purpose, std::uint64_t index) const;
 
  private:
-  void trace(EntityId entity, TraceKind kind, std::uint64_t a = 0, std::uint64_t b = 0, std::string_view text = {}, std::uint32_t bytes = 0);
+  void trace(EntityId entity, TraceKind kind, std::uint64_t a = 0, std::uint64_t b = 0, std::string_view text = {},
+             std::uint32_t bytes = 0);
   void handle(const Event& event);
   void start();
   void close_books();
@@ -202,9 +205,9 @@ class Engine {
   std::vector<bool> fault_came_;                // likewise: those counted from a pick
   SimTime now_ = kStart;
   SimTime last_progress_ = kStart;
-  SimTime still_since_ = kStart;                // when the operator last saw somebody at work, or restarted an agent
+  SimTime still_since_ = kStart;  // when the operator last saw somebody at work, or restarted an agent
   bool standstill_called_ = false;
-  std::uint32_t standstills_ = 0;               // he was called to
+  std::uint32_t standstills_ = 0;  // he was called to
   ProbeTally probes_;
   Outcome outcome_;
 };

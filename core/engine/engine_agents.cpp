@@ -1,17 +1,18 @@
 // Activations: when an agent is called, what its thinking costs, and what happens when it crashes or hangs.
 #include <exception>
 
-#include "core/engine/engine.hpp"
 #include "core/base/error.hpp"
 #include "core/base/random.hpp"
+#include "core/engine/engine.hpp"
 
 namespace fleetproof {
 namespace {
 
 constexpr std::uint32_t kCallsMax = 10'000;        // in one activation
 constexpr std::uint32_t kActivationsMax = 10'000;  // of one agent without time advancing
-// Of one agent in a run: two million, and ten thousand more for every simulated second. Far beyond what any control software needs, and counted, so
-// that an agent that sets its timer a nanosecond ahead for ever is found out at the same event on every machine.
+// Of one agent in a run: two million, and ten thousand more for every simulated second. Far beyond what any control
+// software needs, and counted, so that an agent that sets its timer a nanosecond ahead for ever is found out at the
+// same event on every machine.
 constexpr std::uint64_t kActivationsPerRun = 2'000'000, kActivationsPerSecond = 10'000;
 
 // One line that any page and any JSON can hold: an agent may throw whatever it likes.
@@ -53,8 +54,10 @@ void Engine::agent_is_free(Agv& agv) {
 void Engine::activate(Agv& agv, const fp_event& what) {
   agv.activations_at_instant = agv.last_activation == now_ ? agv.activations_at_instant + 1 : 1;
   agv.last_activation = now_;
-  if (agv.activations_at_instant > kActivationsMax) return give_up(agv, true, "10 000 activations without time advancing");
-  const auto run_max = kActivationsPerRun + kActivationsPerSecond * static_cast<std::uint64_t>(to_seconds(scenario_.horizon));
+  if (agv.activations_at_instant > kActivationsMax)
+    return give_up(agv, true, "10 000 activations without time advancing");
+  const auto run_max =
+      kActivationsPerRun + kActivationsPerSecond * static_cast<std::uint64_t>(to_seconds(scenario_.horizon));
   if (++agv.activations > run_max) return give_up(agv, true, "woke up more often than any control software needs");
   ++outcome_.counters.activations;
   agv.in_activation = true;
@@ -104,7 +107,9 @@ bool Engine::admit_call(Agv& agv) {
 }
 
 std::uint64_t Engine::random(const Agv& agv, std::uint32_t purpose, std::uint64_t index) const {
-  return word64(philox(agent_key_, {static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(index >> 32), purpose, agv.id.value}), 0);
+  return word64(philox(agent_key_, {static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(index >> 32), purpose,
+                                    agv.id.value}),
+                0);
 }
 
 void Engine::take_effect_later(Agv& agv, PendingCall call) {
@@ -116,12 +121,23 @@ void Engine::call_takes_effect(Agv& agv) {
   const PendingCall call = agv.pending_calls.front();
   agv.pending_calls.pop_front();
   switch (call.kind) {
-    case PendingCall::Kind::Action: begin_action(agv, static_cast<fp_call>(call.what), call.segment); break;
-    case PendingCall::Kind::Send: transmit(agv, call.message, call.what); break;
-    case PendingCall::Kind::SafeMode: apply_safe_mode(agv, call.what != 0, now_); break;
-    case PendingCall::Kind::WaitingFor: trace(agv.id, TraceKind::WaitingFor, call.what); break;
-    case PendingCall::Kind::Timer: apply_timer(agv, call.what, call.instant_ns); break;
-    case PendingCall::Kind::Nothing: break;
+    case PendingCall::Kind::Action:
+      begin_action(agv, static_cast<fp_call>(call.what), call.segment);
+      break;
+    case PendingCall::Kind::Send:
+      transmit(agv, call.message, call.what);
+      break;
+    case PendingCall::Kind::SafeMode:
+      apply_safe_mode(agv, call.what != 0, now_);
+      break;
+    case PendingCall::Kind::WaitingFor:
+      trace(agv.id, TraceKind::WaitingFor, call.what);
+      break;
+    case PendingCall::Kind::Timer:
+      apply_timer(agv, call.what, call.instant_ns);
+      break;
+    case PendingCall::Kind::Nothing:
+      break;
   }
 }
 
@@ -144,7 +160,8 @@ void Engine::tell_order(Agv& agv, TransportId id, const TransportOrder& order) {
   tell(agv, event);
 }
 
-// The computer goes down: what the agent knew, was told and was about to do is lost. Orders already given to the AGV are carried out.
+// The computer goes down: what the agent knew, was told and was about to do is lost. Orders already given to the AGV
+// are carried out.
 void Engine::agent_goes_away(Agv& agv) {
   ++agv.agent_away;
   destroy_agent(agv);
@@ -172,7 +189,8 @@ void Engine::agent_comes_back(Agv& agv) {
   for (std::size_t i = 0; i < world_.loads().size(); ++i) {
     const Load& load = world_.loads()[i];
     if (load.carrier != agv.id || load.is_over()) continue;
-    TransportOrder order = scenario_.agvs[agv.id.index()].transports[load.transport.value - first_transport_[agv.id.index()]];
+    TransportOrder order =
+        scenario_.agvs[agv.id.index()].transports[load.transport.value - first_transport_[agv.id.index()]];
     if (load.holder.kind == Holder::Kind::Station) order.from = StationId{load.holder.index};
     tell_order(agv, load.transport, order);
   }
@@ -204,7 +222,9 @@ Pose Engine::perceived_pose(const Agv& agv) const {
   const auto slot = static_cast<std::uint64_t>(to_ns(now_) / kErrorLasts_ns);
   const Block block = philox(motion_key_, {static_cast<std::uint32_t>(slot), static_cast<std::uint32_t>(slot >> 32),
                                            static_cast<std::uint32_t>(MotionTopic::Position), agv.id.value});
-  const auto error_m = [&](std::size_t half) { return sensing.position_error_m * (2.0 * unit_interval(word64(block, half)) - 1.0); };
+  const auto error_m = [&](std::size_t half) {
+    return sensing.position_error_m * (2.0 * unit_interval(word64(block, half)) - 1.0);
+  };
   pose.position_m += Vec2{error_m(0), error_m(1)};
   return pose;
 }
@@ -222,7 +242,8 @@ void Engine::apply_timer(Agv& agv, std::uint32_t number, std::int64_t at) {
   auto timer = std::ranges::find(agv.timers, number, &Timer::number);
   if (timer == agv.timers.end()) timer = agv.timers.insert(timer, {number, 0});
   timer->stamp = at < 0 ? 0 : ++agv.timer_stamp;
-  if (at >= 0) queue_.push(std::max(now_, agv.clock.when_it_shows(at)), agv.id, Event::Kind::TimerGoesOff, number, timer->stamp);
+  if (at >= 0)
+    queue_.push(std::max(now_, agv.clock.when_it_shows(at)), agv.id, Event::Kind::TimerGoesOff, number, timer->stamp);
 }
 
 void Engine::timer_goes_off(Agv& agv, std::uint32_t number, std::uint64_t stamp) {

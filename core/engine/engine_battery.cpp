@@ -30,11 +30,14 @@ Use use_until(const Agv& agv, const VehicleType& type, SimTime t) {
 
 }  // namespace
 
-double Engine::battery_of(const Agv& agv) const { return std::clamp(use_until(agv, type_of(agv), now_).level(agv.battery), 0.0, 1.0); }
+double Engine::battery_of(const Agv& agv) const {
+  return std::clamp(use_until(agv, type_of(agv), now_).level(agv.battery), 0.0, 1.0);
+}
 
 void Engine::settle_battery(Agv& agv) {
   Use use = use_until(agv, type_of(agv), now_);
-  // What is not there cannot be used: an AGV that brakes with an empty battery does so by springs. Nor is a full one filled.
+  // What is not there cannot be used: an AGV that brakes with an empty battery does so by springs. Nor is a full one
+  // filled.
   use.charged = std::min(use.charged, 1.0 - agv.battery);
   use.driven = std::min(use.driven, agv.battery + use.charged);
   use.idled = std::min(use.idled, std::max(0.0, agv.battery + use.charged - use.driven));
@@ -54,7 +57,8 @@ void Engine::settle_battery(Agv& agv) {
 void Engine::predict_empty_battery(Agv& agv) {
   ++agv.battery_stamp;
   const VehicleType& type = type_of(agv);
-  const SimTime end = std::min(agv.activity && agv.activity->kind == ActivityKind::Drive ? agv.activity->end : kForever, kStart + scenario_.horizon);
+  const SimTime end = std::min(agv.activity && agv.activity->kind == ActivityKind::Drive ? agv.activity->end : kForever,
+                               kStart + scenario_.horizon);
   const auto empty_at = [&](SimTime t) { return use_until(agv, type, t).level(agv.battery) <= 0.0; };
   if (agv.battery_out || end <= now_ || !empty_at(end)) return;
   SimTime before = now_ - Duration{1}, at = end;  // bisection to the nanosecond

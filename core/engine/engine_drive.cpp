@@ -1,8 +1,8 @@
 // Drives: legs of one speed limit each, rolling through a station, braking in mid-segment and going on from there.
 #include <algorithm>
 
-#include "core/engine/engine.hpp"
 #include "core/base/error.hpp"
+#include "core/engine/engine.hpp"
 
 namespace fleetproof {
 
@@ -36,11 +36,13 @@ void Engine::plan_rest_of_drive(Agv& agv, double from_m, double speed_mps) {
   if (!agv.halts.empty()) {
     plan_stop(curve, agv.drive.limits, from_m, speed_mps, agv.drive.legs);
   } else {
-    plan_legs(curve, agv.drive.limits, type_of(agv).lateral_mps2, from_m, {speed_mps, exit_speed_mps(agv)}, agv.drive.legs);
+    plan_legs(curve, agv.drive.limits, type_of(agv).lateral_mps2, from_m, {speed_mps, exit_speed_mps(agv)},
+              agv.drive.legs);
   }
 }
 
-// How fast the AGV may pass the station at the end of its lane: standing, unless the next action has been released and goes straight on.
+// How fast the AGV may pass the station at the end of its lane: standing, unless the next action has been released and
+// goes straight on.
 double Engine::exit_speed_mps(const Agv& agv) const {
   if (!agv.next || agv.next->lane == nullptr || !aligned(*agv.plan.lane, *agv.next->lane)) return 0.0;
   MotionLimits limits = agv.drive.limits;
@@ -116,7 +118,8 @@ void Engine::take_next(Agv& agv, fp_call call, std::uint32_t segment) {
   const Lane* lane = scenario_.map->lane(SegmentId{segment}, agv.plan.lane->to);
   ensure(lane != nullptr, "the next action begins where this one ends");
   agv.next = NextAction{call, lane};
-  if (!agv.activity || agv.activity->kind != ActivityKind::Drive || !agv.halts.empty() || exit_speed_mps(agv) == 0.0) return;
+  if (!agv.activity || agv.activity->kind != ActivityKind::Drive || !agv.halts.empty() || exit_speed_mps(agv) == 0.0)
+    return;
   const Piece& piece = std::get<SpatialEvolution>(agv.activity->evolution).piece;
   const bool last_leg = agv.drive.leg + 1 == agv.drive.legs.size();
   const bool braking = last_leg && to_seconds(now_ - piece.begin) >= piece.profile.phase_ends_s()[1];

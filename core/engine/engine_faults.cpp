@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/engine/engine.hpp"
 #include "core/base/error.hpp"
+#include "core/engine/engine.hpp"
 
 namespace fleetproof {
 namespace {
@@ -11,7 +11,9 @@ namespace {
 constexpr double kAppearsClear_m = 0.05;  // beyond the safety distance
 constexpr Duration kTriesAgain = std::chrono::seconds(1);
 
-Halt::Reason halt_of(Fault::Kind kind) { return kind == Fault::Kind::Breakdown ? Halt::Reason::Breakdown : Halt::Reason::ProtectiveStop; }
+Halt::Reason halt_of(Fault::Kind kind) {
+  return kind == Fault::Kind::Breakdown ? Halt::Reason::Breakdown : Halt::Reason::ProtectiveStop;
+}
 
 }  // namespace
 
@@ -43,7 +45,8 @@ void Engine::load_taken_up(const Agv& agv, TransportId transport) {
 void Engine::fault_strikes(Agv& agv, std::uint64_t number) {
   const Fault& fault = scenario_.faults[number];
   const bool agents = fault.kind == Fault::Kind::Restart || fault.kind == Fault::Kind::Freeze;
-  if (agents ? agv.agent_failed || agv.agent_away > 0 : agv.out_of_order) return;  // what is out of order already cannot fail
+  if (agents ? agv.agent_failed || agv.agent_away > 0 : agv.out_of_order)
+    return;  // what is out of order already cannot fail
   if (fault.kind == Fault::Kind::LoadDrop && !load_drops(agv, fault, number)) return;
   ++outcome_.counters.faults;
   trace(agv.id, TraceKind::FaultStrikes, static_cast<std::uint64_t>(fault.kind), number);
@@ -75,7 +78,9 @@ std::uint64_t Engine::halt(Agv& agv, Halt::Reason reason) {
   const std::uint64_t number = agv.halts.back().number;
   if (agv.halts.size() > 1 || !agv.activity) return number;
   switch (agv.activity->kind) {
-    case ActivityKind::Drive: replan_drive(agv); break;
+    case ActivityKind::Drive:
+      replan_drive(agv);
+      break;
     case ActivityKind::Pick:
     case ActivityKind::Drop:
       agv.plan.stay_due = true;  // from its beginning
@@ -85,13 +90,16 @@ std::uint64_t Engine::halt(Agv& agv, Halt::Reason reason) {
       end_activity(agv, false);
       continue_plan(agv, 0.0);
       break;
-    default: break;  // it stands already
+    default:
+      break;  // it stands already
   }
   return number;
 }
 
 void Engine::end_halt(Agv& agv, std::uint64_t number) {
-  if (std::erase_if(agv.halts, [&](const Halt& halt) { return halt.number == number; }) == 0 || !agv.halts.empty() || agv.out_of_order) return;
+  if (std::erase_if(agv.halts, [&](const Halt& halt) { return halt.number == number; }) == 0 || !agv.halts.empty() ||
+      agv.out_of_order)
+    return;
   if (agv.activity && agv.activity->kind == ActivityKind::Drive) return replan_drive(agv);  // it was still braking
   progressed(agv);
   if (!agv.plan_waits) return;
@@ -143,9 +151,11 @@ void Engine::body_leaves(EntityId id) {
 bool Engine::load_drops(Agv& agv, const Fault& fault, std::uint64_t number) {
   const LoadId load = world_.carried_load(agv.id);
   if (!load.valid()) return false;
-  if (fault.transport && world_.load(load).transport.value - first_transport_[agv.id.index()] != *fault.transport) return false;  // another one's
+  if (fault.transport && world_.load(load).transport.value - first_transport_[agv.id.index()] != *fault.transport)
+    return false;  // another one's
   const auto is_drop = [](const Fault& f) { return f.kind == Fault::Kind::LoadDrop; };
-  const auto drops_before = std::count_if(scenario_.faults.begin(), scenario_.faults.begin() + static_cast<std::ptrdiff_t>(number), is_drop);
+  const auto drops_before =
+      std::count_if(scenario_.faults.begin(), scenario_.faults.begin() + static_cast<std::ptrdiff_t>(number), is_drop);
   const EntityId body{scenario_.agvs.size() + scenario_.obstacles.size() + static_cast<std::size_t>(drops_before)};
   const Pose from = world_.pose_of(agv.id, now_);
   const Pose pose{from.position_m + fault.ahead_m * from.heading + fault.left_m * left_of(from.heading), from.heading};
@@ -170,7 +180,8 @@ void Engine::move_load(LoadId id, Holder to) {
 
 void Engine::trace_load(LoadId id) {
   const auto& [transport, carrier, holder, destination] = world_.load(id);
-  trace(carrier, TraceKind::LoadMoves, id.value, (std::uint64_t{static_cast<std::uint32_t>(holder.kind)} << 32) | holder.index);
+  trace(carrier, TraceKind::LoadMoves, id.value,
+        (std::uint64_t{static_cast<std::uint32_t>(holder.kind)} << 32) | holder.index);
 }
 
 }  // namespace fleetproof

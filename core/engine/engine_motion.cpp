@@ -1,39 +1,53 @@
-// Actions of AGVs: how a call becomes turn, drive and stay, how each ends or is cut short, and what two bodies that touch do to each other.
+// Actions of AGVs: how a call becomes turn, drive and stay, how each ends or is cut short, and what two bodies that
+// touch do to each other.
 #include <algorithm>
 
-#include "core/engine/engine.hpp"
 #include "core/base/error.hpp"
-#include "core/geometry/rotation.hpp"
 #include "core/base/random.hpp"
+#include "core/engine/engine.hpp"
+#include "core/geometry/rotation.hpp"
 
 namespace fleetproof {
 namespace {
 
-// Headings that differ by less are the same: well below what any turn activity would resolve, well above rounding of a curve's end.
+// Headings that differ by less are the same: well below what any turn activity would resolve, well above rounding of a
+// curve's end.
 constexpr double kAligned_rad = 1e-7;
 
 ActivityKind stay_of(fp_call call) {
   switch (call) {
-    case FP_CALL_PICK: return ActivityKind::Pick;
-    case FP_CALL_DROP: return ActivityKind::Drop;
-    case FP_CALL_CHARGE: return ActivityKind::Charge;
-    default: return ActivityKind::Park;
+    case FP_CALL_PICK:
+      return ActivityKind::Pick;
+    case FP_CALL_DROP:
+      return ActivityKind::Drop;
+    case FP_CALL_CHARGE:
+      return ActivityKind::Charge;
+    default:
+      return ActivityKind::Park;
   }
 }
 
 fp_action doing(ActivityKind kind) {
   switch (kind) {
     case ActivityKind::Drive:
-    case ActivityKind::Settle: return FP_DRIVING;
-    case ActivityKind::Turn: return FP_TURNING;
-    case ActivityKind::Pick: return FP_PICKING;
-    case ActivityKind::Drop: return FP_DROPPING;
-    case ActivityKind::Charge: return FP_CHARGING_NOW;
-    default: return FP_PARKED;
+    case ActivityKind::Settle:
+      return FP_DRIVING;
+    case ActivityKind::Turn:
+      return FP_TURNING;
+    case ActivityKind::Pick:
+      return FP_PICKING;
+    case ActivityKind::Drop:
+      return FP_DROPPING;
+    case ActivityKind::Charge:
+      return FP_CHARGING_NOW;
+    default:
+      return FP_PARKED;
   }
 }
 
-bool on_its_way(const Agv& agv) { return agv.acting && agv.plan.lane != nullptr && agv.plan.call == FP_CALL_MOVE && !agv.next; }
+bool on_its_way(const Agv& agv) {
+  return agv.acting && agv.plan.lane != nullptr && agv.plan.call == FP_CALL_MOVE && !agv.next;
+}
 
 }  // namespace
 
@@ -49,10 +63,12 @@ bool Engine::aligned(const Lane& arriving, const Lane& leaving) const {
 std::int32_t Engine::act(Agv& agv, fp_call call, std::uint32_t segment) {
   const bool here = segment == FP_HERE && call != FP_CALL_MOVE;
   if (!here && segment >= scenario_.map->segment_count()) return FP_INVALID;
-  const bool pending = std::ranges::find(agv.pending_calls, PendingCall::Kind::Action, &PendingCall::kind) != agv.pending_calls.end();
+  const bool pending =
+      std::ranges::find(agv.pending_calls, PendingCall::Kind::Action, &PendingCall::kind) != agv.pending_calls.end();
   bool possible = !agv.out_of_order && !pending;
   if (agv.committed) {
-    possible = possible && !here && on_its_way(agv) && scenario_.map->lane(SegmentId{segment}, agv.plan.lane->to) != nullptr;
+    possible =
+        possible && !here && on_its_way(agv) && scenario_.map->lane(SegmentId{segment}, agv.plan.lane->to) != nullptr;
   } else {
     possible = possible && (here || scenario_.map->lane(SegmentId{segment}, agv.station) != nullptr);
   }
@@ -64,7 +80,8 @@ std::int32_t Engine::act(Agv& agv, fp_call call, std::uint32_t segment) {
   const bool first = !agv.committed;
   agv.committed = true;
   if (!takes_effect_now(agv)) {
-    take_effect_later(agv, {.kind = PendingCall::Kind::Action, .what = static_cast<std::uint32_t>(call), .segment = segment});
+    take_effect_later(
+        agv, {.kind = PendingCall::Kind::Action, .what = static_cast<std::uint32_t>(call), .segment = segment});
   } else if (first) {
     begin_action(agv, call, segment);
   } else {
@@ -76,7 +93,7 @@ std::int32_t Engine::act(Agv& agv, fp_call call, std::uint32_t segment) {
 void Engine::begin_action(Agv& agv, fp_call call, std::uint32_t segment) {
   if (agv.out_of_order) return action_done(agv, FP_REFUSED);
   if (agv.acting) return take_next(agv, call, segment);  // the action before this one is not over yet
-  if (agv.activity) end_activity(agv, false);  // charging goes on until the next action
+  if (agv.activity) end_activity(agv, false);            // charging goes on until the next action
   const Lane* lane = segment == FP_HERE ? nullptr : scenario_.map->lane(SegmentId{segment}, agv.station);
   begin_plan(agv, call, lane, 0.0);
 }
@@ -112,7 +129,8 @@ void Engine::finish_action(Agv& agv, double speed_mps) {
 void Engine::turn_or_drive(Agv& agv, double entry_mps) {
   const VehicleType& type = type_of(agv);
   const Pose pose = world_.pose_of(agv.id, now_);
-  const double turn_rad = entry_mps > 0.0 ? 0.0 : angle_between(pose.heading, agv.plan.lane->curve.pose_at(agv.plan.way_m).heading);
+  const double turn_rad =
+      entry_mps > 0.0 ? 0.0 : angle_between(pose.heading, agv.plan.lane->curve.pose_at(agv.plan.way_m).heading);
   if (std::abs(turn_rad) <= kAligned_rad) return begin_drive(agv, entry_mps);
   Piece piece = standing_piece(agv, pose);
   piece.manner = Manner::Turn;
@@ -151,7 +169,8 @@ void Engine::begin_stay(Agv& agv) {
     evolution.to = pick ? Holder{Holder::Kind::Agv, agv.id.value} : Holder{Holder::Kind::Station, agv.station.value};
     const bool at_storage = scenario_.map->station(agv.station).purposes.has(Purpose::Storage);
     const double spread_s = at_storage ? type.storage_spread_s : type.other_spread_s;
-    activity.end = now_ + seconds((pick ? type.pick_s : type.drop_s) + spread_s * motion_draw(MotionTopic::Transfer, agv, ++agv.stays));
+    activity.end = now_ + seconds((pick ? type.pick_s : type.drop_s) +
+                                  spread_s * motion_draw(MotionTopic::Transfer, agv, ++agv.stays));
     activity.evolution = evolution;
     subject = evolution.load.value;
     progressed(agv);
@@ -196,7 +215,8 @@ void Engine::end_activity(Agv& agv, bool as_planned) {
   if (const auto* spatial = std::get_if<SpatialEvolution>(&activity.evolution)) {
     const Piece& piece = spatial->piece;
     const Pose pose = as_planned && activity.kind == ActivityKind::Turn
-                          ? Pose{piece.start.position_m, agv.plan.lane->curve.pose_at(agv.plan.way_m).heading}  // exactly the lane's heading
+                          ? Pose{piece.start.position_m, agv.plan.lane->curve.pose_at(agv.plan.way_m).heading}
+                          // exactly the lane's heading
                           : piece.pose_at(now_);
     stand(agv, pose);
   } else if (const auto* containment = std::get_if<ContainmentEvolution>(&activity.evolution)) {
@@ -225,7 +245,8 @@ void Engine::stand(Agv& agv, const Pose& pose) {
 void Engine::transfer(Agv& agv, const ContainmentEvolution& evolution) {
   if (!evolution.load.valid()) return;
   const Load& load = world_.load(evolution.load);
-  if (evolution.to.kind == Holder::Kind::Station && load.holder != Holder{Holder::Kind::Agv, agv.id.value}) return;  // it fell off meanwhile
+  if (evolution.to.kind == Holder::Kind::Station && load.holder != Holder{Holder::Kind::Agv, agv.id.value})
+    return;  // it fell off meanwhile
   move_load(evolution.load, evolution.to);
   if (type_of(agv).loaded != LoadEffect{}) stand(agv, world_.pose_of(agv.id, now_));  // the body has grown or shrunk
   if (evolution.to.kind == Holder::Kind::Agv) {
@@ -239,7 +260,8 @@ void Engine::transfer(Agv& agv, const ContainmentEvolution& evolution) {
 void Engine::predict_touches(EntityId id) {
   const std::size_t before = touches_.size();
   world_.predict_touches(id, touches_);
-  for (std::size_t i = before; i < touches_.size(); ++i) queue_.push(touches_[i].at, touches_[i].a, Event::Kind::Contact, i);
+  for (std::size_t i = before; i < touches_.size(); ++i)
+    queue_.push(touches_[i].at, touches_[i].a, Event::Kind::Contact, i);
 }
 
 bool Engine::is_current(const TouchPrediction& touch) const {
@@ -263,7 +285,8 @@ void Engine::stop_for_good(EntityId id) {
   Agv& agv = agvs_[id.index()];
   agv.out_of_order = true;
   // An action that has yet to take effect answers for itself when it finds the AGV out of order.
-  const bool pending = std::ranges::find(agv.pending_calls, PendingCall::Kind::Action, &PendingCall::kind) != agv.pending_calls.end();
+  const bool pending =
+      std::ranges::find(agv.pending_calls, PendingCall::Kind::Action, &PendingCall::kind) != agv.pending_calls.end();
   const int under_way = (agv.acting ? 1 : 0) + (agv.next ? 1 : 0);
   const bool driving = agv.activity && agv.activity->kind == ActivityKind::Drive;
   agv.stopped_on = agv.acting && (driving || (agv.plan.drive_due && agv.plan.way_m > 0.0)) ? agv.plan.lane : nullptr;

@@ -1,18 +1,20 @@
 // The operator: when he is called, when he comes, and what he does then.
 #include <algorithm>
 
-#include "core/engine/engine.hpp"
 #include "core/base/error.hpp"
 #include "core/base/random.hpp"
+#include "core/engine/engine.hpp"
 #include "core/engine/recovery.hpp"
 
 namespace fleetproof {
 namespace {
 
 constexpr Duration kTriesAgain = std::chrono::seconds(1);
-constexpr std::uint32_t kAssistTopic = 100;      // of the faults stream, which the generator draws from under lower topics
-constexpr std::uint32_t kStandstillTopic = 101;  // likewise; a topic of its own, so that a call in vain moves no other draw
-constexpr double kBuiltExactly_m = 1e-6;         // stations whose bodies are exactly the safety distance apart are free of each other
+constexpr std::uint32_t kAssistTopic = 100;  // of the faults stream, which the generator draws from under lower topics
+constexpr std::uint32_t kStandstillTopic =
+    101;  // likewise; a topic of its own, so that a call in vain moves no other draw
+constexpr double kBuiltExactly_m =
+    1e-6;  // stations whose bodies are exactly the safety distance apart are free of each other
 
 // An activity that ends by itself before long. Charging does, but nobody waits for it.
 bool is_work(ActivityKind kind) { return kind != ActivityKind::Park && kind != ActivityKind::Charge; }
@@ -29,7 +31,8 @@ Duration Engine::until_help_comes(const Agv& agv, std::uint32_t topic, std::uint
 // Of a jam or an empty battery, `halt` says which: help for one that has passed is no help for the next.
 void Engine::call_operator(Agv& agv, Assist what, std::uint64_t halt) {
   if (!scenario_.operator_help.on) return;
-  queue_.push(now_ + until_help_comes(agv, kAssistTopic, agv.assists++), agv.id, Event::Kind::OperatorComes, static_cast<std::uint64_t>(what), halt);
+  queue_.push(now_ + until_help_comes(agv, kAssistTopic, agv.assists++), agv.id, Event::Kind::OperatorComes,
+              static_cast<std::uint64_t>(what), halt);
 }
 
 void Engine::operator_comes(Agv& agv, Assist what, std::uint64_t stamp) {
@@ -138,7 +141,8 @@ bool Engine::transports_are_open() const {
 }
 
 bool Engine::has_open_transport(const Agv& agv) const {
-  return std::ranges::any_of(world_.loads(), [&](const Load& load) { return load.carrier == agv.id && !load.is_over(); });
+  return std::ranges::any_of(world_.loads(),
+                             [&](const Load& load) { return load.carrier == agv.id && !load.is_over(); });
 }
 
 // Nobody works, and nobody is held by something that ends without the agents, with or without the operator's help.
@@ -158,7 +162,8 @@ void Engine::operator_looks() {
   if (agv == nullptr) return;
   standstill_called_ = true;
   const Duration until = until_help_comes(*agv, kStandstillTopic, standstills_++);
-  queue_.push(now_ + until, agv->id, Event::Kind::OperatorComes, static_cast<std::uint64_t>(Assist::Standstill), standstill_stamp());
+  queue_.push(now_ + until, agv->id, Event::Kind::OperatorComes, static_cast<std::uint64_t>(Assist::Standstill),
+              standstill_stamp());
 }
 
 // Of those whose agent could be the cause: null if there is none.
@@ -172,7 +177,9 @@ Agv* Engine::longest_idle() {
 }
 
 // The one standstill is told from the next by when it began.
-std::uint64_t Engine::standstill_stamp() const { return static_cast<std::uint64_t>(to_ns(std::max(still_since_, last_progress_))); }
+std::uint64_t Engine::standstill_stamp() const {
+  return static_cast<std::uint64_t>(to_ns(std::max(still_since_, last_progress_)));
+}
 
 void Engine::help_at_standstill(Agv& agv, std::uint64_t stamp) {
   standstill_called_ = false;

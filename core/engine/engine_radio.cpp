@@ -6,8 +6,8 @@
 namespace fleetproof {
 namespace {
 
-// A reception may have three events of one kind; two bits of the payload tell them apart (no run has 2^30 messages at a time): with interference
-// the end of the air time, the arrival of the message, the arrival of its copy.
+// A reception may have three events of one kind; two bits of the payload tell them apart (no run has 2^30 messages at a
+// time): with interference the end of the air time, the arrival of the message, the arrival of its copy.
 constexpr std::uint32_t kAirTimeEnds = 0x80000000U, kCopy = 0x40000000U, kSlot = 0x3fffffffU;
 static_assert(kLongestMessage_bytes == FP_MESSAGE_BYTES_MAX);
 
@@ -15,8 +15,10 @@ static_assert(kLongestMessage_bytes == FP_MESSAGE_BYTES_MAX);
 
 std::int32_t Engine::send(Agv& agv, std::string_view bytes, std::uint32_t receiver) {
   const bool broadcast = receiver == FP_NONE;
-  if (bytes.size() > FP_MESSAGE_BYTES_MAX || (!broadcast && (receiver >= agvs_.size() || receiver == agv.id.value))) return FP_INVALID;
-  const auto copies = broadcast ? static_cast<std::uint32_t>(agvs_.size()) : 2U;  // one more than receivers: held until it has been sent
+  if (bytes.size() > FP_MESSAGE_BYTES_MAX || (!broadcast && (receiver >= agvs_.size() || receiver == agv.id.value)))
+    return FP_INVALID;
+  const auto copies = broadcast ? static_cast<std::uint32_t>(agvs_.size())
+                                : 2U;  // one more than receivers: held until it has been sent
   const std::uint32_t slot = messages_.add(agv.id, bytes, copies);
   if (takes_effect_now(agv)) {
     transmit(agv, slot, receiver);
@@ -39,7 +41,8 @@ void Engine::transmit(Agv& sender, std::uint32_t slot, std::uint32_t receiver) {
   const Pose from = needs_place ? world_.pose_of(sender.id, now_) : Pose{};
   const Duration air_time = scenario_.radio.air_time(bytes.size());
   const bool contended = scenario_.radio.contention.interference;
-  messages_.goes_out(slot, contended ? channel_.contend(sender.id, now_, ordinal, air_time) : AirInterval{now_, now_ + air_time});
+  messages_.goes_out(
+      slot, contended ? channel_.contend(sender.id, now_, ordinal, air_time) : AirInterval{now_, now_ + air_time});
   if (receiver != FP_NONE) {
     transmit_to(sender, AgvId{receiver}, slot, from, ordinal);
   } else {
@@ -66,14 +69,17 @@ void Engine::transmit_to(Agv& sender, AgvId receiver, std::uint32_t slot, const 
   counters.delay_sum_ns += static_cast<std::uint64_t>((arrival - now_).count());
   if (fate.lost) {
     ++counters.receptions_lost;
-    const TraceKind cause = fate.to_source ? TraceKind::LostToSource : fate.in_outage ? TraceKind::LostInOutage : TraceKind::Lost;
+    const TraceKind cause = fate.to_source   ? TraceKind::LostToSource
+                            : fate.in_outage ? TraceKind::LostInOutage
+                                             : TraceKind::Lost;
     counters.lost_in_outage += cause == TraceKind::LostInOutage ? 1 : 0;
     counters.lost_to_sources += cause == TraceKind::LostToSource ? 1 : 0;
     trace(receiver, cause, sender.id.value, messages_[slot].hash);
     messages_.release(slot);
     return;
   }
-  if (scenario_.radio.contention.interference) queue_.push(on_air_until, receiver, Event::Kind::MessageArrives, slot | kAirTimeEnds);
+  if (scenario_.radio.contention.interference)
+    queue_.push(on_air_until, receiver, Event::Kind::MessageArrives, slot | kAirTimeEnds);
   queue_.push(arrival, receiver, Event::Kind::MessageArrives, slot);
   if (fate.copy_delay) {
     messages_.hold(slot);
@@ -94,7 +100,8 @@ void Engine::air_time_ends(Agv& receiver, std::uint32_t slot) {
 bool Engine::is_drowned(AgvId receiver, const Message& message) const {
   return channel_.any_other_on_air(message.sender, message.on_air, [&](AgvId other) {
     if (other == receiver || unlimited_range_) return true;
-    return (world_.pose_of(other, now_).position_m - world_.pose_of(receiver, now_).position_m).norm() <= scenario_.radio.range_m;
+    return (world_.pose_of(other, now_).position_m - world_.pose_of(receiver, now_).position_m).norm() <=
+           scenario_.radio.range_m;
   });
 }
 

@@ -9,18 +9,20 @@ void Engine::scanner_wakes(Agv& agv) { queue_.push(now_, agv.id, Event::Kind::Sc
 
 double Engine::field_length_m(const Agv& agv) const {
   const ScannerSetup& scanner = scenario_.scanner;
-  const double speed = world_.body(agv.id).piece.speed_at(now_), braking = type_of(agv).drive_with(is_loaded(agv)).deceleration_mps2;
+  const double speed = world_.body(agv.id).piece.speed_at(now_),
+               braking = type_of(agv).drive_with(is_loaded(agv)).deceleration_mps2;
   return speed * scanner.reaction_s + speed * speed / (2.0 * braking) + scanner.margin_m;
 }
 
 // The first body, by number, that stands in the field.
 std::optional<EntityId> Engine::intruder(const Agv& agv, double length_m) const {
   const OrientedRectangle own = world_.body(agv.id).piece.body_at(now_);
-  const OrientedRectangle field{own.centre_m + (own.half_length_m + 0.5 * length_m) * own.heading, own.heading, 0.5 * length_m,
-                                own.half_width_m + scenario_.scanner.margin_m};
+  const OrientedRectangle field{own.centre_m + (own.half_length_m + 0.5 * length_m) * own.heading, own.heading,
+                                0.5 * length_m, own.half_width_m + scenario_.scanner.margin_m};
   for (std::size_t i = 0; i < world_.body_count(); ++i) {
     const Body& body = world_.body(EntityId{i});
-    if (body.on_floor && EntityId{i} != agv.id && clearance_m(field, body.piece.body_at(now_)) <= 0.0) return EntityId{i};
+    if (body.on_floor && EntityId{i} != agv.id && clearance_m(field, body.piece.body_at(now_)) <= 0.0)
+      return EntityId{i};
   }
   return std::nullopt;
 }
@@ -31,7 +33,8 @@ void Engine::scanner_looks(Agv& agv) {
   const bool held = std::ranges::find(agv.halts, Halt::Reason::Scanner, &Halt::reason) != agv.halts.end();
   if (agv.out_of_order || (!driving && !held)) return;  // it wakes with the next drive
   double length_m = field_length_m(agv);
-  if (held || agv.scanner_muted) length_m = std::max(length_m, agv.field_m - (world_.pose_of(agv.id, now_).position_m - agv.field_from_m).norm());
+  if (held || agv.scanner_muted)
+    length_m = std::max(length_m, agv.field_m - (world_.pose_of(agv.id, now_).position_m - agv.field_from_m).norm());
   const auto body = intruder(agv, length_m);
   if (!body) agv.scanner_muted = false;
   if (body && !held && !agv.scanner_muted) {

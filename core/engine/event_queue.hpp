@@ -7,10 +7,27 @@
 
 namespace fleetproof {
 
-// Something that will happen. `payload` and `stamp` mean what the kind says; a stamp that no longer matches makes the event stale.
+// Something that will happen. `payload` and `stamp` mean what the kind says; a stamp that no longer matches makes the
+// event stale.
 struct Event {
-  enum class Kind : std::uint8_t { Start, OrderReleased, ActivityEnds, CallTakesEffect, MessageArrives, TimerGoesOff, AgentIsFree, Contact,
-                                   BatteryEmpty, FaultStrikes, FaultOver, BodyAppears, BodyLeaves, ScannerLooks, OperatorComes, OperatorLooks };
+  enum class Kind : std::uint8_t {
+    Start,
+    OrderReleased,
+    ActivityEnds,
+    CallTakesEffect,
+    MessageArrives,
+    TimerGoesOff,
+    AgentIsFree,
+    Contact,
+    BatteryEmpty,
+    FaultStrikes,
+    FaultOver,
+    BodyAppears,
+    BodyLeaves,
+    ScannerLooks,
+    OperatorComes,
+    OperatorLooks
+  };
 
   SimTime at;
   EntityId entity;

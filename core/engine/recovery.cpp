@@ -10,7 +10,8 @@ Pose arrival(const Lane& lane) { return lane.curve.pose_at(lane.curve.length_m()
 
 }  // namespace
 
-std::vector<RecoveryPlace> recovery_places(const LogicalMap& map, StationId station, const Lane* stopped_on, const Pose& stood) {
+std::vector<RecoveryPlace> recovery_places(const LogicalMap& map, StationId station, const Lane* stopped_on,
+                                           const Pose& stood) {
   using Reached = std::pair<double, std::uint32_t>;
   std::vector<double> distance_m(map.station_count(), std::numeric_limits<double>::infinity());
   std::vector<Pose> poses(map.station_count());

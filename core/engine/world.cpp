@@ -6,19 +6,28 @@
 
 namespace fleetproof {
 
-// Two bodies touch when less than this is between them: well below any clearance a person would measure, well above rounding.
+// Two bodies touch when less than this is between them: well below any clearance a person would measure, well above
+// rounding.
 constexpr double kTouch_m = 1e-6;
 
 const char* name_of(ActivityKind kind) {
   switch (kind) {
-    case ActivityKind::Drive: return "drive";
-    case ActivityKind::Turn: return "turn";
-    case ActivityKind::Transmit: return "transmit";
-    case ActivityKind::Pick: return "pick";
-    case ActivityKind::Drop: return "drop";
-    case ActivityKind::Park: return "park";
-    case ActivityKind::Charge: return "charge";
-    case ActivityKind::Settle: return "settle";
+    case ActivityKind::Drive:
+      return "drive";
+    case ActivityKind::Turn:
+      return "turn";
+    case ActivityKind::Transmit:
+      return "transmit";
+    case ActivityKind::Pick:
+      return "pick";
+    case ActivityKind::Drop:
+      return "drop";
+    case ActivityKind::Park:
+      return "park";
+    case ActivityKind::Charge:
+      return "charge";
+    case ActivityKind::Settle:
+      return "settle";
   }
   return "?";
 }
@@ -28,11 +37,13 @@ World::World(const Scenario& scenario, std::span<const std::unique_ptr<Law>> law
   for (std::size_t i = 0; i < scenario.agvs.size(); ++i) {
     const AgvSetup& agv = scenario.agvs[i];
     bodies_[i].is_agv = true;
-    put_on_floor(EntityId{i}, scenario.type_of(agv).footprint, {scenario.map->station(agv.start).position_m, agv.heading}, kStart);
+    put_on_floor(EntityId{i}, scenario.type_of(agv).footprint,
+                 {scenario.map->station(agv.start).position_m, agv.heading}, kStart);
   }
   for (std::size_t i = 0; i < scenario.obstacles.size(); ++i) {
     const ObstacleSetup& obstacle = scenario.obstacles[i];
-    if (obstacle.appears == Duration::zero()) put_on_floor(EntityId{scenario.agvs.size() + i}, obstacle.footprint, obstacle.pose, kStart);
+    if (obstacle.appears == Duration::zero())
+      put_on_floor(EntityId{scenario.agvs.size() + i}, obstacle.footprint, obstacle.pose, kStart);
   }
 }
 
@@ -41,7 +52,8 @@ State World::state_at(SimTime t) const {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Body& body = bodies_[i];
     if (!body.on_floor) continue;
-    state.spatial.push_back({EntityId{i}, body.piece.pose_at(t), body.piece.footprint, body.is_agv, body.piece.manner != Manner::Rest});
+    state.spatial.push_back(
+        {EntityId{i}, body.piece.pose_at(t), body.piece.footprint, body.is_agv, body.piece.manner != Manner::Rest});
   }
   return state;
 }
@@ -60,7 +72,9 @@ void World::take_off_floor(EntityId id, SimTime t) {
 }
 
 bool World::is_free(const OrientedRectangle& place, double margin_m, SimTime t) const {
-  return std::ranges::none_of(bodies_, [&](const Body& body) { return body.on_floor && clearance_m(body.piece.body_at(t), place) <= margin_m; });
+  return std::ranges::none_of(bodies_, [&](const Body& body) {
+    return body.on_floor && clearance_m(body.piece.body_at(t), place) <= margin_m;
+  });
 }
 
 bool World::stays_free(const OrientedRectangle& place, double margin_m, SimTime t) const {
@@ -94,7 +108,8 @@ void World::predict_touches(EntityId id, std::vector<TouchPrediction>& out) {
     const EntityId other_id{i};
     if (other_id == id || !other.on_floor || !mine.piece.planned_box.overlaps(other.piece.planned_box)) continue;
     if (have_touched(id, other_id)) continue;
-    const Interval common{std::max(mine.piece.begin, other.piece.begin), std::min({mine.piece.end, other.piece.end, kStart + scenario_.horizon})};
+    const Interval common{std::max(mine.piece.begin, other.piece.begin),
+                          std::min({mine.piece.end, other.piece.end, kStart + scenario_.horizon})};
     if (common.begin > common.end) continue;
     if (const auto at = first_below(mine.piece, other.piece, common, kTouch_m, evaluations_)) {
       out.push_back({*at, id, other_id, mine.piece.number, other.piece.number});
@@ -129,7 +144,9 @@ LoadId World::add_load(TransportId transport, AgvId carrier, StationId at, Stati
 LoadId World::waiting_load(AgvId agv, StationId station) const {
   for (std::size_t i = 0; i < loads_.size(); ++i) {
     const Load& load = loads_[i];
-    if (load.carrier == agv && load.holder == Holder{Holder::Kind::Station, station.value} && load.destination != station) return LoadId{i};
+    if (load.carrier == agv && load.holder == Holder{Holder::Kind::Station, station.value} &&
+        load.destination != station)
+      return LoadId{i};
   }
   return {};
 }

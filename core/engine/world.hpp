@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "core/motion/activity.hpp"
 #include "core/clearance/clearance_over_time.hpp"
+#include "core/motion/activity.hpp"
 #include "core/outcome/law.hpp"
 #include "core/scenario/scenario.hpp"
 
@@ -13,18 +13,20 @@ namespace fleetproof {
 
 // An AGV, an obstacle or a fallen load. Its current piece is its spatial relation to the floor, as a function of time.
 struct Body {
-  bool on_floor = false;      // else it has no piece
+  bool on_floor = false;  // else it has no piece
   Piece piece;
   bool is_agv = false;
 };
 
 struct Load {
   TransportId transport;
-  AgvId carrier;              // whom the transport is assigned to
+  AgvId carrier;  // whom the transport is assigned to
   Holder holder;
   StationId destination;
   // Nothing is left to do about it: it is where it belongs, or out of the warehouse.
-  bool is_over() const { return holder == Holder{Holder::Kind::Station, destination.value} || holder.kind == Holder::Kind::ClearedAway; }
+  bool is_over() const {
+    return holder == Holder{Holder::Kind::Station, destination.value} || holder.kind == Holder::Kind::ClearedAway;
+  }
 };
 
 // The state of the warehouse at one instant (Sect. 3.2): entities with their relations, as plain data.
@@ -37,8 +39,8 @@ struct State {
     bool moving = false;
   };
   SimTime at;
-  std::vector<Placed> spatial;      // every AGV and obstacle on the floor
-  std::vector<Load> containment;    // every load released so far and who holds it
+  std::vector<Placed> spatial;    // every AGV and obstacle on the floor
+  std::vector<Load> containment;  // every load released so far and who holds it
 };
 
 struct TouchPrediction {
@@ -65,7 +67,8 @@ class World {
   bool is_free(const OrientedRectangle& place, double margin_m, SimTime t) const;
   // Likewise, and every body that moves stays so with its whole present piece, boxed.
   bool stays_free(const OrientedRectangle& place, double margin_m, SimTime t) const;
-  // First touch of each other body within both current pieces, appended to `out`; pairs that touched before are left out.
+  // First touch of each other body within both current pieces, appended to `out`; pairs that touched before are left
+  // out.
   void predict_touches(EntityId id, std::vector<TouchPrediction>& out);
   void remember_touch(EntityId a, EntityId b);
   bool have_touched(EntityId a, EntityId b) const;

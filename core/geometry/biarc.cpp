@@ -29,12 +29,14 @@ Arc arc_to(const Pose& start, const Vec2& end_m) {
   return {start, chord_m * half_rad / sine, 2.0 * sine / chord_m};
 }
 
-// Two arcs from a pose to a point and a heading there. Both lie in isosceles triangles, so neither turns by more than pi.
+// Two arcs from a pose to a point and a heading there. Both lie in isosceles triangles, so neither turns by more than
+// pi.
 std::array<Arc, 2> biarc(const Pose& from, const Pose& to) {
   const Vec2 way = to.position_m - from.position_m;
   const double squared = way.squaredNorm();
   if (squared <= kNothing_m * kNothing_m) return {Arc{from, 0.0, 0.0}, Arc{from, 0.0, 0.0}};
-  // Leg d of both triangles: d^2 (2 - 2 cos) + 2 d (way . sum) = way^2, where cos is that of the turn from one heading to the other.
+  // Leg d of both triangles: d^2 (2 - 2 cos) + 2 d (way . sum) = way^2, where cos is that of the turn from one heading
+  // to the other.
   const auto leg_m = [&](const Vec2& heading) {
     const double along = way.dot(from.heading + heading), spread = (from.heading - heading).squaredNorm();
     const double root = std::sqrt(along * along + spread * squared);
@@ -43,7 +45,8 @@ std::array<Arc, 2> biarc(const Pose& from, const Pose& to) {
   };
   Vec2 heading = to.heading;
   double leg = leg_m(heading);
-  // Headings that point back along the way need vast circles, or find no joint at all. Arrive otherwise: the next arcs turn the rest.
+  // Headings that point back along the way need vast circles, or find no joint at all. Arrive otherwise: the next arcs
+  // turn the rest.
   const Vec2 ahead = direction_of(way, from.heading);
   if (!(leg * leg < 1e4 * squared) || ahead.dot(from.heading) < kBack) {
     heading = ahead.dot(from.heading) < kBack ? left_of(ahead) : ahead;
@@ -65,7 +68,8 @@ double off_circle_m(const Arc& arc, const Vec2& point_m) {
 
 class Chain {
  public:
-  Chain(const std::array<Vec2, 4>& control_points, double tolerance_m) : p_(control_points), tolerance_m_(tolerance_m) {}
+  Chain(const std::array<Vec2, 4>& control_points, double tolerance_m)
+      : p_(control_points), tolerance_m_(tolerance_m) {}
 
   std::vector<Arc> arcs() {
     at_ = {point(0.0), start_heading()};
@@ -133,7 +137,8 @@ class Chain {
   std::vector<Arc> arcs_;
 };
 
-// No longer than nothing, or with both control points between the ends on the line through them: then, in whatever order, there is no way back.
+// No longer than nothing, or with both control points between the ends on the line through them: then, in whatever
+// order, there is no way back.
 bool is_straight(const std::array<Vec2, 4>& p) {
   const Vec2 way = p[3] - p[0];
   const double length = way.norm();
@@ -152,7 +157,8 @@ std::vector<Arc> biarc_chain(const std::array<Vec2, 4>& control_points_m, double
   if (is_straight(control_points_m)) return line;
   // Relative to the first point: far from the world's origin the arcs would lose digits.
   std::array<Vec2, 4> relative;
-  std::transform(control_points_m.begin(), control_points_m.end(), relative.begin(), [&](const Vec2& p) { return Vec2(p - origin); });
+  std::transform(control_points_m.begin(), control_points_m.end(), relative.begin(),
+                 [&](const Vec2& p) { return Vec2(p - origin); });
   std::vector<Arc> arcs = Chain(relative, tolerance_m).arcs();
   for (Arc& arc : arcs) arc.start.position_m += origin;
   return arcs.empty() ? line : arcs;

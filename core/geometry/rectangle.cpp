@@ -8,8 +8,9 @@
 namespace fleetproof {
 namespace {
 
-// Two numbers at once: the one about the second rectangle seen from the first's frame, and the one about the first seen from the second's.
-// (A vector type of g++ and clang, on every processor.) No branches either: mispredicted ones, not arithmetic, would be the cost of a distance.
+// Two numbers at once: the one about the second rectangle seen from the first's frame, and the one about the first seen
+// from the second's. (A vector type of g++ and clang, on every processor.) No branches either: mispredicted ones, not
+// arithmetic, would be the cost of a distance.
 using Both [[gnu::vector_size(16)]] = double;
 
 inline Both larger(Both a, Both b) { return a > b ? a : b; }
@@ -71,13 +72,14 @@ inline CornerOffset nearer(const CornerOffset& a, const CornerOffset& b) {
   const Both rear_x = view.x - view.length_x, rear_y = view.y - view.length_y;
   const CornerOffset front = nearer(corner_offset(view, front_x + view.width_x, front_y + view.width_y),
                                     corner_offset(view, front_x - view.width_x, front_y - view.width_y));
-  const CornerOffset rear =
-      nearer(corner_offset(view, rear_x + view.width_x, rear_y + view.width_y), corner_offset(view, rear_x - view.width_x, rear_y - view.width_y));
+  const CornerOffset rear = nearer(corner_offset(view, rear_x + view.width_x, rear_y + view.width_y),
+                                   corner_offset(view, rear_x - view.width_x, rear_y - view.width_y));
   return nearer(front, rear);
 }
 
 // The side direction with the largest gap, from the first towards the second.
-Vec2 widest_axis(const MutualView& view, const OrientedRectangle& first, const OrientedRectangle& second, double gap_m) {
+Vec2 widest_axis(const MutualView& view, const OrientedRectangle& first, const OrientedRectangle& second,
+                 double gap_m) {
   const Vec2 aside1 = left_of(first.heading), aside2 = left_of(second.heading);
   if (view.gap_x[0] == gap_m) return view.x[0] < 0.0 ? Vec2(-first.heading) : first.heading;
   if (view.gap_y[0] == gap_m) return view.y[0] < 0.0 ? Vec2(-aside1) : aside1;
@@ -127,7 +129,8 @@ double clearance_m(const OrientedRectangle& first, const OrientedRectangle& seco
 }
 
 void Box::add(const OrientedRectangle& rectangle) {
-  const Vec2 along = rectangle.heading.cwiseAbs() * rectangle.half_length_m, aside = left_of(rectangle.heading).cwiseAbs() * rectangle.half_width_m;
+  const Vec2 along = rectangle.heading.cwiseAbs() * rectangle.half_length_m,
+             aside = left_of(rectangle.heading).cwiseAbs() * rectangle.half_width_m;
   add(Vec2(rectangle.centre_m + (along + aside)));
   add(Vec2(rectangle.centre_m - (along + aside)));
 }

@@ -25,13 +25,16 @@ struct OrientedRectangle {
 };
 
 OrientedRectangle placed(const Footprint& footprint, const Pose& pose);
-// Every side moved outwards by `margin_m`: a superset of all points within `margin_m` (its corners are square: up to 0.414 margins too far).
+// Every side moved outwards by `margin_m`: a superset of all points within `margin_m` (its corners are square: up to
+// 0.414 margins too far).
 OrientedRectangle widened(const OrientedRectangle& rectangle, double margin_m);
 
 // Where two rectangles stand to each other.
 struct Separation {
-  double clearance_m = 0.0;          // > 0: Euclidean distance; <= 0: minus the depth of the shallowest overlap over the side directions
-  Vec2 direction = Vec2::UnitX();    // unit, from the first towards the second, along the closest points (or the shallowest axis)
+  double clearance_m =
+      0.0;  // > 0: Euclidean distance; <= 0: minus the depth of the shallowest overlap over the side directions
+  Vec2 direction =
+      Vec2::UnitX();  // unit, from the first towards the second, along the closest points (or the shallowest axis)
 };
 
 // Exact planar distance (error below 1e-12 m for bodies within 1 km); the sign is always right beyond that error.
@@ -50,7 +53,8 @@ struct Box {
   void add(const OrientedRectangle& rectangle);
   Box grown(double margin_m) const { return {low_m - Vec2::Constant(margin_m), high_m + Vec2::Constant(margin_m)}; }
   bool overlaps(const Box& other) const {
-    return low_m.x() <= other.high_m.x() && other.low_m.x() <= high_m.x() && low_m.y() <= other.high_m.y() && other.low_m.y() <= high_m.y();
+    return low_m.x() <= other.high_m.x() && other.low_m.x() <= high_m.x() && low_m.y() <= other.high_m.y() &&
+           other.low_m.y() <= high_m.y();
   }
 };
 

@@ -5,7 +5,8 @@
 namespace fleetproof {
 namespace {
 
-// pi/2 = kHalfPiHigh + kHalfPiLow to 2^-86 or so. The high part has 33 bits, so that its products with the quadrant numbers up to 6367 are exact.
+// pi/2 = kHalfPiHigh + kHalfPiLow to 2^-86 or so. The high part has 33 bits, so that its products with the quadrant
+// numbers up to 6367 are exact.
 constexpr double kHalfPiHigh = 1.57079632673412561417e+00;
 constexpr double kHalfPiLow = 6.07710050650619224932e-11;
 
@@ -35,8 +36,8 @@ double small_cosine(double r) {
   return 1.0 - (0.5 * z - z * (z * sum));
 }
 
-// atan on [0, 1] to 1e-4 or better (Hastings' polynomial): a start for one Newton step, which takes the error below 1e-12, and a second below all
-// bits.
+// atan on [0, 1] to 1e-4 or better (Hastings' polynomial): a start for one Newton step, which takes the error below
+// 1e-12, and a second below all bits.
 double rough_arctangent(double t) {
   const double z = t * t;
   return t * (0.9998660 + z * (-0.3302995 + z * (0.1801410 + z * (-0.0851330 + z * 0.0208351))));

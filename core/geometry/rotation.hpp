@@ -2,7 +2,8 @@
 
 #include "core/geometry/pose.hpp"
 
-// Angles from + - * / and sqrt alone: libm's sin, cos and atan2 differ in the last bit between CPUs. Absolute error below 1e-15.
+// Angles from + - * / and sqrt alone: libm's sin, cos and atan2 differ in the last bit between CPUs. Absolute error
+// below 1e-15.
 namespace fleetproof {
 
 inline constexpr double kPi = 3.14159265358979323846;

@@ -3,44 +3,47 @@
 #include <cstdint>
 #include <variant>
 
-#include "core/motion/piece.hpp"
 #include "core/base/sim_time.hpp"
 #include "core/base/strong_id.hpp"
+#include "core/motion/piece.hpp"
 
 namespace fleetproof {
 
-// Dynamism as a first-class thing (Sect. 3.3): who or what evolves, over which interval, and how. The numbers are part of the trace digest.
+// Dynamism as a first-class thing (Sect. 3.3): who or what evolves, over which interval, and how. The numbers are part
+// of the trace digest.
 enum class ActivityKind : std::uint8_t { Drive = 1, Turn, Transmit, Pick, Drop, Park, Charge, Settle };
 const char* name_of(ActivityKind kind);
 
-// Where a load is: the containment relation (Sect. 3.2). On the floor it is a body itself; cleared away, it is out of the warehouse for good.
+// Where a load is: the containment relation (Sect. 3.2). On the floor it is a body itself; cleared away, it is out of
+// the warehouse for good.
 struct Holder {
   enum class Kind : std::uint8_t { Station, Agv, Floor, ClearedAway } kind = Kind::Station;
-  std::uint32_t index = 0;             // of the station, the AGV, or the body
+  std::uint32_t index = 0;  // of the station, the AGV, or the body
   friend bool operator==(const Holder&, const Holder&) = default;
 };
 
 // Evolution strategies.
-struct SpatialEvolution {        // drive, turn: the spatial relation of the AGV, and its battery by the distance travelled
+struct SpatialEvolution {  // drive, turn: the spatial relation of the AGV, and its battery by the distance travelled
   Piece piece;
 };
-struct ContainmentEvolution {    // pick, drop: a load passes from one holder to the other when the activity ends; no load: an empty move
+struct ContainmentEvolution {  // pick, drop: a load passes from one holder to the other when the activity ends; no
+                               // load: an empty move
   LoadId load;
   Holder to;
 };
-struct BatteryEvolution {        // charge: linear in time, up to full
+struct BatteryEvolution {  // charge: linear in time, up to full
   double per_s = 0.0;
 };
-struct Reception {               // transmit: the message reaches the receiver's inbox when the activity ends
+struct Reception {  // transmit: the message reaches the receiver's inbox when the activity ends
   AgvId receiver;
   std::uint32_t message = 0;
 };
-struct Standing {};              // park, settle
+struct Standing {};  // park, settle
 
 struct Activity {
   ActivityKind kind = ActivityKind::Park;
   AgvId agv;
-  SimTime begin, end;            // planned end; an activity that is cut short ends where it was, with the true state left behind
+  SimTime begin, end;  // planned end; an activity that is cut short ends where it was, with the true state left behind
   std::variant<Standing, SpatialEvolution, ContainmentEvolution, BatteryEvolution, Reception> evolution;
 };
 

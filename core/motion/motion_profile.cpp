@@ -17,7 +17,8 @@ MotionProfile::MotionProfile(double distance, const MotionLimits& limits, const 
     : distance_(distance), up_(limits.acceleration_mps2), down_(limits.deceleration_mps2), ends_(ends) {
   ensure(distance >= 0.0 && distance < 1e9, "a way is not negative, and finite");
   ensure(limits.speed_mps > 0.0 && up_ > 0.0 && down_ > 0.0, "motion limits are positive");
-  const double entry2 = ends.entry_mps * ends.entry_mps, exit2 = ends.exit_mps * ends.exit_mps, limit = limits.speed_mps;
+  const double entry2 = ends.entry_mps * ends.entry_mps, exit2 = ends.exit_mps * ends.exit_mps,
+               limit = limits.speed_mps;
   // Longest way on which the speed limit is not reached or only touched.
   const double ramps = limit * limit * (0.5 / up_ + 0.5 / down_) - entry2 * (0.5 / up_) - exit2 * (0.5 / down_);
   const bool level = distance > ramps;
@@ -66,10 +67,13 @@ double MotionProfile::time_at(double distance) const {
   if (distance >= distance_) return ends[2];
   const double entry = ends_.entry_mps, exit = ends_.exit_mps;
   const double ramp_up = 0.5 * (entry + peak_) * ends[0], ramp_down = 0.5 * (exit + peak_) * (ends[2] - ends[1]);
-  if (distance < ramp_up) return entry == 0.0 ? std::sqrt(2.0 * distance / up_) : (std::sqrt(entry * entry + 2.0 * up_ * distance) - entry) / up_;
+  if (distance < ramp_up)
+    return entry == 0.0 ? std::sqrt(2.0 * distance / up_)
+                        : (std::sqrt(entry * entry + 2.0 * up_ * distance) - entry) / up_;
   if (distance <= distance_ - ramp_down) return 0.5 * ends[0] * (1.0 - entry / peak_) + distance / peak_;
   const double left = distance_ - distance;
-  return ends[2] - (exit == 0.0 ? std::sqrt(2.0 * left / down_) : (std::sqrt(exit * exit + 2.0 * down_ * left) - exit) / down_);
+  return ends[2] -
+         (exit == 0.0 ? std::sqrt(2.0 * left / down_) : (std::sqrt(exit * exit + 2.0 * down_ * left) - exit) / down_);
 }
 
 }  // namespace fleetproof

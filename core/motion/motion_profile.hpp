@@ -21,8 +21,8 @@ struct EndSpeeds {
   double entry_mps = 0.0, exit_mps = 0.0;
 };
 
-// Distance as a function of time: a trapezoid of speed, or a triangle where the way is too short for the speed limit. Piecewise quadratic, never
-// stepped. Works for metres and, in a turn, for radians.
+// Distance as a function of time: a trapezoid of speed, or a triangle where the way is too short for the speed limit.
+// Piecewise quadratic, never stepped. Works for metres and, in a turn, for radians.
 class MotionProfile {
  public:
   MotionProfile() = default;
@@ -33,12 +33,13 @@ class MotionProfile {
   Duration duration() const { return phase_ends_[2]; }
 
   double position(double t_s) const;
-  double speed(double t_s) const;      // before and after the way: its end speeds
+  double speed(double t_s) const;  // before and after the way: its end speeds
   // Constant within a phase: up, level, down.
   double acceleration(double t_s) const;
   // First instant at which `position` reaches `distance`.
   double time_at(double distance) const;
-  // Ends of the three phases from the start, in seconds and to the nanosecond; a missing phase ends where the one before it does.
+  // Ends of the three phases from the start, in seconds and to the nanosecond; a missing phase ends where the one
+  // before it does.
   const std::array<double, 3>& phase_ends_s() const { return phase_ends_s_; }
   const std::array<Duration, 3>& phase_ends() const { return phase_ends_; }
   // What one phase (0, 1, 2) says, also of instants beyond its ends.

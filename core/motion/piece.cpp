@@ -8,8 +8,9 @@
 namespace fleetproof {
 namespace {
 
-// The part of an arc from its start to an arc length, swept by a footprint. Each corner runs on a circle about the arc's centre and leaves its chord
-// by no more than radius * angle^2 / 8; the chords lie in the box of the bodies at their ends.
+// The part of an arc from its start to an arc length, swept by a footprint. Each corner runs on a circle about the
+// arc's centre and leaves its chord by no more than radius * angle^2 / 8; the chords lie in the box of the bodies at
+// their ends.
 void add_swept_arc(Box& box, const Arc& arc, double length_m, const Footprint& footprint) {
   constexpr double kBeyond_m = 0.02, kMostSteps = 1e4;
   const double turned_rad = std::abs(arc.curvature_per_m) * length_m;
@@ -40,7 +41,9 @@ Box swept_drive(const Piece& piece, double until_m) {
   return box;
 }
 
-double elapsed_s(const Piece& piece, SimTime t) { return to_seconds(std::clamp(t, piece.begin, piece.end) - piece.begin); }
+double elapsed_s(const Piece& piece, SimTime t) {
+  return to_seconds(std::clamp(t, piece.begin, piece.end) - piece.begin);
+}
 
 }  // namespace
 

@@ -43,20 +43,23 @@ void slow_down_in_time(const MotionLimits& limits, double exit_mps, std::vector<
   double next = exit_mps;
   for (auto leg = legs.rbegin(); leg != legs.rend(); ++leg) {
     leg->speeds.exit_mps = std::min(next, leg->limit_mps);
-    leg->speeds.entry_mps = std::min(leg->limit_mps, after(leg->speeds.exit_mps, limits.deceleration_mps2, leg->end_m - leg->begin_m));
+    leg->speeds.entry_mps =
+        std::min(leg->limit_mps, after(leg->speeds.exit_mps, limits.deceleration_mps2, leg->end_m - leg->begin_m));
     next = leg->speeds.entry_mps;
   }
 }
 
 }  // namespace
 
-void plan_legs(const Curve& curve, const MotionLimits& limits, double lateral_mps2, double from_m, const EndSpeeds& ends, std::vector<Leg>& legs) {
+void plan_legs(const Curve& curve, const MotionLimits& limits, double lateral_mps2, double from_m,
+               const EndSpeeds& ends, std::vector<Leg>& legs) {
   cut(curve, limits.speed_mps, lateral_mps2, from_m, legs);
   slow_down_in_time(limits, ends.exit_mps, legs);
   double speed = ends.entry_mps;
   for (Leg& leg : legs) {
     const double way = leg.end_m - leg.begin_m;
-    const double slowest = after(speed, -limits.deceleration_mps2, way), fastest = after(speed, limits.acceleration_mps2, way);
+    const double slowest = after(speed, -limits.deceleration_mps2, way),
+                 fastest = after(speed, limits.acceleration_mps2, way);
     leg.speeds.entry_mps = speed;
     leg.speeds.exit_mps = std::clamp(leg.speeds.exit_mps, slowest, fastest);
     leg.limit_mps = std::max({leg.limit_mps, leg.speeds.entry_mps, leg.speeds.exit_mps});
@@ -64,11 +67,15 @@ void plan_legs(const Curve& curve, const MotionLimits& limits, double lateral_mp
   }
 }
 
-void plan_stop(const Curve& curve, const MotionLimits& limits, double from_m, double entry_mps, std::vector<Leg>& legs) {
+void plan_stop(const Curve& curve, const MotionLimits& limits, double from_m, double entry_mps,
+               std::vector<Leg>& legs) {
   const double rest_m = curve.length_m() - from_m, needed_m = entry_mps * entry_mps / (2.0 * limits.deceleration_mps2);
   const bool stops = needed_m <= rest_m + kRounding_m + kRelativeRounding * rest_m;
   const double exit_mps = stops ? 0.0 : after(entry_mps, -limits.deceleration_mps2, rest_m);
-  legs.assign(1, {from_m, stops ? std::min(from_m + needed_m, curve.length_m()) : curve.length_m(), std::max(limits.speed_mps, entry_mps), {entry_mps, exit_mps}});
+  legs.assign(1, {from_m,
+                  stops ? std::min(from_m + needed_m, curve.length_m()) : curve.length_m(),
+                  std::max(limits.speed_mps, entry_mps),
+                  {entry_mps, exit_mps}});
 }
 
 double highest_entry_mps(const Curve& curve, const MotionLimits& limits, double lateral_mps2) {

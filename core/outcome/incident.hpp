@@ -64,7 +64,8 @@ struct ProbeCount {
   friend bool operator==(const ProbeCount&, const ProbeCount&) = default;
 };
 
-// What the agents of a run declare, summed by name. Bounded, so that an agent that makes up names costs its run nothing but a number.
+// What the agents of a run declare, summed by name. Bounded, so that an agent that makes up names costs its run nothing
+// but a number.
 class ProbeTally {
  public:
   static constexpr std::size_t kNamesMax = 64;  // different names in a run

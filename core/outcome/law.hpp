@@ -8,18 +8,18 @@
 #include <vector>
 
 #include "core/base/catalogue.hpp"
-#include "core/outcome/outcome.hpp"
 #include "core/motion/piece.hpp"
-#include "core/scenario/scenario.hpp"
+#include "core/outcome/outcome.hpp"
 #include "core/outcome/trace.hpp"
+#include "core/scenario/scenario.hpp"
 
 namespace fleetproof {
 
 struct LawFindings {
-  std::vector<Violation> violations;             // ordered by (first, a, b); one entry per uninterrupted stretch
-  std::vector<Incident> incidents;               // everything else that the law accuses
-  std::vector<ProbeCount> met;                   // what the run met, told by a law that counts and accuses nothing
-  std::optional<double> min_clearance_m;         // exact below 0.5 m, else absent; laws of snapshots leave it absent
+  std::vector<Violation> violations;      // ordered by (first, a, b); one entry per uninterrupted stretch
+  std::vector<Incident> incidents;        // everything else that the law accuses
+  std::vector<ProbeCount> met;            // what the run met, told by a law that counts and accuses nothing
+  std::optional<double> min_clearance_m;  // exact below 0.5 m, else absent; laws of snapshots leave it absent
   std::uint64_t perimeter_checks = 0;
   std::uint64_t distance_evaluations = 0;
 };
@@ -39,24 +39,28 @@ class TraceKinds {
   }
 
  private:
-  static constexpr std::uint64_t bit(TraceKind kind) { return std::uint64_t{1} << (static_cast<std::uint32_t>(kind) & 63U); }
+  static constexpr std::uint64_t bit(TraceKind kind) {
+    return std::uint64_t{1} << (static_cast<std::uint32_t>(kind) & 63U);
+  }
   std::uint64_t bits_ = 0;
 };
 
 // Everything that becomes of messages.
-inline constexpr TraceKinds kMessageKinds{TraceKind::Sent, TraceKind::Lost, TraceKind::LostInOutage, TraceKind::LostByInterference, TraceKind::LostToSource,
-                                          TraceKind::Received};
+inline constexpr TraceKinds kMessageKinds{TraceKind::Sent,         TraceKind::Lost,
+                                          TraceKind::LostInOutage, TraceKind::LostByInterference,
+                                          TraceKind::LostToSource, TraceKind::Received};
 
-// A rule about what must never happen: a read-only observer of the pieces of a run, and of what its trace records. A law never reaches the world or
-// its trace.
+// A rule about what must never happen: a read-only observer of the pieces of a run, and of what its trace records. A
+// law never reaches the world or its trace.
 //
-// `happened` is called for the kinds that `reads` names, as they are recorded, and for no other: what nobody reads costs nothing. Of a record and a
-// piece of the same instant, the piece that it caused was announced before.
+// `happened` is called for the kinds that `reads` names, as they are recorded, and for no other: what nobody reads
+// costs nothing. Of a record and a piece of the same instant, the piece that it caused was announced before.
 //
-// Every body's pieces are contiguous while it is on the floor: an obstacle's from its appearing to its leaving, an AGV's from kStart to the end of the
-// run, less the times between `Leaves` and `Appears` in which the operator has taken it off the floor: it comes back somewhere else. A piece is
-// announced when it begins, with its planned end, and again when it ends, with the end that it really had. Pieces that end at the same instant are announced one after the other. At the end of the run
-// every open piece is ended first, then `finish` is called once.
+// Every body's pieces are contiguous while it is on the floor: an obstacle's from its appearing to its leaving, an
+// AGV's from kStart to the end of the run, less the times between `Leaves` and `Appears` in which the operator has
+// taken it off the floor: it comes back somewhere else. A piece is announced when it begins, with its planned end, and
+// again when it ends, with the end that it really had. Pieces that end at the same instant are announced one after the
+// other. At the end of the run every open piece is ended first, then `finish` is called once.
 class Law {
  public:
   virtual ~Law() = default;

@@ -15,17 +15,46 @@ namespace {
 constexpr std::uint32_t kEncodingVersion = 3;
 
 // The order of the fields in the encoding. Append only, together with a new version.
-constexpr std::array kFlags{&Outcome::violation, &Outcome::contact, &Outcome::stuck, &Outcome::crash, &Outcome::hang, &Outcome::indeterminate, &Outcome::engine_error};
-constexpr std::array kCounters{
-    &Counters::events,         &Counters::activations,   &Counters::agent_calls,         &Counters::messages_sent,        &Counters::receptions,
-    &Counters::receptions_lost, &Counters::out_of_range, &Counters::delay_sum_ns,        &Counters::drives,               &Counters::turns,
-    &Counters::refused_calls,  &Counters::transports_released, &Counters::transports_done, &Counters::distance_um,        &Counters::safe_mode_ns,
-    &Counters::contacts,       &Counters::distance_evaluations, &Counters::perimeter_checks,
-    &Counters::rolls, &Counters::faults, &Counters::batteries_empty, &Counters::loads_cleared, &Counters::assists, &Counters::scanner_stops,
-    &Counters::scanner_saves, &Counters::received, &Counters::under_way, &Counters::battery_start_ppb, &Counters::battery_end_ppb,
-    &Counters::battery_driven_ppb, &Counters::battery_idled_ppb, &Counters::battery_charged_ppb,
-    &Counters::incidents_left_out, &Counters::probes_left_out,
-    &Counters::lost_in_outage, &Counters::lost_by_interference, &Counters::duplicates, &Counters::lost_to_sources};
+constexpr std::array kFlags{&Outcome::violation, &Outcome::contact,       &Outcome::stuck,       &Outcome::crash,
+                            &Outcome::hang,      &Outcome::indeterminate, &Outcome::engine_error};
+constexpr std::array kCounters{&Counters::events,
+                               &Counters::activations,
+                               &Counters::agent_calls,
+                               &Counters::messages_sent,
+                               &Counters::receptions,
+                               &Counters::receptions_lost,
+                               &Counters::out_of_range,
+                               &Counters::delay_sum_ns,
+                               &Counters::drives,
+                               &Counters::turns,
+                               &Counters::refused_calls,
+                               &Counters::transports_released,
+                               &Counters::transports_done,
+                               &Counters::distance_um,
+                               &Counters::safe_mode_ns,
+                               &Counters::contacts,
+                               &Counters::distance_evaluations,
+                               &Counters::perimeter_checks,
+                               &Counters::rolls,
+                               &Counters::faults,
+                               &Counters::batteries_empty,
+                               &Counters::loads_cleared,
+                               &Counters::assists,
+                               &Counters::scanner_stops,
+                               &Counters::scanner_saves,
+                               &Counters::received,
+                               &Counters::under_way,
+                               &Counters::battery_start_ppb,
+                               &Counters::battery_end_ppb,
+                               &Counters::battery_driven_ppb,
+                               &Counters::battery_idled_ppb,
+                               &Counters::battery_charged_ppb,
+                               &Counters::incidents_left_out,
+                               &Counters::probes_left_out,
+                               &Counters::lost_in_outage,
+                               &Counters::lost_by_interference,
+                               &Counters::duplicates,
+                               &Counters::lost_to_sources};
 static_assert(sizeof(Counters) == kCounters.size() * sizeof(std::uint64_t), "every counter is in the encoding");
 
 class ByteSink {
@@ -60,7 +89,8 @@ class ByteSource {
     if (value > 1) throw EngineError("an encoded outcome is damaged: a yes-or-no field holds neither");
     return value == 1;
   }
-  // A count of items of `item_bytes` each: checked against what is left, so that damaged bytes cannot ask for terabytes.
+  // A count of items of `item_bytes` each: checked against what is left, so that damaged bytes cannot ask for
+  // terabytes.
   std::size_t count(std::size_t item_bytes) {
     const std::size_t value = u32();
     if (value > bytes_.size() / item_bytes) throw EngineError("an encoded outcome is damaged: it ends too early");
@@ -129,7 +159,8 @@ void put(ByteSink& sink, const Incident& incident) {
 
 Incident get_incident(ByteSource& source) {
   const auto kind = source.u32();
-  if (!is_incident_kind(kind)) throw EngineError("an encoded outcome is damaged: it holds an incident of no known kind");
+  if (!is_incident_kind(kind))
+    throw EngineError("an encoded outcome is damaged: it holds an incident of no known kind");
   Incident incident;
   incident.kind = static_cast<IncidentKind>(kind);
   incident.a = EntityId{source.u32()};
@@ -158,28 +189,40 @@ ProbeCount get_probe(ByteSource& source) {
 
 ViolationLevel level_of(const Violation& violation) {
   if (!violation.contact) return ViolationLevel::SafetyDistance;
-  return violation.relative_speed_um_s > kHazardousSpeed_um_s ? ViolationLevel::HazardousContact : ViolationLevel::Contact;
+  return violation.relative_speed_um_s > kHazardousSpeed_um_s ? ViolationLevel::HazardousContact
+                                                              : ViolationLevel::Contact;
 }
 
 const char* name_of(ViolationLevel level) {
   switch (level) {
-    case ViolationLevel::SafetyDistance: return "safety distance broken";
-    case ViolationLevel::Contact: return "contact";
-    case ViolationLevel::HazardousContact: return "contact at hazardous speed";
+    case ViolationLevel::SafetyDistance:
+      return "safety distance broken";
+    case ViolationLevel::Contact:
+      return "contact";
+    case ViolationLevel::HazardousContact:
+      return "contact at hazardous speed";
   }
   invariant_violated("a level of violation has a name");
 }
 
 const char* name_of(OutcomeClass c) {
   switch (c) {
-    case OutcomeClass::EngineError: return "engine_error";
-    case OutcomeClass::Contact: return "contact";
-    case OutcomeClass::Violation: return "violation";
-    case OutcomeClass::Crash: return "crash";
-    case OutcomeClass::Hang: return "hang";
-    case OutcomeClass::Indeterminate: return "indeterminate";
-    case OutcomeClass::Stuck: return "stuck";
-    case OutcomeClass::Clean: return "clean";
+    case OutcomeClass::EngineError:
+      return "engine_error";
+    case OutcomeClass::Contact:
+      return "contact";
+    case OutcomeClass::Violation:
+      return "violation";
+    case OutcomeClass::Crash:
+      return "crash";
+    case OutcomeClass::Hang:
+      return "hang";
+    case OutcomeClass::Indeterminate:
+      return "indeterminate";
+    case OutcomeClass::Stuck:
+      return "stuck";
+    case OutcomeClass::Clean:
+      return "clean";
   }
   invariant_violated("an outcome class has a name");
 }
@@ -219,7 +262,8 @@ std::string encode(const Outcome& outcome) {
 
 Outcome decode_outcome(std::string_view bytes) {
   ByteSource source(bytes);
-  if (source.u32() != kEncodingVersion) throw EngineError("an encoded outcome is of another version, or is no outcome at all");
+  if (source.u32() != kEncodingVersion)
+    throw EngineError("an encoded outcome is of another version, or is no outcome at all");
   Outcome outcome;
   for (const auto flag : kFlags) outcome.*flag = source.flag();
   if (source.flag()) outcome.min_clearance_um = source.i64();
@@ -245,13 +289,15 @@ void file_violations(Outcome& outcome, std::vector<Violation> violations) {
   for (const auto& violation : violations) {
     outcome.violation = true;
     outcome.contact = outcome.contact || violation.contact;
-    outcome.min_clearance_um = std::min(outcome.min_clearance_um.value_or(violation.min_clearance_um), violation.min_clearance_um);
+    outcome.min_clearance_um =
+        std::min(outcome.min_clearance_um.value_or(violation.min_clearance_um), violation.min_clearance_um);
   }
   outcome.violations = std::move(violations);
 }
 
 void file_incidents(Outcome& outcome, std::vector<Incident> incidents) {
-  std::ranges::sort(incidents, {}, [](const Incident& i) { return std::tuple(i.first, i.kind, i.a, i.b, i.last, i.value); });
+  std::ranges::sort(incidents, {},
+                    [](const Incident& i) { return std::tuple(i.first, i.kind, i.a, i.b, i.last, i.value); });
   if (incidents.size() > kIncidentsMax) {
     outcome.counters.incidents_left_out += incidents.size() - kIncidentsMax;
     incidents.resize(kIncidentsMax);

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "core/outcome/incident.hpp"
 #include "core/base/sim_time.hpp"
 #include "core/base/strong_id.hpp"
+#include "core/outcome/incident.hpp"
 
 namespace fleetproof {
 
@@ -20,9 +20,9 @@ struct Violation {
   EntityId a, b;
   SimTime first{}, last{};
   SimTime closest_at{};
-  std::int64_t min_clearance_um = 0;   // rounded down; below zero in an overlap
+  std::int64_t min_clearance_um = 0;     // rounded down; below zero in an overlap
   std::int64_t relative_speed_um_s = 0;  // between the reference points at `closest_at`
-  std::int64_t x_um = 0, y_um = 0;     // midway between the reference points at `closest_at`
+  std::int64_t x_um = 0, y_um = 0;       // midway between the reference points at `closest_at`
   bool contact = false;
 
   friend bool operator==(const Violation&, const Violation&) = default;
@@ -44,23 +44,26 @@ struct Counters {
   std::uint64_t distance_um = 0;
   std::uint64_t safe_mode_ns = 0, contacts = 0;
   std::uint64_t distance_evaluations = 0, perimeter_checks = 0;  // spent by the laws
-  std::uint64_t rolls = 0;                       // stations passed without a stop
+  std::uint64_t rolls = 0;                                       // stations passed without a stop
   std::uint64_t faults = 0, batteries_empty = 0, loads_cleared = 0, assists = 0;
   std::uint64_t scanner_stops = 0, scanner_saves = 0;  // saves: a touch was under way
-  std::uint64_t received = 0, under_way = 0;     // receptions that reached an AGV; still in the air at the end
+  std::uint64_t received = 0, under_way = 0;           // receptions that reached an AGV; still in the air at the end
   // The energy book of the fleet, in billionths of a full battery: start + charged = end + driven + idled.
-  std::uint64_t battery_start_ppb = 0, battery_end_ppb = 0, battery_driven_ppb = 0, battery_idled_ppb = 0, battery_charged_ppb = 0;
-  std::uint64_t incidents_left_out = 0, probes_left_out = 0;     // beyond what an outcome holds
-  // Of the receptions lost: while the link or place was in an outage | by other transmissions. Copies delivered on top of the receptions.
+  std::uint64_t battery_start_ppb = 0, battery_end_ppb = 0, battery_driven_ppb = 0, battery_idled_ppb = 0,
+                battery_charged_ppb = 0;
+  std::uint64_t incidents_left_out = 0, probes_left_out = 0;  // beyond what an outcome holds
+  // Of the receptions lost: while the link or place was in an outage | by other transmissions. Copies delivered on top
+  // of the receptions.
   std::uint64_t lost_in_outage = 0, lost_by_interference = 0, duplicates = 0;
-  std::uint64_t lost_to_sources = 0;             // likewise: to external sources alone
+  std::uint64_t lost_to_sources = 0;  // likewise: to external sources alone
 
   friend bool operator==(const Counters&, const Counters&) = default;
 };
 
 // The result of one run: flat, whole numbers only.
 struct Outcome {
-  bool violation = false, contact = false, stuck = false, crash = false, hang = false, indeterminate = false, engine_error = false;
+  bool violation = false, contact = false, stuck = false, crash = false, hang = false, indeterminate = false,
+       engine_error = false;
   std::optional<std::int64_t> min_clearance_um;  // absent: more than 0.5 m all the time, or no law measured it
   std::vector<Violation> violations;             // in order of (first, a, b)
   std::vector<Incident> incidents;               // of all laws that ran, in order of (first, kind, a, b)
@@ -68,9 +71,9 @@ struct Outcome {
   Counters counters;
   std::uint64_t simulated_ns = 0;
   std::uint32_t agv_count = 0;
-  std::uint64_t digest = 0;                      // of the whole trace
-  std::vector<std::uint64_t> running_digests;    // after events 1, 2, 4, 8, ...
-  std::string message;                           // of a crash, hang or engine error
+  std::uint64_t digest = 0;                    // of the whole trace
+  std::vector<std::uint64_t> running_digests;  // after events 1, 2, 4, 8, ...
+  std::string message;                         // of a crash, hang or engine error
 
   OutcomeClass outcome_class() const;
   friend bool operator==(const Outcome&, const Outcome&) = default;

@@ -17,9 +17,31 @@ XXH3_state_t* hash(void* state) { return static_cast<XXH3_state_t*>(state); }
 }  // namespace
 
 const char* name_of(TraceKind kind) {
-  constexpr std::array names = {"?",      "begins", "ends",    "order",    "transport done", "sent",     "lost",          "received", "timer",
-                                "refused", "contact", "safe mode", "waiting for", "probe",       "log",      "agent crashed", "agent hung", "load moves",
-                                "battery empty", "fault", "fault over", "scanner stops", "operator assists", "appears", "leaves"};
+  constexpr std::array names = {"?",
+                                "begins",
+                                "ends",
+                                "order",
+                                "transport done",
+                                "sent",
+                                "lost",
+                                "received",
+                                "timer",
+                                "refused",
+                                "contact",
+                                "safe mode",
+                                "waiting for",
+                                "probe",
+                                "log",
+                                "agent crashed",
+                                "agent hung",
+                                "load moves",
+                                "battery empty",
+                                "fault",
+                                "fault over",
+                                "scanner stops",
+                                "operator assists",
+                                "appears",
+                                "leaves"};
   if (kind == TraceKind::LostInOutage) return "lost in an outage";
   if (kind == TraceKind::LostByInterference) return "lost by interference";
   if (kind == TraceKind::LostToSource) return "lost to an external source";

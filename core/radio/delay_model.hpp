@@ -4,8 +4,9 @@
 
 namespace fleetproof {
 
-// The delay of a transmission as a function of one uniform draw: its quantile function, so that the same draw gives comparable delays at every
-// nominal delay. Of the network alone: the air time of the message counts instead where it is longer.
+// The delay of a transmission as a function of one uniform draw: its quantile function, so that the same draw gives
+// comparable delays at every nominal delay. Of the network alone: the air time of the message counts instead where it
+// is longer.
 class DelayModel {
  public:
   explicit DelayModel(const RadioSetup& setup);

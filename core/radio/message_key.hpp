@@ -17,8 +17,8 @@ struct MessageKey {
 
 inline Block draw_for(const MessageKey& message, std::uint64_t key) {
   const auto t = static_cast<std::uint64_t>(to_ns(message.sent));
-  return philox(key, {static_cast<std::uint32_t>(t), static_cast<std::uint32_t>(t >> 32), (message.sender.value << 16) | message.receiver.value,
-                      message.ordinal});
+  return philox(key, {static_cast<std::uint32_t>(t), static_cast<std::uint32_t>(t >> 32),
+                      (message.sender.value << 16) | message.receiver.value, message.ordinal});
 }
 
 }  // namespace fleetproof

@@ -8,11 +8,13 @@
 namespace fleetproof {
 namespace {
 
-// Two blocks for each stretch: its lengths, and what becomes of an outage at its beginning. Stretch 0 begins with the state at time zero.
+// Two blocks for each stretch: its lengths, and what becomes of an outage at its beginning. Stretch 0 begins with the
+// state at time zero.
 enum class Use : std::uint32_t { Lengths = 0, Beginning = 1 };
 
 Block draw(const ProcessKey& key, std::uint64_t number, Use use) {
-  const std::uint32_t topic = (static_cast<std::uint32_t>(number >> 32) << 8) | (key.kind << 1) | static_cast<std::uint32_t>(use);
+  const std::uint32_t topic =
+      (static_cast<std::uint32_t>(number >> 32) << 8) | (key.kind << 1) | static_cast<std::uint32_t>(use);
   return philox(key.key, {static_cast<std::uint32_t>(number), topic, key.a, key.b});
 }
 
@@ -54,8 +56,9 @@ SimTime OutageProcess::next_change(SimTime t) {
   return bad ? from_ : bad_since_;
 }
 
-// The state at time zero has the stationary distribution: bad with the bad share, and then of an age whose density is P(an outage is longer).
-// The age of an outage is drawn alike for every bad share, so the order of ages holds from the beginning.
+// The state at time zero has the stationary distribution: bad with the bad share, and then of an age whose density is
+// P(an outage is longer). The age of an outage is drawn alike for every bad share, so the order of ages holds from the
+// beginning.
 void OutageProcess::start() {
   number_ = 0;
   from_ = kStart;
@@ -75,7 +78,8 @@ void OutageProcess::start() {
   bad_since_ = kForever;
   if (bad) {
     const bool lomax = law_.sojourn == OutageLaw::Sojourn::Lomax;
-    const double age_s = lomax ? scale_s_ * (natural_exp(-natural_log(rest) / (law_.shape - 1.0)) - 1.0) : -natural_log(rest) * law_.mean_bad_s;
+    const double age_s = lomax ? scale_s_ * (natural_exp(-natural_log(rest) / (law_.shape - 1.0)) - 1.0)
+                               : -natural_log(rest) * law_.mean_bad_s;
     bad_since_ = kStart - seconds(age_s);
   }
   draw_stretch();
@@ -93,7 +97,9 @@ void OutageProcess::draw_stretch() {
   const Block block = draw(key_, number_, Use::Lengths);
   if (law_.sojourn == OutageLaw::Sojourn::Uniform) {
     bad_since_ = later(from_, seconds(unit_exponential(word64(block, 0)) * mean_good_s_));
-    until_ = later(bad_since_, std::max(seconds(law_.min_s + (law_.max_s - law_.min_s) * unit_interval(word64(block, 1))), kShortest));
+    until_ =
+        later(bad_since_,
+              std::max(seconds(law_.min_s + (law_.max_s - law_.min_s) * unit_interval(word64(block, 1))), kShortest));
     return;
   }
   until_ = later(from_, std::max(seconds(unit_exponential(word64(block, 0)) / hazard_), kShortest));

@@ -23,13 +23,15 @@ struct OutageLaw {
   double min_s = 0.0, max_s = 0.0;  // Uniform
 };
 
-// A stationary process of two states with exponential good sojourns, as a function of time: what it answers about t depends on key, law and t, never
-// on what was asked before. Asking forward is cheap; asking back starts over at time zero.
+// A stationary process of two states with exponential good sojourns, as a function of time: what it answers about t
+// depends on key, law and t, never on what was asked before. Asking forward is cheap; asking back starts over at time
+// zero.
 //
-// Exponential and Lomax: candidate ends form a Poisson process with the hazard rate that an outage has at age 0. In each stretch between two
-// candidates a good state turns bad after (unit exponential) / (rate of outages). At a candidate an outage of age x ends with probability
-// hazard(x) / hazard(0), which is 1 for exponential outages. All these draws are the same for every bad share, so that with a higher share the
-// outages begin earlier, are older, and end at fewer candidates (the hazard of a Lomax outage falls with age): they *contain* those of a lower share.
+// Exponential and Lomax: candidate ends form a Poisson process with the hazard rate that an outage has at age 0. In
+// each stretch between two candidates a good state turns bad after (unit exponential) / (rate of outages). At a
+// candidate an outage of age x ends with probability hazard(x) / hazard(0), which is 1 for exponential outages. All
+// these draws are the same for every bad share, so that with a higher share the outages begin earlier, are older, and
+// end at fewer candidates (the hazard of a Lomax outage falls with age): they *contain* those of a lower share.
 // Uniform: window and gap take turns.
 class OutageProcess {
  public:

@@ -20,7 +20,8 @@ Radio::Radio(const RadioSetup& setup, std::uint64_t world_seed)
       state_key_(stream_key(world_seed, Stream::RadioState)),
       copy_key_(stream_key(world_seed, Stream::RadioCopy)),
       delay_(setup),
-      has_states_(setup.outages.mean_outage_s > 0.0 || setup.asymmetry > 0.0 || setup.places.roaming_border_m > 0.0 || setup.places.roaming_at_crossing),
+      has_states_(setup.outages.mean_outage_s > 0.0 || setup.asymmetry > 0.0 || setup.places.roaming_border_m > 0.0 ||
+                  setup.places.roaming_at_crossing),
       depends_on_place_(setup.places.roaming_border_m > 0.0 || !setup.sources.empty() ||
                         (setup.outages.mean_outage_s > 0.0 && setup.outages.scope == OutageSetup::Scope::Place)),
       recorded_(setup.trace),
@@ -47,22 +48,28 @@ Fate Radio::fate(AgvId sender, AgvId receiver, SimTime sent, std::uint32_t ordin
   return fate;
 }
 
-void Radio::weigh_states(Fate& fate, double loss_draw, AgvId sender, AgvId receiver, SimTime sent, const LinkPlaces& places) {
+void Radio::weigh_states(Fate& fate, double loss_draw, AgvId sender, AgvId receiver, SimTime sent,
+                         const LinkPlaces& places) {
   double loss = setup_.asymmetry > 0.0 ? loss_of(sender, receiver) : setup_.loss;
   if (setup_.outages.mean_outage_s > 0.0) {
     const bool by_place = setup_.outages.scope == OutageSetup::Scope::Place;
-    fate.in_outage = by_place ? places_.cell_is_out(places.receiver_m, sent) : process_of(sender, receiver).bad_at(sent);
+    fate.in_outage =
+        by_place ? places_.cell_is_out(places.receiver_m, sent) : process_of(sender, receiver).bad_at(sent);
     const auto [good, bad] = losses_by_state(loss);
     loss = fate.in_outage ? bad : good;
   }
   fate.lost = loss_draw < loss;
-  const bool at_border = places_.has_borders() && (places_.is_roaming(places.sender_m, sent) || places_.is_roaming(places.receiver_m, sent));
-  if (at_border || crossings_.is_deaf(sender, sent) || crossings_.is_deaf(receiver, sent)) fate.lost = fate.in_outage = true;
+  const bool at_border = places_.has_borders() &&
+                         (places_.is_roaming(places.sender_m, sent) || places_.is_roaming(places.receiver_m, sent));
+  if (at_border || crossings_.is_deaf(sender, sent) || crossings_.is_deaf(receiver, sent))
+    fate.lost = fate.in_outage = true;
 }
 
-// A nominal loss outside [loss_good, loss_bad] needs no second state: the only one left has that loss. All three figures (both losses and the bad
-// share) grow with the nominal loss, which is why a higher one only adds losses.
-Radio::StateLoss Radio::losses_by_state(double loss) const { return {std::min(setup_.outages.loss_good, loss), std::max(setup_.outages.loss_bad, loss)}; }
+// A nominal loss outside [loss_good, loss_bad] needs no second state: the only one left has that loss. All three
+// figures (both losses and the bad share) grow with the nominal loss, which is why a higher one only adds losses.
+Radio::StateLoss Radio::losses_by_state(double loss) const {
+  return {std::min(setup_.outages.loss_good, loss), std::max(setup_.outages.loss_bad, loss)};
+}
 
 OutageLaw Radio::outage_law(double loss) const {
   const auto& outages = setup_.outages;
@@ -91,7 +98,8 @@ OutageProcess& Radio::process_of(AgvId sender, AgvId receiver) {
   auto& process = links_[row][column];
   if (!process) {
     const double loss = setup_.asymmetry > 0.0 ? loss_of(sender, receiver) : setup_.loss;
-    process.emplace(outage_law(loss), ProcessKey{state_key_, kLinkProcess, keyed_by_direction ? sender.value : low, keyed_by_direction ? receiver.value : high});
+    process.emplace(outage_law(loss), ProcessKey{state_key_, kLinkProcess, keyed_by_direction ? sender.value : low,
+                                                 keyed_by_direction ? receiver.value : high});
   }
   return *process;
 }

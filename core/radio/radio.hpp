@@ -12,18 +12,19 @@
 #include "core/radio/radio_channel.hpp"
 #include "core/radio/radio_crossings.hpp"
 #include "core/radio/radio_places.hpp"
-#include "core/scenario/radio_setup.hpp"
 #include "core/radio/radio_sources.hpp"
 #include "core/radio/recorded_radio.hpp"
+#include "core/scenario/radio_setup.hpp"
 
 namespace fleetproof {
 
 // What becomes of one transmission at one receiver, air time and interference apart.
 struct Fate {
   bool lost = false;
-  bool in_outage = false;                // lost or not: the link or the place is in an outage, or an AGV is changing its access point
-  bool to_source = false;                // lost, and but for an external source it would not be
-  Duration delay{};                      // from sending to the inbox if the air time is no longer; for a lost one too, so that losses shift nothing
+  bool in_outage = false;  // lost or not: the link or the place is in an outage, or an AGV is changing its access point
+  bool to_source = false;  // lost, and but for an external source it would not be
+  Duration delay{};  // from sending to the inbox if the air time is no longer; for a lost one too, so that losses shift
+                     // nothing
   std::optional<Duration> copy_delay{};  // of a second copy, likewise
 };
 
@@ -32,13 +33,15 @@ struct LinkPlaces {
   Vec2 sender_m = Vec2::Zero(), receiver_m = Vec2::Zero();
 };
 
-// The radio as a function of (sender, receiver, places, instant, number among the messages of that instant): one message more moves no other's fate,
-// and a higher loss rate only adds losses. It remembers where each outage process has got to, for speed alone: for one run, on one thread.
+// The radio as a function of (sender, receiver, places, instant, number among the messages of that instant): one
+// message more moves no other's fate, and a higher loss rate only adds losses. It remembers where each outage process
+// has got to, for speed alone: for one run, on one thread.
 class Radio {
  public:
   Radio(const RadioSetup& setup, std::uint64_t world_seed);
   bool depends_on_place() const { return depends_on_place_; }
-  // To be told of every piece of every AGV, but for those with which they begin: what comes of the AGV's way hangs on them.
+  // To be told of every piece of every AGV, but for those with which they begin: what comes of the AGV's way hangs on
+  // them.
   void piece_begins(const Piece& piece) {
     if (crossings_.is_on()) crossings_.piece_begins(piece);
   }
@@ -65,7 +68,8 @@ class Radio {
   RadioPlaces places_;
   RadioCrossings crossings_;
   RadioSources sources_;
-  std::vector<std::vector<std::optional<OutageProcess>>> links_;  // by sender (the smaller id where directions share one), receiver
+  std::vector<std::vector<std::optional<OutageProcess>>>
+      links_;  // by sender (the smaller id where directions share one), receiver
 };
 
 // A message in the air or in inboxes.

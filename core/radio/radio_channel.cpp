@@ -10,12 +10,15 @@ RadioChannel::RadioChannel(const RadioSetup& setup, std::uint64_t world_seed)
 AirInterval RadioChannel::contend(AgvId sender, SimTime sent, std::uint32_t ordinal, Duration air_time) {
   const Duration slot = std::max(air_time, Duration{1});
   longest_ = std::max(longest_, slot);
-  // Whoever is still to be asked about ends now or later, so it began after now - longest: what was over by then touches nobody any more.
+  // Whoever is still to be asked about ends now or later, so it began after now - longest: what was over by then
+  // touches nobody any more.
   while (!on_air_.empty() && on_air_.begin()->second <= sent - longest_) on_air_.erase(on_air_.begin());
   if (free_from_.size() <= sender.index()) free_from_.resize(sender.index() + 1, kStart);
   const auto t = static_cast<std::uint64_t>(to_ns(sent));
-  const auto block = philox(key_, {static_cast<std::uint32_t>(t), static_cast<std::uint32_t>(t >> 32), sender.value, ordinal});
-  const auto backoff = static_cast<std::int64_t>(((word64(block, 0) >> 32) * (std::uint64_t{contention_window_} + 1)) >> 32);
+  const auto block =
+      philox(key_, {static_cast<std::uint32_t>(t), static_cast<std::uint32_t>(t >> 32), sender.value, ordinal});
+  const auto backoff =
+      static_cast<std::int64_t>(((word64(block, 0) >> 32) * (std::uint64_t{contention_window_} + 1)) >> 32);
   SimTime& free_from = free_from_[sender.index()];
   const std::int64_t slot_of_sending = sent.time_since_epoch() / slot;
   const std::int64_t first_free_slot = (free_from.time_since_epoch() + slot - Duration{1}) / slot;

@@ -19,7 +19,9 @@ double room_m(const AccessCell& cell, double spacing_m, const Vec2& at_m) {
 }
 
 SimTime time_at(const Piece& piece, double way_m) {
-  return std::min(piece.begin + seconds(piece.profile.time_at(std::min(way_m - piece.way_begin_m, piece.profile.distance()))), piece.end);
+  return std::min(
+      piece.begin + seconds(piece.profile.time_at(std::min(way_m - piece.way_begin_m, piece.profile.distance()))),
+      piece.end);
 }
 
 // The first whole nanosecond outside, between one inside and one outside.
@@ -31,8 +33,9 @@ SimTime first_outside(const Piece& piece, const AccessCell& cell, double spacing
   return outside;
 }
 
-// When a drive that is in this cell at way_m leaves it; way_m goes on to a place before which it does not. A line between two points of a cell lies
-// in it, and an arc leaves its chord by length^2 curvature / 8, so steps may be as long as that allows, or as the distance to the nearest border.
+// When a drive that is in this cell at way_m leaves it; way_m goes on to a place before which it does not. A line
+// between two points of a cell lies in it, and an arc leaves its chord by length^2 curvature / 8, so steps may be as
+// long as that allows, or as the distance to the nearest border.
 std::optional<SimTime> leaves(const Piece& drive, const AccessCell& cell, double spacing_m, double& way_m) {
   const double end_m = drive.way_at(drive.end);  // of a leg: not the whole profile
   while (way_m < end_m) {

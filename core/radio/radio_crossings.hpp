@@ -10,12 +10,13 @@
 
 namespace fleetproof {
 
-// AGVs that change their access point by driving over a border of cells, see PlaceSetup::roaming_at_crossing. What an AGV's crossings are follows
-// from its own pieces, whoever asks and however often; how long each lasts is keyed by AGV and number of the crossing.
+// AGVs that change their access point by driving over a border of cells, see PlaceSetup::roaming_at_crossing. What an
+// AGV's crossings are follows from its own pieces, whoever asks and however often; how long each lasts is keyed by AGV
+// and number of the crossing.
 //
-// A cell is left once the reference point is more than a micrometre outside of it, so an AGV that stands on a border or drives along it stays where
-// it is. On straight ways that instant is exact to the nanosecond. On a bend an excursion into another cell that is shallower than a tenth of a
-// millimetre is not seen. For one run, on one thread.
+// A cell is left once the reference point is more than a micrometre outside of it, so an AGV that stands on a border or
+// drives along it stays where it is. On straight ways that instant is exact to the nanosecond. On a bend an excursion
+// into another cell that is shallower than a tenth of a millimetre is not seen. For one run, on one thread.
 class RadioCrossings {
  public:
   RadioCrossings(const PlaceSetup& setup, std::uint64_t key) : setup_(setup), key_(key) {}

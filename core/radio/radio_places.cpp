@@ -16,7 +16,9 @@ OutageLaw windows(const PlaceSetup& setup) {
 }  // namespace
 
 AccessCell access_cell(const Vec2& at_m, double spacing_m) {
-  const auto number = [&](double coordinate_m) { return static_cast<std::int32_t>(std::floor(coordinate_m / spacing_m + 0.5)); };
+  const auto number = [&](double coordinate_m) {
+    return static_cast<std::int32_t>(std::floor(coordinate_m / spacing_m + 0.5));
+  };
   return {number(at_m.x()), number(at_m.y())};
 }
 
@@ -31,7 +33,8 @@ bool RadioPlaces::near_border(double coordinate_m, std::int32_t& number) const {
 bool RadioPlaces::bad_at(Kind kind, std::int32_t i, std::int32_t k, const OutageLaw& law, SimTime t) {
   const auto [place, is_new] = processes_.try_emplace({kind, i, k});
   if (is_new) {
-    place->second = OutageProcess(law, {key_, static_cast<std::uint32_t>(kind), static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(k)});
+    place->second = OutageProcess(
+        law, {key_, static_cast<std::uint32_t>(kind), static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(k)});
   }
   return place->second.bad_at(t);
 }

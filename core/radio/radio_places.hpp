@@ -15,8 +15,8 @@ struct AccessCell {
 };
 AccessCell access_cell(const Vec2& at_m, double spacing_m);
 
-// Outages that belong to a place: cells of access points, and the borders between them. Pure functions of place and time; the maps only remember
-// where each process has got to. For one run, on one thread.
+// Outages that belong to a place: cells of access points, and the borders between them. Pure functions of place and
+// time; the maps only remember where each process has got to. For one run, on one thread.
 class RadioPlaces {
  public:
   // `cell_law`: of the outages of a cell.
@@ -28,7 +28,11 @@ class RadioPlaces {
   bool is_roaming(const Vec2& at_m, SimTime t);
 
  private:
-  enum class Kind : std::uint32_t { Cell = 1, BorderAcrossX, BorderAcrossY };  // a border across x is crossed by driving along x
+  enum class Kind : std::uint32_t {
+    Cell = 1,
+    BorderAcrossX,
+    BorderAcrossY
+  };  // a border across x is crossed by driving along x
 
   bool bad_at(Kind kind, std::int32_t i, std::int32_t k, const OutageLaw& law, SimTime t);
   // Number of the border near this coordinate, if one is: the line between the access points number and number + 1.

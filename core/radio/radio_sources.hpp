@@ -9,8 +9,9 @@
 
 namespace fleetproof {
 
-// External sources, see RadioSource. Each has its own randomness, keyed by its number: when it is on depends on key and time alone, whom it hits on
-// the message and the receiver's place, and no other source's draws enter. For one run, on one thread.
+// External sources, see RadioSource. Each has its own randomness, keyed by its number: when it is on depends on key and
+// time alone, whom it hits on the message and the receiver's place, and no other source's draws enter. For one run, on
+// one thread.
 class RadioSources {
  public:
   RadioSources(const std::vector<RadioSource>& sources, std::uint64_t key);

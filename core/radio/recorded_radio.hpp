@@ -4,7 +4,8 @@
 
 namespace fleetproof {
 
-// A recording as a function of time: it repeats after its last instant (of all pairs, so that what went wrong together still does).
+// A recording as a function of time: it repeats after its last instant (of all pairs, so that what went wrong together
+// still does).
 class RecordedRadio {
  public:
   explicit RecordedRadio(std::shared_ptr<const RadioTrace> trace);

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "core/geometry/rectangle.hpp"
 #include "core/base/sim_time.hpp"
 #include "core/base/strong_id.hpp"
+#include "core/geometry/rectangle.hpp"
 
 namespace fleetproof {
 
@@ -25,18 +25,22 @@ struct Fault {
   Duration at{};                           // since the start of the run, or since the AGV took up that transport's load
   std::optional<std::uint32_t> transport;  // number among the AGV's own
   Duration lasts{};
-  // LoadDrop only: the load on the floor, with its centre seen from the AGV's (along its heading, and to its left), and aligned with it.
+  // LoadDrop only: the load on the floor, with its centre seen from the AGV's (along its heading, and to its left), and
+  // aligned with it.
   Footprint load{.length_m = 1.2, .width_m = 0.8};
   double ahead_m = -1.6, left_m = 0.0;
 };
 const char* name_of(Fault::Kind kind);
 inline constexpr std::size_t kFaultKinds = 5;
-// Whether the fault holds its AGV where it is for as long as it lasts: the AGV brakes, stands and then goes on. What does not get done meanwhile is
-// nobody's fault.
-constexpr bool holds_agv(Fault::Kind kind) { return kind == Fault::Kind::Breakdown || kind == Fault::Kind::ProtectiveStop; }
+// Whether the fault holds its AGV where it is for as long as it lasts: the AGV brakes, stands and then goes on. What
+// does not get done meanwhile is nobody's fault.
+constexpr bool holds_agv(Fault::Kind kind) {
+  return kind == Fault::Kind::Breakdown || kind == Fault::Kind::ProtectiveStop;
+}
 
-// The laser scanner of an AGV: it stops the AGV when a body stands in its protective field, and lets it go on some time after it is clear. The field
-// is a rectangle before the front: v * reaction + v^2 / (2 deceleration) + margin long, and margin wider than the AGV on either side.
+// The laser scanner of an AGV: it stops the AGV when a body stands in its protective field, and lets it go on some time
+// after it is clear. The field is a rectangle before the front: v * reaction + v^2 / (2 deceleration) + margin long,
+// and margin wider than the AGV on either side.
 struct ScannerSetup {
   bool on = false;
   double reaction_s = 0.08;  // it looks as often
@@ -50,16 +54,19 @@ struct ScannerSetup {
 enum class Assist : std::uint8_t {
   Battery = 1,     // it is empty: is changed
   Jam = 2,         // a scanner has held its AGV for long: the field is muted until it is clear, and the AGV sent on
-  Contact = 3,     // the AGV is out of order after a contact: is taken off the floor and set down at a station (core/engine/recovery.hpp)
-  Standstill = 4,  // nobody has begun or ended an action for `stuck_after` although transports are open: one agent is restarted
+  Contact = 3,     // the AGV is out of order after a contact: is taken off the floor and set down at a station
+                   // (core/engine/recovery.hpp)
+  Standstill = 4,  // no action began or ended for `stuck_after` although transports are open: one agent is restarted
 };
 
-// The person who helps, somebody for each call. Only a contact lets him move an AGV: he takes it off the floor, ends what holds it, changes the
-// battery if that is empty, and sets it down, with its load, as soon as the place is clear by the safety distance of every body, of where its
-// present drive or turn takes it, and of the lanes that AGVs have begun to drive or will drive next; he tries every second. The agent starts there, without memory and with the next boot number; orders not done are
-// told again. What the contact was counted as stays. At a standstill he restarts the agent whose AGV, with a transport open, has begun and ended
-// nothing for the longest (of equals the first) and which nothing else holds; he is called again when that has helped nobody for another
-// `stuck_after`. A restart is no action: whether the run ends stuck is judged as ever.
+// The person who helps, somebody for each call. Only a contact lets him move an AGV: he takes it off the floor, ends
+// what holds it, changes the battery if that is empty, and sets it down, with its load, as soon as the place is clear
+// by the safety distance of every body, of where its present drive or turn takes it, and of the lanes that AGVs have
+// begun to drive or will drive next; he tries every second. The agent starts there, without memory and with the next
+// boot number; orders not done are told again. What the contact was counted as stays. At a standstill he restarts the
+// agent whose AGV, with a transport open, has begun and ended nothing for the longest (of equals the first) and which
+// nothing else holds; he is called again when that has helped nobody for another `stuck_after`. A restart is no action:
+// whether the run ends stuck is judged as ever.
 struct OperatorSetup {
   bool on = false;
   double least_s = 60.0, most_s = 300.0;  // from call to help, uniform

@@ -5,7 +5,8 @@
 namespace fleetproof {
 
 Curve segment_curve(const Layout& layout, const Segment& segment) {
-  const Vec2 from = layout.stations[segment.from.index()].position_m, to = layout.stations[segment.to.index()].position_m;
+  const Vec2 from = layout.stations[segment.from.index()].position_m,
+             to = layout.stations[segment.to.index()].position_m;
   const auto& c = segment.control_points_m;
   if (c.empty()) return Curve::straight(from, to);
   ensure(c.size() % 3 == 2, "a segment has 2, 5, 8, ... control points");
@@ -31,7 +32,8 @@ LogicalMap::LogicalMap(const Layout& layout) : layout_(layout), lanes_from_(layo
       lanes_.push_back({SegmentId{i}, segment.from, segment.to, std::move(forward)});
     }
   }
-  for (std::size_t i = 0; i < lanes_.size(); ++i) lanes_from_[lanes_[i].from.index()].push_back(static_cast<std::uint32_t>(i));
+  for (std::size_t i = 0; i < lanes_.size(); ++i)
+    lanes_from_[lanes_[i].from.index()].push_back(static_cast<std::uint32_t>(i));
 }
 
 const Lane* LogicalMap::lane(SegmentId segment, StationId from) const {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/geometry/curve.hpp"
 #include "core/base/strong_id.hpp"
+#include "core/geometry/curve.hpp"
 
 namespace fleetproof {
 
@@ -18,7 +18,9 @@ class Purposes {
   constexpr Purposes(Purpose p) : bits_(static_cast<std::uint8_t>(p)) {}  // NOLINT: one purpose is a set of one
   static constexpr Purposes from_bits(std::uint8_t bits) { return Purposes(bits, 0); }
   constexpr bool has(Purpose p) const { return (bits_ & static_cast<std::uint8_t>(p)) != 0; }
-  constexpr Purposes operator|(Purposes other) const { return from_bits(static_cast<std::uint8_t>(bits_ | other.bits_)); }
+  constexpr Purposes operator|(Purposes other) const {
+    return from_bits(static_cast<std::uint8_t>(bits_ | other.bits_));
+  }
   constexpr std::uint8_t bits() const { return bits_; }
   friend constexpr bool operator==(Purposes, Purposes) = default;
 
@@ -34,7 +36,8 @@ struct Station {
   Purposes purposes = Purpose::Routing;
 };
 
-// An edge of the logical map. Driven from `from` to `to`; a bidirectional segment also the other way. AGVs drive nose first.
+// An edge of the logical map. Driven from `from` to `to`; a bidirectional segment also the other way. AGVs drive nose
+// first.
 struct Segment {
   std::string name;
   StationId from, to;
@@ -57,7 +60,8 @@ struct Lane {
   Curve curve;
 };
 
-// A layout with what follows from it: the curves of its segments and who leaves where. Built once, shared read-only by every run on it.
+// A layout with what follows from it: the curves of its segments and who leaves where. Built once, shared read-only by
+// every run on it.
 class LogicalMap {
  public:
   explicit LogicalMap(const Layout& layout);
@@ -76,7 +80,7 @@ class LogicalMap {
 
  private:
   Layout layout_;
-  std::vector<Lane> lanes_;                          // by segment; forward before backward
+  std::vector<Lane> lanes_;                             // by segment; forward before backward
   std::vector<std::vector<std::uint32_t>> lanes_from_;  // by station
 };
 

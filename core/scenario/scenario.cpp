@@ -6,11 +6,16 @@ namespace fleetproof {
 
 const char* name_of(Fault::Kind kind) {
   switch (kind) {
-    case Fault::Kind::Breakdown: return "breakdown";
-    case Fault::Kind::ProtectiveStop: return "protective-stop";
-    case Fault::Kind::LoadDrop: return "load-drop";
-    case Fault::Kind::Restart: return "restart";
-    case Fault::Kind::Freeze: return "freeze";
+    case Fault::Kind::Breakdown:
+      return "breakdown";
+    case Fault::Kind::ProtectiveStop:
+      return "protective-stop";
+    case Fault::Kind::LoadDrop:
+      return "load-drop";
+    case Fault::Kind::Restart:
+      return "restart";
+    case Fault::Kind::Freeze:
+      return "freeze";
   }
   return "?";
 }

@@ -6,12 +6,12 @@
 #include <string_view>
 #include <vector>
 
-#include "core/scenario/faults.hpp"
-#include "core/scenario/layout.hpp"
-#include "core/scenario/radio_setup.hpp"
 #include "core/base/random.hpp"
 #include "core/base/sim_time.hpp"
 #include "core/base/strong_id.hpp"
+#include "core/scenario/faults.hpp"
+#include "core/scenario/layout.hpp"
+#include "core/scenario/radio_setup.hpp"
 #include "core/scenario/vehicle_type.hpp"
 
 namespace fleetproof {
@@ -31,17 +31,17 @@ struct ScriptedCall {
 
 // How wrong an AGV's own clock and position are. Both are what its agent sees, not what happens.
 struct SensingSetup {
-  double clock_offset_s = 0.0;         // ahead of the true time; never below 0
-  double clock_drift_ppm = 0.0;        // and running that much too fast
-  double position_error_m = 0.0;       // each coordinate wrong by up to this much, another error every 0.1 s
-  double position_late_s = 0.0;        // where it was that long ago
+  double clock_offset_s = 0.0;    // ahead of the true time; never below 0
+  double clock_drift_ppm = 0.0;   // and running that much too fast
+  double position_error_m = 0.0;  // each coordinate wrong by up to this much, another error every 0.1 s
+  double position_late_s = 0.0;   // where it was that long ago
 
   friend bool operator==(const SensingSetup&, const SensingSetup&) = default;
 };
 
 struct AgvSetup {
   std::string name;
-  std::uint32_t type = 0;              // index into vehicle_types
+  std::uint32_t type = 0;  // index into vehicle_types
   StationId start;
   Vec2 heading = Vec2::UnitX();
   double battery = 1.0;
@@ -50,8 +50,8 @@ struct AgvSetup {
   std::vector<ScriptedCall> script;
 };
 
-// A body that stands on the floor, for the whole run unless it says otherwise. One that appears later does so when its place is clear of every
-// other body by the safety distance and 5 cm: it is tried every second.
+// A body that stands on the floor, for the whole run unless it says otherwise. One that appears later does so when its
+// place is clear of every other body by the safety distance and 5 cm: it is tried every second.
 struct ObstacleSetup {
   std::string name;
   Footprint footprint;
@@ -61,7 +61,7 @@ struct ObstacleSetup {
 };
 
 struct AgentClockSetup {
-  double call_cost_s = 0.0;            // simulated time that every controller call takes
+  double call_cost_s = 0.0;  // simulated time that every controller call takes
 };
 
 // Two kinds of bodies: names of vehicle types, or kAnyObstacle.
@@ -74,10 +74,11 @@ inline constexpr std::string_view kAnyObstacle = "obstacle";  // every body that
 
 struct LawSetup {
   double safety_distance_m = 0.10;
-  double snapshot_s = 0.0025;          // granularity of the published laws (400 a second)
-  double reaction_s = 10.0;            // normal-operation: an agent may leave safe mode so much later than it could
+  double snapshot_s = 0.0025;  // granularity of the published laws (400 a second)
+  double reaction_s = 10.0;    // normal-operation: an agent may leave safe mode so much later than it could
   double min_transports_per_agv_hour = 0.0;  // normal-operation: a floor for the throughput of a run; 0: none
-  Purposes exempt_purposes;            // safety-distance: bodies that both stay so near a station of such a purpose may be close to each other
+  Purposes exempt_purposes;  // safety-distance: bodies that both stay so near a station of such a purpose may be close
+                             // to each other
   double exempt_radius_m = 0.0;
   std::vector<ExemptPair> exempt_pairs;  // safety-distance: such bodies may be close to each other anywhere
 };
@@ -95,11 +96,12 @@ struct Scenario {
   RadioSetup radio;
   AgentClockSetup agent_clock;
   LawSetup law;
-  bool contact_stops = true;           // bodies that touch stand still from then on
+  bool contact_stops = true;  // bodies that touch stand still from then on
   Duration horizon = std::chrono::seconds(600);
   Duration stuck_after = std::chrono::seconds(120);
-  std::uint64_t seed = 0;              // of the world: keys of radio and agent randomness derive from it
-  std::vector<StreamSeed> stream_seeds;  // streams drawn from another seed, each at most once, in the order of kRunStreams
+  std::uint64_t seed = 0;  // of the world: keys of radio and agent randomness derive from it
+  std::vector<StreamSeed>
+      stream_seeds;  // streams drawn from another seed, each at most once, in the order of kRunStreams
 
   std::uint64_t seed_of(Stream stream) const;  // `stream` is one of kRunStreams
   const VehicleType& type_of(const AgvSetup& agv) const { return vehicle_types[agv.type]; }

@@ -10,8 +10,8 @@ namespace fleetproof {
 // What a load changes: the body grows on both sides alike, driving gets slower.
 struct LoadEffect {
   double extra_length_m = 0.0, extra_width_m = 0.0;
-  double speed_share = 1.0;            // of the empty vehicle's speed
-  double acceleration_share = 1.0;     // of its acceleration and deceleration
+  double speed_share = 1.0;         // of the empty vehicle's speed
+  double acceleration_share = 1.0;  // of its acceleration and deceleration
 
   friend bool operator==(const LoadEffect&, const LoadEffect&) = default;
 };
@@ -23,22 +23,24 @@ struct VehicleType {
   MotionLimits drive;
   MotionLimits turn{.speed_mps = 1.0, .acceleration_mps2 = 1.0, .deceleration_mps2 = 1.0};
   LoadEffect loaded;
-  double lateral_mps2 = 0.0;           // speed in a bend of radius R: at most sqrt(lateral_mps2 * R); 0: as on the straight
-  double speed_deviation = 0.0;        // every drive is faster or slower by up to this share, in speed and acceleration
-  double settle_s = 0.0;               // fine positioning after every drive to a stop: uniform on [0, settle_s)
+  double lateral_mps2 = 0.0;     // speed in a bend of radius R: at most sqrt(lateral_mps2 * R); 0: as on the straight
+  double speed_deviation = 0.0;  // every drive is faster or slower by up to this share, in speed and acceleration
+  double settle_s = 0.0;         // fine positioning after every drive to a stop: uniform on [0, settle_s)
   double battery_per_m = 1.0 / 20000.0;  // share of a full battery
-  double battery_idle_per_s = 0.0;     // share used up by merely being switched on
+  double battery_idle_per_s = 0.0;       // share used up by merely being switched on
   double charge_per_s = 1.0 / 3600.0;
-  double pick_s = 5.0, drop_s = 5.0;   // the least that a transfer takes
-  double storage_spread_s = 0.0;       // and how much longer it may take: uniform, at a storage station
-  double other_spread_s = 0.0;         // and at any other
+  double pick_s = 5.0, drop_s = 5.0;  // the least that a transfer takes
+  double storage_spread_s = 0.0;      // and how much longer it may take: uniform, at a storage station
+  double other_spread_s = 0.0;        // and at any other
 
   Footprint footprint_with(bool load) const {
-    return load ? Footprint{footprint.length_m + loaded.extra_length_m, footprint.width_m + loaded.extra_width_m} : footprint;
+    return load ? Footprint{footprint.length_m + loaded.extra_length_m, footprint.width_m + loaded.extra_width_m}
+                : footprint;
   }
   MotionLimits drive_with(bool load) const {
     if (!load) return drive;
-    return {drive.speed_mps * loaded.speed_share, drive.acceleration_mps2 * loaded.acceleration_share, drive.deceleration_mps2 * loaded.acceleration_share};
+    return {drive.speed_mps * loaded.speed_share, drive.acceleration_mps2 * loaded.acceleration_share,
+            drive.deceleration_mps2 * loaded.acceleration_share};
   }
 };
 

@@ -36,7 +36,8 @@ Sizes draw_sizes(Draws& draws) {
 
 class AisleGrid {
  public:
-  explicit AisleGrid(Draws& draws) : draws_(draws), sizes_(draw_sizes(draws)), rows_((sizes_.cross_aisles - 1) * sizes_.steps + 1) {}
+  explicit AisleGrid(Draws& draws)
+      : draws_(draws), sizes_(draw_sizes(draws)), rows_((sizes_.cross_aisles - 1) * sizes_.steps + 1) {}
 
   Layout make() {
     place_aisle_stations();
@@ -52,7 +53,8 @@ class AisleGrid {
     for (std::uint32_t i = 0; i < sizes_.aisles; ++i) {
       auto& aisle = aisles_.emplace_back();
       for (std::uint32_t j = 0; j < rows_; ++j) {
-        aisle.push_back(builder_.station(fmt::format("A{}.{}", i + 1, j), {i * sizes_.aisle_distance, j * sizes_.pitch}));
+        aisle.push_back(
+            builder_.station(fmt::format("A{}.{}", i + 1, j), {i * sizes_.aisle_distance, j * sizes_.pitch}));
       }
     }
   }
@@ -71,8 +73,8 @@ class AisleGrid {
     }
   }
 
-  // The four outer lines form a ring that can be driven all round in one direction; every inner line starts and ends on it. So the
-  // map is strongly connected whatever directions are drawn.
+  // The four outer lines form a ring that can be driven all round in one direction; every inner line starts and ends on
+  // it. So the map is strongly connected whatever directions are drawn.
   void connect() {
     const bool clockwise = draws_.below(2) == 0;
     const Way with = clockwise ? Way::Forward : Way::Backward, against = clockwise ? Way::Backward : Way::Forward;
@@ -112,7 +114,8 @@ class AisleGrid {
       const auto [aisle, row, left] = sites[n];
       const StationId from = aisles_[aisle][row];
       const PointMm at = builder_.position(from);
-      spur(from, {at.x + (left ? -sizes_.spur : sizes_.spur), at.y}, fmt::format("B{}.{}{}", aisle + 1, row, left ? "L" : "R"), Purpose::Storage);
+      spur(from, {at.x + (left ? -sizes_.spur : sizes_.spur), at.y},
+           fmt::format("B{}.{}{}", aisle + 1, row, left ? "L" : "R"), Purpose::Storage);
     }
   }
 
@@ -128,7 +131,8 @@ class AisleGrid {
     for (const auto n : draw_some(draws_, high.size(), sizes_.charging + sizes_.docks)) {
       const PointMm at = builder_.position(high[n]);
       const bool charging = ++number <= sizes_.charging;
-      spur(high[n], {at.x, at.y + sizes_.spur}, charging ? fmt::format("charge{}", number) : fmt::format("dock{}", number - sizes_.charging),
+      spur(high[n], {at.x, at.y + sizes_.spur},
+           charging ? fmt::format("charge{}", number) : fmt::format("dock{}", number - sizes_.charging),
            charging ? Purpose::Charging : Purpose::Storage);
     }
   }
@@ -142,6 +146,8 @@ class AisleGrid {
 
 }  // namespace
 
-Layout make_aisle_grid(Draws& draws, Range range) { return range == Range::Stress ? make_dead_end_aisles(draws) : AisleGrid(draws).make(); }
+Layout make_aisle_grid(Draws& draws, Range range) {
+  return range == Range::Stress ? make_dead_end_aisles(draws) : AisleGrid(draws).make();
+}
 
 }  // namespace fleetproof

@@ -1,13 +1,13 @@
 #pragma once
 
-#include "core/scenario/layout.hpp"
 #include "core/base/random.hpp"
+#include "core/scenario/layout.hpp"
 #include "generators/families/range.hpp"
 
 namespace fleetproof {
 
-// Aisles between two or three cross aisles; storage bays are short spurs off the aisles, so that a picking AGV does not block the aisle.
-// Stress: dead_end_aisles.hpp.
+// Aisles between two or three cross aisles; storage bays are short spurs off the aisles, so that a picking AGV does not
+// block the aisle. Stress: dead_end_aisles.hpp.
 Layout make_aisle_grid(Draws& draws, Range range);
 
 }  // namespace fleetproof

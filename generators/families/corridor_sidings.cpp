@@ -26,7 +26,8 @@ Sizes draw_sizes(Draws& draws, Range range) {
   s.pitch = draw_between(draws, 3600, 4800, 50);
   s.spur = draw_between(draws, 3000, 3500, 50);
   s.offset = draw_between(draws, 2400, 3000, 50);
-  const std::int64_t shortest = range == Range::Stress ? 60'000 : 30'000, longest = range == Range::Stress ? 100'000 : 60'000;
+  const std::int64_t shortest = range == Range::Stress ? 60'000 : 30'000,
+                     longest = range == Range::Stress ? 100'000 : 60'000;
   s.steps = static_cast<std::uint32_t>(draw_between(draws, (shortest + s.pitch - 1) / s.pitch, longest / s.pitch, 1));
   return s;
 }
@@ -34,10 +35,14 @@ Sizes draw_sizes(Draws& draws, Range range) {
 class CorridorSidings {
  public:
   CorridorSidings(Draws& draws, Range range)
-      : draws_(draws), range_(range), sizes_(draw_sizes(draws, range)), builder_(family_name("corridor-sidings", range)) {}
+      : draws_(draws),
+        range_(range),
+        sizes_(draw_sizes(draws, range)),
+        builder_(family_name("corridor-sidings", range)) {}
 
   Layout make() {
-    for (std::uint32_t i = 0; i <= sizes_.steps; ++i) corridor_.push_back(builder_.station(fmt::format("C{}", i), {i * sizes_.pitch, 0}));
+    for (std::uint32_t i = 0; i <= sizes_.steps; ++i)
+      corridor_.push_back(builder_.station(fmt::format("C{}", i), {i * sizes_.pitch, 0}));
     for (std::uint32_t i = 0; i < sizes_.steps; ++i) builder_.straight(corridor_[i], corridor_[i + 1]);
     range_ == Range::Stress ? draw_one_siding_or_none() : draw_sidings();
     for (const auto& siding : sidings_) add_siding(siding);
@@ -70,12 +75,14 @@ class CorridorSidings {
     sidings_.push_back({at, at + 2, draws_.below(2) == 0, Way::Both});
   }
 
-  // Branches off in a gentle bend, runs beside the corridor, comes back in another; every inner station of it is a place to wait.
+  // Branches off in a gentle bend, runs beside the corridor, comes back in another; every inner station of it is a
+  // place to wait.
   void add_siding(const Siding& siding) {
     const std::int64_t y = siding.left ? sizes_.offset : -sizes_.offset;
     StationId before = corridor_[siding.first];
     for (std::uint32_t i = siding.first + 1; i < siding.last; ++i) {
-      const StationId here = builder_.station(fmt::format("park{}", ++parking_), {i * sizes_.pitch, y}, Purpose::Parking);
+      const StationId here =
+          builder_.station(fmt::format("park{}", ++parking_), {i * sizes_.pitch, y}, Purpose::Parking);
       if (i == siding.first + 1) {
         builder_.s_bend(before, here, siding.way);
       } else {
@@ -105,7 +112,8 @@ class CorridorSidings {
   }
 
   bool beside_siding(std::uint32_t i, bool left) const {
-    return std::ranges::any_of(sidings_, [&](const Siding& s) { return s.left == left && s.first <= i && i <= s.last; });
+    return std::ranges::any_of(sidings_,
+                               [&](const Siding& s) { return s.left == left && s.first <= i && i <= s.last; });
   }
 
   void add_spurs() {
@@ -126,7 +134,8 @@ class CorridorSidings {
       sites.erase(sites.begin() + n);
       const PointMm at{station * sizes_.pitch, left ? sizes_.spur : -sizes_.spur};
       if (parking_ == 0) {
-        builder_.straight(corridor_[station], builder_.station(fmt::format("park{}", ++parking_), at, Purpose::Parking));
+        builder_.straight(corridor_[station],
+                          builder_.station(fmt::format("park{}", ++parking_), at, Purpose::Parking));
       } else {
         add_spur(corridor_[station], at, false);
       }

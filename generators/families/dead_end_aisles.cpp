@@ -19,7 +19,8 @@ Layout make_dead_end_aisles(Draws& draws) {
     if (i > 0) builder.straight(cross[i - 1], cross[i]);
     StationId before = cross[i];
     for (std::uint32_t k = 1; k <= steps; ++k) {
-      const StationId here = builder.station(fmt::format("A{}.{}", i + 1, k), {i * distance, k * pitch}, Purpose::Storage);
+      const StationId here =
+          builder.station(fmt::format("A{}.{}", i + 1, k), {i * distance, k * pitch}, Purpose::Storage);
       builder.straight(before, here);
       before = here;
     }
@@ -28,8 +29,13 @@ Layout make_dead_end_aisles(Draws& draws) {
   for (const auto n : draw_some(draws, cross.size(), parking + charging + docks)) {
     const PointMm at{builder.position(cross[n]).x, -spur};
     const bool parks = number < parking, charges = number == parking;
-    const auto name = parks ? fmt::format("park{}", number + 1) : charges ? std::string("charge1") : std::string("dock1");
-    builder.straight(cross[n], builder.station(name, at, parks ? Purpose::Parking : charges ? Purpose::Charging : Purpose::Storage));
+    const auto name = parks     ? fmt::format("park{}", number + 1)
+                      : charges ? std::string("charge1")
+                                : std::string("dock1");
+    builder.straight(cross[n], builder.station(name, at,
+                                               parks     ? Purpose::Parking
+                                               : charges ? Purpose::Charging
+                                                         : Purpose::Storage));
     ++number;
   }
   return builder.take();

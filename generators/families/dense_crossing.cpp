@@ -29,7 +29,10 @@ Sizes draw_sizes(Draws& draws, Range range) {
 class DenseCrossing {
  public:
   DenseCrossing(Draws& draws, Range range)
-      : draws_(draws), range_(range), sizes_(draw_sizes(draws, range)), builder_(family_name("dense-crossing", range)) {}
+      : draws_(draws),
+        range_(range),
+        sizes_(draw_sizes(draws, range)),
+        builder_(family_name("dense-crossing", range)) {}
 
   Layout make() {
     crossings_ = grid("X", sizes_.lines, 0);
@@ -47,14 +50,15 @@ class DenseCrossing {
     for (std::uint32_t i = 0; i < lines; ++i) {
       auto& column = made.emplace_back();
       for (std::uint32_t j = 0; j < lines; ++j) {
-        column.push_back(builder_.station(fmt::format("{}{}.{}", letter, i + 1, j + 1), {offset + i * sizes_.pitch, offset + j * sizes_.pitch}));
+        column.push_back(builder_.station(fmt::format("{}{}.{}", letter, i + 1, j + 1),
+                                          {offset + i * sizes_.pitch, offset + j * sizes_.pitch}));
       }
     }
     return made;
   }
 
-  // A second grid half a pitch aside, as of a fleet with a graph of its own: its lanes cross those of the first where neither has a
-  // station. Only two opposite corners join the two.
+  // A second grid half a pitch aside, as of a fleet with a graph of its own: its lanes cross those of the first where
+  // neither has a station. Only two opposite corners join the two.
   void overlay() {
     const Grid second = grid("Y", sizes_.lines - 1, sizes_.pitch / 2);
     connect(second);
@@ -62,7 +66,8 @@ class DenseCrossing {
     builder_.straight(crossings_.back().back(), second.back().back());
   }
 
-  // The outer lines run round in one direction and every inner line starts and ends on them: strongly connected whatever is drawn.
+  // The outer lines run round in one direction and every inner line starts and ends on them: strongly connected
+  // whatever is drawn.
   void connect(const Grid& stations) {
     const auto last = static_cast<std::uint32_t>(stations.size()) - 1;
     const bool clockwise = draws_.below(2) == 0;

@@ -19,13 +19,17 @@ struct Sizes {
 
 std::int64_t whole_mm(double mm) { return static_cast<std::int64_t>(mm + 0.5); }
 
-// Both legs of the diagonal's angle are at least `shorter`: at 45 degrees a station beside the diagonal is then 0.707 of it away.
-// Stress: flatter or steeper, and so narrow that bodies on neighbouring aisles pass within a hand's breadth.
+// Both legs of the diagonal's angle are at least `shorter`: at 45 degrees a station beside the diagonal is then 0.707
+// of it away. Stress: flatter or steeper, and so narrow that bodies on neighbouring aisles pass within a hand's
+// breadth.
 Sizes draw_sizes(Draws& draws, Range range) {
   Sizes s{};
   const bool stress = range == Range::Stress, steep = stress && draws.below(2) == 0;
-  const double shorter = static_cast<double>(stress ? draw_between(draws, 2100, 2600, 50) : draw_between(draws, 3150, 3700, 50));
-  const std::int64_t degrees = !stress ? draw_between(draws, 30, 60, 1) : steep ? draw_between(draws, 60, 70, 1) : draw_between(draws, 20, 30, 1);
+  const double shorter =
+      static_cast<double>(stress ? draw_between(draws, 2100, 2600, 50) : draw_between(draws, 3150, 3700, 50));
+  const std::int64_t degrees = !stress ? draw_between(draws, 30, 60, 1)
+                               : steep ? draw_between(draws, 60, 70, 1)
+                                       : draw_between(draws, 20, 30, 1);
   const Vec2 diagonal = unit_vector(static_cast<double>(degrees) * kPi / 180.0);
   const double scale = shorter / std::min(diagonal.x(), diagonal.y());
   s.dx = whole_mm(scale * diagonal.x());
@@ -41,7 +45,8 @@ Sizes draw_sizes(Draws& draws, Range range) {
 // Stations lie on a grid: column 0 in the middle, row 0 in front. Diagonals run through |column| = row.
 class Fishbone {
  public:
-  Fishbone(Draws& draws, Range range) : draws_(draws), range_(range), sizes_(draw_sizes(draws, range)), builder_(family_name("fishbone", range)) {}
+  Fishbone(Draws& draws, Range range)
+      : draws_(draws), range_(range), sizes_(draw_sizes(draws, range)), builder_(family_name("fishbone", range)) {}
 
   Layout make() {
     for (std::int32_t column = -sizes_.steps; column <= sizes_.steps; ++column) {
@@ -59,10 +64,12 @@ class Fishbone {
     const std::int32_t away = std::abs(column), last = sizes_.steps;
     const bool cross = away == row || row == 0 || row == last || away == last;
     const auto name = fmt::format("{}{}.{}", cross ? "C" : "S", column + last + 1, row);
-    at_[{column, row}] = builder_.station(name, {column * sizes_.dx, row * sizes_.dy}, cross ? Purpose::Routing : Purpose::Storage);
+    at_[{column, row}] =
+        builder_.station(name, {column * sizes_.dx, row * sizes_.dy}, cross ? Purpose::Routing : Purpose::Storage);
   }
 
-  // Cross aisles are two-way. A picking aisle leads from one of them to another, so that its direction cuts nothing off.
+  // Cross aisles are two-way. A picking aisle leads from one of them to another, so that its direction cuts nothing
+  // off.
   void add_half(std::int32_t side) {
     const std::int32_t last = sizes_.steps;
     for (std::int32_t k = 0; k < last; ++k) {
@@ -83,7 +90,11 @@ class Fishbone {
     for (std::int32_t row = std::abs(column); row < sizes_.steps; ++row) connect({column, row}, {column, row + 1}, way);
   }
 
-  Way draw_way() { return range_ == Range::Stress || draws_.below(2) == 0 ? Way::Both : draws_.below(2) == 0 ? Way::Forward : Way::Backward; }
+  Way draw_way() {
+    return range_ == Range::Stress || draws_.below(2) == 0 ? Way::Both
+           : draws_.below(2) == 0                          ? Way::Forward
+                                                           : Way::Backward;
+  }
 
   using Place = std::pair<std::int32_t, std::int32_t>;
   void connect(Place from, Place to, Way way) { builder_.straight(at_.at(from), at_.at(to), way); }
@@ -99,7 +110,10 @@ class Fishbone {
       const auto name = parks     ? fmt::format("park{}", number + 1)
                         : charges ? fmt::format("charge{}", number - sizes_.parking + 1)
                                   : fmt::format("dock{}", number - sizes_.parking - sizes_.charging + 1);
-      builder_.straight(from, builder_.station(name, at, parks ? Purpose::Parking : charges ? Purpose::Charging : Purpose::Storage));
+      builder_.straight(from, builder_.station(name, at,
+                                               parks     ? Purpose::Parking
+                                               : charges ? Purpose::Charging
+                                                         : Purpose::Storage));
       ++number;
     }
   }

@@ -19,7 +19,8 @@ std::vector<std::uint32_t> draw_some(Draws& draws, std::size_t count, std::size_
   std::vector<std::uint32_t> numbers(count);
   for (std::size_t i = 0; i < count; ++i) numbers[i] = static_cast<std::uint32_t>(i);
   const std::size_t chosen = std::min(wanted, count);
-  for (std::size_t i = 0; i < chosen; ++i) std::swap(numbers[i], numbers[i + draws.below(static_cast<std::uint32_t>(count - i))]);
+  for (std::size_t i = 0; i < chosen; ++i)
+    std::swap(numbers[i], numbers[i + draws.below(static_cast<std::uint32_t>(count - i))]);
   numbers.resize(chosen);
   return numbers;
 }

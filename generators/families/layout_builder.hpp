@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/scenario/layout.hpp"
 #include "core/base/random.hpp"
+#include "core/scenario/layout.hpp"
 
 namespace fleetproof {
 
@@ -31,7 +31,8 @@ class LayoutBuilder {
   void straight(StationId from, StationId to, Way way = Way::Both);
   // A curve that leaves both ends along the x axis.
   void s_bend(StationId from, StationId to, Way way = Way::Both);
-  // A quarter circle, the nearest that one cubic Bezier comes to it, that leaves `from` in the direction of `corner` and comes to `to` from there.
+  // A quarter circle, the nearest that one cubic Bezier comes to it, that leaves `from` in the direction of `corner`
+  // and comes to `to` from there.
   void quarter_bend(StationId from, PointMm corner, StationId to, Way way = Way::Both);
   PointMm position(StationId station) const { return positions_[station.index()]; }
 

@@ -9,8 +9,8 @@
 #include "generators/families/fishbone.hpp"
 #include "generators/families/loop_spurs.hpp"
 #include "generators/families/random_planar.hpp"
-#include "generators/text/text_file.hpp"
 #include "generators/map/waiting_room.hpp"
+#include "generators/text/text_file.hpp"
 
 namespace fleetproof {
 namespace {
@@ -18,18 +18,29 @@ namespace {
 constexpr std::uint32_t kClosedOneIn = 10;
 
 constexpr Entry<MakeLayout> kFamilies[] = {
-    {"aisle-grid", "4-6 aisles between 2-3 cross aisles, one-way or two-way, with storage bays, docks, parking and chargers; 49-83 segments",
+    {"aisle-grid",
+     "4-6 aisles between 2-3 cross aisles, one-way or two-way, with storage bays, docks, parking and chargers; 49-83 "
+     "segments",
      make_aisle_grid},
-    {"corridor-sidings", "one two-way lane of 30-60 m with sidings to let others pass, storage spurs at both ends and along it; 17-39 segments",
+    {"corridor-sidings",
+     "one two-way lane of 30-60 m with sidings to let others pass, storage spurs at both ends and along it; 17-39 "
+     "segments",
      make_corridor_sidings},
-    {"loop-spurs", "a one-way loop of 60-200 m with Bezier bends and 8-30 spurs of 3.5-6 m: a queue has nowhere to overtake; 20-87 segments",
+    {"loop-spurs",
+     "a one-way loop of 60-200 m with Bezier bends and 8-30 spurs of 3.5-6 m: a queue has nowhere to overtake; 20-87 "
+     "segments",
      make_loop_spurs},
     {"random-planar",
-     "16-34 stations strewn at random, lanes at every angle and 4-9 m long, 40-100 % two-way; places to wait lie in the middle of the traffic",
+     "16-34 stations strewn at random, lanes at every angle and 4-9 m long, 40-100 % two-way; places to wait lie in "
+     "the middle of the traffic",
      make_random_planar},
-    {"fishbone", "two diagonal cross aisles of 30-60 degrees with picking aisles above and below; goods lie in the aisle, so whoever picks closes it",
+    {"fishbone",
+     "two diagonal cross aisles of 30-60 degrees with picking aisles above and below; goods lie in the aisle, so "
+     "whoever picks closes it",
      make_fishbone},
-    {"dense-crossing", "3-6 x 3-6 one-way lines 2.4-4 m apart: segments shorter than usual, every crossing contested; 10-24 spurs at the rim",
+    {"dense-crossing",
+     "3-6 x 3-6 one-way lines 2.4-4 m apart: segments shorter than usual, every crossing contested; 10-24 spurs at the "
+     "rim",
      make_dense_crossing},
 };
 
@@ -39,7 +50,8 @@ std::span<const Entry<MakeLayout>> layout_families() { return kFamilies; }
 
 const Entry<MakeLayout>& layout_family(std::string_view name) {
   if (const auto* found = find_entry(layout_families(), name)) return *found;
-  throw InputError("layout", fmt::format("there is no layout family {}{}", in_quotes(name), name_hint(name, names_of(layout_families()))));
+  throw InputError("layout", fmt::format("there is no layout family {}{}", in_quotes(name),
+                                         name_hint(name, names_of(layout_families()))));
 }
 
 FamilyRange family_range(std::string_view name) {
@@ -49,14 +61,15 @@ FamilyRange family_range(std::string_view name) {
   const auto range = name.substr(slash);
   if (range != kStressSuffix) {
     constexpr std::string_view kRanges[] = {"stress"};
-    throw InputError("layout", fmt::format("{} has no range {}{}; without one it is normal", family.name, in_quotes(range.substr(1)),
-                                           name_hint(range.substr(1), kRanges)));
+    throw InputError("layout", fmt::format("{} has no range {}{}; without one it is normal", family.name,
+                                           in_quotes(range.substr(1)), name_hint(range.substr(1), kRanges)));
   }
   return {&family, Range::Stress};
 }
 
 std::shared_ptr<const LogicalMap> draw_map(FamilyRange choice, Draws& draws) {
-  if (choice.range == Range::Normal) return std::make_shared<const LogicalMap>(choice.family->make(draws, Range::Normal));
+  if (choice.range == Range::Normal)
+    return std::make_shared<const LogicalMap>(choice.family->make(draws, Range::Normal));
   const bool closed = draws.below(kClosedOneIn) == 0;
   while (true) {
     Layout layout = choice.family->make(draws, Range::Stress);

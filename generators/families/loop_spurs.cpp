@@ -29,7 +29,8 @@ Sizes draw_sizes(Draws& draws) {
   // A thousandth more than four quarter circles, for the curve that stands for them.
   const auto bends = static_cast<std::int64_t>(2.002 * kPi * static_cast<double>(s.radius));
   const std::int64_t rest = bends + 2 * s.across * s.pitch, two_steps = 2 * s.pitch;
-  const std::int64_t fewest = (kShortestLoop_mm - rest + two_steps - 1) / two_steps, most = (kLongestLoop_mm - rest) / two_steps;
+  const std::int64_t fewest = (kShortestLoop_mm - rest + two_steps - 1) / two_steps,
+                     most = (kLongestLoop_mm - rest) / two_steps;
   s.along = static_cast<std::uint32_t>(draw_between(draws, fewest, most, 1));
   s.spurs = 8 + draws.below(23);
   return s;
@@ -86,7 +87,8 @@ class LoopSpurs {
   void connect_loop() {
     for (std::size_t k = 0; k < sides_.size(); ++k) {
       const auto& side = sides_[k];
-      for (std::size_t i = 0; i + 1 < side.stations.size(); ++i) builder_.straight(side.stations[i], side.stations[i + 1], way_);
+      for (std::size_t i = 0; i + 1 < side.stations.size(); ++i)
+        builder_.straight(side.stations[i], side.stations[i + 1], way_);
       builder_.quarter_bend(side.stations.back(), side.corner, sides_[(k + 1) % sides_.size()].stations.front(), way_);
     }
   }
@@ -95,7 +97,8 @@ class LoopSpurs {
   void add_chords() {
     const std::uint32_t pairs = 1 + draws_.below(2), half = sizes_.along / 2;
     for (std::uint32_t k = 0; k < pairs; ++k) {
-      const std::uint32_t span = 1 + draws_.below(std::min(2U, half)), left = k * half + draws_.below(half - span + 1), right = left + span;
+      const std::uint32_t span = 1 + draws_.below(std::min(2U, half)), left = k * half + draws_.below(half - span + 1),
+                          right = left + span;
       add_chord(left, right);
       add_chord(right, left);
     }
@@ -103,7 +106,8 @@ class LoopSpurs {
 
   // From the lower long side to the upper one, whose stations run the other way.
   void add_chord(std::uint32_t low, std::uint32_t high) {
-    builder_.straight(sides_[0].stations[low], sides_[2].stations[sizes_.along - high], draws_.below(2) == 0 ? Way::Forward : Way::Backward);
+    builder_.straight(sides_[0].stations[low], sides_[2].stations[sizes_.along - high],
+                      draws_.below(2) == 0 ? Way::Forward : Way::Backward);
   }
 
   // Outwards everywhere; inwards from the long sides only, as far as the loop is wide enough for waiting there.
@@ -145,7 +149,8 @@ class LoopSpurs {
     if (draws_.below(2) == 0 && !certainly) return site;
     const std::int64_t spur = draw_between(draws_, 900, 1500, 50);
     const PointMm root = builder_.position(site.from);
-    return {site.from, {root.x + (site.to.x - root.x) * spur / sizes_.spur, root.y + (site.to.y - root.y) * spur / sizes_.spur}};
+    return {site.from,
+            {root.x + (site.to.x - root.x) * spur / sizes_.spur, root.y + (site.to.y - root.y) * spur / sizes_.spur}};
   }
 
   void add_spur(const Site& site, std::string name, Purpose purpose) {

@@ -17,7 +17,8 @@ constexpr double kFarthestMove_m = 0.3, kMargin_m = 3.0;
 // Uniform in a disc.
 Vec2 draw_move(Draws& draws) {
   while (true) {
-    const double x = draws.uniform(-kFarthestMove_m, kFarthestMove_m), y = draws.uniform(-kFarthestMove_m, kFarthestMove_m);
+    const double x = draws.uniform(-kFarthestMove_m, kFarthestMove_m),
+                 y = draws.uniform(-kFarthestMove_m, kFarthestMove_m);
     if (x * x + y * y <= kFarthestMove_m * kFarthestMove_m) return {x, y};
   }
 }
@@ -43,13 +44,16 @@ enum class Fate : std::uint8_t { AsItIs, Turned, LeftOut };
 
 // By segment.
 std::vector<Fate> draw_fates(const Layout& base, Draws& draws) {
-  const std::uint32_t left_out_percent = draws.below(kMostLeftOut_percent + 1), turned_percent = draws.below(kMostTurned_percent + 1);
+  const std::uint32_t left_out_percent = draws.below(kMostLeftOut_percent + 1),
+                      turned_percent = draws.below(kMostTurned_percent + 1);
   // One turned alone usually cuts off what lies on its line; all of them turned keep every way round.
   const bool all_turned = draws.below(4) == 0;
   std::vector<Fate> fates(base.segments.size());
   for (std::size_t i = 0; i < fates.size(); ++i) {
     const bool left_out = draws.below(100) < left_out_percent, turned = draws.below(100) < turned_percent;
-    fates[i] = left_out ? Fate::LeftOut : turned != all_turned && !base.segments[i].bidirectional ? Fate::Turned : Fate::AsItIs;
+    fates[i] = left_out                                                  ? Fate::LeftOut
+               : turned != all_turned && !base.segments[i].bidirectional ? Fate::Turned
+                                                                         : Fate::AsItIs;
   }
   return fates;
 }
@@ -107,7 +111,8 @@ bool is_drivable(const Curve& curve) { return fault_of_curve(curve).empty(); }
 
 }  // namespace
 
-// As problems_of() judges the whole, without what no mutation changes: names, references and numbers of control points are those of the base.
+// As problems_of() judges the whole, without what no mutation changes: names, references and numbers of control points
+// are those of the base.
 std::shared_ptr<const LogicalMap> draw_mutated_map(const Layout& base, Draws& draws, RejectionCounts& counts) {
   const auto refused = [&](ProblemKind kind) -> std::shared_ptr<const LogicalMap> {
     ++counts.of(kind);
@@ -119,9 +124,11 @@ std::shared_ptr<const LogicalMap> draw_mutated_map(const Layout& base, Draws& dr
   Layout layout = what_is_left(base, fates);
   move(layout, draws);
   fit_floor(layout, kMargin_m);  // it holds all points
-  if (!on_the_floor(layout.floor_low_m) || !on_the_floor(layout.floor_high_m)) return refused(ProblemKind::NumberOutOfRange);
+  if (!on_the_floor(layout.floor_low_m) || !on_the_floor(layout.floor_high_m))
+    return refused(ProblemKind::NumberOutOfRange);
   for (const auto& segment : layout.segments) {
-    if (!is_kept(segment, parts) && !is_drivable(segment_curve(layout, segment))) return refused(ProblemKind::BadGeometry);
+    if (!is_kept(segment, parts) && !is_drivable(segment_curve(layout, segment)))
+      return refused(ProblemKind::BadGeometry);
   }
   keep_largest(layout, parts);
   fit_floor(layout, kMargin_m);

@@ -29,7 +29,8 @@ class RandomPlanar {
  public:
   RandomPlanar(Draws& draws, Range range) : draws_(draws), range_(range) {}
 
-  // The first tries leave edges out and make some one-way; a core too small is drawn anew, in the end with every edge two-way.
+  // The first tries leave edges out and make some one-way; a core too small is drawn anew, in the end with every edge
+  // two-way.
   Layout make() {
     for (std::uint32_t attempt = 0;; ++attempt) {
       strew();
@@ -44,7 +45,8 @@ class RandomPlanar {
  private:
   // Poisson disk: darts that fall too near to an earlier one are taken away.
   void strew() {
-    const std::int64_t width = draw_between(draws_, 22'000, 32'000, 500), height = draw_between(draws_, 16'000, 24'000, 500);
+    const std::int64_t width = draw_between(draws_, 22'000, 32'000, 500),
+                       height = draw_between(draws_, 16'000, 24'000, 500);
     points_.clear();
     for (std::uint32_t i = 0; i < kThrows && points_.size() < kMostStations; ++i) {
       PointMm p;
@@ -55,13 +57,16 @@ class RandomPlanar {
     }
   }
 
-  // Two stations are neighbours in the Gabriel graph if no third lies in the circle over the line between them. So a station is at
-  // least 0.707 of the least distance from every line of which it is no end: room to wait, and no lines that cross.
+  // Two stations are neighbours in the Gabriel graph if no third lies in the circle over the line between them. So a
+  // station is at least 0.707 of the least distance from every line of which it is no end: room to wait, and no lines
+  // that cross.
   bool are_neighbours(std::size_t a, std::size_t b) const {
     const std::int64_t apart = squared_distance(points_[a], points_[b]);
     if (apart > squared(kLongestSegment_mm)) return false;
     for (std::size_t c = 0; c < points_.size(); ++c) {
-      if (c != a && c != b && squared_distance(points_[a], points_[c]) + squared_distance(points_[c], points_[b]) <= apart) return false;
+      if (c != a && c != b &&
+          squared_distance(points_[a], points_[c]) + squared_distance(points_[c], points_[b]) <= apart)
+        return false;
     }
     return true;
   }
@@ -93,13 +98,16 @@ class RandomPlanar {
       number[station.index()] = static_cast<std::uint32_t>(kept.size());
       kept.push_back(points_[station.index()]);
     }
-    std::erase_if(edges_, [&](const Edge& e) { return !reachability.in_core(StationId{e.a}) || !reachability.in_core(StationId{e.b}); });
+    std::erase_if(edges_, [&](const Edge& e) {
+      return !reachability.in_core(StationId{e.a}) || !reachability.in_core(StationId{e.b});
+    });
     for (auto& e : edges_) e = {number[e.a], number[e.b], e.way};
     points_ = std::move(kept);
   }
 
-  // Beside up to three of the longer edges, a lane that leaves one end under less than 30 degrees, runs along at 1.2 to 1.5 vehicle
-  // widths and comes back to the other end in the same way. Two bodies side by side there share no station, yet little or no room.
+  // Beside up to three of the longer edges, a lane that leaves one end under less than 30 degrees, runs along at 1.2
+  // to 1.5 vehicle widths and comes back to the other end in the same way. Two bodies side by side there share no
+  // station, yet little or no room.
   bool squeeze_in_lanes() {
     const std::size_t before = edges_.size();
     std::size_t squeezed = 0;
@@ -112,20 +120,26 @@ class RandomPlanar {
 
   bool squeeze_in_beside(const Edge edge) {
     const PointMm a = points_[edge.a], b = points_[edge.b];
-    const double dx = static_cast<double>(b.x - a.x), dy = static_cast<double>(b.y - a.y), length = std::sqrt(dx * dx + dy * dy);
+    const double dx = static_cast<double>(b.x - a.x), dy = static_cast<double>(b.y - a.y),
+                 length = std::sqrt(dx * dx + dy * dy);
     const auto aside = static_cast<double>(draw_between(draws_, 1200, 1500, 10));
     const double side = draws_.below(2) == 0 ? 1.0 : -1.0, along = 1.9 * aside;  // 27.8 degrees
     if (length < 2.0 * along + 1'000.0) return false;
     const auto beside = [&](double s) {
-      return PointMm{a.x + whole_mm((s * dx - side * aside * dy) / length), a.y + whole_mm((s * dy + side * aside * dx) / length)};
+      return PointMm{a.x + whole_mm((s * dx - side * aside * dy) / length),
+                     a.y + whole_mm((s * dy + side * aside * dx) / length)};
     };
     const PointMm p = beside(along), q = beside(length - along);
-    const auto near = [&](PointMm other) { return std::min(squared_distance(p, other), squared_distance(q, other)) < squared(1'000); };
+    const auto near = [&](PointMm other) {
+      return std::min(squared_distance(p, other), squared_distance(q, other)) < squared(1'000);
+    };
     if (std::ranges::any_of(points_, near)) return false;
     const auto first = static_cast<std::uint32_t>(points_.size());
     points_.push_back(p);
     points_.push_back(q);
-    for (const Edge& e : {Edge{edge.a, first, edge.way}, Edge{first, first + 1, edge.way}, Edge{first + 1, edge.b, edge.way}}) edges_.push_back(e);
+    for (const Edge& e :
+         {Edge{edge.a, first, edge.way}, Edge{first, first + 1, edge.way}, Edge{first + 1, edge.b, edge.way}})
+      edges_.push_back(e);
     return true;
   }
 

@@ -9,9 +9,9 @@
 
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
-#include "generators/text/csv_fields.hpp"
-#include "generators/map/layout_check.hpp"
 #include "generators/formats/purpose_words.hpp"
+#include "generators/map/layout_check.hpp"
+#include "generators/text/csv_fields.hpp"
 #include "generators/text/text_file.hpp"
 #include "generators/text/text_lines.hpp"
 #include "generators/text/xml_text.hpp"
@@ -42,15 +42,19 @@ class TableReader {
         of_edges_ ? add_edge(fields) : add_node(fields);
       }
     }
-    if (layout_.stations.empty()) throw InputError(source_, "has no nodes; expected a line id,x,y,purposes and one line for each node");
-    if (layout_.segments.empty()) throw InputError(source_, "has no edges; expected a line from,to,bidirectional and one line for each edge");
+    if (layout_.stations.empty())
+      throw InputError(source_, "has no nodes; expected a line id,x,y,purposes and one line for each node");
+    if (layout_.segments.empty())
+      throw InputError(source_, "has no edges; expected a line from,to,bidirectional and one line for each edge");
     fit_floor(layout_, 3.0);
     refuse_problems();
     return std::move(layout_);
   }
 
  private:
-  [[noreturn]] void refuse(std::string_view sentence) const { throw InputError(at_line(source_, lines_.number()), sentence); }
+  [[noreturn]] void refuse(std::string_view sentence) const {
+    throw InputError(at_line(source_, lines_.number()), sentence);
+  }
 
   // Each table has one, at its top: below, stations may be named "from" and "to".
   bool is_heading(const std::vector<std::string>& fields) const {
@@ -61,13 +65,16 @@ class TableReader {
 
   void take_heading(const std::vector<std::string>& fields) {
     of_edges_ = std::ranges::find(fields, "from") != fields.end();
-    const std::span<const std::string_view> known = of_edges_ ? std::span<const std::string_view>(kEdgeColumns) : kNodeColumns;
+    const std::span<const std::string_view> known =
+        of_edges_ ? std::span<const std::string_view>(kEdgeColumns) : kNodeColumns;
     columns_.clear();
     for (std::size_t i = 0; i < fields.size(); ++i) {
       if (std::ranges::find(known, fields[i]) == known.end()) {
-        refuse(fmt::format("{} is no column of {}{}", in_quotes(fields[i]), of_edges_ ? "edges" : "nodes", name_hint(fields[i], known)));
+        refuse(fmt::format("{} is no column of {}{}", in_quotes(fields[i]), of_edges_ ? "edges" : "nodes",
+                           name_hint(fields[i], known)));
       }
-      if (!columns_.emplace(fields[i], i).second) refuse(fmt::format("column {} is there twice; keep one", in_quotes(fields[i])));
+      if (!columns_.emplace(fields[i], i).second)
+        refuse(fmt::format("column {} is there twice; keep one", in_quotes(fields[i])));
     }
   }
 
@@ -84,7 +91,8 @@ class TableReader {
   }
 
   void check_width(const std::vector<std::string>& fields) const {
-    if (fields.size() > columns_.size()) refuse(fmt::format("the line has {} fields, its table {} columns", fields.size(), columns_.size()));
+    if (fields.size() > columns_.size())
+      refuse(fmt::format("the line has {} fields, its table {} columns", fields.size(), columns_.size()));
   }
 
   void add_node(const std::vector<std::string>& fields) {
@@ -97,7 +105,8 @@ class TableReader {
     } else if (words.find_first_not_of(' ') != std::string::npos) {
       const auto purposes = purposes_of_text(words);
       if (!purposes)
-        refuse(fmt::format("purposes are {}; expected routing, storage, charging or parking, with blanks between them", in_quotes(words)));
+        refuse(fmt::format("purposes are {}; expected routing, storage, charging or parking, with blanks between them",
+                           in_quotes(words)));
       station.purposes = *purposes;
     }
     stations_.emplace(station.name, StationId{layout_.stations.size()});
@@ -133,8 +142,10 @@ class TableReader {
       if (!word.empty()) numbers.push_back(number(word, "a number of control_points"));
       rest.remove_prefix(std::min(word.size() + 1, rest.size()));
     }
-    if (numbers.size() % 2 != 0) refuse(fmt::format("control_points are {} numbers; expected x y x y ...", numbers.size()));
-    for (std::size_t i = 0; i < numbers.size(); i += 2) segment.control_points_m.emplace_back(numbers[i], numbers[i + 1]);
+    if (numbers.size() % 2 != 0)
+      refuse(fmt::format("control_points are {} numbers; expected x y x y ...", numbers.size()));
+    for (std::size_t i = 0; i < numbers.size(); i += 2)
+      segment.control_points_m.emplace_back(numbers[i], numbers[i + 1]);
     layout_.segments.push_back(std::move(segment));
     segment_lines_.push_back(lines_.number());
   }
@@ -171,20 +182,25 @@ std::string quoted(const std::string& text) {
 
 }  // namespace
 
-Layout read_csv_layout(const std::string& path, std::vector<std::string>& warnings) { return parse_csv_layout(read_text_file(path), path, warnings); }
+Layout read_csv_layout(const std::string& path, std::vector<std::string>& warnings) {
+  return parse_csv_layout(read_text_file(path), path, warnings);
+}
 
-Layout parse_csv_layout(std::string_view text, std::string_view source, std::vector<std::string>&) { return TableReader(text, source).read(); }
+Layout parse_csv_layout(std::string_view text, std::string_view source, std::vector<std::string>&) {
+  return TableReader(text, source).read();
+}
 
 std::string to_csv(const Layout& layout) {
   std::string text = "id,x,y,purposes\n";
   for (const auto& s : layout.stations) {
     const auto purposes = purposes_text(s.purposes);
-    text += fmt::format("{},{},{},{}\n", quoted(s.name), s.position_m.x(), s.position_m.y(), purposes.empty() ? kNoPurpose : purposes);
+    text += fmt::format("{},{},{},{}\n", quoted(s.name), s.position_m.x(), s.position_m.y(),
+                        purposes.empty() ? kNoPurpose : purposes);
   }
   text += "from,to,bidirectional,name,control_points\n";
   for (const auto& s : layout.segments) {
-    text += fmt::format("{},{},{},{},", quoted(layout.stations.at(s.from.index()).name), quoted(layout.stations.at(s.to.index()).name),
-                        s.bidirectional, quoted(s.name));
+    text += fmt::format("{},{},{},{},", quoted(layout.stations.at(s.from.index()).name),
+                        quoted(layout.stations.at(s.to.index()).name), s.bidirectional, quoted(s.name));
     for (std::size_t i = 0; i < s.control_points_m.size(); ++i) {
       text += fmt::format("{}{} {}", i > 0 ? " " : "", s.control_points_m[i].x(), s.control_points_m[i].y());
     }

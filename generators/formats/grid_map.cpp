@@ -17,7 +17,8 @@ namespace {
 
 constexpr std::string_view kFree = ".GSE", kBlocked = "@OTW", kService = "SE";
 constexpr std::size_t kLongestSide = 10'000;
-constexpr std::ptrdiff_t kMostFree = 1 << 20;  // stations take a kilobyte each; the largest published maps have 2^20 cells, blocked ones among them
+constexpr std::ptrdiff_t kMostFree =
+    1 << 20;  // stations take a kilobyte each; the largest published maps have 2^20 cells, blocked ones among them
 
 class MapReader {
  public:
@@ -37,7 +38,8 @@ class MapReader {
     std::vector<StationId> above(width_), row(width_);  // not valid where blocked
     for (std::size_t r = 0; r < height_; ++r) {
       const auto line = expect_line(fmt::format("row {} of {}", r + 1, height_));
-      if (line.size() != width_) refuse(fmt::format("row {} has {} cells; the header says width {}", r + 1, line.size(), width_));
+      if (line.size() != width_)
+        refuse(fmt::format("row {} has {} cells; the header says width {}", r + 1, line.size(), width_));
       for (std::size_t c = 0; c < width_; ++c) {
         row[c] = cell(line[c], r, c);
         if (!row[c].valid()) continue;
@@ -49,20 +51,25 @@ class MapReader {
     while (const auto line = lines_.next()) {
       if (!line->empty()) refuse(fmt::format("the map has more than the {} rows that its header says", height_));
     }
-    if (layout_.segments.empty()) throw InputError(source_, "no two free cells of the map are neighbours; expected cells with . between @");
-    warnings_.push_back(fmt::format("{}: cells are taken to be {} m apart; the map names no charging and no parking{}", source_, pitch_m_,
-                                    has_service_ ? "" : ", and no storage (S or E)"));
+    if (layout_.segments.empty())
+      throw InputError(source_, "no two free cells of the map are neighbours; expected cells with . between @");
+    warnings_.push_back(fmt::format("{}: cells are taken to be {} m apart; the map names no charging and no parking{}",
+                                    source_, pitch_m_, has_service_ ? "" : ", and no storage (S or E)"));
     fit_floor(layout_, 3.0);
     if (const auto problems = problems_of(layout_); !problems.empty()) throw InputError(source_, problems[0].sentence);
     return std::move(layout_);
   }
 
  private:
-  [[noreturn]] void refuse(std::string_view sentence) const { throw InputError(at_line(source_, lines_.number()), sentence); }
+  [[noreturn]] void refuse(std::string_view sentence) const {
+    throw InputError(at_line(source_, lines_.number()), sentence);
+  }
 
   std::string_view expect_line(std::string_view what) {
     const auto line = lines_.next();
-    if (!line) throw InputError(at_line(source_, lines_.number() + 1), fmt::format("the file ends before {}; is it complete?", what));
+    if (!line)
+      throw InputError(at_line(source_, lines_.number() + 1),
+                       fmt::format("the file ends before {}; is it complete?", what));
     return *line;
   }
 
@@ -89,8 +96,9 @@ class MapReader {
   StationId cell(char symbol, std::size_t r, std::size_t c) {
     if (kBlocked.find(symbol) != std::string_view::npos) return {};
     if (kFree.find(symbol) == std::string_view::npos) {
-      throw InputError(fmt::format("{}:{}:{}", source_, lines_.number(), c + 1),
-                       fmt::format("cell {} is unknown; free cells are . G S E, blocked ones @ O T W", in_quotes({&symbol, 1})));
+      throw InputError(
+          fmt::format("{}:{}:{}", source_, lines_.number(), c + 1),
+          fmt::format("cell {} is unknown; free cells are . G S E, blocked ones @ O T W", in_quotes({&symbol, 1})));
     }
     Station station;
     station.name = fmt::format("r{}c{}", r, c);
@@ -129,7 +137,8 @@ Layout read_grid_map(const std::string& path, std::vector<std::string>& warnings
   return parse_grid_map(read_text_file(path), path, warnings, pitch_m);
 }
 
-Layout parse_grid_map(std::string_view text, std::string_view source, std::vector<std::string>& warnings, double pitch_m) {
+Layout parse_grid_map(std::string_view text, std::string_view source, std::vector<std::string>& warnings,
+                      double pitch_m) {
   return MapReader(text, source, warnings, pitch_m).read();
 }
 

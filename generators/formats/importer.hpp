@@ -20,7 +20,8 @@ struct ImportChoice {
   double cell_pitch_m = kDefaultCellPitch_m;  // grid maps
 };
 
-// Reads a layout file; `warnings` receives what was left out, guessed or changed. InputError where the file is no sound layout.
+// Reads a layout file; `warnings` receives what was left out, guessed or changed. InputError where the file is no sound
+// layout.
 using ReadLayout = Layout (*)(const std::string& path, const ImportChoice& choice, std::vector<std::string>& warnings);
 
 std::span<const Entry<ReadLayout>> importers();

@@ -5,10 +5,10 @@
 #include <map>
 
 #include "core/base/catalogue.hpp"
+#include "generators/formats/purpose_words.hpp"
+#include "generators/map/layout_check.hpp"
 #include "generators/text/json_value.hpp"
 #include "generators/text/json_writer.hpp"
-#include "generators/map/layout_check.hpp"
-#include "generators/formats/purpose_words.hpp"
 #include "generators/text/text_file.hpp"
 
 namespace fleetproof {
@@ -31,7 +31,8 @@ Purposes read_purposes(const JsonReader& reader) {
       if (word == name) break;
       bit = static_cast<std::uint8_t>(bit << 1);
     }
-    if (bit > static_cast<std::uint8_t>(Purpose::Parking)) item.refuse("there is no such purpose" + name_hint(word, kPurposeNames));
+    if (bit > static_cast<std::uint8_t>(Purpose::Parking))
+      item.refuse("there is no such purpose" + name_hint(word, kPurposeNames));
     purposes = purposes | Purposes::from_bits(bit);
   }
   return purposes;
@@ -52,7 +53,8 @@ StationId station_named(const JsonReader& reader, const StationsByName& stations
   std::vector<std::string_view> known;
   for (const auto& [other, id] : stations) known.push_back(other);
   const auto nearest = nearest_name(name, known);
-  reader.refuse(nearest ? fmt::format("there is no such station; did you mean {}?", in_quotes(*nearest)) : "there is no such station");
+  reader.refuse(nearest ? fmt::format("there is no such station; did you mean {}?", in_quotes(*nearest))
+                        : "there is no such station");
 }
 
 Segment read_segment(const JsonReader& reader, const StationsByName& stations) {
@@ -106,7 +108,8 @@ Layout parse_layout(std::string_view text, std::string_view source) {
   const JsonValue root = parse_json(text, source);
   const JsonReader reader(root, source);
   reader.expect_object(kFileKeys);
-  if (const auto version = reader.at("version"); version.integer() != kVersion) version.refuse("this program reads version 1");
+  if (const auto version = reader.at("version"); version.integer() != kVersion)
+    version.refuse("this program reads version 1");
   return read_layout(reader.at("layout"));
 }
 

@@ -10,11 +10,11 @@
 
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
-#include "generators/map/antiparallel.hpp"
-#include "generators/text/json_value.hpp"
-#include "generators/map/layout_check.hpp"
 #include "generators/formats/nurbs.hpp"
 #include "generators/formats/purpose_words.hpp"
+#include "generators/map/antiparallel.hpp"
+#include "generators/map/layout_check.hpp"
+#include "generators/text/json_value.hpp"
 #include "generators/text/text_file.hpp"
 
 namespace fleetproof {
@@ -65,7 +65,9 @@ class LifReader {
     }
     for (const auto& [index, purposes] : stated_) layout_.stations[index].purposes = purposes;
     if (limited_ > 0)
-      warn(layout, fmt::format("{} edges limit speed, rotation or load; here every AGV drives every segment at its own speed", limited_));
+      warn(layout,
+           fmt::format("{} edges limit speed, rotation or load; here every AGV drives every segment at its own speed",
+                       limited_));
     fit_floor(layout_, 3.0);
     refuse_problems(layout);
     merge_antiparallel(layout_);
@@ -73,7 +75,9 @@ class LifReader {
   }
 
  private:
-  void warn(const JsonReader& at, std::string_view sentence) { warnings_.push_back(fmt::format("{}: {}", at.place(), sentence)); }
+  void warn(const JsonReader& at, std::string_view sentence) {
+    warnings_.push_back(fmt::format("{}: {}", at.place(), sentence));
+  }
 
   JsonReader choose_layout(const JsonReader& root) {
     auto holder = root;
@@ -86,7 +90,8 @@ class LifReader {
     const auto layouts = holder.at("layouts");
     const auto all = layouts.items();
     if (all.empty()) layouts.refuse("there is no layout; add one");
-    if (all.size() > 1) warn(layouts, fmt::format("the first of {} layouts is read; the others are left out", all.size()));
+    if (all.size() > 1)
+      warn(layouts, fmt::format("the first of {} layouts is read; the others are left out", all.size()));
     for (const auto& other : std::span(all).subspan(1)) {
       if (const auto nodes = other.find("nodes")) {
         for (const auto& node : nodes->items()) elsewhere_.insert(node.at("nodeId").text());
@@ -107,12 +112,14 @@ class LifReader {
     station.name = name_in(node.at("nodeId"), node_names_);
     const auto position = node.at("nodePosition");
     station.position_m = {position.at("x").number(), position.at("y").number()};
-    station.purposes = station.purposes | purposes_of_actions(either(node, "vehicleTypeNodeProperties", "mobileRobotTypeNodeProperties"));
+    station.purposes = station.purposes |
+                       purposes_of_actions(either(node, "vehicleTypeNodeProperties", "mobileRobotTypeNodeProperties"));
     const auto index = layout_.stations.size();
     std::string description;
     if (const auto found = node.find("nodeDescription"); found && found->is_text()) description = found->text();
     if (description.starts_with(kPurposesMark)) {
-      if (const auto stated = purposes_of_text(std::string_view(description).substr(kPurposesMark.size()))) stated_.emplace(index, *stated);
+      if (const auto stated = purposes_of_text(std::string_view(description).substr(kPurposesMark.size())))
+        stated_.emplace(index, *stated);
     }
     stations_.emplace(station.name, StationId{index});
     layout_.stations.push_back(std::move(station));
@@ -135,7 +142,8 @@ class LifReader {
     Segment segment;
     segment.name = name_in(edge.at("edgeId"), edge_names_);
     const auto from = station_in(edge.at("startNodeId")), to = station_in(edge.at("endNodeId"));
-    if (!from || !to) return warn(edge, fmt::format("edge {} leads to another layout and is left out", in_quotes(segment.name)));
+    if (!from || !to)
+      return warn(edge, fmt::format("edge {} leads to another layout and is left out", in_quotes(segment.name)));
     if (*from == *to) edge.at("endNodeId").refuse("the edge leads from a node to itself; leave it out");
     segment.from = *from;
     segment.to = *to;
@@ -147,7 +155,8 @@ class LifReader {
     if (types) {
       for (const auto& type : types->items()) {
         if (!trajectory) trajectory = type.find("trajectory");
-        for (const auto key : {"maxSpeed", "maximumSpeed", "maxRotationSpeed", "maximumRotationSpeed", "loadRestriction"})
+        for (const auto key :
+             {"maxSpeed", "maximumSpeed", "maxRotationSpeed", "maximumRotationSpeed", "loadRestriction"})
           limited |= type.find(key).has_value();
       }
     }
@@ -176,23 +185,32 @@ class LifReader {
 
   void bend(const JsonReader& trajectory, Segment& segment) {
     auto pieces = cubic_pieces(nurbs_of(trajectory));
-    const Vec2 from = layout_.stations[segment.from.index()].position_m, to = layout_.stations[segment.to.index()].position_m;
+    const Vec2 from = layout_.stations[segment.from.index()].position_m,
+               to = layout_.stations[segment.to.index()].position_m;
     const auto name = in_quotes(segment.name);
-    const auto miss = [&](const Vec2& begin, const Vec2& end) { return std::max((begin - from).norm(), (end - to).norm()); };
+    const auto miss = [&](const Vec2& begin, const Vec2& end) {
+      return std::max((begin - from).norm(), (end - to).norm());
+    };
     if (miss(pieces.end_m, pieces.begin_m) < std::min(kOnTheNode_m, miss(pieces.begin_m, pieces.end_m))) {
       std::swap(pieces.begin_m, pieces.end_m);
       std::ranges::reverse(pieces.control_points_m);
-      warn(trajectory, fmt::format("the trajectory of edge {} runs from its end to its start; it is turned round", name));
+      warn(trajectory,
+           fmt::format("the trajectory of edge {} runs from its end to its start; it is turned round", name));
     }
-    if (!pieces.exact) warn(trajectory, fmt::format("the trajectory of edge {} is replaced by a smooth curve through points of it", name));
+    if (!pieces.exact)
+      warn(trajectory,
+           fmt::format("the trajectory of edge {} is replaced by a smooth curve through points of it", name));
     if (const double off_m = miss(pieces.begin_m, pieces.end_m); off_m > kOnTheNode_m) {
-      warn(trajectory, fmt::format("the trajectory of edge {} ends {:.3f} m beside its node; it is drawn to the node", name, off_m));
+      warn(trajectory, fmt::format("the trajectory of edge {} ends {:.3f} m beside its node; it is drawn to the node",
+                                   name, off_m));
     }
     segment.control_points_m = std::move(pieces.control_points_m);
     const double kink = largest_kink_rad(segment);
     if (kink > 1e-9 && kink <= kSmoothedKink_rad) {
       smooth_joints(segment);
-      warn(trajectory, fmt::format("two curves of edge {} meet at an angle of {:.3f} rad; their control points were aligned", name, kink));
+      warn(trajectory,
+           fmt::format("two curves of edge {} meet at an angle of {:.3f} rad; their control points were aligned", name,
+                       kink));
     }
   }
 
@@ -203,7 +221,8 @@ class LifReader {
       auto& purposes = layout_.stations[node->index()].purposes;
       if (purposes != Purposes(Purpose::Routing)) continue;
       purposes = purposes | Purpose::Storage;
-      warn(id, fmt::format("no action is named at node {}, which belongs to a station; it is taken to be for storage", in_quotes(id.text())));
+      warn(id, fmt::format("no action is named at node {}, which belongs to a station; it is taken to be for storage",
+                           in_quotes(id.text())));
     }
   }
 
@@ -233,7 +252,9 @@ class LifReader {
 
 }  // namespace
 
-Layout read_lif(const std::string& path, std::vector<std::string>& warnings) { return parse_lif(read_text_file(path), path, warnings); }
+Layout read_lif(const std::string& path, std::vector<std::string>& warnings) {
+  return parse_lif(read_text_file(path), path, warnings);
+}
 
 Layout parse_lif(std::string_view text, std::string_view source, std::vector<std::string>& warnings) {
   return LifReader(text, source, warnings).read();

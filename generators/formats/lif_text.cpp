@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <set>
 
-#include "generators/text/json_writer.hpp"
 #include "generators/formats/lif.hpp"
 #include "generators/formats/purpose_words.hpp"
+#include "generators/text/json_writer.hpp"
 
 namespace fleetproof {
 namespace {
@@ -75,7 +75,8 @@ void write_trajectory(JsonWriter& writer, const std::vector<Vec2>& points) {
   writer.close();
 }
 
-void write_edge(JsonWriter& writer, const std::string& name, const Station& from, const Station& to, const std::vector<Vec2>& points) {
+void write_edge(JsonWriter& writer, const std::string& name, const Station& from, const Station& to,
+                const std::vector<Vec2>& points) {
   writer.open_object();
   writer.key("edgeId").value(name);
   writer.key("startNodeId").value(from.name);

@@ -17,7 +17,8 @@ bool equal_weights(const Nurbs& n) {
   return std::ranges::all_of(n.weights, [&](double w) { return w == n.weights[0]; });
 }
 
-// Whether the knots cut the curve into Bezier pieces: degree + 1 equal ones at both ends, degree equal ones at each joint.
+// Whether the knots cut the curve into Bezier pieces: degree + 1 equal ones at both ends, degree equal ones at each
+// joint.
 bool in_bezier_form(const Nurbs& n) {
   const auto d = n.degree;
   if ((n.points_m.size() - 1) % d != 0) return false;
@@ -46,7 +47,8 @@ bool is_straight(const std::vector<Vec2>& p) {
   for (const auto& point : p) {
     const Vec2 to = point - p[0];
     const double along = to.dot(way) / length;
-    if (std::abs(to.x() * way.y() - to.y() * way.x()) > kStraight_m * length || along < reached - kStraight_m) return false;
+    if (std::abs(to.x() * way.y() - to.y() * way.x()) > kStraight_m * length || along < reached - kStraight_m)
+      return false;
     reached = along;
   }
   return true;
@@ -86,8 +88,8 @@ std::vector<Vec2> points_along(const Nurbs& n) {
   return points;
 }
 
-// Cubic pieces through points. In each of them the curve is parallel to the line between its neighbours; it leaves the outermost
-// ones the way a circle would.
+// Cubic pieces through points. In each of them the curve is parallel to the line between its neighbours; it leaves the
+// outermost ones the way a circle would.
 std::vector<Vec2> smooth_through(const std::vector<Vec2>& p) {
   std::vector<Vec2> tangents(p.size());
   for (std::size_t i = 1; i + 1 < p.size(); ++i) {
@@ -113,13 +115,15 @@ std::vector<Vec2> smooth_through(const std::vector<Vec2>& p) {
 }  // namespace
 
 std::string fault_of(const Nurbs& n) {
-  if (n.degree < 1 || n.degree > kHighestDegree) return fmt::format("degree {} is not between 1 and {}", n.degree, kHighestDegree);
+  if (n.degree < 1 || n.degree > kHighestDegree)
+    return fmt::format("degree {} is not between 1 and {}", n.degree, kHighestDegree);
   if (n.points_m.size() <= n.degree)
-    return fmt::format("degree {} needs at least {} control points; here are {}", n.degree, n.degree + 1, n.points_m.size());
+    return fmt::format("degree {} needs at least {} control points; here are {}", n.degree, n.degree + 1,
+                       n.points_m.size());
   if (n.points_m.size() > kMostPoints) return fmt::format("more than {} control points; split the edge", kMostPoints);
   if (n.knots.size() != n.points_m.size() + n.degree + 1) {
-    return fmt::format("{} control points of degree {} need {} knots; here are {}", n.points_m.size(), n.degree, n.points_m.size() + n.degree + 1,
-                       n.knots.size());
+    return fmt::format("{} control points of degree {} need {} knots; here are {}", n.points_m.size(), n.degree,
+                       n.points_m.size() + n.degree + 1, n.knots.size());
   }
   if (!std::ranges::is_sorted(n.knots)) return "the knots do not ascend; put them in order";
   if (!(n.knots[n.degree] < n.knots[n.points_m.size()])) return "all knots are equal; they run from 0 to 1";

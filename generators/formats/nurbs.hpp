@@ -26,8 +26,8 @@ struct CubicPieces {
   bool exact = true;                   // else a smooth curve through points of the given one
 };
 
-// Exact for clamped curves of equal weights in Bezier form, up to degree 3, and for polylines without corners. Everything else
-// becomes a smooth curve through its corners, or through sixteen points per span. `nurbs` has no fault.
+// Exact for clamped curves of equal weights in Bezier form, up to degree 3, and for polylines without corners.
+// Everything else becomes a smooth curve through its corners, or through sixteen points per span. `nurbs` has no fault.
 CubicPieces cubic_pieces(const Nurbs& nurbs);
 
 }  // namespace fleetproof

@@ -28,8 +28,9 @@ struct PurposeWord {
   std::string_view word;
   Purpose purpose;
 };
-constexpr PurposeWord kPurposeWords[] = {{"charg", Purpose::Charging}, {"transfer", Purpose::Storage}, {"storage", Purpose::Storage},
-                                         {"work", Purpose::Storage},   {"load", Purpose::Storage},     {"pick", Purpose::Storage},
+constexpr PurposeWord kPurposeWords[] = {{"charg", Purpose::Charging},  {"transfer", Purpose::Storage},
+                                         {"storage", Purpose::Storage}, {"work", Purpose::Storage},
+                                         {"load", Purpose::Storage},    {"pick", Purpose::Storage},
                                          {"drop", Purpose::Storage}};
 
 Purposes purposes_in(std::string name) {
@@ -69,7 +70,9 @@ class ModelReader {
   }
 
  private:
-  void warn(const pugi::xml_node& node, std::string_view sentence) { warnings_.push_back(fmt::format("{}: {}", xml_.place(node), sentence)); }
+  void warn(const pugi::xml_node& node, std::string_view sentence) {
+    warnings_.push_back(fmt::format("{}: {}", xml_.place(node), sentence));
+  }
 
   void check_version(const pugi::xml_node& model) {
     const std::string version = model.attribute("version").as_string();
@@ -85,17 +88,20 @@ class ModelReader {
   void read_scale(const pugi::xml_node& model) {
     const auto layout = model.child("visualLayout");
     if (!layout) {
-      warn(model, fmt::format("there is no <visualLayout>; control points are taken as units of {} mm", kDefaultScale_mm));
+      warn(model,
+           fmt::format("there is no <visualLayout>; control points are taken as units of {} mm", kDefaultScale_mm));
       return;
     }
     scale_mm_ = {xml_.number(layout, "scaleX"), xml_.number(layout, "scaleY")};
-    if (!(scale_mm_.minCoeff() > 0.0)) xml_.refuse(layout, fmt::format("scale {} x {} is not positive", scale_mm_.x(), scale_mm_.y()));
+    if (!(scale_mm_.minCoeff() > 0.0))
+      xml_.refuse(layout, fmt::format("scale {} x {} is not positive", scale_mm_.x(), scale_mm_.y()));
   }
 
   std::string name_of_new(const pugi::xml_node& node, std::set<std::string>& taken) {
     auto name = xml_.text(node, "name");
     if (const char* fault = fault_of_name(name)) xml_.refuse(node, fmt::format("name {}: {}", in_quotes(name), fault));
-    if (!taken.insert(name).second) xml_.refuse(node, fmt::format("a second <{}> is named {}; rename one", node.name(), in_quotes(name)));
+    if (!taken.insert(name).second)
+      xml_.refuse(node, fmt::format("a second <{}> is named {}; rename one", node.name(), in_quotes(name)));
     return name;
   }
 
@@ -108,7 +114,8 @@ class ModelReader {
     station.position_m = Vec2(x_mm, y_mm) / 1000.0;
     const std::string_view type = point.attribute("type").value();
     if (type == "PARK_POSITION") station.purposes = station.purposes | Purpose::Parking;
-    if (type == "REPORT_POSITION") warn(point, fmt::format("report position {} becomes a station at which AGVs can stop", in_quotes(station.name)));
+    if (type == "REPORT_POSITION")
+      warn(point, fmt::format("report position {} becomes a station at which AGVs can stop", in_quotes(station.name)));
     stations_.emplace(station.name, StationId{layout_.stations.size()});
     layout_.stations.push_back(std::move(station));
   }
@@ -119,8 +126,9 @@ class ModelReader {
     std::vector<std::string_view> known;
     for (const auto& station : layout_.stations) known.push_back(station.name);
     const auto nearest = nearest_name(name, known);
-    xml_.refuse(node, fmt::format("{} of <{}> is {}, but there is no such point{}", attribute, node.name(), in_quotes(name),
-                                  nearest ? "; did you mean " + in_quotes(*nearest) + "?" : "; add it or correct the name"));
+    xml_.refuse(node,
+                fmt::format("{} of <{}> is {}, but there is no such point{}", attribute, node.name(), in_quotes(name),
+                            nearest ? "; did you mean " + in_quotes(*nearest) + "?" : "; add it or correct the name"));
   }
 
   void add_path(const pugi::xml_node& path) {
@@ -128,8 +136,10 @@ class ModelReader {
     segment.name = name_of_new(path, path_names_);
     segment.from = station_in(path, "sourcePoint");
     segment.to = station_in(path, "destinationPoint");
-    if (path.attribute("locked").as_bool()) return warn(path, fmt::format("locked path {} is left out", in_quotes(segment.name)));
-    if (segment.from == segment.to) xml_.refuse(path, fmt::format("path {} leads from a point to itself; leave it out", in_quotes(segment.name)));
+    if (path.attribute("locked").as_bool())
+      return warn(path, fmt::format("locked path {} is left out", in_quotes(segment.name)));
+    if (segment.from == segment.to)
+      xml_.refuse(path, fmt::format("path {} leads from a point to itself; leave it out", in_quotes(segment.name)));
     bend(path, segment);
     layout_.segments.push_back(std::move(segment));
     paths_.push_back(path);
@@ -140,7 +150,8 @@ class ModelReader {
     const std::string_view type = drawing.attribute("connectionType").value();
     std::vector<Vec2> points;
     for (const auto point : drawing.children("controlPoint")) {
-      points.emplace_back(xml_.number(point, "x") * scale_mm_.x() / 1000.0, 0.0 - xml_.number(point, "y") * scale_mm_.y() / 1000.0);
+      points.emplace_back(xml_.number(point, "x") * scale_mm_.x() / 1000.0,
+                          0.0 - xml_.number(point, "y") * scale_mm_.y() / 1000.0);
     }
     const std::size_t expected = type == "BEZIER" ? 2 : type == "BEZIER_3" ? 5 : 0;
     if (expected == 0) {
@@ -149,28 +160,36 @@ class ModelReader {
       return;
     }
     if (points.size() != expected) {
-      xml_.refuse(drawing, fmt::format("path {} has {} control points; {} needs {}", in_quotes(segment.name), points.size(), type, expected));
+      xml_.refuse(drawing, fmt::format("path {} has {} control points; {} needs {}", in_quotes(segment.name),
+                                       points.size(), type, expected));
     }
     segment.control_points_m = std::move(points);
     const double kink = largest_kink_rad(segment);
     if (kink > 1e-9 && kink <= kSmoothedKink_rad) {
       smooth_joints(segment);
       warn(path,
-           fmt::format("the two curves of path {} meet at an angle of {:.3f} rad; their control points were aligned", in_quotes(segment.name), kink));
+           fmt::format("the two curves of path {} meet at an angle of {:.3f} rad; their control points were aligned",
+                       in_quotes(segment.name), kink));
     }
   }
 
   void note_reversible(const pugi::xml_node& model) {
-    const auto count =
-        std::ranges::count_if(paths_, [](const pugi::xml_node& path) { return path.attribute("maxReverseVelocity").as_double() > 0.0; });
-    if (count > 0) warn(model, fmt::format("{} paths may be driven in reverse; here AGVs drive nose first, from source to destination only", count));
+    const auto count = std::ranges::count_if(
+        paths_, [](const pugi::xml_node& path) { return path.attribute("maxReverseVelocity").as_double() > 0.0; });
+    if (count > 0)
+      warn(model,
+           fmt::format("{} paths may be driven in reverse; here AGVs drive nose first, from source to destination only",
+                       count));
   }
 
   void add_location_type(const pugi::xml_node& type) {
     const auto name = xml_.text(type, "name");
     auto purposes = purposes_in(name);
-    if (purposes.bits() == 0) purposes = purposes_in(type.child("locationTypeLayout").attribute("locationRepresentation").as_string());
-    if (purposes.bits() == 0) warn(type, fmt::format("location type {} names no purpose that is known here; points keep theirs", in_quotes(name)));
+    if (purposes.bits() == 0)
+      purposes = purposes_in(type.child("locationTypeLayout").attribute("locationRepresentation").as_string());
+    if (purposes.bits() == 0)
+      warn(type,
+           fmt::format("location type {} names no purpose that is known here; points keep theirs", in_quotes(name)));
     location_types_.emplace(name, purposes);
   }
 
@@ -178,13 +197,16 @@ class ModelReader {
     const auto name = xml_.text(location, "name"), type = xml_.text(location, "type");
     const auto found = location_types_.find(type);
     if (found == location_types_.end()) {
-      xml_.refuse(location, fmt::format("type of location {} is {}, but there is no such location type", in_quotes(name), in_quotes(type)));
+      xml_.refuse(location, fmt::format("type of location {} is {}, but there is no such location type",
+                                        in_quotes(name), in_quotes(type)));
     }
     const bool locked = location.attribute("locked").as_bool();
-    if (locked) warn(location, fmt::format("location {} is locked; points linked to it keep their purposes", in_quotes(name)));
+    if (locked)
+      warn(location, fmt::format("location {} is locked; points linked to it keep their purposes", in_quotes(name)));
     for (const auto link : location.children("link")) {
       const auto station = station_in(link, "point");
-      if (!locked) layout_.stations[station.index()].purposes = layout_.stations[station.index()].purposes | found->second;
+      if (!locked)
+        layout_.stations[station.index()].purposes = layout_.stations[station.index()].purposes | found->second;
     }
   }
 
@@ -195,14 +217,17 @@ class ModelReader {
     const auto digits = pointer.substr(std::min(pointer.size(), pointer.find('/', 1) + 1));
     if (!read_number(digits.substr(0, digits.find('/')), index)) return model;
     if (of_segment) return paths_[static_cast<std::size_t>(index)];
-    return pointer.starts_with("/stations/") ? *std::next(model.children("point").begin(), static_cast<std::ptrdiff_t>(index)) : model;
+    return pointer.starts_with("/stations/")
+               ? *std::next(model.children("point").begin(), static_cast<std::ptrdiff_t>(index))
+               : model;
   }
 
   void refuse_problems(const pugi::xml_node& model) {
     const auto problems = problems_of(layout_);
     if (problems.empty()) return;
     const auto node = origin(problems[0].pointer, model);
-    xml_.refuse(node, fmt::format("<{}> {}: {}", node.name(), in_quotes(node.attribute("name").value()), problems[0].sentence));
+    xml_.refuse(
+        node, fmt::format("<{}> {}: {}", node.name(), in_quotes(node.attribute("name").value()), problems[0].sentence));
   }
 
   void compare_lengths() {
@@ -210,11 +235,12 @@ class ModelReader {
       double stored_mm = 0.0;
       const double length_m = segment_curve(layout_, layout_.segments[i]).length_m();
       if (!read_number(paths_[i].attribute("length").value(), stored_mm)) {
-        warn(paths_[i],
-             fmt::format("path {} has no length that can be read; its geometry has {:.3f} m", in_quotes(layout_.segments[i].name), length_m));
+        warn(paths_[i], fmt::format("path {} has no length that can be read; its geometry has {:.3f} m",
+                                    in_quotes(layout_.segments[i].name), length_m));
       } else if (std::abs(stored_mm / 1000.0 - length_m) > kToleratedLength * length_m) {
-        warn(paths_[i], fmt::format("path {} is stored with a length of {:.3f} m; its geometry has {:.3f} m, which counts",
-                                    in_quotes(layout_.segments[i].name), stored_mm / 1000.0, length_m));
+        warn(paths_[i],
+             fmt::format("path {} is stored with a length of {:.3f} m; its geometry has {:.3f} m, which counts",
+                         in_quotes(layout_.segments[i].name), stored_mm / 1000.0, length_m));
       }
     }
   }
@@ -237,7 +263,8 @@ Layout read_opentcs(const std::string& path, std::vector<std::string>& warnings,
   return parse_opentcs(read_text_file(path), path, warnings, twins);
 }
 
-Layout parse_opentcs(std::string_view text, std::string_view source, std::vector<std::string>& warnings, TwinPaths twins) {
+Layout parse_opentcs(std::string_view text, std::string_view source, std::vector<std::string>& warnings,
+                     TwinPaths twins) {
   return ModelReader(text, source, warnings, twins).read();
 }
 

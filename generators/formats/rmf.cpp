@@ -20,11 +20,13 @@ namespace fleetproof {
 namespace {
 
 // Attributes of lanes that change how a fleet drives them, and have no counterpart here.
-constexpr const char* kUnreadLaneWords[] = {"orientation", "orientation_constraint", "speed_limit", "mutex", "dock_name", "door_name", "lift"};
+constexpr const char* kUnreadLaneWords[] = {
+    "orientation", "orientation_constraint", "speed_limit", "mutex", "dock_name", "door_name", "lift"};
 
 class LevelReader {
  public:
-  LevelReader(std::string_view text, std::string_view source, std::vector<std::string>& warnings, const RmfChoice& choice)
+  LevelReader(std::string_view text, std::string_view source, std::vector<std::string>& warnings,
+              const RmfChoice& choice)
       : yaml_(source), warnings_(warnings), choice_(choice), root_(YAML::Load(std::string(text))) {}
 
   Layout read() {
@@ -37,7 +39,8 @@ class LevelReader {
     is_nav_graph_ = !vertices_[0].IsSequence() || vertices_[0].size() < 3 || vertices_[0][2].IsMap();
     read_scale(level);
     for (const auto lane : lanes) add_lane(lane);
-    if (layout_.segments.empty()) yaml_.refuse(lanes, fmt::format("no lane belongs to graph {}; choose another graph or level", choice_.graph_idx));
+    if (layout_.segments.empty())
+      yaml_.refuse(lanes, fmt::format("no lane belongs to graph {}; choose another graph or level", choice_.graph_idx));
     for (const char* word : kUnreadLaneWords) {
       if (const auto count = unread_.find(word); count != unread_.end())
         warn(lanes, fmt::format("{} lanes have \"{}\", which is not read", count->second, word));
@@ -50,11 +53,14 @@ class LevelReader {
   }
 
  private:
-  void warn(const YAML::Node& node, std::string_view sentence) { warnings_.push_back(fmt::format("{}: {}", yaml_.place(node), sentence)); }
+  void warn(const YAML::Node& node, std::string_view sentence) {
+    warnings_.push_back(fmt::format("{}: {}", yaml_.place(node), sentence));
+  }
 
   YAML::Node choose_level() {
     const auto levels = root_["levels"];
-    if (!levels.IsMap() || levels.size() == 0) yaml_.refuse(levels, "levels is no map of levels; expected levels: {L1: ...}");
+    if (!levels.IsMap() || levels.size() == 0)
+      yaml_.refuse(levels, "levels is no map of levels; expected levels: {L1: ...}");
     std::vector<std::string> names;
     for (const auto entry : levels) {
       if (!entry.first.IsScalar() || !entry.second.IsMap())
@@ -67,7 +73,8 @@ class LevelReader {
       if (names.size() > 1) warn(levels, fmt::format("of {} levels, {} is read", names.size(), in_quotes(wanted)));
       layout_.name = wanted;
       for (const char* key : {"building_name", "name"}) {
-        if (const auto name = root_[key]; name.IsDefined() && name.IsScalar()) layout_.name = name.Scalar() + " " + wanted;
+        if (const auto name = root_[key]; name.IsDefined() && name.IsScalar())
+          layout_.name = name.Scalar() + " " + wanted;
       }
       return entry.second;
     }
@@ -104,8 +111,11 @@ class LevelReader {
     const auto name = system.IsDefined() && system.IsScalar() ? system.Scalar() : "reference_image";
     if (name == "cartesian_meters") return;
     if (name != "reference_image") {
-      yaml_.refuse(system,
-                   fmt::format("coordinate_system is {}, which needs a map projection; generate nav graphs and import one of them", in_quotes(name)));
+      yaml_.refuse(
+          system,
+          fmt::format(
+              "coordinate_system is {}, which needs a map projection; generate nav graphs and import one of them",
+              in_quotes(name)));
     }
     down_ = true;
     double sum = 0.0;
@@ -116,10 +126,12 @@ class LevelReader {
         const auto a = vertex_index(measurement, 0, "a measurement"), b = vertex_index(measurement, 1, "a measurement");
         const double pixels = (raw_position(a) - raw_position(b)).norm();
         const auto distance = parameter(yaml_.item(measurement, 2, "a measurement"), "distance");
-        if (!distance.IsDefined()) yaml_.refuse(measurement, "the measurement has no distance; add {distance: [3, METRES]}");
+        if (!distance.IsDefined())
+          yaml_.refuse(measurement, "the measurement has no distance; add {distance: [3, METRES]}");
         const double metres = yaml_.number(distance, "distance");
         if (!(metres > 0.0 && pixels > 0.0))
-          yaml_.refuse(measurement, fmt::format("{} m for {} pixels give no scale; correct the measurement", metres, pixels));
+          yaml_.refuse(measurement,
+                       fmt::format("{} m for {} pixels give no scale; correct the measurement", metres, pixels));
         sum += metres / pixels;
         ++count;
       }
@@ -130,7 +142,8 @@ class LevelReader {
 
   Vec2 raw_position(std::size_t vertex) const {
     const auto& node = vertices_[vertex];
-    return {yaml_.number(yaml_.item(node, 0, "a vertex"), "x of a vertex"), yaml_.number(yaml_.item(node, 1, "a vertex"), "y of a vertex")};
+    return {yaml_.number(yaml_.item(node, 0, "a vertex"), "x of a vertex"),
+            yaml_.number(yaml_.item(node, 1, "a vertex"), "y of a vertex")};
   }
 
   StationId station_of(std::size_t vertex) {
@@ -141,7 +154,8 @@ class LevelReader {
     const auto name = is_nav_graph_ ? parameter(words, "name") : node.size() > 3 ? node[3] : YAML::Node();
     station.name = name.IsDefined() && name.IsScalar() ? name.Scalar() : "";
     if (station.name.empty()) station.name = fmt::format("v{}", vertex);
-    if (const char* fault = fault_of_name(station.name)) yaml_.refuse(node, fmt::format("name {}: {}", in_quotes(station.name), fault));
+    if (const char* fault = fault_of_name(station.name))
+      yaml_.refuse(node, fmt::format("name {}: {}", in_quotes(station.name), fault));
     if (!names_.insert(station.name).second) {
       auto other = fmt::format("v{}", vertex);
       while (!names_.insert(other).second) other += '_';
@@ -170,7 +184,8 @@ class LevelReader {
     const auto from = vertex_index(lane, 0, "a lane"), to = vertex_index(lane, 1, "a lane");
     const auto words = words_of(lane);
     const auto graph = parameter(words, "graph_idx");
-    if (!is_nav_graph_ && (graph.IsDefined() ? yaml_.number(graph, "graph_idx") : 0.0) != static_cast<double>(choice_.graph_idx)) {
+    if (!is_nav_graph_ &&
+        (graph.IsDefined() ? yaml_.number(graph, "graph_idx") : 0.0) != static_cast<double>(choice_.graph_idx)) {
       ++other_graphs_;
       return;
     }
@@ -195,7 +210,8 @@ class LevelReader {
     if (const bool of_segment = pointer.starts_with("/segments/"); of_segment || pointer.starts_with("/stations/")) {
       const auto digits = pointer.substr(10);
       std::from_chars(digits.data(), digits.data() + digits.size(), index);
-      yaml_.refuse(of_segment ? lanes_[index] : vertices_[used_[index]], fmt::format("{}: {}", of_segment ? "lane" : "vertex", problems[0].sentence));
+      yaml_.refuse(of_segment ? lanes_[index] : vertices_[used_[index]],
+                   fmt::format("{}: {}", of_segment ? "lane" : "vertex", problems[0].sentence));
     }
     yaml_.refuse(level, problems[0].sentence);
   }
@@ -221,7 +237,8 @@ Layout read_rmf(const std::string& path, std::vector<std::string>& warnings, con
   return parse_rmf(read_text_file(path), path, warnings, choice);
 }
 
-Layout parse_rmf(std::string_view text, std::string_view source, std::vector<std::string>& warnings, const RmfChoice& choice) {
+Layout parse_rmf(std::string_view text, std::string_view source, std::vector<std::string>& warnings,
+                 const RmfChoice& choice) {
   try {
     return LevelReader(text, source, warnings, choice).read();
   } catch (const YAML::Exception& error) {

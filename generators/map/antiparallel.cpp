@@ -10,8 +10,9 @@ namespace {
 constexpr double kSameTrack_m = 0.001;
 
 bool is_mirrored(const Segment& there, const Segment& back) {
-  return std::ranges::equal(there.control_points_m.begin(), there.control_points_m.end(), back.control_points_m.rbegin(),
-                            back.control_points_m.rend(), [](const Vec2& a, const Vec2& b) { return (a - b).norm() <= kSameTrack_m; });
+  return std::ranges::equal(there.control_points_m.begin(), there.control_points_m.end(),
+                            back.control_points_m.rbegin(), back.control_points_m.rend(),
+                            [](const Vec2& a, const Vec2& b) { return (a - b).norm() <= kSameTrack_m; });
 }
 
 }  // namespace
@@ -22,7 +23,9 @@ std::size_t merge_antiparallel(Layout& layout) {
   for (auto& segment : layout.segments) {
     const auto from = segment.from.index(), to = segment.to.index();
     const auto [begin, end] = waiting.equal_range({to, from});
-    const auto twin = std::find_if(begin, end, [&](const auto& entry) { return !segment.bidirectional && is_mirrored(kept[entry.second], segment); });
+    const auto twin = std::find_if(begin, end, [&](const auto& entry) {
+      return !segment.bidirectional && is_mirrored(kept[entry.second], segment);
+    });
     if (twin != end) {
       kept[twin->second].bidirectional = true;
       waiting.erase(twin);

@@ -9,10 +9,11 @@
 
 namespace fleetproof {
 
-// The open stations of a search for quickest ways, the nearest first: costs that are popped never fall, and nothing is pushed further ahead of the
-// last one popped than the longest hop. Sixteen slots, each for as much time as the longest hop needs to fit in fifteen, are used round and round;
-// the few stations of one slot are looked through. A third of the work of a heap where a handful is open, no more where hundreds are.
-// Of stations with one cost any may come first, always the same one after the same pushes and pops.
+// The open stations of a search for quickest ways, the nearest first: costs that are popped never fall, and nothing is
+// pushed further ahead of the last one popped than the longest hop. Sixteen slots, each for as much time as the longest
+// hop needs to fit in fifteen, are used round and round; the few stations of one slot are looked through. A third of
+// the work of a heap where a handful is open, no more where hundreds are. Of stations with one cost any may come first,
+// always the same one after the same pushes and pops.
 class CalendarQueue {
  public:
   struct Open {
@@ -20,7 +21,8 @@ class CalendarQueue {
     std::uint32_t station;
   };
 
-  explicit CalendarQueue(Duration longest_hop) : shift_(static_cast<int>(std::bit_width(static_cast<std::uint64_t>(longest_hop.count()) / 15))) {}
+  explicit CalendarQueue(Duration longest_hop)
+      : shift_(static_cast<int>(std::bit_width(static_cast<std::uint64_t>(longest_hop.count()) / 15))) {}
 
   bool empty() const { return filled_ == 0; }
 

@@ -35,10 +35,13 @@ class Check {
   }
 
  private:
-  void add(ProblemKind kind, std::string pointer, std::string sentence) { problems_.push_back({kind, std::move(pointer), std::move(sentence)}); }
+  void add(ProblemKind kind, std::string pointer, std::string sentence) {
+    problems_.push_back({kind, std::move(pointer), std::move(sentence)});
+  }
 
   void bad_number(std::string pointer) {
-    add(ProblemKind::NumberOutOfRange, std::move(pointer), fmt::format("coordinates lie within {} m of the origin", kLargestCoordinate_m));
+    add(ProblemKind::NumberOutOfRange, std::move(pointer),
+        fmt::format("coordinates lie within {} m of the origin", kLargestCoordinate_m));
   }
 
   void floor() {
@@ -58,7 +61,8 @@ class Check {
       const auto pointer = [&] { return fmt::format("/{}/{}/name", what, i); };
       if (const char* fault = fault_of_name(all[i].name)) add(ProblemKind::BadName, pointer(), fault);
       if (!seen.insert(all[i].name).second) {
-        add(ProblemKind::BadName, pointer(), fmt::format("two {} are named {}; rename one", what, in_quotes(all[i].name)));
+        add(ProblemKind::BadName, pointer(),
+            fmt::format("two {} are named {}; rename one", what, in_quotes(all[i].name)));
       }
     }
   }
@@ -66,15 +70,20 @@ class Check {
   void segment(std::size_t i) {
     const auto& s = layout_.segments[i];
     const auto pointer = fmt::format("/segments/{}", i);
-    if (s.from.index() >= layout_.stations.size()) return add(ProblemKind::UnknownReference, pointer + "/from", "there is no such station");
-    if (s.to.index() >= layout_.stations.size()) return add(ProblemKind::UnknownReference, pointer + "/to", "there is no such station");
-    if (s.from == s.to) return add(ProblemKind::BadGeometry, pointer, "a segment leads from one station to another one");
+    if (s.from.index() >= layout_.stations.size())
+      return add(ProblemKind::UnknownReference, pointer + "/from", "there is no such station");
+    if (s.to.index() >= layout_.stations.size())
+      return add(ProblemKind::UnknownReference, pointer + "/to", "there is no such station");
+    if (s.from == s.to)
+      return add(ProblemKind::BadGeometry, pointer, "a segment leads from one station to another one");
     const auto& c = s.control_points_m;
     if (!std::ranges::all_of(c, on_the_floor)) return bad_number(pointer + "/control_points_m");
     if (!c.empty() && c.size() % 3 != 2) {
-      return add(ProblemKind::BadGeometry, pointer + "/control_points_m", fmt::format("{} control points; a curve has 2, 5, 8, ...", c.size()));
+      return add(ProblemKind::BadGeometry, pointer + "/control_points_m",
+                 fmt::format("{} control points; a curve has 2, 5, 8, ...", c.size()));
     }
-    if (const auto fault = fault_of_curve(segment_curve(layout_, s)); !fault.empty()) add(ProblemKind::BadGeometry, pointer, fault);
+    if (const auto fault = fault_of_curve(segment_curve(layout_, s)); !fault.empty())
+      add(ProblemKind::BadGeometry, pointer, fault);
   }
 
   const Layout& layout_;
@@ -85,7 +94,9 @@ class Check {
 
 Problems problems_of(const Layout& layout) { return Check(layout).run(); }
 
-bool on_the_floor(const Vec2& p) { return std::abs(p.x()) <= kLargestCoordinate_m && std::abs(p.y()) <= kLargestCoordinate_m; }
+bool on_the_floor(const Vec2& p) {
+  return std::abs(p.x()) <= kLargestCoordinate_m && std::abs(p.y()) <= kLargestCoordinate_m;
+}
 
 // Beziers with cusps and loops are easier tried than judged.
 std::string fault_of_curve(const Curve& curve) {
@@ -96,9 +107,11 @@ std::string fault_of_curve(const Curve& curve) {
       return "it bends more sharply than a radius of 5 cm; move its control points apart, or put a station there";
     }
     if (i == 0) continue;
-    const double kink = std::abs(angle_between(arcs[i - 1].pose_at(arcs[i - 1].length_m).heading, arcs[i].start.heading));
+    const double kink =
+        std::abs(angle_between(arcs[i - 1].pose_at(arcs[i - 1].length_m).heading, arcs[i].start.heading));
     if (kink > kLargestKink_rad) {
-      return fmt::format("it has a kink of {:.3g} rad; align the control points beside the joint, or put a station there", kink);
+      return fmt::format(
+          "it has a kink of {:.3g} rad; align the control points beside the joint, or put a station there", kink);
     }
   }
   return "";

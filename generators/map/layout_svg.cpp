@@ -20,7 +20,8 @@ struct Look {
   const char* colour;
 };
 
-// A station with several purposes shows the first of these; colours differ for colour-blind eyes too, and shapes say the same.
+// A station with several purposes shows the first of these; colours differ for colour-blind eyes too, and shapes say
+// the same.
 constexpr Look kLooks[] = {{Purpose::Charging, "charging", "#e69f00"},
                            {Purpose::Parking, "parking", "#0072b2"},
                            {Purpose::Storage, "storage", "#009e73"},
@@ -59,7 +60,8 @@ struct Written {
   Vec2 low_px, high_px;
 
   bool covers(const Written& o) const {
-    return low_px.x() < o.high_px.x() && o.low_px.x() < high_px.x() && low_px.y() < o.high_px.y() && o.low_px.y() < high_px.y();
+    return low_px.x() < o.high_px.x() && o.low_px.x() < high_px.x() && low_px.y() < o.high_px.y() &&
+           o.low_px.y() < high_px.y();
   }
 };
 
@@ -77,14 +79,14 @@ class Picture {
     add(R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0:.0f}" height="{1:.0f}" viewBox="0 0 {0:.0f} {1:.0f}" font-family="sans-serif">)",
         width_px_, height_px_);
     const auto size = Vec2(layout_.floor_high_m - layout_.floor_low_m);
-    const auto title = fmt::format("{}: {} stations, {} segment{}", escaped(layout_.name), layout_.stations.size(), layout_.segments.size(),
-                                   layout_.segments.size() == 1 ? "" : "s");
+    const auto title = fmt::format("{}: {} stations, {} segment{}", escaped(layout_.name), layout_.stations.size(),
+                                   layout_.segments.size(), layout_.segments.size() == 1 ? "" : "s");
     add("<title>{}</title>", title);
     add(R"(<rect width="{:.0f}" height="{:.0f}" fill="#ffffff"/>)", width_px_, height_px_);
     add(R"(<text x="{:.0f}" y="26" font-size="16" fill="#222222">{}</text>)", kMargin_px, title);
     const Vec2 corner = pixel({layout_.floor_low_m.x(), layout_.floor_high_m.y()});
-    add(R"(<rect x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}" fill="#f7f7f5" stroke="#cccccc"/>)", corner.x(), corner.y(), size.x() * scale_,
-        size.y() * scale_);
+    add(R"(<rect x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}" fill="#f7f7f5" stroke="#cccccc"/>)", corner.x(),
+        corner.y(), size.x() * scale_, size.y() * scale_);
     for (const auto& segment : layout_.segments) lane(segment);
     for (const auto& segment : layout_.segments) {
       if (!segment.bidirectional) arrows(segment);
@@ -109,13 +111,15 @@ class Picture {
   }
 
   Vec2 pixel(const Vec2& p_m) const {
-    return {left_px_ + (p_m.x() - layout_.floor_low_m.x()) * scale_, kHead_px + (layout_.floor_high_m.y() - p_m.y()) * scale_};
+    return {left_px_ + (p_m.x() - layout_.floor_low_m.x()) * scale_,
+            kHead_px + (layout_.floor_high_m.y() - p_m.y()) * scale_};
   }
 
   double radius_px() const { return std::clamp(0.28 * scale_, 4.0, 8.0); }
 
   void lane(const Segment& segment) {
-    const Vec2 a = pixel(layout_.stations[segment.from.index()].position_m), b = pixel(layout_.stations[segment.to.index()].position_m);
+    const Vec2 a = pixel(layout_.stations[segment.from.index()].position_m),
+               b = pixel(layout_.stations[segment.to.index()].position_m);
     std::string path = fmt::format("M{:.1f} {:.1f}", a.x(), a.y());
     const auto& points = segment.control_points_m;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -123,21 +127,24 @@ class Picture {
       path += fmt::format("{}{:.1f} {:.1f}", i % 3 == 0 ? "C" : " ", p.x(), p.y());
     }
     path += fmt::format("{}{:.1f} {:.1f}", points.empty() ? "L" : " ", b.x(), b.y());
-    add(R"(<path d="{}" fill="none" stroke="{}" stroke-width="{:.1f}"/>)", path, segment.bidirectional ? "#9a9a9a" : "#c2410c",
-        std::clamp(0.08 * scale_, 1.0, 2.5));
+    add(R"(<path d="{}" fill="none" stroke="{}" stroke-width="{:.1f}"/>)", path,
+        segment.bidirectional ? "#9a9a9a" : "#c2410c", std::clamp(0.08 * scale_, 1.0, 2.5));
   }
 
-  // A little beyond half-way, where lanes that cross most often do, and on long segments more of them; never so near to a station that its mark
-  // hides them.
+  // A little beyond half-way, where lanes that cross most often do, and on long segments more of them; never so near to
+  // a station that its mark hides them.
   void arrows(const Segment& segment) {
     const Curve curve = segment_curve(layout_, segment);
     const double size_px = std::min(1.1 * radius_px(), 8.0);
     const int count = std::max(1, static_cast<int>(curve.length_m() / kArrowEvery_m));
     for (int i = 0; i < count; ++i) {
       const Pose pose = curve.pose_at(curve.length_m() * (i + 0.6) / count);
-      const Vec2 ahead(pose.heading.x() * size_px, -pose.heading.y() * size_px), aside(-0.7 * ahead.y(), 0.7 * ahead.x());
-      const Vec2 tip = pixel(pose.position_m) + ahead, left = tip - 2.0 * ahead + aside, right = tip - 2.0 * ahead - aside;
-      add(R"(<path d="M{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}Z" fill="#c2410c"/>)", tip.x(), tip.y(), left.x(), left.y(), right.x(), right.y());
+      const Vec2 ahead(pose.heading.x() * size_px, -pose.heading.y() * size_px),
+          aside(-0.7 * ahead.y(), 0.7 * ahead.x());
+      const Vec2 tip = pixel(pose.position_m) + ahead, left = tip - 2.0 * ahead + aside,
+                 right = tip - 2.0 * ahead - aside;
+      add(R"(<path d="M{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}Z" fill="#c2410c"/>)", tip.x(), tip.y(), left.x(),
+          left.y(), right.x(), right.y());
     }
   }
 
@@ -148,13 +155,16 @@ class Picture {
     const auto shape = [&](const char* path) { add(R"(<path d="{}" fill="{}" stroke="#ffffff"/>)", path, colour); };
     switch (purpose) {
       case Purpose::Charging:
-        shape(fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}Z", x, y - 1.3 * r, x + 1.2 * r, y + 0.9 * r, x - 1.2 * r, y + 0.9 * r).c_str());
+        shape(fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}Z", x, y - 1.3 * r, x + 1.2 * r, y + 0.9 * r,
+                          x - 1.2 * r, y + 0.9 * r)
+                  .c_str());
         break;
       case Purpose::Parking:
         shape(fmt::format("M{:.1f} {:.1f}h{:.1f}v{:.1f}h{:.1f}Z", x - r, y - r, 2.0 * r, 2.0 * r, -2.0 * r).c_str());
         break;
       case Purpose::Storage:
-        shape(fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}Z", x, y - 1.3 * r, x + 1.3 * r, y, x, y + 1.3 * r, x - 1.3 * r, y)
+        shape(fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}Z", x, y - 1.3 * r, x + 1.3 * r, y,
+                          x, y + 1.3 * r, x - 1.3 * r, y)
                   .c_str());
         break;
       case Purpose::Routing:
@@ -163,18 +173,21 @@ class Picture {
     }
   }
 
-  // Names stand to the upper right; on maps too crowded for them they are tooltips only, all of them or those that would cover another.
+  // Names stand to the upper right; on maps too crowded for them they are tooltips only, all of them or those that
+  // would cover another.
   void label(const Station& station) {
     const Vec2 at = pixel(station.position_m);
     const double size_px = std::clamp(0.5 * scale_, 8.0, 11.0), r = radius_px();
     if (scale_ < 6.0) return;
     if (layout_.stations.size() > kFewStations) {
-      const Vec2 low(at.x() + r, at.y() - r - size_px), high(low.x() + 0.6 * size_px * static_cast<double>(station.name.size()), at.y() - r);
+      const Vec2 low(at.x() + r, at.y() - r - size_px),
+          high(low.x() + 0.6 * size_px * static_cast<double>(station.name.size()), at.y() - r);
       const Written written{low, high};
       if (std::ranges::any_of(written_, [&](const Written& other) { return written.covers(other); })) return;
       written_.push_back(written);
     }
-    add(R"(<text x="{:.1f}" y="{:.1f}" font-size="{:.1f}" fill="#444444">{}</text>)", at.x() + r, at.y() - r, size_px, escaped(station.name));
+    add(R"(<text x="{:.1f}" y="{:.1f}" font-size="{:.1f}" fill="#444444">{}</text>)", at.x() + r, at.y() - r, size_px,
+        escaped(station.name));
   }
 
   // The longest of 1, 2, 5, 10, ... m that takes no more than a fifth of the width.
@@ -183,7 +196,8 @@ class Picture {
     constexpr double kFactors[] = {2.0, 2.5, 2.0};
     for (int i = 0; length_m * kFactors[i % 3] * scale_ <= 0.2 * kWidth_px; ++i) length_m *= kFactors[i % 3];
     const double x = kMargin_px, y = height_px_ - 24.0, end = x + length_m * scale_;
-    add(R"(<path d="M{0:.1f} {1:.1f}V{2:.1f}H{3:.1f}V{1:.1f}" fill="none" stroke="#222222" stroke-width="1.5"/>)", x, y - 6.0, y, end);
+    add(R"(<path d="M{0:.1f} {1:.1f}V{2:.1f}H{3:.1f}V{1:.1f}" fill="none" stroke="#222222" stroke-width="1.5"/>)", x,
+        y - 6.0, y, end);
     add(R"(<text x="{:.1f}" y="{:.1f}" font-size="12" fill="#222222">{:g} m</text>)", end + 6.0, y + 2.0, length_m);
   }
 
@@ -196,7 +210,8 @@ class Picture {
       x += 90.0;
     }
     add(R"(<path d="M{0:.1f} {1:.1f}H{2:.1f}" stroke="#c2410c" stroke-width="2"/>)", x, y, x + 20.0);
-    add(R"(<path d="M{0:.1f} {1:.1f}L{2:.1f} {3:.1f}L{2:.1f} {4:.1f}Z" fill="#c2410c"/>)", x + 20.0, y, x + 10.0, y - 5.0, y + 5.0);
+    add(R"(<path d="M{0:.1f} {1:.1f}L{2:.1f} {3:.1f}L{2:.1f} {4:.1f}Z" fill="#c2410c"/>)", x + 20.0, y, x + 10.0,
+        y - 5.0, y + 5.0);
     add(R"(<text x="{:.1f}" y="{:.1f}" font-size="12" fill="#222222">one-way</text>)", x + 26.0, y + 4.0);
     x += 90.0;
     add(R"(<path d="M{0:.1f} {1:.1f}H{2:.1f}" stroke="#9a9a9a" stroke-width="2"/>)", x, y, x + 20.0);

@@ -7,8 +7,8 @@
 
 namespace fleetproof {
 
-// What can be wrong with a layout or a scenario. The first five make it unusable; the others make it a poor test, which a
-// generator avoids and a hand-written scenario may want.
+// What can be wrong with a layout or a scenario. The first five make it unusable; the others make it a poor test, which
+// a generator avoids and a hand-written scenario may want.
 enum class ProblemKind : std::uint8_t {
   NumberOutOfRange,
   BadName,           // missing, repeated or not plain UTF-8

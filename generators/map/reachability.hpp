@@ -12,7 +12,8 @@ class Reachability {
  public:
   explicit Reachability(const LogicalMap& map);
 
-  // The largest set of stations that can all reach each other, by ascending id; the one with the smallest id among equals.
+  // The largest set of stations that can all reach each other, by ascending id; the one with the smallest id among
+  // equals.
   const std::vector<StationId>& core() const { return core_; }
   bool in_core(StationId station) const { return parts_.in_largest(station.index()); }
   double core_share() const { return static_cast<double>(core_.size()) / static_cast<double>(parts_.component.size()); }

@@ -20,10 +20,12 @@ struct Successors {
   std::vector<std::uint32_t> first, to;
 };
 
-// Tarjan 1972, with a stack of its own: imported maps have tens of thousands of stations in a row. Both stacks have room for every node.
+// Tarjan 1972, with a stack of its own: imported maps have tens of thousands of stations in a row. Both stacks have
+// room for every node.
 class Tarjan {
  public:
-  Tarjan(const Successors& successors, std::size_t nodes) : successors_(successors), nodes_(nodes, {kNone, 0}), path_(nodes), frames_(nodes) {
+  Tarjan(const Successors& successors, std::size_t nodes)
+      : successors_(successors), nodes_(nodes, {kNone, 0}), path_(nodes), frames_(nodes) {
     found_.component.assign(nodes, kNone);
   }
 

@@ -25,11 +25,13 @@ std::vector<std::uint32_t> QuickestWays::lanes(const LogicalMap& map, StationId 
   return found;
 }
 
-Timetable::Timetable(const LogicalMap& map, const VehicleType& type) : map_(map), type_(type), ways_(map.station_count()) {
+Timetable::Timetable(const LogicalMap& map, const VehicleType& type)
+    : map_(map), type_(type), ways_(map.station_count()) {
   std::uint32_t turns = 0;
   hops_.reserve(map.lanes().size());
   for (const auto& lane : map.lanes()) {
-    hops_.push_back({lane.from.value, lane.to.value, MotionProfile(lane.curve.length_m(), type.drive).duration(), 0, turns});
+    hops_.push_back(
+        {lane.from.value, lane.to.value, MotionProfile(lane.curve.length_m(), type.drive).duration(), 0, turns});
     turns += static_cast<std::uint32_t>(map.lanes_from(lane.to).size());
   }
   turns_.assign(turns, Duration{-1});
@@ -83,8 +85,8 @@ void Timetable::find_ways_on() {
   }
 }
 
-// Lanes from a station that has but one way on, until one is reached that has more, or that all ways are known from. Round a one-way loop they are
-// searched once. Empty if there is nothing to follow.
+// Lanes from a station that has but one way on, until one is reached that has more, or that all ways are known from.
+// Round a one-way loop they are searched once. Empty if there is nothing to follow.
 std::span<const std::uint32_t> Timetable::followed_from(StationId start) {
   followed_.clear();
   StationId end = start;
@@ -118,7 +120,8 @@ Duration Timetable::pass(std::span<const std::uint32_t> followed) {
   return arrives;
 }
 
-// All ways lead along the lanes that are followed, but those into dead ends beside them: they are those from their end, and as much later.
+// All ways lead along the lanes that are followed, but those into dead ends beside them: they are those from their end,
+// and as much later.
 bool Timetable::follow(QuickestWays& ways) {
   const auto followed = followed_from(ways.from);
   if (followed.empty()) return false;

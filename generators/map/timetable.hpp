@@ -10,8 +10,9 @@
 
 namespace fleetproof {
 
-// The quickest ways from one station to all others: from rest to rest over every lane, the way agents that ask nobody drive. Ways are
-// chosen without regard to turns; the times of arrival contain them. The first lane is driven without turning.
+// The quickest ways from one station to all others: from rest to rest over every lane, the way agents that ask nobody
+// drive. Ways are chosen without regard to turns; the times of arrival contain them. The first lane is driven without
+// turning.
 struct QuickestWays {
   static constexpr std::uint32_t kNone = ~0U;
 
@@ -57,7 +58,8 @@ class Timetable {
     std::uint32_t first_turn;  // of those at its end, in turns_
   };
   std::vector<Hop> hops_;
-  std::vector<std::uint32_t> onward_;    // by station: the one lane on, apart from those into dead ends; kNone if there are none or several
+  std::vector<std::uint32_t>
+      onward_;  // by station: the one lane on, apart from those into dead ends; kNone if there are none or several
   mutable std::vector<Duration> turns_;  // by lane, and place of the next one; negative: not asked for yet
   std::vector<QuickestWays> ways_;       // by station; empty: not asked for yet
 

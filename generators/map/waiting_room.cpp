@@ -6,10 +6,12 @@
 namespace fleetproof {
 namespace {
 
-// Stations of the core that `from` reaches along the lanes, or against them, without passing `without`; `from` included.
+// Stations of the core that `from` reaches along the lanes, or against them, without passing `without`; `from`
+// included.
 class Search {
  public:
-  Search(const LogicalMap& map, const Reachability& reachability) : map_(map), reachability_(reachability), lanes_to_(map.station_count()) {
+  Search(const LogicalMap& map, const Reachability& reachability)
+      : map_(map), reachability_(reachability), lanes_to_(map.station_count()) {
     for (std::uint32_t i = 0; i < map.lanes().size(); ++i) lanes_to_[map.lanes()[i].to.index()].push_back(i);
   }
 
@@ -47,7 +49,8 @@ bool cuts(Search& search, StationId station, const Reachability& reachability) {
   return search.count(from, station, true) + 1 < core.size() || search.count(from, station, false) + 1 < core.size();
 }
 
-// Two places of storage before all else, so that there is still something to transport; then one to park and one to charge.
+// Two places of storage before all else, so that there is still something to transport; then one to park and one to
+// charge.
 std::vector<std::size_t> in_order_of_need(const Layout& layout) {
   std::vector<std::size_t> order;
   for (const auto& [purpose, count] :
@@ -68,7 +71,8 @@ std::vector<std::size_t> in_order_of_need(const Layout& layout) {
 }  // namespace
 
 bool is_place_to_wait(const Station& station) {
-  return station.purposes.has(Purpose::Parking) || station.purposes.has(Purpose::Charging) || station.purposes.has(Purpose::Storage);
+  return station.purposes.has(Purpose::Parking) || station.purposes.has(Purpose::Charging) ||
+         station.purposes.has(Purpose::Storage);
 }
 
 std::vector<bool> cut_stations(const LogicalMap& map, const Reachability& reachability) {
@@ -80,7 +84,9 @@ std::vector<bool> cut_stations(const LogicalMap& map, const Reachability& reacha
 
 bool has_open_waiting_place(const LogicalMap& map, const Reachability& reachability) {
   Search search(map, reachability);
-  return std::ranges::any_of(reachability.core(), [&](StationId s) { return is_place_to_wait(map.station(s)) && !cuts(search, s, reachability); });
+  return std::ranges::any_of(reachability.core(), [&](StationId s) {
+    return is_place_to_wait(map.station(s)) && !cuts(search, s, reachability);
+  });
 }
 
 bool close_waiting_places(Layout& layout) {
@@ -93,12 +99,14 @@ bool close_waiting_places(Layout& layout) {
     const auto distance = [&](const Station& s) { return (s.position_m - stations[i].position_m).squaredNorm(); };
     for (std::size_t k = 0; k < cut.size(); ++k) {
       auto& candidate = stations[k];
-      if (cut[k] && !is_place_to_wait(candidate) && (nearest == nullptr || distance(candidate) < distance(*nearest))) nearest = &candidate;
+      if (cut[k] && !is_place_to_wait(candidate) && (nearest == nullptr || distance(candidate) < distance(*nearest)))
+        nearest = &candidate;
     }
     if (nearest != nullptr) nearest->purposes = stations[i].purposes;
     stations[i].purposes = Purpose::Routing;
   }
-  if (std::ranges::count_if(stations, [](const Station& s) { return s.purposes.has(Purpose::Storage); }) < 2) return false;
+  if (std::ranges::count_if(stations, [](const Station& s) { return s.purposes.has(Purpose::Storage); }) < 2)
+    return false;
   layout.stations = std::move(stations);
   return true;
 }

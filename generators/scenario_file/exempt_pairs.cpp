@@ -11,15 +11,20 @@
 namespace fleetproof {
 
 std::string fault_of_exempt_pair(const ExemptPair& pair, std::span<const std::string> vehicle_types) {
-  const auto is_type = [&](std::string_view name) { return std::ranges::find(vehicle_types, name) != vehicle_types.end(); };
+  const auto is_type = [&](std::string_view name) {
+    return std::ranges::find(vehicle_types, name) != vehicle_types.end();
+  };
   for (const std::string& name : {pair.one, pair.other}) {
-    if (name == kAnyObstacle && is_type(name)) return fmt::format("{} is a vehicle type here and every obstacle; give the type another name", in_quotes(name));
+    if (name == kAnyObstacle && is_type(name))
+      return fmt::format("{} is a vehicle type here and every obstacle; give the type another name", in_quotes(name));
     if (name == kAnyObstacle || is_type(name)) continue;
     std::vector<std::string_view> known(vehicle_types.begin(), vehicle_types.end());
     known.push_back(kAnyObstacle);
-    return fmt::format("{} is no vehicle type of this fleet, nor \"{}\"{}", in_quotes(name), kAnyObstacle, name_hint(name, known));
+    return fmt::format("{} is no vehicle type of this fleet, nor \"{}\"{}", in_quotes(name), kAnyObstacle,
+                       name_hint(name, known));
   }
-  if (pair.one == kAnyObstacle && pair.other == kAnyObstacle) return "two obstacles are never judged; name a vehicle type";
+  if (pair.one == kAnyObstacle && pair.other == kAnyObstacle)
+    return "two obstacles are never judged; name a vehicle type";
   return {};
 }
 

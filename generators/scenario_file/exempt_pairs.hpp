@@ -7,7 +7,8 @@
 
 namespace fleetproof {
 
-// What is wrong with a pair of kinds of bodies that may be close to each other, as a sentence with its remedy; empty: nothing.
+// What is wrong with a pair of kinds of bodies that may be close to each other, as a sentence with its remedy; empty:
+// nothing.
 std::string fault_of_exempt_pair(const ExemptPair& pair, std::span<const std::string> vehicle_types);
 
 // "tugger and cart", as pages say it.

@@ -22,8 +22,9 @@ class RadioCheck {
     ranges();
     between_fields();
     for (std::size_t i = 0; i < radio_.sources.size(); ++i) {
-      for_each_source_field(radio_.sources[i],
-                            [&](const RadioField& field, double value) { range(fmt::format("sources/{}/{}", i, field.key), field, value); });
+      for_each_source_field(radio_.sources[i], [&](const RadioField& field, double value) {
+        range(fmt::format("sources/{}/{}", i, field.key), field, value);
+      });
     }
     if (radio_.trace != nullptr) trace(*radio_.trace);
     return std::move(faults_);
@@ -45,7 +46,8 @@ class RadioCheck {
   }
 
   void range(std::string_view key, const RadioField& field, double number) {
-    const bool in_range = (field.above_low ? number > field.low : number >= field.low) && number <= field.high;  // false for NaN
+    const bool in_range =
+        (field.above_low ? number > field.low : number >= field.low) && number <= field.high;  // false for NaN
     demand(in_range, key,
            field.above_low ? fmt::format("{} is not above {} and at most {}", number, field.low, field.high)
                            : fmt::format("{} is outside {} .. {}", number, field.low, field.high));
@@ -56,14 +58,18 @@ class RadioCheck {
     const auto& tail = radio_.delay_tail;
     const auto& places = radio_.places;
     demand(outages.mean_outage_s == 0.0 || !(outages.mean_outage_s < kShortestOutage_s), "mean_outage_s",
-           fmt::format("{} is shorter than {} s; give a longer one, or 0 for independent losses", outages.mean_outage_s, kShortestOutage_s));
-    demand(!(outages.loss_good >= outages.loss_bad), "loss_good", fmt::format("{} is not below loss_bad = {}", outages.loss_good, outages.loss_bad));
-    demand(outages.mean_outage_s == 0.0 || outages.scope != OutageSetup::Scope::Place || radio_.asymmetry == 0.0, "asymmetry",
+           fmt::format("{} is shorter than {} s; give a longer one, or 0 for independent losses", outages.mean_outage_s,
+                       kShortestOutage_s));
+    demand(!(outages.loss_good >= outages.loss_bad), "loss_good",
+           fmt::format("{} is not below loss_bad = {}", outages.loss_good, outages.loss_bad));
+    demand(outages.mean_outage_s == 0.0 || outages.scope != OutageSetup::Scope::Place || radio_.asymmetry == 0.0,
+           "asymmetry",
            "outages of places hit both directions alike; set it to 0, or outage_scope to link or direction");
     demand(!(tail.median_share <= tail.min_share), "delay_median_share",
            fmt::format("{} is not above delay_min_share = {}", tail.median_share, tail.min_share));
     demand(tail.cap_share == 0.0 || !(tail.cap_share < tail.median_share), "delay_cap_share",
-           fmt::format("{} is below delay_median_share = {}; raise it, or set it to 0 for no cap", tail.cap_share, tail.median_share));
+           fmt::format("{} is below delay_median_share = {}; raise it, or set it to 0 for no cap", tail.cap_share,
+                       tail.median_share));
     demand(!(places.roaming_border_m > 0.5 * places.ap_spacing_m), "roaming_border_m",
            fmt::format("{} is more than half of ap_spacing_m = {}", places.roaming_border_m, places.ap_spacing_m));
     demand(!(places.roaming_max_s < places.roaming_min_s), "roaming_max_s",
@@ -73,8 +79,8 @@ class RadioCheck {
     const double longest_s = to_seconds(radio_.air_time(kLongestMessage_bytes));
     demand(!radio_.contention.interference || !(longest_s > kLongestSlot_s),
            radio_.air_time_s > kLongestSlot_s ? "air_time_s" : "air_time_per_byte_s",
-           fmt::format("a message of {} bytes would be {} s in the air, too long for interference; at most {} s", kLongestMessage_bytes, longest_s,
-                       kLongestSlot_s));
+           fmt::format("a message of {} bytes would be {} s in the air, too long for interference; at most {} s",
+                       kLongestMessage_bytes, longest_s, kLongestSlot_s));
   }
 
   void trace(const RadioTrace& trace) {

@@ -22,12 +22,12 @@ inline constexpr std::string_view kDelayModels[] = {"constant", "uniform", "heav
 inline constexpr std::string_view kOutageModels[] = {"gilbert-elliott", "heavy-tail"};
 inline constexpr std::string_view kOutageScopes[] = {"link", "direction", "place"};
 
-// Calls visit(field, value) for every number, switch and word, in the order of files; sources and the recording are left to the caller. Structured
-// bindings: a field that is added to the radio does not compile until it stands here.
+// Calls visit(field, value) for every number, switch and word, in the order of files; sources and the recording are
+// left to the caller. Structured bindings: a field that is added to the radio does not compile until it stands here.
 template <class Radio, class Visit>
 void for_each_radio_field(Radio& radio, Visit visit) {
-  auto& [loss, delay_s, delay_model, range_m, air_time_s, air_time_per_byte_s, outages, delay_tail, asymmetry, duplicates, places, contention,
-         sources, trace] = radio;
+  auto& [loss, delay_s, delay_model, range_m, air_time_s, air_time_per_byte_s, outages, delay_tail, asymmetry,
+         duplicates, places, contention, sources, trace] = radio;
   (void)sources;
   (void)trace;
   visit(RadioField{.key = "loss", .is_factor = true}, loss);

@@ -17,7 +17,7 @@ constexpr std::string_view kHeading = "sender,receiver,t_send_s,t_recv_s";
 constexpr std::uint32_t kMostAgvs = 65536;
 constexpr std::size_t kMostWholeDigits = 10, kFractionDigits = 9;
 constexpr std::int64_t kLatest_s = 9'000'000'000, kNanoseconds = 1'000'000'000;  // beyond, nanoseconds leave 64 bits
-constexpr Duration kLongest = std::chrono::seconds(1'000'000'000);               // of a recording, and of a delay: as runs have it
+constexpr Duration kLongest = std::chrono::seconds(1'000'000'000);  // of a recording, and of a delay: as runs have it
 
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
@@ -45,12 +45,15 @@ class RecordingReader {
         refuse(fmt::format("{} is no heading; expected the line {}", in_quotes(content), kHeading));
       }
     }
-    if (trace_.empty()) throw InputError(source_, fmt::format("holds no message; expected the line {} and one line for each message", kHeading));
+    if (trace_.empty())
+      throw InputError(source_,
+                       fmt::format("holds no message; expected the line {} and one line for each message", kHeading));
     const Duration epoch = std::ranges::min_element(trace_, {}, &RecordedMessage::sent)->sent;
     for (std::size_t i = 0; i < trace_.size(); ++i) {
       trace_[i].sent -= epoch;
       if (trace_[i].sent > kLongest) {
-        throw InputError(at_line(source_, numbers_[i]), "t_send_s is more than 1e9 s after the first; leave out what another clock has dated");
+        throw InputError(at_line(source_, numbers_[i]),
+                         "t_send_s is more than 1e9 s after the first; leave out what another clock has dated");
       }
     }
     put_in_order(trace_);
@@ -58,7 +61,9 @@ class RecordingReader {
   }
 
  private:
-  [[noreturn]] void refuse(std::string_view sentence) const { throw InputError(at_line(source_, lines_.number()), sentence); }
+  [[noreturn]] void refuse(std::string_view sentence) const {
+    throw InputError(at_line(source_, lines_.number()), sentence);
+  }
   [[noreturn]] void refuse(std::string_view column, std::string_view value, std::string_view remedy) const {
     refuse(fmt::format("{} is {}; {}", column, in_quotes(value), remedy));
   }
@@ -72,12 +77,15 @@ class RecordingReader {
       field = trimmed(line.substr(0, comma));
       line.remove_prefix(comma == std::string_view::npos ? line.size() : comma + 1);
     }
-    RecordedMessage message{agv("sender", fields[0]), agv("receiver", fields[1]), time("t_send_s", fields[2]), std::nullopt};
+    RecordedMessage message{agv("sender", fields[0]), agv("receiver", fields[1]), time("t_send_s", fields[2]),
+                            std::nullopt};
     if (message.sender == message.receiver) refuse("receiver", fields[1], "nobody sends to itself; give another AGV");
     if (!fields[3].empty() && fields[3] != "lost") {
       message.delay = time("t_recv_s", fields[3]) - message.sent;
-      if (*message.delay < Duration::zero()) refuse("t_recv_s", fields[3], "it is before t_send_s; both clocks must agree");
-      if (*message.delay > kLongest) refuse("t_recv_s", fields[3], "it is more than 1e9 s after t_send_s; both clocks must agree");
+      if (*message.delay < Duration::zero())
+        refuse("t_recv_s", fields[3], "it is before t_send_s; both clocks must agree");
+      if (*message.delay > kLongest)
+        refuse("t_recv_s", fields[3], "it is more than 1e9 s after t_send_s; both clocks must agree");
     }
     trace_.push_back(message);
     numbers_.push_back(lines_.number());
@@ -102,7 +110,8 @@ class RecordingReader {
     }
     std::int64_t whole_s = 0;
     for (const char c : whole) whole_s = 10 * whole_s + (c - '0');
-    if (whole_s >= kLatest_s) refuse(column, value, "a time is a number of seconds such as 12.0375, from 0 to below 9e9");
+    if (whole_s >= kLatest_s)
+      refuse(column, value, "a time is a number of seconds such as 12.0375, from 0 to below 9e9");
     std::int64_t ns = 0;
     for (std::size_t i = 0; i < kFractionDigits; ++i) ns = 10 * ns + (i < fraction.size() ? fraction[i] - '0' : 0);
     return Duration{whole_s * kNanoseconds + ns};
@@ -118,10 +127,13 @@ class RecordingReader {
 
 RadioTrace read_radio_trace(const std::string& path) { return parse_radio_trace(read_text_file(path), path); }
 
-RadioTrace parse_radio_trace(std::string_view text, std::string_view source) { return RecordingReader(text, source).read(); }
+RadioTrace parse_radio_trace(std::string_view text, std::string_view source) {
+  return RecordingReader(text, source).read();
+}
 
 void put_in_order(RadioTrace& trace) {
-  std::ranges::stable_sort(trace, {}, [](const RecordedMessage& m) { return std::tuple(m.sender, m.receiver, m.sent); });
+  std::ranges::stable_sort(trace, {},
+                           [](const RecordedMessage& m) { return std::tuple(m.sender, m.receiver, m.sent); });
 }
 
 }  // namespace fleetproof

@@ -10,13 +10,13 @@
 #include <type_traits>
 
 #include "core/base/catalogue.hpp"
-#include "generators/text/json_value.hpp"
 #include "generators/formats/layout_file.hpp"
 #include "generators/formats/purpose_words.hpp"
 #include "generators/scenario_file/radio_fields.hpp"
 #include "generators/scenario_file/scenario_keys.hpp"
-#include "generators/text/text_file.hpp"
 #include "generators/scenario_file/validator.hpp"
+#include "generators/text/json_value.hpp"
+#include "generators/text/text_file.hpp"
 
 namespace fleetproof {
 namespace {
@@ -37,7 +37,8 @@ class Names {
     std::vector<std::string_view> known;
     for (const auto& [other, id] : ids_) known.push_back(other);
     const auto nearest = nearest_name(name, known);
-    reader.refuse(fmt::format("there is no such {}{}", noun_, nearest ? "; did you mean " + in_quotes(*nearest) + "?" : ""));
+    reader.refuse(
+        fmt::format("there is no such {}{}", noun_, nearest ? "; did you mean " + in_quotes(*nearest) + "?" : ""));
   }
 
  private:
@@ -79,11 +80,13 @@ Vec2 read_heading(const JsonReader& reader) {
   const Vec2 heading = reader.vector();
   const double norm = heading.norm();
   if (!(norm > 1e-9) || !(norm < 1e9)) reader.refuse("a heading is a direction [x, y] other than [0, 0]");
-  // A vector that is a unit vector to the last digits stays as it is, so that reading again what was written changes nothing.
+  // A vector that is a unit vector to the last digits stays as it is, so that reading again what was written changes
+  // nothing.
   return std::abs(heading.squaredNorm() - 1.0) <= 1e-12 ? heading : Vec2(heading / norm);
 }
 
-void read_limits(const JsonReader& vehicle, std::string_view key, std::span<const std::string_view> names, MotionLimits& limits) {
+void read_limits(const JsonReader& vehicle, std::string_view key, std::span<const std::string_view> names,
+                 MotionLimits& limits) {
   const auto reader = vehicle.find(key);
   if (!reader) return;
   reader->expect_object(names);
@@ -148,7 +151,8 @@ Fault read_fault(const JsonReader& reader, const Names<AgvId>& agvs) {
   fault.kind = static_cast<Fault::Kind>(one_of(reader.at("kind"), keys::kFaultKinds) + 1);
   fault.agv = agvs.at(reader.at("agv"));
   fault.at = duration_at(reader, "at");
-  if (const auto transport = reader.find("transport")) fault.transport = static_cast<std::uint32_t>(std::min<std::uint64_t>(transport->natural(), 0xffffffff));
+  if (const auto transport = reader.find("transport"))
+    fault.transport = static_cast<std::uint32_t>(std::min<std::uint64_t>(transport->natural(), 0xffffffff));
   fault.lasts = duration_at(reader, "lasts");
   reader.read("length_m", fault.load.length_m);
   reader.read("width_m", fault.load.width_m);
@@ -222,7 +226,8 @@ class AgvReader {
 
 RecordedMessage read_recorded(const JsonReader& reader) {
   const auto items = reader.items();
-  if (items.size() != 3 && items.size() != 4) reader.refuse("a recorded message is [sender, receiver, sent_ns, delay_ns], without a delay if it was lost");
+  if (items.size() != 3 && items.size() != 4)
+    reader.refuse("a recorded message is [sender, receiver, sent_ns, delay_ns], without a delay if it was lost");
   const auto agv = [](const JsonReader& number) {
     if (number.natural() > 0xffff) number.refuse("an AGV has a number below 65536");
     return AgvId{static_cast<std::uint32_t>(number.natural())};
@@ -256,7 +261,8 @@ void read_radio(const JsonReader& reader, RadioSetup& radio) {
       if (const auto word = reader.find(field.key)) value = static_cast<Value>(one_of(*word, field.words));
     } else if constexpr (std::is_same_v<Value, std::uint32_t>) {
       const auto number = reader.find(field.key);
-      if (number && number->natural() > std::numeric_limits<std::uint32_t>::max()) number->refuse(fmt::format("it is at most {}", field.high));
+      if (number && number->natural() > std::numeric_limits<std::uint32_t>::max())
+        number->refuse(fmt::format("it is at most {}", field.high));
       if (number) value = static_cast<std::uint32_t>(number->natural());
     } else {
       reader.read(field.key, value);
@@ -294,7 +300,8 @@ void read_settings(const JsonReader& reader, Scenario& scenario) {
     if (const auto pairs = law->find("exempt_pairs")) {
       for (const JsonReader& pair : pairs->items()) {
         const auto names = pair.items();
-        if (names.size() != 2) pair.refuse("is no pair; give the names of two vehicle types, or of one and \"obstacle\"");
+        if (names.size() != 2)
+          pair.refuse("is no pair; give the names of two vehicle types, or of one and \"obstacle\"");
         scenario.law.exempt_pairs.push_back({names[0].text(), names[1].text()});
       }
     }

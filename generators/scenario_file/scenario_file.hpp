@@ -8,12 +8,13 @@
 
 namespace fleetproof {
 
-// A scenario as one JSON file, layout embedded; stations, segments and vehicle types are referred to by name. Fields that are left out
-// have the defaults of core/scenario/scenario.hpp; "version", "layout", "agvs" and the names must be there. A duration is written either as
-// seconds ("horizon_s": 12) or as whole nanoseconds ("horizon_ns": 12000000000). A heading of any length is made a unit vector.
+// A scenario as one JSON file, layout embedded; stations, segments and vehicle types are referred to by name. Fields
+// that are left out have the defaults of core/scenario/scenario.hpp; "version", "layout", "agvs" and the names must be
+// there. A duration is written either as seconds ("horizon_s": 12) or as whole nanoseconds ("horizon_ns": 12000000000).
+// A heading of any length is made a unit vector.
 //
-// InputError with file, line, field, value and remedy for anything that `unusable_problems` (validator.hpp) would list. A scenario
-// that is merely a poor test (a weakly connected layout, say) is read: a person may want it.
+// InputError with file, line, field, value and remedy for anything that `unusable_problems` (validator.hpp) would list.
+// A scenario that is merely a poor test (a weakly connected layout, say) is read: a person may want it.
 Scenario read_scenario(const std::string& path);
 Scenario parse_scenario(std::string_view text, std::string_view source);
 

@@ -5,15 +5,15 @@
 #include <type_traits>
 
 #include "core/base/error.hpp"
-#include "generators/text/json_writer.hpp"
 #include "generators/formats/layout_file.hpp"
 #include "generators/formats/purpose_words.hpp"
 #include "generators/scenario_file/radio_fields.hpp"
 #include "generators/scenario_file/scenario_file.hpp"
 #include "generators/scenario_file/scenario_keys.hpp"
+#include "generators/text/json_writer.hpp"
 
-// The writer takes every struct apart with structured bindings: a field that is added to the scenario does not compile here until it
-// is written, so none can be missing from files and digests.
+// The writer takes every struct apart with structured bindings: a field that is added to the scenario does not compile
+// here until it is written, so none can be missing from files and digests.
 namespace fleetproof {
 namespace {
 
@@ -25,8 +25,8 @@ class ScenarioWriter {
   explicit ScenarioWriter(const Scenario& scenario) : scenario_(scenario) {}
 
   std::string write() {
-    const auto& [name, map, vehicle_types, agvs, obstacles, faults, scanner, operator_help, radio, agent_clock, law, contact_stops, horizon, stuck_after, seed, stream_seeds] =
-        scenario_;
+    const auto& [name, map, vehicle_types, agvs, obstacles, faults, scanner, operator_help, radio, agent_clock, law,
+                 contact_stops, horizon, stuck_after, seed, stream_seeds] = scenario_;
     ensure(map != nullptr, "a scenario has a map");
     json_.open_object();
     json_.key("version").value(keys::kVersion);
@@ -41,7 +41,8 @@ class ScenarioWriter {
     json_.key("agent_clock").open_object(kLine);
     json_.key("call_cost_s").value(call_cost_s);
     json_.close();
-    const auto& [safety_distance_m, snapshot_s, reaction_s, min_transports_per_agv_hour, exempt_purposes, exempt_radius_m, exempt_pairs] = law;
+    const auto& [safety_distance_m, snapshot_s, reaction_s, min_transports_per_agv_hour, exempt_purposes,
+                 exempt_radius_m, exempt_pairs] = law;
     json_.key("law").open_object(kLine);
     json_.key("safety_distance_m").value(safety_distance_m);
     json_.key("snapshot_s").value(snapshot_s);
@@ -149,8 +150,8 @@ class ScenarioWriter {
   }
 
   void write_vehicle(const VehicleType& vehicle) {
-    const auto& [name, footprint, drive, turn, loaded, lateral_mps2, speed_deviation, settle_s, battery_per_m, battery_idle_per_s, charge_per_s, pick_s,
-                 drop_s, storage_spread_s, other_spread_s] = vehicle;
+    const auto& [name, footprint, drive, turn, loaded, lateral_mps2, speed_deviation, settle_s, battery_per_m,
+                 battery_idle_per_s, charge_per_s, pick_s, drop_s, storage_spread_s, other_spread_s] = vehicle;
     const auto& [extra_length_m, extra_width_m, speed_share, acceleration_share] = loaded;
     json_.open_object();
     json_.key("name").value(name);

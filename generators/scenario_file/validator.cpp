@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "core/base/error.hpp"
-#include "generators/scenario_file/exempt_pairs.hpp"
 #include "generators/map/layout_check.hpp"
+#include "generators/scenario_file/exempt_pairs.hpp"
 #include "generators/scenario_file/radio_fields.hpp"
 #include "generators/text/text_file.hpp"
 
@@ -17,7 +17,8 @@ namespace fleetproof {
 namespace {
 
 constexpr double kLongestCall_s = 60.0, kLongest_s = 1e9, kLargestBody_m = 100.0, kLargestRate = 1e6;
-constexpr double kSmallestRate = 1e-3;  // slower than any vehicle; keeps every activity within the range of simulated time
+constexpr double kSmallestRate =
+    1e-3;  // slower than any vehicle; keeps every activity within the range of simulated time
 constexpr Duration kLongestRun = std::chrono::seconds(10'000'000);
 constexpr Duration kLongest = std::chrono::seconds(1'000'000'000);
 constexpr double kUnitTolerance = 1e-9;
@@ -38,12 +39,15 @@ class RangeCheck {
 
   Problems run() {
     ensure(scenario_.map != nullptr, "a scenario has a map");
-    if (!is_plain_utf8(scenario_.name)) add(ProblemKind::BadName, Field{{}, 0, "/name"}.pointer(), "a name is UTF-8 without control characters");
+    if (!is_plain_utf8(scenario_.name))
+      add(ProblemKind::BadName, Field{{}, 0, "/name"}.pointer(), "a name is UTF-8 without control characters");
     duration({{}, 0, "/horizon_ns"}, scenario_.horizon);
-    if (scenario_.horizon > kLongestRun) add(ProblemKind::NumberOutOfRange, "/horizon_ns", "a run lasts at most 1e7 s, which is four months");
+    if (scenario_.horizon > kLongestRun)
+      add(ProblemKind::NumberOutOfRange, "/horizon_ns", "a run lasts at most 1e7 s, which is four months");
     duration({{}, 0, "/stuck_after_ns"}, scenario_.stuck_after);
     radio_and_laws();
-    if (scenario_.vehicle_types.empty()) add(ProblemKind::UnknownReference, "/vehicle_types", "at least one vehicle type is needed");
+    if (scenario_.vehicle_types.empty())
+      add(ProblemKind::UnknownReference, "/vehicle_types", "at least one vehicle type is needed");
     names("/vehicle_types", scenario_.vehicle_types);
     for (std::size_t i = 0; i < scenario_.vehicle_types.size(); ++i) vehicle(i);
     if (scenario_.agvs.empty()) add(ProblemKind::EmptyFleet, "/agvs", "a scenario needs at least one AGV");
@@ -57,7 +61,9 @@ class RangeCheck {
   }
 
  private:
-  void add(ProblemKind kind, std::string pointer, std::string sentence) { problems_.push_back({kind, std::move(pointer), std::move(sentence)}); }
+  void add(ProblemKind kind, std::string pointer, std::string sentence) {
+    problems_.push_back({kind, std::move(pointer), std::move(sentence)});
+  }
 
   void within(const Field& field, double value, double low, double high) {
     if (value >= low && value <= high) return;  // false for NaN
@@ -71,11 +77,13 @@ class RangeCheck {
 
   void duration(const Field& field, Duration value) {
     if (value > Duration::zero() && value <= kLongest) return;
-    add(ProblemKind::NumberOutOfRange, field.pointer(), fmt::format("{} s is not above 0 and at most 1e9 s", to_seconds(value)));
+    add(ProblemKind::NumberOutOfRange, field.pointer(),
+        fmt::format("{} s is not above 0 and at most 1e9 s", to_seconds(value)));
   }
 
   void radio_and_laws() {
-    for (const auto& [key, sentence] : radio_faults(scenario_.radio)) add(ProblemKind::NumberOutOfRange, "/radio/" + key, sentence);
+    for (const auto& [key, sentence] : radio_faults(scenario_.radio))
+      add(ProblemKind::NumberOutOfRange, "/radio/" + key, sentence);
     within({{}, 0, "/agent_clock/call_cost_s"}, scenario_.agent_clock.call_cost_s, 0.0, kLongestCall_s);
     within({{}, 0, "/law/safety_distance_m"}, scenario_.law.safety_distance_m, 0.0, kLargestBody_m);
     within({{}, 0, "/law/snapshot_s"}, scenario_.law.snapshot_s, 1e-6, kLongest_s);
@@ -100,7 +108,8 @@ class RangeCheck {
       const Field field{list, i, "/name"};
       if (const char* fault = fault_of_name(all[i].name)) add(ProblemKind::BadName, field.pointer(), fault);
       if (!seen.insert(all[i].name).second)
-        add(ProblemKind::BadName, field.pointer(), fmt::format("the name {} is taken; choose another", in_quotes(all[i].name)));
+        add(ProblemKind::BadName, field.pointer(),
+            fmt::format("the name {} is taken; choose another", in_quotes(all[i].name)));
     }
   }
 
@@ -111,7 +120,8 @@ class RangeCheck {
 
   void heading(const Field& field, const Vec2& h) {
     if (std::abs(h.squaredNorm() - 1.0) <= kUnitTolerance) return;
-    add(ProblemKind::NumberOutOfRange, field.pointer(), fmt::format("[{}, {}] is not a direction; a heading is a unit vector", h.x(), h.y()));
+    add(ProblemKind::NumberOutOfRange, field.pointer(),
+        fmt::format("[{}, {}] is not a direction; a heading is a unit vector", h.x(), h.y()));
   }
 
   void vehicle(std::size_t i) {
@@ -158,7 +168,8 @@ class RangeCheck {
     const Fault& f = scenario_.faults[i];
     from_zero_on({kList, i, "/at_ns"}, f.at, kLongest);
     from_zero_on({kList, i, "/lasts_ns"}, f.lasts, kLongest);
-    if (f.agv.index() >= scenario_.agvs.size()) return add(ProblemKind::UnknownReference, Field{kList, i, "/agv"}.pointer(), "there is no such AGV");
+    if (f.agv.index() >= scenario_.agvs.size())
+      return add(ProblemKind::UnknownReference, Field{kList, i, "/agv"}.pointer(), "there is no such AGV");
     if (f.transport && *f.transport >= scenario_.agvs[f.agv.index()].transports.size()) {
       add(ProblemKind::UnknownReference, Field{kList, i, "/transport"}.pointer(),
           fmt::format("{} has {} transports; they count from 0", in_quotes(scenario_.agvs[f.agv.index()].name),
@@ -188,7 +199,8 @@ class RangeCheck {
     const auto& a = scenario_.agvs[i];
     if (a.type >= scenario_.vehicle_types.size())
       add(ProblemKind::UnknownReference, Field{kList, i, "/type"}.pointer(), "there is no such vehicle type");
-    if (!has_station(a.start)) add(ProblemKind::UnknownReference, Field{kList, i, "/start"}.pointer(), "there is no such station");
+    if (!has_station(a.start))
+      add(ProblemKind::UnknownReference, Field{kList, i, "/start"}.pointer(), "there is no such station");
     heading({kList, i, "/heading"}, a.heading);
     within({kList, i, "/battery"}, a.battery, 0.0, 1.0);
     sensing(i, a.sensing);
@@ -197,9 +209,11 @@ class RangeCheck {
     for (std::size_t k = 0; k < a.script.size(); ++k) {
       const auto& call = a.script[k];
       const auto place = [&](std::string_view field) { return fmt::format("/agvs/{}/script/{}{}", i, k, field); };
-      if (call.segment.index() >= scenario_.map->segment_count()) add(ProblemKind::UnknownReference, place("/segment"), "there is no such segment");
+      if (call.segment.index() >= scenario_.map->segment_count())
+        add(ProblemKind::UnknownReference, place("/segment"), "there is no such segment");
       if (call.at < last || call.at > kLongest) {
-        add(ProblemKind::NumberOutOfRange, place("/at_ns"), fmt::format("{} s: calls are listed in order of time, from 0 on", to_seconds(call.at)));
+        add(ProblemKind::NumberOutOfRange, place("/at_ns"),
+            fmt::format("{} s: calls are listed in order of time, from 0 on", to_seconds(call.at)));
       }
       last = call.at;
     }
@@ -209,9 +223,11 @@ class RangeCheck {
     const auto place = [&](std::string_view field) { return fmt::format("/agvs/{}/transports/{}{}", i, k, field); };
     if (!has_station(order.from)) add(ProblemKind::UnknownReference, place("/from"), "there is no such station");
     if (!has_station(order.to)) add(ProblemKind::UnknownReference, place("/to"), "there is no such station");
-    if (order.from == order.to) add(ProblemKind::UnknownReference, place("/to"), "a transport leads to another station than it comes from");
+    if (order.from == order.to)
+      add(ProblemKind::UnknownReference, place("/to"), "a transport leads to another station than it comes from");
     if (order.release < Duration::zero() || order.release > kLongest) {
-      add(ProblemKind::NumberOutOfRange, place("/release_ns"), fmt::format("{} s is outside 0 .. 1e9 s", to_seconds(order.release)));
+      add(ProblemKind::NumberOutOfRange, place("/release_ns"),
+          fmt::format("{} s is outside 0 .. 1e9 s", to_seconds(order.release)));
     }
   }
 
@@ -224,7 +240,9 @@ class RangeCheck {
     within({kList, i, "/position_m"}, o.pose.position_m.y(), -kLargestCoordinate_m, kLargestCoordinate_m);
     from_zero_on({kList, i, "/appears_ns"}, o.appears, kLongest);
     if (o.leaves != kLongestDuration) from_zero_on({kList, i, "/leaves_ns"}, o.leaves, kLongest);
-    if (o.leaves <= o.appears) add(ProblemKind::NumberOutOfRange, Field{kList, i, "/leaves_ns"}.pointer(), "an obstacle leaves after it has appeared");
+    if (o.leaves <= o.appears)
+      add(ProblemKind::NumberOutOfRange, Field{kList, i, "/leaves_ns"}.pointer(),
+          "an obstacle leaves after it has appeared");
   }
 
   const Scenario& scenario_;
@@ -233,13 +251,14 @@ class RangeCheck {
 
 class WorldCheck {
  public:
-  WorldCheck(const Scenario& scenario, const Reachability& reachability) : scenario_(scenario), reachability_(reachability) {}
+  WorldCheck(const Scenario& scenario, const Reachability& reachability)
+      : scenario_(scenario), reachability_(reachability) {}
 
   Problems run() {
     if (reachability_.core_share() < kSmallestCoreShare) {
       add(ProblemKind::WeakCore, "/layout",
-          fmt::format("only {} of {} stations can all reach each other, less than 90 %; add segments that lead back", reachability_.core().size(),
-                      scenario_.map->station_count()));
+          fmt::format("only {} of {} stations can all reach each other, less than 90 %; add segments that lead back",
+                      reachability_.core().size(), scenario_.map->station_count()));
     }
     starts();
     for (std::size_t i = 0; i < scenario_.agvs.size(); ++i) transports(i);
@@ -247,7 +266,9 @@ class WorldCheck {
   }
 
  private:
-  void add(ProblemKind kind, std::string pointer, std::string sentence) { problems_.push_back({kind, std::move(pointer), std::move(sentence)}); }
+  void add(ProblemKind kind, std::string pointer, std::string sentence) {
+    problems_.push_back({kind, std::move(pointer), std::move(sentence)});
+  }
 
   void starts() {
     const double distance_m = scenario_.law.safety_distance_m;
@@ -263,12 +284,16 @@ class WorldCheck {
                         in_quotes(scenario_.agvs[k].name)));
       }
       for (const auto& obstacle : scenario_.obstacles) {
-        if (obstacle.appears > Duration::zero() || !closer_than(placed(obstacle.footprint, obstacle.pose), bodies[i], distance_m)) continue;
+        if (obstacle.appears > Duration::zero() ||
+            !closer_than(placed(obstacle.footprint, obstacle.pose), bodies[i], distance_m))
+          continue;
         add(ProblemKind::StartNearObstacle, pointer(),
-            fmt::format("{} starts closer than {} m to obstacle {}; move one", in_quotes(agv.name), distance_m, in_quotes(obstacle.name)));
+            fmt::format("{} starts closer than {} m to obstacle {}; move one", in_quotes(agv.name), distance_m,
+                        in_quotes(obstacle.name)));
       }
       if (scenario_.map->lanes_from(agv.start).empty()) {
-        add(ProblemKind::StartWithoutLane, pointer(), fmt::format("no lane leaves the station where {} starts", in_quotes(agv.name)));
+        add(ProblemKind::StartWithoutLane, pointer(),
+            fmt::format("no lane leaves the station where {} starts", in_quotes(agv.name)));
       }
     }
   }
@@ -298,7 +323,9 @@ class WorldCheck {
 
 Problems unusable_problems(const Scenario& scenario) { return RangeCheck(scenario).run(); }
 
-Problems world_problems(const Scenario& scenario, const Reachability& reachability) { return WorldCheck(scenario, reachability).run(); }
+Problems world_problems(const Scenario& scenario, const Reachability& reachability) {
+  return WorldCheck(scenario, reachability).run();
+}
 
 Problems problems_of(const Scenario& scenario) {
   auto problems = unusable_problems(scenario);

@@ -23,7 +23,8 @@ std::vector<std::string> csv_fields(std::string_view line, std::string_view sour
       quoted = !quoted;
     } else if (c == ',' && !quoted) {
       // At once: a line of commas alone would fill the memory with empty fields.
-      if (fields.size() == kMostFields) throw InputError(at_line(source, number), fmt::format("the line has more than {} fields", kMostFields));
+      if (fields.size() == kMostFields)
+        throw InputError(at_line(source, number), fmt::format("the line has more than {} fields", kMostFields));
       fields.emplace_back();
     } else {
       fields.back() += c;
@@ -33,6 +34,8 @@ std::vector<std::string> csv_fields(std::string_view line, std::string_view sour
   return fields;
 }
 
-bool is_csv_remark(std::string_view line) { return line.find_first_not_of(" ,\t") == std::string_view::npos || line.starts_with('#'); }
+bool is_csv_remark(std::string_view line) {
+  return line.find_first_not_of(" ,\t") == std::string_view::npos || line.starts_with('#');
+}
 
 }  // namespace fleetproof

@@ -66,9 +66,11 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   bool key(std::string& value) override {
     auto& keys = open_.back()->keys;
     if (std::ranges::find(keys, value) != keys.end()) {
-      throw InputError(at_line(source_, line_here(0)), fmt::format("key {} appears twice in one object; keep one", in_quotes(value)));
+      throw InputError(at_line(source_, line_here(0)),
+                       fmt::format("key {} appears twice in one object; keep one", in_quotes(value)));
     }
-    if (keys.size() == kMostKeys) throw InputError(at_line(source_, line_here(0)), "one object has more than 1000 keys, which no scenario needs");
+    if (keys.size() == kMostKeys)
+      throw InputError(at_line(source_, line_here(0)), "one object has more than 1000 keys, which no scenario needs");
     keys.push_back(value);
     return true;
   }
@@ -76,9 +78,11 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   bool parse_error(std::size_t position, const std::string&, const nlohmann::json::exception& error) override {
     const auto at = position_in(text_, position > 0 ? position - 1 : 0);
     std::string_view reason = error.what();
-    // "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error ...": the place is told in our own way.
+    // "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error ...": the place is told in our
+    // own way.
     for (const std::string_view skip : {"] ", "column "}) {
-      if (const auto found = reason.find(skip); found != std::string_view::npos) reason.remove_prefix(found + skip.size());
+      if (const auto found = reason.find(skip); found != std::string_view::npos)
+        reason.remove_prefix(found + skip.size());
     }
     reason.remove_prefix(std::min(reason.find_first_not_of("0123456789: "), reason.size()));
     std::string plain(reason);
@@ -111,7 +115,9 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   }
 
   bool open(JsonValue::Shape shape) {
-    if (open_.size() > kDeepest) throw InputError(at_line(source_, line_here(0)), "values are nested deeper than 32 levels, which no scenario needs");
+    if (open_.size() > kDeepest)
+      throw InputError(at_line(source_, line_here(0)),
+                       "values are nested deeper than 32 levels, which no scenario needs");
     JsonValue value;
     value.shape = shape;
     add(std::move(value));
@@ -166,7 +172,8 @@ JsonValue parse_json(std::string_view text, std::string_view source) {
   if (text.empty()) throw InputError(source, "is empty; expected a JSON object");
   const char* reached = text.data();
   TreeBuilder builder(text, source, &reached);
-  nlohmann::json::sax_parse(CountingIterator(text.data(), &reached), CountingIterator(text.data() + text.size(), &reached), &builder);
+  nlohmann::json::sax_parse(CountingIterator(text.data(), &reached),
+                            CountingIterator(text.data() + text.size(), &reached), &builder);
   return builder.take();
 }
 
@@ -176,13 +183,15 @@ void JsonReader::expect_object(std::span<const std::string_view> keys) const {
     const auto& key = value_->keys[i];
     if (std::ranges::find(keys, key) != keys.end()) continue;
     throw InputError(at_line(source_, value_->items[i].line),
-                     fmt::format("{}: unknown key {}{}", pointer_.empty() ? "top level" : pointer_, in_quotes(key), name_hint(key, keys)));
+                     fmt::format("{}: unknown key {}{}", pointer_.empty() ? "top level" : pointer_, in_quotes(key),
+                                 name_hint(key, keys)));
   }
 }
 
 JsonReader JsonReader::at(std::string_view key) const {
   if (auto found = find(key)) return *std::move(found);
-  throw InputError(at_line(source_, value_->line), fmt::format("{}: \"{}\" is missing; add it", pointer_.empty() ? "top level" : pointer_, key));
+  throw InputError(at_line(source_, value_->line),
+                   fmt::format("{}: \"{}\" is missing; add it", pointer_.empty() ? "top level" : pointer_, key));
 }
 
 std::optional<JsonReader> JsonReader::find(std::string_view key) const {
@@ -195,7 +204,8 @@ std::vector<JsonReader> JsonReader::items() const {
   if (value_->shape != JsonValue::Shape::Array) refuse("expected an array [ ... ]");
   std::vector<JsonReader> readers;
   readers.reserve(value_->items.size());
-  for (std::size_t i = 0; i < value_->items.size(); ++i) readers.emplace_back(value_->items[i], source_, fmt::format("{}/{}", pointer_, i));
+  for (std::size_t i = 0; i < value_->items.size(); ++i)
+    readers.emplace_back(value_->items[i], source_, fmt::format("{}/{}", pointer_, i));
   return readers;
 }
 
@@ -221,7 +231,8 @@ bool JsonReader::boolean() const {
 std::int64_t JsonReader::integer() const {
   if (const auto* whole = std::get_if<std::int64_t>(&value_->scalar)) return *whole;
   const auto* natural = std::get_if<std::uint64_t>(&value_->scalar);
-  if (natural == nullptr || *natural > static_cast<std::uint64_t>(INT64_MAX)) refuse("expected a whole number within 64 bits");
+  if (natural == nullptr || *natural > static_cast<std::uint64_t>(INT64_MAX))
+    refuse("expected a whole number within 64 bits");
   return static_cast<std::int64_t>(*natural);
 }
 
@@ -252,8 +263,9 @@ void JsonReader::read(std::string_view key, std::string& target) const {
 std::string JsonReader::place() const { return at_line(source_, value_->line); }
 
 void JsonReader::refuse(std::string_view sentence) const {
-  throw InputError(at_line(source_, value_->line),
-                   fmt::format("{}: {} is refused: {}", pointer_.empty() ? "top level" : pointer_, shown(*value_), sentence));
+  throw InputError(
+      at_line(source_, value_->line),
+      fmt::format("{}: {} is refused: {}", pointer_.empty() ? "top level" : pointer_, shown(*value_), sentence));
 }
 
 void JsonReader::refuse_below(std::string_view pointer, std::string_view sentence) const {

@@ -28,7 +28,8 @@ struct JsonValue {
 // InputError with line and column where `text` is not JSON, repeats a key in an object or nests deeper than 32 levels.
 JsonValue parse_json(std::string_view text, std::string_view source);
 
-// Reads one value of a tree and complains like a person: file and line, JSON pointer, value, remedy. Views: tree and source outlive it.
+// Reads one value of a tree and complains like a person: file and line, JSON pointer, value, remedy. Views: tree and
+// source outlive it.
 class JsonReader {
  public:
   JsonReader(const JsonValue& value, std::string_view source, std::string pointer = "")
@@ -53,8 +54,8 @@ class JsonReader {
   void read(std::string_view key, std::string& target) const;
 
   [[noreturn]] void refuse(std::string_view sentence) const;
-  // Refuses the value at a pointer relative to this one, or the last value on the way to it. Where the pointer asks for a
-  // duration "..._ns" and the file gives it as "..._s", that one is meant.
+  // Refuses the value at a pointer relative to this one, or the last value on the way to it. Where the pointer asks for
+  // a duration "..._ns" and the file gives it as "..._s", that one is meant.
   [[noreturn]] void refuse_below(std::string_view pointer, std::string_view sentence) const;
   bool is_text() const { return std::holds_alternative<std::string>(value_->scalar); }
   const std::string& pointer() const { return pointer_; }

@@ -27,7 +27,8 @@ std::size_t sequence_length(std::string_view text, std::size_t i) {
   }
   const unsigned char second = byte_at(text, i + 1);
   const bool overlong = (lead == 0xe0 && second < 0xa0) || (lead == 0xf0 && second < 0x90);
-  const bool outside = (lead == 0xed && second > 0x9f) || (lead == 0xf4 && second > 0x8f);  // surrogates; beyond U+10FFFF
+  const bool outside =
+      (lead == 0xed && second > 0x9f) || (lead == 0xf4 && second > 0x8f);  // surrogates; beyond U+10FFFF
   return overlong || outside ? 0 : length;
 }
 
@@ -44,7 +45,8 @@ std::string read_text_file(const std::string& path) {
   char buffer[65536];
   while (in.read(buffer, sizeof buffer), in.gcount() > 0) {
     text.append(buffer, static_cast<std::size_t>(in.gcount()));
-    if (text.size() > kLargestFile) throw InputError(path, "is larger than 64 MiB, which no layout or scenario is; check the file name");
+    if (text.size() > kLargestFile)
+      throw InputError(path, "is larger than 64 MiB, which no layout or scenario is; check the file name");
   }
   if (in.bad()) throw InputError(path, "cannot be read to its end; check the disk");
   return text;

@@ -27,8 +27,9 @@ void XmlText::load(pugi::xml_document& document) const {
   const auto result = document.load_buffer(text_.data(), text_.size());
   if (result) return;
   const auto at = position_in(text_, static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0)));
-  throw InputError(fmt::format("{}:{}:{}", source_, at.line, at.column),
-                   fmt::format("not well-formed XML ({}); is the file complete, and a plant model?", result.description()));
+  throw InputError(
+      fmt::format("{}:{}:{}", source_, at.line, at.column),
+      fmt::format("not well-formed XML ({}); is the file complete, and a plant model?", result.description()));
 }
 
 std::string XmlText::place(const pugi::xml_node& node) const {
@@ -37,9 +38,13 @@ std::string XmlText::place(const pugi::xml_node& node) const {
   return at_line(source_, static_cast<std::size_t>(before) + 1);
 }
 
-void XmlText::refuse(const pugi::xml_node& node, std::string_view sentence) const { throw InputError(place(node), sentence); }
+void XmlText::refuse(const pugi::xml_node& node, std::string_view sentence) const {
+  throw InputError(place(node), sentence);
+}
 
-bool XmlText::has(const pugi::xml_node& node, const char* attribute) const { return !node.attribute(attribute).empty(); }
+bool XmlText::has(const pugi::xml_node& node, const char* attribute) const {
+  return !node.attribute(attribute).empty();
+}
 
 std::string XmlText::text(const pugi::xml_node& node, const char* attribute) const {
   const auto found = node.attribute(attribute);
@@ -50,7 +55,8 @@ std::string XmlText::text(const pugi::xml_node& node, const char* attribute) con
 double XmlText::number(const pugi::xml_node& node, const char* attribute) const {
   const auto word = text(node, attribute);
   double value = 0.0;
-  if (!read_number(word, value)) refuse(node, fmt::format("{} of <{}> is {}; expected a finite number", attribute, node.name(), in_quotes(word)));
+  if (!read_number(word, value))
+    refuse(node, fmt::format("{} of <{}> is {}; expected a finite number", attribute, node.name(), in_quotes(word)));
   return value;
 }
 

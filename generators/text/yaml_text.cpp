@@ -16,10 +16,13 @@ std::string YamlText::place(const YAML::Node& node) const {
   return line < 0 ? std::string(source_) : at_line(source_, static_cast<std::size_t>(line) + 1);
 }
 
-void YamlText::refuse(const YAML::Node& node, std::string_view sentence) const { throw InputError(place(node), sentence); }
+void YamlText::refuse(const YAML::Node& node, std::string_view sentence) const {
+  throw InputError(place(node), sentence);
+}
 
 YAML::Node YamlText::item(const YAML::Node& list, std::size_t index, std::string_view what) const {
-  if (!list.IsSequence() || list.size() <= index) refuse(list, fmt::format("{} is {} of {} items; expected more", what, shown(list), list.size()));
+  if (!list.IsSequence() || list.size() <= index)
+    refuse(list, fmt::format("{} is {} of {} items; expected more", what, shown(list), list.size()));
   return list[index];
 }
 
@@ -32,7 +35,8 @@ YAML::Node YamlText::list(const YAML::Node& map, const char* key, std::string_vi
 
 double YamlText::number(const YAML::Node& node, std::string_view what) const {
   double value = 0.0;
-  if (!node.IsScalar() || !read_number(node.Scalar(), value)) refuse(node, fmt::format("{} is {}; expected a finite number", what, shown(node)));
+  if (!node.IsScalar() || !read_number(node.Scalar(), value))
+    refuse(node, fmt::format("{} is {}; expected a finite number", what, shown(node)));
   return value;
 }
 

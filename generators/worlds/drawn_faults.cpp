@@ -2,14 +2,24 @@
 
 #include <fmt/format.h>
 
-#include "core/geometry/rotation.hpp"
 #include "core/base/random.hpp"
+#include "core/geometry/rotation.hpp"
 
 namespace fleetproof {
 namespace {
 
 // Topics of the faults stream; with the AGV's number they key every sequence of draws.
-enum class Topic : std::uint32_t { Breakdown = 1, MissionBreakdown, ProtectiveStop, LoadDrop, Obstacle, Restart, Freeze, Clock, Battery };
+enum class Topic : std::uint32_t {
+  Breakdown = 1,
+  MissionBreakdown,
+  ProtectiveStop,
+  LoadDrop,
+  Obstacle,
+  Restart,
+  Freeze,
+  Clock,
+  Battery
+};
 
 constexpr double kHour_s = 3600.0;
 constexpr double kWithinMission_s = 60.0;  // after the pick
@@ -20,7 +30,8 @@ constexpr double kLowBattery = 0.12, kLowBatteryMost = 0.20;
 
 class FaultDraws {
  public:
-  FaultDraws(Scenario& scenario, const FaultRates& rates, std::uint64_t key) : scenario_(scenario), rates_(rates), key_(key) {}
+  FaultDraws(Scenario& scenario, const FaultRates& rates, std::uint64_t key)
+      : scenario_(scenario), rates_(rates), key_(key) {}
 
   void run() {
     for (std::size_t i = 0; i < scenario_.agvs.size(); ++i) agv(AgvId{i});
@@ -31,16 +42,19 @@ class FaultDraws {
   Draws draws(Topic topic, std::uint32_t item) const { return Draws(key_, static_cast<std::uint32_t>(topic), item); }
 
   void agv(AgvId id) {
-    poisson(id, Topic::Breakdown, Fault::Kind::Breakdown, rates_.breakdowns_per_agv_hour, [&](Draws& d) { return d.exponential(rates_.repair_s); });
+    poisson(id, Topic::Breakdown, Fault::Kind::Breakdown, rates_.breakdowns_per_agv_hour,
+            [&](Draws& d) { return d.exponential(rates_.repair_s); });
     poisson(id, Topic::ProtectiveStop, Fault::Kind::ProtectiveStop, rates_.protective_stops_per_agv_hour,
             [&](Draws& d) { return d.uniform(rates_.protective_stop_least_s, rates_.protective_stop_most_s); });
-    poisson(id, Topic::Restart, Fault::Kind::Restart, rates_.restarts_per_agv_hour, [&](Draws&) { return rates_.restart_s; });
+    poisson(id, Topic::Restart, Fault::Kind::Restart, rates_.restarts_per_agv_hour,
+            [&](Draws&) { return rates_.restart_s; });
     poisson(id, Topic::Freeze, Fault::Kind::Freeze, rates_.freezes_per_agv_hour,
             [&](Draws& d) { return d.uniform(rates_.freeze_least_s, rates_.freeze_most_s); });
     missions(id);
     sensing(id);
     Draws battery = draws(Topic::Battery, id.value);
-    if (battery.uniform() < rates_.low_battery_share) scenario_.agvs[id.index()].battery = battery.uniform(kLowBattery, kLowBatteryMost);
+    if (battery.uniform() < rates_.low_battery_share)
+      scenario_.agvs[id.index()].battery = battery.uniform(kLowBattery, kLowBatteryMost);
   }
 
   template <class Lasts>
@@ -82,7 +96,8 @@ class FaultDraws {
 
   void sensing(AgvId id) {
     Draws clock = draws(Topic::Clock, id.value);
-    scenario_.agvs[id.index()].sensing = {clock.uniform(0.0, rates_.clock_offset_s), clock.uniform(-rates_.clock_drift_ppm, rates_.clock_drift_ppm) + 0.0,
+    scenario_.agvs[id.index()].sensing = {clock.uniform(0.0, rates_.clock_offset_s),
+                                          clock.uniform(-rates_.clock_drift_ppm, rates_.clock_drift_ppm) + 0.0,
                                           rates_.position_error_m, rates_.position_late_s};
   }
 
@@ -97,7 +112,8 @@ class FaultDraws {
       ObstacleSetup obstacle;
       obstacle.name = fmt::format("foreign obstacle {}", scenario_.obstacles.size());
       obstacle.footprint = kObstacle;
-      obstacle.pose = {on_track.position_m + d.uniform(-kBesideTrack_m, kBesideTrack_m) * left_of(on_track.heading), on_track.heading + Vec2::Zero()};
+      obstacle.pose = {on_track.position_m + d.uniform(-kBesideTrack_m, kBesideTrack_m) * left_of(on_track.heading),
+                       on_track.heading + Vec2::Zero()};
       obstacle.appears = seconds(t_s);
       obstacle.leaves = obstacle.appears + seconds(d.exponential(rates_.obstacle_stays_s)) + Duration{1};
       scenario_.obstacles.push_back(obstacle);

@@ -14,11 +14,13 @@ namespace {
 
 constexpr Duration kWithin = std::chrono::seconds(1);
 constexpr Duration kTie = std::chrono::milliseconds(1);
-// Drawings of the first AGV. The first ones look for the second on a few places to wait; later ones start both anywhere and look at more, at all
-// that may come head-on: where all places to wait are dead ends off one-way lanes nobody does otherwise.
+// Drawings of the first AGV. The first ones look for the second on a few places to wait; later ones start both anywhere
+// and look at more, at all that may come head-on: where all places to wait are dead ends off one-way lanes nobody does
+// otherwise.
 constexpr std::uint32_t kTries = 64, kHastyTries = 3, kHastyTriesForTies = 7, kFewOthers = 8, kManyOthers = 24;
 
-// Where the second AGV may start so that the two meet: its quickest way to `through` ends with the lane on which, or after which, they do.
+// Where the second AGV may start so that the two meet: its quickest way to `through` ends with the lane on which, or
+// after which, they do.
 struct Meeting {
   StationId start, through;
   Duration earlier{};  // than the first
@@ -63,7 +65,8 @@ class PairMaker {
       scenario_.agvs.resize(before);
       return std::nullopt;
     }
-    return EncounterPair{first, first + 1, best->goal, best->other_goal, ties_ ? best->meeting.earlier : Duration::zero()};
+    return EncounterPair{first, first + 1, best->goal, best->other_goal,
+                         ties_ ? best->meeting.earlier : Duration::zero()};
   }
 
  private:
@@ -72,10 +75,13 @@ class PairMaker {
     Meeting meeting;
   };
 
-  bool is_better(const Meeting& a, const Meeting& b) const { return ties_ ? a.apart() < b.apart() : a.head_on && !b.head_on; }
+  bool is_better(const Meeting& a, const Meeting& b) const {
+    return ties_ ? a.apart() < b.apart() : a.head_on && !b.head_on;
+  }
 
   // `head_on`: nothing else will do.
-  std::optional<Found> draw(Draws& draws, const std::vector<StationId>& starts, std::size_t others_looked_at, bool head_on) {
+  std::optional<Found> draw(Draws& draws, const std::vector<StationId>& starts, std::size_t others_looked_at,
+                            bool head_on) {
     const auto start = starts[draws.below(static_cast<std::uint32_t>(starts.size()))];
     const auto goal = goals_[draws.below(static_cast<std::uint32_t>(goals_.size()))];
     const auto& ways = timetable_.from(start);
@@ -92,7 +98,8 @@ class PairMaker {
     for (const auto n : ties_ ? by_time_apart(meetings, order) : head_on_first(meetings, order)) {
       const auto& meeting = meetings[n];
       const auto other_goal = goal_through(meeting, draws);
-      if (other_goal && has_room(meeting.start, *other_goal, std::pair(start, goal))) return Found{start, goal, *other_goal, meeting};
+      if (other_goal && has_room(meeting.start, *other_goal, std::pair(start, goal)))
+        return Found{start, goal, *other_goal, meeting};
     }
     return std::nullopt;
   }
@@ -105,11 +112,13 @@ class PairMaker {
   }
 
   // In drawn order, the best kind first.
-  static std::vector<std::uint32_t> by_time_apart(const std::vector<Meeting>& meetings, std::vector<std::uint32_t> order) {
+  static std::vector<std::uint32_t> by_time_apart(const std::vector<Meeting>& meetings,
+                                                  std::vector<std::uint32_t> order) {
     std::ranges::stable_sort(order, {}, [&](std::uint32_t n) { return meetings[n].apart(); });
     return order;
   }
-  static std::vector<std::uint32_t> head_on_first(const std::vector<Meeting>& meetings, const std::vector<std::uint32_t>& order) {
+  static std::vector<std::uint32_t> head_on_first(const std::vector<Meeting>& meetings,
+                                                  const std::vector<std::uint32_t>& order) {
     std::vector<std::uint32_t> sorted;
     sorted.reserve(order.size());
     for (const bool head_on : {true, false}) {
@@ -135,13 +144,15 @@ class PairMaker {
       const auto& lane = map_.lanes()[l];
       const auto* back = map_.lane(lane.segment, lane.to);
       const auto& arrival = ways.at(lane.to);
-      all.push_back({lane.from, lane.to, l, back == nullptr ? QuickestWays::kNone : static_cast<std::uint32_t>(back - map_.lanes().data()),
+      all.push_back({lane.from, lane.to, l,
+                     back == nullptr ? QuickestWays::kNone : static_cast<std::uint32_t>(back - map_.lanes().data()),
                      arrival.drives_off, arrival.arrives});
     }
     return all;
   }
 
-  // False if bounds that cost no search rule it out: only who starts in a dead end drives out of it, and nobody is faster than as the crow flies.
+  // False if bounds that cost no search rule it out: only who starts in a dead end drives out of it, and nobody is
+  // faster than as the crow flies.
   bool may_come_head_on(StationId other, const std::vector<Passed>& way) const {
     return std::ranges::any_of(way, [&](const Passed& passed) {
       if (passed.twin == QuickestWays::kNone) return false;
@@ -153,7 +164,8 @@ class PairMaker {
   }
 
   // Head-on the other drives the same segment; at a station it comes by another one.
-  std::vector<Meeting> meetings_with(const std::vector<Passed>& way, const std::vector<StationId>& starts, bool head_on) {
+  std::vector<Meeting> meetings_with(const std::vector<Passed>& way, const std::vector<StationId>& starts,
+                                     bool head_on) {
     std::vector<Meeting> found;
     const auto consider = [&](const Meeting& meeting) {
       if (meeting.apart() < kWithin) found.push_back(meeting);
@@ -164,7 +176,8 @@ class PairMaker {
         const auto& there = other.at(passed.to);
         if (!ties_ && passed.twin != QuickestWays::kNone) {
           const auto& here = other.at(passed.from);
-          if (here.lane == passed.twin && here.unique) consider({start, passed.from, passed.begun - here.drives_off, true});
+          if (here.lane == passed.twin && here.unique)
+            consider({start, passed.from, passed.begun - here.drives_off, true});
         }
         if (!head_on && there.lane != passed.lane && there.lane != QuickestWays::kNone && there.unique) {
           consider({start, passed.to, passed.ended - there.arrives, false});
@@ -190,9 +203,13 @@ class PairMaker {
     return through[draws.below(static_cast<std::uint32_t>(through.size()))];
   }
 
-  Vec2 heading(StationId start, StationId goal) { return map_.lanes()[timetable_.from(start).at(goal).first].curve.pose_at(0.0).heading; }
+  Vec2 heading(StationId start, StationId goal) {
+    return map_.lanes()[timetable_.from(start).at(goal).first].curve.pose_at(0.0).heading;
+  }
 
-  bool add(StationId start, StationId goal, RejectionCounts& counts) { return add_agv(scenario_, start, heading(start, goal), counts); }
+  bool add(StationId start, StationId goal, RejectionCounts& counts) {
+    return add_agv(scenario_, start, heading(start, goal), counts);
+  }
 
   // Whether an AGV finds room, after the first of its pair if that is given. Nobody is left standing.
   bool has_room(StationId start, StationId goal, std::optional<std::pair<StationId, StationId>> after) {
@@ -215,8 +232,9 @@ class PairMaker {
 
 }  // namespace
 
-std::vector<EncounterPair> place_pairs(Scenario& scenario, std::uint32_t fleet_size, Placement placement, const Reachability& reachability,
-                                       std::uint64_t key, std::uint32_t attempt, RejectionCounts& counts) {
+std::vector<EncounterPair> place_pairs(Scenario& scenario, std::uint32_t fleet_size, Placement placement,
+                                       const Reachability& reachability, std::uint64_t key, std::uint32_t attempt,
+                                       RejectionCounts& counts) {
   std::vector<EncounterPair> pairs;
   if (reachability.core().size() < 2) return pairs;
   PairMaker maker(scenario, reachability, placement == Placement::Symmetric, counts);
@@ -244,7 +262,8 @@ void send_to_meet(Scenario& scenario, const std::vector<EncounterPair>& pairs) {
     auto& second = scenario.agvs[pair.second].transports;
     if (first.empty() || second.empty()) continue;
     const Duration earlier = std::min(first[0].release, second[0].release);
-    const Duration later = std::min(earlier + (pair.second_after < Duration::zero() ? -pair.second_after : pair.second_after), scenario.horizon);
+    const Duration later = std::min(
+        earlier + (pair.second_after < Duration::zero() ? -pair.second_after : pair.second_after), scenario.horizon);
     release(first, pair.second_after < Duration::zero() ? later : earlier);
     release(second, pair.second_after > Duration::zero() ? later : earlier);
     begin_at(first[0], pair.first_goal);

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "core/scenario/scenario.hpp"
-#include "generators/worlds/placement.hpp"
 #include "generators/map/reachability.hpp"
 #include "generators/map/rejection_counts.hpp"
+#include "generators/worlds/placement.hpp"
 
 namespace fleetproof {
 
@@ -17,18 +17,23 @@ struct EncounterPair {
   Duration second_after{};  // by how much the second is to leave later, or before if negative, so that they meet
 };
 
-// Puts pairs of AGVs, AGV 2k and 2k+1, on their starts until the fleet has fewer than two places left or no pair is found; the rest is for
-// place_fleet. If both AGVs of a pair drive the quickest way (timetable.hpp), no other being as quick,
-// * Adversarial: and leave at the same instant, they begin to drive one two-way segment from its two ends, or failing that reach a station by
+// Puts pairs of AGVs, AGV 2k and 2k+1, on their starts until the fleet has fewer than two places left or no pair is
+// found; the rest is for place_fleet. If both AGVs of a pair drive the quickest way (timetable.hpp), no other being as
+// quick,
+// * Adversarial: and leave at the same instant, they begin to drive one two-way segment from its two ends, or failing
+// that reach a station by
 //   different segments, less than 1 s apart;
-// * Symmetric: they reach a station by different segments, at the same instant if the second leaves `second_after` the first. That is less than 1 s
+// * Symmetric: they reach a station by different segments, at the same instant if the second leaves `second_after` the
+// first. That is less than 1 s
 //   and as little as a few draws bring it: none at all where the layout is as symmetric.
-// Goals are stations where transports begin (order_ends()). The scenario needs map, vehicle type and law; obstacles are regarded.
-std::vector<EncounterPair> place_pairs(Scenario& scenario, std::uint32_t fleet_size, Placement placement, const Reachability& reachability,
-                                       std::uint64_t key, std::uint32_t attempt, RejectionCounts& counts);
+// Goals are stations where transports begin (order_ends()). The scenario needs map, vehicle type and law; obstacles are
+// regarded.
+std::vector<EncounterPair> place_pairs(Scenario& scenario, std::uint32_t fleet_size, Placement placement,
+                                       const Reachability& reachability, std::uint64_t key, std::uint32_t attempt,
+                                       RejectionCounts& counts);
 
-// Lets the first transports of every pair begin at its goals and be released at the earlier of the two instants drawn, one of them later if the
-// pair is to meet so. What is released after them waits for that.
+// Lets the first transports of every pair begin at its goals and be released at the earlier of the two instants drawn,
+// one of them later if the pair is to meet so. What is released after them waits for that.
 void send_to_meet(Scenario& scenario, const std::vector<EncounterPair>& pairs);
 
 }  // namespace fleetproof

@@ -12,8 +12,8 @@
 #include "generators/text/csv_fields.hpp"
 #include "generators/text/text_file.hpp"
 #include "generators/text/text_lines.hpp"
-#include "generators/worlds/transports.hpp"
 #include "generators/text/xml_text.hpp"
+#include "generators/worlds/transports.hpp"
 
 namespace fleetproof {
 namespace {
@@ -33,22 +33,27 @@ class OrderReader {
       const auto fields = csv_fields(*line, source_, lines_.number());
       columns_.empty() ? take_heading(fields) : add(fields);
     }
-    if (list_.orders.empty()) throw InputError(source_, "has no orders; expected a line release_s,from,to,agv and one line for each order");
+    if (list_.orders.empty())
+      throw InputError(source_, "has no orders; expected a line release_s,from,to,agv and one line for each order");
     return std::move(list_);
   }
 
  private:
-  [[noreturn]] void refuse(std::string_view sentence) const { throw InputError(at_line(source_, lines_.number()), sentence); }
+  [[noreturn]] void refuse(std::string_view sentence) const {
+    throw InputError(at_line(source_, lines_.number()), sentence);
+  }
 
   void take_heading(const std::vector<std::string>& fields) {
     for (std::size_t i = 0; i < fields.size(); ++i) {
       if (std::ranges::find(kColumns, fields[i]) == std::end(kColumns)) {
         refuse(fmt::format("{} is no column of orders{}", in_quotes(fields[i]), name_hint(fields[i], kColumns)));
       }
-      if (!columns_.emplace(fields[i], i).second) refuse(fmt::format("column {} is there twice; keep one", in_quotes(fields[i])));
+      if (!columns_.emplace(fields[i], i).second)
+        refuse(fmt::format("column {} is there twice; keep one", in_quotes(fields[i])));
     }
     for (const auto needed : {"release_s", "from", "to"}) {
-      if (!columns_.contains(needed)) refuse(fmt::format("column {} is missing; the first line names release_s, from and to", needed));
+      if (!columns_.contains(needed))
+        refuse(fmt::format("column {} is missing; the first line names release_s, from and to", needed));
     }
   }
 
@@ -60,12 +65,14 @@ class OrderReader {
   std::string station(const std::vector<std::string>& fields, std::string_view column) const {
     auto name = field(fields, column);
     if (name.empty()) refuse(fmt::format("{} is empty; expected the name of a station", column));
-    if (!is_plain_utf8(name)) refuse(fmt::format("{} is {}; a name is UTF-8 without control characters", column, in_quotes(name)));
+    if (!is_plain_utf8(name))
+      refuse(fmt::format("{} is {}; a name is UTF-8 without control characters", column, in_quotes(name)));
     return name;
   }
 
   void add(const std::vector<std::string>& fields) {
-    if (fields.size() > columns_.size()) refuse(fmt::format("the line has {} fields, its table {} columns", fields.size(), columns_.size()));
+    if (fields.size() > columns_.size())
+      refuse(fmt::format("the line has {} fields, its table {} columns", fields.size(), columns_.size()));
     ListedOrder order;
     order.line = lines_.number();
     const auto release = field(fields, "release_s");
@@ -76,7 +83,8 @@ class OrderReader {
     order.release = seconds(release_s);
     order.from = station(fields, "from");
     order.to = station(fields, "to");
-    if (order.from == order.to) refuse(fmt::format("to is {}, where the order comes from; name another station", in_quotes(order.to)));
+    if (order.from == order.to)
+      refuse(fmt::format("to is {}, where the order comes from; name another station", in_quotes(order.to)));
     if (const auto agv = field(fields, "agv"); !agv.empty()) {
       std::uint32_t number = 0;
       const auto [end, error] = std::from_chars(agv.data(), agv.data() + agv.size(), number);
@@ -97,7 +105,8 @@ class OrderReader {
 // Names of stations where orders may begin and end.
 class Ends {
  public:
-  Ends(const Scenario& scenario, const Reachability& reachability) : layout_(scenario.map->layout()), reachability_(reachability) {
+  Ends(const Scenario& scenario, const Reachability& reachability)
+      : layout_(scenario.map->layout()), reachability_(reachability) {
     for (std::size_t i = 0; i < layout_.stations.size(); ++i) stations_.emplace(layout_.stations[i].name, StationId{i});
   }
 
@@ -107,14 +116,18 @@ class Ends {
       std::vector<std::string_view> known;
       for (const auto& [known_name, id] : stations_) known.push_back(known_name);
       const auto nearest = nearest_name(name, known);
-      throw InputError(place, fmt::format("{} is {}, but layout {} has no such station{}", column, in_quotes(name), in_quotes(layout_.name),
-                                          nearest ? "; did you mean " + in_quotes(*nearest) + "?" : "; correct the name"));
+      throw InputError(
+          place,
+          fmt::format("{} is {}, but layout {} has no such station{}", column, in_quotes(name), in_quotes(layout_.name),
+                      nearest ? "; did you mean " + in_quotes(*nearest) + "?" : "; correct the name"));
     }
     if (!may_end_orders(layout_.stations[found->second.index()])) {
-      throw InputError(place, fmt::format("{} is {}, a station for charging or parking; orders begin and end elsewhere", column, in_quotes(name)));
+      throw InputError(place, fmt::format("{} is {}, a station for charging or parking; orders begin and end elsewhere",
+                                          column, in_quotes(name)));
     }
     if (!reachability_.in_core(found->second)) {
-      throw InputError(place, fmt::format("{} is {}, from or to which no way leads; choose another station", column, in_quotes(name)));
+      throw InputError(place, fmt::format("{} is {}, from or to which no way leads; choose another station", column,
+                                          in_quotes(name)));
     }
     return found->second;
   }
@@ -140,7 +153,8 @@ void assign_listed_orders(Scenario& scenario, const OrderList& list, const Reach
     const auto place = at_line(list.source, order.line);
     const auto from = ends.find(order.from, "from", place), to = ends.find(order.to, "to", place);
     const auto agv = order.agv ? *order.agv : free_orders++ % fleet;
-    if (agv >= fleet) throw InputError(place, fmt::format("agv is {}; a fleet of {} has AGVs 0 to {}", agv, fleet, fleet - 1));
+    if (agv >= fleet)
+      throw InputError(place, fmt::format("agv is {}; a fleet of {} has AGVs 0 to {}", agv, fleet, fleet - 1));
     if (order.release < scenario.horizon) scenario.agvs[agv].transports.push_back({from, to, order.release});
   }
   for (auto& agv : scenario.agvs) std::ranges::stable_sort(agv.transports, {}, &TransportOrder::release);

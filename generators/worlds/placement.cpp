@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "core/base/random.hpp"
-#include "generators/scenario_file/validator.hpp"
 #include "generators/map/waiting_room.hpp"
+#include "generators/scenario_file/validator.hpp"
 
 namespace fleetproof {
 namespace {
@@ -18,7 +18,8 @@ constexpr std::uint32_t kNoAgv = ~0U;  // item of draws that belong to no AGV
 class Candidates {
  public:
   Candidates(const LogicalMap& map, const Reachability& reachability) {
-    for (const auto station : reachability.core()) (is_place_to_wait(map.station(station)) ? waiting_ : others_).push_back(station);
+    for (const auto station : reachability.core())
+      (is_place_to_wait(map.station(station)) ? waiting_ : others_).push_back(station);
   }
 
   std::optional<StationId> draw(Draws& draws) {
@@ -43,7 +44,9 @@ std::optional<ProblemKind> rejection(const Scenario& scenario, const AgvSetup& a
     if (closer_than(start_body(scenario, other), body, distance_m)) return ProblemKind::StartsTooClose;
   }
   for (const auto& obstacle : scenario.obstacles) {
-    if (obstacle.appears == Duration::zero() && closer_than(placed(obstacle.footprint, obstacle.pose), body, distance_m)) return ProblemKind::StartNearObstacle;
+    if (obstacle.appears == Duration::zero() &&
+        closer_than(placed(obstacle.footprint, obstacle.pose), body, distance_m))
+      return ProblemKind::StartNearObstacle;
   }
   return std::nullopt;
 }
@@ -81,11 +84,14 @@ const char* name_of(Placement placement) {
 Placement placement_of_world(Placement placement, std::uint64_t key) {
   if (placement != Placement::Mixed) return placement;
   const auto n = Draws(key, kNoAgv, kNoAgv).below(10);
-  return n < 4 ? Placement::Adversarial : n < 7 ? Placement::Random : n < 9 ? Placement::ChargerBank : Placement::Symmetric;
+  return n < 4   ? Placement::Adversarial
+         : n < 7 ? Placement::Random
+         : n < 9 ? Placement::ChargerBank
+                 : Placement::Symmetric;
 }
 
-bool place_fleet(Scenario& scenario, std::uint32_t fleet_size, const Reachability& reachability, std::uint64_t key, std::uint32_t attempt,
-                 RejectionCounts& counts) {
+bool place_fleet(Scenario& scenario, std::uint32_t fleet_size, const Reachability& reachability, std::uint64_t key,
+                 std::uint32_t attempt, RejectionCounts& counts) {
   Candidates candidates(*scenario.map, reachability);
   while (scenario.agvs.size() < fleet_size) {
     Draws draws(key, attempt, static_cast<std::uint32_t>(scenario.agvs.size()));
@@ -101,8 +107,8 @@ bool place_fleet(Scenario& scenario, std::uint32_t fleet_size, const Reachabilit
   return true;
 }
 
-bool place_at_charger_bank(Scenario& scenario, std::uint32_t fleet_size, const Reachability& reachability, std::uint64_t key, std::uint32_t attempt,
-                           RejectionCounts& counts) {
+bool place_at_charger_bank(Scenario& scenario, std::uint32_t fleet_size, const Reachability& reachability,
+                           std::uint64_t key, std::uint32_t attempt, RejectionCounts& counts) {
   const LogicalMap& map = *scenario.map;
   std::vector<StationId> banks;
   for (const auto s : reachability.core()) {
@@ -111,7 +117,9 @@ bool place_at_charger_bank(Scenario& scenario, std::uint32_t fleet_size, const R
   if (banks.empty()) banks = places_to_start(map, reachability);
   const auto bank = banks[Draws(key, attempt, kNoAgv).below(static_cast<std::uint32_t>(banks.size()))];
   auto stations = reachability.core();
-  const auto distance = [&](StationId s) { return (map.station(s).position_m - map.station(bank).position_m).squaredNorm(); };
+  const auto distance = [&](StationId s) {
+    return (map.station(s).position_m - map.station(bank).position_m).squaredNorm();
+  };
   std::ranges::stable_sort(stations, {}, distance);
   for (const auto station : stations) {
     if (scenario.agvs.size() == fleet_size) break;

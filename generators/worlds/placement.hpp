@@ -18,23 +18,25 @@ enum class Placement : std::uint8_t {
   Symmetric,    // in pairs that reach one station at the same instant
   Mixed,        // each world one of the above: 40 % adversarial, 30 % random, 20 % charger bank, 10 % symmetric
 };
-inline constexpr std::array kPlacements = {Placement::Random, Placement::ChargerBank, Placement::Adversarial, Placement::Symmetric, Placement::Mixed};
+inline constexpr std::array kPlacements = {Placement::Random, Placement::ChargerBank, Placement::Adversarial,
+                                           Placement::Symmetric, Placement::Mixed};
 
 const char* name_of(Placement placement);  // "charger-bank"
 
-// The placement of a world: `placement` itself or, if that is mixed, one of the others, drawn from the placement stream `key`.
+// The placement of a world: `placement` itself or, if that is mixed, one of the others, drawn from the placement stream
+// `key`.
 Placement placement_of_world(Placement placement, std::uint64_t key);
 
-// Puts AGVs of the scenario's first vehicle type beside those already there until there are `fleet_size`, on different stations from which
-// all others can be reached, places to park, charge or store first, each heading along a lane that leaves its station. `key` is that of the
-// placement stream, `attempt` its topic; an AGV's draws do not depend on the AGVs after it. False if there is no room; then
-// `scenario.agvs` is as far as it got.
-bool place_fleet(Scenario& scenario, std::uint32_t fleet_size, const Reachability& reachability, std::uint64_t key, std::uint32_t attempt,
-                 RejectionCounts& counts);
+// Puts AGVs of the scenario's first vehicle type beside those already there until there are `fleet_size`, on different
+// stations from which all others can be reached, places to park, charge or store first, each heading along a lane that
+// leaves its station. `key` is that of the placement stream, `attempt` its topic; an AGV's draws do not depend on the
+// AGVs after it. False if there is no room; then `scenario.agvs` is as far as it got.
+bool place_fleet(Scenario& scenario, std::uint32_t fleet_size, const Reachability& reachability, std::uint64_t key,
+                 std::uint32_t attempt, RejectionCounts& counts);
 
 // The same, on the stations nearest to a drawn charger, it included; without a charger, to a drawn place to wait.
-bool place_at_charger_bank(Scenario& scenario, std::uint32_t fleet_size, const Reachability& reachability, std::uint64_t key, std::uint32_t attempt,
-                           RejectionCounts& counts);
+bool place_at_charger_bank(Scenario& scenario, std::uint32_t fleet_size, const Reachability& reachability,
+                           std::uint64_t key, std::uint32_t attempt, RejectionCounts& counts);
 
 // Places to park, charge or store in the core; if there are none, all of it.
 std::vector<StationId> places_to_start(const LogicalMap& map, const Reachability& reachability);

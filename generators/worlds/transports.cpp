@@ -55,7 +55,8 @@ class HotSpots {
 }  // namespace
 
 bool may_end_orders(const Station& station) {
-  return station.purposes.has(Purpose::Storage) || !(station.purposes.has(Purpose::Charging) || station.purposes.has(Purpose::Parking));
+  return station.purposes.has(Purpose::Storage) ||
+         !(station.purposes.has(Purpose::Charging) || station.purposes.has(Purpose::Parking));
 }
 
 std::vector<StationId> order_ends(const LogicalMap& map, const Reachability& reachability) {
@@ -68,7 +69,8 @@ std::vector<StationId> order_ends(const LogicalMap& map, const Reachability& rea
   return allowed.size() >= 2 ? allowed : reachability.core();
 }
 
-bool assign_transports(Scenario& scenario, const Demand& demand, const Reachability& reachability, std::uint64_t key, std::uint32_t attempt) {
+bool assign_transports(Scenario& scenario, const Demand& demand, const Reachability& reachability, std::uint64_t key,
+                       std::uint32_t attempt) {
   const auto stations = order_ends(*scenario.map, reachability);
   const bool enough = stations.size() >= 2 && scenario.map->station(stations[0]).purposes.has(Purpose::Storage) &&
                       scenario.map->station(stations[1]).purposes.has(Purpose::Storage);

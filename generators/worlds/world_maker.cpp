@@ -7,13 +7,13 @@
 
 #include "core/base/error.hpp"
 #include "core/base/random.hpp"
-#include "generators/worlds/encounter_pairs.hpp"
 #include "generators/families/layout_family.hpp"
 #include "generators/families/mutated_import.hpp"
-#include "generators/worlds/placement.hpp"
-#include "generators/text/text_file.hpp"
-#include "generators/worlds/transports.hpp"
 #include "generators/scenario_file/validator.hpp"
+#include "generators/text/text_file.hpp"
+#include "generators/worlds/encounter_pairs.hpp"
+#include "generators/worlds/placement.hpp"
+#include "generators/worlds/transports.hpp"
 
 namespace fleetproof {
 namespace {
@@ -28,24 +28,29 @@ void check(const WorldSpec& spec) {
   if (spec.vehicles.empty()) throw InputError("vehicle", "a fleet needs at least one type of vehicle");
   if (spec.fleet_size == 0) throw InputError("fleet_size", "0 AGVs are no fleet; ask for at least 1");
   if (!(spec.transports_per_agv_hour >= 0.0 && spec.transports_per_agv_hour <= kMostTransports_per_h)) {
-    throw InputError("transports_per_agv_hour", fmt::format("{} is outside 0 .. {}", spec.transports_per_agv_hour, kMostTransports_per_h));
+    throw InputError("transports_per_agv_hour",
+                     fmt::format("{} is outside 0 .. {}", spec.transports_per_agv_hour, kMostTransports_per_h));
   }
   if (!(spec.hot_spot_skew >= 0.0 && spec.hot_spot_skew <= kLargestSkew)) {
     throw InputError("hot_spot_skew", fmt::format("{} is outside 0 .. {}", spec.hot_spot_skew, kLargestSkew));
   }
-  if (spec.horizon <= Duration::zero()) throw InputError("horizon_s", fmt::format("{} is not above 0", to_seconds(spec.horizon)));
+  if (spec.horizon <= Duration::zero())
+    throw InputError("horizon_s", fmt::format("{} is not above 0", to_seconds(spec.horizon)));
   if (spec.orders != nullptr) {
     if (spec.mutate || std::holds_alternative<std::string>(spec.layout)) {
-      throw InputError("orders", "a list of orders names stations, but this layout is drawn anew for every world; use a layout file as it is");
+      throw InputError(
+          "orders",
+          "a list of orders names stations, but this layout is drawn anew for every world; use a layout file as it is");
     }
     if (spec.placement != Placement::Random && spec.placement != Placement::ChargerBank) {
-      throw InputError("orders",
-                       fmt::format("placement {} chooses the first orders itself; drop one of the two", in_quotes(name_of(spec.placement))));
+      throw InputError("orders", fmt::format("placement {} chooses the first orders itself; drop one of the two",
+                                             in_quotes(name_of(spec.placement))));
     }
   }
-  if (const auto* map = std::get_if<SharedMap>(&spec.layout); map != nullptr && spec.fleet_size > (*map)->station_count()) {
-    throw InputError("fleet_size",
-                     fmt::format("{} AGVs cannot start on the {} stations of this layout; ask for fewer", spec.fleet_size, (*map)->station_count()));
+  if (const auto* map = std::get_if<SharedMap>(&spec.layout);
+      map != nullptr && spec.fleet_size > (*map)->station_count()) {
+    throw InputError("fleet_size", fmt::format("{} AGVs cannot start on the {} stations of this layout; ask for fewer",
+                                               spec.fleet_size, (*map)->station_count()));
   }
 }
 
@@ -75,7 +80,8 @@ class WorldMaker {
     if (family_ != nullptr || spec.mutate) return;
     set_map(std::get<SharedMap>(spec.layout));
     // No other draw mends a fixed layout.
-    for (const auto& problem : world_problems(scenario_, *reachability_)) throw InputError(scenario_.map->layout().name, problem.sentence);
+    for (const auto& problem : world_problems(scenario_, *reachability_))
+      throw InputError(scenario_.map->layout().name, problem.sentence);
   }
 
   bool attempt(std::uint32_t number) {
@@ -86,7 +92,8 @@ class WorldMaker {
     const bool stored = assign_orders(number);
     draw_types(number);
     draw_faults(scenario_, spec_.faults, key_of(Stream::Faults));
-    if (const auto problems = unusable_problems(scenario_); !problems.empty()) throw InputError(problems[0].pointer, problems[0].sentence);
+    if (const auto problems = unusable_problems(scenario_); !problems.empty())
+      throw InputError(problems[0].pointer, problems[0].sentence);
     const auto problems = world_problems(scenario_, *reachability_);
     for (const auto& problem : problems) ++counts.of(problem.kind);
     if (!problems.empty()) return false;
@@ -117,8 +124,10 @@ class WorldMaker {
     const auto placement = placement_of_world(spec_.placement, key);
     scenario_.agvs.clear();
     pairs_.clear();
-    if (placement == Placement::ChargerBank) return place_at_charger_bank(scenario_, spec_.fleet_size, *reachability_, key, number, counts);
-    if (placement != Placement::Random) pairs_ = place_pairs(scenario_, spec_.fleet_size, placement, *reachability_, key, number, counts);
+    if (placement == Placement::ChargerBank)
+      return place_at_charger_bank(scenario_, spec_.fleet_size, *reachability_, key, number, counts);
+    if (placement != Placement::Random)
+      pairs_ = place_pairs(scenario_, spec_.fleet_size, placement, *reachability_, key, number, counts);
     return place_fleet(scenario_, spec_.fleet_size, *reachability_, key, number, counts);
   }
 
@@ -129,7 +138,8 @@ class WorldMaker {
       return true;
     }
     const Demand demand{spec_.transports_per_agv_hour, spec_.hot_spot_skew};
-    const bool stored = assign_transports(scenario_, demand, *reachability_, key_of(Stream::Transports), attempt_of(Stream::Transports, number));
+    const bool stored = assign_transports(scenario_, demand, *reachability_, key_of(Stream::Transports),
+                                          attempt_of(Stream::Transports, number));
     send_to_meet(scenario_, pairs_);
     return stored;
   }
@@ -144,19 +154,24 @@ class WorldMaker {
     }
     if (spec_.vehicles.size() == 1) return;
     for (std::size_t i = 0; i < scenario_.agvs.size(); ++i) {
-      Draws draws(key_of(Stream::Placement), kTypeTopic + attempt_of(Stream::Placement, number), static_cast<std::uint32_t>(i));
+      Draws draws(key_of(Stream::Placement), kTypeTopic + attempt_of(Stream::Placement, number),
+                  static_cast<std::uint32_t>(i));
       double left = draws.uniform(0.0, total);
       std::uint32_t type = 0;
-      while (type + 1 < spec_.vehicles.size() && left >= spec_.vehicles[type].share) left -= spec_.vehicles[type++].share;
+      while (type + 1 < spec_.vehicles.size() && left >= spec_.vehicles[type].share)
+        left -= spec_.vehicles[type++].share;
       scenario_.agvs[i].type = type;
     }
   }
 
   std::uint64_t key_of(Stream stream) const { return stream_key(scenario_.seed_of(stream), stream); }
 
-  // A stream that is held stays at the attempt that made the world it is held from: an attempt more because of something else leaves it as it was.
+  // A stream that is held stays at the attempt that made the world it is held from: an attempt more because of
+  // something else leaves it as it was.
   std::uint32_t attempt_of(Stream stream, std::uint32_t number) const {
-    return std::ranges::find(scenario_.stream_seeds, stream, &StreamSeed::stream) == scenario_.stream_seeds.end() ? number : held_attempt_;
+    return std::ranges::find(scenario_.stream_seeds, stream, &StreamSeed::stream) == scenario_.stream_seeds.end()
+               ? number
+               : held_attempt_;
   }
 
   void set_map(SharedMap map) {
@@ -189,11 +204,15 @@ MadeWorld make_world(const WorldSpec& spec, std::uint64_t seed, std::uint32_t he
     ++maker.counts.worlds_rejected;
   }
   counts.add(maker.counts);
-  throw InputError("fleet_size", fmt::format("cannot place {} AGVs on this layout in {} draws ({}); ask for fewer or for a larger layout",
-                                             spec.fleet_size, kAttempts, rejection_text(maker.counts)));
+  throw InputError(
+      "fleet_size",
+      fmt::format("cannot place {} AGVs on this layout in {} draws ({}); ask for fewer or for a larger layout",
+                  spec.fleet_size, kAttempts, rejection_text(maker.counts)));
 }
 
-bool shapes_world(Stream stream) { return stream == Stream::Layout || stream == Stream::Placement || stream == Stream::Transports; }
+bool shapes_world(Stream stream) {
+  return stream == Stream::Layout || stream == Stream::Placement || stream == Stream::Transports;
+}
 
 }  // namespace
 

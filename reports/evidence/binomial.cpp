@@ -77,16 +77,19 @@ std::optional<std::uint64_t> units_needed(std::uint64_t failing, double limit, d
 
 FisherResult fisher_exact(std::uint64_t failing1, std::uint64_t units1, std::uint64_t failing2, std::uint64_t units2) {
   ensure(failing1 <= units1 && failing2 <= units2, "no more trials fail than there are");
-  // Given the margins, the failures in the first group are hypergeometric. Their probabilities come from the ratio of neighbours, outwards from the
-  // mode, and are divided by their sum: no factorial, and full precision for large groups.
-  const auto n1 = static_cast<double>(units1), n2 = static_cast<double>(units2), failures = static_cast<double>(failing1 + failing2);
+  // Given the margins, the failures in the first group are hypergeometric. Their probabilities come from the ratio of
+  // neighbours, outwards from the mode, and are divided by their sum: no factorial, and full precision for large
+  // groups.
+  const auto n1 = static_cast<double>(units1), n2 = static_cast<double>(units2),
+             failures = static_cast<double>(failing1 + failing2);
   const auto least = failing1 + failing2 > units2 ? failing1 + failing2 - units2 : 0;
   const auto most = std::min(failing1 + failing2, units1);
   const auto ratio_up = [&](std::uint64_t x) {  // weight(x + 1) / weight(x)
     const auto k = static_cast<double>(x);
     return (failures - k) * (n1 - k) / ((k + 1.0) * (n2 - failures + k + 1.0));
   };
-  const auto mode = std::clamp(static_cast<std::uint64_t>((failures + 1.0) * (n1 + 1.0) / (n1 + n2 + 2.0)), least, most);
+  const auto mode =
+      std::clamp(static_cast<std::uint64_t>((failures + 1.0) * (n1 + 1.0) / (n1 + n2 + 2.0)), least, most);
   const auto for_each_weight = [&](const std::function<void(std::uint64_t, double)>& visit) {
     double weight = 1.0;
     visit(mode, weight);

@@ -7,9 +7,12 @@ namespace fleetproof {
 namespace {
 
 constexpr std::array<std::string_view, 4> kEncounters{"head-on", "crossing", "following", "merging"};
-constexpr std::array<std::string_view, 7> kOfTheWorld{"head-on", "crossing", "following", "merging", "near-miss", "encounter", "safe-mode"};
+constexpr std::array<std::string_view, 7> kOfTheWorld{"head-on",   "crossing",  "following", "merging",
+                                                      "near-miss", "encounter", "safe-mode"};
 
-bool is_of_the_world(std::string_view name) { return std::ranges::find(kOfTheWorld, name) != kOfTheWorld.end() || name.starts_with("fault-"); }
+bool is_of_the_world(std::string_view name) {
+  return std::ranges::find(kOfTheWorld, name) != kOfTheWorld.end() || name.starts_with("fault-");
+}
 
 void note(Seen& seen, std::uint64_t times) {
   ++seen.runs;
@@ -33,7 +36,8 @@ void Coverage::add(const Outcome& outcome) {
 
 void Coverage::add(const Coverage& other) {
   runs_ += other.runs_;
-  for (const auto& [mine, theirs] : {std::pair(&by_the_world_, &other.by_the_world_), std::pair(&by_agents_, &other.by_agents_)}) {
+  for (const auto& [mine, theirs] :
+       {std::pair(&by_the_world_, &other.by_the_world_), std::pair(&by_agents_, &other.by_agents_)}) {
     for (const auto& [name, seen] : *theirs) {
       (*mine)[name].runs += seen.runs;
       (*mine)[name].times += seen.times;

@@ -17,8 +17,9 @@ struct Seen {
 
 // What some runs met.
 //
-// Names of probes. Told by the world: "head-on", "crossing", "following", "merging", "near-miss", "fault-N", and derived here: "encounter" (any of
-// the first four), "safe-mode". Told by agents: whatever they declare. An agent that uses a name of the world is not heard: the world knows better.
+// Names of probes. Told by the world: "head-on", "crossing", "following", "merging", "near-miss", "fault-N", and
+// derived here: "encounter" (any of the first four), "safe-mode". Told by agents: whatever they declare. An agent that
+// uses a name of the world is not heard: the world knows better.
 class Coverage {
  public:
   void add(const Outcome& outcome);
@@ -41,7 +42,8 @@ struct MissingProbe {
   std::uint64_t runs_with = 0, runs = 0;
 };
 
-// Met in fewer than one of so many runs is too rare to have tested anything. Never met is too rare however few the runs.
+// Met in fewer than one of so many runs is too rare to have tested anything. Never met is too rare however few the
+// runs.
 inline constexpr std::uint64_t kRunsPerProbe = 20'000;
 
 // A required name that ends in "?" is asked only of agents that declare anything at all.

@@ -13,14 +13,18 @@ namespace {
 bool covers(const GateRecord& gate, const CellRecord& cell) {
   if (cell.agent != gate.agent) return false;
   switch (gate.region) {
-    case Region::Contract: return cell.in_contract();
-    case Region::WorstCase: return cell.is_worst_case();
-    case Region::All: return true;
+    case Region::Contract:
+      return cell.in_contract();
+    case Region::WorstCase:
+      return cell.is_worst_case();
+    case Region::All:
+      return true;
   }
   invariant_violated("a region is known");
 }
 
-// Rows of the tables: agents in the order in which the campaign names them, so that the same campaign always prints the same page.
+// Rows of the tables: agents in the order in which the campaign names them, so that the same campaign always prints the
+// same page.
 std::vector<Pool> condition_pools(const std::vector<CellRecord>& cells) {
   std::map<std::string, std::size_t> order;
   const auto key_of = [](const RadioQuality& q) { return std::tuple(q.loss, q.delay_s, q.mean_outage_s); };
@@ -50,7 +54,8 @@ Evidence::Evidence(const CampaignRecord& campaign, std::vector<CellRecord> cells
       pools_of_cell_(cells_.size()) {
   for (std::size_t i = 0; i < cells_.size(); ++i) ensure(cells_[i].index == i, "cells are numbered from 0 on");
   for (const auto& cell : cells_) {
-    ensure(cell.loss <= cell.loss_to && cell.delay_s <= cell.delay_to_s && cell.mean_outage_s <= cell.mean_outage_to_s, "the upper bound is not below the lower");
+    ensure(cell.loss <= cell.loss_to && cell.delay_s <= cell.delay_to_s && cell.mean_outage_s <= cell.mean_outage_to_s,
+           "the upper bound is not below the lower");
   }
   for (const auto& gate : gates_) {
     Pool pool;
@@ -73,18 +78,21 @@ Evidence::Evidence(const CampaignRecord& campaign, std::vector<CellRecord> cells
 
 void Evidence::add(const RunRecord& run) {
   ensure(run.run_index == runs_, "evidence takes runs in order of their index, without gaps");
-  ensure(run.cell < cells_.size() && run.run_index == run.replicate * cells_.size() + run.cell, "run_index = replicate x cells + cell");
+  ensure(run.cell < cells_.size() && run.run_index == run.replicate * cells_.size() + run.cell,
+         "run_index = replicate x cells + cell");
   ++runs_;
   engine_errors_ += run.outcome.engine_error;
   pending_tallies_[run.cell].add(run.outcome);
   if (const auto failing = FailingRun::of(run)) {
     (run.radio.in_contract() ? worst_inside_ : worst_outside_).add(*failing);
-    if (run.radio.in_contract() && result_of(run.outcome, EndPoint::Violation) == RunResult::Failed) add_contract_failure(*failing);
+    if (run.radio.in_contract() && result_of(run.outcome, EndPoint::Violation) == RunResult::Failed)
+      add_contract_failure(*failing);
   }
   std::map<IncidentKind, std::uint64_t> incidents;
   for (const auto& incident : run.outcome.incidents) ++incidents[incident.kind];
   for (const auto& [kind, count] : incidents) {
-    auto& tally = incidents_[cells_[run.cell].agent].try_emplace(kind, IncidentTally{0, 0, run.run_index}).first->second;
+    auto& tally =
+        incidents_[cells_[run.cell].agent].try_emplace(kind, IncidentTally{0, 0, run.run_index}).first->second;
     ++tally.runs;
     tally.incidents += count;
   }
@@ -108,7 +116,8 @@ std::vector<ContractFailures> Evidence::contract_failures() const {
   std::vector<ContractFailures> list;
   for (std::size_t i = gates_.size(); i < pools_.size(); ++i) {
     const auto found = contract_failures_.find(cells_[pools_[i].cells.front()].agent);
-    const bool listed = !list.empty() && found != contract_failures_.end() && list.back().agent == found->first;  // conditions come agent by agent
+    const bool listed = !list.empty() && found != contract_failures_.end() &&
+                        list.back().agent == found->first;  // conditions come agent by agent
     if (found != contract_failures_.end() && !listed) list.push_back(found->second);
   }
   return list;
@@ -140,9 +149,11 @@ void Evidence::finish_replicate() {
 GateResult Evidence::judge(std::size_t index) const {
   ensure(index < gates_.size(), "a gate of the campaign is judged");
   const auto& pool = pools_[index];
-  // Outside the contract safe mode, standing still, is legal: progress is due inside, or everywhere if the gate has no cell inside.
+  // Outside the contract safe mode, standing still, is legal: progress is due inside, or everywhere if the gate has no
+  // cell inside.
   std::vector<std::uint32_t> due;
-  std::ranges::copy_if(pool.cells, std::back_inserter(due), [&](std::uint32_t cell) { return cells_[cell].in_contract(); });
+  std::ranges::copy_if(pool.cells, std::back_inserter(due),
+                       [&](std::uint32_t cell) { return cells_[cell].in_contract(); });
   if (due.empty()) due = pool.cells;
   Tally progress;
   GateCounts counts;
@@ -176,7 +187,8 @@ std::vector<Condition> Evidence::conditions() const {
   std::vector<Condition> list;
   for (std::size_t i = gates_.size(); i < pools_.size(); ++i) {
     const auto& first = cells_[pools_[i].cells.front()];
-    Condition condition{first.agent, first.lowest(), first.highest(), first.in_contract(), first.is_worst_case(), {}, pools_[i], {}};
+    Condition condition{
+        first.agent, first.lowest(), first.highest(), first.in_contract(), first.is_worst_case(), {}, pools_[i], {}};
     for (const auto cell : pools_[i].cells) condition.tally.add(tallies_[cell]);
     if (const auto& worst = worst_of_pool_[i].list(); !worst.empty()) condition.worst = worst.front();
     list.push_back(std::move(condition));
@@ -199,7 +211,9 @@ std::vector<AgentCoverage> Evidence::agent_coverage() const {
 }
 
 Verdict overall_verdict(const Evidence& evidence, const std::vector<GateResult>& gates) {
-  const auto any = [&](Verdict verdict) { return std::ranges::find(gates, verdict, &GateResult::verdict) != gates.end(); };
+  const auto any = [&](Verdict verdict) {
+    return std::ranges::find(gates, verdict, &GateResult::verdict) != gates.end();
+  };
   if (any(Verdict::Violated)) return Verdict::Violated;
   if (gates.empty() || evidence.runs() == 0 || any(Verdict::NotDemonstrated)) return Verdict::NotDemonstrated;
   return Verdict::Demonstrated;
@@ -208,9 +222,12 @@ Verdict overall_verdict(const Evidence& evidence, const std::vector<GateResult>&
 int exit_code(const Evidence& evidence, const std::vector<GateResult>& gates) {
   if (evidence.engine_errors() > 0) return 3;
   switch (overall_verdict(evidence, gates)) {
-    case Verdict::Demonstrated: return 0;
-    case Verdict::Violated: return 1;
-    case Verdict::NotDemonstrated: return 4;
+    case Verdict::Demonstrated:
+      return 0;
+    case Verdict::Violated:
+      return 1;
+    case Verdict::NotDemonstrated:
+      return 4;
   }
   invariant_violated("a verdict has an exit code");
 }

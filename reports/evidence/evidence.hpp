@@ -14,8 +14,9 @@
 
 namespace fleetproof {
 
-// Cells judged together, and how often that unit failed. The unit is the replicate: one draw of the world, run in every cell; it fails if any of its runs
-// does. Cells share worlds and are not independent, so their runs may not be counted one by one. With one cell, replicates are runs.
+// Cells judged together, and how often that unit failed. The unit is the replicate: one draw of the world, run in every
+// cell; it fails if any of its runs does. Cells share worlds and are not independent, so their runs may not be counted
+// one by one. With one cell, replicates are runs.
 struct Pool {
   EndPoint end_point = EndPoint::Violation;
   std::vector<std::uint32_t> cells;
@@ -26,21 +27,23 @@ struct Pool {
 // All cells of one agent at one radio quality, or between the same bounds: a row of a table.
 struct Condition {
   std::string agent;
-  RadioQuality lowest, highest;     // the same, unless replicates draw theirs in between
+  RadioQuality lowest, highest;  // the same, unless replicates draw theirs in between
   bool in_contract = false, is_worst_case = false;
   Tally tally;
   Pool pool;
   std::optional<FailingRun> worst;  // the most serious run that violated, or ended unknown
 };
 
-// The runs of one agent that broke the safety distance within the contract region, by the radio quality of the run itself.
+// The runs of one agent that broke the safety distance within the contract region, by the radio quality of the run
+// itself.
 struct ContractFailures {
   std::string agent;
   std::uint64_t runs = 0;
   FailingRun worst;
 };
 
-// What the runs of one agent met, what they were to meet and did not, and what the laws found besides pairs that were too close.
+// What the runs of one agent met, what they were to meet and did not, and what the laws found besides pairs that were
+// too close.
 struct AgentCoverage {
   std::string agent;
   Coverage coverage;
@@ -48,9 +51,9 @@ struct AgentCoverage {
   std::map<IncidentKind, IncidentTally> incidents;
 };
 
-// Counts the runs of a campaign, in order of run index, without gaps. Only complete replicates are counted, so that every cell has the same weight;
-// the failures of an incomplete one are still remembered as failures.
-// The stopping rule of a campaign and its report both judge with this. Threads: one.
+// Counts the runs of a campaign, in order of run index, without gaps. Only complete replicates are counted, so that
+// every cell has the same weight; the failures of an incomplete one are still remembered as failures. The stopping rule
+// of a campaign and its report both judge with this. Threads: one.
 class Evidence {
  public:
   static constexpr std::size_t kWorstRuns = 10;
@@ -60,13 +63,13 @@ class Evidence {
   // The next run: run_index == runs().
   void add(const RunRecord& run);
 
-  bool counts_only() const { return counts_only_; }                  // a campaign of kind "search"
-  std::uint64_t runs() const { return runs_; }                       // read so far
+  bool counts_only() const { return counts_only_; }  // a campaign of kind "search"
+  std::uint64_t runs() const { return runs_; }       // read so far
   std::uint64_t complete_replicates() const { return replicates_; }
   std::uint64_t planned_replicates() const { return planned_; }
-  bool complete() const { return replicates_ >= planned_; }          // every planned replicate is
-  std::uint64_t engine_errors() const { return engine_errors_; }     // among the runs read so far
-  const std::string& sampling() const { return sampling_; }          // of cells with bounds; empty if there is none
+  bool complete() const { return replicates_ >= planned_; }       // every planned replicate is
+  std::uint64_t engine_errors() const { return engine_errors_; }  // among the runs read so far
+  const std::string& sampling() const { return sampling_; }       // of cells with bounds; empty if there is none
   const std::vector<std::string>& held_streams() const { return held_streams_; }
   std::uint64_t held_replicate() const { return held_replicate_; }
   const std::vector<CellRecord>& cells() const { return cells_; }
@@ -77,11 +80,14 @@ class Evidence {
   GateResult judge(std::size_t gate) const;
   std::vector<GateResult> judge_all() const;
 
-  std::vector<Condition> conditions() const;                         // by agent as the campaign names them, then loss, delay, mean outage
+  std::vector<Condition> conditions() const;  // by agent as the campaign names them, then loss, delay, mean outage
   const Coverage& coverage_of(std::size_t gate) const { return coverage_.at(gate); }
-  std::vector<AgentCoverage> agent_coverage() const;                 // as the campaign names them
-  std::vector<ContractFailures> contract_failures() const;           // as the campaign names the agents; without those that have none
-  const std::vector<FailingRun>& worst_runs(bool in_contract) const { return (in_contract ? worst_inside_ : worst_outside_).list(); }
+  std::vector<AgentCoverage> agent_coverage() const;  // as the campaign names them
+  std::vector<ContractFailures> contract_failures()
+      const;  // as the campaign names the agents; without those that have none
+  const std::vector<FailingRun>& worst_runs(bool in_contract) const {
+    return (in_contract ? worst_inside_ : worst_outside_).list();
+  }
 
  private:
   struct Flags {
@@ -99,11 +105,11 @@ class Evidence {
   std::vector<CellRecord> cells_;
   std::vector<GateRecord> gates_;
   std::uint64_t runs_ = 0, replicates_ = 0, engine_errors_ = 0;
-  std::vector<Tally> tallies_, pending_tallies_;   // by cell
-  std::vector<Pool> pools_;                        // one for each gate, then one for each condition
-  std::vector<Flags> pending_flags_;               // in the same order
+  std::vector<Tally> tallies_, pending_tallies_;  // by cell
+  std::vector<Pool> pools_;                       // one for each gate, then one for each condition
+  std::vector<Flags> pending_flags_;              // in the same order
   std::vector<std::vector<std::size_t>> pools_of_cell_;
-  std::vector<WorstRuns> worst_of_pool_;           // in the same order
+  std::vector<WorstRuns> worst_of_pool_;               // in the same order
   std::vector<Coverage> coverage_, pending_coverage_;  // in the same order
   std::vector<std::string> required_probes_;
   std::map<std::string, std::map<IncidentKind, IncidentTally>> incidents_;  // by agent, of the runs read so far
@@ -114,7 +120,8 @@ class Evidence {
 // Violated if one of the gates is; demonstrated if all are; not demonstrated else, and if there is nothing to judge.
 Verdict overall_verdict(const Evidence& evidence, const std::vector<GateResult>& gates);
 
-// 3 after an engine error; else 1 if a gate is violated; else 4 if one is not demonstrated, or there is nothing to judge; else 0.
+// 3 after an engine error; else 1 if a gate is violated; else 4 if one is not demonstrated, or there is nothing to
+// judge; else 0.
 int exit_code(const Evidence& evidence, const std::vector<GateResult>& gates);
 
 }  // namespace fleetproof

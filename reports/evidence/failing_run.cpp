@@ -24,13 +24,20 @@ std::optional<Severity> severity_of(const Outcome& o) {
 
 const char* name_of(Severity severity) {
   switch (severity) {
-    case Severity::Contact: return "contact";
-    case Severity::Violation: return "violation";
-    case Severity::Crash: return "crash";
-    case Severity::Hang: return "hang";
-    case Severity::Indeterminate: return "indeterminate";
-    case Severity::EngineError: return "engine error";
-    case Severity::Stuck: return "stuck";
+    case Severity::Contact:
+      return "contact";
+    case Severity::Violation:
+      return "violation";
+    case Severity::Crash:
+      return "crash";
+    case Severity::Hang:
+      return "hang";
+    case Severity::Indeterminate:
+      return "indeterminate";
+    case Severity::EngineError:
+      return "engine error";
+    case Severity::Stuck:
+      return "stuck";
   }
   invariant_violated("a severity has a name");
 }
@@ -54,7 +61,8 @@ std::optional<FailingRun> FailingRun::of(const RunRecord& run) {
 
 bool more_serious(const FailingRun& a, const FailingRun& b) {
   const auto rank = [](const FailingRun& run) {
-    return std::tuple(run.severity, run.min_clearance_um.value_or(std::numeric_limits<std::int64_t>::max()), run.run_index);
+    return std::tuple(run.severity, run.min_clearance_um.value_or(std::numeric_limits<std::int64_t>::max()),
+                      run.run_index);
   };
   return rank(a) < rank(b);
 }

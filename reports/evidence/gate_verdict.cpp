@@ -10,22 +10,27 @@
 namespace fleetproof {
 namespace {
 
-void add_sentence_part(std::string& sentence, const std::string& part) { sentence += (sentence.empty() ? "" : "; ") + part; }
+void add_sentence_part(std::string& sentence, const std::string& part) {
+  sentence += (sentence.empty() ? "" : "; ") + part;
+}
 
 // What stands between the counts and the limit, and what would help.
 std::string bound_too_high(const GateRecord& gate, GateResult& result) {
   const auto& claim = *result.claim;
   std::string text = fmt::format("the upper bound {} is above the limit {:g}", rounded_up(claim.upper), gate.limit);
   const auto unknown = result.counts.failing_or_unknown - result.counts.failing;
-  if (unknown > 0) text += fmt::format(" ({} of {} {} ended unknown and count as failing)", unknown, claim.units, result.unit);
+  if (unknown > 0)
+    text += fmt::format(" ({} of {} {} ended unknown and count as failing)", unknown, claim.units, result.unit);
   auto needed = units_needed(claim.failing, gate.limit, gate.confidence);
   if (needed) needed = std::max(*needed, claim.units + 1);  // the two bounds agree but for rounding
   if (!needed) return text + "; no number of runs can meet this limit";
   if (claim.failing > 0 && claim.rate() >= gate.limit) {
-    return text + fmt::format(" and the rate seen, {}, is not below it: more runs will not help", rounded_rate(*claim.rate()));
+    return text +
+           fmt::format(" and the rate seen, {}, is not below it: more runs will not help", rounded_rate(*claim.rate()));
   }
   result.units_needed = needed;
-  const auto clean = claim.failing == 0 ? " without a failure" : fmt::format(" in all, with no failure beyond the {} counted,", claim.failing);
+  const auto clean = claim.failing == 0 ? " without a failure"
+                                        : fmt::format(" in all, with no failure beyond the {} counted,", claim.failing);
   return text + fmt::format("; {} {}{} are needed ({} more)", *needed, result.unit, clean, *needed - claim.units);
 }
 
@@ -36,17 +41,24 @@ std::string missing_for_demonstration(const GateRecord& gate, GateResult& result
   const auto& counts = result.counts;
   std::string missing;
   if (!counts.complete()) {
-    add_sentence_part(missing, fmt::format("stopped after {} of {} planned replicates; the bound holds only for the number fixed beforehand", counts.units, counts.planned));
+    add_sentence_part(
+        missing,
+        fmt::format("stopped after {} of {} planned replicates; the bound holds only for the number fixed beforehand",
+                    counts.units, counts.planned));
   }
   if (result.claim->upper > gate.limit) add_sentence_part(missing, bound_too_high(gate, result));
-  if (counts.met_nobody) add_sentence_part(missing, "no run met an encounter of two AGVs: what this gate claims was never put to the test");
+  if (counts.met_nobody)
+    add_sentence_part(missing, "no run met an encounter of two AGVs: what this gate claims was never put to the test");
   if (!asks_for_progress(gate)) return missing;
   const double rate = counts.transports_per_agv_hour.value_or(0.0);
   if (!(rate >= gate.min_transports_per_agv_hour)) {
-    add_sentence_part(missing, fmt::format("the fleet made too little progress: {:.2f} transports per AGV-hour, the floor is {:g} (a parked fleet is safe and useless)",
+    add_sentence_part(missing, fmt::format("the fleet made too little progress: {:.2f} transports per AGV-hour, the "
+                                           "floor is {:g} (a parked fleet is safe and useless)",
                                            rate, gate.min_transports_per_agv_hour));
   }
-  if (counts.idle_cells > 0) add_sentence_part(missing, fmt::format("in {} of {} cells no transport was completed", counts.idle_cells, counts.cells));
+  if (counts.idle_cells > 0)
+    add_sentence_part(missing,
+                      fmt::format("in {} of {} cells no transport was completed", counts.idle_cells, counts.cells));
   return missing;
 }
 
@@ -54,9 +66,11 @@ std::optional<std::string> refutation(const GateRecord& gate, const GateResult& 
   const auto& counts = result.counts;
   if (gate.kind == GateKind::None) {
     if (counts.failing_runs == 0) return std::nullopt;
-    return fmt::format("{} {} failed and this gate allows none", counts.failing_runs, counts.failing_runs == 1 ? "run" : "runs");
+    return fmt::format("{} {} failed and this gate allows none", counts.failing_runs,
+                       counts.failing_runs == 1 ? "run" : "runs");
   }
-  if (counts.counts_only || counts.units == 0 || !counts.complete() || !(result.optimistic->lower > gate.limit)) return std::nullopt;
+  if (counts.counts_only || counts.units == 0 || !counts.complete() || !(result.optimistic->lower > gate.limit))
+    return std::nullopt;
   return fmt::format("the lower bound {} exceeds the limit {:g}", rounded_down(result.optimistic->lower), gate.limit);
 }
 
@@ -64,9 +78,12 @@ std::optional<std::string> refutation(const GateRecord& gate, const GateResult& 
 
 const char* name_of(Verdict verdict) {
   switch (verdict) {
-    case Verdict::Demonstrated: return "demonstrated";
-    case Verdict::Violated: return "violated";
-    case Verdict::NotDemonstrated: return "not demonstrated";
+    case Verdict::Demonstrated:
+      return "demonstrated";
+    case Verdict::Violated:
+      return "violated";
+    case Verdict::NotDemonstrated:
+      return "not demonstrated";
   }
   invariant_violated("a verdict has a name");
 }
@@ -77,11 +94,13 @@ std::optional<double> Estimate::rate() const {
 }
 
 Estimate estimate(std::uint64_t failing, std::uint64_t units, double confidence) {
-  return {units, failing, lower_bound(failing, units, confidence), upper_bound(failing, units, confidence), two_sided_interval(failing, units, 0.95)};
+  return {units, failing, lower_bound(failing, units, confidence), upper_bound(failing, units, confidence),
+          two_sided_interval(failing, units, 0.95)};
 }
 
 GateResult judge_gate(const GateRecord& gate, const GateCounts& counts) {
-  ensure(counts.failing <= counts.failing_or_unknown && counts.failing_or_unknown <= counts.units, "failing units are units");
+  ensure(counts.failing <= counts.failing_or_unknown && counts.failing_or_unknown <= counts.units,
+         "failing units are units");
   GateResult result;
   result.counts = counts;
   result.unit = counts.cells == 1 ? "runs" : "replicates";
@@ -101,15 +120,19 @@ GateResult judge_gate(const GateRecord& gate, const GateCounts& counts) {
   } else if (counts.units == 0) {
     result.units_needed = units_needed(0, gate.limit, gate.confidence);
     result.reason = "no replicate is complete";
-    if (result.units_needed) result.reason += fmt::format("; {} {} without a failure are needed", *result.units_needed, result.unit);
+    if (result.units_needed)
+      result.reason += fmt::format("; {} {} without a failure are needed", *result.units_needed, result.unit);
   } else {
     result.reason = missing_for_demonstration(gate, result);
   }
   if (!result.reason.empty()) return result;
   result.verdict = Verdict::Demonstrated;
-  result.reason = fmt::format("the upper bound {} is at or below the limit {:g}", rounded_up(result.claim->upper), gate.limit);
-  result.reason += asks_for_progress(gate) ? fmt::format(", and the fleet made progress ({:.2f} transports per AGV-hour)", counts.transports_per_agv_hour.value_or(0.0))
-                                           : ", and no progress was asked for";
+  result.reason =
+      fmt::format("the upper bound {} is at or below the limit {:g}", rounded_up(result.claim->upper), gate.limit);
+  result.reason += asks_for_progress(gate)
+                       ? fmt::format(", and the fleet made progress ({:.2f} transports per AGV-hour)",
+                                     counts.transports_per_agv_hour.value_or(0.0))
+                       : ", and no progress was asked for";
   return result;
 }
 

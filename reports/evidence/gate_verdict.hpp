@@ -21,42 +21,43 @@ const char* name_of(Verdict verdict);
 struct Estimate {
   std::uint64_t units = 0, failing = 0;
   double lower = 0.0, upper = 1.0;
-  Interval interval_95;                 // two-sided
-  std::optional<double> rate() const;   // absent without units
+  Interval interval_95;                // two-sided
+  std::optional<double> rate() const;  // absent without units
 };
 Estimate estimate(std::uint64_t failing, std::uint64_t units, double confidence);
 
 // What was counted in the cells of one gate.
 struct GateCounts {
   std::size_t cells = 0;
-  std::uint64_t units = 0;              // complete replicates (with one cell: its runs)
-  std::uint64_t planned = 0;            // replicates fixed before the first run: the bounds hold for this number only
-  std::uint64_t failing = 0;            // of the units: at least one run is known to have failed
-  std::uint64_t failing_or_unknown = 0; // of the units: at least one run failed, or ended before it could be told
-  std::uint64_t failing_runs = 0;       // known failures among all runs read so far, complete replicate or not
+  std::uint64_t units = 0;               // complete replicates (with one cell: its runs)
+  std::uint64_t planned = 0;             // replicates fixed before the first run: the bounds hold for this number only
+  std::uint64_t failing = 0;             // of the units: at least one run is known to have failed
+  std::uint64_t failing_or_unknown = 0;  // of the units: at least one run failed, or ended before it could be told
+  std::uint64_t failing_runs = 0;        // known failures among all runs read so far, complete replicate or not
   std::optional<double> transports_per_agv_hour;
-  std::size_t idle_cells = 0;           // cells in which progress is due and no transport was done
-  bool met_nobody = false;              // encounters are asked for and no run met any
-  bool counts_only = false;             // the campaign searches for failures: its counts are no sample of anything
+  std::size_t idle_cells = 0;  // cells in which progress is due and no transport was done
+  bool met_nobody = false;     // encounters are asked for and no run met any
+  bool counts_only = false;    // the campaign searches for failures: its counts are no sample of anything
   bool complete() const { return units >= planned; }
 };
 
 struct GateResult {
   Verdict verdict = Verdict::NotDemonstrated;
-  std::string reason;                     // one sentence
-  std::string_view unit = "replicates";   // or "runs", for a gate on one cell
+  std::string reason;                    // one sentence
+  std::string_view unit = "replicates";  // or "runs", for a gate on one cell
   GateCounts counts;
-  std::optional<Estimate> claim;          // unknown outcomes count as failing; absent in a search
-  std::optional<Estimate> optimistic;     // unknown outcomes count as passed
-  std::optional<std::uint64_t> units_needed;  // in all, if no further one fails, before the bound can meet the limit; set while that is the obstacle
-  std::vector<MissingProbe> missing;      // not empty: the evidence is weak, whatever the verdict
-  std::optional<FailingRun> worst;        // the most serious run that did not pass
+  std::optional<Estimate> claim;              // unknown outcomes count as failing; absent in a search
+  std::optional<Estimate> optimistic;         // unknown outcomes count as passed
+  std::optional<std::uint64_t> units_needed;  // in all, if no further one fails, before the bound can meet the limit;
+                                              // set while that is the obstacle
+  std::vector<MissingProbe> missing;          // not empty: the evidence is weak, whatever the verdict
+  std::optional<FailingRun> worst;            // the most serious run that did not pass
 };
 
-// Refuted only if the known failures alone refute; demonstrated only if the claim, in which every unknown counts as a failure, meets the limit and the
-// fleet made progress, and met other AGVs if encounters are asked for: both words are true however the unknown outcomes would have ended.
-// Bounds decide only on all planned replicates: whoever may stop when a bound looks good has no bound. Before that only a gate that allows no failure is decided,
-// by a failure.
+// Refuted only if the known failures alone refute; demonstrated only if the claim, in which every unknown counts as a
+// failure, meets the limit and the fleet made progress, and met other AGVs if encounters are asked for: both words are
+// true however the unknown outcomes would have ended. Bounds decide only on all planned replicates: whoever may stop
+// when a bound looks good has no bound. Before that only a gate that allows no failure is decided, by a failure.
 GateResult judge_gate(const GateRecord& gate, const GateCounts& counts);
 
 }  // namespace fleetproof

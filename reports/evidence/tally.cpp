@@ -5,7 +5,8 @@ namespace fleetproof {
 RunResult result_of(const Outcome& outcome, EndPoint end_point) {
   const bool failed = end_point == EndPoint::Contact ? outcome.contact : outcome.violation || outcome.contact;
   if (failed) return RunResult::Failed;
-  return outcome.crash || outcome.hang || outcome.indeterminate || outcome.engine_error ? RunResult::Unknown : RunResult::Passed;
+  return outcome.crash || outcome.hang || outcome.indeterminate || outcome.engine_error ? RunResult::Unknown
+                                                                                        : RunResult::Passed;
 }
 
 void Tally::add(const Outcome& outcome) {
@@ -15,8 +16,8 @@ void Tally::add(const Outcome& outcome) {
   one.violating_runs = result == RunResult::Failed;
   one.unknown_runs = result == RunResult::Unknown;
   one.contact_runs = outcome.contact;
-  one.hazardous_contact_runs =
-      std::ranges::any_of(outcome.violations, [](const Violation& v) { return level_of(v) == ViolationLevel::HazardousContact; });
+  one.hazardous_contact_runs = std::ranges::any_of(
+      outcome.violations, [](const Violation& v) { return level_of(v) == ViolationLevel::HazardousContact; });
   one.stuck_runs = outcome.stuck;
   one.crash_runs = outcome.crash;
   one.hang_runs = outcome.hang;
@@ -31,14 +32,15 @@ void Tally::add(const Outcome& outcome) {
 }
 
 void Tally::add(const Tally& other) {
-  for (const auto count :
-       {&Tally::runs, &Tally::violating_runs, &Tally::contact_runs, &Tally::hazardous_contact_runs, &Tally::stuck_runs, &Tally::crash_runs,
-        &Tally::hang_runs, &Tally::indeterminate_runs, &Tally::engine_error_runs, &Tally::unknown_runs, &Tally::transports_done, &Tally::agv_us}) {
+  for (const auto count : {&Tally::runs, &Tally::violating_runs, &Tally::contact_runs, &Tally::hazardous_contact_runs,
+                           &Tally::stuck_runs, &Tally::crash_runs, &Tally::hang_runs, &Tally::indeterminate_runs,
+                           &Tally::engine_error_runs, &Tally::unknown_runs, &Tally::transports_done, &Tally::agv_us}) {
     this->*count += other.*count;
   }
   longest_ns = std::max(longest_ns, other.longest_ns);
   agvs = std::max(agvs, other.agvs);
-  if (other.min_clearance_um) min_clearance_um = std::min(min_clearance_um.value_or(*other.min_clearance_um), *other.min_clearance_um);
+  if (other.min_clearance_um)
+    min_clearance_um = std::min(min_clearance_um.value_or(*other.min_clearance_um), *other.min_clearance_um);
 }
 
 std::optional<double> Tally::transports_per_agv_hour() const {

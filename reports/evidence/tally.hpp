@@ -8,7 +8,8 @@
 
 namespace fleetproof {
 
-// What one run says about an end point. Unknown: the run ended before it could be told (crash, hang, indeterminate, engine error).
+// What one run says about an end point. Unknown: the run ended before it could be told (crash, hang, indeterminate,
+// engine error).
 enum class RunResult : std::uint8_t { Passed, Failed, Unknown };
 RunResult result_of(const Outcome& outcome, EndPoint end_point);
 
@@ -16,12 +17,13 @@ RunResult result_of(const Outcome& outcome, EndPoint end_point);
 struct Tally {
   std::uint64_t runs = 0;
   std::uint64_t violating_runs = 0;  // broke the safety distance, or touched
-  std::uint64_t contact_runs = 0, hazardous_contact_runs = 0, stuck_runs = 0, crash_runs = 0, hang_runs = 0, indeterminate_runs = 0, engine_error_runs = 0;
-  std::uint64_t unknown_runs = 0;    // ended early, and had not violated before
+  std::uint64_t contact_runs = 0, hazardous_contact_runs = 0, stuck_runs = 0, crash_runs = 0, hang_runs = 0,
+                indeterminate_runs = 0, engine_error_runs = 0;
+  std::uint64_t unknown_runs = 0;  // ended early, and had not violated before
   std::uint64_t transports_done = 0;
-  std::uint64_t agv_us = 0;          // AGVs x simulated time
-  std::uint64_t longest_ns = 0;      // of one run
-  std::uint32_t agvs = 0;            // the largest fleet
+  std::uint64_t agv_us = 0;      // AGVs x simulated time
+  std::uint64_t longest_ns = 0;  // of one run
+  std::uint32_t agvs = 0;        // the largest fleet
   std::optional<std::int64_t> min_clearance_um;
 
   void add(const Outcome& outcome);

@@ -28,12 +28,15 @@ TEST(Scripted, CallsAtItsInstantsInTheirOrder) {
   testing::DrawnMap drawn;
   const auto a = drawn.station(0, 0), b = drawn.station(4, 0);
   const auto segment = drawn.segment(a, b);
-  const fp_scripted_call script[] = {{20'000'000'000, FP_CALL_DROP, FP_HERE}, {2'000'000'000, FP_CALL_MOVE, segment}, {10'000'000'000, FP_CALL_PICK, segment}};
+  const fp_scripted_call script[] = {{20'000'000'000, FP_CALL_DROP, FP_HERE},
+                                     {2'000'000'000, FP_CALL_MOVE, segment},
+                                     {10'000'000'000, FP_CALL_PICK, segment}};
   const testing::TestFleet fleet(drawn.map(), 1);
   testing::FakeWarehouse warehouse(drawn, fleet, {a}, kScripted, {}, 1);
   warehouse.script(0, script);
   warehouse.run(60.0);
-  const std::vector<std::pair<double, std::uint32_t>> expected = {{2.0, FP_CALL_MOVE}, {10.0, FP_CALL_PICK}, {20.0, FP_CALL_DROP}};
+  const std::vector<std::pair<double, std::uint32_t>> expected = {
+      {2.0, FP_CALL_MOVE}, {10.0, FP_CALL_PICK}, {20.0, FP_CALL_DROP}};
   EXPECT_EQ(warehouse.calls(), expected);
 }
 

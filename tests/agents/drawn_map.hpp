@@ -6,7 +6,8 @@
 
 #include "core/sdk/fleetproof/agent.h"
 
-// Maps for the tests of the agents, built without the project's own layouts: the agents see nothing but the C header, and so do their tests.
+// Maps for the tests of the agents, built without the project's own layouts: the agents see nothing but the C header,
+// and so do their tests.
 namespace fleetproof::agents::testing {
 
 inline constexpr fp_agv kTestAgv{1.6, 1.0, 2.0, 0.5, 1.0, 1.0, 1.0, 1.0, 1.6, 1.0, 0.0};
@@ -27,8 +28,10 @@ class DrawnMap {
   }
 
   // One-way, along an arc that leaves `from` with this heading.
-  std::uint32_t bend(std::uint32_t from, std::uint32_t to, double heading_x, double heading_y, double length_m, double curvature_per_m) {
-    lane(from, to, {fp_arc{{stations_[from].x_m, stations_[from].y_m, heading_x, heading_y}, length_m, curvature_per_m}});
+  std::uint32_t bend(std::uint32_t from, std::uint32_t to, double heading_x, double heading_y, double length_m,
+                     double curvature_per_m) {
+    lane(from, to,
+         {fp_arc{{stations_[from].x_m, stations_[from].y_m, heading_x, heading_y}, length_m, curvature_per_m}});
     return segments_++;
   }
 
@@ -71,7 +74,8 @@ class DrawnMap {
     double length_m = 0.0;
     for (const fp_arc& arc : arcs) length_m += arc.length_m;
     arcs_.push_back(std::move(arcs));
-    lanes_.push_back({segments_, from, to, length_m, static_cast<std::uint32_t>(arcs_.back().size()), arcs_.back().data()});
+    lanes_.push_back(
+        {segments_, from, to, length_m, static_cast<std::uint32_t>(arcs_.back().size()), arcs_.back().data()});
   }
 
   std::vector<fp_station> stations_;
@@ -87,7 +91,21 @@ struct TestFleet {
   TestFleet(const fp_map& of_map, std::uint32_t count, const fp_agv& agv = kTestAgv) : map(of_map), agvs(count, agv) {}
 
   fp_briefing briefing(std::uint32_t self, std::uint32_t start) const {
-    return {sizeof(fp_briefing), self, static_cast<std::uint32_t>(agvs.size()), sizeof(fp_agv), agvs.data(), &map, start, 0, nullptr, 0.10, 1000.0, "", 0, FP_NONE, FP_NONE};
+    return {sizeof(fp_briefing),
+            self,
+            static_cast<std::uint32_t>(agvs.size()),
+            sizeof(fp_agv),
+            agvs.data(),
+            &map,
+            start,
+            0,
+            nullptr,
+            0.10,
+            1000.0,
+            "",
+            0,
+            FP_NONE,
+            FP_NONE};
   }
 
   const fp_map& map;

@@ -25,11 +25,12 @@ struct FakeRadio {
   double duplicates = 0.0;  // share of receptions that come a second time, later
 };
 
-// As much of a warehouse as agents need: AGVs that turn and drive at the right times, transfers, timers, and a bad radio.
+// As much of a warehouse as agents need: AGVs that turn and drive at the right times, transfers, timers, and a bad
+// radio.
 class FakeWarehouse {
  public:
-  FakeWarehouse(const DrawnMap& drawn, const TestFleet& fleet, std::vector<std::uint32_t> starts, const fp_agent_type& type, FakeRadio radio,
-                std::uint64_t seed)
+  FakeWarehouse(const DrawnMap& drawn, const TestFleet& fleet, std::vector<std::uint32_t> starts,
+                const fp_agent_type& type, FakeRadio radio, std::uint64_t seed)
       : drawn_(drawn), fleet_(fleet), type_(type), radio_(radio), draws_(seed), seed_(seed), host_(make_host()) {
     for (std::uint32_t id = 0; id < starts.size(); ++id) {
       auto agv = std::make_unique<Agv>();
@@ -47,7 +48,9 @@ class FakeWarehouse {
   FakeWarehouse(const FakeWarehouse&) = delete;
   FakeWarehouse& operator=(const FakeWarehouse&) = delete;
 
-  void heading(std::uint32_t agv, double x, double y) { agvs_[agv]->pose.heading_x = x, agvs_[agv]->pose.heading_y = y; }
+  void heading(std::uint32_t agv, double x, double y) {
+    agvs_[agv]->pose.heading_x = x, agvs_[agv]->pose.heading_y = y;
+  }
   void script(std::uint32_t agv, std::span<const fp_scripted_call> calls) {
     agvs_[agv]->briefing.script = calls.data();
     agvs_[agv]->briefing.script_count = static_cast<std::uint32_t>(calls.size());
@@ -82,12 +85,14 @@ class FakeWarehouse {
   void run(double until_s, std::uint32_t enough_drops = ~0U) {
     for (std::uint32_t id = 0; id < agvs_.size(); ++id) {
       at(0, [this, id] {
-        agvs_[id]->agent = type_.create(&host_, reinterpret_cast<fp_controller*>(&agvs_[id]->handle), &agvs_[id]->briefing);
+        agvs_[id]->agent =
+            type_.create(&host_, reinterpret_cast<fp_controller*>(&agvs_[id]->handle), &agvs_[id]->briefing);
         tell(id, fp_event{});
       });
     }
     at(0, [this] { look(); });
-    while (!queue_.empty() && queue_.top().at_ns <= seconds(std::min(until_s, drops_ < enough_drops ? until_s : last_drop_s_ + 5.0))) {
+    while (!queue_.empty() &&
+           queue_.top().at_ns <= seconds(std::min(until_s, drops_ < enough_drops ? until_s : last_drop_s_ + 5.0))) {
       const Event event = queue_.top();
       queue_.pop();
       now_ns_ = event.at_ns;
@@ -108,7 +113,8 @@ class FakeWarehouse {
   void battery(std::uint32_t id, double level) { agvs_[id]->battery = level; }
   double battery_of(std::uint32_t id) const {
     const Agv& agv = *agvs_[id];
-    const double charged_s = agv.doing == FP_CHARGING_NOW && !agv.busy ? static_cast<double>(now_ns_ - agv.charging_since_ns) * 1e-9 : 0.0;
+    const double charged_s =
+        agv.doing == FP_CHARGING_NOW && !agv.busy ? static_cast<double>(now_ns_ - agv.charging_since_ns) * 1e-9 : 0.0;
     return std::min(1.0, agv.battery + 0.02 * charged_s);
   }
   double least_clearance_m() const { return least_clearance_m_; }
@@ -146,7 +152,9 @@ class FakeWarehouse {
     std::int64_t at_ns;
     std::uint64_t order;
     std::function<void()> what;
-    friend bool operator<(const Event& a, const Event& b) { return std::tie(a.at_ns, a.order) > std::tie(b.at_ns, b.order); }
+    friend bool operator<(const Event& a, const Event& b) {
+      return std::tie(a.at_ns, a.order) > std::tie(b.at_ns, b.order);
+    }
   };
 
   static std::int64_t seconds(double s) { return static_cast<std::int64_t>(s * 1e9); }
@@ -173,13 +181,15 @@ class FakeWarehouse {
   fp_pose pose_of(const Agv& agv) const {
     if (agv.lane == nullptr) return agv.pose;
     if (now_ns_ < agv.drive_begins_ns) {  // turning: headings in between, the shorter way
-      const double share = static_cast<double>(now_ns_ - agv.turn_begins_ns) / static_cast<double>(agv.drive_begins_ns - agv.turn_begins_ns);
+      const double share = static_cast<double>(now_ns_ - agv.turn_begins_ns) /
+                           static_cast<double>(agv.drive_begins_ns - agv.turn_begins_ns);
       const fp_pose target = on_lane(*agv.lane, 0.0);
       const double from = std::atan2(agv.pose.heading_y, agv.pose.heading_x);
       const double by = std::remainder(std::atan2(target.heading_y, target.heading_x) - from, 2 * M_PI);
       return {agv.pose.x_m, agv.pose.y_m, std::cos(from + share * by), std::sin(from + share * by)};
     }
-    const double share = static_cast<double>(now_ns_ - agv.drive_begins_ns) / static_cast<double>(agv.drive_ends_ns - agv.drive_begins_ns);
+    const double share = static_cast<double>(now_ns_ - agv.drive_begins_ns) /
+                         static_cast<double>(agv.drive_ends_ns - agv.drive_begins_ns);
     return on_lane(*agv.lane, share * agv.lane->length_m);
   }
 
@@ -187,7 +197,8 @@ class FakeWarehouse {
     std::vector<std::array<Point, 4>> bodies;
     for (const auto& agv : agvs_) bodies.push_back(corners(pose_of(*agv), kTestAgv.length_m, kTestAgv.width_m));
     for (std::size_t i = 0; i < bodies.size(); ++i) {
-      for (std::size_t k = i + 1; k < bodies.size(); ++k) least_clearance_m_ = std::min(least_clearance_m_, clearance_m(bodies[i], bodies[k]));
+      for (std::size_t k = i + 1; k < bodies.size(); ++k)
+        least_clearance_m_ = std::min(least_clearance_m_, clearance_m(bodies[i], bodies[k]));
     }
     at(now_ns_ + seconds(0.1), [this] { look(); });
   }
@@ -204,14 +215,19 @@ class FakeWarehouse {
     if (lane == nullptr && (segment != FP_HERE || call == FP_CALL_MOVE)) return FP_REFUSED;
     agv.battery = battery_of(id);
     agv.busy = true;
-    agv.doing = call == FP_CALL_PICK ? FP_PICKING : call == FP_CALL_DROP ? FP_DROPPING : call == FP_CALL_CHARGE ? FP_CHARGING_NOW : FP_DRIVING;
+    agv.doing = call == FP_CALL_PICK     ? FP_PICKING
+                : call == FP_CALL_DROP   ? FP_DROPPING
+                : call == FP_CALL_CHARGE ? FP_CHARGING_NOW
+                                         : FP_DRIVING;
     std::int64_t ends_ns = now_ns_;
     if (lane != nullptr) {
       const fp_pose start = on_lane(*lane, 0.0);
-      const double turn = std::acos(std::clamp(start.heading_x * agv.pose.heading_x + start.heading_y * agv.pose.heading_y, -1.0, 1.0));
+      const double turn =
+          std::acos(std::clamp(start.heading_x * agv.pose.heading_x + start.heading_y * agv.pose.heading_y, -1.0, 1.0));
       agv.turn_begins_ns = now_ns_;
       agv.drive_begins_ns = now_ns_ + seconds(turn < 1e-6 ? 0.0 : turn + 1.0);
-      agv.drive_ends_ns = agv.drive_begins_ns + seconds(lane->length_m < 6.0 ? std::sqrt(6.0 * lane->length_m) : 3.0 + lane->length_m / 2.0);
+      agv.drive_ends_ns = agv.drive_begins_ns +
+                          seconds(lane->length_m < 6.0 ? std::sqrt(6.0 * lane->length_m) : 3.0 + lane->length_m / 2.0);
       agv.lane = lane;
       ends_ns = agv.drive_ends_ns;
     }
@@ -239,7 +255,8 @@ class FakeWarehouse {
       if (!agv.orders.empty()) agv.orders.pop_front();
     }
     // Who picks where no load of his waits has none afterwards, unless he had one.
-    if (call == FP_CALL_PICK) agv.loaded = agv.loaded || (!agv.orders.empty() && agv.orders.front().first == agv.station);
+    if (call == FP_CALL_PICK)
+      agv.loaded = agv.loaded || (!agv.orders.empty() && agv.orders.front().first == agv.station);
     if (call == FP_CALL_DROP) agv.loaded = false;
     if (call == FP_CALL_CHARGE) agv.charging_since_ns = now_ns_;
     tell(id, event);
@@ -305,7 +322,9 @@ inline fp_host FakeWarehouse::make_host() {
   host.pick = [](fp_controller* c, std::uint32_t s) { return handle(c).warehouse->act(handle(c).id, FP_CALL_PICK, s); };
   host.drop = [](fp_controller* c, std::uint32_t s) { return handle(c).warehouse->act(handle(c).id, FP_CALL_DROP, s); };
   host.park = [](fp_controller* c, std::uint32_t s) { return handle(c).warehouse->act(handle(c).id, FP_CALL_PARK, s); };
-  host.charge = [](fp_controller* c, std::uint32_t s) { return handle(c).warehouse->act(handle(c).id, FP_CALL_CHARGE, s); };
+  host.charge = [](fp_controller* c, std::uint32_t s) {
+    return handle(c).warehouse->act(handle(c).id, FP_CALL_CHARGE, s);
+  };
   host.send_broadcast = [](fp_controller* c, const void* bytes, std::uint32_t size) -> std::int32_t {
     FakeWarehouse& w = *handle(c).warehouse;
     for (std::uint32_t i = 0; i < w.agvs_.size(); ++i) {
@@ -313,7 +332,8 @@ inline fp_host FakeWarehouse::make_host() {
     }
     return FP_OK;
   };
-  host.send_unicast = [](fp_controller* c, const void* bytes, std::uint32_t size, std::uint32_t receiver) -> std::int32_t {
+  host.send_unicast = [](fp_controller* c, const void* bytes, std::uint32_t size,
+                         std::uint32_t receiver) -> std::int32_t {
     handle(c).warehouse->send(handle(c).id, receiver, {static_cast<const char*>(bytes), size});
     return FP_OK;
   };

@@ -23,7 +23,9 @@ Tally cross_the_junction(const fp_agent_type& type, const FakeRadio& radio, std:
   const TestFleet fleet(junction.drawn.map(), 4);
   Tally tally;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-    FakeWarehouse warehouse(junction.drawn, fleet, {junction.start(0), junction.start(1), junction.start(2), junction.start(3)}, type, radio, seed);
+    FakeWarehouse warehouse(junction.drawn, fleet,
+                            {junction.start(0), junction.start(1), junction.start(2), junction.start(3)}, type, radio,
+                            seed);
     for (std::uint32_t i = 0; i < 4; ++i) warehouse.order(i, 0.1, junction.start(i), junction.opposite(i));
     watch_holds(warehouse, fleet, tally);
     warehouse.run(until_s, 4);
@@ -45,11 +47,13 @@ TEST_P(JunctionCells, HullLockNeverHoldsInConflictAndEverybodyGetsAcross) {
 }
 
 INSTANTIATE_TEST_SUITE_P(LossAndDelay, JunctionCells,
-                         ::testing::Values(FakeRadio{0.0, 0.0, false, 0.0}, FakeRadio{0.0, 2.0, true, 0.1}, FakeRadio{0.4, 0.0, false, 0.0},
-                                           FakeRadio{0.4, 2.0, true, 0.1}, FakeRadio{0.4, 2.0, false, 0.0}),
+                         ::testing::Values(FakeRadio{0.0, 0.0, false, 0.0}, FakeRadio{0.0, 2.0, true, 0.1},
+                                           FakeRadio{0.4, 0.0, false, 0.0}, FakeRadio{0.4, 2.0, true, 0.1},
+                                           FakeRadio{0.4, 2.0, false, 0.0}),
                          [](const auto& cell) {
                            return "Loss" + std::to_string(static_cast<int>(cell.param.loss * 100)) + "Delay" +
-                                  std::to_string(static_cast<int>(cell.param.delay_s)) + (cell.param.uniform ? "Uniform" : "Constant");
+                                  std::to_string(static_cast<int>(cell.param.delay_s)) +
+                                  (cell.param.uniform ? "Uniform" : "Constant");
                          });
 
 TEST(HullLock, StaysSoundBeyondTheContract) {
@@ -72,7 +76,9 @@ TEST(TimeoutGrant, IsAsGoodAsHullLockOnAPerfectRadioOnly) {
 TEST(Reckless, RunsIntoOthers) {
   Junction junction;
   const TestFleet fleet(junction.drawn.map(), 4);
-  FakeWarehouse warehouse(junction.drawn, fleet, {junction.start(0), junction.start(1), junction.start(2), junction.start(3)}, kReckless, {}, 1);
+  FakeWarehouse warehouse(junction.drawn, fleet,
+                          {junction.start(0), junction.start(1), junction.start(2), junction.start(3)}, kReckless, {},
+                          1);
   for (std::uint32_t i = 0; i < 4; ++i) warehouse.order(i, 0.1, junction.start(i), junction.opposite(i));
   warehouse.run(120.0);
   EXPECT_EQ(warehouse.drops(), 4U);
@@ -100,7 +106,8 @@ TEST(HullLock, TwoThatWantEachOthersPlacePassInTheSiding) {
   EXPECT_EQ(tally.drops, 2 * tally.runs) << "latest " << tally.latest_drop_s << " s";
 }
 
-// 76 m without a place to wait: more than anybody may claim at once. It goes there in several claims, and nobody claims too much.
+// 76 m without a place to wait: more than anybody may claim at once. It goes there in several claims, and nobody claims
+// too much.
 TEST(HullLock, ClaimsNoMoreThanOthersCountOn) {
   DrawnMap drawn;
   for (int i = 0; i < 20; ++i) drawn.station(4.0 * i, 0);
@@ -137,13 +144,16 @@ TEST(HullLock, KeepsHoldingWhenItBreaksDown) {
   Junction junction;
   const TestFleet fleet(junction.drawn.map(), 4);
   Tally tally;
-  FakeWarehouse warehouse(junction.drawn, fleet, {junction.start(0), junction.start(1), junction.start(2), junction.start(3)}, kHullLock, {}, 1);
+  FakeWarehouse warehouse(junction.drawn, fleet,
+                          {junction.start(0), junction.start(1), junction.start(2), junction.start(3)}, kHullLock, {},
+                          1);
   watch_holds(warehouse, fleet, tally);
   for (std::uint32_t i = 0; i < 4; ++i) warehouse.order(i, 0.1, junction.start(i), junction.opposite(i));
   auto watched = warehouse.after_activation;
   warehouse.after_activation = [&](std::uint32_t id) {
     watched(id);
-    if (id == 0 && static_cast<const HullLock*>(warehouse.agent(0))->protocol().held().count == 2) warehouse.stop_motion_of(0);
+    if (id == 0 && static_cast<const HullLock*>(warehouse.agent(0))->protocol().held().count == 2)
+      warehouse.stop_motion_of(0);
   };
   warehouse.run(300.0);
   EXPECT_EQ(tally.conflicting_holds, 0U);

@@ -15,11 +15,14 @@ using testing::DrawnMap;
 using testing::TestFleet;
 
 fp_pose pose(double x, double y, double angle) { return {x, y, std::cos(angle), std::sin(angle)}; }
-Shape body(const fp_pose& p, double length_m, double width_m) { return body_at({p.x_m, p.y_m}, {p.heading_x, p.heading_y}, length_m, width_m); }
+Shape body(const fp_pose& p, double length_m, double width_m) {
+  return body_at({p.x_m, p.y_m}, {p.heading_x, p.heading_y}, length_m, width_m);
+}
 
 double distance_m(Vec p, const Shape& s) {
   const Vec d = p - s.centre_m;
-  const double along = std::max(std::abs(dot(d, s.axis)) - s.half_length_m, 0.0), across = std::max(std::abs(dot(d, left_of(s.axis))) - s.half_width_m, 0.0);
+  const double along = std::max(std::abs(dot(d, s.axis)) - s.half_length_m, 0.0),
+               across = std::max(std::abs(dot(d, left_of(s.axis))) - s.half_width_m, 0.0);
   return std::hypot(along, across) - s.radius_m;
 }
 
@@ -36,7 +39,8 @@ TEST(AgentShapes, CloserThanAgreesWithTheDistanceOfTheSides) {
   std::uniform_real_distribution<double> place(-3.0, 3.0), angle(-4.0, 4.0), size(0.2, 3.0);
   int near = 0;
   for (int i = 0; i < 20'000; ++i) {
-    const fp_pose a = pose(place(draws), place(draws), angle(draws)), b = pose(place(draws), place(draws), angle(draws));
+    const fp_pose a = pose(place(draws), place(draws), angle(draws)),
+                  b = pose(place(draws), place(draws), angle(draws));
     const double la = size(draws), wa = size(draws), lb = size(draws), wb = size(draws);
     const double clear_m = testing::clearance_m(testing::corners(a, la, wa), testing::corners(b, lb, wb));
     EXPECT_EQ(closer_than(body(a, la, wa), body(b, lb, wb), clear_m + 1e-9), true);
@@ -86,7 +90,8 @@ class Crossing : public ::testing::Test {
   // Two lanes that cross without a common station, and a third beside them at 1.15 m: bodies 1 m wide pass with 0.15 m.
   static DrawnMap draw() {
     DrawnMap d;
-    for (const auto& [x, y] : {std::pair(-4.0, 0.0), {4.0, 0.0}, {0.0, -4.0}, {0.0, 4.0}, {-4.0, 1.15}, {4.0, 1.15}}) d.station(x, y);
+    for (const auto& [x, y] : {std::pair(-4.0, 0.0), {4.0, 0.0}, {0.0, -4.0}, {0.0, 4.0}, {-4.0, 1.15}, {4.0, 1.15}})
+      d.station(x, y);
     for (const std::uint32_t from : {0U, 2U, 4U}) d.segment(from, from + 1);
     return d;
   }

@@ -37,7 +37,8 @@ struct Tally {
   double latest_drop_s = 0.0;
 };
 
-// Watches what AGVs hold: whenever one holds more, nobody else may hold what conflicts with it. And nobody claims more than all others count on.
+// Watches what AGVs hold: whenever one holds more, nobody else may hold what conflicts with it. And nobody claims more
+// than all others count on.
 inline void watch_holds(FakeWarehouse& warehouse, const TestFleet& fleet, Tally& tally) {
   struct Watch {
     Watch(const TestFleet& fleet, std::size_t count)
@@ -59,9 +60,11 @@ inline void watch_holds(FakeWarehouse& warehouse, const TestFleet& fleet, Tally&
     const bool more = !restarted && mine.count > watch->held[id];
     tally.restarts += restarted;
     tally.restarts_on_lanes += restarted && mine.count == 1;
-    // Who restarts on a lane may hold the turn before it as well; whether it had locked that stands in what it held before.
+    // Who restarts on a lane may hold the turn before it as well; whether it had locked that stands in what it held
+    // before.
     Path& locked = watch->locked[id];
-    const bool same_lane = mine.count > 0 && locked.count > 0 && mine.lane_ids[0] == locked.lane_ids[0] && mine.station == locked.station;
+    const bool same_lane =
+        mine.count > 0 && locked.count > 0 && mine.lane_ids[0] == locked.lane_ids[0] && mine.station == locked.station;
     const Vec heading = locked.heading;
     const bool reversed = mine.count > 0 && dot(mine.heading, watch->map.start_heading(mine.lane_ids[0])) < -1.0 + 1e-9;
     locked = mine;

@@ -263,7 +263,8 @@ TEST_F(LockProtocolTest, TheFaultTakesSilenceForConsent) {
   EXPECT_TRUE(settle(0));
 }
 
-// The grant of the former self is in the air when the new self asks for the same floor: the other gives up his request, and with it that grant.
+// The grant of the former self is in the air when the new self asks for the same floor: the other gives up his request,
+// and with it that grant.
 TEST_F(LockProtocolTest, AGrantOfTheFormerSelfIsNeverCombinedWithALockOfTheNewOne) {
   fleet_of(2);
   want(0, 3, 100);
@@ -332,7 +333,8 @@ TEST_F(LockProtocolTest, TheEndOfADriveThatNobodyHoldsChangesNothing) {
   EXPECT_EQ(members[0]->protocol->held().count, 0U);
 }
 
-// Bytes of former boots, of boots that never were, doubled, mixed up and damaged: none leads out of bounds, and what is held stays a way on the map.
+// Bytes of former boots, of boots that never were, doubled, mixed up and damaged: none leads out of bounds, and what is
+// held stays a way on the map.
 TEST_F(LockProtocolTest, NoBytesFromAnybodyLeadOutOfBounds) {
   std::mt19937_64 draws(11);
   fleet_of(3);
@@ -340,13 +342,15 @@ TEST_F(LockProtocolTest, NoBytesFromAnybodyLeadOutOfBounds) {
   for (int round = 0; round < 20'000; ++round) {
     const auto id = static_cast<std::uint32_t>(draws() % 3);
     if (draws() % 50 == 0) restart(id, static_cast<std::uint32_t>(round));
-    if (!members[id]->protocol->requesting() && members[id]->protocol->held().empty()) want(id, static_cast<std::uint32_t>(1 + draws() % 4), round);
+    if (!members[id]->protocol->requesting() && members[id]->protocol->held().empty())
+      want(id, static_cast<std::uint32_t>(1 + draws() % 4), round);
     settle(id);
     if (!sent.empty()) heard.push_back(sent.front().bytes), sent.pop_front();
     if (heard.size() > 50) heard.erase(heard.begin() + static_cast<std::ptrdiff_t>(draws() % heard.size()));
     if (heard.empty()) continue;
     std::vector<std::byte> bytes = heard[draws() % heard.size()];
-    for (std::uint64_t flips = draws() % 4; flips > 0; --flips) bytes[draws() % bytes.size()] = static_cast<std::byte>(draws());
+    for (std::uint64_t flips = draws() % 4; flips > 0; --flips)
+      bytes[draws() % bytes.size()] = static_cast<std::byte>(draws());
     if (draws() % 10 == 0) bytes.resize(draws() % 64);
     members[id]->protocol->receive(static_cast<std::uint32_t>(draws() % 5), bytes);
     if (draws() % 8 == 0) members[id]->protocol->lane_passed();

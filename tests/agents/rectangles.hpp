@@ -18,7 +18,8 @@ inline std::array<Point, 4> corners(const fp_pose& pose, double length_m, double
   const double u[] = {1, 1, -1, -1}, v[] = {1, -1, -1, 1};
   for (std::size_t i = 0; i < 4; ++i) {
     const double along = u[i] * length_m / 2, across = v[i] * width_m / 2;
-    c[i] = {pose.x_m + along * pose.heading_x - across * pose.heading_y, pose.y_m + along * pose.heading_y + across * pose.heading_x};
+    c[i] = {pose.x_m + along * pose.heading_x - across * pose.heading_y,
+            pose.y_m + along * pose.heading_y + across * pose.heading_x};
   }
   return c;
 }
@@ -58,7 +59,8 @@ inline fp_pose on_arc(const fp_arc& arc, double s_m) {
   const double hx = arc.start.heading_x, hy = arc.start.heading_y;
   const double along = arc.curvature_per_m == 0.0 ? s_m : s / arc.curvature_per_m;
   const double left = arc.curvature_per_m == 0.0 ? 0.0 : (1 - c) / arc.curvature_per_m;
-  return {arc.start.x_m + along * hx - left * hy, arc.start.y_m + along * hy + left * hx, c * hx - s * hy, s * hx + c * hy};
+  return {arc.start.x_m + along * hx - left * hy, arc.start.y_m + along * hy + left * hx, c * hx - s * hy,
+          s * hx + c * hy};
 }
 
 inline fp_pose on_lane(const fp_lane& lane, double s_m) {

@@ -1,4 +1,5 @@
-// hull-lock when its computer restarts, again and again, at any moment: nobody ever holds in conflict, and all loads arrive where they should.
+// hull-lock when its computer restarts, again and again, at any moment: nobody ever holds in conflict, and all loads
+// arrive where they should.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -23,8 +24,9 @@ Tally cross_with_restarts(const FakeRadio& radio, std::uint32_t seeds) {
   const TestFleet fleet(junction.drawn.map(), 4);
   Tally tally;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-    FakeWarehouse warehouse(junction.drawn, fleet, {junction.start(0), junction.start(1), junction.start(2), junction.start(3)}, kHullLock, radio,
-                            seed);
+    FakeWarehouse warehouse(junction.drawn, fleet,
+                            {junction.start(0), junction.start(1), junction.start(2), junction.start(3)}, kHullLock,
+                            radio, seed);
     std::mt19937_64 draws(seed);
     std::uniform_real_distribution<double> share;
     for (std::uint32_t i = 0; i < 4; ++i) {
@@ -53,7 +55,8 @@ TEST_P(RestartCells, NobodyHoldsInConflictAndEveryLoadArrives) {
 }
 
 INSTANTIATE_TEST_SUITE_P(LossAndDelay, RestartCells,
-                         ::testing::Values(FakeRadio{0.0, 0.0, false, 0.0}, FakeRadio{0.0, 2.0, true, 0.2}, FakeRadio{0.4, 2.0, true, 0.2}),
+                         ::testing::Values(FakeRadio{0.0, 0.0, false, 0.0}, FakeRadio{0.0, 2.0, true, 0.2},
+                                           FakeRadio{0.4, 2.0, true, 0.2}),
                          [](const auto& cell) {
                            return "Loss" + std::to_string(static_cast<int>(cell.param.loss * 100)) + "Delay" +
                                   std::to_string(static_cast<int>(cell.param.delay_s));
@@ -68,7 +71,9 @@ struct Corridor {
   DrawnMap drawn;
 };
 
-const Path& held_by(FakeWarehouse& warehouse, std::uint32_t id) { return static_cast<const HullLock*>(warehouse.agent(id))->protocol().held(); }
+const Path& held_by(FakeWarehouse& warehouse, std::uint32_t id) {
+  return static_cast<const HullLock*>(warehouse.agent(id))->protocol().held();
+}
 
 TEST(Restart, HoldsTheWholeLaneUnderWayFromItsFirstInstantAndNothingBeyond) {
   Corridor corridor;
@@ -124,7 +129,9 @@ TEST(Restart, ALoadOnBoardIsNotFetchedAgain) {
   warehouse.order(0, 0.1, 0, 3);
   warehouse.restart(0, 7.0, 1.0);
   warehouse.run(100.0);
-  EXPECT_EQ(std::ranges::count(warehouse.calls(), static_cast<std::uint32_t>(FP_CALL_PICK), [](const auto& call) { return call.second; }), 1);
+  EXPECT_EQ(std::ranges::count(warehouse.calls(), static_cast<std::uint32_t>(FP_CALL_PICK),
+                               [](const auto& call) { return call.second; }),
+            1);
   EXPECT_EQ(warehouse.drops(), 1U);
 }
 

@@ -8,7 +8,8 @@ namespace fleetproof::agents {
 namespace {
 
 TEST(Settings, AreReadFromWordsAndOthersAreLeftAlone) {
-  const Settings s = read_settings("  position_error_m=0.5\tother=x position_late_s=2 \n loud charge_below=0.2 charge_to=1");
+  const Settings s =
+      read_settings("  position_error_m=0.5\tother=x position_late_s=2 \n loud charge_below=0.2 charge_to=1");
   EXPECT_EQ(s.position_error_m, 0.5);
   EXPECT_EQ(s.position_late_s, 2.0);
   EXPECT_EQ(s.charge_below, 0.2);
@@ -17,7 +18,8 @@ TEST(Settings, AreReadFromWordsAndOthersAreLeftAlone) {
 }
 
 TEST(Settings, NonsenseIsRefused) {
-  for (const char* config : {"charge_to=1.5", "position_late_s=-1", "position_error_m=nan", "charge_below=", "charge_below=0.3x"}) {
+  for (const char* config :
+       {"charge_to=1.5", "position_late_s=-1", "position_error_m=nan", "charge_below=", "charge_below=0.3x"}) {
     EXPECT_THROW(read_settings(config), std::invalid_argument) << config;
   }
 }

@@ -42,7 +42,8 @@ TEST(WaitingPlaces, AreWhereNobodyElseIsCutOff) {
 
 TEST(WaitingPlaces, AreNotBesideALaneTooNear) {
   DrawnMap drawn;
-  const auto a = drawn.station(0, 0), b = drawn.station(6, 0), c = drawn.station(3, 1.3), d = drawn.station(3, 6), e = drawn.station(12, 0);
+  const auto a = drawn.station(0, 0), b = drawn.station(6, 0), c = drawn.station(3, 1.3), d = drawn.station(3, 6),
+             e = drawn.station(12, 0);
   drawn.segment(a, b), drawn.segment(c, d), drawn.segment(d, e), drawn.segment(b, e), drawn.segment(a, d);
   const MapView map(drawn.map());
   const TestFleet fleet(drawn.map(), 2);

@@ -4,9 +4,9 @@
 
 #include <vector>
 
+#include "core/base/random.hpp"
 #include "core/geometry/rectangle.hpp"
 #include "core/geometry/rotation.hpp"
-#include "core/base/random.hpp"
 
 namespace fleetproof {
 namespace {
@@ -19,7 +19,8 @@ std::vector<Pair> random_pairs() {
   Draws draws(11);
   const auto body = [&] {
     const Vec2 centre{draws.uniform(0.0, 6.0), draws.uniform(0.0, 6.0)};
-    return OrientedRectangle{centre, unit_vector(draws.uniform(-3.0, 3.0)), draws.uniform(0.3, 1.5), draws.uniform(0.3, 1.5)};
+    return OrientedRectangle{centre, unit_vector(draws.uniform(-3.0, 3.0)), draws.uniform(0.3, 1.5),
+                             draws.uniform(0.3, 1.5)};
   };
   std::vector<Pair> pairs(1024);
   for (Pair& pair : pairs) pair = {body(), body()};
@@ -38,7 +39,8 @@ BENCHMARK(planar_distance);
 
 fcl::Transform3d transform_of(const OrientedRectangle& rectangle) {
   fcl::Transform3d transform = fcl::Transform3d::Identity();
-  transform.linear() << rectangle.heading.x(), -rectangle.heading.y(), 0, rectangle.heading.y(), rectangle.heading.x(), 0, 0, 0, 1;
+  transform.linear() << rectangle.heading.x(), -rectangle.heading.y(), 0, rectangle.heading.y(), rectangle.heading.x(),
+      0, 0, 0, 1;
   transform.translation() << rectangle.centre_m.x(), rectangle.centre_m.y(), 0;
   return transform;
 }
@@ -50,15 +52,17 @@ void fcl_distance(benchmark::State& state) {
   };
   std::vector<Prepared> prepared;
   for (const Pair& pair : random_pairs()) {
-    prepared.push_back({fcl::Boxd(2 * pair.a.half_length_m, 2 * pair.a.half_width_m, 20.0), fcl::Boxd(2 * pair.b.half_length_m, 2 * pair.b.half_width_m, 20.0),
-                        transform_of(pair.a), transform_of(pair.b)});
+    prepared.push_back({fcl::Boxd(2 * pair.a.half_length_m, 2 * pair.a.half_width_m, 20.0),
+                        fcl::Boxd(2 * pair.b.half_length_m, 2 * pair.b.half_width_m, 20.0), transform_of(pair.a),
+                        transform_of(pair.b)});
   }
   fcl::DistanceRequestd request;
   request.gjk_solver_type = fcl::GST_INDEP;
   std::size_t i = 0;
   for (auto _ : state) {
     fcl::DistanceResultd result;
-    benchmark::DoNotOptimize(fcl::distance(&prepared[i].a, prepared[i].at_a, &prepared[i].b, prepared[i].at_b, request, result));
+    benchmark::DoNotOptimize(
+        fcl::distance(&prepared[i].a, prepared[i].at_a, &prepared[i].b, prepared[i].at_b, request, result));
     i = (i + 1) % prepared.size();
   }
 }

@@ -1,12 +1,14 @@
 // What a law costs, apart from the run it watches: the pieces of one run are recorded and announced to the law again.
 //
-//   detection_cost FLEET SECONDS LAW...      times, in one process; ratios to the first law. Means of WORLDS worlds (environment variable; 1)
-//   detection_cost --walk FLEET SECONDS LAW  one replay, for valgrind --tool=callgrind --toggle-collect='*replay_to*'
+//   detection_cost FLEET SECONDS LAW...      times, in one process; ratios to the first law. Means of WORLDS worlds
+//   (environment variable; 1) detection_cost --walk FLEET SECONDS LAW  one replay, for valgrind --tool=callgrind
+//   --toggle-collect='*replay_to*'
 //
-// LAW may be "none", or "all-pairs": the exact distance of every pair of bodies every 2.5 ms. Runs are those of the whole-run benchmark
-// (simulation_bench.cpp); their agent is hull-lock, or what the environment variable AGENT names. A walk is no run but pieces made up: on 400 m2 for
-// each AGV, as in those runs, everybody turns, drives and waits about its own middle and now and then passes a neighbour. It is as dense for 500 AGVs
-// as for 5, and nobody's rules slow it down.
+// LAW may be "none", or "all-pairs": the exact distance of every pair of bodies every 2.5 ms. Runs are those of the
+// whole-run benchmark (simulation_bench.cpp); their agent is hull-lock, or what the environment variable AGENT names. A
+// walk is no run but pieces made up: on 400 m2 for each AGV, as in those runs, everybody turns, drives and waits about
+// its own middle and now and then passes a neighbour. It is as dense for 500 AGVs as for 5, and nobody's rules slow it
+// down.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -94,7 +96,8 @@ struct Recording {
 };
 
 Scenario world(std::uint32_t fleet, double horizon_s, std::uint64_t seed) {
-  Scenario scenario = fleet <= 5 ? test::grid_world(4, 8, fleet, horizon_s, seed) : test::grid_world(12, 24, fleet, horizon_s, seed);
+  Scenario scenario =
+      fleet <= 5 ? test::grid_world(4, 8, fleet, horizon_s, seed) : test::grid_world(12, 24, fleet, horizon_s, seed);
   scenario.radio.loss = 0.4;
   scenario.radio.delay_s = 2.0;
   return scenario;
@@ -160,7 +163,8 @@ double median_s(auto&& work) {
 void compare(std::uint32_t fleet, double horizon_s, std::span<char*> names) {
   const char* worlds = std::getenv("WORLDS");
   std::vector<Recording> recordings;
-  for (int seed = 1; seed <= (worlds != nullptr ? std::atoi(worlds) : 1); ++seed) recordings.push_back(record(fleet, horizon_s, static_cast<std::uint64_t>(seed)));
+  for (int seed = 1; seed <= (worlds != nullptr ? std::atoi(worlds) : 1); ++seed)
+    recordings.push_back(record(fleet, horizon_s, static_cast<std::uint64_t>(seed)));
   std::uint64_t drives = 0, pieces = 0;
   for (const Recording& recording : recordings) drives += recording.drives, pieces += recording.all.size() / 2;
   fmt::print("{} worlds of {} AGVs, {} s: {} pieces, {} drives\n", recordings.size(), fleet, horizon_s, pieces, drives);
@@ -173,18 +177,23 @@ void compare(std::uint32_t fleet, double horizon_s, std::span<char*> names) {
     double alone_s = 0.0, whole_s = 0.0;
     for (const Recording& recording : recordings) {
       LawFindings findings;
-      if (make != nullptr) alone_s += median_s([&] { findings = replay_to(*make(recording.scenario), recording); }) / worlds_count;
+      if (make != nullptr)
+        alone_s += median_s([&] { findings = replay_to(*make(recording.scenario), recording); }) / worlds_count;
       whole_s += median_s([&] {
                    std::vector<std::unique_ptr<Law>> laws;
                    if (make != nullptr) laws.push_back(make(recording.scenario));
                    simulate(recording.scenario, agent(programs), laws);
                  }) /
                  worlds_count;
-      evaluations += findings.distance_evaluations, checks += findings.perimeter_checks, violations += findings.violations.size();
+      evaluations += findings.distance_evaluations, checks += findings.perimeter_checks,
+          violations += findings.violations.size();
     }
     if (first_whole_s == 0.0) first_alone_s = alone_s, first_whole_s = whole_s;
-    fmt::print("{:12} detection {:12.4f} ms ({:8.1f}x)  run {:12.3f} ms ({:6.2f}x)  {} evaluations, {} checks, {} violations\n", name, 1e3 * alone_s,
-               alone_s / first_alone_s, 1e3 * whole_s, whole_s / first_whole_s, evaluations, checks, violations);
+    fmt::print(
+        "{:12} detection {:12.4f} ms ({:8.1f}x)  run {:12.3f} ms ({:6.2f}x)  {} evaluations, {} checks, {} "
+        "violations\n",
+        name, 1e3 * alone_s, alone_s / first_alone_s, 1e3 * whole_s, whole_s / first_whole_s, evaluations, checks,
+        violations);
     std::fflush(stdout);
   }
 }
@@ -198,9 +207,9 @@ void replay_walk(std::uint32_t fleet, double horizon_s, const char* name) {
   LawFindings findings;
   const auto law = law_named(name)(recording.scenario);
   const double spent_s = seconds_of([&] { findings = replay_to(*law, recording); });
-  fmt::print("{} AGVs, {} s, {}: {} pieces, {} drives, {} evaluations, {} violations, {:.0f} ns a drive\n", fleet, horizon_s, name,
-             recording.all.size() / 2, recording.drives, findings.distance_evaluations, findings.violations.size(),
-             1e9 * spent_s / static_cast<double>(recording.drives));
+  fmt::print("{} AGVs, {} s, {}: {} pieces, {} drives, {} evaluations, {} violations, {:.0f} ns a drive\n", fleet,
+             horizon_s, name, recording.all.size() / 2, recording.drives, findings.distance_evaluations,
+             findings.violations.size(), 1e9 * spent_s / static_cast<double>(recording.drives));
 }
 
 }  // namespace

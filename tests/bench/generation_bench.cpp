@@ -1,4 +1,5 @@
-// Drawing a world against simulating it: 5 AGVs, 60 s, the sound agent under the exact law. Drawing is to cost less than a tenth.
+// Drawing a world against simulating it: 5 AGVs, 60 s, the sound agent under the exact law. Drawing is to cost less
+// than a tenth.
 #include <benchmark/benchmark.h>
 
 #include <deque>
@@ -65,9 +66,12 @@ const bool registered = [] {
   for (const auto& family : layout_families()) {
     for (const Range range : {Range::Normal, Range::Stress}) {
       const auto layout = family_name(family.name, range);
-      const auto add = [](const std::string& name, auto&& body) { benchmark::RegisterBenchmark(name.c_str(), body)->Unit(benchmark::kMicrosecond); };
+      const auto add = [](const std::string& name, auto&& body) {
+        benchmark::RegisterBenchmark(name.c_str(), body)->Unit(benchmark::kMicrosecond);
+      };
       add("generate/" + layout, [layout](benchmark::State& state) { generate(state, layout, Placement::Random); });
-      add("generate_adversarial/" + layout, [layout](benchmark::State& state) { generate(state, layout, Placement::Adversarial); });
+      add("generate_adversarial/" + layout,
+          [layout](benchmark::State& state) { generate(state, layout, Placement::Adversarial); });
       add("simulate/" + layout, [layout](benchmark::State& state) { simulate_worlds(state, layout); });
     }
   }

@@ -1,9 +1,11 @@
 // What drawing a world costs against simulating it, in instructions: a count that no other job on the machine disturbs.
 //
-//   generation_cost LAYOUT WORLDS    for valgrind --tool=callgrind, which counts what each function below costs with all it calls
+//   generation_cost LAYOUT WORLDS    for valgrind --tool=callgrind, which counts what each function below costs with
+//   all it calls
 //
-// tests/bench/generation_table runs it over all layouts and prints the table. Worlds are those of the benchmark (generation_bench.cpp): 5 AGVs, 60 s,
-// the sound agent under the exact law. LAYOUT is a family, normal or under stress, or `mutated-import`: mutations of a loop with spurs, the dearest.
+// tests/bench/generation_table runs it over all layouts and prints the table. Worlds are those of the benchmark
+// (generation_bench.cpp): 5 AGVs, 60 s, the sound agent under the exact law. LAYOUT is a family, normal or under
+// stress, or `mutated-import`: mutations of a loop with spurs, the dearest.
 #include <fmt/format.h>
 
 #include <cstdlib>
@@ -57,7 +59,8 @@ __attribute__((noinline)) std::deque<Scenario>* cost_of_adversarial(const WorldS
 __attribute__((noinline)) std::deque<Scenario>* cost_of_symmetric(const WorldSpec& spec, std::uint64_t worlds) {
   return new std::deque<Scenario>(draw_worlds(spec, Placement::Symmetric, worlds));
 }
-__attribute__((noinline)) std::uint64_t cost_of_simulation(const std::deque<Scenario>& worlds, const fp_agent_type& agent) {
+__attribute__((noinline)) std::uint64_t cost_of_simulation(const std::deque<Scenario>& worlds,
+                                                           const fp_agent_type& agent) {
   std::uint64_t events = 0;
   for (const Scenario& scenario : worlds) {
     std::vector<std::unique_ptr<Law>> laws;
@@ -84,6 +87,7 @@ int main(int argc, char** argv) {
     scenario.radio.delay_s = 2.0;
   }
   const AgentPrograms programs;
-  fmt::print("{} worlds of {}, {} events\n", worlds, argv[1], cost_of_simulation(*random, programs.find("hull-lock", "bench")));
+  fmt::print("{} worlds of {}, {} events\n", worlds, argv[1],
+             cost_of_simulation(*random, programs.find("hull-lock", "bench")));
   return 0;
 }

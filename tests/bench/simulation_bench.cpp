@@ -64,7 +64,8 @@ BENCHMARK_CAPTURE(run, 5x60_hull_lock_all_laws, kSmall, "hull-lock", Watch::Defa
 BENCHMARK_CAPTURE(run, 5x60_reckless, kSmall, "reckless", Watch::Judge)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(run, 50x600_hull_lock, kLarge, "hull-lock", Watch::Judge)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(run, 50x600_hull_lock_no_law, kLarge, "hull-lock", Watch::Nobody)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(run, 50x600_hull_lock_all_laws, kLarge, "hull-lock", Watch::DefaultSet)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(run, 50x600_hull_lock_all_laws, kLarge, "hull-lock", Watch::DefaultSet)
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(run, 50x600_reckless, kLarge, "reckless", Watch::Judge)->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -22,7 +22,8 @@ class CampaignFileTest : public testing::Test {
  protected:
   void SetUp() override {
     folder_ = std::filesystem::temp_directory_path() /
-              ("fleetproof-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + "-" + std::to_string(getpid()));
+              ("fleetproof-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + "-" +
+               std::to_string(getpid()));
     std::filesystem::create_directories(folder_);
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
@@ -62,7 +63,9 @@ TEST_F(CampaignFileTest, DefaultsAreThePapers) {
 
 TEST_F(CampaignFileTest, LawsMayBeLeftOutButNotTheJudge) {
   EXPECT_TRUE(read(kFactors).plan.laws_left_out.empty());
-  const CampaignPlan plan = read(kFactors + "[law]\nleave_out = [\"congestion\"]\nreaction_s = 3.0\nmin_transports_per_agv_hour = 2.0\n").plan;
+  const CampaignPlan plan =
+      read(kFactors + "[law]\nleave_out = [\"congestion\"]\nreaction_s = 3.0\nmin_transports_per_agv_hour = 2.0\n")
+          .plan;
   EXPECT_EQ(plan.laws_left_out, (std::vector<std::string>{"congestion"}));
   const CampaignPlan back = parse_plan(plan_text(plan));
   EXPECT_EQ(back.laws_left_out, plan.laws_left_out);
@@ -88,10 +91,11 @@ TEST_F(CampaignFileTest, AClaimAsksForEncountersAndASearchForNothing) {
 }
 
 TEST_F(CampaignFileTest, CellsAreAllCombinations) {
-  const CampaignPlan plan =
-      read("replicates = 3\n[factors]\nagents = [\"reckless\", \"hull-lock\"]\nlayouts = [\"aisle-grid\", \"corridor-sidings\"]\nfleet_sizes = [2, 5]\nloss = [0, "
-           "0.4]\ndelay_s = [0, 1, 2]\n")
-          .plan;
+  const CampaignPlan plan = read(
+                                "replicates = 3\n[factors]\nagents = [\"reckless\", \"hull-lock\"]\nlayouts = "
+                                "[\"aisle-grid\", \"corridor-sidings\"]\nfleet_sizes = [2, 5]\nloss = [0, "
+                                "0.4]\ndelay_s = [0, 1, 2]\n")
+                                .plan;
   EXPECT_EQ(plan.cell_count(), 2U * 2 * 2 * 2 * 3);
   EXPECT_EQ(plan.run_count(), 3 * plan.cell_count());
   const auto cells = plan.cells();
@@ -104,7 +108,8 @@ TEST_F(CampaignFileTest, CellsAreAllCombinations) {
 
 TEST_F(CampaignFileTest, PlanTextSurvivesTheRoundTrip) {
   const CampaignPlan plan = read("seed = 9\nreplicates = 2\nagent_config = \"x=1\"\n" + kFactors +
-                                 "loss = [0.1]\n[radio]\ndelay_model = \"uniform\"\n[vehicle]\nlength_m = 1.9\n[[gate]]\nagent = \"reckless\"\nregion = \"contract\"\nlimit = "
+                                 "loss = [0.1]\n[radio]\ndelay_model = \"uniform\"\n[vehicle]\nlength_m = "
+                                 "1.9\n[[gate]]\nagent = \"reckless\"\nregion = \"contract\"\nlimit = "
                                  "0.1\nkind = \"none\"\n")
                                 .plan;
   const std::string text = plan_text(plan);
@@ -122,13 +127,16 @@ TEST_F(CampaignFileTest, LayoutsMayBeRangesMutationsAndFilesWithOptions) {
   std::ofstream(folder_ / "m.map") << "height 1\nwidth 4\nmap\nS..S\n";
   const std::string text =
       "[factors]\nagents = [\"reckless\"]\nfleet_sizes = [1]\n"
-      "layouts = [\"aisle-grid\", \"aisle-grid/stress\", \"m.map\", { file = \"m.map\", cell_pitch_m = 1.5, name = \"wide\" }, { mutate = \"m.map\" }]\n";
+      "layouts = [\"aisle-grid\", \"aisle-grid/stress\", \"m.map\", { file = \"m.map\", cell_pitch_m = 1.5, name = "
+      "\"wide\" }, { mutate = \"m.map\" }]\n";
   const CampaignPlan plan = read(text).plan;
   ASSERT_EQ(plan.layouts.size(), 5U);
   EXPECT_EQ(plan.layouts[1].name, "aisle-grid/stress");
   EXPECT_EQ(plan.layouts[1].map, nullptr);
   EXPECT_EQ(plan.layouts[3].name, "wide");
-  EXPECT_EQ(plan.layouts[3].map->layout().stations[3].position_m.x() - plan.layouts[3].map->layout().stations[0].position_m.x(), 4.5);
+  EXPECT_EQ(plan.layouts[3].map->layout().stations[3].position_m.x() -
+                plan.layouts[3].map->layout().stations[0].position_m.x(),
+            4.5);
   EXPECT_EQ(plan.layouts[4].name, "mutated-import/m");
   EXPECT_TRUE(plan.layouts[4].mutate);
   const CampaignPlan again = parse_plan(plan_text(plan));
@@ -155,18 +163,24 @@ TEST_F(CampaignFileTest, WorldsMayBePlacedAndOrderedOtherwise) {
   EXPECT_THAT(error_of(head + "placement = \"advesarial\"\n"), HasSubstr("did you mean \"adversarial\"?"));
   EXPECT_THAT(error_of(head + "hot_spot_skew = 9\n"), HasSubstr("world.hot_spot_skew is 9; it lies between 0 and 4"));
   EXPECT_THAT(error_of(head + "orders = \"none.csv\"\n"), HasSubstr("none.csv: there is no such file"));
-  EXPECT_THAT(error_of(head + "placement = \"mixed\"\norders = \"o.csv\"\n"), HasSubstr("with world.orders it is \"random\" or \"charger-bank\""));
+  EXPECT_THAT(error_of(head + "placement = \"mixed\"\norders = \"o.csv\"\n"),
+              HasSubstr("with world.orders it is \"random\" or \"charger-bank\""));
   EXPECT_THAT(error_of(kFactors + "[world]\norders = \"o.csv\"\n"), HasSubstr("layout \"aisle-grid\" is drawn anew"));
 }
 
 TEST_F(CampaignFileTest, LayoutTablesAreRefusedByPlaceAndRemedy) {
   std::ofstream(folder_ / "m.map") << "height 1\nwidth 4\nmap\nS..S\n";
-  const auto error = [&](const std::string& layout) { return error_of("[factors]\nagents = [\"reckless\"]\nlayouts = [" + layout + "]\n"); };
-  EXPECT_THAT(error("{ file = \"m.map\", merge_antiparallel = true }"),
-              HasSubstr("c.toml:3:51: merge_antiparallel has no meaning for format \"grid\"; it belongs to \"opentcs\""));
-  EXPECT_THAT(error("{ file = \"m.map\", mutate = \"m.map\" }"), HasSubstr("has either file = \"...\" or mutate = \"...\""));
+  const auto error = [&](const std::string& layout) {
+    return error_of("[factors]\nagents = [\"reckless\"]\nlayouts = [" + layout + "]\n");
+  };
+  EXPECT_THAT(
+      error("{ file = \"m.map\", merge_antiparallel = true }"),
+      HasSubstr("c.toml:3:51: merge_antiparallel has no meaning for format \"grid\"; it belongs to \"opentcs\""));
+  EXPECT_THAT(error("{ file = \"m.map\", mutate = \"m.map\" }"),
+              HasSubstr("has either file = \"...\" or mutate = \"...\""));
   EXPECT_THAT(error("{ name = \"x\" }"), HasSubstr("has either file = \"...\" or mutate = \"...\""));
-  EXPECT_THAT(error("{ file = \"m.map\", cell_pitch = 1 }"), HasSubstr("cell_pitch is not a known key; did you mean \"cell_pitch_m\"?"));
+  EXPECT_THAT(error("{ file = \"m.map\", cell_pitch = 1 }"),
+              HasSubstr("cell_pitch is not a known key; did you mean \"cell_pitch_m\"?"));
   EXPECT_THAT(error("{ file = \"none.map\" }"), HasSubstr("none.map: there is no such file"));
   EXPECT_THAT(error("3"), HasSubstr("it must be an array of strings and tables"));
   EXPECT_THAT(error("\"aisle-grid/stres\""), HasSubstr("did you mean \"stress\"?"));
@@ -176,26 +190,38 @@ TEST_F(CampaignFileTest, LayoutTablesAreRefusedByPlaceAndRemedy) {
 
 TEST_F(CampaignFileTest, ErrorsNamePlaceValueAndRemedy) {
   EXPECT_THAT(error_of("seed = \n"), HasSubstr("c.toml:1:"));
-  EXPECT_THAT(error_of("replicats = 3\n" + kFactors), HasSubstr("c.toml:1:1: replicats is not a known key; did you mean \"replicates\"?"));
-  EXPECT_THAT(error_of(kFactors + "los = [0.1]\n"), HasSubstr("c.toml:5:1: factors.los is not a known key; did you mean \"loss\"?"));
-  EXPECT_THAT(error_of(kFactors + "loss = [1.4]\n"), HasSubstr("factors.loss holds 1.4; a share of lost messages lies between 0 and 1"));
-  EXPECT_THAT(error_of(kFactors + "loss = \"much\"\n"), HasSubstr("c.toml:5:8: factors.loss is a string; it must be an array"));
+  EXPECT_THAT(error_of("replicats = 3\n" + kFactors),
+              HasSubstr("c.toml:1:1: replicats is not a known key; did you mean \"replicates\"?"));
+  EXPECT_THAT(error_of(kFactors + "los = [0.1]\n"),
+              HasSubstr("c.toml:5:1: factors.los is not a known key; did you mean \"loss\"?"));
+  EXPECT_THAT(error_of(kFactors + "loss = [1.4]\n"),
+              HasSubstr("factors.loss holds 1.4; a share of lost messages lies between 0 and 1"));
+  EXPECT_THAT(error_of(kFactors + "loss = \"much\"\n"),
+              HasSubstr("c.toml:5:8: factors.loss is a string; it must be an array"));
   EXPECT_THAT(error_of("replicates = -1\n" + kFactors), HasSubstr("replicates is -1; it must be a whole number"));
   EXPECT_THAT(error_of("replicates = 0\n" + kFactors), HasSubstr("replicates is 0"));
-  EXPECT_THAT(error_of("[factors]\nagents = [\"reckless\"]\nlayouts = [\"aisle-grid\"]\nfleet_sizes = [0]\n"), HasSubstr("a fleet has 1 to 1000 AGVs"));
-  EXPECT_THAT(error_of("[factors]\nagents = [\"reckless\"]\nlayouts = [\"isle-grid\"]\n"), HasSubstr("did you mean \"aisle-grid\"?"));
+  EXPECT_THAT(error_of("[factors]\nagents = [\"reckless\"]\nlayouts = [\"aisle-grid\"]\nfleet_sizes = [0]\n"),
+              HasSubstr("a fleet has 1 to 1000 AGVs"));
+  EXPECT_THAT(error_of("[factors]\nagents = [\"reckless\"]\nlayouts = [\"isle-grid\"]\n"),
+              HasSubstr("did you mean \"aisle-grid\"?"));
   EXPECT_THAT(error_of("[factors]\nagents = [\"reckless\"]\nlayouts = [\"missing.xml\"]\n"), HasSubstr("missing.xml"));
   EXPECT_THAT(error_of(kFactors + "[[gate]]\nagent = \"recless\"\n"), HasSubstr("did you mean \"reckless\"?"));
-  EXPECT_THAT(error_of(kFactors + "[[gate]]\nagent = \"reckless\"\nkind = \"rte\"\n"), HasSubstr("did you mean \"rate\"?"));
-  EXPECT_THAT(error_of(kFactors + "[[gate]]\nagent = \"reckless\"\nregion = \"worst-case\"\n"), HasSubstr("no cell of this campaign lies in region"));
+  EXPECT_THAT(error_of(kFactors + "[[gate]]\nagent = \"reckless\"\nkind = \"rte\"\n"),
+              HasSubstr("did you mean \"rate\"?"));
+  EXPECT_THAT(error_of(kFactors + "[[gate]]\nagent = \"reckless\"\nregion = \"worst-case\"\n"),
+              HasSubstr("no cell of this campaign lies in region"));
   EXPECT_THAT(error_of("name = \"x\"\n"), HasSubstr("has no [factors] table"));
   EXPECT_THAT(error_of(kFactors + "loss = [0.1, 0.1]\n"), HasSubstr("names one value twice"));
-  EXPECT_THAT(error_of("[vehicle]\nspeed_mps = 0\n" + kFactors), HasSubstr("vehicle.speed_mps is 0; it lies from 0.01 to 100"));
+  EXPECT_THAT(error_of("[vehicle]\nspeed_mps = 0\n" + kFactors),
+              HasSubstr("vehicle.speed_mps is 0; it lies from 0.01 to 100"));
 }
 
 TEST_F(CampaignFileTest, MeanOutageIsAFactorThatShapesNoWorld) {
   EXPECT_EQ(read(kFactors).plan.cells()[0].mean_outage_s, 0.0);
-  const CampaignPlan plan = read(kFactors + "loss = [0.2, 0.4]\ndelay_s = [0, 1]\nmean_outage_s = [0, 0.5, 5]\n[radio]\noutage_model = \"heavy-tail\"\n").plan;
+  const CampaignPlan plan =
+      read(kFactors +
+           "loss = [0.2, 0.4]\ndelay_s = [0, 1]\nmean_outage_s = [0, 0.5, 5]\n[radio]\noutage_model = \"heavy-tail\"\n")
+          .plan;
   EXPECT_EQ(plan.cell_count(), 12U);
   const auto cells = plan.cells();
   EXPECT_EQ(cells[1].delay_s, 1.0);
@@ -212,13 +238,18 @@ TEST_F(CampaignFileTest, MeanOutageIsAFactorThatShapesNoWorld) {
 
 TEST_F(CampaignFileTest, EveryRadioKeySurvivesThePlan) {
   std::ofstream(folder_ / "hall.csv") << "sender,receiver,t_send_s,t_recv_s\n0,1,5,5.25\n0,1,6,lost\n";
-  const CampaignPlan plan = read(kFactors +
-                                 "[radio]\ndelay_model = \"heavy-tail\"\nrange_m = 55\nair_time_s = 0.002\nair_time_per_byte_s = 8e-6\noutage_model = \"heavy-tail\"\noutage_shape = 1.2\noutage_scope = "
-                                 "\"direction\"\nloss_good = 0.01\nloss_bad = 0.9\ndelay_min_share = 0.2\ndelay_median_share = 0.3\ndelay_tail_shape = 2\ndelay_cap_share = "
-                                 "0.9\nasymmetry = 0.1\nduplicates = 0.03\nap_spacing_m = 30\nroaming_at_crossing = true\nroaming_border_m = 2\nroaming_min_s = 0.02\nroaming_max_s = 0.05\nroaming_gap_s = "
-                                 "9\ninterference = true\ncontention_window = 15\nsources = 2\nsource_range_m = 8.5\nsource_mean_on_s = 0.25\nsource_mean_off_s = 0.75\nsource_loss = "
-                                 "0.6\ntrace = \"hall.csv\"\n")
-                                .plan;
+  const CampaignPlan plan =
+      read(kFactors +
+           "[radio]\ndelay_model = \"heavy-tail\"\nrange_m = 55\nair_time_s = 0.002\nair_time_per_byte_s = "
+           "8e-6\noutage_model = \"heavy-tail\"\noutage_shape = 1.2\noutage_scope = "
+           "\"direction\"\nloss_good = 0.01\nloss_bad = 0.9\ndelay_min_share = 0.2\ndelay_median_share = "
+           "0.3\ndelay_tail_shape = 2\ndelay_cap_share = "
+           "0.9\nasymmetry = 0.1\nduplicates = 0.03\nap_spacing_m = 30\nroaming_at_crossing = true\nroaming_border_m = "
+           "2\nroaming_min_s = 0.02\nroaming_max_s = 0.05\nroaming_gap_s = "
+           "9\ninterference = true\ncontention_window = 15\nsources = 2\nsource_range_m = 8.5\nsource_mean_on_s = "
+           "0.25\nsource_mean_off_s = 0.75\nsource_loss = "
+           "0.6\ntrace = \"hall.csv\"\n")
+          .plan;
   const CampaignPlan again = parse_plan(plan_text(plan));
   EXPECT_EQ(plan_text(again), plan_text(plan));
   const RadioSetup defaults;
@@ -230,17 +261,19 @@ TEST_F(CampaignFileTest, EveryRadioKeySurvivesThePlan) {
     return list;
   };
   EXPECT_EQ(values(again.radio), values(plan.radio));
-  for (std::size_t i = 0; i < values(defaults).size(); ++i) EXPECT_NE(values(plan.radio)[i], values(defaults)[i]) << "key " << i << " is not tested";
+  for (std::size_t i = 0; i < values(defaults).size(); ++i)
+    EXPECT_NE(values(plan.radio)[i], values(defaults)[i]) << "key " << i << " is not tested";
   EXPECT_EQ(again.sources.count, 2U);
   EXPECT_EQ(again.sources.like, (RadioSource{.range_m = 8.5, .mean_on_s = 0.25, .mean_off_s = 0.75, .loss = 0.6}));
   ASSERT_NE(again.radio.trace, nullptr);
-  EXPECT_EQ(*again.radio.trace,
-            (RadioTrace{{AgvId{0U}, AgvId{1U}, Duration{0}, Duration{250'000'000}}, {AgvId{0U}, AgvId{1U}, Duration{1'000'000'000}, std::nullopt}}));
+  EXPECT_EQ(*again.radio.trace, (RadioTrace{{AgvId{0U}, AgvId{1U}, Duration{0}, Duration{250'000'000}},
+                                            {AgvId{0U}, AgvId{1U}, Duration{1'000'000'000}, std::nullopt}}));
 }
 
 TEST_F(CampaignFileTest, ExternalSourcesMoveNothingElseAndHoldWithTheRadio) {
   const std::string some = "replicates = 3\n" + kFactors, sources = "[radio]\nsources = 2\nsource_range_m = 8.5\n";
-  const CampaignPlan without = read(some).plan, with = read(some + sources).plan, held = read(some + sources + "[vary]\nhold = [\"radio\"]\n").plan;
+  const CampaignPlan without = read(some).plan, with = read(some + sources).plan,
+                     held = read(some + sources + "[vary]\nhold = [\"radio\"]\n").plan;
   std::set<double> places, held_places;
   for (std::uint64_t run = 0; run < without.run_count(); run += without.cell_count()) {
     Scenario scenario = ScenarioSource(with).scenario(run);
@@ -250,7 +283,8 @@ TEST_F(CampaignFileTest, ExternalSourcesMoveNothingElseAndHoldWithTheRadio) {
     const Layout& layout = scenario.map->layout();
     const Scenario same_radio = ScenarioSource(held).scenario(run);  // the same point of another floor
     const Layout& other = same_radio.map->layout();
-    held_places.insert(std::round(1e6 * (same_radio.radio.sources[0].x_m - other.floor_low_m.x()) / (other.floor_high_m.x() - other.floor_low_m.x())));
+    held_places.insert(std::round(1e6 * (same_radio.radio.sources[0].x_m - other.floor_low_m.x()) /
+                                  (other.floor_high_m.x() - other.floor_low_m.x())));
     EXPECT_GE(scenario.radio.sources[0].x_m, layout.floor_low_m.x());
     EXPECT_LT(scenario.radio.sources[0].x_m, layout.floor_high_m.x());
     scenario.radio.sources.clear();
@@ -262,17 +296,22 @@ TEST_F(CampaignFileTest, ExternalSourcesMoveNothingElseAndHoldWithTheRadio) {
 
 TEST_F(CampaignFileTest, RadioErrorsNameKeyValueAndRemedy) {
   const auto radio = [](const std::string& line) { return kFactors + "[radio]\n" + line + "\n"; };
-  EXPECT_THAT(error_of(kFactors + "mean_outage_s = [-1]\n"), HasSubstr("factors.mean_outage_s holds -1; outages last from 0.001 to 1e6 s"));
+  EXPECT_THAT(error_of(kFactors + "mean_outage_s = [-1]\n"),
+              HasSubstr("factors.mean_outage_s holds -1; outages last from 0.001 to 1e6 s"));
   EXPECT_THAT(error_of(kFactors + "mean_outage_s = []\n"), HasSubstr("factors.mean_outage_s is empty"));
   EXPECT_THAT(error_of(kFactors + "mean_outage_s = [1, 1]\n"), HasSubstr("names one value twice"));
-  EXPECT_THAT(error_of(radio("outage_model = \"gilbert\"")), HasSubstr("c.toml:6:16: radio.outage_model is \"gilbert\""));
+  EXPECT_THAT(error_of(radio("outage_model = \"gilbert\"")),
+              HasSubstr("c.toml:6:16: radio.outage_model is \"gilbert\""));
   EXPECT_THAT(error_of(radio("duplicates = 2")), HasSubstr("radio.duplicates: 2 is outside 0 .. 1"));
-  EXPECT_THAT(error_of(radio("contention_window = 5000000000")), HasSubstr("radio.contention_window: 4294967295 is outside 0 .. 1023"));
-  EXPECT_THAT(error_of(radio("sources = 5000000000")), HasSubstr("radio.sources is 4294967295; at most 1000 are possible"));
+  EXPECT_THAT(error_of(radio("contention_window = 5000000000")),
+              HasSubstr("radio.contention_window: 4294967295 is outside 0 .. 1023"));
+  EXPECT_THAT(error_of(radio("sources = 5000000000")),
+              HasSubstr("radio.sources is 4294967295; at most 1000 are possible"));
   EXPECT_THAT(error_of(radio("source_loss = 1.1")), HasSubstr("radio.source_loss is 1.1; it lies from 0 to 1"));
   EXPECT_THAT(error_of(radio("range_m = 0")), HasSubstr("radio.range_m: 0 is not above 0"));
   EXPECT_THAT(error_of(radio("mean_outage_s = 1")), HasSubstr("radio.mean_outage_s is not a known key"));
-  EXPECT_THAT(error_of(radio("delay_model = \"heavy-tail\"\ndelay_cap_share = 0")), HasSubstr("radio.delay_cap_share is 0; a claim about the contract region"));
+  EXPECT_THAT(error_of(radio("delay_model = \"heavy-tail\"\ndelay_cap_share = 0")),
+              HasSubstr("radio.delay_cap_share is 0; a claim about the contract region"));
   EXPECT_EQ(error_of("kind = \"search\"\n" + radio("delay_model = \"heavy-tail\"\ndelay_cap_share = 0")), "no error");
   EXPECT_THAT(error_of(radio("trace = \"missing.csv\"")), HasSubstr("missing.csv"));
 }
@@ -288,7 +327,8 @@ TEST_F(CampaignFileTest, FilesThatNobodyWroteByHandAreRefusedAllTheSame) {
   EXPECT_THAT(error_of("[" + key + "]\n"), HasSubstr("c.toml:1: more than 32 dots in a key"));
   EXPECT_EQ(error_of("# " + std::string(200, '.') + "\n" + kFactors), "no error");
   EXPECT_THAT(error_of(std::string(100'000, '[')), HasSubstr("not valid TOML"));
-  EXPECT_THAT(error_of("stuck_after_s = 1e299\n" + kFactors), HasSubstr("stuck_after_s is 1e+299; it lies above 0 and at most 1e9"));
+  EXPECT_THAT(error_of("stuck_after_s = 1e299\n" + kFactors),
+              HasSubstr("stuck_after_s is 1e+299; it lies above 0 and at most 1e9"));
   EXPECT_THAT(error_of("kind = \"\\u001b[31m\"\n" + kFactors), HasSubstr("kind is \"?[31m\""));
 }
 

@@ -4,12 +4,12 @@
 
 #include <set>
 
-#include "campaign/run/agent_programs.hpp"
 #include "campaign/plan/campaign_file.hpp"
 #include "campaign/plan/scenario_source.hpp"
+#include "campaign/run/agent_programs.hpp"
 #include "core/base/error.hpp"
-#include "core/radio/radio.hpp"
 #include "core/engine/simulation.hpp"
+#include "core/radio/radio.hpp"
 #include "generators/formats/layout_file.hpp"
 #include "generators/scenario_file/scenario_file.hpp"
 #include "tests/storage/sample_records.hpp"
@@ -38,13 +38,14 @@ std::string error_of(const std::string& text) {
 }
 
 const std::string kFactors =
-    "[factors]\nagents = [\"reckless\", \"hull-lock\"]\nlayouts = [\"aisle-grid\", \"corridor-sidings\"]\nfleet_sizes = [2, 3]\n";
+    "[factors]\nagents = [\"reckless\", \"hull-lock\"]\nlayouts = [\"aisle-grid\", \"corridor-sidings\"]\nfleet_sizes "
+    "= [2, 3]\n";
 const std::string kDrawn = "loss = { from = 0.0, to = 0.4 }\ndelay_s = { from = 0, to = 2 }\n";
 const std::string kSearch = "kind = \"search\"\n";
 
 TEST(DrawnFactors, MakeOneCellAndSurviveThePlansText) {
-  const CampaignPlan plan =
-      read("replicates = 30\n" + kSearch + kFactors + kDrawn + "sampling = \"sobol\"\nmean_outage_s = { from = 0.1, to = 2.5 }\n");
+  const CampaignPlan plan = read("replicates = 30\n" + kSearch + kFactors + kDrawn +
+                                 "sampling = \"sobol\"\nmean_outage_s = { from = 0.1, to = 2.5 }\n");
   EXPECT_EQ(plan.cell_count(), 8U);
   const CellRecord cell = plan.cells()[3];
   EXPECT_EQ(cell.lowest(), (RadioQuality{0.0, 0.0, 0.1}));
@@ -103,8 +104,10 @@ TEST(DrawnFactors, AreRefusedWithARemedy) {
   EXPECT_THAT(error_of(kFactors + "loss = { form = 0, to = 1 }\n"), HasSubstr("did you mean \"from\"?"));
   EXPECT_THAT(error_of(kFactors + "mean_outage_s = { from = 0, to = 1 }\n"), HasSubstr("begin at 0.001"));
   EXPECT_THAT(error_of(kFactors + kDrawn + "sampling = \"sobl\"\n"), HasSubstr("did you mean \"sobol\"?"));
-  EXPECT_THAT(error_of(kFactors + kDrawn + "sampling = \"sobol\"\n"), HasSubstr("set it to \"uniform\", or kind to \"search\""));
-  EXPECT_THAT(error_of(kFactors + kDrawn + "sampling = \"latin-hypercube\"\n"), HasSubstr("set it to \"uniform\", or kind to \"search\""));
+  EXPECT_THAT(error_of(kFactors + kDrawn + "sampling = \"sobol\"\n"),
+              HasSubstr("set it to \"uniform\", or kind to \"search\""));
+  EXPECT_THAT(error_of(kFactors + kDrawn + "sampling = \"latin-hypercube\"\n"),
+              HasSubstr("set it to \"uniform\", or kind to \"search\""));
   EXPECT_EQ(error_of(kSearch + kFactors + kDrawn + "sampling = \"latin-hypercube\"\n"), "no error");
   EXPECT_THAT(error_of(kSearch + kFactors + "sampling = \"sobol\"\n"), HasSubstr("no factor is drawn"));
   EXPECT_THAT(error_of(kFactors + kDrawn + "[[gate]]\nagent = \"hull-lock\"\nregion = \"worst-case\"\n"),
@@ -121,7 +124,8 @@ std::string orders(const Scenario& scenario) {
   std::string text;
   for (const AgvSetup& agv : scenario.agvs) {
     for (const auto& [from, to, release] : agv.transports)
-      text += std::to_string(from.value) + " " + std::to_string(to.value) + " " + std::to_string(release.count()) + "\n";
+      text +=
+          std::to_string(from.value) + " " + std::to_string(to.value) + " " + std::to_string(release.count()) + "\n";
   }
   return text;
 }
@@ -135,10 +139,12 @@ std::string fates(const Scenario& scenario) {
 }
 
 const std::string kHeldFactors =
-    "replicates = 6\nhorizon_s = 100\n[factors]\nagents = [\"hull-lock\"]\nlayouts = [\"aisle-grid/stress\"]\nfleet_sizes = [4]\nloss = [0.4]\n";
+    "replicates = 6\nhorizon_s = 100\n[factors]\nagents = [\"hull-lock\"]\nlayouts = "
+    "[\"aisle-grid/stress\"]\nfleet_sizes = [4]\nloss = [0.4]\n";
 
 TEST(HeldStreams, ALayoutAndItsFleetStayWhileTheRadioVaries) {
-  const CampaignPlan plan = read(kHeldFactors + "[vary]\nhold = [\"transports\", \"layout\", \"placement\"]\nheld_replicate = 2\n");
+  const CampaignPlan plan =
+      read(kHeldFactors + "[vary]\nhold = [\"transports\", \"layout\", \"placement\"]\nheld_replicate = 2\n");
   EXPECT_EQ(plan.held_streams, (std::vector{Stream::Layout, Stream::Placement, Stream::Transports}));
   const ScenarioSource source(plan);
   const Scenario held = source.scenario(2);
@@ -154,7 +160,8 @@ TEST(HeldStreams, ALayoutAndItsFleetStayWhileTheRadioVaries) {
   EXPECT_EQ(radios.size(), 6U);
   CampaignPlan free = plan;
   free.held_streams.clear();
-  EXPECT_EQ(to_text(ScenarioSource(free).scenario(2)), to_text(held)) << "the replicate that is held is what it would have been";
+  EXPECT_EQ(to_text(ScenarioSource(free).scenario(2)), to_text(held))
+      << "the replicate that is held is what it would have been";
 }
 
 TEST(HeldStreams, TheRadioStaysWhileTheWorldVaries) {
@@ -173,7 +180,8 @@ TEST(HeldStreams, TheRadioStaysWhileTheWorldVaries) {
   EXPECT_EQ(layouts.size(), 6U);
 }
 
-// Whether all streams but some have seed B, or these have seed A under a world of B: the run is one and the same. Every stream of a run is asked for.
+// Whether all streams but some have seed B, or these have seed A under a world of B: the run is one and the same. Every
+// stream of a run is asked for.
 TEST(HeldStreams, TheEngineTakesEveryStreamFromItsOwnSeed) {
   CampaignPlan plan = read(kHeldFactors + "mean_outage_s = [0.5]\n");
   plan.vehicles[0].type.speed_deviation = 0.1;
@@ -215,16 +223,19 @@ TEST(HeldStreams, AreRefusedWithARemedy) {
   EXPECT_THAT(error_of(kFactors + "[vary]\nhold = [\"layuot\"]\n"), HasSubstr("did you mean \"layout\"?"));
   EXPECT_THAT(error_of(kFactors + "[vary]\nhold = [\"radio\", \"radio\"]\n"), HasSubstr("once is enough"));
   EXPECT_THAT(error_of(kFactors + "[vary]\nheld_replicate = 3\n"), HasSubstr("name one"));
-  const std::string all = "[vary]\nhold = [\"layout\", \"placement\", \"transports\", \"motion\", \"radio\", \"faults\", \"agent\"]\n";
+  const std::string all =
+      "[vary]\nhold = [\"layout\", \"placement\", \"transports\", \"motion\", \"radio\", \"faults\", \"agent\"]\n";
   EXPECT_THAT(error_of(kFactors + all), HasSubstr("leave out the one to vary"));
   EXPECT_EQ(error_of(kFactors + kDrawn + all), "no error");
-  const CampaignPlan plan = read(kFactors + "[vary]\nhold = [\"agent\", \"layout\"]\nheld_replicate = 5\n"), back = parse_plan(plan_text(plan));
+  const CampaignPlan plan = read(kFactors + "[vary]\nhold = [\"agent\", \"layout\"]\nheld_replicate = 5\n"),
+                     back = parse_plan(plan_text(plan));
   EXPECT_EQ(back.held_streams, plan.held_streams);
   EXPECT_EQ(back.held_replicate, 5U);
 }
 
 TEST(Exemptions, ReachEveryScenarioAndThePlansText) {
-  const CampaignPlan plan = read(kFactors + "[law]\nexempt_purposes = [\"charging\", \"parking\"]\nexempt_radius_m = 1.5\n"),
+  const CampaignPlan plan = read(kFactors +
+                                 "[law]\nexempt_purposes = [\"charging\", \"parking\"]\nexempt_radius_m = 1.5\n"),
                      back = parse_plan(plan_text(plan));
   const Scenario scenario = ScenarioSource(back).scenario(0);
   EXPECT_TRUE(scenario.law.exempt_purposes.has(Purpose::Charging));
@@ -234,14 +245,17 @@ TEST(Exemptions, ReachEveryScenarioAndThePlansText) {
   EXPECT_EQ(plan_text(back), plan_text(plan));
   EXPECT_THAT(error_of(kFactors + "[law]\nexempt_purposes = [\"charging\"]\n"), HasSubstr("give a radius"));
   EXPECT_THAT(error_of(kFactors + "[law]\nexempt_radius_m = 1.0\n"), HasSubstr("name their purposes"));
-  EXPECT_THAT(error_of(kFactors + "[law]\nexempt_purposes = [\"chargign\"]\nexempt_radius_m = 1\n"), HasSubstr("did you mean \"charging\"?"));
-  EXPECT_THAT(error_of(kFactors + "[law]\nexempt_purposes = [\"charging\"]\nexempt_radius_m = 101\n"), HasSubstr("between 0 and 100"));
+  EXPECT_THAT(error_of(kFactors + "[law]\nexempt_purposes = [\"chargign\"]\nexempt_radius_m = 1\n"),
+              HasSubstr("did you mean \"charging\"?"));
+  EXPECT_THAT(error_of(kFactors + "[law]\nexempt_purposes = [\"charging\"]\nexempt_radius_m = 101\n"),
+              HasSubstr("between 0 and 100"));
 }
 
 const std::string kTwoTypes = "[[vehicle]]\nname = \"tugger\"\n[[vehicle]]\nname = \"cart\"\n";
 
 TEST(Exemptions, PairsReachEveryScenarioThePlansTextAndTheArchive) {
-  const CampaignPlan plan = read(kFactors + kTwoTypes + "[law]\nexempt_pairs = [[\"tugger\", \"cart\"], [\"cart\", \"obstacle\"]]\n"),
+  const CampaignPlan plan = read(kFactors + kTwoTypes +
+                                 "[law]\nexempt_pairs = [[\"tugger\", \"cart\"], [\"cart\", \"obstacle\"]]\n"),
                      back = parse_plan(plan_text(plan));
   const std::vector<ExemptPair> pairs{{"tugger", "cart"}, {"cart", "obstacle"}};
   EXPECT_EQ(ScenarioSource(back).scenario(0).law.exempt_pairs, pairs);
@@ -250,15 +264,22 @@ TEST(Exemptions, PairsReachEveryScenarioThePlansTextAndTheArchive) {
 }
 
 TEST(Exemptions, PairsNameKindsOfThisFleet) {
-  const auto error = [](const std::string& pairs) { return error_of(kFactors + kTwoTypes + "[law]\nexempt_pairs = " + pairs + "\n"); };
+  const auto error = [](const std::string& pairs) {
+    return error_of(kFactors + kTwoTypes + "[law]\nexempt_pairs = " + pairs + "\n");
+  };
   EXPECT_EQ(error("[[\"cart\", \"cart\"]]"), "no error") << "two of one kind";
-  EXPECT_THAT(error("[[\"tugger\", \"crat\"]]"), HasSubstr("law.exempt_pairs: \"crat\" is no vehicle type of this fleet, nor \"obstacle\"; did you mean \"cart\"?"));
+  EXPECT_THAT(
+      error("[[\"tugger\", \"crat\"]]"),
+      HasSubstr(
+          "law.exempt_pairs: \"crat\" is no vehicle type of this fleet, nor \"obstacle\"; did you mean \"cart\"?"));
   EXPECT_THAT(error("[[\"obstacle\", \"obstacle\"]]"), HasSubstr("name a vehicle type"));
   EXPECT_THAT(error("[[\"tugger\"]]"), HasSubstr("an array of pairs"));
   EXPECT_THAT(error("[[\"tugger\", 1]]"), HasSubstr("an array of pairs"));
   EXPECT_THAT(error("[\"tugger\", \"cart\"]"), HasSubstr("an array of pairs"));
   EXPECT_THAT(error("\"tugger\""), HasSubstr("an array of pairs"));
-  EXPECT_THAT(error_of(kFactors + "[[vehicle]]\nname = \"obstacle\"\n[law]\nexempt_pairs = [[\"obstacle\", \"obstacle\"]]\n"), HasSubstr("give the type another name"));
+  EXPECT_THAT(
+      error_of(kFactors + "[[vehicle]]\nname = \"obstacle\"\n[law]\nexempt_pairs = [[\"obstacle\", \"obstacle\"]]\n"),
+      HasSubstr("give the type another name"));
 }
 
 }  // namespace

@@ -61,7 +61,8 @@ TEST_F(Figure4Program, ThePublishedLawIsComparedWithTheJudge) {
   EXPECT_EQ(json["differences"][0]["violation"]["entities"], (nlohmann::json{"X", "Y"}));
   EXPECT_TRUE(simulate("figure4.json", "paper", 1)["differences"].empty());
   EXPECT_FALSE(simulate("figure4.json", "exact", 1).contains("differences")) << "there is nothing to compare with";
-  const auto text = run("simulate " + test::source("tests/scenarios/parked_then_leaves.json") + " --law paper --granularity 1s");
+  const auto text =
+      run("simulate " + test::source("tests/scenarios/parked_then_leaves.json") + " --law paper --granularity 1s");
   EXPECT_NE(text.out.find("missed (rest phase): X and Y from 2.540 s to 4.193 s"), std::string::npos) << text.out;
 }
 
@@ -73,7 +74,11 @@ TEST_F(Figure4Program, GranularityHasAUnit) {
   EXPECT_EQ(checks("0.01s"), 9600);
   EXPECT_EQ(checks("0.01"), 9600);
   for (const char* bad : {"ms", "1h", "1 s", "-1s", "0", "nan", "1e-9"}) {
-    EXPECT_EQ(run("simulate " + test::source("tests/scenarios/figure4.json") + " --law paper --granularity '" + bad + "'").exit_code, 2) << bad;
+    EXPECT_EQ(
+        run("simulate " + test::source("tests/scenarios/figure4.json") + " --law paper --granularity '" + bad + "'")
+            .exit_code,
+        2)
+        << bad;
   }
 }
 

@@ -24,7 +24,8 @@ TEST_F(ImportTest, WritesLayoutsLifAndCsv) {
   EXPECT_EQ(read(path("again.json")), read(path("merged.json")));
   EXPECT_EQ(run("import lif merged.lif.json -o merged.csv").exit_code, 0);
   EXPECT_THAT(read(path("merged.csv")), StartsWith("id,x,y,purposes\n"));
-  EXPECT_EQ(run("import lif merged.lif.json").out, read(path("merged.json"))) << "without -o the layout goes to standard output";
+  EXPECT_EQ(run("import lif merged.lif.json").out, read(path("merged.json")))
+      << "without -o the layout goes to standard output";
 }
 
 TEST_F(ImportTest, DrawsWhatItRead) {
@@ -52,15 +53,19 @@ TEST_F(ImportTest, RefusesWordsThatMeanNothing) {
     return finished.err;
   };
   EXPECT_THAT(error_of("import opentsc x.xml"), HasSubstr("did you mean \"opentcs\"?"));
-  EXPECT_THAT(error_of("import csv x.csv --graph 1"), HasSubstr("--graph: has no meaning for format \"csv\"; it belongs to \"rmf\""));
+  EXPECT_THAT(error_of("import csv x.csv --graph 1"),
+              HasSubstr("--graph: has no meaning for format \"csv\"; it belongs to \"rmf\""));
   EXPECT_THAT(error_of("import csv none.csv"), HasSubstr("none.csv: there is no such file"));
-  EXPECT_THAT(error_of("import opentcs " + kCrossdock + " -o no/where.json"), HasSubstr("no/where.json: cannot be written"));
+  EXPECT_THAT(error_of("import opentcs " + kCrossdock + " -o no/where.json"),
+              HasSubstr("no/where.json: cannot be written"));
 }
 
 TEST_F(ImportTest, CampaignsTakeLayoutFilesByTheirExtension) {
   EXPECT_EQ(run("import opentcs " + kCrossdock + " --merge-antiparallel -o dock.lif.json").exit_code, 0);
   EXPECT_EQ(run("import lif dock.lif.json -o tables.csv").exit_code, 0);
-  write("c.toml", "horizon_s = 20\n[factors]\nagents = [\"reckless\"]\nlayouts = [\"dock.lif.json\", \"tables.csv\"]\nfleet_sizes = [2]\n");
+  write("c.toml",
+        "horizon_s = 20\n[factors]\nagents = [\"reckless\"]\nlayouts = [\"dock.lif.json\", "
+        "\"tables.csv\"]\nfleet_sizes = [2]\n");
   const auto checked = run("check c.toml");
   EXPECT_EQ(checked.exit_code, 0) << checked.err;
   EXPECT_THAT(checked.out, HasSubstr("2 cells"));

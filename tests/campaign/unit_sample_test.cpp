@@ -37,21 +37,25 @@ TEST_P(Samples, APointIsAFunctionOfItsIndexWhateverWasDrawnBefore) {
   }
   for (std::uint64_t i = kPoints; i-- > 0;) {
     const UnitSample alone(GetParam(), 5, kPoints);
-    for (std::uint32_t d = UnitSample::kDimensions; d-- > 0;) EXPECT_EQ(alone.at(i, d), first[i * UnitSample::kDimensions + d]);
+    for (std::uint32_t d = UnitSample::kDimensions; d-- > 0;)
+      EXPECT_EQ(alone.at(i, d), first[i * UnitSample::kDimensions + d]);
   }
   EXPECT_TRUE(std::ranges::all_of(first, [](double x) { return x >= 0.0 && x < 1.0; }));
   EXPECT_EQ(std::set<double>(first.begin(), first.end()).size(), first.size());
-  EXPECT_NE(UnitSample(GetParam(), 6, kPoints).at(7, 0), forwards.at(7, 0)) << "another campaign seed draws other points";
+  EXPECT_NE(UnitSample(GetParam(), 6, kPoints).at(7, 0), forwards.at(7, 0))
+      << "another campaign seed draws other points";
 }
 
-// Over campaign seeds every single point is uniform and its coordinates are independent: an estimate is unbiased whatever the way of drawing.
+// Over campaign seeds every single point is uniform and its coordinates are independent: an estimate is unbiased
+// whatever the way of drawing.
 TEST_P(Samples, EveryPointIsUniformOverCampaignSeeds) {
   for (const std::uint64_t replicate : {0U, 1U, 5U, 6U}) {
     std::vector<int> cells(4 * 4 * 4);
     for (std::uint64_t seed = 0; seed < 12'800; ++seed) {
       const UnitSample sample(GetParam(), seed, 7);
       std::size_t cell = 0;
-      for (std::uint32_t d = 0; d < UnitSample::kDimensions; ++d) cell = 4 * cell + static_cast<std::size_t>(4.0 * sample.at(replicate, d));
+      for (std::uint32_t d = 0; d < UnitSample::kDimensions; ++d)
+        cell = 4 * cell + static_cast<std::size_t>(4.0 * sample.at(replicate, d));
       ++cells[cell];
     }
     EXPECT_LT(std::abs(excess(cells)), 4.0) << replicate;
@@ -63,7 +67,8 @@ TEST_P(Samples, TheSampleOfOneCampaignIsUniform) {
   std::vector<int> cells(8 * 8 * 8);
   for (std::uint64_t i = 0; i < 20'000; ++i) {
     std::size_t cell = 0;
-    for (std::uint32_t d = 0; d < UnitSample::kDimensions; ++d) cell = 8 * cell + static_cast<std::size_t>(8.0 * sample.at(i, d));
+    for (std::uint32_t d = 0; d < UnitSample::kDimensions; ++d)
+      cell = 8 * cell + static_cast<std::size_t>(8.0 * sample.at(i, d));
     ++cells[cell];
   }
   EXPECT_LT(excess(cells), 4.0);
@@ -73,7 +78,8 @@ TEST(UniformSample, NeighboursInTimeAreIndependent) {
   const UnitSample sample(Sampling::Uniform, 42, 1);
   std::vector<int> cells(10 * 10);
   for (std::uint64_t i = 0; i < 40'000; i += 2)
-    ++cells[10 * static_cast<std::size_t>(10.0 * sample.at(i, 0)) + static_cast<std::size_t>(10.0 * sample.at(i + 1, 0))];
+    ++cells[10 * static_cast<std::size_t>(10.0 * sample.at(i, 0)) +
+            static_cast<std::size_t>(10.0 * sample.at(i + 1, 0))];
   EXPECT_LT(std::abs(excess(cells)), 4.0);
 }
 
@@ -130,7 +136,8 @@ TEST(SobolSequence, BeginsAsPublished) {
                                        {0.625, 0.125, 0.875},
                                        {0.125, 0.625, 0.375}};
   for (std::uint64_t i = 0; i < 8; ++i) {
-    for (std::uint32_t d = 0; d < 3; ++d) EXPECT_EQ(static_cast<double>(sobol_bits(i, d)) * 0x1.0p-64, kPublished[i][d]) << i << " " << d;
+    for (std::uint32_t d = 0; d < 3; ++d)
+      EXPECT_EQ(static_cast<double>(sobol_bits(i, d)) * 0x1.0p-64, kPublished[i][d]) << i << " " << d;
   }
 }
 
@@ -167,7 +174,8 @@ double discrepancy(const UnitSample& sample, std::uint64_t points) {
 
 TEST(SobolSample, CoversMoreEvenlyThanIndependentDraws) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
-    const double sobol = discrepancy(UnitSample(Sampling::Sobol, seed, 1), 200), uniform = discrepancy(UnitSample(Sampling::Uniform, seed, 1), 200);
+    const double sobol = discrepancy(UnitSample(Sampling::Sobol, seed, 1), 200),
+                 uniform = discrepancy(UnitSample(Sampling::Uniform, seed, 1), 200);
     EXPECT_LT(sobol, 0.5 * uniform) << seed;
   }
 }

@@ -66,7 +66,8 @@ TEST_F(BadInput, Archives) {
 }
 
 TEST_F(BadInput, ARunThatDoesNotExist) {
-  write("tiny.toml", campaign("agents = [\"reckless\"]\nlayouts = [\"aisle-grid\"]\nfleet_sizes = [2]", "horizon_s = 10\n"));
+  write("tiny.toml",
+        campaign("agents = [\"reckless\"]\nlayouts = [\"aisle-grid\"]\nfleet_sizes = [2]", "horizon_s = 10\n"));
   run("run tiny.toml --db tiny.db");
   expect_refused("replay tiny.db 1", "1 does not exist; the campaign has runs 0 to 0");
   expect_refused("replay tiny.db many", "RUN");
@@ -75,7 +76,8 @@ TEST_F(BadInput, ARunThatDoesNotExist) {
 
 TEST_F(BadInput, OverwritingWhatIsNotOurs) {
   write("notes.txt", "mine\n");
-  write("tiny.toml", campaign("agents = [\"reckless\"]\nlayouts = [\"aisle-grid\"]\nfleet_sizes = [2]", "horizon_s = 10\n"));
+  write("tiny.toml",
+        campaign("agents = [\"reckless\"]\nlayouts = [\"aisle-grid\"]\nfleet_sizes = [2]", "horizon_s = 10\n"));
   expect_refused("run tiny.toml --db notes.txt --overwrite", "not");
   EXPECT_EQ(read(path("notes.txt")), "mine\n");
   expect_refused("run tiny.toml --db tiny.toml --overwrite", "not");
@@ -92,15 +94,18 @@ TEST_F(BadInput, Words) {
   expect_refused("runn a.toml", "did you mean \"run\"?");
   expect_refused("run", "CAMPAIGN");
   expect_refused("simulate x.json --law exakt", "x.json");
-  expect_refused("simulate " + test::source("tests/scenarios/figure4.json") + " --law exakt", "did you mean \"exact\"?");
-  expect_refused("simulate " + test::source("tests/scenarios/figure4.json") + " --agent recless", "did you mean \"reckless\"?");
+  expect_refused("simulate " + test::source("tests/scenarios/figure4.json") + " --law exakt",
+                 "did you mean \"exact\"?");
+  expect_refused("simulate " + test::source("tests/scenarios/figure4.json") + " --agent recless",
+                 "did you mean \"reckless\"?");
   expect_refused("list lawss", "did you mean \"laws\"?");
   expect_refused("run a.toml --jobs many", "--jobs");
   expect_refused("run a.toml --replicates -3", "--replicates");
   expect_refused("run a.toml --seed -1", "--seed");
   expect_refused("generate fishbones", "did you mean \"fishbone\"?");
   expect_refused("generate fishbone --seed many", "--seed");
-  expect_refused("generate fishbone --svg nowhere/a.svg", "nowhere/a.svg: cannot be written; choose another path for --svg");
+  expect_refused("generate fishbone --svg nowhere/a.svg",
+                 "nowhere/a.svg: cannot be written; choose another path for --svg");
 }
 
 TEST_F(BadInput, ScenarioFiles) {

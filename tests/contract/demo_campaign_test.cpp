@@ -3,8 +3,8 @@
 
 #include <map>
 
-#include "campaign/run/campaign.hpp"
 #include "campaign/plan/campaign_file.hpp"
+#include "campaign/run/campaign.hpp"
 #include "reports/evidence/binomial.hpp"
 #include "storage/archive.hpp"
 #include "tests/support/program.hpp"
@@ -59,7 +59,8 @@ class DemoCampaign : public test::ProgramTest {
 TEST_F(DemoCampaign, ShowsWhatItMust) {
   EXPECT_EQ(over([](const CellRecord&) { return true; }).crashed, 0U);
 
-  EXPECT_EQ(over([](const CellRecord& cell) { return cell.agent == "hull-lock"; }).violating, 0U) << "inside and outside the contract";
+  EXPECT_EQ(over([](const CellRecord& cell) { return cell.agent == "hull-lock"; }).violating, 0U)
+      << "inside and outside the contract";
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     if (cells_[i].agent == "hull-lock" && cells_[i].in_contract()) {
       EXPECT_GT(sums_[i].done, 0U) << cells_[i].layout << " loss " << cells_[i].loss << " delay " << cells_[i].delay_s;
@@ -67,7 +68,9 @@ TEST_F(DemoCampaign, ShowsWhatItMust) {
   }
 
   const auto timeout_grant_at = [&](double loss) {
-    return over([=](const CellRecord& cell) { return cell.agent == "timeout-grant" && cell.delay_s == 0.0 && cell.loss == loss; });
+    return over([=](const CellRecord& cell) {
+      return cell.agent == "timeout-grant" && cell.delay_s == 0.0 && cell.loss == loss;
+    });
   };
   const Sums lossy = timeout_grant_at(0.4), lossless = timeout_grant_at(0.0);
   EXPECT_GT(lossy.violating, lossless.violating);

@@ -28,7 +28,9 @@ TEST_F(Determinism, OneTwoAndSevenWorkersWriteTheSameBytes) {
   const CampaignPlan plan = test::small_plan();
   for (const int workers : {1, 2, 7}) {
     const auto result = campaign(plan, workers, std::to_string(workers) + ".db");
-    EXPECT_LE(result.threads, workers);  // a busy machine gives all the work to those that come first; the task pool's own test counts them
+    EXPECT_LE(
+        result.threads,
+        workers);  // a busy machine gives all the work to those that come first; the task pool's own test counts them
     EXPECT_TRUE(result.complete());
   }
   const std::string bytes = read(path("1.db"));

@@ -13,7 +13,8 @@ using testing::Not;
 
 const std::string kHead = "name = \"c\"\nseed = 5\nreplicates = 8\nhorizon_s = 90.0\n";
 const std::string kFactors =
-    "[factors]\nagents = [\"reckless\", \"timeout-grant\"]\nlayouts = [\"aisle-grid\", \"corridor-sidings\"]\nfleet_sizes = [4]\n"
+    "[factors]\nagents = [\"reckless\", \"timeout-grant\"]\nlayouts = [\"aisle-grid\", "
+    "\"corridor-sidings\"]\nfleet_sizes = [4]\n"
     "loss = { from = 0.0, to = 0.4 }\ndelay_s = { from = 0.0, to = 2.0 }\n";
 const std::string kGate = "[[gate]]\nagent = \"timeout-grant\"\nlimit = 0.5\n";
 
@@ -45,15 +46,19 @@ TEST_F(DrawnFactors, AreStoredReplayedAndClaimedAsARegion) {
   EXPECT_THAT(page, HasSubstr("8 replicates wherever loss <= 40 % and delay <= 2 s (drawn uniformly"));
   EXPECT_THAT(page, HasSubstr("| 0 .. 40 % | 0 .. 2 s |"));
   EXPECT_EQ(ask("SELECT count(*) FROM v1_cells WHERE in_contract AND NOT is_worst_case"), "4");
-  EXPECT_EQ(ask("SELECT count(DISTINCT loss) || ' ' || count(DISTINCT delay_s) || ' ' || count(DISTINCT replicate || ' ' || loss || ' ' || delay_s) "
+  EXPECT_EQ(ask("SELECT count(DISTINCT loss) || ' ' || count(DISTINCT delay_s) || ' ' || count(DISTINCT replicate || ' "
+                "' || loss || ' ' || delay_s) "
                 "FROM v1_runs"),
             "8 8 8");
-  EXPECT_EQ(ask("SELECT min(loss) > 0 AND max(loss) < 0.4 AND max(delay_s) > 1 AND max(delay_s) < 2 FROM v1_runs"), "1");
-  // The radio did what was drawn: the share of messages lost goes with the loss.
-  EXPECT_EQ(ask("SELECT max(abs(1.0 * receptions_lost / receptions - loss)) < 0.1 FROM (SELECT replicate, loss, sum(receptions) receptions, "
-                "sum(receptions_lost) "
-                "receptions_lost FROM v1_runs WHERE agent = 'timeout-grant' GROUP BY replicate) WHERE receptions > 1000"),
+  EXPECT_EQ(ask("SELECT min(loss) > 0 AND max(loss) < 0.4 AND max(delay_s) > 1 AND max(delay_s) < 2 FROM v1_runs"),
             "1");
+  // The radio did what was drawn: the share of messages lost goes with the loss.
+  EXPECT_EQ(
+      ask("SELECT max(abs(1.0 * receptions_lost / receptions - loss)) < 0.1 FROM (SELECT replicate, loss, "
+          "sum(receptions) receptions, "
+          "sum(receptions_lost) "
+          "receptions_lost FROM v1_runs WHERE agent = 'timeout-grant' GROUP BY replicate) WHERE receptions > 1000"),
+      "1");
   for (const auto* index : {"0", "13", "31"}) expect_replayed(index);
   {
     SQLite::Database db(path("c.db"), SQLite::OPEN_READWRITE);
@@ -68,9 +73,12 @@ TEST_F(DrawnFactors, AreStoredReplayedAndClaimedAsARegion) {
 TEST_F(DrawnFactors, AnEvenSampleIsForSearches) {
   for (const std::string sampling : {"latin-hypercube", "sobol"}) {
     const auto factors = kFactors + "sampling = \"" + sampling + "\"\n";
-    const auto page = campaign("kind = \"search\"\n" + kHead + factors + "[[gate]]\nagent = \"timeout-grant\"\nkind = \"none\"\n");
+    const auto page =
+        campaign("kind = \"search\"\n" + kHead + factors + "[[gate]]\nagent = \"timeout-grant\"\nkind = \"none\"\n");
     EXPECT_THAT(page, HasSubstr("drawn evenly (" + sampling + ")"));
-    EXPECT_EQ(ask("SELECT count(DISTINCT cast(loss / 0.4 * 8 AS INTEGER)) || count(DISTINCT cast(delay_s / 2.0 * 8 AS INTEGER)) FROM v1_runs"), "88");
+    EXPECT_EQ(ask("SELECT count(DISTINCT cast(loss / 0.4 * 8 AS INTEGER)) || count(DISTINCT cast(delay_s / 2.0 * 8 AS "
+                  "INTEGER)) FROM v1_runs"),
+              "88");
     expect_replayed("31");
     std::filesystem::remove(path("one.db"));
     std::filesystem::remove(path("c.db"));
@@ -82,15 +90,17 @@ TEST_F(DrawnFactors, AnEvenSampleIsForSearches) {
 }
 
 TEST_F(DrawnFactors, AHeldWorldIsReplayedAndSaidToBeOne) {
-  const auto page =
-      campaign(kHead + kFactors +
-               "[vary]\nhold = [\"layout\", \"placement\", \"transports\", \"motion\", \"faults\", \"agent\"]\nheld_replicate = 3\n" + kGate);
-  EXPECT_THAT(
-      page,
-      HasSubstr("in one warehouse for each of 2 layouts and fleet sizes, with the placement, transports, motion, faults, agent of replicate 3"));
+  const auto page = campaign(kHead + kFactors +
+                             "[vary]\nhold = [\"layout\", \"placement\", \"transports\", \"motion\", \"faults\", "
+                             "\"agent\"]\nheld_replicate = 3\n" +
+                             kGate);
+  EXPECT_THAT(page, HasSubstr("in one warehouse for each of 2 layouts and fleet sizes, with the placement, transports, "
+                              "motion, faults, agent of replicate 3"));
   for (const auto* index : {"0", "12", "31"}) expect_replayed(index);
   // Agents that send nothing would do the same in every replicate; what the radio loses differs.
-  EXPECT_EQ(ask("SELECT count(DISTINCT receptions_lost) > 4 FROM v1_runs WHERE agent = 'timeout-grant' AND layout = 'aisle-grid'"), "1");
+  EXPECT_EQ(ask("SELECT count(DISTINCT receptions_lost) > 4 FROM v1_runs WHERE agent = 'timeout-grant' AND layout = "
+                "'aisle-grid'"),
+            "1");
   EXPECT_EQ(ask("SELECT count(DISTINCT transports_released) FROM v1_runs WHERE layout = 'aisle-grid'"), "1");
   const auto scenario = run("replay c.db 0 --scenario s.json");
   EXPECT_THAT(read(path("s.json")), HasSubstr("\"stream_seeds\""));
@@ -100,21 +110,29 @@ TEST_F(DrawnFactors, AHeldWorldIsReplayedAndSaidToBeOne) {
 }
 
 TEST_F(DrawnFactors, ExemptionsHeadTheReportAndAreReplayed) {
-  const auto page =
-      campaign(kHead + kFactors + "[world]\nplacement = \"charger-bank\"\n[law]\nexempt_purposes = [\"charging\"]\nexempt_radius_m = 1.5\n" + kGate);
+  const auto page = campaign(
+      kHead + kFactors +
+      "[world]\nplacement = \"charger-bank\"\n[law]\nexempt_purposes = [\"charging\"]\nexempt_radius_m = 1.5\n" +
+      kGate);
   EXPECT_LT(page.find("AGVs within 1.5 m of a station for charging may be closer"), page.find("gate \"gate 1\""));
-  EXPECT_THAT(run("report c.db --format json").out, HasSubstr("\"exemptions\": [\n    {\n      \"purposes\": \"charging\","));
+  EXPECT_THAT(run("report c.db --format json").out,
+              HasSubstr("\"exemptions\": [\n    {\n      \"purposes\": \"charging\","));
   expect_replayed("17");
 }
 
 TEST_F(DrawnFactors, ExemptPairsHeadTheReportAndAreReplayed) {
-  const auto page = campaign(kHead + kFactors + "[[vehicle]]\nname = \"tugger\"\n[law]\nexempt_pairs = [[\"tugger\", \"obstacle\"]]\n" + kGate);
+  const auto page =
+      campaign(kHead + kFactors +
+               "[[vehicle]]\nname = \"tugger\"\n[law]\nexempt_pairs = [[\"tugger\", \"obstacle\"]]\n" + kGate);
   EXPECT_LT(page.find("tugger and obstacle may be closer than the safety distance"), page.find("gate \"gate 1\""));
-  EXPECT_THAT(run("report c.db --format json").out, HasSubstr("\"exemptions\": [\n    {\n      \"pair\": \"tugger and obstacle\""));
+  EXPECT_THAT(run("report c.db --format json").out,
+              HasSubstr("\"exemptions\": [\n    {\n      \"pair\": \"tugger and obstacle\""));
   expect_replayed("17");
   run("replay c.db 0 --scenario s.json");
-  EXPECT_THAT(run("simulate s.json --agent hull-lock").out, HasSubstr("exempt from the safety distance (contact is not): tugger and obstacle\n"));
-  EXPECT_THAT(run("simulate s.json --agent hull-lock --json").out, HasSubstr("\"exempt_pairs\": [\n    [\n      \"tugger\",\n      \"obstacle\"\n    ]\n  ]"));
+  EXPECT_THAT(run("simulate s.json --agent hull-lock").out,
+              HasSubstr("exempt from the safety distance (contact is not): tugger and obstacle\n"));
+  EXPECT_THAT(run("simulate s.json --agent hull-lock --json").out,
+              HasSubstr("\"exempt_pairs\": [\n    [\n      \"tugger\",\n      \"obstacle\"\n    ]\n  ]"));
 }
 
 TEST_F(DrawnFactors, TheReplayLineOfASharedObjectsAgentAsksForIt) {

@@ -1,4 +1,5 @@
-// The sound agent among everything that goes wrong with computers, clocks, batteries, drives and radio: no two AGVs ever come too near each other.
+// The sound agent among everything that goes wrong with computers, clocks, batteries, drives and radio: no two AGVs
+// ever come too near each other.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -36,7 +36,10 @@ TEST_F(Generate, WritesFilesInsteadAndDrawsAPicture) {
 // As for /dev/null: an output that is no file is written to and stays what it is.
 TEST_F(Generate, WritesIntoAPipeInsteadOfReplacingIt) {
   const std::string generate = std::string(FLEETPROOF_PROGRAM) + " generate fishbone --seed 3";
-  ASSERT_EQ(std::system(("cd '" + folder_.string() + "' && mkfifo pipe && (timeout 5 cat pipe > got & " + generate + " -o pipe; wait)").c_str()), 0);
+  ASSERT_EQ(std::system(("cd '" + folder_.string() + "' && mkfifo pipe && (timeout 5 cat pipe > got & " + generate +
+                         " -o pipe; wait)")
+                            .c_str()),
+            0);
   EXPECT_TRUE(std::filesystem::is_fifo(folder_ / "pipe"));
   EXPECT_EQ(read(path("got")), run("generate fishbone --seed 3").out);
 }

@@ -1,4 +1,5 @@
-// Everything a radio can do, at once, in whole campaigns: the same bytes on any number of workers, every run comes back, scenario files hold it all.
+// Everything a radio can do, at once, in whole campaigns: the same bytes on any number of workers, every run comes
+// back, scenario files hold it all.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,12 +22,14 @@ CampaignPlan hostile_plan(OutageSetup::Scope scope) {
   plan.radio.outages.scope = scope;
   plan.radio.asymmetry = scope == OutageSetup::Scope::Place ? 0.0 : 0.5;
   plan.radio.duplicates = 0.1;
-  plan.radio.places = {.ap_spacing_m = 10.0, .roaming_at_crossing = scope == OutageSetup::Scope::Link, .roaming_border_m = 1.0};
+  plan.radio.places = {
+      .ap_spacing_m = 10.0, .roaming_at_crossing = scope == OutageSetup::Scope::Link, .roaming_border_m = 1.0};
   plan.radio.contention = {.interference = true, .contention_window = 7};
   plan.sources = {.count = 3, .like = {.mean_on_s = 2.0, .mean_off_s = 4.0}};
   RadioTrace trace;
   for (int i = 0; i < 100; ++i) {
-    trace.push_back({AgvId{0U}, AgvId{1U}, Duration{i * 37'000'000LL}, i % 3 == 0 ? std::nullopt : std::optional(Duration{i * 11'000'000LL})});
+    trace.push_back({AgvId{0U}, AgvId{1U}, Duration{i * 37'000'000LL},
+                     i % 3 == 0 ? std::nullopt : std::optional(Duration{i * 11'000'000LL})});
   }
   plan.radio.trace = std::make_shared<const RadioTrace>(std::move(trace));
   return plan;

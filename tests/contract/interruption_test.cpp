@@ -15,13 +15,16 @@ class Interruption : public test::ProgramTest {
   void SetUp() override {
     ProgramTest::SetUp();
     write("long.toml",
-          "replicates = 1000000\nhorizon_s = 60\n[factors]\nagents = [\"hull-lock\"]\nlayouts = [\"aisle-grid\"]\nloss = [0.4]\ndelay_s = [2]\n[[gate]]\nagent = "
+          "replicates = 1000000\nhorizon_s = 60\n[factors]\nagents = [\"hull-lock\"]\nlayouts = [\"aisle-grid\"]\nloss "
+          "= [0.4]\ndelay_s = [2]\n[[gate]]\nagent = "
           "\"hull-lock\"\nlimit = 0.5\nmin_transports_per_agv_hour = 0\n");
   }
 };
 
 TEST_F(Interruption, AnInterruptKeepsTheResultsAndDemonstratesNothing) {
-  const std::string command = "cd '" + folder_.string() + "' && { " + FLEETPROOF_PROGRAM + " run long.toml --db long.db >out.txt 2>err.txt & pid=$!; sleep 1; kill -INT $pid; wait $pid; echo $? >code.txt; }";
+  const std::string command = "cd '" + folder_.string() + "' && { " + FLEETPROOF_PROGRAM +
+                              " run long.toml --db long.db >out.txt 2>err.txt & pid=$!; sleep 1; kill -INT $pid; wait "
+                              "$pid; echo $? >code.txt; }";
   ASSERT_EQ(std::system(command.c_str()), 0);
   EXPECT_EQ(read(path("code.txt")), "130\n");
   EXPECT_THAT(read(path("err.txt")), HasSubstr("interrupted"));
@@ -40,7 +43,9 @@ TEST_F(Interruption, ATimeBudgetStopsByItself) {
 }
 
 TEST_F(Interruption, AKillLosesAtMostTwoSeconds) {
-  const std::string command = "cd '" + folder_.string() + "' && { " + FLEETPROOF_PROGRAM + " run long.toml --db long.db >out.txt 2>err.txt & pid=$!; sleep 4; kill -9 $pid; wait $pid; true; }";
+  const std::string command =
+      "cd '" + folder_.string() + "' && { " + FLEETPROOF_PROGRAM +
+      " run long.toml --db long.db >out.txt 2>err.txt & pid=$!; sleep 4; kill -9 $pid; wait $pid; true; }";
   ASSERT_EQ(std::system(command.c_str()), 0);
   EXPECT_FALSE(std::filesystem::exists(path("long.db")));
   const auto report = run("report long.db.partial --json");

@@ -1,4 +1,5 @@
-// The planar kernel on a million pairs, in thirds: anywhere, on a lattice, parallel with a gap of nothing up to the safety distance.
+// The planar kernel on a million pairs, in thirds: anywhere, on a lattice, parallel with a gap of nothing up to the
+// safety distance.
 #include "tests/oracle/rectangle_check.hpp"
 
 namespace fleetproof::test {
@@ -29,7 +30,11 @@ TEST(Kernel, IsExactOnALattice) {
 TEST(Kernel, IsExactForParallelAndTouchingPairs) {
   Random random;
   for (int i = 0; i < kPairs; ++i) {
-    const double gap_m = i % 5 == 0 ? 0.0 : i % 5 == 1 ? 1e-9 : i % 5 == 2 ? -1e-9 : i % 5 == 3 ? 0.10 : random.in(-0.1, 0.1);
+    const double gap_m = i % 5 == 0   ? 0.0
+                         : i % 5 == 1 ? 1e-9
+                         : i % 5 == 2 ? -1e-9
+                         : i % 5 == 3 ? 0.10
+                                      : random.in(-0.1, 0.1);
     const auto [a, b] = random.beside(500.0, gap_m);
     ASSERT_NO_FATAL_FAILURE(check_pair(a, b)) << i;
     if (gap_m >= 0.0) {

@@ -1,4 +1,5 @@
-// A race planted in a run, for the thread sanitizer to find: the agent counts its events in a variable that all runs share.
+// A race planted in a run, for the thread sanitizer to find: the agent counts its events in a variable that all runs
+// share.
 #include <cstdio>
 
 #include "campaign/run/task_pool.hpp"
@@ -20,7 +21,9 @@ const fp_agent_type kRacyAgent = {sizeof(fp_agent_type),
                                   0,
                                   "racy",
                                   "keeps state outside its instance",
-                                  [](const fp_host* host, fp_controller* controller, const fp_briefing*) -> void* { return new Agent{host, controller}; },
+                                  [](const fp_host* host, fp_controller* controller, const fp_briefing*) -> void* {
+                                    return new Agent{host, controller};
+                                  },
                                   [](void* agent, const fp_event* event) {
                                     const auto* self = static_cast<Agent*>(agent);
                                     ++shared_events;
@@ -41,6 +44,7 @@ int main() {
   });
   std::uint64_t runs = 0;
   while (!pool.finished()) runs += pool.next(std::chrono::milliseconds(50)) ? 1 : 0;
-  std::printf("%llu runs, %llu events counted\n", static_cast<unsigned long long>(runs), static_cast<unsigned long long>(shared_events));
+  std::printf("%llu runs, %llu events counted\n", static_cast<unsigned long long>(runs),
+              static_cast<unsigned long long>(shared_events));
   return 0;
 }

@@ -53,23 +53,27 @@ TEST_F(Replay, EveryViolatingRunIsReproduced) {
 }
 
 TEST_F(Replay, AChangedDigestDiverges) {
-  const auto finished = tampered("UPDATE runs SET digest = digest + 1 WHERE run_index = " + std::to_string(violating_[0]));
+  const auto finished =
+      tampered("UPDATE runs SET digest = digest + 1 WHERE run_index = " + std::to_string(violating_[0]));
   EXPECT_EQ(finished.exit_code, 3);
   EXPECT_THAT(finished.out, HasSubstr("DIVERGED"));
   EXPECT_THAT(finished.out, HasSubstr("trace digest"));
 }
 
 TEST_F(Replay, AChangedScenarioDigestDiverges) {
-  const auto finished = tampered("UPDATE runs SET scenario_digest = scenario_digest + 1 WHERE run_index = " + std::to_string(violating_[0]));
+  const auto finished = tampered("UPDATE runs SET scenario_digest = scenario_digest + 1 WHERE run_index = " +
+                                 std::to_string(violating_[0]));
   EXPECT_EQ(finished.exit_code, 3);
   EXPECT_THAT(finished.out, HasSubstr("DIVERGED"));
   EXPECT_THAT(finished.out, HasSubstr("the scenario differs"));
 }
 
 TEST_F(Replay, AChangedSeedOrScenarioValueDiverges) {
-  for (const char* change : {"replace(plan_json, '\"seed\": 77', '\"seed\": 78')", "replace(plan_json, '\"width_m\": 1.0', '\"width_m\": 1.1')",
+  for (const char* change : {"replace(plan_json, '\"seed\": 77', '\"seed\": 78')",
+                             "replace(plan_json, '\"width_m\": 1.0', '\"width_m\": 1.1')",
                              "replace(plan_json, '\"horizon_s\": 120.0', '\"horizon_s\": 121.0')"}) {
-    const auto finished = tampered(std::string("UPDATE campaign SET plan_json = ") + change + " WHERE plan_json <> " + change);
+    const auto finished =
+        tampered(std::string("UPDATE campaign SET plan_json = ") + change + " WHERE plan_json <> " + change);
     EXPECT_EQ(finished.exit_code, 3) << change << finished.err;
     EXPECT_THAT(finished.out, HasSubstr("DIVERGED")) << change;
     EXPECT_THAT(finished.out, HasSubstr("the plan in the file was changed")) << change;
@@ -77,7 +81,8 @@ TEST_F(Replay, AChangedSeedOrScenarioValueDiverges) {
 }
 
 TEST_F(Replay, AChangedViolationDiverges) {
-  const auto finished = tampered("UPDATE violations SET min_clearance_um = min_clearance_um - 1 WHERE run_index = " + std::to_string(violating_[0]));
+  const auto finished = tampered("UPDATE violations SET min_clearance_um = min_clearance_um - 1 WHERE run_index = " +
+                                 std::to_string(violating_[0]));
   EXPECT_EQ(finished.exit_code, 3);
   EXPECT_THAT(finished.out, HasSubstr("DIVERGED"));
   EXPECT_THAT(finished.out, HasSubstr("violation 0"));

@@ -18,7 +18,8 @@ TEST(NearestName, IsNotLookedForWhereNobodyMistyped) {
   const std::string longest(200, 'x'), longer(201, 'x');
   const std::string_view known[] = {longer};
   EXPECT_EQ(nearest_name(longest, known), longer);
-  EXPECT_EQ(nearest_name(longer, known), std::nullopt) << "longer than names are: to compare millions of letters would take hours";
+  EXPECT_EQ(nearest_name(longer, known), std::nullopt)
+      << "longer than names are: to compare millions of letters would take hours";
 }
 
 }  // namespace

@@ -25,7 +25,8 @@ double side_distance_m(const OrientedRectangle& a, const OrientedRectangle& b) {
     constexpr std::array<double, 4> kAhead{1, -1, -1, 1}, kAside{1, 1, -1, -1};
     for (std::size_t i = 0; i < 4; ++i) {
       const double l = kAhead[i] * r.half_length_m, w = kAside[i] * r.half_width_m;
-      c[i] = {r.centre_m.x() + l * r.heading.x() - w * r.heading.y(), r.centre_m.y() + l * r.heading.y() + w * r.heading.x()};
+      c[i] = {r.centre_m.x() + l * r.heading.x() - w * r.heading.y(),
+              r.centre_m.y() + l * r.heading.y() + w * r.heading.x()};
     }
     return c;
   };
@@ -54,9 +55,12 @@ double side_distance_m(const OrientedRectangle& a, const OrientedRectangle& b) {
   return std::sqrt(std::min(nearest(p, q), nearest(q, p)));
 }
 
-double brute_distance_m(const MotionPair& pair, SimTime t) { return side_distance_m(pair.a.body_at(t), pair.b.body_at(t)); }
+double brute_distance_m(const MotionPair& pair, SimTime t) {
+  return side_distance_m(pair.a.body_at(t), pair.b.body_at(t));
+}
 
-// What a 10 us clock sees of a pair; it leaves out instants that no body can reach the level or a new minimum in, at kFastest_mps.
+// What a 10 us clock sees of a pair; it leaves out instants that no body can reach the level or a new minimum in, at
+// kFastest_mps.
 struct Seen {
   double least_m = 1e300;
   SimTime first = kForever, last = kForever;  // below the level
@@ -92,13 +96,13 @@ SimTime edge(const MotionPair& pair, SimTime below, Duration step) {
 
 std::vector<MotionPair> test_pairs(PairMaker& maker) {
   std::vector<MotionPair> pairs;
-  for (const PairKind kind :
-       {PairKind::CrossingLines, PairKind::LineAndArc, PairKind::Arcs, PairKind::Following, PairKind::Lanes, PairKind::TurnAndDrive,
-        PairKind::RestAndDrive, PairKind::RestAndTurn, PairKind::Chains, PairKind::SameBend, PairKind::CutShort}) {
+  for (const PairKind kind : {PairKind::CrossingLines, PairKind::LineAndArc, PairKind::Arcs, PairKind::Following,
+                              PairKind::Lanes, PairKind::TurnAndDrive, PairKind::RestAndDrive, PairKind::RestAndTurn,
+                              PairKind::Chains, PairKind::SameBend, PairKind::CutShort}) {
     for (int i = 0; i < 20; ++i) pairs.push_back(maker.make(kind));
   }
-  for (const PairKind kind : {PairKind::CrossingLines, PairKind::LineAndArc, PairKind::Arcs, PairKind::TurnAndDrive, PairKind::RestAndTurn,
-                              PairKind::Chains, PairKind::CutShort}) {
+  for (const PairKind kind : {PairKind::CrossingLines, PairKind::LineAndArc, PairKind::Arcs, PairKind::TurnAndDrive,
+                              PairKind::RestAndTurn, PairKind::Chains, PairKind::CutShort}) {
     for (int i = 0; i < 15;) {
       MotionPair pair = maker.make(kind);
       const double beside_m = (maker.chance(0.5) ? 1.0 : -1.0) * std::pow(10.0, maker.in(-9.0, -3.0));
@@ -112,7 +116,8 @@ std::vector<MotionPair> test_pairs(PairMaker& maker) {
 
 void expect_as_seen(const MotionPair& pair, const Seen& seen) {
   EvaluationCount count;
-  const auto first = first_below(pair.a, pair.b, pair.common, kLevel_m, count), last = last_below(pair.a, pair.b, pair.common, kLevel_m, count);
+  const auto first = first_below(pair.a, pair.b, pair.common, kLevel_m, count),
+             last = last_below(pair.a, pair.b, pair.common, kLevel_m, count);
   const auto closest = closest_approach(pair.a, pair.b, pair.common, kLevel_m, count);
   EXPECT_LE(count.distance, 300U);
   if (!first) {
@@ -133,13 +138,15 @@ void expect_as_seen(const MotionPair& pair, const Seen& seen) {
     return;
   }
   const SimTime true_first = edge(pair, seen.first, Duration{-10'000});
-  EXPECT_TRUE(std::chrono::abs(*first - true_first) <= Duration{1'000} || brute_distance_m(pair, std::min(*first, true_first)) >= kLevel_m - 2e-9)
+  EXPECT_TRUE(std::chrono::abs(*first - true_first) <= Duration{1'000} ||
+              brute_distance_m(pair, std::min(*first, true_first)) >= kLevel_m - 2e-9)
       << to_ns(*first) << " " << to_ns(true_first);
   if (seen.least_m == 0.0) return;  // the look ended there
   ASSERT_TRUE(last);
   EXPECT_LT(brute_distance_m(pair, *last), kLevel_m + 1e-12);
   const SimTime true_last = edge(pair, seen.last, Duration{10'000});
-  EXPECT_TRUE(std::chrono::abs(*last - true_last) <= Duration{1'000} || brute_distance_m(pair, std::max(*last, true_last)) >= kLevel_m - 2e-9)
+  EXPECT_TRUE(std::chrono::abs(*last - true_last) <= Duration{1'000} ||
+              brute_distance_m(pair, std::max(*last, true_last)) >= kLevel_m - 2e-9)
       << to_ns(*last) << " " << to_ns(true_last);
 }
 
@@ -167,7 +174,9 @@ TEST(ClearanceOverTime, AgreesWithBruteForce) {
 class Costs {
  public:
   void add(const EvaluationCount& count) { spent_.push_back(count.distance); }
-  double mean() const { return std::accumulate(spent_.begin(), spent_.end(), 0.0) / static_cast<double>(spent_.size()); }
+  double mean() const {
+    return std::accumulate(spent_.begin(), spent_.end(), 0.0) / static_cast<double>(spent_.size());
+  }
   std::uint64_t percentile(std::size_t percent) {
     std::ranges::sort(spent_);
     return spent_[std::min(spent_.size() - 1, spent_.size() * percent / 100)];
@@ -182,12 +191,13 @@ class Costs {
   std::vector<std::uint64_t> spent_;
 };
 
-// The mix of the performance targets, 12 000 pairs: six kinds in equal parts, the sixth tuned to a smallest clearance near the level; threshold 1 um
-// below it.
+// The mix of the performance targets, 12 000 pairs: six kinds in equal parts, the sixth tuned to a smallest clearance
+// near the level; threshold 1 um below it.
 template <class Spend>
 void over_the_fixed_mix(Spend spend) {
   PairMaker maker(7);
-  constexpr std::array kKinds{PairKind::CrossingLines, PairKind::LineAndArc, PairKind::Arcs, PairKind::Following, PairKind::Lanes};
+  constexpr std::array kKinds{PairKind::CrossingLines, PairKind::LineAndArc, PairKind::Arcs, PairKind::Following,
+                              PairKind::Lanes};
   for (int i = 0; i < 2'000; ++i) {
     for (const PairKind kind : kKinds) spend(maker.make(kind));
     for (bool tuned = false; !tuned;) {
@@ -258,7 +268,8 @@ TEST_F(ClearanceInFigure4, AAndDViolateAsStated) {
 }
 
 TEST_F(ClearanceInFigure4, BAndCNearlyMiss) {
-  const Piece b = drive({0, 4}, {0, 4 + 25.0 / 6.0}, 4.0), c = drive({1.39, 4 + 25.0 / 6.0}, {1.39 + 25.0 / 6.0, 4 + 25.0 / 6.0}, 7.0);
+  const Piece b = drive({0, 4}, {0, 4 + 25.0 / 6.0}, 4.0),
+              c = drive({1.39, 4 + 25.0 / 6.0}, {1.39 + 25.0 / 6.0, 4 + 25.0 / 6.0}, 7.0);
   const Interval common{at_seconds(7.0), at_seconds(9.0)};
   EXPECT_FALSE(first_below(b, c, common, kLevel_m, count_));
   const auto closest = closest_approach(b, c, common, 0.5, count_);
@@ -281,7 +292,8 @@ TEST_F(ClearanceInFigure4, XPassesRestingYTooNear) {
 }
 
 TEST_F(ClearanceInFigure4, EdgesOfTheContract) {
-  const Piece a = drive({0, 0}, {10, 0}, 0.0), wall = rest_piece(EntityId{1U}, {1.0, 4.0}, {{5.0, 0.0}, Vec2::UnitX()}, kStart);
+  const Piece a = drive({0, 0}, {10, 0}, 0.0),
+              wall = rest_piece(EntityId{1U}, {1.0, 4.0}, {{5.0, 0.0}, Vec2::UnitX()}, kStart);
   const Interval common{kStart, a.end};
   // Contact: front at 0.8 m ahead, wall's face at 4.5 m.
   const auto touch = first_below(a, wall, common, 0.0, count_);
@@ -289,8 +301,10 @@ TEST_F(ClearanceInFigure4, EdgesOfTheContract) {
   EXPECT_NEAR(static_cast<double>(to_ns(*touch)), 1e9 * a.profile.time_at(3.7), 2.0);
   // The wanted instants are within a nanosecond of the exact ones, whatever the level.
   for (const double level : {1e-6, 0.1, 0.5, 2.0}) {
-    EXPECT_NEAR(static_cast<double>(to_ns(*first_below(a, wall, common, level, count_))), 1e9 * a.profile.time_at(3.7 - level), 1.5);
-    EXPECT_NEAR(static_cast<double>(to_ns(*last_below(a, wall, common, level, count_))), 1e9 * a.profile.time_at(6.3 + level), 1.5);
+    EXPECT_NEAR(static_cast<double>(to_ns(*first_below(a, wall, common, level, count_))),
+                1e9 * a.profile.time_at(3.7 - level), 1.5);
+    EXPECT_NEAR(static_cast<double>(to_ns(*last_below(a, wall, common, level, count_))),
+                1e9 * a.profile.time_at(6.3 + level), 1.5);
   }
   const auto closest = closest_approach(a, wall, common, 0.1, count_);
   ASSERT_TRUE(closest);
@@ -328,7 +342,8 @@ TEST(ClearanceOverTime, SeesWhatComesAfterAJoint) {
   }
 }
 
-// Bodies that go round a bend together hardly move against each other: hours of evaluations if they were treated as two independent rotations.
+// Bodies that go round a bend together hardly move against each other: hours of evaluations if they were treated as two
+// independent rotations.
 TEST(ClearanceOverTime, PlatoonsOnABendAreCheap) {
   const Arc trail{{{0, 0}, Vec2::UnitX()}, 12.0, 0.5};
   const Arc lead{trail.pose_at(2.3), 12.0, 0.5};

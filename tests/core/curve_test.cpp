@@ -28,7 +28,8 @@ double distance_to_polyline_m(const std::vector<Vec2>& line, const Vec2& p) {
   double least = 1e300;
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
     const Vec2 way = line[i + 1] - line[i];
-    const double square = way.squaredNorm(), t = square > 0.0 ? std::clamp(way.dot(p - line[i]) / square, 0.0, 1.0) : 0.0;
+    const double square = way.squaredNorm(),
+                 t = square > 0.0 ? std::clamp(way.dot(p - line[i]) / square, 0.0, 1.0) : 0.0;
     least = std::min(least, (line[i] + t * way - p).norm());
   }
   return least;
@@ -73,7 +74,8 @@ TEST(Curve, BezierChainsStayNearRunSmoothAndEndExactly) {
     const Vec2 origin(1000.0 * unit(engine), 1000.0 * unit(engine));
     const double size_m = 2.0 + 20.0 * unit(engine), bulge = 0.2 + 0.5 * unit(engine);
     const Vec2 out = unit_vector(1.5 * (unit(engine) - 0.5)), in = unit_vector(3.0 * (unit(engine) - 0.5));
-    const ControlPoints p{origin, origin + bulge * size_m * out, origin + Vec2(size_m, 0.0) - bulge * size_m * in, origin + Vec2(size_m, 0.0)};
+    const ControlPoints p{origin, origin + bulge * size_m * out, origin + Vec2(size_m, 0.0) - bulge * size_m * in,
+                          origin + Vec2(size_m, 0.0)};
     const Curve chain = chain_of(p);
     ASSERT_NO_FATAL_FAILURE(expect_joined(chain, p[0], p[3]));
     ASSERT_NO_FATAL_FAILURE(expect_close(p, chain));
@@ -96,7 +98,8 @@ TEST(Curve, QuarterTurnTakesFewArcs) {
 
 TEST(Curve, StraightBeziersAreOneLine) {
   const Vec2 from(3.0, 4.0), way(8.0, 6.0);
-  for (const auto& [a, b] : {std::pair{1.0 / 3.0, 2.0 / 3.0}, std::pair{0.0, 1.0}, std::pair{0.0, 0.0}, std::pair{0.9, 0.1}}) {
+  for (const auto& [a, b] :
+       {std::pair{1.0 / 3.0, 2.0 / 3.0}, std::pair{0.0, 1.0}, std::pair{0.0, 0.0}, std::pair{0.9, 0.1}}) {
     const Curve curve = Curve::bezier(from, from + a * way, from + b * way, from + way);
     EXPECT_TRUE(curve.is_straight());
     EXPECT_DOUBLE_EQ(curve.length_m(), 10.0);
@@ -105,15 +108,15 @@ TEST(Curve, StraightBeziersAreOneLine) {
 
 TEST(Curve, DegenerateBeziersStayFiniteAndSmooth) {
   const Vec2 o(0, 0);
-  const std::vector<ControlPoints> hard{{o, Vec2(1, 1), Vec2(0, 1), Vec2(1, 0)},                  // a cusp
-                                        {o, Vec2(3, 3), Vec2(-2, 3), Vec2(1, 0)},                 // a loop
-                                        {o, o, Vec2(2, 1), Vec2(3, 3)},                           // first control point on the end
-                                        {o, Vec2(2, 0), Vec2(3, 3), Vec2(3, 3)},                  // last one
-                                        {o, o, Vec2(3, 3), Vec2(3, 3)},                           // both: a line
-                                        {o, Vec2(-1, 0), Vec2(2, 0), Vec2(1, 0)},                 // straight, but doubling back
-                                        {o, Vec2(1, 0), Vec2(0, 1), o},                           // closed
-                                        {o, Vec2(3, 3), Vec2(-3, -3), o},                         // closed and straight
-                                        {o, Vec2(1, 0), Vec2(1, 0), Vec2(0, 1e-6)},               // ends nearly together
+  const std::vector<ControlPoints> hard{{o, Vec2(1, 1), Vec2(0, 1), Vec2(1, 0)},     // a cusp
+                                        {o, Vec2(3, 3), Vec2(-2, 3), Vec2(1, 0)},    // a loop
+                                        {o, o, Vec2(2, 1), Vec2(3, 3)},              // first control point on the end
+                                        {o, Vec2(2, 0), Vec2(3, 3), Vec2(3, 3)},     // last one
+                                        {o, o, Vec2(3, 3), Vec2(3, 3)},              // both: a line
+                                        {o, Vec2(-1, 0), Vec2(2, 0), Vec2(1, 0)},    // straight, but doubling back
+                                        {o, Vec2(1, 0), Vec2(0, 1), o},              // closed
+                                        {o, Vec2(3, 3), Vec2(-3, -3), o},            // closed and straight
+                                        {o, Vec2(1, 0), Vec2(1, 0), Vec2(0, 1e-6)},  // ends nearly together
                                         {o, Vec2(1e-11, 0), Vec2(0, 1e-11), Vec2(1e-11, 1e-11)},  // next to nothing
                                         {Vec2(7, 7), Vec2(7, 7), Vec2(7, 7), Vec2(7, 7)},         // nothing
                                         {o, Vec2(0, 1e-13), Vec2(1, 1e-13), Vec2(1, 0)}};
@@ -136,7 +139,8 @@ TEST(Curve, ArcIsExactAlsoForVastRadii) {
       const auto ahead = static_cast<double>(std::abs(a) < 1e-4L ? s * (1 - a * a / 6) : std::sin(a) / curvature);
       const auto aside = static_cast<double>(std::abs(a) < 1e-4L ? s * a / 2 : (1 - std::cos(a)) / curvature);
       const Pose pose = arc.pose_at(s);
-      EXPECT_NEAR((start.position_m + ahead * start.heading + aside * left_of(start.heading) - pose.position_m).norm(), 0.0, 1e-13);
+      EXPECT_NEAR((start.position_m + ahead * start.heading + aside * left_of(start.heading) - pose.position_m).norm(),
+                  0.0, 1e-13);
       EXPECT_NEAR((rotated(start.heading, unit_vector(static_cast<double>(a))) - pose.heading).norm(), 0.0, 1e-14);
     }
   }
@@ -157,7 +161,8 @@ TEST(Curve, ClampsReversesAndJoins) {
     EXPECT_LT((there.position_m - again.position_m).norm(), 1e-9);
     EXPECT_LT((there.heading + again.heading).norm(), 1e-9);
   }
-  for (std::size_t i = 0; i + 1 < both.ends_m().size(); ++i) EXPECT_EQ(&both.arc_at(both.ends_m()[i]), &both.arcs()[i + 1]);
+  for (std::size_t i = 0; i + 1 < both.ends_m().size(); ++i)
+    EXPECT_EQ(&both.arc_at(both.ends_m()[i]), &both.arcs()[i + 1]);
   EXPECT_EQ(&both.arc_at(both.length_m()), &both.arcs().back());
   EXPECT_EQ(Curve::straight({1, 2}, {1, 2}).length_m(), 0.0);
   EXPECT_TRUE(Curve::straight({1, 2}, {1, 2}).pose_at(0.0).heading.allFinite());

@@ -1,4 +1,5 @@
-// The detector against a clock of 10 microseconds, written apart from it (tests/oracle): a small share of what contract/ and soak/ do.
+// The detector against a clock of 10 microseconds, written apart from it (tests/oracle): a small share of what
+// contract/ and soak/ do.
 #include "tests/oracle/detector_check.hpp"
 
 namespace fleetproof::oracle {
@@ -6,8 +7,9 @@ namespace {
 
 TEST(DetectorOracle, AgreesWithTheDetectorOnTwoHundredPairs) { EXPECT_EQ(check_many(3, 210).pairs, 210U); }
 
-// On straight lines the walk is exact, over all phases of both drives: the first instant is the true one to a nanosecond or two, however long ago
-// the last measurement was. (A phase begun with a speed wrong by a nanometre per second would show.)
+// On straight lines the walk is exact, over all phases of both drives: the first instant is the true one to a
+// nanosecond or two, however long ago the last measurement was. (A phase begun with a speed wrong by a nanometre per
+// second would show.)
 TEST(DetectorOracle, AgreesToTheNanosecondOnStraightLines) {
   PairSource source(17);
   int dated = 0;
@@ -21,7 +23,8 @@ TEST(DetectorOracle, AgreesToTheNanosecondOnStraightLines) {
     pair.begin = pair.b.begin, pair.end = pair.a.end;
     const OwnPiece a(pair.a), b(pair.b);
     EvaluationCount count;
-    const auto first = fleetproof::first_below(a.piece, b.piece, {at_ns(pair.begin), at_ns(pair.end)}, kThreshold_m, count);
+    const auto first =
+        fleetproof::first_below(a.piece, b.piece, {at_ns(pair.begin), at_ns(pair.end)}, kThreshold_m, count);
     if (!first || to_ns(*first) == pair.begin) continue;
     ++dated;
     ASSERT_LT(clearance_m(pair, to_ns(*first)), kThreshold_m + 1e-13) << i;

@@ -28,12 +28,16 @@ Found find(const TrajectoryPair& pair, bool swapped = false, double level_m = kL
   const OwnPiece a(pair.a), b(pair.b);
   EvaluationCount count;
   const Interval common{at_ns(pair.begin), at_ns(pair.end)};
-  Found found{swapped ? approach_below(b.piece, a.piece, common, level_m, count) : approach_below(a.piece, b.piece, common, level_m, count)};
-  if (found.approach) found.at_first_m = fleetproof::clearance_m(a.piece.body_at(found.approach->first), b.piece.body_at(found.approach->first));
+  Found found{swapped ? approach_below(b.piece, a.piece, common, level_m, count)
+                      : approach_below(a.piece, b.piece, common, level_m, count)};
+  if (found.approach)
+    found.at_first_m =
+        fleetproof::clearance_m(a.piece.body_at(found.approach->first), b.piece.body_at(found.approach->first));
   return found;
 }
 
-// The same verdict: the same instant within `within`, unless the clearance creeps along the level, and the same smallest clearance.
+// The same verdict: the same instant within `within`, unless the clearance creeps along the level, and the same
+// smallest clearance.
 void expect_same(const Found& one, const Found& other, const TrajectoryPair& pair, Duration within, double accuracy_m) {
   if (!one.approach || !other.approach) {
     // One of them met a dip that is within the accuracy.
@@ -41,7 +45,8 @@ void expect_same(const Found& one, const Found& other, const TrajectoryPair& pai
     return;
   }
   const bool same = std::chrono::abs(one.approach->first - other.approach->first) <= within;
-  RC_ASSERT(same || (std::abs(one.at_first_m - kLevel_m) < accuracy_m && std::abs(other.at_first_m - kLevel_m) < accuracy_m));
+  RC_ASSERT(same ||
+            (std::abs(one.at_first_m - kLevel_m) < accuracy_m && std::abs(other.at_first_m - kLevel_m) < accuracy_m));
   const double smallest = one.approach->closest.clearance_m, smallest_too = other.approach->closest.clearance_m;
   RC_ASSERT((smallest <= 0.0 && smallest_too <= 0.0) || std::abs(smallest - smallest_too) < 1e-7 + accuracy_m);
 }
@@ -59,7 +64,8 @@ TEST(DetectorProperties, InvariantUnderRigidMotion) {
   EXPECT_TRUE(holds("turned and moved", [] {
     const TrajectoryPair pair = any_pair();
     TrajectoryPair moved = pair;
-    const Point turn = direction(0.01 * *rc::gen::inRange(-314, 314)), shift{0.5 * *rc::gen::inRange(-100, 100), 0.5 * *rc::gen::inRange(-100, 100)};
+    const Point turn = direction(0.01 * *rc::gen::inRange(-314, 314)),
+                shift{0.5 * *rc::gen::inRange(-100, 100), 0.5 * *rc::gen::inRange(-100, 100)};
     const auto turned = [&](Point p) { return Point{p.x * turn.x - p.y * turn.y, p.x * turn.y + p.y * turn.x}; };
     for (Trajectory* t : {&moved.a, &moved.b}) {
       t->at = turned(t->at) + shift, t->heading = turned(t->heading);
@@ -74,7 +80,9 @@ TEST(DetectorProperties, InvariantUnderTimeShiftToTheBit) {
     const TrajectoryPair pair = any_pair();
     TrajectoryPair shifted = pair;
     const Nanoseconds by = *rc::gen::inRange<Nanoseconds>(-10'000'000'000, 100'000'000'000'000);
-    for (Nanoseconds* t : {&shifted.a.begin, &shifted.a.end, &shifted.b.begin, &shifted.b.end, &shifted.begin, &shifted.end}) *t += by;
+    for (Nanoseconds* t :
+         {&shifted.a.begin, &shifted.a.end, &shifted.b.begin, &shifted.b.end, &shifted.begin, &shifted.end})
+      *t += by;
     const auto one = find(pair).approach, other = find(shifted).approach;
     RC_ASSERT(one.has_value() == other.has_value());
     if (!one) return;
@@ -92,7 +100,8 @@ TEST(DetectorProperties, MonotoneInTheThreshold) {
     if (!narrow.approach) return;
     RC_ASSERT(wide.approach.has_value());
     RC_ASSERT(wide.approach->first <= narrow.approach->first + Duration{1});
-    RC_ASSERT(wide.approach->closest.clearance_m <= narrow.approach->closest.clearance_m + 1.1e-7 || narrow.approach->closest.clearance_m <= 0.0);
+    RC_ASSERT(wide.approach->closest.clearance_m <= narrow.approach->closest.clearance_m + 1.1e-7 ||
+              narrow.approach->closest.clearance_m <= 0.0);
   }));
 }
 

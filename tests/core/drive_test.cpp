@@ -1,4 +1,5 @@
-// Drives as the paper has them and beyond: rolling through a station, slower in bends, with a load, with a deviation of their own.
+// Drives as the paper has them and beyond: rolling through a station, slower in bends, with a load, with a deviation of
+// their own.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -17,7 +18,7 @@ constexpr MotionLimits kPaper{};
 // Straight, a quarter circle of 2 m to the left, straight.
 Curve bend() {
   Arc in{{Vec2{0, 0}, Vec2::UnitX()}, 8.0, 0.0};
-  Arc turn{in.pose_at(8.0), 3.14159265358979 , 0.5};
+  Arc turn{in.pose_at(8.0), 3.14159265358979, 0.5};
   Arc out{turn.pose_at(turn.length_m), 10.0, 0.0};
   return Curve({in, turn, out});
 }
@@ -50,7 +51,8 @@ TEST(SpeedPlan, EveryPlanCanBeDriven) {
   std::vector<Leg> legs;
   for (int i = 0; i < 20000; ++i) {
     const Curve curve = bend();
-    const double from_m = draws.uniform(0.0, curve.length_m()), lateral = draws.below(2) == 0 ? 0.0 : draws.uniform(0.01, 1.0);
+    const double from_m = draws.uniform(0.0, curve.length_m()),
+                 lateral = draws.below(2) == 0 ? 0.0 : draws.uniform(0.01, 1.0);
     const double stops_within = std::sqrt(2.0 * (curve.length_m() - from_m));
     const double entry = std::min(2.0, draws.uniform(0.0, stops_within));
     plan_legs(curve, kPaper, lateral, from_m, {entry, 0.0}, legs);
@@ -74,7 +76,8 @@ TEST(MotionProfile, GoesFromAnySpeedToAnyOtherWithoutAJump) {
   Draws draws(12);
   for (int i = 0; i < 5000; ++i) {
     const double entry = draws.uniform(0.0, 2.0), exit = draws.uniform(0.0, 2.0);
-    const double least = std::max(0.0, std::max((exit * exit - entry * entry) / (2.0 * 0.5), (entry * entry - exit * exit) / 2.0));
+    const double least =
+        std::max(0.0, std::max((exit * exit - entry * entry) / (2.0 * 0.5), (entry * entry - exit * exit) / 2.0));
     const MotionProfile profile(least + draws.uniform(0.01, 10.0), kPaper, {entry, exit});
     const double end_s = profile.phase_ends_s()[2];
     double integral = 0.0;
@@ -85,7 +88,7 @@ TEST(MotionProfile, GoesFromAnySpeedToAnyOtherWithoutAJump) {
       EXPECT_LE(profile.speed(t), 2.0 + 1e-12);
     }
     EXPECT_NEAR(integral, profile.distance(), 2e-4);
-    EXPECT_NEAR(profile.position(1e-9) , entry * 1e-9, 1e-12);
+    EXPECT_NEAR(profile.position(1e-9), entry * 1e-9, 1e-12);
     EXPECT_NEAR(profile.distance() - profile.position(end_s - 1e-3), exit * 1e-3, 1e-5);
     EXPECT_NEAR(profile.position(profile.time_at(0.37 * profile.distance())), 0.37 * profile.distance(), 1e-9);
   }
@@ -101,24 +104,28 @@ Scenario row_of_tens(std::vector<std::uint32_t> starts, double horizon_s = 60.0)
 
 std::vector<double> done_at_s(const Scenario& scenario, const Handler& first, Outcome* outcome = nullptr) {
   std::vector<double> times;
-  const Outcome result = test::simulate_with(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
-    if (e.kind == FP_EVENT_ACTION_DONE) times.push_back(static_cast<double>(e.now_ns) * 1e-9);
-    first(host, c, b, e);
-  });
+  const Outcome result = test::simulate_with(
+      scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
+        if (e.kind == FP_EVENT_ACTION_DONE) times.push_back(static_cast<double>(e.now_ns) * 1e-9);
+        first(host, c, b, e);
+      });
   if (outcome != nullptr) *outcome = result;
   return times;
 }
 
 TEST(Rolling, AMoveReleasedInTimeGoesThroughTheStation) {
   Outcome outcome;
-  const auto times = done_at_s(row_of_tens({0}), [](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& e) {
-    if (e.kind != FP_EVENT_START) return;
-    EXPECT_EQ(host.move(c, 0), FP_OK);
-    EXPECT_EQ(host.move(c, 1), FP_OK);
-    EXPECT_EQ(host.move(c, 2), FP_REFUSED) << "one ahead is all that is kept";
-  }, &outcome);
+  const auto times = done_at_s(
+      row_of_tens({0}),
+      [](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& e) {
+        if (e.kind != FP_EVENT_START) return;
+        EXPECT_EQ(host.move(c, 0), FP_OK);
+        EXPECT_EQ(host.move(c, 1), FP_OK);
+        EXPECT_EQ(host.move(c, 2), FP_REFUSED) << "one ahead is all that is kept";
+      },
+      &outcome);
   ASSERT_EQ(times.size(), 2U);
-  EXPECT_NEAR(times[0], 7.0, 1e-8);   // 4 m in the 4 s of speeding up, 6 m at 2 m/s
+  EXPECT_NEAR(times[0], 7.0, 1e-8);  // 4 m in the 4 s of speeding up, 6 m at 2 m/s
   EXPECT_NEAR(times[1], 13.0, 1e-8);
   EXPECT_EQ(outcome.counters.rolls, 1U);
   EXPECT_EQ(outcome.counters.drives, 2U);
@@ -127,29 +134,33 @@ TEST(Rolling, AMoveReleasedInTimeGoesThroughTheStation) {
 
 TEST(Rolling, AMoveReleasedWhileBrakingStopsFirst) {
   Outcome outcome;
-  const auto times = done_at_s(row_of_tens({0}), [](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& e) {
-    if (e.kind == FP_EVENT_START) {
-      EXPECT_EQ(host.move(c, 0), FP_OK);
-      host.set_timer(c, 1, 6'500'000'000);  // braking begins at 6 s
-    }
-    if (e.kind == FP_EVENT_TIMER) {
-      EXPECT_EQ(host.move(c, 1), FP_OK);
-    }
-  }, &outcome);
+  const auto times = done_at_s(
+      row_of_tens({0}),
+      [](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& e) {
+        if (e.kind == FP_EVENT_START) {
+          EXPECT_EQ(host.move(c, 0), FP_OK);
+          host.set_timer(c, 1, 6'500'000'000);  // braking begins at 6 s
+        }
+        if (e.kind == FP_EVENT_TIMER) {
+          EXPECT_EQ(host.move(c, 1), FP_OK);
+        }
+      },
+      &outcome);
   EXPECT_EQ(times, (std::vector<double>{8.0, 16.0}));
   EXPECT_EQ(outcome.counters.rolls, 0U);
 }
 
 TEST(Rolling, ReleasedJustBeforeTheBrakesItGoesOnAtFullSpeed) {
-  const auto times = done_at_s(row_of_tens({0}), [](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& e) {
-    if (e.kind == FP_EVENT_START) {
-      EXPECT_EQ(host.move(c, 0), FP_OK);
-      host.set_timer(c, 1, 5'999'000'000);
-    }
-    if (e.kind == FP_EVENT_TIMER) {
-      EXPECT_EQ(host.move(c, 1), FP_OK);
-    }
-  });
+  const auto times =
+      done_at_s(row_of_tens({0}), [](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& e) {
+        if (e.kind == FP_EVENT_START) {
+          EXPECT_EQ(host.move(c, 0), FP_OK);
+          host.set_timer(c, 1, 5'999'000'000);
+        }
+        if (e.kind == FP_EVENT_TIMER) {
+          EXPECT_EQ(host.move(c, 1), FP_OK);
+        }
+      });
   ASSERT_EQ(times.size(), 2U);
   EXPECT_NEAR(times[0], 7.0, 1e-8);
   EXPECT_NEAR(times[1], 13.0, 1e-8);
@@ -157,11 +168,14 @@ TEST(Rolling, ReleasedJustBeforeTheBrakesItGoesOnAtFullSpeed) {
 
 TEST(Rolling, BackwardsIsNoWayToRollOn) {
   Outcome outcome;
-  const auto times = done_at_s(row_of_tens({0}), [](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& e) {
-    if (e.kind != FP_EVENT_START) return;
-    EXPECT_EQ(host.move(c, 0), FP_OK);
-    EXPECT_EQ(host.move(c, 0), FP_OK) << "back again";
-  }, &outcome);
+  const auto times = done_at_s(
+      row_of_tens({0}),
+      [](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& e) {
+        if (e.kind != FP_EVENT_START) return;
+        EXPECT_EQ(host.move(c, 0), FP_OK);
+        EXPECT_EQ(host.move(c, 0), FP_OK) << "back again";
+      },
+      &outcome);
   ASSERT_EQ(times.size(), 2U);
   EXPECT_EQ(times[0], 8.0);
   EXPECT_GT(times[1], 16.0) << "half a turn and 8 s";
@@ -172,11 +186,14 @@ TEST(Rolling, BackwardsIsNoWayToRollOn) {
 TEST(Rolling, ADropAtTheEndOfTheNextSegmentIsReachedRolling) {
   Scenario scenario = row_of_tens({0});
   Outcome outcome;
-  const auto times = done_at_s(scenario, [](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& e) {
-    if (e.kind != FP_EVENT_START) return;
-    EXPECT_EQ(host.move(c, 0), FP_OK);
-    EXPECT_EQ(host.drop(c, 1), FP_OK);
-  }, &outcome);
+  const auto times = done_at_s(
+      scenario,
+      [](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& e) {
+        if (e.kind != FP_EVENT_START) return;
+        EXPECT_EQ(host.move(c, 0), FP_OK);
+        EXPECT_EQ(host.drop(c, 1), FP_OK);
+      },
+      &outcome);
   ASSERT_EQ(times.size(), 2U);
   EXPECT_NEAR(times[1], 18.0, 1e-8) << "13 s of driving, 5 s of putting down nothing";
   EXPECT_EQ(outcome.counters.rolls, 1U);
@@ -184,7 +201,8 @@ TEST(Rolling, ADropAtTheEndOfTheNextSegmentIsReachedRolling) {
 
 TEST(Drive, ALoadMakesTheBodyLargerAndTheDriveSlower) {
   Scenario scenario = row_of_tens({0});
-  scenario.vehicle_types[0].loaded = {.extra_length_m = 0.2, .extra_width_m = 0.1, .speed_share = 0.5, .acceleration_share = 0.5};
+  scenario.vehicle_types[0].loaded = {
+      .extra_length_m = 0.2, .extra_width_m = 0.1, .speed_share = 0.5, .acceleration_share = 0.5};
   scenario.agvs[0].transports = {{StationId{0U}, StationId{1U}, Duration{}}};
   test::Recorder recorder;
   std::vector<double> times;

@@ -12,7 +12,8 @@ using test::Seen;
 TEST(Halt, AProtectiveStopBrakesStandsAndGoesOn) {
   Scenario scenario = row_of_tens({0});
   scenario.faults = {fault(Fault::Kind::ProtectiveStop, 3.0, 5.0)};
-  // At 3 s: 1.5 m/s and 2.25 m on. 1.5 s of braking end at 3.375 m. From 8 s on: 6.625 m from rest, 6 s of ramps and 0.3125 s level.
+  // At 3 s: 1.5 m/s and 2.25 m on. 1.5 s of braking end at 3.375 m. From 8 s on: 6.625 m from rest, 6 s of ramps and
+  // 0.3125 s level.
   const Seen seen = drive_and_look(scenario, {3.0, 4.5, 6.0, 8.0, 9.0});
   ASSERT_EQ(seen.done_s.size(), 1U);
   EXPECT_NEAR(seen.done_s[0], 14.3125, 1e-8);
@@ -57,31 +58,36 @@ TEST(Halt, ATransferBeginsAgain) {
   scenario.faults = {fault(Fault::Kind::Breakdown, 4.0, 10.0)};
   std::vector<std::int64_t> done;
   test::Recorder trace;
-  test::simulate_with(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& e) {
-    if (e.kind == FP_EVENT_ORDER) {
-      EXPECT_EQ(host.pick(c, FP_HERE), FP_OK);
-    }
-    if (e.kind == FP_EVENT_ACTION_DONE) done.push_back(e.now_ns);
-  }, &trace);
+  test::simulate_with(
+      scenario,
+      [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& e) {
+        if (e.kind == FP_EVENT_ORDER) {
+          EXPECT_EQ(host.pick(c, FP_HERE), FP_OK);
+        }
+        if (e.kind == FP_EVENT_ACTION_DONE) done.push_back(e.now_ns);
+      },
+      &trace);
   EXPECT_EQ(done, (std::vector<std::int64_t>{19'000'000'000}));
   EXPECT_EQ(trace.of(TraceKind::LoadMoves).size(), 2U) << "it appears at the station and is taken once";
 }
 
 TEST(Halt, RollingOnItBrakesAcrossTheStation) {
   Scenario scenario = row_of_tens({0});
-  scenario.faults = {fault(Fault::Kind::ProtectiveStop, 6.5, 3.0)};  // 1 m before the station at 2 m/s: 2 m are needed to stand
+  scenario.faults = {
+      fault(Fault::Kind::ProtectiveStop, 6.5, 3.0)};  // 1 m before the station at 2 m/s: 2 m are needed to stand
   std::vector<double> done_s;
   double stands_at_m = 0.0;
-  const Outcome outcome = test::simulate_with(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& e) {
-    if (e.kind == FP_EVENT_START) {
-      host.move(c, 0);
-      host.move(c, 1);
-      host.set_timer(c, 1, 9'000'000'000);
-    }
-    if (e.kind == FP_EVENT_ACTION_DONE) done_s.push_back(static_cast<double>(e.now_ns) * 1e-9);
-    fp_pose pose{};
-    if (e.kind == FP_EVENT_TIMER && host.get_position(c, &pose) == FP_OK) stands_at_m = pose.x_m;
-  });
+  const Outcome outcome =
+      test::simulate_with(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& e) {
+        if (e.kind == FP_EVENT_START) {
+          host.move(c, 0);
+          host.move(c, 1);
+          host.set_timer(c, 1, 9'000'000'000);
+        }
+        if (e.kind == FP_EVENT_ACTION_DONE) done_s.push_back(static_cast<double>(e.now_ns) * 1e-9);
+        fp_pose pose{};
+        if (e.kind == FP_EVENT_TIMER && host.get_position(c, &pose) == FP_OK) stands_at_m = pose.x_m;
+      });
   EXPECT_NEAR(stands_at_m, 11.0, 1e-8);
   ASSERT_EQ(done_s.size(), 2U);
   EXPECT_GT(done_s[0], 7.0);
@@ -123,7 +129,8 @@ TEST(Battery, IsUsedUpByStandingToo) {
   Scenario scenario = row_of_tens({0});
   scenario.vehicle_types[0].battery_idle_per_s = 0.01;
   scenario.agvs[0].battery = 0.3;
-  const Outcome outcome = test::simulate_with(scenario, [](const fp_host&, fp_controller*, const fp_briefing&, const fp_event&) {});
+  const Outcome outcome =
+      test::simulate_with(scenario, [](const fp_host&, fp_controller*, const fp_briefing&, const fp_event&) {});
   EXPECT_EQ(outcome.counters.batteries_empty, 1U);
   EXPECT_EQ(outcome.counters.battery_idled_ppb, 300'000'000U);
 }
@@ -136,11 +143,14 @@ TEST(LoadDrop, TheLoadLiesBehindAndIsClearedAway) {
   scenario.faults = {drop};
   test::Recorder trace;
   std::uint32_t loaded = 9;
-  const Outcome outcome = test::simulate_with(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& e) {
-    if (e.kind == FP_EVENT_ORDER) host.pick(c, FP_HERE);
-    if (e.kind == FP_EVENT_ACTION_DONE && e.now_ns == 5'000'000'000) host.drop(c, 0);
-    if (e.kind == FP_EVENT_ACTION_DONE) host.is_loaded(c, &loaded);
-  }, &trace);
+  const Outcome outcome = test::simulate_with(
+      scenario,
+      [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& e) {
+        if (e.kind == FP_EVENT_ORDER) host.pick(c, FP_HERE);
+        if (e.kind == FP_EVENT_ACTION_DONE && e.now_ns == 5'000'000'000) host.drop(c, 0);
+        if (e.kind == FP_EVENT_ACTION_DONE) host.is_loaded(c, &loaded);
+      },
+      &trace);
   EXPECT_EQ(loaded, 0U);
   EXPECT_EQ(outcome.counters.faults, 1U);
   EXPECT_EQ(outcome.counters.loads_cleared, 1U);
@@ -165,17 +175,19 @@ TEST(LoadDrop, WhoDrivesIntoItTouchesIt) {
   drop.transport = 0;
   drop.ahead_m = 3.0;  // thrown forward
   scenario.faults = {drop};
-  const Outcome outcome = test::simulate_with(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
-    if (b.self == 0 && e.kind == FP_EVENT_ORDER) host.pick(c, FP_HERE);
-    if (b.self == 0 && e.kind == FP_EVENT_ACTION_DONE && e.result == FP_OK) host.move(c, 0);
-  });
+  const Outcome outcome = test::simulate_with(
+      scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
+        if (b.self == 0 && e.kind == FP_EVENT_ORDER) host.pick(c, FP_HERE);
+        if (b.self == 0 && e.kind == FP_EVENT_ACTION_DONE && e.result == FP_OK) host.move(c, 0);
+      });
   EXPECT_EQ(outcome.counters.contacts, 1U);
   EXPECT_TRUE(outcome.contact);
 }
 
 TEST(Obstacle, AppearsWhenItsPlaceIsFreeAndLeaves) {
   Scenario scenario = row_of_tens({0});
-  scenario.obstacles = {{"box", {0.5, 0.5}, {Vec2{0.0, 0.0}, Vec2::UnitX()}, seconds(1.0), seconds(30.0)}};  // where the AGV starts
+  scenario.obstacles = {
+      {"box", {0.5, 0.5}, {Vec2{0.0, 0.0}, Vec2::UnitX()}, seconds(1.0), seconds(30.0)}};  // where the AGV starts
   const Seen seen = drive_and_look(scenario);
   const auto appears = seen.trace.of(TraceKind::Appears);
   ASSERT_EQ(appears.size(), 1U);
@@ -260,16 +272,17 @@ TEST(Halt, ACallThatTakesEffectWhileItStandsInMidSegmentWaitsForItsTurn) {
   scenario.agent_clock.call_cost_s = 2.0;
   scenario.faults = {fault(Fault::Kind::ProtectiveStop, 6.0, 10.0)};
   std::vector<double> done_s;
-  const Outcome outcome = test::simulate_with(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& e) {
-    if (e.kind == FP_EVENT_START) {
-      host.move(c, 0);
-      host.set_timer(c, 1, 7'000'000'000);  // it brakes; the call takes effect when it stands
-    }
-    if (e.kind == FP_EVENT_TIMER) {
-      EXPECT_EQ(host.move(c, 1), FP_OK);
-    }
-    if (e.kind == FP_EVENT_ACTION_DONE) done_s.push_back(static_cast<double>(e.now_ns) * 1e-9);
-  });
+  const Outcome outcome =
+      test::simulate_with(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& e) {
+        if (e.kind == FP_EVENT_START) {
+          host.move(c, 0);
+          host.set_timer(c, 1, 7'000'000'000);  // it brakes; the call takes effect when it stands
+        }
+        if (e.kind == FP_EVENT_TIMER) {
+          EXPECT_EQ(host.move(c, 1), FP_OK);
+        }
+        if (e.kind == FP_EVENT_ACTION_DONE) done_s.push_back(static_cast<double>(e.now_ns) * 1e-9);
+      });
   EXPECT_EQ(done_s.size(), 2U);
   EXPECT_EQ(outcome.counters.distance_um, 20'000'000U);
 }
@@ -314,13 +327,16 @@ TEST(Faults, CountedFromAPickTheyStrikeOnce) {
   scenario.faults = {stop};
   int done = 0;
   test::Recorder trace;
-  test::simulate_with(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& e) {
-    if (e.kind == FP_EVENT_ORDER) host.pick(c, FP_HERE);
-    if (e.kind != FP_EVENT_ACTION_DONE) return;
-    if (++done == 1) host.drop(c, 0);  // at the wrong station
-    if (done == 2) host.pick(c, FP_HERE);
-    if (done == 3) host.drop(c, 1);
-  }, &trace);
+  test::simulate_with(
+      scenario,
+      [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& e) {
+        if (e.kind == FP_EVENT_ORDER) host.pick(c, FP_HERE);
+        if (e.kind != FP_EVENT_ACTION_DONE) return;
+        if (++done == 1) host.drop(c, 0);  // at the wrong station
+        if (done == 2) host.pick(c, FP_HERE);
+        if (done == 3) host.drop(c, 1);
+      },
+      &trace);
   EXPECT_EQ(done, 4) << "and the AGV goes on after it";
   EXPECT_EQ(trace.of(TraceKind::FaultStrikes).size(), 1U);
   EXPECT_EQ(trace.of(TraceKind::TransportDone).size(), 1U);
@@ -330,13 +346,15 @@ TEST(Faults, CountedFromAPickTheyStrikeOnce) {
 TEST(Halt, InTheLastNanosecondOfALaneRoundingIsNoEngineError) {
   Scenario scenario = row_of_tens({0});
   scenario.map = test::row_map(2, 25.673104652307796);
-  scenario.faults = {fault(Fault::Kind::ProtectiveStop, 5.640971823, 10.0), fault(Fault::Kind::ProtectiveStop, 27.836552326, 1.0)};
+  scenario.faults = {fault(Fault::Kind::ProtectiveStop, 5.640971823, 10.0),
+                     fault(Fault::Kind::ProtectiveStop, 27.836552326, 1.0)};
   int done = 0;
-  const Outcome outcome = test::simulate_with(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& e) {
-    if (e.kind == FP_EVENT_START) host.set_timer(c, 1, 1'000'000'000);
-    if (e.kind == FP_EVENT_TIMER) host.move(c, 0);
-    if (e.kind == FP_EVENT_ACTION_DONE) ++done;
-  });
+  const Outcome outcome =
+      test::simulate_with(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& e) {
+        if (e.kind == FP_EVENT_START) host.set_timer(c, 1, 1'000'000'000);
+        if (e.kind == FP_EVENT_TIMER) host.move(c, 0);
+        if (e.kind == FP_EVENT_ACTION_DONE) ++done;
+      });
   EXPECT_FALSE(outcome.engine_error) << outcome.message;
   EXPECT_EQ(done, 1);
 }

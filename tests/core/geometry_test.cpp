@@ -109,7 +109,8 @@ TEST(Rotation, UnitVectorAgreesWithLibm) {
   const auto check = [&](double angle) {
     const Vec2 v = unit_vector(angle);
     const long double exact = angle;
-    worst = std::max({worst, std::abs(static_cast<double>(v.x() - std::cos(exact))), std::abs(static_cast<double>(v.y() - std::sin(exact)))});
+    worst = std::max({worst, std::abs(static_cast<double>(v.x() - std::cos(exact))),
+                      std::abs(static_cast<double>(v.y() - std::sin(exact)))});
   };
   for (int i = 0; i < 200'000; ++i) check(random.in(-1.0, 1.0) * (i % 2 == 0 ? 7.0 : 1e4));
   for (int k = -6'000; k <= 6'000; ++k) check(k * 0.25 * kPi);
@@ -124,7 +125,8 @@ TEST(Rotation, AngleBetweenAgreesWithLibm) {
     const double small = i % 3 == 0 ? 1e-6 : 1.0;
     const Vec2 from = unit_vector(random.in(-kPi, kPi)), to = rotated(from, unit_vector(small * random.in(-kPi, kPi)));
     const long double fx = from.x(), fy = from.y(), tx = to.x(), ty = to.y();
-    worst = std::max(worst, std::abs(static_cast<double>(angle_between(from, to) - std::atan2(fx * ty - fy * tx, fx * tx + fy * ty))));
+    worst = std::max(worst, std::abs(static_cast<double>(angle_between(from, to) -
+                                                         std::atan2(fx * ty - fy * tx, fx * tx + fy * ty))));
   }
   EXPECT_LT(worst, 1e-15);
 }

@@ -5,10 +5,13 @@
 // Runs in which the operator helps, and what he was seen to do.
 namespace fleetproof::test {
 
-inline constexpr auto kContact = static_cast<std::uint64_t>(Assist::Contact), kBattery = static_cast<std::uint64_t>(Assist::Battery),
-               kStandstill = static_cast<std::uint64_t>(Assist::Standstill);
+inline constexpr auto kContact = static_cast<std::uint64_t>(Assist::Contact),
+                      kBattery = static_cast<std::uint64_t>(Assist::Battery),
+                      kStandstill = static_cast<std::uint64_t>(Assist::Standstill);
 
-inline OperatorSetup comes_after(double help_s) { return {.on = true, .least_s = help_s, .most_s = help_s, .battery = 0.5}; }
+inline OperatorSetup comes_after(double help_s) {
+  return {.on = true, .least_s = help_s, .most_s = help_s, .battery = 0.5};
+}
 
 struct Helped {
   Outcome outcome;

@@ -17,7 +17,19 @@ struct MotionPair {
   Interval common;
 };
 
-enum class PairKind { CrossingLines, LineAndArc, Arcs, Following, Lanes, TurnAndDrive, RestAndDrive, RestAndTurn, Chains, SameBend, CutShort };
+enum class PairKind {
+  CrossingLines,
+  LineAndArc,
+  Arcs,
+  Following,
+  Lanes,
+  TurnAndDrive,
+  RestAndDrive,
+  RestAndTurn,
+  Chains,
+  SameBend,
+  CutShort
+};
 
 class PairMaker {
  public:
@@ -29,15 +41,19 @@ class PairMaker {
       MotionPair pair = draw(kind);
       pair.common = {std::max(pair.a.begin, pair.b.begin), std::min(pair.a.end, pair.b.end)};
       if (pair.common.begin >= pair.common.end) continue;
-      if (pair.a.swept_box(pair.a.end).grown(0.05).overlaps(pair.b.swept_box(pair.b.end).grown(0.05))) return keep(pair);
+      if (pair.a.swept_box(pair.a.end).grown(0.05).overlaps(pair.b.swept_box(pair.b.end).grown(0.05)))
+        return keep(pair);
     }
   }
 
-  // The second body of a pair moved sideways until the pair's smallest clearance is near `clearance_m`; false if there is no such place near.
+  // The second body of a pair moved sideways until the pair's smallest clearance is near `clearance_m`; false if there
+  // is no such place near.
   bool tune(MotionPair& pair, double clearance_m) {
     const Vec2 aside = unit_vector(in(-kPi, kPi));
     double low = 0.0, high = 6.0;
-    if (sampled_minimum_m(moved(pair, low, aside)) > clearance_m || sampled_minimum_m(moved(pair, high, aside)) < clearance_m) return false;
+    if (sampled_minimum_m(moved(pair, low, aside)) > clearance_m ||
+        sampled_minimum_m(moved(pair, high, aside)) < clearance_m)
+      return false;
     for (int i = 0; i < 44; ++i) {
       const double middle = 0.5 * (low + high);
       (sampled_minimum_m(moved(pair, middle, aside)) < clearance_m ? low : high) = middle;
@@ -48,7 +64,9 @@ class PairMaker {
     return true;
   }
 
-  double in(double low, double high) { return low + (high - low) * std::uniform_real_distribution<double>(0.0, 1.0)(engine_); }
+  double in(double low, double high) {
+    return low + (high - low) * std::uniform_real_distribution<double>(0.0, 1.0)(engine_);
+  }
   bool chance(double share) { return in(0.0, 1.0) < share; }
 
  private:
@@ -108,10 +126,13 @@ class PairMaker {
     const SimTime begin = at_seconds(20.0), other_begin = begin + seconds(in(-3.0, 3.0));
     const Vec2 here(in(0.0, 50.0), in(0.0, 50.0)), there = here + Vec2(in(-3.0, 3.0), in(-3.0, 3.0));
     const double heading = in(-kPi, kPi), other_heading = in(-kPi, kPi);
-    const auto any = [&](const Vec2& at, double way, SimTime when) { return drive(chance(0.5) ? line(at, way, length()) : arc(at, way), when); };
+    const auto any = [&](const Vec2& at, double way, SimTime when) {
+      return drive(chance(0.5) ? line(at, way, length()) : arc(at, way), when);
+    };
     switch (kind) {
       case PairKind::CrossingLines:
-        return {drive(line(here, heading, length()), begin), drive(line(there, other_heading, length()), other_begin), {}};
+        return {
+            drive(line(here, heading, length()), begin), drive(line(there, other_heading, length()), other_begin), {}};
       case PairKind::LineAndArc:
         return {drive(line(here, heading, length()), begin), drive(arc(there, other_heading), other_begin), {}};
       case PairKind::Arcs:
@@ -125,21 +146,29 @@ class PairMaker {
       case PairKind::Lanes: {
         const double apart_m = chance(0.3) ? 1.3 + in(-50e-6, 50e-6) : in(1.0, 2.0);
         const Vec2 along = unit_vector(heading), beside = here + apart_m * left_of(along) + in(-2.0, 2.0) * along;
-        return {drive(line(here, heading, length()), begin), drive(line(beside, chance(0.5) ? heading : heading + kPi, length()), other_begin), {}};
+        return {drive(line(here, heading, length()), begin),
+                drive(line(beside, chance(0.5) ? heading : heading + kPi, length()), other_begin),
+                {}};
       }
       case PairKind::TurnAndDrive:
         return {turn(here, begin), any(here + 0.7 * (there - here), heading, other_begin), {}};
       case PairKind::RestAndDrive:
-        return {rest_piece(EntityId{1U}, {1.8, 1.2}, {here, unit_vector(heading)}, kStart), any(there, other_heading, begin), {}};
+        return {rest_piece(EntityId{1U}, {1.8, 1.2}, {here, unit_vector(heading)}, kStart),
+                any(there, other_heading, begin),
+                {}};
       case PairKind::RestAndTurn:
-        return {turn(here, begin), rest_piece(EntityId{1U}, {1.0, 0.6}, {here + 0.6 * (there - here), unit_vector(heading)}, kStart), {}};
+        return {turn(here, begin),
+                rest_piece(EntityId{1U}, {1.0, 0.6}, {here + 0.6 * (there - here), unit_vector(heading)}, kStart),
+                {}};
       case PairKind::Chains:
         return {drive(chain(here, heading), begin), drive(chain(there, other_heading), other_begin), {}};
       case PairKind::SameBend: {
         Arc lead{{here, unit_vector(heading)}, 8.0, 1.0 / in(1.5, 4.0)};
         const Arc trail = lead;
         lead.start = trail.pose_at(in(2.0, 2.4));
-        return {drive(Curve({trail}), begin), drive(Curve({lead}), chance(0.5) ? begin : begin - seconds(in(0.0, 0.5))), {}};
+        return {drive(Curve({trail}), begin),
+                drive(Curve({lead}), chance(0.5) ? begin : begin - seconds(in(0.0, 0.5))),
+                {}};
       }
       case PairKind::CutShort:
         break;
@@ -161,7 +190,9 @@ class PairMaker {
   }
 
   static double sampled_minimum_m(const MotionPair& pair) {
-    const auto at = [&](double t_s) { return clearance_m(pair.a.body_at(at_seconds(t_s)), pair.b.body_at(at_seconds(t_s))); };
+    const auto at = [&](double t_s) {
+      return clearance_m(pair.a.body_at(at_seconds(t_s)), pair.b.body_at(at_seconds(t_s)));
+    };
     const double begin_s = to_seconds(pair.common.begin), end_s = to_seconds(pair.common.end);
     constexpr int kSamples = 200;
     double best_s = begin_s, least_m = at(begin_s);

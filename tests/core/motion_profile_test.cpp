@@ -61,7 +61,8 @@ TEST(MotionProfile, SpeedIsTheSlopeOfPositionAndAccelerationThatOfSpeed) {
     const double whole_s = to_seconds(profile.duration()), h = 1e-5 * whole_s;
     for (int k = 1; k < 100; ++k) {
       const double t = whole_s * k / 100.0;
-      // Continuous, and across a change of phase too: the slope of a chord is the mean of the speeds at its ends, but for what accelerations differ.
+      // Continuous, and across a change of phase too: the slope of a chord is the mean of the speeds at its ends, but
+      // for what accelerations differ.
       const double slope = (profile.position(t + h) - profile.position(t - h)) / (2.0 * h);
       ASSERT_NEAR(slope, profile.speed(t), (limits.acceleration_mps2 + limits.deceleration_mps2) * h + 1e-8);
       ASSERT_LE(profile.speed(t), limits.speed_mps);

@@ -7,13 +7,13 @@ namespace {
 using test::bring_the_load;
 using test::comes_after;
 using test::fault;
+using test::Heard;
 using test::Helped;
 using test::kBattery;
 using test::kContact;
 using test::row_of_tens;
 using test::run;
 using test::somebody_in_the_way;
-using test::Heard;
 
 TEST(AfterAContact, TheAgvIsSetDownAtTheEndOfItsSegmentAndDelivers) {
   Scenario scenario = somebody_in_the_way();
@@ -44,7 +44,8 @@ TEST(AfterAContact, WhoseStationIsTakenComesToTheNearestThatIsFree) {
   scenario.operator_help = comes_after(20.0);
   Heard heard;
   const Helped seen = run(scenario, bring_the_load(heard));
-  EXPECT_EQ(seen.set_down_at(EntityId{1U}), 0U) << "AGV 0 stands at station 1 by then; 0 and 2 are as near, and 0 is the first";
+  EXPECT_EQ(seen.set_down_at(EntityId{1U}), 0U)
+      << "AGV 0 stands at station 1 by then; 0 and 2 are as near, and 0 is the first";
 }
 
 TEST(AfterAContact, WithoutTheOperatorItStandsForGood) {
@@ -62,11 +63,12 @@ TEST(AfterAContact, WhoStoodAtItsStationComesBackThereAsItStood) {
   scenario.agvs[0].heading = Vec2::UnitY();
   scenario.operator_help = comes_after(20.0);
   fp_pose pose{};
-  const Helped seen = run(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
-    if (e.kind != FP_EVENT_START) return;
-    if (b.self == 1 && b.boot == 0) host.move(c, 0);
-    if (b.self == 0 && b.boot == 1) host.get_position(c, &pose);
-  });
+  const Helped seen =
+      run(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
+        if (e.kind != FP_EVENT_START) return;
+        if (b.self == 1 && b.boot == 0) host.move(c, 0);
+        if (b.self == 0 && b.boot == 1) host.get_position(c, &pose);
+      });
   EXPECT_EQ(seen.set_down_at(EntityId{0U}), 1U);
   EXPECT_EQ(pose.x_m, 10.0);
   EXPECT_EQ(pose.heading_y, 1.0);
@@ -84,7 +86,8 @@ TEST(AfterAContact, AnOccupiedPlaceDelaysTheSetDown) {
   Scenario scenario = box_in_the_way({0});
   scenario.map = test::row_map(2, 10.0);
   scenario.obstacles.push_back({"behind", {0.5, 0.5}, {Vec2{0.0, 0.0}, Vec2::UnitX()}, seconds(3.0)});
-  scenario.obstacles.push_back({"ahead", {0.5, 0.5}, {Vec2{11.14, 0.0}, Vec2::UnitX()}, Duration{}, seconds(50.5)});  // 9 cm from its front
+  scenario.obstacles.push_back(
+      {"ahead", {0.5, 0.5}, {Vec2{11.14, 0.0}, Vec2::UnitX()}, Duration{}, seconds(50.5)});  // 9 cm from its front
   const Helped seen = run(scenario, [](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
     if (e.kind == FP_EVENT_START && b.boot == 0) host.move(c, 0);
   });
@@ -107,7 +110,8 @@ TEST(AfterAContact, ThatFarFromItThePlaceIsFree) {
 
 TEST(AfterAContact, SoItIsBesideAnObliqueWallWhoseBoxReachesIntoIt) {
   Scenario scenario = box_in_the_way({0});
-  scenario.obstacles.push_back({"wall", {2.0, 0.02}, {Vec2{11.012, 0.712}, Vec2{1.0, -1.0}.normalized()}});  // 0.29 m from its front left corner
+  scenario.obstacles.push_back(
+      {"wall", {2.0, 0.02}, {Vec2{11.012, 0.712}, Vec2{1.0, -1.0}.normalized()}});  // 0.29 m from its front left corner
   const Helped seen = run(scenario, [](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
     if (e.kind == FP_EVENT_START && b.boot == 0) host.move(c, 0);
   });
@@ -148,7 +152,8 @@ TEST(AfterAContact, NobodyIsSetDownOnALaneThatWillBeDriven) {
   const Helped seen = run(scenario, [](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
     if (e.kind == FP_EVENT_START && b.self == 0 && b.boot < 2) host.move(c, 0);
   });
-  EXPECT_EQ(seen.outcome.counters.contacts, 1U) << "0, which has to turn first, drives back from station 1 to station 0";
+  EXPECT_EQ(seen.outcome.counters.contacts, 1U)
+      << "0, which has to turn first, drives back from station 1 to station 0";
 }
 
 TEST(AfterAContact, WhatHeldTheAgvHoldsItNoLonger) {
@@ -156,20 +161,22 @@ TEST(AfterAContact, WhatHeldTheAgvHoldsItNoLonger) {
   scenario.faults = {fault(Fault::Kind::ProtectiveStop, 1.0, 150.0)};
   scenario.operator_help = comes_after(20.0);
   std::vector<double> done_s;
-  const Helped seen = run(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
-    if (e.kind == FP_EVENT_START && b.self == 1 && b.boot == 0) host.move(c, 0);
-    if (b.self != 0) return;
-    if (e.kind == FP_EVENT_START && b.boot == 0) host.set_timer(c, 1, 2'000'000'000);
-    if (e.kind == FP_EVENT_TIMER || (e.kind == FP_EVENT_START && b.boot == 1)) {
-      EXPECT_EQ(host.move(c, 1), FP_OK);  // the first of them waits for the end of the stop
-    }
-    if (e.kind == FP_EVENT_ACTION_DONE && e.result == FP_OK) done_s.push_back(static_cast<double>(e.now_ns) * 1e-9);
-  });
+  const Helped seen =
+      run(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
+        if (e.kind == FP_EVENT_START && b.self == 1 && b.boot == 0) host.move(c, 0);
+        if (b.self != 0) return;
+        if (e.kind == FP_EVENT_START && b.boot == 0) host.set_timer(c, 1, 2'000'000'000);
+        if (e.kind == FP_EVENT_TIMER || (e.kind == FP_EVENT_START && b.boot == 1)) {
+          EXPECT_EQ(host.move(c, 1), FP_OK);  // the first of them waits for the end of the stop
+        }
+        if (e.kind == FP_EVENT_ACTION_DONE && e.result == FP_OK) done_s.push_back(static_cast<double>(e.now_ns) * 1e-9);
+      });
   const double set_down_s = to_seconds(seen.trace.of(TraceKind::Contact).at(0).at) + seen.set_down_s(EntityId{0U});
   ASSERT_EQ(done_s.size(), 1U);
   EXPECT_NEAR(done_s[0], set_down_s + 8.0, 1e-8);
   ASSERT_EQ(seen.trace.of(TraceKind::FaultOver).size(), 1U);
-  EXPECT_EQ(seen.trace.of(TraceKind::FaultOver)[0].at, seen.assists(kContact)[0].at) << "the stop, which would have lasted on";
+  EXPECT_EQ(seen.trace.of(TraceKind::FaultOver)[0].at, seen.assists(kContact)[0].at)
+      << "the stop, which would have lasted on";
 }
 
 TEST(AfterAContact, WhatItWasAboutToDoIsForgotten) {
@@ -177,12 +184,14 @@ TEST(AfterAContact, WhatItWasAboutToDoIsForgotten) {
   scenario.faults = {fault(Fault::Kind::ProtectiveStop, 1.0, 150.0), fault(Fault::Kind::ProtectiveStop, 60.0, 5.0)};
   scenario.operator_help = comes_after(20.0);
   int done = 0;
-  const Helped seen = run(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
-    if (e.kind == FP_EVENT_START && b.self == 1 && b.boot == 0) host.move(c, 0);
-    if (b.self == 0 && e.kind == FP_EVENT_START && b.boot == 0) host.set_timer(c, 1, 2'000'000'000);
-    if (b.self == 0 && e.kind == FP_EVENT_TIMER) host.move(c, 1);  // waits for the end of the stop, and is hit meanwhile
-    if (b.self == 0 && b.boot == 1 && e.kind == FP_EVENT_ACTION_DONE) ++done;
-  });
+  const Helped seen =
+      run(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
+        if (e.kind == FP_EVENT_START && b.self == 1 && b.boot == 0) host.move(c, 0);
+        if (b.self == 0 && e.kind == FP_EVENT_START && b.boot == 0) host.set_timer(c, 1, 2'000'000'000);
+        if (b.self == 0 && e.kind == FP_EVENT_TIMER)
+          host.move(c, 1);  // waits for the end of the stop, and is hit meanwhile
+        if (b.self == 0 && b.boot == 1 && e.kind == FP_EVENT_ACTION_DONE) ++done;
+      });
   EXPECT_EQ(seen.set_down_at(EntityId{0U}), 1U);
   EXPECT_EQ(done, 0) << "the end of the second stop ends nothing else";
 }
@@ -193,12 +202,13 @@ TEST(AfterAContact, HeldInMidSegmentItStandsOnThatSegment) {
   scenario.agvs[1].heading = -Vec2::UnitX();
   scenario.operator_help = comes_after(20.0);
   fp_pose pose{};
-  const Helped seen = run(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
-    if (e.kind != FP_EVENT_START) return;
-    if (b.boot == 0) host.set_timer(c, 1, 0);
-    if (b.boot == 0) host.move(c, 0);
-    if (b.boot == 1 && b.self == 0) host.get_position(c, &pose);
-  });
+  const Helped seen =
+      run(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
+        if (e.kind != FP_EVENT_START) return;
+        if (b.boot == 0) host.set_timer(c, 1, 0);
+        if (b.boot == 0) host.move(c, 0);
+        if (b.boot == 1 && b.self == 0) host.get_position(c, &pose);
+      });
   EXPECT_EQ(seen.outcome.counters.contacts, 1U);
   EXPECT_EQ(seen.set_down_at(EntityId{0U}), 1U);
   EXPECT_EQ(pose.x_m, 10.0);
@@ -233,7 +243,11 @@ TEST(AfterAContact, TheSetDownIsProgressAsTheEndOfAnyHaltIs) {
 TEST(AfterAContact, ItsScannerIsNoLongerMuted) {
   Scenario scenario = row_of_tens({0, 1});
   scenario.agvs[1].heading = Vec2::UnitY();
-  scenario.obstacles = {{"box", {0.5, 0.5}, {Vec2{11.17, 0.0}, Vec2::UnitX()}}};  // 12 cm before the AGV at station 1: in its field, and no nearer than it may be
+  scenario.obstacles = {
+      {"box",
+       {0.5, 0.5},
+       {Vec2{11.17, 0.0},
+        Vec2::UnitX()}}};  // 12 cm before the AGV at station 1: in its field, and no nearer than it may be
   scenario.scanner.on = true;
   scenario.operator_help = comes_after(10.0);
   const Helped seen = run(scenario, [](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
@@ -243,7 +257,8 @@ TEST(AfterAContact, ItsScannerIsNoLongerMuted) {
   ASSERT_FALSE(contacts.empty()) << "sent on, it drives into AGV 1";
   const double set_down_s = seen.set_down_s(EntityId{0U});
   EXPECT_GT(set_down_s, 0.0);
-  for (std::size_t i = 1; i < contacts.size(); ++i) EXPECT_GT(to_seconds(contacts[i].at - contacts[0].at), set_down_s + 9.0) << "before anybody mutes it again";
+  for (std::size_t i = 1; i < contacts.size(); ++i)
+    EXPECT_GT(to_seconds(contacts[i].at - contacts[0].at), set_down_s + 9.0) << "before anybody mutes it again";
 }
 
 TEST(AfterAContact, AnEmptyBatteryIsChangedOnTheOccasion) {
@@ -256,7 +271,8 @@ TEST(AfterAContact, AnEmptyBatteryIsChangedOnTheOccasion) {
   const auto changed = seen.assists(kBattery);
   ASSERT_GE(changed.size(), 1U);
   EXPECT_EQ(changed[0].entity, EntityId{0U});
-  EXPECT_NEAR(to_seconds(changed[0].at - seen.trace.of(TraceKind::Contact).at(0).at), 31.0, 1e-8) << "where it is set down";
+  EXPECT_NEAR(to_seconds(changed[0].at - seen.trace.of(TraceKind::Contact).at(0).at), 31.0, 1e-8)
+      << "where it is set down";
   EXPECT_EQ(seen.outcome.counters.transports_done, 1U);
   const Counters& c = seen.outcome.counters;
   EXPECT_NEAR(static_cast<double>(c.battery_start_ppb + c.battery_charged_ppb),
@@ -283,12 +299,13 @@ TEST(AfterAContact, ACrashedAgentStaysCrashed) {
   Scenario scenario = row_of_tens({0, 1}, 100.0);
   scenario.operator_help = comes_after(20.0);
   int starts = 0;
-  const Helped seen = run(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
-    if (b.self != 0 || e.kind != FP_EVENT_START) return;
-    ++starts;
-    host.move(c, 0);
-    throw std::runtime_error("on its way");
-  });
+  const Helped seen =
+      run(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
+        if (b.self != 0 || e.kind != FP_EVENT_START) return;
+        ++starts;
+        host.move(c, 0);
+        throw std::runtime_error("on its way");
+      });
   EXPECT_EQ(starts, 1);
   EXPECT_TRUE(seen.outcome.crash);
   EXPECT_EQ(seen.set_down_at(EntityId{0U}), 1U);

@@ -99,7 +99,8 @@ TEST(Piece, SweptBoxIsSoundAndTight) {
   for (const double radius_m : {1.5, 2.0, 4.0, 30.0}) {
     for (const double heading_rad : {0.0, 0.7, 2.0, -2.5}) {
       for (const double side : {1.0, -1.0}) {
-        const Curve arc({Arc{{{3.0, 4.0}, unit_vector(heading_rad)}, std::min(20.0, 1.9 * kPi * radius_m), side / radius_m}});
+        const Curve arc(
+            {Arc{{{3.0, 4.0}, unit_vector(heading_rad)}, std::min(20.0, 1.9 * kPi * radius_m), side / radius_m}});
         const Piece piece = drive(arc, {1.8, 1.2});
         for (const double part : {0.0, 0.2, 0.6, 1.0, 2.0})
           expect_swept(piece, piece.begin + seconds(part * to_seconds(piece.profile.duration())), 0.05);
@@ -109,7 +110,8 @@ TEST(Piece, SweptBoxIsSoundAndTight) {
   const Curve straight = Curve::straight({0, 0}, {5, 3}), bend = Curve::bezier({0, 0}, {4, 0}, {2, 5}, {6, 6});
   for (const Curve* curve : {&straight, &bend}) {
     const Piece piece = drive(*curve);
-    for (const double part : {0.1, 0.5, 1.0}) expect_swept(piece, piece.begin + seconds(part * to_seconds(piece.profile.duration())), 0.05);
+    for (const double part : {0.1, 0.5, 1.0})
+      expect_swept(piece, piece.begin + seconds(part * to_seconds(piece.profile.duration())), 0.05);
   }
   expect_swept(turn(-kPi), kForever, 0.5);
 }

@@ -34,7 +34,8 @@ std::vector<double> arrivals_s(const RadioSetup& radio, std::size_t bytes) {
       scenario,
       [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& event) {
         const std::string text(bytes, 'x');
-        if (b.self == 0 && event.kind == FP_EVENT_START) host.send_unicast(c, text.data(), static_cast<std::uint32_t>(text.size()), 1);
+        if (b.self == 0 && event.kind == FP_EVENT_START)
+          host.send_unicast(c, text.data(), static_cast<std::uint32_t>(text.size()), 1);
       },
       &recorder);
   EXPECT_EQ(recorder.of(TraceKind::Sent).at(0).bytes, bytes);  // what laws reckon with
@@ -60,7 +61,8 @@ TEST(AirTime, IsContainedInALongerDelayAndCountsInsteadOfAShorterOne) {
   radio.duplicates = 1.0;
   EXPECT_EQ(arrivals_s(radio, 30), (std::vector{0.005, 0.005}));  // nor does a copy come before the message is out
   radio.duplicates = 0.0;
-  radio.trace = std::make_shared<const RadioTrace>(RadioTrace{{AgvId{0U}, AgvId{1U}, Duration{0}, Duration{1'000'000}}});
+  radio.trace =
+      std::make_shared<const RadioTrace>(RadioTrace{{AgvId{0U}, AgvId{1U}, Duration{0}, Duration{1'000'000}}});
   EXPECT_EQ(arrivals_s(radio, 30), std::vector{0.005});
 }
 
@@ -77,7 +79,8 @@ TEST(UnlikeLengths, OverlappingTransmissionsHitEachOtherAndAdjacentOnesDoNot) {
   const auto at = [](std::int64_t n) { return kStart + ms(n); };
   RadioChannel channel(without_window(), 3);
   const auto long_one = channel.contend(a, at(0), 0, ms(4)), before = channel.contend(b, at(2), 0, ms(1));
-  EXPECT_EQ(long_one, (AirInterval{at(4), at(8)}));  // a message sent at the first instant of a slot goes out in the next
+  EXPECT_EQ(long_one,
+            (AirInterval{at(4), at(8)}));  // a message sent at the first instant of a slot goes out in the next
   EXPECT_EQ(before, (AirInterval{at(3), at(4)}));
   EXPECT_FALSE(is_hit(channel, b, before));
   EXPECT_FALSE(is_hit(channel, a, long_one));
@@ -120,7 +123,8 @@ TEST(UnlikeLengths, WhoIsHitAgreesWithEveryPair) {
       if (one.asked || one.on_air.end > t) continue;
       one.asked = true;
       const bool overlapped = std::ranges::any_of(book, [&](const Transmission& other) {
-        return other.sender != one.sender && std::max(one.on_air.begin, other.on_air.begin) < std::min(one.on_air.end, other.on_air.end);
+        return other.sender != one.sender &&
+               std::max(one.on_air.begin, other.on_air.begin) < std::min(one.on_air.end, other.on_air.end);
       });
       ASSERT_EQ(is_hit(channel, one.sender, one.on_air), overlapped);
       ++(overlapped ? hit : missed);
@@ -130,14 +134,17 @@ TEST(UnlikeLengths, WhoIsHitAgreesWithEveryPair) {
     const SimTime now = kStart + ms(4) * i;
     ask_until(now);
     const AgvId sender{random() % 5};
-    book.push_back({sender, channel.contend(sender, now, 0, std::chrono::microseconds(200 + random() % (i % 50 == 0 ? 20'000 : 1'000)))});
+    book.push_back(
+        {sender,
+         channel.contend(sender, now, 0, std::chrono::microseconds(200 + random() % (i % 50 == 0 ? 20'000 : 1'000)))});
   }
   EXPECT_GT(hit, 300);
   EXPECT_GT(missed, 300);
 }
 
-// One always sends messages of 4 ms, another of 1 ms. A short one is lost if the long slot around it is used: 2 / (CW + 2). A long one survives if
-// none of four short slots in a row is used; of gaps that are uniform on 1 .. CW + 1 that is the share (CW - 3)(CW - 2) / ((CW + 1)(CW + 2)).
+// One always sends messages of 4 ms, another of 1 ms. A short one is lost if the long slot around it is used: 2 / (CW +
+// 2). A long one survives if none of four short slots in a row is used; of gaps that are uniform on 1 .. CW + 1 that is
+// the share (CW - 3)(CW - 2) / ((CW + 1)(CW + 2)).
 TEST(UnlikeLengths, SaturatedPairsLoseWhatTheClosedFormsSay) {
   constexpr std::uint32_t kWindow = 31;
   constexpr Duration kApart = ms(4) * 10 * (kWindow + 1);  // two so far apart are as good as independent
@@ -154,7 +161,8 @@ TEST(UnlikeLengths, SaturatedPairsLoseWhatTheClosedFormsSay) {
     EXPECT_GT(counted, 9000U);
     EXPECT_TRUE(test::is_binomial(hit, counted, expected));
   };
-  std::array<std::vector<AirInterval>, 2> sent;  // all handed over at once, so that each begins its back-off as the one before ends
+  std::array<std::vector<AirInterval>, 2>
+      sent;  // all handed over at once, so that each begins its back-off as the one before ends
   const std::array lengths{ms(4), ms(1)};
   for (const std::size_t s : {0U, 1U}) {
     for (std::uint32_t i = 0; sent[s].empty() || sent[s].back().end < kStart + kApart * 10'000; ++i) {
@@ -167,21 +175,25 @@ TEST(UnlikeLengths, SaturatedPairsLoseWhatTheClosedFormsSay) {
 
 // ---- whole runs
 
-// AGV 0, 1 and 2 (if there) send so many bytes at such times; who heard whom, by (sender, receiver, number of the message of that sender).
+// AGV 0, 1 and 2 (if there) send so many bytes at such times; who heard whom, by (sender, receiver, number of the
+// message of that sender).
 using Heard = std::set<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>>;
 
-Heard run(const RadioSetup& radio, const std::vector<std::vector<std::pair<std::int64_t, std::uint32_t>>>& schedule, Outcome& outcome) {
+Heard run(const RadioSetup& radio, const std::vector<std::vector<std::pair<std::int64_t, std::uint32_t>>>& schedule,
+          Outcome& outcome) {
   Scenario scenario = test::row_scenario(4, {0, 1, 2}, 5.0);
   scenario.radio = radio;
   Heard heard;
-  outcome = test::simulate_with(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& event) {
+  outcome = test::simulate_with(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing& b,
+                                              const fp_event& event) {
     if (event.kind == FP_EVENT_MESSAGE) {
       fp_message message{.struct_size = sizeof(fp_message), .sender = 0, .size = 0, .bytes = nullptr};
       while (host.get_message(c, &message) == FP_OK)
         heard.emplace(message.sender, b.self, static_cast<unsigned char>(static_cast<const char*>(message.bytes)[0]));
     } else if (b.self < schedule.size()) {
       const auto& mine = schedule[b.self];
-      for (std::uint32_t i = 0; event.kind == FP_EVENT_START && i < mine.size(); ++i) host.set_timer(c, i, mine[i].first * 1'000'000);
+      for (std::uint32_t i = 0; event.kind == FP_EVENT_START && i < mine.size(); ++i)
+        host.set_timer(c, i, mine[i].first * 1'000'000);
       if (event.kind != FP_EVENT_TIMER) return;
       const std::string text(mine[event.timer].second, static_cast<char>(event.timer));
       host.send_broadcast(c, text.data(), static_cast<std::uint32_t>(text.size()));
@@ -195,7 +207,8 @@ TEST(UnlikeLengths, InAWholeRunOverlapDestroysAtAListenerAndNobodyHearsWhileItSe
   radio.air_time_s = 0.001;
   radio.air_time_per_byte_s = 0.001;
   Outcome outcome;
-  // AGV 1 is in the air from 16 to 24 ms (7 bytes). AGV 0, with messages of 2 ms: from 14 to 16, from 18 to 20, from 24 to 26.
+  // AGV 1 is in the air from 16 to 24 ms (7 bytes). AGV 0, with messages of 2 ms: from 14 to 16, from 18 to 20, from 24
+  // to 26.
   const Heard heard = run(radio, {{{13, 1}, {17, 1}, {23, 1}}, {{15, 7}}}, outcome);
   EXPECT_EQ(heard, (Heard{{0, 1, 0}, {0, 2, 0}, {0, 1, 2}, {0, 2, 2}}));
   EXPECT_EQ(outcome.counters.lost_by_interference, 4U);

@@ -18,7 +18,9 @@ PlaceSetup crossing(double min_s, double max_s, double spacing_m = 20.0) {
   return {.ap_spacing_m = spacing_m, .roaming_at_crossing = true, .roaming_min_s = min_s, .roaming_max_s = max_s};
 }
 
-Piece rest(AgvId agv, const Vec2& at_m, SimTime begin = kStart) { return rest_piece(agv, {2.0, 1.0}, {at_m, Vec2::UnitX()}, begin); }
+Piece rest(AgvId agv, const Vec2& at_m, SimTime begin = kStart) {
+  return rest_piece(agv, {2.0, 1.0}, {at_m, Vec2::UnitX()}, begin);
+}
 
 // From rest to rest at the paper's rates: 4 s to reach 2 m/s, over 4 m.
 Piece drive(AgvId agv, const Curve& curve, SimTime begin) {
@@ -54,7 +56,8 @@ TEST(CellCrossing, BeingCarriedIsNone) {
 }
 
 TEST(CellCrossing, MakesDeafFromTheInstantOfTheBorderForTheTimeDrawn) {
-  const Curve curve = Curve::straight({0.0, 1.0}, {40.0, 1.0});  // borders at 10 m, 7 s after the start, and at 30 m, 10 s later
+  const Curve curve =
+      Curve::straight({0.0, 1.0}, {40.0, 1.0});  // borders at 10 m, 7 s after the start, and at 30 m, 10 s later
   RadioCrossings crossings(crossing(1.5, 1.5), 3);
   tell(crossings, kA, curve);
   for (const double border_s : {17.0, 27.0}) {
@@ -68,12 +71,15 @@ TEST(CellCrossing, MakesDeafFromTheInstantOfTheBorderForTheTimeDrawn) {
 }
 
 TEST(CellCrossing, TwoThatMeetAtABorderAreDeafTogether) {
-  const Curve from_left = Curve::straight({0.0, 1.0}, {20.0, 1.0}), from_right = Curve::straight({20.0, 3.0}, {0.0, 3.0});
+  const Curve from_left = Curve::straight({0.0, 1.0}, {20.0, 1.0}),
+              from_right = Curve::straight({20.0, 3.0}, {0.0, 3.0});
   RadioCrossings crossings(crossing(1.2, 4.7), 3);
   tell(crossings, kA, from_left);
   tell(crossings, kB, from_right);
-  for (const double t_s : {17.00001, 18.199}) EXPECT_TRUE(deaf_at(crossings, kA, t_s) && deaf_at(crossings, kB, t_s)) << t_s;
-  for (const double t_s : {16.999, 21.701}) EXPECT_FALSE(deaf_at(crossings, kA, t_s) || deaf_at(crossings, kB, t_s)) << t_s;
+  for (const double t_s : {17.00001, 18.199})
+    EXPECT_TRUE(deaf_at(crossings, kA, t_s) && deaf_at(crossings, kB, t_s)) << t_s;
+  for (const double t_s : {16.999, 21.701})
+    EXPECT_FALSE(deaf_at(crossings, kA, t_s) || deaf_at(crossings, kB, t_s)) << t_s;
 }
 
 TEST(CellCrossing, StandingOnABorderOrDrivingAlongItCostsNothing) {
@@ -99,7 +105,8 @@ TEST(CellCrossing, OnlyWhatIsDrivenCounts) {
   crossings.piece_begins(rest(kA, {6.0, 1.0}, at_seconds(15.0)));  // cut short at 6 m
   for (int i = 1500; i < 3000; ++i) ASSERT_FALSE(deaf_at(crossings, kA, 0.01 * i)) << i;
   const Curve others = Curve::straight({6.0, 1.0}, {26.0, 1.0});
-  crossings.piece_begins(drive(kA, others, at_seconds(30.0)));  // 4 m with 0.5 m/s2: 4 s; its first crossing, so the first draw
+  crossings.piece_begins(
+      drive(kA, others, at_seconds(30.0)));  // 4 m with 0.5 m/s2: 4 s; its first crossing, so the first draw
   for (const double after_s : {0.001, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0}) {
     EXPECT_EQ(deaf_at(crossings, kA, 34.0 + after_s), deaf_at(undisturbed, kA, 17.0 + after_s)) << after_s;
   }
@@ -135,7 +142,8 @@ TEST(CellCrossing, LastsAsLongAsTheUniformLawSays) {
     tell(crossings, agv, curve);
     const auto end_of = [&](double from_s) {
       double low_s = from_s, high_s = from_s + 10.0;
-      while (high_s - low_s > 1e-6) (deaf_at(crossings, agv, 0.5 * (low_s + high_s)) ? low_s : high_s) = 0.5 * (low_s + high_s);
+      while (high_s - low_s > 1e-6)
+        (deaf_at(crossings, agv, 0.5 * (low_s + high_s)) ? low_s : high_s) = 0.5 * (low_s + high_s);
       return low_s - from_s;
     };
     lasts_s.push_back(end_of(17.00001));

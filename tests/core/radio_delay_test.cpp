@@ -22,7 +22,8 @@ std::vector<double> delays_s(const RadioSetup& setup) {
   return found;
 }
 
-// Of a heavy-tailed delay without cap, from the definition: a Lomax law of this shape whose median is where it is asked to be.
+// Of a heavy-tailed delay without cap, from the definition: a Lomax law of this shape whose median is where it is asked
+// to be.
 double heavy_tail_quantile(double delay_s, double min_share, double median_share, double shape, double p) {
   const double scale = (median_share - min_share) / (std::pow(2.0, 1.0 / shape) - 1.0);
   return delay_s * (min_share + scale * (std::pow(1.0 - p, -1.0 / shape) - 1.0));
@@ -40,9 +41,10 @@ TEST(RadioDelay, UniformIsUniform) {
 
 TEST(RadioDelay, HeavyTailHasItsMinimumMedianAndTail) {
   for (const double shape : {0.5, 1.5, 4.0}) {
-    const auto samples = delays_s({.delay_s = 2.0,
-                                   .delay_model = DelayModel::HeavyTail,
-                                   .delay_tail = {.min_share = 0.1, .median_share = 0.3, .shape = shape, .cap_share = 0.0}});
+    const auto samples =
+        delays_s({.delay_s = 2.0,
+                  .delay_model = DelayModel::HeavyTail,
+                  .delay_tail = {.min_share = 0.1, .median_share = 0.3, .shape = shape, .cap_share = 0.0}});
     expect_quantiles(samples, [&](double p) { return heavy_tail_quantile(2.0, 0.1, 0.3, shape, p); });
     EXPECT_GE(std::ranges::min(samples), 0.2);
   }
@@ -56,7 +58,9 @@ TEST(RadioDelay, ACapHoldsAndTakesWhatIsBeyondIt) {
   EXPECT_TRUE(test::is_binomial(static_cast<std::uint64_t>(std::ranges::count(samples, 2.0)), kMessages, beyond));
   const auto median = heavy_tail_quantile(2.0, 0.1, 0.2, 1.5, 0.5);
   EXPECT_DOUBLE_EQ(median, 0.4);
-  EXPECT_TRUE(test::is_binomial(static_cast<std::uint64_t>(std::ranges::count_if(samples, [&](double d) { return d <= median; })), kMessages, 0.5));
+  EXPECT_TRUE(test::is_binomial(
+      static_cast<std::uint64_t>(std::ranges::count_if(samples, [&](double d) { return d <= median; })), kMessages,
+      0.5));
 }
 
 TEST(RadioCopies, HaveTheirShareAndADelayOfTheirOwn) {

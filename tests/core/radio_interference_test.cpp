@@ -11,7 +11,8 @@
 namespace fleetproof {
 namespace {
 
-// The probability that a broadcast is hit when n senders always have one ready: each other sender sends in 2 / (CW + 2) of the slots.
+// The probability that a broadcast is hit when n senders always have one ready: each other sender sends in 2 / (CW + 2)
+// of the slots.
 double saturated_loss(std::uint32_t senders, std::uint32_t contention_window) {
   return 1.0 - std::pow(1.0 - 2.0 / (contention_window + 2.0), senders - 1.0);
 }
@@ -29,8 +30,9 @@ struct Case {
 
 class Saturated : public testing::TestWithParam<Case> {};
 
-// Sender 0 among n that always have a message ready. Its messages within ten windows of each other are not independent (a sender that has just sent
-// waits), so one of them counts in each such stretch: beyond it, what is left of the dependence is below 1e-8.
+// Sender 0 among n that always have a message ready. Its messages within ten windows of each other are not independent
+// (a sender that has just sent waits), so one of them counts in each such stretch: beyond it, what is left of the
+// dependence is below 1e-8.
 TEST_P(Saturated, BroadcastersHitEachOtherAsOftenAsTheClosedFormSays) {
   const auto [senders, contention_window, air_time] = GetParam();
   RadioChannel channel(contended(contention_window), 3);
@@ -51,18 +53,23 @@ TEST_P(Saturated, BroadcastersHitEachOtherAsOftenAsTheClosedFormSays) {
       }
     }
     for (std::uint32_t s = 0; s < senders; ++s) {  // at the beginning of its slot a sender hands over its next message
-      if (next[s] == slot) next[s] = channel.contend(AgvId{s}, kStart + slot * air_time, 0, air_time).begin.time_since_epoch() / air_time;
+      if (next[s] == slot)
+        next[s] = channel.contend(AgvId{s}, kStart + slot * air_time, 0, air_time).begin.time_since_epoch() / air_time;
     }
   }
   const double loss = saturated_loss(senders, contention_window);
   EXPECT_TRUE(test::is_binomial(hit, counted, loss));
-  // All million of them: dependent over a few windows, which at most doubles the standard deviation; so the bound counts a fourth of them.
+  // All million of them: dependent over a few windows, which at most doubles the standard deviation; so the bound
+  // counts a fourth of them.
   EXPECT_TRUE(test::is_binomial(all_hit / 4, all / 4, loss));
 }
 
-INSTANTIATE_TEST_SUITE_P(Senders, Saturated, testing::Values(Case{2, 31}, Case{5, 31}, Case{10, 31}, Case{5, 15}, Case{3, 0}, Case{5, 31, Duration{1'912'000}}),
+INSTANTIATE_TEST_SUITE_P(Senders, Saturated,
+                         testing::Values(Case{2, 31}, Case{5, 31}, Case{10, 31}, Case{5, 15}, Case{3, 0},
+                                         Case{5, 31, Duration{1'912'000}}),
                          [](const auto& c) {
-                           const std::string name = std::to_string(c.param.senders) + "SendersWindow" + std::to_string(c.param.contention_window);
+                           const std::string name = std::to_string(c.param.senders) + "SendersWindow" +
+                                                    std::to_string(c.param.contention_window);
                            return c.param.air_time == kAirTime ? name : name + "LongMessages";
                          });
 
@@ -79,7 +86,8 @@ TEST(RadioChannel, MessagesOfOneSenderFollowEachOther) {
 
 // ---- whole runs
 
-// AGVs send broadcasts every `every` from the start on, those whose number is below `senders`; the outcome, and at each AGV the receptions by sender.
+// AGVs send broadcasts every `every` from the start on, those whose number is below `senders`; the outcome, and at each
+// AGV the receptions by sender.
 struct Heard {
   Outcome outcome;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint64_t> received, drowned;  // by (sender, receiver)
@@ -99,15 +107,18 @@ Heard run(Scenario scenario, std::uint32_t senders, Duration every) {
         host.set_timer(c, 1, event.now_ns + every.count());
       },
       &recorder);
-  for (const TraceRecord& r : recorder.of(TraceKind::Received)) ++result.received[{static_cast<std::uint32_t>(r.a), r.entity.value}];
-  for (const TraceRecord& r : recorder.of(TraceKind::LostByInterference)) ++result.drowned[{static_cast<std::uint32_t>(r.a), r.entity.value}];
+  for (const TraceRecord& r : recorder.of(TraceKind::Received))
+    ++result.received[{static_cast<std::uint32_t>(r.a), r.entity.value}];
+  for (const TraceRecord& r : recorder.of(TraceKind::LostByInterference))
+    ++result.drowned[{static_cast<std::uint32_t>(r.a), r.entity.value}];
   return result;
 }
 
 TEST(Interference, InAWholeRunSaturatedSendersLoseWhatTheClosedFormSays) {
   Scenario scenario = test::row_scenario(6, {0, 1, 2, 3, 4, 5}, 60.0);
   scenario.radio = contended(31);
-  const Heard r = run(scenario, 5, std::chrono::milliseconds(14));  // a sender gets a slot every 16.5 ms: its queue never runs dry
+  const Heard r =
+      run(scenario, 5, std::chrono::milliseconds(14));  // a sender gets a slot every 16.5 ms: its queue never runs dry
   std::uint64_t received = 0, drowned = 0;
   for (std::uint32_t s = 0; s < 5; ++s) {
     received += r.received.at({s, 5});  // the sixth listens only
@@ -125,7 +136,8 @@ TEST(Interference, InAWholeRunSaturatedSendersLoseWhatTheClosedFormSays) {
 }
 
 TEST(Interference, WhoeverIsOutOfRangeDoesNotDisturb) {
-  // Two pairs, 100 m apart, range 10 m: without a window both senders are in every slot together, and their neighbours hear them all the same.
+  // Two pairs, 100 m apart, range 10 m: without a window both senders are in every slot together, and their neighbours
+  // hear them all the same.
   Scenario scenario = test::row_scenario(27, {0, 1, 25, 26}, 1.0);
   scenario.radio = contended(0);
   scenario.radio.range_m = 10.0;
@@ -141,7 +153,8 @@ TEST(Interference, WhoeverIsOutOfRangeDoesNotDisturb) {
   scenario.radio.range_m = 1000.0;
   const Outcome together = test::simulate_with(scenario, send);
   EXPECT_EQ(together.counters.receptions, 3 * apart.counters.receptions);
-  EXPECT_GE(together.counters.lost_by_interference + 6, together.counters.receptions);  // every slot holds both; the last may end after the run
+  EXPECT_GE(together.counters.lost_by_interference + 6,
+            together.counters.receptions);  // every slot holds both; the last may end after the run
 }
 
 TEST(Interference, OffByDefault) {

@@ -1,4 +1,5 @@
-// Long-run losses against their closed forms, on a million messages each, and the promise that a higher loss rate only adds losses.
+// Long-run losses against their closed forms, on a million messages each, and the promise that a higher loss rate only
+// adds losses.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -20,8 +21,8 @@ struct Tally {
   std::uint64_t lost = 0, in_outage = 0, lost_in_outage = 0;
 };
 
-// One message on each of a million links that have nothing in common, so that the trials are independent: AGV 0 to 1000 receivers in 1000 worlds. The
-// receivers stand in cells of their own.
+// One message on each of a million links that have nothing in common, so that the trials are independent: AGV 0 to 1000
+// receivers in 1000 worlds. The receivers stand in cells of their own.
 Tally a_million_messages(const RadioSetup& setup, SimTime at, std::uint32_t sender = 0) {
   Tally tally;
   for (std::uint32_t world = 0; world < kWorlds; ++world) {
@@ -55,7 +56,8 @@ class OutageLoss : public testing::TestWithParam<OutageCase> {};
 
 TEST_P(OutageLoss, HasTheNominalShareAtEveryInstant) {
   const auto& [model, scope, loss, at] = GetParam();
-  const Tally tally = a_million_messages({.loss = loss, .outages = {.mean_outage_s = 0.5, .model = model, .scope = scope}}, at);
+  const Tally tally =
+      a_million_messages({.loss = loss, .outages = {.mean_outage_s = 0.5, .model = model, .scope = scope}}, at);
   const double share = (loss - 0.05) / 0.9;
   EXPECT_TRUE(is_binomial(tally.lost, kMessages, loss));
   EXPECT_TRUE(is_binomial(tally.in_outage, kMessages, share));
@@ -64,25 +66,29 @@ TEST_P(OutageLoss, HasTheNominalShareAtEveryInstant) {
 }
 
 // Time zero is the stationary start, the others what the process makes of it after a few outages.
-INSTANTIATE_TEST_SUITE_P(
-    Cases, OutageLoss,
-    testing::Values(OutageCase{Model::GilbertElliott, Scope::Link, 0.4, kStart}, OutageCase{Model::GilbertElliott, Scope::Link, 0.1, at_seconds(0.3)},
-                    OutageCase{Model::GilbertElliott, Scope::Direction, 0.7, at_seconds(2.1)},
-                    OutageCase{Model::GilbertElliott, Scope::Place, 0.4, at_seconds(0.7)}, OutageCase{Model::HeavyTail, Scope::Link, 0.4, kStart},
-                    OutageCase{Model::HeavyTail, Scope::Link, 0.4, at_seconds(0.2)}, OutageCase{Model::HeavyTail, Scope::Link, 0.2, at_seconds(1.7)},
-                    OutageCase{Model::HeavyTail, Scope::Place, 0.6, at_seconds(0.9)}),
-    [](const auto& param) {
-      const auto& c = param.param;
-      return std::string(c.model == Model::HeavyTail ? "HeavyTail" : "GilbertElliott") +
-             (c.scope == Scope::Link    ? "Link"
-              : c.scope == Scope::Place ? "Place"
-                                        : "Direction") +
-             std::to_string(static_cast<int>(100 * c.loss)) + "At" + std::to_string(to_ns(c.at) / 1'000'000);
-    });
+INSTANTIATE_TEST_SUITE_P(Cases, OutageLoss,
+                         testing::Values(OutageCase{Model::GilbertElliott, Scope::Link, 0.4, kStart},
+                                         OutageCase{Model::GilbertElliott, Scope::Link, 0.1, at_seconds(0.3)},
+                                         OutageCase{Model::GilbertElliott, Scope::Direction, 0.7, at_seconds(2.1)},
+                                         OutageCase{Model::GilbertElliott, Scope::Place, 0.4, at_seconds(0.7)},
+                                         OutageCase{Model::HeavyTail, Scope::Link, 0.4, kStart},
+                                         OutageCase{Model::HeavyTail, Scope::Link, 0.4, at_seconds(0.2)},
+                                         OutageCase{Model::HeavyTail, Scope::Link, 0.2, at_seconds(1.7)},
+                                         OutageCase{Model::HeavyTail, Scope::Place, 0.6, at_seconds(0.9)}),
+                         [](const auto& param) {
+                           const auto& c = param.param;
+                           return std::string(c.model == Model::HeavyTail ? "HeavyTail" : "GilbertElliott") +
+                                  (c.scope == Scope::Link    ? "Link"
+                                   : c.scope == Scope::Place ? "Place"
+                                                             : "Direction") +
+                                  std::to_string(static_cast<int>(100 * c.loss)) + "At" +
+                                  std::to_string(to_ns(c.at) / 1'000'000);
+                         });
 
 TEST(RadioLoss, OtherLossesOfTheTwoStatesKeepTheNominalShare) {
   for (const Model model : {Model::GilbertElliott, Model::HeavyTail}) {
-    const RadioSetup setup{.loss = 0.3, .outages = {.mean_outage_s = 0.5, .model = model, .loss_good = 0.1, .loss_bad = 0.6}};
+    const RadioSetup setup{.loss = 0.3,
+                           .outages = {.mean_outage_s = 0.5, .model = model, .loss_good = 0.1, .loss_bad = 0.6}};
     const Tally tally = a_million_messages(setup, at_seconds(0.8));
     EXPECT_TRUE(is_binomial(tally.lost, kMessages, 0.3));
     EXPECT_TRUE(is_binomial(tally.in_outage, kMessages, 0.4));
@@ -111,9 +117,11 @@ TEST(RadioLoss, OutsideTheLossesOfTheTwoStatesOneStateIsLeft) {
 TEST(RadioLoss, AsymmetryKeepsTheMeanAndPartsTheDirections) {
   for (const double outage_s : {0.0, 0.5}) {
     const RadioSetup setup{.loss = 0.4, .outages = {.mean_outage_s = outage_s}, .asymmetry = 0.8};
-    EXPECT_TRUE(is_binomial(a_million_messages(setup, at_seconds(0.3)).lost, kMessages, 0.4));  // the shift is independent from link to link
+    EXPECT_TRUE(is_binomial(a_million_messages(setup, at_seconds(0.3)).lost, kMessages,
+                            0.4));  // the shift is independent from link to link
   }
-  // One pair, many instants far apart: there and back differ, and their mean is the nominal loss. The test knows the sum only, not the shift.
+  // One pair, many instants far apart: there and back differ, and their mean is the nominal loss. The test knows the
+  // sum only, not the shift.
   Radio radio({.loss = 0.4, .asymmetry = 1.0}, 5);
   std::uint64_t there = 0, back = 0;
   for (std::uint64_t i = 0; i < kMessages; ++i) {
@@ -170,7 +178,8 @@ TEST_P(LossLevels, AHigherLossRateOnlyAddsLosses) {
       losses[k] += fate.lost ? 1 : 0;
       if (milder) {
         ASSERT_TRUE(fate.lost || !milder->lost) << "message " << i << " is lost at level " << k - 1 << " alone";
-        ASSERT_TRUE(fate.in_outage || !milder->in_outage) << "message " << i << " meets an outage at level " << k - 1 << " alone";
+        ASSERT_TRUE(fate.in_outage || !milder->in_outage)
+            << "message " << i << " meets an outage at level " << k - 1 << " alone";
         ASSERT_EQ(fate.delay, milder->delay);
         ASSERT_EQ(fate.copy_delay, milder->copy_delay);
       }
@@ -180,7 +189,8 @@ TEST_P(LossLevels, AHigherLossRateOnlyAddsLosses) {
   for (std::size_t k = 1; k < losses.size(); ++k) EXPECT_GT(losses[k], losses[k - 1]) << k;  // and it does add some
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, LossLevels, testing::ValuesIn(kKinds), [](const auto& kind) { return std::string(kind.param.name); });
+INSTANTIATE_TEST_SUITE_P(Kinds, LossLevels, testing::ValuesIn(kKinds),
+                         [](const auto& kind) { return std::string(kind.param.name); });
 
 }  // namespace
 }  // namespace fleetproof

@@ -20,7 +20,8 @@ struct Sojourns {
   std::vector<double> bad_s, good_s;
 };
 
-// The lengths of successive outages and of the times between them, complete ones only: independent of each other in a process of two states.
+// The lengths of successive outages and of the times between them, complete ones only: independent of each other in a
+// process of two states.
 Sojourns sojourns(const OutageLaw& law, std::size_t count) {
   OutageProcess process(law, {.key = 42, .kind = 7, .a = 1, .b = 2});
   Sojourns found;
@@ -45,14 +46,16 @@ TEST(OutageLengths, GilbertElliottIsExponentialInBothStates) {
 
 TEST(OutageLengths, HeavyTailIsLomax) {
   for (const double shape : {1.2, 1.5, 3.0}) {
-    const auto [bad_s, good_s] = sojourns({.sojourn = Sojourn::Lomax, .bad_share = 0.5, .mean_bad_s = 2.0, .shape = shape}, kCount / 2);
+    const auto [bad_s, good_s] =
+        sojourns({.sojourn = Sojourn::Lomax, .bad_share = 0.5, .mean_bad_s = 2.0, .shape = shape}, kCount / 2);
     expect_quantiles(bad_s, [&](double p) { return 2.0 * (shape - 1.0) * (std::pow(1.0 - p, -1.0 / shape) - 1.0); });
     expect_quantiles(good_s, [](double p) { return -2.0 * std::log1p(-p); });
   }
 }
 
 TEST(OutageLengths, HandoverWindowsAreUniform) {
-  const auto [bad_s, good_s] = sojourns({.sojourn = Sojourn::Uniform, .bad_share = 2.95 / 7.95, .min_s = 1.2, .max_s = 4.7}, kCount);
+  const auto [bad_s, good_s] =
+      sojourns({.sojourn = Sojourn::Uniform, .bad_share = 2.95 / 7.95, .min_s = 1.2, .max_s = 4.7}, kCount);
   expect_quantiles(bad_s, [](double p) { return 1.2 + 3.5 * p; });
   expect_quantiles(good_s, [](double p) { return -5.0 * std::log1p(-p); });
 }
@@ -69,7 +72,8 @@ TEST(OutageLengths, TheFirstOutageIsStationary) {
     if (b.bad_at(kStart)) lomax_s.push_back(to_seconds(b.next_change(kStart)));
     if (c.bad_at(kStart)) uniform_s.push_back(to_seconds(c.next_change(kStart)));
   }
-  for (const auto& samples : {exponential_s, lomax_s, uniform_s}) EXPECT_TRUE(test::is_binomial(samples.size(), kCount, 0.5));
+  for (const auto& samples : {exponential_s, lomax_s, uniform_s})
+    EXPECT_TRUE(test::is_binomial(samples.size(), kCount, 0.5));
   expect_quantiles(exponential_s, [](double p) { return -0.5 * std::log1p(-p); });
   expect_quantiles(lomax_s, [](double p) { return 3.0 * (std::pow(1.0 - p, -1.0 / 1.5) - 1.0); });
   // Of a uniform length on 1 .. 3: density 1/2 below 1, then falling to 0 at 3 as (3 - x) / 4.
@@ -98,7 +102,8 @@ TEST(OutageProcess, LinksAndKindsHaveProcessesOfTheirOwn) {
   std::set<SimTime> changes;
   for (std::uint32_t kind = 1; kind < 4; ++kind) {
     for (std::uint32_t a = 0; a < 10; ++a) {
-      for (std::uint32_t b = 0; b < 10; ++b) changes.insert(OutageProcess(law, {.key = 3, .kind = kind, .a = a, .b = b}).next_change(kStart));
+      for (std::uint32_t b = 0; b < 10; ++b)
+        changes.insert(OutageProcess(law, {.key = 3, .kind = kind, .a = a, .b = b}).next_change(kStart));
     }
   }
   EXPECT_EQ(changes.size(), 300U);

@@ -13,7 +13,8 @@ namespace {
 using Scope = OutageSetup::Scope;
 const AgvId kA{0U}, kB{1U}, kC{2U};
 
-constexpr PlaceSetup kRoaming{.ap_spacing_m = 20.0, .roaming_border_m = 2.0, .roaming_min_s = 1.2, .roaming_max_s = 4.7, .roaming_gap_s = 2.95};
+constexpr PlaceSetup kRoaming{
+    .ap_spacing_m = 20.0, .roaming_border_m = 2.0, .roaming_min_s = 1.2, .roaming_max_s = 4.7, .roaming_gap_s = 2.95};
 
 std::vector<bool> roaming_states(RadioPlaces& places, const Vec2& at_m) {
   std::vector<bool> states;
@@ -26,7 +27,8 @@ TEST(Roaming, BelongsToTheBorderAndEndsBesideIt) {
   const auto at_border = roaming_states(places, {10.0, 5.0});
   EXPECT_NE(std::ranges::count(at_border, true), 0);
   EXPECT_NE(std::ranges::count(at_border, false), 0);
-  EXPECT_EQ(roaming_states(places, {8.0, 3.0}), at_border);  // the same border, so whoever meets there goes deaf together
+  EXPECT_EQ(roaming_states(places, {8.0, 3.0}),
+            at_border);  // the same border, so whoever meets there goes deaf together
   EXPECT_EQ(roaming_states(places, {12.0, -3.0}), at_border);
   EXPECT_EQ(std::ranges::count(roaming_states(places, {12.01, 5.0}), true), 0);
   EXPECT_EQ(std::ranges::count(roaming_states(places, {0.0, 0.0}), true), 0);
@@ -46,13 +48,15 @@ TEST(Roaming, TakesItsShareOfTheTime) {  // windows of 2.95 s on average, gaps o
 }
 
 TEST(PlaceOutages, MakeEveryoneInACellDeaf) {
-  Radio radio(
-      {.loss = 0.5, .outages = {.mean_outage_s = 2.0, .scope = Scope::Place, .loss_good = 0.0, .loss_bad = 1.0}, .places = {.ap_spacing_m = 20.0}},
-      6);
+  Radio radio({.loss = 0.5,
+               .outages = {.mean_outage_s = 2.0, .scope = Scope::Place, .loss_good = 0.0, .loss_bad = 1.0},
+               .places = {.ap_spacing_m = 20.0}},
+              6);
   int other_cell_differs = 0, lost = 0;
   for (int i = 0; i < 2000; ++i) {
     const SimTime t = at_ns(i * 50'000'000LL);
-    const bool a = radio.fate(kC, kA, t, 0, {{-90.0, 3.0}, {-9.0, -9.0}}).lost, b = radio.fate(kC, kB, t, 0, {{55.0, 3.0}, {9.0, 9.0}}).lost;
+    const bool a = radio.fate(kC, kA, t, 0, {{-90.0, 3.0}, {-9.0, -9.0}}).lost,
+               b = radio.fate(kC, kB, t, 0, {{55.0, 3.0}, {9.0, 9.0}}).lost;
     EXPECT_EQ(a, b);
     lost += a ? 1 : 0;
     other_cell_differs += radio.fate(kC, kB, t, 0, {{55.0, 3.0}, {11.0, 9.0}}).lost != a ? 1 : 0;
@@ -64,7 +68,8 @@ TEST(PlaceOutages, MakeEveryoneInACellDeaf) {
 // AGV 0 to 2 in a row 4 m apart talk to each other ten times a second; who received from whom, when.
 using Reception = std::tuple<std::uint32_t, std::uint32_t, SimTime>;
 
-std::set<Reception> talk(const RadioSetup& radio, std::vector<std::uint32_t> starts, Outcome* outcome = nullptr, bool chatter = false) {
+std::set<Reception> talk(const RadioSetup& radio, std::vector<std::uint32_t> starts, Outcome* outcome = nullptr,
+                         bool chatter = false) {
   Scenario scenario = test::row_scenario(8, std::move(starts), 30.0);
   scenario.radio = radio;
   test::Recorder recorder;
@@ -83,13 +88,16 @@ std::set<Reception> talk(const RadioSetup& radio, std::vector<std::uint32_t> sta
       &recorder);
   if (outcome != nullptr) *outcome = result;
   std::set<Reception> received;
-  for (const TraceRecord& r : recorder.of(TraceKind::Received)) received.emplace(static_cast<std::uint32_t>(r.a), r.entity.value, r.at);
+  for (const TraceRecord& r : recorder.of(TraceKind::Received))
+    received.emplace(static_cast<std::uint32_t>(r.a), r.entity.value, r.at);
   return received;
 }
 
 TEST(WholeRun, WhoChangesAccessPointsNeitherHearsNorIsHeard) {
   RadioSetup radio;
-  radio.places = {.ap_spacing_m = 12.0, .roaming_border_m = 2.5, .roaming_gap_s = 3.0};  // station 4 is 2 m from a border, 0 and 3 are 6 m
+  radio.places = {.ap_spacing_m = 12.0,
+                  .roaming_border_m = 2.5,
+                  .roaming_gap_s = 3.0};  // station 4 is 2 m from a border, 0 and 3 are 6 m
   Outcome outcome;
   const auto received = talk(radio, {4, 0, 3}, &outcome);
   std::array<std::array<int, 3>, 3> count{};
@@ -170,7 +178,8 @@ TEST(WholeRun, CountsAndTracesTellTheCauses) {
   const Counters& c = outcome.counters;
   EXPECT_EQ(recorder.of(TraceKind::LostInOutage).size(), c.lost_in_outage);
   EXPECT_EQ(recorder.of(TraceKind::Lost).size(), c.receptions_lost - c.lost_in_outage);
-  EXPECT_EQ(recorder.of(TraceKind::Received).size(), c.receptions - c.receptions_lost + c.duplicates - 2);  // two arrive after the end
+  EXPECT_EQ(recorder.of(TraceKind::Received).size(),
+            c.receptions - c.receptions_lost + c.duplicates - 2);  // two arrive after the end
   EXPECT_GT(c.lost_in_outage, 2 * (c.receptions_lost - c.lost_in_outage));
   EXPECT_GT(c.duplicates, 1000U);
   EXPECT_EQ(c.lost_by_interference, 0U);

@@ -48,7 +48,8 @@ TEST(RadioSources, SojournsAreExponential) {
 TEST(RadioSources, ThatAreNeverOffDestroyTheirShare) {
   RadioSources sources({{.range_m = 1.0, .mean_on_s = 2.0, .mean_off_s = 0.0, .loss = 0.25}}, 5);
   std::uint64_t destroyed = 0;
-  for (int i = 0; i < 200'000; ++i) destroyed += sources.destroy({kA, kB, at_ns(i * 1'000'003LL), 0}, {0.5, 0.5}) ? 1 : 0;
+  for (int i = 0; i < 200'000; ++i)
+    destroyed += sources.destroy({kA, kB, at_ns(i * 1'000'003LL), 0}, {0.5, 0.5}) ? 1 : 0;
   EXPECT_TRUE(test::is_binomial(destroyed, 200'000, 0.25));
 }
 
@@ -126,12 +127,13 @@ TEST(RadioSources, OneMoreOrAWorseOneOnlyAddsLosses) {
                   .outages = {.mean_outage_s = 0.5},
                   .duplicates = 0.1,
                   .places = {.ap_spacing_m = 10.0, .roaming_border_m = 1.0}};
-  none.trace =
-      std::make_shared<const RadioTrace>(RadioTrace{{kA, kB, Duration{0}, Duration{1'000'000}}, {kA, kB, Duration{50'000'000}, std::nullopt}});
+  none.trace = std::make_shared<const RadioTrace>(
+      RadioTrace{{kA, kB, Duration{0}, Duration{1'000'000}}, {kA, kB, Duration{50'000'000}, std::nullopt}});
   RadioSetup one = none, two = none, wide = none, strong = none;
   one.sources = {{.x_m = 5.0, .y_m = 5.0, .range_m = 12.0, .mean_on_s = 2.0, .mean_off_s = 2.0, .loss = 0.5}};
   expect_adds_losses(none, one);
-  two.sources = {one.sources[0], {.x_m = -8.0, .y_m = 0.0, .range_m = 9.0, .mean_on_s = 1.0, .mean_off_s = 3.0, .loss = 1.0}};
+  two.sources = {one.sources[0],
+                 {.x_m = -8.0, .y_m = 0.0, .range_m = 9.0, .mean_on_s = 1.0, .mean_off_s = 3.0, .loss = 1.0}};
   expect_adds_losses(one, two);
   wide.sources = strong.sources = one.sources;
   wide.sources[0].range_m = 20.0;
@@ -145,7 +147,8 @@ TEST(RadioSources, OneMoreOrAWorseOneOnlyAddsLosses) {
 // Each of the AGVs in the row sends a broadcast every 100 ms; who received from whom, when.
 using Reception = std::tuple<std::uint32_t, std::uint32_t, SimTime>;
 
-std::set<Reception> talk(const RadioSetup& radio, std::vector<std::uint32_t> starts, Outcome& outcome, test::Recorder& recorder) {
+std::set<Reception> talk(const RadioSetup& radio, std::vector<std::uint32_t> starts, Outcome& outcome,
+                         test::Recorder& recorder) {
   Scenario scenario = test::row_scenario(8, std::move(starts), 30.0);
   scenario.radio = radio;
   outcome = test::simulate_with(
@@ -157,13 +160,15 @@ std::set<Reception> talk(const RadioSetup& radio, std::vector<std::uint32_t> sta
       },
       &recorder);
   std::set<Reception> received;
-  for (const TraceRecord& r : recorder.of(TraceKind::Received)) received.emplace(static_cast<std::uint32_t>(r.a), r.entity.value, r.at);
+  for (const TraceRecord& r : recorder.of(TraceKind::Received))
+    received.emplace(static_cast<std::uint32_t>(r.a), r.entity.value, r.at);
   return received;
 }
 
 TEST(WholeRun, WhoStandsByASourceHearsNobodyAndIsHeardByAll) {
   RadioSetup radio;
-  radio.sources = {{.x_m = 16.5, .y_m = 0.0, .range_m = 1.0, .mean_on_s = 1.0, .mean_off_s = 0.0}};  // station 4 stands at 16 m
+  radio.sources = {
+      {.x_m = 16.5, .y_m = 0.0, .range_m = 1.0, .mean_on_s = 1.0, .mean_off_s = 0.0}};  // station 4 stands at 16 m
   Outcome outcome;
   test::Recorder recorder;
   const auto received = talk(radio, {4, 0, 3}, outcome, recorder);

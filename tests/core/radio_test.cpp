@@ -31,8 +31,12 @@ TEST(Radio, FateDependsOnEveryPartOfItsKey) {
   Radio radio({.loss = 0.0, .delay_s = 1.0, .delay_model = RadioSetup::DelayModel::Uniform}, 7);
   Radio other_world({.loss = 0.0, .delay_s = 1.0, .delay_model = RadioSetup::DelayModel::Uniform}, 8);
   const SimTime t = at_seconds(1.0);
-  const std::set<Duration> delays = {radio.fate(kA, kB, t, 0).delay, radio.fate(kB, kA, t, 0).delay, radio.fate(kA, kC, t, 0).delay,
-                                     radio.fate(kA, kB, t, 1).delay, radio.fate(kA, kB, t + Duration{1}, 0).delay, other_world.fate(kA, kB, t, 0).delay};
+  const std::set<Duration> delays = {radio.fate(kA, kB, t, 0).delay,
+                                     radio.fate(kB, kA, t, 0).delay,
+                                     radio.fate(kA, kC, t, 0).delay,
+                                     radio.fate(kA, kB, t, 1).delay,
+                                     radio.fate(kA, kB, t + Duration{1}, 0).delay,
+                                     other_world.fate(kA, kB, t, 0).delay};
   EXPECT_EQ(delays.size(), 6U);
 }
 
@@ -83,17 +87,18 @@ TEST(Radio, BeyondTheRangeNothingArrives) {
   Scenario scenario = test::row_scenario(6, {0, 1, 5}, 5.0);
   scenario.radio.range_m = 10.0;
   std::vector<int> received(3, 0);
-  const Outcome outcome = test::simulate_with(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& event) {
-    if (event.kind == FP_EVENT_START && b.self == 0) host.send_broadcast(c, "hello", 5);
-    if (event.kind == FP_EVENT_MESSAGE) {
-      fp_message message{.struct_size = sizeof(fp_message), .sender = 9, .size = 0, .bytes = nullptr};
-      EXPECT_EQ(host.get_message(c, &message), FP_OK);
-      EXPECT_EQ(std::string(static_cast<const char*>(message.bytes), message.size), "hello");
-      EXPECT_EQ(message.sender, 0U);
-      EXPECT_EQ(host.get_message(c, &message), FP_EMPTY);
-      ++received[b.self];
-    }
-  });
+  const Outcome outcome = test::simulate_with(
+      scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& event) {
+        if (event.kind == FP_EVENT_START && b.self == 0) host.send_broadcast(c, "hello", 5);
+        if (event.kind == FP_EVENT_MESSAGE) {
+          fp_message message{.struct_size = sizeof(fp_message), .sender = 9, .size = 0, .bytes = nullptr};
+          EXPECT_EQ(host.get_message(c, &message), FP_OK);
+          EXPECT_EQ(std::string(static_cast<const char*>(message.bytes), message.size), "hello");
+          EXPECT_EQ(message.sender, 0U);
+          EXPECT_EQ(host.get_message(c, &message), FP_EMPTY);
+          ++received[b.self];
+        }
+      });
   EXPECT_EQ(received, (std::vector<int>{0, 1, 0}));
   EXPECT_EQ(outcome.counters.out_of_range, 1U);
 }

@@ -11,7 +11,8 @@ namespace {
 TEST(Philox, KnownAnswers) {  // from the Random123 distribution's kat_vectors, philox4x32-10
   EXPECT_EQ(philox(0, {0, 0, 0, 0}), (Block{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));
   EXPECT_EQ(philox(~0ULL, {~0U, ~0U, ~0U, ~0U}), (Block{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd}));
-  EXPECT_EQ(philox(0x299f31d0a4093822ULL, {0x243f6a88, 0x85a308d3, 0x13198a2e, 0x03707344}), (Block{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}));
+  EXPECT_EQ(philox(0x299f31d0a4093822ULL, {0x243f6a88, 0x85a308d3, 0x13198a2e, 0x03707344}),
+            (Block{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}));
 }
 
 TEST(Keys, DifferPerReplicateFactorsAndStream) {
@@ -20,7 +21,8 @@ TEST(Keys, DifferPerReplicateFactorsAndStream) {
     for (std::uint64_t factors = 0; factors < 10; ++factors) {
       const auto seed = world_seed(1, replicate, factors);
       keys.insert(seed);
-      for (const Stream stream : {Stream::Layout, Stream::Placement, Stream::Transports, Stream::Radio, Stream::Agent}) keys.insert(stream_key(seed, stream));
+      for (const Stream stream : {Stream::Layout, Stream::Placement, Stream::Transports, Stream::Radio, Stream::Agent})
+        keys.insert(stream_key(seed, stream));
     }
   }
   EXPECT_EQ(keys.size(), 100U * 10U * 6U);

@@ -25,8 +25,8 @@ inline Fault fault(Fault::Kind kind, double at_s, double lasts_s) {
 
 struct Seen {
   std::vector<double> done_s;
-  std::vector<std::uint32_t> actions;   // of get_action, at every timer
-  std::vector<double> x_m;              // of get_position, at every timer
+  std::vector<std::uint32_t> actions;  // of get_action, at every timer
+  std::vector<double> x_m;             // of get_position, at every timer
   Outcome outcome;
   Recorder trace;
 };
@@ -39,7 +39,8 @@ inline Seen drive_and_look(const Scenario& scenario, std::vector<double> looks_s
     if (e.kind == FP_EVENT_ACTION_DONE) seen.done_s.push_back(static_cast<double>(e.now_ns) * 1e-9);
     if (e.kind == FP_EVENT_START && b.boot == 0) {
       EXPECT_EQ(host.move(c, 0), FP_OK);
-      for (std::uint32_t i = 0; i < looks_s.size(); ++i) host.set_timer(c, i, static_cast<std::int64_t>(looks_s[i] * 1e9));
+      for (std::uint32_t i = 0; i < looks_s.size(); ++i)
+        host.set_timer(c, i, static_cast<std::int64_t>(looks_s[i] * 1e9));
     }
     if (e.kind != FP_EVENT_TIMER) return;
     fp_pose pose{};

@@ -1,6 +1,6 @@
 // What an AGV's own clock, position and scanner make of the world.
-#include "core/engine/agent_clock.hpp"
 #include "core/base/random.hpp"
+#include "core/engine/agent_clock.hpp"
 #include "tests/core/row_of_tens.hpp"
 
 namespace fleetproof {
@@ -16,11 +16,14 @@ TEST(AgentClock, IsAheadAndDriftsAndTimersFollowIt) {
   scenario.agvs[0].sensing.clock_drift_ppm = 1000.0;  // a millisecond every second
   test::Recorder trace;
   std::vector<std::int64_t> shown;
-  test::simulate_with(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& e) {
-    shown.push_back(e.now_ns);
-    EXPECT_EQ(host.now_ns(c), e.now_ns);
-    if (e.kind == FP_EVENT_START) host.set_timer(c, 1, 12'010'000'000);
-  }, &trace);
+  test::simulate_with(
+      scenario,
+      [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& e) {
+        shown.push_back(e.now_ns);
+        EXPECT_EQ(host.now_ns(c), e.now_ns);
+        if (e.kind == FP_EVENT_START) host.set_timer(c, 1, 12'010'000'000);
+      },
+      &trace);
   ASSERT_EQ(shown.size(), 2U);
   EXPECT_EQ(shown[0], 2'000'000'000);
   EXPECT_EQ(shown[1], 12'010'000'000);
@@ -85,10 +88,12 @@ TEST(Scanner, HelpForAStopThatHasPassedIsNoHelpForTheNext) {
   scenario.operator_help = {.on = true, .least_s = 24.0, .most_s = 24.0};
   const Seen seen = drive_and_look(scenario, {40.0});
   EXPECT_EQ(seen.outcome.counters.scanner_stops, 2U);
-  EXPECT_EQ(seen.actions.at(0), static_cast<std::uint32_t>(FP_STOPPED)) << "the first call is answered at about 27 s: too early for the second stop";
+  EXPECT_EQ(seen.actions.at(0), static_cast<std::uint32_t>(FP_STOPPED))
+      << "the first call is answered at about 27 s: too early for the second stop";
   std::vector<std::uint64_t> helped;
   for (const TraceRecord& record : seen.trace.of(TraceKind::OperatorAssists)) helped.push_back(record.a);
-  EXPECT_EQ(helped, (std::vector<std::uint64_t>{static_cast<std::uint64_t>(Assist::Jam), static_cast<std::uint64_t>(Assist::Contact)}))
+  EXPECT_EQ(helped, (std::vector<std::uint64_t>{static_cast<std::uint64_t>(Assist::Jam),
+                                                static_cast<std::uint64_t>(Assist::Contact)}))
       << "the second call's; sent on, it drives into the box";
 }
 

@@ -19,16 +19,17 @@ TEST(Controller, MovesTurnsAndTellsWhenItIsDone) {
   scenario.agvs[0].heading = Vec2::UnitY();
   std::vector<double> done_s;
   fp_pose pose{};
-  const Outcome outcome = simulate_with(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& event) {
-    if (event.kind == FP_EVENT_START) {
-      EXPECT_EQ(host.move(c, 0), FP_OK);
-      EXPECT_EQ(host.move(c, 1), FP_REFUSED) << "one action at a time";
-    }
-    if (event.kind == FP_EVENT_ACTION_DONE) {
-      done_s.push_back(static_cast<double>(event.now_ns) * 1e-9);
-      host.get_position(c, &pose);
-    }
-  });
+  const Outcome outcome =
+      simulate_with(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& event) {
+        if (event.kind == FP_EVENT_START) {
+          EXPECT_EQ(host.move(c, 0), FP_OK);
+          EXPECT_EQ(host.move(c, 1), FP_REFUSED) << "one action at a time";
+        }
+        if (event.kind == FP_EVENT_ACTION_DONE) {
+          done_s.push_back(static_cast<double>(event.now_ns) * 1e-9);
+          host.get_position(c, &pose);
+        }
+      });
   // A quarter turn at 1 rad/s and 1 rad/s2 takes 1 + pi/2 s; 4 m take 2 sqrt(4 * 0.75 ...) = 4.899 s.
   ASSERT_EQ(done_s.size(), 1U);
   EXPECT_NEAR(done_s[0], 1.0 + 1.5707963267948966 + 4.898979, 1e-6);
@@ -41,14 +42,15 @@ TEST(Controller, MovesTurnsAndTellsWhenItIsDone) {
 }
 
 TEST(Controller, RefusesWhatTheMapDoesNotHave) {
-  simulate_with(row_scenario(4, {0}), [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& event) {
-    if (event.kind != FP_EVENT_START) return;
-    EXPECT_EQ(host.move(c, 99), FP_INVALID);
-    EXPECT_EQ(host.move(c, FP_HERE), FP_INVALID);
-    EXPECT_EQ(host.move(c, 2), FP_REFUSED) << "not a segment of this station";
-    EXPECT_EQ(host.send_unicast(c, "x", 1, 7), FP_INVALID);
-    EXPECT_EQ(host.send_broadcast(c, "x", FP_MESSAGE_BYTES_MAX + 1), FP_INVALID);
-  });
+  simulate_with(row_scenario(4, {0}),
+                [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& event) {
+                  if (event.kind != FP_EVENT_START) return;
+                  EXPECT_EQ(host.move(c, 99), FP_INVALID);
+                  EXPECT_EQ(host.move(c, FP_HERE), FP_INVALID);
+                  EXPECT_EQ(host.move(c, 2), FP_REFUSED) << "not a segment of this station";
+                  EXPECT_EQ(host.send_unicast(c, "x", 1, 7), FP_INVALID);
+                  EXPECT_EQ(host.send_broadcast(c, "x", FP_MESSAGE_BYTES_MAX + 1), FP_INVALID);
+                });
 }
 
 TEST(Controller, CarriesALoadFromStationToStation) {
@@ -117,46 +119,49 @@ TEST(AgentClock, CallsTakeEffectAfterTheCostsSoFar) {
 
 TEST(AgentClock, WhatArrivesWhileBusyWakesItWhenItIsFree) {
   std::vector<double> timer_s;
-  simulate_with(row_scenario(2, {0}), [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& event) {
-    if (event.kind == FP_EVENT_START) {
-      host.set_timer(c, 1, 1'000'000'000);
-      host.set_timer(c, 2, 1'500'000'000);
-    } else if (event.kind == FP_EVENT_TIMER) {
-      timer_s.push_back(static_cast<double>(event.now_ns) * 1e-9);
-      if (event.timer == 1) host.declare_cost_ns(c, 3'000'000'000);
-    }
-  });
+  simulate_with(row_scenario(2, {0}),
+                [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& event) {
+                  if (event.kind == FP_EVENT_START) {
+                    host.set_timer(c, 1, 1'000'000'000);
+                    host.set_timer(c, 2, 1'500'000'000);
+                  } else if (event.kind == FP_EVENT_TIMER) {
+                    timer_s.push_back(static_cast<double>(event.now_ns) * 1e-9);
+                    if (event.timer == 1) host.declare_cost_ns(c, 3'000'000'000);
+                  }
+                });
   EXPECT_EQ(timer_s, (std::vector<double>{1.0, 4.0}));
 }
 
 TEST(AgentClock, AnAgentThatSpinsIsAHangAndTheRunGoesOn) {
-  const Outcome outcome = simulate_with(row_scenario(4, {0, 3}), [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& event) {
-    if (event.kind != FP_EVENT_START) return;
-    if (b.self == 0) {
-      std::uint32_t action = 0;
-      while (host.get_action(c, &action) == FP_OK) {
-      }
-    } else {
-      host.move(c, 2);
-    }
-  });
+  const Outcome outcome = simulate_with(
+      row_scenario(4, {0, 3}), [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& event) {
+        if (event.kind != FP_EVENT_START) return;
+        if (b.self == 0) {
+          std::uint32_t action = 0;
+          while (host.get_action(c, &action) == FP_OK) {
+          }
+        } else {
+          host.move(c, 2);
+        }
+      });
   EXPECT_TRUE(outcome.hang);
   EXPECT_EQ(outcome.outcome_class(), OutcomeClass::Hang);
   EXPECT_EQ(outcome.counters.drives, 1U) << "the other AGV drove all the same";
 }
 
 TEST(AgentClock, EndlessActivationsAtOneInstantAreAHang) {
-  const Outcome outcome = simulate_with(row_scenario(2, {0}), [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& event) {
-    host.set_timer(c, 1, event.now_ns);
-  });
+  const Outcome outcome =
+      simulate_with(row_scenario(2, {0}), [&](const fp_host& host, fp_controller* c, const fp_briefing&,
+                                              const fp_event& event) { host.set_timer(c, 1, event.now_ns); });
   EXPECT_TRUE(outcome.hang);
 }
 
 TEST(AgentClock, AnExceptionIsACrashOfThatAgentOnly) {
-  const Outcome outcome = simulate_with(row_scenario(4, {0, 3}), [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& event) {
-    if (b.self == 0) throw std::runtime_error("planted");
-    if (event.kind == FP_EVENT_START) host.move(c, 2);
-  });
+  const Outcome outcome = simulate_with(
+      row_scenario(4, {0, 3}), [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& event) {
+        if (b.self == 0) throw std::runtime_error("planted");
+        if (event.kind == FP_EVENT_START) host.move(c, 2);
+      });
   EXPECT_TRUE(outcome.crash);
   EXPECT_EQ(outcome.message, "agent of agv-1: planted");
   EXPECT_EQ(outcome.counters.drives, 1U);
@@ -210,16 +215,17 @@ TEST(Contact, AStoppedActionIsAnsweredEvenWhileASendIsPending) {
 }
 
 TEST(Controller, NullPointersAreInvalid) {
-  simulate_with(row_scenario(2, {0}), [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& event) {
-    if (event.kind != FP_EVENT_START) return;
-    EXPECT_EQ(host.get_position(c, nullptr), FP_INVALID);
-    EXPECT_EQ(host.get_battery_level(c, nullptr), FP_INVALID);
-    EXPECT_EQ(host.is_loaded(c, nullptr), FP_INVALID);
-    EXPECT_EQ(host.get_action(c, nullptr), FP_INVALID);
-    EXPECT_EQ(host.get_message(c, nullptr), FP_INVALID);
-    EXPECT_EQ(host.send_broadcast(c, nullptr, 3), FP_INVALID);
-    EXPECT_EQ(host.log(c, nullptr), FP_INVALID);
-  });
+  simulate_with(row_scenario(2, {0}),
+                [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& event) {
+                  if (event.kind != FP_EVENT_START) return;
+                  EXPECT_EQ(host.get_position(c, nullptr), FP_INVALID);
+                  EXPECT_EQ(host.get_battery_level(c, nullptr), FP_INVALID);
+                  EXPECT_EQ(host.is_loaded(c, nullptr), FP_INVALID);
+                  EXPECT_EQ(host.get_action(c, nullptr), FP_INVALID);
+                  EXPECT_EQ(host.get_message(c, nullptr), FP_INVALID);
+                  EXPECT_EQ(host.send_broadcast(c, nullptr, 3), FP_INVALID);
+                  EXPECT_EQ(host.log(c, nullptr), FP_INVALID);
+                });
 }
 
 TEST(Controller, ChargingAtNoRateNeverEnds) {
@@ -238,16 +244,17 @@ TEST(Controller, ChargingAtNoRateNeverEnds) {
 }
 
 TEST(AgentClock, ATimerANanosecondAheadForEverIsAHang) {
-  const Outcome outcome = simulate_with(row_scenario(2, {0}, 10.0), [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& event) {
-    host.set_timer(c, 1, event.now_ns + 1);
-  });
+  const Outcome outcome =
+      simulate_with(row_scenario(2, {0}, 10.0), [&](const fp_host& host, fp_controller* c, const fp_briefing&,
+                                                    const fp_event& event) { host.set_timer(c, 1, event.now_ns + 1); });
   EXPECT_TRUE(outcome.hang);
 }
 
 TEST(AgentClock, WhatAnAgentThrowsBecomesOnePrintableLine) {
-  const Outcome outcome = simulate_with(row_scenario(2, {0}), [&](const fp_host&, fp_controller*, const fp_briefing&, const fp_event&) {
-    throw std::runtime_error("bad \xff\n" + std::string(1000, 'x'));
-  });
+  const Outcome outcome =
+      simulate_with(row_scenario(2, {0}), [&](const fp_host&, fp_controller*, const fp_briefing&, const fp_event&) {
+        throw std::runtime_error("bad \xff\n" + std::string(1000, 'x'));
+      });
   EXPECT_LT(outcome.message.size(), 250U);
   for (const char c : outcome.message) EXPECT_TRUE(c >= 0x20 && c < 0x7f);
 }
@@ -255,18 +262,20 @@ TEST(AgentClock, WhatAnAgentThrowsBecomesOnePrintableLine) {
 TEST(Stuck, AParkedFleetWithOpenTransportsIsStuck) {
   Scenario scenario = row_scenario(3, {0}, 300.0);
   scenario.agvs[0].transports = {{StationId{1U}, StationId{2U}, seconds(1.0)}};
-  const Outcome outcome = simulate_with(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& event) {
-    host.park(c, FP_HERE);
-    host.set_timer(c, 1, event.now_ns + 10'000'000'000);
-  });
+  const Outcome outcome =
+      simulate_with(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& event) {
+        host.park(c, FP_HERE);
+        host.set_timer(c, 1, event.now_ns + 10'000'000'000);
+      });
   EXPECT_TRUE(outcome.stuck) << "parking again and again is no progress";
 }
 
 TEST(Trace, DigestTellsRunsApartAndRepeats) {
   const auto run = [](std::int64_t at) {
-    return simulate_with(row_scenario(2, {0}), [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& event) {
-      if (event.kind == FP_EVENT_START) host.set_timer(c, 1, at);
-    });
+    return simulate_with(row_scenario(2, {0}),
+                         [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& event) {
+                           if (event.kind == FP_EVENT_START) host.set_timer(c, 1, at);
+                         });
   };
   EXPECT_EQ(run(1000).digest, run(1000).digest);
   EXPECT_NE(run(1000).digest, run(1001).digest);

@@ -7,12 +7,12 @@ namespace {
 using test::bring_the_load;
 using test::comes_after;
 using test::fault;
+using test::Heard;
 using test::Helped;
 using test::kStandstill;
 using test::row_of_tens;
 using test::run;
 using test::somebody_in_the_way;
-using test::Heard;
 
 // Two who face each other, with a transport each, and whose agents do nothing before they are restarted.
 Scenario head_on(double horizon_s) {
@@ -28,7 +28,8 @@ void carry_once_restarted(const fp_host& host, fp_controller* c, const fp_briefi
   if (b.boot == 0) return;
   if (e.kind == FP_EVENT_ORDER) host.pick(c, FP_HERE);
   std::uint32_t loaded = 0;
-  if (e.kind == FP_EVENT_ACTION_DONE && host.is_loaded(c, &loaded) == FP_OK && loaded == 1) host.drop(c, b.self == 0 ? 0 : 1);
+  if (e.kind == FP_EVENT_ACTION_DONE && host.is_loaded(c, &loaded) == FP_OK && loaded == 1)
+    host.drop(c, b.self == 0 ? 0 : 1);
 }
 
 TEST(AtAStandstill, OneAgentAfterTheOtherIsRestartedUntilAllIsDone) {
@@ -101,18 +102,22 @@ TEST(AtAStandstill, NoAgentIsRestartedThatIsGoneOrWhoseAgvCharges) {
   scenario.operator_help = comes_after(10.0);
   const test::Handler nothing = [](const fp_host&, fp_controller*, const fp_briefing&, const fp_event&) {};
   EXPECT_EQ(first_restarted(scenario, nothing), EntityId{0U});
-  EXPECT_EQ(first_restarted(scenario, [](const fp_host&, fp_controller*, const fp_briefing& b, const fp_event&) {
-    if (b.self == 0) throw std::runtime_error("crash");
-  }), EntityId{1U});
+  EXPECT_EQ(first_restarted(scenario,
+                            [](const fp_host&, fp_controller*, const fp_briefing& b, const fp_event&) {
+                              if (b.self == 0) throw std::runtime_error("crash");
+                            }),
+            EntityId{1U});
   scenario.faults = {fault(Fault::Kind::Restart, 20.0, 30.0)};
   EXPECT_EQ(first_restarted(scenario, nothing), EntityId{1U}) << "0 restarts by itself when he is called";
   scenario.faults = {fault(Fault::Kind::Restart, 35.0, 10.0)};
   EXPECT_EQ(first_restarted(scenario, nothing), EntityId{1U}) << "and here when he comes: he is called anew";
   scenario.faults.clear();
   scenario.agvs[0].battery = 0.1;
-  EXPECT_EQ(first_restarted(scenario, [](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
-    if (b.self == 0 && e.kind == FP_EVENT_START) host.charge(c, FP_HERE);
-  }), EntityId{1U});
+  EXPECT_EQ(first_restarted(scenario,
+                            [](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
+                              if (b.self == 0 && e.kind == FP_EVENT_START) host.charge(c, FP_HERE);
+                            }),
+            EntityId{1U});
 }
 
 TEST(AtAStandstill, NobodyIsCalledBeforeThereIsSomethingToDo) {
@@ -155,7 +160,8 @@ TEST(AtAStandstill, NorIsWaitingForHelpAfterAContact) {
     scenario.operator_help = {.on = true, .least_s = 5.0, .most_s = 80.0};
     Heard heard;
     const Helped seen = run(scenario, bring_the_load(heard));
-    const SimTime contact = seen.trace.of(TraceKind::Contact).at(0).at, both_back = seen.trace.of(TraceKind::Appears).at(1).at;
+    const SimTime contact = seen.trace.of(TraceKind::Contact).at(0).at,
+                  both_back = seen.trace.of(TraceKind::Appears).at(1).at;
     for (const TraceRecord& record : seen.assists(kStandstill)) {
       EXPECT_TRUE(record.at < contact || record.at > both_back) << "seed " << seed;
       restarts += record.entity == EntityId{2U} ? 1 : 0;

@@ -54,9 +54,10 @@ TEST(World, ContainmentFollowsALoad) {
 TEST(World, ADriveIntoAnObstacleIsForeseen) {
   Scenario scenario = test::row_scenario(2, {0}, 60.0);
   scenario.obstacles.push_back({"crate", {1.0, 1.0}, {Vec2{2.8, 0.0}, Vec2::UnitX()}});
-  const Outcome outcome = test::simulate_with(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& event) {
-    if (event.kind == FP_EVENT_START) host.move(c, 0);
-  });
+  const Outcome outcome = test::simulate_with(
+      scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& event) {
+        if (event.kind == FP_EVENT_START) host.move(c, 0);
+      });
   EXPECT_TRUE(outcome.contact);
   // Nose at 0.8 m, crate from 2.3 m on: 1.5 m to drive.
   EXPECT_NEAR(static_cast<double>(outcome.counters.distance_um) * 1e-6, 1.5, 1e-5);

@@ -10,13 +10,13 @@
 #include "generators/formats/layout_file.hpp"
 #include "generators/formats/lif.hpp"
 #include "generators/formats/opentcs.hpp"
-#include "generators/worlds/order_list.hpp"
+#include "generators/formats/rmf.hpp"
 #include "generators/scenario_file/radio_fields.hpp"
 #include "generators/scenario_file/radio_trace.hpp"
-#include "generators/formats/rmf.hpp"
 #include "generators/scenario_file/scenario_file.hpp"
-#include "generators/text/text_file.hpp"
 #include "generators/scenario_file/validator.hpp"
+#include "generators/text/text_file.hpp"
+#include "generators/worlds/order_list.hpp"
 #include "seeds.hpp"
 #include "verdict.hpp"
 
@@ -36,7 +36,9 @@ bool accepts_layout(Depth depth, Parse parse) {
 }
 
 bool accepts_opentcs(std::string_view bytes, Depth depth) {
-  const auto with = [&](TwinPaths twins) { return accepts_layout(depth, [&](auto& warnings) { return parse_opentcs(bytes, kFile, warnings, twins); }); };
+  const auto with = [&](TwinPaths twins) {
+    return accepts_layout(depth, [&](auto& warnings) { return parse_opentcs(bytes, kFile, warnings, twins); });
+  };
   return with(TwinPaths::Keep) && with(TwinPaths::Merge);
 }
 
@@ -86,8 +88,10 @@ bool accepts_orders(std::string_view bytes, Depth) {
   if (!list) return false;
   require(!list->orders.empty(), "an accepted list has no orders");
   for (const auto& order : list->orders) {
-    require(order.release >= Duration::zero() && order.release <= seconds(1e6), "an order is released at no time that can be");
-    require(is_plain_utf8(order.from) && is_plain_utf8(order.to) && order.from != order.to, "an order has unusable ends");
+    require(order.release >= Duration::zero() && order.release <= seconds(1e6),
+            "an order is released at no time that can be");
+    require(is_plain_utf8(order.from) && is_plain_utf8(order.to) && order.from != order.to,
+            "an order has unusable ends");
   }
   return true;
 }
@@ -109,16 +113,20 @@ bool accepts_campaign(std::string_view bytes, Depth depth) {
   return true;
 }
 
-constexpr std::string_view kXmlSpice = "0123456789-.eEN\"'<>/=& \n\x80\xff", kJsonSpice = "0123456789-.eE\"[]{},:\\ \ntnsau\x80\xff",
-                           kYamlSpice = "0123456789-.:[]{},&*!|>'\"%@`#? \n\t\x80\xff", kCsvSpice = "0123456789-.,\"# \n\r\x80\xff",
-                           kMapSpice = "0123456789-.@TSE \n\r\x80\xff", kTomlSpice = "0123456789-.eE\"'[]{},=# \n\\_tnu\x80\xff";
+constexpr std::string_view kXmlSpice = "0123456789-.eEN\"'<>/=& \n\x80\xff",
+                           kJsonSpice = "0123456789-.eE\"[]{},:\\ \ntnsau\x80\xff",
+                           kYamlSpice = "0123456789-.:[]{},&*!|>'\"%@`#? \n\t\x80\xff",
+                           kCsvSpice = "0123456789-.,\"# \n\r\x80\xff", kMapSpice = "0123456789-.@TSE \n\r\x80\xff",
+                           kTomlSpice = "0123456789-.eE\"'[]{},=# \n\\_tnu\x80\xff";
 
 constexpr std::string_view kXmlWords[] = {"BEZIER",    "BEZIER_3",        "<!--", "<![CDATA[", "&#10;", "&lt;", "<?xml",
                                           "<!DOCTYPE", "locked=\"true\"", "NaN",  "1e308"};
-constexpr std::string_view kJsonWords[] = {"null",    "true",    "1e308", "-0.0", "18446744073709551616", "-9223372036854775808",
-                                           "\\u0000", "\\ud800", "[[",    "{}"};
-constexpr std::string_view kYamlWords[] = {"&a ", "*a", "<<: *a", "!!str ", "? ", "---\n", "...\n", "- - ", "[[", "{[", "|2\n", ".inf", ".nan", "~"};
-constexpr std::string_view kCsvWords[] = {"\"\"", "lost", "1e308", "-1e-308", "9999999999", "routing", "from,to", "id,x,y"};
+constexpr std::string_view kJsonWords[] = {
+    "null", "true", "1e308", "-0.0", "18446744073709551616", "-9223372036854775808", "\\u0000", "\\ud800", "[[", "{}"};
+constexpr std::string_view kYamlWords[] = {"&a ",  "*a", "<<: *a", "!!str ", "? ",   "---\n", "...\n",
+                                           "- - ", "[[", "{[",     "|2\n",   ".inf", ".nan",  "~"};
+constexpr std::string_view kCsvWords[] = {"\"\"",       "lost",    "1e308",   "-1e-308",
+                                          "9999999999", "routing", "from,to", "id,x,y"};
 constexpr std::string_view kMapWords[] = {"height ", "width ", "map\n", "10000", "1000000000", "type octile\n"};
 constexpr std::string_view kTomlWords[] = {"[[gate]]",   "a.a.a.a", "\"\"\"",           "'''", "inf", "nan", "0x",
                                            "1979-05-27", "\\u0007", "{ file = \"x\" }", "[[[["};

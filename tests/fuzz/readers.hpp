@@ -8,13 +8,15 @@
 // Every reader of files that come from elsewhere, as libFuzzer and the test of damaged files drive it.
 namespace fleetproof::fuzz {
 
-// How far an accepted input is followed: it passes the validator, or is written and read again besides, which costs more than reading it.
+// How far an accepted input is followed: it passes the validator, or is written and read again besides, which costs
+// more than reading it.
 enum class Depth { Judged, WrittenToo };
 
 struct Reader {
   std::string_view name;
-  // Whether the bytes are accepted; if not, an InputError said why. Throws, whatever it is, where the reader fails: with any other exception, with
-  // a message nobody could print, by accepting what its validator refuses, or what is not the same again after writing and reading.
+  // Whether the bytes are accepted; if not, an InputError said why. Throws, whatever it is, where the reader fails:
+  // with any other exception, with a message nobody could print, by accepting what its validator refuses, or what is
+  // not the same again after writing and reading.
   bool (*accepts)(std::string_view bytes, Depth depth);
   // Files that are accepted, to begin with.
   std::vector<std::string> (*seeds)();

@@ -1,4 +1,5 @@
-// Every reader before thousands of damaged files: what `tests/fuzz/run` does for hours, for seconds and the same each time.
+// Every reader before thousands of damaged files: what `tests/fuzz/run` does for hours, for seconds and the same each
+// time.
 #include "readers.hpp"
 
 #include <gtest/gtest.h>
@@ -25,7 +26,8 @@ INSTANTIATE_TEST_SUITE_P(All, EveryReader, testing::ValuesIn(readers().begin(), 
 });
 
 TEST_P(EveryReader, AcceptsItsSeeds) {
-  for (const auto& seed : GetParam().seeds()) EXPECT_TRUE(GetParam().accepts(seed, Depth::WrittenToo)) << seed.substr(0, 200);
+  for (const auto& seed : GetParam().seeds())
+    EXPECT_TRUE(GetParam().accepts(seed, Depth::WrittenToo)) << seed.substr(0, 200);
 }
 
 TEST_P(EveryReader, ReadsOrRefusesEveryDamagedFile) {
@@ -37,7 +39,8 @@ TEST_P(EveryReader, ReadsOrRefusesEveryDamagedFile) {
     auto text = seeds[files % seeds.size()];
     for (std::uint32_t k = 1 + draws.below(2); k > 0; --k) {
       if (draws.below(8) == 0)
-        text.insert(independent::draw_place(draws, text), reader.words[draws.below(static_cast<std::uint32_t>(reader.words.size()))]);
+        text.insert(independent::draw_place(draws, text),
+                    reader.words[draws.below(static_cast<std::uint32_t>(reader.words.size()))]);
       text = draws.below(2) == 0 ? independent::damaged(draws, text, reader.spice) : independent::mangled(draws, text);
     }
     bytes += text.size();

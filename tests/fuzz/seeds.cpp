@@ -4,8 +4,8 @@
 #include <iterator>
 
 #include "core/base/random.hpp"
-#include "generators/formats/csv_layout.hpp"
 #include "generators/families/layout_family.hpp"
+#include "generators/formats/csv_layout.hpp"
 #include "generators/formats/layout_file.hpp"
 #include "generators/formats/lif.hpp"
 #include "generators/scenario_file/scenario_file.hpp"
@@ -30,10 +30,11 @@ Layout small_layout() {
                      {"c", Vec2(10.0, 10.0), Purposes(Purpose::Charging) | Purpose::Parking},
                      {"\xc3\xa9", Vec2(0.0, 10.0), Purpose::Storage}};
   const auto id = [](std::uint32_t index) { return StationId{index}; };
-  layout.segments = {{"ab", id(0), id(1), true, {}},
-                     {"bc", id(1), id(2), false, {Vec2(12.0, 3.0), Vec2(12.0, 7.0)}},
-                     {"cd", id(2), id(3), true, {Vec2(9.0, 11.0), Vec2(7.0, 12.0), Vec2(5.0, 12.0), Vec2(3.0, 12.0), Vec2(1.0, 11.0)}},
-                     {"da", id(3), id(0), false, {}}};
+  layout.segments = {
+      {"ab", id(0), id(1), true, {}},
+      {"bc", id(1), id(2), false, {Vec2(12.0, 3.0), Vec2(12.0, 7.0)}},
+      {"cd", id(2), id(3), true, {Vec2(9.0, 11.0), Vec2(7.0, 12.0), Vec2(5.0, 12.0), Vec2(3.0, 12.0), Vec2(1.0, 11.0)}},
+      {"da", id(3), id(0), false, {}}};
   return layout;
 }
 
@@ -79,7 +80,8 @@ constexpr const char* kModel = R"(<model version="6.0.0" name="tiny">
 </model>
 )";
 
-constexpr const char* kLif = R"({"metaInformation": {"lifVersion": "1.0.0"}, "origins": [{"layouts": [{"layoutId": "L", "nodes": [
+constexpr const char* kLif =
+    R"({"metaInformation": {"lifVersion": "1.0.0"}, "origins": [{"layouts": [{"layoutId": "L", "nodes": [
 {"nodeId": "a", "nodePosition": {"x": 0, "y": 0}, "mobileRobotTypeNodeProperties": [{"actions": [{"actionType": "pick"}]}]},
 {"nodeId": "b", "nodePosition": {"x": 6, "y": 0}, "nodeDescription": "purposes: parking"}],
 "edges": [
@@ -175,7 +177,9 @@ std::vector<std::string> rmf_building_seeds() { return {kBuilding}; }
 
 std::vector<std::string> rmf_nav_graph_seeds() { return {kNavGraph}; }
 
-std::vector<std::string> grid_map_seeds() { return {"type octile\nheight 3\nwidth 4\nmap\n..@.\n.TS.\n@...\n", "width 2\nheight 1\nmap\r\nEG\r\n"}; }
+std::vector<std::string> grid_map_seeds() {
+  return {"type octile\nheight 3\nwidth 4\nmap\n..@.\n.TS.\n@...\n", "width 2\nheight 1\nmap\r\nEG\r\n"};
+}
 
 std::vector<std::string> csv_layout_seeds() { return {to_csv(small_layout()), to_csv(drawn_layout())}; }
 
@@ -187,14 +191,18 @@ std::vector<std::string> scenario_seeds() {
 
 std::vector<std::string> radio_trace_seeds() {
   return {
-      "\xEF\xBB\xBF# hall 3\r\nsender,receiver,t_send_s,t_recv_s\r\n1,0,1700000000.250000001,1700000000.3\r\n0, 1, 1700000000.5, "
+      "\xEF\xBB\xBF# hall 3\r\nsender,receiver,t_send_s,t_recv_s\r\n1,0,1700000000.250000001,1700000000.3\r\n0, 1, "
+      "1700000000.5, "
       "lost\n0,1,1700000000,\n"};
 }
 
-std::vector<std::string> order_seeds() { return {"release_s,from,to,agv\n0,a,\"b, \"\"2\"\"\",\n12.5,b,a,1\n# later\n1e3,c,d\n"}; }
+std::vector<std::string> order_seeds() {
+  return {"release_s,from,to,agv\n0,a,\"b, \"\"2\"\"\",\n12.5,b,a,1\n# later\n1e3,c,d\n"};
+}
 
 std::vector<std::string> campaign_seeds() {
-  return {kCampaign, text_of("tests/campaigns/families.toml"), text_of("tests/campaigns/soak.toml"), text_of("tests/campaigns/demo.toml")};
+  return {kCampaign, text_of("tests/campaigns/families.toml"), text_of("tests/campaigns/soak.toml"),
+          text_of("tests/campaigns/demo.toml")};
 }
 
 }  // namespace fleetproof::fuzz

@@ -6,9 +6,9 @@
 #include <tuple>
 
 #include "generators/formats/csv_layout.hpp"
-#include "generators/map/layout_check.hpp"
 #include "generators/formats/layout_file.hpp"
 #include "generators/formats/lif.hpp"
+#include "generators/map/layout_check.hpp"
 #include "generators/text/text_file.hpp"
 
 namespace fleetproof::fuzz {
@@ -24,7 +24,8 @@ bool same_stations(const Layout& a, const Layout& b) {
 
 bool same_segments(const Layout& a, const Layout& b) {
   return std::ranges::equal(a.segments, b.segments, [](const Segment& s, const Segment& t) {
-    return s.name == t.name && s.from == t.from && s.to == t.to && s.bidirectional == t.bidirectional && s.control_points_m == t.control_points_m;
+    return s.name == t.name && s.from == t.from && s.to == t.to && s.bidirectional == t.bidirectional &&
+           s.control_points_m == t.control_points_m;
   });
 }
 
@@ -40,7 +41,9 @@ std::multiset<std::tuple<std::size_t, std::size_t, std::size_t>> lanes_of(const 
 
 bool has_parallel_segments(const Layout& layout) {
   std::set<std::pair<std::size_t, std::size_t>> joined;
-  return std::ranges::any_of(layout.segments, [&](const Segment& s) { return !joined.insert(std::minmax(s.from.index(), s.to.index())).second; });
+  return std::ranges::any_of(layout.segments, [&](const Segment& s) {
+    return !joined.insert(std::minmax(s.from.index(), s.to.index())).second;
+  });
 }
 
 }  // namespace

@@ -13,7 +13,8 @@ namespace {
 std::string escaped(std::string_view word) {
   std::string text;
   for (const char c : word)
-    text += c >= ' ' && c <= '~' && c != '"' && c != '\\' ? std::string(1, c) : fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+    text += c >= ' ' && c <= '~' && c != '"' && c != '\\' ? std::string(1, c)
+                                                          : fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
   return text;
 }
 
@@ -29,7 +30,8 @@ int main(int count, char** words) {
     const auto folder = root / reader.name;
     std::filesystem::create_directories(folder);
     const auto seeds = reader.seeds();
-    for (std::size_t i = 0; i < seeds.size(); ++i) std::ofstream(folder / fmt::format("seed-{}", i), std::ios::binary) << seeds[i];
+    for (std::size_t i = 0; i < seeds.size(); ++i)
+      std::ofstream(folder / fmt::format("seed-{}", i), std::ios::binary) << seeds[i];
     std::ofstream dictionary(folder.string() + ".dict");
     for (const auto word : reader.words) dictionary << '"' << escaped(word) << "\"\n";
   }

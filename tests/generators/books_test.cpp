@@ -1,5 +1,5 @@
-// The books of a run, kept a second time by a law that sees nothing but pieces and trace: distance, energy, loads and messages must balance at the
-// end of ten thousand random runs in which everything goes wrong that can.
+// The books of a run, kept a second time by a law that sees nothing but pieces and trace: distance, energy, loads and
+// messages must balance at the end of ten thousand random runs in which everything goes wrong that can.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,9 +7,9 @@
 #include <map>
 #include <set>
 
-#include "core/motion/activity.hpp"
 #include "core/agents/agents.h"
 #include "core/base/error.hpp"
+#include "core/motion/activity.hpp"
 #include "generators/families/layout_family.hpp"
 #include "generators/worlds/world_maker.hpp"
 #include "laws/laws.hpp"
@@ -24,17 +24,29 @@ class Bookkeeper final : public Law {
   explicit Bookkeeper(const Scenario& scenario) : fleet_(scenario.agvs.size()) {}
 
   TraceKinds reads() const override {
-    return TraceKinds{TraceKind::LoadMoves, TraceKind::Sent,          TraceKind::Lost,           TraceKind::Received,
-                      TraceKind::TransportDone, TraceKind::Appears, TraceKind::Leaves,        TraceKind::OperatorAssists};
+    return TraceKinds{TraceKind::LoadMoves,     TraceKind::Sent,    TraceKind::Lost,   TraceKind::Received,
+                      TraceKind::TransportDone, TraceKind::Appears, TraceKind::Leaves, TraceKind::OperatorAssists};
   }
   void happened(const TraceRecord& record) override {
     switch (record.kind) {
-      case TraceKind::LoadMoves: holders[record.a] = record.b; break;
-      case TraceKind::Sent: receptions += record.a == FP_NONE ? fleet_ - 1 : 1; break;
-      case TraceKind::Lost: ++lost; break;
-      case TraceKind::Received: ++received; break;
-      case TraceKind::TransportDone: ++done; break;
-      case TraceKind::OperatorAssists: ++helped[record.a]; break;
+      case TraceKind::LoadMoves:
+        holders[record.a] = record.b;
+        break;
+      case TraceKind::Sent:
+        receptions += record.a == FP_NONE ? fleet_ - 1 : 1;
+        break;
+      case TraceKind::Lost:
+        ++lost;
+        break;
+      case TraceKind::Received:
+        ++received;
+        break;
+      case TraceKind::TransportDone:
+        ++done;
+        break;
+      case TraceKind::OperatorAssists:
+        ++helped[record.a];
+        break;
       case TraceKind::Leaves:
         if (record.entity.index() >= fleet_) break;
         EXPECT_TRUE(off_floor_.insert(record.entity.index()).second);
@@ -46,7 +58,8 @@ class Bookkeeper final : public Law {
         EXPECT_EQ(off_floor_.erase(record.entity.index()), 1U);
         ++set_down;
         break;
-      default: break;
+      default:
+        break;
     }
   }
   // Along the curve for a drive, by the poses for the rest, which must not have moved.
@@ -57,7 +70,8 @@ class Bookkeeper final : public Law {
     ended_[piece.entity.index()] = piece.end;
     const Pose from = piece.pose_at(piece.begin), to = piece.pose_at(piece.end);
     const auto known = last_.find(piece.entity.index());
-    if (known != last_.end()) largest_jump_m = std::max(largest_jump_m, (known->second.position_m - from.position_m).norm());
+    if (known != last_.end())
+      largest_jump_m = std::max(largest_jump_m, (known->second.position_m - from.position_m).norm());
     last_[piece.entity.index()] = to;
     if (piece.manner == Manner::Drive) driven_m += piece.way_at(piece.end) - piece.way_begin_m;
   }
@@ -97,7 +111,8 @@ void leave_alone(FaultRates& faults) {
 }
 
 std::uint64_t bends(const LogicalMap& map) {
-  return static_cast<std::uint64_t>(std::ranges::count_if(map.lanes(), [](const Lane& lane) { return !lane.curve.is_straight(); }));
+  return static_cast<std::uint64_t>(
+      std::ranges::count_if(map.lanes(), [](const Lane& lane) { return !lane.curve.is_straight(); }));
 }
 
 void check(const Scenario& scenario, const Outcome& outcome, const Bookkeeper& books, const std::string& which) {
@@ -107,7 +122,8 @@ void check(const Scenario& scenario, const Outcome& outcome, const Bookkeeper& b
   EXPECT_NEAR(static_cast<double>(c.distance_um), books.driven_m * 1e6, 2.0) << which;
   const double slack_ppb = 5.0;
   EXPECT_NEAR(static_cast<double>(c.battery_start_ppb + c.battery_charged_ppb),
-              static_cast<double>(c.battery_end_ppb + c.battery_driven_ppb + c.battery_idled_ppb), slack_ppb) << which;
+              static_cast<double>(c.battery_end_ppb + c.battery_driven_ppb + c.battery_idled_ppb), slack_ppb)
+      << which;
   const double needed_ppb = books.driven_m * scenario.vehicle_types[0].battery_per_m * 1e9;
   EXPECT_LE(static_cast<double>(c.battery_driven_ppb), needed_ppb + slack_ppb) << which;
   if (c.batteries_empty == 0) {
@@ -115,7 +131,8 @@ void check(const Scenario& scenario, const Outcome& outcome, const Bookkeeper& b
   }
   EXPECT_EQ(books.holders.size(), c.transports_released) << which << ": every load is somewhere";
   std::uint64_t cleared = 0;
-  for (const auto& [load, holder] : books.holders) cleared += holder >> 32 == static_cast<std::uint64_t>(Holder::Kind::ClearedAway) ? 1 : 0;
+  for (const auto& [load, holder] : books.holders)
+    cleared += holder >> 32 == static_cast<std::uint64_t>(Holder::Kind::ClearedAway) ? 1 : 0;
   EXPECT_EQ(cleared, c.loads_cleared) << which;
   EXPECT_EQ(books.done, c.transports_done) << which;
   EXPECT_EQ(books.gaps, 0U) << which << ": on the floor, piece follows piece";
@@ -135,7 +152,8 @@ void run(const fp_agent_type& agent, std::uint64_t runs, Totals& totals) {
   for (std::uint64_t i = 0; i < runs; ++i) {
     WorldSpec spec = everything_goes_wrong();
     // Each family in turn: as it is and bent, then both under stress.
-    const FamilyRange choice{&families[i % families.size()], i / families.size() % 4 < 2 ? Range::Normal : Range::Stress};
+    const FamilyRange choice{&families[i % families.size()],
+                             i / families.size() % 4 < 2 ? Range::Normal : Range::Stress};
     const bool bent = i / families.size() % 2 == 1;
     if (bent) {
       spec.layout = test::bent_map(choice, 1000 + i);

@@ -14,7 +14,8 @@ namespace {
 
 using Costs = std::priority_queue<std::int64_t, std::vector<std::int64_t>, std::greater<>>;
 
-// Pushes what a search may push, now and then as far ahead as it may, and pops until nothing is open. Which stations are open is kept by cost.
+// Pushes what a search may push, now and then as far ahead as it may, and pops until nothing is open. Which stations
+// are open is kept by cost.
 void expect_like_the_oracle(CalendarQueue& queue, std::int64_t longest_ns, Draws& draws) {
   Costs costs;
   std::map<std::int64_t, std::multiset<std::uint32_t>> stations;
@@ -66,7 +67,8 @@ TEST(CalendarQueue, IsEmptyUntilPushedAndAfterTheLastPop) {
   EXPECT_TRUE(queue.empty());
 }
 
-// Which of several with one cost comes first is not promised, but it never depends on anything but what was pushed and popped.
+// Which of several with one cost comes first is not promised, but it never depends on anything but what was pushed and
+// popped.
 TEST(CalendarQueue, TiesComeInTheSameOrderEveryTime) {
   std::vector<std::uint32_t> orders[2];
   CalendarQueue used{std::chrono::seconds(1)}, fresh{std::chrono::seconds(1)};

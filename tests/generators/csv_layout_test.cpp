@@ -82,21 +82,31 @@ TEST(CsvLayout, AStationMayHaveNoPurposeAtAll) {
 }
 
 TEST(CsvLayoutErrors, NamePlaceValueAndRemedy) {
-  const auto break_at = [](const std::string& from, const std::string& to) { return independent::refusal(import, replaced(kTables, from, to)); };
-  EXPECT_EQ(break_at("dock,fork,true", "dok,fork,true"), "l.csv:8: from is \"dok\", but there is no such node above; did you mean \"dock\"?");
+  const auto break_at = [](const std::string& from, const std::string& to) {
+    return independent::refusal(import, replaced(kTables, from, to));
+  };
+  EXPECT_EQ(break_at("dock,fork,true", "dok,fork,true"),
+            "l.csv:8: from is \"dok\", but there is no such node above; did you mean \"dock\"?");
   EXPECT_EQ(break_at("dock,fork,true", "dock,fork,yes"), "l.csv:8: bidirectional is \"yes\"; expected true or false");
-  EXPECT_EQ(break_at("dock,fork,true", "dock,dock,true"), "l.csv:8: edge \"dock-dock\": a segment leads from one station to another one");
+  EXPECT_EQ(break_at("dock,fork,true", "dock,dock,true"),
+            "l.csv:8: edge \"dock-dock\": a segment leads from one station to another one");
   EXPECT_EQ(break_at("4.5", "4m"), "l.csv:4: x is \"4m\"; expected a finite number");
-  EXPECT_EQ(break_at("fork,4.5", "dock,4.5"), "l.csv:8: to is \"fork\", but there is no such node above; did you mean \"dock\"?");
-  EXPECT_EQ(break_at("storage parking", "storing"),
-            "l.csv:3: purposes are \"storing\"; expected routing, storage, charging or parking, with blanks between them");
-  EXPECT_EQ(break_at("id,x,y,purposes", "id,x,y,purpose"), "l.csv:2: \"purpose\" is no column of nodes; did you mean \"purposes\"?");
-  EXPECT_EQ(break_at("id,x,y,purposes", "x,y"), "l.csv:2: expected a line with the names of the columns first: id,x,y,purposes");
+  EXPECT_EQ(break_at("fork,4.5", "dock,4.5"),
+            "l.csv:8: to is \"fork\", but there is no such node above; did you mean \"dock\"?");
+  EXPECT_EQ(
+      break_at("storage parking", "storing"),
+      "l.csv:3: purposes are \"storing\"; expected routing, storage, charging or parking, with blanks between them");
+  EXPECT_EQ(break_at("id,x,y,purposes", "id,x,y,purpose"),
+            "l.csv:2: \"purpose\" is no column of nodes; did you mean \"purposes\"?");
+  EXPECT_EQ(break_at("id,x,y,purposes", "x,y"),
+            "l.csv:2: expected a line with the names of the columns first: id,x,y,purposes");
   EXPECT_EQ(break_at("6.5 0 7 3", "6.5 0 7"), "l.csv:9: control_points are 3 numbers; expected x y x y ...");
-  EXPECT_EQ(break_at("\"end, of it\",9,3", "\"end, of it,9,3"), "l.csv:5: a double quote is not closed; close it on the same line");
+  EXPECT_EQ(break_at("\"end, of it\",9,3", "\"end, of it,9,3"),
+            "l.csv:5: a double quote is not closed; close it on the same line");
   EXPECT_EQ(break_at("storage parking", std::string(96, ',')), "l.csv:3: the line has 100 fields, its table 4 columns");
   EXPECT_EQ(break_at("storage parking", std::string(97, ',') + "\""), "l.csv:3: the line has more than 100 fields");
-  EXPECT_EQ(independent::refusal(import, ""), "l.csv: has no nodes; expected a line id,x,y,purposes and one line for each node");
+  EXPECT_EQ(independent::refusal(import, ""),
+            "l.csv: has no nodes; expected a line id,x,y,purposes and one line for each node");
 }
 
 TEST(CsvLayoutErrors, CutAndDamagedFilesAreReadOrRefused) {

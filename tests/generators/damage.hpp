@@ -10,7 +10,8 @@
 #include "core/base/error.hpp"
 #include "core/base/random.hpp"
 
-// What every importer has to bear: cut and damaged files are read or refused with an InputError; nothing else comes out of it.
+// What every importer has to bear: cut and damaged files are read or refused with an InputError; nothing else comes out
+// of it.
 namespace fleetproof::independent {
 
 // The message with which `parse` refuses the text, or "accepted".
@@ -26,10 +27,13 @@ std::string refusal(Parse parse, const std::string& text) {
 
 template <class Parse>
 void bear_cuts(Parse parse, const std::string& text, std::size_t cuts) {
-  for (std::size_t i = 0; i < cuts; ++i) EXPECT_NO_THROW(refusal(parse, text.substr(0, text.size() * i / cuts))) << "cut " << i;
+  for (std::size_t i = 0; i < cuts; ++i)
+    EXPECT_NO_THROW(refusal(parse, text.substr(0, text.size() * i / cuts))) << "cut " << i;
 }
 
-inline std::size_t draw_place(Draws& draws, const std::string& text) { return draws.below(static_cast<std::uint32_t>(text.size() + 1)); }
+inline std::size_t draw_place(Draws& draws, const std::string& text) {
+  return draws.below(static_cast<std::uint32_t>(text.size() + 1));
+}
 
 // One to four characters changed, added or flipped in a bit, or a few of them gone.
 inline std::string damaged(Draws& draws, std::string text, std::string_view spice) {
@@ -66,22 +70,24 @@ void bear_damage(Parse parse, const std::string& original, int rounds, std::stri
 // The line at a place, with its end.
 inline std::pair<std::size_t, std::size_t> line_around(const std::string& text, std::size_t at) {
   const auto before = at == 0 ? std::string::npos : text.rfind('\n', at - 1);
-  const auto begin = before == std::string::npos ? 0 : before + 1, end = std::min(text.find('\n', at), text.size() - 1) + 1;
+  const auto begin = before == std::string::npos ? 0 : before + 1,
+             end = std::min(text.find('\n', at), text.size() - 1) + 1;
   return {begin, end - begin};
 }
 
 // Another number in the place of one.
 inline void change_number(Draws& draws, std::string& text) {
-  constexpr std::string_view kNumbers[] = {"0",   "-1",   "1e308",     "-1e308", "1e-320", "1e400", "99999999999", "9223372036854775808",
-                                           "nan", "-0.0", "1000000000"};
+  constexpr std::string_view kNumbers[] = {"0",      "-1",    "1e308",       "-1e308",
+                                           "1e-320", "1e400", "99999999999", "9223372036854775808",
+                                           "nan",    "-0.0",  "1000000000"};
   const auto begin = text.find_first_of("0123456789", draw_place(draws, text));
   if (begin == std::string::npos) return;
   const auto end = std::min(text.find_first_not_of("0123456789.eE+-", begin), text.size());
   text.replace(begin, end - begin, kNumbers[draws.below(std::size(kNumbers))]);
 }
 
-// What a file suffers as a whole: cut, or joined with a piece of itself, lines lost and repeated, deep nesting, long lines, foreign bytes, numbers
-// that nobody meant. No longer than a few thousand characters more than before.
+// What a file suffers as a whole: cut, or joined with a piece of itself, lines lost and repeated, deep nesting, long
+// lines, foreign bytes, numbers that nobody meant. No longer than a few thousand characters more than before.
 inline std::string mangled(Draws& draws, std::string text) {
   const auto at = draw_place(draws, text);
   switch (draws.below(9)) {
@@ -104,8 +110,9 @@ inline std::string mangled(Draws& draws, std::string text) {
     case 5:
       return text.insert(at, std::string(1 + draws.below(4), '\0'));
     case 6: {
-      constexpr std::string_view kForeign[] = {"\xc0\x80", "\xed\xa0\x80", "\xf5\x80\x80\x80", "\xe2\x82", "\xef\xbb\xbf",
-                                               "\x1b[31m", "\x7f",         "\xe2\x80\xae"};
+      constexpr std::string_view kForeign[] = {"\xc0\x80", "\xed\xa0\x80", "\xf5\x80\x80\x80",
+                                               "\xe2\x82", "\xef\xbb\xbf", "\x1b[31m",
+                                               "\x7f",     "\xe2\x80\xae"};
       return text.insert(at, kForeign[draws.below(std::size(kForeign))]);
     }
     case 7:

@@ -6,9 +6,9 @@
 
 #include "core/base/error.hpp"
 #include "damage.hpp"
-#include "generators/worlds/order_list.hpp"
 #include "generators/map/reachability.hpp"
 #include "generators/scenario_file/scenario_file.hpp"
+#include "generators/worlds/order_list.hpp"
 #include "generators/worlds/transports.hpp"
 #include "generators/worlds/world_maker.hpp"
 
@@ -41,7 +41,8 @@ std::map<std::uint32_t, double> shares(double skew, bool of_from) {
   RejectionCounts counts;
   const Scenario s = generate_world(spec, 7, counts);
   std::map<std::uint32_t, double> found;
-  for (const auto& t : s.agvs[0].transports) found[(of_from ? t.from : t.to).value] += 1.0 / static_cast<double>(s.agvs[0].transports.size());
+  for (const auto& t : s.agvs[0].transports)
+    found[(of_from ? t.from : t.to).value] += 1.0 / static_cast<double>(s.agvs[0].transports.size());
   return found;
 }
 
@@ -59,7 +60,8 @@ TEST(HotSpots, FollowZipfsLaw) {
   const auto from = largest_first(shares(skew, true));
   ASSERT_EQ(from.size(), 8U);
   // 72 000 draws: a share of 0.37 has a standard deviation of 0.002.
-  for (std::size_t i = 0; i < 8; ++i) EXPECT_NEAR(from[i], std::pow(static_cast<double>(i + 1), -skew) / sum, 0.01) << i;
+  for (std::size_t i = 0; i < 8; ++i)
+    EXPECT_NEAR(from[i], std::pow(static_cast<double>(i + 1), -skew) / sum, 0.01) << i;
 }
 
 TEST(HotSpots, TheOtherEndIsDrawnFromTheRestByItsShare) {
@@ -91,7 +93,8 @@ TEST(HotSpots, SpreadsStayInRange) {
 
 TEST(OrderEnds, AreNeverStationsForChargingOrParking) {
   Layout layout = ring(2)->layout();
-  for (const auto& [purposes, expected] : {std::pair{Purpose::Storage, 2U}, {Purpose::Routing, 2U}, {Purpose::Parking, 4U}}) {
+  for (const auto& [purposes, expected] :
+       {std::pair{Purpose::Storage, 2U}, {Purpose::Routing, 2U}, {Purpose::Parking, 4U}}) {
     layout.stations[0].purposes = layout.stations[1].purposes = purposes;
     const LogicalMap map(layout);
     EXPECT_EQ(order_ends(map, Reachability(map)).size(), expected);
@@ -119,7 +122,8 @@ TEST(ListedOrders, GoToTheNamedAgvOrRound) {
   const auto told = [&](std::size_t agv) {
     std::string text;
     for (const auto& t : s.agvs[agv].transports)
-      text += s.map->station(t.from).name + ">" + s.map->station(t.to).name + "@" + std::to_string(t.release.count() / 1'000'000) + " ";
+      text += s.map->station(t.from).name + ">" + s.map->station(t.to).name + "@" +
+              std::to_string(t.release.count() / 1'000'000) + " ";
     return text;
   };
   EXPECT_EQ(told(0), "S3>S4@10000 S0>S1@20000 ");
@@ -152,9 +156,12 @@ TEST(ListedOrders, ErrorsNameFileLineAndField) {
   EXPECT_THAT(refusal(head + "1,S0,S1,x\n"), HasSubstr("orders.csv:2: agv is \"x\""));
   EXPECT_THAT(refusal(head + "1,S0,S1,0,7\n"), HasSubstr("orders.csv:2: the line has 5 fields"));
   EXPECT_THAT(refusal(head + "1,S0,S1,2\n"), HasSubstr("orders.csv:2: agv is 2; a fleet of 2 has AGVs 0 to 1"));
-  EXPECT_THAT(refusal(head + "1,S0,s1,0\n"), HasSubstr("orders.csv:2: to is \"s1\", but layout \"ring\" has no such station; did you mean \"S1\"?"));
-  EXPECT_THAT(refusal(head + "1,S0,charge,0\n"), HasSubstr("orders.csv:2: to is \"charge\", a station for charging or parking"));
-  EXPECT_THAT(refusal(head + "1,park,S1,0\n"), HasSubstr("orders.csv:2: from is \"park\", a station for charging or parking"));
+  EXPECT_THAT(refusal(head + "1,S0,s1,0\n"),
+              HasSubstr("orders.csv:2: to is \"s1\", but layout \"ring\" has no such station; did you mean \"S1\"?"));
+  EXPECT_THAT(refusal(head + "1,S0,charge,0\n"),
+              HasSubstr("orders.csv:2: to is \"charge\", a station for charging or parking"));
+  EXPECT_THAT(refusal(head + "1,park,S1,0\n"),
+              HasSubstr("orders.csv:2: from is \"park\", a station for charging or parking"));
   EXPECT_THAT(refusal(head + "1,S0,caf\xe9,0\n"), HasSubstr("orders.csv:2: to is \"caf?\"; a name is UTF-8"));
   EXPECT_THAT(refusal(head + "1,\"S0,S1,0\n"), HasSubstr("orders.csv:2: a double quote is not closed"));
 }

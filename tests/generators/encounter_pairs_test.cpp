@@ -1,4 +1,5 @@
-// Placements in pairs, judged by an oracle of its own: Dijkstra in seconds over the plain layout, times of drives and turns in closed form.
+// Placements in pairs, judged by an oracle of its own: Dijkstra in seconds over the plain layout, times of drives and
+// turns in closed form.
 #include "generators/worlds/encounter_pairs.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +24,8 @@ namespace fleetproof {
 namespace {
 
 double rest_to_rest_s(double way, const MotionLimits& m) {
-  const double up = m.acceleration_mps2, down = m.deceleration_mps2, v = m.speed_mps, ramps = 0.5 * v * v / up + 0.5 * v * v / down;
+  const double up = m.acceleration_mps2, down = m.deceleration_mps2, v = m.speed_mps,
+               ramps = 0.5 * v * v / up + 0.5 * v * v / down;
   return way <= ramps ? std::sqrt(2.0 * way * (up + down) / (up * down)) : v / up + v / down + (way - ramps) / v;
 }
 
@@ -55,7 +57,8 @@ struct Leg {
 };
 
 // The quickest way from a to b with the times on it.
-std::vector<Leg> quickest(const Layout& layout, const std::vector<Way>& ways, const VehicleType& type, std::size_t a, std::size_t b) {
+std::vector<Leg> quickest(const Layout& layout, const std::vector<Way>& ways, const VehicleType& type, std::size_t a,
+                          std::size_t b) {
   std::vector<double> cost(layout.stations.size(), 1e300);
   std::vector<const Way*> last(layout.stations.size(), nullptr);
   using Open = std::pair<double, std::size_t>;
@@ -144,8 +147,8 @@ TEST_P(Encounters, AdversarialPairsMeetWithinASecond) {
     met += together && std::min(found.head_on_s, found.station_s) < 1.0 ? 1 : 0;
     head_on += together && found.head_on_s < 1.0 ? 1 : 0;
   }
-  std::cout << GetParam() << ": " << met << " of " << worlds << " worlds meet, " << head_on << " head-on; pairs made " << counts.pairs_made << " of "
-            << counts.pairs_wanted << "\n";
+  std::cout << GetParam() << ": " << met << " of " << worlds << " worlds meet, " << head_on << " head-on; pairs made "
+            << counts.pairs_made << " of " << counts.pairs_wanted << "\n";
   EXPECT_GE(met, worlds * 19 / 20);
   EXPECT_GE(head_on, worlds * 17 / 20);
 }
@@ -161,8 +164,8 @@ TEST_P(Encounters, RandomPlacementsSeldomDo) {
   EXPECT_LT(met, 60) << "the oracle can say no";
 }
 
-// To the oracle's own rounding. On a one-way loop with chords two AGVs seldom reach a station within a second of each other by different segments;
-// who finds no partner starts at random.
+// To the oracle's own rounding. On a one-way loop with chords two AGVs seldom reach a station within a second of each
+// other by different segments; who finds no partner starts at random.
 TEST_P(Encounters, SymmetricPairsReachOneStationAtOnce) {
   RejectionCounts counts;
   int worlds = 0, at_once = 0, told_together = 0;
@@ -173,9 +176,11 @@ TEST_P(Encounters, SymmetricPairsReachOneStationAtOnce) {
     ++worlds;
     at_once += encounter(s, s.agvs[0], s.agvs[1]).station_s < 1e-5 ? 1 : 0;
     told_together += std::abs((one[0].release - two[0].release).count()) < 10'000'000 ? 1 : 0;
-    for (const auto* orders : {&one, &two}) EXPECT_TRUE(std::ranges::is_sorted(*orders, {}, &TransportOrder::release)) << seed;
+    for (const auto* orders : {&one, &two})
+      EXPECT_TRUE(std::ranges::is_sorted(*orders, {}, &TransportOrder::release)) << seed;
   }
-  std::cout << GetParam() << ": " << at_once << " of " << worlds << " worlds meet to 10 us, " << told_together << " told to leave within 10 ms\n";
+  std::cout << GetParam() << ": " << at_once << " of " << worlds << " worlds meet to 10 us, " << told_together
+            << " told to leave within 10 ms\n";
   EXPECT_GE(at_once, worlds * (GetParam() == "loop-spurs/stress" ? 6 : 9) / 10);
 }
 
@@ -221,7 +226,8 @@ TEST(ChargerBank, TheFleetStandsRoundOneCharger) {
 
 TEST(MixedPlacement, ThirtyPercentAdversarialAndMore) {
   std::map<Placement, int> drawn;
-  for (std::uint64_t seed = 0; seed < 1000; ++seed) ++drawn[placement_of_world(Placement::Mixed, stream_key(seed, Stream::Placement))];
+  for (std::uint64_t seed = 0; seed < 1000; ++seed)
+    ++drawn[placement_of_world(Placement::Mixed, stream_key(seed, Stream::Placement))];
   EXPECT_EQ(drawn.size(), 4U);
   EXPECT_GE(drawn[Placement::Adversarial], 320);  // of 400 expected: five standard deviations
   EXPECT_EQ(drawn[Placement::Mixed], 0);

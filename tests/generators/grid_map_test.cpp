@@ -30,7 +30,8 @@ TEST(GridMap, FreeCellsBecomeStationsJoinedToFourSides) {
   EXPECT_EQ(layout.stations[4].purposes, Purposes(Purpose::Routing) | Purpose::Storage);
   EXPECT_EQ(layout.segments[0].name, "r0c0-r0c1");
   EXPECT_TRUE(layout.segments[0].bidirectional);
-  EXPECT_EQ(warnings, std::vector<std::string>{"m.map: cells are taken to be 1.5 m apart; the map names no charging and no parking"});
+  EXPECT_EQ(warnings, std::vector<std::string>{
+                          "m.map: cells are taken to be 1.5 m apart; the map names no charging and no parking"});
 }
 
 TEST(GridMap, BearsLineEndsOfOtherSystems) {
@@ -41,13 +42,18 @@ TEST(GridMap, BearsLineEndsOfOtherSystems) {
 
 TEST(GridMapErrors, NamePlaceValueAndRemedy) {
   EXPECT_EQ(refusal("type octile\nheight x\n"), "m.map:2: height is \"x\"; expected a whole number from 1 to 10000");
-  EXPECT_EQ(refusal("type octile\nhight 3\n"), "m.map:2: \"hight 3\" is no line of a map's header; expected type, height, width or map");
-  EXPECT_EQ(refusal("type octile\nheight 3\nmap\n"), "m.map:3: the header lacks height or width; add both before \"map\"");
-  EXPECT_EQ(refusal("height 1\nwidth 3\nmap\n.x.\n"), "m.map:4:2: cell \"x\" is unknown; free cells are . G S E, blocked ones @ O T W");
+  EXPECT_EQ(refusal("type octile\nhight 3\n"),
+            "m.map:2: \"hight 3\" is no line of a map's header; expected type, height, width or map");
+  EXPECT_EQ(refusal("type octile\nheight 3\nmap\n"),
+            "m.map:3: the header lacks height or width; add both before \"map\"");
+  EXPECT_EQ(refusal("height 1\nwidth 3\nmap\n.x.\n"),
+            "m.map:4:2: cell \"x\" is unknown; free cells are . G S E, blocked ones @ O T W");
   EXPECT_EQ(refusal("height 1\nwidth 3\nmap\n..\n"), "m.map:4: row 1 has 2 cells; the header says width 3");
   EXPECT_EQ(refusal("height 2\nwidth 3\nmap\n...\n"), "m.map:5: the file ends before row 2 of 2; is it complete?");
-  EXPECT_EQ(refusal("height 1\nwidth 3\nmap\n...\n...\n"), "m.map:5: the map has more than the 1 rows that its header says");
-  EXPECT_EQ(refusal("height 1\nwidth 3\nmap\n.@.\n"), "m.map: no two free cells of the map are neighbours; expected cells with . between @");
+  EXPECT_EQ(refusal("height 1\nwidth 3\nmap\n...\n...\n"),
+            "m.map:5: the map has more than the 1 rows that its header says");
+  EXPECT_EQ(refusal("height 1\nwidth 3\nmap\n.@.\n"),
+            "m.map: no two free cells of the map are neighbours; expected cells with . between @");
   EXPECT_EQ(refusal(""), "m.map:1: the file ends before the line \"map\" of the header; is it complete?");
   std::string vast = "height 1025\nwidth 1024\nmap\n";
   for (int row = 0; row < 1025; ++row) vast += std::string(1024, '.') + "\n";
@@ -66,7 +72,8 @@ TEST(RealLayouts, GridMaps) {
     const char* name;
     std::size_t stations, directed;
   };
-  for (const auto& [name, stations, lanes] : {Expected{"warehouse-10-20-10-2-1", 5699, 17556}, {"lorr_warehouse_small", 1277, 4208}}) {
+  for (const auto& [name, stations, lanes] :
+       {Expected{"warehouse-10-20-10-2-1", 5699, 17556}, {"lorr_warehouse_small", 1277, 4208}}) {
     const auto path = independent::real_layout(std::string("mapf/") + name + ".map");
     FLEETPROOF_SKIP_IF_ABSENT(path);
     std::vector<std::string> warnings;

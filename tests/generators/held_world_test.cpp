@@ -35,7 +35,8 @@ TEST(HeldWorld, ALayoutStaysItselfHoweverOftenTheRestIsDrawnAgain) {
       EXPECT_EQ(to_text(two.map->layout()), to_text(reference.map->layout())) << held_seed << " " << seed;
       EXPECT_EQ(starts(two), starts(reference)) << held_seed << " " << seed;
       EXPECT_EQ(two.seed, seed);
-      EXPECT_EQ(two.stream_seeds, (std::vector<StreamSeed>{{Stream::Layout, held_seed}, {Stream::Placement, held_seed}}));
+      EXPECT_EQ(two.stream_seeds,
+                (std::vector<StreamSeed>{{Stream::Layout, held_seed}, {Stream::Placement, held_seed}}));
       other_starts += starts(one) != starts(reference);
     }
     refused_when_held_from += first.worlds_rejected;

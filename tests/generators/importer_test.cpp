@@ -19,7 +19,8 @@ class ImporterTest : public testing::Test {
  protected:
   void SetUp() override {
     folder_ = std::filesystem::temp_directory_path() /
-              ("fleetproof-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + "-" + std::to_string(getpid()));
+              ("fleetproof-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + "-" +
+               std::to_string(getpid()));
     std::filesystem::create_directories(folder_);
     std::vector<std::string> warnings;
     crossdock_ = read_opentcs(independent::source_file("tests/layouts/crossdock.xml"), warnings, TwinPaths::Merge);
@@ -63,7 +64,8 @@ TEST_F(ImporterTest, TheExtensionChooses) {
 }
 
 TEST_F(ImporterTest, UnknownNamesAreExplained) {
-  EXPECT_EQ(refusal("plant.dwg"), "plant.dwg: has no extension of a layout file; known: .xml .json .yaml .yml .map .csv");
+  EXPECT_EQ(refusal("plant.dwg"),
+            "plant.dwg: has no extension of a layout file; known: .xml .json .yaml .yml .map .csv");
   EXPECT_EQ(refusal("none.json"), "none.json: there is no such file");
   EXPECT_FALSE(is_layout_file("aisle-grid"));
   try {

@@ -13,7 +13,8 @@
 
 #include "core/scenario/scenario.hpp"
 
-// Judges layouts and scenarios without any code of the generators or of the geometry kernel: plain matrices, corners and samples.
+// Judges layouts and scenarios without any code of the generators or of the geometry kernel: plain matrices, corners
+// and samples.
 namespace fleetproof::independent {
 
 inline constexpr std::size_t kMostStations = 256;
@@ -76,7 +77,8 @@ inline std::vector<Vec2> samples(const Layout& layout, const Segment& s) {
   for (std::size_t i = 0; i + 3 < p.size(); i += 3) {
     for (int k = 1; k <= kSteps; ++k) {
       const double t = static_cast<double>(k) / kSteps, u = 1.0 - t;
-      points.push_back(u * u * u * p[i] + 3.0 * u * u * t * p[i + 1] + 3.0 * u * t * t * p[i + 2] + t * t * t * p[i + 3]);
+      points.push_back(u * u * u * p[i] + 3.0 * u * u * t * p[i + 1] + 3.0 * u * t * t * p[i + 2] +
+                       t * t * t * p[i + 3]);
     }
   }
   return points;
@@ -85,7 +87,8 @@ inline std::vector<Vec2> samples(const Layout& layout, const Segment& s) {
 inline double distance_to_segment_m(const Layout& layout, const Segment& s, const Vec2& p) {
   const auto points = samples(layout, s);
   double least = 1e300;
-  for (std::size_t i = 0; i + 1 < points.size(); ++i) least = std::min(least, distance_to_line_m(p, points[i], points[i + 1]));
+  for (std::size_t i = 0; i + 1 < points.size(); ++i)
+    least = std::min(least, distance_to_line_m(p, points[i], points[i + 1]));
   return least;
 }
 
@@ -119,7 +122,9 @@ inline double gap_m(const Corners& a, const Corners& b) {
     if (inside(a, b[i]) || inside(b, a[i])) return 0.0;
     for (std::size_t k = 0; k < 4; ++k) {
       const Vec2 a0 = a[i], a1 = a[(i + 1) % 4], b0 = b[k], b1 = b[(k + 1) % 4];
-      if (cross(a1 - a0, b0 - a0) * cross(a1 - a0, b1 - a0) < 0.0 && cross(b1 - b0, a0 - b0) * cross(b1 - b0, a1 - b0) < 0.0) return 0.0;
+      if (cross(a1 - a0, b0 - a0) * cross(a1 - a0, b1 - a0) < 0.0 &&
+          cross(b1 - b0, a0 - b0) * cross(b1 - b0, a1 - b0) < 0.0)
+        return 0.0;
       least = std::min({least, distance_to_line_m(a0, b0, b1), distance_to_line_m(b0, a0, a1)});
     }
   }
@@ -131,6 +136,8 @@ inline std::string file_text(const std::string& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-inline std::string source_file(const std::string& relative) { return std::string(FLEETPROOF_SOURCE_DIR) + "/" + relative; }
+inline std::string source_file(const std::string& relative) {
+  return std::string(FLEETPROOF_SOURCE_DIR) + "/" + relative;
+}
 
 }  // namespace fleetproof::independent

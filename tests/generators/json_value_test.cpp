@@ -42,7 +42,9 @@ TEST(JsonValue, SyntaxErrorsNameLineAndColumn) {
   EXPECT_NE(refusal("{} {}").find("f.json:1:4: not JSON: "), std::string::npos) << refusal("{} {}");
 }
 
-TEST(JsonValue, ARepeatedKeyIsRefused) { EXPECT_EQ(refusal("{\"a\": 1,\n\"a\": 2}"), "f.json:2: key \"a\" appears twice in one object; keep one"); }
+TEST(JsonValue, ARepeatedKeyIsRefused) {
+  EXPECT_EQ(refusal("{\"a\": 1,\n\"a\": 2}"), "f.json:2: key \"a\" appears twice in one object; keep one");
+}
 
 TEST(JsonValue, DeepNestingIsRefusedBeforeItHurts) {
   EXPECT_NE(refusal(std::string(1'000'000, '[')).find("deeper than 32"), std::string::npos);
@@ -52,7 +54,8 @@ TEST(JsonValue, DeepNestingIsRefusedBeforeItHurts) {
 TEST(JsonValue, NumbersComeBackToTheBit) {
   Draws draws(7);
   JsonWriter writer;
-  std::vector<double> numbers{0.0, -0.0, 1.0, 0.1, 1e22, 1e-7, 5e-324, 1.7976931348623157e308, 9007199254740993.0, 123456789012345680.0};
+  std::vector<double> numbers{
+      0.0, -0.0, 1.0, 0.1, 1e22, 1e-7, 5e-324, 1.7976931348623157e308, 9007199254740993.0, 123456789012345680.0};
   while (numbers.size() < 5000) {
     const auto number = std::bit_cast<double>(draws.next());
     if (std::isfinite(number)) numbers.push_back(number);

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
-#include "generators/map/layout_check.hpp"
 #include "generators/formats/layout_file.hpp"
+#include "generators/map/layout_check.hpp"
 #include "independent_check.hpp"
 
 namespace fleetproof {
@@ -72,7 +72,9 @@ TEST_P(LayoutFamily, HasPlacesForEveryPurposeAndSegmentsOfUsualLength) {
   const auto usual = usual_length(GetParam().name);
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     const Layout layout = make(GetParam(), seed);
-    const auto count = [&](Purpose p) { return std::ranges::count_if(layout.stations, [&](const Station& s) { return s.purposes.has(p); }); };
+    const auto count = [&](Purpose p) {
+      return std::ranges::count_if(layout.stations, [&](const Station& s) { return s.purposes.has(p); });
+    };
     EXPECT_GE(count(Purpose::Storage), 6) << seed;
     EXPECT_GE(count(Purpose::Parking), 1) << seed;
     EXPECT_GE(count(Purpose::Charging), 1) << seed;
@@ -80,7 +82,8 @@ TEST_P(LayoutFamily, HasPlacesForEveryPurposeAndSegmentsOfUsualLength) {
     for (const auto& segment : layout.segments) {
       const double length = independent::length_m(layout, segment);
       EXPECT_GE(length, usual.shortest_m - 1e-9) << seed << ": " << segment.name;
-      EXPECT_LE(length, segment.control_points_m.empty() ? usual.longest_m + 1e-9 : 6.5) << seed << ": " << segment.name;
+      EXPECT_LE(length, segment.control_points_m.empty() ? usual.longest_m + 1e-9 : 6.5)
+          << seed << ": " << segment.name;
     }
   }
 }
@@ -95,11 +98,12 @@ TEST_P(LayoutFamily, IsAFunctionOfTheDraws) {
   EXPECT_TRUE(std::ranges::adjacent_find(texts) == texts.end()) << "two of 40 seeds gave the same layout";
 }
 
-INSTANTIATE_TEST_SUITE_P(All, LayoutFamily, testing::ValuesIn(layout_families().begin(), layout_families().end()), [](const auto& test) {
-  std::string name(test.param.name);
-  std::ranges::replace(name, '-', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(All, LayoutFamily, testing::ValuesIn(layout_families().begin(), layout_families().end()),
+                         [](const auto& test) {
+                           std::string name(test.param.name);
+                           std::ranges::replace(name, '-', '_');
+                           return name;
+                         });
 
 TEST(AisleGrid, HasTheSizeOfAPickingArea) {
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
@@ -113,7 +117,8 @@ TEST(AisleGrid, MixesOneWayAndTwoWayLines) {
   std::size_t one_way = 0, two_way = 0;
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     for (const auto& s : make(layout_family("aisle-grid"), seed).segments) {
-      if (s.name.find_first_of("Bpd") == std::string::npos && !s.name.ends_with("charge")) ++(s.bidirectional ? two_way : one_way);
+      if (s.name.find_first_of("Bpd") == std::string::npos && !s.name.ends_with("charge"))
+        ++(s.bidirectional ? two_way : one_way);
     }
   }
   EXPECT_GT(one_way, two_way / 3);
@@ -129,7 +134,8 @@ TEST(CorridorSidings, IsThirtyToSixtyMetresLongWithBends) {
     }
     EXPECT_GE(length, 30.0) << seed;
     EXPECT_LE(length, 60.0) << seed;
-    EXPECT_GE(std::ranges::count_if(layout.segments, [](const Segment& s) { return !s.control_points_m.empty(); }), 2) << seed;
+    EXPECT_GE(std::ranges::count_if(layout.segments, [](const Segment& s) { return !s.control_points_m.empty(); }), 2)
+        << seed;
   }
 }
 
@@ -159,7 +165,9 @@ TEST(LoopSpurs, IsOneWayRoundSixtyToTwoHundredMetres) {
 
 bool cross(const Layout& layout, const Segment& s, const Segment& t) {
   const auto at = [&](StationId id) { return layout.stations[id.index()].position_m; };
-  const auto side = [](const Vec2& a, const Vec2& b, const Vec2& p) { return (b.x() - a.x()) * (p.y() - a.y()) - (b.y() - a.y()) * (p.x() - a.x()); };
+  const auto side = [](const Vec2& a, const Vec2& b, const Vec2& p) {
+    return (b.x() - a.x()) * (p.y() - a.y()) - (b.y() - a.y()) * (p.x() - a.x());
+  };
   const Vec2 a = at(s.from), b = at(s.to), c = at(t.from), d = at(t.to);
   return side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0;
 }

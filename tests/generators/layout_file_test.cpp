@@ -79,7 +79,8 @@ TEST(LayoutFile, GeneratedLayoutsComeBackExactly) {
       const Layout layout = family.make(draws, Range::Normal);
       const Layout back = parse_layout(to_text(layout), "text");
       ASSERT_EQ(back.stations.size(), layout.stations.size());
-      for (std::size_t i = 0; i < layout.stations.size(); ++i) EXPECT_EQ(back.stations[i].position_m, layout.stations[i].position_m);
+      for (std::size_t i = 0; i < layout.stations.size(); ++i)
+        EXPECT_EQ(back.stations[i].position_m, layout.stations[i].position_m);
       EXPECT_EQ(to_text(back), to_text(layout));
     }
   }
@@ -95,17 +96,25 @@ TEST(LayoutFile, NamesInAnyScriptSurvive) {
 TEST(LayoutFile, RefusalsNameLineFieldValueAndRemedy) {
   EXPECT_EQ(refusal(replaced(kSmall, "\"to\": \"b\"", "\"to\": \"bb\"")),
             "hook.json:10: /layout/segments/0/to: \"bb\" is refused: there is no such station; did you mean \"b\"?");
-  EXPECT_EQ(refusal(replaced(kSmall, "[0, 0]", "[0, \"0\"]")), "hook.json:6: /layout/stations/0/position_m/1: \"0\" is refused: expected a number");
+  EXPECT_EQ(refusal(replaced(kSmall, "[0, 0]", "[0, \"0\"]")),
+            "hook.json:6: /layout/stations/0/position_m/1: \"0\" is refused: expected a number");
   EXPECT_EQ(refusal(replaced(kSmall, "\"storage\"", "\"storag\"")),
-            "hook.json:7: /layout/stations/1/purposes/0: \"storag\" is refused: there is no such purpose; did you mean \"storage\"?");
-  EXPECT_EQ(refusal(replaced(kSmall, "\"position_m\": [4, 3], ", "")), "hook.json:7: /layout/stations/1: \"position_m\" is missing; add it");
-  EXPECT_EQ(refusal(replaced(kSmall, "\"from\"", "\"form\"")), "hook.json:10: /layout/segments/0: unknown key \"form\"; did you mean \"from\"?");
-  EXPECT_EQ(refusal(replaced(kSmall, "\"version\": 1", "\"version\": 2")), "hook.json:2: /version: 2 is refused: this program reads version 1");
-  EXPECT_NE(refusal(replaced(kSmall, "    ],\n    \"seg", ", {\"name\": \"a\", \"position_m\": [9, 9]}\n    ],\n    \"seg"))
-                .find("hook.json:8: /layout/stations/2/name: \"a\""),
+            "hook.json:7: /layout/stations/1/purposes/0: \"storag\" is refused: there is no such purpose; did you mean "
+            "\"storage\"?");
+  EXPECT_EQ(refusal(replaced(kSmall, "\"position_m\": [4, 3], ", "")),
+            "hook.json:7: /layout/stations/1: \"position_m\" is missing; add it");
+  EXPECT_EQ(refusal(replaced(kSmall, "\"from\"", "\"form\"")),
+            "hook.json:10: /layout/segments/0: unknown key \"form\"; did you mean \"from\"?");
+  EXPECT_EQ(refusal(replaced(kSmall, "\"version\": 1", "\"version\": 2")),
+            "hook.json:2: /version: 2 is refused: this program reads version 1");
+  EXPECT_NE(
+      refusal(replaced(kSmall, "    ],\n    \"seg", ", {\"name\": \"a\", \"position_m\": [9, 9]}\n    ],\n    \"seg"))
+          .find("hook.json:8: /layout/stations/2/name: \"a\""),
+      std::string::npos);
+  EXPECT_NE(refusal(replaced(kSmall, "[[2, 0], [4, 1]]", "[[2, 0]]")).find("1 control points; a curve has 2, 5, 8"),
             std::string::npos);
-  EXPECT_NE(refusal(replaced(kSmall, "[[2, 0], [4, 1]]", "[[2, 0]]")).find("1 control points; a curve has 2, 5, 8"), std::string::npos);
-  EXPECT_NE(refusal(replaced(kSmall, "\"to\": \"b\"", "\"to\": \"a\"")).find("hook.json:10: /layout/segments/0"), std::string::npos);
+  EXPECT_NE(refusal(replaced(kSmall, "\"to\": \"b\"", "\"to\": \"a\"")).find("hook.json:10: /layout/segments/0"),
+            std::string::npos);
   EXPECT_NE(refusal(replaced(kSmall, "[4, 3]", "[4e9, 3]")).find("/layout/stations/1/position_m"), std::string::npos);
 }
 

@@ -5,8 +5,8 @@
 
 #include <pugixml.hpp>
 
-#include "generators/map/layout_check.hpp"
 #include "generators/families/layout_family.hpp"
+#include "generators/map/layout_check.hpp"
 #include "independent_check.hpp"
 
 namespace fleetproof {
@@ -42,9 +42,11 @@ TEST(LayoutSvg, EveryFamilyIsSoundXmlWithEveryLaneAndStation) {
     const Layout layout = family.make(draws, Range::Normal);
     const std::string svg = layout_svg(layout);
     const auto document = parsed(svg);
-    for (const auto& station : layout.stations) EXPECT_EQ(texts(document, station.name).size(), 1U) << family.name << ": " << station.name;
+    for (const auto& station : layout.stations)
+      EXPECT_EQ(texts(document, station.name).size(), 1U) << family.name << ": " << station.name;
     std::size_t lanes = 0;
-    for (const auto& node : document.child("svg").children("path")) lanes += std::string_view(node.attribute("fill").value()) == "none" ? 1 : 0;
+    for (const auto& node : document.child("svg").children("path"))
+      lanes += std::string_view(node.attribute("fill").value()) == "none" ? 1 : 0;
     EXPECT_EQ(lanes, layout.segments.size() + 1) << "and the scale bar";
     EXPECT_EQ(svg.find("style"), std::string::npos);
     EXPECT_EQ(svg.find("class"), std::string::npos);
@@ -71,7 +73,8 @@ TEST(LayoutSvg, OneWaySegmentsHaveAnArrowHead) {
   const auto count = [](const std::string& svg) {
     const auto document = parsed(svg);
     int heads = 0;
-    for (const auto& node : document.child("svg").children("path")) heads += std::string_view(node.attribute("fill").value()) == "#c2410c" ? 1 : 0;
+    for (const auto& node : document.child("svg").children("path"))
+      heads += std::string_view(node.attribute("fill").value()) == "#c2410c" ? 1 : 0;
     return heads;
   };
   EXPECT_EQ(count(layout_svg(pair(true))), 1) << "the legend's";
@@ -82,7 +85,8 @@ TEST(LayoutSvg, OnCrowdedMapsNoNameCoversAnother) {
   Layout crowd;
   crowd.name = "crowd";
   for (std::size_t i = 0; i < 400; ++i) {
-    crowd.stations.push_back({"station-" + std::to_string(i), {static_cast<double>(i % 20), static_cast<double>(i / 20)}, Purpose::Routing});
+    crowd.stations.push_back(
+        {"station-" + std::to_string(i), {static_cast<double>(i % 20), static_cast<double>(i / 20)}, Purpose::Routing});
     if (i > 0) crowd.segments.push_back({"s" + std::to_string(i), StationId{i - 1}, StationId{i}, true, {}});
   }
   fit_floor(crowd, 3.0);
@@ -110,8 +114,9 @@ TEST(LayoutSvg, TheGalleryIsUpToDate) {
       const auto name = std::string(family.name) + (range == Range::Stress ? "-stress" : "");
       EXPECT_TRUE(layout_svg(draw_layout({&family, range}, draws)) ==
                   independent::file_text(independent::source_file("tests/layouts/gallery/" + name + ".svg")))
-          << "draw it again: fleetproof generate " << family.name << " --seed 3 " << (range == Range::Stress ? "--stress " : "")
-          << "--svg tests/layouts/gallery/" << name << ".svg > layout.json";
+          << "draw it again: fleetproof generate " << family.name << " --seed 3 "
+          << (range == Range::Stress ? "--stress " : "") << "--svg tests/layouts/gallery/" << name
+          << ".svg > layout.json";
     }
   }
 }

@@ -5,10 +5,10 @@
 #include <algorithm>
 
 #include "damage.hpp"
-#include "generators/map/antiparallel.hpp"
 #include "generators/families/layout_family.hpp"
 #include "generators/formats/layout_file.hpp"
 #include "generators/formats/opentcs.hpp"
+#include "generators/map/antiparallel.hpp"
 #include "real_layout.hpp"
 
 namespace fleetproof {
@@ -42,11 +42,14 @@ std::string sample(const std::string& there = "", const std::string& back = "") 
 }
 
 std::string trajectory(int degree, const std::string& knots, const std::string& points) {
-  return ", \"trajectory\": {\"degree\": " + std::to_string(degree) + ", \"knotVector\": [" + knots + "], \"controlPoints\": [" + points + "]}";
+  return ", \"trajectory\": {\"degree\": " + std::to_string(degree) + ", \"knotVector\": [" + knots +
+         "], \"controlPoints\": [" + points + "]}";
 }
 
-const std::string kThere = trajectory(3, "0,0,0,0,1,1,1,1", R"({"x":0,"y":0},{"x":2,"y":1},{"x":4,"y":1},{"x":6,"y":0})");
-const std::string kBack = trajectory(3, "0,0,0,0,1,1,1,1", R"({"x":6,"y":0},{"x":4,"y":1},{"x":2,"y":1},{"x":0,"y":0})");
+const std::string kThere =
+    trajectory(3, "0,0,0,0,1,1,1,1", R"({"x":0,"y":0},{"x":2,"y":1},{"x":4,"y":1},{"x":6,"y":0})");
+const std::string kBack =
+    trajectory(3, "0,0,0,0,1,1,1,1", R"({"x":6,"y":0},{"x":4,"y":1},{"x":2,"y":1},{"x":0,"y":0})");
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const auto at = text.find(from);
@@ -87,19 +90,23 @@ TEST(Lif, CubicAndQuadraticBezierCurvesAreExact) {
 TEST(Lif, RationalCurvesAreFollowedClosely) {
   // A half circle from a to b with its middle in (3, 0), as two rational quadratic arcs.
   const std::string w = "\"weight\": 0.7071067811865476";
-  const auto [layout, warnings] = import(sample(
-      trajectory(2, "0,0,0,0.5,0.5,1,1,1", R"({"x":0,"y":0},{"x":0,"y":3,)" + w + R"(},{"x":3,"y":3},{"x":6,"y":3,)" + w + R"(},{"x":6,"y":0})")));
+  const auto [layout, warnings] = import(sample(trajectory(
+      2, "0,0,0,0.5,0.5,1,1,1",
+      R"({"x":0,"y":0},{"x":0,"y":3,)" + w + R"(},{"x":3,"y":3},{"x":6,"y":3,)" + w + R"(},{"x":6,"y":0})")));
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_EQ(warnings[0], "l.json:7: the trajectory of edge \"ab\" is replaced by a smooth curve through points of it");
-  for (const auto& point : independent::samples(layout, layout.segments[0])) EXPECT_NEAR((point - Vec2(3, 0)).norm(), 3.0, 0.001);
+  for (const auto& point : independent::samples(layout, layout.segments[0]))
+    EXPECT_NEAR((point - Vec2(3, 0)).norm(), 3.0, 0.001);
 }
 
 TEST(Lif, WarnsOfTrajectoriesThatMissTheirNodesOrRunBackwards) {
   EXPECT_EQ(import(sample(kBack)).warnings,
-            std::vector<std::string>{"l.json:7: the trajectory of edge \"ab\" runs from its end to its start; it is turned round"});
+            std::vector<std::string>{
+                "l.json:7: the trajectory of edge \"ab\" runs from its end to its start; it is turned round"});
   EXPECT_EQ(import(sample(kBack)).layout.segments[0].control_points_m, (std::vector<Vec2>{{2, 1}, {4, 1}}));
   EXPECT_EQ(import(sample(replaced(kThere, "{\"x\":0,\"y\":0}", "{\"x\":0.25,\"y\":0}"))).warnings,
-            std::vector<std::string>{"l.json:7: the trajectory of edge \"ab\" ends 0.250 m beside its node; it is drawn to the node"});
+            std::vector<std::string>{
+                "l.json:7: the trajectory of edge \"ab\" ends 0.250 m beside its node; it is drawn to the node"});
 }
 
 void expect_round_trip(const Layout& layout) {
@@ -139,25 +146,32 @@ TEST(Lif, JoinedCurvesAndHardNamesComeBack) {
 }
 
 TEST(LifErrors, NamePlaceValueAndRemedy) {
-  const auto break_at = [](const std::string& from, const std::string& to) { return refusal(replaced(sample(kThere), from, to)); };
+  const auto break_at = [](const std::string& from, const std::string& to) {
+    return refusal(replaced(sample(kThere), from, to));
+  };
   EXPECT_EQ(break_at("\"endNodeId\": \"b\"", "\"endNodeId\": \"bb\""),
             "l.json:7: /layouts/0/edges/0/endNodeId: \"bb\" is refused: there is no such node; did you mean \"b\"?");
   EXPECT_EQ(break_at("\"nodeId\": \"b\"", "\"nodeId\": \"a\""),
             "l.json:5: /layouts/0/nodes/1/nodeId: \"a\" is refused: this id is taken already; rename one");
-  EXPECT_EQ(break_at("\"x\": 6", "\"x\": \"6\""), "l.json:5: /layouts/0/nodes/1/nodePosition/x: \"6\" is refused: expected a number");
+  EXPECT_EQ(break_at("\"x\": 6", "\"x\": \"6\""),
+            "l.json:5: /layouts/0/nodes/1/nodePosition/x: \"6\" is refused: expected a number");
   EXPECT_EQ(break_at("\"edges\"", "\"edgs\""), "l.json:2: /layouts/0: \"edges\" is missing; add it");
-  EXPECT_NE(break_at("0,0,0,0,1", "0,0,0,1").find("4 control points of degree 3 need 8 knots; here are 7"), std::string::npos);
-  EXPECT_NE(break_at("0,0,0,0,1", "0,0,0,1,0").find("the knots do not ascend"), std::string::npos);
-  EXPECT_NE(break_at("\"x\": 6", "\"x\": 6e9").find("l.json:5: /layouts/0/nodes/1/nodeId: \"b\" is refused: coordinates lie within"),
+  EXPECT_NE(break_at("0,0,0,0,1", "0,0,0,1").find("4 control points of degree 3 need 8 knots; here are 7"),
             std::string::npos);
-  EXPECT_NE(break_at("{\"x\":2,\"y\":1},{\"x\":4,\"y\":1}", "{\"x\":9,\"y\":0},{\"x\":-9,\"y\":0}").find("l.json:7: /layouts/0/edges/0/edgeId"),
+  EXPECT_NE(break_at("0,0,0,0,1", "0,0,0,1,0").find("the knots do not ascend"), std::string::npos);
+  EXPECT_NE(break_at("\"x\": 6", "\"x\": 6e9")
+                .find("l.json:5: /layouts/0/nodes/1/nodeId: \"b\" is refused: coordinates lie within"),
+            std::string::npos);
+  EXPECT_NE(break_at("{\"x\":2,\"y\":1},{\"x\":4,\"y\":1}", "{\"x\":9,\"y\":0},{\"x\":-9,\"y\":0}")
+                .find("l.json:7: /layouts/0/edges/0/edgeId"),
             std::string::npos);
   EXPECT_EQ(refusal(""), "l.json: is empty; expected a JSON object");
   EXPECT_EQ(refusal("[]"), "l.json:1: top level: \"layouts\" is missing; add it");
 }
 
 TEST(LifErrors, CutAndDamagedFilesAreReadOrRefused) {
-  const auto text = sample(kThere, trajectory(2, "0,0,0,0.5,1,1,1", R"({"x":6,"y":0},{"x":4,"y":1,"weight":2},{"x":2,"y":1},{"x":0,"y":0})"));
+  const auto text = sample(kThere, trajectory(2, "0,0,0,0.5,1,1,1",
+                                              R"({"x":6,"y":0},{"x":4,"y":1,"weight":2},{"x":2,"y":1},{"x":0,"y":0})"));
   independent::bear_cuts(import, text, 100);
   independent::bear_damage(import, text, 2000, "0123456789-.eE\"{}[],: \n\x80\xff");
 }
@@ -167,7 +181,8 @@ TEST(RealLayouts, Lif) {
     const char* name;
     std::size_t stations, segments, directed;
   };
-  for (const auto& [name, stations, segments, lanes] : {Expected{"10_7", 5, 6, 6}, {"10_10", 6, 3, 6}, {"10_13", 2, 1, 2}}) {
+  for (const auto& [name, stations, segments, lanes] :
+       {Expected{"10_7", 5, 6, 6}, {"10_10", 6, 3, 6}, {"10_13", 2, 1, 2}}) {
     const auto path = independent::real_layout(std::string("lif/vdma_lif_v1_example_") + name + ".lif.json");
     FLEETPROOF_SKIP_IF_ABSENT(path);
     std::vector<std::string> warnings;

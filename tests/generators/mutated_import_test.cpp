@@ -8,10 +8,10 @@
 #include <map>
 #include <set>
 
-#include "generators/formats/importer.hpp"
-#include "generators/map/layout_check.hpp"
 #include "generators/families/layout_family.hpp"
+#include "generators/formats/importer.hpp"
 #include "generators/formats/layout_file.hpp"
+#include "generators/map/layout_check.hpp"
 #include "generators/scenario_file/validator.hpp"
 #include "generators/worlds/world_maker.hpp"
 #include "independent_check.hpp"
@@ -77,8 +77,9 @@ TEST_P(MutatedImport, KeepsWhatIsConnectedMovesStationsAndScales) {
     for (const auto& s : layout->stations) EXPECT_LT((s.position_m - scale * before.at(s.name)).norm(), 0.6) << seed;
     turned += count_turned(base, *layout);
   }
-  std::cout << base.name << ": " << made << " mutations of " << independent::seed_count() << " draws; refused: weak-core "
-            << counts.of(ProblemKind::WeakCore) << ", bad-geometry " << counts.of(ProblemKind::BadGeometry) << "\n";
+  std::cout << base.name << ": " << made << " mutations of " << independent::seed_count()
+            << " draws; refused: weak-core " << counts.of(ProblemKind::WeakCore) << ", bad-geometry "
+            << counts.of(ProblemKind::BadGeometry) << "\n";
   EXPECT_EQ(texts.size(), made);
   EXPECT_GT(made, independent::seed_count() / 4);
   EXPECT_LT(segments, made * base.segments.size());
@@ -97,14 +98,17 @@ void expect_sound_worlds(const Layout& base, std::uint64_t seeds) {
     ASSERT_TRUE(independent::all_reach_all(s.map->layout())) << seed;
   }
   std::cout << base.name << ": " << counts.worlds << " worlds, " << counts.worlds_rejected << " refused (weak-core "
-            << counts.of(ProblemKind::WeakCore) << ", bad-geometry " << counts.of(ProblemKind::BadGeometry) << ", starts-too-close "
-            << counts.of(ProblemKind::StartsTooClose) << ")\n";
+            << counts.of(ProblemKind::WeakCore) << ", bad-geometry " << counts.of(ProblemKind::BadGeometry)
+            << ", starts-too-close " << counts.of(ProblemKind::StartsTooClose) << ")\n";
 }
 
-TEST_P(MutatedImport, WorldsAreSoundAndCountWhatWasRefused) { expect_sound_worlds(GetParam()(), independent::seed_count()); }
+TEST_P(MutatedImport, WorldsAreSoundAndCountWhatWasRefused) {
+  expect_sound_worlds(GetParam()(), independent::seed_count());
+}
 
 TEST(MutatedRealLayouts, WorldsOfRealLayoutsAreSound) {
-  for (const char* name : {"opentcs/opentcs_demo-01_v7.xml", "rmf/office.building.yaml", "rmf/triple_H.building.yaml"}) {
+  for (const char* name :
+       {"opentcs/opentcs_demo-01_v7.xml", "rmf/office.building.yaml", "rmf/triple_H.building.yaml"}) {
     std::vector<std::string> warnings;
     const auto path = independent::real_layout(name);
     FLEETPROOF_SKIP_IF_ABSENT(path);

@@ -56,7 +56,9 @@ TEST(Nurbs, SplinesAreFollowedWithinAMillimetre) {
     const auto layout = between(pieces);
     const auto segment = segment_of(pieces);
     const double low = nurbs.knots[3], high = nurbs.knots[5];
-    for (int k = 0; k < 100; ++k) EXPECT_LT(independent::distance_to_segment_m(layout, segment, point(nurbs, low + (high - low) * k / 100.0)), 0.001);
+    for (int k = 0; k < 100; ++k)
+      EXPECT_LT(independent::distance_to_segment_m(layout, segment, point(nurbs, low + (high - low) * k / 100.0)),
+                0.001);
   }
 }
 
@@ -76,7 +78,8 @@ TEST(Nurbs, JoinedBezierCurvesAreExact) {
 
 TEST(Nurbs, FaultsNameTheNumbers) {
   EXPECT_EQ(fault_of(spline(0, {}, {})), "degree 0 is not between 1 and 9");
-  EXPECT_EQ(fault_of(spline(2, {0, 0, 1, 1}, {{0, 0}, {1, 1}})), "degree 2 needs at least 3 control points; here are 2");
+  EXPECT_EQ(fault_of(spline(2, {0, 0, 1, 1}, {{0, 0}, {1, 1}})),
+            "degree 2 needs at least 3 control points; here are 2");
   EXPECT_EQ(fault_of(spline(1, {0, 0, 0, 0}, {{0, 0}, {1, 1}})), "all knots are equal; they run from 0 to 1");
   auto weightless = spline(1, {0, 0, 1, 1}, {{0, 0}, {1, 1}});
   weightless.weights[1] = 0.0;

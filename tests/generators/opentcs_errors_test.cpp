@@ -35,28 +35,43 @@ const Break kBreaks[] = {
     {"missing_position", "positionX=\"3000\" ", "", "m.xml:4: <point> has no attribute \"positionX\"; add it"},
     {"missing_name", "<point name=\"South-1\" ", "<point ", "m.xml:4: <point> has no attribute \"name\"; add it"},
     {"empty_name", "<point name=\"South-1\" ", "<point name=\"\" ", "m.xml:4: name \"\": the name is empty"},
-    {"nan", "positionX=\"3000\"", "positionX=\"NaN\"", "m.xml:4: positionX of <point> is \"NaN\"; expected a finite number"},
-    {"infinite", "positionX=\"3000\"", "positionX=\"inf\"", "m.xml:4: positionX of <point> is \"inf\"; expected a finite number"},
-    {"huge", "positionX=\"3000\"", "positionX=\"1e400\"", "m.xml:4: positionX of <point> is \"1e400\"; expected a finite number"},
-    {"far", "positionX=\"3000\"", "positionX=\"1e15\"", "m.xml:4: <point> \"South-1\": coordinates lie within 100000 m"},
-    {"garbage_number", "positionY=\"0\"", "positionY=\"12 apples\"", "m.xml:4: positionY of <point> is \"12 apples\"; expected a finite number"},
-    {"empty_number", "positionY=\"0\"", "positionY=\"\"", "m.xml:4: positionY of <point> is \"\"; expected a finite number"},
-    {"duplicate_point", "<point name=\"South-2\"", "<point name=\"South-1\"", "m.xml:8: a second <point> is named \"South-1\"; rename one"},
+    {"nan", "positionX=\"3000\"", "positionX=\"NaN\"",
+     "m.xml:4: positionX of <point> is \"NaN\"; expected a finite number"},
+    {"infinite", "positionX=\"3000\"", "positionX=\"inf\"",
+     "m.xml:4: positionX of <point> is \"inf\"; expected a finite number"},
+    {"huge", "positionX=\"3000\"", "positionX=\"1e400\"",
+     "m.xml:4: positionX of <point> is \"1e400\"; expected a finite number"},
+    {"far", "positionX=\"3000\"", "positionX=\"1e15\"",
+     "m.xml:4: <point> \"South-1\": coordinates lie within 100000 m"},
+    {"garbage_number", "positionY=\"0\"", "positionY=\"12 apples\"",
+     "m.xml:4: positionY of <point> is \"12 apples\"; expected a finite number"},
+    {"empty_number", "positionY=\"0\"", "positionY=\"\"",
+     "m.xml:4: positionY of <point> is \"\"; expected a finite number"},
+    {"duplicate_point", "<point name=\"South-2\"", "<point name=\"South-1\"",
+     "m.xml:8: a second <point> is named \"South-1\"; rename one"},
     {"unknown_point", "sourcePoint=\"South-1\"", "sourcePoint=\"Soth-1\"",
      "m.xml:137: sourcePoint of <path> is \"Soth-1\", but there is no such point; did you mean \"South-1\"?"},
     {"missing_point", "sourcePoint=\"South-1\" ", "", "m.xml:137: <path> has no attribute \"sourcePoint\"; add it"},
-    {"loop", "destinationPoint=\"South-2\"", "destinationPoint=\"South-1\"", "m.xml:137: path \"South-1 to South-2\" leads from a point to itself"},
-    {"duplicate_path", "<path name=\"South-2 to South-3\"", "<path name=\"South-1 to South-2\"", "m.xml:140: a second <path> is named"},
-    {"control_points", "<controlPoint x=\"453\" y=\"0\"/>", "", "m.xml:150: path \"South-5 to East-1\" has 1 control points; BEZIER needs 2"},
-    {"control_number", "<controlPoint x=\"453\"", "<controlPoint x=\"--\"", "m.xml:151: x of <controlPoint> is \"--\"; expected a finite number"},
+    {"loop", "destinationPoint=\"South-2\"", "destinationPoint=\"South-1\"",
+     "m.xml:137: path \"South-1 to South-2\" leads from a point to itself"},
+    {"duplicate_path", "<path name=\"South-2 to South-3\"", "<path name=\"South-1 to South-2\"",
+     "m.xml:140: a second <path> is named"},
+    {"control_points", "<controlPoint x=\"453\" y=\"0\"/>", "",
+     "m.xml:150: path \"South-5 to East-1\" has 1 control points; BEZIER needs 2"},
+    {"control_number", "<controlPoint x=\"453\"", "<controlPoint x=\"--\"",
+     "m.xml:151: x of <controlPoint> is \"--\"; expected a finite number"},
     {"cusp", "<controlPoint x=\"453\" y=\"0\"/>\n            <controlPoint x=\"480\" y=\"-27\"/>",
-     "<controlPoint x=\"420\" y=\"-600\"/><controlPoint x=\"420\" y=\"900\"/>", "m.xml:149: <path> \"South-5 to East-1\": it bends more sharply"},
+     "<controlPoint x=\"420\" y=\"-600\"/><controlPoint x=\"420\" y=\"900\"/>",
+     "m.xml:149: <path> \"South-5 to East-1\": it bends more sharply"},
     {"one_spot", "positionX=\"7500\" positionY=\"0\"", "positionX=\"3000\" positionY=\"0\"",
      "m.xml:137: <path> \"South-1 to South-2\": it has no length"},
     {"scale", "scaleX=\"50.0\"", "scaleX=\"0\"", "m.xml:330: scale 0 x 50 is not positive"},
-    {"scale_text", "scaleX=\"50.0\"", "scaleX=\"fifty\"", "m.xml:330: scaleX of <visualLayout> is \"fifty\"; expected a finite number"},
-    {"location_type", "type=\"Floor storage\"", "type=\"Flor storage\"", "m.xml:316: type of location \"Floor lane 1\" is \"Flor storage\""},
-    {"location_link", "<link point=\"Lane-1\"/>", "<link point=\"Lane-9\"/>", "m.xml:317: point of <link> is \"Lane-9\", but there is no such point"},
+    {"scale_text", "scaleX=\"50.0\"", "scaleX=\"fifty\"",
+     "m.xml:330: scaleX of <visualLayout> is \"fifty\"; expected a finite number"},
+    {"location_type", "type=\"Floor storage\"", "type=\"Flor storage\"",
+     "m.xml:316: type of location \"Floor lane 1\" is \"Flor storage\""},
+    {"location_link", "<link point=\"Lane-1\"/>", "<link point=\"Lane-9\"/>",
+     "m.xml:317: point of <link> is \"Lane-9\", but there is no such point"},
     {"other_root", "<model version", "<plan version", "m.xml:"},
 };
 
@@ -71,7 +86,8 @@ TEST_P(BrokenModel, IsExplained) {
   EXPECT_TRUE(message.starts_with(says)) << message << "\nexpected: " << says;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, BrokenModel, testing::ValuesIn(kBreaks), [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(All, BrokenModel, testing::ValuesIn(kBreaks),
+                         [](const auto& test) { return test.param.name; });
 
 TEST(OpenTcsErrors, EmptyAndForeignTexts) {
   EXPECT_EQ(refusal("<model version=\"7.0.0\" name=\"void\"/>"), "m.xml:1: the model is empty: it has no <point>");
@@ -106,7 +122,9 @@ TEST(OpenTcsErrors, RandomControlPointsAreReadOrRefused) {
   const std::string from = "<controlPoint x=\"453\" y=\"0\"/>\n            <controlPoint x=\"480\" y=\"-27\"/>";
   const auto at = crossdock().find(from);
   ASSERT_NE(at, std::string::npos);
-  const auto number = [&](std::uint32_t range) { return std::to_string(static_cast<int>(draws.below(2 * range + 1)) - static_cast<int>(range)); };
+  const auto number = [&](std::uint32_t range) {
+    return std::to_string(static_cast<int>(draws.below(2 * range + 1)) - static_cast<int>(range));
+  };
   int read = 0;
   for (int round = 0; round < 300; ++round) {
     const std::uint32_t range = round % 3 == 0 ? 3 : round % 3 == 1 ? 600 : 2'000'000;

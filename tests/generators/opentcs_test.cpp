@@ -23,10 +23,13 @@ Layout crossdock() {
 }
 
 std::size_t curved(const Layout& layout) {
-  return static_cast<std::size_t>(std::ranges::count_if(layout.segments, [](const Segment& s) { return !s.control_points_m.empty(); }));
+  return static_cast<std::size_t>(
+      std::ranges::count_if(layout.segments, [](const Segment& s) { return !s.control_points_m.empty(); }));
 }
 
-const Station& station(const Layout& layout, std::string_view name) { return *std::ranges::find(layout.stations, name, &Station::name); }
+const Station& station(const Layout& layout, std::string_view name) {
+  return *std::ranges::find(layout.stations, name, &Station::name);
+}
 
 TEST(OpenTcs, ReadsTheCrossdock) {
   std::vector<std::string> warnings;
@@ -50,7 +53,8 @@ TEST(OpenTcs, BendsAreQuarterCirclesInMetresWithTheYAxisUp) {
   for (const auto& lane : map.lanes()) {
     if (lane.curve.is_straight()) continue;
     EXPECT_NEAR(lane.curve.length_m(), 4.712, 0.02);
-    for (const auto& arc : lane.curve.arcs()) EXPECT_NEAR(arc.curvature_per_m, 1.0 / 3.0, 0.05) << "left turns of 3 m radius";
+    for (const auto& arc : lane.curve.arcs())
+      EXPECT_NEAR(arc.curvature_per_m, 1.0 / 3.0, 0.05) << "left turns of 3 m radius";
   }
 }
 
@@ -62,7 +66,8 @@ TEST(OpenTcs, TheCrossdockLeavesRoomToTurnAndToWait) {
     if (s.purposes == Purposes(Purpose::Routing)) continue;
     for (const auto& segment : layout.segments) {
       if (segment.from == StationId{i} || segment.to == StationId{i}) continue;
-      EXPECT_GE(independent::distance_to_segment_m(layout, segment, s.position_m), 2.2) << s.name << ", " << segment.name;
+      EXPECT_GE(independent::distance_to_segment_m(layout, segment, s.position_m), 2.2)
+          << s.name << ", " << segment.name;
     }
   }
 }
@@ -106,8 +111,10 @@ Import import(const std::string& text) {
 
 TEST(OpenTcs, WarnsOfWhatItLeavesOutGuessesAndChanges) {
   EXPECT_EQ(import(kModel).warnings,
-            std::vector<std::string>{"m.xml:6: location type \"Rack\" names no purpose that is known here; points keep theirs"});
-  const auto model = replaced(kModel, "Rack\"/>", "Storage rack\"/>"), plain = replaced(model, "type=\"Rack\"", "type=\"Storage rack\"");
+            std::vector<std::string>{
+                "m.xml:6: location type \"Rack\" names no purpose that is known here; points keep theirs"});
+  const auto model = replaced(kModel, "Rack\"/>", "Storage rack\"/>"),
+             plain = replaced(model, "type=\"Rack\"", "type=\"Storage rack\"");
   ASSERT_TRUE(import(plain).warnings.empty());
   const auto warning = [&](const std::string& from, const std::string& to) {
     const auto result = import(replaced(plain, from, to));
@@ -116,9 +123,12 @@ TEST(OpenTcs, WarnsOfWhatItLeavesOutGuessesAndChanges) {
   EXPECT_EQ(warning("length=\"4000\"", "length=\"4100\""),
             "m.xml:4: path \"ab\" is stored with a length of 4.100 m; its geometry has 4.000 m, which counts");
   EXPECT_EQ(warning("length=\"4000\"", "length=\"4079\""), "0 warnings");
-  EXPECT_EQ(warning("length=\"4000\"", ""), "m.xml:4: path \"ab\" has no length that can be read; its geometry has 4.000 m");
-  EXPECT_EQ(warning("version=\"6.0.0\"", "version=\"8.1\""), "m.xml:1: version \"8.1\" is newer than 7, as which it is read");
-  EXPECT_EQ(warning("HALT_POSITION", "REPORT_POSITION"), "m.xml:2: report position \"a\" becomes a station at which AGVs can stop");
+  EXPECT_EQ(warning("length=\"4000\"", ""),
+            "m.xml:4: path \"ab\" has no length that can be read; its geometry has 4.000 m");
+  EXPECT_EQ(warning("version=\"6.0.0\"", "version=\"8.1\""),
+            "m.xml:1: version \"8.1\" is newer than 7, as which it is read");
+  EXPECT_EQ(warning("HALT_POSITION", "REPORT_POSITION"),
+            "m.xml:2: report position \"a\" becomes a station at which AGVs can stop");
   EXPECT_EQ(warning("locked=\"false\"", "locked=\"true\""), "m.xml:4: locked path \"ab\" is left out");
   EXPECT_EQ(warning("locked=\"false\"", "maxReverseVelocity=\"300\""),
             "m.xml:1: 1 paths may be driven in reverse; here AGVs drive nose first, from source to destination only");
@@ -128,9 +138,9 @@ TEST(OpenTcs, WarnsOfWhatItLeavesOutGuessesAndChanges) {
 TEST(OpenTcs, ReadsOlderSpellingsAndBothScales) {
   const auto old = replaced(kModel, "positionX=\"4000\" positionY=\"0\"", "xPosition=\"4000\" yPosition=\"0\"");
   EXPECT_EQ(import(old).layout.stations[1].position_m, Vec2(4.0, 0.0));
-  const auto bent =
-      replaced(kModel, "<pathLayout connectionType=\"DIRECT\"/>",
-               "<pathLayout connectionType=\"BEZIER\"><controlPoint x=\"10\" y=\"20\"/><controlPoint x=\"30\" y=\"-20\"/></pathLayout>");
+  const auto bent = replaced(kModel, "<pathLayout connectionType=\"DIRECT\"/>",
+                             "<pathLayout connectionType=\"BEZIER\"><controlPoint x=\"10\" y=\"20\"/><controlPoint "
+                             "x=\"30\" y=\"-20\"/></pathLayout>");
   const auto layout = import(bent).layout;
   ASSERT_EQ(layout.segments[0].control_points_m.size(), 2U);
   EXPECT_EQ(layout.segments[0].control_points_m[0], Vec2(1.0, -1.0));
@@ -157,14 +167,17 @@ std::string real_layout(const std::string& name) {
 
 TEST(RealLayouts, OpenTcsDemo) {
   const auto path = real_layout("opentcs_demo-01_v7.xml");
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is absent; set FLEETPROOF_LAYOUTS to the folder of real layouts";
+  if (!std::filesystem::exists(path))
+    GTEST_SKIP() << path << " is absent; set FLEETPROOF_LAYOUTS to the folder of real layouts";
   std::vector<std::string> warnings;
   const Layout layout = read_opentcs(path, warnings);
   EXPECT_EQ(layout.stations.size(), 59U);
   EXPECT_EQ(layout.segments.size(), 75U);
   EXPECT_EQ(curved(layout), 35U);
   EXPECT_TRUE(independent::all_reach_all(layout));
-  EXPECT_EQ(std::ranges::count_if(warnings, [](const std::string& w) { return w.find("is stored with a length") != std::string::npos; }), 75 - 9);
+  EXPECT_EQ(std::ranges::count_if(
+                warnings, [](const std::string& w) { return w.find("is stored with a length") != std::string::npos; }),
+            75 - 9);
   const Vec2 size = layout.floor_high_m - layout.floor_low_m;
   EXPECT_NEAR(size.x(), 55.0 + 6.0, 12.0);
   EXPECT_EQ(to_text(parse_layout(to_text(layout), "text")), to_text(layout));
@@ -177,14 +190,16 @@ TEST(RealLayouts, OpenTcsDemo) {
 
 TEST(RealLayouts, OpenTcsPersistenceSample) {
   const auto path = real_layout("opentcs_persistence_sample_v7.xml");
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is absent; set FLEETPROOF_LAYOUTS to the folder of real layouts";
+  if (!std::filesystem::exists(path))
+    GTEST_SKIP() << path << " is absent; set FLEETPROOF_LAYOUTS to the folder of real layouts";
   std::vector<std::string> warnings;
   const Layout layout = read_opentcs(path, warnings);
   EXPECT_EQ(layout.stations.size(), 15U);
   EXPECT_EQ(layout.segments.size(), 6U);
   EXPECT_EQ(curved(layout), 2U);
-  EXPECT_TRUE(
-      std::ranges::any_of(warnings, [](const std::string& w) { return w.find("locked path \"Point-0013 --- Point-0014\"") != std::string::npos; }));
+  EXPECT_TRUE(std::ranges::any_of(warnings, [](const std::string& w) {
+    return w.find("locked path \"Point-0013 --- Point-0014\"") != std::string::npos;
+  }));
 }
 
 }  // namespace

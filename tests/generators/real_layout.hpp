@@ -26,4 +26,5 @@ inline std::size_t directed(const Layout& layout) {
 }  // namespace fleetproof::independent
 
 #define FLEETPROOF_SKIP_IF_ABSENT(path) \
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is absent; set FLEETPROOF_LAYOUTS to the folder of real layouts"
+  if (!std::filesystem::exists(path))   \
+  GTEST_SKIP() << path << " is absent; set FLEETPROOF_LAYOUTS to the folder of real layouts"

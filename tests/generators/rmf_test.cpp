@@ -77,7 +77,8 @@ TEST(Rmf, ABuildingIsScaledAndTurnedUp) {
 
 TEST(Rmf, AnotherGraphOrLevelCanBeChosen) {
   EXPECT_EQ(import_graph(kBuilding, {"", 1}).layout.segments.size(), 1U);
-  EXPECT_EQ(import(replaced(kBuilding, "{graph_idx: [2, 1]}", "{}")).layout.segments.size(), 3U) << "a lane without graph_idx belongs to graph 0";
+  EXPECT_EQ(import(replaced(kBuilding, "{graph_idx: [2, 1]}", "{}")).layout.segments.size(), 3U)
+      << "a lane without graph_idx belongs to graph 0";
   EXPECT_EQ(independent::refusal(
                 [](const std::string& text) {
                   import_graph(text, {"", 7});
@@ -104,24 +105,31 @@ TEST(Rmf, ANavGraphIsInMetresAndItsLanesArePaired) {
 }
 
 TEST(Rmf, ScalesOfOtherKinds) {
-  EXPECT_EQ(import(replaced(kBuilding, "reference_image", "cartesian_meters")).layout.stations[1].position_m, Vec2(40.0, 10.0));
-  auto unmeasured = replaced(kBuilding, "      - [3, 4, {distance: [3, 5]}]\n      - [3, 4, {distance: [3, 15]}]\n", "      []\n");
+  EXPECT_EQ(import(replaced(kBuilding, "reference_image", "cartesian_meters")).layout.stations[1].position_m,
+            Vec2(40.0, 10.0));
+  auto unmeasured =
+      replaced(kBuilding, "      - [3, 4, {distance: [3, 5]}]\n      - [3, 4, {distance: [3, 15]}]\n", "      []\n");
   EXPECT_EQ(import(unmeasured).warnings[0], "b.yaml:5: there are no measurements; a pixel is taken as 1 m");
   EXPECT_EQ(independent::refusal(import, replaced(kBuilding, "reference_image", "wgs84")),
-            "b.yaml:2: coordinate_system is \"wgs84\", which needs a map projection; generate nav graphs and import one of them");
+            "b.yaml:2: coordinate_system is \"wgs84\", which needs a map projection; generate nav graphs and import "
+            "one of them");
 }
 
 TEST(RmfErrors, NamePlaceValueAndRemedy) {
-  const auto break_at = [](const std::string& from, const std::string& to) { return independent::refusal(import, replaced(kBuilding, from, to)); };
+  const auto break_at = [](const std::string& from, const std::string& to) {
+    return independent::refusal(import, replaced(kBuilding, from, to));
+  };
   EXPECT_EQ(break_at("[0, 1, {bi", "[0, 9, {bi"), "b.yaml:6: a lane names vertex \"9\"; there are 0 to 4");
   EXPECT_EQ(break_at("[0, 1, {bi", "[0, -1, {bi"), "b.yaml:6: a lane names vertex \"-1\"; there are 0 to 4");
   EXPECT_EQ(break_at("[0, 1, {bi", "[1, 1, {bi"), "b.yaml:6: a lane leads from vertex 1 to itself; leave it out");
   EXPECT_EQ(break_at("[40, 10,", "[forty, 10,"), "b.yaml:14: x of a vertex is \"forty\"; expected a finite number");
   EXPECT_EQ(break_at("[40, 10,", "[.nan, 10,"), "b.yaml:14: x of a vertex is \".nan\"; expected a finite number");
-  EXPECT_EQ(break_at("[40, 10,", "[0, 0,"), "b.yaml:6: lane: it has no length; move its stations apart or leave it out");
+  EXPECT_EQ(break_at("[40, 10,", "[0, 0,"),
+            "b.yaml:6: lane: it has no length; move its stations apart or leave it out");
   EXPECT_EQ(break_at("[3, 5]", "[3, 0]"), "b.yaml:10: 0 m for 100 pixels give no scale; correct the measurement");
   EXPECT_EQ(break_at("vertices:", "vertixes:"), "b.yaml:5: the level has no \"vertices\"; add them");
-  EXPECT_EQ(independent::refusal(import, "a: 1\n"), "b.yaml: has no \"levels\"; expected an Open-RMF building or nav graph");
+  EXPECT_EQ(independent::refusal(import, "a: 1\n"),
+            "b.yaml: has no \"levels\"; expected an Open-RMF building or nav graph");
   EXPECT_EQ(independent::refusal(import, ""), "b.yaml: has no \"levels\"; expected an Open-RMF building or nav graph");
   EXPECT_TRUE(independent::refusal(import, "a: [1, \n").starts_with("b.yaml:2:1: not YAML: "));
 }

@@ -29,47 +29,68 @@ struct Slip {
 };
 
 const Slip kSlips[] = {
-    {"\"version\": 1", "\"version\": 9", "s.json:2: /version: 9 is refused: this program reads scenario files of version 1"},
+    {"\"version\": 1", "\"version\": 9",
+     "s.json:2: /version: 9 is refused: this program reads scenario files of version 1"},
     {"  \"version\": 1,\n", "", "s.json:1: top level: \"version\" is missing; add it"},
-    {"\"law\": {", "\"law\": {\"exempt_pairs\": [[\"pallet-agv\"]], ", "s.json:7: /law/exempt_pairs/0: [\"pallet-agv\"] is refused: is no pair; give"},
-    {"\"law\": {", "\"law\": {\"exempt_pairs\": [[\"pallet-agv\", \"palet-agv\"]], ", "s.json:7: /law/exempt_pairs/0: [\"pallet-agv\", \"palet-agv\"] is refused: \"palet-agv\" is no vehicle type of this fleet, nor \"obstacle\"; did you mean \"pallet-agv\"?"},
-    {"\"law\": {", "\"law\": {\"exempt_pairs\": [[\"pallet-agv\", 4]], ", "s.json:7: /law/exempt_pairs/0/1: 4 is refused: expected"},
+    {"\"law\": {", "\"law\": {\"exempt_pairs\": [[\"pallet-agv\"]], ",
+     "s.json:7: /law/exempt_pairs/0: [\"pallet-agv\"] is refused: is no pair; give"},
+    {"\"law\": {", "\"law\": {\"exempt_pairs\": [[\"pallet-agv\", \"palet-agv\"]], ",
+     "s.json:7: /law/exempt_pairs/0: [\"pallet-agv\", \"palet-agv\"] is refused: \"palet-agv\" is no vehicle type of "
+     "this fleet, nor \"obstacle\"; did you mean \"pallet-agv\"?"},
+    {"\"law\": {", "\"law\": {\"exempt_pairs\": [[\"pallet-agv\", 4]], ",
+     "s.json:7: /law/exempt_pairs/0/1: 4 is refused: expected"},
     {"\"seed\": 4", "\"seed\": -4", "s.json:4: /seed: -4 is refused: expected a whole number"},
     {"\"seed\": 4", "\"seed\": \"0xg\"", "s.json:4: /seed: \"0xg\" is refused: a seed is a whole number or"},
     {"\"seed\"", "\"sede\"", "s.json:4: top level: unknown key \"sede\"; did you mean \"seed\"?"},
     {"\"horizon_s\": 12", "\"horizon_s\": 0", "s.json:5: /horizon_s: 0 is refused: 0 s is not above 0"},
     {"\"horizon_s\": 12", "\"horizon_s\": \"12\"", "s.json:5: /horizon_s: \"12\" is refused: expected a number"},
-    {"\"horizon_s\": 12", "\"horizon_s\": 1e300", "s.json:5: /horizon_s: 1e+300 is refused: a duration is shorter than 9e9 s"},
-    {"\"horizon_s\": 12", "\"horizon_s\": 12, \"horizon_ns\": 12", "s.json:5: /horizon_s: 12 is refused: the same duration is given as horizon_ns"},
+    {"\"horizon_s\": 12", "\"horizon_s\": 1e300",
+     "s.json:5: /horizon_s: 1e+300 is refused: a duration is shorter than 9e9 s"},
+    {"\"horizon_s\": 12", "\"horizon_s\": 12, \"horizon_ns\": 12",
+     "s.json:5: /horizon_s: 12 is refused: the same duration is given as horizon_ns"},
     {"\"horizon_s\": 12", "\"horizon_ns\": 1.5", "s.json:5: /horizon_ns: 1.5 is refused: expected a whole number"},
     {"\"loss\": 0.4", "\"loss\": 40", "s.json:6: /radio/loss: 40 is refused: 40 is outside 0 .. 1"},
-    {"\"constant\"", "\"konstant\"", "s.json:6: /radio/delay_model: \"konstant\" is refused: there is no such word here; did you mean \"constant\"?"},
-    {"\"loss\": 0.4", "\"loss\": 0.4, \"outage_shape\": 1", "s.json:6: /radio/outage_shape: 1 is refused: 1 is outside 1.05 .. 100"},
-    {"\"loss\": 0.4", "\"loss\": 0.4, \"mean_outage_s\": 1e-6", "s.json:6: /radio/mean_outage_s: 1e-06 is refused: 1e-06 is shorter than 0.001 s"},
-    {"\"loss\": 0.4", "\"loss\": 0.4, \"outage_scope\": \"plaice\"", "s.json:6: /radio/outage_scope: \"plaice\" is refused: there is no such word here; did you mean \"place\"?"},
-    {"\"loss\": 0.4", "\"loss\": 0.4, \"loss_good\": 0.95", "s.json:6: /radio/loss_good: 0.95 is refused: 0.95 is not below loss_bad = 0.95"},
-    {"\"loss\": 0.4", "\"loss\": 0.4, \"contention_window\": -1", "s.json:6: /radio/contention_window: -1 is refused: expected a whole number"},
-    {"\"loss\": 0.4", "\"loss\": 0.4, \"contention_window\": 2000", "s.json:6: /radio/contention_window: 2000 is refused: 2000 is outside 0 .. 1023"},
+    {"\"constant\"", "\"konstant\"",
+     "s.json:6: /radio/delay_model: \"konstant\" is refused: there is no such word here; did you mean \"constant\"?"},
+    {"\"loss\": 0.4", "\"loss\": 0.4, \"outage_shape\": 1",
+     "s.json:6: /radio/outage_shape: 1 is refused: 1 is outside 1.05 .. 100"},
+    {"\"loss\": 0.4", "\"loss\": 0.4, \"mean_outage_s\": 1e-6",
+     "s.json:6: /radio/mean_outage_s: 1e-06 is refused: 1e-06 is shorter than 0.001 s"},
+    {"\"loss\": 0.4", "\"loss\": 0.4, \"outage_scope\": \"plaice\"",
+     "s.json:6: /radio/outage_scope: \"plaice\" is refused: there is no such word here; did you mean \"place\"?"},
+    {"\"loss\": 0.4", "\"loss\": 0.4, \"loss_good\": 0.95",
+     "s.json:6: /radio/loss_good: 0.95 is refused: 0.95 is not below loss_bad = 0.95"},
+    {"\"loss\": 0.4", "\"loss\": 0.4, \"contention_window\": -1",
+     "s.json:6: /radio/contention_window: -1 is refused: expected a whole number"},
+    {"\"loss\": 0.4", "\"loss\": 0.4, \"contention_window\": 2000",
+     "s.json:6: /radio/contention_window: 2000 is refused: 2000 is outside 0 .. 1023"},
     {"\"loss\": 0.4", "\"loss\": 0.4, \"trace\": [[0, 1]]", "s.json:6: /radio/trace/0: "},
     {"\"loss\": 0.4", "\"loss\": 0.4, \"trace\": [[0, 1, 7], [0, 1, 5]]", "s.json:6: /radio/trace/1: "},
     {"\"loss\": 0.4", "\"loss\": 0.4, \"sources\": [{\"x_m\": 1}]", "s.json:6: /radio/sources/0: "},
-    {"\"loss\": 0.4", "\"loss\": 0.4, \"sources\": [{\"x_m\": 1, \"y_m\": 2, \"los\": 1}]", "s.json:6: /radio/sources/0: unknown key \"los\"; did you mean \"loss\"?"},
-    {"\"loss\": 0.4", "\"loss\": 0.4, \"sources\": [{\"x_m\": 1, \"y_m\": 2, \"loss\": 1.5}]", "s.json:6: /radio/sources/0/loss: 1.5 is refused: 1.5 is outside 0 .. 1"},
+    {"\"loss\": 0.4", "\"loss\": 0.4, \"sources\": [{\"x_m\": 1, \"y_m\": 2, \"los\": 1}]",
+     "s.json:6: /radio/sources/0: unknown key \"los\"; did you mean \"loss\"?"},
+    {"\"loss\": 0.4", "\"loss\": 0.4, \"sources\": [{\"x_m\": 1, \"y_m\": 2, \"loss\": 1.5}]",
+     "s.json:6: /radio/sources/0/loss: 1.5 is refused: 1.5 is outside 0 .. 1"},
     {"\"delay_s\"", "\"delay\"", "s.json:6: /radio: unknown key \"delay\"; did you mean \"delay_s\"?"},
     {"\"width_m\": 1", "\"width_m\": -1", "s.json:12: /vehicle_types/0/width_m: -1 is refused"},
     {"\"speed_mps\": 2", "\"speed_mps\": 0", "s.json:13: /vehicle_types/0/drive/speed_mps: 0 is refused"},
     {"{\"name\": \"B\", ", "{\"name\": \"A\", ", "s.json:18: /agvs/1/name: \"A\" is refused: the name \"A\" is taken"},
     {"{\"name\": \"B\", ", "{", "s.json:18: /agvs/1: \"name\" is missing; add it"},
-    {"\"start\": \"10\"", "\"start\": \"11\"", "s.json:17: /agvs/0/start: \"11\" is refused: there is no such station; did you mean \"1\"?"},
-    {"\"heading\": [1, 0]", "\"heading\": [0, 0]", "s.json:17: /agvs/0/heading: [0, 0] is refused: a heading is a direction"},
-    {"\"heading\": [1, 0]", "\"heading\": 90", "s.json:17: /agvs/0/heading: 90 is refused: expected two numbers [x, y]"},
-    {"\"action\": \"move\"", "\"action\": \"fly\"", "s.json:17: /agvs/0/script/0/action: \"fly\" is refused: there is no such word here"},
+    {"\"start\": \"10\"", "\"start\": \"11\"",
+     "s.json:17: /agvs/0/start: \"11\" is refused: there is no such station; did you mean \"1\"?"},
+    {"\"heading\": [1, 0]", "\"heading\": [0, 0]",
+     "s.json:17: /agvs/0/heading: [0, 0] is refused: a heading is a direction"},
+    {"\"heading\": [1, 0]", "\"heading\": 90",
+     "s.json:17: /agvs/0/heading: 90 is refused: expected two numbers [x, y]"},
+    {"\"action\": \"move\"", "\"action\": \"fly\"",
+     "s.json:17: /agvs/0/script/0/action: \"fly\" is refused: there is no such word here"},
     {"\"segment\": \"10-9\"", "\"segment\": \"9-10\"",
      "s.json:17: /agvs/0/script/0/segment: \"9-10\" is refused: there is no such segment; did you mean"},
     {"{\"at_s\": 2, ", "{", "s.json:17: /agvs/0/script/0: \"at_s\" is missing; add it"},
     {"\"at_s\": 2", "\"at_s\": -2", "s.json:17: /agvs/0/script/0/at_s: -2 is refused"},
     {"\"script\": [{", "\"script\": {", "s.json:17:"},
-    {"\"position_m\": [0, 4]", "\"position_m\": [0]", "s.json:33: /layout/stations/5/position_m: [0] is refused: expected two numbers [x, y]"},
+    {"\"position_m\": [0, 4]", "\"position_m\": [0]",
+     "s.json:33: /layout/stations/5/position_m: [0] is refused: expected two numbers [x, y]"},
     {"\"from\": \"10\", \"to\": \"9\"", "\"from\": \"10\"", "s.json:40: /layout/segments/0: \"to\" is missing; add it"},
 };
 
@@ -85,12 +106,14 @@ TEST_P(ScenarioSlip, IsExplained) {
   EXPECT_TRUE(message.starts_with(says)) << message << "\nexpected: " << says;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ScenarioSlip, testing::ValuesIn(kSlips), [](const auto& test) { return "slip" + std::to_string(test.index); });
+INSTANTIATE_TEST_SUITE_P(All, ScenarioSlip, testing::ValuesIn(kSlips),
+                         [](const auto& test) { return "slip" + std::to_string(test.index); });
 
 TEST(ScenarioErrors, EmptyFleetAndWrongTopLevel) {
   auto text = figure4();
   const auto begin = text.find("  \"agvs\": ["), end = text.find("  \"layout\"");
-  EXPECT_EQ(refusal(text.replace(begin, end - begin, "  \"agvs\": [],\n")), "s.json:16: /agvs: [] is refused: a scenario needs at least one AGV");
+  EXPECT_EQ(refusal(text.replace(begin, end - begin, "  \"agvs\": [],\n")),
+            "s.json:16: /agvs: [] is refused: a scenario needs at least one AGV");
   EXPECT_EQ(refusal("[]"), "s.json:1: top level: [] is refused: expected an object { ... }");
   EXPECT_THROW(read_scenario("/nowhere/s.json"), InputError);
 }

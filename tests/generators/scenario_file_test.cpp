@@ -32,15 +32,37 @@ Scenario unusual() {
   s.radio.places = {30.0, true, 2.5, 0.02, 0.05, 7.0};
   s.radio.contention = {true, 15};
   s.radio.sources = {{1.5, -2.5, 3.25, 0.125, 0.5, 0.75}, {.x_m = 1e-3, .y_m = 7.0}};
-  s.radio.trace = std::make_shared<const RadioTrace>(RadioTrace{{AgvId{0U}, AgvId{1U}, Duration{5}, Duration{17}}, {AgvId{0U}, AgvId{1U}, Duration{9}, std::nullopt}});
+  s.radio.trace = std::make_shared<const RadioTrace>(
+      RadioTrace{{AgvId{0U}, AgvId{1U}, Duration{5}, Duration{17}}, {AgvId{0U}, AgvId{1U}, Duration{9}, std::nullopt}});
   s.agent_clock.call_cost_s = 0.012;
-  s.law = {0.3, 0.01, 4.5, 12.25, Purposes(Purpose::Charging) | Purpose::Parking, 1.5, {{"tug", "pallet-agv"}, {"obstacle", "tug"}}};
-  s.vehicle_types[0] = {"tug", {2.1, 0.9}, {1.5, 0.4, 0.7}, {0.9, 0.8, 0.6}, {0.3, 0.2, 0.8, 0.7}, 0.4, 0.05, 2.5, 1e-4, 1e-5, 2e-4, 3.0, 4.0, 20.0, 6.0};
+  s.law = {0.3,
+           0.01,
+           4.5,
+           12.25,
+           Purposes(Purpose::Charging) | Purpose::Parking,
+           1.5,
+           {{"tug", "pallet-agv"}, {"obstacle", "tug"}}};
+  s.vehicle_types[0] = {"tug",
+                        {2.1, 0.9},
+                        {1.5, 0.4, 0.7},
+                        {0.9, 0.8, 0.6},
+                        {0.3, 0.2, 0.8, 0.7},
+                        0.4,
+                        0.05,
+                        2.5,
+                        1e-4,
+                        1e-5,
+                        2e-4,
+                        3.0,
+                        4.0,
+                        20.0,
+                        6.0};
   s.vehicle_types.push_back({});
   s.agvs[1].type = 1;
   s.agvs[1].battery = 0.625;
   s.agvs[2].heading = Vec2(0.6, 0.8);
-  s.agvs[2].script = {{Duration{5}, ScriptedCall::Action::Charge, SegmentId{3U}}, {Duration{6}, ScriptedCall::Action::Drop, SegmentId{2U}}};
+  s.agvs[2].script = {{Duration{5}, ScriptedCall::Action::Charge, SegmentId{3U}},
+                      {Duration{6}, ScriptedCall::Action::Drop, SegmentId{2U}}};
   s.agvs[1].sensing = {0.5, -40.0, 0.01, 0.3};
   s.obstacles = {{"rack", {0.5, 3.25}, {Vec2(-30.5, 40.25), Vec2::UnitY()}, Duration{9}, Duration{10}}};
   s.faults = {{Fault::Kind::Breakdown, AgvId{1U}, Duration{11}, std::nullopt, Duration{12}, {}, 0.0, 0.0},
@@ -67,12 +89,14 @@ TEST(ScenarioFile, EveryFieldComesBack) {
   EXPECT_EQ(back.radio.air_time_s, s.radio.air_time_s);
   const auto values = [](const RadioSetup& radio) {
     std::vector<double> list;
-    for_each_radio_field(radio, [&](const RadioField&, const auto& value) { list.push_back(static_cast<double>(value)); });
+    for_each_radio_field(radio,
+                         [&](const RadioField&, const auto& value) { list.push_back(static_cast<double>(value)); });
     return list;
   };
   EXPECT_EQ(values(back.radio), values(s.radio));
   const RadioSetup defaults;
-  for (std::size_t i = 0; i < values(defaults).size(); ++i) EXPECT_NE(values(s.radio)[i], values(defaults)[i]) << "field " << i << " is not tested";
+  for (std::size_t i = 0; i < values(defaults).size(); ++i)
+    EXPECT_NE(values(s.radio)[i], values(defaults)[i]) << "field " << i << " is not tested";
   EXPECT_EQ(back.radio.sources, s.radio.sources);
   ASSERT_NE(back.radio.trace, nullptr);
   EXPECT_EQ(*back.radio.trace, *s.radio.trace);
@@ -130,10 +154,11 @@ TEST(ScenarioFile, DigestsTellScenariosApart) {
   EXPECT_NE(scenario_digest(s), digest);
 }
 
-// The same program and seed mean the same world on every machine and in every later version; a change here breaks stored campaigns.
+// The same program and seed mean the same world on every machine and in every later version; a change here breaks
+// stored campaigns.
 TEST(ScenarioFile, DigestsOfGeneratedWorldsArePinned) {
-  const std::uint64_t expected[] = {7110067474231398876ULL,   3600500145625952047ULL, 17897749180225609599ULL,
-                                    2944933603003214465ULL, 1312504330912486961ULL,  1388009378856548458ULL};
+  const std::uint64_t expected[] = {7110067474231398876ULL, 3600500145625952047ULL, 17897749180225609599ULL,
+                                    2944933603003214465ULL, 1312504330912486961ULL, 1388009378856548458ULL};
   ASSERT_EQ(std::size(expected), layout_families().size());
   for (std::size_t i = 0; i < layout_families().size(); ++i) {
     WorldSpec spec;
@@ -193,7 +218,8 @@ TEST(ScenarioFile, ParkedThenLeavesStartsFiveCentimetresBesideTheTrack) {
   EXPECT_EQ(s.map->lane(s.agvs[0].script[0].segment, s.agvs[0].start)->curve.length_m(), 10.0);
   EXPECT_EQ(s.agvs[1].script[0].at, std::chrono::seconds(5));
   EXPECT_NEAR(s.map->lane(s.agvs[1].script[0].segment, s.agvs[1].start)->curve.length_m(), 25.0 / 6.0, 1e-12);
-  const auto y = independent::corners(s.map->station(s.agvs[1].start).position_m, s.agvs[1].heading, s.vehicle_types[0].footprint);
+  const auto y =
+      independent::corners(s.map->station(s.agvs[1].start).position_m, s.agvs[1].heading, s.vehicle_types[0].footprint);
   const auto x = independent::corners({3.0, 0.0}, s.agvs[0].heading, s.vehicle_types[0].footprint);
   EXPECT_NEAR(independent::gap_m(x, y), 0.05, 1e-12);
 }

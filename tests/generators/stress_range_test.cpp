@@ -1,14 +1,14 @@
-// The stress range of every family: what it gives up, what it keeps, and that it provokes what it is there for. Measured without the
-// generators' own judges.
+// The stress range of every family: what it gives up, what it keeps, and that it provokes what it is there for.
+// Measured without the generators' own judges.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/base/error.hpp"
-#include "generators/map/layout_check.hpp"
 #include "generators/families/layout_family.hpp"
 #include "generators/formats/layout_file.hpp"
+#include "generators/map/layout_check.hpp"
 #include "independent_check.hpp"
 
 namespace fleetproof {
@@ -19,15 +19,21 @@ Layout stressed(std::string_view family, std::uint64_t seed) {
   return draw_layout({&layout_family(family), Range::Stress}, draws);
 }
 
-bool waits(const Station& s) { return s.purposes.has(Purpose::Storage) || s.purposes.has(Purpose::Parking) || s.purposes.has(Purpose::Charging); }
+bool waits(const Station& s) {
+  return s.purposes.has(Purpose::Storage) || s.purposes.has(Purpose::Parking) || s.purposes.has(Purpose::Charging);
+}
 
 Vec2 at(const Layout& layout, StationId id) { return layout.stations[id.index()].position_m; }
 
-bool share_a_station(const Segment& s, const Segment& t) { return s.from == t.from || s.from == t.to || s.to == t.from || s.to == t.to; }
+bool share_a_station(const Segment& s, const Segment& t) {
+  return s.from == t.from || s.from == t.to || s.to == t.from || s.to == t.to;
+}
 
 // Of straight segments.
 bool cross(const Layout& layout, const Segment& s, const Segment& t) {
-  const auto side = [](const Vec2& a, const Vec2& b, const Vec2& p) { return (b.x() - a.x()) * (p.y() - a.y()) - (b.y() - a.y()) * (p.x() - a.x()); };
+  const auto side = [](const Vec2& a, const Vec2& b, const Vec2& p) {
+    return (b.x() - a.x()) * (p.y() - a.y()) - (b.y() - a.y()) * (p.x() - a.x());
+  };
   const Vec2 a = at(layout, s.from), b = at(layout, s.to), c = at(layout, t.from), d = at(layout, t.to);
   return !share_a_station(s, t) && side(a, b, c) * side(a, b, d) < -1e-9 && side(c, d, a) * side(c, d, b) < -1e-9;
 }
@@ -49,7 +55,9 @@ TEST_P(StressRange, IsSoundStronglyConnectedAndOfTolerableSize) {
     ASSERT_TRUE(independent::all_reach_all(layout)) << seed;
     EXPECT_EQ(layout.name, std::string(GetParam().name) + "/stress");
     EXPECT_LE(layout.segments.size(), 140U) << seed;
-    EXPECT_GE(std::ranges::count_if(layout.stations, [](const Station& s) { return s.purposes.has(Purpose::Storage); }), 2) << seed;
+    EXPECT_GE(std::ranges::count_if(layout.stations, [](const Station& s) { return s.purposes.has(Purpose::Storage); }),
+              2)
+        << seed;
     for (std::size_t i = 0; i < layout.stations.size(); ++i) {
       for (std::size_t k = 0; k < i; ++k) {
         ASSERT_GE((layout.stations[i].position_m - layout.stations[k].position_m).norm(), 0.9 - 1e-9)
@@ -65,7 +73,8 @@ TEST_P(StressRange, OneLayoutInTenHasNoPlaceToWaitOutOfTheWay) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     const Layout layout = stressed(GetParam().name, seed);
     bool open = false;
-    for (std::size_t i = 0; i < layout.stations.size() && !open; ++i) open = waits(layout.stations[i]) && independent::leaves_a_way(layout, i);
+    for (std::size_t i = 0; i < layout.stations.size() && !open; ++i)
+      open = waits(layout.stations[i]) && independent::leaves_a_way(layout, i);
     closed += open ? 0 : 1;
   }
   // Five standard deviations of a share of 10 %.
@@ -83,11 +92,12 @@ TEST_P(StressRange, IsAFunctionOfTheDrawsAndNotTheNormalRange) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, StressRange, testing::ValuesIn(layout_families().begin(), layout_families().end()), [](const auto& test) {
-  std::string name(test.param.name);
-  std::ranges::replace(name, '-', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(All, StressRange, testing::ValuesIn(layout_families().begin(), layout_families().end()),
+                         [](const auto& test) {
+                           std::string name(test.param.name);
+                           std::ranges::replace(name, '-', '_');
+                           return name;
+                         });
 
 template <class Check>
 void for_each_layout(std::string_view family, Check check) {
@@ -105,7 +115,8 @@ TEST(AisleGridUnderStress, AislesAreTwoWayDeadEndsOffOneCrossAisle) {
     }
     int dead_ends = 0;
     for (std::size_t i = 0; i < layout.stations.size(); ++i) {
-      const auto ends = std::ranges::count_if(layout.segments, [&](const Segment& s) { return s.from == StationId{i} || s.to == StationId{i}; });
+      const auto ends = std::ranges::count_if(
+          layout.segments, [&](const Segment& s) { return s.from == StationId{i} || s.to == StationId{i}; });
       if (layout.stations[i].name.starts_with("A") && ends == 1) ++dead_ends;
     }
     EXPECT_GE(dead_ends, 4);
@@ -121,7 +132,9 @@ TEST(AisleGridUnderStress, AislesAreTwoWayDeadEndsOffOneCrossAisle) {
 TEST(LoopSpursUnderStress, SomeSpursAreShorterThanAVehicleAndChordsCrossWithoutAStation) {
   const Footprint vehicle;
   for_each_layout("loop-spurs", [&](const Layout& layout) {
-    const auto is_short = [&](const Segment& s) { return s.bidirectional && independent::length_m(layout, s) < vehicle.length_m; };
+    const auto is_short = [&](const Segment& s) {
+      return s.bidirectional && independent::length_m(layout, s) < vehicle.length_m;
+    };
     EXPECT_GE(std::ranges::count_if(layout.segments, is_short), 1);
     EXPECT_GE(crossings(layout), 1);
   });
@@ -130,7 +143,8 @@ TEST(LoopSpursUnderStress, SomeSpursAreShorterThanAVehicleAndChordsCrossWithoutA
 TEST(CorridorSidingsUnderStress, HasOneSidingOrNone) {
   int none = 0, one = 0;
   for_each_layout("corridor-sidings", [&](const Layout& layout) {
-    const auto bends = std::ranges::count_if(layout.segments, [](const Segment& s) { return !s.control_points_m.empty(); });
+    const auto bends =
+        std::ranges::count_if(layout.segments, [](const Segment& s) { return !s.control_points_m.empty(); });
     EXPECT_TRUE(bends == 0 || bends == 2) << bends;
     ++(bends == 0 ? none : one);
     double length_m = 0.0;
@@ -200,8 +214,10 @@ TEST(LayoutRanges, WrongWordsAreInputErrorsWithAHint) {
   };
   EXPECT_EQ(error_of("aisle-grid"), "accepted");
   EXPECT_EQ(error_of("aisle-grid/stress"), "accepted");
-  EXPECT_NE(error_of("aisle-gird/stress").find("did you mean \"aisle-grid\""), std::string::npos) << error_of("aisle-gird/stress");
-  EXPECT_NE(error_of("aisle-grid/stres").find("did you mean \"stress\""), std::string::npos) << error_of("aisle-grid/stres");
+  EXPECT_NE(error_of("aisle-gird/stress").find("did you mean \"aisle-grid\""), std::string::npos)
+      << error_of("aisle-gird/stress");
+  EXPECT_NE(error_of("aisle-grid/stres").find("did you mean \"stress\""), std::string::npos)
+      << error_of("aisle-grid/stres");
   EXPECT_NE(error_of("aisle-grid/").find("has no range"), std::string::npos);
 }
 

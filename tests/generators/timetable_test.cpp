@@ -1,5 +1,6 @@
-// Quickest ways from every station to every other one, against Bellman and Ford and a drive along the lanes: one-way rings with dead ends and ways
-// into them, where most ways are copied from another station's, and whatever random lanes make.
+// Quickest ways from every station to every other one, against Bellman and Ford and a drive along the lanes: one-way
+// rings with dead ends and ways into them, where most ways are copied from another station's, and whatever random lanes
+// make.
 #include "generators/map/timetable.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +15,9 @@
 namespace fleetproof {
 namespace {
 
-std::int64_t drive_ns(const Lane& lane, const VehicleType& type) { return MotionProfile(lane.curve.length_m(), type.drive).duration().count(); }
+std::int64_t drive_ns(const Lane& lane, const VehicleType& type) {
+  return MotionProfile(lane.curve.length_m(), type.drive).duration().count();
+}
 
 std::vector<std::int64_t> quickest_ns(const LogicalMap& map, const VehicleType& type, StationId from) {
   constexpr std::int64_t kFar = std::int64_t{1} << 60;
@@ -30,8 +33,8 @@ std::vector<std::int64_t> quickest_ns(const LogicalMap& map, const VehicleType& 
   return best;
 }
 
-// A ring of three to twelve stations, dead ends and one-way ways into it hung on anywhere, now and then a chord. No two lanes lead
-// from one station to the same other one.
+// A ring of three to twelve stations, dead ends and one-way ways into it hung on anywhere, now and then a chord. No two
+// lanes lead from one station to the same other one.
 Layout ring(Draws& draws) {
   Layout layout;
   const auto station = [&] {
@@ -53,7 +56,8 @@ Layout ring(Draws& draws) {
       lane(root, end, true);
     }
   }
-  const std::uint32_t from = draws.below(n), steps = 2 + draws.below(n - 2);  // n - 1 leads back, beside the lane of the ring
+  const std::uint32_t from = draws.below(n),
+                      steps = 2 + draws.below(n - 2);  // n - 1 leads back, beside the lane of the ring
   if (draws.below(3) == 0 && steps < n - 1) lane(StationId{from}, StationId{(from + steps) % n}, false);
   return layout;
 }
@@ -73,7 +77,8 @@ void expect_quickest(const LogicalMap& map, const VehicleType& type, const Quick
       ASSERT_EQ(lane.from, here);
       if (i > 0) {
         const Curve& in = map.lanes()[lanes[i - 1]].curve;
-        const double angle = std::abs(angle_between(in.pose_at(in.length_m()).heading, lane.curve.pose_at(0.0).heading));
+        const double angle =
+            std::abs(angle_between(in.pose_at(in.length_m()).heading, lane.curve.pose_at(0.0).heading));
         if (angle > 1e-7) now += MotionProfile(angle, type.turn).duration();
       }
       begun = now;
@@ -96,7 +101,8 @@ TEST(Timetable, KnowsTheQuickestWaysInWhateverOrderItIsAsked) {
     Draws draws(seed);
     const LogicalMap map(ring(draws));
     Timetable timetable(map, type);
-    for (const auto s : draw_some(draws, map.station_count(), map.station_count())) expect_quickest(map, type, timetable.from(StationId{s}), seed);
+    for (const auto s : draw_some(draws, map.station_count(), map.station_count()))
+      expect_quickest(map, type, timetable.from(StationId{s}), seed);
     if (HasFailure()) return;
   }
 }

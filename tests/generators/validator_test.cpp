@@ -47,17 +47,23 @@ const double kNan = std::numeric_limits<double>::quiet_NaN();
 
 const Plant kPlants[] = {
     {"loss", ProblemKind::NumberOutOfRange, "/radio/loss", [](Scenario& s) { s.radio.loss = 1.01; }},
-    {"mean_outage", ProblemKind::NumberOutOfRange, "/radio/mean_outage_s", [](Scenario& s) { s.radio.outages.mean_outage_s = -1.0; }},
-    {"mean_outage_nan", ProblemKind::NumberOutOfRange, "/radio/mean_outage_s", [](Scenario& s) { s.radio.outages.mean_outage_s = kNan; }},
-    {"delay_median", ProblemKind::NumberOutOfRange, "/radio/delay_median_share", [](Scenario& s) { s.radio.delay_tail.median_share = 0.1; }},
-    {"delay_cap", ProblemKind::NumberOutOfRange, "/radio/delay_cap_share", [](Scenario& s) { s.radio.delay_tail.cap_share = 0.1; }},
+    {"mean_outage", ProblemKind::NumberOutOfRange, "/radio/mean_outage_s",
+     [](Scenario& s) { s.radio.outages.mean_outage_s = -1.0; }},
+    {"mean_outage_nan", ProblemKind::NumberOutOfRange, "/radio/mean_outage_s",
+     [](Scenario& s) { s.radio.outages.mean_outage_s = kNan; }},
+    {"delay_median", ProblemKind::NumberOutOfRange, "/radio/delay_median_share",
+     [](Scenario& s) { s.radio.delay_tail.median_share = 0.1; }},
+    {"delay_cap", ProblemKind::NumberOutOfRange, "/radio/delay_cap_share",
+     [](Scenario& s) { s.radio.delay_tail.cap_share = 0.1; }},
     {"asymmetric_places", ProblemKind::NumberOutOfRange, "/radio/asymmetry",
      [](Scenario& s) {
        s.radio.outages = {.mean_outage_s = 1.0, .scope = OutageSetup::Scope::Place};
        s.radio.asymmetry = 0.1;
      }},
-    {"border", ProblemKind::NumberOutOfRange, "/radio/roaming_border_m", [](Scenario& s) { s.radio.places.roaming_border_m = 14.1; }},
-    {"roaming", ProblemKind::NumberOutOfRange, "/radio/roaming_max_s", [](Scenario& s) { s.radio.places.roaming_max_s = 1.0; }},
+    {"border", ProblemKind::NumberOutOfRange, "/radio/roaming_border_m",
+     [](Scenario& s) { s.radio.places.roaming_border_m = 14.1; }},
+    {"roaming", ProblemKind::NumberOutOfRange, "/radio/roaming_max_s",
+     [](Scenario& s) { s.radio.places.roaming_max_s = 1.0; }},
     {"slot", ProblemKind::NumberOutOfRange, "/radio/air_time_s",
      [](Scenario& s) {
        s.radio.contention.interference = true;
@@ -68,19 +74,30 @@ const Plant kPlants[] = {
        s.radio.contention.interference = true;
        s.radio.air_time_per_byte_s = 0.001;
      }},
-    {"air_time_per_byte", ProblemKind::NumberOutOfRange, "/radio/air_time_per_byte_s", [](Scenario& s) { s.radio.air_time_per_byte_s = -1e-9; }},
-    {"source_off", ProblemKind::NumberOutOfRange, "/radio/sources/1/mean_off_s", [](Scenario& s) { s.radio.sources = {{}, {.mean_off_s = -0.1}}; }},
-    {"source_on", ProblemKind::NumberOutOfRange, "/radio/sources/0/mean_on_s", [](Scenario& s) { s.radio.sources = {{.mean_on_s = 0.0}}; }},
-    {"source_range", ProblemKind::NumberOutOfRange, "/radio/sources/0/range_m", [](Scenario& s) { s.radio.sources = {{.range_m = 0.0}}; }},
-    {"source_place", ProblemKind::NumberOutOfRange, "/radio/sources/0/x_m", [](Scenario& s) { s.radio.sources = {{.x_m = kNan}}; }},
+    {"air_time_per_byte", ProblemKind::NumberOutOfRange, "/radio/air_time_per_byte_s",
+     [](Scenario& s) { s.radio.air_time_per_byte_s = -1e-9; }},
+    {"source_off", ProblemKind::NumberOutOfRange, "/radio/sources/1/mean_off_s",
+     [](Scenario& s) {
+       s.radio.sources = {{}, {.mean_off_s = -0.1}};
+     }},
+    {"source_on", ProblemKind::NumberOutOfRange, "/radio/sources/0/mean_on_s",
+     [](Scenario& s) { s.radio.sources = {{.mean_on_s = 0.0}}; }},
+    {"source_range", ProblemKind::NumberOutOfRange, "/radio/sources/0/range_m",
+     [](Scenario& s) { s.radio.sources = {{.range_m = 0.0}}; }},
+    {"source_place", ProblemKind::NumberOutOfRange, "/radio/sources/0/x_m",
+     [](Scenario& s) { s.radio.sources = {{.x_m = kNan}}; }},
     {"recorded_to_itself", ProblemKind::NumberOutOfRange, "/radio/trace/0",
-     [](Scenario& s) { s.radio.trace = std::make_shared<const RadioTrace>(RadioTrace{{AgvId{1U}, AgvId{1U}, Duration{0}, Duration{1}}}); }},
+     [](Scenario& s) {
+       s.radio.trace = std::make_shared<const RadioTrace>(RadioTrace{{AgvId{1U}, AgvId{1U}, Duration{0}, Duration{1}}});
+     }},
     {"loss_nan", ProblemKind::NumberOutOfRange, "/radio/loss", [](Scenario& s) { s.radio.loss = kNan; }},
     {"delay", ProblemKind::NumberOutOfRange, "/radio/delay_s", [](Scenario& s) { s.radio.delay_s = -1; }},
     {"range", ProblemKind::NumberOutOfRange, "/radio/range_m", [](Scenario& s) { s.radio.range_m = 0; }},
     {"air_time", ProblemKind::NumberOutOfRange, "/radio/air_time_s", [](Scenario& s) { s.radio.air_time_s = -1; }},
-    {"call_cost", ProblemKind::NumberOutOfRange, "/agent_clock/call_cost_s", [](Scenario& s) { s.agent_clock.call_cost_s = -1; }},
-    {"safety", ProblemKind::NumberOutOfRange, "/law/safety_distance_m", [](Scenario& s) { s.law.safety_distance_m = -0.1; }},
+    {"call_cost", ProblemKind::NumberOutOfRange, "/agent_clock/call_cost_s",
+     [](Scenario& s) { s.agent_clock.call_cost_s = -1; }},
+    {"safety", ProblemKind::NumberOutOfRange, "/law/safety_distance_m",
+     [](Scenario& s) { s.law.safety_distance_m = -0.1; }},
     {"snapshot", ProblemKind::NumberOutOfRange, "/law/snapshot_s", [](Scenario& s) { s.law.snapshot_s = 0; }},
     {"horizon", ProblemKind::NumberOutOfRange, "/horizon_ns", [](Scenario& s) { s.horizon = Duration::zero(); }},
     {"stuck", ProblemKind::NumberOutOfRange, "/stuck_after_ns", [](Scenario& s) { s.stuck_after = Duration{-1}; }},
@@ -90,7 +107,9 @@ const Plant kPlants[] = {
     {"latin1_name", ProblemKind::BadName, "/agvs/0/name", [](Scenario& s) { s.agvs[0].name = "caf\xe9"; }},
     {"type", ProblemKind::UnknownReference, "/agvs/0/type", [](Scenario& s) { s.agvs[0].type = 1; }},
     {"exempt_pair", ProblemKind::UnknownReference, "/law/exempt_pairs/1",
-     [](Scenario& s) { s.law.exempt_pairs = {{"obstacle", s.vehicle_types[0].name}, {s.vehicle_types[0].name, "nobody"}}; }},
+     [](Scenario& s) {
+       s.law.exempt_pairs = {{"obstacle", s.vehicle_types[0].name}, {s.vehicle_types[0].name, "nobody"}};
+     }},
     {"no_type", ProblemKind::UnknownReference, "/vehicle_types", [](Scenario& s) { s.vehicle_types.clear(); }},
     {"start", ProblemKind::UnknownReference, "/agvs/2/start", [](Scenario& s) { s.agvs[2].start = StationId{9999U}; }},
     {"heading", ProblemKind::NumberOutOfRange, "/agvs/0/heading",
@@ -98,12 +117,16 @@ const Plant kPlants[] = {
        s.agvs[0].heading = {2, 0};
      }},
     {"battery", ProblemKind::NumberOutOfRange, "/agvs/0/battery", [](Scenario& s) { s.agvs[0].battery = 1.5; }},
-    {"length", ProblemKind::NumberOutOfRange, "/vehicle_types/0/length_m", [](Scenario& s) { s.vehicle_types[0].footprint.length_m = 0; }},
-    {"speed", ProblemKind::NumberOutOfRange, "/vehicle_types/0/drive/speed_mps", [](Scenario& s) { s.vehicle_types[0].drive.speed_mps = kNan; }},
+    {"length", ProblemKind::NumberOutOfRange, "/vehicle_types/0/length_m",
+     [](Scenario& s) { s.vehicle_types[0].footprint.length_m = 0; }},
+    {"speed", ProblemKind::NumberOutOfRange, "/vehicle_types/0/drive/speed_mps",
+     [](Scenario& s) { s.vehicle_types[0].drive.speed_mps = kNan; }},
     {"turn", ProblemKind::NumberOutOfRange, "/vehicle_types/0/turn/acceleration_radps2",
      [](Scenario& s) { s.vehicle_types[0].turn.acceleration_mps2 = 0; }},
-    {"pick", ProblemKind::NumberOutOfRange, "/vehicle_types/0/pick_s", [](Scenario& s) { s.vehicle_types[0].pick_s = -5; }},
-    {"to", ProblemKind::UnknownReference, "/agvs/0/transports/0/to", [](Scenario& s) { s.agvs[0].transports[0].to = StationId{}; }},
+    {"pick", ProblemKind::NumberOutOfRange, "/vehicle_types/0/pick_s",
+     [](Scenario& s) { s.vehicle_types[0].pick_s = -5; }},
+    {"to", ProblemKind::UnknownReference, "/agvs/0/transports/0/to",
+     [](Scenario& s) { s.agvs[0].transports[0].to = StationId{}; }},
     {"to_itself", ProblemKind::UnknownReference, "/agvs/0/transports/0/to",
      [](Scenario& s) { s.agvs[0].transports[0].to = s.agvs[0].transports[0].from; }},
     {"release", ProblemKind::NumberOutOfRange, "/agvs/0/transports/0/release_ns",
@@ -114,7 +137,8 @@ const Plant kPlants[] = {
      }},
     {"script_order", ProblemKind::NumberOutOfRange, "/agvs/0/script/1/at_ns",
      [](Scenario& s) {
-       s.agvs[0].script = {{Duration{5}, ScriptedCall::Action::Move, SegmentId{0U}}, {Duration{4}, ScriptedCall::Action::Move, SegmentId{0U}}};
+       s.agvs[0].script = {{Duration{5}, ScriptedCall::Action::Move, SegmentId{0U}},
+                           {Duration{4}, ScriptedCall::Action::Move, SegmentId{0U}}};
      }},
     {"obstacle", ProblemKind::NumberOutOfRange, "/obstacles/0/width_m",
      [](Scenario& s) {
@@ -123,19 +147,26 @@ const Plant kPlants[] = {
     {"starts", ProblemKind::StartsTooClose, "/agvs/1/start", [](Scenario& s) { s.agvs[1].start = s.agvs[0].start; }},
     {"on_obstacle", ProblemKind::StartNearObstacle, "/agvs/3/start",
      [](Scenario& s) {
-       s.obstacles = {{"rack", {1.0, 1.0}, {s.map->station(s.agvs[3].start).position_m + 1.35 * s.agvs[3].heading, Vec2::UnitX()}}};
+       s.obstacles = {{"rack",
+                       {1.0, 1.0},
+                       {s.map->station(s.agvs[3].start).position_m + 1.35 * s.agvs[3].heading, Vec2::UnitX()}}};
      }},
-    {"width", ProblemKind::NumberOutOfRange, "/vehicle_types/0/width_m", [](Scenario& s) { s.vehicle_types[0].footprint.width_m = 101; }},
+    {"width", ProblemKind::NumberOutOfRange, "/vehicle_types/0/width_m",
+     [](Scenario& s) { s.vehicle_types[0].footprint.width_m = 101; }},
     {"acceleration", ProblemKind::NumberOutOfRange, "/vehicle_types/0/drive/acceleration_mps2",
      [](Scenario& s) { s.vehicle_types[0].drive.acceleration_mps2 = 0; }},
     {"deceleration", ProblemKind::NumberOutOfRange, "/vehicle_types/0/drive/deceleration_mps2",
      [](Scenario& s) { s.vehicle_types[0].drive.deceleration_mps2 = 2e6; }},
-    {"turn_speed", ProblemKind::NumberOutOfRange, "/vehicle_types/0/turn/speed_radps", [](Scenario& s) { s.vehicle_types[0].turn.speed_mps = -1; }},
+    {"turn_speed", ProblemKind::NumberOutOfRange, "/vehicle_types/0/turn/speed_radps",
+     [](Scenario& s) { s.vehicle_types[0].turn.speed_mps = -1; }},
     {"turn_deceleration", ProblemKind::NumberOutOfRange, "/vehicle_types/0/turn/deceleration_radps2",
      [](Scenario& s) { s.vehicle_types[0].turn.deceleration_mps2 = kNan; }},
-    {"battery_per_m", ProblemKind::NumberOutOfRange, "/vehicle_types/0/battery_per_m", [](Scenario& s) { s.vehicle_types[0].battery_per_m = -0.1; }},
-    {"charge", ProblemKind::NumberOutOfRange, "/vehicle_types/0/charge_per_s", [](Scenario& s) { s.vehicle_types[0].charge_per_s = 1.1; }},
-    {"drop", ProblemKind::NumberOutOfRange, "/vehicle_types/0/drop_s", [](Scenario& s) { s.vehicle_types[0].drop_s = 2e9; }},
+    {"battery_per_m", ProblemKind::NumberOutOfRange, "/vehicle_types/0/battery_per_m",
+     [](Scenario& s) { s.vehicle_types[0].battery_per_m = -0.1; }},
+    {"charge", ProblemKind::NumberOutOfRange, "/vehicle_types/0/charge_per_s",
+     [](Scenario& s) { s.vehicle_types[0].charge_per_s = 1.1; }},
+    {"drop", ProblemKind::NumberOutOfRange, "/vehicle_types/0/drop_s",
+     [](Scenario& s) { s.vehicle_types[0].drop_s = 2e9; }},
     {"release_late", ProblemKind::NumberOutOfRange, "/agvs/0/transports/0/release_ns",
      [](Scenario& s) { s.agvs[0].transports[0].release = std::chrono::seconds(1'000'000'001); }},
     {"obstacle_length", ProblemKind::NumberOutOfRange, "/obstacles/0/length_m",
@@ -152,13 +183,15 @@ const Plant kPlants[] = {
      }},
     {"scenario_name", ProblemKind::BadName, "/name", [](Scenario& s) { s.name = "line\nbreak"; }},
     {"type_name", ProblemKind::BadName, "/vehicle_types/0/name", [](Scenario& s) { s.vehicle_types[0].name = ""; }},
-    {"same_type_name", ProblemKind::BadName, "/vehicle_types/1/name", [](Scenario& s) { s.vehicle_types.push_back(s.vehicle_types[0]); }},
+    {"same_type_name", ProblemKind::BadName, "/vehicle_types/1/name",
+     [](Scenario& s) { s.vehicle_types.push_back(s.vehicle_types[0]); }},
     {"obstacle_name", ProblemKind::BadName, "/obstacles/0/name",
      [](Scenario& s) {
        s.obstacles = {{"", {1.0, 1.0}, {{90.0, 90.0}, Vec2::UnitX()}}};
      }},
     {"long_name", ProblemKind::BadName, "/agvs/0/name", [](Scenario& s) { s.agvs[0].name = std::string(201, 'a'); }},
-    {"from", ProblemKind::UnknownReference, "/agvs/0/transports/0/from", [](Scenario& s) { s.agvs[0].transports[0].from = StationId{}; }},
+    {"from", ProblemKind::UnknownReference, "/agvs/0/transports/0/from",
+     [](Scenario& s) { s.agvs[0].transports[0].from = StationId{}; }},
     {"start_without_lane", ProblemKind::StartWithoutLane, "/agvs/0/start",
      [](Scenario& s) {
        s.agvs.resize(1);
@@ -194,7 +227,8 @@ TEST_P(PlantedScenario, IsRefusedForWhatWasPlanted) {
   EXPECT_EQ(unusable_problems(s).empty(), !is_unusable(GetParam().kind));
 }
 
-INSTANTIATE_TEST_SUITE_P(All, PlantedScenario, testing::ValuesIn(kPlants), [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(All, PlantedScenario, testing::ValuesIn(kPlants),
+                         [](const auto& test) { return test.param.name; });
 
 TEST(Validator, AStationWithoutWayBackIsFoundAsUnreachable) {
   Scenario s = sound();
@@ -243,25 +277,36 @@ TEST(LayoutCheck, FindsWhatCannotBeDriven) {
   EXPECT_EQ(kind_after([](Layout&) {}), "sound");
   EXPECT_EQ(kind_after([](Layout& l) { l.stations.clear(); }), "bad-geometry/stations");
   EXPECT_EQ(kind_after([](Layout& l) { l.stations[3].name = l.stations[2].name; }), "bad-name/stations/3/name");
-  EXPECT_EQ(kind_after([](Layout& l) { l.stations[3].position_m.x() = kNan; }), "number-out-of-range/stations/3/position_m");
+  EXPECT_EQ(kind_after([](Layout& l) { l.stations[3].position_m.x() = kNan; }),
+            "number-out-of-range/stations/3/position_m");
   EXPECT_EQ(kind_after([](Layout& l) { l.segments[0].to = l.segments[0].from; }), "bad-geometry/segments/0");
   EXPECT_EQ(kind_after([](Layout& l) { l.segments[0].to = StationId{}; }), "unknown-reference/segments/0/to");
-  EXPECT_EQ(kind_after([](Layout& l) { l.segments[0].control_points_m = {{0, 0}}; }), "bad-geometry/segments/0/control_points_m");
-  EXPECT_EQ(kind_after([](Layout& l) { l.segments[0].control_points_m = {{kNan, 0}, {1, 1}}; }), "number-out-of-range/segments/0/control_points_m");
-  EXPECT_EQ(kind_after([](Layout& l) { std::swap(l.floor_low_m, l.floor_high_m); }), "number-out-of-range/floor_high_m");
+  EXPECT_EQ(kind_after([](Layout& l) {
+              l.segments[0].control_points_m = {{0, 0}};
+            }),
+            "bad-geometry/segments/0/control_points_m");
+  EXPECT_EQ(kind_after([](Layout& l) {
+              l.segments[0].control_points_m = {{kNan, 0}, {1, 1}};
+            }),
+            "number-out-of-range/segments/0/control_points_m");
+  EXPECT_EQ(kind_after([](Layout& l) { std::swap(l.floor_low_m, l.floor_high_m); }),
+            "number-out-of-range/floor_high_m");
   EXPECT_EQ(kind_after([](Layout& l) {  // the tangents cross: a cusp half-way
-              const Vec2 a = l.stations[l.segments[0].from.index()].position_m, b = l.stations[l.segments[0].to.index()].position_m;
+              const Vec2 a = l.stations[l.segments[0].from.index()].position_m,
+                         b = l.stations[l.segments[0].to.index()].position_m;
               l.segments[0].control_points_m = {b + left_of(b - a), a + left_of(b - a)};
             }),
             "bad-geometry/segments/0");
   EXPECT_EQ(kind_after([](Layout& l) {  // two pieces that meet at a right angle
               const Vec2 a = l.stations[l.segments[0].from.index()].position_m;
-              l.segments[0].control_points_m = {a + Vec2(1, 0), a + Vec2(2, 0), a + Vec2(3, 0), a + Vec2(3, 1), a + Vec2(3, 2)};
+              l.segments[0].control_points_m = {a + Vec2(1, 0), a + Vec2(2, 0), a + Vec2(3, 0), a + Vec2(3, 1),
+                                                a + Vec2(3, 2)};
             }),
             "bad-geometry/segments/0");
 }
 
-// The list is complete as far as kinds go: of those that a layout in use cannot have (BadGeometry), LayoutCheck has its own.
+// The list is complete as far as kinds go: of those that a layout in use cannot have (BadGeometry), LayoutCheck has its
+// own.
 TEST(PlantedScenarios, CoverEveryKindOfProblem) {
   std::set<ProblemKind> planted{ProblemKind::BadGeometry};
   for (const auto& plant : kPlants) planted.insert(plant.kind);

@@ -24,7 +24,8 @@ Scenario world(const WorldSpec& spec, std::uint64_t seed) {
 std::string told(const Scenario& s, const AgvSetup& agv) {
   std::string text = agv.name + " at " + s.map->station(agv.start).name;
   for (const auto& t : agv.transports)
-    text += " " + s.map->station(t.from).name + ">" + s.map->station(t.to).name + "@" + std::to_string(t.release.count());
+    text +=
+        " " + s.map->station(t.from).name + ">" + s.map->station(t.to).name + "@" + std::to_string(t.release.count());
   return text;
 }
 
@@ -53,7 +54,8 @@ void expect_sound(const WorldSpec& spec, const Scenario& s) {
   const auto reach = independent::reach(layout);
   std::vector<independent::Corners> bodies;
   for (const auto& agv : s.agvs) {
-    bodies.push_back(independent::corners(layout.stations[agv.start.index()].position_m, agv.heading, s.vehicle_types[0].footprint));
+    bodies.push_back(
+        independent::corners(layout.stations[agv.start.index()].position_m, agv.heading, s.vehicle_types[0].footprint));
     Duration last{};
     ASSERT_FALSE(agv.transports.empty());
     EXPECT_LT(agv.transports[0].release, std::chrono::seconds(10));
@@ -61,7 +63,8 @@ void expect_sound(const WorldSpec& spec, const Scenario& s) {
       EXPECT_NE(t.from, t.to);
       EXPECT_TRUE(layout.stations[t.from.index()].purposes.has(Purpose::Storage));
       EXPECT_TRUE(layout.stations[t.to.index()].purposes.has(Purpose::Storage));
-      EXPECT_TRUE(reach[agv.start.index()][t.from.index()] && reach[t.from.index()][t.to.index()] && reach[t.to.index()][t.from.index()]);
+      EXPECT_TRUE(reach[agv.start.index()][t.from.index()] && reach[t.from.index()][t.to.index()] &&
+                  reach[t.to.index()][t.from.index()]);
       EXPECT_GE(t.release, last);
       EXPECT_LT(t.release, s.horizon);
       last = t.release;
@@ -75,10 +78,11 @@ void expect_sound(const WorldSpec& spec, const Scenario& s) {
 void print_rejections(const std::string& name, const RejectionCounts& counts) {
   std::string reasons;
   for (std::size_t i = 0; i < kProblemKinds; ++i) {
-    if (counts.reasons[i] > 0) reasons += std::string(", ") + name_of(static_cast<ProblemKind>(i)) + " " + std::to_string(counts.reasons[i]);
+    if (counts.reasons[i] > 0)
+      reasons += std::string(", ") + name_of(static_cast<ProblemKind>(i)) + " " + std::to_string(counts.reasons[i]);
   }
-  std::cout << name << ": " << counts.worlds << " worlds, " << counts.worlds_rejected << " more drawn and refused, " << counts.starts_tried
-            << " starts tried" << reasons << "\n";
+  std::cout << name << ": " << counts.worlds << " worlds, " << counts.worlds_rejected << " more drawn and refused, "
+            << counts.starts_tried << " starts tried" << reasons << "\n";
 }
 
 class GenerateWorld : public testing::TestWithParam<std::string> {};
@@ -105,7 +109,8 @@ TEST_P(GenerateWorld, AgvsHeadAlongALaneThatLeavesTheirStation) {
     const Scenario s = world(spec, seed);
     for (const auto& agv : s.agvs) {
       bool along = false;
-      for (const auto lane : s.map->lanes_from(agv.start)) along |= (s.map->lanes()[lane].curve.pose_at(0.0).heading - agv.heading).norm() < 1e-12;
+      for (const auto lane : s.map->lanes_from(agv.start))
+        along |= (s.map->lanes()[lane].curve.pose_at(0.0).heading - agv.heading).norm() < 1e-12;
       EXPECT_TRUE(along) << seed << " " << agv.name;
       if (stress) continue;  // a stress layout may have fewer places to wait
       EXPECT_NE(s.map->station(agv.start).purposes, Purposes(Purpose::Routing)) << "five AGVs find a place to wait";

@@ -1,4 +1,5 @@
-// Two pieces that end at the same instant: whichever is announced first, the exact law files the same to the last nanosecond.
+// Two pieces that end at the same instant: whichever is announced first, the exact law files the same to the last
+// nanosecond.
 #include <gtest/gtest.h>
 
 #include "laws/exact_law.hpp"

@@ -21,7 +21,8 @@ TEST(BatteryLaw, AccusesAnAgvThatRunsEmptyOnTheTrack) {
   const Scenario scenario = with_charger();
   const auto found = Told(scenario, "battery").record(7.0, 0, TraceKind::BatteryEmpty).finish(60.0).incidents;
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0], (Incident{IncidentKind::BatteryEmpty, EntityId{0U}, {}, at_seconds(7.0), at_seconds(60.0), 12'000'000}));
+  EXPECT_EQ(found[0],
+            (Incident{IncidentKind::BatteryEmpty, EntityId{0U}, {}, at_seconds(7.0), at_seconds(60.0), 12'000'000}));
 }
 
 TEST(BatteryLaw, TheIncidentEndsWhenItIsCharged) {

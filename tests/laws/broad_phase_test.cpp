@@ -62,7 +62,9 @@ TEST(BroadPhase, InACrowdPairsViolateAsTheyDoAlone) {
   Floor floor;
   const auto live = [&](Timeline& body) {
     while (body.now() < at_seconds(20.0))
-      body.wait_until(to_seconds(body.now()) + floor.within(0.0, 2.0)).turn(floor.within(-3.0, 3.0)).drive(floor.within(1.0, 6.0));
+      body.wait_until(to_seconds(body.now()) + floor.within(0.0, 2.0))
+          .turn(floor.within(-3.0, 3.0))
+          .drive(floor.within(1.0, 6.0));
   };
   Scene crowd(20.0);
   for (std::size_t i = 0; i < BroadPhase::kScanned + 8; ++i) {
@@ -77,9 +79,11 @@ TEST(BroadPhase, InACrowdPairsViolateAsTheyDoAlone) {
     const auto law = find_law("exact")->make(scenario);
     std::vector<std::pair<Piece, bool>> all;  // in the order of announcement: by instant, ends before beginnings
     for (const std::size_t i : {a, b}) {
-      for (Piece& piece : pieces[i]) piece.planned_box = piece.swept_box(piece.end), all.emplace_back(piece, true), all.emplace_back(piece, false);
+      for (Piece& piece : pieces[i])
+        piece.planned_box = piece.swept_box(piece.end), all.emplace_back(piece, true), all.emplace_back(piece, false);
     }
-    std::ranges::stable_sort(all, {}, [](const auto& p) { return std::pair(p.second ? p.first.begin : p.first.end, p.second); });
+    std::ranges::stable_sort(all, {},
+                             [](const auto& p) { return std::pair(p.second ? p.first.begin : p.first.end, p.second); });
     for (const auto& [piece, begins] : all) begins ? law->piece_started(piece) : law->piece_ended(piece);
     law->finish(crowd.end);
     return law->findings().violations;

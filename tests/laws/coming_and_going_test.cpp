@@ -28,10 +28,18 @@ const test::Handler kDoesNothing = [](const fp_host&, fp_controller*, const fp_b
 TEST(ComingAndGoing, TheJudgeSeesABodyFromItsAppearingToItsLeaving) {
   Scenario scenario = row({0});
   scenario.contact_stops = false;
-  scenario.obstacles = {{"box", {0.5, 0.5}, {Vec2{9.0, 0.6}, Vec2::UnitX()}, seconds(2.0), seconds(100.0)}};  // beside the end of the lane: 0.15 m into it
-  const auto violations = judged(scenario, [](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& e) {
-    if (e.kind == FP_EVENT_START) host.move(c, 0);
-  }, "safety-distance").violations;
+  scenario.obstacles = {{"box",
+                         {0.5, 0.5},
+                         {Vec2{9.0, 0.6}, Vec2::UnitX()},
+                         seconds(2.0),
+                         seconds(100.0)}};  // beside the end of the lane: 0.15 m into it
+  const auto violations = judged(
+                              scenario,
+                              [](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& e) {
+                                if (e.kind == FP_EVENT_START) host.move(c, 0);
+                              },
+                              "safety-distance")
+                              .violations;
   ASSERT_EQ(violations.size(), 1U);
   EXPECT_EQ(violations[0].b, EntityId{1U});
   EXPECT_EQ(to_seconds(violations[0].last), 100.0) << "until it leaves";
@@ -42,7 +50,8 @@ TEST(ComingAndGoing, NobodyWaitsForWhatHasNotAppeared) {
   Scenario scenario = row({0});
   scenario.agvs[0].transports = {{StationId{1U}, StationId{2U}, Duration{}}};
   scenario.obstacles = {{"late", {0.5, 0.5}, {Vec2{5.0, 0.0}, Vec2::UnitX()}, seconds(599.0)}};
-  for (const Incident& incident : judged(scenario, kDoesNothing, "progress").incidents) EXPECT_FALSE(incident.b.valid()) << info_of(incident.kind).name;
+  for (const Incident& incident : judged(scenario, kDoesNothing, "progress").incidents)
+    EXPECT_FALSE(incident.b.valid()) << info_of(incident.kind).name;
 }
 
 Scenario load_that_falls() {
@@ -88,7 +97,8 @@ TEST(ComingAndGoing, ABreakdownExcusesTheFleet) {
     EXPECT_EQ(outcome.counters.transports_done, 1U);
     EXPECT_TRUE(outcome.incidents.empty()) << law << ": " << info_of(outcome.incidents.front().kind).name;
   }
-  EXPECT_FALSE(judged(scenario, kDoesNothing, "progress").incidents.empty()) << "but not one who does nothing when it is over";
+  EXPECT_FALSE(judged(scenario, kDoesNothing, "progress").incidents.empty())
+      << "but not one who does nothing when it is over";
 }
 
 TEST(ComingAndGoing, AChangedBatteryClosesTheIncident) {
@@ -96,9 +106,13 @@ TEST(ComingAndGoing, AChangedBatteryClosesTheIncident) {
   scenario.vehicle_types[0].battery_per_m = 0.01;
   scenario.agvs[0].battery = 0.04;
   scenario.operator_help = {.on = true, .least_s = 10.0, .most_s = 10.0, .battery = 0.5};
-  const auto incidents = judged(scenario, [](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& e) {
-    if (e.kind == FP_EVENT_START) host.move(c, 0);
-  }, "battery").incidents;
+  const auto incidents = judged(
+                             scenario,
+                             [](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& e) {
+                               if (e.kind == FP_EVENT_START) host.move(c, 0);
+                             },
+                             "battery")
+                             .incidents;
   ASSERT_EQ(incidents.size(), 1U);
   EXPECT_NEAR(to_seconds(incidents[0].first), 4.0, 1e-6);
   EXPECT_NEAR(to_seconds(incidents[0].last), 14.0, 1e-6);

@@ -11,7 +11,8 @@ namespace {
 // `rate` messages a second for each second from `from_s` to `to_s`, each 10 ms long.
 void send(Told& told, int from_s, int to_s, int rate) {
   for (int second = from_s; second < to_s; ++second) {
-    for (int i = 0; i < rate; ++i) told.record(second + static_cast<double>(i) / rate, 0, TraceKind::Sent, 1, static_cast<std::uint64_t>(i));
+    for (int i = 0; i < rate; ++i)
+      told.record(second + static_cast<double>(i) / rate, 0, TraceKind::Sent, 1, static_cast<std::uint64_t>(i));
   }
 }
 

@@ -15,14 +15,16 @@ using enum IncidentKind;
 constexpr auto kPick = ActivityKind::Pick, kDrop = ActivityKind::Drop;
 constexpr std::uint32_t kNobody = 0xffffffff;
 
-// Stations s0 .. s4 in a row, 4 m apart. AGV 0 stands at s1 and brings a load from s1 to s3, then another from s1 to s2; AGV 1 stands at s4.
+// Stations s0 .. s4 in a row, 4 m apart. AGV 0 stands at s1 and brings a load from s1 to s3, then another from s1 to
+// s2; AGV 1 stands at s4.
 class Containment : public testing::Test {
  protected:
   Containment() : scenario_(make()), told_(scenario_, "containment") {}
 
   static Scenario make() {
     Scenario scenario = row_scenario(5, {1, 4});
-    scenario.agvs[0].transports = {{StationId{1U}, StationId{3U}, seconds(1.0)}, {StationId{1U}, StationId{2U}, seconds(2.0)}};
+    scenario.agvs[0].transports = {{StationId{1U}, StationId{3U}, seconds(1.0)},
+                                   {StationId{1U}, StationId{2U}, seconds(2.0)}};
     return scenario;
   }
   static Vec2 station_m(int number) { return {4.0 * number, 0.0}; }

@@ -62,12 +62,15 @@ TEST(Encounters, EnteringThePlaceThatAnotherLeavesIsFollowing) {
 TEST(Encounters, TwoWaysToOnePlaceMerge) {
   Scene scene(30.0);
   scene.agv(facing(0.0, 0.0, 1.0, 0.0)).drive(5.0);
-  scene.agv(facing(5.0, -7.0, 0.0, 1.0)).wait_until(3.0).drive(5.0);  // cut short of the other's place, but on the way to it
+  scene.agv(facing(5.0, -7.0, 0.0, 1.0))
+      .wait_until(3.0)
+      .drive(5.0);  // cut short of the other's place, but on the way to it
   EXPECT_EQ(met(scene), (Met{}));
   Scene at_right_angles(30.0);
   at_right_angles.agv(facing(0.0, 0.0, 1.0, 0.0)).drive(5.0).drive(5.0);
   at_right_angles.agv(facing(5.0, -7.0, 0.0, 1.0)).wait_until(5.0).drive(7.0);
-  EXPECT_EQ(met(at_right_angles), (Met{{"following", 1}, {"merging", 1}})) << "merging with the first drive, following the second";
+  EXPECT_EQ(met(at_right_angles), (Met{{"following", 1}, {"merging", 1}}))
+      << "merging with the first drive, following the second";
 }
 
 TEST(Encounters, ASlipRoadMerges) {
@@ -129,19 +132,22 @@ TEST(NearMisses, SeamsDoNotCountTwiceButComingBackDoes) {
 TEST(Faults, AreCountedByKind) {
   const Scenario scenario = row_scenario(2, {0, 1});
   Told told(scenario, "coverage");
-  told.record(1.0, 0, TraceKind::FaultStrikes, 2).record(2.0, 0, TraceKind::FaultStrikes, 2).record(3.0, 1, TraceKind::FaultStrikes, 5);
+  told.record(1.0, 0, TraceKind::FaultStrikes, 2)
+      .record(2.0, 0, TraceKind::FaultStrikes, 2)
+      .record(3.0, 1, TraceKind::FaultStrikes, 5);
   EXPECT_EQ(met(told.finish(10.0)), (Met{{"fault: freeze", 1}, {"fault: protective-stop", 2}}));
 }
 
 TEST(Probes, WhatAnAgentDeclaresIsSummedByName) {
-  const Outcome outcome =
-      simulate_with(row_scenario(4, {0, 3}), [](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& event) {
+  const Outcome outcome = simulate_with(
+      row_scenario(4, {0, 3}), [](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& event) {
         if (event.kind != FP_EVENT_START) return;
         host.sometimes(c, "negotiation");
         if (b.self == 1) host.sometimes(c, "deferred");
         host.log(c, "a log is no probe");
       });
-  EXPECT_EQ(outcome.probes, (std::vector<ProbeCount>{{ProbeSource::Agent, "deferred", 1}, {ProbeSource::Agent, "negotiation", 2}}));
+  EXPECT_EQ(outcome.probes,
+            (std::vector<ProbeCount>{{ProbeSource::Agent, "deferred", 1}, {ProbeSource::Agent, "negotiation", 2}}));
 }
 
 }  // namespace

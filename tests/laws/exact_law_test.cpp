@@ -57,8 +57,10 @@ TEST(ExactLaw, EachPassWithinOnePairOfPiecesIsAStretchOfItsOwn) {
   scene.obstacle(facing(0.0, 1.3, 1.0, 0.0), {4.0, 0.2});
   const auto violations = exact(scene).violations;
   ASSERT_EQ(violations.size(), 13U);
-  for (const Violation& violation : violations) EXPECT_NEAR(static_cast<double>(violation.min_clearance_um), 1.2e6 - 0.8e6 * std::sqrt(2.0), 1.1);
-  for (std::size_t i = 1; i < violations.size(); ++i) EXPECT_GT(violations[i].first - violations[i - 1].last, std::chrono::milliseconds(300));
+  for (const Violation& violation : violations)
+    EXPECT_NEAR(static_cast<double>(violation.min_clearance_um), 1.2e6 - 0.8e6 * std::sqrt(2.0), 1.1);
+  for (std::size_t i = 1; i < violations.size(); ++i)
+    EXPECT_GT(violations[i].first - violations[i - 1].last, std::chrono::milliseconds(300));
 }
 
 TEST(ExactLaw, SeesATurnOnTheSpotBesideAStandingBody) {
@@ -75,7 +77,8 @@ TEST(ExactLaw, SeesATurnOnTheSpotBesideAStandingBody) {
 TEST(ExactLaw, TheClosestInstantOfAContactIsTheTouchWithItsSpeed) {
   for (const bool stopped : {false, true}) {
     Scene scene(8.0);
-    // The nose has 6 m to the obstacle: 4 m and 4 s of gaining speed, 2 m at 2 m/s. The world stops it a micrometre short, or nothing does.
+    // The nose has 6 m to the obstacle: 4 m and 4 s of gaining speed, 2 m at 2 m/s. The world stops it a micrometre
+    // short, or nothing does.
     Timeline& agv = scene.agv(facing(0.0, 0.0, 1.0, 0.0)).drive(10.0);
     if (stopped) agv.cut_short_at(5.0 - 0.4e-6);
     scene.obstacle(facing(7.6, 0.0, 1.0, 0.0));

@@ -54,7 +54,8 @@ TEST(Exemptions, ContactIsNeverExempt) {
   EXPECT_TRUE(play(scene, "safety-distance").violations[0].contact);
 }
 
-// A tugger, a cart, and a box before each of them, all much closer to their neighbours than they should be; nothing moves.
+// A tugger, a cart, and a box before each of them, all much closer to their neighbours than they should be; nothing
+// moves.
 Scene kinds() {
   Scene scene(30.0);
   scene.scenario.vehicle_types[0].name = "tugger";

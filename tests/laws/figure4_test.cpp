@@ -116,7 +116,8 @@ TEST(Figure4, SnapshotsFindTheSameMinimumToTheirAccuracy) {
     ASSERT_EQ(findings.violations.size(), 1U) << law;
     EXPECT_NEAR(to_seconds(findings.violations[0].first), 7.990, 0.0025 + kMillisecond_s) << law;
     EXPECT_NEAR(to_seconds(findings.violations[0].last), 8.129, 0.0025 + kMillisecond_s) << law;
-    EXPECT_NEAR(static_cast<double>(findings.violations[0].min_clearance_um), 14800.0, 10000.0) << law;  // 1 cm, the paper's claim
+    EXPECT_NEAR(static_cast<double>(findings.violations[0].min_clearance_um), 14800.0, 10000.0)
+        << law;  // 1 cm, the paper's claim
   }
 }
 
@@ -145,7 +146,9 @@ TEST(ParkedThenLeaves, PaperLawMissesItAtAnyGranularity) {
   }
 }
 
-TEST(ParkedThenLeaves, GlobalStepFindsIt) { EXPECT_EQ(play(parked_then_leaves(), "global-step").violations.size(), 1U); }
+TEST(ParkedThenLeaves, GlobalStepFindsIt) {
+  EXPECT_EQ(play(parked_then_leaves(), "global-step").violations.size(), 1U);
+}
 
 }  // namespace
 }  // namespace fleetproof::test

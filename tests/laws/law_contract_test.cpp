@@ -10,7 +10,9 @@ namespace {
 
 class LawContract : public testing::TestWithParam<Entry<MakeLaw>> {
  protected:
-  LawFindings findings(const Scene& scene, Order order = Order::ByEntity) const { return play(scene, GetParam().make, order); }
+  LawFindings findings(const Scene& scene, Order order = Order::ByEntity) const {
+    return play(scene, GetParam().make, order);
+  }
 };
 
 // What only the laws that judge clearances keep.
@@ -23,7 +25,8 @@ std::string suite_name(const testing::TestParamInfo<Entry<MakeLaw>>& law) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Catalogue, LawContract, testing::ValuesIn(laws().begin(), laws().end()), suite_name);
-INSTANTIATE_TEST_SUITE_P(Catalogue, ClearanceLawContract, testing::Values(*find_law("safety-distance"), *find_law("paper"), *find_law("global-step")),
+INSTANTIATE_TEST_SUITE_P(Catalogue, ClearanceLawContract,
+                         testing::Values(*find_law("safety-distance"), *find_law("paper"), *find_law("global-step")),
                          suite_name);
 
 TEST(LawCatalogue, BeginsWithTheDefaultAndRepeatsNoName) {

@@ -17,7 +17,8 @@ using enum IncidentKind;
 double upper_tail(int n, int k, double p) {
   double sum = 0.0;
   for (int i = k; i <= n; ++i)
-    sum += std::exp(std::lgamma(n + 1.0) - std::lgamma(i + 1.0) - std::lgamma(n - i + 1.0) + i * std::log(p) + (n - i) * std::log1p(-p));
+    sum += std::exp(std::lgamma(n + 1.0) - std::lgamma(i + 1.0) - std::lgamma(n - i + 1.0) + i * std::log(p) +
+                    (n - i) * std::log1p(-p));
   return sum;
 }
 
@@ -43,7 +44,8 @@ class NormalOperation : public testing::Test {
  protected:
   NormalOperation() { scenario_ = row_scenario(4, {0, 3}, 60.0); }
   // The law is told in order of time; `happens` is called at the beginning of each second.
-  std::vector<Incident> run(double end_s, int lost_of_ten, double delay_s, const std::function<void(Told&, int)>& happens) {
+  std::vector<Incident> run(double end_s, int lost_of_ten, double delay_s,
+                            const std::function<void(Told&, int)>& happens) {
     Told told(scenario_, "normal-operation");
     std::multimap<double, std::function<void()>> story;
     for (int second = 0; second < static_cast<int>(end_s); ++second) {
@@ -54,7 +56,8 @@ class NormalOperation : public testing::Test {
         story.emplace(sent_s, [&told, sent_s, hash] { told.record(sent_s, 1, TraceKind::Sent, 0, hash); });
         const double there_s = i < lost_of_ten ? sent_s : sent_s + delay_s;
         const auto kind = i < lost_of_ten ? TraceKind::Lost : TraceKind::Received;
-        if (there_s < end_s) story.emplace(there_s, [&told, there_s, hash, kind] { told.record(there_s, 0, kind, 1, hash); });
+        if (there_s < end_s)
+          story.emplace(there_s, [&told, there_s, hash, kind] { told.record(there_s, 0, kind, 1, hash); });
       }
     }
     for (const auto& [at, tell] : story) tell();
@@ -81,10 +84,13 @@ TEST_F(NormalOperation, SafeModeUnderMoreLossOrMoreDelayIsLegal) {
   EXPECT_THAT(run(60.0, 0, 2.1, safe_from_20), IsEmpty());
 }
 
-TEST_F(NormalOperation, TheContractsOwnLimitsAreWithinIt) { EXPECT_THAT(kinds_of(run(60.0, 4, 2.0, safe_from_20)), ElementsAre(SafeModeInContract)); }
+TEST_F(NormalOperation, TheContractsOwnLimitsAreWithinIt) {
+  EXPECT_THAT(kinds_of(run(60.0, 4, 2.0, safe_from_20)), ElementsAre(SafeModeInContract));
+}
 
 TEST_F(NormalOperation, AnAgentMayTakeItsTimeToLeaveSafeMode) {
-  // All is lost up to 20 s, nothing later: safe mode is legal until the bad seconds have left the window, and for the reaction time from then on.
+  // All is lost up to 20 s, nothing later: safe mode is legal until the bad seconds have left the window, and for the
+  // reaction time from then on.
   const auto quiet_later = [&](double reaction_s) {
     scenario_.law.reaction_s = reaction_s;
     Told told(scenario_, "normal-operation");
@@ -106,7 +112,10 @@ TEST_F(NormalOperation, WhoWaitsForTheOperatorAfterAContactIsExcused) {
   for (const bool comes : {false, true}) {
     scenario_.operator_help.on = comes;
     const auto found = run(200.0, 1, 0.1, [](Told& told, int second) {
-      if (second == 1) told.record(1.0, 0, TraceKind::OrderReleased, 0).record(1.0, 0, TraceKind::Contact, 1).record(1.0, 99, TraceKind::Appears);
+      if (second == 1)
+        told.record(1.0, 0, TraceKind::OrderReleased, 0)
+            .record(1.0, 0, TraceKind::Contact, 1)
+            .record(1.0, 99, TraceKind::Appears);
     });
     EXPECT_EQ(found.empty(), comes) << "the last of the records is about none of the fleet";
   }

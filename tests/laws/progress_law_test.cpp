@@ -14,7 +14,8 @@ using enum IncidentKind;
 
 constexpr std::uint32_t kNobody = 0xffffffff;
 
-// Six stations in a row, 4 m apart; AGV 0 stands at s1 and AGV 1 at s2, each has to fetch a load beyond the other, if `busy` says so.
+// Six stations in a row, 4 m apart; AGV 0 stands at s1 and AGV 1 at s2, each has to fetch a load beyond the other, if
+// `busy` says so.
 class Progress : public testing::Test {
  protected:
   Progress() {
@@ -140,7 +141,8 @@ TEST_F(Progress, ADeadlockThatDissolvesEnds) {
 TEST_F(Progress, MovingToAndFroWithoutALoadIsALivelock) {
   Told law = told();
   both_released(law);
-  for (int i = 0; i < 29; ++i) law.begins(10.0 + 20.0 * i, 0, ActivityKind::Drive).ends(15.0 + 20.0 * i, 0, ActivityKind::Drive);
+  for (int i = 0; i < 29; ++i)
+    law.begins(10.0 + 20.0 * i, 0, ActivityKind::Drive).ends(15.0 + 20.0 * i, 0, ActivityKind::Drive);
   const auto found = law.finish(600.0).incidents;
   ASSERT_THAT(kinds_of(found), ElementsAre(Livelock));
   EXPECT_EQ(found[0].first, at_seconds(1.0));
@@ -190,16 +192,20 @@ TEST_F(Progress, ACircleOfSomeIsADeadlockWhileOthersWork) {
   Told law = told();
   both_released(law);
   law.record(3.0, 0, TraceKind::WaitingFor, 1).record(4.0, 1, TraceKind::WaitingFor, 0);
-  for (int i = 0; i < 10; ++i) law.begins(10.0 + 20.0 * i, 2, ActivityKind::Drive).ends(15.0 + 20.0 * i, 2, ActivityKind::Drive);
+  for (int i = 0; i < 10; ++i)
+    law.begins(10.0 + 20.0 * i, 2, ActivityKind::Drive).ends(15.0 + 20.0 * i, 2, ActivityKind::Drive);
   EXPECT_THAT(kinds_of(law.finish(220.0).incidents), ElementsAre(Deadlock, WaitsDeclared, WaitsDeclared));
 }
 
 TEST_F(Progress, AWaitThatIsTakenBackIsNone) {
   Told law = told();
   both_released(law);
-  law.record(3.0, 0, TraceKind::WaitingFor, 1).record(4.0, 1, TraceKind::WaitingFor, 0).record(5.0, 1, TraceKind::WaitingFor, kNobody);
+  law.record(3.0, 0, TraceKind::WaitingFor, 1)
+      .record(4.0, 1, TraceKind::WaitingFor, 0)
+      .record(5.0, 1, TraceKind::WaitingFor, kNobody);
   const auto found = law.finish(600.0).incidents;
-  EXPECT_THAT(kinds_of(found), ElementsAre(Deadlock, WaitsDeclared, WaitsInferred)) << "what it no longer says is inferred";
+  EXPECT_THAT(kinds_of(found), ElementsAre(Deadlock, WaitsDeclared, WaitsInferred))
+      << "what it no longer says is inferred";
 }
 
 }  // namespace

@@ -65,7 +65,8 @@ TEST(PaperLaw, DrivesThatOnlyTouchInTimeHaveNothingInCommon) {
 
 TEST(PublishedLaws, AccuseAPairOnceWhicheverActivityItWasFoundFrom) {
   Scene scene(12.0);
-  // The middle one of three, oncoming, is too close to both; each pair is found from two activities, with another pair between.
+  // The middle one of three, oncoming, is too close to both; each pair is found from two activities, with another pair
+  // between.
   scene.agv(facing(10.0, -1.05, -1.0, 0.0)).drive(10.0);
   scene.agv(facing(0.0, 0.0, 1.0, 0.0)).drive(10.0);
   scene.agv(facing(10.0, 1.05, -1.0, 0.0)).drive(10.0);
@@ -111,7 +112,8 @@ TEST(PublishedHoles, ADiagonalAccusesItsWholeBox) {
 TEST(PublishedHoles, SquareCornersAccuseUpTo141Millimetres) {
   Scene scene(8.0);
   scene.agv(facing(0.0, 0.0, 1.0, 0.0)).drive(10.0);
-  scene.obstacle(facing(10.8 + 0.09 + 0.5, 0.5 + 0.09 + 0.5, 1.0, 0.0), {1.0, 1.0});  // 0.127 m corner to corner at the arrival
+  scene.obstacle(facing(10.8 + 0.09 + 0.5, 0.5 + 0.09 + 0.5, 1.0, 0.0),
+                 {1.0, 1.0});  // 0.127 m corner to corner at the arrival
   EXPECT_TRUE(play(scene, "exact").violations.empty());
   const auto accused = play(scene, "global-step").violations;
   ASSERT_EQ(accused.size(), 1U);

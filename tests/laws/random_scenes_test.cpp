@@ -59,7 +59,8 @@ Scene random_scene(std::uint64_t seed) {
   Scene scene(10.0);
   const std::size_t bodies = 2 + dice.below(3);
   for (std::size_t i = 0; i < bodies; ++i) {
-    const Vec2 heading = dice.one_in(2) ? unit_vector(kPi / 4.0 * static_cast<double>(dice.below(8))) : unit_vector(dice.within(-kPi, kPi));
+    const Vec2 heading = dice.one_in(2) ? unit_vector(kPi / 4.0 * static_cast<double>(dice.below(8)))
+                                        : unit_vector(dice.within(-kPi, kPi));
     const Footprint footprint = dice.one_in(3) ? Footprint{1.0, 0.7} : Footprint{};
     Timeline& body = scene.agv({Vec2(dice.within(0.0, 9.0), dice.within(0.0, 9.0)), heading}, footprint);
     live(body, scene.end, dice);
@@ -72,7 +73,8 @@ using Corners = std::array<Vec2, 4>;
 Corners corners_of(const Pose& pose, const Footprint& footprint) {
   const Vec2 along = 0.5 * footprint.length_m * pose.heading;
   const Vec2 across = 0.5 * footprint.width_m * Vec2(-pose.heading.y(), pose.heading.x());
-  return {pose.position_m + along + across, pose.position_m - along + across, pose.position_m - along - across, pose.position_m + along - across};
+  return {pose.position_m + along + across, pose.position_m - along + across, pose.position_m - along - across,
+          pose.position_m + along - across};
 }
 
 // Largest gap between the two shadows on the side directions of `one`; negative if they overlap on each.
@@ -123,13 +125,16 @@ class BruteForce {
     }
   }
 
-  double clearance_at(std::size_t a, std::size_t b, SimTime t) const { return clearance_between(corners_at(a, t), corners_at(b, t)); }
+  double clearance_at(std::size_t a, std::size_t b, SimTime t) const {
+    return clearance_between(corners_at(a, t), corners_at(b, t));
+  }
 
   // The smallest clearance near the smallest sample, to a micrometre or better.
   double refined_m(std::size_t a, std::size_t b) const {
     const Sampled& sampled = pairs.at({a, b});
     double least = sampled.min_m;
-    for (SimTime t = std::max(kStart, sampled.min_at - kStep); t <= sampled.min_at + kStep; t += std::chrono::microseconds(2)) {
+    for (SimTime t = std::max(kStart, sampled.min_at - kStep); t <= sampled.min_at + kStep;
+         t += std::chrono::microseconds(2)) {
       if (t <= pieces_[a].back().end) least = std::min(least, clearance_at(a, b, t));
     }
     return least;
@@ -149,7 +154,8 @@ class BruteForce {
     Sampled sampled;
     for (SimTime t = kStart; t <= end; t += kStep) {
       const Corners one = corners_at(a, t), other = corners_at(b, t);
-      if ((one[0] + one[2] - other[0] - other[2]).norm() > 2.0 * (2.0 * 0.95 + 0.6)) continue;  // farther than 0.5 m apart
+      if ((one[0] + one[2] - other[0] - other[2]).norm() > 2.0 * (2.0 * 0.95 + 0.6))
+        continue;  // farther than 0.5 m apart
       const double clearance_m = clearance_between(one, other);
       if (clearance_m < sampled.min_m) sampled.min_m = clearance_m, sampled.min_at = t;
       if (clearance_m <= 0.0) sampled.touch_at = std::min(sampled.touch_at, t);
@@ -175,11 +181,13 @@ std::vector<Violation> of_pair(const LawFindings& findings, std::size_t a, std::
   return violations;
 }
 
-// Every run of samples below the threshold lies in one stretch, and begins and ends with it unless a graze between samples was joined to it.
+// Every run of samples below the threshold lies in one stretch, and begins and ends with it unless a graze between
+// samples was joined to it.
 void expect_stretches(const std::vector<Violation>& violations, const Sampled& sampled) {
   for (std::size_t i = 0; i < sampled.below.size(); ++i) {
     const Interval& below = sampled.below[i];
-    const auto in = std::ranges::find_if(violations, [&](const Violation& v) { return v.first <= below.begin && below.end <= v.last; });
+    const auto in = std::ranges::find_if(
+        violations, [&](const Violation& v) { return v.first <= below.begin && below.end <= v.last; });
     ASSERT_NE(in, violations.end()) << to_seconds(below.begin);
     const bool apart = i > 0 && below.begin - sampled.below[i - 1].end > std::chrono::milliseconds(102);
     if (i == 0 || apart) {

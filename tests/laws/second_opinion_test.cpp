@@ -10,7 +10,9 @@
 namespace fleetproof::test {
 namespace {
 
-OrientedRectangle at(double x_m, double y_m, double angle_rad = 0.0) { return {Vec2(x_m, y_m), unit_vector(angle_rad), 0.8, 0.5}; }
+OrientedRectangle at(double x_m, double y_m, double angle_rad = 0.0) {
+  return {Vec2(x_m, y_m), unit_vector(angle_rad), 0.8, 0.5};
+}
 
 TEST(SecondOpinion, AgreesWithAClearanceThatIsRight) {
   confirm_clearance(at(0.0, 0.0), at(1.65, 0.0), 0.05);
@@ -27,7 +29,9 @@ TEST(SecondOpinion, DeniesAClearanceThatIsWrong) {
 
 TEST(SecondOpinion, DeniesNothingThatTheKernelMeasuresInCloseQuarters) {
   std::mt19937_64 random(7);
-  const auto within = [&](double low, double high) { return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53; };
+  const auto within = [&](double low, double high) {
+    return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+  };
   for (int i = 0; i < 20000; ++i) {
     const OrientedRectangle first = at(within(-100.0, 100.0), within(-100.0, 100.0), within(-kPi, kPi));
     OrientedRectangle second = at(0.0, 0.0, within(-kPi, kPi));

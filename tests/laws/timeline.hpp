@@ -14,10 +14,12 @@
 // Runs made of nothing but pieces, built by hand, and how a law hears of them.
 namespace fleetproof::test {
 
-// The timeline of one body: it stands where it is put, then waits, drives and turns. Pieces point into it: it is moved, never copied.
+// The timeline of one body: it stands where it is put, then waits, drives and turns. Pieces point into it: it is moved,
+// never copied.
 class Timeline {
  public:
-  Timeline(EntityId entity, const Pose& start, const Footprint& footprint) : entity_(entity), footprint_(footprint), pose_(start) {}
+  Timeline(EntityId entity, const Pose& start, const Footprint& footprint)
+      : entity_(entity), footprint_(footprint), pose_(start) {}
   Timeline(Timeline&&) = default;
   Timeline& operator=(Timeline&&) = default;
 
@@ -109,7 +111,9 @@ struct Scene {
   }
 };
 
-inline Pose facing(double x_m, double y_m, double heading_x, double heading_y) { return {Vec2(x_m, y_m), Vec2(heading_x, heading_y)}; }
+inline Pose facing(double x_m, double y_m, double heading_x, double heading_y) {
+  return {Vec2(x_m, y_m), Vec2(heading_x, heading_y)};
+}
 
 // In which order a law hears of pieces that end at the same instant.
 enum class Order { ByEntity, Backwards, AllEndsFirst };
@@ -192,6 +196,8 @@ inline LawFindings play(const Scene& scene, MakeLaw make, Order order = Order::B
   return law->findings();
 }
 
-inline LawFindings play(const Scene& scene, std::string_view law, Order order = Order::ByEntity) { return play(scene, find_law(law)->make, order); }
+inline LawFindings play(const Scene& scene, std::string_view law, Order order = Order::ByEntity) {
+  return play(scene, find_law(law)->make, order);
+}
 
 }  // namespace fleetproof::test

@@ -13,21 +13,24 @@ namespace fleetproof::test {
 class Told {
  public:
   // Every AGV stands at its start, every obstacle where it is.
-  Told(const Scenario& scenario, std::string_view law) : scenario_(scenario), law_(find_law(law)->make(scenario)), kinds_(law_->reads()) {
+  Told(const Scenario& scenario, std::string_view law)
+      : scenario_(scenario), law_(find_law(law)->make(scenario)), kinds_(law_->reads()) {
     for (std::size_t i = 0; i < scenario.agvs.size(); ++i)
       stand(static_cast<std::uint32_t>(i), scenario.map->station(scenario.agvs[i].start).position_m, 0.0);
     for (std::size_t i = 0; i < scenario.obstacles.size(); ++i) {
-      begin(rest_piece(EntityId{scenario.agvs.size() + i}, scenario.obstacles[i].footprint, scenario.obstacles[i].pose, kStart));
+      begin(rest_piece(EntityId{scenario.agvs.size() + i}, scenario.obstacles[i].footprint, scenario.obstacles[i].pose,
+                       kStart));
     }
   }
 
   Told& stand(std::uint32_t agv, const Vec2& at_m, double from_s) {
-    return begin(
-        rest_piece(EntityId{agv}, scenario_.type_of(scenario_.agvs[agv]).footprint, {at_m, scenario_.agvs[agv].heading}, at_seconds(from_s)));
+    return begin(rest_piece(EntityId{agv}, scenario_.type_of(scenario_.agvs[agv]).footprint,
+                            {at_m, scenario_.agvs[agv].heading}, at_seconds(from_s)));
   }
 
   // Records a kind that the law does not read, it does not hear of.
-  Told& record(double at_s, std::uint32_t entity, TraceKind kind, std::uint64_t a = 0, std::uint64_t b = 0, std::uint32_t bytes = 0) {
+  Told& record(double at_s, std::uint32_t entity, TraceKind kind, std::uint64_t a = 0, std::uint64_t b = 0,
+               std::uint32_t bytes = 0) {
     if (kinds_.has(kind)) law_->happened({at_seconds(at_s), EntityId{entity}, kind, a, b, bytes});
     return *this;
   }

@@ -42,7 +42,8 @@ std::vector<Hunk> hunks_of(const Lines& patch) {
 
 std::ptrdiff_t occurrences(const Lines& text, const Lines& part) {
   std::ptrdiff_t count = 0;
-  for (auto at = text.begin(); (at = std::search(at, text.end(), part.begin(), part.end())) != text.end(); ++at) ++count;
+  for (auto at = text.begin(); (at = std::search(at, text.end(), part.begin(), part.end())) != text.end(); ++at)
+    ++count;
   return count;
 }
 
@@ -59,7 +60,8 @@ TEST(SeededFaults, StillFitTheSources) {
     for (const Hunk& hunk : hunks) {
       EXPECT_TRUE(hunk.file.ends_with(".cpp")) << entry.path();
       EXPECT_NE(hunk.before, hunk.after) << entry.path();
-      EXPECT_EQ(occurrences(lines_of(root / hunk.file), hunk.before), 1) << entry.path() << " no longer fits " << hunk.file << ": make it anew";
+      EXPECT_EQ(occurrences(lines_of(root / hunk.file), hunk.before), 1)
+          << entry.path() << " no longer fits " << hunk.file << ": make it anew";
     }
   }
   EXPECT_GE(patches, 15);

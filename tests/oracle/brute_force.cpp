@@ -61,7 +61,9 @@ struct Look {
 class Clock {
  public:
   explicit Clock(const TrajectoryPair& pair)
-      : pair_(pair), fastest_(pair.a.fastest_mps() + pair.b.fastest_mps()), strongest_(pair.a.strongest_mps2() + pair.b.strongest_mps2()) {}
+      : pair_(pair),
+        fastest_(pair.a.fastest_mps() + pair.b.fastest_mps()),
+        strongest_(pair.a.strongest_mps2() + pair.b.strongest_mps2()) {}
 
   Look look(Nanoseconds t) const {
     Look look{t, pair_.a.corners(t), pair_.b.corners(t), {}};
@@ -78,12 +80,15 @@ class Clock {
     for (const Look* which : {&from, &to}) {
       if (which->apart.distance_m == 0.0) continue;
       const Point way = which->apart.way;
-      best = std::max(best, std::min(gap_m(from.a, from.b, way), gap_m(to.a, to.b, way)) - strongest_ * wait_s * wait_s / 8.0);
+      best = std::max(
+          best, std::min(gap_m(from.a, from.b, way), gap_m(to.a, to.b, way)) - strongest_ * wait_s * wait_s / 8.0);
     }
     return best;
   }
 
-  Nanoseconds middle(Nanoseconds from, Nanoseconds to) const { return from + std::max((to - from) / kTick / 2, Nanoseconds{1}) * kTick; }
+  Nanoseconds middle(Nanoseconds from, Nanoseconds to) const {
+    return from + std::max((to - from) / kTick / 2, Nanoseconds{1}) * kTick;
+  }
 
  private:
   const TrajectoryPair& pair_;
@@ -93,7 +98,8 @@ class Clock {
 // The first look below the level in (from, to].
 std::optional<Look> first_look(const Clock& clock, const Look& from, const Look& to, double level_m) {
   const bool adjacent = to.at - from.at <= kTick;
-  if (adjacent || clock.bound_m(from, to) >= level_m) return to.apart.distance_m < level_m ? std::optional(to) : std::nullopt;
+  if (adjacent || clock.bound_m(from, to) >= level_m)
+    return to.apart.distance_m < level_m ? std::optional(to) : std::nullopt;
   const Look middle = clock.look(clock.middle(from.at, to.at));
   if (const auto early = first_look(clock, from, middle, level_m)) return early;
   return first_look(clock, middle, to, level_m);
@@ -101,7 +107,9 @@ std::optional<Look> first_look(const Clock& clock, const Look& from, const Look&
 
 void lower(const Clock& clock, const Look& from, const Look& to, Lowest& lowest) {
   constexpr double kResolved_m = 1e-9;
-  if (to.at - from.at <= kTick || lowest.clearance_m == 0.0 || clock.bound_m(from, to) >= lowest.clearance_m - kResolved_m) return;
+  if (to.at - from.at <= kTick || lowest.clearance_m == 0.0 ||
+      clock.bound_m(from, to) >= lowest.clearance_m - kResolved_m)
+    return;
   const Look middle = clock.look(clock.middle(from.at, to.at));
   if (middle.apart.distance_m < lowest.clearance_m) lowest = {middle.apart.distance_m, middle.at};
   // The lower half first.
@@ -143,7 +151,9 @@ Lowest sampled(const TrajectoryPair& pair) {
 
 double distance_m(const Corners& a, const Corners& b) { return apart(a, b).distance_m; }
 
-double clearance_m(const TrajectoryPair& pair, Nanoseconds t) { return distance_m(pair.a.corners(t), pair.b.corners(t)); }
+double clearance_m(const TrajectoryPair& pair, Nanoseconds t) {
+  return distance_m(pair.a.corners(t), pair.b.corners(t));
+}
 
 std::optional<Nanoseconds> first_below(const TrajectoryPair& pair, double level_m) {
   const Clock clock(pair);

@@ -6,10 +6,11 @@
 
 // What a clock of 10 microseconds sees of two trajectories.
 //
-// Looking at each of 300 000 instants of each of 100 000 pairs would take days. The clock leaves out ticks at which provably nothing can be seen: an
-// interval between two looked-at ticks is halved unless the clearance cannot fall below the level within it. Two bounds prove that, both written from
-// scratch and both rigorous: no point is faster than its trajectory's fastest (first order), and the gap between the bodies along one fixed
-// direction bounds the clearance from below and is bent by no more than the strongest accelerations (second order; not over a joint of two
+// Looking at each of 300 000 instants of each of 100 000 pairs would take days. The clock leaves out ticks at which
+// provably nothing can be seen: an interval between two looked-at ticks is halved unless the clearance cannot fall
+// below the level within it. Two bounds prove that, both written from scratch and both rigorous: no point is faster
+// than its trajectory's fastest (first order), and the gap between the bodies along one fixed direction bounds the
+// clearance from below and is bent by no more than the strongest accelerations (second order; not over a joint of two
 // strokes). What is left is looked at tick by tick.
 namespace fleetproof::oracle {
 
@@ -22,7 +23,8 @@ struct TrajectoryPair {
 double distance_m(const Corners& a, const Corners& b);
 double clearance_m(const TrajectoryPair& pair, Nanoseconds t);
 
-// First tick at which the clearance is below the level, moved back to the nanosecond at which it fell below it. The last instant is a tick too.
+// First tick at which the clearance is below the level, moved back to the nanosecond at which it fell below it. The
+// last instant is a tick too.
 std::optional<Nanoseconds> first_below(const TrajectoryPair& pair, double level_m);
 
 struct Lowest {

@@ -75,7 +75,8 @@ inline Tally check_many(std::uint64_t seed, int pairs) {
   Tally tally;
   for (int i = 0; i < pairs; ++i) {
     const auto relation = static_cast<Relation>(i % kRelations);
-    SCOPED_TRACE("seed " + std::to_string(seed) + ", pair " + std::to_string(i) + ", relation " + std::to_string(i % kRelations));
+    SCOPED_TRACE("seed " + std::to_string(seed) + ", pair " + std::to_string(i) + ", relation " +
+                 std::to_string(i % kRelations));
     check(source.next(relation, kThreshold_m), tally);
     if (testing::Test::HasFailure()) break;
   }

@@ -45,12 +45,14 @@ class PairSource {
  public:
   explicit PairSource(std::uint64_t seed) : random_(seed) {}
 
-  // A pair whose bodies come at least near each other; `level_m` is what tangents are tuned to and what violations at the start lie below.
+  // A pair whose bodies come at least near each other; `level_m` is what tangents are tuned to and what violations at
+  // the start lie below.
   TrajectoryPair next(Relation relation, double level_m) {
     for (;;) {
       TrajectoryPair pair = draw(relation);
       if (!in_common(pair)) continue;
-      if (relation == Relation::Tangent && !tune(pair, level_m + either(1.0) * std::pow(10.0, one_in(3) ? within(-5.0, -2.0) : within(-9.0, -5.0))))
+      if (relation == Relation::Tangent &&
+          !tune(pair, level_m + either(1.0) * std::pow(10.0, one_in(3) ? within(-5.0, -2.0) : within(-9.0, -5.0))))
         continue;
       if (relation == Relation::StartsInViolation && !(clearance_m(pair, pair.begin) < level_m)) continue;
       if (clearance_m(pair, pair.begin + (pair.end - pair.begin) / 2) < 3.0) return pair;
@@ -115,16 +117,20 @@ class PairSource {
       const double radius_m = within(1.5, 4.0);
       return {{middle - 0.6 * radius_m * nose, nose, within(0.8, 1.6) * radius_m, either(1.0 / radius_m)}};
     }
-    // The curve of the program under test is a chain of arcs; its arcs, not their evaluation, are what is known of the trajectory.
+    // The curve of the program under test is a chain of arcs; its arcs, not their evaluation, are what is known of the
+    // trajectory.
     const Point bend = either(within(0.5, 2.5)) * left_of(nose), way = 2.5 * nose;
-    const Curve curve = Curve::bezier(vec(middle - way), vec(middle + bend), vec(middle - within(0.2, 1.0) * bend), vec(middle + way));
+    const Curve curve =
+        Curve::bezier(vec(middle - way), vec(middle + bend), vec(middle - within(0.2, 1.0) * bend), vec(middle + way));
     std::vector<Stroke> all;
-    for (const Arc& arc : curve.arcs()) all.push_back({point(arc.start.position_m), point(arc.start.heading), arc.length_m, arc.curvature_per_m});
+    for (const Arc& arc : curve.arcs())
+      all.push_back({point(arc.start.position_m), point(arc.start.heading), arc.length_m, arc.curvature_per_m});
     return all;
   }
 
   Trajectory any(Path path, Point middle, double angle_rad, Nanoseconds begin) {
-    if (path != Path::Turn && path != Path::Rest) return drive(strokes(path, middle, angle_rad, way_m()), begin, any_limits());
+    if (path != Path::Turn && path != Path::Rest)
+      return drive(strokes(path, middle, angle_rad, way_m()), begin, any_limits());
     Trajectory t;
     t.begin = begin, t.at = middle, t.heading = direction(angle_rad);
     t.end = begin + 6'000'000'000;
@@ -135,7 +141,9 @@ class PairSource {
     return t;
   }
 
-  Nanoseconds instant(double low_s, double high_s) { return static_cast<Nanoseconds>(within(1e9 * low_s, 1e9 * high_s)); }
+  Nanoseconds instant(double low_s, double high_s) {
+    return static_cast<Nanoseconds>(within(1e9 * low_s, 1e9 * high_s));
+  }
   Path any_path() { return static_cast<Path>(random_() % 5); }
   Path driven_path() { return static_cast<Path>(random_() % 3); }
 
@@ -158,7 +166,8 @@ class PairSource {
       pair.b = any(path == Path::Rest ? driven_path() : any_path(), there, within(-3.2, 3.2), instant(18.0, 23.0));
     }
     if (relation == Relation::CutShort)
-      pair.b.end = pair.b.begin + static_cast<Nanoseconds>(within(0.2, 0.9) * static_cast<double>(pair.b.end - pair.b.begin));
+      pair.b.end =
+          pair.b.begin + static_cast<Nanoseconds>(within(0.2, 0.9) * static_cast<double>(pair.b.end - pair.b.begin));
     if (relation != Relation::Parallel) dress(pair);
     return pair;
   }
@@ -186,7 +195,8 @@ class PairSource {
         if (!(s.length > 0.05)) return {};
       }
     }
-    return {drive(track, instant(20.0, 21.0), limits), drive(other, instant(19.0, 22.0), one_in(2) ? limits : any_limits())};
+    return {drive(track, instant(20.0, 21.0), limits),
+            drive(other, instant(19.0, 22.0), one_in(2) ? limits : any_limits())};
   }
 
   std::mt19937_64 random_;

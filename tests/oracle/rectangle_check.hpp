@@ -20,12 +20,15 @@ struct LongPoint {
 using LongRectangle = std::array<LongPoint, 4>;
 
 inline LongRectangle corners_of(const OrientedRectangle& r) {
-  const long double hx = r.heading.x(), hy = r.heading.y(), l = r.half_length_m, w = r.half_width_m, cx = r.centre_m.x(), cy = r.centre_m.y();
+  const long double hx = r.heading.x(), hy = r.heading.y(), l = r.half_length_m, w = r.half_width_m,
+                    cx = r.centre_m.x(), cy = r.centre_m.y();
   const auto at = [&](long double a, long double b) { return LongPoint{cx + a * hx - b * hy, cy + a * hy + b * hx}; };
   return {at(l, w), at(-l, w), at(-l, -w), at(l, -w)};
 }
 
-inline long double area(const LongPoint& a, const LongPoint& b, const LongPoint& c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
+inline long double area(const LongPoint& a, const LongPoint& b, const LongPoint& c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
 
 inline long double distance_to_side(const LongPoint& p, const LongPoint& a, const LongPoint& b) {
   const long double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
@@ -52,7 +55,8 @@ inline long double oracle_m(const OrientedRectangle& first, const OrientedRectan
   for (std::size_t i = 0; i < 4; ++i) {
     meet = meet || contains(a, b[i]) || contains(b, a[i]);
     for (std::size_t j = 0; j < 4; ++j) {
-      least = std::min({least, distance_to_side(a[i], b[j], b[(j + 1) % 4]), distance_to_side(b[i], a[j], a[(j + 1) % 4])});
+      least =
+          std::min({least, distance_to_side(a[i], b[j], b[(j + 1) % 4]), distance_to_side(b[i], a[j], a[(j + 1) % 4])});
       meet = meet || sides_cross(a[i], a[(i + 1) % 4], b[j], b[(j + 1) % 4]);
     }
   }
@@ -67,19 +71,27 @@ inline double extent_m(const OrientedRectangle& r, const Vec2& direction) {
 
 class Random {
  public:
-  double in(double low, double high) { return low + (high - low) * std::uniform_real_distribution<double>(0.0, 1.0)(engine_); }
+  double in(double low, double high) {
+    return low + (high - low) * std::uniform_real_distribution<double>(0.0, 1.0)(engine_);
+  }
   int whole(int low, int high) { return std::uniform_int_distribution<int>(low, high)(engine_); }
-  OrientedRectangle anywhere(double range_m) { return {{in(0, range_m), in(0, range_m)}, unit_vector(in(-kPi, kPi)), in(0.05, 1.5), in(0.05, 1.5)}; }
+  OrientedRectangle anywhere(double range_m) {
+    return {{in(0, range_m), in(0, range_m)}, unit_vector(in(-kPi, kPi)), in(0.05, 1.5), in(0.05, 1.5)};
+  }
   // Parallel, `gap_m` beside each other.
   std::array<OrientedRectangle, 2> beside(double range_m, double gap_m) {
     OrientedRectangle a = anywhere(range_m), b = anywhere(1.0);
     b.heading = a.heading;
-    const double aside = a.half_width_m + b.half_width_m + gap_m, along = in(-1.0, 1.0) * (a.half_length_m + b.half_length_m);
+    const double aside = a.half_width_m + b.half_width_m + gap_m,
+                 along = in(-1.0, 1.0) * (a.half_length_m + b.half_length_m);
     b.centre_m = a.centre_m + along * a.heading + aside * left_of(a.heading);
     return {a, b};
   }
   OrientedRectangle on_lattice() {
-    return {{0.25 * whole(0, 20), 0.25 * whole(0, 20)}, unit_vector(0.25 * kPi * whole(-4, 4)), 0.25 * whole(1, 5), 0.25 * whole(1, 5)};
+    return {{0.25 * whole(0, 20), 0.25 * whole(0, 20)},
+            unit_vector(0.25 * kPi * whole(-4, 4)),
+            0.25 * whole(1, 5),
+            0.25 * whole(1, 5)};
   }
 
  private:

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-// Trajectories as the paper defines them, evaluated by formulas of this folder's own: libm's sine and cosine, no code of the program under test.
-// Metres, seconds, radians; instants are whole nanoseconds.
+// Trajectories as the paper defines them, evaluated by formulas of this folder's own: libm's sine and cosine, no code
+// of the program under test. Metres, seconds, radians; instants are whole nanoseconds.
 namespace fleetproof::oracle {
 
 using Nanoseconds = std::int64_t;
@@ -33,7 +33,8 @@ class Trapezoid {
  public:
   Trapezoid() = default;
   Trapezoid(double distance, const Limits& limits) : distance_(distance), limits_(limits) {
-    const double a = limits.acceleration, d = limits.deceleration, v = limits.speed, ramps = v * v / (2.0 * a) + v * v / (2.0 * d);
+    const double a = limits.acceleration, d = limits.deceleration, v = limits.speed,
+                 ramps = v * v / (2.0 * a) + v * v / (2.0 * d);
     top_ = ramps < distance ? v : std::sqrt(2.0 * distance / (1.0 / a + 1.0 / d));
     up_s_ = top_ / a;
     level_s_ = ramps < distance ? (distance - ramps) / v : 0.0;
@@ -118,7 +119,8 @@ struct Trajectory {
   // No point of the body is ever faster.
   double fastest_mps() const {
     if (manner == Manner::Rest) return 0.0;
-    return manner == Manner::Turn ? profile.top() * half_diagonal() : profile.top() * (1.0 + sharpest_bend() * half_diagonal());
+    return manner == Manner::Turn ? profile.top() * half_diagonal()
+                                  : profile.top() * (1.0 + sharpest_bend() * half_diagonal());
   }
   // No point of the body is ever accelerated more, but where two strokes meet.
   double strongest_mps2() const {

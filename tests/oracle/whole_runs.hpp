@@ -14,7 +14,8 @@
 #include "laws/laws.hpp"
 #include "tests/oracle/brute_force.hpp"
 
-// Whole runs under the exact law and under a clock of 2.5 ms that looks at every pair of bodies, whatever they do, with the oracle's distance.
+// Whole runs under the exact law and under a clock of 2.5 ms that looks at every pair of bodies, whatever they do, with
+// the oracle's distance.
 namespace fleetproof::oracle {
 
 class GlobalClock final : public Law {
@@ -28,7 +29,8 @@ class GlobalClock final : public Law {
   };
   using Pairs = std::map<std::pair<std::uint64_t, std::uint64_t>, Seen>;
 
-  GlobalClock(const Scenario& scenario, Pairs& below) : agvs_(scenario.agvs.size()), below_(below), level_m_(scenario.law.safety_distance_m - 1e-6) {
+  GlobalClock(const Scenario& scenario, Pairs& below)
+      : agvs_(scenario.agvs.size()), below_(below), level_m_(scenario.law.safety_distance_m - 1e-6) {
     pieces_.resize(agvs_ + scenario.obstacles.size());
   }
   void piece_ended(const Piece& piece) override { pieces_[piece.entity.index()].push_back(piece); }
@@ -102,7 +104,8 @@ inline Scenario run_of(int number, std::string_view family, double horizon_s) {
   return scenario;
 }
 
-// A pair that only the exact law accuses was below for less than a step, or no instant of the clock fell into its stretches.
+// A pair that only the exact law accuses was below for less than a step, or no instant of the clock fell into its
+// stretches.
 inline bool between_steps(const Violation& violation) {
   const std::int64_t step = GlobalClock::kStep.count();
   return to_ns(violation.last) / step * step < to_ns(violation.first);
@@ -120,15 +123,17 @@ inline void compare(int number, const Scenario& scenario, const fp_agent_type& a
   for (const auto& [pair, below] : seen) {
     ++sum.pairs;
     sum.same += found.contains(pair);
-    EXPECT_TRUE(found.contains(pair)) << "run " << number << ": the clock sees " << pair.first << " and " << pair.second << " " << below.lowest_m
-                                      << " m apart, first at " << to_seconds(below.at) << " s; the exact law does not";
+    EXPECT_TRUE(found.contains(pair)) << "run " << number << ": the clock sees " << pair.first << " and " << pair.second
+                                      << " " << below.lowest_m << " m apart, first at " << to_seconds(below.at)
+                                      << " s; the exact law does not";
   }
   for (const auto& [pair, violations] : found) {
     if (seen.contains(pair)) continue;
     ++sum.pairs, ++sum.only_exact;
     const Violation& v = violations[0];
-    sum.differences.push_back(fmt::format("run {}, pair {} and {}: between two steps, {:.3f} ms from {:.6f} s, closest {} um", number, pair.first,
-                                          pair.second, 1e3 * to_seconds(v.last - v.first), to_seconds(v.first), v.min_clearance_um));
+    sum.differences.push_back(fmt::format(
+        "run {}, pair {} and {}: between two steps, {:.3f} ms from {:.6f} s, closest {} um", number, pair.first,
+        pair.second, 1e3 * to_seconds(v.last - v.first), to_seconds(v.first), v.min_clearance_um));
     for (const Violation& violation : violations) EXPECT_TRUE(between_steps(violation)) << sum.differences.back();
   }
 }
@@ -143,8 +148,8 @@ inline Comparison compare_runs(int first, int runs, double horizon_s) {
     const bool grant = (static_cast<std::size_t>(i) / families.size()) % 3 == 2;
     compare(i, run_of(i, family.name, horizon_s), programs.find(grant ? "timeout-grant" : "reckless", "test"), sum);
   }
-  fmt::print("{} runs: {} violated pairs, {} of them seen by both; {} fell between two steps of the clock\n", sum.runs, sum.pairs, sum.same,
-             sum.only_exact);
+  fmt::print("{} runs: {} violated pairs, {} of them seen by both; {} fell between two steps of the clock\n", sum.runs,
+             sum.pairs, sum.same, sum.only_exact);
   for (const std::string& difference : sum.differences) fmt::print("  {}\n", difference);
   EXPECT_EQ(sum.same + sum.only_exact, sum.pairs);
   EXPECT_GT(sum.same, runs / 4);

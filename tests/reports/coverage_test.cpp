@@ -25,7 +25,8 @@ Outcome with(std::vector<ProbeCount> probes) {
 
 Coverage many(std::uint64_t runs, std::uint64_t with_crossing) {
   Coverage coverage;
-  for (std::uint64_t i = 0; i < runs; ++i) coverage.add(i < with_crossing ? with({{ProbeSource::World, "crossing", 2}}) : Outcome{});
+  for (std::uint64_t i = 0; i < runs; ++i)
+    coverage.add(i < with_crossing ? with({{ProbeSource::World, "crossing", 2}}) : Outcome{});
   return coverage;
 }
 
@@ -40,7 +41,9 @@ void meet_nobody(RunRecord& run) { run.outcome.probes.clear(); }
 
 TEST(Coverage, CountsRunsAndTimes) {
   Coverage coverage;
-  coverage.add(with({{ProbeSource::World, "crossing", 2}, {ProbeSource::World, "head-on", 1}, {ProbeSource::Agent, "negotiation", 7}}));
+  coverage.add(with({{ProbeSource::World, "crossing", 2},
+                     {ProbeSource::World, "head-on", 1},
+                     {ProbeSource::Agent, "negotiation", 7}}));
   coverage.add(with({{ProbeSource::World, "crossing", 3}}));
   coverage.add(Outcome{});
   EXPECT_EQ(coverage.runs(), 3u);
@@ -58,8 +61,10 @@ TEST(Coverage, CountsRunsAndTimes) {
 
 TEST(Coverage, AnAgentCannotClaimWhatTheWorldTells) {
   Coverage coverage;
-  for (const char* name : {"head-on", "encounter", "fault-1", "safe-mode"}) coverage.add(with({{ProbeSource::Agent, name, 5}}));
-  for (const char* name : {"head-on", "encounter", "fault-1", "safe-mode"}) EXPECT_EQ(coverage.seen(name).runs, 0u) << name;
+  for (const char* name : {"head-on", "encounter", "fault-1", "safe-mode"})
+    coverage.add(with({{ProbeSource::Agent, name, 5}}));
+  for (const char* name : {"head-on", "encounter", "fault-1", "safe-mode"})
+    EXPECT_EQ(coverage.seen(name).runs, 0u) << name;
   EXPECT_FALSE(coverage.agents_declare_anything());
 }
 
@@ -93,7 +98,8 @@ class WeakReport : public testing::Test {
 TEST_F(WeakReport, ACampaignThatMetEverythingIsNotWeak) {
   const auto input = report_of(campaign_of("claim", 400), cells_, gates_);
   EXPECT_EQ(input.gates[0].verdict, Verdict::Demonstrated);
-  for (const auto* format : {"text", "summary", "markdown"}) EXPECT_THAT(render(format, input), Not(HasSubstr("weak evidence"))) << format;
+  for (const auto* format : {"text", "summary", "markdown"})
+    EXPECT_THAT(render(format, input), Not(HasSubstr("weak evidence"))) << format;
   const auto json = nlohmann::json::parse(render("json", input));
   EXPECT_EQ(json["weak"], false);
   EXPECT_EQ(json["gates"][0]["weak"], false);
@@ -139,10 +145,11 @@ TEST_F(WeakReport, WhoAsksForNothingGetsNoWarning) {
 }
 
 TEST_F(WeakReport, AViolationStaysAViolation) {
-  const auto input = report_of(campaign_of("claim", 400), cells_, {gate_of("sound", GateKind::None, Region::Contract, 1e-2)}, [](RunRecord& run) {
-    meet_nobody(run);
-    if (run.run_index == 3) samples::violate(run);
-  });
+  const auto input = report_of(campaign_of("claim", 400), cells_,
+                               {gate_of("sound", GateKind::None, Region::Contract, 1e-2)}, [](RunRecord& run) {
+                                 meet_nobody(run);
+                                 if (run.run_index == 3) samples::violate(run);
+                               });
   EXPECT_EQ(input.gates[0].verdict, Verdict::Violated);
 }
 
@@ -158,8 +165,9 @@ TEST_F(WeakReport, TheGateLooksAtItsOwnCells) {
 TEST_F(WeakReport, IncidentsOfTheOtherLawsAreListedWithAReplayLine) {
   const auto input = report_of(campaign_of("claim", 40), cells_, gates_, [](RunRecord& run) {
     if (run.run_index % 10 == 7) {
-      file_incidents(run.outcome, {{IncidentKind::Deadlock, EntityId{0u}, EntityId{1u}, at_seconds(3.0), at_seconds(9.0), 2},
-                                   {IncidentKind::Deadlock, EntityId{2u}, EntityId{3u}, at_seconds(4.0), at_seconds(9.0), 2}});
+      file_incidents(run.outcome,
+                     {{IncidentKind::Deadlock, EntityId{0u}, EntityId{1u}, at_seconds(3.0), at_seconds(9.0), 2},
+                      {IncidentKind::Deadlock, EntityId{2u}, EntityId{3u}, at_seconds(4.0), at_seconds(9.0), 2}});
     }
   });
   const auto text = render("text", input);

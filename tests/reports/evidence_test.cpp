@@ -16,8 +16,8 @@ using samples::report_of;
 
 TEST(Evidence, a_pooled_gate_counts_replicates_not_runs) {
   // Replicate 3 fails in all its six cells: that is one failure, not six.
-  const auto input = report_of(campaign_of("claim", 10), grid({"sound"}, {0.0, 0.4}, {0.0, 1.0, 2.0}), {gate_of("sound", GateKind::Rate, Region::Contract, 1e-3)},
-                               [](RunRecord& run) {
+  const auto input = report_of(campaign_of("claim", 10), grid({"sound"}, {0.0, 0.4}, {0.0, 1.0, 2.0}),
+                               {gate_of("sound", GateKind::Rate, Region::Contract, 1e-3)}, [](RunRecord& run) {
                                  if (run.replicate == 3) samples::violate(run);
                                });
   const auto& gate = input.gates[0];
@@ -29,8 +29,10 @@ TEST(Evidence, a_pooled_gate_counts_replicates_not_runs) {
 
 TEST(Evidence, a_gate_sees_its_own_agent_and_region_only) {
   const auto cells = grid({"sound", "faulty"}, {0.0, 0.4, 0.8}, {0.0, 2.0, 5.0});
-  const std::vector<GateRecord> gates{gate_of("sound", GateKind::None, Region::Contract, 1e-3), gate_of("sound", GateKind::None, Region::WorstCase, 1e-3),
-                                      gate_of("sound", GateKind::None, Region::All, 1e-3), gate_of("faulty", GateKind::None, Region::Contract, 1e-3)};
+  const std::vector<GateRecord> gates{gate_of("sound", GateKind::None, Region::Contract, 1e-3),
+                                      gate_of("sound", GateKind::None, Region::WorstCase, 1e-3),
+                                      gate_of("sound", GateKind::None, Region::All, 1e-3),
+                                      gate_of("faulty", GateKind::None, Region::Contract, 1e-3)};
   const auto input = report_of(campaign_of("claim", 2), cells, gates, [&](RunRecord& run) {
     const auto& cell = cells[run.cell];
     if (cell.agent == "faulty" || cell.delay_s == 5.0) samples::violate(run);
@@ -47,10 +49,14 @@ TEST(Evidence, a_gate_sees_its_own_agent_and_region_only) {
 
 TEST(Evidence, an_incomplete_replicate_is_not_counted_but_its_failures_are_remembered) {
   const auto cells = grid({"sound"}, {0.0, 0.4}, {2.0});
-  const std::vector<GateRecord> gates{gate_of("sound", GateKind::Rate, Region::Contract, 1e-3), gate_of("sound", GateKind::None, Region::Contract, 1e-3)};
-  const auto input = report_of(campaign_of("claim", 4), cells, gates, [](RunRecord& run) {
-    if (run.run_index == 8) samples::violate(run);
-  }, 1);
+  const std::vector<GateRecord> gates{gate_of("sound", GateKind::Rate, Region::Contract, 1e-3),
+                                      gate_of("sound", GateKind::None, Region::Contract, 1e-3)};
+  const auto input = report_of(
+      campaign_of("claim", 4), cells, gates,
+      [](RunRecord& run) {
+        if (run.run_index == 8) samples::violate(run);
+      },
+      1);
   EXPECT_EQ(input.evidence.runs(), 9u);
   EXPECT_EQ(input.evidence.complete_replicates(), 4u);
   EXPECT_EQ(input.evidence.tally(0).runs, 4u);
@@ -115,18 +121,28 @@ TEST(Evidence, outside_the_contract_standing_still_is_legal) {
   const auto park_outside = [](RunRecord& run) {
     if (run.cell == 1) run.outcome.counters.transports_done = 0;
   };
-  EXPECT_EQ(report_of(campaign_of("claim", 3000), cells, {gate_of("sound", GateKind::None, Region::All, 1e-3)}, park_outside).gates[0].verdict, Verdict::Demonstrated);
+  EXPECT_EQ(
+      report_of(campaign_of("claim", 3000), cells, {gate_of("sound", GateKind::None, Region::All, 1e-3)}, park_outside)
+          .gates[0]
+          .verdict,
+      Verdict::Demonstrated);
   const auto park_inside = [](RunRecord& run) {
     if (run.cell == 0) run.outcome.counters.transports_done = 0;
   };
-  EXPECT_EQ(report_of(campaign_of("claim", 3000), cells, {gate_of("sound", GateKind::None, Region::All, 1e-3)}, park_inside).gates[0].verdict, Verdict::NotDemonstrated);
+  EXPECT_EQ(
+      report_of(campaign_of("claim", 3000), cells, {gate_of("sound", GateKind::None, Region::All, 1e-3)}, park_inside)
+          .gates[0]
+          .verdict,
+      Verdict::NotDemonstrated);
 }
 
 TEST(Evidence, a_gate_with_cells_outside_the_contract_only_asks_for_progress_there) {
   const auto cells = grid({"sound"}, {0.8, 0.9}, {0.0});
   const auto verdict = [&](std::uint64_t done) {
     return report_of(campaign_of("claim", 3000), cells, {gate_of("sound", GateKind::None, Region::All, 1e-3)},
-                     [&](RunRecord& run) { run.outcome.counters.transports_done = done; }).gates[0].verdict;
+                     [&](RunRecord& run) { run.outcome.counters.transports_done = done; })
+        .gates[0]
+        .verdict;
   };
   EXPECT_EQ(verdict(10), Verdict::Demonstrated);
   EXPECT_EQ(verdict(0), Verdict::NotDemonstrated);
@@ -152,14 +168,29 @@ TEST(Evidence, worst_runs_are_sorted_by_what_happened_then_by_clearance) {
   const auto input = report_of(campaign_of("claim", 40), grid({"sound"}, {0.4}, {2.0}), {}, [](RunRecord& run) {
     auto& o = run.outcome;
     switch (run.run_index) {
-      case 2: o.stuck = true; break;
-      case 4: o.hang = true; break;
-      case 6: o.crash = true; break;
-      case 8: samples::violate(run, 90'000); break;
-      case 10: samples::violate(run, 20'000); break;
-      case 12: samples::violate(run, -1'000, true); break;
-      case 14: samples::violate(run, 20'000); break;
-      default: break;
+      case 2:
+        o.stuck = true;
+        break;
+      case 4:
+        o.hang = true;
+        break;
+      case 6:
+        o.crash = true;
+        break;
+      case 8:
+        samples::violate(run, 90'000);
+        break;
+      case 10:
+        samples::violate(run, 20'000);
+        break;
+      case 12:
+        samples::violate(run, -1'000, true);
+        break;
+      case 14:
+        samples::violate(run, 20'000);
+        break;
+      default:
+        break;
     }
   });
   std::vector<std::uint64_t> order;
@@ -169,8 +200,9 @@ TEST(Evidence, worst_runs_are_sorted_by_what_happened_then_by_clearance) {
 }
 
 TEST(Evidence, keeps_only_the_worst_few) {
-  const auto input = report_of(campaign_of("claim", 200), grid({"sound"}, {0.4}, {2.0}), {},
-                               [](RunRecord& run) { samples::violate(run, 100'000 - static_cast<std::int64_t>(run.run_index)); });
+  const auto input = report_of(campaign_of("claim", 200), grid({"sound"}, {0.4}, {2.0}), {}, [](RunRecord& run) {
+    samples::violate(run, 100'000 - static_cast<std::int64_t>(run.run_index));
+  });
   const auto& worst = input.evidence.worst_runs(true);
   ASSERT_EQ(worst.size(), Evidence::kWorstRuns);
   EXPECT_EQ(worst.front().run_index, 199u);
@@ -180,15 +212,22 @@ TEST(Evidence, keeps_only_the_worst_few) {
 TEST(ExitCode, engine_error_before_violated_before_not_demonstrated) {
   const auto cells = grid({"sound"}, {0.4}, {2.0});
   const auto gate = gate_of("sound", GateKind::None, Region::WorstCase, 1e-3);
-  const auto code = [&](std::uint64_t replicates, const samples::Change& change) { return report_of(campaign_of("claim", replicates), cells, {gate}, change).exit_code; };
+  const auto code = [&](std::uint64_t replicates, const samples::Change& change) {
+    return report_of(campaign_of("claim", replicates), cells, {gate}, change).exit_code;
+  };
   EXPECT_EQ(code(2995, {}), 0);
   EXPECT_EQ(code(100, {}), 4);
   EXPECT_EQ(code(0, {}), 4);
-  EXPECT_EQ(code(100, [](RunRecord& run) { if (run.run_index == 7) samples::violate(run); }), 1);
-  EXPECT_EQ(code(100, [](RunRecord& run) {
-              if (run.run_index == 7) samples::violate(run);
-              if (run.run_index == 9) run.outcome.engine_error = true;
-            }),
+  EXPECT_EQ(code(100,
+                 [](RunRecord& run) {
+                   if (run.run_index == 7) samples::violate(run);
+                 }),
+            1);
+  EXPECT_EQ(code(100,
+                 [](RunRecord& run) {
+                   if (run.run_index == 7) samples::violate(run);
+                   if (run.run_index == 9) run.outcome.engine_error = true;
+                 }),
             3);
   EXPECT_EQ(report_of(campaign_of("claim", 3000), cells, {}).exit_code, 4);
 }
@@ -204,14 +243,20 @@ TEST(ExitCode, a_campaign_that_is_not_complete_is_not_demonstrated) {
   EXPECT_EQ(stopped.gates[0].counts.planned, 3001u);
   EXPECT_EQ(stopped.gates[0].counts.units, 3000u);
   EXPECT_EQ(stopped.exit_code, 4);
-  const auto refuted = report_of(campaign_of("claim", 3001), cells, {gate}, [](RunRecord& run) { if (run.run_index == 6000) samples::violate(run); }, 0, 1);
+  const auto refuted = report_of(
+      campaign_of("claim", 3001), cells, {gate},
+      [](RunRecord& run) {
+        if (run.run_index == 6000) samples::violate(run);
+      },
+      0, 1);
   EXPECT_EQ(refuted.exit_code, 1);
 }
 
 TEST(ExitCode, one_violated_gate_outweighs_many_demonstrated_ones) {
   const auto cells = grid({"sound", "faulty"}, {0.4}, {2.0});
   const auto input = report_of(campaign_of("claim", 3000), cells,
-                               {gate_of("sound", GateKind::None, Region::WorstCase, 1e-3), gate_of("faulty", GateKind::None, Region::WorstCase, 1e-3)},
+                               {gate_of("sound", GateKind::None, Region::WorstCase, 1e-3),
+                                gate_of("faulty", GateKind::None, Region::WorstCase, 1e-3)},
                                [](RunRecord& run) {
                                  if (run.cell == 1) samples::violate(run);
                                });

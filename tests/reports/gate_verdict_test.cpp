@@ -11,7 +11,9 @@ namespace {
 
 using testing::HasSubstr;
 
-GateRecord gate(GateKind kind, double limit) { return {0, "safe", "sound", kind, EndPoint::Violation, Region::Contract, limit, 0.95, 1.0}; }
+GateRecord gate(GateKind kind, double limit) {
+  return {0, "safe", "sound", kind, EndPoint::Violation, Region::Contract, limit, 0.95, 1.0};
+}
 
 GateCounts counts(std::uint64_t units, std::uint64_t failing, std::uint64_t unknown = 0) {
   GateCounts c;
@@ -97,7 +99,8 @@ TEST(GateVerdict, a_parked_fleet_demonstrates_nothing) {
   EXPECT_EQ(judge_gate(gate(GateKind::None, 1e-3), parked).verdict, Verdict::NotDemonstrated);
   auto idle = counts(5000, 0);
   idle.idle_cells = 1;
-  EXPECT_THAT(judge_gate(gate(GateKind::None, 1e-3), idle).reason, HasSubstr("in 1 of 12 cells no transport was completed"));
+  EXPECT_THAT(judge_gate(gate(GateKind::None, 1e-3), idle).reason,
+              HasSubstr("in 1 of 12 cells no transport was completed"));
   auto no_floor = gate(GateKind::None, 1e-3);
   no_floor.min_transports_per_agv_hour = 0.0;
   EXPECT_EQ(judge_gate(no_floor, idle).verdict, Verdict::Demonstrated);
@@ -105,7 +108,8 @@ TEST(GateVerdict, a_parked_fleet_demonstrates_nothing) {
 
 TEST(GateVerdict, a_floor_of_zero_is_no_praise_for_progress) {
   for (const double floor : {0.0, -1.0}) {
-    for (const std::optional<double> rate : {std::optional<double>(0.0), std::optional<double>(12.0), std::optional<double>()}) {
+    for (const std::optional<double> rate :
+         {std::optional<double>(0.0), std::optional<double>(12.0), std::optional<double>()}) {
       auto no_floor = gate(GateKind::None, 1e-3);
       no_floor.min_transports_per_agv_hour = floor;
       auto parked = counts(5000, 0);
@@ -135,7 +139,8 @@ TEST(GateVerdict, a_campaign_stopped_early_demonstrates_nothing_however_good_the
     stopped.planned = 5000;
     const auto result = judge_gate(gate(kind, 1e-3), stopped);
     EXPECT_EQ(result.verdict, Verdict::NotDemonstrated);
-    EXPECT_EQ(result.reason, "stopped after 4999 of 5000 planned replicates; the bound holds only for the number fixed beforehand");
+    EXPECT_EQ(result.reason,
+              "stopped after 4999 of 5000 planned replicates; the bound holds only for the number fixed beforehand");
     stopped.units = 5000;
     EXPECT_EQ(judge_gate(gate(kind, 1e-3), stopped).verdict, Verdict::Demonstrated);
   }

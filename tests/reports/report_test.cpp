@@ -20,7 +20,9 @@ using samples::report_of;
 using testing::HasSubstr;
 using testing::Not;
 
-std::string render(const std::string& format, const ReportInput& input) { return find_entry(report_formats(), format)->make(input); }
+std::string render(const std::string& format, const ReportInput& input) {
+  return find_entry(report_formats(), format)->make(input);
+}
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
@@ -30,13 +32,15 @@ std::vector<std::string> lines_of(const std::string& text) {
 }
 
 ReportInput clean_campaign(std::uint64_t replicates = 200) {
-  return report_of(campaign_of("claim", replicates), grid({"sound"}, {0.0, 0.2, 0.4}, {0.0, 0.5, 1.0, 2.0}), {gate_of("sound", GateKind::None, Region::Contract, 1e-3)});
+  return report_of(campaign_of("claim", replicates), grid({"sound"}, {0.0, 0.2, 0.4}, {0.0, 0.5, 1.0, 2.0}),
+                   {gate_of("sound", GateKind::None, Region::Contract, 1e-3)});
 }
 
 ReportInput failing_campaign(GateKind kind = GateKind::Rate) {
-  return report_of(campaign_of("claim", 5000), grid({"sound"}, {0.0, 0.4, 0.8}, {2.0}), {gate_of("sound", kind, Region::Contract, 1e-2)}, [](RunRecord& run) {
-    if (run.run_index == 3001) samples::violate(run);  // at 40 %, 2 s
-  });
+  return report_of(campaign_of("claim", 5000), grid({"sound"}, {0.0, 0.4, 0.8}, {2.0}),
+                   {gate_of("sound", kind, Region::Contract, 1e-2)}, [](RunRecord& run) {
+                     if (run.run_index == 3001) samples::violate(run);  // at 40 %, 2 s
+                   });
 }
 
 TEST(Report, without_a_violation_the_bound_is_printed_all_the_same) {
@@ -52,7 +56,8 @@ TEST(Report, without_a_violation_the_bound_is_printed_all_the_same) {
 
 TEST(Report, the_verdict_claims_what_was_sampled) {
   auto page = render("markdown", clean_campaign());
-  EXPECT_THAT(page, HasSubstr("200 replicates at these 12 combinations (loss 0 %, 20 %, 40 %; delay 0 s, 0.5 s, 1 s, 2 s), layout ring, fleets of 5, 600 s a run"));
+  EXPECT_THAT(page, HasSubstr("200 replicates at these 12 combinations (loss 0 %, 20 %, 40 %; delay 0 s, 0.5 s, 1 s, 2 "
+                              "s), layout ring, fleets of 5, 600 s a run"));
   EXPECT_THAT(render("markdown", clean_campaign(3000)), HasSubstr("**demonstrated**"));
 }
 
@@ -61,7 +66,8 @@ TEST(Report, one_violation_in_the_contract_region_heads_the_page_even_if_the_rat
   EXPECT_EQ(input.gates[0].verdict, Verdict::Demonstrated);
   const auto lines = lines_of(render("text", input));
   ASSERT_GT(lines.size(), 3u);
-  EXPECT_THAT(lines[2], HasSubstr("violation | agent sound broke the safety distance in 1 run within the contract region"));
+  EXPECT_THAT(lines[2],
+              HasSubstr("violation | agent sound broke the safety distance in 1 run within the contract region"));
   const auto page = render("text", input);
   EXPECT_LT(page.find("-> fleetproof replay night.fp 3001"), page.find("demonstrated |"));
 }
@@ -75,8 +81,9 @@ TEST(Report, a_refuted_gate_shows_its_run) {
 TEST(Report, sections_stand_in_their_order) {
   const auto page = render("text", failing_campaign());
   std::size_t last = 0;
-  for (const auto* title : {"demonstrated |", "Worst case of the contract", "Contract region: loss", "Outside the contract\n", "How to read the tables", "Weak points", "Worst runs", "Provenance",
-                            "How to read this"}) {
+  for (const auto* title :
+       {"demonstrated |", "Worst case of the contract", "Contract region: loss", "Outside the contract\n",
+        "How to read the tables", "Weak points", "Worst runs", "Provenance", "How to read this"}) {
     const auto at = page.find(title, last);
     ASSERT_NE(at, std::string::npos) << title;
     last = at;
@@ -86,9 +93,12 @@ TEST(Report, sections_stand_in_their_order) {
 TEST(Report, a_table_row_has_interval_bound_clearance_and_progress) {
   const auto page = render("text", failing_campaign());
   const auto lines = lines_of(page);
-  const auto row = std::ranges::find_if(lines, [](const std::string& line) { return line.find("sound") != std::string::npos && line.find("  40 %") != std::string::npos; });
+  const auto row = std::ranges::find_if(lines, [](const std::string& line) {
+    return line.find("sound") != std::string::npos && line.find("  40 %") != std::string::npos;
+  });
   ASSERT_NE(row, lines.end());
-  EXPECT_THAT(*row, testing::ContainsRegex("1/5000 +0.0002 +\\[5.06e-06, 0.00112\\] +0.000949 +0 +0 +0 +0.07 m +12.00"));
+  EXPECT_THAT(*row,
+              testing::ContainsRegex("1/5000 +0.0002 +\\[5.06e-06, 0.00112\\] +0.000949 +0 +0 +0 +0.07 m +12.00"));
 }
 
 TEST(Report, outages_are_shown_where_the_campaign_has_them) {
@@ -100,12 +110,15 @@ TEST(Report, outages_are_shown_where_the_campaign_has_them) {
     cells.back().index = static_cast<std::uint32_t>(cells.size() - 1);
     cells.back().mean_outage_s = cells.back().mean_outage_to_s = 0.5;
   }
-  const auto input = report_of(campaign_of("claim", 200), cells, {gate_of("sound", GateKind::None, Region::Contract, 1e-3)}, [](RunRecord& run) {
-    if (run.run_index == 403) samples::violate(run);  // at 40 %, 2 s, outages of 0.5 s
-  });
+  const auto input = report_of(campaign_of("claim", 200), cells,
+                               {gate_of("sound", GateKind::None, Region::Contract, 1e-3)}, [](RunRecord& run) {
+                                 if (run.run_index == 403) samples::violate(run);  // at 40 %, 2 s, outages of 0.5 s
+                               });
   auto page = render("text", input);
   const auto lines = lines_of(page);
-  const auto head = std::ranges::find_if(lines, [](const std::string& line) { return line.find("outage") != std::string::npos && line.find("95 %") != std::string::npos; });
+  const auto head = std::ranges::find_if(lines, [](const std::string& line) {
+    return line.find("outage") != std::string::npos && line.find("95 %") != std::string::npos;
+  });
   ASSERT_NE(head, lines.end()) << page;
   EXPECT_THAT(page, HasSubstr("40 %    2 s    none"));
   EXPECT_THAT(page, HasSubstr("40 %    2 s   0.5 s"));
@@ -116,15 +129,20 @@ TEST(Report, outages_are_shown_where_the_campaign_has_them) {
 }
 
 TEST(Report, no_text_line_is_wider_than_150_columns) {
-  for (const auto& input : {clean_campaign(), failing_campaign(), report_of(campaign_of("claim", 3), grid({"sound-with-timeouts-and-a-long-name", "sound"}, {0.4}, {2.0}, {"ring", "cross"}), {})}) {
+  for (const auto& input :
+       {clean_campaign(), failing_campaign(),
+        report_of(campaign_of("claim", 3),
+                  grid({"sound-with-timeouts-and-a-long-name", "sound"}, {0.4}, {2.0}, {"ring", "cross"}), {})}) {
     for (const auto& line : lines_of(render("text", input))) EXPECT_LE(line.size(), 150u) << line;
   }
 }
 
 TEST(Report, a_table_too_wide_for_a_terminal_still_names_every_agent) {
-  const auto input = report_of(campaign_of("claim", 3000), grid({"an-agent-with-a-name-that-is-very-long", "sound"}, {0.4}, {2.0}), {}, [](RunRecord& run) {
-    if (run.run_index == 7) samples::violate(run);
-  });
+  const auto input =
+      report_of(campaign_of("claim", 3000), grid({"an-agent-with-a-name-that-is-very-long", "sound"}, {0.4}, {2.0}), {},
+                [](RunRecord& run) {
+                  if (run.run_index == 7) samples::violate(run);
+                });
   const auto lines = lines_of(render("text", input));
   const auto name = std::ranges::find(lines, " an-agent-with-a-name-that-is-very-long");
   ASSERT_NE(name, lines.end());
@@ -134,9 +152,10 @@ TEST(Report, a_table_too_wide_for_a_terminal_still_names_every_agent) {
 }
 
 TEST(Report, a_search_prints_counts_and_no_rates) {
-  const auto input = report_of(campaign_of("search", 50), grid({"sound"}, {0.4}, {2.0, 5.0}), {gate_of("sound", GateKind::None, Region::Contract, 1e-3)}, [](RunRecord& run) {
-    if (run.run_index == 10) samples::violate(run);
-  });
+  const auto input = report_of(campaign_of("search", 50), grid({"sound"}, {0.4}, {2.0, 5.0}),
+                               {gate_of("sound", GateKind::None, Region::Contract, 1e-3)}, [](RunRecord& run) {
+                                 if (run.run_index == 10) samples::violate(run);
+                               });
   for (const auto* format : {"text", "markdown"}) {
     const auto page = render(format, input);
     EXPECT_THAT(page, HasSubstr("1 run failed"));
@@ -150,9 +169,10 @@ TEST(Report, a_search_prints_counts_and_no_rates) {
 }
 
 TEST(Report, pooled_rows_say_that_their_unit_is_the_replicate) {
-  const auto pooled = report_of(campaign_of("claim", 20), grid({"sound"}, {0.4}, {2.0}, {"ring", "cross", "aisle"}), {}, [](RunRecord& run) {
-    if (run.replicate == 4) samples::violate(run);
-  });
+  const auto pooled = report_of(campaign_of("claim", 20), grid({"sound"}, {0.4}, {2.0}, {"ring", "cross", "aisle"}), {},
+                                [](RunRecord& run) {
+                                  if (run.replicate == 4) samples::violate(run);
+                                });
   EXPECT_THAT(render("text", pooled), HasSubstr("Its unit is the replicate"));
   EXPECT_THAT(render("text", pooled), HasSubstr("1/20"));
   EXPECT_THAT(render("text", pooled), HasSubstr("3 runs"));
@@ -161,25 +181,29 @@ TEST(Report, pooled_rows_say_that_their_unit_is_the_replicate) {
 }
 
 TEST(Report, weak_points_are_named) {
-  const auto input = report_of(campaign_of("claim", 10), grid({"sound", "other"}, {0.0, 0.4}, {2.0}), {gate_of("sound", GateKind::None, Region::Contract, 1e-3)},
-                               [](RunRecord& run) {
-                                 if (run.cell == 1) run.outcome.counters.transports_done = 0;
-                                 if (run.cell == 2 && run.replicate == 5) run.outcome.crash = true;
-                               },
-                               2);
+  const auto input = report_of(
+      campaign_of("claim", 10), grid({"sound", "other"}, {0.0, 0.4}, {2.0}),
+      {gate_of("sound", GateKind::None, Region::Contract, 1e-3)},
+      [](RunRecord& run) {
+        if (run.cell == 1) run.outcome.counters.transports_done = 0;
+        if (run.cell == 2 && run.replicate == 5) run.outcome.crash = true;
+      },
+      2);
   const auto json = nlohmann::json::parse(render("json", input));
   const auto points = json["weak_points"].dump();
   EXPECT_THAT(points, HasSubstr("2 of 42 stored runs are not counted"));
   EXPECT_THAT(points, HasSubstr("takes 2995"));
-  EXPECT_THAT(points, HasSubstr("1 of 4 cells in the contract region completed no transport: sound on ring, fleet of 5, 40 %, 2 s"));
+  EXPECT_THAT(
+      points,
+      HasSubstr("1 of 4 cells in the contract region completed no transport: sound on ring, fleet of 5, 40 %, 2 s"));
   EXPECT_THAT(points, HasSubstr("1 of 4 cells have runs with an unknown outcome"));
   EXPECT_THAT(points, HasSubstr("No gate judges agent other"));
 }
 
 TEST(Report, unknown_outcomes_have_their_optimistic_line) {
-  const auto input = report_of(campaign_of("claim", 100), grid({"sound"}, {0.4}, {2.0}), {gate_of("sound", GateKind::Rate, Region::WorstCase, 1e-3)}, [](RunRecord& run) {
-    run.outcome.crash = run.run_index % 10 == 0;
-  });
+  const auto input = report_of(campaign_of("claim", 100), grid({"sound"}, {0.4}, {2.0}),
+                               {gate_of("sound", GateKind::Rate, Region::WorstCase, 1e-3)},
+                               [](RunRecord& run) { run.outcome.crash = run.run_index % 10 == 0; });
   const auto page = render("markdown", input);
   EXPECT_THAT(page, HasSubstr("10 of 100 runs failed"));
   EXPECT_THAT(page, HasSubstr("if none of them had failed: 0 of 100, upper bound 0.0296"));
@@ -198,7 +222,8 @@ TEST(Report, json_has_full_digits_units_and_hexadecimal_digests) {
   EXPECT_EQ(gate["worst_run"]["replay"], "fleetproof replay night.fp 3001");
   EXPECT_EQ(gate["worst_run"]["closest"]["closest_at_s"], 12.345);
   const auto& cell = json["cells"][1];
-  for (const auto* key : {"delay_s", "loss", "runs", "violating_runs", "stuck_runs", "min_clearance_m", "agv_hours", "transports_per_agv_hour", "claim", "optimistic"}) {
+  for (const auto* key : {"delay_s", "loss", "runs", "violating_runs", "stuck_runs", "min_clearance_m", "agv_hours",
+                          "transports_per_agv_hour", "claim", "optimistic"}) {
     EXPECT_TRUE(cell.contains(key)) << key;
   }
   EXPECT_EQ(cell["min_clearance_m"], 0.07);
@@ -211,13 +236,14 @@ TEST(Report, markdown_of_500_cells_stays_under_60_kilobytes_and_keeps_the_failin
   for (int i = 0; i < 20; ++i) delays_s.push_back(0.2 * i);
   const auto cells = grid({"a-rather-long-name-of-an-agent-under-test"}, losses, delays_s);
   ASSERT_EQ(cells.size(), 500u);
-  const auto input = report_of(campaign_of("claim", 3), cells, {gate_of(cells[0].agent, GateKind::None, Region::Contract, 1e-3)}, [](RunRecord& run) {
-    if (run.cell == 205 || run.cell == 490) samples::violate(run);
-    if (run.cell > 400) {
-      run.outcome.crash = true;
-      run.outcome.message = std::string(5000, 'x');
-    }
-  });
+  const auto input = report_of(campaign_of("claim", 3), cells,
+                               {gate_of(cells[0].agent, GateKind::None, Region::Contract, 1e-3)}, [](RunRecord& run) {
+                                 if (run.cell == 205 || run.cell == 490) samples::violate(run);
+                                 if (run.cell > 400) {
+                                   run.outcome.crash = true;
+                                   run.outcome.message = std::string(5000, 'x');
+                                 }
+                               });
   const auto page = render("markdown", input);
   EXPECT_LT(page.size(), 60'000u);
   EXPECT_THAT(page, HasSubstr("rows with fewer failures are left out"));
@@ -264,7 +290,8 @@ TEST(Report, clearances_round_towards_the_unsafe_side) {
 TEST(Report, reads_an_archive_up_to_its_first_gap) {
   const samples::TemporaryFolder folder;
   const auto cells = grid({"sound"}, {0.4}, {1.0, 2.0});
-  ArchiveWriter writer(folder / "night.fp", campaign_of("claim", 10), cells, {gate_of("sound", GateKind::None, Region::Contract, 1e-3)});
+  ArchiveWriter writer(folder / "night.fp", campaign_of("claim", 10), cells,
+                       {gate_of("sound", GateKind::None, Region::Contract, 1e-3)});
   for (const std::uint64_t i : {0u, 1u, 2u, 3u, 5u}) writer.add(samples::clean_run(i, 2));
   writer.publish(20);
   const auto input = read_report_input(ArchiveReader(folder / "night.fp"), "typed.fp");
@@ -299,7 +326,8 @@ TEST(Report, a_campaign_that_is_not_complete_says_so_in_its_title) {
 }
 
 TEST(Report, every_format_renders_an_empty_campaign) {
-  const auto input = report_of(campaign_of("claim", 0), grid({"sound"}, {0.4}, {2.0}), {gate_of("sound", GateKind::None, Region::Contract, 1e-3)});
+  const auto input = report_of(campaign_of("claim", 0), grid({"sound"}, {0.4}, {2.0}),
+                               {gate_of("sound", GateKind::None, Region::Contract, 1e-3)});
   for (const auto& format : report_formats()) {
     EXPECT_FALSE(format.description.empty());
     EXPECT_THAT(format.make(input), HasSubstr("no replicate is complete")) << format.name;

@@ -22,13 +22,15 @@ inline CampaignRecord campaign_of(std::string kind, std::uint64_t replicates) {
 }
 
 // agents x layouts x losses x delays, fleets of 5.
-inline std::vector<CellRecord> grid(const std::vector<std::string>& agents, const std::vector<double>& losses, const std::vector<double>& delays_s,
+inline std::vector<CellRecord> grid(const std::vector<std::string>& agents, const std::vector<double>& losses,
+                                    const std::vector<double>& delays_s,
                                     const std::vector<std::string>& layouts = {"ring"}) {
   std::vector<CellRecord> cells;
   for (const auto& agent : agents) {
     for (const auto& layout : layouts) {
       for (const double loss : losses) {
-        for (const double delay_s : delays_s) cells.push_back({static_cast<std::uint32_t>(cells.size()), agent, layout, 5, loss, delay_s});
+        for (const double delay_s : delays_s)
+          cells.push_back({static_cast<std::uint32_t>(cells.size()), agent, layout, 5, loss, delay_s});
       }
     }
   }
@@ -48,7 +50,9 @@ inline RunRecord clean_run(std::uint64_t run_index, std::size_t cells) {
   run.outcome.simulated_ns = 600'000'000'000;
   run.outcome.agv_count = 5;
   run.outcome.counters.transports_done = 10;
-  file_probes(run.outcome, {{ProbeSource::World, "crossing", 4}, {ProbeSource::World, "head-on", 2}, {ProbeSource::Agent, "negotiation", 30}});
+  file_probes(run.outcome, {{ProbeSource::World, "crossing", 4},
+                            {ProbeSource::World, "head-on", 2},
+                            {ProbeSource::Agent, "negotiation", 30}});
   return run;
 }
 
@@ -66,7 +70,8 @@ inline void violate(RunRecord& run, std::int64_t clearance_um = 70'000, bool con
 using Change = std::function<void(RunRecord&)>;
 
 // The judged evidence of all planned replicates, each run changed by `change`.
-inline ReportInput report_of(CampaignRecord campaign, const std::vector<CellRecord>& cells, const std::vector<GateRecord>& gates, const Change& change = {},
+inline ReportInput report_of(CampaignRecord campaign, const std::vector<CellRecord>& cells,
+                             const std::vector<GateRecord>& gates, const Change& change = {},
                              std::uint64_t extra_runs = 0, std::uint64_t missing_runs = 0) {
   ReportInput input{"night.fp", campaign, Evidence(campaign, cells, gates), {}, 0, 4};
   for (std::uint64_t i = 0; i < campaign.replicates * cells.size() + extra_runs - missing_runs; ++i) {

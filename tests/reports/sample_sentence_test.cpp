@@ -33,12 +33,13 @@ std::string render(const std::string& format, const ReportInput& input) {
   return flat;
 }
 
-CellRecord drawn_cell(std::uint32_t index, double loss_to, double delay_s = 0.0, double delay_to_s = 2.0, const std::string& layout = "ring") {
+CellRecord drawn_cell(std::uint32_t index, double loss_to, double delay_s = 0.0, double delay_to_s = 2.0,
+                      const std::string& layout = "ring") {
   return {index, "sound", layout, 5, 0.0, delay_s, 0.0, loss_to, delay_to_s, 0.0};
 }
 
-ReportInput drawn(const std::vector<CellRecord>& cells, Region region = Region::Contract, const samples::Change& change = {},
-                  const std::string& sampling = "uniform") {
+ReportInput drawn(const std::vector<CellRecord>& cells, Region region = Region::Contract,
+                  const samples::Change& change = {}, const std::string& sampling = "uniform") {
   auto campaign = campaign_of("claim", 200);
   campaign.sampling = sampling;
   return report_of(campaign, cells, {gate_of("sound", GateKind::Rate, region, 0.02)}, change);
@@ -46,8 +47,8 @@ ReportInput drawn(const std::vector<CellRecord>& cells, Region region = Region::
 
 TEST(SampleSentence, ADrawnRegionIsClaimedAsARegion) {
   const auto input = drawn({drawn_cell(0, 0.4)});
-  EXPECT_THAT(sampled(input.evidence, {0}),
-              HasSubstr("200 replicates wherever loss <= 40 % and delay <= 2 s (drawn uniformly; a rate is the mean over that region"));
+  EXPECT_THAT(sampled(input.evidence, {0}), HasSubstr("200 replicates wherever loss <= 40 % and delay <= 2 s (drawn "
+                                                      "uniformly; a rate is the mean over that region"));
   for (const auto* format : {"text", "markdown"}) {
     const auto page = render(format, input);
     EXPECT_THAT(page, HasSubstr("wherever loss <= 40 % and delay <= 2 s")) << format;
@@ -66,16 +67,19 @@ TEST(SampleSentence, ADrawnRegionIsClaimedAsARegion) {
 
 TEST(SampleSentence, OneFactorMayBeDrawnAndAnotherAGrid) {
   const auto input = drawn({drawn_cell(0, 0.4, 1.0, 1.0), drawn_cell(1, 0.4, 2.0, 2.0)});
-  EXPECT_THAT(sampled(input.evidence, {0, 1}), HasSubstr("wherever loss <= 40 % and delay = 1 s; or loss <= 40 % and delay = 2 s (drawn uniformly"));
+  EXPECT_THAT(sampled(input.evidence, {0, 1}),
+              HasSubstr("wherever loss <= 40 % and delay = 1 s; or loss <= 40 % and delay = 2 s (drawn uniformly"));
   const auto raised = drawn({{0, "sound", "ring", 5, 0.1, 0.5, 0.2, 0.4, 2.0, 0.9}});
-  EXPECT_THAT(sampled(raised.evidence, {0}),
-              HasSubstr("wherever 10 % <= loss <= 40 % and 0.5 s <= delay <= 2 s and 0.2 s <= mean outage <= 0.9 s (drawn"));
+  EXPECT_THAT(
+      sampled(raised.evidence, {0}),
+      HasSubstr("wherever 10 % <= loss <= 40 % and 0.5 s <= delay <= 2 s and 0.2 s <= mean outage <= 0.9 s (drawn"));
 }
 
 TEST(SampleSentence, AGridClaimsItsCombinations) {
-  const auto input =
-      report_of(campaign_of("claim", 20), grid({"sound"}, {0.0, 0.4}, {2.0}), {gate_of("sound", GateKind::Rate, Region::Contract, 0.02)});
-  EXPECT_THAT(sampled(input.evidence, {0, 1}), HasSubstr("20 replicates at these 2 combinations (loss 0 %, 40 %; delay 2 s)"));
+  const auto input = report_of(campaign_of("claim", 20), grid({"sound"}, {0.0, 0.4}, {2.0}),
+                               {gate_of("sound", GateKind::Rate, Region::Contract, 0.02)});
+  EXPECT_THAT(sampled(input.evidence, {0, 1}),
+              HasSubstr("20 replicates at these 2 combinations (loss 0 %, 40 %; delay 2 s)"));
   EXPECT_EQ(nlohmann::json::parse(render("json", input))["campaign"]["sampling"], nullptr);
 }
 
@@ -100,7 +104,8 @@ TEST(SampleSentence, ACellBeyondTheContractStillHasRunsInsideIt) {
 TEST(SampleSentence, EvenSamplesAreNotCalledIndependent) {
   auto campaign = campaign_of("search", 20);
   campaign.sampling = "sobol";
-  const auto page = render("text", report_of(campaign, {drawn_cell(0, 0.4)}, {gate_of("sound", GateKind::None, Region::Contract, 0.02)}));
+  const auto page = render(
+      "text", report_of(campaign, {drawn_cell(0, 0.4)}, {gate_of("sound", GateKind::None, Region::Contract, 0.02)}));
   EXPECT_THAT(page, HasSubstr("drawn evenly (sobol), not independently"));
   EXPECT_THAT(page, HasSubstr("exact binomial bounds are not guaranteed to hold, and none is given"));
 }
@@ -111,26 +116,32 @@ TEST(SampleSentence, HeldRandomnessLimitsWhatIsClaimed) {
   campaign.held_replicate = 7;
   const std::vector gates{gate_of("sound", GateKind::Rate, Region::Contract, 0.02)};
   const auto one = report_of(campaign, grid({"sound"}, {0.4}, {2.0}), gates);
-  EXPECT_THAT(sampled(one.evidence, {0}), testing::StartsWith("in one warehouse, with the placement of replicate 7 throughout, 20 replicates at"));
+  EXPECT_THAT(sampled(one.evidence, {0}),
+              testing::StartsWith("in one warehouse, with the placement of replicate 7 throughout, 20 replicates at"));
   for (const auto* format : {"text", "summary", "markdown"}) {
-    EXPECT_THAT(render(format, one),
-                HasSubstr("every replicate has the layout, placement of replicate 7: what follows speaks of one warehouse alone"))
+    EXPECT_THAT(
+        render(format, one),
+        HasSubstr(
+            "every replicate has the layout, placement of replicate 7: what follows speaks of one warehouse alone"))
         << format;
   }
   const auto json = nlohmann::json::parse(render("json", one));
   EXPECT_EQ(json["campaign"]["held_streams"], (std::vector<std::string>{"layout", "placement"}));
   EXPECT_EQ(json["campaign"]["held_replicate"], 7);
   const auto two = report_of(campaign, grid({"sound"}, {0.4}, {2.0}, {"ring", "comb"}), gates);
-  EXPECT_THAT(sampled(two.evidence, {0, 1}), testing::StartsWith("in one warehouse for each of 2 layouts and fleet sizes, "));
+  EXPECT_THAT(sampled(two.evidence, {0, 1}),
+              testing::StartsWith("in one warehouse for each of 2 layouts and fleet sizes, "));
   EXPECT_THAT(render("text", two), HasSubstr("one warehouse for each layout and fleet size alone"));
   campaign.held_streams = {"radio"};
-  EXPECT_THAT(render("text", report_of(campaign, grid({"sound"}, {0.4}, {2.0}), gates)), HasSubstr("speaks of that one draw of them alone"));
+  EXPECT_THAT(render("text", report_of(campaign, grid({"sound"}, {0.4}, {2.0}), gates)),
+              HasSubstr("speaks of that one draw of them alone"));
 }
 
 TEST(SampleSentence, ExemptPairsHeadEveryReport) {
   auto campaign = campaign_of("claim", 20);
   campaign.exempt_pairs = {"tugger and cart", "cart and obstacle"};
-  const auto input = report_of(campaign, grid({"sound"}, {0.4}, {2.0}), {gate_of("sound", GateKind::Rate, Region::Contract, 0.02)});
+  const auto input =
+      report_of(campaign, grid({"sound"}, {0.4}, {2.0}), {gate_of("sound", GateKind::Rate, Region::Contract, 0.02)});
   for (const auto* format : {"text", "summary", "markdown"}) {
     const auto page = render(format, input);
     for (const auto* pair : {"tugger and cart may be closer", "cart and obstacle may be closer"}) {
@@ -168,7 +179,8 @@ TEST(SampleSentence, ExemptionsHeadEveryReport) {
 TEST(SampleSentence, ReplayLinesOfASharedObjectsAgentAskForItsPath) {
   auto campaign = campaign_of("claim", 5);
   campaign.plugin_agents = {"mine"};
-  const auto input = report_of(campaign, grid({"sound", "mine"}, {0.4}, {2.0}), {}, [](RunRecord& run) { samples::violate(run); });
+  const auto input =
+      report_of(campaign, grid({"sound", "mine"}, {0.4}, {2.0}), {}, [](RunRecord& run) { samples::violate(run); });
   EXPECT_EQ(replay_line(input, 2), "fleetproof replay night.fp 2");
   EXPECT_EQ(replay_line(input, 3), "fleetproof replay night.fp 3 --plugin '<path of mine>'");
   EXPECT_THAT(render("text", input), HasSubstr("fleetproof replay night.fp 3 --plugin '<path of mine>'"));

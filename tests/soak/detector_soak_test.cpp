@@ -11,7 +11,8 @@ class DetectorSoak : public testing::TestWithParam<std::uint64_t> {};
 TEST_P(DetectorSoak, AgreesWithATenMicrosecondClockOnTenThousandPairs) {
   const Tally tally = check_many(GetParam(), 10'000);
   fmt::print(
-      "{} pairs: {} violated, {} of them touch, {} start below, {} within 10 um of the threshold; evaluations to the first instant: mean {:.2f}, "
+      "{} pairs: {} violated, {} of them touch, {} start below, {} within 10 um of the threshold; evaluations to the "
+      "first instant: mean {:.2f}, "
       "at most {} with the smallest clearance\n",
       tally.pairs, tally.violations, tally.touches, tally.at_start, tally.within_10um,
       static_cast<double>(tally.evaluations) / static_cast<double>(tally.pairs), tally.most);

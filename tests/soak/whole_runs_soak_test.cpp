@@ -4,7 +4,9 @@
 namespace fleetproof::oracle {
 namespace {
 
-TEST(WholeRunsSoak, TheGlobalClockSeesTheSamePairsInThreeHundredRuns) { EXPECT_EQ(compare_runs(1'000, 300, 180.0).runs, 300); }
+TEST(WholeRunsSoak, TheGlobalClockSeesTheSamePairsInThreeHundredRuns) {
+  EXPECT_EQ(compare_runs(1'000, 300, 180.0).runs, 300);
+}
 
 }  // namespace
 }  // namespace fleetproof::oracle

@@ -51,7 +51,9 @@ std::string sentence_of(Action action) {
 
 TEST(ArchiveReader, refuses_what_is_not_a_campaign_file) {
   const TemporaryFolder folder;
-  const auto refusal = [&](const std::string& path) { return sentence_of<InputError>([&] { ArchiveReader reader(path); }); };
+  const auto refusal = [&](const std::string& path) {
+    return sentence_of<InputError>([&] { ArchiveReader reader(path); });
+  };
   EXPECT_THAT(refusal(folder / "none.fp"), HasSubstr("there is no such file"));
   EXPECT_THAT(refusal(folder / "."), HasSubstr("folder"));
   samples::write_bytes(folder / "empty.fp", "");
@@ -95,15 +97,20 @@ TEST(ArchiveReader, every_truncation_is_noticed) {
 TEST(ArchiveReader, a_changed_row_is_named) {
   const TemporaryFolder folder;
   const std::vector<std::string> changes{
-      "UPDATE runs SET violation = 1 - violation WHERE run_index = 17", "UPDATE runs SET transports_done = transports_done + 1 WHERE run_index = 17",
-      "UPDATE runs SET min_clearance_um = 100000 WHERE run_index = 17", "UPDATE runs SET outcome_class = 'clean' WHERE run_index = 17",
+      "UPDATE runs SET violation = 1 - violation WHERE run_index = 17",
+      "UPDATE runs SET transports_done = transports_done + 1 WHERE run_index = 17",
+      "UPDATE runs SET min_clearance_um = 100000 WHERE run_index = 17",
+      "UPDATE runs SET outcome_class = 'clean' WHERE run_index = 17",
       "UPDATE runs SET scenario_digest = ~scenario_digest WHERE run_index = 17",
-      "UPDATE runs SET contact = 2 WHERE run_index = 17",               "UPDATE runs SET running_digests = x'00' WHERE run_index = 17",
-      "INSERT INTO violations SELECT 17, 99, entity_a, entity_b, first_ns, last_ns, closest_at_ns, min_clearance_um, relative_speed_um_s, x_um, y_um, contact FROM "
+      "UPDATE runs SET contact = 2 WHERE run_index = 17",
+      "UPDATE runs SET running_digests = x'00' WHERE run_index = 17",
+      "INSERT INTO violations SELECT 17, 99, entity_a, entity_b, first_ns, last_ns, closest_at_ns, min_clearance_um, "
+      "relative_speed_um_s, x_um, y_um, contact FROM "
       "violations LIMIT 1",
       "INSERT INTO incidents SELECT 17, 99, kind, entity_a, entity_b, first_ns, last_ns, value FROM incidents LIMIT 1",
       "INSERT INTO incidents SELECT 17, 99, 4711, entity_a, entity_b, first_ns, last_ns, value FROM incidents LIMIT 1",
-      "INSERT INTO probes VALUES (17, 99, 0, x'61', 1)", "INSERT INTO probes VALUES (17, 99, 2, x'61', 1)"};
+      "INSERT INTO probes VALUES (17, 99, 0, x'61', 1)",
+      "INSERT INTO probes VALUES (17, 99, 2, x'61', 1)"};
   for (const auto& change : changes) {
     const auto path = folder / ("a" + std::to_string(&change - changes.data()) + ".fp");
     write_archive(path);
@@ -118,7 +125,9 @@ TEST(ArchiveReader, a_changed_row_is_named) {
 TEST(ArchiveReader, a_replay_can_read_what_was_changed_but_no_run_without_a_cell) {
   const TemporaryFolder folder;
   write_archive(folder / "a.fp");
-  tamper(folder / "a.fp", "UPDATE runs SET drives = 123 WHERE run_index = 17; UPDATE cells SET loss = 0.1 WHERE cell = 3; UPDATE runs SET cell = 6 WHERE run_index = 18");
+  tamper(folder / "a.fp",
+         "UPDATE runs SET drives = 123 WHERE run_index = 17; UPDATE cells SET loss = 0.1 WHERE cell = 3; UPDATE runs "
+         "SET cell = 6 WHERE run_index = 18");
   EXPECT_THROW(ArchiveReader(folder / "a.fp"), EngineError);
   const ArchiveReader reader(folder / "a.fp", Checksums::Ignore);
   EXPECT_EQ(reader.run(17)->outcome.counters.drives, 123u);
@@ -127,11 +136,12 @@ TEST(ArchiveReader, a_replay_can_read_what_was_changed_but_no_run_without_a_cell
 
 TEST(ArchiveReader, a_row_or_a_violation_taken_away_is_noticed) {
   const TemporaryFolder folder;
-  const std::vector<std::string> changes{"DELETE FROM violations WHERE run_index = (SELECT max(run_index) FROM violations)",
-                                         "DELETE FROM incidents WHERE run_index = (SELECT max(run_index) FROM incidents)",
-                                         "DELETE FROM probes WHERE run_index = (SELECT max(run_index) FROM probes)",
-                                         "DELETE FROM violations WHERE run_index = 59; DELETE FROM runs WHERE run_index = 59",
-                                         "DELETE FROM runs WHERE run_index = (SELECT max(run_index) FROM violations)"};
+  const std::vector<std::string> changes{
+      "DELETE FROM violations WHERE run_index = (SELECT max(run_index) FROM violations)",
+      "DELETE FROM incidents WHERE run_index = (SELECT max(run_index) FROM incidents)",
+      "DELETE FROM probes WHERE run_index = (SELECT max(run_index) FROM probes)",
+      "DELETE FROM violations WHERE run_index = 59; DELETE FROM runs WHERE run_index = 59",
+      "DELETE FROM runs WHERE run_index = (SELECT max(run_index) FROM violations)"};
   for (const auto& change : changes) {
     const auto path = folder / ("a" + std::to_string(&change - changes.data()) + ".fp");
     write_archive(path);
@@ -142,8 +152,12 @@ TEST(ArchiveReader, a_row_or_a_violation_taken_away_is_noticed) {
 
 TEST(ArchiveReader, a_changed_plan_is_noticed) {
   const TemporaryFolder folder;
-  const std::vector<std::string> changes{"UPDATE cells SET loss = 0.1 WHERE cell = 3", "UPDATE gates SET limit_rate = 0.5", "UPDATE campaign SET seed = 1", "UPDATE campaign SET required_probes = ''",
-                                         "DELETE FROM gates WHERE gate = 1", "UPDATE gates SET kind = 'perhaps'"};
+  const std::vector<std::string> changes{"UPDATE cells SET loss = 0.1 WHERE cell = 3",
+                                         "UPDATE gates SET limit_rate = 0.5",
+                                         "UPDATE campaign SET seed = 1",
+                                         "UPDATE campaign SET required_probes = ''",
+                                         "DELETE FROM gates WHERE gate = 1",
+                                         "UPDATE gates SET kind = 'perhaps'"};
   for (const auto& change : changes) {
     const auto path = folder / ("a" + std::to_string(&change - changes.data()) + ".fp");
     write_archive(path);
@@ -155,7 +169,8 @@ TEST(ArchiveReader, a_changed_plan_is_noticed) {
 TEST(ArchiveWriter, refuses_names_that_are_taken_or_cannot_be) {
   const TemporaryFolder folder;
   const auto refusal = [&](const std::string& path) {
-    return sentence_of<InputError>([&] { ArchiveWriter writer(path, samples::campaign(), samples::cells(), samples::gates()); });
+    return sentence_of<InputError>(
+        [&] { ArchiveWriter writer(path, samples::campaign(), samples::cells(), samples::gates()); });
   };
   write_archive(folder / "a.fp");
   const auto before = samples::bytes_of(folder / "a.fp");
@@ -177,7 +192,9 @@ TEST(ArchiveWriter, a_place_that_cannot_be_written_is_for_the_user_to_mend) {
   const TemporaryFolder folder;
   samples::write_bytes(folder / "file", "x");
   for (const auto existing : {Existing::Refuse, Existing::Replace}) {
-    const auto refusal = [&](const std::string& path) { return sentence_of<InputError>([&] { open_writer(path, existing); }); };
+    const auto refusal = [&](const std::string& path) {
+      return sentence_of<InputError>([&] { open_writer(path, existing); });
+    };
     EXPECT_THAT(refusal("/proc/a.fp"), HasSubstr("name another folder"));
     EXPECT_THAT(refusal(folder / "file/a.fp"), HasSubstr("give another name"));
     EXPECT_THAT(refusal(folder / "file/deeper/a.fp"), HasSubstr("folder"));
@@ -208,7 +225,8 @@ TEST(ArchiveWriter, a_second_writer_is_refused_while_the_first_is_alive) {
     for (const auto& run : samples::runs(6)) first.add(run);
     first.commit();
     for (const auto existing : {Existing::Refuse, Existing::Replace}) {
-      EXPECT_THAT(sentence_of<InputError>([&] { open_writer(path, existing); }), HasSubstr("another fleetproof run is writing this file"));
+      EXPECT_THAT(sentence_of<InputError>([&] { open_writer(path, existing); }),
+                  HasSubstr("another fleetproof run is writing this file"));
     }
     EXPECT_TRUE(std::filesystem::exists(path + ".lock"));
     EXPECT_EQ(ArchiveReader(path + ".partial").run_count(), 6u);
@@ -275,21 +293,24 @@ TEST(ArchiveWriter, replaces_nothing_that_is_not_a_campaign_file) {
   std::filesystem::create_symlink(folder / "ours.fp", folder / "link.fp");
   for (const auto* name : {"text.fp", "empty.fp", "other.fp", "link.fp"}) {
     const auto before = samples::bytes_of(folder / name);
-    EXPECT_THAT(sentence_of<InputError>([&] { open_writer(folder / name, Existing::Replace); }), HasSubstr("this is not a campaign file of fleetproof; it is not overwritten"))
+    EXPECT_THAT(sentence_of<InputError>([&] { open_writer(folder / name, Existing::Replace); }),
+                HasSubstr("this is not a campaign file of fleetproof; it is not overwritten"))
         << name;
     EXPECT_TRUE(samples::bytes_of(folder / name) == before) << name;
     EXPECT_FALSE(std::filesystem::exists((folder / name) + ".partial")) << name;
     EXPECT_FALSE(std::filesystem::exists((folder / name) + ".lock")) << name;
   }
   std::filesystem::create_directory(folder / "folder.fp");
-  EXPECT_THAT(sentence_of<InputError>([&] { open_writer(folder / "folder.fp", Existing::Replace); }), HasSubstr("folder"));
+  EXPECT_THAT(sentence_of<InputError>([&] { open_writer(folder / "folder.fp", Existing::Replace); }),
+              HasSubstr("folder"));
   EXPECT_TRUE(std::filesystem::is_directory(folder / "folder.fp"));
 }
 
 TEST(ArchiveWriter, a_foreign_file_named_like_the_live_file_stays) {
   const TemporaryFolder folder;
   samples::write_bytes(folder / "a.fp.partial", "half of a download");
-  EXPECT_THAT(sentence_of<InputError>([&] { open_writer(folder / "a.fp", Existing::Replace); }), HasSubstr("a.fp.partial"));
+  EXPECT_THAT(sentence_of<InputError>([&] { open_writer(folder / "a.fp", Existing::Replace); }),
+              HasSubstr("a.fp.partial"));
   EXPECT_EQ(samples::bytes_of(folder / "a.fp.partial"), "half of a download");
 }
 

@@ -15,7 +15,8 @@ namespace {
 
 using samples::TemporaryFolder;
 
-void write_archive(const std::string& path, const std::vector<RunRecord>& runs, std::uint64_t stop_index, std::size_t commit_every = 0) {
+void write_archive(const std::string& path, const std::vector<RunRecord>& runs, std::uint64_t stop_index,
+                   std::size_t commit_every = 0) {
   ArchiveWriter writer(path, samples::campaign(), samples::cells(), samples::gates());
   for (std::size_t i = 0; i < runs.size(); ++i) {
     writer.add(runs[i]);
@@ -114,7 +115,8 @@ TEST(Archive, only_the_campaign_file_is_left_in_the_folder) {
   const TemporaryFolder folder;
   write_archive(folder / "a.fp", samples::runs(6), 6);
   std::set<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder / ".")) names.insert(entry.path().filename().string());
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "."))
+    names.insert(entry.path().filename().string());
   EXPECT_THAT(names, testing::ElementsAre("a.fp"));
 }
 

@@ -26,8 +26,8 @@ TEST(OutcomeEncoding, is_little_endian_with_its_version_first) {
   outcome.counters.events = 0x0102;
   const auto bytes = encode(outcome);
   EXPECT_EQ(bytes.substr(0, 4), std::string("\x03\0\0\0", 4));
-  EXPECT_EQ(bytes.substr(4, 8), std::string("\0\0\1\0\0\0\0\0", 8));    // seven end points, then "no clearance"
-  EXPECT_EQ(bytes.substr(12, 3), std::string("\x02\x01\0", 3));         // events
+  EXPECT_EQ(bytes.substr(4, 8), std::string("\0\0\1\0\0\0\0\0", 8));  // seven end points, then "no clearance"
+  EXPECT_EQ(bytes.substr(12, 3), std::string("\x02\x01\0", 3));       // events
 }
 
 TEST(OutcomeEncoding, two_outcomes_that_differ_in_one_bit_differ_in_their_bytes) {
@@ -43,7 +43,8 @@ TEST(OutcomeEncoding, refuses_every_truncation_and_every_tail) {
   auto outcome = samples::random_outcome(random);
   outcome.violations.resize(2);
   const auto bytes = encode(outcome);
-  for (std::size_t length = 0; length < bytes.size(); ++length) EXPECT_THROW(decode_outcome(bytes.substr(0, length)), EngineError) << length;
+  for (std::size_t length = 0; length < bytes.size(); ++length)
+    EXPECT_THROW(decode_outcome(bytes.substr(0, length)), EngineError) << length;
   EXPECT_THROW(decode_outcome(bytes + '\0'), EngineError);
 }
 
@@ -126,7 +127,8 @@ TEST(ViolationLevel, has_three_steps) {
 
 TEST(FileIncidents, sorts_and_keeps_the_earliest) {
   std::vector<Incident> many;
-  for (std::uint32_t i = 0; i < kIncidentsMax + 7; ++i) many.push_back({IncidentKind::Deadlock, EntityId{i}, {}, at_ns(5000 - i), at_ns(9000), 0});
+  for (std::uint32_t i = 0; i < kIncidentsMax + 7; ++i)
+    many.push_back({IncidentKind::Deadlock, EntityId{i}, {}, at_ns(5000 - i), at_ns(9000), 0});
   Outcome outcome;
   file_incidents(outcome, many);
   ASSERT_EQ(outcome.incidents.size(), kIncidentsMax);

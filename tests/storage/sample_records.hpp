@@ -1,8 +1,12 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <random>
 #include <string>
@@ -50,24 +54,20 @@ inline std::vector<GateRecord> gates() {
 // Every field filled at random, with whole words of 64 bits.
 inline Outcome random_outcome(std::mt19937_64& random) {
   Outcome o;
-  for (const auto flag : {&Outcome::violation, &Outcome::contact, &Outcome::stuck, &Outcome::crash, &Outcome::hang, &Outcome::indeterminate,
-                          &Outcome::engine_error}) {
+  for (const auto flag : {&Outcome::violation, &Outcome::contact, &Outcome::stuck, &Outcome::crash, &Outcome::hang,
+                          &Outcome::indeterminate, &Outcome::engine_error}) {
     o.*flag = random() % 2 == 0;
   }
   if (random() % 3 != 0) o.min_clearance_um = static_cast<std::int64_t>(random());
-  auto& c = o.counters;
-  for (auto* counter : {&c.events, &c.activations, &c.agent_calls, &c.messages_sent, &c.receptions, &c.receptions_lost, &c.out_of_range, &c.delay_sum_ns, &c.drives,
-                        &c.turns, &c.refused_calls, &c.transports_released, &c.transports_done, &c.distance_um, &c.safe_mode_ns, &c.contacts,
-                        &c.distance_evaluations, &c.perimeter_checks, &c.rolls, &c.faults, &c.batteries_empty, &c.loads_cleared, &c.assists,
-                        &c.scanner_stops, &c.scanner_saves, &c.received, &c.under_way, &c.battery_start_ppb, &c.battery_end_ppb, &c.battery_driven_ppb,
-                        &c.battery_idled_ppb, &c.battery_charged_ppb, &c.incidents_left_out, &c.probes_left_out, &c.lost_in_outage, &c.lost_by_interference, &c.duplicates, &c.lost_to_sources}) {
-    *counter = random();
-  }
+  std::array<std::uint64_t, sizeof(Counters) / sizeof(std::uint64_t)> words{};
+  std::ranges::generate(words, std::ref(random));
+  o.counters = std::bit_cast<Counters>(words);
   o.simulated_ns = random();
   o.agv_count = static_cast<std::uint32_t>(random());
   o.digest = random();
   for (auto i = random() % 5; i > 0; --i) o.running_digests.push_back(random());
-  for (auto i = random() % 20; i > 0; --i) o.message.push_back(static_cast<char>(random()));  // zero bytes and broken UTF-8 included
+  for (auto i = random() % 20; i > 0; --i)
+    o.message.push_back(static_cast<char>(random()));  // zero bytes and broken UTF-8 included
   for (auto i = random() % 4; i > 0; --i) {
     Violation v;
     v.a = EntityId{static_cast<std::uint32_t>(random())};
@@ -141,6 +141,8 @@ inline std::string bytes_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-inline void write_bytes(const std::string& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
+inline void write_bytes(const std::string& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
 
 }  // namespace fleetproof::samples

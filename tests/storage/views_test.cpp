@@ -17,7 +17,8 @@ std::string query(const std::string& path, const std::string& sql) {
   std::string row;
   const auto append = [](void* out, int count, char** values, char**) {
     auto& text = *static_cast<std::string*>(out);
-    for (int i = 0; i < count; ++i) text += (text.empty() ? "" : "|") + std::string(values[i] == nullptr ? "null" : values[i]);
+    for (int i = 0; i < count; ++i)
+      text += (text.empty() ? "" : "|") + std::string(values[i] == nullptr ? "null" : values[i]);
     return 0;
   };
   EXPECT_EQ(sqlite3_exec(db, sql.c_str(), append, &row, nullptr), SQLITE_OK) << sqlite3_errmsg(db);
@@ -60,31 +61,43 @@ class Views : public testing::Test {
 };
 
 TEST_F(Views, v1_runs_joins_the_factors_of_the_cell) {
-  EXPECT_EQ(query(path_, "SELECT agent, layout, fleet_size, loss, delay_s, in_contract, outcome_class, violation, contact, min_clearance_um, transports_done, digest, "
-                         "scenario_digest FROM v1_runs WHERE run_index = 4"),
+  EXPECT_EQ(query(path_,
+                  "SELECT agent, layout, fleet_size, loss, delay_s, in_contract, outcome_class, violation, contact, "
+                  "min_clearance_um, transports_done, digest, "
+                  "scenario_digest FROM v1_runs WHERE run_index = 4"),
             "sound|ring|5|0.4|2.0|1|violation|1|0|70000|2|fedcba9876543210|00000000000000ff");
-  EXPECT_EQ(query(path_, "SELECT outcome_class, min_clearance_um, in_contract FROM v1_runs WHERE run_index = 5"), "clean|null|0");
+  EXPECT_EQ(query(path_, "SELECT outcome_class, min_clearance_um, in_contract FROM v1_runs WHERE run_index = 5"),
+            "clean|null|0");
 }
 
 TEST_F(Views, v1_cells_counts) {
-  EXPECT_EQ(query(path_, "SELECT is_worst_case, runs, violation_runs, contact_runs, min_clearance_um, transports_done, agv_hours FROM v1_cells WHERE cell = 4"),
+  EXPECT_EQ(query(path_,
+                  "SELECT is_worst_case, runs, violation_runs, contact_runs, min_clearance_um, transports_done, "
+                  "agv_hours FROM v1_cells WHERE cell = 4"),
             "1|2|1|0|70000|4|10.0");
 }
 
 TEST_F(Views, v1_violations_tells_where_it_happened) {
-  EXPECT_EQ(query(path_, "SELECT run_index, ordinal, loss, delay_s, entity_a, entity_b, first_ns, min_clearance_um FROM v1_violations"),
+  EXPECT_EQ(query(path_,
+                  "SELECT run_index, ordinal, loss, delay_s, entity_a, entity_b, first_ns, min_clearance_um FROM "
+                  "v1_violations"),
             "4|0|0.4|2.0|1|3|1500000000|70000");
 }
 
-TEST_F(Views, v1_violations_tells_level_and_kind_of_entities) { EXPECT_EQ(query(path_, "SELECT level, entities FROM v1_violations"), "safety distance broken|AGV-AGV"); }
+TEST_F(Views, v1_violations_tells_level_and_kind_of_entities) {
+  EXPECT_EQ(query(path_, "SELECT level, entities FROM v1_violations"), "safety distance broken|AGV-AGV");
+}
 
 TEST_F(Views, v1_incidents_names_kind_and_unit) {
-  EXPECT_EQ(query(path_, "SELECT run_index, ordinal, agent, in_contract, kind, entity_a, entity_b, first_ns, last_ns, value, unit FROM v1_incidents"),
+  EXPECT_EQ(query(path_,
+                  "SELECT run_index, ordinal, agent, in_contract, kind, entity_a, entity_b, first_ns, last_ns, value, "
+                  "unit FROM v1_incidents"),
             "4|0|sound|1|deadlock|2|null|3000000000|9000000000|2|AGVs in the circle; 0: no circle known");
 }
 
 TEST_F(Views, v1_probes_tells_what_was_met) {
-  EXPECT_EQ(query(path_, "SELECT run_index, agent, loss, source, name, count FROM v1_probes ORDER BY name"), "4|sound|0.4|world|head-on|3|4|sound|0.4|agent|negotiation|17");
+  EXPECT_EQ(query(path_, "SELECT run_index, agent, loss, source, name, count FROM v1_probes ORDER BY name"),
+            "4|sound|0.4|world|head-on|3|4|sound|0.4|agent|negotiation|17");
 }
 
 TEST_F(Views, runs_have_the_quality_they_drew_and_cells_their_bounds) {
@@ -92,7 +105,8 @@ TEST_F(Views, runs_have_the_quality_they_drew_and_cells_their_bounds) {
   const std::string path = folder / "drawn.fp";
   auto campaign = samples::campaign();
   campaign.sampling = "uniform";
-  const std::vector<CellRecord> cells{{0, "sound", "ring", 5, 0.0, 1.0, 0.5, 0.8, 2.0, 2.5}, {1, "sound", "ring", 5, 0.0, 0.0, 0.0, 0.4, 2.0, 0.0}};
+  const std::vector<CellRecord> cells{{0, "sound", "ring", 5, 0.0, 1.0, 0.5, 0.8, 2.0, 2.5},
+                                      {1, "sound", "ring", 5, 0.0, 0.0, 0.0, 0.4, 2.0, 0.0}};
   ArchiveWriter writer(path, campaign, cells, samples::gates());
   RunRecord run;
   run.radio = {0.125, 1.5, 0.75};
@@ -104,10 +118,13 @@ TEST_F(Views, runs_have_the_quality_they_drew_and_cells_their_bounds) {
   file_violations(run.outcome, {Violation{}});
   writer.add(run);
   writer.publish(3);
-  EXPECT_EQ(query(path, "SELECT loss, loss_to, delay_s, delay_to_s, mean_outage_s, mean_outage_to_s, in_contract, is_worst_case FROM v1_cells WHERE cell = 0"),
+  EXPECT_EQ(query(path,
+                  "SELECT loss, loss_to, delay_s, delay_to_s, mean_outage_s, mean_outage_to_s, in_contract, "
+                  "is_worst_case FROM v1_cells WHERE cell = 0"),
             "0.0|0.8|1.0|2.0|0.5|2.5|0|0");
   EXPECT_EQ(query(path, "SELECT in_contract, is_worst_case FROM v1_cells WHERE cell = 1"), "1|0");
-  EXPECT_EQ(query(path, "SELECT loss, delay_s, mean_outage_s, in_contract FROM v1_runs"), "0.125|1.5|0.75|1|0.4|2.0|0.0|1|0.75|1.25|0.5|0");
+  EXPECT_EQ(query(path, "SELECT loss, delay_s, mean_outage_s, in_contract FROM v1_runs"),
+            "0.125|1.5|0.75|1|0.4|2.0|0.0|1|0.75|1.25|0.5|0");
   EXPECT_EQ(query(path, "SELECT loss, delay_s, mean_outage_s, in_contract FROM v1_violations"), "0.75|1.25|0.5|0");
   const ArchiveReader reader(path);
   EXPECT_EQ(reader.cells(), cells);

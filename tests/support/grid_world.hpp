@@ -5,8 +5,8 @@
 
 namespace fleetproof::test {
 
-// Streets of bidirectional segments, rows x columns stations 8 m apart, with a storage spur of 3.5 m at every second station: worlds of any size
-// and one density, for benchmarks.
+// Streets of bidirectional segments, rows x columns stations 8 m apart, with a storage spur of 3.5 m at every second
+// station: worlds of any size and one density, for benchmarks.
 inline Scenario grid_world(int rows, int columns, std::uint32_t fleet, double horizon_s, std::uint64_t seed) {
   constexpr double kPitch_m = 8.0;
   Layout layout;
@@ -14,7 +14,8 @@ inline Scenario grid_world(int rows, int columns, std::uint32_t fleet, double ho
   const auto at = [&](int r, int c) { return StationId{static_cast<std::uint32_t>(r * columns + c)}; };
   for (int r = 0; r < rows; ++r) {
     for (int c = 0; c < columns; ++c) {
-      layout.stations.push_back({"s" + std::to_string(r) + "." + std::to_string(c), Vec2{kPitch_m * c, kPitch_m * r}, Purpose::Routing});
+      layout.stations.push_back(
+          {"s" + std::to_string(r) + "." + std::to_string(c), Vec2{kPitch_m * c, kPitch_m * r}, Purpose::Routing});
     }
   }
   const auto link = [&](StationId a, StationId b, bool both) {
@@ -30,7 +31,8 @@ inline Scenario grid_world(int rows, int columns, std::uint32_t fleet, double ho
   for (int r = 0; r < rows; ++r) {
     for (int c = 1; c < columns; c += 2) {
       const StationId spur{layout.stations.size()};
-      layout.stations.push_back({"spur" + std::to_string(spur.value), Vec2{kPitch_m * c, kPitch_m * r + 3.5}, Purposes(Purpose::Storage) | Purpose::Parking});
+      layout.stations.push_back({"spur" + std::to_string(spur.value), Vec2{kPitch_m * c, kPitch_m * r + 3.5},
+                                 Purposes(Purpose::Storage) | Purpose::Parking});
       link(at(r, c), spur, true);
       spurs.push_back(spur);
     }

@@ -1,12 +1,13 @@
 #pragma once
 
-#include "generators/map/layout_check.hpp"
 #include "generators/families/layout_family.hpp"
+#include "generators/map/layout_check.hpp"
 #include "generators/worlds/world_maker.hpp"
 
 namespace fleetproof::test {
 
-// A bow, or an S of two Beziers, instead of every straight segment but one in four: up to a fifth of its length off the straight line.
+// A bow, or an S of two Beziers, instead of every straight segment but one in four: up to a fifth of its length off the
+// straight line.
 inline void bend(Segment& segment, const Vec2& from_m, const Vec2& to_m, Draws& draws) {
   if (!segment.control_points_m.empty() || draws.below(4) == 0) return;
   const Vec2 way_m = to_m - from_m, left_m(-way_m.y(), way_m.x());
@@ -19,22 +20,24 @@ inline void bend(Segment& segment, const Vec2& from_m, const Vec2& to_m, Draws& 
   }
 }
 
-// A layout of a family, its lanes bent: what straight lanes hide in the books of curves, of hulls in bends and of speeds there.
+// A layout of a family, its lanes bent: what straight lanes hide in the books of curves, of hulls in bends and of
+// speeds there.
 inline std::shared_ptr<const LogicalMap> bent_map(FamilyRange choice, std::uint64_t seed) {
   Draws draws(stream_key(seed, Stream::Layout));
   while (true) {
     Layout layout = draw_layout(choice, draws);
     layout.name += ", bent";
     for (Segment& segment : layout.segments) {
-      bend(segment, layout.stations[segment.from.index()].position_m, layout.stations[segment.to.index()].position_m, draws);
+      bend(segment, layout.stations[segment.from.index()].position_m, layout.stations[segment.to.index()].position_m,
+           draws);
     }
     fit_floor(layout, 3.0);
     if (problems_of(layout).empty()) return std::make_shared<const LogicalMap>(layout);
   }
 }
 
-// A fleet of two types whose drives deviate, whose loads matter and whose batteries run low, among faults of everything but the floor: no load falls
-// and nothing foreign stands about.
+// A fleet of two types whose drives deviate, whose loads matter and whose batteries run low, among faults of everything
+// but the floor: no load falls and nothing foreign stands about.
 inline WorldSpec hard_world(double horizon_s) {
   WorldSpec spec;
   spec.horizon = seconds(horizon_s);

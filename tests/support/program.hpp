@@ -22,13 +22,16 @@ class ProgramTest : public testing::Test {
  protected:
   void SetUp() override {
     const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::temp_directory_path() / ("fleetproof-" + std::string(info->test_suite_name()) + "-" + info->name() + "-" + std::to_string(getpid()));
+    folder_ = std::filesystem::temp_directory_path() / ("fleetproof-" + std::string(info->test_suite_name()) + "-" +
+                                                        info->name() + "-" + std::to_string(getpid()));
     std::filesystem::create_directories(folder_);
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
-  void write(const std::string& name, const std::string& text) const { std::ofstream(path(name), std::ios::binary) << text; }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(path(name), std::ios::binary) << text;
+  }
   static std::string read(const std::string& file) {
     std::ifstream in(file, std::ios::binary);
     std::ostringstream text;
@@ -38,7 +41,8 @@ class ProgramTest : public testing::Test {
 
   // The words are given to the shell; runs in the test's folder.
   Finished run(const std::string& words) const {
-    const std::string command = "cd '" + folder_.string() + "' && " + FLEETPROOF_PROGRAM + " " + words + " >stdout.txt 2>stderr.txt </dev/null";
+    const std::string command =
+        "cd '" + folder_.string() + "' && " + FLEETPROOF_PROGRAM + " " + words + " >stdout.txt 2>stderr.txt </dev/null";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(path("stdout.txt")), read(path("stderr.txt"))};
   }

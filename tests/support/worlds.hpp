@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "core/engine/simulation.hpp"
 #include "core/scenario/scenario.hpp"
 #include "core/sdk/fleetproof/agent.h"
-#include "core/engine/simulation.hpp"
 
 // Small worlds and agents that tests and benchmarks share.
 namespace fleetproof::test {
@@ -17,10 +17,15 @@ inline std::shared_ptr<const LogicalMap> row_map(int stations, double gap_m = 4.
   Layout layout;
   layout.name = "row";
   for (int i = 0; i < stations; ++i) {
-    layout.stations.push_back({"s" + std::to_string(i), Vec2{gap_m * i, 0.0}, Purposes(Purpose::Routing) | Purpose::Storage});
+    layout.stations.push_back(
+        {"s" + std::to_string(i), Vec2{gap_m * i, 0.0}, Purposes(Purpose::Routing) | Purpose::Storage});
   }
   for (int i = 0; i + 1 < stations; ++i) {
-    layout.segments.push_back({"e" + std::to_string(i), StationId{static_cast<std::uint32_t>(i)}, StationId{static_cast<std::uint32_t>(i + 1)}, true, {}});
+    layout.segments.push_back({"e" + std::to_string(i),
+                               StationId{static_cast<std::uint32_t>(i)},
+                               StationId{static_cast<std::uint32_t>(i + 1)},
+                               true,
+                               {}});
   }
   return std::make_shared<const LogicalMap>(layout);
 }
@@ -40,10 +45,12 @@ inline Scenario row_scenario(int stations, std::vector<std::uint32_t> starts, do
   return scenario;
 }
 
-// What a test agent does at an event; it lives in the test, which must outlive the run. One instance per AGV shares the handler.
+// What a test agent does at an event; it lives in the test, which must outlive the run. One instance per AGV shares the
+// handler.
 using Handler = std::function<void(const fp_host&, fp_controller*, const fp_briefing&, const fp_event&)>;
 
-// Hands every event to the handler that `current_handler` names while the run lasts. Tests run their simulations on one thread.
+// Hands every event to the handler that `current_handler` names while the run lasts. Tests run their simulations on one
+// thread.
 inline thread_local const Handler* current_handler = nullptr;
 
 struct HandlerAgent {
@@ -60,7 +67,9 @@ inline const fp_agent_type& handler_agent() {
       FP_DETERMINISTIC,
       "handler",
       "does what the test says",
-      [](const fp_host* host, fp_controller* controller, const fp_briefing* briefing) -> void* { return new HandlerAgent{host, controller, briefing}; },
+      [](const fp_host* host, fp_controller* controller, const fp_briefing* briefing) -> void* {
+        return new HandlerAgent{host, controller, briefing};
+      },
       [](void* agent, const fp_event* event) {
         const auto* self = static_cast<HandlerAgent*>(agent);
         (*current_handler)(*self->host, self->controller, *self->briefing, *event);

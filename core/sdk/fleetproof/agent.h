@@ -1,20 +1,24 @@
 /* fleetproof/agent.h: the contract between a simulated warehouse and the control software of an AGV.
  *
- * Plain C, so that any language can implement it. An agent is a table of functions (fp_agent_type). The engine makes one agent per AGV, tells
- * it about the world once (fp_briefing) and then calls it whenever something happens to its AGV (fp_event). The agent answers through the AGV
- * controller (fp_host), which offers the actions and perceptions of a real AGV controller and nothing more.
+ * Plain C, so that any language can implement it. An agent is a table of functions (fp_agent_type). The engine makes
+ * one agent per AGV, tells it about the world once (fp_briefing) and then calls it whenever something happens to its
+ * AGV (fp_event). The agent answers through the AGV controller (fp_host), which offers the actions and perceptions of a
+ * real AGV controller and nothing more.
  *
- * Time. An activation starts at an instant t and sees the AGV, the inbox and the clock as of t. Its k-th controller call takes effect at t plus
- * the costs so far (the scenario's cost per call, plus what the agent declares). What arrives while the agent is busy wakes it when it is free.
+ * Time. An activation starts at an instant t and sees the AGV, the inbox and the clock as of t. Its k-th controller
+ * call takes effect at t plus the costs so far (the scenario's cost per call, plus what the agent declares). What
+ * arrives while the agent is busy wakes it when it is free.
  *
- * Rules for the agent. Keep no state outside the instance that create() returned; many instances live in one process, on several threads, but
- * one instance is never called from two threads at once. Use no clock, no random source and no thread of your own: now_ns and random give both,
- * and a run can only be replayed if nothing else decides. Let no exception leave a C function table of another language than C++.
+ * Rules for the agent. Keep no state outside the instance that create() returned; many instances live in one process,
+ * on several threads, but one instance is never called from two threads at once. Use no clock, no random source and no
+ * thread of your own: now_ns and random give both, and a run can only be replayed if nothing else decides. Let no
+ * exception leave a C function table of another language than C++.
  *
- * Versions. Every struct that may grow begins with its size in bytes as the side that filled it knows it. Arrays of structs have a stride.
- * A host refuses an agent of another FP_ABI_MAJOR; a higher minor only adds members at the end.
+ * Versions. Every struct that may grow begins with its size in bytes as the side that filled it knows it. Arrays of
+ * structs have a stride. A host refuses an agent of another FP_ABI_MAJOR; a higher minor only adds members at the end.
  *
- * Units: metres, metres per second, nanoseconds (64-bit, since the start of the run), radians. Headings are unit vectors in the world frame.
+ * Units: metres, metres per second, nanoseconds (64-bit, since the start of the run), radians. Headings are unit
+ * vectors in the world frame.
  */
 #ifndef FLEETPROOF_AGENT_H
 #define FLEETPROOF_AGENT_H
@@ -43,11 +47,22 @@ typedef enum fp_result {
 
 typedef enum fp_purpose { FP_ROUTING = 1, FP_STORAGE = 2, FP_CHARGING = 4, FP_PARKING = 8 } fp_purpose;
 
-/* What the AGV is doing, as the controller knows it. FP_STOPPED: it stands in the middle of an action because something stopped it, and will go on by
- * itself. FP_OUT_OF_ORDER: broken down or empty; it may be repaired, and then goes on too. */
-typedef enum fp_action { FP_IDLE = 0, FP_DRIVING, FP_TURNING, FP_PICKING, FP_DROPPING, FP_PARKED, FP_CHARGING_NOW, FP_OUT_OF_ORDER, FP_STOPPED } fp_action;
+/* What the AGV is doing, as the controller knows it. FP_STOPPED: it stands in the middle of an action because something
+ * stopped it, and will go on by itself. FP_OUT_OF_ORDER: broken down or empty; it may be repaired, and then goes on
+ * too. */
+typedef enum fp_action {
+  FP_IDLE = 0,
+  FP_DRIVING,
+  FP_TURNING,
+  FP_PICKING,
+  FP_DROPPING,
+  FP_PARKED,
+  FP_CHARGING_NOW,
+  FP_OUT_OF_ORDER,
+  FP_STOPPED
+} fp_action;
 
-/* ---- the logical map ------------------------------------------------------------------------------------------------------------------ */
+/* ---- the logical map ------------------------------------------------------------------------------------- */
 
 typedef struct fp_pose {
   double x_m, y_m;
@@ -86,9 +101,10 @@ typedef struct fp_map {
   const fp_lane* lanes;
 } fp_map;
 
-/* ---- the briefing --------------------------------------------------------------------------------------------------------------------- */
+/* ---- the briefing ---------------------------------------------------------------------------------------- */
 
-/* An AGV of the fleet, oneself included. The reference point is the centre of the footprint, whose length lies along the heading. */
+/* An AGV of the fleet, oneself included. The reference point is the centre of the footprint, whose length lies along
+ * the heading. */
 typedef struct fp_agv {
   double length_m, width_m;
   double speed_mps, acceleration_mps2, deceleration_mps2;
@@ -121,23 +137,25 @@ typedef struct fp_briefing {
   double safety_distance_m;
   double radio_range_m;
   const char* config; /* the agent's own parameters, as text; never null */
-  /* Since minor 1. How often this AGV's computer has restarted in this run: it keeps that number in stable storage, and nothing else. After a
-   * restart start_station is where the AGV stands, or the station it left last; start_segment is the segment that it is driving, else FP_NONE;
-   * next_segment the one that it is going to drive after that because it was told so before the restart, else FP_NONE. For what was under way,
-   * FP_EVENT_ACTION_DONE still comes. */
+  /* Since minor 1. How often this AGV's computer has restarted in this run: it keeps that number in stable storage, and
+   * nothing else. After a restart start_station is where the AGV stands, or the station it left last; start_segment is
+   * the segment that it is driving, else FP_NONE; next_segment the one that it is going to drive after that because it
+   * was told so before the restart, else FP_NONE. For what was under way, FP_EVENT_ACTION_DONE still comes. */
   uint32_t boot;
   uint32_t start_segment;
   uint32_t next_segment;
 } fp_briefing;
 
-/* ---- events --------------------------------------------------------------------------------------------------------------------------- */
+/* ---- events ---------------------------------------------------------------------------------------------- */
 
 typedef enum fp_event_kind {
-  FP_EVENT_START = 0,       /* the run begins, or the agent begins again after a restart */
-  FP_EVENT_ORDER,           /* a transport was released for this AGV: order_id, from, to; after a restart again, for each that is not done */
-  FP_EVENT_MESSAGE,         /* the inbox is not empty; read it until FP_EMPTY */
-  FP_EVENT_TIMER,           /* a timer went off: timer */
-  FP_EVENT_ACTION_DONE      /* the last action ended: result FP_OK, or FP_REFUSED if the AGV was stopped and is out of order */
+  FP_EVENT_START = 0, /* the run begins, or the agent begins again after a restart */
+  FP_EVENT_ORDER, /* a transport was released for this AGV: order_id, from, to; after a restart again, for each that is
+                     not done */
+  FP_EVENT_MESSAGE,    /* the inbox is not empty; read it until FP_EMPTY */
+  FP_EVENT_TIMER,      /* a timer went off: timer */
+  FP_EVENT_ACTION_DONE /* the last action ended: result FP_OK, or FP_REFUSED if the AGV was stopped and is out of order
+                        */
 } fp_event_kind;
 
 typedef struct fp_event {
@@ -156,7 +174,7 @@ typedef struct fp_message {
   const void* bytes; /* valid until the next get_message or the end of the activation */
 } fp_message;
 
-/* ---- the AGV controller --------------------------------------------------------------------------------------------------------------- */
+/* ---- the AGV controller ---------------------------------------------------------------------------------- */
 
 typedef struct fp_controller fp_controller;
 
@@ -164,15 +182,17 @@ typedef struct fp_host {
   uint32_t struct_size;
   uint32_t abi_major, abi_minor;
 
-  /* Actions. The AGV must be idle at a station; it first turns towards the segment, then drives it from where it stands to the other end. pick
-   * and drop then transfer a load there; park and charge stay. One FP_EVENT_ACTION_DONE follows for every action that was accepted.
-   * While a move is under way one more action may be given, with a segment that leaves the station where that move ends. It begins when the move is
-   * over. Given before the AGV brakes, and if the segment goes straight on, the AGV rolls through the station without a stop. */
+  /* Actions. The AGV must be idle at a station; it first turns towards the segment, then drives it from where it stands
+   * to the other end. pick and drop then transfer a load there; park and charge stay. One FP_EVENT_ACTION_DONE follows
+   * for every action that was accepted. While a move is under way one more action may be given, with a segment that
+   * leaves the station where that move ends. It begins when the move is over. Given before the AGV brakes, and if the
+   * segment goes straight on, the AGV rolls through the station without a stop. */
   int32_t (*move)(fp_controller*, uint32_t segment);
   int32_t (*pick)(fp_controller*, uint32_t segment);
   int32_t (*drop)(fp_controller*, uint32_t segment);
   int32_t (*park)(fp_controller*, uint32_t segment);
-  int32_t (*charge)(fp_controller*, uint32_t segment); /* done once connected; charging goes on until full or until the next action */
+  int32_t (*charge)(fp_controller*,
+                    uint32_t segment); /* done once connected; charging goes on until full or until the next action */
   int32_t (*send_broadcast)(fp_controller*, const void* bytes, uint32_t size);
   int32_t (*send_unicast)(fp_controller*, const void* bytes, uint32_t size, uint32_t receiver);
 
@@ -185,19 +205,24 @@ typedef struct fp_host {
 
   /* Services that stand for the agent's computer. */
   int64_t (*now_ns)(fp_controller*);
-  int32_t (*set_timer)(fp_controller*, uint32_t timer, int64_t at_ns); /* one instant per timer number; setting it again replaces it, at_ns < 0 clears it */
-  uint64_t (*random)(fp_controller*, uint32_t purpose, uint64_t index); /* a pure function of run, AGV, purpose and index */
-  int32_t (*declare_cost_ns)(fp_controller*, int64_t cost_ns);         /* thinking time: later calls of this activation act that much later */
-  int32_t (*safe_mode)(fp_controller*, uint32_t on);                   /* declared: the AGV stands still because of the radio */
-  int32_t (*waiting_for)(fp_controller*, uint32_t agv);                /* declared: whom it waits for; FP_NONE: nobody */
-  /* "This was reached": recorded in the trace, and counted by name in the outcome. Reports list how many runs reached what, and a campaign can name
-     probes without which its evidence is weak; the reference agents say "negotiation", "deferred", "grant-lost", "retransmission" and others. Of one run
-     64 names of at most 64 bytes are kept; what goes beyond is counted without its name. */
+  int32_t (*set_timer)(
+      fp_controller*, uint32_t timer,
+      int64_t at_ns); /* one instant per timer number; setting it again replaces it, at_ns < 0 clears it */
+  uint64_t (*random)(fp_controller*, uint32_t purpose,
+                     uint64_t index); /* a pure function of run, AGV, purpose and index */
+  int32_t (*declare_cost_ns)(fp_controller*,
+                             int64_t cost_ns); /* thinking time: later calls of this activation act that much later */
+  int32_t (*safe_mode)(fp_controller*, uint32_t on);    /* declared: the AGV stands still because of the radio */
+  int32_t (*waiting_for)(fp_controller*, uint32_t agv); /* declared: whom it waits for; FP_NONE: nobody */
+  /* "This was reached": recorded in the trace, and counted by name in the outcome. Reports list how many runs reached
+     what, and a campaign can name probes without which its evidence is weak; the reference agents say "negotiation",
+     "deferred", "grant-lost", "retransmission" and others. Of one run 64 names of at most 64 bytes are kept; what goes
+     beyond is counted without its name. */
   int32_t (*sometimes)(fp_controller*, const char* probe);
   int32_t (*log)(fp_controller*, const char* text);
 } fp_host;
 
-/* ---- the agent ------------------------------------------------------------------------------------------------------------------------ */
+/* ---- the agent ------------------------------------------------------------------------------------------- */
 
 #define FP_DETERMINISTIC 1u /* the agent promises: same briefing and events, same calls */
 
