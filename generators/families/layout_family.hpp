@@ -10,11 +10,15 @@
 
 namespace fleetproof {
 
-// Invents a layout: strongly connected, and in the normal range with room for the default vehicle type (1.6 m x 1.0 m)
-// to turn at every station. There stations are at least 2.1 m apart; one where an AGV may wait (parking, charging,
-// storage) is at least 2.2 m from every lane of which it is no end. Stress gives up that room: stations are at least
-// 0.9 m apart, lanes may cross without a station, run side by side at 1.2 m and be shorter than a vehicle; what waits
-// may close any of them. Still strongly connected, with two places of storage.
+// Draws a layout that is strongly connected.
+//
+// Range::Normal leaves room for the default vehicle type (1.6 m x 1.0 m) to turn at every station: stations are at
+// least 2.1 m apart. A place to wait (a station to park, charge or store at) is at least 2.2 m from every lane that
+// does not end there. That is room for a loaded AGV too: half the diagonal and half the width of the largest body may
+// add up to 2.1 m (1.9 m x 1.2 m: 1.73 m).
+//
+// Range::Stress gives up that room. Stations are at least 0.9 m apart. Lanes may cross without a station, run side by
+// side at 1.2 m and be shorter than a vehicle. An AGV that waits may block any lane. There are two places of storage.
 using MakeLayout = Layout (*)(Draws& draws, Range range);
 
 std::span<const Entry<MakeLayout>> layout_families();
@@ -28,9 +32,9 @@ struct FamilyRange {
 // "aisle-grid" or "aisle-grid/stress". InputError with a hint if there is no such family or range.
 FamilyRange family_range(std::string_view name);
 
-// Draws a layout. Of those under stress one in ten has no place to wait but where it cuts off others
-// (waiting_room.hpp), on purpose; each of the others has one at least. The map is built for that anyway: who needs it
-// spares building it again.
+// Draws a layout of a family and range. Under stress, one layout in ten has no open place to wait (waiting_room.hpp),
+// on purpose; every other layout has at least one. The search for open places needs the map: draw_map() returns it, so
+// that the caller does not build it again.
 std::shared_ptr<const LogicalMap> draw_map(FamilyRange choice, Draws& draws);
 Layout draw_layout(FamilyRange choice, Draws& draws);
 

@@ -280,22 +280,31 @@ class WorldCheck {
       for (std::size_t k = 0; k < i; ++k) {
         if (!closer_than(bodies[k], bodies[i], distance_m)) continue;
         add(ProblemKind::StartsTooClose, pointer(),
-            fmt::format("{} starts closer than {} m to {}; choose another start", in_quotes(agv.name), distance_m,
-                        in_quotes(scenario_.agvs[k].name)));
+            fmt::format("{} starts closer than {} m to {}{}; choose another start", in_quotes(agv.name), distance_m,
+                        in_quotes(scenario_.agvs[k].name), with_load(agv, scenario_.agvs[k])));
       }
       for (const auto& obstacle : scenario_.obstacles) {
         if (obstacle.appears > Duration::zero() ||
             !closer_than(placed(obstacle.footprint, obstacle.pose), bodies[i], distance_m))
           continue;
         add(ProblemKind::StartNearObstacle, pointer(),
-            fmt::format("{} starts closer than {} m to obstacle {}; move one", in_quotes(agv.name), distance_m,
-                        in_quotes(obstacle.name)));
+            fmt::format("{} starts closer than {} m to obstacle {}{}; move one", in_quotes(agv.name), distance_m,
+                        in_quotes(obstacle.name), with_load(agv, agv)));
       }
       if (scenario_.map->lanes_from(agv.start).empty()) {
         add(ProblemKind::StartWithoutLane, pointer(),
             fmt::format("no lane leaves the station where {} starts", in_quotes(agv.name)));
       }
     }
+  }
+
+  // Says in the error that the bodies were measured with their loads, if a load makes one of them larger.
+  std::string_view with_load(const AgvSetup& one, const AgvSetup& other) const {
+    const auto grows = [&](const AgvSetup& agv) {
+      const LoadEffect& loaded = scenario_.type_of(agv).loaded;
+      return loaded.extra_length_m > 0.0 || loaded.extra_width_m > 0.0;
+    };
+    return grows(one) || grows(other) ? " once loaded" : "";
   }
 
   void transports(std::size_t i) {
@@ -341,7 +350,8 @@ bool closer_than(const OrientedRectangle& a, const OrientedRectangle& b, double 
 }
 
 OrientedRectangle start_body(const Scenario& scenario, const AgvSetup& agv) {
-  return placed(scenario.type_of(agv).footprint, {scenario.map->station(agv.start).position_m, agv.heading});
+  const Footprint largest = scenario.type_of(agv).footprint_with(true);
+  return placed(largest, {scenario.map->station(agv.start).position_m, agv.heading});
 }
 
 }  // namespace fleetproof

@@ -25,7 +25,7 @@ Problems problems_of(const Scenario& scenario);
 // allowed.
 bool closer_than(const OrientedRectangle& a, const OrientedRectangle& b, double distance_m);
 
-// Where an AGV stands at the start.
+// The place that an AGV needs at its start: its largest body, which is the loaded one, since it may pick a load there.
 OrientedRectangle start_body(const Scenario& scenario, const AgvSetup& agv);
 
 }  // namespace fleetproof

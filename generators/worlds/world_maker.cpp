@@ -54,13 +54,18 @@ void check(const WorldSpec& spec) {
   }
 }
 
-// The first type, as long and as wide as any of them.
+// The first type with the largest body of any of them, unloaded and loaded: a start that has room for it has room for
+// every type, whatever the AGV picks there.
 VehicleType envelope(const std::vector<VehicleShare>& vehicles) {
   VehicleType type = vehicles.front().type;
+  Footprint &empty = type.footprint, loaded = empty;
   for (const auto& [other, share] : vehicles) {
-    type.footprint.length_m = std::max(type.footprint.length_m, other.footprint.length_m);
-    type.footprint.width_m = std::max(type.footprint.width_m, other.footprint.width_m);
+    const Footprint grown = other.footprint_with(true);
+    empty = {std::max(empty.length_m, other.footprint.length_m), std::max(empty.width_m, other.footprint.width_m)};
+    loaded = {std::max(loaded.length_m, grown.length_m), std::max(loaded.width_m, grown.width_m)};
   }
+  type.loaded.extra_length_m = loaded.length_m - empty.length_m;
+  type.loaded.extra_width_m = loaded.width_m - empty.width_m;
   return type;
 }
 
