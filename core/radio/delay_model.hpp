@@ -4,13 +4,13 @@
 
 namespace fleetproof {
 
-// The delay of a transmission as a function of one uniform draw: its quantile function, so that the same draw gives
-// comparable delays at every nominal delay. Of the network alone: the air time of the message counts instead where it
-// is longer.
+// Turns one uniform draw into the delay of a transmission, by the quantile function of the delay. The same draw
+// therefore gives comparable delays at every nominal delay. The air time is not included: the engine uses the longer
+// of delay and air time.
 class DelayModel {
  public:
   explicit DelayModel(const RadioSetup& setup);
-  // share: in [0, 1).
+  // Requires: share in [0, 1).
   Duration at(double share) const {
     if (model_ == RadioSetup::DelayModel::HeavyTail) return heavy_tail(share);
     return seconds(delay_s_ * (model_ == RadioSetup::DelayModel::Uniform ? share : 1.0));
@@ -22,7 +22,7 @@ class DelayModel {
   RadioSetup::DelayModel model_;
   double delay_s_;
   DelayTailSetup tail_;
-  double scale_ = 0.0;  // of the Lomax part, as a share of delay_s
+  double scale_ = 0.0;  // scale of the Lomax part, as a share of delay_s
 };
 
 }  // namespace fleetproof

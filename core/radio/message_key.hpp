@@ -8,11 +8,11 @@
 
 namespace fleetproof {
 
-// Which transmission, to whom: what the radio's draws for one reception hang on.
+// Identifies one message at one receiver. All draws for its fate depend on this key and the seed, and on nothing else.
 struct MessageKey {
   AgvId sender, receiver;
   SimTime sent{};
-  std::uint32_t ordinal = 0;  // among the sender's messages of that instant
+  std::uint32_t ordinal = 0;  // the number of this message among the sender's messages of that instant
 };
 
 inline Block draw_for(const MessageKey& message, std::uint64_t key) {

@@ -8,8 +8,8 @@
 namespace fleetproof {
 namespace {
 
-// Two blocks for each stretch: its lengths, and what becomes of an outage at its beginning. Stretch 0 begins with the
-// state at time zero.
+// Each stretch has two blocks of draws: one for its lengths, one that decides whether an outage ends at its beginning.
+// Stretch 0 begins at time zero, and its second block decides the state there.
 enum class Use : std::uint32_t { Lengths = 0, Beginning = 1 };
 
 Block draw(const ProcessKey& key, std::uint64_t number, Use use) {
@@ -20,7 +20,7 @@ Block draw(const ProcessKey& key, std::uint64_t number, Use use) {
 
 double unit_exponential(std::uint64_t bits) { return -natural_log(1.0 - unit_interval(bits)); }
 
-constexpr Duration kShortest{1};  // a stretch takes time, or nothing would ever happen
+constexpr Duration kShortest{1};  // every stretch takes time, so that the process advances
 
 SimTime later(SimTime t, Duration by) { return by >= kForever - std::max(t, kStart) ? kForever : t + by; }
 
@@ -56,9 +56,9 @@ SimTime OutageProcess::next_change(SimTime t) {
   return bad ? from_ : bad_since_;
 }
 
-// The state at time zero has the stationary distribution: bad with the bad share, and then of an age whose density is
-// P(an outage is longer). The age of an outage is drawn alike for every bad share, so the order of ages holds from the
-// beginning.
+// The state at time zero has the stationary distribution. It is bad with the probability of the bad share. The age of
+// an outage then has the density P(an outage is longer). The age is drawn in the same way for every bad share.
+// Therefore an outage at a higher share is at least as old as at a lower share, from the beginning.
 void OutageProcess::start() {
   number_ = 0;
   from_ = kStart;
@@ -67,7 +67,7 @@ void OutageProcess::start() {
   const double rest = 1.0 - unit_interval(word64(block, 1));
   if (law_.sojourn == OutageLaw::Sojourn::Uniform) {
     if (!bad) return draw_stretch();
-    // An outage that covers an instant drawn at random is long in proportion to its length.
+    // An instant drawn at random lies in a long outage more often, in proportion to its length.
     const Block more = draw(key_, 0, Use::Lengths);
     const double low = law_.min_s * law_.min_s, high = law_.max_s * law_.max_s;
     const double length_s = std::sqrt(low + (high - low) * unit_interval(word64(more, 0)));
@@ -92,7 +92,7 @@ void OutageProcess::step() {
   draw_stretch();
 }
 
-// The end of the stretch, and where in it the state turns bad.
+// Draws the end of the stretch, and the instant in it at which the state turns bad.
 void OutageProcess::draw_stretch() {
   const Block block = draw(key_, number_, Use::Lengths);
   if (law_.sojourn == OutageLaw::Sojourn::Uniform) {

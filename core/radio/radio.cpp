@@ -9,7 +9,7 @@
 namespace fleetproof {
 namespace {
 
-// Kinds of processes and draws under the key of radio states; RadioPlaces has 1 to 3, RadioCrossings 10.
+// The kinds of processes and draws under the key of radio states. RadioPlaces uses 1 to 3, RadioCrossings uses 10.
 constexpr std::uint32_t kLinkProcess = 8, kAsymmetryDraw = 9;
 
 }  // namespace
@@ -42,7 +42,7 @@ Fate Radio::fate(AgvId sender, AgvId receiver, SimTime sent, std::uint32_t ordin
       fate = Fate{.lost = !recorded->delay, .delay = recorded->delay.value_or(Duration::zero())};
     }
   }
-  // What is lost anyway keeps its cause: a source more leaves the other causes' counts as they were.
+  // A message that is already lost keeps its cause. One more source therefore does not change the other counts.
   if (!fate.lost) fate.lost = fate.to_source = sources_.destroy(message, places.receiver_m);
   if (setup_.duplicates > 0.0) fate.copy_delay = copy_of(message);
   return fate;
@@ -65,8 +65,8 @@ void Radio::weigh_states(Fate& fate, double loss_draw, AgvId sender, AgvId recei
     fate.lost = fate.in_outage = true;
 }
 
-// A nominal loss outside [loss_good, loss_bad] needs no second state: the only one left has that loss. All three
-// figures (both losses and the bad share) grow with the nominal loss, which is why a higher one only adds losses.
+// If the nominal loss is outside [loss_good, loss_bad], the process has one state only, with that loss. The losses of
+// both states and the bad share grow with the nominal loss. Therefore a higher nominal loss only adds losses.
 Radio::StateLoss Radio::losses_by_state(double loss) const {
   return {std::min(setup_.outages.loss_good, loss), std::max(setup_.outages.loss_bad, loss)};
 }
@@ -90,7 +90,8 @@ double Radio::loss_of(AgvId sender, AgvId receiver) const {
 OutageProcess& Radio::process_of(AgvId sender, AgvId receiver) {
   const auto [low, high] = std::minmax(sender.value, receiver.value);
   const bool keyed_by_direction = setup_.outages.scope == OutageSetup::Scope::Direction;
-  // Directions of unlike loss share the randomness, so that the outages of the better lie within those of the worse.
+  // Two directions with different losses share the randomness. The outages of the better direction then lie within the
+  // outages of the worse direction.
   const bool one_for_both = !keyed_by_direction && setup_.asymmetry == 0.0;
   const std::uint32_t row = one_for_both ? low : sender.value, column = one_for_both ? high : receiver.value;
   if (links_.size() <= row) links_.resize(row + 1);
@@ -121,7 +122,7 @@ std::uint32_t MessagePool::add(AgvId sender, std::string_view bytes, std::uint32
   }
   Message& message = messages_[slot];
   message.sender = sender;
-  message.bytes.assign(bytes);  // keeps the slot's capacity: no allocation in the steady state
+  message.bytes.assign(bytes);  // reuses the memory of the slot, so that nothing is allocated in the long run
   message.hash = XXH3_64bits(bytes.data(), bytes.size());
   message.copies = copies;
   message.destroyed_at.clear();

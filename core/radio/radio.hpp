@@ -18,36 +18,36 @@
 
 namespace fleetproof {
 
-// What becomes of one transmission at one receiver, air time and interference apart.
+// What happens to one message at one receiver. Air time and interference are not included.
 struct Fate {
   bool lost = false;
-  bool in_outage = false;  // lost or not: the link or the place is in an outage, or an AGV is changing its access point
-  bool to_source = false;  // lost, and but for an external source it would not be
-  Duration delay{};  // from sending to the inbox if the air time is no longer; for a lost one too, so that losses shift
-                     // nothing
-  std::optional<Duration> copy_delay{};  // of a second copy, likewise
+  // The link or place is in an outage, or one of the two AGVs changes its access point. Set for received messages too.
+  bool in_outage = false;
+  bool to_source = false;  // lost to an external source; without the source, the message would have arrived
+  Duration delay{};        // from sending to the inbox; drawn for lost messages too, so that losses shift no draws
+  std::optional<Duration> copy_delay{};  // the delay of a second copy, if there is one
 };
 
-// Reference points of both ends at the instant of sending. Needed only where the radio depends on place.
+// The reference points of sender and receiver at the instant of sending. Used only if the radio depends on place.
 struct LinkPlaces {
   Vec2 sender_m = Vec2::Zero(), receiver_m = Vec2::Zero();
 };
 
-// The radio as a function of (sender, receiver, places, instant, number among the messages of that instant): one
-// message more moves no other's fate, and a higher loss rate only adds losses. It remembers where each outage process
-// has got to, for speed alone: for one run, on one thread.
+// The radio as a function of message key and places. One more message changes the fate of no other message. A higher
+// loss rate only adds losses. The object stores the progress of each outage process, only for speed.
+// Threads: one object serves one run on one thread.
 class Radio {
  public:
   Radio(const RadioSetup& setup, std::uint64_t world_seed);
   bool depends_on_place() const { return depends_on_place_; }
-  // To be told of every piece of every AGV, but for those with which they begin: what comes of the AGV's way hangs on
-  // them.
+  // Call this for every piece that starts after time zero. Roaming depends on the path of the AGV.
   void piece_begins(const Piece& piece) {
     if (crossings_.is_on()) crossings_.piece_begins(piece);
   }
+  // Call this when the operator carries the AGV to another place. That is not a crossing.
   void is_carried(AgvId agv) { crossings_.is_carried(agv); }
   Fate fate(AgvId sender, AgvId receiver, SimTime sent, std::uint32_t ordinal, const LinkPlaces& places = {});
-  // The outage process that this receiver meets on messages of this sender. Scope Place has none.
+  // The outage process of messages from this sender to this receiver. Not for the scope Place.
   OutageProcess& process_of(AgvId sender, AgvId receiver);
 
  private:
@@ -69,7 +69,7 @@ class Radio {
   RadioCrossings crossings_;
   RadioSources sources_;
   std::vector<std::vector<std::optional<OutageProcess>>>
-      links_;  // by sender (the smaller id where directions share one), receiver
+      links_;  // by sender and receiver; by the smaller and the larger id where both directions share a process
 };
 
 // A message in the air or in inboxes.
@@ -77,14 +77,14 @@ struct Message {
   AgvId sender;
   std::string bytes;
   std::uint64_t hash = 0;
-  std::uint32_t copies = 0;  // receptions still under way or unread
-  // With interference: the receivers at which it was destroyed.
+  std::uint32_t copies = 0;  // receptions that are under way or unread
+  // With interference: the receivers at which the message was destroyed.
   AirInterval on_air;
   std::vector<AgvId> destroyed_at;
   bool is_destroyed_at(AgvId receiver) const { return std::ranges::find(destroyed_at, receiver) != destroyed_at.end(); }
 };
 
-// Messages by slot; a slot is used again when its last copy has been read or lost.
+// The messages, by slot. A slot becomes free when the last copy of its message has been read or lost.
 class MessagePool {
  public:
   std::uint32_t add(AgvId sender, std::string_view bytes, std::uint32_t copies);
@@ -93,7 +93,7 @@ class MessagePool {
   void goes_out(std::uint32_t slot, const AirInterval& on_air) { messages_[slot].on_air = on_air; }
   void destroy_at(std::uint32_t slot, AgvId receiver) { messages_[slot].destroyed_at.push_back(receiver); }
   void release(std::uint32_t slot);
-  // Of a message that is never going to be sent: all its copies.
+  // Frees the slot of a message that will never be sent.
   void release_unsent(std::uint32_t slot);
 
  private:

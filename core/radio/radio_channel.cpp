@@ -10,8 +10,8 @@ RadioChannel::RadioChannel(const RadioSetup& setup, std::uint64_t world_seed)
 AirInterval RadioChannel::contend(AgvId sender, SimTime sent, std::uint32_t ordinal, Duration air_time) {
   const Duration slot = std::max(air_time, Duration{1});
   longest_ = std::max(longest_, slot);
-  // Whoever is still to be asked about ends now or later, so it began after now - longest: what was over by then
-  // touches nobody any more.
+  // Later questions concern transmissions that end now or later. Those began after `sent - longest_`. A transmission
+  // that ended by then overlaps none of them.
   while (!on_air_.empty() && on_air_.begin()->second <= sent - longest_) on_air_.erase(on_air_.begin());
   if (free_from_.size() <= sender.index()) free_from_.resize(sender.index() + 1, kStart);
   const auto t = static_cast<std::uint64_t>(to_ns(sent));

@@ -9,10 +9,10 @@
 namespace fleetproof {
 namespace {
 
-constexpr std::uint32_t kCrossingDraw = 10;  // beside the kinds of radio.cpp
+constexpr std::uint32_t kCrossingDraw = 10;  // must differ from the kinds in radio.cpp
 constexpr double kBeyond_m = 1e-6, kUnseen_m = 1e-4;
 
-// How far this point is from leaving the cell, which is convex; below zero once it has.
+// The distance from this point to the border of its cell; below zero if the point is outside. A cell is convex.
 double room_m(const AccessCell& cell, double spacing_m, const Vec2& at_m) {
   const Vec2 from_middle_m = at_m - spacing_m * Vec2(static_cast<double>(cell.column), static_cast<double>(cell.row));
   return 0.5 * spacing_m + kBeyond_m - from_middle_m.cwiseAbs().maxCoeff();
@@ -24,7 +24,7 @@ SimTime time_at(const Piece& piece, double way_m) {
       piece.end);
 }
 
-// The first whole nanosecond outside, between one inside and one outside.
+// The first whole nanosecond outside the cell. Requires: the piece is in the cell at `inside`, not at `outside`.
 SimTime first_outside(const Piece& piece, const AccessCell& cell, double spacing_m, SimTime inside, SimTime outside) {
   while (outside - inside > Duration{1}) {
     const SimTime middle = inside + (outside - inside) / 2;
@@ -33,11 +33,12 @@ SimTime first_outside(const Piece& piece, const AccessCell& cell, double spacing
   return outside;
 }
 
-// When a drive that is in this cell at way_m leaves it; way_m goes on to a place before which it does not. A line
-// between two points of a cell lies in it, and an arc leaves its chord by length^2 curvature / 8, so steps may be as
-// long as that allows, or as the distance to the nearest border.
+// The instant at which a drive leaves the cell; none if it stays. The drive is in the cell at `way_m`. The function
+// increases `way_m` to a place that the drive reaches inside the cell. A straight line between two points of a cell
+// lies in the cell. An arc deviates from its chord by at most length^2 curvature / 8. A step is therefore as long as
+// this deviation stays unseen, or as long as the distance to the nearest border.
 std::optional<SimTime> leaves(const Piece& drive, const AccessCell& cell, double spacing_m, double& way_m) {
-  const double end_m = drive.way_at(drive.end);  // of a leg: not the whole profile
+  const double end_m = drive.way_at(drive.end);  // the end of this leg, not of the whole profile
   while (way_m < end_m) {
     const auto arc_ends_m = drive.curve->ends_m();
     const auto arc = static_cast<std::size_t>(std::ranges::upper_bound(arc_ends_m, way_m) - arc_ends_m.begin());

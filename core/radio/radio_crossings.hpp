@@ -10,23 +10,25 @@
 
 namespace fleetproof {
 
-// AGVs that change their access point by driving over a border of cells, see PlaceSetup::roaming_at_crossing. What an
-// AGV's crossings are follows from its own pieces, whoever asks and however often; how long each lasts is keyed by AGV
-// and number of the crossing.
+// AGVs that change their access point when they drive over a border of cells, see PlaceSetup::roaming_at_crossing. The
+// crossings of an AGV follow from its own pieces and do not depend on the questions that are asked. The length of a
+// change is keyed by AGV and number of the crossing.
 //
-// A cell is left once the reference point is more than a micrometre outside of it, so an AGV that stands on a border or
-// drives along it stays where it is. On straight ways that instant is exact to the nanosecond. On a bend an excursion
-// into another cell that is shallower than a tenth of a millimetre is not seen. For one run, on one thread.
+// An AGV leaves a cell when its reference point is more than a micrometre outside. An AGV that stands on a border or
+// drives along it therefore stays in its cell. On straight lines, the instant is exact to the nanosecond. On bends, an
+// excursion into another cell is not seen if it is shallower than a tenth of a millimetre.
+// Threads: one object serves one run on one thread.
 class RadioCrossings {
  public:
   RadioCrossings(const PlaceSetup& setup, std::uint64_t key) : setup_(setup), key_(key) {}
 
   bool is_on() const { return setup_.roaming_at_crossing; }
-  // The AGV does this from now on, and did what it was doing until now.
+  // The AGV starts this piece now. Its former piece ends now.
   void piece_begins(const Piece& piece);
-  // Somebody moves it to where its next piece begins, which is no crossing.
+  // The AGV is carried to the place where its next piece begins. That is not a crossing.
   void is_carried(AgvId agv);
-  // Whether it is changing over at t, which lies in its latest piece and does not decrease from call to call.
+  // Whether the AGV is changing its access point at t.
+  // Requires: t lies in the latest piece of the AGV and does not decrease from call to call.
   bool is_deaf(AgvId agv, SimTime t);
 
  private:
@@ -35,11 +37,11 @@ class RadioCrossings {
     AccessCell to;
   };
   struct Track {
-    bool is_known = false;  // it has moved, or stood, as we were told
+    bool is_known = false;  // `cell` is the cell of the AGV
     AccessCell cell;
     std::uint32_t crossings = 0;
     SimTime deaf_until = kStart;
-    std::deque<Crossing> ahead;  // on its latest piece, if that goes as planned
+    std::deque<Crossing> ahead;  // the crossings on its latest piece, if the piece ends as planned
   };
 
   void catch_up(AgvId agv, Track& track, SimTime t);

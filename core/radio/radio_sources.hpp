@@ -9,16 +9,17 @@
 
 namespace fleetproof {
 
-// External sources, see RadioSource. Each has its own randomness, keyed by its number: when it is on depends on key and
-// time alone, whom it hits on the message and the receiver's place, and no other source's draws enter. For one run, on
-// one thread.
+// External sources, see RadioSource. Each source has its own randomness, keyed by its number. Whether a source is on
+// depends on key and time only. Whether it destroys a message depends on the message and the place of the receiver.
+// The draws of one source do not depend on the other sources.
+// Threads: one object serves one run on one thread.
 class RadioSources {
  public:
   RadioSources(const std::vector<RadioSource>& sources, std::uint64_t key);
 
-  // Whether one of them destroys this message at a receiver at this place.
+  // Whether a source destroys this message at a receiver at this place.
   bool destroy(const MessageKey& message, const Vec2& receiver_m);
-  OutageProcess& on_process(std::size_t source) { return sources_[source].on; }  // "bad": it is on
+  OutageProcess& on_process(std::size_t source) { return sources_[source].on; }  // "bad" means: the source is on
 
  private:
   struct Source {
