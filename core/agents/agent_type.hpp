@@ -6,7 +6,7 @@ namespace fleetproof::agents {
 
 using CreateFunction = void* (*)(const fp_host*, fp_controller*, const fp_briefing*);
 
-// The C table of an agent class; `create` returns a new one.
+// The C table for an agent class. `create` returns a new instance.
 template <class Agent>
 constexpr fp_agent_type agent_type(const char* name, const char* description, CreateFunction create) {
   return {sizeof(fp_agent_type),

@@ -1,4 +1,4 @@
-/* The catalogue of the reference agents: they see the world through fleetproof/agent.h and nothing else. */
+/* The catalogue of the reference agents. They use fleetproof/agent.h and nothing else of the project. */
 #ifndef FLEETPROOF_AGENTS_H
 #define FLEETPROOF_AGENTS_H
 

@@ -11,14 +11,14 @@ namespace fleetproof::agents {
 
 inline constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
-// The AGV controller as the agents use it: the C table behind names of its own.
+// The AGV controller for the reference agents: the C table of the host as a C++ class.
 class Controller {
  public:
-  // `boot`: of the computer; it must not draw the same numbers again.
+  // `boot`: the boot of the computer. Each boot draws other random numbers.
   Controller(const fp_host& host, fp_controller* handle, std::uint32_t boot = 0)
       : host_(host), handle_(handle), draws_(std::uint64_t{boot} << 32) {}
 
-  // Actions: true if accepted. `segment` may be FP_HERE for pick and drop.
+  // Actions. True if the host accepted the action. `segment` may be FP_HERE for pick and drop.
   bool move(std::uint32_t segment) { return host_.move(handle_, segment) == FP_OK; }
   bool pick(std::uint32_t segment) { return host_.pick(handle_, segment) == FP_OK; }
   bool drop(std::uint32_t segment) { return host_.drop(handle_, segment) == FP_OK; }
@@ -31,9 +31,9 @@ class Controller {
     host_.send_unicast(handle_, bytes.data(), static_cast<std::uint32_t>(bytes.size()), receiver);
   }
 
-  // False: no position to be had; `out` is as it was.
+  // False if there is no position; `out` is then unchanged.
   bool pose(fp_pose& out) { return host_.get_position(handle_, &out) == FP_OK; }
-  // What the AGV is doing; FP_STOPPED if there is no telling.
+  // What the AGV is doing; FP_STOPPED if the host does not say.
   std::uint32_t action() {
     std::uint32_t action = FP_STOPPED;
     return host_.get_action(handle_, &action) == FP_OK ? action : std::uint32_t{FP_STOPPED};
@@ -43,12 +43,12 @@ class Controller {
     std::uint32_t loaded = 0;
     return host_.is_loaded(handle_, &loaded) == FP_OK && loaded != 0;
   }
-  // Full if it cannot be told.
+  // 1.0 (full) if the host does not say.
   double battery_level() {
     double level = 1.0;
     return host_.get_battery_level(handle_, &level) == FP_OK ? level : 1.0;
   }
-  // Hands every waiting message to `receive(sender, bytes)`.
+  // Calls `receive(sender, bytes)` for every message in the inbox.
   template <class Receive>
   void drain_inbox(Receive receive) {
     fp_message message{};
@@ -61,7 +61,7 @@ class Controller {
   std::int64_t now_ns() { return host_.now_ns(handle_); }
   void set_timer(std::uint32_t timer, std::int64_t at_ns) {
     host_.set_timer(handle_, timer, at_ns < 0 ? 0 : at_ns);
-  }  // below 0 would clear it
+  }  // an instant below 0 would clear the timer
   // The next draw of this stream, uniform on [0, 1).
   double random(std::uint32_t purpose) {
     return static_cast<double>(host_.random(handle_, purpose, draws_++) >> 11) * 0x1p-53;

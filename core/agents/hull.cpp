@@ -13,7 +13,7 @@ HullGeometry::HullGeometry(const MapView& map, const fp_briefing& briefing)
       clearance_m_(briefing.safety_distance_m + kHullTolerance_m) {
   for (std::uint32_t i = 0; i < briefing.fleet_count; ++i) {
     const fp_agv& agv = agv_of(briefing, i);
-    // As large as with a load, always: whether another AGV is loaded is not known when it matters.
+    // Always the size with a load: an AGV does not know whether another AGV is loaded.
     const double length_m = std::max(agv.length_m, agv.loaded_length_m),
                  width_m = std::max(agv.width_m, agv.loaded_width_m);
     const auto known =

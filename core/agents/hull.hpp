@@ -8,24 +8,25 @@
 
 namespace fleetproof::agents {
 
-// What hulls keep between them beyond the safety distance: for rounding on the wire and for turns too small to count.
+// Hulls keep this distance in addition to the safety distance. It covers rounding in messages, and turns that are too
+// small to count.
 inline constexpr double kHullTolerance_m = 0.02;
 
-// Hulls: everything an AGV may cover while it drives a path, as shapes on the floor. A path's hull consists of parts: a
-// disc where it turns on the spot, the sweep of every lane; without lanes, the standing body. Parts are worked out when
-// first needed, and so is which of them conflict.
+// Hulls: all the floor that an AGV may cover while it drives a path, as shapes. The hull of a path has parts: a disc
+// for each turn on the spot, and the sweep of every lane. A path without lanes has the standing body only. Parts, and
+// conflicts between them, are computed when they are first needed.
 class HullGeometry {
  public:
   HullGeometry(const MapView& map, const fp_briefing& briefing);
 
-  // True if the hulls of the two AGVs' paths come closer than the safety distance and the tolerance.
+  // True if the hulls of the two paths come closer than the safety distance plus kHullTolerance_m.
   bool conflict(std::uint32_t agv_a, const Path& a, std::uint32_t agv_b, const Path& b);
   // The same for one lane, or for turning at one station.
   bool lane_conflict(std::uint32_t agv_a, std::uint32_t lane, std::uint32_t agv_b, const Path& b);
   bool turn_conflict(std::uint32_t agv_a, std::uint32_t station, std::uint32_t agv_b, const Path& b);
-  // True if some kind of AGV turning at `station` conflicts with some kind of AGV on `lane`.
+  // True if, for some pair of AGV types, turning at `station` conflicts with driving on `lane`.
   bool turning_blocks_lane(std::uint32_t station, std::uint32_t lane);
-  // At most the distance from `point_m` to the hull.
+  // A lower bound of the distance from `point_m` to the hull.
   double distance_bound_m(Vec point_m, std::uint32_t agv, const Path& path);
 
   double half_diagonal_m(std::uint32_t agv) const { return kinds_[kind_of_[agv]].half_diagonal_m; }
@@ -36,11 +37,11 @@ class HullGeometry {
     double length_m, width_m, half_diagonal_m;
   };
   struct Part {
-    std::uint32_t first = 0, count = 0;  // in shapes_; count 0: not worked out yet
+    std::uint32_t first = 0, count = 0;  // in shapes_; count 0: not computed yet
     Vec centre_m;
     double reach_m = 0.0;
   };
-  // The parts of one path. `body` counts only if there are no parts.
+  // The parts of one path. `body` is used only if there are no parts.
   struct Parts {
     std::uint32_t count = 0;
     std::uint32_t numbers[2 * kPathLanesMax];

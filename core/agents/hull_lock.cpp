@@ -26,7 +26,7 @@ constexpr double kClockMargin = 1.02;      // clocks may run wrong by up to 1 %
 constexpr double kFarEnoughCharged = 0.5;  // battery level with which it lets others have the place
 constexpr std::uint32_t kTicksPerLookAtBattery = 8;
 
-// Members that a host of minor 0 does not know.
+// Members of the briefing that a host of minor version 0 does not have.
 bool knows_restarts(const fp_briefing& briefing) {
   return briefing.struct_size >= offsetof(fp_briefing, start_segment) + sizeof(briefing.start_segment);
 }
@@ -89,7 +89,7 @@ void HullLock::start() {
   tick();
 }
 
-// The AGV may be in the middle of what the former self told it to do. That is held until it is over.
+// The AGV may still carry out an action of the former self. The agent holds the floor of that action until it ends.
 void HullLock::start_again(const Path& standing) {
   controller_.sometimes("restarted");
   acting_ = true;
@@ -109,7 +109,7 @@ void HullLock::start_again(const Path& standing) {
   protocol_.know_own_place(false);
 }
 
-// After a restart orders are told again, the oldest first: a load that is on board belongs to that one.
+// After a restart, orders are sent again, the oldest first. A load on board belongs to the first order.
 void HullLock::take_order(const fp_event& event) {
   const bool on_board = boot_ > 0 && !order_seen_ && controller_.loaded();
   order_seen_ = true;
@@ -140,7 +140,7 @@ void HullLock::action_done(std::int32_t result) {
   if (current_.kind == Leg::Kind::Charge) charging_ = true;
 }
 
-// At rest at a station since the restart: once no position can be older than that, the heading is right.
+// The AGV has been at rest since the restart. When no position can be older than the restart, the heading is right.
 void HullLock::find_own_place() {
   if (place_known_ || now_s() < place_known_after_s_) return;
   fp_pose pose{};
@@ -156,9 +156,8 @@ void HullLock::find_own_place() {
   place_known_ = true;
 }
 
-// Nobody says whether an action of the former self was under way. If so, its end is told. If the AGV was idle at one
-// tick and nothing has been told until the next, there was none: what happened before the first has been told before
-// the second.
+// The agent does not know whether an action of the former self was under way. If one was, its end arrives as an event.
+// If the AGV was idle at one tick and no such event arrives before the next tick, there was none.
 void HullLock::look_for_inherited_action() {
   if (!acting_ || current_.kind != Leg::Kind::Inherited) return;
   const std::uint32_t action = controller_.action();
@@ -172,7 +171,7 @@ void HullLock::look_whether_out_of_order() {
   set_out_of_order(controller_.out_of_order());
 }
 
-// It keeps what it holds, and goes on when it has been repaired.
+// The AGV keeps what it holds, and goes on when it has been repaired.
 void HullLock::set_out_of_order(bool out) {
   if (out && !out_of_order_) protocol_.withdraw();
   out_of_order_ = out;
@@ -193,7 +192,7 @@ bool HullLock::going_to_charge() const {
          std::ranges::any_of(legs_, [](const Leg& leg) { return leg.kind == Leg::Kind::Charge; });
 }
 
-// To the one that is best now: another one may have become free, or this one taken.
+// Drives to the charger that is best now. Since the last choice, chargers may have become free or occupied.
 void HullLock::drive_to_charger() {
   const bool bound = !goals_.empty() && goals_.front().transfer == Leg::Kind::Charge;
   if (bound && !protocol_.requesting()) return;
@@ -285,7 +284,8 @@ void HullLock::plan_transport() {
   request(way_on(), Purpose::Transport);
 }
 
-// An AGV without transports gets out of the way of those who ask, and of everybody if it stands at a bad place.
+// An AGV without transports leaves a place that another AGV asks for. It also leaves a place that is not safe to wait
+// at.
 void HullLock::plan_making_way() {
   const bool asked = in_the_way_of(false);
   if (!asked && (planner_.places().is_safe(protocol_.held().station) || now_s() - started_s_ < 2.0)) return;
@@ -311,7 +311,7 @@ void HullLock::request(Stretch stretch, Purpose purpose) {
   protocol_.request(stretch_.path, demand_ns_ < 0 ? controller_.now_ns() : demand_ns_);
 }
 
-// Whoever waits for somebody who does nothing but wait himself looks for another way, and in the end gives way.
+// If the AGV waits for an AGV that only waits itself, it looks for another way. In the end it makes way.
 void HullLock::reconsider() {
   if (!protocol_.requesting() || !is_waiting() || out_of_order_) return;
   if (protocol_.waiting_inside(protocol_.requested()) == FP_NONE) {
@@ -336,7 +336,7 @@ void HullLock::reconsider() {
   request(std::move(retreat), Purpose::MakeWay);
 }
 
-// Does somebody ask for the place where it stands? `elder_only`: somebody whose demand is older.
+// Whether another AGV requests the place where this AGV stands. `elder_only`: only requests with an older demand count.
 bool HullLock::in_the_way_of(bool elder_only) {
   bool found = false;
   neighbours_.for_each([&](std::uint32_t agv, const Neighbour& n) {

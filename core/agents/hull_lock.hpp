@@ -15,9 +15,9 @@
 
 namespace fleetproof::agents {
 
-// Control software that fetches and brings loads and moves only on what it has locked. Stretch after stretch: plan it,
-// lock it, drive it; the next one is asked for while the AGV still drives, as long before the end as locking usually
-// takes.
+// Control software that carries out transports and drives only on floor that it has locked. It plans a stretch, locks
+// it and drives it. It requests the next stretch while the AGV still drives: as long before the end as locking took
+// recently.
 class HullLock {
  public:
   HullLock(const fp_host& host, fp_controller* handle, const fp_briefing& briefing, LockOptions options = {});
@@ -43,7 +43,7 @@ class HullLock {
   void look_at_battery();
   void drive_to_charger();
   bool going_to_charge() const;
-  // Everything that can be done now: act, lock, plan, ask.
+  // Does everything that can be done now: acts, locks, plans, asks.
   void advance();
   void act();
   void begin(const Leg& leg);
@@ -73,35 +73,35 @@ class HullLock {
   StretchPlanner planner_;
   double longest_claim_m_;
 
-  std::vector<Goal> goals_;  // not covered by what is locked
-  std::deque<Leg> legs_;     // locked, not begun
+  std::vector<Goal> goals_;  // goals that the locked stretches do not reach
+  std::deque<Leg> legs_;     // locked legs that have not begun
   bool acting_ = false;      // an action is under way
   Leg current_;
-  double current_ends_s_ = 0.0;  // expected
+  double current_ends_s_ = 0.0;  // the expected end of the current leg
   double started_s_ = 0.0;
-  bool out_of_order_ = false;  // broken down or empty; may be repaired
-  bool wrecked_ = false;       // stopped in the middle of an action for good
+  bool out_of_order_ = false;  // broken down or empty; the AGV may be repaired
+  bool wrecked_ = false;       // stopped for good in the middle of an action
 
   // After a restart.
   bool order_seen_ = false;
-  bool place_known_ = true;  // where it stands, heading included
+  bool place_known_ = true;  // the agent knows where the AGV stands, and its heading
   double place_known_after_s_ = 0.0;
-  bool seen_idle_ = false;  // when last looked; the end of an inherited action may not have been told yet
+  bool seen_idle_ = false;  // the AGV was idle at the last tick; the end of an inherited action may still be announced
 
   bool has_chargers_ = false, charging_ = false;
   std::uint32_t ticks_ = 0;
 
-  Stretch stretch_;  // requested
+  Stretch stretch_;  // the requested stretch
   Purpose purpose_ = Purpose::Transport;
   double requested_at_s_ = 0.0;
-  std::int64_t demand_ns_ = -1;  // since when it has wanted to get on with its transports; negative: it does not
+  std::int64_t demand_ns_ = -1;  // since when the AGV has wanted to go on with its transports; negative: it does not
   double locking_takes_s_ = 1.0;
   double plan_after_s_ = 0.0;
   std::int64_t ask_timer_ns_ = -1;
   double blocked_since_s_ = -1.0, patience_s_ = 0.0;
 };
 
-// For the C table. Null if the map is too large for the messages.
+// For the C table. Returns null if the map is too large for the messages.
 void* create_hull_lock(const fp_host* host, fp_controller* controller, const fp_briefing* briefing,
                        LockOptions options);
 

@@ -1,54 +1,57 @@
-// Why two AGVs i and j never hold conflicting hulls.
+// Proof that two AGVs i and j never hold conflicting hulls.
 //
-// Terms. An epoch of i is the time during which it requests one fixed path; it ends when the request is locked,
-// withdrawn or stepped back from, or when i's computer restarts, and its number, which the boot is part of, is never
-// used again. i decides to grant an epoch f of j only if (1) nothing it holds conflicts with j's request and (2) it is
-// not inside an epoch of its own whose request conflicts, or ends that epoch at once. Every GRANT for f says that i has
-// so decided, at some instant during f: repeated GRANTs speak of the first such decision that i remembers. i locks an
-// epoch e only if every AGV has granted e or is excluded: proved at that instant to be so far away that nothing it then
-// holds or requests can conflict (Neighbours::surely_beyond; true of every epoch, as a claim never exceeds
-// longest_claim_m).
+// Terms
+// - An epoch of i is the time in which i requests one fixed path. It ends when i locks the request, withdraws it or
+//   steps back, or when the computer of i restarts. Its number contains the boot and is never used again.
+// - i decides to grant an epoch f of j only under two conditions. (1) Nothing that i holds conflicts with the request
+// of
+//   j. (2) i is not inside an epoch of its own whose request conflicts, or i ends that epoch at once.
+// - A GRANT for f says that i decided so at some instant during f. Repeated GRANTs refer to the first decision that i
+//   remembers.
+// - i locks an epoch e only if every other AGV has granted e or is excluded. An AGV is excluded if i has proved at that
+//   instant that it is far away: nothing that it then holds or requests can conflict (Neighbours::surely_beyond). The
+//   proof covers every epoch, because a claim is never longer than longest_claim_m.
 //
-// Suppose there is a first instant at which two AGVs hold conflicting hulls: i has locked e at t_i and still holds it
-// when j locks f at t_j >= t_i.
-// - If j excluded i at t_j, nothing i held at t_j conflicts: contradiction. So i decided to grant f, at some s_i during
-// f, s_i <= t_j.
-// - i holds what conflicts from t_i to t_j, so by (1) s_i < t_i. By (2) s_i is not inside e, or e would have ended
-// there. So s_i lies before e
-//   began, hence f began before e did and lasts until t_j: at every instant of e, j is inside f, requesting what
-//   conflicts.
-// - If i excluded j at t_i, nothing j requested at t_i conflicts: contradiction. So j decided to grant e, at an instant
-// s_j inside e, thus inside f.
-//   By (2) j ended f at s_j <= t_i <= t_j and could not lock it at t_j (if all three are one instant, j's activations
-//   still have an order): contradiction.
-// Nothing here speaks of delay, order or number of messages, of clocks, of keys, or of which of several GRANTs was
-// used. Keys, retransmission and letting others pass serve progress only. The first hulls are the bodies at the start,
-// which the warehouse keeps apart. A hull shrinks only by lanes whose far end the AGV has reached: what it still covers
-// is part of the next lane, of a turn, or the standing body. Time passes nothing: an AGV that is stopped, broken down
-// or empty in the middle of a lane holds that lane.
+// Proof by contradiction. Suppose there is a first instant at which two AGVs hold conflicting hulls. i locked e at t_i
+// and still holds it when j locks f at t_j >= t_i.
+// - If j excluded i at t_j, nothing that i held at t_j conflicts: contradiction. So i decided to grant f, at an instant
+//   s_i during f, and s_i <= t_j.
+// - i holds the conflicting hull from t_i to t_j, so s_i < t_i by (1). By (2), s_i is not inside e, because e would
+// have
+//   ended there. So s_i lies before the beginning of e. Hence f began before e began, and f lasts until t_j. At every
+//   instant of e, j is inside f and requests what conflicts.
+// - If i excluded j at t_i, nothing that j requested at t_i conflicts: contradiction. So j decided to grant e, at an
+//   instant s_j inside e, and thus inside f. By (2), j ended f at s_j <= t_i <= t_j. So j could not lock f at t_j:
+//   contradiction. (If all three are one instant, the activations of j still have an order.)
 //
-// Repeating a GRANT without stepping back is sound because the instant that counts is the first: every later epoch of i
-// asks j, who is inside f until it has ended f. Without remembering, each duplicate of a REQUEST would make i step back
-// once more, and at 40 % loss nobody would get on.
+// The proof uses no assumption about the delay, the order or the number of messages, about clocks or keys, or about
+// which of several GRANTs was used. Keys, retransmission and making way serve progress only. The first hulls are the
+// bodies at the start, and the warehouse keeps those apart. A hull loses only lanes whose end the AGV has reached. What
+// the AGV still covers then belongs to the next lane, to a turn, or to the standing body. Time releases nothing: an AGV
+// that is stopped, broken down or empty in the middle of a lane holds that lane.
 //
-// Restarts. What i remembers of others is lost, and with it the requests it has granted. No step above needs that
-// memory:
-// - i's restart ends its epoch and shrinks what it holds to what the AGV covers until its action is over, the lane
-// under way or the standing body. Of
-//   what it locked before, that part is held throughout, by the former self and by the new one from its first instant
-//   (it answers nobody before). So (1) is true of s_i in [t_i, t_j] whether or not i restarts in between. It may hold
-//   the turn before the lane too, without having locked it; that only makes it defer more.
-// - A GRANT of the former self for f that is still in the air, or that j holds, stays true: s_i lies before every epoch
-// of the new self. When the new
-//   self requests e, j is still inside f, or f is over. If inside, j must be asked, by an epoch of the new boot; to
-//   grant it ends f, and with f every GRANT for f, whichever boot gave it. There is nothing to wait for.
-// - j's restart between s_i and t_j ends f, so j does not lock it. A late GRANT for an epoch of a former boot names
-// that boot, and is no answer.
-// - The new self decides anew about an f that the former granted: a second decision under the same rules, and any one
-// during f will do.
-// - What must be known is one's own place: from a position that may be late, a new self learns its heading only when
-// that time is over. Until then it
-//   grants nothing (know_own_place).
+// Why may a GRANT be repeated without stepping back? Because the first decision counts: every later epoch of i asks j,
+// and j is inside f until it has ended f. If i did not remember its grants, each repeated REQUEST would make i step
+// back again. At 40 % loss no AGV would then make progress.
+//
+// Restarts. A restarted i has forgotten its knowledge of other AGVs, and the requests that it granted. No step above
+// needs this memory:
+// - The restart of i ends its epoch. i then holds only what the AGV covers until its action ends: the lane under way,
+// or
+//   the standing body. This part of the locked floor is held without a gap, by the former self and by the new self from
+//   its first instant, because the new self answers no message before. So (1) is true of every s_i in [t_i, t_j], with
+//   or without a restart between them. The new self may also hold the turn before the lane without having locked it.
+//   That only makes it defer more often.
+// - A GRANT of the former self for f may still be in the air, or j may have it. It stays true, because s_i lies before
+//   every epoch of the new self. When the new self requests e, there are two cases. If f is over, the GRANT has no
+//   effect. If j is still inside f, the new self must ask j, in an epoch of the new boot. To grant it, j ends f, and
+//   with f every GRANT for f from any boot. So there is nothing to wait for.
+// - A restart of j between s_i and t_j ends f, so j does not lock f. A late GRANT for an epoch of a former boot names
+//   that boot, and is not an answer.
+// - The new self decides again about an f that the former self granted. That is a second decision under the same rules,
+//   and any decision during f is sufficient.
+// - The new self must know its own place. If positions may be late, it knows the heading of its AGV only after that
+//   time. Until then it grants nothing (know_own_place).
 #include "core/agents/lock_protocol.hpp"
 
 #include <algorithm>
@@ -129,7 +132,7 @@ bool LockProtocol::receive(std::uint32_t sender, std::span<const std::byte> byte
 
 void LockProtocol::answer_request(std::uint32_t sender) {
   Neighbour& n = neighbours_.of(sender);
-  if (n.granted_epoch == n.request_epoch) {  // he asks again: the grant got lost, or is still on its way
+  if (n.granted_epoch == n.request_epoch) {  // a repeated request: the grant was lost or is still under way
     controller_.sometimes("grant-lost");
     return send(MessageKind::Grant, sender, n.request_epoch);
   }
@@ -143,9 +146,9 @@ LockProtocol::Answer LockProtocol::answer_to(std::uint32_t agv, const Neighbour&
   const std::uint32_t self = neighbours_.self();
   if (!own_place_known_ || geometry_.conflict(self, held_, agv, neighbour.request)) return Answer::Defer;
   if (!requesting_ || !geometry_.conflict(self, request_, agv, neighbour.request)) return Answer::Grant;
-  // A request that cannot be locked before somebody moves must not keep him, or those he waits for, from moving. Both
-  // sides must come to the same order, or two requests would step back from each other for ever: therefore `blocked` is
-  // part of what every message tells.
+  // A blocked request cannot be locked before another AGV moves. It must not stop that AGV, or the AGVs for which that
+  // AGV waits. Both sides must find the same order; otherwise two requests would step back from each other for ever.
+  // Therefore every message contains `blocked`.
   const bool mine_blocked = is_blocked();
   const bool mine_first =
       std::tie(mine_blocked, demand_ns_, self) < std::tie(neighbour.status.blocked, neighbour.demand_ns, agv);
@@ -195,8 +198,8 @@ void LockProtocol::receive_answer(std::uint32_t sender, const Message& message) 
   if (message.kind == MessageKind::Grant) {
     n.granted_us_epoch = epoch_;
   } else {
-    // He knows of the request and grants it on his own when he can: to ask again is only for the case that this grant
-    // gets lost.
+    // The sender knows the request and will grant it without a question. Asking again is only needed if that grant is
+    // lost.
     n.silent_since_ns = controller_.now_ns();
     if (n.deferred_us_epoch != epoch_) n.ask_at_ns += kAskDeferredAgain_ns - kAskAgain_ns;
     n.deferred_us_epoch = epoch_;

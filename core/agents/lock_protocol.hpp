@@ -11,14 +11,13 @@
 namespace fleetproof::agents {
 
 struct LockOptions {
-  // A member of the fleet that has answered nothing for so long counts as having granted. 0: silence is never consent,
-  // the only safe setting.
+  // An AGV that has not answered for this long counts as having granted. 0: silence is never consent. Only 0 is safe.
   std::int64_t silence_consents_after_ns = 0;
 };
 
-// Mutual exclusion of hulls by messages that may be lost, late, reordered or doubled: no two AGVs of a fleet that runs
-// this ever hold hulls which conflict. An AGV always holds the path it stands on or drives, and may ask for a longer
-// one. Why it is sound stands at the head of the source.
+// Mutual exclusion of hulls, by messages that may be lost, late, reordered or doubled. If all AGVs of a fleet run this
+// protocol, no two of them ever hold conflicting hulls. An AGV always holds the path on which it stands or drives, and
+// it may request a longer one. The proof is at the beginning of lock_protocol.cpp.
 class LockProtocol {
  public:
   LockProtocol(const MapView& map, HullGeometry& geometry, Neighbours& neighbours, Controller& controller,
@@ -30,34 +29,37 @@ class LockProtocol {
         options_(options),
         epoch_(first_epoch(boot)) {}
 
-  // Where the AGV stands when the agent begins, and the lane it is driving if it is: held from then on.
+  // Call once at the start: the place where the AGV stands, and the lane that it is driving, if any. The AGV holds this
+  // path.
   void stand(const Path& standing) { held_ = standing; }
-  // While it does not know for certain what it covers, it grants nothing to anybody. Nor must anything be requested.
+  // While the AGV does not know for certain what it covers, it grants nothing. Requires: nothing is requested
+  // meanwhile.
   void know_own_place(bool known);
   const Path& held() const { return held_; }
   bool requesting() const { return requesting_; }
   const Path& requested() const { return request_; }
   Epoch epoch() const { return epoch_; }
 
-  // Wants to hold `stretch`, which begins where the held path ends, as well. Replaces an open request. `demand_ns`:
-  // since when it has wanted to go on; of two that wait for each other, the older demand comes first.
+  // Requests `stretch` in addition to the held path. Replaces an open request. `demand_ns`: since when the AGV has
+  // wanted to go on. If two AGVs wait for each other, the older demand comes first.
+  // Requires: `stretch` begins where the held path ends.
   void request(const Path& stretch, std::int64_t demand_ns);
   void withdraw();
-  // The first held lane has been driven to its end; its hull is given up. Nothing happens if no lane is held.
+  // The AGV has reached the end of the first held lane, and releases that lane. No effect if no lane is held.
   void lane_passed();
-  // What the next messages tell about the AGV besides what the protocol knows.
+  // The state of the AGV that the next messages contain.
   void describe(bool waiting, bool idle, bool out_of_order);
 
-  // False if these bytes are no message of ours.
+  // False if the bytes are not a message of this protocol.
   bool receive(std::uint32_t sender, std::span<const std::byte> bytes);
-  // To be called at the end of every activation: answers what can be answered now, asks who has not been asked. True:
-  // the request is locked, the held path is longer by it.
+  // Call this at the end of every activation. It answers requests that can be answered now, and asks AGVs that have not
+  // been asked. True if the request is locked: the held path then contains it.
   bool settle();
-  // Asks again who has not granted, if it is time; and says when to call next. Negative: no request is open.
+  // Asks AGVs that have not granted again, if it is time. Returns when to call next; negative if no request is open.
   std::int64_t ask_again();
   void broadcast_state();
 
-  // The AGV that waits, with nothing to do but wait, inside the hull of `path`; FP_NONE if none is known.
+  // An AGV that stands and waits inside the hull of `path`; FP_NONE if none is known.
   std::uint32_t waiting_inside(const Path& path);
 
  private:
@@ -89,10 +91,10 @@ class LockProtocol {
   Path request_;
   std::int64_t demand_ns_ = 0;
   Epoch epoch_;
-  bool asked_ = false;               // in this epoch, whoever had to be asked when it began
-  bool answers_may_change_ = false;  // since deferred requests were last looked at
+  bool asked_ = false;               // every AGV that had to be asked when this epoch began has been asked
+  bool answers_may_change_ = false;  // something changed since the deferred requests were last examined
 
-  bool blocked_ = false, blocked_is_known_ = false;  // somebody waits inside the hull it requests
+  bool blocked_ = false, blocked_is_known_ = false;  // an AGV waits inside the requested hull
   bool waiting_ = true, idle_ = true, out_of_order_ = false;
   Vec position_m_;
   std::int64_t position_at_ns_ = -1;

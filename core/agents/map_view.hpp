@@ -9,7 +9,7 @@
 
 namespace fleetproof::agents {
 
-// The logical map by index, with the headings at the ends of its lanes. The briefing's map outlives it.
+// The logical map by index, with the headings at the ends of its lanes. Requires: the map of the briefing outlives it.
 class MapView {
  public:
   explicit MapView(const fp_map& map);
@@ -27,7 +27,7 @@ class MapView {
   std::span<const std::uint32_t> lanes_to(std::uint32_t station_id) const;
   Vec start_heading(std::uint32_t lane_id) const { return start_headings_[lane_id]; }
   Vec end_heading(std::uint32_t lane_id) const { return end_headings_[lane_id]; }
-  // Of the segment that this lane drives, is there a lane the other way?
+  // Whether the segment of this lane also has a lane in the other direction.
   bool two_way(std::uint32_t lane_id) const { return lanes_of_segment_[lane(lane_id).segment] > 1; }
 
  private:
@@ -39,11 +39,11 @@ class MapView {
   const fp_map& map_;
   std::vector<Vec> start_headings_, end_headings_;  // by lane
   std::vector<std::uint8_t> lanes_of_segment_;
-  std::vector<std::uint32_t> arriving_, arriving_begin_;  // lanes by the station they end at
+  std::vector<std::uint32_t> arriving_, arriving_begin_;  // lanes, ordered by the station at which they end
 };
 
-// Headings closer than this need no turn on the spot; what the body sweeps in between is within the tolerance of every
-// hull.
+// Headings that are closer than this need no turn on the spot. The floor that the body sweeps between them is within
+// the tolerance of every hull.
 inline bool same_heading(Vec a, Vec b) {
   return dot(a, b) > 1.0 - 1e-6;
 }  // 1.4 mrad: 1.4 mm at the corner of a 2 m long AGV

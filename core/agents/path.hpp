@@ -10,8 +10,8 @@ namespace fleetproof::agents {
 
 inline constexpr std::uint32_t kPathLanesMax = 64;
 
-// A way through the map: an AGV stands at `station` with `heading` and drives `lanes` one after the other. Without
-// lanes it just stands there.
+// A way through the map: an AGV stands at `station` with `heading` and drives `lanes` one after the other. On a path
+// without lanes, the AGV stands.
 struct Path {
   std::uint32_t station = 0;
   Vec heading{1.0, 0.0};
@@ -20,7 +20,7 @@ struct Path {
 
   std::span<const std::uint32_t> lanes() const { return {lane_ids.data(), count}; }
   bool empty() const { return count == 0; }
-  // False if it is full.
+  // False if the path is full.
   bool append(std::uint32_t lane) {
     if (count == kPathLanesMax) return false;
     lane_ids[count++] = lane;
@@ -29,12 +29,12 @@ struct Path {
 };
 
 bool operator==(const Path& a, const Path& b);
-// True if every lane exists and begins where the one before it ends.
+// True if every lane exists and begins where the lane before it ends.
 bool is_driveable(const MapView& map, const Path& path);
-// Standing where the path ends.
+// A path without lanes, at the end of this path.
 Path end_of(const MapView& map, const Path& path);
 double length_m(const MapView& map, const Path& path);
-// Standing at the end of the first lane, with the others still to drive. The path must not be empty.
+// Removes the first lane; the path then begins at the end of that lane. Requires: the path is not empty.
 void pass_first_lane(const MapView& map, Path& path);
 
 }  // namespace fleetproof::agents

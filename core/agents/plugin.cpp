@@ -1,4 +1,4 @@
-// hull-lock as a shared object, under a name of its own: what a user's control software looks like to the engine.
+// hull-lock as a shared object, under a name of its own. It stands for a user's control software in tests.
 #include "core/agents/agent_type.hpp"
 
 namespace {

@@ -19,7 +19,7 @@ std::uint64_t flags_of(const Message& message) {
          (boot_of(s.epoch) > 0 ? kEpochHasBoot : 0U) | (boot_of(message.echo) > 0 ? kEchoHasBoot : 0U);
 }
 
-// Two's complement; what the wire cannot hold becomes something at its edge.
+// Two's complement. A value that does not fit becomes the largest or smallest value that fits.
 std::uint64_t rounded(double value) {
   return static_cast<std::uint64_t>(
       static_cast<std::int64_t>(std::floor(std::fmin(std::fmax(value, -2e9), 2e9) + 0.5)));

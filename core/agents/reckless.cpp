@@ -1,4 +1,4 @@
-// FAULT: drives its transports by the quickest ways without asking anybody, and answers nobody.
+// FAULT: carries out its transports by the quickest ways. It asks no other AGV and answers no message.
 #include <deque>
 
 #include "core/agents/agent_type.hpp"
@@ -45,7 +45,7 @@ class Reckless {
         routes_.search(station_, lane_times_s_);
         const auto lanes = routes_.lanes(task.station);
         if (lanes.empty()) {
-          tasks_.pop_front();  // no way there
+          tasks_.pop_front();  // the station cannot be reached
           continue;
         }
         segment = map_.lane(lanes.front()).segment;
@@ -63,7 +63,7 @@ class Reckless {
   Routes routes_;
   std::vector<double> lane_times_s_;
   std::deque<Task> tasks_;
-  std::uint32_t station_;  // where it stands, or is going to
+  std::uint32_t station_;  // where the AGV stands, or where its action ends
   bool acting_ = false;
 };
 

@@ -9,10 +9,10 @@
 
 namespace fleetproof::agents {
 
-// From rest to rest over a lane, for AGVs of this kind; without turns.
+// The time that AGVs of this type need for a lane, from rest to rest, without turns.
 double drive_time_s(double length_m, const fp_agv& agv);
 
-// Quickest ways from one station to all others (Dijkstra). Keeps its memory from one search to the next.
+// The quickest ways from one station to all others (Dijkstra). A search reuses the memory of the search before it.
 class Routes {
  public:
   explicit Routes(const MapView& map) : map_(map) {}
@@ -21,7 +21,7 @@ class Routes {
   void search(std::uint32_t from, std::span<const double> cost_s);
   // Infinite if there is no way.
   double cost_s(std::uint32_t to) const { return cost_s_[to]; }
-  // The lanes to drive; empty if there is no way, or nowhere to go. Valid until the next call.
+  // The lanes to drive; empty if there is no way, or if `to` is where the search began. Valid until the next call.
   std::span<const std::uint32_t> lanes(std::uint32_t to);
 
  private:
@@ -32,7 +32,7 @@ class Routes {
 
   const MapView& map_;
   std::vector<double> cost_s_;          // by station
-  std::vector<std::uint32_t> arrival_;  // lane by which one gets there
+  std::vector<std::uint32_t> arrival_;  // the lane by which the way arrives
   std::vector<Open> open_;              // heap, cheapest first
   std::vector<std::uint32_t> lanes_;
 };

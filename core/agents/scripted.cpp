@@ -1,4 +1,4 @@
-// Plays the controller calls of its script, each at its instant, whatever comes of them.
+// Makes the controller calls of its script, each at its instant. It ignores their results.
 #include <algorithm>
 #include <span>
 

@@ -2,15 +2,15 @@
 
 namespace fleetproof::agents {
 
-// What the agent's own parameters say: words `key=value` with blanks between them. Words of others are left alone.
+// The agent's own parameters: words `key=value`, separated by blanks. Unknown words are ignored.
 struct Settings {
-  double position_error_m = 0.05;  // a perceived position is off by at most so much, in x and in y
-  double position_late_s = 1.0;    // and at most so old
-  double charge_below = 0.3;       // battery level at which it drives to a charger
-  double charge_to = 0.9;          // level with which it leaves one
+  double position_error_m = 0.05;  // the largest error of a perceived position, in x and in y
+  double position_late_s = 1.0;    // the largest age of a perceived position
+  double charge_below = 0.3;       // the battery level at which the AGV drives to a charger
+  double charge_to = 0.9;          // the battery level at which the AGV leaves the charger
 };
 
-// std::invalid_argument, with a sentence, if a value is no number or makes no sense.
+// Throws std::invalid_argument with a sentence if a value is not a number or not possible.
 Settings read_settings(const char* config);
 
 }  // namespace fleetproof::agents

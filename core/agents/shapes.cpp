@@ -27,7 +27,7 @@ Vec apply(Turn t, Vec v) { return {t.cosine * v.x - t.sine * v.y, t.sine * v.x +
 
 bool is_straight(const fp_arc& arc) { return std::abs(arc.curvature_per_m * arc.length_m) < 1e-9; }
 
-// Distance of a point from the rectangle inside the shape, squared.
+// The squared distance from a point to the rectangle inside the shape.
 double squared_distance(Vec point_m, const Shape& shape) {
   const Vec d = point_m - shape.centre_m;
   const double along = std::max(std::abs(dot(d, shape.axis)) - shape.half_length_m, 0.0);
@@ -42,7 +42,7 @@ double smallest_corner_distance2(const Shape& corners_of, const Shape& from) {
                   std::min(squared_distance(c - u + v, from), squared_distance(c - u - v, from)));
 }
 
-// Separating axes: those of either rectangle.
+// The separating axes are the axes of both rectangles.
 bool overlap(const Shape& a, const Shape& b) {
   const Vec d = b.centre_m - a.centre_m;
   const double c = std::abs(dot(a.axis, b.axis)), s = std::abs(dot(a.axis, left_of(b.axis)));
@@ -85,7 +85,7 @@ bool closer_than(const Shape& a, const Shape& b, double distance_m) {
   const double far = a.reach_m() + b.reach_m() + distance_m;
   if (dot(d, d) >= far * far) return false;
   if (overlap(a, b)) return true;
-  // Of two rectangles apart, the nearest points are a corner of one and a side of the other.
+  // If two rectangles do not overlap, the nearest points are a corner of one and a side of the other.
   const double near = a.radius_m + b.radius_m + distance_m;
   return std::min(smallest_corner_distance2(a, b), smallest_corner_distance2(b, a)) < near * near;
 }
@@ -104,7 +104,7 @@ void append_sweep(const fp_arc& arc, double length_m, double width_m, std::vecto
   const Turn quarter = small_turn(arc.curvature_per_m > 0.0 ? quarter_rad : -quarter_rad);
   const Turn half = small_turn(2.0 * quarter_rad);
   const double half_chord_m = radius_m * half.sine, sagitta_m = radius_m * (1.0 - half.cosine);
-  // The body on a piece is turned against the middle of the piece by at most half the piece's angle and lies off its
+  // Compared with the middle of the piece, the body is turned by at most half the angle of the piece, and is off the
   // tangent by at most the sagitta.
   const double half_length_m = half_chord_m + length_m / 2.0 + width_m / 2.0 * half.sine + kRounding_m;
   const double half_width_m = width_m / 2.0 + length_m / 2.0 * half.sine + sagitta_m + kRounding_m;

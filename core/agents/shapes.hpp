@@ -18,31 +18,31 @@ inline double dot(Vec a, Vec b) { return a.x * b.x + a.y * b.y; }
 inline Vec left_of(Vec v) { return {-v.y, v.x}; }
 inline double length(Vec v) { return std::sqrt(dot(v, v)); }
 
-// `v` turned left. Polynomials of our own: libm's differ between processors.
+// `v` turned left. Uses polynomials of its own, because the results of libm differ between processors.
 Vec turned(Vec v, double angle_rad);
 
-// Where the arc ends, heading included.
+// The pose at the end of the arc.
 fp_pose end_of(const fp_arc& arc);
 
-// A rectangle widened by a radius all round: with radius 0 a rectangle, without extent a disc.
+// A rectangle, widened by a radius on all sides. With radius 0 it is a rectangle, without extent a disc.
 struct Shape {
   Vec centre_m;
   Vec axis{1.0, 0.0};  // unit vector along the length
   double half_length_m = 0.0, half_width_m = 0.0;
   double radius_m = 0.0;
 
-  // Of a disc around the centre that contains the shape.
+  // The radius of a disc around the centre that contains the shape.
   double reach_m() const { return std::sqrt(half_length_m * half_length_m + half_width_m * half_width_m) + radius_m; }
 };
 
 Shape body_at(Vec centre_m, Vec heading, double length_m, double width_m);
 Shape disc_at(Vec centre_m, double radius_m);
 
-// True if less than `distance_m` lies between the two.
+// True if the distance between the two shapes is less than `distance_m`.
 bool closer_than(const Shape& a, const Shape& b, double distance_m);
 
-// Appends shapes that together cover everything a body of this size sweeps whose centre runs along `arc`, nose first.
-// Exact for a straight line, an overestimate of a few centimetres in bends.
+// Appends shapes that together cover the floor that a body of this size sweeps while its centre moves along `arc`, nose
+// first. Exact for a straight line; too large by a few centimetres in bends.
 void append_sweep(const fp_arc& arc, double length_m, double width_m, std::vector<Shape>& shapes);
 
 }  // namespace fleetproof::agents

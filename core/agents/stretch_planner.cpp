@@ -9,7 +9,7 @@ namespace {
 constexpr double kLookAhead_m = 12.0;
 constexpr std::uint32_t kLookAheadLanes = 3;
 
-// What it costs to go where somebody stands or is going to: the time until he has moved, roughly.
+// The price of a place at which another AGV stands or arrives: roughly the time until that AGV has moved.
 constexpr double kArrivingCost_s = 8.0;
 constexpr double kIdleCost_s = 10.0;
 constexpr double kWaitingCost_s = 20.0;
@@ -17,7 +17,7 @@ constexpr double kNoWayCost_s = 1000.0;
 
 }  // namespace
 
-// A way that grows lane by lane and remembers the best place so far to end it.
+// A stretch that grows lane by lane and remembers the best end so far.
 struct StretchPlanner::Walk {
   struct End {
     std::size_t legs = 0;
@@ -32,13 +32,13 @@ struct StretchPlanner::Walk {
   Budget budget;
   Stretch stretch;
   double length_m = 0.0;
-  bool blocked = false;  // it runs into what somebody is known to hold
+  bool blocked = false;  // it reaches floor that another AGV is known to hold
   End here, best, least_bad;
   std::uint32_t least_burden = ~0U;
 
   std::uint32_t station() const { return end_of(planner.map_, stretch.path).station; }
 
-  // False if the budget does not allow it.
+  // False if the budget does not allow this lane.
   bool drive(std::uint32_t lane) {
     length_m += planner.map_.lane(lane).length_m;
     if (length_m > budget.length_m || here.lanes >= budget.lanes || !stretch.path.append(lane)) return false;
@@ -69,7 +69,7 @@ struct StretchPlanner::Walk {
     }
   }
 
-  // True if going on would not make a better stretch.
+  // True if a longer stretch would not be better.
   bool is_done() const {
     if (best.lanes == 0) return false;
     if (blocked) return true;
@@ -117,7 +117,7 @@ Stretch StretchPlanner::out_of_the_way(const Path& standing, Budget budget, bool
   for (const std::uint32_t lane : routes_.lanes(place)) {
     if (!walk.drive(lane)) return walk.take();
   }
-  walk.best = walk.here;  // chosen with care, even if it is no safe place
+  walk.best = walk.here;  // best_place() chose this place, even if it is not safe
   return walk.take();
 }
 
@@ -142,7 +142,7 @@ std::uint32_t StretchPlanner::free_charger(std::uint32_t from) {
   return best;
 }
 
-// Drives on to a station; false if the walk is done before, or cannot go on.
+// Extends the walk to a station. False if the walk ends before, or cannot go on.
 bool StretchPlanner::follow(Walk& walk, std::uint32_t to) {
   const auto lanes = routes_.lanes(to);
   if (lanes.empty()) return false;
@@ -177,7 +177,7 @@ void StretchPlanner::price_station(std::uint32_t station, double extra_s) {
   }
 }
 
-// Leaves the routes searched from `from`.
+// Afterwards, the routes are those from `from`.
 std::uint32_t StretchPlanner::best_place(std::uint32_t from, bool prefer_parking, double draw) {
   routes_.search(from, costs_s_);
   std::uint32_t best = FP_NONE;
@@ -186,7 +186,7 @@ std::uint32_t StretchPlanner::best_place(std::uint32_t from, bool prefer_parking
     double cost_s = routes_.cost_s(station);
     if (station == from || cost_s >= kNoWayCost_s) continue;
     if (prefer_parking && (map_.station(station).purposes & FP_PARKING) == 0) cost_s += 10.0;
-    // A different order of preference in every draw, for those who get into each other's way again and again.
+    // Every draw prefers other stations, so that two AGVs that block each other do not repeat the same choice.
     cost_s += 12.0 * draw * ((station * 7 + 3) % 5) / 4.0;
     if (cost_s >= best_s) continue;
     cost_s += std::min(5.0 * places_.burden(station), 200.0);

@@ -12,37 +12,37 @@
 
 namespace fleetproof::agents {
 
-// One controller call: drive a lane, or transfer a load or charge where one stands. Inherited: whatever the agent was
-// doing before it restarted.
+// One controller call: drives a lane, or picks, drops or charges where the AGV stands. Inherited: the action that the
+// agent began before its restart.
 struct Leg {
   enum class Kind : std::uint8_t { Drive, Pick, Drop, Charge, Inherited };
   Kind kind = Kind::Drive;
   std::uint32_t lane = FP_NONE;
 };
 
-// A place to go to and what to do there.
+// A station to go to, and what to do there.
 struct Goal {
   std::uint32_t station = FP_NONE;
   Leg::Kind transfer = Leg::Kind::Pick;
 };
 
-// What is locked in one piece: a path and the legs that drive it, transfers on the way included.
+// What is locked at once: a path, and the legs that drive it. The transfers on the path are legs too.
 struct Stretch {
   Path path;
   std::vector<Leg> legs;
-  std::uint32_t goals = 0;  // reached on the way
+  std::uint32_t goals = 0;  // the number of goals that the stretch reaches
   bool empty() const { return path.empty(); }
 };
 
-// How far one may plan: lanes held already count.
+// How far a stretch may reach. Lanes that are already held count.
 struct Budget {
   double length_m = 0.0;
   std::uint32_t lanes = 0;
 };
 
-// Chooses the next stretch. It ends at a safe waiting place, so that nobody ever waits where he blocks those he waits
-// for; beyond that it is long enough to be worth the messages, and short enough to stop before what others are known to
-// hold. Knowledge of others may be stale: a bad choice costs time, never safety.
+// Chooses the next stretch. A stretch ends at a safe waiting place, so that no AGV blocks the AGV for which it waits.
+// It is long enough to be worth its messages, and it ends before the floor that other AGVs are known to hold. Knowledge
+// about other AGVs may be old: a bad choice costs time, never safety.
 class StretchPlanner {
  public:
   StretchPlanner(const MapView& map, HullGeometry& geometry, Neighbours& neighbours, const fp_agv& self);
@@ -50,13 +50,13 @@ class StretchPlanner {
   WaitingPlaces& places() { return places_; }
   double lane_time_s(std::uint32_t lane) const { return lane_times_s_[lane]; }
 
-  // On the way to the goals, from where `standing` stands. Empty if there is no way to the first.
+  // A stretch from `standing` towards the goals. Empty if there is no way to the first goal.
   Stretch towards(const Path& standing, Budget budget, std::span<const Goal> goals);
-  // To a place where one is in nobody's way, as far as is known. Empty if there is none. `draw` in [0, 1) varies the
-  // choice.
+  // A stretch to a place where the AGV blocks no other AGV, as far as is known. Empty if there is none. `draw` in [0,
+  // 1) varies the choice.
   Stretch out_of_the_way(const Path& standing, Budget budget, bool prefer_parking, double draw);
-  // The charging station that is quickest to reach, where one is in nobody's way and nobody is known to be. FP_NONE if
-  // there is none.
+  // The charging station that is quickest to reach, at which the AGV blocks no other AGV and no other AGV is known to
+  // be. FP_NONE if there is none.
   std::uint32_t free_charger(std::uint32_t from);
 
  private:
@@ -74,7 +74,7 @@ class StretchPlanner {
   WaitingPlaces places_;
   Routes routes_;
   std::vector<double> lane_times_s_;  // by lane
-  std::vector<double> costs_s_;       // by lane: time and what it may cost that others stand there
+  std::vector<double> costs_s_;       // by lane: the time, and a price for other AGVs on the lane
 };
 
 }  // namespace fleetproof::agents

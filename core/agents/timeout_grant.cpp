@@ -1,4 +1,4 @@
-// FAULT: a member of the fleet that has not answered for 3 s counts as having granted. Otherwise this is hull-lock.
+// FAULT: an AGV that has not answered for 3 s counts as having granted. Otherwise this agent is hull-lock.
 #include "core/agents/agent_type.hpp"
 #include "core/agents/hull_lock.hpp"
 
