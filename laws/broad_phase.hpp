@@ -9,9 +9,9 @@
 
 namespace fleetproof {
 
-// Which bodies' boxes overlap a given one, as boxes come and go. A fleet of up to kScanned bodies is scanned; above, a
-// box is filed by its middle, in one cell of the grid whose cells are no smaller than it (a loose grid), and a question
-// looks half a cell beyond its own box. Answers do not depend on which of the two it is.
+// Finds the bodies whose boxes overlap a given box. Boxes may be placed and removed at any time. Up to kScanned bodies
+// are scanned. Above that, each box is filed by its middle in a loose grid: in one cell that is at least as large as
+// the box. A question then looks half a cell beyond its own box. Both methods give the same answers.
 class BroadPhase {
  public:
   static constexpr std::size_t kScanned = 32;
@@ -23,15 +23,15 @@ class BroadPhase {
   void remove(std::size_t body);
   const Box& box_of(std::size_t body) const { return boxes_[body]; }
 
-  // Ascending; good until the next question.
+  // In ascending order; valid until the next question.
   std::span<const std::uint32_t> overlapping(const Box& box);
 
  private:
-  // Boxes of two bodies, for one comparison of both.
+  // The boxes of two bodies, so that one comparison tests both.
   struct Two {
     std::array<double, 2> left, bottom, right, top;
   };
-  // Where a body is filed: in a chain of those whose cells share a bucket, by the size of the cells.
+  // Where a body is filed: in the chain of the bodies whose cells share a bucket, at one size of cells.
   struct Link {
     std::uint32_t before, after, chain, level;
   };
@@ -47,9 +47,9 @@ class BroadPhase {
 
   std::vector<Box> boxes_;
   std::vector<Two> twos_;
-  std::vector<std::uint32_t>
-      heads_;  // of the chains; the last one is of those too large for any cell. Empty if bodies are scanned
-  std::vector<Link> links_;                       // by body
+  std::vector<std::uint32_t> heads_;  // of the chains; the last chain holds the bodies that are too large for any cell.
+                                      // Empty if bodies are scanned
+  std::vector<Link> links_;           // by body
   std::array<std::size_t, kLevels + 1> filed_{};  // bodies by level
   std::vector<std::uint32_t> found_;              // the first count_
   std::size_t count_ = 0;

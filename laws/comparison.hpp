@@ -8,7 +8,7 @@
 
 namespace fleetproof {
 
-// Keeps the timelines of a run for a comparison; finds nothing.
+// Stores the timelines of a run for a comparison. It finds nothing itself.
 class TimelineKeeper final : public Law {
  public:
   explicit TimelineKeeper(const Scenario& scenario) : timelines_(scenario.body_count()) {}
@@ -21,29 +21,29 @@ class TimelineKeeper final : public Law {
   std::vector<std::vector<Piece>> timelines_;
 };
 
-// Why a published rule says something else than the judge (laws/README.md, "The five holes").
+// Why a published law and the judge differ (see the five holes in laws/README.md).
 enum class DifferenceCause : std::uint8_t {
-  RestPhase,  // missed: one of the two rests while the other drives, and drives at another time of that drive: its rest
-              // is checked by nobody
-  BetweenSnapshots,      // missed: over before the next snapshot
-  LastInstant,           // missed: from after the last snapshot to the end of a drive, the arrival
-  NoDriveActivity,       // missed: nobody drives, one turns on the spot or both stand
-  AxisAlignedPerimeter,  // accused wrongly: in the box of the whole drive, not near what the AGV sweeps
-  SquareCorners,  // accused wrongly: nearest corner to corner, where a widened box reaches farther than the safety
-                  // distance
+  RestPhase,  // missed: one body rests during a part of the other's drive and drives during another part; its rest is
+              // never checked
+  BetweenSnapshots,      // missed: the violation ends before the next snapshot
+  LastInstant,           // missed: between the last snapshot and the end of a drive, the arrival
+  NoDriveActivity,       // missed: no body drives; one turns on the spot, or both stand
+  AxisAlignedPerimeter,  // accused wrongly: inside the box of the whole drive, but not near what the AGV sweeps
+  SquareCorners,  // accused wrongly: the bodies are nearest corner to corner, where a widened box reaches farther
+                  // than the safety distance
   Unexplained,
 };
 const char* name_of(DifferenceCause cause);
 
 struct Difference {
-  bool missed = false;  // by the published rule; else accused by it alone
+  bool missed = false;  // the published law missed it; else only the published law accused it
   DifferenceCause cause = DifferenceCause::Unexplained;
-  Violation violation;  // as the judge files it if missed, else as the published rule does
+  Violation violation;  // as the judge filed it if it was missed, else as the published law filed it
 };
 
-// What `published` misses of `judge`'s violations, and accuses beside them, in order of (first, a, b), both sorts
-// together. A violation of the one counts as found by the other if that files the same pair at a time that overlaps; an
-// accusation also if it lies no more than one snapshot off.
+// The violations of `judge` that `published` misses, and the accusations that only `published` makes; together in the
+// order of (first, a, b). A violation of one law counts as found by the other law if the other law files the same pair
+// at an overlapping time. For an accusation, the times may also be up to one snapshot apart.
 std::vector<Difference> compare(const Scenario& scenario, const LawFindings& published, const LawFindings& judge,
                                 const TimelineKeeper& timelines);
 

@@ -6,16 +6,16 @@
 
 namespace fleetproof {
 
-// Accuses a radio channel that cannot carry what the fleet asks of it, in windows of one second.
+// Accuses a radio channel that cannot carry the traffic of the fleet, in windows of one second.
 //
-// Saturated: the air time of all transmissions sent in a window, each by its size, is half of it or more. Half is where
-// a channel without listening carries most; beyond it, more sending gets less through. Interference: a tenth or more of
-// the receptions of a window, and five at least, were destroyed by other transmissions, as the trace tells. Windows
-// that follow each other are one incident; its value is the peak. What an external source destroys is no congestion: it
-// counts as a reception that no transmission destroyed.
+// Saturated: the air time of all transmissions of a window is at least half of the window. At one half, a channel
+// without listening carries most; above it, more traffic gets less through. Interference: other transmissions destroyed
+// at least a tenth of the receptions of a window, and at least five. Consecutive windows are one incident; its value is
+// the peak. Losses to an external source are not congestion: such a reception counts as not destroyed by a
+// transmission.
 //
-// It counts the whole floor as one channel: transmissions out of each other's range are added up all the same. It does
-// not see messages that come late for want of air time, as long as none is lost and the window is not full.
+// The law counts the whole floor as one channel, including transmissions that are out of range of each other. It does
+// not see messages that are late because of a lack of air time, unless a message is lost or the window is full.
 std::unique_ptr<Law> make_congestion_law(const Scenario& scenario);
 
 }  // namespace fleetproof

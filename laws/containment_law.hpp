@@ -6,11 +6,14 @@
 
 namespace fleetproof {
 
-// A load is in exactly one place. Keeps books of its own, from what the trace records of orders, picks, drops and
-// loads, and accuses a load that passes from one AGV to another, that a full AGV takes, that moves without an AGV
-// picking or dropping it at its place, that is nowhere after a pick or drop, that lies at a station which its transport
-// does not name (for as long as it lies there), or that is delivered twice. To the nanosecond. It does not see a load
-// that moves without a record, nor which of two equal loads is meant.
+// A load is in exactly one place. The law keeps its own books, from the trace records of orders, picks, drops and
+// loads. It accuses a load
+// - that passes from one AGV to another, or that a loaded AGV takes;
+// - that moves although no AGV picks or drops it at its place, or that is nowhere after a pick or drop;
+// - that lies at a station which its transport does not name, for as long as it lies there;
+// - that is delivered twice.
+// Instants are exact to the nanosecond. The law does not see a load that moves without a record, and it cannot
+// distinguish two equal loads.
 std::unique_ptr<Law> make_containment_law(const Scenario& scenario);
 
 }  // namespace fleetproof

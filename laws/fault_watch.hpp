@@ -9,8 +9,8 @@
 
 namespace fleetproof {
 
-// Whether anybody is held by a breakdown, by a protective stop, or out of order until the operator has set it down
-// somewhere else: what the fleet does not do meanwhile is nobody's fault.
+// Whether an AGV is held by a breakdown or a protective stop, or is out of order until the operator has set it down
+// somewhere else. The fleet is not accused of what it does not do meanwhile.
 class FaultWatch {
  public:
   explicit FaultWatch(const Scenario& scenario)
@@ -19,7 +19,7 @@ class FaultWatch {
   static constexpr TraceKinds reads() {
     return {TraceKind::FaultStrikes, TraceKind::FaultOver, TraceKind::Contact, TraceKind::Appears};
   }
-  // True if the record was one of a fault, and of interest to nobody else.
+  // True if the record belongs to a fault only, so that its caller can ignore it.
   bool note(const TraceRecord& record) {
     if (record.kind == TraceKind::Contact) {
       is_out_of_order(record.entity.index(), true, record.at);
@@ -44,7 +44,7 @@ class FaultWatch {
     last_ = at;
   }
 
-  std::vector<bool> out_of_order_;  // by AGV; empty if contacts are left alone, or for good
+  std::vector<bool> out_of_order_;  // by AGV; empty if contacts stop no AGV, or stop it for good
   int held_ = 0;
   SimTime last_ = kStart;
 };

@@ -6,8 +6,8 @@
 
 namespace fleetproof {
 
-// The paper's baseline (Sect. 5.2): at every step of every drive activity, one check with each other entity, wherever
-// and whatever it is. It needs 38 400 checks on Fig. 4 where the paper's law needs 4 020.
+// The baseline of the paper (Sect. 5.2): at every step of every drive activity, one check with every other entity. It
+// needs 38 400 checks on Fig. 4; the paper's law needs 4 020.
 std::unique_ptr<Law> make_global_step_law(const Scenario& scenario);
 
 }  // namespace fleetproof

@@ -17,60 +17,51 @@ namespace {
 
 constexpr Entry<MakeLaw> kLaws[] = {
     {"safety-distance",
-     "Finds every stretch of time in which an AGV is closer than the safety distance to another body, while either "
-     "drives, turns or rests, to the "
-     "nanosecond and the micrometre; it does not see dips of less than 1 micrometre, and may join stretches less than "
+     "Finds every stretch of time in which an AGV is closer than the safety distance to another body, exact to the "
+     "nanosecond and the micrometre. It does not see dips of less than 1 micrometre, and may join stretches less than "
      "0.1 s apart.",
      make_safety_distance_law},
     {"battery",
-     "Finds every AGV whose battery runs empty away from a charging station, to the nanosecond; it does not see what "
-     "the world does not record.",
+     "Finds every AGV whose battery runs empty away from a charging station, exact to the nanosecond. It does not see "
+     "what the world does not record.",
      make_battery_law},
     {"containment",
-     "Finds every load that is held by two, has vanished, lies at a station its transport does not name, is taken by a "
-     "full AGV, moves by itself or "
-     "is "
-     "delivered twice, to the nanosecond; it does not see a load that moves without a record.",
+     "Finds every load that two AGVs hold, that vanishes, lies at a station its transport does not name, is taken by a "
+     "loaded AGV, moves without an AGV, or is delivered twice, exact to the nanosecond. It does not see a load that "
+     "moves without a record.",
      make_containment_law},
     {"progress",
-     "Finds deadlocks with who waits for whom, livelocks and AGVs that starve, by looking every twelfth of stuck_after "
-     "at who has open transports "
-     "and gets "
-     "nowhere; it does not see why, and where a drive takes longer than twice stuck_after it accuses it.",
+     "Finds deadlocks with who waits for whom, livelocks and starving AGVs. It looks every twelfth of stuck_after for "
+     "AGVs that have open transports and make no progress. It does not see why, and it accuses drives that take longer "
+     "than twice stuck_after.",
      make_progress_law},
     {"normal-operation",
      "Finds safe mode and standstill while the radio keeps its contract, judged every second by the last 10 s of every "
-     "link, and too little "
-     "throughput if a "
-     "floor is set; it does not see safe mode that nobody declares.",
+     "link, and too little throughput if a floor is set. It does not see safe mode that no agent declares.",
      make_normal_operation_law},
     {"congestion",
-     "Finds seconds in which the fleet asks for half of the radio channel or more, or loses a tenth of its receptions "
-     "by interference; it counts the "
-     "whole floor "
-     "as one channel and does not see messages that are only late.",
+     "Finds seconds in which the fleet uses half of the radio channel or more, or loses a tenth of its receptions by "
+     "interference. It counts the whole floor as one channel and does not see messages that are only late.",
      make_congestion_law},
     {"coverage",
-     "Accuses nobody but counts what a run met: encounters of two AGVs by kind (drives no more than 10 s apart, by "
-     "their planned tracks), near "
-     "misses "
-     "below 0.3 m and faults; it does not see AGVs that wait for each other without driving.",
+     "Accuses nothing. It counts what a run met: encounters of two AGVs by kind (drives no more than 10 s apart, by "
+     "their planned tracks), near misses below 0.3 m, and faults. It does not see AGVs that wait for each other "
+     "without "
+     "driving.",
      make_coverage_law},
     {"paper",
-     "Finds what the published rule of Figure 5 does, by axis-aligned perimeters of whole drives and, between two "
-     "drives, snapshots (1 cm at the "
-     "default 2.5 ms); it does not see turns, who rests for part of a drive, arrivals, or what passes between two "
-     "snapshots.",
+     "Finds what the published rule of Figure 5 finds, by axis-aligned perimeters of whole drives and, between two "
+     "drives, snapshots (1 cm at the default 2.5 ms). It does not see turns, an AGV that rests for part of a drive, "
+     "arrivals, or what happens between two snapshots.",
      make_paper_law},
     {"global-step",
-     "Finds what the paper's baseline does, by checking every other body at every step of every drive (1 cm at the "
-     "default 2.5 ms) with "
-     "square-cornered perimeters; it does not see turns beside what stands, arrivals, or what passes between two "
-     "steps.",
+     "Finds what the baseline of the paper finds, by checks of every other body at every step of every drive (1 cm at "
+     "the default 2.5 ms) with square-cornered perimeters. It does not see turns beside standing bodies, arrivals, or "
+     "what happens between two steps.",
      make_global_step_law},
 };
 
-constexpr std::size_t kToCompareWith = 2;  // the last ones
+constexpr std::size_t kToCompareWith = 2;  // the last entries of the table
 
 }  // namespace
 

@@ -10,17 +10,17 @@
 
 namespace fleetproof {
 
-// Every law there is: first the default set, beginning with the judge of violations; then those to compare with.
+// All laws: first the default set, which begins with the judge of violations; then the laws to compare with.
 std::span<const Entry<MakeLaw>> laws();
 std::span<const Entry<MakeLaw>> default_laws();
 
-// The published rules: judges like the first of the default set, and no part of it.
+// Whether this is a published law. Published laws are judges, but are not in the default set.
 bool is_to_compare_with(const Entry<MakeLaw>& law);
 
-// By name; `exact` is the other name of `safety-distance`. Null if there is none.
+// The law with this name; null if there is none. `exact` is another name of `safety-distance`.
 const Entry<MakeLaw>* find_law(std::string_view name);
 
-// The default set for one run, the judge first, without those named.
+// The default set for one run, without the laws in `left_out`. The judge comes first.
 std::vector<std::unique_ptr<Law>> make_default_laws(const Scenario& scenario,
                                                     std::span<const std::string> left_out = {});
 

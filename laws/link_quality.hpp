@@ -8,18 +8,18 @@
 
 namespace fleetproof {
 
-// The contract of the radio (Sect. 2.4 of the paper), and how it is judged at an instant.
+// The contract of the radio (Sect. 2.4 of the paper), and the window in which it is judged.
 inline constexpr double kContractLoss = 0.40;
 inline constexpr Duration kContractDelay = std::chrono::seconds(2);
 inline constexpr int kQualityWindow_s = 10;
 
-// The number of losses among `receptions` from which on "at most 40 % are lost" is rejected, by a one-sided binomial
-// test at 1e-4; more than `receptions` if no number of losses can reject it.
+// The smallest number of losses among `receptions` that rejects "at most 40 % are lost", by a one-sided binomial test
+// at 1e-4. Larger than `receptions` if no number of losses rejects it.
 std::uint32_t losses_that_reject(std::uint32_t receptions);
 
-// The links of a fleet over the last ten whole seconds, from what the trace records. A loss counts when it was sent, a
-// reception when it arrived. Of several messages with equal bytes, the last one sent is taken for the one received: the
-// delay is never overrated.
+// The links of a fleet over the last ten whole seconds, from the records of the trace. A loss counts at the instant of
+// sending, a reception at its arrival. If several messages have equal bytes, the last one that was sent counts as the
+// one received. The delay is therefore never too large.
 class LinkQuality {
  public:
   explicit LinkQuality(std::size_t agvs);
@@ -32,9 +32,9 @@ class LinkQuality {
     Duration longest{};
     bool in_contract() const { return longest <= kContractDelay && lost < losses_that_reject(receptions); }
   };
-  // The second that begins at `second` and the nine before it.
+  // The link over the second that begins at `second`, and the nine seconds before it.
   Link link(std::size_t sender, std::size_t receiver, std::int64_t second) const;
-  // Whether every link to `receiver` kept the contract, and the largest share lost on one of them, in millionths.
+  // Whether every link to `receiver` kept the contract; the largest share lost on one of these links, in millionths.
   bool all_in_contract(std::size_t receiver, std::int64_t second) const;
   std::int64_t worst_loss_ppm(std::size_t receiver, std::int64_t second) const;
 
@@ -47,7 +47,7 @@ class LinkQuality {
     std::uint64_t hash = 0;
     SimTime at = SimTime::min();
   };
-  static constexpr std::size_t kRemembered = 128;  // messages of a sender; what arrives after so many more is not dated
+  static constexpr std::size_t kRemembered = 128;  // messages of a sender; the delay of an older message is not known
 
   Link& now(std::size_t sender, std::size_t receiver, SimTime at);
 

@@ -6,18 +6,20 @@
 
 namespace fleetproof {
 
-// Within the contract of the radio (loss <= 40 %, delay <= 2 s) a fleet has to work, not only to be safe. Looks at
-// every whole second.
+// Within the contract of the radio (loss <= 40 %, delay <= 2 s), a fleet must work and not only be safe. The law looks
+// at every whole second.
 //
-// Safe mode: accuses an AGV that is in safe mode, as it declares, while every link to it has kept the contract without
-// a break for longer than scenario.law.reaction_s. Whether a link keeps the contract at an instant is judged by its
-// last 10 s (link_quality.hpp). Standstill: accuses a fleet with open transports in which nobody has driven, turned,
-// picked or dropped for stuck_after, while all links of all AGVs kept the contract for all that time. Throughput:
-// accuses a fleet that finished fewer transports per AGV-hour than scenario.law.min_transports_per_agv_hour, if that is
-// above 0 and there were open transports at the end, and only if all links kept the contract throughout.
+// - Safe mode: accuses an AGV that declares safe mode while every link to it has kept the contract, without a break,
+// for
+//   longer than scenario.law.reaction_s. A link is judged by its last 10 s (link_quality.hpp).
+// - Standstill: accuses a fleet with open transports in which no AGV has driven, turned, picked or dropped for
+//   stuck_after, while all links of all AGVs kept the contract.
+// - Throughput: accuses a fleet that finished fewer transports per AGV-hour than
+//   scenario.law.min_transports_per_agv_hour, if this floor is above 0 and transports were open at the end. All links
+//   must have kept the contract during the whole run.
 //
-// It does not see safe mode that nobody declares, and takes a link on which nothing was sent, or out of range, for one
-// that keeps the contract.
+// The law does not see safe mode that no agent declares. A link without messages, or out of range, counts as keeping
+// the contract.
 std::unique_ptr<Law> make_normal_operation_law(const Scenario& scenario);
 
 }  // namespace fleetproof

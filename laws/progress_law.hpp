@@ -6,18 +6,19 @@
 
 namespace fleetproof {
 
-// Accuses a fleet, or an AGV, that has open transports and gets nowhere. Looks at the run every stuck_after / 12; an
-// incident begins to the nanosecond and ends to within one look.
+// Accuses a fleet or an AGV that has open transports and makes no progress. The law looks at the run every
+// stuck_after / 12. The beginning of an incident is exact to the nanosecond, its end to one look.
 //
-// Deadlock: AGVs that have open transports, have begun and ended no action for stuck_after, and wait for each other in
-// a circle; or all AGVs with open transports have stood so long, circle or not. Filed with it is who waits for whom: by
-// what the AGV itself declares or, where it declares nothing, by whose body stands in the next lane of a shortest way
-// to its goal (inferred, and said so). Livelock: somebody moves, yet for twice stuck_after no load has been picked or
-// delivered. Starvation: one AGV has picked or delivered nothing for twice stuck_after, while the others have finished
-// two transports each, on average, in that time.
+// - Deadlock: AGVs with open transports have begun and ended no action for stuck_after, and wait for each other in a
+//   circle; or all AGVs with open transports have stood for so long, with or without a circle. The law also files which
+//   AGV waits for which: as the AGV declares, or else inferred from the body that stands in the next lane of a shortest
+//   way to its goal.
+// - Livelock: an AGV moves, but no load has been picked or delivered for twice stuck_after.
+// - Starvation: one AGV has picked or delivered nothing for twice stuck_after, while the other AGVs have finished two
+//   transports each, on average.
 //
-// It does not see why anybody waits, a circle that only passes through AGVs that still move, nor that a very long drive
-// is on its way: where drives take longer than twice stuck_after, they are accused.
+// The law does not see why an AGV waits, nor a circle that only passes through AGVs that still move. A drive that takes
+// longer than twice stuck_after is accused.
 std::unique_ptr<Law> make_progress_law(const Scenario& scenario);
 
 }  // namespace fleetproof

@@ -8,14 +8,14 @@
 
 namespace fleetproof {
 
-// What the paper's two ways of detecting have in common: both look at the drive activities of a finished run, one after
-// the other, and check perimeters at snapshots `scenario.law.snapshot_s` apart. A derived law says what it checks for
+// What the two published laws have in common. Both look at the drive activities of a finished run, one after the other,
+// and check perimeters at snapshots that are `scenario.law.snapshot_s` apart. A derived law decides what it checks for
 // one drive activity.
 //
-// The perimeter of an entity at an instant is its body with every side moved out by the threshold, an oriented box; it
-// is checked against the body of the other by FCL. A pair is accused once, whichever of the two activities it was found
-// from: snapshots of a pair that follow each other without a clean one between them are one violation, whose smallest
-// clearance is the smallest at those snapshots.
+// The perimeter of an entity at an instant is its body with every side moved out by the threshold: an oriented box. FCL
+// checks it against the body of the other entity. A pair is accused once, no matter from which of the two activities it
+// was found: consecutive snapshots of a pair without a clean snapshot between them are one violation. Its smallest
+// clearance is the smallest at these snapshots.
 class PublishedLaw : public Law {
  public:
   explicit PublishedLaw(const Scenario& scenario);
@@ -29,14 +29,14 @@ class PublishedLaw : public Law {
 
   std::size_t entity_count() const { return timelines_.size(); }
   std::span<const Piece> timeline(EntityId entity) const { return timelines_[entity.index()]; }
-  // The piece that covers `t`; at a seam the later one. Null while the entity is not on the floor.
+  // The piece that covers `t`; at a seam, the later piece. Null while the entity is not on the floor.
   const Piece* piece_at(EntityId entity, SimTime t) const;
-  // Whether its pieces cover the interval: it is not taken off the floor meanwhile.
+  // Whether the entity is on the floor during the whole interval.
   bool is_there_throughout(EntityId entity, SimTime begin, SimTime end) const;
   double threshold_m() const { return threshold_m_; }
   Duration step() const { return step_; }
 
-  // Counts one check of whatever perimeters it is given the overlap of.
+  // Counts one perimeter check and returns its result.
   bool checked(bool overlap);
   // One check: the perimeter of `drive` against the body of `other`, at `t`. Accuses the pair if they overlap.
   void check_snapshot(const Piece& drive, const Piece& other, SimTime t);
@@ -48,7 +48,7 @@ class PublishedLaw : public Law {
 
   double threshold_m_;
   Duration step_;
-  std::vector<std::vector<Piece>> timelines_;  // of each entity, every piece that it really had
+  std::vector<std::vector<Piece>> timelines_;  // by entity: its pieces, as they really happened
   std::vector<Stretch> stretches_;
   std::uint64_t perimeter_checks_ = 0;
   std::uint64_t distance_evaluations_ = 0;

@@ -2,19 +2,20 @@
 
 #include "core/geometry/rectangle.hpp"
 
-// What FCL says about two rectangles: the answer to overlap in the published laws, a second opinion on what the exact
-// law files.
+// What FCL says about two rectangles. The published laws use it to test for overlap. The exact law uses it as a second
+// opinion on what it files.
 namespace fleetproof {
 
-// Whether the rectangles share a point. Reliable to rounding: no false or missed overlap is known of FCL's test of two
-// boxes.
+// Whether the rectangles share a point, exact up to rounding. No false and no missed overlap of FCL's box test is
+// known.
 bool overlap_by_fcl(const OrientedRectangle& first, const OrientedRectangle& second);
 
-// Euclidean distance; zero in an overlap.
+// The Euclidean distance; zero if the rectangles overlap.
 double clearance_by_fcl(const OrientedRectangle& first, const OrientedRectangle& second);
 
-// Throws InvariantViolation if FCL denies `clearance_m` between the two: by more than 0.1 mm (an overlap counts as
-// zero), or about whether they overlap where that is deeper, or the gap wider, than a micrometre.
+// Throws InvariantViolation if FCL contradicts `clearance_m`: if the distances differ by more than 0.1 mm (an overlap
+// counts as zero), or if only one side finds an overlap although the overlap is deeper, or the gap wider, than a
+// micrometre.
 void confirm_clearance(const OrientedRectangle& first, const OrientedRectangle& second, double clearance_m);
 
 }  // namespace fleetproof

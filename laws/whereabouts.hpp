@@ -9,7 +9,7 @@ namespace fleetproof {
 // An AGV stands at a station if its reference point is no farther from it.
 inline constexpr double kAtStation_m = 0.05;
 
-// What every body on the floor does at present, as announced.
+// What every body on the floor does now, as the engine announced it.
 class Whereabouts {
  public:
   explicit Whereabouts(const Scenario& scenario)
@@ -19,7 +19,7 @@ class Whereabouts {
     current_[piece.entity.index()] = piece;
     on_floor_[piece.entity.index()] = true;
   }
-  // A body other than an AGV has one piece: with its end it is gone. An AGV is, if it is said to leave.
+  // A body that is not an AGV has one piece and leaves the floor at its end. An AGV leaves only with note_leaving().
   void note_end(const Piece& piece) {
     if (piece.entity.index() >= agv_count()) on_floor_[piece.entity.index()] = false;
   }
