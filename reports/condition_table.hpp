@@ -8,15 +8,16 @@
 
 namespace fleetproof {
 
-// The conditions that `wanted` picks, one row each: counts, and in a claim the exact interval and bound over the units
-// of that row. Beyond `most_rows` the rows with the highest bound are kept, and a remark counts the others.
+// One row for each condition that `wanted` selects: counts and, in a claim, the exact interval and bound over the units
+// of that row. If there are more than `most_rows` rows, those with the highest bound are kept, and a remark counts the
+// others.
 Section condition_section(const ReportInput& input, std::string title,
                           const std::function<bool(const Condition&)>& wanted, std::size_t most_rows);
 
-// What the columns of those tables mean, and what a unit is.
+// Explains the columns of these tables, and what a unit is.
 Section table_legend(const ReportInput& input);
 
-// Confidence of the one-sided bound for an agent: that of its first gate, or 95 %.
+// The confidence of the one-sided bound for an agent: the confidence of its first gate, or 95 %.
 double bound_confidence(const Evidence& evidence, const std::string& agent);
 
 }  // namespace fleetproof

@@ -6,7 +6,7 @@
 
 namespace fleetproof {
 
-// For GITHUB_STEP_SUMMARY and the like: under 60 KB, whatever the campaign.
+// For the summary page of a CI system (for example GITHUB_STEP_SUMMARY): under 60 KB for every campaign.
 std::string render_markdown(const ReportInput& input);
 
 }  // namespace fleetproof

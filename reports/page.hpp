@@ -8,15 +8,15 @@
 
 namespace fleetproof {
 
-// What a page for people says, before it gets a format: the same words in every format.
+// The content of a page for people, without a format. Every format prints the same words.
 
-// A sentence, and the command that shows what it speaks of, if there is one.
+// A sentence, and a command that shows more about it, if there is one.
 struct Remark {
   std::string text;
   std::string command;
 };
 
-// What stands above everything else; `word` is the verdict, or a warning.
+// A line at the top of the page. `word` is the verdict, or a warning.
 struct Headline {
   std::string word, text;
   std::vector<Remark> details;
@@ -32,7 +32,7 @@ struct Table {
   std::vector<std::vector<std::string>> rows;
 };
 
-// Title, table (if it has columns), then the remarks.
+// A title, a table (if it has columns), and remarks.
 struct Section {
   std::string title;
   Table table;
@@ -45,7 +45,7 @@ struct Page {
   std::vector<Section> sections;
 };
 
-// No table gets more than `most_rows` rows; what is left out is the least interesting, and is counted.
+// A table has at most `most_rows` rows. The least interesting rows are left out and counted.
 Page build_page(const ReportInput& input, std::size_t most_rows);
 
 }  // namespace fleetproof

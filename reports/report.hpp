@@ -11,9 +11,9 @@
 
 namespace fleetproof {
 
-// Everything a report tells, judged once: every format prints the same verdict.
+// The content of a report, judged once. Every format therefore prints the same verdict.
 struct ReportInput {
-  std::string archive_path;  // as the user typed it: it goes into the replay lines
+  std::string archive_path;  // as the user typed it; the replay lines contain it
   CampaignRecord campaign;
   Evidence evidence;
   std::vector<GateResult> gates;  // in the order of evidence.gates()
@@ -21,7 +21,7 @@ struct ReportInput {
   int exit_code = 4;
 };
 
-// Reads all runs of the archive; judges those before the first gap. Throws EngineError if the archive is damaged.
+// Reads all runs of the archive and judges the runs before the first gap. Throws EngineError if the archive is damaged.
 ReportInput read_report_input(const ArchiveReader& archive, std::string archive_path);
 
 // The command that replays a run.

@@ -8,13 +8,13 @@
 
 namespace fleetproof {
 
-// "200 replicates at these 12 combinations (...), layout ring, fleets of 5, 600 s a run": a verdict claims no more than
-// this. Where loss and delay were drawn between bounds, it names the region: "200 replicates wherever loss <= 40 % and
-// delay <= 2 s, drawn uniformly ...".
+// What was sampled: "200 replicates at these 12 combinations (...), layout ring, fleets of 5, 600 s a run". A verdict
+// claims no more than this. If loss and delay were drawn between bounds, the sentence names the region: "200 replicates
+// wherever loss <= 40 % and delay <= 2 s, drawn uniformly ...".
 std::string sampled(const Evidence& evidence, const std::vector<std::uint32_t>& cells);
 
-// What every format says before its verdicts: places and pairs of bodies that are exempt from the safety distance, and
-// randomness that was held.
+// What every format prints before its verdicts: the places and pairs that are exempt from the safety distance, and the
+// streams of randomness that were held.
 std::vector<Headline> reservations(const ReportInput& input);
 
 }  // namespace fleetproof

@@ -7,11 +7,11 @@
 
 namespace fleetproof {
 
-// Engine errors, and for each agent its failures in the contract region: above every verdict, whatever the gates
-// tolerate.
+// Engine errors, and the failures of each agent in the contract region. They stand above all verdicts, even if the
+// gates tolerate them.
 std::vector<Headline> warnings(const ReportInput& input);
 
-// One for each gate: verdict, count, rate, interval, bound, limit, reason, what was sampled.
+// One block for each gate: verdict, count, rate, interval, bound, limit, reason, what was sampled.
 std::vector<Headline> verdicts(const ReportInput& input);
 
 // "violation, smallest clearance 0.07 m at 12.34 s between AGV 1 and AGV 3; agent sound, layout ring, fleet of 5, loss

@@ -7,8 +7,8 @@
 
 namespace fleetproof {
 
-// What this evidence does not carry: probes that were to be met and were not, cells with too few runs, without progress
-// or with unknown outcomes, agents without a gate, runs that were not judged.
+// What the evidence does not support: required probes that were not met; cells with too few runs, without progress or
+// with unknown outcomes; agents without a gate; runs that were not judged.
 std::vector<std::string> weak_points(const ReportInput& input);
 
 }  // namespace fleetproof

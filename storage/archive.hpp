@@ -12,18 +12,19 @@
 
 namespace fleetproof {
 
-// What becomes of a campaign file that is there already. Replace: it stays until the new one is published and takes its
-// place at one instant.
+// What happens to a campaign file that already exists. Replace: it stays until the new file is published; the new file
+// then replaces it at one instant.
 enum class Existing : std::uint8_t { Refuse, Replace };
 
-// The live file of a campaign under way: NAME.partial beside NAME, write-ahead log, one connection that writes and
-// checkpoints. Rows are stored as they finish; a kill loses at most what came after the last commit (at most 2 s). One
-// writer at a time: it holds a lock on NAME.lock as long as it writes. Threads: one.
+// The live file of a running campaign: NAME.partial beside NAME, with a write-ahead log. One connection writes and
+// checkpoints. Rows are stored when their runs finish. A kill loses at most the rows since the last commit (2 s). Only
+// one program writes at a time: it holds a lock on NAME.lock.
+// Threads: one.
 class ArchiveWriter {
  public:
-  // Throws InputError (the remedy is named) if another run writes this file, if the place cannot be written, or if a
-  // file stands in the way: with Refuse `path` or its live file, with Replace anything of these names that is no
-  // campaign file of ours. Throws EngineError if the disk refuses.
+  // Throws InputError, with a remedy, if another run writes this file, if the place cannot be written, or if a file is
+  // in the way. Refuse: `path` and its live file are in the way. Replace: a file with one of these names is in the way
+  // if it is not a campaign file of this program. Throws EngineError if the disk fails.
   ArchiveWriter(const std::string& path, const CampaignRecord& campaign, const std::vector<CellRecord>& cells,
                 const std::vector<GateRecord>& gates, Existing existing = Existing::Refuse);
   ~ArchiveWriter();
@@ -33,9 +34,9 @@ class ArchiveWriter {
   void add(const RunRecord& run);  // commits by itself every 512 rows or 2 s, whichever comes first
   void commit();
 
-  // Writes the canonical file: rows below `stop_index` only, fixed page size and order, no journal; the same bytes for
-  // any order of `add`. Then renames it to `path`, removes the live file and gives up the lock. The writer is closed
-  // afterwards.
+  // Writes the canonical file: only rows below `stop_index`, with fixed page size and order, without a journal. The
+  // bytes do not depend on the order of `add`. Then renames the file to `path`, removes the live file and releases the
+  // lock. The writer is closed afterwards.
   void publish(std::uint64_t stop_index);
 
  private:
@@ -43,15 +44,15 @@ class ArchiveWriter {
   std::unique_ptr<Impl> impl_;
 };
 
-// Verify: a checksum that does not match throws EngineError and names the row. Ignore: for a replay, which is asked to
-// find out what was changed.
+// Verify: a checksum that does not match throws EngineError with the row. Ignore: for a replay, whose purpose is to
+// find what was changed.
 enum class Checksums : std::uint8_t { Verify, Ignore };
 
 // Reads a published (or live) campaign file. Threads: one.
 class ArchiveReader {
  public:
-  // Throws InputError if there is no such file, or it is not a campaign file of ours, or of another schema; EngineError
-  // if it is damaged.
+  // Throws InputError if there is no such file, or if it is not a campaign file, or if it has another schema. Throws
+  // EngineError if the file is damaged.
   explicit ArchiveReader(const std::string& path, Checksums checksums = Checksums::Verify);
   ~ArchiveReader();
   ArchiveReader(const ArchiveReader&) = delete;
@@ -62,9 +63,9 @@ class ArchiveReader {
   const std::vector<GateRecord>& gates() const;
   std::uint64_t run_count() const;
   std::optional<RunRecord> run(std::uint64_t run_index) const;
-  // In order of run index, whole.
+  // All runs with all their parts, in order of run index.
   void for_each_run(const std::function<void(const RunRecord&)>& visit) const;
-  // One digest over plan, cells, gates and all rows: equal exactly for equal content.
+  // One digest over plan, cells, gates and all rows. Two files have the same digest if they have the same content.
   std::uint64_t content_digest() const;
 
  private:

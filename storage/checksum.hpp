@@ -9,15 +9,15 @@
 
 namespace fleetproof {
 
-// XXH3 over run index, cell, replicate, scenario digest and the canonical bytes of the outcome (which hold violations,
-// incidents and probes as well).
+// XXH3 over run index, cell, replicate, scenario digest and the canonical bytes of the outcome. These bytes contain the
+// violations, incidents and probes.
 std::uint64_t row_checksum(const RunRecord& run);
 
 // XXH3 over everything that is fixed before the first run: campaign, cells, gates.
 std::uint64_t plan_checksum(const CampaignRecord& campaign, const std::vector<CellRecord>& cells,
                             const std::vector<GateRecord>& gates);
 
-// One digest over the checksums of many rows, taken in order of run index.
+// One digest over the checksums of many rows. Requires: the rows come in order of run index.
 class RowsDigest {
  public:
   RowsDigest();

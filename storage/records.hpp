@@ -8,7 +8,7 @@
 
 namespace fleetproof {
 
-// What a campaign file remembers of its plan, in the plan's own terms. Nothing here names a path, a host, a time or a
+// What a campaign file stores of its plan, in the words of the plan. It never contains a path, a host, a time or a
 // number of jobs.
 
 // The nominal quality of the radio in one run.
@@ -21,8 +21,8 @@ struct RadioQuality {
   friend bool operator==(const RadioQuality&, const RadioQuality&) = default;
 };
 
-// One combination of a campaign's factors. A factor of the radio has one value, or is drawn between two bounds, for
-// each replicate anew.
+// One combination of a campaign's factors. A factor of the radio has one value, or each replicate draws it between two
+// bounds.
 struct CellRecord {
   std::uint32_t index = 0;
   std::string agent, layout;
@@ -33,7 +33,7 @@ struct CellRecord {
   bool is_drawn() const { return lowest() != highest(); }
   RadioQuality lowest() const { return {loss, delay_s, mean_outage_s}; }
   RadioQuality highest() const { return {loss_to, delay_to_s, mean_outage_to_s}; }
-  // Every run of the cell is.
+  // Whether every run of the cell is within the contract.
   bool in_contract() const { return highest().in_contract(); }
   bool is_worst_case() const { return lowest().is_worst_case() && highest().is_worst_case(); }
   friend bool operator==(const CellRecord&, const CellRecord&) = default;
@@ -71,8 +71,8 @@ struct CampaignRecord {
   std::string plan_json;  // the resolved campaign, layouts embedded by content: enough to build every scenario again
   std::uint64_t plan_hash = 0;  // of plan_json
   EngineIdentity engine;
-  // What must have been met for the evidence not to be weak (reports/evidence/coverage.hpp says what the words mean);
-  // none of them holds a line end.
+  // What the runs must meet, or the evidence is weak (reports/evidence/coverage.hpp explains the words). No word
+  // contains a line end.
   std::vector<std::string> required_probes;
   std::string sampling;  // how replicates draw where a cell has bounds: "uniform", "latin-hypercube", "sobol"; empty:
                          // no cell has

@@ -13,8 +13,8 @@ class Statement;
 
 namespace fleetproof {
 
-// Between records and rows: binds a record to an INSERT over the column lists of schema.hpp, and reads one from a
-// SELECT over the same lists.
+// Conversion between records and rows. Binds a record to an INSERT, and reads a record from a SELECT. Both use the
+// column lists of schema.hpp.
 void bind_campaign(SQLite::Statement& insert, const CampaignRecord& campaign, std::uint64_t plan_checksum);
 void bind_cell(SQLite::Statement& insert, const CellRecord& cell);
 void bind_gate(SQLite::Statement& insert, const GateRecord& gate);
@@ -27,16 +27,16 @@ void bind_violation(SQLite::Statement& insert, std::uint64_t run_index, std::siz
 CampaignRecord read_campaign(const SQLite::Statement& row);
 std::uint64_t read_plan_checksum(const SQLite::Statement& row);
 CellRecord read_cell(const SQLite::Statement& row);
-// Throws EngineError on a word that no gate has.
+// Throws EngineError if the word is not a word of a gate.
 GateRecord read_gate(const SQLite::Statement& row);
 
-// A row as stored; the outcome is still without its violations, incidents and probes.
+// A row as stored. Its outcome has no violations, incidents and probes yet.
 struct StoredRun {
   RunRecord run;
   std::string outcome_class;
   std::uint64_t checksum = 0;
 };
-// Throws EngineError if a field holds what no writer of ours put there.
+// Throws EngineError if a field contains a value that this program never writes.
 StoredRun read_run(const SQLite::Statement& row);
 Violation read_violation(const SQLite::Statement& row);
 Incident read_incident(const SQLite::Statement& row);

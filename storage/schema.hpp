@@ -8,7 +8,7 @@
 
 namespace fleetproof {
 
-inline constexpr std::int32_t kApplicationId = 0x464C5046;  // "FLPF": tells a campaign file from any other SQLite file
+inline constexpr std::int32_t kApplicationId = 0x464C5046;  // "FLPF": marks an SQLite file as a campaign file
 inline constexpr std::int32_t kSchemaVersion = 4;
 inline constexpr std::int32_t kPageSize = 4096;
 
@@ -60,11 +60,11 @@ inline constexpr auto kCounterColumns = std::to_array<CounterColumn>({
 });
 static_assert(sizeof(Counters) == kCounterColumns.size() * sizeof(std::uint64_t), "every counter has a column");
 
-// Tables and the public views, as one script. The same text for the live and the canonical file.
+// The tables and the public views, as one script. The live file and the canonical file use the same text.
 std::string schema_ddl();
 
-// Column lists, comma-separated, in the order in which rows.hpp binds and reads them. `prefix` (as in "r.") goes before
-// every name.
+// Column lists, separated by commas, in the order in which rows.hpp binds and reads them. `prefix` (for example "r.")
+// is put before every name.
 std::string run_columns(const std::string& prefix = "");
 std::string violation_columns();
 inline constexpr const char* kIncidentColumns =

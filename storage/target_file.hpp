@@ -6,23 +6,23 @@
 
 namespace fleetproof {
 
-// What may stand, and what may be written, where a campaign file is to appear. None of these touches a file.
+// Checks of the place where a campaign file will be written. These functions change no file.
 
-// SQLite gives some names a meaning of their own (":memory:", "file:..."); an absolute path is only ever a path.
+// Some names have a special meaning in SQLite (":memory:", "file:..."). An absolute path is always a path.
 std::string absolute_name(const std::string& path);
 
-// Throws InputError unless `path` is a name in a folder that is there.
+// Throws InputError unless `path` is a name in an existing folder.
 void require_place(const std::string& path);
 
-// Throws InputError if a file of this name stands in the way: any with Refuse; with Replace, any but a campaign file of
-// ours.
+// Throws InputError if a file of this name is in the way. Refuse: any file. Replace: any file that is not a campaign
+// file of this program.
 void require_free_name(const std::string& path, Existing existing);
 
-// The same for the live file; with Replace an earlier one of ours may be there, and may be empty.
+// The same for the live file. Replace: an earlier live file of this program may exist, and may be empty.
 void require_free_live_name(const std::string& live_path, Existing existing);
 
-// For a file that could not be made, by errno. Throws InputError if the place cannot be written (the remedy is named),
-// EngineError if the disk refused.
+// Explains, by errno, why a file could not be created. Throws InputError, with a remedy, if the place cannot be
+// written; throws EngineError if the disk failed.
 [[noreturn]] void throw_cannot_make(const std::string& path, int error);
 
 }  // namespace fleetproof

@@ -4,18 +4,19 @@
 
 namespace fleetproof {
 
-// Of several programs that would write one campaign file, one holds PATH.lock. The lock goes with the process, even if
-// it is killed; a file that is left behind then holds nobody up. Threads: one.
+// Only one program at a time writes a campaign file: the program that holds PATH.lock. The lock ends with the process,
+// even if the process is killed. A PATH.lock file that remains then blocks no program.
+// Threads: one.
 class WriteLock {
  public:
-  // `path` is the campaign file. Throws InputError if another run holds the lock, or the place cannot be written;
-  // EngineError if the disk refuses.
+  // `path` is the campaign file. Throws InputError if another run holds the lock, or if the place cannot be written.
+  // Throws EngineError if the disk fails.
   explicit WriteLock(const std::string& path);
   ~WriteLock() { release(); }
   WriteLock(const WriteLock&) = delete;
   WriteLock& operator=(const WriteLock&) = delete;
 
-  // Removes the side file and lets the next one in.
+  // Removes the lock file, so that the next program can write.
   void release();
 
  private:

@@ -10,12 +10,12 @@
 
 namespace fleetproof {
 
-// In how many runs something was met, and how often in all.
+// The number of runs that met something, and how often it was met in total.
 struct Seen {
   std::uint64_t runs = 0, times = 0;
 };
 
-// What some runs met.
+// What a set of runs met.
 //
 // Names of probes. Told by the world: "head-on", "crossing", "following", "merging", "near-miss", "fault-N", and
 // derived here: "encounter" (any of the first four), "safe-mode". Told by agents: whatever they declare. An agent that
@@ -36,23 +36,23 @@ class Coverage {
   std::map<std::string, Seen, std::less<>> by_the_world_, by_agents_;
 };
 
-// A probe that was to be met and was not, or in too few runs.
+// A required probe that no run met, or too few runs.
 struct MissingProbe {
   std::string name;
   std::uint64_t runs_with = 0, runs = 0;
 };
 
-// Met in fewer than one of so many runs is too rare to have tested anything. Never met is too rare however few the
-// runs.
+// A probe that fewer than one of this many runs met is too rare to have tested anything. A probe that was never met is
+// missing, also if there are only few runs.
 inline constexpr std::uint64_t kRunsPerProbe = 20'000;
 
-// A required name that ends in "?" is asked only of agents that declare anything at all.
+// A required name that ends in "?" is required only of agents that declare any probe.
 std::vector<MissingProbe> missing_probes(const Coverage& coverage, const std::vector<std::string>& required);
 
 // Incidents of one kind over many runs.
 struct IncidentTally {
   std::uint64_t runs = 0, incidents = 0;
-  std::uint64_t example_run = 0;  // the first run with one
+  std::uint64_t example_run = 0;  // the first run with such an incident
 };
 
 }  // namespace fleetproof

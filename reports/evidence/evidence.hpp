@@ -14,9 +14,9 @@
 
 namespace fleetproof {
 
-// Cells judged together, and how often that unit failed. The unit is the replicate: one draw of the world, run in every
-// cell; it fails if any of its runs does. Cells share worlds and are not independent, so their runs may not be counted
-// one by one. With one cell, replicates are runs.
+// Cells that are judged together, and how often their unit failed. The unit is the replicate: one draw of the world,
+// run in every cell. A replicate fails if any of its runs fails. Cells share worlds and are not independent, so their
+// runs must not be counted one by one. With one cell, replicates are runs.
 struct Pool {
   EndPoint end_point = EndPoint::Violation;
   std::vector<std::uint32_t> cells;
@@ -24,14 +24,14 @@ struct Pool {
   std::uint64_t failing_runs = 0;                                // over all runs read so far
 };
 
-// All cells of one agent at one radio quality, or between the same bounds: a row of a table.
+// All cells of one agent at one radio quality, or between the same bounds. It is one row of a table.
 struct Condition {
   std::string agent;
   RadioQuality lowest, highest;  // the same, unless replicates draw theirs in between
   bool in_contract = false, is_worst_case = false;
   Tally tally;
   Pool pool;
-  std::optional<FailingRun> worst;  // the most serious run that violated, or ended unknown
+  std::optional<FailingRun> worst;  // the most serious run with a violation or an unknown end
 };
 
 // The runs of one agent that broke the safety distance within the contract region, by the radio quality of the run
@@ -42,8 +42,7 @@ struct ContractFailures {
   FailingRun worst;
 };
 
-// What the runs of one agent met, what they were to meet and did not, and what the laws found besides pairs that were
-// too close.
+// What the runs of one agent met, what they should have met and did not, and the incidents that the laws found.
 struct AgentCoverage {
   std::string agent;
   Coverage coverage;
@@ -51,16 +50,16 @@ struct AgentCoverage {
   std::map<IncidentKind, IncidentTally> incidents;
 };
 
-// Counts the runs of a campaign, in order of run index, without gaps. Only complete replicates are counted, so that
-// every cell has the same weight; the failures of an incomplete one are still remembered as failures. The stopping rule
-// of a campaign and its report both judge with this. Threads: one.
+// Counts the runs of a campaign, in order of run index, without gaps. Only complete replicates count, so that every
+// cell has the same weight. The failures of an incomplete replicate are still stored as failures. The stopping rule of
+// a campaign and its report both judge with this class. Threads: one.
 class Evidence {
  public:
   static constexpr std::size_t kWorstRuns = 10;
 
   Evidence(const CampaignRecord& campaign, std::vector<CellRecord> cells, std::vector<GateRecord> gates);
 
-  // The next run: run_index == runs().
+  // Adds the next run. Requires: its run_index == runs().
   void add(const RunRecord& run);
 
   bool counts_only() const { return counts_only_; }  // a campaign of kind "search"
@@ -117,11 +116,12 @@ class Evidence {
   WorstRuns worst_inside_{kWorstRuns}, worst_outside_{kWorstRuns};
 };
 
-// Violated if one of the gates is; demonstrated if all are; not demonstrated else, and if there is nothing to judge.
+// Violated if a gate is violated; demonstrated if all gates are demonstrated; otherwise, and without gates, not
+// demonstrated.
 Verdict overall_verdict(const Evidence& evidence, const std::vector<GateResult>& gates);
 
-// 3 after an engine error; else 1 if a gate is violated; else 4 if one is not demonstrated, or there is nothing to
-// judge; else 0.
+// 3 after an engine error; otherwise 1 if a gate is violated; otherwise 4 if a gate is not demonstrated or there is no
+// gate; otherwise 0.
 int exit_code(const Evidence& evidence, const std::vector<GateResult>& gates);
 
 }  // namespace fleetproof

@@ -13,7 +13,7 @@ namespace fleetproof {
 enum class Severity : std::uint8_t { Contact, Violation, Crash, Hang, Indeterminate, EngineError, Stuck };
 const char* name_of(Severity severity);
 
-// A run that did not go as it should: enough to name it, to sort it and to replay it.
+// A run in which something went wrong, with the data to name it, to sort it and to replay it.
 struct FailingRun {
   std::uint64_t run_index = 0, replicate = 0;
   std::uint32_t cell = 0;
@@ -24,14 +24,14 @@ struct FailingRun {
   std::optional<Violation> closest;  // the violation with the smallest clearance
   std::string message;
 
-  // Absent for a run in which nothing went wrong.
+  // Absent if nothing went wrong in the run.
   static std::optional<FailingRun> of(const RunRecord& run);
 };
 
 // By severity, then by smallest clearance, then by run index.
 bool more_serious(const FailingRun& a, const FailingRun& b);
 
-// The most serious few of all runs added, in that order; the same for any order of adding.
+// The most serious of all added runs, in that order. The order of adding does not matter.
 class WorstRuns {
  public:
   explicit WorstRuns(std::size_t capacity) : capacity_(capacity) {}

@@ -17,7 +17,7 @@ enum class Verdict : std::uint8_t { Demonstrated, Violated, NotDemonstrated };
 // "demonstrated", "violated", "not demonstrated": these words in text, pages and JSON alike.
 const char* name_of(Verdict verdict);
 
-// One count and what it says. `lower` and `upper` are one-sided, each at the gate's confidence.
+// One count, and what it says about the rate. `lower` and `upper` are one-sided bounds at the gate's confidence.
 struct Estimate {
   std::uint64_t units = 0, failing = 0;
   double lower = 0.0, upper = 1.0;
@@ -36,8 +36,8 @@ struct GateCounts {
   std::uint64_t failing_runs = 0;        // known failures among all runs read so far, complete replicate or not
   std::optional<double> transports_per_agv_hour;
   std::size_t idle_cells = 0;  // cells in which progress is due and no transport was done
-  bool met_nobody = false;     // encounters are asked for and no run met any
-  bool counts_only = false;    // the campaign searches for failures: its counts are no sample of anything
+  bool met_nobody = false;     // encounters are required and no run met one
+  bool counts_only = false;    // the campaign searches for failures, so its counts are not a sample
   bool complete() const { return units >= planned; }
 };
 
@@ -54,10 +54,11 @@ struct GateResult {
   std::optional<FailingRun> worst;            // the most serious run that did not pass
 };
 
-// Refuted only if the known failures alone refute; demonstrated only if the claim, in which every unknown counts as a
-// failure, meets the limit and the fleet made progress, and met other AGVs if encounters are asked for: both words are
-// true however the unknown outcomes would have ended. Bounds decide only on all planned replicates: whoever may stop
-// when a bound looks good has no bound. Before that only a gate that allows no failure is decided, by a failure.
+// Violated only if the known failures alone refute the gate. Demonstrated only if three conditions hold: the claim
+// meets the limit although every unknown outcome counts as a failure; the fleet made progress; and AGVs met if
+// encounters are required. Both words are therefore true for every possible end of the unknown runs. Bounds decide only
+// when all planned replicates are complete: a bound is not valid if a campaign may stop as soon as the bound looks
+// good. Before that, only a failure can decide, for a gate that allows no failure.
 GateResult judge_gate(const GateRecord& gate, const GateCounts& counts);
 
 }  // namespace fleetproof

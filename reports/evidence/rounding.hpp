@@ -4,8 +4,8 @@
 
 namespace fleetproof {
 
-// A rate or a bound in three significant digits. A bound is rounded away from the claim: an upper one never down, a
-// lower one never up.
+// A rate or a bound with three significant digits. A bound is rounded away from the claim: an upper bound is never
+// rounded down, a lower bound is never rounded up.
 std::string rounded_rate(double value);
 std::string rounded_up(double value);
 std::string rounded_down(double value);

@@ -8,18 +8,18 @@
 
 namespace fleetproof {
 
-// What one run says about an end point. Unknown: the run ended before it could be told (crash, hang, indeterminate,
-// engine error).
+// What one run says about an end point. Unknown: the run ended before this could be decided (crash, hang,
+// indeterminate, engine error).
 enum class RunResult : std::uint8_t { Passed, Failed, Unknown };
 RunResult result_of(const Outcome& outcome, EndPoint end_point);
 
-// Counts over runs of one cell, or of several.
+// Counts over the runs of one cell, or of several cells.
 struct Tally {
   std::uint64_t runs = 0;
-  std::uint64_t violating_runs = 0;  // broke the safety distance, or touched
+  std::uint64_t violating_runs = 0;  // runs that broke the safety distance or had a contact
   std::uint64_t contact_runs = 0, hazardous_contact_runs = 0, stuck_runs = 0, crash_runs = 0, hang_runs = 0,
                 indeterminate_runs = 0, engine_error_runs = 0;
-  std::uint64_t unknown_runs = 0;  // ended early, and had not violated before
+  std::uint64_t unknown_runs = 0;  // runs that ended early without a violation before
   std::uint64_t transports_done = 0;
   std::uint64_t agv_us = 0;      // AGVs x simulated time
   std::uint64_t longest_ns = 0;  // of one run
@@ -29,7 +29,7 @@ struct Tally {
   void add(const Outcome& outcome);
   void add(const Tally& other);
   double agv_hours() const { return static_cast<double>(agv_us) / 3.6e9; }
-  // Absent without simulated time.
+  // Absent if there is no simulated time.
   std::optional<double> transports_per_agv_hour() const;
 };
 
