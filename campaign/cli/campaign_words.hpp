@@ -7,8 +7,7 @@
 
 namespace fleetproof::cli {
 
-// Reads a campaign file, loads its plug-ins under the names that they give themselves, checks the plan, and tells
-// warnings on stderr.
+// Reads a campaign file, loads its plug-ins under their own names, checks the plan, and prints warnings on stderr.
 CampaignFile load_campaign(const std::string& path, AgentPrograms& programs);
 
 }  // namespace fleetproof::cli

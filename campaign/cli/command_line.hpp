@@ -24,7 +24,7 @@ class Options {
   virtual void flag(const std::string& names, bool& value, const std::string& help) = 0;
 };
 
-// What a verb does once the words are understood; answers the exit code.
+// What a verb does after its words are parsed. Returns the exit code.
 using Action = std::function<int()>;
 
 struct Verb {
@@ -34,7 +34,7 @@ struct Verb {
 
 enum ExitCode : int { kDemonstrated = 0, kViolated = 1, kBadInput = 2, kEngineFault = 3, kNotDemonstrated = 4 };
 
-// Parses the words, runs one verb and turns what it throws into one clear line on stderr and an exit code.
+// Parses the words and runs one verb. An exception becomes one clear line on stderr and an exit code.
 int run_command_line(std::span<const Verb> verbs, int argc, const char* const* argv);
 
 }  // namespace fleetproof::cli

@@ -7,8 +7,9 @@
 
 namespace fleetproof::cli {
 
-// Talk on stderr while a campaign runs: one line rewritten at most ten times a second on a terminal, a counter line
-// every 30 s elsewhere, and at once the first failure of each agent with the line that replays it.
+// The progress of a running campaign, on stderr. A terminal shows one line that is rewritten at most ten times a
+// second; otherwise there is one line every 30 s. The first failure of each agent is printed at once, with its replay
+// line.
 class ProgressTalk {
  public:
   // `plugins`: the agents that come from shared objects.

@@ -2,7 +2,7 @@
 
 #include "campaign/cli/command_line.hpp"
 
-// One file per verb: what it takes, and what it does.
+// Each verb has one file with its options and its action.
 namespace fleetproof::cli {
 
 Action prepare_run(Options& options);

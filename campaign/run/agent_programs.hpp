@@ -9,8 +9,8 @@
 
 namespace fleetproof {
 
-// The control software a campaign may test: the reference agents, and shared objects loaded by path. Owns the loaded
-// objects.
+// The control software that a campaign may test: the reference agents, and shared objects that are loaded by path. The
+// object owns the loaded shared objects.
 class AgentPrograms {
  public:
   AgentPrograms();
@@ -18,14 +18,14 @@ class AgentPrograms {
   AgentPrograms(const AgentPrograms&) = delete;
   AgentPrograms& operator=(const AgentPrograms&) = delete;
 
-  // Loads a shared object and returns the name its agent gives itself. Throws InputError: no such file, no
-  // fp_agent_query, another ABI, a name taken.
+  // Loads a shared object and returns the name of its agent. Throws InputError if there is no such file, no
+  // fp_agent_query, another ABI, or another agent with the same name.
   std::string load(const std::string& path);
 
-  // Throws InputError with the nearest known name.
+  // Throws InputError with the nearest known name if there is no such agent.
   const fp_agent_type& find(std::string_view name, std::string_view where) const;
   const std::vector<const fp_agent_type*>& all() const { return types_; }
-  bool is_loaded(std::string_view name) const;  // from a shared object, not built in
+  bool is_loaded(std::string_view name) const;  // whether the agent comes from a shared object
   // "NAME sha256 HEX" of every shared object loaded: part of the engine's identity in the archive.
   const std::vector<std::string>& loaded() const { return loaded_; }
 

@@ -17,7 +17,7 @@ namespace fleetproof {
 struct RunOptions {
   int workers = 1;
   bool overwrite = false;                         // replace an existing campaign file, once the new one is complete
-  std::optional<std::chrono::seconds> max_time;   // stop cleanly by itself
+  std::optional<std::chrono::seconds> max_time;   // stop cleanly after this time
   const std::atomic<int>* interrupted = nullptr;  // non-zero: a signal number; stop handing out runs
 };
 
@@ -28,29 +28,29 @@ struct Progress {
 
 struct CampaignResult {
   Progress progress;
-  std::uint64_t stored = 0;  // the gap-free prefix that the campaign file holds
+  std::uint64_t stored = 0;  // the number of runs in the gap-free prefix that the campaign file contains
   int threads = 0;
   bool complete() const { return stored == progress.planned; }
 };
 
-// What a campaign tells while it runs, on the caller's thread.
+// What a running campaign reports, on the caller's thread.
 struct CampaignListener {
   std::function<void()> started = [] {};  // the file is open, no run has begun
   std::function<void(const RunRecord&)> run_finished = [](const RunRecord&) {};
   std::function<void(const Progress&)> tick = [](const Progress&) {};  // about ten times a second
 };
 
-// Runs the plan and leaves its campaign file at `path`. Rows are stored as runs finish; the file holds the gap-free
-// prefix of run indices, so the same runs give the same bytes on any number of workers, in any order of finishing.
-// Throws InputError, with nothing written, if an agent is not known, a layout has no room for its fleet, or the file
-// exists.
+// Runs the plan and leaves its campaign file at `path`. Rows are stored when their runs finish. The published file
+// contains the gap-free prefix of run indices. The same runs therefore give the same bytes with any number of workers
+// and in any order of finishing. Throws InputError and writes nothing if an agent is not known, if a layout has no room
+// for its fleet, or if the file exists.
 CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& path,
                             const RunOptions& options, const CampaignListener& listener);
 
-// One world per layout and fleet size. Throws InputError if a layout has no room for its fleet.
+// Draws one world for each layout and fleet size. Throws InputError if a layout has no room for its fleet.
 void build_first_worlds(const CampaignPlan& plan);
 
-// Those of the plan's agents that come from shared objects.
+// The agents of the plan that come from shared objects.
 std::vector<std::string> plugin_agents(const CampaignPlan& plan, const AgentPrograms& programs);
 
 CampaignRecord campaign_record(const CampaignPlan& plan, const AgentPrograms& programs);

@@ -19,12 +19,12 @@ struct ReplayResult {
   RunRecord stored, recomputed;
 };
 
-// Simulates run `run_index` again from the plan in the archive and compares with what was stored, value by value.
-// Throws InputError if the archive has no such run (or names an agent that is not loaded).
+// Simulates run `run_index` again from the plan in the archive, and compares the outcome with the stored values, one by
+// one. Throws InputError if the archive has no such run, or if the agent of the run is not loaded.
 ReplayResult replay(const ArchiveReader& archive, std::uint64_t run_index, const AgentPrograms& programs,
                     TraceSink* sink = nullptr);
 
-// What differs between a stored and a recomputed record of one run; also usable on its own.
+// What differs between the stored record of a run and its recomputed record.
 ReplayResult compare_runs(RunRecord stored, RunRecord recomputed);
 
 }  // namespace fleetproof

@@ -10,7 +10,8 @@
 
 namespace fleetproof {
 
-// One run of a campaign, from its index alone: scenario, agent, laws, outcome. Threads: any number.
+// One run of a campaign, from its index only: scenario, agent, laws, outcome.
+// Threads: any number.
 class RunOne {
  public:
   // Throws InputError if an agent of the plan is not among the programs.

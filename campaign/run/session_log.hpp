@@ -6,9 +6,9 @@
 
 namespace fleetproof {
 
-// Where and when runs were made goes beside the campaign file, into NAME.sessions.jsonl, one line per call of `run`:
-// the campaign file itself stays the same bytes on every machine. `started_utc` is the wall clock before the first run.
-// Throws EngineError if the disk refuses.
+// Writes where and when runs were made into NAME.sessions.jsonl beside the campaign file, one line for each call of
+// `run`. The campaign file itself then has the same bytes on every machine. `started_utc` is the wall clock before the
+// first run. Throws EngineError if the disk fails.
 void append_session(const std::string& archive_path, const std::string& started_utc, const RunOptions& options,
                     const CampaignResult& result);
 

@@ -6,8 +6,8 @@
 
 namespace fleetproof {
 
-// A corridor that is one two-way lane, with parallel sidings to let others pass: the layout on which fleets lock each
-// other out. Stress: 60-100 m with one siding or none.
+// A corridor with one two-way lane. AGVs let others pass on parallel sidings. On this layout, AGVs easily block each
+// other. Stress: 60-100 m with one siding or none.
 Layout make_corridor_sidings(Draws& draws, Range range);
 
 }  // namespace fleetproof

@@ -6,9 +6,9 @@
 
 namespace fleetproof {
 
-// A grid of one-way lines so narrow that an AGV on one crossing is next to those on all crossings around it; spurs at
-// the rim. Stress: lines 1-2 vehicle lengths apart, and a second grid laid over the first whose lanes cross it where
-// neither has a station.
+// A grid of one-way lines, with spurs at its edge. The grid is so narrow that an AGV on one crossing is next to AGVs on
+// all neighbouring crossings. Stress: lines 1-2 vehicle lengths apart, and a second grid over the first. Their lanes
+// cross at places without a station.
 Layout make_dense_crossing(Draws& draws, Range range);
 
 }  // namespace fleetproof

@@ -6,9 +6,9 @@
 
 namespace fleetproof {
 
-// Two diagonal cross aisles that rise from the middle of the front; picking aisles above them stand upright, those
-// below lie flat (Gue and Meller). Goods are picked in the aisle: whoever picks closes it. Stress: diagonals of 20-30
-// or 60-70 degrees, stations from 2.1 m apart, every aisle two-way.
+// Two diagonal cross aisles that rise from the middle of the front. Picking aisles above them are vertical, picking
+// aisles below them are horizontal (Gue and Meller). An AGV that picks blocks its aisle. Stress: diagonals of 20-30 or
+// 60-70 degrees, stations at least 2.1 m apart, every aisle two-way.
 Layout make_fishbone(Draws& draws, Range range);
 
 }  // namespace fleetproof

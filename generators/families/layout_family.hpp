@@ -23,13 +23,13 @@ using MakeLayout = Layout (*)(Draws& draws, Range range);
 
 std::span<const Entry<MakeLayout>> layout_families();
 
-// A family and how far it goes.
+// A family and its range.
 struct FamilyRange {
   const Entry<MakeLayout>* family;
   Range range;
 };
 
-// "aisle-grid" or "aisle-grid/stress". InputError with a hint if there is no such family or range.
+// Reads "aisle-grid" or "aisle-grid/stress". Throws InputError with a hint if there is no such family or range.
 FamilyRange family_range(std::string_view name);
 
 // Draws a layout of a family and range. Under stress, one layout in ten has no open place to wait (waiting_room.hpp),
@@ -38,7 +38,7 @@ FamilyRange family_range(std::string_view name);
 std::shared_ptr<const LogicalMap> draw_map(FamilyRange choice, Draws& draws);
 Layout draw_layout(FamilyRange choice, Draws& draws);
 
-// InputError with a hint if there is no such family.
+// Throws InputError with a hint if there is no such family.
 const Entry<MakeLayout>& layout_family(std::string_view name);
 
 }  // namespace fleetproof

@@ -6,9 +6,9 @@
 
 namespace fleetproof {
 
-// A one-way loop with rounded corners and spurs to both sides of it: whoever stands on the loop stops everybody behind.
-// Stress: spurs of 0.9-1.5 m, shorter than a vehicle, which sticks out into the loop; chords across the loop that cross
-// without a station.
+// A one-way loop with rounded corners, and spurs on both sides. An AGV that stands on the loop stops all AGVs behind
+// it. Stress: spurs of 0.9-1.5 m. They are shorter than a vehicle, so that it extends into the loop. Chords cross the
+// loop and each other without a station.
 Layout make_loop_spurs(Draws& draws, Range range);
 
 }  // namespace fleetproof

@@ -6,10 +6,10 @@
 
 namespace fleetproof {
 
-// Stations strewn at random, joined by a Gabriel graph with edges left out and directions drawn; what is not strongly
-// connected is cut off. Lanes meet at every angle, and a station to wait at may lie in the middle of the traffic.
-// Stress: 30-60 % of the edges left out, and lanes squeezed in beside others: acute angles below 30 degrees, and
-// parallel lanes 1.2-1.5 m apart.
+// Stations at random places. A Gabriel graph joins them; some edges are left out, and directions are drawn. Only the
+// strongly connected part is kept. Lanes meet at all angles, and a place to wait may lie in the middle of the traffic.
+// Stress: 30-60 % of the edges are left out. Lanes are added close to others, with angles below 30 degrees, or in
+// parallel at 1.2-1.5 m.
 Layout make_random_planar(Draws& draws, Range range);
 
 }  // namespace fleetproof

@@ -6,12 +6,12 @@
 
 namespace fleetproof {
 
-// How far a layout family goes: what one meets in practice, or what breaks control software.
+// The range of a layout family. Normal: usual warehouses. Stress: warehouses that break control software.
 enum class Range : std::uint8_t { Normal, Stress };
 
 inline constexpr std::string_view kStressSuffix = "/stress";
 
-// "aisle-grid", or "aisle-grid/stress": the name of the layouts, of cells and on pages.
+// "aisle-grid" or "aisle-grid/stress": the name of such layouts in cells and on pages.
 inline std::string family_name(std::string_view family, Range range) {
   return std::string(family) + std::string(range == Range::Stress ? kStressSuffix : "");
 }

@@ -8,8 +8,8 @@
 
 namespace fleetproof {
 
-// Reads a layout from one file of comma-separated values: a table of nodes, then one of edges, each under a line that
-// names its columns.
+// Reads a layout from one file of comma-separated values: a table of nodes, then a table of edges. A line with the
+// names of the columns stands before each table.
 //
 //   id,x,y,purposes
 //   dock,0,0,storage parking
@@ -17,18 +17,20 @@ namespace fleetproof {
 //   from,to,bidirectional
 //   dock,fork,true
 //
-// Columns come in any order. `purposes` (blanks between words; nothing: routing; the word none: no purpose at all),
-// `bidirectional` (true, false, 1, 0; none: false), `name` of an edge (none: "dock-fork") and `control_points` (x y x y
-// ...; none: straight) may be left out. Metres. Fields with a comma or a double quote stand in double quotes. Lines
-// that are empty or begin with # are skipped.
+// Columns come in any order. Lengths are in metres. These columns may be left out:
+// - `purposes`: words, separated by blanks. Empty: routing. The word none: no purpose.
+// - `bidirectional`: true, false, 1 or 0. Empty: false.
+// - `name` of an edge. Empty: "dock-fork".
+// - `control_points`: x y x y ... Empty: straight.
+// A field with a comma or a double quote stands in double quotes. Empty lines and lines that begin with # are skipped.
 //
-// InputError with file, line, field, value and remedy where the layout cannot be driven on. No warnings: nothing is
-// left out or guessed.
+// Throws InputError with file, line, field, value and remedy if no AGV can drive on the layout. There are no warnings,
+// because nothing is left out or guessed.
 Layout read_csv_layout(const std::string& path, std::vector<std::string>& warnings);
 Layout parse_csv_layout(std::string_view text, std::string_view source, std::vector<std::string>& warnings);
 
-// The layout in that form. Reading it gives the same layout again, but for its name, which is that of the file, and for
-// the floor, which is fitted anew. A layout without segments is not read again.
+// The layout in this form. Reading it gives the same layout, with two exceptions: the name becomes the name of the
+// file, and the floor is fitted again. A layout without segments cannot be read again.
 std::string to_csv(const Layout& layout);
 
 }  // namespace fleetproof

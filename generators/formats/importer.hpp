@@ -13,26 +13,26 @@
 
 namespace fleetproof {
 
-// What a caller may choose; each word matters to the formats that know it.
+// Options of an import. Each format uses the options that it knows.
 struct ImportChoice {
   TwinPaths twins = TwinPaths::Keep;          // openTCS
   RmfChoice rmf;                              // Open-RMF
   double cell_pitch_m = kDefaultCellPitch_m;  // grid maps
 };
 
-// Reads a layout file; `warnings` receives what was left out, guessed or changed. InputError where the file is no sound
-// layout.
+// Reads a layout file. `warnings` receives what was left out, guessed or changed. Throws InputError if the file is not
+// a sound layout.
 using ReadLayout = Layout (*)(const std::string& path, const ImportChoice& choice, std::vector<std::string>& warnings);
 
 std::span<const Entry<ReadLayout>> importers();
 
-// InputError with a hint if there is no such importer.
+// Throws InputError with a hint if there is no such importer.
 const Entry<ReadLayout>& importer(std::string_view name);
 
 // Whether a file of this name is a layout file, by its extension.
 bool is_layout_file(std::string_view path);
 
-// The importer that a file's extension asks for. A .json file is LIF or a layout of our own, as its keys say.
+// The importer for the extension of a file. The keys of a .json file decide between LIF and our own layout format.
 std::string_view importer_of_file(const std::string& path);
 
 // Reads a layout file with the importer of importer_of_file().

@@ -10,13 +10,13 @@ namespace fleetproof {
 class JsonReader;
 class JsonWriter;
 
-// A layout as JSON: {"version": 1, "layout": {...}}; metres. InputError with file, line, field, value and remedy, also
-// where the layout could not become a LogicalMap.
+// A layout as JSON, in metres: {"version": 1, "layout": {...}}. Throws InputError with file, line, field, value and
+// remedy, also if the layout cannot become a LogicalMap.
 Layout read_layout(const std::string& path);
 Layout parse_layout(std::string_view text, std::string_view source);
 
-// Canonical: fixed order of keys, shortest decimals that read back to the same doubles. parse_layout of it gives the
-// same text again.
+// The canonical text: a fixed order of keys, and the shortest decimals that read back as the same doubles. Parsing and
+// writing it again gives the same text.
 std::string to_text(const Layout& layout);
 
 // The inner object, as scenario files embed it. Purposes are a list of "routing", "storage", "charging", "parking".

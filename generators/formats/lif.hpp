@@ -8,20 +8,20 @@
 
 namespace fleetproof {
 
-// Reads a layout in the VDMA Layout Interchange Format (JSON, LIF 1.0 and the spellings of its successor). Of several
-// layouts in a file the first is taken. Nodes become stations, edges segments; the two edges of one track, back and
-// forth, become one bidirectional segment. Trajectories are NURBS: see cubic_pieces. A node is for storage where an AGV
-// picks or drops, for charging where it starts to charge, on the node or on an edge that ends there.
+// Reads a layout in the VDMA Layout Interchange Format (JSON, LIF 1.0 and the spellings of its successor). If a file
+// has several layouts, the first is read. Nodes become stations, and edges become segments. Two edges there and back on
+// one track become one bidirectional segment. Trajectories are NURBS: see cubic_pieces. A node is for storage if an AGV
+// picks or drops on the node or on an edge that ends there. It is for charging if an AGV starts to charge there.
 //
-// `warnings` receives one sentence, with file and line, for all that was left out, guessed or changed. InputError with
-// file, line, field, value and remedy where the layout cannot be driven on.
+// `warnings` receives one sentence, with file and line, for everything that was left out, guessed or changed. Throws
+// InputError with file, line, field, value and remedy if no AGV can drive on the layout.
 Layout read_lif(const std::string& path, std::vector<std::string>& warnings);
 Layout parse_lif(std::string_view text, std::string_view source, std::vector<std::string>& warnings);
 
-// The layout as LIF 1.0. What the format has no words for, the purposes of a station, is told in the description of its
-// node, which parse_lif understands; so that reading it gives the same layout again, with two exceptions: two one-way
-// segments on one track come back as one (merge_antiparallel), and the floor is fitted anew. A layout without segments
-// is not read again.
+// The layout as LIF 1.0. The format has no words for the purposes of a station, so they stand in the description of its
+// node, where parse_lif finds them. Reading the text gives the same layout, with two exceptions: two one-way segments
+// on one track become one segment (merge_antiparallel), and the floor is fitted again. A layout without segments cannot
+// be read again.
 std::string to_lif(const Layout& layout);
 
 // The words for purposes in a description, as to_lif writes and parse_lif reads them: "purposes: storage charging".

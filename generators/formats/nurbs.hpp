@@ -16,18 +16,19 @@ struct Nurbs {
   std::vector<double> weights;  // one per point
 };
 
-// What is wrong with the numbers of a curve, with a remedy; empty if nothing is.
+// What is wrong with the numbers of a curve, with a remedy; empty if the curve is valid.
 std::string fault_of(const Nurbs& nurbs);
 
-// The same curve as a segment takes it: cubic Bezier pieces between `begin_m` and `end_m`.
+// The curve in the form of a segment: cubic Bezier pieces between `begin_m` and `end_m`.
 struct CubicPieces {
   Vec2 begin_m = Vec2::Zero(), end_m = Vec2::Zero();
   std::vector<Vec2> control_points_m;  // none: straight; else 2, 5, 8, ...
-  bool exact = true;                   // else a smooth curve through points of the given one
+  bool exact = true;                   // false: a smooth curve through points of the given curve
 };
 
-// Exact for clamped curves of equal weights in Bezier form, up to degree 3, and for polylines without corners.
-// Everything else becomes a smooth curve through its corners, or through sixteen points per span. `nurbs` has no fault.
+// Exact for clamped curves with equal weights in Bezier form, up to degree 3, and for polylines without corners. Any
+// other curve becomes a smooth curve through its corners, or through sixteen points per span. Requires: `nurbs` is
+// valid.
 CubicPieces cubic_pieces(const Nurbs& nurbs);
 
 }  // namespace fleetproof

@@ -9,17 +9,17 @@
 
 namespace fleetproof {
 
-// Paths back and forth on one track stay two segments, or become one bidirectional one (merge_antiparallel).
+// Two paths there and back on one track stay two segments, or become one bidirectional segment (merge_antiparallel).
 enum class TwinPaths : std::uint8_t { Keep, Merge };
 
-// Reads an openTCS plant model (XML, model versions up to 7; millimetres become metres). Points become stations, paths
-// one-way segments: straight, or Bezier curves for connection types BEZIER and BEZIER_3. A locked path is left out. A
-// point is for parking if it is a PARK_POSITION, and for what the locations linked to it are for: charging or storage,
-// judged by the words in the name of their type.
+// Reads an openTCS plant model (XML, model versions up to 7; millimetres become metres). Points become stations. Paths
+// become one-way segments: straight, or Bezier curves for the connection types BEZIER and BEZIER_3. Locked paths are
+// left out. A PARK_POSITION is for parking. The locations that are linked to a point make it a point for charging or
+// storage; the words in the name of the location type decide.
 //
-// `warnings` receives one sentence, with file and line, for all that was left out, guessed or changed; among them every
-// path whose stored length is off by more than 2 %. InputError with file, line, field, value and remedy where the model
-// cannot be driven on.
+// `warnings` receives one sentence, with file and line, for everything that was left out, guessed or changed, for
+// example for every path whose stored length is wrong by more than 2 %. Throws InputError with file, line, field, value
+// and remedy if no AGV can drive on the model.
 Layout read_opentcs(const std::string& path, std::vector<std::string>& warnings, TwinPaths twins = TwinPaths::Keep);
 Layout parse_opentcs(std::string_view text, std::string_view source, std::vector<std::string>& warnings,
                      TwinPaths twins = TwinPaths::Keep);

@@ -6,9 +6,9 @@
 
 namespace fleetproof {
 
-// Two one-way segments that lead back and forth between two stations on one track (control points mirrored, to within 1
-// mm) become one bidirectional segment: the first of them in the list, which keeps its name. Answers how many pairs
-// there were.
+// Merges two one-way segments that lead there and back between two stations on one track (control points mirrored, to
+// within 1 mm). They become one bidirectional segment: the first in the list, which keeps its name. Returns the number
+// of merged pairs.
 std::size_t merge_antiparallel(Layout& layout);
 
 }  // namespace fleetproof

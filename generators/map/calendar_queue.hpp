@@ -9,11 +9,11 @@
 
 namespace fleetproof {
 
-// The open stations of a search for quickest ways, the nearest first: costs that are popped never fall, and nothing is
-// pushed further ahead of the last one popped than the longest hop. Sixteen slots, each for as much time as the longest
-// hop needs to fit in fifteen, are used round and round; the few stations of one slot are looked through. A third of
-// the work of a heap where a handful is open, no more where hundreds are. Of stations with one cost any may come first,
-// always the same one after the same pushes and pops.
+// The open stations of a search for quickest ways, the nearest first. Popped costs never decrease. A pushed cost is
+// ahead of the last popped cost by at most the longest hop. The queue has sixteen slots, which are used in turns. Each
+// slot covers so much time that the longest hop fits into fifteen slots. The few stations in a slot are scanned. With
+// few open stations, this is a third of the work of a heap; with hundreds, it is no more than a heap. The order of
+// stations with equal costs depends only on the pushes and pops before.
 class CalendarQueue {
  public:
   struct Open {
@@ -32,7 +32,7 @@ class CalendarQueue {
     filled_ = static_cast<std::uint16_t>(filled_ | 1U << slot);
   }
 
-  // Of a queue that is not empty.
+  // Requires: the queue is not empty.
   Open pop() {
     slot_ = (slot_ + static_cast<unsigned>(std::countr_zero(std::rotr(filled_, static_cast<int>(slot_))))) % kSlots;
     auto& slot = slots_[slot_];
@@ -47,14 +47,14 @@ class CalendarQueue {
     return found;
   }
 
-  // Of an empty queue: begins at 0 again.
+  // Starts at cost 0 again. Requires: the queue is empty.
   void rewind() { slot_ = 0; }
 
  private:
   static constexpr unsigned kSlots = 16;
 
   int shift_;
-  unsigned slot_ = 0;         // of the last one popped
+  unsigned slot_ = 0;         // of the last popped station
   std::uint16_t filled_ = 0;  // bit by slot
   std::array<std::vector<Open>, kSlots> slots_;
 };

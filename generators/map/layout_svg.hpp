@@ -6,10 +6,10 @@
 
 namespace fleetproof {
 
-// The layout as a picture, y upwards, to scale: lanes (arrow heads where one-way), stations with their names, each
-// purpose with a shape and a colour of its own, a legend and a scale bar. Plain SVG with presentation attributes only,
-// so that every viewer shows it; the same layout gives the same bytes. The layout must be sound (problems_of() is
-// empty).
+// The layout as a picture, to scale, with y upwards. It shows lanes (with arrow heads if one-way), stations with their
+// names, a shape and a colour for each purpose, a legend and a scale bar. It is plain SVG with presentation attributes
+// only, so that every viewer shows it. The same layout gives the same bytes.
+// Requires: problems_of(layout) is empty.
 std::string layout_svg(const Layout& layout);
 
 }  // namespace fleetproof

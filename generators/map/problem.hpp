@@ -7,25 +7,25 @@
 
 namespace fleetproof {
 
-// What can be wrong with a layout or a scenario. The first five make it unusable; the others make it a poor test, which
-// a generator avoids and a hand-written scenario may want.
+// What can be wrong with a layout or a scenario. The first five kinds make it unusable. The others make it a poor test:
+// generators avoid them, but a hand-written scenario may contain them on purpose.
 enum class ProblemKind : std::uint8_t {
   NumberOutOfRange,
   BadName,           // missing, repeated or not plain UTF-8
-  UnknownReference,  // to a station, segment or vehicle type that is not there
+  UnknownReference,  // to a station, segment or vehicle type that does not exist
   BadGeometry,       // a segment that cannot be built as a smooth curve
   EmptyFleet,
   WeakCore,  // less than 90 % of the stations can all reach each other
   StartsTooClose,
   StartNearObstacle,
   StartWithoutLane,  // no lane leaves the start
-  Unreachable,       // a transport that cannot be driven
+  Unreachable,       // a transport for which there is no way
 };
 inline constexpr std::size_t kProblemKinds = 10;
 
 constexpr bool is_unusable(ProblemKind kind) { return kind <= ProblemKind::EmptyFleet; }
 
-// "starts-too-close" and the like: for counts and pages.
+// The name of a kind in counts and pages, for example "starts-too-close".
 const char* name_of(ProblemKind kind);
 
 struct Problem {

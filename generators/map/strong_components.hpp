@@ -6,15 +6,15 @@
 
 namespace fleetproof {
 
-// One way from a node to another one.
+// A directed edge from one node to another.
 struct Arrow {
   std::uint32_t from, to;
 };
 
-// Nodes 0 .. n-1, parted into sets whose nodes can all reach each other along the arrows.
+// The nodes 0 .. n-1, divided into sets whose nodes can all reach each other along the edges.
 struct StrongComponents {
   std::vector<std::uint32_t> component;  // by node
-  std::uint32_t largest = 0;             // the component with most nodes; the one of the smallest node among equals
+  std::uint32_t largest = 0;  // the component with most nodes; of equal ones, the component of the smallest node
   std::size_t largest_size = 0;
 
   bool in_largest(std::size_t node) const { return component[node] == largest; }

@@ -7,18 +7,19 @@
 
 namespace fleetproof {
 
-// A place to wait is a station to park, charge or store at.
+// A place to wait is a station for parking, charging or storage.
 bool is_place_to_wait(const Station& station);
 
-// By station of the core: whether the rest of the core falls apart when an AGV stands here and lets nobody through, as
-// on an end of a two-way lane that is the only way to some part of the map. Stations outside the core count as false.
+// By station: whether it is a cut station. An AGV that stands at a cut station divides the rest of the core. An example
+// is the end of a two-way lane that is the only way to some part of the map. False for stations outside the core.
 std::vector<bool> cut_stations(const LogicalMap& map, const Reachability& reachability);
 
-// Whether a place to wait in the core cuts nobody off.
+// Whether the core has a place to wait that does not divide it.
 bool has_open_waiting_place(const LogicalMap& map, const Reachability& reachability);
 
-// Moves the purposes of every open place to wait to the nearest cut station that has none, storage first: whoever waits
-// is then in somebody's way. False, and nothing changed, if that leaves fewer than two places of storage.
+// Moves the purposes of every open place to wait to the nearest cut station without a purpose, storage first.
+// Every AGV that waits is then in the way of others. Returns false and changes nothing if fewer than two storage
+// stations would remain.
 bool close_waiting_places(Layout& layout);
 
 }  // namespace fleetproof

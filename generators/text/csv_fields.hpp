@@ -7,11 +7,12 @@
 
 namespace fleetproof {
 
-// The fields of one line of comma-separated values; fields in double quotes may hold commas, and quotes written twice.
-// InputError at `source` and line `number` for a quote that is not closed, and for more than 100 fields.
+// The fields of one line of comma-separated values. A field in double quotes may contain commas, and quotes that are
+// written twice. Throws InputError with `source` and line `number` if a quote is not closed, or for more than 100
+// fields.
 std::vector<std::string> csv_fields(std::string_view line, std::string_view source, std::size_t number);
 
-// Whether a line has nothing to say: blanks and commas only, or a comment that begins with #.
+// Whether a line is empty (only blanks and commas), or a comment that begins with #.
 bool is_csv_remark(std::string_view line);
 
 }  // namespace fleetproof

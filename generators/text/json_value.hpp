@@ -13,7 +13,7 @@
 
 namespace fleetproof {
 
-// A JSON text as a tree that remembers the line of every value, so that an error can point at it.
+// A JSON text as a tree. It stores the line of every value, so that an error can name it.
 struct JsonValue {
   enum class Shape : std::uint8_t { Scalar, Array, Object };
   Shape shape = Shape::Scalar;
@@ -25,19 +25,19 @@ struct JsonValue {
   const JsonValue* find(std::string_view key) const;
 };
 
-// InputError with line and column where `text` is not JSON, repeats a key in an object or nests deeper than 32 levels.
+// Throws InputError with line and column if `text` is not JSON, repeats a key in an object, or has more than 32 levels.
 JsonValue parse_json(std::string_view text, std::string_view source);
 
-// Reads one value of a tree and complains like a person: file and line, JSON pointer, value, remedy. Views: tree and
-// source outlive it.
+// Reads one value of a tree. Its errors contain file and line, JSON pointer, value and remedy.
+// Requires: tree and source outlive the reader.
 class JsonReader {
  public:
   JsonReader(const JsonValue& value, std::string_view source, std::string pointer = "")
       : value_(&value), source_(source), pointer_(std::move(pointer)) {}
 
-  // The value is an object with no other keys than these.
+  // Throws InputError unless the value is an object with these keys only.
   void expect_object(std::span<const std::string_view> keys) const;
-  JsonReader at(std::string_view key) const;  // InputError if absent
+  JsonReader at(std::string_view key) const;  // throws InputError if the key is absent
   std::optional<JsonReader> find(std::string_view key) const;
   std::vector<JsonReader> items() const;  // of an array
 
@@ -54,8 +54,8 @@ class JsonReader {
   void read(std::string_view key, std::string& target) const;
 
   [[noreturn]] void refuse(std::string_view sentence) const;
-  // Refuses the value at a pointer relative to this one, or the last value on the way to it. Where the pointer asks for
-  // a duration "..._ns" and the file gives it as "..._s", that one is meant.
+  // Refuses the value at a pointer relative to this value, or the last value on the way to it. If the pointer names a
+  // duration "..._ns" and the file has "..._s", the error names "..._s".
   [[noreturn]] void refuse_below(std::string_view pointer, std::string_view sentence) const;
   bool is_text() const { return std::holds_alternative<std::string>(value_->scalar); }
   const std::string& pointer() const { return pointer_; }

@@ -6,14 +6,14 @@
 
 namespace fleetproof {
 
-// Goes through a text line by line; a byte order mark and carriage returns are left out. A view: the text outlives it.
+// Reads a text line by line, without a byte order mark and carriage returns. Requires: the text outlives the object.
 class TextLines {
  public:
   explicit TextLines(std::string_view text);
 
-  // The next line without its end; none after the last one.
+  // The next line without its line end; none after the last line.
   std::optional<std::string_view> next();
-  std::size_t number() const { return number_; }  // of the line that came last, counted from 1
+  std::size_t number() const { return number_; }  // of the last line that was read, counted from 1
 
  private:
   std::string_view rest_;

@@ -11,20 +11,20 @@ class xml_document;
 
 namespace fleetproof {
 
-// An XML text under a name: reads attributes and says "file:line" about what it finds.
+// An XML text with a name. It reads attributes; its errors contain "file:line".
 class XmlText {
  public:
-  // Both outlive it.
+  // Requires: text and name outlive the object.
   XmlText(std::string_view text, std::string_view source);
 
-  // InputError with line and column if the text is not well-formed.
+  // Throws InputError with line and column if the text is not well-formed.
   void load(pugi::xml_document& document) const;
 
   std::string place(const pugi::xml_node& node) const;  // "file:line"
   [[noreturn]] void refuse(const pugi::xml_node& node, std::string_view sentence) const;
 
   bool has(const pugi::xml_node& node, const char* attribute) const;
-  // InputError if the attribute is missing or, for a number, not finite.
+  // Throws InputError if the attribute is missing or, for a number, not finite.
   std::string text(const pugi::xml_node& node, const char* attribute) const;
   double number(const pugi::xml_node& node, const char* attribute) const;
 
@@ -33,7 +33,7 @@ class XmlText {
   std::vector<std::size_t> line_ends_;
 };
 
-// Whether the whole of `text` is a finite decimal number, which goes to `value`.
+// Whether the whole `text` is a finite decimal number. If so, `value` is set to it.
 bool read_number(std::string_view text, double& value);
 
 }  // namespace fleetproof

@@ -10,17 +10,17 @@ class Node;
 
 namespace fleetproof {
 
-// Reads values out of YAML and complains with file and line.
+// Reads values from YAML. Its errors contain file and line.
 class YamlText {
  public:
-  // A view of the name: it outlives this.
+  // Requires: the name outlives the object.
   explicit YamlText(std::string_view source) : source_(source) {}
 
   std::string_view source() const { return source_; }
   std::string place(const YAML::Node& node) const;  // "file:line"
   [[noreturn]] void refuse(const YAML::Node& node, std::string_view sentence) const;
 
-  // `what` says what the list, number or index stands for.
+  // `what` names the list, number or index in an error.
   YAML::Node item(const YAML::Node& list, std::size_t index, std::string_view what) const;
   YAML::Node list(const YAML::Node& map, const char* key, std::string_view what) const;
   double number(const YAML::Node& node, std::string_view what) const;
@@ -30,7 +30,7 @@ class YamlText {
   std::string_view source_;
 };
 
-// A value as an error shows it.
+// A value as an error prints it.
 std::string shown(const YAML::Node& node);
 
 }  // namespace fleetproof

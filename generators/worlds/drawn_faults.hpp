@@ -4,11 +4,11 @@
 
 namespace fleetproof {
 
-// How often things go wrong, and how badly. All zero: never. Every kind is drawn from keys of its own: switching one on
-// leaves the others as they were.
+// How often faults happen, and how severe they are. By default, all rates are zero. Every kind is drawn from keys of
+// its own: switching on one kind does not change the others.
 struct FaultRates {
   double breakdowns_per_agv_hour = 0.0;   // 1 / MTBF
-  double breakdowns_per_transport = 0.0;  // chance of one on the way with a load
+  double breakdowns_per_transport = 0.0;  // probability of a breakdown on the way with a load
   double repair_s = 900.0;                // MTTR, exponential
   double protective_stops_per_agv_hour = 0.0;
   double protective_stop_least_s = 2.0, protective_stop_most_s = 10.0;
@@ -21,16 +21,15 @@ struct FaultRates {
   double freezes_per_agv_hour = 0.0;
   double freeze_least_s = 0.2, freeze_most_s = 5.0;
   double clock_offset_s = 0.0;    // each AGV's clock is ahead by up to this
-  double clock_drift_ppm = 0.0;   // and too fast or too slow by up to this
-  double position_error_m = 0.0;  // as SensingSetup has them, for every AGV
+  double clock_drift_ppm = 0.0;   // each AGV's clock is too fast or too slow by up to this
+  double position_error_m = 0.0;  // as in SensingSetup, for every AGV
   double position_late_s = 0.0;
-  double low_battery_share = 0.0;  // chance that an AGV starts with 12 to 20 %
+  double low_battery_share = 0.0;  // probability that an AGV starts with 12 to 20 %
 
   friend bool operator==(const FaultRates&, const FaultRates&) = default;
 };
 
-// Draws what goes wrong in a scenario whose fleet and transports are settled. A pure function of scenario, rates and
-// `key`.
+// Draws the faults of a scenario whose fleet and transports are final. A pure function of scenario, rates and `key`.
 void draw_faults(Scenario& scenario, const FaultRates& rates, std::uint64_t key);
 
 }  // namespace fleetproof

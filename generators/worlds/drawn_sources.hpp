@@ -8,15 +8,15 @@
 
 namespace fleetproof {
 
-// How many external sources a world has, and what they are alike in; their places are drawn.
+// The number of external sources of a world, and their common properties. Their places are drawn.
 struct DrawnSources {
   std::uint32_t count = 0;
-  RadioSource like;  // its place means nothing
+  RadioSource like;  // its place is not used
 };
 
-// Sources anywhere on the layout's floor, uniformly. The place of each hangs on the seed and its number: one more
-// leaves the others where they were, and nothing else is drawn from this stream. `seed` is the world's, or that of a
-// held stream `radio`.
+// Sources at uniform places on the floor of the layout. The place of a source depends on the seed and the number of the
+// source, so one more source does not move the others. Nothing else is drawn from this stream. `seed` is the seed of
+// the world, or the seed of a held stream `radio`.
 std::vector<RadioSource> draw_radio_sources(const DrawnSources& drawn, const Layout& layout, std::uint64_t seed);
 
 }  // namespace fleetproof

@@ -10,11 +10,11 @@
 
 namespace fleetproof {
 
-// Two AGVs made to meet on their first drives, from the start to where their first transports begin.
+// Two AGVs that will meet on their first drives, between their starts and the beginnings of their first transports.
 struct EncounterPair {
   std::uint32_t first = 0, second = 0;  // indices of AGVs
   StationId first_goal, second_goal;
-  Duration second_after{};  // by how much the second is to leave later, or before if negative, so that they meet
+  Duration second_after{};  // how much later the second AGV must leave, so that they meet; negative: earlier
 };
 
 // Puts pairs of AGVs, AGV 2k and 2k+1, on their starts until the fleet has fewer than two places left or no pair is

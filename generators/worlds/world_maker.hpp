@@ -15,45 +15,46 @@
 
 namespace fleetproof {
 
-// A kind of vehicle and how much of the fleet is of it, relative to the others.
+// A vehicle type, and its share of the fleet relative to the other types.
 struct VehicleShare {
   VehicleType type;
   double share = 1.0;
 };
 
-// Streams that are those of another world, the one that the same spec holding nothing has for `seed`: a layout that is
-// held is the same layout, whatever else is drawn on it. What a stream amounts to may hang on others: placement that is
-// held on a layout that is not gives other starts.
+// Held streams. The streams listed here take their seeds from the world that `seed` would draw if nothing were held. A
+// held layout is therefore the same layout in every world. The result of a stream may depend on other streams: if
+// placement is held but the layout is not, the start stations differ between worlds.
 struct HeldStreams {
   std::vector<Stream> streams;  // of kRunStreams, in that order
   std::uint64_t seed = 0;
 };
 
-// What a campaign fixes about its worlds; the seed draws the rest.
+// What a campaign fixes for all of its worlds. The seed draws the rest.
 struct WorldSpec {
-  // Name of a family and its range (family_range()): a new layout in every world. Or one map, built once and shared by
-  // all of them.
+  // The name of a family and its range (family_range()): every world gets a new layout. Or one map, which all worlds
+  // share.
   std::variant<std::string, std::shared_ptr<const LogicalMap>> layout = std::string("aisle-grid");
-  bool mutate = false;  // a map is only where to begin: every world has a mutation of it (mutated_import.hpp)
+  bool mutate = false;  // every world gets a mutation of the map (mutated_import.hpp)
   std::uint32_t fleet_size = 5;
   Placement placement = Placement::Random;
   double transports_per_agv_hour = 20.0;  // 0: none; at most 3600
   double hot_spot_skew = 0.0;             // at most 4; transports.hpp
   std::shared_ptr<const OrderList>
-      orders;  // instead of drawn transports; for a map that stays as it is, and no placement in pairs
-  std::vector<VehicleShare> vehicles{VehicleShare{}};  // at least one; every AGV is drawn from them
+      orders;  // instead of drawn transports; only with an unchanged map and without placement in pairs
+  std::vector<VehicleShare> vehicles{VehicleShare{}};  // at least one; the type of every AGV is drawn from them
   FaultRates faults;
   LawSetup law;  // starts keep its safety distance
   Duration horizon = std::chrono::seconds(600);
   HeldStreams held;
 };
 
-// A pure function of spec and seed: layout, placement and transports from their own streams. A world that the validator
-// refuses is replaced by the next draw; counts are added to `counts`. Radio and agent clock keep their defaults, for
-// the caller to set. InputError if the spec is unusable or the fleet finds no place in 32 draws.
+// Draws a world: a pure function of spec and seed. Layout, placement and transports have their own streams. If the
+// validator refuses a world, the next draw replaces it, and `counts` counts the refusal. Radio and agent clock keep
+// their defaults; the caller sets them. Throws InputError if the spec is not usable, or if 32 draws leave no room for
+// the fleet.
 Scenario generate_world(const WorldSpec& spec, std::uint64_t seed, RejectionCounts& counts);
 
-// What was refused and how often: "out of stations 3, weak-core 2"; empty if nothing was.
+// What was refused, and how often: "out of stations 3, weak-core 2". Empty if nothing was refused.
 std::string rejection_text(const RejectionCounts& counts);
 
 }  // namespace fleetproof
