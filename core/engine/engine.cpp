@@ -5,225 +5,123 @@
 #include <iterator>
 
 #include "core/base/error.hpp"
-#include "core/base/random.hpp"
 
 namespace fleetproof {
-namespace {
-
-// Reception needs a range test only where the floor is larger than the range.
-bool covers_floor(const RadioSetup& radio, const LogicalMap& map) {
-  Box box;
-  for (const Station& station : map.layout().stations) box.add(station.position_m);
-  for (const Segment& segment : map.layout().segments) {
-    for (const Vec2& point : segment.control_points_m) box.add(point);
-  }
-  return radio.range_m > (box.high_m - box.low_m).norm();
-}
-
-}  // namespace
 
 Engine::Engine(const Scenario& scenario, const fp_agent_type& agent, std::span<const std::unique_ptr<Law>> laws,
                TraceSink* sink, const char* agent_config)
-    : scenario_(scenario),
-      agent_type_(agent),
-      laws_(laws),
-      sink_(sink),
-      briefings_(scenario, agent_config),
-      radio_(scenario.radio, scenario.seed_of(Stream::Radio)),
-      channel_(scenario.radio, scenario.seed_of(Stream::Radio)),
-      unlimited_range_(covers_floor(scenario.radio, *scenario.map)),
-      agent_key_(stream_key(scenario.seed_of(Stream::Agent), Stream::Agent)),
-      motion_key_(stream_key(scenario.seed_of(Stream::Motion), Stream::Motion)),
-      world_(scenario, laws),
-      agvs_(scenario.agvs.size()),
-      controllers_(scenario.agvs.size()) {
-  for (const auto& law : laws) {
-    const TraceKinds kinds = law->reads();
-    if (!kinds.empty()) readers_.emplace_back(law.get(), kinds);
-    read_by_laws_ = read_by_laws_ | kinds;
-  }
-  std::uint64_t transports = 0;
-  for (std::size_t i = 0; i < agvs_.size(); ++i) {
-    agvs_[i].id = AgvId{i};
-    agvs_[i].station = scenario.agvs[i].start;
-    agvs_[i].battery = scenario.agvs[i].battery;
-    agvs_[i].clock = AgentClock(scenario.agvs[i].sensing);
-    controllers_[i] = {this, AgvId{i}};
-    first_transport_.push_back(transports);
-    transports += scenario.agvs[i].transports.size();
-  }
-}
-
-Engine::~Engine() {
-  for (Agv& agv : agvs_) destroy_agent(agv);
-}
+    : laws_(laws), run_(scenario, laws, sink), parts_(run_, agent, agent_config) {}
 
 void Engine::run() {
   start();
-  const SimTime end = kStart + scenario_.horizon;
-  while (!queue_.empty() && queue_.next_at() <= end) {
-    const Event event = queue_.pop();
-    ensure(event.at >= now_, "time goes forward");
-    now_ = event.at;
+  const SimTime end = kStart + run_.scenario.horizon;
+  while (!run_.queue.empty() && run_.queue.next_at() <= end) {
+    const Event event = run_.queue.pop();
+    ensure(event.at >= run_.now, "time goes forward");
+    run_.now = event.at;
     handle(event);
   }
-  now_ = end;
-  for (Agv& agv : agvs_) {
-    apply_safe_mode(agv, false, end);
-    settle_battery(agv);
-  }
-  world_.finish(end);
+  run_.now = end;
+  parts_.controller.close_books();
+  parts_.battery.close_books();
+  run_.world.finish(end);
 }
 
 void Engine::start() {
-  for (Agv& agv : agvs_) {
-    queue_.push(kStart, agv.id, Event::Kind::Start);
-    const auto& transports = scenario_.agvs[agv.id.index()].transports;
-    for (std::size_t i = 0; i < transports.size(); ++i)
-      queue_.push(kStart + transports[i].release, agv.id, Event::Kind::OrderReleased, i);
-    predict_touches(agv.id);
-    predict_empty_battery(agv);
+  for (std::size_t i = 0; i < run_.agvs.size(); ++i) {
+    const AgvId agv{i};
+    run_.queue.push(kStart, agv, Event::Kind::Start);
+    const auto& transports = run_.setup(agv).transports;
+    for (std::size_t own = 0; own < transports.size(); ++own)
+      run_.queue.push(kStart + transports[own].release, agv, Event::Kind::OrderReleased, own);
+    parts_.contacts.predict(agv);
+    parts_.battery.predict_empty(agv);
   }
-  schedule_faults();
-  if (scenario_.operator_help.on) queue_.push(kStart, EntityId{}, Event::Kind::OperatorLooks);
+  parts_.faults.schedule();
+  if (run_.scenario.operator_help.on) run_.queue.push(kStart, EntityId{}, Event::Kind::OperatorLooks);
 }
 
 void Engine::handle(const Event& event) {
+  const EntityId id = event.entity;
   switch (event.kind) {
-    case Event::Kind::Contact:
-      return bodies_touch(event.entity, event.payload);
-    case Event::Kind::BodyAppears:
-      return body_appears(event.entity);
-    case Event::Kind::BodyLeaves:
-      return body_leaves(event.entity);
-    case Event::Kind::OperatorLooks:
-      return operator_looks();
-    default:
-      break;
-  }
-  Agv& agv = agvs_[event.entity.index()];
-  switch (event.kind) {
-    case Event::Kind::Start: {
-      fp_event start{};
-      start.kind = FP_EVENT_START;
-      tell(agv, start);
-      break;
-    }
+    case Event::Kind::Start:
+      return parts_.agents.start(id);
     case Event::Kind::OrderReleased:
-      order_released(agv, event.payload);
-      break;
+      return parts_.agents.order_released(id, event.payload);
     case Event::Kind::ActivityEnds:
-      if (event.stamp == agv.activity_stamp && agv.activity) activity_ends(agv);
-      break;
+      if (parts_.activities.is_current(id, event.stamp)) parts_.actions.activity_ends(id);
+      return;
     case Event::Kind::CallTakesEffect:
-      call_takes_effect(agv);
-      break;
+      return parts_.controller.call_takes_effect(id);
     case Event::Kind::MessageArrives:
-      message_arrives(agv, static_cast<std::uint32_t>(event.payload));
-      break;
+      return parts_.messenger.arrives(id, event.payload);
     case Event::Kind::TimerGoesOff:
-      timer_goes_off(agv, static_cast<std::uint32_t>(event.payload), event.stamp);
-      break;
+      return parts_.timers.goes_off(id, static_cast<std::uint32_t>(event.payload), event.stamp);
     case Event::Kind::AgentIsFree:
-      agent_is_free(agv);
-      break;
+      return parts_.agents.is_free(id);
+    case Event::Kind::Contact:
+      return parts_.contacts.bodies_touch(event.payload);
     case Event::Kind::BatteryEmpty:
-      if (event.stamp == agv.battery_stamp) battery_empty(agv);
-      break;
+      return parts_.battery.is_empty(id, event.stamp);
     case Event::Kind::FaultStrikes:
-      fault_strikes(agv, event.payload);
-      break;
+      return parts_.faults.strikes(id, event.payload);
     case Event::Kind::FaultOver:
-      fault_over(agv, event.payload);
-      break;
+      return parts_.faults.is_over(id, event.payload);
+    case Event::Kind::BodyAppears:
+      return run_.world.body(id).is_agv ? parts_.operator_desk.look_for_place(id) : parts_.faults.obstacle_appears(id);
+    case Event::Kind::BodyLeaves:
+      return parts_.faults.body_leaves(id);
     case Event::Kind::ScannerLooks:
-      if (event.stamp == agv.scanner_stamp) scanner_looks(agv);
-      break;
+      return parts_.scanner.looks(id, event.stamp);
     case Event::Kind::OperatorComes:
-      operator_comes(agv, static_cast<Assist>(event.payload), event.stamp);
-      break;
-    default:
-      break;
+      return parts_.operator_desk.comes(id, static_cast<Assist>(event.payload), event.stamp);
+    case Event::Kind::OperatorLooks:
+      return parts_.operator_desk.looks();
   }
 }
 
-void Engine::trace(EntityId entity, TraceKind kind, std::uint64_t a, std::uint64_t b, std::string_view text,
-                   std::uint32_t bytes) {
-  const TraceRecord record{now_, entity, kind, a, b, bytes};
-  digest_.append(record);
-  if (sink_ != nullptr) sink_->record(record, text);
-  if (!read_by_laws_.has(kind)) return;
-  for (const auto& [law, kinds] : readers_) {
-    if (kinds.has(kind)) law->happened(record);
-  }
+// Transports are open and no AGV has begun or ended an action for a long time, and not because a fault holds one.
+bool Engine::is_stuck() const {
+  const bool excused = std::ranges::any_of(run_.agvs, [](const AgvStatus& agv) {
+    return agv.is_held_by(Halt::Reason::Breakdown) || agv.is_held_by(Halt::Reason::ProtectiveStop);
+  });
+  return run_.transports_are_open() && !excused && run_.now - run_.last_progress >= run_.scenario.stuck_after;
 }
 
-void Engine::note(Agv& agv, TraceKind kind, std::string_view text) {
-  const std::uint64_t hash = name_hash(text);
-  if (kind == TraceKind::Probe) probes_.declare(text, hash);
-  trace(agv.id, kind, hash, 0, text);
+Outcome Engine::finish() {
+  Outcome outcome;
+  parts_.agents.file_failures(outcome);
+  Counters& counters = outcome.counters = run_.counters;
+  counters.under_way = counters.receptions + counters.duplicates - counters.receptions_lost - counters.received;
+  counters.events = run_.writer.digest().record_count();
+  outcome.simulated_ns = static_cast<std::uint64_t>(run_.scenario.horizon.count());
+  outcome.agv_count = static_cast<std::uint32_t>(run_.agvs.size());
+  outcome.stuck = is_stuck();
+  file_findings(outcome);
+  outcome.contact = outcome.contact || counters.contacts > 0;
+  outcome.digest = run_.writer.digest().value();
+  outcome.running_digests = run_.writer.digest().running();
+  return outcome;
 }
 
-void Engine::file_findings() {
+// The first law is the judge of violations; the incidents and the coverage of all laws are filed.
+void Engine::file_findings(Outcome& outcome) const {
   std::vector<Incident> incidents;
-  std::vector<ProbeCount> probes = probes_.counts();
-  outcome_.counters.probes_left_out = probes_.left_out();
+  std::vector<ProbeCount> probes = parts_.controller.probes().counts();
+  outcome.counters.probes_left_out = parts_.controller.probes().left_out();
   for (const auto& law : laws_) {
     LawFindings findings = law->findings();
     std::ranges::move(findings.incidents, std::back_inserter(incidents));
     std::ranges::move(findings.met, std::back_inserter(probes));
     if (law != laws_.front()) continue;
-    file_violations(outcome_, std::move(findings.violations));
+    file_violations(outcome, std::move(findings.violations));
     if (findings.min_clearance_m)
-      outcome_.min_clearance_um = static_cast<std::int64_t>(std::floor(*findings.min_clearance_m * 1e6));
-    outcome_.counters.distance_evaluations = findings.distance_evaluations;
-    outcome_.counters.perimeter_checks = findings.perimeter_checks;
+      outcome.min_clearance_um = static_cast<std::int64_t>(std::floor(*findings.min_clearance_m * 1e6));
+    outcome.counters.distance_evaluations = findings.distance_evaluations;
+    outcome.counters.perimeter_checks = findings.perimeter_checks;
   }
-  file_incidents(outcome_, std::move(incidents));
-  file_probes(outcome_, std::move(probes));
-}
-
-// Sums over the fleet, each rounded once.
-void Engine::close_books() {
-  Counters& counters = outcome_.counters;
-  double driven_m = 0.0, start = 0.0, end = 0.0;
-  BatteryBook book;
-  for (const Agv& agv : agvs_) {
-    counters.safe_mode_ns += agv.safe_mode_ns;
-    driven_m += agv.driven_m;
-    start += scenario_.agvs[agv.id.index()].battery;
-    end += agv.battery;
-    book.driven += agv.book.driven;
-    book.idled += agv.book.idled;
-    book.charged += agv.book.charged;
-  }
-  const auto ppb = [](double share) { return static_cast<std::uint64_t>(std::llround(share * 1e9)); };
-  counters.distance_um = static_cast<std::uint64_t>(std::llround(driven_m * 1e6));
-  counters.battery_start_ppb = ppb(start);
-  counters.battery_end_ppb = ppb(end);
-  counters.battery_driven_ppb = ppb(book.driven);
-  counters.battery_idled_ppb = ppb(book.idled);
-  counters.battery_charged_ppb = ppb(book.charged);
-  counters.under_way = counters.receptions + counters.duplicates - counters.receptions_lost - counters.received;
-}
-
-Outcome Engine::outcome() {
-  Counters& counters = outcome_.counters;
-  close_books();
-  counters.events = digest_.record_count();
-  outcome_.simulated_ns = static_cast<std::uint64_t>(scenario_.horizon.count());
-  outcome_.agv_count = static_cast<std::uint32_t>(agvs_.size());
-  const auto held_by_fault = [](const Halt& halt) {
-    return halt.reason == Halt::Reason::Breakdown || halt.reason == Halt::Reason::ProtectiveStop;
-  };
-  const bool excused =
-      std::ranges::any_of(agvs_, [&](const Agv& agv) { return std::ranges::any_of(agv.halts, held_by_fault); });
-  outcome_.stuck = transports_are_open() && !excused && now_ - last_progress_ >= scenario_.stuck_after;
-  file_findings();
-  outcome_.contact = outcome_.contact || counters.contacts > 0;
-  outcome_.digest = digest_.value();
-  outcome_.running_digests = digest_.running();
-  return std::move(outcome_);
+  file_incidents(outcome, std::move(incidents));
+  file_probes(outcome, std::move(probes));
 }
 
 void check_abi(const fp_agent_type& agent) {
@@ -246,7 +144,7 @@ Outcome simulate(const Scenario& scenario, const fp_agent_type& agent, std::span
   try {
     Engine engine(scenario, agent, laws, sink, agent_config);
     engine.run();
-    return engine.outcome();
+    return engine.finish();
   } catch (const InvariantViolation& bug) {
     Outcome failed;
     failed.engine_error = true;

@@ -1,0 +1,330 @@
+#include "core/engine/actions.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/error.hpp"
+#include "core/geometry/rotation.hpp"
+
+namespace fleetproof {
+namespace {
+
+ActivityKind stay_of(fp_call call) {
+  switch (call) {
+    case FP_CALL_PICK:
+      return ActivityKind::Pick;
+    case FP_CALL_DROP:
+      return ActivityKind::Drop;
+    case FP_CALL_CHARGE:
+      return ActivityKind::Charge;
+    default:
+      return ActivityKind::Park;
+  }
+}
+
+fp_action action_during(ActivityKind kind) {
+  switch (kind) {
+    case ActivityKind::Drive:
+    case ActivityKind::Settle:
+      return FP_DRIVING;
+    case ActivityKind::Turn:
+      return FP_TURNING;
+    case ActivityKind::Pick:
+      return FP_PICKING;
+    case ActivityKind::Drop:
+      return FP_DROPPING;
+    case ActivityKind::Charge:
+      return FP_CHARGING_NOW;
+    default:
+      return FP_PARKED;
+  }
+}
+
+}  // namespace
+
+Actions::Actions(RunContext& run, const Ports& ports) : run_(run), ports_(ports), slices_(run.agvs.size()) {}
+
+// ---- calls
+
+bool Actions::accept(AgvId agv, fp_call call, std::uint32_t segment) {
+  if (!is_possible(agv, call, segment)) {
+    ++run_.counters.refused_calls;
+    run_.trace(agv, TraceKind::CallRefused, static_cast<std::uint64_t>(call), segment);
+    return false;
+  }
+  slice_of(agv).committed = slice_of(agv).accepted = true;
+  return true;
+}
+
+// A second action may follow a move that is under way, if it leaves the station where that move ends.
+bool Actions::is_possible(AgvId agv, fp_call call, std::uint32_t segment) const {
+  const Slice& slice = slices_[agv.index()];
+  const AgvStatus& status = run_.status(agv);
+  if (status.out_of_order || slice.accepted) return false;
+  const LogicalMap& map = *run_.scenario.map;
+  const bool here = segment == FP_HERE && call != FP_CALL_MOVE;
+  if (!slice.committed) return here || map.lane(SegmentId{segment}, status.station) != nullptr;
+  const bool on_its_way = slice.acting && slice.plan.lane != nullptr && slice.plan.call == FP_CALL_MOVE && !slice.next;
+  return !here && on_its_way && map.lane(SegmentId{segment}, slice.plan.lane->to) != nullptr;
+}
+
+void Actions::begin(AgvId agv, fp_call call, std::uint32_t segment) {
+  Slice& slice = slice_of(agv);
+  AgvStatus& status = run_.status(agv);
+  slice.accepted = false;
+  if (status.out_of_order) {
+    slice.acting = slice.committed = false;
+    return tell_done(agv, FP_REFUSED);
+  }
+  if (slice.acting) return take_next(agv, call, segment);  // the action before this one is not over yet
+  if (status.activity) ports_.activities.end(agv, false);  // charging goes on until the next action
+  begin_plan(agv, call, segment == FP_HERE ? nullptr : run_.scenario.map->lane(SegmentId{segment}, status.station),
+             0.0);
+}
+
+void Actions::withdraw_accepted(AgvId agv) {
+  Slice& slice = slice_of(agv);
+  if (!slice.accepted) return;
+  slice.accepted = false;
+  slice.committed = slice.acting;
+}
+
+void Actions::take_next(AgvId agv, fp_call call, std::uint32_t segment) {
+  Slice& slice = slice_of(agv);
+  const Lane* lane = run_.scenario.map->lane(SegmentId{segment}, slice.plan.lane->to);
+  ensure(lane != nullptr, "the next action begins where this one ends");
+  slice.next = NextAction{call, lane};
+  if (run_.status(agv).is_driving()) ports_.drives.next_is_released(agv, *lane);
+}
+
+void Actions::tell_done(AgvId agv, fp_result result) {
+  fp_event done{};
+  done.kind = FP_EVENT_ACTION_DONE;
+  done.result = result;
+  ports_.agents.tell(agv, done);
+}
+
+// ---- from one activity to the next
+
+void Actions::begin_plan(AgvId agv, fp_call call, const Lane* lane, double entry_mps) {
+  Slice& slice = slice_of(agv);
+  slice.acting = slice.committed = true;
+  slice.plan = {call, lane, lane != nullptr, false, call != FP_CALL_MOVE, 0.0};
+  continue_plan(agv, entry_mps);
+}
+
+void Actions::continue_plan(AgvId agv, double entry_mps) {
+  Slice& slice = slice_of(agv);
+  slice.waits = !run_.status(agv).halts.empty() && entry_mps == 0.0;
+  if (slice.waits) return;  // the end of the halt continues it
+  if (slice.plan.drive_due) return turn_or_drive(agv, entry_mps);
+  if (slice.plan.settle_due) return begin_settling(agv);
+  if (slice.plan.stay_due) return begin_stay(agv);
+  slice.doing = FP_IDLE;
+  finish(agv, 0.0);
+}
+
+// The action is over. The one queued behind it begins at once, rolling if the AGV has not stopped.
+void Actions::finish(AgvId agv, double speed_mps) {
+  Slice& slice = slice_of(agv);
+  const auto next = slice.next;
+  slice.next.reset();
+  slice.acting = slice.committed = false;
+  if (next) begin_plan(agv, next->call, next->lane, speed_mps);
+  tell_done(agv, FP_OK);
+}
+
+void Actions::turn_or_drive(AgvId agv, double entry_mps) {
+  Slice& slice = slice_of(agv);
+  Plan& plan = slice.plan;
+  const Pose pose = run_.pose_now(agv);
+  const double turn_rad =
+      entry_mps > 0.0 ? 0.0 : angle_between(pose.heading, plan.lane->curve.pose_at(plan.way_m).heading);
+  if (std::abs(turn_rad) <= kAligned_rad) {
+    plan.drive_due = false;
+    slice.doing = action_during(ActivityKind::Drive);
+    return ports_.drives.begin(agv, *plan.lane, plan.way_m, entry_mps, slice.next ? slice.next->lane : nullptr);
+  }
+  Piece piece = run_.standing_piece(agv, pose);
+  piece.manner = Manner::Turn;
+  piece.turn_rad = turn_rad;
+  piece.profile = MotionProfile(std::abs(turn_rad), run_.type_of(agv).turn);
+  piece.end = piece.begin + piece.profile.duration();
+  ++run_.counters.turns;
+  run_.progressed(agv);
+  slice.doing = action_during(ActivityKind::Turn);
+  ports_.activities.begin_moving(agv, ActivityKind::Turn, piece, run_.status(agv).station.value);
+}
+
+void Actions::begin_activity(AgvId agv, const Activity& activity, std::uint64_t subject) {
+  slice_of(agv).doing = action_during(activity.kind);
+  ports_.activities.begin(agv, activity, subject);
+}
+
+void Actions::begin_settling(AgvId agv) {
+  slice_of(agv).plan.settle_due = false;
+  const double draw = run_.motion_draw(MotionTopic::Settling, agv, ports_.drives.begun(agv));
+  const Duration lasts = seconds(run_.type_of(agv).settle_s * draw);
+  begin_activity(agv, {ActivityKind::Settle, agv, run_.now, run_.now + lasts, Standing{}},
+                 run_.status(agv).station.value);
+}
+
+void Actions::begin_stay(AgvId agv) {
+  slice_of(agv).plan.stay_due = false;
+  const ActivityKind kind = stay_of(slice_of(agv).plan.call);
+  if (kind == ActivityKind::Charge) return begin_charging(agv);
+  if (kind != ActivityKind::Park) return begin_transfer(agv, kind);
+  begin_activity(agv, {kind, agv, run_.now, run_.now, Standing{}}, run_.status(agv).station.value);
+}
+
+void Actions::begin_transfer(AgvId agv, ActivityKind kind) {
+  const VehicleType& type = run_.type_of(agv);
+  const StationId station = run_.status(agv).station;
+  const bool pick = kind == ActivityKind::Pick;
+  ContainmentEvolution evolution;
+  const LoadId carried = run_.world.carried_load(agv);
+  if (pick && !carried.valid()) evolution.load = run_.world.waiting_load(agv, station);
+  if (!pick) evolution.load = carried;
+  evolution.to = pick ? Holder{Holder::Kind::Agv, agv.value} : Holder{Holder::Kind::Station, station.value};
+  const bool at_storage = run_.scenario.map->station(station).purposes.has(Purpose::Storage);
+  const double spread_s = at_storage ? type.storage_spread_s : type.other_spread_s;
+  const double draw = run_.motion_draw(MotionTopic::Transfer, agv, ++slice_of(agv).transfers);
+  const SimTime end = run_.now + seconds((pick ? type.pick_s : type.drop_s) + spread_s * draw);
+  run_.progressed(agv);
+  begin_activity(agv, {kind, agv, run_.now, end, evolution}, evolution.load.value);
+}
+
+// Once connected, the action is done as far as the agent is concerned.
+void Actions::begin_charging(AgvId agv) {
+  const double per_s = run_.type_of(agv).charge_per_s;
+  ports_.battery.settle(agv);
+  const SimTime full = run_.now + seconds(std::max(0.0, (1.0 - ports_.battery.level(agv)) / per_s));
+  begin_activity(agv, {ActivityKind::Charge, agv, run_.now, full, BatteryEvolution{per_s}},
+                 run_.status(agv).station.value);
+  finish(agv, 0.0);
+}
+
+void Actions::activity_ends(AgvId agv) {
+  Slice& slice = slice_of(agv);
+  const ActivityKind kind = run_.status(agv).activity->kind;
+  switch (kind) {
+    case ActivityKind::Drive:
+      return leg_ends(agv);
+    case ActivityKind::Turn:
+      ports_.activities.end_turn_at(agv, slice.plan.lane->curve.pose_at(slice.plan.way_m).heading);
+      return continue_plan(agv, 0.0);
+    case ActivityKind::Charge:
+      ports_.activities.end(agv, true);
+      if (!slice.committed) slice.doing = FP_IDLE;
+      return;
+    case ActivityKind::Park:
+      ports_.activities.end(agv, true);
+      slice.doing = FP_PARKED;
+      return finish(agv, 0.0);
+    default:
+      ports_.activities.end(agv, true);
+      return continue_plan(agv, 0.0);
+  }
+}
+
+void Actions::leg_ends(AgvId agv) {
+  Plan& plan = slice_of(agv).plan;
+  const LegEnd leg = ports_.drives.leg_ends(agv);
+  if (leg.kind == LegEnd::Kind::NextLegBegins) return;
+  if (leg.kind == LegEnd::Kind::Halted) {
+    plan.way_m = leg.way_m;
+    plan.drive_due = true;
+    ports_.activities.end(agv, false);
+    return continue_plan(agv, 0.0);  // the halt may be over by now
+  }
+  run_.status(agv).station = plan.lane->to;
+  if (leg.speed_mps > 0.0) {
+    ensure(slice_of(agv).next.has_value(), "an AGV that rolls through a station knows where to go");
+    ports_.activities.end_rolling(agv);
+    ++run_.counters.rolls;
+    return finish(agv, leg.speed_mps);
+  }
+  ports_.activities.end(agv, true);
+  plan.settle_due = run_.type_of(agv).settle_s > 0.0;
+  continue_plan(agv, 0.0);
+}
+
+// ---- what cuts an action short
+
+void Actions::brake(AgvId agv) {
+  switch (run_.status(agv).activity->kind) {
+    case ActivityKind::Drive:
+      return ports_.drives.replan(agv);
+    case ActivityKind::Pick:
+    case ActivityKind::Drop:
+      slice_of(agv).plan.stay_due = true;  // from its beginning
+      [[fallthrough]];
+    case ActivityKind::Turn:
+    case ActivityKind::Settle:
+      ports_.activities.end(agv, false);
+      return continue_plan(agv, 0.0);
+    default:
+      return;  // it stands already
+  }
+}
+
+void Actions::go_on(AgvId agv) {
+  if (run_.status(agv).is_driving()) return ports_.drives.replan(agv);  // it was still braking
+  run_.progressed(agv);
+  Slice& slice = slice_of(agv);
+  if (!slice.waits) return;
+  slice.waits = false;
+  continue_plan(agv, 0.0);
+}
+
+void Actions::body_has_shrunk(AgvId agv) {
+  if (run_.status(agv).is_driving()) {
+    ports_.drives.replan(agv);
+  } else if (run_.world.body(agv).piece.manner == Manner::Rest) {
+    ports_.activities.stand(agv, run_.pose_now(agv));
+  }
+}
+
+bool Actions::stop_for_good(AgvId agv) {
+  AgvStatus& status = run_.status(agv);
+  Slice& slice = slice_of(agv);
+  if (status.out_of_order) return false;
+  status.out_of_order = true;
+  const int under_way = (slice.acting ? 1 : 0) + (slice.next ? 1 : 0);
+  const bool on_lane = status.is_driving() || (slice.plan.drive_due && slice.plan.way_m > 0.0);
+  status.stopped_on = slice.acting && on_lane ? slice.plan.lane : nullptr;
+  if (status.activity) ports_.activities.end(agv, false);
+  slice.plan = {};
+  slice.next.reset();
+  slice.waits = false;
+  slice.doing = FP_OUT_OF_ORDER;
+  slice.acting = false;
+  slice.committed = slice.accepted;  // an accepted call answers for itself when it takes effect
+  for (int i = 0; i < under_way; ++i) tell_done(agv, FP_REFUSED);
+  return true;
+}
+
+void Actions::is_back(AgvId agv, StationId station) {
+  AgvStatus& status = run_.status(agv);
+  status.station = station;
+  status.out_of_order = false;
+  slice_of(agv).doing = FP_IDLE;
+  run_.progressed(agv);
+}
+
+// ---- what others may know
+
+fp_action Actions::doing(AgvId agv) const {
+  const AgvStatus& status = run_.status(agv);
+  if (status.out_of_order || std::ranges::any_of(status.halts, &Halt::out_of_order)) return FP_OUT_OF_ORDER;
+  return status.halts.empty() || status.activity ? slices_[agv.index()].doing : FP_STOPPED;
+}
+
+LanesAhead Actions::lanes(AgvId agv) const {
+  const Slice& slice = slices_[agv.index()];
+  return {.current = slice.acting || slice.committed ? slice.plan.lane : nullptr,
+          .next = slice.next ? slice.next->lane : nullptr,
+          .still_to_drive = slice.acting && (run_.status(agv).is_driving() || slice.plan.drive_due)};
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/engine/ports.hpp"
+#include "core/engine/run_context.hpp"
+
+namespace fleetproof {
+
+// Actions of AGVs: how a controller call becomes a turn, a drive and a stay, which action is queued behind it, and how
+// each ends or is cut short.
+class Actions {
+ public:
+  struct Ports {
+    ActivitiesPort activities;
+    AgentHostPort agents;
+    BatteryPort battery;
+    DrivesPort drives;
+  };
+  Actions(RunContext& run, const Ports& ports);
+
+  // Whether the controller takes this call; if not, the refusal is traced. Requires after true: `begin` or
+  // `withdraw_accepted`, before which no other call is taken.
+  bool accept(AgvId agv, fp_call call, std::uint32_t segment);
+  // The accepted call takes effect.
+  void begin(AgvId agv, fp_call call, std::uint32_t segment);
+  // The accepted call, if there is one, never takes effect: the agent is gone.
+  void withdraw_accepted(AgvId agv);
+  void activity_ends(AgvId agv);
+
+  fp_action doing(AgvId agv) const;
+  LanesAhead lanes(AgvId agv) const;
+
+  // A first halt holds the AGV.
+  void brake(AgvId agv);
+  // The last halt is over.
+  void go_on(AgvId agv);
+  // The AGV's load has fallen off.
+  void body_has_shrunk(AgvId agv);
+  // After a contact. False if the AGV was out of order already.
+  bool stop_for_good(AgvId agv);
+  // It has been set down at a station, and obeys again.
+  void is_back(AgvId agv, StationId station);
+
+ private:
+  // An action. What is left of it after the activity under way: drive, settle, stay.
+  struct Plan {
+    fp_call call = FP_CALL_MOVE;
+    const Lane* lane = nullptr;
+    bool drive_due = false, settle_due = false, stay_due = false;
+    double way_m = 0.0;  // along the lane: where a drive goes on that a halt has cut short
+  };
+  // An action accepted while the AGV was still on its way to the station at which it begins.
+  struct NextAction {
+    fp_call call = FP_CALL_MOVE;
+    const Lane* lane = nullptr;
+  };
+  struct Slice {
+    bool acting = false;     // an action is under way
+    bool committed = false;  // or one has been accepted
+    bool accepted = false;   // one has been accepted and has not taken effect
+    bool waits = false;      // the plan goes on when the halts are over
+    Plan plan;
+    std::optional<NextAction> next;
+    fp_action doing = FP_IDLE;
+    std::uint32_t transfers = 0;  // begun in this run: they number the draws of the motion stream
+  };
+  Slice& slice_of(AgvId agv) { return slices_[agv.index()]; }
+
+  bool is_possible(AgvId agv, fp_call call, std::uint32_t segment) const;
+  void begin_plan(AgvId agv, fp_call call, const Lane* lane, double entry_mps);
+  void continue_plan(AgvId agv, double entry_mps);
+  void finish(AgvId agv, double speed_mps);
+  void turn_or_drive(AgvId agv, double entry_mps);
+  void begin_settling(AgvId agv);
+  void begin_stay(AgvId agv);
+  void begin_transfer(AgvId agv, ActivityKind kind);
+  void begin_charging(AgvId agv);
+  void begin_activity(AgvId agv, const Activity& activity, std::uint64_t subject);
+  void leg_ends(AgvId agv);
+  void take_next(AgvId agv, fp_call call, std::uint32_t segment);
+  void tell_done(AgvId agv, fp_result result);
+
+  RunContext& run_;
+  Ports ports_;
+  std::vector<Slice> slices_;  // by AGV
+};
+
+}  // namespace fleetproof

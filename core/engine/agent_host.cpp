@@ -1,0 +1,204 @@
+#include "core/engine/agent_host.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <stdexcept>
+
+#include "core/base/error.hpp"
+#include "core/engine/controller_table.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr std::uint32_t kActivationsMax = 10'000;  // of one agent without time advancing
+// Of one agent in a run: two million, and ten thousand more for every simulated second. Far beyond what any control
+// software needs, and counted, so that an agent that sets its timer a nanosecond ahead for ever is found out at the
+// same event on every machine.
+constexpr std::uint64_t kActivationsPerRun = 2'000'000, kActivationsPerSecond = 10'000;
+
+// One line that any page and any JSON can hold: an agent may throw any text.
+std::string printable(std::string_view text) {
+  constexpr std::size_t kLongestMessage = 200;
+  std::string line;
+  for (const char c : text.substr(0, kLongestMessage)) line += c >= 0x20 && c < 0x7f ? c : '?';
+  return line + (text.size() > kLongestMessage ? "..." : "");
+}
+
+}  // namespace
+
+AgentHost::AgentHost(RunContext& run, const Ports& ports, const fp_agent_type& type, const char* agent_config)
+    : run_(run),
+      ports_(ports),
+      type_(type),
+      briefings_(run.scenario, agent_config),
+      activations_max_(kActivationsPerRun +
+                       kActivationsPerSecond * static_cast<std::uint64_t>(to_seconds(run.scenario.horizon))),
+      slices_(run.agvs.size()) {}
+
+AgentHost::~AgentHost() {
+  for (Slice& slice : slices_) destroy(slice);
+}
+
+// ---- activations
+
+void AgentHost::tell(AgvId agv, const fp_event& event) {
+  Slice& slice = slices_[agv.index()];
+  if (slice.failed || slice.away > 0) return;
+  if (slice.in_activation || run_.now < slice.free_at || !slice.waiting_events.empty()) {
+    slice.waiting_events.push_back(event);
+    if (!slice.in_activation) wake(agv);
+    return;
+  }
+  activate(agv, event);
+}
+
+void AgentHost::wake(AgvId agv) {
+  Slice& slice = slices_[agv.index()];
+  if (slice.wake_scheduled || slice.waiting_events.empty()) return;
+  slice.wake_scheduled = true;
+  run_.queue.push(std::max(run_.now, slice.free_at), agv, Event::Kind::AgentIsFree);
+}
+
+void AgentHost::is_free(AgvId agv) {
+  Slice& slice = slices_[agv.index()];
+  slice.wake_scheduled = false;
+  if (slice.failed || slice.waiting_events.empty()) return;
+  if (run_.now < slice.free_at) return wake(agv);  // frozen since
+  const fp_event event = slice.waiting_events.front();
+  slice.waiting_events.pop_front();
+  activate(agv, event);
+}
+
+void AgentHost::freeze_until(AgvId agv, SimTime until) {
+  Slice& slice = slices_[agv.index()];
+  slice.free_at = std::max(slice.free_at, until);
+}
+
+void AgentHost::activate(AgvId agv, const fp_event& what) {
+  Slice& slice = slices_[agv.index()];
+  if (const char* limit = broken_limit(slice)) return give_up(agv, true, limit);
+  ++run_.counters.activations;
+  fp_event event = what;
+  event.struct_size = sizeof(fp_event);
+  event.now_ns = ports_.timers.now_ns(agv);
+  slice.in_activation = true;
+  ports_.controller.begin_activation(agv);
+  call_agent(agv, event);
+  const ActivationUse use = ports_.controller.end_activation(agv);
+  slice.in_activation = false;
+  if (use.broken_limit != nullptr) give_up(agv, true, use.broken_limit);
+  slice.free_at = std::max(slice.free_at, run_.now + use.cost);
+  wake(agv);
+}
+
+// Counts an activation. Null: the agent may have it.
+const char* AgentHost::broken_limit(Slice& slice) const {
+  slice.activations_at_instant = slice.last_activation == run_.now ? slice.activations_at_instant + 1 : 1;
+  slice.last_activation = run_.now;
+  if (slice.activations_at_instant > kActivationsMax) return "10 000 activations without time advancing";
+  if (++slice.activations > activations_max_) return "woke up more often than any control software needs";
+  return nullptr;
+}
+
+void AgentHost::call_agent(AgvId agv, fp_event& event) {
+  Slice& slice = slices_[agv.index()];
+  try {
+    if (event.kind == FP_EVENT_START) {
+      if (slice.boot > 0) renew_briefing(agv);
+      slice.agent = type_.create(&kHost, ports_.controller.handle_of(agv), &briefings_.of(agv));
+      if (slice.agent == nullptr) throw std::runtime_error("create() returned null");
+    }
+    type_.on_event(slice.agent, &event);
+  } catch (const InvariantViolation&) {
+    throw;  // ours, not the agent's
+  } catch (const std::exception& error) {
+    give_up(agv, false, error.what());
+  } catch (...) {
+    give_up(agv, false, "unknown exception");
+  }
+}
+
+void AgentHost::give_up(AgvId agv, bool hang, std::string_view message) {
+  Slice& slice = slices_[agv.index()];
+  if (slice.failed) return;
+  slice.failed = true;
+  slice.waiting_events.clear();
+  (hang ? hang_ : crash_) = true;
+  if (message_.empty()) message_ = "agent of " + run_.setup(agv).name + ": " + printable(message);
+  run_.trace(agv, hang ? TraceKind::AgentHung : TraceKind::AgentCrashed);
+}
+
+void AgentHost::file_failures(Outcome& outcome) const {
+  outcome.crash = crash_;
+  outcome.hang = hang_;
+  outcome.message = message_;
+}
+
+// ---- what the agent is told
+
+void AgentHost::start(AgvId agv) {
+  fp_event event{};
+  event.kind = FP_EVENT_START;
+  tell(agv, event);
+}
+
+void AgentHost::order_released(AgvId agv, std::uint64_t own_number) {
+  const TransportOrder& order = run_.setup(agv).transports[own_number];
+  const TransportId transport = run_.transport_of(agv, own_number);
+  ++run_.counters.transports_released;
+  const LoadId load = run_.world.add_load(transport, agv, order.from, order.to);
+  run_.trace(agv, TraceKind::OrderReleased, transport.value);
+  run_.trace_load(load);
+  tell_order(agv, transport, order.from, order.to);
+}
+
+void AgentHost::tell_order(AgvId agv, TransportId transport, StationId from, StationId to) {
+  fp_event event{};
+  event.kind = FP_EVENT_ORDER;
+  event.order_id = transport.value;
+  event.from = from.value;
+  event.to = to.value;
+  tell(agv, event);
+}
+
+// ---- restarts
+
+void AgentHost::goes_away(AgvId agv) {
+  Slice& slice = slices_[agv.index()];
+  ++slice.away;
+  destroy(slice);
+  slice.waiting_events.clear();
+  ports_.controller.forget(agv);
+}
+
+void AgentHost::comes_back(AgvId agv) {
+  Slice& slice = slices_[agv.index()];
+  if (--slice.away > 0) return;  // another reason still holds
+  ++slice.boot;
+  start(agv);
+  // The transports that are not done are handed out again.
+  for (std::size_t i = 0; i < run_.world.loads().size(); ++i) {
+    const Load& load = run_.world.loads()[i];
+    if (load.carrier != agv || load.is_over()) continue;
+    const TransportOrder& order = run_.setup(agv).transports[run_.own_number(agv, load.transport)];
+    const bool at_station = load.holder.kind == Holder::Kind::Station;
+    tell_order(agv, load.transport, at_station ? StationId{load.holder.index} : order.from, order.to);
+  }
+}
+
+void AgentHost::renew_briefing(AgvId agv) {
+  const LanesAhead lanes = ports_.actions.lanes(agv);
+  briefings_.renew(agv, slices_[agv.index()].boot, run_.status(agv).station,
+                   lanes.still_to_drive ? lanes.current : nullptr, lanes.next);
+}
+
+void AgentHost::destroy(Slice& slice) {
+  if (slice.agent == nullptr) return;
+  try {
+    type_.destroy(slice.agent);
+  } catch (...) {  // its outcome is known already, and a destructor cannot report
+  }
+  slice.agent = nullptr;
+}
+
+}  // namespace fleetproof

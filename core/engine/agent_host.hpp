@@ -1,0 +1,83 @@
+#pragma once
+
+#include <deque>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/engine/briefings.hpp"
+#include "core/engine/ports.hpp"
+#include "core/engine/run_context.hpp"
+
+namespace fleetproof {
+
+// The agents and the computers on which they run: when an agent is called, what it is told, and what happens when it
+// crashes, hangs or loses its computer for a time.
+class AgentHost {
+ public:
+  struct Ports {
+    ActionsPort actions;
+    AgvControllerPort controller;
+    TimersPort timers;
+  };
+  // `agent_config` is handed to every agent as its own parameters.
+  AgentHost(RunContext& run, const Ports& ports, const fp_agent_type& type, const char* agent_config);
+  ~AgentHost();
+  AgentHost(const AgentHost&) = delete;
+  AgentHost& operator=(const AgentHost&) = delete;
+
+  // Wakes the agent with this event, at once if it is free, else as soon as it is. An agent that is not up never sees
+  // the event.
+  void tell(AgvId agv, const fp_event& event);
+  void start(AgvId agv);
+  // `own_number`: of the transport among those of this AGV.
+  void order_released(AgvId agv, std::uint64_t own_number);
+  // The event. The agent may have been frozen since.
+  void is_free(AgvId agv);
+
+  // It has neither failed nor is its computer down.
+  bool is_up(AgvId agv) const { return !slices_[agv.index()].failed && slices_[agv.index()].away == 0; }
+  bool has_events_waiting(AgvId agv) const { return !slices_[agv.index()].waiting_events.empty(); }
+  void freeze_until(AgvId agv, SimTime until);
+  // The computer goes down: what the agent knew, was told and was about to do is lost. Actions that have taken effect
+  // are carried out. Two reasons may overlap: the computer is back when `comes_back` has been called for each.
+  void goes_away(AgvId agv);
+  void comes_back(AgvId agv);
+
+  // Adds crash, hang and the message of the first of them.
+  void file_failures(Outcome& outcome) const;
+
+ private:
+  struct Slice {
+    void* agent = nullptr;
+    bool failed = false;
+    bool in_activation = false;
+    bool wake_scheduled = false;
+    std::uint32_t away = 0;  // for so many reasons
+    std::uint32_t boot = 0;
+    SimTime free_at = kStart;
+    SimTime last_activation = SimTime::min();
+    std::uint32_t activations_at_instant = 0;
+    std::uint64_t activations = 0;        // in this run
+    std::deque<fp_event> waiting_events;  // arrived while the agent was busy
+  };
+  void wake(AgvId agv);
+  void activate(AgvId agv, const fp_event& event);
+  const char* broken_limit(Slice& slice) const;
+  void call_agent(AgvId agv, fp_event& event);
+  void give_up(AgvId agv, bool hang, std::string_view message);
+  void tell_order(AgvId agv, TransportId transport, StationId from, StationId to);
+  void renew_briefing(AgvId agv);
+  void destroy(Slice& slice);
+
+  RunContext& run_;
+  Ports ports_;
+  const fp_agent_type& type_;
+  Briefings briefings_;
+  std::uint64_t activations_max_;  // of one agent in this run
+  bool crash_ = false, hang_ = false;
+  std::string message_;
+  std::vector<Slice> slices_;  // by AGV
+};
+
+}  // namespace fleetproof

@@ -1,0 +1,162 @@
+#include "core/engine/agv_controller.hpp"
+
+#include "core/base/random.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr std::uint32_t kCallsMax = 10'000;                      // in one activation
+constexpr std::int64_t kDeclaredCostMax_ns = 3'600'000'000'000;  // an agent that thinks for an hour is another hang
+
+}  // namespace
+
+AgvController::AgvController(RunContext& run, const Ports& ports)
+    : run_(run),
+      ports_(ports),
+      call_cost_(seconds(run.scenario.agent_clock.call_cost_s)),
+      random_key_(stream_key(run.scenario.seed_of(Stream::Agent), Stream::Agent)),
+      slices_(run.agvs.size()) {
+  for (std::size_t i = 0; i < slices_.size(); ++i) slices_[i].handle = {this, AgvId{i}};
+}
+
+// ---- activations
+
+void AgvController::begin_activation(AgvId agv) {
+  Slice& slice = slices_[agv.index()];
+  slice.in_activation = true;
+  slice.calls = 0;
+  slice.cost = Duration::zero();
+}
+
+ActivationUse AgvController::end_activation(AgvId agv) {
+  Slice& slice = slices_[agv.index()];
+  ports_.messenger.put_down(agv);
+  slice.in_activation = false;
+  run_.counters.agent_calls += slice.calls;
+  return {.cost = slice.cost,
+          .broken_limit = slice.calls > kCallsMax ? "10 000 controller calls in one activation" : nullptr};
+}
+
+void AgvController::forget(AgvId agv) {
+  Slice& slice = slices_[agv.index()];
+  ports_.timers.forget(agv);
+  ports_.messenger.forget_inbox(agv);
+  for (PendingCall& call : slice.pending) {
+    if (call.kind == PendingCall::Kind::Send) ports_.messenger.withdraw(call.message);
+    call.kind = PendingCall::Kind::Nothing;  // its event still comes
+  }
+  ports_.actions.withdraw_accepted(agv);
+  apply_safe_mode(agv, false);
+  run_.trace(agv, TraceKind::WaitingFor, FP_NONE);
+}
+
+void AgvController::close_books() {
+  for (std::size_t i = 0; i < slices_.size(); ++i) {
+    apply_safe_mode(AgvId{i}, false);
+    run_.counters.safe_mode_ns += slices_[i].safe_mode_ns;
+  }
+}
+
+// ---- calls
+
+bool AgvController::admit(AgvId agv) {
+  Slice& slice = slices_[agv.index()];
+  // A call from outside an activation (another thread, a stored pointer) has no instant at which it could act.
+  if (!slice.in_activation || ++slice.calls > kCallsMax) return false;
+  slice.cost += call_cost_;
+  return true;
+}
+
+std::int32_t AgvController::take_effect(AgvId agv, const PendingCall& call) {
+  Slice& slice = slices_[agv.index()];
+  if (slice.cost == Duration::zero()) {
+    carry_out(agv, call);
+  } else {
+    slice.pending.push_back(call);
+    run_.queue.push(run_.now + slice.cost, agv, Event::Kind::CallTakesEffect);
+  }
+  return FP_OK;
+}
+
+void AgvController::call_takes_effect(AgvId agv) {
+  auto& pending = slices_[agv.index()].pending;
+  const PendingCall call = pending.front();
+  pending.pop_front();
+  carry_out(agv, call);
+}
+
+void AgvController::carry_out(AgvId agv, const PendingCall& call) {
+  switch (call.kind) {
+    case PendingCall::Kind::Action:
+      return ports_.actions.begin(agv, static_cast<fp_call>(call.what), call.segment);
+    case PendingCall::Kind::Send:
+      return ports_.messenger.transmit(agv, call.message, call.what);
+    case PendingCall::Kind::SafeMode:
+      return apply_safe_mode(agv, call.what != 0);
+    case PendingCall::Kind::WaitingFor:
+      return run_.trace(agv, TraceKind::WaitingFor, call.what);
+    case PendingCall::Kind::Timer:
+      return ports_.timers.set(agv, call.what, call.instant_ns);
+    case PendingCall::Kind::Nothing:
+      return;
+  }
+}
+
+std::int32_t AgvController::act(AgvId agv, fp_call call, std::uint32_t segment) {
+  const bool here = segment == FP_HERE && call != FP_CALL_MOVE;
+  if (!here && segment >= run_.scenario.map->segment_count()) return FP_INVALID;
+  if (!ports_.actions.accept(agv, call, segment)) return FP_REFUSED;
+  return take_effect(agv,
+                     {.kind = PendingCall::Kind::Action, .what = static_cast<std::uint32_t>(call), .segment = segment});
+}
+
+std::int32_t AgvController::send(AgvId agv, std::string_view bytes, std::uint32_t receiver) {
+  const auto slot = ports_.messenger.accept(agv, bytes, receiver);
+  if (!slot) return FP_INVALID;
+  return take_effect(agv, {.kind = PendingCall::Kind::Send, .what = receiver, .message = *slot});
+}
+
+std::int32_t AgvController::set_timer(AgvId agv, std::uint32_t number, std::int64_t at_ns) {
+  return take_effect(agv, {.kind = PendingCall::Kind::Timer, .what = number, .instant_ns = at_ns});
+}
+
+std::int32_t AgvController::declare_safe_mode(AgvId agv, bool on) {
+  return take_effect(agv, {.kind = PendingCall::Kind::SafeMode, .what = on ? 1U : 0U});
+}
+
+std::int32_t AgvController::declare_waiting(AgvId agv, std::uint32_t for_whom) {
+  if (for_whom != FP_NONE && for_whom >= slices_.size()) return FP_INVALID;
+  return take_effect(agv, {.kind = PendingCall::Kind::WaitingFor, .what = for_whom});
+}
+
+std::int32_t AgvController::declare_cost(AgvId agv, std::int64_t cost_ns) {
+  if (cost_ns < 0 || cost_ns > kDeclaredCostMax_ns) return FP_INVALID;
+  slices_[agv.index()].cost += Duration{cost_ns};
+  return FP_OK;
+}
+
+void AgvController::apply_safe_mode(AgvId agv, bool on) {
+  Slice& slice = slices_[agv.index()];
+  if (on == slice.safe_since.has_value()) return;
+  if (on) {
+    slice.safe_since = run_.now;
+  } else {
+    slice.safe_mode_ns += static_cast<std::uint64_t>((run_.now - *slice.safe_since).count());
+    slice.safe_since.reset();
+  }
+  run_.trace(agv, TraceKind::SafeMode, on ? 1 : 0);
+}
+
+std::uint64_t AgvController::random(AgvId agv, std::uint32_t purpose, std::uint64_t index) const {
+  return word64(philox(random_key_, {static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(index >> 32),
+                                     purpose, agv.value}),
+                0);
+}
+
+void AgvController::note(AgvId agv, TraceKind kind, std::string_view text) {
+  const std::uint64_t hash = name_hash(text);
+  if (kind == TraceKind::Probe) probes_.declare(text, hash);
+  run_.trace(agv, kind, hash, 0, text);
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "core/engine/ports.hpp"
+#include "core/engine/run_context.hpp"
+#include "core/outcome/incident.hpp"
+
+namespace fleetproof {
+class AgvController;
+}
+
+// The handle that an agent holds: which AGV of which run.
+struct fp_controller {
+  fleetproof::AgvController* part = nullptr;
+  fleetproof::AgvId agv;
+};
+
+namespace fleetproof {
+
+// The controller of each AGV as its agent uses it: which calls are admitted, what they cost, and when they take effect.
+// A call takes effect at the instant of the activation plus the costs so far; if that is later, the call is pending.
+// controller_table.cpp translates the C interface into the functions under "calls".
+class AgvController {
+ public:
+  struct Ports {
+    ActionsPort actions;
+    BatteryPort battery;
+    MessengerPort messenger;
+    PositionSensorPort sensor;
+    TimersPort timers;
+  };
+  AgvController(RunContext& run, const Ports& ports);
+
+  fp_controller* handle_of(AgvId agv) { return &slices_[agv.index()].handle; }
+  // Calls are admitted between these two only.
+  void begin_activation(AgvId agv);
+  ActivationUse end_activation(AgvId agv);
+  // The AGV's computer goes down: pending calls, timers, inbox and declarations are lost.
+  void forget(AgvId agv);
+  // The event. Pending calls take effect in the order in which they were made.
+  void call_takes_effect(AgvId agv);
+  // At the end of the run.
+  void close_books();
+  const ProbeTally& probes() const { return probes_; }
+
+  // ---- calls
+  // Counts the call and its cost. False: the call is not carried out.
+  bool admit(AgvId agv);
+  std::int32_t act(AgvId agv, fp_call call, std::uint32_t segment);
+  std::int32_t send(AgvId agv, std::string_view bytes, std::uint32_t receiver);
+  std::int32_t set_timer(AgvId agv, std::uint32_t number, std::int64_t at_ns);
+  std::int32_t declare_safe_mode(AgvId agv, bool on);
+  std::int32_t declare_waiting(AgvId agv, std::uint32_t for_whom);
+  std::int32_t declare_cost(AgvId agv, std::int64_t cost_ns);
+  bool read_message(AgvId agv, fp_message& out) { return ports_.messenger.read(agv, out); }
+  Pose perceived_pose(AgvId agv) const { return ports_.sensor.perceived(agv); }
+  double battery_level(AgvId agv) const { return ports_.battery.level(agv); }
+  bool is_loaded(AgvId agv) const { return run_.is_loaded(agv); }
+  fp_action action_of(AgvId agv) const { return ports_.actions.doing(agv); }
+  std::int64_t now_ns(AgvId agv) const { return ports_.timers.now_ns(agv); }
+  std::uint64_t random(AgvId agv, std::uint32_t purpose, std::uint64_t index) const;
+  void note(AgvId agv, TraceKind kind, std::string_view text);
+
+ private:
+  struct PendingCall {
+    enum class Kind : std::uint8_t { Action, Send, SafeMode, WaitingFor, Timer, Nothing } kind = Kind::Action;
+    std::uint32_t what = 0;  // fp_call, receiver, flag, AGV or timer number
+    std::uint32_t segment = FP_NONE;
+    std::uint32_t message = 0;  // slot
+    std::int64_t instant_ns = 0;
+  };
+  struct Slice {
+    fp_controller handle;
+    bool in_activation = false;
+    Duration cost{};          // of the calls of this activation
+    std::uint32_t calls = 0;  // in this activation
+    std::deque<PendingCall> pending;
+    std::optional<SimTime> safe_since;
+    std::uint64_t safe_mode_ns = 0;
+  };
+  // Carries the call out now, or later if the calls before it have cost time.
+  std::int32_t take_effect(AgvId agv, const PendingCall& call);
+  void carry_out(AgvId agv, const PendingCall& call);
+  void apply_safe_mode(AgvId agv, bool on);
+
+  RunContext& run_;
+  Ports ports_;
+  Duration call_cost_;
+  std::uint64_t random_key_;
+  ProbeTally probes_;
+  std::vector<Slice> slices_;  // by AGV
+};
+
+}  // namespace fleetproof

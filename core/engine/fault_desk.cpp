@@ -1,0 +1,134 @@
+#include "core/engine/fault_desk.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace fleetproof {
+namespace {
+
+constexpr double kAppearsClear_m = 0.05;  // beyond the safety distance
+constexpr Duration kTriesAgain = std::chrono::seconds(1);
+
+Halt::Reason halt_of(Fault::Kind kind) {
+  return kind == Fault::Kind::Breakdown ? Halt::Reason::Breakdown : Halt::Reason::ProtectiveStop;
+}
+
+bool concerns_agent(Fault::Kind kind) { return kind == Fault::Kind::Restart || kind == Fault::Kind::Freeze; }
+
+}  // namespace
+
+FaultDesk::FaultDesk(RunContext& run, const Ports& ports)
+    : run_(run), ports_(ports), slices_(run.scenario.faults.size()) {}
+
+void FaultDesk::schedule() {
+  const Scenario& scenario = run_.scenario;
+  for (std::size_t i = 0; i < scenario.faults.size(); ++i) {
+    const Fault& fault = scenario.faults[i];
+    if (!fault.transport) run_.queue.push(kStart + fault.at, fault.agv, Event::Kind::FaultStrikes, i);
+  }
+  for (std::size_t i = 0; i < scenario.obstacles.size(); ++i) {
+    const EntityId id{scenario.agvs.size() + i};
+    const ObstacleSetup& obstacle = scenario.obstacles[i];
+    if (obstacle.appears > Duration::zero()) run_.queue.push(kStart + obstacle.appears, id, Event::Kind::BodyAppears);
+    if (obstacle.leaves < scenario.horizon) run_.queue.push(kStart + obstacle.leaves, id, Event::Kind::BodyLeaves);
+  }
+}
+
+void FaultDesk::load_taken_up(AgvId agv, TransportId transport) {
+  const std::uint64_t own = run_.own_number(agv, transport);
+  for (std::size_t i = 0; i < slices_.size(); ++i) {
+    const Fault& fault = run_.scenario.faults[i];
+    if (fault.agv != agv || fault.transport != own || slices_[i].came) continue;
+    slices_[i].came = true;  // the first time that the load is taken up
+    run_.queue.push(run_.now + fault.at, agv, Event::Kind::FaultStrikes, i);
+  }
+}
+
+void FaultDesk::strikes(AgvId agv, std::uint64_t number) {
+  const Fault& fault = run_.scenario.faults[number];
+  // What is out of order already cannot fail.
+  if (concerns_agent(fault.kind) ? !ports_.agents.is_up(agv) : run_.status(agv).out_of_order) return;
+  if (fault.kind == Fault::Kind::LoadDrop && !load_drops(agv, number)) return;
+  ++run_.counters.faults;
+  run_.trace(agv, TraceKind::FaultStrikes, static_cast<std::uint64_t>(fault.kind), number);
+  if (holds_agv(fault.kind)) slices_[number].halt = ports_.halts.begin(agv, halt_of(fault.kind));
+  if (fault.kind == Fault::Kind::Restart) ports_.agents.goes_away(agv);
+  if (fault.kind == Fault::Kind::Freeze) ports_.agents.freeze_until(agv, run_.now + fault.lasts);
+  run_.queue.push(run_.now + fault.lasts, agv, Event::Kind::FaultOver, number);
+}
+
+void FaultDesk::is_over(AgvId agv, std::uint64_t number) {
+  const Fault::Kind kind = run_.scenario.faults[number].kind;
+  if (holds_agv(kind)) return halt_ends(agv, number);
+  run_.trace(agv, TraceKind::FaultOver, static_cast<std::uint64_t>(kind), number);
+  if (kind == Fault::Kind::Restart) ports_.agents.comes_back(agv);
+}
+
+void FaultDesk::end_halts_of(AgvId agv) {
+  for (std::size_t i = 0; i < slices_.size(); ++i) {
+    if (run_.scenario.faults[i].agv == agv) halt_ends(agv, i);
+  }
+}
+
+// At its time, or before it in the hands of the operator.
+void FaultDesk::halt_ends(AgvId agv, std::uint64_t number) {
+  const std::uint64_t halt = std::exchange(slices_[number].halt, std::uint64_t{0});
+  if (halt == 0) return;
+  run_.trace(agv, TraceKind::FaultOver, static_cast<std::uint64_t>(run_.scenario.faults[number].kind), number);
+  ports_.halts.end(agv, halt);
+}
+
+// ---- bodies that come and go
+
+void FaultDesk::obstacle_appears(EntityId body) {
+  const ObstacleSetup& obstacle = run_.scenario.obstacles[body.index() - run_.agvs.size()];
+  if (run_.now >= kStart + obstacle.leaves) return;
+  const double margin_m = run_.scenario.law.safety_distance_m + kAppearsClear_m;
+  if (!run_.world.is_free(placed(obstacle.footprint, obstacle.pose), margin_m, run_.now))
+    return run_.queue.push(run_.now + kTriesAgain, body, Event::Kind::BodyAppears);
+  run_.trace(body, TraceKind::Appears);
+  run_.world.put_on_floor(body, obstacle.footprint, obstacle.pose, run_.now);
+  ports_.contacts.predict(body);
+}
+
+void FaultDesk::body_leaves(EntityId body) {
+  if (!run_.world.body(body).on_floor) return;
+  run_.trace(body, TraceKind::Leaves);
+  run_.world.take_off_floor(body, run_.now);
+  for (std::size_t i = 0; i < run_.world.loads().size(); ++i) {
+    if (run_.world.loads()[i].holder != Holder{Holder::Kind::Floor, body.value}) continue;
+    run_.move_load(LoadId{i}, {Holder::Kind::ClearedAway, 0});
+    ++run_.counters.loads_cleared;
+    ++run_.counters.assists;
+  }
+}
+
+// The bodies of loads are numbered behind the obstacles, in order of their faults.
+EntityId FaultDesk::fallen_body(std::uint64_t number) const {
+  const auto& faults = run_.scenario.faults;
+  const auto is_drop = [](const Fault& f) { return f.kind == Fault::Kind::LoadDrop; };
+  const auto before = std::count_if(faults.begin(), faults.begin() + static_cast<std::ptrdiff_t>(number), is_drop);
+  return EntityId{run_.agvs.size() + run_.scenario.obstacles.size() + static_cast<std::size_t>(before)};
+}
+
+// False if the AGV carries nothing, or the load would fall on something: then it does not fall.
+bool FaultDesk::load_drops(AgvId agv, std::uint64_t number) {
+  const Fault& fault = run_.scenario.faults[number];
+  const LoadId load = run_.world.carried_load(agv);
+  if (!load.valid()) return false;
+  if (fault.transport && run_.own_number(agv, run_.world.load(load).transport) != *fault.transport)
+    return false;  // another one's
+  const Pose from = run_.pose_now(agv);
+  const Pose pose{from.position_m + fault.ahead_m * from.heading + fault.left_m * left_of(from.heading), from.heading};
+  if (!run_.world.is_free(placed(fault.load, pose), run_.scenario.law.safety_distance_m, run_.now)) return false;
+  const EntityId body = fallen_body(number);
+  run_.move_load(load, {Holder::Kind::Floor, body.value});
+  ports_.actions.body_has_shrunk(agv);
+  run_.trace(body, TraceKind::Appears);
+  run_.world.put_on_floor(body, fault.load, pose, run_.now);
+  ports_.contacts.predict(body);
+  run_.queue.push(run_.now + fault.lasts, body, Event::Kind::BodyLeaves);
+  return true;
+}
+
+}  // namespace fleetproof

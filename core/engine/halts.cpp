@@ -1,0 +1,32 @@
+#include "core/engine/halts.hpp"
+
+#include <algorithm>
+
+namespace fleetproof {
+
+Halts::Halts(RunContext& run, ActionsPort actions) : run_(run), actions_(actions), begun_(run.agvs.size()) {}
+
+std::uint64_t Halts::begin(AgvId agv, Halt::Reason reason) {
+  AgvStatus& status = run_.status(agv);
+  const std::uint64_t number = ++begun_[agv.index()];
+  status.halts.push_back({reason, number});
+  if (status.halts.size() == 1 && status.activity) actions_.brake(agv);
+  return number;
+}
+
+void Halts::end(AgvId agv, std::uint64_t number) {
+  AgvStatus& status = run_.status(agv);
+  const auto erased = std::erase_if(status.halts, [&](const Halt& halt) { return halt.number == number; });
+  if (erased > 0 && status.halts.empty() && !status.out_of_order) actions_.go_on(agv);
+}
+
+void Halts::end_all(AgvId agv, Halt::Reason reason) {
+  const auto& halts = run_.status(agv).halts;
+  while (true) {
+    const auto found = std::ranges::find(halts, reason, &Halt::reason);
+    if (found == halts.end()) return;
+    end(agv, found->number);
+  }
+}
+
+}  // namespace fleetproof

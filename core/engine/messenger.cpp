@@ -1,0 +1,174 @@
+#include "core/engine/messenger.hpp"
+
+#include <algorithm>
+
+namespace fleetproof {
+namespace {
+
+// A reception may have three events of one kind; two bits of the payload tell them apart (no run has 2^30 messages at a
+// time): with interference the end of the air time, the arrival of the message, the arrival of its copy.
+constexpr std::uint32_t kAirTimeEnds = 0x80000000U, kCopy = 0x40000000U, kSlot = 0x3fffffffU;
+static_assert(kLongestMessage_bytes == FP_MESSAGE_BYTES_MAX);
+
+// Reception needs a range test only where the floor is larger than the range.
+bool covers_floor(const RadioSetup& radio, const LogicalMap& map) {
+  Box box;
+  for (const Station& station : map.layout().stations) box.add(station.position_m);
+  for (const Segment& segment : map.layout().segments) {
+    for (const Vec2& point : segment.control_points_m) box.add(point);
+  }
+  return radio.range_m > (box.high_m - box.low_m).norm();
+}
+
+}  // namespace
+
+Messenger::Messenger(RunContext& run, AgentHostPort agents)
+    : run_(run),
+      agents_(agents),
+      radio_(run.scenario.radio, run.scenario.seed_of(Stream::Radio)),
+      channel_(run.scenario.radio, run.scenario.seed_of(Stream::Radio)),
+      unlimited_range_(covers_floor(run.scenario.radio, *run.scenario.map)),
+      needs_places_(!unlimited_range_ || radio_.depends_on_place()),
+      slices_(run.agvs.size()) {}
+
+// ---- sending
+
+std::optional<std::uint32_t> Messenger::accept(AgvId sender, std::string_view bytes, std::uint32_t receiver) {
+  const bool broadcast = receiver == FP_NONE;
+  if (bytes.size() > FP_MESSAGE_BYTES_MAX || (!broadcast && (receiver >= slices_.size() || receiver == sender.value)))
+    return std::nullopt;
+  // One copy more than receivers: the message is held until it has been sent.
+  return pool_.add(sender, bytes, broadcast ? static_cast<std::uint32_t>(slices_.size()) : 2U);
+}
+
+void Messenger::transmit(AgvId sender, std::uint32_t slot, std::uint32_t receiver) {
+  Slice& slice = slice_of(sender);
+  if (slice.last_sent != run_.now) {
+    slice.last_sent = run_.now;
+    slice.sent_at_that_instant = 0;
+  }
+  const std::uint32_t ordinal = slice.sent_at_that_instant++;
+  ++run_.counters.messages_sent;
+  const Message& message = pool_[slot];
+  const std::size_t size = message.bytes.size();
+  run_.trace(sender, TraceKind::Sent, receiver, message.hash, {}, static_cast<std::uint32_t>(size));
+  const Pose from = needs_places_ ? run_.pose_now(sender) : Pose{};
+  const Duration air_time = run_.scenario.radio.air_time(size);
+  const bool contended = run_.scenario.radio.contention.interference;
+  pool_.goes_out(slot, contended ? channel_.contend(sender, run_.now, ordinal, air_time)
+                                 : AirInterval{run_.now, run_.now + air_time});
+  if (receiver != FP_NONE) {
+    transmit_to(sender, AgvId{receiver}, slot, from, ordinal);
+  } else {
+    for (std::size_t i = 0; i < slices_.size(); ++i) {
+      if (AgvId{i} != sender) transmit_to(sender, AgvId{i}, slot, from, ordinal);
+    }
+  }
+  pool_.release(slot);
+}
+
+void Messenger::transmit_to(AgvId sender, AgvId receiver, std::uint32_t slot, const Pose& from, std::uint32_t ordinal) {
+  Counters& counters = run_.counters;
+  LinkPlaces places{from.position_m, {}};
+  if (needs_places_) places.receiver_m = run_.pose_now(receiver).position_m;
+  if (!unlimited_range_ && (places.receiver_m - places.sender_m).norm() > run_.scenario.radio.range_m) {
+    ++counters.out_of_range;
+    return pool_.release(slot);
+  }
+  const Fate fate = radio_.fate(sender, receiver, run_.now, ordinal, places);
+  const SimTime on_air_until = pool_[slot].on_air.end;
+  const SimTime arrival = std::max(run_.now + fate.delay, on_air_until);
+  ++counters.receptions;
+  counters.delay_sum_ns += static_cast<std::uint64_t>((arrival - run_.now).count());
+  if (fate.lost) return lose(receiver, slot, fate);
+  if (run_.scenario.radio.contention.interference)
+    run_.queue.push(on_air_until, receiver, Event::Kind::MessageArrives, slot | kAirTimeEnds);
+  run_.queue.push(arrival, receiver, Event::Kind::MessageArrives, slot);
+  if (fate.copy_delay) {
+    pool_.hold(slot);
+    run_.queue.push(std::max(run_.now + *fate.copy_delay, on_air_until), receiver, Event::Kind::MessageArrives,
+                    slot | kCopy);
+  }
+}
+
+void Messenger::lose(AgvId receiver, std::uint32_t slot, const Fate& fate) {
+  Counters& counters = run_.counters;
+  ++counters.receptions_lost;
+  const TraceKind cause = fate.to_source   ? TraceKind::LostToSource
+                          : fate.in_outage ? TraceKind::LostInOutage
+                                           : TraceKind::Lost;
+  counters.lost_in_outage += cause == TraceKind::LostInOutage ? 1 : 0;
+  counters.lost_to_sources += cause == TraceKind::LostToSource ? 1 : 0;
+  run_.trace(receiver, cause, pool_[slot].sender.value, pool_[slot].hash);
+  pool_.release(slot);
+}
+
+// At the end of its air time a message is destroyed at this receiver, or nothing can happen to it any more.
+void Messenger::air_time_ends(AgvId receiver, std::uint32_t slot) {
+  const Message& message = pool_[slot];
+  if (!is_drowned(receiver, message)) return;
+  ++run_.counters.receptions_lost;
+  ++run_.counters.lost_by_interference;
+  run_.trace(receiver, TraceKind::LostByInterference, message.sender.value, message.hash);
+  pool_.destroy_at(slot, receiver);
+}
+
+bool Messenger::is_drowned(AgvId receiver, const Message& message) const {
+  return channel_.any_other_on_air(message.sender, message.on_air, [&](AgvId other) {
+    if (other == receiver || unlimited_range_) return true;
+    return (run_.pose_now(other).position_m - run_.pose_now(receiver).position_m).norm() <= run_.scenario.radio.range_m;
+  });
+}
+
+// ---- receiving
+
+void Messenger::arrives(AgvId receiver, std::uint64_t payload) {
+  const auto bits = static_cast<std::uint32_t>(payload);
+  const std::uint32_t slot = bits & kSlot;
+  if ((bits & kAirTimeEnds) != 0) return air_time_ends(receiver, slot);
+  const Message& message = pool_[slot];
+  if (message.is_destroyed_at(receiver)) return pool_.release(slot);
+  if ((bits & kCopy) != 0) ++run_.counters.duplicates;
+  run_.trace(receiver, TraceKind::Received, message.sender.value, message.hash);
+  ++run_.counters.received;
+  if (!agents_.is_up(receiver)) return pool_.release(slot);
+  Slice& slice = slice_of(receiver);
+  const bool had_unread = slice.has_unread();
+  slice.inbox.push_back(slot);
+  if (had_unread && agents_.has_events_waiting(receiver)) return;  // it is going to look into its inbox anyway
+  fp_event event{};
+  event.kind = FP_EVENT_MESSAGE;
+  agents_.tell(receiver, event);
+}
+
+bool Messenger::read(AgvId agv, fp_message& out) {
+  put_down(agv);
+  Slice& slice = slice_of(agv);
+  if (!slice.has_unread()) return false;
+  slice.in_hand = slice.inbox[slice.read++];
+  if (!slice.has_unread()) {
+    slice.inbox.clear();
+    slice.read = 0;
+  }
+  const Message& message = pool_[slice.in_hand];
+  out.sender = message.sender.value;
+  out.size = static_cast<std::uint32_t>(message.bytes.size());
+  out.bytes = message.bytes.data();
+  return true;
+}
+
+void Messenger::put_down(AgvId agv) {
+  Slice& slice = slice_of(agv);
+  if (slice.in_hand == FP_NONE) return;
+  pool_.release(slice.in_hand);
+  slice.in_hand = FP_NONE;
+}
+
+void Messenger::forget_inbox(AgvId agv) {
+  Slice& slice = slice_of(agv);
+  for (std::size_t i = slice.read; i < slice.inbox.size(); ++i) pool_.release(slice.inbox[i]);
+  slice.inbox.clear();
+  slice.read = 0;
+}
+
+}  // namespace fleetproof

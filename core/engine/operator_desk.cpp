@@ -1,0 +1,198 @@
+#include "core/engine/operator_desk.hpp"
+
+#include <algorithm>
+
+#include "core/base/random.hpp"
+#include "core/engine/recovery.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr Duration kTriesAgain = std::chrono::seconds(1);
+// Topics of the faults stream; the generator draws under lower ones. A standstill has a topic of its own, so that a
+// call in vain moves no other draw.
+constexpr std::uint32_t kAssistTopic = 100, kStandstillTopic = 101;
+// Stations whose bodies are exactly the safety distance apart are free of each other.
+constexpr double kBuiltExactly_m = 1e-6;
+
+// An activity that ends by itself before long. Charging does, but no transport waits for it.
+bool is_work(ActivityKind kind) { return kind != ActivityKind::Park && kind != ActivityKind::Charge; }
+
+}  // namespace
+
+OperatorDesk::OperatorDesk(RunContext& run, const Ports& ports) : run_(run), ports_(ports), calls_(run.agvs.size()) {}
+
+Duration OperatorDesk::until_help_comes(AgvId agv, std::uint32_t topic, std::uint32_t number) const {
+  const OperatorSetup& help = run_.scenario.operator_help;
+  const auto key = stream_key(run_.scenario.seed_of(Stream::Faults), Stream::Faults);
+  const auto draw = unit_interval(word64(philox(key, {number, 0, topic, agv.value}), 0));
+  return seconds(help.least_s + (help.most_s - help.least_s) * draw);
+}
+
+void OperatorDesk::call(AgvId agv, Assist what, std::uint64_t halt) {
+  if (!run_.scenario.operator_help.on) return;
+  run_.queue.push(run_.now + until_help_comes(agv, kAssistTopic, calls_[agv.index()]++), agv,
+                  Event::Kind::OperatorComes, static_cast<std::uint64_t>(what), halt);
+}
+
+void OperatorDesk::comes(AgvId agv, Assist what, std::uint64_t stamp) {
+  switch (what) {
+    case Assist::Contact:
+      return take_off_floor(agv);
+    case Assist::Standstill:
+      return help_at_standstill(agv, stamp);
+    case Assist::Jam:
+    case Assist::Battery:
+      return help_with_halt(agv, what, stamp);
+  }
+}
+
+void OperatorDesk::help_with_halt(AgvId agv, Assist what, std::uint64_t halt) {
+  const AgvStatus& status = run_.status(agv);
+  if (status.out_of_order || std::ranges::find(status.halts, halt, &Halt::number) == status.halts.end()) return;
+  if (status.is_driving()) {  // the operator does not walk up to an AGV that still moves
+    return run_.queue.push(run_.now + kTriesAgain, agv, Event::Kind::OperatorComes, static_cast<std::uint64_t>(what),
+                           halt);
+  }
+  if (what == Assist::Jam) {
+    assisted(agv, Assist::Jam);
+    ports_.scanner.set_muted(agv, true);
+  } else {
+    change_battery(agv);
+  }
+  ports_.halts.end(agv, halt);
+}
+
+void OperatorDesk::assisted(AgvId agv, Assist what) {
+  ++run_.counters.assists;
+  run_.trace(agv, TraceKind::OperatorAssists, static_cast<std::uint64_t>(what));
+}
+
+void OperatorDesk::change_battery(AgvId agv) {
+  assisted(agv, Assist::Battery);
+  ports_.battery.change(agv, run_.scenario.operator_help.battery);
+}
+
+// ---- after a contact
+
+// Everything that holds the AGV ends here, but it stays out of order until it is set down.
+void OperatorDesk::take_off_floor(AgvId agv) {
+  assisted(agv, Assist::Contact);
+  ports_.faults.end_halts_of(agv);
+  ports_.halts.forget(agv);
+  ports_.scanner.set_muted(agv, false);
+  ports_.agents.goes_away(agv);
+  run_.world.take_off_floor(agv, run_.now);
+  run_.trace(agv, TraceKind::Leaves);
+  run_.queue.push(run_.now + kTriesAgain, agv, Event::Kind::BodyAppears);
+}
+
+void OperatorDesk::look_for_place(AgvId agv) {
+  const AgvStatus& status = run_.status(agv);
+  const Footprint footprint = run_.type_of(agv).footprint_with(run_.is_loaded(agv));
+  const double margin_m = std::max(0.0, run_.scenario.law.safety_distance_m - kBuiltExactly_m);
+  const auto places = recovery_places(*run_.scenario.map, status.station, status.stopped_on, run_.pose_now(agv));
+  const auto place = std::ranges::find_if(places, [&](const RecoveryPlace& p) {
+    const OrientedRectangle body = placed(footprint, p.pose);
+    return run_.world.stays_free(body, margin_m, run_.now) && !is_on_the_way(body, margin_m);
+  });
+  if (place == places.end()) return run_.queue.push(run_.now + kTriesAgain, agv, Event::Kind::BodyAppears);
+  run_.world.forget_touches(agv);
+  ports_.messenger.is_carried(agv);
+  ports_.sensor.forget(agv);
+  run_.world.put_on_floor(agv, footprint, place->pose, run_.now);
+  set_down(agv, place->station);
+}
+
+// Whether a lane passes there that an AGV has begun to drive or will drive next.
+bool OperatorDesk::is_on_the_way(const OrientedRectangle& place, double margin_m) const {
+  Box box;
+  box.add(place);
+  for (std::size_t i = 0; i < run_.agvs.size(); ++i) {
+    const AgvId agv{i};
+    if (run_.status(agv).out_of_order) continue;
+    const LanesAhead lanes = ports_.actions.lanes(agv);
+    if (passes(agv, lanes.current, box, margin_m) || passes(agv, lanes.next, box, margin_m)) return true;
+  }
+  return false;
+}
+
+bool OperatorDesk::passes(AgvId agv, const Lane* lane, const Box& place, double margin_m) const {
+  if (lane == nullptr) return false;
+  Piece drive = run_.standing_piece(agv, lane->curve.pose_at(0.0));
+  drive.manner = Manner::Drive;
+  drive.curve = &lane->curve;
+  drive.profile = MotionProfile(lane->curve.length_m(), run_.type_of(agv).drive);
+  return drive.swept_box(drive.begin + drive.profile.duration()).grown(margin_m).overlaps(place);
+}
+
+void OperatorDesk::set_down(AgvId agv, StationId station) {
+  run_.trace(agv, TraceKind::Appears, station.value);
+  ports_.actions.is_back(agv, station);
+  ports_.contacts.predict(agv);
+  ports_.battery.settle(agv);
+  if (ports_.battery.is_out(agv)) {
+    change_battery(agv);
+  } else {
+    ports_.battery.activity_changed(agv, false);
+  }
+  ports_.agents.comes_back(agv);
+}
+
+// ---- at a standstill
+
+bool OperatorDesk::has_open_transport(AgvId agv) const {
+  return std::ranges::any_of(run_.world.loads(),
+                             [&](const Load& load) { return load.carrier == agv && !load.is_over(); });
+}
+
+// No AGV works, and none is held by something that ends without its agent, with or without the operator's help.
+bool OperatorDesk::stands_still() const {
+  if (!run_.transports_are_open()) return false;
+  for (std::size_t i = 0; i < run_.agvs.size(); ++i) {
+    const AgvStatus& status = run_.agvs[i];
+    const bool waits_for_help = !status.halts.empty() || (status.out_of_order && run_.world.body(AgvId{i}).on_floor);
+    if (waits_for_help || (status.activity && is_work(status.activity->kind))) return false;
+  }
+  return true;
+}
+
+void OperatorDesk::looks() {
+  run_.queue.push(run_.now + kTriesAgain, EntityId{}, Event::Kind::OperatorLooks);  // last of all at its instant
+  if (!stands_still()) still_since_ = run_.now;
+  if (standstill_called_ || run_.now - std::max(still_since_, run_.last_progress) < run_.scenario.stuck_after) return;
+  const AgvId agv = longest_idle();
+  if (!agv.valid()) return;
+  standstill_called_ = true;
+  const Duration until = until_help_comes(agv, kStandstillTopic, standstills_++);
+  run_.queue.push(run_.now + until, agv, Event::Kind::OperatorComes, static_cast<std::uint64_t>(Assist::Standstill),
+                  standstill_began_ns());
+}
+
+// Of those whose agent could be the cause: invalid if there is none.
+AgvId OperatorDesk::longest_idle() const {
+  AgvId longest;
+  for (std::size_t i = 0; i < run_.agvs.size(); ++i) {
+    const AgvId agv{i};
+    const AgvStatus& status = run_.status(agv);
+    if (!ports_.agents.is_up(agv) || status.activity || !has_open_transport(agv)) continue;
+    if (!longest.valid() || status.last_progress < run_.status(longest).last_progress) longest = agv;
+  }
+  return longest;
+}
+
+// A standstill is identified by its start time.
+std::uint64_t OperatorDesk::standstill_began_ns() const {
+  return static_cast<std::uint64_t>(to_ns(std::max(still_since_, run_.last_progress)));
+}
+
+void OperatorDesk::help_at_standstill(AgvId agv, std::uint64_t began_ns) {
+  standstill_called_ = false;
+  if (began_ns != standstill_began_ns() || !stands_still() || !ports_.agents.is_up(agv)) return;
+  assisted(agv, Assist::Standstill);
+  run_.status(agv).last_progress = still_since_ = run_.now;
+  ports_.agents.goes_away(agv);
+  ports_.agents.comes_back(agv);
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,235 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "core/engine/agv_status.hpp"
+#include "core/scenario/faults.hpp"
+#include "core/sdk/fleetproof/agent.h"
+
+// What the parts of the engine ask of each other. A part sees another part only as a port: a pointer with the few
+// functions that others need. Each function passes its call on to the part (ports.cpp) with neither a virtual call nor
+// a decision, and its contract stands here or, where the words are the same, at the part.
+namespace fleetproof {
+
+class Actions;
+class Activities;
+class AgentHost;
+class AgvController;
+class Battery;
+class Contacts;
+class Drives;
+class FaultDesk;
+class Halts;
+class Messenger;
+class OperatorDesk;
+class PositionSensor;
+class Scanner;
+class Timers;
+
+class ContactsPort {
+ public:
+  explicit ContactsPort(Contacts& part) : part_(&part) {}
+  // Sets an event for each touch that the body's current piece leads to.
+  void predict(EntityId body) const;
+  // Whether a touch of these two is predicted.
+  bool foresees(EntityId one, EntityId other) const;
+
+ private:
+  Contacts* part_;
+};
+
+class BatteryPort {
+ public:
+  explicit BatteryPort(Battery& part) : part_(&part) {}
+  // Books what the AGV has used until now. Call this before its activity changes.
+  void settle(AgvId agv) const;
+  // Call this after an activity has begun, changed or ended.
+  void activity_changed(AgvId agv, bool drive_begins) const;
+  double level(AgvId agv) const;  // 0 .. 1
+  bool is_out(AgvId agv) const;
+  void change(AgvId agv, double level) const;
+
+ private:
+  Battery* part_;
+};
+
+class PositionSensorPort {
+ public:
+  explicit PositionSensorPort(PositionSensor& part) : part_(&part) {}
+  // Call this just before the AGV's piece ends.
+  void piece_ends(AgvId agv) const;
+  Pose perceived(AgvId agv) const;
+  void forget(AgvId agv) const;
+
+ private:
+  PositionSensor* part_;
+};
+
+class MessengerPort {
+ public:
+  explicit MessengerPort(Messenger& part) : part_(&part) {}
+  // Call this for each piece of an AGV that begins after time zero: roaming depends on the path of the AGV.
+  void piece_begins(const Piece& piece) const;
+  void is_carried(AgvId agv) const;
+  std::optional<std::uint32_t> accept(AgvId sender, std::string_view bytes, std::uint32_t receiver) const;
+  void transmit(AgvId sender, std::uint32_t slot, std::uint32_t receiver) const;
+  void withdraw(std::uint32_t slot) const;
+  bool read(AgvId agv, fp_message& out) const;
+  void put_down(AgvId agv) const;
+  void forget_inbox(AgvId agv) const;
+
+ private:
+  Messenger* part_;
+};
+
+class ActivitiesPort {
+ public:
+  explicit ActivitiesPort(Activities& part) : part_(&part) {}
+  void begin(AgvId agv, const Activity& activity, std::uint64_t subject) const;
+  void begin_moving(AgvId agv, ActivityKind kind, const Piece& piece, std::uint64_t subject) const;
+  void continue_with(AgvId agv, const Piece& piece) const;
+  void end(AgvId agv, bool as_planned) const;
+  void end_turn_at(AgvId agv, const Vec2& heading) const;
+  void end_rolling(AgvId agv) const;
+  void stand(AgvId agv, const Pose& pose) const;
+
+ private:
+  Activities* part_;
+};
+
+// Headings that differ by less are the same: far below what a turn could resolve, far above the rounding at the end of
+// a curve.
+inline constexpr double kAligned_rad = 1e-7;
+
+// How a leg of a drive has ended.
+struct LegEnd {
+  enum class Kind : std::uint8_t { NextLegBegins, Arrived, Halted } kind = Kind::Arrived;
+  double way_m = 0.0;      // Halted: along the lane
+  double speed_mps = 0.0;  // Arrived: with which the AGV passes the station
+};
+
+class DrivesPort {
+ public:
+  explicit DrivesPort(Drives& part) : part_(&part) {}
+  void begin(AgvId agv, const Lane& lane, double from_m, double entry_mps, const Lane* next) const;
+  void replan(AgvId agv) const;
+  void next_is_released(AgvId agv, const Lane& next) const;
+  LegEnd leg_ends(AgvId agv) const;
+  std::uint32_t begun(AgvId agv) const;
+
+ private:
+  Drives* part_;
+};
+
+// The lanes that an AGV drives or is going to drive, each null if there is none.
+struct LanesAhead {
+  const Lane* current = nullptr;  // of the action under way
+  const Lane* next = nullptr;     // of the action queued behind it
+  bool still_to_drive = false;    // the current lane: the drive is under way or still to begin
+};
+
+class ActionsPort {
+ public:
+  explicit ActionsPort(Actions& part) : part_(&part) {}
+  bool accept(AgvId agv, fp_call call, std::uint32_t segment) const;
+  void begin(AgvId agv, fp_call call, std::uint32_t segment) const;
+  void withdraw_accepted(AgvId agv) const;
+  fp_action doing(AgvId agv) const;
+  LanesAhead lanes(AgvId agv) const;
+  void brake(AgvId agv) const;
+  void go_on(AgvId agv) const;
+  void body_has_shrunk(AgvId agv) const;
+  bool stop_for_good(AgvId agv) const;
+  void is_back(AgvId agv, StationId station) const;
+
+ private:
+  Actions* part_;
+};
+
+class HaltsPort {
+ public:
+  explicit HaltsPort(Halts& part) : part_(&part) {}
+  std::uint64_t begin(AgvId agv, Halt::Reason reason) const;
+  void end(AgvId agv, std::uint64_t number) const;
+  void end_all(AgvId agv, Halt::Reason reason) const;
+  void forget(AgvId agv) const;
+
+ private:
+  Halts* part_;
+};
+
+class FaultDeskPort {
+ public:
+  explicit FaultDeskPort(FaultDesk& part) : part_(&part) {}
+  void load_taken_up(AgvId agv, TransportId transport) const;
+  void end_halts_of(AgvId agv) const;
+
+ private:
+  FaultDesk* part_;
+};
+
+class OperatorDeskPort {
+ public:
+  explicit OperatorDeskPort(OperatorDesk& part) : part_(&part) {}
+  void call(AgvId agv, Assist what, std::uint64_t halt) const;
+
+ private:
+  OperatorDesk* part_;
+};
+
+class ScannerPort {
+ public:
+  explicit ScannerPort(Scanner& part) : part_(&part) {}
+  void drive_begins(AgvId agv) const;
+  void set_muted(AgvId agv, bool muted) const;
+
+ private:
+  Scanner* part_;
+};
+
+class TimersPort {
+ public:
+  explicit TimersPort(Timers& part) : part_(&part) {}
+  std::int64_t now_ns(AgvId agv) const;
+  void set(AgvId agv, std::uint32_t number, std::int64_t at_ns) const;
+  void forget(AgvId agv) const;
+
+ private:
+  Timers* part_;
+};
+
+// What an activation has used up.
+struct ActivationUse {
+  Duration cost{};
+  const char* broken_limit = nullptr;  // which limit the agent has exceeded, in words; null: none
+};
+
+class AgvControllerPort {
+ public:
+  explicit AgvControllerPort(AgvController& part) : part_(&part) {}
+  fp_controller* handle_of(AgvId agv) const;
+  void begin_activation(AgvId agv) const;
+  ActivationUse end_activation(AgvId agv) const;
+  void forget(AgvId agv) const;
+
+ private:
+  AgvController* part_;
+};
+
+class AgentHostPort {
+ public:
+  explicit AgentHostPort(AgentHost& part) : part_(&part) {}
+  void tell(AgvId agv, const fp_event& event) const;
+  bool is_up(AgvId agv) const;
+  bool has_events_waiting(AgvId agv) const;
+  void freeze_until(AgvId agv, SimTime until) const;
+  void goes_away(AgvId agv) const;
+  void comes_back(AgvId agv) const;
+
+ private:
+  AgentHost* part_;
+};
+
+}  // namespace fleetproof

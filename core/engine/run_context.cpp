@@ -1,0 +1,52 @@
+#include "core/engine/run_context.hpp"
+
+#include "core/base/random.hpp"
+
+namespace fleetproof {
+
+RunContext::RunContext(const Scenario& of, std::span<const std::unique_ptr<Law>> laws, TraceSink* sink)
+    : scenario(of),
+      world(of, laws),
+      writer(laws, sink),
+      agvs(of.agvs.size()),
+      motion_key(stream_key(of.seed_of(Stream::Motion), Stream::Motion)) {
+  std::uint64_t transports = 0;
+  for (std::size_t i = 0; i < agvs.size(); ++i) {
+    agvs[i].station = of.agvs[i].start;
+    first_transport_.push_back(transports);
+    transports += of.agvs[i].transports.size();
+  }
+}
+
+Piece RunContext::standing_piece(AgvId agv, const Pose& pose) const {
+  return rest_piece(agv, type_of(agv).footprint_with(is_loaded(agv)), pose, now);
+}
+
+double RunContext::motion_draw(MotionTopic topic, AgvId agv, std::uint32_t number) const {
+  return unit_interval(word64(philox(motion_key, {number, 0, static_cast<std::uint32_t>(topic), agv.value}), 0));
+}
+
+TransportId RunContext::transport_of(AgvId agv, std::uint64_t own_number) const {
+  return TransportId{static_cast<std::uint32_t>(first_transport_[agv.index()] + own_number)};
+}
+
+std::uint64_t RunContext::own_number(AgvId agv, TransportId transport) const {
+  return transport.value - first_transport_[agv.index()];
+}
+
+bool RunContext::transports_are_open() const {
+  return counters.transports_done + counters.loads_cleared < counters.transports_released;
+}
+
+void RunContext::move_load(LoadId load, Holder to) {
+  world.load(load).holder = to;
+  trace_load(load);
+}
+
+void RunContext::trace_load(LoadId id) {
+  const auto& [transport, carrier, holder, destination] = world.load(id);
+  trace(carrier, TraceKind::LoadMoves, id.value,
+        (std::uint64_t{static_cast<std::uint32_t>(holder.kind)} << 32) | holder.index);
+}
+
+}  // namespace fleetproof

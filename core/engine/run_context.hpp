@@ -1,0 +1,67 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/engine/agv_status.hpp"
+#include "core/engine/event_queue.hpp"
+#include "core/engine/trace_writer.hpp"
+#include "core/engine/world.hpp"
+#include "core/outcome/outcome.hpp"
+#include "core/scenario/scenario.hpp"
+
+namespace fleetproof {
+
+// What the draws of the motion stream are for; each is keyed by topic, AGV and number.
+enum class MotionTopic : std::uint32_t { Speed = 1, Settling, Transfer, Position };
+
+// What all parts of one run share: scenario, clock, queue, world, trace, counters, and the status of each AGV.
+struct RunContext {
+  // Requires: scenario, laws and sink outlive the run. `sink` may be null.
+  RunContext(const Scenario& of, std::span<const std::unique_ptr<Law>> laws, TraceSink* sink);
+  RunContext(const RunContext&) = delete;
+  RunContext& operator=(const RunContext&) = delete;
+
+  const Scenario& scenario;
+  SimTime now = kStart;
+  SimTime last_progress = kStart;  // of any AGV
+  EventQueue queue;
+  World world;
+  TraceWriter writer;
+  Counters counters;
+  std::vector<AgvStatus> agvs;
+  std::uint64_t motion_key;
+
+  AgvStatus& status(AgvId agv) { return agvs[agv.index()]; }
+  const AgvStatus& status(AgvId agv) const { return agvs[agv.index()]; }
+  const AgvSetup& setup(AgvId agv) const { return scenario.agvs[agv.index()]; }
+  const VehicleType& type_of(AgvId agv) const { return scenario.type_of(setup(agv)); }
+  bool is_loaded(AgvId agv) const { return world.carried_load(agv).valid(); }
+  Pose pose_now(EntityId id) const { return world.pose_of(id, now); }
+  // A piece in which the AGV's body, as large as it is now, stands at `pose` from now on. A caller may set it in
+  // motion.
+  Piece standing_piece(AgvId agv, const Pose& pose) const;
+
+  // In [0, 1).
+  double motion_draw(MotionTopic topic, AgvId agv, std::uint32_t number) const;
+  void progressed(AgvId agv) { last_progress = status(agv).last_progress = now; }
+
+  // Transports are numbered through the fleet; each AGV counts its own from 0.
+  TransportId transport_of(AgvId agv, std::uint64_t own_number) const;
+  std::uint64_t own_number(AgvId agv, TransportId transport) const;
+  bool transports_are_open() const;
+  void move_load(LoadId load, Holder to);
+  void trace_load(LoadId load);
+
+  void trace(EntityId entity, TraceKind kind, std::uint64_t a = 0, std::uint64_t b = 0, std::string_view text = {},
+             std::uint32_t bytes = 0) {
+    writer.write({now, entity, kind, a, b, bytes}, text);
+  }
+
+ private:
+  std::vector<std::uint64_t> first_transport_;  // by AGV
+};
+
+}  // namespace fleetproof

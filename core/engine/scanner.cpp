@@ -1,0 +1,71 @@
+#include "core/engine/scanner.hpp"
+
+#include <algorithm>
+
+namespace fleetproof {
+
+Scanner::Scanner(RunContext& run, const Ports& ports) : run_(run), ports_(ports), slices_(run.agvs.size()) {}
+
+void Scanner::drive_begins(AgvId agv) {
+  run_.queue.push(run_.now, agv, Event::Kind::ScannerLooks, 0, ++slices_[agv.index()].stamp);
+}
+
+double Scanner::field_length_m(AgvId agv) const {
+  const ScannerSetup& scanner = run_.scenario.scanner;
+  const double speed = run_.world.body(agv).piece.speed_at(run_.now),
+               braking = run_.type_of(agv).drive_with(run_.is_loaded(agv)).deceleration_mps2;
+  return speed * scanner.reaction_s + speed * speed / (2.0 * braking) + scanner.margin_m;
+}
+
+// The first body, by number, that stands in the field.
+std::optional<EntityId> Scanner::intruder(AgvId agv, double length_m) const {
+  const OrientedRectangle own = run_.world.body(agv).piece.body_at(run_.now);
+  const OrientedRectangle field{own.centre_m + (own.half_length_m + 0.5 * length_m) * own.heading, own.heading,
+                                0.5 * length_m, own.half_width_m + run_.scenario.scanner.margin_m};
+  for (std::size_t i = 0; i < run_.world.body_count(); ++i) {
+    const Body& body = run_.world.body(EntityId{i});
+    if (body.on_floor && EntityId{i} != agv && clearance_m(field, body.piece.body_at(run_.now)) <= 0.0)
+      return EntityId{i};
+  }
+  return std::nullopt;
+}
+
+void Scanner::looks(AgvId agv, std::uint64_t stamp) {
+  Slice& slice = slices_[agv.index()];
+  const AgvStatus& status = run_.status(agv);
+  const bool held = status.is_held_by(Halt::Reason::Scanner);
+  // An AGV that stands for another reason is looked after when its next drive begins.
+  if (stamp != slice.stamp || status.out_of_order || (!status.is_driving() && !held)) return;
+  double length_m = field_length_m(agv);
+  if (held || slice.muted)
+    length_m = std::max(length_m, slice.field_m - (run_.pose_now(agv).position_m - slice.field_from_m).norm());
+  const auto body = intruder(agv, length_m);
+  if (!body) slice.muted = false;
+  if (body && !held && !slice.muted) {
+    stop(agv, *body);
+  } else if (held && body) {
+    slice.clear_since.reset();
+  } else if (held) {
+    field_is_clear(agv);
+  }
+  run_.queue.push(run_.now + seconds(run_.scenario.scanner.reaction_s), agv, Event::Kind::ScannerLooks, 0, stamp);
+}
+
+void Scanner::field_is_clear(AgvId agv) {
+  auto& since = slices_[agv.index()].clear_since;
+  if (!since) since = run_.now;
+  if (run_.now - *since >= seconds(run_.scenario.scanner.resume_s)) ports_.halts.end_all(agv, Halt::Reason::Scanner);
+}
+
+void Scanner::stop(AgvId agv, EntityId body) {
+  ++run_.counters.scanner_stops;
+  run_.trace(agv, TraceKind::ScannerStops, body.value);
+  if (ports_.contacts.foresees(agv, body)) ++run_.counters.scanner_saves;
+  Slice& slice = slices_[agv.index()];
+  slice.clear_since.reset();
+  slice.field_m = field_length_m(agv);
+  slice.field_from_m = run_.pose_now(agv).position_m;
+  ports_.operator_desk.call(agv, Assist::Jam, ports_.halts.begin(agv, Halt::Reason::Scanner));
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/outcome/law.hpp"
+#include "core/outcome/trace.hpp"
+
+namespace fleetproof {
+
+// Hands each trace record to the digest, to the sink and to the laws that read its kind.
+class TraceWriter {
+ public:
+  // `sink` may be null. Laws and sink outlive the writer.
+  TraceWriter(std::span<const std::unique_ptr<Law>> laws, TraceSink* sink);
+
+  // `text` are the words of a probe or a log line, else empty.
+  void write(const TraceRecord& record, std::string_view text);
+  TraceDigest& digest() { return digest_; }
+
+ private:
+  TraceDigest digest_;
+  TraceSink* sink_;
+  std::vector<std::pair<Law*, TraceKinds>> readers_;
+  TraceKinds read_by_laws_;
+};
+
+}  // namespace fleetproof
