@@ -1,7 +1,5 @@
 #include "core/engine/activities.hpp"
 
-#include <utility>
-
 namespace fleetproof {
 
 Activities::Activities(RunContext& run, const Ports& ports) : run_(run), ports_(ports), stamps_(run.agvs.size()) {}
@@ -56,7 +54,8 @@ void Activities::end_rolling(AgvId agv) {
 Activity Activities::take_off(AgvId agv) {
   ports_.battery.settle(agv);
   AgvStatus& status = run_.status(agv);
-  const Activity activity = *std::exchange(status.activity, std::nullopt);
+  const Activity activity = *status.activity;
+  status.activity.reset();
   ++stamps_[agv.index()];
   if (activity.kind != ActivityKind::Park && activity.kind != ActivityKind::Charge) run_.progressed(agv);
   return activity;

@@ -16,6 +16,7 @@ AgentClock::AgentClock(const SensingSetup& setup)
 // Second by second and what is left over, so that no product leaves 64 bits.
 std::int64_t AgentClock::shows_ns(SimTime t) const {
   const std::int64_t ns = to_ns(t);
+  if (drift_ppb_ == 0) return ns + offset_ns_;
   return ns + offset_ns_ + ns / kBillion * drift_ppb_ + ns % kBillion * drift_ppb_ / kBillion;
 }
 

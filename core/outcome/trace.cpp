@@ -3,13 +3,19 @@
 #include <xxhash.h>
 
 #include <bit>
+#include <cstring>
 
 namespace fleetproof {
 namespace {
 
 template <class Integer>
 void put(unsigned char*& at, Integer value) {
-  for (std::size_t i = 0; i < sizeof(Integer); ++i) *at++ = static_cast<unsigned char>(value >> (8 * i));
+  if constexpr (std::endian::native == std::endian::little) {
+    std::memcpy(at, &value, sizeof(Integer));
+    at += sizeof(Integer);
+  } else {
+    for (std::size_t i = 0; i < sizeof(Integer); ++i) *at++ = static_cast<unsigned char>(value >> (8 * i));
+  }
 }
 
 XXH3_state_t* hash(void* state) { return static_cast<XXH3_state_t*>(state); }
