@@ -79,7 +79,7 @@ void PublishedLaw::accuse_throughout(const Piece& drive, EntityId entity) {
   const auto seen_at = [&](SimTime t) {
     ++distance_evaluations_;
     const Piece* other = piece_at(entity, t);
-    ensure(other != nullptr, "who stood there when the drive began stands there throughout");
+    ensure(other != nullptr, "a body that stood there when the drive began stands there throughout");
     return stretch_of(drive, *other, t, t, {clearance_m(drive.body_at(t), other->body_at(t)), t});
   };
   Stretch whole = seen_at(drive.end);

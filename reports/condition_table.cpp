@@ -127,9 +127,8 @@ Section table_legend(const ReportInput& input) {
   const auto conditions = evidence.conditions();
   Section section{"How to read the tables", {}, {}};
   const auto add = [&](std::string text) { section.remarks.push_back({std::move(text), ""}); };
-  add("viol. = runs that broke the safety distance, contact = those that touched; stuck = runs without progress; "
-      "closest = smallest clearance; done/AGV-h = transports (orders) "
-      "completed per AGV-hour.");
+  add("viol. = runs that broke the safety distance; contact = runs with a contact; stuck = runs without progress; "
+      "closest = smallest clearance; done/AGV-h = transports (orders) completed per AGV-hour.");
   if (has_outages(evidence))
     add("outage = mean length of an outage of the radio; none = losses are independent of each other. The loss is the "
         "same on average.");
@@ -137,11 +136,10 @@ Section table_legend(const ReportInput& input) {
     add("0 .. 40 % = every replicate draws its own value in between, the same for all agents, layouts and fleets; a "
         "rate is the mean over the region.");
   if (evidence.counts_only()) return section;
-  add("failed = units with a violation or an unknown outcome, of all units: rate, interval and bound are theirs.");
+  add("failed = units with a violation or an unknown outcome, of all units. Rate, interval and bound refer to units.");
   if (std::ranges::any_of(conditions, [](const Condition& c) { return c.pool.cells.size() > 1; })) {
     add("A row pools several cells (layouts, fleet sizes). Its unit is the replicate, which fails if any of its runs "
-        "does: the cells of a replicate share their world and are not "
-        "independent. The JSON report has every cell by itself.");
+        "fails: the cells of a replicate share their world and are not independent. The JSON report has every cell.");
   } else {
     add("A row is one cell (test condition). Its unit is the run.");
   }

@@ -74,7 +74,7 @@ Section coverage_section(const ReportInput& input, std::size_t most_rows) {
   Section section{"What the runs met",
                   {{{"agent", false},
                     {"what", false},
-                    {"told by", false},
+                    {"reported by", false},
                     {"runs with it", true},
                     {"share", true},
                     {"times", true}},
@@ -84,10 +84,10 @@ Section coverage_section(const ReportInput& input, std::size_t most_rows) {
   cut(section, most_rows);
   const auto& required = input.campaign.required_probes;
   section.remarks.push_back(
-      {required.empty() ? std::string("This campaign asks for nothing to be met ([coverage] probes).")
-                        : fmt::format("To be met, in at least one of {} runs: {}{}.", kRunsPerProbe,
-                                      printable(joined(required), 400),
-                                      required.back().ends_with('?') ? " (\"?\": if the agent declares anything)" : ""),
+      {required.empty()
+           ? std::string("This campaign requires nothing to be met ([coverage] probes).")
+           : fmt::format("Required in at least one of {} runs: {}{}.", kRunsPerProbe, printable(joined(required), 400),
+                         required.back().ends_with('?') ? " (\"?\": only if the agent declares probes)" : ""),
        ""});
   return section;
 }

@@ -56,39 +56,35 @@ Section method_section(const ReportInput& input) {
   Section section{"How to read this", {}, {}};
   const auto add = [&](const char* text) { section.remarks.push_back({text, ""}); };
   if (input.evidence.counts_only()) {
-    add("A search looks for failures where it expects them. Its counts are no sample of normal operation: there are no "
-        "rates and no bounds.");
+    add("A search looks for failures where it expects them. Its counts are not a sample of normal operation, so there "
+        "are no rates and no bounds.");
   } else {
-    add("A replicate is one draw of all randomness, run in every cell (test condition). Where several cells are judged "
-        "together, the replicate is the unit and fails if any of "
-        "its runs does. Intervals and bounds are exact (Clopper-Pearson), for a number of replicates fixed "
-        "beforehand.");
-    add("Runs that crashed, hung or stayed indeterminate count as failures in every rate and bound; stuck runs stay in "
-        "the count of runs. An upper bound is rounded up, a lower "
-        "one down.");
-    add("\"Demonstrated\" says: if the true rate were above the limit, a result this good would be rarer than one "
-        "minus the confidence. It speaks of the sampled scenarios in "
-        "the simulator, not of other conditions, and not of real vehicles beyond what the simulator has been validated "
-        "for.");
+    add("A replicate is one draw of all randomness, run in every cell (test condition). If several cells are judged "
+        "together, the replicate is the unit and fails if any of its runs fails. Intervals and bounds are exact "
+        "(Clopper-Pearson), for a number of replicates that was fixed beforehand.");
+    add("Runs that crashed, hung or stayed indeterminate count as failures in every rate and bound. Stuck runs stay in "
+        "the count of runs. An upper bound is rounded up, a lower bound is rounded down.");
+    add("\"Demonstrated\" means: if the true rate were above the limit, a result this good would be rarer than one "
+        "minus the confidence. It is a statement about the sampled scenarios in the simulator. It says nothing about "
+        "other conditions, or about real vehicles beyond what the simulator has been validated for.");
   }
   const auto& sampling = input.campaign.sampling;
   if (sampling == "uniform") {
-    add("Where a factor was drawn, every replicate has a point of its own, drawn uniformly and independently: the "
-        "bounds hold for the rate of such draws, the mean over the "
-        "region. They say nothing of its worst point by itself.");
+    add("If a factor was drawn, every replicate has its own point, drawn uniformly and independently. The bounds hold "
+        "for the mean rate over the region. They say nothing about its worst point.");
   } else if (!sampling.empty()) {
-    add("Points drawn as a Latin hypercube or a Sobol sequence cover a region more evenly than independent ones. A "
-        "mean over them varies no more in the long run, but they are not "
-        "independent, so exact binomial bounds are not guaranteed to hold, and none is given.");
+    add("Points of a Latin hypercube or a Sobol sequence cover a region more evenly than independent points. In the "
+        "long run, a mean over them varies no more. They are not independent, so exact binomial bounds need not hold, "
+        "and none is given.");
   }
   add("A violation is a clearance below the minimal safety distance (0.10 m unless the scenario says otherwise). "
-      "Clearances are rounded down to 1 cm; \"> 0.5 m\" means that none "
-      "below that was met. The contract region is loss <= 40 % and delay <= 2 s; outside it standing still is legal, a "
-      "violation is still one.");
+      "Clearances are rounded down to 1 cm; \"> 0.5 m\" means that the clearance was never below 0.5 m. The contract "
+      "region is loss <= 40 % and delay <= 2 s. Outside it, standing still is legal, and a violation remains a "
+      "violation.");
   return section;
 }
 
-// Whether the campaign is all there belongs where nobody can miss it.
+// The title says whether the campaign is complete, so that no reader can miss it.
 std::string replicates_text(const Evidence& evidence) {
   const auto complete = evidence.complete_replicates();
   if (!evidence.complete())

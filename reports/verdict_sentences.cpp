@@ -91,8 +91,9 @@ std::vector<Headline> warnings(const ReportInput& input) {
   if (const auto errors = input.evidence.engine_errors(); errors > 0) {
     list.push_back(
         {"engine error",
-         fmt::format("{} ended in an error of the simulator itself: nothing here is evidence until that is mended.",
-                     count_text(errors, "run")),
+         fmt::format(
+             "{} ended in an error of the simulator itself: nothing here is evidence until that error is corrected.",
+             count_text(errors, "run")),
          {}});
   }
   for (const auto& [agent, runs, worst] : input.evidence.contract_failures()) {

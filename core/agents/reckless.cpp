@@ -70,7 +70,7 @@ class Reckless {
 }  // namespace
 
 constinit const fp_agent_type kReckless =
-    agent_type<Reckless>("reckless", "drives its transports by the quickest ways and asks nobody",
+    agent_type<Reckless>("reckless", "carries out its transports by the quickest ways and asks no other AGV",
                          [](const fp_host* host, fp_controller* controller, const fp_briefing* briefing) -> void* {
                            return new Reckless(*host, controller, *briefing);
                          });

@@ -23,24 +23,23 @@ constexpr Entry<MakeLayout> kFamilies[] = {
      "segments",
      make_aisle_grid},
     {"corridor-sidings",
-     "one two-way lane of 30-60 m with sidings to let others pass, storage spurs at both ends and along it; 17-39 "
-     "segments",
+     "one two-way lane of 30-60 m with sidings to let other AGVs pass, and storage spurs; 17-39 segments",
      make_corridor_sidings},
     {"loop-spurs",
-     "a one-way loop of 60-200 m with Bezier bends and 8-30 spurs of 3.5-6 m: a queue has nowhere to overtake; 20-87 "
+     "a one-way loop of 60-200 m with Bezier bends and 8-30 spurs of 3.5-6 m: no AGV can overtake another; 20-87 "
      "segments",
      make_loop_spurs},
     {"random-planar",
-     "16-34 stations strewn at random, lanes at every angle and 4-9 m long, 40-100 % two-way; places to wait lie in "
+     "16-34 stations at random places, lanes at all angles and 4-9 m long, 40-100 % two-way; places to wait lie in "
      "the middle of the traffic",
      make_random_planar},
     {"fishbone",
-     "two diagonal cross aisles of 30-60 degrees with picking aisles above and below; goods lie in the aisle, so "
-     "whoever picks closes it",
+     "two diagonal cross aisles of 30-60 degrees with picking aisles above and below; an AGV that picks blocks its "
+     "aisle",
      make_fishbone},
     {"dense-crossing",
-     "3-6 x 3-6 one-way lines 2.4-4 m apart: segments shorter than usual, every crossing contested; 10-24 spurs at the "
-     "rim",
+     "3-6 x 3-6 one-way lines 2.4-4 m apart: segments shorter than usual, traffic at every crossing; 10-24 spurs at "
+     "the edge",
      make_dense_crossing},
 };
 

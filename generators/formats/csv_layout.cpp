@@ -70,7 +70,7 @@ class TableReader {
     columns_.clear();
     for (std::size_t i = 0; i < fields.size(); ++i) {
       if (std::ranges::find(known, fields[i]) == known.end()) {
-        refuse(fmt::format("{} is no column of {}{}", in_quotes(fields[i]), of_edges_ ? "edges" : "nodes",
+        refuse(fmt::format("{} is not a column of {}{}", in_quotes(fields[i]), of_edges_ ? "edges" : "nodes",
                            name_hint(fields[i], known)));
       }
       if (!columns_.emplace(fields[i], i).second)

@@ -82,7 +82,7 @@ class MapReader {
       const auto value = line.substr(std::min(line.size(), word.size() + 1));
       if (word == "type") continue;
       if (word != "height" && word != "width")
-        refuse(fmt::format("{} is no line of a map's header; expected type, height, width or map", in_quotes(line)));
+        refuse(fmt::format("{} is not a line of a map's header; expected type, height, width or map", in_quotes(line)));
       std::size_t side = 0;
       const auto read = std::from_chars(value.data(), value.data() + value.size(), side);
       if (read.ec != std::errc() || read.ptr != value.data() + value.size() || side == 0 || side > kLongestSide) {

@@ -60,11 +60,11 @@ class LevelReader {
   YAML::Node choose_level() {
     const auto levels = root_["levels"];
     if (!levels.IsMap() || levels.size() == 0)
-      yaml_.refuse(levels, "levels is no map of levels; expected levels: {L1: ...}");
+      yaml_.refuse(levels, "levels is not a map of levels; expected levels: {L1: ...}");
     std::vector<std::string> names;
     for (const auto entry : levels) {
       if (!entry.first.IsScalar() || !entry.second.IsMap())
-        yaml_.refuse(levels, "a level is no map of vertices and lanes; expected L1: {vertices: ..., lanes: ...}");
+        yaml_.refuse(levels, "a level is not a map of vertices and lanes; expected L1: {vertices: ..., lanes: ...}");
       names.push_back(entry.first.Scalar());
     }
     const auto& wanted = choice_.level.empty() ? names[0] : choice_.level;

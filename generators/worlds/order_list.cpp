@@ -46,7 +46,7 @@ class OrderReader {
   void take_heading(const std::vector<std::string>& fields) {
     for (std::size_t i = 0; i < fields.size(); ++i) {
       if (std::ranges::find(kColumns, fields[i]) == std::end(kColumns)) {
-        refuse(fmt::format("{} is no column of orders{}", in_quotes(fields[i]), name_hint(fields[i], kColumns)));
+        refuse(fmt::format("{} is not a column of orders{}", in_quotes(fields[i]), name_hint(fields[i], kColumns)));
       }
       if (!columns_.emplace(fields[i], i).second)
         refuse(fmt::format("column {} is there twice; keep one", in_quotes(fields[i])));
@@ -126,7 +126,7 @@ class Ends {
                                           column, in_quotes(name)));
     }
     if (!reachability_.in_core(found->second)) {
-      throw InputError(place, fmt::format("{} is {}, from or to which no way leads; choose another station", column,
+      throw InputError(place, fmt::format("{} is {}, but there is no way from or to it; choose another station", column,
                                           in_quotes(name)));
     }
     return found->second;

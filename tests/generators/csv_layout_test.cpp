@@ -97,7 +97,7 @@ TEST(CsvLayoutErrors, NamePlaceValueAndRemedy) {
       break_at("storage parking", "storing"),
       "l.csv:3: purposes are \"storing\"; expected routing, storage, charging or parking, with blanks between them");
   EXPECT_EQ(break_at("id,x,y,purposes", "id,x,y,purpose"),
-            "l.csv:2: \"purpose\" is no column of nodes; did you mean \"purposes\"?");
+            "l.csv:2: \"purpose\" is not a column of nodes; did you mean \"purposes\"?");
   EXPECT_EQ(break_at("id,x,y,purposes", "x,y"),
             "l.csv:2: expected a line with the names of the columns first: id,x,y,purposes");
   EXPECT_EQ(break_at("6.5 0 7 3", "6.5 0 7"), "l.csv:9: control_points are 3 numbers; expected x y x y ...");

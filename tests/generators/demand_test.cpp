@@ -145,7 +145,7 @@ TEST(ListedOrders, ErrorsNameFileLineAndField) {
   EXPECT_EQ(refusal(head + "1,S0,S1,0\n"), "accepted");
   EXPECT_EQ(refusal("release_s,from,to\n1,S0,S1\n"), "accepted");
   EXPECT_THAT(refusal(""), HasSubstr("orders.csv: has no orders"));
-  EXPECT_THAT(refusal("release,from,to\n"), HasSubstr("orders.csv:1: \"release\" is no column of orders"));
+  EXPECT_THAT(refusal("release,from,to\n"), HasSubstr("orders.csv:1: \"release\" is not a column of orders"));
   EXPECT_THAT(refusal("release_s,form,to\n"), HasSubstr("did you mean \"from\"?"));
   EXPECT_THAT(refusal("release_s,from\n"), HasSubstr("orders.csv:1: column to is missing"));
   EXPECT_THAT(refusal("from,from,to\n"), HasSubstr("column \"from\" is there twice"));

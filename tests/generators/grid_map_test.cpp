@@ -43,7 +43,7 @@ TEST(GridMap, BearsLineEndsOfOtherSystems) {
 TEST(GridMapErrors, NamePlaceValueAndRemedy) {
   EXPECT_EQ(refusal("type octile\nheight x\n"), "m.map:2: height is \"x\"; expected a whole number from 1 to 10000");
   EXPECT_EQ(refusal("type octile\nhight 3\n"),
-            "m.map:2: \"hight 3\" is no line of a map's header; expected type, height, width or map");
+            "m.map:2: \"hight 3\" is not a line of a map's header; expected type, height, width or map");
   EXPECT_EQ(refusal("type octile\nheight 3\nmap\n"),
             "m.map:3: the header lacks height or width; add both before \"map\"");
   EXPECT_EQ(refusal("height 1\nwidth 3\nmap\n.x.\n"),
