@@ -10,7 +10,7 @@
 
 namespace fleetproof {
 
-// One line of a catalogue: what a user types, what it does, and how to make one.
+// One line of a catalogue: the name that a user types, what the thing does, and how to make one.
 template <class Factory>
 struct Entry {
   std::string_view name;
@@ -26,10 +26,10 @@ const Entry<Factory>* find_entry(std::span<const Entry<Factory>> entries, std::s
   return found == entries.end() ? nullptr : &*found;
 }
 
-// The candidate nearest to `word` by edit distance, if it is near enough to be a slip of the hand.
+// The candidate nearest to `word` by edit distance, if it is near enough to be a typing error.
 std::optional<std::string> nearest_name(std::string_view word, std::span<const std::string_view> candidates);
 
-// "; did you mean "x"?" or "; known: a, b, c": the tail of an error about an unknown name.
+// "; did you mean "x"?" or "; known: a, b, c": the end of an error about an unknown name.
 std::string name_hint(std::string_view word, std::span<const std::string_view> candidates);
 
 template <class Factory>

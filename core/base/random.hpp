@@ -7,8 +7,9 @@
 
 namespace fleetproof {
 
-// Every source of chance in a run. Each has its own key, so that a draw more in one leaves all others as they were.
-// `Factors` draws a campaign's continuous factors, under the campaign's seed; a run has no such stream.
+// The streams of randomness of a run. Each stream has its own key, so a further draw in one stream changes no other
+// stream. `Factors` draws the continuous factors of a campaign, from the seed of the campaign; a run has no such
+// stream.
 enum class Stream : std::uint32_t {
   Layout = 1,
   Placement,
@@ -27,10 +28,10 @@ enum class Stream : std::uint32_t {
 // The streams of a run by their names: "layout", "placement", "transports", "motion", "radio", "faults", "agent".
 inline constexpr std::array kRunStreams = {Stream::Layout, Stream::Placement, Stream::Transports, Stream::Motion,
                                            Stream::Radio,  Stream::Faults,    Stream::Agent};
-const char* name_of(Stream stream);  // those that are drawn beside the radio's are part of "radio"
+const char* name_of(Stream stream);  // "radio" is the name of all streams of the radio
 std::optional<Stream> stream_of_name(std::string_view name);
 
-// A stream that has another seed than its world.
+// A stream with a seed that differs from the seed of its world.
 struct StreamSeed {
   Stream stream = Stream::Layout;  // one of kRunStreams
   std::uint64_t seed = 0;
@@ -42,12 +43,12 @@ using Block = std::array<std::uint32_t, 4>;
 Block philox(std::uint64_t key, const Block& counter);
 
 // The seed of a world: the same for every agent and every radio quality of a replicate (common random numbers).
-// `world_factors` hashes what shapes the world (layout, fleet), never agent nor radio.
+// `world_factors` is a hash of what shapes the world (layout, fleet), never of agent or radio.
 std::uint64_t world_seed(std::uint64_t campaign_seed, std::uint64_t replicate, std::uint64_t world_factors);
 
 std::uint64_t stream_key(std::uint64_t world_seed, Stream stream);
 
-// 64-bit hash of a name, stable for ever; used for keys, never for lookups.
+// A 64-bit hash of a name that never changes. It is used for keys, not for lookups.
 std::uint64_t name_hash(std::string_view name);
 
 // [0, 1) with 53 bits.
@@ -56,7 +57,7 @@ constexpr std::uint64_t word64(const Block& block, std::size_t half) {
   return (static_cast<std::uint64_t>(block[2 * half + 1]) << 32) | block[2 * half];
 }
 
-// A sequence of draws under (key, topic, item): for generators, where the order of draws is part of the definition.
+// A sequence of draws from (key, topic, item), for generators. The order of the draws is part of their definition.
 class Draws {
  public:
   explicit Draws(std::uint64_t key, std::uint32_t topic = 0, std::uint32_t item = 0)
@@ -74,12 +75,12 @@ class Draws {
   std::uint64_t drawn_ = 0;
 };
 
-// Natural logarithm of a positive normal number from + - * / alone, so that every CPU gives the same bits. Relative
-// error below 1e-15.
+// The natural logarithm of a positive normal number. It uses + - * / only, so that every CPU gives the same bits. The
+// relative error is below 1e-15.
 double natural_log(double x);
 
-// e to the x, likewise. Relative error below 4e-16 for |x| <= 700; beyond, the value at that limit, so that it is
-// finite and positive.
+// e to the power of x, in the same way. The relative error is below 4e-16 for |x| <= 700. Beyond, the value at this
+// limit is returned, so that the result is finite and positive.
 double natural_exp(double x);
 
 }  // namespace fleetproof

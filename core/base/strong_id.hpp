@@ -7,7 +7,7 @@
 
 namespace fleetproof {
 
-// An index into one kind of thing. Ids of different kinds do not mix.
+// An index into one kind of thing. The compiler refuses to mix ids of different kinds.
 template <class Tag>
 struct StrongId {
   std::uint32_t value = std::numeric_limits<std::uint32_t>::max();
@@ -21,8 +21,8 @@ struct StrongId {
   friend constexpr auto operator<=>(StrongId, StrongId) = default;
 };
 
-// Entities that occupy floor: AGVs first (0 .. fleet-1), then obstacles. One numbering, so that a law names any body by
-// one id.
+// Entities that occupy floor: first the AGVs (0 .. fleet-1), then the obstacles. All bodies have one numbering, so that
+// a law can name each of them by one id.
 using EntityId = StrongId<struct EntityTag>;
 using AgvId = EntityId;
 using StationId = StrongId<struct StationTag>;

@@ -4,25 +4,25 @@
 
 namespace fleetproof {
 
-// The smallest clearance of a pair: a descent by rates and values gives an upper bound, advancement proves it or finds
-// where it is undercut.
+// The smallest clearance of a pair. A descent along rates and values gives an upper bound. Advancement then proves the
+// bound, or finds a smaller clearance.
 class ClosestSearch {
  public:
   ClosestSearch(const Piece& a, const Piece& b, double tolerance_m, EvaluationCount& count)
       : a_(a), b_(b), tolerance_m_(tolerance_m), count_(count) {}
 
-  // `low`: where the search begins, an instant below whatever the clearance was before it since `begin`. The first
-  // touch, if there is one.
+  // `low`: where the search begins. Since `begin`, no earlier instant has a smaller clearance. If the bodies touch,
+  // `low` is the first touch.
   Hit run(SimTime begin, const Hit& low, SimTime end);
 
  private:
-  // A measured instant and how the clearance changes there, in the sense walked.
+  // A measured instant, and the rate of the clearance there, in the direction of the walk.
   struct Sample {
     Hit hit;
     double rate_mps = 0.0;
     double clearance_m() const { return hit.apart.clearance_m; }
   };
-  // Where the gap along a fixed axis is least, and whether it vanishes on the way.
+  // Where the gap along a fixed axis is smallest, and whether the gap vanishes on the way.
   struct Outlook {
     SimTime at;
     bool touch = false;

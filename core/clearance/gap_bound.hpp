@@ -7,10 +7,11 @@
 
 namespace fleetproof {
 
-// The direction along which a gap is watched, from the first body towards the second. Any unit vector at any instant
-// bounds the clearance from below; the bound is good as long as the vector stays near that of the closest points. It is
-// tied to the body whose side that vector stands on, if that one rotates (else the far end of the side would swing into
-// the gap), and between two corners to what turns most as they do about each other.
+// The direction along which a gap is watched, from the first body towards the second. At every instant, any unit vector
+// gives a lower bound of the clearance. The bound is good while the vector stays near the direction of the closest
+// points. If the closest points are a side and a corner, and the body with the side rotates, the axis is fixed to that
+// body; otherwise the far end of the side would swing into the gap. Between two corners, the axis is fixed to what
+// turns most as the corners move around each other.
 class Axis {
  public:
   Axis() = default;
@@ -24,25 +25,25 @@ class Axis {
   static Tie tie_between_corners(const Separation& apart, const PhaseMotion& first, const PhaseMotion& second);
 
   Tie tie_ = Tie::Floor;
-  Vec2 local_ = Vec2::UnitX();  // in the frame it is tied to
+  Vec2 local_ = Vec2::UnitX();  // in the frame to which the axis is fixed
 };
 
-// The gap between two bodies along an axis, from below, until one of them changes its law of motion.
+// A lower bound of the gap between two bodies along an axis, until one of the bodies changes its law of motion.
 class GapBound {
  public:
   GapBound(const PhaseMotion& first, const PhaseMotion& second, const Axis& axis);
 
-  // The gap, not a bound of it.
+  // The gap itself, not a bound.
   bool exact() const { return exact_; }
   double now_m() const;
-  // The gap of the corners that are nearest now, as far as its second derivative. With an axis just measured, value and
-  // rate are those of the clearance: it is the largest gap over all axes, and so stationary in the axis.
+  // The gap between the corners that are nearest now, up to its second derivative. If the axis has just been measured,
+  // value and rate are those of the clearance: the clearance is the largest gap over all axes, and therefore stationary
+  // in the axis.
   struct Trend {
     double value_m, rate_mps, bend_mps2;
   };
   Trend trend() const;
-  // The gap stays at or above the level for at least this many seconds, or up to `horizon_s`. A time within rounding of
-  // the true one.
+  // The gap stays at or above the level for at least this many seconds, or up to `horizon_s`. Exact up to rounding.
   double safe_s(double level_m, double horizon_s) const;
 
  private:

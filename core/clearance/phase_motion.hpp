@@ -6,21 +6,21 @@
 
 namespace fleetproof {
 
-// Which way time is walked.
+// The direction of a walk through time.
 enum class TimeSense : int { Forward = 1, Backward = -1 };
 
-// A point of a body now, and bounds that hold until its phase ends.
+// A point of a body now, and bounds that hold until the phase of the body ends.
 struct PointMotion {
   Vec2 position_m, velocity_mps, acceleration_mps2;
   double top_mps = 0.0, top_mps2 = 0.0, top_mps3 = 0.0;  // largest magnitudes of velocity, acceleration, jerk
 };
 
-// How a body moves from an instant on, until its law of motion next changes: where its profile begins another phase or
-// its curve another arc. Every point of it has the velocity speed * lever, where the lever is fixed to the body and
-// turns by `curvature` times the way made.
+// The motion of a body from an instant until its law of motion changes, at the next phase of its profile or the next
+// arc of its curve. Every point of the body has the velocity speed * lever. The lever is fixed to the body and turns by
+// `curvature` times the distance driven.
 struct PhaseMotion {
   OrientedRectangle body;
-  double speed = 0.0;         // now, in the sense walked: m/s; in a turn rad/s, left positive
+  double speed = 0.0;         // now, in the direction of the walk: m/s; in a turn rad/s, left positive
   double acceleration = 0.0;  // constant
   double top_speed = 0.0;     // largest magnitudes before the change, per length of the lever
   double top_acceleration = 0.0, top_jerk = 0.0;
@@ -32,7 +32,7 @@ struct PhaseMotion {
   bool rotates() const { return curvature != 0.0; }
   double turning_rad_s() const { return curvature * speed; }
   double turning_rad_s2() const { return curvature * acceleration; }
-  // What it rotates about.
+  // The centre of the rotation.
   Vec2 pivot_m() const {
     return turns_on_spot ? body.centre_m : Vec2(body.centre_m + left_of(body.heading) / curvature);
   }

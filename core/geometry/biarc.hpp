@@ -7,10 +7,10 @@
 
 namespace fleetproof {
 
-// A cubic Bezier as arcs that join without kinks and stay within `tolerance_m` of it. Both ends and the tangents there
-// are exact. A Bezier that is a straight line becomes one; one without length becomes one arc without length. Where the
-// Bezier itself has a kink (a cusp) or doubles back, the arcs turn as tightly as they must: always a finite chain, at
-// most 2^13 arcs.
+// A cubic Bezier curve as a chain of arcs. The arcs join without kinks and stay within `tolerance_m` of the curve. Both
+// ends and the tangents there are exact. A straight Bezier curve becomes one straight arc. A curve without length
+// becomes one arc without length. Where the curve has a cusp or turns back, the arcs are as tight as necessary. The
+// chain is always finite, with at most 2^13 arcs.
 std::vector<Arc> biarc_chain(const std::array<Vec2, 4>& control_points_m, double tolerance_m);
 
 }  // namespace fleetproof

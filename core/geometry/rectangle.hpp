@@ -4,7 +4,7 @@
 
 namespace fleetproof {
 
-// Size of a body seen from above; its reference point is the centre, its length lies along the heading.
+// The size of a body, seen from above. The reference point is the centre; the length is along the heading.
 struct Footprint {
   double length_m = 1.6;
   double width_m = 1.0;
@@ -13,7 +13,7 @@ struct Footprint {
   friend bool operator==(const Footprint&, const Footprint&) = default;
 };
 
-// A footprint somewhere on the floor.
+// A footprint at a place on the floor.
 struct OrientedRectangle {
   Vec2 centre_m = Vec2::Zero();
   Vec2 heading = Vec2::UnitX();  // unit vector along the length
@@ -25,11 +25,11 @@ struct OrientedRectangle {
 };
 
 OrientedRectangle placed(const Footprint& footprint, const Pose& pose);
-// Every side moved outwards by `margin_m`: a superset of all points within `margin_m` (its corners are square: up to
-// 0.414 margins too far).
+// The rectangle with every side moved outwards by `margin_m`. It contains all points within `margin_m`. Its corners are
+// square and reach up to 0.414 margins too far.
 OrientedRectangle widened(const OrientedRectangle& rectangle, double margin_m);
 
-// Where two rectangles stand to each other.
+// The relative position of two rectangles.
 struct Separation {
   double clearance_m =
       0.0;  // > 0: Euclidean distance; <= 0: minus the depth of the shallowest overlap over the side directions
@@ -37,11 +37,11 @@ struct Separation {
       Vec2::UnitX();  // unit, from the first towards the second, along the closest points (or the shallowest axis)
 };
 
-// Exact planar distance (error below 1e-12 m for bodies within 1 km); the sign is always right beyond that error.
+// The exact planar distance. The error is below 1e-12 m for bodies within 1 km. The sign is right beyond this error.
 Separation separation(const OrientedRectangle& first, const OrientedRectangle& second);
 double clearance_m(const OrientedRectangle& first, const OrientedRectangle& second);
 
-// Axis-aligned box: a filter for candidates, never a verdict.
+// An axis-aligned box. It only selects candidates; it never decides.
 struct Box {
   Vec2 low_m = Vec2::Constant(1e300);
   Vec2 high_m = Vec2::Constant(-1e300);

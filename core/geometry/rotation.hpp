@@ -2,8 +2,8 @@
 
 #include "core/geometry/pose.hpp"
 
-// Angles from + - * / and sqrt alone: libm's sin, cos and atan2 differ in the last bit between CPUs. Absolute error
-// below 1e-15.
+// Angles, computed with + - * / and sqrt only: the functions sin, cos and atan2 of libm differ in the last bit between
+// CPUs. The absolute error is below 1e-15.
 namespace fleetproof {
 
 inline constexpr double kPi = 3.14159265358979323846;
@@ -11,7 +11,7 @@ inline constexpr double kPi = 3.14159265358979323846;
 // (cos, sin) of an angle, |angle| <= 1e4 rad.
 Vec2 unit_vector(double angle_rad);
 
-// The angle in (-pi, pi] that turns unit vector `from` into unit vector `to`; headings opposite to 1e-15 give +pi.
+// The angle in (-pi, pi] that turns the unit vector `from` into `to`. Headings that are opposite within 1e-15 give +pi.
 double angle_between(const Vec2& from, const Vec2& to);
 
 // `v` rotated by the angle whose (cos, sin) is `rotation`.

@@ -9,13 +9,13 @@
 
 namespace fleetproof {
 
-// Dynamism as a first-class thing (Sect. 3.3): who or what evolves, over which interval, and how. The numbers are part
-// of the trace digest.
+// An activity is a piece of dynamism (Sect. 3.3): which entities evolve, in which interval, and how. The numbers are
+// part of the trace digest.
 enum class ActivityKind : std::uint8_t { Drive = 1, Turn, Transmit, Pick, Drop, Park, Charge, Settle };
 const char* name_of(ActivityKind kind);
 
-// Where a load is: the containment relation (Sect. 3.2). On the floor it is a body itself; cleared away, it is out of
-// the warehouse for good.
+// Where a load is: the containment relation (Sect. 3.2). A load on the floor is a body. A load that is cleared away has
+// left the warehouse for good.
 struct Holder {
   enum class Kind : std::uint8_t { Station, Agv, Floor, ClearedAway } kind = Kind::Station;
   std::uint32_t index = 0;  // of the station, the AGV, or the body
@@ -43,7 +43,7 @@ struct Standing {};  // park, settle
 struct Activity {
   ActivityKind kind = ActivityKind::Park;
   AgvId agv;
-  SimTime begin, end;  // planned end; an activity that is cut short ends where it was, with the true state left behind
+  SimTime begin, end;  // the planned end; an activity that is cut short ends earlier, in the true state
   std::variant<Standing, SpatialEvolution, ContainmentEvolution, BatteryEvolution, Reception> evolution;
 };
 

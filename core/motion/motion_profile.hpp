@@ -7,7 +7,8 @@
 
 namespace fleetproof {
 
-// How fast a vehicle type may be. Defaults are the paper's (Sect. 3.3): 2 m/s, 4 s to reach it, 2 s to stop.
+// The limits of a vehicle type's motion. The defaults are those of the paper (Sect. 3.3): 2 m/s, 4 s to reach it, 2 s
+// to stop.
 struct MotionLimits {
   double speed_mps = 2.0;
   double acceleration_mps2 = 0.5;
@@ -16,17 +17,18 @@ struct MotionLimits {
   friend bool operator==(const MotionLimits&, const MotionLimits&) = default;
 };
 
-// Speeds at the two ends of a way; from rest to rest unless an AGV rolls on.
+// The speeds at the two ends of a way; zero unless the AGV rolls on.
 struct EndSpeeds {
   double entry_mps = 0.0, exit_mps = 0.0;
 };
 
-// Distance as a function of time: a trapezoid of speed, or a triangle where the way is too short for the speed limit.
-// Piecewise quadratic, never stepped. Works for metres and, in a turn, for radians.
+// Distance as a function of time. The speed is a trapezoid, or a triangle if the way is too short for the speed limit.
+// The distance is piecewise quadratic and exact, without steps. Drives use metres, turns use radians.
 class MotionProfile {
  public:
   MotionProfile() = default;
-  // The end speeds must be reachable: within the speed limit, and from one to the other within the distance.
+  // Requires: the end speeds are within the speed limit, and the distance is long enough to change from one to the
+  // other.
   MotionProfile(double distance, const MotionLimits& limits, const EndSpeeds& ends = {});
 
   double distance() const { return distance_; }
@@ -36,13 +38,13 @@ class MotionProfile {
   double speed(double t_s) const;  // before and after the way: its end speeds
   // Constant within a phase: up, level, down.
   double acceleration(double t_s) const;
-  // First instant at which `position` reaches `distance`.
+  // The first instant at which `position` reaches `distance`.
   double time_at(double distance) const;
-  // Ends of the three phases from the start, in seconds and to the nanosecond; a missing phase ends where the one
-  // before it does.
+  // The ends of the three phases from the start, in seconds, exact to the nanosecond. A missing phase ends together
+  // with the phase before it.
   const std::array<double, 3>& phase_ends_s() const { return phase_ends_s_; }
   const std::array<Duration, 3>& phase_ends() const { return phase_ends_; }
-  // What one phase (0, 1, 2) says, also of instants beyond its ends.
+  // The law of one phase (0, 1, 2), also for instants beyond its ends.
   double speed_in_phase(std::size_t phase, double t_s) const;
   double acceleration_in_phase(std::size_t phase) const { return phase == 0 ? up_ : phase == 1 ? 0.0 : -down_; }
 

@@ -7,24 +7,24 @@
 
 namespace fleetproof {
 
-// A stretch of a curve driven under one speed limit, with the speeds at its two ends.
+// A part of a curve with one speed limit, and the speeds at its two ends.
 struct Leg {
   double begin_m = 0.0, end_m = 0.0;  // along the curve
   double limit_mps = 0.0;
   EndSpeeds speeds;
 };
 
-// The legs of a drive along `curve` from `from_m` to its end, into `legs`. In a curve of radius R no faster than
-// sqrt(lateral * R); neighbouring curved arcs share the limit of the tightest. `lateral_mps2` 0: no such limit. Who
-// enters a bend too fast brakes in it as hard as it can.
+// Writes the legs of a drive along `curve` from `from_m` to its end into `legs`. In a bend of radius R, the limit is
+// sqrt(lateral * R); neighbouring arcs of a bend share the limit of the tightest arc. `lateral_mps2` 0: no such limit.
+// An AGV that enters a bend too fast brakes in the bend as hard as it can.
 void plan_legs(const Curve& curve, const MotionLimits& limits, double lateral_mps2, double from_m,
                const EndSpeeds& ends, std::vector<Leg>& legs);
 
-// The one leg of a stop as soon as possible. It ends at the end of the curve, still moving, if the way is too short.
+// The leg of a stop that is as early as possible. If the way is too short, the leg ends at the end of the curve,
+// moving.
 void plan_stop(const Curve& curve, const MotionLimits& limits, double from_m, double entry_mps, std::vector<Leg>& legs);
 
-// The highest speed at which the start of `curve` can be passed so that its bends are taken as above and its end is
-// reached standing.
+// The highest speed at which an AGV can pass the start of `curve`, take its bends as above, and stand at its end.
 double highest_entry_mps(const Curve& curve, const MotionLimits& limits, double lateral_mps2);
 
 }  // namespace fleetproof
