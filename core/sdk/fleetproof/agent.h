@@ -1,21 +1,22 @@
 /* fleetproof/agent.h: the contract between a simulated warehouse and the control software of an AGV.
  *
- * Plain C, so that any language can implement it. An agent is a table of functions (fp_agent_type). The engine makes
- * one agent per AGV, tells it about the world once (fp_briefing) and then calls it whenever something happens to its
- * AGV (fp_event). The agent answers through the AGV controller (fp_host), which offers the actions and perceptions of a
- * real AGV controller and nothing more.
+ * The contract is plain C, so that any language can implement it. An agent is a table of functions (fp_agent_type). The
+ * engine creates one agent for each AGV and gives it a briefing about the world (fp_briefing). Then it calls the agent
+ * for every event of the AGV (fp_event). The agent acts through the AGV controller (fp_host). The controller offers the
+ * actions and perceptions of a real AGV controller, and services that stand for the agent's computer.
  *
  * Time. An activation starts at an instant t and sees the AGV, the inbox and the clock as of t. Its k-th controller
- * call takes effect at t plus the costs so far (the scenario's cost per call, plus what the agent declares). What
- * arrives while the agent is busy wakes it when it is free.
+ * call takes effect at t plus the costs so far (the scenario's cost for each call, plus what the agent declares). If an
+ * event arrives while the agent is busy, the agent receives it when it is free.
  *
- * Rules for the agent. Keep no state outside the instance that create() returned; many instances live in one process,
- * on several threads, but one instance is never called from two threads at once. Use no clock, no random source and no
- * thread of your own: now_ns and random give both, and a run can only be replayed if nothing else decides. Let no
- * exception leave a C function table of another language than C++.
+ * Rules for the agent. Keep all state in the instance that create() returned. Many instances live in one process, on
+ * several threads, but no instance is called from two threads at once. Use no clock, random source or thread of your
+ * own: a run can only be replayed if time and randomness come from now_ns and random. An agent in C++ may throw; an
+ * agent in another language must not let an exception leave its functions.
  *
- * Versions. Every struct that may grow begins with its size in bytes as the side that filled it knows it. Arrays of
- * structs have a stride. A host refuses an agent of another FP_ABI_MAJOR; a higher minor only adds members at the end.
+ * Versions. Every struct that may grow begins with its size in bytes, as the side that fills it knows it. Arrays of
+ * structs have a stride. A host refuses an agent with another FP_ABI_MAJOR. A higher minor version only adds members at
+ * the end of structs.
  *
  * Units: metres, metres per second, nanoseconds (64-bit, since the start of the run), radians. Headings are unit
  * vectors in the world frame.
@@ -36,20 +37,19 @@ extern "C" {
 #define FP_HERE FP_NONE     /* as the segment of pick, drop, park and charge: where the AGV stands, without driving */
 #define FP_MESSAGE_BYTES_MAX 1024u
 
-/* What a controller call answers. */
+/* What a controller call returns. */
 typedef enum fp_result {
   FP_OK = 0,
   FP_EMPTY = 1,     /* get_message: no more messages */
   FP_REFUSED = -1,  /* the AGV is busy, out of order, or not at an end of that segment (or the segment is one-way) */
-  FP_INVALID = -2,  /* an argument that makes no sense: no such segment, receiver or purpose; a message too long */
+  FP_INVALID = -2,  /* a wrong argument: no such segment, receiver or purpose, or a message that is too long */
   FP_SUSPENDED = -3 /* the engine has given this agent up (10 000 calls in one activation): return at once */
 } fp_result;
 
 typedef enum fp_purpose { FP_ROUTING = 1, FP_STORAGE = 2, FP_CHARGING = 4, FP_PARKING = 8 } fp_purpose;
 
-/* What the AGV is doing, as the controller knows it. FP_STOPPED: it stands in the middle of an action because something
- * stopped it, and will go on by itself. FP_OUT_OF_ORDER: broken down or empty; it may be repaired, and then goes on
- * too. */
+/* What the AGV is doing. FP_STOPPED: something stopped the AGV in the middle of an action; the AGV will go on without a
+ * further call. FP_OUT_OF_ORDER: the AGV is broken down or empty. It may be repaired and then goes on, too. */
 typedef enum fp_action {
   FP_IDLE = 0,
   FP_DRIVING,
@@ -103,18 +103,18 @@ typedef struct fp_map {
 
 /* ---- the briefing ---------------------------------------------------------------------------------------- */
 
-/* An AGV of the fleet, oneself included. The reference point is the centre of the footprint, whose length lies along
- * the heading. */
+/* An AGV of the fleet; the fleet contains the agent's own AGV. The reference point is the centre of the footprint. The
+ * length of the footprint is along the heading. */
 typedef struct fp_agv {
   double length_m, width_m;
   double speed_mps, acceleration_mps2, deceleration_mps2;
   double turn_speed_radps, turn_acceleration_radps2, turn_deceleration_radps2;
-  /* Since minor 1: its size with a load, and by what share of the above a drive may be faster or slower. */
+  /* Since minor 1: the size with a load, and the share by which a drive may be faster or slower. */
   double loaded_length_m, loaded_width_m;
   double speed_deviation;
 } fp_agv;
 
-/* A controller call at a fixed time; only the `scripted` agent is given any. */
+/* A controller call at a fixed time, for the `scripted` agent. */
 typedef struct fp_scripted_call {
   int64_t at_ns;
   uint32_t action; /* fp_call */
@@ -137,10 +137,10 @@ typedef struct fp_briefing {
   double safety_distance_m;
   double radio_range_m;
   const char* config; /* the agent's own parameters, as text; never null */
-  /* Since minor 1. How often this AGV's computer has restarted in this run: it keeps that number in stable storage, and
-   * nothing else. After a restart start_station is where the AGV stands, or the station it left last; start_segment is
-   * the segment that it is driving, else FP_NONE; next_segment the one that it is going to drive after that because it
-   * was told so before the restart, else FP_NONE. For what was under way, FP_EVENT_ACTION_DONE still comes. */
+  /* Since minor 1. `boot` says how often this AGV's computer has restarted in this run. The computer keeps only this
+   * number. After a restart, start_station is the station at which the AGV stands, or which it left last. start_segment
+   * is the segment that the AGV is driving, or FP_NONE. next_segment is the segment that the AGV will drive next,
+   * because of a call before the restart, or FP_NONE. For the actions under way, FP_EVENT_ACTION_DONE still follows. */
   uint32_t boot;
   uint32_t start_segment;
   uint32_t next_segment;
@@ -150,12 +150,11 @@ typedef struct fp_briefing {
 
 typedef enum fp_event_kind {
   FP_EVENT_START = 0, /* the run begins, or the agent begins again after a restart */
-  FP_EVENT_ORDER, /* a transport was released for this AGV: order_id, from, to; after a restart again, for each that is
-                     not done */
-  FP_EVENT_MESSAGE,    /* the inbox is not empty; read it until FP_EMPTY */
-  FP_EVENT_TIMER,      /* a timer went off: timer */
-  FP_EVENT_ACTION_DONE /* the last action ended: result FP_OK, or FP_REFUSED if the AGV was stopped and is out of order
-                        */
+  FP_EVENT_ORDER,     /* a transport was released for this AGV: order_id, from, to; after a restart, sent again for each
+                         transport that is not done */
+  FP_EVENT_MESSAGE,   /* the inbox is not empty; read it until FP_EMPTY */
+  FP_EVENT_TIMER,     /* a timer went off: timer */
+  FP_EVENT_ACTION_DONE /* an action ended: result FP_OK, or FP_REFUSED if the AGV was stopped for good */
 } fp_event_kind;
 
 typedef struct fp_event {
@@ -182,17 +181,17 @@ typedef struct fp_host {
   uint32_t struct_size;
   uint32_t abi_major, abi_minor;
 
-  /* Actions. The AGV must be idle at a station; it first turns towards the segment, then drives it from where it stands
-   * to the other end. pick and drop then transfer a load there; park and charge stay. One FP_EVENT_ACTION_DONE follows
-   * for every action that was accepted. While a move is under way one more action may be given, with a segment that
-   * leaves the station where that move ends. It begins when the move is over. Given before the AGV brakes, and if the
-   * segment goes straight on, the AGV rolls through the station without a stop. */
+  /* Actions. The AGV must be idle at a station. It turns towards the segment and drives it to the other end. Then pick
+   * and drop transfer a load there; park and charge stay. One FP_EVENT_ACTION_DONE follows for every accepted action.
+   * While a move is under way, one more action may be given. Its segment must leave the station where the move ends,
+   * and it begins when the move ends. If it is given before the AGV brakes, and if the segment goes straight on, the
+   * AGV rolls through the station without a stop. */
   int32_t (*move)(fp_controller*, uint32_t segment);
   int32_t (*pick)(fp_controller*, uint32_t segment);
   int32_t (*drop)(fp_controller*, uint32_t segment);
   int32_t (*park)(fp_controller*, uint32_t segment);
   int32_t (*charge)(fp_controller*,
-                    uint32_t segment); /* done once connected; charging goes on until full or until the next action */
+                    uint32_t segment); /* done when connected; charging goes on until full or until the next action */
   int32_t (*send_broadcast)(fp_controller*, const void* bytes, uint32_t size);
   int32_t (*send_unicast)(fp_controller*, const void* bytes, uint32_t size, uint32_t receiver);
 
@@ -213,11 +212,11 @@ typedef struct fp_host {
   int32_t (*declare_cost_ns)(fp_controller*,
                              int64_t cost_ns); /* thinking time: later calls of this activation act that much later */
   int32_t (*safe_mode)(fp_controller*, uint32_t on);    /* declared: the AGV stands still because of the radio */
-  int32_t (*waiting_for)(fp_controller*, uint32_t agv); /* declared: whom it waits for; FP_NONE: nobody */
-  /* "This was reached": recorded in the trace, and counted by name in the outcome. Reports list how many runs reached
-     what, and a campaign can name probes without which its evidence is weak; the reference agents say "negotiation",
-     "deferred", "grant-lost", "retransmission" and others. Of one run 64 names of at most 64 bytes are kept; what goes
-     beyond is counted without its name. */
+  int32_t (*waiting_for)(fp_controller*, uint32_t agv); /* declared: the AGV for which it waits; FP_NONE: none */
+  /* A probe: "this was reached". The trace records it, and the outcome counts it by name. Reports list how many runs
+     reached each probe. A campaign can name probes without which its evidence is weak. The reference agents use
+     "negotiation", "deferred", "grant-lost", "retransmission" and others. A run keeps 64 names of at most 64 bytes and
+     counts further probes without their names. */
   int32_t (*sometimes)(fp_controller*, const char* probe);
   int32_t (*log)(fp_controller*, const char* text);
 } fp_host;
@@ -232,13 +231,13 @@ typedef struct fp_agent_type {
   uint32_t flags;
   const char* name;
   const char* description;
-  /* host and briefing outlive the agent. Null means that it cannot start: filed as a crash. */
+  /* host and briefing outlive the agent. Null means that the agent cannot start: the run counts as a crash. */
   void* (*create)(const fp_host* host, fp_controller* controller, const fp_briefing* briefing);
   void (*on_event)(void* agent, const fp_event* event);
   void (*destroy)(void* agent);
 } fp_agent_type;
 
-/* A shared object exports this one symbol. Null refuses the host's version. */
+/* A shared object exports this one symbol. It returns null if it does not support the host's major version. */
 typedef const fp_agent_type* (*fp_agent_query_function)(uint32_t host_abi_major);
 #define FP_AGENT_QUERY_SYMBOL "fp_agent_query"
 
