@@ -154,7 +154,7 @@ typedef enum fp_event_kind {
                          transport that is not done */
   FP_EVENT_MESSAGE,   /* the inbox is not empty; read it until FP_EMPTY */
   FP_EVENT_TIMER,     /* a timer went off: timer */
-  FP_EVENT_ACTION_DONE /* an action ended: result FP_OK, or FP_REFUSED if the AGV was stopped for good */
+  FP_EVENT_ACTION_DONE /* an action ended: result FP_OK, or FP_REFUSED if a contact put the AGV out of order */
 } fp_event_kind;
 
 typedef struct fp_event {
