@@ -46,7 +46,7 @@ class CoverageLaw final : public Law {
   double margin_m_;
   Whereabouts bodies_;
   std::vector<Box> swept_;                 // by AGV, as planned; empty between a piece and the next
-  std::vector<std::deque<Track>> drives_;  // by AGV: those not over for long
+  std::vector<std::deque<Track>> drives_;  // by AGV: the drives that ended recently or are under way
   std::array<std::uint64_t, kEncounterKinds> encounters_{};
   std::map<std::pair<EntityId, EntityId>, Near> near_;
   std::uint64_t near_misses_ = 0;

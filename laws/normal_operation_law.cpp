@@ -81,7 +81,7 @@ void NormalOperationLaw::happened(const TraceRecord& record) {
       break;
     case TraceKind::LoadMoves:
       if (record.b >> 32 == static_cast<std::uint64_t>(Holder::Kind::ClearedAway))
-        open_ -= open_ > 0 ? 1 : 0;  // nobody can do it any more
+        open_ -= open_ > 0 ? 1 : 0;  // no AGV can carry it out any more
       break;
     case TraceKind::ActivityBegins:
     case TraceKind::ActivityEnds: {

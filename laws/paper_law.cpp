@@ -44,7 +44,7 @@ void PaperLaw::inspect_stationary(const Piece& drive, EntityId entity) {
   const OrientedRectangle perimeter = as_rectangle(activity_perimeter(drive));
   const Piece* standing = piece_at(entity, drive.begin);
   if (standing == nullptr || !is_there_throughout(entity, drive.begin, drive.end))
-    return;  // the paper knows nobody who comes or goes
+    return;  // the paper has no entities that come or go
   const OrientedRectangle body = standing->body_at(drive.begin);
   if (checked(overlap_by_fcl(perimeter, body))) accuse_throughout(drive, entity);
 }

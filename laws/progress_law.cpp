@@ -22,7 +22,7 @@ struct AgvState {
   std::optional<std::uint64_t> carried;  // transport of the load on it
   SimTime open_since = kStart, active_at = kStart, advanced_at = kStart;
   bool busy = false, off_floor = false;          // off: in the hands of the operator
-  EntityId declared;                             // whom it says it waits for
+  EntityId declared;                             // the AGV for which it says it waits
   std::uint64_t done = 0, others_done_then = 0;  // when it last advanced
 
   bool has_work() const { return !open.empty(); }
@@ -152,8 +152,8 @@ void ProgressLaw::happened(const TraceRecord& record) {
   }
 }
 
-// An AGV that the operator takes off the floor waits for nobody and is in nobody's way, and starts afresh where he sets
-// it down.
+// An AGV that the operator takes off the floor waits for no AGV and blocks no AGV. It starts anew where the operator
+// sets it down.
 void ProgressLaw::comes_or_goes(const TraceRecord& record) {
   if (record.entity.index() >= agvs_.size()) return;
   AgvState& agv = agvs_[record.entity.index()];
@@ -207,7 +207,7 @@ void ProgressLaw::advanced(AgvState& agv, SimTime at) {
   motions_then_ = motions_;
 }
 
-// What happens at the instant of a look is seen by that look, in whatever order it is told.
+// A look sees everything that happens at its instant, in any order of the records.
 void ProgressLaw::look_before(SimTime t) {
   for (; next_look_ < t; next_look_ += look_every_) look(next_look_);
 }

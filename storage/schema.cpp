@@ -119,8 +119,8 @@ CREATE TABLE probes (
 ) STRICT, WITHOUT ROWID;
 )sql";
 
-// The region's bounds are those of RadioQuality. A run has the quality it was drawn with; a cell with bounds is in the
-// contract if all of it is.
+// The bounds of the region are those of RadioQuality. A run has its own drawn quality. A cell with bounds is in the
+// contract if all of its qualities are.
 constexpr const char* kViews = R"sql(
 CREATE VIEW v1_cells AS
 SELECT c.cell, c.agent, c.layout, c.fleet_size, c.loss, c.delay_s,

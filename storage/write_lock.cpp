@@ -15,7 +15,7 @@
 namespace fleetproof {
 namespace {
 
-// The side file is always empty: anything else of this name is somebody's, and would be removed at the end.
+// The lock file is always empty. A file with content belongs to another program and must not be removed at the end.
 bool could_be_ours(const struct stat& opened) { return S_ISREG(opened.st_mode) && opened.st_size == 0; }
 
 }  // namespace
@@ -25,7 +25,7 @@ WriteLock::WriteLock(const std::string& path) : lock_path_(path + ".lock") {
   }
 }
 
-// False if the holder before removed the file between our open and our lock: then nobody else would meet us at it.
+// False if the former holder removed the file between our open and our lock: no other program would then see our lock.
 bool WriteLock::try_lock(const std::string& path) {
   const int fd = ::open(lock_path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0644);
   if (fd < 0) throw_cannot_make(lock_path_, errno);

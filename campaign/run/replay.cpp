@@ -11,7 +11,7 @@
 namespace fleetproof {
 namespace {
 
-// Events up to and including number 2^k are told by running digest k.
+// Running digest k covers the events up to and including number 2^k.
 std::string bracket(const Outcome& stored, const Outcome& recomputed) {
   const std::size_t common = std::min(stored.running_digests.size(), recomputed.running_digests.size());
   std::size_t same = 0;

@@ -137,8 +137,8 @@ class Chain {
   std::vector<Arc> arcs_;
 };
 
-// No longer than nothing, or with both control points between the ends on the line through them: then, in whatever
-// order, there is no way back.
+// True without length, or if both control points lie between the ends on the line through the ends. In any order, the
+// curve then never turns back.
 bool is_straight(const std::array<Vec2, 4>& p) {
   const Vec2 way = p[3] - p[0];
   const double length = way.norm();

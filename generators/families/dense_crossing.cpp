@@ -57,8 +57,8 @@ class DenseCrossing {
     return made;
   }
 
-  // A second grid half a pitch aside, as of a fleet with a graph of its own: its lanes cross those of the first where
-  // neither has a station. Only two opposite corners join the two.
+  // A second grid, shifted by half a pitch, like the graph of a second fleet. Its lanes cross the lanes of the first
+  // grid at places without a station. Only two opposite corners join the two grids.
   void overlay() {
     const Grid second = grid("Y", sizes_.lines - 1, sizes_.pitch / 2);
     connect(second);
@@ -66,8 +66,8 @@ class DenseCrossing {
     builder_.straight(crossings_.back().back(), second.back().back());
   }
 
-  // The outer lines run round in one direction and every inner line starts and ends on them: strongly connected
-  // whatever is drawn.
+  // The outer lines form a ring in one direction, and every inner line starts and ends on the ring. The grid is
+  // therefore strongly connected for every draw.
   void connect(const Grid& stations) {
     const auto last = static_cast<std::uint32_t>(stations.size()) - 1;
     const bool clockwise = draws_.below(2) == 0;

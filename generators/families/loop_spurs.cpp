@@ -26,7 +26,7 @@ Sizes draw_sizes(Draws& draws) {
   s.radius = draw_between(draws, kRoomToWait_mm, 3000, 50);
   s.spur = draw_between(draws, 3500, 6000, 50);
   s.across = 1 + draws.below(3);
-  // A thousandth more than four quarter circles, for the curve that stands for them.
+  // The curve of a bend is a thousandth longer than the quarter circle.
   const auto bends = static_cast<std::int64_t>(2.002 * kPi * static_cast<double>(s.radius));
   const std::int64_t rest = bends + 2 * s.across * s.pitch, two_steps = 2 * s.pitch;
   const std::int64_t fewest = (kShortestLoop_mm - rest + two_steps - 1) / two_steps,

@@ -58,7 +58,7 @@ std::vector<Fate> draw_fates(const Layout& base, Draws& draws) {
   return fates;
 }
 
-// Who reaches whom then, before a segment is copied: most draws that are refused are so for this.
+// Which stations reach each other afterwards. This comes before any segment is copied, because it refuses most draws.
 StrongComponents parts_left(const Layout& base, const std::vector<Fate>& fates) {
   std::vector<Arrow> arrows;
   arrows.reserve(2 * fates.size());
@@ -111,8 +111,8 @@ bool is_drivable(const Curve& curve) { return fault_of_curve(curve).empty(); }
 
 }  // namespace
 
-// As problems_of() judges the whole, without what no mutation changes: names, references and numbers of control points
-// are those of the base.
+// Judges like problems_of(), but without the parts that no mutation changes: names, references and numbers of control
+// points are those of the base.
 std::shared_ptr<const LogicalMap> draw_mutated_map(const Layout& base, Draws& draws, RejectionCounts& counts) {
   const auto refused = [&](ProblemKind kind) -> std::shared_ptr<const LogicalMap> {
     ++counts.of(kind);

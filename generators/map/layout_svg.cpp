@@ -173,8 +173,8 @@ class Picture {
     }
   }
 
-  // Names stand to the upper right; on maps too crowded for them they are tooltips only, all of them or those that
-  // would cover another.
+  // Names stand to the upper right. On crowded maps, all names, or the names that would cover others, are tooltips
+  // only.
   void label(const Station& station) {
     const Vec2 at = pixel(station.position_m);
     const double size_px = std::clamp(0.5 * scale_, 8.0, 11.0), r = radius_px();

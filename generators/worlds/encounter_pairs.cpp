@@ -14,9 +14,9 @@ namespace {
 
 constexpr Duration kWithin = std::chrono::seconds(1);
 constexpr Duration kTie = std::chrono::milliseconds(1);
-// Drawings of the first AGV. The first ones look for the second on a few places to wait; later ones start both anywhere
-// and look at more, at all that may come head-on: where all places to wait are dead ends off one-way lanes nobody does
-// otherwise.
+// The number of draws of the first AGV. The first draws look for the second AGV on a few places to wait. Later draws
+// start both AGVs anywhere and look at more places, at all places from which AGVs may meet head-on. This is necessary
+// if all places to wait are dead ends off one-way lanes.
 constexpr std::uint32_t kTries = 64, kHastyTries = 3, kHastyTriesForTies = 7, kFewOthers = 8, kManyOthers = 24;
 
 // Where the second AGV may start so that the two meet: its quickest way to `through` ends with the lane on which, or
@@ -151,8 +151,8 @@ class PairMaker {
     return all;
   }
 
-  // False if bounds that cost no search rule it out: only who starts in a dead end drives out of it, and nobody is
-  // faster than as the crow flies.
+  // False if simple bounds exclude a meeting: only an AGV that starts in a dead end drives out of it, and no AGV
+  // arrives earlier than on a straight line.
   bool may_come_head_on(StationId other, const std::vector<Passed>& way) const {
     return std::ranges::any_of(way, [&](const Passed& passed) {
       if (passed.twin == QuickestWays::kNone) return false;
