@@ -8,8 +8,7 @@
 namespace fleetproof {
 
 // The streams of randomness of a run. Each stream has its own key, so a further draw in one stream changes no other
-// stream. `Factors` draws the continuous factors of a campaign, from the seed of the campaign; a run has no such
-// stream.
+// stream. `Factors` draws the continuous factors of a campaign, from the campaign's seed; a run has no such stream.
 enum class Stream : std::uint32_t {
   Layout = 1,
   Placement,

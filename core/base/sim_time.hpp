@@ -21,9 +21,8 @@ using SimTime = SimClock::time_point;
 inline constexpr SimTime kStart{};
 inline constexpr SimTime kForever = SimTime::max();
 
-// Rounds to the nearest nanosecond, so that 25/6 m at the accelerations of the paper takes 5 s exactly. A value that no
-// run can reach, or that is not a number, becomes kLongestDuration: about 146 years, so that sums of a few such values
-// stay in range.
+// Rounds to the nearest nanosecond: 25/6 m at the accelerations of the paper takes 5 s exactly. A value that no run can
+// reach, or that is not a number, becomes kLongestDuration: about 146 years. Sums of a few such values stay in range.
 inline constexpr Duration kLongestDuration{std::int64_t{1} << 62};
 inline Duration seconds(double value_s) {
   const double ns = std::nearbyint(value_s * 1e9);

@@ -9,9 +9,8 @@ namespace fleetproof {
 
 // The direction along which a gap is watched, from the first body towards the second. At every instant, any unit vector
 // gives a lower bound of the clearance. The bound is good while the vector stays near the direction of the closest
-// points. If the closest points are a side and a corner, and the body with the side rotates, the axis is fixed to that
-// body; otherwise the far end of the side would swing into the gap. Between two corners, the axis is fixed to what
-// turns most as the corners move around each other.
+// points. If a side is nearest and its body rotates, the axis is fixed to that body: else the far end of the side would
+// swing into the gap. Between two corners, the axis is fixed to what turns most as the corners move.
 class Axis {
  public:
   Axis() = default;
@@ -37,13 +36,13 @@ class GapBound {
   bool exact() const { return exact_; }
   double now_m() const;
   // The gap between the corners that are nearest now, up to its second derivative. If the axis has just been measured,
-  // value and rate are those of the clearance: the clearance is the largest gap over all axes, and therefore stationary
-  // in the axis.
+  // value and rate are those of the clearance: it is the largest gap over all axes and thus stationary in the axis.
   struct Trend {
     double value_m, rate_mps, bend_mps2;
   };
   Trend trend() const;
-  // The gap stays at or above the level for at least this many seconds, or up to `horizon_s`. Exact up to rounding.
+  // The number of seconds for which the gap surely stays at or above the level; at most `horizon_s`. The number is
+  // exact up to rounding.
   double safe_s(double level_m, double horizon_s) const;
 
  private:

@@ -7,8 +7,7 @@
 
 namespace fleetproof {
 
-// The limits of a vehicle type's motion. The defaults are those of the paper (Sect. 3.3): 2 m/s, 4 s to reach it, 2 s
-// to stop.
+// The limits of a vehicle type's motion. The defaults are the paper's (Sect. 3.3): 2 m/s, 4 s to reach it, 2 s to stop.
 struct MotionLimits {
   double speed_mps = 2.0;
   double acceleration_mps2 = 0.5;
@@ -27,8 +26,7 @@ struct EndSpeeds {
 class MotionProfile {
  public:
   MotionProfile() = default;
-  // Requires: the end speeds are within the speed limit, and the distance is long enough to change from one to the
-  // other.
+  // Requires: the end speeds are within the speed limit; the distance is long enough to change from one to the other.
   MotionProfile(double distance, const MotionLimits& limits, const EndSpeeds& ends = {});
 
   double distance() const { return distance_; }

@@ -20,11 +20,11 @@ struct Leg {
 void plan_legs(const Curve& curve, const MotionLimits& limits, double lateral_mps2, double from_m,
                const EndSpeeds& ends, std::vector<Leg>& legs);
 
-// The leg of a stop that is as early as possible. If the way is too short, the leg ends at the end of the curve,
-// moving.
+// The leg of the earliest possible stop. If the way is too short, the leg ends at the end of the curve, still moving.
 void plan_stop(const Curve& curve, const MotionLimits& limits, double from_m, double entry_mps, std::vector<Leg>& legs);
 
-// The highest speed at which an AGV can pass the start of `curve`, take its bends as above, and stand at its end.
+// The highest speed at which an AGV can pass the start of `curve`. The AGV then takes the bends of the curve as above
+// and stands at its end.
 double highest_entry_mps(const Curve& curve, const MotionLimits& limits, double lateral_mps2);
 
 }  // namespace fleetproof

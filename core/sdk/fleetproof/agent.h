@@ -15,8 +15,7 @@
  * agent in another language must not let an exception leave its functions.
  *
  * Versions. Every struct that may grow begins with its size in bytes, as the side that fills it knows it. Arrays of
- * structs have a stride. A host refuses an agent with another FP_ABI_MAJOR. A higher minor version only adds members at
- * the end of structs.
+ * structs have a stride. A host refuses an agent with another FP_ABI_MAJOR. A higher minor adds members at the end.
  *
  * Units: metres, metres per second, nanoseconds (64-bit, since the start of the run), radians. Headings are unit
  * vectors in the world frame.
@@ -49,7 +48,8 @@ typedef enum fp_result {
 typedef enum fp_purpose { FP_ROUTING = 1, FP_STORAGE = 2, FP_CHARGING = 4, FP_PARKING = 8 } fp_purpose;
 
 /* What the AGV is doing. FP_STOPPED: something stopped the AGV in the middle of an action; the AGV will go on without a
- * further call. FP_OUT_OF_ORDER: the AGV is broken down or empty. It may be repaired and then goes on, too. */
+ * further call.
+ * FP_OUT_OF_ORDER: the AGV is broken down or empty. It may be repaired and then goes on, too. */
 typedef enum fp_action {
   FP_IDLE = 0,
   FP_DRIVING,
@@ -154,7 +154,8 @@ typedef enum fp_event_kind {
                          transport that is not done */
   FP_EVENT_MESSAGE,   /* the inbox is not empty; read it until FP_EMPTY */
   FP_EVENT_TIMER,     /* a timer went off: timer */
-  FP_EVENT_ACTION_DONE /* an action ended: result FP_OK, or FP_REFUSED if a contact put the AGV out of order */
+  FP_EVENT_ACTION_DONE
+  /* an action ended: result FP_OK, or FP_REFUSED if a contact put the AGV out of order */
 } fp_event_kind;
 
 typedef struct fp_event {
