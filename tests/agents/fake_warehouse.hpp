@@ -25,7 +25,7 @@ struct FakeRadio {
   double duplicates = 0.0;  // share of receptions that come a second time, later
 };
 
-// As much of a warehouse as agents need: AGVs that turn and drive at the right times, transfers, timers, and a bad
+// The part of a warehouse that agents need: AGVs that turn and drive at the right times, transfers, timers, and a bad
 // radio.
 class FakeWarehouse {
  public:
@@ -254,7 +254,7 @@ class FakeWarehouse {
       misplaced_ += agv.orders.empty() || agv.orders.front().second != agv.station;
       if (!agv.orders.empty()) agv.orders.pop_front();
     }
-    // Who picks where no load of his waits has none afterwards, unless he had one.
+    // An AGV that picks at a place without a load of its own has no load afterwards, unless it had one before.
     if (call == FP_CALL_PICK)
       agv.loaded = agv.loaded || (!agv.orders.empty() && agv.orders.front().first == agv.station);
     if (call == FP_CALL_DROP) agv.loaded = false;

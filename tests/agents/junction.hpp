@@ -37,8 +37,8 @@ struct Tally {
   double latest_drop_s = 0.0;
 };
 
-// Watches what AGVs hold: whenever one holds more, nobody else may hold what conflicts with it. And nobody claims more
-// than all others count on.
+// Watches what AGVs hold. When an AGV holds more, no other AGV may hold anything that conflicts with it. No AGV claims
+// more than the longest claim.
 inline void watch_holds(FakeWarehouse& warehouse, const TestFleet& fleet, Tally& tally) {
   struct Watch {
     Watch(const TestFleet& fleet, std::size_t count)
@@ -60,8 +60,8 @@ inline void watch_holds(FakeWarehouse& warehouse, const TestFleet& fleet, Tally&
     const bool more = !restarted && mine.count > watch->held[id];
     tally.restarts += restarted;
     tally.restarts_on_lanes += restarted && mine.count == 1;
-    // Who restarts on a lane may hold the turn before it as well; whether it had locked that stands in what it held
-    // before.
+    // An AGV that restarts on a lane may also hold the turn before the lane. Its former held path says whether it had
+    // locked the turn.
     Path& locked = watch->locked[id];
     const bool same_lane =
         mine.count > 0 && locked.count > 0 && mine.lane_ids[0] == locked.lane_ids[0] && mine.station == locked.station;

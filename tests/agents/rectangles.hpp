@@ -6,7 +6,7 @@
 
 #include "core/sdk/fleetproof/agent.h"
 
-// Clearance of two bodies, side by side: independent of the agents' geometry, and of the judge's.
+// Clearance of two bodies, side by side. It shares no code with the geometry of the agents or of the judge.
 namespace fleetproof::agents::testing {
 
 struct Point {

@@ -28,7 +28,7 @@ inline CampaignPlan small_plan() {
   return plan;
 }
 
-// The same with everything on that can go wrong, round bends too.
+// The same with every fault switched on, and with bends.
 inline CampaignPlan hostile_plan() {
   CampaignPlan plan = small_plan();
   plan.name = "hostile";

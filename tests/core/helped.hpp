@@ -2,7 +2,7 @@
 
 #include "tests/core/row_of_tens.hpp"
 
-// Runs in which the operator helps, and what he was seen to do.
+// Runs in which the operator helps, and what it did there.
 namespace fleetproof::test {
 
 inline constexpr auto kContact = static_cast<std::uint64_t>(Assist::Contact),
@@ -44,7 +44,7 @@ inline Helped run(const Scenario& scenario, const Handler& handler) {
   return seen;
 }
 
-// AGV 0 brings a load from station 0 to station 2; AGV 1 stands in its way at station 1 and never does anything.
+// AGV 0 brings a load from station 0 to station 2. AGV 1 blocks it at station 1 and never does anything.
 inline Scenario somebody_in_the_way() {
   Scenario scenario = row_of_tens({0, 1}, 200.0);
   scenario.agvs[0].transports = {{StationId{0U}, StationId{2U}, Duration{}}};
@@ -57,7 +57,7 @@ struct Heard {
   int orders = 0;
 };
 
-// Of AGV 0: it drives on with its load from wherever it starts.
+// The agent of AGV 0: it drives on with its load from any start.
 inline Handler bring_the_load(Heard& heard) {
   return [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
     if (b.self != 0) return;

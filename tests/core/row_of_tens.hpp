@@ -5,7 +5,7 @@
 #include "core/motion/activity.hpp"
 #include "tests/support/worlds.hpp"
 
-// What goes wrong, one fault at a time, on stations 10 m apart (a drive takes 8 s: 4 s up, 2 s level, 2 s down).
+// One fault at a time, on stations that are 10 m apart (a drive takes 8 s: 4 s up, 2 s level, 2 s down).
 namespace fleetproof::test {
 
 inline Scenario row_of_tens(std::vector<std::uint32_t> starts, double horizon_s = 60.0) {

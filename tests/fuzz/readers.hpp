@@ -5,18 +5,18 @@
 #include <string_view>
 #include <vector>
 
-// Every reader of files that come from elsewhere, as libFuzzer and the test of damaged files drive it.
+// Every reader of files from outside, in the form that libFuzzer and the test of damaged files call.
 namespace fleetproof::fuzz {
 
-// How far an accepted input is followed: it passes the validator, or is written and read again besides, which costs
-// more than reading it.
+// How far an accepted input is checked: it passes the validator only, or it is also written and read again, which costs
+// more than reading.
 enum class Depth { Judged, WrittenToo };
 
 struct Reader {
   std::string_view name;
-  // Whether the bytes are accepted; if not, an InputError said why. Throws, whatever it is, where the reader fails:
-  // with any other exception, with a message nobody could print, by accepting what its validator refuses, or what is
-  // not the same again after writing and reading.
+  // Whether the bytes are accepted; if not, the reader threw an InputError. This function throws if the reader fails:
+  // by another exception, by a message that cannot be printed, or by accepting an input that its validator refuses or
+  // that changes when it is written and read again.
   bool (*accepts)(std::string_view bytes, Depth depth);
   // Files that are accepted, to begin with.
   std::vector<std::string> (*seeds)();

@@ -16,7 +16,7 @@ void require(bool holds, const std::string& sentence);
 // A message or warning can be printed, has an end, and begins with the name of the file.
 void require_sentence(std::string_view sentence, std::string_view file);
 
-// What `read` makes of its bytes; none: it refused them, with a message as it should be.
+// The result of `read`; none if it refused its bytes with a correct message.
 template <class Read>
 auto accepted(Read read, std::string_view file) -> std::optional<decltype(read())> {
   try {

@@ -10,8 +10,8 @@
 #include "core/base/error.hpp"
 #include "core/base/random.hpp"
 
-// What every importer has to bear: cut and damaged files are read or refused with an InputError; nothing else comes out
-// of it.
+// What every importer must withstand: cut and damaged files. The importer reads the file or refuses it with an
+// InputError, and does nothing else.
 namespace fleetproof::independent {
 
 // The message with which `parse` refuses the text, or "accepted".
@@ -86,8 +86,8 @@ inline void change_number(Draws& draws, std::string& text) {
   text.replace(begin, end - begin, kNumbers[draws.below(std::size(kNumbers))]);
 }
 
-// What a file suffers as a whole: cut, or joined with a piece of itself, lines lost and repeated, deep nesting, long
-// lines, foreign bytes, numbers that nobody meant. No longer than a few thousand characters more than before.
+// Damage to a whole file: it is cut, or joined with a piece of itself; lines are lost and repeated; deep nesting, long
+// lines, foreign bytes, impossible numbers. The file grows by at most a few thousand characters.
 inline std::string mangled(Draws& draws, std::string text) {
   const auto at = draw_place(draws, text);
   switch (draws.below(9)) {

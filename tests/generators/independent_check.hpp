@@ -47,7 +47,7 @@ inline bool all_reach_all(const Layout& layout) {
   return true;
 }
 
-// Whether the others still all reach each other when somebody stands on `station` and lets nobody through.
+// Whether all other stations still reach each other if an AGV stands on `station` and no AGV can pass it.
 inline bool leaves_a_way(const Layout& layout, std::size_t station) {
   const auto r = reach(layout, station);
   for (std::size_t i = 0; i < r.size(); ++i) {

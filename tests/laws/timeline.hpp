@@ -11,11 +11,11 @@
 #include "core/outcome/law.hpp"
 #include "laws/laws.hpp"
 
-// Runs made of nothing but pieces, built by hand, and how a law hears of them.
+// Runs that consist of pieces only, built by hand, and how they are announced to a law.
 namespace fleetproof::test {
 
-// The timeline of one body: it stands where it is put, then waits, drives and turns. Pieces point into it: it is moved,
-// never copied.
+// The timeline of one body: the body stands at its first place, then waits, drives and turns. Pieces point into the
+// timeline. It may be moved, but never copied.
 class Timeline {
  public:
   Timeline(EntityId entity, const Pose& start, const Footprint& footprint)
@@ -115,7 +115,7 @@ inline Pose facing(double x_m, double y_m, double heading_x, double heading_y) {
   return {Vec2(x_m, y_m), Vec2(heading_x, heading_y)};
 }
 
-// In which order a law hears of pieces that end at the same instant.
+// The order in which pieces that end at the same instant are announced to a law.
 enum class Order { ByEntity, Backwards, AllEndsFirst };
 
 // Announces the pieces of a scene to a law as a world does.

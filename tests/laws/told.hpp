@@ -7,7 +7,7 @@
 #include "core/motion/activity.hpp"
 #include "laws/laws.hpp"
 
-// A law that is told by hand what happens, record by record.
+// A law that receives the records of a run one by one, written by hand.
 namespace fleetproof::test {
 
 class Told {
@@ -28,7 +28,7 @@ class Told {
                             {at_m, scenario_.agvs[agv].heading}, at_seconds(from_s)));
   }
 
-  // Records a kind that the law does not read, it does not hear of.
+  // A record of a kind that the law does not read is not sent to it.
   Told& record(double at_s, std::uint32_t entity, TraceKind kind, std::uint64_t a = 0, std::uint64_t b = 0,
                std::uint32_t bytes = 0) {
     if (kinds_.has(kind)) law_->happened({at_seconds(at_s), EntityId{entity}, kind, a, b, bytes});

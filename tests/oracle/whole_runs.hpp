@@ -14,8 +14,8 @@
 #include "laws/laws.hpp"
 #include "tests/oracle/brute_force.hpp"
 
-// Whole runs under the exact law and under a clock of 2.5 ms that looks at every pair of bodies, whatever they do, with
-// the oracle's distance.
+// Whole runs under the exact law, and under a clock that looks at every pair of bodies every 2.5 ms with the distance
+// of the oracle.
 namespace fleetproof::oracle {
 
 class GlobalClock final : public Law {

@@ -7,8 +7,8 @@
 
 namespace fleetproof::test {
 
-// Whether `count` successes in `trials` independent trials of probability p can be told from chance: the exact
-// probability of a result as far out, on either side, is below half of the risk.
+// Whether `count` successes in `trials` independent trials of probability p differ from chance: the exact probability
+// of a result at least as extreme, on this side, is below half of the risk.
 inline testing::AssertionResult is_binomial(std::uint64_t count, std::uint64_t trials, double p, double risk = 1e-6) {
   if (p <= 0.0 || p >= 1.0) {
     const std::uint64_t only = p <= 0.0 ? 0 : trials;

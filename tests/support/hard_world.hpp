@@ -20,8 +20,8 @@ inline void bend(Segment& segment, const Vec2& from_m, const Vec2& to_m, Draws& 
   }
 }
 
-// A layout of a family, its lanes bent: what straight lanes hide in the books of curves, of hulls in bends and of
-// speeds there.
+// A layout of a family with bent lanes. Straight lanes would hide errors of curves, of hulls in bends, and of speeds in
+// bends.
 inline std::shared_ptr<const LogicalMap> bent_map(FamilyRange choice, std::uint64_t seed) {
   Draws draws(stream_key(seed, Stream::Layout));
   while (true) {
@@ -36,8 +36,8 @@ inline std::shared_ptr<const LogicalMap> bent_map(FamilyRange choice, std::uint6
   }
 }
 
-// A fleet of two types whose drives deviate, whose loads matter and whose batteries run low, among faults of everything
-// but the floor: no load falls and nothing foreign stands about.
+// A fleet of two types with drive deviations, large loads and low batteries, among faults of all kinds except those on
+// the floor: no load falls, and there are no foreign obstacles.
 inline WorldSpec hard_world(double horizon_s) {
   WorldSpec spec;
   spec.horizon = seconds(horizon_s);
