@@ -4,13 +4,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/contract.hpp"
 #include "core/outcome/law.hpp"
 
 namespace fleetproof {
 
-// The contract of the radio (Sect. 2.4 of the paper), and the window in which it is judged.
-inline constexpr double kContractLoss = 0.40;
-inline constexpr Duration kContractDelay = std::chrono::seconds(2);
+// The contract of the radio (core/base/contract.hpp) is judged at an instant by the seconds before it.
 inline constexpr int kQualityWindow_s = 10;
 
 // The smallest number of losses among `receptions` that rejects "at most 40 % are lost", by a one-sided binomial test

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/contract.hpp"
 #include "reports/condition_table.hpp"
 #include "reports/coverage_section.hpp"
 #include "reports/sample_sentence.hpp"
@@ -106,12 +107,13 @@ Page build_page(const ReportInput& input, std::size_t most_rows) {
   for (auto& warning : warnings(input)) page.headlines.push_back(std::move(warning));
   for (auto& weak : weak_headlines(input)) page.headlines.push_back(std::move(weak));
   for (auto& verdict : verdicts(input)) page.headlines.push_back(std::move(verdict));
+  const std::string loss = percent(kContractLoss), delay = fmt::format("{:g} s", kContractDelay_s);
   page.sections.push_back(condition_section(
-      input, "Worst case of the contract: 40 % loss, 2 s delay", [](const Condition& c) { return c.is_worst_case; },
-      most_rows));
+      input, fmt::format("Worst case of the contract: {} loss, {} delay", loss, delay),
+      [](const Condition& c) { return c.is_worst_case; }, most_rows));
   page.sections.push_back(condition_section(
-      input, "Contract region: loss <= 40 %, delay <= 2 s", [](const Condition& c) { return c.in_contract; },
-      most_rows));
+      input, fmt::format("Contract region: loss <= {}, delay <= {}", loss, delay),
+      [](const Condition& c) { return c.in_contract; }, most_rows));
   page.sections.push_back(condition_section(
       input, "Outside the contract", [](const Condition& c) { return !c.in_contract; }, most_rows));
   page.sections.push_back(table_legend(input));

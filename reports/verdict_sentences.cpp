@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/contract.hpp"
 #include "reports/coverage_section.hpp"
 #include "reports/evidence/rounding.hpp"
 #include "reports/sample_sentence.hpp"
@@ -13,9 +14,9 @@ namespace {
 std::string region_text(Region region) {
   switch (region) {
     case Region::Contract:
-      return "contract region (loss <= 40 %, delay <= 2 s)";
+      return fmt::format("contract region (loss <= {}, delay <= {:g} s)", percent(kContractLoss), kContractDelay_s);
     case Region::WorstCase:
-      return "worst case (40 %, 2 s)";
+      return fmt::format("worst case ({}, {:g} s)", percent(kContractLoss), kContractDelay_s);
     case Region::All:
       return "all cells";
   }

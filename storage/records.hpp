@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/contract.hpp"
 #include "core/outcome/outcome.hpp"
 
 namespace fleetproof {
@@ -16,8 +17,8 @@ struct RadioQuality {
   double loss = 0.0, delay_s = 0.0, mean_outage_s = 0.0;
 
   // The region in which safe *and normal* operation is required (Sect. 2.4), and its corner.
-  bool in_contract() const { return loss <= 0.40 && delay_s <= 2.0; }
-  bool is_worst_case() const { return loss == 0.40 && delay_s == 2.0; }
+  bool in_contract() const { return fleetproof::in_contract(loss, delay_s); }
+  bool is_worst_case() const { return is_worst_case_of_contract(loss, delay_s); }
   friend bool operator==(const RadioQuality&, const RadioQuality&) = default;
 };
 
