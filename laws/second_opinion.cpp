@@ -9,14 +9,13 @@
 #include <memory>
 
 #include "core/base/error.hpp"
+#include "core/base/tolerances.hpp"
 
 namespace fleetproof {
 namespace {
 
 // A planar question asked of a solver for space: boxes so tall that height decides nothing.
 constexpr double kTall_m = 20.0;
-constexpr double kAgreed_m = 1e-4;
-constexpr double kSurelyApart_m = 1e-6;
 
 // Placed relative to `origin_m`, as a solver loses digits far from the origin.
 fcl::CollisionObjectd box_of(const OrientedRectangle& rectangle, const Vec2& origin_m) {
@@ -68,7 +67,7 @@ void confirm_clearance(const OrientedRectangle& first, const OrientedRectangle& 
   ensure(!(!overlap && clearance_m < -kSurelyApart_m),
          "a second opinion says that two bodies are apart which the law found overlapping");
   const double expected_m = std::max(0.0, clearance_m);
-  ensure(std::abs(boxes.clearance_m() - expected_m) <= kAgreed_m,
+  ensure(std::abs(boxes.clearance_m() - expected_m) <= kOpinionsAgree_m,
          "a second opinion measures another clearance than the law");
 }
 

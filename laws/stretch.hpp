@@ -2,20 +2,15 @@
 
 #include <vector>
 
+#include "core/base/tolerances.hpp"
 #include "core/clearance/clearance_over_time.hpp"
 #include "core/outcome/outcome.hpp"
 #include "core/scenario/scenario.hpp"
 
 namespace fleetproof {
 
-// The threshold of all laws: a smaller clearance is a violation. It is one micrometre below the minimal safety
-// distance, so that a rounding error does not accuse lanes that are built at exactly that distance.
-inline constexpr double kBuiltToTheLimit_m = 1e-6;
+// The threshold of all laws: a smaller clearance is a violation.
 inline double violation_threshold_m(const LawSetup& law) { return law.safety_distance_m - kBuiltToTheLimit_m; }
-
-// A smaller clearance is a contact. The world stops touching bodies about one micrometre apart; the filed clearance is
-// then 1 or 0 micrometres.
-inline constexpr double kContact_m = 2e-6;
 
 // A stretch of time in which two bodies are too close, and how they stand at the closest instant. `a` < `b`.
 struct Stretch {

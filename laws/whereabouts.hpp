@@ -2,12 +2,10 @@
 
 #include <vector>
 
+#include "core/base/tolerances.hpp"
 #include "core/outcome/law.hpp"
 
 namespace fleetproof {
-
-// An AGV stands at a station if its reference point is no farther from it.
-inline constexpr double kAtStation_m = 0.05;
 
 // What every body on the floor does now, as the engine announced it.
 class Whereabouts {

@@ -5,14 +5,12 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/base/tolerances.hpp"
 #include "core/clearance/gap_bound.hpp"
 
 namespace fleetproof {
 namespace {
 
-// Dips below the level that may be passed over. Without them, bodies that run along exactly at the level would be
-// stepped through nanosecond by nanosecond.
-constexpr double kDip_m = 1e-9;
 // A gap along an old direction is given up for a new measurement when it has lost this share of the clearance that was
 // measured with it.
 constexpr double kWorn = 0.5;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "core/base/tolerances.hpp"
 #include "core/motion/piece.hpp"
 
 namespace fleetproof {
@@ -41,7 +42,7 @@ bool comes_below(const Piece& a, const Piece& b, Interval within, double level_m
 // above `below_m`. If the bodies touch, the first instant at which they do, with the clearance (zero or less) of that
 // instant.
 std::optional<ClosestApproach> closest_approach(const Piece& a, const Piece& b, Interval within, double below_m,
-                                                EvaluationCount& count, double tolerance_m = 1e-7);
+                                                EvaluationCount& count, double tolerance_m = kSmallestClearance_m);
 
 // first_below and closest_approach in one: the search for the second begins where the walk to the first ends.
 struct Approach {
@@ -49,6 +50,6 @@ struct Approach {
   ClosestApproach closest;
 };
 std::optional<Approach> approach_below(const Piece& a, const Piece& b, Interval within, double level_m,
-                                       EvaluationCount& count, double tolerance_m = 1e-7);
+                                       EvaluationCount& count, double tolerance_m = kSmallestClearance_m);
 
 }  // namespace fleetproof

@@ -4,12 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/tolerances.hpp"
 #include "core/clearance/gap_bound.hpp"
 
 namespace fleetproof {
 namespace {
-
-constexpr double kTouch_m = std::numeric_limits<double>::denorm_min();
 
 TimeSense sense_of(SimTime from, SimTime to) { return to < from ? TimeSense::Backward : TimeSense::Forward; }
 double seconds_between(SimTime s, SimTime t) { return std::abs(to_seconds(t - s)); }
@@ -22,10 +21,10 @@ SimTime after(SimTime t, double wait_s, SimTime to) {
 
 Hit ClosestSearch::run(SimTime begin, const Hit& low, SimTime end) {
   best_ = low;
-  if (below(0.0)) return low.at == begin ? low : advance(a_, b_, begin, low.at, kTouch_m, count_).value_or(low);
+  if (below(0.0)) return low.at == begin ? low : advance(a_, b_, begin, low.at, kOverlap_m, count_).value_or(low);
   const Outlook ahead = outlook(low, end);
   if (ahead.touch) {
-    if (const auto touch = advance(a_, b_, low, end, kTouch_m, count_, Dating::Exact, best_)) return *touch;
+    if (const auto touch = advance(a_, b_, low, end, kOverlap_m, count_, Dating::Exact, best_)) return *touch;
     descend(best_, end);
   } else {
     descend(low, end);
@@ -36,7 +35,7 @@ Hit ClosestSearch::run(SimTime begin, const Hit& low, SimTime end) {
   prove(end);
   if (!below(0.0)) return best_;
   Hit ignored = best_;
-  return advance(a_, b_, low, best_.at, kTouch_m, count_, Dating::Exact, ignored).value_or(best_);
+  return advance(a_, b_, low, best_.at, kOverlap_m, count_, Dating::Exact, ignored).value_or(best_);
 }
 
 Hit ClosestSearch::measure(SimTime t) {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/base/tolerances.hpp"
 #include "core/geometry/rotation.hpp"
 
 namespace fleetproof {
@@ -76,8 +77,7 @@ struct TurningBound {
 };
 
 bool is_side(const Vec2& direction, const OrientedRectangle& body) {
-  constexpr double kAligned = 1e-9;
-  return std::min(std::abs(direction.dot(body.heading)), std::abs(cross(body.heading, direction))) < kAligned;
+  return std::min(std::abs(direction.dot(body.heading)), std::abs(cross(body.heading, direction))) < kAlongSide;
 }
 
 Vec2 into_frame(const Vec2& direction, const Vec2& heading) {
@@ -101,7 +101,7 @@ Axis::Axis(const Separation& apart, const PhaseMotion& first, const PhaseMotion&
 Axis::Tie Axis::tie_between_corners(const Separation& apart, const PhaseMotion& first, const PhaseMotion& second) {
   const Vec2 passing_mps = second.point(foremost_corner(second.body, -apart.direction)).velocity_mps -
                            first.point(foremost_corner(first.body, apart.direction)).velocity_mps;
-  const double turning = cross(apart.direction, passing_mps) / std::max(apart.clearance_m, 1e-9);
+  const double turning = cross(apart.direction, passing_mps) / std::max(apart.clearance_m, kEquallyNear_m);
   const double off_floor = std::abs(turning), off_first = std::abs(turning - first.turning_rad_s());
   const double off_second = std::abs(turning - second.turning_rad_s());
   if (first.rotates() && off_first < off_floor && off_first <= off_second) return Tie::First;
@@ -198,12 +198,11 @@ double GapBound::now_m() const {
 }
 
 GapBound::Trend GapBound::trend() const {
-  constexpr double kLevel_m = 1e-9;  // corners so equally near that the one which comes nearer decides
   const double least = now_m();
   Trend trend{least, kNotMet, 0.0};
   for (std::size_t i = 0; i < count_; ++i) {
     const Term& term = terms_[i];
-    if (term.value - least < kLevel_m && term.rate < trend.rate_mps) trend = {term.value, term.rate, term.bend};
+    if (term.value - least < kEquallyNear_m && term.rate < trend.rate_mps) trend = {term.value, term.rate, term.bend};
   }
   return trend;
 }

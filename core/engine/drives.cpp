@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/tolerances.hpp"
 #include "core/geometry/rotation.hpp"
 
 namespace fleetproof {

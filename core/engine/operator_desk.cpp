@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/random.hpp"
+#include "core/base/tolerances.hpp"
 #include "core/engine/recovery.hpp"
 
 namespace fleetproof {
@@ -12,8 +13,6 @@ constexpr Duration kTriesAgain = std::chrono::seconds(1);
 // Topics of the faults stream; the generator draws under lower ones. A standstill has a topic of its own, so that a
 // call in vain moves no other draw.
 constexpr std::uint32_t kAssistTopic = 100, kStandstillTopic = 101;
-// Stations whose bodies are exactly the safety distance apart are free of each other.
-constexpr double kBuiltExactly_m = 1e-6;
 
 // An activity that ends by itself before long. Charging does, but no transport waits for it.
 bool is_work(ActivityKind kind) { return kind != ActivityKind::Park && kind != ActivityKind::Charge; }
@@ -90,7 +89,7 @@ void OperatorDesk::take_off_floor(AgvId agv) {
 void OperatorDesk::look_for_place(AgvId agv) {
   const AgvStatus& status = run_.status(agv);
   const Footprint footprint = run_.type_of(agv).footprint_with(run_.is_loaded(agv));
-  const double margin_m = std::max(0.0, run_.scenario.law.safety_distance_m - kBuiltExactly_m);
+  const double margin_m = std::max(0.0, run_.scenario.law.safety_distance_m - kBuiltToTheLimit_m);
   const auto places = recovery_places(*run_.scenario.map, status.station, status.stopped_on, run_.pose_now(agv));
   const auto place = std::ranges::find_if(places, [&](const RecoveryPlace& p) {
     const OrientedRectangle body = placed(footprint, p.pose);

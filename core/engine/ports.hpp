@@ -99,10 +99,6 @@ class ActivitiesPort {
   Activities* part_;
 };
 
-// Headings that differ by less are the same: far below what a turn could resolve, far above the rounding at the end of
-// a curve.
-inline constexpr double kAligned_rad = 1e-7;
-
 // How a leg of a drive has ended.
 struct LegEnd {
   enum class Kind : std::uint8_t { NextLegBegins, Arrived, Halted } kind = Kind::Arrived;

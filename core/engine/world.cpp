@@ -3,12 +3,9 @@
 #include <algorithm>
 
 #include "core/base/error.hpp"
+#include "core/base/tolerances.hpp"
 
 namespace fleetproof {
-
-// Two bodies touch when less than this is between them: well below any clearance a person would measure, well above
-// rounding.
-constexpr double kTouch_m = 1e-6;
 
 const char* name_of(ActivityKind kind) {
   switch (kind) {

@@ -4,27 +4,27 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/tolerances.hpp"
 #include "core/geometry/rotation.hpp"
 
 namespace fleetproof {
 namespace {
 
 constexpr int kDeepest = 12;
-constexpr double kNothing_m = 1e-12;
 constexpr double kBack = -0.99;  // cosine between a heading and a way that leads back
 
 Vec2 direction_of(const Vec2& way, const Vec2& otherwise) {
   const double length = way.norm();
-  return length > kNothing_m ? Vec2(way / length) : otherwise;
+  return length > kSamePoint_m ? Vec2(way / length) : otherwise;
 }
 
 // The arc that leaves `start` along its heading and ends in `end`.
 Arc arc_to(const Pose& start, const Vec2& end_m) {
   const Vec2 chord = end_m - start.position_m;
   const double chord_m = chord.norm();
-  if (chord_m <= kNothing_m) return {start, 0.0, 0.0};
+  if (chord_m <= kSamePoint_m) return {start, 0.0, 0.0};
   const double half_rad = angle_between(start.heading, chord / chord_m);
-  if (std::abs(half_rad) < 1e-12) return {{start.position_m, chord / chord_m}, chord_m, 0.0};
+  if (std::abs(half_rad) < kStraightArc_rad) return {{start.position_m, chord / chord_m}, chord_m, 0.0};
   const double sine = unit_vector(half_rad).y();
   return {start, chord_m * half_rad / sine, 2.0 * sine / chord_m};
 }
@@ -34,7 +34,7 @@ Arc arc_to(const Pose& start, const Vec2& end_m) {
 std::array<Arc, 2> biarc(const Pose& from, const Pose& to) {
   const Vec2 way = to.position_m - from.position_m;
   const double squared = way.squaredNorm();
-  if (squared <= kNothing_m * kNothing_m) return {Arc{from, 0.0, 0.0}, Arc{from, 0.0, 0.0}};
+  if (squared <= kSamePoint_m * kSamePoint_m) return {Arc{from, 0.0, 0.0}, Arc{from, 0.0, 0.0}};
   // Leg d of both triangles: d^2 (2 - 2 cos) + 2 d (way . sum) = way^2, where cos is that of the turn from one heading
   // to the other.
   const auto leg_m = [&](const Vec2& heading) {
@@ -120,7 +120,7 @@ class Chain {
     }
     const Pose& joint = pair[1].start;
     const Pose end = pair[1].pose_at(pair[1].length_m);
-    if ((end.heading - heading(to)).norm() > 1e-9) return false;
+    if ((end.heading - heading(to)).norm() > kKink_rad) return false;
     for (int i = 1; i < kSamples; ++i) {
       const Vec2 sample = point(from + (to - from) * i / kSamples);
       if ((sample - at_.position_m).dot(at_.heading) < -0.5 * tolerance_m_) return false;
@@ -143,9 +143,9 @@ bool is_straight(const std::array<Vec2, 4>& p) {
   const Vec2 way = p[3] - p[0];
   const double length = way.norm();
   return std::all_of(p.begin() + 1, p.begin() + 3, [&](const Vec2& point) {
-    if ((point - p[0]).norm() <= kNothing_m || (point - p[3]).norm() <= kNothing_m) return true;
+    if ((point - p[0]).norm() <= kSamePoint_m || (point - p[3]).norm() <= kSamePoint_m) return true;
     const double along = way.dot(point - p[0]), aside = cross(way, point - p[0]);
-    return length > kNothing_m && std::abs(aside) <= 1e-11 * length && along >= 0.0 && along <= length * length;
+    return length > kSamePoint_m && std::abs(aside) <= kOnTheLine * length && along >= 0.0 && along <= length * length;
   });
 }
 

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/tolerances.hpp"
 #include "core/geometry/pose.hpp"
 
 namespace fleetproof {
@@ -16,8 +17,8 @@ struct Arc {
   Pose pose_at(double s_m) const;
 };
 
-// A track on the floor by arc length: arcs joined without kinks (heading continuous to 1e-9). Points and curvature are
-// exact in closed form.
+// A track on the floor by arc length: arcs joined without kinks (heading continuous to kKink_rad). Points and curvature
+// are exact in closed form.
 class Curve {
  public:
   Curve() = default;
@@ -26,7 +27,7 @@ class Curve {
   static Curve straight(const Vec2& from_m, const Vec2& to_m);
   // A cubic Bezier as a chain of arcs that stays within `tolerance_m` of it; ends and end tangents are exact.
   static Curve bezier(const Vec2& p0_m, const Vec2& p1_m, const Vec2& p2_m, const Vec2& p3_m,
-                      double tolerance_m = 1e-3);
+                      double tolerance_m = kBezierByArcs_m);
   // Curves driven one after the other.
   static Curve joined(std::span<const Curve> parts);
 

@@ -5,6 +5,8 @@
 #include <bit>
 #include <cmath>
 
+#include "core/base/tolerances.hpp"
+
 namespace fleetproof {
 namespace {
 
@@ -91,12 +93,6 @@ Vec2 widest_axis(const MutualView& view, const OrientedRectangle& first, const O
 
 double Footprint::half_diagonal_m() const { return 0.5 * std::sqrt(length_m * length_m + width_m * width_m); }
 
-Vec2 OrientedRectangle::corner_m(int i) const {
-  const double along = i == 0 || i == 3 ? half_length_m : -half_length_m;
-  const double aside = i < 2 ? half_width_m : -half_width_m;
-  return centre_m + along * heading + aside * left_of(heading);
-}
-
 OrientedRectangle placed(const Footprint& footprint, const Pose& pose) {
   return {pose.position_m, pose.heading, 0.5 * footprint.length_m, 0.5 * footprint.width_m};
 }
@@ -112,7 +108,7 @@ Separation separation(const OrientedRectangle& first, const OrientedRectangle& s
   const CornerOffset nearest = nearest_corners(view);
   const double distance_m = std::sqrt(std::min(nearest.squared[0], nearest.squared[1]));
   // So near that the offset is rounding: its direction would be noise.
-  if (distance_m < 1e-11) return {std::max(distance_m, gap_m), widest_axis(view, first, second, gap_m)};
+  if (distance_m < kNoDirection_m) return {std::max(distance_m, gap_m), widest_axis(view, first, second, gap_m)};
   // Back to the floor's frame; in the second's frame the offset points from the second to the first.
   const Both hx = {first.heading.x(), -second.heading.x()}, hy = {first.heading.y(), -second.heading.y()};
   const Both x = nearest.x * hx - nearest.y * hy, y = nearest.x * hy + nearest.y * hx;

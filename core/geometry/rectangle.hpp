@@ -19,9 +19,6 @@ struct OrientedRectangle {
   Vec2 heading = Vec2::UnitX();  // unit vector along the length
   double half_length_m = 0.0;
   double half_width_m = 0.0;
-
-  // Corner i = 0..3, counter-clockwise from front left.
-  Vec2 corner_m(int i) const;
 };
 
 OrientedRectangle placed(const Footprint& footprint, const Pose& pose);
@@ -31,10 +28,10 @@ OrientedRectangle widened(const OrientedRectangle& rectangle, double margin_m);
 
 // The relative position of two rectangles.
 struct Separation {
-  double clearance_m =
-      0.0;  // > 0: Euclidean distance; <= 0: minus the depth of the shallowest overlap over the side directions
-  Vec2 direction =
-      Vec2::UnitX();  // unit, from the first towards the second, along the closest points (or the shallowest axis)
+  // Above zero: the Euclidean distance. Else: minus the depth of the shallowest overlap over the side directions.
+  double clearance_m = 0.0;
+  // Unit vector from the first towards the second, along the closest points, or along the shallowest axis.
+  Vec2 direction = Vec2::UnitX();
 };
 
 // The exact planar distance. The error is below 1e-12 m for bodies within 1 km. The sign is right beyond this error.

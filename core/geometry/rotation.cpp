@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/base/tolerances.hpp"
+
 namespace fleetproof {
 namespace {
 
@@ -76,7 +78,7 @@ double angle_between(const Vec2& from, const Vec2& to) {
   if (steep) angle = 0.5 * kPi - angle;
   if (c < 0.0) angle = kPi - angle;
   // Headings that are opposite but for rounding turn left, whichever way the last bit points.
-  const bool left = s >= 0.0 || (c < 0.0 && opposite < 1e-15);
+  const bool left = s >= 0.0 || (c < 0.0 && opposite < kOpposite);
   return left ? angle : -angle;
 }
 

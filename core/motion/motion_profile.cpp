@@ -4,14 +4,10 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "core/base/tolerances.hpp"
 
 namespace fleetproof {
-namespace {
-
-// Rounding may leave an end speed this much out of reach.
-constexpr double kReachable_mps = 1e-4;
-
-}  // namespace
+namespace {}  // namespace
 
 MotionProfile::MotionProfile(double distance, const MotionLimits& limits, const EndSpeeds& ends)
     : distance_(distance), up_(limits.acceleration_mps2), down_(limits.deceleration_mps2), ends_(ends) {

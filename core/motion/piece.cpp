@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/tolerances.hpp"
 #include "core/geometry/rotation.hpp"
 
 namespace fleetproof {
@@ -12,10 +13,10 @@ namespace {
 // arc's centre and leaves its chord by no more than radius * angle^2 / 8; the chords lie in the box of the bodies at
 // their ends.
 void add_swept_arc(Box& box, const Arc& arc, double length_m, const Footprint& footprint) {
-  constexpr double kBeyond_m = 0.02, kMostSteps = 1e4;
+  constexpr double kMostSteps = 1e4;
   const double turned_rad = std::abs(arc.curvature_per_m) * length_m;
   const double sagitta_m = (length_m + footprint.half_diagonal_m() * turned_rad) * turned_rad / 8.0;
-  const int steps = 1 + static_cast<int>(std::min(std::sqrt(sagitta_m / kBeyond_m), kMostSteps));
+  const int steps = 1 + static_cast<int>(std::min(std::sqrt(sagitta_m / kBoxSlack_m), kMostSteps));
   Box bodies;
   for (int i = 0; i <= steps; ++i) bodies.add(placed(footprint, arc.pose_at(length_m * i / steps)));
   const Box grown = bodies.grown(sagitta_m / steps / steps);

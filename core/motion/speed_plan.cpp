@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/tolerances.hpp"
+
 namespace fleetproof {
 namespace {
 
 constexpr double kSlowest_mps = 0.05;  // in the tightest of bends
-constexpr double kRounding_m = 1e-9, kRelativeRounding = 1e-12;
 
 double limit_on(const Arc& arc, double speed_mps, double lateral_mps2) {
   if (lateral_mps2 == 0.0 || arc.curvature_per_m == 0.0) return speed_mps;
@@ -33,9 +34,8 @@ void cut(const Curve& curve, double speed_mps, double lateral_mps2, double from_
 
 // Standing is standing: what rounding leaves of a stop is no speed to roll on with.
 double after(double speed, double acceleration, double way) {
-  constexpr double kStands_m2ps2 = 1e-10, kRelative = 1e-12;
   const double squared = speed * speed + 2.0 * acceleration * way;
-  return squared < kStands_m2ps2 + kRelative * speed * speed ? 0.0 : std::sqrt(squared);
+  return squared < kStands_m2ps2 + kStands * speed * speed ? 0.0 : std::sqrt(squared);
 }
 
 // Slow enough for everything behind: from the last leg back to the first.
@@ -70,7 +70,7 @@ void plan_legs(const Curve& curve, const MotionLimits& limits, double lateral_mp
 void plan_stop(const Curve& curve, const MotionLimits& limits, double from_m, double entry_mps,
                std::vector<Leg>& legs) {
   const double rest_m = curve.length_m() - from_m, needed_m = entry_mps * entry_mps / (2.0 * limits.deceleration_mps2);
-  const bool stops = needed_m <= rest_m + kRounding_m + kRelativeRounding * rest_m;
+  const bool stops = needed_m <= rest_m + kBrakingRounding_m + kBrakingRounding * rest_m;
   const double exit_mps = stops ? 0.0 : after(entry_mps, -limits.deceleration_mps2, rest_m);
   legs.assign(1, {from_m,
                   stops ? std::min(from_m + needed_m, curve.length_m()) : curve.length_m(),

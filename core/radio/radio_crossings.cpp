@@ -5,17 +5,17 @@
 #include <optional>
 
 #include "core/base/random.hpp"
+#include "core/base/tolerances.hpp"
 
 namespace fleetproof {
 namespace {
 
 constexpr std::uint32_t kCrossingDraw = 10;  // must differ from the kinds in radio.cpp
-constexpr double kBeyond_m = 1e-6, kUnseen_m = 1e-4;
 
 // The distance from this point to the border of its cell; below zero if the point is outside. A cell is convex.
 double room_m(const AccessCell& cell, double spacing_m, const Vec2& at_m) {
   const Vec2 from_middle_m = at_m - spacing_m * Vec2(static_cast<double>(cell.column), static_cast<double>(cell.row));
-  return 0.5 * spacing_m + kBeyond_m - from_middle_m.cwiseAbs().maxCoeff();
+  return 0.5 * spacing_m + kBeyondBorder_m - from_middle_m.cwiseAbs().maxCoeff();
 }
 
 SimTime time_at(const Piece& piece, double way_m) {
@@ -47,7 +47,7 @@ std::optional<SimTime> leaves(const Piece& drive, const AccessCell& cell, double
     double next_m = arc_end_m;
     if (curvature_per_m > 0.0) {
       const double room = room_m(cell, spacing_m, drive.curve->pose_at(way_m).position_m);
-      next_m = std::min(arc_end_m, way_m + std::max(room, std::sqrt(8.0 * kUnseen_m / curvature_per_m)));
+      next_m = std::min(arc_end_m, way_m + std::max(room, std::sqrt(8.0 * kUnseenExcursion_m / curvature_per_m)));
     }
     if (room_m(cell, spacing_m, drive.curve->pose_at(next_m).position_m) < 0.0) {
       return first_outside(drive, cell, spacing_m, time_at(drive, way_m), time_at(drive, next_m));

@@ -10,6 +10,7 @@
 
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
+#include "core/base/tolerances.hpp"
 #include "generators/formats/nurbs.hpp"
 #include "generators/formats/purpose_words.hpp"
 #include "generators/map/antiparallel.hpp"
@@ -19,9 +20,6 @@
 
 namespace fleetproof {
 namespace {
-
-constexpr double kOnTheNode_m = 0.001;     // how far a trajectory may end beside its node
-constexpr double kSmoothedKink_rad = 0.2;  // a joint of curves beyond it is no rounding error
 
 // The first of two spellings that is there: LIF 1.0 says vehicleType where its successor says mobileRobotType.
 std::optional<JsonReader> either(const JsonReader& object, std::string_view old_key, std::string_view new_key) {
@@ -206,7 +204,7 @@ class LifReader {
     }
     segment.control_points_m = std::move(pieces.control_points_m);
     const double kink = largest_kink_rad(segment);
-    if (kink > 1e-9 && kink <= kSmoothedKink_rad) {
+    if (kink > kKink_rad && kink <= kSmoothedKink_rad) {
       smooth_joints(segment);
       warn(trajectory,
            fmt::format("two curves of edge {} meet at an angle of {:.3f} rad; their control points were aligned", name,

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/tolerances.hpp"
+
 namespace fleetproof {
 namespace {
 
 constexpr std::size_t kHighestDegree = 9, kMostPoints = 10'000;
 constexpr int kStepsPerSpan = 16;
-constexpr double kNothing_m = 1e-6;
-constexpr double kStraight_m = 1e-6;  // a corner this near to the line beside it is none
 
 bool equal_weights(const Nurbs& n) {
   return std::ranges::all_of(n.weights, [&](double w) { return w == n.weights[0]; });
@@ -42,12 +42,12 @@ std::vector<Vec2> raised_from_quadratic(const std::vector<Vec2>& p) {
 bool is_straight(const std::vector<Vec2>& p) {
   const Vec2 way = p.back() - p[0];
   const double length = way.norm();
-  if (length < kNothing_m) return false;
+  if (length < kNurbsPoint_m) return false;
   double reached = 0.0;
   for (const auto& point : p) {
     const Vec2 to = point - p[0];
     const double along = to.dot(way) / length;
-    if (std::abs(to.x() * way.y() - to.y() * way.x()) > kStraight_m * length || along < reached - kStraight_m)
+    if (std::abs(to.x() * way.y() - to.y() * way.x()) > kNurbsPoint_m * length || along < reached - kNurbsPoint_m)
       return false;
     reached = along;
   }
@@ -77,7 +77,7 @@ Vec2 point_at(const Nurbs& n, std::size_t span, double u) {
 std::vector<Vec2> points_along(const Nurbs& n) {
   std::vector<Vec2> points;
   const auto add = [&](const Vec2& point) {
-    if (points.empty() || (point - points.back()).norm() > kNothing_m) points.push_back(point);
+    if (points.empty() || (point - points.back()).norm() > kNurbsPoint_m) points.push_back(point);
   };
   const int steps = n.degree == 1 ? 1 : kStepsPerSpan;
   for (std::size_t span = n.degree; span < n.points_m.size(); ++span) {
@@ -94,7 +94,7 @@ std::vector<Vec2> smooth_through(const std::vector<Vec2>& p) {
   std::vector<Vec2> tangents(p.size());
   for (std::size_t i = 1; i + 1 < p.size(); ++i) {
     const Vec2 across = p[i + 1] - p[i - 1];
-    tangents[i] = across.norm() > kNothing_m ? across.normalized() : (p[i + 1] - p[i]).normalized();
+    tangents[i] = across.norm() > kNurbsPoint_m ? across.normalized() : (p[i + 1] - p[i]).normalized();
   }
   const auto mirrored = [](const Vec2& tangent, const Vec2& chord) {
     const Vec2 c = chord.normalized();

@@ -10,6 +10,7 @@
 
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
+#include "core/base/tolerances.hpp"
 #include "generators/map/antiparallel.hpp"
 #include "generators/map/layout_check.hpp"
 #include "generators/text/text_file.hpp"
@@ -21,7 +22,6 @@ namespace {
 constexpr double kNewestVersion = 7.0;
 constexpr double kDefaultScale_mm = 50.0;  // of a layout unit, where the model does not say
 constexpr double kToleratedLength = 0.02;  // share by which a stored length may be off
-constexpr double kSmoothedKink_rad = 0.2;  // a joint of Beziers beyond it is no slip of the mouse
 
 // A word in the name of a location type, or of its symbol, and what it says about the points linked to such locations.
 struct PurposeWord {
@@ -165,7 +165,7 @@ class ModelReader {
     }
     segment.control_points_m = std::move(points);
     const double kink = largest_kink_rad(segment);
-    if (kink > 1e-9 && kink <= kSmoothedKink_rad) {
+    if (kink > kKink_rad && kink <= kSmoothedKink_rad) {
       smooth_joints(segment);
       warn(path,
            fmt::format("the two curves of path {} meet at an angle of {:.3f} rad; their control points were aligned",

@@ -4,10 +4,10 @@
 #include <map>
 #include <utility>
 
+#include "core/base/tolerances.hpp"
+
 namespace fleetproof {
 namespace {
-
-constexpr double kSameTrack_m = 0.001;
 
 bool is_mirrored(const Segment& there, const Segment& back) {
   return std::ranges::equal(there.control_points_m.begin(), there.control_points_m.end(),

@@ -6,15 +6,13 @@
 #include <cmath>
 #include <set>
 
+#include "core/base/tolerances.hpp"
 #include "core/geometry/rectangle.hpp"
 #include "core/geometry/rotation.hpp"
 #include "generators/text/text_file.hpp"
 
 namespace fleetproof {
 namespace {
-
-constexpr double kLargestKink_rad = 1e-9;  // more is no smooth curve
-constexpr double kNothing_m = 1e-9;
 
 class Check {
  public:
@@ -109,7 +107,7 @@ std::string fault_of_curve(const Curve& curve) {
     if (i == 0) continue;
     const double kink =
         std::abs(angle_between(arcs[i - 1].pose_at(arcs[i - 1].length_m).heading, arcs[i].start.heading));
-    if (kink > kLargestKink_rad) {
+    if (kink > kKink_rad) {
       return fmt::format(
           "it has a kink of {:.3g} rad; align the control points beside the joint, or put a station there", kink);
     }
@@ -129,7 +127,7 @@ double largest_kink_rad(const Segment& segment) {
   double largest = 0.0;
   for (std::size_t joint = 2; joint + 1 < c.size(); joint += 3) {
     const Vec2 in = c[joint] - c[joint - 1], out = c[joint + 1] - c[joint];
-    if (in.norm() < kNothing_m || out.norm() < kNothing_m) continue;
+    if (in.norm() < kNoHandle_m || out.norm() < kNoHandle_m) continue;
     largest = std::max(largest, std::abs(angle_between(in.normalized(), out.normalized())));
   }
   return largest;
@@ -140,7 +138,7 @@ void smooth_joints(Segment& segment) {
   for (std::size_t joint = 2; joint + 1 < c.size(); joint += 3) {
     const Vec2 in = c[joint] - c[joint - 1], out = c[joint + 1] - c[joint];
     const Vec2 both = in.normalized() + out.normalized();
-    if (in.norm() < kNothing_m || out.norm() < kNothing_m || both.norm() < kNothing_m) continue;
+    if (in.norm() < kNoHandle_m || out.norm() < kNoHandle_m || both.norm() < kNoHandle_m) continue;
     const Vec2 tangent = both.normalized();
     c[joint - 1] = c[joint] - tangent * in.norm();
     c[joint + 1] = c[joint] + tangent * out.norm();

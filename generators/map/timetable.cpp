@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/tolerances.hpp"
 #include "core/geometry/rotation.hpp"
 #include "core/motion/motion_profile.hpp"
 
 namespace fleetproof {
 namespace {
 
-constexpr double kAligned_rad = 1e-7;                     // as the engine has it
 constexpr Duration kSame = std::chrono::microseconds(1);  // no drive is so short
-constexpr Duration kFar = Duration::max();
 constexpr std::uint32_t kNone = QuickestWays::kNone;
 
 }  // namespace
@@ -147,31 +146,15 @@ bool Timetable::follow(QuickestWays& ways) {
   return true;
 }
 
-// Dijkstra in whole nanoseconds; of ways equally quick the one found first.
+// In whole nanoseconds.
 void Timetable::search(QuickestWays& ways) {
-  auto& open = *open_;
   ways.arrivals.assign(map_.station_count(), {});
-  reached_.assign(map_.station_count(), {kFar, kFar, kNone});
-  reached_[ways.from.index()].cost = Duration::zero();
-  open.rewind();
-  open.push({0, ways.from.value});
-  while (!open.empty()) {
-    const auto [cost_ns, here] = open.pop();
-    const Duration cost{cost_ns};
-    if (cost > reached_[here].cost) continue;
-    arrive(ways, here);
-    for (const auto lane : map_.lanes_from(StationId{here})) {
-      const auto& hop = hops_[lane];
-      auto& reached = reached_[hop.to];
-      const Duration there = cost + hop.drive;
-      if (there < reached.cost) {
-        reached = {there, reached.cost, lane};
-        open.push({there.count(), hop.to});
-      } else if (there < reached.next_best) {
-        reached.next_best = there;
-      }
-    }
-  }
+  open_->rewind();
+  const auto hop = [&](std::uint32_t lane) { return std::pair(hops_[lane].to, hops_[lane].drive.count()); };
+  search_ways(map_, ways.from, *open_, reached_, hop, [&](StationId station) {
+    arrive(ways, station.value);
+    return true;
+  });
 }
 
 // All ways to the station that are as quick as its quickest are known by now. Times with turns follow along the tree.
@@ -189,7 +172,7 @@ void Timetable::arrive(QuickestWays& ways, std::uint32_t station) const {
   arrival.first = begins ? reached.lane : before.first;
   arrival.drives_off = begins ? Duration::zero() : before.arrives + turn(before.lane, reached.lane);
   arrival.arrives = arrival.drives_off + hop.drive;
-  arrival.unique = before.unique && reached.next_best - reached.cost > kSame;
+  arrival.unique = before.unique && reached.next_best - reached.cost > kSame.count();
 }
 
 }  // namespace fleetproof

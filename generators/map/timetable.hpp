@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/scenario/scenario.hpp"
+#include "core/scenario/ways.hpp"
 #include "generators/map/calendar_queue.hpp"
 
 namespace fleetproof {
@@ -14,7 +15,7 @@ namespace fleetproof {
 // drive. Ways are chosen without regard to turns; the times of arrival contain them. The first lane is driven without
 // turning.
 struct QuickestWays {
-  static constexpr std::uint32_t kNone = ~0U;
+  static constexpr std::uint32_t kNone = kNoLane;
 
   struct Arrival {
     Duration drives_off{}, arrives{};  // when the last lane is begun, after the turn, and ended
@@ -64,11 +65,7 @@ class Timetable {
   std::vector<QuickestWays> ways_;       // by station; empty: not asked for yet
 
   // Memory of a search, kept for the next.
-  struct Reached {
-    Duration cost, next_best;  // by the quickest way and by the quickest that ends with another lane
-    std::uint32_t lane;
-  };
-  std::vector<Reached> reached_;  // by station
+  std::vector<ReachedStation<std::int64_t>> reached_;  // by station, in ns
   std::vector<std::uint32_t> followed_;
   std::vector<QuickestWays::Arrival> passed_;
   std::vector<Duration> later_;  // by lane from the end of those followed

@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "core/base/catalogue.hpp"
+#include "core/base/tolerances.hpp"
 #include "generators/formats/layout_file.hpp"
 #include "generators/formats/purpose_words.hpp"
 #include "generators/scenario_file/radio_fields.hpp"
@@ -79,10 +80,10 @@ void read_duration(const JsonReader& reader, const std::string& name, Duration& 
 Vec2 read_heading(const JsonReader& reader) {
   const Vec2 heading = reader.vector();
   const double norm = heading.norm();
-  if (!(norm > 1e-9) || !(norm < 1e9)) reader.refuse("a heading is a direction [x, y] other than [0, 0]");
+  if (!(norm > kShortestHeading) || !(norm < 1e9)) reader.refuse("a heading is a direction [x, y] other than [0, 0]");
   // A vector that is a unit vector to the last digits stays as it is, so that reading again what was written changes
   // nothing.
-  return std::abs(heading.squaredNorm() - 1.0) <= 1e-12 ? heading : Vec2(heading / norm);
+  return std::abs(heading.squaredNorm() - 1.0) <= kUnitVectorToTheLastDigits ? heading : Vec2(heading / norm);
 }
 
 void read_limits(const JsonReader& vehicle, std::string_view key, std::span<const std::string_view> names,

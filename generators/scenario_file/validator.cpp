@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/base/error.hpp"
+#include "core/base/tolerances.hpp"
 #include "generators/map/layout_check.hpp"
 #include "generators/scenario_file/exempt_pairs.hpp"
 #include "generators/scenario_file/radio_fields.hpp"
@@ -21,8 +22,6 @@ constexpr double kSmallestRate =
     1e-3;  // slower than any vehicle; keeps every activity within the range of simulated time
 constexpr Duration kLongestRun = std::chrono::seconds(10'000'000);
 constexpr Duration kLongest = std::chrono::seconds(1'000'000'000);
-constexpr double kUnitTolerance = 1e-9;
-constexpr double kMicrometre_m = 1e-6;
 
 // A field of the scenario file, turned into a JSON pointer only when there is something to say about it.
 struct Field {
@@ -119,7 +118,7 @@ class RangeCheck {
   }
 
   void heading(const Field& field, const Vec2& h) {
-    if (std::abs(h.squaredNorm() - 1.0) <= kUnitTolerance) return;
+    if (std::abs(h.squaredNorm() - 1.0) <= kUnitVector) return;
     add(ProblemKind::NumberOutOfRange, field.pointer(),
         fmt::format("[{}, {}] is not a direction; a heading is a unit vector", h.x(), h.y()));
   }
@@ -346,7 +345,7 @@ bool closer_than(const OrientedRectangle& a, const OrientedRectangle& b, double 
   // Far apart, as most pairs are: no exact distance needed.
   const double reach = a.half_length_m + a.half_width_m + b.half_length_m + b.half_width_m + distance_m;
   if ((a.centre_m - b.centre_m).squaredNorm() > reach * reach) return false;
-  return clearance_m(a, b) < distance_m - kMicrometre_m;
+  return clearance_m(a, b) < distance_m - kBuiltToTheLimit_m;
 }
 
 OrientedRectangle start_body(const Scenario& scenario, const AgvSetup& agv) {

@@ -87,7 +87,7 @@ TEST(Rectangle, DepthIsThatOfTheShallowestWayOut) {
 TEST(Rectangle, CornersRunCounterClockwiseFromFrontLeft) {
   const OrientedRectangle r = placed({2.0, 1.0}, {{10.0, 20.0}, Vec2::UnitY()});
   const std::array<Vec2, 4> expected{Vec2(9.5, 21.0), Vec2(9.5, 19.0), Vec2(10.5, 19.0), Vec2(10.5, 21.0)};
-  for (int i = 0; i < 4; ++i) EXPECT_NEAR((r.corner_m(i) - expected[static_cast<std::size_t>(i)]).norm(), 0.0, 1e-15);
+  for (int i = 0; i < 4; ++i) EXPECT_NEAR((corner_of(r, i) - expected[static_cast<std::size_t>(i)]).norm(), 0.0, 1e-15);
   EXPECT_DOUBLE_EQ((Footprint{1.6, 1.2}).half_diagonal_m(), 1.0);
   EXPECT_DOUBLE_EQ(clearance_m(widened(r, 0.25), placed({1.0, 1.0}, {{12.0, 20.0}, Vec2::UnitX()})), 0.75);
 }
@@ -98,7 +98,7 @@ TEST(Rectangle, BoxHoldsAllCornersAndNoMore) {
     const OrientedRectangle r = random.anywhere(10.0);
     Box box, corners;
     box.add(r);
-    for (int k = 0; k < 4; ++k) corners.add(r.corner_m(k));
+    for (int k = 0; k < 4; ++k) corners.add(corner_of(r, k));
     ASSERT_NEAR((box.low_m - corners.low_m).norm() + (box.high_m - corners.high_m).norm(), 0.0, 1e-14);
   }
 }

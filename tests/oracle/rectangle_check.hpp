@@ -63,9 +63,16 @@ inline long double oracle_m(const OrientedRectangle& first, const OrientedRectan
   return meet ? -least : least;
 }
 
+// Corner i = 0..3, counter-clockwise from front left.
+inline Vec2 corner_of(const OrientedRectangle& r, int i) {
+  const double along = i == 0 || i == 3 ? r.half_length_m : -r.half_length_m;
+  const double aside = i < 2 ? r.half_width_m : -r.half_width_m;
+  return r.centre_m + along * r.heading + aside * left_of(r.heading);
+}
+
 inline double extent_m(const OrientedRectangle& r, const Vec2& direction) {
   double most = -1e300;
-  for (int i = 0; i < 4; ++i) most = std::max(most, direction.dot(r.corner_m(i)));
+  for (int i = 0; i < 4; ++i) most = std::max(most, direction.dot(corner_of(r, i)));
   return most;
 }
 

@@ -1,0 +1,47 @@
+#include "core/scenario/ways.hpp"
+
+#include <queue>
+#include <utility>
+
+namespace fleetproof {
+namespace {
+
+// The nearest station first, of equals by number.
+class NearestFirst {
+ public:
+  using Open = std::pair<double, std::uint32_t>;
+
+  void push(const Open& open) { heap_.push(open); }
+  bool empty() const { return heap_.empty(); }
+  Open pop() {
+    const Open nearest = heap_.top();
+    heap_.pop();
+    return nearest;
+  }
+
+ private:
+  std::priority_queue<Open, std::vector<Open>, std::greater<>> heap_;
+};
+
+}  // namespace
+
+std::vector<ShortestWay> shortest_ways(const LogicalMap& map, StationId from, StationId until) {
+  std::vector<ShortestWay> ways;
+  std::vector<const Lane*> first(map.station_count(), nullptr);
+  std::vector<ReachedStation<double>> reached;
+  NearestFirst open;
+  const auto hop = [&](std::uint32_t index) {
+    const Lane& lane = map.lanes()[index];
+    return std::pair(lane.to.value, lane.curve.length_m());
+  };
+  search_ways(map, from, open, reached, hop, [&](StationId station) {
+    const auto& [length_m, next_best, index] = reached[station.index()];
+    const Lane* last = index == kNoLane ? nullptr : &map.lanes()[index];
+    if (last != nullptr) first[station.index()] = last->from == from ? last : first[last->from.index()];
+    ways.push_back({station, length_m, first[station.index()], last});
+    return station != until;
+  });
+  return ways;
+}
+
+}  // namespace fleetproof

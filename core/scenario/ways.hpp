@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "core/scenario/layout.hpp"
+
+namespace fleetproof {
+
+// The one search for best ways over the lanes of a map (Dijkstra). What a way costs and which queue holds the open
+// stations is the caller's choice: the operator and the laws ask for lengths, the timetable of the generators for times
+// in whole nanoseconds with a queue of its own (generators/map/calendar_queue.hpp).
+inline constexpr std::uint32_t kNoLane = ~std::uint32_t{0};
+
+template <class Cost>
+struct ReachedStation {
+  static constexpr Cost kFar = std::numeric_limits<Cost>::max();
+
+  Cost cost = kFar;              // of the best way; kFar: none leads here
+  Cost next_best = kFar;         // of the best way that ends with another lane
+  std::uint32_t lane = kNoLane;  // with which the best way ends; kNoLane at the start and where no way leads
+};
+
+// Finds the best ways from `from` to all stations, into `reached` (by station). Of ways that cost the same the one that
+// is found first stays.
+//
+// `open` is an empty queue: push({cost, station}); pop() gives such a pair with the least cost; empty().
+// `hop` gives {station, cost} of a lane: where it leads, and what it costs; no cost is below zero.
+// `arrive(station)` is called for each station in order of cost, when its way is final; false ends the search.
+template <class Cost, class Queue, class Hop, class Arrive>
+void search_ways(const LogicalMap& map, StationId from, Queue& open, std::vector<ReachedStation<Cost>>& reached,
+                 const Hop& hop, const Arrive& arrive) {
+  reached.assign(map.station_count(), {});
+  reached[from.index()].cost = Cost{};
+  open.push({Cost{}, from.value});
+  while (!open.empty()) {
+    const auto [cost, here] = open.pop();
+    if (cost > reached[here].cost) continue;  // a better way was found since
+    if (!arrive(StationId{here})) return;
+    for (const std::uint32_t lane : map.lanes_from(StationId{here})) {
+      const auto [next, hop_cost] = hop(lane);
+      ReachedStation<Cost>& there = reached[next];
+      const Cost whole = cost + hop_cost;
+      if (whole < there.cost) {
+        there = {whole, there.cost, lane};
+        open.push({whole, next});
+      } else if (whole < there.next_best) {
+        there.next_best = whole;
+      }
+    }
+  }
+}
+
+// A shortest way, by the length of its lanes.
+struct ShortestWay {
+  StationId to;
+  double length_m = 0.0;
+  const Lane* first = nullptr;  // null: the way to the start itself
+  const Lane* last = nullptr;   // likewise
+};
+
+// The shortest ways from a station to all that can be reached, by length, of equals by number; `from` itself is the
+// first. With `until`, no further than to that station.
+std::vector<ShortestWay> shortest_ways(const LogicalMap& map, StationId from, StationId until = {});
+
+}  // namespace fleetproof
