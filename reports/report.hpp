@@ -7,7 +7,7 @@
 
 #include "core/base/catalogue.hpp"
 #include "reports/evidence/evidence.hpp"
-#include "storage/archive.hpp"
+#include "storage/archive_reader.hpp"
 
 namespace fleetproof {
 

@@ -1,3 +1,5 @@
+#include "storage/archive_reader.hpp"
+
 #include <SQLiteCpp/Database.h>
 #include <SQLiteCpp/Statement.h>
 #include <fmt/format.h>
@@ -8,7 +10,6 @@
 #include <filesystem>
 
 #include "core/base/error.hpp"
-#include "storage/archive.hpp"
 #include "storage/checksum.hpp"
 #include "storage/rows.hpp"
 #include "storage/schema.hpp"

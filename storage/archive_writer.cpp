@@ -1,3 +1,5 @@
+#include "storage/archive_writer.hpp"
+
 #include <SQLiteCpp/Database.h>
 #include <SQLiteCpp/Statement.h>
 #include <fcntl.h>
@@ -11,7 +13,6 @@
 #include <optional>
 
 #include "core/base/error.hpp"
-#include "storage/archive.hpp"
 #include "storage/canonical_file.hpp"
 #include "storage/checksum.hpp"
 #include "storage/rows.hpp"

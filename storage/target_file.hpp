@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "storage/archive.hpp"
+#include "storage/archive_writer.hpp"
 
 namespace fleetproof {
 

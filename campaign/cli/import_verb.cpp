@@ -10,7 +10,7 @@
 #include "generators/formats/csv_layout.hpp"
 #include "generators/formats/importer.hpp"
 #include "generators/formats/layout_file.hpp"
-#include "generators/formats/lif.hpp"
+#include "generators/formats/lif_text.hpp"
 #include "generators/map/layout_svg.hpp"
 
 namespace fleetproof::cli {

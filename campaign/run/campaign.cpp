@@ -9,7 +9,7 @@
 #include "core/base/random.hpp"
 #include "generators/formats/purpose_words.hpp"
 #include "generators/scenario_file/exempt_pairs.hpp"
-#include "storage/archive.hpp"
+#include "storage/archive_writer.hpp"
 
 namespace fleetproof {
 namespace {

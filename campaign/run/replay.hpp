@@ -6,7 +6,7 @@
 #include "campaign/plan/plan.hpp"
 #include "campaign/run/agent_programs.hpp"
 #include "core/outcome/trace.hpp"
-#include "storage/archive.hpp"
+#include "storage/archive_reader.hpp"
 
 namespace fleetproof {
 

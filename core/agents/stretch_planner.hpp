@@ -64,7 +64,6 @@ class StretchPlanner {
 
   void price_lanes(double waiting_s, double idle_s);
   void price_station(std::uint32_t station, double extra_s);
-  bool is_claimed(std::uint32_t station, const Neighbour& neighbour, std::uint32_t agv);
   std::uint32_t best_place(std::uint32_t from, bool prefer_parking, double draw);
   bool follow(Walk& walk, std::uint32_t to);
 

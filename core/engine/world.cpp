@@ -7,28 +7,6 @@
 
 namespace fleetproof {
 
-const char* name_of(ActivityKind kind) {
-  switch (kind) {
-    case ActivityKind::Drive:
-      return "drive";
-    case ActivityKind::Turn:
-      return "turn";
-    case ActivityKind::Transmit:
-      return "transmit";
-    case ActivityKind::Pick:
-      return "pick";
-    case ActivityKind::Drop:
-      return "drop";
-    case ActivityKind::Park:
-      return "park";
-    case ActivityKind::Charge:
-      return "charge";
-    case ActivityKind::Settle:
-      return "settle";
-  }
-  return "?";
-}
-
 World::World(const Scenario& scenario, std::span<const std::unique_ptr<Law>> laws) : scenario_(scenario), laws_(laws) {
   bodies_.resize(scenario.body_count());
   for (std::size_t i = 0; i < scenario.agvs.size(); ++i) {

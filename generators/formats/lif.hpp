@@ -18,12 +18,6 @@ namespace fleetproof {
 Layout read_lif(const std::string& path, std::vector<std::string>& warnings);
 Layout parse_lif(std::string_view text, std::string_view source, std::vector<std::string>& warnings);
 
-// The layout as LIF 1.0. The format has no words for the purposes of a station, so they stand in the description of its
-// node, where parse_lif finds them. Reading the text gives the same layout, with two exceptions: two one-way segments
-// on one track become one segment (merge_antiparallel), and the floor is fitted again. A layout without segments cannot
-// be read again.
-std::string to_lif(const Layout& layout);
-
 // The words for purposes in a description, as to_lif writes and parse_lif reads them: "purposes: storage charging".
 inline constexpr std::string_view kPurposesMark = "purposes:";
 

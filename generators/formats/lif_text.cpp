@@ -1,3 +1,5 @@
+#include "generators/formats/lif_text.hpp"
+
 #include <algorithm>
 #include <set>
 

@@ -80,7 +80,6 @@ class Evidence {
   std::vector<GateResult> judge_all() const;
 
   std::vector<Condition> conditions() const;  // by agent as the campaign names them, then loss, delay, mean outage
-  const Coverage& coverage_of(std::size_t gate) const { return coverage_.at(gate); }
   std::vector<AgentCoverage> agent_coverage() const;  // as the campaign names them
   std::vector<ContractFailures> contract_failures()
       const;  // as the campaign names the agents; without those that have none

@@ -6,7 +6,7 @@
 #include "campaign/plan/campaign_file.hpp"
 #include "campaign/run/campaign.hpp"
 #include "reports/evidence/binomial.hpp"
-#include "storage/archive.hpp"
+#include "storage/archive_reader.hpp"
 #include "tests/support/program.hpp"
 
 namespace fleetproof {

@@ -7,7 +7,7 @@
 
 #include "core/base/random.hpp"
 #include "laws/laws.hpp"
-#include "storage/archive.hpp"
+#include "storage/archive_reader.hpp"
 #include "tests/contract/small_campaign.hpp"
 #include "tests/support/program.hpp"
 

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "generators/scenario_file/scenario_file.hpp"
-#include "storage/archive.hpp"
 #include "tests/contract/small_campaign.hpp"
 #include "tests/support/program.hpp"
 

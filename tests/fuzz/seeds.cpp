@@ -7,7 +7,7 @@
 #include "generators/families/layout_family.hpp"
 #include "generators/formats/csv_layout.hpp"
 #include "generators/formats/layout_file.hpp"
-#include "generators/formats/lif.hpp"
+#include "generators/formats/lif_text.hpp"
 #include "generators/scenario_file/scenario_file.hpp"
 #include "generators/worlds/world_maker.hpp"
 

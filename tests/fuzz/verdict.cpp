@@ -8,6 +8,7 @@
 #include "generators/formats/csv_layout.hpp"
 #include "generators/formats/layout_file.hpp"
 #include "generators/formats/lif.hpp"
+#include "generators/formats/lif_text.hpp"
 #include "generators/map/layout_check.hpp"
 #include "generators/text/text_file.hpp"
 

@@ -1,4 +1,5 @@
 #include "generators/formats/lif.hpp"
+#include "generators/formats/lif_text.hpp"
 
 #include <gtest/gtest.h>
 

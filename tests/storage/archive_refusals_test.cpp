@@ -8,7 +8,8 @@
 #include <filesystem>
 
 #include "core/base/error.hpp"
-#include "storage/archive.hpp"
+#include "storage/archive_reader.hpp"
+#include "storage/archive_writer.hpp"
 #include "tests/storage/sample_records.hpp"
 
 namespace fleetproof {

@@ -1,4 +1,5 @@
-#include "storage/archive.hpp"
+#include "storage/archive_reader.hpp"
+#include "storage/archive_writer.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -2,7 +2,8 @@
 #include <gtest/gtest.h>
 #include <sqlite3.h>
 
-#include "storage/archive.hpp"
+#include "storage/archive_reader.hpp"
+#include "storage/archive_writer.hpp"
 #include "tests/storage/sample_records.hpp"
 
 namespace fleetproof {

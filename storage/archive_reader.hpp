@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "storage/records.hpp"
+
+namespace fleetproof {
+
+// Verify: a checksum that does not match throws EngineError with the row. Ignore: for a replay, whose purpose is to
+// find what was changed.
+enum class Checksums : std::uint8_t { Verify, Ignore };
+
+// Reads a published (or live) campaign file. Threads: one.
+class ArchiveReader {
+ public:
+  // Throws InputError if there is no such file, or if it is not a campaign file, or if it has another schema. Throws
+  // EngineError if the file is damaged.
+  explicit ArchiveReader(const std::string& path, Checksums checksums = Checksums::Verify);
+  ~ArchiveReader();
+  ArchiveReader(const ArchiveReader&) = delete;
+  ArchiveReader& operator=(const ArchiveReader&) = delete;
+
+  const CampaignRecord& campaign() const;
+  const std::vector<CellRecord>& cells() const;
+  const std::vector<GateRecord>& gates() const;
+  std::uint64_t run_count() const;
+  std::optional<RunRecord> run(std::uint64_t run_index) const;
+  // All runs with all their parts, in order of run index.
+  void for_each_run(const std::function<void(const RunRecord&)>& visit) const;
+  // One digest over plan, cells, gates and all rows. Two files have the same digest if they have the same content.
+  std::uint64_t content_digest() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace fleetproof
