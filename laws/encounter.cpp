@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/error.hpp"
-
 namespace fleetproof {
 namespace {
 
@@ -42,20 +40,6 @@ bool at_start(const Track& track, double s_m) { return s_m <= 0.5 * track.footpr
 bool at_end(const Track& track, double s_m) { return s_m >= track.length_m - 0.5 * track.footprint.length_m; }
 
 }  // namespace
-
-const char* name_of(EncounterKind kind) {
-  switch (kind) {
-    case EncounterKind::HeadOn:
-      return "head-on";
-    case EncounterKind::Crossing:
-      return "crossing";
-    case EncounterKind::Following:
-      return "following";
-    case EncounterKind::Merging:
-      return "merging";
-  }
-  invariant_violated("a kind of encounter has a name");
-}
 
 Track Track::of(const Piece& drive) {
   Track track{drive.entity, drive.begin, drive.end, drive.curve->length_m(), drive.footprint, {}, {}};

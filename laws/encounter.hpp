@@ -1,17 +1,12 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "core/motion/piece.hpp"
+#include "core/outcome/probe_names.hpp"
 
 namespace fleetproof {
-
-// How the drives of two AGVs meet.
-enum class EncounterKind : std::uint8_t { HeadOn, Crossing, Following, Merging };
-inline constexpr std::size_t kEncounterKinds = 4;
-const char* name_of(EncounterKind kind);  // "head-on", ...
 
 // The track of one drive with its width, as far as encounters need it. It does not refer to the piece that it was made
 // from.

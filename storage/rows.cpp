@@ -152,7 +152,7 @@ void bind_run(SQLite::Statement& insert, const RunRecord& run, std::uint64_t che
   to << name_of(o.outcome_class());
   to << o.violation << o.contact << o.stuck << o.crash << o.hang << o.indeterminate << o.engine_error;
   to << o.min_clearance_um << o.simulated_ns << o.agv_count << o.digest << o.running_digests << o.message;
-  for (const auto& column : kCounterColumns) to << o.counters.*column.member;
+  for (const auto& counter : kCounters) to << o.counters.*counter.member;
   to << checksum;
 }
 
@@ -257,7 +257,7 @@ StoredRun read_run(const SQLite::Statement& row) {
   o.digest = from.u64();
   o.running_digests = from.digests();
   o.message = from.text();
-  for (const auto& column : kCounterColumns) o.counters.*column.member = from.u64();
+  for (const auto& counter : kCounters) o.counters.*counter.member = from.u64();
   stored.checksum = from.u64();
   return stored;
 }

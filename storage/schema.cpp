@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+#include "core/base/contract.hpp"
+#include "core/outcome/outcome.hpp"
+
 namespace fleetproof {
 namespace {
 
@@ -119,13 +122,13 @@ CREATE TABLE probes (
 ) STRICT, WITHOUT ROWID;
 )sql";
 
-// The bounds of the region are those of RadioQuality. A run has its own drawn quality. A cell with bounds is in the
-// contract if all of its qualities are.
+// The bounds of the region are those of core/base/contract.hpp. A run has its own drawn quality. A cell with bounds is
+// in the contract if all of its qualities are.
 constexpr const char* kViews = R"sql(
 CREATE VIEW v1_cells AS
 SELECT c.cell, c.agent, c.layout, c.fleet_size, c.loss, c.delay_s,
-       c.loss_to <= 0.40 AND c.delay_to_s <= 2.0 AS in_contract,
-       c.loss = 0.40 AND c.loss_to = 0.40 AND c.delay_s = 2.0 AND c.delay_to_s = 2.0 AS is_worst_case,
+       c.loss_to <= {loss} AND c.delay_to_s <= {delay} AS in_contract,
+       c.loss = {loss} AND c.loss_to = {loss} AND c.delay_s = {delay} AND c.delay_to_s = {delay} AS is_worst_case,
        count(r.run_index) AS runs,
        coalesce(sum(r.violation), 0) AS violation_runs,
        coalesce(sum(r.contact), 0) AS contact_runs,
@@ -141,7 +144,7 @@ SELECT c.cell, c.agent, c.layout, c.fleet_size, c.loss, c.delay_s,
 FROM cells c LEFT JOIN runs r ON r.cell = c.cell GROUP BY c.cell;
 CREATE VIEW v1_runs AS
 SELECT r.run_index, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, r.loss, r.delay_s,
-       r.loss <= 0.40 AND r.delay_s <= 2.0 AS in_contract,
+       r.loss <= {loss} AND r.delay_s <= {delay} AS in_contract,
        r.outcome_class, r.violation, r.contact, r.stuck, r.crash, r.hang, r.indeterminate, r.engine_error,
        r.min_clearance_um, r.simulated_ns, r.agv_count, r.message,
 {run_counters},
@@ -151,21 +154,21 @@ SELECT r.run_index, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, r.loss
 FROM runs r JOIN cells c ON c.cell = r.cell;
 CREATE VIEW v1_violations AS
 SELECT v.run_index, v.ordinal, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, r.loss, r.delay_s,
-       r.loss <= 0.40 AND r.delay_s <= 2.0 AS in_contract,
+       r.loss <= {loss} AND r.delay_s <= {delay} AS in_contract,
        v.entity_a, v.entity_b, v.first_ns, v.last_ns, v.closest_at_ns, v.min_clearance_um,
        v.relative_speed_um_s, v.x_um, v.y_um, v.contact, r.mean_outage_s,
-       CASE WHEN NOT v.contact THEN 'safety distance broken' WHEN v.relative_speed_um_s > {hazardous} THEN 'contact at hazardous speed' ELSE 'contact' END AS level,
+       CASE WHEN NOT v.contact THEN '{near}' WHEN v.relative_speed_um_s > {hazardous} THEN '{hazardous_contact}' ELSE '{contact}' END AS level,
        CASE WHEN v.entity_b < r.agv_count THEN 'AGV-AGV' ELSE 'AGV-obstacle' END AS entities
 FROM violations v JOIN runs r ON r.run_index = v.run_index JOIN cells c ON c.cell = r.cell;
 CREATE VIEW v1_incidents AS
 SELECT i.run_index, i.ordinal, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, r.loss, r.delay_s,
-       r.loss <= 0.40 AND r.delay_s <= 2.0 AS in_contract,
+       r.loss <= {loss} AND r.delay_s <= {delay} AS in_contract,
        CASE i.kind{incident_names} END AS kind, i.entity_a, i.entity_b, i.first_ns, i.last_ns, i.value,
        CASE i.kind{incident_units} END AS unit
 FROM incidents i JOIN runs r ON r.run_index = i.run_index JOIN cells c ON c.cell = r.cell;
 CREATE VIEW v1_probes AS
 SELECT p.run_index, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, r.loss, r.delay_s,
-       r.loss <= 0.40 AND r.delay_s <= 2.0 AS in_contract,
+       r.loss <= {loss} AND r.delay_s <= {delay} AS in_contract,
        CASE p.source WHEN 0 THEN 'world' ELSE 'agent' END AS source, CAST(p.name AS TEXT) AS name, p.count
 FROM probes p JOIN runs r ON r.run_index = p.run_index JOIN cells c ON c.cell = r.cell;
 )sql";
@@ -178,8 +181,7 @@ std::string with_prefix(const std::string& prefix, std::initializer_list<const c
 
 std::string counter_list(const std::string& prefix) {
   std::string list;
-  for (const auto& column : kCounterColumns)
-    list += fmt::format("{}{}{}", list.empty() ? "" : ", ", prefix, column.name);
+  for (const auto& counter : kCounters) list += fmt::format("{}{}{}", list.empty() ? "" : ", ", prefix, counter.name);
   return list;
 }
 
@@ -195,10 +197,15 @@ std::string incident_words(std::string_view IncidentKindInfo::*word) {
 
 std::string schema_ddl() {
   std::string definitions;
-  for (const auto& column : kCounterColumns) definitions += fmt::format("  {} INTEGER NOT NULL,\n", column.name);
+  for (const auto& counter : kCounters) definitions += fmt::format("  {} INTEGER NOT NULL,\n", counter.name);
   return std::string(kPlanTables) + fmt::format(fmt::runtime(kRunTables), fmt::arg("counters", definitions)) +
          fmt::format(fmt::runtime(kViews), fmt::arg("run_counters", "       " + counter_list("r.")),
+                     fmt::arg("loss", fmt::format("{:.2f}", kContractLoss)),
+                     fmt::arg("delay", fmt::format("{:.1f}", kContractDelay_s)),
                      fmt::arg("hazardous", kHazardousSpeed_um_s),
+                     fmt::arg("near", name_of(ViolationLevel::SafetyDistance)),
+                     fmt::arg("contact", name_of(ViolationLevel::Contact)),
+                     fmt::arg("hazardous_contact", name_of(ViolationLevel::HazardousContact)),
                      fmt::arg("incident_names", incident_words(&IncidentKindInfo::name)),
                      fmt::arg("incident_units", incident_words(&IncidentKindInfo::unit)));
 }

@@ -1,10 +1,7 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
-
-#include "core/outcome/outcome.hpp"
 
 namespace fleetproof {
 
@@ -12,55 +9,8 @@ inline constexpr std::int32_t kApplicationId = 0x464C5046;  // "FLPF": marks an 
 inline constexpr std::int32_t kSchemaVersion = 4;
 inline constexpr std::int32_t kPageSize = 4096;
 
-// A counter of the outcome and the column of `runs` that holds it.
-struct CounterColumn {
-  const char* name;
-  std::uint64_t Counters::*member;
-};
-
-inline constexpr auto kCounterColumns = std::to_array<CounterColumn>({
-    {"events", &Counters::events},
-    {"activations", &Counters::activations},
-    {"agent_calls", &Counters::agent_calls},
-    {"messages_sent", &Counters::messages_sent},
-    {"receptions", &Counters::receptions},
-    {"receptions_lost", &Counters::receptions_lost},
-    {"out_of_range", &Counters::out_of_range},
-    {"delay_sum_ns", &Counters::delay_sum_ns},
-    {"drives", &Counters::drives},
-    {"turns", &Counters::turns},
-    {"refused_calls", &Counters::refused_calls},
-    {"transports_released", &Counters::transports_released},
-    {"transports_done", &Counters::transports_done},
-    {"distance_um", &Counters::distance_um},
-    {"safe_mode_ns", &Counters::safe_mode_ns},
-    {"contacts", &Counters::contacts},
-    {"distance_evaluations", &Counters::distance_evaluations},
-    {"perimeter_checks", &Counters::perimeter_checks},
-    {"rolls", &Counters::rolls},
-    {"faults", &Counters::faults},
-    {"batteries_empty", &Counters::batteries_empty},
-    {"loads_cleared", &Counters::loads_cleared},
-    {"assists", &Counters::assists},
-    {"scanner_stops", &Counters::scanner_stops},
-    {"scanner_saves", &Counters::scanner_saves},
-    {"received", &Counters::received},
-    {"under_way", &Counters::under_way},
-    {"battery_start_ppb", &Counters::battery_start_ppb},
-    {"battery_end_ppb", &Counters::battery_end_ppb},
-    {"battery_driven_ppb", &Counters::battery_driven_ppb},
-    {"battery_idled_ppb", &Counters::battery_idled_ppb},
-    {"battery_charged_ppb", &Counters::battery_charged_ppb},
-    {"incidents_left_out", &Counters::incidents_left_out},
-    {"probes_left_out", &Counters::probes_left_out},
-    {"lost_in_outage", &Counters::lost_in_outage},
-    {"lost_by_interference", &Counters::lost_by_interference},
-    {"duplicates", &Counters::duplicates},
-    {"lost_to_sources", &Counters::lost_to_sources},
-});
-static_assert(sizeof(Counters) == kCounterColumns.size() * sizeof(std::uint64_t), "every counter has a column");
-
-// The tables and the public views, as one script. The live file and the canonical file use the same text.
+// The tables and the public views, as one script. The live file and the canonical file use the same text. Each counter
+// of an outcome (core/outcome/counters.hpp) is a column of `runs`.
 std::string schema_ddl();
 
 // Column lists, separated by commas, in the order in which rows.hpp binds and reads them. `prefix` (for example "r.")

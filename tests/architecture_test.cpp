@@ -58,7 +58,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = [] {
       {"reports/evidence", {"core/base", "core/outcome", "storage"}},
       {"reports", {"core/base", "core/outcome", "storage", "reports/evidence"}},
   };
-  rooms["campaign/plan"] = with(with(model, generators), {"laws", "storage"});
+  rooms["campaign/plan"] = with(with(model, generators), {"core/outcome", "laws", "storage"});
   rooms["campaign/run"] = with(with(core, generators), {"core/engine", "core/sdk", "core/agents", "laws", "storage",
                                                         "reports/evidence", "campaign/plan"});
   rooms["campaign/cli"] = with(rooms["campaign/run"], {"campaign/run", "reports"});

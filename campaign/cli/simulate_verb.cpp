@@ -137,18 +137,7 @@ void print_json(const Scenario& scenario, const Outcome& outcome, const Simulate
   json["clearance_measured"] = measures_clearance(words);
   json["min_clearance_m"] = nullptr;
   if (outcome.min_clearance_um) json["min_clearance_m"] = static_cast<double>(*outcome.min_clearance_um) * 1e-6;
-  const Counters& c = outcome.counters;
-  json["counters"] = {{"perimeter_checks", c.perimeter_checks},
-                      {"distance_evaluations", c.distance_evaluations},
-                      {"events", c.events},
-                      {"messages_sent", c.messages_sent},
-                      {"receptions", c.receptions},
-                      {"receptions_lost", c.receptions_lost},
-                      {"drives", c.drives},
-                      {"turns", c.turns},
-                      {"contacts", c.contacts},
-                      {"transports_released", c.transports_released},
-                      {"transports_done", c.transports_done}};
+  for (const CounterInfo& counter : kCounters) json["counters"][counter.name] = outcome.counters.*counter.member;
   json["digest"] = fmt::format("{:016x}", outcome.digest);
   if (!outcome.message.empty()) json["message"] = outcome.message;
   fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));

@@ -8,6 +8,8 @@
 #include "campaign/plan/plan_fields.hpp"
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
+#include "core/outcome/probe_names.hpp"
+#include "core/outcome/probes.hpp"
 #include "generators/scenario_file/exempt_pairs.hpp"
 #include "generators/scenario_file/radio_fields.hpp"
 #include "laws/laws.hpp"
@@ -238,6 +240,9 @@ void check_laws_and_coverage(const CampaignPlan& plan, const std::string& where)
     demand(!probe.empty() && printable && probe.size() <= 1 + ProbeTally::kNameBytesMax, where,
            fmt::format("coverage.probes holds \"{}\"; a probe has a printable name of 1 to {} bytes",
                        printable ? probe : "?", ProbeTally::kNameBytesMax));
+    const std::string_view name = std::string_view(probe).substr(0, probe.size() - (probe.ends_with('?') ? 1 : 0));
+    demand(!is_misspelt_world_probe(name), where,
+           fmt::format("coverage.probes holds \"{}\", which no run can meet{}", name, name_hint(name, world_probes())));
   }
   const bool counted = std::ranges::find(plan.laws_left_out, "coverage") == plan.laws_left_out.end();
   demand(counted || plan.probes_to_meet().empty(), where,

@@ -58,24 +58,4 @@ const IncidentKindInfo& info_of(IncidentKind kind) {
   return kKinds[number - 1];
 }
 
-const char* name_of(ProbeSource source) { return source == ProbeSource::World ? "world" : "agent"; }
-
-void ProbeTally::declare(std::string_view name, std::uint64_t hash) {
-  const auto seen = std::ranges::find(seen_, hash, &Seen::hash);
-  if (seen != seen_.end()) {
-    ++seen->count;
-  } else if (seen_.size() < kNamesMax && name.size() <= kNameBytesMax) {
-    seen_.push_back({hash, 1, std::string(name)});
-  } else {
-    ++left_out_;
-  }
-}
-
-std::vector<ProbeCount> ProbeTally::counts() const {
-  std::vector<ProbeCount> counts;
-  for (const Seen& seen : seen_) counts.push_back({ProbeSource::Agent, seen.name, seen.count});
-  std::ranges::sort(counts, {}, &ProbeCount::name);
-  return counts;
-}
-
 }  // namespace fleetproof

@@ -14,48 +14,10 @@ namespace {
 
 constexpr std::uint32_t kEncodingVersion = 3;
 
-// The order of the fields in the encoding. Append only, together with a new version.
+// The order of the fields in the encoding: these, then the counters in the order of their table. Append only, together
+// with a new version.
 constexpr std::array kFlags{&Outcome::violation, &Outcome::contact,       &Outcome::stuck,       &Outcome::crash,
                             &Outcome::hang,      &Outcome::indeterminate, &Outcome::engine_error};
-constexpr std::array kCounters{&Counters::events,
-                               &Counters::activations,
-                               &Counters::agent_calls,
-                               &Counters::messages_sent,
-                               &Counters::receptions,
-                               &Counters::receptions_lost,
-                               &Counters::out_of_range,
-                               &Counters::delay_sum_ns,
-                               &Counters::drives,
-                               &Counters::turns,
-                               &Counters::refused_calls,
-                               &Counters::transports_released,
-                               &Counters::transports_done,
-                               &Counters::distance_um,
-                               &Counters::safe_mode_ns,
-                               &Counters::contacts,
-                               &Counters::distance_evaluations,
-                               &Counters::perimeter_checks,
-                               &Counters::rolls,
-                               &Counters::faults,
-                               &Counters::batteries_empty,
-                               &Counters::loads_cleared,
-                               &Counters::assists,
-                               &Counters::scanner_stops,
-                               &Counters::scanner_saves,
-                               &Counters::received,
-                               &Counters::under_way,
-                               &Counters::battery_start_ppb,
-                               &Counters::battery_end_ppb,
-                               &Counters::battery_driven_ppb,
-                               &Counters::battery_idled_ppb,
-                               &Counters::battery_charged_ppb,
-                               &Counters::incidents_left_out,
-                               &Counters::probes_left_out,
-                               &Counters::lost_in_outage,
-                               &Counters::lost_by_interference,
-                               &Counters::duplicates,
-                               &Counters::lost_to_sources};
-static_assert(sizeof(Counters) == kCounters.size() * sizeof(std::uint64_t), "every counter is in the encoding");
 
 class ByteSink {
  public:
@@ -244,7 +206,7 @@ std::string encode(const Outcome& outcome) {
   for (const auto flag : kFlags) sink.u8(outcome.*flag ? 1 : 0);
   sink.u8(outcome.min_clearance_um ? 1 : 0);
   if (outcome.min_clearance_um) sink.i64(*outcome.min_clearance_um);
-  for (const auto counter : kCounters) sink.u64(outcome.counters.*counter);
+  for (const auto& counter : kCounters) sink.u64(outcome.counters.*counter.member);
   sink.u64(outcome.simulated_ns);
   sink.u32(outcome.agv_count);
   sink.u64(outcome.digest);
@@ -267,7 +229,7 @@ Outcome decode_outcome(std::string_view bytes) {
   Outcome outcome;
   for (const auto flag : kFlags) outcome.*flag = source.flag();
   if (source.flag()) outcome.min_clearance_um = source.i64();
-  for (const auto counter : kCounters) outcome.counters.*counter = source.u64();
+  for (const auto& counter : kCounters) outcome.counters.*counter.member = source.u64();
   outcome.simulated_ns = source.u64();
   outcome.agv_count = source.u32();
   outcome.digest = source.u64();

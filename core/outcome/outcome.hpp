@@ -7,7 +7,9 @@
 
 #include "core/base/sim_time.hpp"
 #include "core/base/strong_id.hpp"
+#include "core/outcome/counters.hpp"
 #include "core/outcome/incident.hpp"
+#include "core/outcome/probes.hpp"
 
 namespace fleetproof {
 
@@ -33,32 +35,6 @@ enum class ViolationLevel : std::uint8_t { SafetyDistance, Contact, HazardousCon
 inline constexpr std::int64_t kHazardousSpeed_um_s = 300'000;
 ViolationLevel level_of(const Violation& violation);
 const char* name_of(ViolationLevel level);
-
-// Sums of whole numbers: they do not depend on the order of adding.
-struct Counters {
-  std::uint64_t events = 0, activations = 0, agent_calls = 0;
-  std::uint64_t messages_sent = 0, receptions = 0, receptions_lost = 0, out_of_range = 0;
-  std::uint64_t delay_sum_ns = 0;
-  std::uint64_t drives = 0, turns = 0, refused_calls = 0;
-  std::uint64_t transports_released = 0, transports_done = 0;
-  std::uint64_t distance_um = 0;
-  std::uint64_t safe_mode_ns = 0, contacts = 0;
-  std::uint64_t distance_evaluations = 0, perimeter_checks = 0;  // spent by the laws
-  std::uint64_t rolls = 0;                                       // stations passed without a stop
-  std::uint64_t faults = 0, batteries_empty = 0, loads_cleared = 0, assists = 0;
-  std::uint64_t scanner_stops = 0, scanner_saves = 0;  // saves: a touch was under way
-  std::uint64_t received = 0, under_way = 0;           // receptions that reached an AGV; still in the air at the end
-  // The energy book of the fleet, in billionths of a full battery: start + charged = end + driven + idled.
-  std::uint64_t battery_start_ppb = 0, battery_end_ppb = 0, battery_driven_ppb = 0, battery_idled_ppb = 0,
-                battery_charged_ppb = 0;
-  std::uint64_t incidents_left_out = 0, probes_left_out = 0;  // beyond what an outcome holds
-  // Of the receptions lost: while the link or place was in an outage | by other transmissions. Copies delivered on top
-  // of the receptions.
-  std::uint64_t lost_in_outage = 0, lost_by_interference = 0, duplicates = 0;
-  std::uint64_t lost_to_sources = 0;  // likewise: to external sources alone
-
-  friend bool operator==(const Counters&, const Counters&) = default;
-};
 
 // The result of one run: flat, whole numbers only.
 struct Outcome {

@@ -1,18 +1,11 @@
 #include "reports/evidence/coverage.hpp"
 
 #include <algorithm>
-#include <array>
+
+#include "core/outcome/probe_names.hpp"
 
 namespace fleetproof {
 namespace {
-
-constexpr std::array<std::string_view, 4> kEncounters{"head-on", "crossing", "following", "merging"};
-constexpr std::array<std::string_view, 7> kOfTheWorld{"head-on",   "crossing",  "following", "merging",
-                                                      "near-miss", "encounter", "safe-mode"};
-
-bool is_of_the_world(std::string_view name) {
-  return std::ranges::find(kOfTheWorld, name) != kOfTheWorld.end() || name.starts_with("fault-");
-}
 
 void note(Seen& seen, std::uint64_t times) {
   ++seen.runs;
@@ -26,12 +19,12 @@ void Coverage::add(const Outcome& outcome) {
   std::uint64_t encounters = 0;
   for (const ProbeCount& probe : outcome.probes) {
     const bool world = probe.source == ProbeSource::World;
-    if (!world && is_of_the_world(probe.name)) continue;
+    if (!world && is_world_probe(probe.name)) continue;
     note((world ? by_the_world_ : by_agents_)[probe.name], probe.count);
-    if (world && std::ranges::find(kEncounters, probe.name) != kEncounters.end()) encounters += probe.count;
+    if (world && is_encounter_probe(probe.name)) encounters += probe.count;
   }
-  if (encounters > 0) note(by_the_world_["encounter"], encounters);
-  if (outcome.counters.safe_mode_ns > 0) note(by_the_world_["safe-mode"], 1);
+  if (encounters > 0) note(by_the_world_[std::string(kEncounterProbe)], encounters);
+  if (outcome.counters.safe_mode_ns > 0) note(by_the_world_[std::string(kSafeModeProbe)], 1);
 }
 
 void Coverage::add(const Coverage& other) {
@@ -46,7 +39,7 @@ void Coverage::add(const Coverage& other) {
 }
 
 Seen Coverage::seen(std::string_view probe) const {
-  const auto& told = is_of_the_world(probe) ? by_the_world_ : by_agents_;
+  const auto& told = is_world_probe(probe) ? by_the_world_ : by_agents_;
   const auto found = told.find(probe);
   return found == told.end() ? Seen{} : found->second;
 }

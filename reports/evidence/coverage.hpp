@@ -17,9 +17,9 @@ struct Seen {
 
 // What a set of runs met.
 //
-// Names of probes. Told by the world: "head-on", "crossing", "following", "merging", "near-miss", "fault-N", and
-// derived here: "encounter" (any of the first four), "safe-mode". Told by agents: whatever they declare. An agent that
-// uses a name of the world is not heard: the world knows better.
+// The world's probes are listed in core/outcome/probe_names.hpp; "encounter" and "safe-mode" are derived here from the
+// others and from a counter. All other names are declared by agents. If an agent declares a name of the world, the
+// declaration is ignored.
 class Coverage {
  public:
   void add(const Outcome& outcome);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/outcome/probe_names.hpp"
 
 namespace fleetproof {
 namespace {
@@ -169,8 +170,8 @@ GateResult Evidence::judge(std::size_t index) const {
   counts.failing_runs = pool.failing_runs;
   counts.transports_per_agv_hour = progress.transports_per_agv_hour();
   counts.counts_only = counts_only_;
-  const bool asks_for_encounters = std::ranges::find(required_probes_, "encounter") != required_probes_.end();
-  counts.met_nobody = asks_for_encounters && coverage_[index].seen("encounter").runs == 0;
+  const bool asks_for_encounters = std::ranges::find(required_probes_, kEncounterProbe) != required_probes_.end();
+  counts.met_nobody = asks_for_encounters && coverage_[index].seen(kEncounterProbe).runs == 0;
   auto result = judge_gate(gates_[index], counts);
   if (!pool.cells.empty()) result.missing = missing_probes(coverage_[index], required_probes_);
   if (const auto& worst = worst_of_pool_[index].list(); !worst.empty()) result.worst = worst.front();

@@ -87,6 +87,10 @@ TEST_F(CampaignFileTest, AClaimAsksForEncountersAndASearchForNothing) {
   EXPECT_EQ(parse_plan(plan_text(plan)).probes_to_meet(), (Names{"head-on"}));
   EXPECT_EQ(read(kFactors + "[coverage]\nprobes = []\n").plan.probes_to_meet(), Names{});
   EXPECT_THAT(error_of(kFactors + "[coverage]\nprobes = [\"\"]\n"), HasSubstr("coverage.probes holds"));
+  EXPECT_EQ(read(kFactors + "[coverage]\nprobes = [\"fault: freeze?\"]\n").plan.probes_to_meet(),
+            (Names{"fault: freeze?"}));
+  EXPECT_THAT(error_of(kFactors + "[coverage]\nprobes = [\"fault: breakdwon\"]\n"),
+              HasSubstr("holds \"fault: breakdwon\", which no run can meet; did you mean \"fault: breakdown\"?"));
   EXPECT_THAT(error_of(kFactors + "[coverage]\nprobse = []\n"), HasSubstr("did you mean"));
 }
 

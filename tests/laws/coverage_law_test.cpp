@@ -138,6 +138,16 @@ TEST(Faults, AreCountedByKind) {
   EXPECT_EQ(met(told.finish(10.0)), (Met{{"fault: freeze", 1}, {"fault: protective-stop", 2}}));
 }
 
+TEST(Probes, EverythingThatTheLawCountsBearsANameOfTheWorld) {
+  const Scenario scenario = row_scenario(2, {0, 1});
+  Told told(scenario, "coverage");
+  for (std::uint64_t fault = 1; fault <= 5; ++fault) told.record(1.0, 0, TraceKind::FaultStrikes, fault);
+  const auto findings = told.finish(10.0);
+  EXPECT_EQ(findings.met.size(), kEncounterKinds + 1 + 5);
+  for (const ProbeCount& probe : findings.met) EXPECT_TRUE(is_world_probe(probe.name)) << probe.name;
+  EXPECT_EQ(world_probes().size(), findings.met.size() + 2) << "and those that the evidence derives";
+}
+
 TEST(Probes, WhatAnAgentDeclaresIsSummedByName) {
   const Outcome outcome = simulate_with(
       row_scenario(4, {0, 3}), [](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& event) {

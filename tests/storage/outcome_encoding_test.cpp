@@ -30,6 +30,21 @@ TEST(OutcomeEncoding, is_little_endian_with_its_version_first) {
   EXPECT_EQ(bytes.substr(12, 3), std::string("\x02\x01\0", 3));       // events
 }
 
+TEST(OutcomeEncoding, holds_the_counters_in_the_order_of_their_table) {
+  for (std::size_t i = 0; i < kCounters.size(); ++i) {
+    Outcome outcome;
+    outcome.counters.*kCounters[i].member = 0x0102;
+    EXPECT_EQ(encode(outcome).substr(12 + 8 * i, 3), std::string("\x02\x01\0", 3)) << kCounters[i].name;
+  }
+}
+
+TEST(Counters, have_a_unit_and_a_meaning) {
+  for (const CounterInfo& counter : kCounters) {
+    EXPECT_FALSE(counter.unit.empty()) << counter.name;
+    EXPECT_FALSE(counter.meaning.empty()) << counter.name;
+  }
+}
+
 TEST(OutcomeEncoding, two_outcomes_that_differ_in_one_bit_differ_in_their_bytes) {
   std::mt19937_64 random(2);
   auto outcome = samples::random_outcome(random);

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/scenario/faults.hpp"
+
+namespace fleetproof {
+
+// The names of the probes that the world reports. They stand in campaign files ([coverage] probes), archives and
+// reports, so no other place writes or parses one.
+//
+// name                                              | met when                                  | reported by
+// --------------------------------------------------|-------------------------------------------|----------------
+// "head-on", "crossing", "following", "merging"     | the drives of two AGVs met in this way    | law coverage
+// "near-miss"                                       | two AGVs came close without a violation   | law coverage
+// "fault: KIND", as in "fault: breakdown"           | a fault of this kind struck               | law coverage
+// "encounter"                                       | any of the first four                     | evidence
+// "safe-mode"                                       | an AGV was in safe mode                   | evidence
+
+// How the drives of two AGVs meet (laws/encounter.hpp says which is which).
+enum class EncounterKind : std::uint8_t { HeadOn, Crossing, Following, Merging };
+inline constexpr std::size_t kEncounterKinds = 4;
+const char* name_of(EncounterKind kind);
+
+inline constexpr std::string_view kNearMissProbe = "near-miss";
+inline constexpr std::string_view kEncounterProbe = "encounter";
+inline constexpr std::string_view kSafeModeProbe = "safe-mode";
+std::string probe_name(Fault::Kind fault);
+
+// Every name of the world.
+std::span<const std::string_view> world_probes();
+
+bool is_encounter_probe(std::string_view name);
+// Whether the name belongs to the world, so that no agent can declare it: a name of the list, or one that begins with
+// "fault:".
+bool is_world_probe(std::string_view name);
+// Whether the name begins with "fault:" but names no fault.
+bool is_misspelt_world_probe(std::string_view name);
+
+}  // namespace fleetproof
