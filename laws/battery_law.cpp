@@ -4,7 +4,7 @@
 #include <limits>
 #include <map>
 
-#include "core/motion/activity.hpp"
+#include "core/outcome/trace_records.hpp"
 #include "laws/whereabouts.hpp"
 
 namespace fleetproof {
@@ -35,8 +35,8 @@ class BatteryLaw final : public Law {
 void BatteryLaw::happened(const TraceRecord& record) {
   if (record.kind != TraceKind::BatteryEmpty) {
     const bool charged = record.kind == TraceKind::ActivityBegins
-                             ? record.a == static_cast<std::uint64_t>(ActivityKind::Charge)
-                             : record.a == static_cast<std::uint64_t>(Assist::Battery);
+                             ? read<traced::ActivityBegins>(record).activity == ActivityKind::Charge
+                             : read<traced::OperatorAssists>(record).assist == Assist::Battery;
     if (!charged) return;
     const auto standing = standing_.find(record.entity);
     if (standing == standing_.end()) return;

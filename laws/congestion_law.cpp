@@ -4,6 +4,8 @@
 #include <array>
 #include <optional>
 
+#include "core/outcome/trace_records.hpp"
+
 namespace fleetproof {
 namespace {
 
@@ -22,7 +24,7 @@ class CongestionLaw final : public Law {
   void happened(const TraceRecord& record) override {
     windows_before(record.at);
     if (record.kind == TraceKind::Sent) {
-      offered_ += radio_.air_time(record.bytes);
+      offered_ += radio_.air_time(read<traced::Sent>(record).bytes);
     } else {
       ++receptions_;
       destroyed_ += record.kind == TraceKind::LostByInterference ? 1 : 0;

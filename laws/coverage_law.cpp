@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/clearance/clearance_over_time.hpp"
+#include "core/outcome/trace_records.hpp"
 #include "laws/encounter.hpp"
 #include "laws/stretch.hpp"
 #include "laws/whereabouts.hpp"
@@ -29,7 +30,7 @@ class CoverageLaw final : public Law {
   void piece_started(const Piece& piece) override;
   void piece_ended(const Piece& piece) override;
   TraceKinds reads() const override { return {TraceKind::FaultStrikes}; }
-  void happened(const TraceRecord& record) override { ++faults_[record.a]; }
+  void happened(const TraceRecord& record) override { ++faults_[read<traced::FaultStrikes>(record).fault]; }
   void finish(SimTime end) override;
   LawFindings findings() const override;
 
@@ -50,7 +51,7 @@ class CoverageLaw final : public Law {
   std::array<std::uint64_t, kEncounterKinds> encounters_{};
   std::map<std::pair<EntityId, EntityId>, Near> near_;
   std::uint64_t near_misses_ = 0;
-  std::map<std::uint64_t, std::uint64_t> faults_;
+  std::map<Fault::Kind, std::uint64_t> faults_;
   EvaluationCount evaluations_;
 };
 
@@ -115,9 +116,8 @@ LawFindings CoverageLaw::findings() const {
     findings.met.push_back({ProbeSource::World, std::move(name), count});
   };
   for (std::size_t i = 0; i < kEncounterKinds; ++i) met(name_of(static_cast<EncounterKind>(i)), encounters_[i]);
-  met("near-miss", near_misses_);
-  for (const auto& [kind, count] : faults_)
-    met(std::string("fault: ") + name_of(static_cast<Fault::Kind>(kind)), count);
+  met(std::string(kNearMissProbe), near_misses_);
+  for (const auto& [fault, count] : faults_) met(probe_name(fault), count);
   return findings;
 }
 

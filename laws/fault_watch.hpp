@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/outcome/law.hpp"
-#include "core/scenario/faults.hpp"
+#include "core/outcome/trace_records.hpp"
 #include "core/scenario/scenario.hpp"
 
 namespace fleetproof {
@@ -23,18 +23,21 @@ class FaultWatch {
   bool note(const TraceRecord& record) {
     if (record.kind == TraceKind::Contact) {
       is_out_of_order(record.entity.index(), true, record.at);
-      is_out_of_order(record.a, true, record.at);
+      is_out_of_order(read<traced::Contact>(record).other.index(), true, record.at);
     }
     if (record.kind == TraceKind::Appears) is_out_of_order(record.entity.index(), false, record.at);
-    if (record.kind != TraceKind::FaultStrikes && record.kind != TraceKind::FaultOver) return false;
-    if (holds_agv(static_cast<Fault::Kind>(record.a))) changes(record.kind == TraceKind::FaultStrikes, record.at);
+    const bool strikes = record.kind == TraceKind::FaultStrikes;
+    if (!strikes && record.kind != TraceKind::FaultOver) return false;
+    const Fault::Kind fault =
+        strikes ? read<traced::FaultStrikes>(record).fault : read<traced::FaultOver>(record).fault;
+    if (holds_agv(fault)) changes(strikes, record.at);
     return true;
   }
   bool holds_anybody() const { return held_ > 0; }
   SimTime last() const { return last_; }  // when that was last so, if it is not now
 
  private:
-  void is_out_of_order(std::uint64_t agv, bool now, SimTime at) {
+  void is_out_of_order(std::size_t agv, bool now, SimTime at) {
     if (agv >= out_of_order_.size() || out_of_order_[agv] == now) return;
     out_of_order_[agv] = now;
     changes(now, at);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/outcome/trace_records.hpp"
+
 namespace fleetproof {
 namespace {
 
@@ -52,22 +54,24 @@ LinkQuality::Link& LinkQuality::now(std::size_t sender, std::size_t receiver, Si
 void LinkQuality::note(const TraceRecord& record) {
   if (record.kind == TraceKind::Sent) {
     auto& next = next_[record.entity.index()];
-    sent_[record.entity.index()][next] = {record.b, record.at};
+    sent_[record.entity.index()][next] = {read<traced::Sent>(record).message_hash, record.at};
     next = (next + 1) % kRemembered;
     return;
   }
-  if (record.a >= agvs_ || record.entity.index() >= agvs_) return;
-  Link& link = now(record.a, record.entity.index(), record.at);
+  const auto reception = read<traced::Reception>(record);
+  const std::size_t sender = reception.sender.index();
+  if (sender >= agvs_ || record.entity.index() >= agvs_) return;
+  Link& link = now(sender, record.entity.index(), record.at);
   ++link.receptions;
-  if (is_loss(record.kind)) {
+  if (reception.is_lost()) {
     ++link.lost;
     return;
   }
-  const auto& ring = sent_[record.a];
-  const std::size_t newest = next_[record.a] + kRemembered - 1;
+  const auto& ring = sent_[sender];
+  const std::size_t newest = next_[sender] + kRemembered - 1;
   for (std::size_t back = 0; back < kRemembered; ++back) {
     const SentMessage& message = ring[(newest - back) % kRemembered];
-    if (message.hash != record.b || message.at == SimTime::min()) continue;
+    if (message.hash != reception.message_hash || message.at == SimTime::min()) continue;
     link.longest = std::max(link.longest, record.at - message.at);
     return;
   }

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "core/motion/activity.hpp"
+#include "core/outcome/progress.hpp"
+#include "core/outcome/trace_records.hpp"
 #include "laws/fault_watch.hpp"
 #include "laws/link_quality.hpp"
 
@@ -70,7 +71,7 @@ void NormalOperationLaw::happened(const TraceRecord& record) {
       quality_.note(record);
       break;
     case TraceKind::SafeMode:
-      agvs_[record.entity.index()].safe = record.a != 0;
+      agvs_[record.entity.index()].safe = read<traced::SafeMode>(record).on;
       break;
     case TraceKind::OrderReleased:
       if (open_++ == 0) active_at_ = record.at;  // from now on there is something to do
@@ -80,13 +81,12 @@ void NormalOperationLaw::happened(const TraceRecord& record) {
       ++done_;
       break;
     case TraceKind::LoadMoves:
-      if (record.b >> 32 == static_cast<std::uint64_t>(Holder::Kind::ClearedAway))
+      if (read<traced::LoadMoves>(record).to.kind == Holder::Kind::ClearedAway)
         open_ -= open_ > 0 ? 1 : 0;  // no AGV can carry it out any more
       break;
     case TraceKind::ActivityBegins:
     case TraceKind::ActivityEnds: {
-      const auto kind = static_cast<ActivityKind>(record.a);
-      if (kind == ActivityKind::Park || kind == ActivityKind::Charge || kind == ActivityKind::Transmit) break;
+      if (!is_work(traced::activity_of(record))) break;
       agvs_[record.entity.index()].busy = record.kind == TraceKind::ActivityBegins;
       active_at_ = record.at;
       break;
@@ -151,7 +151,7 @@ void NormalOperationLaw::finish(SimTime end) {
   const double agv_hours = to_seconds(end) * static_cast<double>(agvs_.size()) / 3600.0;
   if (!(scenario_.law.min_transports_per_agv_hour > 0.0) || open_ == 0 || !always_in_contract_ || !(agv_hours > 0.0))
     return;
-  const double rate = static_cast<double>(done_) / agv_hours;
+  const double rate = transports_per_agv_hour(done_, agv_hours);
   if (rate < scenario_.law.min_transports_per_agv_hour) {
     incidents_.push_back({IncidentKind::ThroughputBelowFloor, {}, {}, kStart, end, std::llround(rate * 1000.0)});
   }

@@ -6,7 +6,8 @@
 #include <optional>
 #include <utility>
 
-#include "core/motion/activity.hpp"
+#include "core/outcome/progress.hpp"
+#include "core/outcome/trace_records.hpp"
 #include "laws/fault_watch.hpp"
 #include "laws/standing_in_the_way.hpp"
 
@@ -18,8 +19,8 @@ constexpr Duration kShortestLook = std::chrono::seconds(1);
 constexpr std::uint64_t kOvertaken = 2;  // transports finished by each of the others, on average
 
 struct AgvState {
-  std::deque<std::uint64_t> open;        // transports released and not done
-  std::optional<std::uint64_t> carried;  // transport of the load on it
+  std::deque<TransportId> open;        // transports released and not done
+  std::optional<TransportId> carried;  // transport of the load on it
   SimTime open_since = kStart, active_at = kStart, advanced_at = kStart;
   bool busy = false, off_floor = false;          // off: in the hands of the operator
   EntityId declared;                             // the AGV for which it says it waits
@@ -34,11 +35,6 @@ struct Wait {
   EntityId for_whom;
   bool inferred = false;
 };
-
-bool is_work(ActivityKind kind) {
-  return kind == ActivityKind::Drive || kind == ActivityKind::Turn || kind == ActivityKind::Settle ||
-         kind == ActivityKind::Pick || kind == ActivityKind::Drop;
-}
 
 class ProgressLaw final : public Law {
  public:
@@ -67,7 +63,7 @@ class ProgressLaw final : public Law {
 
   void order_released(const TraceRecord& record);
   void load_moves(const TraceRecord& record);
-  void transport_over(std::uint64_t transport, bool done, SimTime at);
+  void transport_over(TransportId transport, bool done, SimTime at);
   void advanced(AgvState& agv, SimTime at);
   void look_before(SimTime t);
   void look(SimTime now);
@@ -93,8 +89,8 @@ class ProgressLaw final : public Law {
   std::vector<AgvState> agvs_;
   std::vector<TransportOrder> orders_;  // by number of the transport
   std::vector<std::uint32_t> owner_;    // likewise
-  std::map<std::uint64_t, std::uint64_t> transport_of_load_;
-  std::optional<std::uint64_t> released_;
+  std::map<LoadId, TransportId> transport_of_load_;
+  std::optional<TransportId> released_;
   std::uint64_t done_ = 0, motions_ = 0, motions_then_ = 0;  // then: when the fleet last advanced
   SimTime fleet_advanced_at_ = kStart, next_look_ = kStart;
   std::map<Key, std::size_t> under_way_, before_;  // as of this look and the one before
@@ -129,14 +125,14 @@ void ProgressLaw::happened(const TraceRecord& record) {
       load_moves(record);
       break;
     case TraceKind::TransportDone:
-      transport_over(record.a, true, record.at);
+      transport_over(read<traced::TransportDone>(record).transport, true, record.at);
       break;
     case TraceKind::WaitingFor:
-      agvs_[record.entity.index()].declared = EntityId{static_cast<std::uint32_t>(record.a)};
+      agvs_[record.entity.index()].declared = read<traced::WaitingFor>(record).agv;
       break;
     case TraceKind::ActivityBegins:
     case TraceKind::ActivityEnds: {
-      if (!is_work(static_cast<ActivityKind>(record.a))) break;
+      if (!is_work(traced::activity_of(record))) break;
       AgvState& agv = agvs_[record.entity.index()];
       agv.busy = record.kind == TraceKind::ActivityBegins;
       agv.active_at = record.at;
@@ -173,28 +169,28 @@ void ProgressLaw::order_released(const TraceRecord& record) {
     fleet_advanced_at_ = record.at;
     motions_then_ = motions_;
   }
-  agv.open.push_back(record.a);
-  released_ = record.a;
+  released_ = read<traced::OrderReleased>(record).transport;
+  agv.open.push_back(*released_);
 }
 
 void ProgressLaw::load_moves(const TraceRecord& record) {
   AgvState& agv = agvs_[record.entity.index()];
-  const auto to = static_cast<Holder::Kind>(record.b >> 32);
+  const auto [load, to] = read<traced::LoadMoves>(record);
   if (released_) {
-    transport_of_load_[record.a] = *std::exchange(released_, std::nullopt);
-  } else if (to == Holder::Kind::Agv) {
-    agv.carried = transport_of_load_[record.a];
-    advanced(agv, record.at);
-  } else if (to == Holder::Kind::ClearedAway) {
-    transport_over(transport_of_load_[record.a], false, record.at);  // nobody can do it any more
-  } else {
-    agv.carried.reset();
+    transport_of_load_[load] = *std::exchange(released_, std::nullopt);
+    return;
   }
+  const auto known = transport_of_load_.find(load);
+  if (known == transport_of_load_.end()) return;  // a load from nowhere is for the law of containment
+  if (to.kind == Holder::Kind::ClearedAway) return transport_over(known->second, false, record.at);
+  agv.carried.reset();
+  if (to.kind == Holder::Kind::Agv) agv.carried = known->second;
+  if (advances_transport(to)) advanced(agv, record.at);
 }
 
-void ProgressLaw::transport_over(std::uint64_t transport, bool done, SimTime at) {
-  if (transport >= owner_.size()) return;
-  AgvState& agv = agvs_[owner_[transport]];
+void ProgressLaw::transport_over(TransportId transport, bool done, SimTime at) {
+  if (transport.index() >= owner_.size()) return;
+  AgvState& agv = agvs_[owner_[transport.index()]];
   std::erase(agv.open, transport);
   agv.done += done ? 1 : 0;
   done_ += done ? 1 : 0;
@@ -239,7 +235,7 @@ Wait ProgressLaw::wait_of(EntityId agv, SimTime now) const {
   if (state.declared.valid()) return {state.declared, false};
   const StationId here = station_of(*scenario_.map, bodies_.position_m(agv, now));
   if (!here.valid()) return {};
-  const TransportOrder& order = orders_[state.carried.value_or(state.open.front())];
+  const TransportOrder& order = orders_[state.carried.value_or(state.open.front()).index()];
   const Lane* lane = first_lane_of_way(*scenario_.map, here, state.carried ? order.to : order.from);
   return lane == nullptr ? Wait{} : Wait{first_in_the_way(scenario_, bodies_, agv, *lane, now), true};
 }

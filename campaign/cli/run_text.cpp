@@ -4,9 +4,8 @@
 
 #include <algorithm>
 
-#include "core/motion/activity.hpp"
-#include "core/scenario/faults.hpp"
-#include "core/sdk/fleetproof/agent.h"
+#include "core/outcome/progress.hpp"
+#include "core/outcome/trace_records.hpp"
 #include "generators/formats/purpose_words.hpp"
 #include "generators/scenario_file/exempt_pairs.hpp"
 
@@ -18,7 +17,7 @@ std::string counters_text(const Outcome& outcome) {
   const double hours = static_cast<double>(outcome.agv_count) * static_cast<double>(outcome.simulated_ns) / 3.6e12;
   std::string text = fmt::format("  {} drives, {} turns, {:.0f} m; transports {} of {} done", c.drives, c.turns,
                                  static_cast<double>(c.distance_um) * 1e-6, c.transports_done, c.transports_released);
-  if (hours > 0.0) text += fmt::format(" ({:.2f} per AGV-hour)", static_cast<double>(c.transports_done) / hours);
+  if (hours > 0.0) text += fmt::format(" ({:.2f} per AGV-hour)", transports_per_agv_hour(c.transports_done, hours));
   const double lost =
       c.receptions == 0 ? 0.0 : 100.0 * static_cast<double>(c.receptions_lost) / static_cast<double>(c.receptions);
   const double delay =
@@ -51,13 +50,12 @@ const char* text_of(Assist assist) {
   return "?";
 }
 
-std::string holder_text(const Scenario& scenario, std::uint64_t holder) {
-  const auto index = static_cast<std::uint32_t>(holder);
-  switch (static_cast<Holder::Kind>(holder >> 32)) {
+std::string holder_text(const Scenario& scenario, const Holder& holder) {
+  switch (holder.kind) {
     case Holder::Kind::Station:
-      return "at " + scenario.map->station(StationId{index}).name;
+      return "at " + scenario.map->station(StationId{holder.index}).name;
     case Holder::Kind::Agv:
-      return "on " + body_name(scenario, EntityId{index});
+      return "on " + body_name(scenario, EntityId{holder.index});
     case Holder::Kind::Floor:
       return "on the floor";
     case Holder::Kind::ClearedAway:
@@ -156,65 +154,76 @@ std::string outcome_text(const Scenario& scenario, const Outcome& outcome, bool 
   return text + counters_text(outcome) + met_text(outcome) + fmt::format("  trace digest {:016x}\n", outcome.digest);
 }
 
-void TracePrinter::record(const TraceRecord& record, std::string_view text) {
-  std::string what;
+// What a record says beside its time, entity and kind.
+std::string TracePrinter::details_of(const TraceRecord& record, std::string_view text) const {
+  const auto body = [&](EntityId id) { return body_name(scenario_, id); };
   switch (record.kind) {
-    case TraceKind::ActivityBegins:
-    case TraceKind::ActivityEnds: {
-      what = name_of(static_cast<ActivityKind>(record.a));
-      if (record.kind == TraceKind::ActivityBegins && static_cast<ActivityKind>(record.a) == ActivityKind::Drive) {
-        what += " " + scenario_.map->segment(SegmentId{static_cast<std::uint32_t>(record.b)}).name;
-      }
-      if (record.kind == TraceKind::ActivityEnds && record.b == 0) what += " (cut short)";
-      break;
+    case TraceKind::ActivityBegins: {
+      const auto begun = read<traced::ActivityBegins>(record);
+      const std::string activity = name_of(begun.activity);
+      if (begun.activity != ActivityKind::Drive) return activity;
+      return activity + " " + scenario_.map->segment(begun.segment()).name;
     }
-    case TraceKind::Sent:
-      what =
-          record.a == FP_NONE ? "to all" : "to " + body_name(scenario_, EntityId{static_cast<std::uint32_t>(record.a)});
-      break;
+    case TraceKind::ActivityEnds: {
+      const auto ended = read<traced::ActivityEnds>(record);
+      return std::string(name_of(ended.activity)) + (ended.as_planned ? "" : " (cut short)");
+    }
+    case TraceKind::OrderReleased:
+      return std::to_string(read<traced::OrderReleased>(record).transport.value);
+    case TraceKind::TransportDone:
+      return std::to_string(read<traced::TransportDone>(record).transport.value);
+    case TraceKind::Sent: {
+      const auto sent = read<traced::Sent>(record);
+      return sent.to_all() ? "to all" : "to " + body(sent.receiver);
+    }
     case TraceKind::Lost:
     case TraceKind::LostInOutage:
     case TraceKind::LostByInterference:
     case TraceKind::LostToSource:
     case TraceKind::Received:
-      what = "from " + body_name(scenario_, EntityId{static_cast<std::uint32_t>(record.a)});
-      break;
+      return "from " + body(read<traced::Reception>(record).sender);
+    case TraceKind::TimerWentOff:
+      return std::to_string(read<traced::TimerWentOff>(record).timer);
+    case TraceKind::CallRefused:
+      return std::to_string(read<traced::CallRefused>(record).call);
     case TraceKind::Contact:
-      what = "with " + body_name(scenario_, EntityId{static_cast<std::uint32_t>(record.a)});
-      break;
-    case TraceKind::WaitingFor:
-      what = record.a == FP_NONE ? "nobody" : body_name(scenario_, EntityId{static_cast<std::uint32_t>(record.a)});
-      break;
-    case TraceKind::LoadMoves:
-      what = fmt::format("{} {}", record.a, holder_text(scenario_, record.b));
-      break;
+      return "with " + body(read<traced::Contact>(record).other);
+    case TraceKind::SafeMode:
+      return read<traced::SafeMode>(record).on ? "1" : "0";
+    case TraceKind::WaitingFor: {
+      const auto waiting = read<traced::WaitingFor>(record);
+      return waiting.agv.valid() ? body(waiting.agv) : "nobody";
+    }
+    case TraceKind::LoadMoves: {
+      const auto [load, to] = read<traced::LoadMoves>(record);
+      return fmt::format("{} {}", load.value, holder_text(scenario_, to));
+    }
     case TraceKind::FaultStrikes:
+      return name_of(read<traced::FaultStrikes>(record).fault);
     case TraceKind::FaultOver:
-      what = name_of(static_cast<Fault::Kind>(record.a));
-      break;
+      return name_of(read<traced::FaultOver>(record).fault);
     case TraceKind::ScannerStops:
-      what = "for " + body_name(scenario_, EntityId{static_cast<std::uint32_t>(record.a)});
-      break;
+      return "for " + body(read<traced::ScannerStops>(record).body);
     case TraceKind::OperatorAssists:
-      what = text_of(static_cast<Assist>(record.a));
-      break;
-    case TraceKind::BatteryEmpty:
-    case TraceKind::Leaves:
-      break;
+      return text_of(read<traced::OperatorAssists>(record).assist);
     case TraceKind::Appears:
-      if (record.entity.index() < scenario_.agvs.size())
-        what = "at " + scenario_.map->station(StationId{static_cast<std::uint32_t>(record.a)}).name;
-      break;
+      if (record.entity.index() >= scenario_.agvs.size()) return {};
+      return "at " + scenario_.map->station(read<traced::Appears>(record).station).name;
     case TraceKind::Probe:
     case TraceKind::Log:
-      what = std::string(text);
-      break;
-    default:
-      what = fmt::format("{}", record.a);
-      break;
+      return std::string(text);
+    case TraceKind::AgentCrashed:
+    case TraceKind::AgentHung:
+    case TraceKind::BatteryEmpty:
+    case TraceKind::Leaves:
+      return {};
   }
+  return {};
+}
+
+void TracePrinter::record(const TraceRecord& record, std::string_view text) {
   fmt::print(stderr, "{:>12.6f}  {:<6} {:<14} {}\n", to_seconds(record.at), body_name(scenario_, record.entity),
-             name_of(record.kind), what);
+             name_of(record.kind), details_of(record, text));
 }
 
 }  // namespace fleetproof::cli

@@ -29,6 +29,7 @@ class TracePrinter final : public TraceSink {
   void record(const TraceRecord& record, std::string_view text) override;
 
  private:
+  std::string details_of(const TraceRecord& record, std::string_view text) const;
   const Scenario& scenario_;
 };
 

@@ -10,54 +10,56 @@
 
 namespace fleetproof {
 
-// What the trace of a run consists of. The numbers are part of the digest: never renumber, only append.
+// What the trace of a run consists of. The numbers are part of the digest: never renumber, only append. What a record
+// of each kind says is in trace_records.hpp.
 enum class TraceKind : std::uint32_t {
-  ActivityBegins = 1,  // a: ActivityKind, b: segment, load or message size
-  ActivityEnds = 2,    // a: ActivityKind, b: 1 if it ran to its planned end
-  OrderReleased = 3,   // a: transport
-  TransportDone = 4,   // a: transport
-  Sent = 5,            // a: receiver or FP_NONE, b: hash of the bytes
-  Lost = 6,            // entity: receiver, a: sender, b: hash of the bytes; by chance, at the instant of sending
-  Received = 7,        // entity: receiver, a: sender, b: hash of the bytes
-  TimerWentOff = 8,    // a: timer
-  CallRefused = 9,     // a: fp_call, b: segment
-  Contact = 10,        // a: other body
-  SafeMode = 11,       // a: 0 or 1
-  WaitingFor = 12,     // a: AGV or FP_NONE
-  Probe = 13,          // a: hash of the name
-  Log = 14,            // a: hash of the text
+  ActivityBegins = 1,
+  ActivityEnds = 2,
+  OrderReleased = 3,
+  TransportDone = 4,
+  Sent = 5,
+  Lost = 6,      // at one receiver, by chance, at the instant of sending
+  Received = 7,  // by one receiver
+  TimerWentOff = 8,
+  CallRefused = 9,
+  Contact = 10,
+  SafeMode = 11,  // begins or ends
+  WaitingFor = 12,
+  Probe = 13,
+  Log = 14,
   AgentCrashed = 15,
   AgentHung = 16,
-  LoadMoves = 17,  // entity: the AGV of its transport, a: load, b: new holder, kind (Holder::Kind) in the upper half
-                   // and index in the lower
+  LoadMoves = 17,
   BatteryEmpty = 18,
-  FaultStrikes = 19,        // a: kind of fault, b: its number in the scenario
-  FaultOver = 20,           // a: kind of fault, b: its number in the scenario
-  ScannerStops = 21,        // a: body in the protective field
-  OperatorAssists = 22,     // a: what for
-  Appears = 23,             // a body comes onto the floor; a: of an AGV, the station at which it is set down
-  Leaves = 24,              // and is taken away
+  FaultStrikes = 19,
+  FaultOver = 20,
+  ScannerStops = 21,
+  OperatorAssists = 22,
+  Appears = 23,             // a body comes onto the floor
+  Leaves = 24,              // a body is taken off the floor
   LostInOutage = 32,        // as Lost, while the link or place was in an outage
   LostByInterference = 33,  // as Lost, at the end of the transmission: another transmission was in the air
   LostToSource = 34,        // as Lost, to an external source near the receiver; it would have come through otherwise
 };
 const char* name_of(TraceKind kind);
 
-// A reception lost, whatever for.
+// Whether a record of this kind says that a message did not reach one receiver.
 constexpr bool is_loss(TraceKind kind) {
   return kind == TraceKind::Lost || kind == TraceKind::LostInOutage || kind == TraceKind::LostByInterference ||
          kind == TraceKind::LostToSource;
 }
 
+// One event of a run. Only trace_records.hpp knows what `a`, `b` and `bytes` mean; make and read records with it.
 struct TraceRecord {
   SimTime at;
   EntityId entity;
   TraceKind kind = TraceKind::ActivityBegins;
   std::uint64_t a = 0, b = 0;
-  std::uint32_t bytes = 0;  // Sent: size of the message. For those who read along; the digest has the hash
+  std::uint32_t bytes = 0;  // not part of the digest
 };
 
-// Whoever wants to read along. `text` is the probe's or log's words, else empty; valid during the call.
+// An observer of the whole trace. `text` holds the words of a probe or log record, else nothing; it is valid during the
+// call.
 class TraceSink {
  public:
   virtual ~TraceSink() = default;
@@ -65,8 +67,8 @@ class TraceSink {
 };
 
 // XXH3 (64 bits) over the records as they happen. Encoding of a record, little-endian: at in ns (8 bytes), entity (4),
-// kind (4), a (8), b (8). Keeps the digest after records 1, 2, 4, 8, ..., so that a run that differs says from which
-// bracket on.
+// kind (4), a (8), b (8). Keeps the digest after records 1, 2, 4, 8, ..., so that two runs that differ show between
+// which records they part.
 class TraceDigest {
  public:
   TraceDigest();

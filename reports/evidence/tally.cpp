@@ -1,5 +1,7 @@
 #include "reports/evidence/tally.hpp"
 
+#include "core/outcome/progress.hpp"
+
 namespace fleetproof {
 
 RunResult result_of(const Outcome& outcome, EndPoint end_point) {
@@ -45,7 +47,7 @@ void Tally::add(const Tally& other) {
 
 std::optional<double> Tally::transports_per_agv_hour() const {
   if (agv_us == 0) return std::nullopt;
-  return static_cast<double>(transports_done) / agv_hours();
+  return fleetproof::transports_per_agv_hour(transports_done, agv_hours());
 }
 
 }  // namespace fleetproof

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/motion/activity.hpp"
+#include "core/outcome/counters.hpp"
+
+namespace fleetproof {
+
+// What counts as work and what counts as progress, in one place. The definitions differ because the questions differ:
+//
+// question                                    | who asks                              | definition
+// --------------------------------------------|---------------------------------------|------------------------------
+// Does the AGV do anything now?               | every other question                  | is_work
+// Is the fleet frozen? (run "stuck",          | engine at the end of a run, operator, | no work began or ended for
+//   operator, deadlock, standstill)           | laws progress and normal-operation    |   `stuck_after`
+// Does the fleet move without any result?     | law progress (livelock, starvation)   | no transport advanced:
+//   Movement alone is no progress.            |                                       |   advances_transport
+// Is there anything left to do?               | all of them                           | open_transports
+// How much does the fleet get done?           | gates, reports, law normal-operation  | transports_per_agv_hour
+//
+// A frozen fleet is found by its lack of work and not by its lack of results: the time that a transport takes depends
+// on the layout, the time in which an AGV begins something does not.
+
+// Activities by which an AGV serves its transports. An AGV that parks or charges may stay so for as long as it likes; a
+// transmission is no activity of the AGV's body.
+constexpr bool is_work(ActivityKind kind) {
+  return kind == ActivityKind::Drive || kind == ActivityKind::Turn || kind == ActivityKind::Settle ||
+         kind == ActivityKind::Pick || kind == ActivityKind::Drop;
+}
+
+// Whether a transport advances when its load passes to `to`: an AGV has taken the load up, or nothing is left to do
+// because the load is out of the warehouse. The delivery itself is a record of its own (TraceKind::TransportDone). A
+// load that falls, or that is put down elsewhere, advances nothing.
+constexpr bool advances_transport(const Holder& to) {
+  return to.kind == Holder::Kind::Agv || to.kind == Holder::Kind::ClearedAway;
+}
+
+// Transports that were released and are neither done nor impossible because their load was cleared away.
+constexpr std::uint64_t open_transports(const Counters& counters) {
+  const std::uint64_t over = counters.transports_done + counters.loads_cleared;
+  return over < counters.transports_released ? counters.transports_released - over : 0;
+}
+
+// Throughput: finished transports alone count. Requires: agv_hours > 0.
+constexpr double transports_per_agv_hour(std::uint64_t transports_done, double agv_hours) {
+  return static_cast<double>(transports_done) / agv_hours;
+}
+
+}  // namespace fleetproof
