@@ -19,7 +19,7 @@ Scenario with_charger() {
 
 TEST(BatteryLaw, AccusesAnAgvThatRunsEmptyOnTheTrack) {
   const Scenario scenario = with_charger();
-  const auto found = Told(scenario, "battery").record(7.0, 0, TraceKind::BatteryEmpty).finish(60.0).incidents;
+  const auto found = Told(scenario, "battery").battery_empty(7.0, 0).finish(60.0).incidents;
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0],
             (Incident{IncidentKind::BatteryEmpty, EntityId{0U}, {}, at_seconds(7.0), at_seconds(60.0), 12'000'000}));
@@ -28,7 +28,7 @@ TEST(BatteryLaw, AccusesAnAgvThatRunsEmptyOnTheTrack) {
 TEST(BatteryLaw, TheIncidentEndsWhenItIsCharged) {
   const Scenario scenario = with_charger();
   const auto found = Told(scenario, "battery")
-                         .record(7.0, 0, TraceKind::BatteryEmpty)
+                         .battery_empty(7.0, 0)
                          .begins(20.0, 0, ActivityKind::Park)
                          .begins(30.0, 0, ActivityKind::Charge)
                          .finish(60.0)
@@ -40,13 +40,13 @@ TEST(BatteryLaw, TheIncidentEndsWhenItIsCharged) {
 TEST(BatteryLaw, IsSilentAtAChargingStation) {
   const Scenario scenario = with_charger();
   Told told(scenario, "battery");
-  told.stand(0, Vec2{16.0, 0.0}, 5.0).record(7.0, 0, TraceKind::BatteryEmpty);
+  told.stand(0, Vec2{16.0, 0.0}, 5.0).battery_empty(7.0, 0);
   EXPECT_TRUE(told.finish(60.0).incidents.empty());
 }
 
 TEST(BatteryLaw, AMapWithoutChargersIsNoExcuse) {
   const Scenario scenario = row_scenario(2, {0});
-  EXPECT_EQ(Told(scenario, "battery").record(7.0, 0, TraceKind::BatteryEmpty).finish(60.0).incidents.size(), 1U);
+  EXPECT_EQ(Told(scenario, "battery").battery_empty(7.0, 0).finish(60.0).incidents.size(), 1U);
 }
 
 }  // namespace

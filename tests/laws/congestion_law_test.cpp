@@ -12,7 +12,7 @@ namespace {
 void send(Told& told, int from_s, int to_s, int rate) {
   for (int second = from_s; second < to_s; ++second) {
     for (int i = 0; i < rate; ++i)
-      told.record(second + static_cast<double>(i) / rate, 0, TraceKind::Sent, 1, static_cast<std::uint64_t>(i));
+      told.sends(second + static_cast<double>(i) / rate, 0, 1, static_cast<std::uint64_t>(i));
   }
 }
 
@@ -40,7 +40,7 @@ TEST(CongestionLaw, HalfTheAirTimeIsSaturation) {
 TEST(CongestionLaw, IsSilentBelowAndAboutOrdinaryLosses) {
   const auto found = congestion([](Told& told) {
     send(told, 0, 60, 49);
-    for (int i = 0; i < 500; ++i) told.record(59.99, 1, TraceKind::Lost, 0, 1);
+    for (int i = 0; i < 500; ++i) told.reception(59.99, 1, TraceKind::Lost, 0, 1);
   });
   EXPECT_THAT(found, testing::IsEmpty());
 }
@@ -49,7 +49,7 @@ TEST(CongestionLaw, IsSilentBelowAndAboutOrdinaryLosses) {
 TEST(CongestionLaw, ExternalSourcesAreNoCongestion) {
   const auto destroyed = [](TraceKind cause) {
     return congestion([&](Told& told) {
-      for (int i = 0; i < 300; ++i) told.record(i * 0.1, 1, i % 10 < 6 ? cause : TraceKind::Received, 0, 1);
+      for (int i = 0; i < 300; ++i) told.reception(i * 0.1, 1, i % 10 < 6 ? cause : TraceKind::Received, 0, 1);
     });
   };
   EXPECT_THAT(destroyed(TraceKind::LostToSource), testing::IsEmpty());
@@ -62,9 +62,9 @@ TEST(CongestionLaw, ExternalSourcesAreNoCongestion) {
 TEST(CongestionLaw, WhatSourcesDestroyCountsAsReceptions) {
   const auto share = [](int to_sources) {
     return congestion([&](Told& told) {
-      for (int i = 0; i < 10; ++i) told.record(0.01 * i, 1, TraceKind::LostByInterference, 0, 1);
-      for (int i = 0; i < 40; ++i) told.record(0.2 + 0.01 * i, 1, TraceKind::Received, 0, 1);
-      for (int i = 0; i < to_sources; ++i) told.record(0.7 + 0.001 * i, 1, TraceKind::LostToSource, 0, 1);
+      for (int i = 0; i < 10; ++i) told.reception(0.01 * i, 1, TraceKind::LostByInterference, 0, 1);
+      for (int i = 0; i < 40; ++i) told.reception(0.2 + 0.01 * i, 1, TraceKind::Received, 0, 1);
+      for (int i = 0; i < to_sources; ++i) told.reception(0.7 + 0.001 * i, 1, TraceKind::LostToSource, 0, 1);
     });
   };
   ASSERT_EQ(share(0).size(), 1U);
@@ -79,8 +79,8 @@ TEST(CongestionLaw, LongMessagesAskForMoreAirTime) {
   scenario.radio.air_time_s = 0.01;
   scenario.radio.air_time_per_byte_s = 0.0001;
   Told told(scenario, "congestion");
-  for (int i = 0; i < 25; ++i) told.record(3.0 + 0.03 * i, 0, TraceKind::Sent, 1, 7, 100);
-  for (int i = 0; i < 25; ++i) told.record(5.0 + 0.03 * i, 0, TraceKind::Sent, 1, 7, 99);
+  for (int i = 0; i < 25; ++i) told.sends(3.0 + 0.03 * i, 0, 1, 7, 100);
+  for (int i = 0; i < 25; ++i) told.sends(5.0 + 0.03 * i, 0, 1, 7, 99);
   const auto found = told.finish(60.0).incidents;
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0], (Incident{IncidentKind::ChannelSaturated, {}, {}, at_seconds(3.0), at_seconds(4.0), 500'000}));

@@ -28,14 +28,14 @@ class Containment : public testing::Test {
     return scenario;
   }
   static Vec2 station_m(int number) { return {4.0 * number, 0.0}; }
-  Told& released() { return told_.record(1.0, 0, TraceKind::OrderReleased, 0).load_at_station(1.0, 0, 0, 1); }
+  Told& released() { return told_.released(1.0, 0, 0).load_at_station(1.0, 0, 0, 1); }
   Told& picked() { return released().begins(5.0, 0, kPick, 0).load_on_agv(10.0, 0, 0).ends(10.0, 0, kPick); }
   Told& done() {
     return picked()
         .stand(0, station_m(3), 20.0)
         .begins(20.0, 0, kDrop, 0)
         .load_at_station(25.0, 0, 0, 3)
-        .record(25.0, 0, TraceKind::TransportDone, 0)
+        .done(25.0, 0, 0)
         .ends(25.0, 0, kDrop);
   }
   std::vector<IncidentKind> found() { return kinds_of(incidents()); }
@@ -69,7 +69,7 @@ TEST_F(Containment, AccusesALoadThatIsNowhereAfterAPick) {
 }
 
 TEST_F(Containment, AccusesAFullAgvThatTakesAnother) {
-  picked().record(11.0, 0, TraceKind::OrderReleased, 1).load_at_station(11.0, 0, 1, 1);
+  picked().released(11.0, 0, 1).load_at_station(11.0, 0, 1, 1);
   told_.begins(12.0, 0, kPick, 1).load_on_agv(17.0, 0, 1).ends(17.0, 0, kPick);
   EXPECT_THAT(found(), ElementsAre(LoadPickedByFullAgv));
 }
@@ -89,12 +89,12 @@ TEST_F(Containment, PuttingALoadBackWhereItCameFromIsNoWrongStation) {
 }
 
 TEST_F(Containment, AccusesADeliveryElsewhere) {
-  picked().record(25.0, 0, TraceKind::TransportDone, 0);
+  picked().done(25.0, 0, 0);
   EXPECT_THAT(found(), ElementsAre(LoadAtWrongStation));
 }
 
 TEST_F(Containment, AccusesASecondDelivery) {
-  done().record(26.0, 0, TraceKind::TransportDone, 0);
+  done().done(26.0, 0, 0);
   EXPECT_THAT(found(), ElementsAre(LoadDeliveredTwice));
 }
 
@@ -135,8 +135,8 @@ TEST_F(Containment, AgreesWithTheEngineAboutAWholeRun) {
   EXPECT_THAT(outcome.incidents, IsEmpty());
   const auto moves = recorder.of(TraceKind::LoadMoves);
   ASSERT_EQ(moves.size(), 4U) << "two loads appear, one is taken and put down";
-  EXPECT_EQ(moves[2].b, std::uint64_t{1} << 32) << "on AGV 0";
-  EXPECT_EQ(moves[3].b, 3U) << "at s3";
+  EXPECT_EQ(read<traced::LoadMoves>(moves[2]).to, (Holder{Holder::Kind::Agv, 0}));
+  EXPECT_EQ(read<traced::LoadMoves>(moves[3]).to, (Holder{Holder::Kind::Station, 3}));
 }
 
 }  // namespace

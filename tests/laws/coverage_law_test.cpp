@@ -132,16 +132,16 @@ TEST(NearMisses, SeamsDoNotCountTwiceButComingBackDoes) {
 TEST(Faults, AreCountedByKind) {
   const Scenario scenario = row_scenario(2, {0, 1});
   Told told(scenario, "coverage");
-  told.record(1.0, 0, TraceKind::FaultStrikes, 2)
-      .record(2.0, 0, TraceKind::FaultStrikes, 2)
-      .record(3.0, 1, TraceKind::FaultStrikes, 5);
+  told.strikes(1.0, 0, Fault::Kind::ProtectiveStop)
+      .strikes(2.0, 0, Fault::Kind::ProtectiveStop)
+      .strikes(3.0, 1, Fault::Kind::Freeze);
   EXPECT_EQ(met(told.finish(10.0)), (Met{{"fault: freeze", 1}, {"fault: protective-stop", 2}}));
 }
 
 TEST(Probes, EverythingThatTheLawCountsBearsANameOfTheWorld) {
   const Scenario scenario = row_scenario(2, {0, 1});
   Told told(scenario, "coverage");
-  for (std::uint64_t fault = 1; fault <= 5; ++fault) told.record(1.0, 0, TraceKind::FaultStrikes, fault);
+  for (int fault = 1; fault <= 5; ++fault) told.strikes(1.0, 0, static_cast<Fault::Kind>(fault));
   const auto findings = told.finish(10.0);
   EXPECT_EQ(findings.met.size(), kEncounterKinds + 1 + 5);
   for (const ProbeCount& probe : findings.met) EXPECT_TRUE(is_world_probe(probe.name)) << probe.name;

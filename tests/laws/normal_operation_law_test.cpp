@@ -53,18 +53,18 @@ class NormalOperation : public testing::Test {
       for (int i = 0; i < 10; ++i) {
         const auto hash = static_cast<std::uint64_t>(10 * second + i);
         const double sent_s = second + 0.1 * i + 0.01;
-        story.emplace(sent_s, [&told, sent_s, hash] { told.record(sent_s, 1, TraceKind::Sent, 0, hash); });
+        story.emplace(sent_s, [&told, sent_s, hash] { told.sends(sent_s, 1, 0, hash); });
         const double there_s = i < lost_of_ten ? sent_s : sent_s + delay_s;
         const auto kind = i < lost_of_ten ? TraceKind::Lost : TraceKind::Received;
         if (there_s < end_s)
-          story.emplace(there_s, [&told, there_s, hash, kind] { told.record(there_s, 0, kind, 1, hash); });
+          story.emplace(there_s, [&told, there_s, hash, kind] { told.reception(there_s, 0, kind, 1, hash); });
       }
     }
     for (const auto& [at, tell] : story) tell();
     return told.finish(end_s).incidents;
   }
   static void safe_from_20(Told& told, int second) {
-    if (second == 20) told.record(20.0, 0, TraceKind::SafeMode, 1);
+    if (second == 20) told.record(20.0, 0, traced::SafeMode{true});
   }
   static void nothing(Told&, int) {}
   Scenario scenario_;
@@ -94,11 +94,11 @@ TEST_F(NormalOperation, AnAgentMayTakeItsTimeToLeaveSafeMode) {
   const auto quiet_later = [&](double reaction_s) {
     scenario_.law.reaction_s = reaction_s;
     Told told(scenario_, "normal-operation");
-    told.record(5.0, 0, TraceKind::SafeMode, 1);
+    told.record(5.0, 0, traced::SafeMode{true});
     for (int i = 0; i < 600; ++i) {
       const double t_s = 0.1 * i + 5.0;
-      told.record(t_s, 1, TraceKind::Sent, 0, static_cast<std::uint64_t>(i));
-      told.record(t_s, 0, t_s < 20.0 ? TraceKind::Lost : TraceKind::Received, 1, static_cast<std::uint64_t>(i));
+      told.sends(t_s, 1, 0, static_cast<std::uint64_t>(i));
+      told.reception(t_s, 0, t_s < 20.0 ? TraceKind::Lost : TraceKind::Received, 1, static_cast<std::uint64_t>(i));
     }
     return told.finish(65.0).incidents;
   };
@@ -112,10 +112,7 @@ TEST_F(NormalOperation, WhoWaitsForTheOperatorAfterAContactIsExcused) {
   for (const bool comes : {false, true}) {
     scenario_.operator_help.on = comes;
     const auto found = run(200.0, 1, 0.1, [](Told& told, int second) {
-      if (second == 1)
-        told.record(1.0, 0, TraceKind::OrderReleased, 0)
-            .record(1.0, 0, TraceKind::Contact, 1)
-            .record(1.0, 99, TraceKind::Appears);
+      if (second == 1) told.released(1.0, 0, 0).touches(1.0, 0, 1).appears(1.0, 99);
     });
     EXPECT_EQ(found.empty(), comes) << "the last of the records is about none of the fleet";
   }
@@ -124,7 +121,7 @@ TEST_F(NormalOperation, WhoWaitsForTheOperatorAfterAContactIsExcused) {
 TEST_F(NormalOperation, AFleetThatStandsWithOpenTransportsIsAccused) {
   scenario_.stuck_after = seconds(20.0);
   const auto order = [](Told& told, int second) {
-    if (second == 3) told.record(3.0, 0, TraceKind::OrderReleased, 0);
+    if (second == 3) told.released(3.0, 0, 0);
     if (second == 5) told.begins(5.0, 0, ActivityKind::Drive).ends(5.0, 0, ActivityKind::Drive);
   };
   const auto found = run(60.0, 3, 1.5, order);
@@ -139,8 +136,8 @@ TEST_F(NormalOperation, AFleetThatStandsWithOpenTransportsIsAccused) {
 TEST_F(NormalOperation, TooFewTransportsAreAccusedOnlyIfAFloorIsSet) {
   scenario_.stuck_after = seconds(1000.0);
   const auto order = [](Told& told, int second) {
-    if (second == 3) told.record(3.0, 0, TraceKind::OrderReleased, 0).record(3.0, 0, TraceKind::OrderReleased, 1);
-    if (second == 40) told.record(40.0, 0, TraceKind::TransportDone, 0);
+    if (second == 3) told.released(3.0, 0, 0).released(3.0, 0, 1);
+    if (second == 40) told.done(40.0, 0, 0);
   };
   EXPECT_THAT(run(60.0, 3, 1.5, order), IsEmpty());
   scenario_.law.min_transports_per_agv_hour = 31.0;  // one of two AGVs in a minute: 30

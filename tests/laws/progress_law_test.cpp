@@ -25,8 +25,8 @@ class Progress : public testing::Test {
     scenario_.stuck_after = seconds(120.0);
   }
   Told told() { return {scenario_, "progress"}; }
-  static void released(Told& told, double at_s, std::uint32_t agv, std::uint64_t transport, std::uint32_t from) {
-    told.record(at_s, agv, TraceKind::OrderReleased, transport).load_at_station(at_s, agv, transport, from);
+  static void released(Told& told, double at_s, std::uint32_t agv, std::uint32_t transport, std::uint32_t from) {
+    told.released(at_s, agv, transport).load_at_station(at_s, agv, transport, from);
   }
   static void both_released(Told& told) {
     released(told, 1.0, 0, 0, 3);
@@ -38,7 +38,7 @@ class Progress : public testing::Test {
 TEST_F(Progress, ADeadlockIsFiledWithWhoWaitsForWhomByTheirOwnWord) {
   Told law = told();
   both_released(law);
-  law.record(3.0, 0, TraceKind::WaitingFor, 1).record(4.0, 1, TraceKind::WaitingFor, 0);
+  law.waits_for(3.0, 0, 1).waits_for(4.0, 1, 0);
   const auto found = law.finish(600.0).incidents;
   ASSERT_THAT(kinds_of(found), ElementsAre(Deadlock, WaitsDeclared, WaitsDeclared));
   EXPECT_EQ(found[0].a, EntityId{0U});
@@ -77,7 +77,7 @@ TEST_F(Progress, StandingForLessThanStuckAfterIsNone) {
 TEST_F(Progress, WhomTheOperatorHasTakenOffTheFloorWaitsForNobodyAndIsInNobodysWay) {
   Told law = told();
   both_released(law);
-  law.record(100.0, 0, TraceKind::Leaves);
+  law.leaves(100.0, 0);
   EXPECT_THAT(law.finish(600.0).incidents, IsEmpty());
 }
 
@@ -85,7 +85,7 @@ TEST_F(Progress, NobodyWaitsForIt) {
   for (const bool away : {false, true}) {
     Told law = told();
     released(law, 2.0, 1, 1, 0);  // beyond AGV 0, which has nothing to do
-    if (away) law.record(3.0, 0, TraceKind::Leaves);
+    if (away) law.leaves(3.0, 0);
     const auto found = law.finish(600.0).incidents;
     ASSERT_FALSE(found.empty());
     EXPECT_EQ(found[0].kind, Deadlock);
@@ -98,7 +98,7 @@ TEST_F(Progress, WhoWaitsForTheOperatorAfterAContactIsExcused) {
     scenario_.operator_help.on = comes;
     Told law = told();
     both_released(law);
-    law.record(3.0, 0, TraceKind::Contact, 1).record(5.0, 99, TraceKind::Appears);  // the latter is none of the fleet
+    law.touches(3.0, 0, 1).appears(5.0, 99);  // the latter is none of the fleet
     EXPECT_EQ(law.finish(600.0).incidents.empty(), comes);
   }
 }
@@ -106,7 +106,7 @@ TEST_F(Progress, WhoWaitsForTheOperatorAfterAContactIsExcused) {
 TEST_F(Progress, AndStartsAfreshWhereItIsSetDown) {
   Told law = told();
   both_released(law);
-  law.record(100.0, 0, TraceKind::Leaves).stand(0, Vec2{4.0, 0.0}, 200.0).record(200.0, 0, TraceKind::Appears, 1);
+  law.leaves(100.0, 0).stand(0, Vec2{4.0, 0.0}, 200.0).appears(200.0, 0, 1);
   const auto found = law.finish(600.0).incidents;
   ASSERT_THAT(kinds_of(found), ElementsAre(Deadlock, WaitsInferred, WaitsInferred));
   EXPECT_EQ(found[0].first, at_seconds(200.0));
@@ -122,14 +122,14 @@ TEST_F(Progress, AFleetThatHasDoneItsWorkMayStand) {
   Told law = told();
   released(law, 1.0, 0, 0, 3);
   law.begins(5.0, 0, ActivityKind::Pick).load_on_agv(10.0, 0, 0).ends(10.0, 0, ActivityKind::Pick);
-  law.load_at_station(60.0, 0, 0, 4).record(60.0, 0, TraceKind::TransportDone, 0);
+  law.load_at_station(60.0, 0, 0, 4).done(60.0, 0, 0);
   EXPECT_THAT(law.finish(600.0).incidents, IsEmpty());
 }
 
 TEST_F(Progress, ADeadlockThatDissolvesEnds) {
   Told law = told();
   both_released(law);
-  law.record(3.0, 0, TraceKind::WaitingFor, 1).record(4.0, 1, TraceKind::WaitingFor, 0);
+  law.waits_for(3.0, 0, 1).waits_for(4.0, 1, 0);
   law.begins(200.0, 1, ActivityKind::Drive).ends(210.0, 1, ActivityKind::Drive);
   const auto found = law.finish(235.0).incidents;
   ASSERT_THAT(kinds_of(found), ElementsAre(Deadlock, WaitsDeclared, WaitsDeclared));
@@ -153,14 +153,14 @@ TEST_F(Progress, WhoPicksNowAndThenIsNoLivelock) {
   scenario_.agvs[0].transports.resize(3, scenario_.agvs[0].transports[0]);
   scenario_.agvs[1].transports.clear();
   Told law = told();
-  for (std::uint64_t i = 0; i < 3; ++i) released(law, 1.0, 0, i, 3);
-  for (std::uint64_t i = 0; i < 3; ++i) {
+  for (std::uint32_t i = 0; i < 3; ++i) released(law, 1.0, 0, i, 3);
+  for (std::uint32_t i = 0; i < 3; ++i) {
     const double t_s = 150.0 * static_cast<double>(i + 1);
     law.begins(t_s - 50.0, 0, ActivityKind::Drive)
         .ends(t_s - 10.0, 0, ActivityKind::Drive)
         .load_on_agv(t_s, 0, i)
         .load_at_station(t_s + 20.0, 0, i, 4);
-    law.record(t_s + 20.0, 0, TraceKind::TransportDone, i);
+    law.done(t_s + 20.0, 0, i);
   }
   EXPECT_THAT(law.finish(600.0).incidents, IsEmpty());
 }
@@ -168,15 +168,15 @@ TEST_F(Progress, WhoPicksNowAndThenIsNoLivelock) {
 TEST_F(Progress, OneThatIsNeverServedStarves) {
   scenario_.agvs[0].transports.resize(4, scenario_.agvs[0].transports[0]);
   Told law = told();
-  for (std::uint64_t i = 0; i < 4; ++i) released(law, 1.0, 0, i, 3);
+  for (std::uint32_t i = 0; i < 4; ++i) released(law, 1.0, 0, i, 3);
   released(law, 2.0, 1, 4, 0);
-  for (std::uint64_t i = 0; i < 4; ++i) {
+  for (std::uint32_t i = 0; i < 4; ++i) {
     const double t_s = 100.0 * static_cast<double>(i + 1);
     law.begins(t_s - 50.0, 0, ActivityKind::Drive)
         .ends(t_s - 10.0, 0, ActivityKind::Drive)
         .load_on_agv(t_s, 0, i)
         .load_at_station(t_s + 20.0, 0, i, 4);
-    law.record(t_s + 20.0, 0, TraceKind::TransportDone, i);
+    law.done(t_s + 20.0, 0, i);
     law.begins(t_s, 1, ActivityKind::Turn).ends(t_s + 1.0, 1, ActivityKind::Turn);
   }
   const auto found = law.finish(430.0).incidents;
@@ -191,7 +191,7 @@ TEST_F(Progress, ACircleOfSomeIsADeadlockWhileOthersWork) {
   scenario_.agvs[1].transports = {{StationId{0U}, StationId{5U}, seconds(2.0)}};
   Told law = told();
   both_released(law);
-  law.record(3.0, 0, TraceKind::WaitingFor, 1).record(4.0, 1, TraceKind::WaitingFor, 0);
+  law.waits_for(3.0, 0, 1).waits_for(4.0, 1, 0);
   for (int i = 0; i < 10; ++i)
     law.begins(10.0 + 20.0 * i, 2, ActivityKind::Drive).ends(15.0 + 20.0 * i, 2, ActivityKind::Drive);
   EXPECT_THAT(kinds_of(law.finish(220.0).incidents), ElementsAre(Deadlock, WaitsDeclared, WaitsDeclared));
@@ -200,9 +200,7 @@ TEST_F(Progress, ACircleOfSomeIsADeadlockWhileOthersWork) {
 TEST_F(Progress, AWaitThatIsTakenBackIsNone) {
   Told law = told();
   both_released(law);
-  law.record(3.0, 0, TraceKind::WaitingFor, 1)
-      .record(4.0, 1, TraceKind::WaitingFor, 0)
-      .record(5.0, 1, TraceKind::WaitingFor, kNobody);
+  law.waits_for(3.0, 0, 1).waits_for(4.0, 1, 0).waits_for(5.0, 1, kNobody);
   const auto found = law.finish(600.0).incidents;
   EXPECT_THAT(kinds_of(found), ElementsAre(Deadlock, WaitsDeclared, WaitsInferred))
       << "what it no longer says is inferred";

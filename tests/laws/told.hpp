@@ -4,10 +4,10 @@
 #include <memory>
 #include <vector>
 
-#include "core/motion/activity.hpp"
+#include "core/outcome/trace_records.hpp"
 #include "laws/laws.hpp"
 
-// A law that receives the records of a run one by one, written by hand.
+// A law that is told by hand what happens, record by record.
 namespace fleetproof::test {
 
 class Told {
@@ -28,23 +28,51 @@ class Told {
                             {at_m, scenario_.agvs[agv].heading}, at_seconds(from_s)));
   }
 
-  // A record of a kind that the law does not read is not sent to it.
-  Told& record(double at_s, std::uint32_t entity, TraceKind kind, std::uint64_t a = 0, std::uint64_t b = 0,
-               std::uint32_t bytes = 0) {
-    if (kinds_.has(kind)) law_->happened({at_seconds(at_s), EntityId{entity}, kind, a, b, bytes});
+  // The law is called only for the kinds of records that it reads.
+  template <class What>
+  Told& record(double at_s, std::uint32_t entity, const What& what) {
+    const TraceRecord record = trace_record(at_seconds(at_s), EntityId{entity}, what);
+    if (kinds_.has(record.kind)) law_->happened(record);
     return *this;
   }
   Told& begins(double at_s, std::uint32_t agv, ActivityKind kind, std::uint64_t subject = 0) {
-    return record(at_s, agv, TraceKind::ActivityBegins, static_cast<std::uint64_t>(kind), subject);
+    return record(at_s, agv, traced::ActivityBegins{kind, subject});
   }
   Told& ends(double at_s, std::uint32_t agv, ActivityKind kind, bool as_planned = true) {
-    return record(at_s, agv, TraceKind::ActivityEnds, static_cast<std::uint64_t>(kind), as_planned ? 1 : 0);
+    return record(at_s, agv, traced::ActivityEnds{kind, as_planned});
   }
-  Told& load_at_station(double at_s, std::uint32_t agv, std::uint64_t load, std::uint32_t station) {
-    return record(at_s, agv, TraceKind::LoadMoves, load, station);
+  Told& released(double at_s, std::uint32_t agv, std::uint32_t transport) {
+    return record(at_s, agv, traced::OrderReleased{TransportId{transport}});
   }
-  Told& load_on_agv(double at_s, std::uint32_t agv, std::uint64_t load) {
-    return record(at_s, agv, TraceKind::LoadMoves, load, std::uint64_t{1} << 32 | agv);
+  Told& done(double at_s, std::uint32_t agv, std::uint32_t transport) {
+    return record(at_s, agv, traced::TransportDone{TransportId{transport}});
+  }
+  Told& load_at_station(double at_s, std::uint32_t agv, std::uint32_t load, std::uint32_t station) {
+    return record(at_s, agv, traced::LoadMoves{LoadId{load}, {Holder::Kind::Station, station}});
+  }
+  Told& load_on_agv(double at_s, std::uint32_t agv, std::uint32_t load) {
+    return record(at_s, agv, traced::LoadMoves{LoadId{load}, {Holder::Kind::Agv, agv}});
+  }
+  Told& waits_for(double at_s, std::uint32_t agv, std::uint32_t other) {
+    return record(at_s, agv, traced::WaitingFor{AgvId{other}});
+  }
+  Told& touches(double at_s, std::uint32_t body, std::uint32_t other) {
+    return record(at_s, body, traced::Contact{EntityId{other}});
+  }
+  Told& appears(double at_s, std::uint32_t body, std::uint32_t station = 0) {
+    return record(at_s, body, traced::Appears{StationId{station}});
+  }
+  Told& leaves(double at_s, std::uint32_t body) { return record(at_s, body, traced::Leaves{}); }
+  Told& battery_empty(double at_s, std::uint32_t agv) { return record(at_s, agv, traced::BatteryEmpty{}); }
+  Told& strikes(double at_s, std::uint32_t agv, Fault::Kind fault) {
+    return record(at_s, agv, traced::FaultStrikes{fault, 0});
+  }
+  Told& sends(double at_s, std::uint32_t sender, std::uint32_t receiver, std::uint64_t hash, std::uint32_t bytes = 0) {
+    return record(at_s, sender, traced::Sent{AgvId{receiver}, hash, bytes});
+  }
+  // `fate` is Received, or a kind of loss.
+  Told& reception(double at_s, std::uint32_t receiver, TraceKind fate, std::uint32_t sender, std::uint64_t hash) {
+    return record(at_s, receiver, traced::Reception{fate, AgvId{sender}, hash});
   }
 
   LawFindings finish(double end_s) {
