@@ -50,7 +50,7 @@ Actions::Actions(RunContext& run, const Ports& ports) : run_(run), ports_(ports)
 bool Actions::accept(AgvId agv, fp_call call, std::uint32_t segment) {
   if (!is_possible(agv, call, segment)) {
     ++run_.counters.refused_calls;
-    run_.trace(agv, TraceKind::CallRefused, static_cast<std::uint64_t>(call), segment);
+    run_.trace(agv, traced::CallRefused{static_cast<std::uint32_t>(call), SegmentId{segment}});
     return false;
   }
   slice_of(agv).committed = slice_of(agv).accepted = true;

@@ -1,11 +1,13 @@
 #include "core/engine/activities.hpp"
 
+#include "core/outcome/progress.hpp"
+
 namespace fleetproof {
 
 Activities::Activities(RunContext& run, const Ports& ports) : run_(run), ports_(ports), stamps_(run.agvs.size()) {}
 
 void Activities::begin(AgvId agv, const Activity& activity, std::uint64_t subject) {
-  run_.trace(agv, TraceKind::ActivityBegins, static_cast<std::uint64_t>(activity.kind), subject);
+  run_.trace(agv, traced::ActivityBegins{activity.kind, subject});
   run_.queue.push(activity.end, agv, Event::Kind::ActivityEnds, 0, ++stamps_[agv.index()]);
   run_.status(agv).activity = activity;
   ports_.battery.activity_changed(agv, activity.kind == ActivityKind::Drive);
@@ -48,7 +50,7 @@ void Activities::end_rolling(AgvId agv) {
   ports_.battery.settle(agv);
   run_.status(agv).activity.reset();
   ++stamps_[agv.index()];
-  run_.trace(agv, TraceKind::ActivityEnds, static_cast<std::uint64_t>(ActivityKind::Drive), 1);
+  run_.trace(agv, traced::ActivityEnds{ActivityKind::Drive, true});
 }
 
 Activity Activities::take_off(AgvId agv) {
@@ -57,12 +59,12 @@ Activity Activities::take_off(AgvId agv) {
   const Activity activity = *status.activity;
   status.activity.reset();
   ++stamps_[agv.index()];
-  if (activity.kind != ActivityKind::Park && activity.kind != ActivityKind::Charge) run_.progressed(agv);
+  if (is_work(activity.kind)) run_.progressed(agv);
   return activity;
 }
 
 void Activities::announce_end(AgvId agv, ActivityKind kind, bool as_planned) {
-  run_.trace(agv, TraceKind::ActivityEnds, static_cast<std::uint64_t>(kind), as_planned ? 1 : 0);
+  run_.trace(agv, traced::ActivityEnds{kind, as_planned});
   ports_.battery.activity_changed(agv, false);
 }
 
@@ -88,7 +90,7 @@ void Activities::transfer(AgvId agv, const ContainmentEvolution& evolution) {
     ports_.faults.load_taken_up(agv, load.transport);
   } else if (evolution.to == Holder{Holder::Kind::Station, load.destination.value}) {
     ++run_.counters.transports_done;
-    run_.trace(agv, TraceKind::TransportDone, load.transport.value);
+    run_.trace(agv, traced::TransportDone{load.transport});
   }
 }
 

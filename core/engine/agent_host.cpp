@@ -125,7 +125,11 @@ void AgentHost::give_up(AgvId agv, bool hang, std::string_view message) {
   slice.waiting_events.clear();
   (hang ? hang_ : crash_) = true;
   if (message_.empty()) message_ = "agent of " + run_.setup(agv).name + ": " + printable(message);
-  run_.trace(agv, hang ? TraceKind::AgentHung : TraceKind::AgentCrashed);
+  if (hang) {
+    run_.trace(agv, traced::AgentHung{});
+  } else {
+    run_.trace(agv, traced::AgentCrashed{});
+  }
 }
 
 void AgentHost::file_failures(Outcome& outcome) const {
@@ -147,7 +151,7 @@ void AgentHost::order_released(AgvId agv, std::uint64_t own_number) {
   const TransportId transport = run_.transport_of(agv, own_number);
   ++run_.counters.transports_released;
   const LoadId load = run_.world.add_load(transport, agv, order.from, order.to);
-  run_.trace(agv, TraceKind::OrderReleased, transport.value);
+  run_.trace(agv, traced::OrderReleased{transport});
   run_.trace_load(load);
   tell_order(agv, transport, order.from, order.to);
 }

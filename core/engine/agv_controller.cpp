@@ -47,7 +47,7 @@ void AgvController::forget(AgvId agv) {
   }
   ports_.actions.withdraw_accepted(agv);
   apply_safe_mode(agv, false);
-  run_.trace(agv, TraceKind::WaitingFor, FP_NONE);
+  run_.trace(agv, traced::WaitingFor{});
 }
 
 void AgvController::close_books() {
@@ -94,7 +94,7 @@ void AgvController::carry_out(AgvId agv, const PendingCall& call) {
     case PendingCall::Kind::SafeMode:
       return apply_safe_mode(agv, call.what != 0);
     case PendingCall::Kind::WaitingFor:
-      return run_.trace(agv, TraceKind::WaitingFor, call.what);
+      return run_.trace(agv, traced::WaitingFor{AgvId{call.what}});
     case PendingCall::Kind::Timer:
       return ports_.timers.set(agv, call.what, call.instant_ns);
     case PendingCall::Kind::Nothing:
@@ -144,7 +144,7 @@ void AgvController::apply_safe_mode(AgvId agv, bool on) {
     slice.safe_mode_ns += static_cast<std::uint64_t>((run_.now - *slice.safe_since).count());
     slice.safe_since.reset();
   }
-  run_.trace(agv, TraceKind::SafeMode, on ? 1 : 0);
+  run_.trace(agv, traced::SafeMode{on});
 }
 
 std::uint64_t AgvController::random(AgvId agv, std::uint32_t purpose, std::uint64_t index) const {
@@ -155,8 +155,9 @@ std::uint64_t AgvController::random(AgvId agv, std::uint32_t purpose, std::uint6
 
 void AgvController::note(AgvId agv, TraceKind kind, std::string_view text) {
   const std::uint64_t hash = name_hash(text);
-  if (kind == TraceKind::Probe) probes_.declare(text, hash);
-  run_.trace(agv, kind, hash, 0, text);
+  if (kind == TraceKind::Log) return run_.trace(agv, traced::Log{hash}, text);
+  probes_.declare(text, hash);
+  run_.trace(agv, traced::Probe{hash}, text);
 }
 
 }  // namespace fleetproof

@@ -88,7 +88,7 @@ void Battery::is_empty(AgvId agv, std::uint64_t stamp) {
   settle(agv);
   slice.out = true;
   ++run_.counters.batteries_empty;
-  run_.trace(agv, TraceKind::BatteryEmpty);
+  run_.trace(agv, traced::BatteryEmpty{});
   ports_.operator_desk.call(agv, Assist::Battery, ports_.halts.begin(agv, Halt::Reason::EmptyBattery));
 }
 

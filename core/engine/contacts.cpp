@@ -30,7 +30,7 @@ void Contacts::bodies_touch(std::uint64_t prediction) {
   if (!is_current(touch) || run_.world.have_touched(touch.a, touch.b)) return;
   run_.world.remember_touch(touch.a, touch.b);
   ++run_.counters.contacts;
-  run_.trace(touch.a, TraceKind::Contact, touch.b.value);
+  run_.trace(touch.a, traced::Contact{touch.b});
   if (!run_.scenario.contact_stops) return;
   stop(touch.a);
   stop(touch.b);

@@ -50,7 +50,7 @@ void FaultDesk::strikes(AgvId agv, std::uint64_t number) {
   if (concerns_agent(fault.kind) ? !ports_.agents.is_up(agv) : run_.status(agv).out_of_order) return;
   if (fault.kind == Fault::Kind::LoadDrop && !load_drops(agv, number)) return;
   ++run_.counters.faults;
-  run_.trace(agv, TraceKind::FaultStrikes, static_cast<std::uint64_t>(fault.kind), number);
+  run_.trace(agv, traced::FaultStrikes{fault.kind, number});
   if (holds_agv(fault.kind)) slices_[number].halt = ports_.halts.begin(agv, halt_of(fault.kind));
   if (fault.kind == Fault::Kind::Restart) ports_.agents.goes_away(agv);
   if (fault.kind == Fault::Kind::Freeze) ports_.agents.freeze_until(agv, run_.now + fault.lasts);
@@ -60,7 +60,7 @@ void FaultDesk::strikes(AgvId agv, std::uint64_t number) {
 void FaultDesk::is_over(AgvId agv, std::uint64_t number) {
   const Fault::Kind kind = run_.scenario.faults[number].kind;
   if (holds_agv(kind)) return halt_ends(agv, number);
-  run_.trace(agv, TraceKind::FaultOver, static_cast<std::uint64_t>(kind), number);
+  run_.trace(agv, traced::FaultOver{kind, number});
   if (kind == Fault::Kind::Restart) ports_.agents.comes_back(agv);
 }
 
@@ -74,7 +74,7 @@ void FaultDesk::end_halts_of(AgvId agv) {
 void FaultDesk::halt_ends(AgvId agv, std::uint64_t number) {
   const std::uint64_t halt = std::exchange(slices_[number].halt, std::uint64_t{0});
   if (halt == 0) return;
-  run_.trace(agv, TraceKind::FaultOver, static_cast<std::uint64_t>(run_.scenario.faults[number].kind), number);
+  run_.trace(agv, traced::FaultOver{run_.scenario.faults[number].kind, number});
   ports_.halts.end(agv, halt);
 }
 
@@ -86,14 +86,14 @@ void FaultDesk::obstacle_appears(EntityId body) {
   const double margin_m = run_.scenario.law.safety_distance_m + kAppearsClear_m;
   if (!run_.world.is_free(placed(obstacle.footprint, obstacle.pose), margin_m, run_.now))
     return run_.queue.push(run_.now + kTriesAgain, body, Event::Kind::BodyAppears);
-  run_.trace(body, TraceKind::Appears);
+  run_.trace(body, traced::Appears{});
   run_.world.put_on_floor(body, obstacle.footprint, obstacle.pose, run_.now);
   ports_.contacts.predict(body);
 }
 
 void FaultDesk::body_leaves(EntityId body) {
   if (!run_.world.body(body).on_floor) return;
-  run_.trace(body, TraceKind::Leaves);
+  run_.trace(body, traced::Leaves{});
   run_.world.take_off_floor(body, run_.now);
   for (std::size_t i = 0; i < run_.world.loads().size(); ++i) {
     if (run_.world.loads()[i].holder != Holder{Holder::Kind::Floor, body.value}) continue;
@@ -124,7 +124,7 @@ bool FaultDesk::load_drops(AgvId agv, std::uint64_t number) {
   const EntityId body = fallen_body(number);
   run_.move_load(load, {Holder::Kind::Floor, body.value});
   ports_.actions.body_has_shrunk(agv);
-  run_.trace(body, TraceKind::Appears);
+  run_.trace(body, traced::Appears{});
   run_.world.put_on_floor(body, fault.load, pose, run_.now);
   ports_.contacts.predict(body);
   run_.queue.push(run_.now + fault.lasts, body, Event::Kind::BodyLeaves);

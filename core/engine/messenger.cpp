@@ -51,7 +51,7 @@ void Messenger::transmit(AgvId sender, std::uint32_t slot, std::uint32_t receive
   ++run_.counters.messages_sent;
   const Message& message = pool_[slot];
   const std::size_t size = message.bytes.size();
-  run_.trace(sender, TraceKind::Sent, receiver, message.hash, {}, static_cast<std::uint32_t>(size));
+  run_.trace(sender, traced::Sent{AgvId{receiver}, message.hash, static_cast<std::uint32_t>(size)});
   const Pose from = needs_places_ ? run_.pose_now(sender) : Pose{};
   const Duration air_time = run_.scenario.radio.air_time(size);
   const bool contended = run_.scenario.radio.contention.interference;
@@ -99,7 +99,7 @@ void Messenger::lose(AgvId receiver, std::uint32_t slot, const Fate& fate) {
                                            : TraceKind::Lost;
   counters.lost_in_outage += cause == TraceKind::LostInOutage ? 1 : 0;
   counters.lost_to_sources += cause == TraceKind::LostToSource ? 1 : 0;
-  run_.trace(receiver, cause, pool_[slot].sender.value, pool_[slot].hash);
+  run_.trace(receiver, traced::Reception{cause, pool_[slot].sender, pool_[slot].hash});
   pool_.release(slot);
 }
 
@@ -109,7 +109,7 @@ void Messenger::air_time_ends(AgvId receiver, std::uint32_t slot) {
   if (!is_drowned(receiver, message)) return;
   ++run_.counters.receptions_lost;
   ++run_.counters.lost_by_interference;
-  run_.trace(receiver, TraceKind::LostByInterference, message.sender.value, message.hash);
+  run_.trace(receiver, traced::Reception{TraceKind::LostByInterference, message.sender, message.hash});
   pool_.destroy_at(slot, receiver);
 }
 
@@ -129,7 +129,7 @@ void Messenger::arrives(AgvId receiver, std::uint64_t payload) {
   const Message& message = pool_[slot];
   if (message.is_destroyed_at(receiver)) return pool_.release(slot);
   if ((bits & kCopy) != 0) ++run_.counters.duplicates;
-  run_.trace(receiver, TraceKind::Received, message.sender.value, message.hash);
+  run_.trace(receiver, traced::Reception{TraceKind::Received, message.sender, message.hash});
   ++run_.counters.received;
   if (!agents_.is_up(receiver)) return pool_.release(slot);
   Slice& slice = slice_of(receiver);

@@ -5,6 +5,7 @@
 #include "core/base/random.hpp"
 #include "core/base/tolerances.hpp"
 #include "core/engine/recovery.hpp"
+#include "core/outcome/progress.hpp"
 
 namespace fleetproof {
 namespace {
@@ -13,9 +14,6 @@ constexpr Duration kTriesAgain = std::chrono::seconds(1);
 // Topics of the faults stream; the generator draws under lower ones. A standstill has a topic of its own, so that a
 // call in vain moves no other draw.
 constexpr std::uint32_t kAssistTopic = 100, kStandstillTopic = 101;
-
-// An activity that ends by itself before long. Charging does, but no transport waits for it.
-bool is_work(ActivityKind kind) { return kind != ActivityKind::Park && kind != ActivityKind::Charge; }
 
 }  // namespace
 
@@ -64,7 +62,7 @@ void OperatorDesk::help_with_halt(AgvId agv, Assist what, std::uint64_t halt) {
 
 void OperatorDesk::assisted(AgvId agv, Assist what) {
   ++run_.counters.assists;
-  run_.trace(agv, TraceKind::OperatorAssists, static_cast<std::uint64_t>(what));
+  run_.trace(agv, traced::OperatorAssists{what});
 }
 
 void OperatorDesk::change_battery(AgvId agv) {
@@ -82,7 +80,7 @@ void OperatorDesk::take_off_floor(AgvId agv) {
   ports_.scanner.set_muted(agv, false);
   ports_.agents.goes_away(agv);
   run_.world.take_off_floor(agv, run_.now);
-  run_.trace(agv, TraceKind::Leaves);
+  run_.trace(agv, traced::Leaves{});
   run_.queue.push(run_.now + kTriesAgain, agv, Event::Kind::BodyAppears);
 }
 
@@ -126,7 +124,7 @@ bool OperatorDesk::passes(AgvId agv, const Lane* lane, const Box& place, double 
 }
 
 void OperatorDesk::set_down(AgvId agv, StationId station) {
-  run_.trace(agv, TraceKind::Appears, station.value);
+  run_.trace(agv, traced::Appears{station});
   ports_.actions.is_back(agv, station);
   ports_.contacts.predict(agv);
   ports_.battery.settle(agv);

@@ -1,6 +1,7 @@
 #include "core/engine/run_context.hpp"
 
 #include "core/base/random.hpp"
+#include "core/outcome/progress.hpp"
 
 namespace fleetproof {
 
@@ -34,9 +35,7 @@ std::uint64_t RunContext::own_number(AgvId agv, TransportId transport) const {
   return transport.value - first_transport_[agv.index()];
 }
 
-bool RunContext::transports_are_open() const {
-  return counters.transports_done + counters.loads_cleared < counters.transports_released;
-}
+bool RunContext::transports_are_open() const { return open_transports(counters) > 0; }
 
 void RunContext::move_load(LoadId load, Holder to) {
   world.load(load).holder = to;
@@ -45,8 +44,7 @@ void RunContext::move_load(LoadId load, Holder to) {
 
 void RunContext::trace_load(LoadId id) {
   const auto& [transport, carrier, holder, destination] = world.load(id);
-  trace(carrier, TraceKind::LoadMoves, id.value,
-        (std::uint64_t{static_cast<std::uint32_t>(holder.kind)} << 32) | holder.index);
+  trace(carrier, traced::LoadMoves{id, holder});
 }
 
 }  // namespace fleetproof

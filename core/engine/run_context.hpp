@@ -10,6 +10,7 @@
 #include "core/engine/trace_writer.hpp"
 #include "core/engine/world.hpp"
 #include "core/outcome/outcome.hpp"
+#include "core/outcome/trace_records.hpp"
 #include "core/scenario/scenario.hpp"
 
 namespace fleetproof {
@@ -55,9 +56,10 @@ struct RunContext {
   void move_load(LoadId load, Holder to);
   void trace_load(LoadId load);
 
-  void trace(EntityId entity, TraceKind kind, std::uint64_t a = 0, std::uint64_t b = 0, std::string_view text = {},
-             std::uint32_t bytes = 0) {
-    writer.write({now, entity, kind, a, b, bytes}, text);
+  // `what` is one of the structs in traced (core/outcome/trace_records.hpp); `text` are the words of a probe or log.
+  template <class What>
+  void trace(EntityId entity, const What& what, std::string_view text = {}) {
+    writer.write(trace_record(now, entity, what), text);
   }
 
  private:

@@ -59,7 +59,7 @@ void Scanner::field_is_clear(AgvId agv) {
 
 void Scanner::stop(AgvId agv, EntityId body) {
   ++run_.counters.scanner_stops;
-  run_.trace(agv, TraceKind::ScannerStops, body.value);
+  run_.trace(agv, traced::ScannerStops{body});
   if (ports_.contacts.foresees(agv, body)) ++run_.counters.scanner_saves;
   Slice& slice = slices_[agv.index()];
   slice.clear_since.reset();

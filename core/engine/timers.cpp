@@ -23,7 +23,7 @@ void Timers::goes_off(AgvId agv, std::uint32_t number, std::uint64_t stamp) {
   const auto timer = std::ranges::find(timers, number, &Timer::number);
   if (timer == timers.end() || timer->stamp != stamp) return;
   timer->stamp = 0;
-  run_.trace(agv, TraceKind::TimerWentOff, number);
+  run_.trace(agv, traced::TimerWentOff{number});
   fp_event event{};
   event.kind = FP_EVENT_TIMER;
   event.timer = number;

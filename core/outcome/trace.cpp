@@ -23,36 +23,63 @@ XXH3_state_t* hash(void* state) { return static_cast<XXH3_state_t*>(state); }
 }  // namespace
 
 const char* name_of(TraceKind kind) {
-  constexpr std::array names = {"?",
-                                "begins",
-                                "ends",
-                                "order",
-                                "transport done",
-                                "sent",
-                                "lost",
-                                "received",
-                                "timer",
-                                "refused",
-                                "contact",
-                                "safe mode",
-                                "waiting for",
-                                "probe",
-                                "log",
-                                "agent crashed",
-                                "agent hung",
-                                "load moves",
-                                "battery empty",
-                                "fault",
-                                "fault over",
-                                "scanner stops",
-                                "operator assists",
-                                "appears",
-                                "leaves"};
-  if (kind == TraceKind::LostInOutage) return "lost in an outage";
-  if (kind == TraceKind::LostByInterference) return "lost by interference";
-  if (kind == TraceKind::LostToSource) return "lost to an external source";
-  const auto i = static_cast<std::size_t>(kind);
-  return i < names.size() ? names[i] : names[0];
+  switch (kind) {
+    case TraceKind::ActivityBegins:
+      return "begins";
+    case TraceKind::ActivityEnds:
+      return "ends";
+    case TraceKind::OrderReleased:
+      return "order";
+    case TraceKind::TransportDone:
+      return "transport done";
+    case TraceKind::Sent:
+      return "sent";
+    case TraceKind::Lost:
+      return "lost";
+    case TraceKind::Received:
+      return "received";
+    case TraceKind::TimerWentOff:
+      return "timer";
+    case TraceKind::CallRefused:
+      return "refused";
+    case TraceKind::Contact:
+      return "contact";
+    case TraceKind::SafeMode:
+      return "safe mode";
+    case TraceKind::WaitingFor:
+      return "waiting for";
+    case TraceKind::Probe:
+      return "probe";
+    case TraceKind::Log:
+      return "log";
+    case TraceKind::AgentCrashed:
+      return "agent crashed";
+    case TraceKind::AgentHung:
+      return "agent hung";
+    case TraceKind::LoadMoves:
+      return "load moves";
+    case TraceKind::BatteryEmpty:
+      return "battery empty";
+    case TraceKind::FaultStrikes:
+      return "fault";
+    case TraceKind::FaultOver:
+      return "fault over";
+    case TraceKind::ScannerStops:
+      return "scanner stops";
+    case TraceKind::OperatorAssists:
+      return "operator assists";
+    case TraceKind::Appears:
+      return "appears";
+    case TraceKind::Leaves:
+      return "leaves";
+    case TraceKind::LostInOutage:
+      return "lost in an outage";
+    case TraceKind::LostByInterference:
+      return "lost by interference";
+    case TraceKind::LostToSource:
+      return "lost to an external source";
+  }
+  return "?";
 }
 
 TraceDigest::TraceDigest() : state_(XXH3_createState()) { XXH3_64bits_reset(hash(state_)); }
