@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "core/outcome/progress.hpp"
 #include "core/outcome/trace_records.hpp"
+#include "core/outcome/work_and_progress.hpp"
 #include "laws/fault_watch.hpp"
 #include "laws/link_quality.hpp"
 

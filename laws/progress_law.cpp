@@ -6,8 +6,8 @@
 #include <optional>
 #include <utility>
 
-#include "core/outcome/progress.hpp"
 #include "core/outcome/trace_records.hpp"
+#include "core/outcome/work_and_progress.hpp"
 #include "laws/fault_watch.hpp"
 #include "laws/standing_in_the_way.hpp"
 

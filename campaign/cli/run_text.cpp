@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "core/outcome/progress.hpp"
 #include "core/outcome/trace_records.hpp"
+#include "core/outcome/work_and_progress.hpp"
 #include "generators/formats/purpose_words.hpp"
 #include "generators/scenario_file/exempt_pairs.hpp"
 

@@ -1,6 +1,6 @@
 #include "core/engine/activities.hpp"
 
-#include "core/outcome/progress.hpp"
+#include "core/outcome/work_and_progress.hpp"
 
 namespace fleetproof {
 

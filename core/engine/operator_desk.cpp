@@ -5,7 +5,7 @@
 #include "core/base/random.hpp"
 #include "core/base/tolerances.hpp"
 #include "core/engine/recovery.hpp"
-#include "core/outcome/progress.hpp"
+#include "core/outcome/work_and_progress.hpp"
 
 namespace fleetproof {
 namespace {

@@ -1,7 +1,7 @@
 #include "core/engine/run_context.hpp"
 
 #include "core/base/random.hpp"
-#include "core/outcome/progress.hpp"
+#include "core/outcome/work_and_progress.hpp"
 
 namespace fleetproof {
 

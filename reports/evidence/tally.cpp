@@ -1,6 +1,6 @@
 #include "reports/evidence/tally.hpp"
 
-#include "core/outcome/progress.hpp"
+#include "core/outcome/work_and_progress.hpp"
 
 namespace fleetproof {
 

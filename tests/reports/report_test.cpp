@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "reports/wording.hpp"
+#include "storage/archive_writer.hpp"
 #include "tests/reports/sample_campaign.hpp"
 #include "tests/storage/sample_records.hpp"
 

@@ -1,5 +1,5 @@
 // What counts as work, as progress and as throughput.
-#include "core/outcome/progress.hpp"
+#include "core/outcome/work_and_progress.hpp"
 
 #include <gtest/gtest.h>
 
