@@ -156,7 +156,7 @@ TEST_F(WeakReport, WhoAsksForNothingGetsNoWarning) {
   const auto input = report_of(campaign, cells_, gates_, meet_nobody);
   EXPECT_EQ(input.gates[0].verdict, Verdict::Demonstrated);
   EXPECT_EQ(nlohmann::json::parse(render("json", input))["weak"], false);
-  EXPECT_THAT(render("text", input), HasSubstr("asks for nothing to be met"));
+  EXPECT_THAT(render("text", input), HasSubstr("requires nothing to be met"));
 }
 
 TEST_F(WeakReport, AViolationStaysAViolation) {

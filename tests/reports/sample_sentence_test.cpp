@@ -107,7 +107,7 @@ TEST(SampleSentence, EvenSamplesAreNotCalledIndependent) {
   const auto page = render(
       "text", report_of(campaign, {drawn_cell(0, 0.4)}, {gate_of("sound", GateKind::None, Region::Contract, 0.02)}));
   EXPECT_THAT(page, HasSubstr("drawn evenly (sobol), not independently"));
-  EXPECT_THAT(page, HasSubstr("exact binomial bounds are not guaranteed to hold, and none is given"));
+  EXPECT_THAT(page, HasSubstr("exact binomial bounds need not hold, and none is given"));
 }
 
 TEST(SampleSentence, HeldRandomnessLimitsWhatIsClaimed) {
