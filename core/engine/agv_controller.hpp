@@ -50,6 +50,8 @@ class AgvController {
   // ---- calls
   // Counts the call and its cost. False: the call is not carried out.
   bool admit(AgvId agv);
+  // Likewise for `random` and `now_ns`, which have a limit of their own: they neither act nor perceive.
+  bool admit_service(AgvId agv);
   std::int32_t act(AgvId agv, fp_call call, std::uint32_t segment);
   std::int32_t send(AgvId agv, std::string_view bytes, std::uint32_t receiver);
   std::int32_t set_timer(AgvId agv, std::uint32_t number, std::int64_t at_ns);
@@ -76,8 +78,8 @@ class AgvController {
   struct Slice {
     fp_controller handle;
     bool in_activation = false;
-    Duration cost{};          // of the calls of this activation
-    std::uint32_t calls = 0;  // in this activation
+    Duration cost{};                        // of the calls of this activation
+    std::uint32_t calls = 0, services = 0;  // in this activation
     std::deque<PendingCall> pending;
     std::optional<SimTime> safe_since;
     std::uint64_t safe_mode_ns = 0;

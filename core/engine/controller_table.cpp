@@ -70,9 +70,9 @@ std::int32_t get_action(fp_controller* controller, std::uint32_t* out) {
   });
 }
 
-// The two calls that cannot answer with a result still count, so that an agent that spins on them is found out.
+// These two have no way to refuse. They are counted, so that an agent that spends its time on them is found out.
 std::int64_t now_ns(fp_controller* controller) {
-  (void)controller->part->admit(controller->agv);
+  (void)controller->part->admit_service(controller->agv);
   return controller->part->now_ns(controller->agv);
 }
 
@@ -81,7 +81,7 @@ std::int32_t set_timer(fp_controller* controller, std::uint32_t timer, std::int6
 }
 
 std::uint64_t random_bits(fp_controller* controller, std::uint32_t purpose, std::uint64_t index) {
-  (void)controller->part->admit(controller->agv);
+  (void)controller->part->admit_service(controller->agv);
   return controller->part->random(controller->agv, purpose, index);
 }
 
