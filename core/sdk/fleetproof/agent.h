@@ -227,7 +227,9 @@ typedef struct fp_host {
 
 /* ---- the agent ------------------------------------------------------------------------------------------- */
 
-#define FP_DETERMINISTIC 1u /* the agent promises: same briefing and events, same calls */
+/* The agent promises: same briefing and events, same calls. If a replay differs from the run, it says whether the agent
+ * has promised this. */
+#define FP_DETERMINISTIC 1u
 
 typedef struct fp_agent_type {
   uint32_t struct_size;
