@@ -94,7 +94,7 @@ void Actions::take_next(AgvId agv, fp_call call, std::uint32_t segment) {
   const Lane* lane = run_.scenario.map->lane(SegmentId{segment}, slice.plan.lane->to);
   ensure(lane != nullptr, "the next action begins where this one ends");
   slice.next = NextAction{call, lane};
-  if (run_.status(agv).is_driving()) ports_.drives.next_is_released(agv, *lane);
+  if (run_.status(agv).is_driving()) ports_.drives.release_next(agv, *lane);
 }
 
 void Actions::tell_done(AgvId agv, fp_result result) {
@@ -277,7 +277,7 @@ void Actions::go_on(AgvId agv) {
   continue_plan(agv, 0.0);
 }
 
-void Actions::body_has_shrunk(AgvId agv) {
+void Actions::reshape(AgvId agv) {
   if (run_.status(agv).is_driving()) {
     ports_.drives.replan(agv);
   } else if (run_.world.body(agv).piece.manner == Manner::Rest) {
@@ -304,7 +304,7 @@ bool Actions::stop_for_good(AgvId agv) {
   return true;
 }
 
-void Actions::is_back(AgvId agv, StationId station) {
+void Actions::put_back(AgvId agv, StationId station) {
   AgvStatus& status = run_.status(agv);
   status.station = station;
   status.out_of_order = false;

@@ -19,7 +19,7 @@ class Messenger {
 
   // Call this for each piece of an AGV that begins after time zero: roaming depends on the path of the AGV.
   void piece_begins(const Piece& piece) { radio_.piece_begins(piece); }
-  void is_carried(AgvId agv) { radio_.is_carried(agv); }
+  void forget_path(AgvId agv) { radio_.forget_path(agv); }
 
   // Takes a message in hand that is going to be sent to `receiver`, or to all AGVs if that is FP_NONE. Returns its
   // slot, or nothing if the message is too long or there is no such receiver. Requires: `transmit` or `withdraw`.
