@@ -66,7 +66,6 @@ class Actions {
     fp_action doing = FP_IDLE;
     std::uint32_t transfers = 0;  // begun in this run: they number the draws of the motion stream
   };
-  Slice& slice_of(AgvId agv) { return slices_[agv.index()]; }
 
   bool is_possible(AgvId agv, fp_call call, std::uint32_t segment) const;
   void begin_plan(AgvId agv, fp_call call, const Lane* lane, double entry_mps);

@@ -133,9 +133,9 @@ std::int32_t AgvController::declare_safe_mode(AgvId agv, bool on) {
   return take_effect(agv, {.kind = PendingCall::Kind::SafeMode, .what = on ? 1U : 0U});
 }
 
-std::int32_t AgvController::declare_waiting(AgvId agv, std::uint32_t for_whom) {
-  if (for_whom != FP_NONE && for_whom >= slices_.size()) return FP_INVALID;
-  return take_effect(agv, {.kind = PendingCall::Kind::WaitingFor, .what = for_whom});
+std::int32_t AgvController::declare_waiting(AgvId agv, std::uint32_t other) {
+  if (other != FP_NONE && other >= slices_.size()) return FP_INVALID;
+  return take_effect(agv, {.kind = PendingCall::Kind::WaitingFor, .what = other});
 }
 
 std::int32_t AgvController::declare_cost(AgvId agv, std::int64_t cost_ns) {

@@ -56,14 +56,11 @@ class AgvController {
   std::int32_t send(AgvId agv, std::string_view bytes, std::uint32_t receiver);
   std::int32_t set_timer(AgvId agv, std::uint32_t number, std::int64_t at_ns);
   std::int32_t declare_safe_mode(AgvId agv, bool on);
-  std::int32_t declare_waiting(AgvId agv, std::uint32_t for_whom);
+  std::int32_t declare_waiting(AgvId agv, std::uint32_t other);
   std::int32_t declare_cost(AgvId agv, std::int64_t cost_ns);
-  bool read_message(AgvId agv, fp_message& out) { return ports_.messenger.read(agv, out); }
-  Pose perceived_pose(AgvId agv) const { return ports_.sensor.perceived(agv); }
-  double battery_level(AgvId agv) const { return ports_.battery.level(agv); }
+  // Perceptions are passed on as they are.
+  const Ports& ports() const { return ports_; }
   bool is_loaded(AgvId agv) const { return run_.is_loaded(agv); }
-  fp_action action_of(AgvId agv) const { return ports_.actions.doing(agv); }
-  std::int64_t now_ns(AgvId agv) const { return ports_.timers.now_ns(agv); }
   std::uint64_t random(AgvId agv, std::uint32_t purpose, std::uint64_t index) const;
   void note(AgvId agv, TraceKind kind, std::string_view text);
 
