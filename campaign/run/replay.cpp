@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "campaign/plan/scenario_source.hpp"
 #include "campaign/run/run_one.hpp"
 #include "core/base/error.hpp"
 #include "core/base/random.hpp"
@@ -79,6 +80,12 @@ ReplayResult compare_runs(RunRecord stored, RunRecord recomputed) {
   return result;
 }
 
+std::string_view suspects_of(const fp_agent_type& agent) {
+  return (agent.flags & FP_DETERMINISTIC) != 0
+             ? "the agent declares that it is deterministic: if the file is intact, the engine or the agent is at fault"
+             : "the agent does not declare that it is deterministic (FP_DETERMINISTIC), so that it may be the cause";
+}
+
 ReplayResult replay(const ArchiveReader& archive, std::uint64_t run_index, const AgentPrograms& programs,
                     TraceSink* sink) {
   const CampaignPlan plan = parse_plan(archive.campaign().plan_json);
@@ -92,6 +99,10 @@ ReplayResult replay(const ArchiveReader& archive, std::uint64_t run_index, const
                                         archive.run_count() - 1, plan.run_count()));
   }
   ReplayResult result = compare_runs(std::move(*stored), RunOne(plan, programs)(run_index, sink));
+  if (result.verdict == ReplayVerdict::Diverged) {
+    const std::string agent = ScenarioSource(plan).place(run_index).cell.agent;
+    result.explanation += "; " + std::string(suspects_of(programs.find(agent, "replay")));
+  }
   if (name_hash(archive.campaign().plan_json) != archive.campaign().plan_hash) {
     result.explanation = "the plan in the file was changed: its hash no longer matches" +
                          (result.explanation.empty() ? "" : "; " + result.explanation);

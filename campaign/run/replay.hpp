@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "campaign/plan/plan.hpp"
 #include "campaign/run/agent_programs.hpp"
@@ -23,6 +24,9 @@ struct ReplayResult {
 // one. Throws InputError if the archive has no such run, or if the agent of the run is not loaded.
 ReplayResult replay(const ArchiveReader& archive, std::uint64_t run_index, const AgentPrograms& programs,
                     TraceSink* sink = nullptr);
+
+// Where the cause of a diverged replay may lie: the agent may have promised to be deterministic (FP_DETERMINISTIC).
+std::string_view suspects_of(const fp_agent_type& agent);
 
 // What differs between the stored record of a run and its recomputed record.
 ReplayResult compare_runs(RunRecord stored, RunRecord recomputed);

@@ -53,7 +53,7 @@ bool Actions::accept(AgvId agv, fp_call call, std::uint32_t segment) {
     run_.trace(agv, traced::CallRefused{static_cast<std::uint32_t>(call), SegmentId{segment}});
     return false;
   }
-  slice_of(agv).committed = slice_of(agv).accepted = true;
+  slices_[agv.index()].committed = slices_[agv.index()].accepted = true;
   return true;
 }
 
@@ -70,7 +70,7 @@ bool Actions::is_possible(AgvId agv, fp_call call, std::uint32_t segment) const 
 }
 
 void Actions::begin(AgvId agv, fp_call call, std::uint32_t segment) {
-  Slice& slice = slice_of(agv);
+  Slice& slice = slices_[agv.index()];
   AgvStatus& status = run_.status(agv);
   slice.accepted = false;
   if (status.out_of_order) {
@@ -84,18 +84,18 @@ void Actions::begin(AgvId agv, fp_call call, std::uint32_t segment) {
 }
 
 void Actions::withdraw_accepted(AgvId agv) {
-  Slice& slice = slice_of(agv);
+  Slice& slice = slices_[agv.index()];
   if (!slice.accepted) return;
   slice.accepted = false;
   slice.committed = slice.acting;
 }
 
 void Actions::take_next(AgvId agv, fp_call call, std::uint32_t segment) {
-  Slice& slice = slice_of(agv);
+  Slice& slice = slices_[agv.index()];
   const Lane* lane = run_.scenario.map->lane(SegmentId{segment}, slice.plan.lane->to);
   ensure(lane != nullptr, "the next action begins where this one ends");
   slice.next = NextAction{call, lane};
-  if (run_.status(agv).is_driving()) ports_.drives.next_is_released(agv, *lane);
+  if (run_.status(agv).is_driving()) ports_.drives.release_next(agv, *lane);
 }
 
 void Actions::tell_done(AgvId agv, fp_result result) {
@@ -108,14 +108,14 @@ void Actions::tell_done(AgvId agv, fp_result result) {
 // ---- from one activity to the next
 
 void Actions::begin_plan(AgvId agv, fp_call call, const Lane* lane, double entry_mps) {
-  Slice& slice = slice_of(agv);
+  Slice& slice = slices_[agv.index()];
   slice.acting = slice.committed = true;
   slice.plan = {call, lane, lane != nullptr, false, call != FP_CALL_MOVE, 0.0};
   continue_plan(agv, entry_mps);
 }
 
 void Actions::continue_plan(AgvId agv, double entry_mps) {
-  Slice& slice = slice_of(agv);
+  Slice& slice = slices_[agv.index()];
   slice.waits = !run_.status(agv).halts.empty() && entry_mps == 0.0;
   if (slice.waits) return;  // the end of the halt continues it
   if (slice.plan.drive_due) return turn_or_drive(agv, entry_mps);
@@ -127,7 +127,7 @@ void Actions::continue_plan(AgvId agv, double entry_mps) {
 
 // The action is over. The one queued behind it begins at once, rolling if the AGV has not stopped.
 void Actions::finish(AgvId agv, double speed_mps) {
-  Slice& slice = slice_of(agv);
+  Slice& slice = slices_[agv.index()];
   const auto next = slice.next;
   slice.next.reset();
   slice.acting = slice.committed = false;
@@ -136,7 +136,7 @@ void Actions::finish(AgvId agv, double speed_mps) {
 }
 
 void Actions::turn_or_drive(AgvId agv, double entry_mps) {
-  Slice& slice = slice_of(agv);
+  Slice& slice = slices_[agv.index()];
   Plan& plan = slice.plan;
   const Pose pose = run_.pose_now(agv);
   const double turn_rad =
@@ -158,12 +158,12 @@ void Actions::turn_or_drive(AgvId agv, double entry_mps) {
 }
 
 void Actions::begin_activity(AgvId agv, const Activity& activity, std::uint64_t subject) {
-  slice_of(agv).doing = action_during(activity.kind);
+  slices_[agv.index()].doing = action_during(activity.kind);
   ports_.activities.begin(agv, activity, subject);
 }
 
 void Actions::begin_settling(AgvId agv) {
-  slice_of(agv).plan.settle_due = false;
+  slices_[agv.index()].plan.settle_due = false;
   const double draw = run_.motion_draw(MotionTopic::Settling, agv, ports_.drives.begun(agv));
   const Duration lasts = seconds(run_.type_of(agv).settle_s * draw);
   begin_activity(agv, {ActivityKind::Settle, agv, run_.now, run_.now + lasts, Standing{}},
@@ -171,8 +171,8 @@ void Actions::begin_settling(AgvId agv) {
 }
 
 void Actions::begin_stay(AgvId agv) {
-  slice_of(agv).plan.stay_due = false;
-  const ActivityKind kind = stay_of(slice_of(agv).plan.call);
+  slices_[agv.index()].plan.stay_due = false;
+  const ActivityKind kind = stay_of(slices_[agv.index()].plan.call);
   if (kind == ActivityKind::Charge) return begin_charging(agv);
   if (kind != ActivityKind::Park) return begin_transfer(agv, kind);
   begin_activity(agv, {kind, agv, run_.now, run_.now, Standing{}}, run_.status(agv).station.value);
@@ -189,7 +189,7 @@ void Actions::begin_transfer(AgvId agv, ActivityKind kind) {
   evolution.to = pick ? Holder{Holder::Kind::Agv, agv.value} : Holder{Holder::Kind::Station, station.value};
   const bool at_storage = run_.scenario.map->station(station).purposes.has(Purpose::Storage);
   const double spread_s = at_storage ? type.storage_spread_s : type.other_spread_s;
-  const double draw = run_.motion_draw(MotionTopic::Transfer, agv, ++slice_of(agv).transfers);
+  const double draw = run_.motion_draw(MotionTopic::Transfer, agv, ++slices_[agv.index()].transfers);
   const SimTime end = run_.now + seconds((pick ? type.pick_s : type.drop_s) + spread_s * draw);
   run_.progressed(agv);
   begin_activity(agv, {kind, agv, run_.now, end, evolution}, evolution.load.value);
@@ -206,7 +206,7 @@ void Actions::begin_charging(AgvId agv) {
 }
 
 void Actions::activity_ends(AgvId agv) {
-  Slice& slice = slice_of(agv);
+  Slice& slice = slices_[agv.index()];
   const ActivityKind kind = run_.status(agv).activity->kind;
   switch (kind) {
     case ActivityKind::Drive:
@@ -229,7 +229,7 @@ void Actions::activity_ends(AgvId agv) {
 }
 
 void Actions::leg_ends(AgvId agv) {
-  Plan& plan = slice_of(agv).plan;
+  Plan& plan = slices_[agv.index()].plan;
   const LegEnd leg = ports_.drives.leg_ends(agv);
   if (leg.kind == LegEnd::Kind::NextLegBegins) return;
   if (leg.kind == LegEnd::Kind::Halted) {
@@ -240,7 +240,7 @@ void Actions::leg_ends(AgvId agv) {
   }
   run_.status(agv).station = plan.lane->to;
   if (leg.speed_mps > 0.0) {
-    ensure(slice_of(agv).next.has_value(), "an AGV that rolls through a station knows where to go");
+    ensure(slices_[agv.index()].next.has_value(), "an AGV that rolls through a station knows where to go");
     ports_.activities.end_rolling(agv);
     ++run_.counters.rolls;
     return finish(agv, leg.speed_mps);
@@ -258,7 +258,7 @@ void Actions::brake(AgvId agv) {
       return ports_.drives.replan(agv);
     case ActivityKind::Pick:
     case ActivityKind::Drop:
-      slice_of(agv).plan.stay_due = true;  // from its beginning
+      slices_[agv.index()].plan.stay_due = true;  // from its beginning
       [[fallthrough]];
     case ActivityKind::Turn:
     case ActivityKind::Settle:
@@ -272,13 +272,13 @@ void Actions::brake(AgvId agv) {
 void Actions::go_on(AgvId agv) {
   if (run_.status(agv).is_driving()) return ports_.drives.replan(agv);  // it was still braking
   run_.progressed(agv);
-  Slice& slice = slice_of(agv);
+  Slice& slice = slices_[agv.index()];
   if (!slice.waits) return;
   slice.waits = false;
   continue_plan(agv, 0.0);
 }
 
-void Actions::body_has_shrunk(AgvId agv) {
+void Actions::reshape(AgvId agv) {
   if (run_.status(agv).is_driving()) {
     ports_.drives.replan(agv);
   } else if (run_.world.body(agv).piece.manner == Manner::Rest) {
@@ -288,7 +288,7 @@ void Actions::body_has_shrunk(AgvId agv) {
 
 bool Actions::stop_for_good(AgvId agv) {
   AgvStatus& status = run_.status(agv);
-  Slice& slice = slice_of(agv);
+  Slice& slice = slices_[agv.index()];
   if (status.out_of_order) return false;
   status.out_of_order = true;
   const int under_way = (slice.acting ? 1 : 0) + (slice.next ? 1 : 0);
@@ -305,11 +305,11 @@ bool Actions::stop_for_good(AgvId agv) {
   return true;
 }
 
-void Actions::is_back(AgvId agv, StationId station) {
+void Actions::put_back(AgvId agv, StationId station) {
   AgvStatus& status = run_.status(agv);
   status.station = station;
   status.out_of_order = false;
-  slice_of(agv).doing = FP_IDLE;
+  slices_[agv.index()].doing = FP_IDLE;
   run_.progressed(agv);
 }
 

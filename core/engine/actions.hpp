@@ -37,11 +37,11 @@ class Actions {
   // The last halt is over.
   void go_on(AgvId agv);
   // The AGV's load has fallen off.
-  void body_has_shrunk(AgvId agv);
+  void reshape(AgvId agv);
   // After a contact. False if the AGV was out of order already.
   bool stop_for_good(AgvId agv);
-  // It has been set down at a station, and obeys again.
-  void is_back(AgvId agv, StationId station);
+  // The operator has set it down at a station: it obeys again.
+  void put_back(AgvId agv, StationId station);
 
  private:
   // An action. What is left of it after the activity under way: drive, settle, stay.
@@ -66,7 +66,6 @@ class Actions {
     fp_action doing = FP_IDLE;
     std::uint32_t transfers = 0;  // begun in this run: they number the draws of the motion stream
   };
-  Slice& slice_of(AgvId agv) { return slices_[agv.index()]; }
 
   bool is_possible(AgvId agv, fp_call call, std::uint32_t segment) const;
   void begin_plan(AgvId agv, fp_call call, const Lane* lane, double entry_mps);

@@ -4,14 +4,14 @@
 
 namespace fleetproof {
 
-// The clock of an AGV's computer: ahead of the true time by an offset, and drifting. Whole numbers both ways.
+// The clock of an AGV's computer. It is ahead of the true time by an offset and drifts. All numbers are whole.
 class AgentClock {
  public:
   AgentClock() = default;
   explicit AgentClock(const SensingSetup& setup);
 
   std::int64_t shows_ns(SimTime t) const;
-  // First instant at which the clock shows that much or more.
+  // The first instant at which the clock shows `ns` or more.
   SimTime when_it_shows(std::int64_t ns) const;
 
  private:

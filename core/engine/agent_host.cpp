@@ -59,7 +59,7 @@ void AgentHost::wake(AgvId agv) {
   run_.queue.push(std::max(run_.now, slice.free_at), agv, Event::Kind::AgentIsFree);
 }
 
-void AgentHost::is_free(AgvId agv) {
+void AgentHost::becomes_free(AgvId agv) {
   Slice& slice = slices_[agv.index()];
   slice.wake_scheduled = false;
   if (slice.failed || slice.waiting_events.empty()) return;

@@ -33,7 +33,7 @@ class AgentHost {
   // `own_number`: of the transport among those of this AGV.
   void order_released(AgvId agv, std::uint64_t own_number);
   // The event. The agent may have been frozen since.
-  void is_free(AgvId agv);
+  void becomes_free(AgvId agv);
 
   // It has neither failed nor is its computer down.
   bool is_up(AgvId agv) const { return !slices_[agv.index()].failed && slices_[agv.index()].away == 0; }

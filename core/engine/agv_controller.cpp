@@ -5,7 +5,7 @@
 namespace fleetproof {
 namespace {
 
-constexpr std::uint32_t kCallsMax = 10'000;                      // in one activation
+constexpr std::uint32_t kCallsMax = 10'000, kServicesMax = 10'000'000;  // in one activation
 constexpr std::int64_t kDeclaredCostMax_ns = 3'600'000'000'000;  // an agent that thinks for an hour is another hang
 
 }  // namespace
@@ -24,7 +24,7 @@ AgvController::AgvController(RunContext& run, const Ports& ports)
 void AgvController::begin_activation(AgvId agv) {
   Slice& slice = slices_[agv.index()];
   slice.in_activation = true;
-  slice.calls = 0;
+  slice.calls = slice.services = 0;
   slice.cost = Duration::zero();
 }
 
@@ -32,9 +32,11 @@ ActivationUse AgvController::end_activation(AgvId agv) {
   Slice& slice = slices_[agv.index()];
   ports_.messenger.put_down(agv);
   slice.in_activation = false;
-  run_.counters.agent_calls += slice.calls;
-  return {.cost = slice.cost,
-          .broken_limit = slice.calls > kCallsMax ? "10 000 controller calls in one activation" : nullptr};
+  run_.counters.agent_calls += std::uint64_t{slice.calls} + slice.services;
+  const char* limit = slice.calls > kCallsMax         ? "10 000 controller calls in one activation"
+                      : slice.services > kServicesMax ? "ten million calls of random and now_ns in one activation"
+                                                      : nullptr;
+  return {.cost = slice.cost, .broken_limit = limit};
 }
 
 void AgvController::forget(AgvId agv) {
@@ -63,6 +65,13 @@ bool AgvController::admit(AgvId agv) {
   Slice& slice = slices_[agv.index()];
   // A call from outside an activation (another thread, a stored pointer) has no instant at which it could act.
   if (!slice.in_activation || ++slice.calls > kCallsMax) return false;
+  slice.cost += call_cost_;
+  return true;
+}
+
+bool AgvController::admit_service(AgvId agv) {
+  Slice& slice = slices_[agv.index()];
+  if (!slice.in_activation || ++slice.services > kServicesMax) return false;
   slice.cost += call_cost_;
   return true;
 }
@@ -124,9 +133,9 @@ std::int32_t AgvController::declare_safe_mode(AgvId agv, bool on) {
   return take_effect(agv, {.kind = PendingCall::Kind::SafeMode, .what = on ? 1U : 0U});
 }
 
-std::int32_t AgvController::declare_waiting(AgvId agv, std::uint32_t for_whom) {
-  if (for_whom != FP_NONE && for_whom >= slices_.size()) return FP_INVALID;
-  return take_effect(agv, {.kind = PendingCall::Kind::WaitingFor, .what = for_whom});
+std::int32_t AgvController::declare_waiting(AgvId agv, std::uint32_t other) {
+  if (other != FP_NONE && other >= slices_.size()) return FP_INVALID;
+  return take_effect(agv, {.kind = PendingCall::Kind::WaitingFor, .what = other});
 }
 
 std::int32_t AgvController::declare_cost(AgvId agv, std::int64_t cost_ns) {

@@ -50,18 +50,17 @@ class AgvController {
   // ---- calls
   // Counts the call and its cost. False: the call is not carried out.
   bool admit(AgvId agv);
+  // Likewise for `random` and `now_ns`, which have a limit of their own: they neither act nor perceive.
+  bool admit_service(AgvId agv);
   std::int32_t act(AgvId agv, fp_call call, std::uint32_t segment);
   std::int32_t send(AgvId agv, std::string_view bytes, std::uint32_t receiver);
   std::int32_t set_timer(AgvId agv, std::uint32_t number, std::int64_t at_ns);
   std::int32_t declare_safe_mode(AgvId agv, bool on);
-  std::int32_t declare_waiting(AgvId agv, std::uint32_t for_whom);
+  std::int32_t declare_waiting(AgvId agv, std::uint32_t other);
   std::int32_t declare_cost(AgvId agv, std::int64_t cost_ns);
-  bool read_message(AgvId agv, fp_message& out) { return ports_.messenger.read(agv, out); }
-  Pose perceived_pose(AgvId agv) const { return ports_.sensor.perceived(agv); }
-  double battery_level(AgvId agv) const { return ports_.battery.level(agv); }
+  // Perceptions are passed on as they are.
+  const Ports& ports() const { return ports_; }
   bool is_loaded(AgvId agv) const { return run_.is_loaded(agv); }
-  fp_action action_of(AgvId agv) const { return ports_.actions.doing(agv); }
-  std::int64_t now_ns(AgvId agv) const { return ports_.timers.now_ns(agv); }
   std::uint64_t random(AgvId agv, std::uint32_t purpose, std::uint64_t index) const;
   void note(AgvId agv, TraceKind kind, std::string_view text);
 
@@ -76,8 +75,8 @@ class AgvController {
   struct Slice {
     fp_controller handle;
     bool in_activation = false;
-    Duration cost{};          // of the calls of this activation
-    std::uint32_t calls = 0;  // in this activation
+    Duration cost{};                        // of the calls of this activation
+    std::uint32_t calls = 0, services = 0;  // in this activation
     std::deque<PendingCall> pending;
     std::optional<SimTime> safe_since;
     std::uint64_t safe_mode_ns = 0;

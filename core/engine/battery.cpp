@@ -82,7 +82,7 @@ void Battery::predict_empty(AgvId agv) {
   run_.queue.push(at, agv, Event::Kind::BatteryEmpty, 0, slice.stamp);
 }
 
-void Battery::is_empty(AgvId agv, std::uint64_t stamp) {
+void Battery::runs_empty(AgvId agv, std::uint64_t stamp) {
   Slice& slice = slices_[agv.index()];
   if (stamp != slice.stamp || run_.status(agv).out_of_order) return;
   settle(agv);

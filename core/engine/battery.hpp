@@ -22,7 +22,7 @@ class Battery {
   // Predicts anew. Call this after an activity has begun, changed or ended.
   void activity_changed(AgvId agv, bool drive_begins);
   void predict_empty(AgvId agv);
-  void is_empty(AgvId agv, std::uint64_t stamp);
+  void runs_empty(AgvId agv, std::uint64_t stamp);
 
   double level(AgvId agv) const;  // 0 .. 1
   // As of the last settling.

@@ -7,8 +7,8 @@
 
 namespace fleetproof {
 
-// What the agents are told before the run: the map with its geometry, the fleet, the scripts. Holds the storage that
-// the C structs point into.
+// What each agent gets to know before the run: the map with its geometry, the fleet, the script. This object owns the
+// memory that the C structs point into.
 class Briefings {
  public:
   Briefings(const Scenario& scenario, const char* agent_config);
@@ -16,8 +16,8 @@ class Briefings {
   Briefings& operator=(const Briefings&) = delete;
 
   const fp_briefing& of(AgvId agv) const { return briefings_[agv.index()]; }
-  // After a restart: the station it stands at or left last; `lane`: what it is driving, or null; `next`: what it will
-  // drive then, or null.
+  // After a restart. `station`: where the AGV stands, or the last station it left. `lane`: the lane that it drives, or
+  // null. `next`: the lane that it is going to drive after that, or null.
   void renew(AgvId agv, std::uint32_t boot, StationId station, const Lane* lane, const Lane* next);
 
  private:

@@ -33,7 +33,7 @@ std::int32_t send_broadcast(fp_controller* controller, const void* bytes, std::u
 std::int32_t get_position(fp_controller* controller, fp_pose* out) {
   return admitted(controller, [&](AgvController& part, AgvId agv) -> std::int32_t {
     if (out == nullptr) return FP_INVALID;
-    const Pose pose = part.perceived_pose(agv);
+    const Pose pose = part.ports().sensor.perceived(agv);
     *out = {pose.position_m.x(), pose.position_m.y(), pose.heading.x(), pose.heading.y()};
     return FP_OK;
   });
@@ -42,7 +42,7 @@ std::int32_t get_position(fp_controller* controller, fp_pose* out) {
 std::int32_t get_battery_level(fp_controller* controller, double* out) {
   return admitted(controller, [&](AgvController& part, AgvId agv) -> std::int32_t {
     if (out == nullptr) return FP_INVALID;
-    *out = part.battery_level(agv);
+    *out = part.ports().battery.level(agv);
     return FP_OK;
   });
 }
@@ -50,7 +50,7 @@ std::int32_t get_battery_level(fp_controller* controller, double* out) {
 std::int32_t get_message(fp_controller* controller, fp_message* out) {
   return admitted(controller, [&](AgvController& part, AgvId agv) -> std::int32_t {
     if (out == nullptr || out->struct_size < sizeof(fp_message)) return FP_INVALID;
-    return part.read_message(agv, *out) ? FP_OK : FP_EMPTY;
+    return part.ports().messenger.read(agv, *out) ? FP_OK : FP_EMPTY;
   });
 }
 
@@ -65,15 +65,15 @@ std::int32_t is_loaded(fp_controller* controller, std::uint32_t* out) {
 std::int32_t get_action(fp_controller* controller, std::uint32_t* out) {
   return admitted(controller, [&](AgvController& part, AgvId agv) -> std::int32_t {
     if (out == nullptr) return FP_INVALID;
-    *out = part.action_of(agv);
+    *out = part.ports().actions.doing(agv);
     return FP_OK;
   });
 }
 
-// The two calls that cannot answer with a result still count, so that an agent that spins on them is found out.
+// These two have no way to refuse. They are counted, so that an agent that spends its time on them is found out.
 std::int64_t now_ns(fp_controller* controller) {
-  (void)controller->part->admit(controller->agv);
-  return controller->part->now_ns(controller->agv);
+  (void)controller->part->admit_service(controller->agv);
+  return controller->part->ports().timers.now_ns(controller->agv);
 }
 
 std::int32_t set_timer(fp_controller* controller, std::uint32_t timer, std::int64_t at) {
@@ -81,7 +81,7 @@ std::int32_t set_timer(fp_controller* controller, std::uint32_t timer, std::int6
 }
 
 std::uint64_t random_bits(fp_controller* controller, std::uint32_t purpose, std::uint64_t index) {
-  (void)controller->part->admit(controller->agv);
+  (void)controller->part->admit_service(controller->agv);
   return controller->part->random(controller->agv, purpose, index);
 }
 
@@ -93,8 +93,8 @@ std::int32_t safe_mode(fp_controller* controller, std::uint32_t on) {
   return admitted(controller, [&](AgvController& part, AgvId agv) { return part.declare_safe_mode(agv, on != 0); });
 }
 
-std::int32_t waiting_for(fp_controller* controller, std::uint32_t for_whom) {
-  return admitted(controller, [&](AgvController& part, AgvId agv) { return part.declare_waiting(agv, for_whom); });
+std::int32_t waiting_for(fp_controller* controller, std::uint32_t other) {
+  return admitted(controller, [&](AgvController& part, AgvId agv) { return part.declare_waiting(agv, other); });
 }
 
 template <TraceKind kKind>

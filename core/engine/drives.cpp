@@ -91,7 +91,7 @@ void Drives::replan(AgvId agv) {
   ports_.activities.continue_with(agv, piece_of_leg(agv));
 }
 
-void Drives::next_is_released(AgvId agv, const Lane& next) {
+void Drives::release_next(AgvId agv, const Lane& next) {
   Drive& drive = drive_of(agv);
   drive.next = &next;
   if (!run_.status(agv).halts.empty() || exit_speed_mps(agv) == 0.0) return;

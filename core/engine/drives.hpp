@@ -25,7 +25,7 @@ class Drives {
   // Requires: a drive is under way. So for the two functions below.
   void replan(AgvId agv);
   // The next lane has become known. The drive is planned anew if the AGV need not brake for the station any more.
-  void next_is_released(AgvId agv, const Lane& next);
+  void release_next(AgvId agv, const Lane& next);
   // At the planned end of the drive's activity. If a next leg follows, it has begun when this returns; else the drive's
   // activity is still under way, for the caller to end.
   LegEnd leg_ends(AgvId agv);

@@ -58,15 +58,15 @@ void Engine::handle(const Event& event) {
     case Event::Kind::TimerGoesOff:
       return parts_.timers.goes_off(id, static_cast<std::uint32_t>(event.payload), event.stamp);
     case Event::Kind::AgentIsFree:
-      return parts_.agents.is_free(id);
+      return parts_.agents.becomes_free(id);
     case Event::Kind::Contact:
       return parts_.contacts.bodies_touch(event.payload);
     case Event::Kind::BatteryEmpty:
-      return parts_.battery.is_empty(id, event.stamp);
+      return parts_.battery.runs_empty(id, event.stamp);
     case Event::Kind::FaultStrikes:
       return parts_.faults.strikes(id, event.payload);
     case Event::Kind::FaultOver:
-      return parts_.faults.is_over(id, event.payload);
+      return parts_.faults.ends(id, event.payload);
     case Event::Kind::BodyAppears:
       return run_.world.body(id).is_agv ? parts_.operator_desk.look_for_place(id) : parts_.faults.obstacle_appears(id);
     case Event::Kind::BodyLeaves:

@@ -7,8 +7,8 @@
 
 namespace fleetproof {
 
-// Something that will happen. `payload` and `stamp` mean what the kind says; a stamp that no longer matches makes the
-// event stale.
+// Something that will happen. The meaning of `payload` and `stamp` depends on the kind. If the stamp no longer matches,
+// the event is stale and nothing happens.
 struct Event {
   enum class Kind : std::uint8_t {
     Start,
@@ -37,7 +37,7 @@ struct Event {
   std::uint64_t stamp = 0;
 };
 
-// Events in order of (time, entity, sequence): a total order that no memory layout and no thread can change.
+// Events in order of (time, entity, sequence). This is a total order: neither memory layout nor threads can change it.
 class EventQueue {
  public:
   EventQueue() { heap_.reserve(256); }

@@ -57,7 +57,7 @@ void FaultDesk::strikes(AgvId agv, std::uint64_t number) {
   run_.queue.push(run_.now + fault.lasts, agv, Event::Kind::FaultOver, number);
 }
 
-void FaultDesk::is_over(AgvId agv, std::uint64_t number) {
+void FaultDesk::ends(AgvId agv, std::uint64_t number) {
   const Fault::Kind kind = run_.scenario.faults[number].kind;
   if (holds_agv(kind)) return halt_ends(agv, number);
   run_.trace(agv, traced::FaultOver{kind, number});
@@ -123,7 +123,7 @@ bool FaultDesk::load_drops(AgvId agv, std::uint64_t number) {
   if (!run_.world.is_free(placed(fault.load, pose), run_.scenario.law.safety_distance_m, run_.now)) return false;
   const EntityId body = fallen_body(number);
   run_.move_load(load, {Holder::Kind::Floor, body.value});
-  ports_.actions.body_has_shrunk(agv);
+  ports_.actions.reshape(agv);
   run_.trace(body, traced::Appears{});
   run_.world.put_on_floor(body, fault.load, pose, run_.now);
   ports_.contacts.predict(body);

@@ -25,7 +25,7 @@ class FaultDesk {
   void load_taken_up(AgvId agv, TransportId transport);
   // `number`: of the fault in the scenario.
   void strikes(AgvId agv, std::uint64_t number);
-  void is_over(AgvId agv, std::uint64_t number);
+  void ends(AgvId agv, std::uint64_t number);
   // Ends early what holds this AGV.
   void end_halts_of(AgvId agv);
 

@@ -29,7 +29,8 @@ Messenger::Messenger(RunContext& run, AgentHostPort agents)
       channel_(run.scenario.radio, run.scenario.seed_of(Stream::Radio)),
       unlimited_range_(covers_floor(run.scenario.radio, *run.scenario.map)),
       needs_places_(!unlimited_range_ || radio_.depends_on_place()),
-      slices_(run.agvs.size()) {}
+      slices_(run.agvs.size()),
+      links_(run.agvs.size() * run.agvs.size()) {}
 
 // ---- sending
 
@@ -42,12 +43,7 @@ std::optional<std::uint32_t> Messenger::accept(AgvId sender, std::string_view by
 }
 
 void Messenger::transmit(AgvId sender, std::uint32_t slot, std::uint32_t receiver) {
-  Slice& slice = slice_of(sender);
-  if (slice.last_sent != run_.now) {
-    slice.last_sent = run_.now;
-    slice.sent_at_that_instant = 0;
-  }
-  const std::uint32_t ordinal = slice.sent_at_that_instant++;
+  const std::uint32_t ordinal = slice_of(sender).sent.next(run_.now);
   ++run_.counters.messages_sent;
   const Message& message = pool_[slot];
   const std::size_t size = message.bytes.size();
@@ -58,16 +54,16 @@ void Messenger::transmit(AgvId sender, std::uint32_t slot, std::uint32_t receive
   pool_.goes_out(slot, contended ? channel_.contend(sender, run_.now, ordinal, air_time)
                                  : AirInterval{run_.now, run_.now + air_time});
   if (receiver != FP_NONE) {
-    transmit_to(sender, AgvId{receiver}, slot, from, ordinal);
+    transmit_to(sender, AgvId{receiver}, slot, from);
   } else {
     for (std::size_t i = 0; i < slices_.size(); ++i) {
-      if (AgvId{i} != sender) transmit_to(sender, AgvId{i}, slot, from, ordinal);
+      if (AgvId{i} != sender) transmit_to(sender, AgvId{i}, slot, from);
     }
   }
   pool_.release(slot);
 }
 
-void Messenger::transmit_to(AgvId sender, AgvId receiver, std::uint32_t slot, const Pose& from, std::uint32_t ordinal) {
+void Messenger::transmit_to(AgvId sender, AgvId receiver, std::uint32_t slot, const Pose& from) {
   Counters& counters = run_.counters;
   LinkPlaces places{from.position_m, {}};
   if (needs_places_) places.receiver_m = run_.pose_now(receiver).position_m;
@@ -75,6 +71,7 @@ void Messenger::transmit_to(AgvId sender, AgvId receiver, std::uint32_t slot, co
     ++counters.out_of_range;
     return pool_.release(slot);
   }
+  const std::uint32_t ordinal = links_[sender.index() * slices_.size() + receiver.index()].next(run_.now);
   const Fate fate = radio_.fate(sender, receiver, run_.now, ordinal, places);
   const SimTime on_air_until = pool_[slot].on_air.end;
   const SimTime arrival = std::max(run_.now + fate.delay, on_air_until);

@@ -19,7 +19,7 @@ class Messenger {
 
   // Call this for each piece of an AGV that begins after time zero: roaming depends on the path of the AGV.
   void piece_begins(const Piece& piece) { radio_.piece_begins(piece); }
-  void is_carried(AgvId agv) { radio_.is_carried(agv); }
+  void forget_path(AgvId agv) { radio_.forget_path(agv); }
 
   // Takes a message in hand that is going to be sent to `receiver`, or to all AGVs if that is FP_NONE. Returns its
   // slot, or nothing if the message is too long or there is no such receiver. Requires: `transmit` or `withdraw`.
@@ -35,16 +35,26 @@ class Messenger {
   void forget_inbox(AgvId agv);
 
  private:
+  // How many messages have been sent at the last instant of sending.
+  struct SentCount {
+    SimTime at = SimTime::min();
+    std::uint32_t count = 0;
+    // The number of a further message among those of its instant, from 0 on.
+    std::uint32_t next(SimTime now) {
+      count = at == now ? count + 1 : 0;
+      at = now;
+      return count;
+    }
+  };
   struct Slice {
     std::vector<std::uint32_t> inbox;  // slots, oldest first, from `read` on
     std::size_t read = 0;
     std::uint32_t in_hand = FP_NONE;
-    SimTime last_sent = SimTime::min();
-    std::uint32_t sent_at_that_instant = 0;
+    SentCount sent;  // to any receiver
     bool has_unread() const { return read < inbox.size(); }
   };
   Slice& slice_of(AgvId agv) { return slices_[agv.index()]; }
-  void transmit_to(AgvId sender, AgvId receiver, std::uint32_t slot, const Pose& from, std::uint32_t ordinal);
+  void transmit_to(AgvId sender, AgvId receiver, std::uint32_t slot, const Pose& from);
   void lose(AgvId receiver, std::uint32_t slot, const Fate& fate);
   void air_time_ends(AgvId receiver, std::uint32_t slot);
   bool is_drowned(AgvId receiver, const Message& message) const;
@@ -55,8 +65,9 @@ class Messenger {
   RadioChannel channel_;
   MessagePool pool_;
   bool unlimited_range_;
-  bool needs_places_;          // the fate of a message depends on where its ends are
-  std::vector<Slice> slices_;  // by AGV
+  bool needs_places_;             // the fate of a message depends on where its ends are
+  std::vector<Slice> slices_;     // by AGV
+  std::vector<SentCount> links_;  // by sender and receiver: of messages from the one to the other
 };
 
 }  // namespace fleetproof

@@ -95,7 +95,7 @@ void OperatorDesk::look_for_place(AgvId agv) {
   });
   if (place == places.end()) return run_.queue.push(run_.now + kTriesAgain, agv, Event::Kind::BodyAppears);
   run_.world.forget_touches(agv);
-  ports_.messenger.is_carried(agv);
+  ports_.messenger.forget_path(agv);
   ports_.sensor.forget(agv);
   run_.world.put_on_floor(agv, footprint, place->pose, run_.now);
   set_down(agv, place->station);
@@ -125,7 +125,7 @@ bool OperatorDesk::passes(AgvId agv, const Lane* lane, const Box& place, double 
 
 void OperatorDesk::set_down(AgvId agv, StationId station) {
   run_.trace(agv, traced::Appears{station});
-  ports_.actions.is_back(agv, station);
+  ports_.actions.put_back(agv, station);
   ports_.contacts.predict(agv);
   ports_.battery.settle(agv);
   if (ports_.battery.is_out(agv)) {

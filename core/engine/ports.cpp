@@ -31,7 +31,7 @@ Pose PositionSensorPort::perceived(AgvId agv) const { return part_->perceived(ag
 void PositionSensorPort::forget(AgvId agv) const { part_->forget(agv); }
 
 void MessengerPort::piece_begins(const Piece& piece) const { part_->piece_begins(piece); }
-void MessengerPort::is_carried(AgvId agv) const { part_->is_carried(agv); }
+void MessengerPort::forget_path(AgvId agv) const { part_->forget_path(agv); }
 std::optional<std::uint32_t> MessengerPort::accept(AgvId sender, std::string_view bytes, std::uint32_t receiver) const {
   return part_->accept(sender, bytes, receiver);
 }
@@ -59,7 +59,7 @@ void DrivesPort::begin(AgvId agv, const Lane& lane, double from_m, double entry_
   part_->begin(agv, lane, from_m, entry_mps, next);
 }
 void DrivesPort::replan(AgvId agv) const { part_->replan(agv); }
-void DrivesPort::next_is_released(AgvId agv, const Lane& next) const { part_->next_is_released(agv, next); }
+void DrivesPort::release_next(AgvId agv, const Lane& next) const { part_->release_next(agv, next); }
 LegEnd DrivesPort::leg_ends(AgvId agv) const { return part_->leg_ends(agv); }
 std::uint32_t DrivesPort::begun(AgvId agv) const { return part_->begun(agv); }
 
@@ -72,9 +72,9 @@ fp_action ActionsPort::doing(AgvId agv) const { return part_->doing(agv); }
 LanesAhead ActionsPort::lanes(AgvId agv) const { return part_->lanes(agv); }
 void ActionsPort::brake(AgvId agv) const { part_->brake(agv); }
 void ActionsPort::go_on(AgvId agv) const { part_->go_on(agv); }
-void ActionsPort::body_has_shrunk(AgvId agv) const { part_->body_has_shrunk(agv); }
+void ActionsPort::reshape(AgvId agv) const { part_->reshape(agv); }
 bool ActionsPort::stop_for_good(AgvId agv) const { return part_->stop_for_good(agv); }
-void ActionsPort::is_back(AgvId agv, StationId station) const { part_->is_back(agv, station); }
+void ActionsPort::put_back(AgvId agv, StationId station) const { part_->put_back(agv, station); }
 
 std::uint64_t HaltsPort::begin(AgvId agv, Halt::Reason reason) const { return part_->begin(agv, reason); }
 void HaltsPort::end(AgvId agv, std::uint64_t number) const { part_->end(agv, number); }

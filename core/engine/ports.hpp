@@ -72,7 +72,7 @@ class MessengerPort {
   explicit MessengerPort(Messenger& part) : part_(&part) {}
   // Call this for each piece of an AGV that begins after time zero: roaming depends on the path of the AGV.
   void piece_begins(const Piece& piece) const;
-  void is_carried(AgvId agv) const;
+  void forget_path(AgvId agv) const;
   std::optional<std::uint32_t> accept(AgvId sender, std::string_view bytes, std::uint32_t receiver) const;
   void transmit(AgvId sender, std::uint32_t slot, std::uint32_t receiver) const;
   void withdraw(std::uint32_t slot) const;
@@ -111,7 +111,7 @@ class DrivesPort {
   explicit DrivesPort(Drives& part) : part_(&part) {}
   void begin(AgvId agv, const Lane& lane, double from_m, double entry_mps, const Lane* next) const;
   void replan(AgvId agv) const;
-  void next_is_released(AgvId agv, const Lane& next) const;
+  void release_next(AgvId agv, const Lane& next) const;
   LegEnd leg_ends(AgvId agv) const;
   std::uint32_t begun(AgvId agv) const;
 
@@ -136,9 +136,9 @@ class ActionsPort {
   LanesAhead lanes(AgvId agv) const;
   void brake(AgvId agv) const;
   void go_on(AgvId agv) const;
-  void body_has_shrunk(AgvId agv) const;
+  void reshape(AgvId agv) const;
   bool stop_for_good(AgvId agv) const;
-  void is_back(AgvId agv, StationId station) const;
+  void put_back(AgvId agv, StationId station) const;
 
  private:
   Actions* part_;

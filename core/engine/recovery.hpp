@@ -12,10 +12,10 @@ struct RecoveryPlace {
   Pose pose;
 };
 
-// In order of preference: the station at which the AGV stood, as it stood there, or the end of the lane on which it
-// stood (`stopped_on`; null: on none); then every other station to which it could have driven from there, by length of
-// the way, of equals by number, with the heading with which it would have arrived. The first is where the others expect
-// it: it was there, or on its way there.
+// In order of preference. The first place is the station at which the AGV stood, with its heading there; if the AGV
+// stood on a lane (`stopped_on`; null: on none), it is the end of that lane. The other agents expect the AGV at this
+// place. Then come all stations to which the AGV could have driven from there, by length of the way; equals by number.
+// The heading is the one with which the AGV would have arrived.
 std::vector<RecoveryPlace> recovery_places(const LogicalMap& map, StationId station, const Lane* stopped_on,
                                            const Pose& stood);
 

@@ -46,12 +46,12 @@ void Scanner::looks(AgvId agv, std::uint64_t stamp) {
   } else if (held && body) {
     slice.clear_since.reset();
   } else if (held) {
-    field_is_clear(agv);
+    wait_while_clear(agv);
   }
   run_.queue.push(run_.now + seconds(run_.scenario.scanner.reaction_s), agv, Event::Kind::ScannerLooks, 0, stamp);
 }
 
-void Scanner::field_is_clear(AgvId agv) {
+void Scanner::wait_while_clear(AgvId agv) {
   auto& since = slices_[agv.index()].clear_since;
   if (!since) since = run_.now;
   if (run_.now - *since >= seconds(run_.scenario.scanner.resume_s)) ports_.halts.end_all(agv, Halt::Reason::Scanner);

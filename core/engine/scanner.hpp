@@ -37,7 +37,7 @@ class Scanner {
   double field_length_m(AgvId agv) const;
   std::optional<EntityId> intruder(AgvId agv, double length_m) const;
   void stop(AgvId agv, EntityId body);
-  void field_is_clear(AgvId agv);
+  void wait_while_clear(AgvId agv);
 
   RunContext& run_;
   Ports ports_;

@@ -11,11 +11,14 @@
 
 namespace fleetproof {
 
-// One run: a pure function of scenario and agent. Laws observe. The first one is the judge of violations; the incidents
-// and the coverage of all are filed in the outcome. Neither laws nor sink can change the trace. An agent that crashes
-// or hangs stops answering and its AGV stands still; the run goes on. A bug of the engine ends the run as an outcome
-// with `engine_error`. `agent_config` is handed to every agent as its own parameters. Threads: any number of runs at
-// once; one run stays on its thread.
+// One run: a pure function of scenario and agent.
+//
+// Laws observe the run. The violations in the outcome come from the first law; incidents and coverage come from all
+// laws. Neither laws nor sink can change the trace. If an agent crashes or hangs, it is not called any more, its AGV
+// stands still, and the run goes on. A bug of the engine ends the run: the outcome says `engine_error`. Every agent
+// gets `agent_config` as its own parameters.
+//
+// Threads: any number of runs at once; one run stays on its thread.
 Outcome simulate(const Scenario& scenario, const fp_agent_type& agent, std::span<const std::unique_ptr<Law>> laws,
                  TraceSink* sink = nullptr, const char* agent_config = "");
 

@@ -20,10 +20,10 @@ struct Body {
 
 struct Load {
   TransportId transport;
-  AgvId carrier;  // whom the transport is assigned to
+  AgvId carrier;  // the AGV that has to carry out the transport
   Holder holder;
   StationId destination;
-  // Nothing is left to do about it: it is where it belongs, or out of the warehouse.
+  // The transport is over: the load is at its destination, or out of the warehouse.
   bool is_over() const {
     return holder == Holder{Holder::Kind::Station, destination.value} || holder.kind == Holder::Kind::ClearedAway;
   }
@@ -40,7 +40,7 @@ struct State {
   };
   SimTime at;
   std::vector<Placed> spatial;    // every AGV and obstacle on the floor
-  std::vector<Load> containment;  // every load released so far and who holds it
+  std::vector<Load> containment;  // every load released so far, with its holder
 };
 
 struct TouchPrediction {
@@ -72,7 +72,7 @@ class World {
   void predict_touches(EntityId id, std::vector<TouchPrediction>& out);
   void remember_touch(EntityId a, EntityId b);
   bool have_touched(EntityId a, EntityId b) const;
-  // It has been moved away from whatever it touched.
+  // The operator has moved the body away from everything it touched.
   void forget_touches(EntityId id);
   void finish(SimTime end);
 

@@ -12,7 +12,7 @@ namespace fleetproof {
 struct MessageKey {
   AgvId sender, receiver;
   SimTime sent{};
-  std::uint32_t ordinal = 0;  // the number of this message among the sender's messages of that instant
+  std::uint32_t ordinal = 0;  // among the messages from this sender to this receiver at that instant, from 0 on
 };
 
 inline Block draw_for(const MessageKey& message, std::uint64_t key) {

@@ -45,7 +45,7 @@ class Radio {
     if (crossings_.is_on()) crossings_.piece_begins(piece);
   }
   // Call this when the operator carries the AGV to another place. That is not a crossing.
-  void is_carried(AgvId agv) { crossings_.is_carried(agv); }
+  void forget_path(AgvId agv) { crossings_.forget_path(agv); }
   Fate fate(AgvId sender, AgvId receiver, SimTime sent, std::uint32_t ordinal, const LinkPlaces& places = {});
   // The outage process of messages from this sender to this receiver. Not for the scope Place.
   OutageProcess& process_of(AgvId sender, AgvId receiver);

@@ -81,7 +81,7 @@ void RadioCrossings::piece_begins(const Piece& piece) {
   }
 }
 
-void RadioCrossings::is_carried(AgvId agv) {
+void RadioCrossings::forget_path(AgvId agv) {
   if (agv.index() >= tracks_.size()) return;
   tracks_[agv.index()].is_known = false;
   tracks_[agv.index()].ahead.clear();

@@ -26,7 +26,7 @@ class RadioCrossings {
   // The AGV starts this piece now. Its former piece ends now.
   void piece_begins(const Piece& piece);
   // The AGV is carried to the place where its next piece begins. That is not a crossing.
-  void is_carried(AgvId agv);
+  void forget_path(AgvId agv);
   // Whether the AGV is changing its access point at t.
   // Requires: t lies in the latest piece of the AGV and does not decrease from call to call.
   bool is_deaf(AgvId agv, SimTime t);

@@ -49,7 +49,7 @@ TEST(CellCrossing, BeingCarriedIsNone) {
   for (const bool carried : {false, true}) {
     RadioCrossings crossings(crossing(1.5, 1.5), 3);
     crossings.piece_begins(rest(kA, {0.0, 0.0}));
-    if (carried) crossings.is_carried(kA);
+    if (carried) crossings.forget_path(kA);
     crossings.piece_begins(rest(kA, {25.0, 0.0}, at_seconds(20.0)));
     EXPECT_EQ(deaf_at(crossings, kA, 21.0), !carried);
   }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
 #include <set>
 
 #include "tests/support/worlds.hpp"
@@ -56,7 +58,8 @@ TEST(Radio, DelayModels) {
 TEST(Radio, OneMessageMoreMovesNoOthersFate) {
   Scenario scenario = test::row_scenario(6, {0, 3, 5}, 20.0);
   scenario.radio.loss = 0.5;
-  const auto received_by_b = [&](bool chatter) {
+  enum class More { Nothing, FromAnother, ToAnother };
+  const auto received_by_b = [&](More more) {
     test::Recorder recorder;
     test::simulate_with(
         scenario,
@@ -65,8 +68,9 @@ TEST(Radio, OneMessageMoreMovesNoOthersFate) {
           while (host.get_message(c, &message) == FP_OK) {
           }
           if (event.kind == FP_EVENT_START || event.kind == FP_EVENT_TIMER) {
+            if (b.self == 0 && more == More::ToAnother) host.send_unicast(c, "more", 4, 2);
             if (b.self == 0) host.send_unicast(c, "ping", 4, 1);
-            if (b.self == 2 && chatter) host.send_broadcast(c, "noise", 5);
+            if (b.self == 2 && more == More::FromAnother) host.send_broadcast(c, "noise", 5);
             host.set_timer(c, 1, event.now_ns + 100'000'000);
           }
         },
@@ -77,10 +81,31 @@ TEST(Radio, OneMessageMoreMovesNoOthersFate) {
     }
     return times;
   };
-  const auto quiet = received_by_b(false);
+  const auto quiet = received_by_b(More::Nothing);
   EXPECT_GT(quiet.size(), 60U);
   EXPECT_LT(quiet.size(), 140U);
-  EXPECT_EQ(quiet, received_by_b(true));
+  EXPECT_EQ(quiet, received_by_b(More::FromAnother));
+  EXPECT_EQ(quiet, received_by_b(More::ToAnother)) << "in the same activation, and sent before";
+}
+
+// With independent losses of a half, messages of one instant to one receiver have fates of their own.
+TEST(Radio, MessagesOfOneInstantToOneReceiverHaveFatesOfTheirOwn) {
+  Scenario scenario = test::row_scenario(6, {0, 3}, 40.0);
+  scenario.radio.loss = 0.5;
+  test::Recorder recorder;
+  test::simulate_with(
+      scenario,
+      [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& event) {
+        if (b.self != 0 || (event.kind != FP_EVENT_START && event.kind != FP_EVENT_TIMER)) return;
+        host.send_unicast(c, "one", 3, 1);
+        host.send_broadcast(c, "two", 3);
+        host.set_timer(c, 1, event.now_ns + 100'000'000);
+      },
+      &recorder);
+  std::map<SimTime, int> received_at;
+  for (const TraceRecord& r : recorder.of(TraceKind::Received)) ++received_at[r.at];
+  const auto one_of_two = std::ranges::count_if(received_at, [](const auto& entry) { return entry.second == 1; });
+  EXPECT_NEAR(static_cast<double>(one_of_two), 200.0, 6 * 10.0) << "half of 400 pairs, six standard deviations";
 }
 
 TEST(Radio, BeyondTheRangeNothingArrives) {

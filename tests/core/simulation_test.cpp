@@ -149,6 +149,44 @@ TEST(AgentClock, AnAgentThatSpinsIsAHangAndTheRunGoesOn) {
   EXPECT_EQ(outcome.counters.drives, 1U) << "the other AGV drove all the same";
 }
 
+// What AGV 0 does at the start of a run of its own.
+Outcome at_start(const std::function<void(const fp_host&, fp_controller*)>& act) {
+  return simulate_with(row_scenario(2, {0}, 1.0),
+                       [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& event) {
+                         if (event.kind == FP_EVENT_START) act(host, c);
+                       });
+}
+
+TEST(AgentLimits, TenThousandCallsAreNoHangAndOneMoreIs) {
+  const auto calls = [](int n) {
+    return at_start([n](const fp_host& host, fp_controller* c) {
+      std::uint32_t action = 0;
+      for (int i = 0; i < n; ++i) host.get_action(c, &action);
+    });
+  };
+  const Outcome most = calls(10'000), more = calls(10'001);
+  EXPECT_FALSE(most.hang);
+  EXPECT_TRUE(more.hang);
+  EXPECT_EQ(more.message, "agent of agv-1: 10 000 controller calls in one activation");
+  EXPECT_EQ(most.counters.agent_calls, 10'000U);
+}
+
+TEST(AgentLimits, RandomAndClockHaveALimitOfTheirOwn) {
+  const auto services = [](int draws, int looks) {
+    return at_start([=](const fp_host& host, fp_controller* c) {
+      for (int i = 0; i < draws; ++i) host.random(c, 0, 0);
+      for (int i = 0; i < looks; ++i) host.now_ns(c);
+      std::uint32_t action = 0;
+      for (int i = 0; i < 10'000; ++i) host.get_action(c, &action);
+    });
+  };
+  const Outcome most = services(500'000, 9'500'000), more = services(500'000, 9'500'001);
+  EXPECT_FALSE(most.hang) << "and the 10 000 calls beside them do not count towards this limit";
+  EXPECT_TRUE(more.hang);
+  EXPECT_EQ(more.message, "agent of agv-1: ten million calls of random and now_ns in one activation");
+  EXPECT_EQ(most.counters.agent_calls, 10'010'000U);
+}
+
 TEST(AgentClock, EndlessActivationsAtOneInstantAreAHang) {
   const Outcome outcome =
       simulate_with(row_scenario(2, {0}), [&](const fp_host& host, fp_controller* c, const fp_briefing&,

@@ -9,6 +9,9 @@
  * call takes effect at t plus the costs so far (the scenario's cost for each call, plus what the agent declares). If an
  * event arrives while the agent is busy, the agent receives it when it is free.
  *
+ * Limits. In one activation an agent may make 10 000 controller calls, and ten million more of random and now_ns. One
+ * that makes more is filed as a hang. So is one that is called 10 000 times without time advancing.
+ *
  * Rules for the agent. Keep all state in the instance that create() returned. Many instances live in one process, on
  * several threads, but no instance is called from two threads at once. Use no clock, random source or thread of your
  * own: a run can only be replayed if time and randomness come from now_ns and random. An agent in C++ may throw; an
@@ -42,7 +45,7 @@ typedef enum fp_result {
   FP_EMPTY = 1,     /* get_message: no more messages */
   FP_REFUSED = -1,  /* the AGV is busy, out of order, or not at an end of that segment (or the segment is one-way) */
   FP_INVALID = -2,  /* a wrong argument: no such segment, receiver or purpose, or a message that is too long */
-  FP_SUSPENDED = -3 /* the engine has given this agent up (10 000 calls in one activation): return at once */
+  FP_SUSPENDED = -3 /* the engine has given this agent up (more calls than its limit): return at once */
 } fp_result;
 
 typedef enum fp_purpose { FP_ROUTING = 1, FP_STORAGE = 2, FP_CHARGING = 4, FP_PARKING = 8 } fp_purpose;
@@ -224,7 +227,9 @@ typedef struct fp_host {
 
 /* ---- the agent ------------------------------------------------------------------------------------------- */
 
-#define FP_DETERMINISTIC 1u /* the agent promises: same briefing and events, same calls */
+/* The agent promises: same briefing and events, same calls. If a replay differs from the run, it says whether the agent
+ * has promised this. */
+#define FP_DETERMINISTIC 1u
 
 typedef struct fp_agent_type {
   uint32_t struct_size;

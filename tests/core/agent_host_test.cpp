@@ -1,0 +1,94 @@
+#include "core/engine/agent_host.hpp"
+
+#include <stdexcept>
+
+#include "tests/core/small_world.hpp"
+
+namespace fleetproof {
+namespace {
+
+using test::kFirst;
+using test::SmallWorld;
+using test::started;
+
+fp_event timer(std::uint32_t number) {
+  fp_event event{};
+  event.kind = FP_EVENT_TIMER;
+  event.timer = number;
+  return event;
+}
+
+std::vector<std::uint32_t> timers_heard(const SmallWorld& world) {
+  std::vector<std::uint32_t> numbers;
+  for (const fp_event& event : world.heard) {
+    if (event.kind == FP_EVENT_TIMER) numbers.push_back(event.timer);
+  }
+  return numbers;
+}
+
+TEST(AgentHostPart, WhatArrivesWhileTheAgentThinksWaitsUntilItIsFree) {
+  SmallWorld world(test::row_of_tens({0}),
+                   [](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& e) {
+                     if (e.kind == FP_EVENT_TIMER && e.timer == 1) host.declare_cost_ns(c, 2'000'000'000);
+                   });
+  started(world);
+  auto& agents = world.parts.agents;
+  agents.tell(kFirst, timer(1));
+  world.clock(1.0);
+  agents.tell(kFirst, timer(2));
+  agents.tell(kFirst, timer(3));
+  EXPECT_EQ(timers_heard(world), (std::vector<std::uint32_t>{1}));
+  EXPECT_TRUE(agents.has_events_waiting(kFirst));
+  EXPECT_DOUBLE_EQ(to_seconds(world.next(Event::Kind::AgentIsFree).at), 2.0);
+  agents.becomes_free(kFirst);
+  world.next(Event::Kind::AgentIsFree);
+  agents.becomes_free(kFirst);
+  EXPECT_EQ(timers_heard(world), (std::vector<std::uint32_t>{1, 2, 3}));
+  EXPECT_EQ(world.heard.back().now_ns, 2'000'000'000);
+}
+
+TEST(AgentHostPart, AFrozenAgentSeesEverythingLater) {
+  SmallWorld world(test::row_of_tens({0}));
+  started(world);
+  world.parts.agents.freeze_until(kFirst, at_seconds(5.0));
+  world.parts.agents.tell(kFirst, timer(1));
+  EXPECT_EQ(timers_heard(world).size(), 0U);
+  EXPECT_DOUBLE_EQ(to_seconds(world.next(Event::Kind::AgentIsFree).at), 5.0);
+}
+
+TEST(AgentHostPart, IsBackWhenEveryReasonForItsAbsenceIsOver) {
+  Scenario scenario = test::row_of_tens({0});
+  scenario.agvs[0].transports = {{StationId{0U}, StationId{2U}, Duration{}}};
+  SmallWorld world(scenario);
+  started(world).parts.agents.order_released(kFirst, 0);
+  auto& agents = world.parts.agents;
+  world.heard.clear();
+  agents.goes_away(kFirst);
+  agents.goes_away(kFirst);
+  agents.tell(kFirst, timer(1));
+  agents.comes_back(kFirst);
+  EXPECT_FALSE(agents.is_up(kFirst));
+  agents.comes_back(kFirst);
+  EXPECT_TRUE(agents.is_up(kFirst));
+  ASSERT_EQ(world.heard.size(), 2U) << "the timer came while it was away";
+  EXPECT_EQ(world.heard[0].kind, FP_EVENT_START);
+  EXPECT_EQ(world.heard[1].kind, FP_EVENT_ORDER) << "told again";
+}
+
+TEST(AgentHostPart, AnAgentThatThrowsIsFiledAndNeverCalledAgain) {
+  SmallWorld world(test::row_of_tens({0}), [](const fp_host&, fp_controller*, const fp_briefing&, const fp_event& e) {
+    if (e.kind == FP_EVENT_TIMER) throw std::runtime_error("no\nidea");
+  });
+  started(world);
+  world.parts.agents.tell(kFirst, timer(1));
+  world.parts.agents.tell(kFirst, timer(2));
+  EXPECT_EQ(timers_heard(world).size(), 1U);
+  Outcome outcome;
+  world.parts.agents.file_failures(outcome);
+  EXPECT_TRUE(outcome.crash);
+  EXPECT_FALSE(outcome.hang);
+  EXPECT_EQ(outcome.message, "agent of agv-1: no?idea");
+}
+
+}  // namespace
+}  // namespace fleetproof

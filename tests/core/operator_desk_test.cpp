@@ -1,0 +1,97 @@
+#include "core/engine/operator_desk.hpp"
+
+#include "tests/core/small_world.hpp"
+
+namespace fleetproof {
+namespace {
+
+using test::kFirst;
+using test::kSecond;
+using test::SmallWorld;
+using test::started;
+
+Scenario with_operator(std::vector<std::uint32_t> starts) {
+  Scenario scenario = test::row_of_tens(std::move(starts));
+  scenario.operator_help = {.on = true, .least_s = 60.0, .most_s = 300.0, .battery = 0.8};
+  return scenario;
+}
+
+Event help_comes(SmallWorld& world) {
+  const Event event = world.next(Event::Kind::OperatorComes);
+  world.parts.operator_desk.comes(event.entity, static_cast<Assist>(event.payload), event.stamp);
+  return event;
+}
+
+TEST(OperatorDeskPart, ComesWithinItsTimesAndOnlyIfThereIsOne) {
+  SmallWorld world(with_operator({0})), nobody(test::row_of_tens({0}));
+  nobody.parts.operator_desk.call(kFirst, Assist::Battery, 1);
+  EXPECT_TRUE(nobody.run.queue.empty());
+  for (int i = 0; i < 50; ++i) world.parts.operator_desk.call(kFirst, Assist::Battery, 1);
+  double earliest_s = 1000.0, latest_s = 0.0;
+  for (int i = 0; i < 50; ++i) {
+    const double at_s = to_seconds(world.next(Event::Kind::OperatorComes).at);
+    earliest_s = std::min(earliest_s, at_s);
+    latest_s = std::max(latest_s, at_s);
+  }
+  EXPECT_TRUE(earliest_s >= 60.0 && latest_s <= 300.0);
+  EXPECT_TRUE(earliest_s < 90.0 && latest_s > 270.0) << "50 draws come near both ends";
+}
+
+TEST(OperatorDeskPart, HelpsWithTheHaltItWasCalledFor) {
+  SmallWorld world(with_operator({0}));
+  const std::uint64_t halt = world.parts.halts.begin(kFirst, Halt::Reason::EmptyBattery);
+  world.parts.operator_desk.call(kFirst, Assist::Battery, halt);
+  help_comes(world);
+  EXPECT_TRUE(world.run.status(kFirst).halts.empty());
+  EXPECT_DOUBLE_EQ(world.parts.battery.level(kFirst), 0.8);
+  EXPECT_EQ(world.run.counters.assists, 1U);
+}
+
+TEST(OperatorDeskPart, DoesNothingAboutAHaltThatIsOver) {
+  SmallWorld world(with_operator({0}));
+  const std::uint64_t halt = world.parts.halts.begin(kFirst, Halt::Reason::Scanner);
+  world.parts.operator_desk.call(kFirst, Assist::Jam, halt);
+  world.parts.halts.end(kFirst, halt);
+  world.parts.halts.begin(kFirst, Halt::Reason::Scanner);
+  help_comes(world);
+  EXPECT_EQ(world.run.status(kFirst).halts.size(), 1U);
+  EXPECT_EQ(world.run.counters.assists, 0U);
+}
+
+TEST(OperatorDeskPart, TakesAnAgvOffTheFloorAndSetsItDownAtItsStation) {
+  SmallWorld world(with_operator({0, 2}));
+  started(world);
+  world.parts.halts.begin(kFirst, Halt::Reason::Scanner);
+  world.parts.actions.stop_for_good(kFirst);
+  world.parts.operator_desk.call(kFirst, Assist::Contact, 0);
+  help_comes(world);
+  EXPECT_FALSE(world.run.world.body(kFirst).on_floor);
+  EXPECT_TRUE(world.run.status(kFirst).halts.empty());
+  EXPECT_FALSE(world.parts.agents.is_up(kFirst));
+  world.next(Event::Kind::BodyAppears);
+  world.parts.operator_desk.look_for_place(kFirst);
+  EXPECT_TRUE(world.run.world.body(kFirst).on_floor);
+  EXPECT_NEAR(world.x_m(kFirst), 0.0, 1e-9);
+  EXPECT_FALSE(world.run.status(kFirst).out_of_order);
+  EXPECT_TRUE(world.parts.agents.is_up(kFirst));
+}
+
+TEST(OperatorDeskPart, RestartsAnAgentAtAStandstillAndNotWhileWorkIsUnderWay) {
+  Scenario scenario = with_operator({0, 2});
+  scenario.agvs[1].transports = {{StationId{2U}, StationId{3U}, Duration{}}};
+  SmallWorld world(scenario);
+  started(world).parts.agents.order_released(kSecond, 0);
+  world.clock(130.0);
+  world.run.status(kFirst).activity = world.drive_activity(kFirst, world.lane(0, 0));
+  world.parts.operator_desk.looks();
+  EXPECT_FALSE(world.has(Event::Kind::OperatorComes)) << "an AGV drives";
+  world.run.status(kFirst).activity.reset();
+  world.clock(251.0);
+  world.parts.operator_desk.looks();
+  EXPECT_EQ(help_comes(world).entity, kSecond) << "whose transport is open";
+  EXPECT_EQ(world.run.counters.assists, 1U);
+  EXPECT_EQ(world.trace.of(TraceKind::OperatorAssists).at(0).a, static_cast<std::uint64_t>(Assist::Standstill));
+}
+
+}  // namespace
+}  // namespace fleetproof

@@ -1,0 +1,82 @@
+#include "core/engine/scanner.hpp"
+
+#include "tests/core/small_world.hpp"
+
+namespace fleetproof {
+namespace {
+
+using test::kFirst;
+using test::SmallWorld;
+
+// A crate on the lane, 6 m ahead of the AGV's reference point.
+Scenario with_crate() {
+  Scenario scenario = test::row_of_tens({0});
+  scenario.scanner.on = true;
+  scenario.obstacles.push_back({"crate", {1.0, 1.0}, {Vec2{6.0, 0.0}, Vec2::UnitX()}});
+  return scenario;
+}
+const EntityId kCrate{1U};
+
+void drive(SmallWorld& world) { world.parts.drives.begin(kFirst, world.lane(0, 0), 0.0, 0.0, nullptr); }
+
+// Looks every reaction time until `end_s`. When the AGV was stopped, else -1.
+double looks_until(SmallWorld& world, double end_s) {
+  while (true) {
+    const Event event = world.next(Event::Kind::ScannerLooks);
+    if (to_seconds(event.at) >= end_s) return -1.0;
+    world.parts.scanner.looks(kFirst, event.stamp);
+    if (world.run.status(kFirst).is_held_by(Halt::Reason::Scanner)) return to_seconds(event.at);
+  }
+}
+
+TEST(ScannerPart, StopsTheAgvAsSoonAsABodyIsInItsField) {
+  SmallWorld world(with_crate());
+  drive(world);
+  const double stopped_s = looks_until(world, 8.0);
+  ASSERT_GT(stopped_s, 0.0);
+  // The field reaches v * 0.08 s + v^2 / 2 + 0.15 m ahead of the nose; the crate begins at 5.5 m.
+  const double v = 0.5 * stopped_s,
+               nose_m = 0.25 * stopped_s * stopped_s + 0.5 * world.run.type_of(kFirst).footprint.length_m;
+  EXPECT_GE(nose_m + v * 0.08 + v * v / 2.0 + 0.15, 5.5);
+  EXPECT_LT(nose_m + v * 0.08 + v * v / 2.0 + 0.15, 5.5 + 2.0 * v * 0.08 + 0.1) << "one look earlier it was clear";
+  EXPECT_EQ(world.run.counters.scanner_stops, 1U);
+  EXPECT_EQ(world.run.counters.scanner_saves, 1U) << "a touch was under way";
+}
+
+TEST(ScannerPart, AStaleLookDoesNothing) {
+  SmallWorld world(with_crate());
+  drive(world);
+  const Event event = world.next(Event::Kind::ScannerLooks);
+  world.parts.scanner.looks(kFirst, event.stamp + 1);
+  EXPECT_FALSE(world.has(Event::Kind::ScannerLooks)) << "an outdated look sets no further one";
+}
+
+TEST(ScannerPart, LetsTheAgvGoOnSomeTimeAfterTheFieldIsClear) {
+  SmallWorld world(with_crate());
+  drive(world);
+  ASSERT_GT(looks_until(world, 8.0), 0.0);
+  world.run.world.take_off_floor(kCrate, world.run.now);
+  const SimTime cleared = world.run.now;
+  while (world.run.status(kFirst).is_held_by(Halt::Reason::Scanner)) {
+    const Event event = world.next(Event::Kind::ScannerLooks);
+    ASSERT_LT(to_seconds(event.at - cleared), 3.0);
+    world.parts.scanner.looks(kFirst, event.stamp);
+  }
+  EXPECT_NEAR(to_seconds(world.run.now - cleared), 2.08, 0.09) << "resume_s after the first look that saw it clear";
+}
+
+TEST(ScannerPart, AMutedFieldStopsNobodyUntilItHasBeenClear) {
+  SmallWorld world(with_crate());
+  drive(world);
+  ASSERT_GT(looks_until(world, 8.0), 0.0);
+  world.parts.scanner.set_muted(kFirst, true);
+  world.parts.halts.end_all(kFirst, Halt::Reason::Scanner);
+  world.parts.scanner.looks(kFirst, 1);
+  EXPECT_FALSE(world.run.status(kFirst).is_held_by(Halt::Reason::Scanner));
+  world.parts.scanner.set_muted(kFirst, false);
+  world.parts.scanner.looks(kFirst, 1);
+  EXPECT_TRUE(world.run.status(kFirst).is_held_by(Halt::Reason::Scanner));
+}
+
+}  // namespace
+}  // namespace fleetproof
