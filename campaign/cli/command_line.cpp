@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "campaign/run/campaign.hpp"
+#include "campaign/run/engine_identity.hpp"
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
 

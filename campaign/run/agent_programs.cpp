@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <span>
 
 #include "campaign/run/sha256.hpp"
@@ -43,9 +41,7 @@ std::string AgentPrograms::load(const std::string& path) {
     }
   }
   types_.push_back(type);
-  std::ifstream file(path, std::ios::binary);
-  loaded_.push_back(
-      fmt::format("{} sha256 {}", type->name, sha256_hex(std::string(std::istreambuf_iterator<char>(file), {}))));
+  loaded_.push_back(fmt::format("{} sha256 {}", type->name, sha256_of_file(path)));
   return type->name;
 }
 
