@@ -5,6 +5,7 @@
 #include <memory>
 #include <thread>
 
+#include "campaign/cli/archive_name.hpp"
 #include "campaign/cli/campaign_words.hpp"
 #include "campaign/cli/progress.hpp"
 #include "campaign/cli/render.hpp"
@@ -72,7 +73,7 @@ int run(RunWords words) {
   if (words.seed) file.plan.seed = *words.seed;
   check_plan(file.plan, words.campaign);
   const RunOptions options = run_options(words);
-  if (words.archive.empty()) words.archive = file.plan.name + ".db";
+  if (words.archive.empty()) words.archive = archive_name_of(file.plan.name);
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   CampaignResult result;
