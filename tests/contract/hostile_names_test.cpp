@@ -26,7 +26,7 @@ const std::string kPlainWritten = R"(-\u202e$(touch pwned)`touch pwned`'\"|<b> e
 class HostileNames : public test::ProgramTest {
  protected:
   // Nothing that steers a terminal, on either stream.
-  Finished checked(const std::string& lines) const {
+  test::Finished checked(const std::string& lines) const {
     const auto finished = shell(lines);
     EXPECT_EQ(printable_lines(finished.out), finished.out) << lines;
     EXPECT_EQ(printable_lines(finished.err), finished.err) << lines;

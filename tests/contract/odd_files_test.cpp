@@ -127,8 +127,10 @@ TEST_F(OddFiles, AnAgentWithAnImpossibleName) {
   write("a.toml",
         std::string("[factors]\nagents = [\"") + FLEETPROOF_NAMED_AGENT + "\"]\nlayouts = [\"aisle-grid\"]\n");
   const auto refused = [&](const std::string& name, const std::string& why) {
-    for (const std::string verb : {"run a.toml", "simulate '" + test::source("tests/scenarios/figure4.json") +
-                                                     "' --plugin '" + FLEETPROOF_NAMED_AGENT + "'"}) {
+    const std::string scenario = "'" + test::source("tests/scenarios/figure4.json") + "'";
+    const std::vector<std::string> verbs = {"run a.toml",
+                                            "simulate " + scenario + " --plugin " + FLEETPROOF_NAMED_AGENT};
+    for (const auto& verb : verbs) {
       const auto finished = shell(name + "\n\"$FLEETPROOF\" " + verb);
       EXPECT_EQ(finished.exit_code, 2) << finished.err;
       EXPECT_THAT(finished.err, AllOf(HasSubstr("named_agent"), HasSubstr(why)));

@@ -22,7 +22,7 @@ class Streams : public test::ProgramTest {
     EXPECT_TRUE(read(path(name)) == read(path("expected.db"))) << name;
     EXPECT_TRUE(read(path("expected.db")).starts_with("SQLite format 3"));
   }
-  Finished expected_;
+  test::Finished expected_;
 };
 
 TEST_F(Streams, TalkThatCannotBeWrittenStopsNoCampaign) {
@@ -57,13 +57,26 @@ TEST_F(Streams, ClosedStreamsAreNotTakenForFiles) {
 
 TEST_F(Streams, DataThatCannotBeWrittenIsExit3) {
   ASSERT_EQ(run("replay expected.db 0 --scenario s.json").exit_code, 0);
-  for (const std::string words :
-       {"run a.toml --db b.db --overwrite", "run a.toml --db b.db --overwrite --json", "report expected.db",
-        "report expected.db --format json", "report expected.db --digest", "replay expected.db 0",
-        "replay expected.db 0 --json", "simulate s.json --agent reckless", "simulate s.json --json",
-        "generate fishbone",
-        "import opentcs '" + test::source("tests/layouts/crossdock.xml") + "' --merge-antiparallel", "check a.toml",
-        "check s.json", "list agents", "list laws --json", "--help", "run --help", "--version"}) {
+  const std::vector<std::string> verbs = {
+      "run a.toml --db b.db --overwrite",
+      "run a.toml --db b.db --overwrite --json",
+      "report expected.db",
+      "report expected.db --format json",
+      "report expected.db --digest",
+      "replay expected.db 0",
+      "replay expected.db 0 --json",
+      "simulate s.json --agent reckless",
+      "simulate s.json --json",
+      "generate fishbone",
+      "import opentcs '" + test::source("tests/layouts/crossdock.xml") + "' --merge-antiparallel",
+      "check a.toml",
+      "check s.json",
+      "list agents",
+      "list laws --json",
+      "--help",
+      "run --help",
+      "--version"};
+  for (const auto& words : verbs) {
     const auto full = shell("\"$FLEETPROOF\" " + words + " >/dev/full");
     EXPECT_EQ(full.exit_code, 3) << words;
     EXPECT_THAT(full.err, HasSubstr("standard output: cannot be written to its end (No space left on device)"))
