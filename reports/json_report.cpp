@@ -269,7 +269,7 @@ std::string render_json(const ReportInput& input) {
                     {"flags", engine.flags},
                     {"libraries", engine.libraries}};
   // A name or a message from outside may hold bytes that are no UTF-8: they are replaced, not refused.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return printable_json(json.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n";
 }
 
 }  // namespace fleetproof

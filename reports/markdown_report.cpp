@@ -9,18 +9,21 @@ namespace {
 
 constexpr std::size_t kMostRows = 60;
 
-// Names come from outside; they may not start a tag, a link, a column or a span of code.
+// Text in Markdown. Names come from outside: they may start no tag, link, column, code, formula or emphasis. "<= 2 s"
+// stays as it is.
 std::string escaped(const std::string& text) {
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
-    const bool starts_tag = c == '<' && i + 1 < text.size() && text[i + 1] != '=' && text[i + 1] != ' ';
-    if (starts_tag) {
+    const bool compares = c == '<' && (i + 1 == text.size() || text[i + 1] == '=' || text[i + 1] == ' ');
+    if (c == '&') {
+      out += "&amp;";
+    } else if (c == '<' && !compares) {
       out += "&lt;";
-      continue;
+    } else {
+      if (std::string_view("\\`*_|[]~$").find(c) != std::string_view::npos) out += '\\';
+      out += c;
     }
-    if (c == '|' || c == '`' || c == '\\' || c == '*' || (c == '(' && out.ends_with(']'))) out += '\\';
-    out += c;
   }
   return out;
 }

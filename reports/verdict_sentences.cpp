@@ -83,7 +83,7 @@ Remark describe(const ReportInput& input, const FailingRun& run) {
   text += fmt::format("; agent {}, layout {}, fleet of {}, loss {}, delay {}{}", printable(cell.agent, 40),
                       printable(cell.layout, 40), cell.fleet_size, percent(run.radio.loss),
                       seconds_text(run.radio.delay_s), outage_text(run.radio.mean_outage_s));
-  if (!run.message.empty()) text += fmt::format("; \"{}\"", printable(run.message));
+  if (!run.message.empty()) text += fmt::format("; \"{}\"", printable(run.message, 120));
   return {text, replay_line(input, run.run_index)};
 }
 

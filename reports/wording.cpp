@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace fleetproof {
@@ -15,20 +14,6 @@ std::string hundredths(double value) {
   while (text.ends_with('0')) text.pop_back();
   if (text.ends_with('.')) text.pop_back();
   return text == "-0" ? "0" : text;
-}
-
-bool plain_in_a_shell(std::string_view word) {
-  return !word.empty() && !word.starts_with('-') && std::ranges::all_of(word, [](unsigned char c) {
-    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-           std::string_view("_-./+:@%,=").find(static_cast<char>(c)) != std::string_view::npos;
-  });
-}
-
-std::string shell_word(const std::string& word) {
-  if (plain_in_a_shell(word)) return word;
-  std::string quoted = word.starts_with('-') ? "'./" : "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
 }
 
 }  // namespace
@@ -67,18 +52,6 @@ std::string hex_text(std::uint64_t digest) { return fmt::format("{:016x}", diges
 std::string body_name(EntityId body, const CellRecord& cell) {
   if (body.value < cell.fleet_size) return fmt::format("AGV {}", body.value);
   return fmt::format("obstacle {}", body.value - cell.fleet_size);
-}
-
-std::string printable(std::string_view text, std::size_t limit) {
-  std::string line;
-  std::size_t length = 0;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    const bool starts_character = (byte & 0xc0) != 0x80;
-    if (starts_character && ++length > limit) return line + "...";
-    line += byte < 0x20 || byte == 0x7f ? ' ' : c;
-  }
-  return line;
 }
 
 std::string replay_command(const std::string& archive_path, std::uint64_t run_index, std::string_view plugin_agent) {

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/outside_text.hpp"
 #include "core/base/sim_time.hpp"
 #include "reports/evidence/tally.hpp"
 #include "storage/records.hpp"
@@ -30,11 +31,8 @@ std::string count_text(std::uint64_t count, std::string_view singular);  // "1 r
 std::string hex_text(std::uint64_t digest);                              // 16 digits
 std::string body_name(EntityId body, const CellRecord& cell);            // "AGV 3", "obstacle 0"
 
-// A name or message from outside as one printable line of at most `limit` characters.
-std::string printable(std::string_view text, std::size_t limit = 120);
-
-// One line for a shell, whatever the path holds. With the name of an agent from a shared object it says where that
-// object's path belongs, which no campaign file knows.
+// The command that replays a run, as a person copies it into a shell. An archive does not know the path of a shared
+// object: where the run's agent came from one, `plugin_agent` is its name, and the command says where the path goes.
 std::string replay_command(const std::string& archive_path, std::uint64_t run_index,
                            std::string_view plugin_agent = "");
 

@@ -34,7 +34,13 @@ void require_readable(const std::string& path) {
     }
     throw InputError(path, "there is no such file");
   }
-  if (!fs::is_regular_file(path, error)) throw InputError(path, "this is no regular file; name a campaign file");
+  if (!fs::is_regular_file(path, error))
+    throw InputError(path, "this is a pipe, a device or a socket; name a campaign file");
+  for (const auto* suffix : {"-wal", "-shm", "-journal"}) {  // SQLite opens them, and would wait at a pipe
+    const auto status = fs::status(path + suffix, error);
+    if (fs::exists(status) && !fs::is_regular_file(status))
+      throw InputError(path + suffix, "this is no regular file; remove it, it stands beside a campaign file");
+  }
   if (fs::file_size(path, error) == 0) throw InputError(path, "this file is empty; name a campaign file");
 }
 

@@ -1,9 +1,8 @@
 #include "campaign/cli/campaign_words.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cstdio>
+
+#include "campaign/cli/streams.hpp"
 
 namespace fleetproof::cli {
 
@@ -16,9 +15,8 @@ CampaignFile load_campaign(const std::string& path, AgentPrograms& programs) {
   check_plan(file.plan, path);
   for (const std::string& agent : file.plan.agents) programs.find(agent, path);
   constexpr std::size_t kTold = 3;
-  for (std::size_t i = 0; i < std::min(kTold, file.warnings.size()); ++i)
-    fmt::print(stderr, "warning: {}\n", file.warnings[i]);
-  if (file.warnings.size() > kTold) fmt::print(stderr, "warning: {} more of this kind\n", file.warnings.size() - kTold);
+  for (std::size_t i = 0; i < std::min(kTold, file.warnings.size()); ++i) talk("warning: {}\n", file.warnings[i]);
+  if (file.warnings.size() > kTold) talk("warning: {} more of this kind\n", file.warnings.size() - kTold);
   return file;
 }
 

@@ -1,10 +1,9 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <memory>
 
 #include "campaign/cli/campaign_words.hpp"
+#include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "campaign/plan/scenario_source.hpp"
 #include "campaign/run/campaign.hpp"
@@ -43,10 +42,10 @@ void tell_rejections(const CampaignPlan& plan) {
       source.scenario(replicate * plan.cell_count() + cell, counts);
   }
   const auto text = rejection_text(counts);
-  fmt::print("worlds of the first {} replicates: {} drawn, {} more refused{}{}", replicates, counts.worlds,
-             counts.worlds_rejected, text.empty() ? "" : ": ", text);
-  if (counts.pairs_wanted > 0) fmt::print("; {} of {} pairs made to meet", counts.pairs_made, counts.pairs_wanted);
-  fmt::print("\n");
+  put("worlds of the first {} replicates: {} drawn, {} more refused{}{}", replicates, counts.worlds,
+      counts.worlds_rejected, text.empty() ? "" : ": ", text);
+  if (counts.pairs_wanted > 0) put("; {} of {} pairs made to meet", counts.pairs_made, counts.pairs_wanted);
+  put("\n");
 }
 
 void check_campaign(const std::string& path) {
@@ -55,16 +54,16 @@ void check_campaign(const std::string& path) {
   const CampaignPlan& plan = file.plan;
   build_first_worlds(plan);
   const double total_s = mean_run_s(plan, programs) * static_cast<double>(plan.run_count());
-  fmt::print("{}: ok, {} cells x {} replicates = {} runs of {:g} s; about {:.0f} s of one core\n", path,
-             plan.cell_count(), plan.replicates, plan.run_count(), plan.horizon_s, total_s);
+  put("{}: ok, {} cells x {} replicates = {} runs of {:g} s; about {:.0f} s of one core\n", path, plan.cell_count(),
+      plan.replicates, plan.run_count(), plan.horizon_s, total_s);
   tell_rejections(plan);
 }
 
 void check_scenario(const std::string& path) {
   const Scenario scenario = read_scenario(path);
-  for (const auto& problem : problems_of(scenario)) fmt::print(stderr, "warning: {}: {}\n", path, problem.sentence);
-  fmt::print("{}: ok, {} stations, {} segments, {} AGVs, {:g} s\n", path, scenario.map->station_count(),
-             scenario.map->segment_count(), scenario.agvs.size(), to_seconds(scenario.horizon));
+  for (const auto& problem : problems_of(scenario)) talk("warning: {}: {}\n", path, problem.sentence);
+  put("{}: ok, {} stations, {} segments, {} AGVs, {:g} s\n", path, scenario.map->station_count(),
+      scenario.map->segment_count(), scenario.agvs.size(), to_seconds(scenario.horizon));
 }
 
 int check(const std::vector<std::string>& files) {

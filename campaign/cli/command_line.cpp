@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <memory>
+#include <sstream>
 
-#include "campaign/run/campaign.hpp"
+#include "campaign/cli/streams.hpp"
+#include "campaign/run/engine_identity.hpp"
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
 
@@ -53,7 +54,7 @@ std::string version_text() {
 }
 
 int say(int code, std::string_view kind, std::string_view what) {
-  fmt::print(stderr, "{}: {}\n", kind, what);
+  talk("{}: {}\n", kind, what);
   return code;
 }
 
@@ -62,6 +63,8 @@ int perform(const Action& action) {
     return action();
   } catch (const InputError& error) {
     return say(kBadInput, "error", error.what());
+  } catch (const OutputLost& lost) {
+    return lost.reader_left() ? int{kEngineFault} : say(kEngineFault, "error", lost.what());
   } catch (const EngineError& error) {
     return say(kEngineFault, "engine fault", error.what());
   } catch (const InvariantViolation& error) {
@@ -71,20 +74,48 @@ int perform(const Action& action) {
   }
 }
 
-// CLI11 has codes of its own for each kind of slip; to us they are all bad usage.
-int bad_words(const CLI::App& app, const CLI::ParseError& error, std::span<const Verb> verbs, int argc,
-              const char* const* argv) {
-  if (error.get_exit_code() == 0) return app.exit(error);
-  if (argc > 1 && argv[1][0] != '-') {
-    std::vector<std::string_view> names;
-    for (const Verb& verb : verbs) names.push_back(verb.name);
-    if (std::ranges::find(names, argv[1]) == names.end()) {
-      return say(kBadInput, "error",
-                 fmt::format("\"{}\" is not a verb of fleetproof{}", argv[1], name_hint(argv[1], names)));
-    }
-    return say(kBadInput, "error", fmt::format("{} (see: fleetproof {} --help)", error.what(), argv[1]));
+std::vector<std::string> options_of(const CLI::App& verb) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : verb.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   }
-  return say(kBadInput, "error", fmt::format("{} (see: fleetproof --help)", error.what()));
+  return names;
+}
+
+// An error for the first word that looks like an option of `app` and is none, or nothing.
+std::string unknown_option(const CLI::App& app, std::span<const char* const> words) {
+  const std::vector<std::string> known = options_of(app);
+  for (std::string_view word : words) {
+    word = word.substr(0, word.find('='));
+    if (!word.starts_with("--") || std::ranges::find(known, word) != known.end()) continue;
+    return fmt::format("{} is not an option{}", in_quotes(word),
+                       name_hint(word, std::vector<std::string_view>(known.begin(), known.end())));
+  }
+  return {};
+}
+
+// CLI11 has a code of its own for each kind of slip; here all of them are bad usage.
+int bad_usage(const CLI::App& app, const CLI::ParseError& error, std::span<const Verb> verbs,
+              std::span<const char* const> words) {
+  const bool has_verb = !words.empty() && words[0][0] != '-';
+  const CLI::App* asked = &app;
+  if (has_verb) {
+    const std::string_view verb = words[0];
+    std::vector<std::string_view> names;
+    for (const Verb& known : verbs) names.push_back(known.name);
+    if (std::ranges::find(names, verb) == names.end()) {
+      return say(kBadInput, "error",
+                 fmt::format("{} is not a verb of fleetproof{}", in_quotes(verb), name_hint(verb, names)));
+    }
+    asked = app.get_subcommand(std::string(verb));
+  }
+  std::string what = error.what();
+  // Without a verb CLI11 asks for one first, and with a verb it lists all words that are too many.
+  if (!has_verb || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+    if (const std::string unknown = unknown_option(*asked, words); !unknown.empty()) what = unknown;
+  }
+  return say(kBadInput, "error",
+             fmt::format("{} (see: fleetproof {}--help)", what, has_verb ? asked->get_name() + " " : ""));
 }
 
 }  // namespace
@@ -98,7 +129,7 @@ int run_command_line(std::span<const Verb> verbs, int argc, const char* const* a
   app.set_version_flag("--version", version_text);
   app.footer(
       "Exit codes: 0 demonstrated, 1 violated, 2 bad usage or input, 3 engine fault or damaged archive, 4 not "
-      "demonstrated, 130/143 interrupted.");
+      "demonstrated, 129/130/143 interrupted.");
   struct Prepared {
     CLI::App* app;
     std::unique_ptr<Cli11Options> options;
@@ -113,15 +144,21 @@ int run_command_line(std::span<const Verb> verbs, int argc, const char* const* a
     Action action = verb.prepare(*options);
     prepared.push_back({sub, std::move(options), std::move(action)});
   }
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return bad_words(app, error, verbs, argc, argv);
-  }
-  for (const Prepared& verb : prepared) {
-    if (verb.app->parsed()) return perform(verb.action);
-  }
-  return kBadInput;
+  return perform([&]() -> int {
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+      if (error.get_exit_code() != 0) return bad_usage(app, error, verbs, std::span(argv, argv + argc).subspan(1));
+      std::ostringstream help_or_version;
+      app.exit(error, help_or_version, help_or_version);
+      put_text(help_or_version.str());
+      return kDemonstrated;
+    }
+    for (const Prepared& verb : prepared) {
+      if (verb.app->parsed()) return verb.action();
+    }
+    return kBadInput;
+  });
 }
 
 }  // namespace fleetproof::cli

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "campaign/cli/output_file.hpp"
+#include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "core/base/error.hpp"
 #include "core/base/random.hpp"
@@ -30,13 +31,13 @@ Layout mutation(const GenerateWords& words, std::uint64_t key) {
     throw InputError("--stress", fmt::format("has no meaning for {}; it has one range", kMutatedImport));
   std::vector<std::string> warnings;
   const Layout base = import_layout(words.from, {}, warnings);
-  for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
+  for (const std::string& warning : warnings) talk("warning: {}\n", warning);
   RejectionCounts counts;
   for (std::uint32_t number = 0; number < kAttempts; ++number) {
     Draws draws(key, number);
     const auto layout = draw_mutation(base, draws, counts);
     if (!layout) continue;
-    if (number > 0) fmt::print(stderr, "{} of {} draws refused: {}\n", number, number + 1, rejection_text(counts));
+    if (number > 0) talk("{} of {} draws refused: {}\n", number, number + 1, rejection_text(counts));
     return *layout;
   }
   throw InputError(
@@ -59,11 +60,12 @@ Layout drawn(const GenerateWords& words) {
 
 int generate(const GenerateWords& words) {
   const Layout layout = drawn(words);
-  if (!words.picture.empty()) write_whole(words.picture, layout_svg(layout), "--svg");
+  if (!words.picture.empty()) write_whole({words.picture, "--svg", OutputKind::Picture}, layout_svg(layout));
+  const std::string text = printable_json(to_text(layout));
   if (words.out.empty()) {
-    fmt::print("{}", to_text(layout));
+    put_text(text);
   } else {
-    write_whole(words.out, to_text(layout), "--output");
+    write_whole({words.out, "--output", OutputKind::Layout}, text);
   }
   return kDemonstrated;
 }

@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
-#include <fstream>
 #include <limits>
 #include <memory>
 
 #include "campaign/cli/output_file.hpp"
+#include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "core/base/error.hpp"
 #include "generators/formats/csv_layout.hpp"
@@ -44,9 +44,14 @@ ImportChoice choice_of(const ImportWords& words) {
   return choice;
 }
 
-std::string text_for(const Layout& layout, const std::string& path) {
-  if (path.ends_with(".lif.json")) return to_lif(layout);
-  return path.ends_with(".csv") ? to_csv(layout) : to_text(layout);
+OutputKind kind_of(const std::string& path) {
+  if (path.ends_with(".lif.json")) return OutputKind::LifLayout;
+  return path.ends_with(".csv") ? OutputKind::CsvLayout : OutputKind::Layout;
+}
+
+std::string text_of(const Layout& layout, OutputKind kind) {
+  if (kind == OutputKind::CsvLayout) return to_csv(layout);
+  return printable_json(kind == OutputKind::LifLayout ? to_lif(layout) : to_text(layout));
 }
 
 int import_file(const ImportWords& words) {
@@ -54,19 +59,17 @@ int import_file(const ImportWords& words) {
   const ImportChoice choice = choice_of(words);
   std::vector<std::string> warnings;
   const Layout layout = entry.make(words.file, choice, warnings);
-  for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
-  fmt::print(stderr, "{}: {} stations, {} segments, {} warnings\n", words.file, layout.stations.size(),
-             layout.segments.size(), warnings.size());
-  if (!words.picture.empty()) write_whole(words.picture, layout_svg(layout), "--svg");
-  const std::string text = text_for(layout, words.out);
+  for (const std::string& warning : warnings) talk("warning: {}\n", warning);
+  talk("{}: {} stations, {} segments, {} warnings\n", words.file, layout.stations.size(), layout.segments.size(),
+       warnings.size());
+  if (!words.picture.empty()) write_whole({words.picture, "--svg", OutputKind::Picture}, layout_svg(layout));
+  const OutputKind kind = kind_of(words.out);
+  const std::string text = text_of(layout, kind);
   if (words.out.empty()) {
-    fmt::print("{}", text);
-    return kDemonstrated;
+    put_text(text);
+  } else {
+    write_whole({words.out, "--output", kind}, text);
   }
-  std::ofstream out(words.out, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw InputError(words.out, "cannot be written; choose another path for --output");
   return kDemonstrated;
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "campaign/run/agent_programs.hpp"
 #include "core/base/error.hpp"
@@ -60,15 +61,17 @@ int list(const std::string& what, bool json) {
   for (const Kind& kind : kinds) {
     names.push_back(kind.name);
     if (kind.name != what) continue;
+    std::string text;
     nlohmann::ordered_json all = nlohmann::ordered_json::array();
     for (const Row& row : kind.rows()) {
       if (json) {
         all.push_back({{"name", row.name}, {"description", row.description}});
       } else {
-        fmt::print("{:<18} {}\n", row.name, row.description);
+        text += fmt::format("{:<18} {}\n", row.name, row.description);
       }
     }
-    if (json) fmt::print("{}\n", nlohmann::ordered_json{{"schema_version", 1}, {what, all}}.dump(2));
+    if (json) text = nlohmann::ordered_json{{"schema_version", 1}, {what, all}}.dump(2) + "\n";
+    put_text(text);
     return kDemonstrated;
   }
   throw InputError("list", fmt::format("\"{}\" is not a catalogue{}", what, name_hint(what, names)));

@@ -1,9 +1,11 @@
 #include <array>
 
+#include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
 
 int main(int argc, char** argv) {
   using namespace fleetproof::cli;
+  open_standard_streams();
   constexpr std::array verbs = {
       Verb{"run", "run a campaign and leave its results in a file",
            "fleetproof run tests/campaigns/demo.toml --db demo.db", prepare_run},

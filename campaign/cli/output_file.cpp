@@ -1,23 +1,64 @@
 #include "campaign/cli/output_file.hpp"
 
+#include <fmt/format.h>
+
 #include <filesystem>
-#include <fstream>
 
 #include "core/base/error.hpp"
+#include "generators/text/json_value.hpp"
+#include "generators/text/text_file.hpp"
+#include "generators/text/text_lines.hpp"
 
 namespace fleetproof::cli {
+namespace {
 
-void write_whole(const std::string& path, const std::string& text, const std::string& option) {
-  std::error_code failed;
-  const bool replaces = !std::filesystem::exists(path, failed) || std::filesystem::is_regular_file(path, failed);
-  // A pipe or a device takes the text; a rename would put a file in its place.
-  const std::string draft = replaces ? path + ".draft" : path;
-  std::ofstream file(draft, std::ios::binary);
-  file << text;
-  file.close();
-  failed.clear();
-  if (file && replaces) std::filesystem::rename(draft, path, failed);
-  if (!file || failed) throw InputError(path, "cannot be written; choose another path for " + option);
+// Whether `text` is a JSON object with this key. A file that is no JSON is none.
+bool has_key(std::string_view text, std::string_view key) {
+  try {
+    return parse_json(text, "").find(key) != nullptr;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+bool is_layout(std::string_view text) { return has_key(text, "layout") && !has_key(text, "agvs"); }
+bool is_lif(std::string_view text) { return has_key(text, "layouts"); }
+bool is_csv(std::string_view text) {
+  const auto heading = TextLines(text).next();
+  return heading && (heading->starts_with("id,") || heading->starts_with("#"));
+}
+bool is_picture(std::string_view text) {
+  return text.starts_with("<svg") || (text.starts_with("<?xml") && text.find("<svg") != std::string_view::npos);
+}
+bool is_scenario(std::string_view text) { return has_key(text, "agvs"); }
+// The title stands first in every format for people.
+bool is_report(std::string_view text) {
+  return text.starts_with("fleetproof report") || text.starts_with("# fleetproof report") ||
+         (has_key(text, "schema_version") && has_key(text, "verdict"));
+}
+
+struct Kind {
+  std::string_view noun;
+  bool (*is_one)(std::string_view text);
+};
+
+// In the order of OutputKind.
+constexpr Kind kKinds[] = {{"a layout file", is_layout},   {"a LIF file", is_lif},           {"a CSV layout", is_csv},
+                           {"an SVG picture", is_picture}, {"a scenario file", is_scenario}, {"a report", is_report}};
+
+}  // namespace
+
+void write_whole(const OutputFile& file, std::string_view text) {
+  const Kind& kind = kKinds[static_cast<std::size_t>(file.kind)];
+  const std::string remedy = "choose another path for " + file.option;
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(file.path, ignored)) {
+    const std::string before = read_text_file(file.path);
+    if (!before.empty() && !kind.is_one(before))
+      throw InputError(file.path,
+                       fmt::format("is there already and is not {}; it is not overwritten; {}", kind.noun, remedy));
+  }
+  write_text_file(file.path, text, remedy);
 }
 
 }  // namespace fleetproof::cli

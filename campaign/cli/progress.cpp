@@ -1,13 +1,14 @@
 #include "campaign/cli/progress.hpp"
-#include "reports/wording.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <string_view>
+
+#include "campaign/cli/streams.hpp"
+#include "reports/wording.hpp"
 
 namespace fleetproof::cli {
 namespace {
@@ -44,7 +45,7 @@ CampaignListener ProgressTalk::listener() {
           [this](const Progress& progress) { tick(progress); }};
 }
 
-void ProgressTalk::started() { fmt::print(stderr, "{}\n", opening_); }
+void ProgressTalk::started() { talk("{}\n", opening_); }
 
 void ProgressTalk::run_finished(const RunRecord& record) {
   const Outcome& outcome = record.outcome;
@@ -53,11 +54,11 @@ void ProgressTalk::run_finished(const RunRecord& record) {
   if (std::ranges::find(told_agents_, cell.agent) != told_agents_.end()) return;
   told_agents_.push_back(cell.agent);
   clear_line();
-  fmt::print(stderr, "first failure of {}: {} in run {} ({}, {} AGVs, {:g} % loss, {:g} s delay{})\n  replay: {}\n",
-             cell.agent, name_of(outcome.outcome_class()), record.run_index, cell.layout, cell.fleet_size,
-             100.0 * record.radio.loss, record.radio.delay_s, outage_text(record.radio.mean_outage_s),
-             replay_command(archive_path_, record.run_index,
-                            std::ranges::find(plugins_, cell.agent) == plugins_.end() ? "" : cell.agent));
+  talk("first failure of {}: {} in run {} ({}, {} AGVs, {:g} % loss, {:g} s delay{})\n  replay: {}\n", cell.agent,
+       name_of(outcome.outcome_class()), record.run_index, cell.layout, cell.fleet_size, 100.0 * record.radio.loss,
+       record.radio.delay_s, outage_text(record.radio.mean_outage_s),
+       replay_command(archive_path_, record.run_index,
+                      std::ranges::find(plugins_, cell.agent) == plugins_.end() ? "" : cell.agent));
 }
 
 std::string ProgressTalk::counter_line(const Progress& progress) const {
@@ -71,18 +72,17 @@ std::string ProgressTalk::counter_line(const Progress& progress) const {
 
 void ProgressTalk::tick(const Progress& progress) {
   if (terminal_) {
-    fmt::print(stderr, "\r\033[K{}", counter_line(progress));
-    std::fflush(stderr);
+    steer_terminal("\r\033[K" + counter_line(progress), kNoPatience_ms);
     line_open_ = true;
   } else if (progress.elapsed_s - last_line_s_ >= kLineEvery_s) {
     last_line_s_ = progress.elapsed_s;
-    fmt::print(stderr, "{}\n", counter_line(progress));
+    talk("{}\n", counter_line(progress));
   }
 }
 
 void ProgressTalk::clear_line() {
   if (!line_open_) return;
-  fmt::print(stderr, "\r\033[K");
+  steer_terminal("\r\033[K");
   line_open_ = false;
 }
 

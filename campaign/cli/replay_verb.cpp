@@ -1,16 +1,15 @@
-#include "campaign/run/replay.hpp"
-
 #include <fmt/format.h>
 
-#include <cstdio>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "campaign/cli/output_file.hpp"
 #include "campaign/cli/run_text.hpp"
+#include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "campaign/plan/scenario_source.hpp"
 #include "campaign/run/campaign.hpp"
+#include "campaign/run/replay.hpp"
 #include "core/base/error.hpp"
 #include "generators/scenario_file/scenario_file.hpp"
 #include "reports/wording.hpp"
@@ -24,13 +23,6 @@ struct ReplayWords {
   std::vector<std::string> plugins;
   bool json = false, trace = false;
 };
-
-void write_scenario(const Scenario& scenario, const std::string& path) {
-  std::ofstream out(path, std::ios::binary);
-  out << to_text(scenario);
-  out.close();
-  if (!out) throw InputError(path, "cannot be written; choose another path for --scenario");
-}
 
 void print_json(const ReplayResult& result, const CellRecord& cell) {
   const Outcome& outcome = result.recomputed.outcome;
@@ -48,7 +40,7 @@ void print_json(const ReplayResult& result, const CellRecord& cell) {
                                  {"violations", outcome.violations.size()},
                                  {"digest_stored", fmt::format("{:016x}", result.stored.outcome.digest)},
                                  {"digest_recomputed", fmt::format("{:016x}", outcome.digest)}};
-  fmt::print("{}\n", json.dump(2));
+  put_text(printable_json(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) + "\n");
 }
 
 int replay_run(const ReplayWords& words) {
@@ -64,21 +56,21 @@ int replay_run(const ReplayWords& words) {
   const Scenario scenario = source.scenario(words.run);
   TracePrinter printer(scenario);
   const ReplayResult result = replay(archive, words.run, programs, words.trace ? &printer : nullptr);
-  if (!words.scenario_out.empty()) write_scenario(scenario, words.scenario_out);
+  if (!words.scenario_out.empty())
+    write_whole({words.scenario_out, "--scenario", OutputKind::Scenario}, printable_json(to_text(scenario)));
   const CellRecord cell = source.place(words.run).cell;
   const RadioQuality& radio = result.recomputed.radio;
   if (words.json) {
     print_json(result, cell);
   } else {
-    fmt::print("{}  run {}: {}, {}, {} AGVs, loss {:g} %, delay {:g} s{}, replicate {}\n", name_of(result.verdict),
-               words.run, cell.agent, cell.layout, cell.fleet_size, 100.0 * radio.loss, radio.delay_s,
-               outage_text(radio.mean_outage_s), result.recomputed.replicate);
-    if (!result.explanation.empty()) fmt::print("  {}\n", result.explanation);
-    fmt::print("{}", outcome_text(scenario, result.recomputed.outcome));
+    put("{}  run {}: {}, {}, {} AGVs, loss {:g} %, delay {:g} s{}, replicate {}\n", name_of(result.verdict), words.run,
+        cell.agent, cell.layout, cell.fleet_size, 100.0 * radio.loss, radio.delay_s, outage_text(radio.mean_outage_s),
+        result.recomputed.replicate);
+    if (!result.explanation.empty()) put("  {}\n", result.explanation);
+    put_text(outcome_text(scenario, result.recomputed.outcome));
     const bool same_program = archive.campaign().engine == campaign_record(plan, programs).engine;
     if (!same_program)
-      fmt::print(
-          "  note: the file was written by another build of fleetproof, or with other plug-ins (see the report's "
+      put("  note: the file was written by another build of fleetproof, or with other plug-ins (see the report's "
           "provenance)\n");
   }
   return result.verdict == ReplayVerdict::Reproduced ? kDemonstrated : kEngineFault;

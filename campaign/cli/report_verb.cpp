@@ -4,6 +4,7 @@
 
 #include "campaign/cli/output_file.hpp"
 #include "campaign/cli/render.hpp"
+#include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "core/base/error.hpp"
 
@@ -18,15 +19,15 @@ struct ReportWords {
 int report(const ReportWords& words) {
   const ArchiveReader archive(words.archive);
   if (words.digest) {
-    fmt::print("{:016x}\n", archive.content_digest());
+    put("{:016x}\n", archive.content_digest());
     return kDemonstrated;
   }
   const ReportInput input = read_report_input(archive, words.archive);
   const std::string text = render(input, words.json ? "json" : words.format);
   if (words.out.empty()) {
-    fmt::print("{}", text);
+    put_text(text);
   } else {
-    write_whole(words.out, text, "--output");
+    write_whole({words.out, "--output", OutputKind::Report}, text);
   }
   return input.exit_code;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "campaign/cli/streams.hpp"
 #include "core/outcome/trace_records.hpp"
 #include "core/outcome/work_and_progress.hpp"
 #include "generators/formats/purpose_words.hpp"
@@ -50,25 +51,20 @@ const char* text_of(Assist assist) {
   return "?";
 }
 
+std::string shown_name(const Scenario& scenario, EntityId id) { return printable(body_name(scenario, id)); }
+
 std::string holder_text(const Scenario& scenario, const Holder& holder) {
   switch (holder.kind) {
     case Holder::Kind::Station:
-      return "at " + scenario.map->station(StationId{holder.index}).name;
+      return "at " + printable(scenario.map->station(StationId{holder.index}).name);
     case Holder::Kind::Agv:
-      return "on " + body_name(scenario, EntityId{holder.index});
+      return "on " + shown_name(scenario, EntityId{holder.index});
     case Holder::Kind::Floor:
       return "on the floor";
     case Holder::Kind::ClearedAway:
       return "cleared away";
   }
   return "?";
-}
-
-// What an agent calls its probes may be anything.
-std::string printable_name(std::string_view name) {
-  std::string line;
-  for (const char c : name) line += c >= 0x20 && c < 0x7f ? c : '?';
-  return line;
 }
 
 }  // namespace
@@ -88,8 +84,8 @@ std::string body_name(const Scenario& scenario, EntityId id) {
 std::string incident_text(const Scenario& scenario, const Incident& incident) {
   const IncidentKindInfo& info = info_of(incident.kind);
   std::string whom;
-  if (incident.a.valid()) whom += " " + body_name(scenario, incident.a);
-  if (incident.b.valid()) whom += std::string(incident.a.valid() ? " ->" : "") + " " + body_name(scenario, incident.b);
+  if (incident.a.valid()) whom += " " + shown_name(scenario, incident.a);
+  if (incident.b.valid()) whom += std::string(incident.a.valid() ? " ->" : "") + " " + shown_name(scenario, incident.b);
   const std::string until =
       incident.last > incident.first ? fmt::format(" to {:.3f} s", to_seconds(incident.last)) : "";
   return fmt::format("{}:{} from {:.3f} s{}; {} ({}: {})", info.name, whom, to_seconds(incident.first), until,
@@ -106,8 +102,8 @@ std::string differences_text(const Scenario& scenario, const std::vector<Differe
   for (const Difference& d : differences) {
     const Violation& v = d.violation;
     text += fmt::format("    {} ({}): {} and {} from {:.3f} s to {:.3f} s, closest {:.3f} m at {:.3f} s\n",
-                        d.missed ? "missed" : "accused wrongly", name_of(d.cause), body_name(scenario, v.a),
-                        body_name(scenario, v.b), to_seconds(v.first), to_seconds(v.last),
+                        d.missed ? "missed" : "accused wrongly", name_of(d.cause), shown_name(scenario, v.a),
+                        shown_name(scenario, v.b), to_seconds(v.first), to_seconds(v.last),
                         static_cast<double>(v.min_clearance_um) * 1e-6, to_seconds(v.closest_at));
   }
   return text;
@@ -117,7 +113,7 @@ std::string met_text(const Outcome& outcome) {
   std::string text;
   for (const ProbeCount& probe : outcome.probes) {
     text += fmt::format("{}{}{} {}", text.empty() ? "  met: " : ", ",
-                        probe.source == ProbeSource::Agent ? "agent: " : "", printable_name(probe.name), probe.count);
+                        probe.source == ProbeSource::Agent ? "agent: " : "", printable(probe.name), probe.count);
   }
   if (outcome.counters.probes_left_out > 0)
     text += fmt::format("; {} declarations beyond what is kept", outcome.counters.probes_left_out);
@@ -125,13 +121,13 @@ std::string met_text(const Outcome& outcome) {
 }
 
 std::string outcome_text(const Scenario& scenario, const Outcome& outcome, bool clearance_measured) {
-  std::string text = fmt::format("{}: {}\n", scenario.name, name_of(outcome.outcome_class()));
-  if (!outcome.message.empty()) text += fmt::format("  {}\n", outcome.message);
+  std::string text = fmt::format("{}: {}\n", printable(scenario.name), name_of(outcome.outcome_class()));
+  if (!outcome.message.empty()) text += fmt::format("  {}\n", printable(outcome.message));
   for (const Violation& v : outcome.violations) {
     text += fmt::format(
         "  {} and {} closer than {:.2f} m from {:.3f} s to {:.3f} s; closest {:.3f} m at {:.3f} s near ({:.2f}, "
         "{:.2f}), {:.2f} m/s apart{}\n",
-        body_name(scenario, v.a), body_name(scenario, v.b), scenario.law.safety_distance_m, to_seconds(v.first),
+        shown_name(scenario, v.a), shown_name(scenario, v.b), scenario.law.safety_distance_m, to_seconds(v.first),
         to_seconds(v.last), static_cast<double>(v.min_clearance_um) * 1e-6, to_seconds(v.closest_at),
         static_cast<double>(v.x_um) * 1e-6, static_cast<double>(v.y_um) * 1e-6,
         static_cast<double>(v.relative_speed_um_s) * 1e-6, v.contact ? std::string(", ") + name_of(level_of(v)) : "");
@@ -141,7 +137,7 @@ std::string outcome_text(const Scenario& scenario, const Outcome& outcome, bool 
                         scenario.law.exempt_radius_m, purposes_text(scenario.law.exempt_purposes));
   }
   for (const ExemptPair& pair : scenario.law.exempt_pairs) {
-    text += fmt::format("  exempt from the safety distance (contact is not): {}\n", text_of(pair));
+    text += fmt::format("  exempt from the safety distance (contact is not): {}\n", printable(text_of(pair)));
   }
   for (const Incident& incident : outcome.incidents) text += "  " + incident_text(scenario, incident) + "\n";
   if (outcome.min_clearance_um) {
@@ -222,8 +218,9 @@ std::string TracePrinter::details_of(const TraceRecord& record, std::string_view
 }
 
 void TracePrinter::record(const TraceRecord& record, std::string_view text) {
-  fmt::print(stderr, "{:>12.6f}  {:<6} {:<14} {}\n", to_seconds(record.at), body_name(scenario_, record.entity),
-             name_of(record.kind), details_of(record, text));
+  talk_text(fmt::format("{:>12.6f}  {:<6} {:<14} {}\n", to_seconds(record.at), shown_name(scenario_, record.entity),
+                        name_of(record.kind), printable(details_of(record, text))),
+            kForever_ms);
 }
 
 }  // namespace fleetproof::cli

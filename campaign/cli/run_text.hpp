@@ -10,6 +10,7 @@
 
 namespace fleetproof::cli {
 
+// As the scenario says it, with every character: what prints it passes it through printable().
 std::string body_name(const Scenario& scenario, EntityId id);
 
 // What a published rule says otherwise than safety-distance.

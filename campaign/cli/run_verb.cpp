@@ -5,9 +5,11 @@
 #include <memory>
 #include <thread>
 
+#include "campaign/cli/archive_name.hpp"
 #include "campaign/cli/campaign_words.hpp"
 #include "campaign/cli/progress.hpp"
 #include "campaign/cli/render.hpp"
+#include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "campaign/plan/campaign_file.hpp"
 #include "campaign/run/campaign.hpp"
@@ -50,17 +52,17 @@ RunOptions run_options(const RunWords& words) {
 }
 
 int finish(const CampaignResult& result, const RunWords& words) {
-  fmt::print(stderr, "{} of {} runs stored in {} after {:.1f} s ({:.0f} runs/s)\n", result.stored,
-             result.progress.planned, words.archive, result.progress.elapsed_s,
-             static_cast<double>(result.progress.done) / std::max(1e-9, result.progress.elapsed_s));
+  talk("{} of {} runs stored in {} after {:.1f} s ({:.0f} runs/s)\n", result.stored, result.progress.planned,
+       words.archive, result.progress.elapsed_s,
+       static_cast<double>(result.progress.done) / std::max(1e-9, result.progress.elapsed_s));
   const int signal_number = interrupted.load();
-  if (signal_number != 0)
-    fmt::print(stderr, "interrupted: the file holds the runs finished so far and says that it is incomplete\n");
+  if (signal_number != 0) talk("interrupted: the file holds the runs finished so far and says that it is incomplete\n");
   const ReportInput input = read_report_input(ArchiveReader(words.archive), words.archive);
   if (words.json) {
-    fmt::print("{}", render(input, "json"));
+    put_text(render(input, "json"));
   } else {
-    fmt::print("{}report: fleetproof report {}\n", render(input, "summary"), words.archive);
+    put_text(render(input, "summary"));
+    put("report: fleetproof report {}\n", shell_word(words.archive));
   }
   return signal_number != 0 ? 128 + signal_number : input.exit_code;
 }
@@ -72,9 +74,10 @@ int run(RunWords words) {
   if (words.seed) file.plan.seed = *words.seed;
   check_plan(file.plan, words.campaign);
   const RunOptions options = run_options(words);
-  if (words.archive.empty()) words.archive = file.plan.name + ".db";
+  if (words.archive.empty()) words.archive = archive_name_of(file.plan.name);
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
+  std::signal(SIGHUP, on_signal);
   CampaignResult result;
   {
     ProgressTalk talk(file.plan, plugin_agents(file.plan, programs), words.archive, options.workers);
@@ -90,7 +93,8 @@ int run(RunWords words) {
 Action prepare_run(Options& options) {
   auto words = std::make_shared<RunWords>();
   options.positional("CAMPAIGN", words->campaign, "campaign file (TOML)");
-  options.option("--db", words->archive, "campaign file to write (default: NAME.db in this folder)");
+  options.option("--db", words->archive,
+                 "campaign file to write (default: the campaign's name and .db, in this folder)");
   options.option("-j,--jobs", words->jobs, "worker threads (default: one per core)");
   options.option("--replicates", words->replicates, "instead of the file's number of replicates");
   options.option("--seed", words->seed, "instead of the file's seed");

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "campaign/cli/run_text.hpp"
+#include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "campaign/run/agent_programs.hpp"
 #include "core/base/error.hpp"
@@ -140,7 +141,7 @@ void print_json(const Scenario& scenario, const Outcome& outcome, const Simulate
   for (const CounterInfo& counter : kCounters) json["counters"][counter.name] = outcome.counters.*counter.member;
   json["digest"] = fmt::format("{:016x}", outcome.digest);
   if (!outcome.message.empty()) json["message"] = outcome.message;
-  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  put_text(printable_json(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) + "\n");
 }
 
 int simulate_scenario(const SimulateWords& words) {
@@ -156,9 +157,9 @@ int simulate_scenario(const SimulateWords& words) {
   if (words.json) {
     print_json(scenario, outcome, words, observers);
   } else {
-    fmt::print("{}", outcome_text(scenario, outcome, measures_clearance(words)));
+    put_text(outcome_text(scenario, outcome, measures_clearance(words)));
     if (observers.compared_with != nullptr)
-      fmt::print("{}", differences_text(scenario, observers.differences(scenario), find_law(words.law)->name));
+      put_text(differences_text(scenario, observers.differences(scenario), find_law(words.law)->name));
   }
   if (outcome.engine_error) return kEngineFault;
   if (outcome.violation || outcome.contact) return kViolated;

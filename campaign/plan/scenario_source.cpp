@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/base/outside_text.hpp"
 #include "core/base/random.hpp"
 #include "generators/worlds/world_maker.hpp"
 
@@ -62,7 +63,7 @@ Scenario ScenarioSource::scenario(std::uint64_t run_index, RejectionCounts& reje
   const std::uint64_t factors = name_hash(fmt::format("{}/{}", cell.layout, cell.fleet_size));
   spec.held = {plan_.held_streams, world_seed(plan_.seed, plan_.held_replicate, factors)};
   Scenario scenario = generate_world(spec, world_seed(plan_.seed, replicate, factors), rejected);
-  scenario.name = fmt::format("{} run {}", plan_.name, run_index);
+  scenario.name = fmt::format("{} run {}", printable(plan_.name), run_index);  // a scenario file takes it
   scenario.radio = plan_.radio;
   scenario.radio.loss = radio.loss;
   scenario.radio.delay_s = radio.delay_s;

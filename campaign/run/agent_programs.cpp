@@ -4,9 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <span>
 
 #include "campaign/run/sha256.hpp"
@@ -14,8 +13,30 @@
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
 #include "core/engine/simulation.hpp"
+#include "generators/text/text_file.hpp"
 
 namespace fleetproof {
+namespace {
+
+constexpr std::size_t kLongestName = 100;  // bytes
+
+// The name goes into the archive, reports and command lines.
+void check_type(const std::string& path, const fp_agent_type& type) {
+  try {
+    check_abi(type);
+  } catch (const InputError& refused) {
+    throw InputError(path, refused.what());
+  }
+  const std::string_view name(type.name, ::strnlen(type.name, kLongestName + 1));
+  if (name.size() > kLongestName)
+    throw InputError(
+        path, fmt::format("calls itself {}; an agent's name has at most {} bytes", in_quotes(name), kLongestName));
+  if (!is_plain_utf8(name))
+    throw InputError(
+        path, fmt::format("calls itself {}; an agent's name is UTF-8 without control characters", in_quotes(name)));
+}
+
+}  // namespace
 
 AgentPrograms::AgentPrograms() : types_(fp_reference_agents, fp_reference_agents + fp_reference_agent_count) {}
 
@@ -24,6 +45,8 @@ AgentPrograms::~AgentPrograms() {
 }
 
 std::string AgentPrograms::load(const std::string& path) {
+  if (const auto what = what_else_stands_at(path); !what.empty())
+    throw InputError(path, fmt::format("{}; name the shared object of an agent", what));
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored))
     throw InputError(path, "there is no such agent file; build the shared object or correct the path");
@@ -35,17 +58,15 @@ std::string AgentPrograms::load(const std::string& path) {
   if (query == nullptr) throw InputError(path, "exports no " FP_AGENT_QUERY_SYMBOL "; see core/sdk/fleetproof/agent.h");
   const fp_agent_type* type = query(FP_ABI_MAJOR);
   if (type == nullptr) throw InputError(path, fmt::format("refuses version {} of fleetproof/agent.h", FP_ABI_MAJOR));
-  check_abi(*type);
+  check_type(path, *type);
   for (const fp_agent_type* known : types_) {
     if (std::string_view(known->name) == type->name) {
-      throw InputError(
-          path, fmt::format("calls itself \"{}\", a name that is taken; give the agent another name", type->name));
+      throw InputError(path, fmt::format("calls itself {}, a name that is taken; give the agent another name",
+                                         in_quotes(type->name)));
     }
   }
   types_.push_back(type);
-  std::ifstream file(path, std::ios::binary);
-  loaded_.push_back(
-      fmt::format("{} sha256 {}", type->name, sha256_hex(std::string(std::istreambuf_iterator<char>(file), {}))));
+  loaded_.push_back(fmt::format("{} sha256 {}", type->name, sha256_of_file(path)));
   return type->name;
 }
 
@@ -55,9 +76,9 @@ const fp_agent_type& AgentPrograms::find(std::string_view name, std::string_view
     if (name == type->name) return *type;
     names.emplace_back(type->name);
   }
-  throw InputError(where, fmt::format("agent \"{}\" is not known{} (see: fleetproof list agents; a shared object is "
+  throw InputError(where, fmt::format("agent {} is not known{} (see: fleetproof list agents; a shared object is "
                                       "loaded by its path or with --plugin)",
-                                      name, name_hint(name, names)));
+                                      in_quotes(name), name_hint(name, names)));
 }
 
 bool AgentPrograms::is_loaded(std::string_view name) const {

@@ -18,8 +18,8 @@ class AgentPrograms {
   AgentPrograms(const AgentPrograms&) = delete;
   AgentPrograms& operator=(const AgentPrograms&) = delete;
 
-  // Loads a shared object and returns the name of its agent. Throws InputError if there is no such file, no
-  // fp_agent_query, another ABI, or another agent with the same name.
+  // Loads a shared object and returns the name that its agent gives itself. Throws InputError if there is no such file,
+  // if it has no fp_agent_query or another ABI, and if the name is taken, longer than 100 bytes, or not plain UTF-8.
   std::string load(const std::string& path);
 
   // Throws InputError with the nearest known name if there is no such agent.

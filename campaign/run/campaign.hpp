@@ -54,6 +54,5 @@ void build_first_worlds(const CampaignPlan& plan);
 std::vector<std::string> plugin_agents(const CampaignPlan& plan, const AgentPrograms& programs);
 
 CampaignRecord campaign_record(const CampaignPlan& plan, const AgentPrograms& programs);
-EngineIdentity engine_identity();
 
 }  // namespace fleetproof

@@ -1,24 +1,12 @@
-#include <fmt/format.h>
+#include "campaign/run/engine_identity.hpp"
 
-#include <fstream>
-#include <iterator>
-
-#include "campaign/run/campaign.hpp"
 #include "campaign/run/sha256.hpp"
 
 namespace fleetproof {
 
 EngineIdentity engine_identity() {
-  static const EngineIdentity identity = [] {
-    EngineIdentity self;
-    self.version = FLEETPROOF_VERSION;
-    std::ifstream program("/proc/self/exe", std::ios::binary);
-    self.program_sha256 = sha256_hex(std::string(std::istreambuf_iterator<char>(program), {}));
-    self.compiler = FLEETPROOF_COMPILER;
-    self.flags = FLEETPROOF_FLAGS;
-    self.libraries = FLEETPROOF_LIBRARIES;
-    return self;
-  }();
+  static const EngineIdentity identity = {FLEETPROOF_VERSION, sha256_of_file("/proc/self/exe"), FLEETPROOF_COMPILER,
+                                          FLEETPROOF_FLAGS, FLEETPROOF_LIBRARIES};
   return identity;
 }
 

@@ -1,18 +1,40 @@
 #include "campaign/run/session_log.hpp"
 
+#include <fcntl.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
+#include <cstring>
 #include <ctime>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.hpp"
 
 namespace fleetproof {
+namespace {
+
+// In one piece, so that two campaigns may append to one file. O_NONBLOCK: a pipe of this name is not waited for.
+void append_line(const std::string& path, const std::string& line) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0644);
+  int error = file < 0 ? errno : 0;
+  struct stat status {};
+  if (error == 0 && (::fstat(file, &status) != 0 || !S_ISREG(status.st_mode))) error = ENOTSUP;
+  if (error == 0) {
+    const auto written = ::write(file, line.data(), line.size());
+    error = written < 0 ? errno : static_cast<std::size_t>(written) < line.size() ? ENOSPC : 0;
+  }
+  if (file >= 0 && ::close(file) != 0 && error == 0) error = errno;
+  if (error == 0) return;
+  throw EngineError(fmt::format("{}: cannot be written ({}); the campaign file itself is complete", path,
+                                error == ENOTSUP ? "it is no regular file" : std::strerror(error)));
+}
+
+}  // namespace
 
 std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
 
@@ -29,10 +51,7 @@ void append_session(const std::string& archive_path, const std::string& started_
                                        {"runs_planned", result.progress.planned},
                                        {"signal", options.interrupted != nullptr ? options.interrupted->load() : 0}};
   const std::string path = std::filesystem::path(archive_path).replace_extension(".sessions.jsonl").string();
-  std::ofstream out(path, std::ios::app);
-  out << line.dump() << "\n";
-  out.close();
-  if (!out) throw EngineError(fmt::format("{}: cannot be written; the campaign file itself is complete", path));
+  append_line(path, line.dump() + "\n");
 }
 
 }  // namespace fleetproof

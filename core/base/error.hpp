@@ -6,9 +6,9 @@
 
 namespace fleetproof {
 
-// Input that a person has to mend. `where` is a file with line and column, or a command-line word; the text names the
-// field, the value and the remedy. Control characters in either become question marks; of more than 1500 bytes the
-// middle is left out.
+// Input that a person has to mend. `where` is a file with line and column, or a word of the command line; `what` names
+// the field, the value and the remedy. Both may quote text from outside: the message is one printable line
+// (outside_text.hpp). If it is longer than 1500 bytes, its middle is left out.
 class InputError : public std::runtime_error {
  public:
   InputError(std::string_view where, std::string_view what);

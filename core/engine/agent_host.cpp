@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "core/base/error.hpp"
+#include "core/base/outside_text.hpp"
 #include "core/engine/controller_table.hpp"
 
 namespace fleetproof {
@@ -16,13 +17,7 @@ constexpr std::uint32_t kActivationsMax = 10'000;  // of one agent without time 
 // same event on every machine.
 constexpr std::uint64_t kActivationsPerRun = 2'000'000, kActivationsPerSecond = 10'000;
 
-// One line that any page and any JSON can hold: an agent may throw any text.
-std::string printable(std::string_view text) {
-  constexpr std::size_t kLongestMessage = 200;
-  std::string line;
-  for (const char c : text.substr(0, kLongestMessage)) line += c >= 0x20 && c < 0x7f ? c : '?';
-  return line + (text.size() > kLongestMessage ? "..." : "");
-}
+constexpr std::size_t kLongestMessage = 200;  // characters: an agent may throw any text
 
 }  // namespace
 
@@ -124,7 +119,7 @@ void AgentHost::give_up(AgvId agv, bool hang, std::string_view message) {
   slice.failed = true;
   slice.waiting_events.clear();
   (hang ? hang_ : crash_) = true;
-  if (message_.empty()) message_ = "agent of " + run_.setup(agv).name + ": " + printable(message);
+  if (message_.empty()) message_ = "agent of " + run_.setup(agv).name + ": " + printable(message, kLongestMessage);
   if (hang) {
     run_.trace(agv, traced::AgentHung{});
   } else {

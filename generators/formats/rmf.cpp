@@ -243,9 +243,7 @@ Layout parse_rmf(std::string_view text, std::string_view source, std::vector<std
     return LevelReader(text, source, warnings, choice).read();
   } catch (const YAML::Exception& error) {
     // yaml-cpp quotes single bytes and whole names of the file.
-    std::string reason = "not YAML: " + error.msg.substr(0, 200);
-    std::ranges::replace_if(
-        reason, [](char c) { return c < ' ' || c > '~'; }, '?');
+    const std::string reason = "not YAML: " + printable(error.msg, 200);
     if (error.mark.is_null()) throw InputError(source, reason);
     throw InputError(fmt::format("{}:{}:{}", source, error.mark.line + 1, error.mark.column + 1), reason);
   }

@@ -6,6 +6,8 @@
 #include <iterator>
 #include <vector>
 
+#include "core/base/outside_text.hpp"
+
 namespace fleetproof {
 namespace {
 
@@ -34,10 +36,10 @@ const Look& look_of(const Station& station) {
   return kLooks[3];
 }
 
-// What SVG reads as markup in a text.
+// A text in XML: nothing in it is read as markup, and XML has none of the characters that cannot be printed.
 std::string escaped(std::string_view text) {
   std::string out;
-  for (const char c : text) {
+  for (const char c : printable(text)) {
     switch (c) {
       case '&':
         out += "&amp;";

@@ -85,9 +85,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
         reason.remove_prefix(found + skip.size());
     }
     reason.remove_prefix(std::min(reason.find_first_not_of("0123456789: "), reason.size()));
-    std::string plain(reason);
-    for (char& c : plain) c = c >= ' ' && c <= '~' ? c : '?';
-    throw InputError(fmt::format("{}:{}:{}", source_, at.line, at.column), "not JSON: " + plain);
+    throw InputError(fmt::format("{}:{}:{}", source_, at.line, at.column), "not JSON: " + std::string(reason));
   }
 
  private:

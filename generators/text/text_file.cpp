@@ -1,55 +1,154 @@
 #include "generators/text/text_file.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <system_error>
+#include <utility>
 
 #include "core/base/error.hpp"
 
 namespace fleetproof {
 namespace {
 
-constexpr std::uintmax_t kLargestFile = std::uintmax_t{64} << 20;
+constexpr std::size_t kLargestFile = std::size_t{64} << 20;
 
-unsigned char byte_at(std::string_view text, std::size_t i) { return static_cast<unsigned char>(text[i]); }
-
-// Bytes of the UTF-8 sequence that starts at i; 0 if there is none.
-std::size_t sequence_length(std::string_view text, std::size_t i) {
-  const unsigned char lead = byte_at(text, i);
-  if (lead < 0x80) return lead >= 0x20 && lead != 0x7f ? 1 : 0;
-  const std::size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
-  if (lead < 0xc2 || lead > 0xf4 || i + length > text.size()) return 0;
-  for (std::size_t k = 1; k < length; ++k) {
-    if ((byte_at(text, i + k) & 0xc0) != 0x80) return 0;
+// Closes its descriptor in the end.
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
   }
-  const unsigned char second = byte_at(text, i + 1);
-  const bool overlong = (lead == 0xe0 && second < 0xa0) || (lead == 0xf0 && second < 0x90);
-  const bool outside =
-      (lead == 0xed && second > 0x9f) || (lead == 0xf4 && second > 0x8f);  // surrogates; beyond U+10FFFF
-  return overlong || outside ? 0 : length;
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int number() const { return number_; }
+  bool is_open() const { return number_ >= 0; }
+  int close() { return ::close(std::exchange(number_, -1)); }
+
+ private:
+  int number_;
+};
+
+// The place is wrong, and another one helps; otherwise the disk is.
+[[noreturn]] void throw_not_written(const std::string& path, int error, std::string_view remedy) {
+  const std::string what = fmt::format("cannot be written ({}); ", std::strerror(error));
+  if (error == ENOSPC || error == EDQUOT || error == EFBIG || error == EIO)
+    throw EngineError(path + ": " + what + "free some space or repair the disk; nothing was changed");
+  throw InputError(path, what + std::string(remedy));
+}
+
+// The file behind a link: a rename would replace the link itself.
+std::string behind_links(const std::string& path, std::string_view remedy) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (!fs::is_symlink(fs::symlink_status(path, error))) return path;
+  const auto target = fs::canonical(path, error);
+  if (error) throw InputError(path, fmt::format("is a link to nothing; {}", remedy));
+  return target.string();
+}
+
+// A new file in the folder of `path`, opened for writing.
+Descriptor open_draft(const std::string& path, std::string& draft, std::string_view remedy) {
+  const std::string folder = path.substr(0, path.rfind('/') + 1);  // empty: this one
+  for (int number = 0;; ++number) {
+    draft = fmt::format("{}.fleetproof-draft-{}-{}", folder, ::getpid(), number);
+    const int made = ::open(draft.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (made >= 0) return Descriptor(made);
+    if (errno != EEXIST) throw_not_written(path, errno, remedy);  // what a killed program left is passed over
+  }
+}
+
+int write_all(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    const auto written = ::write(descriptor, text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return errno;
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return 0;
+}
+
+// A folder that cannot be synced, as on some network disks, has the new name all the same.
+void sync_folder_of(const std::string& path) {
+  const auto slash = path.rfind('/');
+  const std::string folder = slash == std::string::npos ? "." : path.substr(0, slash + 1);
+  const Descriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (opened.is_open()) (void)::fsync(opened.number());
 }
 
 }  // namespace
 
+std::string_view what_else_stands_at(const std::string& path) {
+  using Type = std::filesystem::file_type;
+  std::error_code ignored;
+  switch (std::filesystem::status(path, ignored).type()) {
+    case Type::directory:
+      return "is a folder";
+    case Type::fifo:
+      return "is a pipe";
+    case Type::socket:
+      return "is a socket";
+    case Type::block:
+    case Type::character:
+      return "is a device";
+    default:
+      return {};
+  }
+}
+
 std::string read_text_file(const std::string& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) throw InputError(path, "there is no such file");
-  if (std::filesystem::is_directory(status)) throw InputError(path, "is a directory; name a file in it");
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw InputError(path, "cannot be opened; check its permissions");
+  if (const auto what = what_else_stands_at(path); !what.empty())
+    throw InputError(path, fmt::format("{}; name a regular file", what));
+  // A pipe may take the place of the file in between: without O_NONBLOCK it would wait for a writer.
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
+  if (!file.is_open() && (errno == ENOENT || errno == ENOTDIR)) throw InputError(path, "there is no such file");
+  if (!file.is_open())
+    throw InputError(path, fmt::format("cannot be opened ({}); check its permissions", std::strerror(errno)));
+  struct stat status {};
+  if (::fstat(file.number(), &status) != 0 || !S_ISREG(status.st_mode))
+    throw InputError(path, "is no regular file; name one");
   std::string text;
   char buffer[65536];
-  while (in.read(buffer, sizeof buffer), in.gcount() > 0) {
-    text.append(buffer, static_cast<std::size_t>(in.gcount()));
+  for (;;) {
+    const auto count = ::read(file.number(), buffer, sizeof buffer);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0)
+      throw InputError(path, fmt::format("cannot be read to its end ({}); check the disk", std::strerror(errno)));
+    if (count == 0) return text;
+    text.append(buffer, static_cast<std::size_t>(count));
     if (text.size() > kLargestFile)
       throw InputError(path, "is larger than 64 MiB, which no layout or scenario is; check the file name");
   }
-  if (in.bad()) throw InputError(path, "cannot be read to its end; check the disk");
-  return text;
+}
+
+void write_text_file(const std::string& path, std::string_view text, std::string_view remedy) {
+  if (path.empty()) throw InputError("", fmt::format("the output file needs a name; {}", remedy));
+  const std::string target = behind_links(path, remedy);
+  if (const auto what = what_else_stands_at(target); !what.empty())
+    throw InputError(path, fmt::format("{}, into which nothing is written; {}", what, remedy));
+  struct stat before {};
+  const bool replaces = ::stat(target.c_str(), &before) == 0;
+  // The rename needs the folder alone. A file that was closed to writing stays closed.
+  if (replaces && ::access(target.c_str(), W_OK) != 0) throw_not_written(path, errno, remedy);
+  std::string draft;
+  Descriptor file = open_draft(target, draft, remedy);
+  int error = write_all(file.number(), text);
+  if (error == 0 && replaces && ::fchmod(file.number(), before.st_mode & 07777) != 0) error = errno;
+  if (error == 0 && ::fsync(file.number()) != 0) error = errno;
+  if (file.close() != 0 && error == 0) error = errno;
+  if (error == 0 && std::rename(draft.c_str(), target.c_str()) != 0) error = errno;
+  if (error != 0) {
+    ::unlink(draft.c_str());
+    throw_not_written(path, error, remedy);
+  }
+  sync_folder_of(target);
 }
 
 TextPosition position_in(std::string_view text, std::size_t offset) {
@@ -60,21 +159,5 @@ TextPosition position_in(std::string_view text, std::size_t offset) {
 }
 
 std::string at_line(std::string_view source, std::size_t line) { return fmt::format("{}:{}", source, line); }
-
-std::string in_quotes(std::string_view value) {
-  constexpr std::size_t kLongest = 60;
-  std::string text = "\"";
-  for (const char c : value.substr(0, kLongest)) text += c >= ' ' && c <= '~' ? c : '?';
-  return text + (value.size() > kLongest ? "...\"" : "\"");
-}
-
-bool is_plain_utf8(std::string_view text) {
-  for (std::size_t i = 0; i < text.size();) {
-    const auto length = sequence_length(text, i);
-    if (length == 0) return false;
-    i += length;
-  }
-  return true;
-}
 
 }  // namespace fleetproof

@@ -4,10 +4,22 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/outside_text.hpp"
+
 namespace fleetproof {
 
-// The whole file. Throws InputError if it cannot be read or is larger than 64 MiB.
+// What stands under a path that should be a regular file: "is a folder", "is a pipe", ... Nothing for a regular file
+// (or a link to one) and for a path where nothing stands. The file is not opened: a pipe could keep its reader waiting
+// for ever.
+std::string_view what_else_stands_at(const std::string& path);
+
+// The whole file. InputError if there is no such regular file, if it cannot be read, or if it is larger than 64 MiB.
 std::string read_text_file(const std::string& path);
+
+// Leaves `text` at `path`, whole or not at all: the text goes into a new file in the same folder, is brought to the
+// disk and takes the name at one instant. A link stays, and the file behind it is replaced. InputError, which ends in
+// `remedy`, if the place is wrong; EngineError if the disk is full or fails. Either leaves what was there as it was.
+void write_text_file(const std::string& path, std::string_view text, std::string_view remedy);
 
 // Counted from 1; columns are bytes.
 struct TextPosition {
@@ -16,13 +28,7 @@ struct TextPosition {
 
 TextPosition position_in(std::string_view text, std::size_t offset);
 
-// "file:line", as compilers write it.
+// "file:line", the way compilers say it.
 std::string at_line(std::string_view source, std::size_t line);
-
-// A value as an error quotes it: in double quotes, printable ASCII only, cut after 60 characters.
-std::string in_quotes(std::string_view value);
-
-// Names from files go into JSON, pages and databases. They must be UTF-8 without control characters.
-bool is_plain_utf8(std::string_view text);
 
 }  // namespace fleetproof

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/base/error.hpp"
+#include "core/base/outside_text.hpp"
 #include "reports/evidence/rounding.hpp"
 
 namespace fleetproof {
@@ -114,7 +115,8 @@ GateResult judge_gate(const GateRecord& gate, const GateCounts& counts) {
     return result;
   }
   if (counts.cells == 0) {
-    result.reason = fmt::format("no cell of the campaign lies in the region of this gate for agent {}", gate.agent);
+    result.reason =
+        fmt::format("no cell of the campaign lies in the region of this gate for agent {}", printable(gate.agent, 40));
   } else if (counts.counts_only) {
     result.reason = "a search campaign gives counts, not rates; use kind \"claim\" to demonstrate";
   } else if (counts.units == 0) {

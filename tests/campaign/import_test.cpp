@@ -33,7 +33,7 @@ TEST_F(ImportTest, DrawsWhatItRead) {
   EXPECT_EQ(finished.exit_code, 0) << finished.err;
   EXPECT_THAT(read(path("plain.svg")), StartsWith("<svg "));
   EXPECT_THAT(run("import opentcs " + kCrossdock + " --svg no/where.svg").err,
-              HasSubstr("no/where.svg: cannot be written; choose another path for --svg"));
+              HasSubstr("no/where.svg: cannot be written (No such file or directory); choose another path for --svg"));
 }
 
 TEST_F(ImportTest, TellsWhatItGuessed) {

@@ -1,6 +1,12 @@
 #include "campaign/run/sha256.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "core/base/error.hpp"
 
 namespace fleetproof {
 namespace {
@@ -12,6 +18,16 @@ TEST(Sha256, PublishedVectors) {  // FIPS 180-4 examples
             "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
   EXPECT_EQ(sha256_hex(std::string(1'000'000, 'a')),
             "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+}
+
+TEST(Sha256, OfAFileIsThatOfItsBytes) {
+  const std::string path = testing::TempDir() + "sha256_test_" + std::to_string(getpid());
+  std::ofstream(path, std::ios::binary) << std::string(1'000'000, 'a');
+  EXPECT_EQ(sha256_of_file(path), "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+  std::ofstream(path, std::ios::binary).close();
+  EXPECT_EQ(sha256_of_file(path), sha256_hex(""));
+  std::filesystem::remove(path);
+  EXPECT_THROW(sha256_of_file(path), EngineError);
 }
 
 }  // namespace

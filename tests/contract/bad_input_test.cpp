@@ -20,7 +20,7 @@ class BadInput : public test::ProgramTest {
     EXPECT_EQ(names(), before) << "nothing written: " << words;
   }
   std::set<std::string> names() const {
-    std::set<std::string> all{"stdout.txt", "stderr.txt"};
+    std::set<std::string> all{"stdout.txt", "stderr.txt", "command.sh"};
     for (const auto& entry : std::filesystem::directory_iterator(folder_)) all.insert(entry.path().filename());
     return all;
   }
@@ -105,7 +105,10 @@ TEST_F(BadInput, Words) {
   expect_refused("generate fishbones", "did you mean \"fishbone\"?");
   expect_refused("generate fishbone --seed many", "--seed");
   expect_refused("generate fishbone --svg nowhere/a.svg",
-                 "nowhere/a.svg: cannot be written; choose another path for --svg");
+                 "nowhere/a.svg: cannot be written (No such file or directory); choose another path for --svg");
+  expect_refused("run a.toml --jbos 2", "\"--jbos\" is not an option; did you mean \"--jobs\"?");
+  expect_refused("--verison", "\"--verison\" is not an option; did you mean \"--version\"?");
+  expect_refused("$'r\\e[31mun'", "\"r\\x1b[31mun\" is not a verb");
 }
 
 TEST_F(BadInput, ScenarioFiles) {

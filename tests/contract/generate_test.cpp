@@ -33,17 +33,6 @@ TEST_F(Generate, WritesFilesInsteadAndDrawsAPicture) {
   EXPECT_EQ(read((folder_ / "layout.svg").string()), read(test::source("tests/layouts/gallery/fishbone.svg")));
 }
 
-// As for /dev/null: an output that is no file is written to and stays what it is.
-TEST_F(Generate, WritesIntoAPipeInsteadOfReplacingIt) {
-  const std::string generate = std::string(FLEETPROOF_PROGRAM) + " generate fishbone --seed 3";
-  ASSERT_EQ(std::system(("cd '" + folder_.string() + "' && mkfifo pipe && (timeout 5 cat pipe > got & " + generate +
-                         " -o pipe; wait)")
-                            .c_str()),
-            0);
-  EXPECT_TRUE(std::filesystem::is_fifo(folder_ / "pipe"));
-  EXPECT_EQ(read(path("got")), run("generate fishbone --seed 3").out);
-}
-
 TEST_F(Generate, StressIsARangeOfEveryFamily) {
   for (const auto& family : layout_families()) {
     const std::string name(family.name);

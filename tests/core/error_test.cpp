@@ -5,8 +5,8 @@
 namespace fleetproof {
 namespace {
 
-TEST(InputErrorText, HasNoControlCharacters) {
-  EXPECT_STREQ(InputError("a\nb.csv:1", "name is \"\x1b[31m\x7f\"").what(), "a?b.csv:1: name is \"?[31m?\"");
+TEST(InputErrorText, IsOnePrintableLine) {
+  EXPECT_STREQ(InputError("a\nb.csv:1", "name is \"\x1b[31m\x7f\"").what(), "a\\nb.csv:1: name is \"\\x1b[31m\\x7f\"");
   EXPECT_STREQ(InputError("", "\xc3\xa9").what(), "\xc3\xa9");
 }
 

@@ -264,18 +264,55 @@ TEST(Report, names_from_outside_cannot_break_the_page) {
   });
   const auto text = render("text", input);
   EXPECT_EQ(text.find('\x1b'), std::string::npos);
-  EXPECT_THAT(text, HasSubstr("line one line two"));
+  EXPECT_THAT(text, HasSubstr("line one\\nline two"));
   const auto markdown = render("markdown", input);
   EXPECT_EQ(markdown.find("<script>"), std::string::npos);
   EXPECT_THAT(markdown, HasSubstr("ag\\|ent\\`"));
   EXPECT_TRUE(nlohmann::json::accept(render("json", input)));
 }
 
+// Every name in an archive may be hostile: the page keeps its lines and columns, and no character steers a terminal.
+TEST(Report, hostile_names_change_no_line_of_any_format) {
+  const auto page = [](const std::string& format, const std::string& name) {
+    auto campaign = campaign_of("claim", 3);
+    campaign.name = name;
+    campaign.engine.libraries = name;
+    campaign.required_probes = {name};
+    campaign.plugin_agents = {name};
+    campaign.exempt_pairs = {name};
+    auto gate = gate_of(name, GateKind::None, Region::Contract, 1e-3);
+    gate.name = name;
+    auto nowhere = gate_of(name + "2", GateKind::None, Region::Contract, 1e-3);
+    auto input = report_of(campaign, grid({name}, {0.4}, {2.0}, {name}), {gate, nowhere}, [&](RunRecord& run) {
+      run.outcome.crash = true;
+      run.outcome.message = name;
+      run.outcome.probes = {{ProbeSource::Agent, name, 1}};
+    });
+    input.archive_path = name + ".fp";
+    return render(format, input);
+  };
+  const std::string hostile =
+      "-\x1b[2J\n`$(id)`|<b>\xc2\x9b\xe2\x80\xae\xff";  // fewer characters than any limit of a page
+  for (const auto* format : {"text", "summary", "markdown", "json"}) {
+    const auto text = page(format, hostile);
+    EXPECT_EQ(printable_lines(text), text) << format;
+    if (std::string(format) == "json" || std::string(format) == "markdown") {
+      EXPECT_EQ(lines_of(text).size(), lines_of(page(format, "plain")).size()) << text;
+    }
+  }
+}
+
+TEST(Report, markdown_shows_names_as_they_are) {
+  auto campaign = campaign_of("claim", 1);
+  campaign.name = "a|b <i>&lt; [x](y) *z* _w_ ~q~ $m$ `c` \\";
+  const auto page = render("markdown", report_of(campaign, grid({"sound"}, {0.4}, {2.0}), {}));
+  EXPECT_THAT(page, HasSubstr("a\\|b &lt;i>&amp;lt; \\[x\\](y) \\*z\\* \\_w\\_ \\~q\\~ \\$m\\$ \\`c\\` \\\\"));
+}
+
 TEST(Report, the_replay_line_survives_a_shell) {
   EXPECT_EQ(replay_command("out/night.fp", 7), "fleetproof replay out/night.fp 7");
-  EXPECT_EQ(replay_command("my night.fp", 7), "fleetproof replay 'my night.fp' 7");
-  EXPECT_EQ(replay_command("it's.fp", 7), "fleetproof replay 'it'\\''s.fp' 7");
-  EXPECT_EQ(replay_command("-x.fp", 7), "fleetproof replay './-x.fp' 7");
+  EXPECT_EQ(replay_command("$(touch x).fp", 7), "fleetproof replay '$(touch x).fp' 7");
+  EXPECT_EQ(replay_command("a.fp", 7, "`id`\x1b"), "fleetproof replay a.fp 7 --plugin '<path of `id`\\x1b>'");
 }
 
 TEST(Report, clearances_round_towards_the_unsafe_side) {

@@ -40,9 +40,14 @@ class ProgramTest : public testing::Test {
   }
 
   // The words are given to the shell; runs in the test's folder.
-  Finished run(const std::string& words) const {
-    const std::string command =
-        "cd '" + folder_.string() + "' && " + FLEETPROOF_PROGRAM + " " + words + " >stdout.txt 2>stderr.txt </dev/null";
+  Finished run(const std::string& words) const { return shell("\"$FLEETPROOF\" " + words); }
+
+  // Lines for bash in the test's folder, where $FLEETPROOF is the program. A hanging program is stopped: exit code 124.
+  Finished shell(const std::string& lines) const {
+    write("command.sh", "cd '" + folder_.string() + "'\n" + lines + "\n");
+    const std::string command = std::string("FLEETPROOF='") + FLEETPROOF_PROGRAM + "' timeout 600 bash '" +
+                                path("command.sh") + "' >'" + path("stdout.txt") + "' 2>'" + path("stderr.txt") +
+                                "' </dev/null";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(path("stdout.txt")), read(path("stderr.txt"))};
   }

@@ -1,0 +1,160 @@
+// Names from outside reach terminals, pages and command lines: none of them may steer a terminal, end a line or run a
+// command. Every verb is asked, with every kind of name.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/outside_text.hpp"
+#include "tests/support/program.hpp"
+
+namespace fleetproof {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+// Escape sequences, a line end, a C1 control character, a change of direction, a command, quotes, Markdown and HTML.
+const std::string kHostile =
+    "-\x1b[2J\n\xc2\x9b"
+    "1m\xe2\x80\xae$(touch pwned)`touch pwned`'\"|<b> end";
+// The same for TOML and JSON, which both read it with \u escapes.
+const std::string kWritten = R"(-\u001b[2J\n\u009b1m\u202e$(touch pwned)`touch pwned`'\"|<b> end)";
+// What input files may hold: no control characters.
+const std::string kPlain = "-\xe2\x80\xae$(touch pwned)`touch pwned`'\"|<b> end";
+const std::string kPlainWritten = R"(-\u202e$(touch pwned)`touch pwned`'\"|<b> end)";
+
+class HostileNames : public test::ProgramTest {
+ protected:
+  // Nothing that steers a terminal, on either stream.
+  test::Finished checked(const std::string& lines) const {
+    const auto finished = shell(lines);
+    EXPECT_EQ(printable_lines(finished.out), finished.out) << lines;
+    EXPECT_EQ(printable_lines(finished.err), finished.err) << lines;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "pwned")) << lines;
+    return finished;
+  }
+  static std::string layout() {
+    return R"({"version": 1, "layout": {"name": ")" + kPlainWritten +
+           R"(", "floor_low_m": [-5, -5], "floor_high_m": [25, 5],
+ "stations": [{"name": ")" +
+           kPlainWritten + R"(", "position_m": [0, 0], "purposes": ["storage"]},
+  {"name": "b", "position_m": [10, 0], "purposes": ["storage"]}, {"name": "c", "position_m": [20, 0], "purposes": ["storage"]}],
+ "segments": [{"name": ")" +
+           kPlainWritten + R"( s", "from": ")" + kPlainWritten + R"(", "to": "b", "bidirectional": true},
+  {"name": "t", "from": "b", "to": "c", "bidirectional": true}]}})";
+  }
+  void write_campaign() const {
+    write("plant.json", layout());
+    write("a.toml", "name = \"" + kWritten +
+                        "\"\nhorizon_s = 60\n[factors]\nagents = [\"reckless\"]\nlayouts = [{ file = "
+                        "\"plant.json\", name = \"" +
+                        kPlainWritten + "\" }]\nfleet_sizes = [2]\n[[gate]]\nagent = \"reckless\"\nname = \"" +
+                        kWritten + "\"\n");
+  }
+};
+
+TEST_F(HostileNames, ACampaignFromTheFirstRunToTheLastReport) {
+  write_campaign();
+  const auto ran = checked("\"$FLEETPROOF\" run a.toml");
+  EXPECT_THAT(ran.exit_code, testing::AnyOf(0, 1, 4)) << ran.err;
+  // The replay line does what it says when a person copies it.
+  const auto report = ran.out.find("fleetproof report ");
+  ASSERT_NE(report, std::string::npos) << ran.out;
+  const auto copied = ran.out.substr(report + 11, ran.out.find('\n', report) - report - 11);
+  EXPECT_EQ(checked("\"$FLEETPROOF\" " + copied).exit_code, ran.exit_code) << copied;
+  for (const auto* format : {"text", "summary", "markdown", "json"}) {
+    const auto page = checked("\"$FLEETPROOF\" " + copied + " --format " + format);
+    EXPECT_EQ(page.exit_code, ran.exit_code) << page.err;
+    if (std::string(format) == "json") {
+      EXPECT_EQ(nlohmann::json::parse(page.out)["campaign"]["name"], kHostile) << "JSON keeps the name to the byte";
+    }
+  }
+  checked("\"$FLEETPROOF\" check a.toml");
+  checked("\"$FLEETPROOF\" run a.toml --db \"$(printf 'x\\033[2J\\n.db')\"");
+}
+
+TEST_F(HostileNames, AScenarioThroughReplayAndSimulate) {
+  write_campaign();
+  checked("\"$FLEETPROOF\" run a.toml --db a.db");
+  const auto replayed = checked("\"$FLEETPROOF\" replay a.db 0 --trace --scenario s.json");
+  EXPECT_EQ(replayed.exit_code, 0) << replayed.err;
+  EXPECT_EQ(printable_lines(read(path("s.json"))), read(path("s.json")));
+  checked("\"$FLEETPROOF\" replay a.db 0 --json");
+  const auto simulated = checked("\"$FLEETPROOF\" simulate s.json --agent reckless --trace");
+  EXPECT_THAT(simulated.exit_code, testing::AnyOf(0, 1, 4)) << simulated.err;
+  EXPECT_EQ(nlohmann::json::parse(checked("\"$FLEETPROOF\" simulate s.json --agent reckless --json").out)["scenario"],
+            nlohmann::json::parse(read(path("s.json")))["name"]);
+  checked("\"$FLEETPROOF\" check s.json");
+}
+
+TEST_F(HostileNames, ALayoutThroughImportAndBack) {
+  write("plant.json", layout());
+  const auto imported = checked("\"$FLEETPROOF\" import layout plant.json --svg p.svg");
+  EXPECT_EQ(imported.exit_code, 0) << imported.err;
+  EXPECT_EQ(nlohmann::json::parse(imported.out)["layout"]["name"], kPlain);
+  EXPECT_EQ(printable_lines(read(path("p.svg"))), read(path("p.svg")));
+  EXPECT_THAT(read(path("p.svg")), Not(HasSubstr("<b>")));
+  checked("\"$FLEETPROOF\" import layout plant.json -o p.lif.json && \"$FLEETPROOF\" import lif p.lif.json");
+  checked("\"$FLEETPROOF\" import layout plant.json -o p.csv && \"$FLEETPROOF\" import csv p.csv");
+}
+
+TEST_F(HostileNames, AnAgentOfASharedObject) {
+  const std::string with = "export FLEETPROOF_TEST_AGENT=\"$(printf '" + std::string("%b") +
+                           "' '-\\0342\\0200\\0256$(touch pwned) |<b>')\"\n";
+  write("a.toml", std::string("horizon_s = 20\n[factors]\nagents = [\"") + FLEETPROOF_NAMED_AGENT +
+                      "\"]\nlayouts = [\"aisle-grid\"]\nfleet_sizes = [2]\n");
+  const auto ran = checked(with + "\"$FLEETPROOF\" run a.toml --db a.db");
+  EXPECT_EQ(ran.exit_code, 4) << ran.err;
+  for (const auto* format : {"text", "markdown", "json"})
+    checked(std::string("\"$FLEETPROOF\" report a.db --format ") + format);
+  EXPECT_THAT(checked("\"$FLEETPROOF\" replay a.db 0").err, HasSubstr("\\u202e$(touch pwned)"));
+  EXPECT_EQ(checked(with + "\"$FLEETPROOF\" replay a.db 0 --plugin " + FLEETPROOF_NAMED_AGENT).exit_code, 0);
+}
+
+TEST_F(HostileNames, ErrorsAboutFilesAndWords) {
+  const std::string file = "\"$(printf 'x\\033[2J\\n\\302\\233.toml')\"";
+  for (const std::string verb : {"run", "check", "simulate", "report", "import layout", "import opentcs"}) {
+    const auto missing = checked("\"$FLEETPROOF\" " + verb + " " + file);
+    EXPECT_EQ(missing.exit_code, 2) << missing.err;
+    EXPECT_THAT(missing.err, HasSubstr("x\\x1b[2J\\n\\u009b.toml"));
+    EXPECT_EQ(std::ranges::count(missing.err, '\n'), 1) << missing.err;
+  }
+  for (const std::string words : {"list ", "report x --format ", "", "run --", "generate ", "simulate x --law "}) {
+    const auto refused = checked("\"$FLEETPROOF\" " + words + "\"$(printf 'x\\033[2J\\n\\302\\233')\"");
+    EXPECT_EQ(refused.exit_code, 2) << refused.err;
+    EXPECT_EQ(std::ranges::count(refused.err, '\n'), 1) << refused.err;
+  }
+}
+
+TEST_F(HostileNames, TheNameOfACampaignIsNoPath) {
+  std::filesystem::create_directories(folder_ / "deep/er");
+  const auto archive_of = [&](const std::string& name) {
+    write("deep/er/a.toml",
+          "name = \"" + name +
+              "\"\nhorizon_s = 1\n[factors]\nagents = [\"reckless\"]\nlayouts = [\"aisle-grid\"]\nfleet_sizes = [2]\n");
+    const auto ran = shell("cd deep/er && \"$FLEETPROOF\" run a.toml --overwrite");
+    EXPECT_EQ(ran.exit_code, 4) << ran.err;
+    std::string found;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_)) {
+      if (entry.path().extension() != ".db") continue;
+      EXPECT_EQ(entry.path().parent_path(), folder_ / "deep/er");
+      found = entry.path().filename();
+      std::filesystem::remove(entry.path());
+    }
+    return found;
+  };
+  EXPECT_EQ(archive_of("night run"), "night run.db");
+  EXPECT_EQ(archive_of("../../x"), "x.db");
+  EXPECT_EQ(archive_of("/tmp/fleetproof-x"), "tmp-fleetproof-x.db");
+  EXPECT_EQ(archive_of("a/b"), "a-b.db");
+  EXPECT_EQ(archive_of("."), "campaign.db");
+  EXPECT_EQ(archive_of(".hidden"), "hidden.db");
+  EXPECT_EQ(archive_of("--overwrite"), "overwrite.db");
+  EXPECT_EQ(archive_of("a\\nb"), "a-nb.db");
+  std::string accents;
+  for (int i = 0; i < 300; ++i) accents += "\xc3\xa9";
+  EXPECT_EQ(archive_of(accents), accents.substr(0, 200) + ".db");
+}
+
+}  // namespace
+}  // namespace fleetproof

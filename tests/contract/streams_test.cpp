@@ -1,0 +1,118 @@
+// Standard streams that are full, closed or left: no result is lost in silence, and talk stops no campaign.
+#include <gmock/gmock.h>
+
+#include "tests/support/program.hpp"
+
+namespace fleetproof {
+namespace {
+
+using testing::HasSubstr;
+
+class Streams : public test::ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    write("a.toml",
+          "horizon_s = 20\nreplicates = 3\n[factors]\nagents = [\"reckless\"]\nlayouts = [\"aisle-grid\"]\nfleet_sizes "
+          "= [3]\n");
+    expected_ = run("run a.toml --db expected.db");
+    ASSERT_THAT(expected_.exit_code, testing::AnyOf(1, 4)) << expected_.err;
+  }
+  void expect_same_archive(const std::string& name) const {
+    EXPECT_TRUE(read(path(name)) == read(path("expected.db"))) << name;
+    EXPECT_TRUE(read(path("expected.db")).starts_with("SQLite format 3"));
+  }
+  test::Finished expected_;
+};
+
+TEST_F(Streams, TalkThatCannotBeWrittenStopsNoCampaign) {
+  for (const std::string to : {"2>/dev/full", "2>&-", "2> >(exec true)"}) {
+    const auto finished = shell("\"$FLEETPROOF\" run a.toml --db a.db --overwrite " + to);
+    EXPECT_EQ(finished.exit_code, expected_.exit_code) << to;
+    EXPECT_THAT(finished.out, HasSubstr("fleetproof report:")) << to;
+    expect_same_archive("a.db");
+  }
+}
+
+// A reader that reads nothing: the pipe is full before the first word.
+TEST_F(Streams, TalkThatNobodyReadsStopsNoCampaign) {
+  const auto finished = shell(
+      "mkfifo full; exec 3<>full; dd if=/dev/zero of=full oflag=nonblock bs=4096 count=64 2>/dev/null\n"
+      "timeout 30 \"$FLEETPROOF\" run a.toml --db a.db 2>&3");
+  EXPECT_EQ(finished.exit_code, expected_.exit_code);
+  expect_same_archive("a.db");
+}
+
+TEST_F(Streams, ClosedStreamsAreNotTakenForFiles) {
+  for (const std::string closed : {"<&-", "2>&-", "<&- 2>&-"}) {
+    EXPECT_EQ(shell("\"$FLEETPROOF\" run a.toml --db a.db --overwrite " + closed).exit_code, expected_.exit_code)
+        << closed;
+    expect_same_archive("a.db");
+  }
+  for (const std::string closed : {">&-", "<&- >&-", "<&- >&- 2>&-"}) {
+    EXPECT_EQ(shell("\"$FLEETPROOF\" run a.toml --db a.db --overwrite " + closed).exit_code, 3) << closed;
+    expect_same_archive("a.db");  // the results are there, only the report was lost
+  }
+}
+
+TEST_F(Streams, DataThatCannotBeWrittenIsExit3) {
+  ASSERT_EQ(run("replay expected.db 0 --scenario s.json").exit_code, 0);
+  const std::vector<std::string> verbs = {
+      "run a.toml --db b.db --overwrite",
+      "run a.toml --db b.db --overwrite --json",
+      "report expected.db",
+      "report expected.db --format json",
+      "report expected.db --digest",
+      "replay expected.db 0",
+      "replay expected.db 0 --json",
+      "simulate s.json --agent reckless",
+      "simulate s.json --json",
+      "generate fishbone",
+      "import opentcs '" + test::source("tests/layouts/crossdock.xml") + "' --merge-antiparallel",
+      "check a.toml",
+      "check s.json",
+      "list agents",
+      "list laws --json",
+      "--help",
+      "run --help",
+      "--version"};
+  for (const auto& words : verbs) {
+    const auto full = shell("\"$FLEETPROOF\" " + words + " >/dev/full");
+    EXPECT_EQ(full.exit_code, 3) << words;
+    EXPECT_THAT(full.err, HasSubstr("standard output: cannot be written to its end (No space left on device)"))
+        << words;
+    EXPECT_EQ(shell("\"$FLEETPROOF\" " + words + " >&-").exit_code, 3) << words;
+  }
+  expect_same_archive("b.db");
+  // Nothing to write: nothing is lost.
+  EXPECT_EQ(shell("\"$FLEETPROOF\" generate fishbone -o f.json >/dev/full").exit_code, 0);
+}
+
+TEST_F(Streams, AReaderThatLeavesEndsTheVerbQuietly) {
+  const auto finished = shell("\"$FLEETPROOF\" report expected.db | true; echo ${PIPESTATUS[0]}");
+  EXPECT_EQ(finished.out, "3\n");
+  EXPECT_EQ(finished.err, "");
+}
+
+TEST_F(Streams, AFileSizeLimitIsAnErrorAndNoSignal) {
+  const auto finished = shell("ulimit -f 4; \"$FLEETPROOF\" generate fishbone -o f.json");
+  EXPECT_EQ(finished.exit_code, 3) << finished.err;
+  EXPECT_THAT(finished.err, HasSubstr("f.json: cannot be written (File too large)"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "f.json"));
+  EXPECT_EQ(std::ranges::count_if(
+                std::filesystem::directory_iterator(folder_),
+                [](const auto& entry) { return entry.path().filename().string().starts_with(".fleetproof"); }),
+            0);
+}
+
+TEST_F(Streams, AClosedTerminalInterruptsAsAnySignal) {
+  write("long.toml",
+        "horizon_s = 600\nreplicates = 100000\n[factors]\nagents = [\"hull-lock\"]\nlayouts = "
+        "[\"aisle-grid\"]\nfleet_sizes = [5]\n");
+  const auto finished = shell("\"$FLEETPROOF\" run long.toml --db long.db & sleep 1; kill -HUP $!; wait $!");
+  EXPECT_EQ(finished.exit_code, 129) << finished.err;
+  EXPECT_THAT(finished.out, HasSubstr("INCOMPLETE"));
+}
+
+}  // namespace
+}  // namespace fleetproof

@@ -1,0 +1,69 @@
+// What has one place in the sources, read from the sources: the way out of the program, and the list of packages.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kRoot = FLEETPROOF_SOURCE_DIR;
+
+std::string text_of(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+// The lines of all C++ sources in the folders that match, as "path: line".
+std::vector<std::string> lines_with(const std::vector<std::string>& folders, const std::regex& pattern,
+                                    const std::string& except) {
+  std::vector<std::string> found;
+  for (const std::string& folder : folders) {
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
+      const auto extension = entry.path().extension();
+      const auto path = entry.path().lexically_relative(kRoot).string();
+      if ((extension != ".cpp" && extension != ".hpp") || path.starts_with(except)) continue;
+      std::istringstream lines(text_of(entry.path()));
+      for (std::string line; std::getline(lines, line);) {
+        if (std::regex_search(line.substr(0, line.find("//")), pattern)) found.push_back(path + ": " + line);
+      }
+    }
+  }
+  return found;
+}
+
+// Whatever is written elsewhere escapes the gate for text from outside, and nobody notices that it was lost.
+TEST(SinglePlaces, OnlyStreamsWriteToStandardOutputAndError) {
+  const std::regex pattern(
+      R"(\bstd::(cout|cerr|clog|puts|printf|fputs)\b|\bfmt::print\b|\bstd(out|err)\b|\bSTD(OUT|ERR)_FILENO, )");
+  const std::vector<std::string> rooms = {"core", "laws", "generators", "storage", "reports", "campaign"};
+  for (const auto& line : lines_with(rooms, pattern, "campaign/cli/streams.cpp")) {
+    if (line.find("print every event on stderr") == std::string::npos) ADD_FAILURE() << line;
+  }
+  EXPECT_FALSE(lines_with({"campaign"}, std::regex("STDOUT_FILENO"), "nowhere").empty()) << "the pattern is alive";
+}
+
+TEST(SinglePlaces, PackagesAreNamedInTheirListAlone) {
+  const auto list = text_of(kRoot / ".ci/packages");
+  std::istringstream lines(list);
+  std::size_t packages = 0;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream columns(line);
+    std::string package, when, header;
+    if (line.starts_with("#") || !(columns >> package >> when >> header)) continue;
+    ++packages;
+    EXPECT_TRUE(when == "always" || when == "tests" || when == "bench") << line;
+    if (header == "-") continue;
+    for (const auto* file : {"CMakeLists.txt", "get-started"})
+      EXPECT_EQ(text_of(kRoot / file).find(package), std::string::npos) << package << " stands in " << file << " too";
+  }
+  EXPECT_GT(packages, 15U);
+}
+
+}  // namespace
