@@ -18,8 +18,8 @@ namespace fleetproof {
 struct LawFindings {
   std::vector<Violation> violations;      // ordered by (first, a, b); one entry per uninterrupted stretch
   std::vector<Incident> incidents;        // everything else that the law accuses
-  std::vector<ProbeCount> met;            // what the run met, told by a law that counts and accuses nothing
-  std::optional<double> min_clearance_m;  // exact below 0.5 m, else absent; laws of snapshots leave it absent
+  std::vector<ProbeCount> met;            // what the run met; from a law that counts and accuses nothing
+  std::optional<double> min_clearance_m;  // exact below 0.5 m, otherwise absent; always absent in snapshot laws
   std::uint64_t perimeter_checks = 0;
   std::uint64_t distance_evaluations = 0;
 };
@@ -45,34 +45,34 @@ class TraceKinds {
   std::uint64_t bits_ = 0;
 };
 
-// Everything that becomes of messages.
+// All kinds of records about messages.
 inline constexpr TraceKinds kMessageKinds{TraceKind::Sent,         TraceKind::Lost,
                                           TraceKind::LostInOutage, TraceKind::LostByInterference,
                                           TraceKind::LostToSource, TraceKind::Received};
 
-// A rule about what must never happen: a read-only observer of the pieces of a run, and of what its trace records. A
-// law never reaches the world or its trace.
+// A rule about what must never happen: a read-only observer of the pieces of a run, and of the records of its trace. A
+// law cannot change the world or the trace.
 //
-// `happened` is called for the kinds that `reads` names, as they are recorded, and for no other: what nobody reads
-// costs nothing. Of a record and a piece of the same instant, the piece that it caused was announced before.
+// `happened` is called for records of the kinds in `reads`, and for no others: a record that no law reads costs
+// nothing. If a record causes a piece at the same instant, the piece is announced first.
 //
-// Every body's pieces are contiguous while it is on the floor: an obstacle's from its appearing to its leaving, an
-// AGV's from kStart to the end of the run, less the times between `Leaves` and `Appears` in which the operator has
-// taken it off the floor: it comes back somewhere else. A piece is announced when it begins, with its planned end, and
-// again when it ends, with the end that it really had. Pieces that end at the same instant are announced one after the
-// other. At the end of the run every open piece is ended first, then `finish` is called once.
+// The pieces of a body are contiguous while the body is on the floor. An obstacle is there from its appearance until it
+// leaves. An AGV is there from kStart to the end of the run, except between `Leaves` and `Appears`, when the operator
+// carries it to another place. A piece is announced when it begins, with its planned end, and again when it ends, with
+// its true end. Pieces that end at the same instant are announced one after the other. At the end of the run, all open
+// pieces are ended first. Then `finish` is called once.
 class Law {
  public:
   virtual ~Law() = default;
   virtual void piece_started(const Piece& piece) { (void)piece; }
   virtual void piece_ended(const Piece& piece) = 0;
-  virtual TraceKinds reads() const { return {}; }  // asked once, before the run
+  virtual TraceKinds reads() const { return {}; }  // called once, before the run
   virtual void happened(const TraceRecord& record) { (void)record; }
   virtual void finish(SimTime end) { (void)end; }
   virtual LawFindings findings() const = 0;
 };
 
-// Makes a law for one run of `scenario`, which outlives it.
+// Makes a law for one run of `scenario`. Requires: the scenario outlives the law.
 using MakeLaw = std::unique_ptr<Law> (*)(const Scenario& scenario);
 
 }  // namespace fleetproof

@@ -13,7 +13,7 @@
 
 namespace fleetproof {
 
-// What a run is called in one word: its worst end point. Worst first, so that a violation before a crash is not hidden.
+// The class of a run: its worst end point. The worst comes first, so that a crash hides no violation before it.
 enum class OutcomeClass : std::uint8_t { EngineError, Contact, Violation, Crash, Hang, Indeterminate, Stuck, Clean };
 const char* name_of(OutcomeClass c);
 
@@ -40,7 +40,7 @@ const char* name_of(ViolationLevel level);
 struct Outcome {
   bool violation = false, contact = false, stuck = false, crash = false, hang = false, indeterminate = false,
        engine_error = false;
-  std::optional<std::int64_t> min_clearance_um;  // absent: more than 0.5 m all the time, or no law measured it
+  std::optional<std::int64_t> min_clearance_um;  // absent: always more than 0.5 m, or not measured
   std::vector<Violation> violations;             // in order of (first, a, b)
   std::vector<Incident> incidents;               // of all laws that ran, in order of (first, kind, a, b)
   std::vector<ProbeCount> probes;                // what the run met, in order of (source, name); never a count of zero
@@ -63,7 +63,7 @@ Outcome decode_outcome(std::string_view bytes);
 // Sets violation, contact and smallest clearance from the violations a law filed.
 void file_violations(Outcome& outcome, std::vector<Violation> violations);
 
-// At most so many incidents are kept of a run, the earliest; the others are counted.
+// A run keeps at most this many incidents, the earliest; the others are counted.
 inline constexpr std::size_t kIncidentsMax = 1000;
 void file_incidents(Outcome& outcome, std::vector<Incident> incidents);
 void file_probes(Outcome& outcome, std::vector<ProbeCount> probes);

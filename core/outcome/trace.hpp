@@ -10,8 +10,8 @@
 
 namespace fleetproof {
 
-// What the trace of a run consists of. The numbers are part of the digest: never renumber, only append. What a record
-// of each kind says is in trace_records.hpp.
+// The kinds of records in the trace of a run. The numbers are part of the digest: never renumber, only append.
+// trace_records.hpp has the content of a record of each kind.
 enum class TraceKind : std::uint32_t {
   ActivityBegins = 1,
   ActivityEnds = 2,
@@ -39,7 +39,7 @@ enum class TraceKind : std::uint32_t {
   Leaves = 24,              // a body is taken off the floor
   LostInOutage = 32,        // as Lost, while the link or place was in an outage
   LostByInterference = 33,  // as Lost, at the end of the transmission: another transmission was in the air
-  LostToSource = 34,        // as Lost, to an external source near the receiver; it would have come through otherwise
+  LostToSource = 34,        // as Lost, to an external source near the receiver; otherwise it would have arrived
 };
 const char* name_of(TraceKind kind);
 
