@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/contract.hpp"
+#include "core/base/words.hpp"
 #include "core/outcome/outcome.hpp"
 
 namespace fleetproof {
@@ -44,9 +45,35 @@ enum class EndPoint : std::uint8_t { Violation, Contact };
 enum class Region : std::uint8_t { Contract, WorstCase, All };
 enum class GateKind : std::uint8_t { None, Rate };  // None: any failing run refutes. Rate: the bounds decide.
 
-const char* name_of(EndPoint end_point);
-const char* name_of(Region region);
-const char* name_of(GateKind kind);
+constexpr const char* name_of(EndPoint end_point) {
+  switch (end_point) {
+    case EndPoint::Violation:
+      return "violation";
+    case EndPoint::Contact:
+      return "contact";
+  }
+  return kNoWord;
+}
+constexpr const char* name_of(Region region) {
+  switch (region) {
+    case Region::Contract:
+      return "contract";
+    case Region::WorstCase:
+      return "worst-case";
+    case Region::All:
+      return "all";
+  }
+  return kNoWord;
+}
+constexpr const char* name_of(GateKind kind) {
+  switch (kind) {
+    case GateKind::None:
+      return "none";
+    case GateKind::Rate:
+      return "rate";
+  }
+  return kNoWord;
+}
 
 // A requirement on a campaign, fixed before its first run.
 struct GateRecord {

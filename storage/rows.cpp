@@ -114,11 +114,9 @@ std::vector<std::string> from_lines(const std::string& text) {
   return words;
 }
 
-template <class Enum, std::size_t N>
-Enum word_to(const std::string& word, const std::array<Enum, N>& values) {
-  for (const auto value : values) {
-    if (word == name_of(value)) return value;
-  }
+template <HasWords Enum>
+Enum word_to(const std::string& word) {
+  if (const auto value = value_of<Enum>(word)) return *value;
   throw EngineError(fmt::format("a gate holds the unknown word \"{}\"", word));
 }
 
@@ -225,9 +223,9 @@ GateRecord read_gate(const SQLite::Statement& row) {
   gate.index = from.u32();
   gate.name = from.text();
   gate.agent = from.text();
-  gate.kind = word_to(from.text(), std::array{GateKind::None, GateKind::Rate});
-  gate.end_point = word_to(from.text(), std::array{EndPoint::Violation, EndPoint::Contact});
-  gate.region = word_to(from.text(), std::array{Region::Contract, Region::WorstCase, Region::All});
+  gate.kind = word_to<GateKind>(from.text());
+  gate.end_point = word_to<EndPoint>(from.text());
+  gate.region = word_to<Region>(from.text());
   gate.limit = from.real();
   gate.confidence = from.real();
   gate.min_transports_per_agv_hour = from.real();

@@ -12,7 +12,7 @@ CampaignFile load_campaign(const std::string& path, AgentPrograms& programs) {
     const std::string name = programs.load(plugin);
     std::ranges::replace(file.plan.agents, plugin, name);
   }
-  check_plan(file.plan, path);
+  check_plan(file.plan, file.places);
   for (const std::string& agent : file.plan.agents) programs.find(agent, path);
   constexpr std::size_t kTold = 3;
   for (std::size_t i = 0; i < std::min(kTold, file.warnings.size()); ++i) talk("warning: {}\n", file.warnings[i]);

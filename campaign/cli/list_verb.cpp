@@ -6,6 +6,7 @@
 
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
+#include "campaign/plan/field_rows.hpp"
 #include "campaign/run/agent_programs.hpp"
 #include "core/base/error.hpp"
 #include "generators/families/layout_family.hpp"
@@ -56,8 +57,30 @@ constexpr std::array kinds = {
     Kind{"reports", [] { return rows_of(report_formats()); }},
 };
 
+// Every key of campaign files and scenario files.
+int list_fields(bool json) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const FieldRow& row : field_rows()) {
+    if (json) {
+      all.push_back({{"name", row.key},
+                     {"file", row.file},
+                     {"default", row.fallback},
+                     {"expected", row.expected},
+                     {"unit", row.unit},
+                     {"description", row.text}});
+    } else {
+      fmt::print("{} {}{}: {}\n    {}\n", row.file, row.key, row.fallback.empty() ? "" : " = " + row.fallback,
+                 row.expected, row.text);
+    }
+  }
+  if (json) fmt::print("{}\n", nlohmann::ordered_json{{"schema_version", 1}, {"fields", all}}.dump(2));
+  return kDemonstrated;
+}
+
 int list(const std::string& what, bool json) {
-  std::vector<std::string_view> names;
+  constexpr std::string_view kFields = "fields";
+  if (what == kFields) return list_fields(json);
+  std::vector<std::string_view> names{kFields};
   for (const Kind& kind : kinds) {
     names.push_back(kind.name);
     if (kind.name != what) continue;
@@ -85,7 +108,7 @@ Action prepare_list(Options& options) {
     bool json = false;
   };
   auto words = std::make_shared<Words>();
-  options.positional("WHAT", words->what, "agents, laws, generators, importers or reports");
+  options.positional("WHAT", words->what, "agents, laws, generators, importers, reports or fields");
   options.flag("--json", words->json, "print JSON");
   return [words] { return list(words->what, words->json); };
 }

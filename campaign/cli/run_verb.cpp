@@ -72,7 +72,7 @@ int run(RunWords words) {
   CampaignFile file = load_campaign(words.campaign, programs);
   if (words.replicates) file.plan.replicates = *words.replicates;
   if (words.seed) file.plan.seed = *words.seed;
-  check_plan(file.plan, words.campaign);
+  if (words.replicates) check_plan(file.plan, "--replicates");
   const RunOptions options = run_options(words);
   if (words.archive.empty()) words.archive = archive_name_of(file.plan.name);
   std::signal(SIGINT, on_signal);

@@ -14,6 +14,7 @@ struct CampaignFile {
   std::vector<std::string>
       plugins;  // shared objects named under `agents`, as paths; the plan holds the names they gave themselves later
   std::vector<std::string> warnings;  // what importing a layout dropped or guessed
+  PlanPlaces places;
 };
 
 // Reads a TOML campaign file. Layouts named by a file, in any format of importers() as its extension says, are read

@@ -2,6 +2,7 @@
 
 #include <compare>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -37,11 +38,23 @@ struct LayoutFactor {
   bool mutate = false;                    // every replicate draws a mutation of `map`
 };
 
+// What a campaign is for: claims have rates and bounds, searches have counts only.
+enum class CampaignKind : std::uint8_t { Claim, Search };
+constexpr const char* name_of(CampaignKind kind) {
+  switch (kind) {
+    case CampaignKind::Claim:
+      return "claim";
+    case CampaignKind::Search:
+      return "search";
+  }
+  return kNoWord;
+}
+
 // A campaign as resolved from its file: everything that decides its outcomes, and nothing else (no path, no number of
 // jobs).
 struct CampaignPlan {
   std::string name = "campaign";
-  std::string kind = "claim";  // "claim" or "search"
+  CampaignKind kind = CampaignKind::Claim;
   std::uint64_t seed = 1;
   std::uint64_t replicates = 1;
   double horizon_s = 600.0, stuck_after_s = 120.0;
@@ -56,9 +69,8 @@ struct CampaignPlan {
   std::vector<Stream> held_streams;  // the same in all replicates, in the order of kRunStreams
   std::uint64_t held_replicate = 0;  // whose they are
 
-  double transports_per_agv_hour = 30.0;
+  Demand demand;
   Placement placement = Placement::Random;
-  double hot_spot_skew = 0.0;
   std::shared_ptr<const OrderList> orders;  // instead of drawn transports; null: none
   std::vector<VehicleShare> vehicles{VehicleShare{}};
   FaultRates faults;
@@ -90,8 +102,22 @@ struct CampaignPlan {
 std::string plan_text(const CampaignPlan& plan);
 CampaignPlan parse_plan(const std::string& text);  // throws EngineError: only the archive holds such texts
 
-// Throws InputError (`where` names the file) for what no run could mean: a loss of 1.4, no agents, an unknown gate
+// Where a campaign file says what: "law.reaction_s" stands at "c.toml:5:14". Of an array "factors.loss", the items are
+// "factors.loss.0" and so on.
+struct PlanPlaces {
+  std::string file;
+  std::map<std::string, std::string, std::less<>> known{};
+
+  // Of the key, or of the nearest table around it that the file has, or the file.
+  std::string of(std::string path) const;
+};
+
+// How errors write such a path: numbers of items are left out.
+std::string without_numbers(std::string_view path);
+
+// Throws InputError, with the place of the key, for what no run could mean: a loss of 1.4, no agents, an unknown gate
 // agent.
-void check_plan(const CampaignPlan& plan, const std::string& where);
+void check_plan(const CampaignPlan& plan, const PlanPlaces& places);
+inline void check_plan(const CampaignPlan& plan, const std::string& where) { check_plan(plan, PlanPlaces{where}); }
 
 }  // namespace fleetproof

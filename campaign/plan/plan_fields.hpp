@@ -1,25 +1,114 @@
 #pragma once
 
-#include <vector>
+#include "campaign/plan/plan.hpp"
+#include "generators/worlds/world_fields.hpp"
 
-#include "core/scenario/scenario.hpp"
-#include "generators/worlds/drawn_faults.hpp"
-#include "generators/worlds/drawn_sources.hpp"
-
+// The fields of a campaign. Campaign files, plan texts, checks and the tables that users read all go over this list. A
+// table of a campaign file is a field that has fields.
 namespace fleetproof {
 
-// A number of a plan's table: its key in campaign files and plan texts, where it is kept, and what it may be. Reading,
-// writing and checking all go over these lists, so that no number can be missing from one of them.
-struct NumberField {
-  const char* key;
-  double* value;
-  double least, most;
+// A table that is no struct of its own: `members(visit)` visits its fields.
+template <class Members>
+struct FieldTable {
+  Members members;
 };
+template <class Members>
+FieldTable(Members) -> FieldTable<Members>;
+template <class Members, class Visit>
+void visit_fields(const FieldTable<Members>& table, Visit&& visit) {
+  table.members(visit);
+}
 
-std::vector<NumberField> number_fields(VehicleType& vehicle);
-std::vector<NumberField> number_fields(FaultRates& rates);
-std::vector<NumberField> number_fields(ScannerSetup& scanner);
-std::vector<NumberField> number_fields(OperatorSetup& help);
-std::vector<NumberField> number_fields(DrawnSources& sources);  // of the table `radio`
+inline constexpr double kLargestFleet = 1000.0;
+inline constexpr double kMostRuns = 1e12;  // a thousand years of this engine; beyond it run indices would wrap
+
+template <FieldsOf<GateRecord> Gate, class Visit>
+void visit_fields(Gate& gate, Visit&& visit) {
+  auto& [index, name, agent, kind, end_point, region, limit, confidence, min_transports_per_agv_hour] = gate;
+  (void)index;
+  visit(Field{.key = "name", .text = "name of the gate; left out: gate 1, gate 2, ..."}, name);
+  visit(Field{.key = "agent", .text = "the agent that the requirement is put to", .needed = true}, agent);
+  visit(Field{.key = "kind", .text = "none: any failing run refutes; rate: bounds decide"}, kind);
+  visit(Field{.key = "end_point", .text = "what counts as a failure"}, end_point);
+  visit(Field{.key = "region", .text = "the cells that count: those of the contract, its worst case, or all"}, region);
+  visit(Field{.key = "limit", .text = "the upper bound must be at or below it", .below_high = true}, limit);
+  visit(
+      Field{.key = "confidence", .text = "of the bound, one-sided", .low = 0.5, .above_low = true, .below_high = true},
+      confidence);
+  visit(Field{.key = "min_transports_per_agv_hour", .text = "a fleet that does less makes no progress", .high = 3600.0},
+        min_transports_per_agv_hour);
+}
+
+// One factor of the radio: its bounds are those of the field with the same key in the scenario's radio.
+inline Field factor_field(std::string_view key) {
+  Field found;
+  const RadioSetup radio;
+  visit_fields(radio, [&](const Field& field, const auto&) {
+    if (field.key == key) found = field;
+  });
+  found.home = FieldHome::Both;
+  return found;
+}
+
+template <FieldsOf<CampaignPlan> Plan, class Visit>
+void visit_fields(Plan& plan, Visit&& visit) {
+  [[maybe_unused]] auto& [name, kind, seed, replicates, horizon_s, stuck_after_s, agents, agent_config, loss, delay_s,
+                          mean_outage_s, sampling, layouts, fleet_sizes, held_streams, held_replicate, demand,
+                          placement, orders, vehicles, faults, scanner, operator_help, radio, sources, agent_clock, law,
+                          laws_left_out, required_probes, contact_stops, gates] = plan;
+  visit(Field{.key = "name", .text = "name of the campaign; left out: that of the file"}, name);
+  visit(Field{.key = "kind", .text = "claim: rates and bounds; search: counts only"}, kind);
+  visit(kSeed, seed);
+  visit(Field{.key = "replicates",
+              .text = "draws of all the randomness; each is used in every cell",
+              .low = 1.0,
+              .high = kMostRuns},
+        replicates);
+  visit(kHorizon, horizon_s);
+  visit(kStuckAfter, stuck_after_s);
+  visit(kContactStops, contact_stops);
+  visit(Field{.key = "agent_config", .text = "a text that every agent gets at its start"}, agent_config);
+  visit(
+      Field{.key = "factors", .text = "the agents, layouts, fleet sizes, losses and delays to combine", .needed = true},
+      FieldTable{[&](auto& inner) {
+        inner(Field{.key = "agents", .text = "names of agents, or paths of shared objects"}, plan.agents);
+        inner(Field{.key = "layouts", .text = "families, or layout files; see below"}, plan.layouts);
+        inner(Field{.key = "fleet_sizes", .text = "numbers of AGVs", .low = 1.0, .high = kLargestFleet},
+              plan.fleet_sizes);
+        inner(factor_field("loss"), plan.loss);
+        inner(factor_field("delay_s"), plan.delay_s);
+        inner(factor_field("mean_outage_s"), plan.mean_outage_s);
+        inner(Field{.key = "sampling", .text = "how replicates draw a factor that has bounds"}, plan.sampling);
+      }});
+  visit(Field{.key = "vary", .text = "what is held while the rest varies"}, FieldTable{[&](auto& inner) {
+          inner(Field{.key = "hold", .text = "streams of randomness that are the same in all replicates"},
+                plan.held_streams);
+          inner(Field{.key = "held_replicate", .text = "the replicate whose they are", .high = kMostRuns},
+                plan.held_replicate);
+        }});
+  visit(Field{.key = "world", .text = "starts and orders"}, FieldTable{[&](auto& inner) {
+          visit_fields(plan.demand, inner);
+          inner(kPlacement, plan.placement);
+          inner(Field{.key = "orders", .text = "a CSV file of orders, instead of drawn ones"}, plan.orders);
+        }});
+  visit(Field{.key = "vehicle", .text = "the fleet; several [[vehicle]] mix it"}, vehicles);
+  visit(Field{.key = "faults", .text = "how often things go wrong"}, faults);
+  visit(Field{.key = "scanner", .text = "the laser scanners; the table switches them on"}, scanner);
+  visit(Field{.key = "operator", .text = "the operator; the table switches the operator on"}, operator_help);
+  visit(Field{.key = "radio", .text = "the radio of every cell"}, FieldTable{[&](auto& inner) {
+          visit_fields(plan.radio, inner);
+          visit_fields(plan.sources, inner);
+        }});
+  visit(Field{.key = "agent_clock", .text = "the agent's computer"}, agent_clock);
+  visit(Field{.key = "law", .text = "what the laws ask"}, FieldTable{[&](auto& inner) {
+          visit_fields(plan.law, inner);
+          inner(Field{.key = "leave_out", .text = "laws that are not run"}, plan.laws_left_out);
+        }});
+  visit(Field{.key = "coverage", .text = "what has to be met"}, FieldTable{[&](auto& inner) {
+          inner(Field{.key = "probes", .text = "names of probes; left out: what the kind of campaign asks for"},
+                plan.required_probes);
+        }});
+  visit(Field{.key = "gate", .text = "a requirement on the campaign"}, gates);
+}
 
 }  // namespace fleetproof

@@ -52,10 +52,9 @@ Scenario ScenarioSource::scenario(std::uint64_t run_index, RejectionCounts& reje
   }
   spec.mutate = layout.mutate;
   spec.placement = plan_.placement;
-  spec.hot_spot_skew = plan_.hot_spot_skew;
   spec.orders = plan_.orders;
   spec.fleet_size = cell.fleet_size;
-  spec.transports_per_agv_hour = plan_.transports_per_agv_hour;
+  spec.demand = plan_.demand;
   spec.vehicles = plan_.vehicles;
   spec.faults = plan_.faults;
   spec.law = plan_.law;

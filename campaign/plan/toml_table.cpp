@@ -5,6 +5,7 @@
 #include <toml++/toml.h>
 #include <filesystem>
 #include <memory>
+#include <set>
 
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
@@ -49,22 +50,30 @@ const char* kind_of(const toml::node& node) {
   throw InputError(at(file, node.source()), fmt::format("{} is {}; it must be {}", key, kind_of(node), wanted));
 }
 
-double number(const std::string& file, const toml::node& node, const std::string& key) {
-  if (!node.is_number()) wrong_type(file, node, key, "a number");
-  const double value = *node.value<double>();
-  if (!(value > -1e300 && value < 1e300))
-    throw InputError(at(file, node.source()), fmt::format("{} is not a finite number", key));
-  return value;
+GivenValue value_of(const toml::node& node) {
+  if (const auto* flag = node.as_boolean()) return flag->get();
+  if (const auto* whole = node.as_integer()) return std::int64_t{whole->get()};
+  if (const auto* real = node.as_floating_point()) return real->get();
+  if (const auto* text = node.as_string()) return text->get();
+  return std::monostate{};
 }
 
-std::uint64_t whole(const std::string& file, const toml::node& node, const std::string& key, std::uint64_t most) {
-  if (!node.is_integer()) wrong_type(file, node, key, "a whole number");
-  const std::int64_t value = *node.value<std::int64_t>();
-  if (value < 0 || static_cast<std::uint64_t>(value) > most) {
-    throw InputError(at(file, node.source()),
-                     fmt::format("{} is {}; it must be a whole number from 0 to {}", key, value, most));
+TomlTable::Given given_by(const std::string& file, const toml::node& node, std::string path) {
+  const GivenValue value = value_of(node);
+  const bool plain = !std::holds_alternative<std::monostate>(value);
+  return {value, at(file, node.source()), std::move(path), plain ? text_of(value) : kind_of(node)};
+}
+
+void add_places(const std::string& file, const toml::node& node, const std::string& path,
+                std::map<std::string, std::string, std::less<>>& places) {
+  if (!path.empty()) places.emplace(path, at(file, node.source()));
+  const std::string prefix = path.empty() ? "" : path + ".";
+  if (const auto* table = node.as_table()) {
+    for (const auto& [key, inner] : *table) add_places(file, inner, prefix + std::string(key.str()), places);
+  } else if (const auto* array = node.as_array()) {
+    for (std::size_t i = 0; i < array->size(); ++i)
+      add_places(file, *array->get(i), fmt::format("{}{}", prefix, i), places);
   }
-  return static_cast<std::uint64_t>(value);
 }
 
 // toml++ bounds the depth of values, but not that of keys such as a.b.c, each part of which is a table within the one
@@ -136,67 +145,50 @@ void with(const toml::table& table, std::set<std::string, std::less<>>& known, s
   if (const toml::node* node = table.get(key)) take(*node);
 }
 
-template <class T, class Read>
-void read_array(const std::string& file, const toml::node& node, const std::string& key, std::vector<T>& value,
-                Read read) {
-  const toml::array* array = node.as_array();
-  if (array == nullptr) wrong_type(file, node, key, "an array, as in [1, 2]");
-  value.clear();
-  for (const toml::node& element : *array) value.push_back(read(element));
-}
-
 }  // namespace
 
-void TomlTable::get(std::string_view key, std::string& value) {
-  with(*impl_->table, impl_->known, key, [&](const toml::node& node) {
-    if (!node.is_string()) wrong_type(impl_->file, node, impl_->path_in_file + std::string(key), "a string in quotes");
-    value = *node.value<std::string>();
-  });
+void TomlTable::Given::refuse(std::string_view sentence) const {
+  throw InputError(place, fmt::format("{}: {} is refused: {}", path, shown, sentence));
 }
 
-void TomlTable::get(std::string_view key, double& value) {
+std::optional<TomlTable::Given> TomlTable::given(std::string_view key) {
+  std::optional<Given> found;
   with(*impl_->table, impl_->known, key,
-       [&](const toml::node& node) { value = number(impl_->file, node, impl_->path_in_file + std::string(key)); });
+       [&](const toml::node& node) { found = given_by(impl_->file, node, impl_->path_in_file + std::string(key)); });
+  return found;
 }
 
-void TomlTable::get(std::string_view key, bool& value) {
-  with(*impl_->table, impl_->known, key, [&](const toml::node& node) {
-    if (!node.is_boolean()) wrong_type(impl_->file, node, impl_->path_in_file + std::string(key), "true or false");
-    value = *node.value<bool>();
-  });
+std::optional<std::vector<TomlTable::Given>> TomlTable::array(std::string_view key) {
+  const auto found = given(key);
+  if (!found) return std::nullopt;
+  const toml::array* array = impl_->table->get(key)->as_array();
+  if (array == nullptr) found->refuse("expected an array, as in [1, 2]");
+  std::vector<Given> items;
+  for (const toml::node& item : *array) items.push_back(given_by(impl_->file, item, found->path));
+  return items;
 }
 
-void TomlTable::get(std::string_view key, std::uint64_t& value) {
-  with(*impl_->table, impl_->known, key, [&](const toml::node& node) {
-    value = whole(impl_->file, node, impl_->path_in_file + std::string(key), std::numeric_limits<std::int64_t>::max());
-  });
+std::vector<TomlTable::Row> TomlTable::arrays(std::string_view key) {
+  constexpr const char* kExpected = "expected an array of arrays, as in [[\"a\", \"b\"]]";
+  const auto found = given(key);
+  if (!found) return {};
+  const toml::array* array = impl_->table->get(key)->as_array();
+  if (array == nullptr) found->refuse(kExpected);
+  std::vector<Row> rows;
+  for (const toml::node& row : *array) {
+    const toml::array* items = row.as_array();
+    const Given outer = given_by(impl_->file, row, found->path);
+    if (items == nullptr) outer.refuse(kExpected);
+    rows.push_back({outer, {}});
+    for (const toml::node& item : *items) rows.back().items.push_back(given_by(impl_->file, item, found->path));
+  }
+  return rows;
 }
 
-void TomlTable::get(std::string_view key, std::vector<double>& value) {
-  const std::string name = impl_->path_in_file + std::string(key);
-  with(*impl_->table, impl_->known, key, [&](const toml::node& node) {
-    read_array(impl_->file, node, name, value,
-               [&](const toml::node& element) { return number(impl_->file, element, name); });
-  });
-}
-
-void TomlTable::get(std::string_view key, std::vector<std::uint32_t>& value) {
-  const std::string name = impl_->path_in_file + std::string(key);
-  with(*impl_->table, impl_->known, key, [&](const toml::node& node) {
-    read_array(impl_->file, node, name, value, [&](const toml::node& element) {
-      return static_cast<std::uint32_t>(whole(impl_->file, element, name, 1'000'000));
-    });
-  });
-}
-
-void TomlTable::get(std::string_view key, std::vector<std::string>& value) {
-  const std::string name = impl_->path_in_file + std::string(key);
-  with(*impl_->table, impl_->known, key, [&](const toml::node& node) {
-    read_array(impl_->file, node, name, value, [&](const toml::node& element) {
-      if (!element.is_string()) wrong_type(impl_->file, element, name, "an array of strings");
-      return *element.value<std::string>();
-    });
-  });
+std::map<std::string, std::string, std::less<>> TomlTable::places() const {
+  std::map<std::string, std::string, std::less<>> places;
+  add_places(impl_->file, *impl_->table, "", places);
+  return places;
 }
 
 std::optional<TomlTable> TomlTable::table(std::string_view key) {
@@ -233,32 +225,16 @@ std::vector<TomlTable::Item> TomlTable::words_or_tables(std::string_view key) {
     if (array == nullptr) wrong_type(impl_->file, node, name, "an array, as in [\"a\", { file = \"b\" }]");
     for (const toml::node& element : *array) {
       if (element.is_string()) {
-        items.push_back({*element.value<std::string>(), std::nullopt});
+        items.push_back({*element.value<std::string>(), std::nullopt, at(impl_->file, element.source())});
       } else if (element.is_table()) {
-        items.push_back({"", TomlTable(new Impl{impl_->file, name + ".", impl_->root, element.as_table(), {}})});
+        items.push_back({"", TomlTable(new Impl{impl_->file, name + ".", impl_->root, element.as_table(), {}}),
+                         at(impl_->file, element.source())});
       } else {
         wrong_type(impl_->file, element, name, "an array of strings and tables");
       }
     }
   });
   return items;
-}
-
-std::vector<std::pair<std::string, std::string>> TomlTable::pairs(std::string_view key) {
-  constexpr const char* kWanted = "an array of pairs, as in [[\"a\", \"b\"]]";
-  std::vector<std::pair<std::string, std::string>> pairs;
-  const std::string name = impl_->path_in_file + std::string(key);
-  with(*impl_->table, impl_->known, key, [&](const toml::node& node) {
-    const toml::array* array = node.as_array();
-    if (array == nullptr) wrong_type(impl_->file, node, name, kWanted);
-    for (const toml::node& element : *array) {
-      const toml::array* pair = element.as_array();
-      if (pair == nullptr || pair->size() != 2 || !pair->get(0)->is_string() || !pair->get(1)->is_string())
-        wrong_type(impl_->file, element, name, kWanted);
-      pairs.emplace_back(*pair->get(0)->value<std::string>(), *pair->get(1)->value<std::string>());
-    }
-  });
-  return pairs;
 }
 
 void TomlTable::finish() const {

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
+
+#include "core/scenario/field.hpp"
 
 namespace fleetproof {
 
@@ -20,21 +21,32 @@ class TomlTable {
   TomlTable(TomlTable&&) noexcept;
   TomlTable& operator=(TomlTable&&) = delete;
 
-  // Absent keys leave the value as it is.
-  void get(std::string_view key, std::string& value);
-  void get(std::string_view key, double& value);
-  void get(std::string_view key, bool& value);
-  void get(std::string_view key, std::uint64_t& value);
-  void get(std::string_view key, std::vector<double>& value);
-  void get(std::string_view key, std::vector<std::uint32_t>& value);
-  void get(std::string_view key, std::vector<std::string>& value);
+  // One value of the file, with what errors say about it.
+  struct Given {
+    GivenValue value;
+    std::string place;  // "file:line:column"
+    std::string path;   // "law.reaction_s"
+    std::string shown;  // the value as errors quote it
+
+    [[noreturn]] void refuse(std::string_view sentence) const;
+  };
+  std::optional<Given> given(std::string_view key);               // none if the key is absent
+  std::optional<std::vector<Given>> array(std::string_view key);  // as in [1, 2]
+  struct Row;
+  std::vector<Row> arrays(std::string_view key);  // as in [["a", "b"]]; empty if absent
+
+  // A value without a field of its own; absent keys leave it as it is.
+  template <PlainValue Value>
+  void get(std::string_view key, Value& value) {
+    const auto found = given(key);
+    if (!found) return;
+    const auto sentence = take(Field{.key = key, .text = "", .low = -1e300, .high = 1e300}, found->value, value);
+    if (!sentence.empty()) found->refuse(sentence);
+  }
 
   struct Item;
   // An array of strings and tables, as in ["a", { file = "b" }]. Empty if the key is absent.
   std::vector<Item> words_or_tables(std::string_view key);
-
-  // An array of arrays of two strings, as in [["a", "b"]]. Empty if the key is absent.
-  std::vector<std::pair<std::string, std::string>> pairs(std::string_view key);
 
   bool has(std::string_view key) const;
   bool is_table(std::string_view key) const;             // written [key], not [[key]]
@@ -42,6 +54,8 @@ class TomlTable {
   std::vector<TomlTable> tables(std::string_view key);   // [[key]]
   void finish() const;                                   // throws InputError if a key is left that was never asked for
   std::string place(std::string_view key) const;         // "file:line:column" of a key, or of the table
+  // Of all keys and items below this table: "law.reaction_s", "factors.loss.0".
+  std::map<std::string, std::string, std::less<>> places() const;
 
  private:
   struct Impl;
@@ -52,6 +66,11 @@ class TomlTable {
 struct TomlTable::Item {
   std::string word;
   std::optional<TomlTable> table;  // instead of a word
+  std::string place;
+};
+struct TomlTable::Row {
+  Given whole;
+  std::vector<Given> items;
 };
 
 }  // namespace fleetproof

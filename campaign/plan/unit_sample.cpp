@@ -66,18 +66,6 @@ class Permutation {
 
 }  // namespace
 
-const char* name_of(Sampling sampling) {
-  switch (sampling) {
-    case Sampling::Uniform:
-      return "uniform";
-    case Sampling::LatinHypercube:
-      return "latin-hypercube";
-    case Sampling::Sobol:
-      return "sobol";
-  }
-  invariant_violated("a way of sampling has a name");
-}
-
 UnitSample::UnitSample(Sampling sampling, std::uint64_t campaign_seed, std::uint64_t replicates)
     : sampling_(sampling),
       key_(stream_key(campaign_seed, Stream::Factors)),

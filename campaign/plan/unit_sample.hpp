@@ -1,7 +1,8 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
+
+#include "core/base/words.hpp"
 
 namespace fleetproof {
 
@@ -13,8 +14,18 @@ namespace fleetproof {
 // Every single point is uniform on the unit cube in all three. The last two cover it more evenly; their points are not
 // independent of each other.
 enum class Sampling : std::uint8_t { Uniform, LatinHypercube, Sobol };
-inline constexpr std::array kSamplings = {Sampling::Uniform, Sampling::LatinHypercube, Sampling::Sobol};
-const char* name_of(Sampling sampling);  // "uniform", "latin-hypercube", "sobol"
+constexpr const char* name_of(Sampling sampling) {
+  switch (sampling) {
+    case Sampling::Uniform:
+      return "uniform";
+    case Sampling::LatinHypercube:
+      return "latin-hypercube";
+    case Sampling::Sobol:
+      return "sobol";
+  }
+  return kNoWord;
+}
+inline constexpr auto kSamplings = kValuesOf<Sampling>;
 
 // One point of the unit cube for each replicate, from a stream of the campaign's own: no world, radio or agent draws
 // from it. A pure function of what the constructor got, replicate and dimension, so that any run can be drawn first.

@@ -58,7 +58,7 @@ std::vector<std::string> plugin_agents(const CampaignPlan& plan, const AgentProg
 CampaignRecord campaign_record(const CampaignPlan& plan, const AgentPrograms& programs) {
   CampaignRecord record;
   record.name = plan.name;
-  record.kind = plan.kind;
+  record.kind = name_of(plan.kind);
   record.seed = plan.seed;
   record.replicates = plan.replicates;
   record.plan_json = plan_text(plan);

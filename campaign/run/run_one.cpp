@@ -4,7 +4,7 @@
 
 #include "core/base/error.hpp"
 #include "core/engine/simulation.hpp"
-#include "generators/scenario_file/scenario_file.hpp"
+#include "core/scenario/canonical_bytes.hpp"
 #include "laws/laws.hpp"
 
 namespace fleetproof {

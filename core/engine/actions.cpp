@@ -149,7 +149,7 @@ void Actions::turn_or_drive(AgvId agv, double entry_mps) {
   Piece piece = run_.standing_piece(agv, pose);
   piece.manner = Manner::Turn;
   piece.turn_rad = turn_rad;
-  piece.profile = MotionProfile(std::abs(turn_rad), run_.type_of(agv).turn);
+  piece.profile = MotionProfile(std::abs(turn_rad), run_.type_of(agv).turn.as_motion());
   piece.end = piece.begin + piece.profile.duration();
   ++run_.counters.turns;
   run_.progressed(agv);

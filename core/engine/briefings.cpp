@@ -14,9 +14,9 @@ fp_agv c_agv(const VehicleType& type) {
           type.drive.speed_mps,
           type.drive.acceleration_mps2,
           type.drive.deceleration_mps2,
-          type.turn.speed_mps,
-          type.turn.acceleration_mps2,
-          type.turn.deceleration_mps2,
+          type.turn.speed_radps,
+          type.turn.acceleration_radps2,
+          type.turn.deceleration_radps2,
           loaded.length_m,
           loaded.width_m,
           type.speed_deviation};

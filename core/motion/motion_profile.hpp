@@ -16,6 +16,17 @@ struct MotionLimits {
   friend bool operator==(const MotionLimits&, const MotionLimits&) = default;
 };
 
+// How fast a vehicle type may turn on the spot.
+struct TurnLimits {
+  double speed_radps = 1.0;
+  double acceleration_radps2 = 1.0;
+  double deceleration_radps2 = 1.0;
+
+  // The same numbers for a MotionProfile, whose distance is then an angle.
+  constexpr MotionLimits as_motion() const { return {speed_radps, acceleration_radps2, deceleration_radps2}; }
+  friend bool operator==(const TurnLimits&, const TurnLimits&) = default;
+};
+
 // The speeds at the two ends of a way; zero unless the AGV rolls on.
 struct EndSpeeds {
   double entry_mps = 0.0, exit_mps = 0.0;

@@ -6,6 +6,7 @@
 
 #include "core/base/sim_time.hpp"
 #include "core/base/strong_id.hpp"
+#include "core/base/words.hpp"
 #include "core/geometry/rectangle.hpp"
 
 namespace fleetproof {
@@ -30,8 +31,21 @@ struct Fault {
   Footprint load{.length_m = 1.2, .width_m = 0.8};
   double ahead_m = -1.6, left_m = 0.0;
 };
-const char* name_of(Fault::Kind kind);
-inline constexpr std::size_t kFaultKinds = 5;
+constexpr const char* name_of(Fault::Kind kind) {
+  switch (kind) {
+    case Fault::Kind::Breakdown:
+      return "breakdown";
+    case Fault::Kind::ProtectiveStop:
+      return "protective-stop";
+    case Fault::Kind::LoadDrop:
+      return "load-drop";
+    case Fault::Kind::Restart:
+      return "restart";
+    case Fault::Kind::Freeze:
+      return "freeze";
+  }
+  return kNoWord;
+}
 // Whether the fault holds its AGV where it is for as long as it lasts: the AGV brakes, stands and then goes on. What
 // does not get done meanwhile is nobody's fault.
 constexpr bool holds_agv(Fault::Kind kind) {

@@ -1,6 +1,7 @@
 #include "core/scenario/layout.hpp"
 
 #include "core/base/error.hpp"
+#include "core/scenario/canonical_bytes.hpp"
 
 namespace fleetproof {
 
@@ -20,7 +21,8 @@ Curve segment_curve(const Layout& layout, const Segment& segment) {
   return parts.size() == 1 ? parts[0] : Curve::joined(parts);
 }
 
-LogicalMap::LogicalMap(const Layout& layout) : layout_(layout), lanes_from_(layout.stations.size()) {
+LogicalMap::LogicalMap(const Layout& layout)
+    : layout_(layout), digest_(layout_digest(layout)), lanes_from_(layout.stations.size()) {
   for (std::size_t i = 0; i < layout_.segments.size(); ++i) {
     const auto& segment = layout_.segments[i];
     Curve forward = segment_curve(layout_, segment);

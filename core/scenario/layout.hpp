@@ -5,12 +5,26 @@
 #include <vector>
 
 #include "core/base/strong_id.hpp"
+#include "core/base/words.hpp"
 #include "core/geometry/curve.hpp"
 
 namespace fleetproof {
 
 // What a station may be used for: a set, as one spot often serves several purposes (Sect. 2.2).
 enum class Purpose : std::uint8_t { Routing = 1, Storage = 2, Charging = 4, Parking = 8 };
+constexpr const char* name_of(Purpose purpose) {
+  switch (purpose) {
+    case Purpose::Routing:
+      return "routing";
+    case Purpose::Storage:
+      return "storage";
+    case Purpose::Charging:
+      return "charging";
+    case Purpose::Parking:
+      return "parking";
+  }
+  return kNoWord;
+}
 
 class Purposes {
  public:
@@ -67,6 +81,7 @@ class LogicalMap {
   explicit LogicalMap(const Layout& layout);
 
   const Layout& layout() const { return layout_; }
+  std::uint64_t digest() const { return digest_; }  // of the layout's canonical bytes: canonical_bytes.hpp
   std::size_t station_count() const { return layout_.stations.size(); }
   std::size_t segment_count() const { return layout_.segments.size(); }
   const Station& station(StationId id) const { return layout_.stations[id.index()]; }
@@ -80,6 +95,7 @@ class LogicalMap {
 
  private:
   Layout layout_;
+  std::uint64_t digest_ = 0;
   std::vector<Lane> lanes_;                             // by segment; forward before backward
   std::vector<std::vector<std::uint32_t>> lanes_from_;  // by station
 };

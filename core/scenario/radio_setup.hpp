@@ -7,6 +7,7 @@
 
 #include "core/base/sim_time.hpp"
 #include "core/base/strong_id.hpp"
+#include "core/base/words.hpp"
 
 namespace fleetproof {
 
@@ -31,6 +32,27 @@ struct OutageSetup {
   Scope scope = Scope::Link;
   double loss_good = 0.05, loss_bad = 0.95;
 };
+
+constexpr const char* name_of(OutageSetup::Model model) {
+  switch (model) {
+    case OutageSetup::Model::GilbertElliott:
+      return "gilbert-elliott";
+    case OutageSetup::Model::HeavyTail:
+      return "heavy-tail";
+  }
+  return kNoWord;
+}
+constexpr const char* name_of(OutageSetup::Scope scope) {
+  switch (scope) {
+    case OutageSetup::Scope::Link:
+      return "link";
+    case OutageSetup::Scope::Direction:
+      return "direction";
+    case OutageSetup::Scope::Place:
+      return "place";
+  }
+  return kNoWord;
+}
 
 // DelayModel::HeavyTail: minimum plus a Lomax delay, cut at the cap, all as shares of delay_s.
 struct DelayTailSetup {
@@ -116,5 +138,16 @@ struct RadioSetup {
     return seconds(air_time_s + air_time_per_byte_s * static_cast<double>(bytes));
   }
 };
+constexpr const char* name_of(RadioSetup::DelayModel model) {
+  switch (model) {
+    case RadioSetup::DelayModel::Constant:
+      return "constant";
+    case RadioSetup::DelayModel::Uniform:
+      return "uniform";
+    case RadioSetup::DelayModel::HeavyTail:
+      return "heavy-tail";
+  }
+  return kNoWord;
+}
 
 }  // namespace fleetproof

@@ -4,22 +4,6 @@
 
 namespace fleetproof {
 
-const char* name_of(Fault::Kind kind) {
-  switch (kind) {
-    case Fault::Kind::Breakdown:
-      return "breakdown";
-    case Fault::Kind::ProtectiveStop:
-      return "protective-stop";
-    case Fault::Kind::LoadDrop:
-      return "load-drop";
-    case Fault::Kind::Restart:
-      return "restart";
-    case Fault::Kind::Freeze:
-      return "freeze";
-  }
-  return "?";
-}
-
 std::uint64_t Scenario::seed_of(Stream stream) const {
   for (const StreamSeed& own : stream_seeds) {
     if (own.stream == stream) return own.seed;

@@ -28,6 +28,21 @@ struct ScriptedCall {
   Action action = Action::Move;
   SegmentId segment;
 };
+constexpr const char* name_of(ScriptedCall::Action action) {
+  switch (action) {
+    case ScriptedCall::Action::Move:
+      return "move";
+    case ScriptedCall::Action::Pick:
+      return "pick";
+    case ScriptedCall::Action::Drop:
+      return "drop";
+    case ScriptedCall::Action::Park:
+      return "park";
+    case ScriptedCall::Action::Charge:
+      return "charge";
+  }
+  return kNoWord;
+}
 
 // How wrong an AGV's own clock and position are. Both are what its agent sees, not what happens.
 struct SensingSetup {

@@ -16,12 +16,12 @@ struct LoadEffect {
   friend bool operator==(const LoadEffect&, const LoadEffect&) = default;
 };
 
-// A kind of AGV. `turn` is in radians where MotionLimits says metres.
+// A kind of AGV.
 struct VehicleType {
   std::string name = "pallet-agv";
   Footprint footprint;
   MotionLimits drive;
-  MotionLimits turn{.speed_mps = 1.0, .acceleration_mps2 = 1.0, .deceleration_mps2 = 1.0};
+  TurnLimits turn;
   LoadEffect loaded;
   double lateral_mps2 = 0.0;     // speed in a bend of radius R: at most sqrt(lateral_mps2 * R); 0: as on the straight
   double speed_deviation = 0.0;  // every drive is faster or slower by up to this share, in speed and acceleration

@@ -10,7 +10,7 @@
 namespace fleetproof {
 
 // "routing", "storage", "charging", "parking": by bit.
-inline constexpr std::array<std::string_view, 4> kPurposeNames = {"routing", "storage", "charging", "parking"};
+inline constexpr auto kPurposeNames = kWordsOf<Purpose>;
 
 // "storage parking"; empty for none.
 std::string purposes_text(Purposes purposes);

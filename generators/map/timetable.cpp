@@ -61,7 +61,7 @@ Duration Timetable::duration_of_turn(std::uint32_t before, std::uint32_t after) 
   const Curve &in = map_.lanes()[before].curve, &out = map_.lanes()[after].curve;
   const Vec2 arriving = in.pose_at(in.length_m()).heading, leaving = out.pose_at(0.0).heading;
   const double angle = arriving == leaving ? 0.0 : std::abs(angle_between(arriving, leaving));
-  return angle > kAligned_rad ? MotionProfile(angle, type_.turn).duration() : Duration::zero();
+  return angle > kAligned_rad ? MotionProfile(angle, type_.turn.as_motion()).duration() : Duration::zero();
 }
 
 // A dead end beside the way is no way on: its one lane leads back.

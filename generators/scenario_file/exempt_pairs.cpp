@@ -28,6 +28,12 @@ std::string fault_of_exempt_pair(const ExemptPair& pair, std::span<const std::st
   return {};
 }
 
+std::string fault_of_pair_size(std::size_t names) {
+  if (names == 2) return {};
+  return fmt::format("{}; a pair is two names, of vehicle types or \"{}\", as in [\"tugger\", \"cart\"]",
+                     names < 2 ? "a name is missing" : "a name is too much", kAnyObstacle);
+}
+
 std::string text_of(const ExemptPair& pair) { return pair.one + " and " + pair.other; }
 
 }  // namespace fleetproof

@@ -11,6 +11,9 @@ namespace fleetproof {
 // nothing.
 std::string fault_of_exempt_pair(const ExemptPair& pair, std::span<const std::string> vehicle_types);
 
+// What is wrong with a pair of so many names; empty: nothing.
+std::string fault_of_pair_size(std::size_t names);
+
 // "tugger and cart", as pages say it.
 std::string text_of(const ExemptPair& pair);
 

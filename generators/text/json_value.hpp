@@ -58,6 +58,7 @@ class JsonReader {
   // duration "..._ns" and the file has "..._s", the error names "..._s".
   [[noreturn]] void refuse_below(std::string_view pointer, std::string_view sentence) const;
   bool is_text() const { return std::holds_alternative<std::string>(value_->scalar); }
+  const JsonValue& value() const { return *value_; }
   const std::string& pointer() const { return pointer_; }
   std::string place() const;  // "file:line"
 

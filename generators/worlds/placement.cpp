@@ -65,22 +65,6 @@ bool add_agv_at(Scenario& scenario, StationId station, Draws& draws, RejectionCo
 
 }  // namespace
 
-const char* name_of(Placement placement) {
-  switch (placement) {
-    case Placement::Random:
-      return "random";
-    case Placement::ChargerBank:
-      return "charger-bank";
-    case Placement::Adversarial:
-      return "adversarial";
-    case Placement::Symmetric:
-      return "symmetric";
-    case Placement::Mixed:
-      return "mixed";
-  }
-  return "unknown";
-}
-
 Placement placement_of_world(Placement placement, std::uint64_t key) {
   if (placement != Placement::Mixed) return placement;
   const auto n = Draws(key, kNoAgv, kNoAgv).below(10);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -18,10 +17,22 @@ enum class Placement : std::uint8_t {
   Symmetric,    // in pairs that reach one station at the same instant
   Mixed,        // each world one of the above: 40 % adversarial, 30 % random, 20 % charger bank, 10 % symmetric
 };
-inline constexpr std::array kPlacements = {Placement::Random, Placement::ChargerBank, Placement::Adversarial,
-                                           Placement::Symmetric, Placement::Mixed};
-
-const char* name_of(Placement placement);  // "charger-bank"
+constexpr const char* name_of(Placement placement) {
+  switch (placement) {
+    case Placement::Random:
+      return "random";
+    case Placement::ChargerBank:
+      return "charger-bank";
+    case Placement::Adversarial:
+      return "adversarial";
+    case Placement::Symmetric:
+      return "symmetric";
+    case Placement::Mixed:
+      return "mixed";
+  }
+  return kNoWord;
+}
+inline constexpr auto kPlacements = kValuesOf<Placement>;
 
 // The placement of a world: `placement` itself or, if that is mixed, one of the others, drawn from the placement stream
 // `key`.

@@ -10,7 +10,7 @@ namespace fleetproof {
 
 // How many transports there are, and how unequally stations are used.
 struct Demand {
-  double transports_per_agv_hour = 20.0;
+  double transports_per_agv_hour = 30.0;  // 0: none
   // Exponent of Zipf's law: the n-th busiest station is n^-skew times as busy as the busiest. The order of the stations
   // is drawn. 0: all stations are equally busy.
   double hot_spot_skew = 0.0;

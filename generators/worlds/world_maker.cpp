@@ -13,27 +13,23 @@
 #include "generators/text/text_file.hpp"
 #include "generators/worlds/encounter_pairs.hpp"
 #include "generators/worlds/placement.hpp"
-#include "generators/worlds/transports.hpp"
+#include "generators/worlds/world_fields.hpp"
 
 namespace fleetproof {
 namespace {
 
 constexpr std::uint32_t kAttempts = 32;
 constexpr std::uint32_t kTypeTopic = 0x74000000;  // of the placement stream, beyond any attempt
-constexpr double kMostTransports_per_h = 3600.0, kLargestSkew = 4.0;
 
 using SharedMap = std::shared_ptr<const LogicalMap>;
 
 void check(const WorldSpec& spec) {
   if (spec.vehicles.empty()) throw InputError("vehicle", "a fleet needs at least one type of vehicle");
   if (spec.fleet_size == 0) throw InputError("fleet_size", "0 AGVs are no fleet; ask for at least 1");
-  if (!(spec.transports_per_agv_hour >= 0.0 && spec.transports_per_agv_hour <= kMostTransports_per_h)) {
-    throw InputError("transports_per_agv_hour",
-                     fmt::format("{} is outside 0 .. {}", spec.transports_per_agv_hour, kMostTransports_per_h));
-  }
-  if (!(spec.hot_spot_skew >= 0.0 && spec.hot_spot_skew <= kLargestSkew)) {
-    throw InputError("hot_spot_skew", fmt::format("{} is outside 0 .. {}", spec.hot_spot_skew, kLargestSkew));
-  }
+  visit_fields(spec.demand, [](const Field& field, double value) {
+    if (const auto fault = fault_of(field, value); !fault.empty())
+      throw InputError(field.key, fmt::format("{} is refused: {}", value, fault));
+  });
   if (spec.horizon <= Duration::zero())
     throw InputError("horizon_s", fmt::format("{} is not above 0", to_seconds(spec.horizon)));
   if (spec.orders != nullptr) {
@@ -142,7 +138,7 @@ class WorldMaker {
       assign_listed_orders(scenario_, *spec_.orders, *reachability_);
       return true;
     }
-    const Demand demand{spec_.transports_per_agv_hour, spec_.hot_spot_skew};
+    const Demand& demand = spec_.demand;
     const bool stored = assign_transports(scenario_, demand, *reachability_, key_of(Stream::Transports),
                                           attempt_of(Stream::Transports, number));
     send_to_meet(scenario_, pairs_);

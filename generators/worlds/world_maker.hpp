@@ -12,6 +12,7 @@
 #include "generators/worlds/drawn_faults.hpp"
 #include "generators/worlds/order_list.hpp"
 #include "generators/worlds/placement.hpp"
+#include "generators/worlds/transports.hpp"
 
 namespace fleetproof {
 
@@ -37,8 +38,7 @@ struct WorldSpec {
   bool mutate = false;  // every world gets a mutation of the map (mutated_import.hpp)
   std::uint32_t fleet_size = 5;
   Placement placement = Placement::Random;
-  double transports_per_agv_hour = 20.0;  // 0: none; at most 3600
-  double hot_spot_skew = 0.0;             // at most 4; transports.hpp
+  Demand demand;
   std::shared_ptr<const OrderList>
       orders;  // instead of drawn transports; only with an unchanged map and without placement in pairs
   std::vector<VehicleShare> vehicles{VehicleShare{}};  // at least one; the type of every AGV is drawn from them

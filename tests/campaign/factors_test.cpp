@@ -10,6 +10,7 @@
 #include "core/base/error.hpp"
 #include "core/engine/simulation.hpp"
 #include "core/radio/radio.hpp"
+#include "core/scenario/canonical_bytes.hpp"
 #include "generators/formats/layout_file.hpp"
 #include "generators/scenario_file/scenario_file.hpp"
 #include "tests/storage/sample_records.hpp"

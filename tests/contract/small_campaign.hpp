@@ -19,7 +19,7 @@ inline CampaignPlan small_plan() {
   plan.fleet_sizes = {4};
   plan.loss = {0.0, 0.4};
   plan.delay_s = {0.0, 2.0};
-  plan.transports_per_agv_hour = 60.0;
+  plan.demand.transports_per_agv_hour = 60.0;
   GateRecord gate;
   gate.name = "small gate";
   gate.agent = "hull-lock";

@@ -11,7 +11,7 @@
 #include "generators/formats/lif.hpp"
 #include "generators/formats/opentcs.hpp"
 #include "generators/formats/rmf.hpp"
-#include "generators/scenario_file/radio_fields.hpp"
+#include "generators/scenario_file/field_rules.hpp"
 #include "generators/scenario_file/radio_trace.hpp"
 #include "generators/scenario_file/scenario_file.hpp"
 #include "generators/scenario_file/validator.hpp"
@@ -78,7 +78,7 @@ bool accepts_radio_trace(std::string_view bytes, Depth) {
   if (!trace) return false;
   RadioSetup radio;
   radio.trace = std::make_shared<const RadioTrace>(*trace);
-  const auto faults = radio_faults(radio);
+  const auto faults = rule_faults(radio);
   require(faults.empty(), faults.empty() ? "" : "an accepted recording cannot be used: " + faults[0].sentence);
   return true;
 }

@@ -35,8 +35,8 @@ std::map<std::uint32_t, double> shares(double skew, bool of_from) {
   WorldSpec spec;
   spec.layout = ring(8);
   spec.fleet_size = 1;
-  spec.hot_spot_skew = skew;
-  spec.transports_per_agv_hour = 3600.0;
+  spec.demand.hot_spot_skew = skew;
+  spec.demand.transports_per_agv_hour = 3600.0;
   spec.horizon = std::chrono::hours(20);
   RejectionCounts counts;
   const Scenario s = generate_world(spec, 7, counts);
@@ -85,9 +85,9 @@ TEST(HotSpots, WithoutSkewTheDrawsAreThoseOfOld) {
 TEST(HotSpots, SpreadsStayInRange) {
   WorldSpec spec;
   RejectionCounts counts;
-  spec.hot_spot_skew = -0.1;
+  spec.demand.hot_spot_skew = -0.1;
   EXPECT_THROW(generate_world(spec, 1, counts), InputError);
-  spec.hot_spot_skew = 4.1;
+  spec.demand.hot_spot_skew = 4.1;
   EXPECT_THROW(generate_world(spec, 1, counts), InputError);
 }
 

@@ -83,7 +83,7 @@ std::vector<Leg> quickest(const Layout& layout, const std::vector<Way>& ways, co
   for (std::size_t i = 0; i < legs.size(); ++i) {
     if (i > 0) {
       const double angle = std::acos(std::clamp(legs[i - 1].way->end.dot(legs[i].way->start), -1.0, 1.0));
-      if (angle > 1e-4) t += rest_to_rest_s(angle, type.turn);
+      if (angle > 1e-4) t += rest_to_rest_s(angle, type.turn.as_motion());
     }
     legs[i].begins_s = t;
     legs[i].ends_s = t += legs[i].way->drive_s;

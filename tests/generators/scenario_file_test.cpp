@@ -3,8 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.hpp"
+#include "core/scenario/canonical_bytes.hpp"
+#include "core/scenario/radio_fields.hpp"
 #include "generators/families/layout_family.hpp"
-#include "generators/scenario_file/radio_fields.hpp"
 #include "generators/scenario_file/validator.hpp"
 #include "generators/worlds/world_maker.hpp"
 #include "independent_check.hpp"
@@ -89,8 +90,9 @@ TEST(ScenarioFile, EveryFieldComesBack) {
   EXPECT_EQ(back.radio.air_time_s, s.radio.air_time_s);
   const auto values = [](const RadioSetup& radio) {
     std::vector<double> list;
-    for_each_radio_field(radio,
-                         [&](const RadioField&, const auto& value) { list.push_back(static_cast<double>(value)); });
+    visit_fields(radio, [&](const Field&, const auto& value) {
+      if constexpr (PlainValue<std::remove_cvref_t<decltype(value)>>) list.push_back(static_cast<double>(value));
+    });
     return list;
   };
   EXPECT_EQ(values(back.radio), values(s.radio));
@@ -176,7 +178,7 @@ TEST(ScenarioFile, DigestsOfWorldsUnderStressArePinned) {
     WorldSpec spec;
     spec.layout = family_name(layout_families()[i].name, Range::Stress);
     spec.placement = Placement::Adversarial;
-    spec.hot_spot_skew = 1.0;
+    spec.demand.hot_spot_skew = 1.0;
     RejectionCounts counts;
     EXPECT_EQ(scenario_digest(generate_world(spec, 2005, counts)), expected[i]) << layout_families()[i].name;
   }

@@ -79,7 +79,7 @@ void expect_quickest(const LogicalMap& map, const VehicleType& type, const Quick
         const Curve& in = map.lanes()[lanes[i - 1]].curve;
         const double angle =
             std::abs(angle_between(in.pose_at(in.length_m()).heading, lane.curve.pose_at(0.0).heading));
-        if (angle > 1e-7) now += MotionProfile(angle, type.turn).duration();
+        if (angle > 1e-7) now += MotionProfile(angle, type.turn.as_motion()).duration();
       }
       begun = now;
       now += Duration(drive_ns(lane, type));

@@ -151,7 +151,7 @@ TEST(WorldStreams, MoreAgvsOrALongerHorizonLeaveTheRestAsItWas) {
 
 TEST(WorldStreams, TheRateOfTransportsMovesNoAgv) {
   WorldSpec spec, none;
-  none.transports_per_agv_hour = 0.0;
+  none.demand.transports_per_agv_hour = 0.0;
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     const Scenario a = world(spec, seed), b = world(none, seed);
     EXPECT_EQ(a.map->layout().stations.size(), b.map->layout().stations.size());
@@ -165,7 +165,7 @@ TEST(WorldStreams, TheRateOfTransportsMovesNoAgv) {
 
 TEST(WorldStreams, TransportsArePoissonAfterTheFirst) {
   WorldSpec spec;
-  spec.transports_per_agv_hour = 60.0;
+  spec.demand.transports_per_agv_hour = 60.0;
   spec.horizon = std::chrono::seconds(3600);
   double count = 0.0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
@@ -212,7 +212,7 @@ std::string refusal(const WorldSpec& spec) {
 TEST(WorldRefusals, NameFieldAndRemedy) {
   WorldSpec empty, rate, time, family, crowd, narrow, vehicle;
   empty.fleet_size = 0;
-  rate.transports_per_agv_hour = -1.0;
+  rate.demand.transports_per_agv_hour = -1.0;
   time.horizon = Duration::zero();
   family.layout = std::string("aisle");
   crowd.fleet_size = 1000;

@@ -94,7 +94,7 @@ inline Scenario run_of(int number, std::string_view family, double horizon_s) {
   WorldSpec spec;
   spec.layout = std::string(family);
   spec.fleet_size = 4 + static_cast<std::uint32_t>(number % 5);
-  spec.transports_per_agv_hour = 120.0;
+  spec.demand.transports_per_agv_hour = 120.0;
   spec.horizon = seconds(horizon_s);
   RejectionCounts counts;
   Scenario scenario = generate_world(spec, 7'000 + static_cast<std::uint64_t>(number), counts);

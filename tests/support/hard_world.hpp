@@ -41,7 +41,7 @@ inline std::shared_ptr<const LogicalMap> bent_map(FamilyRange choice, std::uint6
 inline WorldSpec hard_world(double horizon_s) {
   WorldSpec spec;
   spec.horizon = seconds(horizon_s);
-  spec.transports_per_agv_hour = 60.0;
+  spec.demand.transports_per_agv_hour = 60.0;
   VehicleType& type = spec.vehicles[0].type;
   type.loaded = {.extra_length_m = 0.1, .extra_width_m = 0.1, .speed_share = 0.8, .acceleration_share = 0.9};
   type.lateral_mps2 = 0.4;

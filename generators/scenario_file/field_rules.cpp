@@ -1,11 +1,11 @@
-#include "generators/scenario_file/radio_fields.hpp"
+#include "generators/scenario_file/field_rules.hpp"
 
 #include <fmt/format.h>
 
 #include <tuple>
-#include <type_traits>
 
 #include "core/radio/radio_channel.hpp"
+#include "core/scenario/fault_fields.hpp"
 
 namespace fleetproof {
 namespace {
@@ -14,18 +14,15 @@ constexpr double kShortestOutage_s = 0.001, kShortestSlot_s = 1e-6, kLongestSlot
 constexpr std::uint32_t kMostAgvs = 65536;
 constexpr Duration kLongest = std::chrono::seconds(1'000'000'000);
 
-class RadioCheck {
+class RadioRules {
  public:
-  explicit RadioCheck(const RadioSetup& radio) : radio_(radio) {}
+  explicit RadioRules(const RadioSetup& radio) : radio_(radio) {}
 
-  std::vector<RadioFault> run() {
-    ranges();
-    between_fields();
-    for (std::size_t i = 0; i < radio_.sources.size(); ++i) {
-      for_each_source_field(radio_.sources[i], [&](const RadioField& field, double value) {
-        range(fmt::format("sources/{}/{}", i, field.key), field, value);
-      });
-    }
+  std::vector<FieldFault> run() {
+    losses();
+    delays();
+    places();
+    air();
     if (radio_.trace != nullptr) trace(*radio_.trace);
     return std::move(faults_);
   }
@@ -36,50 +33,41 @@ class RadioCheck {
     if (!holds) add(key, std::move(sentence));
   }
 
-  void ranges() {
-    for_each_radio_field(radio_, [&](const RadioField& field, const auto& value) {
-      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, double> ||
-                    std::is_same_v<std::remove_cvref_t<decltype(value)>, std::uint32_t>) {
-        range(field.key, field, static_cast<double>(value));
-      }
-    });
-  }
-
-  void range(std::string_view key, const RadioField& field, double number) {
-    const bool in_range =
-        (field.above_low ? number > field.low : number >= field.low) && number <= field.high;  // false for NaN
-    demand(in_range, key,
-           field.above_low ? fmt::format("{} is not above {} and at most {}", number, field.low, field.high)
-                           : fmt::format("{} is outside {} .. {}", number, field.low, field.high));
-  }
-
-  void between_fields() {
+  void losses() {
     const auto& outages = radio_.outages;
-    const auto& tail = radio_.delay_tail;
-    const auto& places = radio_.places;
     demand(outages.mean_outage_s == 0.0 || !(outages.mean_outage_s < kShortestOutage_s), "mean_outage_s",
-           fmt::format("{} is shorter than {} s; give a longer one, or 0 for independent losses", outages.mean_outage_s,
-                       kShortestOutage_s));
+           fmt::format("expected at least {} s, or 0 for independent losses", kShortestOutage_s));
     demand(!(outages.loss_good >= outages.loss_bad), "loss_good",
-           fmt::format("{} is not below loss_bad = {}", outages.loss_good, outages.loss_bad));
+           fmt::format("expected a number below loss_bad, which is {}", outages.loss_bad));
     demand(outages.mean_outage_s == 0.0 || outages.scope != OutageSetup::Scope::Place || radio_.asymmetry == 0.0,
            "asymmetry",
-           "outages of places hit both directions alike; set it to 0, or outage_scope to link or direction");
+           "expected 0, as outages of places hit both directions alike; or set outage_scope to link or direction");
+  }
+
+  void delays() {
+    const auto& tail = radio_.delay_tail;
     demand(!(tail.median_share <= tail.min_share), "delay_median_share",
-           fmt::format("{} is not above delay_min_share = {}", tail.median_share, tail.min_share));
-    demand(tail.cap_share == 0.0 || !(tail.cap_share < tail.median_share), "delay_cap_share",
-           fmt::format("{} is below delay_median_share = {}; raise it, or set it to 0 for no cap", tail.cap_share,
-                       tail.median_share));
+           fmt::format("expected a number above delay_min_share, which is {}", tail.min_share));
+    demand(
+        tail.cap_share == 0.0 || !(tail.cap_share < tail.median_share), "delay_cap_share",
+        fmt::format("expected at least delay_median_share, which is {}, or 0 for no longest delay", tail.median_share));
+  }
+
+  void places() {
+    const auto& places = radio_.places;
     demand(!(places.roaming_border_m > 0.5 * places.ap_spacing_m), "roaming_border_m",
-           fmt::format("{} is more than half of ap_spacing_m = {}", places.roaming_border_m, places.ap_spacing_m));
+           fmt::format("expected at most half of ap_spacing_m, which is {}", places.ap_spacing_m));
     demand(!(places.roaming_max_s < places.roaming_min_s), "roaming_max_s",
-           fmt::format("{} is below roaming_min_s = {}", places.roaming_max_s, places.roaming_min_s));
+           fmt::format("expected at least roaming_min_s, which is {}", places.roaming_min_s));
+  }
+
+  void air() {
     demand(!radio_.contention.interference || !(radio_.air_time_s < kShortestSlot_s), "air_time_s",
-           fmt::format("{} is too short for interference; give at least {} s", radio_.air_time_s, kShortestSlot_s));
+           fmt::format("expected at least {} s with interference", kShortestSlot_s));
     const double longest_s = to_seconds(radio_.air_time(kLongestMessage_bytes));
     demand(!radio_.contention.interference || !(longest_s > kLongestSlot_s),
            radio_.air_time_s > kLongestSlot_s ? "air_time_s" : "air_time_per_byte_s",
-           fmt::format("a message of {} bytes would be {} s in the air, too long for interference; at most {} s",
+           fmt::format("a message of {} bytes would be {} s in the air; with interference at most {} s are possible",
                        kLongestMessage_bytes, longest_s, kLongestSlot_s));
   }
 
@@ -105,11 +93,16 @@ class RadioCheck {
   }
 
   const RadioSetup& radio_;
-  std::vector<RadioFault> faults_;
+  std::vector<FieldFault> faults_;
 };
 
 }  // namespace
 
-std::vector<RadioFault> radio_faults(const RadioSetup& radio) { return RadioCheck(radio).run(); }
+std::vector<FieldFault> rule_faults(const RadioSetup& radio) { return RadioRules(radio).run(); }
+
+std::vector<FieldFault> rule_faults(const OperatorSetup& help) {
+  if (!(help.most_s < help.least_s)) return {};
+  return {{"most_s", fmt::format("expected at least least_s, which is {}", help.least_s)}};
+}
 
 }  // namespace fleetproof

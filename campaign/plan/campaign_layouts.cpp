@@ -1,0 +1,111 @@
+#include "campaign/plan/campaign_layouts.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "core/base/catalogue.hpp"
+#include "core/base/error.hpp"
+#include "generators/families/layout_family.hpp"
+#include "generators/families/mutated_import.hpp"
+#include "generators/formats/importer.hpp"
+
+namespace fleetproof {
+namespace {
+
+bool is_layout_path(const std::string& word) { return word.find('/') != std::string::npos || is_layout_file(word); }
+
+// A family with its range; a name that only looks like one is refused.
+bool is_family(const std::string& word, const std::string& place) {
+  if (find_entry(layout_families(), word) != nullptr) return true;
+  const bool named = !is_layout_file(word) && find_entry(layout_families(), word.substr(0, word.find('/'))) != nullptr;
+  if (!named && !word.ends_with(kStressSuffix)) return false;
+  try {
+    family_range(word);
+  } catch (const InputError& error) {
+    throw InputError(place, error.what());
+  }
+  return named;
+}
+
+std::shared_ptr<const LogicalMap> read_map(const std::string& path, const ImportChoice& choice,
+                                           std::vector<std::string>& warnings) {
+  return std::make_shared<const LogicalMap>(import_layout(path, choice, warnings));
+}
+
+// The keys of the options that `fleetproof import` has; a key that the format does not know would silently change
+// nothing.
+ImportChoice import_choice(TomlTable& table, const std::string& path) {
+  const auto format = importer_of_file(path);
+  for (const auto& [key, owner] :
+       {std::pair{"merge_antiparallel", "opentcs"}, {"cell_pitch_m", "grid"}, {"level", "rmf"}, {"graph", "rmf"}}) {
+    if (!table.has(key) || format == owner) continue;
+    throw InputError(table.place(key),
+                     fmt::format("{} has no meaning for format \"{}\"; it belongs to \"{}\"", key, format, owner));
+  }
+  ImportChoice choice;
+  bool merge = false;
+  table.get("merge_antiparallel", merge);
+  table.get("cell_pitch_m", choice.cell_pitch_m);
+  table.get("level", choice.rmf.level);
+  if (const auto graph = table.given("graph")) {
+    std::uint32_t number = 0;
+    const auto sentence = take(Field{.key = "graph", .text = "", .high = 1e6}, graph->value, number);
+    if (!sentence.empty()) graph->refuse(sentence);
+    choice.rmf.graph_idx = number;
+  }
+  choice.twins = merge ? TwinPaths::Merge : TwinPaths::Keep;
+  return choice;
+}
+
+// "plant" for a/plant.xml, plant.lif.json and plant.building.yaml alike.
+std::string layout_name(const std::string& word) {
+  std::string name = std::filesystem::path(word).stem().string();
+  for (const std::string_view middle : {".lif", ".building"}) {
+    if (name.ends_with(middle) && name.size() > middle.size()) name = name.substr(0, name.size() - middle.size());
+  }
+  return name;
+}
+
+LayoutFactor layout_from_word(const std::string& place, const std::string& word, const std::string& path,
+                              std::vector<std::string>& warnings) {
+  if (is_family(word, place)) return {word, nullptr};
+  if (is_layout_path(word)) return {layout_name(word), read_map(beside(path, word), {}, warnings)};
+  const auto names = names_of(layout_families());
+  throw InputError(place, fmt::format("factors.layouts names \"{}\", which is neither a family nor a file{}", word,
+                                      name_hint(word, names)));
+}
+
+// { file = "plant.xml" } or { mutate = "plant.xml" }, with what the importer of such files lets one choose.
+LayoutFactor layout_from_table(TomlTable& table, const std::string& path, std::vector<std::string>& warnings) {
+  std::string word, base, name;
+  table.get("file", word);
+  table.get("mutate", base);
+  table.get("name", name);
+  if (word.empty() == base.empty())
+    throw InputError(table.place("file"),
+                     "a table under factors.layouts has either file = \"...\" or mutate = \"...\"");
+  const bool mutate = word.empty();
+  const std::string at = beside(path, mutate ? base : word);
+  const ImportChoice choice = import_choice(table, at);
+  table.finish();
+  if (name.empty()) name = (mutate ? std::string(kMutatedImport) + "/" : "") + layout_name(at);
+  return {name, read_map(at, choice, warnings), mutate};
+}
+
+}  // namespace
+
+void read_layouts(TomlTable& factors, std::string_view key, const std::string& campaign_path,
+                  std::vector<LayoutFactor>& layouts, std::vector<std::string>& warnings) {
+  for (TomlTable::Item& item : factors.words_or_tables(key)) {
+    layouts.push_back(item.table ? layout_from_table(*item.table, campaign_path, warnings)
+                                 : layout_from_word(item.place, item.word, campaign_path, warnings));
+  }
+}
+
+std::string beside(const std::string& campaign_path, const std::string& word) {
+  const std::filesystem::path path(word);
+  return path.is_absolute() ? word : (std::filesystem::path(campaign_path).parent_path() / path).string();
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,277 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "campaign/plan/plan_fields.hpp"
+#include "core/base/catalogue.hpp"
+#include "core/base/error.hpp"
+#include "core/outcome/probe_names.hpp"
+#include "core/outcome/probes.hpp"
+#include "generators/scenario_file/exempt_pairs.hpp"
+#include "generators/scenario_file/field_rules.hpp"
+#include "laws/laws.hpp"
+
+namespace fleetproof {
+namespace {
+
+void demand(bool holds, const PlanPlaces& places, const char* path, const std::string& what) {
+  if (!holds) throw InputError(places.of(path), what);
+}
+
+template <class T>
+bool has_duplicates(std::vector<T> values) {
+  std::ranges::sort(values);
+  return std::ranges::adjacent_find(values) != values.end();
+}
+
+// The value of a field, as errors quote it.
+template <HasFields Setup>
+std::string text_of_field(const Setup& setup, std::string_view key) {
+  std::string text;
+  visit_fields(setup, [&](const Field& field, const auto& value) {
+    if constexpr (NumberValue<std::remove_cvref_t<decltype(value)>>) {
+      if (field.key == key) text = fmt::format("{}", value);
+    }
+  });
+  return text.empty() ? std::string(key) : text;
+}
+
+// Bounds of all fields, by their lists.
+class PlanBounds {
+ public:
+  explicit PlanBounds(const PlanPlaces& places) : places_(places) {}
+
+  template <HasFields Setup>
+  void fields(const std::string& prefix, const Setup& setup) const {
+    visit_fields(setup, [&](const Field& field, const auto& value) {
+      if (field.home == FieldHome::Both) check(prefix + std::string(field.key), field, value);
+    });
+  }
+
+ private:
+  template <class Value>
+  void check(const std::string& path, const Field& field, const Value& value) const {
+    if constexpr (std::is_same_v<Value, FactorSpan>) {
+      check(path + ".from", field, value.from);
+      check(path + ".to", field, value.to);
+    } else if constexpr (NumberValue<Value>) {
+      const auto fault = fault_of(field, value);
+      if (!fault.empty()) refuse(path, fmt::format("{}", value), fault);
+    } else if constexpr (HasFields<Value>) {
+      fields(path + ".", value);
+      rules(path, value);
+    }
+  }
+  template <class Item>
+  void check(const std::string& path, const Field& field, const std::vector<Item>& items) const {
+    for (std::size_t i = 0; i < items.size(); ++i) check(fmt::format("{}.{}", path, i), field, items[i]);
+  }
+
+  template <class Setup>
+  void rules(const std::string& path, const Setup& setup) const {
+    if constexpr (requires { rule_faults(setup); }) {
+      for (const auto& [key, sentence] : rule_faults(setup))
+        refuse(fmt::format("{}.{}", path, key), text_of_field(setup, key), sentence);
+    }
+  }
+
+  [[noreturn]] void refuse(const std::string& path, const std::string& value, const std::string& fault) const {
+    throw InputError(places_.of(path), fmt::format("{}: {} is refused: {}", without_numbers(path), value, fault));
+  }
+
+  const PlanPlaces& places_;
+};
+
+void check_factors(const CampaignPlan& plan, const PlanPlaces& places) {
+  demand(!plan.agents.empty(), places, "factors.agents",
+         "factors.agents is empty; name at least one (see: fleetproof list agents)");
+  demand(!plan.layouts.empty(), places, "factors.layouts",
+         "factors.layouts is empty; name at least one family or layout file (see: fleetproof list generators)");
+  demand(!plan.loss.empty(), places, "factors.loss", "factors.loss is empty; it needs at least one value");
+  demand(!plan.delay_s.empty(), places, "factors.delay_s", "factors.delay_s is empty; it needs at least one value");
+  demand(!plan.fleet_sizes.empty(), places, "factors.fleet_sizes",
+         "factors.fleet_sizes is empty; it needs at least one value");
+  demand(!plan.mean_outage_s.empty(), places, "factors.mean_outage_s",
+         "factors.mean_outage_s is empty; it needs at least one value (0: independent losses)");
+  for (const FactorSpan span : plan.mean_outage_s) {
+    demand(!span.is_drawn() || span.from > 0.0, places, "factors.mean_outage_s",
+           "factors.mean_outage_s is drawn from 0 on, which stands for independent losses and not for short outages; "
+           "begin at 0.001 or above");
+  }
+  std::vector<std::string> layout_names;
+  for (const auto& layout : plan.layouts) layout_names.push_back(layout.name);
+  const auto once = [&](const char* path, const auto& values) {
+    demand(!has_duplicates(values), places, path,
+           fmt::format("{} names one value twice; each combination is one cell, so every value may stand once", path));
+  };
+  once("factors.agents", plan.agents);
+  once("factors.layouts", layout_names);
+  once("factors.fleet_sizes", plan.fleet_sizes);
+  once("factors.loss", plan.loss);
+  once("factors.delay_s", plan.delay_s);
+  once("factors.mean_outage_s", plan.mean_outage_s);
+  for (const auto* factor : {&plan.loss, &plan.delay_s, &plan.mean_outage_s}) {
+    for (const FactorSpan span : *factor)
+      demand(span.from <= span.to, places, "factors", "the bounds of a factor are given in order");
+  }
+  constexpr std::uint64_t kCellsMax = 1'000'000;  // each is kept in memory and listed in reports
+  std::uint64_t cells = 1;
+  for (const auto count : {plan.layouts.size(), plan.fleet_sizes.size(), plan.loss.size(), plan.mean_outage_s.size(),
+                           plan.delay_s.size(), plan.agents.size()}) {
+    demand(count <= kCellsMax / cells, places, "factors",
+           fmt::format("the factors make more than {} cells; combine fewer values", kCellsMax));
+    cells *= count;
+  }
+}
+
+// Exact bounds are those of independent draws; a claim rests on them.
+void check_sampling(const CampaignPlan& plan, const PlanPlaces& places) {
+  if (plan.sampling == Sampling::Uniform) return;
+  const char* word = name_of(plan.sampling);
+  demand(plan.is_drawn(), places, "factors.sampling",
+         fmt::format("factors.sampling is \"{}\", but no factor is drawn; write one as {{ from = 0.0, to = 0.4 }}, or "
+                     "leave sampling out",
+                     word));
+  demand(plan.kind != CampaignKind::Claim, places, "factors.sampling",
+         fmt::format("factors.sampling is \"{}\", whose replicates are not independent of each other: the exact bounds "
+                     "of a claim would not hold; "
+                     "set it to \"uniform\", or kind to \"search\"",
+                     word));
+}
+
+void check_held(const CampaignPlan& plan, const PlanPlaces& places) {
+  demand(!has_duplicates(plan.held_streams), places, "vary.hold", "vary.hold names one stream twice; once is enough");
+  demand(!plan.held_streams.empty() || plan.held_replicate == 0, places, "vary.held_replicate",
+         "vary.held_replicate says from which replicate, but vary.hold names no stream; name one");
+  demand(plan.held_streams.size() < kRunStreams.size() || plan.is_drawn(), places, "vary.hold",
+         "vary.hold names every stream, so that all replicates would be the same; leave out the one to vary");
+}
+
+void check_exempt_pairs(const CampaignPlan& plan, const PlanPlaces& places) {
+  std::vector<std::string> types;
+  for (const auto& [type, share] : plan.vehicles) types.push_back(type.name);
+  for (std::size_t i = 0; i < plan.law.exempt_pairs.size(); ++i) {
+    const std::string fault = fault_of_exempt_pair(plan.law.exempt_pairs[i], types);
+    demand(fault.empty(), places, fmt::format("law.exempt_pairs.{}", i).c_str(), "law.exempt_pairs: " + fault);
+  }
+}
+
+void check_exemption(const LawSetup& law, const PlanPlaces& places) {
+  const bool purposes = law.exempt_purposes.bits() != 0;
+  demand(!purposes || law.exempt_radius_m > 0.0, places, "law.exempt_purposes",
+         "law.exempt_purposes names stations, but law.exempt_radius_m is 0, which exempts nothing; give a radius, or "
+         "leave both out");
+  demand(purposes || law.exempt_radius_m == 0.0, places, "law.exempt_radius_m",
+         "law.exempt_radius_m is given, but law.exempt_purposes names no stations; name their purposes, as in "
+         "[\"charging\"], or leave both out");
+}
+
+void check_gates(const CampaignPlan& plan, const PlanPlaces& places) {
+  if (plan.gates.empty()) return;
+  const auto cells = plan.cells();
+  for (std::size_t i = 0; i < plan.gates.size(); ++i) {
+    const GateRecord& gate = plan.gates[i];
+    const auto path = [&](const char* key) { return fmt::format("gate.{}.{}", i, key); };
+    const std::vector<std::string_view> names(plan.agents.begin(), plan.agents.end());
+    demand(std::ranges::find(plan.agents, gate.agent) != plan.agents.end(), places, path("agent").c_str(),
+           fmt::format("gate \"{}\": agent \"{}\" is not among factors.agents{}", gate.name, gate.agent,
+                       name_hint(gate.agent, names)));
+    const bool covers = std::ranges::any_of(cells, [&](const CellRecord& cell) {
+      return cell.agent == gate.agent &&
+             (gate.region == Region::All || (gate.region == Region::Contract && cell.in_contract()) ||
+              (gate.region == Region::WorstCase && cell.is_worst_case()));
+    });
+    demand(covers, places, path("region").c_str(),
+           fmt::format("gate \"{}\": no cell of this campaign lies in region \"{}\"; add the loss and delay it needs",
+                       gate.name, name_of(gate.region)));
+  }
+}
+
+// The rules of the radio hold for every mean outage of the cells.
+void check_radio(const CampaignPlan& plan, const PlanPlaces& places) {
+  RadioSetup radio = plan.radio;
+  for (const FactorSpan span : plan.mean_outage_s) {
+    for (const double mean_outage_s : {span.from, span.to}) {
+      radio.outages.mean_outage_s = mean_outage_s;
+      for (const auto& [key, sentence] : rule_faults(radio)) {
+        const std::string path = (key == "mean_outage_s" ? "factors." : "radio.") + key;
+        throw InputError(places.of(path),
+                         fmt::format("{}: {} is refused: {}", path, text_of_field(radio, key), sentence));
+      }
+    }
+    radio.trace = nullptr;  // once is enough
+  }
+  const bool delay_is_bounded = radio.delay_model != RadioSetup::DelayModel::HeavyTail ||
+                                (radio.delay_tail.cap_share > 0.0 && radio.delay_tail.cap_share <= 1.0);
+  demand(plan.kind != CampaignKind::Claim || delay_is_bounded, places, "radio.delay_cap_share",
+         fmt::format("radio.delay_cap_share is {}; a claim about the contract region needs delay_s to be the longest "
+                     "delay: set it to 1, or kind to \"search\"",
+                     radio.delay_tail.cap_share));
+}
+
+void check_vehicles(const CampaignPlan& plan, const PlanPlaces& places) {
+  demand(!plan.vehicles.empty(), places, "vehicle", "vehicle is empty; a fleet needs at least one type");
+  std::vector<std::string> names;
+  for (const auto& [type, share] : plan.vehicles) names.push_back(type.name);
+  demand(!has_duplicates(names), places, "vehicle", "two vehicles have one name; give each its own");
+}
+
+void check_laws_and_coverage(const CampaignPlan& plan, const PlanPlaces& places) {
+  for (const std::string& name : plan.laws_left_out) {
+    const auto names = names_of(default_laws());
+    demand(std::ranges::find(names, name) != names.end(), places, "law.leave_out",
+           fmt::format("law.leave_out names \"{}\", which no campaign runs{}", name, name_hint(name, names)));
+    demand(
+        name != default_laws().front().name, places, "law.leave_out",
+        fmt::format("law.leave_out names \"{}\", the judge of violations; without it there is nothing to count", name));
+  }
+  for (const std::string& probe : plan.probes_to_meet()) {
+    const bool printable = std::ranges::all_of(probe, [](unsigned char c) { return c >= 0x20 && c != 0x7f; });
+    demand(!probe.empty() && printable && probe.size() <= 1 + ProbeTally::kNameBytesMax, places, "coverage.probes",
+           fmt::format("coverage.probes holds \"{}\"; a probe has a printable name of 1 to {} bytes",
+                       printable ? probe : "?", ProbeTally::kNameBytesMax));
+    const std::string_view name = std::string_view(probe).substr(0, probe.size() - (probe.ends_with('?') ? 1 : 0));
+    demand(!is_misspelt_world_probe(name), places, "coverage.probes",
+           fmt::format("coverage.probes holds \"{}\", which no run can meet{}", name, name_hint(name, world_probes())));
+  }
+  const bool counted = std::ranges::find(plan.laws_left_out, "coverage") == plan.laws_left_out.end();
+  demand(counted || plan.probes_to_meet().empty(), places, "law.leave_out",
+         "law.leave_out names \"coverage\", which counts what a run met; set coverage.probes = [] as well, or keep it");
+}
+
+void check_orders(const CampaignPlan& plan, const PlanPlaces& places) {
+  if (plan.orders == nullptr) return;
+  demand(
+      plan.placement == Placement::Random || plan.placement == Placement::ChargerBank, places, "world.placement",
+      fmt::format(
+          "world.placement \"{}\" chooses first orders itself; with world.orders it is \"random\" or \"charger-bank\"",
+          name_of(plan.placement)));
+  for (const auto& layout : plan.layouts) {
+    demand(
+        layout.map != nullptr && !layout.mutate, places, "world.orders",
+        fmt::format(
+            "world.orders names stations, but layout \"{}\" is drawn anew for every replicate; use layout files only",
+            layout.name));
+  }
+}
+
+}  // namespace
+
+void check_plan(const CampaignPlan& plan, const PlanPlaces& places) {
+  PlanBounds(places).fields("", plan);
+  check_vehicles(plan, places);
+  check_factors(plan, places);
+  check_sampling(plan, places);
+  check_held(plan, places);
+  check_orders(plan, places);
+  check_exemption(plan.law, places);
+  check_exempt_pairs(plan, places);
+  check_laws_and_coverage(plan, places);
+  check_radio(plan, places);
+  demand(plan.replicates <= static_cast<std::uint64_t>(kMostRuns) / plan.cell_count(), places, "replicates",
+         fmt::format("replicates is {}; with {} cells at most {} are possible", plan.replicates, plan.cell_count(),
+                     static_cast<std::uint64_t>(kMostRuns) / plan.cell_count()));
+  check_gates(plan, places);
+}
+
+}  // namespace fleetproof

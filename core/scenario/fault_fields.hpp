@@ -1,0 +1,72 @@
+#pragma once
+
+#include "core/scenario/faults.hpp"
+#include "core/scenario/vehicle_fields.hpp"
+
+// The fields of a fault, and of the two helpers: scanner and operator.
+namespace fleetproof {
+
+inline constexpr double kLongest_s = 1e9;  // of any time in a scenario: keeps sums of times within 64 bits
+
+template <FieldsOf<Fault> Given, class Visit>
+void visit_fields(Given& fault, Visit&& visit) {
+  auto& [kind, agv, at, transport, lasts, load, ahead_m, left_m] = fault;
+  auto& [length_m, width_m] = load;
+  const bool no_load = kind != Fault::Kind::LoadDrop;
+  visit(Field{.key = "kind", .text = "what goes wrong", .needed = true}, kind);
+  visit(Field{.key = "agv", .text = "name of the AGV", .needed = true}, agv);
+  visit(Field{.key = "at_s",
+              .text = "when: since the start of the run, or since the AGV took up the load of `transport`",
+              .high = kLongest_s,
+              .needed = true},
+        at);
+  visit(Field{.key = "transport",
+              .text = "number among the AGV's own transports, from 0",
+              .high = 4294967295.0,
+              .left_out = !transport},
+        transport);
+  visit(Field{.key = "lasts_s", .text = "for how long", .high = kLongest_s, .needed = true}, lasts);
+  visit(kLength.left_out_if(no_load), length_m);
+  visit(kWidth.left_out_if(no_load), width_m);
+  visit(Field{.key = "ahead_m",
+              .text = "of a load on the floor: its centre, ahead of the AGV's",
+              .low = -kLargestBody_m,
+              .high = kLargestBody_m,
+              .left_out = no_load},
+        ahead_m);
+  visit(Field{.key = "left_m",
+              .text = "of a load on the floor: its centre, to the left of the AGV's",
+              .low = -kLargestBody_m,
+              .high = kLargestBody_m,
+              .left_out = no_load},
+        left_m);
+}
+
+template <FieldsOf<ScannerSetup> Scanner, class Visit>
+void visit_fields(Scanner& scanner, Visit&& visit) {
+  auto& [on, reaction_s, margin_m, resume_s] = scanner;
+  visit(Field{.key = "on", .text = "every AGV has a scanner; a campaign's [scanner] switches it on"}, on);
+  visit(Field{.key = "reaction_s",
+              .text = "time from seeing a body to braking; the scanner looks as often",
+              .low = 0.001,
+              .high = 10.0},
+        reaction_s);
+  visit(
+      Field{
+          .key = "margin_m", .text = "added to the braking way, and to either side of the AGV", .high = kLargestBody_m},
+      margin_m);
+  visit(Field{.key = "resume_s", .text = "the AGV drives on so long after the field is clear", .high = kHour_s},
+        resume_s);
+}
+
+template <FieldsOf<OperatorSetup> Help, class Visit>
+void visit_fields(Help& help, Visit&& visit) {
+  auto& [on, least_s, most_s, battery] = help;
+  visit(Field{.key = "on", .text = "an operator helps; a campaign's [operator] switches it on"}, on);
+  visit(Field{.key = "least_s", .text = "shortest time from a call to the help", .low = 1.0, .high = kDay_s}, least_s);
+  visit(Field{.key = "most_s", .text = "longest time from a call to the help; uniform", .low = 1.0, .high = kDay_s},
+        most_s);
+  visit(Field{.key = "battery", .text = "level of a battery after its change", .low = 0.01}, battery);
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,143 @@
+#pragma once
+
+#include "core/scenario/field.hpp"
+#include "core/scenario/radio_setup.hpp"
+
+// The fields of the radio and of an external source.
+namespace fleetproof {
+
+inline constexpr double kLongestDelay_s = 3600.0, kLongestRange_m = 1e9, kLongestOutage_s = 1e6;
+
+template <FieldsOf<RadioSource> Source, class Visit>
+void visit_fields(Source& source, Visit&& visit) {
+  auto& [x_m, y_m, range_m, mean_on_s, mean_off_s, loss] = source;
+  visit(Field{.key = "x_m", .text = "where the source stands", .low = -1e9, .high = 1e9, .needed = true}, x_m);
+  visit(Field{.key = "y_m", .text = "where the source stands", .low = -1e9, .high = 1e9, .needed = true}, y_m);
+  visit(Field{.key = "range_m",
+              .text = "receivers within this distance of a source that is on lose messages",
+              .high = kLongestRange_m,
+              .above_low = true},
+        range_m);
+  visit(Field{.key = "mean_on_s", .text = "mean time for which a source is on; exponential", .low = 0.001, .high = 1e6},
+        mean_on_s);
+  visit(Field{.key = "mean_off_s",
+              .text = "mean time between two such times; exponential; 0: it is always on",
+              .high = 1e6},
+        mean_off_s);
+  visit(Field{.key = "loss", .text = "share of the messages that a receiver near a source that is on loses"}, loss);
+}
+
+template <FieldsOf<OutageSetup> Outages, class Visit>
+void visit_fields(Outages& outages, Visit&& visit) {
+  auto& [mean_outage_s, model, shape, scope, loss_good, loss_bad] = outages;
+  visit(Field{.key = "mean_outage_s",
+              .text = "mean length of an outage; 0: losses are independent of each other",
+              .high = kLongestOutage_s,
+              .home = FieldHome::Factor},
+        mean_outage_s);
+  visit(Field{.key = "outage_model", .text = "how the lengths of outages are distributed"}, model);
+  visit(Field{.key = "outage_shape",
+              .text = "of \"heavy-tail\" outages: the nearer to 1, the heavier the tail",
+              .low = 1.05,
+              .high = 100.0},
+        shape);
+  visit(Field{.key = "outage_scope",
+              .text = "one process for each pair of AGVs, for each direction of a pair, or for each access-point cell"},
+        scope);
+  visit(Field{.key = "loss_good", .text = "share of messages lost between outages"}, loss_good);
+  visit(Field{.key = "loss_bad", .text = "share of messages lost in an outage"}, loss_bad);
+}
+
+template <FieldsOf<DelayTailSetup> Tail, class Visit>
+void visit_fields(Tail& tail, Visit&& visit) {
+  auto& [min_share, median_share, shape, cap_share] = tail;
+  visit(Field{.key = "delay_min_share", .text = "of \"heavy-tail\" delays: the shortest, as a share of delay_s"},
+        min_share);
+  visit(Field{.key = "delay_median_share", .text = "of \"heavy-tail\" delays: the median, as a share of delay_s"},
+        median_share);
+  visit(Field{.key = "delay_tail_shape",
+              .text = "of \"heavy-tail\" delays: the smaller, the heavier the tail",
+              .low = 0.1,
+              .high = 100.0},
+        shape);
+  visit(Field{.key = "delay_cap_share",
+              .text = "of \"heavy-tail\" delays: the longest, as a share of delay_s; 0: there is no longest",
+              .high = 1e6},
+        cap_share);
+}
+
+template <FieldsOf<PlaceSetup> Places, class Visit>
+void visit_fields(Places& places, Visit&& visit) {
+  auto& [ap_spacing_m, at_crossing, border_m, min_s, max_s, gap_s] = places;
+  visit(Field{.key = "ap_spacing_m", .text = "side of the square cell of an access point", .low = 1.0, .high = 1e6},
+        ap_spacing_m);
+  visit(Field{.key = "roaming_at_crossing", .text = "an AGV that drives over a border of cells is deaf and mute"},
+        at_crossing);
+  visit(Field{.key = "roaming_border_m",
+              .text = "AGVs this near a border are deaf and mute in its handover windows; 0: no windows",
+              .high = 1e6},
+        border_m);
+  visit(Field{.key = "roaming_min_s",
+              .text = "shortest change of access point, and shortest window",
+              .low = 0.001,
+              .high = kLongestDelay_s},
+        min_s);
+  visit(Field{.key = "roaming_max_s",
+              .text = "longest change of access point, and longest window; uniform",
+              .low = 0.001,
+              .high = kLongestDelay_s},
+        max_s);
+  visit(Field{.key = "roaming_gap_s",
+              .text = "mean time between two windows of a border; exponential; 0: one follows the other",
+              .high = 1e6},
+        gap_s);
+}
+
+template <FieldsOf<InterferenceSetup> Contention, class Visit>
+void visit_fields(Contention& contention, Visit&& visit) {
+  auto& [interference, contention_window] = contention;
+  visit(Field{.key = "interference", .text = "transmissions that overlap destroy each other"}, interference);
+  visit(Field{.key = "contention_window", .text = "longest wait before sending, in air times", .high = 1023.0},
+        contention_window);
+}
+
+template <FieldsOf<RadioSetup> Radio, class Visit>
+void visit_fields(Radio& radio, Visit&& visit) {
+  auto& [loss, delay_s, delay_model, range_m, air_time_s, air_time_per_byte_s, outages, delay_tail, asymmetry,
+         duplicates, places, contention, sources, trace] = radio;
+  visit(Field{.key = "loss", .text = "nominal share of receptions lost", .home = FieldHome::Factor}, loss);
+  visit(Field{.key = "delay_s",
+              .text = "nominal delay of a message; the longest one, but for \"heavy-tail\"",
+              .high = kLongestDelay_s,
+              .home = FieldHome::Factor},
+        delay_s);
+  visit(
+      Field{.key = "delay_model", .text = "always delay_s, uniform from 0 to delay_s, or mostly short and seldom long"},
+      delay_model);
+  visit(Field{.key = "range_m",
+              .text = "how far a message reaches, between reference points",
+              .high = kLongestRange_m,
+              .above_low = true},
+        range_m);
+  visit(Field{.key = "air_time_s", .text = "how long an empty message is in the air", .high = kLongestDelay_s},
+        air_time_s);
+  visit(Field{.key = "air_time_per_byte_s", .text = "what each byte adds to it: 8 / bit rate; 0: size does not matter"},
+        air_time_per_byte_s);
+  visit_fields(outages, visit);
+  visit_fields(delay_tail, visit);
+  visit(Field{.key = "asymmetry", .text = "how far the losses of the two directions of a pair differ"}, asymmetry);
+  visit(Field{.key = "duplicates", .text = "share of the messages received that arrive twice"}, duplicates);
+  visit_fields(places, visit);
+  visit_fields(contention, visit);
+  visit(Field{.key = "sources",
+              .text = "things that send and are no AGVs: other networks, ovens, welding robots",
+              .home = FieldHome::ScenarioOnly,
+              .left_out = sources.empty()},
+        sources);
+  visit(Field{.key = "trace",
+              .text = "a recording that decides the fate of messages; a campaign names a CSV file",
+              .left_out = trace == nullptr || trace->empty()},
+        trace);
+}
+
+}  // namespace fleetproof

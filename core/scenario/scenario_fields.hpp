@@ -1,0 +1,183 @@
+#pragma once
+
+#include "core/scenario/fault_fields.hpp"
+#include "core/scenario/radio_fields.hpp"
+#include "core/scenario/scenario.hpp"
+#include "core/scenario/vehicle_fields.hpp"
+
+// The fields of a scenario and of its parts, in the order of scenario files.
+namespace fleetproof {
+
+inline constexpr double kFloorEnd_m = 100'000.0;  // coordinates lie within this distance of the origin
+
+// A direction, for visitors; any other Vec2 is a place.
+template <class Vector>
+struct Direction {
+  Vector& vector;
+};
+// The index of a vehicle type of the scenario, for visitors.
+template <class Index>
+struct TypeIndex {
+  Index& index;
+};
+
+// A scenario and a campaign have these in common.
+inline constexpr Field kSeed{.key = "seed", .text = "seed of everything that is drawn", .is_seed = true};
+inline constexpr Field kHorizon{.key = "horizon_s", .text = "length of a run", .high = 1e7, .above_low = true};
+inline constexpr Field kStuckAfter{.key = "stuck_after_s",
+                                   .text = "a run is stuck if nothing begins or ends for so long",
+                                   .high = kLongest_s,
+                                   .above_low = true};
+inline constexpr Field kContactStops{.key = "contact_stops", .text = "bodies that touch stand still from then on"};
+
+template <FieldsOf<SensingSetup> Sensing, class Visit>
+void visit_fields(Sensing& sensing, Visit&& visit) {
+  auto& [clock_offset_s, clock_drift_ppm, position_error_m, position_late_s] = sensing;
+  visit(Field{.key = "clock_offset_s", .text = "the AGV's clock is ahead by this much", .high = 1e6}, clock_offset_s);
+  visit(Field{.key = "clock_drift_ppm", .text = "and runs too fast by this much", .low = -1e5, .high = 1e5},
+        clock_drift_ppm);
+  visit(Field{.key = "position_error_m",
+              .text = "each coordinate of getPosition is wrong by up to this",
+              .high = kLargestBody_m},
+        position_error_m);
+  visit(Field{.key = "position_late_s", .text = "getPosition tells where the AGV was so long ago", .high = kHour_s},
+        position_late_s);
+}
+
+template <FieldsOf<TransportOrder> Order, class Visit>
+void visit_fields(Order& order, Visit&& visit) {
+  auto& [from, to, release] = order;
+  visit(Field{.key = "from", .text = "station where the load is", .needed = true}, from);
+  visit(Field{.key = "to", .text = "station where the load goes", .needed = true}, to);
+  visit(Field{.key = "release_s", .text = "when the agent gets the order", .high = kLongest_s, .needed = true},
+        release);
+}
+
+template <FieldsOf<ScriptedCall> Call, class Visit>
+void visit_fields(Call& call, Visit&& visit) {
+  auto& [at, action, segment] = call;
+  visit(Field{.key = "at_s", .text = "when the call is made", .high = kLongest_s, .needed = true}, at);
+  visit(Field{.key = "action", .text = "the controller call", .needed = true}, action);
+  visit(Field{.key = "segment", .text = "name of the segment that the call is about", .needed = true}, segment);
+}
+
+template <FieldsOf<AgvSetup> Agv, class Visit>
+void visit_fields(Agv& agv, Visit&& visit) {
+  auto& [name, type, start, heading, battery, sensing, transports, script] = agv;
+  visit(Field{.key = "name", .text = "name of the AGV", .needed = true}, name);
+  visit(Field{.key = "type", .text = "name of its vehicle type; left out: the first one"},
+        TypeIndex<decltype(type)>{type});
+  visit(Field{.key = "start", .text = "station where it stands at first", .needed = true}, start);
+  visit(Field{.key = "heading", .text = "direction [x, y] in which it looks at first"},
+        Direction<std::remove_reference_t<decltype(heading)>>{heading});
+  visit(Field{.key = "battery", .text = "level at first; 1: full"}, battery);
+  visit(
+      Field{
+          .key = "sensing", .text = "how wrong its own clock and position are", .left_out = sensing == SensingSetup{}},
+      sensing);
+  visit(Field{.key = "transports", .text = "its orders"}, transports);
+  visit(Field{.key = "script", .text = "controller calls of the `scripted` agent, in order of time"}, script);
+}
+
+template <FieldsOf<ObstacleSetup> Obstacle, class Visit>
+void visit_fields(Obstacle& obstacle, Visit&& visit) {
+  auto& [name, footprint, pose, appears, leaves] = obstacle;
+  auto& [length_m, width_m] = footprint;
+  auto& [position_m, heading] = pose;
+  Field length = kLength, width = kWidth;
+  length.needed = width.needed = true;
+  visit(Field{.key = "name", .text = "name of the obstacle", .needed = true}, name);
+  visit(length, length_m);
+  visit(width, width_m);
+  visit(Field{.key = "position_m",
+              .text = "[x, y] of its centre",
+              .low = -kFloorEnd_m,
+              .high = kFloorEnd_m,
+              .needed = true},
+        position_m);
+  visit(Field{.key = "heading", .text = "direction [x, y] of its length"},
+        Direction<std::remove_reference_t<decltype(heading)>>{heading});
+  visit(Field{.key = "appears_s",
+              .text = "when it appears; 0: it is there from the start",
+              .high = kLongest_s,
+              .left_out = appears == Duration::zero()},
+        appears);
+  visit(Field{.key = "leaves_s",
+              .text = "when it leaves; left out: never",
+              .high = kLongest_s,
+              .left_out = leaves == kLongestDuration},
+        leaves);
+}
+
+template <FieldsOf<AgentClockSetup> Clock, class Visit>
+void visit_fields(Clock& clock, Visit&& visit) {
+  auto& [call_cost_s] = clock;
+  visit(Field{.key = "call_cost_s", .text = "simulated time that every controller call takes", .high = 60.0},
+        call_cost_s);
+}
+
+// The safety distance is above 0, as two bodies cannot be closer than that, and at most 0.5 m: up to there a run's
+// smallest clearance is exact.
+template <FieldsOf<LawSetup> Law, class Visit>
+void visit_fields(Law& law, Visit&& visit) {
+  auto& [safety_distance_m, snapshot_s, reaction_s, min_transports_per_agv_hour, exempt_purposes, exempt_radius_m,
+         exempt_pairs] = law;
+  visit(Field{.key = "safety_distance_m",
+              .text = "bodies that come closer than this violate the safety distance",
+              .low = 0.001,
+              .high = 0.5},
+        safety_distance_m);
+  visit(Field{.key = "snapshot_s",
+              .text = "time between two snapshots of the published laws",
+              .low = 1e-6,
+              .high = kLongest_s,
+              .home = FieldHome::ScenarioOnly},
+        snapshot_s);
+  visit(Field{.key = "reaction_s", .text = "an agent may leave safe mode so much later than it could", .high = kHour_s},
+        reaction_s);
+  visit(Field{.key = "min_transports_per_agv_hour",
+              .text = "a run with a lower throughput is not normal operation; 0: any will do",
+              .high = 3600.0},
+        min_transports_per_agv_hour);
+  visit(Field{.key = "exempt_purposes", .text = "bodies near stations of such a purpose may be close to each other"},
+        exempt_purposes);
+  visit(Field{.key = "exempt_radius_m", .text = "how near, for exempt_purposes", .high = kLargestBody_m},
+        exempt_radius_m);
+  visit(Field{.key = "exempt_pairs",
+              .text = "pairs of vehicle types, or \"obstacle\", that may be close to each other anywhere",
+              .left_out = exempt_pairs.empty()},
+        exempt_pairs);
+}
+
+template <FieldsOf<Scenario> Given, class Visit>
+void visit_fields(Given& scenario, Visit&& visit) {
+  auto& [name, map, vehicle_types, agvs, obstacles, faults, scanner, operator_help, radio, agent_clock, law,
+         contact_stops, horizon, stuck_after, seed, stream_seeds] = scenario;
+  visit(Field{.key = "name", .text = "name of the scenario"}, name);
+  visit(kSeed, seed);
+  visit(Field{.key = "stream_seeds",
+              .text = "streams of randomness that have a seed of their own",
+              .left_out = stream_seeds.empty()},
+        stream_seeds);
+  visit(kHorizon, horizon);
+  visit(kStuckAfter, stuck_after);
+  visit(kContactStops, contact_stops);
+  visit(Field{.key = "radio", .text = "the radio"}, radio);
+  visit(Field{.key = "agent_clock", .text = "the agent's computer"}, agent_clock);
+  visit(Field{.key = "law", .text = "what the laws ask"}, law);
+  visit(Field{.key = "vehicle_types", .text = "kinds of AGVs"}, vehicle_types);
+  visit(Field{.key = "agvs", .text = "the fleet", .needed = true}, agvs);
+  visit(Field{.key = "obstacles", .text = "bodies that stand on the floor"}, obstacles);
+  visit(Field{.key = "faults", .text = "what goes wrong, and when", .left_out = faults.empty()}, faults);
+  visit(Field{.key = "scanner", .text = "the laser scanners", .left_out = scanner == ScannerSetup{}}, scanner);
+  visit(Field{.key = "operator", .text = "the operator", .left_out = operator_help == OperatorSetup{}}, operator_help);
+  visit(Field{.key = "layout", .text = "the logical map", .needed = true}, map);
+}
+
+// Structs that have a list of fields.
+template <class Setup>
+concept HasFields = requires(Setup& setup) {
+  visit_fields(setup, [](const Field&, auto&&) {});
+};
+
+}  // namespace fleetproof

@@ -1,0 +1,77 @@
+#pragma once
+
+#include "core/scenario/field.hpp"
+#include "core/scenario/vehicle_type.hpp"
+
+// The fields of a kind of AGV. In every list of fields, structured bindings take the struct apart: a member that is
+// added to it does not compile until it stands in its list.
+namespace fleetproof {
+
+inline constexpr double kLargestBody_m = 100.0, kSmallestBody_m = 0.001, kHour_s = 3600.0, kDay_s = 86400.0;
+// Slower or faster than any vehicle. They keep every activity within the range of simulated time.
+inline constexpr double kSlowest = 0.001, kFastest = 100.0;
+
+inline constexpr Field kLength{"length_m", "length of the body, along its heading", kSmallestBody_m, kLargestBody_m};
+inline constexpr Field kWidth{"width_m", "width of the body", kSmallestBody_m, kLargestBody_m};
+
+template <FieldsOf<VehicleType> Vehicle, class Visit>
+void visit_fields(Vehicle& vehicle, Visit&& visit) {
+  auto& [name, footprint, drive, turn, loaded, lateral_mps2, speed_deviation, settle_s, battery_per_m,
+         battery_idle_per_s, charge_per_s, pick_s, drop_s, storage_spread_s, other_spread_s] = vehicle;
+  auto& [length_m, width_m] = footprint;
+  auto& [speed_mps, acceleration_mps2, deceleration_mps2] = drive;
+  auto& [speed_radps, acceleration_radps2, deceleration_radps2] = turn;
+  auto& [extra_length_m, extra_width_m, speed_share, acceleration_share] = loaded;
+  const auto rate = [](std::string_view key, std::string_view text, std::string_view place) {
+    return Field{.key = key, .text = text, .low = kSlowest, .high = kFastest, .place = place};
+  };
+  const auto extra = [](std::string_view key, std::string_view text, std::string_view place) {
+    return Field{.key = key, .text = text, .high = kLargestBody_m, .place = place};
+  };
+  const auto share = [](std::string_view key, std::string_view text, std::string_view place) {
+    return Field{.key = key, .text = text, .low = 0.1, .place = place};
+  };
+  visit(Field{.key = "name", .text = "name of the vehicle type"}, name);
+  visit(kLength, length_m);
+  visit(kWidth, width_m);
+  visit(rate("speed_mps", "top speed", "drive/speed_mps"), speed_mps);
+  visit(rate("acceleration_mps2", "acceleration of a drive", "drive/acceleration_mps2"), acceleration_mps2);
+  visit(rate("deceleration_mps2", "braking of a drive", "drive/deceleration_mps2"), deceleration_mps2);
+  visit(rate("turn_speed_radps", "top speed of a turn on the spot", "turn/speed_radps"), speed_radps);
+  visit(rate("turn_acceleration_radps2", "acceleration of a turn", "turn/acceleration_radps2"), acceleration_radps2);
+  visit(rate("turn_deceleration_radps2", "braking of a turn", "turn/deceleration_radps2"), deceleration_radps2);
+  visit(extra("loaded_extra_length_m", "a load makes the body longer by this much", "loaded/extra_length_m"),
+        extra_length_m);
+  visit(extra("loaded_extra_width_m", "a load makes the body wider by this much", "loaded/extra_width_m"),
+        extra_width_m);
+  visit(share("loaded_speed_share", "speed with a load, as a share of the empty vehicle's", "loaded/speed_share"),
+        speed_share);
+  visit(share("loaded_acceleration_share", "acceleration and braking with a load, as a share of the empty vehicle's",
+              "loaded/acceleration_share"),
+        acceleration_share);
+  visit(Field{.key = "lateral_mps2",
+              .text = "in a bend of radius R the speed is at most sqrt(lateral_mps2 * R); 0: as on the straight",
+              .high = kFastest},
+        lateral_mps2);
+  visit(Field{.key = "speed_deviation", .text = "every drive is faster or slower by up to this share", .high = 0.5},
+        speed_deviation);
+  visit(Field{.key = "settle_s", .text = "longest fine positioning after a drive to a stop; uniform", .high = kHour_s},
+        settle_s);
+  visit(Field{.key = "battery_per_m", .text = "share of a full battery that a metre uses"}, battery_per_m);
+  visit(Field{.key = "battery_idle_per_s", .text = "share of a full battery that a second uses, driving or not"},
+        battery_idle_per_s);
+  visit(Field{.key = "charge_per_s", .text = "share of a full battery that a second of charging adds", .low = 1e-6},
+        charge_per_s);
+  visit(Field{.key = "pick_s", .text = "shortest time to pick a load up", .high = kHour_s}, pick_s);
+  visit(Field{.key = "drop_s", .text = "shortest time to set a load down", .high = kHour_s}, drop_s);
+  visit(Field{.key = "storage_spread_s",
+              .text = "a transfer at a storage station takes longer by up to this; uniform",
+              .high = kHour_s},
+        storage_spread_s);
+  visit(Field{.key = "other_spread_s",
+              .text = "a transfer at any other station takes longer by up to this; uniform",
+              .high = kHour_s},
+        other_spread_s);
+}
+
+}  // namespace fleetproof
