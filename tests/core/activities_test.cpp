@@ -42,7 +42,7 @@ TEST(ActivitiesPart, ATurnEndsWithExactlyTheHeadingAskedFor) {
   Piece piece = world.run.standing_piece(kFirst, world.run.pose_now(kFirst));
   piece.manner = Manner::Turn;
   piece.turn_rad = 1.5707963;
-  piece.profile = MotionProfile(1.5707963, world.run.type_of(kFirst).turn);
+  piece.profile = MotionProfile(1.5707963, world.run.type_of(kFirst).turn.as_motion());
   piece.end = piece.begin + piece.profile.duration();
   world.parts.activities.begin_moving(kFirst, ActivityKind::Turn, piece, 0);
   world.run.now = piece.end;

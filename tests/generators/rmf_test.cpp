@@ -135,7 +135,8 @@ TEST(RmfErrors, NamePlaceValueAndRemedy) {
 }
 
 TEST(RmfErrors, CanBePrintedWhateverTheFileHolds) {
-  EXPECT_EQ(independent::refusal(import, "levels: \"\\\x80\"\n"), "b.yaml:1:12: not YAML: unknown escape character: \\x80");
+  EXPECT_EQ(independent::refusal(import, "levels: \"\\\x80\"\n"),
+            "b.yaml:1:12: not YAML: unknown escape character: \\x80");
   EXPECT_LT(independent::refusal(import, "levels: *" + std::string(5000, 'x') + "\n").size(), 300U);
 }
 
