@@ -11,23 +11,23 @@
 
 namespace fleetproof {
 
-// Something that goes wrong with one AGV, at a time that the scenario fixes: drawn by a generator, or written by hand.
+// Something that goes wrong with one AGV, at an instant that the scenario fixes. It is drawn or listed by a user.
 struct Fault {
   // The numbers are part of the trace digest.
   enum class Kind : std::uint8_t {
-    Breakdown = 1,       // brakes, is out of order while it lasts, then goes on
-    ProtectiveStop = 2,  // brakes, stands while it lasts, then goes on
-    LoadDrop = 3,        // the load falls off and lies on the floor while it lasts; nothing happens to an empty AGV
-    Restart = 4,         // the agent loses its memory and is away while it lasts; the AGV finishes what it was doing
-    Freeze = 5,          // the agent does not answer while it lasts, and then sees everything at once
+    Breakdown = 1,       // the AGV brakes, is out of order while the fault lasts, then goes on
+    ProtectiveStop = 2,  // the AGV brakes, stands while the fault lasts, then goes on
+    LoadDrop = 3,        // the load lies on the floor while the fault lasts; no effect on an empty AGV
+    Restart = 4,         // the agent loses its memory and is away while the fault lasts; the AGV finishes its action
+    Freeze = 5,          // the agent receives no event while the fault lasts, and then all of them
   };
   Kind kind = Kind::Breakdown;
   AgvId agv;
-  Duration at{};                           // since the start of the run, or since the AGV took up that transport's load
-  std::optional<std::uint32_t> transport;  // number among the AGV's own
+  Duration at{};  // since the start of the run, or since the AGV picked the load of `transport`
+  std::optional<std::uint32_t> transport;  // the number of a transport of this AGV
   Duration lasts{};
-  // LoadDrop only: the load on the floor, with its centre seen from the AGV's (along its heading, and to its left), and
-  // aligned with it.
+  // LoadDrop only: the load on the floor. It is aligned with the AGV. Its centre is `ahead_m` and `left_m` from the
+  // centre of the AGV.
   Footprint load{.length_m = 1.2, .width_m = 0.8};
   double ahead_m = -1.6, left_m = 0.0;
 };
@@ -46,45 +46,45 @@ constexpr const char* name_of(Fault::Kind kind) {
   }
   return kNoWord;
 }
-// Whether the fault holds its AGV where it is for as long as it lasts: the AGV brakes, stands and then goes on. What
-// does not get done meanwhile is nobody's fault.
+// Whether the AGV brakes and stands while the fault lasts, and then goes on. The fleet is not accused of what it does
+// not do in this time.
 constexpr bool holds_agv(Fault::Kind kind) {
   return kind == Fault::Kind::Breakdown || kind == Fault::Kind::ProtectiveStop;
 }
 
-// The laser scanner of an AGV: it stops the AGV when a body stands in its protective field, and lets it go on some time
-// after it is clear. The field is a rectangle before the front: v * reaction + v^2 / (2 deceleration) + margin long,
-// and margin wider than the AGV on either side.
+// The laser scanner of an AGV. It stops the AGV when a body is in its protective field, and lets the AGV go on some
+// time after the field is clear. The field is a rectangle before the front of the AGV. Its length is v * reaction + v^2
+// / (2 deceleration) + margin. On either side, it is wider than the AGV by the margin.
 struct ScannerSetup {
   bool on = false;
-  double reaction_s = 0.08;  // it looks as often
-  double margin_m = 0.15;    // more than the safety distance, or it does not keep it
-  double resume_s = 2.0;     // after the field is clear
+  double reaction_s = 0.08;  // also the time between two looks
+  double margin_m = 0.15;    // must be more than the safety distance to keep the safety distance
+  double resume_s = 2.0;     // from a clear field until the AGV goes on
 
   friend bool operator==(const ScannerSetup&, const ScannerSetup&) = default;
 };
 
-// What the operator is called for. The numbers are part of the trace digest.
+// Why the operator is called. The numbers are part of the trace digest.
 enum class Assist : std::uint8_t {
-  Battery = 1,     // it is empty: is changed
-  Jam = 2,         // a scanner has held its AGV for long: the field is muted until it is clear, and the AGV sent on
-  Contact = 3,     // the AGV is out of order after a contact: is taken off the floor and set down at a station
-                   // (core/engine/recovery.hpp)
-  Standstill = 4,  // no action began or ended for `stuck_after` although transports are open: one agent is restarted
+  Battery = 1,     // the battery is empty; the operator changes it
+  Jam = 2,         // a scanner has held its AGV for long; the operator mutes the field until it is clear
+  Contact = 3,     // the AGV is out of order after a contact; the operator takes it off the floor and sets it
+                   // down at a station (core/engine/recovery.hpp)
+  Standstill = 4,  // transports are open, and no action began or ended for `stuck_after`; one agent is restarted
 };
 
-// The person who helps, somebody for each call. Only a contact lets him move an AGV: he takes it off the floor, ends
-// what holds it, changes the battery if that is empty, and sets it down, with its load, as soon as the place is clear
-// by the safety distance of every body, of where its present drive or turn takes it, and of the lanes that AGVs have
-// begun to drive or will drive next; he tries every second. The agent starts there, without memory and with the next
-// boot number; orders not done are told again. What the contact was counted as stays. At a standstill he restarts the
-// agent whose AGV, with a transport open, has begun and ended nothing for the longest (of equals the first) and which
-// nothing else holds; he is called again when that has helped nobody for another `stuck_after`. A restart is no action:
-// whether the run ends stuck is judged as ever.
+// The operator helps AGVs; for each call, an operator is available.
+// After a contact, the operator takes the AGV off the floor, ends its halts and changes an empty battery. It sets the
+// AGV down with its load when the place is clear of all bodies and their present pieces by the safety distance, and of
+// the lanes that AGVs drive now or next; it tries every second. The agent then starts with the next boot number, and
+// open orders are sent again. The contact still counts. At a standstill, the operator restarts the agent of the AGV
+// that has begun and ended nothing for the longest time (of equals, the first). That AGV has an open transport and no
+// halt. If no work begins or ends for another `stuck_after`, the operator is called again. A restart is not an action
+// and does not change whether the run ends stuck.
 struct OperatorSetup {
   bool on = false;
-  double least_s = 60.0, most_s = 300.0;  // from call to help, uniform
-  double battery = 1.0;                   // level after the change
+  double least_s = 60.0, most_s = 300.0;  // from the call to the help, uniform
+  double battery = 1.0;                   // the level after a change
 
   friend bool operator==(const OperatorSetup&, const OperatorSetup&) = default;
 };

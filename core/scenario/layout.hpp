@@ -10,7 +10,7 @@
 
 namespace fleetproof {
 
-// What a station may be used for: a set, as one spot often serves several purposes (Sect. 2.2).
+// What a station may be used for. A station may have several purposes (Sect. 2.2).
 enum class Purpose : std::uint8_t { Routing = 1, Storage = 2, Charging = 4, Parking = 8 };
 constexpr const char* name_of(Purpose purpose) {
   switch (purpose) {
@@ -43,23 +43,23 @@ class Purposes {
   std::uint8_t bits_ = 0;
 };
 
-// A node of the logical map: a spot on the magnet track where an AGV can stop and change direction.
+// A node of the logical map: a place on the track where an AGV can stop and change direction.
 struct Station {
   std::string name;
   Vec2 position_m = Vec2::Zero();
   Purposes purposes = Purpose::Routing;
 };
 
-// An edge of the logical map. Driven from `from` to `to`; a bidirectional segment also the other way. AGVs drive nose
-// first.
+// An edge of the logical map. AGVs drive it from `from` to `to`, nose first. A bidirectional segment is also driven in
+// the other direction.
 struct Segment {
   std::string name;
   StationId from, to;
   bool bidirectional = false;
-  std::vector<Vec2> control_points_m;  // none: straight; 2 per cubic Bezier plus the joints between them (2, 5, 8, ...)
+  std::vector<Vec2> control_points_m;  // none: straight; 2 for each cubic Bezier, and the joints between (2, 5, 8, ...)
 };
 
-// The logical map of a warehouse (Sect. 2.2), as plain data: what a layout file says and nothing derived.
+// The logical map of a warehouse (Sect. 2.2), as plain data: the content of a layout file and nothing derived.
 struct Layout {
   std::string name;
   Vec2 floor_low_m = Vec2::Zero(), floor_high_m = Vec2::Zero();
@@ -74,8 +74,8 @@ struct Lane {
   Curve curve;
 };
 
-// A layout with what follows from it: the curves of its segments and who leaves where. Built once, shared read-only by
-// every run on it.
+// A layout with what follows from it: the curves of its segments, and the lanes that leave each station. It is built
+// once; all runs on the layout share it and do not change it.
 class LogicalMap {
  public:
   explicit LogicalMap(const Layout& layout);
@@ -90,7 +90,7 @@ class LogicalMap {
   // The lane on `segment` that leaves `from`; null if the segment cannot be driven from there.
   const Lane* lane(SegmentId segment, StationId from) const;
   const std::vector<Lane>& lanes() const { return lanes_; }
-  // Indices into lanes(), of those that leave a station.
+  // The lanes that leave a station, as indices into lanes().
   const std::vector<std::uint32_t>& lanes_from(StationId station) const { return lanes_from_[station.index()]; }
 
  private:
@@ -100,7 +100,7 @@ class LogicalMap {
   std::vector<std::vector<std::uint32_t>> lanes_from_;  // by station
 };
 
-// The curve of a segment driven forward.
+// The curve of a segment in its forward direction.
 Curve segment_curve(const Layout& layout, const Segment& segment);
 
 }  // namespace fleetproof

@@ -44,12 +44,12 @@ constexpr const char* name_of(ScriptedCall::Action action) {
   return kNoWord;
 }
 
-// How wrong an AGV's own clock and position are. Both are what its agent sees, not what happens.
+// How wrong the clock and the position are that the agent of an AGV sees. They do not change what happens.
 struct SensingSetup {
-  double clock_offset_s = 0.0;    // ahead of the true time; never below 0
-  double clock_drift_ppm = 0.0;   // and running that much too fast
-  double position_error_m = 0.0;  // each coordinate wrong by up to this much, another error every 0.1 s
-  double position_late_s = 0.0;   // where it was that long ago
+  double clock_offset_s = 0.0;    // how far the clock is ahead of the true time; never below 0
+  double clock_drift_ppm = 0.0;   // how much too fast the clock runs
+  double position_error_m = 0.0;  // largest error of each coordinate; another error every 0.1 s
+  double position_late_s = 0.0;   // the agent sees the position of this long ago
 
   friend bool operator==(const SensingSetup&, const SensingSetup&) = default;
 };
@@ -61,12 +61,12 @@ struct AgvSetup {
   Vec2 heading = Vec2::UnitX();
   double battery = 1.0;
   SensingSetup sensing;
-  std::vector<TransportOrder> transports;  // assigned by the scenario; the agent is told at release
+  std::vector<TransportOrder> transports;  // the agent receives each order at its release
   std::vector<ScriptedCall> script;
 };
 
-// A body that stands on the floor, for the whole run unless it says otherwise. One that appears later does so when its
-// place is clear of every other body by the safety distance and 5 cm: it is tried every second.
+// A body that stands on the floor. If it appears later, it waits until its place is clear of every other body by the
+// safety distance plus 5 cm. This is tried every second.
 struct ObstacleSetup {
   std::string name;
   Footprint footprint;
@@ -85,20 +85,20 @@ struct ExemptPair {
 
   friend bool operator==(const ExemptPair&, const ExemptPair&) = default;
 };
-inline constexpr std::string_view kAnyObstacle = "obstacle";  // every body that is no AGV: obstacles and fallen loads
+inline constexpr std::string_view kAnyObstacle = "obstacle";  // every body but AGVs: obstacles and fallen loads
 
 struct LawSetup {
   double safety_distance_m = 0.10;
   double snapshot_s = 0.0025;  // granularity of the published laws (400 a second)
-  double reaction_s = 10.0;    // normal-operation: an agent may leave safe mode so much later than it could
+  double reaction_s = 10.0;    // normal-operation: an agent may leave safe mode this much later than it could
   double min_transports_per_agv_hour = 0.0;  // normal-operation: a floor for the throughput of a run; 0: none
-  Purposes exempt_purposes;  // safety-distance: bodies that both stay so near a station of such a purpose may be close
-                             // to each other
+  Purposes exempt_purposes;  // safety-distance: two bodies may be close to each other if both stay within
+                             // exempt_radius_m of one station with such a purpose
   double exempt_radius_m = 0.0;
-  std::vector<ExemptPair> exempt_pairs;  // safety-distance: such bodies may be close to each other anywhere
+  std::vector<ExemptPair> exempt_pairs;  // safety-distance: two such bodies may be close to each other anywhere
 };
 
-// Everything one simulation needs, as plain data.
+// Everything that one simulation needs, as plain data.
 struct Scenario {
   std::string name;
   std::shared_ptr<const LogicalMap> map;  // shared: the runs on one layout read the same curves
@@ -111,7 +111,7 @@ struct Scenario {
   RadioSetup radio;
   AgentClockSetup agent_clock;
   LawSetup law;
-  bool contact_stops = true;  // bodies that touch stand still from then on
+  bool contact_stops = true;  // bodies that touch stand still afterwards
   Duration horizon = std::chrono::seconds(600);
   Duration stuck_after = std::chrono::seconds(120);
   std::uint64_t seed = 0;  // of the world: keys of radio and agent randomness derive from it
@@ -120,7 +120,7 @@ struct Scenario {
 
   std::uint64_t seed_of(Stream stream) const;  // `stream` is one of kRunStreams
   const VehicleType& type_of(const AgvSetup& agv) const { return vehicle_types[agv.type]; }
-  // AGVs, then obstacles, then the loads that fall, in order of their faults: that is how bodies are numbered.
+  // The number of bodies: AGVs, then obstacles, then the loads that fall, in the order of their faults.
   std::size_t body_count() const;
 };
 

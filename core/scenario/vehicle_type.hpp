@@ -7,11 +7,11 @@
 
 namespace fleetproof {
 
-// What a load changes: the body grows on both sides alike, driving gets slower.
+// What a load changes: the body grows equally on both sides, and driving becomes slower.
 struct LoadEffect {
   double extra_length_m = 0.0, extra_width_m = 0.0;
-  double speed_share = 1.0;         // of the empty vehicle's speed
-  double acceleration_share = 1.0;  // of its acceleration and deceleration
+  double speed_share = 1.0;         // share of the empty vehicle's speed
+  double acceleration_share = 1.0;  // share of its acceleration and deceleration
 
   friend bool operator==(const LoadEffect&, const LoadEffect&) = default;
 };
@@ -23,15 +23,15 @@ struct VehicleType {
   MotionLimits drive;
   TurnLimits turn;
   LoadEffect loaded;
-  double lateral_mps2 = 0.0;     // speed in a bend of radius R: at most sqrt(lateral_mps2 * R); 0: as on the straight
+  double lateral_mps2 = 0.0;     // the speed in a bend of radius R is at most sqrt(lateral_mps2 * R); 0: no limit
   double speed_deviation = 0.0;  // every drive is faster or slower by up to this share, in speed and acceleration
   double settle_s = 0.0;         // fine positioning after every drive to a stop: uniform on [0, settle_s)
   double battery_per_m = 1.0 / 20000.0;  // share of a full battery
-  double battery_idle_per_s = 0.0;       // share used up by merely being switched on
+  double battery_idle_per_s = 0.0;       // share that the AGV uses while it is switched on
   double charge_per_s = 1.0 / 3600.0;
-  double pick_s = 5.0, drop_s = 5.0;  // the least that a transfer takes
-  double storage_spread_s = 0.0;      // and how much longer it may take: uniform, at a storage station
-  double other_spread_s = 0.0;        // and at any other
+  double pick_s = 5.0, drop_s = 5.0;  // the shortest time of a transfer
+  double storage_spread_s = 0.0;      // how much longer a transfer may take at a storage station, uniform
+  double other_spread_s = 0.0;        // how much longer a transfer may take at any other station, uniform
 
   Footprint footprint_with(bool load) const {
     return load ? Footprint{footprint.length_m + loaded.extra_length_m, footprint.width_m + loaded.extra_width_m}
