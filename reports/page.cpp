@@ -55,7 +55,7 @@ Section provenance_section(const ReportInput& input) {
 
 Section method_section(const ReportInput& input) {
   Section section{"How to read this", {}, {}};
-  const auto add = [&](const char* text) { section.remarks.push_back({text, ""}); };
+  const auto add = [&](std::string text) { section.remarks.push_back({std::move(text), ""}); };
   if (input.evidence.counts_only()) {
     add("A search looks for failures where it expects them. Its counts are not a sample of normal operation, so there "
         "are no rates and no bounds.");
@@ -78,10 +78,12 @@ Section method_section(const ReportInput& input) {
         "long run, a mean over them varies no more. They are not independent, so exact binomial bounds need not hold, "
         "and none is given.");
   }
-  add("A violation is a clearance below the minimal safety distance (0.10 m unless the scenario says otherwise). "
+  add(fmt::format(
+      "A violation is a clearance below the minimal safety distance (0.10 m unless the scenario says otherwise). "
       "Clearances are rounded down to 1 cm; \"> 0.5 m\" means that the clearance was never below 0.5 m. The contract "
-      "region is loss <= 40 % and delay <= 2 s. Outside it, standing still is legal, and a violation remains a "
-      "violation.");
+      "region is loss <= {} and delay <= {:g} s. Outside it, standing still is legal, and a violation remains a "
+      "violation.",
+      percent(kContractLoss), kContractDelay_s));
   return section;
 }
 

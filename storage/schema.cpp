@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/base/contract.hpp"
+#include "core/base/error.hpp"
 #include "core/outcome/outcome.hpp"
 
 namespace fleetproof {
@@ -193,6 +194,13 @@ std::string incident_words(std::string_view IncidentKindInfo::*word) {
   return cases;
 }
 
+// With a fixed number of digits, so that the script stays the same to the byte. Requires: they hold the whole value.
+std::string decimal(double value, int digits) {
+  const std::string text = fmt::format("{:.{}f}", value, digits);
+  ensure(std::stod(text) == value, "a bound has no more digits than the schema prints");
+  return text;
+}
+
 }  // namespace
 
 std::string schema_ddl() {
@@ -200,8 +208,7 @@ std::string schema_ddl() {
   for (const auto& counter : kCounters) definitions += fmt::format("  {} INTEGER NOT NULL,\n", counter.name);
   return std::string(kPlanTables) + fmt::format(fmt::runtime(kRunTables), fmt::arg("counters", definitions)) +
          fmt::format(fmt::runtime(kViews), fmt::arg("run_counters", "       " + counter_list("r.")),
-                     fmt::arg("loss", fmt::format("{:.2f}", kContractLoss)),
-                     fmt::arg("delay", fmt::format("{:.1f}", kContractDelay_s)),
+                     fmt::arg("loss", decimal(kContractLoss, 2)), fmt::arg("delay", decimal(kContractDelay_s, 1)),
                      fmt::arg("hazardous", kHazardousSpeed_um_s),
                      fmt::arg("near", name_of(ViolationLevel::SafetyDistance)),
                      fmt::arg("contact", name_of(ViolationLevel::Contact)),
