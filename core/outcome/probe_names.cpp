@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/base/words.hpp"
 
 namespace fleetproof {
 namespace {
@@ -14,8 +15,6 @@ namespace {
 using enum EncounterKind;
 constexpr std::array<EncounterKind, kEncounterKinds> kEncounters{HeadOn, Crossing, Following, Merging};
 constexpr std::string_view kFaultPrefix = "fault:";
-constexpr std::array kFaults{Fault::Kind::Breakdown, Fault::Kind::ProtectiveStop, Fault::Kind::LoadDrop,
-                             Fault::Kind::Restart, Fault::Kind::Freeze};
 
 }  // namespace
 
@@ -38,7 +37,7 @@ std::string probe_name(Fault::Kind fault) { return fmt::format("{} {}", kFaultPr
 std::span<const std::string_view> world_probes() {
   static const std::vector<std::string> faults = [] {
     std::vector<std::string> names;
-    for (const Fault::Kind fault : kFaults) names.push_back(probe_name(fault));
+    for (const Fault::Kind fault : kValuesOf<Fault::Kind>) names.push_back(probe_name(fault));
     return names;
   }();
   static const std::vector<std::string_view> all = [] {
