@@ -52,6 +52,7 @@ class LinkQuality {
 
   std::size_t agvs_;
   std::vector<std::array<Second, kQualityWindow_s>> seconds_;  // by receiver x AGVs + sender
+  std::vector<std::int64_t> last_second_;                      // by receiver: of its newest reception; -1: none
   std::vector<std::array<SentMessage, kRemembered>> sent_;     // by sender, as a ring
   std::vector<std::size_t> next_;
 };
