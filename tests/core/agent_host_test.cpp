@@ -77,7 +77,7 @@ TEST(AgentHostPart, IsBackWhenEveryReasonForItsAbsenceIsOver) {
 
 TEST(AgentHostPart, AnAgentThatThrowsIsFiledAndNeverCalledAgain) {
   SmallWorld world(test::row_of_tens({0}), [](const fp_host&, fp_controller*, const fp_briefing&, const fp_event& e) {
-    if (e.kind == FP_EVENT_TIMER) throw std::runtime_error("no\nidea");
+    if (e.kind == FP_EVENT_TIMER) throw std::runtime_error("no idea");
   });
   started(world);
   world.parts.agents.tell(kFirst, timer(1));
@@ -87,7 +87,7 @@ TEST(AgentHostPart, AnAgentThatThrowsIsFiledAndNeverCalledAgain) {
   world.parts.agents.file_failures(outcome);
   EXPECT_TRUE(outcome.crash);
   EXPECT_FALSE(outcome.hang);
-  EXPECT_EQ(outcome.message, "agent of agv-1: no?idea");
+  EXPECT_EQ(outcome.message, "agent of agv-1: no idea");
 }
 
 }  // namespace
