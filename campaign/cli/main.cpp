@@ -22,7 +22,8 @@ int main(int argc, char** argv) {
            prepare_import},
       Verb{"check", "check a campaign or scenario file without running it",
            "fleetproof check tests/campaigns/demo.toml", prepare_check},
-      Verb{"list", "list agents, laws, generators, importers or reports", "fleetproof list agents", prepare_list},
+      Verb{"list", "list agents, laws, generators, importers, reports or fields", "fleetproof list agents",
+           prepare_list},
   };
   return run_command_line(verbs, argc, argv);
 }
