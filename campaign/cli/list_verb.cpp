@@ -59,6 +59,7 @@ constexpr std::array kinds = {
 
 // Every key of campaign files and scenario files.
 int list_fields(bool json) {
+  std::string text;
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const FieldRow& row : field_rows()) {
     if (json) {
@@ -69,11 +70,12 @@ int list_fields(bool json) {
                      {"unit", row.unit},
                      {"description", row.text}});
     } else {
-      fmt::print("{} {}{}: {}\n    {}\n", row.file, row.key, row.fallback.empty() ? "" : " = " + row.fallback,
-                 row.expected, row.text);
+      text += fmt::format("{} {}{}: {}\n    {}\n", row.file, row.key, row.fallback.empty() ? "" : " = " + row.fallback,
+                          row.expected, row.text);
     }
   }
-  if (json) fmt::print("{}\n", nlohmann::ordered_json{{"schema_version", 1}, {"fields", all}}.dump(2));
+  if (json) text = nlohmann::ordered_json{{"schema_version", 1}, {"fields", all}}.dump(2) + "\n";
+  put_text(text);
   return kDemonstrated;
 }
 
