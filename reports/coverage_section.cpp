@@ -18,8 +18,8 @@ void add_rows(Section& section, const AgentCoverage& agent) {
     section.table.rows.push_back({printable(agent.agent, 40), printable(name, 64), by, std::to_string(seen.runs),
                                   share_text(seen, agent.coverage.runs()), std::to_string(seen.times)});
   };
-  for (const auto& [name, seen] : agent.coverage.by_the_world()) add(name, "world", seen);
-  for (const auto& [name, seen] : agent.coverage.by_agents()) add(name, "agent", seen);
+  for (const auto& [name, seen] : agent.coverage.by_the_world()) add(name, name_of(ProbeSource::World), seen);
+  for (const auto& [name, seen] : agent.coverage.by_agents()) add(name, name_of(ProbeSource::Agent), seen);
   for (const auto& missing : agent.missing) {
     if (missing.runs_with == 0) add(missing.name, "nobody", {});
   }

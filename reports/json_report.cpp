@@ -113,8 +113,10 @@ Json coverage_json(const ReportInput& input) {
     auto met = Json::array();
     for (const bool world : {true, false}) {
       for (const auto& [name, seen] : world ? agent.coverage.by_the_world() : agent.coverage.by_agents()) {
-        met.push_back(
-            {{"probe", name}, {"source", world ? "world" : "agent"}, {"runs_with", seen.runs}, {"times", seen.times}});
+        met.push_back({{"probe", name},
+                       {"source", name_of(world ? ProbeSource::World : ProbeSource::Agent)},
+                       {"runs_with", seen.runs},
+                       {"times", seen.times}});
       }
     }
     json["agents"].push_back({{"agent", agent.agent},

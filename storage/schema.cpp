@@ -170,7 +170,7 @@ FROM incidents i JOIN runs r ON r.run_index = i.run_index JOIN cells c ON c.cell
 CREATE VIEW v1_probes AS
 SELECT p.run_index, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, r.loss, r.delay_s,
        r.loss <= {loss} AND r.delay_s <= {delay} AS in_contract,
-       CASE p.source WHEN 0 THEN 'world' ELSE 'agent' END AS source, CAST(p.name AS TEXT) AS name, p.count
+       CASE p.source WHEN 0 THEN '{world}' ELSE '{agent}' END AS source, CAST(p.name AS TEXT) AS name, p.count
 FROM probes p JOIN runs r ON r.run_index = p.run_index JOIN cells c ON c.cell = r.cell;
 )sql";
 
@@ -209,6 +209,7 @@ std::string schema_ddl() {
   return std::string(kPlanTables) + fmt::format(fmt::runtime(kRunTables), fmt::arg("counters", definitions)) +
          fmt::format(fmt::runtime(kViews), fmt::arg("run_counters", "       " + counter_list("r.")),
                      fmt::arg("loss", decimal(kContractLoss, 2)), fmt::arg("delay", decimal(kContractDelay_s, 1)),
+                     fmt::arg("world", name_of(ProbeSource::World)), fmt::arg("agent", name_of(ProbeSource::Agent)),
                      fmt::arg("hazardous", kHazardousSpeed_um_s),
                      fmt::arg("near", name_of(ViolationLevel::SafetyDistance)),
                      fmt::arg("contact", name_of(ViolationLevel::Contact)),

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/words.hpp"
 #include "core/scenario/faults.hpp"
 
 namespace fleetproof {
@@ -22,8 +23,20 @@ namespace fleetproof {
 
 // How the drives of two AGVs meet (laws/encounter.hpp says which is which).
 enum class EncounterKind : std::uint8_t { HeadOn, Crossing, Following, Merging };
-inline constexpr std::size_t kEncounterKinds = 4;
-const char* name_of(EncounterKind kind);
+constexpr const char* name_of(EncounterKind kind) {
+  switch (kind) {
+    case EncounterKind::HeadOn:
+      return "head-on";
+    case EncounterKind::Crossing:
+      return "crossing";
+    case EncounterKind::Following:
+      return "following";
+    case EncounterKind::Merging:
+      return "merging";
+  }
+  return kNoWord;
+}
+inline constexpr std::size_t kEncounterKinds = kValuesOf<EncounterKind>.size();
 
 inline constexpr std::string_view kNearMissProbe = "near-miss";
 inline constexpr std::string_view kEncounterProbe = "encounter";
