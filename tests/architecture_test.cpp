@@ -1,26 +1,24 @@
-// The include picture, the homes of heavy headers, what the model may not call, and the sizes of files and functions,
-// read from the sources.
+// The include picture, the homes of heavy headers, and what the model may not call, read from the sources. Sizes and
+// formatting: architecture/style_test.cpp.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <regex>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "tests/architecture/source_tree.hpp"
+
+namespace fleetproof {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct Source {
-  std::string path;  // from the project's root
-  std::vector<std::string> lines;
-  bool is_header() const { return path.ends_with(".hpp") || path.ends_with(".h"); }
-};
+using architecture::Source;
+using architecture::sources;
 
 // Who may include whom (a room may always include itself). Every arrow points down: a room stands below all rooms that
 // include it.
@@ -144,61 +142,14 @@ std::vector<std::string> impure_calls(const Source& source) {
   const bool model = room.starts_with("core/") || room.starts_with("generators/") || room == "laws";
   if (!model || room == "core/sdk") return found;
   static const std::regex pattern(
-      R"(\b(std::)?(sin|cos|tan|asin|acos|atan|atan2|exp|exp2|log|log2|log10|pow|cbrt|fmod|sincos)\(|steady_clock|system_clock|high_resolution_clock|random_device|\brand\(|mt19937|unordered_(map|set)|Rotation2D|AngleAxis)");
+      R"(\b(std::)?(sin|cos|tan|asin|acos|atan|atan2|exp|exp2|log|log2|log10|pow|cbrt|fmod|sincos)\()"
+      R"(|steady_clock|system_clock|high_resolution_clock|random_device|\brand\(|mt19937)"
+      R"(|unordered_(map|set)|Rotation2D|AngleAxis)");
   for (std::string line : source.lines) {
     line = line.substr(0, line.find("//"));
     if (std::regex_search(line, pattern)) found.push_back(source.path + ": " + line);
   }
   return found;
-}
-
-std::vector<std::string> too_long(const Source& source) {
-  std::vector<std::string> found;
-  const std::size_t most = source.is_header() && room_of(source.path) != "tests" ? 260 : 400;
-  if (source.lines.size() > most)
-    found.push_back(source.path + " has " + std::to_string(source.lines.size()) + " lines");
-  // A function's body begins on an unindented line that ends in ") ... {" and ends with the next unindented brace.
-  static const std::regex opening(R"(^[A-Za-z].*\).*\{$)");
-  std::size_t begin = 0;
-  for (std::size_t i = 0; i < source.lines.size(); ++i) {
-    const std::string& line = source.lines[i];
-    if (begin == 0 && std::regex_search(line, opening)) begin = i + 1;
-    if (begin != 0 && line == "}") {
-      if (i + 1 - begin > 70)
-        found.push_back(source.path + ":" + std::to_string(begin) + " is a function of " +
-                        std::to_string(i + 1 - begin) + " lines");
-      begin = 0;
-    }
-  }
-  return found;
-}
-
-const std::vector<Source>& sources() {
-  static const std::vector<Source> all = [] {
-    std::vector<Source> found;
-    const fs::path root = FLEETPROOF_SOURCE_DIR;
-    for (const char* folder : {"core", "campaign", "generators", "laws", "storage", "reports", "tests"}) {
-      for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
-        const std::string extension = entry.path().extension().string();
-        if (extension != ".cpp" && extension != ".hpp" && extension != ".h" && extension != ".c") continue;
-        Source source{fs::relative(entry.path(), root).generic_string(), {}};
-        std::ifstream in(entry.path());
-        for (std::string line; std::getline(in, line);) source.lines.push_back(line);
-        found.push_back(std::move(source));
-      }
-    }
-    return found;
-  }();
-  return all;
-}
-
-template <class Check>
-void expect_none(Check check) {
-  std::ostringstream list;
-  for (const Source& source : sources()) {
-    for (const std::string& finding : check(source)) list << "\n  " << finding;
-  }
-  EXPECT_EQ(list.str(), "");
 }
 
 // Whether an arrow of the picture leads back to its own room.
@@ -226,10 +177,9 @@ TEST(Architecture, ThePictureHasNoCircle) {
 }
 TEST(Architecture, NoTwoFilesHaveOneName) { EXPECT_EQ(names_used_twice(), std::vector<std::string>{}); }
 TEST(Architecture, ReadsTheWholeTree) { EXPECT_GT(sources().size(), 80U); }
-TEST(Architecture, IncludesFollowThePicture) { expect_none(forbidden_includes); }
-TEST(Architecture, HeavyHeadersStayAtHome) { expect_none(homeless_headers); }
-TEST(Architecture, TheModelCallsNothingImpure) { expect_none(impure_calls); }
-TEST(Architecture, FilesAndFunctionsFitAReader) { expect_none(too_long); }
+TEST(Architecture, IncludesFollowThePicture) { architecture::expect_none(sources(), forbidden_includes); }
+TEST(Architecture, HeavyHeadersStayAtHome) { architecture::expect_none(sources(), homeless_headers); }
+TEST(Architecture, TheModelCallsNothingImpure) { architecture::expect_none(sources(), impure_calls); }
 
 TEST(Architecture, FindsWhatIsPlanted) {
   EXPECT_EQ(forbidden_includes({"core/engine/world.cpp", {"#include \"laws/laws.hpp\""}}).size(), 1U);
@@ -239,10 +189,7 @@ TEST(Architecture, FindsWhatIsPlanted) {
   EXPECT_EQ(homeless_headers({"core/base/a.cpp", {"#include <Eigen/Geometry>"}}).size(), 1U);
   EXPECT_EQ(impure_calls({"core/base/a.cpp", {"double y = std::sin(x);"}}).size(), 1U);
   EXPECT_EQ(impure_calls({"core/base/a.cpp", {"double y = std::sqrt(x);  // not sin(x)"}}).size(), 0U);
-  std::vector<std::string> body = {"void f() {"};
-  body.resize(80, "  g();");
-  body.push_back("}");
-  EXPECT_EQ(too_long({"core/base/a.cpp", body}).size(), 1U);
 }
 
 }  // namespace
+}  // namespace fleetproof

@@ -78,7 +78,8 @@ class Picture {
   }
 
   std::string draw() {
-    add(R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0:.0f}" height="{1:.0f}" viewBox="0 0 {0:.0f} {1:.0f}" font-family="sans-serif">)",
+    add(R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0:.0f}" height="{1:.0f}" )"
+        R"(viewBox="0 0 {0:.0f} {1:.0f}" font-family="sans-serif">)",
         width_px_, height_px_);
     const auto size = Vec2(layout_.floor_high_m - layout_.floor_low_m);
     const auto title = fmt::format("{}: {} stations, {} segment{}", escaped(layout_.name), layout_.stations.size(),

@@ -1,0 +1,228 @@
+// Sizes, formatting and pages: what keeps the sources readable, checked for every file.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+
+#include "tests/architecture/source_outline.hpp"
+#include "tests/architecture/source_tree.hpp"
+
+namespace fleetproof::architecture {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Findings = std::vector<std::string>;
+
+constexpr std::size_t kMostColumns = 120, kMostLinesOfAFunction = 70;
+constexpr std::size_t kMostMemberFunctions = 25, kMostDataMembers = 15;
+
+// Classes above these sizes, each with the reason why it stays as it is.
+const std::map<std::string, std::string> kLargeClasses = {
+    {"core/agents/hull_lock.hpp HullLock", "one agent, one state machine: every event may change every member"},
+    {"core/agents/lock_protocol.hpp LockProtocol", "the protocol's messages and the lock state that they change"},
+    {"core/scenario/scenario.hpp Scenario", "plain data: everything that one simulation needs"},
+    {"core/outcome/counters.hpp Counters", "plain data: one number for each counter"},
+    {"core/outcome/outcome.hpp Outcome", "plain data: everything that a run leaves"},
+    {"campaign/plan/plan.hpp CampaignPlan", "plain data: everything that a campaign file says"},
+    {"campaign/run/task_pool.cpp TaskPool::Impl", "two threads' sides of one pool, under one mutex"},
+    {"generators/worlds/drawn_faults.hpp FaultRates", "plain data: one number for each kind of fault"},
+    {"laws/progress_law.cpp ProgressLaw", "one number for each end point that the law judges"},
+    {"reports/evidence/evidence.hpp Evidence", "plain figures of one campaign, counted in one pass"},
+    {"tests/agents/fake_warehouse.hpp FakeWarehouse", "stands in for the whole C table of a controller"},
+    {"tests/agents/fake_warehouse.hpp Agv", "plain data: all that the fake says of one AGV"},
+};
+
+// Files with longer lines, each with the reason.
+const std::map<std::string, std::string> kWideFiles = {
+    {"storage/schema.cpp", "one line of the SQL that archives contain to the byte"},
+    {"tests/fuzz/seeds.cpp", "sample files, as programs write them"},
+    {"tests/generators/lif_test.cpp", "a sample file whose line numbers errors name"},
+    {"tests/generators/opentcs_test.cpp", "a sample file whose line numbers errors name"},
+    {"campaign/README.md", "to be written anew"},
+    {"core/README.md", "two rows of a table"},
+    {"core/clearance/README.md", "rows of a table"},
+    {"core/engine/README.md", "to be wrapped"},
+    {"generators/scenario_file/README.md", "rows of a table"},
+    {"tests/contract/hostile_names_test.cpp", "a sample file"},
+    {"reports/README.md", "to be written anew"},
+    {"storage/README.md", "to be written anew"},
+};
+
+// Folders of sources without a README.md of their own, each with the reason.
+const std::map<std::string, std::string> kFoldersWithoutPage = {
+    {"core/sdk/fleetproof", "core/sdk/README.md describes the one header in it"},
+    {"tests/agents", "mirrors core/agents: tests/README.md"},
+    {"tests/campaign", "mirrors campaign: tests/README.md"},
+    {"tests/core", "mirrors core: tests/README.md"},
+    {"tests/generators", "mirrors generators: tests/README.md"},
+    {"tests/laws", "mirrors laws: tests/README.md"},
+    {"tests/reports", "mirrors reports: tests/README.md"},
+    {"tests/storage", "mirrors storage: tests/README.md"},
+    {"campaign/cli", "to be written"},
+    {"campaign/plan", "to be written"},
+    {"campaign/run", "to be written"},
+    {"reports/evidence", "to be written"},
+};
+
+// In characters, not in bytes.
+std::size_t columns(const std::string& line) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(line, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
+Findings wide_lines(const Source& source) {
+  Findings found;
+  if (kWideFiles.contains(source.path)) return found;
+  for (std::size_t i = 0; i < source.lines.size(); ++i) {
+    const auto width = columns(source.lines[i]);
+    if (width > kMostColumns)
+      found.push_back(source.path + ":" + std::to_string(i + 1) + " has " + std::to_string(width) + " columns");
+  }
+  return found;
+}
+
+Findings too_long(const Source& source) {
+  Findings found;
+  const std::size_t most = source.is_header() && !source.path.starts_with("tests/") ? 260 : 400;
+  if (source.lines.size() > most)
+    found.push_back(source.path + " has " + std::to_string(source.lines.size()) + " lines");
+  for (const auto& function : outline_of(source.lines).functions) {
+    if (function.lines <= kMostLinesOfAFunction) continue;
+    found.push_back(source.path + ":" + std::to_string(function.first_line) + " is a function of " +
+                    std::to_string(function.lines) + " lines");
+  }
+  return found;
+}
+
+bool is_large(const OutlinedClass& type) {
+  return type.functions > kMostMemberFunctions || type.data > kMostDataMembers;
+}
+
+Findings large_classes(const Source& source) {
+  Findings found;
+  for (const auto& type : outline_of(source.lines).classes) {
+    if (!is_large(type) || kLargeClasses.contains(source.path + " " + type.name)) continue;
+    found.push_back(source.path + ":" + std::to_string(type.first_line) + " " + type.name + " has " +
+                    std::to_string(type.functions) + " member functions and " + std::to_string(type.data) +
+                    " data members; split it, or list it with a reason in style_test.cpp");
+  }
+  return found;
+}
+
+// What clang-format 14 says about files, first lines only; empty if it would change nothing.
+std::string formatting_of(const std::string& files) {
+  const std::string command = "clang-format-14 --dry-run --Werror --style=file " + files + " 2>&1";
+  FILE* pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) return "cannot run " + command;
+  std::string text;
+  std::array<char, 4096> part{};
+  for (std::size_t n; (n = std::fread(part.data(), 1, part.size(), pipe)) > 0;)
+    if (text.size() < 4000) text.append(part.data(), n);
+  const int status = pclose(pipe);
+  return status == 0 ? text : text + "\nclang-format-14 ended with status " + std::to_string(status);
+}
+
+TEST(Style, LinesFitTheScreen) {
+  expect_none(sources(), wide_lines);
+  expect_none(other_texts(), wide_lines);
+}
+
+TEST(Style, FilesAndFunctionsFitAReader) { expect_none(sources(), too_long); }
+
+TEST(Style, LargeClassesAreListed) { expect_none(sources(), large_classes); }
+
+TEST(Style, ListedExceptionsAreStillNeeded) {
+  std::set<std::string> large;
+  for (const Source& source : sources()) {
+    for (const auto& type : outline_of(source.lines).classes) {
+      if (is_large(type)) large.insert(source.path + " " + type.name);
+    }
+  }
+  for (const auto& [name, reason] : kLargeClasses)
+    EXPECT_TRUE(large.contains(name)) << name << " is not large any more: take it out of kLargeClasses";
+}
+
+TEST(Style, EveryFolderOfSourcesHasAPage) {
+  std::set<std::string> folders;
+  for (const Source& source : sources()) folders.insert(fs::path(source.path).parent_path().generic_string());
+  for (const std::string& folder : folders) {
+    const bool has_page = fs::exists(fs::path(FLEETPROOF_SOURCE_DIR) / folder / "README.md");
+    EXPECT_TRUE(has_page || kFoldersWithoutPage.contains(folder)) << folder << " has no README.md";
+  }
+}
+
+TEST(Style, SourcesAreFormatted) {
+  std::string files;
+  for (const Source& source : sources()) files += " '" + std::string(FLEETPROOF_SOURCE_DIR) + "/" + source.path + "'";
+  EXPECT_EQ(formatting_of(files), "") << "run clang-format-14 -i on these files (Debian: package clang-format-14)";
+}
+
+// ---------------------------------------------------------------------------------- each check finds what is planted
+
+TEST(StyleFinds, AWideLine) {
+  EXPECT_EQ(wide_lines({"README.md", {std::string(120, 'x')}}).size(), 0U);
+  EXPECT_EQ(wide_lines({"README.md", {std::string(121, 'x')}}).size(), 1U);
+  std::string umlauts;
+  for (int i = 0; i < 120; ++i) umlauts += "\u00fc";
+  EXPECT_EQ(wide_lines({"README.md", {umlauts}}).size(), 0U) << "characters count, not bytes";
+}
+
+std::vector<std::string> function_of(std::size_t lines, const std::string& opening, const std::string& indent) {
+  std::vector<std::string> text = {indent + opening};
+  text.resize(lines - 1, indent + "  if (a) { g(\"}\"); }  // }");
+  text.push_back(indent + "}");
+  return text;
+}
+
+TEST(StyleFinds, ALongFunction) {
+  EXPECT_EQ(too_long({"core/base/a.cpp", function_of(70, "void f() {", "")}).size(), 0U);
+  EXPECT_EQ(too_long({"core/base/a.cpp", function_of(71, "void f() {", "")}).size(), 1U);
+  EXPECT_EQ(too_long({"core/base/a.cpp", std::vector<std::string>(401, "int a;")}).size(), 1U);
+  EXPECT_EQ(too_long({"core/base/a.hpp", std::vector<std::string>(261, "int a;")}).size(), 1U);
+}
+
+TEST(StyleFinds, ALongMemberFunction) {
+  for (const std::string opening : {"void f() const {", "explicit A(int a) : a_(a), b_{1} {", "bool operator<(A b) {",
+                                    "std::map<int, std::pair<int, int>> f(std::function<void(int)> g = {}) {"}) {
+    std::vector<std::string> text = {"namespace a {", "class A : public B {", " public:"};
+    const auto body = function_of(71, opening, "  ");
+    text.insert(text.end(), body.begin(), body.end());
+    text.insert(text.end(), {"  int a_ = 0, b_;", "};", "}  // namespace a"});
+    EXPECT_EQ(too_long({"core/base/a.hpp", text}).size(), 1U) << opening;
+  }
+}
+
+TEST(StyleFinds, ALargeClass) {
+  std::vector<std::string> functions = {"class A {", " public:"}, data = {"struct B {"};
+  for (int i = 0; i < 25; ++i) functions.push_back("  std::map<int, int> f(int a, int b = 2) const;");
+  for (int i = 0; i < 5; ++i) data.push_back("  std::map<int, int> a, b = {}, c{1};");
+  EXPECT_EQ(large_classes({"core/a.hpp", functions}).size(), 0U);
+  functions.insert(functions.end(), {"  A() = default;", "  explicit A(int a) : b_(a) {}", "  ~A();"});
+  EXPECT_EQ(large_classes({"core/a.hpp", functions}).size(), 0U);
+  functions.push_back("  void g() { h(); }");
+  functions.push_back("};");
+  EXPECT_EQ(large_classes({"core/a.hpp", functions}).size(), 1U);
+  data.insert(data.end(), {"  using C = int;", "  static constexpr int kD = 4;", "  enum class E { F, G };", "};"});
+  EXPECT_EQ(large_classes({"core/a.hpp", data}).size(), 0U);
+  data.insert(data.end() - 1, "  std::vector<int> sixteenth = f(1, 2);");
+  EXPECT_EQ(large_classes({"core/a.hpp", data}).size(), 1U);
+}
+
+TEST(StyleFinds, AnUnformattedFile) {
+  const fs::path file = fs::path(testing::TempDir()) / "unformatted.cpp";
+  fs::copy_file(fs::path(FLEETPROOF_SOURCE_DIR) / ".clang-format", file.parent_path() / ".clang-format",
+                fs::copy_options::overwrite_existing);
+  std::ofstream(file) << "int  f( ){ return 1 ; }\n";
+  EXPECT_NE(formatting_of("'" + file.string() + "'"), "");
+  std::ofstream(file) << "int f() { return 1; }\n";
+  EXPECT_EQ(formatting_of("'" + file.string() + "'"), "");
+}
+
+}  // namespace
+}  // namespace fleetproof::architecture
