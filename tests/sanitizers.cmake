@@ -1,0 +1,38 @@
+# The tests that continuous integration runs under sanitizers: chosen where a wrong access or a race is likely, and few
+# enough to build and run in minutes. Everything else is label `soak` in these builds.
+file(GLOB engine_tests CONFIGURE_DEPENDS core/*_test.cpp)
+# The detector's geometry owns no memory and costs minutes here.
+list(FILTER engine_tests EXCLUDE REGEX "detector|clearance|geometry|piece|curve|motion_profile")
+if(FLEETPROOF_SANITIZE MATCHES thread)
+  set(sanitized_sources campaign/task_pool_test.cpp campaign/workers_test.cpp storage/archive_test.cpp)
+  set(planted planted_race)
+  set(report "ThreadSanitizer: data race")
+else()
+  set(sanitized_sources ${engine_tests} fuzz/readers_test.cpp fuzz/readers.cpp fuzz/seeds.cpp fuzz/verdict.cpp
+    campaign/task_pool_test.cpp campaign/workers_test.cpp storage/archive_test.cpp)
+  set(planted planted_use_after_free)
+  set(report "AddressSanitizer: heap-use-after-free")
+endif()
+set(sanitizer_options
+  "ASAN_OPTIONS=detect_leaks=1:detect_stack_use_after_return=1" "UBSAN_OPTIONS=print_stacktrace=1"
+  "TSAN_OPTIONS=suppressions=${CMAKE_CURRENT_SOURCE_DIR}/tsan.supp")
+
+add_executable(sanitized_tests EXCLUDE_FROM_ALL ${sanitized_sources})
+target_link_libraries(sanitized_tests
+  PRIVATE fleetproof_campaign fleetproof_evidence rapidcheck GTest::gtest_main GTest::gmock
+    nlohmann_json::nlohmann_json fmt::fmt SQLiteCpp SQLite::SQLite3 TBB::tbb)
+target_compile_definitions(sanitized_tests PRIVATE FLEETPROOF_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+target_compile_options(sanitized_tests PRIVATE ${test_warnings})
+target_precompile_headers(sanitized_tests
+  PRIVATE <gtest/gtest.h> <gmock/gmock.h> <Eigen/Core> <fmt/format.h> <map> <set> <string> <vector>)
+gtest_discover_tests(sanitized_tests TEST_PREFIX Sanitized. DISCOVERY_TIMEOUT 60
+  PROPERTIES LABELS sanitized TIMEOUT 240 ENVIRONMENT "${sanitizer_options}")
+
+# A fault planted for the sanitizer. The test passes only if the sanitizer reports it.
+add_executable(${planted} EXCLUDE_FROM_ALL contract/${planted}.cpp)
+target_link_libraries(${planted} PRIVATE fleetproof_campaign)
+add_test(NAME Sanitizer.Finds_${planted} COMMAND ${planted})
+set_tests_properties(Sanitizer.Finds_${planted} PROPERTIES LABELS sanitized TIMEOUT 240
+  ENVIRONMENT "${sanitizer_options}" PASS_REGULAR_EXPRESSION "${report}")
+
+add_custom_target(sanitized DEPENDS sanitized_tests ${planted})
