@@ -17,23 +17,21 @@ struct EncounterPair {
   Duration second_after{};  // how much later the second AGV must leave, so that they meet; negative: earlier
 };
 
-// Puts pairs of AGVs, AGV 2k and 2k+1, on their starts until the fleet has fewer than two places left or no pair is
-// found; the rest is for place_fleet. If both AGVs of a pair drive the quickest way (timetable.hpp), no other being as
-// quick,
-// * Adversarial: and leave at the same instant, they begin to drive one two-way segment from its two ends, or failing
-// that reach a station by
-//   different segments, less than 1 s apart;
-// * Symmetric: they reach a station by different segments, at the same instant if the second leaves `second_after` the
-// first. That is less than 1 s
-//   and as little as a few draws bring it: none at all where the layout is as symmetric.
-// Goals are stations where transports begin (order_ends()). The scenario needs map, vehicle type and law; obstacles are
-// regarded.
+// Places pairs of AGVs, AGV 2k and 2k+1, until fewer than two AGVs are missing or no pair is found. place_fleet places
+// the other AGVs. Both AGVs of a pair have one quickest way (timetable.hpp); no other way is as quick. If both drive
+// it, then
+// * Adversarial: if they leave at the same instant, they start to drive one two-way segment from its two ends within
+//   1 s. If no such pair is found, they reach a station by different segments, less than 1 s apart.
+// * Symmetric: they reach a station by different segments at the same instant, if the second AGV leaves `second_after`
+//   the first. This time is less than 1 s, and zero if the layout is symmetric enough.
+// The goals are stations at which transports begin (order_ends()). Obstacles are avoided.
+// Requires: the scenario has map, vehicle type and law.
 std::vector<EncounterPair> place_pairs(Scenario& scenario, std::uint32_t fleet_size, Placement placement,
                                        const Reachability& reachability, std::uint64_t key, std::uint32_t attempt,
                                        RejectionCounts& counts);
 
-// Lets the first transports of every pair begin at its goals and be released at the earlier of the two instants drawn,
-// one of them later if the pair is to meet so. What is released after them waits for that.
+// Changes the first transports of every pair: they begin at the goals of the pair. Both are released at the earlier of
+// their two instants, or one of them by `second_after` later. Later transports are not released before the first.
 void send_to_meet(Scenario& scenario, const std::vector<EncounterPair>& pairs);
 
 }  // namespace fleetproof

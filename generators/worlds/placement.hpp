@@ -34,25 +34,25 @@ constexpr const char* name_of(Placement placement) {
 }
 inline constexpr auto kPlacements = kValuesOf<Placement>;
 
-// The placement of a world: `placement` itself or, if that is mixed, one of the others, drawn from the placement stream
-// `key`.
+// The placement of a world: `placement` itself. If that is Mixed: another one, drawn from the placement stream `key`.
 Placement placement_of_world(Placement placement, std::uint64_t key);
 
-// Puts AGVs of the scenario's first vehicle type beside those already there until there are `fleet_size`, on different
-// stations from which all others can be reached, places to park, charge or store first, each heading along a lane that
-// leaves its station. `key` is that of the placement stream, `attempt` its topic; an AGV's draws do not depend on the
-// AGVs after it. False if there is no room; then `scenario.agvs` is as far as it got.
+// Adds AGVs of the first vehicle type of the scenario until the fleet has `fleet_size` AGVs. Each AGV stands on a
+// station of the core of its own, heading along a lane that leaves it. Places to park, charge or store come first.
+// `key` is the key of the placement stream, `attempt` its topic. The draws of an AGV do not depend on the AGVs after
+// it. Returns false if there is no room; the scenario then contains the AGVs that found a place.
 bool place_fleet(Scenario& scenario, std::uint32_t fleet_size, const Reachability& reachability, std::uint64_t key,
                  std::uint32_t attempt, RejectionCounts& counts);
 
-// The same, on the stations nearest to a drawn charger, it included; without a charger, to a drawn place to wait.
+// The same, on a drawn charger and the stations nearest to it. Without a charger: a drawn place to wait.
 bool place_at_charger_bank(Scenario& scenario, std::uint32_t fleet_size, const Reachability& reachability,
                            std::uint64_t key, std::uint32_t attempt, RejectionCounts& counts);
 
-// Places to park, charge or store in the core; if there are none, all of it.
+// The places to park, charge or store in the core. If there are none: all stations of the core.
 std::vector<StationId> places_to_start(const LogicalMap& map, const Reachability& reachability);
 
-// Adds an AGV to the fleet unless it would stand too close to another one or to an obstacle; then that is counted.
+// Adds an AGV to the fleet. If it would stand too close to another AGV or to an obstacle, loaded bodies counting, it
+// is not added; `counts` counts the reason, and the function returns false.
 bool add_agv(Scenario& scenario, StationId start, const Vec2& heading, RejectionCounts& counts);
 
 }  // namespace fleetproof
