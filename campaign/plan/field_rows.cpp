@@ -82,7 +82,7 @@ class RowWriter {
     } else if constexpr (std::is_same_v<Value, std::string>) {
       return value.empty() ? "" : fmt::format("\"{}\"", value);
     } else if constexpr (std::is_same_v<Value, Duration>) {
-      return value == kLongestDuration ? "" : fmt::format("{}", to_seconds(value));
+      return value == kLongestDuration ? "" : fmt::format("{}", static_cast<double>(value.count()) / 1e9);
     } else if constexpr (std::is_same_v<Value, FactorSpan>) {
       return fmt::format("{}", value.from);
     } else if constexpr (NumberValue<Value> || std::is_same_v<Value, bool>) {

@@ -32,7 +32,7 @@ class CampaignFileTest : public testing::Test {
     const std::string path = (folder_ / "c.toml").string();
     std::ofstream(path) << text;
     CampaignFile file = read_campaign_file(path);
-    check_plan(file.plan, path);
+    check_plan(file.plan, file.places);
     return file;
   }
 

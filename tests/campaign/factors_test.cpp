@@ -25,7 +25,7 @@ CampaignPlan read(const std::string& text) {
   const std::string path = folder / "c.toml";
   samples::write_bytes(path, text);
   CampaignFile file = read_campaign_file(path);
-  check_plan(file.plan, path);
+  check_plan(file.plan, file.places);
   return file.plan;
 }
 
@@ -101,7 +101,8 @@ TEST(DrawnFactors, LeaveTheWorldAndOneAnotherAsTheyWere) {
 TEST(DrawnFactors, AreRefusedWithARemedy) {
   EXPECT_THAT(error_of(kFactors + "loss = { from = 0.4, to = 0.4 }\n"), HasSubstr("from below to"));
   EXPECT_THAT(error_of(kFactors + "loss = { from = 0.1 }\n"), HasSubstr("from below to"));
-  EXPECT_THAT(error_of(kFactors + "loss = { from = 0, to = 1.5 }\n"), HasSubstr("lies between 0 and 1"));
+  EXPECT_THAT(error_of(kFactors + "loss = { from = 0, to = 1.5 }\n"),
+              HasSubstr("factors.loss.to: 1.5 is refused: expected a number from 0 to 1"));
   EXPECT_THAT(error_of(kFactors + "loss = { form = 0, to = 1 }\n"), HasSubstr("did you mean \"from\"?"));
   EXPECT_THAT(error_of(kFactors + "mean_outage_s = { from = 0, to = 1 }\n"), HasSubstr("begin at 0.001"));
   EXPECT_THAT(error_of(kFactors + kDrawn + "sampling = \"sobl\"\n"), HasSubstr("did you mean \"sobol\"?"));
@@ -249,7 +250,7 @@ TEST(Exemptions, ReachEveryScenarioAndThePlansText) {
   EXPECT_THAT(error_of(kFactors + "[law]\nexempt_purposes = [\"chargign\"]\nexempt_radius_m = 1\n"),
               HasSubstr("did you mean \"charging\"?"));
   EXPECT_THAT(error_of(kFactors + "[law]\nexempt_purposes = [\"charging\"]\nexempt_radius_m = 101\n"),
-              HasSubstr("between 0 and 100"));
+              HasSubstr("law.exempt_radius_m: 101 is refused: expected a number from 0 to 100 m"));
 }
 
 const std::string kTwoTypes = "[[vehicle]]\nname = \"tugger\"\n[[vehicle]]\nname = \"cart\"\n";
@@ -274,10 +275,10 @@ TEST(Exemptions, PairsNameKindsOfThisFleet) {
       HasSubstr(
           "law.exempt_pairs: \"crat\" is no vehicle type of this fleet, nor \"obstacle\"; did you mean \"cart\"?"));
   EXPECT_THAT(error("[[\"obstacle\", \"obstacle\"]]"), HasSubstr("name a vehicle type"));
-  EXPECT_THAT(error("[[\"tugger\"]]"), HasSubstr("an array of pairs"));
-  EXPECT_THAT(error("[[\"tugger\", 1]]"), HasSubstr("an array of pairs"));
-  EXPECT_THAT(error("[\"tugger\", \"cart\"]"), HasSubstr("an array of pairs"));
-  EXPECT_THAT(error("\"tugger\""), HasSubstr("an array of pairs"));
+  EXPECT_THAT(error("[[\"tugger\"]]"), HasSubstr("a name is missing; a pair is two names"));
+  EXPECT_THAT(error("[[\"tugger\", 1]]"), HasSubstr("1 is refused: expected a text in double quotes"));
+  EXPECT_THAT(error("[\"tugger\", \"cart\"]"), HasSubstr("expected an array of arrays"));
+  EXPECT_THAT(error("\"tugger\""), HasSubstr("expected an array of arrays"));
   EXPECT_THAT(
       error_of(kFactors + "[[vehicle]]\nname = \"obstacle\"\n[law]\nexempt_pairs = [[\"obstacle\", \"obstacle\"]]\n"),
       HasSubstr("give the type another name"));

@@ -162,7 +162,7 @@ TEST(ListedOrders, ErrorsNameFileLineAndField) {
               HasSubstr("orders.csv:2: to is \"charge\", a station for charging or parking"));
   EXPECT_THAT(refusal(head + "1,park,S1,0\n"),
               HasSubstr("orders.csv:2: from is \"park\", a station for charging or parking"));
-  EXPECT_THAT(refusal(head + "1,S0,caf\xe9,0\n"), HasSubstr("orders.csv:2: to is \"caf?\"; a name is UTF-8"));
+  EXPECT_THAT(refusal(head + "1,S0,caf\xe9,0\n"), HasSubstr("orders.csv:2: to is \"caf\\xe9\"; a name is UTF-8"));
   EXPECT_THAT(refusal(head + "1,\"S0,S1,0\n"), HasSubstr("orders.csv:2: a double quote is not closed"));
 }
 
