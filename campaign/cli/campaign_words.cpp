@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "campaign/cli/streams.hpp"
+#include "campaign/plan/plan_check.hpp"
 
 namespace fleetproof::cli {
 

@@ -12,6 +12,7 @@
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "campaign/plan/campaign_file.hpp"
+#include "campaign/plan/plan_check.hpp"
 #include "campaign/run/campaign.hpp"
 #include "campaign/run/session_log.hpp"
 #include "core/base/error.hpp"

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "campaign/plan/plan.hpp"
+#include "campaign/plan/plan_places.hpp"
 
 namespace fleetproof {
 

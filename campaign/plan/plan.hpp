@@ -2,7 +2,6 @@
 
 #include <compare>
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -96,28 +95,5 @@ struct CampaignPlan {
   bool is_drawn() const;                  // some factor has bounds
   std::uint64_t run_count() const { return replicates * cell_count(); }
 };
-
-// The plan as one canonical JSON text, and back: parse_plan(plan_text(p)) describes the same runs, bit for bit, and
-// asks for the same evidence.
-std::string plan_text(const CampaignPlan& plan);
-CampaignPlan parse_plan(const std::string& text);  // throws EngineError: only the archive holds such texts
-
-// Where a campaign file says what: "law.reaction_s" stands at "c.toml:5:14". Of an array "factors.loss", the items are
-// "factors.loss.0" and so on.
-struct PlanPlaces {
-  std::string file;
-  std::map<std::string, std::string, std::less<>> known{};
-
-  // Of the key, or of the nearest table around it that the file has, or the file.
-  std::string of(std::string path) const;
-};
-
-// How errors write such a path: numbers of items are left out.
-std::string without_numbers(std::string_view path);
-
-// Throws InputError, with the place of the key, for what no run could mean: a loss of 1.4, no agents, an unknown gate
-// agent.
-void check_plan(const CampaignPlan& plan, const PlanPlaces& places);
-inline void check_plan(const CampaignPlan& plan, const std::string& where) { check_plan(plan, PlanPlaces{where}); }
 
 }  // namespace fleetproof

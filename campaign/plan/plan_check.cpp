@@ -1,3 +1,5 @@
+#include "campaign/plan/plan_check.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>

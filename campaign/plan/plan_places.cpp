@@ -1,6 +1,6 @@
-#include <algorithm>
+#include "campaign/plan/plan_places.hpp"
 
-#include "campaign/plan/plan.hpp"
+#include <algorithm>
 
 namespace fleetproof {
 

@@ -1,3 +1,5 @@
+#include "campaign/plan/plan_text.hpp"
+
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>

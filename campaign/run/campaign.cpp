@@ -4,6 +4,7 @@
 #include <iterator>
 #include <set>
 
+#include "campaign/plan/plan_text.hpp"
 #include "campaign/run/engine_identity.hpp"
 #include "campaign/run/run_one.hpp"
 #include "campaign/run/task_pool.hpp"

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "campaign/plan/plan_text.hpp"
 #include "campaign/plan/scenario_source.hpp"
 #include "campaign/run/run_one.hpp"
 #include "core/base/error.hpp"

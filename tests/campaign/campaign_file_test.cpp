@@ -8,6 +8,8 @@
 #include <fstream>
 #include <set>
 
+#include "campaign/plan/plan_check.hpp"
+#include "campaign/plan/plan_text.hpp"
 #include "campaign/plan/scenario_source.hpp"
 #include "core/base/error.hpp"
 #include "core/scenario/radio_fields.hpp"

@@ -5,6 +5,8 @@
 #include <set>
 
 #include "campaign/plan/campaign_file.hpp"
+#include "campaign/plan/plan_check.hpp"
+#include "campaign/plan/plan_text.hpp"
 #include "campaign/plan/scenario_source.hpp"
 #include "campaign/run/agent_programs.hpp"
 #include "core/base/error.hpp"

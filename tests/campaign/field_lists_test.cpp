@@ -11,6 +11,7 @@
 
 #include "campaign/plan/campaign_file.hpp"
 #include "campaign/plan/field_rows.hpp"
+#include "campaign/plan/plan_check.hpp"
 #include "campaign/plan/plan_fields.hpp"
 #include "core/base/error.hpp"
 #include "generators/scenario_file/scenario_file.hpp"

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "campaign/plan/plan_text.hpp"
 #include "core/base/random.hpp"
 #include "laws/laws.hpp"
 #include "storage/archive_reader.hpp"

@@ -4,6 +4,8 @@
 #include <cstdlib>
 
 #include "campaign/plan/campaign_file.hpp"
+#include "campaign/plan/plan_check.hpp"
+#include "campaign/plan/plan_text.hpp"
 #include "core/scenario/scenario.hpp"
 #include "generators/formats/csv_layout.hpp"
 #include "generators/formats/grid_map.hpp"

@@ -1,0 +1,39 @@
+#include "core/engine/simulation.hpp"
+
+#include "core/base/error.hpp"
+#include "core/engine/engine.hpp"
+
+namespace fleetproof {
+
+void check_abi(const fp_agent_type& agent) {
+  if (agent.struct_size < sizeof(fp_agent_type) || agent.abi_major != FP_ABI_MAJOR) {
+    throw InputError("agent", "speaks another version of fleetproof/agent.h (this program: " +
+                                  std::to_string(FP_ABI_MAJOR) + "); rebuild it against this version's header");
+  }
+  if (agent.name == nullptr || agent.name[0] == '\0')
+    throw InputError("agent", "has no name; give its fp_agent_type one");
+  if (agent.description == nullptr || agent.create == nullptr || agent.on_event == nullptr ||
+      agent.destroy == nullptr) {
+    throw InputError(
+        agent.name,
+        "has a null member in its fp_agent_type; description, create, on_event and destroy must all be there");
+  }
+}
+
+Outcome simulate(const Scenario& scenario, const fp_agent_type& agent, std::span<const std::unique_ptr<Law>> laws,
+                 TraceSink* sink, const char* agent_config) {
+  try {
+    Engine engine(scenario, agent, laws, sink, agent_config);
+    engine.run();
+    return engine.finish();
+  } catch (const InvariantViolation& bug) {
+    Outcome failed;
+    failed.engine_error = true;
+    failed.message = bug.what();
+    failed.agv_count = static_cast<std::uint32_t>(scenario.agvs.size());
+    failed.simulated_ns = static_cast<std::uint64_t>(scenario.horizon.count());
+    return failed;
+  }
+}
+
+}  // namespace fleetproof
