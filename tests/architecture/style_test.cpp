@@ -44,14 +44,9 @@ const std::map<std::string, std::string> kWideFiles = {
     {"tests/fuzz/seeds.cpp", "sample files, as programs write them"},
     {"tests/generators/lif_test.cpp", "a sample file whose line numbers errors name"},
     {"tests/generators/opentcs_test.cpp", "a sample file whose line numbers errors name"},
-    {"campaign/README.md", "to be written anew"},
-    {"core/README.md", "two rows of a table"},
-    {"core/clearance/README.md", "rows of a table"},
-    {"core/engine/README.md", "to be wrapped"},
-    {"generators/scenario_file/README.md", "rows of a table"},
+    {"campaign/plan/README.md", "tables that a test writes from the lists of fields"},
+    {"generators/scenario_file/README.md", "tables that a test writes from the lists of fields"},
     {"tests/contract/hostile_names_test.cpp", "a sample file"},
-    {"reports/README.md", "to be written anew"},
-    {"storage/README.md", "to be written anew"},
 };
 
 // Folders of sources without a README.md of their own, each with the reason.

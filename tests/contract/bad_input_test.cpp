@@ -36,9 +36,9 @@ TEST_F(BadInput, CampaignFiles) {
   write("key.toml", campaign("agents = [\"reckless\"]\nlayouts = [\"aisle-grid\"]", "replicatse = 1\n"));
   expect_refused("run key.toml", "did you mean \"replicates\"?");
   write("loss.toml", campaign("agents = [\"reckless\"]\nlayouts = [\"aisle-grid\"]\nloss = [1.4]"));
-  expect_refused("run loss.toml", "factors.loss holds 1.4");
+  expect_refused("run loss.toml", "factors.loss: 1.4 is refused");
   write("zero.toml", campaign("agents = [\"reckless\"]\nlayouts = [\"aisle-grid\"]\nfleet_sizes = [0]"));
-  expect_refused("run zero.toml", "factors.fleet_sizes holds 0");
+  expect_refused("run zero.toml", "factors.fleet_sizes: 0 is refused");
   write("agent.toml", campaign("agents = [\"hull-look\"]\nlayouts = [\"aisle-grid\"]"));
   expect_refused("run agent.toml", "did you mean \"hull-lock\"?");
 }

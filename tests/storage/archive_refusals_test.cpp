@@ -65,7 +65,7 @@ TEST(ArchiveReader, refuses_what_is_not_a_campaign_file) {
   EXPECT_THAT(refusal(folder / "short.fp"), HasSubstr("not a campaign file"));
   tamper(folder / "other.db", "CREATE TABLE t(x); INSERT INTO t VALUES (1)");
   EXPECT_THAT(refusal(folder / "other.db"), HasSubstr("not a campaign file"));
-  EXPECT_THAT(refusal("/dev/null"), HasSubstr("no regular file"));
+  EXPECT_THAT(refusal("/dev/null"), HasSubstr("a pipe, a device or a socket"));
 }
 
 TEST(ArchiveReader, names_the_live_file_of_an_interrupted_campaign) {
