@@ -34,6 +34,7 @@ fp_action action_during(ActivityKind kind) {
       return FP_PICKING;
     case ActivityKind::Drop:
       return FP_DROPPING;
+    case ActivityKind::Dock:
     case ActivityKind::Charge:
       return FP_CHARGING_NOW;
     default:
@@ -110,7 +111,8 @@ void Actions::tell_done(AgvId agv, fp_result result) {
 void Actions::begin_plan(AgvId agv, fp_call call, const Lane* lane, double entry_mps) {
   Slice& slice = slices_[agv.index()];
   slice.acting = slice.committed = true;
-  slice.plan = {call, lane, lane != nullptr, false, call != FP_CALL_MOVE, 0.0};
+  const bool docks = call == FP_CALL_CHARGE && run_.type_of(agv).dock_s > 0.0;
+  slice.plan = {call, lane, lane != nullptr, false, docks, call != FP_CALL_MOVE, 0.0};
   continue_plan(agv, entry_mps);
 }
 
@@ -120,6 +122,7 @@ void Actions::continue_plan(AgvId agv, double entry_mps) {
   if (slice.waits) return;  // the end of the halt continues it
   if (slice.plan.drive_due) return turn_or_drive(agv, entry_mps);
   if (slice.plan.settle_due) return begin_settling(agv);
+  if (slice.plan.dock_due) return begin_docking(agv);
   if (slice.plan.stay_due) return begin_stay(agv);
   slice.doing = FP_IDLE;
   finish(agv, 0.0);
@@ -170,12 +173,24 @@ void Actions::begin_settling(AgvId agv) {
                  run_.status(agv).station.value);
 }
 
+void Actions::begin_docking(AgvId agv) {
+  slices_[agv.index()].plan.dock_due = false;
+  const SimTime connected = run_.now + seconds(run_.type_of(agv).dock_s);
+  begin_activity(agv, {ActivityKind::Dock, agv, run_.now, connected, Standing{}}, run_.status(agv).station.value);
+}
+
 void Actions::begin_stay(AgvId agv) {
   slices_[agv.index()].plan.stay_due = false;
+  const StationId station = run_.status(agv).station;
   const ActivityKind kind = stay_of(slices_[agv.index()].plan.call);
-  if (kind == ActivityKind::Charge) return begin_charging(agv);
-  if (kind != ActivityKind::Park) return begin_transfer(agv, kind);
-  begin_activity(agv, {kind, agv, run_.now, run_.now, Standing{}}, run_.status(agv).station.value);
+  if (kind == ActivityKind::Pick || kind == ActivityKind::Drop) return begin_transfer(agv, kind);
+  if (kind == ActivityKind::Park)
+    return begin_activity(agv, {kind, agv, run_.now, run_.now, Standing{}}, station.value);
+  const double per_s = run_.type_of(agv).charge_per_s;
+  ports_.battery.settle(agv);
+  const SimTime full = run_.now + seconds(std::max(0.0, (1.0 - ports_.battery.level(agv)) / per_s));
+  begin_activity(agv, {kind, agv, run_.now, full, BatteryEvolution{per_s}}, station.value);
+  finish(agv, 0.0);  // connected: the action is done as far as the agent is concerned
 }
 
 void Actions::begin_transfer(AgvId agv, ActivityKind kind) {
@@ -193,16 +208,6 @@ void Actions::begin_transfer(AgvId agv, ActivityKind kind) {
   const SimTime end = run_.now + seconds((pick ? type.pick_s : type.drop_s) + spread_s * draw);
   run_.progressed(agv);
   begin_activity(agv, {kind, agv, run_.now, end, evolution}, evolution.load.value);
-}
-
-// Once connected, the action is done as far as the agent is concerned.
-void Actions::begin_charging(AgvId agv) {
-  const double per_s = run_.type_of(agv).charge_per_s;
-  ports_.battery.settle(agv);
-  const SimTime full = run_.now + seconds(std::max(0.0, (1.0 - ports_.battery.level(agv)) / per_s));
-  begin_activity(agv, {ActivityKind::Charge, agv, run_.now, full, BatteryEvolution{per_s}},
-                 run_.status(agv).station.value);
-  finish(agv, 0.0);
 }
 
 void Actions::activity_ends(AgvId agv) {
@@ -259,14 +264,18 @@ void Actions::brake(AgvId agv) {
     case ActivityKind::Pick:
     case ActivityKind::Drop:
       slices_[agv.index()].plan.stay_due = true;  // from its beginning
-      [[fallthrough]];
+      break;
+    case ActivityKind::Dock:
+      slices_[agv.index()].plan.dock_due = true;  // likewise
+      break;
     case ActivityKind::Turn:
     case ActivityKind::Settle:
-      ports_.activities.end(agv, false);
-      return continue_plan(agv, 0.0);
+      break;
     default:
       return;  // it stands already
   }
+  ports_.activities.end(agv, false);
+  continue_plan(agv, 0.0);
 }
 
 void Actions::go_on(AgvId agv) {

@@ -44,11 +44,11 @@ class Actions {
   void put_back(AgvId agv, StationId station);
 
  private:
-  // An action. What is left of it after the activity under way: drive, settle, stay.
+  // An action. What is left of it after the activity under way: drive, settle, dock, stay.
   struct Plan {
     fp_call call = FP_CALL_MOVE;
     const Lane* lane = nullptr;
-    bool drive_due = false, settle_due = false, stay_due = false;
+    bool drive_due = false, settle_due = false, dock_due = false, stay_due = false;
     double way_m = 0.0;  // along the lane: where a drive goes on that a halt has cut short
   };
   // An action accepted while the AGV was still on its way to the station at which it begins.
@@ -73,9 +73,9 @@ class Actions {
   void finish(AgvId agv, double speed_mps);
   void turn_or_drive(AgvId agv, double entry_mps);
   void begin_settling(AgvId agv);
+  void begin_docking(AgvId agv);
   void begin_stay(AgvId agv);
   void begin_transfer(AgvId agv, ActivityKind kind);
-  void begin_charging(AgvId agv);
   void begin_activity(AgvId agv, const Activity& activity, std::uint64_t subject);
   void leg_ends(AgvId agv);
   void take_next(AgvId agv, fp_call call, std::uint32_t segment);

@@ -10,8 +10,11 @@ constexpr double kAppearsClear_m = 0.05;  // beyond the safety distance
 constexpr Duration kTriesAgain = std::chrono::seconds(1);
 
 Halt::Reason halt_of(Fault::Kind kind) {
-  return kind == Fault::Kind::Breakdown ? Halt::Reason::Breakdown : Halt::Reason::ProtectiveStop;
+  return kind == Fault::Kind::ProtectiveStop ? Halt::Reason::ProtectiveStop : Halt::Reason::Breakdown;
 }
+
+// The agent is destroyed when the fault strikes, and made again when it is over.
+bool stops_computer(Fault::Kind kind) { return kind == Fault::Kind::Restart || kind == Fault::Kind::PowerFailure; }
 
 bool concerns_agent(Fault::Kind kind) { return kind == Fault::Kind::Restart || kind == Fault::Kind::Freeze; }
 
@@ -52,16 +55,19 @@ void FaultDesk::strikes(AgvId agv, std::uint64_t number) {
   ++run_.counters.faults;
   run_.trace(agv, traced::FaultStrikes{fault.kind, number});
   if (holds_agv(fault.kind)) slices_[number].halt = ports_.halts.begin(agv, halt_of(fault.kind));
-  if (fault.kind == Fault::Kind::Restart) ports_.agents.goes_away(agv);
+  if (stops_computer(fault.kind)) ports_.agents.goes_away(agv);
   if (fault.kind == Fault::Kind::Freeze) ports_.agents.freeze_until(agv, run_.now + fault.lasts);
   run_.queue.push(run_.now + fault.lasts, agv, Event::Kind::FaultOver, number);
 }
 
 void FaultDesk::ends(AgvId agv, std::uint64_t number) {
   const Fault::Kind kind = run_.scenario.faults[number].kind;
-  if (holds_agv(kind)) return halt_ends(agv, number);
-  run_.trace(agv, traced::FaultOver{kind, number});
-  if (kind == Fault::Kind::Restart) ports_.agents.comes_back(agv);
+  if (holds_agv(kind)) {
+    halt_ends(agv, number);
+  } else {
+    run_.trace(agv, traced::FaultOver{kind, number});
+  }
+  if (stops_computer(kind)) ports_.agents.comes_back(agv);
 }
 
 void FaultDesk::end_halts_of(AgvId agv) {

@@ -22,6 +22,8 @@ const char* name_of(ActivityKind kind) {
       return "charge";
     case ActivityKind::Settle:
       return "settle";
+    case ActivityKind::Dock:
+      return "dock";
   }
   invariant_violated("an activity has a name");
 }

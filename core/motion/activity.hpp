@@ -11,7 +11,7 @@ namespace fleetproof {
 
 // An activity is a piece of dynamism (Sect. 3.3): which entities evolve, in which interval, and how. The numbers are
 // part of the trace digest.
-enum class ActivityKind : std::uint8_t { Drive = 1, Turn, Transmit, Pick, Drop, Park, Charge, Settle };
+enum class ActivityKind : std::uint8_t { Drive = 1, Turn, Transmit, Pick, Drop, Park, Charge, Settle, Dock };
 const char* name_of(ActivityKind kind);
 
 // Where a load is: the containment relation (Sect. 3.2). A load on the floor is a body. A load that is cleared away has
@@ -38,7 +38,7 @@ struct Reception {  // transmit: the message reaches the receiver's inbox when t
   AgvId receiver;
   std::uint32_t message = 0;
 };
-struct Standing {};  // park, settle
+struct Standing {};  // park, settle, dock
 
 struct Activity {
   ActivityKind kind = ActivityKind::Park;

@@ -20,6 +20,7 @@ struct Fault {
     LoadDrop = 3,        // the load lies on the floor while the fault lasts; no effect on an empty AGV
     Restart = 4,         // the agent loses its memory and is away while the fault lasts; the AGV finishes its action
     Freeze = 5,          // the agent receives no event while the fault lasts, and then all of them
+    PowerFailure = 6,    // breakdown and restart in one: the AGV brakes, and its agent is away while the fault lasts
   };
   Kind kind = Kind::Breakdown;
   AgvId agv;
@@ -43,13 +44,15 @@ constexpr const char* name_of(Fault::Kind kind) {
       return "restart";
     case Fault::Kind::Freeze:
       return "freeze";
+    case Fault::Kind::PowerFailure:
+      return "power-failure";
   }
   return kNoWord;
 }
 // Whether the AGV brakes and stands while the fault lasts, and then goes on. The fleet is not accused of what it does
 // not do in this time.
 constexpr bool holds_agv(Fault::Kind kind) {
-  return kind == Fault::Kind::Breakdown || kind == Fault::Kind::ProtectiveStop;
+  return kind == Fault::Kind::Breakdown || kind == Fault::Kind::ProtectiveStop || kind == Fault::Kind::PowerFailure;
 }
 
 // The laser scanner of an AGV. It stops the AGV when a body is in its protective field, and lets the AGV go on some

@@ -17,7 +17,7 @@ inline constexpr Field kWidth{"width_m", "width of the body", kSmallestBody_m, k
 template <FieldsOf<VehicleType> Vehicle, class Visit>
 void visit_fields(Vehicle& vehicle, Visit&& visit) {
   auto& [name, footprint, drive, turn, loaded, lateral_mps2, speed_deviation, settle_s, battery_per_m,
-         battery_idle_per_s, charge_per_s, pick_s, drop_s, storage_spread_s, other_spread_s] = vehicle;
+         battery_idle_per_s, charge_per_s, dock_s, pick_s, drop_s, storage_spread_s, other_spread_s] = vehicle;
   auto& [length_m, width_m] = footprint;
   auto& [speed_mps, acceleration_mps2, deceleration_mps2] = drive;
   auto& [speed_radps, acceleration_radps2, deceleration_radps2] = turn;
@@ -62,6 +62,8 @@ void visit_fields(Vehicle& vehicle, Visit&& visit) {
         battery_idle_per_s);
   visit(Field{.key = "charge_per_s", .text = "share of a full battery that a second of charging adds", .low = 1e-6},
         charge_per_s);
+  visit(Field{.key = "dock_s", .text = "time to connect to the charger, before charging begins", .high = kHour_s},
+        dock_s);
   visit(Field{.key = "pick_s", .text = "shortest time to pick a load up", .high = kHour_s}, pick_s);
   visit(Field{.key = "drop_s", .text = "shortest time to set a load down", .high = kHour_s}, drop_s);
   visit(Field{.key = "storage_spread_s",

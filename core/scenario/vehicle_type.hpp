@@ -29,6 +29,7 @@ struct VehicleType {
   double battery_per_m = 1.0 / 20000.0;  // share of a full battery
   double battery_idle_per_s = 0.0;       // share that the AGV uses while it is switched on
   double charge_per_s = 1.0 / 3600.0;
+  double dock_s = 0.0;                // connecting to the charger, before charging begins
   double pick_s = 5.0, drop_s = 5.0;  // the shortest time of a transfer
   double storage_spread_s = 0.0;      // how much longer a transfer may take at a storage station, uniform
   double other_spread_s = 0.0;        // how much longer a transfer may take at any other station, uniform

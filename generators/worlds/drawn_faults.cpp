@@ -18,7 +18,8 @@ enum class Topic : std::uint32_t {
   Restart,
   Freeze,
   Clock,
-  Battery
+  Battery,
+  PowerFailure
 };
 
 constexpr double kHour_s = 3600.0;
@@ -50,6 +51,8 @@ class FaultDraws {
             [&](Draws&) { return rates_.restart_s; });
     poisson(id, Topic::Freeze, Fault::Kind::Freeze, rates_.freezes_per_agv_hour,
             [&](Draws& d) { return d.uniform(rates_.freeze_least_s, rates_.freeze_most_s); });
+    poisson(id, Topic::PowerFailure, Fault::Kind::PowerFailure, rates_.power_failures_per_agv_hour,
+            [&](Draws& d) { return d.exponential(rates_.power_back_s); });
     missions(id);
     sensing(id);
     Draws battery = draws(Topic::Battery, id.value);

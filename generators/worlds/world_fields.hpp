@@ -32,7 +32,8 @@ void visit_fields(Rates& rates, Visit&& visit) {
   auto& [breakdowns_per_agv_hour, breakdowns_per_transport, repair_s, protective_stops_per_agv_hour,
          protective_stop_least_s, protective_stop_most_s, load_drops_per_transport, load_lies_s, obstacles_per_hour,
          obstacle_stays_s, restarts_per_agv_hour, restart_s, freezes_per_agv_hour, freeze_least_s, freeze_most_s,
-         clock_offset_s, clock_drift_ppm, position_error_m, position_late_s, low_battery_share] = rates;
+         power_failures_per_agv_hour, power_back_s, clock_offset_s, clock_drift_ppm, position_error_m, position_late_s,
+         low_battery_share] = rates;
   const auto rate = [](std::string_view key, std::string_view text) {
     return Field{.key = key, .text = text, .high = 3600.0};
   };
@@ -59,6 +60,9 @@ void visit_fields(Rates& rates, Visit&& visit) {
         freezes_per_agv_hour);
   visit(time("freeze_least_s", "shortest freeze"), freeze_least_s);
   visit(time("freeze_most_s", "longest freeze; uniform"), freeze_most_s);
+  visit(rate("power_failures_per_agv_hour", "an AGV stops where it is and its agent loses its memory"),
+        power_failures_per_agv_hour);
+  visit(time("power_back_s", "mean time until the power is back; exponential"), power_back_s);
   visit(Field{.key = "clock_offset_s", .text = "each AGV's clock is ahead by up to this; uniform", .high = 1e6},
         clock_offset_s);
   visit(Field{.key = "clock_drift_ppm", .text = "each AGV's clock is too fast or too slow by up to this", .high = 1e5},

@@ -89,6 +89,36 @@ TEST(ActionsPart, ATransferThatIsHaltedBeginsAgain) {
   EXPECT_DOUBLE_EQ(to_seconds(world.run.status(kFirst).activity->end), 15.0);
 }
 
+// Connecting takes 10 s; a halt in the middle of it makes the AGV connect anew.
+TEST(ActionsPart, DocksBeforeItCharges) {
+  Scenario scenario = test::row_of_tens({0});
+  scenario.vehicle_types[0].dock_s = 10.0;
+  scenario.agvs[0].battery = 0.5;
+  SmallWorld world(scenario);
+  started(world);
+  ASSERT_TRUE(order(world, FP_CALL_CHARGE, FP_HERE));
+  EXPECT_EQ(under_way(world), ActivityKind::Dock);
+  world.clock(4.0);
+  const std::uint64_t halt = world.parts.halts.begin(kFirst, Halt::Reason::ProtectiveStop);
+  EXPECT_FALSE(world.run.status(kFirst).activity);
+  world.clock(6.0);
+  world.parts.halts.end(kFirst, halt);
+  EXPECT_EQ(under_way(world), ActivityKind::Dock);
+  EXPECT_EQ(done(world, FP_OK), 0);
+  end_activity(world);
+  EXPECT_DOUBLE_EQ(to_seconds(world.run.now), 16.0);
+  EXPECT_EQ(under_way(world), ActivityKind::Charge);
+  EXPECT_EQ(done(world, FP_OK), 1) << "connected";
+  EXPECT_DOUBLE_EQ(world.parts.battery.level(kFirst), 0.5) << "docking charges nothing";
+}
+
+TEST(ActionsPart, WithoutADockingTimeItChargesAtOnce) {
+  SmallWorld world(test::row_of_tens({0}));
+  started(world);
+  ASSERT_TRUE(order(world, FP_CALL_CHARGE, FP_HERE));
+  EXPECT_EQ(under_way(world), ActivityKind::Charge);
+}
+
 TEST(ActionsPart, StoppedForGoodItAnswersForEveryActionAndObeysAgainWhenPutBack) {
   SmallWorld world(test::row_of_tens({0}));
   started(world);

@@ -65,6 +65,34 @@ TEST(FaultDeskPart, ARestartTakesTheAgentAwayAndBringsItBack) {
   EXPECT_TRUE(world.parts.agents.is_up(kFirst));
 }
 
+TEST(FaultDeskPart, APowerFailureHoldsTheAgvAndTakesItsComputerAway) {
+  SmallWorld world(with({fault(Fault::Kind::PowerFailure, 0.0, 30.0)}));
+  started(world).heard.clear();
+  world.parts.faults.strikes(kFirst, 0);
+  EXPECT_TRUE(world.run.status(kFirst).is_held_by(Halt::Reason::Breakdown));
+  EXPECT_FALSE(world.parts.agents.is_up(kFirst));
+  const Event over = world.next(Event::Kind::FaultOver);
+  EXPECT_DOUBLE_EQ(to_seconds(over.at), 30.0);
+  world.parts.faults.ends(kFirst, over.payload);
+  EXPECT_TRUE(world.run.status(kFirst).halts.empty());
+  EXPECT_TRUE(world.parts.agents.is_up(kFirst));
+  ASSERT_EQ(world.heard.size(), 1U);
+  EXPECT_EQ(world.heard[0].kind, FP_EVENT_START);
+  EXPECT_EQ(world.trace.of(TraceKind::FaultOver).size(), 1U);
+}
+
+// The operator ends the halt early: the computer still needs its time.
+TEST(FaultDeskPart, PowerComesBackAtItsTimeWhoeverMovesTheAgv) {
+  SmallWorld world(with({fault(Fault::Kind::PowerFailure, 0.0, 30.0)}));
+  started(world);
+  world.parts.faults.strikes(kFirst, 0);
+  world.parts.faults.end_halts_of(kFirst);
+  EXPECT_FALSE(world.parts.agents.is_up(kFirst));
+  world.parts.faults.ends(kFirst, 0);
+  EXPECT_TRUE(world.parts.agents.is_up(kFirst));
+  EXPECT_EQ(world.trace.of(TraceKind::FaultOver).size(), 1U);
+}
+
 TEST(FaultDeskPart, AnObstacleWaitsUntilItsPlaceIsFree) {
   Scenario scenario = test::row_of_tens({0});
   scenario.obstacles.push_back({"crate", {1.0, 1.0}, {Vec2{0.5, 0.0}, Vec2::UnitX()}, seconds(1.0)});
