@@ -27,6 +27,7 @@ const std::map<std::string, std::string> kLargeClasses = {
     {"core/agents/hull_lock.hpp HullLock", "one agent, one state machine: every event may change every member"},
     {"core/agents/lock_protocol.hpp LockProtocol", "the protocol's messages and the lock state that they change"},
     {"core/scenario/scenario.hpp Scenario", "plain data: everything that one simulation needs"},
+    {"core/scenario/vehicle_type.hpp VehicleType", "plain data: everything that a kind of AGV can do"},
     {"core/outcome/counters.hpp Counters", "plain data: one number for each counter"},
     {"core/outcome/outcome.hpp Outcome", "plain data: everything that a run leaves"},
     {"campaign/plan/plan.hpp CampaignPlan", "plain data: everything that a campaign file says"},

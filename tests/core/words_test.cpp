@@ -40,7 +40,7 @@ void expect_round_trip(std::size_t values) {
 }
 
 TEST(Words, OfAScenarioAreDifferentAndComeBack) {
-  expect_round_trip<Fault::Kind>(5);
+  expect_round_trip<Fault::Kind>(6);
   expect_round_trip<RadioSetup::DelayModel>(3);
   expect_round_trip<OutageSetup::Model>(2);
   expect_round_trip<OutageSetup::Scope>(3);

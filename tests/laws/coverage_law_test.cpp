@@ -141,9 +141,9 @@ TEST(Faults, AreCountedByKind) {
 TEST(Probes, EverythingThatTheLawCountsBearsANameOfTheWorld) {
   const Scenario scenario = row_scenario(2, {0, 1});
   Told told(scenario, "coverage");
-  for (int fault = 1; fault <= 5; ++fault) told.strikes(1.0, 0, static_cast<Fault::Kind>(fault));
+  for (const Fault::Kind fault : kValuesOf<Fault::Kind>) told.strikes(1.0, 0, fault);
   const auto findings = told.finish(10.0);
-  EXPECT_EQ(findings.met.size(), kEncounterKinds + 1 + 5);
+  EXPECT_EQ(findings.met.size(), kEncounterKinds + 1 + kValuesOf<Fault::Kind>.size());
   for (const ProbeCount& probe : findings.met) EXPECT_TRUE(is_world_probe(probe.name)) << probe.name;
   EXPECT_EQ(world_probes().size(), findings.met.size() + 2) << "and those that the evidence derives";
 }
