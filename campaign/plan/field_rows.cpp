@@ -133,7 +133,8 @@ class RowWriter {
   static std::string special(const LayoutFactor&) { return "a family, a file or a table"; }
   template <class Shared>
   static std::string special(const std::shared_ptr<const Shared>&) {
-    return std::is_same_v<Shared, LogicalMap> ? "a table" : "a recording or the name of a file";
+    if (std::is_same_v<Shared, LogicalMap>) return "a table";
+    return std::is_same_v<Shared, RadioTrace> ? "a recording or the name of a file" : "the name of a file";
   }
 
   std::string file_;

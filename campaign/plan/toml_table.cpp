@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <toml++/toml.h>
-#include <filesystem>
 #include <memory>
 #include <set>
 
@@ -107,12 +106,7 @@ TomlTable::TomlTable(Impl* impl) : impl_(impl) {}
 TomlTable::~TomlTable() { delete impl_; }
 TomlTable::TomlTable(TomlTable&& other) noexcept : impl_(std::exchange(other.impl_, nullptr)) {}
 
-TomlTable TomlTable::read(const std::string& path) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored))
-    throw InputError(path, "there is no such file; check the path of the campaign file");
-  return parse(read_text_file(path), path);
-}
+TomlTable TomlTable::read(const std::string& path) { return parse(read_text_file(path), path); }
 
 TomlTable TomlTable::parse(std::string_view text, const std::string& path) {
   refuse_deep_keys(text, path);

@@ -43,6 +43,7 @@ TEST(HaltsPart, AllOfOneReasonEndTogetherAndOthersStay) {
 
 TEST(HaltsPart, TheEndOfAHaltMovesNoAgvThatIsOutOfOrder) {
   SmallWorld world(test::row_of_tens({0}));
+  started(world);  // its agent hears that the action was cut short
   under_way(world);
   const std::uint64_t number = world.parts.halts.begin(kFirst, Halt::Reason::ProtectiveStop);
   world.parts.actions.stop_for_good(kFirst);
