@@ -13,9 +13,12 @@ else()
   set(planted planted_use_after_free)
   set(report "AddressSanitizer: heap-use-after-free")
 endif()
-set(sanitizer_options
-  "ASAN_OPTIONS=detect_leaks=1:detect_stack_use_after_return=1" "UBSAN_OPTIONS=print_stacktrace=1"
-  "TSAN_OPTIONS=suppressions=${CMAKE_CURRENT_SOURCE_DIR}/tsan.supp")
+# One variable: gtest_discover_tests takes a list of them apart.
+if(FLEETPROOF_SANITIZE MATCHES thread)
+  set(sanitizer_options "TSAN_OPTIONS=suppressions=${CMAKE_CURRENT_SOURCE_DIR}/tsan.supp")
+else()
+  set(sanitizer_options "ASAN_OPTIONS=detect_leaks=1:detect_stack_use_after_return=1")
+endif()
 
 add_executable(sanitized_tests EXCLUDE_FROM_ALL ${sanitized_sources})
 target_link_libraries(sanitized_tests
