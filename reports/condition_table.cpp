@@ -16,12 +16,21 @@ namespace {
 // What a table shows beside the columns that all of them have.
 struct Shown {
   bool counts_only = false;
-  bool outages = false;  // the campaign has outages
+  std::vector<FactorInfo> factors{};  // without those that are only named above 0, if no cell has more
 };
 
+std::vector<FactorInfo> shown_factors(const Evidence& evidence) {
+  std::vector<FactorInfo> shown;
+  std::ranges::copy_if(kFactors, std::back_inserter(shown), [&](const FactorInfo& factor) {
+    return !factor.only_above_zero ||
+           std::ranges::any_of(evidence.cells(), [&](const CellRecord& cell) { return cell.highest[factor.id] > 0.0; });
+  });
+  return shown;
+}
+
 std::vector<Column> columns(const Shown& shown, const std::string& upper_head) {
-  std::vector<Column> list{{"agent", false}, {"loss"}, {"delay"}};
-  if (shown.outages) list.push_back({"outage"});
+  std::vector<Column> list{{"agent", false}};
+  for (const FactorInfo& factor : shown.factors) list.push_back({std::string(factor.head)});
   list.push_back({"runs"});
   list.push_back({"viol."});
   if (!shown.counts_only) {
@@ -36,11 +45,11 @@ std::vector<Column> columns(const Shown& shown, const std::string& upper_head) {
 
 std::vector<std::string> row(const Condition& condition, const Shown& shown, double confidence) {
   const auto& tally = condition.tally;
-  std::vector<std::string> cells{printable(condition.agent, 40),
-                                 percent_span(condition.lowest.loss, condition.highest.loss),
-                                 seconds_span(condition.lowest.delay_s, condition.highest.delay_s)};
-  const double outage_s = condition.lowest.mean_outage_s, outage_to_s = condition.highest.mean_outage_s;
-  if (shown.outages) cells.push_back(outage_to_s > 0.0 ? seconds_span(outage_s, outage_to_s) : "none");
+  std::vector<std::string> cells{printable(condition.agent, 40)};
+  for (const FactorInfo& factor : shown.factors) {
+    const double from = condition.lowest[factor.id], to = condition.highest[factor.id];
+    cells.push_back(factor.only_above_zero && to == 0.0 ? "none" : factor_span(factor, from, to));
+  }
   cells.push_back(std::to_string(tally.runs));
   cells.push_back(std::to_string(tally.violating_runs));
   if (!shown.counts_only) {
@@ -57,10 +66,6 @@ std::vector<std::string> row(const Condition& condition, const Shown& shown, dou
   cells.push_back(clearance_text(tally));
   cells.push_back(per_hour_text(tally.transports_per_agv_hour()));
   return cells;
-}
-
-bool has_outages(const Evidence& evidence) {
-  return std::ranges::any_of(evidence.cells(), [](const CellRecord& cell) { return cell.mean_outage_to_s > 0.0; });
 }
 
 // Failures first; without any, the fewest transports.
@@ -111,7 +116,7 @@ Section condition_section(const ReportInput& input, std::string title,
   std::set<double> confidences;
   for (const auto& condition : conditions) confidences.insert(bound_confidence(evidence, condition.agent));
   const bool one_confidence = confidences.size() == 1;
-  const Shown shown{evidence.counts_only(), has_outages(evidence)};
+  const Shown shown{evidence.counts_only(), shown_factors(evidence)};
   section.table.columns = columns(shown, one_confidence ? "upper " + percent(*confidences.begin()) : "upper");
   for (const auto& condition : conditions)
     section.table.rows.push_back(row(condition, shown, bound_confidence(evidence, condition.agent)));
@@ -129,9 +134,9 @@ Section table_legend(const ReportInput& input) {
   const auto add = [&](std::string text) { section.remarks.push_back({std::move(text), ""}); };
   add("viol. = runs that broke the safety distance; contact = runs with a contact; stuck = runs without progress; "
       "closest = smallest clearance; done/AGV-h = transports (orders) completed per AGV-hour.");
-  if (has_outages(evidence))
-    add("outage = mean length of an outage of the radio; none = losses are independent of each other. The loss is the "
-        "same on average.");
+  for (const FactorInfo& factor : shown_factors(evidence)) {
+    if (!factor.legend.empty()) add(std::string(factor.legend));
+  }
   if (!evidence.sampling().empty())
     add("0 .. 40 % = every replicate draws its own value in between, the same for all agents, layouts and fleets; a "
         "rate is the mean over the region.");

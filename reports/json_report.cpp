@@ -34,19 +34,17 @@ Json estimate_json(const std::optional<Estimate>& estimate) {
       {"upper_bound", estimate->upper},  {"interval_95", {estimate->interval_95.lower, estimate->interval_95.upper}}};
 }
 
+void add_factors(Json& json, std::string_view FactorInfo::*key, const FactorValues& values) {
+  for (const FactorInfo& factor : kFactors) json[std::string(factor.*key)] = values[factor.id];
+}
+
 Json cell_json(const CellRecord& cell) {
-  return {{"cell", cell.index},
-          {"agent", cell.agent},
-          {"layout", cell.layout},
-          {"fleet_size", cell.fleet_size},
-          {"loss", cell.loss},
-          {"delay_s", cell.delay_s},
-          {"mean_outage_s", cell.mean_outage_s},
-          {"in_contract", cell.in_contract()},
-          {"is_worst_case", cell.is_worst_case()},
-          {"loss_to", cell.loss_to},
-          {"delay_to_s", cell.delay_to_s},
-          {"mean_outage_to_s", cell.mean_outage_to_s}};
+  Json json{{"cell", cell.index}, {"agent", cell.agent}, {"layout", cell.layout}, {"fleet_size", cell.fleet_size}};
+  add_factors(json, &FactorInfo::key, cell.lowest);
+  json["in_contract"] = cell.in_contract();
+  json["is_worst_case"] = cell.is_worst_case();
+  add_factors(json, &FactorInfo::key_to, cell.highest);
+  return json;
 }
 
 Json violation_json(const Violation& v) {
@@ -65,12 +63,8 @@ Json violation_json(const Violation& v) {
 
 Json failing_run_json(const ReportInput& input, const std::optional<FailingRun>& run) {
   if (!run) return nullptr;
-  // The run's own quality, where its cell has bounds.
   auto cell = input.evidence.cells()[run->cell];
-  const auto& [loss, delay_s, mean_outage_s] = run->radio;
-  cell.loss = cell.loss_to = loss;
-  cell.delay_s = cell.delay_to_s = delay_s;
-  cell.mean_outage_s = cell.mean_outage_to_s = mean_outage_s;
+  cell.lowest = cell.highest = run->factors;  // the run's own, where its cell has bounds
   auto json = cell_json(cell);
   json["run_index"] = run->run_index;
   json["replicate"] = run->replicate;
@@ -171,16 +165,13 @@ Json gate_json(const ReportInput& input, std::size_t index) {
 }
 
 Json condition_json(const ReportInput& input, const Condition& condition) {
-  Json json{{"agent", condition.agent},
-            {"loss", condition.lowest.loss},
-            {"delay_s", condition.lowest.delay_s},
-            {"mean_outage_s", condition.lowest.mean_outage_s},
-            {"loss_to", condition.highest.loss},
-            {"delay_to_s", condition.highest.delay_s},
-            {"mean_outage_to_s", condition.highest.mean_outage_s},
-            {"in_contract", condition.in_contract},
-            {"is_worst_case", condition.is_worst_case},
-            {"cells", condition.pool.cells}};
+  Json json;
+  json["agent"] = condition.agent;
+  add_factors(json, &FactorInfo::key, condition.lowest);
+  add_factors(json, &FactorInfo::key_to, condition.highest);
+  json["in_contract"] = condition.in_contract;
+  json["is_worst_case"] = condition.is_worst_case;
+  json["cells"] = condition.pool.cells;
   add_tally(json, condition.tally);
   const auto confidence = bound_confidence(input.evidence, condition.agent);
   const auto& pool = condition.pool;

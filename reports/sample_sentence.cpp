@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <set>
-#include <tuple>
 
 #include "reports/wording.hpp"
 
@@ -13,10 +12,9 @@ namespace {
 
 constexpr std::size_t kMostListed = 8;
 
-template <class Values>
-std::string listed(const Values& values, std::string (*text)(double)) {
+std::string listed(const FactorInfo& factor, const std::set<double>& values) {
   std::vector<std::string> words;
-  for (const double value : values) words.push_back(text(value));
+  for (const double value : values) words.push_back(factor_text(factor, value));
   if (words.size() > kMostListed) words = {words.front(), "...", words.back()};
   return joined(words);
 }
@@ -29,53 +27,48 @@ std::string listed(const std::set<std::string>& names) {
   return joined(words) + (all > kMostListed ? fmt::format(" and {} more", all - kMostListed) : "");
 }
 
-struct Bounds {
-  double from = 0.0, to = 0.0;
-  friend auto operator<=>(const Bounds&, const Bounds&) = default;
+// The factors of a cell: its lower and its upper bounds, which are the same unless they are drawn.
+struct Span {
+  FactorValues lowest, highest;
+  bool is_drawn() const { return lowest != highest; }
+  friend auto operator<=>(const Span&, const Span&) = default;
 };
 
-// Loss, delay, mean outage.
-using Radio = std::tuple<Bounds, Bounds, Bounds>;
-
-bool is_drawn(const Radio& radio) {
-  return std::apply([](const auto&... bounds) { return ((bounds.from != bounds.to) || ...); }, radio);
-}
-
-// The lists of losses, delays and outages if every combination of them was run, else the combinations. Outages only
-// where there are any.
-std::string combinations(const std::set<Radio>& radios) {
-  std::set<double> losses, delays_s, outages_s;
-  for (const auto& [loss, delay_s, outage_s] : radios) {
-    losses.insert(loss.from);
-    delays_s.insert(delay_s.from);
-    outages_s.insert(outage_s.from);
+// The lists of values of each factor if every combination of them was run, else the combinations. A factor that is only
+// named above 0 is left out if it is 0 everywhere.
+std::string combinations(const std::set<Span>& spans) {
+  std::vector<std::string> lists;
+  std::size_t combined = 1;
+  for (const FactorInfo& factor : kFactors) {
+    std::set<double> values;
+    for (const Span& span : spans) values.insert(span.lowest[factor.id]);
+    combined *= values.size();
+    if (!factor.only_above_zero || *values.rbegin() > 0.0)
+      lists.push_back(fmt::format("{} {}", factor.name, listed(factor, values)));
   }
-  if (radios.size() == losses.size() * delays_s.size() * outages_s.size()) {
-    const bool has_outages = *outages_s.rbegin() > 0.0;
-    return fmt::format("loss {}; delay {}{}", listed(losses, percent), listed(delays_s, seconds_text),
-                       has_outages ? "; mean outage " + listed(outages_s, seconds_text) : "");
-  }
+  if (spans.size() == combined) return joined(lists, "; ");
   std::vector<std::string> words;
-  for (const auto& [loss, delay_s, outage_s] : radios) {
-    if (words.size() < kMostListed)
-      words.push_back(
-          fmt::format("{} with {}{}", percent(loss.from), seconds_text(delay_s.from), outage_text(outage_s.from)));
+  for (const Span& span : spans) {
+    if (words.size() < kMostListed) words.push_back(factor_spans(span.lowest, span.lowest, " with "));
   }
   return joined(words, "; ") +
-         (radios.size() > kMostListed ? fmt::format("; and {} more", radios.size() - kMostListed) : "");
+         (spans.size() > kMostListed ? fmt::format("; and {} more", spans.size() - kMostListed) : "");
 }
 
 // "loss <= 40 %", "10 % <= loss <= 40 %", "loss = 40 %".
-std::string within(const char* name, const Bounds& bounds, std::string (*text)(double)) {
-  if (bounds.from == bounds.to) return fmt::format("{} = {}", name, text(bounds.from));
-  return fmt::format("{}{} <= {}", bounds.from == 0.0 ? "" : text(bounds.from) + " <= ", name, text(bounds.to));
+std::string within(const FactorInfo& factor, double from, double to) {
+  if (from == to) return fmt::format("{} = {}", factor.name, factor_text(factor, from));
+  return fmt::format("{}{} <= {}", from == 0.0 ? "" : factor_text(factor, from) + " <= ", factor.name,
+                     factor_text(factor, to));
 }
 
-std::string region(const Radio& radio) {
-  const auto& [loss, delay_s, outage_s] = radio;
-  auto text = fmt::format("{} and {}", within("loss", loss, percent), within("delay", delay_s, seconds_text));
-  if (outage_s.to > 0.0) text += " and " + within("mean outage", outage_s, seconds_text);
-  return text;
+std::string region(const Span& span) {
+  std::vector<std::string> words;
+  for (const FactorInfo& factor : kFactors) {
+    const double from = span.lowest[factor.id], to = span.highest[factor.id];
+    if (!factor.only_above_zero || to > 0.0) words.push_back(within(factor, from, to));
+  }
+  return joined(words, " and ");
 }
 
 std::string how_drawn(const std::string& sampling) {
@@ -83,20 +76,19 @@ std::string how_drawn(const std::string& sampling) {
   return fmt::format("drawn evenly ({}), not independently", printable(sampling, 20));
 }
 
-std::string where(const std::set<Radio>& radios, const std::string& sampling) {
-  if (std::ranges::none_of(radios, is_drawn)) {
+std::string where(const std::set<Span>& spans, const std::string& sampling) {
+  if (std::ranges::none_of(spans, &Span::is_drawn)) {
     return fmt::format("at {} ({})",
-                       radios.size() == 1 ? "this combination" : fmt::format("these {} combinations", radios.size()),
-                       combinations(radios));
+                       spans.size() == 1 ? "this combination" : fmt::format("these {} combinations", spans.size()),
+                       combinations(spans));
   }
   const std::string average = "; a rate is the mean over that region, not that of its worst point";
-  if (radios.size() == 1)
-    return fmt::format("wherever {} ({}{})", region(*radios.begin()), how_drawn(sampling), average);
+  if (spans.size() == 1) return fmt::format("wherever {} ({}{})", region(*spans.begin()), how_drawn(sampling), average);
   std::vector<std::string> words;
-  for (const auto& radio : radios) {
-    if (words.size() < kMostListed) words.push_back(region(radio));
+  for (const Span& span : spans) {
+    if (words.size() < kMostListed) words.push_back(region(span));
   }
-  const auto more = radios.size() > kMostListed ? fmt::format("; or {} more", radios.size() - kMostListed) : "";
+  const auto more = spans.size() > kMostListed ? fmt::format("; or {} more", spans.size() - kMostListed) : "";
   return fmt::format("wherever {}{} ({}{})", joined(words, "; or "), more, how_drawn(sampling), average);
 }
 
@@ -124,14 +116,13 @@ std::string held_world(const Evidence& evidence) {
 }  // namespace
 
 std::string sampled(const Evidence& evidence, const std::vector<std::uint32_t>& cells) {
-  std::set<Radio> radios;
+  std::set<Span> spans;
   std::set<std::string> layouts;
   std::set<std::uint32_t> fleets;
   Tally tally;
   for (const auto index : cells) {
     const auto& cell = evidence.cells()[index];
-    radios.emplace(Bounds{cell.loss, cell.loss_to}, Bounds{cell.delay_s, cell.delay_to_s},
-                   Bounds{cell.mean_outage_s, cell.mean_outage_to_s});
+    spans.insert({cell.lowest, cell.highest});
     layouts.insert(cell.layout);
     fleets.insert(cell.fleet_size);
     tally.add(evidence.tally(index));
@@ -139,7 +130,7 @@ std::string sampled(const Evidence& evidence, const std::vector<std::uint32_t>& 
   std::vector<std::string> sizes;
   for (const auto size : fleets) sizes.push_back(std::to_string(size));
   auto text = fmt::format("{}{} {}, {} {}, fleets of {}", held_before(evidence, layouts.size() * fleets.size()),
-                          count_text(evidence.complete_replicates(), "replicate"), where(radios, evidence.sampling()),
+                          count_text(evidence.complete_replicates(), "replicate"), where(spans, evidence.sampling()),
                           layouts.size() == 1 ? "layout" : "layouts", listed(layouts), joined(sizes, " or "));
   if (tally.longest_ns > 0)
     text += fmt::format(", {} a run", seconds_text(static_cast<double>(tally.longest_ns) * 1e-9));

@@ -80,9 +80,8 @@ Remark describe(const ReportInput& input, const FailingRun& run) {
                         body_name(run.closest->b, cell));
     if (run.violations > 1) text += fmt::format(" (the closest of {})", run.violations);
   }
-  text += fmt::format("; agent {}, layout {}, fleet of {}, loss {}, delay {}{}", printable(cell.agent, 40),
-                      printable(cell.layout, 40), cell.fleet_size, percent(run.radio.loss),
-                      seconds_text(run.radio.delay_s), outage_text(run.radio.mean_outage_s));
+  text += fmt::format("; agent {}, layout {}, fleet of {}, {}", printable(cell.agent, 40), printable(cell.layout, 40),
+                      cell.fleet_size, factors_text(run.factors));
   if (!run.message.empty()) text += fmt::format("; \"{}\"", printable(run.message, 120));
   return {text, replay_line(input, run.run_index)};
 }

@@ -15,10 +15,8 @@ namespace {
 constexpr std::size_t kMostNamed = 4;
 
 std::string cell_name(const CellRecord& cell) {
-  return fmt::format("{} on {}, fleet of {}, {}, {}{}", printable(cell.agent, 40), printable(cell.layout, 40),
-                     cell.fleet_size, percent_span(cell.loss, cell.loss_to),
-                     seconds_span(cell.delay_s, cell.delay_to_s),
-                     outage_span(cell.mean_outage_s, cell.mean_outage_to_s));
+  return fmt::format("{} on {}, fleet of {}, {}", printable(cell.agent, 40), printable(cell.layout, 40),
+                     cell.fleet_size, factor_spans(cell.lowest, cell.highest));
 }
 
 enum class Scope { Contract, All };

@@ -21,16 +21,34 @@ std::string hundredths(double value) {
 std::string percent(double fraction) { return hundredths(fraction * 100.0) + " %"; }
 std::string seconds_text(double value_s) { return hundredths(value_s) + " s"; }
 
-std::string percent_span(double from, double to) {
-  return from == to ? percent(from) : hundredths(from * 100.0) + " .. " + percent(to);
+std::string factor_text(const FactorInfo& factor, double value) {
+  return fmt::format("{}{}", hundredths(value * factor.scale), factor.sign);
 }
-std::string seconds_span(double from_s, double to_s) {
-  return from_s == to_s ? seconds_text(from_s) : hundredths(from_s) + " .. " + seconds_text(to_s);
+std::string factor_span(const FactorInfo& factor, double from, double to) {
+  return (from == to ? "" : hundredths(from * factor.scale) + " .. ") + factor_text(factor, to);
 }
 
-std::string outage_text(double mean_outage_s) { return outage_span(mean_outage_s, mean_outage_s); }
-std::string outage_span(double from_s, double to_s) {
-  return to_s > 0.0 ? ", outages of " + seconds_span(from_s, to_s) : "";
+std::string factors_text(const FactorValues& factors) {
+  std::vector<std::string> words;
+  for (const FactorInfo& factor : kFactors) {
+    const double value = factors[factor.id];
+    if (value > 0.0 || !factor.only_above_zero)
+      words.push_back(fmt::format("{} {}", factor.phrase, factor_text(factor, value)));
+  }
+  return joined(words);
+}
+
+std::string factor_spans(const FactorValues& lowest, const FactorValues& highest, std::string_view separator) {
+  std::string text;
+  for (const FactorInfo& factor : kFactors) {
+    const std::string span = factor_span(factor, lowest[factor.id], highest[factor.id]);
+    if (!factor.only_above_zero) {
+      text += fmt::format("{}{}", text.empty() ? "" : separator, span);
+    } else if (highest[factor.id] > 0.0) {
+      text += fmt::format(", {} {}", factor.phrase, span);
+    }
+  }
+  return text;
 }
 
 std::string metres_text(std::int64_t value_um) {

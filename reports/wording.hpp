@@ -17,12 +17,13 @@ namespace fleetproof {
 // percent with a blank before the sign.
 std::string percent(double fraction);
 std::string seconds_text(double value_s);
-// "40 %", or "0 .. 40 %" between two bounds.
-std::string percent_span(double from, double to);
-std::string seconds_span(double from_s, double to_s);
-// ", outages of 0.5 s", to follow loss and delay; nothing for independent losses, which need no word.
-std::string outage_text(double mean_outage_s);
-std::string outage_span(double from_s, double to_s);
+// A value of a factor: "40 %". Between two bounds: "0 .. 40 %".
+std::string factor_text(const FactorInfo& factor, double value);
+std::string factor_span(const FactorInfo& factor, double from, double to);
+// "loss 40 %, delay 2 s, outages of 0.5 s". Factors that are only named above 0 stand at the end, or not at all.
+std::string factors_text(const FactorValues& factors);
+// The values of the same factors between bounds, with the words of the last ones only: "0 .. 40 %, 2 s".
+std::string factor_spans(const FactorValues& lowest, const FactorValues& highest, std::string_view separator = ", ");
 std::string metres_text(std::int64_t value_um);
 // "> 0.5 m" if no clearance below that was met, "-" without runs.
 std::string clearance_text(const Tally& tally);

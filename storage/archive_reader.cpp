@@ -174,7 +174,7 @@ void ArchiveReader::Impl::read_plan() {
   plan = read_plan_checksum(row);
   sealed_count = maybe(row.getColumn("run_count"));
   sealed_digest = maybe(row.getColumn("rows_digest"));
-  SQLite::Statement cell_rows(*db, fmt::format("SELECT {} FROM cells ORDER BY cell", kCellColumns));
+  SQLite::Statement cell_rows(*db, fmt::format("SELECT {} FROM cells ORDER BY cell", cell_columns()));
   while (cell_rows.executeStep()) cells.push_back(read_cell(cell_rows));
   SQLite::Statement gate_rows(*db, fmt::format("SELECT {} FROM gates ORDER BY gate", kGateColumns));
   while (gate_rows.executeStep()) gates.push_back(read_gate(gate_rows));

@@ -83,7 +83,7 @@ void ArchiveWriter::Impl::open(const CampaignRecord& campaign, const std::vector
   auto insert_campaign = insert_into("campaign", kCampaignColumns);
   bind_campaign(insert_campaign, campaign, plan_checksum(campaign, cell_records, gates));
   insert_campaign.exec();
-  auto insert_cell = insert_into("cells", kCellColumns);
+  auto insert_cell = insert_into("cells", cell_columns());
   for (const auto& cell : cell_records) {
     insert_cell.reset();
     bind_cell(insert_cell, cell);

@@ -32,6 +32,10 @@ class Bytes {
     text_ += value;
     return *this;
   }
+  Bytes& operator<<(const FactorValues& factors) {
+    for (const double value : factors.values) *this << value;
+    return *this;
+  }
   std::uint64_t hash() const { return XXH3_64bits(text_.data(), text_.size()); }
 
  private:
@@ -42,8 +46,8 @@ class Bytes {
 
 std::uint64_t row_checksum(const RunRecord& run) {
   Bytes bytes;
-  bytes << run.run_index << std::uint64_t{run.cell} << run.replicate << run.scenario_digest << run.radio.loss
-        << run.radio.delay_s << run.radio.mean_outage_s << encode(run.outcome);
+  bytes << run.run_index << std::uint64_t{run.cell} << run.replicate << run.scenario_digest << run.factors
+        << encode(run.outcome);
   return bytes.hash();
 }
 
@@ -65,9 +69,8 @@ std::uint64_t plan_checksum(const CampaignRecord& campaign, const std::vector<Ce
   for (const auto& agent : campaign.plugin_agents) bytes << agent;
   bytes << std::uint64_t{cells.size()};
   for (const auto& cell : cells) {
-    bytes << std::uint64_t{cell.index} << cell.agent << cell.layout << std::uint64_t{cell.fleet_size} << cell.loss
-          << cell.delay_s << cell.mean_outage_s;
-    bytes << cell.loss_to << cell.delay_to_s << cell.mean_outage_to_s;
+    bytes << std::uint64_t{cell.index} << cell.agent << cell.layout << std::uint64_t{cell.fleet_size} << cell.lowest
+          << cell.highest;
   }
   bytes << std::uint64_t{gates.size()};
   for (const auto& gate : gates) {

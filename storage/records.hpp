@@ -4,40 +4,28 @@
 #include <string>
 #include <vector>
 
-#include "core/base/contract.hpp"
 #include "core/base/words.hpp"
 #include "core/outcome/outcome.hpp"
+#include "storage/factors.hpp"
 
 namespace fleetproof {
 
 // What a campaign file stores of its plan, in the words of the plan. It never contains a path, a host, a time or a
 // number of jobs.
 
-// The nominal quality of the radio in one run.
-struct RadioQuality {
-  double loss = 0.0, delay_s = 0.0, mean_outage_s = 0.0;
-
-  // The region in which safe *and normal* operation is required (Sect. 2.4), and its corner.
-  bool in_contract() const { return fleetproof::in_contract(loss, delay_s); }
-  bool is_worst_case() const { return is_worst_case_of_contract(loss, delay_s); }
-  friend bool operator==(const RadioQuality&, const RadioQuality&) = default;
-};
-
-// One combination of a campaign's factors. A factor of the radio has one value, or each replicate draws it between two
+// One combination of a campaign's factors. A numeric factor has one value, or each replicate draws it between two
 // bounds.
 struct CellRecord {
   std::uint32_t index = 0;
   std::string agent, layout;
   std::uint32_t fleet_size = 0;
-  double loss = 0.0, delay_s = 0.0, mean_outage_s = 0.0;                          // the value, or the lower bound
-  double loss_to = loss, delay_to_s = delay_s, mean_outage_to_s = mean_outage_s;  // the same again, or the upper bound
+  FactorValues lowest;            // the value, or the lower bound
+  FactorValues highest = lowest;  // the same again, or the upper bound
 
-  bool is_drawn() const { return lowest() != highest(); }
-  RadioQuality lowest() const { return {loss, delay_s, mean_outage_s}; }
-  RadioQuality highest() const { return {loss_to, delay_to_s, mean_outage_to_s}; }
+  bool is_drawn() const { return lowest != highest; }
   // Whether every run of the cell is within the contract.
-  bool in_contract() const { return highest().in_contract(); }
-  bool is_worst_case() const { return lowest().is_worst_case() && highest().is_worst_case(); }
+  bool in_contract() const { return highest.in_contract(); }
+  bool is_worst_case() const { return lowest.is_worst_case() && highest.is_worst_case(); }
   friend bool operator==(const CellRecord&, const CellRecord&) = default;
 };
 
@@ -122,7 +110,7 @@ struct RunRecord {
   std::uint32_t cell = 0;
   std::uint64_t replicate = 0;
   std::uint64_t scenario_digest = 0;  // of the canonical scenario text
-  RadioQuality radio;                 // the cell's, or what the replicate drew within its bounds
+  FactorValues factors;               // the cell's, or what the replicate drew within its bounds
   Outcome outcome;
 };
 

@@ -26,6 +26,10 @@ class Binder {
   Binder& operator<<(double value) { return statement_.bind(next_++, value), *this; }
   Binder& operator<<(const std::string& value) { return statement_.bind(next_++, value), *this; }
   Binder& operator<<(const char* value) { return *this << std::string(value); }
+  Binder& operator<<(const FactorValues& factors) {
+    for (const double value : factors.values) *this << value;
+    return *this;
+  }
   Binder& operator<<(std::optional<std::int64_t> value) {
     if (value) return *this << *value;
     statement_.bind(next_++);
@@ -67,6 +71,11 @@ class Taker {
     return value == 1;
   }
   double real() { return next().getDouble(); }
+  FactorValues factors() {
+    FactorValues factors;
+    for (double& value : factors.values) value = real();
+    return factors;
+  }
   std::string text() { return next().getString(); }
   std::optional<std::int64_t> maybe_i64() {
     const auto column = next();
@@ -133,8 +142,7 @@ void bind_campaign(SQLite::Statement& insert, const CampaignRecord& campaign, st
 }
 
 void bind_cell(SQLite::Statement& insert, const CellRecord& cell) {
-  Binder(insert) << cell.index << cell.agent << cell.layout << cell.fleet_size << cell.loss << cell.delay_s
-                 << cell.mean_outage_s << cell.loss_to << cell.delay_to_s << cell.mean_outage_to_s;
+  Binder(insert) << cell.index << cell.agent << cell.layout << cell.fleet_size << cell.lowest << cell.highest;
 }
 
 void bind_gate(SQLite::Statement& insert, const GateRecord& gate) {
@@ -145,8 +153,7 @@ void bind_gate(SQLite::Statement& insert, const GateRecord& gate) {
 void bind_run(SQLite::Statement& insert, const RunRecord& run, std::uint64_t checksum) {
   const auto& o = run.outcome;
   Binder to(insert);
-  to << run.run_index << run.cell << run.replicate << run.scenario_digest << run.radio.loss << run.radio.delay_s
-     << run.radio.mean_outage_s;
+  to << run.run_index << run.cell << run.replicate << run.scenario_digest << run.factors;
   to << name_of(o.outcome_class());
   to << o.violation << o.contact << o.stuck << o.crash << o.hang << o.indeterminate << o.engine_error;
   to << o.min_clearance_um << o.simulated_ns << o.agv_count << o.digest << o.running_digests << o.message;
@@ -208,12 +215,8 @@ CellRecord read_cell(const SQLite::Statement& row) {
   cell.agent = from.text();
   cell.layout = from.text();
   cell.fleet_size = from.u32();
-  cell.loss = from.real();
-  cell.delay_s = from.real();
-  cell.mean_outage_s = from.real();
-  cell.loss_to = from.real();
-  cell.delay_to_s = from.real();
-  cell.mean_outage_to_s = from.real();
+  cell.lowest = from.factors();
+  cell.highest = from.factors();
   return cell;
 }
 
@@ -241,9 +244,7 @@ StoredRun read_run(const SQLite::Statement& row) {
   run.cell = from.u32();
   run.replicate = from.u64();
   run.scenario_digest = from.u64();
-  run.radio.loss = from.real();
-  run.radio.delay_s = from.real();
-  run.radio.mean_outage_s = from.real();
+  run.factors = from.factors();
   stored.outcome_class = from.text();
   for (const auto flag : {&Outcome::violation, &Outcome::contact, &Outcome::stuck, &Outcome::crash, &Outcome::hang,
                           &Outcome::indeterminate, &Outcome::engine_error}) {

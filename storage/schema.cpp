@@ -7,6 +7,7 @@
 #include "core/base/contract.hpp"
 #include "core/base/error.hpp"
 #include "core/outcome/outcome.hpp"
+#include "storage/factors.hpp"
 
 namespace fleetproof {
 namespace {
@@ -41,13 +42,7 @@ CREATE TABLE cells (
   cell INTEGER PRIMARY KEY,
   agent TEXT NOT NULL,
   layout TEXT NOT NULL,
-  fleet_size INTEGER NOT NULL,
-  loss REAL NOT NULL,
-  delay_s REAL NOT NULL,
-  mean_outage_s REAL NOT NULL,
-  loss_to REAL NOT NULL,
-  delay_to_s REAL NOT NULL,
-  mean_outage_to_s REAL NOT NULL
+  fleet_size INTEGER NOT NULL{factors}
 ) STRICT, WITHOUT ROWID;
 CREATE TABLE gates (
   gate INTEGER PRIMARY KEY,
@@ -67,10 +62,7 @@ CREATE TABLE runs (
   run_index INTEGER PRIMARY KEY,
   cell INTEGER NOT NULL,
   replicate INTEGER NOT NULL,
-  scenario_digest INTEGER NOT NULL,
-  loss REAL NOT NULL,
-  delay_s REAL NOT NULL,
-  mean_outage_s REAL NOT NULL,
+  scenario_digest INTEGER NOT NULL{factors},
   outcome_class TEXT NOT NULL,
   violation INTEGER NOT NULL,
   contact INTEGER NOT NULL,
@@ -123,8 +115,9 @@ CREATE TABLE probes (
 ) STRICT, WITHOUT ROWID;
 )sql";
 
-// The bounds of the region are those of core/base/contract.hpp. A run has its own drawn quality. A cell with bounds is
-// in the contract if all of its qualities are.
+// A column of a view keeps its place: factors that are newer than these views stand at the end. The bounds of the
+// region are those of core/base/contract.hpp. A run has its own drawn quality. A cell with bounds is in the contract if
+// all of its qualities are.
 constexpr const char* kViews = R"sql(
 CREATE VIEW v1_cells AS
 SELECT c.cell, c.agent, c.layout, c.fleet_size, c.loss, c.delay_s,
@@ -141,7 +134,7 @@ SELECT c.cell, c.agent, c.layout, c.fleet_size, c.loss, c.delay_s,
        min(r.min_clearance_um) AS min_clearance_um,
        coalesce(sum(r.transports_done), 0) AS transports_done,
        total(r.simulated_ns * 1e-9 * r.agv_count / 3600.0) AS agv_hours,
-       c.mean_outage_s, c.loss_to, c.delay_to_s, c.mean_outage_to_s
+       c.mean_outage_s, c.loss_to, c.delay_to_s, c.mean_outage_to_s{later_bounds}
 FROM cells c LEFT JOIN runs r ON r.cell = c.cell GROUP BY c.cell;
 CREATE VIEW v1_runs AS
 SELECT r.run_index, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, r.loss, r.delay_s,
@@ -151,7 +144,7 @@ SELECT r.run_index, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, r.loss
 {run_counters},
        printf('%016x', r.digest) AS digest,
        printf('%016x', r.scenario_digest) AS scenario_digest,
-       r.mean_outage_s
+       r.mean_outage_s{later_factors}
 FROM runs r JOIN cells c ON c.cell = r.cell;
 CREATE VIEW v1_violations AS
 SELECT v.run_index, v.ordinal, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, r.loss, r.delay_s,
@@ -159,7 +152,7 @@ SELECT v.run_index, v.ordinal, r.cell, r.replicate, c.agent, c.layout, c.fleet_s
        v.entity_a, v.entity_b, v.first_ns, v.last_ns, v.closest_at_ns, v.min_clearance_um,
        v.relative_speed_um_s, v.x_um, v.y_um, v.contact, r.mean_outage_s,
        CASE WHEN NOT v.contact THEN '{near}' WHEN v.relative_speed_um_s > {hazardous} THEN '{hazardous_contact}' ELSE '{contact}' END AS level,
-       CASE WHEN v.entity_b < r.agv_count THEN 'AGV-AGV' ELSE 'AGV-obstacle' END AS entities
+       CASE WHEN v.entity_b < r.agv_count THEN 'AGV-AGV' ELSE 'AGV-obstacle' END AS entities{later_factors}
 FROM violations v JOIN runs r ON r.run_index = v.run_index JOIN cells c ON c.cell = r.cell;
 CREATE VIEW v1_incidents AS
 SELECT i.run_index, i.ordinal, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, r.loss, r.delay_s,
@@ -173,6 +166,22 @@ SELECT p.run_index, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, r.loss
        CASE p.source WHEN 0 THEN '{world}' ELSE '{agent}' END AS source, CAST(p.name AS TEXT) AS name, p.count
 FROM probes p JOIN runs r ON r.run_index = p.run_index JOIN cells c ON c.cell = r.cell;
 )sql";
+
+// Factors before this one have their places in the views.
+constexpr std::size_t kFirstLaterFactor = static_cast<std::size_t>(Factor::MeanOutage) + 1;
+
+// ", " and a name for each factor from `first` on, or for each value or bound.
+std::string factor_names(std::string_view FactorInfo::*name, const std::string& prefix = "", std::size_t first = 0) {
+  std::string list;
+  for (std::size_t i = first; i < kFactors.size(); ++i) list += fmt::format(", {}{}", prefix, kFactors[i].*name);
+  return list;
+}
+
+std::string factor_definitions(std::string_view FactorInfo::*name) {
+  std::string list;
+  for (const FactorInfo& factor : kFactors) list += fmt::format(",\n  {} REAL NOT NULL", factor.*name);
+  return list;
+}
 
 std::string with_prefix(const std::string& prefix, std::initializer_list<const char*> names) {
   std::string list;
@@ -206,9 +215,14 @@ std::string decimal(double value, int digits) {
 std::string schema_ddl() {
   std::string definitions;
   for (const auto& counter : kCounters) definitions += fmt::format("  {} INTEGER NOT NULL,\n", counter.name);
-  return std::string(kPlanTables) + fmt::format(fmt::runtime(kRunTables), fmt::arg("counters", definitions)) +
+  const std::string values = factor_definitions(&FactorInfo::key), bounds = factor_definitions(&FactorInfo::key_to);
+  return fmt::format(fmt::runtime(kPlanTables), fmt::arg("factors", values + bounds)) +
+         fmt::format(fmt::runtime(kRunTables), fmt::arg("factors", values), fmt::arg("counters", definitions)) +
          fmt::format(fmt::runtime(kViews), fmt::arg("run_counters", "       " + counter_list("r.")),
                      fmt::arg("loss", decimal(kContractLoss, 2)), fmt::arg("delay", decimal(kContractDelay_s, 1)),
+                     fmt::arg("later_factors", factor_names(&FactorInfo::key, "r.", kFirstLaterFactor)),
+                     fmt::arg("later_bounds", factor_names(&FactorInfo::key, "c.", kFirstLaterFactor) +
+                                                  factor_names(&FactorInfo::key_to, "c.", kFirstLaterFactor)),
                      fmt::arg("world", name_of(ProbeSource::World)), fmt::arg("agent", name_of(ProbeSource::Agent)),
                      fmt::arg("hazardous", kHazardousSpeed_um_s),
                      fmt::arg("near", name_of(ViolationLevel::SafetyDistance)),
@@ -219,13 +233,17 @@ std::string schema_ddl() {
 }
 
 std::string run_columns(const std::string& prefix) {
-  return with_prefix(prefix, {"run_index",    "cell",          "replicate",     "scenario_digest",
-                              "loss",         "delay_s",       "mean_outage_s", "outcome_class",
-                              "violation",    "contact",       "stuck",         "crash",
-                              "hang",         "indeterminate", "engine_error",  "min_clearance_um",
-                              "simulated_ns", "agv_count",     "digest",        "running_digests",
-                              "message"}) +
+  return with_prefix(prefix, {"run_index", "cell", "replicate", "scenario_digest"}) +
+         factor_names(&FactorInfo::key, prefix) + ", " +
+         with_prefix(prefix, {"outcome_class", "violation", "contact", "stuck", "crash", "hang", "indeterminate",
+                              "engine_error", "min_clearance_um", "simulated_ns", "agv_count", "digest",
+                              "running_digests", "message"}) +
          ", " + counter_list(prefix) + ", " + prefix + "checksum";
+}
+
+std::string cell_columns() {
+  return with_prefix("", {"cell", "agent", "layout", "fleet_size"}) + factor_names(&FactorInfo::key) +
+         factor_names(&FactorInfo::key_to);
 }
 
 std::string violation_columns() {

@@ -6,22 +6,24 @@
 namespace fleetproof {
 
 inline constexpr std::int32_t kApplicationId = 0x464C5046;  // "FLPF": marks an SQLite file as a campaign file
+
+// What each version added: 2 incidents and probes, 3 bounds of factors, 4 exempt pairs and external sources.
 inline constexpr std::int32_t kSchemaVersion = 4;
 inline constexpr std::int32_t kPageSize = 4096;
 
 // The tables and the public views, as one script. The live file and the canonical file use the same text. Each counter
-// of an outcome (core/outcome/counters.hpp) is a column of `runs`.
+// of an outcome (core/outcome/counters.hpp) is a column of `runs`, and each factor (factors.hpp) one of `runs` and two
+// of `cells`.
 std::string schema_ddl();
 
 // Column lists, separated by commas, in the order in which rows.hpp binds and reads them. `prefix` (for example "r.")
 // is put before every name.
 std::string run_columns(const std::string& prefix = "");
+std::string cell_columns();
 std::string violation_columns();
 inline constexpr const char* kIncidentColumns =
     "run_index, ordinal, kind, entity_a, entity_b, first_ns, last_ns, value";
 inline constexpr const char* kProbeColumns = "run_index, ordinal, source, name, count";
-inline constexpr const char* kCellColumns =
-    "cell, agent, layout, fleet_size, loss, delay_s, mean_outage_s, loss_to, delay_to_s, mean_outage_to_s";
 inline constexpr const char* kGateColumns =
     "gate, name, agent, kind, end_point, region, limit_rate, confidence, min_transports_per_agv_hour";
 inline constexpr const char* kCampaignColumns =

@@ -54,9 +54,8 @@ void ProgressTalk::run_finished(const RunRecord& record) {
   if (std::ranges::find(told_agents_, cell.agent) != told_agents_.end()) return;
   told_agents_.push_back(cell.agent);
   clear_line();
-  talk("first failure of {}: {} in run {} ({}, {} AGVs, {:g} % loss, {:g} s delay{})\n  replay: {}\n", cell.agent,
-       name_of(outcome.outcome_class()), record.run_index, cell.layout, cell.fleet_size, 100.0 * record.radio.loss,
-       record.radio.delay_s, outage_text(record.radio.mean_outage_s),
+  talk("first failure of {}: {} in run {} ({}, {} AGVs, {})\n  replay: {}\n", cell.agent,
+       name_of(outcome.outcome_class()), record.run_index, cell.layout, cell.fleet_size, factors_text(record.factors),
        replay_command(archive_path_, record.run_index,
                       std::ranges::find(plugins_, cell.agent) == plugins_.end() ? "" : cell.agent));
 }

@@ -33,14 +33,12 @@ void print_json(const ReplayResult& result, const CellRecord& cell) {
                                  {"run", result.recomputed.run_index},
                                  {"agent", cell.agent},
                                  {"layout", cell.layout},
-                                 {"fleet_size", cell.fleet_size},
-                                 {"loss", result.recomputed.radio.loss},
-                                 {"delay_s", result.recomputed.radio.delay_s},
-                                 {"mean_outage_s", result.recomputed.radio.mean_outage_s},
-                                 {"outcome", name_of(outcome.outcome_class())},
-                                 {"violations", outcome.violations.size()},
-                                 {"digest_stored", fmt::format("{:016x}", result.stored.outcome.digest)},
-                                 {"digest_recomputed", fmt::format("{:016x}", outcome.digest)}};
+                                 {"fleet_size", cell.fleet_size}};
+  for (const FactorInfo& factor : kFactors) json[std::string(factor.key)] = result.recomputed.factors[factor.id];
+  json["outcome"] = name_of(outcome.outcome_class());
+  json["violations"] = outcome.violations.size();
+  json["digest_stored"] = fmt::format("{:016x}", result.stored.outcome.digest);
+  json["digest_recomputed"] = fmt::format("{:016x}", outcome.digest);
   put_text(printable_json(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) + "\n");
 }
 
@@ -60,13 +58,11 @@ int replay_run(const ReplayWords& words) {
   if (!words.scenario_out.empty())
     write_whole({words.scenario_out, "--scenario", OutputKind::Scenario}, printable_json(to_text(scenario)));
   const CellRecord cell = source.place(words.run).cell;
-  const RadioQuality& radio = result.recomputed.radio;
   if (words.json) {
     print_json(result, cell);
   } else {
-    put("{}  run {}: {}, {}, {} AGVs, loss {:g} %, delay {:g} s{}, replicate {}\n", name_of(result.verdict), words.run,
-        cell.agent, cell.layout, cell.fleet_size, 100.0 * radio.loss, radio.delay_s, outage_text(radio.mean_outage_s),
-        result.recomputed.replicate);
+    put("{}  run {}: {}, {}, {} AGVs, {}, replicate {}\n", name_of(result.verdict), words.run, cell.agent, cell.layout,
+        cell.fleet_size, factors_text(result.recomputed.factors), result.recomputed.replicate);
     if (!result.explanation.empty()) put("  {}\n", result.explanation);
     put_text(outcome_text(scenario, result.recomputed.outcome));
     const bool same_program = archive.campaign().engine == campaign_record(plan, programs).engine;

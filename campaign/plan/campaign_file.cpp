@@ -120,6 +120,10 @@ class CampaignReader {
     if (table.is_table(field.key)) return bounds(table, field, factor);
     const auto items = table.array(field.key);
     if (!items) return;
+    if (items->empty())
+      throw InputError(table.place(field.key), fmt::format("factors.{} is empty; it needs at least one value, or is "
+                                                           "left out",
+                                                           field.key));
     factor.clear();
     for (const auto& item : *items) {
       double value = 0.0;

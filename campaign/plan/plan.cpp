@@ -2,21 +2,49 @@
 
 #include <algorithm>
 
+#include "campaign/plan/factor_fields.hpp"
+
 namespace fleetproof {
+namespace {
+
+// The lower and the upper bounds of a cell.
+struct Corners {
+  FactorValues lowest, highest;
+};
+
+// All combinations of the factors, in the order of their nesting.
+std::vector<Corners> combinations(const CampaignPlan& plan) {
+  auto slowest_first = kFactors;
+  std::ranges::sort(slowest_first, {}, &FactorInfo::nesting);
+  std::vector<Corners> all(1);
+  for (const FactorInfo& factor : slowest_first) {
+    std::vector<Corners> finer;
+    for (const Corners& outer : all) {
+      for (const FactorSpan span : plan.spans(factor.id)) {
+        Corners& corners = finer.emplace_back(outer);
+        corners.lowest[factor.id] = span.from;
+        corners.highest[factor.id] = span.to;
+      }
+    }
+    all = std::move(finer);
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<FactorSpan> CampaignPlan::spans(Factor factor) const {
+  return factors[factor].empty() ? std::vector<FactorSpan>{factor_value(*this, factor)} : factors[factor];
+}
 
 std::vector<CellRecord> CampaignPlan::cells() const {
+  const auto corners = combinations(*this);
   std::vector<CellRecord> all;
   for (const LayoutFactor& layout : layouts) {
     for (const std::uint32_t fleet : fleet_sizes) {
-      for (const FactorSpan one_loss : loss) {
-        for (const FactorSpan outage : mean_outage_s) {
-          for (const FactorSpan delay : delay_s) {
-            for (const std::string& agent : agents) {
-              all.push_back({static_cast<std::uint32_t>(all.size()), agent, layout.name, fleet, one_loss.from,
-                             delay.from, outage.from, one_loss.to, delay.to, outage.to});
-            }
-          }
-        }
+      for (const auto& [lowest, highest] : corners) {
+        for (const std::string& agent : agents)
+          all.push_back({static_cast<std::uint32_t>(all.size()), agent, layout.name, fleet, lowest, highest});
       }
     }
   }
@@ -26,14 +54,15 @@ std::vector<CellRecord> CampaignPlan::cells() const {
 std::uint64_t CampaignPlan::cell_count() const { return layouts.size() * fleet_sizes.size() * cells_per_world(); }
 
 std::uint64_t CampaignPlan::cells_per_world() const {
-  return loss.size() * mean_outage_s.size() * delay_s.size() * agents.size();
+  std::uint64_t cells = agents.size();
+  for (const FactorInfo& factor : kFactors) cells *= spans(factor.id).size();
+  return cells;
 }
 
 bool CampaignPlan::is_drawn() const {
-  const auto drawn = [](const std::vector<FactorSpan>& factor) {
-    return std::ranges::any_of(factor, &FactorSpan::is_drawn);
-  };
-  return drawn(loss) || drawn(delay_s) || drawn(mean_outage_s);
+  return std::ranges::any_of(factors.values, [](const std::vector<FactorSpan>& spans) {
+    return std::ranges::any_of(spans, &FactorSpan::is_drawn);
+  });
 }
 
 std::vector<std::string> CampaignPlan::probes_to_meet() const {

@@ -17,8 +17,8 @@
 
 namespace fleetproof {
 
-// What a cell has of a factor of the radio: a value, or bounds between which every replicate draws its own, the same
-// for all agents, layouts and fleets.
+// What a cell has of a numeric factor: a value, or bounds between which every replicate draws its own, the same for all
+// agents, layouts and fleets.
 struct FactorSpan {
   double from = 0.0, to = 0.0;
 
@@ -60,8 +60,8 @@ struct CampaignPlan {
 
   std::vector<std::string> agents;  // catalogue names, or names of plug-ins that the caller loads
   std::string agent_config;
-  std::vector<FactorSpan> loss{0.0}, delay_s{0.0}, mean_outage_s{0.0};
-  Sampling sampling = Sampling::Uniform;  // where there are bounds
+  PerFactor<std::vector<FactorSpan>> factors;  // empty: the file leaves it out; see spans
+  Sampling sampling = Sampling::Uniform;       // where there are bounds
   std::vector<LayoutFactor> layouts;
   std::vector<std::uint32_t> fleet_sizes{5};
 
@@ -75,7 +75,7 @@ struct CampaignPlan {
   FaultRates faults;
   ScannerSetup scanner;
   OperatorSetup operator_help;
-  RadioSetup radio;  // loss, delay_s and mean_outage_s come from the cell, sources from the line below
+  RadioSetup radio;  // factors come from the cell, sources from the line below
   DrawnSources sources;
   AgentClockSetup agent_clock;
   LawSetup law;
@@ -88,10 +88,13 @@ struct CampaignPlan {
   // anything, for a negotiation.
   std::vector<std::string> probes_to_meet() const;
 
-  // Agents vary fastest, then delay, mean outage, loss, fleet size and layout.
+  // The values or bounds of a factor. A factor that is left out has the value of the plan's field with the same key.
+  std::vector<FactorSpan> spans(Factor factor) const;
+
+  // Layouts vary slowest, then fleet sizes, then the factors in the order of their nesting, then agents.
   std::vector<CellRecord> cells() const;
   std::uint64_t cell_count() const;
-  std::uint64_t cells_per_world() const;  // neighbours that differ in radio or agent alone
+  std::uint64_t cells_per_world() const;  // neighbours that differ in factors or agent alone
   bool is_drawn() const;                  // some factor has bounds
   std::uint64_t run_count() const { return replicates * cell_count(); }
 };

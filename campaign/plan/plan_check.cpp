@@ -89,13 +89,9 @@ void check_factors(const CampaignPlan& plan, const PlanPlaces& places) {
          "factors.agents is empty; name at least one (see: fleetproof list agents)");
   demand(!plan.layouts.empty(), places, "factors.layouts",
          "factors.layouts is empty; name at least one family or layout file (see: fleetproof list generators)");
-  demand(!plan.loss.empty(), places, "factors.loss", "factors.loss is empty; it needs at least one value");
-  demand(!plan.delay_s.empty(), places, "factors.delay_s", "factors.delay_s is empty; it needs at least one value");
   demand(!plan.fleet_sizes.empty(), places, "factors.fleet_sizes",
          "factors.fleet_sizes is empty; it needs at least one value");
-  demand(!plan.mean_outage_s.empty(), places, "factors.mean_outage_s",
-         "factors.mean_outage_s is empty; it needs at least one value (0: independent losses)");
-  for (const FactorSpan span : plan.mean_outage_s) {
+  for (const FactorSpan span : plan.factors[Factor::MeanOutage]) {
     demand(!span.is_drawn() || span.from > 0.0, places, "factors.mean_outage_s",
            "factors.mean_outage_s is drawn from 0 on, which stands for independent losses and not for short outages; "
            "begin at 0.001 or above");
@@ -109,17 +105,16 @@ void check_factors(const CampaignPlan& plan, const PlanPlaces& places) {
   once("factors.agents", plan.agents);
   once("factors.layouts", layout_names);
   once("factors.fleet_sizes", plan.fleet_sizes);
-  once("factors.loss", plan.loss);
-  once("factors.delay_s", plan.delay_s);
-  once("factors.mean_outage_s", plan.mean_outage_s);
-  for (const auto* factor : {&plan.loss, &plan.delay_s, &plan.mean_outage_s}) {
-    for (const FactorSpan span : *factor)
+  for (const FactorInfo& factor : kFactors) {
+    once(fmt::format("factors.{}", factor.key).c_str(), plan.factors[factor.id]);
+    for (const FactorSpan span : plan.factors[factor.id])
       demand(span.from <= span.to, places, "factors", "the bounds of a factor are given in order");
   }
   constexpr std::uint64_t kCellsMax = 1'000'000;  // each is kept in memory and listed in reports
+  std::vector<std::size_t> counts{plan.layouts.size(), plan.fleet_sizes.size(), plan.agents.size()};
+  for (const FactorInfo& factor : kFactors) counts.push_back(plan.spans(factor.id).size());
   std::uint64_t cells = 1;
-  for (const auto count : {plan.layouts.size(), plan.fleet_sizes.size(), plan.loss.size(), plan.mean_outage_s.size(),
-                           plan.delay_s.size(), plan.agents.size()}) {
+  for (const auto count : counts) {
     demand(count <= kCellsMax / cells, places, "factors",
            fmt::format("the factors make more than {} cells; combine fewer values", kCellsMax));
     cells *= count;
@@ -192,7 +187,7 @@ void check_gates(const CampaignPlan& plan, const PlanPlaces& places) {
 // The rules of the radio hold for every mean outage of the cells.
 void check_radio(const CampaignPlan& plan, const PlanPlaces& places) {
   RadioSetup radio = plan.radio;
-  for (const FactorSpan span : plan.mean_outage_s) {
+  for (const FactorSpan span : plan.spans(Factor::MeanOutage)) {
     for (const double mean_outage_s : {span.from, span.to}) {
       radio.outages.mean_outage_s = mean_outage_s;
       for (const auto& [key, sentence] : rule_faults(radio)) {

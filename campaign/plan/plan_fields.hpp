@@ -1,5 +1,6 @@
 #pragma once
 
+#include "campaign/plan/factor_fields.hpp"
 #include "campaign/plan/plan.hpp"
 #include "generators/worlds/world_fields.hpp"
 
@@ -39,23 +40,24 @@ void visit_fields(Gate& gate, Visit&& visit) {
         min_transports_per_agv_hour);
 }
 
-// One factor of the radio: its bounds are those of the field with the same key in the scenario's radio.
-inline Field factor_field(std::string_view key) {
-  Field found;
-  const RadioSetup radio;
-  visit_fields(radio, [&](const Field& field, const auto&) {
-    if (field.key == key) found = field;
-  });
-  found.home = FieldHome::Both;
-  return found;
+// Of a const plan the resolved values of every factor, else what a file gives: nothing if it leaves the factor out.
+template <FieldsOf<CampaignPlan> Plan, class Visit>
+void visit_factors(Plan& plan, Visit&& visit) {
+  for (const FactorInfo& factor : kFactors) {
+    if constexpr (std::is_const_v<Plan>) {
+      visit(factor_field(factor.id), plan.spans(factor.id));
+    } else {
+      visit(factor_field(factor.id), plan.factors[factor.id]);
+    }
+  }
 }
 
 template <FieldsOf<CampaignPlan> Plan, class Visit>
 void visit_fields(Plan& plan, Visit&& visit) {
-  [[maybe_unused]] auto& [name, kind, seed, replicates, horizon_s, stuck_after_s, agents, agent_config, loss, delay_s,
-                          mean_outage_s, sampling, layouts, fleet_sizes, held_streams, held_replicate, demand,
-                          placement, orders, vehicles, faults, scanner, operator_help, radio, sources, agent_clock, law,
-                          laws_left_out, required_probes, contact_stops, gates] = plan;
+  [[maybe_unused]] auto& [name, kind, seed, replicates, horizon_s, stuck_after_s, agents, agent_config, factors,
+                          sampling, layouts, fleet_sizes, held_streams, held_replicate, demand, placement, orders,
+                          vehicles, faults, scanner, operator_help, radio, sources, agent_clock, law, laws_left_out,
+                          required_probes, contact_stops, gates] = plan;
   visit(Field{.key = "name", .text = "name of the campaign; left out: that of the file"}, name);
   visit(Field{.key = "kind", .text = "claim: rates and bounds; search: counts only"}, kind);
   visit(kSeed, seed);
@@ -75,9 +77,7 @@ void visit_fields(Plan& plan, Visit&& visit) {
         inner(Field{.key = "layouts", .text = "families, or layout files; see below"}, plan.layouts);
         inner(Field{.key = "fleet_sizes", .text = "numbers of AGVs", .low = 1.0, .high = kLargestFleet},
               plan.fleet_sizes);
-        inner(factor_field("loss"), plan.loss);
-        inner(factor_field("delay_s"), plan.delay_s);
-        inner(factor_field("mean_outage_s"), plan.mean_outage_s);
+        visit_factors(plan, inner);
         inner(Field{.key = "sampling", .text = "how replicates draw a factor that has bounds"}, plan.sampling);
       }});
   visit(Field{.key = "vary", .text = "what is held while the rest varies"}, FieldTable{[&](auto& inner) {

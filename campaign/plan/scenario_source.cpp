@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "campaign/plan/factor_fields.hpp"
 #include "core/base/outside_text.hpp"
 #include "core/base/random.hpp"
 #include "generators/worlds/world_maker.hpp"
@@ -11,9 +12,6 @@
 namespace fleetproof {
 
 namespace {
-
-// Each factor has its dimension whether it is drawn or not, so that drawing one more leaves the others as they were.
-constexpr std::uint32_t kLossDimension = 0, kDelayDimension = 1, kOutageDimension = 2;
 
 double between(double from, double to, double unit) {
   return from == to ? from : std::min(to, from + (to - from) * unit);
@@ -27,12 +25,13 @@ ScenarioSource::ScenarioSource(const CampaignPlan& plan)
 RunPlace ScenarioSource::place(std::uint64_t run_index) const {
   RunPlace place{run_index / cells_.size(), cells_[run_index % cells_.size()], {}};
   const CellRecord& cell = place.cell;
-  place.radio = cell.lowest();
+  place.factors = cell.lowest;
   if (!cell.is_drawn()) return place;
-  const auto unit = [&](std::uint32_t dimension) { return sample_.at(place.replicate, dimension); };
-  place.radio.loss = between(cell.loss, cell.loss_to, unit(kLossDimension));
-  place.radio.delay_s = between(cell.delay_s, cell.delay_to_s, unit(kDelayDimension));
-  place.radio.mean_outage_s = between(cell.mean_outage_s, cell.mean_outage_to_s, unit(kOutageDimension));
+  // Each factor has its dimension whether it is drawn or not, so that drawing one more leaves the others as they were.
+  for (std::uint32_t dimension = 0; dimension < kFactors.size(); ++dimension) {
+    const Factor factor = kFactors[dimension].id;
+    place.factors[factor] = between(cell.lowest[factor], cell.highest[factor], sample_.at(place.replicate, dimension));
+  }
   return place;
 }
 
@@ -42,7 +41,7 @@ Scenario ScenarioSource::scenario(std::uint64_t run_index) const {
 }
 
 Scenario ScenarioSource::scenario(std::uint64_t run_index, RejectionCounts& rejected) const {
-  const auto [replicate, cell, radio] = place(run_index);
+  const auto [replicate, cell, values] = place(run_index);
   const LayoutFactor& layout = *std::ranges::find(plan_.layouts, cell.layout, &LayoutFactor::name);
   WorldSpec spec;
   if (layout.map != nullptr) {
@@ -64,13 +63,11 @@ Scenario ScenarioSource::scenario(std::uint64_t run_index, RejectionCounts& reje
   Scenario scenario = generate_world(spec, world_seed(plan_.seed, replicate, factors), rejected);
   scenario.name = fmt::format("{} run {}", printable(plan_.name), run_index);  // a scenario file takes it
   scenario.radio = plan_.radio;
-  scenario.radio.loss = radio.loss;
-  scenario.radio.delay_s = radio.delay_s;
-  scenario.radio.outages.mean_outage_s = radio.mean_outage_s;
   scenario.radio.sources = draw_radio_sources(plan_.sources, scenario.map->layout(), scenario.seed_of(Stream::Radio));
   scenario.agent_clock = plan_.agent_clock;
   scenario.scanner = plan_.scanner;
   scenario.operator_help = plan_.operator_help;
+  set_factors(scenario, values);
   scenario.contact_stops = plan_.contact_stops;
   scenario.stuck_after = seconds(plan_.stuck_after_s);
   return scenario;

@@ -12,10 +12,10 @@ namespace fleetproof {
 struct RunPlace {
   std::uint64_t replicate = 0;
   CellRecord cell;
-  RadioQuality radio;  // the cell's, or what this replicate drew within its bounds
+  FactorValues factors;  // the cell's, or what this replicate drew within its bounds
 };
 
-// run index -> scenario, a pure function of the plan. All agents and radio qualities of a replicate get the same world,
+// run index -> scenario, a pure function of the plan. All agents and factors of a replicate get the same world,
 // and all worlds and agents of a replicate the same draw of the continuous factors. Threads: any number.
 class ScenarioSource {
  public:

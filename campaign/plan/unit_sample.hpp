@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "core/base/words.hpp"
+#include "storage/factors.hpp"
 
 namespace fleetproof {
 
@@ -32,7 +33,7 @@ inline constexpr auto kSamplings = kValuesOf<Sampling>;
 // Threads: any number.
 class UnitSample {
  public:
-  static constexpr std::uint32_t kDimensions = 3;
+  static constexpr std::uint32_t kDimensions = kFactors.size();  // each factor has one, drawn or not
 
   // `replicates`: the size of a Latin hypercube, at least 1; beyond it the next one begins. Of no account for the
   // others.

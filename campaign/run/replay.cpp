@@ -51,6 +51,14 @@ std::string first_difference(const Outcome& stored, const Outcome& recomputed) {
   return "end points";
 }
 
+// "loss 0.4, delay_s 2, ...": with all digits, as one may be the difference.
+std::string all_digits(const FactorValues& factors) {
+  std::string text;
+  for (const FactorInfo& factor : kFactors)
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", factor.key, factors[factor.id]);
+  return text;
+}
+
 }  // namespace
 
 const char* name_of(ReplayVerdict verdict) { return verdict == ReplayVerdict::Reproduced ? "REPRODUCED" : "DIVERGED"; }
@@ -65,13 +73,10 @@ ReplayResult compare_runs(RunRecord stored, RunRecord recomputed) {
     result.verdict = ReplayVerdict::ScenarioDiffers;
     result.explanation = fmt::format("cell or replicate: stored {} and {}, recomputed {} and {}", stored.cell,
                                      stored.replicate, recomputed.cell, recomputed.replicate);
-  } else if (!(stored.radio == recomputed.radio)) {
+  } else if (stored.factors != recomputed.factors) {
     result.verdict = ReplayVerdict::ScenarioDiffers;
-    const auto text = [](const RadioQuality& q) {
-      return fmt::format("{}, {} s, outages of {} s", q.loss, q.delay_s, q.mean_outage_s);
-    };
-    result.explanation =
-        fmt::format("the radio of the run: stored {}; recomputed {}", text(stored.radio), text(recomputed.radio));
+    result.explanation = fmt::format("the factors of the run: stored {}; recomputed {}", all_digits(stored.factors),
+                                     all_digits(recomputed.factors));
   } else if (!(stored.outcome == recomputed.outcome)) {
     result.verdict = ReplayVerdict::Diverged;
     result.explanation = first_difference(stored.outcome, recomputed.outcome);

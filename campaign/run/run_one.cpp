@@ -19,7 +19,7 @@ RunRecord RunOne::operator()(std::uint64_t run_index, TraceSink* sink) const {
   record.run_index = run_index;
   record.cell = place.cell.index;
   record.replicate = place.replicate;
-  record.radio = place.radio;
+  record.factors = place.factors;
   Scenario scenario;
   try {
     scenario = scenarios_.scenario(run_index);

@@ -28,12 +28,10 @@ bool covers(const GateRecord& gate, const CellRecord& cell) {
 // same page.
 std::vector<Pool> condition_pools(const std::vector<CellRecord>& cells) {
   std::map<std::string, std::size_t> order;
-  const auto key_of = [](const RadioQuality& q) { return std::tuple(q.loss, q.delay_s, q.mean_outage_s); };
-  using Quality = std::tuple<double, double, double>;
-  std::map<std::tuple<std::size_t, Quality, Quality>, Pool> pools;
+  std::map<std::tuple<std::size_t, FactorValues, FactorValues>, Pool> pools;
   for (const auto& cell : cells) {
     const auto agent = order.try_emplace(cell.agent, order.size()).first->second;
-    pools[{agent, key_of(cell.lowest()), key_of(cell.highest())}].cells.push_back(cell.index);
+    pools[{agent, cell.lowest, cell.highest}].cells.push_back(cell.index);
   }
   std::vector<Pool> list;
   for (auto& [key, pool] : pools) list.push_back(std::move(pool));
@@ -55,8 +53,8 @@ Evidence::Evidence(const CampaignRecord& campaign, std::vector<CellRecord> cells
       pools_of_cell_(cells_.size()) {
   for (std::size_t i = 0; i < cells_.size(); ++i) ensure(cells_[i].index == i, "cells are numbered from 0 on");
   for (const auto& cell : cells_) {
-    ensure(cell.loss <= cell.loss_to && cell.delay_s <= cell.delay_to_s && cell.mean_outage_s <= cell.mean_outage_to_s,
-           "the upper bound is not below the lower");
+    for (const FactorInfo& factor : kFactors)
+      ensure(cell.lowest[factor.id] <= cell.highest[factor.id], "the upper bound is not below the lower");
   }
   for (const auto& gate : gates_) {
     Pool pool;
@@ -85,8 +83,8 @@ void Evidence::add(const RunRecord& run) {
   engine_errors_ += run.outcome.engine_error;
   pending_tallies_[run.cell].add(run.outcome);
   if (const auto failing = FailingRun::of(run)) {
-    (run.radio.in_contract() ? worst_inside_ : worst_outside_).add(*failing);
-    if (run.radio.in_contract() && result_of(run.outcome, EndPoint::Violation) == RunResult::Failed)
+    (run.factors.in_contract() ? worst_inside_ : worst_outside_).add(*failing);
+    if (run.factors.in_contract() && result_of(run.outcome, EndPoint::Violation) == RunResult::Failed)
       add_contract_failure(*failing);
   }
   std::map<IncidentKind, std::uint64_t> incidents;
@@ -188,8 +186,8 @@ std::vector<Condition> Evidence::conditions() const {
   std::vector<Condition> list;
   for (std::size_t i = gates_.size(); i < pools_.size(); ++i) {
     const auto& first = cells_[pools_[i].cells.front()];
-    Condition condition{
-        first.agent, first.lowest(), first.highest(), first.in_contract(), first.is_worst_case(), {}, pools_[i], {}};
+    Condition condition{first.agent,           first.lowest, first.highest, first.in_contract(),
+                        first.is_worst_case(), {},           pools_[i],     {}};
     for (const auto cell : pools_[i].cells) condition.tally.add(tallies_[cell]);
     if (const auto& worst = worst_of_pool_[i].list(); !worst.empty()) condition.worst = worst.front();
     list.push_back(std::move(condition));

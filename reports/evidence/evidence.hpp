@@ -24,17 +24,17 @@ struct Pool {
   std::uint64_t failing_runs = 0;                                // over all runs read so far
 };
 
-// All cells of one agent at one radio quality, or between the same bounds. It is one row of a table.
+// All cells of one agent at the same factors, or between the same bounds. It is one row of a table.
 struct Condition {
   std::string agent;
-  RadioQuality lowest, highest;  // the same, unless replicates draw theirs in between
+  FactorValues lowest, highest;  // the same, unless replicates draw theirs in between
   bool in_contract = false, is_worst_case = false;
   Tally tally;
   Pool pool;
   std::optional<FailingRun> worst;  // the most serious run with a violation or an unknown end
 };
 
-// The runs of one agent that broke the safety distance within the contract region, by the radio quality of the run
+// The runs of one agent that broke the safety distance within the contract region, by the factors of the run
 // itself.
 struct ContractFailures {
   std::string agent;
@@ -79,7 +79,7 @@ class Evidence {
   GateResult judge(std::size_t gate) const;
   std::vector<GateResult> judge_all() const;
 
-  std::vector<Condition> conditions() const;  // by agent as the campaign names them, then loss, delay, mean outage
+  std::vector<Condition> conditions() const;          // by agent as the campaign names them, then by factors
   std::vector<AgentCoverage> agent_coverage() const;  // as the campaign names them
   std::vector<ContractFailures> contract_failures()
       const;  // as the campaign names the agents; without those that have none

@@ -49,7 +49,7 @@ std::optional<FailingRun> FailingRun::of(const RunRecord& run) {
   failing.run_index = run.run_index;
   failing.replicate = run.replicate;
   failing.cell = run.cell;
-  failing.radio = run.radio;
+  failing.factors = run.factors;
   failing.severity = *severity;
   failing.min_clearance_um = run.outcome.min_clearance_um;
   failing.violations = run.outcome.violations.size();

@@ -17,7 +17,7 @@ const char* name_of(Severity severity);
 struct FailingRun {
   std::uint64_t run_index = 0, replicate = 0;
   std::uint32_t cell = 0;
-  RadioQuality radio;  // of the run itself
+  FactorValues factors;  // of the run itself
   Severity severity = Severity::Stuck;
   std::optional<std::int64_t> min_clearance_um;
   std::size_t violations = 0;

@@ -110,7 +110,7 @@ TEST_F(CampaignFileTest, CellsAreAllCombinations) {
   for (std::size_t i = 0; i < cells.size(); ++i) EXPECT_EQ(cells[i].index, i);
   EXPECT_EQ(cells[0].agent, "reckless");
   EXPECT_EQ(cells[1].agent, "hull-lock");
-  EXPECT_EQ(cells[2].delay_s, 1.0);
+  EXPECT_EQ(cells[2].lowest[Factor::Delay], 1.0);
 }
 
 TEST_F(CampaignFileTest, PlanTextSurvivesTheRoundTrip) {
@@ -226,16 +226,16 @@ TEST_F(CampaignFileTest, ErrorsNamePlaceValueAndRemedy) {
 }
 
 TEST_F(CampaignFileTest, MeanOutageIsAFactorThatShapesNoWorld) {
-  EXPECT_EQ(read(kFactors).plan.cells()[0].mean_outage_s, 0.0);
+  EXPECT_EQ(read(kFactors).plan.cells()[0].lowest[Factor::MeanOutage], 0.0);
   const CampaignPlan plan =
       read(kFactors +
            "loss = [0.2, 0.4]\ndelay_s = [0, 1]\nmean_outage_s = [0, 0.5, 5]\n[radio]\noutage_model = \"heavy-tail\"\n")
           .plan;
   EXPECT_EQ(plan.cell_count(), 12U);
   const auto cells = plan.cells();
-  EXPECT_EQ(cells[1].delay_s, 1.0);
-  EXPECT_EQ(cells[2].mean_outage_s, 0.5);
-  EXPECT_EQ(cells[6].loss, 0.4);
+  EXPECT_EQ(cells[1].lowest[Factor::Delay], 1.0);
+  EXPECT_EQ(cells[2].lowest[Factor::MeanOutage], 0.5);
+  EXPECT_EQ(cells[6].lowest[Factor::Loss], 0.4);
   EXPECT_EQ(parse_plan(plan_text(plan)).cells(), cells);
   const ScenarioSource source(plan);
   const Scenario calm = source.scenario(0), harsh = source.scenario(11);

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "campaign/plan/campaign_file.hpp"
+#include "campaign/plan/factor_fields.hpp"
 #include "campaign/plan/plan_check.hpp"
 #include "campaign/plan/plan_text.hpp"
 #include "campaign/plan/scenario_source.hpp"
@@ -40,44 +41,45 @@ std::string error_of(const std::string& text) {
   return "no error";
 }
 
-const std::string kFactors =
+const std::string kFourWorlds =
     "[factors]\nagents = [\"reckless\", \"hull-lock\"]\nlayouts = [\"aisle-grid\", \"corridor-sidings\"]\nfleet_sizes "
     "= [2, 3]\n";
 const std::string kDrawn = "loss = { from = 0.0, to = 0.4 }\ndelay_s = { from = 0, to = 2 }\n";
 const std::string kSearch = "kind = \"search\"\n";
 
 TEST(DrawnFactors, MakeOneCellAndSurviveThePlansText) {
-  const CampaignPlan plan = read("replicates = 30\n" + kSearch + kFactors + kDrawn +
+  const CampaignPlan plan = read("replicates = 30\n" + kSearch + kFourWorlds + kDrawn +
                                  "sampling = \"sobol\"\nmean_outage_s = { from = 0.1, to = 2.5 }\n");
   EXPECT_EQ(plan.cell_count(), 8U);
   const CellRecord cell = plan.cells()[3];
-  EXPECT_EQ(cell.lowest(), (RadioQuality{0.0, 0.0, 0.1}));
-  EXPECT_EQ(cell.highest(), (RadioQuality{0.4, 2.0, 2.5}));
+  EXPECT_EQ(cell.lowest, (FactorValues{0.0, 0.0, 0.1}));
+  EXPECT_EQ(cell.highest, (FactorValues{0.4, 2.0, 2.5}));
   EXPECT_TRUE(cell.in_contract());
   EXPECT_FALSE(cell.is_worst_case());
   const CampaignPlan back = parse_plan(plan_text(plan));
   EXPECT_EQ(plan_text(back), plan_text(plan));
   EXPECT_EQ(back.cells(), plan.cells());
   EXPECT_EQ(back.sampling, Sampling::Sobol);
-  EXPECT_FALSE(read(kFactors + "loss = { from = 0, to = 0.5 }\n").cells()[0].in_contract());
-  EXPECT_EQ(read(kFactors + kDrawn).sampling, Sampling::Uniform);
+  EXPECT_FALSE(read(kFourWorlds + "loss = { from = 0, to = 0.5 }\n").cells()[0].in_contract());
+  EXPECT_EQ(read(kFourWorlds + kDrawn).sampling, Sampling::Uniform);
 }
 
 TEST(DrawnFactors, AreTheSameForEveryCellOfAReplicateAndOtherInTheNext) {
   for (const Sampling sampling : kSamplings) {
-    CampaignPlan plan = read("replicates = 40\n" + kFactors + kDrawn);
+    CampaignPlan plan = read("replicates = 40\n" + kFourWorlds + kDrawn);
     plan.sampling = sampling;
     const ScenarioSource source(plan);
     std::set<double> losses, delays;
     for (std::uint64_t run = 0; run < plan.run_count(); ++run) {
-      const RadioQuality radio = source.place(run).radio;
-      EXPECT_EQ(radio, source.place(run - run % plan.cell_count()).radio);
-      EXPECT_GE(radio.loss, 0.0);
-      EXPECT_LT(radio.loss, 0.4);
-      EXPECT_LT(radio.delay_s, 2.0);
-      EXPECT_NE(5.0 * radio.loss, radio.delay_s) << "one draw for two factors";
-      losses.insert(radio.loss);
-      delays.insert(radio.delay_s);
+      const FactorValues factors = source.place(run).factors;
+      const double loss = factors[Factor::Loss], delay_s = factors[Factor::Delay];
+      EXPECT_EQ(factors, source.place(run - run % plan.cell_count()).factors);
+      EXPECT_GE(loss, 0.0);
+      EXPECT_LT(loss, 0.4);
+      EXPECT_LT(delay_s, 2.0);
+      EXPECT_NE(5.0 * loss, delay_s) << "one draw for two factors";
+      losses.insert(loss);
+      delays.insert(delay_s);
     }
     EXPECT_EQ(losses.size(), 40U);
     EXPECT_EQ(delays.size(), 40U);
@@ -85,37 +87,81 @@ TEST(DrawnFactors, AreTheSameForEveryCellOfAReplicateAndOtherInTheNext) {
 }
 
 TEST(DrawnFactors, LeaveTheWorldAndOneAnotherAsTheyWere) {
-  const CampaignPlan grid = read("replicates = 3\n" + kFactors + "loss = [0.4]\ndelay_s = [2]\n"),
-                     drawn = read("replicates = 3\n" + kFactors + kDrawn);
-  const CampaignPlan one = read("replicates = 3\n" + kFactors + "delay_s = { from = 0, to = 2 }\n");
+  const CampaignPlan grid = read("replicates = 3\n" + kFourWorlds + "loss = [0.4]\ndelay_s = [2]\n"),
+                     drawn = read("replicates = 3\n" + kFourWorlds + kDrawn);
+  const CampaignPlan one = read("replicates = 3\n" + kFourWorlds + "delay_s = { from = 0, to = 2 }\n");
   const ScenarioSource fixed(grid), varied(drawn), delay_only(one);
   for (const std::uint64_t run : {0U, 5U, 9U, 23U}) {
     const Scenario a = fixed.scenario(run);
     Scenario b = varied.scenario(run);
-    EXPECT_EQ(b.radio.loss, varied.place(run).radio.loss);
-    EXPECT_EQ(b.radio.delay_s, varied.place(run).radio.delay_s);
-    EXPECT_EQ(delay_only.place(run).radio.delay_s, b.radio.delay_s);
+    EXPECT_EQ(b.radio.loss, varied.place(run).factors[Factor::Loss]);
+    EXPECT_EQ(b.radio.delay_s, varied.place(run).factors[Factor::Delay]);
+    EXPECT_EQ(delay_only.place(run).factors[Factor::Delay], b.radio.delay_s);
     b.radio = a.radio;
     EXPECT_EQ(to_text(a), to_text(b));
   }
 }
 
 TEST(DrawnFactors, AreRefusedWithARemedy) {
-  EXPECT_THAT(error_of(kFactors + "loss = { from = 0.4, to = 0.4 }\n"), HasSubstr("from below to"));
-  EXPECT_THAT(error_of(kFactors + "loss = { from = 0.1 }\n"), HasSubstr("from below to"));
-  EXPECT_THAT(error_of(kFactors + "loss = { from = 0, to = 1.5 }\n"),
+  EXPECT_THAT(error_of(kFourWorlds + "loss = { from = 0.4, to = 0.4 }\n"), HasSubstr("from below to"));
+  EXPECT_THAT(error_of(kFourWorlds + "loss = { from = 0.1 }\n"), HasSubstr("from below to"));
+  EXPECT_THAT(error_of(kFourWorlds + "loss = { from = 0, to = 1.5 }\n"),
               HasSubstr("factors.loss.to: 1.5 is refused: expected a number from 0 to 1"));
-  EXPECT_THAT(error_of(kFactors + "loss = { form = 0, to = 1 }\n"), HasSubstr("did you mean \"from\"?"));
-  EXPECT_THAT(error_of(kFactors + "mean_outage_s = { from = 0, to = 1 }\n"), HasSubstr("begin at 0.001"));
-  EXPECT_THAT(error_of(kFactors + kDrawn + "sampling = \"sobl\"\n"), HasSubstr("did you mean \"sobol\"?"));
-  EXPECT_THAT(error_of(kFactors + kDrawn + "sampling = \"sobol\"\n"),
+  EXPECT_THAT(error_of(kFourWorlds + "loss = { form = 0, to = 1 }\n"), HasSubstr("did you mean \"from\"?"));
+  EXPECT_THAT(error_of(kFourWorlds + "mean_outage_s = { from = 0, to = 1 }\n"), HasSubstr("begin at 0.001"));
+  EXPECT_THAT(error_of(kFourWorlds + kDrawn + "sampling = \"sobl\"\n"), HasSubstr("did you mean \"sobol\"?"));
+  EXPECT_THAT(error_of(kFourWorlds + kDrawn + "sampling = \"sobol\"\n"),
               HasSubstr("set it to \"uniform\", or kind to \"search\""));
-  EXPECT_THAT(error_of(kFactors + kDrawn + "sampling = \"latin-hypercube\"\n"),
+  EXPECT_THAT(error_of(kFourWorlds + kDrawn + "sampling = \"latin-hypercube\"\n"),
               HasSubstr("set it to \"uniform\", or kind to \"search\""));
-  EXPECT_EQ(error_of(kSearch + kFactors + kDrawn + "sampling = \"latin-hypercube\"\n"), "no error");
-  EXPECT_THAT(error_of(kSearch + kFactors + "sampling = \"sobol\"\n"), HasSubstr("no factor is drawn"));
-  EXPECT_THAT(error_of(kFactors + kDrawn + "[[gate]]\nagent = \"hull-lock\"\nregion = \"worst-case\"\n"),
+  EXPECT_EQ(error_of(kSearch + kFourWorlds + kDrawn + "sampling = \"latin-hypercube\"\n"), "no error");
+  EXPECT_THAT(error_of(kSearch + kFourWorlds + "sampling = \"sobol\"\n"), HasSubstr("no factor is drawn"));
+  EXPECT_THAT(error_of(kFourWorlds + kDrawn + "[[gate]]\nagent = \"hull-lock\"\nregion = \"worst-case\"\n"),
               HasSubstr("no cell of this campaign lies in region"));
+}
+
+// A factor reaches one field of the scenario, and no other; all its values meet the same world.
+TEST(Factors, EachSetsOneFieldOfTheScenarioAndLeavesTheWorld) {
+  const CampaignPlan plan = read("replicates = 2\n" + kFourWorlds);
+  for (const FactorInfo& factor : kFactors) {
+    int fields = 0;
+    visit_factor_fields(plan, [&](Factor other, const Field&, double) { fields += other == factor.id ? 1 : 0; });
+    EXPECT_EQ(fields, 1) << factor.key;
+    CampaignPlan changed = plan;
+    const double value = factor_field(factor.id).low + 0.01;
+    changed.factors[factor.id] = {value};
+    for (const std::uint64_t run : {0U, 7U, 15U}) {
+      const Scenario before = ScenarioSource(plan).scenario(run);
+      Scenario after = ScenarioSource(changed).scenario(run);
+      EXPECT_NE(to_text(after), to_text(before)) << factor.key;
+      FactorValues values = ScenarioSource(changed).place(run).factors;
+      EXPECT_EQ(values[factor.id], value);
+      EXPECT_EQ(factor_value(after, factor.id), value);
+      values[factor.id] = factor_value(before, factor.id);
+      set_factors(after, values);
+      EXPECT_EQ(to_text(after), to_text(before)) << factor.key << " changes more than its field";
+    }
+  }
+}
+
+// Each combination is one cell. The factor with the highest nesting varies fastest, agents faster still.
+TEST(Factors, MakeEveryCombinationInTheOrderOfTheirNesting) {
+  CampaignPlan plan = read(kFourWorlds);
+  for (const FactorInfo& factor : kFactors) plan.factors[factor.id] = {0.1, 0.2, FactorSpan(0.3, 0.4)};
+  const auto cells = plan.cells();
+  std::size_t stride = plan.agents.size(), nesting = kFactors.size();
+  while (nesting-- > 0) {
+    const auto factor = std::ranges::find(kFactors, nesting, &FactorInfo::nesting)->id;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const FactorSpan span = plan.factors[factor][i / stride % 3];
+      ASSERT_EQ(cells[i].lowest[factor], span.from) << i;
+      ASSERT_EQ(cells[i].highest[factor], span.to) << i;
+    }
+    stride *= 3;
+  }
+  EXPECT_EQ(cells.size(), 4 * stride);
+  EXPECT_EQ(plan.cell_count(), cells.size());
+  EXPECT_EQ(plan.cells_per_world(), stride);
 }
 
 std::vector<std::string> starts(const Scenario& scenario) {
@@ -224,21 +270,21 @@ TEST(HeldStreams, TheEngineTakesEveryStreamFromItsOwnSeed) {
 }
 
 TEST(HeldStreams, AreRefusedWithARemedy) {
-  EXPECT_THAT(error_of(kFactors + "[vary]\nhold = [\"layuot\"]\n"), HasSubstr("did you mean \"layout\"?"));
-  EXPECT_THAT(error_of(kFactors + "[vary]\nhold = [\"radio\", \"radio\"]\n"), HasSubstr("once is enough"));
-  EXPECT_THAT(error_of(kFactors + "[vary]\nheld_replicate = 3\n"), HasSubstr("name one"));
+  EXPECT_THAT(error_of(kFourWorlds + "[vary]\nhold = [\"layuot\"]\n"), HasSubstr("did you mean \"layout\"?"));
+  EXPECT_THAT(error_of(kFourWorlds + "[vary]\nhold = [\"radio\", \"radio\"]\n"), HasSubstr("once is enough"));
+  EXPECT_THAT(error_of(kFourWorlds + "[vary]\nheld_replicate = 3\n"), HasSubstr("name one"));
   const std::string all =
       "[vary]\nhold = [\"layout\", \"placement\", \"transports\", \"motion\", \"radio\", \"faults\", \"agent\"]\n";
-  EXPECT_THAT(error_of(kFactors + all), HasSubstr("leave out the one to vary"));
-  EXPECT_EQ(error_of(kFactors + kDrawn + all), "no error");
-  const CampaignPlan plan = read(kFactors + "[vary]\nhold = [\"agent\", \"layout\"]\nheld_replicate = 5\n"),
+  EXPECT_THAT(error_of(kFourWorlds + all), HasSubstr("leave out the one to vary"));
+  EXPECT_EQ(error_of(kFourWorlds + kDrawn + all), "no error");
+  const CampaignPlan plan = read(kFourWorlds + "[vary]\nhold = [\"agent\", \"layout\"]\nheld_replicate = 5\n"),
                      back = parse_plan(plan_text(plan));
   EXPECT_EQ(back.held_streams, plan.held_streams);
   EXPECT_EQ(back.held_replicate, 5U);
 }
 
 TEST(Exemptions, ReachEveryScenarioAndThePlansText) {
-  const CampaignPlan plan = read(kFactors +
+  const CampaignPlan plan = read(kFourWorlds +
                                  "[law]\nexempt_purposes = [\"charging\", \"parking\"]\nexempt_radius_m = 1.5\n"),
                      back = parse_plan(plan_text(plan));
   const Scenario scenario = ScenarioSource(back).scenario(0);
@@ -247,29 +293,29 @@ TEST(Exemptions, ReachEveryScenarioAndThePlansText) {
   EXPECT_FALSE(scenario.law.exempt_purposes.has(Purpose::Storage));
   EXPECT_EQ(scenario.law.exempt_radius_m, 1.5);
   EXPECT_EQ(plan_text(back), plan_text(plan));
-  EXPECT_THAT(error_of(kFactors + "[law]\nexempt_purposes = [\"charging\"]\n"), HasSubstr("give a radius"));
-  EXPECT_THAT(error_of(kFactors + "[law]\nexempt_radius_m = 1.0\n"), HasSubstr("name their purposes"));
-  EXPECT_THAT(error_of(kFactors + "[law]\nexempt_purposes = [\"chargign\"]\nexempt_radius_m = 1\n"),
+  EXPECT_THAT(error_of(kFourWorlds + "[law]\nexempt_purposes = [\"charging\"]\n"), HasSubstr("give a radius"));
+  EXPECT_THAT(error_of(kFourWorlds + "[law]\nexempt_radius_m = 1.0\n"), HasSubstr("name their purposes"));
+  EXPECT_THAT(error_of(kFourWorlds + "[law]\nexempt_purposes = [\"chargign\"]\nexempt_radius_m = 1\n"),
               HasSubstr("did you mean \"charging\"?"));
-  EXPECT_THAT(error_of(kFactors + "[law]\nexempt_purposes = [\"charging\"]\nexempt_radius_m = 101\n"),
+  EXPECT_THAT(error_of(kFourWorlds + "[law]\nexempt_purposes = [\"charging\"]\nexempt_radius_m = 101\n"),
               HasSubstr("law.exempt_radius_m: 101 is refused: expected a number from 0 to 100 m"));
 }
 
 const std::string kTwoTypes = "[[vehicle]]\nname = \"tugger\"\n[[vehicle]]\nname = \"cart\"\n";
 
 TEST(Exemptions, PairsReachEveryScenarioThePlansTextAndTheArchive) {
-  const CampaignPlan plan = read(kFactors + kTwoTypes +
+  const CampaignPlan plan = read(kFourWorlds + kTwoTypes +
                                  "[law]\nexempt_pairs = [[\"tugger\", \"cart\"], [\"cart\", \"obstacle\"]]\n"),
                      back = parse_plan(plan_text(plan));
   const std::vector<ExemptPair> pairs{{"tugger", "cart"}, {"cart", "obstacle"}};
   EXPECT_EQ(ScenarioSource(back).scenario(0).law.exempt_pairs, pairs);
   EXPECT_EQ(plan_text(back), plan_text(plan));
-  EXPECT_NE(plan_text(plan), plan_text(read(kFactors + kTwoTypes)));
+  EXPECT_NE(plan_text(plan), plan_text(read(kFourWorlds + kTwoTypes)));
 }
 
 TEST(Exemptions, PairsNameKindsOfThisFleet) {
   const auto error = [](const std::string& pairs) {
-    return error_of(kFactors + kTwoTypes + "[law]\nexempt_pairs = " + pairs + "\n");
+    return error_of(kFourWorlds + kTwoTypes + "[law]\nexempt_pairs = " + pairs + "\n");
   };
   EXPECT_EQ(error("[[\"cart\", \"cart\"]]"), "no error") << "two of one kind";
   EXPECT_THAT(
@@ -281,9 +327,9 @@ TEST(Exemptions, PairsNameKindsOfThisFleet) {
   EXPECT_THAT(error("[[\"tugger\", 1]]"), HasSubstr("1 is refused: expected a text in double quotes"));
   EXPECT_THAT(error("[\"tugger\", \"cart\"]"), HasSubstr("expected an array of arrays"));
   EXPECT_THAT(error("\"tugger\""), HasSubstr("expected an array of arrays"));
-  EXPECT_THAT(
-      error_of(kFactors + "[[vehicle]]\nname = \"obstacle\"\n[law]\nexempt_pairs = [[\"obstacle\", \"obstacle\"]]\n"),
-      HasSubstr("give the type another name"));
+  EXPECT_THAT(error_of(kFourWorlds +
+                       "[[vehicle]]\nname = \"obstacle\"\n[law]\nexempt_pairs = [[\"obstacle\", \"obstacle\"]]\n"),
+              HasSubstr("give the type another name"));
 }
 
 }  // namespace

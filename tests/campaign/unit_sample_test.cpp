@@ -50,7 +50,7 @@ TEST_P(Samples, APointIsAFunctionOfItsIndexWhateverWasDrawnBefore) {
 // whatever the way of drawing.
 TEST_P(Samples, EveryPointIsUniformOverCampaignSeeds) {
   for (const std::uint64_t replicate : {0U, 1U, 5U, 6U}) {
-    std::vector<int> cells(4 * 4 * 4);
+    std::vector<int> cells(std::size_t{1} << (2 * UnitSample::kDimensions));  // a quarter of every side
     for (std::uint64_t seed = 0; seed < 12'800; ++seed) {
       const UnitSample sample(GetParam(), seed, 7);
       std::size_t cell = 0;
@@ -64,7 +64,7 @@ TEST_P(Samples, EveryPointIsUniformOverCampaignSeeds) {
 
 TEST_P(Samples, TheSampleOfOneCampaignIsUniform) {
   const UnitSample sample(GetParam(), 42, 20'000);
-  std::vector<int> cells(8 * 8 * 8);
+  std::vector<int> cells(std::size_t{1} << (3 * UnitSample::kDimensions));  // an eighth of every side
   for (std::uint64_t i = 0; i < 20'000; ++i) {
     std::size_t cell = 0;
     for (std::uint32_t d = 0; d < UnitSample::kDimensions; ++d)

@@ -63,13 +63,14 @@ TEST_F(DemoCampaign, ShowsWhatItMust) {
       << "inside and outside the contract";
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     if (cells_[i].agent == "hull-lock" && cells_[i].in_contract()) {
-      EXPECT_GT(sums_[i].done, 0U) << cells_[i].layout << " loss " << cells_[i].loss << " delay " << cells_[i].delay_s;
+      EXPECT_GT(sums_[i].done, 0U) << cells_[i].layout << " loss " << cells_[i].lowest[Factor::Loss] << " delay "
+                                   << cells_[i].lowest[Factor::Delay];
     }
   }
 
   const auto timeout_grant_at = [&](double loss) {
     return over([=](const CellRecord& cell) {
-      return cell.agent == "timeout-grant" && cell.delay_s == 0.0 && cell.loss == loss;
+      return cell.agent == "timeout-grant" && cell.lowest[Factor::Delay] == 0.0 && cell.lowest[Factor::Loss] == loss;
     });
   };
   const Sums lossy = timeout_grant_at(0.4), lossless = timeout_grant_at(0.0);

@@ -66,7 +66,7 @@ TEST_F(DrawnFactors, AreStoredReplayedAndClaimedAsARegion) {
   }
   const auto replayed = run("replay c.db 13");
   EXPECT_EQ(replayed.exit_code, 3);
-  EXPECT_THAT(replayed.out, HasSubstr("the radio of the run"));
+  EXPECT_THAT(replayed.out, HasSubstr("the factors of the run"));
   EXPECT_EQ(run("report c.db").exit_code, 3) << "a changed value does not pass its checksum";
 }
 

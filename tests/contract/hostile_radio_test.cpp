@@ -14,7 +14,7 @@ CampaignPlan hostile_plan(OutageSetup::Scope scope) {
   CampaignPlan plan = test::small_plan();
   plan.replicates = 2;
   plan.layouts = {{"aisle-grid", nullptr}};
-  plan.mean_outage_s = {0.0, 0.5};
+  plan.factors[Factor::MeanOutage] = {0.0, 0.5};
   plan.radio.delay_model = RadioSetup::DelayModel::HeavyTail;
   plan.radio.range_m = 30.0;
   plan.radio.outages.model = OutageSetup::Model::HeavyTail;

@@ -17,8 +17,8 @@ inline CampaignPlan small_plan() {
   plan.agents = {"hull-lock", "timeout-grant", "reckless"};
   plan.layouts = {{"aisle-grid", nullptr}, {"corridor-sidings", nullptr}};
   plan.fleet_sizes = {4};
-  plan.loss = {0.0, 0.4};
-  plan.delay_s = {0.0, 2.0};
+  plan.factors[Factor::Loss] = {0.0, 0.4};
+  plan.factors[Factor::Delay] = {0.0, 2.0};
   plan.demand.transports_per_agv_hour = 60.0;
   GateRecord gate;
   gate.name = "small gate";
@@ -33,7 +33,7 @@ inline CampaignPlan hostile_plan() {
   CampaignPlan plan = small_plan();
   plan.name = "hostile";
   plan.layouts = {{"loop-spurs", nullptr}, {"bent", bent_map(family_range("random-planar"), 5)}};
-  plan.mean_outage_s = {0.0, 1.0};
+  plan.factors[Factor::MeanOutage] = {0.0, 1.0};
   plan.placement = Placement::Mixed;
   plan.radio.delay_model = RadioSetup::DelayModel::Uniform;
   plan.radio.duplicates = 0.05;

@@ -35,7 +35,7 @@ TEST(Evidence, a_gate_sees_its_own_agent_and_region_only) {
                                       gate_of("faulty", GateKind::None, Region::Contract, 1e-3)};
   const auto input = report_of(campaign_of("claim", 2), cells, gates, [&](RunRecord& run) {
     const auto& cell = cells[run.cell];
-    if (cell.agent == "faulty" || cell.delay_s == 5.0) samples::violate(run);
+    if (cell.agent == "faulty" || cell.lowest[Factor::Delay] == 5.0) samples::violate(run);
   });
   EXPECT_EQ(input.gates[0].verdict, Verdict::NotDemonstrated);
   EXPECT_EQ(input.gates[0].counts.cells, 4u);

@@ -109,7 +109,7 @@ TEST(Report, outages_are_shown_where_the_campaign_has_them) {
   for (const auto& cell : grid({"sound"}, {0.4}, {0.0, 2.0})) {
     cells.push_back(cell);
     cells.back().index = static_cast<std::uint32_t>(cells.size() - 1);
-    cells.back().mean_outage_s = cells.back().mean_outage_to_s = 0.5;
+    cells.back().lowest[Factor::MeanOutage] = cells.back().highest[Factor::MeanOutage] = 0.5;
   }
   const auto input = report_of(campaign_of("claim", 200), cells,
                                {gate_of("sound", GateKind::None, Region::Contract, 1e-3)}, [](RunRecord& run) {

@@ -30,7 +30,7 @@ inline std::vector<CellRecord> grid(const std::vector<std::string>& agents, cons
     for (const auto& layout : layouts) {
       for (const double loss : losses) {
         for (const double delay_s : delays_s)
-          cells.push_back({static_cast<std::uint32_t>(cells.size()), agent, layout, 5, loss, delay_s});
+          cells.push_back({static_cast<std::uint32_t>(cells.size()), agent, layout, 5, {loss, delay_s}});
       }
     }
   }
@@ -76,7 +76,7 @@ inline ReportInput report_of(CampaignRecord campaign, const std::vector<CellReco
   ReportInput input{"night.fp", campaign, Evidence(campaign, cells, gates), {}, 0, 4};
   for (std::uint64_t i = 0; i < campaign.replicates * cells.size() + extra_runs - missing_runs; ++i) {
     auto run = clean_run(i, cells.size());
-    run.radio = cells[run.cell].lowest();
+    run.factors = cells[run.cell].lowest;
     if (change) change(run);
     input.evidence.add(run);
     ++input.stored_runs;

@@ -35,7 +35,7 @@ std::string render(const std::string& format, const ReportInput& input) {
 
 CellRecord drawn_cell(std::uint32_t index, double loss_to, double delay_s = 0.0, double delay_to_s = 2.0,
                       const std::string& layout = "ring") {
-  return {index, "sound", layout, 5, 0.0, delay_s, 0.0, loss_to, delay_to_s, 0.0};
+  return {index, "sound", layout, 5, {0.0, delay_s, 0.0}, {loss_to, delay_to_s, 0.0}};
 }
 
 ReportInput drawn(const std::vector<CellRecord>& cells, Region region = Region::Contract,
@@ -69,7 +69,7 @@ TEST(SampleSentence, OneFactorMayBeDrawnAndAnotherAGrid) {
   const auto input = drawn({drawn_cell(0, 0.4, 1.0, 1.0), drawn_cell(1, 0.4, 2.0, 2.0)});
   EXPECT_THAT(sampled(input.evidence, {0, 1}),
               HasSubstr("wherever loss <= 40 % and delay = 1 s; or loss <= 40 % and delay = 2 s (drawn uniformly"));
-  const auto raised = drawn({{0, "sound", "ring", 5, 0.1, 0.5, 0.2, 0.4, 2.0, 0.9}});
+  const auto raised = drawn({{0, "sound", "ring", 5, {0.1, 0.5, 0.2}, {0.4, 2.0, 0.9}}});
   EXPECT_THAT(
       sampled(raised.evidence, {0}),
       HasSubstr("wherever 10 % <= loss <= 40 % and 0.5 s <= delay <= 2 s and 0.2 s <= mean outage <= 0.9 s (drawn"));
@@ -86,7 +86,7 @@ TEST(SampleSentence, AGridClaimsItsCombinations) {
 TEST(SampleSentence, ACellBeyondTheContractStillHasRunsInsideIt) {
   // Two failures, one drawn inside the contract and one outside.
   const auto input = drawn({drawn_cell(0, 0.8)}, Region::All, [](RunRecord& run) {
-    run.radio = {run.run_index % 2 == 0 ? 0.123 : 0.7, 1.0, 0.0};
+    run.factors = {run.run_index % 2 == 0 ? 0.123 : 0.7, 1.0, 0.0};
     if (run.run_index == 8 || run.run_index == 9) samples::violate(run);
   });
   const auto failures = input.evidence.contract_failures();

@@ -39,7 +39,7 @@ inline std::vector<CellRecord> cells() {
   std::vector<CellRecord> list;
   for (const double loss : {0.0, 0.4}) {
     for (const double delay_s : {0.0, 2.0, 5.0}) {
-      list.push_back({static_cast<std::uint32_t>(list.size()), "sound", "ring", 5, loss, delay_s});
+      list.push_back({static_cast<std::uint32_t>(list.size()), "sound", "ring", 5, {loss, delay_s}});
     }
   }
   return list;
@@ -110,7 +110,7 @@ inline std::vector<RunRecord> runs(std::uint64_t count, std::uint64_t seed = 7) 
     run.cell = static_cast<std::uint32_t>(i % cells().size());
     run.replicate = i / cells().size();
     run.scenario_digest = random();
-    run.radio = cells()[run.cell].lowest();
+    run.factors = cells()[run.cell].lowest;
     run.outcome = random_outcome(random);
     list.push_back(run);
   }

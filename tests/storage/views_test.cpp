@@ -36,7 +36,7 @@ class Views : public testing::Test {
       run.run_index = i;
       run.cell = i % 6;
       run.replicate = i / 6;
-      run.radio = samples::cells()[run.cell].lowest();
+      run.factors = samples::cells()[run.cell].lowest;
       run.outcome = Outcome{};
       run.outcome.simulated_ns = 3'600'000'000'000;
       run.outcome.agv_count = 5;
@@ -106,14 +106,14 @@ TEST_F(Views, runs_have_the_quality_they_drew_and_cells_their_bounds) {
   const std::string path = folder / "drawn.fp";
   auto campaign = samples::campaign();
   campaign.sampling = "uniform";
-  const std::vector<CellRecord> cells{{0, "sound", "ring", 5, 0.0, 1.0, 0.5, 0.8, 2.0, 2.5},
-                                      {1, "sound", "ring", 5, 0.0, 0.0, 0.0, 0.4, 2.0, 0.0}};
+  const std::vector<CellRecord> cells{{0, "sound", "ring", 5, {0.0, 1.0, 0.5}, {0.8, 2.0, 2.5}},
+                                      {1, "sound", "ring", 5, {0.0, 0.0, 0.0}, {0.4, 2.0, 0.0}}};
   ArchiveWriter writer(path, campaign, cells, samples::gates());
   RunRecord run;
-  run.radio = {0.125, 1.5, 0.75};
+  run.factors = {0.125, 1.5, 0.75};
   writer.add(run);
   run.run_index = run.cell = 1;
-  run.radio = {0.4, 2.0, 0.0};
+  run.factors = {0.4, 2.0, 0.0};
   writer.add(run);
   run = {2, 0, 1, 0, {0.75, 1.25, 0.5}, {}};
   file_violations(run.outcome, {Violation{}});
@@ -130,7 +130,7 @@ TEST_F(Views, runs_have_the_quality_they_drew_and_cells_their_bounds) {
   const ArchiveReader reader(path);
   EXPECT_EQ(reader.cells(), cells);
   EXPECT_EQ(reader.campaign(), campaign);
-  EXPECT_EQ(reader.run(2)->radio, (RadioQuality{0.75, 1.25, 0.5}));
+  EXPECT_EQ(reader.run(2)->factors, (FactorValues{0.75, 1.25, 0.5}));
 }
 
 TEST_F(Views, the_file_names_its_kind_and_version) {
