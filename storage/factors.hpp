@@ -14,7 +14,7 @@ namespace fleetproof {
 // The numeric factors of a campaign: what varies between cells beside agent, layout and fleet size. None of them shapes
 // the world. This list drives the cells of a plan, the columns of a campaign file and the texts of reports. The bounds
 // and the explanation of a factor are those of the scenario's field with the same key.
-enum class Factor : std::uint8_t { Loss, Delay, MeanOutage };
+enum class Factor : std::uint8_t { Loss, Delay, MeanOutage, CallCost };
 
 struct FactorInfo {
   Factor id;
@@ -37,6 +37,8 @@ inline constexpr auto kFactors = std::to_array<FactorInfo>({
     {Factor::MeanOutage, "mean_outage_s", "mean_outage_to_s", 1, "mean outage", "outage", "outages of", 1.0, " s", true,
      "outage = mean length of an outage of the radio; none = losses are independent of each other. The loss is the "
      "same on average."},
+    {Factor::CallCost, "call_cost_s", "call_cost_to_s", 3, "call cost", "call cost", "call cost", 1000.0, " ms", true,
+     "call cost = simulated time that every call of the controller takes; none = calls take no time."},
 });
 
 consteval bool factors_stand_at_their_numbers() {

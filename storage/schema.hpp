@@ -7,8 +7,9 @@ namespace fleetproof {
 
 inline constexpr std::int32_t kApplicationId = 0x464C5046;  // "FLPF": marks an SQLite file as a campaign file
 
-// What each version added: 2 incidents and probes, 3 bounds of factors, 4 exempt pairs and external sources.
-inline constexpr std::int32_t kSchemaVersion = 4;
+// What each version added: 2 incidents and probes, 3 bounds of factors, 4 exempt pairs and external sources, 5 the call
+// cost as a factor.
+inline constexpr std::int32_t kSchemaVersion = 5;
 inline constexpr std::int32_t kPageSize = 4096;
 
 // The tables and the public views, as one script. The live file and the canonical file use the same text. Each counter

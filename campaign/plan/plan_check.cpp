@@ -59,6 +59,8 @@ class PlanBounds {
     } else if constexpr (NumberValue<Value>) {
       const auto fault = fault_of(field, value);
       if (!fault.empty()) refuse(path, fmt::format("{}", value), fault);
+      if (is_given_as_factor(path, field))
+        refuse(path, fmt::format("{}", value), fmt::format("factors.{} gives it; leave one of them out", field.key));
     } else if constexpr (HasFields<Value>) {
       fields(path + ".", value);
       rules(path, value);
@@ -67,6 +69,13 @@ class PlanBounds {
   template <class Item>
   void check(const std::string& path, const Field& field, const std::vector<Item>& items) const {
     for (std::size_t i = 0; i < items.size(); ++i) check(fmt::format("{}.{}", path, i), field, items[i]);
+  }
+
+  // A parameter that cells vary has no other value in its own table.
+  bool is_given_as_factor(const std::string& path, const Field& field) const {
+    const std::string factor = fmt::format("factors.{}", field.key);
+    return factor_of(field.key) && !path.starts_with("factors.") && places_.known.contains(path) &&
+           places_.known.contains(factor);
   }
 
   template <class Setup>

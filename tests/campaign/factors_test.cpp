@@ -164,6 +164,51 @@ TEST(Factors, MakeEveryCombinationInTheOrderOfTheirNesting) {
   EXPECT_EQ(plan.cells_per_world(), stride);
 }
 
+TEST(CallCost, VariesOverTheSameWorldAndSlowsTheAgentsDown) {
+  const CampaignPlan plan = read("horizon_s = 100\n" + kFourWorlds + "call_cost_s = [0, 0.02]\n");
+  EXPECT_EQ(plan.cell_count(), 16U);
+  const ScenarioSource source(plan);
+  Scenario quick = source.scenario(1), slow = source.scenario(3);
+  EXPECT_EQ(quick.agent_clock.call_cost_s, 0.0);
+  EXPECT_EQ(slow.agent_clock.call_cost_s, 0.02);
+  quick.agent_clock = slow.agent_clock;
+  quick.name = slow.name;
+  EXPECT_TRUE(to_text(quick) == to_text(slow)) << "another world";
+  const AgentPrograms programs;
+  const auto run = [&](std::uint64_t index) {
+    return simulate(source.scenario(index), programs.find(source.place(index).cell.agent, "test"), {});
+  };
+  EXPECT_NE(run(1).digest, run(3).digest);
+  EXPECT_LT(run(3).counters.messages_sent, run(1).counters.messages_sent);
+}
+
+TEST(CallCost, IsDrawnWithoutMovingWhatElseIsDrawn) {
+  const std::string loss = "loss = { from = 0, to = 0.4 }\n";
+  const CampaignPlan one = read("replicates = 20\n" + kFourWorlds + loss),
+                     two = read("replicates = 20\n" + kFourWorlds + loss + "call_cost_s = { from = 0, to = 0.02 }\n");
+  for (std::uint64_t run = 0; run < 160; run += 8) {
+    const FactorValues before = ScenarioSource(one).place(run).factors, after = ScenarioSource(two).place(run).factors;
+    EXPECT_EQ(after[Factor::Loss], before[Factor::Loss]);
+    EXPECT_GT(after[Factor::CallCost], 0.0);
+    EXPECT_LT(after[Factor::CallCost], 0.02);
+    EXPECT_NE(after[Factor::CallCost], 0.05 * after[Factor::Loss]);
+  }
+}
+
+TEST(CallCost, HasOnePlaceInAFile) {
+  const std::string clock = "[agent_clock]\ncall_cost_s = 0.005\n";
+  const CampaignPlan fixed = read(kFourWorlds + clock);
+  EXPECT_EQ(fixed.cells().size(), 8U);
+  EXPECT_EQ(fixed.cells()[7].lowest[Factor::CallCost], 0.005);
+  EXPECT_EQ(ScenarioSource(fixed).scenario(7).agent_clock.call_cost_s, 0.005);
+  EXPECT_EQ(parse_plan(plan_text(fixed)).cells(), fixed.cells());
+  EXPECT_THAT(error_of(kFourWorlds + "call_cost_s = [0, 0.01]\n" + clock),
+              HasSubstr("agent_clock.call_cost_s: 0.005 is refused: factors.call_cost_s gives it"));
+  EXPECT_THAT(error_of(kFourWorlds + "call_cost_s = [61]\n"),
+              HasSubstr("factors.call_cost_s: 61 is refused: expected a number from 0 to 60 s"));
+  EXPECT_THAT(error_of(kFourWorlds + "call_cost_s = []\n"), HasSubstr("factors.call_cost_s is empty"));
+}
+
 std::vector<std::string> starts(const Scenario& scenario) {
   std::vector<std::string> names;
   for (const AgvSetup& agv : scenario.agvs) names.push_back(scenario.map->layout().stations.at(agv.start.index()).name);

@@ -129,6 +129,25 @@ TEST(Report, outages_are_shown_where_the_campaign_has_them) {
   EXPECT_THAT(render("json", input), HasSubstr("\"mean_outage_s\": 0.5"));
 }
 
+TEST(Report, the_cost_of_a_call_is_shown_where_the_campaign_has_one) {
+  EXPECT_THAT(render("text", clean_campaign()), Not(HasSubstr("call cost")));
+  auto cells = grid({"sound"}, {0.4, 0.4}, {2.0});
+  cells[1].lowest[Factor::CallCost] = cells[1].highest[Factor::CallCost] = 0.0125;
+  const auto input = report_of(campaign_of("claim", 200), cells,
+                               {gate_of("sound", GateKind::None, Region::Contract, 1e-3)}, [](RunRecord& run) {
+                                 if (run.run_index == 3) samples::violate(run);
+                               });
+  auto page = render("text", input);
+  EXPECT_THAT(page, testing::ContainsRegex("loss +delay +call cost +runs"));
+  EXPECT_THAT(page, HasSubstr("2 s       none"));
+  EXPECT_THAT(page, HasSubstr("2 s    12.5 ms"));
+  std::ranges::replace(page, '\n', ' ');
+  EXPECT_THAT(page, testing::ContainsRegex("loss 40 %, +delay 2 s, +call cost 12.5 ms"));
+  EXPECT_THAT(page, testing::ContainsRegex("call cost 0 ms, +12.5 ms"));
+  EXPECT_THAT(page, testing::ContainsRegex("call cost = simulated time +that every call"));
+  EXPECT_THAT(render("json", input), HasSubstr("\"call_cost_s\": 0.0125"));
+}
+
 TEST(Report, no_text_line_is_wider_than_150_columns) {
   for (const auto& input :
        {clean_campaign(), failing_campaign(),

@@ -106,7 +106,7 @@ TEST_F(Views, runs_have_the_quality_they_drew_and_cells_their_bounds) {
   const std::string path = folder / "drawn.fp";
   auto campaign = samples::campaign();
   campaign.sampling = "uniform";
-  const std::vector<CellRecord> cells{{0, "sound", "ring", 5, {0.0, 1.0, 0.5}, {0.8, 2.0, 2.5}},
+  const std::vector<CellRecord> cells{{0, "sound", "ring", 5, {0.0, 1.0, 0.5, 0.001}, {0.8, 2.0, 2.5, 0.016}},
                                       {1, "sound", "ring", 5, {0.0, 0.0, 0.0}, {0.4, 2.0, 0.0}}};
   ArchiveWriter writer(path, campaign, cells, samples::gates());
   RunRecord run;
@@ -115,7 +115,7 @@ TEST_F(Views, runs_have_the_quality_they_drew_and_cells_their_bounds) {
   run.run_index = run.cell = 1;
   run.factors = {0.4, 2.0, 0.0};
   writer.add(run);
-  run = {2, 0, 1, 0, {0.75, 1.25, 0.5}, {}};
+  run = {2, 0, 1, 0, {0.75, 1.25, 0.5, 0.004}, {}};
   file_violations(run.outcome, {Violation{}});
   writer.add(run);
   writer.publish(3);
@@ -127,15 +127,18 @@ TEST_F(Views, runs_have_the_quality_they_drew_and_cells_their_bounds) {
   EXPECT_EQ(query(path, "SELECT loss, delay_s, mean_outage_s, in_contract FROM v1_runs"),
             "0.125|1.5|0.75|1|0.4|2.0|0.0|1|0.75|1.25|0.5|0");
   EXPECT_EQ(query(path, "SELECT loss, delay_s, mean_outage_s, in_contract FROM v1_violations"), "0.75|1.25|0.5|0");
+  EXPECT_EQ(query(path, "SELECT call_cost_s, call_cost_to_s FROM v1_cells"), "0.001|0.016|0.0|0.0");
+  EXPECT_EQ(query(path, "SELECT call_cost_s FROM v1_runs"), "0.0|0.0|0.004");
+  EXPECT_EQ(query(path, "SELECT call_cost_s FROM v1_violations"), "0.004");
   const ArchiveReader reader(path);
   EXPECT_EQ(reader.cells(), cells);
   EXPECT_EQ(reader.campaign(), campaign);
-  EXPECT_EQ(reader.run(2)->factors, (FactorValues{0.75, 1.25, 0.5}));
+  EXPECT_EQ(reader.run(2)->factors, (FactorValues{0.75, 1.25, 0.5, 0.004}));
 }
 
 TEST_F(Views, the_file_names_its_kind_and_version) {
   EXPECT_EQ(query(path_, "PRAGMA application_id"), std::to_string(0x464C5046));
-  EXPECT_EQ(query(path_, "PRAGMA user_version"), "4");
+  EXPECT_EQ(query(path_, "PRAGMA user_version"), "5");
   EXPECT_EQ(query(path_, "PRAGMA page_size"), "4096");
   EXPECT_EQ(query(path_, "PRAGMA journal_mode"), "delete");
   EXPECT_EQ(query(path_, "PRAGMA integrity_check"), "ok");
