@@ -5,7 +5,7 @@
 
 namespace fleetproof {
 
-// One line of the tables of keys that users read: `fleetproof list fields` and the READMEs.
+// One line of the tables of keys that users read: `fleetproof list fields` and campaign/fields.md.
 struct FieldRow {
   std::string file;      // "campaign" or "scenario"
   std::string key;       // "law.reaction_s"; items of a list are "agvs[].battery"
@@ -18,7 +18,7 @@ struct FieldRow {
 // All fields of campaign files and of scenario files, in the order of the files.
 std::vector<FieldRow> field_rows();
 
-// The table of one file in Markdown, as the READMEs hold it.
+// The table of one file in Markdown, as campaign/fields.md holds it.
 std::string field_table_markdown(const std::string& file);
 
 }  // namespace fleetproof

@@ -45,8 +45,7 @@ const std::map<std::string, std::string> kWideFiles = {
     {"tests/fuzz/seeds.cpp", "sample files, as programs write them"},
     {"tests/generators/lif_test.cpp", "a sample file whose line numbers errors name"},
     {"tests/generators/opentcs_test.cpp", "a sample file whose line numbers errors name"},
-    {"campaign/plan/README.md", "tables that a test writes from the lists of fields"},
-    {"generators/scenario_file/README.md", "tables that a test writes from the lists of fields"},
+    {"campaign/fields.md", "tables that a test writes from the lists of fields"},
     {"tests/contract/hostile_names_test.cpp", "a sample file"},
 };
 
