@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <exception>
 #include <stdexcept>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
@@ -21,17 +22,21 @@ constexpr std::size_t kLongestMessage = 200;  // characters: an agent may throw 
 
 }  // namespace
 
-AgentHost::AgentHost(RunContext& run, const Ports& ports, const fp_agent_type& type, const char* agent_config)
+AgentHost::AgentHost(RunContext& run, const Ports& ports, const fp_agent_type& type, const char* agent_config,
+                     const RunWatch& watch)
     : run_(run),
       ports_(ports),
       type_(type),
       briefings_(run.scenario, agent_config),
+      calls_(watch),
       activations_max_(kActivationsPerRun +
                        kActivationsPerSecond * static_cast<std::uint64_t>(to_seconds(run.scenario.horizon))),
       slices_(run.agvs.size()) {}
 
-AgentHost::~AgentHost() {
-  for (Slice& slice : slices_) destroy(slice);
+AgentHost::~AgentHost() { close(); }
+
+void AgentHost::close() {
+  for (std::size_t i = 0; i < slices_.size(); ++i) destroy(AgvId{i});
 }
 
 // ---- activations
@@ -97,6 +102,7 @@ const char* AgentHost::broken_limit(Slice& slice) const {
 
 void AgentHost::call_agent(AgvId agv, fp_event& event) {
   Slice& slice = slices_[agv.index()];
+  if (const KnownEnd* end = calls_.next(agv, event.kind, run_.now)) return give_up(agv, end->hang, end->message);
   try {
     if (event.kind == FP_EVENT_START) {
       if (slice.boot > 0) renew_briefing(agv);
@@ -114,17 +120,23 @@ void AgentHost::call_agent(AgvId agv, fp_event& event) {
 }
 
 void AgentHost::give_up(AgvId agv, bool hang, std::string_view message) {
-  Slice& slice = slices_[agv.index()];
-  if (slice.failed) return;
-  slice.failed = true;
-  slice.waiting_events.clear();
-  (hang ? hang_ : crash_) = true;
-  if (message_.empty()) message_ = "agent of " + run_.setup(agv).name + ": " + printable(message, kLongestMessage);
+  if (!file_failure(agv, hang, message)) return;
   if (hang) {
     run_.trace(agv, traced::AgentHung{});
   } else {
     run_.trace(agv, traced::AgentCrashed{});
   }
+}
+
+// False if the agent had failed before.
+bool AgentHost::file_failure(AgvId agv, bool hang, std::string_view message) {
+  Slice& slice = slices_[agv.index()];
+  if (slice.failed) return false;
+  slice.failed = true;
+  slice.waiting_events.clear();
+  (hang ? hang_ : crash_) = true;
+  if (message_.empty()) message_ = "agent of " + run_.setup(agv).name + ": " + printable(message, kLongestMessage);
+  return true;
 }
 
 void AgentHost::file_failures(Outcome& outcome) const {
@@ -165,7 +177,7 @@ void AgentHost::tell_order(AgvId agv, TransportId transport, StationId from, Sta
 void AgentHost::goes_away(AgvId agv) {
   Slice& slice = slices_[agv.index()];
   ++slice.away;
-  destroy(slice);
+  destroy(agv);
   slice.waiting_events.clear();
   ports_.controller.forget(agv);
 }
@@ -191,13 +203,19 @@ void AgentHost::renew_briefing(AgvId agv) {
                    lanes.still_to_drive ? lanes.current : nullptr, lanes.next);
 }
 
-void AgentHost::destroy(Slice& slice) {
+void AgentHost::destroy(AgvId agv) {
+  Slice& slice = slices_[agv.index()];
   if (slice.agent == nullptr) return;
-  try {
-    type_.destroy(slice.agent);
-  } catch (...) {  // its outcome is known already, and a destructor cannot report
+  void* agent = std::exchange(slice.agent, nullptr);
+  if (const KnownEnd* end = calls_.next(agv, CallNote::kDestroy, run_.now)) {
+    file_failure(agv, end->hang, end->message);
+    return;
   }
-  slice.agent = nullptr;
+  try {
+    type_.destroy(agent);
+  } catch (...) {
+    file_failure(agv, false, "exception in destroy()");
+  }
 }
 
 }  // namespace fleetproof

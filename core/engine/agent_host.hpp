@@ -8,6 +8,7 @@
 #include "core/engine/briefings.hpp"
 #include "core/engine/ports.hpp"
 #include "core/engine/run_context.hpp"
+#include "core/engine/run_watch.hpp"
 
 namespace fleetproof {
 
@@ -21,7 +22,8 @@ class AgentHost {
     TimersPort timers;
   };
   // `agent_config` is handed to every agent as its own parameters.
-  AgentHost(RunContext& run, const Ports& ports, const fp_agent_type& type, const char* agent_config);
+  AgentHost(RunContext& run, const Ports& ports, const fp_agent_type& type, const char* agent_config,
+            const RunWatch& watch);
   ~AgentHost();
   AgentHost(const AgentHost&) = delete;
   AgentHost& operator=(const AgentHost&) = delete;
@@ -44,6 +46,8 @@ class AgentHost {
   void goes_away(AgvId agv);
   void comes_back(AgvId agv);
 
+  // Ends all agents. The trace does not learn of a failure in here.
+  void close();
   // Adds crash, hang and the message of the first of them.
   void file_failures(Outcome& outcome) const;
 
@@ -66,14 +70,16 @@ class AgentHost {
   const char* broken_limit(Slice& slice) const;
   void call_agent(AgvId agv, fp_event& event);
   void give_up(AgvId agv, bool hang, std::string_view message);
+  bool file_failure(AgvId agv, bool hang, std::string_view message);
   void tell_order(AgvId agv, TransportId transport, StationId from, StationId to);
   void renew_briefing(AgvId agv);
-  void destroy(Slice& slice);
+  void destroy(AgvId agv);
 
   RunContext& run_;
   Ports ports_;
   const fp_agent_type& type_;
   Briefings briefings_;
+  CallCounter calls_;
   std::uint64_t activations_max_;  // of one agent in this run
   bool crash_ = false, hang_ = false;
   std::string message_;

@@ -9,13 +9,14 @@
 namespace fleetproof {
 
 Engine::Engine(const Scenario& scenario, const fp_agent_type& agent, std::span<const std::unique_ptr<Law>> laws,
-               TraceSink* sink, const char* agent_config)
-    : laws_(laws), run_(scenario, laws, sink), parts_(run_, agent, agent_config) {}
+               TraceSink* sink, const char* agent_config, const RunWatch& watch)
+    : laws_(laws), abandon_(watch.abandon), run_(scenario, laws, sink), parts_(run_, agent, agent_config, watch) {}
 
 void Engine::run() {
   start();
   const SimTime end = kStart + run_.scenario.horizon;
   while (!run_.queue.empty() && run_.queue.next_at() <= end) {
+    if (abandon_ != nullptr && abandon_->load(std::memory_order_relaxed)) throw RunAbandoned();
     const Event event = run_.queue.pop();
     ensure(event.at >= run_.now, "time goes forward");
     run_.now = event.at;
@@ -90,7 +91,6 @@ bool Engine::is_stuck() const {
 
 Outcome Engine::finish() {
   Outcome outcome;
-  parts_.agents.file_failures(outcome);
   Counters& counters = outcome.counters = run_.counters;
   counters.under_way = counters.receptions + counters.duplicates - counters.receptions_lost - counters.received;
   counters.events = run_.writer.digest().record_count();
@@ -101,6 +101,8 @@ Outcome Engine::finish() {
   outcome.contact = outcome.contact || counters.contacts > 0;
   outcome.digest = run_.writer.digest().value();
   outcome.running_digests = run_.writer.digest().running();
+  parts_.agents.close();  // an agent may fail even now
+  parts_.agents.file_failures(outcome);
   return outcome;
 }
 

@@ -13,9 +13,9 @@ namespace fleetproof {
 class Engine {
  public:
   Engine(const Scenario& scenario, const fp_agent_type& agent, std::span<const std::unique_ptr<Law>> laws,
-         TraceSink* sink, const char* agent_config);
+         TraceSink* sink, const char* agent_config, const RunWatch& watch = {});
 
-  // From the start to the horizon. Call it once.
+  // From the start to the horizon. Call it once. Throws RunAbandoned if the watch says so.
   void run();
   // Closes the books. Requires: `run` has returned. Call it once: the findings of the laws move into the outcome.
   Outcome finish();
@@ -27,6 +27,7 @@ class Engine {
   void file_findings(Outcome& outcome) const;
 
   std::span<const std::unique_ptr<Law>> laws_;
+  const std::atomic<bool>* abandon_;
   RunContext run_;
   Parts parts_;
 };

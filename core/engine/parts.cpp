@@ -3,7 +3,7 @@
 namespace fleetproof {
 
 // A port is made from a part that may not have been constructed yet: it keeps the address and calls nothing.
-Parts::Parts(RunContext& run, const fp_agent_type& agent, const char* agent_config)
+Parts::Parts(RunContext& run, const fp_agent_type& agent, const char* agent_config, const RunWatch& watch)
     : battery(run, {HaltsPort(halts), OperatorDeskPort(operator_desk)}),
       contacts(run, {ActionsPort(actions), OperatorDeskPort(operator_desk)}),
       sensor(run),
@@ -21,6 +21,7 @@ Parts::Parts(RunContext& run, const fp_agent_type& agent, const char* agent_conf
       timers(run, AgentHostPort(agents)),
       controller(run, {ActionsPort(actions), BatteryPort(battery), MessengerPort(messenger), PositionSensorPort(sensor),
                        TimersPort(timers)}),
-      agents(run, {ActionsPort(actions), AgvControllerPort(controller), TimersPort(timers)}, agent, agent_config) {}
+      agents(run, {ActionsPort(actions), AgvControllerPort(controller), TimersPort(timers)}, agent, agent_config,
+             watch) {}
 
 }  // namespace fleetproof

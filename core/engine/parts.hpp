@@ -20,7 +20,7 @@ namespace fleetproof {
 // The parts of the engine, wired to each other. Each gets the ports that it needs and no more. The agents come last, so
 // that they are destroyed while everything they may call is still there.
 struct Parts {
-  Parts(RunContext& run, const fp_agent_type& agent, const char* agent_config);
+  Parts(RunContext& run, const fp_agent_type& agent, const char* agent_config, const RunWatch& watch = {});
   Parts(const Parts&) = delete;
   Parts& operator=(const Parts&) = delete;
 

@@ -21,9 +21,9 @@ void check_abi(const fp_agent_type& agent) {
 }
 
 Outcome simulate(const Scenario& scenario, const fp_agent_type& agent, std::span<const std::unique_ptr<Law>> laws,
-                 TraceSink* sink, const char* agent_config) {
+                 TraceSink* sink, const char* agent_config, const RunWatch& watch) {
   try {
-    Engine engine(scenario, agent, laws, sink, agent_config);
+    Engine engine(scenario, agent, laws, sink, agent_config, watch);
     engine.run();
     return engine.finish();
   } catch (const InvariantViolation& bug) {

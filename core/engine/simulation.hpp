@@ -3,6 +3,7 @@
 #include <memory>
 #include <span>
 
+#include "core/engine/run_watch.hpp"
 #include "core/outcome/law.hpp"
 #include "core/outcome/outcome.hpp"
 #include "core/outcome/trace.hpp"
@@ -18,9 +19,12 @@ namespace fleetproof {
 // stands still, and the run goes on. A bug of the engine ends the run: the outcome says `engine_error`. Every agent
 // gets `agent_config` as its own parameters.
 //
+// `watch` tells which call into an agent is under way, leaves out calls that are known to end the process, and can
+// abandon the run: then RunAbandoned is thrown.
+//
 // Threads: any number of runs at once; one run stays on its thread.
 Outcome simulate(const Scenario& scenario, const fp_agent_type& agent, std::span<const std::unique_ptr<Law>> laws,
-                 TraceSink* sink = nullptr, const char* agent_config = "");
+                 TraceSink* sink = nullptr, const char* agent_config = "", const RunWatch& watch = {});
 
 // Throws InputError unless the agent speaks this host's ABI.
 void check_abi(const fp_agent_type& agent);

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+#include "core/base/sim_time.hpp"
+#include "core/base/strong_id.hpp"
+
+namespace fleetproof {
+
+// The last call into an agent: create, on_event or destroy. It may lie in memory that another process reads, so that it
+// outlives a run whose agent ends the process. Threads: one writes, any number read.
+struct CallNote {
+  static constexpr std::uint32_t kDestroy = 0xffffffff;  // `event` of a call of destroy
+
+  std::atomic<std::uint64_t> number{0};  // of the calls of this run, from 1; 0: no call yet
+  std::atomic<std::int64_t> at_ns{0};    // simulated time
+  std::atomic<std::uint32_t> agv{0};
+  std::atomic<std::uint32_t> event{0};  // FP_EVENT_..., or kDestroy
+};
+
+// A call into an agent that is known to end the process or never to return. The engine does not make the call. It files
+// the AGV's agent as crashed or hung, and the run goes on.
+struct KnownEnd {
+  std::uint64_t call = 0;  // as counted by CallNote::number
+  bool hang = false;
+  std::string message;
+  friend bool operator==(const KnownEnd&, const KnownEnd&) = default;
+};
+
+// What the caller of simulate() sees and steers while the run is under way.
+struct RunWatch {
+  CallNote* note = nullptr;                    // null: nobody looks
+  std::span<const KnownEnd> known_ends;        // in order of their calls
+  const std::atomic<bool>* abandon = nullptr;  // true: simulate() throws RunAbandoned at the next event
+};
+
+// The caller wanted no outcome any more.
+class RunAbandoned : public std::runtime_error {
+ public:
+  RunAbandoned() : std::runtime_error("the run was abandoned") {}
+};
+
+// Counts the calls into the agents of one run.
+class CallCounter {
+ public:
+  explicit CallCounter(const RunWatch& watch) : watch_(watch) {}
+
+  // Call this before each call into an agent. Not null: the call must not be made.
+  const KnownEnd* next(EntityId agv, std::uint32_t event, SimTime at) {
+    ++number_;
+    if (watch_.note != nullptr) write_note(agv, event, at);
+    if (ended_ == watch_.known_ends.size() || watch_.known_ends[ended_].call != number_) [[likely]]
+      return nullptr;
+    return &watch_.known_ends[ended_++];
+  }
+
+ private:
+  void write_note(EntityId agv, std::uint32_t event, SimTime at) {
+    CallNote& note = *watch_.note;
+    note.at_ns.store(to_ns(at), std::memory_order_relaxed);
+    note.agv.store(agv.value, std::memory_order_relaxed);
+    note.event.store(event, std::memory_order_relaxed);
+    note.number.store(number_, std::memory_order_release);
+  }
+
+  RunWatch watch_;
+  std::uint64_t number_ = 0;
+  std::size_t ended_ = 0;  // known ends that have been met
+};
+
+}  // namespace fleetproof
