@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <string_view>
 #include <tuple>
-#include <utility>
 
+#include "core/base/byte_text.hpp"
 #include "core/base/error.hpp"
 
 namespace fleetproof {
@@ -18,64 +16,6 @@ constexpr std::uint32_t kEncodingVersion = 3;
 // with a new version.
 constexpr std::array kFlags{&Outcome::violation, &Outcome::contact,       &Outcome::stuck,       &Outcome::crash,
                             &Outcome::hang,      &Outcome::indeterminate, &Outcome::engine_error};
-
-class ByteSink {
- public:
-  void u8(std::uint8_t value) { bytes_.push_back(static_cast<char>(value)); }
-  void u32(std::uint32_t value) { little_endian(value, 4); }
-  void u64(std::uint64_t value) { little_endian(value, 8); }
-  void i64(std::int64_t value) { u64(std::bit_cast<std::uint64_t>(value)); }
-  void text(std::string_view value) {
-    u32(static_cast<std::uint32_t>(value.size()));
-    bytes_.append(value);
-  }
-  std::string take() { return std::move(bytes_); }
-
- private:
-  void little_endian(std::uint64_t value, int count) {
-    for (int i = 0; i < count; ++i) u8(static_cast<std::uint8_t>(value >> (8 * i)));
-  }
-  std::string bytes_;
-};
-
-class ByteSource {
- public:
-  explicit ByteSource(std::string_view bytes) : bytes_(bytes) {}
-
-  std::uint8_t u8() { return static_cast<std::uint8_t>(little_endian(1)); }
-  std::uint32_t u32() { return static_cast<std::uint32_t>(little_endian(4)); }
-  std::uint64_t u64() { return little_endian(8); }
-  std::int64_t i64() { return std::bit_cast<std::int64_t>(u64()); }
-  bool flag() {
-    const auto value = u8();
-    if (value > 1) throw EngineError("an encoded outcome is damaged: a yes-or-no field holds neither");
-    return value == 1;
-  }
-  // A count of items of `item_bytes` each: checked against what is left, so that damaged bytes cannot ask for
-  // terabytes.
-  std::size_t count(std::size_t item_bytes) {
-    const std::size_t value = u32();
-    if (value > bytes_.size() / item_bytes) throw EngineError("an encoded outcome is damaged: it ends too early");
-    return value;
-  }
-  std::string text() {
-    const auto length = count(1);
-    std::string value(bytes_.substr(0, length));
-    bytes_.remove_prefix(length);
-    return value;
-  }
-  bool empty() const { return bytes_.empty(); }
-
- private:
-  std::uint64_t little_endian(std::size_t count) {
-    if (bytes_.size() < count) throw EngineError("an encoded outcome is damaged: it ends too early");
-    std::uint64_t value = 0;
-    for (std::size_t i = 0; i < count; ++i) value |= std::uint64_t{static_cast<unsigned char>(bytes_[i])} << (8 * i);
-    bytes_.remove_prefix(count);
-    return value;
-  }
-  std::string_view bytes_;
-};
 
 constexpr std::size_t kViolationBytes = 2 * 4 + 7 * 8 + 1;
 
@@ -121,8 +61,7 @@ void put(ByteSink& sink, const Incident& incident) {
 
 Incident get_incident(ByteSource& source) {
   const auto kind = source.u32();
-  if (!is_incident_kind(kind))
-    throw EngineError("an encoded outcome is damaged: it holds an incident of no known kind");
+  if (!is_incident_kind(kind)) source.fail("it holds an incident of no known kind");
   Incident incident;
   incident.kind = static_cast<IncidentKind>(kind);
   incident.a = EntityId{source.u32()};
@@ -223,7 +162,7 @@ std::string encode(const Outcome& outcome) {
 }
 
 Outcome decode_outcome(std::string_view bytes) {
-  ByteSource source(bytes);
+  ByteSource source(bytes, "an encoded outcome");
   if (source.u32() != kEncodingVersion)
     throw EngineError("an encoded outcome is of another version, or is no outcome at all");
   Outcome outcome;
@@ -242,7 +181,7 @@ Outcome decode_outcome(std::string_view bytes) {
   for (std::size_t i = 0; i < incidents; ++i) outcome.incidents.push_back(get_incident(source));
   const auto probes = source.count(kShortestProbeBytes);
   for (std::size_t i = 0; i < probes; ++i) outcome.probes.push_back(get_probe(source));
-  if (!source.empty()) throw EngineError("an encoded outcome is damaged: bytes follow its end");
+  source.end();
   return outcome;
 }
 

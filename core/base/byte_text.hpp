@@ -1,0 +1,80 @@
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "core/base/error.hpp"
+
+// The encoding of values that go to another process or under a checksum: little-endian, texts and lists behind their
+// lengths.
+namespace fleetproof {
+
+class ByteSink {
+ public:
+  void u8(std::uint8_t value) { bytes_.push_back(static_cast<char>(value)); }
+  void u32(std::uint32_t value) { little_endian(value, 4); }
+  void u64(std::uint64_t value) { little_endian(value, 8); }
+  void i64(std::int64_t value) { u64(std::bit_cast<std::uint64_t>(value)); }
+  void text(std::string_view value) {
+    u32(static_cast<std::uint32_t>(value.size()));
+    bytes_.append(value);
+  }
+  std::string take() { return std::move(bytes_); }
+
+ private:
+  void little_endian(std::uint64_t value, int count) {
+    for (int i = 0; i < count; ++i) u8(static_cast<std::uint8_t>(value >> (8 * i)));
+  }
+  std::string bytes_;
+};
+
+// Reads what a ByteSink wrote. Each function throws EngineError if the bytes are damaged. `what` names them in the
+// error: "an encoded outcome".
+class ByteSource {
+ public:
+  ByteSource(std::string_view bytes, std::string_view what) : bytes_(bytes), what_(what) {}
+
+  std::uint8_t u8() { return static_cast<std::uint8_t>(little_endian(1)); }
+  std::uint32_t u32() { return static_cast<std::uint32_t>(little_endian(4)); }
+  std::uint64_t u64() { return little_endian(8); }
+  std::int64_t i64() { return std::bit_cast<std::int64_t>(u64()); }
+  bool flag() {
+    const auto value = u8();
+    if (value > 1) fail("a yes-or-no field holds neither");
+    return value == 1;
+  }
+  // A count of items of `item_bytes` each: checked against what is left, so that damaged bytes cannot ask for
+  // terabytes.
+  std::size_t count(std::size_t item_bytes) {
+    const std::size_t value = u32();
+    if (value > bytes_.size() / item_bytes) fail("it ends too early");
+    return value;
+  }
+  std::string text() {
+    const auto length = count(1);
+    std::string value(bytes_.substr(0, length));
+    bytes_.remove_prefix(length);
+    return value;
+  }
+  void end() const {
+    if (!bytes_.empty()) fail("bytes follow its end");
+  }
+  [[noreturn]] void fail(std::string_view how) const {
+    throw EngineError(std::string(what_) + " is damaged: " + std::string(how));
+  }
+
+ private:
+  std::uint64_t little_endian(std::size_t count) {
+    if (bytes_.size() < count) fail("it ends too early");
+    std::uint64_t value = 0;
+    for (std::size_t i = 0; i < count; ++i) value |= std::uint64_t{static_cast<unsigned char>(bytes_[i])} << (8 * i);
+    bytes_.remove_prefix(count);
+    return value;
+  }
+  std::string_view bytes_, what_;
+};
+
+}  // namespace fleetproof
