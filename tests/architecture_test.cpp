@@ -59,7 +59,9 @@ const std::map<std::string, std::set<std::string>> kMayInclude = [] {
   rooms["campaign/plan"] = with(with(model, generators), {"core/outcome", "laws", "storage"});
   rooms["campaign/run"] = with(with(core, generators), {"core/engine", "core/sdk", "core/agents", "laws", "storage",
                                                         "reports/evidence", "campaign/plan"});
-  rooms["campaign/cli"] = with(rooms["campaign/run"], {"campaign/run", "reports"});
+  rooms["campaign/workers"] = with(rooms["campaign/run"], {"campaign/run"});
+  rooms["campaign/batch"] = with(rooms["campaign/workers"], {"campaign/workers"});
+  rooms["campaign/cli"] = with(rooms["campaign/batch"], {"campaign/batch", "reports"});
   return rooms;
 }();
 
@@ -80,7 +82,7 @@ struct Home {
 };
 const std::vector<Home> kHomes = {
     {"fcl/", {"laws/"}},
-    {"tbb/", {"campaign/run/task_pool.cpp"}},
+    {"tbb/", {"campaign/batch/task_pool.cpp"}},
     {"oneapi/", {}},
     {"sqlite3.h", {"storage/"}},
     {"SQLiteCpp/", {"storage/"}},

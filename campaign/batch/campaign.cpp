@@ -1,13 +1,13 @@
-#include "campaign/run/campaign.hpp"
+#include "campaign/batch/campaign.hpp"
 
 #include <algorithm>
 #include <iterator>
 #include <set>
 
+#include "campaign/batch/task_pool.hpp"
 #include "campaign/plan/plan_text.hpp"
 #include "campaign/run/engine_identity.hpp"
-#include "campaign/run/run_one.hpp"
-#include "campaign/run/task_pool.hpp"
+#include "campaign/workers/run_host.hpp"
 #include "core/base/random.hpp"
 #include "generators/formats/purpose_words.hpp"
 #include "generators/scenario_file/exempt_pairs.hpp"
@@ -41,6 +41,16 @@ bool must_stop(const RunOptions& options, double elapsed_s) {
   return interrupted || (options.max_time && elapsed_s >= static_cast<double>(options.max_time->count()));
 }
 
+constexpr std::chrono::seconds kDrain{4};  // what runs under way get after the stop; then they are abandoned
+constexpr std::size_t kLossesKept = 1000;
+
+void keep_losses(CampaignResult& result, std::vector<WorkerLoss> losses) {
+  result.loss_count += losses.size();
+  for (WorkerLoss& loss : losses) {
+    if (result.losses.size() < kLossesKept) result.losses.push_back(std::move(loss));
+  }
+}
+
 }  // namespace
 
 void build_first_worlds(const CampaignPlan& plan) {
@@ -52,7 +62,7 @@ void build_first_worlds(const CampaignPlan& plan) {
 std::vector<std::string> plugin_agents(const CampaignPlan& plan, const AgentPrograms& programs) {
   std::vector<std::string> names;
   std::ranges::copy_if(plan.agents, std::back_inserter(names),
-                       [&](const std::string& name) { return programs.is_loaded(name); });
+                       [&](const std::string& name) { return programs.is_plugin(name); });
   return names;
 }
 
@@ -73,14 +83,14 @@ CampaignRecord campaign_record(const CampaignPlan& plan, const AgentPrograms& pr
   for (const ExemptPair& pair : plan.law.exempt_pairs) record.exempt_pairs.push_back(text_of(pair));
   record.plugin_agents = plugin_agents(plan, programs);
   record.engine = engine_identity();
-  for (const std::string& plugin : programs.loaded()) record.engine.libraries += ", plug-in " + plugin;
+  for (const std::string& plugin : programs.plugin_identities()) record.engine.libraries += ", plug-in " + plugin;
   return record;
 }
 
 CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& path,
                             const RunOptions& options, const CampaignListener& listener) {
   using Clock = std::chrono::steady_clock;
-  const RunOne run_one(plan, programs);
+  RunHost runs(plan, programs, options.workers, options.worker_logs);
   build_first_worlds(plan);  // what cannot be built at all is said before anything is written
   ArchiveWriter archive(path, campaign_record(plan, programs), plan.cells(), plan.gates,
                         options.overwrite ? Existing::Replace : Existing::Refuse);
@@ -90,9 +100,9 @@ CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& progr
   Prefix prefix;
   const auto started = Clock::now();
   auto last_tick = started, last_commit = started;
+  std::optional<Clock::time_point> stopped;
   {
-    TaskPool pool(options.workers, 0, plan.run_count(), kLiveWindow,
-                  [&](std::uint64_t index) { return run_one(index); });
+    TaskPool pool(options.workers, 0, plan.run_count(), kLiveWindow, [&](std::uint64_t index) { return runs(index); });
     while (!pool.finished()) {
       const auto record = pool.next(std::chrono::milliseconds(100));
       const auto now = Clock::now();
@@ -105,10 +115,15 @@ CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& progr
         archive.add(*record);
         listener.run_finished(*record);
       }
-      if (must_stop(options, result.progress.elapsed_s)) pool.stop();
+      if (!stopped && must_stop(options, result.progress.elapsed_s)) {
+        stopped = now;
+        pool.stop();
+      }
+      if (stopped && now - *stopped >= kDrain) runs.abandon();
       if (now - last_tick >= std::chrono::milliseconds(100)) {
         last_tick = now;
         listener.tick(result.progress);
+        keep_losses(result, runs.take_losses());
       }
       if (now - last_commit >= std::chrono::seconds(1)) {  // even while one slow run lets no other finish
         last_commit = now;
@@ -117,6 +132,7 @@ CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& progr
     }
     result.threads = pool.threads_seen();
   }
+  keep_losses(result, runs.take_losses());
   result.stored = prefix.length();
   archive.publish(result.stored);
   return result;

@@ -10,13 +10,15 @@
 
 #include "campaign/plan/plan.hpp"
 #include "campaign/run/agent_programs.hpp"
+#include "campaign/workers/isolated_runs.hpp"
 #include "storage/records.hpp"
 
 namespace fleetproof {
 
 struct RunOptions {
   int workers = 1;
-  bool overwrite = false;                         // replace an existing campaign file, once the new one is complete
+  std::string worker_logs;  // prefix of the files that take what plug-ins print; empty: it is dropped
+  bool overwrite = false;   // replace an existing campaign file, once the new one is complete
   std::optional<std::chrono::seconds> max_time;   // stop cleanly after this time
   const std::atomic<int>* interrupted = nullptr;  // non-zero: a signal number; stop handing out runs
 };
@@ -28,6 +30,8 @@ struct Progress {
 
 struct CampaignResult {
   Progress progress;
+  std::vector<WorkerLoss> losses;  // the first of them
+  std::uint64_t loss_count = 0;
   std::uint64_t stored = 0;  // the number of runs in the gap-free prefix that the campaign file contains
   int threads = 0;
   bool complete() const { return stored == progress.planned; }
@@ -40,10 +44,11 @@ struct CampaignListener {
   std::function<void(const Progress&)> tick = [](const Progress&) {};  // about ten times a second
 };
 
-// Runs the plan and leaves its campaign file at `path`. Rows are stored when their runs finish. The published file
-// contains the gap-free prefix of run indices. The same runs therefore give the same bytes with any number of workers
-// and in any order of finishing. Throws InputError and writes nothing if an agent is not known, if a layout has no room
-// for its fleet, or if the file exists.
+// Runs the plan and leaves its campaign file at `path`. Agents of plug-ins run in worker processes
+// (campaign/workers); reference agents run on the threads of the pool. Rows are stored when their runs finish. The
+// published file contains the gap-free prefix of run indices. The same runs therefore give the same bytes with any
+// number of workers and in any order of finishing. Throws InputError and writes nothing if an agent is not known, if a
+// layout has no room for its fleet, or if the file exists.
 CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& path,
                             const RunOptions& options, const CampaignListener& listener);
 

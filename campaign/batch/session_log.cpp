@@ -1,4 +1,4 @@
-#include "campaign/run/session_log.hpp"
+#include "campaign/batch/session_log.hpp"
 
 #include <fcntl.h>
 #include <fmt/chrono.h>

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "campaign/run/campaign.hpp"
+#include "campaign/batch/campaign.hpp"
 
 namespace fleetproof {
 

@@ -1,4 +1,4 @@
-#include "campaign/run/task_pool.hpp"
+#include "campaign/batch/task_pool.hpp"
 
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>

@@ -15,7 +15,8 @@ namespace fleetproof {
 // Several threads call it at once.
 class TaskPool {
  public:
-  using Simulate = std::function<RunRecord(std::uint64_t run_index)>;
+  // None: the run was abandoned.
+  using Simulate = std::function<std::optional<RunRecord>(std::uint64_t run_index)>;
 
   // Starts `workers` threads on the runs [begin, end). At most `window` runs lie between the oldest unfinished run and
   // the newest run that was handed out.

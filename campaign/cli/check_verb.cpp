@@ -2,12 +2,12 @@
 #include <chrono>
 #include <memory>
 
+#include "campaign/batch/campaign.hpp"
 #include "campaign/cli/campaign_words.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "campaign/plan/scenario_source.hpp"
-#include "campaign/run/campaign.hpp"
-#include "campaign/run/run_one.hpp"
+#include "campaign/workers/run_host.hpp"
 #include "generators/scenario_file/scenario_file.hpp"
 #include "generators/scenario_file/validator.hpp"
 #include "generators/worlds/world_maker.hpp"
@@ -21,15 +21,15 @@ constexpr std::uint64_t kReplicatesDrawn = 20;
 // reaches is really built.
 double mean_run_s(const CampaignPlan& plan, const AgentPrograms& programs) {
   using Clock = std::chrono::steady_clock;
-  const RunOne run_one(plan, programs);
+  RunHost runs(plan, programs, 1);
   const auto begin = Clock::now();
-  std::uint64_t runs = 0;
+  std::uint64_t count = 0;
   double elapsed_s = 0.0;
-  while (runs < plan.cell_count() && elapsed_s < 1.0) {
-    run_one(runs++);
+  while (count < plan.cell_count() && elapsed_s < 1.0) {
+    runs(count++);
     elapsed_s = std::chrono::duration<double>(Clock::now() - begin).count();
   }
-  return elapsed_s / static_cast<double>(runs);
+  return elapsed_s / static_cast<double>(count);
 }
 
 // Draws the worlds of the first replicates, one for each layout and fleet size, and says what was refused on the way.

@@ -32,7 +32,7 @@ std::vector<Row> rows_of(const Entries& entries) {
 std::vector<Row> agent_rows() {
   const AgentPrograms programs;
   std::vector<Row> rows;
-  for (const fp_agent_type* agent : programs.all()) rows.push_back({agent->name, agent->description});
+  for (const AgentProgram& agent : programs.all()) rows.push_back({agent.name, agent.description});
   return rows;
 }
 

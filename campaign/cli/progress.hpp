@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "campaign/run/campaign.hpp"
+#include "campaign/batch/campaign.hpp"
 
 namespace fleetproof::cli {
 

@@ -3,14 +3,15 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "campaign/batch/campaign.hpp"
 #include "campaign/cli/output_file.hpp"
 #include "campaign/cli/run_text.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "campaign/plan/plan_text.hpp"
 #include "campaign/plan/scenario_source.hpp"
-#include "campaign/run/campaign.hpp"
 #include "campaign/run/replay.hpp"
+#include "campaign/workers/run_host.hpp"
 #include "core/base/error.hpp"
 #include "generators/scenario_file/scenario_file.hpp"
 #include "reports/wording.hpp"
@@ -22,7 +23,7 @@ struct ReplayWords {
   std::string archive, scenario_out;
   std::uint64_t run = 0;
   std::vector<std::string> plugins;
-  bool json = false, trace = false;
+  bool json = false, trace = false, in_process = false;
 };
 
 void print_json(const ReplayResult& result, const CellRecord& cell) {
@@ -42,10 +43,21 @@ void print_json(const ReplayResult& result, const CellRecord& cell) {
   put_text(printable_json(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) + "\n");
 }
 
+// A plug-in that crashes does so in a worker process, as it did in the campaign.
+Resimulate isolated_simulation(const CampaignPlan& plan, const AgentPrograms& programs) {
+  return [host = std::make_shared<RunHost>(plan, programs, 1)](std::uint64_t run_index) {
+    auto record = (*host)(run_index);
+    ensure(record.has_value(), "a replay is not abandoned");
+    return *std::move(record);
+  };
+}
+
 int replay_run(const ReplayWords& words) {
   const ArchiveReader archive(words.archive, Checksums::Ignore);
   AgentPrograms programs;
-  for (const std::string& plugin : words.plugins) programs.load(plugin);
+  // A trace is printed while the run goes on, so it needs the agent in this process.
+  const bool in_process = words.in_process || words.trace;
+  for (const std::string& plugin : words.plugins) in_process ? programs.load(plugin) : programs.know(plugin);
   const CampaignPlan plan = parse_plan(archive.campaign().plan_json);
   const ScenarioSource source(plan);
   if (words.run >= plan.run_count()) {
@@ -54,7 +66,9 @@ int replay_run(const ReplayWords& words) {
   }
   const Scenario scenario = source.scenario(words.run);
   TracePrinter printer(scenario);
-  const ReplayResult result = replay(archive, words.run, programs, words.trace ? &printer : nullptr);
+  const ReplayResult result = in_process
+                                  ? replay(archive, words.run, programs, words.trace ? &printer : nullptr)
+                                  : replay(archive, plan, words.run, programs, isolated_simulation(plan, programs));
   if (!words.scenario_out.empty())
     write_whole({words.scenario_out, "--scenario", OutputKind::Scenario}, printable_json(to_text(scenario)));
   const CellRecord cell = source.place(words.run).cell;
@@ -82,6 +96,7 @@ Action prepare_replay(Options& options) {
   options.option("--plugin", words->plugins, "shared object with the agent of that run; may be given several times");
   options.option("--scenario", words->scenario_out,
                  "also write the run's scenario to this file (see: fleetproof simulate)");
+  options.flag("--in-process", words->in_process, "run the agent in this process and on one thread, for a debugger");
   options.flag("--json", words->json, "print JSON");
   options.flag("--trace", words->trace, "print every event on stderr");
   return [words] { return replay_run(*words); };

@@ -2,9 +2,12 @@
 
 #include <atomic>
 #include <csignal>
+#include <filesystem>
 #include <memory>
 #include <thread>
 
+#include "campaign/batch/campaign.hpp"
+#include "campaign/batch/session_log.hpp"
 #include "campaign/cli/archive_name.hpp"
 #include "campaign/cli/campaign_words.hpp"
 #include "campaign/cli/progress.hpp"
@@ -13,8 +16,6 @@
 #include "campaign/cli/verbs.hpp"
 #include "campaign/plan/campaign_file.hpp"
 #include "campaign/plan/plan_check.hpp"
-#include "campaign/run/campaign.hpp"
-#include "campaign/run/session_log.hpp"
 #include "core/base/error.hpp"
 #include "reports/report.hpp"
 
@@ -49,6 +50,7 @@ RunOptions run_options(const RunWords& words) {
   }
   options.overwrite = words.overwrite;
   options.interrupted = &interrupted;
+  options.worker_logs = std::filesystem::path(words.archive).replace_extension().string();
   return options;
 }
 
@@ -74,8 +76,8 @@ int run(RunWords words) {
   if (words.replicates) file.plan.replicates = *words.replicates;
   if (words.seed) file.plan.seed = *words.seed;
   if (words.replicates) check_plan(file.plan, "--replicates");
-  const RunOptions options = run_options(words);
   if (words.archive.empty()) words.archive = archive_name_of(file.plan.name);
+  const RunOptions options = run_options(words);
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   std::signal(SIGHUP, on_signal);

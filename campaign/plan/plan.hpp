@@ -49,6 +49,13 @@ constexpr const char* name_of(CampaignKind kind) {
   return kNoWord;
 }
 
+// What one run of a plug-in may use. What goes beyond it is filed as a crash or hang.
+struct LimitSetup {
+  std::uint64_t memory_mb = 4096;  // addresses of a worker process; 0: no limit
+  double cpu_s = 10.0;             // at least; 20 times the slowest run so far if that is more
+  friend bool operator==(const LimitSetup&, const LimitSetup&) = default;
+};
+
 // A campaign as resolved from its file: everything that decides its outcomes, and nothing else (no path, no number of
 // jobs).
 struct CampaignPlan {
@@ -82,6 +89,7 @@ struct CampaignPlan {
   std::vector<std::string> laws_left_out;                   // of the default set
   std::optional<std::vector<std::string>> required_probes;  // of [coverage]; absent: what its kind asks for
   bool contact_stops = true;
+  LimitSetup limits;
   std::vector<GateRecord> gates;
 
   // What has to be met for the evidence not to be weak. A claim asks for an encounter and, of an agent that declares

@@ -52,12 +52,26 @@ void visit_factors(Plan& plan, Visit&& visit) {
   }
 }
 
+template <FieldsOf<LimitSetup> Limits, class Visit>
+void visit_fields(Limits& limits, Visit&& visit) {
+  auto& [memory_mb, cpu_s] = limits;
+  visit(Field{.key = "memory_mb",
+              .text = "addresses that a worker process with a plug-in may use; 0: no limit",
+              .high = 16'777'216.0},
+        memory_mb);
+  visit(Field{.key = "cpu_s",
+              .text = "CPU time of a run of a plug-in; 20 times the slowest run so far, if that is more",
+              .low = 0.1,
+              .high = 86'400.0},
+        cpu_s);
+}
+
 template <FieldsOf<CampaignPlan> Plan, class Visit>
 void visit_fields(Plan& plan, Visit&& visit) {
   [[maybe_unused]] auto& [name, kind, seed, replicates, horizon_s, stuck_after_s, agents, agent_config, factors,
                           sampling, layouts, fleet_sizes, held_streams, held_replicate, demand, placement, orders,
                           vehicles, faults, scanner, operator_help, radio, sources, agent_clock, law, laws_left_out,
-                          required_probes, contact_stops, gates] = plan;
+                          required_probes, contact_stops, limits, gates] = plan;
   visit(Field{.key = "name", .text = "name of the campaign; left out: that of the file"}, name);
   visit(Field{.key = "kind", .text = "claim: rates and bounds; search: counts only"}, kind);
   visit(kSeed, seed);
@@ -108,6 +122,7 @@ void visit_fields(Plan& plan, Visit&& visit) {
           inner(Field{.key = "probes", .text = "names of probes; left out: what the kind of campaign asks for"},
                 plan.required_probes);
         }});
+  visit(Field{.key = "limits", .text = "what one run of a plug-in may use"}, limits);
   visit(Field{.key = "gate", .text = "a requirement on the campaign"}, gates);
 }
 

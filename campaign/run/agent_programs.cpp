@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
-#include <span>
 
+#include "campaign/run/agent_inspection.hpp"
 #include "campaign/run/sha256.hpp"
 #include "core/agents/agents.h"
 #include "core/base/catalogue.hpp"
@@ -36,9 +36,20 @@ void check_type(const std::string& path, const fp_agent_type& type) {
         path, fmt::format("calls itself {}; an agent's name is UTF-8 without control characters", in_quotes(name)));
 }
 
+AgentProgram program_of(const fp_agent_type& type) {
+  AgentProgram program;
+  program.name = type.name;
+  program.description = type.description;
+  program.flags = type.flags;
+  program.type = &type;
+  return program;
+}
+
 }  // namespace
 
-AgentPrograms::AgentPrograms() : types_(fp_reference_agents, fp_reference_agents + fp_reference_agent_count) {}
+AgentPrograms::AgentPrograms() {
+  for (std::uint32_t i = 0; i < fp_reference_agent_count; ++i) programs_.push_back(program_of(*fp_reference_agents[i]));
+}
 
 AgentPrograms::~AgentPrograms() {
   for (void* object : objects_) dlclose(object);
@@ -51,7 +62,8 @@ std::string AgentPrograms::load(const std::string& path) {
   if (!std::filesystem::is_regular_file(path, ignored))
     throw InputError(path, "there is no such agent file; build the shared object or correct the path");
   // An absolute name keeps dlopen from searching the system's library folders.
-  void* object = dlopen(std::filesystem::absolute(path).c_str(), RTLD_NOW | RTLD_LOCAL);
+  const std::string file = std::filesystem::absolute(path).string();
+  void* object = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (object == nullptr) throw InputError(path, fmt::format("cannot be loaded as a shared object: {}", dlerror()));
   objects_.push_back(object);
   const auto query = reinterpret_cast<fp_agent_query_function>(dlsym(object, FP_AGENT_QUERY_SYMBOL));
@@ -59,31 +71,59 @@ std::string AgentPrograms::load(const std::string& path) {
   const fp_agent_type* type = query(FP_ABI_MAJOR);
   if (type == nullptr) throw InputError(path, fmt::format("refuses version {} of fleetproof/agent.h", FP_ABI_MAJOR));
   check_type(path, *type);
-  for (const fp_agent_type* known : types_) {
-    if (std::string_view(known->name) == type->name) {
-      throw InputError(path, fmt::format("calls itself {}, a name that is taken; give the agent another name",
-                                         in_quotes(type->name)));
-    }
-  }
-  types_.push_back(type);
-  loaded_.push_back(fmt::format("{} sha256 {}", type->name, sha256_of_file(path)));
-  return type->name;
+  AgentProgram program = program_of(*type);
+  program.file = file;
+  program.sha256 = sha256_of_file(path);
+  return add(std::move(program), path).name;
 }
 
-const fp_agent_type& AgentPrograms::find(std::string_view name, std::string_view where) const {
+std::string AgentPrograms::know(const std::string& path) { return add(inspect_agent(path), path).name; }
+
+void AgentPrograms::load_all_of(const AgentPrograms& others) {
+  for (const AgentProgram& known : others.programs_) {
+    if (!known.is_plugin()) continue;
+    if (sha256_of_file(known.file) != known.sha256)
+      throw EngineError(fmt::format("{}: this file was changed while the campaign ran", known.file));
+    load(known.file);
+  }
+}
+
+const AgentProgram& AgentPrograms::add(AgentProgram program, const std::string& path) {
+  if (std::ranges::find(programs_, program.name, &AgentProgram::name) != programs_.end()) {
+    throw InputError(path, fmt::format("calls itself {}, a name that is taken; give the agent another name",
+                                       in_quotes(program.name)));
+  }
+  return programs_.emplace_back(std::move(program));
+}
+
+const AgentProgram& AgentPrograms::program(std::string_view name, std::string_view where) const {
   std::vector<std::string_view> names;
-  for (const fp_agent_type* type : types_) {
-    if (name == type->name) return *type;
-    names.emplace_back(type->name);
+  for (const AgentProgram& program : programs_) {
+    if (name == program.name) return program;
+    names.emplace_back(program.name);
   }
   throw InputError(where, fmt::format("agent {} is not known{} (see: fleetproof list agents; a shared object is "
                                       "loaded by its path or with --plugin)",
                                       in_quotes(name), name_hint(name, names)));
 }
 
-bool AgentPrograms::is_loaded(std::string_view name) const {
-  const auto loaded = std::span(types_).subspan(fp_reference_agent_count);
-  return std::ranges::any_of(loaded, [&](const fp_agent_type* type) { return name == type->name; });
+const fp_agent_type& AgentPrograms::find(std::string_view name, std::string_view where) const {
+  const AgentProgram& found = program(name, where);
+  ensure(found.type != nullptr, "an agent is called in a process that has loaded it");
+  return *found.type;
+}
+
+bool AgentPrograms::is_plugin(std::string_view name) const {
+  const auto found = std::ranges::find(programs_, name, &AgentProgram::name);
+  return found != programs_.end() && found->is_plugin();
+}
+
+std::vector<std::string> AgentPrograms::plugin_identities() const {
+  std::vector<std::string> identities;
+  for (const AgentProgram& program : programs_) {
+    if (program.is_plugin()) identities.push_back(fmt::format("{} sha256 {}", program.name, program.sha256));
+  }
+  return identities;
 }
 
 }  // namespace fleetproof

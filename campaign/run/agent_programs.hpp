@@ -1,6 +1,7 @@
 #pragma once
 
-#include <memory>
+#include <cstdint>
+#include <deque>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,8 +10,17 @@
 
 namespace fleetproof {
 
-// The control software that a campaign may test: the reference agents, and shared objects that are loaded by path. The
-// object owns the loaded shared objects.
+// Control software that a campaign may test.
+struct AgentProgram {
+  std::string name, description;
+  std::uint32_t flags = 0;              // FP_DETERMINISTIC, ...
+  std::string file, sha256;             // of the shared object; both empty: a reference agent
+  const fp_agent_type* type = nullptr;  // null: the shared object is not loaded into this process
+
+  bool is_plugin() const { return !file.empty(); }
+};
+
+// The reference agents, and the shared objects that a campaign names. The object owns the loaded shared objects.
 class AgentPrograms {
  public:
   AgentPrograms();
@@ -18,21 +28,30 @@ class AgentPrograms {
   AgentPrograms(const AgentPrograms&) = delete;
   AgentPrograms& operator=(const AgentPrograms&) = delete;
 
-  // Loads a shared object and returns the name that its agent gives itself. Throws InputError if there is no such file,
-  // if it has no fp_agent_query or another ABI, and if the name is taken, longer than 100 bytes, or not plain UTF-8.
+  // Loads a shared object into this process and returns the name that its agent gives itself. Throws InputError if
+  // there is no such file, if it has no fp_agent_query or another ABI, and if the name is taken, longer than 100 bytes,
+  // or not plain UTF-8. Code of the shared object runs in this process from now on.
   std::string load(const std::string& path);
+  // The same, but a process of its own loads the object and tells what it is (agent_inspection.hpp). No code of the
+  // object runs in this process.
+  std::string know(const std::string& path);
+  // Loads the plug-ins that `others` knows. Throws EngineError if the file of one has changed since.
+  void load_all_of(const AgentPrograms& others);
 
   // Throws InputError with the nearest known name if there is no such agent.
+  const AgentProgram& program(std::string_view name, std::string_view where) const;
+  // The same. Requires: the agent is loaded into this process.
   const fp_agent_type& find(std::string_view name, std::string_view where) const;
-  const std::vector<const fp_agent_type*>& all() const { return types_; }
-  bool is_loaded(std::string_view name) const;  // whether the agent comes from a shared object
-  // "NAME sha256 HEX" of every shared object loaded: part of the engine's identity in the archive.
-  const std::vector<std::string>& loaded() const { return loaded_; }
+  const std::deque<AgentProgram>& all() const { return programs_; }
+  bool is_plugin(std::string_view name) const;
+  // "NAME sha256 HEX" of every plug-in: part of the engine's identity in the archive.
+  std::vector<std::string> plugin_identities() const;
 
  private:
-  std::vector<const fp_agent_type*> types_;
+  const AgentProgram& add(AgentProgram program, const std::string& path);
+
+  std::deque<AgentProgram> programs_;
   std::vector<void*> objects_;
-  std::vector<std::string> loaded_;
 };
 
 }  // namespace fleetproof

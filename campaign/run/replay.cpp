@@ -86,7 +86,7 @@ ReplayResult compare_runs(RunRecord stored, RunRecord recomputed) {
   return result;
 }
 
-std::string_view suspects_of(const fp_agent_type& agent) {
+std::string_view suspects_of(const AgentProgram& agent) {
   return (agent.flags & FP_DETERMINISTIC) != 0
              ? "the agent declares that it is deterministic: if the file is intact, the engine or the agent is at fault"
              : "the agent does not declare that it is deterministic (FP_DETERMINISTIC), so that it may be the cause";
@@ -95,6 +95,12 @@ std::string_view suspects_of(const fp_agent_type& agent) {
 ReplayResult replay(const ArchiveReader& archive, std::uint64_t run_index, const AgentPrograms& programs,
                     TraceSink* sink) {
   const CampaignPlan plan = parse_plan(archive.campaign().plan_json);
+  return replay(archive, plan, run_index, programs,
+                [&](std::uint64_t index) { return RunOne(plan, programs)(index, sink); });
+}
+
+ReplayResult replay(const ArchiveReader& archive, const CampaignPlan& plan, std::uint64_t run_index,
+                    const AgentPrograms& programs, const Resimulate& simulate) {
   if (run_index >= plan.run_count()) {
     throw InputError("run",
                      fmt::format("{} does not exist; the campaign has runs 0 to {}", run_index, plan.run_count() - 1));
@@ -104,10 +110,10 @@ ReplayResult replay(const ArchiveReader& archive, std::uint64_t run_index, const
     throw InputError("run", fmt::format("{} is not in the file; it holds runs 0 to {} of {} planned", run_index,
                                         archive.run_count() - 1, plan.run_count()));
   }
-  ReplayResult result = compare_runs(std::move(*stored), RunOne(plan, programs)(run_index, sink));
+  ReplayResult result = compare_runs(std::move(*stored), simulate(run_index));
   if (result.verdict == ReplayVerdict::Diverged) {
     const std::string agent = ScenarioSource(plan).place(run_index).cell.agent;
-    result.explanation += "; " + std::string(suspects_of(programs.find(agent, "replay")));
+    result.explanation += "; " + std::string(suspects_of(programs.program(agent, "replay")));
   }
   if (name_hash(archive.campaign().plan_json) != archive.campaign().plan_hash) {
     result.explanation = "the plan in the file was changed: its hash no longer matches" +

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -20,13 +21,17 @@ struct ReplayResult {
   RunRecord stored, recomputed;
 };
 
-// Simulates run `run_index` again from the plan in the archive, and compares the outcome with the stored values, one by
-// one. Throws InputError if the archive has no such run, or if the agent of the run is not loaded.
+// Compares run `run_index` of the archive with what `simulate` gives for it now, one value after the other. Throws
+// InputError if the archive has no such run.
+using Resimulate = std::function<RunRecord(std::uint64_t run_index)>;
+ReplayResult replay(const ArchiveReader& archive, const CampaignPlan& plan, std::uint64_t run_index,
+                    const AgentPrograms& programs, const Resimulate& simulate);
+// The same with the plan in the archive, on this thread. Throws InputError if the agent of the run is not loaded.
 ReplayResult replay(const ArchiveReader& archive, std::uint64_t run_index, const AgentPrograms& programs,
                     TraceSink* sink = nullptr);
 
 // Where the cause of a diverged replay may lie: the agent may have promised to be deterministic (FP_DETERMINISTIC).
-std::string_view suspects_of(const fp_agent_type& agent);
+std::string_view suspects_of(const AgentProgram& agent);
 
 // What differs between the stored record of a run and its recomputed record.
 ReplayResult compare_runs(RunRecord stored, RunRecord recomputed);

@@ -10,16 +10,21 @@
 namespace fleetproof {
 
 RunOne::RunOne(const CampaignPlan& plan, const AgentPrograms& programs) : plan_(plan), scenarios_(plan) {
-  for (const std::string& name : plan.agents) agents_.push_back(&programs.find(name, "factors.agents"));
+  for (const std::string& name : plan.agents) agents_.push_back(&programs.program(name, "factors.agents"));
 }
 
-RunRecord RunOne::operator()(std::uint64_t run_index, TraceSink* sink) const {
+RunRecord RunOne::empty_record(std::uint64_t run_index) const {
   const RunPlace place = scenarios_.place(run_index);
   RunRecord record;
   record.run_index = run_index;
   record.cell = place.cell.index;
   record.replicate = place.replicate;
   record.factors = place.factors;
+  return record;
+}
+
+RunRecord RunOne::operator()(std::uint64_t run_index, TraceSink* sink, const RunWatch& watch) const {
+  RunRecord record = empty_record(run_index);
   Scenario scenario;
   try {
     scenario = scenarios_.scenario(run_index);
@@ -29,11 +34,11 @@ RunRecord RunOne::operator()(std::uint64_t run_index, TraceSink* sink) const {
     record.outcome.message = no_world.what();
     return record;
   }
-  const auto agent = std::ranges::find(plan_.agents, place.cell.agent) - plan_.agents.begin();
+  const AgentProgram& agent = *agents_[record.cell % agents_.size()];  // agents vary fastest
+  ensure(agent.type != nullptr, "a run is simulated in a process that has loaded its agent");
   const auto laws = make_default_laws(scenario, plan_.laws_left_out);
   record.scenario_digest = scenario_digest(scenario);
-  record.outcome =
-      simulate(scenario, *agents_[static_cast<std::size_t>(agent)], laws, sink, plan_.agent_config.c_str());
+  record.outcome = simulate(scenario, *agent.type, laws, sink, plan_.agent_config.c_str(), watch);
   return record;
 }
 

@@ -5,6 +5,7 @@
 
 #include "campaign/plan/scenario_source.hpp"
 #include "campaign/run/agent_programs.hpp"
+#include "core/engine/run_watch.hpp"
 #include "core/outcome/trace.hpp"
 #include "storage/records.hpp"
 
@@ -16,13 +17,16 @@ class RunOne {
  public:
   // Throws InputError if an agent of the plan is not among the programs.
   RunOne(const CampaignPlan& plan, const AgentPrograms& programs);
-  RunRecord operator()(std::uint64_t run_index, TraceSink* sink = nullptr) const;
+  // Requires: the agent of the run is loaded into this process. Throws RunAbandoned if the watch says so.
+  RunRecord operator()(std::uint64_t run_index, TraceSink* sink = nullptr, const RunWatch& watch = {}) const;
+  // The record of a run of which nothing is known yet.
+  RunRecord empty_record(std::uint64_t run_index) const;
   const ScenarioSource& scenarios() const { return scenarios_; }
 
  private:
   const CampaignPlan& plan_;
   ScenarioSource scenarios_;
-  std::vector<const fp_agent_type*> agents_;  // by position in plan.agents
+  std::vector<const AgentProgram*> agents_;  // by position in plan.agents
 };
 
 }  // namespace fleetproof

@@ -31,7 +31,7 @@ const std::map<std::string, std::string> kLargeClasses = {
     {"core/outcome/counters.hpp Counters", "plain data: one number for each counter"},
     {"core/outcome/outcome.hpp Outcome", "plain data: everything that a run leaves"},
     {"campaign/plan/plan.hpp CampaignPlan", "plain data: everything that a campaign file says"},
-    {"campaign/run/task_pool.cpp TaskPool::Impl", "two threads' sides of one pool, under one mutex"},
+    {"campaign/batch/task_pool.cpp TaskPool::Impl", "two threads' sides of one pool, under one mutex"},
     {"generators/worlds/drawn_faults.hpp FaultRates", "plain data: one number for each kind of fault"},
     {"laws/progress_law.cpp ProgressLaw", "one number for each end point that the law judges"},
     {"reports/evidence/evidence.hpp Evidence", "plain figures of one campaign, counted in one pass"},

@@ -1,4 +1,4 @@
-#include "campaign/run/task_pool.hpp"
+#include "campaign/batch/task_pool.hpp"
 
 #include <gtest/gtest.h>
 

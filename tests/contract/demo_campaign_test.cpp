@@ -4,7 +4,7 @@
 #include <map>
 
 #include "campaign/plan/campaign_file.hpp"
-#include "campaign/run/campaign.hpp"
+#include "campaign/batch/campaign.hpp"
 #include "reports/evidence/binomial.hpp"
 #include "storage/archive_reader.hpp"
 #include "tests/support/program.hpp"

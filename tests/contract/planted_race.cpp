@@ -2,7 +2,7 @@
 // share.
 #include <cstdio>
 
-#include "campaign/run/task_pool.hpp"
+#include "campaign/batch/task_pool.hpp"
 #include "core/engine/simulation.hpp"
 #include "tests/support/worlds.hpp"
 

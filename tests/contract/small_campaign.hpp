@@ -1,6 +1,6 @@
 #pragma once
 
-#include "campaign/run/campaign.hpp"
+#include "campaign/batch/campaign.hpp"
 #include "campaign/run/run_one.hpp"
 #include "core/engine/simulation.hpp"
 #include "tests/support/hard_world.hpp"

@@ -1,0 +1,127 @@
+#include "campaign/run/agent_inspection.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+
+#include "core/base/error.hpp"
+#include "core/base/outside_text.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr rlim_t kPatience_cpu_s = 10;
+constexpr int kPatience_ms = 60'000;  // of waiting without using CPU time
+
+// The fields of a program, each with a null byte behind it. The first byte tells whether they are there or an error is.
+std::string text_of(const AgentProgram& program) {
+  std::string text = "y";
+  for (const std::string& field :
+       {program.name, program.description, std::to_string(program.flags), program.file, program.sha256})
+    text.append(field).push_back('\0');
+  return text;
+}
+
+void write_all(int fd, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const auto written = ::write(fd, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return;
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+[[noreturn]] void load_and_tell(const std::string& path, int answer) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) ::signal(number, SIG_DFL);
+  const int nothing = ::open("/dev/null", O_RDWR | O_CLOEXEC);
+  for (const int stream : {0, 1, 2}) ::dup2(nothing, stream);  // what the object prints concerns nobody yet
+  const rlimit cpu{kPatience_cpu_s, kPatience_cpu_s}, core{0, 0};
+  ::setrlimit(RLIMIT_CPU, &cpu);
+  ::setrlimit(RLIMIT_CORE, &core);
+  try {
+    AgentPrograms programs;
+    const std::string name = programs.load(path);
+    write_all(answer, text_of(programs.program(name, path)));
+  } catch (const std::exception& error) {
+    write_all(answer, std::string("n") + error.what());
+  } catch (...) {
+    write_all(answer, "n" + path + ": throws an exception while it is loaded");
+  }
+  ::_exit(0);
+}
+
+std::string read_until_end(int fd) {
+  std::string text;
+  std::array<char, 4096> buffer;
+  pollfd ready{fd, POLLIN, 0};
+  while (::poll(&ready, 1, kPatience_ms) > 0) {
+    const auto count = ::read(fd, buffer.data(), buffer.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) break;
+    text.append(buffer.data(), static_cast<std::size_t>(count));
+  }
+  return text;
+}
+
+std::string end_of(int status) {
+  if (!WIFSIGNALED(status)) return "it ends the process that loads it";
+  if (WTERMSIG(status) == SIGKILL) return "it does not come back";
+  return fmt::format("the process that loads it ends with signal {} ({})", WTERMSIG(status),
+                     ::strsignal(WTERMSIG(status)));
+}
+
+AgentProgram program_of(std::string_view fields) {
+  std::array<std::string, 5> parts;
+  for (std::string& part : parts) {
+    const auto end = fields.find('\0');
+    ensure(end != std::string_view::npos, "an inspection answers with five fields");
+    part = fields.substr(0, end);
+    fields.remove_prefix(end + 1);
+  }
+  AgentProgram program;
+  program.name = parts[0];
+  program.description = parts[1];
+  program.flags = static_cast<std::uint32_t>(std::stoul(parts[2]));
+  program.file = parts[3];
+  program.sha256 = parts[4];
+  return program;
+}
+
+}  // namespace
+
+AgentProgram inspect_agent(const std::string& path) {
+  std::array<int, 2> answer{};
+  if (::pipe2(answer.data(), O_CLOEXEC) != 0)
+    throw EngineError(fmt::format("no pipe can be made: {}", std::strerror(errno)));
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::close(answer[0]);
+    load_and_tell(path, answer[1]);
+  }
+  ::close(answer[1]);
+  const std::string text = child < 0 ? std::string() : read_until_end(answer[0]);
+  ::close(answer[0]);
+  if (child < 0) throw EngineError(fmt::format("no process can be started: {}", std::strerror(errno)));
+  ::kill(child, SIGKILL);  // it has answered, or never will
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (text.starts_with('y')) return program_of(std::string_view(text).substr(1));
+  if (!text.starts_with('n')) throw InputError(path, "cannot be loaded: " + end_of(status));
+  std::string_view told = std::string_view(text).substr(1);
+  const std::string place = printable(path) + ": ";
+  if (told.starts_with(place)) told.remove_prefix(place.size());
+  throw InputError(path, told);
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,67 @@
+#include "campaign/workers/cause_of_death.hpp"
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <csignal>
+
+#include "campaign/workers/worker.hpp"
+#include "core/sdk/fleetproof/agent.h"
+
+namespace fleetproof {
+namespace {
+
+std::string signal_words(int number) {
+  switch (number) {
+    case SIGSEGV:
+      return "segmentation fault (SIGSEGV)";
+    case SIGBUS:
+      return "bus error (SIGBUS)";
+    case SIGABRT:
+      return "aborted (SIGABRT)";
+    case SIGFPE:
+      return "arithmetic fault (SIGFPE)";
+    case SIGILL:
+      return "illegal instruction (SIGILL)";
+    case SIGKILL:
+      return "killed (SIGKILL)";
+    default:
+      return fmt::format("ended by signal {}", number);
+  }
+}
+
+std::string end_words(WorkerState state, const WorkerDeath& death, const WorkerSlot& slot) {
+  if (state == WorkerState::BeyondCpuLimit) return "uses CPU time without end";
+  if (state == WorkerState::Asleep) return "waits without end";
+  if (state == WorkerState::Garbled) return "spoiled the answer of its process";
+  if (slot.stack_overflow.load() != 0) return "stack overflow (SIGSEGV)";
+  if (death.had_to_be_killed) return "closed the descriptors of its process";
+  if (WIFSIGNALED(death.status)) return signal_words(WTERMSIG(death.status));
+  if (WEXITSTATUS(death.status) == kOutOfMemoryExit) return "needs more memory than limits.memory_mb";
+  return fmt::format("ended its process with exit code {}", WEXITSTATUS(death.status));
+}
+
+std::string call_words(const CallNote& call) {
+  if (call.number.load() == 0) return "before the first call of an agent";
+  constexpr std::array kEvents{"event start", "event order", "event message", "event timer", "event action done"};
+  static_assert(FP_EVENT_START == 0 && FP_EVENT_ACTION_DONE == kEvents.size() - 1);
+  const std::uint32_t event = call.event.load();
+  return fmt::format("in {} at {:.9f} s",
+                     event == CallNote::kDestroy ? "destroy()" : kEvents.at(std::min<std::size_t>(event, 4)),
+                     to_seconds(at_ns(call.at_ns.load())));
+}
+
+}  // namespace
+
+CauseOfDeath cause_of_death(WorkerState state, const WorkerDeath& death, const WorkerSlot& slot) {
+  CauseOfDeath cause;
+  cause.hang = state == WorkerState::BeyondCpuLimit || state == WorkerState::Asleep;
+  cause.from_outside = state == WorkerState::Closed && !death.had_to_be_killed && WIFSIGNALED(death.status) &&
+                       WTERMSIG(death.status) == SIGKILL;
+  cause.call = slot.call.number.load();
+  cause.message = fmt::format("{} {}", end_words(state, death, slot), call_words(slot.call));
+  return cause;
+}
+
+}  // namespace fleetproof

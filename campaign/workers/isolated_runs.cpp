@@ -1,0 +1,163 @@
+#include "campaign/workers/isolated_runs.hpp"
+
+#include <algorithm>
+#include <csignal>
+#include <utility>
+
+#include "campaign/workers/worker.hpp"
+#include "campaign/workers/worker_watch.hpp"
+#include "core/base/error.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr std::chrono::milliseconds kLookEvery{100};
+constexpr double kTimesSlowest = 20.0;  // the CPU time that a run may use, in times of the slowest run so far
+constexpr double kRepeatFactor = 10.0;  // a run that went beyond it gets so much more in the repeat
+constexpr int kKillsFromOutside = 3;    // in a row; then the run itself is the reason
+
+}  // namespace
+
+IsolatedRuns::IsolatedRuns(const CampaignPlan& plan, const AgentPrograms& programs, int workers,
+                           const std::string& log_prefix)
+    : plan_(plan),
+      run_one_(plan, programs),
+      slots_(workers),
+      logs_(log_prefix, workers),
+      forker_([&plan, &programs, this](int slot, Channel channel) {
+        work({plan, programs, slots_, logs_.descriptors()}, slot, std::move(channel));
+      }) {
+  for (int slot = workers - 1; slot >= 0; --slot) idle_.push_back({slot, {}, true});
+}
+
+RunRecord IsolatedRuns::operator()(std::uint64_t run_index) {
+  Member member = take_member();
+  RunRecord record = run_one_.empty_record(run_index);
+  try {
+    RunAnswer answer = answer_of(member, run_index);
+    record.scenario_digest = answer.scenario_digest;
+    record.outcome = std::move(answer.outcome);
+  } catch (...) {
+    give_back(std::move(member));
+    throw;
+  }
+  give_back(std::move(member));
+  return record;
+}
+
+RunAnswer IsolatedRuns::answer_of(Member& member, std::uint64_t run_index) {
+  const RunOrder order{run_index, {}};
+  Attempt first = attempt(member, order, cpu_limit_s());
+  return first.answer ? std::move(*first.answer) : repeat(member, order);
+}
+
+// Each attempt happens in a worker that has hosted nothing before, and learns at which calls agents ended the attempts
+// before it. Every such call is later than the one before, or the software does not do the same thing twice.
+RunAnswer IsolatedRuns::repeat(Member& member, RunOrder order) {
+  const double limit_s = kRepeatFactor * cpu_limit_s();
+  for (int killed = 0;;) {
+    Attempt again = attempt(member, order, limit_s);
+    if (again.answer) return std::move(*again.answer);
+    if (again.cause.from_outside && ++killed < kKillsFromOutside) continue;
+    const std::uint64_t last = order.known_ends.empty() ? 0 : order.known_ends.back().call;
+    if (again.cause.call > last) {
+      order.known_ends.push_back({again.cause.call, again.cause.hang, again.cause.message});
+      continue;
+    }
+    RunAnswer unexplained;
+    unexplained.outcome.crash = !again.cause.hang;
+    unexplained.outcome.hang = again.cause.hang;
+    unexplained.outcome.message = again.cause.message + "; what happened after it is not known";
+    unexplained.outcome.agv_count = run_one_.scenarios().place(order.run_index).cell.fleet_size;
+    return unexplained;
+  }
+}
+
+IsolatedRuns::Attempt IsolatedRuns::attempt(Member& member, const RunOrder& order, double cpu_limit_s) {
+  WorkerSlot& slot = slots_[member.slot];
+  if (member.worker.pid == 0) {
+    slot.run = order.run_index;
+    slot.call.number = 0;
+    member.worker = forker_.start(member.slot);
+    member.fresh = true;
+  }
+  slot.call.number = 0;
+  if (!member.worker.channel.send(encode(order))) return lost(member, order.run_index, WorkerState::Closed);
+  std::string bytes;
+  if (const auto state = wait_for_answer(member, cpu_limit_s, bytes)) return lost(member, order.run_index, *state);
+  RunAnswer answer;
+  try {
+    answer = decode_answer(bytes);
+  } catch (const EngineError&) {
+    return lost(member, order.run_index, WorkerState::Garbled);
+  }
+  if (answer.failed) throw EngineError(answer.message);
+  member.fresh = false;
+  std::uint64_t slowest = slowest_ns_;
+  while (slowest < answer.cpu_ns && !slowest_ns_.compare_exchange_weak(slowest, answer.cpu_ns)) {
+  }
+  return {std::move(answer), {}};
+}
+
+// Empty: `bytes` are there.
+std::optional<WorkerState> IsolatedRuns::wait_for_answer(Member& member, double cpu_limit_s, std::string& bytes) {
+  Channel& channel = member.worker.channel;
+  WorkerWatch watch(member.worker.pid, cpu_limit_s);
+  for (;;) {
+    switch (channel.wait(kLookEvery)) {
+      case Channel::Wait::Arrived:
+        bytes = channel.received();
+        return std::nullopt;
+      case Channel::Wait::Gone:
+        return WorkerState::Closed;
+      case Channel::Wait::NotYet:
+        if (abandoned_) throw RunAbandoned();
+        if (const auto state = watch.look(std::chrono::duration<double>(kLookEvery).count())) return state;
+    }
+  }
+}
+
+IsolatedRuns::Attempt IsolatedRuns::lost(Member& member, std::uint64_t run_index, WorkerState state) {
+  if (state != WorkerState::Closed) ::kill(member.worker.pid, SIGKILL);
+  WorkerLoss loss;
+  loss.run_index = run_index;
+  loss.death = forker_.collect(member.worker.pid);
+  const CauseOfDeath cause = cause_of_death(state, loss.death, slots_[member.slot]);
+  loss.message = cause.message;
+  loss.log = logs_.path(member.slot);
+  loss.in_fresh_worker = member.fresh;
+  member.worker = {};
+  const std::lock_guard lock(mutex_);
+  losses_.push_back(std::move(loss));
+  return {std::nullopt, cause};
+}
+
+double IsolatedRuns::cpu_limit_s() const {
+  return std::max(plan_.limits.cpu_s, kTimesSlowest * 1e-9 * static_cast<double>(slowest_ns_.load()));
+}
+
+IsolatedRuns::Member IsolatedRuns::take_member() {
+  std::unique_lock lock(mutex_);
+  member_back_.wait(lock, [&] { return !idle_.empty(); });
+  Member member = std::move(idle_.back());
+  idle_.pop_back();
+  return member;
+}
+
+// A worker that is in the middle of an abandoned run goes with it.
+void IsolatedRuns::give_back(Member member) {
+  if (abandoned_ && member.worker.pid != 0) {
+    ::kill(member.worker.pid, SIGKILL);
+    member.worker.channel.close();
+  }
+  const std::lock_guard lock(mutex_);
+  idle_.push_back(std::move(member));
+  member_back_.notify_one();
+}
+
+std::vector<WorkerLoss> IsolatedRuns::take_losses() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(losses_, {});
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "campaign/plan/plan.hpp"
+#include "campaign/run/agent_programs.hpp"
+#include "campaign/run/run_one.hpp"
+#include "campaign/workers/cause_of_death.hpp"
+#include "campaign/workers/forker.hpp"
+#include "campaign/workers/run_order.hpp"
+#include "campaign/workers/shared_slots.hpp"
+#include "campaign/workers/worker_logs.hpp"
+
+namespace fleetproof {
+
+// A run that a worker process did not bring to its end. For the log of the session, not for the archive.
+struct WorkerLoss {
+  std::uint64_t run_index = 0;
+  std::string message, log;  // what happened; the file with what the worker printed
+  bool in_fresh_worker = false;
+  WorkerDeath death;
+};
+
+// Simulates runs of plug-ins in worker processes: software that crashes or hangs there costs its run, and no more. A
+// worker hosts many runs, one after the other. Each run gives the record that RunOne would give, if the software allows
+// it. A run that ends its worker is repeated in a fresh worker; what ends it there is filed in the record, as a crash
+// or hang at that call of an agent, and the run goes on without that agent. Threads: as many as there are workers.
+class IsolatedRuns {
+ public:
+  // Starts the process that forks workers: make the object before threads are started and files are opened. `plan` and
+  // `programs` outlive it. `log_prefix`: "x" makes x.worker-0.log and so on; empty: what agents print is dropped.
+  IsolatedRuns(const CampaignPlan& plan, const AgentPrograms& programs, int workers, const std::string& log_prefix);
+
+  // Throws RunAbandoned after abandon(), and EngineError if no worker can be started or a plug-in's file has changed.
+  RunRecord operator()(std::uint64_t run_index);
+  // All runs under way end within a second.
+  void abandon() { abandoned_ = true; }
+  // The losses since the last call.
+  std::vector<WorkerLoss> take_losses();
+
+ private:
+  struct Member {
+    int slot = 0;
+    Forker::Worker worker;  // pid 0: not started
+    bool fresh = true;      // it has finished no run yet
+  };
+  struct Attempt {
+    std::optional<RunAnswer> answer;
+    CauseOfDeath cause;
+  };
+
+  Member take_member();
+  void give_back(Member member);
+  Attempt attempt(Member& member, const RunOrder& order, double cpu_limit_s);
+  std::optional<WorkerState> wait_for_answer(Member& member, double cpu_limit_s, std::string& bytes);
+  Attempt lost(Member& member, std::uint64_t run_index, WorkerState state);
+  RunAnswer repeat(Member& member, RunOrder order);
+  RunAnswer answer_of(Member& member, std::uint64_t run_index);
+  double cpu_limit_s() const;
+
+  const CampaignPlan& plan_;
+  RunOne run_one_;
+  SharedSlots slots_;
+  WorkerLogs logs_;
+  Forker forker_;
+  std::atomic<bool> abandoned_ = false;
+  std::atomic<std::uint64_t> slowest_ns_ = 0;
+
+  std::mutex mutex_;
+  std::condition_variable member_back_;
+  std::vector<Member> idle_;
+  std::vector<WorkerLoss> losses_;
+};
+
+}  // namespace fleetproof

@@ -1,0 +1,32 @@
+#include "campaign/workers/run_host.hpp"
+
+#include <algorithm>
+
+namespace fleetproof {
+
+RunHost::RunHost(const CampaignPlan& plan, const AgentPrograms& programs, int workers, const std::string& worker_logs)
+    : run_one_(plan, programs) {
+  for (const std::string& agent : plan.agents) is_plugin_.push_back(programs.is_plugin(agent));
+  if (std::ranges::count(is_plugin_, true) > 0)
+    isolated_ = std::make_unique<IsolatedRuns>(plan, programs, workers, worker_logs);
+}
+
+std::optional<RunRecord> RunHost::operator()(std::uint64_t run_index) {
+  try {
+    if (is_plugin_[run_index % is_plugin_.size()]) return (*isolated_)(run_index);  // agents vary fastest
+    return run_one_(run_index, nullptr, RunWatch{nullptr, {}, &abandoned_});
+  } catch (const RunAbandoned&) {
+    return std::nullopt;
+  }
+}
+
+void RunHost::abandon() {
+  abandoned_ = true;
+  if (isolated_) isolated_->abandon();
+}
+
+std::vector<WorkerLoss> RunHost::take_losses() {
+  return isolated_ ? isolated_->take_losses() : std::vector<WorkerLoss>();
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "campaign/run/run_one.hpp"
+#include "campaign/workers/isolated_runs.hpp"
+
+namespace fleetproof {
+
+// Simulates each run where its agent belongs: a reference agent on the thread of the caller, a plug-in in a worker
+// process. Threads: as many as there are workers.
+class RunHost {
+ public:
+  // Make the object before threads are started and files are opened, as IsolatedRuns asks. `plan` and `programs`
+  // outlive it. Throws InputError if an agent of the plan is not among the programs.
+  RunHost(const CampaignPlan& plan, const AgentPrograms& programs, int workers, const std::string& worker_logs = "");
+
+  // None after abandon(). Throws what IsolatedRuns throws.
+  std::optional<RunRecord> operator()(std::uint64_t run_index);
+  // The runs under way end within a second, without a record.
+  void abandon();
+  // Of worker processes, since the last call.
+  std::vector<WorkerLoss> take_losses();
+
+ private:
+  RunOne run_one_;
+  std::vector<bool> is_plugin_;  // by position in plan.agents
+  std::atomic<bool> abandoned_ = false;
+  std::unique_ptr<IsolatedRuns> isolated_;  // null: no agent of the plan is a plug-in
+};
+
+}  // namespace fleetproof

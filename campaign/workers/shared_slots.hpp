@@ -1,0 +1,37 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <string>
+
+#include "core/engine/run_watch.hpp"
+
+namespace fleetproof {
+
+// What a worker process writes down for the time after its death.
+struct WorkerSlot {
+  static constexpr std::uint64_t kNoRun = ~std::uint64_t{0};
+
+  std::atomic<std::uint64_t> run{kNoRun};        // under way
+  std::atomic<std::uint32_t> stack_overflow{0};  // 1: the fatal signal came from the guard page of the stack
+  CallNote call;
+};
+
+// One slot for each worker, in memory that main process, forker and workers share. A process that dies leaves its slot
+// as it was.
+class SharedSlots {
+ public:
+  explicit SharedSlots(int count);
+  ~SharedSlots();
+  SharedSlots(const SharedSlots&) = delete;
+  SharedSlots& operator=(const SharedSlots&) = delete;
+
+  int count() const { return count_; }
+  WorkerSlot& operator[](int slot) const { return slots_[slot]; }
+
+ private:
+  int count_;
+  WorkerSlot* slots_;
+};
+
+}  // namespace fleetproof

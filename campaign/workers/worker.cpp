@@ -1,0 +1,98 @@
+#include "campaign/workers/worker.hpp"
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <ctime>
+#include <new>
+
+#include "campaign/run/run_one.hpp"
+#include "campaign/workers/fatal_signals.hpp"
+#include "campaign/workers/run_order.hpp"
+#include "core/base/error.hpp"
+
+namespace fleetproof {
+namespace {
+
+// What an agent may write to one file, its log included: an agent that prints without end must not fill the disk.
+constexpr rlim_t kLargestFile = rlim_t{64} << 20;
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kSanitized = true;  // shadow memory takes terabytes of addresses
+#else
+constexpr bool kSanitized = false;
+#endif
+
+std::uint64_t cpu_ns() {
+  timespec time{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<std::uint64_t>(time.tv_sec) * 1'000'000'000U + static_cast<std::uint64_t>(time.tv_nsec);
+}
+
+void redirect_streams(int log) {
+  const int nothing = ::open("/dev/null", O_RDWR | O_CLOEXEC);
+  ::dup2(nothing, STDIN_FILENO);
+  for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) ::dup2(log >= 0 ? log : nothing, stream);
+  ::close(nothing);
+  std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);  // a crash loses no more than a line
+}
+
+void set_limits(std::uint64_t memory_mb) {
+  const rlimit core{0, 0}, file{kLargestFile, kLargestFile};
+  ::setrlimit(RLIMIT_CORE, &core);
+  ::setrlimit(RLIMIT_FSIZE, &file);
+  const rlimit memory{memory_mb << 20, memory_mb << 20};
+  if (memory_mb > 0 && !kSanitized) ::setrlimit(RLIMIT_AS, &memory);
+}
+
+RunAnswer answer_to(const RunOrder& order, const RunOne& run_one, WorkerSlot& slot) {
+  RunAnswer answer;
+  const std::uint64_t begin_ns = cpu_ns();
+  RunWatch watch;
+  watch.note = &slot.call;
+  watch.known_ends = order.known_ends;
+  RunRecord record = run_one(order.run_index, nullptr, watch);
+  answer.scenario_digest = record.scenario_digest;
+  answer.outcome = std::move(record.outcome);
+  answer.cpu_ns = cpu_ns() - begin_ns;
+  return answer;
+}
+
+void take_orders(const WorkerSetup& setup, WorkerSlot& slot, Channel& channel) {
+  AgentPrograms programs;
+  programs.load_all_of(setup.programs);
+  const RunOne run_one(setup.plan, programs);
+  for (;;) {
+    Channel::Wait state = Channel::Wait::NotYet;
+    while (state == Channel::Wait::NotYet) state = channel.wait(std::chrono::hours(1));
+    if (state == Channel::Wait::Gone) return;
+    const RunOrder order = decode_order(channel.received());
+    slot.run.store(order.run_index);
+    const RunAnswer answer = answer_to(order, run_one, slot);
+    slot.run.store(WorkerSlot::kNoRun);
+    if (!channel.send(encode(answer))) return;
+  }
+}
+
+}  // namespace
+
+void work(const WorkerSetup& setup, int slot, Channel channel) {
+  redirect_streams(setup.logs[static_cast<std::size_t>(slot)]);
+  set_limits(setup.plan.limits.memory_mb);
+  note_fatal_signals(setup.slots[slot]);
+  try {
+    take_orders(setup, setup.slots[slot], channel);
+  } catch (const std::bad_alloc&) {
+    ::_exit(kOutOfMemoryExit);
+  } catch (const std::exception& error) {
+    RunAnswer failed;
+    failed.failed = true;
+    failed.message = error.what();
+    channel.send(encode(failed));
+  }
+  ::_exit(0);
+}
+
+}  // namespace fleetproof

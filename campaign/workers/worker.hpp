@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "campaign/plan/plan.hpp"
+#include "campaign/run/agent_programs.hpp"
+#include "campaign/workers/channel.hpp"
+#include "campaign/workers/shared_slots.hpp"
+
+namespace fleetproof {
+
+// With this exit code a worker says that a run needed more than the memory limit.
+inline constexpr int kOutOfMemoryExit = 96;
+
+// What every worker process has from the process that it was forked from.
+struct WorkerSetup {
+  const CampaignPlan& plan;
+  const AgentPrograms& programs;  // known here, loaded in the worker
+  const SharedSlots& slots;
+  std::vector<int> logs;  // by slot: the descriptor that takes what agents print; -1: nothing does
+};
+
+// The life of a worker: loads the plug-ins, then takes one order after the other until the channel is closed. Call this
+// in a process of its own.
+[[noreturn]] void work(const WorkerSetup& setup, int slot, Channel channel);
+
+}  // namespace fleetproof

@@ -1,0 +1,131 @@
+// An agent that drives like `reckless` and, in some runs, ends its process or never returns. Its parameters say how and
+// how often: "segfault 100" is a segmentation fault in one of 100 runs, at the third event of the first AGV. The kind
+// "mixed" takes each kind in turn but the endless ones. FLEETPROOF_TEST_LOADING=crash: crashes while it is loaded.
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include "core/agents/agent_type.hpp"
+#include "core/agents/agents.h"
+
+namespace {
+
+constexpr std::uint32_t kPurpose = 77;  // of the draw that decides
+
+struct Failing {
+  const fp_agent_type* type;
+  void* inner;
+  const fp_host* host;
+  fp_controller* controller;
+  std::string kind;  // empty: this agent does not fail
+  int events = 0;
+};
+
+volatile int zero = 0;
+
+int overflow(int depth) {
+  volatile char frame[4096];
+  frame[0] = static_cast<char>(depth);
+  return depth == -1 ? 0 : overflow(depth + 1) + frame[0];
+}
+
+void corrupt_heap() {
+  volatile char* const block = static_cast<char*>(std::malloc(2000));  // larger than what a thread keeps for itself
+  for (int i = -16; i < 2100; ++i) block[i] = 0x55;                    // its own size, and that of its neighbour
+  std::free(const_cast<char*>(block));
+}
+
+void fail(Failing& agent) {
+  const std::string& kind = agent.kind;
+  if (kind == "segfault") *reinterpret_cast<volatile int*>(static_cast<std::uintptr_t>(zero)) = 1;
+  if (kind == "abort") std::abort();
+  if (kind == "stack") std::printf("%d\n", overflow(zero));
+  if (kind == "heap") corrupt_heap();
+  if (kind == "throw") throw std::runtime_error("planted");
+  if (kind == "thread") std::thread([] { throw std::runtime_error("planted"); }).join();
+  if (kind == "exit") std::exit(0);
+  if (kind == "division") std::printf("%d\n", 7 / zero);
+  if (kind == "memory") {
+    for (;;) std::memset(new char[std::size_t{1} << 24], 1, std::size_t{1} << 24);
+  }
+  if (kind == "close") {
+    for (int fd = 0; fd < 1000; ++fd) ::close(fd);
+  }
+  if (kind == "loop") {
+    for (volatile int i = 0;;) {
+      i = i + 1;
+    }
+  }
+  if (kind == "loop-calls") {
+    for (;;) agent.host->now_ns(agent.controller);
+  }
+  if (kind == "sleep") {
+    for (;;) ::pause();
+  }
+  if (kind == "print") std::printf("failing: hello from the agent\n");
+}
+
+constexpr std::array kMixed{"segfault", "abort", "stack", "heap", "throw", "thread", "exit", "division", "close"};
+
+std::string kind_in_this_run(const fp_host& host, fp_controller* controller, const fp_briefing& briefing) {
+  const std::string config = briefing.config;
+  const auto blank = config.find(' ');
+  if (blank == std::string::npos || briefing.self != 0 || briefing.boot != 0) return "";
+  const std::uint64_t rate = std::strtoull(config.c_str() + blank, nullptr, 10);
+  if (rate == 0 || host.random(controller, kPurpose, 0) % rate != 0) return "";
+  const std::string kind = config.substr(0, blank);
+  return kind == "mixed" ? kMixed[host.random(controller, kPurpose, 1) % kMixed.size()] : kind;
+}
+
+void* create(const fp_host* host, fp_controller* controller, const fp_briefing* briefing) {
+  const fp_agent_type* reckless = nullptr;
+  for (std::uint32_t i = 0; i < fp_reference_agent_count; ++i) {
+    if (std::strcmp(fp_reference_agents[i]->name, "reckless") == 0) reckless = fp_reference_agents[i];
+  }
+  return new Failing{reckless, reckless->create(host, controller, briefing), host, controller,
+                     kind_in_this_run(*host, controller, *briefing)};
+}
+
+void on_event(void* agent, const fp_event* event) {
+  Failing& failing = *static_cast<Failing*>(agent);
+  if (++failing.events == 3) fail(failing);
+  failing.type->on_event(failing.inner, event);
+}
+
+void destroy(void* agent) {
+  Failing* failing = static_cast<Failing*>(agent);
+  if (failing->kind == "destroy") std::abort();
+  failing->type->destroy(failing->inner);
+  delete failing;
+}
+
+struct Loading {
+  Loading() {
+    const char* how = std::getenv("FLEETPROOF_TEST_LOADING");
+    if (how != nullptr && std::strcmp(how, "crash") == 0) std::abort();
+    if (how != nullptr && std::strcmp(how, "exit") == 0) std::exit(0);
+  }
+} loading;
+
+}  // namespace
+
+extern "C" [[gnu::visibility("default")]] const fp_agent_type* fp_agent_query(uint32_t) {
+  static fp_agent_type type = {};
+  type.struct_size = sizeof type;
+  type.abi_major = FP_ABI_MAJOR;
+  type.flags = FP_DETERMINISTIC;
+  type.name = "failing";
+  type.description = "drives like reckless and fails as its parameters say";
+  type.create = create;
+  type.on_event = on_event;
+  type.destroy = destroy;
+  return &type;
+}
