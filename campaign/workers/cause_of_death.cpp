@@ -36,7 +36,8 @@ std::string end_words(WorkerState state, const WorkerDeath& death, const WorkerS
   if (state == WorkerState::Asleep) return "waits without end";
   if (state == WorkerState::Garbled) return "spoiled the answer of its process";
   if (slot.stack_overflow.load() != 0) return "stack overflow (SIGSEGV)";
-  if (death.had_to_be_killed) return "closed the descriptors of its process";
+  const bool could_not_answer = WIFEXITED(death.status) && WEXITSTATUS(death.status) == kChannelClosedExit;
+  if (death.had_to_be_killed || could_not_answer) return "closed the descriptors of its process";
   if (WIFSIGNALED(death.status)) return signal_words(WTERMSIG(death.status));
   if (WEXITSTATUS(death.status) == kOutOfMemoryExit) return "needs more memory than limits.memory_mb";
   return fmt::format("ended its process with exit code {}", WEXITSTATUS(death.status));

@@ -72,7 +72,7 @@ void take_orders(const WorkerSetup& setup, WorkerSlot& slot, Channel& channel) {
     slot.run.store(order.run_index);
     const RunAnswer answer = answer_to(order, run_one, slot);
     slot.run.store(WorkerSlot::kNoRun);
-    if (!channel.send(encode(answer))) return;
+    if (!channel.send(encode(answer))) ::_exit(kChannelClosedExit);
   }
 }
 

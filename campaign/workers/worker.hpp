@@ -12,6 +12,8 @@ namespace fleetproof {
 
 // With this exit code a worker says that a run needed more than the memory limit.
 inline constexpr int kOutOfMemoryExit = 96;
+// And with this one that it could not answer.
+inline constexpr int kChannelClosedExit = 97;
 
 // What every worker process has from the process that it was forked from.
 struct WorkerSetup {

@@ -1,0 +1,80 @@
+#include "campaign/workers/channel.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+
+#include <thread>
+
+#include "campaign/workers/run_order.hpp"
+#include "core/base/error.hpp"
+
+namespace fleetproof {
+namespace {
+
+using Wait = Channel::Wait;
+constexpr std::chrono::milliseconds kNow{0}, kSoon{2000};
+
+TEST(Channel, CarriesFramesOfAnySizeInOrder) {
+  auto [here, there] = Channel::make_pair();
+  const std::string large(3'000'000, 'x');
+  std::thread sender([&there = there, &large] {
+    EXPECT_TRUE(there.send(""));
+    EXPECT_TRUE(there.send(large));
+    EXPECT_TRUE(there.send(std::string_view("a\0b", 3)));
+  });
+  for (const std::string& expected : {std::string(), large, std::string("a\0b", 3)}) {
+    ASSERT_EQ(here.wait(kSoon), Wait::Arrived);
+    EXPECT_EQ(here.received(), expected);
+  }
+  sender.join();
+  EXPECT_EQ(here.wait(kNow), Wait::NotYet);
+}
+
+TEST(Channel, TellsThatTheOtherEndIsGone) {
+  auto [here, there] = Channel::make_pair();
+  ASSERT_TRUE(there.send("last words"));
+  there.close();
+  EXPECT_EQ(here.wait(kSoon), Wait::Arrived);
+  EXPECT_EQ(here.received(), "last words");
+  EXPECT_EQ(here.wait(kSoon), Wait::Gone);
+  EXPECT_FALSE(here.send("anybody?"));
+}
+
+// An agent may write to any descriptor of its process.
+TEST(Channel, RefusesWhatIsNoFrame) {
+  for (const std::string& noise : {std::string(16, '\xff'), std::string("\5\0\0\0\0\0\0\0wronghashhello", 22)}) {
+    auto [here, there] = Channel::make_pair();
+    ASSERT_EQ(::send(there.fd(), noise.data(), noise.size(), 0), static_cast<ssize_t>(noise.size()));
+    EXPECT_EQ(here.wait(kSoon), Wait::Gone);
+  }
+}
+
+TEST(RunOrder, IsWhatWasEncoded) {
+  const RunOrder order{4711, {{17, false, "stack overflow"}, {18, true, ""}}};
+  const RunOrder decoded = decode_order(encode(order));
+  EXPECT_EQ(decoded.run_index, order.run_index);
+  EXPECT_EQ(decoded.known_ends, order.known_ends);
+}
+
+TEST(RunAnswer, IsWhatWasEncodedAndNothingShorter) {
+  RunAnswer answer;
+  answer.message = "why";
+  answer.failed = true;
+  answer.cpu_ns = 5;
+  answer.scenario_digest = 6;
+  answer.outcome.digest = 7;
+  answer.outcome.running_digests = {1, 2};
+  const std::string bytes = encode(answer);
+  const RunAnswer decoded = decode_answer(bytes);
+  EXPECT_TRUE(decoded.failed);
+  EXPECT_EQ(decoded.message, "why");
+  EXPECT_EQ(decoded.cpu_ns, 5U);
+  EXPECT_EQ(decoded.scenario_digest, 6U);
+  EXPECT_EQ(decoded.outcome, answer.outcome);
+  for (std::size_t length = 0; length < bytes.size(); ++length)
+    EXPECT_THROW(decode_answer(std::string_view(bytes).substr(0, length)), EngineError) << length;
+  EXPECT_THROW(decode_answer(bytes + "x"), EngineError);
+}
+
+}  // namespace
+}  // namespace fleetproof

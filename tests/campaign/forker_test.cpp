@@ -1,0 +1,145 @@
+#include "campaign/workers/forker.hpp"
+
+#include <dirent.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <fstream>
+#include <set>
+
+#include "core/base/error.hpp"
+
+namespace fleetproof {
+namespace {
+
+using Wait = Channel::Wait;
+
+// A worker that answers every frame with its slot, and ends as the frame says.
+void echo(int slot, Channel channel) {
+  while (channel.wait(std::chrono::hours(1)) == Wait::Arrived) {
+    const std::string words = channel.received();
+    if (words == "exit") ::_exit(7);
+    if (words == "crash") ::raise(SIGSEGV);
+    if (words == "close") {
+      channel.close();
+      for (;;) ::pause();
+    }
+    if (words == "child" && ::fork() == 0) {
+      for (;;) ::pause();
+    }
+    channel.send(std::to_string(slot) + words);
+  }
+}
+
+std::string ask(Forker::Worker& worker, const std::string& words) {
+  EXPECT_TRUE(worker.channel.send(words));
+  return worker.channel.wait(std::chrono::seconds(20)) == Wait::Arrived ? worker.channel.received() : "no answer";
+}
+
+bool is_alive(pid_t pid) { return ::kill(pid, 0) == 0; }
+
+std::set<pid_t> processes_of_group(pid_t group) {
+  std::set<pid_t> found;
+  DIR* folder = ::opendir("/proc");
+  while (const dirent* entry = ::readdir(folder)) {
+    const pid_t pid = std::atoi(entry->d_name);
+    if (pid > 0 && ::getpgid(pid) == group) found.insert(pid);
+  }
+  ::closedir(folder);
+  return found;
+}
+
+TEST(Forker, StartsWorkersAndTellsHowEachEnds) {
+  Forker forker(echo);
+  for (const auto& [words, signal, code] : {std::tuple{"exit", 0, 7}, {"crash", SIGSEGV, 0}}) {
+    auto worker = forker.start(3);
+    EXPECT_EQ(ask(worker, "hello"), "3hello");
+    worker.channel.send(words);
+    EXPECT_EQ(worker.channel.wait(std::chrono::seconds(20)), Wait::Gone);
+    const WorkerDeath death = forker.collect(worker.pid);
+    EXPECT_FALSE(death.had_to_be_killed);
+    EXPECT_EQ(WIFSIGNALED(death.status) ? WTERMSIG(death.status) : 0, signal);
+    EXPECT_EQ(WIFEXITED(death.status) ? WEXITSTATUS(death.status) : 0, code);
+    EXPECT_GT(death.max_memory_kb, 0);
+    EXPECT_FALSE(is_alive(worker.pid));
+  }
+}
+
+TEST(Forker, KillsAWorkerThatClosedItsChannelAndLives) {
+  Forker forker(echo);
+  auto worker = forker.start(0);
+  worker.channel.send("close");
+  EXPECT_EQ(worker.channel.wait(std::chrono::seconds(20)), Wait::Gone);
+  EXPECT_TRUE(forker.collect(worker.pid).had_to_be_killed);
+  EXPECT_FALSE(is_alive(worker.pid));
+}
+
+TEST(Forker, KillsWhatAWorkerHasStarted) {
+  Forker forker(echo);
+  auto worker = forker.start(0);
+  EXPECT_EQ(ask(worker, "child"), "0child");
+  EXPECT_EQ(processes_of_group(worker.pid).size(), 2U);
+  worker.channel.send("exit");
+  forker.collect(worker.pid);
+  for (int i = 0; i < 2000 && !processes_of_group(worker.pid).empty(); ++i) ::usleep(1000);
+  EXPECT_TRUE(processes_of_group(worker.pid).empty());
+}
+
+TEST(Forker, LeavesNoProcessBehind) {
+  pid_t one = 0, other = 0;
+  {
+    Forker forker(echo);
+    auto first = forker.start(0), second = forker.start(1);
+    one = first.pid;
+    other = second.pid;
+    EXPECT_EQ(ask(second, "x"), "1x");
+    EXPECT_TRUE(is_alive(one) && is_alive(other));
+  }
+  EXPECT_FALSE(is_alive(one) || is_alive(other));
+}
+
+// What the main process, killed, cannot do any more.
+TEST(Forker, DiesWithTheProcessThatMadeIt) {
+  auto [here, there] = Channel::make_pair();
+  const pid_t main_process = ::fork();
+  if (main_process == 0) {
+    here.close();
+    Forker forker(echo);
+    const auto worker = forker.start(0);
+    there.send(std::to_string(worker.pid));
+    for (;;) ::pause();
+  }
+  ASSERT_EQ(here.wait(std::chrono::seconds(20)), Wait::Arrived);
+  const pid_t worker = std::stoi(here.received());
+  ::kill(main_process, SIGKILL);
+  ::waitpid(main_process, nullptr, 0);
+  // The worker is nobody's child now: whoever adopts it may be slow to bury it, so its state is read.
+  const auto state = [&] {
+    std::ifstream file("/proc/" + std::to_string(worker) + "/stat");
+    std::string pid, name, letter = "gone";
+    file >> pid >> name >> letter;
+    return letter;
+  };
+  for (int i = 0; i < 5000 && state() != "gone" && state() != "Z"; ++i) ::usleep(1000);
+  EXPECT_TRUE(state() == "gone" || state() == "Z") << state();
+}
+
+TEST(Forker, SaysThatItIsGone) {
+  Forker forker(echo);
+  auto worker = forker.start(0);
+  const auto parent_of = [](pid_t pid) {
+    std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
+    std::string number, name, state;
+    pid_t parent = 0;
+    file >> number >> name >> state >> parent;
+    return parent;
+  };
+  ::kill(parent_of(worker.pid), SIGKILL);
+  EXPECT_EQ(worker.channel.wait(std::chrono::seconds(20)), Wait::Gone) << "its workers end with it";
+  EXPECT_THROW(forker.start(1), EngineError);
+}
+
+}  // namespace
+}  // namespace fleetproof

@@ -1,0 +1,204 @@
+// Software that ends its process costs its run. The planted list is found without worker processes: an agent with the
+// same draws says in which runs the failing agent fails.
+#include "campaign/workers/isolated_runs.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+#include "core/base/error.hpp"
+#include "core/engine/simulation.hpp"
+#include "tests/contract/small_campaign.hpp"
+
+namespace fleetproof {
+namespace {
+
+using testing::HasSubstr;
+
+CampaignPlan failing_plan(const std::string& how) {
+  CampaignPlan plan = test::small_plan();
+  plan.agents = {"failing"};
+  plan.agent_config = how;
+  plan.horizon_s = 60.0;
+  plan.gates.clear();
+  plan.replicates = 10;
+  plan.limits.cpu_s = 0.1;
+  return plan;
+}
+
+// The draws that decide, of the first AGV of a run.
+struct Planted {
+  std::uint64_t whether = 0, kind = 0;
+};
+Planted planted;
+
+const fp_agent_type kDrawer = [] {
+  fp_agent_type type = {};
+  type.struct_size = sizeof type;
+  type.abi_major = FP_ABI_MAJOR;
+  type.name = "drawer";
+  type.description = "draws what the failing agent draws";
+  type.create = [](const fp_host* host, fp_controller* c, const fp_briefing* briefing) -> void* {
+    if (briefing->self == 0) planted = {host->random(c, 77, 0), host->random(c, 77, 1)};
+    return c;
+  };
+  type.on_event = [](void*, const fp_event*) {};
+  type.destroy = [](void*) {};
+  return type;
+}();
+
+bool is_planted(const CampaignPlan& plan, std::uint64_t run_index, std::uint64_t rate) {
+  Scenario scenario = ScenarioSource(plan).scenario(run_index);
+  scenario.horizon = seconds(0.001);
+  simulate(scenario, kDrawer, {});
+  return planted.whether % rate == 0;
+}
+
+Outcome outcome_of_reckless(CampaignPlan plan, std::uint64_t run_index) {
+  plan.agents = {"reckless"};
+  return RunOne(plan, AgentPrograms())(run_index).outcome;
+}
+
+struct Case {
+  std::string kind, sentence;
+  bool hang = false;
+};
+
+class EveryKindOfEnd : public testing::TestWithParam<Case> {};
+
+TEST_P(EveryKindOfEnd, CostsItsRunOnly) {
+  const CampaignPlan plan = failing_plan(GetParam().kind + " 5");
+  AgentPrograms programs;
+  programs.know(FLEETPROOF_FAILING_AGENT);
+  IsolatedRuns runs(plan, programs, 1, "");
+  int failed = 0, whole = 0;
+  for (std::uint64_t index = 0; index < 20; ++index) {
+    SCOPED_TRACE(index);
+    const Outcome outcome = runs(index).outcome;
+    const Outcome undisturbed = outcome_of_reckless(plan, index);
+    if (!is_planted(plan, index, 5)) {
+      EXPECT_EQ(outcome.digest, undisturbed.digest);
+      EXPECT_EQ(outcome.message, "");
+      ++whole;
+      continue;
+    }
+    ++failed;
+    EXPECT_EQ(outcome.hang, GetParam().hang);
+    EXPECT_EQ(outcome.crash, !GetParam().hang);
+    EXPECT_THAT(outcome.message, HasSubstr(GetParam().sentence));
+    EXPECT_NE(outcome.digest, undisturbed.digest);
+    if (outcome.hang) continue;
+    EXPECT_EQ(runs(index).outcome, outcome) << "the second time";
+  }
+  EXPECT_GE(failed, 2) << "the test is about something";
+  EXPECT_GE(whole, 5);
+  const std::size_t workers_lost = GetParam().kind == "throw" ? 0 : 2;  // the run and its repeat
+  EXPECT_GE(runs.take_losses().size(), workers_lost * static_cast<std::size_t>(failed));
+}
+
+INSTANTIATE_TEST_SUITE_P(Agents, EveryKindOfEnd,
+                         testing::Values(Case{"segfault", "agent of AGV 0: segmentation fault (SIGSEGV) in event"},
+                                         Case{"abort", "agent of AGV 0: aborted (SIGABRT) in event"},
+                                         Case{"stack", "agent of AGV 0: stack overflow (SIGSEGV) in event"},
+                                         Case{"heap", "(SIG"},
+                                         Case{"throw", "agent of AGV 0: planted"},
+                                         Case{"thread", "agent of AGV 0: aborted (SIGABRT)"},
+                                         Case{"exit", "agent of AGV 0: ended its process with exit code 0"},
+                                         Case{"division", "agent of AGV 0: arithmetic fault (SIGFPE)"},
+                                         Case{"close", "closed the descriptors of its process"},
+                                         Case{"loop", "agent of AGV 0: uses CPU time without end in event", true},
+                                         Case{"loop-calls", "agent of AGV 0: uses CPU time without end in event", true},
+                                         Case{"sleep", "agent of AGV 0: waits without end in event", true}),
+                         [](const auto& one) {
+                           std::string name = one.param.kind;
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+TEST(IsolatedRuns, ACrashInDestroyIsFiledAndTheRestIsAsItWas) {
+  const CampaignPlan plan = failing_plan("destroy 1");
+  AgentPrograms programs;
+  programs.know(FLEETPROOF_FAILING_AGENT);
+  IsolatedRuns runs(plan, programs, 1, "");
+  const Outcome outcome = runs(0).outcome;
+  EXPECT_TRUE(outcome.crash);
+  EXPECT_THAT(outcome.message, HasSubstr("agent of AGV 0: aborted (SIGABRT) in destroy() at 60"));
+  EXPECT_EQ(outcome.digest, outcome_of_reckless(plan, 0).digest);
+}
+
+// Not under the address sanitizer, whose own memory is beyond any limit.
+TEST(IsolatedRuns, MemoryBeyondTheLimitEndsTheRun) {
+  CampaignPlan plan = failing_plan("memory 1");
+  plan.limits = {500, 20.0};
+  AgentPrograms programs;
+  programs.know(FLEETPROOF_FAILING_AGENT);
+  const Outcome outcome = IsolatedRuns(plan, programs, 1, "")(0).outcome;
+  EXPECT_TRUE(outcome.crash);
+  EXPECT_THAT(outcome.message, HasSubstr("bad_alloc"));
+}
+
+TEST(IsolatedRuns, TheRowOfARunDoesNotDependOnTheRunsBeforeIt) {
+  const CampaignPlan plan = failing_plan("mixed 3");
+  AgentPrograms programs;
+  programs.know(FLEETPROOF_FAILING_AGENT);
+  IsolatedRuns forward(plan, programs, 1, ""), backward(plan, programs, 1, "");
+  std::map<std::uint64_t, Outcome> outcomes;
+  for (std::uint64_t index = 0; index < 24; ++index) outcomes[index] = forward(index).outcome;
+  for (std::uint64_t index = 24; index-- > 0;) EXPECT_EQ(backward(index).outcome, outcomes[index]) << index;
+}
+
+TEST(IsolatedRuns, WhatAgentsPrintGoesToALog) {
+  const std::string prefix = testing::TempDir() + "printing";
+  const CampaignPlan plan = failing_plan("print 1");
+  AgentPrograms programs;
+  programs.know(FLEETPROOF_FAILING_AGENT);
+  testing::internal::CaptureStdout();
+  {
+    IsolatedRuns runs(plan, programs, 2, prefix);
+    runs(0);
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  std::ifstream log(prefix + ".worker-0.log");
+  std::string line;
+  std::getline(log, line);
+  EXPECT_EQ(line, "failing: hello from the agent");
+  EXPECT_FALSE(std::filesystem::exists(prefix + ".worker-1.log")) << "nothing was printed there";
+  std::filesystem::remove(prefix + ".worker-0.log");
+}
+
+TEST(AgentInspection, SurvivesAnObjectThatCrashesOrExitsWhileItIsLoaded) {
+  for (const auto& [how, sentence] : {std::pair{"crash", "signal 6"}, {"exit", "it ends the process that loads it"}}) {
+    ::setenv("FLEETPROOF_TEST_LOADING", how, 1);
+    try {
+      AgentPrograms().know(FLEETPROOF_FAILING_AGENT);
+      ADD_FAILURE() << "loaded";
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(sentence));
+    }
+  }
+  ::unsetenv("FLEETPROOF_TEST_LOADING");
+  AgentPrograms programs;
+  EXPECT_EQ(programs.know(FLEETPROOF_FAILING_AGENT), "failing");
+  EXPECT_EQ(programs.program("failing", "").type, nullptr) << "nothing of it is in this process";
+  EXPECT_EQ(programs.program("failing", "").flags, FP_DETERMINISTIC);
+}
+
+// The file was good when the campaign began.
+TEST(IsolatedRuns, ACrashWhileLoadingIsFiled) {
+  const CampaignPlan plan = failing_plan("none 1");
+  AgentPrograms programs;
+  programs.know(FLEETPROOF_FAILING_AGENT);
+  ::setenv("FLEETPROOF_TEST_LOADING", "crash", 1);
+  IsolatedRuns runs(plan, programs, 1, "");
+  ::unsetenv("FLEETPROOF_TEST_LOADING");
+  const Outcome outcome = runs(0).outcome;
+  EXPECT_TRUE(outcome.crash);
+  EXPECT_THAT(outcome.message, HasSubstr("aborted (SIGABRT) before the first call of an agent"));
+  EXPECT_EQ(outcome.agv_count, 4U);
+}
+
+}  // namespace
+}  // namespace fleetproof
