@@ -11,6 +11,7 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstring>
 #include <set>
 
@@ -154,6 +155,7 @@ Forker::Forker(const Work& work) {
   if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0)
     throw EngineError(fmt::format("no channel to a worker process can be made: {}", std::strerror(errno)));
   const pid_t parent = ::getpid();
+  std::fflush(nullptr);  // or the workers would print once more what waits in buffers here
   forker_ = ::fork();
   if (forker_ == 0) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
