@@ -36,7 +36,7 @@ void redirect_streams(int log) {
   ::dup2(nothing, STDIN_FILENO);
   for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) ::dup2(log >= 0 ? log : nothing, stream);
   ::close(nothing);
-  std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);  // a crash loses no more than a line
+  std::setvbuf(stdout, nullptr, _IONBF, 0);  // a crash loses nothing
 }
 
 void set_limits(std::uint64_t memory_mb) {
