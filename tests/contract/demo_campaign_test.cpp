@@ -3,8 +3,8 @@
 
 #include <map>
 
-#include "campaign/plan/campaign_file.hpp"
 #include "campaign/batch/campaign.hpp"
+#include "campaign/plan/campaign_file.hpp"
 #include "reports/evidence/binomial.hpp"
 #include "storage/archive_reader.hpp"
 #include "tests/support/program.hpp"
