@@ -12,6 +12,15 @@ namespace {
 // The kinds of processes and draws under the key of radio states. RadioPlaces uses 1 to 3, RadioCrossings uses 10.
 constexpr std::uint32_t kLinkProcess = 8, kAsymmetryDraw = 9;
 
+// The loss of a message that is lost with probability `loss` near its sender. Of the messages that would arrive there,
+// distance takes a share of its own.
+double loss_at_distance(double loss, const RadioSetup& setup, const LinkPlaces& places) {
+  if (setup.range_falloff_m == 0.0) return loss;
+  const double falloff_m = std::min(setup.range_falloff_m, setup.range_m),
+               into_falloff_m = (places.receiver_m - places.sender_m).norm() - (setup.range_m - falloff_m);
+  return loss + (1.0 - loss) * std::clamp(into_falloff_m / falloff_m, 0.0, 1.0);
+}
+
 }  // namespace
 
 Radio::Radio(const RadioSetup& setup, std::uint64_t world_seed)
@@ -22,7 +31,7 @@ Radio::Radio(const RadioSetup& setup, std::uint64_t world_seed)
       delay_(setup),
       has_states_(setup.outages.mean_outage_s > 0.0 || setup.asymmetry > 0.0 || setup.places.roaming_border_m > 0.0 ||
                   setup.places.roaming_at_crossing),
-      depends_on_place_(setup.places.roaming_border_m > 0.0 || !setup.sources.empty() ||
+      depends_on_place_(setup.places.roaming_border_m > 0.0 || setup.range_falloff_m > 0.0 || !setup.sources.empty() ||
                         (setup.outages.mean_outage_s > 0.0 && setup.outages.scope == OutageSetup::Scope::Place)),
       recorded_(setup.trace),
       places_(setup.places, outage_law(setup.loss), state_key_),
@@ -34,7 +43,7 @@ Fate Radio::fate(AgvId sender, AgvId receiver, SimTime sent, std::uint32_t ordin
   const Block block = draw_for(message, key_);
   const double loss_draw = unit_interval(word64(block, 0));
   Fate fate;
-  fate.lost = loss_draw < setup_.loss;
+  fate.lost = loss_draw < loss_at_distance(setup_.loss, setup_, places);
   fate.delay = delay_.at(unit_interval(word64(block, 1)));
   if (has_states_) weigh_states(fate, loss_draw, sender, receiver, sent, places);
   if (!recorded_.empty()) {
@@ -58,7 +67,7 @@ void Radio::weigh_states(Fate& fate, double loss_draw, AgvId sender, AgvId recei
     const auto [good, bad] = losses_by_state(loss);
     loss = fate.in_outage ? bad : good;
   }
-  fate.lost = loss_draw < loss;
+  fate.lost = loss_draw < loss_at_distance(loss, setup_, places);
   const bool at_border = places_.has_borders() &&
                          (places_.is_roaming(places.sender_m, sent) || places_.is_roaming(places.receiver_m, sent));
   if (at_border || crossings_.is_deaf(sender, sent) || crossings_.is_deaf(receiver, sent))

@@ -103,8 +103,8 @@ void visit_fields(Contention& contention, Visit&& visit) {
 
 template <FieldsOf<RadioSetup> Radio, class Visit>
 void visit_fields(Radio& radio, Visit&& visit) {
-  auto& [loss, delay_s, delay_model, range_m, air_time_s, air_time_per_byte_s, outages, delay_tail, asymmetry,
-         duplicates, places, contention, sources, trace] = radio;
+  auto& [loss, delay_s, delay_model, range_m, range_falloff_m, air_time_s, air_time_per_byte_s, outages, delay_tail,
+         asymmetry, duplicates, places, contention, sources, trace] = radio;
   visit(Field{.key = "loss", .text = "nominal share of receptions lost", .home = FieldHome::Factor}, loss);
   visit(Field{.key = "delay_s",
               .text = "nominal delay of a message; the longest one, but for \"heavy-tail\"",
@@ -119,6 +119,11 @@ void visit_fields(Radio& radio, Visit&& visit) {
               .high = kLongestRange_m,
               .above_low = true},
         range_m);
+  visit(Field{.key = "range_falloff_m",
+              .text = "over this last part of the range the loss grows to 1; 0: the range ends sharply",
+              .high = kLongestRange_m,
+              .left_out = range_falloff_m == 0.0},
+        range_falloff_m);
   visit(Field{.key = "air_time_s", .text = "how long an empty message is in the air", .high = kLongestDelay_s},
         air_time_s);
   visit(Field{.key = "air_time_per_byte_s", .text = "what each byte adds to it: 8 / bit rate; 0: size does not matter"},

@@ -113,10 +113,12 @@ using RadioTrace = std::vector<RecordedMessage>;
 struct RadioSetup {
   // Always delay_s | uniform on [0, delay_s), which reorders messages | mostly short, seldom long: DelayTailSetup.
   enum class DelayModel : std::uint8_t { Constant, Uniform, HeavyTail };
-  double loss = 0.0;  // nominal share of receptions lost; roaming, interference and external sources add to it
+  double loss = 0.0;  // nominal share of receptions lost; distance, roaming, interference and sources add to it
   double delay_s = 0.0;
   DelayModel delay_model = DelayModel::Constant;
   double range_m = 1000.0;  // between reference points at the instant of sending
+  // Over this last part of the range, at most all of it, distance takes a share of the messages that grows from 0 to 1.
+  double range_falloff_m = 0.0;  // 0: the range ends sharply
   // The air time of an empty message (preamble, headers, gap), and of each byte (8 / bit rate; 0: the size does not
   // matter). A message arrives after its delay or its air time, whichever is longer.
   double air_time_s = 0.001, air_time_per_byte_s = 0.0;

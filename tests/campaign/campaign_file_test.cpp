@@ -249,7 +249,8 @@ TEST_F(CampaignFileTest, EveryRadioKeySurvivesThePlan) {
   std::ofstream(folder_ / "hall.csv") << "sender,receiver,t_send_s,t_recv_s\n0,1,5,5.25\n0,1,6,lost\n";
   const CampaignPlan plan =
       read(kFactors +
-           "[radio]\ndelay_model = \"heavy-tail\"\nrange_m = 55\nair_time_s = 0.002\nair_time_per_byte_s = "
+           "[radio]\ndelay_model = \"heavy-tail\"\nrange_m = 55\nrange_falloff_m = 5\nair_time_s = "
+           "0.002\nair_time_per_byte_s = "
            "8e-6\noutage_model = \"heavy-tail\"\noutage_shape = 1.2\noutage_scope = "
            "\"direction\"\nloss_good = 0.01\nloss_bad = 0.9\ndelay_min_share = 0.2\ndelay_median_share = "
            "0.3\ndelay_tail_shape = 2\ndelay_cap_share = "
