@@ -14,7 +14,8 @@ double Scanner::field_length_m(AgvId agv) const {
   const ScannerSetup& scanner = run_.scenario.scanner;
   const double speed = run_.world.body(agv).piece.speed_at(run_.now),
                braking = run_.type_of(agv).drive_with(run_.is_loaded(agv)).deceleration_mps2;
-  return speed * scanner.reaction_s + speed * speed / (2.0 * braking) + scanner.margin_m;
+  const double needed_m = speed * scanner.reaction_s + speed * speed / (2.0 * braking) + scanner.margin_m;
+  return scanner.range_m > 0.0 ? std::min(needed_m, scanner.range_m) : needed_m;
 }
 
 // The first body, by number, that stands in the field.

@@ -44,7 +44,7 @@ void visit_fields(Given& fault, Visit&& visit) {
 
 template <FieldsOf<ScannerSetup> Scanner, class Visit>
 void visit_fields(Scanner& scanner, Visit&& visit) {
-  auto& [on, reaction_s, margin_m, resume_s] = scanner;
+  auto& [on, reaction_s, margin_m, resume_s, range_m] = scanner;
   visit(Field{.key = "on", .text = "every AGV has a scanner; a campaign's [scanner] switches it on"}, on);
   visit(Field{.key = "reaction_s",
               .text = "time from seeing a body to braking; the scanner looks as often",
@@ -57,6 +57,11 @@ void visit_fields(Scanner& scanner, Visit&& visit) {
       margin_m);
   visit(Field{.key = "resume_s", .text = "the AGV drives on so long after the field is clear", .high = kHour_s},
         resume_s);
+  visit(Field{.key = "range_m",
+              .text = "longest field that the scanner can watch; 0: as long as the braking way needs",
+              .high = 1000.0,
+              .left_out = range_m == 0.0},
+        range_m);
 }
 
 template <FieldsOf<OperatorSetup> Help, class Visit>

@@ -57,12 +57,13 @@ constexpr bool holds_agv(Fault::Kind kind) {
 
 // The laser scanner of an AGV. It stops the AGV when a body is in its protective field, and lets the AGV go on some
 // time after the field is clear. The field is a rectangle before the front of the AGV. Its length is v * reaction + v^2
-// / (2 deceleration) + margin. On either side, it is wider than the AGV by the margin.
+// / (2 deceleration) + margin, but at most the range. On either side, it is wider than the AGV by the margin.
 struct ScannerSetup {
   bool on = false;
   double reaction_s = 0.08;  // also the time between two looks
   double margin_m = 0.15;    // must be more than the safety distance to keep the safety distance
   double resume_s = 2.0;     // from a clear field until the AGV goes on
+  double range_m = 0.0;      // 0: no limit; shorter than the braking way: the AGV stops too late
 
   friend bool operator==(const ScannerSetup&, const ScannerSetup&) = default;
 };

@@ -53,6 +53,41 @@ TEST(ScannerPart, StopsTheAgvAsSoonAsABodyIsInItsField) {
   EXPECT_EQ(world.run.counters.scanner_saves, 1U) << "a touch was under way";
 }
 
+// How far the crate is from the nose when the scanner stops the AGV.
+double gap_at_stop_m(const Scenario& scenario) {
+  SmallWorld world(scenario);
+  drive(world);
+  EXPECT_GT(time_of(world, true, 8.0), 0.0);
+  return 5.5 - world.x_m(kFirst) - 0.5 * world.run.type_of(kFirst).footprint.length_m;
+}
+
+TEST(ScannerPart, SeesNoFartherThanItsRange) {
+  Scenario scenario = with_crate();
+  const double needed_m = gap_at_stop_m(scenario);
+  EXPECT_GT(needed_m, 1.5);
+  scenario.scanner.range_m = 30.0;
+  EXPECT_EQ(gap_at_stop_m(scenario), needed_m) << "a range beyond the braking way changes nothing";
+  scenario.scanner.range_m = 1.0;
+  EXPECT_LE(gap_at_stop_m(scenario), 1.0);
+  EXPECT_GT(gap_at_stop_m(scenario), 1.0 - 2.0 * 2.0 * 0.08) << "one look earlier the crate was out of range";
+}
+
+TEST(ScannerPart, ARangeBelowTheBrakingWayStopsTooLate) {
+  const auto stops_too_late = [](double range_m) {
+    Scenario scenario = with_crate();
+    scenario.scanner.range_m = range_m;
+    SmallWorld world(scenario);
+    drive(world);
+    (void)time_of(world, true, 8.0);
+    const double v = world.run.world.body(kFirst).piece.speed_at(world.run.now),
+                 braking_m = v * v / (2.0 * world.run.type_of(kFirst).drive.deceleration_mps2);
+    return braking_m > 5.5 - world.x_m(kFirst) - 0.5 * world.run.type_of(kFirst).footprint.length_m;
+  };
+  EXPECT_FALSE(stops_too_late(0.0));
+  EXPECT_FALSE(stops_too_late(4.0));
+  EXPECT_TRUE(stops_too_late(1.0));
+}
+
 TEST(ScannerPart, AStaleLookDoesNothing) {
   SmallWorld world(with_crate());
   drive(world);

@@ -69,7 +69,7 @@ Scenario unusual() {
   s.obstacles = {{"rack", {0.5, 3.25}, {Vec2(-30.5, 40.25), Vec2::UnitY()}, Duration{9}, Duration{10}}};
   s.faults = {{Fault::Kind::Breakdown, AgvId{1U}, Duration{11}, std::nullopt, Duration{12}, {}, 0.0, 0.0},
               {Fault::Kind::LoadDrop, AgvId{2U}, Duration{13}, 0U, Duration{14}, {1.1, 0.7}, -2.0, 0.4}};
-  s.scanner = {true, 0.1, 0.2, 3.0};
+  s.scanner = {true, 0.1, 0.2, 3.0, 4.5};
   s.operator_help = {true, 10.0, 20.0, 0.9};
   return s;
 }
