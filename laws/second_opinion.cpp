@@ -14,10 +14,10 @@
 namespace fleetproof {
 namespace {
 
-// A planar question asked of a solver for space: boxes so tall that height decides nothing.
+// FCL solves problems in space, this problem is planar: the boxes are so tall that their height decides nothing.
 constexpr double kTall_m = 20.0;
 
-// Placed relative to `origin_m`, as a solver loses digits far from the origin.
+// Placed relative to `origin_m`, because a solver loses digits far from the origin.
 fcl::CollisionObjectd box_of(const OrientedRectangle& rectangle, const Vec2& origin_m) {
   const auto shape = std::make_shared<fcl::Boxd>(2.0 * rectangle.half_length_m, 2.0 * rectangle.half_width_m, kTall_m);
   const Vec2 at_m = rectangle.centre_m - origin_m;
@@ -53,10 +53,6 @@ struct TwoBoxes {
 
 bool overlap_by_fcl(const OrientedRectangle& first, const OrientedRectangle& second) {
   return TwoBoxes(first, second).overlap();
-}
-
-double clearance_by_fcl(const OrientedRectangle& first, const OrientedRectangle& second) {
-  return TwoBoxes(first, second).clearance_m();
 }
 
 void confirm_clearance(const OrientedRectangle& first, const OrientedRectangle& second, double clearance_m) {

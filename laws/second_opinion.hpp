@@ -10,12 +10,8 @@ namespace fleetproof {
 // known.
 bool overlap_by_fcl(const OrientedRectangle& first, const OrientedRectangle& second);
 
-// The Euclidean distance; zero if the rectangles overlap.
-double clearance_by_fcl(const OrientedRectangle& first, const OrientedRectangle& second);
-
-// Throws InvariantViolation if FCL contradicts `clearance_m`: if the distances differ by more than 0.1 mm (an overlap
-// counts as zero), or if only one side finds an overlap although the overlap is deeper, or the gap wider, than a
-// micrometre.
+// Throws InvariantViolation if FCL contradicts `clearance_m`. The distances may differ by 0.1 mm; an overlap counts as
+// distance zero. Only one of the two may find an overlap if the overlap or the gap is less than a micrometre.
 void confirm_clearance(const OrientedRectangle& first, const OrientedRectangle& second, double clearance_m);
 
 }  // namespace fleetproof

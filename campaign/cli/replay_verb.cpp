@@ -13,7 +13,7 @@
 #include "campaign/run/replay.hpp"
 #include "campaign/workers/run_host.hpp"
 #include "core/base/error.hpp"
-#include "generators/scenario_file/scenario_file.hpp"
+#include "generators/scenario_file/scenario_text.hpp"
 #include "reports/wording.hpp"
 
 namespace fleetproof::cli {

@@ -1,12 +1,9 @@
-#include <fmt/format.h>
-
 #include <memory>
 
 #include "campaign/cli/output_file.hpp"
 #include "campaign/cli/render.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
-#include "core/base/error.hpp"
 
 namespace fleetproof::cli {
 namespace {
@@ -33,16 +30,6 @@ int report(const ReportWords& words) {
 }
 
 }  // namespace
-
-std::string render(const ReportInput& input, std::string_view format) {
-  const auto* entry = find_entry(report_formats(), format);
-  if (entry == nullptr) {
-    const auto names = names_of(report_formats());
-    throw InputError("--format", fmt::format("\"{}\" is not a report format{} (see: fleetproof list reports)", format,
-                                             name_hint(format, names)));
-  }
-  return entry->make(input);
-}
 
 Action prepare_report(Options& options) {
   auto words = std::make_shared<ReportWords>();

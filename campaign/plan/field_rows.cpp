@@ -141,11 +141,6 @@ class RowWriter {
   std::vector<FieldRow>& rows_;
 };
 
-std::string escaped(std::string text) {
-  for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, "\\");
-  return text;
-}
-
 }  // namespace
 
 std::vector<FieldRow> field_rows() {
@@ -153,17 +148,6 @@ std::vector<FieldRow> field_rows() {
   RowWriter("campaign", rows).fields("", CampaignPlan{});
   RowWriter("scenario", rows).fields("", Scenario{});
   return rows;
-}
-
-std::string field_table_markdown(const std::string& file) {
-  std::string table = "| key | default | what a file may give | what it is |\n|---|---|---|---|\n";
-  for (const FieldRow& row : field_rows()) {
-    if (row.file != file) continue;
-    table +=
-        fmt::format("| `{}` | {} | {} | {} |\n", row.key, row.fallback.empty() ? "" : fmt::format("`{}`", row.fallback),
-                    escaped(row.expected), escaped(row.text));
-  }
-  return table;
 }
 
 }  // namespace fleetproof

@@ -18,7 +18,4 @@ struct FieldRow {
 // All fields of campaign files and of scenario files, in the order of the files.
 std::vector<FieldRow> field_rows();
 
-// The table of one file in Markdown, as campaign/fields.md holds it.
-std::string field_table_markdown(const std::string& file);
-
 }  // namespace fleetproof

@@ -35,6 +35,5 @@ constexpr double to_seconds(Duration d) { return static_cast<double>(d.count()) 
 constexpr double to_seconds(SimTime t) { return to_seconds(t.time_since_epoch()); }
 constexpr std::int64_t to_ns(SimTime t) { return t.time_since_epoch().count(); }
 constexpr SimTime at_ns(std::int64_t ns) { return SimTime{Duration{ns}}; }
-inline SimTime at_seconds(double value_s) { return SimTime{seconds(value_s)}; }
 
 }  // namespace fleetproof

@@ -22,17 +22,6 @@ World::World(const Scenario& scenario, std::span<const std::unique_ptr<Law>> law
   }
 }
 
-State World::state_at(SimTime t) const {
-  State state{.at = t, .spatial = {}, .containment = loads_};
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const Body& body = bodies_[i];
-    if (!body.on_floor) continue;
-    state.spatial.push_back(
-        {EntityId{i}, body.piece.pose_at(t), body.piece.footprint, body.is_agv, body.piece.manner != Manner::Rest});
-  }
-  return state;
-}
-
 void World::put_on_floor(EntityId id, const Footprint& footprint, const Pose& pose, SimTime t) {
   Body& body = bodies_[id.index()];
   body.on_floor = true;

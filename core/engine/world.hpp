@@ -29,27 +29,14 @@ struct Load {
   }
 };
 
-// The state of the warehouse at one instant (Sect. 3.2): entities with their relations, as plain data.
-struct State {
-  struct Placed {
-    EntityId entity;
-    Pose pose;
-    Footprint footprint;
-    bool is_agv = false;
-    bool moving = false;
-  };
-  SimTime at;
-  std::vector<Placed> spatial;    // every AGV and obstacle on the floor
-  std::vector<Load> containment;  // every load released so far, with its holder
-};
-
 struct TouchPrediction {
   SimTime at;
   EntityId a, b;
   std::uint64_t piece_a = 0, piece_b = 0;  // stale once either body has another piece
 };
 
-// The bodies and loads of one run, and what happens to them. Laws observe its pieces; they cannot change it.
+// The state of the warehouse (Sect. 3.2): the bodies and loads of one run, and what happens to them. Laws observe its
+// pieces; they cannot change it.
 class World {
  public:
   World(const Scenario& scenario, std::span<const std::unique_ptr<Law>> laws);
@@ -57,7 +44,6 @@ class World {
   std::size_t body_count() const { return bodies_.size(); }
   const Body& body(EntityId id) const { return bodies_[id.index()]; }
   Pose pose_of(EntityId id, SimTime t) const { return body(id).piece.pose_at(t); }
-  State state_at(SimTime t) const;  // t: now
 
   // Ends the body's current piece at `next.begin` and begins the next one.
   void continue_with(EntityId id, const Piece& next);

@@ -50,13 +50,6 @@ double MotionProfile::speed_in_phase(std::size_t phase, double t_s) const {
   return phase == 1 ? peak_ : ends_.exit_mps + down_ * (phase_ends_s_[2] - t_s);
 }
 
-double MotionProfile::acceleration(double t_s) const {
-  const auto& ends = phase_ends_s_;
-  if (t_s < 0.0 || t_s >= ends[2]) return 0.0;
-  if (t_s < ends[0]) return up_;
-  return t_s < ends[1] ? 0.0 : -down_;
-}
-
 double MotionProfile::time_at(double distance) const {
   const auto& ends = phase_ends_s_;
   if (distance <= 0.0) return 0.0;

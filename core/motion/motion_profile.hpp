@@ -45,8 +45,6 @@ class MotionProfile {
 
   double position(double t_s) const;
   double speed(double t_s) const;  // before and after the way: its end speeds
-  // Constant within a phase: up, level, down.
-  double acceleration(double t_s) const;
   // The first instant at which `position` reaches `distance`.
   double time_at(double distance) const;
   // The ends of the three phases from the start, in seconds, exact to the nanosecond. A missing phase ends together

@@ -2,9 +2,19 @@
 
 #include <algorithm>
 
+#include "core/base/words.hpp"
+
 namespace fleetproof {
 
-const char* name_of(ProbeSource source) { return source == ProbeSource::World ? "world" : "agent"; }
+const char* name_of(ProbeSource source) {
+  switch (source) {
+    case ProbeSource::World:
+      return "world";
+    case ProbeSource::Agent:
+      return "agent";
+  }
+  return kNoWord;
+}
 
 void ProbeTally::declare(std::string_view name, std::uint64_t hash) {
   const auto seen = std::ranges::find(seen_, hash, &Seen::hash);

@@ -1,9 +1,10 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
+
+#include "core/base/words.hpp"
 
 namespace fleetproof {
 
@@ -21,12 +22,35 @@ enum class ProblemKind : std::uint8_t {
   StartWithoutLane,  // no lane leaves the start
   Unreachable,       // a transport for which there is no way
 };
-inline constexpr std::size_t kProblemKinds = 10;
-
-constexpr bool is_unusable(ProblemKind kind) { return kind <= ProblemKind::EmptyFleet; }
 
 // The name of a kind in counts and pages, for example "starts-too-close".
-const char* name_of(ProblemKind kind);
+constexpr const char* name_of(ProblemKind kind) {
+  switch (kind) {
+    case ProblemKind::NumberOutOfRange:
+      return "number-out-of-range";
+    case ProblemKind::BadName:
+      return "bad-name";
+    case ProblemKind::UnknownReference:
+      return "unknown-reference";
+    case ProblemKind::BadGeometry:
+      return "bad-geometry";
+    case ProblemKind::EmptyFleet:
+      return "empty-fleet";
+    case ProblemKind::WeakCore:
+      return "weak-core";
+    case ProblemKind::StartsTooClose:
+      return "starts-too-close";
+    case ProblemKind::StartNearObstacle:
+      return "start-near-obstacle";
+    case ProblemKind::StartWithoutLane:
+      return "start-without-lane";
+    case ProblemKind::Unreachable:
+      return "unreachable";
+  }
+  return kNoWord;
+}
+
+inline constexpr std::size_t kProblemKinds = kValuesOf<ProblemKind>.size();
 
 struct Problem {
   ProblemKind kind{};

@@ -1,3 +1,5 @@
+#include "generators/scenario_file/scenario_text.hpp"
+
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"

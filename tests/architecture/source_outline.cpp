@@ -134,6 +134,18 @@ void count_function(OutlinedClass& type, const std::string& head) {
   type.functions += constructs ? 0 : 1;
 }
 
+// The name before the parameters; empty for operators and for what is no name.
+std::string name_in(const std::string& head) {
+  if (head.find("operator") != std::string::npos) return {};
+  static const std::regex attribute(R"(\[\[[^\]]*\]\])");
+  const std::string plain = without_template_arguments(std::regex_replace(head, attribute, ""));
+  auto end = plain.find('(');
+  while (end > 0 && plain[end - 1] == ' ') --end;
+  auto begin = end;
+  while (begin > 0 && (is_word(plain[begin - 1]) || plain[begin - 1] == ':' || plain[begin - 1] == '~')) --begin;
+  return plain.substr(begin, end - begin);
+}
+
 class Reader {
  public:
   Outline read(const std::string& text) {
@@ -185,7 +197,8 @@ class Reader {
 
   Kind kind_of_block() const {
     if (open_.back().kind == Kind::Function || open_.back().kind == Kind::Other) return Kind::Other;
-    if (starts_with_any(head_, {"namespace", "inline namespace", "extern"})) return Kind::Namespace;
+    if (starts_with_any(head_, {"namespace", "inline namespace"})) return Kind::Namespace;
+    if (head_.starts_with("extern") && head_.find('(') == std::string::npos) return Kind::Namespace;
     const std::string head = without_template_line(head_);
     if (starts_with_any(head, {"class ", "struct ", "union "}) && !is_function_head(head)) return Kind::Type;
     if (head.starts_with("enum") || !is_function_head(head)) return Kind::Other;
@@ -201,6 +214,7 @@ class Reader {
       outline_.functions.push_back({closed.first_line, line_ - closed.first_line + 1});
       if (open_.back().kind == Kind::Type && !closed.head.starts_with("friend"))
         count_function(class_here(), without_template_line(closed.head));
+      note_name(closed.head, true);
     }
     const bool outside = open_.back().kind == Kind::Namespace || open_.back().kind == Kind::Type;
     if (closed.kind == Kind::Other && outside) head_ += "{}";
@@ -210,7 +224,10 @@ class Reader {
   void declaration() {
     const std::string head = without_template_line(head_);
     head_.clear();
-    if (open_.back().kind != Kind::Type || head.empty()) return;
+    const bool type = open_.back().kind == Kind::Type, free = open_.back().kind == Kind::Namespace;
+    if ((type || (free && !starts_with_any(head, {"using ", "static_assert", "typedef "}))) && is_function_head(head))
+      note_name(head, false);
+    if (!type || head.empty()) return;
     if (starts_with_any(head, {"using ", "friend ", "static_assert", "typedef ", "enum ", "static constexpr ",
                                "struct ", "class ", "union ", "static inline constexpr "}))
       return;
@@ -219,6 +236,27 @@ class Reader {
     } else {
       class_here().data += data_declared_by(head);
     }
+  }
+
+  // Of the function with this head, in the block that is open now.
+  void note_name(const std::string& whole_head, bool defined) {
+    const std::string head = without_template_line(whole_head);
+    if (starts_with_any(head, {"friend ", "static_assert"})) return;
+    NamedFunction function{name_in(head), defined, false};
+    if (function.name.find_first_not_of(":") == std::string::npos || function.name.find('~') != std::string::npos)
+      return;
+    bool member = function.name.find(':') != std::string::npos;
+    for (auto open = open_.rbegin(); open != open_.rend(); ++open) {
+      if (open->kind == Kind::Namespace && open->head.starts_with("namespace ") && open->head.size() == 10)
+        function.local = true;
+      if (open->kind != Kind::Type) continue;
+      function.name = outline_.classes[open->of_class].name + "::" + function.name;
+      member = true;
+    }
+    function.local = function.local || (!member && head.starts_with("static "));
+    const auto last = function.last_word();
+    if (member && function.name.ends_with(last + "::" + last)) return;  // a constructor
+    outline_.names.push_back(function);
   }
 
   OutlinedClass& class_here() { return outline_.classes[open_.back().of_class]; }
@@ -232,5 +270,19 @@ class Reader {
 }  // namespace
 
 Outline outline_of(const std::vector<std::string>& lines) { return Reader().read(Stripped(lines).text); }
+
+std::map<std::string, int> words_of(const std::vector<std::string>& lines) {
+  std::map<std::string, int> words;
+  std::string word;
+  for (const char c : Stripped(lines).text) {
+    if (is_word(c)) {
+      word += c;
+    } else if (!word.empty()) {
+      ++words[word];
+      word.clear();
+    }
+  }
+  return words;
+}
 
 }  // namespace fleetproof::architecture

@@ -14,6 +14,7 @@
 #include "core/base/error.hpp"
 #include "core/scenario/radio_fields.hpp"
 #include "generators/scenario_file/scenario_file.hpp"
+#include "generators/scenario_file/scenario_text.hpp"
 
 namespace fleetproof {
 namespace {

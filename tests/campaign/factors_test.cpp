@@ -16,7 +16,9 @@
 #include "core/scenario/canonical_bytes.hpp"
 #include "generators/formats/layout_file.hpp"
 #include "generators/scenario_file/scenario_file.hpp"
+#include "generators/scenario_file/scenario_text.hpp"
 #include "tests/storage/sample_records.hpp"
+#include "tests/support/at_seconds.hpp"
 
 namespace fleetproof {
 namespace {

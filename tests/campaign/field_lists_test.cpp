@@ -15,6 +15,7 @@
 #include "campaign/plan/plan_fields.hpp"
 #include "core/base/error.hpp"
 #include "generators/scenario_file/scenario_file.hpp"
+#include "generators/scenario_file/scenario_text.hpp"
 #include "tests/generators/independent_check.hpp"
 
 namespace fleetproof {
@@ -192,6 +193,23 @@ TEST_F(FieldLists, EveryFieldIsExplained) {
     EXPECT_FALSE(row.expected.empty()) << row.key;
     EXPECT_EQ(row.expected.find("e+30"), std::string::npos) << row.key;
   }
+}
+
+std::string escaped(std::string text) {
+  for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, "\\");
+  return text;
+}
+
+// All rows of one kind of file as a Markdown table.
+std::string field_table_markdown(const std::string& file) {
+  std::string table = "| key | default | what a file may give | what it is |\n|---|---|---|---|\n";
+  for (const FieldRow& row : field_rows()) {
+    if (row.file != file) continue;
+    table +=
+        fmt::format("| `{}` | {} | {} | {} |\n", row.key, row.fallback.empty() ? "" : fmt::format("`{}`", row.fallback),
+                    escaped(row.expected), escaped(row.text));
+  }
+  return table;
 }
 
 // The tables of campaign/fields.md are those of the lists. FLEETPROOF_WRITE_DOCS=1 writes them.

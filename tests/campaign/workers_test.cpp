@@ -1,4 +1,4 @@
-// A whole campaign in this process, on several threads: task pool, simulations, archive and stopping rule together.
+// A whole campaign in this process, on several threads: task pool, simulations and archive together.
 #include <gtest/gtest.h>
 
 #include <filesystem>

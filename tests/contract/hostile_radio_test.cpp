@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "generators/scenario_file/scenario_file.hpp"
+#include "generators/scenario_file/scenario_text.hpp"
 #include "tests/contract/small_campaign.hpp"
 #include "tests/support/program.hpp"
 

@@ -1,6 +1,7 @@
 #include "core/engine/activities.hpp"
 
 #include "tests/core/small_world.hpp"
+#include "tests/support/at_seconds.hpp"
 
 namespace fleetproof {
 namespace {

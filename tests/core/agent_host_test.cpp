@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "tests/core/small_world.hpp"
+#include "tests/support/at_seconds.hpp"
 
 namespace fleetproof {
 namespace {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tests/core/motion_pairs.hpp"
+#include "tests/support/at_seconds.hpp"
 
 namespace fleetproof {
 namespace {

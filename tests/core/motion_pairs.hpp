@@ -8,6 +8,7 @@
 
 #include "core/clearance/clearance_over_time.hpp"
 #include "core/geometry/rotation.hpp"
+#include "tests/support/at_seconds.hpp"
 
 // Random pairs of pieces that meet or nearly meet.
 namespace fleetproof::test {

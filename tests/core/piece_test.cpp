@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/geometry/rotation.hpp"
+#include "tests/support/at_seconds.hpp"
 
 namespace fleetproof {
 namespace {

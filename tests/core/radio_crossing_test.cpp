@@ -7,6 +7,7 @@
 #include <map>
 
 #include "tests/core/row_of_tens.hpp"
+#include "tests/support/at_seconds.hpp"
 #include "tests/support/exact_binomial.hpp"
 
 namespace fleetproof {

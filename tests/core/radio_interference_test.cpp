@@ -5,6 +5,7 @@
 #include <map>
 
 #include "core/radio/radio_channel.hpp"
+#include "tests/support/at_seconds.hpp"
 #include "tests/support/exact_binomial.hpp"
 #include "tests/support/worlds.hpp"
 

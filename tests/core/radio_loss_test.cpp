@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "core/radio/radio.hpp"
+#include "tests/support/at_seconds.hpp"
 #include "tests/support/exact_binomial.hpp"
 
 namespace fleetproof {

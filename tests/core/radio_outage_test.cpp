@@ -7,6 +7,7 @@
 
 #include "core/radio/outage_process.hpp"
 #include "core/radio/radio.hpp"
+#include "tests/support/at_seconds.hpp"
 #include "tests/support/exact_binomial.hpp"
 
 namespace fleetproof {

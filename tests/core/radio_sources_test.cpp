@@ -8,6 +8,7 @@
 #include <set>
 
 #include "core/radio/radio.hpp"
+#include "tests/support/at_seconds.hpp"
 #include "tests/support/exact_binomial.hpp"
 #include "tests/support/worlds.hpp"
 

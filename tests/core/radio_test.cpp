@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "tests/support/at_seconds.hpp"
 #include "tests/support/worlds.hpp"
 
 namespace fleetproof {

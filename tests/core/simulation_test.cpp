@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "core/motion/activity.hpp"
+#include "tests/support/at_seconds.hpp"
 #include "tests/support/worlds.hpp"
 
 namespace fleetproof {

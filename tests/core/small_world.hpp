@@ -7,6 +7,7 @@
 #include "core/engine/parts.hpp"
 #include "core/engine/run_context.hpp"
 #include "tests/core/row_of_tens.hpp"
+#include "tests/support/at_seconds.hpp"
 
 namespace fleetproof::test {
 

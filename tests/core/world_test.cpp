@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/at_seconds.hpp"
 #include "tests/support/worlds.hpp"
 
 namespace fleetproof {
@@ -13,7 +14,7 @@ Scenario with_obstacle() {
   return scenario;
 }
 
-TEST(World, StateHoldsEveryBodyAndItsPlace) {
+TEST(World, HoldsEveryBodyAndItsPlace) {
   const Scenario scenario = with_obstacle();
   World world(scenario, {});
   Piece drive;
@@ -25,13 +26,14 @@ TEST(World, StateHoldsEveryBodyAndItsPlace) {
   drive.profile = MotionProfile(4.0, {});
   drive.end = drive.begin + drive.profile.duration();
   world.continue_with(AgvId{0U}, drive);
-  const State state = world.state_at(at_seconds(2.0));
-  ASSERT_EQ(state.spatial.size(), 3U);
-  EXPECT_TRUE(state.spatial[0].is_agv && state.spatial[0].moving);
-  EXPECT_NEAR(state.spatial[0].pose.position_m.x(), 0.25, 1e-12) << "half of 0.5 m/s2 times one second squared";
-  EXPECT_TRUE(state.spatial[1].is_agv && !state.spatial[1].moving);
-  EXPECT_FALSE(state.spatial[2].is_agv);
-  EXPECT_EQ(state.spatial[2].pose.position_m, Vec2(4.0, 3.0));
+  ASSERT_EQ(world.body_count(), 3U);
+  for (std::uint32_t i = 0; i < 3; ++i) EXPECT_TRUE(world.body(EntityId{i}).on_floor);
+  EXPECT_TRUE(world.body(EntityId{0U}).is_agv && world.body(EntityId{0U}).piece.manner == Manner::Drive);
+  EXPECT_NEAR(world.pose_of(EntityId{0U}, at_seconds(2.0)).position_m.x(), 0.25, 1e-12)
+      << "half of 0.5 m/s2 times one second squared";
+  EXPECT_TRUE(world.body(EntityId{1U}).is_agv && world.body(EntityId{1U}).piece.manner == Manner::Rest);
+  EXPECT_FALSE(world.body(EntityId{2U}).is_agv);
+  EXPECT_EQ(world.pose_of(EntityId{2U}, at_seconds(2.0)).position_m, Vec2(4.0, 3.0));
 }
 
 TEST(World, ContainmentFollowsALoad) {
@@ -46,9 +48,8 @@ TEST(World, ContainmentFollowsALoad) {
   EXPECT_FALSE(world.waiting_load(AgvId{0U}, StationId{1U}).valid());
   world.load(load).holder = {Holder::Kind::Station, 2};
   EXPECT_FALSE(world.waiting_load(AgvId{0U}, StationId{2U}).valid()) << "arrived: nobody fetches it again";
-  const State state = world.state_at(kStart);
-  ASSERT_EQ(state.containment.size(), 1U);
-  EXPECT_EQ(state.containment[0].transport, TransportId{7U});
+  ASSERT_EQ(world.loads().size(), 1U);
+  EXPECT_EQ(world.loads()[0].transport, TransportId{7U});
 }
 
 TEST(World, ADriveIntoAnObstacleIsForeseen) {

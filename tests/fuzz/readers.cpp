@@ -16,6 +16,7 @@
 #include "generators/scenario_file/field_rules.hpp"
 #include "generators/scenario_file/radio_trace.hpp"
 #include "generators/scenario_file/scenario_file.hpp"
+#include "generators/scenario_file/scenario_text.hpp"
 #include "generators/scenario_file/validator.hpp"
 #include "generators/text/text_file.hpp"
 #include "generators/worlds/order_list.hpp"

@@ -9,6 +9,7 @@
 #include "generators/formats/layout_file.hpp"
 #include "generators/formats/lif_text.hpp"
 #include "generators/scenario_file/scenario_file.hpp"
+#include "generators/scenario_file/scenario_text.hpp"
 #include "generators/worlds/world_maker.hpp"
 
 namespace fleetproof::fuzz {

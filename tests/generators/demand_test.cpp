@@ -8,6 +8,7 @@
 #include "damage.hpp"
 #include "generators/map/reachability.hpp"
 #include "generators/scenario_file/scenario_file.hpp"
+#include "generators/scenario_file/scenario_text.hpp"
 #include "generators/worlds/order_list.hpp"
 #include "generators/worlds/transports.hpp"
 #include "generators/worlds/world_maker.hpp"
@@ -148,7 +149,7 @@ TEST(ListedOrders, ErrorsNameFileLineAndField) {
   EXPECT_THAT(refusal("release,from,to\n"), HasSubstr("orders.csv:1: \"release\" is not a column of orders"));
   EXPECT_THAT(refusal("release_s,form,to\n"), HasSubstr("did you mean \"from\"?"));
   EXPECT_THAT(refusal("release_s,from\n"), HasSubstr("orders.csv:1: column to is missing"));
-  EXPECT_THAT(refusal("from,from,to\n"), HasSubstr("column \"from\" is there twice"));
+  EXPECT_THAT(refusal("from,from,to\n"), HasSubstr("column \"from\" occurs twice"));
   EXPECT_THAT(refusal(head + "soon,S0,S1,0\n"), HasSubstr("orders.csv:2: release_s is \"soon\""));
   EXPECT_THAT(refusal(head + "-1,S0,S1,0\n"), HasSubstr("orders.csv:2: release_s is \"-1\""));
   EXPECT_THAT(refusal(head + "\n1,S0,,0\n"), HasSubstr("orders.csv:3: to is empty"));

@@ -126,7 +126,7 @@ TEST(OpenTcs, WarnsOfWhatItLeavesOutGuessesAndChanges) {
   EXPECT_EQ(warning("length=\"4000\"", ""),
             "m.xml:4: path \"ab\" has no length that can be read; its geometry has 4.000 m");
   EXPECT_EQ(warning("version=\"6.0.0\"", "version=\"8.1\""),
-            "m.xml:1: version \"8.1\" is newer than 7, as which it is read");
+            "m.xml:1: version \"8.1\" is newer than 7; it is read as version 7");
   EXPECT_EQ(warning("HALT_POSITION", "REPORT_POSITION"),
             "m.xml:2: report position \"a\" becomes a station at which AGVs can stop");
   EXPECT_EQ(warning("locked=\"false\"", "locked=\"true\""), "m.xml:4: locked path \"ab\" is left out");

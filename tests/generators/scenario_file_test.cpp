@@ -1,4 +1,5 @@
 #include "generators/scenario_file/scenario_file.hpp"
+#include "generators/scenario_file/scenario_text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,6 +9,7 @@
 #include "core/base/random.hpp"
 #include "generators/families/layout_family.hpp"
 #include "generators/scenario_file/scenario_file.hpp"
+#include "generators/scenario_file/scenario_text.hpp"
 #include "generators/scenario_file/validator.hpp"
 #include "independent_check.hpp"
 

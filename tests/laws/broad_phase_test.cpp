@@ -8,6 +8,7 @@
 
 #include "core/geometry/rotation.hpp"
 #include "tests/laws/timeline.hpp"
+#include "tests/support/at_seconds.hpp"
 
 namespace fleetproof::test {
 namespace {

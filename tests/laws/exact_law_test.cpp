@@ -4,6 +4,7 @@
 
 #include "core/base/error.hpp"
 #include "tests/laws/timeline.hpp"
+#include "tests/support/at_seconds.hpp"
 
 namespace fleetproof::test {
 namespace {

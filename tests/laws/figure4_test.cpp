@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/laws/timeline.hpp"
+#include "tests/support/at_seconds.hpp"
 
 namespace fleetproof::test {
 namespace {

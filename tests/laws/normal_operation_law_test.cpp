@@ -4,6 +4,7 @@
 
 #include "laws/link_quality.hpp"
 #include "tests/laws/told.hpp"
+#include "tests/support/at_seconds.hpp"
 #include "tests/support/worlds.hpp"
 
 namespace fleetproof::test {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/laws/told.hpp"
+#include "tests/support/at_seconds.hpp"
 #include "tests/support/worlds.hpp"
 
 namespace fleetproof::test {

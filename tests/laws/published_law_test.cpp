@@ -4,6 +4,7 @@
 #include "laws/global_step_law.hpp"
 #include "laws/paper_law.hpp"
 #include "tests/laws/timeline.hpp"
+#include "tests/support/at_seconds.hpp"
 
 namespace fleetproof::test {
 namespace {

@@ -10,6 +10,7 @@
 #include "core/geometry/rotation.hpp"
 #include "core/outcome/law.hpp"
 #include "laws/laws.hpp"
+#include "tests/support/at_seconds.hpp"
 
 // Runs that consist of pieces only, built by hand, and how they are announced to a law.
 namespace fleetproof::test {

@@ -6,6 +6,7 @@
 
 #include "core/outcome/trace_records.hpp"
 #include "laws/laws.hpp"
+#include "tests/support/at_seconds.hpp"
 
 // A law that is told by hand what happens, record by record.
 namespace fleetproof::test {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/reports/sample_campaign.hpp"
+#include "tests/support/at_seconds.hpp"
 
 namespace fleetproof {
 namespace {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "reports/report.hpp"
+#include "tests/support/at_seconds.hpp"
 
 namespace fleetproof::samples {
 

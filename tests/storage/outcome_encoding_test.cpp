@@ -5,6 +5,7 @@
 #include "core/base/error.hpp"
 #include "core/outcome/outcome.hpp"
 #include "tests/storage/sample_records.hpp"
+#include "tests/support/at_seconds.hpp"
 
 namespace fleetproof {
 namespace {

@@ -5,6 +5,7 @@
 #include "storage/archive_reader.hpp"
 #include "storage/archive_writer.hpp"
 #include "tests/storage/sample_records.hpp"
+#include "tests/support/at_seconds.hpp"
 
 namespace fleetproof {
 namespace {

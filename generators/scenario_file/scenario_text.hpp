@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "core/scenario/scenario.hpp"
+
+namespace fleetproof {
+
+// The text of a scenario file. It is canonical: every field, in fixed order, exact. If `parse_scenario`
+// (scenario_file.hpp) reads the text, `to_text` gives the same text again, on every machine.
+std::string to_text(const Scenario& scenario);
+
+}  // namespace fleetproof
