@@ -1,20 +1,37 @@
 #include "campaign/cli/campaign_words.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "campaign/cli/streams.hpp"
 #include "campaign/plan/plan_check.hpp"
+#include "core/base/error.hpp"
 
 namespace fleetproof::cli {
+namespace {
+
+// What is wrong with a shared object, at the place that names the object.
+std::string know_at(const std::string& place, const std::string& path, AgentPrograms& programs) {
+  try {
+    return programs.know(path);
+  } catch (const InputError& refused) {
+    throw InputError(place, fmt::format("factors.agents: {}", refused.what()));
+  }
+}
+
+}  // namespace
 
 CampaignFile load_campaign(const std::string& path, AgentPrograms& programs) {
   CampaignFile file = read_campaign_file(path);
-  for (const std::string& plugin : file.plugins) {
-    const std::string name = programs.know(plugin);
-    std::ranges::replace(file.plan.agents, plugin, name);
+  std::vector<std::string>& agents = file.plan.agents;
+  const auto place_of = [&](std::size_t agent) { return file.places.of(fmt::format("factors.agents.{}", agent)); };
+  for (std::size_t i = 0; i < agents.size(); ++i) {
+    if (std::ranges::find(file.plugins, agents[i]) != file.plugins.end())
+      agents[i] = know_at(place_of(i), agents[i], programs);
   }
   check_plan(file.plan, file.places);
-  for (const std::string& agent : file.plan.agents) programs.program(agent, path);
+  for (std::size_t i = 0; i < agents.size(); ++i) programs.program(agents[i], place_of(i) + ": factors.agents");
   constexpr std::size_t kTold = 3;
   for (std::size_t i = 0; i < std::min(kTold, file.warnings.size()); ++i) talk("warning: {}\n", file.warnings[i]);
   if (file.warnings.size() > kTold) talk("warning: {} more of this kind\n", file.warnings.size() - kTold);

@@ -43,6 +43,21 @@ TEST_F(BadInput, CampaignFiles) {
   expect_refused("run agent.toml", "did you mean \"hull-lock\"?");
 }
 
+TEST_F(BadInput, AgentsOfACampaignFile) {
+  const auto refused = [&](const std::string& agents, const std::string& error) {
+    write("a.toml", campaign(agents + "\nlayouts = [\"aisle-grid\"]"));
+    for (const std::string verb : {"run ", "check "}) expect_refused(verb + "a.toml", error);
+  };
+  refused("agents = [\"reckless\", \"hull-look\"]",
+          "a.toml:2:24: factors.agents: agent \"hull-look\" is not known; did you mean \"hull-lock\"?");
+  refused("agents = [\n  \"reckless\",\n  \"./none.so\",\n]",
+          "a.toml:4:3: factors.agents: ./none.so: there is no such agent file; build the shared object");
+  write("text.so", "no shared object\n");
+  refused("agents = [\"text.so\"]", "a.toml:2:11: factors.agents: text.so: cannot be loaded as a shared object: ");
+  refused("agents = [\"" + std::string(FLEETPROOF_PLUGIN) + "\", \"" + FLEETPROOF_PLUGIN + "\"]",
+          ": factors.agents: " FLEETPROOF_PLUGIN ": calls itself ");
+}
+
 TEST_F(BadInput, AnOpenTcsFileCutInHalf) {
   const std::string whole = read(test::source("tests/layouts/crossdock.xml"));
   ASSERT_GT(whole.size(), 1000U);
