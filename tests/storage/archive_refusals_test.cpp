@@ -11,6 +11,7 @@
 #include "storage/archive_reader.hpp"
 #include "storage/archive_writer.hpp"
 #include "tests/storage/sample_records.hpp"
+#include "tests/support/unprivileged.hpp"
 
 namespace fleetproof {
 namespace {
@@ -207,15 +208,30 @@ TEST(ArchiveWriter, a_place_that_cannot_be_written_is_for_the_user_to_mend) {
 }
 
 TEST(ArchiveWriter, a_folder_without_permission_is_for_the_user_to_mend) {
-  if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
   namespace fs = std::filesystem;
   const TemporaryFolder folder;
   fs::create_directory(folder / "locked");
-  for (const auto rights : {fs::perms::owner_read | fs::perms::owner_exec, fs::perms::none}) {
-    fs::permissions(folder / "locked", rights);
-    EXPECT_THAT(sentence_of<InputError>([&] { open_writer(folder / "locked/a.fp"); }), HasSubstr("permissions"));
-  }
-  fs::permissions(folder / "locked", fs::perms::owner_all);
+  test::give_away(folder / ".");
+  test::unprivileged([&] {
+    open_writer(folder / "a.fp");  // the folder itself is open
+    for (const auto rights : {fs::perms::owner_read | fs::perms::owner_exec, fs::perms::none}) {
+      fs::permissions(folder / "locked", rights);
+      EXPECT_THAT(sentence_of<InputError>([&] { open_writer(folder / "locked/a.fp"); }), HasSubstr("permissions"));
+    }
+    fs::permissions(folder / "locked", fs::perms::owner_all);
+  });
+}
+
+TEST(ArchiveReader, a_file_without_permission_is_for_the_user_to_mend) {
+  namespace fs = std::filesystem;
+  const TemporaryFolder folder;
+  write_archive(folder / "a.fp");
+  test::give_away(folder / ".");
+  test::unprivileged([&] {
+    read_everything(folder / "a.fp");
+    fs::permissions(folder / "a.fp", fs::perms::none);
+    EXPECT_THAT(sentence_of<InputError>([&] { read_everything(folder / "a.fp"); }), HasSubstr("ermission"));
+  });
 }
 
 TEST(ArchiveWriter, a_second_writer_is_refused_while_the_first_is_alive) {
