@@ -27,7 +27,7 @@ struct Pool {
 // All cells of one agent at the same factors, or between the same bounds. It is one row of a table.
 struct Condition {
   std::string agent;
-  FactorValues lowest, highest;  // the same, unless replicates draw theirs in between
+  FactorValues lowest, highest;  // equal, unless each replicate draws its values between them
   bool in_contract = false, is_worst_case = false;
   Tally tally;
   Pool pool;
@@ -51,8 +51,8 @@ struct AgentCoverage {
 };
 
 // Counts the runs of a campaign, in order of run index, without gaps. Only complete replicates count, so that every
-// cell has the same weight. The failures of an incomplete replicate are still stored as failures. The stopping rule of
-// a campaign and its report both judge with this class. Threads: one.
+// cell has the same weight. The failures of an incomplete replicate are still stored as failures. A report judges with
+// this class, and so must any rule that stops a campaign because of its results. Threads: one.
 class Evidence {
  public:
   static constexpr std::size_t kWorstRuns = 10;
@@ -66,7 +66,7 @@ class Evidence {
   std::uint64_t runs() const { return runs_; }       // read so far
   std::uint64_t complete_replicates() const { return replicates_; }
   std::uint64_t planned_replicates() const { return planned_; }
-  bool complete() const { return replicates_ >= planned_; }       // every planned replicate is
+  bool complete() const { return replicates_ >= planned_; }       // every planned replicate is complete
   std::uint64_t engine_errors() const { return engine_errors_; }  // among the runs read so far
   const std::string& sampling() const { return sampling_; }       // of cells with bounds; empty if there is none
   const std::vector<std::string>& held_streams() const { return held_streams_; }
@@ -79,10 +79,10 @@ class Evidence {
   GateResult judge(std::size_t gate) const;
   std::vector<GateResult> judge_all() const;
 
-  std::vector<Condition> conditions() const;          // by agent as the campaign names them, then by factors
-  std::vector<AgentCoverage> agent_coverage() const;  // as the campaign names them
+  std::vector<Condition> conditions() const;          // in the order of the campaign's agents, then by factors
+  std::vector<AgentCoverage> agent_coverage() const;  // in the order of the campaign's agents
   std::vector<ContractFailures> contract_failures()
-      const;  // as the campaign names the agents; without those that have none
+      const;  // in the order of the campaign's agents; only agents that have such failures
   const std::vector<FailingRun>& worst_runs(bool in_contract) const {
     return (in_contract ? worst_inside_ : worst_outside_).list();
   }
