@@ -7,14 +7,15 @@
 namespace fleetproof {
 namespace {
 
-// Cells of the grids: drives of one segment; drives of long ones; the ways across a hall.
+// Sizes of the cells: for drives of one segment, for long drives, for ways across a hall.
 constexpr std::array kCell_m = {12.0, 48.0, 192.0};
 // Half a cell, less what rounding can do to the middle of a box.
 constexpr double kHalf = 0.49;
 // A question over more cells is answered by a scan.
 constexpr std::int64_t kMostCells = 32;
 
-// Far out all cells are one, long before rounding moves the middle of a box by what is left of its half cell.
+// All places that are farther out than kFar cells share one cell. Rounding moves the middle of a box by the rest of its
+// half cell only much farther out.
 std::int64_t cell(std::uint32_t level, double at_m) {
   constexpr double kFar = 1e12;
   const double cells = std::min(std::max(at_m / kCell_m[level], -kFar), kFar);
@@ -114,7 +115,7 @@ std::span<const std::uint32_t> BroadPhase::overlapping(const Box& box) {
 void BroadPhase::scan(const Box& box) {
   const double left_m = box.low_m.x(), bottom_m = box.low_m.y(), right_m = box.high_m.x(), top_m = box.high_m.y();
   const Both left = {left_m, left_m}, bottom = {bottom_m, bottom_m}, right = {right_m, right_m}, top = {top_m, top_m};
-  // Without branches: every body is written down, and stays if it is met.
+  // Without branches: every body is written to the list, and the end of the list moves on only if the boxes overlap.
   std::uint32_t* last = found_.data();
   std::uint32_t body = 0;
   for (const Two& two : twos_) {
@@ -128,8 +129,8 @@ void BroadPhase::scan(const Box& box) {
   count_ = static_cast<std::size_t>(last - found_.data());
 }
 
-// Whoever is filed with cells of this size: its middle is no farther from its rim than half a cell. False if that would
-// be too many cells.
+// Looks at the bodies that are filed with cells of this size. The middle of such a body is at most half a cell from its
+// rim, so it looks half a cell beyond the box. False if there would be too many cells.
 bool BroadPhase::look_around(std::uint32_t level, const Box& box) {
   const double beyond_m = 0.5 * kCell_m[level];
   const std::int64_t left = cell(level, box.low_m.x() - beyond_m), right = cell(level, box.high_m.x() + beyond_m);

@@ -60,7 +60,7 @@ class Explainer {
     return drives_within(entity, Span{drive.begin, drive.end});
   }
 
-  // Both drive at some time of the violation: which of the snapshots of their common time lie in it?
+  // Both bodies drive during a part of the violation: which snapshots of their common time lie in the violation?
   std::optional<DifferenceCause> two_drives(const Violation& v, const Span& when) const {
     for (const Piece& one : timelines_.of(v.a)) {
       for (const Piece& other : timelines_.of(v.b)) {
@@ -81,7 +81,7 @@ class Explainer {
     return next < std::min(when.end, seen.end) ? DifferenceCause::Unexplained : DifferenceCause::BetweenSnapshots;
   }
 
-  // One drives, the other never does while it does so: the rule looks at boxes, or at steps.
+  // One body drives, the other does not drive during that time: the rule compares boxes, or steps.
   DifferenceCause one_drive(const Violation& v, const Span& when) const {
     for (const EntityId entity : {v.a, v.b}) {
       for (const Piece& drive : timelines_.of(entity)) {

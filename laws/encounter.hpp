@@ -8,11 +8,12 @@
 
 namespace fleetproof {
 
-// The track of one drive with its width, as far as encounters need it. It does not refer to the piece that it was made
-// from.
+// The track of one drive with its width: what is needed to judge encounters. It does not refer to the piece from which
+// it was made.
 struct Track {
   struct Point {
-    double s_m = 0.0;  // along the track; below 0 and beyond its length for the halves of the body behind and before
+    // along the track; below 0 behind the start and above the length beyond the end, for the halves of the body
+    double s_m = 0.0;
     Vec2 position_m, heading;
   };
   EntityId agv;

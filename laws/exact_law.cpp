@@ -58,7 +58,7 @@ void ExactLaw::piece_ended(const Piece& piece) {
   const Box near = swept_.box_of(mine).grown(reach_m);
   swept_.remove(mine);
   for (const std::size_t i : swept_.overlapping(near)) {
-    if (mine >= agv_count_ && i >= agv_count_) continue;  // two obstacles never matter
+    if (mine >= agv_count_ && i >= agv_count_) continue;  // two obstacles cannot violate anything
     const Piece& other = current_[i];
     const Interval common{std::max(piece.begin, other.begin), piece.end};
     // The same order of the pair whichever piece ends first, so that the order of announcements leaves no trace in the
@@ -90,15 +90,15 @@ void ExactLaw::settle_standing(const Piece& a, const Piece& b, Interval within) 
 }
 
 void ExactLaw::settle_moving(const Piece& a, const Piece& b, Interval within) {
-  // Most pairs come nowhere near the smallest clearance so far, and that settles both questions. What was met before
-  // decides no more than that: a violation is dated and measured from the start of the interval, and comes out the same
-  // in whatever order the pieces are announced.
+  // Most pairs stay farther apart than the smallest clearance so far, and that settles both questions. Earlier findings
+  // have no other influence. A violation is dated and measured from the start of the interval, so the result does not
+  // depend on the order in which pieces are announced.
   const bool lower = smallest_m_ > threshold_m_ + kBuiltToTheLimit_m;
   if (lower && !comes_below(a, b, within, smallest_m_, evaluations_)) return;
   if (const auto approach = approach_below(a, b, within, threshold_m_, evaluations_)) {
     smallest_m_ = std::min(smallest_m_, approach->closest.clearance_m);
     const auto last = last_below(a, b, {approach->first, within.end}, threshold_m_, evaluations_);
-    // A dip of a nanometre is met from one side in time and not from the other.
+    // The search finds a dip of a nanometre from one side in time, but not from the other side.
     collect_stretches(a, b, *approach, std::max(last.value_or(approach->first), approach->closest.at));
   } else if (lower) {
     const auto closest = closest_approach(a, b, within, smallest_m_, evaluations_);
@@ -106,7 +106,8 @@ void ExactLaw::settle_moving(const Piece& a, const Piece& b, Interval within) {
   }
 }
 
-// Any rise of kRiseNoticed or longer contains a probe; exit and return are then found exactly, on either side of it.
+// Every rise of kRiseNoticed or longer contains a probe. Exit and return are then found exactly, before and after the
+// probe.
 void ExactLaw::collect_stretches(const Piece& a, const Piece& b, const Approach& approach, SimTime last) {
   SimTime first = approach.first;
   for (SimTime probe = first + kRiseNoticed; probe < last; probe += kRiseNoticed) {

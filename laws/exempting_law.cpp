@@ -8,7 +8,8 @@
 namespace fleetproof {
 namespace {
 
-constexpr Duration kSample = std::chrono::milliseconds(10);  // on a straight line the ends would do: a disc is convex
+// on a straight line the two ends are enough, because a disc is convex
+constexpr Duration kSample = std::chrono::milliseconds(10);
 
 class ExemptingLaw final : public Law {
  public:

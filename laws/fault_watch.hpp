@@ -9,8 +9,8 @@
 
 namespace fleetproof {
 
-// Whether an AGV is held by a breakdown or a protective stop, or is out of order until the operator has set it down
-// somewhere else. The fleet is not accused of what it does not do meanwhile.
+// Whether an AGV is held by a breakdown or a protective stop, or is out of order until the operator has set it down.
+// During this time laws do not accuse the fleet of standing still.
 class FaultWatch {
  public:
   explicit FaultWatch(const Scenario& scenario)
@@ -34,7 +34,7 @@ class FaultWatch {
     return true;
   }
   bool holds_anybody() const { return held_ > 0; }
-  SimTime last() const { return last_; }  // when that was last so, if it is not now
+  SimTime last() const { return last_; }  // the last instant at which that was true, if it is not true now
 
  private:
   void is_out_of_order(std::size_t agv, bool now, SimTime at) {

@@ -13,7 +13,7 @@ constexpr double kNormalQuantile = 3.7190164854556804;  // of 1 - 1e-4
 constexpr std::uint32_t kExactUpTo = 512;
 
 std::uint32_t exact_rejection(std::uint32_t n) {
-  // From above: the tail P(X >= k) grows term by term until it passes the significance.
+  // Starts at the largest k: the tail P(X >= k) grows term by term until it exceeds the significance.
   double term = 1.0;  // P(X = n) = p^n
   for (std::uint32_t i = 0; i < n; ++i) term *= kContractLoss;
   double tail = 0.0;
@@ -91,7 +91,7 @@ LinkQuality::Link LinkQuality::link(std::size_t sender, std::size_t receiver, st
 }
 
 bool LinkQuality::all_in_contract(std::size_t receiver, std::int64_t second) const {
-  // A fleet that sends nothing would spend half of its run here, on links without a reception.
+  // Without this line, a fleet that sends nothing would spend half of its run here, on links without a reception.
   if (last_second_[receiver] <= second - kQualityWindow_s) return true;
   for (std::size_t sender = 0; sender < agvs_; ++sender) {
     if (sender != receiver && !link(sender, receiver, second).in_contract()) return false;

@@ -74,7 +74,7 @@ void NormalOperationLaw::happened(const TraceRecord& record) {
       agvs_[record.entity.index()].safe = read<traced::SafeMode>(record).on;
       break;
     case TraceKind::OrderReleased:
-      if (open_++ == 0) active_at_ = record.at;  // from now on there is something to do
+      if (open_++ == 0) active_at_ = record.at;  // from now on there are open transports
       break;
     case TraceKind::TransportDone:
       open_ -= open_ > 0 ? 1 : 0;

@@ -12,15 +12,15 @@ namespace fleetproof {
 //
 // For each drive activity and each other entity:
 // - If the other entity has no drive activity during the interval: one check of the activity perimeter against its
-// body.
+//   body.
 // - Otherwise, for each drive activity of the other entity in that time: one check of the two activity perimeters. If
-//   they overlap: one check for each snapshot of the common interval, without its end.
-// An activity perimeter is the axis-aligned box of everything that the AGV covers, widened by the threshold. A turn on
-// the spot is not a drive activity.
+//   they overlap: one check for each snapshot of the common interval, without its end. An activity perimeter is the
+//   axis-aligned box of everything that the AGV covers, widened by the threshold. A turn on the spot is not a drive
+//   activity.
 //
-// An entity that stands in an activity perimeter is accused for the whole activity, because the rule says no more. The
-// filed smallest clearance is the smallest at the snapshots and the end of the activity. If it is above the safety
-// distance, the accusation is false.
+// An entity that stands in an activity perimeter is accused for the whole activity, because the rule does not give a
+// shorter time. The filed smallest clearance is the smallest at the snapshots and the end of the activity. If it is
+// above the safety distance, the accusation is false.
 std::unique_ptr<Law> make_paper_law(const Scenario& scenario);
 
 }  // namespace fleetproof

@@ -23,7 +23,7 @@ struct AgvState {
   std::optional<TransportId> carried;  // transport of the load on it
   SimTime open_since = kStart, active_at = kStart, advanced_at = kStart;
   bool busy = false, off_floor = false;          // off: in the hands of the operator
-  EntityId declared;                             // the AGV for which it says it waits
+  EntityId declared;                             // the AGV for which it waits, as its agent declares
   std::uint64_t done = 0, others_done_then = 0;  // when it last advanced
 
   bool has_work() const { return !open.empty(); }
@@ -79,7 +79,7 @@ class ProgressLaw final : public Law {
   void file_circle(const std::vector<EntityId>& circle, const std::map<EntityId, Wait>& waits, SimTime now);
   void file_waits(const std::vector<EntityId>& agvs, const std::map<EntityId, Wait>& waits, SimTime first, SimTime now,
                   std::int64_t value);
-  // Files the incident, or lets the one that is under way go on. True: it is new.
+  // Files the incident, or continues the incident that is under way. True: it is new.
   bool goes_on(const Incident& incident);
 
   const Scenario& scenario_;
@@ -181,7 +181,7 @@ void ProgressLaw::load_moves(const TraceRecord& record) {
     return;
   }
   const auto known = transport_of_load_.find(load);
-  if (known == transport_of_load_.end()) return;  // a load from nowhere is for the law of containment
+  if (known == transport_of_load_.end()) return;  // the law of containment files a load that comes from nowhere
   if (to.kind == Holder::Kind::ClearedAway) return transport_over(known->second, false, record.at);
   agv.carried.reset();
   if (to.kind == Holder::Kind::Agv) agv.carried = known->second;
@@ -241,7 +241,7 @@ Wait ProgressLaw::wait_of(EntityId agv, SimTime now) const {
 }
 
 void ProgressLaw::look_for_deadlocks(SimTime now) {
-  std::map<EntityId, Wait> waits;  // of those that are stalled
+  std::map<EntityId, Wait> waits;  // of the stalled AGVs
   std::vector<EntityId> stalled;
   std::size_t at_work = 0;
   for (std::size_t i = 0; i < agvs_.size(); ++i) {

@@ -14,7 +14,7 @@ namespace fleetproof {
 //
 // The perimeter of an entity at an instant is its body with every side moved out by the threshold: an oriented box. FCL
 // checks it against the body of the other entity. A pair is accused once, no matter from which of the two activities it
-// was found: consecutive snapshots of a pair without a clean snapshot between them are one violation. Its smallest
+// was found. Consecutive snapshots of a pair without a clean snapshot between them are one violation. Its smallest
 // clearance is the smallest at these snapshots.
 class PublishedLaw : public Law {
  public:
@@ -48,7 +48,7 @@ class PublishedLaw : public Law {
 
   double threshold_m_;
   Duration step_;
-  std::vector<std::vector<Piece>> timelines_;  // by entity: its pieces, as they really happened
+  std::vector<std::vector<Piece>> timelines_;  // by entity: its pieces, as they happened, not as planned
   std::vector<Stretch> stretches_;
   std::uint64_t perimeter_checks_ = 0;
   std::uint64_t distance_evaluations_ = 0;

@@ -26,7 +26,8 @@ Violation filed(const Stretch& stretch) {
 }  // namespace
 
 void Stretch::absorb(const Stretch& other) {
-  // What stands after a touch may lie deeper, by rounding or by far; the touch has the speed that matters.
+  // After a touch, the bodies may lie deeper in each other, by rounding or by much. The speed at the touch is the one
+  // to file.
   const auto closeness = [](const Stretch& s) {
     return std::tuple(s.contact() ? 0.0 : s.closest.clearance_m, s.closest.at);
   };

@@ -13,7 +13,7 @@
 namespace fleetproof {
 namespace {
 
-// What a table shows beside the columns that all of them have.
+// The columns that not every table has.
 struct Shown {
   bool counts_only = false;
   std::vector<FactorInfo> factors{};  // without those that are only named above 0, if no cell has more

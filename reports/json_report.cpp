@@ -222,7 +222,7 @@ Json exemptions_json(const CampaignRecord& campaign) {
   return list;
 }
 
-// Every key, with an empty list where there is nothing to tell: a program that reads it need not ask first.
+// Every key is present; a list without content is empty. A program that reads the report need not test for keys.
 Json list_of(std::size_t count, const std::function<Json(std::size_t)>& item) {
   auto list = Json::array();
   for (std::size_t i = 0; i < count; ++i) list.push_back(item(i));

@@ -9,8 +9,8 @@ namespace {
 
 constexpr std::size_t kMostRows = 60;
 
-// Text in Markdown. Names come from outside: they may start no tag, link, column, code, formula or emphasis. "<= 2 s"
-// stays as it is.
+// Text in Markdown. Names come from outside. They must not start a tag, link, column, code, formula or emphasis. "<= 2
+// s" stays as it is.
 std::string escaped(const std::string& text) {
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {

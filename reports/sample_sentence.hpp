@@ -13,8 +13,8 @@ namespace fleetproof {
 // wherever loss <= 40 % and delay <= 2 s, drawn uniformly ...".
 std::string sampled(const Evidence& evidence, const std::vector<std::uint32_t>& cells);
 
-// What every format prints before its verdicts: the places and pairs that are exempt from the safety distance, and the
-// streams of randomness that were held.
+// Every format prints this before its verdicts: the places and pairs that are exempt from the safety distance, and the
+// held streams of randomness.
 std::vector<Headline> reservations(const ReportInput& input);
 
 }  // namespace fleetproof

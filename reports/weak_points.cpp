@@ -39,7 +39,7 @@ void name_cells(std::vector<std::string>& points, const Evidence& evidence, Scop
   points.push_back(text + ".");
 }
 
-// A gate that pools its cells says little about one of them alone.
+// A gate that pools its cells says little about a single cell.
 void name_short_gates(std::vector<std::string>& points, const Evidence& evidence) {
   if (evidence.counts_only()) return;
   for (std::size_t i = 0; i < evidence.gates().size(); ++i) {

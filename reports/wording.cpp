@@ -8,7 +8,7 @@
 namespace fleetproof {
 namespace {
 
-// Two decimals at most, none that say nothing.
+// At most two decimals, without zeros at the end.
 std::string hundredths(double value) {
   auto text = fmt::format("{:.2f}", value);
   while (text.ends_with('0')) text.pop_back();

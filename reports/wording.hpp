@@ -13,8 +13,8 @@
 
 namespace fleetproof {
 
-// How figures read on a page: hundredths of a second, whole centimetres (rounded down, towards the unsafe side),
-// percent with a blank before the sign.
+// Figures as text on a page: hundredths of a second, whole centimetres (rounded down, towards the unsafe side), percent
+// with a blank before the sign.
 std::string percent(double fraction);
 std::string seconds_text(double value_s);
 // A value of a factor: "40 %". Between two bounds: "0 .. 40 %".
@@ -25,7 +25,7 @@ std::string factors_text(const FactorValues& factors);
 // The values of the same factors between bounds, with the words of the last ones only: "0 .. 40 %, 2 s".
 std::string factor_spans(const FactorValues& lowest, const FactorValues& highest, std::string_view separator = ", ");
 std::string metres_text(std::int64_t value_um);
-// "> 0.5 m" if no clearance below that was met, "-" without runs.
+// "> 0.5 m" if no clearance was below 0.5 m, "-" without runs.
 std::string clearance_text(const Tally& tally);
 std::string per_hour_text(const std::optional<double>& rate);
 std::string count_text(std::uint64_t count, std::string_view singular);  // "1 run", "3 runs"
@@ -33,7 +33,8 @@ std::string hex_text(std::uint64_t digest);                              // 16 d
 std::string body_name(EntityId body, const CellRecord& cell);            // "AGV 3", "obstacle 0"
 
 // The command that replays a run, as a person copies it into a shell. An archive does not know the path of a shared
-// object: where the run's agent came from one, `plugin_agent` is its name, and the command says where the path goes.
+// object. If the agent of the run came from a shared object, `plugin_agent` is its name, and the command contains a
+// placeholder for the path.
 std::string replay_command(const std::string& archive_path, std::uint64_t run_index,
                            std::string_view plugin_agent = "");
 

@@ -20,7 +20,8 @@ namespace {
 
 constexpr int kBusyTimeoutMs = 5000;
 
-// By file type and size only: opening the file ourselves would drop SQLite's locks on it in this process.
+// Looks at file type and size only. If this function opened and closed the file, SQLite would lose its locks on it in
+// this process.
 void require_readable(const std::string& path) {
   namespace fs = std::filesystem;
   std::error_code error;
@@ -36,7 +37,7 @@ void require_readable(const std::string& path) {
   }
   if (!fs::is_regular_file(path, error))
     throw InputError(path, "this is a pipe, a device or a socket; name a campaign file");
-  for (const auto* suffix : {"-wal", "-shm", "-journal"}) {  // SQLite opens them, and would wait at a pipe
+  for (const auto* suffix : {"-wal", "-shm", "-journal"}) {  // SQLite opens these files, and would wait at a pipe
     const auto status = fs::status(path + suffix, error);
     if (fs::exists(status) && !fs::is_regular_file(status))
       throw InputError(path + suffix, "this is no regular file; remove it, it stands beside a campaign file");
@@ -44,8 +45,8 @@ void require_readable(const std::string& path) {
   if (fs::file_size(path, error) == 0) throw InputError(path, "this file is empty; name a campaign file");
 }
 
-// One state of the file for several statements, even while a campaign writes it. Within another snapshot it is that
-// one.
+// All statements see one state of the file, even while a campaign writes it. A snapshot inside a snapshot is the same
+// state.
 class Snapshot {
  public:
   explicit Snapshot(SQLite::Database& db) : db_(db), outermost_(sqlite3_get_autocommit(db.getHandle()) != 0) {
@@ -113,7 +114,7 @@ struct ArchiveReader::Impl {
   void verify(const StoredRun& stored) const;
   std::uint64_t read_all(const std::function<void(const RunRecord&)>& visit) const;
 
-  // SQLite's refusals become ours.
+  // Turns errors of SQLite into errors of this program.
   template <class Action>
   auto guarded(Action action) const {
     try {
@@ -200,7 +201,7 @@ void ArchiveReader::Impl::take_part(const PartTable& table, const SQLite::Statem
 
 void ArchiveReader::Impl::verify(const StoredRun& stored) const {
   const auto& run = stored.run;
-  // Whoever reads a run looks its cell up: that much holds even where checksums are ignored.
+  // Every reader of a run looks up its cell. The cell must therefore exist, even if checksums are ignored.
   if (run.cell >= cells.size()) damaged(fmt::format("run {} belongs to no cell of the plan", run.run_index));
   if (checksums == Checksums::Ignore) return;
   const bool sound = row_checksum(run) == stored.checksum &&

@@ -11,8 +11,8 @@
 
 namespace fleetproof {
 
-// Verify: a checksum that does not match throws EngineError with the row. Ignore: for a replay, whose purpose is to
-// find what was changed.
+// Verify: a checksum that does not match throws EngineError with the row. Ignore: for a replay, which finds out what
+// was changed.
 enum class Checksums : std::uint8_t { Verify, Ignore };
 
 // Reads a published (or live) campaign file. Threads: one.

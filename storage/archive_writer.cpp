@@ -51,7 +51,7 @@ void insert_all(SQLite::Statement& insert, std::uint64_t run_index, const std::v
 }  // namespace
 
 struct ArchiveWriter::Impl {
-  std::optional<WriteLock> lock;  // first: it is given up last
+  std::optional<WriteLock> lock;  // the first member: it is released last
   std::string path, live_path;
   Existing existing = Existing::Refuse;
   std::uint64_t cells = 0;
@@ -118,7 +118,7 @@ void ArchiveWriter::Impl::store(const RunRecord& run) {
     insert_all(*insert_probe, run.run_index, run.outcome.probes, bind_probe);
     return;
   }
-  // A run may be simulated twice, after an interruption; it may not end in two ways.
+  // After an interruption, a run may be simulated twice. Both results must be equal.
   stored_checksum->reset();
   stored_checksum->bind(1, static_cast<std::int64_t>(run.run_index));
   const bool same = stored_checksum->executeStep() &&
@@ -164,7 +164,7 @@ ArchiveWriter::ArchiveWriter(const std::string& path, const CampaignRecord& camp
     impl_->open(campaign, cells, gates);
   } catch (const SQLite::Exception&) {
     impl_->db.reset();
-    remove_live_file(impl_->live_path);  // it holds no run yet, and would stand in the way of the next try
+    remove_live_file(impl_->live_path);  // it holds no run yet, and would prevent the next try
     throw_archive_error(impl_->live_path);
   }
 }
@@ -173,7 +173,7 @@ ArchiveWriter::~ArchiveWriter() {
   if (!impl_->db) return;
   try {
     impl_->close();
-  } catch (const SQLite::Exception&) {  // what was committed stays; a destructor has nobody to tell
+  } catch (const SQLite::Exception&) {  // committed rows stay; a destructor cannot report an error
   }
 }
 

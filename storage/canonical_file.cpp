@@ -22,7 +22,8 @@
 namespace fleetproof {
 namespace {
 
-// Whatever SQLite could choose by itself is chosen here, or the bytes would depend on how a distribution built it.
+// Sets every property that SQLite could choose by itself. Otherwise the bytes would depend on how a distribution built
+// SQLite.
 void fix_format(SQLite::Database& db) {
   db.exec(fmt::format("PRAGMA page_size={}; PRAGMA encoding='UTF-8'; PRAGMA auto_vacuum=NONE; PRAGMA secure_delete=ON",
                       kPageSize));
@@ -47,7 +48,7 @@ void copy_rows(SQLite::Database& db, std::uint64_t stop_index) {
   copy_below_stop("probes", kProbeColumns, "run_index, ordinal");
 }
 
-// So that a row lost or added later is noticed, not only one that was changed.
+// With the count and the digest, a lost or added row is noticed too, not only a changed row.
 void seal(SQLite::Database& db) {
   RowsDigest digest;
   std::int64_t count = 0;

@@ -17,7 +17,7 @@ std::array<char, 8> little_endian(std::uint64_t value) {
   return bytes;
 }
 
-// Every text goes in with its length before it, so that no two different records share their bytes.
+// The length of every text comes before the text, so that no two different records have the same bytes.
 class Bytes {
  public:
   Bytes& operator<<(std::uint64_t value) {

@@ -20,7 +20,7 @@ struct CellRecord {
   std::string agent, layout;
   std::uint32_t fleet_size = 0;
   FactorValues lowest;            // the value, or the lower bound
-  FactorValues highest = lowest;  // the same again, or the upper bound
+  FactorValues highest = lowest;  // equal to the value, or the upper bound
 
   bool is_drawn() const { return lowest != highest; }
   // Whether every run of the cell is within the contract.
@@ -70,7 +70,7 @@ struct GateRecord {
   GateKind kind = GateKind::Rate;
   EndPoint end_point = EndPoint::Violation;
   Region region = Region::Contract;
-  double limit = 1e-3;                       // upper bound must be at or below it
+  double limit = 1e-3;                       // the upper bound must be at or below the limit
   double confidence = 0.95;                  // one-sided
   double min_transports_per_agv_hour = 1.0;  // a parked fleet is safe and useless
   friend bool operator==(const GateRecord&, const GateRecord&) = default;
@@ -98,9 +98,9 @@ struct CampaignRecord {
   std::string exempt_purposes;  // of stations near which the safety distance is not asked for, with blanks between;
                                 // empty: nowhere
   double exempt_radius_m = 0.0;
-  std::vector<std::string> exempt_pairs;  // "tugger and cart": kinds of bodies that it is not asked of, anywhere
-  std::vector<std::string>
-      plugin_agents;  // names of the agents that came from shared objects; none of them holds a line end
+  // "tugger and cart": pairs of kinds of bodies to which the safety distance does not apply
+  std::vector<std::string> exempt_pairs;
+  std::vector<std::string> plugin_agents;  // names of the agents that came from shared objects, without line ends
   friend bool operator==(const CampaignRecord&, const CampaignRecord&) = default;
 };
 

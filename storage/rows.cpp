@@ -19,7 +19,7 @@ class Binder {
   explicit Binder(SQLite::Statement& statement) : statement_(statement) {}
 
   Binder& operator<<(std::int64_t value) { return statement_.bind(next_++, value), *this; }
-  // SQLite knows 64-bit integers with a sign only: the same bits.
+  // SQLite has only signed 64-bit integers; the bits stay the same.
   Binder& operator<<(std::uint64_t value) { return *this << std::bit_cast<std::int64_t>(value); }
   Binder& operator<<(std::uint32_t value) { return *this << std::int64_t{value}; }
   Binder& operator<<(bool value) { return *this << std::int64_t{value ? 1 : 0}; }
@@ -35,7 +35,7 @@ class Binder {
     statement_.bind(next_++);
     return *this;
   }
-  // Whatever an agent calls things: bytes, not text.
+  // Names that an agent gives are bytes, not text.
   void bytes(const std::string& value) {
     statement_.bind(next_++, static_cast<const void*>(value.data()), static_cast<int>(value.size()));
   }

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kApplicationIdAt = 68;  // in the header of an SQLite file, big-endian
 
-// By its header, so that a damaged file of ours is still ours.
+// Judged by the header, so that a damaged campaign file still counts as a campaign file.
 bool is_campaign_file(const std::string& path) {
   std::array<char, kApplicationIdAt + 4> header{};
   std::ifstream file(path, std::ios::binary);
@@ -81,7 +81,8 @@ void require_free_live_name(const std::string& live_path, Existing existing) {
                      "a campaign of this name was interrupted; remove this file to start again, or give another name");
   std::error_code error;
   const bool empty =
-      fs::is_regular_file(status) && fs::file_size(live_path, error) == 0;  // killed before it had a header
+      // the program was killed before it wrote a header
+      fs::is_regular_file(status) && fs::file_size(live_path, error) == 0;
   if (!empty && (!fs::is_regular_file(status) || !is_campaign_file(live_path))) throw_not_ours(live_path);
 }
 

@@ -7,12 +7,12 @@
 namespace fleetproof::cli {
 
 std::string archive_name_of(std::string_view campaign_name) {
-  // The file system takes 255 bytes; names beside the archive end in up to 30 bytes more.
+  // The file system allows 255 bytes. The files beside the archive have names that are up to 30 bytes longer.
   constexpr std::size_t kLongest = 200;
   std::string name = printable(campaign_name);
   std::ranges::replace(name, '/', '-');
   std::ranges::replace(name, '\\', '-');
-  // No hidden file, no "." or "..", and nothing that a program takes for an option.
+  // No hidden file, no "." or "..", and no name that looks like an option.
   name.erase(0, std::min(name.find_first_not_of(".- "), name.size()));
   if (name.size() > kLongest) {
     std::size_t end = kLongest;

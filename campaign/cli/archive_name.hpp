@@ -5,8 +5,8 @@
 
 namespace fleetproof::cli {
 
-// The file that a campaign of this name goes to if the user names none: always a file in the current folder, whatever
-// the name holds. "night run" goes to "night run.db", "../plant 3/4" to "plant 3-4.db".
+// The archive of a campaign with this name, if the user names no file. It is always a file in the current folder,
+// whatever characters the name contains. "night run" goes to "night run.db", "../plant 3/4" to "plant 3-4.db".
 std::string archive_name_of(std::string_view campaign_name);
 
 }  // namespace fleetproof::cli

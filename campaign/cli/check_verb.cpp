@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::uint64_t kReplicatesDrawn = 20;
 
-// One run per cell until a second is over: enough for an estimate, and every world of the first replicate that it
-// reaches is really built.
+// One run for each cell, until a second is over. This is enough for an estimate, and it builds the worlds of these
+// cells.
 double mean_run_s(const CampaignPlan& plan, const AgentPrograms& programs) {
   using Clock = std::chrono::steady_clock;
   RunHost runs(plan, programs, 1);
@@ -32,7 +32,8 @@ double mean_run_s(const CampaignPlan& plan, const AgentPrograms& programs) {
   return elapsed_s / static_cast<double>(count);
 }
 
-// Draws the worlds of the first replicates, one for each layout and fleet size, and says what was refused on the way.
+// Draws the worlds of the first replicates, one for each layout and fleet size, and prints how many draws were refused
+// and why.
 void tell_rejections(const CampaignPlan& plan) {
   const ScenarioSource source(plan);
   const std::uint64_t replicates = std::min(plan.replicates, kReplicatesDrawn);

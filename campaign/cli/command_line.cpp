@@ -29,7 +29,7 @@ class Cli11Options final : public Options {
   void option(const std::string& names, std::string& value, const std::string& help) override {
     app_.add_option(names, value, help);
   }
-  // CLI11 wraps a negative number round to a huge one where the target is unsigned.
+  // If the target is unsigned, CLI11 turns a negative number into a huge one.
   void option(const std::string& names, std::optional<std::uint64_t>& value, const std::string& help) override {
     app_.add_option(names, value, help)->check(CLI::NonNegativeNumber);
   }
@@ -82,7 +82,7 @@ std::vector<std::string> options_of(const CLI::App& verb) {
   return names;
 }
 
-// An error for the first word that looks like an option of `app` and is none, or nothing.
+// An error for the first word that looks like an option but is no option of `app`. Empty if there is no such word.
 std::string unknown_option(const CLI::App& app, std::span<const char* const> words) {
   const std::vector<std::string> known = options_of(app);
   for (std::string_view word : words) {
@@ -94,7 +94,7 @@ std::string unknown_option(const CLI::App& app, std::span<const char* const> wor
   return {};
 }
 
-// CLI11 has a code of its own for each kind of slip; here all of them are bad usage.
+// CLI11 has an exit code for each kind of mistake; here every mistake is bad usage.
 int bad_usage(const CLI::App& app, const CLI::ParseError& error, std::span<const Verb> verbs,
               std::span<const char* const> words) {
   const bool has_verb = !words.empty() && words[0][0] != '-';
@@ -110,7 +110,7 @@ int bad_usage(const CLI::App& app, const CLI::ParseError& error, std::span<const
     asked = app.get_subcommand(std::string(verb));
   }
   std::string what = error.what();
-  // Without a verb CLI11 asks for one first, and with a verb it lists all words that are too many.
+  // Without a verb, CLI11 only says that a verb is needed. With a verb, it lists all superfluous words.
   if (!has_verb || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
     if (const std::string unknown = unknown_option(*asked, words); !unknown.empty()) what = unknown;
   }

@@ -46,7 +46,7 @@ Layout mutation(const GenerateWords& words, std::uint64_t key) {
                   rejection_text(counts)));
 }
 
-// The layout of the world with this seed: the same that a scenario of that seed holds, unless its first draw was
+// The layout of the world with this seed. A scenario with this seed has the same layout, unless its first draw was
 // refused.
 Layout drawn(const GenerateWords& words) {
   const auto key = stream_key(words.seed.value_or(1), Stream::Layout);

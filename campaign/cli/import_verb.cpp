@@ -23,7 +23,7 @@ struct ImportWords {
   bool merge_antiparallel = false;
 };
 
-// A word that the format does not know would silently change nothing.
+// An option that the format does not know is refused, because it would silently change nothing.
 void expect_format(const ImportWords& words, bool given, std::string_view option, std::string_view format) {
   if (given && words.format != format)
     throw InputError(option,

@@ -12,7 +12,7 @@
 namespace fleetproof::cli {
 namespace {
 
-// Whether `text` is a JSON object with this key. A file that is no JSON is none.
+// Whether `text` is a JSON object with this key. False if it is no JSON.
 bool has_key(std::string_view text, std::string_view key) {
   try {
     return parse_json(text, "").find(key) != nullptr;
@@ -31,7 +31,7 @@ bool is_picture(std::string_view text) {
   return text.starts_with("<svg") || (text.starts_with("<?xml") && text.find("<svg") != std::string_view::npos);
 }
 bool is_scenario(std::string_view text) { return has_key(text, "agvs"); }
-// The title stands first in every format for people.
+// Every format for people begins with the title.
 bool is_report(std::string_view text) {
   return text.starts_with("fleetproof report") || text.starts_with("# fleetproof report") ||
          (has_key(text, "schema_version") && has_key(text, "verdict"));

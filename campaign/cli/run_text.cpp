@@ -150,7 +150,7 @@ std::string outcome_text(const Scenario& scenario, const Outcome& outcome, bool 
   return text + counters_text(outcome) + met_text(outcome) + fmt::format("  trace digest {:016x}\n", outcome.digest);
 }
 
-// What a record says beside its time, entity and kind.
+// The content of a record, without its time, entity and kind.
 std::string TracePrinter::details_of(const TraceRecord& record, std::string_view text) const {
   const auto body = [&](EntityId id) { return body_name(scenario_, id); };
   switch (record.kind) {

@@ -10,17 +10,18 @@
 
 namespace fleetproof::cli {
 
-// As the scenario says it, with every character: what prints it passes it through printable().
+// The name as it is in the scenario, with every character. The caller passes it through printable() before it prints
+// it.
 std::string body_name(const Scenario& scenario, EntityId id);
 
-// What a published rule says otherwise than safety-distance.
+// Where the accusations of a published rule differ from those of safety-distance.
 std::string differences_text(const Scenario& scenario, const std::vector<Difference>& differences,
                              std::string_view published);
 std::string incident_text(const Scenario& scenario, const Incident& incident);
 // "met: head-on 3, agent: negotiation 17", or nothing.
 std::string met_text(const Outcome& outcome);
-// One run for a person: what happened, in times of 0.01 s and lengths of 1 cm (violations to 1 ms and 1 mm, where the
-// centimetre would hide them). Published laws leave the clearance of bodies that they do not accuse unmeasured.
+// One run as text for a person. Times have 0.01 s and lengths 1 cm. Violations have 1 ms and 1 mm, because centimetres
+// would hide small differences. Published laws leave the clearance of bodies that they do not accuse unmeasured.
 std::string outcome_text(const Scenario& scenario, const Outcome& outcome, bool clearance_measured = true);
 
 // Prints the trace of a run on stderr, one event a line.

@@ -31,8 +31,8 @@ struct RunWords {
 
 std::atomic<int> interrupted{0};
 
-// First signal: finish what is under way and keep it. Second: leave at once; the live file stays as it was at its last
-// commit.
+// First signal: finish the runs that are under way and keep them. Second signal: exit at once; the live file stays as
+// it was at its last commit.
 void on_signal(int number) {
   if (interrupted.exchange(number) != 0) std::_Exit(128 + number);
 }

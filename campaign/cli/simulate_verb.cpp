@@ -56,7 +56,8 @@ nlohmann::ordered_json to_json(const Incident& incident, const Scenario& scenari
           {"unit", info.unit}};
 }
 
-// "1s", "2.5ms", "0.0025". A microsecond at least: below, a run has more snapshots than anybody can wait for.
+// "1s", "2.5ms", "0.0025". At least a microsecond: with shorter steps, a run has so many snapshots that it takes too
+// long.
 double granularity_s(const std::string& text) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -80,7 +81,7 @@ struct Observers {
   }
 };
 
-// The judge named, and what observes beside it: the default set. A law that is no judge of clearances is asked alone.
+// The named judge, and the default set of laws beside it. A law that does not judge clearances observes alone.
 Observers observers_of(const std::string& name, const Scenario& scenario) {
   const auto* law = find_law(name);
   if (law == nullptr) {
@@ -95,7 +96,7 @@ Observers observers_of(const std::string& name, const Scenario& scenario) {
   if (!observers.laws.empty() && !published) return observers;
   std::ranges::move(make_default_laws(scenario), std::back_inserter(observers.laws));
   if (!published) return observers;
-  // What is exempt is no mistake of a rule that knows no exemptions.
+  // A published rule knows no exemptions, so an exempt violation that it files is no mistake.
   observers.laws[1] = make_exact_law(scenario);
   observers.compared_with = observers.laws[1].get();
   auto timelines = std::make_unique<TimelineKeeper>(scenario);
@@ -104,7 +105,7 @@ Observers observers_of(const std::string& name, const Scenario& scenario) {
   return observers;
 }
 
-// Only the judge of clearances by itself tells the smallest one.
+// Only a judge of clearances measures the smallest clearance.
 bool measures_clearance(const SimulateWords& words) { return find_law(words.law) == &laws().front(); }
 
 void print_json(const Scenario& scenario, const Outcome& outcome, const SimulateWords& words,

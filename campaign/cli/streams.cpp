@@ -13,8 +13,8 @@
 namespace fleetproof::cli {
 namespace {
 
-// Zero, or the error that stopped it. A pipe with room for PIPE_BUF bytes takes as many without keeping the writer
-// waiting, so `patience_ms` holds for every such piece.
+// Returns zero, or the error that stopped the write. A pipe with room for PIPE_BUF bytes accepts so many bytes without
+// a wait. `patience_ms` therefore holds for every piece of that size.
 int write_all(int descriptor, std::string_view text, int patience_ms) {
   while (!text.empty()) {
     pollfd ready{descriptor, POLLOUT, 0};
@@ -33,8 +33,8 @@ int write_all(int descriptor, std::string_view text, int patience_ms) {
 
 void open_standard_streams() {
   for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; ++descriptor) {
-    // open() takes the lowest free number. Read-only: what is written to a closed standard output is lost, and said to
-    // be.
+    // open() takes the lowest free number. Read-only: a write to a closed standard output then fails, and the program
+    // reports it.
     if (::fcntl(descriptor, F_GETFD) < 0 && errno == EBADF) (void)::open("/dev/null", O_RDONLY);
   }
   std::signal(SIGPIPE, SIG_IGN);

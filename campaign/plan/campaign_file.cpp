@@ -18,8 +18,8 @@ namespace {
 
 bool is_plugin(const std::string& word) { return word.find('/') != std::string::npos || word.ends_with(".so"); }
 
-// Reads a plan by its list of fields. Bounds are judged here, at the place of the value; rules between fields are
-// check_plan's.
+// Reads a plan by its list of fields. Bounds are checked here, at the place of the value. check_plan() checks the rules
+// between fields.
 class CampaignReader {
  public:
   CampaignReader(const std::string& path, CampaignFile& file) : path_(path), file_(file) {}
@@ -57,7 +57,7 @@ class CampaignReader {
     if (const auto given = table.given(field.key)) take_given(field, *given, target);
   }
 
-  // To name a table that can be switched on is to switch it on, unless it says otherwise.
+  // A table that can be switched on is on if the file contains it, unless `on = false` stands in it.
   template <HasFields Setup>
   void member(TomlTable& root, const Field& field, Setup& target) {
     auto table = root.table(field.key);

@@ -9,7 +9,7 @@
 
 namespace fleetproof {
 
-// A campaign file with what does not belong into the plan.
+// A campaign file: its plan, and what does not belong into the plan.
 struct CampaignFile {
   CampaignPlan plan;
   std::vector<std::string>
@@ -18,8 +18,9 @@ struct CampaignFile {
   PlanPlaces places;
 };
 
-// Reads a TOML campaign file. Layouts named by a file, in any format of importers() as its extension says, are read
-// relative to it. Throws InputError with file, line and column, the key, its value and the nearest valid key.
+// Reads a TOML campaign file. A layout that is named by its file is read relative to the campaign file. Its extension
+// names its format (importers()). Throws InputError with file, line and column, the key, its value and the nearest
+// valid key.
 CampaignFile read_campaign_file(const std::string& path);
 CampaignFile parse_campaign_file(std::string_view text, const std::string& path);
 

@@ -15,7 +15,7 @@ namespace {
 
 bool is_layout_path(const std::string& word) { return word.find('/') != std::string::npos || is_layout_file(word); }
 
-// A family with its range; a name that only looks like one is refused.
+// A family with its range. A name that is no family is refused.
 bool is_family(const std::string& word, const std::string& place) {
   if (find_entry(layout_families(), word) != nullptr) return true;
   const bool named = !is_layout_file(word) && find_entry(layout_families(), word.substr(0, word.find('/'))) != nullptr;
@@ -33,8 +33,8 @@ std::shared_ptr<const LogicalMap> read_map(const std::string& path, const Import
   return std::make_shared<const LogicalMap>(import_layout(path, choice, warnings));
 }
 
-// The keys of the options that `fleetproof import` has; a key that the format does not know would silently change
-// nothing.
+// The keys of the options of `fleetproof import`. A key that the format does not know is refused, because it would
+// silently change nothing.
 ImportChoice import_choice(TomlTable& table, const std::string& path) {
   const auto format = importer_of_file(path);
   for (const auto& [key, owner] :
@@ -76,7 +76,7 @@ LayoutFactor layout_from_word(const std::string& place, const std::string& word,
                                       name_hint(word, names)));
 }
 
-// { file = "plant.xml" } or { mutate = "plant.xml" }, with what the importer of such files lets one choose.
+// { file = "plant.xml" } or { mutate = "plant.xml" }, with the options of the importer.
 LayoutFactor layout_from_table(TomlTable& table, const std::string& path, std::vector<std::string>& warnings) {
   std::string word, base, name;
   table.get("file", word);

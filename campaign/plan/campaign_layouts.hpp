@@ -10,7 +10,7 @@
 namespace fleetproof {
 
 // The array factors.layouts: families, layout files, and tables { file = "..." } or { mutate = "..." } with the options
-// of the importer. Files are looked for beside `campaign_path`. InputError with the place of the layout.
+// of the importer. Paths of files are relative to `campaign_path`. Throws InputError with the place of the layout.
 void read_layouts(TomlTable& factors, std::string_view key, const std::string& campaign_path,
                   std::vector<LayoutFactor>& layouts, std::vector<std::string>& warnings);
 

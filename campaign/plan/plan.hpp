@@ -17,8 +17,8 @@
 
 namespace fleetproof {
 
-// What a cell has of a numeric factor: a value, or bounds between which every replicate draws its own, the same for all
-// agents, layouts and fleets.
+// A numeric factor in a cell: one value, or two bounds. Between bounds, every replicate draws its own value; the value
+// is the same for all agents, layouts and fleets.
 struct FactorSpan {
   double from = 0.0, to = 0.0;
 
@@ -56,8 +56,7 @@ struct LimitSetup {
   friend bool operator==(const LimitSetup&, const LimitSetup&) = default;
 };
 
-// A campaign as resolved from its file: everything that decides its outcomes, and nothing else (no path, no number of
-// jobs).
+// Everything that decides the outcomes of a campaign, and nothing else: no path, no number of jobs.
 struct CampaignPlan {
   std::string name = "campaign";
   CampaignKind kind = CampaignKind::Claim;
@@ -73,7 +72,7 @@ struct CampaignPlan {
   std::vector<std::uint32_t> fleet_sizes{5};
 
   std::vector<Stream> held_streams;  // the same in all replicates, in the order of kRunStreams
-  std::uint64_t held_replicate = 0;  // whose they are
+  std::uint64_t held_replicate = 0;  // the streams are those of this replicate
 
   Demand demand;
   Placement placement = Placement::Random;
@@ -86,14 +85,15 @@ struct CampaignPlan {
   DrawnSources sources;
   AgentClockSetup agent_clock;
   LawSetup law;
-  std::vector<std::string> laws_left_out;                   // of the default set
-  std::optional<std::vector<std::string>> required_probes;  // of [coverage]; absent: what its kind asks for
+  std::vector<std::string> laws_left_out;  // names of laws of the default set
+  // of [coverage]; absent: what the kind of the campaign requires
+  std::optional<std::vector<std::string>> required_probes;
   bool contact_stops = true;
   LimitSetup limits;
   std::vector<GateRecord> gates;
 
-  // What has to be met for the evidence not to be weak. A claim asks for an encounter and, of an agent that declares
-  // anything, for a negotiation.
+  // The probes that must be met; otherwise the evidence is weak. A claim requires an encounter. If an agent declares
+  // any probe, a claim requires a negotiation too.
   std::vector<std::string> probes_to_meet() const;
 
   // The values or bounds of a factor. A factor that is left out has the value of the plan's field with the same key.
@@ -103,7 +103,7 @@ struct CampaignPlan {
   std::vector<CellRecord> cells() const;
   std::uint64_t cell_count() const;
   std::uint64_t cells_per_world() const;  // neighbours that differ in factors or agent alone
-  bool is_drawn() const;                  // some factor has bounds
+  bool is_drawn() const;                  // at least one factor has bounds
   std::uint64_t run_count() const { return replicates * cell_count(); }
 };
 

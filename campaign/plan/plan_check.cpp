@@ -130,7 +130,7 @@ void check_factors(const CampaignPlan& plan, const PlanPlaces& places) {
   }
 }
 
-// Exact bounds are those of independent draws; a claim rests on them.
+// Exact bounds hold for independent draws only, and a claim needs exact bounds.
 void check_sampling(const CampaignPlan& plan, const PlanPlaces& places) {
   if (plan.sampling == Sampling::Uniform) return;
   const char* word = name_of(plan.sampling);
@@ -205,7 +205,7 @@ void check_radio(const CampaignPlan& plan, const PlanPlaces& places) {
                          fmt::format("{}: {} is refused: {}", path, text_of_field(radio, key), sentence));
       }
     }
-    radio.trace = nullptr;  // once is enough
+    radio.trace = nullptr;  // check the recording only once
   }
   const bool delay_is_bounded = radio.delay_model != RadioSetup::DelayModel::HeavyTail ||
                                 (radio.delay_tail.cap_share > 0.0 && radio.delay_tail.cap_share <= 1.0);

@@ -4,7 +4,7 @@
 #include "campaign/plan/plan.hpp"
 #include "generators/worlds/world_fields.hpp"
 
-// The fields of a campaign. Campaign files, plan texts, checks and the tables that users read all go over this list. A
+// The fields of a campaign. Campaign files, plan texts, checks and the tables that users read all use this list. A
 // table of a campaign file is a field that has fields.
 namespace fleetproof {
 

@@ -7,13 +7,13 @@
 
 namespace fleetproof {
 
-// Where a campaign file says what: "law.reaction_s" stands at "c.toml:5:14". Of an array "factors.loss", the items are
-// "factors.loss.0" and so on.
+// The places of the keys in a campaign file: "law.reaction_s" stands at "c.toml:5:14". The items of the array
+// "factors.loss" are "factors.loss.0", "factors.loss.1" and so on.
 struct PlanPlaces {
   std::string file;
   std::map<std::string, std::string, std::less<>> known{};
 
-  // Of the key, or of the nearest table around it that the file has, or the file.
+  // The place of the key. If the file does not have the key: of the nearest table around it, or the file.
   std::string of(std::string path) const;
 };
 

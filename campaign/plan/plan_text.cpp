@@ -127,7 +127,8 @@ GivenValue given_by(const Json& json) {
   return std::monostate{};
 }
 
-// Reads a plan by its list of fields. A field that an older version did not know has its default.
+// Reads a plan by its list of fields. A field that the text does not contain (it may come from an older version) has
+// its default.
 class PlanReader {
  public:
   template <HasFields Setup>

@@ -7,7 +7,7 @@
 namespace fleetproof {
 
 // The plan as one canonical JSON text, and back: parse_plan(plan_text(p)) describes the same runs, bit for bit, and
-// asks for the same evidence.
+// requires the same evidence.
 std::string plan_text(const CampaignPlan& plan);
 CampaignPlan parse_plan(const std::string& text);  // throws EngineError: only the archive holds such texts
 

@@ -27,7 +27,8 @@ RunPlace ScenarioSource::place(std::uint64_t run_index) const {
   const CellRecord& cell = place.cell;
   place.factors = cell.lowest;
   if (!cell.is_drawn()) return place;
-  // Each factor has its dimension whether it is drawn or not, so that drawing one more leaves the others as they were.
+  // Each factor has its own dimension, whether it is drawn or not. If one more factor is drawn, the draws of the others
+  // therefore stay the same.
   for (std::uint32_t dimension = 0; dimension < kFactors.size(); ++dimension) {
     const Factor factor = kFactors[dimension].id;
     place.factors[factor] = between(cell.lowest[factor], cell.highest[factor], sample_.at(place.replicate, dimension));
@@ -61,7 +62,8 @@ Scenario ScenarioSource::scenario(std::uint64_t run_index, RejectionCounts& reje
   const std::uint64_t factors = name_hash(fmt::format("{}/{}", cell.layout, cell.fleet_size));
   spec.held = {plan_.held_streams, world_seed(plan_.seed, plan_.held_replicate, factors)};
   Scenario scenario = generate_world(spec, world_seed(plan_.seed, replicate, factors), rejected);
-  scenario.name = fmt::format("{} run {}", printable(plan_.name), run_index);  // a scenario file takes it
+  // without characters that a scenario file refuses
+  scenario.name = fmt::format("{} run {}", printable(plan_.name), run_index);
   scenario.radio = plan_.radio;
   scenario.radio.sources = draw_radio_sources(plan_.sources, scenario.map->layout(), scenario.seed_of(Stream::Radio));
   scenario.agent_clock = plan_.agent_clock;

@@ -8,7 +8,7 @@
 
 namespace fleetproof {
 
-// What run number `run_index` is about.
+// The cell, the replicate and the factors of one run.
 struct RunPlace {
   std::uint64_t replicate = 0;
   CellRecord cell;
@@ -22,7 +22,7 @@ class ScenarioSource {
   explicit ScenarioSource(const CampaignPlan& plan);
   RunPlace place(std::uint64_t run_index) const;
   Scenario scenario(std::uint64_t run_index) const;
-  Scenario scenario(std::uint64_t run_index, RejectionCounts& rejected) const;  // adds what drawing its world cost
+  Scenario scenario(std::uint64_t run_index, RejectionCounts& rejected) const;  // adds the worlds that were rejected
 
  private:
   const CampaignPlan& plan_;

@@ -75,9 +75,9 @@ void add_places(const std::string& file, const toml::node& node, const std::stri
   }
 }
 
-// toml++ bounds the depth of values, but not that of keys such as a.b.c, each part of which is a table within the one
-// before: the destructors of a million of them overflow the stack. Dots in a string count too, as long as no other sign
-// of TOML stands between them.
+// toml++ limits the depth of values, but not the depth of keys such as a.b.c. Each part of such a key is a table in the
+// table before it, and the destructors of a million tables overflow the stack. Dots in a string count too, if no other
+// sign of TOML stands between them.
 void refuse_deep_keys(std::string_view text, const std::string& file) {
   constexpr std::size_t kMostDots = 32;
   const bool remarks = text.find("\"\"\"") == std::string_view::npos &&

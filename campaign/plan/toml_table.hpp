@@ -10,8 +10,8 @@
 
 namespace fleetproof {
 
-// One table of a TOML file, read key by key. Every error names file, line, column and the key; keys that nobody asked
-// for are errors too. A thin view: toml++ stays in toml_table.cpp.
+// One table of a TOML file, read key by key. Every error names file, line, column and the key; a key that was never
+// read is an error too. toml++ stays in toml_table.cpp.
 class TomlTable {
  public:
   // Parses the file. Throws InputError: no such file, or a syntax error with its line and column.
@@ -52,7 +52,7 @@ class TomlTable {
   bool is_table(std::string_view key) const;             // written [key], not [[key]]
   std::optional<TomlTable> table(std::string_view key);  // [key]
   std::vector<TomlTable> tables(std::string_view key);   // [[key]]
-  void finish() const;                                   // throws InputError if a key is left that was never asked for
+  void finish() const;                                   // throws InputError if a key was never read
   std::string place(std::string_view key) const;         // "file:line:column" of a key, or of the table
   // Of all keys and items below this table: "law.reaction_s", "factors.loss.0".
   std::map<std::string, std::string, std::less<>> places() const;

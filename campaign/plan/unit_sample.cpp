@@ -11,7 +11,7 @@
 namespace fleetproof {
 namespace {
 
-// What is drawn under the key: the third word of the counter. The fourth is the dimension.
+// The kinds of draws: the third word of the counter. The fourth word is the dimension.
 constexpr std::uint32_t kUniformTopic = 1, kWithinStratumTopic = 2, kRotationTopic = 3, kShiftTopic = 4,
                         kRoundTopic = 16;
 constexpr std::uint32_t kRounds = 8;
@@ -29,8 +29,8 @@ std::uint64_t scaled(std::uint64_t bits, std::uint64_t size) {
   return static_cast<std::uint64_t>((static_cast<Wide>(bits) * size) >> 64);
 }
 
-// A permutation of 0 .. size-1 that need not be written down: a Feistel network over the next power of four, walked
-// until it is back inside. The rotation makes every image equally likely, whatever the network is worth on a small set.
+// A permutation of 0 .. size-1 that needs no memory: a Feistel network over the next power of four, repeated until the
+// result is below the size. The rotation makes every image equally likely, even if the network mixes a small set badly.
 class Permutation {
  public:
   Permutation(std::uint64_t key, std::uint64_t block, std::uint64_t size, std::uint32_t dimension)
@@ -78,7 +78,7 @@ double UnitSample::at(std::uint64_t replicate, std::uint32_t dimension) const {
       return unit_interval(draw(key_, replicate, kUniformTopic, dimension));
     case Sampling::LatinHypercube:
       return latin(replicate, dimension);
-    // A digital shift, one for all replicates: unlike a shift modulo 1 it leaves every dyadic stratum one.
+    // One digital shift for all replicates. Unlike a shift modulo 1, it maps every dyadic stratum to a dyadic stratum.
     case Sampling::Sobol:
       return unit_interval(sobol_bits(replicate, dimension) ^ draw(key_, 0, kShiftTopic, dimension));
   }

@@ -18,12 +18,12 @@ constexpr double kBeacon_s = 1.0;
 constexpr double kTransfer_s = 5.0;     // expected, of a pick or drop
 constexpr double kTurn_s = 3.0;         // expected, of a turn on the spot
 constexpr double kLongestLead_s = 8.0;  // how long before the end of a stretch the next one is asked for, at most
-constexpr double kPatience_s = 10.0;    // how long one waits for somebody who stands in the way, plus up to half of it
+constexpr double kPatience_s = 10.0;    // how long to wait for an AGV that stands in the way; up to half of it is added
 constexpr double kPatienceInTheWay_s = 3.0;
 constexpr double kRetryPlanning_s = 2.0;
-constexpr double kOverdue_s = 5.0;         // an action that takes so much longer than expected may have been stopped
+constexpr double kOverdue_s = 5.0;         // an action that takes this much longer than expected may have been stopped
 constexpr double kClockMargin = 1.02;      // clocks may run wrong by up to 1 %
-constexpr double kFarEnoughCharged = 0.5;  // battery level with which it lets others have the place
+constexpr double kFarEnoughCharged = 0.5;  // battery level at which it leaves the charger to other AGVs
 constexpr std::uint32_t kTicksPerLookAtBattery = 8;
 
 // Members of the briefing that a host of minor version 0 does not have.
@@ -97,7 +97,7 @@ void HullLock::start_again(const Path& standing) {
     if (map_.lane(lane).segment != start_segment_) continue;
     current_ = {Leg::Kind::Drive, lane};
     Path driving = standing;
-    driving.heading = map_.start_heading(lane) * -1.0;  // it may still be turning, from wherever
+    driving.heading = map_.start_heading(lane) * -1.0;  // it may still be turning, from an unknown heading
     current_ends_s_ = now_s() + leg_time_s(current_, driving.heading);
     driving.append(lane);
     return protocol_.stand(driving);
@@ -132,7 +132,7 @@ void HullLock::tick() {
 void HullLock::action_done(std::int32_t result) {
   if (!acting_) return;
   acting_ = false;
-  if (result != FP_OK) {  // it stands where it is for good; what it holds covers that
+  if (result != FP_OK) {  // it stays where it is for good; its held hull covers that place
     wrecked_ = true;
     return set_out_of_order(true);
   }
@@ -147,7 +147,7 @@ void HullLock::find_own_place() {
   if (!controller_.pose(pose)) return;
   const double off_m = length(Vec{pose.x_m, pose.y_m} - map_.position_m(start_station_));
   if (off_m > 2.0 * settings_.position_error_m + kHullTolerance_m)
-    return;  // somewhere on an unknown lane: nobody may come near
+    return;  // somewhere on an unknown lane: no other AGV may come near
   Path standing;
   standing.station = start_station_;
   standing.heading = {pose.heading_x, pose.heading_y};
@@ -198,7 +198,7 @@ void HullLock::drive_to_charger() {
   if (bound && !protocol_.requesting()) return;
   const std::uint32_t charger = planner_.free_charger(end_of(map_, protocol_.held()).station);
   if (charger == FP_NONE || (bound && goals_.front().station == charger)) return;
-  protocol_.withdraw();  // what is requested counts goals by their places in the row
+  protocol_.withdraw();  // a request counts goals by their numbers in the row
   if (bound) goals_.erase(goals_.begin());
   goals_.insert(goals_.begin(), {charger, Leg::Kind::Charge});
   controller_.sometimes("drives-to-charger");
@@ -257,7 +257,7 @@ void HullLock::adopt_stretch() {
   legs_.insert(legs_.end(), stretch_.legs.begin(), stretch_.legs.end());
   goals_.erase(goals_.begin(), goals_.begin() + stretch_.goals);
   if (purpose_ == Purpose::Transport) demand_ns_ = -1;
-  charging_ = false;  // of those who charge, only who makes way locks anything
+  charging_ = false;  // of the AGVs that charge, only one that makes way locks floor
   const double took_s = std::min(now_s() - requested_at_s_, kLongestLead_s);
   locking_takes_s_ += 0.3 * (took_s - locking_takes_s_);
 }

@@ -24,14 +24,14 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::optional<std::string> nearest_name(std::string_view word, std::span<const std::string_view> candidates) {
-  // Nobody mistypes what is longer than a name can be, and to compare it with thousands of names would take hours.
+  // A word that is longer than every name is no mistyped name. To compare it with thousands of names would take hours.
   constexpr std::size_t kLongest = 200;
   if (word.size() > kLongest) return std::nullopt;
   std::optional<std::string> nearest;
   std::size_t smallest = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (const auto candidate : candidates) {
     const auto differing = std::max(word.size(), candidate.size()) - std::min(word.size(), candidate.size());
-    if (differing >= smallest) continue;  // so many letters differ at least
+    if (differing >= smallest) continue;  // at least this number of letters differs
     const auto distance = edit_distance(word, candidate);
     if (distance < smallest) {
       smallest = distance;

@@ -6,7 +6,8 @@ namespace fleetproof {
 
 namespace {
 
-// An error quotes words of a file, and they may be megabytes: the middle is left out, at the borders of characters.
+// An error quotes words of a file, and they may be megabytes long. The middle is left out, at the borders of
+// characters.
 std::string shortened(const std::string& text) {
   constexpr std::size_t kLongest = 1500, kBegin = 1000, kEnd = 400;
   if (text.size() <= kLongest) return text;

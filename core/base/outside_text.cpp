@@ -39,8 +39,8 @@ struct Range {
   char32_t first, last;
 };
 
-// Unicode 15: general categories Cf, Zl and Zp, the other characters that a page leaves out when it is drawn
-// (Default_Ignorable_Code_Point), and U+FFFE and U+FFFF, which XML forbids. Sorted.
+// Unicode 15, sorted: the general categories Cf, Zl and Zp; other characters that a page does not draw
+// (Default_Ignorable_Code_Point); U+FFFE and U+FFFF, which XML forbids.
 constexpr Range kUnseen[] = {
     {0x00ad, 0x00ad},   {0x034f, 0x034f},   {0x0600, 0x0605},   {0x061c, 0x061c},   {0x06dd, 0x06dd},
     {0x070f, 0x070f},   {0x0890, 0x0891},   {0x08e2, 0x08e2},   {0x115f, 0x1160},   {0x17b4, 0x17b5},

@@ -11,8 +11,8 @@
 namespace fleetproof {
 namespace {
 
-// A gap along an old direction is given up for a new measurement when it has lost this share of the clearance that was
-// measured with it.
+// A gap is followed along an old direction until it has lost this share of the clearance that was measured with the
+// direction. Then the clearance is measured again.
 constexpr double kWorn = 0.5;
 
 class Walk {
@@ -27,7 +27,7 @@ class Walk {
     arrive(from);
   }
 
-  // `start`: what was measured where the walk begins.
+  // `start`: the measurement at the beginning of the walk.
   std::optional<Hit> run(Dating dating, const Separation* start = nullptr) {
     if (start == nullptr) {
       measure();
@@ -74,8 +74,8 @@ class Walk {
     return std::max(0.0, (piece.way_at(to_) - piece.way_at(now_)) * direction.dot(body.heading));
   }
 
-  // Bodies that keep their headings come nearer along a direction by no more than what is left of their ways, whatever
-  // their phases.
+  // If bodies keep their headings, they come nearer along a direction by at most the rest of their ways, in every
+  // phase.
   bool never_meets_level() const {
     if (!measured_ || !a_.keeps_heading() || !b_.keeps_heading()) return false;
     const double nearer_m =
@@ -83,7 +83,8 @@ class Walk {
     return apart_.clearance_m - nearer_m >= level_m_;
   }
 
-  // To the end of the phase, or to where the bound meets the level and the clearance is measured anew.
+  // Goes to the end of the phase, or to the instant at which the bound meets the level. There the clearance is measured
+  // again.
   void jump() {
     if (never_meets_level()) {
       now_ = to_;
@@ -104,7 +105,8 @@ class Walk {
     const SimTime change = nearer(first.change, second.change);
     const double left_s = seconds_between(now_, change), safe_s = bound.safe_s(level_m_ - kDip_m, left_s);
     if (safe_s >= left_s) return arrive(change);
-    // From a measured instant a nanosecond is the least step; at one reached by an old bound there is still to measure.
+    // From a measured instant, the least step is a nanosecond. At an instant that an old bound reached, the clearance
+    // must still be measured.
     const bool fresh = measured_;
     const SimTime next = nearer(after(now_, safe_s), change);
     if (next != now_) {
@@ -115,8 +117,8 @@ class Walk {
     measure();
   }
 
-  // The hit lies where the bound had fallen a dip below the level; in a slow approach, the clearance did so long
-  // before. Halve the way back to where the bound met the level itself.
+  // The hit lies where the bound was a dip below the level. In a slow approach, the clearance was below the level long
+  // before. Therefore bisect back to the instant at which the bound met the level.
   Hit first_of_hit() {
     Hit hit{now_, apart_};
     arrive(from_);

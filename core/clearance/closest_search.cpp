@@ -98,8 +98,8 @@ void ClosestSearch::narrow(Sample left, Sample right, SimTime to) {
     const double width = seconds_between(left.hit.at, right.hit.at), fall = left.rate_mps, rise = right.rate_mps;
     double x = 0.5 * width;
     if (rise > 0.0) {
-      // The clearance is not convex, but near enough to it that where the tangents meet is a fair guess of what there
-      // is to gain.
+      // The clearance is not convex, but nearly. Therefore the point where the tangents meet is a fair estimate of the
+      // possible gain.
       const double kink = (right.clearance_m() - left.clearance_m() - rise * width) / (fall - rise);
       if (kink > 0.0 && kink < width) {
         if (left.clearance_m() + fall * kink > best_.apart.clearance_m - 0.25 * tolerance_m_) return;
@@ -121,7 +121,7 @@ void ClosestSearch::narrow(Sample left, Sample right, SimTime to) {
   }
 }
 
-// Makes sure of everything between the best instant and `until`.
+// Proves that no instant between the best one and `until` is better.
 void ClosestSearch::prove(SimTime until) {
   while (!below(0.0)) {
     const Hit from = best_;

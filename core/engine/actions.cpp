@@ -190,7 +190,7 @@ void Actions::begin_stay(AgvId agv) {
   ports_.battery.settle(agv);
   const SimTime full = run_.now + seconds(std::max(0.0, (1.0 - ports_.battery.level(agv)) / per_s));
   begin_activity(agv, {kind, agv, run_.now, full, BatteryEvolution{per_s}}, station.value);
-  finish(agv, 0.0);  // connected: the action is done as far as the agent is concerned
+  finish(agv, 0.0);  // connected: for the agent, the action is done
 }
 
 void Actions::begin_transfer(AgvId agv, ActivityKind kind) {
@@ -266,7 +266,7 @@ void Actions::brake(AgvId agv) {
       slices_[agv.index()].plan.stay_due = true;  // from its beginning
       break;
     case ActivityKind::Dock:
-      slices_[agv.index()].plan.dock_due = true;  // likewise
+      slices_[agv.index()].plan.dock_due = true;  // from its beginning
       break;
     case ActivityKind::Turn:
     case ActivityKind::Settle:
@@ -309,7 +309,7 @@ bool Actions::stop_for_good(AgvId agv) {
   slice.waits = false;
   slice.doing = FP_OUT_OF_ORDER;
   slice.acting = false;
-  slice.committed = slice.accepted;  // an accepted call answers for itself when it takes effect
+  slice.committed = slice.accepted;  // an accepted call sends its own answer when it takes effect
   for (int i = 0; i < under_way; ++i) tell_done(agv, FP_REFUSED);
   return true;
 }

@@ -13,7 +13,7 @@ AgentClock::AgentClock(const SensingSetup& setup)
     : offset_ns_(seconds(setup.clock_offset_s).count()),
       drift_ppb_(static_cast<std::int64_t>(std::nearbyint(setup.clock_drift_ppm * 1000.0))) {}
 
-// Second by second and what is left over, so that no product leaves 64 bits.
+// Whole seconds and the rest are multiplied separately, so that no product exceeds 64 bits.
 std::int64_t AgentClock::shows_ns(SimTime t) const {
   const std::int64_t ns = to_ns(t);
   if (drift_ppb_ == 0) return ns + offset_ns_;

@@ -13,9 +13,8 @@ namespace fleetproof {
 namespace {
 
 constexpr std::uint32_t kActivationsMax = 10'000;  // of one agent without time advancing
-// Of one agent in a run: two million, and ten thousand more for every simulated second. Far beyond what any control
-// software needs, and counted, so that an agent that sets its timer a nanosecond ahead for ever is found out at the
-// same event on every machine.
+// Of one agent in a run: two million, and ten thousand more for every simulated second. No control software needs so
+// many. An agent that sets its timer a nanosecond ahead for ever meets this limit at the same event on every machine.
 constexpr std::uint64_t kActivationsPerRun = 2'000'000, kActivationsPerSecond = 10'000;
 
 constexpr std::size_t kLongestMessage = 200;  // characters: an agent may throw any text

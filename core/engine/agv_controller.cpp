@@ -6,7 +6,7 @@ namespace fleetproof {
 namespace {
 
 constexpr std::uint32_t kCallsMax = 10'000, kServicesMax = 10'000'000;  // in one activation
-constexpr std::int64_t kDeclaredCostMax_ns = 3'600'000'000'000;  // an agent that thinks for an hour is another hang
+constexpr std::int64_t kDeclaredCostMax_ns = 3'600'000'000'000;  // an agent that thinks for an hour counts as hung
 
 }  // namespace
 

@@ -42,8 +42,8 @@ void Battery::settle(AgvId agv) {
   Slice& slice = slices_[agv.index()];
   const AgvStatus& status = run_.status(agv);
   Book use = use_until(agv, run_.now);
-  // What is not there cannot be used: an AGV that brakes with an empty battery does so by springs. Nor is a full one
-  // filled.
+  // The level stays between empty and full. An AGV with an empty battery brakes by springs, and a full battery is not
+  // charged.
   use.charged = std::min(use.charged, 1.0 - slice.level);
   use.driven = std::min(use.driven, slice.level + use.charged);
   use.idled = std::min(use.idled, std::max(0.0, slice.level + use.charged - use.driven));

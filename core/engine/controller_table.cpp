@@ -70,7 +70,8 @@ std::int32_t get_action(fp_controller* controller, std::uint32_t* out) {
   });
 }
 
-// These two have no way to refuse. They are counted, so that an agent that spends its time on them is found out.
+// These two functions cannot refuse a call. They are counted, so that an agent that never stops calling them is
+// noticed.
 std::int64_t now_ns(fp_controller* controller) {
   (void)controller->part->admit_service(controller->agv);
   return controller->part->ports().timers.now_ns(controller->agv);

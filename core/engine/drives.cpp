@@ -37,7 +37,7 @@ MotionLimits Drives::draw_limits(AgvId agv, std::uint32_t number) const {
     const double draw = run_.motion_draw(MotionTopic::Speed, agv, number);
     const double factor = 1.0 + type.speed_deviation * (2.0 * draw - 1.0);
     limits.speed_mps *= factor;
-    limits.acceleration_mps2 *= factor;  // not the brakes: that a stop is possible must stay true
+    limits.acceleration_mps2 *= factor;  // not the brakes: a stop that is possible must stay possible
   }
   return limits;
 }
@@ -45,7 +45,7 @@ MotionLimits Drives::draw_limits(AgvId agv, std::uint32_t number) const {
 void Drives::plan(AgvId agv, double from_m, double speed_mps) {
   Drive& drive = drive_of(agv);
   const Curve& curve = drive.lane->curve;
-  from_m = std::min(from_m, curve.length_m());  // the sum of the legs rounds
+  from_m = std::min(from_m, curve.length_m());  // the sum of the legs may be rounded up
   drive.leg = 0;
   if (!run_.status(agv).halts.empty()) {
     plan_stop(curve, drive.limits, from_m, speed_mps, drive.legs);
@@ -55,8 +55,8 @@ void Drives::plan(AgvId agv, double from_m, double speed_mps) {
   }
 }
 
-// How fast the AGV may pass the station at the end of its lane: standing, unless the next action has been released and
-// goes straight on.
+// The speed at which the AGV may pass the station at the end of its lane. Zero, unless the next action has been
+// released and goes straight on.
 double Drives::exit_speed_mps(AgvId agv) const {
   const Drive& drive = drives_[agv.index()];
   if (drive.next == nullptr || !aligned(*drive.lane, *drive.next)) return 0.0;

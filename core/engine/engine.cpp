@@ -81,7 +81,7 @@ void Engine::handle(const Event& event) {
   }
 }
 
-// Transports are open and no AGV has begun or ended an action for a long time, and not because a fault holds one.
+// Transports are open, and no AGV has begun or ended an action for a long time, although no fault holds an AGV.
 bool Engine::is_stuck() const {
   const bool excused = std::ranges::any_of(run_.agvs, [](const AgvStatus& agv) {
     return agv.is_held_by(Halt::Reason::Breakdown) || agv.is_held_by(Halt::Reason::ProtectiveStop);

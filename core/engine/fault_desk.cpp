@@ -49,7 +49,7 @@ void FaultDesk::load_taken_up(AgvId agv, TransportId transport) {
 
 void FaultDesk::strikes(AgvId agv, std::uint64_t number) {
   const Fault& fault = run_.scenario.faults[number];
-  // What is out of order already cannot fail.
+  // An AGV or agent that is already out of order cannot fail.
   if (concerns_agent(fault.kind) ? !ports_.agents.is_up(agv) : run_.status(agv).out_of_order) return;
   if (fault.kind == Fault::Kind::LoadDrop && !load_drops(agv, number)) return;
   ++run_.counters.faults;
@@ -76,7 +76,7 @@ void FaultDesk::end_halts_of(AgvId agv) {
   }
 }
 
-// At its time, or before it in the hands of the operator.
+// At its planned time, or earlier, when the operator helps.
 void FaultDesk::halt_ends(AgvId agv, std::uint64_t number) {
   const std::uint64_t halt = std::exchange(slices_[number].halt, std::uint64_t{0});
   if (halt == 0) return;
@@ -117,13 +117,13 @@ EntityId FaultDesk::fallen_body(std::uint64_t number) const {
   return EntityId{run_.agvs.size() + run_.scenario.obstacles.size() + static_cast<std::size_t>(before)};
 }
 
-// False if the AGV carries nothing, or the load would fall on something: then it does not fall.
+// False if the AGV carries nothing. False also if the load would fall on another body: then it does not fall.
 bool FaultDesk::load_drops(AgvId agv, std::uint64_t number) {
   const Fault& fault = run_.scenario.faults[number];
   const LoadId load = run_.world.carried_load(agv);
   if (!load.valid()) return false;
   if (fault.transport && run_.own_number(agv, run_.world.load(load).transport) != *fault.transport)
-    return false;  // another one's
+    return false;  // the fault belongs to another transport
   const Pose from = run_.pose_now(agv);
   const Pose pose{from.position_m + fault.ahead_m * from.heading + fault.left_m * left_of(from.heading), from.heading};
   if (!run_.world.is_free(placed(fault.load, pose), run_.scenario.law.safety_distance_m, run_.now)) return false;

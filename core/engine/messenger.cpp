@@ -5,8 +5,8 @@
 namespace fleetproof {
 namespace {
 
-// A reception may have three events of one kind; two bits of the payload tell them apart (no run has 2^30 messages at a
-// time): with interference the end of the air time, the arrival of the message, the arrival of its copy.
+// A reception may have three events of one kind: with interference the end of the air time, the arrival of the message,
+// the arrival of its copy. Two bits of the payload distinguish them, because no run has 2^30 messages at a time.
 constexpr std::uint32_t kAirTimeEnds = 0x80000000U, kCopy = 0x40000000U, kSlot = 0x3fffffffU;
 static_assert(kLongestMessage_bytes == FP_MESSAGE_BYTES_MAX);
 
@@ -132,7 +132,7 @@ void Messenger::arrives(AgvId receiver, std::uint64_t payload) {
   Slice& slice = slice_of(receiver);
   const bool had_unread = slice.has_unread();
   slice.inbox.push_back(slot);
-  if (had_unread && agents_.has_events_waiting(receiver)) return;  // it is going to look into its inbox anyway
+  if (had_unread && agents_.has_events_waiting(receiver)) return;  // the agent will read its inbox anyway
   fp_event event{};
   event.kind = FP_EVENT_MESSAGE;
   agents_.tell(receiver, event);

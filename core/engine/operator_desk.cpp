@@ -72,7 +72,7 @@ void OperatorDesk::change_battery(AgvId agv) {
 
 // ---- after a contact
 
-// Everything that holds the AGV ends here, but it stays out of order until it is set down.
+// Every halt of the AGV ends here, but the AGV stays out of order until it is set down.
 void OperatorDesk::take_off_floor(AgvId agv) {
   assisted(agv, Assist::Contact);
   ports_.faults.end_halts_of(agv);
@@ -101,7 +101,7 @@ void OperatorDesk::look_for_place(AgvId agv) {
   set_down(agv, place->station);
 }
 
-// Whether a lane passes there that an AGV has begun to drive or will drive next.
+// Whether a lane passes the place on which an AGV drives now or will drive next.
 bool OperatorDesk::is_on_the_way(const OrientedRectangle& place, double margin_m) const {
   Box box;
   box.add(place);
@@ -143,7 +143,7 @@ bool OperatorDesk::has_open_transport(AgvId agv) const {
                              [&](const Load& load) { return load.carrier == agv && !load.is_over(); });
 }
 
-// No AGV works, and none is held by something that ends without its agent, with or without the operator's help.
+// No AGV works, and no AGV is held by something that ends without its agent, with or without the operator.
 bool OperatorDesk::stands_still() const {
   if (!run_.transports_are_open()) return false;
   for (std::size_t i = 0; i < run_.agvs.size(); ++i) {
@@ -155,7 +155,7 @@ bool OperatorDesk::stands_still() const {
 }
 
 void OperatorDesk::looks() {
-  run_.queue.push(run_.now + kTriesAgain, EntityId{}, Event::Kind::OperatorLooks);  // last of all at its instant
+  run_.queue.push(run_.now + kTriesAgain, EntityId{}, Event::Kind::OperatorLooks);  // the last event of its instant
   if (!stands_still()) still_since_ = run_.now;
   if (standstill_called_ || run_.now - std::max(still_since_, run_.last_progress) < run_.scenario.stuck_after) return;
   const AgvId agv = longest_idle();
@@ -166,7 +166,7 @@ void OperatorDesk::looks() {
                   standstill_began_ns());
 }
 
-// Of those whose agent could be the cause: invalid if there is none.
+// The AGV that has been idle longest, of the AGVs whose agent could be the cause. Invalid if there is none.
 AgvId OperatorDesk::longest_idle() const {
   AgvId longest;
   for (std::size_t i = 0; i < run_.agvs.size(); ++i) {

@@ -35,7 +35,7 @@ void Scanner::looks(AgvId agv, std::uint64_t stamp) {
   Slice& slice = slices_[agv.index()];
   const AgvStatus& status = run_.status(agv);
   const bool held = status.is_held_by(Halt::Reason::Scanner);
-  // An AGV that stands for another reason is looked after when its next drive begins.
+  // For an AGV that stands for another reason, the scanner starts to look when the next drive begins.
   if (stamp != slice.stamp || status.out_of_order || (!status.is_driving() && !held)) return;
   double length_m = field_length_m(agv);
   if (held || slice.muted)

@@ -45,8 +45,8 @@ std::array<Arc, 2> biarc(const Pose& from, const Pose& to) {
   };
   Vec2 heading = to.heading;
   double leg = leg_m(heading);
-  // Headings that point back along the way need vast circles, or find no joint at all. Arrive otherwise: the next arcs
-  // turn the rest.
+  // Headings that point back along the way need very large circles, or have no joint at all. The arcs then arrive with
+  // another heading, and the next arcs turn the rest.
   const Vec2 ahead = direction_of(way, from.heading);
   if (!(leg * leg < 1e4 * squared) || ahead.dot(from.heading) < kBack) {
     heading = ahead.dot(from.heading) < kBack ? left_of(ahead) : ahead;
@@ -97,7 +97,7 @@ class Chain {
     return direction_of(c, direction_of(p_[3] - p_[1], direction_of(p_[3] - p_[0], at_.heading)));
   }
 
-  // The arcs so far end where the parameter is `from`, in `at_`; afterwards where it is `to`.
+  // Before the call, the arcs end in `at_`, at the parameter `from`. After the call, they end at `to`.
   void span(double from, double to, int depth) {
     const Pose end{point(to), heading(to)};
     const auto pair = biarc(at_, end);

@@ -11,8 +11,8 @@ namespace fleetproof {
 namespace {
 
 // Two numbers at once: the one about the second rectangle seen from the first's frame, and the one about the first seen
-// from the second's. (A vector type of g++ and clang, on every processor.) No branches either: mispredicted ones, not
-// arithmetic, would be the cost of a distance.
+// from the second's. (A vector type of g++ and clang, on every processor.) There are no branches, because mispredicted
+// branches would cost more than the arithmetic.
 using Both [[gnu::vector_size(16)]] = double;
 
 inline Both larger(Both a, Both b) { return a > b ? a : b; }
@@ -52,7 +52,7 @@ struct MutualView {
   }
 };
 
-// From the nearest point of the rectangle whose frame it is to a corner of the other.
+// From the nearest point of the rectangle that owns the frame to a corner of the other rectangle.
 struct CornerOffset {
   Both x, y, squared;
 };
@@ -107,7 +107,7 @@ Separation separation(const OrientedRectangle& first, const OrientedRectangle& s
   if (gap_m <= 0.0) return {gap_m, widest_axis(view, first, second, gap_m)};
   const CornerOffset nearest = nearest_corners(view);
   const double distance_m = std::sqrt(std::min(nearest.squared[0], nearest.squared[1]));
-  // So near that the offset is rounding: its direction would be noise.
+  // The bodies are so near that the offset consists of rounding: its direction would be noise.
   if (distance_m < kNoDirection_m) return {std::max(distance_m, gap_m), widest_axis(view, first, second, gap_m)};
   // Back to the floor's frame; in the second's frame the offset points from the second to the first.
   const Both hx = {first.heading.x(), -second.heading.x()}, hy = {first.heading.y(), -second.heading.y()};

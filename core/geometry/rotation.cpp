@@ -38,8 +38,8 @@ double small_cosine(double r) {
   return 1.0 - (0.5 * z - z * (z * sum));
 }
 
-// atan on [0, 1] to 1e-4 or better (Hastings' polynomial): a start for one Newton step, which takes the error below
-// 1e-12, and a second below all bits.
+// atan on [0, 1] to 1e-4 or better (Hastings' polynomial). It is the start for two Newton steps: the first makes the
+// error less than 1e-12, the second makes it less than rounding.
 double rough_arctangent(double t) {
   const double z = t * t;
   return t * (0.9998660 + z * (-0.3302995 + z * (0.1801410 + z * (-0.0851330 + z * 0.0208351))));

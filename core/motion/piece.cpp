@@ -10,8 +10,8 @@ namespace fleetproof {
 namespace {
 
 // The part of an arc from its start to an arc length, swept by a footprint. Each corner runs on a circle about the
-// arc's centre and leaves its chord by no more than radius * angle^2 / 8; the chords lie in the box of the bodies at
-// their ends.
+// centre of the arc. Its distance to its chord is at most radius * angle^2 / 8. The chords lie in the box of the bodies
+// at their ends.
 void add_swept_arc(Box& box, const Arc& arc, double length_m, const Footprint& footprint) {
   constexpr double kMostSteps = 1e4;
   const double turned_rad = std::abs(arc.curvature_per_m) * length_m;

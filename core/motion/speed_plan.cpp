@@ -32,7 +32,7 @@ void cut(const Curve& curve, double speed_mps, double lateral_mps2, double from_
   }
 }
 
-// Standing is standing: what rounding leaves of a stop is no speed to roll on with.
+// A stop is a stop: a speed that only rounding leaves becomes zero.
 double after(double speed, double acceleration, double way) {
   const double squared = speed * speed + 2.0 * acceleration * way;
   return squared < kStands_m2ps2 + kStands * speed * speed ? 0.0 : std::sqrt(squared);

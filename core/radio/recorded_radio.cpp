@@ -13,7 +13,7 @@ auto order(const RecordedMessage& message) { return std::tuple(message.sender, m
 RecordedRadio::RecordedRadio(std::shared_ptr<const RadioTrace> trace) : trace_(std::move(trace)) {
   if (empty()) return;
   period_ = std::ranges::max_element(*trace_, {}, &RecordedMessage::sent)->sent +
-            Duration{1};  // the last instant is part of it
+            Duration{1};  // the last instant belongs to the recording
 }
 
 const RecordedMessage* RecordedRadio::at(AgvId sender, AgvId receiver, SimTime t) const {

@@ -73,8 +73,8 @@ class AisleGrid {
     }
   }
 
-  // The four outer lines form a ring that can be driven all round in one direction; every inner line starts and ends on
-  // it. So the map is strongly connected for all drawn directions.
+  // The four outer lines form a ring in one direction, and every inner line starts and ends on the ring. The map is
+  // therefore strongly connected for all drawn directions.
   void connect() {
     const bool clockwise = draws_.below(2) == 0;
     const Way with = clockwise ? Way::Forward : Way::Backward, against = clockwise ? Way::Backward : Way::Forward;

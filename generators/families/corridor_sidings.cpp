@@ -68,15 +68,15 @@ class CorridorSidings {
     }
   }
 
-  // Whoever meets in the corridor has to back out of it: there is one place to pass, or none.
+  // AGVs that meet in the corridor must back out of it, because there is only one place to pass, or none.
   void draw_one_siding_or_none() {
     if (draws_.below(2) == 0) return;
     const std::uint32_t at = 1 + draws_.below(sizes_.steps - 3);
     sidings_.push_back({at, at + 2, draws_.below(2) == 0, Way::Both});
   }
 
-  // Branches off in a gentle bend, runs beside the corridor, comes back in another; every inner station of it is a
-  // place to wait.
+  // A siding leaves the corridor in a gentle bend, runs beside it, and comes back in another bend. Every inner station
+  // of a siding is a place to wait.
   void add_siding(const Siding& siding) {
     const std::int64_t y = siding.left ? sizes_.offset : -sizes_.offset;
     StationId before = corridor_[siding.first];

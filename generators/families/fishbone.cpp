@@ -19,9 +19,9 @@ struct Sizes {
 
 std::int64_t whole_mm(double mm) { return static_cast<std::int64_t>(mm + 0.5); }
 
-// Both legs of the diagonal's angle are at least `shorter`: at 45 degrees a station beside the diagonal is then 0.707
-// of it away. Stress: flatter or steeper, and so narrow that bodies on neighbouring aisles pass within a hand's
-// breadth.
+// Both legs of the diagonal's angle are at least `shorter`. At 45 degrees, a station beside the diagonal is then 0.707
+// of `shorter` away from it. Stress: flatter or steeper, and so narrow that bodies on neighbouring aisles pass each
+// other within 10 cm.
 Sizes draw_sizes(Draws& draws, Range range) {
   Sizes s{};
   const bool stress = range == Range::Stress, steep = stress && draws.below(2) == 0;
@@ -59,7 +59,7 @@ class Fishbone {
   }
 
  private:
-  // Picking aisles are what is neither on a diagonal nor on the front, back and side aisles.
+  // The other stations, which are on no diagonal and on no front, back or side aisle, form the picking aisles.
   void place(std::int32_t column, std::int32_t row) {
     const std::int32_t away = std::abs(column), last = sizes_.steps;
     const bool cross = away == row || row == 0 || row == last || away == last;
@@ -68,8 +68,8 @@ class Fishbone {
         builder_.station(name, {column * sizes_.dx, row * sizes_.dy}, cross ? Purpose::Routing : Purpose::Storage);
   }
 
-  // Cross aisles are two-way. A picking aisle leads from one of them to another, so that its direction cuts nothing
-  // off.
+  // Cross aisles are two-way. A picking aisle leads from one cross aisle to another, so its direction makes no station
+  // unreachable.
   void add_half(std::int32_t side) {
     const std::int32_t last = sizes_.steps;
     for (std::int32_t k = 0; k < last; ++k) {

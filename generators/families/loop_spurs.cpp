@@ -93,7 +93,7 @@ class LoopSpurs {
     }
   }
 
-  // Lanes across the loop, two by two: the two of a pair cross each other where there is no station.
+  // Lanes across the loop, in pairs. The two lanes of a pair cross each other at a place without a station.
   void add_chords() {
     const std::uint32_t pairs = 1 + draws_.below(2), half = sizes_.along / 2;
     for (std::uint32_t k = 0; k < pairs; ++k) {
@@ -110,7 +110,7 @@ class LoopSpurs {
                       draws_.below(2) == 0 ? Way::Forward : Way::Backward);
   }
 
-  // Outwards everywhere; inwards from the long sides only, as far as the loop is wide enough for waiting there.
+  // Spurs lead outwards everywhere. They lead inwards from the long sides only, where the loop is wide enough to wait.
   std::vector<Site> sites() const {
     const std::int64_t spur = sizes_.spur, inside = height() + 2 * sizes_.radius;
     const bool lower_inwards = range_ == Range::Normal && inside >= spur + kRoomToWait_mm,

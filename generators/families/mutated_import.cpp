@@ -46,7 +46,8 @@ enum class Fate : std::uint8_t { AsItIs, Turned, LeftOut };
 std::vector<Fate> draw_fates(const Layout& base, Draws& draws) {
   const std::uint32_t left_out_percent = draws.below(kMostLeftOut_percent + 1),
                       turned_percent = draws.below(kMostTurned_percent + 1);
-  // One turned alone usually cuts off what lies on its line; all of them turned keep every way round.
+  // If only one segment of a ring is reversed, stations usually become unreachable. If all of them are reversed, every
+  // station stays reachable.
   const bool all_turned = draws.below(4) == 0;
   std::vector<Fate> fates(base.segments.size());
   for (std::size_t i = 0; i < fates.size(); ++i) {

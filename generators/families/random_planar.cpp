@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::int64_t kLeastDistance_mm = 4'000, kLongestSegment_mm = 9'000;
 constexpr std::uint32_t kThrows = 400, kMostStations = 34, kFewestStations = 16, kFewestUnderStress = 12;
-constexpr std::uint32_t kFirstGentleTry = 8;  // of drawing a network whose core is large enough
+constexpr std::uint32_t kFirstGentleTry = 8;  // from this try on, every edge is two-way
 
 std::int64_t squared(std::int64_t x) { return x * x; }
 std::int64_t squared_distance(PointMm a, PointMm b) { return squared(a.x - b.x) + squared(a.y - b.y); }
@@ -29,8 +29,8 @@ class RandomPlanar {
  public:
   RandomPlanar(Draws& draws, Range range) : draws_(draws), range_(range) {}
 
-  // The first tries leave edges out and make some one-way; a core too small is drawn anew, in the end with every edge
-  // two-way.
+  // The first tries leave edges out and make some edges one-way. If the core is too small, the network is drawn again;
+  // the last tries make every edge two-way.
   Layout make() {
     for (std::uint32_t attempt = 0;; ++attempt) {
       strew();
@@ -43,7 +43,7 @@ class RandomPlanar {
   }
 
  private:
-  // Poisson disk: darts that fall too near to an earlier one are taken away.
+  // Poisson disk: a point that would lie too near to an earlier point is not added.
   void strew() {
     const std::int64_t width = draw_between(draws_, 22'000, 32'000, 500),
                        height = draw_between(draws_, 16'000, 24'000, 500);
@@ -57,9 +57,9 @@ class RandomPlanar {
     }
   }
 
-  // Two stations are neighbours in the Gabriel graph if no third lies in the circle over the line between them. So a
-  // station is at least 0.707 of the least distance from every line of which it is no end: room to wait, and no lines
-  // that cross.
+  // Two stations are neighbours in the Gabriel graph if no third lies in the circle over the line between them. So no
+  // lines cross, and a station keeps at least 0.707 of the least distance from every line that does not end at it. This
+  // is room to wait.
   bool are_neighbours(std::size_t a, std::size_t b) const {
     const std::int64_t apart = squared_distance(points_[a], points_[b]);
     if (apart > squared(kLongestSegment_mm)) return false;
@@ -105,9 +105,9 @@ class RandomPlanar {
     points_ = std::move(kept);
   }
 
-  // Beside up to three of the longer edges, a lane that leaves one end under less than 30 degrees, runs along at 1.2
-  // to 1.5 vehicle widths and comes back to the other end in the same way. Two bodies side by side there share no
-  // station, yet little or no room.
+  // Adds a lane beside up to three of the longer edges. It leaves one end at less than 30 degrees, runs beside the edge
+  // at 1.2 to 1.5 vehicle widths, and comes back to the other end in the same way. Two bodies side by side there share
+  // no station, but have little or no room.
   bool squeeze_in_lanes() {
     const std::size_t before = edges_.size();
     std::size_t squeezed = 0;

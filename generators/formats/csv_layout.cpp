@@ -56,7 +56,7 @@ class TableReader {
     throw InputError(at_line(source_, lines_.number()), sentence);
   }
 
-  // Each table has one, at its top: below, stations may be named "from" and "to".
+  // Each table has its header at its top. In the rows below, stations may have the names "from" and "to".
   bool is_heading(const std::vector<std::string>& fields) const {
     const auto has = [&](std::string_view name) { return std::ranges::find(fields, name) != fields.end(); };
     if (columns_.empty() && has("id") && has("x") && has("y")) return true;
@@ -74,11 +74,11 @@ class TableReader {
                            name_hint(fields[i], known)));
       }
       if (!columns_.emplace(fields[i], i).second)
-        refuse(fmt::format("column {} is there twice; keep one", in_quotes(fields[i])));
+        refuse(fmt::format("column {} occurs twice; keep one", in_quotes(fields[i])));
     }
   }
 
-  // Empty where the column or the field is not there.
+  // Empty if the column or the field does not exist.
   std::string field(const std::vector<std::string>& fields, std::string_view column) const {
     const auto found = columns_.find(column);
     return found == columns_.end() || found->second >= fields.size() ? "" : fields[found->second];

@@ -21,7 +21,7 @@
 namespace fleetproof {
 namespace {
 
-// The first of two spellings that is there: LIF 1.0 says vehicleType where its successor says mobileRobotType.
+// The first of two spellings that the file has. LIF 1.0 says vehicleType, its successor says mobileRobotType.
 std::optional<JsonReader> either(const JsonReader& object, std::string_view old_key, std::string_view new_key) {
   auto found = object.find(old_key);
   return found ? found : object.find(new_key);
@@ -224,7 +224,7 @@ class LifReader {
     }
   }
 
-  // Refuses the first fault of the finished layout where it was written.
+  // Refuses the first fault of the finished layout, at the place in the file that caused it.
   void refuse_problems(const JsonReader& layout) const {
     const auto problems = problems_of(layout_);
     if (problems.empty()) return;
@@ -244,7 +244,7 @@ class LifReader {
   std::vector<JsonReader> nodes_, edges_;  // by station and by segment, as long as no two segments are merged
   std::set<std::string> node_names_, edge_names_, elsewhere_;
   std::map<std::string, StationId> stations_;
-  std::map<std::size_t, Purposes> stated_;  // by station: told in its description
+  std::map<std::size_t, Purposes> stated_;  // by station: given in the description of the station
   std::size_t limited_ = 0;
 };
 

@@ -103,7 +103,7 @@ void write_edges(JsonWriter& writer, const Layout& layout) {
     points.push_back(to.position_m);
     write_edge(writer, segment.name, from, to, points);
     if (!segment.bidirectional) continue;
-    // Names are at most 200 bytes, so is this one.
+    // Names have at most 200 bytes, and so must this name.
     auto back = segment.name.size() > 190 ? std::to_string(&segment - layout.segments.data()) : segment.name;
     do {
       back += '~';

@@ -88,8 +88,8 @@ std::vector<Vec2> points_along(const Nurbs& n) {
   return points;
 }
 
-// Cubic pieces through points. In each of them the curve is parallel to the line between its neighbours; it leaves the
-// outermost ones the way a circle would.
+// Cubic pieces through points. At each inner point, the curve is parallel to the line between the neighbours of the
+// point. At the two outermost points, it has the direction of a circle.
 std::vector<Vec2> smooth_through(const std::vector<Vec2>& p) {
   std::vector<Vec2> tangents(p.size());
   for (std::size_t i = 1; i + 1 < p.size(); ++i) {

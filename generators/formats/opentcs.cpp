@@ -20,8 +20,8 @@ namespace fleetproof {
 namespace {
 
 constexpr double kNewestVersion = 7.0;
-constexpr double kDefaultScale_mm = 50.0;  // of a layout unit, where the model does not say
-constexpr double kToleratedLength = 0.02;  // share by which a stored length may be off
+constexpr double kDefaultScale_mm = 50.0;  // of a layout unit, if the model gives no scale
+constexpr double kToleratedLength = 0.02;  // share by which a stored length may be wrong
 
 // A word in the name of a location type, or of its symbol, and what it says about the points linked to such locations.
 struct PurposeWord {
@@ -80,11 +80,11 @@ class ModelReader {
     if (!read_number(version.substr(0, version.find('.')), major)) {
       warn(model, fmt::format("version {} is read as version 7", in_quotes(version)));
     } else if (major > kNewestVersion) {
-      warn(model, fmt::format("version {} is newer than 7, as which it is read", in_quotes(version)));
+      warn(model, fmt::format("version {} is newer than 7; it is read as version 7", in_quotes(version)));
     }
   }
 
-  // Control points of paths are in layout units, their y axis pointing down.
+  // Control points of paths are in layout units, and their y axis points down.
   void read_scale(const pugi::xml_node& model) {
     const auto layout = model.child("visualLayout");
     if (!layout) {
@@ -156,7 +156,7 @@ class ModelReader {
     const std::size_t expected = type == "BEZIER" ? 2 : type == "BEZIER_3" ? 5 : 0;
     if (expected == 0) {
       if (type == "POLYPATH" && !points.empty())
-        warn(path, fmt::format("path {} is a polyline; a straight line takes its place", in_quotes(segment.name)));
+        warn(path, fmt::format("path {} is a polyline; it is replaced by a straight line", in_quotes(segment.name)));
       return;
     }
     if (points.size() != expected) {
@@ -210,7 +210,7 @@ class ModelReader {
     }
   }
 
-  // Where a fault of the finished layout was written.
+  // The place in the file that caused a fault of the finished layout.
   pugi::xml_node origin(std::string_view pointer, const pugi::xml_node& model) const {
     const bool of_segment = pointer.starts_with("/segments/");
     double index = 0.0;

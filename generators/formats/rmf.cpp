@@ -19,7 +19,7 @@
 namespace fleetproof {
 namespace {
 
-// Attributes of lanes that change how a fleet drives them, and have no counterpart here.
+// Attributes of lanes that change how a fleet drives, but that this project does not model.
 constexpr const char* kUnreadLaneWords[] = {
     "orientation", "orientation_constraint", "speed_limit", "mutex", "dock_name", "door_name", "lift"};
 
@@ -86,21 +86,21 @@ class LevelReader {
     return yaml_.index_below(vertices_.size(), yaml_.item(list, at, what), fmt::format("{} names vertex", what));
   }
 
-  // The building file says [type, value] where the nav graph says value. Undefined if the word is not there.
+  // The building file says [type, value] where the nav graph says value. Undefined if the attribute does not exist.
   static YAML::Node parameter(const YAML::Node& words, const char* word) {
     if (!words.IsMap()) return YAML::Node(YAML::NodeType::Undefined);
     const auto found = words[word];
     return found.IsDefined() && found.IsSequence() && found.size() == 2 ? found[1] : found;
   }
 
-  // Whether a word is there and says something: not false, empty or 0.
+  // Whether the attribute exists and is not false, empty or 0.
   static bool is_set(const YAML::Node& words, const char* word) {
     const auto value = parameter(words, word);
     if (!value.IsDefined() || value.IsNull()) return false;
     return !value.IsScalar() || (value.Scalar() != "false" && !value.Scalar().empty() && value.Scalar() != "0");
   }
 
-  // The words about a vertex or lane: its last item, where that is a map.
+  // The attributes of a vertex or lane: its last item, if that is a map.
   static YAML::Node words_of(const YAML::Node& list) {
     return list.IsSequence() && list.size() > 2 ? list[list.size() - 1] : YAML::Node(YAML::NodeType::Undefined);
   }

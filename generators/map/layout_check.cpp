@@ -96,7 +96,7 @@ bool on_the_floor(const Vec2& p) {
   return std::abs(p.x()) <= kLargestCoordinate_m && std::abs(p.y()) <= kLargestCoordinate_m;
 }
 
-// Beziers with cusps and loops are easier tried than judged.
+// For a Bezier curve with cusps or loops, a trial construction is simpler than a check of the numbers.
 std::string fault_of_curve(const Curve& curve) {
   if (!(curve.length_m() >= kShortestSegment_m)) return "it has no length; move its stations apart or leave it out";
   const auto arcs = curve.arcs();

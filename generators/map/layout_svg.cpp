@@ -22,8 +22,8 @@ struct Look {
   const char* colour;
 };
 
-// A station with several purposes shows the first of these; colours differ for colour-blind eyes too, and shapes say
-// the same.
+// A station with several purposes shows the first purpose of this list. Colour-blind people can distinguish the
+// colours, and shapes carry the same information.
 constexpr Look kLooks[] = {{Purpose::Charging, "charging", "#e69f00"},
                            {Purpose::Parking, "parking", "#0072b2"},
                            {Purpose::Storage, "storage", "#009e73"},
@@ -36,7 +36,7 @@ const Look& look_of(const Station& station) {
   return kLooks[3];
 }
 
-// A text in XML: nothing in it is read as markup, and XML has none of the characters that cannot be printed.
+// A text in XML. Nothing in it is read as markup, and characters that XML forbids are escaped.
 std::string escaped(std::string_view text) {
   std::string out;
   for (const char c : printable(text)) {
@@ -57,7 +57,7 @@ std::string escaped(std::string_view text) {
   return out;
 }
 
-// Where a name stands.
+// The place of a name.
 struct Written {
   Vec2 low_px, high_px;
 
@@ -134,8 +134,8 @@ class Picture {
         segment.bidirectional ? "#9a9a9a" : "#c2410c", std::clamp(0.08 * scale_, 1.0, 2.5));
   }
 
-  // A little beyond half-way, where lanes that cross most often do, and on long segments more of them; never so near to
-  // a station that its mark hides them.
+  // Arrow heads stand a little beyond half-way, because crossing lanes usually cross at half-way. Long segments have
+  // more of them. No arrow head is so near to a station that the mark of the station hides it.
   void arrows(const Segment& segment) {
     const Curve curve = segment_curve(layout_, segment);
     const double size_px = std::min(1.1 * radius_px(), 8.0);

@@ -11,7 +11,7 @@ constexpr std::uint32_t kNone = ~0U;
 // Arrows by the node they leave, one after the other in one array: [first[n], first[n + 1]) leave n.
 struct Successors {
   Successors(std::size_t nodes, std::span<const Arrow> arrows) : first(nodes + 2, 0), to(arrows.size()) {
-    // Counted two places further on: filling moves the beginnings to where they belong.
+    // Counts are stored two places further on. Filling then moves the beginnings to their final places.
     for (const auto& arrow : arrows) ++first[arrow.from + 2];
     for (std::size_t n = 2; n < first.size(); ++n) first[n] += first[n - 1];
     for (const auto& arrow : arrows) to[first[arrow.from + 1]++] = arrow.to;

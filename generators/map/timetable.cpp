@@ -64,7 +64,7 @@ Duration Timetable::duration_of_turn(std::uint32_t before, std::uint32_t after) 
   return angle > kAligned_rad ? MotionProfile(angle, type_.turn.as_motion()).duration() : Duration::zero();
 }
 
-// A dead end beside the way is no way on: its one lane leads back.
+// A dead end beside the way does not count: its only lane leads back.
 void Timetable::find_ways_on() {
   std::vector<std::uint32_t> lanes_to(map_.station_count(), 0);
   for (const auto& hop : hops_) ++lanes_to[hop.to];
@@ -84,8 +84,8 @@ void Timetable::find_ways_on() {
   }
 }
 
-// Lanes from a station that has but one way on, until one is reached that has more, or that all ways are known from.
-// Round a one-way loop they are searched once. Empty if there is nothing to follow.
+// The lanes from a station with only one way on, up to a station with more ways, or to a station from which all ways
+// are known. The stations of a one-way loop are searched once. Empty if there is nothing to follow.
 std::span<const std::uint32_t> Timetable::followed_from(StationId start) {
   followed_.clear();
   StationId end = start;
@@ -94,7 +94,7 @@ std::span<const std::uint32_t> Timetable::followed_from(StationId start) {
     end = StationId{hops_[followed_.back()].to};
     if (end == start) return {};
     if (followed_.size() <= map_.station_count()) continue;
-    // Round in a circle that does not lead back to the start: to the place on it that has been come to.
+    // A circle that does not lead back to the start: the lanes up to the first station of the circle.
     const auto first = std::ranges::find(followed_, end.value, [&](std::uint32_t lane) { return hops_[lane].to; });
     followed_.erase(first + 1, followed_.end());
     break;
@@ -119,8 +119,8 @@ Duration Timetable::pass(std::span<const std::uint32_t> followed) {
   return arrives;
 }
 
-// All ways lead along the lanes that are followed, but those into dead ends beside them: they are those from their end,
-// and as much later.
+// Except for ways into dead ends beside them, all ways follow these lanes. They are therefore the ways from the end of
+// these lanes, later by the time that the lanes take.
 bool Timetable::follow(QuickestWays& ways) {
   const auto followed = followed_from(ways.from);
   if (followed.empty()) return false;
@@ -157,7 +157,7 @@ void Timetable::search(QuickestWays& ways) {
   });
 }
 
-// All ways to the station that are as quick as its quickest are known by now. Times with turns follow along the tree.
+// At this point, all equally quick ways to the station are known. Times with turns are computed along the tree.
 void Timetable::arrive(QuickestWays& ways, std::uint32_t station) const {
   const auto& reached = reached_[station];
   auto& arrival = ways.arrivals[station];

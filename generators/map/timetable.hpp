@@ -11,16 +11,16 @@
 
 namespace fleetproof {
 
-// The quickest ways from one station to all others: from rest to rest over every lane, the way agents that ask nobody
-// drive. Ways are chosen without regard to turns; the times of arrival contain them. The first lane is driven without
-// turning.
+// The quickest ways from one station to all others. An AGV drives every lane from rest to rest, like an agent that does
+// not coordinate. The choice of the ways ignores turns; the times of arrival include turns. There is no turn before the
+// first lane.
 struct QuickestWays {
   static constexpr std::uint32_t kNone = kNoLane;
 
   struct Arrival {
-    Duration drives_off{}, arrives{};  // when the last lane is begun, after the turn, and ended
-    std::uint32_t lane = kNone;        // the last one; kNone at `from` and where no way leads
-    std::uint32_t first = kNone;       // lane on which the way begins; likewise
+    Duration drives_off{}, arrives{};  // start (after the turn) and end of the drive on the last lane
+    std::uint32_t lane = kNone;        // the last lane; kNone at `from`, and if there is no way
+    std::uint32_t first = kNone;       // the first lane; kNone likewise
     bool unique = false;               // no other way is as quick, to the microsecond
   };
 
@@ -32,7 +32,8 @@ struct QuickestWays {
   std::vector<std::uint32_t> lanes(const LogicalMap& map, StationId station) const;
 };
 
-// Quickest ways of one vehicle type, searched when first asked for. Map and type outlive it.
+// The quickest ways of one vehicle type. A search happens at the first question. Requires: map and type outlive the
+// timetable.
 class Timetable {
  public:
   Timetable(const LogicalMap& map, const VehicleType& type);
@@ -51,7 +52,7 @@ class Timetable {
 
   const LogicalMap& map_;
   const VehicleType& type_;
-  // By lane, side by side for the search.
+  // By lane. These members are side by side because the search reads them together.
   struct Hop {
     std::uint32_t from, to;
     Duration drive;
@@ -59,8 +60,8 @@ class Timetable {
     std::uint32_t first_turn;  // of those at its end, in turns_
   };
   std::vector<Hop> hops_;
-  std::vector<std::uint32_t>
-      onward_;  // by station: the one lane on, apart from those into dead ends; kNone if there are none or several
+  // By station: the only lane that leads on, not counting dead ends; kNone if there is none or more than one.
+  std::vector<std::uint32_t> onward_;
   mutable std::vector<Duration> turns_;  // by lane, and place of the next one; negative: not asked for yet
   std::vector<QuickestWays> ways_;       // by station; empty: not asked for yet
 

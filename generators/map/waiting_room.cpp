@@ -49,8 +49,7 @@ bool cuts(Search& search, StationId station, const Reachability& reachability) {
   return search.count(from, station, true) + 1 < core.size() || search.count(from, station, false) + 1 < core.size();
 }
 
-// Two places of storage before all else, so that there is still something to transport; then one to park and one to
-// charge.
+// First two places of storage, so that there are transports; then one place to park and one to charge.
 std::vector<std::size_t> in_order_of_need(const Layout& layout) {
   std::vector<std::size_t> order;
   for (const auto& [purpose, count] :

@@ -10,12 +10,12 @@
 
 namespace fleetproof {
 
-// What a scenario file may hold in the place of a struct, collected from its list of fields.
+// The keys that a scenario file may contain for a struct, collected from the list of fields of the struct.
 class KnownKeys {
  public:
   // `place` is "key" or "group/key". A time may be given in seconds ("at_s") or in whole nanoseconds ("at_ns").
   void add(std::string_view place, bool is_time);
-  // InputError, with the nearest key of the right object, if `object` or a group in it holds another key.
+  // Throws InputError, with the nearest valid key, if `object` or a group in it contains another key.
   void expect(const JsonReader& object) const;
 
  private:
@@ -35,10 +35,11 @@ void expect_keys_of(const JsonReader& object, Setup& setup) {
   known.expect(object);
 }
 
-// The value at "key" or "group/key"; InputError if it is absent and needed.
+// The value at "key" or "group/key". Throws InputError if it is absent and needed.
 std::optional<JsonReader> find_field(const JsonReader& object, const Field& field);
 
-// The same for a time, which stands as "..._s" or "..._ns"; both at once are refused. `in_ns` says which it was.
+// The same for a time. Its key ends in "_s" or "_ns"; a file that has both is refused. `in_ns`: whether the key ended
+// in "_ns".
 struct FoundTime {
   JsonReader reader;
   bool in_ns = false;

@@ -88,7 +88,7 @@ class RadioRules {
         fault = "messages are listed in order of sender, receiver and instant of sending";
       if (fault == nullptr) continue;
       add(fmt::format("trace/{}", i), fault);
-      return;  // one is enough: a recording has thousands
+      return;  // one fault is enough: a recording has thousands of messages
     }
   }
 

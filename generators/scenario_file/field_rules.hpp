@@ -8,8 +8,8 @@
 
 namespace fleetproof {
 
-// Rules between two fields of one struct; the bounds of each field stand in the lists of fields. A fault names a field
-// by its key, or a recorded message as "trace/7". Fields beyond their bounds or not a number are not judged here.
+// Rules between two fields of one struct. The bounds of each field are in the lists of fields. A fault names a field by
+// its key, or a recorded message as "trace/7". A field that is out of bounds or not a number is not judged here.
 std::vector<FieldFault> rule_faults(const RadioSetup& radio);
 std::vector<FieldFault> rule_faults(const OperatorSetup& help);
 

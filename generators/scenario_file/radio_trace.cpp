@@ -17,7 +17,8 @@ constexpr std::string_view kHeading = "sender,receiver,t_send_s,t_recv_s";
 constexpr std::uint32_t kMostAgvs = 65536;
 constexpr std::size_t kMostWholeDigits = 10, kFractionDigits = 9;
 constexpr std::int64_t kLatest_s = 9'000'000'000, kNanoseconds = 1'000'000'000;  // beyond, nanoseconds leave 64 bits
-constexpr Duration kLongest = std::chrono::seconds(1'000'000'000);  // of a recording, and of a delay: as runs have it
+// the longest recording and the longest delay; the same limit as for runs
+constexpr Duration kLongest = std::chrono::seconds(1'000'000'000);
 
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::uint64_t kMostAgvs = 65536;
 
-// Ids by name, with a hint where there is none.
+// Ids by name. An error for an unknown name suggests the nearest name.
 class Names {
  public:
   Names(std::string_view noun, const auto& things) : noun_(noun) {
@@ -47,8 +47,8 @@ Vec2 heading_of(const JsonReader& reader) {
   const Vec2 heading = reader.vector();
   const double norm = heading.norm();
   if (!(norm > kShortestHeading) || !(norm < 1e9)) reader.refuse("a heading is a direction [x, y] other than [0, 0]");
-  // A vector that is a unit vector to the last digits stays as it is, so that reading again what was written changes
-  // nothing.
+  // A vector that is a unit vector to the last digits stays as it is. A scenario that is written and read again is
+  // therefore unchanged.
   return std::abs(heading.squaredNorm() - 1.0) <= kUnitVectorToTheLastDigits ? heading : Vec2(heading / norm);
 }
 
@@ -65,8 +65,8 @@ RecordedMessage recorded_message(const JsonReader& reader) {
   return message;
 }
 
-// Reads a struct by its list of fields, whatever it holds. Names of stations, segments, vehicle types and AGVs are
-// those read so far: layout and vehicle types come first.
+// Reads a struct by its list of fields. Names of stations, segments, vehicle types and AGVs must be read before they
+// are used: layout and vehicle types come first.
 class ScenarioReader {
  public:
   Scenario read(const JsonReader& root) {

@@ -231,7 +231,7 @@ class WorldCheck {
     }
   }
 
-  // Says in the error that the bodies were measured with their loads, if a load makes one of them larger.
+  // If a load makes one of the bodies larger, the error says that the bodies were measured with their loads.
   std::string_view with_load(const AgvSetup& one, const AgvSetup& other) const {
     const auto grows = [&](const AgvSetup& agv) {
       const LoadEffect& loaded = scenario_.type_of(agv).loaded;
@@ -282,7 +282,7 @@ Problems problems_of(const Scenario& scenario) {
 }
 
 bool closer_than(const OrientedRectangle& a, const OrientedRectangle& b, double distance_m) {
-  // Far apart, as most pairs are: no exact distance needed.
+  // Most pairs are far apart and need no exact distance.
   const double reach = a.half_length_m + a.half_width_m + b.half_length_m + b.half_width_m + distance_m;
   if ((a.centre_m - b.centre_m).squaredNorm() > reach * reach) return false;
   return clearance_m(a, b) < distance_m - kBuiltToTheLimit_m;

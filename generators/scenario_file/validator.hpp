@@ -8,24 +8,25 @@ namespace fleetproof {
 
 inline constexpr double kSmallestCoreShare = 0.9;
 
-// One judge for generated and for hand-written scenarios. Pointers are those of the scenario file.
+// Checks generated and hand-written scenarios alike. A problem has the JSON pointer of its field in the scenario file.
 
-// What keeps a scenario from being run at all: numbers out of range, names, references, an empty fleet. The map is
-// taken as sound.
+// The problems that make a scenario impossible to run: numbers out of range, names, references, an empty fleet. The map
+// is not checked again.
 Problems unusable_problems(const Scenario& scenario);
 
-// What makes it a poor test: stations that cannot reach each other, starts closer than the safety distance, transports
-// that cannot be driven. Only for a scenario without unusable problems; `reachability` is that of its map.
+// The problems that make a scenario a poor test: stations that cannot reach each other, starts closer than the safety
+// distance, transports that cannot be driven. Requires: the scenario has no unusable problems; `reachability` belongs
+// to its map.
 Problems world_problems(const Scenario& scenario, const Reachability& reachability);
 
-// The former or, if there are none, the latter.
+// The unusable problems. If there are none: the problems that make the scenario a poor test.
 Problems problems_of(const Scenario& scenario);
 
-// Whether two bodies at rest are closer than `distance_m`, by more than the micrometre that lanes built to measure are
-// allowed.
+// Whether two bodies at rest are closer than `distance_m`. A micrometre less is allowed, because lanes may be built to
+// measure.
 bool closer_than(const OrientedRectangle& a, const OrientedRectangle& b, double distance_m);
 
-// The place that an AGV needs at its start: its largest body, which is the loaded one, since it may pick a load there.
+// The place that an AGV needs at its start: its largest body, because the AGV may pick a load there.
 OrientedRectangle start_body(const Scenario& scenario, const AgvSetup& agv);
 
 }  // namespace fleetproof

@@ -22,7 +22,7 @@ std::vector<std::string> csv_fields(std::string_view line, std::string_view sour
     } else if (c == '"' && (quoted || fields.back().empty())) {
       quoted = !quoted;
     } else if (c == ',' && !quoted) {
-      // At once: a line of commas alone would fill the memory with empty fields.
+      // Refused at once, because a long line of commas would fill the memory with empty fields.
       if (fields.size() == kMostFields)
         throw InputError(at_line(source, number), fmt::format("the line has more than {} fields", kMostFields));
       fields.emplace_back();

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kDeepest = 32, kMostKeys = 1000;
 
-// Walks the text for nlohmann's lexer and tells how far it has come: the only way to learn the line of a value.
+// Reads the text for nlohmann's lexer and counts the lines. There is no other way to learn the line of a value.
 class CountingIterator {
  public:
   using iterator_category = std::input_iterator_tag;
@@ -78,8 +78,8 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   bool parse_error(std::size_t position, const std::string&, const nlohmann::json::exception& error) override {
     const auto at = position_in(text_, position > 0 ? position - 1 : 0);
     std::string_view reason = error.what();
-    // "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error ...": the place is told in our
-    // own way.
+    // "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error ...": the place is printed in the
+    // way of this program.
     for (const std::string_view skip : {"] ", "column "}) {
       if (const auto found = reason.find(skip); found != std::string_view::npos)
         reason.remove_prefix(found + skip.size());
@@ -96,7 +96,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
     return made;
   }
 
-  // Numbers end where the next character was read, which may already be on the next line.
+  // The lexer reads one character beyond a number. That character may already be on the next line.
   std::size_t line_here(std::size_t read_ahead) {
     const char* here = *reached_ - read_ahead;
     if (here > counted_) {

@@ -36,7 +36,7 @@ class Descriptor {
   int number_;
 };
 
-// The place is wrong, and another one helps; otherwise the disk is.
+// Whether the place cannot be written, so that another place helps. Otherwise the disk failed.
 [[noreturn]] void throw_not_written(const std::string& path, int error, std::string_view remedy) {
   const std::string what = fmt::format("cannot be written ({}); ", std::strerror(error));
   if (error == ENOSPC || error == EDQUOT || error == EFBIG || error == EIO)
@@ -61,7 +61,8 @@ Descriptor open_draft(const std::string& path, std::string& draft, std::string_v
     draft = fmt::format("{}.fleetproof-draft-{}-{}", folder, ::getpid(), number);
     const int made = ::open(draft.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (made >= 0) return Descriptor(made);
-    if (errno != EEXIST) throw_not_written(path, errno, remedy);  // what a killed program left is passed over
+    // a file that a killed program left: try the next name
+    if (errno != EEXIST) throw_not_written(path, errno, remedy);
   }
 }
 
@@ -75,7 +76,7 @@ int write_all(int descriptor, std::string_view text) {
   return 0;
 }
 
-// A folder that cannot be synced, as on some network disks, has the new name all the same.
+// If the folder cannot be synced, as on some network disks, the file has its new name nevertheless.
 void sync_folder_of(const std::string& path) {
   const auto slash = path.rfind('/');
   const std::string folder = slash == std::string::npos ? "." : path.substr(0, slash + 1);
@@ -106,7 +107,7 @@ std::string_view what_else_stands_at(const std::string& path) {
 std::string read_text_file(const std::string& path) {
   if (const auto what = what_else_stands_at(path); !what.empty())
     throw InputError(path, fmt::format("{}; name a regular file", what));
-  // A pipe may take the place of the file in between: without O_NONBLOCK it would wait for a writer.
+  // A pipe may have replaced the file since the check. Without O_NONBLOCK, open() would then wait for a writer.
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
   if (!file.is_open() && (errno == ENOENT || errno == ENOTDIR)) throw InputError(path, "there is no such file");
   if (!file.is_open())
@@ -135,7 +136,7 @@ void write_text_file(const std::string& path, std::string_view text, std::string
     throw InputError(path, fmt::format("{}, into which nothing is written; {}", what, remedy));
   struct stat before {};
   const bool replaces = ::stat(target.c_str(), &before) == 0;
-  // The rename needs the folder alone. A file that was closed to writing stays closed.
+  // The rename needs only rights on the folder. A file that may not be written is refused nevertheless.
   if (replaces && ::access(target.c_str(), W_OK) != 0) throw_not_written(path, errno, remedy);
   std::string draft;
   Descriptor file = open_draft(target, draft, remedy);

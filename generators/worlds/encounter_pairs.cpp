@@ -19,8 +19,8 @@ constexpr Duration kTie = std::chrono::milliseconds(1);
 // if all places to wait are dead ends off one-way lanes.
 constexpr std::uint32_t kTries = 64, kHastyTries = 3, kHastyTriesForTies = 7, kFewOthers = 8, kManyOthers = 24;
 
-// Where the second AGV may start so that the two meet: its quickest way to `through` ends with the lane on which, or
-// after which, they do.
+// A start for the second AGV at which the two meet. Its quickest way to `through` ends with the lane on which, or after
+// which, they meet.
 struct Meeting {
   StationId start, through;
   Duration earlier{};  // than the first
@@ -51,7 +51,7 @@ class PairMaker {
     std::optional<Found> best;
     for (std::uint32_t i = 0; i < kTries; ++i) {
       const bool hasty = i < (ties_ ? kHastyTriesForTies : kHastyTries);
-      if (ties_ && best && !hasty) break;  // what is left apart is made up by leaving later
+      if (ties_ && best && !hasty) break;  // the rest of the difference is removed by a later start
       const bool head_on = best && !ties_;
       const std::size_t looked_at = hasty && !ties_ ? kFewOthers : head_on ? core_.size() : kManyOthers;
       const auto found = draw(draws, hasty ? starts_ : core_, looked_at, head_on);
@@ -79,7 +79,7 @@ class PairMaker {
     return ties_ ? a.apart() < b.apart() : a.head_on && !b.head_on;
   }
 
-  // `head_on`: nothing else will do.
+  // `head_on`: only a head-on meeting is accepted.
   std::optional<Found> draw(Draws& draws, const std::vector<StationId>& starts, std::size_t others_looked_at,
                             bool head_on) {
     const auto start = starts[draws.below(static_cast<std::uint32_t>(starts.size()))];
@@ -163,7 +163,7 @@ class PairMaker {
     });
   }
 
-  // Head-on the other drives the same segment; at a station it comes by another one.
+  // In a head-on meeting, the other AGV drives the same segment. At a station, it comes by another segment.
   std::vector<Meeting> meetings_with(const std::vector<Passed>& way, const std::vector<StationId>& starts,
                                      bool head_on) {
     std::vector<Meeting> found;
@@ -187,7 +187,7 @@ class PairMaker {
     return found;
   }
 
-  // Of the goals to which the quickest way from the start leads through the meeting, or ends there.
+  // Draws one of the goals to which the quickest way from the start leads through the meeting, or ends there.
   std::optional<StationId> goal_through(const Meeting& meeting, Draws& draws) {
     const auto& ways = timetable_.from(meeting.start);
     const Duration met = ways.at(meeting.through).arrives;
@@ -211,7 +211,8 @@ class PairMaker {
     return add_agv(scenario_, start, heading(start, goal), counts);
   }
 
-  // Whether an AGV finds room, after the first of its pair if that is given. Nobody is left standing.
+  // Whether an AGV finds room, together with the first AGV of its pair if that is given. The fleet is
+  // unchanged afterwards.
   bool has_room(StationId start, StationId goal, std::optional<std::pair<StationId, StationId>> after) {
     const std::size_t before = scenario_.agvs.size();
     RejectionCounts tried;

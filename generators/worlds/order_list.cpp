@@ -49,7 +49,7 @@ class OrderReader {
         refuse(fmt::format("{} is not a column of orders{}", in_quotes(fields[i]), name_hint(fields[i], kColumns)));
       }
       if (!columns_.emplace(fields[i], i).second)
-        refuse(fmt::format("column {} is there twice; keep one", in_quotes(fields[i])));
+        refuse(fmt::format("column {} occurs twice; keep one", in_quotes(fields[i])));
     }
     for (const auto needed : {"release_s", "from", "to"}) {
       if (!columns_.contains(needed))

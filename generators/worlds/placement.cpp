@@ -36,7 +36,7 @@ class Candidates {
   std::vector<StationId> waiting_, others_;
 };
 
-// Why an AGV cannot start like this; nothing if it can.
+// The reason why an AGV cannot start like this; none if it can.
 std::optional<ProblemKind> rejection(const Scenario& scenario, const AgvSetup& agv) {
   const double distance_m = scenario.law.safety_distance_m;
   const auto body = start_body(scenario, agv);

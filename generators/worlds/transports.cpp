@@ -32,7 +32,7 @@ class HotSpots {
     }
   }
 
-  // The second is drawn from the rest, by their shares of it.
+  // The second is drawn from the rest, by their shares of the rest.
   TransportOrder draw_order(Draws& draws) const {
     const auto from = at(draws.uniform() * sums_.back());
     const double before = from == 0 ? 0.0 : sums_[from - 1], share = sums_[from] - before;

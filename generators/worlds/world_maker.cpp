@@ -50,8 +50,8 @@ void check(const WorldSpec& spec) {
   }
 }
 
-// The first type with the largest body of any of them, unloaded and loaded: a start that has room for it has room for
-// every type, whatever the AGV picks there.
+// The first type, with the largest body of all types, unloaded and loaded. A start that has room for this body has room
+// for every type, whatever load the AGV picks there.
 VehicleType envelope(const std::vector<VehicleShare>& vehicles) {
   VehicleType type = vehicles.front().type;
   Footprint &empty = type.footprint, loaded = empty;
@@ -132,7 +132,7 @@ class WorldMaker {
     return place_fleet(scenario_, spec_.fleet_size, *reachability_, key, number, counts);
   }
 
-  // False if transports lead between any stations, as too few are for storage.
+  // False if transports lead between any stations, because there are too few storage stations.
   bool assign_orders(std::uint32_t number) {
     if (spec_.orders != nullptr) {
       assign_listed_orders(scenario_, *spec_.orders, *reachability_);
@@ -145,7 +145,7 @@ class WorldMaker {
     return stored;
   }
 
-  // Once everybody has a place that would do for the largest.
+  // The types are drawn after every AGV has a place that is large enough for the largest type.
   void draw_types(std::uint32_t number) {
     scenario_.vehicle_types.clear();
     double total = 0.0;
@@ -167,8 +167,8 @@ class WorldMaker {
 
   std::uint64_t key_of(Stream stream) const { return stream_key(scenario_.seed_of(stream), stream); }
 
-  // A stream that is held stays at the attempt that made the world it is held from: an attempt more because of
-  // something else leaves it as it was.
+  // A held stream keeps the attempt that made the world from which it is held. If another stream causes one more
+  // attempt, the held stream does not change.
   std::uint32_t attempt_of(Stream stream, std::uint32_t number) const {
     return std::ranges::find(scenario_.stream_seeds, stream, &StreamSeed::stream) == scenario_.stream_seeds.end()
                ? number

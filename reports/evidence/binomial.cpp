@@ -17,7 +17,8 @@ void require_sense(std::uint64_t failing, std::uint64_t units, double confidence
   ensure(confidence > 0.0 && confidence < 1.0, "a confidence lies between 0 and 1");
 }
 
-// Closed forms at the edges: exact where the inverse beta function loses digits, and the edges are the usual case here.
+// Closed forms at the edges. They are exact where the inverse beta function loses digits, and the edges are the usual
+// case.
 double upper_at_risk(std::uint64_t failing, std::uint64_t units, double risk) {
   if (failing == units) return 1.0;
   const auto k = static_cast<double>(failing), n = static_cast<double>(units);
@@ -77,9 +78,9 @@ std::optional<std::uint64_t> units_needed(std::uint64_t failing, double limit, d
 
 FisherResult fisher_exact(std::uint64_t failing1, std::uint64_t units1, std::uint64_t failing2, std::uint64_t units2) {
   ensure(failing1 <= units1 && failing2 <= units2, "no more trials fail than there are");
-  // Given the margins, the failures in the first group are hypergeometric. Their probabilities come from the ratio of
-  // neighbours, outwards from the mode, and are divided by their sum: no factorial, and full precision for large
-  // groups.
+  // Given the margins, the failures in the first group are hypergeometric. The probabilities are computed outwards from
+  // the mode, by the ratio of neighbours, and then divided by their sum. This needs no factorial and has full precision
+  // for large groups.
   const auto n1 = static_cast<double>(units1), n2 = static_cast<double>(units2),
              failures = static_cast<double>(failing1 + failing2);
   const auto least = failing1 + failing2 > units2 ? failing1 + failing2 - units2 : 0;

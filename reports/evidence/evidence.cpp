@@ -148,8 +148,8 @@ void Evidence::finish_replicate() {
 GateResult Evidence::judge(std::size_t index) const {
   ensure(index < gates_.size(), "a gate of the campaign is judged");
   const auto& pool = pools_[index];
-  // Outside the contract safe mode, standing still, is legal: progress is due inside, or everywhere if the gate has no
-  // cell inside.
+  // Outside the contract region, safe mode (standing still) is legal. Progress is required inside the region, or
+  // everywhere if the gate has no cell inside.
   std::vector<std::uint32_t> due;
   std::ranges::copy_if(pool.cells, std::back_inserter(due),
                        [&](std::uint32_t cell) { return cells_[cell].in_contract(); });

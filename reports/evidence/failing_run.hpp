@@ -31,7 +31,7 @@ struct FailingRun {
 // By severity, then by smallest clearance, then by run index.
 bool more_serious(const FailingRun& a, const FailingRun& b);
 
-// The most serious of all added runs, in that order. The order of adding does not matter.
+// The most serious of all added runs, the most serious first. The order of adding does not matter.
 class WorstRuns {
  public:
   explicit WorstRuns(std::size_t capacity) : capacity_(capacity) {}

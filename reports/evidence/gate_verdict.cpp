@@ -15,7 +15,7 @@ void add_sentence_part(std::string& sentence, const std::string& part) {
   sentence += (sentence.empty() ? "" : "; ") + part;
 }
 
-// What stands between the counts and the limit, and what would help.
+// Why the counts do not meet the limit, and what would help.
 std::string bound_too_high(const GateRecord& gate, GateResult& result) {
   const auto& claim = *result.claim;
   std::string text = fmt::format("the upper bound {} is above the limit {:g}", rounded_up(claim.upper), gate.limit);
@@ -37,7 +37,7 @@ std::string bound_too_high(const GateRecord& gate, GateResult& result) {
 
 bool asks_for_progress(const GateRecord& gate) { return !(gate.min_transports_per_agv_hour <= 0.0); }
 
-// Everything that is missing for "demonstrated"; empty if nothing is.
+// Everything that is missing for "demonstrated"; empty if nothing is missing.
 std::string missing_for_demonstration(const GateRecord& gate, GateResult& result) {
   const auto& counts = result.counts;
   std::string missing;

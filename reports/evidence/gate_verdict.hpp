@@ -36,7 +36,7 @@ struct GateCounts {
   std::uint64_t failing_runs = 0;        // known failures among all runs read so far, complete replicate or not
   std::optional<double> transports_per_agv_hour;
   std::size_t idle_cells = 0;  // cells in which progress is due and no transport was done
-  bool met_nobody = false;     // encounters are required and no run met one
+  bool met_nobody = false;     // encounters are required, but no run had one
   bool counts_only = false;    // the campaign searches for failures, so its counts are not a sample
   bool complete() const { return units >= planned; }
 };
@@ -46,12 +46,12 @@ struct GateResult {
   std::string reason;                    // one sentence
   std::string_view unit = "replicates";  // or "runs", for a gate on one cell
   GateCounts counts;
-  std::optional<Estimate> claim;              // unknown outcomes count as failing; absent in a search
-  std::optional<Estimate> optimistic;         // unknown outcomes count as passed
-  std::optional<std::uint64_t> units_needed;  // in all, if no further one fails, before the bound can meet the limit;
-                                              // set while that is the obstacle
-  std::vector<MissingProbe> missing;          // not empty: the evidence is weak, whatever the verdict
-  std::optional<FailingRun> worst;            // the most serious run that did not pass
+  std::optional<Estimate> claim;       // unknown outcomes count as failing; absent in a search
+  std::optional<Estimate> optimistic;  // unknown outcomes count as passed
+  // How many units the bound needs to meet the limit, if no further unit fails. Set if too few units are the reason.
+  std::optional<std::uint64_t> units_needed;
+  std::vector<MissingProbe> missing;  // if not empty, the evidence is weak, whatever the verdict is
+  std::optional<FailingRun> worst;    // the most serious run that did not pass
 };
 
 // Violated only if the known failures alone refute the gate. Demonstrated only if three conditions hold: the claim

@@ -8,7 +8,7 @@
 namespace fleetproof {
 namespace {
 
-// One unit in the third digit further if rounding to the nearest went the wrong way.
+// Adds or subtracts one unit in the third digit if rounding to the nearest went the wrong way.
 std::string rounded_towards(double value, double direction) {
   auto text = fmt::format("{:.2e}", value);
   const double nearest = std::strtod(text.c_str(), nullptr);
