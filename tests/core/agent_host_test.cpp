@@ -60,7 +60,9 @@ TEST(AgentHostPart, AFrozenAgentSeesEverythingLater) {
 TEST(AgentHostPart, IsBackWhenEveryReasonForItsAbsenceIsOver) {
   Scenario scenario = test::row_of_tens({0});
   scenario.agvs[0].transports = {{StationId{0U}, StationId{2U}, Duration{}}};
-  SmallWorld world(scenario);
+  std::uint32_t boot = 0;
+  SmallWorld world(scenario,
+                   [&](const fp_host&, fp_controller*, const fp_briefing& b, const fp_event&) { boot = b.boot; });
   started(world).parts.agents.order_released(kFirst, 0);
   auto& agents = world.parts.agents;
   world.heard.clear();
@@ -74,6 +76,7 @@ TEST(AgentHostPart, IsBackWhenEveryReasonForItsAbsenceIsOver) {
   ASSERT_EQ(world.heard.size(), 2U) << "the timer came while it was away";
   EXPECT_EQ(world.heard[0].kind, FP_EVENT_START);
   EXPECT_EQ(world.heard[1].kind, FP_EVENT_ORDER) << "told again";
+  EXPECT_EQ(boot, 1U) << "one restart, whatever the number of its reasons";
 }
 
 TEST(AgentHostPart, AnAgentThatThrowsIsFiledAndNeverCalledAgain) {

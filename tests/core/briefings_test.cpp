@@ -1,0 +1,55 @@
+#include "core/engine/briefings.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/worlds.hpp"
+
+namespace fleetproof {
+namespace {
+
+TEST(Briefings, HoldMapFleetAndScript) {
+  Scenario scenario = test::row_scenario(3, {2, 0});
+  scenario.law.safety_distance_m = 0.2;
+  scenario.agvs[1].script = {{seconds(1.5), ScriptedCall::Action::Pick, SegmentId{1U}}};
+  const Briefings briefings(scenario, "config");
+  const fp_briefing& first = briefings.of(AgvId{0U});
+  EXPECT_EQ(first.self, 0U);
+  EXPECT_EQ(first.start_station, 2U);
+  EXPECT_EQ(first.fleet_count, 2U);
+  EXPECT_EQ(first.script_count, 0U);
+  EXPECT_EQ(first.safety_distance_m, 0.2);
+  EXPECT_STREQ(first.config, "config");
+  EXPECT_EQ(first.fleet[1].length_m, scenario.vehicle_types[0].footprint.length_m);
+  EXPECT_EQ(first.boot, 0U);
+  EXPECT_EQ(first.start_segment, FP_NONE);
+  EXPECT_EQ(first.next_segment, FP_NONE);
+  ASSERT_EQ(first.map->station_count, 3U);
+  EXPECT_STREQ(first.map->stations[1].name, "s1");
+  EXPECT_EQ(first.map->stations[1].x_m, 4.0);
+  ASSERT_EQ(first.map->lane_count, 4U) << "two segments, both ways";
+  EXPECT_EQ(first.map->lanes[0].length_m, 4.0);
+  const fp_briefing& second = briefings.of(AgvId{1U});
+  EXPECT_EQ(second.self, 1U);
+  ASSERT_EQ(second.script_count, 1U);
+  EXPECT_EQ(second.script[0].at_ns, 1'500'000'000);
+  EXPECT_EQ(second.script[0].segment, 1U);
+}
+
+TEST(Briefings, AfterARestartTellWhereTheAgvIs) {
+  const Scenario scenario = test::row_scenario(3, {0, 2});
+  Briefings briefings(scenario, "");
+  const Lane *lane = scenario.map->lane(SegmentId{0U}, StationId{0U}),
+             *next = scenario.map->lane(SegmentId{1U}, StationId{1U});
+  briefings.renew(AgvId{0U}, 3, StationId{0U}, lane, next);
+  EXPECT_EQ(briefings.of(AgvId{0U}).boot, 3U);
+  EXPECT_EQ(briefings.of(AgvId{0U}).start_segment, 0U);
+  EXPECT_EQ(briefings.of(AgvId{0U}).next_segment, 1U);
+  EXPECT_EQ(briefings.of(AgvId{1U}).boot, 0U) << "the other one has not restarted";
+  briefings.renew(AgvId{0U}, 4, StationId{1U}, nullptr, nullptr);
+  EXPECT_EQ(briefings.of(AgvId{0U}).start_station, 1U);
+  EXPECT_EQ(briefings.of(AgvId{0U}).start_segment, FP_NONE);
+  EXPECT_EQ(briefings.of(AgvId{0U}).next_segment, FP_NONE);
+}
+
+}  // namespace
+}  // namespace fleetproof
