@@ -4,6 +4,7 @@
 #include <SQLiteCpp/Statement.h>
 #include <fmt/format.h>
 #include <sqlite3.h>
+#include <unistd.h>
 
 #include <array>
 #include <bit>
@@ -20,14 +21,20 @@ namespace {
 
 constexpr int kBusyTimeoutMs = 5000;
 
-// Looks at file type and size only. If this function opened and closed the file, SQLite would lose its locks on it in
-// this process.
+[[noreturn]] void not_allowed(const std::string& path) {
+  throw InputError(path,
+                   "this file may not be read (Permission denied); change its permissions or those of its folder");
+}
+
+// Looks at file type, rights and size only. If this function opened and closed the file, SQLite would lose its locks on
+// it in this process.
 void require_readable(const std::string& path) {
   namespace fs = std::filesystem;
   std::error_code error;
   if (path.empty()) throw InputError("", "name a campaign file");
   if (fs::is_directory(path, error)) throw InputError(path, "this is a folder; name a campaign file in it");
   if (!fs::exists(path, error)) {
+    if (error == std::errc::permission_denied) not_allowed(path);
     if (fs::exists(path + ".partial", error)) {
       throw InputError(path, fmt::format("there is no such file yet; the campaign is under way or was interrupted, "
                                          "what it stored so far is in {}.partial",
@@ -37,6 +44,7 @@ void require_readable(const std::string& path) {
   }
   if (!fs::is_regular_file(path, error))
     throw InputError(path, "this is a pipe, a device or a socket; name a campaign file");
+  if (::access(path.c_str(), R_OK) != 0) not_allowed(path);
   for (const auto* suffix : {"-wal", "-shm", "-journal"}) {  // SQLite opens these files, and would wait at a pipe
     const auto status = fs::status(path + suffix, error);
     if (fs::exists(status) && !fs::is_regular_file(status))

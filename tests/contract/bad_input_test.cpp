@@ -49,7 +49,7 @@ TEST_F(BadInput, AgentsOfACampaignFile) {
     for (const std::string verb : {"run ", "check "}) expect_refused(verb + "a.toml", error);
   };
   refused("agents = [\"reckless\", \"hull-look\"]",
-          "a.toml:2:24: factors.agents: agent \"hull-look\" is not known; did you mean \"hull-lock\"?");
+          "a.toml:2:23: factors.agents: agent \"hull-look\" is not known; did you mean \"hull-lock\"?");
   refused("agents = [\n  \"reckless\",\n  \"./none.so\",\n]",
           "a.toml:4:3: factors.agents: ./none.so: there is no such agent file; build the shared object");
   write("text.so", "no shared object\n");

@@ -230,7 +230,12 @@ TEST(ArchiveReader, a_file_without_permission_is_for_the_user_to_mend) {
   test::unprivileged([&] {
     read_everything(folder / "a.fp");
     fs::permissions(folder / "a.fp", fs::perms::none);
-    EXPECT_THAT(sentence_of<InputError>([&] { read_everything(folder / "a.fp"); }), HasSubstr("ermission"));
+    EXPECT_THAT(sentence_of<InputError>([&] { read_everything(folder / "a.fp"); }), HasSubstr("may not be read"));
+    fs::create_directory(folder / "locked");
+    fs::permissions(folder / "locked", fs::perms::none);
+    EXPECT_THAT(sentence_of<InputError>([&] { read_everything(folder / "locked/a.fp"); }),
+                HasSubstr("may not be read"));
+    fs::permissions(folder / "locked", fs::perms::owner_all);
   });
 }
 
