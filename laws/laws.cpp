@@ -31,9 +31,9 @@ constexpr Entry<MakeLaw> kLaws[] = {
      "moves without a record.",
      make_containment_law},
     {"progress",
-     "Finds deadlocks with who waits for whom, livelocks and starving AGVs. It looks every twelfth of stuck_after for "
-     "AGVs that have open transports and make no progress. It does not see why, and it accuses drives that take longer "
-     "than twice stuck_after.",
+     "Finds deadlocks (with the AGV for which each AGV waits), livelocks and starving AGVs. It looks every twelfth of "
+     "stuck_after for AGVs that have open transports and make no progress. It does not see why, and it accuses drives "
+     "that take longer than twice stuck_after.",
      make_progress_law},
     {"normal-operation",
      "Finds safe mode and standstill while the radio keeps its contract, judged every second by the last 10 s of every "

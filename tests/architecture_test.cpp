@@ -20,8 +20,8 @@ namespace fs = std::filesystem;
 using architecture::Source;
 using architecture::sources;
 
-// Who may include whom (a room may always include itself). Every arrow points down: a room stands below all rooms that
-// include it.
+// Which room may include which rooms (a room may always include itself). Every arrow points down: a room stands below
+// all rooms that include it.
 const std::map<std::string, std::set<std::string>> kMayInclude = [] {
   const std::set<std::string> core = {"core/base",      "core/geometry", "core/motion", "core/scenario",
                                       "core/clearance", "core/radio",    "core/outcome"};

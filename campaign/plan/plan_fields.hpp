@@ -94,12 +94,14 @@ void visit_fields(Plan& plan, Visit&& visit) {
         visit_factors(plan, inner);
         inner(Field{.key = "sampling", .text = "how replicates draw a factor that has bounds"}, plan.sampling);
       }});
-  visit(Field{.key = "vary", .text = "what is held while the rest varies"}, FieldTable{[&](auto& inner) {
-          inner(Field{.key = "hold", .text = "streams of randomness that are the same in all replicates"},
-                plan.held_streams);
-          inner(Field{.key = "held_replicate", .text = "the replicate whose they are", .high = kMostRuns},
-                plan.held_replicate);
-        }});
+  visit(
+      Field{.key = "vary", .text = "what is held while the rest varies"}, FieldTable{[&](auto& inner) {
+        inner(Field{.key = "hold", .text = "streams of randomness that are the same in all replicates"},
+              plan.held_streams);
+        inner(
+            Field{.key = "held_replicate", .text = "the replicate from which the held streams come", .high = kMostRuns},
+            plan.held_replicate);
+      }});
   visit(Field{.key = "world", .text = "starts and orders"}, FieldTable{[&](auto& inner) {
           visit_fields(plan.demand, inner);
           inner(kPlacement, plan.placement);

@@ -80,7 +80,7 @@ class RecordingReader {
     }
     RecordedMessage message{agv("sender", fields[0]), agv("receiver", fields[1]), time("t_send_s", fields[2]),
                             std::nullopt};
-    if (message.sender == message.receiver) refuse("receiver", fields[1], "nobody sends to itself; give another AGV");
+    if (message.sender == message.receiver) refuse("receiver", fields[1], "no AGV sends to itself; give another AGV");
     if (!fields[3].empty() && fields[3] != "lost") {
       message.delay = time("t_recv_s", fields[3]) - message.sent;
       if (*message.delay < Duration::zero())

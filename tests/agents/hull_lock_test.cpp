@@ -106,7 +106,7 @@ TEST(HullLock, TwoThatWantEachOthersPlacePassInTheSiding) {
   EXPECT_EQ(tally.drops, 2 * tally.runs) << "latest " << tally.latest_drop_s << " s";
 }
 
-// 76 m without a place to wait: more than anybody may claim at once. It goes there in several claims, and nobody claims
+// 76 m without a place to wait: more than an AGV may claim at once. It goes there in several claims, and no AGV claims
 // too much.
 TEST(HullLock, ClaimsNoMoreThanOthersCountOn) {
   DrawnMap drawn;

@@ -229,7 +229,7 @@ TEST_F(LockProtocolTest, OfTwoEquallyOldDemandsExactlyOneGoesFirst) {
   EXPECT_TRUE(settle(0));
 }
 
-// The elder cannot move before the other has left: his request must not hold the other up.
+// The elder cannot move before the other has left: the request of the elder must not hold the other up.
 TEST_F(LockProtocolTest, WhoIsBlockedByAWaitingAgvLetsItPass) {
   fleet_of(2);
   want(0, 2, 1);  // to where 1 stands
@@ -263,7 +263,7 @@ TEST_F(LockProtocolTest, TheFaultTakesSilenceForConsent) {
   EXPECT_TRUE(settle(0));
 }
 
-// The grant of the former self is in the air when the new self asks for the same floor: the other gives up his request,
+// The grant of the former self is in the air when the new self asks for the same floor: the other gives up its request,
 // and with it that grant.
 TEST_F(LockProtocolTest, AGrantOfTheFormerSelfIsNeverCombinedWithALockOfTheNewOne) {
   fleet_of(2);

@@ -1,5 +1,5 @@
-// hull-lock when its computer restarts, again and again, at any moment: nobody ever holds in conflict, and all loads
-// arrive where they should.
+// hull-lock when its computer restarts, again and again, at any moment: no two AGVs ever hold conflicting hulls, and
+// all loads arrive where they should.
 #include <gtest/gtest.h>
 
 #include <random>

@@ -2,13 +2,12 @@
 //
 //   detection_cost FLEET SECONDS LAW...      times, in one process; ratios to the first law. Means of WORLDS worlds
 //   (environment variable; 1) detection_cost --walk FLEET SECONDS LAW  one replay, for valgrind --tool=callgrind
-//   --toggle-collect='*replay_to*'
+// --toggle-collect='*replay_to*'
 //
 // LAW may be "none", or "all-pairs": the exact distance of every pair of bodies every 2.5 ms. Runs are those of the
 // whole-run benchmark (simulation_bench.cpp); their agent is hull-lock, or what the environment variable AGENT names. A
-// walk is no run but pieces made up: on 400 m2 for each AGV, as in those runs, everybody turns, drives and waits about
-// its own middle and now and then passes a neighbour. It is as dense for 500 AGVs as for 5, and nobody's rules slow it
-// down.
+// walk is no run but pieces made up: on 400 m2 for each AGV, as in those runs, every AGV turns, drives and waits about
+// its own middle and now and then passes a neighbour. It is as dense for 500 AGVs as for 5, and no agent slows it down.
 #include <fmt/format.h>
 
 #include <chrono>

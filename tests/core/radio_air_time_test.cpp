@@ -118,7 +118,7 @@ TEST(UnlikeLengths, WhoIsHitAgreesWithEveryPair) {
   RadioChannel channel({.contention = {.interference = true, .contention_window = 15}}, 3);
   std::vector<Transmission> book;
   int hit = 0, missed = 0;
-  const auto ask_until = [&](SimTime t) {  // before anybody sends at a later instant than it ends
+  const auto ask_until = [&](SimTime t) {  // before an AGV sends at a later instant than the end of it
     for (auto& one : book) {
       if (one.asked || one.on_air.end > t) continue;
       one.asked = true;
@@ -175,8 +175,8 @@ TEST(UnlikeLengths, SaturatedPairsLoseWhatTheClosedFormsSay) {
 
 // ---- whole runs
 
-// AGV 0, 1 and 2 (if there) send so many bytes at such times; who heard whom, by (sender, receiver, number of the
-// message of that sender).
+// AGV 0, 1 and 2 (if there) send so many bytes at such times. The result: which receiver heard which sender, by
+// (sender, receiver, number of the message of that sender).
 using Heard = std::set<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>>;
 
 Heard run(const RadioSetup& radio, const std::vector<std::vector<std::pair<std::int64_t, std::uint32_t>>>& schedule,

@@ -1,4 +1,4 @@
-// Outages as processes in time: lengths, independence of traffic, and of whoever asked before.
+// Outages as processes in time: lengths, independence of traffic and of earlier questions.
 #include <gtest/gtest.h>
 
 #include <cmath>

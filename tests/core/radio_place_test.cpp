@@ -29,7 +29,7 @@ TEST(Roaming, BelongsToTheBorderAndEndsBesideIt) {
   EXPECT_NE(std::ranges::count(at_border, true), 0);
   EXPECT_NE(std::ranges::count(at_border, false), 0);
   EXPECT_EQ(roaming_states(places, {8.0, 3.0}),
-            at_border);  // the same border, so whoever meets there goes deaf together
+            at_border);  // the same border, so AGVs that meet there go deaf together
   EXPECT_EQ(roaming_states(places, {12.0, -3.0}), at_border);
   EXPECT_EQ(std::ranges::count(roaming_states(places, {12.01, 5.0}), true), 0);
   EXPECT_EQ(std::ranges::count(roaming_states(places, {0.0, 0.0}), true), 0);
@@ -66,7 +66,8 @@ TEST(PlaceOutages, MakeEveryoneInACellDeaf) {
   EXPECT_GT(other_cell_differs, 400);
 }
 
-// AGV 0 to 2 in a row 4 m apart talk to each other ten times a second; who received from whom, when.
+// AGV 0 to 2 in a row 4 m apart talk to each other ten times a second; the result lists sender, receiver and instant of
+// each reception.
 using Reception = std::tuple<std::uint32_t, std::uint32_t, SimTime>;
 
 std::set<Reception> talk(const RadioSetup& radio, std::vector<std::uint32_t> starts, Outcome* outcome = nullptr,

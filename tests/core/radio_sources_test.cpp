@@ -1,4 +1,4 @@
-// External sources: when they are on, whom they hit, and that they only ever add losses.
+// External sources: when they are on, which receivers they hit, and that they only ever add losses.
 #include "core/radio/radio_sources.hpp"
 
 #include <gtest/gtest.h>
@@ -145,7 +145,8 @@ TEST(RadioSources, OneMoreOrAWorseOneOnlyAddsLosses) {
 
 // ---- whole runs
 
-// Each of the AGVs in the row sends a broadcast every 100 ms; who received from whom, when.
+// Each of the AGVs in the row sends a broadcast every 100 ms; the result lists sender, receiver and instant of each
+// reception.
 using Reception = std::tuple<std::uint32_t, std::uint32_t, SimTime>;
 
 std::set<Reception> talk(const RadioSetup& radio, std::vector<std::uint32_t> starts, Outcome& outcome,

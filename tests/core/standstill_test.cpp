@@ -14,7 +14,7 @@ using test::row_of_tens;
 using test::run;
 using test::somebody_in_the_way;
 
-// Two who face each other, with a transport each, and whose agents do nothing before they are restarted.
+// Two AGVs that face each other, with a transport each. Their agents do nothing before they are restarted.
 Scenario head_on(double horizon_s) {
   Scenario scenario = row_of_tens({1, 2}, horizon_s);
   scenario.agvs[1].heading = -Vec2::UnitX();
@@ -78,7 +78,7 @@ TEST(AtAStandstill, OneThatHasPassedNeedsNoHelp) {
   scenario.operator_help = comes_after(10.0);
   const Helped seen = run(scenario, [](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
     if (e.kind == FP_EVENT_START && b.self == 1) host.set_timer(c, 1, 32'000'000'000);
-    if (e.kind == FP_EVENT_TIMER) host.pick(c, FP_HERE);  // over at 37 s; he comes at 40 s
+    if (e.kind == FP_EVENT_TIMER) host.pick(c, FP_HERE);  // over at 37 s; the operator comes at 40 s
   });
   EXPECT_TRUE(seen.assists(kStandstill).empty());
 }

@@ -165,7 +165,7 @@ TEST_P(Encounters, RandomPlacementsSeldomDo) {
 }
 
 // To the oracle's own rounding. On a one-way loop with chords two AGVs seldom reach a station within a second of each
-// other by different segments; who finds no partner starts at random.
+// other by different segments; an AGV without a partner starts at random.
 TEST_P(Encounters, SymmetricPairsReachOneStationAtOnce) {
   RejectionCounts counts;
   int worlds = 0, at_once = 0, told_together = 0;

@@ -46,7 +46,7 @@ TEST(RadioTraceFile, ErrorsNamePlaceColumnValueAndRemedy) {
               HasSubstr("r.csv:3: sender is \"agv-1\"; an AGV is a whole number from 0 to 65535"));
   EXPECT_THAT(error_of(kHeading + "0,65536,2,3\n"), HasSubstr("r.csv:2: receiver is \"65536\""));
   EXPECT_THAT(error_of(kHeading + "0,-1,2,3\n"), HasSubstr("r.csv:2: receiver is \"-1\""));
-  EXPECT_THAT(error_of(kHeading + "1,1,2,3\n"), HasSubstr("r.csv:2: receiver is \"1\"; nobody sends to itself"));
+  EXPECT_THAT(error_of(kHeading + "1,1,2,3\n"), HasSubstr("r.csv:2: receiver is \"1\"; no AGV sends to itself"));
   EXPECT_THAT(error_of(kHeading + "0,1,two,3\n"),
               HasSubstr("r.csv:2: t_send_s is \"two\"; a time is a number of seconds"));
   EXPECT_THAT(error_of(kHeading + "0,1,1e3,3\n"), HasSubstr("t_send_s is \"1e3\""));

@@ -13,7 +13,7 @@ namespace fleetproof::test {
 
 inline constexpr unsigned kNobody = 65534;
 
-// Gives a folder, with all that is in it, to the user as whom `unprivileged` acts.
+// Gives a folder, with all that is in it, to the user that `unprivileged` becomes.
 inline void give_away(const std::filesystem::path& folder) {
   if (::geteuid() != 0) return;
   ASSERT_EQ(::chown(folder.c_str(), kNobody, kNobody), 0) << folder;
