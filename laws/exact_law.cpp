@@ -91,8 +91,8 @@ void ExactLaw::settle_standing(const Piece& a, const Piece& b, Interval within) 
 
 void ExactLaw::settle_moving(const Piece& a, const Piece& b, Interval within) {
   // Most pairs stay farther apart than the smallest clearance so far, and that settles both questions. Earlier findings
-  // have no other influence. A violation is dated and measured from the start of the interval, so the result does not
-  // depend on the order in which pieces are announced.
+  // have no other influence. A violation is dated and measured from the start of the interval. Therefore the result
+  // does not depend on the order in which pieces are announced.
   const bool lower = smallest_m_ > threshold_m_ + kBuiltToTheLimit_m;
   if (lower && !comes_below(a, b, within, smallest_m_, evaluations_)) return;
   if (const auto approach = approach_below(a, b, within, threshold_m_, evaluations_)) {

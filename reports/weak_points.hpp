@@ -7,8 +7,8 @@
 
 namespace fleetproof {
 
-// What the evidence does not support: required probes that were not met; cells with too few runs, without progress or
-// with unknown outcomes; agents without a gate; runs that were not judged.
+// What the evidence does not support. Examples: a required probe that was not met; a cell with too few runs, without
+// progress or with unknown outcomes; an agent without a gate; runs that were not judged.
 std::vector<std::string> weak_points(const ReportInput& input);
 
 }  // namespace fleetproof

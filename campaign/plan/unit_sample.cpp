@@ -29,8 +29,9 @@ std::uint64_t scaled(std::uint64_t bits, std::uint64_t size) {
   return static_cast<std::uint64_t>((static_cast<Wide>(bits) * size) >> 64);
 }
 
-// A permutation of 0 .. size-1 that needs no memory: a Feistel network over the next power of four, repeated until the
-// result is below the size. The rotation makes every image equally likely, even if the network mixes a small set badly.
+// A permutation of 0 .. size-1 that needs no memory. It is a Feistel network over the next power of four, repeated
+// until the result is below the size. The rotation makes every image equally likely, even if the network mixes a small
+// set badly.
 class Permutation {
  public:
   Permutation(std::uint64_t key, std::uint64_t block, std::uint64_t size, std::uint32_t dimension)

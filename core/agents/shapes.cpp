@@ -104,7 +104,7 @@ void append_sweep(const fp_arc& arc, double length_m, double width_m, std::vecto
   const Turn quarter = small_turn(arc.curvature_per_m > 0.0 ? quarter_rad : -quarter_rad);
   const Turn half = small_turn(2.0 * quarter_rad);
   const double half_chord_m = radius_m * half.sine, sagitta_m = radius_m * (1.0 - half.cosine);
-  // Compared with the middle of the piece, the body is turned by at most half the angle of the piece, and is off the
+  // Compared with the middle of the piece, the body is turned by at most half the angle of the piece. It is off the
   // tangent by at most the sagitta.
   const double half_length_m = half_chord_m + length_m / 2.0 + width_m / 2.0 * half.sine + kRounding_m;
   const double half_width_m = width_m / 2.0 + length_m / 2.0 * half.sine + sagitta_m + kRounding_m;

@@ -171,8 +171,9 @@ void GapBound::add_corners_seen_from(const PhaseMotion& frame, const PhaseMotion
   if (other.rotates()) tighten_by_pivots(frame, other);
 }
 
-// Where both rotate, the frame shows the other's pivot turning about its own, and a corner turning about the other's
-// pivot at the difference of both rates. Bodies that follow each other round the same bend do not move at all.
+// If both bodies rotate, the frame shows two motions. The pivot of the other body turns about the pivot of the frame. A
+// corner turns about the pivot of the other body, at the difference of both rates. Bodies that follow each other round
+// the same bend do not move at all.
 void GapBound::tighten_by_pivots(const PhaseMotion& frame, const PhaseMotion& other) {
   const Vec2 pivot_m = other.pivot_m();
   const double between_m = (pivot_m - frame.pivot_m()).norm();

@@ -18,10 +18,10 @@ struct Stretch {
   std::size_t phase = 0, arc = 0;
 };
 
-// Ends of phases and joints are rounded to whole nanoseconds. What that misplaces is less than what a body does in one
-// nanosecond, and not carried along: every phase starts from the exact pose, and with the speed that the phase itself
-// gives the instant. The profile's speed there may still be that of the neighbouring phase: wrong by a nanometre per
-// second, which over seconds would move a body by nanometres.
+// Ends of phases and joints are rounded to whole nanoseconds. The error of place is less than the motion of a body in
+// one nanosecond. The error does not grow: every phase starts from the exact pose, with the speed that the phase itself
+// has at the instant. The profile may still give the speed of the neighbouring phase there. This speed is wrong by a
+// nanometre per second, which would move a body by nanometres in a few seconds.
 Stretch phase_from(const MotionProfile& profile, Elapsed now, TimeSense sense) {
   const auto& ends = profile.phase_ends();
   std::size_t phase = 0;

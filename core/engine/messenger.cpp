@@ -5,8 +5,9 @@
 namespace fleetproof {
 namespace {
 
-// A reception may have three events of one kind: with interference the end of the air time, the arrival of the message,
-// the arrival of its copy. Two bits of the payload distinguish them, because no run has 2^30 messages at a time.
+// A reception may have three events of one kind: the end of the air time (with interference), the arrival of the
+// message, the arrival of its copy. Two bits of the payload distinguish them, because no run has 2^30 messages at a
+// time.
 constexpr std::uint32_t kAirTimeEnds = 0x80000000U, kCopy = 0x40000000U, kSlot = 0x3fffffffU;
 static_assert(kLongestMessage_bytes == FP_MESSAGE_BYTES_MAX);
 

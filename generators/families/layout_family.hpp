@@ -14,8 +14,8 @@ namespace fleetproof {
 //
 // Range::Normal leaves room for the default vehicle type (1.6 m x 1.0 m) to turn at every station: stations are at
 // least 2.1 m apart. A place to wait (a station to park, charge or store at) is at least 2.2 m from every lane that
-// does not end there. That is room for a loaded AGV too: half the diagonal and half the width of the largest body may
-// add up to 2.1 m (1.9 m x 1.2 m: 1.73 m).
+// does not end there. That is room for a loaded AGV too: half the diagonal plus half the width of the largest body may
+// be 2.1 m. A body of 1.9 m x 1.2 m needs 1.73 m.
 //
 // Range::Stress gives up that room. Stations are at least 0.9 m apart. Lanes may cross without a station, run side by
 // side at 1.2 m and be shorter than a vehicle. An AGV that waits may block any lane. There are two places of storage.

@@ -17,9 +17,8 @@ inline constexpr std::string_view kMutatedImport = "mutated-import";
 // 2. Up to 10 % of the one-way segments are reversed. In one draw of four, all others are reversed instead.
 // 3. Every station moves by up to 0.3 m, with its curves, and the whole layout is scaled by 0.8-1.2.
 // 4. The largest part is kept whose stations can all reach each other.
-// None if the result is not sound (problems_of()) or keeps less than half of the stations; the reason is then counted,
-// and the number of used draws is not defined.
-// Requires: `base` is sound.
+// None if the result is not sound (problems_of()) or keeps less than half of the stations. The reason is then counted;
+// the number of used draws is not defined. Requires: `base` is sound.
 std::shared_ptr<const LogicalMap> draw_mutated_map(const Layout& base, Draws& draws, RejectionCounts& counts);
 std::optional<Layout> draw_mutation(const Layout& base, Draws& draws, RejectionCounts& counts);
 

@@ -105,9 +105,9 @@ class RandomPlanar {
     points_ = std::move(kept);
   }
 
-  // Adds a lane beside up to three of the longer edges. It leaves one end at less than 30 degrees, runs beside the edge
-  // at 1.2 to 1.5 vehicle widths, and comes back to the other end in the same way. Two bodies side by side there share
-  // no station, but have little or no room.
+  // Adds a lane beside up to three of the longer edges. The lane leaves one end at less than 30 degrees and comes back
+  // to the other end in the same way. Between them it runs beside the edge at 1.2 to 1.5 vehicle widths. Two bodies
+  // side by side there share no station, but have little or no room.
   bool squeeze_in_lanes() {
     const std::size_t before = edges_.size();
     std::size_t squeezed = 0;

@@ -7,9 +7,9 @@
 namespace fleetproof {
 
 // The layout as LIF 1.0. The format has no words for the purposes of a station, so they stand in the description of its
-// node, where parse_lif finds them. Reading the text gives the same layout, with two exceptions: two one-way segments
-// on one track become one segment (merge_antiparallel), and the floor is fitted again. A layout without segments cannot
-// be read again.
+// node, where parse_lif finds them. If the text is read, the layout is the same, with two exceptions. Two one-way
+// segments on one track become one segment (merge_antiparallel). The floor is fitted again. A layout without segments
+// cannot be read again.
 std::string to_lif(const Layout& layout);
 
 }  // namespace fleetproof

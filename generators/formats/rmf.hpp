@@ -18,8 +18,8 @@ struct RmfChoice {
 // Reads one level of an Open-RMF building: the file of the traffic editor (*.building.yaml), or a nav graph that was
 // generated from it (0.yaml). Vertices on a lane of the graph become stations. Lanes become straight segments. Two
 // lanes there and back become one bidirectional segment. A building that is drawn on an image is scaled by its
-// measurements (mean of metres per pixel), and its y axis, which points down, is turned up. Chargers, parking spots,
-// dispensers and ingestors give stations their purposes.
+// measurements (mean of metres per pixel). Its y axis points down and is turned up. Chargers, parking spots, dispensers
+// and ingestors give stations their purposes.
 //
 // `warnings` receives one sentence, with file and line, for everything that was left out, guessed or changed. Throws
 // InputError with file, line, field, value and remedy if no AGV can drive on the level.

@@ -84,8 +84,8 @@ void Timetable::find_ways_on() {
   }
 }
 
-// The lanes from a station with only one way on, up to a station with more ways, or to a station from which all ways
-// are known. The stations of a one-way loop are searched once. Empty if there is nothing to follow.
+// The lanes from a station with only one way on. They end at a station with more ways, or at a station from which all
+// ways are known. The stations of a one-way loop are searched once. Empty if there is nothing to follow.
 std::span<const std::uint32_t> Timetable::followed_from(StationId start) {
   followed_.clear();
   StationId end = start;

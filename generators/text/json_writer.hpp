@@ -9,8 +9,8 @@
 
 namespace fleetproof {
 
-// Writes JSON in one fixed form: an indentation of two spaces, short containers on one line on request, and the
-// shortest decimal that reads back as the same double. The same calls give the same bytes everywhere.
+// Writes JSON in one fixed form. The indentation is two spaces; short containers stand on one line on request. A double
+// is the shortest decimal that reads back as the same double. The same calls give the same bytes everywhere.
 class JsonWriter {
  public:
   enum class Style : std::uint8_t { Spread, Line };

@@ -16,9 +16,10 @@ std::string_view what_else_stands_at(const std::string& path);
 // The whole file. InputError if there is no such regular file, if it cannot be read, or if it is larger than 64 MiB.
 std::string read_text_file(const std::string& path);
 
-// Leaves `text` at `path`, whole or not at all: the text goes into a new file in the same folder, is brought to the
-// disk and takes the name at one instant. A link stays, and the file behind it is replaced. InputError, which ends in
-// `remedy`, if the place is wrong; EngineError if the disk is full or fails. Either leaves what was there as it was.
+// Writes `text` to `path`, whole or not at all. The text goes into a new file in the same folder and is brought to the
+// disk. Then the new file takes the name at one instant. A link stays, and the file behind it is replaced. InputError,
+// which ends in `remedy`, if the place is wrong; EngineError if the disk is full or fails. Either leaves what was there
+// as it was.
 void write_text_file(const std::string& path, std::string_view text, std::string_view remedy);
 
 // Counted from 1; columns are bytes.

@@ -151,8 +151,8 @@ class PairMaker {
     return all;
   }
 
-  // False if simple bounds exclude a meeting: only an AGV that starts in a dead end drives out of it, and no AGV
-  // arrives earlier than on a straight line.
+  // False if simple bounds exclude a meeting. Only an AGV that starts in a dead end drives out of it. No AGV arrives
+  // earlier than on a straight line.
   bool may_come_head_on(StationId other, const std::vector<Passed>& way) const {
     return std::ranges::any_of(way, [&](const Passed& passed) {
       if (passed.twin == QuickestWays::kNone) return false;

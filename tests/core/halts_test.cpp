@@ -32,6 +32,17 @@ TEST(HaltsPart, TheFirstBrakesAndTheLastLetsGoOn) {
   EXPECT_NEAR(planned_end_s(world), 8.0, 1e-9) << "no time has passed: as if nothing had been";
 }
 
+TEST(HaltsPart, AnAgvMakesProgressWhenTheLastHaltEnds) {
+  SmallWorld world(test::row_of_tens({0}));
+  const std::uint64_t one = world.parts.halts.begin(kFirst, Halt::Reason::ProtectiveStop);
+  const std::uint64_t two = world.parts.halts.begin(kFirst, Halt::Reason::Breakdown);
+  world.clock(3.0);
+  world.parts.halts.end(kFirst, one);
+  EXPECT_EQ(world.run.status(kFirst).last_progress, kStart) << "the other still holds it";
+  world.parts.halts.end(kFirst, two);
+  EXPECT_EQ(world.run.status(kFirst).last_progress, at_seconds(3.0));
+}
+
 TEST(HaltsPart, AllOfOneReasonEndTogetherAndOthersStay) {
   SmallWorld world(test::row_of_tens({0}));
   for (const auto reason : {Halt::Reason::Scanner, Halt::Reason::Breakdown, Halt::Reason::Scanner})
