@@ -77,6 +77,10 @@ TEST_F(Permissions, ToWriteAreNeeded) {
   std::filesystem::permissions(path("locked"), std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
   for (const auto& [words, file] : outputs) expect_refused(words, file);
   EXPECT_TRUE(std::filesystem::is_empty(path("locked")));
+  const std::string before = read(path("layout.json"));
+  std::filesystem::permissions(path("layout.json"), std::filesystem::perms(0444));
+  expect_refused("generate fishbone --seed 9 -o layout.json", "layout.json");
+  EXPECT_EQ(read(path("layout.json")), before);
 }
 
 }  // namespace

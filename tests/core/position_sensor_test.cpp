@@ -19,6 +19,8 @@ TEST(PositionSensorPart, ALateOneLooksBackAtEarlierPieces) {
   EXPECT_NEAR(world.parts.sensor.perceived(kFirst).position_m.x(), 2.25, 1e-9) << "0.25 m/s2 times 3 s squared";
   world.clock(5.0);
   EXPECT_NEAR(world.parts.sensor.perceived(kFirst).position_m.x(), 4.0, 1e-9);
+  world.clock(5.5);
+  EXPECT_NEAR(world.parts.sensor.perceived(kFirst).position_m.x(), 4.0, 1e-9) << "the drive ended at 4 s";
   world.clock(4.0);
   world.parts.sensor.forget(kFirst);
   EXPECT_NEAR(world.parts.sensor.perceived(kFirst).position_m.x(), 4.0, 1e-9) << "where it stands now";
