@@ -2,19 +2,17 @@
 
 #include <SQLiteCpp/Database.h>
 #include <SQLiteCpp/Statement.h>
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <bit>
-#include <cerrno>
-#include <filesystem>
 #include <limits>
 #include <optional>
 
 #include "core/base/error.hpp"
+#include "storage/archive_reader.hpp"
 #include "storage/canonical_file.hpp"
 #include "storage/checksum.hpp"
+#include "storage/live_file.hpp"
 #include "storage/rows.hpp"
 #include "storage/schema.hpp"
 #include "storage/sqlite_errors.hpp"
@@ -26,17 +24,6 @@ namespace {
 
 constexpr unsigned kRowsPerCommit = 512;
 constexpr std::chrono::seconds kCommitPeriod{2};
-
-void make_live_file(const std::string& live_path) {
-  const int fd = ::open(live_path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-  if (fd < 0) throw_cannot_make(live_path, errno);
-  ::close(fd);
-}
-
-void remove_live_file(const std::string& live_path) {
-  std::error_code ignored;
-  for (const auto* suffix : {"", "-wal", "-shm", "-journal"}) std::filesystem::remove(live_path + suffix, ignored);
-}
 
 template <class Part>
 void insert_all(SQLite::Statement& insert, std::uint64_t run_index, const std::vector<Part>& parts,
@@ -60,26 +47,34 @@ struct ArchiveWriter::Impl {
   unsigned pending = 0;
   std::chrono::steady_clock::time_point last_commit = std::chrono::steady_clock::now();
 
-  void open(const CampaignRecord& campaign, const std::vector<CellRecord>& cell_records,
-            const std::vector<GateRecord>& gates);
+  void create(const CampaignRecord& campaign, const std::vector<CellRecord>& cell_records,
+              const std::vector<GateRecord>& gates);
+  void go_on(CampaignRecord campaign, const std::vector<CellRecord>& cell_records, const std::vector<GateRecord>& gates,
+             const Resumption& resumption);
+  void open();
+  void insert_plan(const CampaignRecord& campaign, const std::vector<CellRecord>& cell_records,
+                   const std::vector<GateRecord>& gates);
+  void prepare();
+  SQLite::Statement insert_into(const std::string& table, const std::string& columns);
   void store(const RunRecord& run);
   void commit();
   void close();
 };
 
-void ArchiveWriter::Impl::open(const CampaignRecord& campaign, const std::vector<CellRecord>& cell_records,
-                               const std::vector<GateRecord>& gates) {
+void ArchiveWriter::Impl::open() {
   db = std::make_unique<SQLite::Database>(live_path, SQLite::OPEN_READWRITE);
   db->exec(fmt::format("PRAGMA page_size={}; PRAGMA application_id={}; PRAGMA user_version={}", kPageSize,
                        kApplicationId, kSchemaVersion));
   // FULL brings the log to the disk at every commit: a power cut then costs no more than a kill.
   db->exec("PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL");
-  db->exec("BEGIN");
-  db->exec(schema_ddl());
-  const auto insert_into = [&](const std::string& table, const std::string& columns) {
-    return SQLite::Statement(*db,
-                             fmt::format("INSERT INTO {} ({}) VALUES ({})", table, columns, placeholders(columns)));
-  };
+}
+
+SQLite::Statement ArchiveWriter::Impl::insert_into(const std::string& table, const std::string& columns) {
+  return {*db, fmt::format("INSERT INTO {} ({}) VALUES ({})", table, columns, placeholders(columns))};
+}
+
+void ArchiveWriter::Impl::insert_plan(const CampaignRecord& campaign, const std::vector<CellRecord>& cell_records,
+                                      const std::vector<GateRecord>& gates) {
   auto insert_campaign = insert_into("campaign", kCampaignColumns);
   bind_campaign(insert_campaign, campaign, plan_checksum(campaign, cell_records, gates));
   insert_campaign.exec();
@@ -95,7 +90,39 @@ void ArchiveWriter::Impl::open(const CampaignRecord& campaign, const std::vector
     bind_gate(insert_gate, gate);
     insert_gate.exec();
   }
+}
+
+void ArchiveWriter::Impl::create(const CampaignRecord& campaign, const std::vector<CellRecord>& cell_records,
+                                 const std::vector<GateRecord>& gates) {
+  open();
+  db->exec("BEGIN");
+  db->exec(schema_ddl());
+  insert_plan(campaign, cell_records, gates);
   db->exec("COMMIT");
+  prepare();
+}
+
+void ArchiveWriter::Impl::go_on(CampaignRecord campaign, const std::vector<CellRecord>& cell_records,
+                                const std::vector<GateRecord>& gates, const Resumption& resumption) {
+  {
+    const ArchiveReader stored(live_path);
+    resumption.check(stored.campaign(), campaign);
+    stored.for_each_run(resumption.visit);
+  }
+  try {
+    open();
+    db->exec("BEGIN");
+    // The plan may have grown by replicates, and a live file is not sealed.
+    db->exec("DELETE FROM campaign; DELETE FROM cells; DELETE FROM gates");
+    insert_plan(campaign, cell_records, gates);
+    db->exec("COMMIT");
+    prepare();
+  } catch (const SQLite::Exception&) {
+    throw_archive_error(live_path);
+  }
+}
+
+void ArchiveWriter::Impl::prepare() {
   const auto runs = run_columns();
   insert_run = std::make_unique<SQLite::Statement>(
       *db,
@@ -148,7 +175,7 @@ void ArchiveWriter::Impl::close() {
 
 ArchiveWriter::ArchiveWriter(const std::string& path, const CampaignRecord& campaign,
                              const std::vector<CellRecord>& cells, const std::vector<GateRecord>& gates,
-                             Existing existing)
+                             Existing existing, const Resumption& resumption)
     : impl_(std::make_unique<Impl>()) {
   require_place(path);
   impl_->path = absolute_name(path);
@@ -158,10 +185,23 @@ ArchiveWriter::ArchiveWriter(const std::string& path, const CampaignRecord& camp
   impl_->lock.emplace(impl_->path);
   require_free_name(impl_->path, existing);
   require_free_live_name(impl_->live_path, existing);
+  const LiveFile live =
+      existing == Existing::Resume ? bring_back_live_file(impl_->path, impl_->live_path) : LiveFile::None;
+  if (live != LiveFile::None) {
+    try {
+      impl_->go_on(campaign, cells, gates, resumption);
+    } catch (...) {
+      impl_->db.reset();
+      if (live == LiveFile::Copied) remove_live_file(impl_->live_path);
+      throw;
+    }
+    return;
+  }
+  if (existing == Existing::Resume) impl_->existing = Existing::Refuse;  // there is nothing to go on with
   if (existing == Existing::Replace) remove_live_file(impl_->live_path);
   make_live_file(impl_->live_path);
   try {
-    impl_->open(campaign, cells, gates);
+    impl_->create(campaign, cells, gates);
   } catch (const SQLite::Exception&) {
     impl_->db.reset();
     remove_live_file(impl_->live_path);  // it holds no run yet, and would prevent the next try

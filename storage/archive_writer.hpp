@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,9 +10,17 @@
 
 namespace fleetproof {
 
-// What happens to a campaign file that already exists. Replace: it stays until the new file is published; the new file
-// then replaces it at one instant.
-enum class Existing : std::uint8_t { Refuse, Replace };
+// What happens to a campaign file that already exists. It stays until the new file is published; the new file then
+// replaces it at one instant. Resume: its runs are taken over, or those of the live file that a killed program left.
+enum class Existing : std::uint8_t { Refuse, Replace, Resume };
+
+// What the caller does with a campaign that goes on.
+struct Resumption {
+  // Throws if the stored campaign must not go on as `continued`. May add to `continued`.
+  std::function<void(const CampaignRecord& stored, CampaignRecord& continued)> check = [](const auto&, auto&) {};
+  // Sees every stored run, in order of run index. Its checksum was right.
+  std::function<void(const RunRecord& run)> visit = [](const RunRecord&) {};
+};
 
 // The live file of a running campaign: NAME.partial beside NAME, with a write-ahead log. One connection writes and
 // checkpoints. Rows are stored when their runs finish. A kill loses at most the rows since the last commit (2 s). Only
@@ -20,10 +29,12 @@ enum class Existing : std::uint8_t { Refuse, Replace };
 class ArchiveWriter {
  public:
   // Throws InputError, with a remedy, if another run writes this file, if the place cannot be written, or if a file is
-  // in the way. Refuse: `path` and its live file are in the way. Replace: a file with one of these names is in the way
-  // if it is not a campaign file of this program. Throws EngineError if the disk fails.
+  // in the way. Refuse: `path` and its live file are in the way. Replace and Resume: a file with one of these names is
+  // in the way if it is not a campaign file of this program. Throws EngineError if the disk fails or a stored run is
+  // damaged. Throws what the check of the resumption throws; then all files are as they were.
   ArchiveWriter(const std::string& path, const CampaignRecord& campaign, const std::vector<CellRecord>& cells,
-                const std::vector<GateRecord>& gates, Existing existing = Existing::Refuse);
+                const std::vector<GateRecord>& gates, Existing existing = Existing::Refuse,
+                const Resumption& resumption = {});
   ~ArchiveWriter();
   ArchiveWriter(const ArchiveWriter&) = delete;
   ArchiveWriter& operator=(const ArchiveWriter&) = delete;

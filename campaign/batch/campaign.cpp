@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <iterator>
-#include <set>
 
+#include "campaign/batch/run_ledger.hpp"
+#include "campaign/batch/same_campaign.hpp"
 #include "campaign/batch/task_pool.hpp"
 #include "campaign/plan/plan_text.hpp"
 #include "campaign/run/engine_identity.hpp"
@@ -19,23 +20,6 @@ namespace {
 // Runs between the oldest unfinished and the newest handed out: one slow run stalls nothing, and memory stays bounded.
 constexpr std::uint64_t kLiveWindow = 65'536;
 
-// Counts the gap-free prefix of a set of run indices that arrive in any order.
-class Prefix {
- public:
-  void add(std::uint64_t index) {
-    ahead_.insert(index);
-    while (!ahead_.empty() && *ahead_.begin() == length_) {
-      ahead_.erase(ahead_.begin());
-      ++length_;
-    }
-  }
-  std::uint64_t length() const { return length_; }
-
- private:
-  std::uint64_t length_ = 0;
-  std::set<std::uint64_t> ahead_;
-};
-
 bool must_stop(const RunOptions& options, double elapsed_s) {
   const bool interrupted = options.interrupted != nullptr && options.interrupted->load() != 0;
   return interrupted || (options.max_time && elapsed_s >= static_cast<double>(options.max_time->count()));
@@ -43,13 +27,6 @@ bool must_stop(const RunOptions& options, double elapsed_s) {
 
 constexpr std::chrono::seconds kDrain{4};  // what runs under way get after the stop; then they are abandoned
 constexpr std::size_t kLossesKept = 1000;
-
-void keep_losses(CampaignResult& result, std::vector<WorkerLoss> losses) {
-  result.loss_count += losses.size();
-  for (WorkerLoss& loss : losses) {
-    if (result.losses.size() < kLossesKept) result.losses.push_back(std::move(loss));
-  }
-}
 
 }  // namespace
 
@@ -87,55 +64,118 @@ CampaignRecord campaign_record(const CampaignPlan& plan, const AgentPrograms& pr
   return record;
 }
 
-CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& path,
-                            const RunOptions& options, const CampaignListener& listener) {
-  using Clock = std::chrono::steady_clock;
-  RunHost runs(plan, programs, options.workers, options.worker_logs);
-  build_first_worlds(plan);  // what cannot be built at all is said before anything is written
-  ArchiveWriter archive(path, campaign_record(plan, programs), plan.cells(), plan.gates,
-                        options.overwrite ? Existing::Replace : Existing::Refuse);
-  CampaignResult result;
-  result.progress.planned = plan.run_count();
-  listener.started();
-  Prefix prefix;
-  const auto started = Clock::now();
-  auto last_tick = started, last_commit = started;
-  std::optional<Clock::time_point> stopped;
-  {
-    TaskPool pool(options.workers, 0, plan.run_count(), kLiveWindow, [&](std::uint64_t index) { return runs(index); });
+namespace {
+
+bool failed(const Outcome& outcome) { return outcome.outcome_class() <= OutcomeClass::Hang; }
+
+// The runs of a campaign from the pool into the archive, on the caller's thread.
+class Session {
+ public:
+  Session(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& path, const RunOptions& options,
+          const CampaignListener& listener)
+      : options_(options),
+        listener_(listener),
+        runs_(plan, programs, options.workers, options.worker_logs),
+        archive_(path, campaign_record(plan, programs), plan.cells(), plan.gates,
+                 options.overwrite ? Existing::Replace : Existing::Resume, resumption(path)) {
+    result_.progress.planned = plan.run_count();
+  }
+
+  CampaignResult run() {
+    listener_.started();
+    TaskPool pool(
+        options_.workers, ledger_.prefix_length(), result_.progress.planned, kLiveWindow,
+        [this](std::uint64_t index) { return runs_(index); }, ledger_.ahead());
     while (!pool.finished()) {
       const auto record = pool.next(std::chrono::milliseconds(100));
-      const auto now = Clock::now();
-      result.progress.elapsed_s = std::chrono::duration<double>(now - started).count();
-      if (record) {
-        ++result.progress.done;
-        result.progress.violating += record->outcome.violation ? 1 : 0;
-        result.progress.engine_errors += record->outcome.engine_error ? 1 : 0;
-        prefix.add(record->run_index);
-        archive.add(*record);
-        listener.run_finished(*record);
-      }
-      if (!stopped && must_stop(options, result.progress.elapsed_s)) {
-        stopped = now;
-        pool.stop();
-      }
-      if (stopped && now - *stopped >= kDrain) runs.abandon();
-      if (now - last_tick >= std::chrono::milliseconds(100)) {
-        last_tick = now;
-        listener.tick(result.progress);
-        keep_losses(result, runs.take_losses());
-      }
-      if (now - last_commit >= std::chrono::seconds(1)) {  // even while one slow run lets no other finish
-        last_commit = now;
-        archive.commit();
-      }
+      if (record) take(*record);
+      result_.progress.elapsed_s = std::chrono::duration<double>(Clock::now() - started_).count();
+      stop_if_due(pool);
+      tick_if_due(pool);
     }
-    result.threads = pool.threads_seen();
+    result_.threads = pool.threads_seen();
+    keep_losses();
+    result_.stored = stop_length().value_or(ledger_.prefix_length());
+    archive_.publish(result_.stored);
+    return std::move(result_);
   }
-  keep_losses(result, runs.take_losses());
-  result.stored = prefix.length();
-  archive.publish(result.stored);
-  return result;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  Resumption resumption(const std::string& path) {
+    return {[this, path](const CampaignRecord& stored, CampaignRecord& continued) {
+              require_same_campaign(path, stored, continued, options_.allow_drift);
+            },
+            [this](const RunRecord& record) { count(record); }};
+  }
+
+  void count(const RunRecord& record) {
+    Progress& progress = result_.progress;
+    ++progress.done;
+    progress.violating += record.outcome.violation ? 1 : 0;
+    progress.engine_errors += record.outcome.engine_error ? 1 : 0;
+    ledger_.add(record.run_index, failed(record.outcome));
+  }
+
+  void take(const RunRecord& record) {
+    ++result_.progress.simulated;
+    count(record);
+    archive_.add(record);
+    listener_.run_finished(record);
+  }
+
+  std::optional<std::uint64_t> stop_length() const {
+    return options_.fail_fast > 0 ? ledger_.length_with_failures(options_.fail_fast) : std::nullopt;
+  }
+
+  void stop_if_due(TaskPool& pool) {
+    const auto now = Clock::now();
+    if (!stopped_ && (must_stop(options_, result_.progress.elapsed_s) || stop_length())) {
+      stopped_ = now;
+      pool.stop();
+    }
+    if (stopped_ && now - *stopped_ >= kDrain) runs_.abandon();
+  }
+
+  void tick_if_due(const TaskPool& pool) {
+    const auto now = Clock::now();
+    if (now - last_tick_ >= std::chrono::milliseconds(100)) {
+      last_tick_ = now;
+      listener_.tick(result_.progress);
+      if (listener_.wants_status()) listener_.status(result_.progress, pool.under_way());
+      keep_losses();
+    }
+    if (now - last_commit_ >= std::chrono::seconds(1)) {  // even while one slow run lets no other finish
+      last_commit_ = now;
+      archive_.commit();
+    }
+  }
+
+  void keep_losses() {
+    for (WorkerLoss& loss : runs_.take_losses()) {
+      ++result_.loss_count;
+      if (result_.losses.size() < kLossesKept) result_.losses.push_back(std::move(loss));
+    }
+  }
+
+  const RunOptions& options_;
+  const CampaignListener& listener_;
+  CampaignResult result_;
+  RunLedger ledger_;
+  RunHost runs_;  // before the archive: worker processes must not hold its files
+  ArchiveWriter archive_;
+  const Clock::time_point started_ = Clock::now();
+  Clock::time_point last_tick_ = started_, last_commit_ = started_;
+  std::optional<Clock::time_point> stopped_;
+};
+
+}  // namespace
+
+CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& path,
+                            const RunOptions& options, const CampaignListener& listener) {
+  build_first_worlds(plan);  // what cannot be built at all is said before anything is written
+  return Session(plan, programs, path, options, listener).run();
 }
 
 }  // namespace fleetproof

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "campaign/batch/task_pool.hpp"
 #include "campaign/plan/plan.hpp"
 #include "campaign/run/agent_programs.hpp"
 #include "campaign/workers/isolated_runs.hpp"
@@ -17,14 +18,17 @@ namespace fleetproof {
 
 struct RunOptions {
   int workers = 1;
-  std::string worker_logs;  // prefix of the files that take what plug-ins print; empty: it is dropped
-  bool overwrite = false;   // replace an existing campaign file, once the new one is complete
+  std::string worker_logs;   // prefix of the files that take what plug-ins print; empty: it is dropped
+  bool overwrite = false;    // replace an existing campaign file, once the new one is complete; else it goes on
+  bool allow_drift = false;  // go on in a file that another engine wrote, and record it
   std::optional<std::chrono::seconds> max_time;   // stop cleanly after this time
+  std::uint64_t fail_fast = 0;                    // stop after so many failed runs, in order of run index; 0: never
   const std::atomic<int>* interrupted = nullptr;  // non-zero: a signal number; stop handing out runs
 };
 
+// Runs are counted with those that an earlier session stored, but for `simulated`.
 struct Progress {
-  std::uint64_t done = 0, planned = 0, violating = 0, engine_errors = 0;
+  std::uint64_t simulated = 0, done = 0, planned = 0, violating = 0, engine_errors = 0;
   double elapsed_s = 0.0;
 };
 
@@ -42,13 +46,17 @@ struct CampaignListener {
   std::function<void()> started = [] {};  // the file is open, no run has begun
   std::function<void(const RunRecord&)> run_finished = [](const RunRecord&) {};
   std::function<void(const Progress&)> tick = [](const Progress&) {};  // about ten times a second
+  // Asked about ten times a second; true: `status` is called once.
+  std::function<bool()> wants_status = [] { return false; };
+  std::function<void(const Progress&, const std::vector<RunUnderWay>&)> status = [](const auto&, const auto&) {};
 };
 
 // Runs the plan and leaves its campaign file at `path`. Agents of plug-ins run in worker processes
 // (campaign/workers); reference agents run on the threads of the pool. Rows are stored when their runs finish. The
 // published file contains the gap-free prefix of run indices. The same runs therefore give the same bytes with any
-// number of workers and in any order of finishing. Throws InputError and writes nothing if an agent is not known, if a
-// layout has no room for its fleet, or if the file exists.
+// number of workers, in any order of finishing, in one session or several. A file that exists already goes on: its runs
+// are not simulated again. Throws InputError and writes nothing if an agent is not known, if a layout has no room for
+// its fleet, or if the file holds another campaign.
 CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& path,
                             const RunOptions& options, const CampaignListener& listener);
 

@@ -8,6 +8,7 @@
 #include <condition_variable>
 #include <deque>
 #include <exception>
+#include <map>
 #include <mutex>
 #include <set>
 #include <thread>
@@ -30,8 +31,9 @@ struct TaskPool::Impl {
 
   mutable std::mutex mutex;
   std::condition_variable room, results;
-  std::uint64_t next_index;           // to hand out
-  std::set<std::uint64_t> under_way;  // handed out, not yet finished
+  std::uint64_t next_index;                                                  // to hand out
+  std::map<std::uint64_t, std::chrono::steady_clock::time_point> under_way;  // handed out when, not yet finished
+  const std::set<std::uint64_t> done_before;
   std::deque<RunRecord> done;
   std::set<std::thread::id> threads;
   std::exception_ptr failure;
@@ -39,8 +41,15 @@ struct TaskPool::Impl {
   bool stopping = false, crew_gone = false;
   std::thread crew;
 
-  Impl(int worker_count, std::uint64_t begin, std::uint64_t end_index, std::uint64_t window_size, Simulate function)
-      : workers(worker_count), end(end_index), window(window_size), simulate(std::move(function)), next_index(begin) {
+  Impl(int worker_count, std::uint64_t begin, std::uint64_t end_index, std::uint64_t window_size, Simulate function,
+       std::set<std::uint64_t> finished)
+      : workers(worker_count),
+        end(end_index),
+        window(window_size),
+        simulate(std::move(function)),
+        next_index(begin),
+        done_before(std::move(finished)) {
+    skip_done();
     ensure(workers >= 1 && window >= 1, "a pool has at least one worker and room for one run");
     crew = std::thread([this] { feed(); });
   }
@@ -74,6 +83,9 @@ struct TaskPool::Impl {
     results.notify_all();
   }
 
+  void skip_done() {
+    while (done_before.contains(next_index)) ++next_index;
+  }
   bool more_to_do() const { return !stopping && next_index < end; }
 
   bool wait_for_room() {
@@ -99,10 +111,12 @@ struct TaskPool::Impl {
     std::uint64_t index = 0;
     {
       std::unique_lock lock(mutex);
-      room.wait(lock, [&] { return !more_to_do() || under_way.empty() || next_index - *under_way.begin() < window; });
+      room.wait(lock,
+                [&] { return !more_to_do() || under_way.empty() || next_index - under_way.begin()->first < window; });
       if (!more_to_do()) return task_ends();
       index = next_index++;
-      under_way.insert(index);
+      skip_done();
+      under_way.emplace(index, std::chrono::steady_clock::now());
       threads.insert(std::this_thread::get_id());
     }
     std::optional<RunRecord> record;
@@ -127,8 +141,9 @@ struct TaskPool::Impl {
   }
 };
 
-TaskPool::TaskPool(int workers, std::uint64_t begin, std::uint64_t end, std::uint64_t window, Simulate simulate)
-    : impl_(std::make_unique<Impl>(workers, begin, end, window, std::move(simulate))) {}
+TaskPool::TaskPool(int workers, std::uint64_t begin, std::uint64_t end, std::uint64_t window, Simulate simulate,
+                   std::set<std::uint64_t> done)
+    : impl_(std::make_unique<Impl>(workers, begin, end, window, std::move(simulate), std::move(done))) {}
 
 TaskPool::~TaskPool() {
   stop();
@@ -157,6 +172,15 @@ std::optional<RunRecord> TaskPool::next(std::chrono::milliseconds patience) {
 bool TaskPool::finished() const {
   const std::lock_guard lock(impl_->mutex);
   return impl_->crew_gone && impl_->done.empty() && !impl_->failure;
+}
+
+std::vector<RunUnderWay> TaskPool::under_way() const {
+  const auto now = std::chrono::steady_clock::now();
+  const std::lock_guard lock(impl_->mutex);
+  std::vector<RunUnderWay> runs;
+  for (const auto& [index, since] : impl_->under_way)
+    runs.push_back({index, std::chrono::duration<double>(now - since).count()});
+  return runs;
 }
 
 int TaskPool::threads_seen() const {

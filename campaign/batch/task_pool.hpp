@@ -5,10 +5,18 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
+#include <vector>
 
 #include "storage/records.hpp"
 
 namespace fleetproof {
+
+// A run that was handed out and has not finished.
+struct RunUnderWay {
+  std::uint64_t run_index = 0;
+  double since_s = 0.0;  // for so long
+};
 
 // Independent runs on a TBB task pool: an index goes in, a record comes out. The caller's thread never works in the
 // pool. It takes the results in the order in which they finish. Requires: `simulate` is a pure function of the index.
@@ -19,8 +27,9 @@ class TaskPool {
   using Simulate = std::function<std::optional<RunRecord>(std::uint64_t run_index)>;
 
   // Starts `workers` threads on the runs [begin, end). At most `window` runs lie between the oldest unfinished run and
-  // the newest run that was handed out.
-  TaskPool(int workers, std::uint64_t begin, std::uint64_t end, std::uint64_t window, Simulate simulate);
+  // the newest run that was handed out. The runs in `done` are not handed out.
+  TaskPool(int workers, std::uint64_t begin, std::uint64_t end, std::uint64_t window, Simulate simulate,
+           std::set<std::uint64_t> done = {});
   // Hands out no more runs and waits for the runs under way.
   ~TaskPool();
   TaskPool(const TaskPool&) = delete;
@@ -30,8 +39,9 @@ class TaskPool {
   std::optional<RunRecord> next(std::chrono::milliseconds patience);
   // Whether all runs that were handed out have been taken, and no more will come.
   bool finished() const;
-  void stop();               // hands out no more runs
-  int threads_seen() const;  // the number of different threads that have simulated so far
+  void stop();                                 // hands out no more runs
+  std::vector<RunUnderWay> under_way() const;  // in order of run index
+  int threads_seen() const;                    // the number of different threads that have simulated so far
 
  private:
   struct Impl;

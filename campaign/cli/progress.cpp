@@ -42,7 +42,8 @@ ProgressTalk::~ProgressTalk() { clear_line(); }
 
 CampaignListener ProgressTalk::listener() {
   return {[this] { started(); }, [this](const RunRecord& record) { run_finished(record); },
-          [this](const Progress& progress) { tick(progress); }};
+          [this](const Progress& progress) { tick(progress); }, [] { return false; },
+          [this](const Progress& progress, const std::vector<RunUnderWay>& under_way) { status(progress, under_way); }};
 }
 
 void ProgressTalk::started() { talk("{}\n", opening_); }
@@ -61,7 +62,7 @@ void ProgressTalk::run_finished(const RunRecord& record) {
 }
 
 std::string ProgressTalk::counter_line(const Progress& progress) const {
-  const double rate = progress.elapsed_s > 0.0 ? static_cast<double>(progress.done) / progress.elapsed_s : 0.0;
+  const double rate = progress.elapsed_s > 0.0 ? static_cast<double>(progress.simulated) / progress.elapsed_s : 0.0;
   const double left_s = rate > 0.0 ? static_cast<double>(progress.planned - progress.done) / rate : 0.0;
   return fmt::format("{}/{} runs  {:.0f} %  {:.0f} runs/s  ETA {} | violating {}{}", progress.done, progress.planned,
                      100.0 * static_cast<double>(progress.done) / static_cast<double>(progress.planned), rate,
@@ -77,6 +78,12 @@ void ProgressTalk::tick(const Progress& progress) {
     last_line_s_ = progress.elapsed_s;
     talk("{}\n", counter_line(progress));
   }
+}
+
+void ProgressTalk::status(const Progress& progress, const std::vector<RunUnderWay>& under_way) {
+  clear_line();
+  talk("{}\n", counter_line(progress));
+  for (const RunUnderWay& run : under_way) talk("  run {} for {:.1f} s\n", run.run_index, run.since_s);
 }
 
 void ProgressTalk::clear_line() {

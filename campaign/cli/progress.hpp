@@ -24,6 +24,7 @@ class ProgressTalk {
   void started();
   void run_finished(const RunRecord& record);
   void tick(const Progress& progress);
+  void status(const Progress& progress, const std::vector<RunUnderWay>& under_way);
   std::string counter_line(const Progress& progress) const;
   void clear_line();
 

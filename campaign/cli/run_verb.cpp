@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <csignal>
+#include <ctime>
 #include <filesystem>
 #include <memory>
 #include <thread>
@@ -13,6 +14,7 @@
 #include "campaign/cli/progress.hpp"
 #include "campaign/cli/render.hpp"
 #include "campaign/cli/streams.hpp"
+#include "campaign/cli/time_budget.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "campaign/plan/campaign_file.hpp"
 #include "campaign/plan/plan_check.hpp"
@@ -25,16 +27,31 @@ namespace {
 struct RunWords {
   std::string campaign, archive;
   std::optional<std::uint64_t> jobs, replicates, seed;
-  std::optional<double> max_time_s;
-  bool overwrite = false, json = false;
+  std::optional<std::uint64_t> fail_fast;
+  std::string max_time, until;
+  bool overwrite = false, allow_drift = false, json = false;
 };
 
 std::atomic<int> interrupted{0};
+std::atomic<bool> status_wanted{false};
+
+void on_status_signal(int) { status_wanted = true; }
 
 // First signal: finish the runs that are under way and keep them. Second signal: exit at once; the live file stays as
 // it was at its last commit.
 void on_signal(int number) {
   if (interrupted.exchange(number) != 0) std::_Exit(128 + number);
+}
+
+// The shorter of two budgets; none if neither is given.
+std::optional<std::chrono::seconds> time_budget(const RunWords& words) {
+  std::optional<std::chrono::seconds> budget;
+  if (!words.max_time.empty()) budget = duration_of(words.max_time, "--max-time");
+  if (!words.until.empty()) {
+    const auto until = time_until(words.until, std::time(nullptr), "--until");
+    budget = budget ? std::min(*budget, until) : until;
+  }
+  return budget;
 }
 
 RunOptions run_options(const RunWords& words) {
@@ -44,22 +61,33 @@ RunOptions run_options(const RunWords& words) {
   if (workers < 1 || workers > 1024)
     throw InputError("--jobs", fmt::format("is {}; it lies between 1 and 1024", workers));
   options.workers = static_cast<int>(workers);
-  if (words.max_time_s) {
-    if (!(*words.max_time_s >= 1.0 && *words.max_time_s <= 1e9)) throw InputError("--max-time", "must be at least 1 s");
-    options.max_time = std::chrono::seconds(static_cast<long>(*words.max_time_s));
-  }
+  options.max_time = time_budget(words);
+  if (words.fail_fast && *words.fail_fast < 1) throw InputError("--fail-fast", "is 0; it is at least 1");
+  options.fail_fast = words.fail_fast.value_or(0);
+  options.allow_drift = words.allow_drift;
   options.overwrite = words.overwrite;
   options.interrupted = &interrupted;
   options.worker_logs = std::filesystem::path(words.archive).replace_extension().string();
   return options;
 }
 
+// The command that goes on with the campaign, with the words that say what the campaign is.
+std::string resume_command(const RunWords& words) {
+  std::string command = fmt::format("fleetproof run {} --db {}", shell_word(words.campaign), shell_word(words.archive));
+  if (words.replicates) command += fmt::format(" --replicates {}", *words.replicates);
+  if (words.seed) command += fmt::format(" --seed {}", *words.seed);
+  if (words.allow_drift) command += " --allow-drift";
+  return command;
+}
+
 int finish(const CampaignResult& result, const RunWords& words) {
   talk("{} of {} runs stored in {} after {:.1f} s ({:.0f} runs/s)\n", result.stored, result.progress.planned,
        words.archive, result.progress.elapsed_s,
-       static_cast<double>(result.progress.done) / std::max(1e-9, result.progress.elapsed_s));
+       static_cast<double>(result.progress.simulated) / std::max(1e-9, result.progress.elapsed_s));
   const int signal_number = interrupted.load();
-  if (signal_number != 0) talk("interrupted: the file holds the runs finished so far and says that it is incomplete\n");
+  if (!result.complete())
+    talk("{}: the file says that it is incomplete; go on: {}\n", signal_number != 0 ? "interrupted" : "stopped early",
+         resume_command(words));
   const ReportInput input = read_report_input(ArchiveReader(words.archive), words.archive);
   if (words.json) {
     put_text(render(input, "json"));
@@ -81,11 +109,14 @@ int run(RunWords words) {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   std::signal(SIGHUP, on_signal);
+  std::signal(SIGUSR1, on_status_signal);
   CampaignResult result;
   {
     ProgressTalk talk(file.plan, plugin_agents(file.plan, programs), words.archive, options.workers);
     const std::string started_utc = utc_now();
-    result = run_campaign(file.plan, programs, words.archive, options, talk.listener());
+    CampaignListener listener = talk.listener();
+    listener.wants_status = [] { return status_wanted.exchange(false); };
+    result = run_campaign(file.plan, programs, words.archive, options, listener);
     append_session(words.archive, started_utc, options, result);
   }
   return finish(result, words);
@@ -97,12 +128,15 @@ Action prepare_run(Options& options) {
   auto words = std::make_shared<RunWords>();
   options.positional("CAMPAIGN", words->campaign, "campaign file (TOML)");
   options.option("--db", words->archive,
-                 "campaign file to write (default: the campaign's name and .db, in this folder)");
+                 "campaign file to write, or to go on with (default: the campaign's name and .db, in this folder)");
   options.option("-j,--jobs", words->jobs, "worker threads (default: one per core)");
   options.option("--replicates", words->replicates, "instead of the file's number of replicates");
   options.option("--seed", words->seed, "instead of the file's seed");
-  options.option("--max-time", words->max_time_s, "stop cleanly after so many seconds");
-  options.flag("--overwrite", words->overwrite, "replace an existing campaign file");
+  options.option("--max-time", words->max_time, "stop cleanly after this time, as in 90, 45m or 5h30m");
+  options.option("--until", words->until, "stop cleanly at this time of day, as in 06:00");
+  options.option("--fail-fast", words->fail_fast, "stop after so many failed runs, in order of run index");
+  options.flag("--overwrite", words->overwrite, "begin again, and replace an existing campaign file");
+  options.flag("--allow-drift", words->allow_drift, "go on in a file of another build or plug-in, and record it");
   options.flag("--json", words->json, "print the report as JSON");
   return [words] { return run(*words); };
 }

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <vector>
+
+namespace fleetproof {
+
+// Which runs are finished, and the gap-free prefix of run indices among them. Statistics and stopping rules look at the
+// prefix only: short runs finish first and would be over-represented.
+class RunLedger {
+ public:
+  // Each index once, in any order.
+  void add(std::uint64_t run_index, bool failed);
+
+  std::uint64_t prefix_length() const { return length_; }
+  // The finished runs beyond the prefix.
+  std::set<std::uint64_t> ahead() const;
+  // The length of the shortest prefix that holds `count` failed runs; none if the prefix holds fewer. Requires: count
+  // is at least 1.
+  std::optional<std::uint64_t> length_with_failures(std::uint64_t count) const;
+
+ private:
+  std::uint64_t length_ = 0;
+  std::map<std::uint64_t, bool> ahead_;  // run index -> failed
+  std::vector<std::uint64_t> failures_;  // of the prefix, in order
+};
+
+}  // namespace fleetproof

@@ -1,0 +1,47 @@
+#include "storage/live_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+
+#include "core/base/error.hpp"
+#include "storage/canonical_file.hpp"
+#include "storage/target_file.hpp"
+
+namespace fleetproof {
+
+namespace fs = std::filesystem;
+
+void make_live_file(const std::string& live_path) {
+  const int fd = ::open(live_path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  if (fd < 0) throw_cannot_make(live_path, errno);
+  ::close(fd);
+}
+
+void remove_live_file(const std::string& live_path) {
+  std::error_code ignored;
+  for (const auto* suffix : {"", "-wal", "-shm", "-journal"}) fs::remove(live_path + suffix, ignored);
+}
+
+LiveFile bring_back_live_file(const std::string& path, const std::string& live_path) {
+  std::error_code ignored;
+  if (fs::exists(live_path, ignored) && fs::file_size(live_path, ignored) > 0) return LiveFile::Left;
+  remove_live_file(live_path);  // killed before it held anything
+  if (!fs::exists(path, ignored)) return LiveFile::None;
+  // Under another name until it is whole: a live file is believed.
+  const std::string copy = path + ".copy";
+  std::error_code error;
+  fs::copy_file(path, copy, fs::copy_options::overwrite_existing, error);
+  if (error) {
+    fs::remove(copy, ignored);
+    throw EngineError(fmt::format("{}: cannot be copied to {} ({}); free some space, or name another folder", path,
+                                  live_path, error.message()));
+  }
+  move_durably(copy, live_path);
+  return LiveFile::Copied;
+}
+
+}  // namespace fleetproof
