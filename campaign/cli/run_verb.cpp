@@ -9,12 +9,12 @@
 
 #include "campaign/batch/campaign.hpp"
 #include "campaign/batch/session_log.hpp"
+#include "campaign/batch/time_budget.hpp"
 #include "campaign/cli/archive_name.hpp"
 #include "campaign/cli/campaign_words.hpp"
 #include "campaign/cli/progress.hpp"
 #include "campaign/cli/render.hpp"
 #include "campaign/cli/streams.hpp"
-#include "campaign/cli/time_budget.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "campaign/plan/campaign_file.hpp"
 #include "campaign/plan/plan_check.hpp"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-namespace fleetproof::cli {
+namespace fleetproof {
 
 // "90", "90s", "45m", "5h30m", "1h2m3s": a duration of at least 1 s. Throws InputError.
 std::chrono::seconds duration_of(const std::string& text, const std::string& where);
@@ -14,4 +14,4 @@ std::chrono::seconds duration_of(const std::string& text, const std::string& whe
 // InputError.
 std::chrono::seconds time_until(const std::string& text, std::time_t now, const std::string& where);
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

@@ -1,4 +1,4 @@
-#include "campaign/cli/time_budget.hpp"
+#include "campaign/batch/time_budget.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 namespace {
 
 constexpr long kLongest_s = 1'000'000'000;
@@ -84,4 +84,4 @@ std::chrono::seconds time_until(const std::string& text, std::time_t now, const 
   return std::chrono::seconds(std::max<std::time_t>(1, then - now));
 }
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

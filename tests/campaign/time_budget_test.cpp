@@ -1,0 +1,40 @@
+#include "campaign/batch/time_budget.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/base/error.hpp"
+
+namespace fleetproof {
+namespace {
+
+TEST(TimeBudget, ReadsDurations) {
+  const auto seconds = [](const char* text) { return duration_of(text, "--max-time").count(); };
+  EXPECT_EQ(seconds("90"), 90);
+  EXPECT_EQ(seconds("90s"), 90);
+  EXPECT_EQ(seconds("45m"), 2700);
+  EXPECT_EQ(seconds("5h30m"), 19800);
+  EXPECT_EQ(seconds("1h2m3s"), 3723);
+  EXPECT_EQ(seconds("1h30"), 3630);
+  for (const char* wrong : {"", "0", "h", "5x", "30m5h", "1h1h", "-1", "1.5h", "99999999999", "0h0m"})
+    EXPECT_THROW(duration_of(wrong, "--max-time"), InputError) << wrong;
+}
+
+TEST(TimeBudget, WaitsForTheNextTimeOfThatName) {
+  std::tm day{};
+  day.tm_year = 126;
+  day.tm_mon = 10;
+  day.tm_mday = 22;
+  day.tm_hour = 22;
+  day.tm_isdst = -1;
+  const std::time_t ten_in_the_evening = std::mktime(&day);
+  const auto until = [&](const char* text) { return time_until(text, ten_in_the_evening, "--until").count(); };
+  EXPECT_EQ(until("23:15"), 4500);
+  EXPECT_EQ(until("06:00"), 8 * 3600);
+  EXPECT_EQ(until("22:00"), 24 * 3600);
+  EXPECT_EQ(until("22:00:01"), 1);
+  for (const char* wrong : {"", "6", "24:00", "06:60", "06:00:60", "06:00:00:00", "06:", "six"})
+    EXPECT_THROW(time_until(wrong, ten_in_the_evening, "--until"), InputError) << wrong;
+}
+
+}  // namespace
+}  // namespace fleetproof

@@ -1,0 +1,186 @@
+// A campaign that is stopped, killed, extended or disturbed leaves the file of an undisturbed one, byte for byte.
+#include <dirent.h>
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <thread>
+
+#include "tests/support/program.hpp"
+
+namespace fleetproof {
+namespace {
+
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+// The process and all that it has started, whoever started it.
+std::vector<pid_t> family_of(pid_t root) {
+  std::map<pid_t, pid_t> parents;
+  DIR* folder = ::opendir("/proc");
+  while (const dirent* entry = ::readdir(folder)) {
+    const pid_t pid = std::atoi(entry->d_name);
+    std::ifstream file("/proc/" + std::string(entry->d_name) + "/stat");
+    std::string number, name, state;
+    pid_t parent = 0;
+    if (pid > 0 && file >> number >> name >> state >> parent) parents[pid] = parent;
+  }
+  ::closedir(folder);
+  std::vector<pid_t> family;
+  for (const auto& [pid, parent] : parents) {
+    pid_t at = pid;
+    while (at != root && parents.contains(at)) at = parents[at];
+    if (at == root) family.push_back(pid);
+  }
+  return family;
+}
+
+class Resume : public test::ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    fs::copy_file(FLEETPROOF_FAILING_AGENT, path("failing.so"));
+    campaign("c.toml", 200, "mixed 20");
+  }
+
+  void campaign(const std::string& name, int replicates, const std::string& how, const std::string& more = "") {
+    write(name, "name = \"c\"\nkind = \"search\"\nseed = 5\nreplicates = " + std::to_string(replicates) +
+                    "\nhorizon_s = 60\nagent_config = \"" + how +
+                    "\"\n[factors]\nagents = [\"failing.so\", \"reckless\"]\nlayouts = [\"aisle-grid\"]\n"
+                    "loss = [0.4]\ndelay_s = [2]\n" +
+                    more);
+  }
+  std::string bytes_of(const std::string& words) {
+    fs::remove(path("x.db"));
+    EXPECT_LT(run("run c.toml --db x.db " + words).exit_code, 128);
+    return read(path("x.db"));
+  }
+  pid_t start(const std::vector<std::string>& words) {
+    const pid_t child = ::fork();
+    if (child != 0) return child;
+    if (::chdir(folder_.c_str()) != 0) ::_exit(126);
+    const int out = ::open("talk.txt", O_WRONLY | O_CREAT | O_APPEND, 0644);
+    for (const int stream : {1, 2}) ::dup2(out, stream);
+    std::vector<char*> arguments = {const_cast<char*>(FLEETPROOF_PROGRAM)};
+    for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+    arguments.push_back(nullptr);
+    ::execv(FLEETPROOF_PROGRAM, arguments.data());
+    ::_exit(127);
+  }
+  static int wait_for(pid_t child) {
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+};
+
+// Any process of the campaign is killed at any moment: supervisor, forker or worker.
+TEST_F(Resume, KilledAtAnyMomentItIsTheFileOfAnUndisturbedRun) {
+  const std::string undisturbed = bytes_of("");
+  const char* wanted = std::getenv("FLEETPROOF_KILLS");
+  int kills = wanted != nullptr ? std::atoi(wanted) : 50;
+  std::mt19937 draw(4711);
+  std::map<std::string, int> killed;
+  for (int round = 0; kills > 0; ++round) {
+    const std::string name = "k" + std::to_string(round) + ".db";
+    for (int code = -1; code != 0 && kills > 0;) {
+      const pid_t program = start({"run", "c.toml", "--db", name});
+      std::this_thread::sleep_for(std::chrono::milliseconds(draw() % 250));
+      const auto family = family_of(program);
+      const pid_t victim = family.empty() ? program : family[draw() % family.size()];
+      if (::kill(victim, SIGKILL) == 0) ++killed[victim == program ? "supervisor" : "forker or worker"];
+      --kills;
+      code = wait_for(program);
+      ASSERT_TRUE(code == 0 || code == 3 || code == 4 || code == 1 || code == 137) << code;
+    }
+    ASSERT_LT(run("run c.toml --db " + name).exit_code, 3);
+    ASSERT_TRUE(read(path(name)) == undisturbed) << name;
+    EXPECT_FALSE(fs::exists(path(name + ".partial")));
+  }
+  EXPECT_GE(killed["supervisor"], 5);
+  EXPECT_GE(killed["forker or worker"], 5);
+}
+
+TEST_F(Resume, WorkersExtensionsAndInterruptionsLeaveNoTrace) {
+  const std::string one = bytes_of("--jobs 1");
+  EXPECT_GT(one.size(), 50'000U);
+  for (const char* jobs : {"2", "3", "7", "32"}) EXPECT_TRUE(bytes_of(std::string("--jobs ") + jobs) == one) << jobs;
+  fs::remove(path("x.db"));
+  EXPECT_LT(run("run c.toml --db x.db --replicates 30").exit_code, 3);
+  EXPECT_LT(run("run c.toml --db x.db --replicates 31 --jobs 3").exit_code, 3);
+  EXPECT_LT(run("run c.toml --db x.db").exit_code, 3);
+  EXPECT_TRUE(read(path("x.db")) == one);
+  EXPECT_LT(run("run c.toml --db x.db").exit_code, 3) << "there is nothing left to do";
+  EXPECT_TRUE(read(path("x.db")) == one);
+}
+
+TEST_F(Resume, TheCommandThatIsPrintedGoesOn) {
+  campaign("c.toml", 4000, "none 1");
+  const pid_t program = start({"run", "c.toml", "--db", "a b.db"});
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  ::kill(program, SIGTERM);
+  EXPECT_EQ(wait_for(program), 143);
+  const std::string talk = read(path("talk.txt"));
+  const auto at = talk.find("go on: fleetproof ");
+  ASSERT_NE(at, std::string::npos) << talk;
+  std::string command = talk.substr(at + 18);
+  command.resize(command.find('\n'));
+  EXPECT_THAT(command, HasSubstr("'a b.db'"));
+  EXPECT_LT(run(command + " --replicates 4000").exit_code, 3);
+  EXPECT_THAT(run("report 'a b.db'").out, HasSubstr("4000 replicates complete"));
+}
+
+// Whatever its agents do: here one never returns.
+TEST_F(Resume, AnInterruptEndsWithinFiveSecondsInTheMiddleOfAnEndlessLoop) {
+  campaign("c.toml", 100, "loop 1");
+  const pid_t program = start({"run", "c.toml", "--db", "l.db"});
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  const auto begin = std::chrono::steady_clock::now();
+  ::kill(program, SIGINT);
+  EXPECT_EQ(wait_for(program), 130);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(6)) << "and a second for a busy machine";
+  EXPECT_TRUE(family_of(program).empty());
+  EXPECT_TRUE(fs::exists(path("l.db")));
+}
+
+TEST_F(Resume, AnotherCampaignOrAgentIsRefusedAndTheFileStays) {
+  ASSERT_LT(run("run c.toml --db x.db --replicates 5").exit_code, 3);
+  const std::string before = read(path("x.db"));
+  auto refused = run("run c.toml --db x.db --seed 6");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("plan/seed: stored 5, now 6"));
+  std::ofstream(path("failing.so"), std::ios::app) << "rebuilt";
+  refused = run("run c.toml --db x.db");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("libraries and plug-ins"));
+  EXPECT_TRUE(read(path("x.db")) == before);
+  EXPECT_FALSE(fs::exists(path("x.db.partial")));
+  EXPECT_LT(run("run c.toml --db x.db --allow-drift").exit_code, 3);
+  EXPECT_THAT(run("report x.db --json").out, HasSubstr("begun by fleetproof"));
+}
+
+TEST_F(Resume, AFailFastCampaignStopsAtTheSameRunWithAnyNumberOfWorkers) {
+  const std::string one = bytes_of("--fail-fast 3 --jobs 1");
+  EXPECT_TRUE(bytes_of("--fail-fast 3 --jobs 5") == one);
+  const auto report = nlohmann::json::parse(run("report x.db --json").out);
+  EXPECT_LT(report["campaign"]["stored_runs"], 20);
+  EXPECT_EQ(run("run c.toml --db x.db --fail-fast 0").exit_code, 2);
+}
+
+TEST_F(Resume, AStatusSignalTellsTheRunsUnderWay) {
+  campaign("c.toml", 5, "loop 1");
+  const pid_t program = start({"run", "c.toml", "--db", "s.db", "--jobs", "2"});
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  ::kill(program, SIGUSR1);
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  ::kill(program, SIGINT);
+  wait_for(program);
+  EXPECT_THAT(read(path("talk.txt")), HasSubstr("  run 0 for 0."));
+}
+
+}  // namespace
+}  // namespace fleetproof
