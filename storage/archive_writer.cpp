@@ -51,7 +51,7 @@ struct ArchiveWriter::Impl {
               const std::vector<GateRecord>& gates);
   void go_on(CampaignRecord campaign, const std::vector<CellRecord>& cell_records, const std::vector<GateRecord>& gates,
              const Resumption& resumption);
-  void open();
+  void open(const std::string& file);
   void insert_plan(const CampaignRecord& campaign, const std::vector<CellRecord>& cell_records,
                    const std::vector<GateRecord>& gates);
   void prepare();
@@ -61,10 +61,8 @@ struct ArchiveWriter::Impl {
   void close();
 };
 
-void ArchiveWriter::Impl::open() {
-  db = std::make_unique<SQLite::Database>(live_path, SQLite::OPEN_READWRITE);
-  db->exec(fmt::format("PRAGMA page_size={}; PRAGMA application_id={}; PRAGMA user_version={}", kPageSize,
-                       kApplicationId, kSchemaVersion));
+void ArchiveWriter::Impl::open(const std::string& file) {
+  db = std::make_unique<SQLite::Database>(file, SQLite::OPEN_READWRITE);
   // FULL brings the log to the disk at every commit: a power cut then costs no more than a kill.
   db->exec("PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL");
 }
@@ -94,12 +92,27 @@ void ArchiveWriter::Impl::insert_plan(const CampaignRecord& campaign, const std:
 
 void ArchiveWriter::Impl::create(const CampaignRecord& campaign, const std::vector<CellRecord>& cell_records,
                                  const std::vector<GateRecord>& gates) {
-  open();
-  db->exec("BEGIN");
-  db->exec(schema_ddl());
-  insert_plan(campaign, cell_records, gates);
-  db->exec("COMMIT");
-  prepare();
+  const std::string begun = new_live_name(path);
+  remove_live_file(begun);
+  make_live_file(begun);
+  try {
+    db = std::make_unique<SQLite::Database>(begun, SQLite::OPEN_READWRITE);
+    db->exec(fmt::format("PRAGMA page_size={}; PRAGMA application_id={}; PRAGMA user_version={}", kPageSize,
+                         kApplicationId, kSchemaVersion));
+    open(begun);
+    db->exec("BEGIN");
+    db->exec(schema_ddl());
+    insert_plan(campaign, cell_records, gates);
+    db->exec("COMMIT");
+    db.reset();
+    move_durably(begun, live_path);
+    open(live_path);
+    prepare();
+  } catch (const SQLite::Exception&) {
+    db.reset();
+    remove_live_file(begun);
+    throw_archive_error(live_path);
+  }
 }
 
 void ArchiveWriter::Impl::go_on(CampaignRecord campaign, const std::vector<CellRecord>& cell_records,
@@ -110,7 +123,7 @@ void ArchiveWriter::Impl::go_on(CampaignRecord campaign, const std::vector<CellR
     stored.for_each_run(resumption.visit);
   }
   try {
-    open();
+    open(live_path);
     db->exec("BEGIN");
     // The plan may have grown by replicates, and a live file is not sealed.
     db->exec("DELETE FROM campaign; DELETE FROM cells; DELETE FROM gates");
@@ -199,14 +212,7 @@ ArchiveWriter::ArchiveWriter(const std::string& path, const CampaignRecord& camp
   }
   if (existing == Existing::Resume) impl_->existing = Existing::Refuse;  // there is nothing to go on with
   if (existing == Existing::Replace) remove_live_file(impl_->live_path);
-  make_live_file(impl_->live_path);
-  try {
-    impl_->create(campaign, cells, gates);
-  } catch (const SQLite::Exception&) {
-    impl_->db.reset();
-    remove_live_file(impl_->live_path);  // it holds no run yet, and would prevent the next try
-    throw_archive_error(impl_->live_path);
-  }
+  impl_->create(campaign, cells, gates);
 }
 
 ArchiveWriter::~ArchiveWriter() {
@@ -257,6 +263,7 @@ void ArchiveWriter::publish(std::uint64_t stop_index) {
   }
   move_durably(unfinished, impl_->path);
   remove_live_file(impl_->live_path);
+  remove_live_file(new_live_name(impl_->path));  // of a program that was killed at its start
   impl_->lock.reset();
 }
 

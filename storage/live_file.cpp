@@ -1,5 +1,6 @@
 #include "storage/live_file.hpp"
 
+#include <SQLiteCpp/Database.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -9,11 +10,14 @@
 
 #include "core/base/error.hpp"
 #include "storage/canonical_file.hpp"
+#include "storage/sqlite_errors.hpp"
 #include "storage/target_file.hpp"
 
 namespace fleetproof {
 
 namespace fs = std::filesystem;
+
+std::string new_live_name(const std::string& path) { return path + ".new"; }
 
 void make_live_file(const std::string& live_path) {
   const int fd = ::open(live_path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
@@ -32,13 +36,20 @@ LiveFile bring_back_live_file(const std::string& path, const std::string& live_p
   remove_live_file(live_path);  // killed before it held anything
   if (!fs::exists(path, ignored)) return LiveFile::None;
   // Under another name until it is whole: a live file is believed.
-  const std::string copy = path + ".copy";
+  const std::string copy = new_live_name(path);
+  remove_live_file(copy);
   std::error_code error;
   fs::copy_file(path, copy, fs::copy_options::overwrite_existing, error);
   if (error) {
     fs::remove(copy, ignored);
     throw EngineError(fmt::format("{}: cannot be copied to {} ({}); free some space, or name another folder", path,
                                   live_path, error.message()));
+  }
+  try {
+    SQLite::Database(copy, SQLite::OPEN_READWRITE).exec("PRAGMA journal_mode=WAL");
+  } catch (const SQLite::Exception&) {
+    remove_live_file(copy);
+    throw_archive_error(path);
   }
   move_durably(copy, live_path);
   return LiveFile::Copied;
