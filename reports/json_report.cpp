@@ -74,6 +74,7 @@ Json failing_run_json(const ReportInput& input, const std::optional<FailingRun>&
   json["closest"] = run->closest ? violation_json(*run->closest) : Json(nullptr);
   json["message"] = run->message;
   json["replay"] = replay_line(input, run->run_index);
+  json["debug"] = run->message.empty() ? Json(nullptr) : Json(debug_command(input.archive_path, run->run_index));
   return json;
 }
 

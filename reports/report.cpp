@@ -24,10 +24,7 @@ constexpr std::array<Entry<RenderReport>, 4> kFormats{{
 std::span<const Entry<RenderReport>> report_formats() { return kFormats; }
 
 std::string replay_line(const ReportInput& input, std::uint64_t run_index) {
-  const auto& cells = input.evidence.cells();
-  const auto& agent = cells[run_index % cells.size()].agent;
-  const bool plugin = std::ranges::find(input.campaign.plugin_agents, agent) != input.campaign.plugin_agents.end();
-  return replay_command(input.archive_path, run_index, plugin ? agent : "");
+  return replay_command(input.archive_path, run_index);
 }
 
 ReportInput read_report_input(const ArchiveReader& archive, std::string archive_path) {

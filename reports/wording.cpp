@@ -72,11 +72,12 @@ std::string body_name(EntityId body, const CellRecord& cell) {
   return fmt::format("obstacle {}", body.value - cell.fleet_size);
 }
 
-std::string replay_command(const std::string& archive_path, std::uint64_t run_index, std::string_view plugin_agent) {
-  const auto command = fmt::format("fleetproof replay {} {}", shell_word(archive_path), run_index);
-  return plugin_agent.empty() ? command
-                              : fmt::format("{} --plugin {}", command,
-                                            shell_word(fmt::format("<path of {}>", printable(plugin_agent, 40))));
+std::string replay_command(const std::string& archive_path, std::uint64_t run_index) {
+  return fmt::format("fleetproof replay {} {}", shell_word(archive_path), run_index);
+}
+
+std::string debug_command(const std::string& archive_path, std::uint64_t run_index) {
+  return fmt::format("gdb --args {} --in-process", replay_command(archive_path, run_index));
 }
 
 std::string joined(const std::vector<std::string>& parts, std::string_view separator) {

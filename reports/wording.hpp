@@ -32,11 +32,10 @@ std::string count_text(std::uint64_t count, std::string_view singular);  // "1 r
 std::string hex_text(std::uint64_t digest);                              // 16 digits
 std::string body_name(EntityId body, const CellRecord& cell);            // "AGV 3", "obstacle 0"
 
-// The command that replays a run, as a person copies it into a shell. An archive does not know the path of a shared
-// object. If the agent of the run came from a shared object, `plugin_agent` is its name, and the command contains a
-// placeholder for the path.
-std::string replay_command(const std::string& archive_path, std::uint64_t run_index,
-                           std::string_view plugin_agent = "");
+// The command that replays a run, as a person copies it into a shell.
+std::string replay_command(const std::string& archive_path, std::uint64_t run_index);
+// The same in a debugger, for an agent that crashed.
+std::string debug_command(const std::string& archive_path, std::uint64_t run_index);
 
 std::string joined(const std::vector<std::string>& parts, std::string_view separator = ", ");
 

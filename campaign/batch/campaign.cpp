@@ -174,6 +174,7 @@ class Session {
 
 CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& path,
                             const RunOptions& options, const CampaignListener& listener) {
+  for (const std::string& agent : plan.agents) (void)programs.program(agent, "factors.agents");
   build_first_worlds(plan);  // what cannot be built at all is said before anything is written
   return Session(plan, programs, path, options, listener).run();
 }

@@ -12,12 +12,17 @@
 #include <cstring>
 #include <ctime>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.hpp"
 
 namespace fleetproof {
 namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view kFirstWords = "{\"started_utc\":";
 
 // In one piece, so that two campaigns may append to one file. O_NONBLOCK: a pipe of this name is not waited for.
 void append_lines(const std::string& path, const std::string& lines) {
@@ -31,42 +36,87 @@ void append_lines(const std::string& path, const std::string& lines) {
   }
   if (file >= 0 && ::close(file) != 0 && error == 0) error = errno;
   if (error == 0) return;
-  throw EngineError(fmt::format("{}: cannot be written ({}); the campaign file itself is complete", path,
+  throw EngineError(fmt::format("{}: cannot be written ({}); the campaign file itself is as it was", path,
                                 error == ENOTSUP ? "it is no regular file" : std::strerror(error)));
 }
 
-std::string text_of(const WorkerLoss& loss) {
-  return nlohmann::ordered_json({{"lost_run", loss.run_index},
-                                 {"message", loss.message},
-                                 {"fresh_worker", loss.in_fresh_worker},
-                                 {"signal", WIFSIGNALED(loss.death.status) ? WTERMSIG(loss.death.status) : 0},
-                                 {"cpu_s", loss.death.cpu_s},
-                                 {"max_memory_kb", loss.death.max_memory_kb},
-                                 {"log", loss.log}})
-      .dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
+
+std::string log_of(const std::string& archive_path) {
+  return std::filesystem::path(archive_path).replace_extension(".sessions.jsonl").string();
+}
+
+std::string line_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+Json json_of(const WorkerLoss& loss) {
+  return {{"lost_run", loss.run_index},
+          {"message", loss.message},
+          {"fresh_worker", loss.in_fresh_worker},
+          {"signal", WIFSIGNALED(loss.death.status) ? WTERMSIG(loss.death.status) : 0},
+          {"cpu_s", loss.death.cpu_s},
+          {"max_memory_kb", loss.death.max_memory_kb},
+          {"log", loss.log}};
+}
+
+// In a JSON pointer.
+std::string escaped(const std::string& key) {
+  std::string text;
+  for (const char c : key) text += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+  return text;
+}
+
+// What is appended to belongs to us: an earlier session began with the same words.
+void require_ours(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return;
+  std::ifstream file(path);
+  std::string line;
+  if (std::getline(file, line) && !line.starts_with(kFirstWords))
+    throw InputError(path,
+                     "this is no session log of fleetproof, and nothing is appended to it; give the campaign file "
+                     "another name, or move this file away");
 }
 
 }  // namespace
 
-std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
+SessionLog::SessionLog(const std::string& archive_path) : path_(log_of(archive_path)) { require_ours(path_); }
 
-void append_session(const std::string& archive_path, const std::string& started_utc, const RunOptions& options,
-                    const CampaignResult& result) {
+void SessionLog::begin(const RunOptions& options, const AgentPrograms& programs) const {
   std::array<char, 256> host{};
   gethostname(host.data(), host.size() - 1);
-  const nlohmann::ordered_json line = {{"started_utc", started_utc},
-                                       {"host", host.data()},
-                                       {"jobs", options.workers},
-                                       {"elapsed_s", result.progress.elapsed_s},
-                                       {"runs_done", result.progress.done},
-                                       {"runs_stored", result.stored},
-                                       {"runs_planned", result.progress.planned},
-                                       {"workers_lost", result.loss_count},
-                                       {"signal", options.interrupted != nullptr ? options.interrupted->load() : 0}};
-  std::string lines = line.dump() + "\n";
-  for (const WorkerLoss& loss : result.losses) lines += text_of(loss) + "\n";
-  const std::string path = std::filesystem::path(archive_path).replace_extension(".sessions.jsonl").string();
-  append_lines(path, lines);
+  Json plugins = Json::object();
+  for (const AgentProgram& program : programs.all()) {
+    if (program.is_plugin()) plugins[program.name] = {{"file", program.file}, {"sha256", program.sha256}};
+  }
+  append_lines(path_, line_of({{"started_utc", utc_now()},
+                               {"host", host.data()},
+                               {"pid", ::getpid()},
+                               {"jobs", options.workers},
+                               {"plugins", plugins}}));
+}
+
+void SessionLog::end(const CampaignResult& result, int signal_number) const {
+  std::string lines = line_of({{"ended_utc", utc_now()},
+                               {"pid", ::getpid()},
+                               {"elapsed_s", result.progress.elapsed_s},
+                               {"runs_simulated", result.progress.simulated},
+                               {"runs_stored", result.stored},
+                               {"runs_planned", result.progress.planned},
+                               {"workers_lost", result.loss_count},
+                               {"signal", signal_number}});
+  for (const WorkerLoss& loss : result.losses) lines += line_of(json_of(loss));
+  append_lines(path_, lines);
+}
+
+std::string remembered_plugin(const std::string& archive_path, const std::string& agent) {
+  std::ifstream file(log_of(archive_path));
+  std::string found;
+  for (std::string line; std::getline(file, line);) {
+    const Json json = Json::parse(line, nullptr, false);
+    const auto at = Json::json_pointer("/plugins/" + escaped(agent) + "/file");
+    if (json.is_object() && json.contains(at) && json[at].is_string()) found = json[at];
+  }
+  return found;
 }
 
 }  // namespace fleetproof

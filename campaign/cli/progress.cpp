@@ -55,10 +55,12 @@ void ProgressTalk::run_finished(const RunRecord& record) {
   if (std::ranges::find(told_agents_, cell.agent) != told_agents_.end()) return;
   told_agents_.push_back(cell.agent);
   clear_line();
+  const std::string replay = replay_command(archive_path_, record.run_index);
   talk("first failure of {}: {} in run {} ({}, {} AGVs, {})\n  replay: {}\n", cell.agent,
        name_of(outcome.outcome_class()), record.run_index, cell.layout, cell.fleet_size, factors_text(record.factors),
-       replay_command(archive_path_, record.run_index,
-                      std::ranges::find(plugins_, cell.agent) == plugins_.end() ? "" : cell.agent));
+       replay);
+  const bool plugin = std::ranges::find(plugins_, cell.agent) != plugins_.end();
+  if (plugin && (outcome.crash || outcome.hang)) talk("  debug: gdb --args {} --in-process\n", replay);
 }
 
 std::string ProgressTalk::counter_line(const Progress& progress) const {

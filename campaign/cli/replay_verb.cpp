@@ -1,9 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "campaign/batch/campaign.hpp"
+#include "campaign/batch/session_log.hpp"
 #include "campaign/cli/output_file.hpp"
 #include "campaign/cli/run_text.hpp"
 #include "campaign/cli/streams.hpp"
@@ -52,18 +53,38 @@ Resimulate isolated_simulation(const CampaignPlan& plan, const AgentPrograms& pr
   };
 }
 
+void tell_other_software(const ArchiveReader& archive, const AgentProgram& agent) {
+  const std::string difference = software_difference(archive.campaign().engine, agent);
+  if (!difference.empty()) put("  note: {}\n", difference);
+}
+
+// Without --plugin, the file that the campaign's last session remembers.
+std::vector<std::string> plugins_of(const ReplayWords& words, const ArchiveReader& archive, const std::string& agent) {
+  if (!words.plugins.empty()) return words.plugins;
+  const auto& plugin_agents = archive.campaign().plugin_agents;
+  if (std::ranges::find(plugin_agents, agent) == plugin_agents.end()) return {};
+  const std::string remembered = remembered_plugin(words.archive, agent);
+  if (remembered.empty()) {
+    throw InputError("--plugin", fmt::format("the run's agent {} comes from a shared object, and no session log beside "
+                                             "{} says where it is; name its file",
+                                             in_quotes(agent), words.archive));
+  }
+  return {remembered};
+}
+
 int replay_run(const ReplayWords& words) {
   const ArchiveReader archive(words.archive, Checksums::Ignore);
   AgentPrograms programs;
   // A trace is printed while the run goes on, so it needs the agent in this process.
   const bool in_process = words.in_process || words.trace;
-  for (const std::string& plugin : words.plugins) in_process ? programs.load(plugin) : programs.know(plugin);
   const CampaignPlan plan = parse_plan(archive.campaign().plan_json);
   const ScenarioSource source(plan);
   if (words.run >= plan.run_count()) {
     throw InputError("run",
                      fmt::format("{} does not exist; the campaign has runs 0 to {}", words.run, plan.run_count() - 1));
   }
+  for (const std::string& plugin : plugins_of(words, archive, source.place(words.run).cell.agent))
+    in_process ? programs.load(plugin) : programs.know(plugin);
   const Scenario scenario = source.scenario(words.run);
   TracePrinter printer(scenario);
   const ReplayResult result = in_process
@@ -79,12 +100,13 @@ int replay_run(const ReplayWords& words) {
         cell.fleet_size, factors_text(result.recomputed.factors), result.recomputed.replicate);
     if (!result.explanation.empty()) put("  {}\n", result.explanation);
     put_text(outcome_text(scenario, result.recomputed.outcome));
-    const bool same_program = archive.campaign().engine == campaign_record(plan, programs).engine;
-    if (!same_program)
-      put("  note: the file was written by another build of fleetproof, or with other plug-ins (see the report's "
-          "provenance)\n");
+    if (result.verdict == ReplayVerdict::SoftwareDiffers)
+      put("  stored outcome: {}\n", name_of(result.stored.outcome.outcome_class()));
+    if (result.verdict == ReplayVerdict::Reproduced)
+      tell_other_software(archive, programs.program(cell.agent, "replay"));
   }
-  return result.verdict == ReplayVerdict::Reproduced ? kDemonstrated : kEngineFault;
+  if (result.verdict == ReplayVerdict::Reproduced) return kDemonstrated;
+  return result.verdict == ReplayVerdict::SoftwareDiffers ? kNotDemonstrated : kEngineFault;
 }
 
 }  // namespace
@@ -93,7 +115,8 @@ Action prepare_replay(Options& options) {
   auto words = std::make_shared<ReplayWords>();
   options.positional("DB", words->archive, "campaign file");
   options.positional("RUN", words->run, "run index");
-  options.option("--plugin", words->plugins, "shared object with the agent of that run; may be given several times");
+  options.option("--plugin", words->plugins,
+                 "shared object with the agent of that run (default: the file that the campaign used)");
   options.option("--scenario", words->scenario_out,
                  "also write the run's scenario to this file (see: fleetproof simulate)");
   options.flag("--in-process", words->in_process, "run the agent in this process and on one thread, for a debugger");

@@ -113,11 +113,15 @@ int run(RunWords words) {
   CampaignResult result;
   {
     ProgressTalk talk(file.plan, plugin_agents(file.plan, programs), words.archive, options.workers);
-    const std::string started_utc = utc_now();
+    const SessionLog session(words.archive);
     CampaignListener listener = talk.listener();
+    listener.started = [&, tell = listener.started] {
+      session.begin(options, programs);
+      tell();
+    };
     listener.wants_status = [] { return status_wanted.exchange(false); };
     result = run_campaign(file.plan, programs, words.archive, options, listener);
-    append_session(words.archive, started_utc, options, result);
+    session.end(result, interrupted.load());
   }
   return finish(result, words);
 }

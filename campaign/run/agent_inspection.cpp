@@ -21,6 +21,7 @@ namespace {
 
 constexpr rlim_t kPatience_cpu_s = 10;
 constexpr int kPatience_ms = 60'000;  // of waiting without using CPU time
+constexpr int kKillsFromOutside = 3;  // more, and the object is the reason
 
 // The fields of a program, each with a null byte behind it. The first byte tells whether they are there or an error is.
 std::string text_of(const AgentProgram& program) {
@@ -45,7 +46,7 @@ void write_all(int fd, std::string_view bytes) {
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) ::signal(number, SIG_DFL);
   const int nothing = ::open("/dev/null", O_RDWR | O_CLOEXEC);
   for (const int stream : {0, 1, 2}) ::dup2(nothing, stream);  // what the object prints concerns nobody yet
-  const rlimit cpu{kPatience_cpu_s, kPatience_cpu_s}, core{0, 0};
+  const rlimit cpu{kPatience_cpu_s, kPatience_cpu_s + 1}, core{0, 0};
   ::setrlimit(RLIMIT_CPU, &cpu);
   ::setrlimit(RLIMIT_CORE, &core);
   try {
@@ -60,22 +61,33 @@ void write_all(int fd, std::string_view bytes) {
   ::_exit(0);
 }
 
-std::string read_until_end(int fd) {
+struct Inspection {
   std::string text;
+  bool came_back = true;  // within the patience
+  int status = 0;         // as of waitpid
+};
+
+Inspection read_until_end(int fd) {
+  Inspection inspection;
   std::array<char, 4096> buffer;
   pollfd ready{fd, POLLIN, 0};
-  while (::poll(&ready, 1, kPatience_ms) > 0) {
+  for (;;) {
+    const int events = ::poll(&ready, 1, kPatience_ms);
+    if (events < 0 && errno == EINTR) continue;
+    inspection.came_back = events != 0;
+    if (events <= 0) break;
     const auto count = ::read(fd, buffer.data(), buffer.size());
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) break;
-    text.append(buffer.data(), static_cast<std::size_t>(count));
+    inspection.text.append(buffer.data(), static_cast<std::size_t>(count));
   }
-  return text;
+  return inspection;
 }
 
-std::string end_of(int status) {
+std::string end_of(const Inspection& inspection) {
+  const int status = inspection.status;
+  if (!inspection.came_back || (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)) return "it does not come back";
   if (!WIFSIGNALED(status)) return "it ends the process that loads it";
-  if (WTERMSIG(status) == SIGKILL) return "it does not come back";
   return fmt::format("the process that loads it ends with signal {} ({})", WTERMSIG(status),
                      ::strsignal(WTERMSIG(status)));
 }
@@ -97,9 +109,7 @@ AgentProgram program_of(std::string_view fields) {
   return program;
 }
 
-}  // namespace
-
-AgentProgram inspect_agent(const std::string& path) {
+Inspection inspect_once(const std::string& path) {
   std::array<int, 2> answer{};
   if (::pipe2(answer.data(), O_CLOEXEC) != 0)
     throw EngineError(fmt::format("no pipe can be made: {}", std::strerror(errno)));
@@ -108,17 +118,31 @@ AgentProgram inspect_agent(const std::string& path) {
     ::close(answer[0]);
     load_and_tell(path, answer[1]);
   }
+  const int error = errno;
   ::close(answer[1]);
-  const std::string text = child < 0 ? std::string() : read_until_end(answer[0]);
+  Inspection inspection = child < 0 ? Inspection() : read_until_end(answer[0]);
   ::close(answer[0]);
-  if (child < 0) throw EngineError(fmt::format("no process can be started: {}", std::strerror(errno)));
-  ::kill(child, SIGKILL);  // it has answered, or never will
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  if (child < 0) throw EngineError(fmt::format("no process can be started: {}", std::strerror(error)));
+  if (!inspection.came_back) ::kill(child, SIGKILL);
+  while (::waitpid(child, &inspection.status, 0) < 0 && errno == EINTR) {
   }
-  if (text.starts_with('y')) return program_of(std::string_view(text).substr(1));
-  if (!text.starts_with('n')) throw InputError(path, "cannot be loaded: " + end_of(status));
-  std::string_view told = std::string_view(text).substr(1);
+  return inspection;
+}
+
+bool was_killed_from_outside(const Inspection& inspection) {
+  return inspection.came_back && WIFSIGNALED(inspection.status) && WTERMSIG(inspection.status) == SIGKILL;
+}
+
+}  // namespace
+
+AgentProgram inspect_agent(const std::string& path) {
+  Inspection inspection = inspect_once(path);
+  for (int again = 0; again < kKillsFromOutside && was_killed_from_outside(inspection); ++again)
+    inspection = inspect_once(path);
+  const std::string_view text = inspection.text;
+  if (text.starts_with('y')) return program_of(text.substr(1));
+  if (!text.starts_with('n')) throw InputError(path, "cannot be loaded: " + end_of(inspection));
+  std::string_view told = text.substr(1);
   const std::string place = printable(path) + ": ";
   if (told.starts_with(place)) told.remove_prefix(place.size());
   throw InputError(path, told);

@@ -6,6 +6,7 @@
 
 #include "campaign/plan/plan_text.hpp"
 #include "campaign/plan/scenario_source.hpp"
+#include "campaign/run/engine_identity.hpp"
 #include "campaign/run/run_one.hpp"
 #include "core/base/error.hpp"
 #include "core/base/random.hpp"
@@ -59,9 +60,42 @@ std::string all_digits(const FactorValues& factors) {
   return text;
 }
 
+ReplayResult of_intact_plan(ReplayResult result, const CampaignRecord& campaign) {
+  if (name_hash(campaign.plan_json) == campaign.plan_hash) return result;
+  result.explanation = "the plan in the file was changed: its hash no longer matches" +
+                       (result.explanation.empty() ? "" : "; " + result.explanation);
+  if (result.verdict == ReplayVerdict::Reproduced) result.verdict = ReplayVerdict::ScenarioDiffers;
+  return result;
+}
+
 }  // namespace
 
-const char* name_of(ReplayVerdict verdict) { return verdict == ReplayVerdict::Reproduced ? "REPRODUCED" : "DIVERGED"; }
+const char* name_of(ReplayVerdict verdict) {
+  switch (verdict) {
+    case ReplayVerdict::Reproduced:
+      return "REPRODUCED";
+    case ReplayVerdict::SoftwareDiffers:
+      return "SOFTWARE DIFFERS";
+    case ReplayVerdict::Diverged:
+    case ReplayVerdict::ScenarioDiffers:
+      return "DIVERGED";
+  }
+  invariant_violated("a verdict of a replay has a name");
+}
+
+std::string software_difference(const EngineIdentity& stored, const AgentProgram& agent) {
+  if (agent.is_plugin()) {
+    const std::string words = "plug-in " + agent.name + " sha256 ";
+    const auto at = stored.libraries.find(words);
+    const std::string then = at == std::string::npos ? "unknown" : stored.libraries.substr(at + words.size(), 64);
+    if (then != agent.sha256)
+      return fmt::format("the software differs (plug-in {}: sha256 {} then, {} now)", agent.name, then, agent.sha256);
+  }
+  const EngineIdentity now = engine_identity();
+  if (stored.program_sha256 == now.program_sha256) return "";
+  return fmt::format("the software differs (fleetproof {}: sha256 {} then, {}: {} now)", stored.version,
+                     stored.program_sha256, now.version, now.program_sha256);
+}
 
 ReplayResult compare_runs(RunRecord stored, RunRecord recomputed) {
   ReplayResult result;
@@ -111,16 +145,15 @@ ReplayResult replay(const ArchiveReader& archive, const CampaignPlan& plan, std:
                                         archive.run_count() - 1, plan.run_count()));
   }
   ReplayResult result = compare_runs(std::move(*stored), simulate(run_index));
-  if (result.verdict == ReplayVerdict::Diverged) {
-    const std::string agent = ScenarioSource(plan).place(run_index).cell.agent;
-    result.explanation += "; " + std::string(suspects_of(programs.program(agent, "replay")));
+  const AgentProgram& agent = programs.program(ScenarioSource(plan).place(run_index).cell.agent, "replay");
+  if (result.verdict == ReplayVerdict::Reproduced) return of_intact_plan(std::move(result), archive.campaign());
+  if (const auto difference = software_difference(archive.campaign().engine, agent); !difference.empty()) {
+    result.verdict = ReplayVerdict::SoftwareDiffers;
+    result.explanation = difference + "; " + result.explanation;
+  } else if (result.verdict == ReplayVerdict::Diverged) {
+    result.explanation += "; " + std::string(suspects_of(agent));
   }
-  if (name_hash(archive.campaign().plan_json) != archive.campaign().plan_hash) {
-    result.explanation = "the plan in the file was changed: its hash no longer matches" +
-                         (result.explanation.empty() ? "" : "; " + result.explanation);
-    if (result.verdict == ReplayVerdict::Reproduced) result.verdict = ReplayVerdict::ScenarioDiffers;
-  }
-  return result;
+  return of_intact_plan(std::move(result), archive.campaign());
 }
 
 }  // namespace fleetproof

@@ -12,8 +12,9 @@
 
 namespace fleetproof {
 
-enum class ReplayVerdict : std::uint8_t { Reproduced, Diverged, ScenarioDiffers };
-const char* name_of(ReplayVerdict verdict);  // REPRODUCED, DIVERGED
+// SoftwareDiffers: the outcome is another one, and so is the program or the plug-in.
+enum class ReplayVerdict : std::uint8_t { Reproduced, Diverged, ScenarioDiffers, SoftwareDiffers };
+const char* name_of(ReplayVerdict verdict);  // REPRODUCED, DIVERGED, SOFTWARE DIFFERS
 
 struct ReplayResult {
   ReplayVerdict verdict = ReplayVerdict::Reproduced;
@@ -32,6 +33,10 @@ ReplayResult replay(const ArchiveReader& archive, std::uint64_t run_index, const
 
 // Where the cause of a diverged replay may lie: the agent may have promised to be deterministic (FP_DETERMINISTIC).
 std::string_view suspects_of(const AgentProgram& agent);
+
+// How the software that made a run differs from the software at hand: "the software differs (...)"; empty: it is the
+// same.
+std::string software_difference(const EngineIdentity& stored, const AgentProgram& agent);
 
 // What differs between the stored record of a run and its recomputed record.
 ReplayResult compare_runs(RunRecord stored, RunRecord recomputed);

@@ -9,9 +9,8 @@
 
 namespace fleetproof {
 
-RunOne::RunOne(const CampaignPlan& plan, const AgentPrograms& programs) : plan_(plan), scenarios_(plan) {
-  for (const std::string& name : plan.agents) agents_.push_back(&programs.program(name, "factors.agents"));
-}
+RunOne::RunOne(const CampaignPlan& plan, const AgentPrograms& programs)
+    : plan_(plan), scenarios_(plan), programs_(programs) {}
 
 RunRecord RunOne::empty_record(std::uint64_t run_index) const {
   const RunPlace place = scenarios_.place(run_index);
@@ -34,7 +33,8 @@ RunRecord RunOne::operator()(std::uint64_t run_index, TraceSink* sink, const Run
     record.outcome.message = no_world.what();
     return record;
   }
-  const AgentProgram& agent = *agents_[record.cell % agents_.size()];  // agents vary fastest
+  const std::string& name = plan_.agents[record.cell % plan_.agents.size()];  // agents vary fastest
+  const AgentProgram& agent = programs_.program(name, "factors.agents");
   ensure(agent.type != nullptr, "a run is simulated in a process that has loaded its agent");
   const auto laws = make_default_laws(scenario, plan_.laws_left_out);
   record.scenario_digest = scenario_digest(scenario);

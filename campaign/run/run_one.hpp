@@ -15,9 +15,10 @@ namespace fleetproof {
 // Threads: any number.
 class RunOne {
  public:
-  // Throws InputError if an agent of the plan is not among the programs.
+  // An agent of the plan may be missing among the programs until one of its runs is simulated.
   RunOne(const CampaignPlan& plan, const AgentPrograms& programs);
-  // Requires: the agent of the run is loaded into this process. Throws RunAbandoned if the watch says so.
+  // Throws InputError if the agent of the run is not known. Requires: it is loaded into this process. Throws
+  // RunAbandoned if the watch says so.
   RunRecord operator()(std::uint64_t run_index, TraceSink* sink = nullptr, const RunWatch& watch = {}) const;
   // The record of a run of which nothing is known yet.
   RunRecord empty_record(std::uint64_t run_index) const;
@@ -26,7 +27,7 @@ class RunOne {
  private:
   const CampaignPlan& plan_;
   ScenarioSource scenarios_;
-  std::vector<const AgentProgram*> agents_;  // by position in plan.agents
+  const AgentPrograms& programs_;
 };
 
 }  // namespace fleetproof

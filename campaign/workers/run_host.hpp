@@ -17,10 +17,11 @@ namespace fleetproof {
 class RunHost {
  public:
   // Make the object before threads are started and files are opened, as IsolatedRuns asks. `plan` and `programs`
-  // outlive it. Throws InputError if an agent of the plan is not among the programs.
+  // outlive it. An agent of the plan may be missing
+  // among the programs until one of its runs is simulated.
   RunHost(const CampaignPlan& plan, const AgentPrograms& programs, int workers, const std::string& worker_logs = "");
 
-  // None after abandon(). Throws what IsolatedRuns throws.
+  // None after abandon(). Throws what RunOne and IsolatedRuns throw.
   std::optional<RunRecord> operator()(std::uint64_t run_index);
   // The runs under way end within a second, without a record.
   void abandon();

@@ -135,13 +135,18 @@ TEST_F(DrawnFactors, ExemptPairsHeadTheReportAndAreReplayed) {
               HasSubstr("\"exempt_pairs\": [\n    [\n      \"tugger\",\n      \"obstacle\"\n    ]\n  ]"));
 }
 
-TEST_F(DrawnFactors, TheReplayLineOfASharedObjectsAgentAsksForIt) {
+TEST_F(DrawnFactors, TheReplayLineOfASharedObjectsAgentFindsIt) {
   write("c.toml", "replicates = 2\nhorizon_s = 300.0\n[factors]\nagents = [\"" + std::string(FLEETPROOF_PLUGIN) +
                       "\"]\nlayouts = [\"corridor-sidings\"]\nfleet_sizes = [6]\nloss = [1.0]\n");
   run("run c.toml --db c.db");
-  const auto agent = ask("SELECT agent FROM v1_cells");
-  EXPECT_THAT(run("report c.db").out, HasSubstr("fleetproof replay c.db 0 --plugin '<path of " + agent + ">'"));
+  EXPECT_THAT(run("report c.db").out, HasSubstr("fleetproof replay c.db 0"));
+  EXPECT_EQ(run("replay c.db 0").exit_code, 0) << "the session log remembers the file";
+  EXPECT_EQ(run("replay c.db 0 --in-process").exit_code, 0);
   EXPECT_EQ(run("replay c.db 0 --plugin " + std::string(FLEETPROOF_PLUGIN)).exit_code, 0);
+  std::filesystem::remove(path("c.sessions.jsonl"));
+  const auto refused = run("replay c.db 0");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("no session log beside c.db says where it is"));
 }
 
 TEST_F(DrawnFactors, ALawThatMeasuresNoClearanceSaysSo) {

@@ -176,14 +176,14 @@ TEST(SampleSentence, ExemptionsHeadEveryReport) {
             false);
 }
 
-TEST(SampleSentence, ReplayLinesOfASharedObjectsAgentAskForItsPath) {
-  auto campaign = campaign_of("claim", 5);
-  campaign.plugin_agents = {"mine"};
-  const auto input =
-      report_of(campaign, grid({"sound", "mine"}, {0.4}, {2.0}), {}, [](RunRecord& run) { samples::violate(run); });
-  EXPECT_EQ(replay_line(input, 2), "fleetproof replay night.fp 2");
-  EXPECT_EQ(replay_line(input, 3), "fleetproof replay night.fp 3 --plugin '<path of mine>'");
-  EXPECT_THAT(render("text", input), HasSubstr("fleetproof replay night.fp 3 --plugin '<path of mine>'"));
+TEST(SampleSentence, ACrashedRunIsShownToADebugger) {
+  const auto input = report_of(campaign_of("claim", 5), grid({"sound", "mine"}, {0.4}, {2.0}), {}, [](RunRecord& run) {
+    if (run.run_index != 3) return;
+    run.outcome.crash = true;
+    run.outcome.message = "agent of AGV 0: aborted (SIGABRT) in event order at 3 s";
+  });
+  EXPECT_EQ(replay_line(input, 3), "fleetproof replay night.fp 3");
+  EXPECT_THAT(render("text", input), HasSubstr("gdb --args fleetproof replay night.fp 3 --in-process"));
 }
 
 }  // namespace
