@@ -4,6 +4,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 
+#include "campaign/run/sha256.hpp"
 #include "tests/contract/small_campaign.hpp"
 #include "tests/support/program.hpp"
 
@@ -31,6 +32,8 @@ class Replay : public test::ProgramTest {
     std::filesystem::copy_file(path("c.db"), path("t.db"), std::filesystem::copy_options::overwrite_existing);
     {
       SQLite::Database db(path("t.db"), SQLite::OPEN_READWRITE);
+      // As if the program itself had written the file, and not this test.
+      db.exec("UPDATE campaign SET program_sha256 = '" + sha256_of_file(FLEETPROOF_PROGRAM) + "'");
       EXPECT_GE(db.exec(sql), 1) << sql;
     }
     return run("replay t.db " + std::to_string(violating_[0]));
@@ -50,6 +53,15 @@ TEST_F(Replay, EveryViolatingRunIsReproduced) {
   EXPECT_EQ(finished.exit_code, 0) << finished.err;
   EXPECT_THAT(finished.out, HasSubstr("REPRODUCED"));
   EXPECT_THAT(finished.out, HasSubstr("closer than 0.10 m"));
+}
+
+TEST_F(Replay, AnotherOutcomeOfAnotherProgramIsNoFaultOfTheEngine) {
+  SQLite::Database(path("c.db"), SQLite::OPEN_READWRITE).exec("UPDATE runs SET digest = digest + 1");
+  const auto finished = run("replay c.db " + std::to_string(violating_[0]));
+  EXPECT_EQ(finished.exit_code, 4) << "this test wrote the file, the program replays it";
+  EXPECT_THAT(finished.out, HasSubstr("SOFTWARE DIFFERS"));
+  EXPECT_THAT(finished.out, HasSubstr("the software differs (fleetproof "));
+  EXPECT_THAT(finished.out, HasSubstr("stored outcome: contact"));
 }
 
 TEST_F(Replay, AChangedDigestDiverges) {
