@@ -7,6 +7,7 @@
 #include "campaign/workers/worker.hpp"
 #include "campaign/workers/worker_watch.hpp"
 #include "core/base/error.hpp"
+#include "core/scenario/canonical_bytes.hpp"
 
 namespace fleetproof {
 namespace {
@@ -65,6 +66,7 @@ RunAnswer IsolatedRuns::repeat(Member& member, RunOrder order) {
       continue;
     }
     RunAnswer unexplained;
+    unexplained.scenario_digest = scenario_digest(run_one_.scenarios().scenario(order.run_index));
     unexplained.outcome.crash = !again.cause.hang;
     unexplained.outcome.hang = again.cause.hang;
     unexplained.outcome.message = again.cause.message + "; what happened after it is not known";

@@ -57,9 +57,9 @@ bool is_planted(const CampaignPlan& plan, std::uint64_t run_index, std::uint64_t
   return planted.whether % rate == 0;
 }
 
-Outcome outcome_of_reckless(CampaignPlan plan, std::uint64_t run_index) {
+RunRecord record_of_reckless(CampaignPlan plan, std::uint64_t run_index) {
   plan.agents = {"reckless"};
-  return RunOne(plan, AgentPrograms())(run_index).outcome;
+  return RunOne(plan, AgentPrograms())(run_index);
 }
 
 struct Case {
@@ -77,8 +77,9 @@ TEST_P(EveryKindOfEnd, CostsItsRunOnly) {
   int failed = 0, whole = 0;
   for (std::uint64_t index = 0; index < 20; ++index) {
     SCOPED_TRACE(index);
-    const Outcome outcome = runs(index).outcome;
-    const Outcome undisturbed = outcome_of_reckless(plan, index);
+    const RunRecord record = runs(index), reckless = record_of_reckless(plan, index);
+    const Outcome &outcome = record.outcome, &undisturbed = reckless.outcome;
+    EXPECT_EQ(record.scenario_digest, reckless.scenario_digest) << "the world is known, however the run ends";
     if (!is_planted(plan, index, 5)) {
       EXPECT_EQ(outcome.digest, undisturbed.digest);
       EXPECT_EQ(outcome.message, "");
@@ -125,7 +126,7 @@ TEST(IsolatedRuns, ACrashInDestroyIsFiledAndTheRestIsAsItWas) {
   const Outcome outcome = runs(0).outcome;
   EXPECT_TRUE(outcome.crash);
   EXPECT_THAT(outcome.message, HasSubstr("agent of AGV 0: aborted (SIGABRT) in destroy() at 60"));
-  EXPECT_EQ(outcome.digest, outcome_of_reckless(plan, 0).digest);
+  EXPECT_EQ(outcome.digest, record_of_reckless(plan, 0).outcome.digest);
 }
 
 // Not under the address sanitizer, whose own memory is beyond any limit.
