@@ -300,4 +300,11 @@ std::uint64_t ArchiveReader::content_digest() const {
   return impl_->guarded([&] { return content_digest_of(impl_->plan, impl_->read_all([](const RunRecord&) {})); });
 }
 
+std::uint64_t ArchiveReader::results_digest() const {
+  CampaignRecord without_engine = impl_->campaign;
+  without_engine.engine = {};
+  const std::uint64_t plan = plan_checksum(without_engine, impl_->cells, impl_->gates);
+  return impl_->guarded([&] { return content_digest_of(plan, impl_->read_all([](const RunRecord&) {})); });
+}
+
 }  // namespace fleetproof

@@ -34,6 +34,8 @@ class ArchiveReader {
   void for_each_run(const std::function<void(const RunRecord&)>& visit) const;
   // One digest over plan, cells, gates and all rows. Two files have the same digest if they have the same content.
   std::uint64_t content_digest() const;
+  // The same without the identity of the engine: two builds that compute the same results give the same digest.
+  std::uint64_t results_digest() const;
 
  private:
   struct Impl;

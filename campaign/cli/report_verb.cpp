@@ -1,4 +1,7 @@
+#include <fmt/format.h>
+
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "campaign/cli/output_file.hpp"
 #include "campaign/cli/render.hpp"
@@ -13,10 +16,31 @@ struct ReportWords {
   bool json = false, digest = false;
 };
 
+// As sha256sum does: the digest first, then whose it is.
+void print_digest(const ArchiveReader& archive, bool json) {
+  const EngineIdentity& engine = archive.campaign().engine;
+  const std::uint64_t digest = archive.results_digest();
+  if (!json) {
+    put("{:016x}  results, by fleetproof {} sha256 {} ({}, {}; {})\n", digest, engine.version, engine.program_sha256,
+        engine.compiler, engine.flags, engine.libraries);
+    return;
+  }
+  const nlohmann::ordered_json object = {{"schema_version", 1},
+                                         {"results_digest", fmt::format("{:016x}", digest)},
+                                         {"runs", archive.run_count()},
+                                         {"engine",
+                                          {{"version", engine.version},
+                                           {"program_sha256", engine.program_sha256},
+                                           {"compiler", engine.compiler},
+                                           {"flags", engine.flags},
+                                           {"libraries", engine.libraries}}}};
+  put_text(printable_json(object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) + "\n");
+}
+
 int report(const ReportWords& words) {
   const ArchiveReader archive(words.archive);
   if (words.digest) {
-    put("{:016x}\n", archive.content_digest());
+    print_digest(archive, words.json);
     return kDemonstrated;
   }
   const ReportInput input = read_report_input(archive, words.archive);
@@ -37,7 +61,8 @@ Action prepare_report(Options& options) {
   options.option("--format", words->format, "text (default), markdown, json or summary");
   options.option("-o,--output", words->out, "write the report to this file instead of standard output");
   options.flag("--json", words->json, "the same as --format json");
-  options.flag("--digest", words->digest, "print one digest over plan and results: equal exactly for equal content");
+  options.flag("--digest", words->digest,
+               "print one digest of plan and results, the same from every build, and beside it the engine");
   return [words] { return report(*words); };
 }
 

@@ -112,6 +112,28 @@ TEST(Archive, the_content_digest_is_that_of_the_live_file_and_covers_the_plan) {
   EXPECT_NE(digest_with("a.fp", samples::campaign()), digest_with("b.fp", other));
 }
 
+TEST(Archive, the_digest_of_results_leaves_out_the_engine_and_nothing_else) {
+  const TemporaryFolder folder;
+  auto runs = samples::runs(12);
+  const auto digests = [&](const std::string& name, const CampaignRecord& campaign) {
+    ArchiveWriter writer(folder / name, campaign, samples::cells(), samples::gates());
+    for (const auto& run : runs) writer.add(run);
+    writer.publish(12);
+    const ArchiveReader archive(folder / name);
+    return std::pair{archive.results_digest(), archive.content_digest()};
+  };
+  const auto [results, content] = digests("a.fp", samples::campaign());
+  auto clang = samples::campaign();
+  clang.engine = {"0.2.0", "cd34", "Clang 14", "-O0", "SQLite 3.41.0"};
+  EXPECT_EQ(digests("clang.fp", clang).first, results);
+  EXPECT_NE(digests("clang2.fp", clang).second, content);
+  auto other_plan = samples::campaign();
+  other_plan.plan_json += " ";
+  EXPECT_NE(digests("plan.fp", other_plan).first, results);
+  runs[7].outcome.digest ^= 1;
+  EXPECT_NE(digests("row.fp", samples::campaign()).first, results);
+}
+
 TEST(Archive, only_the_campaign_file_is_left_in_the_folder) {
   const TemporaryFolder folder;
   write_archive(folder / "a.fp", samples::runs(6), 6);
