@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <thread>
 
 #include "campaign/cli/streams.hpp"
 #include "campaign/plan/plan_check.hpp"
@@ -36,6 +37,13 @@ CampaignFile load_campaign(const std::string& path, AgentPrograms& programs) {
   for (std::size_t i = 0; i < std::min(kTold, file.warnings.size()); ++i) talk("warning: {}\n", file.warnings[i]);
   if (file.warnings.size() > kTold) talk("warning: {} more of this kind\n", file.warnings.size() - kTold);
   return file;
+}
+
+int worker_count(const std::optional<std::uint64_t>& jobs) {
+  const std::uint64_t workers = jobs.value_or(std::max(1U, std::thread::hardware_concurrency()));
+  if (workers < 1 || workers > 1024)
+    throw InputError("--jobs", fmt::format("is {}; it lies between 1 and 1024", workers));
+  return static_cast<int>(workers);
 }
 
 }  // namespace fleetproof::cli

@@ -5,7 +5,6 @@
 #include <ctime>
 #include <filesystem>
 #include <memory>
-#include <thread>
 
 #include "campaign/batch/campaign.hpp"
 #include "campaign/batch/session_log.hpp"
@@ -56,11 +55,7 @@ std::optional<std::chrono::seconds> time_budget(const RunWords& words) {
 
 RunOptions run_options(const RunWords& words) {
   RunOptions options;
-  const std::uint64_t cores = std::max(1U, std::thread::hardware_concurrency());
-  const std::uint64_t workers = words.jobs.value_or(cores);
-  if (workers < 1 || workers > 1024)
-    throw InputError("--jobs", fmt::format("is {}; it lies between 1 and 1024", workers));
-  options.workers = static_cast<int>(workers);
+  options.workers = worker_count(words.jobs);
   options.max_time = time_budget(words);
   if (words.fail_fast && *words.fail_fast < 1) throw InputError("--fail-fast", "is 0; it is at least 1");
   options.fail_fast = words.fail_fast.value_or(0);

@@ -12,6 +12,8 @@ Action prepare_simulate(Options& options);
 Action prepare_generate(Options& options);
 Action prepare_import(Options& options);
 Action prepare_check(Options& options);
+Action prepare_verify(Options& options);
+Action prepare_plan(Options& options);
 Action prepare_list(Options& options);
 
 }  // namespace fleetproof::cli

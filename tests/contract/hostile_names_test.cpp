@@ -70,6 +70,8 @@ TEST_F(HostileNames, ACampaignFromTheFirstRunToTheLastReport) {
     }
   }
   checked("\"$FLEETPROOF\" check a.toml");
+  EXPECT_EQ(checked("\"$FLEETPROOF\" plan a.toml --max-time 1h").exit_code, 0);
+  EXPECT_EQ(checked("\"$FLEETPROOF\" plan a.toml --json").exit_code, 0);
   checked("\"$FLEETPROOF\" run a.toml --db \"$(printf 'x\\033[2J\\n.db')\"");
 }
 
@@ -107,13 +109,17 @@ TEST_F(HostileNames, AnAgentOfASharedObject) {
   EXPECT_EQ(ran.exit_code, 4) << ran.err;
   for (const auto* format : {"text", "markdown", "json"})
     checked(std::string("\"$FLEETPROOF\" report a.db --format ") + format);
-  EXPECT_THAT(checked("\"$FLEETPROOF\" replay a.db 0").err, HasSubstr("\\u202e$(touch pwned)"));
+  EXPECT_EQ(checked(with + "\"$FLEETPROOF\" verify a.db").exit_code, 0);
+  std::filesystem::remove(path("a.sessions.jsonl"));  // it remembers the file of the agent
+  for (const std::string verb : {"replay a.db 0", "verify a.db"})
+    EXPECT_THAT(checked("\"$FLEETPROOF\" " + verb).err, HasSubstr("\\u202e$(touch pwned)"));
   EXPECT_EQ(checked(with + "\"$FLEETPROOF\" replay a.db 0 --plugin " + FLEETPROOF_NAMED_AGENT).exit_code, 0);
 }
 
 TEST_F(HostileNames, ErrorsAboutFilesAndWords) {
   const std::string file = "\"$(printf 'x\\033[2J\\n\\302\\233.toml')\"";
-  for (const std::string verb : {"run", "check", "simulate", "report", "import layout", "import opentcs"}) {
+  for (const std::string verb :
+       {"run", "check", "plan", "simulate", "report", "verify", "import layout", "import opentcs"}) {
     const auto missing = checked("\"$FLEETPROOF\" " + verb + " " + file);
     EXPECT_EQ(missing.exit_code, 2) << missing.err;
     EXPECT_THAT(missing.err, HasSubstr("x\\x1b[2J\\n\\u009b.toml"));

@@ -1,0 +1,81 @@
+#include "campaign/batch/verification.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "campaign/batch/task_pool.hpp"
+#include "campaign/workers/run_host.hpp"
+#include "core/base/error.hpp"
+#include "core/base/outside_text.hpp"
+#include "core/base/random.hpp"
+#include "storage/archive_reader.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr std::uint64_t kRecordsAhead = 1024;  // finished, but not yet compared: memory stays bounded
+
+bool is_engine_at_fault(ReplayVerdict verdict, const AgentProgram& agent) {
+  return verdict == ReplayVerdict::ScenarioDiffers || (verdict == ReplayVerdict::Diverged && !agent.is_plugin());
+}
+
+}  // namespace
+
+std::uint64_t sample_size(const std::string& text, std::uint64_t runs) {
+  const bool is_share = text.ends_with('%');
+  const char* const end = text.data() + text.size() - (is_share ? 1 : 0);
+  double value = 0.0;
+  const auto [stop, error] = std::from_chars(text.data(), end, value, std::chars_format::fixed);
+  const bool is_number = error == std::errc{} && stop == end && value > 0.0;
+  if (!is_number || (is_share ? value > 100.0 : value != std::floor(value) || value > 1e15)) {
+    throw InputError("--sample",
+                     fmt::format("{} is no share as in 1% (above 0 %, at most 100 %) and no number of runs as in 200",
+                                 in_quotes(text)));
+  }
+  const double wanted = is_share ? std::ceil(value / 100.0 * static_cast<double>(runs)) : value;
+  return std::min(runs, static_cast<std::uint64_t>(wanted));
+}
+
+std::vector<std::uint64_t> sample_of_runs(std::uint64_t key, std::uint64_t runs, std::uint64_t size) {
+  ensure(size <= runs, "a sample is not larger than what it is taken from");
+  std::vector<std::uint64_t> sample;
+  if (size == 0) return sample;
+  Draws draws(key);
+  const std::uint64_t length = runs / size, longer = runs % size;  // the first `longer` stretches have one run more
+  for (std::uint64_t stretch = 0, begin = 0; stretch < size; ++stretch) {
+    const std::uint64_t here = length + (stretch < longer ? 1 : 0);
+    sample.push_back(begin + std::min(here - 1, static_cast<std::uint64_t>(draws.uniform(0.0, double(here)))));
+    begin += here;
+  }
+  return sample;
+}
+
+Verification verify_runs(const std::string& path, const CampaignPlan& plan, const AgentPrograms& programs,
+                         const std::vector<std::uint64_t>& sample, int workers) {
+  RunHost runs(plan, programs, workers);  // before the file is opened: worker processes must not hold it
+  const ArchiveReader archive(path);
+  const auto cells = plan.cells();
+  Verification verification;
+  TaskPool pool(workers, 0, sample.size(), kRecordsAhead, [&](std::uint64_t place) { return runs(sample[place]); });
+  while (!pool.finished()) {
+    auto record = pool.next(std::chrono::milliseconds(100));
+    if (!record) continue;
+    const std::uint64_t index = record->run_index;
+    const ReplayResult result =
+        replay(archive, plan, index, programs, [&](std::uint64_t) { return *std::move(record); });
+    if (result.verdict == ReplayVerdict::Reproduced) {
+      ++verification.agreeing;
+      continue;
+    }
+    const std::string& agent = cells[index % cells.size()].agent;
+    verification.differing.push_back({index, agent, result.verdict, result.explanation,
+                                      is_engine_at_fault(result.verdict, programs.program(agent, "verify"))});
+  }
+  std::ranges::sort(verification.differing, {}, &Disagreement::run_index);
+  return verification;
+}
+
+}  // namespace fleetproof

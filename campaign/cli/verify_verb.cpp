@@ -1,0 +1,111 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "campaign/batch/session_log.hpp"
+#include "campaign/batch/verification.hpp"
+#include "campaign/cli/campaign_words.hpp"
+#include "campaign/cli/streams.hpp"
+#include "campaign/cli/verbs.hpp"
+#include "campaign/plan/plan_text.hpp"
+#include "core/base/error.hpp"
+#include "reports/wording.hpp"
+#include "storage/archive_reader.hpp"
+
+namespace fleetproof::cli {
+namespace {
+
+struct VerifyWords {
+  std::string archive, sample = "1%";
+  std::vector<std::string> plugins;
+  std::optional<std::uint64_t> jobs;
+  bool json = false;
+};
+
+// What was asked of the file before runs are simulated.
+struct IntactFile {
+  CampaignRecord campaign;
+  std::uint64_t runs = 0, content_digest = 0;
+};
+
+// Reads every row and checks its checksum.
+IntactFile read_intact(const std::string& path) {
+  const ArchiveReader archive(path);
+  return {archive.campaign(), archive.run_count(), archive.content_digest()};
+}
+
+// The plug-ins that the user names, or else the files that the campaign's last session remembers.
+void know_plugins(const VerifyWords& words, const CampaignRecord& campaign, AgentPrograms& programs) {
+  for (const std::string& plugin : words.plugins) programs.know(plugin);
+  const auto& known = programs.all();
+  for (const std::string& agent : campaign.plugin_agents) {
+    if (std::ranges::find(known, agent, &AgentProgram::name) != known.end()) continue;
+    const std::string remembered = remembered_plugin(words.archive, agent);
+    if (remembered.empty()) {
+      throw InputError("--plugin",
+                       fmt::format("the agent {} comes from a shared object, and no session log beside {} says where "
+                                   "it is; name its file",
+                                   in_quotes(agent), words.archive));
+    }
+    programs.know(remembered);
+  }
+}
+
+void print_text(const VerifyWords& words, const IntactFile& file, const Verification& verification) {
+  for (const Disagreement& run : verification.differing) {
+    put("{}  run {}: {}: {}\n", name_of(run.verdict), run.run_index, run.agent, run.explanation);
+    put("  {}\n", replay_command(words.archive, run.run_index));
+  }
+  put("{}: {}, every checksum holds; {} simulated again: {} agree, {} differ\n", words.archive,
+      count_text(file.runs, "run"), verification.agreeing + verification.differing.size(), verification.agreeing,
+      verification.differing.size());
+}
+
+void print_json(const VerifyWords& words, const IntactFile& file, const Verification& verification) {
+  nlohmann::ordered_json json = {{"schema_version", 1},
+                                 {"runs", file.runs},
+                                 {"simulated_again", verification.agreeing + verification.differing.size()},
+                                 {"agree", verification.agreeing},
+                                 {"differ", nlohmann::ordered_json::array()}};
+  for (const Disagreement& run : verification.differing) {
+    json["differ"].push_back({{"run", run.run_index},
+                              {"agent", run.agent},
+                              {"verdict", name_of(run.verdict)},
+                              {"explanation", run.explanation},
+                              {"engine_at_fault", run.engine_at_fault},
+                              {"replay", replay_command(words.archive, run.run_index)}});
+  }
+  put_text(printable_json(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) + "\n");
+}
+
+int verify(const VerifyWords& words) {
+  const int workers = worker_count(words.jobs);
+  const IntactFile file = read_intact(words.archive);
+  const std::uint64_t size = sample_size(words.sample, file.runs);
+  const CampaignPlan plan = parse_plan(file.campaign.plan_json);
+  AgentPrograms programs;
+  know_plugins(words, file.campaign, programs);
+  const auto sample = sample_of_runs(file.content_digest, file.runs, size);
+  const Verification verification = verify_runs(words.archive, plan, programs, sample, workers);
+  words.json ? print_json(words, file, verification) : print_text(words, file, verification);
+  const auto& differing = verification.differing;
+  if (std::ranges::any_of(differing, &Disagreement::engine_at_fault)) return kEngineFault;
+  return differing.empty() && file.runs > 0 ? kDemonstrated : kNotDemonstrated;
+}
+
+}  // namespace
+
+Action prepare_verify(Options& options) {
+  auto words = std::make_shared<VerifyWords>();
+  options.positional("DB", words->archive, "campaign file");
+  options.option("--sample", words->sample, "how many runs to simulate again: 1% (default), 100%, or a number");
+  options.option("--plugin", words->plugins,
+                 "shared object with an agent of the campaign (default: the file that the campaign used)");
+  options.option("-j,--jobs", words->jobs, "worker threads (default: one per core)");
+  options.flag("--json", words->json, "print JSON");
+  return [words] { return verify(*words); };
+}
+
+}  // namespace fleetproof::cli
