@@ -38,8 +38,9 @@ void build_first_worlds(const CampaignPlan& plan) {
 
 std::vector<std::string> plugin_agents(const CampaignPlan& plan, const AgentPrograms& programs) {
   std::vector<std::string> names;
-  std::ranges::copy_if(plan.agents, std::back_inserter(names),
-                       [&](const std::string& name) { return programs.is_plugin(name); });
+  for (const AgentFactor& agent : plan.agents) {
+    if (programs.is_plugin(agent.program)) names.push_back(agent.name);
+  }
   return names;
 }
 
@@ -174,7 +175,7 @@ class Session {
 
 CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& path,
                             const RunOptions& options, const CampaignListener& listener) {
-  for (const std::string& agent : plan.agents) (void)programs.program(agent, "factors.agents");
+  for (const AgentFactor& agent : plan.agents) (void)programs.program(agent.program, "factors.agents");
   build_first_worlds(plan);  // what cannot be built at all is said before anything is written
   return Session(plan, programs, path, options, listener).run();
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <thread>
 
 #include "campaign/cli/streams.hpp"
@@ -13,9 +14,9 @@ namespace fleetproof::cli {
 namespace {
 
 // What is wrong with a shared object, at the place that names the object.
-std::string know_at(const std::string& place, const std::string& path, AgentPrograms& programs) {
+std::string know_at(const std::string& place, const std::string& path, bool global_symbols, AgentPrograms& programs) {
   try {
-    return programs.know(path);
+    return programs.know(path, global_symbols);
   } catch (const InputError& refused) {
     throw InputError(place, fmt::format("factors.agents: {}", refused.what()));
   }
@@ -25,14 +26,19 @@ std::string know_at(const std::string& place, const std::string& path, AgentProg
 
 CampaignFile load_campaign(const std::string& path, AgentPrograms& programs) {
   CampaignFile file = read_campaign_file(path);
-  std::vector<std::string>& agents = file.plan.agents;
+  std::vector<AgentFactor>& agents = file.plan.agents;
   const auto place_of = [&](std::size_t agent) { return file.places.of(fmt::format("factors.agents.{}", agent)); };
+  std::map<std::string, std::string> known;  // program by file: one object may stand there under several names
   for (std::size_t i = 0; i < agents.size(); ++i) {
-    if (std::ranges::find(file.plugins, agents[i]) != file.plugins.end())
-      agents[i] = know_at(place_of(i), agents[i], programs);
+    const std::string& path_of_object = file.agent_files[i];
+    if (path_of_object.empty()) continue;
+    auto& program = known[path_of_object];
+    if (program.empty()) program = know_at(place_of(i), path_of_object, agents[i].global_symbols, programs);
+    agents[i].program = program;
+    if (agents[i].name.empty()) agents[i].name = program;
   }
   check_plan(file.plan, file.places);
-  for (std::size_t i = 0; i < agents.size(); ++i) programs.program(agents[i], place_of(i) + ": factors.agents");
+  for (std::size_t i = 0; i < agents.size(); ++i) programs.program(agents[i].program, place_of(i) + ": factors.agents");
   constexpr std::size_t kTold = 3;
   for (std::size_t i = 0; i < std::min(kTold, file.warnings.size()); ++i) talk("warning: {}\n", file.warnings[i]);
   if (file.warnings.size() > kTold) talk("warning: {} more of this kind\n", file.warnings.size() - kTold);

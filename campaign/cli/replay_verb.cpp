@@ -59,15 +59,15 @@ void tell_other_software(const ArchiveReader& archive, const AgentProgram& agent
 }
 
 // Without --plugin, the file that the campaign's last session remembers.
-std::vector<std::string> plugins_of(const ReplayWords& words, const ArchiveReader& archive, const std::string& agent) {
+std::vector<std::string> plugins_of(const ReplayWords& words, const ArchiveReader& archive, const AgentFactor& agent) {
   if (!words.plugins.empty()) return words.plugins;
   const auto& plugin_agents = archive.campaign().plugin_agents;
-  if (std::ranges::find(plugin_agents, agent) == plugin_agents.end()) return {};
-  const std::string remembered = remembered_plugin(words.archive, agent);
+  if (std::ranges::find(plugin_agents, agent.name) == plugin_agents.end()) return {};
+  const std::string remembered = remembered_plugin(words.archive, agent.program);
   if (remembered.empty()) {
     throw InputError("--plugin", fmt::format("the run's agent {} comes from a shared object, and no session log beside "
                                              "{} says where it is; name its file",
-                                             in_quotes(agent), words.archive));
+                                             in_quotes(agent.program), words.archive));
   }
   return {remembered};
 }
@@ -83,16 +83,19 @@ int replay_run(const ReplayWords& words) {
     throw InputError("run",
                      fmt::format("{} does not exist; the campaign has runs 0 to {}", words.run, plan.run_count() - 1));
   }
-  for (const std::string& plugin : plugins_of(words, archive, source.place(words.run).cell.agent))
-    in_process ? programs.load(plugin) : programs.know(plugin);
-  const Scenario scenario = source.scenario(words.run);
+  const CellRecord cell = source.place(words.run).cell;
+  const AgentFactor& agent = plan.agent_of_cell(cell.index);
+  for (const std::string& plugin : plugins_of(words, archive, agent))
+    in_process ? programs.load(plugin, agent.global_symbols) : programs.know(plugin, agent.global_symbols);
+  Scenario scenario = source.scenario(words.run);
+  scenario.agent = agent.program;
+  scenario.agent_config = plan.config_of(agent);
   TracePrinter printer(scenario);
   const ReplayResult result = in_process
                                   ? replay(archive, words.run, programs, words.trace ? &printer : nullptr)
                                   : replay(archive, plan, words.run, programs, isolated_simulation(plan, programs));
   if (!words.scenario_out.empty())
     write_whole({words.scenario_out, "--scenario", OutputKind::Scenario}, printable_json(to_text(scenario)));
-  const CellRecord cell = source.place(words.run).cell;
   if (words.json) {
     print_json(result, cell);
   } else {
@@ -103,7 +106,7 @@ int replay_run(const ReplayWords& words) {
     if (result.verdict == ReplayVerdict::SoftwareDiffers)
       put("  stored outcome: {}\n", name_of(result.stored.outcome.outcome_class()));
     if (result.verdict == ReplayVerdict::Reproduced)
-      tell_other_software(archive, programs.program(cell.agent, "replay"));
+      tell_other_software(archive, programs.program(agent.program, "replay"));
   }
   if (result.verdict == ReplayVerdict::Reproduced) return kDemonstrated;
   return result.verdict == ReplayVerdict::SoftwareDiffers ? kNotDemonstrated : kEngineFault;

@@ -22,7 +22,7 @@ namespace fleetproof::cli {
 namespace {
 
 struct SimulateWords {
-  std::string scenario, agent = "scripted", law, config;
+  std::string scenario, agent, law, config;
   std::vector<std::string> plugins;
   std::string granularity;
   bool json = false, trace = false;
@@ -145,11 +145,26 @@ void print_json(const Scenario& scenario, const Outcome& outcome, const Simulate
   put_text(printable_json(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) + "\n");
 }
 
-int simulate_scenario(const SimulateWords& words) {
+// The command line decides, then the scenario file, then whether it has a script.
+std::string agent_of(const SimulateWords& words, const Scenario& scenario, const AgentPrograms& programs) {
+  if (!words.agent.empty()) return words.agent;
+  if (!scenario.agent.empty()) return scenario.agent;
+  if (std::ranges::any_of(scenario.agvs, [](const AgvSetup& agv) { return !agv.script.empty(); })) return "scripted";
+  std::vector<std::string> names;
+  for (const AgentProgram& program : programs.all()) names.push_back(program.name);
+  throw InputError("--agent",
+                   fmt::format("neither the scenario file nor the command line names an agent, and no AGV has "
+                               "a script; name one of {}, or load one with --plugin",
+                               fmt::join(names, ", ")));
+}
+
+int simulate_scenario(SimulateWords words) {
   Scenario scenario = read_scenario(words.scenario);
   if (!words.granularity.empty()) scenario.law.snapshot_s = granularity_s(words.granularity);
   AgentPrograms programs;
   for (const std::string& plugin : words.plugins) programs.load(plugin);
+  words.agent = agent_of(words, scenario, programs);
+  if (words.config.empty()) words.config = scenario.agent_config;
   const fp_agent_type& agent = programs.find(words.agent, "--agent");
   const Observers observers = observers_of(words.law, scenario);
   TracePrinter printer(scenario);
@@ -174,8 +189,9 @@ Action prepare_simulate(Options& options) {
   words->law = laws().front().name;
   options.positional("SCENARIO", words->scenario, "scenario file (JSON)");
   options.option("--agent", words->agent,
-                 "control software under test (default: scripted, which plays the scenario's script)");
-  options.option("--agent-config", words->config, "text handed to the agent as its own parameters");
+                 "control software under test (default: the scenario file's agent, or scripted if it has a script)");
+  options.option("--agent-config", words->config,
+                 "text handed to the agent as its own parameters (default: the scenario file's)");
   options.option("--plugin", words->plugins, "shared object with an agent; may be given several times");
   options.option("--law", words->law, "law that judges (default: safety-distance, also called exact)");
   options.option("--granularity", words->granularity,

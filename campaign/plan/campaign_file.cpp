@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "campaign/plan/campaign_agents.hpp"
 #include "campaign/plan/campaign_layouts.hpp"
 #include "campaign/plan/plan_fields.hpp"
 #include "campaign/plan/toml_table.hpp"
@@ -16,8 +17,6 @@
 namespace fleetproof {
 namespace {
 
-bool is_plugin(const std::string& word) { return word.find('/') != std::string::npos || word.ends_with(".so"); }
-
 // Reads a plan by its list of fields. Bounds are checked here, at the place of the value. check_plan() checks the rules
 // between fields.
 class CampaignReader {
@@ -27,11 +26,6 @@ class CampaignReader {
   void read(TomlTable& root) {
     fields(root, file_.plan);
     root.finish();
-    for (std::string& agent : file_.plan.agents) {
-      if (!is_plugin(agent)) continue;
-      agent = beside(path_, agent);
-      file_.plugins.push_back(agent);
-    }
     std::ranges::sort(file_.plan.held_streams);
   }
 
@@ -175,6 +169,9 @@ class CampaignReader {
     }
   }
 
+  void member(TomlTable& table, const Field& field, std::vector<AgentFactor>& agents) {
+    read_agents(table, field.key, path_, agents, file_.agent_files);
+  }
   void member(TomlTable& table, const Field& field, std::vector<LayoutFactor>& layouts) {
     read_layouts(table, field.key, path_, layouts, file_.warnings);
   }

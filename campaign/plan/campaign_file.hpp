@@ -12,9 +12,8 @@ namespace fleetproof {
 // A campaign file: its plan, and what does not belong into the plan.
 struct CampaignFile {
   CampaignPlan plan;
-  std::vector<std::string>
-      plugins;  // shared objects named under `agents`, as paths; the plan holds the names they gave themselves later
-  std::vector<std::string> warnings;  // what importing a layout dropped or guessed
+  std::vector<std::string> agent_files;  // by agent of the plan: the path of its shared object; empty: it has none
+  std::vector<std::string> warnings;     // what importing a layout dropped or guessed
   PlanPlaces places;
 };
 

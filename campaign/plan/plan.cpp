@@ -43,12 +43,18 @@ std::vector<CellRecord> CampaignPlan::cells() const {
   for (const LayoutFactor& layout : layouts) {
     for (const std::uint32_t fleet : fleet_sizes) {
       for (const auto& [lowest, highest] : corners) {
-        for (const std::string& agent : agents)
-          all.push_back({static_cast<std::uint32_t>(all.size()), agent, layout.name, fleet, lowest, highest});
+        for (const AgentFactor& agent : agents)
+          all.push_back({static_cast<std::uint32_t>(all.size()), agent.name, layout.name, fleet, lowest, highest});
       }
     }
   }
   return all;
+}
+
+std::vector<std::string> CampaignPlan::agent_names() const {
+  std::vector<std::string> names;
+  for (const AgentFactor& agent : agents) names.push_back(agent.name);
+  return names;
 }
 
 std::uint64_t CampaignPlan::cell_count() const { return layouts.size() * fleet_sizes.size() * cells_per_world(); }

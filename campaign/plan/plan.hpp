@@ -37,6 +37,20 @@ struct LayoutFactor {
   bool mutate = false;                    // every replicate draws a mutation of `map`
 };
 
+// An agent of the campaign. One program may stand there several times, with other parameters and names.
+struct AgentFactor {
+  std::string name;                   // what cells, gates and reports call it; each name stands once
+  std::string program;                // the name that the control software gives itself
+  std::optional<std::string> config;  // its own parameters; none: those of the campaign
+  bool global_symbols = false;        // its shared object is loaded with RTLD_GLOBAL
+
+  AgentFactor() = default;
+  AgentFactor(const char* program_name) : name(program_name), program(program_name) {}         // implicit: a word
+  AgentFactor(const std::string& program_name) : name(program_name), program(program_name) {}  // implicit: a word
+  bool is_word() const { return name == program && !config && !global_symbols; }
+  friend bool operator==(const AgentFactor&, const AgentFactor&) = default;
+};
+
 // What a campaign is for: claims have rates and bounds, searches have counts only.
 enum class CampaignKind : std::uint8_t { Claim, Search };
 constexpr const char* name_of(CampaignKind kind) {
@@ -64,8 +78,8 @@ struct CampaignPlan {
   std::uint64_t replicates = 1;
   double horizon_s = 600.0, stuck_after_s = 120.0;
 
-  std::vector<std::string> agents;  // catalogue names, or names of plug-ins that the caller loads
-  std::string agent_config;
+  std::vector<AgentFactor> agents;
+  std::string agent_config;                    // of agents without parameters of their own
   PerFactor<std::vector<FactorSpan>> factors;  // empty: the file leaves it out; see spans
   Sampling sampling = Sampling::Uniform;       // where there are bounds
   std::vector<LayoutFactor> layouts;
@@ -91,6 +105,10 @@ struct CampaignPlan {
   bool contact_stops = true;
   LimitSetup limits;
   std::vector<GateRecord> gates;
+
+  const std::string& config_of(const AgentFactor& agent) const { return agent.config ? *agent.config : agent_config; }
+  const AgentFactor& agent_of_cell(std::uint64_t cell) const { return agents[cell % agents.size()]; }
+  std::vector<std::string> agent_names() const;
 
   // The probes that must be met; otherwise the evidence is weak. A claim requires an encounter. If an agent declares
   // any probe, a claim requires a negotiation too.

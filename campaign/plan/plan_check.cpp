@@ -111,7 +111,7 @@ void check_factors(const CampaignPlan& plan, const PlanPlaces& places) {
     demand(!has_duplicates(values), places, path,
            fmt::format("{} names one value twice; each combination is one cell, so every value may stand once", path));
   };
-  once("factors.agents", plan.agents);
+  once("factors.agents", plan.agent_names());
   once("factors.layouts", layout_names);
   once("factors.fleet_sizes", plan.fleet_sizes);
   for (const FactorInfo& factor : kFactors) {
@@ -178,8 +178,9 @@ void check_gates(const CampaignPlan& plan, const PlanPlaces& places) {
   for (std::size_t i = 0; i < plan.gates.size(); ++i) {
     const GateRecord& gate = plan.gates[i];
     const auto path = [&](const char* key) { return fmt::format("gate.{}.{}", i, key); };
-    const std::vector<std::string_view> names(plan.agents.begin(), plan.agents.end());
-    demand(std::ranges::find(plan.agents, gate.agent) != plan.agents.end(), places, path("agent").c_str(),
+    const std::vector<std::string> agents = plan.agent_names();
+    const std::vector<std::string_view> names(agents.begin(), agents.end());
+    demand(std::ranges::find(agents, gate.agent) != agents.end(), places, path("agent").c_str(),
            fmt::format("gate \"{}\": agent \"{}\" is not among factors.agents{}", gate.name, gate.agent,
                        name_hint(gate.agent, names)));
     const bool covers = std::ranges::any_of(cells, [&](const CellRecord& cell) {

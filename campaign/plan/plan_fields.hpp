@@ -87,7 +87,8 @@ void visit_fields(Plan& plan, Visit&& visit) {
   visit(
       Field{.key = "factors", .text = "the agents, layouts, fleet sizes, losses and delays to combine", .needed = true},
       FieldTable{[&](auto& inner) {
-        inner(Field{.key = "agents", .text = "names of agents, or paths of shared objects"}, plan.agents);
+        inner(Field{.key = "agents", .text = "names of agents, shared objects, or tables; see campaign-file.md"},
+              plan.agents);
         inner(Field{.key = "layouts", .text = "families, or layout files; see below"}, plan.layouts);
         inner(Field{.key = "fleet_sizes", .text = "numbers of AGVs", .low = 1.0, .high = kLargestFleet},
               plan.fleet_sizes);

@@ -36,6 +36,24 @@ LayoutFactor layout_from(const Json& json) {
   return layout;
 }
 
+Json agent_json(const AgentFactor& agent) {
+  if (agent.is_word()) return agent.name;
+  Json json = {{"name", agent.name}, {"program", agent.program}};
+  if (agent.config) json["config"] = *agent.config;
+  if (agent.global_symbols) json["symbols"] = "global";
+  return json;
+}
+
+AgentFactor agent_from(const Json& json) {
+  if (json.is_string()) return json.get<std::string>();
+  AgentFactor agent;
+  agent.name = json.at("name");
+  agent.program = json.at("program");
+  if (json.contains("config")) agent.config = json.at("config").get<std::string>();
+  agent.global_symbols = json.value("symbols", "local") == "global";
+  return agent;
+}
+
 Json order_json(const ListedOrder& order) {
   return {{"line", order.line},
           {"release_ns", order.release.count()},
@@ -94,6 +112,7 @@ class PlanWriter {
   Json json(const FactorSpan& span) const {
     return span.is_drawn() ? Json{{"from", span.from}, {"to", span.to}} : Json(span.from);
   }
+  Json json(const AgentFactor& agent) const { return agent_json(agent); }
   Json json(const LayoutFactor& layout) const { return layout_json(layout); }
   Json json(const ExemptPair& pair) const { return Json::array({pair.one, pair.other}); }
   Json json(Purposes purposes) const { return purposes_text(purposes); }
@@ -180,6 +199,7 @@ class PlanReader {
       value(field, json.at("to"), target.to);
     }
   }
+  void value(const Field&, const Json& json, AgentFactor& target) const { target = agent_from(json); }
   void value(const Field&, const Json& json, LayoutFactor& target) const { target = layout_from(json); }
   void value(const Field&, const Json& json, ExemptPair& target) const {
     target = {json.at(0).get<std::string>(), json.at(1).get<std::string>()};

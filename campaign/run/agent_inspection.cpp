@@ -41,7 +41,7 @@ void write_all(int fd, std::string_view bytes) {
   }
 }
 
-[[noreturn]] void load_and_tell(const std::string& path, int answer) {
+[[noreturn]] void load_and_tell(const std::string& path, bool global_symbols, int answer) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) ::signal(number, SIG_DFL);
   const int nothing = ::open("/dev/null", O_RDWR | O_CLOEXEC);
@@ -51,7 +51,7 @@ void write_all(int fd, std::string_view bytes) {
   ::setrlimit(RLIMIT_CORE, &core);
   try {
     AgentPrograms programs;
-    const std::string name = programs.load(path);
+    const std::string name = programs.load(path, global_symbols);
     write_all(answer, text_of(programs.program(name, path)));
   } catch (const std::exception& error) {
     write_all(answer, std::string("n") + error.what());
@@ -109,14 +109,14 @@ AgentProgram program_of(std::string_view fields) {
   return program;
 }
 
-Inspection inspect_once(const std::string& path) {
+Inspection inspect_once(const std::string& path, bool global_symbols) {
   std::array<int, 2> answer{};
   if (::pipe2(answer.data(), O_CLOEXEC) != 0)
     throw EngineError(fmt::format("no pipe can be made: {}", std::strerror(errno)));
   const pid_t child = ::fork();
   if (child == 0) {
     ::close(answer[0]);
-    load_and_tell(path, answer[1]);
+    load_and_tell(path, global_symbols, answer[1]);
   }
   const int error = errno;
   ::close(answer[1]);
@@ -135,12 +135,16 @@ bool was_killed_from_outside(const Inspection& inspection) {
 
 }  // namespace
 
-AgentProgram inspect_agent(const std::string& path) {
-  Inspection inspection = inspect_once(path);
+AgentProgram inspect_agent(const std::string& path, bool global_symbols) {
+  Inspection inspection = inspect_once(path, global_symbols);
   for (int again = 0; again < kKillsFromOutside && was_killed_from_outside(inspection); ++again)
-    inspection = inspect_once(path);
+    inspection = inspect_once(path, global_symbols);
   const std::string_view text = inspection.text;
-  if (text.starts_with('y')) return program_of(text.substr(1));
+  if (text.starts_with('y')) {
+    AgentProgram program = program_of(text.substr(1));
+    program.global_symbols = global_symbols;
+    return program;
+  }
   if (!text.starts_with('n')) throw InputError(path, "cannot be loaded: " + end_of(inspection));
   std::string_view told = text.substr(1);
   const std::string place = printable(path) + ": ";

@@ -9,6 +9,6 @@ namespace fleetproof {
 // What the shared object at `path` says of its agent. A process of its own loads the object, so that an object that
 // crashes, hangs or prints while it is loaded harms nothing here. The result has no `type`. Throws InputError with what
 // is wrong with the object.
-AgentProgram inspect_agent(const std::string& path);
+AgentProgram inspect_agent(const std::string& path, bool global_symbols);
 
 }  // namespace fleetproof

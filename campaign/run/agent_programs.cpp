@@ -55,7 +55,7 @@ AgentPrograms::~AgentPrograms() {
   for (void* object : objects_) dlclose(object);
 }
 
-std::string AgentPrograms::load(const std::string& path) {
+std::string AgentPrograms::load(const std::string& path, bool global_symbols) {
   if (const auto what = what_else_stands_at(path); !what.empty())
     throw InputError(path, fmt::format("{}; name the shared object of an agent", what));
   std::error_code ignored;
@@ -63,7 +63,7 @@ std::string AgentPrograms::load(const std::string& path) {
     throw InputError(path, "there is no such agent file; build the shared object or correct the path");
   // An absolute name keeps dlopen from searching the system's library folders.
   const std::string file = std::filesystem::absolute(path).string();
-  void* object = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  void* object = dlopen(file.c_str(), RTLD_NOW | (global_symbols ? RTLD_GLOBAL : RTLD_LOCAL));
   if (object == nullptr) throw InputError(path, fmt::format("cannot be loaded as a shared object: {}", dlerror()));
   objects_.push_back(object);
   const auto query = reinterpret_cast<fp_agent_query_function>(dlsym(object, FP_AGENT_QUERY_SYMBOL));
@@ -74,17 +74,20 @@ std::string AgentPrograms::load(const std::string& path) {
   AgentProgram program = program_of(*type);
   program.file = file;
   program.sha256 = sha256_of_file(path);
+  program.global_symbols = global_symbols;
   return add(std::move(program), path).name;
 }
 
-std::string AgentPrograms::know(const std::string& path) { return add(inspect_agent(path), path).name; }
+std::string AgentPrograms::know(const std::string& path, bool global_symbols) {
+  return add(inspect_agent(path, global_symbols), path).name;
+}
 
 void AgentPrograms::load_all_of(const AgentPrograms& others) {
   for (const AgentProgram& known : others.programs_) {
     if (!known.is_plugin()) continue;
     if (sha256_of_file(known.file) != known.sha256)
       throw EngineError(fmt::format("{}: this file was changed while the campaign ran", known.file));
-    load(known.file);
+    load(known.file, known.global_symbols);
   }
 }
 

@@ -15,6 +15,7 @@ struct AgentProgram {
   std::string name, description;
   std::uint32_t flags = 0;              // FP_DETERMINISTIC, ...
   std::string file, sha256;             // of the shared object; both empty: a reference agent
+  bool global_symbols = false;          // it is loaded with RTLD_GLOBAL: embedded Python needs it
   const fp_agent_type* type = nullptr;  // null: the shared object is not loaded into this process
 
   bool is_plugin() const { return !file.empty(); }
@@ -31,10 +32,10 @@ class AgentPrograms {
   // Loads a shared object into this process and returns the name that its agent gives itself. Throws InputError if
   // there is no such file, if it has no fp_agent_query or another ABI, and if the name is taken, longer than 100 bytes,
   // or not plain UTF-8. Code of the shared object runs in this process from now on.
-  std::string load(const std::string& path);
+  std::string load(const std::string& path, bool global_symbols = false);
   // The same, but a process of its own loads the object and tells what it is (agent_inspection.hpp). No code of the
   // object runs in this process.
-  std::string know(const std::string& path);
+  std::string know(const std::string& path, bool global_symbols = false);
   // Loads the plug-ins that `others` knows. Throws EngineError if the file of one has changed since.
   void load_all_of(const AgentPrograms& others);
 

@@ -145,7 +145,7 @@ ReplayResult replay(const ArchiveReader& archive, const CampaignPlan& plan, std:
                                         archive.run_count() - 1, plan.run_count()));
   }
   ReplayResult result = compare_runs(std::move(*stored), simulate(run_index));
-  const AgentProgram& agent = programs.program(ScenarioSource(plan).place(run_index).cell.agent, "replay");
+  const AgentProgram& agent = programs.program(plan.agent_of_cell(run_index).program, "replay");
   if (result.verdict == ReplayVerdict::Reproduced) return of_intact_plan(std::move(result), archive.campaign());
   if (const auto difference = software_difference(archive.campaign().engine, agent); !difference.empty()) {
     result.verdict = ReplayVerdict::SoftwareDiffers;

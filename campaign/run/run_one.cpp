@@ -33,12 +33,12 @@ RunRecord RunOne::operator()(std::uint64_t run_index, TraceSink* sink, const Run
     record.outcome.message = no_world.what();
     return record;
   }
-  const std::string& name = plan_.agents[record.cell % plan_.agents.size()];  // agents vary fastest
-  const AgentProgram& agent = programs_.program(name, "factors.agents");
+  const AgentFactor& factor = plan_.agent_of_cell(record.cell);
+  const AgentProgram& agent = programs_.program(factor.program, "factors.agents");
   ensure(agent.type != nullptr, "a run is simulated in a process that has loaded its agent");
   const auto laws = make_default_laws(scenario, plan_.laws_left_out);
   record.scenario_digest = scenario_digest(scenario);
-  record.outcome = simulate(scenario, *agent.type, laws, sink, plan_.agent_config.c_str(), watch);
+  record.outcome = simulate(scenario, *agent.type, laws, sink, plan_.config_of(factor).c_str(), watch);
   return record;
 }
 

@@ -6,7 +6,7 @@ namespace fleetproof {
 
 RunHost::RunHost(const CampaignPlan& plan, const AgentPrograms& programs, int workers, const std::string& worker_logs)
     : run_one_(plan, programs) {
-  for (const std::string& agent : plan.agents) is_plugin_.push_back(programs.is_plugin(agent));
+  for (const AgentFactor& agent : plan.agents) is_plugin_.push_back(programs.is_plugin(agent.program));
   if (std::ranges::count(is_plugin_, true) > 0)
     isolated_ = std::make_unique<IsolatedRuns>(plan, programs, workers, worker_logs);
 }

@@ -117,6 +117,9 @@ struct Scenario {
   std::uint64_t seed = 0;  // of the world: keys of radio and agent randomness derive from it
   std::vector<StreamSeed>
       stream_seeds;  // streams drawn from another seed, each at most once, in the order of kRunStreams
+  // The control software of the fleet and its parameters, for scenario files. Campaigns combine every world with
+  // several agents and leave both empty.
+  std::string agent, agent_config;
 
   std::uint64_t seed_of(Stream stream) const;  // `stream` is one of kRunStreams
   const VehicleType& type_of(const AgvSetup& agv) const { return vehicle_types[agv.type]; }

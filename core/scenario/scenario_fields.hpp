@@ -152,13 +152,21 @@ void visit_fields(Law& law, Visit&& visit) {
 template <FieldsOf<Scenario> Given, class Visit>
 void visit_fields(Given& scenario, Visit&& visit) {
   auto& [name, map, vehicle_types, agvs, obstacles, faults, scanner, operator_help, radio, agent_clock, law,
-         contact_stops, horizon, stuck_after, seed, stream_seeds] = scenario;
+         contact_stops, horizon, stuck_after, seed, stream_seeds, agent, agent_config] = scenario;
   visit(Field{.key = "name", .text = "name of the scenario"}, name);
   visit(kSeed, seed);
   visit(Field{.key = "stream_seeds",
               .text = "streams of randomness that have a seed of their own",
               .left_out = stream_seeds.empty()},
         stream_seeds);
+  visit(Field{.key = "agent",
+              .text = "the control software of the fleet; left out: the caller names it, or a script moves the AGVs",
+              .left_out = agent.empty()},
+        agent);
+  visit(
+      Field{
+          .key = "agent_config", .text = "a text that every agent gets at its start", .left_out = agent_config.empty()},
+      agent_config);
   visit(kHorizon, horizon);
   visit(kStuckAfter, stuck_after);
   visit(kContactStops, contact_stops);

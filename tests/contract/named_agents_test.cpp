@@ -1,0 +1,89 @@
+// One object under several names and parameters, and scenario files that name their agent.
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gmock/gmock.h>
+
+#include "tests/support/program.hpp"
+
+namespace fleetproof {
+namespace {
+
+using testing::HasSubstr;
+
+class NamedAgents : public test::ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    std::filesystem::copy_file(FLEETPROOF_FAILING_AGENT, path("failing.so"));
+  }
+  test::Finished campaign(const std::string& agents, const std::string& more = "") {
+    write("c.toml",
+          "name = \"c\"\nkind = \"search\"\nreplicates = 3\nhorizon_s = 60\nagent_config = \"none 1\"\n[factors]\n" +
+              std::string("agents = ") + agents + "\nlayouts = [\"aisle-grid\"]\nloss = [0.4]\ndelay_s = [2]\n" + more);
+    return run("run c.toml --db c.db --overwrite");
+  }
+  std::vector<std::string> ask(const std::string& sql) {
+    SQLite::Database db(path("c.db"));
+    SQLite::Statement rows(db, sql);
+    std::vector<std::string> texts;
+    while (rows.executeStep()) texts.push_back(rows.getColumn(0).getString());
+    return texts;
+  }
+};
+
+TEST_F(NamedAgents, OneObjectStandsThereUnderSeveralConfigurations) {
+  const auto finished = campaign(
+      "[{ file = \"failing.so\", name = \"candidate\", config = \"abort 1\" }, \"failing.so\", \"reckless\", "
+      "{ agent = \"reckless\", name = \"reckless again\" }]",
+      "[[gate]]\nagent = \"candidate\"\nregion = \"all\"\nlimit = 0.5\n");
+  ASSERT_EQ(finished.exit_code, 4) << finished.err;
+  EXPECT_EQ(ask("SELECT agent FROM v1_cells ORDER BY cell"),
+            (std::vector<std::string>{"candidate", "failing", "reckless", "reckless again"}));
+  EXPECT_EQ(ask("SELECT crash FROM runs WHERE replicate = 0 ORDER BY run_index"),
+            (std::vector<std::string>{"1", "0", "0", "0"}));
+  const auto digests = ask("SELECT digest FROM runs WHERE replicate = 0 ORDER BY run_index");
+  EXPECT_EQ(digests[1], digests[2]) << "it drives like reckless";
+  EXPECT_EQ(digests[2], digests[3]);
+  for (const char* index : {"0", "1", "3"}) EXPECT_EQ(run(std::string("replay c.db ") + index).exit_code, 0) << index;
+  EXPECT_THAT(run("report c.db").out, HasSubstr("candidate"));
+}
+
+TEST_F(NamedAgents, AReplayedScenarioNamesItsAgentAndParameters) {
+  ASSERT_LT(campaign("[{ file = \"failing.so\", name = \"candidate\", config = \"throw 1\" }]").exit_code, 5);
+  ASSERT_EQ(run("replay c.db 1 --scenario s.json").exit_code, 0);
+  const auto simulated = run("simulate s.json --plugin failing.so");
+  EXPECT_THAT(simulated.out, HasSubstr("agent of AGV 0: planted"));
+  EXPECT_THAT(run("simulate s.json").err, HasSubstr("agent \"failing\" is not known"));
+  EXPECT_THAT(run("simulate s.json --agent reckless --json").out, HasSubstr("\"agent\": \"reckless\""));
+}
+
+TEST_F(NamedAgents, WithoutAgentAndScriptTheChoicesAreListed) {
+  ASSERT_LT(campaign("[\"reckless\"]").exit_code, 5);
+  ASSERT_EQ(run("replay c.db 1 --scenario s.json").exit_code, 0);
+  ASSERT_EQ(shell("sed -i '/\"agent\": /d; /\"agent_config\": /d' s.json").exit_code, 0);
+  const auto refused = run("simulate s.json");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("names an agent, and no AGV has a script; name one of "));
+  EXPECT_THAT(refused.err, HasSubstr("hull-lock"));
+}
+
+TEST_F(NamedAgents, WhatIsWrongIsNamed) {
+  const auto refused = [&](const std::string& agents, const std::string& sentence) {
+    const auto finished = campaign(agents);
+    EXPECT_EQ(finished.exit_code, 2) << agents;
+    EXPECT_THAT(finished.err, HasSubstr(sentence)) << agents;
+  };
+  refused("[{ name = \"x\" }]", "has either file = \"...\" or agent = \"...\"");
+  refused("[{ file = \"failing.so\", agent = \"reckless\" }]", "has either file = \"...\" or agent = \"...\"");
+  refused("[\"failing.so\", { file = \"failing.so\", config = \"x\" }]", "factors.agents names one value twice");
+  refused("[{ file = \"failing.so\", symbols = \"globl\" }]", "did you mean \"global\"?");
+  refused("[{ file = \"failing.so\", confg = \"x\" }]", "confg");
+}
+
+TEST_F(NamedAgents, SymbolsMayBeGlobal) {
+  ASSERT_LT(campaign("[{ file = \"failing.so\", symbols = \"global\" }]").exit_code, 5);
+  EXPECT_EQ(run("replay c.db 0").exit_code, 0);
+  EXPECT_EQ(run("replay c.db 0 --in-process").exit_code, 0);
+}
+
+}  // namespace
+}  // namespace fleetproof
