@@ -1,5 +1,4 @@
-// Software that ends its process costs its run. The planted list is found without worker processes: an agent with the
-// same draws says in which runs the failing agent fails.
+// Software that ends its process costs its run.
 #include "campaign/workers/isolated_runs.hpp"
 
 #include <gmock/gmock.h>
@@ -10,8 +9,8 @@
 #include <map>
 
 #include "core/base/error.hpp"
-#include "core/engine/simulation.hpp"
 #include "tests/contract/small_campaign.hpp"
+#include "tests/support/planted_ends.hpp"
 
 namespace fleetproof {
 namespace {
@@ -29,32 +28,8 @@ CampaignPlan failing_plan(const std::string& how) {
   return plan;
 }
 
-// The draws that decide, of the first AGV of a run.
-struct Planted {
-  std::uint64_t whether = 0, kind = 0;
-};
-Planted planted;
-
-const fp_agent_type kDrawer = [] {
-  fp_agent_type type = {};
-  type.struct_size = sizeof type;
-  type.abi_major = FP_ABI_MAJOR;
-  type.name = "drawer";
-  type.description = "draws what the failing agent draws";
-  type.create = [](const fp_host* host, fp_controller* c, const fp_briefing* briefing) -> void* {
-    if (briefing->self == 0) planted = {host->random(c, 77, 0), host->random(c, 77, 1)};
-    return c;
-  };
-  type.on_event = [](void*, const fp_event*) {};
-  type.destroy = [](void*) {};
-  return type;
-}();
-
 bool is_planted(const CampaignPlan& plan, std::uint64_t run_index, std::uint64_t rate) {
-  Scenario scenario = ScenarioSource(plan).scenario(run_index);
-  scenario.horizon = seconds(0.001);
-  simulate(scenario, kDrawer, {});
-  return planted.whether % rate == 0;
+  return test::planted_kind(ScenarioSource(plan), run_index, rate).has_value();
 }
 
 RunRecord record_of_reckless(CampaignPlan plan, std::uint64_t run_index) {
