@@ -4,54 +4,19 @@
 #include <SQLiteCpp/Statement.h>
 #include <fmt/format.h>
 #include <sqlite3.h>
-#include <unistd.h>
 
 #include <array>
 #include <bit>
-#include <filesystem>
 
 #include "core/base/error.hpp"
 #include "storage/checksum.hpp"
+#include "storage/opened_file.hpp"
 #include "storage/rows.hpp"
 #include "storage/schema.hpp"
 #include "storage/sqlite_errors.hpp"
 
 namespace fleetproof {
 namespace {
-
-constexpr int kBusyTimeoutMs = 5000;
-
-[[noreturn]] void not_allowed(const std::string& path) {
-  throw InputError(path,
-                   "this file may not be read (Permission denied); change its permissions or those of its folder");
-}
-
-// Looks at file type, rights and size only. If this function opened and closed the file, SQLite would lose its locks on
-// it in this process.
-void require_readable(const std::string& path) {
-  namespace fs = std::filesystem;
-  std::error_code error;
-  if (path.empty()) throw InputError("", "name a campaign file");
-  if (fs::is_directory(path, error)) throw InputError(path, "this is a folder; name a campaign file in it");
-  if (!fs::exists(path, error)) {
-    if (error == std::errc::permission_denied) not_allowed(path);
-    if (fs::exists(path + ".partial", error)) {
-      throw InputError(path, fmt::format("there is no such file yet; the campaign is under way or was interrupted, "
-                                         "what it stored so far is in {}.partial",
-                                         path));
-    }
-    throw InputError(path, "there is no such file");
-  }
-  if (!fs::is_regular_file(path, error))
-    throw InputError(path, "this is a pipe, a device or a socket; name a campaign file");
-  if (::access(path.c_str(), R_OK) != 0) not_allowed(path);
-  for (const auto* suffix : {"-wal", "-shm", "-journal"}) {  // SQLite opens these files, and would wait at a pipe
-    const auto status = fs::status(path + suffix, error);
-    if (fs::exists(status) && !fs::is_regular_file(status))
-      throw InputError(path + suffix, "this is no regular file; remove it, it stands beside a campaign file");
-  }
-  if (fs::file_size(path, error) == 0) throw InputError(path, "this file is empty; name a campaign file");
-}
 
 // All statements see one state of the file, even while a campaign writes it. A snapshot inside a snapshot is the same
 // state.
@@ -93,10 +58,6 @@ std::uint64_t run_of(const SQLite::Statement& part) {
   return std::bit_cast<std::uint64_t>(part.getColumn(0).getInt64());
 }
 
-std::int64_t pragma(SQLite::Database& db, const char* name) {
-  return db.execAndGet(fmt::format("PRAGMA {}", name)).getInt64();
-}
-
 std::optional<std::uint64_t> maybe(const SQLite::Column& column) {
   if (column.isNull()) return std::nullopt;
   return std::bit_cast<std::uint64_t>(column.getInt64());
@@ -112,14 +73,16 @@ struct ArchiveReader::Impl {
   std::vector<CellRecord> cells;
   std::vector<GateRecord> gates;
   std::uint64_t plan = 0;
-  std::optional<std::uint64_t> sealed_count, sealed_digest;  // absent in a live file
+  std::int32_t schema = kSchemaVersion;
+  bool published = false;
+  std::optional<std::uint64_t> sealed_count, seal;  // absent in a live file
 
   void open();
-  void require_ours();
   void read_plan();
   StoredRun take_run(const SQLite::Statement& row) const;
   void take_part(const PartTable& table, const SQLite::Statement& row, StoredRun& stored) const;
   void verify(const StoredRun& stored) const;
+  void require_sealed(std::uint64_t count, std::uint64_t rows) const;
   std::uint64_t read_all(const std::function<void(const RunRecord&)>& visit) const;
 
   // Turns errors of SQLite into errors of this program.
@@ -131,63 +94,35 @@ struct ArchiveReader::Impl {
       throw_archive_error(path);
     }
   }
-  [[noreturn]] void damaged(const std::string& what) const {
-    throw EngineError(
-        fmt::format("{}: the file is damaged: {}; use a copy of it, or run the campaign again", path, what));
-  }
+  [[noreturn]] void damaged(const std::string& what) const { throw_damaged(path, what); }
 };
 
 void ArchiveReader::Impl::open() {
-  guarded([&] {
-    db = std::make_unique<SQLite::Database>(std::filesystem::absolute(path).string(), SQLite::OPEN_READONLY,
-                                            kBusyTimeoutMs);
-    // The writer alone checkpoints: SQLite 3.40 may damage the file if two do it at the same instant.
-    sqlite3_db_config(db->getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
-  });
-  require_ours();
+  require_readable(path);
+  auto file = guarded([&] { return open_to_read(path); });
+  db = std::move(file.db);
+  schema = file.schema;
+  published = file.published;
   guarded([&] {
     const Snapshot snapshot(*db);
     read_plan();
   });
 }
 
-void ArchiveReader::Impl::require_ours() {
-  std::int64_t application = 0, version = 0;
-  try {
-    application = pragma(*db, "application_id");
-    version = pragma(*db, "user_version");
-  } catch (const SQLite::Exception& e) {
-    if (e.getErrorCode() != SQLITE_NOTADB) throw_archive_error(path);
-  }
-  if (application != kApplicationId)
-    throw InputError(path, "this is not a campaign file of fleetproof; name a file that `fleetproof run` wrote");
-  if (version > kSchemaVersion) {
-    throw InputError(
-        path,
-        fmt::format(
-            "a newer fleetproof wrote this file (schema {}, this program reads {}); use that version or a later one",
-            version, kSchemaVersion));
-  }
-  if (version >= 1 && version < kSchemaVersion) {
-    throw InputError(path, fmt::format("an older fleetproof wrote this file (schema {}, this program reads {}); use "
-                                       "that version, or run the campaign again",
-                                       version, kSchemaVersion));
-  }
-  if (version != kSchemaVersion) damaged(fmt::format("its schema number is {}", version));
-}
-
 void ArchiveReader::Impl::read_plan() {
-  SQLite::Statement row(*db, fmt::format("SELECT {}, run_count, rows_digest FROM campaign", kCampaignColumns));
+  SQLite::Statement row(*db, fmt::format("SELECT {}, run_count, {} AS seal FROM campaign", kCampaignColumns,
+                                         schema < kFirstSealed ? "rows_digest" : "seal"));
   if (!row.executeStep()) damaged("it holds no plan");
   campaign = read_campaign(row);
   plan = read_plan_checksum(row);
   sealed_count = maybe(row.getColumn("run_count"));
-  sealed_digest = maybe(row.getColumn("rows_digest"));
-  SQLite::Statement cell_rows(*db, fmt::format("SELECT {} FROM cells ORDER BY cell", cell_columns()));
+  seal = maybe(row.getColumn("seal"));
+  if (published && !(sealed_count && seal)) damaged("it was published, but has no seal");
+  SQLite::Statement cell_rows(*db, fmt::format("SELECT {} FROM cells ORDER BY cell", cell_values(schema)));
   while (cell_rows.executeStep()) cells.push_back(read_cell(cell_rows));
   SQLite::Statement gate_rows(*db, fmt::format("SELECT {} FROM gates ORDER BY gate", kGateColumns));
   while (gate_rows.executeStep()) gates.push_back(read_gate(gate_rows));
-  if (checksums == Checksums::Verify && plan_checksum(campaign, cells, gates) != plan)
+  if (checksums == Checksums::Verify && plan_checksum(campaign, cells, gates, schema) != plan)
     damaged("its plan (campaign, cells, gates) does not match its checksum");
 }
 
@@ -212,16 +147,22 @@ void ArchiveReader::Impl::verify(const StoredRun& stored) const {
   // Every reader of a run looks up its cell. The cell must therefore exist, even if checksums are ignored.
   if (run.cell >= cells.size()) damaged(fmt::format("run {} belongs to no cell of the plan", run.run_index));
   if (checksums == Checksums::Ignore) return;
-  const bool sound = row_checksum(run) == stored.checksum &&
+  const bool sound = row_checksum(run, schema) == stored.checksum &&
                      stored.outcome_class == name_of(run.outcome.outcome_class()) &&
                      run.run_index == run.replicate * cells.size() + run.cell;
   if (!sound) damaged(fmt::format("run {} does not match its checksum", run.run_index));
 }
 
+void ArchiveReader::Impl::require_sealed(std::uint64_t count, std::uint64_t rows) const {
+  if (count != *sealed_count) damaged(fmt::format("it was published with {} runs and holds {}", *sealed_count, count));
+  const auto now = schema < kFirstSealed ? rows : seal_of(schema_text(*db), plan, count, rows);
+  if (now != seal) damaged("its tables, views, plan or runs are not those that were published");
+}
+
 // The tables are stored in the order of their keys, so one pass over each is enough. Returns the digest of the rows.
 std::uint64_t ArchiveReader::Impl::read_all(const std::function<void(const RunRecord&)>& visit) const {
   const Snapshot snapshot(*db);
-  SQLite::Statement runs(*db, fmt::format("SELECT {} FROM runs ORDER BY run_index", run_columns()));
+  SQLite::Statement runs(*db, fmt::format("SELECT {} FROM runs ORDER BY run_index", run_values(schema)));
   struct Cursor {
     const PartTable& table;
     SQLite::Statement rows;
@@ -249,21 +190,19 @@ std::uint64_t ArchiveReader::Impl::read_all(const std::function<void(const RunRe
   for (const auto& part : parts) {
     if (part.more) damaged(fmt::format("it holds {} of run {}, but not the run", part.table.name, run_of(part.rows)));
   }
-  if (sealed_count && (count != *sealed_count || digest.value() != sealed_digest)) {
-    damaged(fmt::format("it was published with {} runs and holds {}, or others", *sealed_count, count));
-  }
+  if (sealed_count) require_sealed(count, digest.value());
   return digest.value();
 }
 
 ArchiveReader::ArchiveReader(const std::string& path, Checksums checksums) : impl_(std::make_unique<Impl>()) {
   impl_->path = path;
   impl_->checksums = checksums;
-  require_readable(path);
   impl_->open();
 }
 
 ArchiveReader::~ArchiveReader() = default;
 
+std::int32_t ArchiveReader::schema() const { return impl_->schema; }
 const CampaignRecord& ArchiveReader::campaign() const { return impl_->campaign; }
 const std::vector<CellRecord>& ArchiveReader::cells() const { return impl_->cells; }
 const std::vector<GateRecord>& ArchiveReader::gates() const { return impl_->gates; }
@@ -277,7 +216,8 @@ std::uint64_t ArchiveReader::run_count() const {
 std::optional<RunRecord> ArchiveReader::run(std::uint64_t run_index) const {
   return impl_->guarded([&]() -> std::optional<RunRecord> {
     const Snapshot snapshot(*impl_->db);
-    SQLite::Statement rows(*impl_->db, fmt::format("SELECT {} FROM runs WHERE run_index = ?", run_columns()));
+    SQLite::Statement rows(*impl_->db,
+                           fmt::format("SELECT {} FROM runs WHERE run_index = ?", run_values(impl_->schema)));
     rows.bind(1, std::bit_cast<std::int64_t>(run_index));
     if (!rows.executeStep()) return std::nullopt;
     auto stored = impl_->take_run(rows);

@@ -25,6 +25,7 @@ class ArchiveReader {
   ArchiveReader(const ArchiveReader&) = delete;
   ArchiveReader& operator=(const ArchiveReader&) = delete;
 
+  std::int32_t schema() const;  // of the file; an older one is read as if it had today's columns
   const CampaignRecord& campaign() const;
   const std::vector<CellRecord>& cells() const;
   const std::vector<GateRecord>& gates() const;

@@ -48,7 +48,7 @@ struct ArchiveWriter::Impl {
   std::chrono::steady_clock::time_point last_commit = std::chrono::steady_clock::now();
 
   void create(const CampaignRecord& campaign, const std::vector<CellRecord>& cell_records,
-              const std::vector<GateRecord>& gates);
+              const std::vector<GateRecord>& gates, std::unique_ptr<ArchiveReader> earlier = nullptr);
   void go_on(CampaignRecord campaign, const std::vector<CellRecord>& cell_records, const std::vector<GateRecord>& gates,
              const Resumption& resumption);
   void open(const std::string& file);
@@ -59,6 +59,9 @@ struct ArchiveWriter::Impl {
   void store(const RunRecord& run);
   void commit();
   void close();
+  void drop();
+  template <class Action>
+  void or_drop(Action action);
 };
 
 void ArchiveWriter::Impl::open(const std::string& file) {
@@ -91,37 +94,52 @@ void ArchiveWriter::Impl::insert_plan(const CampaignRecord& campaign, const std:
 }
 
 void ArchiveWriter::Impl::create(const CampaignRecord& campaign, const std::vector<CellRecord>& cell_records,
-                                 const std::vector<GateRecord>& gates) {
+                                 const std::vector<GateRecord>& gates, std::unique_ptr<ArchiveReader> earlier) {
   const std::string begun = new_live_name(path);
+  const bool in_place_of_earlier = earlier != nullptr;
   remove_live_file(begun);
   make_live_file(begun);
   try {
     db = std::make_unique<SQLite::Database>(begun, SQLite::OPEN_READWRITE);
     db->exec(fmt::format("PRAGMA page_size={}; PRAGMA application_id={}; PRAGMA user_version={}", kPageSize,
                          kApplicationId, kSchemaVersion));
-    open(begun);
+    // Without a log until it is whole: closing a file that has one can fail silently.
     db->exec("BEGIN");
     db->exec(schema_ddl());
     insert_plan(campaign, cell_records, gates);
     db->exec("COMMIT");
+    if (earlier) {
+      prepare();
+      earlier->for_each_run([this](const RunRecord& run) { store(run); });
+      close();
+      earlier.reset();
+      fold_log(live_path);
+      db = std::make_unique<SQLite::Database>(begun, SQLite::OPEN_READWRITE);
+    }
+    db->exec("PRAGMA journal_mode=WAL");
     db.reset();
+    remove_log(live_path);  // it would be read as the log of the file that takes the name
     move_durably(begun, live_path);
     open(live_path);
     prepare();
-  } catch (const SQLite::Exception&) {
-    db.reset();
+  } catch (...) {
+    drop();
     remove_live_file(begun);
+    if (!in_place_of_earlier) remove_live_file(live_path);  // it holds no run, and would prevent the next try
     throw_archive_error(live_path);
   }
 }
 
 void ArchiveWriter::Impl::go_on(CampaignRecord campaign, const std::vector<CellRecord>& cell_records,
                                 const std::vector<GateRecord>& gates, const Resumption& resumption) {
-  {
-    const ArchiveReader stored(live_path);
-    resumption.check(stored.campaign(), campaign);
-    stored.for_each_run(resumption.visit);
+  auto stored = std::make_unique<ArchiveReader>(live_path);
+  resumption.check(stored->campaign(), campaign);
+  stored->for_each_run(resumption.visit);
+  if (stored->schema() < kSchemaVersion) {
+    create(campaign, cell_records, gates, std::move(stored));
+    return;
   }
+  stored.reset();
   try {
     open(live_path);
     db->exec("BEGIN");
@@ -131,6 +149,7 @@ void ArchiveWriter::Impl::go_on(CampaignRecord campaign, const std::vector<CellR
     db->exec("COMMIT");
     prepare();
   } catch (const SQLite::Exception&) {
+    drop();
     throw_archive_error(live_path);
   }
 }
@@ -178,12 +197,29 @@ void ArchiveWriter::Impl::commit() {
 
 void ArchiveWriter::Impl::close() {
   commit();
+  drop();
+}
+
+// Closes the file. What was not committed is rolled back.
+void ArchiveWriter::Impl::drop() {
+  pending = 0;
   insert_run.reset();
   insert_violation.reset();
   insert_incident.reset();
   insert_probe.reset();
   stored_checksum.reset();
   db.reset();
+}
+
+// After an error, half a run may be stored. Nothing of it may be committed later.
+template <class Action>
+void ArchiveWriter::Impl::or_drop(Action action) {
+  try {
+    action();
+  } catch (const SQLite::Exception&) {
+    drop();
+    throw_archive_error(live_path);
+  }
 }
 
 ArchiveWriter::ArchiveWriter(const std::string& path, const CampaignRecord& campaign,
@@ -224,36 +260,26 @@ ArchiveWriter::~ArchiveWriter() {
 }
 
 void ArchiveWriter::add(const RunRecord& run) {
-  ensure(impl_->db != nullptr, "a run is added before the archive is published");
+  ensure(impl_->db != nullptr, "a run is added before the archive is published, and not after an error");
   ensure(run.cell < impl_->cells, "a stored run belongs to a cell of its campaign");
   ensure(run.run_index == run.replicate * impl_->cells + run.cell, "run_index = replicate x cells + cell");
   ensure(run.run_index <= std::numeric_limits<std::int64_t>::max(), "a run index fits the archive");
-  try {
+  impl_->or_drop([&] {
     impl_->store(run);
     if (impl_->pending >= kRowsPerCommit || std::chrono::steady_clock::now() - impl_->last_commit >= kCommitPeriod)
       impl_->commit();
-  } catch (const SQLite::Exception&) {
-    throw_archive_error(impl_->live_path);
-  }
+  });
 }
 
 void ArchiveWriter::commit() {
-  ensure(impl_->db != nullptr, "an archive is committed before it is published");
-  try {
-    impl_->commit();
-  } catch (const SQLite::Exception&) {
-    throw_archive_error(impl_->live_path);
-  }
+  ensure(impl_->db != nullptr, "an archive is committed before it is published, and not after an error");
+  impl_->or_drop([&] { impl_->commit(); });
 }
 
 void ArchiveWriter::publish(std::uint64_t stop_index) {
-  ensure(impl_->db != nullptr, "an archive is published once");
+  ensure(impl_->db != nullptr, "an archive is published once, and not after an error");
   const auto unfinished = impl_->path + ".unfinished";
-  try {
-    impl_->close();
-  } catch (const SQLite::Exception&) {
-    throw_archive_error(impl_->live_path);
-  }
+  impl_->or_drop([&] { impl_->close(); });
   write_canonical_file(impl_->live_path, unfinished, stop_index);
   try {
     require_free_name(impl_->path, impl_->existing);

@@ -16,6 +16,7 @@
 
 #include "core/base/error.hpp"
 #include "storage/checksum.hpp"
+#include "storage/opened_file.hpp"
 #include "storage/schema.hpp"
 #include "storage/sqlite_errors.hpp"
 
@@ -48,15 +49,17 @@ void copy_rows(SQLite::Database& db, std::uint64_t stop_index) {
   copy_below_stop("probes", kProbeColumns, "run_index, ordinal");
 }
 
-// With the count and the digest, a lost or added row is noticed too, not only a changed row.
+// With the count and the seal, a lost or added row and a changed view are noticed too, not only a changed row.
 void seal(SQLite::Database& db) {
   RowsDigest digest;
   std::int64_t count = 0;
   SQLite::Statement rows(db, "SELECT checksum FROM main.runs ORDER BY run_index");
   for (; rows.executeStep(); ++count) digest.add(std::bit_cast<std::uint64_t>(rows.getColumn(0).getInt64()));
-  SQLite::Statement update(db, "UPDATE main.campaign SET run_count = ?, rows_digest = ?");
+  const auto plan = std::bit_cast<std::uint64_t>(db.execAndGet("SELECT plan_checksum FROM main.campaign").getInt64());
+  const auto seal = seal_of(schema_text(db), plan, static_cast<std::uint64_t>(count), digest.value());
+  SQLite::Statement update(db, "UPDATE main.campaign SET run_count = ?, seal = ?");
   update.bind(1, count);
-  update.bind(2, std::bit_cast<std::int64_t>(digest.value()));
+  update.bind(2, std::bit_cast<std::int64_t>(seal));
   update.exec();
 }
 

@@ -32,9 +32,10 @@ class Bytes {
     text_ += value;
     return *this;
   }
-  Bytes& operator<<(const FactorValues& factors) {
-    for (const double value : factors.values) *this << value;
-    return *this;
+  void factors(const FactorValues& factors, std::int32_t schema) {
+    for (const FactorInfo& factor : kFactors) {
+      if (factor.first_schema <= schema) *this << factors[factor.id];
+    }
   }
   std::uint64_t hash() const { return XXH3_64bits(text_.data(), text_.size()); }
 
@@ -44,15 +45,16 @@ class Bytes {
 
 }  // namespace
 
-std::uint64_t row_checksum(const RunRecord& run) {
+std::uint64_t row_checksum(const RunRecord& run, std::int32_t schema) {
   Bytes bytes;
-  bytes << run.run_index << std::uint64_t{run.cell} << run.replicate << run.scenario_digest << run.factors
-        << encode(run.outcome);
+  bytes << run.run_index << std::uint64_t{run.cell} << run.replicate << run.scenario_digest;
+  bytes.factors(run.factors, schema);
+  bytes << encode(run.outcome);
   return bytes.hash();
 }
 
 std::uint64_t plan_checksum(const CampaignRecord& campaign, const std::vector<CellRecord>& cells,
-                            const std::vector<GateRecord>& gates) {
+                            const std::vector<GateRecord>& gates, std::int32_t schema) {
   Bytes bytes;
   bytes << campaign.name << campaign.kind << campaign.seed << campaign.replicates << campaign.plan_json
         << campaign.plan_hash;
@@ -69,8 +71,9 @@ std::uint64_t plan_checksum(const CampaignRecord& campaign, const std::vector<Ce
   for (const auto& agent : campaign.plugin_agents) bytes << agent;
   bytes << std::uint64_t{cells.size()};
   for (const auto& cell : cells) {
-    bytes << std::uint64_t{cell.index} << cell.agent << cell.layout << std::uint64_t{cell.fleet_size} << cell.lowest
-          << cell.highest;
+    bytes << std::uint64_t{cell.index} << cell.agent << cell.layout << std::uint64_t{cell.fleet_size};
+    bytes.factors(cell.lowest, schema);
+    bytes.factors(cell.highest, schema);
   }
   bytes << std::uint64_t{gates.size()};
   for (const auto& gate : gates) {
@@ -103,5 +106,9 @@ void RowsDigest::add(std::uint64_t checksum) {
 std::uint64_t RowsDigest::value() const { return XXH3_64bits_digest(state_->hash); }
 
 std::uint64_t content_digest_of(std::uint64_t plan, std::uint64_t rows) { return (Bytes{} << plan << rows).hash(); }
+
+std::uint64_t seal_of(const std::string& schema_text, std::uint64_t plan, std::uint64_t run_count, std::uint64_t rows) {
+  return (Bytes{} << schema_text << plan << run_count << rows).hash();
+}
 
 }  // namespace fleetproof

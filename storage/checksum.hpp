@@ -6,16 +6,17 @@
 #include <vector>
 
 #include "storage/records.hpp"
+#include "storage/schema.hpp"
 
 namespace fleetproof {
 
-// XXH3 over run index, cell, replicate, scenario digest and the canonical bytes of the outcome. These bytes contain the
-// violations, incidents and probes.
-std::uint64_t row_checksum(const RunRecord& run);
+// XXH3 over run index, cell, replicate, scenario digest, factors and the canonical bytes of the outcome. These bytes
+// contain the violations, incidents and probes. `schema` is that of the file: an earlier one has fewer factors.
+std::uint64_t row_checksum(const RunRecord& run, std::int32_t schema = kSchemaVersion);
 
 // XXH3 over everything that is fixed before the first run: campaign, cells, gates.
 std::uint64_t plan_checksum(const CampaignRecord& campaign, const std::vector<CellRecord>& cells,
-                            const std::vector<GateRecord>& gates);
+                            const std::vector<GateRecord>& gates, std::int32_t schema = kSchemaVersion);
 
 // One digest over the checksums of many rows. Requires: the rows come in order of run index.
 class RowsDigest {
@@ -35,5 +36,9 @@ class RowsDigest {
 
 // A digest of the whole content: the plan's checksum and all rows.
 std::uint64_t content_digest_of(std::uint64_t plan, std::uint64_t rows);
+
+// What a published file is sealed with: the text of all its tables and views, the plan's checksum, the number of runs
+// and all rows. `schema_text` comes from the file itself.
+std::uint64_t seal_of(const std::string& schema_text, std::uint64_t plan, std::uint64_t run_count, std::uint64_t rows);
 
 }  // namespace fleetproof

@@ -27,6 +27,10 @@ struct FactorInfo {
   // A page names the factor only if it is above 0 somewhere. The table then says "none" for 0 and explains the column.
   bool only_above_zero;
   std::string_view legend;
+  // Campaign files of an earlier schema have no column of this factor. Then every run had one value, which the plan
+  // holds under this path. 0 if the plan does not hold it either.
+  std::int32_t first_schema = 0;
+  std::string_view plan_path = {};
 };
 
 // A new factor stands at the end: the place in the list is the dimension that it draws from, and the place of its
@@ -38,7 +42,8 @@ inline constexpr auto kFactors = std::to_array<FactorInfo>({
      "outage = mean length of an outage of the radio; none = losses are independent of each other. The loss is the "
      "same on average."},
     {Factor::CallCost, "call_cost_s", "call_cost_to_s", 3, "call cost", "call cost", "call cost", 1000.0, " ms", true,
-     "call cost = simulated time that every call of the controller takes; none = calls take no time."},
+     "call cost = simulated time that every call of the controller takes; none = calls take no time.", 5,
+     "$.agent_clock.call_cost_s"},
 });
 
 consteval bool factors_stand_at_their_numbers() {
@@ -46,11 +51,13 @@ consteval bool factors_stand_at_their_numbers() {
   for (std::size_t i = 0; i < kFactors.size(); ++i) {
     if (kFactors[i].id != static_cast<Factor>(i)) return false;
     if (taken.at(kFactors[i].nesting)) return false;
+    if (i > 0 && kFactors[i].first_schema < kFactors[i - 1].first_schema) return false;
     taken[kFactors[i].nesting] = true;
   }
   return true;
 }
-static_assert(factors_stand_at_their_numbers(), "a factor stands at its own number; each nesting occurs once");
+static_assert(factors_stand_at_their_numbers(),
+              "a factor stands at its own number, each nesting occurs once, newer factors stand last");
 
 constexpr const FactorInfo& info_of(Factor factor) { return kFactors.at(static_cast<std::size_t>(factor)); }
 

@@ -27,7 +27,25 @@ void make_live_file(const std::string& live_path) {
 
 void remove_live_file(const std::string& live_path) {
   std::error_code ignored;
-  for (const auto* suffix : {"", "-wal", "-shm", "-journal"}) fs::remove(live_path + suffix, ignored);
+  fs::remove(live_path, ignored);
+  remove_log(live_path);
+}
+
+void remove_log(const std::string& live_path) {
+  std::error_code ignored;
+  for (const auto* suffix : {"-wal", "-shm", "-journal"}) fs::remove(live_path + suffix, ignored);
+}
+
+void fold_log(const std::string& live_path) {
+  try {
+    SQLite::Database(live_path, SQLite::OPEN_READWRITE).exec("PRAGMA wal_checkpoint(TRUNCATE)");
+  } catch (const SQLite::Exception&) {
+    throw_archive_error(live_path);
+  }
+  std::error_code ignored;
+  const auto log = live_path + "-wal";
+  if (fs::exists(log, ignored) && fs::file_size(log, ignored) > 0)
+    throw EngineError(fmt::format("{}: another process reads this file; wait for it to end", live_path));
 }
 
 LiveFile bring_back_live_file(const std::string& path, const std::string& live_path) {

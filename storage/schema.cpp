@@ -36,7 +36,7 @@ CREATE TABLE campaign (
   plugin_agents TEXT NOT NULL,
   plan_checksum INTEGER NOT NULL,
   run_count INTEGER,
-  rows_digest INTEGER
+  seal INTEGER
 ) STRICT, WITHOUT ROWID;
 CREATE TABLE cells (
   cell INTEGER PRIMARY KEY,
@@ -177,6 +177,19 @@ std::string factor_names(std::string_view FactorInfo::*name, const std::string& 
   return list;
 }
 
+// The same, as a file of this schema has them.
+std::string factor_values(std::string_view FactorInfo::*name, std::int32_t schema) {
+  std::string list;
+  for (const FactorInfo& factor : kFactors) {
+    if (factor.first_schema <= schema) {
+      list += fmt::format(", {}", factor.*name);
+    } else {
+      list += fmt::format(", (SELECT coalesce(json_extract(plan_json, '{}'), 0.0) FROM campaign)", factor.plan_path);
+    }
+  }
+  return list;
+}
+
 std::string factor_definitions(std::string_view FactorInfo::*name) {
   std::string list;
   for (const FactorInfo& factor : kFactors) list += fmt::format(",\n  {} REAL NOT NULL", factor.*name);
@@ -193,6 +206,18 @@ std::string counter_list(const std::string& prefix) {
   std::string list;
   for (const auto& counter : kCounters) list += fmt::format("{}{}{}", list.empty() ? "" : ", ", prefix, counter.name);
   return list;
+}
+
+std::string run_list(const std::string& prefix, const std::string& factors) {
+  return with_prefix(prefix, {"run_index", "cell", "replicate", "scenario_digest"}) + factors + ", " +
+         with_prefix(prefix, {"outcome_class", "violation", "contact", "stuck", "crash", "hang", "indeterminate",
+                              "engine_error", "min_clearance_um", "simulated_ns", "agv_count", "digest",
+                              "running_digests", "message"}) +
+         ", " + counter_list(prefix) + ", " + prefix + "checksum";
+}
+
+std::string cell_list(const std::string& factors) {
+  return with_prefix("", {"cell", "agent", "layout", "fleet_size"}) + factors;
 }
 
 // " WHEN 1 THEN 'battery-empty' ...", from the catalogue of kinds.
@@ -232,18 +257,14 @@ std::string schema_ddl() {
                      fmt::arg("incident_units", incident_words(&IncidentKindInfo::unit)));
 }
 
-std::string run_columns(const std::string& prefix) {
-  return with_prefix(prefix, {"run_index", "cell", "replicate", "scenario_digest"}) +
-         factor_names(&FactorInfo::key, prefix) + ", " +
-         with_prefix(prefix, {"outcome_class", "violation", "contact", "stuck", "crash", "hang", "indeterminate",
-                              "engine_error", "min_clearance_um", "simulated_ns", "agv_count", "digest",
-                              "running_digests", "message"}) +
-         ", " + counter_list(prefix) + ", " + prefix + "checksum";
-}
+std::string run_columns(const std::string& prefix) { return run_list(prefix, factor_names(&FactorInfo::key, prefix)); }
 
-std::string cell_columns() {
-  return with_prefix("", {"cell", "agent", "layout", "fleet_size"}) + factor_names(&FactorInfo::key) +
-         factor_names(&FactorInfo::key_to);
+std::string run_values(std::int32_t schema) { return run_list("", factor_values(&FactorInfo::key, schema)); }
+
+std::string cell_columns() { return cell_list(factor_names(&FactorInfo::key) + factor_names(&FactorInfo::key_to)); }
+
+std::string cell_values(std::int32_t schema) {
+  return cell_list(factor_values(&FactorInfo::key, schema) + factor_values(&FactorInfo::key_to, schema));
 }
 
 std::string violation_columns() {

@@ -8,8 +8,10 @@ namespace fleetproof {
 inline constexpr std::int32_t kApplicationId = 0x464C5046;  // "FLPF": marks an SQLite file as a campaign file
 
 // What each version added: 2 incidents and probes, 3 bounds of factors, 4 exempt pairs and external sources, 5 the call
-// cost as a factor.
-inline constexpr std::int32_t kSchemaVersion = 5;
+// cost as a factor, 6 the seal.
+inline constexpr std::int32_t kSchemaVersion = 6;
+inline constexpr std::int32_t kOldestReadable = 4;
+inline constexpr std::int32_t kFirstSealed = 6;  // a published file of an earlier schema has the digest of its rows
 inline constexpr std::int32_t kPageSize = 4096;
 
 // The tables and the public views, as one script. The live file and the canonical file use the same text. Each counter
@@ -21,6 +23,9 @@ std::string schema_ddl();
 // is put before every name.
 std::string run_columns(const std::string& prefix = "");
 std::string cell_columns();
+// The same places, to be read from a file of this schema: a column that it does not have is replaced by its value.
+std::string run_values(std::int32_t schema);
+std::string cell_values(std::int32_t schema);
 std::string violation_columns();
 inline constexpr const char* kIncidentColumns =
     "run_index, ordinal, kind, entity_a, entity_b, first_ns, last_ns, value";
