@@ -9,7 +9,8 @@ if(FLEETPROOF_SANITIZE MATCHES thread)
   set(report "ThreadSanitizer: data race")
 else()
   set(sanitized_sources ${engine_tests} fuzz/readers_test.cpp fuzz/readers.cpp fuzz/seeds.cpp fuzz/verdict.cpp
-    campaign/task_pool_test.cpp campaign/workers_test.cpp storage/archive_test.cpp)
+    campaign/task_pool_test.cpp campaign/workers_test.cpp campaign/channel_test.cpp campaign/forker_test.cpp
+    storage/archive_test.cpp)
   set(planted planted_use_after_free)
   set(report "AddressSanitizer: heap-use-after-free")
 endif()
@@ -24,7 +25,9 @@ add_executable(sanitized_tests EXCLUDE_FROM_ALL ${sanitized_sources})
 target_link_libraries(sanitized_tests
   PRIVATE fleetproof_campaign fleetproof_evidence rapidcheck GTest::gtest_main GTest::gmock
     nlohmann_json::nlohmann_json fmt::fmt SQLiteCpp SQLite::SQLite3 TBB::tbb)
-target_compile_definitions(sanitized_tests PRIVATE FLEETPROOF_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+target_compile_definitions(sanitized_tests PRIVATE FLEETPROOF_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+  FLEETPROOF_PLUGIN="$<TARGET_FILE:fleetproof_agents_plugin>")
+add_dependencies(sanitized_tests fleetproof_agents_plugin)
 target_compile_options(sanitized_tests PRIVATE ${test_warnings})
 target_precompile_headers(sanitized_tests
   PRIVATE <gtest/gtest.h> <gmock/gmock.h> <Eigen/Core> <fmt/format.h> <map> <set> <string> <vector>)

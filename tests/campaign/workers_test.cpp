@@ -10,10 +10,11 @@
 namespace fleetproof {
 namespace {
 
-std::string bytes_of_campaign(const CampaignPlan& plan, int workers) {
+std::string bytes_of_campaign(const CampaignPlan& plan, int workers, const std::string& plugin = "") {
   const std::string file = testing::TempDir() + "workers_" + plan.name + std::to_string(workers) + ".db";
   std::filesystem::remove(file);
-  const AgentPrograms programs;
+  AgentPrograms programs;
+  if (!plugin.empty()) programs.know(plugin);
   RunOptions options;
   options.workers = workers;
   EXPECT_TRUE(run_campaign(plan, programs, file, options, {}).complete());
@@ -29,6 +30,14 @@ TEST(Workers, ThreeWriteTheSameArchiveAsOne) {
 
 TEST(Workers, ThreeWriteTheSameArchiveAsOneWhenEverythingGoesWrong) {
   EXPECT_TRUE(bytes_of_campaign(test::hostile_plan(), 1) == bytes_of_campaign(test::hostile_plan(), 3));
+}
+
+// Runs of a plug-in happen in worker processes, others on the threads of the pool, in one campaign.
+TEST(Workers, ThreeWriteTheSameArchiveAsOneWithAPlugIn) {
+  CampaignPlan plan = test::small_plan();
+  plan.agents = {"hull-lock-plugin", "reckless"};
+  plan.gates.clear();
+  EXPECT_TRUE(bytes_of_campaign(plan, 1, FLEETPROOF_PLUGIN) == bytes_of_campaign(plan, 3, FLEETPROOF_PLUGIN));
 }
 
 }  // namespace
