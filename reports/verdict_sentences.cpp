@@ -83,8 +83,10 @@ Remark describe(const ReportInput& input, const FailingRun& run) {
   text += fmt::format("; agent {}, layout {}, fleet of {}, {}", printable(cell.agent, 40), printable(cell.layout, 40),
                       cell.fleet_size, factors_text(run.factors));
   if (!run.message.empty()) text += fmt::format("; \"{}\"", printable(run.message, 120));
-  if (run.severity == Severity::Crash || run.severity == Severity::Hang)
-    return {text, debug_command(input.archive_path, run.run_index)};
+  const std::string debug = debug_command(input.archive_path, run.run_index);
+  if (run.severity == Severity::Crash || run.severity == Severity::Hang) return {text, debug};
+  // A worse end point hides no crash.
+  if (run.message.starts_with("agent of ")) text += "; in a debugger: " + debug;
   return {text, replay_line(input, run.run_index)};
 }
 

@@ -183,7 +183,8 @@ TEST(SampleSentence, ACrashedRunIsShownToADebugger) {
     run.outcome.message = "agent of AGV 0: aborted (SIGABRT) in event order at 3 s";
   });
   EXPECT_EQ(replay_line(input, 3), "fleetproof replay night.fp 3");
-  EXPECT_THAT(render("text", input), HasSubstr("gdb --args fleetproof replay night.fp 3 --in-process"));
+  EXPECT_THAT(render("json", input), HasSubstr("gdb --args fleetproof replay night.fp 3 --in-process"));
+  EXPECT_THAT(render("text", input), HasSubstr("-> gdb --args fleetproof replay night.fp 3 --in-process"));
 }
 
 }  // namespace
