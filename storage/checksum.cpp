@@ -37,6 +37,7 @@ class Bytes {
       if (factor.first_schema <= schema) *this << factors[factor.id];
     }
   }
+  void reserve(std::size_t size) { text_.reserve(size); }
   std::uint64_t hash() const { return XXH3_64bits(text_.data(), text_.size()); }
 
  private:
@@ -46,10 +47,12 @@ class Bytes {
 }  // namespace
 
 std::uint64_t row_checksum(const RunRecord& run, std::int32_t schema) {
+  const std::string outcome = encode(run.outcome);
   Bytes bytes;
+  bytes.reserve(outcome.size() + 128);
   bytes << run.run_index << std::uint64_t{run.cell} << run.replicate << run.scenario_digest;
   bytes.factors(run.factors, schema);
-  bytes << encode(run.outcome);
+  bytes << outcome;
   return bytes.hash();
 }
 

@@ -25,7 +25,8 @@ class Binder {
   Binder& operator<<(bool value) { return *this << std::int64_t{value ? 1 : 0}; }
   Binder& operator<<(double value) { return statement_.bind(next_++, value), *this; }
   Binder& operator<<(const std::string& value) { return statement_.bind(next_++, value), *this; }
-  Binder& operator<<(const char* value) { return *this << std::string(value); }
+  // Requires: the text lives until the statement has run, as the words of an enumeration do.
+  Binder& operator<<(const char* value) { return statement_.bindNoCopy(next_++, value), *this; }
   Binder& operator<<(const FactorValues& factors) {
     for (const double value : factors.values) *this << value;
     return *this;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -25,8 +27,10 @@ class ByteSink {
   std::string take() { return std::move(bytes_); }
 
  private:
-  void little_endian(std::uint64_t value, int count) {
-    for (int i = 0; i < count; ++i) u8(static_cast<std::uint8_t>(value >> (8 * i)));
+  void little_endian(std::uint64_t value, std::size_t count) {
+    std::array<char, 8> bytes{};
+    for (std::size_t i = 0; i < count; ++i) bytes[i] = static_cast<char>(static_cast<std::uint8_t>(value >> (8 * i)));
+    bytes_.append(bytes.data(), count);
   }
   std::string bytes_;
 };

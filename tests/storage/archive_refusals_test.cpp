@@ -373,5 +373,53 @@ TEST(ArchiveWriter, a_disk_that_fills_up_is_an_engine_error_and_keeps_what_was_c
   EXPECT_EQ(reader.run(99)->outcome, runs[99].outcome);
 }
 
+TEST(ArchiveWriter, after_an_error_half_a_run_is_never_committed) {
+  const TemporaryFolder folder;
+  const auto path = folder / "a.fp";
+  auto runs = samples::runs(3);
+  runs[2].outcome.probes = {{ProbeSource::World, "crossing", 1}};
+  {
+    ArchiveWriter writer(path, samples::campaign(), samples::cells(), samples::gates());
+    writer.add(runs[0]);
+    writer.commit();
+    tamper(path + ".partial", "CREATE TRIGGER t BEFORE INSERT ON probes BEGIN SELECT RAISE(ABORT, 'no'); END");
+    EXPECT_THROW(writer.add(runs[2]), EngineError);  // its row is in, its probe is not
+    EXPECT_THROW(writer.add(runs[1]), InvariantViolation);
+  }
+  EXPECT_EQ(ArchiveReader(path + ".partial").run_count(), 1u);
+}
+
+// The copy finds no room; later there is room, and every run is there.
+TEST(ArchiveWriter, a_disk_too_small_for_a_second_copy_costs_no_run) {
+  const TemporaryFolder folder;
+  const auto path = folder / "a.fp";
+  const auto runs = samples::runs(600);
+  write_archive(folder / "whole.fp", 600);
+  auto* const former_handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit former{};
+  ::getrlimit(RLIMIT_FSIZE, &former);
+  std::string sentence;
+  {
+    ArchiveWriter writer(path, samples::campaign(), samples::cells(), samples::gates());
+    for (const auto& run : runs) writer.add(run);
+    writer.commit();
+    const rlimit low{100'000, former.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &low);
+    sentence = sentence_of<EngineError>([&] { writer.publish(600); });
+    ::setrlimit(RLIMIT_FSIZE, &former);
+  }
+  std::signal(SIGXFSZ, former_handler);
+  EXPECT_THAT(sentence, HasSubstr("disk"));
+  EXPECT_FALSE(std::filesystem::exists(path));
+  EXPECT_FALSE(std::filesystem::exists(path + ".unfinished"));
+  std::size_t stored = 0;
+  Resumption resumption;
+  resumption.visit = [&](const RunRecord&) { ++stored; };
+  ArchiveWriter(path, samples::campaign(), samples::cells(), samples::gates(), Existing::Resume, resumption)
+      .publish(600);
+  EXPECT_EQ(stored, 600u);
+  EXPECT_TRUE(samples::bytes_of(path) == samples::bytes_of(folder / "whole.fp"));
+}
+
 }  // namespace
 }  // namespace fleetproof

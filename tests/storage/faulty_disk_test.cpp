@@ -78,6 +78,7 @@ class DiskFaults : public testing::TestWithParam<Fault> {
       reader.for_each_run([&](const RunRecord& run) { EXPECT_EQ(run.outcome, runs_.at(run.run_index).outcome); });
     }
     EXPECT_FALSE(fs::exists(folder_ / (name + ".lock")));
+    EXPECT_FALSE(fs::exists(folder_ / (name + ".unfinished"))) << "half a copy";
   }
 
   // `before` makes what the campaign finds.
