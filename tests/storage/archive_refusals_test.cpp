@@ -1,15 +1,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sqlite3.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
-#include <csignal>
 #include <filesystem>
 
 #include "core/base/error.hpp"
 #include "storage/archive_reader.hpp"
 #include "storage/archive_writer.hpp"
+#include "tests/storage/refusal.hpp"
 #include "tests/storage/sample_records.hpp"
 #include "tests/support/unprivileged.hpp"
 
@@ -17,6 +15,8 @@ namespace fleetproof {
 namespace {
 
 using samples::TemporaryFolder;
+using test::sentence_of;
+using test::tamper;
 using testing::HasSubstr;
 
 void write_archive(const std::string& path, std::uint64_t runs = 60) {
@@ -25,30 +25,8 @@ void write_archive(const std::string& path, std::uint64_t runs = 60) {
   writer.publish(runs);
 }
 
-// As a person with the sqlite3 program would.
-void tamper(const std::string& path, const std::string& sql) {
-  sqlite3* db = nullptr;
-  ASSERT_EQ(sqlite3_open(path.c_str(), &db), SQLITE_OK);
-  EXPECT_EQ(sqlite3_exec(db, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK) << sqlite3_errmsg(db);
-  sqlite3_close(db);
-}
-
 void read_everything(const std::string& path) {
   ArchiveReader(path).for_each_run([](const RunRecord&) {});
-}
-
-template <class Error, class Action>
-std::string sentence_of(Action action) {
-  try {
-    action();
-  } catch (const Error& e) {
-    return e.what();
-  } catch (const std::exception& e) {
-    ADD_FAILURE() << "another kind of error: " << e.what();
-    return {};
-  }
-  ADD_FAILURE() << "no error";
-  return {};
 }
 
 TEST(ArchiveReader, refuses_what_is_not_a_campaign_file) {
@@ -345,80 +323,6 @@ TEST(ArchiveWriter, a_file_that_appears_while_the_campaign_runs_is_not_overwritt
     EXPECT_THAT(sentence_of<InputError>([&] { writer.publish(0); }), HasSubstr("appeared while the campaign ran"));
     EXPECT_EQ(samples::bytes_of(path), "mine");
   }
-}
-
-TEST(ArchiveWriter, a_disk_that_fills_up_is_an_engine_error_and_keeps_what_was_committed) {
-  const TemporaryFolder folder;
-  const auto runs = samples::runs(3000);
-  auto* const former_handler = std::signal(SIGXFSZ, SIG_IGN);
-  rlimit former{};
-  ::getrlimit(RLIMIT_FSIZE, &former);
-  std::string sentence;
-  {
-    ArchiveWriter writer(folder / "a.fp", samples::campaign(), samples::cells(), samples::gates());
-    for (std::size_t i = 0; i < 100; ++i) writer.add(runs[i]);
-    writer.commit();
-    const rlimit low{400'000, former.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &low);
-    sentence = sentence_of<EngineError>([&] {
-      for (std::size_t i = 100; i < runs.size(); ++i) writer.add(runs[i]);
-    });
-    ::setrlimit(RLIMIT_FSIZE, &former);
-  }
-  std::signal(SIGXFSZ, former_handler);
-  EXPECT_THAT(sentence, HasSubstr("disk"));
-  EXPECT_THAT(sentence, HasSubstr("a.fp.partial"));
-  const ArchiveReader reader(folder / "a.fp.partial");
-  EXPECT_GE(reader.run_count(), 100u);
-  EXPECT_EQ(reader.run(99)->outcome, runs[99].outcome);
-}
-
-TEST(ArchiveWriter, after_an_error_half_a_run_is_never_committed) {
-  const TemporaryFolder folder;
-  const auto path = folder / "a.fp";
-  auto runs = samples::runs(3);
-  runs[2].outcome.probes = {{ProbeSource::World, "crossing", 1}};
-  {
-    ArchiveWriter writer(path, samples::campaign(), samples::cells(), samples::gates());
-    writer.add(runs[0]);
-    writer.commit();
-    tamper(path + ".partial", "CREATE TRIGGER t BEFORE INSERT ON probes BEGIN SELECT RAISE(ABORT, 'no'); END");
-    EXPECT_THROW(writer.add(runs[2]), EngineError);  // its row is in, its probe is not
-    EXPECT_THROW(writer.add(runs[1]), InvariantViolation);
-  }
-  EXPECT_EQ(ArchiveReader(path + ".partial").run_count(), 1u);
-}
-
-// The copy finds no room; later there is room, and every run is there.
-TEST(ArchiveWriter, a_disk_too_small_for_a_second_copy_costs_no_run) {
-  const TemporaryFolder folder;
-  const auto path = folder / "a.fp";
-  const auto runs = samples::runs(600);
-  write_archive(folder / "whole.fp", 600);
-  auto* const former_handler = std::signal(SIGXFSZ, SIG_IGN);
-  rlimit former{};
-  ::getrlimit(RLIMIT_FSIZE, &former);
-  std::string sentence;
-  {
-    ArchiveWriter writer(path, samples::campaign(), samples::cells(), samples::gates());
-    for (const auto& run : runs) writer.add(run);
-    writer.commit();
-    const rlimit low{100'000, former.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &low);
-    sentence = sentence_of<EngineError>([&] { writer.publish(600); });
-    ::setrlimit(RLIMIT_FSIZE, &former);
-  }
-  std::signal(SIGXFSZ, former_handler);
-  EXPECT_THAT(sentence, HasSubstr("disk"));
-  EXPECT_FALSE(std::filesystem::exists(path));
-  EXPECT_FALSE(std::filesystem::exists(path + ".unfinished"));
-  std::size_t stored = 0;
-  Resumption resumption;
-  resumption.visit = [&](const RunRecord&) { ++stored; };
-  ArchiveWriter(path, samples::campaign(), samples::cells(), samples::gates(), Existing::Resume, resumption)
-      .publish(600);
-  EXPECT_EQ(stored, 600u);
-  EXPECT_TRUE(samples::bytes_of(path) == samples::bytes_of(folder / "whole.fp"));
 }
 
 }  // namespace
