@@ -159,7 +159,8 @@ void print_text(const PlanWords& words, const Forecast& forecast) {
       forecast.plan.horizon_s);
   put("pilot: {} in {:.1f} s with {}: {:.1f} runs/s\n", count_text(pilot.runs, "run"), pilot.elapsed_s,
       count_text(static_cast<std::uint64_t>(pilot.workers), "worker"), pilot.runs_per_s());
-  put("{}: about {}\n", count_text(forecast.file.replicates, "replicate"), duration_text(forecast.file.time_s));
+  put("{}: about {}, if the machine stays as busy as in the pilot\n", count_text(forecast.file.replicates, "replicate"),
+      duration_text(forecast.file.time_s));
   if (forecast.budget)
     put("in {}: {}, {}\n", duration_text(forecast.budget->time_s), count_text(forecast.budget->replicates, "replicate"),
         count_text(forecast.budget->replicates * pilot.cells.size(), "run"));
