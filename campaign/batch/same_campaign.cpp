@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "campaign/plan/plan_text.hpp"
 #include "core/base/error.hpp"
 
 namespace fleetproof {
@@ -36,7 +37,8 @@ std::string short_text(const nlohmann::json& value) {
 }  // namespace
 
 std::string plan_differences(const CampaignRecord& stored, const CampaignRecord& now) {
-  const nlohmann::json before = nlohmann::json::parse(stored.plan_json).flatten();
+  // Read and written again: a key that an older version did not know has its default.
+  const nlohmann::json before = nlohmann::json::parse(plan_text(parse_plan(stored.plan_json))).flatten();
   const nlohmann::json after = nlohmann::json::parse(now.plan_json).flatten();
   std::string text;
   std::size_t count = 0;

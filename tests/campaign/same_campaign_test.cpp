@@ -39,6 +39,17 @@ TEST(SameCampaign, MayGoOnAndMayGrow) {
   EXPECT_THAT(refusal(record_of(plan), stored), HasSubstr("never shrinks"));
 }
 
+TEST(SameCampaign, AKeyThatAnOlderVersionDidNotKnowHasItsDefault) {
+  CampaignPlan plan = test::small_plan();
+  CampaignRecord stored = record_of(plan);
+  const auto limits = stored.plan_json.find(" \"limits\": {");
+  ASSERT_NE(limits, std::string::npos);
+  stored.plan_json.erase(limits, stored.plan_json.find("},", limits) + 2 - limits);
+  EXPECT_EQ(refusal(stored, record_of(plan)), "");
+  plan.limits.cpu_s = 20.0;
+  EXPECT_THAT(refusal(stored, record_of(plan)), HasSubstr("plan/limits/cpu_s: stored 10.0, now 20.0"));
+}
+
 TEST(SameCampaign, EveryOtherDifferenceIsNamed) {
   CampaignPlan plan = test::small_plan();
   const CampaignRecord stored = record_of(plan);
