@@ -21,7 +21,10 @@ void echo(int slot, Channel channel) {
   while (channel.wait(std::chrono::hours(1)) == Wait::Arrived) {
     const std::string words = channel.received();
     if (words == "exit") ::_exit(7);
-    if (words == "crash") ::raise(SIGSEGV);
+    if (words == "crash") {
+      ::signal(SIGSEGV, SIG_DFL);  // the address sanitizer has a handler of its own
+      ::raise(SIGSEGV);
+    }
     if (words == "close") {
       channel.close();
       for (;;) ::pause();
@@ -115,7 +118,7 @@ TEST(Forker, DiesWithTheProcessThatMadeIt) {
   const pid_t worker = std::stoi(here.received());
   ::kill(main_process, SIGKILL);
   ::waitpid(main_process, nullptr, 0);
-  // The worker is nobody's child now: whoever adopts it may be slow to bury it, so its state is read.
+  // The worker has lost its parent. The process that adopts it may collect it late, so its state is read.
   const auto state = [&] {
     std::ifstream file("/proc/" + std::to_string(worker) + "/stat");
     std::string pid, name, letter = "gone";
