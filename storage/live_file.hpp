@@ -8,7 +8,7 @@ namespace fleetproof {
 // The live file of a campaign, NAME.partial: it grows while the campaign runs. These functions ask for the write lock.
 
 // It has another name until it holds the plan and has a write-ahead log: a kill leaves no live file of which SQLite
-// would have to undo a part before anybody can read it.
+// would have to undo a part before a reader can open it.
 std::string new_live_name(const std::string& path);
 
 // Makes an empty one. Throws what throw_cannot_make throws.

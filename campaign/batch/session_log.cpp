@@ -65,7 +65,7 @@ std::string escaped(const std::string& key) {
   return text;
 }
 
-// What is appended to belongs to us: an earlier session began with the same words.
+// Only a file of ours is appended to: an earlier session began it with the same words.
 void require_ours(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return;

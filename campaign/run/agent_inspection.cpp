@@ -45,7 +45,8 @@ void write_all(int fd, std::string_view bytes) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) ::signal(number, SIG_DFL);
   const int nothing = ::open("/dev/null", O_RDWR | O_CLOEXEC);
-  for (const int stream : {0, 1, 2}) ::dup2(nothing, stream);  // what the object prints concerns nobody yet
+  for (const int stream : {0, 1, 2})
+    ::dup2(nothing, stream);  // what the object prints while it is inspected is dropped
   const rlimit cpu{kPatience_cpu_s, kPatience_cpu_s + 1}, core{0, 0};
   ::setrlimit(RLIMIT_CPU, &cpu);
   ::setrlimit(RLIMIT_CORE, &core);

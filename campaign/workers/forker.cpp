@@ -111,7 +111,7 @@ class ForkerProcess {
     const int error = errno;
     ::close(descriptor);
     if (child < 0) return {-error, {}};
-    ::setpgid(child, child);  // whoever comes first
+    ::setpgid(child, child);  // the child does the same; one of both comes first
     alive_.insert(child);
     return {child, {}};
   }

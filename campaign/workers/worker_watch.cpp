@@ -9,7 +9,7 @@
 namespace fleetproof {
 namespace {
 
-constexpr double kAnyWork_s = 0.001;  // less CPU time than this in a period is that of somebody who waits
+constexpr double kAnyWork_s = 0.001;  // a worker that uses less CPU time in a period waits
 
 }  // namespace
 

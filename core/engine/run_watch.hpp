@@ -33,7 +33,7 @@ struct KnownEnd {
 
 // What the caller of simulate() sees and steers while the run is under way.
 struct RunWatch {
-  CallNote* note = nullptr;                    // null: nobody looks
+  CallNote* note = nullptr;                    // null: no process reads it
   std::span<const KnownEnd> known_ends;        // in order of their calls
   const std::atomic<bool>* abandon = nullptr;  // true: simulate() throws RunAbandoned at the next event
 };

@@ -19,7 +19,7 @@ namespace {
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-// The process and all that it has started, whoever started it.
+// The process and all its descendants.
 std::vector<pid_t> family_of(pid_t root) {
   std::map<pid_t, pid_t> parents;
   DIR* folder = ::opendir("/proc");
