@@ -14,13 +14,13 @@
 #include "storage/archive_reader.hpp"
 #include "storage/archive_writer.hpp"
 #include "tests/contract/small_campaign.hpp"
+#include "tests/support/own_process.hpp"
 #include "tests/support/program.hpp"
 
 namespace fleetproof {
 namespace {
 
 constexpr std::uint64_t kFarAhead = 1000;
-constexpr int kFailed = 255;
 
 enum class Plugins { InWorkers, OnThreads };
 
@@ -59,7 +59,7 @@ class OneDigest : public test::ProgramTest {
   // The number of threads that simulated. What run_campaign does, but plug-ins may run on the threads of the pool, and
   // runs are handed out no farther than `window` ahead.
   int campaign(Plugins plugins, int workers, std::uint64_t window, const std::string& file) const {
-    return in_own_process([&] {
+    return test::in_own_process([&] {
       AgentPrograms programs;
       for (const char* object : {FLEETPROOF_PLUGIN, FLEETPROOF_FAILING_AGENT})
         plugins == Plugins::OnThreads ? programs.load(object) : programs.know(object);
@@ -81,7 +81,7 @@ class OneDigest : public test::ProgramTest {
 
   // A session of the program: so many replicates at most, and no more runs after so many.
   std::uint64_t session(int workers, std::uint64_t replicates, std::uint64_t runs, const std::string& file) const {
-    in_own_process([&] {
+    test::in_own_process([&] {
       CampaignPlan plan = plan_;
       plan.replicates = replicates;
       AgentPrograms programs;
@@ -102,26 +102,6 @@ class OneDigest : public test::ProgramTest {
   std::string digest(const std::string& file) const { return sha256_of_file(path(file)); }
 
   const CampaignPlan plan_ = mixed_plan();
-
- private:
-  template <class Action>
-  static int in_own_process(Action action) {
-    const pid_t child = ::fork();
-    if (child == 0) {
-      int result = kFailed;
-      try {
-        result = action();
-      } catch (const std::exception& error) {
-        std::fprintf(stderr, "%s\n", error.what());
-      }
-      ::_exit(result);
-    }
-    int status = 0;
-    ::waitpid(child, &status, 0);
-    const int result = WIFEXITED(status) ? WEXITSTATUS(status) : kFailed;
-    EXPECT_NE(result, kFailed);
-    return result;
-  }
 };
 
 TEST_F(OneDigest, WithAnyNumberOfWorkersIsolatedOrNot) {
