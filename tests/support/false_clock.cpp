@@ -18,8 +18,8 @@ std::atomic<int> readings{0};
 std::time_t false_time_s() {
   const char* how = std::getenv("FLEETPROOF_TEST_CLOCK");
   const std::time_t years = ++readings;
-  if (how != nullptr && std::strcmp(how, "back") == 0) return kStart_s - years % 50 * kYear_s;
-  if (how != nullptr && std::strcmp(how, "forward") == 0) return kStart_s + years % 50 * kYear_s;
+  if (how != nullptr && std::strcmp(how, "back") == 0) return kStart_s - years * kYear_s;
+  if (how != nullptr && std::strcmp(how, "forward") == 0) return kStart_s + years * kYear_s;
   return kStart_s;
 }
 
