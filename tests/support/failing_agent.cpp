@@ -1,6 +1,7 @@
 // An agent that drives like `reckless` and, in some runs, ends its process or never returns. Its parameters say how and
 // how often: "segfault 100" is a segmentation fault in one of 100 runs, at the third event of the first AGV. The kind
 // "mixed" takes each kind in turn but the endless ones. FLEETPROOF_TEST_LOADING=crash: crashes while it is loaded.
+// FLEETPROOF_TEST_GATE: a run of the kind "burn" uses CPU time until this file exists.
 // FLEETPROOF_TEST_REBUILT: every run has a segmentation fault.
 #include <sys/resource.h>
 #include <unistd.h>
@@ -9,6 +10,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -44,6 +46,15 @@ void corrupt_heap() {
   std::free(const_cast<char*>(block));
 }
 
+// Gives up after a minute of CPU time, so that a test ends in any case.
+void burn_until_gate_opens() {
+  const char* gate = std::getenv("FLEETPROOF_TEST_GATE");
+  const std::clock_t begin = std::clock();
+  while (gate != nullptr && ::access(gate, F_OK) != 0 && std::clock() - begin < 60 * CLOCKS_PER_SEC) {
+    for (volatile int i = 0; i < 100'000;) i = i + 1;
+  }
+}
+
 void fail(Failing& agent) {
   const std::string& kind = agent.kind;
   if (kind == "segfault") *reinterpret_cast<volatile int*>(static_cast<std::uintptr_t>(zero)) = 1;
@@ -71,6 +82,7 @@ void fail(Failing& agent) {
   if (kind == "sleep") {
     for (;;) ::pause();
   }
+  if (kind == "burn") burn_until_gate_opens();
   if (kind == "print") std::printf("failing: hello from the agent\n");
 }
 
