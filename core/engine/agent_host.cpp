@@ -1,13 +1,9 @@
 #include "core/engine/agent_host.hpp"
 
 #include <algorithm>
-#include <exception>
-#include <stdexcept>
 #include <utility>
 
-#include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
-#include "core/engine/controller_table.hpp"
 
 namespace fleetproof {
 namespace {
@@ -25,17 +21,19 @@ AgentHost::AgentHost(RunContext& run, const Ports& ports, const fp_agent_type& t
                      const RunWatch& watch)
     : run_(run),
       ports_(ports),
-      type_(type),
       briefings_(run.scenario, agent_config),
-      calls_(watch),
+      caller_(type, watch),
       activations_max_(kActivationsPerRun +
                        kActivationsPerSecond * static_cast<std::uint64_t>(to_seconds(run.scenario.horizon))),
       slices_(run.agvs.size()) {}
 
-AgentHost::~AgentHost() { close(); }
+AgentHost::~AgentHost() {
+  if (!caller_.plays()) close();  // a played run has no agents
+}
 
 void AgentHost::close() {
   for (std::size_t i = 0; i < slices_.size(); ++i) destroy(AgvId{i});
+  caller_.finish();
 }
 
 // ---- activations
@@ -99,23 +97,19 @@ const char* AgentHost::broken_limit(Slice& slice) const {
   return nullptr;
 }
 
-void AgentHost::call_agent(AgvId agv, fp_event& event) {
+void AgentHost::call_agent(AgvId agv, const fp_event& event) {
   Slice& slice = slices_[agv.index()];
-  if (const KnownEnd* end = calls_.next(agv, event.kind, run_.now)) return give_up(agv, end->hang, end->message);
-  try {
-    if (event.kind == FP_EVENT_START) {
-      if (slice.boot > 0) renew_briefing(agv);
-      slice.agent = type_.create(&kHost, ports_.controller.handle_of(agv), &briefings_.of(agv));
-      if (slice.agent == nullptr) throw std::runtime_error("create() returned null");
-    }
-    type_.on_event(slice.agent, &event);
-  } catch (const InvariantViolation&) {
-    throw;  // ours, not the agent's
-  } catch (const std::exception& error) {
-    give_up(agv, false, error.what());
-  } catch (...) {
-    give_up(agv, false, "unknown exception");
-  }
+  const AgentFailure* failure = event.kind == FP_EVENT_START
+                                    ? start_agent(agv, event)
+                                    : caller_.tell({agv, run_.now, &event, slice.controller}, slice.agent);
+  if (failure != nullptr) give_up(agv, failure->hang, failure->message);
+}
+
+const AgentFailure* AgentHost::start_agent(AgvId agv, const fp_event& event) {
+  Slice& slice = slices_[agv.index()];
+  if (slice.boot > 0) renew_briefing(agv);
+  slice.controller = ports_.controller.handle_of(agv);
+  return caller_.start({agv, run_.now, &event, slice.controller, &briefings_.of(agv)}, slice.agent);
 }
 
 void AgentHost::give_up(AgvId agv, bool hang, std::string_view message) {
@@ -206,15 +200,8 @@ void AgentHost::destroy(AgvId agv) {
   Slice& slice = slices_[agv.index()];
   if (slice.agent == nullptr) return;
   void* agent = std::exchange(slice.agent, nullptr);
-  if (const KnownEnd* end = calls_.next(agv, CallNote::kDestroy, run_.now)) {
-    file_failure(agv, end->hang, end->message);
-    return;
-  }
-  try {
-    type_.destroy(agent);
-  } catch (...) {
-    file_failure(agv, false, "exception in destroy()");
-  }
+  if (const AgentFailure* failure = caller_.destroy({.agv = agv, .at = run_.now}, agent))
+    file_failure(agv, failure->hang, failure->message);
 }
 
 }  // namespace fleetproof

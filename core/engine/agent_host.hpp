@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/engine/agent_caller.hpp"
 #include "core/engine/briefings.hpp"
 #include "core/engine/ports.hpp"
 #include "core/engine/run_context.hpp"
@@ -46,7 +47,7 @@ class AgentHost {
   void goes_away(AgvId agv);
   void comes_back(AgvId agv);
 
-  // Ends all agents. The trace does not learn of a failure in here.
+  // Ends all agents. The trace does not learn of a failure in here. Throws EngineError if a tape does not end here.
   void close();
   // Adds crash, hang and the message of the first of them.
   void file_failures(Outcome& outcome) const;
@@ -54,6 +55,7 @@ class AgentHost {
  private:
   struct Slice {
     void* agent = nullptr;
+    fp_controller* controller = nullptr;  // since the first start
     bool failed = false;
     bool in_activation = false;
     bool wake_scheduled = false;
@@ -68,7 +70,8 @@ class AgentHost {
   void wake(AgvId agv);
   void activate(AgvId agv, const fp_event& event);
   const char* broken_limit(Slice& slice) const;
-  void call_agent(AgvId agv, fp_event& event);
+  void call_agent(AgvId agv, const fp_event& event);
+  const AgentFailure* start_agent(AgvId agv, const fp_event& event);
   void give_up(AgvId agv, bool hang, std::string_view message);
   bool file_failure(AgvId agv, bool hang, std::string_view message);
   void tell_order(AgvId agv, TransportId transport, StationId from, StationId to);
@@ -77,9 +80,8 @@ class AgentHost {
 
   RunContext& run_;
   Ports ports_;
-  const fp_agent_type& type_;
   Briefings briefings_;
-  CallCounter calls_;
+  AgentCaller caller_;
   std::uint64_t activations_max_;  // of one agent in this run
   bool crash_ = false, hang_ = false;
   std::string message_;

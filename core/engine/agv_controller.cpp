@@ -1,11 +1,13 @@
 #include "core/engine/agv_controller.hpp"
 
+#include <algorithm>
+
 #include "core/base/random.hpp"
+#include "core/engine/call_limits.hpp"
 
 namespace fleetproof {
 namespace {
 
-constexpr std::uint32_t kCallsMax = 10'000, kServicesMax = 10'000'000;  // in one activation
 constexpr std::int64_t kDeclaredCostMax_ns = 3'600'000'000'000;  // an agent that thinks for an hour counts as hung
 
 }  // namespace
@@ -32,7 +34,7 @@ ActivationUse AgvController::end_activation(AgvId agv) {
   Slice& slice = slices_[agv.index()];
   ports_.messenger.put_down(agv);
   slice.in_activation = false;
-  run_.counters.agent_calls += std::uint64_t{slice.calls} + slice.services;
+  run_.counters.agent_calls += slice.calls + slice.services;
   const char* limit = slice.calls > kCallsMax         ? "10 000 controller calls in one activation"
                       : slice.services > kServicesMax ? "ten million calls of random and now_ns in one activation"
                                                       : nullptr;
@@ -74,6 +76,13 @@ bool AgvController::admit_service(AgvId agv) {
   if (!slice.in_activation || ++slice.services > kServicesMax) return false;
   slice.cost += call_cost_;
   return true;
+}
+
+void AgvController::admit_services(AgvId agv, std::uint64_t count) {
+  Slice& slice = slices_[agv.index()];
+  const std::uint64_t left = kServicesMax - std::min<std::uint64_t>(kServicesMax, slice.services);
+  slice.services += count;
+  slice.cost += call_cost_ * static_cast<std::int64_t>(std::min(count, left));
 }
 
 std::int32_t AgvController::take_effect(AgvId agv, const PendingCall& call) {

@@ -11,12 +11,14 @@
 
 namespace fleetproof {
 class AgvController;
-}
+class CallTape;
+}  // namespace fleetproof
 
 // The handle that an agent holds: which AGV of which run.
 struct fp_controller {
   fleetproof::AgvController* part = nullptr;
   fleetproof::AgvId agv;
+  fleetproof::CallTape* tape = nullptr;  // takes the calls of the activation under way; null: nobody records them
 };
 
 namespace fleetproof {
@@ -52,6 +54,9 @@ class AgvController {
   bool admit(AgvId agv);
   // Likewise for `random` and `now_ns`, which have a limit of their own: they neither act nor perceive.
   bool admit_service(AgvId agv);
+  // So many calls of `admit_service`, and of `admit` when its limit is reached, in one.
+  void admit_services(AgvId agv, std::uint64_t count);
+  void refuse(AgvId agv, std::uint64_t count) { slices_[agv.index()].calls += count; }
   std::int32_t act(AgvId agv, fp_call call, std::uint32_t segment);
   std::int32_t send(AgvId agv, std::string_view bytes, std::uint32_t receiver);
   std::int32_t set_timer(AgvId agv, std::uint32_t number, std::int64_t at_ns);
@@ -76,7 +81,7 @@ class AgvController {
     fp_controller handle;
     bool in_activation = false;
     Duration cost{};                        // of the calls of this activation
-    std::uint32_t calls = 0, services = 0;  // in this activation
+    std::uint64_t calls = 0, services = 0;  // in this activation
     std::deque<PendingCall> pending;
     std::optional<SimTime> safe_since;
     std::uint64_t safe_mode_ns = 0;

@@ -5,11 +5,14 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "core/base/sim_time.hpp"
 #include "core/base/strong_id.hpp"
 
 namespace fleetproof {
+
+class CallTape;
 
 // The last call into an agent: create, on_event or destroy. It may lie in memory that another process reads, so that it
 // outlives a run whose agent ends the process. Threads: one writes, any number read.
@@ -36,6 +39,11 @@ struct RunWatch {
   CallNote* note = nullptr;                    // null: no process reads it
   std::span<const KnownEnd> known_ends;        // in order of their calls
   const std::atomic<bool>* abandon = nullptr;  // true: simulate() throws RunAbandoned at the next event
+  CallTape* record = nullptr;                  // takes what the agents do; not if a tape is played
+  // Not empty: the bytes of a CallTape. The engine calls no function of the agent type. It makes the controller calls
+  // of the tape, and needs no known ends. If the bytes are damaged or belong to another run, simulate() throws
+  // EngineError.
+  std::string_view play{};
 };
 
 // The caller wanted no outcome any more.

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/base/sim_time.hpp"
+#include "core/base/strong_id.hpp"
+#include "core/engine/run_watch.hpp"
+#include "core/sdk/fleetproof/agent.h"
+
+namespace fleetproof {
+
+// One call into an agent. The create() and the on_event() of a start are one call.
+struct AgentCall {
+  AgvId agv;
+  SimTime at;
+  const fp_event* event = nullptr;        // null: the agent is destroyed
+  fp_controller* controller = nullptr;    // of this AGV; null if the agent is destroyed
+  const fp_briefing* briefing = nullptr;  // of this AGV, for a start
+
+  bool is_start() const { return event != nullptr && event->kind == FP_EVENT_START; }
+  std::uint32_t kind() const { return event == nullptr ? CallNote::kDestroy : event->kind; }
+};
+
+// How a call ended that did not return.
+struct AgentFailure {
+  bool hang = false;
+  std::string message;
+};
+
+}  // namespace fleetproof

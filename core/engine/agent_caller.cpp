@@ -1,0 +1,78 @@
+#include "core/engine/agent_caller.hpp"
+
+#include "core/engine/agv_controller.hpp"
+#include "core/engine/call_tape.hpp"
+#include "core/engine/controller_table.hpp"
+#include "core/engine/recording_table.hpp"
+
+namespace fleetproof {
+
+AgentCaller::AgentCaller(const fp_agent_type& type, const RunWatch& watch)
+    : type_(type),
+      counter_(watch),
+      tape_(watch.play.empty() ? watch.record : nullptr),
+      host_(tape_ != nullptr ? &kRecordingHost : &kHost),
+      is_plain_(watch.record == nullptr && watch.play.empty()) {
+  if (!watch.play.empty()) player_.emplace(watch.play);
+}
+
+const AgentFailure* AgentCaller::start(const AgentCall& call, void*& agent) {
+  return make_otherwise(call, counter_.next(call.agv, call.kind(), call.at), agent);
+}
+
+const AgentFailure* AgentCaller::destroy(const AgentCall& call, void* agent) {
+  return make_otherwise(call, counter_.next(call.agv, call.kind(), call.at), agent);
+}
+
+const AgentFailure* AgentCaller::make_otherwise(const AgentCall& call, const KnownEnd* known, void*& agent) {
+  if (player_) {
+    const auto failure = player_->play(call, agent);
+    return failure ? failed(failure->hang, failure->message) : nullptr;
+  }
+  if (tape_ != nullptr) return record(call, known, agent);
+  return known != nullptr ? failed(known->hang, known->message) : reach(call, agent);
+}
+
+const AgentFailure* AgentCaller::record(const AgentCall& call, const KnownEnd* known, void*& agent) {
+  tape_->call_begins(call.agv, call.kind());
+  if (call.controller != nullptr) call.controller->tape = tape_;
+  const AgentFailure* failure = known != nullptr ? failed(known->hang, known->message) : reach(call, agent);
+  if (call.controller != nullptr) call.controller->tape = nullptr;
+  if (failure != nullptr) {
+    tape_->call_failed(failure->hang, failure->message);
+  } else {
+    tape_->call_returned();
+  }
+  return failure;
+}
+
+const AgentFailure* AgentCaller::reach(const AgentCall& call, void*& agent) {
+  if (call.is_start()) return create_and_start(call, agent);
+  if (call.event != nullptr) return hear(call, agent);
+  try {
+    type_.destroy(agent);
+    return nullptr;
+  } catch (...) {
+    return failed(false, "exception in destroy()");
+  }
+}
+
+const AgentFailure* AgentCaller::create_and_start(const AgentCall& call, void*& agent) {
+  if (const AgentFailure* failure = guarded([&] { agent = type_.create(host_, call.controller, call.briefing); }))
+    return failure;
+  if (agent == nullptr) return failed(false, "create() returned null");
+  if (tape_ != nullptr) tape_->agent_created();
+  return hear(call, agent);
+}
+
+// An agent may throw a text of any length. What is filed are its first 200 characters, which are at most 800 bytes.
+const AgentFailure* AgentCaller::failed(bool hang, std::string_view message) {
+  failure_ = {hang, std::string(message.substr(0, 1024))};
+  return &failure_;
+}
+
+void AgentCaller::finish() const {
+  if (player_) player_->finish();
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <exception>
+#include <optional>
+#include <string_view>
+
+#include "core/base/error.hpp"
+#include "core/engine/agent_call.hpp"
+#include "core/engine/run_watch.hpp"
+#include "core/engine/tape_player.hpp"
+
+namespace fleetproof {
+
+// Makes the calls into the agents of one run. A call goes to the agent type; or it is left out, because it is known to
+// end the process; or it is played from a tape.
+class AgentCaller {
+ public:
+  // Throws EngineError if the watch has a tape that no CallTape wrote.
+  AgentCaller(const fp_agent_type& type, const RunWatch& watch);
+
+  bool plays() const { return player_.has_value(); }
+  // Each of these makes one call. Null: it has returned. Else how it failed, valid until the next call. They throw
+  // EngineError if the tape holds another call. `start` puts the agent into `agent` as soon as it exists.
+  const AgentFailure* start(const AgentCall& call, void*& agent);
+  const AgentFailure* tell(const AgentCall& call, void* agent) {
+    const KnownEnd* known = counter_.next(call.agv, call.kind(), call.at);
+    if (known != nullptr || !is_plain_) [[unlikely]]
+      return make_otherwise(call, known, agent);
+    return hear(call, agent);
+  }
+  const AgentFailure* destroy(const AgentCall& call, void* agent);
+  // At the end of the run. Throws EngineError if the tape holds more calls.
+  void finish() const;
+
+ private:
+  const AgentFailure* hear(const AgentCall& call, void* agent) {
+    return guarded([&] { type_.on_event(agent, call.event); });
+  }
+  // Calls a function of the agent, which may throw.
+  template <class Function>
+  const AgentFailure* guarded(Function function) {
+    try {
+      function();
+      return nullptr;
+    } catch (const InvariantViolation&) {
+      throw;  // ours, not the agent's
+    } catch (const std::exception& error) {
+      return failed(false, error.what());
+    } catch (...) {
+      return failed(false, "unknown exception");
+    }
+  }
+  const AgentFailure* make_otherwise(const AgentCall& call, const KnownEnd* known, void*& agent);
+  const AgentFailure* record(const AgentCall& call, const KnownEnd* known, void*& agent);
+  const AgentFailure* reach(const AgentCall& call, void*& agent);
+  const AgentFailure* create_and_start(const AgentCall& call, void*& agent);
+  const AgentFailure* failed(bool hang, std::string_view message);
+
+  const fp_agent_type& type_;
+  CallCounter counter_;
+  CallTape* tape_;
+  const fp_host* host_;  // what agents are given
+  std::optional<TapePlayer> player_;
+  bool is_plain_;         // no tape
+  AgentFailure failure_;  // the last one
+};
+
+}  // namespace fleetproof

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <cstdint>
+
+namespace fleetproof {
+
+// What an agent may do in one activation. An agent that does more is filed as a hang (fleetproof/agent.h).
+inline constexpr std::uint32_t kCallsMax = 10'000;         // calls that act, perceive or declare
+inline constexpr std::uint32_t kServicesMax = 10'000'000;  // calls of random and now_ns
+
+}  // namespace fleetproof
