@@ -1,8 +1,5 @@
 #include "campaign/batch/campaign.hpp"
 
-#include <algorithm>
-#include <iterator>
-
 #include "campaign/batch/run_ledger.hpp"
 #include "campaign/batch/same_campaign.hpp"
 #include "campaign/batch/task_pool.hpp"
@@ -69,7 +66,8 @@ namespace {
 
 bool failed(const Outcome& outcome) { return outcome.outcome_class() <= OutcomeClass::Hang; }
 
-// The runs of a campaign from the pool into the archive, on the caller's thread.
+// One session of a campaign: takes over what the file holds, hands out the other runs, stores those that finish, and
+// publishes the gap-free prefix. It counts, stops and reports on the caller's thread.
 class Session {
  public:
   Session(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& path, const RunOptions& options,

@@ -6,13 +6,16 @@
 
 namespace fleetproof {
 
-// What differs between a stored campaign and the one that is to go on in its file, one line each; empty: nothing. More
-// replicates are no difference. "plan: ..." is what decides the outcomes of runs, "engine: ..." what computes them.
+// What differs between a stored campaign and the one that is to go on in its file, as "plan/seed: stored 77, now 78;
+// ..."; empty: nothing. The plan decides the outcomes of runs. The number of replicates is no difference. A key that
+// the stored plan does not have counts with its default.
 std::string plan_differences(const CampaignRecord& stored, const CampaignRecord& now);
+// The same for the engine, which computes the outcomes.
 std::string engine_differences(const EngineIdentity& stored, const EngineIdentity& now);
 
-// Throws InputError with the differences if the campaign `now` must not go on in the file `path`. Another plan never
-// may; another engine may if `allow_drift`, and then `now` records it.
+// Throws InputError with the reason if the campaign `now` must not go on in the file `path`: another plan, fewer
+// replicates, more replicates of a latin hypercube, or another engine without `allow_drift`. Otherwise the engine
+// libraries of `now` name all engines that wrote to the file.
 void require_same_campaign(const std::string& path, const CampaignRecord& stored, CampaignRecord& now,
                            bool allow_drift);
 

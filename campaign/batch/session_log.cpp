@@ -58,11 +58,16 @@ Json json_of(const WorkerLoss& loss) {
           {"log", loss.log}};
 }
 
-// In a JSON pointer.
-std::string escaped(const std::string& key) {
-  std::string text;
-  for (const char c : key) text += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
-  return text;
+// The file of an agent in one line of a log; empty: the line has none. The line may be of any kind, or damaged.
+std::string file_in(const std::string& line, const std::string& agent) {
+  const Json json = Json::parse(line, nullptr, false);
+  const Json* at = &json;
+  for (const std::string& key : {std::string("plugins"), agent, std::string("file")}) {
+    const auto found = at->find(key);  // the end, if `at` is no object
+    if (found == at->end()) return "";
+    at = &*found;
+  }
+  return at->is_string() ? at->get<std::string>() : "";
 }
 
 // Only a file of ours is appended to: an earlier session began it with the same words.
@@ -112,9 +117,7 @@ std::string remembered_plugin(const std::string& archive_path, const std::string
   std::ifstream file(log_of(archive_path));
   std::string found;
   for (std::string line; std::getline(file, line);) {
-    const Json json = Json::parse(line, nullptr, false);
-    const auto at = Json::json_pointer("/plugins/" + escaped(agent) + "/file");
-    if (json.is_object() && json.contains(at) && json[at].is_string()) found = json[at];
+    if (const std::string remembered = file_in(line, agent); !remembered.empty()) found = remembered;
   }
   return found;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <string_view>
 #include <vector>
 
@@ -64,6 +65,14 @@ std::chrono::seconds duration_of(const std::string& text, const std::string& whe
         where, fmt::format("{} is no duration of at least 1 s; write it as in 90, 45m or 5h30m", in_quotes(text)));
   }
   return std::chrono::seconds(*seconds);
+}
+
+std::string duration_text(double seconds) {
+  const auto whole = std::lround(seconds);
+  if (whole < 60) return fmt::format("{}s", whole);
+  if (whole < 3600) return fmt::format("{}m{:02}s", whole / 60, whole % 60);
+  const auto minutes = std::lround(seconds / 60.0);
+  return fmt::format("{}h{:02}m", minutes / 60, minutes % 60);
 }
 
 std::chrono::seconds time_until(const std::string& text, std::time_t now, const std::string& where) {

@@ -6,9 +6,12 @@
 #include <map>
 #include <thread>
 
+#include "campaign/batch/session_log.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/plan/plan_check.hpp"
+#include "campaign/run/agent_inspection.hpp"
 #include "core/base/error.hpp"
+#include "core/base/outside_text.hpp"
 
 namespace fleetproof::cli {
 namespace {
@@ -22,20 +25,42 @@ std::string know_at(const std::string& place, const std::string& path, bool glob
   }
 }
 
+// An object that is loaded once.
+struct KnownObject {
+  std::string program;
+  bool global_symbols = false;
+};
+
+// The symbols that the campaign gives to the agent of this object. If its agents differ in them, the object has to say
+// which agent it is, in a process of its own.
+bool wants_global_symbols(const std::string& path, std::span<const AgentFactor> agents) {
+  if (std::ranges::none_of(agents, &AgentFactor::global_symbols)) return false;
+  if (std::ranges::all_of(agents, &AgentFactor::global_symbols)) return true;
+  const auto agent = std::ranges::find(agents, inspect_agent(path, true).name, &AgentFactor::program);
+  return agent != agents.end() && agent->global_symbols;
+}
+
 }  // namespace
 
 CampaignFile load_campaign(const std::string& path, AgentPrograms& programs) {
   CampaignFile file = read_campaign_file(path);
   std::vector<AgentFactor>& agents = file.plan.agents;
   const auto place_of = [&](std::size_t agent) { return file.places.of(fmt::format("factors.agents.{}", agent)); };
-  std::map<std::string, std::string> known;  // program by file: one object may stand there under several names
+  std::map<std::string, KnownObject> known;  // by file: one object may stand there under several names
   for (std::size_t i = 0; i < agents.size(); ++i) {
     const std::string& path_of_object = file.agent_files[i];
     if (path_of_object.empty()) continue;
-    auto& program = known[path_of_object];
-    if (program.empty()) program = know_at(place_of(i), path_of_object, agents[i].global_symbols, programs);
-    agents[i].program = program;
-    if (agents[i].name.empty()) agents[i].name = program;
+    const bool global_symbols = agents[i].global_symbols;
+    KnownObject& object = known[path_of_object];
+    if (object.program.empty())
+      object = {know_at(place_of(i), path_of_object, global_symbols, programs), global_symbols};
+    if (object.global_symbols != global_symbols) {
+      throw InputError(place_of(i),
+                       fmt::format("factors.agents: {} is loaded once; give all its agents the same symbols",
+                                   in_quotes(path_of_object)));
+    }
+    agents[i].program = object.program;
+    if (agents[i].name.empty()) agents[i].name = object.program;
   }
   check_plan(file.plan, file.places);
   for (std::size_t i = 0; i < agents.size(); ++i) programs.program(agents[i].program, place_of(i) + ": factors.agents");
@@ -43,6 +68,23 @@ CampaignFile load_campaign(const std::string& path, AgentPrograms& programs) {
   for (std::size_t i = 0; i < std::min(kTold, file.warnings.size()); ++i) talk("warning: {}\n", file.warnings[i]);
   if (file.warnings.size() > kTold) talk("warning: {} more of this kind\n", file.warnings.size() - kTold);
   return file;
+}
+
+void meet_plugins(const std::string& archive_path, const CampaignRecord& campaign, std::span<const AgentFactor> agents,
+                  const std::vector<std::string>& named, AgentPrograms& programs, MeetPlugin meet) {
+  for (const std::string& path : named) (programs.*meet)(path, wants_global_symbols(path, agents));
+  const auto& plugins = campaign.plugin_agents;
+  for (const AgentFactor& agent : agents) {
+    if (std::ranges::find(plugins, agent.name) == plugins.end() || programs.is_plugin(agent.program)) continue;
+    const std::string remembered = remembered_plugin(archive_path, agent.program);
+    if (remembered.empty()) {
+      throw InputError("--plugin",
+                       fmt::format("the agent {} comes from a shared object, and no session log beside {} says where "
+                                   "it is; name its file",
+                                   in_quotes(agent.program), archive_path));
+    }
+    (programs.*meet)(remembered, agent.global_symbols);
+  }
 }
 
 int worker_count(const std::optional<std::uint64_t>& jobs) {

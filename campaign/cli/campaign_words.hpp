@@ -2,16 +2,29 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "campaign/plan/campaign_file.hpp"
 #include "campaign/run/agent_programs.hpp"
+#include "storage/records.hpp"
 
 namespace fleetproof::cli {
 
 // Reads a campaign file, loads its plug-ins under their own names, checks the plan, and prints warnings on stderr.
-// Throws InputError, with file, line and column, for an agent that is not known or cannot be loaded.
+// Throws InputError, with file, line and column, for an agent that is not known or cannot be loaded, and
+// for a shared object whose agents have unlike `symbols`.
 CampaignFile load_campaign(const std::string& path, AgentPrograms& programs);
+
+// &AgentPrograms::know or &AgentPrograms::load.
+using MeetPlugin = std::string (AgentPrograms::*)(const std::string& path, bool global_symbols);
+
+// Adds the plug-ins of `agents`, which are agents of a stored campaign, to `programs`. Every file in `named` is met.
+// The file of an agent that is not among them is the one that the campaign's last session remembers. Throws InputError
+// if no session does, and what `meet` throws.
+void meet_plugins(const std::string& archive_path, const CampaignRecord& campaign, std::span<const AgentFactor> agents,
+                  const std::vector<std::string>& named, AgentPrograms& programs, MeetPlugin meet);
 
 // The number that --jobs asks for; without it, one worker for each core. Throws InputError.
 int worker_count(const std::optional<std::uint64_t>& jobs);

@@ -42,12 +42,6 @@ struct Forecast {
   std::vector<std::vector<std::uint32_t>> gates;  // the cells that each gate judges
 };
 
-std::string duration_text(double time_s) {
-  if (time_s < 120.0) return fmt::format("{:.0f} s", time_s);
-  if (time_s < 2.0 * 3600.0) return fmt::format("{:.0f} min", time_s / 60.0);
-  return fmt::format("{:.1f} h", time_s / 3600.0);
-}
-
 // The part of a campaign's time that some cells take.
 double share_of(const Forecast& forecast, const std::vector<std::uint32_t>& cells) {
   double sum_s = 0.0;
@@ -73,7 +67,7 @@ struct Cost {
   double share = 0.0;
 };
 
-// The cells with one value of a factor, dearest value first.
+// The cells with one value of a factor, most expensive value first.
 template <class ValueOf>
 std::vector<Cost> costs_by(const Forecast& forecast, ValueOf value_of) {
   std::map<std::string, std::vector<std::uint32_t>> groups;
@@ -102,7 +96,7 @@ std::vector<CostTable> cost_tables(const Forecast& forecast) {
   return tables;
 }
 
-std::vector<Cost> dearest_cells(const Forecast& forecast) {
+std::vector<Cost> most_expensive_cells(const Forecast& forecast) {
   auto costs = costs_by(forecast, [](const CellRecord& cell) {
     return fmt::format("{}, {}, {} AGVs, {}", cell.agent, cell.layout, cell.fleet_size,
                        factor_spans(cell.lowest, cell.highest));
@@ -144,8 +138,8 @@ void print_costs(const Forecast& forecast) {
     }
     put("  by {}: {}\n", table.factor, joined(parts, "; "));
   }
-  put("  dearest cells:\n");
-  for (const Cost& cost : dearest_cells(forecast)) put("    {}: {}\n", cost.what, percent(cost.share));
+  put("  most expensive cells:\n");
+  for (const Cost& cost : most_expensive_cells(forecast)) put("    {}: {}\n", cost.what, percent(cost.share));
   const auto spare = cells_of_no_gate(forecast);
   if (!forecast.gates.empty() && !spare.empty())
     put("  {} of {} are judged by no gate and take {}: cut these first\n", spare.size(),
@@ -205,7 +199,7 @@ void print_json(const Forecast& forecast) {
   for (std::size_t gate = 0; gate < forecast.gates.size(); ++gate)
     json["gates"].push_back(json_of_gate(forecast, gate));
   for (const CostTable& table : cost_tables(forecast)) json["costs"][table.factor] = json_of(table.costs);
-  json["costs"]["dearest_cells"] = json_of(dearest_cells(forecast));
+  json["costs"]["most_expensive_cells"] = json_of(most_expensive_cells(forecast));
   if (!forecast.gates.empty()) {
     const auto spare = cells_of_no_gate(forecast);
     json["costs"]["in_no_gate"] = {{"cells", spare.size()}, {"share", share_of(forecast, spare)}};

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "campaign/batch/time_budget.hpp"
 #include "campaign/cli/streams.hpp"
 #include "reports/wording.hpp"
 
@@ -18,13 +19,6 @@ constexpr double kLineEvery_s = 30.0;
 bool is_terminal() {
   const char* term = std::getenv("TERM");
   return isatty(STDERR_FILENO) != 0 && term != nullptr && std::string_view(term) != "dumb";
-}
-
-std::string duration_text(double seconds) {
-  const auto whole = static_cast<long>(seconds + 0.5);
-  if (whole < 60) return fmt::format("{} s", whole);
-  if (whole < 3600) return fmt::format("{}m{:02}s", whole / 60, whole % 60);
-  return fmt::format("{}h{:02}m", whole / 3600, whole / 60 % 60);
 }
 
 }  // namespace

@@ -1,10 +1,9 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "campaign/batch/session_log.hpp"
+#include "campaign/cli/campaign_words.hpp"
 #include "campaign/cli/output_file.hpp"
 #include "campaign/cli/run_text.hpp"
 #include "campaign/cli/streams.hpp"
@@ -58,20 +57,6 @@ void tell_other_software(const ArchiveReader& archive, const AgentProgram& agent
   if (!difference.empty()) put("  note: {}\n", difference);
 }
 
-// Without --plugin, the file that the campaign's last session remembers.
-std::vector<std::string> plugins_of(const ReplayWords& words, const ArchiveReader& archive, const AgentFactor& agent) {
-  if (!words.plugins.empty()) return words.plugins;
-  const auto& plugin_agents = archive.campaign().plugin_agents;
-  if (std::ranges::find(plugin_agents, agent.name) == plugin_agents.end()) return {};
-  const std::string remembered = remembered_plugin(words.archive, agent.program);
-  if (remembered.empty()) {
-    throw InputError("--plugin", fmt::format("the run's agent {} comes from a shared object, and no session log beside "
-                                             "{} says where it is; name its file",
-                                             in_quotes(agent.program), words.archive));
-  }
-  return {remembered};
-}
-
 int replay_run(const ReplayWords& words) {
   const ArchiveReader archive(words.archive, Checksums::Ignore);
   AgentPrograms programs;
@@ -85,8 +70,8 @@ int replay_run(const ReplayWords& words) {
   }
   const CellRecord cell = source.place(words.run).cell;
   const AgentFactor& agent = plan.agent_of_cell(cell.index);
-  for (const std::string& plugin : plugins_of(words, archive, agent))
-    in_process ? programs.load(plugin, agent.global_symbols) : programs.know(plugin, agent.global_symbols);
+  meet_plugins(words.archive, archive.campaign(), {&agent, 1}, words.plugins, programs,
+               in_process ? &AgentPrograms::load : &AgentPrograms::know);
   Scenario scenario = source.scenario(words.run);
   scenario.agent = agent.program;
   scenario.agent_config = plan.config_of(agent);

@@ -4,7 +4,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "campaign/batch/session_log.hpp"
 #include "campaign/batch/verification.hpp"
 #include "campaign/cli/campaign_words.hpp"
 #include "campaign/cli/streams.hpp"
@@ -34,26 +33,6 @@ struct IntactFile {
 IntactFile read_intact(const std::string& path) {
   const ArchiveReader archive(path);
   return {archive.campaign(), archive.run_count(), archive.content_digest()};
-}
-
-// The plug-ins that the user names, or else the files that the campaign's last session remembers.
-void know_plugins(const VerifyWords& words, const CampaignRecord& campaign, const CampaignPlan& plan,
-                  AgentPrograms& programs) {
-  for (const std::string& plugin : words.plugins) programs.know(plugin);
-  const auto& known = programs.all();
-  for (const AgentFactor& agent : plan.agents) {
-    const auto& plugins = campaign.plugin_agents;
-    if (std::ranges::find(plugins, agent.name) == plugins.end()) continue;
-    if (std::ranges::find(known, agent.program, &AgentProgram::name) != known.end()) continue;
-    const std::string remembered = remembered_plugin(words.archive, agent.program);
-    if (remembered.empty()) {
-      throw InputError("--plugin",
-                       fmt::format("the agent {} comes from a shared object, and no session log beside {} says where "
-                                   "it is; name its file",
-                                   in_quotes(agent.program), words.archive));
-    }
-    programs.know(remembered, agent.global_symbols);
-  }
 }
 
 void print_text(const VerifyWords& words, const IntactFile& file, const Verification& verification) {
@@ -89,7 +68,7 @@ int verify(const VerifyWords& words) {
   const std::uint64_t size = sample_size(words.sample, file.runs);
   const CampaignPlan plan = parse_plan(file.campaign.plan_json);
   AgentPrograms programs;
-  know_plugins(words, file.campaign, plan, programs);
+  meet_plugins(words.archive, file.campaign, plan.agents, words.plugins, programs, &AgentPrograms::know);
   const auto sample = sample_of_runs(file.content_digest, file.runs, size);
   const Verification verification = verify_runs(words.archive, plan, programs, sample, workers);
   words.json ? print_json(words, file, verification) : print_text(words, file, verification);

@@ -76,14 +76,11 @@ RunAnswer IsolatedRuns::repeat(Member& member, RunOrder order) {
 }
 
 IsolatedRuns::Attempt IsolatedRuns::attempt(Member& member, const RunOrder& order, double cpu_limit_s) {
-  WorkerSlot& slot = slots_[member.slot];
+  slots_[member.slot].call.number = 0;  // before the start: the worker may die while it loads
   if (member.worker.pid == 0) {
-    slot.run = order.run_index;
-    slot.call.number = 0;
     member.worker = forker_.start(member.slot);
     member.fresh = true;
   }
-  slot.call.number = 0;
   if (!member.worker.channel.send(encode(order))) return lost(member, order.run_index, WorkerState::Closed);
   std::string bytes;
   if (const auto state = wait_for_answer(member, cpu_limit_s, bytes)) return lost(member, order.run_index, *state);

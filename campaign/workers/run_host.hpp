@@ -17,8 +17,7 @@ namespace fleetproof {
 class RunHost {
  public:
   // Make the object before threads are started and files are opened, as IsolatedRuns asks. `plan` and `programs`
-  // outlive it. An agent of the plan may be missing
-  // among the programs until one of its runs is simulated.
+  // outlive it. An agent of the plan may be missing among the programs until one of its runs is simulated.
   RunHost(const CampaignPlan& plan, const AgentPrograms& programs, int workers, const std::string& worker_logs = "");
 
   // None after abandon(). Throws what RunOne and IsolatedRuns throw.

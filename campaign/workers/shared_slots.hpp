@@ -8,11 +8,8 @@
 
 namespace fleetproof {
 
-// What a worker process writes down for the time after its death.
+// What a worker process writes down for the time after its death. Which run it was in, the main process knows.
 struct WorkerSlot {
-  static constexpr std::uint64_t kNoRun = ~std::uint64_t{0};
-
-  std::atomic<std::uint64_t> run{kNoRun};        // under way
   std::atomic<std::uint32_t> stack_overflow{0};  // 1: the fatal signal came from the guard page of the stack
   CallNote call;
 };

@@ -69,10 +69,7 @@ void take_orders(const WorkerSetup& setup, WorkerSlot& slot, Channel& channel) {
     while (state == Channel::Wait::NotYet) state = channel.wait(std::chrono::hours(1));
     if (state == Channel::Wait::Gone) return;
     const RunOrder order = decode_order(channel.received());
-    slot.run.store(order.run_index);
-    const RunAnswer answer = answer_to(order, run_one, slot);
-    slot.run.store(WorkerSlot::kNoRun);
-    if (!channel.send(encode(answer))) ::_exit(kChannelClosedExit);
+    if (!channel.send(encode(answer_to(order, run_one, slot)))) ::_exit(kChannelClosedExit);
   }
 }
 

@@ -50,7 +50,7 @@ void simulate_worlds(benchmark::State& state, const std::string& layout) {
   }
 }
 
-// The dearest case: a one-way loop with bends, which few changes leave whole.
+// The most expensive case: a one-way loop with bends, which few changes leave whole.
 void generate_mutation(benchmark::State& state) {
   Draws draws(1);
   WorldSpec spec = spec_of("", Placement::Random);

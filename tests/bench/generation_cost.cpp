@@ -5,7 +5,7 @@
 //
 // tests/bench/generation_table runs it over all layouts and prints the table. Worlds are those of the benchmark
 // (generation_bench.cpp): 5 AGVs, 60 s, the sound agent under the exact law. LAYOUT is a family, normal or under
-// stress, or `mutated-import`: mutations of a loop with spurs, the dearest.
+// stress, or `mutated-import`: mutations of a loop with spurs, the most expensive.
 #include <fmt/format.h>
 
 #include <cstdlib>

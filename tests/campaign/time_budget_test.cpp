@@ -19,6 +19,18 @@ TEST(TimeBudget, ReadsDurations) {
     EXPECT_THROW(duration_of(wrong, "--max-time"), InputError) << wrong;
 }
 
+TEST(TimeBudget, WritesDurationsAsItReadsThem) {
+  EXPECT_EQ(duration_text(0.2), "0s");
+  EXPECT_EQ(duration_text(59.4), "59s");
+  EXPECT_EQ(duration_text(59.6), "1m00s");
+  EXPECT_EQ(duration_text(303), "5m03s");
+  EXPECT_EQ(duration_text(3599.7), "1h00m");
+  EXPECT_EQ(duration_text(7170), "2h00m");
+  EXPECT_EQ(duration_text(100.0 * 3600), "100h00m");
+  for (const long seconds : {1L, 59L, 60L, 61L, 3599L, 3600L, 19800L})
+    EXPECT_EQ(duration_of(duration_text(static_cast<double>(seconds)), "--max-time").count(), seconds);
+}
+
 TEST(TimeBudget, WaitsForTheNextTimeOfThatName) {
   std::tm day{};
   day.tm_year = 126;

@@ -77,12 +77,32 @@ TEST_F(NamedAgents, WhatIsWrongIsNamed) {
   refused("[\"failing.so\", { file = \"failing.so\", config = \"x\" }]", "factors.agents names one value twice");
   refused("[{ file = \"failing.so\", symbols = \"globl\" }]", "did you mean \"global\"?");
   refused("[{ file = \"failing.so\", confg = \"x\" }]", "confg");
+  refused("[\"failing.so\", { file = \"failing.so\", name = \"x\", symbols = \"global\" }]",
+          "c.toml:7:25: factors.agents: \"failing.so\" is loaded once; give all its agents the same symbols");
 }
 
 TEST_F(NamedAgents, SymbolsMayBeGlobal) {
   ASSERT_LT(campaign("[{ file = \"failing.so\", symbols = \"global\" }]").exit_code, 5);
   EXPECT_EQ(run("replay c.db 0").exit_code, 0);
   EXPECT_EQ(run("replay c.db 0 --in-process").exit_code, 0);
+  EXPECT_EQ(run("verify c.db").exit_code, 0);
+}
+
+TEST_F(NamedAgents, AStoredCampaignFindsItsPlugins) {
+  std::filesystem::copy_file(FLEETPROOF_PLUGIN, path("other.so"));
+  ASSERT_LT(campaign("[{ file = \"failing.so\", symbols = \"global\" }, \"other.so\"]").exit_code, 5);
+  for (const std::string verb : {"verify c.db", "replay c.db 0", "replay c.db 1", "replay c.db 0 --in-process"}) {
+    EXPECT_EQ(run(verb).exit_code, 0) << verb;
+    EXPECT_EQ(run(verb + " --plugin failing.so").exit_code, 0) << verb << ": the other file is remembered";
+    EXPECT_EQ(run(verb + " --plugin failing.so --plugin other.so").exit_code, 0) << verb;
+  }
+  std::filesystem::remove(path("c.sessions.jsonl"));
+  for (const std::string verb : {"verify c.db --plugin failing.so", "replay c.db 1", "replay c.db 1 --in-process"}) {
+    const auto refused = run(verb);
+    EXPECT_EQ(refused.exit_code, 2) << verb;
+    EXPECT_THAT(refused.err, HasSubstr("comes from a shared object, and no session log beside c.db says where it is; "
+                                       "name its file"));
+  }
 }
 
 }  // namespace

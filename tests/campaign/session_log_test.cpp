@@ -1,0 +1,47 @@
+#include "campaign/batch/session_log.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace fleetproof {
+namespace {
+
+class RememberedPlugin : public testing::Test {
+ protected:
+  void TearDown() override { std::filesystem::remove(base_ + ".sessions.jsonl"); }
+
+  std::string found(const std::string& log, const std::string& agent = "a/~0b") const {
+    std::ofstream(base_ + ".sessions.jsonl") << log;
+    return remembered_plugin(base_ + ".db", agent);
+  }
+
+  const std::string base_ =
+      (std::filesystem::temp_directory_path() / ("fleetproof-session-log-" + std::to_string(getpid()))).string();
+};
+
+TEST_F(RememberedPlugin, IsTheFileOfTheLastSessionThatNamesTheAgent) {
+  const std::string first = "{\"plugins\": {\"a/~0b\": {\"file\": \"/old.so\"}, \"x\": {\"file\": \"/x.so\"}}}\n";
+  const std::string second = "{\"plugins\": {\"a/~0b\": {\"file\": \"/new.so\"}}}\n{\"ended_utc\": \"now\"}\n";
+  EXPECT_EQ(found(first), "/old.so");
+  EXPECT_EQ(found(first + second), "/new.so");
+  EXPECT_EQ(found(first + second, "x"), "/x.so");
+  EXPECT_EQ(found(first + second, "a"), "");
+  EXPECT_EQ(remembered_plugin(base_ + "-none.db", "x"), "");
+}
+
+TEST_F(RememberedPlugin, LinesOfAnotherKindArePassedOver) {
+  const std::string ours = "{\"plugins\": {\"a/~0b\": {\"file\": \"/a.so\"}}}\n";
+  for (const std::string foreign :
+       {"", "no JSON", "{\"plugins\":", "7", "null", "[\"plugins\"]", "\"plugins\"", "{\"plugins\": 7}",
+        "{\"plugins\": [1]}", "{\"plugins\": {\"a/~0b\": \"/b.so\"}}", "{\"plugins\": {\"a/~0b\": {\"file\": 7}}}",
+        "{\"plugins\": {\"a/~0b\": null}}", "{\"plugins\": {\"a/~0b\": {}}}", "\xff\xfe"}) {
+    EXPECT_EQ(found(foreign), "") << foreign;
+    EXPECT_EQ(found(ours + foreign + "\n"), "/a.so") << foreign;
+  }
+}
+
+}  // namespace
+}  // namespace fleetproof
