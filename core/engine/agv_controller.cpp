@@ -10,6 +10,12 @@ namespace {
 
 constexpr std::int64_t kDeclaredCostMax_ns = 3'600'000'000'000;  // an agent that thinks for an hour counts as hung
 
+// A damaged recording may hold any count: the sum does not begin at zero again, which would reopen the limits.
+void add(std::uint64_t count, std::uint64_t& sum) {
+  constexpr std::uint64_t kLargest = std::uint64_t{1} << 62U;
+  sum += std::min(count, kLargest - std::min(kLargest, sum));
+}
+
 }  // namespace
 
 AgvController::AgvController(RunContext& run, const Ports& ports)
@@ -81,9 +87,11 @@ bool AgvController::admit_service(AgvId agv) {
 void AgvController::admit_services(AgvId agv, std::uint64_t count) {
   Slice& slice = slices_[agv.index()];
   const std::uint64_t left = kServicesMax - std::min<std::uint64_t>(kServicesMax, slice.services);
-  slice.services += count;
   slice.cost += call_cost_ * static_cast<std::int64_t>(std::min(count, left));
+  add(count, slice.services);
 }
+
+void AgvController::refuse(AgvId agv, std::uint64_t count) { add(count, slices_[agv.index()].calls); }
 
 std::int32_t AgvController::take_effect(AgvId agv, const PendingCall& call) {
   Slice& slice = slices_[agv.index()];

@@ -56,7 +56,7 @@ class AgvController {
   bool admit_service(AgvId agv);
   // So many calls of `admit_service`, and of `admit` when its limit is reached, in one.
   void admit_services(AgvId agv, std::uint64_t count);
-  void refuse(AgvId agv, std::uint64_t count) { slices_[agv.index()].calls += count; }
+  void refuse(AgvId agv, std::uint64_t count);
   std::int32_t act(AgvId agv, fp_call call, std::uint32_t segment);
   std::int32_t send(AgvId agv, std::string_view bytes, std::uint32_t receiver);
   std::int32_t set_timer(AgvId agv, std::uint32_t number, std::int64_t at_ns);

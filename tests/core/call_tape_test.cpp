@@ -150,6 +150,26 @@ TEST(CallTape, PlaysInvalidCalls) {
   expect_same(run, played(scenario, run.tape));
 }
 
+// A message that the agent did not take stays in its inbox. While other events wait, AGV 0 hears of a message only if
+// its inbox was empty.
+TEST(CallTape, TakesNoMessageThatTheAgentDidNotTake) {
+  const Handler handler = [](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
+    fp_message small{};
+    EXPECT_EQ(host.get_message(c, &small), FP_INVALID);
+    if (b.self == 1) {
+      host.set_timer(c, 1, e.now_ns + 5'000'000'000);
+      host.send_unicast(c, "x", 1, 0);
+    } else if (e.kind != FP_EVENT_MESSAGE) {
+      host.set_timer(c, 1, e.now_ns + 300'000'000);
+      host.declare_cost_ns(c, 2'000'000'000);
+    }
+  };
+  const Scenario scenario = two_agvs();
+  const ToldRun run = recorded_handler(scenario, handler);
+  EXPECT_GT(run.outcome.counters.received, 10U);
+  expect_same(run, played(scenario, run.tape));
+}
+
 // ---- limits
 
 TEST(CallTape, StaysShortBeyondTheLimitOfCalls) {
@@ -224,6 +244,7 @@ TEST(CallTape, DoesNotHoldCallsFromOutsideAnActivation) {
   };
   const ToldRun alone = recorded_handler(scenario, handler);
   meddles = true;
+  other = nullptr;
   const ToldRun meddled = recorded_handler(scenario, handler);
   EXPECT_EQ(alone.tape, meddled.tape);
   expect_same(alone, meddled);

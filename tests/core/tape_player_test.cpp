@@ -1,6 +1,7 @@
 #include "core/engine/tape_player.hpp"
 
 #include <algorithm>
+#include <deque>
 #include <functional>
 #include <optional>
 #include <stdexcept>
@@ -36,29 +37,32 @@ struct MoodyAgent {
   fp_controller* controller;
 };
 
-const fp_agent_type kMoody = {sizeof(fp_agent_type),
-                              FP_ABI_MAJOR,
-                              FP_ABI_MINOR,
-                              FP_DETERMINISTIC,
-                              "moody",
-                              "fails where the test says",
-                              [](const fp_host* host, fp_controller* c, const fp_briefing* briefing) -> void* {
-                                host->log(c, "create");
-                                host->set_timer(c, 1, 1'000'000'000);
-                                return current_mood->creates(briefing->boot) ? new MoodyAgent{host, c} : nullptr;
-                              },
-                              [](void* agent, const fp_event* event) {
-                                const auto& self = *static_cast<MoodyAgent*>(agent);
-                                self.host->log(self.controller, "event");
-                                current_mood->hears(*event);
-                                if (event->kind == FP_EVENT_START) self.host->move(self.controller, 0);
-                              },
-                              [](void* agent) {
-                                const MoodyAgent self = *static_cast<MoodyAgent*>(agent);
-                                delete static_cast<MoodyAgent*>(agent);
-                                self.host->log(self.controller, "destroy");
-                                current_mood->leaves();
-                              }};
+// Of one run. An agent is not destroyed if that is known to end the process.
+thread_local std::deque<MoodyAgent> moody_agents;
+
+const fp_agent_type kMoody = {
+    sizeof(fp_agent_type),
+    FP_ABI_MAJOR,
+    FP_ABI_MINOR,
+    FP_DETERMINISTIC,
+    "moody",
+    "fails where the test says",
+    [](const fp_host* host, fp_controller* c, const fp_briefing* briefing) -> void* {
+      host->log(c, "create");
+      host->set_timer(c, 1, 1'000'000'000);
+      return current_mood->creates(briefing->boot) ? &moody_agents.emplace_back(MoodyAgent{host, c}) : nullptr;
+    },
+    [](void* agent, const fp_event* event) {
+      const auto& self = *static_cast<MoodyAgent*>(agent);
+      self.host->log(self.controller, "event");
+      current_mood->hears(*event);
+      if (event->kind == FP_EVENT_START) self.host->move(self.controller, 0);
+    },
+    [](void* agent) {
+      const auto& self = *static_cast<MoodyAgent*>(agent);
+      self.host->log(self.controller, "destroy");
+      current_mood->leaves();
+    }};
 
 // AGV 0 drives, and its computer restarts twice.
 Scenario restarts() {
@@ -73,6 +77,7 @@ ToldRun recorded_mood(const Mood& mood, std::span<const KnownEnd> known_ends = {
   current_mood = &mood;
   ToldRun run = recorded(restarts(), kMoody, {}, known_ends);
   current_mood = nullptr;
+  moody_agents.clear();
   return run;
 }
 
@@ -232,6 +237,18 @@ TEST(TapePlayer, SurvivesAnyDamage) {
   }
   EXPECT_GT(refused, tried / 4);
   EXPECT_LT(refused, tried) << "damage in a message or in the text of a log entry is not noticed";
+}
+
+// Counts so large that their sum exceeds 64 bits. They would reopen the limits of calls and costs.
+TEST(TapePlayer, SurvivesCountsBeyondAllLimits) {
+  const std::string largest = std::string(9, '\xff') + "\x01";
+  const std::string services = "\x04" + largest, over_limit = "\x06" + largest;
+  std::string tape = "\x01\x01\x01\x03";
+  for (int i = 0; i < 100; ++i) tape += services + over_limit + "\x0e";
+  Scenario scenario = restarts();
+  scenario.agent_clock.call_cost_s = 60.0;
+  EXPECT_EQ(error_of(scenario, tape + std::string(1, '\0')),
+            "the recording does not fit this run: the run goes on after its end");
 }
 
 TEST(TapePlayer, SurvivesNoise) {
