@@ -57,7 +57,6 @@ Verification verify_runs(const std::string& path, const CampaignPlan& plan, cons
                          const std::vector<std::uint64_t>& sample, int workers) {
   RunHost runs(plan, programs, workers);  // before the file is opened: worker processes must not hold it
   const ArchiveReader archive(path);
-  const auto cells = plan.cells();
   Verification verification;
   TaskPool pool(workers, 0, sample.size(), kRecordsAhead, [&](std::uint64_t place) { return runs(sample[place]); });
   while (!pool.finished()) {
@@ -70,9 +69,10 @@ Verification verify_runs(const std::string& path, const CampaignPlan& plan, cons
       ++verification.agreeing;
       continue;
     }
-    const std::string& agent = cells[index % cells.size()].agent;
-    verification.differing.push_back({index, agent, result.verdict, result.explanation,
-                                      is_engine_at_fault(result.verdict, programs.program(agent, "verify"))});
+    const AgentFactor& agent = plan.agent_of_cell(index % plan.cell_count());
+    const AgentProgram& program = programs.program(agent.program, "verify");
+    verification.differing.push_back(
+        {index, agent.name, result.verdict, result.explanation, is_engine_at_fault(result.verdict, program)});
   }
   std::ranges::sort(verification.differing, {}, &Disagreement::run_index);
   return verification;

@@ -90,7 +90,7 @@ TEST_F(Verify, PluginsAreThoseThatTheSessionRemembers) {
   std::filesystem::copy_file(FLEETPROOF_FAILING_AGENT, path("failing.so"));
   write("c.toml",
         "name = \"c\"\nkind = \"search\"\nreplicates = 40\nhorizon_s = 60\nagent_config = \"mixed 5\"\n[factors]\n"
-        "agents = [\"failing.so\", \"reckless\"]\nlayouts = [\"aisle-grid\"]\n");
+        "agents = [{ file = \"failing.so\", name = \"candidate\" }, \"reckless\"]\nlayouts = [\"aisle-grid\"]\n");
   ASSERT_THAT(run("run c.toml --db c.db").exit_code, testing::AnyOf(1, 4));
   const auto finished = run("verify c.db --sample 100%");
   EXPECT_EQ(finished.exit_code, 0) << finished.out << finished.err;
