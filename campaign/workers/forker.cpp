@@ -154,12 +154,10 @@ Forker::Forker(const Work& work) {
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0)
     throw EngineError(fmt::format("no channel to a worker process can be made: {}", std::strerror(errno)));
-  const pid_t parent = ::getpid();
   std::fflush(nullptr);  // or the workers would print once more what waits in buffers here
   forker_ = ::fork();
   if (forker_ == 0) {
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (::getppid() != parent) ::_exit(0);
+    // It ends when its socket closes, not with a signal: then it can kill what the workers have started.
     ::setpgid(0, 0);  // Ctrl-C in the terminal is for the main process, which ends the others in order
     for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) ::signal(number, SIG_IGN);
     ::close(ends[0]);

@@ -20,7 +20,7 @@ struct WorkerDeath {
 
 // A process without threads that forks the workers and sees them die. It is itself forked from the constructor, so make
 // a Forker before any thread is started and before any file is opened that workers must not hold. It opens no file, and
-// it dies with the thread that made it. Threads: any number.
+// it ends with the process that made it: it then kills the workers and what they have started. Threads: any number.
 class Forker {
  public:
   // What a worker process does, given its slot and its end of the channel. It never returns.

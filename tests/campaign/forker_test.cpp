@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <fstream>
 #include <set>
@@ -41,6 +42,14 @@ std::string ask(Forker::Worker& worker, const std::string& words) {
   return worker.channel.wait(std::chrono::seconds(20)) == Wait::Arrived ? worker.channel.received() : "no answer";
 }
 
+// A process that lost its parent is collected by another one, perhaps late.
+bool is_dead(pid_t pid) {
+  std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
+  std::string number, name, letter = "gone";
+  file >> number >> name >> letter;
+  return letter == "gone" || letter == "Z";
+}
+
 bool is_alive(pid_t pid) { return ::kill(pid, 0) == 0; }
 
 std::set<pid_t> processes_of_group(pid_t group) {
@@ -52,6 +61,12 @@ std::set<pid_t> processes_of_group(pid_t group) {
   }
   ::closedir(folder);
   return found;
+}
+
+void expect_group_ends(pid_t group) {
+  const auto lives = [&] { return !std::ranges::all_of(processes_of_group(group), is_dead); };
+  for (int i = 0; i < 2000 && lives(); ++i) ::usleep(1000);
+  EXPECT_FALSE(lives());
 }
 
 TEST(Forker, StartsWorkersAndTellsHowEachEnds) {
@@ -86,8 +101,7 @@ TEST(Forker, KillsWhatAWorkerHasStarted) {
   EXPECT_EQ(processes_of_group(worker.pid).size(), 2U);
   worker.channel.send("exit");
   forker.collect(worker.pid);
-  for (int i = 0; i < 2000 && !processes_of_group(worker.pid).empty(); ++i) ::usleep(1000);
-  EXPECT_TRUE(processes_of_group(worker.pid).empty());
+  expect_group_ends(worker.pid);
 }
 
 TEST(Forker, LeavesNoProcessBehind) {
@@ -97,10 +111,12 @@ TEST(Forker, LeavesNoProcessBehind) {
     auto first = forker.start(0), second = forker.start(1);
     one = first.pid;
     other = second.pid;
-    EXPECT_EQ(ask(second, "x"), "1x");
+    EXPECT_EQ(ask(second, "child"), "1child");
     EXPECT_TRUE(is_alive(one) && is_alive(other));
+    EXPECT_EQ(processes_of_group(other).size(), 2U);
   }
   EXPECT_FALSE(is_alive(one) || is_alive(other));
+  expect_group_ends(other);
 }
 
 // What the main process, killed, cannot do any more.
@@ -110,23 +126,15 @@ TEST(Forker, DiesWithTheProcessThatMadeIt) {
   if (main_process == 0) {
     here.close();
     Forker forker(echo);
-    const auto worker = forker.start(0);
-    there.send(std::to_string(worker.pid));
+    auto worker = forker.start(0);
+    if (ask(worker, "child") == "0child") there.send(std::to_string(worker.pid));
     for (;;) ::pause();
   }
   ASSERT_EQ(here.wait(std::chrono::seconds(20)), Wait::Arrived);
   const pid_t worker = std::stoi(here.received());
   ::kill(main_process, SIGKILL);
   ::waitpid(main_process, nullptr, 0);
-  // The worker has lost its parent. The process that adopts it may collect it late, so its state is read.
-  const auto state = [&] {
-    std::ifstream file("/proc/" + std::to_string(worker) + "/stat");
-    std::string pid, name, letter = "gone";
-    file >> pid >> name >> letter;
-    return letter;
-  };
-  for (int i = 0; i < 5000 && state() != "gone" && state() != "Z"; ++i) ::usleep(1000);
-  EXPECT_TRUE(state() == "gone" || state() == "Z") << state();
+  expect_group_ends(worker);
 }
 
 TEST(Forker, SaysThatItIsGone) {
