@@ -2,11 +2,15 @@
 #include "campaign/workers/isolated_runs.hpp"
 
 #include <gmock/gmock.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <thread>
 
 #include "core/base/error.hpp"
 #include "tests/contract/small_campaign.hpp"
@@ -131,17 +135,63 @@ TEST(IsolatedRuns, WhatAgentsPrintGoesToALog) {
   AgentPrograms programs;
   programs.know(FLEETPROOF_FAILING_AGENT);
   testing::internal::CaptureStdout();
+  std::printf("waits in a buffer while the processes are forked");
   {
     IsolatedRuns runs(plan, programs, 2, prefix);
     runs(0);
   }
-  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "waits in a buffer while the processes are forked");
   std::ifstream log(prefix + ".worker-0.log");
   std::string line;
   std::getline(log, line);
   EXPECT_EQ(line, "failing: hello from the agent");
   EXPECT_FALSE(std::filesystem::exists(prefix + ".worker-1.log")) << "nothing was printed there";
   std::filesystem::remove(prefix + ".worker-0.log");
+}
+
+TEST(IsolatedRuns, WorkersThatAreKilledAgainAndAgainAreTheFaultOfTheRun) {
+  const CampaignPlan plan = failing_plan("kill 1");
+  AgentPrograms programs;
+  programs.know(FLEETPROOF_FAILING_AGENT);
+  IsolatedRuns runs(plan, programs, 1, "");
+  const Outcome outcome = runs(0).outcome;
+  EXPECT_TRUE(outcome.crash);
+  EXPECT_THAT(outcome.message, HasSubstr("agent of AGV 0: killed (SIGKILL) in event"));
+  EXPECT_EQ(runs.take_losses().size(), 4U) << "the run and three repeats";
+}
+
+// Whether a process lives whose parent's parent is this one.
+bool has_living_worker() {
+  struct Process {
+    pid_t parent = 0;
+    std::string state;
+  };
+  std::map<pid_t, Process> processes;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    std::ifstream file(entry.path() / "stat");
+    pid_t pid = 0;
+    std::string name;
+    Process process;
+    if (file >> pid >> name >> process.state >> process.parent) processes[pid] = process;
+  }
+  return std::ranges::any_of(processes, [&](const auto& entry) {
+    const auto parent = processes.find(entry.second.parent);
+    return entry.second.state != "Z" && parent != processes.end() && parent->second.parent == ::getpid();
+  });
+}
+
+TEST(IsolatedRuns, AnAbandonedRunTakesItsWorkerWithIt) {
+  CampaignPlan plan = failing_plan("loop 1");
+  plan.limits.cpu_s = 1000.0;
+  AgentPrograms programs;
+  programs.know(FLEETPROOF_FAILING_AGENT);
+  IsolatedRuns runs(plan, programs, 1, "");
+  std::thread caller([&] { EXPECT_THROW(runs(0), RunAbandoned); });
+  while (!has_living_worker()) ::usleep(1000);
+  runs.abandon();
+  caller.join();
+  for (int i = 0; i < 1000 && has_living_worker(); ++i) ::usleep(1000);
+  EXPECT_FALSE(has_living_worker());
 }
 
 TEST(AgentInspection, SurvivesAnObjectThatCrashesOrExitsWhileItIsLoaded) {

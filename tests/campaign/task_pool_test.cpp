@@ -63,6 +63,19 @@ TEST(TaskPool, OneSlowRunStallsNothingButTheWindow) {
   EXPECT_EQ(drain(pool).size(), 951U);
 }
 
+TEST(TaskPool, ResultsThatNobodyTakesStopTheRuns) {
+  constexpr int kHandedOver = 8;  // tasks of two workers that may be on their way when the window is full
+  std::atomic<int> simulated{0};
+  TaskPool pool(2, 0, 1000, 50, [&](std::uint64_t index) {
+    ++simulated;
+    return record_of(index);
+  });
+  while (simulated < 50) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));  // for runs that should not begin
+  EXPECT_LE(simulated, 50 + kHandedOver);
+  EXPECT_EQ(drain(pool).size(), 1000U);
+}
+
 TEST(TaskPool, StopsHandingOut) {
   TaskPool pool(2, 0, 1'000'000'000, 1000, record_of);
   (void)pool.next(std::chrono::milliseconds(1000));

@@ -82,10 +82,16 @@ TEST_F(NamedAgents, WhatIsWrongIsNamed) {
 }
 
 TEST_F(NamedAgents, SymbolsMayBeGlobal) {
-  ASSERT_LT(campaign("[{ file = \"failing.so\", symbols = \"global\" }]").exit_code, 5);
-  EXPECT_EQ(run("replay c.db 0").exit_code, 0);
-  EXPECT_EQ(run("replay c.db 0 --in-process").exit_code, 0);
-  EXPECT_EQ(run("verify c.db").exit_code, 0);
+  for (const bool global : {false, true}) {
+    ASSERT_LT(campaign(std::string("[{ file = \"failing.so\", config = \"symbols 1\", symbols = ") +
+                       (global ? "\"global\" }]" : "\"local\" }]"))
+                  .exit_code,
+              5);
+    EXPECT_EQ(ask("SELECT DISTINCT crash FROM runs"), std::vector<std::string>{global ? "0" : "1"});
+    EXPECT_EQ(run("replay c.db 0").exit_code, 0);
+    EXPECT_EQ(run("replay c.db 0 --in-process").exit_code, 0);
+    EXPECT_EQ(run("verify c.db --plugin failing.so").exit_code, 0);
+  }
 }
 
 TEST_F(NamedAgents, AStoredCampaignFindsItsPlugins) {

@@ -3,10 +3,12 @@
 // "mixed" takes each kind in turn but the endless ones. FLEETPROOF_TEST_LOADING=crash: crashes while it is loaded.
 // FLEETPROOF_TEST_GATE: a run of the kind "burn" uses CPU time until this file exists.
 // FLEETPROOF_TEST_REBUILT: every run has a segmentation fault.
+#include <dlfcn.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <array>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -64,6 +66,9 @@ void fail(Failing& agent) {
   if (kind == "throw") throw std::runtime_error("planted");
   if (kind == "thread") std::thread([] { throw std::runtime_error("planted"); }).join();
   if (kind == "exit") std::exit(0);
+  if (kind == "kill") ::raise(SIGKILL);
+  if (kind == "symbols" && ::dlsym(::dlopen(nullptr, RTLD_NOW), FP_AGENT_QUERY_SYMBOL) == nullptr)
+    throw std::runtime_error("its symbols are local");
   if (kind == "division") std::printf("%d\n", 7 / zero);
   if (kind == "memory") {
     for (;;) std::memset(new char[std::size_t{1} << 24], 1, std::size_t{1} << 24);
