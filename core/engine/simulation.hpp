@@ -21,6 +21,8 @@ namespace fleetproof {
 //
 // `watch` tells which call into an agent is under way, leaves out calls that are known to end the process, and can
 // abandon the run: then RunAbandoned is thrown.
+// It can also record what the agents do, or play a recording in place of the agents: then `agent` is never called, and
+// EngineError is thrown if the recording does not fit the run.
 //
 // Threads: any number of runs at once; one run stays on its thread.
 Outcome simulate(const Scenario& scenario, const fp_agent_type& agent, std::span<const std::unique_ptr<Law>> laws,
