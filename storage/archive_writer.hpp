@@ -39,7 +39,7 @@ class ArchiveWriter {
   ArchiveWriter(const ArchiveWriter&) = delete;
   ArchiveWriter& operator=(const ArchiveWriter&) = delete;
 
-  void add(const RunRecord& run);  // commits by itself every 512 rows or 2 s, whichever comes first
+  void add(const RunRecord& run);  // commits by itself every 4096 rows or 2 s, whichever comes first
   void commit();
 
   // Writes the canonical file: only rows below `stop_index`, with fixed page size and order, without a journal. The

@@ -13,10 +13,11 @@
 namespace fleetproof {
 namespace {
 
-// Fills the parameters of a statement from left to right.
+// Fills the parameters of a statement from left to right. Requires: texts and digests live until the statement has run,
+// but for temporary texts, which are copied.
 class Binder {
  public:
-  explicit Binder(SQLite::Statement& statement) : statement_(statement) {}
+  explicit Binder(SQLite::Statement& statement, int first = 1) : statement_(statement), next_(first) {}
 
   Binder& operator<<(std::int64_t value) { return statement_.bind(next_++, value), *this; }
   // SQLite has only signed 64-bit integers; the bits stay the same.
@@ -24,8 +25,8 @@ class Binder {
   Binder& operator<<(std::uint32_t value) { return *this << std::int64_t{value}; }
   Binder& operator<<(bool value) { return *this << std::int64_t{value ? 1 : 0}; }
   Binder& operator<<(double value) { return statement_.bind(next_++, value), *this; }
-  Binder& operator<<(const std::string& value) { return statement_.bind(next_++, value), *this; }
-  // Requires: the text lives until the statement has run, as the words of an enumeration do.
+  Binder& operator<<(const std::string& value) { return statement_.bindNoCopy(next_++, value), *this; }
+  Binder& operator<<(std::string&& value) { return statement_.bind(next_++, value), *this; }
   Binder& operator<<(const char* value) { return statement_.bindNoCopy(next_++, value), *this; }
   Binder& operator<<(const FactorValues& factors) {
     for (const double value : factors.values) *this << value;
@@ -38,9 +39,16 @@ class Binder {
   }
   // Names that an agent gives are bytes, not text.
   void bytes(const std::string& value) {
-    statement_.bind(next_++, static_cast<const void*>(value.data()), static_cast<int>(value.size()));
+    statement_.bindNoCopy(next_++, static_cast<const void*>(value.data()), static_cast<int>(value.size()));
   }
   Binder& operator<<(const std::vector<std::uint64_t>& digests) {
+    if constexpr (std::endian::native == std::endian::little) {  // the memory holds what is stored
+      if (!digests.empty()) {
+        statement_.bindNoCopy(next_++, static_cast<const void*>(digests.data()),
+                              static_cast<int>(digests.size() * sizeof(std::uint64_t)));
+        return *this;
+      }
+    }
     std::string bytes;
     for (const auto digest : digests) {
       for (int i = 0; i < 8; ++i) bytes.push_back(static_cast<char>(static_cast<std::uint8_t>(digest >> (8 * i))));
@@ -51,7 +59,7 @@ class Binder {
 
  private:
   SQLite::Statement& statement_;
-  int next_ = 1;
+  int next_;
 };
 
 // Takes the columns of a row from left to right.
@@ -162,18 +170,22 @@ void bind_run(SQLite::Statement& insert, const RunRecord& run, std::uint64_t che
   to << checksum;
 }
 
-void bind_violation(SQLite::Statement& insert, std::uint64_t run_index, std::size_t ordinal, const Violation& v) {
-  Binder(insert) << run_index << std::uint64_t{ordinal} << v.a.value << v.b.value << to_ns(v.first) << to_ns(v.last)
-                 << to_ns(v.closest_at) << v.min_clearance_um << v.relative_speed_um_s << v.x_um << v.y_um << v.contact;
+void bind_violation(SQLite::Statement& insert, int first, std::uint64_t run_index, std::size_t ordinal,
+                    const Violation& v) {
+  Binder(insert, first) << run_index << std::uint64_t{ordinal} << v.a.value << v.b.value << to_ns(v.first)
+                        << to_ns(v.last) << to_ns(v.closest_at) << v.min_clearance_um << v.relative_speed_um_s << v.x_um
+                        << v.y_um << v.contact;
 }
 
-void bind_incident(SQLite::Statement& insert, std::uint64_t run_index, std::size_t ordinal, const Incident& i) {
-  Binder(insert) << run_index << std::uint64_t{ordinal} << static_cast<std::uint32_t>(i.kind) << maybe(i.a)
-                 << maybe(i.b) << to_ns(i.first) << to_ns(i.last) << i.value;
+void bind_incident(SQLite::Statement& insert, int first, std::uint64_t run_index, std::size_t ordinal,
+                   const Incident& i) {
+  Binder(insert, first) << run_index << std::uint64_t{ordinal} << static_cast<std::uint32_t>(i.kind) << maybe(i.a)
+                        << maybe(i.b) << to_ns(i.first) << to_ns(i.last) << i.value;
 }
 
-void bind_probe(SQLite::Statement& insert, std::uint64_t run_index, std::size_t ordinal, const ProbeCount& probe) {
-  Binder to(insert);
+void bind_probe(SQLite::Statement& insert, int first, std::uint64_t run_index, std::size_t ordinal,
+                const ProbeCount& probe) {
+  Binder to(insert, first);
   to << run_index << std::uint64_t{ordinal} << static_cast<std::uint32_t>(probe.source);
   to.bytes(probe.name);
   to << probe.count;

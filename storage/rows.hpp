@@ -14,14 +14,17 @@ class Statement;
 namespace fleetproof {
 
 // Conversion between records and rows. Binds a record to an INSERT, and reads a record from a SELECT. Both use the
-// column lists of schema.hpp.
+// column lists of schema.hpp. What is bound is not copied: the record must live until the statement has run.
 void bind_campaign(SQLite::Statement& insert, const CampaignRecord& campaign, std::uint64_t plan_checksum);
 void bind_cell(SQLite::Statement& insert, const CellRecord& cell);
 void bind_gate(SQLite::Statement& insert, const GateRecord& gate);
 void bind_run(SQLite::Statement& insert, const RunRecord& run, std::uint64_t checksum);
-void bind_incident(SQLite::Statement& insert, std::uint64_t run_index, std::size_t ordinal, const Incident& incident);
-void bind_probe(SQLite::Statement& insert, std::uint64_t run_index, std::size_t ordinal, const ProbeCount& probe);
-void bind_violation(SQLite::Statement& insert, std::uint64_t run_index, std::size_t ordinal,
+// `first`: the parameter to begin with. One statement may take several of them.
+void bind_incident(SQLite::Statement& insert, int first, std::uint64_t run_index, std::size_t ordinal,
+                   const Incident& incident);
+void bind_probe(SQLite::Statement& insert, int first, std::uint64_t run_index, std::size_t ordinal,
+                const ProbeCount& probe);
+void bind_violation(SQLite::Statement& insert, int first, std::uint64_t run_index, std::size_t ordinal,
                     const Violation& violation);
 
 CampaignRecord read_campaign(const SQLite::Statement& row);

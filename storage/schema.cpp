@@ -78,7 +78,7 @@ CREATE TABLE runs (
   running_digests BLOB NOT NULL,
   message TEXT NOT NULL,
 {counters}  checksum INTEGER NOT NULL
-) STRICT, WITHOUT ROWID;
+) STRICT{runs_order};
 CREATE TABLE violations (
   run_index INTEGER NOT NULL,
   ordinal INTEGER NOT NULL,
@@ -235,14 +235,13 @@ std::string decimal(double value, int digits) {
   return text;
 }
 
-}  // namespace
-
-std::string schema_ddl() {
+std::string ddl_with(std::string_view runs_order) {
   std::string definitions;
   for (const auto& counter : kCounters) definitions += fmt::format("  {} INTEGER NOT NULL,\n", counter.name);
   const std::string values = factor_definitions(&FactorInfo::key), bounds = factor_definitions(&FactorInfo::key_to);
   return fmt::format(fmt::runtime(kPlanTables), fmt::arg("factors", values + bounds)) +
-         fmt::format(fmt::runtime(kRunTables), fmt::arg("factors", values), fmt::arg("counters", definitions)) +
+         fmt::format(fmt::runtime(kRunTables), fmt::arg("factors", values), fmt::arg("counters", definitions),
+                     fmt::arg("runs_order", runs_order)) +
          fmt::format(fmt::runtime(kViews), fmt::arg("run_counters", "       " + counter_list("r.")),
                      fmt::arg("loss", decimal(kContractLoss, 2)), fmt::arg("delay", decimal(kContractDelay_s, 1)),
                      fmt::arg("later_factors", factor_names(&FactorInfo::key, "r.", kFirstLaterFactor)),
@@ -256,6 +255,12 @@ std::string schema_ddl() {
                      fmt::arg("incident_names", incident_words(&IncidentKindInfo::name)),
                      fmt::arg("incident_units", incident_words(&IncidentKindInfo::unit)));
 }
+
+}  // namespace
+
+std::string schema_ddl() { return ddl_with(", WITHOUT ROWID"); }
+
+std::string live_schema_ddl() { return ddl_with(""); }
 
 std::string run_columns(const std::string& prefix) { return run_list(prefix, factor_names(&FactorInfo::key, prefix)); }
 

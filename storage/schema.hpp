@@ -14,10 +14,11 @@ inline constexpr std::int32_t kOldestReadable = 4;
 inline constexpr std::int32_t kFirstSealed = 6;  // a published file of an earlier schema has the digest of its rows
 inline constexpr std::int32_t kPageSize = 4096;
 
-// The tables and the public views, as one script. The live file and the canonical file use the same text. Each counter
-// of an outcome (core/outcome/counters.hpp) is a column of `runs`, and each factor (factors.hpp) one of `runs` and two
-// of `cells`.
+// The tables and the public views of the canonical file, as one script. Each counter of an outcome
+// (core/outcome/counters.hpp) is a column of `runs`, and each factor (factors.hpp) one of `runs` and two of `cells`.
 std::string schema_ddl();
+// The same for the live file, but `runs` has rowids: a wide row is stored with less work. It reads the same.
+std::string live_schema_ddl();
 
 // Column lists, separated by commas, in the order in which rows.hpp binds and reads them. `prefix` (for example "r.")
 // is put before every name.

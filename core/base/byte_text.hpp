@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -16,23 +17,44 @@ namespace fleetproof {
 
 class ByteSink {
  public:
-  void u8(std::uint8_t value) { bytes_.push_back(static_cast<char>(value)); }
-  void u32(std::uint32_t value) { little_endian(value, 4); }
-  void u64(std::uint64_t value) { little_endian(value, 8); }
+  void u8(std::uint8_t value) { put(std::array{static_cast<char>(value)}); }
+  void u32(std::uint32_t value) { put(little_endian(value)); }
+  void u64(std::uint64_t value) { put(little_endian(value)); }
   void i64(std::int64_t value) { u64(std::bit_cast<std::uint64_t>(value)); }
   void text(std::string_view value) {
     u32(static_cast<std::uint32_t>(value.size()));
-    bytes_.append(value);
+    make_room(value.size());
+    std::memcpy(bytes_.data() + used_, value.data(), value.size());
+    used_ += value.size();
   }
-  std::string take() { return std::move(bytes_); }
+  std::string take() {
+    bytes_.resize(std::exchange(used_, 0));
+    return std::exchange(bytes_, {});
+  }
 
  private:
-  void little_endian(std::uint64_t value, std::size_t count) {
-    std::array<char, 8> bytes{};
-    for (std::size_t i = 0; i < count; ++i) bytes[i] = static_cast<char>(static_cast<std::uint8_t>(value >> (8 * i)));
-    bytes_.append(bytes.data(), count);
+  template <class Value>
+  static std::array<char, sizeof(Value)> little_endian(Value value) {
+    if constexpr (std::endian::native == std::endian::little)
+      return std::bit_cast<std::array<char, sizeof(Value)>>(value);
+    std::array<char, sizeof(Value)> bytes{};
+    for (std::size_t i = 0; i < bytes.size(); ++i)
+      bytes[i] = static_cast<char>(static_cast<std::uint8_t>(value >> (8 * i)));
+    return bytes;
   }
-  std::string bytes_;
+  void make_room(std::size_t count) {
+    if (bytes_.size() - used_ < count) bytes_.resize(2 * bytes_.size() + count + 512);
+  }
+  // Of a number of bytes that the compiler knows: a call for each value would cost more than the value.
+  template <std::size_t N>
+  void put(const std::array<char, N>& bytes) {
+    make_room(N);
+    std::memcpy(bytes_.data() + used_, bytes.data(), N);
+    used_ += N;
+  }
+
+  std::string bytes_;  // longer than what is used
+  std::size_t used_ = 0;
 };
 
 // Reads what a ByteSink wrote. Each function throws EngineError if the bytes are damaged. `what` names them in the

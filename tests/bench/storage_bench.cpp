@@ -1,53 +1,75 @@
-// What it costs to store a run, commits included. The aim is at most 6 microseconds.
+// What it costs to store a run, commits included. The aim is at most 6 microseconds. CPU time is what counts: the time
+// on the wall contains the waiting for the disk, during which a campaign simulates.
 #include <benchmark/benchmark.h>
 
+#include "campaign/run/run_one.hpp"
 #include "storage/archive_writer.hpp"
+#include "tests/contract/small_campaign.hpp"
 #include "tests/storage/sample_records.hpp"
 
 namespace fleetproof {
 namespace {
 
-constexpr std::uint64_t kCells = 6;  // of samples::cells()
-
-// As a campaign stores it: three probes, four running digests, and in one run of five a violation.
-RunRecord usual_run(std::uint64_t index) {
-  RunRecord run;
-  run.run_index = index;
-  run.cell = static_cast<std::uint32_t>(index % kCells);
-  run.replicate = index / kCells;
-  run.scenario_digest = index * 0x9e3779b97f4a7c15ULL;
-  Outcome& o = run.outcome;
-  o.simulated_ns = 60'000'000'000;
-  o.agv_count = 5;
-  o.digest = ~run.scenario_digest;
-  o.running_digests = {o.digest, o.digest + 1, o.digest + 2, o.digest + 3};
-  std::uint64_t value = index;
-  for (const auto& counter : kCounters) o.counters.*counter.member = value += 100;
-  o.probes = {
-      {ProbeSource::World, "crossing", 4}, {ProbeSource::World, "head-on", 2}, {ProbeSource::Agent, "negotiation", 30}};
-  o.violation = index % 5 == 0;
-  if (o.violation) o.violations.emplace_back();
-  return run;
+CampaignPlan plan_of_bench() {
+  CampaignPlan plan = test::small_plan();
+  plan.replicates = 1'000'000;
+  plan.horizon_s = 60.0;
+  return plan;
 }
 
-void store(benchmark::State& state) {
-  constexpr std::uint64_t kDifferent = 6000;
+// Runs of a campaign, in three agents, two layouts and four radio qualities.
+std::vector<RunRecord> simulated_runs(const CampaignPlan& plan) {
+  constexpr std::uint64_t kDifferent = 960;
+  const AgentPrograms programs;
+  const RunOne run_one(plan, programs);
   std::vector<RunRecord> runs;
-  for (std::uint64_t i = 0; i < kDifferent; ++i) runs.push_back(usual_run(i));
+  for (std::uint64_t i = 0; i < kDifferent; ++i) runs.push_back(run_one(i));
+  return runs;
+}
+
+// A long row: three probes, and every counter large and different; in one run of five a violation.
+std::vector<RunRecord> full_runs(const CampaignPlan&) {
+  constexpr std::uint64_t kDifferent = 6000;
+  std::vector<RunRecord> runs(kDifferent);
+  for (std::uint64_t i = 0; i < kDifferent; ++i) {
+    runs[i].scenario_digest = i * 0x9e3779b97f4a7c15ULL;
+    Outcome& o = runs[i].outcome;
+    o.simulated_ns = 60'000'000'000;
+    o.agv_count = 5;
+    o.digest = ~runs[i].scenario_digest;
+    o.running_digests = {o.digest, o.digest + 1, o.digest + 2, o.digest + 3};
+    std::uint64_t value = i;
+    for (const auto& counter : kCounters) o.counters.*counter.member = value += 100;
+    o.probes = {{ProbeSource::World, "crossing", 4},
+                {ProbeSource::World, "head-on", 2},
+                {ProbeSource::Agent, "negotiation", 30}};
+    o.violation = i % 5 == 0;
+    if (o.violation) o.violations.emplace_back();
+  }
+  return runs;
+}
+
+void store(benchmark::State& state, std::vector<RunRecord> (*make_runs)(const CampaignPlan&)) {
+  const CampaignPlan plan = plan_of_bench();
+  const std::uint64_t cells = plan.cell_count();
+  std::vector<RunRecord> runs = make_runs(plan);
   const samples::TemporaryFolder folder;
-  ArchiveWriter writer(folder / "a.fp", samples::campaign(), samples::cells(), samples::gates());
+  ArchiveWriter writer(folder / "a.fp", samples::campaign(), plan.cells(), plan.gates);
   std::uint64_t index = 0;
   for (auto _ : state) {
-    RunRecord& run = runs[index % kDifferent];
+    RunRecord& run = runs[index % runs.size()];
     run.run_index = index;
-    run.replicate = index / kCells;
+    run.replicate = index / cells;
+    run.cell = static_cast<std::uint32_t>(index % cells);
     writer.add(run);
     ++index;
   }
   state.counters["rows/s"] = benchmark::Counter(static_cast<double>(index), benchmark::Counter::kIsRate);
 }
 
-BENCHMARK(store)->Unit(benchmark::kMicrosecond)->Iterations(200'000)->UseRealTime();
+constexpr int kRows = 200'000;
+BENCHMARK_CAPTURE(store, simulated, simulated_runs)->Unit(benchmark::kMicrosecond)->Iterations(kRows)->UseRealTime();
+BENCHMARK_CAPTURE(store, full, full_runs)->Unit(benchmark::kMicrosecond)->Iterations(kRows)->UseRealTime();
 
 }  // namespace
 }  // namespace fleetproof

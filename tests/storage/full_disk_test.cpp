@@ -50,6 +50,7 @@ TEST(ArchiveWriter, a_disk_that_fills_up_is_an_engine_error_and_keeps_what_was_c
     const SmallDisk disk(400'000);
     sentence = sentence_of<EngineError>([&] {
       for (std::size_t i = 100; i < runs.size(); ++i) writer.add(runs[i]);
+      writer.commit();
     });
   }
   EXPECT_THAT(sentence, HasSubstr("disk"));
