@@ -225,5 +225,31 @@ TEST(IsolatedRuns, ACrashWhileLoadingIsFiled) {
   EXPECT_EQ(outcome.agv_count, 4U);
 }
 
+TEST(IsolatedRuns, ACrashWhileLoadingIsInNoCallOfTheRunBefore) {
+  const std::string file = testing::TempDir() + "loading-crashes";
+  const CampaignPlan plan = failing_plan("abort 1");
+  AgentPrograms programs;
+  programs.know(FLEETPROOF_FAILING_AGENT);
+  ::setenv("FLEETPROOF_TEST_LOADING", file.c_str(), 1);
+  IsolatedRuns runs(plan, programs, 1, "");
+  ::unsetenv("FLEETPROOF_TEST_LOADING");
+  EXPECT_THAT(runs(0).outcome.message, HasSubstr("aborted (SIGABRT) in event"));
+  std::ofstream(file) << "from now on";
+  EXPECT_THAT(runs(1).outcome.message, HasSubstr("aborted (SIGABRT) before the first call of an agent"));
+  std::filesystem::remove(file);
+}
+
+TEST(IsolatedRuns, ASlowRunIsNoHangAndRaisesTheLimitOfThoseAfterIt) {
+  CampaignPlan plan = failing_plan("slow 1");
+  plan.limits.cpu_s = 0.2;
+  AgentPrograms programs;
+  programs.know(FLEETPROOF_FAILING_AGENT);
+  IsolatedRuns runs(plan, programs, 1, "");
+  EXPECT_EQ(runs(0).outcome.digest, record_of_reckless(plan, 0).outcome.digest);
+  runs.take_losses();
+  EXPECT_EQ(runs(1).outcome.digest, record_of_reckless(plan, 1).outcome.digest);
+  EXPECT_TRUE(runs.take_losses().empty());
+}
+
 }  // namespace
 }  // namespace fleetproof

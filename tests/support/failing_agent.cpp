@@ -1,6 +1,7 @@
 // An agent that drives like `reckless` and, in some runs, ends its process or never returns. Its parameters say how and
 // how often: "segfault 100" is a segmentation fault in one of 100 runs, at the third event of the first AGV. The kind
-// "mixed" takes each kind in turn but the endless ones. FLEETPROOF_TEST_LOADING=crash: crashes while it is loaded.
+// "mixed" takes each kind in turn but the endless ones. FLEETPROOF_TEST_LOADING=crash: crashes while it is loaded;
+// the name of a file: while there is such a file.
 // FLEETPROOF_TEST_GATE: a run of the kind "burn" uses CPU time until this file exists.
 // FLEETPROOF_TEST_REBUILT: every run has a segmentation fault.
 #include <dlfcn.h>
@@ -57,6 +58,13 @@ void burn_until_gate_opens() {
   }
 }
 
+// More than the limit in tests, and less than ten times the limit.
+void use_cpu_time() {
+  const std::clock_t end = std::clock() + 4 * CLOCKS_PER_SEC / 10;
+  while (std::clock() < end) {
+  }
+}
+
 void fail(Failing& agent) {
   const std::string& kind = agent.kind;
   if (kind == "segfault") *reinterpret_cast<volatile int*>(static_cast<std::uintptr_t>(zero)) = 1;
@@ -88,6 +96,7 @@ void fail(Failing& agent) {
     for (;;) ::pause();
   }
   if (kind == "burn") burn_until_gate_opens();
+  if (kind == "slow") use_cpu_time();
   if (kind == "print") std::printf("failing: hello from the agent\n");
 }
 
@@ -131,6 +140,7 @@ struct Loading {
     const char* how = std::getenv("FLEETPROOF_TEST_LOADING");
     if (how != nullptr && std::strcmp(how, "crash") == 0) std::abort();
     if (how != nullptr && std::strcmp(how, "exit") == 0) std::exit(0);
+    if (how != nullptr && ::access(how, F_OK) == 0) std::abort();
   }
 } loading;
 
