@@ -30,8 +30,8 @@ class ArchiveWriter {
  public:
   // Throws InputError, with a remedy, if another run writes this file, if the place cannot be written, or if a file is
   // in the way. Refuse: `path` and its live file are in the way. Replace and Resume: a file with one of these names is
-  // in the way if it is not a campaign file of this program. Throws EngineError if the disk fails or a stored run is
-  // damaged. Throws what the check of the resumption throws; then all files are as they were.
+  // in the way if it is not a campaign file of this program. Throws MachineError if the disk fails, EngineError if a
+  // stored run is damaged. Throws what the check of the resumption throws; then all files are as they were.
   ArchiveWriter(const std::string& path, const CampaignRecord& campaign, const std::vector<CellRecord>& cells,
                 const std::vector<GateRecord>& gates, Existing existing = Existing::Refuse,
                 const Resumption& resumption = {});

@@ -14,7 +14,7 @@
 #include <filesystem>
 #include <limits>
 
-#include "core/base/error.hpp"
+#include "core/base/machine_error.hpp"
 #include "storage/checksum.hpp"
 #include "storage/opened_file.hpp"
 #include "storage/schema.hpp"
@@ -68,7 +68,10 @@ void sync_to_disk(const std::string& path, int flags) {
   const bool synced = fd >= 0 && ::fsync(fd) == 0;
   const int error = errno;
   if (fd >= 0) ::close(fd);
-  if (!synced) throw EngineError(fmt::format("{}: cannot be brought to the disk: {}", path, std::strerror(error)));
+  if (!synced)
+    throw MachineError(
+        fmt::format("{}: cannot be brought to the disk ({}); look at the disk, then the same command goes on", path,
+                    std::strerror(error)));
 }
 
 void remove_with_journal(const std::string& path) {
@@ -103,7 +106,10 @@ void move_durably(const std::string& from, const std::string& to) {
   sync_to_disk(from, O_RDONLY);
   std::error_code error;
   std::filesystem::rename(from, to, error);
-  if (error) throw EngineError(fmt::format("{}: cannot be renamed to {}: {}", from, to, error.message()));
+  if (error)
+    throw MachineError(
+        fmt::format("{}: cannot be renamed to {} ({}); look at the folder, then the same command goes on", from, to,
+                    error.message()));
   const auto folder = std::filesystem::path(to).parent_path();
   sync_to_disk(folder.empty() ? "." : folder.string(), O_RDONLY | O_DIRECTORY);
 }

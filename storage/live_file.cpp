@@ -8,7 +8,7 @@
 #include <cerrno>
 #include <filesystem>
 
-#include "core/base/error.hpp"
+#include "core/base/machine_error.hpp"
 #include "storage/canonical_file.hpp"
 #include "storage/sqlite_errors.hpp"
 #include "storage/target_file.hpp"
@@ -45,7 +45,7 @@ void fold_log(const std::string& live_path) {
   std::error_code ignored;
   const auto log = live_path + "-wal";
   if (fs::exists(log, ignored) && fs::file_size(log, ignored) > 0)
-    throw EngineError(fmt::format("{}: another process reads this file; wait for it to end", live_path));
+    throw MachineError(fmt::format("{}: another process reads this file; wait for it to end", live_path));
 }
 
 LiveFile bring_back_live_file(const std::string& path, const std::string& live_path) {
@@ -60,8 +60,8 @@ LiveFile bring_back_live_file(const std::string& path, const std::string& live_p
   fs::copy_file(path, copy, fs::copy_options::overwrite_existing, error);
   if (error) {
     fs::remove(copy, ignored);
-    throw EngineError(fmt::format("{}: cannot be copied to {} ({}); free some space, or name another folder", path,
-                                  live_path, error.message()));
+    throw MachineError(fmt::format("{}: cannot be copied to {} ({}); free some space, or name another folder", path,
+                                   live_path, error.message()));
   }
   try {
     SQLite::Database(copy, SQLite::OPEN_READWRITE).exec("PRAGMA journal_mode=WAL");

@@ -18,11 +18,11 @@ void make_live_file(const std::string& live_path);
 void remove_live_file(const std::string& live_path);
 void remove_log(const std::string& live_path);  // the log and journal alone
 
-// Brings all of the log into the file itself. Throws EngineError if the disk fails or another process reads the file.
+// Brings all of the log into the file itself. Throws MachineError if the disk fails or another process reads the file.
 void fold_log(const std::string& live_path);
 
 // Makes the live file of a campaign that goes on: the one that a killed program left, or else a copy of the published
-// file at `path`. Throws EngineError if the disk fails; then both are as they were.
+// file at `path`. Throws MachineError if the disk fails; then both are as they were.
 enum class LiveFile : std::uint8_t { Left, Copied, None };
 LiveFile bring_back_live_file(const std::string& path, const std::string& live_path);
 

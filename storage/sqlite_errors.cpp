@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
-#include "core/base/error.hpp"
+#include "core/base/machine_error.hpp"
 
 namespace fleetproof {
 namespace {
@@ -12,7 +12,7 @@ namespace {
 std::string remedy_for(int code) {
   switch (code & 0xff) {
     case SQLITE_FULL:
-      return "the disk is full; free some space and start again (rows committed so far are kept)";
+      return "the disk is full; free some space, then the same command goes on (rows committed so far are kept)";
     case SQLITE_IOERR:
       return "the disk refused to read or write; look at the disk and its quotas (rows committed so far are kept)";
     case SQLITE_READONLY:
@@ -30,14 +30,33 @@ std::string remedy_for(int code) {
   }
 }
 
+// The file itself is damaged, or our statement was wrong; all else is the machine.
+bool is_of_machine(int code) {
+  switch (code & 0xff) {
+    case SQLITE_FULL:
+    case SQLITE_IOERR:
+    case SQLITE_NOMEM:
+    case SQLITE_READONLY:
+    case SQLITE_PERM:
+    case SQLITE_CANTOPEN:
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+      return true;
+    default:
+      return false;
+  }
+}
+
 }  // namespace
 
 void throw_archive_error(const std::string& path) {
   try {
     throw;
   } catch (const SQLite::Exception& e) {
-    throw EngineError(
-        fmt::format("{}: {} (SQLite {}: {})", path, remedy_for(e.getErrorCode()), e.getExtendedErrorCode(), e.what()));
+    const std::string sentence =
+        fmt::format("{}: {} (SQLite {}: {})", path, remedy_for(e.getErrorCode()), e.getExtendedErrorCode(), e.what());
+    if (is_of_machine(e.getErrorCode())) throw MachineError(sentence);
+    throw EngineError(sentence);
   }
 }
 

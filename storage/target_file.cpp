@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "core/base/error.hpp"
+#include "core/base/machine_error.hpp"
 #include "storage/schema.hpp"
 
 namespace fleetproof {
@@ -111,9 +112,10 @@ void throw_cannot_make(const std::string& path, int error) {
                     cause));
     case ENOSPC:
     case EDQUOT:
-      throw EngineError(fmt::format("{}: the disk is full ({}); free some space and start again", path, cause));
+      throw MachineError(
+          fmt::format("{}: the disk is full ({}); free some space, then the same command goes on", path, cause));
     default:
-      throw EngineError(fmt::format("{}: the disk refused to make the file: {}", path, cause));
+      throw MachineError(fmt::format("{}: the disk refused to make the file ({}); look at the disk", path, cause));
   }
 }
 

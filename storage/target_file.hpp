@@ -22,7 +22,7 @@ void require_free_name(const std::string& path, Existing existing);
 void require_free_live_name(const std::string& live_path, Existing existing);
 
 // Explains, by errno, why a file could not be created. Throws InputError, with a remedy, if the place cannot be
-// written; throws EngineError if the disk failed.
+// written; throws MachineError if the disk failed.
 [[noreturn]] void throw_cannot_make(const std::string& path, int error);
 
 }  // namespace fleetproof

@@ -10,7 +10,7 @@ namespace fleetproof {
 class WriteLock {
  public:
   // `path` is the campaign file. Throws InputError if another run holds the lock, or if the place cannot be written.
-  // Throws EngineError if the disk fails.
+  // Throws MachineError if the disk fails.
   explicit WriteLock(const std::string& path);
   ~WriteLock() { release(); }
   WriteLock(const WriteLock&) = delete;

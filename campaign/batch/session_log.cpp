@@ -16,6 +16,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.hpp"
+#include "core/base/machine_error.hpp"
 
 namespace fleetproof {
 namespace {
@@ -36,8 +37,8 @@ void append_lines(const std::string& path, const std::string& lines) {
   }
   if (file >= 0 && ::close(file) != 0 && error == 0) error = errno;
   if (error == 0) return;
-  throw EngineError(fmt::format("{}: cannot be written ({}); the campaign file itself is as it was", path,
-                                error == ENOTSUP ? "it is no regular file" : std::strerror(error)));
+  throw MachineError(fmt::format("{}: cannot be written ({}); the campaign file itself is as it was", path,
+                                 error == ENOTSUP ? "it is no regular file" : std::strerror(error)));
 }
 
 std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }

@@ -13,7 +13,7 @@ class SessionLog {
  public:
   // Throws InputError if a file of this name is no session log.
   explicit SessionLog(const std::string& archive_path);
-  // Both throw EngineError if the log cannot be written.
+  // Both throw MachineError if the log cannot be written.
   void begin(const RunOptions& options, const AgentPrograms& programs) const;
   void end(const CampaignResult& result, int signal_number) const;
 

@@ -10,6 +10,7 @@
 #include "campaign/run/engine_identity.hpp"
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
+#include "core/base/machine_error.hpp"
 
 namespace fleetproof::cli {
 namespace {
@@ -65,6 +66,8 @@ int perform(const Action& action) {
     return say(kBadInput, "error", error.what());
   } catch (const OutputLost& lost) {
     return lost.reader_left() ? int{kEngineFault} : say(kEngineFault, "error", lost.what());
+  } catch (const MachineError& error) {
+    return say(kEngineFault, "error", error.what());
   } catch (const EngineError& error) {
     return say(kEngineFault, "engine fault", error.what());
   } catch (const InvariantViolation& error) {

@@ -17,7 +17,7 @@ struct OutputFile {
 
 // Writes `text` to the file, whole or not at all. An existing file is replaced only if it is empty or of the same kind.
 // Throws InputError with the name of the option if the existing file is of another kind, or if the place cannot be
-// written. Throws EngineError if the disk is full.
+// written. Throws MachineError if the disk is full.
 void write_whole(const OutputFile& file, std::string_view text);
 
 }  // namespace fleetproof::cli

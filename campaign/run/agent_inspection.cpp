@@ -14,6 +14,7 @@
 #include <cstring>
 
 #include "core/base/error.hpp"
+#include "core/base/machine_error.hpp"
 #include "core/base/outside_text.hpp"
 
 namespace fleetproof {
@@ -113,7 +114,7 @@ AgentProgram program_of(std::string_view fields) {
 Inspection inspect_once(const std::string& path, bool global_symbols) {
   std::array<int, 2> answer{};
   if (::pipe2(answer.data(), O_CLOEXEC) != 0)
-    throw EngineError(fmt::format("no pipe can be made: {}", std::strerror(errno)));
+    throw MachineError(fmt::format("no pipe can be made: {}", std::strerror(errno)));
   const pid_t child = ::fork();
   if (child == 0) {
     ::close(answer[0]);
@@ -123,7 +124,7 @@ Inspection inspect_once(const std::string& path, bool global_symbols) {
   ::close(answer[1]);
   Inspection inspection = child < 0 ? Inspection() : read_until_end(answer[0]);
   ::close(answer[0]);
-  if (child < 0) throw EngineError(fmt::format("no process can be started: {}", std::strerror(error)));
+  if (child < 0) throw MachineError(fmt::format("no process can be started: {}", std::strerror(error)));
   if (!inspection.came_back) ::kill(child, SIGKILL);
   while (::waitpid(child, &inspection.status, 0) < 0 && errno == EINTR) {
   }

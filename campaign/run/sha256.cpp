@@ -6,7 +6,7 @@
 #include <array>
 #include <fstream>
 
-#include "core/base/error.hpp"
+#include "core/base/machine_error.hpp"
 
 namespace fleetproof {
 namespace {
@@ -43,7 +43,7 @@ std::string sha256_of_file(const std::string& path) {
   std::array<char, 65536> block;
   while (file.read(block.data(), block.size()), file.gcount() > 0)
     hash.add({block.data(), static_cast<std::size_t>(file.gcount())});
-  if (!file.eof()) throw EngineError(path + ": cannot be read, so that the archive cannot say what it is");
+  if (!file.eof()) throw MachineError(path + ": cannot be read, so that the archive cannot say what it is");
   return hash.hex();
 }
 

@@ -12,6 +12,7 @@
 
 #include "core/base/byte_text.hpp"
 #include "core/base/error.hpp"
+#include "core/base/machine_error.hpp"
 #include "core/base/random.hpp"
 
 namespace fleetproof {
@@ -102,7 +103,7 @@ std::string Channel::received() {
 Channel::Pair Channel::make_pair() {
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
-    throw EngineError(fmt::format("no channel to a worker process can be made: {}", std::strerror(errno)));
+    throw MachineError(fmt::format("no channel to a worker process can be made: {}", std::strerror(errno)));
   return {Channel(ends[0]), Channel(ends[1])};
 }
 

@@ -33,7 +33,7 @@ class Channel {
   void close();
 
   struct Pair;
-  static Pair make_pair();  // throws EngineError
+  static Pair make_pair();  // throws MachineError
 
  private:
   Wait frame_in_buffer() const;

@@ -15,7 +15,7 @@
 #include <cstring>
 #include <set>
 
-#include "core/base/error.hpp"
+#include "core/base/machine_error.hpp"
 
 namespace fleetproof {
 namespace {
@@ -145,7 +145,10 @@ class ForkerProcess {
 };
 
 [[noreturn]] void throw_gone() {
-  throw EngineError("the process that starts the workers is gone; what was finished is kept");
+  throw MachineError(
+      "the process that starts the workers is gone: somebody killed it, or memory ran out; what was finished is kept, "
+      "and "
+      "the same command goes on");
 }
 
 }  // namespace
@@ -153,7 +156,7 @@ class ForkerProcess {
 Forker::Forker(const Work& work) {
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0)
-    throw EngineError(fmt::format("no channel to a worker process can be made: {}", std::strerror(errno)));
+    throw MachineError(fmt::format("no channel to a worker process can be made: {}", std::strerror(errno)));
   std::fflush(nullptr);  // or the workers would print once more what waits in buffers here
   forker_ = ::fork();
   if (forker_ == 0) {
@@ -168,7 +171,7 @@ Forker::Forker(const Work& work) {
   control_ = ends[0];
   if (forker_ < 0) {
     ::close(control_);
-    throw EngineError(fmt::format("no worker process can be started: {}", std::strerror(error)));
+    throw MachineError(fmt::format("no worker process can be started: {}", std::strerror(error)));
   }
 }
 
@@ -185,7 +188,7 @@ Forker::Worker Forker::start(int slot) {
   if (!send_request(control_, {Request::Kind::Start, slot, 0}, ends.there.fd()) ||
       ::recv(control_, &reply, sizeof reply, 0) != static_cast<ssize_t>(sizeof reply))
     throw_gone();
-  if (reply.pid < 0) throw EngineError(fmt::format("no worker process can be started: {}", std::strerror(-reply.pid)));
+  if (reply.pid < 0) throw MachineError(fmt::format("no worker process can be started: {}", std::strerror(-reply.pid)));
   return {reply.pid, std::move(ends.here)};
 }
 

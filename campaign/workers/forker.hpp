@@ -26,7 +26,7 @@ class Forker {
   // What a worker process does, given its slot and its end of the channel. It never returns.
   using Work = std::function<void(int slot, Channel channel)>;
 
-  explicit Forker(const Work& work);  // throws EngineError
+  explicit Forker(const Work& work);  // throws MachineError
   ~Forker();                          // ends all workers
   Forker(const Forker&) = delete;
   Forker& operator=(const Forker&) = delete;
@@ -35,7 +35,7 @@ class Forker {
     pid_t pid = 0;
     Channel channel;
   };
-  // Throws EngineError if the forker is gone or no process can be started.
+  // Throws MachineError if the forker is gone or no process can be started.
   Worker start(int slot);
   // Waits for the end of the worker; kills it, and the processes that it has started, if it does not end by itself.
   WorkerDeath collect(pid_t pid);

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <new>
 
-#include "core/base/error.hpp"
+#include "core/base/machine_error.hpp"
 
 namespace fleetproof {
 
@@ -17,7 +17,7 @@ SharedSlots::SharedSlots(int count) : count_(count) {
   const std::size_t size = sizeof(WorkerSlot) * static_cast<std::size_t>(count);
   void* memory = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (memory == MAP_FAILED)
-    throw EngineError(fmt::format("no memory can be shared with worker processes: {}", std::strerror(errno)));
+    throw MachineError(fmt::format("no memory can be shared with worker processes: {}", std::strerror(errno)));
   slots_ = static_cast<WorkerSlot*>(memory);
   for (int i = 0; i < count; ++i) new (slots_ + i) WorkerSlot;
 }

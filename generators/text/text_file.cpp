@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/machine_error.hpp"
 
 namespace fleetproof {
 namespace {
@@ -40,7 +41,7 @@ class Descriptor {
 [[noreturn]] void throw_not_written(const std::string& path, int error, std::string_view remedy) {
   const std::string what = fmt::format("cannot be written ({}); ", std::strerror(error));
   if (error == ENOSPC || error == EDQUOT || error == EFBIG || error == EIO)
-    throw EngineError(path + ": " + what + "free some space or repair the disk; nothing was changed");
+    throw MachineError(path + ": " + what + "free some space or repair the disk; nothing was changed");
   throw InputError(path, what + std::string(remedy));
 }
 

@@ -18,8 +18,8 @@ std::string read_text_file(const std::string& path);
 
 // Writes `text` to `path`, whole or not at all. The text goes into a new file in the same folder and is brought to the
 // disk. Then the new file takes the name at one instant. A link stays, and the file behind it is replaced. InputError,
-// which ends in `remedy`, if the place is wrong; EngineError if the disk is full or fails. Either leaves what was there
-// as it was.
+// which ends in `remedy`, if the place is wrong; MachineError if the disk is full or fails. Either leaves what was
+// there as it was.
 void write_text_file(const std::string& path, std::string_view text, std::string_view remedy);
 
 // Counted from 1; columns are bytes.

@@ -112,6 +112,21 @@ TEST_F(Resume, KilledAtAnyMomentItIsTheFileOfAnUndisturbedRun) {
   EXPECT_GE(killed["forker or worker"], 5);
 }
 
+TEST_F(Resume, AForkerThatSomebodyKillsIsNoFaultOfTheEngine) {
+  campaign("c.toml", 4000, "none 1");
+  const pid_t program = start({"run", "c.toml", "--db", "x.db"});
+  std::vector<pid_t> family;  // by number: the program, its forker, the workers
+  while ((family = family_of(program)).size() < 3 && !family.empty())
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  ASSERT_FALSE(family.empty());
+  ::kill(family[1], SIGKILL);
+  EXPECT_EQ(wait_for(program), 3);
+  const std::string talk = read(path("talk.txt"));
+  EXPECT_THAT(talk, HasSubstr("error: the process that starts the workers is gone"));
+  EXPECT_THAT(talk, testing::Not(HasSubstr("engine fault")));
+  EXPECT_TRUE(judged(run("run c.toml --db x.db"))) << "the same command goes on";
+}
+
 TEST_F(Resume, WorkersExtensionsAndInterruptionsLeaveNoTrace) {
   const std::string one = bytes_of("--jobs 1");
   EXPECT_GT(one.size(), 50'000U);
