@@ -82,7 +82,8 @@ struct ArchiveReader::Impl {
   StoredRun take_run(const SQLite::Statement& row) const;
   void take_part(const PartTable& table, const SQLite::Statement& row, StoredRun& stored) const;
   void verify(const StoredRun& stored) const;
-  void require_sealed(std::uint64_t count, std::uint64_t rows) const;
+  void require_sealed(std::uint64_t count, const RowsDigest& rows, SealedContent& content) const;
+  void require_chunks(const std::vector<ChunkRecord>& chunks) const;
   std::uint64_t read_all(const std::function<void(const RunRecord&)>& visit) const;
 
   // Turns errors of SQLite into errors of this program.
@@ -110,10 +111,11 @@ void ArchiveReader::Impl::open() {
 }
 
 void ArchiveReader::Impl::read_plan() {
-  SQLite::Statement row(*db, fmt::format("SELECT {}, run_count, {} AS seal FROM campaign", kCampaignColumns,
+  SQLite::Statement row(*db, fmt::format("SELECT {}, run_count, {} AS seal FROM campaign", campaign_values(schema),
                                          schema < kFirstSealed ? "rows_digest" : "seal"));
   if (!row.executeStep()) damaged("it holds no plan");
   campaign = read_campaign(row);
+  if (campaign.chunk_runs == 0) damaged("its chunks have no runs");
   plan = read_plan_checksum(row);
   sealed_count = maybe(row.getColumn("run_count"));
   seal = maybe(row.getColumn("seal"));
@@ -153,9 +155,26 @@ void ArchiveReader::Impl::verify(const StoredRun& stored) const {
   if (!sound) damaged(fmt::format("run {} does not match its checksum", run.run_index));
 }
 
-void ArchiveReader::Impl::require_sealed(std::uint64_t count, std::uint64_t rows) const {
+void ArchiveReader::Impl::require_chunks(const std::vector<ChunkRecord>& chunks) const {
+  std::vector<ChunkRecord> stored;
+  SQLite::Statement rows(*db, fmt::format("SELECT {} FROM chunks ORDER BY chunk", kChunkColumns));
+  while (rows.executeStep()) stored.push_back(read_chunk(rows));
+  if (stored != chunks) damaged("its chunks are not those that were published");
+}
+
+void ArchiveReader::Impl::require_sealed(std::uint64_t count, const RowsDigest& rows, SealedContent& content) const {
   if (count != *sealed_count) damaged(fmt::format("it was published with {} runs and holds {}", *sealed_count, count));
-  const auto now = schema < kFirstSealed ? rows : seal_of(schema_text(*db), plan, count, rows);
+  std::uint64_t now = rows.value();
+  if (schema >= kFirstChunked) {
+    try {
+      content.add_rest(*db);
+    } catch (const EngineError& e) {
+      damaged(e.what());
+    }
+    require_chunks(content.chunks());
+    now = content.digest();
+  }
+  if (schema >= kFirstSealed) now = seal_of(schema_text(*db), plan, count, now);
   if (now != seal) damaged("its tables, views, plan or runs are not those that were published");
 }
 
@@ -176,6 +195,7 @@ std::uint64_t ArchiveReader::Impl::read_all(const std::function<void(const RunRe
     parts.push_back({table, std::move(rows), more});
   }
   RowsDigest digest;
+  SealedContent content(campaign.chunk_runs);
   std::uint64_t count = 0;
   for (; runs.executeStep(); ++count) {
     auto stored = take_run(runs);
@@ -185,12 +205,13 @@ std::uint64_t ArchiveReader::Impl::read_all(const std::function<void(const RunRe
     }
     verify(stored);
     digest.add(stored.checksum);
+    content.add_run(count, stored.checksum);
     visit(stored.run);
   }
   for (const auto& part : parts) {
     if (part.more) damaged(fmt::format("it holds {} of run {}, but not the run", part.table.name, run_of(part.rows)));
   }
-  if (sealed_count) require_sealed(count, digest.value());
+  if (sealed_count) require_sealed(count, digest, content);
   return digest.value();
 }
 
@@ -229,6 +250,42 @@ std::optional<RunRecord> ArchiveReader::run(std::uint64_t run_index) const {
     }
     impl_->verify(stored);
     return std::move(stored.run);
+  });
+}
+
+void ArchiveReader::for_each_audit(const std::function<void(const AuditRecord&, bool same)>& visit) const {
+  if (impl_->schema < kFirstChunked) return;
+  impl_->guarded([&] {
+    const Snapshot snapshot(*impl_->db);
+    SQLite::Statement rows(*impl_->db,
+                           "SELECT a.run_index, a.checksum, a.checksum = r.checksum FROM audits a JOIN runs r ON "
+                           "r.run_index = a.run_index ORDER BY a.run_index");
+    while (rows.executeStep()) visit(read_audit(rows), rows.getColumn(2).getInt() != 0);
+  });
+}
+
+std::optional<std::string> ArchiveReader::recording(std::uint64_t run_index) const {
+  if (impl_->schema < kFirstChunked) return std::nullopt;
+  return impl_->guarded([&]() -> std::optional<std::string> {
+    SQLite::Statement rows(*impl_->db, "SELECT calls, checksum FROM recordings WHERE run_index = ?");
+    rows.bind(1, std::bit_cast<std::int64_t>(run_index));
+    if (!rows.executeStep()) return std::nullopt;
+    std::string calls = rows.getColumn(0).getString();
+    if (recording_checksum(calls) != std::bit_cast<std::uint64_t>(rows.getColumn(1).getInt64()))
+      impl_->damaged(fmt::format("the recording of run {} does not match its checksum", run_index));
+    return calls;
+  });
+}
+
+std::uint64_t ArchiveReader::recording_count(const std::string& agent) const {
+  if (impl_->schema < kFirstChunked) return 0;
+  return impl_->guarded([&] {
+    SQLite::Statement rows(*impl_->db,
+                           "SELECT count(*) FROM recordings x JOIN runs r ON r.run_index = x.run_index JOIN cells c ON "
+                           "c.cell = r.cell WHERE c.agent = ?");
+    rows.bind(1, agent);
+    rows.executeStep();
+    return static_cast<std::uint64_t>(rows.getColumn(0).getInt64());
   });
 }
 

@@ -33,6 +33,11 @@ class ArchiveReader {
   std::optional<RunRecord> run(std::uint64_t run_index) const;
   // All runs with all their parts, in order of run index.
   void for_each_run(const std::function<void(const RunRecord&)>& visit) const;
+  // The audits of stored runs, in order of run index. `same`: the audit came out as the run did.
+  void for_each_audit(const std::function<void(const AuditRecord& audit, bool same)>& visit) const;
+  // What the agents of a run did. Throws EngineError if it is damaged.
+  std::optional<std::string> recording(std::uint64_t run_index) const;
+  std::uint64_t recording_count(const std::string& agent) const;
   // One digest over plan, cells, gates and all rows. Two files have the same digest if they have the same content.
   std::uint64_t content_digest() const;
   // The same without the identity of the engine: two builds that compute the same results give the same digest.

@@ -4,9 +4,6 @@
 #include <SQLiteCpp/Statement.h>
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <bit>
 #include <limits>
 #include <optional>
 
@@ -15,6 +12,7 @@
 #include "storage/canonical_file.hpp"
 #include "storage/checksum.hpp"
 #include "storage/live_file.hpp"
+#include "storage/row_store.hpp"
 #include "storage/rows.hpp"
 #include "storage/schema.hpp"
 #include "storage/sqlite_errors.hpp"
@@ -24,48 +22,9 @@
 namespace fleetproof {
 namespace {
 
-constexpr unsigned kRowsPerCommit = 4096;
+constexpr std::size_t kRowsPerCommit = 4096;
 constexpr std::chrono::seconds kCommitPeriod{2};
-
-// Inserts the violations, incidents or probes of a run, several with one statement: running a statement costs as much
-// as binding a dozen values.
-template <class Part>
-class PartsInsert {
- public:
-  using Bind = void (*)(SQLite::Statement&, int first, std::uint64_t run_index, std::size_t ordinal, const Part&);
-
-  PartsInsert(SQLite::Database& db, std::string table, std::string columns, Bind bind)
-      : db_(db), table_(std::move(table)), columns_(std::move(columns)), bind_(bind) {}
-
-  void insert(std::uint64_t run_index, const std::vector<Part>& parts) {
-    for (std::size_t done = 0; done < parts.size();) {
-      const std::size_t rows = std::min(parts.size() - done, statements_.size());
-      SQLite::Statement& statement = statement_of(rows);
-      statement.reset();
-      for (std::size_t row = 0; row < rows; ++row, ++done)
-        bind_(statement, 1 + static_cast<int>(row) * count_, run_index, done, parts[done]);
-      statement.exec();
-    }
-  }
-
- private:
-  SQLite::Statement& statement_of(std::size_t rows) {
-    auto& statement = statements_[rows - 1];
-    if (!statement) {
-      std::string values = fmt::format("({})", placeholders(columns_));
-      const std::string row = ", " + values;
-      for (std::size_t i = 1; i < rows; ++i) values += row;
-      statement.emplace(db_, fmt::format("INSERT INTO {} ({}) VALUES {}", table_, columns_, values));
-    }
-    return *statement;
-  }
-
-  SQLite::Database& db_;
-  const std::string table_, columns_;
-  const Bind bind_;
-  const int count_ = 1 + static_cast<int>(std::ranges::count(columns_, ','));
-  std::array<std::optional<SQLite::Statement>, 8> statements_;  // by their number of rows
-};
+constexpr std::size_t kBytesOfARow = 4096;  // a recording counts as so many rows
 
 }  // namespace
 
@@ -75,11 +34,8 @@ struct ArchiveWriter::Impl {
   Existing existing = Existing::Refuse;
   std::uint64_t cells = 0;
   std::unique_ptr<SQLite::Database> db;
-  std::unique_ptr<SQLite::Statement> insert_run, stored_checksum;
-  std::unique_ptr<PartsInsert<Violation>> violations;
-  std::unique_ptr<PartsInsert<Incident>> incidents;
-  std::unique_ptr<PartsInsert<ProbeCount>> probes;
-  unsigned pending = 0;
+  std::unique_ptr<RowStore> rows;
+  std::size_t pending = 0;  // rows since the last commit
   std::chrono::steady_clock::time_point last_commit = std::chrono::steady_clock::now();
 
   void create(const CampaignRecord& campaign, const std::vector<CellRecord>& cell_records,
@@ -89,8 +45,7 @@ struct ArchiveWriter::Impl {
   void open(const std::string& file);
   void insert_plan(const CampaignRecord& campaign, const std::vector<CellRecord>& cell_records,
                    const std::vector<GateRecord>& gates);
-  void prepare();
-  SQLite::Statement insert_into(const std::string& table, const std::string& columns);
+  void begin();
   void store(const RunRecord& run);
   void commit();
   void close();
@@ -107,22 +62,18 @@ void ArchiveWriter::Impl::open(const std::string& file) {
   db->exec("PRAGMA cache_size=-8000");  // the rows of one commit stay in memory until then
 }
 
-SQLite::Statement ArchiveWriter::Impl::insert_into(const std::string& table, const std::string& columns) {
-  return {*db, fmt::format("INSERT INTO {} ({}) VALUES ({})", table, columns, placeholders(columns))};
-}
-
 void ArchiveWriter::Impl::insert_plan(const CampaignRecord& campaign, const std::vector<CellRecord>& cell_records,
                                       const std::vector<GateRecord>& gates) {
-  auto insert_campaign = insert_into("campaign", kCampaignColumns);
+  auto insert_campaign = insert_into(*db, "campaign", kCampaignColumns);
   bind_campaign(insert_campaign, campaign, plan_checksum(campaign, cell_records, gates));
   insert_campaign.exec();
-  auto insert_cell = insert_into("cells", cell_columns());
+  auto insert_cell = insert_into(*db, "cells", cell_columns());
   for (const auto& cell : cell_records) {
     insert_cell.reset();
     bind_cell(insert_cell, cell);
     insert_cell.exec();
   }
-  auto insert_gate = insert_into("gates", kGateColumns);
+  auto insert_gate = insert_into(*db, "gates", kGateColumns);
   for (const auto& gate : gates) {
     insert_gate.reset();
     bind_gate(insert_gate, gate);
@@ -146,7 +97,7 @@ void ArchiveWriter::Impl::create(const CampaignRecord& campaign, const std::vect
     insert_plan(campaign, cell_records, gates);
     db->exec("COMMIT");
     if (earlier) {
-      prepare();
+      rows = std::make_unique<RowStore>(*db);
       earlier->for_each_run([this](const RunRecord& run) { store(run); });
       close();
       earlier.reset();
@@ -158,7 +109,7 @@ void ArchiveWriter::Impl::create(const CampaignRecord& campaign, const std::vect
     remove_log(live_path);  // it would be read as the log of the file that takes the name
     move_durably(begun, live_path);
     open(live_path);
-    prepare();
+    rows = std::make_unique<RowStore>(*db);
   } catch (...) {
     drop();
     remove_live_file(begun);
@@ -172,6 +123,7 @@ void ArchiveWriter::Impl::go_on(CampaignRecord campaign, const std::vector<CellR
   auto stored = std::make_unique<ArchiveReader>(live_path);
   resumption.check(stored->campaign(), campaign);
   stored->for_each_run(resumption.visit);
+  stored->for_each_audit(resumption.visit_audit);
   if (stored->schema() < kSchemaVersion) {
     create(campaign, cell_records, gates, std::move(stored));
     return;
@@ -184,43 +136,23 @@ void ArchiveWriter::Impl::go_on(CampaignRecord campaign, const std::vector<CellR
     db->exec("DELETE FROM campaign; DELETE FROM cells; DELETE FROM gates");
     insert_plan(campaign, cell_records, gates);
     db->exec("COMMIT");
-    prepare();
+    rows = std::make_unique<RowStore>(*db);
   } catch (const SQLite::Exception&) {
     drop();
     throw_archive_error(live_path);
   }
 }
 
-void ArchiveWriter::Impl::prepare() {
-  const auto runs = run_columns();
-  insert_run = std::make_unique<SQLite::Statement>(
-      *db,
-      fmt::format("INSERT INTO runs ({}) VALUES ({}) ON CONFLICT (run_index) DO NOTHING", runs, placeholders(runs)));
-  violations = std::make_unique<PartsInsert<Violation>>(*db, "violations", violation_columns(), bind_violation);
-  incidents = std::make_unique<PartsInsert<Incident>>(*db, "incidents", kIncidentColumns, bind_incident);
-  probes = std::make_unique<PartsInsert<ProbeCount>>(*db, "probes", kProbeColumns, bind_probe);
-  stored_checksum = std::make_unique<SQLite::Statement>(*db, "SELECT checksum FROM runs WHERE run_index = ?");
+void ArchiveWriter::Impl::begin() {
+  if (pending == 0) db->exec("BEGIN");
+  ++pending;
 }
 
 void ArchiveWriter::Impl::store(const RunRecord& run) {
-  if (pending == 0) db->exec("BEGIN");
-  ++pending;
-  const auto checksum = row_checksum(run);
-  insert_run->reset();
-  bind_run(*insert_run, run, checksum);
-  if (insert_run->exec() == 1) {
-    violations->insert(run.run_index, run.outcome.violations);
-    incidents->insert(run.run_index, run.outcome.incidents);
-    probes->insert(run.run_index, run.outcome.probes);
-    return;
-  }
+  begin();
+  pending += run.recording.size() / kBytesOfARow;
   // After an interruption, a run may be simulated twice. Both results must be equal.
-  stored_checksum->reset();
-  stored_checksum->bind(1, static_cast<std::int64_t>(run.run_index));
-  const bool same = stored_checksum->executeStep() &&
-                    std::bit_cast<std::uint64_t>(stored_checksum->getColumn(0).getInt64()) == checksum;
-  stored_checksum->reset();
-  if (!same)
+  if (!rows->add(run))
     throw EngineError(fmt::format("{}: run {} is stored already, with another outcome: the same run ended in two ways",
                                   live_path, run.run_index));
 }
@@ -240,11 +172,7 @@ void ArchiveWriter::Impl::close() {
 // Closes the file. What was not committed is rolled back.
 void ArchiveWriter::Impl::drop() {
   pending = 0;
-  insert_run.reset();
-  violations.reset();
-  incidents.reset();
-  probes.reset();
-  stored_checksum.reset();
+  rows.reset();
   db.reset();
 }
 
@@ -305,6 +233,14 @@ void ArchiveWriter::add(const RunRecord& run) {
     impl_->store(run);
     if (impl_->pending >= kRowsPerCommit || std::chrono::steady_clock::now() - impl_->last_commit >= kCommitPeriod)
       impl_->commit();
+  });
+}
+
+void ArchiveWriter::add(const AuditRecord& audit) {
+  ensure(impl_->db != nullptr, "an audit is added before the archive is published, and not after an error");
+  impl_->or_drop([&] {
+    impl_->begin();
+    impl_->rows->add(audit);
   });
 }
 

@@ -20,6 +20,8 @@ struct Resumption {
   std::function<void(const CampaignRecord& stored, CampaignRecord& continued)> check = [](const auto&, auto&) {};
   // Sees every stored run, in order of run index. Its checksum was right.
   std::function<void(const RunRecord& run)> visit = [](const RunRecord&) {};
+  // Sees every stored audit, in order of run index, after the runs.
+  std::function<void(const AuditRecord& audit, bool same)> visit_audit = [](const AuditRecord&, bool) {};
 };
 
 // The live file of a running campaign: NAME.partial beside NAME, with a write-ahead log. One connection writes and
@@ -39,12 +41,14 @@ class ArchiveWriter {
   ArchiveWriter(const ArchiveWriter&) = delete;
   ArchiveWriter& operator=(const ArchiveWriter&) = delete;
 
-  void add(const RunRecord& run);  // commits by itself every 4096 rows or 2 s, whichever comes first
+  void add(const RunRecord& run);      // commits by itself every 4096 rows or 2 s, whichever comes first
+  void add(const AuditRecord& audit);  // of a run that has been added. Once for each run
   void commit();
 
-  // Writes the canonical file: only rows below `stop_index`, with fixed page size and order, without a journal. The
-  // bytes do not depend on the order of `add`. Then renames the file to `path`, removes the live file and releases the
-  // lock. The writer is closed afterwards.
+  // Writes the canonical file: only rows below `stop_index`, with fixed page size and order, without a journal, and
+  // without the recordings of agents that came out the same in every audit. The bytes do not depend on the order of
+  // `add`. Then renames the file to `path`, removes the live file and releases the lock. The writer is closed
+  // afterwards.
   void publish(std::uint64_t stop_index);
 
  private:

@@ -17,7 +17,9 @@
 #include "core/base/machine_error.hpp"
 #include "storage/checksum.hpp"
 #include "storage/opened_file.hpp"
+#include "storage/rows.hpp"
 #include "storage/schema.hpp"
+#include "storage/sealed_content.hpp"
 #include "storage/sqlite_errors.hpp"
 
 namespace fleetproof {
@@ -47,16 +49,33 @@ void copy_rows(SQLite::Database& db, std::uint64_t stop_index) {
   copy_below_stop("violations", violation_columns(), "run_index, ordinal");
   copy_below_stop("incidents", kIncidentColumns, "run_index, ordinal");
   copy_below_stop("probes", kProbeColumns, "run_index, ordinal");
+  copy_below_stop("audits", kAuditColumns, "run_index");
+  // Runs of software that came out the same in every audit are replayed from their seeds. A row that is never written
+  // leaves no trace in the file, one that is deleted would.
+  db.exec(
+      fmt::format("INSERT INTO recordings ({0}) SELECT {1} FROM live.recordings x JOIN main.runs r ON r.run_index = "
+                  "x.run_index JOIN main.cells c ON c.cell = r.cell WHERE c.agent NOT IN (SELECT agent FROM "
+                  "main.v1_audits GROUP BY agent HAVING min(same) = 1) ORDER BY x.run_index",
+                  kRecordingColumns, "x.run_index, x.calls, x.checksum"));
 }
 
 // With the count and the seal, a lost or added row and a changed view are noticed too, not only a changed row.
 void seal(SQLite::Database& db) {
-  RowsDigest digest;
+  const auto number = [&](const char* query) { return std::bit_cast<std::uint64_t>(db.execAndGet(query).getInt64()); };
+  SealedContent content(number("SELECT chunk_runs FROM main.campaign"));
   std::int64_t count = 0;
   SQLite::Statement rows(db, "SELECT checksum FROM main.runs ORDER BY run_index");
-  for (; rows.executeStep(); ++count) digest.add(std::bit_cast<std::uint64_t>(rows.getColumn(0).getInt64()));
-  const auto plan = std::bit_cast<std::uint64_t>(db.execAndGet("SELECT plan_checksum FROM main.campaign").getInt64());
-  const auto seal = seal_of(schema_text(db), plan, static_cast<std::uint64_t>(count), digest.value());
+  for (; rows.executeStep(); ++count)
+    content.add_run(static_cast<std::uint64_t>(count), std::bit_cast<std::uint64_t>(rows.getColumn(0).getInt64()));
+  content.add_rest(db);
+  SQLite::Statement insert(db, fmt::format("INSERT INTO main.chunks ({}) VALUES (?, ?, ?)", kChunkColumns));
+  for (const ChunkRecord& chunk : content.chunks()) {
+    insert.reset();
+    bind_chunk(insert, chunk);
+    insert.exec();
+  }
+  const auto seal = seal_of(schema_text(db), number("SELECT plan_checksum FROM main.campaign"),
+                            static_cast<std::uint64_t>(count), content.digest());
   SQLite::Statement update(db, "UPDATE main.campaign SET run_count = ?, seal = ?");
   update.bind(1, count);
   update.bind(2, std::bit_cast<std::int64_t>(seal));

@@ -72,6 +72,7 @@ std::uint64_t plan_checksum(const CampaignRecord& campaign, const std::vector<Ce
   for (const auto& pair : campaign.exempt_pairs) bytes << pair;
   bytes << std::uint64_t{campaign.plugin_agents.size()};
   for (const auto& agent : campaign.plugin_agents) bytes << agent;
+  if (schema >= kFirstChunked) bytes << campaign.chunk_runs;
   bytes << std::uint64_t{cells.size()};
   for (const auto& cell : cells) {
     bytes << std::uint64_t{cell.index} << cell.agent << cell.layout << std::uint64_t{cell.fleet_size};
@@ -86,6 +87,8 @@ std::uint64_t plan_checksum(const CampaignRecord& campaign, const std::vector<Ce
   }
   return bytes.hash();
 }
+
+std::uint64_t recording_checksum(const std::string& calls) { return XXH3_64bits(calls.data(), calls.size()); }
 
 struct RowsDigest::State {
   XXH3_state_t* hash = XXH3_createState();
@@ -108,10 +111,13 @@ void RowsDigest::add(std::uint64_t checksum) {
 
 std::uint64_t RowsDigest::value() const { return XXH3_64bits_digest(state_->hash); }
 
+void RowsDigest::reset() { XXH3_64bits_reset(state_->hash); }
+
 std::uint64_t content_digest_of(std::uint64_t plan, std::uint64_t rows) { return (Bytes{} << plan << rows).hash(); }
 
-std::uint64_t seal_of(const std::string& schema_text, std::uint64_t plan, std::uint64_t run_count, std::uint64_t rows) {
-  return (Bytes{} << schema_text << plan << run_count << rows).hash();
+std::uint64_t seal_of(const std::string& schema_text, std::uint64_t plan, std::uint64_t run_count,
+                      std::uint64_t content) {
+  return (Bytes{} << schema_text << plan << run_count << content).hash();
 }
 
 }  // namespace fleetproof

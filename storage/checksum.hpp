@@ -18,6 +18,9 @@ std::uint64_t row_checksum(const RunRecord& run, std::int32_t schema = kSchemaVe
 std::uint64_t plan_checksum(const CampaignRecord& campaign, const std::vector<CellRecord>& cells,
                             const std::vector<GateRecord>& gates, std::int32_t schema = kSchemaVersion);
 
+// XXH3 over the bytes of a recording.
+std::uint64_t recording_checksum(const std::string& calls);
+
 // One digest over the checksums of many rows. Requires: the rows come in order of run index.
 class RowsDigest {
  public:
@@ -28,6 +31,7 @@ class RowsDigest {
 
   void add(std::uint64_t checksum);
   std::uint64_t value() const;
+  void reset();
 
  private:
   struct State;
@@ -38,7 +42,8 @@ class RowsDigest {
 std::uint64_t content_digest_of(std::uint64_t plan, std::uint64_t rows);
 
 // What a published file is sealed with: the text of all its tables and views, the plan's checksum, the number of runs
-// and all rows. `schema_text` comes from the file itself.
-std::uint64_t seal_of(const std::string& schema_text, std::uint64_t plan, std::uint64_t run_count, std::uint64_t rows);
+// and its content (sealed_content.hpp; in schema 6 the rows of runs). `schema_text` comes from the file itself.
+std::uint64_t seal_of(const std::string& schema_text, std::uint64_t plan, std::uint64_t run_count,
+                      std::uint64_t content);
 
 }  // namespace fleetproof

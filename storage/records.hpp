@@ -81,6 +81,8 @@ struct EngineIdentity {
   friend bool operator==(const EngineIdentity&, const EngineIdentity&) = default;
 };
 
+inline constexpr std::uint64_t kChunkRuns = 4096;
+
 struct CampaignRecord {
   std::string name, kind;  // kind: "claim" (rates and bounds) or "search" (counts only)
   std::uint64_t seed = 0, replicates = 0;
@@ -101,6 +103,9 @@ struct CampaignRecord {
   // "tugger and cart": pairs of kinds of bodies to which the safety distance does not apply
   std::vector<std::string> exempt_pairs;
   std::vector<std::string> plugin_agents;  // names of the agents that came from shared objects, without line ends
+  // Runs [k x chunk_runs, (k + 1) x chunk_runs) are chunk k: what one machine does of a campaign that many share. Part
+  // of the campaign's identity; the number of runs is not, so that a campaign can grow.
+  std::uint64_t chunk_runs = kChunkRuns;
   friend bool operator==(const CampaignRecord&, const CampaignRecord&) = default;
 };
 
@@ -112,6 +117,15 @@ struct RunRecord {
   std::uint64_t scenario_digest = 0;  // of the canonical scenario text
   FactorValues factors;               // the cell's, or what the replicate drew within its bounds
   Outcome outcome;
+  // What the agents did, as a CallTape (core/engine) has it; empty: nothing was recorded. Not part of the outcome.
+  std::string recording{};
+};
+
+// A run that was simulated once more, in another process: the checksum that its row would have had.
+struct AuditRecord {
+  std::uint64_t run_index = 0;
+  std::uint64_t checksum = 0;
+  friend bool operator==(const AuditRecord&, const AuditRecord&) = default;
 };
 
 }  // namespace fleetproof

@@ -147,7 +147,15 @@ void bind_campaign(SQLite::Statement& insert, const CampaignRecord& campaign, st
                  << campaign.engine.libraries << in_lines(campaign.required_probes) << campaign.sampling
                  << in_lines(campaign.held_streams) << campaign.held_replicate << campaign.exempt_purposes
                  << campaign.exempt_radius_m << in_lines(campaign.exempt_pairs) << in_lines(campaign.plugin_agents)
-                 << plan_checksum;
+                 << plan_checksum << campaign.chunk_runs;
+}
+
+void bind_recording(SQLite::Statement& insert, std::uint64_t run_index, const std::string& calls,
+                    std::uint64_t checksum) {
+  Binder to(insert);
+  to << run_index;
+  to.bytes(calls);
+  to << checksum;
 }
 
 void bind_cell(SQLite::Statement& insert, const CellRecord& cell) {
@@ -191,6 +199,14 @@ void bind_probe(SQLite::Statement& insert, int first, std::uint64_t run_index, s
   to << probe.count;
 }
 
+void bind_audit(SQLite::Statement& insert, const AuditRecord& audit) {
+  Binder(insert) << audit.run_index << audit.checksum;
+}
+
+void bind_chunk(SQLite::Statement& insert, const ChunkRecord& chunk) {
+  Binder(insert) << chunk.chunk << chunk.run_count << chunk.digest;
+}
+
 CampaignRecord read_campaign(const SQLite::Statement& row) {
   Taker from(row);
   CampaignRecord campaign;
@@ -214,6 +230,8 @@ CampaignRecord read_campaign(const SQLite::Statement& row) {
   campaign.exempt_radius_m = from.real();
   campaign.exempt_pairs = from_lines(from.text());
   campaign.plugin_agents = from_lines(from.text());
+  from.u64();  // the checksum of the plan
+  campaign.chunk_runs = from.u64();
   return campaign;
 }
 
@@ -317,6 +335,23 @@ ProbeCount read_probe(const SQLite::Statement& row) {
   probe.name = from.text();
   probe.count = from.u64();
   return probe;
+}
+
+AuditRecord read_audit(const SQLite::Statement& row) {
+  Taker from(row);
+  AuditRecord audit;
+  audit.run_index = from.u64();
+  audit.checksum = from.u64();
+  return audit;
+}
+
+ChunkRecord read_chunk(const SQLite::Statement& row) {
+  Taker from(row);
+  ChunkRecord chunk;
+  chunk.chunk = from.u64();
+  chunk.run_count = from.u64();
+  chunk.digest = from.u64();
+  return chunk;
 }
 
 }  // namespace fleetproof

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "storage/records.hpp"
+#include "storage/sealed_content.hpp"
 
 namespace SQLite {
 class Statement;
@@ -26,6 +27,11 @@ void bind_probe(SQLite::Statement& insert, int first, std::uint64_t run_index, s
                 const ProbeCount& probe);
 void bind_violation(SQLite::Statement& insert, int first, std::uint64_t run_index, std::size_t ordinal,
                     const Violation& violation);
+void bind_recording(SQLite::Statement& insert, std::uint64_t run_index, const std::string& calls,
+                    std::uint64_t checksum);
+
+void bind_audit(SQLite::Statement& insert, const AuditRecord& audit);
+void bind_chunk(SQLite::Statement& insert, const ChunkRecord& chunk);
 
 CampaignRecord read_campaign(const SQLite::Statement& row);
 std::uint64_t read_plan_checksum(const SQLite::Statement& row);
@@ -44,5 +50,7 @@ StoredRun read_run(const SQLite::Statement& row);
 Violation read_violation(const SQLite::Statement& row);
 Incident read_incident(const SQLite::Statement& row);
 ProbeCount read_probe(const SQLite::Statement& row);
+AuditRecord read_audit(const SQLite::Statement& row);
+ChunkRecord read_chunk(const SQLite::Statement& row);
 
 }  // namespace fleetproof

@@ -8,6 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/outcome/outcome.hpp"
 #include "storage/factors.hpp"
+#include "storage/records.hpp"
 
 namespace fleetproof {
 namespace {
@@ -35,6 +36,7 @@ CREATE TABLE campaign (
   exempt_pairs TEXT NOT NULL,
   plugin_agents TEXT NOT NULL,
   plan_checksum INTEGER NOT NULL,
+  chunk_runs INTEGER NOT NULL,
   run_count INTEGER,
   seal INTEGER
 ) STRICT, WITHOUT ROWID;
@@ -113,6 +115,20 @@ CREATE TABLE probes (
   count INTEGER NOT NULL,
   PRIMARY KEY (run_index, ordinal)
 ) STRICT, WITHOUT ROWID;
+CREATE TABLE audits (
+  run_index INTEGER PRIMARY KEY,
+  checksum INTEGER NOT NULL
+) STRICT, WITHOUT ROWID;
+CREATE TABLE recordings (
+  run_index INTEGER PRIMARY KEY,
+  calls BLOB NOT NULL,
+  checksum INTEGER NOT NULL
+) STRICT;
+CREATE TABLE chunks (
+  chunk INTEGER PRIMARY KEY,
+  run_count INTEGER NOT NULL,
+  digest INTEGER NOT NULL
+) STRICT, WITHOUT ROWID;
 )sql";
 
 // A column of a view keeps its place: factors that are newer than these views stand at the end. The bounds of the
@@ -165,6 +181,9 @@ SELECT p.run_index, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, r.loss
        r.loss <= {loss} AND r.delay_s <= {delay} AS in_contract,
        CASE p.source WHEN 0 THEN '{world}' ELSE '{agent}' END AS source, CAST(p.name AS TEXT) AS name, p.count
 FROM probes p JOIN runs r ON r.run_index = p.run_index JOIN cells c ON c.cell = r.cell;
+CREATE VIEW v1_audits AS
+SELECT a.run_index, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, a.checksum = r.checksum AS same
+FROM audits a JOIN runs r ON r.run_index = a.run_index JOIN cells c ON c.cell = r.cell;
 )sql";
 
 // Factors before this one have their places in the views.
@@ -265,6 +284,13 @@ std::string live_schema_ddl() { return ddl_with(""); }
 std::string run_columns(const std::string& prefix) { return run_list(prefix, factor_names(&FactorInfo::key, prefix)); }
 
 std::string run_values(std::int32_t schema) { return run_list("", factor_values(&FactorInfo::key, schema)); }
+
+std::string campaign_values(std::int32_t schema) {
+  std::string columns = kCampaignColumns;
+  if (schema >= kFirstChunked) return columns;
+  const std::string_view newer = "chunk_runs";
+  return columns.replace(columns.find(newer), newer.size(), fmt::format("{} AS chunk_runs", kChunkRuns));
+}
 
 std::string cell_columns() { return cell_list(factor_names(&FactorInfo::key) + factor_names(&FactorInfo::key_to)); }
 

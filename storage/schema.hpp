@@ -8,10 +8,11 @@ namespace fleetproof {
 inline constexpr std::int32_t kApplicationId = 0x464C5046;  // "FLPF": marks an SQLite file as a campaign file
 
 // What each version added: 2 incidents and probes, 3 bounds of factors, 4 exempt pairs and external sources, 5 the call
-// cost as a factor, 6 the seal.
-inline constexpr std::int32_t kSchemaVersion = 6;
+// cost as a factor, 6 the seal, 7 audits, recordings and chunks.
+inline constexpr std::int32_t kSchemaVersion = 7;
 inline constexpr std::int32_t kOldestReadable = 4;
 inline constexpr std::int32_t kFirstSealed = 6;  // a published file of an earlier schema has the digest of its rows
+inline constexpr std::int32_t kFirstChunked = 7;
 inline constexpr std::int32_t kPageSize = 4096;
 
 // The tables and the public views of the canonical file, as one script. Each counter of an outcome
@@ -37,7 +38,11 @@ inline constexpr const char* kCampaignColumns =
     "id, name, kind, seed, replicates, plan_json, plan_hash, engine_version, program_sha256, compiler, flags, "
     "libraries, required_probes, "
     "sampling, held_streams, held_replicate, exempt_purposes, exempt_radius_m, exempt_pairs, plugin_agents, "
-    "plan_checksum";
+    "plan_checksum, chunk_runs";
+std::string campaign_values(std::int32_t schema);
+inline constexpr const char* kAuditColumns = "run_index, checksum";
+inline constexpr const char* kRecordingColumns = "run_index, calls, checksum";
+inline constexpr const char* kChunkColumns = "chunk, run_count, digest";
 
 // "?, ?, ?": one for each name in a comma-separated list.
 std::string placeholders(const std::string& columns);

@@ -30,6 +30,7 @@ const std::map<std::string, std::string> kLargeClasses = {
     {"core/scenario/vehicle_type.hpp VehicleType", "plain data: everything that a kind of AGV can do"},
     {"core/outcome/counters.hpp Counters", "plain data: one number for each counter"},
     {"core/outcome/outcome.hpp Outcome", "plain data: everything that a run leaves"},
+    {"storage/records.hpp CampaignRecord", "plain data: everything that a file says of its campaign"},
     {"campaign/plan/plan.hpp CampaignPlan", "plain data: everything that a campaign file says"},
     {"campaign/batch/task_pool.cpp TaskPool::Impl", "two threads' sides of one pool, under one mutex"},
     {"generators/worlds/drawn_faults.hpp FaultRates", "plain data: one number for each kind of fault"},

@@ -1,4 +1,4 @@
-// Campaign files of earlier versions of this program: archives/schema4.fp and archives/schema5.fp. The programs of
+// Campaign files of earlier versions of this program: archives/schema4.fp to schema6.fp. The programs of
 // their time wrote them, from one campaign file with a call cost of 10 ms.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -78,7 +78,7 @@ TEST_P(OlderSchemas, AreCheckedByTheRulesOfTheirTime) {
   const std::string whole = samples::bytes_of(path_);
   for (const char* change :
        {"UPDATE runs SET transports_done = transports_done + 1 WHERE run_index = 3", "UPDATE cells SET loss = 0.1",
-        "UPDATE campaign SET run_count = 11", "UPDATE campaign SET run_count = NULL", "PRAGMA user_version = 6",
+        "UPDATE campaign SET run_count = 11", "UPDATE campaign SET run_count = NULL", "PRAGMA user_version = 7",
         "DELETE FROM runs WHERE run_index = 11; DELETE FROM violations WHERE run_index = 11; DELETE FROM incidents "
         "WHERE "
         "run_index = 11; DELETE FROM probes WHERE run_index = 11"}) {
@@ -120,8 +120,10 @@ TEST_P(OlderSchemas, GoOnFromALiveFileWithALog) {
   sqlite3* db = nullptr;
   ASSERT_EQ(sqlite3_open(old.c_str(), &db), SQLITE_OK);
   EXPECT_EQ(sqlite3_exec(db,
-                         "PRAGMA journal_mode = WAL; UPDATE campaign SET run_count = NULL, rows_digest = NULL; "
-                         "UPDATE runs SET checksum = checksum",
+                         ("PRAGMA journal_mode = WAL; UPDATE campaign SET run_count = NULL, " +
+                          std::string(GetParam() < kFirstSealed ? "rows_digest" : "seal") +
+                          " = NULL; UPDATE runs SET checksum = checksum")
+                             .c_str(),
                          nullptr, nullptr, nullptr),
             SQLITE_OK);
   for (const auto* suffix : {"", "-wal"})
@@ -135,7 +137,7 @@ TEST_P(OlderSchemas, GoOnFromALiveFileWithALog) {
   EXPECT_FALSE(std::filesystem::exists(other + ".partial-wal"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, OlderSchemas, testing::Values(4, 5));
+INSTANTIATE_TEST_SUITE_P(Each, OlderSchemas, testing::Values(4, 5, 6));
 
 }  // namespace
 }  // namespace fleetproof

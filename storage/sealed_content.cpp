@@ -1,0 +1,55 @@
+#include "storage/sealed_content.hpp"
+
+#include <SQLiteCpp/Database.h>
+#include <SQLiteCpp/Statement.h>
+#include <fmt/format.h>
+
+#include <bit>
+
+#include "core/base/error.hpp"
+
+namespace fleetproof {
+namespace {
+
+std::uint64_t number(const SQLite::Statement& row, int column) {
+  return std::bit_cast<std::uint64_t>(row.getColumn(column).getInt64());
+}
+
+}  // namespace
+
+SealedContent::SealedContent(std::uint64_t chunk_runs) : chunk_runs_(chunk_runs) {
+  ensure(chunk_runs >= 1, "a chunk has at least one run");
+}
+
+void SealedContent::add_run(std::uint64_t run_index, std::uint64_t checksum) {
+  if (in_chunk_ > 0 && run_index % chunk_runs_ == 0) end_chunk();
+  chunk_.add(checksum);
+  ++in_chunk_;
+}
+
+void SealedContent::end_chunk() {
+  chunks_.push_back({chunks_.size(), in_chunk_, chunk_.value()});
+  all_.add(in_chunk_);
+  all_.add(chunks_.back().digest);
+  chunk_.reset();
+  in_chunk_ = 0;
+}
+
+void SealedContent::add_rest(SQLite::Database& db) {
+  if (in_chunk_ > 0) end_chunk();
+  SQLite::Statement audits(db, "SELECT run_index, checksum FROM main.audits ORDER BY run_index");
+  while (audits.executeStep()) {
+    all_.add(number(audits, 0));
+    all_.add(number(audits, 1));
+  }
+  all_.add(0);  // between the two lists
+  SQLite::Statement recordings(db, "SELECT run_index, checksum, calls FROM main.recordings ORDER BY run_index");
+  while (recordings.executeStep()) {
+    all_.add(number(recordings, 0));
+    all_.add(number(recordings, 1));
+    if (recording_checksum(recordings.getColumn(2).getString()) != number(recordings, 1))
+      throw EngineError(fmt::format("the recording of run {} does not match its checksum", number(recordings, 0)));
+  }
+}
+
+}  // namespace fleetproof
