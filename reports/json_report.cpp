@@ -223,6 +223,16 @@ Json exemptions_json(const CampaignRecord& campaign) {
   return list;
 }
 
+Json audit_json(const AgentAudit& audit) {
+  return {{"agent", audit.agent},
+          {"plugin", audit.is_plugin},
+          {"audited", audit.audited},
+          {"differing", audit.differing},
+          {"first_differing", audit.first_differing ? Json(*audit.first_differing) : Json(nullptr)},
+          {"failed_runs", audit.failed_runs},
+          {"recordings", audit.recordings}};
+}
+
 // Every key is present; a list without content is empty. A program that reads the report need not test for keys.
 Json list_of(std::size_t count, const std::function<Json(std::size_t)>& item) {
   auto list = Json::array();
@@ -251,6 +261,8 @@ std::string render_json(const ReportInput& input) {
       list_of(evidence.cells().size(), [&](std::size_t i) { return one_cell_json(input, evidence.cells()[i]); });
   json["coverage"] = coverage_json(input);
   json["incidents"] = incidents_json(input);
+  const auto& audits = input.audits.agents();
+  json["audits"] = list_of(audits.size(), [&](std::size_t i) { return audit_json(audits[i]); });
   json["weak_points"] = weak_points(input);
   for (const bool in_contract : {true, false}) {
     const auto& worst = evidence.worst_runs(in_contract);

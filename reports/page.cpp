@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/contract.hpp"
+#include "reports/audit_section.hpp"
 #include "reports/condition_table.hpp"
 #include "reports/coverage_section.hpp"
 #include "reports/sample_sentence.hpp"
@@ -107,6 +108,7 @@ Page build_page(const ReportInput& input, std::size_t most_rows) {
                   count_text(evidence.complete_replicates() * evidence.cells().size(), "run"));
   page.headlines = reservations(input);
   for (auto& warning : warnings(input)) page.headlines.push_back(std::move(warning));
+  for (auto& audit : audit_headlines(input)) page.headlines.push_back(std::move(audit));
   for (auto& weak : weak_headlines(input)) page.headlines.push_back(std::move(weak));
   for (auto& verdict : verdicts(input)) page.headlines.push_back(std::move(verdict));
   const std::string loss = percent(kContractLoss), delay = fmt::format("{:g} s", kContractDelay_s);
@@ -121,6 +123,7 @@ Page build_page(const ReportInput& input, std::size_t most_rows) {
   page.sections.push_back(table_legend(input));
   page.sections.push_back(coverage_section(input, most_rows));
   page.sections.push_back(incident_section(input, most_rows));
+  page.sections.push_back(audit_section(input));
   page.sections.push_back(weak_point_section(input));
   page.sections.push_back(worst_run_section(input));
   page.sections.push_back(provenance_section(input));

@@ -31,15 +31,22 @@ ReportInput read_report_input(const ArchiveReader& archive, std::string archive_
   ReportInput input{std::move(archive_path),
                     archive.campaign(),
                     Evidence(archive.campaign(), archive.cells(), archive.gates()),
+                    AuditTally(archive.campaign(), archive.cells()),
                     {},
                     0,
                     4};
   archive.for_each_run([&](const RunRecord& run) {
     ++input.stored_runs;
+    input.audits.add_run(run);
     if (run.run_index == input.evidence.runs()) input.evidence.add(run);
   });
+  archive.for_each_audit([&](const AuditRecord& audit, bool same) {
+    if (audit.run_index < input.evidence.runs()) input.audits.add_audit(audit.run_index, same);
+  });
+  for (const std::string& agent : archive.campaign().plugin_agents)
+    input.audits.add_recordings(agent, archive.recording_count(agent));
   input.gates = input.evidence.judge_all();
-  input.exit_code = exit_code(input.evidence, input.gates);
+  input.exit_code = input.audits.engine_at_fault() ? 3 : exit_code(input.evidence, input.gates);
   return input;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/catalogue.hpp"
+#include "reports/evidence/audit_tally.hpp"
 #include "reports/evidence/evidence.hpp"
 #include "storage/archive_reader.hpp"
 
@@ -16,6 +17,7 @@ struct ReportInput {
   std::string archive_path;  // as the user typed it; the replay lines contain it
   CampaignRecord campaign;
   Evidence evidence;
+  AuditTally audits;
   std::vector<GateResult> gates;  // in the order of evidence.gates()
   std::uint64_t stored_runs = 0;  // in the file; evidence.runs() of them are before the first gap
   int exit_code = 4;

@@ -1,5 +1,9 @@
 #include "campaign/batch/campaign.hpp"
 
+#include <thread>
+
+#include "campaign/batch/audit_book.hpp"
+#include "campaign/batch/audit_desk.hpp"
 #include "campaign/batch/run_ledger.hpp"
 #include "campaign/batch/same_campaign.hpp"
 #include "campaign/batch/task_pool.hpp"
@@ -64,35 +68,29 @@ CampaignRecord campaign_record(const CampaignPlan& plan, const AgentPrograms& pr
 
 namespace {
 
-bool failed(const Outcome& outcome) { return outcome.outcome_class() <= OutcomeClass::Hang; }
-
-// One session of a campaign: takes over what the file holds, hands out the other runs, stores those that finish, and
-// publishes the gap-free prefix. It counts, stops and reports on the caller's thread.
+// One session of a campaign: takes over what the file holds, hands out the other runs, stores those that finish, has a
+// share of them audited, and publishes the gap-free prefix. It counts, stops and reports on the caller's thread.
 class Session {
  public:
   Session(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& path, const RunOptions& options,
           const CampaignListener& listener)
       : options_(options),
         listener_(listener),
-        runs_(plan, programs, options.workers, options.worker_logs),
+        audit_book_(plan, programs),
+        runs_(plan, programs, {.workers = options.workers, .log_prefix = options.worker_logs}),
+        audits_(plan, programs, options.audit_program, options.workers),
         archive_(path, campaign_record(plan, programs), plan.cells(), plan.gates,
                  options.overwrite ? Existing::Replace : Existing::Resume, resumption(path)) {
     result_.progress.planned = plan.run_count();
+    for (std::size_t agent = 0; agent < audit_book_.agent_count(); ++agent)
+      runs_.record(agent, audit_book_.needs_recordings(agent));
   }
 
   CampaignResult run() {
     listener_.started();
-    TaskPool pool(
-        options_.workers, ledger_.prefix_length(), result_.progress.planned, kLiveWindow,
-        [this](std::uint64_t index) { return runs_(index); }, ledger_.ahead());
-    while (!pool.finished()) {
-      const auto record = pool.next(std::chrono::milliseconds(100));
-      if (record) take(*record);
-      result_.progress.elapsed_s = std::chrono::duration<double>(Clock::now() - started_).count();
-      stop_if_due(pool);
-      tick_if_due(pool);
-    }
-    result_.threads = pool.threads_seen();
+    audits_.start();
+    simulate();
+    finish_audits();
     keep_losses();
     result_.stored = stop_length().value_or(ledger_.prefix_length());
     archive_.publish(result_.stored);
@@ -102,11 +100,47 @@ class Session {
  private:
   using Clock = std::chrono::steady_clock;
 
+  void simulate() {
+    TaskPool pool(
+        options_.workers, ledger_.prefix_length(), result_.progress.planned, kLiveWindow,
+        [this](std::uint64_t index) { return runs_(index); }, ledger_.ahead());
+    while (!pool.finished()) {
+      const auto record = pool.next(std::chrono::milliseconds(100));
+      if (record) take(*record);
+      stop_if_due(pool);
+      tick_if_due([&] { return pool.under_way(); });
+    }
+    result_.threads = pool.threads_seen();
+  }
+
+  // A stopped campaign leaves audits open; the session that goes on does them.
+  void finish_audits() {
+    audits_.no_more_runs();
+    while (!audits_.idle()) {
+      if (must_stop(options_, elapsed_s())) {
+        if (!stopped_) stopped_ = Clock::now();
+        if (Clock::now() - *stopped_ >= kDrain) audits_.abandon();
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      tick_if_due([] { return std::vector<RunUnderWay>(); });
+    }
+    keep_findings();
+  }
+
+  double elapsed_s() const { return std::chrono::duration<double>(Clock::now() - started_).count(); }
+
   Resumption resumption(const std::string& path) {
     return {[this, path](const CampaignRecord& stored, CampaignRecord& continued) {
               require_same_campaign(path, stored, continued, options_.allow_drift);
             },
-            [this](const RunRecord& record) { count(record); }};
+            [this](const RunRecord& record) {
+              count(record);
+              audits_.offer(record);
+            },
+            [this](const AuditRecord& audit, bool same) {
+              count({audit, same});
+              audits_.forget(audit.run_index);
+            }};
   }
 
   void count(const RunRecord& record) {
@@ -114,13 +148,21 @@ class Session {
     ++progress.done;
     progress.violating += record.outcome.violation ? 1 : 0;
     progress.engine_errors += record.outcome.engine_error ? 1 : 0;
-    ledger_.add(record.run_index, failed(record.outcome));
+    ledger_.add(record.run_index, record.outcome.is_failure());
+  }
+
+  void count(const AuditFinding& finding) {
+    ++result_.progress.audited;
+    audit_book_.add(finding);
+    const std::size_t agent = audit_book_.agent_of(finding.audit.run_index);
+    runs_.record(agent, audit_book_.needs_recordings(agent));
   }
 
   void take(const RunRecord& record) {
     ++result_.progress.simulated;
     count(record);
     archive_.add(record);
+    audits_.offer(record);
     listener_.run_finished(record);
   }
 
@@ -130,24 +172,35 @@ class Session {
 
   void stop_if_due(TaskPool& pool) {
     const auto now = Clock::now();
-    if (!stopped_ && (must_stop(options_, result_.progress.elapsed_s) || stop_length())) {
+    if (!stopped_ && (must_stop(options_, elapsed_s()) || stop_length())) {
       stopped_ = now;
       pool.stop();
     }
     if (stopped_ && now - *stopped_ >= kDrain) runs_.abandon();
   }
 
-  void tick_if_due(const TaskPool& pool) {
+  void tick_if_due(const std::function<std::vector<RunUnderWay>()>& under_way) {
     const auto now = Clock::now();
     if (now - last_tick_ >= std::chrono::milliseconds(100)) {
       last_tick_ = now;
+      result_.progress.elapsed_s = elapsed_s();
+      result_.progress.audits_open = audits_.open_count();
       listener_.tick(result_.progress);
-      if (listener_.wants_status()) listener_.status(result_.progress, pool.under_way());
+      if (listener_.wants_status()) listener_.status(result_.progress, under_way());
       keep_losses();
+      keep_findings();
     }
     if (now - last_commit_ >= std::chrono::seconds(1)) {  // even while one slow run lets no other finish
       last_commit_ = now;
       archive_.commit();
+    }
+  }
+
+  void keep_findings() {
+    for (const AuditFinding& finding : audits_.take_findings()) {
+      archive_.add(finding.audit);
+      count(finding);
+      if (!finding.same) result_.differing.push_back(finding.audit.run_index);
     }
   }
 
@@ -162,7 +215,9 @@ class Session {
   const CampaignListener& listener_;
   CampaignResult result_;
   RunLedger ledger_;
+  AuditBook audit_book_;
   RunHost runs_;  // before the archive: worker processes must not hold its files
+  AuditDesk audits_;
   ArchiveWriter archive_;
   const Clock::time_point started_ = Clock::now();
   Clock::time_point last_tick_ = started_, last_commit_ = started_;

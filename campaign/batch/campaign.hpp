@@ -18,9 +18,10 @@ namespace fleetproof {
 
 struct RunOptions {
   int workers = 1;
-  std::string worker_logs;   // prefix of the files that take what plug-ins print; empty: it is dropped
-  bool overwrite = false;    // replace an existing campaign file, once the new one is complete; else it goes on
-  bool allow_drift = false;  // go on in a file that another engine wrote, and record it
+  std::string worker_logs;    // prefix of the files that take what plug-ins print; empty: it is dropped
+  std::string audit_program;  // is started for audits (campaign/workers/fresh_program.hpp); empty: no audits
+  bool overwrite = false;     // replace an existing campaign file, once the new one is complete; else it goes on
+  bool allow_drift = false;   // go on in a file that another engine wrote, and record it
   std::optional<std::chrono::seconds> max_time;   // stop cleanly after this time
   std::uint64_t fail_fast = 0;                    // stop after so many failed runs, in order of run index; 0: never
   const std::atomic<int>* interrupted = nullptr;  // non-zero: a signal number; stop handing out runs
@@ -29,6 +30,7 @@ struct RunOptions {
 // Runs are counted with those that an earlier session stored, but for `simulated`.
 struct Progress {
   std::uint64_t simulated = 0, done = 0, planned = 0, violating = 0, engine_errors = 0;
+  std::uint64_t audited = 0, audits_open = 0;  // open: still to do
   double elapsed_s = 0.0;
 };
 
@@ -36,7 +38,8 @@ struct CampaignResult {
   Progress progress;
   std::vector<WorkerLoss> losses;  // the first of them
   std::uint64_t loss_count = 0;
-  std::uint64_t stored = 0;  // the number of runs in the gap-free prefix that the campaign file contains
+  std::vector<std::uint64_t> differing;  // runs that came out differently in an audit of this session
+  std::uint64_t stored = 0;              // the number of runs in the gap-free prefix that the campaign file contains
   int threads = 0;
   bool complete() const { return stored == progress.planned; }
 };
@@ -52,11 +55,11 @@ struct CampaignListener {
 };
 
 // Runs the plan and leaves its campaign file at `path`. Agents of plug-ins run in worker processes
-// (campaign/workers); reference agents run on the threads of the pool. Rows are stored when their runs finish. The
-// published file contains the gap-free prefix of run indices. The same runs therefore give the same bytes with any
-// number of workers, in any order of finishing, in one session or several. A file that exists already goes on: its runs
-// are not simulated again. Throws InputError and writes nothing if an agent is not known, if a layout has no room for
-// its fleet, or if the file holds another campaign.
+// (campaign/workers); reference agents run on the threads of the pool. A share of the runs is audited beside them. Rows
+// are stored when their runs finish. The published file contains the gap-free prefix of run indices. The same runs
+// therefore give the same bytes with any number of workers, in any order of finishing, in one session or several. A
+// file that exists already goes on: its runs are not simulated again. Throws InputError and writes nothing if an agent
+// is not known, if a layout has no room for its fleet, or if the file holds another campaign.
 CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& path,
                             const RunOptions& options, const CampaignListener& listener);
 

@@ -72,7 +72,7 @@ Pilot run_pilot(const CampaignPlan& plan, const AgentPrograms& programs, int wor
                 std::chrono::milliseconds length) {
   const std::uint64_t cells = plan.cell_count(), step = spread_step(cells);
   Costs costs(cells);
-  RunHost runs(plan, programs, workers);
+  RunHost runs(plan, programs, {.workers = workers});
   const auto timed_run = [&](std::uint64_t place) {
     const std::uint64_t cell = place % cells * step % cells;
     const auto begin = Clock::now();

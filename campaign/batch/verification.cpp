@@ -18,8 +18,8 @@ namespace {
 
 constexpr std::uint64_t kRecordsAhead = 1024;  // finished, but not yet compared: memory stays bounded
 
-bool is_engine_at_fault(ReplayVerdict verdict, const AgentProgram& agent) {
-  return verdict == ReplayVerdict::ScenarioDiffers || (verdict == ReplayVerdict::Diverged && !agent.is_plugin());
+bool is_engine_at_fault(ReplayVerdict verdict) {
+  return verdict == ReplayVerdict::ScenarioDiffers || verdict == ReplayVerdict::Diverged;
 }
 
 }  // namespace
@@ -55,7 +55,7 @@ std::vector<std::uint64_t> sample_of_runs(std::uint64_t key, std::uint64_t runs,
 
 Verification verify_runs(const std::string& path, const CampaignPlan& plan, const AgentPrograms& programs,
                          const std::vector<std::uint64_t>& sample, int workers) {
-  RunHost runs(plan, programs, workers);  // before the file is opened: worker processes must not hold it
+  RunHost runs(plan, programs, {.workers = workers});  // before the file is opened: worker processes must not hold it
   const ArchiveReader archive(path);
   Verification verification;
   TaskPool pool(workers, 0, sample.size(), kRecordsAhead, [&](std::uint64_t place) { return runs(sample[place]); });
@@ -63,16 +63,16 @@ Verification verify_runs(const std::string& path, const CampaignPlan& plan, cons
     auto record = pool.next(std::chrono::milliseconds(100));
     if (!record) continue;
     const std::uint64_t index = record->run_index;
-    const ReplayResult result =
-        replay(archive, plan, index, programs, [&](std::uint64_t) { return *std::move(record); });
+    ReplayResult result = replay(archive, plan, index, programs, [&](std::uint64_t) { return *std::move(record); });
+    if (result.verdict == ReplayVerdict::NotDeterministic) {
+      if (auto recorded = replay_recording(archive, plan, index)) result = *std::move(recorded);
+    }
     if (result.verdict == ReplayVerdict::Reproduced) {
       ++verification.agreeing;
       continue;
     }
-    const AgentFactor& agent = plan.agent_of_cell(index % plan.cell_count());
-    const AgentProgram& program = programs.program(agent.program, "verify");
-    verification.differing.push_back(
-        {index, agent.name, result.verdict, result.explanation, is_engine_at_fault(result.verdict, program)});
+    verification.differing.push_back({index, plan.agent_of_cell(index).name, result.verdict, result.explanation,
+                                      is_engine_at_fault(result.verdict)});
   }
   std::ranges::sort(verification.differing, {}, &Disagreement::run_index);
   return verification;

@@ -21,7 +21,7 @@ constexpr std::uint64_t kReplicatesDrawn = 20;
 // cells.
 double mean_run_s(const CampaignPlan& plan, const AgentPrograms& programs) {
   using Clock = std::chrono::steady_clock;
-  RunHost runs(plan, programs, 1);
+  RunHost runs(plan, programs, {});
   const auto begin = Clock::now();
   std::uint64_t count = 0;
   double elapsed_s = 0.0;

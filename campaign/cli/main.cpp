@@ -2,9 +2,11 @@
 
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
+#include "campaign/workers/fresh_program.hpp"
 
 int main(int argc, char** argv) {
   using namespace fleetproof::cli;
+  fleetproof::serve_if_called(argc, argv);
   open_standard_streams();
   constexpr std::array verbs = {
       Verb{"run", "run a campaign and leave its results in a file",

@@ -63,7 +63,10 @@ std::string ProgressTalk::counter_line(const Progress& progress) const {
   return fmt::format("{}/{} runs  {:.0f} %  {:.0f} runs/s  ETA {} | violating {}{}", progress.done, progress.planned,
                      100.0 * static_cast<double>(progress.done) / static_cast<double>(progress.planned), rate,
                      duration_text(left_s), progress.violating,
-                     progress.engine_errors == 0 ? "" : fmt::format("  engine errors {}", progress.engine_errors));
+                     progress.engine_errors == 0 ? "" : fmt::format("  engine errors {}", progress.engine_errors)) +
+         (progress.done == progress.planned && progress.audits_open > 0
+              ? fmt::format("  {} audits to do", progress.audits_open)
+              : "");
 }
 
 void ProgressTalk::tick(const Progress& progress) {

@@ -31,6 +31,7 @@ void print_json(const ReplayResult& result, const CellRecord& cell) {
   nlohmann::ordered_json json = {{"schema_version", 1},
                                  {"verdict", name_of(result.verdict)},
                                  {"explanation", result.explanation},
+                                 {"from_recording", result.from_recording},
                                  {"run", result.recomputed.run_index},
                                  {"agent", cell.agent},
                                  {"layout", cell.layout},
@@ -45,7 +46,7 @@ void print_json(const ReplayResult& result, const CellRecord& cell) {
 
 // A plug-in that crashes does so in a worker process, as it did in the campaign.
 Resimulate isolated_simulation(const CampaignPlan& plan, const AgentPrograms& programs) {
-  return [host = std::make_shared<RunHost>(plan, programs, 1)](std::uint64_t run_index) {
+  return [host = std::make_shared<RunHost>(plan, programs, Hosting{})](std::uint64_t run_index) {
     auto record = (*host)(run_index);
     ensure(record.has_value(), "a replay is not abandoned");
     return *std::move(record);
@@ -57,11 +58,31 @@ void tell_other_software(const ArchiveReader& archive, const AgentProgram& agent
   if (!difference.empty()) put("  note: {}\n", difference);
 }
 
+// By the software itself.
+ReplayResult replay_software(const ReplayWords& words, const ArchiveReader& archive, const CampaignPlan& plan,
+                             AgentPrograms& programs, TraceSink* sink) {
+  // A trace is printed while the run goes on, so it needs the agent in this process.
+  const bool in_process = words.in_process || sink != nullptr;
+  meet_plugins(words.archive, archive.campaign(), {&plan.agent_of_cell(words.run), 1}, words.plugins, programs,
+               in_process ? &AgentPrograms::load : &AgentPrograms::know);
+  return in_process ? replay(archive, words.run, programs, sink)
+                    : replay(archive, plan, words.run, programs, isolated_simulation(plan, programs));
+}
+
+void print_text(const ReplayResult& result, const CellRecord& cell, const Scenario& scenario) {
+  put("{}  run {}: {}, {}, {} AGVs, {}, replicate {}\n", name_of(result.verdict), result.recomputed.run_index,
+      cell.agent, cell.layout, cell.fleet_size, factors_text(result.recomputed.factors), result.recomputed.replicate);
+  if (!result.explanation.empty()) put("  {}\n", result.explanation);
+  if (result.from_recording)
+    put("  from the recording of what its agents did; --in-process or --plugin runs the software itself\n");
+  put_text(outcome_text(scenario, result.recomputed.outcome));
+  const bool other_outcome =
+      result.verdict == ReplayVerdict::SoftwareDiffers || result.verdict == ReplayVerdict::NotDeterministic;
+  if (other_outcome) put("  stored outcome: {}\n", name_of(result.stored.outcome.outcome_class()));
+}
+
 int replay_run(const ReplayWords& words) {
   const ArchiveReader archive(words.archive, Checksums::Ignore);
-  AgentPrograms programs;
-  // A trace is printed while the run goes on, so it needs the agent in this process.
-  const bool in_process = words.in_process || words.trace;
   const CampaignPlan plan = parse_plan(archive.campaign().plan_json);
   const ScenarioSource source(plan);
   if (words.run >= plan.run_count()) {
@@ -70,31 +91,35 @@ int replay_run(const ReplayWords& words) {
   }
   const CellRecord cell = source.place(words.run).cell;
   const AgentFactor& agent = plan.agent_of_cell(cell.index);
-  meet_plugins(words.archive, archive.campaign(), {&agent, 1}, words.plugins, programs,
-               in_process ? &AgentPrograms::load : &AgentPrograms::know);
   Scenario scenario = source.scenario(words.run);
   scenario.agent = agent.program;
   scenario.agent_config = plan.config_of(agent);
   TracePrinter printer(scenario);
-  const ReplayResult result = in_process
-                                  ? replay(archive, words.run, programs, words.trace ? &printer : nullptr)
-                                  : replay(archive, plan, words.run, programs, isolated_simulation(plan, programs));
+  TraceSink* const sink = words.trace ? &printer : nullptr;
+  std::optional<ReplayResult> recorded;
+  if (!words.in_process && words.plugins.empty()) recorded = replay_recording(archive, plan, words.run, sink);
+  AgentPrograms programs;
+  const ReplayResult result = recorded ? *std::move(recorded) : replay_software(words, archive, plan, programs, sink);
   if (!words.scenario_out.empty())
     write_whole({words.scenario_out, "--scenario", OutputKind::Scenario}, printable_json(to_text(scenario)));
   if (words.json) {
     print_json(result, cell);
   } else {
-    put("{}  run {}: {}, {}, {} AGVs, {}, replicate {}\n", name_of(result.verdict), words.run, cell.agent, cell.layout,
-        cell.fleet_size, factors_text(result.recomputed.factors), result.recomputed.replicate);
-    if (!result.explanation.empty()) put("  {}\n", result.explanation);
-    put_text(outcome_text(scenario, result.recomputed.outcome));
-    if (result.verdict == ReplayVerdict::SoftwareDiffers)
-      put("  stored outcome: {}\n", name_of(result.stored.outcome.outcome_class()));
-    if (result.verdict == ReplayVerdict::Reproduced)
+    print_text(result, cell, scenario);
+    if (result.verdict == ReplayVerdict::Reproduced && !result.from_recording)
       tell_other_software(archive, programs.program(agent.program, "replay"));
   }
-  if (result.verdict == ReplayVerdict::Reproduced) return kDemonstrated;
-  return result.verdict == ReplayVerdict::SoftwareDiffers ? kNotDemonstrated : kEngineFault;
+  switch (result.verdict) {
+    case ReplayVerdict::Reproduced:
+      return kDemonstrated;
+    case ReplayVerdict::SoftwareDiffers:
+    case ReplayVerdict::NotDeterministic:
+      return kNotDemonstrated;
+    case ReplayVerdict::Diverged:
+    case ReplayVerdict::ScenarioDiffers:
+      return kEngineFault;
+  }
+  invariant_violated("a verdict of a replay has an exit code");
 }
 
 }  // namespace

@@ -31,6 +31,8 @@ struct RunWords {
   bool overwrite = false, allow_drift = false, json = false;
 };
 
+constexpr const char* kOwnProgram = "/proc/self/exe";
+
 std::atomic<int> interrupted{0};
 std::atomic<bool> status_wanted{false};
 
@@ -62,6 +64,7 @@ RunOptions run_options(const RunWords& words) {
   options.allow_drift = words.allow_drift;
   options.overwrite = words.overwrite;
   options.interrupted = &interrupted;
+  options.audit_program = kOwnProgram;
   options.worker_logs = std::filesystem::path(words.archive).replace_extension().string();
   return options;
 }

@@ -70,6 +70,12 @@ struct LimitSetup {
   friend bool operator==(const LimitSetup&, const LimitSetup&) = default;
 };
 
+// How many runs are simulated once more, in another process (campaign/batch/audit_desk.hpp).
+struct AuditSetup {
+  double share = 0.01;
+  friend bool operator==(const AuditSetup&, const AuditSetup&) = default;
+};
+
 // Everything that decides the outcomes of a campaign, and nothing else: no path, no number of jobs.
 struct CampaignPlan {
   std::string name = "campaign";
@@ -104,6 +110,7 @@ struct CampaignPlan {
   std::optional<std::vector<std::string>> required_probes;
   bool contact_stops = true;
   LimitSetup limits;
+  AuditSetup audit;
   std::vector<GateRecord> gates;
 
   const std::string& config_of(const AgentFactor& agent) const { return agent.config ? *agent.config : agent_config; }

@@ -66,12 +66,21 @@ void visit_fields(Limits& limits, Visit&& visit) {
         cpu_s);
 }
 
+template <FieldsOf<AuditSetup> Audit, class Visit>
+void visit_fields(Audit& audit, Visit&& visit) {
+  auto& [share] = audit;
+  visit(Field{.key = "share",
+              .text = "of the runs is simulated once more in another process and compared; 0: none",
+              .high = 1.0},
+        share);
+}
+
 template <FieldsOf<CampaignPlan> Plan, class Visit>
 void visit_fields(Plan& plan, Visit&& visit) {
   [[maybe_unused]] auto& [name, kind, seed, replicates, horizon_s, stuck_after_s, agents, agent_config, factors,
                           sampling, layouts, fleet_sizes, held_streams, held_replicate, demand, placement, orders,
                           vehicles, faults, scanner, operator_help, radio, sources, agent_clock, law, laws_left_out,
-                          required_probes, contact_stops, limits, gates] = plan;
+                          required_probes, contact_stops, limits, audit, gates] = plan;
   visit(Field{.key = "name", .text = "name of the campaign; left out: that of the file"}, name);
   visit(Field{.key = "kind", .text = "claim: rates and bounds; search: counts only"}, kind);
   visit(kSeed, seed);
@@ -126,6 +135,7 @@ void visit_fields(Plan& plan, Visit&& visit) {
                 plan.required_probes);
         }});
   visit(Field{.key = "limits", .text = "what one run of a plug-in may use"}, limits);
+  visit(Field{.key = "audit", .text = "how the campaign checks that its runs can be repeated"}, audit);
   visit(Field{.key = "gate", .text = "a requirement on the campaign"}, gates);
 }
 

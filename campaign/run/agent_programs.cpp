@@ -82,13 +82,10 @@ std::string AgentPrograms::know(const std::string& path, bool global_symbols) {
   return add(inspect_agent(path, global_symbols), path).name;
 }
 
-void AgentPrograms::load_all_of(const AgentPrograms& others) {
-  for (const AgentProgram& known : others.programs_) {
-    if (!known.is_plugin()) continue;
-    if (sha256_of_file(known.file) != known.sha256)
-      throw EngineError(fmt::format("{}: this file was changed while the campaign ran", known.file));
-    load(known.file, known.global_symbols);
-  }
+void AgentPrograms::load_unchanged(const AgentProgram& known) {
+  if (sha256_of_file(known.file) != known.sha256)
+    throw EngineError(fmt::format("{}: this file was changed while the campaign ran", known.file));
+  load(known.file, known.global_symbols);
 }
 
 const AgentProgram& AgentPrograms::add(AgentProgram program, const std::string& path) {

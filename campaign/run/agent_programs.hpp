@@ -36,8 +36,8 @@ class AgentPrograms {
   // The same, but a process of its own loads the object and tells what it is (agent_inspection.hpp). No code of the
   // object runs in this process.
   std::string know(const std::string& path, bool global_symbols = false);
-  // Loads the plug-ins that `others` knows. Throws EngineError if the file of one has changed since.
-  void load_all_of(const AgentPrograms& others);
+  // Loads a plug-in that another AgentPrograms knows. Throws EngineError if its file has changed since.
+  void load_unchanged(const AgentProgram& known);
 
   // Throws InputError with the nearest known name if there is no such agent.
   const AgentProgram& program(std::string_view name, std::string_view where) const;

@@ -76,6 +76,8 @@ const char* name_of(ReplayVerdict verdict) {
       return "REPRODUCED";
     case ReplayVerdict::SoftwareDiffers:
       return "SOFTWARE DIFFERS";
+    case ReplayVerdict::NotDeterministic:
+      return "NOT DETERMINISTIC";
     case ReplayVerdict::Diverged:
     case ReplayVerdict::ScenarioDiffers:
       return "DIVERGED";
@@ -120,11 +122,49 @@ ReplayResult compare_runs(RunRecord stored, RunRecord recomputed) {
   return result;
 }
 
-std::string_view suspects_of(const AgentProgram& agent) {
-  return (agent.flags & FP_DETERMINISTIC) != 0
-             ? "the agent declares that it is deterministic: if the file is intact, the engine or the agent is at fault"
-             : "the agent does not declare that it is deterministic (FP_DETERMINISTIC), so that it may be the cause";
+AuditCount audits_of(const ArchiveReader& archive, const CampaignPlan& plan, const AgentFactor& agent) {
+  AuditCount count;
+  archive.for_each_audit([&](const AuditRecord& audit, bool same) {
+    if (plan.agent_of_cell(audit.run_index).name != agent.name) return;  // agents vary fastest
+    ++count.audited;
+    count.differing += same ? 0 : 1;
+  });
+  return count;
 }
+
+bool is_trusted(const AgentProgram& agent, const AuditCount& audits) {
+  if (!agent.is_plugin()) return true;
+  return (agent.flags & FP_DETERMINISTIC) != 0 && audits.audited > 0 && audits.differing == 0;
+}
+
+namespace {
+
+std::string why_not_trusted(const AgentProgram& agent, const AuditCount& audits) {
+  if (audits.differing > 0)
+    return fmt::format("{} of {} audited runs of this agent came out differently, too", audits.differing,
+                       audits.audited);
+  if ((agent.flags & FP_DETERMINISTIC) == 0)
+    return "the agent does not declare that it is deterministic (FP_DETERMINISTIC)";
+  return "no run of this agent was audited";
+}
+
+void require_run(const CampaignPlan& plan, std::uint64_t run_index) {
+  if (run_index >= plan.run_count())
+    throw InputError("run",
+                     fmt::format("{} does not exist; the campaign has runs 0 to {}", run_index, plan.run_count() - 1));
+}
+
+RunRecord stored_run(const ArchiveReader& archive, const CampaignPlan& plan, std::uint64_t run_index) {
+  require_run(plan, run_index);
+  auto stored = archive.run(run_index);
+  if (!stored) {
+    throw InputError("run", fmt::format("{} is not in the file; it holds runs 0 to {} of {} planned", run_index,
+                                        archive.run_count() - 1, plan.run_count()));
+  }
+  return *std::move(stored);
+}
+
+}  // namespace
 
 ReplayResult replay(const ArchiveReader& archive, std::uint64_t run_index, const AgentPrograms& programs,
                     TraceSink* sink) {
@@ -133,25 +173,34 @@ ReplayResult replay(const ArchiveReader& archive, std::uint64_t run_index, const
                 [&](std::uint64_t index) { return RunOne(plan, programs)(index, sink); });
 }
 
+std::optional<ReplayResult> replay_recording(const ArchiveReader& archive, const CampaignPlan& plan,
+                                             std::uint64_t run_index, TraceSink* sink) {
+  RunRecord stored = stored_run(archive, plan, run_index);
+  const auto recording = archive.recording(run_index);
+  if (!recording) return std::nullopt;
+  RunWatch watch;
+  watch.play = *recording;
+  const AgentPrograms none;
+  ReplayResult result = compare_runs(std::move(stored), RunOne(plan, none)(run_index, sink, watch));
+  result.from_recording = true;
+  return of_intact_plan(std::move(result), archive.campaign());
+}
+
 ReplayResult replay(const ArchiveReader& archive, const CampaignPlan& plan, std::uint64_t run_index,
                     const AgentPrograms& programs, const Resimulate& simulate) {
-  if (run_index >= plan.run_count()) {
-    throw InputError("run",
-                     fmt::format("{} does not exist; the campaign has runs 0 to {}", run_index, plan.run_count() - 1));
-  }
-  auto stored = archive.run(run_index);
-  if (!stored) {
-    throw InputError("run", fmt::format("{} is not in the file; it holds runs 0 to {} of {} planned", run_index,
-                                        archive.run_count() - 1, plan.run_count()));
-  }
-  ReplayResult result = compare_runs(std::move(*stored), simulate(run_index));
-  const AgentProgram& agent = programs.program(plan.agent_of_cell(run_index).program, "replay");
+  ReplayResult result = compare_runs(stored_run(archive, plan, run_index), simulate(run_index));
   if (result.verdict == ReplayVerdict::Reproduced) return of_intact_plan(std::move(result), archive.campaign());
+  const AgentFactor& factor = plan.agent_of_cell(run_index);
+  const AgentProgram& agent = programs.program(factor.program, "replay");
   if (const auto difference = software_difference(archive.campaign().engine, agent); !difference.empty()) {
     result.verdict = ReplayVerdict::SoftwareDiffers;
     result.explanation = difference + "; " + result.explanation;
   } else if (result.verdict == ReplayVerdict::Diverged) {
-    result.explanation += "; " + std::string(suspects_of(agent));
+    const AuditCount audits = audits_of(archive, plan, factor);
+    if (!is_trusted(agent, audits)) {
+      result.verdict = ReplayVerdict::NotDeterministic;
+      result.explanation += "; " + why_not_trusted(agent, audits);
+    }
   }
   return of_intact_plan(std::move(result), archive.campaign());
 }

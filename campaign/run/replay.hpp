@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -12,13 +13,15 @@
 
 namespace fleetproof {
 
-// SoftwareDiffers: the outcome is another one, and so is the program or the plug-in.
-enum class ReplayVerdict : std::uint8_t { Reproduced, Diverged, ScenarioDiffers, SoftwareDiffers };
-const char* name_of(ReplayVerdict verdict);  // REPRODUCED, DIVERGED, SOFTWARE DIFFERS
+// SoftwareDiffers: the outcome is another one, and so is the program or the plug-in. NotDeterministic: the outcome is
+// another one, and nothing shows that the agent always does the same (see is_trusted).
+enum class ReplayVerdict : std::uint8_t { Reproduced, Diverged, ScenarioDiffers, SoftwareDiffers, NotDeterministic };
+const char* name_of(ReplayVerdict verdict);  // REPRODUCED, DIVERGED, SOFTWARE DIFFERS, NOT DETERMINISTIC
 
 struct ReplayResult {
   ReplayVerdict verdict = ReplayVerdict::Reproduced;
-  std::string explanation;  // which value differs and, for a trace, between which events
+  std::string explanation;      // which value differs and, for a trace, between which events
+  bool from_recording = false;  // not by the agents' software
   RunRecord stored, recomputed;
 };
 
@@ -30,9 +33,20 @@ ReplayResult replay(const ArchiveReader& archive, const CampaignPlan& plan, std:
 // The same with the plan in the archive, on this thread. Throws InputError if the agent of the run is not loaded.
 ReplayResult replay(const ArchiveReader& archive, std::uint64_t run_index, const AgentPrograms& programs,
                     TraceSink* sink = nullptr);
+// The same from what the agents did, as the archive recorded it: their software is not needed. Empty: the archive has
+// no recording of this run.
+std::optional<ReplayResult> replay_recording(const ArchiveReader& archive, const CampaignPlan& plan,
+                                             std::uint64_t run_index, TraceSink* sink = nullptr);
 
-// Where the cause of a diverged replay may lie: the agent may have promised to be deterministic (FP_DETERMINISTIC).
-std::string_view suspects_of(const AgentProgram& agent);
+// How many runs of one agent the campaign audited, and how many came out differently.
+struct AuditCount {
+  std::uint64_t audited = 0, differing = 0;
+};
+AuditCount audits_of(const ArchiveReader& archive, const CampaignPlan& plan, const AgentFactor& agent);
+
+// Whether another outcome of the same run is the fault of the engine. A reference agent always does the same; a plug-in
+// does if it promises so (FP_DETERMINISTIC) and its audits bear that out.
+bool is_trusted(const AgentProgram& agent, const AuditCount& audits);
 
 // How the software that made a run differs from the software at hand: "the software differs (...)"; empty: it is the
 // same.

@@ -34,11 +34,14 @@ RunRecord RunOne::operator()(std::uint64_t run_index, TraceSink* sink, const Run
     return record;
   }
   const AgentFactor& factor = plan_.agent_of_cell(record.cell);
-  const AgentProgram& agent = programs_.program(factor.program, "factors.agents");
-  ensure(agent.type != nullptr, "a run is simulated in a process that has loaded its agent");
+  // A tape plays for every agent: any type will do.
+  const bool played = !watch.play.empty();
+  const fp_agent_type* type =
+      played ? programs_.all().front().type : programs_.program(factor.program, "factors.agents").type;
+  ensure(type != nullptr, "a run is simulated in a process that has loaded its agent");
   const auto laws = make_default_laws(scenario, plan_.laws_left_out);
   record.scenario_digest = scenario_digest(scenario);
-  record.outcome = simulate(scenario, *agent.type, laws, sink, plan_.config_of(factor).c_str(), watch);
+  record.outcome = simulate(scenario, *type, laws, sink, plan_.config_of(factor).c_str(), watch);
   return record;
 }
 

@@ -17,8 +17,8 @@ class RunOne {
  public:
   // An agent of the plan may be missing among the programs until one of its runs is simulated.
   RunOne(const CampaignPlan& plan, const AgentPrograms& programs);
-  // Throws InputError if the agent of the run is not known. Requires: it is loaded into this process. Throws
-  // RunAbandoned if the watch says so.
+  // Throws InputError if the agent of the run is not known. Requires: it is loaded into this process. Neither counts if
+  // the watch plays a recording. Throws RunAbandoned if the watch says so.
   RunRecord operator()(std::uint64_t run_index, TraceSink* sink = nullptr, const RunWatch& watch = {}) const;
   // The record of a run of which nothing is known yet.
   RunRecord empty_record(std::uint64_t run_index) const;

@@ -4,6 +4,7 @@
 #include <csignal>
 #include <utility>
 
+#include "campaign/workers/fresh_program.hpp"
 #include "campaign/workers/worker.hpp"
 #include "campaign/workers/worker_watch.hpp"
 #include "core/base/error.hpp"
@@ -19,25 +20,30 @@ constexpr int kKillsFromOutside = 3;    // in a row; then the run itself is the 
 
 }  // namespace
 
-IsolatedRuns::IsolatedRuns(const CampaignPlan& plan, const AgentPrograms& programs, int workers,
-                           const std::string& log_prefix)
+IsolatedRuns::IsolatedRuns(const CampaignPlan& plan, const AgentPrograms& programs, const Hosting& hosting)
     : plan_(plan),
+      hosting_(hosting),
+      setup_(hosting.program.empty() ? "" : encode_setup(plan, programs)),
       run_one_(plan, programs),
-      slots_(workers),
-      logs_(log_prefix, workers),
+      slots_(hosting.workers),
+      logs_(hosting.log_prefix, hosting.workers),
       forker_([&plan, &programs, this](int slot, Channel channel) {
-        work({plan, programs, slots_, logs_.descriptors()}, slot, std::move(channel));
+        work({plan, programs, slots_, logs_.descriptors(), hosting_.program}, slot, std::move(channel));
       }) {
-  for (int slot = workers - 1; slot >= 0; --slot) idle_.push_back({slot, {}, true});
+  for (int slot = hosting.workers - 1; slot >= 0; --slot) {
+    idle_.emplace_back().slot = slot;
+  }
 }
 
-RunRecord IsolatedRuns::operator()(std::uint64_t run_index) {
+RunRecord IsolatedRuns::operator()(std::uint64_t run_index, bool record_calls) {
   Member member = take_member();
   RunRecord record = run_one_.empty_record(run_index);
   try {
-    RunAnswer answer = answer_of(member, run_index);
+    RunAnswer answer = answer_of(member, {run_index, {}, record_calls});
     record.scenario_digest = answer.scenario_digest;
     record.outcome = std::move(answer.outcome);
+    record.recording = std::move(answer.recording);
+    if (member.runs_left == 0) retire(member);
   } catch (...) {
     give_back(std::move(member));
     throw;
@@ -46,10 +52,9 @@ RunRecord IsolatedRuns::operator()(std::uint64_t run_index) {
   return record;
 }
 
-RunAnswer IsolatedRuns::answer_of(Member& member, std::uint64_t run_index) {
-  const RunOrder order{run_index, {}};
+RunAnswer IsolatedRuns::answer_of(Member& member, RunOrder order) {
   Attempt first = attempt(member, order, cpu_limit_s());
-  return first.answer ? std::move(*first.answer) : repeat(member, order);
+  return first.answer ? std::move(*first.answer) : repeat(member, std::move(order));
 }
 
 // Each attempt happens in a worker that has hosted nothing before, and learns at which calls agents ended the attempts
@@ -77,11 +82,8 @@ RunAnswer IsolatedRuns::repeat(Member& member, RunOrder order) {
 
 IsolatedRuns::Attempt IsolatedRuns::attempt(Member& member, const RunOrder& order, double cpu_limit_s) {
   slots_[member.slot].call.number = 0;  // before the start: the worker may die while it loads
-  if (member.worker.pid == 0) {
-    member.worker = forker_.start(member.slot);
-    member.fresh = true;
-  }
-  if (!member.worker.channel.send(encode(order))) return lost(member, order.run_index, WorkerState::Closed);
+  if (!start(member) || !member.worker.channel.send(encode(order)))
+    return lost(member, order.run_index, WorkerState::Closed);
   std::string bytes;
   if (const auto state = wait_for_answer(member, cpu_limit_s, bytes)) return lost(member, order.run_index, *state);
   RunAnswer answer;
@@ -92,10 +94,27 @@ IsolatedRuns::Attempt IsolatedRuns::attempt(Member& member, const RunOrder& orde
   }
   if (answer.failed) throw EngineError(answer.message);
   member.fresh = false;
+  --member.runs_left;
   std::uint64_t slowest = slowest_ns_;
   while (slowest < answer.cpu_ns && !slowest_ns_.compare_exchange_weak(slowest, answer.cpu_ns)) {
   }
   return {std::move(answer), {}};
+}
+
+// False if the worker died at once.
+bool IsolatedRuns::start(Member& member) {
+  if (member.worker.pid != 0) return true;
+  member.worker = forker_.start(member.slot);
+  member.fresh = true;
+  member.runs_left = hosting_.runs_per_worker;
+  return setup_.empty() || member.worker.channel.send(setup_);
+}
+
+void IsolatedRuns::retire(Member& member) {
+  if (member.worker.pid == 0) return;
+  member.worker.channel.close();
+  forker_.collect(member.worker.pid);
+  member.worker = {};
 }
 
 // Empty: `bytes` are there.

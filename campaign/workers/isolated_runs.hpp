@@ -26,6 +26,15 @@ struct WorkerLoss {
   WorkerDeath death;
 };
 
+// How runs are hosted.
+struct Hosting {
+  int workers = 1;
+  std::string log_prefix{};  // "x" makes x.worker-0.log and so on; empty: what agents print is dropped
+  // Not empty: each worker is this program, started afresh by exec, with a disturbed memory (fresh_program.hpp).
+  std::string program{};
+  std::uint64_t runs_per_worker = ~std::uint64_t{0};  // then a new one is started
+};
+
 // Simulates runs of plug-ins in worker processes: software that crashes or hangs there costs its run, and no more. A
 // worker hosts many runs, one after the other. Each run gives the record that RunOne would give, if the software allows
 // it. A run that ends its worker is repeated in a fresh worker; what ends it there is filed in the record, as a crash
@@ -33,11 +42,12 @@ struct WorkerLoss {
 class IsolatedRuns {
  public:
   // Starts the process that forks workers: make the object before threads are started and files are opened. `plan` and
-  // `programs` outlive it. `log_prefix`: "x" makes x.worker-0.log and so on; empty: what agents print is dropped.
-  IsolatedRuns(const CampaignPlan& plan, const AgentPrograms& programs, int workers, const std::string& log_prefix);
+  // `programs` outlive it.
+  IsolatedRuns(const CampaignPlan& plan, const AgentPrograms& programs, const Hosting& hosting);
 
   // Throws RunAbandoned after abandon(), and EngineError if no worker can be started or a plug-in's file has changed.
-  RunRecord operator()(std::uint64_t run_index);
+  // `record`: the record of a failed run has a recording of what its agents did.
+  RunRecord operator()(std::uint64_t run_index, bool record = false);
   // All runs under way end within a second.
   void abandon() { abandoned_ = true; }
   // The losses since the last call.
@@ -48,6 +58,7 @@ class IsolatedRuns {
     int slot = 0;
     Forker::Worker worker;  // pid 0: not started
     bool fresh = true;      // it has finished no run yet
+    std::uint64_t runs_left = 0;
   };
   struct Attempt {
     std::optional<RunAnswer> answer;
@@ -58,12 +69,16 @@ class IsolatedRuns {
   void give_back(Member member);
   Attempt attempt(Member& member, const RunOrder& order, double cpu_limit_s);
   std::optional<WorkerState> wait_for_answer(Member& member, double cpu_limit_s, std::string& bytes);
+  bool start(Member& member);
+  void retire(Member& member);
   Attempt lost(Member& member, std::uint64_t run_index, WorkerState state);
   RunAnswer repeat(Member& member, RunOrder order);
-  RunAnswer answer_of(Member& member, std::uint64_t run_index);
+  RunAnswer answer_of(Member& member, RunOrder order);
   double cpu_limit_s() const;
 
   const CampaignPlan& plan_;
+  Hosting hosting_;
+  std::string setup_;  // of a worker that is a program of its own
   RunOne run_one_;
   SharedSlots slots_;
   WorkerLogs logs_;

@@ -4,16 +4,16 @@
 
 namespace fleetproof {
 
-RunHost::RunHost(const CampaignPlan& plan, const AgentPrograms& programs, int workers, const std::string& worker_logs)
-    : run_one_(plan, programs) {
+RunHost::RunHost(const CampaignPlan& plan, const AgentPrograms& programs, const Hosting& hosting)
+    : run_one_(plan, programs), records_(plan.agents.size()) {
   for (const AgentFactor& agent : plan.agents) is_plugin_.push_back(programs.is_plugin(agent.program));
-  if (std::ranges::count(is_plugin_, true) > 0)
-    isolated_ = std::make_unique<IsolatedRuns>(plan, programs, workers, worker_logs);
+  if (std::ranges::count(is_plugin_, true) > 0) isolated_ = std::make_unique<IsolatedRuns>(plan, programs, hosting);
 }
 
 std::optional<RunRecord> RunHost::operator()(std::uint64_t run_index) {
   try {
-    if (is_plugin_[run_index % is_plugin_.size()]) return (*isolated_)(run_index);  // agents vary fastest
+    const std::size_t agent = run_index % is_plugin_.size();  // agents vary fastest
+    if (is_plugin_[agent]) return (*isolated_)(run_index, records_[agent]);
     return run_one_(run_index, nullptr, RunWatch{nullptr, {}, &abandoned_});
   } catch (const RunAbandoned&) {
     return std::nullopt;

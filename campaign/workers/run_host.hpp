@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,10 +19,13 @@ class RunHost {
  public:
   // Make the object before threads are started and files are opened, as IsolatedRuns asks. `plan` and `programs`
   // outlive it. An agent of the plan may be missing among the programs until one of its runs is simulated.
-  RunHost(const CampaignPlan& plan, const AgentPrograms& programs, int workers, const std::string& worker_logs = "");
+  RunHost(const CampaignPlan& plan, const AgentPrograms& programs, const Hosting& hosting);
 
   // None after abandon(). Throws what RunOne and IsolatedRuns throw.
   std::optional<RunRecord> operator()(std::uint64_t run_index);
+  // From now on, failed runs of the agent at this position of the plan have a recording of what it did, or have none.
+  // Without this call none have. Reference agents are never recorded.
+  void record(std::size_t agent, bool on) { records_[agent] = on; }
   // The runs under way end within a second, without a record.
   void abandon();
   // Of worker processes, since the last call.
@@ -29,7 +33,8 @@ class RunHost {
 
  private:
   RunOne run_one_;
-  std::vector<bool> is_plugin_;  // by position in plan.agents
+  std::vector<bool> is_plugin_;            // by position in plan.agents
+  std::deque<std::atomic<bool>> records_;  // likewise
   std::atomic<bool> abandoned_ = false;
   std::unique_ptr<IsolatedRuns> isolated_;  // null: no agent of the plan is a plug-in
 };

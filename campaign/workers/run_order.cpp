@@ -18,6 +18,7 @@ std::string encode(const RunOrder& order) {
     sink.u8(end.hang ? 1 : 0);
     sink.text(end.message);
   }
+  sink.u8(order.record ? 1 : 0);
   return sink.take();
 }
 
@@ -31,6 +32,7 @@ RunOrder decode_order(std::string_view bytes) {
     end.hang = source.flag();
     end.message = source.text();
   }
+  order.record = source.flag();
   source.end();
   return order;
 }
@@ -42,6 +44,7 @@ std::string encode(const RunAnswer& answer) {
   sink.u64(answer.cpu_ns);
   sink.u64(answer.scenario_digest);
   sink.text(encode(answer.outcome));
+  sink.text(answer.recording);
   return sink.take();
 }
 
@@ -53,6 +56,7 @@ RunAnswer decode_answer(std::string_view bytes) {
   answer.cpu_ns = source.u64();
   answer.scenario_digest = source.u64();
   answer.outcome = decode_outcome(source.text());
+  answer.recording = source.text();
   source.end();
   return answer;
 }

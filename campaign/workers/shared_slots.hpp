@@ -19,16 +19,20 @@ struct WorkerSlot {
 class SharedSlots {
  public:
   explicit SharedSlots(int count);
+  SharedSlots(int count, int fd);  // those that another process has made; takes the descriptor
   ~SharedSlots();
   SharedSlots(const SharedSlots&) = delete;
   SharedSlots& operator=(const SharedSlots&) = delete;
 
   int count() const { return count_; }
+  int fd() const { return fd_; }  // of the memory; it is closed when a program is started
   WorkerSlot& operator[](int slot) const { return slots_[slot]; }
 
  private:
-  int count_;
-  WorkerSlot* slots_;
+  void map();
+
+  int count_, fd_;
+  WorkerSlot* slots_ = nullptr;
 };
 
 }  // namespace fleetproof

@@ -10,8 +10,10 @@
 
 #include "campaign/run/run_one.hpp"
 #include "campaign/workers/fatal_signals.hpp"
+#include "campaign/workers/fresh_program.hpp"
 #include "campaign/workers/run_order.hpp"
 #include "core/base/error.hpp"
+#include "core/engine/call_tape.hpp"
 
 namespace fleetproof {
 namespace {
@@ -53,34 +55,34 @@ RunAnswer answer_to(const RunOrder& order, const RunOne& run_one, WorkerSlot& sl
   RunWatch watch;
   watch.note = &slot.call;
   watch.known_ends = order.known_ends;
+  CallTape tape;
+  if (order.record) watch.record = &tape;
   RunRecord record = run_one(order.run_index, nullptr, watch);
   answer.scenario_digest = record.scenario_digest;
   answer.outcome = std::move(record.outcome);
+  if (order.record && answer.outcome.is_failure()) answer.recording = tape.take();
   answer.cpu_ns = cpu_ns() - begin_ns;
   return answer;
 }
 
-void take_orders(const WorkerSetup& setup, WorkerSlot& slot, Channel& channel) {
-  AgentPrograms programs;
-  programs.load_all_of(setup.programs);
-  const RunOne run_one(setup.plan, programs);
+}  // namespace
+
+void take_orders(const CampaignPlan& plan, const AgentPrograms& programs, WorkerSlot& slot, Channel& channel,
+                 Disturbance* disturbance) {
+  const RunOne run_one(plan, programs);
   for (;;) {
     Channel::Wait state = Channel::Wait::NotYet;
     while (state == Channel::Wait::NotYet) state = channel.wait(std::chrono::hours(1));
     if (state == Channel::Wait::Gone) return;
     const RunOrder order = decode_order(channel.received());
+    if (disturbance != nullptr) disturbance->renew(order.run_index);
     if (!channel.send(encode(answer_to(order, run_one, slot)))) ::_exit(kChannelClosedExit);
   }
 }
 
-}  // namespace
-
-void work(const WorkerSetup& setup, int slot, Channel channel) {
-  redirect_streams(setup.logs[static_cast<std::size_t>(slot)]);
-  set_limits(setup.plan.limits.memory_mb);
-  note_fatal_signals(setup.slots[slot]);
+void answer_failures(Channel& channel, const std::function<void()>& life) {
   try {
-    take_orders(setup, setup.slots[slot], channel);
+    life();
   } catch (const std::bad_alloc&) {
     ::_exit(kOutOfMemoryExit);
   } catch (const std::exception& error) {
@@ -90,6 +92,20 @@ void work(const WorkerSetup& setup, int slot, Channel channel) {
     channel.send(encode(failed));
   }
   ::_exit(0);
+}
+
+void work(const WorkerSetup& setup, int slot, Channel channel) {
+  redirect_streams(setup.logs[static_cast<std::size_t>(slot)]);
+  set_limits(setup.plan.limits.memory_mb);
+  if (!setup.program.empty()) become_fresh_program(setup.program, setup.slots, slot, std::move(channel));
+  note_fatal_signals(setup.slots[slot]);
+  answer_failures(channel, [&] {
+    AgentPrograms programs;
+    for (const AgentProgram& known : setup.programs.all()) {
+      if (known.is_plugin()) programs.load_unchanged(known);
+    }
+    take_orders(setup.plan, programs, setup.slots[slot], channel);
+  });
 }
 
 }  // namespace fleetproof

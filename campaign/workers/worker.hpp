@@ -1,11 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "campaign/plan/plan.hpp"
 #include "campaign/run/agent_programs.hpp"
 #include "campaign/workers/channel.hpp"
+#include "campaign/workers/disturbance.hpp"
 #include "campaign/workers/shared_slots.hpp"
 
 namespace fleetproof {
@@ -21,10 +24,19 @@ struct WorkerSetup {
   const AgentPrograms& programs;  // known here, loaded in the worker
   const SharedSlots& slots;
   std::vector<int> logs;  // by slot: the descriptor that takes what agents print; -1: nothing does
+  std::string program;    // not empty: the worker becomes this program (fresh_program.hpp)
 };
 
 // The life of a worker: loads the plug-ins, then takes one order after the other until the channel is closed. Call this
 // in a process of its own.
 [[noreturn]] void work(const WorkerSetup& setup, int slot, Channel channel);
+
+// Takes one order after the other until the channel is closed. `programs` are loaded here. Each run begins with another
+// disturbance, if there is one.
+void take_orders(const CampaignPlan& plan, const AgentPrograms& programs, WorkerSlot& slot, Channel& channel,
+                 Disturbance* disturbance = nullptr);
+
+// Calls `life` and ends the process. If it throws, the channel or the exit code says why.
+[[noreturn]] void answer_failures(Channel& channel, const std::function<void()>& life);
 
 }  // namespace fleetproof

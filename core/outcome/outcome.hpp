@@ -52,6 +52,8 @@ struct Outcome {
   std::string message;                         // of a crash, hang or engine error
 
   OutcomeClass outcome_class() const;
+  // Worth a replay: the run broke something, or its software did.
+  bool is_failure() const { return outcome_class() <= OutcomeClass::Hang; }
   friend bool operator==(const Outcome&, const Outcome&) = default;
 };
 

@@ -52,7 +52,7 @@ TEST_P(EveryKindOfEnd, CostsItsRunOnly) {
   const CampaignPlan plan = failing_plan(GetParam().kind + " 5");
   AgentPrograms programs;
   programs.know(FLEETPROOF_FAILING_AGENT);
-  IsolatedRuns runs(plan, programs, 1, "");
+  IsolatedRuns runs(plan, programs, Hosting{});
   int failed = 0, whole = 0;
   for (std::uint64_t index = 0; index < 20; ++index) {
     SCOPED_TRACE(index);
@@ -101,7 +101,7 @@ TEST(IsolatedRuns, ACrashInDestroyIsFiledAndTheRestIsAsItWas) {
   const CampaignPlan plan = failing_plan("destroy 1");
   AgentPrograms programs;
   programs.know(FLEETPROOF_FAILING_AGENT);
-  IsolatedRuns runs(plan, programs, 1, "");
+  IsolatedRuns runs(plan, programs, Hosting{});
   const Outcome outcome = runs(0).outcome;
   EXPECT_TRUE(outcome.crash);
   EXPECT_THAT(outcome.message, HasSubstr("agent of AGV 0: aborted (SIGABRT) in destroy() at 60"));
@@ -114,7 +114,7 @@ TEST(IsolatedRuns, MemoryBeyondTheLimitEndsTheRun) {
   plan.limits = {500, 20.0};
   AgentPrograms programs;
   programs.know(FLEETPROOF_FAILING_AGENT);
-  const Outcome outcome = IsolatedRuns(plan, programs, 1, "")(0).outcome;
+  const Outcome outcome = IsolatedRuns(plan, programs, Hosting{})(0).outcome;
   EXPECT_TRUE(outcome.crash);
   EXPECT_THAT(outcome.message, HasSubstr("bad_alloc"));
 }
@@ -123,7 +123,7 @@ TEST(IsolatedRuns, TheRowOfARunDoesNotDependOnTheRunsBeforeIt) {
   const CampaignPlan plan = failing_plan("mixed 3");
   AgentPrograms programs;
   programs.know(FLEETPROOF_FAILING_AGENT);
-  IsolatedRuns forward(plan, programs, 1, ""), backward(plan, programs, 1, "");
+  IsolatedRuns forward(plan, programs, Hosting{}), backward(plan, programs, Hosting{});
   std::map<std::uint64_t, Outcome> outcomes;
   for (std::uint64_t index = 0; index < 24; ++index) outcomes[index] = forward(index).outcome;
   for (std::uint64_t index = 24; index-- > 0;) EXPECT_EQ(backward(index).outcome, outcomes[index]) << index;
@@ -137,7 +137,7 @@ TEST(IsolatedRuns, WhatAgentsPrintGoesToALog) {
   testing::internal::CaptureStdout();
   std::printf("waits in a buffer while the processes are forked");
   {
-    IsolatedRuns runs(plan, programs, 2, prefix);
+    IsolatedRuns runs(plan, programs, {.workers = 2, .log_prefix = prefix});
     runs(0);
   }
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "waits in a buffer while the processes are forked");
@@ -153,7 +153,7 @@ TEST(IsolatedRuns, WorkersThatAreKilledAgainAndAgainAreTheFaultOfTheRun) {
   const CampaignPlan plan = failing_plan("kill 1");
   AgentPrograms programs;
   programs.know(FLEETPROOF_FAILING_AGENT);
-  IsolatedRuns runs(plan, programs, 1, "");
+  IsolatedRuns runs(plan, programs, Hosting{});
   const Outcome outcome = runs(0).outcome;
   EXPECT_TRUE(outcome.crash);
   EXPECT_THAT(outcome.message, HasSubstr("agent of AGV 0: killed (SIGKILL) in event"));
@@ -185,7 +185,7 @@ TEST(IsolatedRuns, AnAbandonedRunTakesItsWorkerWithIt) {
   plan.limits.cpu_s = 1000.0;
   AgentPrograms programs;
   programs.know(FLEETPROOF_FAILING_AGENT);
-  IsolatedRuns runs(plan, programs, 1, "");
+  IsolatedRuns runs(plan, programs, Hosting{});
   std::thread caller([&] { EXPECT_THROW(runs(0), RunAbandoned); });
   while (!has_living_worker()) ::usleep(1000);
   runs.abandon();
@@ -217,7 +217,7 @@ TEST(IsolatedRuns, ACrashWhileLoadingIsFiled) {
   AgentPrograms programs;
   programs.know(FLEETPROOF_FAILING_AGENT);
   ::setenv("FLEETPROOF_TEST_LOADING", "crash", 1);
-  IsolatedRuns runs(plan, programs, 1, "");
+  IsolatedRuns runs(plan, programs, Hosting{});
   ::unsetenv("FLEETPROOF_TEST_LOADING");
   const Outcome outcome = runs(0).outcome;
   EXPECT_TRUE(outcome.crash);
@@ -231,7 +231,7 @@ TEST(IsolatedRuns, ACrashWhileLoadingIsInNoCallOfTheRunBefore) {
   AgentPrograms programs;
   programs.know(FLEETPROOF_FAILING_AGENT);
   ::setenv("FLEETPROOF_TEST_LOADING", file.c_str(), 1);
-  IsolatedRuns runs(plan, programs, 1, "");
+  IsolatedRuns runs(plan, programs, Hosting{});
   ::unsetenv("FLEETPROOF_TEST_LOADING");
   EXPECT_THAT(runs(0).outcome.message, HasSubstr("aborted (SIGABRT) in event"));
   std::ofstream(file) << "from now on";
@@ -244,7 +244,7 @@ TEST(IsolatedRuns, ASlowRunIsNoHangAndRaisesTheLimitOfThoseAfterIt) {
   plan.limits.cpu_s = 0.2;
   AgentPrograms programs;
   programs.know(FLEETPROOF_FAILING_AGENT);
-  IsolatedRuns runs(plan, programs, 1, "");
+  IsolatedRuns runs(plan, programs, Hosting{});
   EXPECT_EQ(runs(0).outcome.digest, record_of_reckless(plan, 0).outcome.digest);
   runs.take_losses();
   EXPECT_EQ(runs(1).outcome.digest, record_of_reckless(plan, 1).outcome.digest);

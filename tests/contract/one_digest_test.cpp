@@ -29,7 +29,8 @@ CampaignPlan mixed_plan() {
   CampaignPlan plan = test::small_plan();
   plan.kind = CampaignKind::Search;
   plan.gates.clear();
-  plan.replicates = 360;  // with three agents more than kFarAhead
+  plan.replicates = 360;   // with three agents more than kFarAhead
+  plan.audit.share = 0.0;  // the pool alone audits and records nothing
   plan.horizon_s = 15.0;
   plan.agents = {"hull-lock-plugin", "failing", "reckless"};
   plan.agents[1].config = "throw 10";
@@ -64,7 +65,7 @@ class OneDigest : public test::ProgramTest {
       for (const char* object : {FLEETPROOF_PLUGIN, FLEETPROOF_FAILING_AGENT})
         plugins == Plugins::OnThreads ? programs.load(object) : programs.know(object);
       const RunOne on_threads(plan_, programs);
-      RunHost in_workers(plan_, programs, workers);
+      RunHost in_workers(plan_, programs, {.workers = workers});
       ArchiveWriter archive(path(file), campaign_record(plan_, programs), plan_.cells(), plan_.gates);
       StartingLine line(static_cast<int>(std::min<std::uint64_t>(window, static_cast<std::uint64_t>(workers))));
       TaskPool pool(workers, 0, plan_.run_count(), window, [&](std::uint64_t index) {

@@ -182,6 +182,9 @@ std::optional<Footprint> footprint_of(pid_t process) {
   return footprint;
 }
 
+// While the process of an audit is started, both ends of its channel are open, and a request is under way.
+constexpr std::uint64_t kDescriptorsOfAStart = 3;
+
 // Between a quarter of the time, when caches are full, and the publishing of the file at the end.
 TEST_F(Storm, MemoryAndDescriptorsOfTheMainProcessStayFlat) {
   write_campaign("tiny", "none 1000000000", is_soak() ? 1'000'000 : 20'000, 1.0);
@@ -208,7 +211,7 @@ TEST_F(Storm, MemoryAndDescriptorsOfTheMainProcessStayFlat) {
       at(0.25), at(0.85), [](const Footprint& a, const Footprint& b) { return a.descriptors < b.descriptors; });
   fmt::print("{} samples: resident {} to {} kB, {} to {} descriptors\n", samples.size(), least->resident_kb,
              most->resident_kb, few->descriptors, many->descriptors);
-  EXPECT_EQ(few->descriptors, many->descriptors);
+  EXPECT_LE(many->descriptors, few->descriptors + kDescriptorsOfAStart);
   if (is_soak()) {
     EXPECT_LE(static_cast<double>(most->resident_kb), 1.02 * static_cast<double>(least->resident_kb));
   } else {

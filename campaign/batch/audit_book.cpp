@@ -1,0 +1,27 @@
+#include "campaign/batch/audit_book.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr std::uint64_t kAuditsToPass = 20;
+
+}  // namespace
+
+AuditBook::AuditBook(const CampaignPlan& plan, const AgentPrograms& programs) : has_audits_(plan.audit.share > 0.0) {
+  for (const AgentFactor& agent : plan.agents)
+    agents_.push_back({&programs.program(agent.program, "factors.agents"), {}});
+}
+
+void AuditBook::add(const AuditFinding& finding) {
+  AuditCount& count = agents_[agent_of(finding.audit.run_index)].count;
+  ++count.audited;
+  count.differing += finding.same ? 0 : 1;
+}
+
+bool AuditBook::needs_recordings(std::size_t agent) const {
+  const auto& [program, count] = agents_[agent];
+  if (!has_audits_ || !program->is_plugin()) return false;
+  return count.audited < kAuditsToPass || !is_trusted(*program, count);
+}
+
+}  // namespace fleetproof

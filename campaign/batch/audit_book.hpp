@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "campaign/batch/audit_desk.hpp"
+#include "campaign/plan/plan.hpp"
+#include "campaign/run/agent_programs.hpp"
+#include "campaign/run/replay.hpp"
+
+namespace fleetproof {
+
+// What the audits so far say about each agent of a campaign.
+class AuditBook {
+ public:
+  AuditBook(const CampaignPlan& plan, const AgentPrograms& programs);
+
+  void add(const AuditFinding& finding);
+  std::size_t agent_of(std::uint64_t run_index) const { return run_index % agents_.size(); }  // agents vary fastest
+  std::size_t agent_count() const { return agents_.size(); }
+  // Whether a failed run of this agent may not be reproduced by simulating it again: the agent does not promise that it
+  // always does the same, or too few audits have borne that out, or one has not. Without audits nothing is recorded.
+  bool needs_recordings(std::size_t agent) const;
+
+ private:
+  struct Entry {
+    const AgentProgram* program = nullptr;
+    AuditCount count;
+  };
+  bool has_audits_;
+  std::vector<Entry> agents_;  // by position in plan.agents
+};
+
+}  // namespace fleetproof

@@ -1,0 +1,117 @@
+#include "campaign/batch/audit_desk.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/base/random.hpp"
+#include "storage/checksum.hpp"
+
+namespace fleetproof {
+namespace {
+
+// Runs that one process audits: its start costs as much as some short runs.
+constexpr std::size_t kBatch = 16;
+
+// So many threads that the audits keep up with the campaign.
+int threads_for(double share, int workers) {
+  return std::clamp(static_cast<int>(std::ceil(share * workers)), 1, workers);
+}
+
+}  // namespace
+
+AuditDesk::AuditDesk(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& program, int workers)
+    : share_(plan), threads_wanted_(threads_for(plan.audit.share, workers)) {
+  if (program.empty() || plan.audit.share <= 0.0) return;
+  Hosting hosting;
+  hosting.workers = threads_wanted_;
+  hosting.program = program;
+  hosting.runs_per_worker = kBatch;
+  runs_ = std::make_unique<IsolatedRuns>(plan, programs, hosting);
+}
+
+AuditDesk::~AuditDesk() {
+  abandon();
+  for (std::thread& thread : threads_) thread.join();
+}
+
+void AuditDesk::offer(const RunRecord& run) {
+  if (!runs_ || !share_.contains(run)) return;
+  const std::lock_guard lock(mutex_);
+  waiting_.emplace(run.run_index, row_checksum(run));
+  if (waiting_.size() >= kBatch) more_.notify_one();
+}
+
+void AuditDesk::start() {
+  if (!runs_) return;
+  for (int i = 0; i < threads_wanted_; ++i) threads_.emplace_back([this] { work(); });
+}
+
+void AuditDesk::no_more_runs() {
+  const std::lock_guard lock(mutex_);
+  closing_ = true;
+  more_.notify_all();
+}
+
+void AuditDesk::abandon() {
+  if (runs_) runs_->abandon();
+  const std::lock_guard lock(mutex_);
+  abandoned_ = closing_ = true;
+  waiting_.clear();
+  more_.notify_all();
+}
+
+bool AuditDesk::idle() const {
+  const std::lock_guard lock(mutex_);
+  return waiting_.empty() && under_way_ == 0;
+}
+
+std::uint64_t AuditDesk::open_count() const {
+  const std::lock_guard lock(mutex_);
+  return waiting_.size() + under_way_;
+}
+
+std::vector<AuditFinding> AuditDesk::take_findings() {
+  const std::lock_guard lock(mutex_);
+  if (failure_) std::rethrow_exception(failure_);
+  return std::exchange(findings_, {});
+}
+
+// In another order than that of the campaign, so that what one run leaves behind for the next shows.
+AuditDesk::Batch AuditDesk::next_batch() {
+  std::unique_lock lock(mutex_);
+  more_.wait(lock, [&] { return closing_ || waiting_.size() >= kBatch; });
+  Batch batch;
+  for (auto next = waiting_.begin(); next != waiting_.end() && batch.size() < kBatch; next = waiting_.erase(next))
+    batch.emplace_back(*next);
+  under_way_ += batch.size();
+  std::ranges::sort(batch, {}, [](const auto& run) { return Draws(run.first).next(); });
+  return batch;
+}
+
+void AuditDesk::work() {
+  for (;;) {
+    const Batch batch = next_batch();
+    if (batch.empty()) return;
+    try {
+      audit(batch);
+    } catch (const RunAbandoned&) {
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      failure_ = std::current_exception();
+    }
+    const std::lock_guard lock(mutex_);
+    under_way_ -= batch.size();
+    if (abandoned_ || failure_) return;
+  }
+}
+
+void AuditDesk::audit(const Batch& batch) {
+  for (const auto& [run_index, checksum] : batch) {
+    const std::uint64_t now = row_checksum((*runs_)(run_index));
+    const std::lock_guard lock(mutex_);
+    findings_.push_back({{run_index, now}, now == checksum});
+  }
+}
+
+}  // namespace fleetproof

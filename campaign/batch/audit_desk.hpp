@@ -1,0 +1,70 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "campaign/batch/audit_share.hpp"
+#include "campaign/workers/isolated_runs.hpp"
+#include "storage/records.hpp"
+
+namespace fleetproof {
+
+// A run that was audited, and whether it came out the same.
+struct AuditFinding {
+  AuditRecord audit;
+  bool same = false;
+};
+
+// Simulates a share of the finished runs once more: in processes that are started afresh, with other addresses, other
+// bytes in fresh memory, and in another order. Works beside the campaign, on threads of its own.
+// Threads: the caller's one.
+class AuditDesk {
+ public:
+  // `program` is started for the audits (fresh_program.hpp); empty: nothing is audited. Make the object before threads
+  // are started and files are opened. `plan` and `programs` outlive it.
+  AuditDesk(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& program, int workers);
+  ~AuditDesk();
+  AuditDesk(const AuditDesk&) = delete;
+  AuditDesk& operator=(const AuditDesk&) = delete;
+
+  // Takes the run in if it belongs to the share.
+  void offer(const RunRecord& run);
+  // An earlier session has audited the run. Call this before start().
+  void forget(std::uint64_t run_index) { waiting_.erase(run_index); }
+  void start();
+
+  void no_more_runs();  // what waits is audited, in batches of any size
+  void abandon();       // nothing more is audited; the audits under way end within a second
+  bool idle() const;    // nothing waits and nothing is under way
+  std::uint64_t open_count() const;
+  // The findings since the last call. Rethrows an exception of an audit.
+  std::vector<AuditFinding> take_findings();
+
+ private:
+  using Batch = std::vector<std::pair<std::uint64_t, std::uint64_t>>;  // run index, checksum of its row
+
+  void work();
+  Batch next_batch();
+  void audit(const Batch& batch);
+
+  AuditShare share_;
+  int threads_wanted_;
+  std::unique_ptr<IsolatedRuns> runs_;  // null: nothing is audited
+
+  mutable std::mutex mutex_;
+  std::condition_variable more_;
+  std::map<std::uint64_t, std::uint64_t> waiting_;  // run index -> checksum of its row
+  std::size_t under_way_ = 0;
+  bool closing_ = false, abandoned_ = false;
+  std::vector<AuditFinding> findings_;
+  std::exception_ptr failure_;
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace fleetproof

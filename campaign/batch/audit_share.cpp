@@ -1,0 +1,32 @@
+#include "campaign/batch/audit_share.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/random.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr std::uint64_t kLargestBlock = std::uint64_t{1} << 31;
+
+std::uint64_t block_of(double share) {
+  if (share <= 0.0) return 0;
+  return static_cast<std::uint64_t>(std::clamp(std::round(1.0 / share), 1.0, static_cast<double>(kLargestBlock)));
+}
+
+}  // namespace
+
+AuditShare::AuditShare(const CampaignPlan& plan)
+    : seed_(name_hash("audit") ^ plan.seed), agents_(plan.agents.size()), block_(block_of(plan.audit.share)) {}
+
+bool AuditShare::contains(const RunRecord& run) const {
+  if (block_ == 0 || run.outcome.hang) return false;
+  // Agents vary fastest: this is the run with this number among those of its agent.
+  const std::uint64_t agent = run.run_index % agents_, number = run.run_index / agents_;
+  if (number == 0) return true;
+  Draws draws(seed_ + number / block_, static_cast<std::uint32_t>(agent));
+  return number % block_ == draws.below(static_cast<std::uint32_t>(block_));
+}
+
+}  // namespace fleetproof

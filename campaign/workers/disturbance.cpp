@@ -1,0 +1,51 @@
+#include "campaign/workers/disturbance.hpp"
+
+#include <malloc.h>
+
+#include <array>
+#include <cstddef>
+#include <utility>
+
+#include "core/base/random.hpp"
+
+namespace fleetproof {
+namespace {
+
+// Sizes that objects, nodes and small arrays have. Enough blocks of each that a run does not use them up.
+constexpr std::uint32_t kGrain = 16, kSizes = 64, kBlocksPerSize = 64;
+constexpr std::size_t kStackBytes = std::size_t{256} << 10;
+
+std::uint64_t mixed(std::uint64_t key) { return Draws(key, 0x4155'4449).next(); }
+
+[[gnu::noinline]] void paint_stack(unsigned char byte) {
+  std::array<unsigned char, kStackBytes> below;
+  below.fill(byte);
+  asm volatile("" : : "r"(below.data()) : "memory");  // or the compiler would leave the fill out
+}
+
+}  // namespace
+
+void Disturbance::renew(std::uint64_t key) {
+  const std::uint64_t bits = mixed(key);
+  const int fill = 1 + static_cast<int>(bits % 255);
+  ::mallopt(M_PERTURB, fill);
+  scatter_heap(bits);
+  paint_stack(static_cast<unsigned char>(fill));
+}
+
+// Blocks of all sizes in a drawn order; then every second of them goes back in another drawn order. `malloc` hands out
+// again what was freed, so that two objects made one after the other lie in any order and far apart.
+void Disturbance::scatter_heap(std::uint64_t key) {
+  between_.clear();
+  Draws draws(key);
+  std::vector<std::unique_ptr<char[]>> blocks(std::size_t{kSizes} * kBlocksPerSize);
+  for (auto& block : blocks) block.reset(new char[kGrain * (1 + draws.below(kSizes))]);
+  for (std::uint32_t last = static_cast<std::uint32_t>(blocks.size()); last > 1; --last)
+    std::swap(blocks[last - 1], blocks[draws.below(last)]);
+  for (std::size_t i = 0; i < blocks.size(); i += 2) {
+    between_.push_back(std::move(blocks[i + 1]));
+    blocks[i].reset();
+  }
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,59 @@
+#include <gtest/gtest.h>
+
+#include "campaign/batch/audit_share.hpp"
+
+namespace fleetproof {
+namespace {
+
+CampaignPlan plan_with(double share, std::vector<AgentFactor> agents = {"hull-lock", "reckless"}) {
+  CampaignPlan plan;
+  plan.agents = std::move(agents);
+  plan.audit.share = share;
+  return plan;
+}
+
+RunRecord run(std::uint64_t index) {
+  RunRecord record;
+  record.run_index = index;
+  return record;
+}
+
+TEST(AuditShare, HoldsOneDrawnRunOfEveryBlockAndTheFirstRunOfEachAgent) {
+  const AuditShare share(plan_with(0.01));
+  for (std::uint64_t agent = 0; agent < 2; ++agent) {
+    EXPECT_TRUE(share.contains(run(agent)));
+    for (std::uint64_t block = 1; block < 50; ++block) {
+      int count = 0;
+      for (std::uint64_t number = 100 * block; number < 100 * (block + 1); ++number)
+        count += share.contains(run(2 * number + agent)) ? 1 : 0;
+      EXPECT_EQ(count, 1) << "block " << block << " of agent " << agent;
+    }
+  }
+}
+
+TEST(AuditShare, DrawsItsRunsByTheSeedOfTheCampaign) {
+  CampaignPlan other = plan_with(0.01);
+  other.seed = 2;
+  const AuditShare one(plan_with(0.01)), two(other);
+  int apart = 0;
+  for (std::uint64_t index = 200; index < 20'000; ++index)
+    apart += one.contains(run(index)) != two.contains(run(index)) ? 1 : 0;
+  EXPECT_GT(apart, 300);
+}
+
+TEST(AuditShare, HoldsNothingOrEverythingAtItsEnds) {
+  const AuditShare none(plan_with(0.0)), all(plan_with(1.0));
+  for (std::uint64_t index = 0; index < 100; ++index) {
+    EXPECT_FALSE(none.contains(run(index)));
+    EXPECT_TRUE(all.contains(run(index)));
+  }
+}
+
+TEST(AuditShare, HoldsNoRunThatHung) {
+  RunRecord hung = run(0);
+  hung.outcome.hang = true;
+  EXPECT_FALSE(AuditShare(plan_with(1.0)).contains(hung));
+}
+
+}  // namespace
+}  // namespace fleetproof
