@@ -12,6 +12,7 @@ namespace {
 
 // Runs that one process audits: its start costs as much as some short runs.
 constexpr std::size_t kBatch = 16;
+constexpr std::size_t kFirstBatch = 4;  // the first findings are wanted soon: they may end the recording of runs
 
 // So many threads that the audits keep up with the campaign.
 int threads_for(double share, int workers) {
@@ -21,7 +22,7 @@ int threads_for(double share, int workers) {
 }  // namespace
 
 AuditDesk::AuditDesk(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& program, int workers)
-    : share_(plan), threads_wanted_(threads_for(plan.audit.share, workers)) {
+    : share_(plan, programs), threads_wanted_(threads_for(plan.audit.share, workers)), wanted_(kFirstBatch) {
   if (program.empty() || plan.audit.share <= 0.0) return;
   Hosting hosting;
   hosting.workers = threads_wanted_;
@@ -39,7 +40,7 @@ void AuditDesk::offer(const RunRecord& run) {
   if (!runs_ || !share_.contains(run)) return;
   const std::lock_guard lock(mutex_);
   waiting_.emplace(run.run_index, row_checksum(run));
-  if (waiting_.size() >= kBatch) more_.notify_one();
+  if (waiting_.size() >= wanted_) more_.notify_one();
 }
 
 void AuditDesk::start() {
@@ -80,7 +81,7 @@ std::vector<AuditFinding> AuditDesk::take_findings() {
 // In another order than that of the campaign, so that what one run leaves behind for the next shows.
 AuditDesk::Batch AuditDesk::next_batch() {
   std::unique_lock lock(mutex_);
-  more_.wait(lock, [&] { return closing_ || waiting_.size() >= kBatch; });
+  more_.wait(lock, [&] { return closing_ || waiting_.size() >= wanted_; });
   Batch batch;
   for (auto next = waiting_.begin(); next != waiting_.end() && batch.size() < kBatch; next = waiting_.erase(next))
     batch.emplace_back(*next);
@@ -111,6 +112,7 @@ void AuditDesk::audit(const Batch& batch) {
     const std::uint64_t now = row_checksum((*runs_)(run_index));
     const std::lock_guard lock(mutex_);
     findings_.push_back({{run_index, now}, now == checksum});
+    if (++found_ >= kAuditsToPass) wanted_ = kBatch;
   }
 }
 

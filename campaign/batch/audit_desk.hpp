@@ -60,6 +60,8 @@ class AuditDesk {
   mutable std::mutex mutex_;
   std::condition_variable more_;
   std::map<std::uint64_t, std::uint64_t> waiting_;  // run index -> checksum of its row
+  std::size_t wanted_;                              // so many runs must wait before a batch is begun
+  std::uint64_t found_ = 0;
   std::size_t under_way_ = 0;
   bool closing_ = false, abandoned_ = false;
   std::vector<AuditFinding> findings_;

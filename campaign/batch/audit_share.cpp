@@ -17,14 +17,17 @@ std::uint64_t block_of(double share) {
 
 }  // namespace
 
-AuditShare::AuditShare(const CampaignPlan& plan)
-    : seed_(name_hash("audit") ^ plan.seed), agents_(plan.agents.size()), block_(block_of(plan.audit.share)) {}
+AuditShare::AuditShare(const CampaignPlan& plan, const AgentPrograms& programs)
+    : seed_(name_hash("audit") ^ plan.seed), block_(block_of(plan.audit.share)) {
+  for (const AgentFactor& agent : plan.agents)
+    first_runs_.push_back(programs.is_plugin(agent.program) ? kAuditsToPass : 1);
+}
 
 bool AuditShare::contains(const RunRecord& run) const {
   if (block_ == 0 || run.outcome.hang) return false;
   // Agents vary fastest: this is the run with this number among those of its agent.
-  const std::uint64_t agent = run.run_index % agents_, number = run.run_index / agents_;
-  if (number == 0) return true;
+  const std::uint64_t agent = run.run_index % first_runs_.size(), number = run.run_index / first_runs_.size();
+  if (number < first_runs_[agent]) return true;
   Draws draws(seed_ + number / block_, static_cast<std::uint32_t>(agent));
   return number % block_ == draws.below(static_cast<std::uint32_t>(block_));
 }

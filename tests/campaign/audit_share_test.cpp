@@ -12,6 +12,8 @@ CampaignPlan plan_with(double share, std::vector<AgentFactor> agents = {"hull-lo
   return plan;
 }
 
+AuditShare share_of(const CampaignPlan& plan) { return {plan, AgentPrograms()}; }
+
 RunRecord run(std::uint64_t index) {
   RunRecord record;
   record.run_index = index;
@@ -19,7 +21,7 @@ RunRecord run(std::uint64_t index) {
 }
 
 TEST(AuditShare, HoldsOneDrawnRunOfEveryBlockAndTheFirstRunOfEachAgent) {
-  const AuditShare share(plan_with(0.01));
+  const AuditShare share = share_of(plan_with(0.01));
   for (std::uint64_t agent = 0; agent < 2; ++agent) {
     EXPECT_TRUE(share.contains(run(agent)));
     for (std::uint64_t block = 1; block < 50; ++block) {
@@ -34,7 +36,7 @@ TEST(AuditShare, HoldsOneDrawnRunOfEveryBlockAndTheFirstRunOfEachAgent) {
 TEST(AuditShare, DrawsItsRunsByTheSeedOfTheCampaign) {
   CampaignPlan other = plan_with(0.01);
   other.seed = 2;
-  const AuditShare one(plan_with(0.01)), two(other);
+  const AuditShare one = share_of(plan_with(0.01)), two = share_of(other);
   int apart = 0;
   for (std::uint64_t index = 200; index < 20'000; ++index)
     apart += one.contains(run(index)) != two.contains(run(index)) ? 1 : 0;
@@ -42,17 +44,27 @@ TEST(AuditShare, DrawsItsRunsByTheSeedOfTheCampaign) {
 }
 
 TEST(AuditShare, HoldsNothingOrEverythingAtItsEnds) {
-  const AuditShare none(plan_with(0.0)), all(plan_with(1.0));
+  const AuditShare none = share_of(plan_with(0.0)), all = share_of(plan_with(1.0));
   for (std::uint64_t index = 0; index < 100; ++index) {
     EXPECT_FALSE(none.contains(run(index)));
     EXPECT_TRUE(all.contains(run(index)));
   }
 }
 
+TEST(AuditShare, HoldsTheFirstRunsOfAPlugin) {
+  AgentPrograms programs;
+  const std::string name = programs.know(FLEETPROOF_UNSTEADY_AGENT);
+  const AuditShare share(plan_with(0.001, {name, "reckless"}), programs);
+  for (std::uint64_t number = 0; number < kAuditsToPass; ++number) {
+    EXPECT_TRUE(share.contains(run(2 * number))) << number;
+    EXPECT_EQ(share.contains(run(2 * number + 1)), number == 0) << number;
+  }
+}
+
 TEST(AuditShare, HoldsNoRunThatHung) {
   RunRecord hung = run(0);
   hung.outcome.hang = true;
-  EXPECT_FALSE(AuditShare(plan_with(1.0)).contains(hung));
+  EXPECT_FALSE(share_of(plan_with(1.0)).contains(hung));
 }
 
 }  // namespace

