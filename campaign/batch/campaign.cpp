@@ -200,7 +200,7 @@ class Session {
     for (const AuditFinding& finding : audits_.take_findings()) {
       archive_.add(finding.audit);
       count(finding);
-      if (!finding.same) result_.differing.push_back(finding.audit.run_index);
+      if (!finding.same) ++result_.audits_differing;
     }
   }
 

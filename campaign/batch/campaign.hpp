@@ -38,8 +38,8 @@ struct CampaignResult {
   Progress progress;
   std::vector<WorkerLoss> losses;  // the first of them
   std::uint64_t loss_count = 0;
-  std::vector<std::uint64_t> differing;  // runs that came out differently in an audit of this session
-  std::uint64_t stored = 0;              // the number of runs in the gap-free prefix that the campaign file contains
+  std::uint64_t audits_differing = 0;  // of the audits of this session
+  std::uint64_t stored = 0;            // the number of runs in the gap-free prefix that the campaign file contains
   int threads = 0;
   bool complete() const { return stored == progress.planned; }
 };

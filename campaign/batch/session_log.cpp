@@ -56,6 +56,7 @@ Json json_of(const WorkerLoss& loss) {
           {"signal", WIFSIGNALED(loss.death.status) ? WTERMSIG(loss.death.status) : 0},
           {"cpu_s", loss.death.cpu_s},
           {"max_memory_kb", loss.death.max_memory_kb},
+          {"stack", loss.stack},
           {"log", loss.log}};
 }
 
@@ -109,6 +110,8 @@ void SessionLog::end(const CampaignResult& result, int signal_number) const {
                                {"runs_stored", result.stored},
                                {"runs_planned", result.progress.planned},
                                {"workers_lost", result.loss_count},
+                               {"runs_audited", result.progress.audited},
+                               {"audits_differing", result.audits_differing},
                                {"signal", signal_number}});
   for (const WorkerLoss& loss : result.losses) lines += line_of(json_of(loss));
   append_lines(path_, lines);

@@ -25,8 +25,7 @@ void on_fatal_signal(int number, siginfo_t* info, void*) {
   const bool by_access = number == SIGSEGV || number == SIGBUS;
   if (by_access && address > stack_low - kGuardReach && address < stack_low + kGuardReach)
     noted_slot->stack_overflow.store(1);
-  constexpr char kTitle[] = "fleetproof: this process ends with a signal; its stack:\n";
-  (void)!::write(STDERR_FILENO, kTitle, sizeof kTitle - 1);
+  (void)!::write(STDERR_FILENO, kStackTitle.data(), kStackTitle.size());
   std::array<void*, kFrames> frames;
   ::backtrace_symbols_fd(frames.data(), ::backtrace(frames.data(), kFrames), STDERR_FILENO);
   ::raise(number);  // SA_RESETHAND: this time it ends the process

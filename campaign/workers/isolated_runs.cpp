@@ -1,5 +1,7 @@
 #include "campaign/workers/isolated_runs.hpp"
 
+#include <sys/wait.h>
+
 #include <algorithm>
 #include <csignal>
 #include <utility>
@@ -143,6 +145,8 @@ IsolatedRuns::Attempt IsolatedRuns::lost(Member& member, std::uint64_t run_index
   const CauseOfDeath cause = cause_of_death(state, loss.death, slots_[member.slot]);
   loss.message = cause.message;
   loss.log = logs_.path(member.slot);
+  if (WIFSIGNALED(loss.death.status) && WTERMSIG(loss.death.status) != SIGKILL)
+    loss.stack = logs_.last_stack(member.slot);
   loss.in_fresh_worker = member.fresh;
   member.worker = {};
   const std::lock_guard lock(mutex_);

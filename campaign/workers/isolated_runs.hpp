@@ -21,7 +21,8 @@ namespace fleetproof {
 // A run that a worker process did not bring to its end. For the log of the session, not for the archive.
 struct WorkerLoss {
   std::uint64_t run_index = 0;
-  std::string message, log;  // what happened; the file with what the worker printed
+  std::string message, log;        // what happened; the file with what the worker printed
+  std::vector<std::string> stack;  // of a worker that ended with a signal, as its log has it
   bool in_fresh_worker = false;
   WorkerDeath death;
 };

@@ -5,15 +5,22 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
+#include <iterator>
+#include <sstream>
 
+#include "campaign/workers/fatal_signals.hpp"
 #include "core/base/error.hpp"
 
 namespace fleetproof {
 namespace {
 
 constexpr int kMostLogs = 10'000;
+constexpr std::streamoff kLongestStack = 32'768;  // bytes at the end of a log
+constexpr std::size_t kMostStackLines = 32;
 
 }  // namespace
 
@@ -31,6 +38,19 @@ WorkerLogs::WorkerLogs(const std::string& prefix, int count) {
     paths_.push_back(path);
     descriptors_.push_back(descriptor);
   }
+}
+
+std::vector<std::string> WorkerLogs::last_stack(int worker) const {
+  std::ifstream file(path(worker), std::ios::binary | std::ios::ate);
+  if (!file) return {};
+  file.seekg(std::max<std::streamoff>(0, std::streamoff(file.tellg()) - kLongestStack));
+  const std::string end(std::istreambuf_iterator<char>(file), {});
+  const auto title = end.rfind(kStackTitle);
+  if (title == std::string::npos) return {};
+  std::vector<std::string> lines;
+  std::istringstream stack(end.substr(title + kStackTitle.size()));
+  for (std::string line; std::getline(stack, line) && lines.size() < kMostStackLines;) lines.push_back(line);
+  return lines;
 }
 
 WorkerLogs::~WorkerLogs() {

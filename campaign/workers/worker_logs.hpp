@@ -17,6 +17,8 @@ class WorkerLogs {
 
   const std::vector<int>& descriptors() const { return descriptors_; }  // by worker; -1: none
   const std::string& path(int worker) const { return paths_[static_cast<std::size_t>(worker)]; }
+  // The lines of the last stack trace in the log of a worker (fatal_signals.hpp); empty: there is none.
+  std::vector<std::string> last_stack(int worker) const;
 
  private:
   std::vector<std::string> paths_;

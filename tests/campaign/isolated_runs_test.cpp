@@ -149,6 +149,21 @@ TEST(IsolatedRuns, WhatAgentsPrintGoesToALog) {
   std::filesystem::remove(prefix + ".worker-0.log");
 }
 
+TEST(IsolatedRuns, TheLossOfAWorkerHasTheStackOfTheCrash) {
+  const std::string prefix = testing::TempDir() + "crashing";
+  const CampaignPlan plan = failing_plan("segfault 1");
+  AgentPrograms programs;
+  programs.know(FLEETPROOF_FAILING_AGENT);
+  {
+    IsolatedRuns runs(plan, programs, {.workers = 1, .log_prefix = prefix});
+    runs(0);
+    const auto losses = runs.take_losses();
+    ASSERT_EQ(losses.size(), 2U) << "the run and its repeat";
+    for (const WorkerLoss& loss : losses) EXPECT_THAT(loss.stack, testing::Contains(HasSubstr("failing_agent")));
+  }
+  std::filesystem::remove(prefix + ".worker-0.log");
+}
+
 TEST(IsolatedRuns, WorkersThatAreKilledAgainAndAgainAreTheFaultOfTheRun) {
   const CampaignPlan plan = failing_plan("kill 1");
   AgentPrograms programs;
