@@ -21,6 +21,7 @@ std::int64_t AgentClock::shows_ns(SimTime t) const {
 }
 
 SimTime AgentClock::when_it_shows(std::int64_t ns) const {
+  ns = std::min(ns, kLongestDuration.count());  // an agent may ask for the end of time
   if (drift_ppb_ == 0) return at_ns(std::max<std::int64_t>(0, ns - offset_ns_));
   std::int64_t low = -1, high = std::max<std::int64_t>(1, std::min(ns, kLongestDuration.count() / 2));
   while (shows_ns(at_ns(high)) < ns && high < kLongestDuration.count() / 2) high *= 2;

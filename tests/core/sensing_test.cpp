@@ -1,4 +1,6 @@
 // What an AGV's own clock, position and scanner make of the world.
+#include <limits>
+
 #include "core/base/random.hpp"
 #include "core/engine/agent_clock.hpp"
 #include "tests/core/row_of_tens.hpp"
@@ -28,6 +30,16 @@ TEST(AgentClock, IsAheadAndDriftsAndTimersFollowIt) {
   EXPECT_EQ(shown[0], 2'000'000'000);
   EXPECT_EQ(shown[1], 12'010'000'000);
   EXPECT_EQ(to_seconds(trace.of(TraceKind::TimerWentOff).at(0).at), 10.0);
+}
+
+TEST(AgentClock, TheEndOfTimeIsBeyondEveryRun) {
+  constexpr std::int64_t kEnd = std::numeric_limits<std::int64_t>::max();
+  for (const double offset_s : {-10.0, 0.0, 10.0}) {
+    for (const double drift_ppm : {-100.0, 0.0, 100.0}) {
+      const AgentClock clock({offset_s, drift_ppm, 0.0, 0.0});
+      EXPECT_GT(clock.when_it_shows(kEnd), kStart + seconds(1e8)) << offset_s << " " << drift_ppm;
+    }
+  }
 }
 
 TEST(AgentClock, WhenItShowsIsTheFirstInstantThatDoes) {
