@@ -64,7 +64,12 @@ Setup decode_setup(std::string_view bytes) {
     AgentPrograms programs;
     for (const AgentProgram& plugin : setup.plugins) programs.load_unchanged(plugin);
     Disturbance disturbance;
-    take_orders(setup.plan, programs, slots[slot], channel, &disturbance);
+    take_orders(setup.plan, programs, slots[slot], channel, [&](const RunOrder& order) {
+      disturbance.renew(order.run_index);
+      // Reference agents have no limit in a campaign either: there they run in the main process.
+      const AgentFactor& agent = setup.plan.agent_of_cell(order.run_index);
+      limit_memory(programs.is_plugin(agent.program) ? setup.plan.limits.memory_mb : 0);
+    });
   });
 }
 

@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <ctime>
 #include <new>
@@ -45,8 +46,7 @@ void set_limits(std::uint64_t memory_mb) {
   const rlimit core{0, 0}, file{kLargestFile, kLargestFile};
   ::setrlimit(RLIMIT_CORE, &core);
   ::setrlimit(RLIMIT_FSIZE, &file);
-  const rlimit memory{memory_mb << 20, memory_mb << 20};
-  if (memory_mb > 0 && !kSanitized) ::setrlimit(RLIMIT_AS, &memory);
+  limit_memory(memory_mb);
 }
 
 RunAnswer answer_to(const RunOrder& order, const RunOne& run_one, WorkerSlot& slot) {
@@ -68,16 +68,23 @@ RunAnswer answer_to(const RunOrder& order, const RunOne& run_one, WorkerSlot& sl
 }  // namespace
 
 void take_orders(const CampaignPlan& plan, const AgentPrograms& programs, WorkerSlot& slot, Channel& channel,
-                 Disturbance* disturbance) {
+                 const std::function<void(const RunOrder& order)>& before_each) {
   const RunOne run_one(plan, programs);
   for (;;) {
     Channel::Wait state = Channel::Wait::NotYet;
     while (state == Channel::Wait::NotYet) state = channel.wait(std::chrono::hours(1));
     if (state == Channel::Wait::Gone) return;
     const RunOrder order = decode_order(channel.received());
-    if (disturbance != nullptr) disturbance->renew(order.run_index);
+    before_each(order);
     if (!channel.send(encode(answer_to(order, run_one, slot)))) ::_exit(kChannelClosedExit);
   }
+}
+
+void limit_memory(std::uint64_t memory_mb) {
+  rlimit memory{};
+  if (kSanitized || ::getrlimit(RLIMIT_AS, &memory) != 0) return;
+  memory.rlim_cur = memory_mb > 0 ? std::min<rlim_t>(memory_mb << 20, memory.rlim_max) : memory.rlim_max;
+  ::setrlimit(RLIMIT_AS, &memory);
 }
 
 void answer_failures(Channel& channel, const std::function<void()>& life) {

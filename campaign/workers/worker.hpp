@@ -8,7 +8,7 @@
 #include "campaign/plan/plan.hpp"
 #include "campaign/run/agent_programs.hpp"
 #include "campaign/workers/channel.hpp"
-#include "campaign/workers/disturbance.hpp"
+#include "campaign/workers/run_order.hpp"
 #include "campaign/workers/shared_slots.hpp"
 
 namespace fleetproof {
@@ -31,10 +31,13 @@ struct WorkerSetup {
 // in a process of its own.
 [[noreturn]] void work(const WorkerSetup& setup, int slot, Channel channel);
 
-// Takes one order after the other until the channel is closed. `programs` are loaded here. Each run begins with another
-// disturbance, if there is one.
-void take_orders(const CampaignPlan& plan, const AgentPrograms& programs, WorkerSlot& slot, Channel& channel,
-                 Disturbance* disturbance = nullptr);
+// Takes one order after the other until the channel is closed. `programs` are loaded here.
+void take_orders(
+    const CampaignPlan& plan, const AgentPrograms& programs, WorkerSlot& slot, Channel& channel,
+    const std::function<void(const RunOrder& order)>& before_each = [](const RunOrder&) {});
+
+// From now on this process may use so many megabytes of addresses; 0: no limit. A lower limit can be lifted again.
+void limit_memory(std::uint64_t memory_mb);
 
 // Calls `life` and ends the process. If it throws, the channel or the exit code says why.
 [[noreturn]] void answer_failures(Channel& channel, const std::function<void()>& life);
