@@ -35,9 +35,10 @@ Headline headline_of(const ReportInput& input, const AgentAudit& audit) {
     return headline;
   }
   return {"not deterministic",
-          fmt::format("agent {}: this software is not deterministic in {}. Its rates are those of the runs as they "
+          fmt::format("agent {}: this software is not deterministic in {}, first in run {}. Its rates are those of the "
+                      "runs as they "
                       "were; the same run may end in another way. {}",
-                      agent, share_text(audit), recordings_text(audit)),
+                      agent, share_text(audit), *audit.first_differing, recordings_text(audit)),
           {}};
 }
 
@@ -45,10 +46,11 @@ std::string remark_of(const AgentAudit& audit) {
   const std::string agent = printable(audit.agent, 40);
   if (audit.audited == 0) return fmt::format("Agent {}: no run was audited.", agent);
   if (audit.differing == 0)
-    return fmt::format("Agent {}: {} audited, and every one came out the same.", agent,
-                       count_text(audit.audited, "run") + (audit.audited == 1 ? " was" : " were"));
-  return fmt::format("Agent {}: not deterministic in {}.{}", agent, share_text(audit),
-                     audit.is_plugin ? " " + recordings_text(audit) : "");
+    return audit.audited == 1
+               ? fmt::format("Agent {}: 1 run was audited, and it came out the same.", agent)
+               : fmt::format("Agent {}: {} runs were audited, and every one came out the same.", agent, audit.audited);
+  if (audit.engine_at_fault()) return fmt::format("Agent {}: an error of the engine in {}.", agent, share_text(audit));
+  return fmt::format("Agent {}: not deterministic in {}. {}", agent, share_text(audit), recordings_text(audit));
 }
 
 }  // namespace

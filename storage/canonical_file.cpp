@@ -50,13 +50,14 @@ void copy_rows(SQLite::Database& db, std::uint64_t stop_index) {
   copy_below_stop("incidents", kIncidentColumns, "run_index, ordinal");
   copy_below_stop("probes", kProbeColumns, "run_index, ordinal");
   copy_below_stop("audits", kAuditColumns, "run_index");
-  // Runs of software that came out the same in every audit are replayed from their seeds. A row that is never written
+  // Runs of software that has passed its audits are replayed from their seeds. A row that is never written
   // leaves no trace in the file, one that is deleted would.
   db.exec(
-      fmt::format("INSERT INTO recordings ({0}) SELECT {1} FROM live.recordings x JOIN main.runs r ON r.run_index = "
-                  "x.run_index JOIN main.cells c ON c.cell = r.cell WHERE c.agent NOT IN (SELECT agent FROM "
-                  "main.v1_audits GROUP BY agent HAVING min(same) = 1) ORDER BY x.run_index",
-                  kRecordingColumns, "x.run_index, x.calls, x.checksum"));
+      fmt::format("INSERT INTO recordings ({}) SELECT x.run_index, x.calls, x.checksum FROM live.recordings x JOIN "
+                  "main.runs r ON r.run_index = x.run_index JOIN main.cells c ON c.cell = r.cell WHERE c.agent NOT "
+                  "IN (SELECT agent FROM main.v1_audits GROUP BY agent HAVING min(same) = 1 AND count(*) >= {}) "
+                  "ORDER BY x.run_index",
+                  kRecordingColumns, kAuditsToPass));
 }
 
 // With the count and the seal, a lost or added row and a changed view are noticed too, not only a changed row.

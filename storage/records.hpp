@@ -121,6 +121,10 @@ struct RunRecord {
   std::string recording{};
 };
 
+// If so many audited runs of an agent came out the same, and none differently, the agent has passed: its failed runs
+// are simulated again from their seeds, and need no recordings.
+inline constexpr std::uint64_t kAuditsToPass = 20;
+
 // A run that was simulated once more, in another process: the checksum that its row would have had.
 struct AuditRecord {
   std::uint64_t run_index = 0;

@@ -37,12 +37,15 @@ void SealedContent::end_chunk() {
 
 void SealedContent::add_rest(SQLite::Database& db) {
   if (in_chunk_ > 0) end_chunk();
+  all_.add(chunks_.size());  // the lists have no marks between them, but counts
+  std::uint64_t count = 0;
   SQLite::Statement audits(db, "SELECT run_index, checksum FROM main.audits ORDER BY run_index");
   while (audits.executeStep()) {
     all_.add(number(audits, 0));
     all_.add(number(audits, 1));
+    ++count;
   }
-  all_.add(0);  // between the two lists
+  all_.add(count);
   SQLite::Statement recordings(db, "SELECT run_index, checksum, calls FROM main.recordings ORDER BY run_index");
   while (recordings.executeStep()) {
     all_.add(number(recordings, 0));

@@ -18,8 +18,8 @@ class AuditBook {
   void add(const AuditFinding& finding);
   std::size_t agent_of(std::uint64_t run_index) const { return run_index % agents_.size(); }  // agents vary fastest
   std::size_t agent_count() const { return agents_.size(); }
-  // Whether a failed run of this agent may not be reproduced by simulating it again: the agent does not promise that it
-  // always does the same, or too few audits have borne that out, or one has not. Without audits nothing is recorded.
+  // Whether a failed run of this agent may not be reproduced by simulating it again: the agent has not passed its
+  // audits. Without audits nothing is recorded.
   bool needs_recordings(std::size_t agent) const;
 
  private:

@@ -1,9 +1,12 @@
 #include "campaign/batch/audit_desk.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "core/base/machine_error.hpp"
 #include "core/base/random.hpp"
 #include "storage/checksum.hpp"
 
@@ -12,6 +15,7 @@ namespace {
 
 // Runs that one process audits: its start costs as much as some short runs.
 constexpr std::size_t kBatch = 16;
+constexpr int kMostHangs = 3;
 constexpr std::size_t kFirstBatch = 4;  // the first findings are wanted soon: they may end the recording of runs
 
 // So many threads that the audits keep up with the campaign.
@@ -39,6 +43,7 @@ AuditDesk::~AuditDesk() {
 void AuditDesk::offer(const RunRecord& run) {
   if (!runs_ || !share_.contains(run)) return;
   const std::lock_guard lock(mutex_);
+  if (abandoned_) return;
   waiting_.emplace(run.run_index, row_checksum(run));
   if (waiting_.size() >= wanted_) more_.notify_one();
 }
@@ -72,9 +77,13 @@ std::uint64_t AuditDesk::open_count() const {
   return waiting_.size() + under_way_;
 }
 
+std::string AuditDesk::failure() const {
+  const std::lock_guard lock(mutex_);
+  return failure_;
+}
+
 std::vector<AuditFinding> AuditDesk::take_findings() {
   const std::lock_guard lock(mutex_);
-  if (failure_) std::rethrow_exception(failure_);
   return std::exchange(findings_, {});
 }
 
@@ -97,22 +106,29 @@ void AuditDesk::work() {
     try {
       audit(batch);
     } catch (const RunAbandoned&) {
-    } catch (...) {
+    } catch (const std::exception& error) {
       const std::lock_guard lock(mutex_);
-      failure_ = std::current_exception();
+      failure_ = error.what();
+      abandoned_ = closing_ = true;
+      waiting_.clear();
+      more_.notify_all();
     }
     const std::lock_guard lock(mutex_);
     under_way_ -= batch.size();
-    if (abandoned_ || failure_) return;
+    if (abandoned_) return;
   }
 }
 
 void AuditDesk::audit(const Batch& batch) {
   for (const auto& [run_index, checksum] : batch) {
-    const std::uint64_t now = row_checksum((*runs_)(run_index));
+    const RunRecord record = (*runs_)(run_index);
+    const std::uint64_t now = row_checksum(record);
     const std::lock_guard lock(mutex_);
     findings_.push_back({{run_index, now}, now == checksum});
     if (++found_ >= kAuditsToPass) wanted_ = kBatch;
+    // The audited runs did not hang. Each that does now costs eleven times the limit.
+    if (record.outcome.hang && ++hung_ >= kMostHangs)
+      throw MachineError(fmt::format("{} runs hang in an audit and did not before", hung_));
   }
 }
 

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <atomic>
 #include <condition_variable>
 #include <cstdint>
-#include <exception>
 #include <map>
+#include <memory>
 #include <mutex>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -43,7 +43,10 @@ class AuditDesk {
   void abandon();       // nothing more is audited; the audits under way end within a second
   bool idle() const;    // nothing waits and nothing is under way
   std::uint64_t open_count() const;
-  // The findings since the last call. Rethrows an exception of an audit.
+  // Why no more is audited, for example because the file of a plug-in was changed; empty: nothing went wrong. The
+  // campaign goes on: its runs do not need the audits.
+  std::string failure() const;
+  // The findings since the last call.
   std::vector<AuditFinding> take_findings();
 
  private:
@@ -62,10 +65,11 @@ class AuditDesk {
   std::map<std::uint64_t, std::uint64_t> waiting_;  // run index -> checksum of its row
   std::size_t wanted_;                              // so many runs must wait before a batch is begun
   std::uint64_t found_ = 0;
+  int hung_ = 0;
   std::size_t under_way_ = 0;
   bool closing_ = false, abandoned_ = false;
   std::vector<AuditFinding> findings_;
-  std::exception_ptr failure_;
+  std::string failure_;
   std::vector<std::thread> threads_;
 };
 

@@ -9,9 +9,6 @@
 
 namespace fleetproof {
 
-// So many audits show whether the failed runs of a plug-in need recordings.
-inline constexpr std::uint64_t kAuditsToPass = 20;
-
 // Which runs of a campaign are audited: one drawn run of every 1 / share of an agent, and before that its first run, or
 // the first kAuditsToPass runs of a plug-in. A pure function of the plan's seed and the run, so that the same runs are
 // audited however the campaign is stopped, resumed or shared out.

@@ -111,31 +111,33 @@ class Session {
       tick_if_due([&] { return pool.under_way(); });
     }
     result_.threads = pool.threads_seen();
+    result_.progress.elapsed_s = elapsed_s();
   }
 
   // A stopped campaign leaves audits open; the session that goes on does them.
   void finish_audits() {
     audits_.no_more_runs();
     while (!audits_.idle()) {
-      if (must_stop(options_, elapsed_s())) {
-        if (!stopped_) stopped_ = Clock::now();
-        if (Clock::now() - *stopped_ >= kDrain) audits_.abandon();
-      }
+      if (must_stop(options_, elapsed_s())) break;
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
       tick_if_due([] { return std::vector<RunUnderWay>(); });
     }
+    result_.progress.audits_open = audits_.open_count();
+    audits_.abandon();
     keep_findings();
+    result_.audit_failure = audits_.failure();
   }
 
   double elapsed_s() const { return std::chrono::duration<double>(Clock::now() - started_).count(); }
 
   Resumption resumption(const std::string& path) {
     return {[this, path](const CampaignRecord& stored, CampaignRecord& continued) {
+              stored_runs_are_ours_ = has_one_engine(stored.engine, continued.engine);
               require_same_campaign(path, stored, continued, options_.allow_drift);
             },
             [this](const RunRecord& record) {
               count(record);
-              audits_.offer(record);
+              if (stored_runs_are_ours_) audits_.offer(record);  // another engine's run may well differ
             },
             [this](const AuditRecord& audit, bool same) {
               count({audit, same});
@@ -215,6 +217,7 @@ class Session {
   const CampaignListener& listener_;
   CampaignResult result_;
   RunLedger ledger_;
+  bool stored_runs_are_ours_ = true;
   AuditBook audit_book_;
   RunHost runs_;  // before the archive: worker processes must not hold its files
   AuditDesk audits_;

@@ -39,6 +39,7 @@ struct CampaignResult {
   std::vector<WorkerLoss> losses;  // the first of them
   std::uint64_t loss_count = 0;
   std::uint64_t audits_differing = 0;  // of the audits of this session
+  std::string audit_failure;           // why audits ended before their time; empty: they did not
   std::uint64_t stored = 0;            // the number of runs in the gap-free prefix that the campaign file contains
   int threads = 0;
   bool complete() const { return stored == progress.planned; }

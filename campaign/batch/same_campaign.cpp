@@ -74,6 +74,10 @@ std::string engine_differences(const EngineIdentity& stored, const EngineIdentit
   return text;
 }
 
+bool has_one_engine(const EngineIdentity& stored, const EngineIdentity& now) {
+  return engine_differences(stored, now).empty() && stored.libraries.find(kBegun) == std::string::npos;
+}
+
 void require_same_campaign(const std::string& path, const CampaignRecord& stored, CampaignRecord& now,
                            bool allow_drift) {
   if (const auto differences = plan_differences(stored, now); !differences.empty()) {

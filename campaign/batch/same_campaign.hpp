@@ -13,6 +13,9 @@ std::string plan_differences(const CampaignRecord& stored, const CampaignRecord&
 // The same for the engine, which computes the outcomes.
 std::string engine_differences(const EngineIdentity& stored, const EngineIdentity& now);
 
+// Whether the program and the plug-ins of this session made all runs in the file.
+bool has_one_engine(const EngineIdentity& stored, const EngineIdentity& now);
+
 // Throws InputError with the reason if the campaign `now` must not go on in the file `path`: another plan, fewer
 // replicates, more replicates of a latin hypercube, or another engine without `allow_drift`. Otherwise the engine
 // libraries of `now` name all engines that wrote to the file.

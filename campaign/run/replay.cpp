@@ -134,7 +134,7 @@ AuditCount audits_of(const ArchiveReader& archive, const CampaignPlan& plan, con
 
 bool is_trusted(const AgentProgram& agent, const AuditCount& audits) {
   if (!agent.is_plugin()) return true;
-  return (agent.flags & FP_DETERMINISTIC) != 0 && audits.audited > 0 && audits.differing == 0;
+  return (agent.flags & FP_DETERMINISTIC) != 0 && audits.audited >= kAuditsToPass && audits.differing == 0;
 }
 
 namespace {
@@ -145,7 +145,7 @@ std::string why_not_trusted(const AgentProgram& agent, const AuditCount& audits)
                        audits.audited);
   if ((agent.flags & FP_DETERMINISTIC) == 0)
     return "the agent does not declare that it is deterministic (FP_DETERMINISTIC)";
-  return "no run of this agent was audited";
+  return fmt::format("{} runs of this agent were audited, which is too few", audits.audited);
 }
 
 void require_run(const CampaignPlan& plan, std::uint64_t run_index) {

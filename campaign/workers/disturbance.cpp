@@ -1,6 +1,7 @@
 #include "campaign/workers/disturbance.hpp"
 
 #include <malloc.h>
+#include <sys/resource.h>
 
 #include <array>
 #include <cstddef>
@@ -30,7 +31,9 @@ void Disturbance::renew(std::uint64_t key) {
   const int fill = 1 + static_cast<int>(bits % 255);
   ::mallopt(M_PERTURB, fill);
   scatter_heap(bits);
-  paint_stack(static_cast<unsigned char>(fill));
+  rlimit stack{};
+  if (::getrlimit(RLIMIT_STACK, &stack) == 0 && stack.rlim_cur >= 8 * kStackBytes)
+    paint_stack(static_cast<unsigned char>(fill));
 }
 
 // Blocks of all sizes in a drawn order; then every second of them goes back in another drawn order. `malloc` hands out

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <limits>
 #include <utility>
 
 #include "campaign/workers/fresh_program.hpp"
@@ -24,6 +25,7 @@ constexpr int kKillsFromOutside = 3;    // in a row; then the run itself is the 
 
 IsolatedRuns::IsolatedRuns(const CampaignPlan& plan, const AgentPrograms& programs, const Hosting& hosting)
     : plan_(plan),
+      programs_(programs),
       hosting_(hosting),
       setup_(hosting.program.empty() ? "" : encode_setup(plan, programs)),
       run_one_(plan, programs),
@@ -55,14 +57,14 @@ RunRecord IsolatedRuns::operator()(std::uint64_t run_index, bool record_calls) {
 }
 
 RunAnswer IsolatedRuns::answer_of(Member& member, RunOrder order) {
-  Attempt first = attempt(member, order, cpu_limit_s());
+  Attempt first = attempt(member, order, cpu_limit_s(order.run_index));
   return first.answer ? std::move(*first.answer) : repeat(member, std::move(order));
 }
 
 // Each attempt happens in a worker that has hosted nothing before, and learns at which calls agents ended the attempts
 // before it. Every such call is later than the one before, or the software does not do the same thing twice.
 RunAnswer IsolatedRuns::repeat(Member& member, RunOrder order) {
-  const double limit_s = kRepeatFactor * cpu_limit_s();
+  const double limit_s = kRepeatFactor * cpu_limit_s(order.run_index);
   for (int killed = 0;;) {
     Attempt again = attempt(member, order, limit_s);
     if (again.answer) return std::move(*again.answer);
@@ -83,6 +85,7 @@ RunAnswer IsolatedRuns::repeat(Member& member, RunOrder order) {
 }
 
 IsolatedRuns::Attempt IsolatedRuns::attempt(Member& member, const RunOrder& order, double cpu_limit_s) {
+  if (abandoned_) throw RunAbandoned();
   slots_[member.slot].call.number = 0;  // before the start: the worker may die while it loads
   if (!start(member) || !member.worker.channel.send(encode(order)))
     return lost(member, order.run_index, WorkerState::Closed);
@@ -154,7 +157,9 @@ IsolatedRuns::Attempt IsolatedRuns::lost(Member& member, std::uint64_t run_index
   return {std::nullopt, cause};
 }
 
-double IsolatedRuns::cpu_limit_s() const {
+// Reference agents have no limit: in a campaign they run in the main process.
+double IsolatedRuns::cpu_limit_s(std::uint64_t run_index) const {
+  if (!programs_.is_plugin(plan_.agent_of_cell(run_index).program)) return std::numeric_limits<double>::infinity();
   return std::max(plan_.limits.cpu_s, kTimesSlowest * 1e-9 * static_cast<double>(slowest_ns_.load()));
 }
 

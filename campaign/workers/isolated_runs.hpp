@@ -75,9 +75,10 @@ class IsolatedRuns {
   Attempt lost(Member& member, std::uint64_t run_index, WorkerState state);
   RunAnswer repeat(Member& member, RunOrder order);
   RunAnswer answer_of(Member& member, RunOrder order);
-  double cpu_limit_s() const;
+  double cpu_limit_s(std::uint64_t run_index) const;
 
   const CampaignPlan& plan_;
+  const AgentPrograms& programs_;
   Hosting hosting_;
   std::string setup_;  // of a worker that is a program of its own
   RunOne run_one_;

@@ -57,8 +57,8 @@ TEST(AuditSection, CountsTheAuditsOfEachAgent) {
   EXPECT_FALSE(input.audits.engine_at_fault()) << "a plug-in may do something else each time";
   EXPECT_THAT(audit_headlines(input),
               ElementsAre(Field(&Headline::text, HasSubstr("agent candidate: this software is not deterministic in "
-                                                           "50.0 % of the audited runs (2 of 4)"))));
-  EXPECT_THAT(audit_section(input).remarks[1].text, HasSubstr("hull-lock: 1 run was audited, and every one"));
+                                                           "50.0 % of the audited runs (2 of 4), first in run 3."))));
+  EXPECT_THAT(audit_section(input).remarks[1].text, HasSubstr("hull-lock: 1 run was audited, and it came out"));
 }
 
 TEST(AuditSection, AReferenceAgentThatComesOutDifferentlyIsAnErrorOfTheEngine) {
