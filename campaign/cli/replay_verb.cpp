@@ -69,6 +69,22 @@ ReplayResult replay_software(const ReplayWords& words, const ArchiveReader& arch
                     : replay(archive, plan, words.run, programs, isolated_simulation(plan, programs));
 }
 
+// By the software, if it is at hand and the audits found nothing against it; else from the recording, if there is one.
+ReplayResult replay_either_way(const ReplayWords& words, const ArchiveReader& archive, const CampaignPlan& plan,
+                               AgentPrograms& programs, TraceSink* sink) {
+  std::optional<ReplayResult> recorded;
+  if (!words.in_process && words.plugins.empty()) recorded = replay_recording(archive, plan, words.run);
+  if (!recorded) return replay_software(words, archive, plan, programs, sink);
+  if (audits_of(archive, plan, plan.agent_of_cell(words.run)).differing == 0) {
+    try {
+      ReplayResult result = replay_software(words, archive, plan, programs, sink);
+      if (result.verdict != ReplayVerdict::NotDeterministic) return result;
+    } catch (const InputError&) {  // the software is gone: the recording is there for that
+    }
+  }
+  return sink == nullptr ? *std::move(recorded) : *replay_recording(archive, plan, words.run, sink);
+}
+
 void print_text(const ReplayResult& result, const CellRecord& cell, const Scenario& scenario) {
   put("{}  run {}: {}, {}, {} AGVs, {}, replicate {}\n", name_of(result.verdict), result.recomputed.run_index,
       cell.agent, cell.layout, cell.fleet_size, factors_text(result.recomputed.factors), result.recomputed.replicate);
@@ -96,10 +112,8 @@ int replay_run(const ReplayWords& words) {
   scenario.agent_config = plan.config_of(agent);
   TracePrinter printer(scenario);
   TraceSink* const sink = words.trace ? &printer : nullptr;
-  std::optional<ReplayResult> recorded;
-  if (!words.in_process && words.plugins.empty()) recorded = replay_recording(archive, plan, words.run, sink);
   AgentPrograms programs;
-  const ReplayResult result = recorded ? *std::move(recorded) : replay_software(words, archive, plan, programs, sink);
+  const ReplayResult result = replay_either_way(words, archive, plan, programs, sink);
   if (!words.scenario_out.empty())
     write_whole({words.scenario_out, "--scenario", OutputKind::Scenario}, printable_json(to_text(scenario)));
   if (words.json) {

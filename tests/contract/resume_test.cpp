@@ -191,7 +191,8 @@ TEST_F(Resume, AnotherCampaignOrAgentIsRefusedAndTheFileStays) {
 TEST_F(Resume, AReplayWithOtherSoftwareSaysSoAndIsNoEngineFault) {
   ASSERT_TRUE(judged(run("run c.toml --db x.db --replicates 5")));
   fs::copy_file(FLEETPROOF_PLUGIN, path("failing.so"), fs::copy_options::overwrite_existing);
-  EXPECT_EQ(run("replay x.db 0").exit_code, 2) << "another agent altogether";
+  EXPECT_EQ(run("replay x.db 0 --in-process").exit_code, 2) << "another agent altogether";
+  EXPECT_THAT(run("replay x.db 0").out, HasSubstr("from the recording of what its agents did"));
   fs::copy_file(FLEETPROOF_FAILING_AGENT, path("failing.so"), fs::copy_options::overwrite_existing);
   std::ofstream(path("failing.so"), std::ios::app) << "rebuilt";
   const auto replayed = shell("FLEETPROOF_TEST_REBUILT=yes \"$FLEETPROOF\" replay x.db 0");
