@@ -1,6 +1,7 @@
 #include "campaign/batch/audit_book.hpp"
 
 namespace fleetproof {
+
 AuditBook::AuditBook(const CampaignPlan& plan, const AgentPrograms& programs) : has_audits_(plan.audit.share > 0.0) {
   for (const AgentFactor& agent : plan.agents)
     agents_.push_back({&programs.program(agent.program, "factors.agents"), {}});

@@ -15,8 +15,8 @@ namespace {
 
 // Runs that one process audits: its start costs as much as some short runs.
 constexpr std::size_t kBatch = 16;
-constexpr int kMostHangs = 3;
 constexpr std::size_t kFirstBatch = 4;  // the first findings are wanted soon: they may end the recording of runs
+constexpr int kMostHangs = 3;           // of runs that did not hang before; then nothing more is audited
 
 // So many threads that the audits keep up with the campaign.
 int threads_for(double share, int workers) {
@@ -126,7 +126,7 @@ void AuditDesk::audit(const Batch& batch) {
     const std::lock_guard lock(mutex_);
     findings_.push_back({{run_index, now}, now == checksum});
     if (++found_ >= kAuditsToPass) wanted_ = kBatch;
-    // The audited runs did not hang. Each that does now costs eleven times the limit.
+    // Each costs eleven times the limit.
     if (record.outcome.hang && ++hung_ >= kMostHangs)
       throw MachineError(fmt::format("{} runs hang in an audit and did not before", hung_));
   }

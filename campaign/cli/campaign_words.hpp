@@ -13,8 +13,8 @@
 namespace fleetproof::cli {
 
 // Reads a campaign file, loads its plug-ins under their own names, checks the plan, and prints warnings on stderr.
-// Throws InputError, with file, line and column, for an agent that is not known or cannot be loaded, and
-// for a shared object whose agents have unlike `symbols`.
+// Throws InputError, with file, line and column, for an agent that is not known or cannot be loaded, and for a shared
+// object whose agents have unlike `symbols`.
 CampaignFile load_campaign(const std::string& path, AgentPrograms& programs);
 
 // &AgentPrograms::know or &AgentPrograms::load.

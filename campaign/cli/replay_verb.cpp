@@ -72,9 +72,8 @@ ReplayResult replay_software(const ReplayWords& words, const ArchiveReader& arch
 // By the software, if it is at hand and the audits found nothing against it; else from the recording, if there is one.
 ReplayResult replay_either_way(const ReplayWords& words, const ArchiveReader& archive, const CampaignPlan& plan,
                                AgentPrograms& programs, TraceSink* sink) {
-  std::optional<ReplayResult> recorded;
-  if (!words.in_process && words.plugins.empty()) recorded = replay_recording(archive, plan, words.run);
-  if (!recorded) return replay_software(words, archive, plan, programs, sink);
+  const bool wants_software = words.in_process || !words.plugins.empty();
+  if (wants_software || !archive.recording(words.run)) return replay_software(words, archive, plan, programs, sink);
   if (audits_of(archive, plan, plan.agent_of_cell(words.run)).differing == 0) {
     try {
       ReplayResult result = replay_software(words, archive, plan, programs, sink);
@@ -82,7 +81,7 @@ ReplayResult replay_either_way(const ReplayWords& words, const ArchiveReader& ar
     } catch (const InputError&) {  // the software is gone: the recording is there for that
     }
   }
-  return sink == nullptr ? *std::move(recorded) : *replay_recording(archive, plan, words.run, sink);
+  return *replay_recording(archive, plan, words.run, sink);
 }
 
 void print_text(const ReplayResult& result, const CellRecord& cell, const Scenario& scenario) {

@@ -87,7 +87,7 @@ int finish(const CampaignResult& result, const RunWords& words) {
     talk("{}: the file says that it is incomplete; go on: {}\n", signal_number != 0 ? "interrupted" : "stopped early",
          resume_command(words));
   if (!result.audit_failure.empty()) {
-    talk("the audits ended: {}; the runs are complete without them\n", result.audit_failure);
+    talk("the audits ended early: {}; the runs themselves are not affected\n", result.audit_failure);
   } else if (result.complete() && result.progress.audits_open > 0) {
     talk("{} of its runs are still to be audited; go on: {}\n", result.progress.audits_open, resume_command(words));
   }
