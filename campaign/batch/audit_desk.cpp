@@ -40,8 +40,9 @@ AuditDesk::~AuditDesk() {
   for (std::thread& thread : threads_) thread.join();
 }
 
-void AuditDesk::offer(const RunRecord& run) {
+void AuditDesk::offer(const RunRecord& run, std::uint64_t slowest_cpu_ns) {
   if (!runs_ || !share_.contains(run)) return;
+  runs_->expect_cpu_ns(slowest_cpu_ns);
   const std::lock_guard lock(mutex_);
   if (abandoned_) return;
   waiting_.emplace(run.run_index, row_checksum(run));
@@ -122,6 +123,7 @@ void AuditDesk::work() {
 void AuditDesk::audit(const Batch& batch) {
   for (const auto& [run_index, checksum] : batch) {
     const RunRecord record = (*runs_)(run_index);
+    runs_->take_losses();  // what ended a worker here stands in the record, and so in the finding
     const std::uint64_t now = row_checksum(record);
     const std::lock_guard lock(mutex_);
     findings_.push_back({{run_index, now}, now == checksum});

@@ -33,8 +33,9 @@ class AuditDesk {
   AuditDesk(const AuditDesk&) = delete;
   AuditDesk& operator=(const AuditDesk&) = delete;
 
-  // Takes the run in if it belongs to the share.
-  void offer(const RunRecord& run);
+  // Takes the run in if it belongs to the share. `slowest_cpu_ns`: what a run of the campaign took at most so far, so
+  // that no audit has a lower limit than its run had.
+  void offer(const RunRecord& run, std::uint64_t slowest_cpu_ns = 0);
   // An earlier session has audited the run. Call this before start().
   void forget(std::uint64_t run_index) { waiting_.erase(run_index); }
   void start();

@@ -18,6 +18,8 @@ class AuditShare {
 
   // A run that hung is not audited: it would hang once more, for the whole limit.
   bool contains(const RunRecord& run) const;
+  // So many runs of the agent at this position of the plan are audited before the share begins.
+  std::uint64_t first_runs(std::size_t agent) const { return first_runs_[agent]; }
 
  private:
   std::uint64_t seed_;

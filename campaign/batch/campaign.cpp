@@ -21,6 +21,8 @@ namespace {
 // Runs between the oldest unfinished and the newest handed out: one slow run stalls nothing, and memory stays bounded.
 constexpr std::uint64_t kLiveWindow = 65'536;
 
+constexpr std::uint64_t kAuditsAhead = 65'536;
+
 bool must_stop(const RunOptions& options, double elapsed_s) {
   const bool interrupted = options.interrupted != nullptr && options.interrupted->load() != 0;
   return interrupted || (options.max_time && elapsed_s >= static_cast<double>(options.max_time->count()));
@@ -105,8 +107,11 @@ class Session {
         options_.workers, ledger_.prefix_length(), result_.progress.planned, kLiveWindow,
         [this](std::uint64_t index) { return runs_(index); }, ledger_.ahead());
     while (!pool.finished()) {
-      const auto record = pool.next(std::chrono::milliseconds(100));
-      if (record) take(*record);
+      if (audits_.open_count() >= kAuditsAhead && !stopped_) {  // with a large share the audits set the pace
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      } else if (const auto record = pool.next(std::chrono::milliseconds(100))) {
+        take(*record);
+      }
       stop_if_due(pool);
       tick_if_due([&] { return pool.under_way(); });
     }
@@ -164,7 +169,7 @@ class Session {
     ++result_.progress.simulated;
     count(record);
     archive_.add(record);
-    audits_.offer(record);
+    audits_.offer(record, runs_.slowest_cpu_ns());
     listener_.run_finished(record);
   }
 

@@ -4,6 +4,7 @@
 #include <mutex>
 #include <numeric>
 
+#include "campaign/batch/audit_share.hpp"
 #include "campaign/batch/task_pool.hpp"
 #include "campaign/workers/run_host.hpp"
 
@@ -51,6 +52,17 @@ class Costs {
   std::vector<CellCost> cells_;
 };
 
+// Each agent has as many cells as the others; its first runs are audited in any case.
+double first_audits_s(const CampaignPlan& plan, const AgentPrograms& programs, const std::vector<CellCost>& cells) {
+  if (plan.audit.share <= 0.0) return 0.0;
+  const AuditShare share(plan, programs);
+  const std::size_t agents = plan.agents.size();
+  double sum_s = 0.0;
+  for (std::size_t cell = 0; cell < cells.size(); ++cell)  // agents vary fastest
+    sum_s += cells[cell].mean_s * static_cast<double>(share.first_runs(cell % agents));
+  return sum_s * static_cast<double>(agents) / static_cast<double>(cells.size());
+}
+
 }  // namespace
 
 double Pilot::replicate_s() const {
@@ -59,11 +71,13 @@ double Pilot::replicate_s() const {
 }
 
 double Pilot::forecast_s(std::uint64_t replicates) const {
-  return replicate_s() * static_cast<double>(replicates) / workers;
+  const double runs_s = replicate_s() * static_cast<double>(replicates);
+  return (runs_s * (1.0 + audit_share) + std::min(first_audits_s, runs_s)) / workers;
 }
 
 std::uint64_t Pilot::replicates_within(double time_s) const {
-  return static_cast<std::uint64_t>(time_s * workers / std::max(1e-9, replicate_s()));
+  const double left_s = std::max(0.0, time_s * workers - first_audits_s);
+  return static_cast<std::uint64_t>(left_s / std::max(1e-9, replicate_s() * (1.0 + audit_share)));
 }
 
 double Pilot::runs_per_s() const { return static_cast<double>(cells.size()) * workers / std::max(1e-9, replicate_s()); }
@@ -93,6 +107,8 @@ Pilot run_pilot(const CampaignPlan& plan, const AgentPrograms& programs, int wor
   pilot.elapsed_s = seconds_since(begin);
   pilot.workers = workers;
   pilot.cells = costs.means();
+  pilot.audit_share = plan.audit.share;
+  pilot.first_audits_s = first_audits_s(plan, programs, pilot.cells);
   return pilot;
 }
 

@@ -20,9 +20,12 @@ struct Pilot {
   int workers = 1;
   std::uint64_t runs = 0;
   double elapsed_s = 0.0;
+  // Audits simulate this share of the runs once more, and before that the first runs of each agent: so long, on one
+  // worker.
+  double audit_share = 0.0, first_audits_s = 0.0;
 
-  double replicate_s() const;  // one run in each cell, on one worker
-  // What `replicates` take on all workers.
+  double replicate_s() const;  // one run in each cell, on one worker, without audits
+  // What `replicates` and their audits take on all workers.
   double forecast_s(std::uint64_t replicates) const;
   // The number of whole replicates that fit into a time.
   std::uint64_t replicates_within(double time_s) const;

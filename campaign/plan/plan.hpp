@@ -65,7 +65,7 @@ constexpr const char* name_of(CampaignKind kind) {
 
 // What one run of a plug-in may use. What goes beyond it is filed as a crash or hang.
 struct LimitSetup {
-  std::uint64_t memory_mb = 4096;  // addresses of a worker process; 0: no limit
+  std::uint64_t memory_mb = 4096;  // addresses that a plug-in may map; 0: no limit
   double cpu_s = 10.0;             // at least; 20 times the slowest run so far if that is more
   friend bool operator==(const LimitSetup&, const LimitSetup&) = default;
 };

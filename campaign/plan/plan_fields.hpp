@@ -56,7 +56,7 @@ template <FieldsOf<LimitSetup> Limits, class Visit>
 void visit_fields(Limits& limits, Visit&& visit) {
   auto& [memory_mb, cpu_s] = limits;
   visit(Field{.key = "memory_mb",
-              .text = "addresses that a worker process with a plug-in may use; 0: no limit",
+              .text = "megabytes of addresses that plug-ins may map in a worker process; 0: no limit",
               .high = 16'777'216.0},
         memory_mb);
   visit(Field{.key = "cpu_s",
@@ -70,7 +70,7 @@ template <FieldsOf<AuditSetup> Audit, class Visit>
 void visit_fields(Audit& audit, Visit&& visit) {
   auto& [share] = audit;
   visit(Field{.key = "share",
-              .text = "of the runs is simulated once more in another process and compared; 0: none",
+              .text = "one of 1 / share runs (a whole number) is simulated once more elsewhere and compared; 0: none",
               .high = 1.0},
         share);
 }

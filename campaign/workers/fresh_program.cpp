@@ -61,14 +61,16 @@ Setup decode_setup(std::string_view bytes) {
     while (state == Channel::Wait::NotYet) state = channel.wait(std::chrono::hours(1));
     if (state == Channel::Wait::Gone) return;
     const Setup setup = decode_setup(channel.received());
+    Disturbance disturbance;
+    disturbance.renew(0);
+    const std::uint64_t own_bytes = mapped_bytes();  // as in a worker of the campaign: before the plug-ins are loaded
     AgentPrograms programs;
     for (const AgentProgram& plugin : setup.plugins) programs.load_unchanged(plugin);
-    Disturbance disturbance;
     take_orders(setup.plan, programs, slots[slot], channel, [&](const RunOrder& order) {
       disturbance.renew(order.run_index);
       // Reference agents have no limit in a campaign either: there they run in the main process.
       const AgentFactor& agent = setup.plan.agent_of_cell(order.run_index);
-      limit_memory(programs.is_plugin(agent.program) ? setup.plan.limits.memory_mb : 0);
+      limit_memory(programs.is_plugin(agent.program) ? setup.plan.limits.memory_mb : 0, own_bytes);
     });
   });
 }

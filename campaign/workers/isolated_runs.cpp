@@ -100,10 +100,14 @@ IsolatedRuns::Attempt IsolatedRuns::attempt(Member& member, const RunOrder& orde
   if (answer.failed) throw EngineError(answer.message);
   member.fresh = false;
   --member.runs_left;
-  std::uint64_t slowest = slowest_ns_;
-  while (slowest < answer.cpu_ns && !slowest_ns_.compare_exchange_weak(slowest, answer.cpu_ns)) {
-  }
+  expect_cpu_ns(answer.cpu_ns);
   return {std::move(answer), {}};
+}
+
+void IsolatedRuns::expect_cpu_ns(std::uint64_t cpu_ns) {
+  std::uint64_t slowest = slowest_ns_;
+  while (slowest < cpu_ns && !slowest_ns_.compare_exchange_weak(slowest, cpu_ns)) {
+  }
 }
 
 // False if the worker died at once.

@@ -51,6 +51,9 @@ class IsolatedRuns {
   RunRecord operator()(std::uint64_t run_index, bool record = false);
   // All runs under way end within a second.
   void abandon() { abandoned_ = true; }
+  // The CPU time of the slowest run so far; the limit of each run follows it. A higher one may come from elsewhere.
+  std::uint64_t slowest_cpu_ns() const { return slowest_ns_; }
+  void expect_cpu_ns(std::uint64_t cpu_ns);
   // The losses since the last call.
   std::vector<WorkerLoss> take_losses();
 

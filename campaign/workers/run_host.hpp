@@ -28,6 +28,8 @@ class RunHost {
   void record(std::size_t agent, bool on) { records_[agent] = on; }
   // The runs under way end within a second, without a record.
   void abandon();
+  // Of plug-ins so far; 0: none was simulated.
+  std::uint64_t slowest_cpu_ns() const { return isolated_ ? isolated_->slowest_cpu_ns() : 0; }
   // Of worker processes, since the last call.
   std::vector<WorkerLoss> take_losses();
 

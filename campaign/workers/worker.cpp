@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
+#include <fstream>
 #include <new>
 
 #include "campaign/run/run_one.hpp"
@@ -46,7 +47,7 @@ void set_limits(std::uint64_t memory_mb) {
   const rlimit core{0, 0}, file{kLargestFile, kLargestFile};
   ::setrlimit(RLIMIT_CORE, &core);
   ::setrlimit(RLIMIT_FSIZE, &file);
-  limit_memory(memory_mb);
+  limit_memory(memory_mb, mapped_bytes());
 }
 
 RunAnswer answer_to(const RunOrder& order, const RunOne& run_one, WorkerSlot& slot) {
@@ -80,10 +81,16 @@ void take_orders(const CampaignPlan& plan, const AgentPrograms& programs, Worker
   }
 }
 
-void limit_memory(std::uint64_t memory_mb) {
+std::uint64_t mapped_bytes() {
+  std::uint64_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+void limit_memory(std::uint64_t memory_mb, std::uint64_t own_bytes) {
   rlimit memory{};
   if (kSanitized || ::getrlimit(RLIMIT_AS, &memory) != 0) return;
-  memory.rlim_cur = memory_mb > 0 ? std::min<rlim_t>(memory_mb << 20, memory.rlim_max) : memory.rlim_max;
+  memory.rlim_cur = memory_mb > 0 ? std::min<rlim_t>(own_bytes + (memory_mb << 20), memory.rlim_max) : memory.rlim_max;
   ::setrlimit(RLIMIT_AS, &memory);
 }
 

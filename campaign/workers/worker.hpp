@@ -36,8 +36,12 @@ void take_orders(
     const CampaignPlan& plan, const AgentPrograms& programs, WorkerSlot& slot, Channel& channel,
     const std::function<void(const RunOrder& order)>& before_each = [](const RunOrder&) {});
 
-// From now on this process may use so many megabytes of addresses; 0: no limit. A lower limit can be lifted again.
-void limit_memory(std::uint64_t memory_mb);
+// The addresses that this process has mapped, in bytes.
+std::uint64_t mapped_bytes();
+
+// From now on this process may map so many megabytes beyond `own_bytes`; 0: no limit. A lower limit can be lifted
+// again.
+void limit_memory(std::uint64_t memory_mb, std::uint64_t own_bytes);
 
 // Calls `life` and ends the process. If it throws, the channel or the exit code says why.
 [[noreturn]] void answer_failures(Channel& channel, const std::function<void()>& life);

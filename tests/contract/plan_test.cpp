@@ -53,6 +53,11 @@ TEST(Pilot, TheForecastFollowsFromTheCosts) {
   EXPECT_DOUBLE_EQ(pilot.forecast_s(10), 10.0);
   EXPECT_EQ(pilot.replicates_within(10.5), 10U);
   EXPECT_DOUBLE_EQ(pilot.runs_per_s(), 2.0);
+  pilot.audit_share = 0.5;
+  pilot.first_audits_s = 3.0;
+  EXPECT_DOUBLE_EQ(pilot.forecast_s(10), 16.5);
+  EXPECT_EQ(pilot.replicates_within(16.6), 10U);
+  EXPECT_EQ(pilot.replicates_within(1.0), 0U) << "the first audits alone take longer";
 }
 
 class Plan : public test::ProgramTest {
@@ -64,7 +69,7 @@ class Plan : public test::ProgramTest {
   static std::string campaign(const std::string& kind, const std::string& judged) {
     return "kind = \"" + kind +
            "\"\nhorizon_s = 20\nreplicates = 30\n[factors]\nagents = [\"reckless\", \"hull-lock\"]\n"
-           "layouts = [\"aisle-grid\"]\nfleet_sizes = [3]\n[[gate]]\nname = \"g\"\nagent = \"" +
+           "layouts = [\"aisle-grid\"]\nfleet_sizes = [3]\n[audit]\nshare = 0\n[[gate]]\nname = \"g\"\nagent = \"" +
            judged + "\"\nlimit = 0.01\nconfidence = 0.9\nregion = \"all\"\n";
   }
 };
