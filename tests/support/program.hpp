@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -22,9 +23,11 @@ class ProgramTest : public testing::Test {
  protected:
   void SetUp() override {
     const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::temp_directory_path() / ("fleetproof-" + std::string(info->test_suite_name()) + "-" +
-                                                        info->name() + "-" + std::to_string(getpid()));
-    std::filesystem::create_directories(folder_);
+    std::string name =
+        std::string("fleetproof-") + info->test_suite_name() + "-" + info->name() + "-" + std::to_string(getpid());
+    std::ranges::replace(name, '/', '-');  // tests with parameters have one in their names
+    folder_ = std::filesystem::temp_directory_path() / name;
+    std::filesystem::create_directory(folder_);
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 

@@ -1,26 +1,31 @@
-// An agent that drives like `reckless` but does not always do the same. Its parameters say why: "addresses": it looks
-// at its neighbours in the order of their addresses. "static": a counter that all AGVs of the process share. "memory":
-// it reads memory that it never wrote. Otherwise it always does the same.
+// An agent that drives like `reckless` but does not always do the same: what its thinking costs depends on something
+// that no run should depend on. Its parameters say on what, see cost_ns. Otherwise it always does the same.
+#include <sys/auxv.h>
+
+#include <array>
 #include <cstdint>
-#include <cstring>
 #include <memory>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "core/agents/agent_type.hpp"
-#include "core/agents/agents.h"
 
 namespace {
+
+using fleetproof::agents::kReckless;
+
+constexpr std::int64_t kMillisecond_ns = 1'000'000;
+constexpr std::uint32_t kPurpose = 78;  // of the draw that the next run sees
 
 struct Neighbour {
   std::uint32_t agv = 0;
 };
 
 int shared_by_all = 0;
+std::uint64_t drawn_in_this_run = 0, drawn_in_run_before = 0;
 
 struct Unsteady {
-  const fp_agent_type* type = nullptr;
   void* inner = nullptr;
   const fp_host* host = nullptr;
   fp_controller* controller = nullptr;
@@ -29,26 +34,37 @@ struct Unsteady {
   std::set<Neighbour*> neighbours;
 };
 
-std::uint32_t read_unwritten() {
+std::uint32_t unwritten_heap() {
   const std::unique_ptr<std::uint32_t[]> fresh(new std::uint32_t[8]);
   volatile const std::uint32_t* words = fresh.get();
   return words[5];
 }
 
-// What the thinking of this AGV costs: it changes when its calls take effect.
-std::int64_t cost_ms(const Unsteady& agent) {
-  if (agent.kind == "addresses") return 1 + (*agent.neighbours.begin())->agv;
-  if (agent.kind == "static") return ++shared_by_all % 7;
-  if (agent.kind == "memory") return read_unwritten() % 7;
-  return 1;
+// So far below that no other call of a run has written there.
+[[gnu::noinline]] std::uint32_t unwritten_stack() {
+  std::array<unsigned char, std::size_t{128} << 10> below;
+  asm volatile("" : : "r"(below.data()) : "memory");  // for the compiler, this may write it
+  return below[0];
+}
+
+std::int64_t cost_ns(const Unsteady& agent) {
+  // The order of its neighbours by their addresses.
+  if (agent.kind == "addresses") return (1 + (*agent.neighbours.begin())->agv) * kMillisecond_ns;
+  // A counter that all AGVs of the process share.
+  if (agent.kind == "static") return (++shared_by_all % 7) * kMillisecond_ns;
+  // Memory that it never wrote.
+  if (agent.kind == "heap") return (unwritten_heap() % 7) * kMillisecond_ns;
+  if (agent.kind == "stack") return unwritten_stack() * kMillisecond_ns;
+  // The run that this process simulated before.
+  if (agent.kind == "before") return static_cast<std::int64_t>(drawn_in_run_before % 1'000'003);
+  // Where the program lies that loaded it.
+  if (agent.kind == "place") return static_cast<std::int64_t>((::getauxval(AT_ENTRY) >> 12) % 1'000'003);
+  return kMillisecond_ns;
 }
 
 void* create(const fp_host* host, fp_controller* controller, const fp_briefing* briefing) {
   auto* agent = new Unsteady;
-  for (std::uint32_t i = 0; i < fp_reference_agent_count; ++i) {
-    if (std::strcmp(fp_reference_agents[i]->name, "reckless") == 0) agent->type = fp_reference_agents[i];
-  }
-  agent->inner = agent->type->create(host, controller, briefing);
+  agent->inner = kReckless.create(host, controller, briefing);
   agent->host = host;
   agent->controller = controller;
   agent->kind = briefing->config;
@@ -56,18 +72,22 @@ void* create(const fp_host* host, fp_controller* controller, const fp_briefing* 
     agent->owned.push_back(std::make_unique<Neighbour>(Neighbour{agv}));
     agent->neighbours.insert(agent->owned.back().get());
   }
+  if (briefing->self == 0) {
+    drawn_in_run_before = drawn_in_this_run;
+    drawn_in_this_run = host->random(controller, kPurpose, 0);
+  }
   return agent;
 }
 
 void on_event(void* instance, const fp_event* event) {
   auto& agent = *static_cast<Unsteady*>(instance);
-  agent.host->declare_cost_ns(agent.controller, cost_ms(agent) * 1'000'000);
-  agent.type->on_event(agent.inner, event);
+  agent.host->declare_cost_ns(agent.controller, cost_ns(agent));
+  kReckless.on_event(agent.inner, event);
 }
 
 void destroy(void* instance) {
   auto* agent = static_cast<Unsteady*>(instance);
-  agent->type->destroy(agent->inner);
+  kReckless.destroy(agent->inner);
   delete agent;
 }
 
