@@ -110,7 +110,8 @@ void answer_failures(Channel& channel, const std::function<void()>& life) {
 
 void work(const WorkerSetup& setup, int slot, Channel channel) {
   redirect_streams(setup.logs[static_cast<std::size_t>(slot)]);
-  set_limits(setup.plan.limits.memory_mb);
+  // A program of its own begins with more than this process had mapped, and limits itself later.
+  set_limits(setup.program.empty() ? setup.plan.limits.memory_mb : 0);
   if (!setup.program.empty()) become_fresh_program(setup.program, setup.slots, slot, std::move(channel));
   note_fatal_signals(setup.slots[slot]);
   answer_failures(channel, [&] {

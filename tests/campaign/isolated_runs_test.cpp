@@ -266,5 +266,21 @@ TEST(IsolatedRuns, ASlowRunIsNoHangAndRaisesTheLimitOfThoseAfterIt) {
   EXPECT_TRUE(runs.take_losses().empty());
 }
 
+// As in a campaign, where they run in the main process. The run takes longer than the limit.
+TEST(IsolatedRuns, ReferenceAgentsInAFreshProgramHaveNoLimits) {
+  CampaignPlan plan = test::small_plan();
+  plan.agents = {"hull-lock"};
+  plan.fleet_sizes = {20};
+  plan.horizon_s = 1200.0;
+  plan.gates.clear();
+  plan.limits = {1, 0.1};
+  const AgentPrograms programs;
+  IsolatedRuns runs(plan, programs, {.program = FLEETPROOF_PROGRAM});
+  const RunRecord record = runs(0), undisturbed = RunOne(plan, programs)(0);
+  EXPECT_EQ(record.outcome, undisturbed.outcome);
+  EXPECT_TRUE(runs.take_losses().empty());
+  EXPECT_GT(runs.slowest_cpu_ns(), 200'000'000U) << "the test is about something";
+}
+
 }  // namespace
 }  // namespace fleetproof

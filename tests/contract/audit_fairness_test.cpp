@@ -58,5 +58,20 @@ TEST_F(AuditFairness, RunsOfAnotherEngineAreNotAudited) {
   EXPECT_THAT(run("report c.db").out, Not(HasSubstr("engine error")));
 }
 
+// Reference agents run in the main process, without limits. Here one needs more than the plug-ins may have.
+TEST_F(AuditFairness, ReferenceAgentsAndTheProgramItselfHaveNoLimitOfMemory) {
+  write("c.toml",
+        "name = \"c\"\nreplicates = 2\nhorizon_s = 600\n[factors]\n"
+        "agents = [\"hull-lock\", { file = \"still.so\", name = \"still\" }]\nlayouts = [\"aisle-grid\"]\n"
+        "fleet_sizes = [20]\nloss = [0.4]\ndelay_s = [2]\n[limits]\nmemory_mb = 1\n[audit]\nshare = 1\n");
+  std::filesystem::copy_file(FLEETPROOF_NAMED_AGENT, path("still.so"));
+  const auto finished = shell("FLEETPROOF_TEST_AGENT=standing \"$FLEETPROOF\" run c.toml --db c.db -j 2");
+  EXPECT_EQ(finished.exit_code, 4) << finished.out << finished.err;
+  for (const auto& [agent, audit] : audits("c.db")) {
+    EXPECT_EQ(audit.at("audited"), 2) << agent;
+    EXPECT_EQ(audit.at("differing"), 0) << agent;
+  }
+}
+
 }  // namespace
 }  // namespace fleetproof
