@@ -88,6 +88,7 @@ const std::vector<Home> kHomes = {
     {"SQLiteCpp/", {"storage/"}},
     {"CLI/", {"campaign/cli/command_line.cpp"}},
     {"boost/math", {"reports/evidence/"}},
+    {"boost/multiprecision", {"reports/evidence/release_gate.cpp"}},
     {"boost/graph", {"generators/"}},
     {"boost/random", {"campaign/plan/sobol.cpp"}},
     {"toml++/", {"campaign/plan/toml_table.cpp"}},

@@ -24,6 +24,9 @@ class Cli11Options final : public Options {
   void positional(const std::string& name, std::uint64_t& value, const std::string& help) override {
     app_.add_option(name, value, help)->required()->check(CLI::NonNegativeNumber);
   }
+  void optional_positional(const std::string& name, std::string& value, const std::string& help) override {
+    app_.add_option(name, value, help);
+  }
   void positionals(const std::string& name, std::vector<std::string>& values, const std::string& help) override {
     app_.add_option(name, values, help)->required();
   }

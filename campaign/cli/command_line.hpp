@@ -16,6 +16,7 @@ class Options {
   virtual ~Options() = default;
   virtual void positional(const std::string& name, std::string& value, const std::string& help) = 0;
   virtual void positional(const std::string& name, std::uint64_t& value, const std::string& help) = 0;
+  virtual void optional_positional(const std::string& name, std::string& value, const std::string& help) = 0;
   virtual void positionals(const std::string& name, std::vector<std::string>& values, const std::string& help) = 0;
   virtual void option(const std::string& names, std::string& value, const std::string& help) = 0;
   virtual void option(const std::string& names, std::optional<std::uint64_t>& value, const std::string& help) = 0;

@@ -28,6 +28,8 @@ int main(int argc, char** argv) {
            prepare_import},
       Verb{"check", "check a campaign or scenario file without running it",
            "fleetproof check tests/campaigns/demo.toml", prepare_check},
+      Verb{"evidence", "compute one figure of evidence from counts: bounds, plans, gates, comparisons",
+           "fleetproof evidence clopper-pearson --failing 3 --units 1000 --confidence 0.95", prepare_evidence},
       Verb{"list", "list agents, laws, generators, importers, reports or fields", "fleetproof list agents",
            prepare_list},
   };

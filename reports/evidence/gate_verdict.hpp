@@ -21,7 +21,7 @@ const char* name_of(Verdict verdict);
 struct Estimate {
   std::uint64_t units = 0, failing = 0;
   double lower = 0.0, upper = 1.0;
-  Interval interval_95;                // two-sided
+  RateInterval interval_95;            // two-sided
   std::optional<double> rate() const;  // absent without units
 };
 Estimate estimate(std::uint64_t failing, std::uint64_t units, double confidence);

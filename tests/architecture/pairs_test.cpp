@@ -35,7 +35,6 @@ const std::map<std::string, std::string> kForTests = {
     {"HullLock::protocol", "shows tests which hulls an agent holds; nothing else shows it"},
     {"OutageProcess::next_change", "the exact instants of change; asking `bad_at` would miss short outages"},
     {"RadioSources::on_process", "the process of one source, for the same reason"},
-    {"fisher_exact", "an estimator that is checked before it is used"},
     {"parse_campaign_file", "fuzzers and tests give bytes instead of a file"},
     {"sha256_hex", "the standard gives its examples as bytes instead of files"},
 };

@@ -5,7 +5,7 @@
 
 #include "campaign/batch/campaign.hpp"
 #include "campaign/plan/campaign_file.hpp"
-#include "reports/evidence/binomial.hpp"
+#include "reports/evidence/fisher.hpp"
 #include "storage/archive_reader.hpp"
 #include "tests/support/program.hpp"
 

@@ -1,0 +1,78 @@
+#include "campaign/cli/comparison_methods.hpp"
+
+#include <array>
+
+#include "core/base/error.hpp"
+#include "reports/evidence/fisher.hpp"
+#include "reports/evidence/paired.hpp"
+#include "reports/evidence/poisson_rate.hpp"
+
+namespace fleetproof::cli {
+namespace {
+
+// Sums of probabilities take seconds for counts beyond this.
+constexpr std::uint64_t kMostSummed = 1'000'000'000'000;
+
+Figures fisher(const EvidenceInput& input) {
+  const FisherResult result =
+      fisher_exact(input.count_of("failing1", "units1", kMostSummed), input.count("units1", kMostSummed),
+                   input.count_of("failing2", "units2", kMostSummed), input.count("units2", kMostSummed));
+  Figures figures;
+  figures.add("p_two_sided", result.two_sided);
+  figures.add("p_one_sided_rate1_smaller", result.first_smaller);
+  figures.add("p_one_sided_rate1_larger", result.first_larger);
+  figures.add("p_mid_two_sided", result.mid_two_sided);
+  return figures;
+}
+
+Figures mcnemar(const EvidenceInput& input) {
+  const McNemarResult result =
+      mcnemar_exact(input.count("only-old", kMostSummed), input.count("only-new", kMostSummed));
+  Figures figures;
+  figures.add("p_exact_two_sided", result.two_sided);
+  figures.add("p_mid_two_sided", result.mid_two_sided);
+  figures.add("p_exact_one_sided_new_worse", result.new_worse);
+  return figures;
+}
+
+Figures paired(const EvidenceInput& input) {
+  const PairedCounts counts{input.count("both"), input.count("only-old"), input.count("only-new"),
+                            input.count("neither")};
+  if (counts.pairs() == 0) throw InputError("--neither", "is 0 as the other counts are; a difference needs pairs");
+  const PairedDifference result = paired_difference(counts, input.confidence());
+  Figures figures;
+  figures.add("delta_new_minus_old", result.difference);
+  figures.add("split_exact_lower", result.lower);
+  figures.add("split_exact_upper", result.upper);
+  figures.add("split_exact_one_sided_upper", result.one_sided_upper);
+  return figures;
+}
+
+Figures poisson_rate_ratio(const EvidenceInput& input) {
+  const RateRatio result =
+      rate_ratio({input.count("events1", kMostSummed), input.positive("exposure1")},
+                 {input.count("events2", kMostSummed), input.positive("exposure2")}, input.confidence());
+  Figures figures;
+  figures.add("ratio_rate1_over_rate2", result.ratio);
+  figures.add("lower", result.interval.lower);
+  figures.add("upper", result.interval.upper);
+  figures.add("p_two_sided_minlike", result.two_sided);
+  figures.add("p_one_sided_rate1_lower", result.first_smaller);
+  return figures;
+}
+
+constexpr std::array kMethods = {
+    EvidenceMethod{"fisher", "failing1 units1 failing2 units2", "Fisher's exact test of two probabilities of failure",
+                   fisher},
+    EvidenceMethod{"mcnemar", "only-old only-new", "McNemar's exact test of two releases on common seeds", mcnemar},
+    EvidenceMethod{"paired-difference", "both only-old only-new neither [confidence]",
+                   "the difference of two releases on common seeds, with a guaranteed interval", paired},
+    EvidenceMethod{"poisson-rate-ratio", "events1 exposure1 events2 exposure2 [confidence]",
+                   "the ratio of two rates, with the conditional exact test and interval", poisson_rate_ratio},
+};
+
+}  // namespace
+
+std::span<const EvidenceMethod> comparison_methods() { return kMethods; }
+
+}  // namespace fleetproof::cli

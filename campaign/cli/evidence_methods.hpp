@@ -1,0 +1,21 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "campaign/cli/evidence_input.hpp"
+#include "campaign/cli/figures.hpp"
+
+namespace fleetproof::cli {
+
+// One estimator as a user calls it. `arguments` are names of evidence_arguments(), those in brackets may be left out.
+struct EvidenceMethod {
+  std::string_view name, arguments, description;
+  Figures (*compute)(const EvidenceInput& input);
+};
+
+// All methods, in the order of reports/evidence/README.md.
+std::vector<EvidenceMethod> evidence_methods();
+
+}  // namespace fleetproof::cli

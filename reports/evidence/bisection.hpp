@@ -1,0 +1,16 @@
+#pragma once
+
+namespace fleetproof {
+
+// The edge of a set of real numbers between a number inside and a number outside: the last number inside that doubles
+// can tell. Requires: `is_inside` changes once between the two.
+template <class IsInside>
+double edge_between(double inside, double outside, const IsInside& is_inside) {
+  for (;;) {
+    const double middle = inside + (outside - inside) / 2.0;
+    if (middle == inside || middle == outside) return inside;
+    (is_inside(middle) ? inside : outside) = middle;
+  }
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,47 @@
+#include "reports/evidence/envelope.hpp"
+
+#include <algorithm>
+
+#include "core/base/error.hpp"
+#include "reports/evidence/binomial.hpp"
+
+namespace fleetproof {
+
+std::vector<std::vector<double>> envelope_p_values(const EnvelopeGrid& grid, double limit) {
+  ensure(!grid.empty() && !grid.front().empty(), "a grid has cells");
+  std::vector<std::vector<double>> p_values;
+  for (const auto& row : grid) {
+    ensure(row.size() == grid.front().size(), "the rows of a grid have one length");
+    auto& of_row = p_values.emplace_back();
+    for (const EnvelopeCell& cell : row) of_row.push_back(probability_of_at_most(cell.failing, cell.units, limit));
+  }
+  return p_values;
+}
+
+std::vector<std::vector<bool>> safe_envelope(const EnvelopeGrid& grid, double limit, Confidence confidence) {
+  const auto p_values = envelope_p_values(grid, limit);
+  const std::size_t rows = grid.size(), columns = grid.front().size();
+  const double risk = confidence.risk() / static_cast<double>(std::min(rows, columns));
+  std::vector claimed(rows, std::vector<bool>(columns));
+  for (std::size_t loss = 0; loss < rows; ++loss) {
+    for (std::size_t delay = 0; delay < columns; ++delay) {
+      const bool less_loss = loss == 0 || claimed[loss - 1][delay];
+      const bool less_delay = delay == 0 || claimed[loss][delay - 1];
+      claimed[loss][delay] = less_loss && less_delay && p_values[loss][delay] <= risk;
+    }
+  }
+  return claimed;
+}
+
+std::size_t claimed_on_path(const EnvelopeGrid& grid, const std::vector<EnvelopePlace>& path, double limit,
+                            Confidence confidence) {
+  std::size_t claimed = 0;
+  for (const EnvelopePlace& place : path) {
+    const EnvelopeCell& cell = grid.at(place.loss).at(place.delay);
+    if (probability_of_at_most(cell.failing, cell.units, limit) > confidence.risk()) break;
+    ++claimed;
+  }
+  return claimed;
+}
+
+}  // namespace fleetproof
