@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 namespace fleetproof::cli {
 namespace {
@@ -39,10 +38,6 @@ void Figures::add(const std::string& name, const std::optional<std::uint64_t>& v
 
 void Figures::add(const std::string& name, const std::optional<double>& value) {
   value ? add(name, *value) : figures_.push_back({name, "undefined", "null"});
-}
-
-void Figures::add_text(const std::string& name, const std::string& value) {
-  figures_.push_back({name, value, nlohmann::json(value).dump()});
 }
 
 std::string Figures::text() const {

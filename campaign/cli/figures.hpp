@@ -15,7 +15,6 @@ class Figures {
   void add(const std::string& name, bool value);
   void add(const std::string& name, const std::optional<std::uint64_t>& value);
   void add(const std::string& name, const std::optional<double>& value);
-  void add_text(const std::string& name, const std::string& value);
   void add_row(Figures row) { rows_.push_back(std::move(row)); }
 
   // Lines for people: a figure per line with ten digits, a row per line.

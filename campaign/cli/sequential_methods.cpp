@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -63,10 +64,11 @@ Figures gate_table(const EvidenceInput& input) {
   ReleaseGate gate(input.probability("limit"), input.confidence());
   const auto& table = gate.table(most);
   Figures figures;
-  for (std::uint64_t failing = 0; failing < table.size() && failing <= most; ++failing) {
+  // The first number beyond 10^15 is shown as none, and ends the table.
+  for (std::uint64_t failing = 0; failing <= std::min<std::uint64_t>(most, table.size()); ++failing) {
     Figures row;
     row.add("failures_seen", failing);
-    row.add("anytime_gate_e", table[failing]);
+    row.add("anytime_gate_e", failing < table.size() ? std::optional(table[failing]) : std::nullopt);
     figures.add_row(row);
   }
   return figures;

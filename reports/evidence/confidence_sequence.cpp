@@ -17,17 +17,12 @@ double log_mixture_at_rate(double k, double n, const BetaPrior& prior) {
          log_gamma_over_power(prior.a + prior.b, n) - log_beta;
 }
 
-double deviance(double k, double n, double p) {
-  const double excess = n * p - k;
-  return deviance_term(k, n * p, excess) + deviance_term(n - k, n * (1.0 - p), -excess);
-}
-
 }  // namespace
 
 double log_mixture(std::uint64_t failing, std::uint64_t units, double p, const BetaPrior& prior) {
   ensure(failing <= units && p > 0.0 && p < 1.0, "failing trials are trials, and a trial can fail and can pass");
   const auto k = static_cast<double>(failing), n = static_cast<double>(units);
-  return log_mixture_at_rate(k, n, prior) + deviance(k, n, p);
+  return log_mixture_at_rate(k, n, prior) + binomial_deviance(k, n, p);
 }
 
 RateInterval any_time_interval(std::uint64_t failing, std::uint64_t units, Confidence confidence,
@@ -39,7 +34,7 @@ RateInterval any_time_interval(std::uint64_t failing, std::uint64_t units, Confi
   const double reach = -std::log(confidence.risk()) - log_mixture_at_rate(k, n, prior);
   if (failing == 0) return {0.0, -std::expm1(-reach / n)};
   if (failing == units) return {std::exp(-reach / n), 1.0};
-  const auto is_inside = [&](double p) { return deviance(k, n, p) < reach; };
+  const auto is_inside = [&](double p) { return binomial_deviance(k, n, p) < reach; };
   return {edge_between(k / n, 0.0, is_inside), edge_between(k / n, 1.0, is_inside)};
 }
 

@@ -25,6 +25,17 @@ double deviance_term(double count, double expected, double excess) {
   return count * std::log(count / expected) + excess;
 }
 
+double binomial_deviance(double failing, double units, double p) {
+  const double passing = units - failing, q = 1.0 - p;
+  const double excess = p < 0.5 ? units * p - failing : passing - units * q;
+  return deviance_term(failing, units * p, excess) + deviance_term(passing, units * q, -excess);
+}
+
+double binomial_probability(double failing, double units, double p) {
+  return std::exp(log_gamma_over_power(1.0, units) - log_gamma_over_power(1.0, failing) -
+                  log_gamma_over_power(1.0, units - failing) - binomial_deviance(failing, units, p));
+}
+
 double log_gamma(double shape) { return boost::math::lgamma(shape); }
 
 double log_gamma_over_power(double shape, double count) {

@@ -10,6 +10,13 @@ namespace fleetproof {
 // be. Requires: count >= 0, expected > 0 unless count is 0.
 double deviance_term(double count, double expected, double excess);
 
+// The deviance of `failing` failures in `units` trials at the probability p: the logarithm of the likelihood at the
+// observed rate, minus that at p. Requires: 0 <= failing <= units, 0 < p < 1.
+double binomial_deviance(double failing, double units, double p);
+
+// The binomial probability of exactly `failing` failures (Loader 2000). The same requirements.
+double binomial_probability(double failing, double units, double p);
+
 // ln Gamma(shape + count) - (count ln(count) - count), by Stirling's series for large arguments.
 // Requires: shape > 0, count >= 0.
 double log_gamma_over_power(double shape, double count);

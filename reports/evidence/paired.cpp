@@ -8,7 +8,7 @@
 namespace fleetproof {
 
 McNemarResult mcnemar_exact(std::uint64_t only_old, std::uint64_t only_new) {
-  const RatioLaw law = binomial_law(only_old + only_new, 0.5);
+  const RatioLaw law = binomial_law(only_old + only_new, 1.0);
   const TailSums smaller = tail_sums(law, std::min(only_old, only_new));
   McNemarResult result;
   result.two_sided = std::min(1.0, 2.0 * smaller.at_most);

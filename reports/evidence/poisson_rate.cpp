@@ -54,8 +54,7 @@ RateRatio rate_ratio(const CountedEvents& first, const CountedEvents& second, Co
   const RateInterval share1 = two_sided_interval(first.events, all, confidence),
                      share2 = two_sided_interval(second.events, all, confidence);
   result.interval = {share1.lower / share2.upper * scale, share1.upper / share2.lower * scale};
-  const double q = first.exposure / (first.exposure + second.exposure);
-  const TailSums sums = tail_sums(binomial_law(all, q), first.events);
+  const TailSums sums = tail_sums(binomial_law(all, first.exposure / second.exposure), first.events);
   result.two_sided = sums.no_likelier;
   result.first_smaller = sums.at_most;
   return result;

@@ -23,11 +23,10 @@ void for_each_weight(const RatioLaw& law, const Visit& visit) {
 
 }  // namespace
 
-RatioLaw binomial_law(std::uint64_t units, double p) {
-  ensure(p > 0.0 && p < 1.0, "a trial can fail and can pass");
+RatioLaw binomial_law(std::uint64_t units, double odds) {
+  ensure(odds > 0.0, "a trial can fail");
   const auto n = static_cast<double>(units);
-  const double odds = p / (1.0 - p);
-  const auto mode = std::min(units, static_cast<std::uint64_t>((n + 1.0) * p));
+  const auto mode = std::min(units, static_cast<std::uint64_t>((n + 1.0) * (odds / (1.0 + odds))));
   return {0, units, mode, [n, odds](double x) { return (n - x) / (x + 1.0) * odds; }};
 }
 

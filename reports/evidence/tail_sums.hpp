@@ -12,8 +12,9 @@ struct RatioLaw {
   std::function<double(double)> ratio_up;  // of x: the probability of x + 1 divided by that of x
 };
 
-// Binomial law: failures in `units` independent trials that fail with probability p. Requires: 0 < p < 1.
-RatioLaw binomial_law(std::uint64_t units, double p);
+// Binomial law: failures in `units` independent trials, each with `odds` of failing, p / (1 - p). Odds keep the digits
+// of a probability near 1. Requires: odds > 0.
+RatioLaw binomial_law(std::uint64_t units, double odds);
 
 // Hypergeometric law: failures in the first group, given both sizes and the failures of both.
 // Requires: failures <= units1 + units2.

@@ -125,7 +125,9 @@ TEST_F(HostileNames, ErrorsAboutFilesAndWords) {
     EXPECT_THAT(missing.err, HasSubstr("x\\x1b[2J\\n\\u009b.toml"));
     EXPECT_EQ(std::ranges::count(missing.err, '\n'), 1) << missing.err;
   }
-  for (const std::string words : {"list ", "report x --format ", "", "run --", "generate ", "simulate x --law "}) {
+  for (const std::string words :
+       {"list ", "report x --format ", "", "run --", "generate ", "simulate x --law ", "evidence ",
+        "evidence clopper-pearson --units 3 --failing ", "evidence fisher --path "}) {
     const auto refused = checked("\"$FLEETPROOF\" " + words + "\"$(printf 'x\\033[2J\\n\\302\\233')\"");
     EXPECT_EQ(refused.exit_code, 2) << refused.err;
     EXPECT_EQ(std::ranges::count(refused.err, '\n'), 1) << refused.err;
