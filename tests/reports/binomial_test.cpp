@@ -48,18 +48,19 @@ TEST(ClopperPearson, is_monotone_and_covers_the_rate) {
 // Values from tail sums with 45 digits, far from the usual sizes.
 TEST(ClopperPearson, keeps_its_digits_at_extreme_sizes_and_risks) {
   const auto risk = [](double value) { return Confidence::with_risk(value); };
-  expect_close(lower_bound(1, 1000000000, risk(0.5)), 6.931471803197188e-10, "1 of 1000000000");
-  expect_close(upper_bound(1, 1000000000, risk(0.5)), 1.67834698944741e-9, "1 of 1000000000");
-  expect_close(lower_bound(40, 1000000000, risk(1e-6)), 1.675315042066047e-8, "40 of 1000000000");
-  expect_close(upper_bound(40, 1000000000, risk(1e-6)), 7.891082737263288e-8, "40 of 1000000000");
-  expect_close(lower_bound(1000, 1000000000, risk(0.05)), 9.485598733064084e-7, "1000 of 1000000000");
-  expect_close(upper_bound(1000, 1000000000, risk(0.05)), 1.053603093895086e-6, "1000 of 1000000000");
-  expect_close(lower_bound(999997, 1000000, risk(1e-6)), 0.999978649738931, "999997 of 1000000");
-  expect_close(upper_bound(999997, 1000000, risk(1e-6)), 0.9999999817456989, "999997 of 1000000");
-  expect_close(lower_bound(500000, 1000000, risk(1e-12)), 0.4964823024946119, "500000 of 1000000");
-  expect_close(upper_bound(500000, 1000000, risk(1e-12)), 0.5035176975053881, "500000 of 1000000");
-  expect_close(lower_bound(7, 1000000000000, risk(0.05)), 3.285315691899131e-12, "7 of 1000000000000");
-  expect_close(upper_bound(7, 1000000000000, risk(0.05)), 1.31481138023917e-11, "7 of 1000000000000");
+  expect_close(lower_bound(1, 1000000000, risk(0.05)), 5.129329438623503e-11, "1 of 1000000000", 1e-13);
+  expect_close(upper_bound(1, 1000000000, risk(0.05)), 4.743864509510385e-9, "1 of 1000000000", 1e-13);
+  expect_close(upper_bound(2, 1000000000, risk(0.25)), 3.920402056528186e-9, "2 of 1000000000", 1e-13);
+  expect_close(lower_bound(40, 1000000000, risk(1e-6)), 1.675315042066047e-8, "40 of 1000000000", 1e-13);
+  expect_close(upper_bound(40, 1000000000, risk(1e-6)), 7.891082737263288e-8, "40 of 1000000000", 1e-13);
+  expect_close(lower_bound(1000, 1000000000, risk(0.05)), 9.485598733064084e-7, "1000 of 1000000000", 1e-13);
+  expect_close(upper_bound(1000, 1000000000, risk(0.05)), 1.053603093895086e-6, "1000 of 1000000000", 1e-13);
+  expect_close(lower_bound(999997, 1000000, risk(1e-6)), 0.999978649738931, "999997 of 1000000", 1e-13);
+  expect_close(upper_bound(999997, 1000000, risk(1e-6)), 0.9999999817456989, "999997 of 1000000", 1e-13);
+  expect_close(lower_bound(500000, 1000000, risk(1e-12)), 0.4964823024946119, "500000 of 1000000", 1e-13);
+  expect_close(upper_bound(500000, 1000000, risk(1e-12)), 0.5035176975053881, "500000 of 1000000", 1e-13);
+  expect_close(lower_bound(7, 1000000000000, risk(0.05)), 3.285315691899131e-12, "7 of 1000000000000", 1e-13);
+  expect_close(upper_bound(7, 1000000000000, risk(0.05)), 1.31481138023917e-11, "7 of 1000000000000", 1e-13);
 }
 
 TEST(ClopperPearson, a_risk_keeps_the_digits_that_a_confidence_has) {
@@ -89,8 +90,8 @@ TEST(ZeroFailures, plan_meets_the_reference_values) {
     const auto units = zero_failure_units(row["p_limit"], row["confidence"]);
     ASSERT_EQ(units, row.count("n_min")) << row.line();
     EXPECT_EQ(units_needed(0, row["p_limit"], row["confidence"]), units);
-    expect_close(zero_failure_probability(*units, row["p_limit"] / 10), row, "pass_prob_over_10");
-    expect_close(zero_failure_probability(*units, row["p_limit"] / 100), row, "pass_prob_over_100");
+    expect_close(zero_failure_probability(*units, row["p_limit"] / 10), row, "pass_prob_if_true_p_is_limit_over_10");
+    expect_close(zero_failure_probability(*units, row["p_limit"] / 100), row, "pass_prob_if_true_p_is_limit_over_100");
   }
 }
 

@@ -56,9 +56,8 @@ inline std::vector<ReferenceRow> reference_rows(const std::string& name) {
   return rows;
 }
 
-// A relative difference of at most 1e-10.
-inline void expect_close(double actual, double expected, const std::string& where) {
-  EXPECT_LE(std::abs(actual - expected), 1e-10 * std::abs(expected))
+inline void expect_close(double actual, double expected, const std::string& where, double relative = 1e-10) {
+  EXPECT_LE(std::abs(actual - expected), relative * std::abs(expected))
       << actual << " for " << expected << " in " << where;
 }
 inline void expect_close(double actual, const ReferenceRow& row, const std::string& column) {
