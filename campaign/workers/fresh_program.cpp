@@ -5,9 +5,11 @@
 #include <sys/personality.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <optional>
 #include <string_view>
 
 #include "campaign/plan/plan_text.hpp"
@@ -63,14 +65,18 @@ Setup decode_setup(std::string_view bytes) {
     const Setup setup = decode_setup(channel.received());
     Disturbance disturbance;
     disturbance.renew(0);
-    const std::uint64_t own_bytes = mapped_bytes();  // as in a worker of the campaign: before the plug-ins are loaded
+    std::uint64_t own_bytes = mapped_bytes();  // as in a worker of the campaign: before the plug-ins are loaded
     AgentPrograms programs;
     for (const AgentProgram& plugin : setup.plugins) programs.load_unchanged(plugin);
+    std::optional<std::uint64_t> before_unlimited;  // what was mapped before the last run, if that had no limit
     take_orders(setup.plan, programs, slots[slot], channel, [&](const RunOrder& order) {
+      // What a reference agent leaves mapped does not count against the plug-ins of the runs that follow.
+      if (before_unlimited) own_bytes += std::max(mapped_bytes(), *before_unlimited) - *before_unlimited;
       disturbance.renew(order.run_index);
       // Reference agents have no limit in a campaign either: there they run in the main process.
-      const AgentFactor& agent = setup.plan.agent_of_cell(order.run_index);
-      limit_memory(programs.is_plugin(agent.program) ? setup.plan.limits.memory_mb : 0, own_bytes);
+      const bool limited = programs.is_plugin(setup.plan.agent_of_cell(order.run_index).program);
+      before_unlimited = limited ? std::nullopt : std::optional(mapped_bytes());
+      limit_memory(limited ? setup.plan.limits.memory_mb : 0, own_bytes);
     });
   });
 }

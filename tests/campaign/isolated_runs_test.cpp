@@ -282,5 +282,20 @@ TEST(IsolatedRuns, ReferenceAgentsInAFreshProgramHaveNoLimits) {
   EXPECT_GT(runs.slowest_cpu_ns(), 200'000'000U) << "the test is about something";
 }
 
+// The plug-in needs 2.5 MB of its four, and the reference agent before it more than four.
+TEST(IsolatedRuns, WhatAReferenceAgentLeavesMappedDoesNotCountAgainstAPlugin) {
+  CampaignPlan plan = failing_plan("block 1");
+  plan.agents = {"hull-lock", "failing"};
+  plan.fleet_sizes = {30};
+  plan.horizon_s = 600.0;
+  plan.limits = {4, 20.0};
+  AgentPrograms programs;
+  programs.know(FLEETPROOF_FAILING_AGENT);
+  IsolatedRuns runs(plan, programs, {.program = FLEETPROOF_PROGRAM});
+  runs(0);
+  EXPECT_EQ(runs(1).outcome, IsolatedRuns(plan, programs, Hosting{})(1).outcome);
+  EXPECT_EQ(runs(1).outcome.message, "");
+}
+
 }  // namespace
 }  // namespace fleetproof

@@ -1,5 +1,6 @@
 // A whole campaign in this process, on several threads: task pool, simulations and archive together.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -11,15 +12,17 @@ namespace fleetproof {
 namespace {
 
 std::string bytes_of_campaign(const CampaignPlan& plan, int workers, const std::string& plugin = "") {
-  const std::string file = testing::TempDir() + "workers_" + plan.name + std::to_string(workers) + ".db";
-  std::filesystem::remove(file);
+  const std::string folder = testing::TempDir() + "workers-" + std::to_string(::getpid()), file = folder + "/c.db";
+  std::filesystem::create_directory(folder);
   AgentPrograms programs;
   if (!plugin.empty()) programs.know(plugin);
   RunOptions options;
   options.workers = workers;
   EXPECT_TRUE(run_campaign(plan, programs, file, options, {}).complete());
   std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  std::filesystem::remove_all(folder);
+  return bytes;
 }
 
 TEST(Workers, ThreeWriteTheSameArchiveAsOne) {

@@ -21,6 +21,7 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <vector>
 
 #include "core/agents/agent_type.hpp"
 
@@ -86,6 +87,10 @@ void fail(Failing& agent) {
   if (kind == "division") std::printf("%d\n", 7 / zero);
   if (kind == "memory") {
     for (;;) std::memset(new char[std::size_t{1} << 24], 1, std::size_t{1} << 24);
+  }
+  if (kind == "block") {  // 2.5 MB, for a moment
+    const std::vector<char> block(2'500'000, 1);
+    asm volatile("" : : "r"(block.data()) : "memory");  // or the compiler would leave it out
   }
   if (kind == "close") {
     for (int fd = 0; fd < 1000; ++fd) ::close(fd);
