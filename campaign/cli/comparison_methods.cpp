@@ -10,13 +10,9 @@
 namespace fleetproof::cli {
 namespace {
 
-// Sums of probabilities take seconds for counts beyond this.
-constexpr std::uint64_t kMostSummed = 1'000'000'000'000;
-
 Figures fisher(const EvidenceInput& input) {
-  const FisherResult result =
-      fisher_exact(input.count_of("failing1", "units1", kMostSummed), input.count("units1", kMostSummed),
-                   input.count_of("failing2", "units2", kMostSummed), input.count("units2", kMostSummed));
+  const FisherResult result = fisher_exact(input.failures("failing1", "units1"), input.units("units1"),
+                                           input.failures("failing2", "units2"), input.units("units2"));
   Figures figures;
   figures.add("p_two_sided", result.two_sided);
   figures.add("p_one_sided_rate1_smaller", result.first_smaller);
@@ -26,8 +22,7 @@ Figures fisher(const EvidenceInput& input) {
 }
 
 Figures mcnemar(const EvidenceInput& input) {
-  const McNemarResult result =
-      mcnemar_exact(input.count("only-old", kMostSummed), input.count("only-new", kMostSummed));
+  const McNemarResult result = mcnemar_exact(input.failures("only-old"), input.failures("only-new"));
   Figures figures;
   figures.add("p_exact_two_sided", result.two_sided);
   figures.add("p_mid_two_sided", result.mid_two_sided);
@@ -36,8 +31,8 @@ Figures mcnemar(const EvidenceInput& input) {
 }
 
 Figures paired(const EvidenceInput& input) {
-  const PairedCounts counts{input.count("both"), input.count("only-old"), input.count("only-new"),
-                            input.count("neither")};
+  const PairedCounts counts{input.units("both"), input.failures("only-old"), input.failures("only-new"),
+                            input.units("neither")};
   if (counts.pairs() == 0) throw InputError("--neither", "is 0 as the other counts are; a difference needs pairs");
   const PairedDifference result = paired_difference(counts, input.confidence());
   Figures figures;
@@ -49,9 +44,8 @@ Figures paired(const EvidenceInput& input) {
 }
 
 Figures poisson_rate_ratio(const EvidenceInput& input) {
-  const RateRatio result =
-      rate_ratio({input.count("events1", kMostSummed), input.positive("exposure1")},
-                 {input.count("events2", kMostSummed), input.positive("exposure2")}, input.confidence());
+  const RateRatio result = rate_ratio({input.failures("events1"), input.positive("exposure1")},
+                                      {input.failures("events2"), input.positive("exposure2")}, input.confidence());
   Figures figures;
   figures.add("ratio_rate1_over_rate2", result.ratio);
   figures.add("lower", result.interval.lower);

@@ -44,6 +44,10 @@ constexpr std::array kArguments = {
     EvidenceArgument{"path", "cells loss:delay in the order of tests, as in 0:0,0:1,1:1"},
 };
 
+constexpr std::uint64_t kMostUnits = 1'000'000'000'000'000;
+// Beyond this number of failures or events, the inverses of the beta and gamma functions are not found.
+constexpr std::uint64_t kMostFailures = 1'000'000'000;
+
 [[noreturn]] void refuse(const std::string& name, std::string_view value, std::string_view allowed) {
   throw InputError("--" + name, fmt::format("{} is refused; allowed: {}", in_quotes(value), allowed));
 }
@@ -102,13 +106,17 @@ std::uint64_t EvidenceInput::count(const std::string& name, std::uint64_t most) 
   return count_in(name, word(name), 0, most);
 }
 
-std::uint64_t EvidenceInput::count_from_one(const std::string& name, std::uint64_t most) const {
-  return count_in(name, word(name), 1, most);
+std::uint64_t EvidenceInput::units(const std::string& name) const { return count(name, kMostUnits); }
+
+std::uint64_t EvidenceInput::units_from_one(const std::string& name) const {
+  return count_in(name, word(name), 1, kMostUnits);
 }
 
-std::uint64_t EvidenceInput::count_of(const std::string& name, const std::string& whole, std::uint64_t most) const {
-  const std::uint64_t all = count(whole, most), value = count(name, most);
-  if (value > all) refuse(name, word(name), fmt::format("at most the {} of --{}", all, whole));
+std::uint64_t EvidenceInput::failures(const std::string& name) const { return count(name, kMostFailures); }
+
+std::uint64_t EvidenceInput::failures(const std::string& name, const std::string& units) const {
+  const std::uint64_t all = count(units, kMostUnits), value = failures(name);
+  if (value > all) refuse(name, word(name), fmt::format("at most the {} of --{}", all, units));
   return value;
 }
 
@@ -130,10 +138,16 @@ Confidence EvidenceInput::confidence() const {
   return Confidence(probability("confidence", 0.95));
 }
 
-std::vector<std::uint64_t> EvidenceInput::counts(const std::string& name) const {
+std::vector<std::uint64_t> EvidenceInput::list(const std::string& name, std::uint64_t most) const {
   std::vector<std::uint64_t> values;
-  for (const auto part : parts_of(word(name), kInList)) values.push_back(count_in(name, part, 0, kMostUnits));
+  for (const auto part : parts_of(word(name), kInList)) values.push_back(count_in(name, part, 0, most));
   return values;
+}
+
+std::vector<std::uint64_t> EvidenceInput::unit_list(const std::string& name) const { return list(name, kMostUnits); }
+
+std::vector<std::uint64_t> EvidenceInput::failure_list(const std::string& name) const {
+  return list(name, kMostFailures);
 }
 
 std::vector<double> EvidenceInput::positives(const std::string& name) const {
@@ -156,14 +170,22 @@ std::vector<double> EvidenceInput::weights(const std::string& name) const {
   return values;
 }
 
-std::vector<std::vector<std::uint64_t>> EvidenceInput::rows(const std::string& name) const {
+std::vector<std::vector<std::uint64_t>> EvidenceInput::rows(const std::string& name, std::uint64_t most) const {
   std::vector<std::vector<std::uint64_t>> rows;
   for (const auto row : parts_of(word(name), "/")) {
     auto& values = rows.emplace_back();
-    for (const auto part : parts_of(row, kInList)) values.push_back(count_in(name, part, 0, kMostUnits));
+    for (const auto part : parts_of(row, kInList)) values.push_back(count_in(name, part, 0, most));
     if (values.size() != rows.front().size()) refuse(name, word(name), "rows of one length, as in 1,2/3,4");
   }
   return rows;
+}
+
+std::vector<std::vector<std::uint64_t>> EvidenceInput::unit_rows(const std::string& name) const {
+  return rows(name, kMostUnits);
+}
+
+std::vector<std::vector<std::uint64_t>> EvidenceInput::failure_rows(const std::string& name) const {
+  return rows(name, kMostFailures);
 }
 
 std::vector<std::pair<std::size_t, std::size_t>> EvidenceInput::pairs(const std::string& name, std::size_t end_of_first,

@@ -26,11 +26,14 @@ class EvidenceInput {
   explicit EvidenceInput(std::map<std::string, std::string> given) : given_(std::move(given)) {}
 
   bool has(const std::string& name) const { return given_.contains(name); }
-  // Whole numbers from 0 to `most`. "1e9" is one.
-  std::uint64_t count(const std::string& name, std::uint64_t most = kMostUnits) const;
-  std::uint64_t count_from_one(const std::string& name, std::uint64_t most = kMostUnits) const;
-  // At most the number of another argument.
-  std::uint64_t count_of(const std::string& name, const std::string& whole, std::uint64_t most = kMostUnits) const;
+  // A whole number up to `most`. "1e9" is one.
+  std::uint64_t count(const std::string& name, std::uint64_t most) const;
+  // Trials: up to 10^15.
+  std::uint64_t units(const std::string& name) const;
+  std::uint64_t units_from_one(const std::string& name) const;
+  // Failures or events: up to 10^9. Those among `units` are no more than the units.
+  std::uint64_t failures(const std::string& name) const;
+  std::uint64_t failures(const std::string& name, const std::string& units) const;
   // A positive number, such as hours.
   double positive(const std::string& name) const;
   double positive(const std::string& name, double fallback) const;
@@ -40,20 +43,21 @@ class EvidenceInput {
   // From --confidence or --alpha; 0.95 if neither is given.
   Confidence confidence() const;
   // Lists, as in 1,2,3 or 1|2|3.
-  std::vector<std::uint64_t> counts(const std::string& name) const;
+  std::vector<std::uint64_t> unit_list(const std::string& name) const;
+  std::vector<std::uint64_t> failure_list(const std::string& name) const;
   std::vector<double> weights(const std::string& name) const;  // not negative, with the sum 1
   std::vector<double> positives(const std::string& name) const;
   // Rows of a table, as in 1,2/3,4: all of one length.
-  std::vector<std::vector<std::uint64_t>> rows(const std::string& name) const;
-
+  std::vector<std::vector<std::uint64_t>> unit_rows(const std::string& name) const;
+  std::vector<std::vector<std::uint64_t>> failure_rows(const std::string& name) const;
   // Pairs of whole numbers below the ends, as in 0:0,0:1,1:1.
   std::vector<std::pair<std::size_t, std::size_t>> pairs(const std::string& name, std::size_t end_of_first,
                                                          std::size_t end_of_second) const;
 
-  static constexpr std::uint64_t kMostUnits = 1'000'000'000'000'000;
-
  private:
   const std::string& word(const std::string& name) const;
+  std::vector<std::uint64_t> list(const std::string& name, std::uint64_t most) const;
+  std::vector<std::vector<std::uint64_t>> rows(const std::string& name, std::uint64_t most) const;
 
   std::map<std::string, std::string> given_;
 };

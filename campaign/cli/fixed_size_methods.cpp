@@ -12,7 +12,7 @@ namespace fleetproof::cli {
 namespace {
 
 Figures clopper_pearson(const EvidenceInput& input) {
-  const auto failing = input.count_of("failing", "units"), units = input.count("units");
+  const auto failing = input.failures("failing", "units"), units = input.units("units");
   const Confidence confidence = input.confidence();
   const RateInterval interval = two_sided_interval(failing, units, confidence);
   Figures figures;
@@ -24,7 +24,7 @@ Figures clopper_pearson(const EvidenceInput& input) {
 }
 
 Figures zero_failures(const EvidenceInput& input) {
-  const auto units = input.count_from_one("units");
+  const auto units = input.units_from_one("units");
   Figures figures;
   figures.add("upper_exact", zero_failure_bound(units, input.confidence()));
   figures.add("upper_poisson_approx", zero_failure_poisson_bound(units, input.confidence()));
@@ -45,7 +45,7 @@ Figures zero_failure_plan(const EvidenceInput& input) {
 }
 
 Figures acceptance_plan(const EvidenceInput& input) {
-  const auto failing = input.count("failing");
+  const auto failing = input.failures("failing");
   const double limit = input.probability("limit");
   const auto units = units_needed(failing, limit, input.confidence());
   const auto pass = [&](double p) {
@@ -60,7 +60,7 @@ Figures acceptance_plan(const EvidenceInput& input) {
 }
 
 Figures garwood(const EvidenceInput& input) {
-  const auto events = input.count("events");
+  const auto events = input.failures("events");
   const double exposure = input.positive("exposure");
   const Confidence confidence = input.confidence();
   const RateInterval interval = two_sided_rate(events, exposure, confidence);
@@ -75,7 +75,7 @@ Figures garwood(const EvidenceInput& input) {
 Figures hours_needed(const EvidenceInput& input) {
   const double limit = input.positive("limit");
   const std::vector<std::uint64_t> asked =
-      input.has("events") ? input.counts("events") : std::vector<std::uint64_t>{0, 1, 2, 5};
+      input.has("events") ? input.failure_list("events") : std::vector<std::uint64_t>{0, 1, 2, 5};
   Figures figures;
   for (const std::uint64_t events : asked) {
     figures.add(fmt::format("hours_if_{}_event{}", events, events == 1 ? "" : "s"),

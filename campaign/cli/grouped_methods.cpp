@@ -25,8 +25,9 @@ void require_part(std::uint64_t failing, std::uint64_t units) {
 
 Figures stratified(const EvidenceInput& input) {
   const auto weights = input.weights("weights");
-  const auto units = input.counts("units");
-  const auto failing = input.has("failing") ? input.counts("failing") : std::vector<std::uint64_t>(weights.size(), 0);
+  const auto units = input.unit_list("units");
+  const auto failing =
+      input.has("failing") ? input.failure_list("failing") : std::vector<std::uint64_t>(weights.size(), 0);
   require_one_length(units.size(), weights.size(), "--units");
   require_one_length(failing.size(), weights.size(), "--failing");
   std::vector<Stratum> strata;
@@ -44,7 +45,7 @@ Figures stratified(const EvidenceInput& input) {
 }
 
 EnvelopeGrid grid_of(const EvidenceInput& input) {
-  const auto failing = input.rows("failing"), units = input.rows("units");
+  const auto failing = input.failure_rows("failing"), units = input.unit_rows("units");
   require_one_length(units.size(), failing.size(), "--units");
   require_one_length(units.front().size(), failing.front().size(), "--units");
   EnvelopeGrid grid(failing.size(), std::vector<EnvelopeCell>(failing.front().size()));
@@ -107,7 +108,7 @@ Figures envelope(const EvidenceInput& input) {
 }
 
 Figures clusters(const EvidenceInput& input) {
-  const auto failing = input.counts("failing"), units = input.counts("units");
+  const auto failing = input.failure_list("failing"), units = input.unit_list("units");
   require_one_length(failing.size(), units.size(), "--failing");
   std::vector<Cluster> all;
   for (std::size_t i = 0; i < units.size(); ++i) {
@@ -130,7 +131,7 @@ Figures clusters(const EvidenceInput& input) {
 }
 
 Figures incident_dispersion(const EvidenceInput& input) {
-  const auto incidents = input.counts("events");
+  const auto incidents = input.failure_list("events");
   const auto exposures = input.positives("exposure");
   require_one_length(incidents.size(), exposures.size(), "--events");
   std::vector<RunIncidents> runs;

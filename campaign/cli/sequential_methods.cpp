@@ -15,7 +15,7 @@ namespace fleetproof::cli {
 namespace {
 
 Figures beta_binomial_sequence(const EvidenceInput& input) {
-  const auto failing = input.count_of("failing", "units"), units = input.count("units");
+  const auto failing = input.failures("failing", "units"), units = input.units("units");
   const BetaPrior prior{input.positive("prior-a", BetaPrior().a), input.positive("prior-b", BetaPrior().b)};
   const double at = input.probability("at", 0.01);
   const RateInterval interval = any_time_interval(failing, units, input.confidence(), prior);
@@ -30,7 +30,7 @@ Figures gamma_poisson_sequence(const EvidenceInput& input) {
   const GammaPrior prior{input.positive("prior-shape", GammaPrior().shape),
                          input.positive("prior-rate", GammaPrior().rate)};
   const RateInterval interval =
-      any_time_rate(input.count("events"), input.positive("exposure"), input.confidence(), prior);
+      any_time_rate(input.failures("events"), input.positive("exposure"), input.confidence(), prior);
   Figures figures;
   figures.add("lower", interval.lower);
   figures.add("upper", interval.upper);
@@ -43,7 +43,7 @@ bool passes(std::uint64_t failing, std::uint64_t units, double limit, Confidence
 }
 
 Figures release_gate(const EvidenceInput& input) {
-  const auto failing = input.count_of("failing", "units"), units = input.count("units");
+  const auto failing = input.failures("failing", "units"), units = input.units("units");
   const double limit = input.probability("limit");
   const LogEValues log_e = log_e_values(failing, units, limit);
   Figures figures;
@@ -75,7 +75,7 @@ Figures gate_table(const EvidenceInput& input) {
 }
 
 Figures gate_runs_needed(const EvidenceInput& input) {
-  const auto failing = input.count("failing");
+  const auto failing = input.failures("failing");
   const double limit = input.probability("limit");
   const Confidence confidence = input.confidence();
   Figures figures;
@@ -91,7 +91,7 @@ Figures gate_runs_needed(const EvidenceInput& input) {
 Figures gate_operating_characteristic(const EvidenceInput& input) {
   constexpr double kMostFailures = 2000.0;  // at the limit: beyond, the sums take minutes
   const double limit = input.probability("limit"), p = input.probability("true-rate");
-  const auto cap = input.count_from_one("cap");
+  const auto cap = input.units_from_one("cap");
   if (static_cast<double>(cap) * limit > kMostFailures) {
     throw InputError("--cap",
                      fmt::format("{} is refused; allowed: at most {:g} trials, {:g} expected failures at --limit", cap,

@@ -10,14 +10,17 @@ namespace {
 // Two values of equal probability differ by rounding.
 constexpr double kTie = 1.0 + 1e-7;
 
+// Beyond this share of the largest probability nothing counts. Smaller doubles lose digits, and do not fall to 0.
+constexpr double kSmallest = 1e-300;
+
 template <class Visit>
 void for_each_weight(const RatioLaw& law, const Visit& visit) {
   double weight = 1.0;
   visit(law.mode, weight);
-  for (auto x = law.mode; x < law.most && weight > 0.0; ++x)
+  for (auto x = law.mode; x < law.most && weight > kSmallest; ++x)
     visit(x + 1, weight *= law.ratio_up(static_cast<double>(x)));
   weight = 1.0;
-  for (auto x = law.mode; x > law.least && weight > 0.0; --x)
+  for (auto x = law.mode; x > law.least && weight > kSmallest; --x)
     visit(x - 1, weight /= law.ratio_up(static_cast<double>(x - 1)));
 }
 

@@ -131,11 +131,30 @@ TEST_F(EvidenceVerb, OtherMethodsHaveTheirFigures) {
   EXPECT_TRUE(figures("poisson-rate-ratio --events1 3 --exposure1 1 --events2 0 --exposure2 1")["upper"].is_null());
 }
 
+// The largest numbers that are allowed: an answer, soon.
+TEST_F(EvidenceVerb, AnswersAtTheEndsOfItsRanges) {
+  const std::string risks = " --alpha 1e-15";
+  for (const std::string words :
+       {"clopper-pearson --failing 1e9 --units 1e15", "clopper-pearson --failing 1e9 --units 1e9",
+        "garwood --events 1e9 --exposure 1e18", "garwood --events 1e9 --exposure 1e-15",
+        "hours-needed --limit 1e-15 --events 1e9", "beta-binomial-sequence --failing 1 --units 1e15 --prior-a 1e18",
+        "gamma-poisson-sequence --events 1e9 --exposure 1e-15 --prior-shape 1e-15",
+        "release-gate --failing 1e9 --units 1e15 --limit 1e-15", "gate-runs-needed --failing 1e9 --limit 0.9",
+        "gate-operating-characteristic --limit 1e-3 --true-rate 0.5 --cap 2e5",
+        "poisson-rate-ratio --events1 1e9 --exposure1 1e18 --events2 1e9 --exposure2 1e-15",
+        "stratified-zero-failure --weights 0,1 --units 0,1e15",
+        "paired-difference --both 1e15 --only-old 1e9 --only-new 0 --neither 1e15"})
+    EXPECT_EQ(figures(words + risks)["schema_version"], 1);
+  EXPECT_EQ(figures("mcnemar --only-old 1e9 --only-new 1")["p_exact_two_sided"], 0.0);
+  EXPECT_EQ(figures("fisher --failing1 1e9 --units1 1e15 --failing2 0 --units2 1e15")["p_two_sided"], 0.0);
+}
+
 TEST_F(EvidenceVerb, RefusesWhatMakesNoSense) {
   expect_refused("clopper-pearsn", "\"clopper-pearsn\" is not a method; did you mean \"clopper-pearson\"?");
   const std::string clopper = "clopper-pearson --units 1000 ";
   expect_refused(clopper, "evidence clopper-pearson: --failing is missing; usage: --failing FAILING --units UNITS");
-  expect_refused(clopper + "--failing -3", "--failing: \"-3\" is refused; allowed: a whole number from 0 to 1000000");
+  expect_refused(clopper + "--failing -3",
+                 "--failing: \"-3\" is refused; allowed: a whole number from 0 to 1000000000");
   expect_refused(clopper + "--failing 1.5", "--failing: \"1.5\" is refused; allowed: a whole number");
   expect_refused(clopper + "--failing nan", "--failing: \"nan\" is refused");
   expect_refused(clopper + "--failing 1001", "--failing: \"1001\" is refused; allowed: at most the 1000 of --units");
