@@ -67,12 +67,15 @@ std::uint64_t count_in(const std::string& name, std::string_view text, std::uint
   return static_cast<std::uint64_t>(*value);
 }
 
-// Far enough from the largest and smallest doubles for every product and quotient of two.
-double positive_in(const std::string& name, std::string_view text) {
+double number_between(double least, double most, const std::string& name, std::string_view text) {
   const auto value = number_in(text);
-  if (!value || *value < 1e-15 || *value > 1e18) refuse(name, text, "a number from 1e-15 to 1e18");
+  if (!value || *value < least || *value > most)
+    refuse(name, text, fmt::format("a number from {:g} to {:g}", least, most));
   return *value;
 }
+
+// Far enough from the largest and smallest doubles for every product and quotient of two.
+double positive_in(const std::string& name, std::string_view text) { return number_between(1e-15, 1e18, name, text); }
 
 double probability_in(const std::string& name, std::string_view text) {
   const auto value = number_in(text);
@@ -126,6 +129,10 @@ double EvidenceInput::positive(const std::string& name, double fallback) const {
   return has(name) ? positive(name) : fallback;
 }
 
+double EvidenceInput::prior(const std::string& name, double fallback) const {
+  return has(name) ? number_between(1e-9, 1e6, name, word(name)) : fallback;
+}
+
 double EvidenceInput::probability(const std::string& name) const { return probability_in(name, word(name)); }
 
 double EvidenceInput::probability(const std::string& name, double fallback) const {
@@ -160,10 +167,8 @@ std::vector<double> EvidenceInput::weights(const std::string& name) const {
   std::vector<double> values;
   double sum = 0.0;
   for (const auto part : parts_of(word(name), kInList)) {
-    const auto value = number_in(part);
-    if (!value || *value < 0.0 || *value > 1.0) refuse(name, part, "a number from 0 to 1");
-    values.push_back(*value);
-    sum += *value;
+    values.push_back(number_between(0.0, 1.0, name, part));
+    sum += values.back();
   }
   constexpr double kRounding = 1e-9;
   if (std::abs(sum - 1.0) > kRounding) refuse(name, word(name), fmt::format("weights with the sum 1, not {:g}", sum));

@@ -37,6 +37,8 @@ class EvidenceInput {
   // A positive number, such as hours.
   double positive(const std::string& name) const;
   double positive(const std::string& name, double fallback) const;
+  // A parameter of a prior without a unit: from 1e-9 to 1e6, where ln M keeps nine digits.
+  double prior(const std::string& name, double fallback) const;
   // A number between 0 and 1, both excluded.
   double probability(const std::string& name) const;
   double probability(const std::string& name, double fallback) const;

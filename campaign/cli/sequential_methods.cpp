@@ -16,7 +16,7 @@ namespace {
 
 Figures beta_binomial_sequence(const EvidenceInput& input) {
   const auto failing = input.failures("failing", "units"), units = input.units("units");
-  const BetaPrior prior{input.positive("prior-a", BetaPrior().a), input.positive("prior-b", BetaPrior().b)};
+  const BetaPrior prior{input.prior("prior-a", BetaPrior().a), input.prior("prior-b", BetaPrior().b)};
   const double at = input.probability("at", 0.01);
   const RateInterval interval = any_time_interval(failing, units, input.confidence(), prior);
   Figures figures;
@@ -27,7 +27,7 @@ Figures beta_binomial_sequence(const EvidenceInput& input) {
 }
 
 Figures gamma_poisson_sequence(const EvidenceInput& input) {
-  const GammaPrior prior{input.positive("prior-shape", GammaPrior().shape),
+  const GammaPrior prior{input.prior("prior-shape", GammaPrior().shape),
                          input.positive("prior-rate", GammaPrior().rate)};
   const RateInterval interval =
       any_time_rate(input.failures("events"), input.positive("exposure"), input.confidence(), prior);
@@ -102,7 +102,7 @@ Figures gate_operating_characteristic(const EvidenceInput& input) {
   Figures figures;
   figures.add(fmt::format("pass_prob_gate_e_{:g}", 100.0 * (1.0 - confidence.risk())), gate.pass_probability);
   figures.add("mean_runs_gate", gate.mean_units);
-  for (const std::uint64_t failing : {0, 3}) {
+  for (const std::uint64_t failing : {0U, 3U}) {
     const auto units = units_needed(failing, limit, confidence);
     if (!units) continue;
     figures.add(fmt::format("pass_prob_fixed_{}_c{}", *units, failing), probability_of_at_most(failing, *units, p));

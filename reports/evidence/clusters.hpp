@@ -22,7 +22,8 @@ struct DesignEffect {
   double cluster_variance = 0.0;   // of the rate: S/(S-1) sum((failing_i - rate units_i)^2) / units^2, S clusters
   double binomial_variance = 0.0;  // of the rate, if the runs were independent: rate (1 - rate) / units
   // The first variance divided by the second (Kish 1965), and the number of independent runs that would tell as much.
-  // Absent with one cluster, or if no run or every run fails: then only the clusters count.
+  // Absent with one cluster, or if no run or every run fails: then only the clusters count. The second is absent, too,
+  // if the clusters do not differ at all.
   std::optional<double> ratio, effective_units;
 };
 DesignEffect design_effect(const std::vector<Cluster>& clusters);

@@ -137,8 +137,8 @@ TEST_F(EvidenceVerb, AnswersAtTheEndsOfItsRanges) {
   for (const std::string words :
        {"clopper-pearson --failing 1e9 --units 1e15", "clopper-pearson --failing 1e9 --units 1e9",
         "garwood --events 1e9 --exposure 1e18", "garwood --events 1e9 --exposure 1e-15",
-        "hours-needed --limit 1e-15 --events 1e9", "beta-binomial-sequence --failing 1 --units 1e15 --prior-a 1e18",
-        "gamma-poisson-sequence --events 1e9 --exposure 1e-15 --prior-shape 1e-15",
+        "hours-needed --limit 1e-15 --events 1e9", "beta-binomial-sequence --failing 1 --units 1e15 --prior-a 1e6",
+        "gamma-poisson-sequence --events 1e9 --exposure 1e-15 --prior-shape 1e-9",
         "release-gate --failing 1e9 --units 1e15 --limit 1e-15", "gate-runs-needed --failing 1e9 --limit 0.9",
         "gate-operating-characteristic --limit 1e-3 --true-rate 0.5 --cap 2e5",
         "poisson-rate-ratio --events1 1e9 --exposure1 1e18 --events2 1e9 --exposure2 1e-15",
@@ -164,6 +164,7 @@ TEST_F(EvidenceVerb, RefusesWhatMakesNoSense) {
   expect_refused(clopper + "--failing 1 --unit 3", "did you mean \"--units\"?");
   expect_refused("zero-failure-bound --units 0", "--units: \"0\" is refused; allowed: a whole number from 1");
   expect_refused("garwood --events 1 --exposure 0", "--exposure: \"0\" is refused; allowed: a number from 1e-15");
+  expect_refused("beta-binomial-sequence --failing 0 --units 3 --prior-a 1e9", "allowed: a number from 1e-09 to 1e+06");
   expect_refused("paired-difference --both 0 --only-old 0 --only-new 0 --neither 0", "a difference needs pairs");
   expect_refused("stratified-zero-failure --weights 0.5,0.4 --units 1,2", "weights with the sum 1, not 0.9");
   expect_refused("stratified-zero-failure --weights 0.5,0.5 --units 1,2,3", "--units: names 3 values where");

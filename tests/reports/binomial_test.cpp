@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <vector>
+
 #include "core/base/error.hpp"
 #include "reports/evidence/zero_failure.hpp"
 #include "tests/support/reference_table.hpp"
@@ -41,6 +44,52 @@ TEST(ClopperPearson, is_monotone_and_covers_the_rate) {
       ASSERT_LE(upper_bound(k, n + 1, 0.95), upper_bound(k, n, 0.95));
       if (k == n) continue;
       ASSERT_LE(upper_bound(k, n, 0.95), upper_bound(k + 1, n, 0.95));
+    }
+  }
+}
+
+// The probability of each number of failures, by the ratio of neighbours.
+std::vector<long double> law_of_failures(std::uint64_t n, long double p) {
+  std::vector<long double> law(n + 1);
+  law[0] = std::pow(1.0L - p, static_cast<long double>(n));
+  for (std::uint64_t k = 0; k < n; ++k)
+    law[k + 1] = law[k] * static_cast<long double>(n - k) / static_cast<long double>(k + 1) * p / (1.0L - p);
+  return law;
+}
+
+TEST(ClopperPearson, covers_every_rate_with_the_confidence) {
+  constexpr double kConfidence = 0.9;
+  for (const std::uint64_t n : {1U, 7U, 30U, 100U}) {
+    for (int step = 1; step < 200; ++step) {
+      const double p = step / 200.0;
+      const auto law = law_of_failures(n, p);
+      long double by_upper = 0.0, by_lower = 0.0, by_both = 0.0;
+      for (std::uint64_t k = 0; k <= n; ++k) {
+        const auto both = two_sided_interval(k, n, kConfidence);
+        if (p <= upper_bound(k, n, kConfidence)) by_upper += law[k];
+        if (p >= lower_bound(k, n, kConfidence)) by_lower += law[k];
+        if (both.lower <= p && p <= both.upper) by_both += law[k];
+      }
+      EXPECT_GE(by_upper, kConfidence - 1e-12) << n << " " << p;
+      EXPECT_GE(by_lower, kConfidence - 1e-12) << n << " " << p;
+      EXPECT_GE(by_both, kConfidence - 1e-12) << n << " " << p;
+    }
+  }
+}
+
+TEST(ClopperPearson, at_a_bound_the_tail_has_the_risk) {
+  for (const std::uint64_t n : {5U, 100U, 2000U}) {
+    for (const std::uint64_t k : {std::uint64_t{1}, n / 10 + 1, n / 2}) {
+      for (const double risk : {0.3, 0.05, 1e-6}) {
+        const Confidence confidence = Confidence::with_risk(risk);
+        long double at_most = 0.0, at_least = 0.0;
+        const auto at_upper = law_of_failures(n, upper_bound(k, n, confidence)),
+                   at_lower = law_of_failures(n, lower_bound(k, n, confidence));
+        for (std::uint64_t i = 0; i <= k; ++i) at_most += at_upper[i];
+        for (std::uint64_t i = k; i <= n; ++i) at_least += at_lower[i];
+        expect_close(static_cast<double>(at_most), risk, "upper bound");
+        expect_close(static_cast<double>(at_least), risk, "lower bound");
+      }
     }
   }
 }

@@ -39,7 +39,7 @@ std::vector<Stratum> any_strata() {
   double sum = 0.0;
   for (Stratum& stratum : strata) {
     stratum.weight = *rc::gen::inRange(1, 1000);
-    stratum.units = *rc::gen::inRange<std::uint64_t>(1, *rc::gen::element(20, 5000));
+    stratum.units = *rc::gen::inRange<std::uint64_t>(1, *rc::gen::element<std::uint64_t>(20, 5000));
     sum += stratum.weight;
   }
   for (Stratum& stratum : strata) stratum.weight /= sum;
