@@ -86,6 +86,7 @@ Figures envelope(const EvidenceInput& input) {
   const EnvelopeGrid grid = grid_of(input);
   const auto p_values = envelope_p_values(grid, limit);
   const auto claimed = safe_envelope(grid, limit, confidence);
+  const auto by_bonferroni = bonferroni_envelope(grid, limit, confidence);
   const Path path = path_of(input, grid, limit);
   const std::size_t divisor = std::min(grid.size(), grid.front().size());
   Figures figures;
@@ -98,9 +99,12 @@ Figures envelope(const EvidenceInput& input) {
       row.add("k", cell.failing);
       row.add("n", cell.units);
       row.add("p_value_H0_p_ge_limit", p_values[loss][delay]);
+      row.add(fmt::format("claim_bonferroni_{}", grid.size() * grid[loss].size()), bool{by_bonferroni[loss][delay]});
       row.add(fmt::format("claim_antichain_{}", divisor), bool{claimed[loss][delay]});
       if (const auto claim = path.claims(loss, delay)) row.add("claim_fixed_sequence_staircase", *claim);
       row.add("cp_upper_own", upper_bound(cell.failing, cell.units, confidence));
+      const EnvelopeCell pool = monotone_pool(grid, {loss, delay});
+      row.add("cp_upper_monotone_pooled", upper_bound(pool.failing, pool.units, confidence));
       figures.add_row(row);
     }
   }

@@ -33,6 +33,27 @@ std::vector<std::vector<bool>> safe_envelope(const EnvelopeGrid& grid, double li
   return claimed;
 }
 
+std::vector<std::vector<bool>> bonferroni_envelope(const EnvelopeGrid& grid, double limit, Confidence confidence) {
+  std::vector<std::vector<bool>> claimed;
+  const double cells = static_cast<double>(grid.size()) * static_cast<double>(grid.front().size());
+  for (const auto& row : envelope_p_values(grid, limit)) {
+    auto& of_row = claimed.emplace_back();
+    for (const double p_value : row) of_row.push_back(p_value <= confidence.risk() / cells);
+  }
+  return claimed;
+}
+
+EnvelopeCell monotone_pool(const EnvelopeGrid& grid, const EnvelopePlace& place) {
+  EnvelopeCell pool;
+  for (std::size_t loss = place.loss; loss < grid.size(); ++loss) {
+    for (std::size_t delay = place.delay; delay < grid[loss].size(); ++delay) {
+      pool.failing += grid[loss][delay].failing;
+      pool.units += grid[loss][delay].units;
+    }
+  }
+  return pool;
+}
+
 std::size_t claimed_on_path(const EnvelopeGrid& grid, const std::vector<EnvelopePlace>& path, double limit,
                             Confidence confidence) {
   std::size_t claimed = 0;

@@ -14,6 +14,9 @@ namespace fleetproof {
 struct EnvelopeCell {
   std::uint64_t failing = 0, units = 0;
 };
+struct EnvelopePlace {
+  std::size_t loss = 0, delay = 0;
+};
 using EnvelopeGrid = std::vector<std::vector<EnvelopeCell>>;  // rows of equal length, at least one cell
 
 // For each cell, the exact p-value of the hypothesis that its probability of failure is at least `limit`:
@@ -26,11 +29,18 @@ std::vector<std::vector<double>> envelope_p_values(const EnvelopeGrid& grid, dou
 // min(rows, columns) such cells (union bound). Requires: a grid and a limit that were fixed beforehand.
 std::vector<std::vector<bool>> safe_envelope(const EnvelopeGrid& grid, double limit, Confidence confidence);
 
-// The same guarantee for cells in one order that was fixed beforehand (fixed-sequence test): each cell is tested at the
-// whole risk, up to the first whose p-value is above it. Returns how many cells of the path are claimed.
-struct EnvelopePlace {
-  std::size_t loss = 0, delay = 0;
-};
+// The same guarantee without regard to the places of the cells: a cell is claimed if its p-value is at most risk /
+// cells (Bonferroni). For more than a few cells it claims less.
+std::vector<std::vector<bool>> bonferroni_envelope(const EnvelopeGrid& grid, double limit, Confidence confidence);
+
+// All units of the cells with at least as much loss and at least as much delay. Their Clopper-Pearson bound holds for
+// this cell on two conditions: the true probability never falls with loss or delay, and this one cell was chosen
+// beforehand. The first is an assumption about the software: beyond the contract it may stand still.
+EnvelopeCell monotone_pool(const EnvelopeGrid& grid, const EnvelopePlace& place);
+
+// The guarantee of the safe envelope for cells in one order that was fixed beforehand (fixed-sequence test): each cell
+// is tested at the whole risk, up to the first whose p-value is above it. Returns how many cells of the path are
+// claimed.
 std::size_t claimed_on_path(const EnvelopeGrid& grid, const std::vector<EnvelopePlace>& path, double limit,
                             Confidence confidence);
 

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "core/base/error.hpp"
+#include "reports/evidence/binomial.hpp"
 #include "reports/evidence/clusters.hpp"
 #include "reports/evidence/envelope.hpp"
 #include "reports/evidence/strata.hpp"
@@ -125,11 +126,16 @@ TEST(Envelope, meets_the_reference_values) {
   const std::vector<EnvelopePlace> path = {{0, 0}, {0, 1}, {1, 1}, {1, 2}, {2, 2}};
   const auto p_values = envelope_p_values(grid, 0.001);
   const auto claimed = safe_envelope(grid, 0.001, 0.95);
+  const auto by_bonferroni = bonferroni_envelope(grid, 0.001, 0.95);
   const auto on_path = claimed_on_path(grid, path, 0.001, 0.95);
   for (const auto& row : rows) {
     const auto loss = row.count("loss_index"), delay = row.count("delay_index");
     expect_close(p_values[loss][delay], row, "p_value_H0_p_ge_limit");
     EXPECT_EQ(claimed[loss][delay], row.count("claim_antichain_3") == 1) << row.line();
+    EXPECT_EQ(by_bonferroni[loss][delay], row.count("claim_bonferroni_9") == 1) << row.line();
+    const EnvelopeCell own = grid[loss][delay], pool = monotone_pool(grid, {loss, delay});
+    expect_close(upper_bound(own.failing, own.units, 0.95), row, "cp_upper_own");
+    expect_close(upper_bound(pool.failing, pool.units, 0.95), row, "cp_upper_monotone_pooled");
     if (!row.has("claim_fixed_sequence_staircase")) continue;
     const auto place = std::ranges::find_if(
         path, [&](const EnvelopePlace& there) { return there.loss == loss && there.delay == delay; });
