@@ -6,15 +6,6 @@
 #include <cmath>
 
 namespace fleetproof::cli {
-namespace {
-
-std::string words_of(std::string name) {
-  std::ranges::replace(name, '_', ' ');
-  return name;
-}
-
-}  // namespace
-
 void Figures::add(const std::string& name, double value) {
   if (std::isfinite(value)) {
     figures_.push_back({name, fmt::format("{:.10g}", value), fmt::format("{:.17g}", value)});
@@ -44,11 +35,11 @@ std::string Figures::text() const {
   std::size_t width = 0;
   for (const Figure& figure : figures_) width = std::max(width, figure.name.size());
   std::string text;
-  for (const Figure& figure : figures_) text += fmt::format("{:<{}}  {}\n", words_of(figure.name), width, figure.text);
+  for (const Figure& figure : figures_) text += fmt::format("{:<{}}  {}\n", figure.name, width, figure.text);
   for (const Figures& row : rows_) {
     std::string line;
     for (const Figure& figure : row.figures_)
-      line += fmt::format("{}{} {}", line.empty() ? "" : ", ", words_of(figure.name), figure.text);
+      line += fmt::format("{}{} {}", line.empty() ? "" : ", ", figure.name, figure.text);
     text += line + "\n";
   }
   return text;

@@ -93,7 +93,7 @@ TEST_F(EvidenceVerb, PrintsSeventeenDigitsOrOneFigurePerLine) {
   const auto json = run("evidence clopper-pearson --failing 3 --units 1000 --confidence 0.95 --json");
   EXPECT_THAT(json.out, HasSubstr("\"two_sided_lower\": 0.00061909993164957131,"));
   const auto text = run("evidence clopper-pearson --failing 3 --units 1e3");
-  EXPECT_THAT(text.out, HasSubstr("two sided lower  0.0006190999316\n"));
+  EXPECT_THAT(text.out, HasSubstr("two_sided_lower  0.0006190999316\n"));
   EXPECT_EQ(std::ranges::count(text.out, '\n'), 4);
 }
 
