@@ -6,7 +6,6 @@
 #include <set>
 #include <tuple>
 
-#include "reports/evidence/binomial.hpp"
 #include "reports/evidence/rounding.hpp"
 #include "reports/wording.hpp"
 
@@ -43,7 +42,7 @@ std::vector<Column> columns(const Shown& shown, const std::string& upper_head) {
   return list;
 }
 
-std::vector<std::string> row(const Condition& condition, const Shown& shown, double confidence) {
+std::vector<std::string> row(const Condition& condition, const Shown& shown, const GateRecord& rule) {
   const auto& tally = condition.tally;
   std::vector<std::string> cells{printable(condition.agent, 40)};
   for (const FactorInfo& factor : shown.factors) {
@@ -55,11 +54,12 @@ std::vector<std::string> row(const Condition& condition, const Shown& shown, dou
   if (!shown.counts_only) {
     const auto& pool = condition.pool;
     const auto k = pool.failing_or_unknown, n = pool.units;
-    const auto interval = two_sided_interval(k, n, 0.95);
+    const Estimate claim = estimate(rule, k, n);
     cells.push_back(fmt::format("{}/{}", k, n));
-    cells.push_back(n == 0 ? "-" : rounded_rate(static_cast<double>(k) / static_cast<double>(n)));
-    cells.push_back(fmt::format("[{}, {}]", rounded_down(interval.lower), rounded_up(interval.upper)));
-    cells.push_back(rounded_up(upper_bound(k, n, confidence)));
+    cells.push_back(claim.rate() ? rounded_rate(*claim.rate()) : "-");
+    cells.push_back(
+        fmt::format("[{}, {}]", rounded_down(claim.interval_95.lower), rounded_up(claim.interval_95.upper)));
+    cells.push_back(rounded_up(claim.upper));
   }
   const auto ended_early = tally.crash_runs + tally.hang_runs;
   for (const auto count : {tally.contact_runs, tally.stuck_runs, ended_early}) cells.push_back(std::to_string(count));
@@ -95,9 +95,13 @@ std::size_t keep_most_interesting(std::vector<Condition>& conditions, std::size_
 
 }  // namespace
 
-double bound_confidence(const Evidence& evidence, const std::string& agent) {
+GateRecord bound_rule(const Evidence& evidence, const std::string& agent) {
   const auto gate = std::ranges::find(evidence.gates(), agent, &GateRecord::agent);
-  return gate == evidence.gates().end() ? 0.95 : gate->confidence;
+  GateRecord rule;
+  if (gate == evidence.gates().end()) return rule;
+  rule.method = gate->method;
+  rule.confidence = gate->confidence;
+  return rule;
 }
 
 Section condition_section(const ReportInput& input, std::string title,
@@ -114,12 +118,12 @@ Section condition_section(const ReportInput& input, std::string title,
   }
   const auto left_out = keep_most_interesting(conditions, most_rows);
   std::set<double> confidences;
-  for (const auto& condition : conditions) confidences.insert(bound_confidence(evidence, condition.agent));
+  for (const auto& condition : conditions) confidences.insert(bound_rule(evidence, condition.agent).confidence);
   const bool one_confidence = confidences.size() == 1;
   const Shown shown{evidence.counts_only(), shown_factors(evidence)};
   section.table.columns = columns(shown, one_confidence ? "upper " + percent(*confidences.begin()) : "upper");
   for (const auto& condition : conditions)
-    section.table.rows.push_back(row(condition, shown, bound_confidence(evidence, condition.agent)));
+    section.table.rows.push_back(row(condition, shown, bound_rule(evidence, condition.agent)));
   if (left_out > 0)
     section.remarks.push_back({fmt::format("{} with fewer failures are left out here; the JSON report has them all.",
                                            count_text(left_out, "row")),
@@ -152,9 +156,13 @@ Section table_legend(const ReportInput& input) {
   for (const auto& condition : conditions) {
     if (!agents.empty() && agents.back() == condition.agent) continue;  // conditions come agent by agent
     agents.push_back(condition.agent);
-    confidences.push_back(percent(bound_confidence(evidence, condition.agent)));
+    confidences.push_back(percent(bound_rule(evidence, condition.agent).confidence));
   }
-  auto bound = std::string("interval = exact two-sided (Clopper-Pearson); upper = one-sided upper bound");
+  std::set<GateMethod> methods;
+  for (const auto& agent : agents) methods.insert(bound_rule(evidence, agent).method);
+  std::string bound = methods.contains(GateMethod::AnyTime) ? "interval = two-sided, valid however often one looks"
+                                                            : "interval = exact two-sided (Clopper-Pearson)";
+  bound += "; it is not adjusted for the number of rows; upper = one-sided upper bound";
   if (!agents.empty() && std::ranges::count(confidences, confidences.front()) == std::ranges::ssize(confidences)) {
     bound += " at " + confidences.front();
   } else {

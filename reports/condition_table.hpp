@@ -17,7 +17,7 @@ Section condition_section(const ReportInput& input, std::string title,
 // Explains the columns of these tables, and what a unit is.
 Section table_legend(const ReportInput& input);
 
-// The confidence of the one-sided bound for an agent: the confidence of its first gate, or 95 %.
-double bound_confidence(const Evidence& evidence, const std::string& agent);
+// Confidence and method of the bounds of an agent: those of its first gate, or 95 % at any time.
+GateRecord bound_rule(const Evidence& evidence, const std::string& agent);
 
 }  // namespace fleetproof

@@ -144,9 +144,14 @@ Json gate_json(const ReportInput& input, std::size_t index) {
   return {{"gate", gate.index},
           {"name", gate.name},
           {"agent", gate.agent},
+          {"requirement", gate.requirement.empty() ? Json(nullptr) : Json(gate.requirement)},
+          {"decides", gate.decides},
           {"kind", name_of(gate.kind)},
           {"end_point", name_of(gate.end_point)},
           {"region", name_of(gate.region)},
+          {"layout", gate.layout.empty() ? Json(nullptr) : Json(gate.layout)},
+          {"counted", name_of(gate.unit)},
+          {"method", name_of(gate.method)},
           {"limit", gate.limit},
           {"confidence", gate.confidence},
           {"min_transports_per_agv_hour", gate.min_transports_per_agv_hour},
@@ -174,13 +179,14 @@ Json condition_json(const ReportInput& input, const Condition& condition) {
   json["is_worst_case"] = condition.is_worst_case;
   json["cells"] = condition.pool.cells;
   add_tally(json, condition.tally);
-  const auto confidence = bound_confidence(input.evidence, condition.agent);
+  const GateRecord rule = bound_rule(input.evidence, condition.agent);
   const auto& pool = condition.pool;
   if (!input.evidence.counts_only()) {
     json["unit"] = pool.cells.size() == 1 ? "runs" : "replicates";
-    json["confidence"] = confidence;
-    json["claim"] = estimate_json(estimate(pool.failing_or_unknown, pool.units, confidence));
-    json["optimistic"] = estimate_json(estimate(pool.failing, pool.units, confidence));
+    json["confidence"] = rule.confidence;
+    json["method"] = name_of(rule.method);
+    json["claim"] = estimate_json(estimate(rule, pool.failing_or_unknown, pool.units));
+    json["optimistic"] = estimate_json(estimate(rule, pool.failing, pool.units));
   }
   json["worst_run"] = failing_run_json(input, condition.worst);
   return json;
@@ -191,10 +197,11 @@ Json one_cell_json(const ReportInput& input, const CellRecord& cell) {
   const auto& tally = input.evidence.tally(cell.index);
   add_tally(json, tally);
   if (!input.evidence.counts_only()) {
-    const auto confidence = bound_confidence(input.evidence, cell.agent);
-    json["confidence"] = confidence;
-    json["claim"] = estimate_json(estimate(tally.violating_runs + tally.unknown_runs, tally.runs, confidence));
-    json["optimistic"] = estimate_json(estimate(tally.violating_runs, tally.runs, confidence));
+    const GateRecord rule = bound_rule(input.evidence, cell.agent);
+    json["confidence"] = rule.confidence;
+    json["method"] = name_of(rule.method);
+    json["claim"] = estimate_json(estimate(rule, tally.violating_runs + tally.unknown_runs, tally.runs));
+    json["optimistic"] = estimate_json(estimate(rule, tally.violating_runs, tally.runs));
   }
   return json;
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/base/contract.hpp"
 #include "reports/audit_section.hpp"
 #include "reports/condition_table.hpp"
@@ -54,6 +56,23 @@ Section provenance_section(const ReportInput& input) {
   return section;
 }
 
+void add_methods(Section& section, const std::vector<GateRecord>& gates) {
+  const auto any = [&](GateMethod method) {
+    return std::ranges::find(gates, method, &GateRecord::method) != gates.end();
+  };
+  if (gates.empty() || any(GateMethod::AnyTime)) {
+    section.remarks.emplace_back().text =
+        "Bounds of the method any-time hold at every number of replicates at once: one may look, stop, go on and "
+        "extend for any reason. The upper bound is the largest limit that the release gate (an e-value, Ville 1939) "
+        "would not pass; the lower bound is that of a beta-binomial confidence sequence.";
+  }
+  if (any(GateMethod::Fixed)) {
+    section.remarks.emplace_back().text =
+        ("Bounds of the method fixed are exact (Clopper-Pearson, Garwood) for the number of "
+         "replicates that was planned before the first run, and for no other.");
+  }
+}
+
 Section method_section(const ReportInput& input) {
   Section section{"How to read this", {}, {}};
   const auto add = [&](std::string text) { section.remarks.push_back({std::move(text), ""}); };
@@ -62,10 +81,10 @@ Section method_section(const ReportInput& input) {
         "are no rates and no bounds.");
   } else {
     add("A replicate is one draw of all randomness, run in every cell (test condition). If several cells are judged "
-        "together, the replicate is the unit and fails if any of its runs fails. Intervals and bounds are exact "
-        "(Clopper-Pearson), for a number of replicates that was fixed beforehand.");
-    add("Runs that crashed, hung or stayed indeterminate count as failures in every rate and bound. Stuck runs stay in "
-        "the count of runs. An upper bound is rounded up, a lower bound is rounded down.");
+        "together, the replicate is the unit and fails if any of its runs fails. Runs that crashed, hung or stayed "
+        "indeterminate count as failures in every rate and bound. Stuck runs stay in the count of runs. An upper bound "
+        "is rounded up, a lower bound is rounded down.");
+    add_methods(section, input.evidence.gates());
     add("\"Demonstrated\" means: if the true rate were above the limit, a result this good would be rarer than one "
         "minus the confidence. It is a statement about the sampled scenarios in the simulator. It says nothing about "
         "other conditions, or about real vehicles beyond what the simulator has been validated for.");

@@ -27,17 +27,18 @@ std::string estimate_text(const GateRecord& gate, const GateResult& result) {
   const auto& claim = *result.claim;
   auto text = fmt::format("{} of {} {} failed", claim.failing, claim.units, result.unit);
   if (claim.rate()) {
-    text += fmt::format(": rate {}, exact two-sided 95 % interval [{}, {}]", rounded_rate(*claim.rate()),
+    text += fmt::format(": rate {}, two-sided 95 % interval [{}, {}]", rounded_rate(*claim.rate()),
                         rounded_down(claim.interval_95.lower), rounded_up(claim.interval_95.upper));
   }
-  return text + fmt::format(", one-sided {} upper bound {}, limit {:g}.", percent(gate.confidence),
-                            rounded_up(claim.upper), gate.limit);
+  return text + fmt::format(", one-sided {} upper bound {}, limit {:g} ({}).", percent(gate.confidence),
+                            rounded_up(claim.upper), gate.limit,
+                            gate.method == GateMethod::AnyTime ? "valid at any time" : "for the planned replicates");
 }
 
 std::string optimistic_text(const GateResult& result) {
   return fmt::format(
-      "Crashed, hung and indeterminate runs are counted as failures; if none of them had failed: {} of {}, upper bound "
-      "{}.",
+      "What stayed unknown (a crash, a hang, a wreck before) counts as a failure; if none of it had failed: {} of {}, "
+      "upper bound {}.",
       result.optimistic->failing, result.optimistic->units, rounded_up(result.optimistic->upper));
 }
 
@@ -69,7 +70,9 @@ Headline verdict_of(const ReportInput& input, std::size_t index) {
 
 Remark describe(const ReportInput& input, const FailingRun& run) {
   const auto& cell = input.evidence.cells()[run.cell];
-  auto text = fmt::format("run {}: {}", run.run_index, name_of(run.severity));
+  auto text =
+      fmt::format("run {}: {}", run.run_index,
+                  run.severity == Severity::Incident ? info_of(run.incident->kind).name : name_of(run.severity));
   if (run.closest && level_of(*run.closest) == ViolationLevel::HazardousContact) {
     text +=
         fmt::format(" at hazardous speed ({:.1f} m/s)", static_cast<double>(run.closest->relative_speed_um_s) * 1e-6);

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "reports/coverage_section.hpp"
-#include "reports/evidence/binomial.hpp"
+#include "reports/evidence/gate_bounds.hpp"
 #include "reports/wording.hpp"
 
 namespace fleetproof {
@@ -44,7 +44,7 @@ void name_short_gates(std::vector<std::string>& points, const Evidence& evidence
   if (evidence.counts_only()) return;
   for (std::size_t i = 0; i < evidence.gates().size(); ++i) {
     const auto& gate = evidence.gates()[i];
-    const auto needed = units_needed(0, gate.limit, gate.confidence);
+    const auto needed = gate.unit == GateUnit::AgvHour ? std::nullopt : units_to_pass(gate, 0, 0);
     const auto done = evidence.complete_replicates();
     if (!needed || done >= *needed || evidence.cells_of(i).empty()) continue;
     points.push_back(

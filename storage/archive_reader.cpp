@@ -122,7 +122,7 @@ void ArchiveReader::Impl::read_plan() {
   if (published && !(sealed_count && seal)) damaged("it was published, but has no seal");
   SQLite::Statement cell_rows(*db, fmt::format("SELECT {} FROM cells ORDER BY cell", cell_values(schema)));
   while (cell_rows.executeStep()) cells.push_back(read_cell(cell_rows));
-  SQLite::Statement gate_rows(*db, fmt::format("SELECT {} FROM gates ORDER BY gate", kGateColumns));
+  SQLite::Statement gate_rows(*db, fmt::format("SELECT {} FROM gates ORDER BY gate", gate_values(schema)));
   while (gate_rows.executeStep()) gates.push_back(read_gate(gate_rows));
   if (checksums == Checksums::Verify && plan_checksum(campaign, cells, gates, schema) != plan)
     damaged("its plan (campaign, cells, gates) does not match its checksum");

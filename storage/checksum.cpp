@@ -44,6 +44,15 @@ class Bytes {
   std::string text_;
 };
 
+void add_method(Bytes& bytes, const GateRecord& gate) {
+  bytes << gate.requirement << gate.layout << std::string(name_of(gate.unit)) << std::string(name_of(gate.method))
+        << std::uint64_t{gate.decides};
+  for (const auto* numbers : {&gate.table.passes_from, &gate.table.refuted_up_to}) {
+    bytes << std::uint64_t{numbers->size()};
+    for (const std::uint64_t number : *numbers) bytes << number;
+  }
+}
+
 }  // namespace
 
 std::uint64_t row_checksum(const RunRecord& run, std::int32_t schema) {
@@ -84,6 +93,7 @@ std::uint64_t plan_checksum(const CampaignRecord& campaign, const std::vector<Ce
     bytes << std::uint64_t{gate.index} << gate.name << gate.agent << std::string(name_of(gate.kind))
           << std::string(name_of(gate.end_point));
     bytes << std::string(name_of(gate.region)) << gate.limit << gate.confidence << gate.min_transports_per_agv_hour;
+    if (schema >= kFirstTabled) add_method(bytes, gate);
   }
   return bytes.hash();
 }

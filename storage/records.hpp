@@ -7,6 +7,7 @@
 #include "core/base/words.hpp"
 #include "core/outcome/outcome.hpp"
 #include "storage/factors.hpp"
+#include "storage/gate_record.hpp"
 
 namespace fleetproof {
 
@@ -27,53 +28,6 @@ struct CellRecord {
   bool in_contract() const { return highest.in_contract(); }
   bool is_worst_case() const { return lowest.is_worst_case() && highest.is_worst_case(); }
   friend bool operator==(const CellRecord&, const CellRecord&) = default;
-};
-
-enum class EndPoint : std::uint8_t { Violation, Contact };
-enum class Region : std::uint8_t { Contract, WorstCase, All };
-enum class GateKind : std::uint8_t { None, Rate };  // None: any failing run refutes. Rate: the bounds decide.
-
-constexpr const char* name_of(EndPoint end_point) {
-  switch (end_point) {
-    case EndPoint::Violation:
-      return "violation";
-    case EndPoint::Contact:
-      return "contact";
-  }
-  return kNoWord;
-}
-constexpr const char* name_of(Region region) {
-  switch (region) {
-    case Region::Contract:
-      return "contract";
-    case Region::WorstCase:
-      return "worst-case";
-    case Region::All:
-      return "all";
-  }
-  return kNoWord;
-}
-constexpr const char* name_of(GateKind kind) {
-  switch (kind) {
-    case GateKind::None:
-      return "none";
-    case GateKind::Rate:
-      return "rate";
-  }
-  return kNoWord;
-}
-
-// A requirement on a campaign, fixed before its first run.
-struct GateRecord {
-  std::uint32_t index = 0;
-  std::string name, agent;
-  GateKind kind = GateKind::Rate;
-  EndPoint end_point = EndPoint::Violation;
-  Region region = Region::Contract;
-  double limit = 1e-3;                       // the upper bound must be at or below the limit
-  double confidence = 0.95;                  // one-sided
-  double min_transports_per_agv_hour = 1.0;  // a parked fleet is safe and useless
-  friend bool operator==(const GateRecord&, const GateRecord&) = default;
 };
 
 struct EngineIdentity {

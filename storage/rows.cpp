@@ -6,6 +6,7 @@
 
 #include <array>
 #include <bit>
+#include <charconv>
 
 #include "core/base/error.hpp"
 #include "storage/schema.hpp"
@@ -132,6 +133,22 @@ std::vector<std::string> from_lines(const std::string& text) {
   return words;
 }
 
+// "38 73 103": an assessor reads it with any tool.
+std::string numbers_text(const std::vector<std::uint64_t>& numbers) {
+  return fmt::format("{}", fmt::join(numbers, " "));
+}
+
+std::vector<std::uint64_t> numbers_of(const std::string& text) {
+  std::vector<std::uint64_t> numbers;
+  const char* const end = text.data() + text.size();
+  for (const char* next = text.data(); next != end;) {
+    const auto [stop, error] = std::from_chars(next, end, numbers.emplace_back());
+    if (error != std::errc{} || (stop != end && *stop != ' ')) throw EngineError("a gate holds a broken table");
+    next = stop == end ? end : stop + 1;
+  }
+  return numbers;
+}
+
 template <HasWords Enum>
 Enum word_to(const std::string& word) {
   if (const auto value = value_of<Enum>(word)) return *value;
@@ -164,7 +181,9 @@ void bind_cell(SQLite::Statement& insert, const CellRecord& cell) {
 
 void bind_gate(SQLite::Statement& insert, const GateRecord& gate) {
   Binder(insert) << gate.index << gate.name << gate.agent << name_of(gate.kind) << name_of(gate.end_point)
-                 << name_of(gate.region) << gate.limit << gate.confidence << gate.min_transports_per_agv_hour;
+                 << name_of(gate.region) << gate.limit << gate.confidence << gate.min_transports_per_agv_hour
+                 << gate.requirement << gate.layout << name_of(gate.unit) << name_of(gate.method) << gate.decides
+                 << numbers_text(gate.table.passes_from) << numbers_text(gate.table.refuted_up_to);
 }
 
 void bind_run(SQLite::Statement& insert, const RunRecord& run, std::uint64_t checksum) {
@@ -263,6 +282,13 @@ GateRecord read_gate(const SQLite::Statement& row) {
   gate.limit = from.real();
   gate.confidence = from.real();
   gate.min_transports_per_agv_hour = from.real();
+  gate.requirement = from.text();
+  gate.layout = from.text();
+  gate.unit = word_to<GateUnit>(from.text());
+  gate.method = word_to<GateMethod>(from.text());
+  gate.decides = from.flag();
+  gate.table.passes_from = numbers_of(from.text());
+  gate.table.refuted_up_to = numbers_of(from.text());
   return gate;
 }
 

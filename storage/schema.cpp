@@ -55,7 +55,14 @@ CREATE TABLE gates (
   region TEXT NOT NULL,
   limit_rate REAL NOT NULL,
   confidence REAL NOT NULL,
-  min_transports_per_agv_hour REAL NOT NULL
+  min_transports_per_agv_hour REAL NOT NULL,
+  requirement TEXT NOT NULL,
+  layout TEXT NOT NULL,
+  unit TEXT NOT NULL,
+  method TEXT NOT NULL,
+  decides INTEGER NOT NULL,
+  passes_from TEXT NOT NULL,
+  refuted_up_to TEXT NOT NULL
 ) STRICT, WITHOUT ROWID;
 )sql";
 
@@ -290,6 +297,12 @@ std::string campaign_values(std::int32_t schema) {
   if (schema >= kFirstChunked) return columns;
   const std::string_view newer = "chunk_runs";
   return columns.replace(columns.find(newer), newer.size(), fmt::format("{} AS chunk_runs", kChunkRuns));
+}
+
+std::string gate_values(std::int32_t schema) {
+  std::string columns = kGateColumns;
+  if (schema >= kFirstTabled) return columns;
+  return columns.replace(columns.find("requirement"), std::string::npos, "'', '', 'world', 'fixed', 1, '', ''");
 }
 
 std::string cell_columns() { return cell_list(factor_names(&FactorInfo::key) + factor_names(&FactorInfo::key_to)); }

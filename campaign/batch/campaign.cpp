@@ -1,5 +1,6 @@
 #include "campaign/batch/campaign.hpp"
 
+#include <algorithm>
 #include <thread>
 
 #include "campaign/batch/audit_book.hpp"
@@ -7,12 +8,15 @@
 #include "campaign/batch/run_ledger.hpp"
 #include "campaign/batch/same_campaign.hpp"
 #include "campaign/batch/task_pool.hpp"
+#include "campaign/batch/verdict_watch.hpp"
+#include "campaign/plan/default_gates.hpp"
 #include "campaign/plan/plan_text.hpp"
 #include "campaign/run/engine_identity.hpp"
 #include "campaign/workers/run_host.hpp"
 #include "core/base/random.hpp"
 #include "generators/formats/purpose_words.hpp"
 #include "generators/scenario_file/exempt_pairs.hpp"
+#include "reports/evidence/evidence.hpp"
 #include "storage/archive_writer.hpp"
 
 namespace fleetproof {
@@ -45,6 +49,17 @@ std::vector<std::string> plugin_agents(const CampaignPlan& plan, const AgentProg
     if (programs.is_plugin(agent.program)) names.push_back(agent.name);
   }
   return names;
+}
+
+std::vector<GateRecord> resolved_gates(const CampaignPlan& plan, const AgentPrograms& programs) {
+  std::vector<bool> is_plugin;
+  for (const AgentFactor& agent : plan.agents) is_plugin.push_back(programs.is_plugin(agent.program));
+  const std::vector<std::string> judged = agents_under_test(plan, is_plugin);
+  CampaignRecord record;
+  record.replicates = plan.replicates;
+  std::vector<GateRecord> gates = Evidence(record, plan.cells(), plan.gates).gates();  // with their tables
+  for (GateRecord& gate : gates) gate.decides = std::ranges::find(judged, gate.agent) != judged.end();
+  return gates;
 }
 
 CampaignRecord campaign_record(const CampaignPlan& plan, const AgentPrograms& programs) {
@@ -81,7 +96,8 @@ class Session {
         audit_book_(plan, programs),
         runs_(plan, programs, {.workers = options.workers, .log_prefix = options.worker_logs}),
         audits_(plan, programs, options.audit_program, options.workers),
-        archive_(path, campaign_record(plan, programs), plan.cells(), plan.gates,
+        verdict_(campaign_record(plan, programs), plan, resolved_gates(plan, programs)),
+        archive_(path, campaign_record(plan, programs), plan.cells(), resolved_gates(plan, programs),
                  options.overwrite ? Existing::Replace : Existing::Resume, resumption(path)) {
     result_.progress.planned = plan.run_count();
     for (std::size_t agent = 0; agent < audit_book_.agent_count(); ++agent)
@@ -156,6 +172,7 @@ class Session {
     progress.violating += record.outcome.violation ? 1 : 0;
     progress.engine_errors += record.outcome.engine_error ? 1 : 0;
     ledger_.add(record.run_index, record.outcome.is_failure());
+    if (options_.until_verdict) verdict_.add(record);
   }
 
   void count(const AuditFinding& finding) {
@@ -173,8 +190,11 @@ class Session {
     listener_.run_finished(record);
   }
 
+  // The runs that are kept if the results themselves end the campaign.
   std::optional<std::uint64_t> stop_length() const {
-    return options_.fail_fast > 0 ? ledger_.length_with_failures(options_.fail_fast) : std::nullopt;
+    const auto failures = options_.fail_fast > 0 ? ledger_.length_with_failures(options_.fail_fast) : std::nullopt;
+    const auto verdict = verdict_.decided_length();
+    return failures && verdict ? std::min(failures, verdict) : (failures ? failures : verdict);
   }
 
   void stop_if_due(TaskPool& pool) {
@@ -226,6 +246,7 @@ class Session {
   AuditBook audit_book_;
   RunHost runs_;  // before the archive: worker processes must not hold its files
   AuditDesk audits_;
+  VerdictWatch verdict_;
   ArchiveWriter archive_;
   const Clock::time_point started_ = Clock::now();
   Clock::time_point last_tick_ = started_, last_commit_ = started_;

@@ -24,6 +24,7 @@ struct RunOptions {
   bool allow_drift = false;   // go on in a file that another engine wrote, and record it
   std::optional<std::chrono::seconds> max_time;   // stop cleanly after this time
   std::uint64_t fail_fast = 0;                    // stop after so many failed runs, in order of run index; 0: never
+  bool until_verdict = false;                     // stop when the gates that decide have given the verdict
   const std::atomic<int>* interrupted = nullptr;  // non-zero: a signal number; stop handing out runs
 };
 
@@ -69,6 +70,9 @@ void build_first_worlds(const CampaignPlan& plan);
 
 // The agents of the plan that come from shared objects.
 std::vector<std::string> plugin_agents(const CampaignPlan& plan, const AgentPrograms& programs);
+
+// The gates of the plan with their tables, and whether they decide.
+std::vector<GateRecord> resolved_gates(const CampaignPlan& plan, const AgentPrograms& programs);
 
 CampaignRecord campaign_record(const CampaignPlan& plan, const AgentPrograms& programs);
 

@@ -8,6 +8,7 @@
 
 #include "campaign/batch/session_log.hpp"
 #include "campaign/cli/streams.hpp"
+#include "campaign/plan/default_gates.hpp"
 #include "campaign/plan/plan_check.hpp"
 #include "campaign/run/agent_inspection.hpp"
 #include "core/base/error.hpp"
@@ -63,6 +64,9 @@ CampaignFile load_campaign(const std::string& path, AgentPrograms& programs) {
     if (agents[i].name.empty()) agents[i].name = object.program;
   }
   check_plan(file.plan, file.places);
+  std::vector<bool> is_plugin;
+  for (const std::string& path_of_object : file.agent_files) is_plugin.push_back(!path_of_object.empty());
+  add_default_gates(file.plan, is_plugin);
   for (std::size_t i = 0; i < agents.size(); ++i) programs.program(agents[i].program, place_of(i) + ": factors.agents");
   constexpr std::size_t kTold = 3;
   for (std::size_t i = 0; i < std::min(kTold, file.warnings.size()); ++i) talk("warning: {}\n", file.warnings[i]);

@@ -11,8 +11,8 @@
 #include "campaign/cli/campaign_words.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
-#include "reports/evidence/binomial.hpp"
 #include "reports/evidence/evidence.hpp"
+#include "reports/evidence/gate_bounds.hpp"
 #include "reports/evidence/rounding.hpp"
 #include "reports/wording.hpp"
 
@@ -40,6 +40,7 @@ struct Forecast {
   Reach file;                                     // the replicates of the file
   std::optional<Reach> budget;                    // those that fit into --max-time
   std::vector<std::vector<std::uint32_t>> gates;  // the cells that each gate judges
+  std::vector<GateRecord> rules;                  // the gates, with their tables
 };
 
 // The part of a campaign's time that some cells take.
@@ -107,6 +108,26 @@ std::vector<Cost> most_expensive_cells(const Forecast& forecast) {
 
 bool counts_only(const Forecast& forecast) { return forecast.plan.kind == CampaignKind::Search; }
 
+// A replicate is one unit of a gate, or so many microseconds of AGVs.
+std::uint64_t units_of_replicate(const Forecast& forecast, std::size_t index) {
+  if (forecast.rules[index].unit != GateUnit::AgvHour) return 1;
+  const std::vector<CellRecord> cells = forecast.plan.cells();
+  double agv_s = 0.0;
+  for (const std::uint32_t cell : forecast.gates[index]) agv_s += cells[cell].fleet_size * forecast.plan.horizon_s;
+  return static_cast<std::uint64_t>(agv_s * 1e6);
+}
+
+double bound_without_failure(const Forecast& forecast, std::size_t index, std::uint64_t replicates) {
+  return gate_bounds(forecast.rules[index], 0, replicates * units_of_replicate(forecast, index)).upper;
+}
+
+std::optional<std::uint64_t> replicates_without_failure(const Forecast& forecast, std::size_t index) {
+  const GateRecord& gate = forecast.rules[index];
+  const auto units = units_to_pass(gate, 0, 0);
+  const std::uint64_t each = units_of_replicate(forecast, index);
+  return units ? std::optional((*units + each - 1) / std::max<std::uint64_t>(each, 1)) : std::nullopt;
+}
+
 void print_gate(const Forecast& forecast, std::size_t index) {
   const GateRecord& gate = forecast.plan.gates[index];
   const std::size_t cells = forecast.gates[index].size();
@@ -118,11 +139,11 @@ void print_gate(const Forecast& forecast, std::size_t index) {
   }
   const auto tell = [&](const Reach& reach, std::string_view whose) {
     put("  {} ({}): the bound is {} if none fails\n", count_text(reach.replicates, "replicate"), whose,
-        rounded_up(upper_bound(0, reach.replicates, gate.confidence)));
+        rounded_up(bound_without_failure(forecast, index, reach.replicates)));
   };
   tell(forecast.file, "of the file");
   if (forecast.budget) tell(*forecast.budget, "in the time given");
-  if (const auto needed = units_needed(0, gate.limit, gate.confidence))
+  if (const auto needed = replicates_without_failure(forecast, index))
     put("  {} without a failure meet the limit: {}\n", count_text(*needed, "replicate"),
         duration_text(forecast.pilot.forecast_s(*needed)));
 }
@@ -179,9 +200,9 @@ nlohmann::ordered_json json_of_gate(const Forecast& forecast, std::size_t index)
                                  {"limit", gate.limit},
                                  {"confidence", gate.confidence}};
   if (forecast.gates[index].empty() || counts_only(forecast)) return json;
-  json["bound_of_file"] = upper_bound(0, forecast.file.replicates, gate.confidence);
-  if (forecast.budget) json["bound_in_time"] = upper_bound(0, forecast.budget->replicates, gate.confidence);
-  if (const auto needed = units_needed(0, gate.limit, gate.confidence))
+  json["bound_of_file"] = bound_without_failure(forecast, index, forecast.file.replicates);
+  if (forecast.budget) json["bound_in_time"] = bound_without_failure(forecast, index, forecast.budget->replicates);
+  if (const auto needed = replicates_without_failure(forecast, index))
     json["limit_met_by"] = json_of(Reach{*needed, forecast.pilot.forecast_s(*needed)});
   return json;
 }
@@ -224,6 +245,7 @@ int plan(const PlanWords& words) {
   const Evidence evidence(campaign_record(forecast.plan, programs), forecast.plan.cells(), forecast.plan.gates);
   for (std::size_t gate = 0; gate < forecast.plan.gates.size(); ++gate)
     forecast.gates.push_back(evidence.cells_of(gate));
+  forecast.rules = evidence.gates();
   words.json ? print_json(forecast) : print_text(words, forecast);
   return kDemonstrated;
 }

@@ -28,7 +28,7 @@ struct RunWords {
   std::optional<std::uint64_t> jobs, replicates, seed;
   std::optional<std::uint64_t> fail_fast;
   std::string max_time, until;
-  bool overwrite = false, allow_drift = false, json = false;
+  bool overwrite = false, allow_drift = false, until_verdict = false, json = false;
 };
 
 constexpr const char* kOwnProgram = "/proc/self/exe";
@@ -62,6 +62,7 @@ RunOptions run_options(const RunWords& words) {
   if (words.fail_fast && *words.fail_fast < 1) throw InputError("--fail-fast", "is 0; it is at least 1");
   options.fail_fast = words.fail_fast.value_or(0);
   options.allow_drift = words.allow_drift;
+  options.until_verdict = words.until_verdict;
   options.overwrite = words.overwrite;
   options.interrupted = &interrupted;
   options.audit_program = kOwnProgram;
@@ -142,6 +143,7 @@ Action prepare_run(Options& options) {
   options.option("--max-time", words->max_time, "stop cleanly after this time, as in 90, 45m or 5h30m");
   options.option("--until", words->until, "stop cleanly at this time of day, as in 06:00");
   options.option("--fail-fast", words->fail_fast, "stop after so many failed runs, in order of run index");
+  options.flag("--until-verdict", words->until_verdict, "stop when the gates have given the verdict");
   options.flag("--overwrite", words->overwrite, "begin again, and replace an existing campaign file");
   options.flag("--allow-drift", words->allow_drift, "go on in a file of another build or plug-in, and record it");
   options.flag("--json", words->json, "print the report as JSON");

@@ -34,6 +34,7 @@ AgentFactor agent_from_table(TomlTable& table, std::string& file) {
     agent.config = config;
   }
   take_symbols(table, agent);
+  table.get("role", agent.role);
   table.finish();
   return agent;
 }

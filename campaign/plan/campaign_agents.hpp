@@ -10,9 +10,9 @@
 namespace fleetproof {
 
 // Reads factors.agents: "hull-lock", "my.so", { file = "my.so", name = "candidate", config = "patience=3" }, or
-// { agent = "hull-lock", ... }. `files` gets the path of the shared object of each agent, beside the campaign file;
-// empty for a reference agent. An agent of a shared object has no program yet: the object has to be asked. Throws
-// InputError.
+// { agent = "hull-lock", ... }, with role = "candidate" or "reference". `files` gets the path of the shared object of
+// each agent, beside the campaign file; empty for a reference agent. An agent of a shared object has no program yet:
+// the object has to be asked. Throws InputError.
 void read_agents(TomlTable& factors, std::string_view key, const std::string& campaign_path,
                  std::vector<AgentFactor>& agents, std::vector<std::string>& files);
 

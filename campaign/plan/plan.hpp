@@ -37,17 +37,33 @@ struct LayoutFactor {
   bool mutate = false;                    // every replicate draws a mutation of `map`
 };
 
+// Whether gates bind an agent. ByOrigin: a plug-in is under test; a reference agent is if nothing else in the campaign
+// is.
+enum class AgentRole : std::uint8_t { ByOrigin, Candidate, Reference };
+constexpr const char* name_of(AgentRole role) {
+  switch (role) {
+    case AgentRole::ByOrigin:
+      return "by-origin";
+    case AgentRole::Candidate:
+      return "candidate";
+    case AgentRole::Reference:
+      return "reference";
+  }
+  return kNoWord;
+}
+
 // An agent of the campaign. One program may stand there several times, with other parameters and names.
 struct AgentFactor {
   std::string name;                   // what cells, gates and reports call it; each name stands once
   std::string program;                // the name that the control software gives itself
   std::optional<std::string> config;  // its own parameters; none: those of the campaign
   bool global_symbols = false;        // its shared object is loaded with RTLD_GLOBAL
+  AgentRole role = AgentRole::ByOrigin;
 
   AgentFactor() = default;
   AgentFactor(const char* program_name) : name(program_name), program(program_name) {}         // implicit: a word
   AgentFactor(const std::string& program_name) : name(program_name), program(program_name) {}  // implicit: a word
-  bool is_word() const { return name == program && !config && !global_symbols; }
+  bool is_word() const { return name == program && !config && !global_symbols && role == AgentRole::ByOrigin; }
   friend bool operator==(const AgentFactor&, const AgentFactor&) = default;
 };
 
@@ -112,6 +128,7 @@ struct CampaignPlan {
   LimitSetup limits;
   AuditSetup audit;
   std::vector<GateRecord> gates;
+  bool default_gates = true;  // a claim without gates gets those of default_gates.hpp
 
   const std::string& config_of(const AgentFactor& agent) const { return agent.config ? *agent.config : agent_config; }
   const AgentFactor& agent_of_cell(std::uint64_t cell) const { return agents[cell % agents.size()]; }

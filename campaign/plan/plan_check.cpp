@@ -183,8 +183,17 @@ void check_gates(const CampaignPlan& plan, const PlanPlaces& places) {
     demand(std::ranges::find(agents, gate.agent) != agents.end(), places, path("agent").c_str(),
            fmt::format("gate \"{}\": agent \"{}\" is not among factors.agents{}", gate.name, gate.agent,
                        name_hint(gate.agent, names)));
+    demand(
+        gate.layout.empty() || std::ranges::find(plan.layouts, gate.layout, &LayoutFactor::name) != plan.layouts.end(),
+        places, path("layout").c_str(),
+        fmt::format("gate \"{}\": layout \"{}\" is not among factors.layouts", gate.name, gate.layout));
+    demand(gate.end_point != EndPoint::Throughput || gate.unit != GateUnit::AgvHour, places, path("unit").c_str(),
+           fmt::format("gate \"{}\": throughput is judged for a world or a run, not for an AGV-hour", gate.name));
+    demand(gate.unit == GateUnit::AgvHour || gate.limit < 1.0, places, path("limit").c_str(),
+           fmt::format("gate \"{}\": limit {:g} is refused: a share is below 1; only a rate per AGV-hour may be more",
+                       gate.name, gate.limit));
     const bool covers = std::ranges::any_of(cells, [&](const CellRecord& cell) {
-      return cell.agent == gate.agent &&
+      return cell.agent == gate.agent && (gate.layout.empty() || cell.layout == gate.layout) &&
              (gate.region == Region::All || (gate.region == Region::Contract && cell.in_contract()) ||
               (gate.region == Region::WorstCase && cell.is_worst_case()));
     });

@@ -25,18 +25,32 @@ inline constexpr double kMostRuns = 1e12;  // a thousand years of this engine; b
 
 template <FieldsOf<GateRecord> Gate, class Visit>
 void visit_fields(Gate& gate, Visit&& visit) {
-  auto& [index, name, agent, kind, end_point, region, limit, confidence, min_transports_per_agv_hour] = gate;
-  (void)index;
+  auto& [index, name, agent, requirement, kind, end_point, region, layout, unit, method, limit, confidence,
+         min_transports_per_agv_hour, decides, table] = gate;
+  (void)index, (void)decides, (void)table;  // they follow from the plan
   visit(Field{.key = "name", .text = "name of the gate; left out: gate 1, gate 2, ..."}, name);
   visit(Field{.key = "agent", .text = "the agent that the requirement is put to", .needed = true}, agent);
+  visit(Field{.key = "requirement", .text = "the requirement that it verifies, as \"SR-12\"; every page repeats it"},
+        requirement);
   visit(Field{.key = "kind", .text = "none: any failing run refutes; rate: bounds decide"}, kind);
   visit(Field{.key = "end_point", .text = "what counts as a failure"}, end_point);
   visit(Field{.key = "region", .text = "the cells that count: those of the contract, its worst case, or all"}, region);
-  visit(Field{.key = "limit", .text = "the upper bound must be at or below it", .below_high = true}, limit);
+  visit(Field{.key = "layout", .text = "only cells of this layout; left out: of all"}, layout);
+  visit(
+      Field{.key = "unit", .text = "what is counted: worlds, the runs of each cell (the worst decides), or AGV-hours"},
+      unit);
+  visit(
+      Field{.key = "method", .text = "any-time: look, stop and extend as you like; fixed: for the planned replicates"},
+      method);
+  visit(
+      Field{.key = "limit", .text = "the upper bound must be at or below it; a share, or per AGV-hour", .high = 1000.0},
+      limit);
   visit(
       Field{.key = "confidence", .text = "of the bound, one-sided", .low = 0.5, .above_low = true, .below_high = true},
       confidence);
-  visit(Field{.key = "min_transports_per_agv_hour", .text = "a fleet that does less makes no progress", .high = 3600.0},
+  visit(Field{.key = "min_transports_per_agv_hour",
+              .text = "a fleet that does less makes no progress; the floor of end point throughput",
+              .high = 3600.0},
         min_transports_per_agv_hour);
 }
 
@@ -80,7 +94,7 @@ void visit_fields(Plan& plan, Visit&& visit) {
   [[maybe_unused]] auto& [name, kind, seed, replicates, horizon_s, stuck_after_s, agents, agent_config, factors,
                           sampling, layouts, fleet_sizes, held_streams, held_replicate, demand, placement, orders,
                           vehicles, faults, scanner, operator_help, radio, sources, agent_clock, law, laws_left_out,
-                          required_probes, contact_stops, limits, audit, gates] = plan;
+                          required_probes, contact_stops, limits, audit, gates, default_gates] = plan;
   visit(Field{.key = "name", .text = "name of the campaign; left out: that of the file"}, name);
   visit(Field{.key = "kind", .text = "claim: rates and bounds; search: counts only"}, kind);
   visit(kSeed, seed);
@@ -136,6 +150,8 @@ void visit_fields(Plan& plan, Visit&& visit) {
         }});
   visit(Field{.key = "limits", .text = "what one run of a plug-in may use"}, limits);
   visit(Field{.key = "audit", .text = "how the campaign checks that its runs can be repeated"}, audit);
+  visit(Field{.key = "default_gates", .text = "a claim without gates gets those that every fleet has to meet"},
+        default_gates);
   visit(Field{.key = "gate", .text = "a requirement on the campaign"}, gates);
 }
 

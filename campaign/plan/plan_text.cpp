@@ -41,6 +41,7 @@ Json agent_json(const AgentFactor& agent) {
   Json json = {{"name", agent.name}, {"program", agent.program}};
   if (agent.config) json["config"] = *agent.config;
   if (agent.global_symbols) json["symbols"] = "global";
+  if (agent.role != AgentRole::ByOrigin) json["role"] = name_of(agent.role);
   return json;
 }
 
@@ -51,6 +52,7 @@ AgentFactor agent_from(const Json& json) {
   agent.program = json.at("program");
   if (json.contains("config")) agent.config = json.at("config").get<std::string>();
   agent.global_symbols = json.value("symbols", "local") == "global";
+  if (json.contains("role")) agent.role = value_of<AgentRole>(json.at("role").get<std::string>()).value();
   return agent;
 }
 

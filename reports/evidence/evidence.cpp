@@ -7,12 +7,13 @@
 
 #include "core/base/error.hpp"
 #include "core/outcome/probe_names.hpp"
+#include "reports/evidence/gate_table.hpp"
 
 namespace fleetproof {
 namespace {
 
 bool covers(const GateRecord& gate, const CellRecord& cell) {
-  if (cell.agent != gate.agent) return false;
+  if (cell.agent != gate.agent || (!gate.layout.empty() && cell.layout != gate.layout)) return false;
   switch (gate.region) {
     case Region::Contract:
       return cell.in_contract();
@@ -56,22 +57,22 @@ Evidence::Evidence(const CampaignRecord& campaign, std::vector<CellRecord> cells
     for (const FactorInfo& factor : kFactors)
       ensure(cell.lowest[factor.id] <= cell.highest[factor.id], "the upper bound is not below the lower");
   }
-  for (const auto& gate : gates_) {
+  for (auto& gate : gates_) {
     Pool pool;
-    pool.end_point = gate.end_point;
+    pool.rule = {gate.end_point, gate.unit, gate.min_transports_per_agv_hour};
     for (const auto& cell : cells_) {
       if (covers(gate, cell)) pool.cells.push_back(cell.index);
     }
-    pools_.push_back(std::move(pool));
+    if (gate.table == GateTable{}) gate.table = gate_table(gate, pool.cells.size(), planned_);
+    pools_.emplace_back(std::move(pool));
   }
-  for (auto& pool : condition_pools(cells_)) pools_.push_back(std::move(pool));
+  for (auto& pool : condition_pools(cells_)) pools_.emplace_back(std::move(pool));
   required_probes_ = campaign.required_probes;
   coverage_.resize(pools_.size());
   pending_coverage_.resize(pools_.size());
-  pending_flags_.resize(pools_.size());
   worst_of_pool_.resize(pools_.size(), WorstRuns(1));
   for (std::size_t i = 0; i < pools_.size(); ++i) {
-    for (const auto cell : pools_[i].cells) pools_of_cell_[cell].push_back(i);
+    for (const auto cell : pools_[i].pool().cells) pools_of_cell_[cell].push_back(i);
   }
 }
 
@@ -114,7 +115,7 @@ void Evidence::add_contract_failure(const FailingRun& run) {
 std::vector<ContractFailures> Evidence::contract_failures() const {
   std::vector<ContractFailures> list;
   for (std::size_t i = gates_.size(); i < pools_.size(); ++i) {
-    const auto found = contract_failures_.find(cells_[pools_[i].cells.front()].agent);
+    const auto found = contract_failures_.find(cells_[pools_[i].pool().cells.front()].agent);
     const bool listed = !list.empty() && found != contract_failures_.end() &&
                         list.back().agent == found->first;  // conditions come agent by agent
     if (found != contract_failures_.end() && !listed) list.push_back(found->second);
@@ -123,13 +124,8 @@ std::vector<ContractFailures> Evidence::contract_failures() const {
 }
 
 void Evidence::add_to_pool(std::size_t index, const RunRecord& run) {
-  auto& pool = pools_[index];
-  const auto result = result_of(run.outcome, pool.end_point);
-  if (result == RunResult::Passed) return;
-  pending_flags_[index].failed |= result == RunResult::Failed;
-  pending_flags_[index].unknown |= result == RunResult::Unknown;
-  if (result == RunResult::Failed) ++pool.failing_runs;
-  worst_of_pool_[index].add(*FailingRun::of(run));
+  if (pools_[index].add(run) == RunResult::Passed) return;
+  if (const auto failing = FailingRun::of(run)) worst_of_pool_[index].add(*failing);  // a slow run is none
 }
 
 void Evidence::finish_replicate() {
@@ -137,17 +133,13 @@ void Evidence::finish_replicate() {
   for (std::size_t i = 0; i < tallies_.size(); ++i) tallies_[i].add(std::exchange(pending_tallies_[i], Tally{}));
   for (std::size_t i = 0; i < pools_.size(); ++i) {
     coverage_[i].add(std::exchange(pending_coverage_[i], Coverage{}));
-    const auto flags = std::exchange(pending_flags_[i], Flags{});
-    if (pools_[i].cells.empty()) continue;
-    ++pools_[i].units;
-    pools_[i].failing += flags.failed;
-    pools_[i].failing_or_unknown += flags.failed || flags.unknown;
+    pools_[i].finish_replicate();
   }
 }
 
 GateResult Evidence::judge(std::size_t index) const {
   ensure(index < gates_.size(), "a gate of the campaign is judged");
-  const auto& pool = pools_[index];
+  const Pool& pool = pools_[index].pool();
   // Outside the contract region, safe mode (standing still) is legal. Progress is required inside the region, or
   // everywhere if the gate has no cell inside.
   std::vector<std::uint32_t> due;
@@ -162,6 +154,7 @@ GateResult Evidence::judge(std::size_t index) const {
   }
   counts.cells = pool.cells.size();
   counts.units = pool.units;
+  counts.replicates = replicates_;
   counts.planned = planned_;
   counts.failing = pool.failing;
   counts.failing_or_unknown = pool.failing_or_unknown;
@@ -185,10 +178,10 @@ std::vector<GateResult> Evidence::judge_all() const {
 std::vector<Condition> Evidence::conditions() const {
   std::vector<Condition> list;
   for (std::size_t i = gates_.size(); i < pools_.size(); ++i) {
-    const auto& first = cells_[pools_[i].cells.front()];
-    Condition condition{first.agent,           first.lowest, first.highest, first.in_contract(),
-                        first.is_worst_case(), {},           pools_[i],     {}};
-    for (const auto cell : pools_[i].cells) condition.tally.add(tallies_[cell]);
+    const auto& first = cells_[pools_[i].pool().cells.front()];
+    Condition condition{first.agent,           first.lowest, first.highest,    first.in_contract(),
+                        first.is_worst_case(), {},           pools_[i].pool(), {}};
+    for (const auto cell : pools_[i].pool().cells) condition.tally.add(tallies_[cell]);
     if (const auto& worst = worst_of_pool_[i].list(); !worst.empty()) condition.worst = worst.front();
     list.push_back(std::move(condition));
   }
@@ -198,7 +191,7 @@ std::vector<Condition> Evidence::conditions() const {
 std::vector<AgentCoverage> Evidence::agent_coverage() const {
   std::vector<AgentCoverage> list;
   for (std::size_t i = gates_.size(); i < pools_.size(); ++i) {
-    const auto& agent = cells_[pools_[i].cells.front()].agent;
+    const auto& agent = cells_[pools_[i].pool().cells.front()].agent;
     if (list.empty() || list.back().agent != agent) list.push_back({agent, {}, {}, {}});
     list.back().coverage.add(coverage_[i]);
   }
@@ -210,12 +203,16 @@ std::vector<AgentCoverage> Evidence::agent_coverage() const {
 }
 
 Verdict overall_verdict(const Evidence& evidence, const std::vector<GateResult>& gates) {
-  const auto any = [&](Verdict verdict) {
-    return std::ranges::find(gates, verdict, &GateResult::verdict) != gates.end();
-  };
-  if (any(Verdict::Violated)) return Verdict::Violated;
-  if (gates.empty() || evidence.runs() == 0 || any(Verdict::NotDemonstrated)) return Verdict::NotDemonstrated;
-  return Verdict::Demonstrated;
+  std::size_t deciding = 0, violated = 0, demonstrated = 0;
+  for (std::size_t i = 0; i < gates.size(); ++i) {
+    if (!evidence.gates()[i].decides) continue;
+    ++deciding;
+    violated += gates[i].verdict == Verdict::Violated ? 1 : 0;
+    demonstrated += gates[i].verdict == Verdict::Demonstrated ? 1 : 0;
+  }
+  if (violated > 0) return Verdict::Violated;
+  const bool all = deciding > 0 && demonstrated == deciding;
+  return all && evidence.runs() > 0 ? Verdict::Demonstrated : Verdict::NotDemonstrated;
 }
 
 int exit_code(const Evidence& evidence, const std::vector<GateResult>& gates) {

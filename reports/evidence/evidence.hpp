@@ -9,20 +9,11 @@
 #include "reports/evidence/coverage.hpp"
 #include "reports/evidence/failing_run.hpp"
 #include "reports/evidence/gate_verdict.hpp"
+#include "reports/evidence/pool.hpp"
 #include "reports/evidence/tally.hpp"
 #include "storage/records.hpp"
 
 namespace fleetproof {
-
-// Cells that are judged together, and how often their unit failed. The unit is the replicate: one draw of the world,
-// run in every cell. A replicate fails if any of its runs fails. Cells share worlds and are not independent, so their
-// runs must not be counted one by one. With one cell, replicates are runs.
-struct Pool {
-  EndPoint end_point = EndPoint::Violation;
-  std::vector<std::uint32_t> cells;
-  std::uint64_t units = 0, failing = 0, failing_or_unknown = 0;  // over complete replicates
-  std::uint64_t failing_runs = 0;                                // over all runs read so far
-};
 
 // All cells of one agent at the same factors, or between the same bounds. It is one row of a table.
 struct Condition {
@@ -74,7 +65,7 @@ class Evidence {
   const std::vector<CellRecord>& cells() const { return cells_; }
   const std::vector<GateRecord>& gates() const { return gates_; }
   const Tally& tally(std::uint32_t cell) const { return tallies_.at(cell); }
-  const std::vector<std::uint32_t>& cells_of(std::size_t gate) const { return pools_.at(gate).cells; }
+  const std::vector<std::uint32_t>& cells_of(std::size_t gate) const { return pools_.at(gate).pool().cells; }
 
   GateResult judge(std::size_t gate) const;
   std::vector<GateResult> judge_all() const;
@@ -88,9 +79,6 @@ class Evidence {
   }
 
  private:
-  struct Flags {
-    bool failed = false, unknown = false;
-  };
   void add_contract_failure(const FailingRun& run);
   void add_to_pool(std::size_t index, const RunRecord& run);
   void finish_replicate();
@@ -104,8 +92,7 @@ class Evidence {
   std::vector<GateRecord> gates_;
   std::uint64_t runs_ = 0, replicates_ = 0, engine_errors_ = 0;
   std::vector<Tally> tallies_, pending_tallies_;  // by cell
-  std::vector<Pool> pools_;                       // one for each gate, then one for each condition
-  std::vector<Flags> pending_flags_;              // in the same order
+  std::vector<PoolCounter> pools_;                // one for each gate, then one for each condition
   std::vector<std::vector<std::size_t>> pools_of_cell_;
   std::vector<WorstRuns> worst_of_pool_;               // in the same order
   std::vector<Coverage> coverage_, pending_coverage_;  // in the same order
@@ -115,12 +102,11 @@ class Evidence {
   WorstRuns worst_inside_{kWorstRuns}, worst_outside_{kWorstRuns};
 };
 
-// Violated if a gate is violated; demonstrated if all gates are demonstrated; otherwise, and without gates, not
-// demonstrated.
+// Of the gates that decide: violated if one of them is violated; demonstrated if all are demonstrated; otherwise, and
+// without such a gate, not demonstrated.
 Verdict overall_verdict(const Evidence& evidence, const std::vector<GateResult>& gates);
 
-// 3 after an engine error; otherwise 1 if a gate is violated; otherwise 4 if a gate is not demonstrated or there is no
-// gate; otherwise 0.
+// 3 after an engine error; otherwise by the overall verdict: 1 violated, 4 not demonstrated, 0 demonstrated.
 int exit_code(const Evidence& evidence, const std::vector<GateResult>& gates);
 
 }  // namespace fleetproof

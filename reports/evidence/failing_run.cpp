@@ -9,6 +9,39 @@
 namespace fleetproof {
 namespace {
 
+// Kinds that have an end point (storage/gate_record.hpp).
+bool is_judged(IncidentKind kind) {
+  switch (kind) {
+    case IncidentKind::BatteryEmpty:
+    case IncidentKind::LoadHeldByTwo:
+    case IncidentKind::LoadVanished:
+    case IncidentKind::LoadDeliveredTwice:
+    case IncidentKind::LoadPickedByFullAgv:
+    case IncidentKind::LoadAtWrongStation:
+    case IncidentKind::LoadMovedByNobody:
+    case IncidentKind::Deadlock:
+    case IncidentKind::Livelock:
+    case IncidentKind::Starvation:
+    case IncidentKind::StandstillInContract:
+      return true;
+    case IncidentKind::ChannelSaturated:
+    case IncidentKind::InterferenceLosses:
+    case IncidentKind::WaitsDeclared:
+    case IncidentKind::WaitsInferred:
+    case IncidentKind::SafeModeInContract:
+    case IncidentKind::ThroughputBelowFloor:
+      return false;
+  }
+  invariant_violated("a kind of incident is judged or not");
+}
+
+std::optional<Incident> first_judged(const Outcome& outcome) {
+  const auto found =
+      std::ranges::find_if(outcome.incidents, [](const Incident& incident) { return is_judged(incident.kind); });
+  if (found == outcome.incidents.end()) return std::nullopt;
+  return *found;
+}
+
 std::optional<Severity> severity_of(const Outcome& o) {
   if (o.contact) return Severity::Contact;
   if (o.violation) return Severity::Violation;
@@ -17,6 +50,7 @@ std::optional<Severity> severity_of(const Outcome& o) {
   if (o.indeterminate) return Severity::Indeterminate;
   if (o.engine_error) return Severity::EngineError;
   if (o.stuck) return Severity::Stuck;
+  if (first_judged(o)) return Severity::Incident;
   return std::nullopt;
 }
 
@@ -38,6 +72,8 @@ const char* name_of(Severity severity) {
       return "engine error";
     case Severity::Stuck:
       return "stuck";
+    case Severity::Incident:
+      return "incident";
   }
   invariant_violated("a severity has a name");
 }
@@ -54,6 +90,7 @@ std::optional<FailingRun> FailingRun::of(const RunRecord& run) {
   failing.min_clearance_um = run.outcome.min_clearance_um;
   failing.violations = run.outcome.violations.size();
   failing.message = run.outcome.message;
+  failing.incident = first_judged(run.outcome);
   const auto closest = std::ranges::min_element(run.outcome.violations, {}, &Violation::min_clearance_um);
   if (closest != run.outcome.violations.end()) failing.closest = *closest;
   return failing;

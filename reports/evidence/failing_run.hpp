@@ -10,7 +10,7 @@
 namespace fleetproof {
 
 // Most serious first.
-enum class Severity : std::uint8_t { Contact, Violation, Crash, Hang, Indeterminate, EngineError, Stuck };
+enum class Severity : std::uint8_t { Contact, Violation, Crash, Hang, Indeterminate, EngineError, Stuck, Incident };
 const char* name_of(Severity severity);
 
 // A run in which something went wrong, with the data to name it, to sort it and to replay it.
@@ -22,6 +22,7 @@ struct FailingRun {
   std::optional<std::int64_t> min_clearance_um;
   std::size_t violations = 0;
   std::optional<Violation> closest;  // the violation with the smallest clearance
+  std::optional<Incident> incident;  // the first that a gate may be put on
   std::string message;
 
   // Absent if nothing went wrong in the run.

@@ -3,9 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
+#include "reports/evidence/exposure.hpp"
+#include "reports/evidence/gate_bounds.hpp"
+#include "reports/evidence/gate_table.hpp"
+#include "reports/evidence/poisson_rate.hpp"
 #include "reports/evidence/rounding.hpp"
 
 namespace fleetproof {
@@ -15,16 +20,29 @@ void add_sentence_part(std::string& sentence, const std::string& part) {
   sentence += (sentence.empty() ? "" : "; ") + part;
 }
 
-// Why the counts do not meet the limit, and what would help.
+// "12 of 380 worlds", or hours.
+std::string amount(const GateRecord& gate, std::uint64_t units, std::string_view unit) {
+  return gate.unit == GateUnit::AgvHour ? fmt::format("{:.6g} {}", agv_hours(units), unit)
+                                        : fmt::format("{} {}", units, unit);
+}
+
+std::string more_text(const GateRecord& gate, std::uint64_t units) {
+  return gate.unit == GateUnit::AgvHour ? fmt::format(" ({:.6g} more)", agv_hours(units))
+                                        : fmt::format(" ({} more)", units);
+}
+
+// Why the counts do not meet the limit, and what would help. How many more would do is said only of any-time gates: of
+// a fixed one the number would have to be fixed beforehand.
 std::string bound_too_high(const GateRecord& gate, GateResult& result) {
   const auto& claim = *result.claim;
   std::string text = fmt::format("the upper bound {} is above the limit {:g}", rounded_up(claim.upper), gate.limit);
   const auto unknown = result.counts.failing_or_unknown - result.counts.failing;
   if (unknown > 0)
-    text += fmt::format(" ({} of {} {} ended unknown and count as failing)", unknown, claim.units, result.unit);
-  auto needed = units_needed(claim.failing, gate.limit, gate.confidence);
-  if (needed) needed = std::max(*needed, claim.units + 1);  // the two bounds agree but for rounding
-  if (!needed) return text + "; no number of runs can meet this limit";
+    text +=
+        fmt::format(" ({} of {} ended unknown and count as failing)", unknown, amount(gate, claim.units, result.unit));
+  const auto needed = units_to_pass(gate, claim.failing, claim.units);
+  if (!needed)
+    return text + (gate.limit > 0.0 ? "; too many failed for this limit" : "; no number of runs can meet it");
   if (claim.failing > 0 && claim.rate() >= gate.limit) {
     return text +
            fmt::format(" and the rate seen, {}, is not below it: more runs will not help", rounded_rate(*claim.rate()));
@@ -32,7 +50,14 @@ std::string bound_too_high(const GateRecord& gate, GateResult& result) {
   result.units_needed = needed;
   const auto clean = claim.failing == 0 ? " without a failure"
                                         : fmt::format(" in all, with no failure beyond the {} counted,", claim.failing);
-  return text + fmt::format("; {} {}{} are needed ({} more)", *needed, result.unit, clean, *needed - claim.units);
+  text += fmt::format("; {}{} are needed", amount(gate, *needed, result.unit), clean);
+  if (gate.method == GateMethod::Fixed) return text + ", a number to be planned before the first run";
+  return text + more_text(gate, *needed - claim.units);
+}
+
+bool meets_limit(const GateRecord& gate, const GateResult& result) {
+  if (gate.method == GateMethod::AnyTime) return passes(gate.table, result.claim->failing, result.claim->units);
+  return result.claim->upper <= gate.limit;
 }
 
 bool asks_for_progress(const GateRecord& gate) { return !(gate.min_transports_per_agv_hour <= 0.0); }
@@ -41,13 +66,13 @@ bool asks_for_progress(const GateRecord& gate) { return !(gate.min_transports_pe
 std::string missing_for_demonstration(const GateRecord& gate, GateResult& result) {
   const auto& counts = result.counts;
   std::string missing;
-  if (!counts.complete()) {
+  if (!counts.complete() && gate.method == GateMethod::Fixed) {
     add_sentence_part(
         missing,
         fmt::format("stopped after {} of {} planned replicates; the bound holds only for the number fixed beforehand",
-                    counts.units, counts.planned));
+                    counts.replicates, counts.planned));
   }
-  if (result.claim->upper > gate.limit) add_sentence_part(missing, bound_too_high(gate, result));
+  if (!meets_limit(gate, result)) add_sentence_part(missing, bound_too_high(gate, result));
   if (counts.met_nobody)
     add_sentence_part(missing, "no run met an encounter of two AGVs: what this gate claims was never put to the test");
   if (!asks_for_progress(gate)) return missing;
@@ -70,9 +95,17 @@ std::optional<std::string> refutation(const GateRecord& gate, const GateResult& 
     return fmt::format("{} {} failed and this gate allows none", counts.failing_runs,
                        counts.failing_runs == 1 ? "run" : "runs");
   }
-  if (counts.counts_only || counts.units == 0 || !counts.complete() || !(result.optimistic->lower > gate.limit))
-    return std::nullopt;
+  if (counts.counts_only || counts.units == 0) return std::nullopt;
+  const bool refuted = gate.method == GateMethod::AnyTime
+                           ? refutes(gate.table, result.optimistic->failing, result.optimistic->units)
+                           : counts.complete() && result.optimistic->lower > gate.limit;
+  if (!refuted) return std::nullopt;
   return fmt::format("the lower bound {} exceeds the limit {:g}", rounded_down(result.optimistic->lower), gate.limit);
+}
+
+std::string_view unit_of(const GateRecord& gate, const GateCounts& counts) {
+  if (gate.unit == GateUnit::AgvHour) return "AGV-hours";
+  return gate.unit == GateUnit::Run || counts.cells == 1 ? "runs" : "replicates";
 }
 
 }  // namespace
@@ -91,23 +124,24 @@ const char* name_of(Verdict verdict) {
 
 std::optional<double> Estimate::rate() const {
   if (units == 0) return std::nullopt;
-  return static_cast<double>(failing) / static_cast<double>(units);
+  return static_cast<double>(failing) / exposure;
 }
 
-Estimate estimate(std::uint64_t failing, std::uint64_t units, double confidence) {
-  return {units, failing, lower_bound(failing, units, confidence), upper_bound(failing, units, confidence),
-          two_sided_interval(failing, units, 0.95)};
+Estimate estimate(const GateRecord& gate, std::uint64_t failing, std::uint64_t units) {
+  const RateInterval bounds = gate_bounds(gate, failing, units);
+  const double exposure = gate.unit == GateUnit::AgvHour ? agv_hours(units) : static_cast<double>(units);
+  return {units, failing, exposure, bounds.lower, bounds.upper, gate_interval_95(gate, failing, units)};
 }
 
 GateResult judge_gate(const GateRecord& gate, const GateCounts& counts) {
-  ensure(counts.failing <= counts.failing_or_unknown && counts.failing_or_unknown <= counts.units,
-         "failing units are units");
+  ensure(counts.failing <= counts.failing_or_unknown, "failing units are failing or unknown");
+  ensure(counts.failing_or_unknown <= counts.units || gate.unit == GateUnit::AgvHour, "failing units are units");
   GateResult result;
   result.counts = counts;
-  result.unit = counts.cells == 1 ? "runs" : "replicates";
+  result.unit = unit_of(gate, counts);
   if (!counts.counts_only) {
-    result.claim = estimate(counts.failing_or_unknown, counts.units, gate.confidence);
-    result.optimistic = estimate(counts.failing, counts.units, gate.confidence);
+    result.claim = estimate(gate, counts.failing_or_unknown, counts.units);
+    result.optimistic = estimate(gate, counts.failing, counts.units);
   }
   if (const auto reason = refutation(gate, result)) {
     result.verdict = Verdict::Violated;
@@ -120,10 +154,11 @@ GateResult judge_gate(const GateRecord& gate, const GateCounts& counts) {
   } else if (counts.counts_only) {
     result.reason = "a search campaign gives counts, not rates; use kind \"claim\" to demonstrate";
   } else if (counts.units == 0) {
-    result.units_needed = units_needed(0, gate.limit, gate.confidence);
+    result.units_needed = units_to_pass(gate, 0, 0);
     result.reason = "no replicate is complete";
     if (result.units_needed)
-      result.reason += fmt::format("; {} {} without a failure are needed", *result.units_needed, result.unit);
+      result.reason +=
+          fmt::format("; {} without a failure are needed", amount(gate, *result.units_needed, result.unit));
   } else {
     result.reason = missing_for_demonstration(gate, result);
   }

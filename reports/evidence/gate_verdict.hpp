@@ -17,20 +17,23 @@ enum class Verdict : std::uint8_t { Demonstrated, Violated, NotDemonstrated };
 // "demonstrated", "violated", "not demonstrated": these words in text, pages and JSON alike.
 const char* name_of(Verdict verdict);
 
-// One count, and what it says about the rate. `lower` and `upper` are one-sided bounds at the gate's confidence.
+// One count, and what it says about the rate: a share of the units, or events per AGV-hour. `lower` and `upper` are
+// one-sided bounds at the gate's confidence, by the gate's method.
 struct Estimate {
   std::uint64_t units = 0, failing = 0;
+  double exposure = 0.0;  // units, or AGV-hours
   double lower = 0.0, upper = 1.0;
   RateInterval interval_95;            // two-sided
   std::optional<double> rate() const;  // absent without units
 };
-Estimate estimate(std::uint64_t failing, std::uint64_t units, double confidence);
+Estimate estimate(const GateRecord& gate, std::uint64_t failing, std::uint64_t units);
 
 // What was counted in the cells of one gate.
 struct GateCounts {
   std::size_t cells = 0;
-  std::uint64_t units = 0;               // complete replicates (with one cell: its runs)
-  std::uint64_t planned = 0;             // replicates fixed before the first run: the bounds hold for this number only
+  std::uint64_t units = 0;               // complete replicates (with one cell: its runs), or microseconds of an AGV
+  std::uint64_t replicates = 0;          // complete
+  std::uint64_t planned = 0;             // replicates: the bounds of the method Fixed hold for this number only
   std::uint64_t failing = 0;             // of the units: at least one run is known to have failed
   std::uint64_t failing_or_unknown = 0;  // of the units: at least one run failed, or ended before it could be told
   std::uint64_t failing_runs = 0;        // known failures among all runs read so far, complete replicate or not
@@ -38,13 +41,13 @@ struct GateCounts {
   std::size_t idle_cells = 0;  // cells in which progress is due and no transport was done
   bool met_nobody = false;     // encounters are required, but no run had one
   bool counts_only = false;    // the campaign searches for failures, so its counts are not a sample
-  bool complete() const { return units >= planned; }
+  bool complete() const { return replicates >= planned; }
 };
 
 struct GateResult {
   Verdict verdict = Verdict::NotDemonstrated;
   std::string reason;                    // one sentence
-  std::string_view unit = "replicates";  // or "runs", for a gate on one cell
+  std::string_view unit = "replicates";  // or "runs", for a gate on one cell or on each; or "AGV-hours"
   GateCounts counts;
   std::optional<Estimate> claim;       // unknown outcomes count as failing; absent in a search
   std::optional<Estimate> optimistic;  // unknown outcomes count as passed
@@ -56,9 +59,10 @@ struct GateResult {
 
 // Violated only if the known failures alone refute the gate. Demonstrated only if three conditions hold: the claim
 // meets the limit although every unknown outcome counts as a failure; the fleet made progress; and AGVs met if
-// encounters are required. Both words are therefore true for every possible end of the unknown runs. Bounds decide only
-// when all planned replicates are complete: a bound is not valid if a campaign may stop as soon as the bound looks
-// good. Before that, only a failure can decide, for a gate that allows no failure.
+// encounters are required. Both words are therefore true for every possible end of the unknown runs. Of an any-time
+// gate the table of whole numbers decides, at any number of complete replicates. The bounds of a fixed gate decide only
+// when all planned replicates are complete; before that, only a failure can decide, for a gate that allows none.
+// Requires: the gate has its table.
 GateResult judge_gate(const GateRecord& gate, const GateCounts& counts);
 
 }  // namespace fleetproof

@@ -4,13 +4,6 @@
 
 namespace fleetproof {
 
-RunResult result_of(const Outcome& outcome, EndPoint end_point) {
-  const bool failed = end_point == EndPoint::Contact ? outcome.contact : outcome.violation || outcome.contact;
-  if (failed) return RunResult::Failed;
-  return outcome.crash || outcome.hang || outcome.indeterminate || outcome.engine_error ? RunResult::Unknown
-                                                                                        : RunResult::Passed;
-}
-
 void Tally::add(const Outcome& outcome) {
   const auto result = result_of(outcome, EndPoint::Violation);
   Tally one;

@@ -4,14 +4,10 @@
 #include <cstdint>
 #include <optional>
 
+#include "reports/evidence/run_result.hpp"
 #include "storage/records.hpp"
 
 namespace fleetproof {
-
-// What one run says about an end point. Unknown: the run ended before this could be decided (crash, hang,
-// indeterminate, engine error).
-enum class RunResult : std::uint8_t { Passed, Failed, Unknown };
-RunResult result_of(const Outcome& outcome, EndPoint end_point);
 
 // Counts over the runs of one cell, or of several cells.
 struct Tally {

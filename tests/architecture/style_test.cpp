@@ -1,5 +1,6 @@
 // Sizes, formatting and pages: what keeps the sources readable, checked for every file.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -211,7 +212,7 @@ TEST(StyleFinds, ALargeClass) {
 }
 
 TEST(StyleFinds, AnUnformattedFile) {
-  const fs::path file = fs::path(testing::TempDir()) / "unformatted.cpp";
+  const fs::path file = fs::path(testing::TempDir()) / ("unformatted-" + std::to_string(::getpid()) + ".cpp");
   fs::copy_file(fs::path(FLEETPROOF_SOURCE_DIR) / ".clang-format", file.parent_path() / ".clang-format",
                 fs::copy_options::overwrite_existing);
   std::ofstream(file) << "int  f( ){ return 1 ; }\n";

@@ -14,6 +14,7 @@
 
 #include "core/base/error.hpp"
 #include "tests/contract/small_campaign.hpp"
+#include "tests/storage/sample_records.hpp"
 #include "tests/support/planted_ends.hpp"
 
 namespace fleetproof {
@@ -130,7 +131,8 @@ TEST(IsolatedRuns, TheRowOfARunDoesNotDependOnTheRunsBeforeIt) {
 }
 
 TEST(IsolatedRuns, WhatAgentsPrintGoesToALog) {
-  const std::string prefix = testing::TempDir() + "printing";
+  const samples::TemporaryFolder folder;
+  const std::string prefix = folder / "printing";
   const CampaignPlan plan = failing_plan("print 1");
   AgentPrograms programs;
   programs.know(FLEETPROOF_FAILING_AGENT);
@@ -150,7 +152,8 @@ TEST(IsolatedRuns, WhatAgentsPrintGoesToALog) {
 }
 
 TEST(IsolatedRuns, TheLossOfAWorkerHasTheStackOfTheCrash) {
-  const std::string prefix = testing::TempDir() + "crashing";
+  const samples::TemporaryFolder folder;
+  const std::string prefix = folder / "crashing";
   const CampaignPlan plan = failing_plan("segfault 1");
   AgentPrograms programs;
   programs.know(FLEETPROOF_FAILING_AGENT);
@@ -241,7 +244,8 @@ TEST(IsolatedRuns, ACrashWhileLoadingIsFiled) {
 }
 
 TEST(IsolatedRuns, ACrashWhileLoadingIsInNoCallOfTheRunBefore) {
-  const std::string file = testing::TempDir() + "loading-crashes";
+  const samples::TemporaryFolder folder;
+  const std::string file = folder / "loading-crashes";
   const CampaignPlan plan = failing_plan("abort 1");
   AgentPrograms programs;
   programs.know(FLEETPROOF_FAILING_AGENT);

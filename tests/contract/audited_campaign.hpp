@@ -20,10 +20,11 @@ class AuditedCampaign : public ProgramTest {
     std::filesystem::copy_file(FLEETPROOF_FAILING_AGENT, path("failing.so"));
   }
   void write_campaign(const std::string& agents, int replicates, double share, const std::string& more = "") const {
-    write("c.toml", fmt::format("name = \"c\"\nreplicates = {}\nhorizon_s = 60\n[factors]\nagents = [{}]\n"
-                                "layouts = [\"aisle-grid\"]\nfleet_sizes = [3]\nloss = [0.4]\ndelay_s = [2]\n"
-                                "[audit]\nshare = {}\n{}",
-                                replicates, agents, share, more));
+    write("c.toml",
+          fmt::format("name = \"c\"\nreplicates = {}\nhorizon_s = 60\ndefault_gates = false\n[factors]\nagents = [{}]\n"
+                      "layouts = [\"aisle-grid\"]\nfleet_sizes = [3]\nloss = [0.4]\ndelay_s = [2]\n"
+                      "[audit]\nshare = {}\n{}",
+                      replicates, agents, share, more));
   }
   // What the report says about the audits of each agent.
   std::map<std::string, nlohmann::json> audits(const std::string& archive) const {

@@ -17,7 +17,7 @@ class Interruption : public test::ProgramTest {
     write("long.toml",
           "replicates = 1000000\nhorizon_s = 60\n[factors]\nagents = [\"hull-lock\"]\nlayouts = [\"aisle-grid\"]\nloss "
           "= [0.4]\ndelay_s = [2]\n[[gate]]\nagent = "
-          "\"hull-lock\"\nlimit = 0.5\nmin_transports_per_agv_hour = 0\n");
+          "\"hull-lock\"\nlimit = 0.5\nmethod = \"fixed\"\nmin_transports_per_agv_hour = 0\n");
   }
 };
 

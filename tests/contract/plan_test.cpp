@@ -70,7 +70,7 @@ class Plan : public test::ProgramTest {
     return "kind = \"" + kind +
            "\"\nhorizon_s = 20\nreplicates = 30\n[factors]\nagents = [\"reckless\", \"hull-lock\"]\n"
            "layouts = [\"aisle-grid\"]\nfleet_sizes = [3]\n[audit]\nshare = 0\n[[gate]]\nname = \"g\"\nagent = \"" +
-           judged + "\"\nlimit = 0.01\nconfidence = 0.9\nregion = \"all\"\n";
+           judged + "\"\nlimit = 0.01\nmethod = \"fixed\"\nconfidence = 0.9\nregion = \"all\"\n";
   }
 };
 

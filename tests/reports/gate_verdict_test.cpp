@@ -12,13 +12,19 @@ namespace {
 using testing::HasSubstr;
 
 GateRecord gate(GateKind kind, double limit) {
-  return {0, "safe", "sound", kind, EndPoint::Violation, Region::Contract, limit, 0.95, 1.0};
+  GateRecord gate;
+  gate.name = "safe";
+  gate.agent = "sound";
+  gate.kind = kind;
+  gate.method = GateMethod::Fixed;
+  gate.limit = limit;
+  return gate;
 }
 
 GateCounts counts(std::uint64_t units, std::uint64_t failing, std::uint64_t unknown = 0) {
   GateCounts c;
   c.cells = 12;
-  c.units = c.planned = units;
+  c.units = c.replicates = c.planned = units;
   c.failing = failing;
   c.failing_or_unknown = failing + unknown;
   c.failing_runs = failing;
@@ -79,7 +85,8 @@ TEST(GateVerdict, the_claim_counts_unknown_outcomes_and_the_optimistic_line_does
 TEST(GateVerdict, says_how_many_more_are_needed_and_when_more_do_not_help) {
   const auto few = judge_gate(gate(GateKind::None, 1e-3), counts(200, 0));
   EXPECT_EQ(few.units_needed, 2995u);
-  EXPECT_THAT(few.reason, HasSubstr("2995 replicates without a failure are needed (2795 more)"));
+  EXPECT_THAT(few.reason,
+              HasSubstr("2995 replicates without a failure are needed, a number to be planned before the first run"));
   const auto one = judge_gate(gate(GateKind::Rate, 1e-3), counts(3000, 1));
   EXPECT_EQ(one.units_needed, 4742u);
   EXPECT_THAT(one.reason, HasSubstr("4742 replicates in all, with no failure beyond the 1 counted"));
@@ -141,7 +148,7 @@ TEST(GateVerdict, a_campaign_stopped_early_demonstrates_nothing_however_good_the
     EXPECT_EQ(result.verdict, Verdict::NotDemonstrated);
     EXPECT_EQ(result.reason,
               "stopped after 4999 of 5000 planned replicates; the bound holds only for the number fixed beforehand");
-    stopped.units = 5000;
+    stopped.units = stopped.replicates = 5000;
     EXPECT_EQ(judge_gate(gate(kind, 1e-3), stopped).verdict, Verdict::Demonstrated);
   }
 }

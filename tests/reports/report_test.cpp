@@ -226,7 +226,7 @@ TEST(Report, unknown_outcomes_have_their_optimistic_line) {
                                [](RunRecord& run) { run.outcome.crash = run.run_index % 10 == 0; });
   const auto page = render("markdown", input);
   EXPECT_THAT(page, HasSubstr("10 of 100 runs failed"));
-  EXPECT_THAT(page, HasSubstr("if none of them had failed: 0 of 100, upper bound 0.0296"));
+  EXPECT_THAT(page, HasSubstr("if none of it had failed: 0 of 100, upper bound 0.0296"));
 }
 
 TEST(Report, json_has_full_digits_units_and_hexadecimal_digests) {

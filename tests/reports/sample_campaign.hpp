@@ -39,7 +39,15 @@ inline std::vector<CellRecord> grid(const std::vector<std::string>& agents, cons
 }
 
 inline GateRecord gate_of(std::string agent, GateKind kind, Region region, double limit, double floor = 1.0) {
-  return {0, "safe", std::move(agent), kind, EndPoint::Violation, region, limit, 0.95, floor};
+  GateRecord gate;
+  gate.name = "safe";
+  gate.agent = std::move(agent);
+  gate.kind = kind;
+  gate.region = region;
+  gate.method = GateMethod::Fixed;
+  gate.limit = limit;
+  gate.min_transports_per_agv_hour = floor;
+  return gate;
 }
 
 // 600 s with 5 AGVs and ten transports: 12 per AGV-hour.

@@ -46,8 +46,25 @@ inline std::vector<CellRecord> cells() {
 }
 
 inline std::vector<GateRecord> gates() {
-  GateRecord none{0, "safe", "sound", GateKind::None, EndPoint::Violation, Region::Contract, 1e-3, 0.95, 1.0};
-  GateRecord rate{1, "rare contact", "sound", GateKind::Rate, EndPoint::Contact, Region::WorstCase, 1e-2, 0.99, 0.5};
+  GateRecord none;
+  none.name = "safe";
+  none.agent = "sound";
+  none.kind = GateKind::None;
+  none.method = GateMethod::Fixed;
+  GateRecord rate;
+  rate.index = 1;
+  rate.name = "rare contact";
+  rate.agent = "sound";
+  rate.requirement = "SR-12";
+  rate.end_point = EndPoint::Contact;
+  rate.region = Region::WorstCase;
+  rate.layout = "ring";
+  rate.unit = GateUnit::AgvHour;
+  rate.limit = 1e-2;
+  rate.confidence = 0.99;
+  rate.min_transports_per_agv_hour = 0.5;
+  rate.decides = false;
+  rate.table = {{38, 73, 103}, {0, 1}};
   return {none, rate};
 }
 

@@ -1,0 +1,96 @@
+#include "campaign/plan/default_gates.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "campaign/plan/scenario_source.hpp"
+#include "core/scenario/ways.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr double kShareOfUndisturbed = 0.05, kShareOfDemand = 0.5;
+
+double length_m(const LogicalMap& map, StationId from, StationId to) {
+  return shortest_ways(map, from, to).back().length_m;
+}
+
+// The transports per hour of an AGV that has the warehouse to itself, drives at full speed all the time and always has
+// an order. The mean over the AGVs and orders of the first world of each layout and fleet.
+double undisturbed_per_hour(const CampaignPlan& plan) {
+  const ScenarioSource scenarios(plan);
+  double busy_s = 0.0, transports = 0.0;
+  for (std::uint64_t index = 0; index < plan.cell_count(); index += plan.cells_per_world()) {
+    const Scenario scenario = scenarios.scenario(index);
+    for (const AgvSetup& agv : scenario.agvs) {
+      const VehicleType& type = scenario.type_of(agv);
+      StationId at = agv.start;
+      for (const TransportOrder& order : agv.transports) {
+        const double way_m = length_m(*scenario.map, at, order.from) + length_m(*scenario.map, order.from, order.to);
+        busy_s += way_m / type.drive.speed_mps + type.pick_s + type.drop_s;
+        transports += 1.0;
+        at = order.to;
+      }
+    }
+  }
+  return busy_s > 0.0 ? 3600.0 * transports / busy_s : 0.0;
+}
+
+// With two digits, because people read it.
+double throughput_floor(const CampaignPlan& plan) {
+  const double wanted = plan.orders ? undisturbed_per_hour(plan) : plan.demand.transports_per_agv_hour;
+  const double floor = std::min(kShareOfUndisturbed * undisturbed_per_hour(plan), kShareOfDemand * wanted);
+  return std::floor(floor * 100.0) / 100.0;
+}
+
+GateRecord gate(const std::string& agent, EndPoint end_point, GateKind kind, double limit) {
+  GateRecord gate;
+  gate.name = fmt::format("{} {}", agent, name_of(end_point));
+  gate.agent = agent;
+  gate.end_point = end_point;
+  gate.kind = kind;
+  gate.limit = limit;
+  gate.min_transports_per_agv_hour = 0.0;  // the gate on throughput asks for it
+  return gate;
+}
+
+bool has_contract_cells(const std::vector<CellRecord>& cells, const std::string& agent) {
+  return std::ranges::any_of(cells, [&](const CellRecord& cell) { return cell.agent == agent && cell.in_contract(); });
+}
+
+}  // namespace
+
+std::vector<std::string> agents_under_test(const CampaignPlan& plan, const std::vector<bool>& is_plugin) {
+  std::vector<std::string> chosen, others;
+  for (std::size_t i = 0; i < plan.agents.size(); ++i) {
+    const AgentFactor& agent = plan.agents[i];
+    if (agent.role == AgentRole::Reference) continue;
+    const bool is_chosen = agent.role == AgentRole::Candidate || is_plugin[i];
+    (is_chosen ? chosen : others).push_back(agent.name);
+  }
+  return chosen.empty() ? others : chosen;
+}
+
+void add_default_gates(CampaignPlan& plan, const std::vector<bool>& is_plugin) {
+  if (!plan.default_gates || !plan.gates.empty() || plan.kind != CampaignKind::Claim) return;
+  const std::vector<CellRecord> cells = plan.cells();
+  const double floor = throughput_floor(plan);
+  for (const std::string& agent : agents_under_test(plan, is_plugin)) {
+    const Region region = has_contract_cells(cells, agent) ? Region::Contract : Region::All;
+    const auto add = [&](EndPoint end_point, GateKind kind, double limit) {
+      plan.gates.push_back(gate(agent, end_point, kind, limit));
+      plan.gates.back().region = region;
+    };
+    for (const EndPoint end_point : {EndPoint::Violation, EndPoint::Crash, EndPoint::WrongLoad})
+      add(end_point, GateKind::None, kDefaultSafetyLimit);
+    for (const EndPoint end_point :
+         {EndPoint::Deadlock, EndPoint::Livelock, EndPoint::Starvation, EndPoint::Hang, EndPoint::Throughput})
+      add(end_point, GateKind::Rate, kDefaultLimit);
+    plan.gates.back().min_transports_per_agv_hour = floor;
+  }
+  for (std::size_t i = 0; i < plan.gates.size(); ++i) plan.gates[i].index = static_cast<std::uint32_t>(i);
+}
+
+}  // namespace fleetproof

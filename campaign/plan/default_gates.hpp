@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "campaign/plan/plan.hpp"
+
+namespace fleetproof {
+
+// The agents whose gates decide, by name: candidates, and plug-ins without a role. Where there is none of these, all
+// agents that are not marked as reference agents. `is_plugin`: by agent of the plan.
+std::vector<std::string> agents_under_test(const CampaignPlan& plan, const std::vector<bool>& is_plugin);
+
+// Gives a claim without gates those that every fleet has to meet, for each agent under test, in the contract region: no
+// violation, no crash, no load at a wrong place; per world at most kDefaultLimit of deadlocks, livelocks, starvation
+// and hangs; and a throughput of at least a twentieth of what an AGV would do that has the warehouse to itself.
+void add_default_gates(CampaignPlan& plan, const std::vector<bool>& is_plugin);
+
+inline constexpr double kDefaultLimit = 0.1, kDefaultSafetyLimit = 0.01;
+
+}  // namespace fleetproof

@@ -1,0 +1,62 @@
+#include "reports/evidence/gate_bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "reports/evidence/confidence_sequence.hpp"
+#include "reports/evidence/exposure.hpp"
+#include "reports/evidence/poisson_rate.hpp"
+#include "reports/evidence/release_gate.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr RateInterval kNothingKnown{0.0, std::numeric_limits<double>::infinity()};
+
+double largest_limit_not_passed(std::uint64_t failing, std::uint64_t units, Confidence confidence) {
+  if (units == 0 || failing == units) return 1.0;
+  const double goal = -std::log(confidence.risk());
+  const auto passes = [&](double limit) { return log_e_values(failing, units, limit).gate >= goal; };
+  double low = 0.0, high = 1.0;  // the gate passes as the limit approaches 1: e grows without bound
+  for (double middle = 0.5; middle > low && middle < high; middle = low + (high - low) / 2.0)
+    (passes(middle) ? high : low) = middle;
+  return high;
+}
+
+RateInterval per_agv_hour(const GateRecord& gate, std::uint64_t failing, std::uint64_t units, Confidence confidence) {
+  if (units == 0) return kNothingKnown;
+  if (gate.method == GateMethod::AnyTime) return any_time_rate(failing, agv_hours(units), confidence);
+  return {lower_rate(failing, agv_hours(units), confidence), upper_rate(failing, agv_hours(units), confidence)};
+}
+
+RateInterval bounds_at(const GateRecord& gate, std::uint64_t failing, std::uint64_t units, Confidence confidence) {
+  if (gate.unit == GateUnit::AgvHour) return per_agv_hour(gate, failing, units, confidence);
+  if (gate.method == GateMethod::Fixed)
+    return {lower_bound(failing, units, confidence), upper_bound(failing, units, confidence)};
+  return {any_time_interval(failing, units, confidence).lower, largest_limit_not_passed(failing, units, confidence)};
+}
+
+}  // namespace
+
+RateInterval gate_bounds(const GateRecord& gate, std::uint64_t failing, std::uint64_t units) {
+  return bounds_at(gate, failing, units, gate.confidence);
+}
+
+RateInterval gate_interval_95(const GateRecord& gate, std::uint64_t failing, std::uint64_t units) {
+  return bounds_at(gate, failing, units, Confidence(0.95).shared(2.0));
+}
+
+std::optional<std::uint64_t> units_to_pass(const GateRecord& gate, std::uint64_t failing, std::uint64_t units) {
+  if (gate.method == GateMethod::AnyTime)
+    return failing < gate.table.passes_from.size() ? std::optional(gate.table.passes_from[failing]) : std::nullopt;
+  if (gate.unit == GateUnit::AgvHour) {
+    if (gate.limit <= 0.0) return std::nullopt;
+    return static_cast<std::uint64_t>(std::ceil(exposure_needed(failing, gate.limit, gate.confidence) * kAgvUsPerHour));
+  }
+  auto needed = units_needed(failing, gate.limit, gate.confidence);
+  if (needed) needed = std::max(*needed, units + 1);  // the two bounds agree but for rounding
+  return needed;
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "reports/evidence/binomial.hpp"
+#include "storage/records.hpp"
+
+namespace fleetproof {
+
+// The bounds of a gate after `failing` of `units` failed, by its method and unit.
+//
+// Any-time, shares: the upper bound is the largest limit that the release gate (release_gate.hpp) would not pass, so
+// that bound and decision are one: e(limit) grows with the limit, and all limits that it has not rejected form a
+// confidence sequence. The lower bound is that of the beta-binomial sequence. Any-time, AGV-hours: the Gamma-Poisson
+// sequence. Fixed: Clopper-Pearson or Garwood, one-sided. Requires: failing <= units, but for AGV-hours.
+RateInterval gate_bounds(const GateRecord& gate, std::uint64_t failing, std::uint64_t units);
+
+// The number of units that meets the limit if no unit fails beyond the `failing` that did; none if there is no such
+// number. Requires: an any-time gate has its table.
+std::optional<std::uint64_t> units_to_pass(const GateRecord& gate, std::uint64_t failing, std::uint64_t units);
+
+// Two-sided at 95 %: both one-sided bounds, each with half of the risk.
+RateInterval gate_interval_95(const GateRecord& gate, std::uint64_t failing, std::uint64_t units);
+
+}  // namespace fleetproof

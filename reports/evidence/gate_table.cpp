@@ -1,0 +1,81 @@
+#include "reports/evidence/gate_table.hpp"
+
+#include <algorithm>
+
+#include "reports/evidence/confidence_sequence.hpp"
+#include "reports/evidence/exposure.hpp"
+#include "reports/evidence/release_gate.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr std::uint64_t kMostUnits = 1'000'000'000'000'000;  // no campaign is longer
+constexpr std::uint64_t kMostFailing = 256, kTimesPlanned = 16;
+
+// The smallest number from `low` on for which `holds`, which holds for all greater ones; kMostUnits if for none below.
+template <class Holds>
+std::uint64_t first_with(std::uint64_t low, const Holds& holds) {
+  std::uint64_t high = std::max<std::uint64_t>(low, 1);
+  while (high < kMostUnits && !holds(high)) high *= 2;
+  while (low < high) {
+    const std::uint64_t middle = low + (high - low) / 2;
+    if (holds(middle)) {
+      high = middle;
+    } else {
+      low = middle + 1;
+    }
+  }
+  return std::min(low, kMostUnits);
+}
+
+RateInterval sequence(const GateRecord& gate, std::uint64_t failing, std::uint64_t units, Confidence confidence) {
+  return gate.unit == GateUnit::AgvHour ? any_time_rate(failing, agv_hours(units), confidence)
+                                        : any_time_interval(failing, units, confidence);
+}
+
+// The smallest number of units that passes with so many failures.
+std::optional<std::uint64_t> pass_from(const GateRecord& gate, std::uint64_t failing) {
+  if (gate.limit <= 0.0) return std::nullopt;
+  if (gate.unit != GateUnit::AgvHour) return gate_units_needed(failing, gate.limit, gate.confidence);
+  const std::uint64_t first = first_with(
+      1, [&](std::uint64_t units) { return sequence(gate, failing, units, gate.confidence).upper <= gate.limit; });
+  return first < kMostUnits ? std::optional(first) : std::nullopt;
+}
+
+std::uint64_t refuted_up_to(const GateRecord& gate, std::uint64_t failing, Confidence confidence) {
+  if (failing == 0) return 0;
+  const std::uint64_t fewest = gate.unit == GateUnit::AgvHour ? 1 : failing;
+  return first_with(
+             fewest,
+             [&](std::uint64_t units) { return sequence(gate, failing, units, confidence).lower <= gate.limit; }) -
+         1;
+}
+
+}  // namespace
+
+GateTable gate_table(const GateRecord& gate, std::size_t cells, std::uint64_t planned_replicates) {
+  GateTable table;
+  if (gate.method != GateMethod::AnyTime) return table;
+  const double tests = gate.unit == GateUnit::Run ? static_cast<double>(std::max<std::size_t>(cells, 1)) : 1.0;
+  const Confidence to_refute = Confidence(gate.confidence).shared(tests);
+  const std::uint64_t plenty = std::min(kMostUnits / kTimesPlanned, planned_replicates) * kTimesPlanned;
+  for (std::uint64_t failing = 0; failing <= kMostFailing; ++failing) {
+    const auto units = pass_from(gate, failing);
+    if (units) table.passes_from.push_back(*units);
+    table.refuted_up_to.push_back(refuted_up_to(gate, failing, to_refute));
+    if (!units || (gate.unit != GateUnit::AgvHour && *units > plenty && failing >= 16)) break;
+  }
+  return table;
+}
+
+bool passes(const GateTable& table, std::uint64_t failing, std::uint64_t units) {
+  return failing < table.passes_from.size() && units >= table.passes_from[failing];
+}
+
+// More failures than the table has refute at least as much as its last row does.
+bool refutes(const GateTable& table, std::uint64_t failing, std::uint64_t units) {
+  if (table.refuted_up_to.empty() || units == 0) return false;
+  return units <= table.refuted_up_to[std::min<std::uint64_t>(failing, table.refuted_up_to.size() - 1)];
+}
+
+}  // namespace fleetproof

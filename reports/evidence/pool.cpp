@@ -1,0 +1,82 @@
+#include "reports/evidence/pool.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "core/outcome/work_and_progress.hpp"
+#include "reports/evidence/exposure.hpp"
+
+namespace fleetproof {
+namespace {
+
+RunResult worse(RunResult a, RunResult b) {
+  if (a == RunResult::Failed || b == RunResult::Failed) return RunResult::Failed;
+  return a == RunResult::Unknown || b == RunResult::Unknown ? RunResult::Unknown : RunResult::Passed;
+}
+
+std::uint64_t agv_us(const Outcome& outcome) { return outcome.simulated_ns / 1000 * outcome.agv_count; }
+
+}  // namespace
+
+void PoolCounter::Count::add(RunResult result) {
+  failing += result == RunResult::Failed ? 1 : 0;
+  failing_or_unknown += result == RunResult::Passed ? 0 : 1;
+}
+
+PoolCounter::PoolCounter(Pool pool) : pool_(std::move(pool)) {
+  if (pool_.rule.unit == GateUnit::Run) by_cell_.resize(pool_.cells.size());
+}
+
+RunResult PoolCounter::add(const RunRecord& run) {
+  if (pending_.result == RunResult::Passed) pending_.exposure_us += agv_us(run.outcome);
+  const RunResult result = result_of_run(run.outcome);
+  pending_.result = worse(pending_.result, result);
+  pending_.by_cell.push_back(result);
+  if (result == RunResult::Failed) ++pool_.failing_runs;
+  return result;
+}
+
+RunResult PoolCounter::result_of_run(const Outcome& outcome) {
+  if (pool_.rule.end_point != EndPoint::Throughput) return result_of(outcome, pool_.rule.end_point);
+  // A crashed or hung AGV delivers nothing: that the fleet was slow then says nothing about its speed.
+  if (result_of(outcome, EndPoint::Crash) != RunResult::Passed) return RunResult::Unknown;
+  if (pool_.rule.unit == GateUnit::Run) return throughput_result(outcome.counters.transports_done, agv_us(outcome));
+  pending_.transports_done += outcome.counters.transports_done;
+  pending_.agv_us += agv_us(outcome);
+  return RunResult::Passed;  // the world decides
+}
+
+RunResult PoolCounter::throughput_result(std::uint64_t transports_done, std::uint64_t agv_us) const {
+  if (agv_us == 0) return RunResult::Unknown;
+  const bool enough = transports_per_agv_hour(transports_done, agv_hours(agv_us)) >= pool_.rule.floor_per_agv_hour;
+  return enough ? RunResult::Passed : RunResult::Failed;
+}
+
+void PoolCounter::finish_replicate() {
+  if (pool_.cells.empty()) return;
+  ensure(pending_.by_cell.size() == pool_.cells.size(), "a complete replicate has a run in every cell");
+  if (pool_.rule.end_point == EndPoint::Throughput && pool_.rule.unit == GateUnit::World &&
+      pending_.result == RunResult::Passed) {
+    pending_.result = throughput_result(pending_.transports_done, pending_.agv_us);
+    pool_.failing_runs += pending_.result == RunResult::Failed ? 1 : 0;
+  }
+  Count world{pool_.failing, pool_.failing_or_unknown};
+  world.add(pending_.result);
+  pool_.units += pool_.rule.unit == GateUnit::AgvHour ? pending_.exposure_us : 1;
+  pool_.failing = world.failing;
+  pool_.failing_or_unknown = world.failing_or_unknown;
+  if (pool_.rule.unit == GateUnit::Run) count_cells();
+  pending_ = Pending{};
+}
+
+void PoolCounter::count_cells() {
+  pool_.failing = pool_.failing_or_unknown = 0;
+  for (std::size_t i = 0; i < by_cell_.size(); ++i) {
+    by_cell_[i].add(pending_.by_cell[i]);
+    pool_.failing = std::max(pool_.failing, by_cell_[i].failing);
+    pool_.failing_or_unknown = std::max(pool_.failing_or_unknown, by_cell_[i].failing_or_unknown);
+  }
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,134 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/base/words.hpp"
+
+namespace fleetproof {
+
+// What a gate counts as a failure of a run. The laws of core/outcome/incident.hpp and the outcome's own flags decide.
+enum class EndPoint : std::uint8_t {
+  Violation,
+  Contact,
+  HazardousContact,
+  Deadlock,
+  Livelock,
+  Starvation,
+  Standstill,
+  WrongLoad,
+  EmptyBattery,
+  Crash,
+  Hang,
+  Throughput
+};
+enum class Region : std::uint8_t { Contract, WorstCase, All };
+enum class GateKind : std::uint8_t { None, Rate };  // None: any failing run refutes. Rate: the bounds decide.
+// What is counted. World: one draw of all randomness, run in every cell; it fails if any of its runs fails. Run: the
+// runs of each cell; the worst cell decides. AgvHour: events per hour that an AGV is simulated; a world's exposure ends
+// at its first event.
+enum class GateUnit : std::uint8_t { World, Run, AgvHour };
+// AnyTime: bounds that hold however often one looks, stops or extends. Fixed: exact bounds for the number of replicates
+// that was planned, and for no other.
+enum class GateMethod : std::uint8_t { AnyTime, Fixed };
+
+constexpr const char* name_of(EndPoint end_point) {
+  switch (end_point) {
+    case EndPoint::Violation:
+      return "violation";
+    case EndPoint::Contact:
+      return "contact";
+    case EndPoint::HazardousContact:
+      return "hazardous-contact";
+    case EndPoint::Deadlock:
+      return "deadlock";
+    case EndPoint::Livelock:
+      return "livelock";
+    case EndPoint::Starvation:
+      return "starvation";
+    case EndPoint::Standstill:
+      return "standstill";
+    case EndPoint::WrongLoad:
+      return "wrong-load";
+    case EndPoint::EmptyBattery:
+      return "empty-battery";
+    case EndPoint::Crash:
+      return "crash";
+    case EndPoint::Hang:
+      return "hang";
+    case EndPoint::Throughput:
+      return "throughput";
+  }
+  return kNoWord;
+}
+constexpr const char* name_of(Region region) {
+  switch (region) {
+    case Region::Contract:
+      return "contract";
+    case Region::WorstCase:
+      return "worst-case";
+    case Region::All:
+      return "all";
+  }
+  return kNoWord;
+}
+constexpr const char* name_of(GateKind kind) {
+  switch (kind) {
+    case GateKind::None:
+      return "none";
+    case GateKind::Rate:
+      return "rate";
+  }
+  return kNoWord;
+}
+constexpr const char* name_of(GateUnit unit) {
+  switch (unit) {
+    case GateUnit::World:
+      return "world";
+    case GateUnit::Run:
+      return "run";
+    case GateUnit::AgvHour:
+      return "agv-hour";
+  }
+  return kNoWord;
+}
+constexpr const char* name_of(GateMethod method) {
+  switch (method) {
+    case GateMethod::AnyTime:
+      return "any-time";
+    case GateMethod::Fixed:
+      return "fixed";
+  }
+  return kNoWord;
+}
+
+// The decisions of an any-time gate as whole numbers, computed once before the first run: no rounding of a later
+// program or machine moves a verdict. Index: the number of failing units. A unit of AGV-hours is a microsecond.
+struct GateTable {
+  std::vector<std::uint64_t> passes_from;    // the smallest number of units that meets the limit
+  std::vector<std::uint64_t> refuted_up_to;  // the largest number of units that exceeds the limit; 0: none does
+
+  friend bool operator==(const GateTable&, const GateTable&) = default;
+};
+
+// A requirement on a campaign, fixed before its first run.
+struct GateRecord {
+  std::uint32_t index = 0;
+  std::string name, agent;
+  std::string requirement;  // what it verifies, as "SR-12"; every page repeats it
+  GateKind kind = GateKind::Rate;
+  EndPoint end_point = EndPoint::Violation;
+  Region region = Region::Contract;
+  std::string layout;  // cells of this layout alone; empty: of all
+  GateUnit unit = GateUnit::World;
+  GateMethod method = GateMethod::AnyTime;
+  double limit = 1e-3;                       // the upper bound must be at or below the limit
+  double confidence = 0.95;                  // one-sided
+  double min_transports_per_agv_hour = 1.0;  // a parked fleet is safe and useless
+  bool decides = true;                       // false: a reference agent's; told, but no part of the verdict
+  GateTable table;
+  friend bool operator==(const GateRecord&, const GateRecord&) = default;
+};
+
+}  // namespace fleetproof

@@ -1,0 +1,80 @@
+// A claim without gates is judged by those that every fleet has to meet.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/program.hpp"
+
+namespace fleetproof {
+namespace {
+
+class DefaultGates : public test::ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    std::filesystem::copy_file(FLEETPROOF_FAULTY_AGENT, path("faulty.so"));
+  }
+  // The verdict of each end point that is judged for this agent; "" is the exit code.
+  std::map<std::string, std::string> verdicts(const std::string& agents, const std::string& agent, int replicates,
+                                              const std::string& more = "") {
+    write("c.toml", fmt::format("replicates = {}\n{}[factors]\nagents = [{}]\nlayouts = [\"aisle-grid\"]\n"
+                                "fleet_sizes = [4]\nloss = [0.0, 0.4]\ndelay_s = [1]\n",
+                                replicates, more, agents));
+    std::map<std::string, std::string> found;
+    found[""] = std::to_string(run("run c.toml --db c.db --overwrite").exit_code);
+    const auto report = nlohmann::json::parse(run("report c.db --format json").out);
+    for (const auto& gate : report.at("gates")) {
+      if (gate.at("agent") == agent) found[gate.at("end_point")] = gate.at("verdict");
+    }
+    return found;
+  }
+};
+
+std::string faulty(const std::string& kind) {
+  return fmt::format("{{ file = \"faulty.so\", name = \"{0}\", config = \"{0}\" }}", kind);
+}
+
+struct Fault {
+  std::string kind, end_point;
+};
+
+TEST_F(DefaultGates, RefuteAnAgentThatIsSafeAndDoesNotGetItsWorkDone) {
+  for (const auto& [kind, end_point] : {Fault{"stop", "deadlock"}, Fault{"starve", "starvation"},
+                                        Fault{"slow", "throughput"}, Fault{"misplace", "wrong-load"}}) {
+    const auto found = verdicts(faulty(kind), kind, 20);
+    EXPECT_EQ(found.at(""), "1") << kind;
+    EXPECT_EQ(found.at(end_point), "violated") << kind;
+    EXPECT_EQ(found.at("violation"), "not demonstrated") << kind << ": no run broke it, and 20 worlds are few";
+  }
+}
+
+TEST_F(DefaultGates, FindNothingAgainstSoundSoftware) {
+  const auto found = verdicts(faulty("sound"), "sound", 20);
+  EXPECT_EQ(found.at(""), "4");
+  for (const auto& [end_point, verdict] : found)
+    EXPECT_THAT(verdict, testing::AnyOf("not demonstrated", "demonstrated", "4")) << end_point;
+  EXPECT_EQ(found.size(), 9U) << "eight gates";
+}
+
+TEST_F(DefaultGates, BindTheSoftwareUnderTestAndNoReferenceAgentBesideIt) {
+  const std::string both = faulty("sound") + ", \"reckless\"";
+  EXPECT_EQ(verdicts(both, "sound", 4).at(""), "4") << "reckless breaks the distance in every run";
+  EXPECT_EQ(verdicts(both, "reckless", 4).size(), 1U) << "it has no gates";
+  const auto candidate = verdicts("\"hull-lock\", { agent = \"reckless\", role = \"candidate\" }", "reckless", 4);
+  EXPECT_EQ(candidate.at(""), "1");
+  EXPECT_EQ(candidate.at("violation"), "violated");
+  const std::string gate = "default_gates = true\n[[gate]]\nname = \"g\"\nagent = \"reckless\"\nkind = \"none\"\n";
+  EXPECT_EQ(verdicts(both, "reckless", 4, gate).at(""), "4") << "its gate is told and does not decide";
+  EXPECT_EQ(verdicts(both, "reckless", 4, gate).at("violation"), "violated");
+}
+
+TEST_F(DefaultGates, CanBeLeftOut) {
+  const auto found = verdicts("\"reckless\"", "reckless", 2, "default_gates = false\n");
+  EXPECT_EQ(found.at(""), "4");
+  EXPECT_EQ(found.size(), 1U);
+}
+
+}  // namespace
+}  // namespace fleetproof

@@ -1,0 +1,146 @@
+// Gates that hold however often one looks, and what they count.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "reports/evidence/evidence.hpp"
+#include "reports/evidence/gate_bounds.hpp"
+#include "reports/evidence/gate_table.hpp"
+#include "tests/reports/sample_campaign.hpp"
+
+namespace fleetproof {
+namespace {
+
+using samples::campaign_of;
+using samples::grid;
+using samples::report_of;
+using testing::HasSubstr;
+
+GateRecord any_time(double limit, EndPoint end_point = EndPoint::Violation, GateUnit unit = GateUnit::World) {
+  GateRecord gate;
+  gate.name = "any";
+  gate.agent = "sound";
+  gate.end_point = end_point;
+  gate.unit = unit;
+  gate.limit = limit;
+  return gate;
+}
+
+// (1/3) sum of the likelihood ratios of 0, limit / 10 and limit / 3 against `limit`, in plain words.
+double e_value(std::uint64_t failing, std::uint64_t units, double limit) {
+  double sum = failing == 0 ? std::pow(1.0 - limit, -static_cast<double>(units)) : 0.0;
+  for (const double q : {limit / 10.0, limit / 3.0}) {
+    sum += std::pow(q / limit, static_cast<double>(failing)) *
+           std::pow((1.0 - q) / (1.0 - limit), static_cast<double>(units - failing));
+  }
+  return sum / 3.0;
+}
+
+TEST(AnyTimeGate, PassesAtTheFirstNumberAtWhichTheEvidenceIsTwentyfold) {
+  const GateTable table = gate_table(any_time(0.1), 4, 40);
+  for (std::uint64_t failing = 0; failing < 4; ++failing) {
+    std::uint64_t first = failing;
+    while (e_value(failing, first, 0.1) < 20.0) ++first;
+    EXPECT_EQ(table.passes_from[failing], first);
+    EXPECT_TRUE(passes(table, failing, first));
+    EXPECT_FALSE(passes(table, failing, first - 1));
+  }
+  EXPECT_FALSE(passes(table, 100'000, 100'000'000)) << "more failures than the table has";
+}
+
+TEST(AnyTimeGate, ItsBoundIsTheLimitThatItWouldJustPass) {
+  for (const std::uint64_t failing : {0U, 1U, 3U}) {
+    const double upper = gate_bounds(any_time(0.1), failing, 200).upper;
+    EXPECT_NEAR(e_value(failing, 200, upper), 20.0, 1e-6);
+    EXPECT_LT(gate_interval_95(any_time(0.1), failing, 200).lower, static_cast<double>(failing) / 200.0 + 1e-12);
+    EXPECT_GT(gate_interval_95(any_time(0.1), failing, 200).upper, upper) << "half of the risk on each side";
+  }
+  EXPECT_EQ(gate_bounds(any_time(0.1), 0, 0).upper, 1.0);
+  EXPECT_EQ(gate_bounds(any_time(0.1), 5, 5).upper, 1.0);
+}
+
+TEST(AnyTimeGate, IsRefutedWhileTheConfidenceSequenceLiesAboveTheLimit) {
+  const GateTable table = gate_table(any_time(0.1), 4, 40);
+  for (std::uint64_t failing = 1; failing < 12; ++failing) {
+    for (std::uint64_t units = failing; units < 120; ++units) {
+      EXPECT_EQ(refutes(table, failing, units), gate_bounds(any_time(0.1), failing, units).lower > 0.1)
+          << failing << " of " << units;
+    }
+  }
+  EXPECT_FALSE(refutes(table, 0, 1));
+}
+
+TEST(AnyTimeGate, SaysWhatAStoppedNightCarries) {
+  const auto stopped =
+      report_of(campaign_of("claim", 1000), grid({"sound"}, {0.0, 0.4}, {2.0}), {any_time(0.1)}, {}, 0, 2 * 900);
+  ASSERT_EQ(stopped.evidence.complete_replicates(), 100U);
+  EXPECT_EQ(stopped.gates[0].verdict, Verdict::Demonstrated) << stopped.gates[0].reason;
+  const auto early =
+      report_of(campaign_of("claim", 1000), grid({"sound"}, {0.0, 0.4}, {2.0}), {any_time(0.1)}, {}, 0, 2 * 980);
+  EXPECT_EQ(early.gates[0].verdict, Verdict::NotDemonstrated);
+  EXPECT_THAT(early.gates[0].reason, HasSubstr("32 replicates without a failure are needed (12 more)"));
+}
+
+TEST(AnyTimeGate, OfRunsIsDecidedByTheWorstCell) {
+  const auto cells = grid({"sound"}, {0.0, 0.4}, {2.0});
+  const auto input = report_of(campaign_of("claim", 60), cells, {any_time(0.1, EndPoint::Violation, GateUnit::Run)},
+                               [](RunRecord& run) {
+                                 if (run.cell == 1 && run.replicate < 3) samples::violate(run);
+                                 if (run.cell == 0 && run.replicate == 7) samples::violate(run);
+                               });
+  EXPECT_EQ(input.gates[0].claim->failing, 3U);
+  EXPECT_EQ(input.gates[0].claim->units, 60U);
+  EXPECT_EQ(input.gates[0].unit, "runs");
+  EXPECT_GT(gate_table(any_time(0.1), 1, 60).refuted_up_to[5],
+            gate_table(any_time(0.1, EndPoint::Violation, GateUnit::Run), 2, 60).refuted_up_to[5])
+      << "two cells share the risk of a wrong refutation";
+}
+
+TEST(AnyTimeGate, OfAgvHoursEndsTheExposureOfAWorldWithItsFirstEvent) {
+  const auto cells = grid({"sound"}, {0.0, 0.4}, {2.0});
+  const GateRecord gate = any_time(0.5, EndPoint::Violation, GateUnit::AgvHour);
+  const auto input = report_of(campaign_of("claim", 60), cells, {gate}, [](RunRecord& run) {
+    if (run.replicate == 5) samples::violate(run);  // in both of its runs
+  });
+  EXPECT_EQ(input.gates[0].claim->failing, 1U);
+  EXPECT_NEAR(input.gates[0].claim->exposure, (2 * 60 - 1) * 5 / 6.0, 1e-9) << "five AGVs for 600 s a run";
+  EXPECT_EQ(input.gates[0].unit, "AGV-hours");
+  EXPECT_EQ(input.gates[0].verdict, Verdict::Demonstrated) << input.gates[0].reason;
+}
+
+TEST(AnyTimeGate, OnThroughputFailsAWorldThatIsTooSlowOverItsCells) {
+  const auto cells = grid({"sound"}, {0.0, 0.4}, {2.0});
+  GateRecord gate = any_time(0.1, EndPoint::Throughput);
+  gate.min_transports_per_agv_hour = 9.0;  // the sample has 12 in each cell
+  const auto slow_cell = [](RunRecord& run) {
+    if (run.cell == 1) run.outcome.counters.transports_done = 6;
+  };
+  EXPECT_EQ(report_of(campaign_of("claim", 60), cells, {gate}, slow_cell).gates[0].verdict, Verdict::Demonstrated);
+  const auto slow_world = [](RunRecord& run) { run.outcome.counters.transports_done = 7; };
+  EXPECT_EQ(report_of(campaign_of("claim", 60), cells, {gate}, slow_world).gates[0].verdict, Verdict::Violated);
+  gate.unit = GateUnit::Run;
+  EXPECT_EQ(report_of(campaign_of("claim", 60), cells, {gate}, slow_cell).gates[0].verdict, Verdict::Violated);
+}
+
+TEST(AnyTimeGate, OfAReferenceAgentIsToldAndDoesNotDecide) {
+  GateRecord none = any_time(0.1);
+  none.decides = false;
+  const auto input =
+      report_of(campaign_of("claim", 60), grid({"sound"}, {0.4}, {2.0}), {none, any_time(0.1)}, [](RunRecord&) {});
+  EXPECT_EQ(overall_verdict(input.evidence, input.gates), Verdict::Demonstrated);
+  const auto failing = report_of(campaign_of("claim", 60), grid({"sound"}, {0.4}, {2.0}), {none},
+                                 [](RunRecord& run) { samples::violate(run); });
+  EXPECT_EQ(failing.gates[0].verdict, Verdict::Violated);
+  EXPECT_EQ(overall_verdict(failing.evidence, failing.gates), Verdict::NotDemonstrated);
+}
+
+TEST(AnyTimeGate, ALayoutOfItsOwnHasItsOwnCells) {
+  GateRecord gate = any_time(0.1);
+  gate.layout = "hall";
+  const auto input = report_of(campaign_of("claim", 4), grid({"sound"}, {0.4}, {2.0}, {"ring", "hall"}), {gate});
+  EXPECT_EQ(input.gates[0].counts.cells, 1U);
+}
+
+}  // namespace
+}  // namespace fleetproof
