@@ -8,6 +8,7 @@
 #include "reports/audit_section.hpp"
 #include "reports/condition_table.hpp"
 #include "reports/coverage_section.hpp"
+#include "reports/gate_section.hpp"
 #include "reports/sample_sentence.hpp"
 #include "reports/verdict_sentences.hpp"
 #include "reports/weak_points.hpp"
@@ -80,7 +81,8 @@ Section method_section(const ReportInput& input) {
     add("A search looks for failures where it expects them. Its counts are not a sample of normal operation, so there "
         "are no rates and no bounds.");
   } else {
-    add("A replicate is one draw of all randomness, run in every cell (test condition). If several cells are judged "
+    add("A replicate is one world: one draw of all randomness, run in every cell (test condition). If several cells "
+        "are judged "
         "together, the replicate is the unit and fails if any of its runs fails. Runs that crashed, hung or stayed "
         "indeterminate count as failures in every rate and bound. Stuck runs stay in the count of runs. An upper bound "
         "is rounded up, a lower bound is rounded down.");
@@ -130,6 +132,7 @@ Page build_page(const ReportInput& input, std::size_t most_rows) {
   for (auto& audit : audit_headlines(input)) page.headlines.push_back(std::move(audit));
   for (auto& weak : weak_headlines(input)) page.headlines.push_back(std::move(weak));
   for (auto& verdict : verdicts(input)) page.headlines.push_back(std::move(verdict));
+  page.sections.push_back(gate_section(input));
   const std::string loss = percent(kContractLoss), delay = fmt::format("{:g} s", kContractDelay_s);
   page.sections.push_back(condition_section(
       input, fmt::format("Worst case of the contract: {} loss, {} delay", loss, delay),

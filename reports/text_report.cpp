@@ -102,7 +102,13 @@ std::string top_of(const Page& page) {
 
 }  // namespace
 
-std::string render_summary(const ReportInput& input) { return top_of(build_page(input, kMostRows)); }
+// The head of the page, and the table that stands first.
+std::string render_summary(const ReportInput& input) {
+  const auto page = build_page(input, kMostRows);
+  std::string out = top_of(page);
+  if (const Table& gates = page.sections.front().table; !gates.columns.empty()) print(out, gates);
+  return out + "\n";
+}
 
 std::string render_text(const ReportInput& input) {
   const auto page = build_page(input, kMostRows);

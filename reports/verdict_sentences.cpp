@@ -2,67 +2,69 @@
 
 #include <fmt/format.h>
 
-#include "core/base/contract.hpp"
+#include <algorithm>
+
 #include "reports/coverage_section.hpp"
-#include "reports/evidence/rounding.hpp"
+#include "reports/gate_section.hpp"
 #include "reports/sample_sentence.hpp"
 #include "reports/wording.hpp"
 
 namespace fleetproof {
 namespace {
 
-std::string region_text(Region region) {
-  switch (region) {
-    case Region::Contract:
-      return fmt::format("contract region (loss <= {}, delay <= {:g} s)", percent(kContractLoss), kContractDelay_s);
-    case Region::WorstCase:
-      return fmt::format("worst case ({}, {:g} s)", percent(kContractLoss), kContractDelay_s);
-    case Region::All:
-      return "all cells";
+// The agents whose gates decide; all agents if there is no such gate.
+bool is_under_test(const ReportInput& input, const std::string& agent) {
+  bool any = false;
+  for (const GateRecord& gate : input.evidence.gates()) {
+    if (!gate.decides) continue;
+    any = true;
+    if (gate.agent == agent) return true;
   }
-  return {};
+  return !any;
 }
 
-std::string estimate_text(const GateRecord& gate, const GateResult& result) {
-  const auto& claim = *result.claim;
-  auto text = fmt::format("{} of {} {} failed", claim.failing, claim.units, result.unit);
-  if (claim.rate()) {
-    text += fmt::format(": rate {}, two-sided 95 % interval [{}, {}]", rounded_rate(*claim.rate()),
-                        rounded_down(claim.interval_95.lower), rounded_up(claim.interval_95.upper));
+std::vector<std::size_t> deciding_gates(const ReportInput& input, Verdict verdict) {
+  std::vector<std::size_t> list;
+  for (std::size_t i = 0; i < input.gates.size(); ++i) {
+    if (input.evidence.gates()[i].decides && input.gates[i].verdict == verdict) list.push_back(i);
   }
-  return text + fmt::format(", one-sided {} upper bound {}, limit {:g} ({}).", percent(gate.confidence),
-                            rounded_up(claim.upper), gate.limit,
-                            gate.method == GateMethod::AnyTime ? "valid at any time" : "for the planned replicates");
+  return list;
 }
 
-std::string optimistic_text(const GateResult& result) {
-  return fmt::format(
-      "What stayed unknown (a crash, a hang, a wreck before) counts as a failure; if none of it had failed: {} of {}, "
-      "upper bound {}.",
-      result.optimistic->failing, result.optimistic->units, rounded_up(result.optimistic->upper));
+std::string subject(const ReportInput& input, std::size_t gate) {
+  return printable(input.evidence.gates()[gate].agent, 40) + " " + finding_text(input, gate);
 }
 
-Headline verdict_of(const ReportInput& input, std::size_t index) {
-  const auto& gate = input.evidence.gates()[index];
-  const auto& result = input.gates[index];
-  Headline headline{name_of(result.verdict),
-                    fmt::format("gate \"{}\": {} of agent {}, {}, {}", printable(gate.name, 60),
-                                name_of(gate.end_point), printable(gate.agent, 40), region_text(gate.region),
-                                gate.kind == GateKind::None ? "none allowed" : "rate limited") +
-                        (result.missing.empty() ? "" : "; the evidence is weak"),
-                    {}};
-  const auto add = [&](std::string text) { headline.details.push_back({std::move(text), ""}); };
-  add(result.claim ? estimate_text(gate, result) : count_text(result.counts.failing_runs, "run") + " failed.");
-  if (result.claim && result.optimistic->failing != result.claim->failing) add(optimistic_text(result));
-  add(fmt::format("Why {}: {}.", name_of(result.verdict), result.reason));
-  if (!result.missing.empty()) add("Weak: " + missing_text(result.missing) + ".");
-  if (const auto& cells = input.evidence.cells_of(index); !cells.empty())
-    add("Sampled: " + sampled(input.evidence, cells) + ".");
-  if (result.worst) {
-    headline.details.push_back(
-        {fmt::format("Its most serious run is {} ({}):", result.worst->run_index, name_of(result.worst->severity)),
-         replay_line(input, result.worst->run_index)});
+constexpr std::size_t kGatesTold = 5;
+
+// The gates with the campaign's own verdict speak for it, the first in the sentence itself.
+Headline claim(const ReportInput& input) {
+  const Verdict verdict = overall_verdict(input.evidence, input.gates);
+  const auto speaking = deciding_gates(input, verdict);
+  std::size_t deciding = 0;
+  for (const Verdict each : {Verdict::Demonstrated, Verdict::Violated, Verdict::NotDemonstrated})
+    deciding += deciding_gates(input, each).size();
+  Headline headline{name_of(verdict), "", {}};
+  if (speaking.empty()) {
+    headline.text = "no gate binds an agent of this campaign.";
+    return headline;
   }
+  headline.text = subject(input, speaking.front());
+  headline.text += fmt::format(". {} of {} {}", speaking.size(), count_text(deciding, "gate"), name_of(verdict));
+  headline.text += is_weak(input) ? "; the evidence is weak." : ".";
+  for (std::size_t i = 0; i < std::min(kGatesTold, speaking.size()); ++i) {
+    const GateResult& result = input.gates[speaking[i]];
+    std::string text = i == 0 ? "" : subject(input, speaking[i]) + ". ";
+    if (verdict != Verdict::Demonstrated) text += fmt::format("Why {}: {}.", name_of(verdict), result.reason);
+    if (!result.missing.empty()) text += (text.empty() ? "" : " ") + ("Weak: " + missing_text(result.missing) + ".");
+    if (text.empty()) continue;
+    headline.details.push_back({text, ""});
+    if (result.worst && verdict != Verdict::Demonstrated)
+      headline.details.back().command = replay_line(input, result.worst->run_index);
+  }
+  const std::size_t first = speaking.front();
+  if (const auto& cells = input.evidence.cells_of(first); !cells.empty())
+    headline.details.push_back({"Sampled: " + sampled(input.evidence, cells) + ".", ""});
   return headline;
 }
 
@@ -104,6 +106,7 @@ std::vector<Headline> warnings(const ReportInput& input) {
          {}});
   }
   for (const auto& [agent, runs, worst] : input.evidence.contract_failures()) {
+    if (!is_under_test(input, agent)) continue;
     list.push_back(
         {"violation",
          fmt::format("agent {} broke the safety distance in {} within the contract region. The most serious:",
@@ -114,13 +117,10 @@ std::vector<Headline> warnings(const ReportInput& input) {
 }
 
 std::vector<Headline> verdicts(const ReportInput& input) {
-  std::vector<Headline> list;
-  for (std::size_t i = 0; i < input.gates.size(); ++i) list.push_back(verdict_of(input, i));
-  if (list.empty())
-    list.push_back({name_of(Verdict::NotDemonstrated),
-                    "this campaign has no gate (acceptance criterion), so nothing can be demonstrated.",
-                    {}});
-  return list;
+  if (!input.gates.empty()) return {claim(input)};
+  return {{name_of(Verdict::NotDemonstrated),
+           "this campaign has no gate (acceptance criterion), so nothing can be demonstrated.",
+           {}}};
 }
 
 }  // namespace fleetproof

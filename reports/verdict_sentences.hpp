@@ -11,7 +11,8 @@ namespace fleetproof {
 // gates tolerate them.
 std::vector<Headline> warnings(const ReportInput& input);
 
-// One block for each gate: verdict, count, rate, interval, bound, limit, reason, what was sampled.
+// The claim of the campaign in one sentence, by the gates that speak for it: a violated one if the campaign is
+// violated, an open one if it is not demonstrated. Below it, the reasons, the runs to look at, and what was sampled.
 std::vector<Headline> verdicts(const ReportInput& input);
 
 // "violation, smallest clearance 0.07 m at 12.34 s between AGV 1 and AGV 3; agent sound, layout ring, fleet of 5, loss

@@ -70,21 +70,23 @@ TEST(Report, one_violation_in_the_contract_region_heads_the_page_even_if_the_rat
   EXPECT_THAT(lines[2],
               HasSubstr("violation | agent sound broke the safety distance in 1 run within the contract region"));
   const auto page = render("text", input);
-  EXPECT_LT(page.find("-> fleetproof replay night.fp 3001"), page.find("demonstrated |"));
+  EXPECT_LT(page.find("-> fleetproof replay night.fp 3001"),
+            page.find("demonstrated | sound broke the safety distance"));
 }
 
 TEST(Report, a_refuted_gate_shows_its_run) {
   const auto page = render("text", failing_campaign(GateKind::None));
-  EXPECT_THAT(page, HasSubstr("violated | gate \"safe\""));
+  EXPECT_THAT(page, HasSubstr("violated | sound broke the safety distance in 1 of 5000 worlds; the true share is at "
+                              "least 0.00102 % (95 %)"));
   EXPECT_THAT(page, HasSubstr("fleetproof replay night.fp 3001"));
 }
 
 TEST(Report, sections_stand_in_their_order) {
   const auto page = render("text", failing_campaign());
   std::size_t last = 0;
-  for (const auto* title :
-       {"demonstrated |", "Worst case of the contract", "Contract region: loss", "Outside the contract\n",
-        "How to read the tables", "Weak points", "Worst runs", "Provenance", "How to read this"}) {
+  for (const auto* title : {"demonstrated |", "Gates (acceptance criteria)", "Worst case of the contract",
+                            "Contract region: loss", "Outside the contract\n", "How to read the tables", "Weak points",
+                            "Worst runs", "Provenance", "How to read this"}) {
     const auto at = page.find(title, last);
     ASSERT_NE(at, std::string::npos) << title;
     last = at;

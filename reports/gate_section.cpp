@@ -1,0 +1,176 @@
+#include "reports/gate_section.hpp"
+
+#include <fmt/format.h>
+
+#include <set>
+
+#include "core/base/contract.hpp"
+#include "core/base/error.hpp"
+#include "reports/coverage_section.hpp"
+#include "reports/evidence/exposure.hpp"
+#include "reports/evidence/rounding.hpp"
+#include "reports/plan_facts.hpp"
+#include "reports/sample_sentence.hpp"
+#include "reports/wording.hpp"
+
+namespace fleetproof {
+namespace {
+
+std::string failure_text(const GateRecord& gate, std::optional<double> safety_distance_m) {
+  switch (gate.end_point) {
+    case EndPoint::Violation:
+      return "broke the safety distance" +
+             (safety_distance_m ? fmt::format(" of {:.2f} m", *safety_distance_m) : std::string());
+    case EndPoint::Contact:
+      return "had a contact";
+    case EndPoint::HazardousContact:
+      return "had a contact at hazardous speed";
+    case EndPoint::Deadlock:
+      return "deadlocked";
+    case EndPoint::Livelock:
+      return "moved without a result (livelock)";
+    case EndPoint::Starvation:
+      return "left an AGV without progress (starvation)";
+    case EndPoint::Standstill:
+      return "stood still while the radio kept its contract";
+    case EndPoint::WrongLoad:
+      return "handled a load wrongly";
+    case EndPoint::EmptyBattery:
+      return "let a battery run empty";
+    case EndPoint::Crash:
+      return "crashed";
+    case EndPoint::Hang:
+      return "hung";
+    case EndPoint::Throughput:
+      return fmt::format("finished fewer than {:g} transports (orders) per AGV-hour", gate.min_transports_per_agv_hour);
+  }
+  invariant_violated("an end point has words");
+}
+
+std::string region_text(const GateRecord& gate) {
+  const std::string layout = gate.layout.empty() ? "" : ", layout " + printable(gate.layout, 40);
+  switch (gate.region) {
+    case Region::Contract:
+      return fmt::format("loss <= {}, delay <= {:g} s", percent(kContractLoss), kContractDelay_s) + layout;
+    case Region::WorstCase:
+      return fmt::format("loss {}, delay {:g} s", percent(kContractLoss), kContractDelay_s) + layout;
+    case Region::All:
+      return "all cells" + layout;
+  }
+  invariant_violated("a region has words");
+}
+
+// A replicate is a world of its own; for readers it is called so.
+std::string_view unit_text(const GateResult& result) { return result.unit == "runs" ? "runs" : "worlds"; }
+
+std::string counted_text(const GateRecord& gate, const GateResult& result) {
+  const auto& claim = *result.claim;
+  if (gate.unit == GateUnit::AgvHour)
+    return fmt::format("{} in {:.6g} AGV-hours", count_text(claim.failing, "time"), claim.exposure);
+  return fmt::format("in {} of {} {}", claim.failing, claim.units, unit_text(result));
+}
+
+std::string bound_text(const GateRecord& gate, double bound, std::string (*rounded)(double)) {
+  return gate.unit == GateUnit::AgvHour ? rounded(bound) + " per AGV-hour" : rounded(100.0 * bound) + " %";
+}
+
+std::string limit_text(const GateRecord& gate) {
+  return gate.unit == GateUnit::AgvHour ? fmt::format("{:g} per AGV-hour", gate.limit)
+                                        : fmt::format("{:g} %", 100.0 * gate.limit);
+}
+
+std::vector<std::string> row(const ReportInput& input, std::size_t index) {
+  const GateRecord& gate = input.evidence.gates()[index];
+  const GateResult& result = input.gates[index];
+  std::string what = name_of(gate.end_point);
+  if (!gate.requirement.empty()) what += " [" + printable(gate.requirement, 30) + "]";
+  std::vector<std::string> cells{printable(gate.agent, 40), what, region_text(gate)};
+  if (result.claim) {
+    cells.push_back(gate.unit == GateUnit::AgvHour ? fmt::format("{}", result.claim->failing)
+                                                   : fmt::format("{}/{}", result.claim->failing, result.claim->units));
+    cells.push_back(bound_text(gate, result.claim->upper, rounded_up));
+    cells.push_back(gate.kind == GateKind::None ? "none; " + limit_text(gate) : limit_text(gate));
+  } else {
+    cells.push_back(count_text(result.counts.failing_runs, "run"));
+  }
+  cells.push_back(std::string(name_of(result.verdict)) + (gate.decides ? "" : " (told only)"));
+  return cells;
+}
+
+std::string estimate_text(const GateRecord& gate, const GateResult& result) {
+  const auto& claim = *result.claim;
+  std::string text = gate.unit == GateUnit::AgvHour
+                         ? fmt::format("{} in {:.6g} AGV-hours", count_text(claim.failing, "event"), claim.exposure)
+                         : fmt::format("{} of {} {} failed", claim.failing, claim.units, result.unit);
+  if (claim.rate()) {
+    text += fmt::format(": rate {}, two-sided 95 % interval [{}, {}]", rounded_rate(*claim.rate()),
+                        rounded_down(claim.interval_95.lower), rounded_up(claim.interval_95.upper));
+  }
+  return text + fmt::format(", one-sided {} upper bound {}, limit {:g} ({}).", percent(gate.confidence),
+                            rounded_up(claim.upper), gate.limit,
+                            gate.method == GateMethod::AnyTime ? "valid at any time" : "for the planned replicates");
+}
+
+std::string optimistic_text(const GateResult& result) {
+  return fmt::format(
+      " What stayed unknown (a crash, a hang, a wreck before) counts as a failure; if none of it had failed: {} of {}, "
+      "upper bound {}.",
+      result.optimistic->failing, result.optimistic->units, rounded_up(result.optimistic->upper));
+}
+
+Remark remark_of(const ReportInput& input, std::size_t index) {
+  const GateRecord& gate = input.evidence.gates()[index];
+  const GateResult& result = input.gates[index];
+  std::string text = fmt::format("\"{}\": ", printable(gate.name, 60));
+  text += result.claim ? estimate_text(gate, result) : count_text(result.counts.failing_runs, "run") + " failed.";
+  if (result.claim && result.optimistic->failing != result.claim->failing && gate.unit != GateUnit::AgvHour)
+    text += optimistic_text(result);
+  text += fmt::format(" Why {}: {}.", name_of(result.verdict), result.reason);
+  if (!result.missing.empty()) text += " Weak: " + missing_text(result.missing) + ".";
+  if (!result.worst) return {text, ""};
+  text += fmt::format(" Its most serious run is {} ({}):", result.worst->run_index, name_of(result.worst->severity));
+  return {text, replay_line(input, result.worst->run_index)};
+}
+
+}  // namespace
+
+std::string finding_text(const ReportInput& input, std::size_t index) {
+  const GateRecord& gate = input.evidence.gates()[index];
+  const GateResult& result = input.gates[index];
+  std::string text = failure_text(gate, safety_distance_m(input.campaign.plan_json)) + " ";
+  if (!result.claim) return text + "in " + count_text(result.counts.failing_runs, "run");
+  text += counted_text(gate, result);
+  const auto unknown = result.claim->failing - result.optimistic->failing;
+  if (unknown > 0) text += fmt::format(", or may have ({} stayed unknown)", unknown);
+  if (result.claim->units == 0) return text;
+  const bool violated = result.verdict == Verdict::Violated;
+  const double bound = violated ? result.optimistic->lower : result.claim->upper;
+  return text + fmt::format("; the true {} is at {} {} ({}{})", gate.unit == GateUnit::AgvHour ? "rate" : "share",
+                            violated ? "least" : "most", bound_text(gate, bound, violated ? rounded_down : rounded_up),
+                            percent(gate.confidence), gate.method == GateMethod::AnyTime ? ", at any time" : "");
+}
+
+Section gate_section(const ReportInput& input) {
+  Section section{"Gates (acceptance criteria)", {}, {}};
+  if (input.gates.empty()) {
+    section.remarks.push_back({"The campaign has no gate.", ""});
+    return section;
+  }
+  section.table.columns = {{"agent", false}, {"end point", false}, {"where", false}, {"failed"}};
+  if (!input.evidence.counts_only()) {
+    section.table.columns.push_back({"upper bound"});
+    section.table.columns.push_back({"limit"});
+  }
+  section.table.columns.push_back({"verdict", false});
+  for (std::size_t i = 0; i < input.gates.size(); ++i) section.table.rows.push_back(row(input, i));
+  std::set<std::string> samples;
+  for (std::size_t i = 0; i < input.gates.size(); ++i) {
+    section.remarks.push_back(remark_of(input, i));
+    const auto& cells = input.evidence.cells_of(i);
+    if (!cells.empty()) samples.insert("Sampled: " + sampled(input.evidence, cells) + ".");
+  }
+  for (const std::string& sample : samples) section.remarks.push_back({sample, ""});
+  return section;
+}
+
+}  // namespace fleetproof
