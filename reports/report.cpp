@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "reports/json_report.hpp"
+#include "reports/junit_report.hpp"
 #include "reports/markdown_report.hpp"
 #include "reports/text_report.hpp"
 #include "reports/wording.hpp"
@@ -12,10 +13,11 @@
 namespace fleetproof {
 namespace {
 
-constexpr std::array<Entry<RenderReport>, 4> kFormats{{
+constexpr std::array<Entry<RenderReport>, 5> kFormats{{
     {"text", "for a terminal: verdicts first, then tables", render_text},
     {"summary", "for a terminal: the verdicts alone", render_summary},
     {"markdown", "for a CI summary: the same page, under 60 KB", render_markdown},
+    {"junit", "for CI: one test case for each gate", render_junit},
     {"json", "for programs: every cell and every figure in full", render_json},
 }};
 

@@ -7,6 +7,7 @@
 #include "reports/evidence/confidence_sequence.hpp"
 #include "reports/evidence/exposure.hpp"
 #include "reports/evidence/poisson_rate.hpp"
+#include "reports/evidence/refutation.hpp"
 #include "reports/evidence/release_gate.hpp"
 
 namespace fleetproof {
@@ -34,7 +35,7 @@ RateInterval bounds_at(const GateRecord& gate, std::uint64_t failing, std::uint6
   if (gate.unit == GateUnit::AgvHour) return per_agv_hour(gate, failing, units, confidence);
   if (gate.method == GateMethod::Fixed)
     return {lower_bound(failing, units, confidence), upper_bound(failing, units, confidence)};
-  return {any_time_interval(failing, units, confidence).lower, largest_limit_not_passed(failing, units, confidence)};
+  return {refuted_limit(failing, units, confidence), largest_limit_not_passed(failing, units, confidence)};
 }
 
 }  // namespace

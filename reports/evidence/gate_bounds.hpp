@@ -12,8 +12,8 @@ namespace fleetproof {
 //
 // Any-time, shares: the upper bound is the largest limit that the release gate (release_gate.hpp) would not pass, so
 // that bound and decision are one: e(limit) grows with the limit, and all limits that it has not rejected form a
-// confidence sequence. The lower bound is that of the beta-binomial sequence. Any-time, AGV-hours: the Gamma-Poisson
-// sequence. Fixed: Clopper-Pearson or Garwood, one-sided. Requires: failing <= units, but for AGV-hours.
+// confidence sequence. The lower bound is the largest limit that is refuted (refutation.hpp). Any-time, AGV-hours: the
+// Gamma-Poisson sequence. Fixed: Clopper-Pearson or Garwood, one-sided. Requires: failing <= units, but for AGV-hours.
 RateInterval gate_bounds(const GateRecord& gate, std::uint64_t failing, std::uint64_t units);
 
 // The number of units that meets the limit if no unit fails beyond the `failing` that did; none if there is no such

@@ -1,9 +1,11 @@
 #include "reports/evidence/gate_table.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "reports/evidence/confidence_sequence.hpp"
 #include "reports/evidence/exposure.hpp"
+#include "reports/evidence/refutation.hpp"
 #include "reports/evidence/release_gate.hpp"
 
 namespace fleetproof {
@@ -28,27 +30,27 @@ std::uint64_t first_with(std::uint64_t low, const Holds& holds) {
   return std::min(low, kMostUnits);
 }
 
-RateInterval sequence(const GateRecord& gate, std::uint64_t failing, std::uint64_t units, Confidence confidence) {
-  return gate.unit == GateUnit::AgvHour ? any_time_rate(failing, agv_hours(units), confidence)
-                                        : any_time_interval(failing, units, confidence);
-}
-
 // The smallest number of units that passes with so many failures.
 std::optional<std::uint64_t> pass_from(const GateRecord& gate, std::uint64_t failing) {
   if (gate.limit <= 0.0) return std::nullopt;
   if (gate.unit != GateUnit::AgvHour) return gate_units_needed(failing, gate.limit, gate.confidence);
-  const std::uint64_t first = first_with(
-      1, [&](std::uint64_t units) { return sequence(gate, failing, units, gate.confidence).upper <= gate.limit; });
+  const std::uint64_t first = first_with(1, [&](std::uint64_t agv_us) {
+    return any_time_rate(failing, agv_hours(agv_us), gate.confidence).upper <= gate.limit;
+  });
   return first < kMostUnits ? std::optional(first) : std::nullopt;
+}
+
+bool is_refuted(const GateRecord& gate, std::uint64_t failing, std::uint64_t units, Confidence confidence) {
+  if (gate.unit == GateUnit::AgvHour) return any_time_rate(failing, agv_hours(units), confidence).lower > gate.limit;
+  return log_refutation(failing, units, gate.limit) >= -std::log(confidence.risk());
 }
 
 std::uint64_t refuted_up_to(const GateRecord& gate, std::uint64_t failing, Confidence confidence) {
   if (failing == 0) return 0;
   const std::uint64_t fewest = gate.unit == GateUnit::AgvHour ? 1 : failing;
-  return first_with(
-             fewest,
-             [&](std::uint64_t units) { return sequence(gate, failing, units, confidence).lower <= gate.limit; }) -
-         1;
+  const std::uint64_t first_open =
+      first_with(fewest, [&](std::uint64_t units) { return !is_refuted(gate, failing, units, confidence); });
+  return first_open > fewest ? first_open - 1 : 0;
 }
 
 }  // namespace

@@ -60,15 +60,27 @@ TEST(AnyTimeGate, ItsBoundIsTheLimitThatItWouldJustPass) {
   EXPECT_EQ(gate_bounds(any_time(0.1), 5, 5).upper, 1.0);
 }
 
-TEST(AnyTimeGate, IsRefutedWhileTheConfidenceSequenceLiesAboveTheLimit) {
+// The mean likelihood ratio of odds that are 2, 5 and 20 times those of the limit, in plain words.
+double refutation(std::uint64_t failing, std::uint64_t units, double limit) {
+  double sum = 0.0;
+  for (const double times : {2.0, 5.0, 20.0}) {
+    const double odds = times * limit / (1.0 - limit), q = odds / (1.0 + odds);
+    sum += std::pow(q / limit, static_cast<double>(failing)) *
+           std::pow((1.0 - q) / (1.0 - limit), static_cast<double>(units - failing));
+  }
+  return sum / 3.0;
+}
+
+TEST(AnyTimeGate, IsRefutedWhileTheEvidenceAgainstItsLimitIsTwentyfold) {
   const GateTable table = gate_table(any_time(0.1), 4, 40);
   for (std::uint64_t failing = 1; failing < 12; ++failing) {
     for (std::uint64_t units = failing; units < 120; ++units) {
-      EXPECT_EQ(refutes(table, failing, units), gate_bounds(any_time(0.1), failing, units).lower > 0.1)
-          << failing << " of " << units;
+      EXPECT_EQ(refutes(table, failing, units), refutation(failing, units, 0.1) >= 20.0) << failing << " of " << units;
+      EXPECT_EQ(refutes(table, failing, units), gate_bounds(any_time(0.1), failing, units).lower > 0.1);
     }
   }
   EXPECT_FALSE(refutes(table, 0, 1));
+  EXPECT_TRUE(refutes(table, 10, 30)) << "ten of thirty worlds deadlock";
 }
 
 TEST(AnyTimeGate, SaysWhatAStoppedNightCarries) {

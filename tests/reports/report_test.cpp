@@ -314,7 +314,7 @@ TEST(Report, hostile_names_change_no_line_of_any_format) {
   };
   const std::string hostile =
       "-\x1b[2J\n`$(id)`|<b>\xc2\x9b\xe2\x80\xae\xff";  // fewer characters than any limit of a page
-  for (const auto* format : {"text", "summary", "markdown", "json"}) {
+  for (const auto* format : {"text", "summary", "markdown", "junit", "json"}) {
     const auto text = page(format, hostile);
     EXPECT_EQ(printable_lines(text), text) << format;
     if (std::string(format) == "json" || std::string(format) == "markdown") {
