@@ -30,6 +30,8 @@ int main(int argc, char** argv) {
            "fleetproof check tests/campaigns/demo.toml", prepare_check},
       Verb{"evidence", "compute one figure of evidence from counts: bounds, plans, gates, comparisons",
            "fleetproof evidence clopper-pearson --failing 3 --units 1000 --confidence 0.95", prepare_evidence},
+      Verb{"compare", "compare two releases: what is worse, better, not worse, or not to be told",
+           "fleetproof compare old.db new.db --fail-on-regression", prepare_compare},
       Verb{"list", "list agents, laws, generators, importers, reports or fields", "fleetproof list agents",
            prepare_list},
   };

@@ -1,84 +1,105 @@
-// Fisher's and McNemar's exact tests, and the guaranteed difference of two releases.
+#include "reports/comparison/release_comparison.hpp"
+
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <utility>
-
-#include "core/base/error.hpp"
-#include "reports/evidence/fisher.hpp"
-#include "reports/evidence/paired.hpp"
-#include "tests/support/reference_table.hpp"
+#include "tests/reports/sample_campaign.hpp"
 
 namespace fleetproof {
 namespace {
 
-using test::expect_close;
-using test::reference_rows;
-
-TEST(FisherExact, meets_the_reference_values) {
-  for (const auto& row : reference_rows("fisher")) {
-    const auto k1 = row.count("k1"), n1 = row.count("n1"), k2 = row.count("k2"), n2 = row.count("n2");
-    const auto result = fisher_exact(k1, n1, k2, n2);
-    expect_close(result.two_sided, row, "p_two_sided");
-    expect_close(result.first_smaller, row, "p_one_sided_rate1_smaller");
-    expect_close(result.first_larger, row, "p_one_sided_rate1_larger");
-    expect_close(result.mid_two_sided, row, "p_mid_two_sided");
-    const auto swapped = fisher_exact(k2, n2, k1, n1);
-    expect_close(swapped.two_sided, row, "p_two_sided");
-    expect_close(swapped.first_larger, row, "p_one_sided_rate1_smaller");
-  }
-}
-
-TEST(FisherExact, equal_or_empty_groups_differ_in_nothing) {
-  EXPECT_EQ(fisher_exact(0, 10, 0, 10).two_sided, 1.0);
-  EXPECT_EQ(fisher_exact(10, 10, 10, 10).two_sided, 1.0);
-  EXPECT_EQ(fisher_exact(0, 0, 0, 0).two_sided, 1.0);
-  EXPECT_EQ(fisher_exact(5, 10, 5, 10).two_sided, 1.0);
-  EXPECT_THROW(fisher_exact(11, 10, 0, 10), InvariantViolation);
-}
-
-TEST(McNemar, meets_the_reference_values) {
-  for (const auto& row : reference_rows("mcnemar")) {
-    const auto result = mcnemar_exact(row.count("b_only_old_violates"), row.count("c_only_new_violates"));
-    expect_close(result.two_sided, row, "p_exact_two_sided");
-    expect_close(result.mid_two_sided, row, "p_mid_two_sided");
-    expect_close(result.new_worse, row, "p_exact_one_sided_new_worse");
-  }
-}
-
-TEST(PairedDifference, meets_the_reference_values) {
-  for (const auto& row : reference_rows("paired_difference")) {
-    const PairedCounts counts{row.count("both"), row.count("only_old"), row.count("only_new"), row.count("neither")};
-    const auto result = paired_difference(counts, row["confidence"]);
-    expect_close(result.difference, row, "delta_new_minus_old");
-    expect_close(result.lower, row, "split_exact_lower");
-    expect_close(result.upper, row, "split_exact_upper");
-    expect_close(result.one_sided_upper, row, "split_exact_one_sided_upper");
-  }
-}
-
-double factorial(std::uint64_t n) { return n == 0 ? 1.0 : static_cast<double>(n) * factorial(n - 1); }
-
-// The probabilities of all outcomes of a few pairs, summed where the statement is true.
-TEST(PairedDifference, covers_the_true_difference) {
-  constexpr std::uint64_t kPairs = 12;
-  for (const auto& [old_only, new_only] : {std::pair{0.05, 0.05}, {0.3, 0.1}, {0.0, 0.25}, {0.02, 0.6}, {0.5, 0.5}}) {
-    double covered = 0.0, below_upper = 0.0;
-    for (std::uint64_t b = 0; b <= kPairs; ++b) {
-      for (std::uint64_t c = 0; b + c <= kPairs; ++c) {
-        const auto rest = kPairs - b - c;
-        const double probability = factorial(kPairs) / factorial(b) / factorial(c) / factorial(rest) *
-                                   std::pow(old_only, b) * std::pow(new_only, c) *
-                                   std::pow(1.0 - old_only - new_only, rest);
-        const auto result = paired_difference({0, b, c, rest}, 0.9);
-        const double truth = new_only - old_only;
-        if (result.lower <= truth && truth <= result.upper) covered += probability;
-        if (truth <= result.one_sided_upper) below_upper += probability;
-      }
+// Releases in two cells; `fails` says which runs break the safety distance.
+ReleaseRuns release(const std::string& agent, std::uint64_t worlds,
+                    const std::function<bool(std::uint64_t world, std::size_t cell)>& fails, std::uint64_t seed = 1) {
+  ReleaseRuns runs{agent + ".db", agent, samples::campaign_of("claim", worlds), {}, {}};
+  runs.campaign.seed = seed;
+  runs.cells = samples::grid({agent}, {0.0, 0.4}, {2.0});
+  for (std::uint64_t world = 0; world < worlds; ++world) {
+    auto& replicate = runs.replicates.emplace_back();
+    for (std::size_t cell = 0; cell < 2; ++cell) {
+      ComparedRun& run = replicate.emplace_back();
+      run.run_index = 2 * world + cell;
+      if (fails(world, cell)) run.results[0] = RunResult::Failed;  // Violation
+      run.transports_done = 10;
+      run.agv_us = 3'600'000'000;
     }
-    EXPECT_GE(covered, 0.9 - 1e-12) << old_only << " " << new_only;
-    EXPECT_GE(below_upper, 0.9 - 1e-12) << old_only << " " << new_only;
   }
+  return runs;
+}
+
+bool never(std::uint64_t, std::size_t) { return false; }
+
+TEST(Comparison, CountsWorldsThatDiffer) {
+  const auto old_release = release("a", 20, [](std::uint64_t world, std::size_t) { return world < 3; });
+  const auto new_release =
+      release("b", 20, [](std::uint64_t world, std::size_t cell) { return cell == 1 && world >= 2 && world < 14; });
+  const Comparison found = compare(old_release, new_release, {});
+  ASSERT_TRUE(found.paired) << found.why_unpaired;
+  const EndPointChange& violation = found.end_points[0];
+  EXPECT_EQ(violation.old_failing, 3U);
+  EXPECT_EQ(violation.new_failing, 12U);
+  EXPECT_EQ(violation.pairs->both, 1U);
+  EXPECT_EQ(violation.pairs->only_old, 2U);
+  EXPECT_EQ(violation.pairs->only_new, 11U);
+  // P(X >= 11), X binomial of 13 and 1/2: (78 + 13 + 1) / 8192.
+  EXPECT_NEAR(violation.worse_p, 92.0 / 8192.0, 1e-15);
+  EXPECT_EQ(violation.change, Change::Worse);
+  EXPECT_EQ(found.newly_failing.size(), 11U) << "world 2 failed before in this cell, too";
+  EXPECT_EQ(found.newly_failing.front(), 7U) << "world 3, second cell";
+  EXPECT_EQ(found.newly_passing.size(), 2U * 3U - 1U);
+  EXPECT_EQ(compare(new_release, old_release, {}).end_points[0].change, Change::Improved);
+}
+
+TEST(Comparison, NoDifferenceIsNoEvidenceWithoutEnoughWorlds) {
+  const Comparison few = compare(release("a", 20, never), release("b", 20, never), {});
+  EXPECT_EQ(few.end_points[0].change, Change::CannotTell);
+  ASSERT_TRUE(few.end_points[0].worlds_needed.has_value());
+  const std::uint64_t enough = *few.end_points[0].worlds_needed;
+  EXPECT_GT(enough, 20U);
+  EXPECT_EQ(compare(release("a", enough, never), release("b", enough, never), {}).end_points[0].change,
+            Change::NotWorse);
+  EXPECT_EQ(compare(release("a", enough - 20, never), release("b", enough - 20, never), {}).end_points[0].change,
+            Change::CannotTell);
+}
+
+TEST(Comparison, OtherSeedsOrScenariosAreNotPaired) {
+  const auto fails_often = [](std::uint64_t world, std::size_t) { return world % 2 == 0; };
+  const Comparison seeds = compare(release("a", 40, never, 1), release("b", 30, fails_often, 2), {});
+  EXPECT_FALSE(seeds.paired);
+  EXPECT_EQ(seeds.why_unpaired, "the seeds differ");
+  EXPECT_FALSE(seeds.end_points[0].pairs.has_value());
+  EXPECT_EQ(seeds.end_points[0].old_worlds, 40U);
+  EXPECT_EQ(seeds.end_points[0].new_worlds, 30U);
+  EXPECT_EQ(seeds.end_points[0].change, Change::Worse) << "0 of 40 against 15 of 30";
+  auto other = release("b", 40, never);
+  other.cells[1].lowest[Factor::Loss] = 0.3;
+  EXPECT_EQ(compare(release("a", 40, never), other, {}).why_unpaired, "the cells differ");
+}
+
+TEST(Comparison, ReleasesMayHaveOtherNamesAgentsAndGatesButNoOtherWorlds) {
+  const auto planned = [](const std::string& text) {
+    auto runs = release("a", 2, never);
+    runs.campaign.plan_json = text;
+    return runs;
+  };
+  const auto base =
+      planned(R"({"name": "a", "horizon_s": 60, "gates": [1], "factors": {"agents": ["a"], "loss": [0]}})");
+  const auto same =
+      planned(R"({"name": "b", "horizon_s": 60, "gates": [], "factors": {"agents": ["b"], "loss": [0]}})");
+  const auto longer = planned(R"({"name": "a", "horizon_s": 90, "factors": {"agents": ["a"], "loss": [0]}})");
+  EXPECT_TRUE(compare(base, same, {}).paired);
+  EXPECT_EQ(compare(base, longer, {}).why_unpaired, "the plans differ in /horizon_s");
+}
+
+TEST(Comparison, WhatStayedUnknownCountsAsFailing) {
+  auto crashing = release("b", 20, never);
+  for (std::uint64_t world = 0; world < 8; ++world) crashing.replicates[world][0].results[0] = RunResult::Unknown;
+  EXPECT_EQ(compare(release("a", 20, never), crashing, {}).end_points[0].change, Change::Worse);
+}
+
+TEST(Comparison, WithoutWorldsNothingIsSaid) {
+  const Comparison none = compare(release("a", 0, never), release("b", 0, never), {});
+  EXPECT_EQ(none.end_points[0].change, Change::CannotTell);
+  EXPECT_FALSE(none.end_points[0].worlds_needed.has_value());
 }
 
 }  // namespace

@@ -1,0 +1,49 @@
+#include "reports/comparison/release_runs.hpp"
+
+#include <algorithm>
+
+namespace fleetproof {
+
+bool ComparedRun::is_clean() const {
+  return std::ranges::all_of(results, [](RunResult result) { return result == RunResult::Passed; });
+}
+
+std::vector<std::string> agents_to_compare(const ArchiveReader& archive) {
+  std::vector<std::string> deciding, all;
+  const auto add = [](std::vector<std::string>& list, const std::string& agent) {
+    if (std::ranges::find(list, agent) == list.end()) list.push_back(agent);
+  };
+  for (const GateRecord& gate : archive.gates()) {
+    if (gate.decides) add(deciding, gate.agent);
+  }
+  for (const CellRecord& cell : archive.cells()) add(all, cell.agent);
+  return deciding.empty() ? all : deciding;
+}
+
+ReleaseRuns read_release(const ArchiveReader& archive, std::string path, const std::string& agent) {
+  ReleaseRuns release{std::move(path), agent, archive.campaign(), {}, {}};
+  for (const CellRecord& cell : archive.cells()) {
+    if (cell.agent == agent) release.cells.push_back(cell);
+  }
+  std::uint64_t next = 0;  // the runs before the first gap count
+  std::vector<ComparedRun> replicate;
+  archive.for_each_run([&](const RunRecord& run) {
+    if (run.run_index != next) return;
+    ++next;
+    if (archive.cells()[run.cell].agent == agent) {
+      ComparedRun& compared = replicate.emplace_back();
+      compared.run_index = run.run_index;
+      for (std::size_t i = 0; i < kComparedEndPoints.size(); ++i)
+        compared.results[i] = result_of(run.outcome, kComparedEndPoints[i]);
+      compared.transports_done = run.outcome.counters.transports_done;
+      compared.agv_us = run.outcome.simulated_ns / 1000 * run.outcome.agv_count;
+    }
+    if (run.cell + 1 == archive.cells().size()) {
+      release.replicates.push_back(std::move(replicate));
+      replicate.clear();
+    }
+  });
+  return release;
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "reports/evidence/run_result.hpp"
+#include "storage/archive_reader.hpp"
+
+namespace fleetproof {
+
+// The end points that two releases are compared on. Throughput is compared for itself.
+inline constexpr std::array kComparedEndPoints{EndPoint::Violation, EndPoint::Contact,    EndPoint::Deadlock,
+                                               EndPoint::Livelock,  EndPoint::Starvation, EndPoint::WrongLoad,
+                                               EndPoint::Crash,     EndPoint::Hang};
+
+// What a comparison needs of one run.
+struct ComparedRun {
+  std::uint64_t run_index = 0;
+  std::array<RunResult, kComparedEndPoints.size()> results{};
+  std::uint64_t transports_done = 0, agv_us = 0;
+
+  bool is_clean() const;  // no end point failed or stayed unknown
+};
+
+// The runs of one agent in one campaign file: complete replicates, each with one run for each of the agent's cells, in
+// the order of the file.
+struct ReleaseRuns {
+  std::string path, agent;
+  CampaignRecord campaign;
+  std::vector<CellRecord> cells;                     // of this agent
+  std::vector<std::vector<ComparedRun>> replicates;  // [replicate][cell of this agent]
+};
+
+// The agents that an archive can compare: those whose gates decide; all agents if no gate does.
+std::vector<std::string> agents_to_compare(const ArchiveReader& archive);
+
+// Requires: the campaign has this agent.
+ReleaseRuns read_release(const ArchiveReader& archive, std::string path, const std::string& agent);
+
+}  // namespace fleetproof
