@@ -29,7 +29,7 @@ std::string replay_line(const ReportInput& input, std::uint64_t run_index) {
   return replay_command(input.archive_path, run_index);
 }
 
-ReportInput read_report_input(const ArchiveReader& archive, std::string archive_path) {
+ReportInput read_report_input(const ArchiveReader& archive, std::string archive_path, const AlsoCount& also) {
   ReportInput input{std::move(archive_path),
                     archive.campaign(),
                     Evidence(archive.campaign(), archive.cells(), archive.gates()),
@@ -40,7 +40,9 @@ ReportInput read_report_input(const ArchiveReader& archive, std::string archive_
   archive.for_each_run([&](const RunRecord& run) {
     ++input.stored_runs;
     input.audits.add_run(run);
-    if (run.run_index == input.evidence.runs()) input.evidence.add(run);
+    if (run.run_index != input.evidence.runs()) return;
+    input.evidence.add(run);
+    if (also) also(run, input.evidence);
   });
   archive.for_each_audit([&](const AuditRecord& audit, bool same) {
     if (audit.run_index < input.evidence.runs()) input.audits.add_audit(audit.run_index, same);

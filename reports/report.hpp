@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,8 +24,10 @@ struct ReportInput {
   int exit_code = 4;
 };
 
-// Reads all runs of the archive and judges the runs before the first gap. Throws EngineError if the archive is damaged.
-ReportInput read_report_input(const ArchiveReader& archive, std::string archive_path);
+// Reads all runs of the archive and judges the runs before the first gap. `also` gets each of those runs after the
+// evidence did, so that a page that counts more needs no second pass. Throws EngineError if the archive is damaged.
+using AlsoCount = std::function<void(const RunRecord&, const Evidence&)>;
+ReportInput read_report_input(const ArchiveReader& archive, std::string archive_path, const AlsoCount& also = {});
 
 // The command that replays a run.
 std::string replay_line(const ReportInput& input, std::uint64_t run_index);

@@ -55,13 +55,14 @@ const std::map<std::string, std::set<std::string>> kMayInclude = [] {
       {"storage", {"core/base", "core/outcome"}},
       {"reports/evidence", {"core/base", "core/outcome", "storage"}},
       {"reports", {"core/base", "core/outcome", "storage", "reports/evidence"}},
+      {"reports/html", {"core/base", "core/outcome", "storage", "reports/evidence", "reports"}},
   };
   rooms["campaign/plan"] = with(with(model, generators), {"core/outcome", "laws", "storage"});
   rooms["campaign/run"] = with(with(core, generators), {"core/engine", "core/sdk", "core/agents", "laws", "storage",
                                                         "reports/evidence", "campaign/plan"});
   rooms["campaign/workers"] = with(rooms["campaign/run"], {"campaign/run"});
   rooms["campaign/batch"] = with(rooms["campaign/workers"], {"campaign/workers"});
-  rooms["campaign/cli"] = with(rooms["campaign/batch"], {"campaign/batch", "reports"});
+  rooms["campaign/cli"] = with(rooms["campaign/batch"], {"campaign/batch", "reports", "reports/html"});
   return rooms;
 }();
 

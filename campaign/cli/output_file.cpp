@@ -33,7 +33,8 @@ bool is_picture(std::string_view text) {
 bool is_scenario(std::string_view text) { return has_key(text, "agvs"); }
 // Every format for people begins with the title.
 bool is_report(std::string_view text) {
-  return text.starts_with("fleetproof report") || text.starts_with("# fleetproof report") ||
+  const bool is_page = text.starts_with("<!DOCTYPE html>") && text.find("fleetproof report") != std::string_view::npos;
+  return is_page || text.starts_with("fleetproof report") || text.starts_with("# fleetproof report") ||
          text.find("<testsuites name=\"fleetproof\"") != std::string_view::npos ||
          (has_key(text, "schema_version") && has_key(text, "verdict"));
 }

@@ -8,12 +8,14 @@
 #include "campaign/cli/render.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
+#include "core/base/error.hpp"
+#include "reports/html/html_report.hpp"
 
 namespace fleetproof::cli {
 namespace {
 
 struct ReportWords {
-  std::string archive, format = "text", out;
+  std::string archive, format = "text", out, html;
   bool json = false, digest = false, exit_zero = false;
 };
 
@@ -38,12 +40,27 @@ void print_digest(const ArchiveReader& archive, bool json) {
   put_text(printable_json(object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) + "\n");
 }
 
+int exit_code_of(const ReportInput& input, const ReportWords& words) {
+  tell_ci(input);
+  return words.exit_zero && input.exit_code != 3 ? kDemonstrated : input.exit_code;
+}
+
+int html_report(const ArchiveReader& archive, const ReportWords& words) {
+  if (!words.out.empty() || words.json || words.format != "text")
+    throw InputError("--html",
+                     "writes a page of its own; leave out --output, --json and --format, or call report twice");
+  const HtmlInput input = read_html_input(archive, words.archive);
+  write_whole({words.html, "--html", OutputKind::Report}, render_html(input));
+  return exit_code_of(input.report, words);
+}
+
 int report(const ReportWords& words) {
   const ArchiveReader archive(words.archive);
   if (words.digest) {
     print_digest(archive, words.json);
     return kDemonstrated;
   }
+  if (!words.html.empty()) return html_report(archive, words);
   const ReportInput input = read_report_input(archive, words.archive);
   const std::string text = render(input, words.json ? "json" : words.format);
   if (words.out.empty()) {
@@ -51,8 +68,7 @@ int report(const ReportWords& words) {
   } else {
     write_whole({words.out, "--output", OutputKind::Report}, text);
   }
-  tell_ci(input);
-  return words.exit_zero && input.exit_code != 3 ? kDemonstrated : input.exit_code;
+  return exit_code_of(input, words);
 }
 
 }  // namespace
@@ -62,6 +78,7 @@ Action prepare_report(Options& options) {
   options.positional("DB", words->archive, "campaign file");
   options.option("--format", words->format, "text (default), markdown, junit, json or summary");
   options.option("-o,--output", words->out, "write the report to this file instead of standard output");
+  options.option("--html", words->html, "write one self-contained HTML page with maps and charts to this file");
   options.flag("--json", words->json, "the same as --format json");
   options.flag("--digest", words->digest,
                "print one digest of plan and results, the same from every build, and beside it the engine");

@@ -1,0 +1,155 @@
+#include "reports/html/html_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "reports/html/campaign_charts.hpp"
+#include "reports/html/look.hpp"
+#include "reports/html/plan_conditions.hpp"
+#include "reports/html/section_tables.hpp"
+#include "reports/page.hpp"
+#include "reports/wording.hpp"
+
+namespace fleetproof {
+namespace {
+
+using html::Element;
+using html::paragraph;
+using html::text_element;
+using html::titled;
+
+constexpr std::size_t kMostRows = 300, kMostPlanBytes = 100'000;
+
+Element head_of(const Page& page) {
+  Element head("head");
+  head.add(Element("meta", {{"charset", "utf-8"}}));
+  head.add(Element("meta", {{"http-equiv", "Content-Security-Policy"},
+                            {"content",
+                             "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src "
+                             "data:"}}));
+  head.add(Element("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}}));
+  head.add(Element("meta", {{"name", "generator"}, {"content", "fleetproof report"}}));
+  head.add(text_element("title", page.title));
+  return head.add(Element("style").literal(html::style_sheet()));
+}
+
+double fleet_hours(const Evidence& evidence) {
+  Tally sum;
+  for (const auto& cell : evidence.cells()) sum.add(evidence.tally(cell.index));
+  return sum.agv_hours();
+}
+
+Element facts_of(const std::vector<html::Fact>& facts) {
+  Element body("tbody");
+  for (const auto& [name, value] : facts) {
+    Element row("tr");
+    row.add(text_element("th", name, {{"scope", "row"}, {"align", "left"}}));
+    body.add(row.add(text_element("td", value)));
+  }
+  return Element("table", {{"class", "facts"}, {"cellpadding", "4"}}).add(body);
+}
+
+Element conditions_part(const ReportInput& input) {
+  const auto& campaign = input.campaign;
+  const auto& evidence = input.evidence;
+  auto facts = html::plan_conditions(campaign.plan_json);
+  facts.emplace_back("Cells (test conditions)", std::to_string(evidence.cells().size()));
+  facts.emplace_back("Runs",
+                     fmt::format("{} judged, {} of {} complete", evidence.runs(), evidence.complete_replicates(),
+                                 count_text(evidence.planned_replicates(), "planned replicate")));
+  facts.emplace_back("Fleet-hours", fmt::format("{:.1f} AGV-hours simulated", fleet_hours(evidence)));
+  facts.emplace_back("Software",
+                     fmt::format("fleetproof {}, sha256 {}", campaign.engine.version, campaign.engine.program_sha256));
+  facts.emplace_back("Plan digest", hex_text(campaign.plan_hash));
+  Element part = titled("Conditions");
+  part.add(paragraph(
+      "A run is one simulation of one agent. A cell (test condition) is one combination of agent, layout, fleet size "
+      "and radio quality. A law (monitor) watches each run and files what must not happen. A gate (acceptance "
+      "criterion) is fixed before the first run. An agent named hull-lock drives within hulls (envelopes) that it "
+      "locks first."));
+  return part.add(facts_of(facts));
+}
+
+Element listed(const std::string& title, std::initializer_list<const char*> items) {
+  Element part = titled(title);
+  Element list("ul");
+  for (const char* item : items) list.add(text_element("li", item));
+  return part.add(list);
+}
+
+Element limits_part() {
+  return listed("What this page does not say",
+                {"That the software is safe, or that no collision is possible. It says how rare failures are under the "
+                 "conditions above, with a stated confidence.",
+                 "A performance level, a safety integrity level, a rate of dangerous failures of a safety function, or "
+                 "conformity with a standard such as ISO 3691-4.",
+                 "Anything about other layouts, fleets, loads or radio than those sampled, about another version of "
+                 "the software, about hardware faults that were not injected, or about attacks.",
+                 "Anything about real vehicles beyond what the simulator was validated for. It does not look at the "
+                 "safety of people.",
+                 "That the release is safe with 95 % probability: 95 % is how often this procedure is right in the "
+                 "long run. Very small rates, such as one in a billion hours, are out of reach of testing alone.",
+                 "What a typical site will see: 40 % loss and 2 s delay are stress, not typical radio."});
+}
+
+Element assumptions_part() {
+  return listed("Assumptions and known gaps of the model",
+                {"Vehicles, loads and obstacles are rigid shapes in a plane. Height, tilt and wheel slip are not "
+                 "modelled.",
+                 "Motion follows the speed and acceleration of the vehicle type exactly, apart from the deviations "
+                 "that the plan draws. Sideways travel, doors and lifts are not modelled.",
+                 "The radio loses and delays messages by the models that the plan names. Walls and racks do not "
+                 "weaken it.",
+                 "Position and battery are known to the agent without error unless the plan says otherwise.",
+                 "People are not modelled. Without the safety scanner, only the software keeps the distance."});
+}
+
+Element plan_part(const ReportInput& input) {
+  Element details("details");
+  details.add(text_element("summary", "The resolved plan"));
+  const auto plan = html::plan_listing(input.campaign.plan_json, kMostPlanBytes);
+  if (plan.empty()) return details.add(paragraph("The campaign file holds no plan text."));
+  return details.add(Element("pre").add(Element("code").lines(plan)));
+}
+
+bool is_provenance(const Section& section) { return section.title == "Provenance"; }
+
+}  // namespace
+
+HtmlInput read_html_input(const ArchiveReader& archive, std::string archive_path) {
+  html::CampaignFigures figures;
+  const auto count = [&](const RunRecord& run, const Evidence& evidence) { figures.add(run, evidence); };
+  ReportInput report = read_report_input(archive, std::move(archive_path), count);
+  figures.finish(report.evidence);
+  return {std::move(report), std::move(figures)};
+}
+
+std::string render_html(const HtmlInput& input) {
+  const Page page = build_page(input.report, kMostRows);
+  ensure(!page.sections.empty(), "the gates stand first on a page");
+  Element main("main");
+  main.add(text_element("h1", page.title));
+  for (const Headline& headline : page.headlines) main.add(html::headline_of(headline));
+  const auto gates = page.sections.begin();
+  main.add(html::section_of(*gates));
+  main.add(conditions_part(input.report)).add(html::map_part(input.report, input.figures));
+  main.add(html::clearance_part(input.report, input.figures)).add(html::effort_part(input.report, input.figures));
+  main.add(html::section_of(html::layout_table(input.report))).add(html::section_of(html::fleet_table(input.report)));
+  const auto provenance = std::ranges::find_if(page.sections, is_provenance);
+  for (auto section = std::next(gates); section != provenance; ++section) main.add(html::section_of(*section));
+  main.add(html::section_of(html::failure_table(input.report, input.figures)));
+  for (auto section = provenance; section != page.sections.end(); ++section) {
+    Element part = html::section_of(*section);
+    main.add(is_provenance(*section) ? part.add(plan_part(input.report)) : part);
+  }
+  main.add(assumptions_part()).add(limits_part());
+  Element root("html", {{"lang", "en"}});
+  root.add(head_of(page)).add(Element("body").add(main).add(Element("script").literal(html::script())));
+  return "<!DOCTYPE html>\n" + root.str() + "\n";
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "reports/html/campaign_figures.hpp"
+#include "reports/report.hpp"
+
+namespace fleetproof {
+
+// A report with all that the page shows beside it.
+struct HtmlInput {
+  ReportInput report;
+  html::CampaignFigures figures;
+};
+
+// Reads all runs of the archive, once. Throws as read_report_input does.
+HtmlInput read_html_input(const ArchiveReader& archive, std::string archive_path);
+
+// One page that needs no other file and no network. It is also well-formed XML.
+std::string render_html(const HtmlInput& input);
+
+}  // namespace fleetproof

@@ -1,0 +1,86 @@
+#include "reports/html/markup.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/base/error.hpp"
+#include "core/base/outside_text.hpp"
+
+namespace fleetproof::html {
+namespace {
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  out.reserve(text.size());
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\'':
+        out += "&#39;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string Attribute::number_text(double value) {
+  ensure(std::isfinite(value), "a number on a page is finite");
+  const double tenths = std::round(value * 10.0) / 10.0;
+  return fmt::format("{}", tenths == 0.0 ? 0.0 : tenths);
+}
+
+Element::Element(Word name, std::initializer_list<Attribute> attributes) : name_(name) {
+  for (const Attribute& attribute : attributes)
+    attributes_ += fmt::format(" {}=\"{}\"", attribute.name.text(), escaped(printable(attribute.value)));
+}
+
+Element& Element::text(std::string_view text) {
+  content_ += escaped(printable(text));
+  return *this;
+}
+
+Element& Element::lines(std::string_view text) {
+  content_ += escaped(printable_lines(text));
+  return *this;
+}
+
+Element& Element::add(const Element& child) {
+  content_ += child.str();
+  return *this;
+}
+
+Element& Element::literal(Literal text) {
+  content_ += text.text();
+  return *this;
+}
+
+bool Element::is_void() const { return name_.text() == "meta" || name_.text() == "br"; }
+
+std::string Element::str() const {
+  if (is_void()) return fmt::format("<{}{}/>", name_.text(), attributes_);
+  return fmt::format("<{0}{1}>{2}</{0}>", name_.text(), attributes_, content_);
+}
+
+Element text_element(Word name, std::string_view text, std::initializer_list<Attribute> attributes) {
+  Element element(name, attributes);
+  element.text(text);
+  return element;
+}
+
+}  // namespace fleetproof::html

@@ -1,0 +1,181 @@
+#include "reports/html/plan_conditions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "core/base/outside_text.hpp"
+#include "reports/wording.hpp"
+
+namespace fleetproof::html {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kMostListed = 40;
+
+const Json& part(const Json& object, const char* key) {
+  static const Json none = Json::object();
+  const auto found = object.is_object() ? object.find(key) : object.end();
+  return found == object.end() ? none : *found;
+}
+
+double number(const Json& object, const char* key) {
+  const Json& value = part(object, key);
+  return value.is_number() ? value.get<double>() : 0.0;
+}
+
+std::string word(const Json& value) {
+  if (value.is_string()) return printable(value.get<std::string>(), 60);
+  if (value.is_number()) return fmt::format("{:g}", value.get<double>());
+  if (value.is_object() && value.contains("from"))
+    return fmt::format("{} to {}", word(part(value, "from")), word(part(value, "to")));
+  if (value.is_object() && value.contains("name")) return word(value.at("name"));
+  return printable(value.dump(-1, ' ', false, Json::error_handler_t::replace), 60);
+}
+
+std::string list(const Json& values, double scale = 1.0) {
+  std::vector<std::string> words;
+  for (const Json& value : values.is_array() ? values : Json::array({values})) {
+    if (words.size() == kMostListed) {
+      words.push_back(fmt::format("and {} more", values.size() - kMostListed));
+      break;
+    }
+    if (value.is_number()) {
+      words.push_back(fmt::format("{:g}", value.get<double>() * scale));
+    } else if (value.is_object() && value.contains("from")) {
+      words.push_back(fmt::format("{:g} to {:g}", number(value, "from") * scale, number(value, "to") * scale));
+    } else {
+      words.push_back(word(value));
+    }
+  }
+  return joined(words);
+}
+
+std::string layouts_text(const Json& layouts) {
+  std::vector<std::string> words;
+  for (const Json& layout : layouts) {
+    if (words.size() == kMostListed) break;
+    const Json& map = part(part(layout, "content"), "layout");
+    const auto kind = map.empty() ? std::string("drawn anew in each world")
+                                  : fmt::format("given: {} stations (nodes), {} segments (edges)",
+                                                part(map, "stations").size(), part(map, "segments").size());
+    words.push_back(fmt::format("{} ({}{})", word(layout), kind, layout.contains("mutate") ? ", mutated" : ""));
+  }
+  return joined(words, "; ");
+}
+
+std::string vehicle_text(const Json& vehicle) {
+  return fmt::format("{}: {:g} m x {:g} m, {:g} m/s, accelerates {:g} m/s², brakes {:g} m/s², share {}",
+                     word(part(vehicle, "name")), number(vehicle, "length_m"), number(vehicle, "width_m"),
+                     number(vehicle, "speed_mps"), number(vehicle, "acceleration_mps2"),
+                     number(vehicle, "deceleration_mps2"), percent(number(vehicle, "share")));
+}
+
+std::string vehicles_text(const Json& vehicles) {
+  std::vector<std::string> words;
+  for (const Json& vehicle : vehicles) {
+    if (words.size() < kMostListed) words.push_back(vehicle_text(vehicle));
+  }
+  return joined(words, "; ");
+}
+
+bool is_on(const Json& object) {
+  const Json& on = part(object, "on");
+  return on.is_boolean() && on.get<bool>();
+}
+
+// Every fault that can strike, with its rate; how long it lasts stands in the plan below.
+std::string faults_text(const Json& faults) {
+  std::vector<std::string> words;
+  for (const auto& [key, value] : faults.items()) {
+    const bool is_rate = key.find("_per_") != std::string::npos || key.starts_with("clock_") ||
+                         key.starts_with("position_") || key == "low_battery_share";
+    if (is_rate && value.is_number() && value.get<double>() != 0.0) {
+      std::string name = printable(key, 60);
+      std::ranges::replace(name, '_', ' ');
+      words.push_back(fmt::format("{} {:g}", name, value.get<double>()));
+    }
+  }
+  return words.empty() ? "none injected" : joined(words);
+}
+
+std::string radio_text(const Json& radio) {
+  auto text =
+      fmt::format("delay {}, losses {} by {}, range {:g} m", word(part(radio, "delay_model")),
+                  word(part(radio, "outage_model")), word(part(radio, "outage_scope")), number(radio, "range_m"));
+  if (number(radio, "duplicates") > 0.0) text += fmt::format(", duplicates {}", percent(number(radio, "duplicates")));
+  if (part(radio, "interference") == Json(true)) text += ", interference";
+  if (number(radio, "sources") > 0.0) text += fmt::format(", {:g} outside sources", number(radio, "sources"));
+  if (part(radio, "roaming_at_crossing") == Json(true)) text += ", roaming";
+  return text;
+}
+
+std::string laws_text(const Json& law) {
+  const Json& left_out = part(law, "leave_out");
+  return left_out.empty() ? "all" : "all but " + list(left_out);
+}
+
+std::string transports_text(const Json& plan) {
+  const Json& world = part(plan, "world");
+  const auto placement = word(part(world, "placement"));
+  return fmt::format("{:g} per AGV-hour, placement {}", number(world, "transports_per_agv_hour"), placement);
+}
+
+void shorten(Json& value) {
+  if (value.is_array() && value.size() > kMostListed) {
+    const auto more = value.size() - kMostListed;
+    value.erase(value.begin() + kMostListed, value.end());
+    value.push_back(fmt::format("... and {} more", more));
+  }
+  if (!value.is_structured()) return;
+  for (auto& [key, item] : value.items()) {
+    if (key == "content") {
+      const Json& map = part(item, "layout");
+      item = fmt::format("{} stations, {} segments, in the campaign file", part(map, "stations").size(),
+                         part(map, "segments").size());
+    } else {
+      shorten(item);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Fact> plan_conditions(const std::string& plan_json) {
+  const Json plan = Json::parse(plan_json, nullptr, false);
+  if (!plan.is_object() || !plan.contains("factors")) return {};
+  const Json &factors = part(plan, "factors"), &law = part(plan, "law");
+  std::vector<Fact> facts;
+  const auto add = [&](const char* name, std::string value) { facts.emplace_back(name, std::move(value)); };
+  add("Safety distance", fmt::format("{:g} m", number(law, "safety_distance_m")));
+  add("Laws (monitors)", laws_text(law));
+  add("Agents (control software)", list(part(factors, "agents")));
+  add("Loss", list(part(factors, "loss"), 100.0) + " %");
+  add("Delay", list(part(factors, "delay_s")) + " s");
+  if (const Json& outage = part(factors, "mean_outage_s"); outage != Json::array({0.0}))
+    add("Mean outage", list(outage) + " s (0 = losses are independent)");
+  add("Radio", radio_text(part(plan, "radio")));
+  add("Layouts", layouts_text(part(factors, "layouts")));
+  add("Fleet sizes", list(part(factors, "fleet_sizes")) + " AGVs");
+  add("Vehicles", vehicles_text(part(plan, "vehicles")));
+  add("Transports (orders)", transports_text(plan));
+  add("Faults", faults_text(part(plan, "faults")));
+  add("Safety scanner", is_on(part(plan, "scanner")) ? "on" : "off: only the software keeps the distance");
+  add("Operator", is_on(part(plan, "operator")) ? "clears jams" : "never intervenes");
+  add("Horizon of a run", fmt::format("{:g} s simulated", number(plan, "horizon_s")));
+  return facts;
+}
+
+std::string plan_listing(const std::string& plan_json, std::size_t most_bytes) {
+  Json plan = Json::parse(plan_json, nullptr, false);
+  if (plan.is_discarded()) return "";
+  shorten(plan);
+  std::string text = printable_lines(plan.dump(1, ' ', false, Json::error_handler_t::replace));
+  if (text.size() <= most_bytes) return text;
+  text.resize(text.rfind('\n', most_bytes));
+  return text + "\n... (the rest stands in the campaign file)";
+}
+
+}  // namespace fleetproof::html

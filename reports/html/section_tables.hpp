@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "reports/html/campaign_figures.hpp"
+#include "reports/html/markup.hpp"
+#include "reports/page.hpp"
+
+namespace fleetproof::html {
+
+// A part of the page with a heading.
+Element titled(const std::string& title);
+Element paragraph(const std::string& text);
+
+Element table_of(const Table& table);
+// A remark as an item of a list: its sentence, and its command as a line to copy.
+Element item_of(const Remark& remark);
+Element section_of(const Section& section);
+Element headline_of(const Headline& headline);
+
+// Counts by layout and by fleet size, within the contract and beyond it.
+Section layout_table(const ReportInput& input);
+Section fleet_table(const ReportInput& input);
+
+// Failing runs by agent, end point and first cause, at most 50 groups.
+Section failure_table(const ReportInput& input, const CampaignFigures& figures);
+
+}  // namespace fleetproof::html
