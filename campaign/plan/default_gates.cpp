@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "campaign/plan/scenario_source.hpp"
 #include "core/scenario/ways.hpp"
@@ -12,14 +13,16 @@ namespace fleetproof {
 namespace {
 
 constexpr double kShareOfUndisturbed = 0.05, kShareOfDemand = 0.5;
+constexpr double kUnknownFloor = 1.0;      // if no run is long enough for an order
+constexpr double kTransportsInARun = 4.0;  // a shorter run says little about throughput
 
 double length_m(const LogicalMap& map, StationId from, StationId to) {
   return shortest_ways(map, from, to).back().length_m;
 }
 
-// The transports per hour of an AGV that has the warehouse to itself, drives at full speed all the time and always has
-// an order. The mean over the AGVs and orders of the first world of each layout and fleet.
-double undisturbed_per_hour(const CampaignPlan& plan) {
+// The time of a transport for an AGV that has the warehouse to itself, drives at full speed all the time and always has
+// an order: the mean over the AGVs and orders of the first world of each layout and fleet. None without orders.
+std::optional<double> undisturbed_transport_s(const CampaignPlan& plan) {
   const ScenarioSource scenarios(plan);
   double busy_s = 0.0, transports = 0.0;
   for (std::uint64_t index = 0; index < plan.cell_count(); index += plan.cells_per_world()) {
@@ -35,14 +38,17 @@ double undisturbed_per_hour(const CampaignPlan& plan) {
       }
     }
   }
-  return busy_s > 0.0 ? 3600.0 * transports / busy_s : 0.0;
+  return busy_s > 0.0 ? std::optional(busy_s / transports) : std::nullopt;
 }
 
-// With two digits, because people read it.
-double throughput_floor(const CampaignPlan& plan) {
-  const double wanted = plan.orders ? undisturbed_per_hour(plan) : plan.demand.transports_per_agv_hour;
-  const double floor = std::min(kShareOfUndisturbed * undisturbed_per_hour(plan), kShareOfDemand * wanted);
-  return std::floor(floor * 100.0) / 100.0;
+// What the fleet has to get done per AGV-hour. With two digits, because people read it.
+double throughput_floor(const CampaignPlan& plan, std::optional<double> transport_s) {
+  const bool has_orders = plan.orders || plan.demand.transports_per_agv_hour > 0.0;
+  if (!has_orders) return 0.0;
+  if (!transport_s) return kUnknownFloor;
+  const double undisturbed = 3600.0 / *transport_s;
+  const double wanted = plan.orders ? undisturbed : plan.demand.transports_per_agv_hour;
+  return std::floor(100.0 * std::min(kShareOfUndisturbed * undisturbed, kShareOfDemand * wanted)) / 100.0;
 }
 
 GateRecord gate(const std::string& agent, EndPoint end_point, GateKind kind, double limit) {
@@ -52,7 +58,6 @@ GateRecord gate(const std::string& agent, EndPoint end_point, GateKind kind, dou
   gate.end_point = end_point;
   gate.kind = kind;
   gate.limit = limit;
-  gate.min_transports_per_agv_hour = 0.0;  // the gate on throughput asks for it
   return gate;
 }
 
@@ -76,19 +81,21 @@ std::vector<std::string> agents_under_test(const CampaignPlan& plan, const std::
 void add_default_gates(CampaignPlan& plan, const std::vector<bool>& is_plugin) {
   if (!plan.default_gates || !plan.gates.empty() || plan.kind != CampaignKind::Claim) return;
   const std::vector<CellRecord> cells = plan.cells();
-  const double floor = throughput_floor(plan);
+  const auto transport_s = undisturbed_transport_s(plan);
+  const double floor = throughput_floor(plan, transport_s);
+  const bool judges_throughput = floor > 0.0 && transport_s && plan.horizon_s >= kTransportsInARun * *transport_s;
   for (const std::string& agent : agents_under_test(plan, is_plugin)) {
     const Region region = has_contract_cells(cells, agent) ? Region::Contract : Region::All;
-    const auto add = [&](EndPoint end_point, GateKind kind, double limit) {
+    const auto add = [&](EndPoint end_point, GateKind kind, double limit, double least) {
       plan.gates.push_back(gate(agent, end_point, kind, limit));
       plan.gates.back().region = region;
+      plan.gates.back().min_transports_per_agv_hour = least;
     };
     for (const EndPoint end_point : {EndPoint::Violation, EndPoint::Crash, EndPoint::WrongLoad})
-      add(end_point, GateKind::None, kDefaultSafetyLimit);
-    for (const EndPoint end_point :
-         {EndPoint::Deadlock, EndPoint::Livelock, EndPoint::Starvation, EndPoint::Hang, EndPoint::Throughput})
-      add(end_point, GateKind::Rate, kDefaultLimit);
-    plan.gates.back().min_transports_per_agv_hour = floor;
+      add(end_point, GateKind::None, kDefaultSafetyLimit, end_point == EndPoint::Violation ? floor : 0.0);
+    for (const EndPoint end_point : {EndPoint::Deadlock, EndPoint::Livelock, EndPoint::Starvation, EndPoint::Hang})
+      add(end_point, GateKind::Rate, kDefaultLimit, 0.0);
+    if (judges_throughput) add(EndPoint::Throughput, GateKind::Rate, kDefaultLimit, floor);
   }
   for (std::size_t i = 0; i < plan.gates.size(); ++i) plan.gates[i].index = static_cast<std::uint32_t>(i);
 }

@@ -13,7 +13,9 @@ std::vector<std::string> agents_under_test(const CampaignPlan& plan, const std::
 
 // Gives a claim without gates those that every fleet has to meet, for each agent under test, in the contract region: no
 // violation, no crash, no load at a wrong place; per world at most kDefaultLimit of deadlocks, livelocks, starvation
-// and hangs; and a throughput of at least a twentieth of what an AGV would do that has the warehouse to itself.
+// and hangs; and a throughput of at least a twentieth of what an AGV would do that has the warehouse to itself. Runs
+// that are too short for four transports are not judged by their throughput; the fleet has to reach it over all of
+// them.
 void add_default_gates(CampaignPlan& plan, const std::vector<bool>& is_plugin);
 
 inline constexpr double kDefaultLimit = 0.1, kDefaultSafetyLimit = 0.01;

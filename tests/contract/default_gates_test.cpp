@@ -70,6 +70,14 @@ TEST_F(DefaultGates, BindTheSoftwareUnderTestAndNoReferenceAgentBesideIt) {
   EXPECT_EQ(verdicts(both, "reckless", 4, gate).at("violation"), "violated");
 }
 
+// In a second nobody can do anything: that is no fault, and no evidence.
+TEST_F(DefaultGates, RunsThatAreTooShortForWorkDemonstrateNothing) {
+  const auto found = verdicts("\"hull-lock\"", "hull-lock", 400, "horizon_s = 1\n");
+  EXPECT_EQ(found.at(""), "4");
+  EXPECT_EQ(found.at("violation"), "not demonstrated");
+  EXPECT_EQ(found.count("throughput"), 0U);
+}
+
 TEST_F(DefaultGates, CanBeLeftOut) {
   const auto found = verdicts("\"reckless\"", "reckless", 2, "default_gates = false\n");
   EXPECT_EQ(found.at(""), "4");
