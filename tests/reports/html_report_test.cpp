@@ -202,6 +202,36 @@ TEST(HtmlReport, hostile_names_stay_text) {
   EXPECT_EQ(document.select_nodes("//b | //i").size(), 0u);
 }
 
+// More agents, conditions and causes than the page has room for, with long names everywhere.
+TEST(HtmlReport, stays_small_whatever_happens) {
+  std::vector<std::string> agents;
+  for (int i = 0; i < 14; ++i) agents.push_back(fmt::format("{:<60}{}", "<agent>", i));
+  const auto cells = grid(agents, {0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9},
+                          {0, 0.5, 1, 1.5, 2, 2.5, 3, 3.5, 4, 4.5}, {std::string(80, '&')});
+  const auto change = [](RunRecord& run) {
+    run.outcome.message = std::string(500, '<');
+    run.outcome.crash = true;
+    if (run.run_index % 2 == 0) samples::violate(run, static_cast<std::int64_t>(run.run_index), run.run_index % 3 == 0);
+    const auto kinds = incident_kinds();
+    Incident incident;
+    incident.kind = kinds[run.run_index % kinds.size()].kind;
+    file_incidents(run.outcome, {incident});
+    file_probes(run.outcome, {{ProbeSource::Agent, fmt::format("{:>80}", run.run_index), 1}});
+  };
+  auto input = samples::report_of(campaign_of("claim", 2), cells, gates(), change);
+  input.campaign.plan_json = "[\"" + std::string(3'000'000, '<') + "\"]";
+  html::CampaignFigures figures;
+  for (std::uint64_t i = 0; i < 2 * cells.size(); ++i) {
+    auto run = samples::clean_run(i, cells.size());
+    change(run);
+    figures.add(run, input.evidence);
+  }
+  figures.finish(input.evidence);
+  const auto page = render_html({std::move(input), std::move(figures)});
+  expect_sound(page);
+  EXPECT_LT(page.size(), 2'000'000u);
+}
+
 TEST(HtmlReport, the_conditions_come_from_the_plan) {
   auto campaign = campaign_of("claim", 1);
   campaign.plan_json = R"({"factors": {"agents": ["sound"], "layouts": [{"name": "ring"}], "fleet_sizes": [5, 9],
