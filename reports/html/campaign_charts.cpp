@@ -3,17 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "reports/html/chart.hpp"
 #include "reports/html/quality_maps.hpp"
 #include "reports/html/section_tables.hpp"
+#include "reports/plan_facts.hpp"
 #include "reports/wording.hpp"
 
 namespace fleetproof::html {
 namespace {
 
-constexpr std::size_t kMostAgents = 12;  // with charts of their own
-constexpr std::size_t kSafetyDistance_cm = 10;
+constexpr std::size_t kMostAgents = 12;            // with charts of their own
+constexpr double kDefaultSafetyDistance_m = 0.10;  // of a plan without one
 
 Element figure_of(const std::string& caption, const Element& drawing) {
   Element figure("figure");
@@ -25,12 +27,18 @@ std::string risk_caption(const Evidence& evidence) {
   return evidence.counts_only() ? "Failing units / units" : "Failing units / units, and upper bound of their rate";
 }
 
-BarChart clearance_chart(const ClearanceCounts& counts, const std::string& label) {
-  BarChart chart{label, "smallest clearance of a run (m); a bar is 1 cm wide", {}, 1 + kSafetyDistance_cm, "0.10 m"};
+// The bars that are closer than the safety distance are marked. A distance above 0.5 m has no line.
+BarChart clearance_chart(const ClearanceCounts& counts, const std::string& label, double safety_distance_m) {
+  const auto limit = static_cast<std::size_t>(std::lround(safety_distance_m * 100.0));
+  BarChart chart{label, "smallest clearance of a run (m); a bar is 1 cm wide", {}, {}, {}};
+  if (limit < ClearanceCounts::kSteps) chart.line_before = 1 + limit;
+  chart.line_name = fmt::format("{:.2f} m", safety_distance_m);
   chart.bars.push_back({"touch", counts.contact, true});
-  for (std::size_t i = 0; i < ClearanceCounts::kSteps; ++i)
-    chart.bars.push_back({i > 0 && i % 10 == 0 ? fmt::format("{:.1f}", static_cast<double>(i) / 100.0) : "",
-                          counts.steps[i], i < kSafetyDistance_cm});
+  for (std::size_t i = 0; i < ClearanceCounts::kSteps; ++i) {
+    const bool is_labelled = i > 0 && i % 10 == 0;
+    chart.bars.push_back(
+        {is_labelled ? fmt::format("{:.1f}", static_cast<double>(i) / 100.0) : "", counts.steps[i], i < limit});
+  }
   return chart;
 }
 
@@ -132,8 +140,9 @@ Element clearance_part(const ReportInput& input, const CampaignFigures& figures)
   Element part = titled("How close the bodies came");
   part.add(paragraph(
       "Each run counts once, with its smallest clearance; the leftmost bar holds the runs with a contact. Heights are "
-      "logarithmic. A clearance above 0.5 m is not measured. A judge of safety looks at the lower tail: runs that pass "
-      "at 0.11 m are close to failing."));
+      "logarithmic. A clearance above 0.5 m is not measured. A judge of safety looks at the lower tail: runs that only "
+      "just keep the distance are close to failing."));
+  const double safety_distance = safety_distance_m(input.campaign.plan_json).value_or(kDefaultSafetyDistance_m);
   Table tail = tail_columns();
   Element row("div", {{"class", "maps"}});
   std::size_t charts = 0;
@@ -148,7 +157,7 @@ Element clearance_part(const ReportInput& input, const CampaignFigures& figures)
       if (charts++ >= kMostAgents) continue;
       const auto caption = fmt::format("Agent {}, {}: {}, {} never closer than 0.5 m", printable(agent, 40), region,
                                        count_text(counts.runs(), "run"), counts.farther);
-      row.add(figure_of(caption, draw(clearance_chart(counts, caption))));
+      row.add(figure_of(caption, draw(clearance_chart(counts, caption, safety_distance))));
     }
   }
   if (tail.rows.empty()) return part.add(paragraph("There are no runs yet."));

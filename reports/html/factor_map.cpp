@@ -14,7 +14,7 @@ namespace fleetproof::html {
 namespace {
 
 constexpr double kFieldHeight_px = 44.0, kLeft_px = 66.0, kTop_px = 26.0, kBottom_px = 46.0, kRight_px = 10.0;
-constexpr double kLetter_px = 7.2, kLeastField_px = 64.0;
+constexpr double kLetter_px = 7.9, kLeastField_px = 64.0;
 
 struct Colour {
   double red, green, blue;

@@ -82,30 +82,32 @@ Element listed(const std::string& title, std::initializer_list<const char*> item
 }
 
 Element limits_part() {
-  return listed("What this page does not say",
-                {"That the software is safe, or that no collision is possible. It says how rare failures are under the "
-                 "conditions above, with a stated confidence.",
-                 "A performance level, a safety integrity level, a rate of dangerous failures of a safety function, or "
-                 "conformity with a standard such as ISO 3691-4.",
-                 "Anything about other layouts, fleets, loads or radio than those sampled, about another version of "
-                 "the software, about hardware faults that were not injected, or about attacks.",
-                 "Anything about real vehicles beyond what the simulator was validated for. It does not look at the "
-                 "safety of people.",
-                 "That the release is safe with 95 % probability: 95 % is how often this procedure is right in the "
-                 "long run. Very small rates, such as one in a billion hours, are out of reach of testing alone.",
-                 "What a typical site will see: 40 % loss and 2 s delay are stress, not typical radio."});
+  return listed(
+      "What this page does not say",
+      {"That the software is safe, or that no collision is possible. A claim says how rare failures are under the "
+       "conditions above, with a stated confidence. A search only counts them.",
+       "A performance level, a safety integrity level, a rate of dangerous failures of a safety function, or "
+       "conformity with a standard such as ISO 3691-4.",
+       "Anything about other layouts, fleets, loads or radio than those sampled, about another version of "
+       "the software, about hardware faults that were not injected, or about attacks.",
+       "Anything about real vehicles beyond what the simulator was validated for. It does not look at the "
+       "safety of people.",
+       "That the release is safe with 95 % probability: 95 % is how often this procedure is right in the "
+       "long run. Very small rates, such as one in a billion hours, are out of reach of testing alone.",
+       "What a typical site will see: 40 % loss and 2 s delay are stress, not typical radio."});
 }
 
 Element assumptions_part() {
-  return listed("Assumptions and known gaps of the model",
-                {"Vehicles, loads and obstacles are rigid shapes in a plane. Height, tilt and wheel slip are not "
-                 "modelled.",
-                 "Motion follows the speed and acceleration of the vehicle type exactly, apart from the deviations "
-                 "that the plan draws. Sideways travel, doors and lifts are not modelled.",
-                 "The radio loses and delays messages by the models that the plan names. Walls and racks do not "
-                 "weaken it.",
-                 "Position and battery are known to the agent without error unless the plan says otherwise.",
-                 "People are not modelled. Without the safety scanner, only the software keeps the distance."});
+  return listed(
+      "Assumptions and known gaps of the model",
+      {"Vehicles, loads and obstacles are rigid shapes in a plane. Height, tilt and wheel slip are not "
+       "modelled.",
+       "Motion follows the speed and acceleration of the vehicle type exactly, apart from the deviations "
+       "that the plan draws. Sideways travel, doors and lifts are not modelled.",
+       "The radio loses and delays messages by the models that the plan names. They stand for walls, racks and "
+       "other senders; no propagation of waves is computed.",
+       "Position and battery are known to the agent without error unless the plan says otherwise.",
+       "People are not modelled. Without the safety scanner, only the software keeps the distance."});
 }
 
 Element plan_part(const ReportInput& input) {

@@ -43,7 +43,8 @@ tbody tr:hover { background: var(--panel); }
 input.filter { font: inherit; font-size: 14px; padding: 6px 10px; margin: 0 0 10px; width: 280px; max-width: 100%;
   color: inherit; background: var(--paper); border: 1px solid var(--line); border-radius: 4px; }
 pre { width: fit-content; max-width: 100%; margin: 4px 0 8px; padding: 5px 12px; background: var(--panel);
-  border: 1px solid var(--line); border-radius: 4px; overflow-x: auto; font: 13px/1.5 ui-monospace, "DejaVu Sans Mono", Consolas, monospace; }
+  border: 1px solid var(--line); border-radius: 4px; overflow-x: auto;
+  font: 13px/1.5 ui-monospace, "DejaVu Sans Mono", Consolas, monospace; }
 pre code { user-select: all; }
 details { margin: 0 0 12px; } summary { cursor: pointer; font-weight: 600; color: var(--accent); }
 ul.legend { list-style: none; padding: 0; font-size: 14px; }
