@@ -61,7 +61,7 @@ TEST_F(AuditFairness, RunsOfAnotherEngineAreNotAudited) {
 // Reference agents run in the main process, without limits. Here one needs more than the plug-ins may have.
 TEST_F(AuditFairness, ReferenceAgentsAndTheProgramItselfHaveNoLimitOfMemory) {
   write("c.toml",
-        "name = \"c\"\nreplicates = 2\nhorizon_s = 600\n[factors]\n"
+        "name = \"c\"\nreplicates = 2\nhorizon_s = 600\ndefault_gates = false\n[factors]\n"
         "agents = [\"hull-lock\", { file = \"still.so\", name = \"still\" }]\nlayouts = [\"aisle-grid\"]\n"
         "fleet_sizes = [20]\nloss = [0.4]\ndelay_s = [2]\n[limits]\nmemory_mb = 1\n[audit]\nshare = 1\n");
   std::filesystem::copy_file(FLEETPROOF_NAMED_AGENT, path("still.so"));
