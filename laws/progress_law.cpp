@@ -61,6 +61,7 @@ class ProgressLaw final : public Law {
  private:
   using Key = std::pair<IncidentKind, EntityId>;
 
+  void activity_ended(const TraceRecord& record);
   void order_released(const TraceRecord& record);
   void load_moves(const TraceRecord& record);
   void transport_over(TransportId transport, bool done, SimTime at);
@@ -132,6 +133,7 @@ void ProgressLaw::happened(const TraceRecord& record) {
       break;
     case TraceKind::ActivityBegins:
     case TraceKind::ActivityEnds: {
+      if (record.kind == TraceKind::ActivityEnds) activity_ended(record);
       if (!is_work(traced::activity_of(record))) break;
       AgvState& agv = agvs_[record.entity.index()];
       agv.busy = record.kind == TraceKind::ActivityBegins;
@@ -146,6 +148,11 @@ void ProgressLaw::happened(const TraceRecord& record) {
     default:
       break;
   }
+}
+
+void ProgressLaw::activity_ended(const TraceRecord& record) {
+  const auto [activity, as_planned] = read<traced::ActivityEnds>(record);
+  if (is_progress(activity, as_planned)) advanced(agvs_[record.entity.index()], record.at);
 }
 
 // An AGV that the operator takes off the floor waits for no AGV and blocks no AGV. It starts anew where the operator

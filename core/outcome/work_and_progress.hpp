@@ -14,8 +14,9 @@ namespace fleetproof {
 // Does the AGV do anything now?               | every other question                  | is_work
 // Is the fleet frozen? (run "stuck",          | engine at the end of a run, operator, | no work began or ended for
 //   operator, deadlock, standstill)           | laws progress and normal-operation    |   `stuck_after`
-// Does the fleet move without any result?     | law progress (livelock, starvation)   | no transport advanced:
-//   Movement alone is no progress.            |                                       |   advances_transport
+// Does the fleet move without any result?     | law progress (livelock, starvation)   | no transport advanced
+//   Movement alone is no progress.            |                                       |   (advances_transport), no
+//                                             |                                       |   charge ended (is_progress)
 // Is there anything left to do?               | all of them                           | open_transports
 // How much does the fleet get done?           | gates, reports, law normal-operation  | transports_per_agv_hour
 //
@@ -35,6 +36,10 @@ constexpr bool is_work(ActivityKind kind) {
 constexpr bool advances_transport(const Holder& to) {
   return to.kind == Holder::Kind::Agv || to.kind == Holder::Kind::ClearedAway;
 }
+
+// Whether the end of an activity is progress in itself: a charge that was not cut short. The AGV has what it came for,
+// and it can go on with its transports.
+constexpr bool is_progress(ActivityKind ended, bool as_planned) { return ended == ActivityKind::Charge && as_planned; }
 
 // Transports that were released and are neither done nor impossible because their load was cleared away.
 constexpr std::uint64_t open_transports(const Counters& counters) {

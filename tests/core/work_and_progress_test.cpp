@@ -19,6 +19,14 @@ TEST(Progress, IsMadeByTakingALoadUpAndByLosingIt) {
   EXPECT_FALSE(advances_transport({Holder::Kind::Floor, 0}));
 }
 
+TEST(Progress, IsMadeByAChargeToTheEndAndByNoMovement) {
+  using enum ActivityKind;
+  EXPECT_TRUE(is_progress(Charge, true));
+  EXPECT_FALSE(is_progress(Charge, false)) << "cut short";
+  for (const ActivityKind kind : {Drive, Turn, Settle, Pick, Drop, Park, Transmit})
+    EXPECT_FALSE(is_progress(kind, true)) << name_of(kind);
+}
+
 TEST(OpenTransports, AreThoseNeitherDoneNorImpossible) {
   Counters counters;
   counters.transports_released = 5;

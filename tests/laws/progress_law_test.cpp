@@ -150,6 +150,20 @@ TEST_F(Progress, MovingToAndFroWithoutALoadIsALivelock) {
   EXPECT_EQ(found[0].value, 29);
 }
 
+// The same, but the AGV charges to the end in between; a charge that is cut short is no progress.
+TEST_F(Progress, AChargeToTheEndIsProgressAndOneThatIsCutShortIsNot) {
+  for (const bool to_the_end : {true, false}) {
+    Told law = told();
+    both_released(law);
+    for (int i = 0; i < 29; ++i) {
+      law.begins(10.0 + 20.0 * i, 0, ActivityKind::Drive).ends(15.0 + 20.0 * i, 0, ActivityKind::Drive);
+      if (i % 10 == 9)
+        law.begins(16.0 + 20.0 * i, 0, ActivityKind::Charge).ends(18.0 + 20.0 * i, 0, ActivityKind::Charge, to_the_end);
+    }
+    EXPECT_EQ(law.finish(600.0).incidents.empty(), to_the_end);
+  }
+}
+
 TEST_F(Progress, WhoPicksNowAndThenIsNoLivelock) {
   scenario_.agvs[0].transports.resize(3, scenario_.agvs[0].transports[0]);
   scenario_.agvs[1].transports.clear();
