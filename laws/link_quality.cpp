@@ -42,8 +42,7 @@ std::uint32_t losses_that_reject(std::uint32_t receptions) {
       std::ceil(kContractLoss * n + kNormalQuantile * std::sqrt(n * kContractLoss * (1.0 - kContractLoss)) + 0.5));
 }
 
-LinkQuality::LinkQuality(std::size_t agvs)
-    : agvs_(agvs), seconds_(agvs * agvs), last_second_(agvs, -1), sent_(agvs), next_(agvs, 0) {}
+LinkQuality::LinkQuality(std::size_t agvs) : agvs_(agvs), seconds_(agvs * agvs), last_second_(agvs, -1), sent_(agvs) {}
 
 LinkQuality::Link& LinkQuality::now(std::size_t sender, std::size_t receiver, SimTime at) {
   const std::int64_t number = to_ns(at) / 1'000'000'000;
@@ -55,9 +54,8 @@ LinkQuality::Link& LinkQuality::now(std::size_t sender, std::size_t receiver, Si
 
 void LinkQuality::note(const TraceRecord& record) {
   if (record.kind == TraceKind::Sent) {
-    auto& next = next_[record.entity.index()];
-    sent_[record.entity.index()][next] = {read<traced::Sent>(record).message_hash, record.at};
-    next = (next + 1) % kRemembered;
+    const auto sent = read<traced::Sent>(record);
+    sent_[record.entity.index()][{sent.message_hash, sent.receiver}] = record.at;
     return;
   }
   const auto reception = read<traced::Reception>(record);
@@ -69,14 +67,14 @@ void LinkQuality::note(const TraceRecord& record) {
     ++link.lost;
     return;
   }
-  const auto& ring = sent_[sender];
-  const std::size_t newest = next_[sender] + kRemembered - 1;
-  for (std::size_t back = 0; back < kRemembered; ++back) {
-    const SentMessage& message = ring[(newest - back) % kRemembered];
-    if (message.hash != reception.message_hash || message.at == SimTime::min()) continue;
-    link.longest = std::max(link.longest, record.at - message.at);
-    return;
-  }
+  const SimTime sent = std::max(last_sent(sender, {reception.message_hash, record.entity}),
+                                last_sent(sender, {reception.message_hash, AgvId{}}));
+  if (sent != SimTime::min()) link.longest = std::max(link.longest, record.at - sent);
+}
+
+SimTime LinkQuality::last_sent(std::size_t sender, const Addressed& message) const {
+  const auto known = sent_[sender].find(message);
+  return known == sent_[sender].end() ? SimTime::min() : known->second;
 }
 
 LinkQuality::Link LinkQuality::link(std::size_t sender, std::size_t receiver, std::int64_t second) const {

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "core/base/contract.hpp"
@@ -17,8 +19,8 @@ inline constexpr int kQualityWindow_s = 10;
 std::uint32_t losses_that_reject(std::uint32_t receptions);
 
 // The links of a fleet over the last ten whole seconds, from the records of the trace. A loss counts at the instant of
-// sending, a reception at its arrival. If several messages have equal bytes, the last one that was sent counts as the
-// one received. The delay is therefore never too large.
+// sending, a reception at its arrival, however late it comes. If several messages of a sender have equal bytes, the
+// last one that was sent counts as the one received. The delay is therefore never too large.
 class LinkQuality {
  public:
   explicit LinkQuality(std::size_t agvs);
@@ -42,19 +44,16 @@ class LinkQuality {
     std::int64_t number = -1;
     Link link;
   };
-  struct SentMessage {
-    std::uint64_t hash = 0;
-    SimTime at = SimTime::min();
-  };
-  static constexpr std::size_t kRemembered = 128;  // messages of a sender; the delay of an older message is not known
-
   Link& now(std::size_t sender, std::size_t receiver, SimTime at);
 
   std::size_t agvs_;
   std::vector<std::array<Second, kQualityWindow_s>> seconds_;  // by receiver x AGVs + sender
   std::vector<std::int64_t> last_second_;                      // by receiver: of its newest reception; -1: none
-  std::vector<std::array<SentMessage, kRemembered>> sent_;     // by sender, as a ring
-  std::vector<std::size_t> next_;
+  using Addressed = std::pair<std::uint64_t, AgvId>;  // hash of the bytes, receiver; invalid: every AGV in range
+  SimTime last_sent(std::size_t sender, const Addressed& message) const;
+
+  // By sender: when such a message was last sent. Kept for the whole run, because a delay has no bound.
+  std::vector<std::map<Addressed, SimTime>> sent_;
 };
 
 }  // namespace fleetproof

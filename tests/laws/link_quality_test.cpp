@@ -35,5 +35,20 @@ TEST(LinkQuality, AllLinksKeepTheContractExactlyIfEachLinkDoes) {
   EXPECT_GT(broken, 100);
 }
 
+// However much a sender says in between, and although it says the same to another receiver.
+TEST(LinkQuality, NoDelayIsForgotten) {
+  LinkQuality quality(kAgvs);
+  const auto sends = [&](std::uint32_t receiver, std::uint64_t hash) {
+    quality.note(trace_record(kStart, AgvId{0U}, traced::Sent{AgvId{receiver}, hash, 0}));
+  };
+  sends(1, 7);
+  for (std::uint64_t i = 0; i < 10'000; ++i) sends(2, 1000 + i);
+  quality.note(trace_record(kStart + std::chrono::seconds(4), AgvId{0U}, traced::Sent{AgvId{2U}, 7, 0}));
+  const SimTime there = kStart + std::chrono::seconds(5);
+  quality.note(trace_record(there, AgvId{1U}, traced::Reception{TraceKind::Received, AgvId{0U}, 7}));
+  EXPECT_EQ(quality.link(0, 1, 5).longest, std::chrono::seconds(5));
+  EXPECT_FALSE(quality.all_in_contract(1, 5));
+}
+
 }  // namespace
 }  // namespace fleetproof::test
