@@ -5,6 +5,7 @@
 #include "core/base/error.hpp"
 #include "core/clearance/clearance_over_time.hpp"
 #include "laws/broad_phase.hpp"
+#include "laws/judged_stretch.hpp"
 #include "laws/second_opinion.hpp"
 #include "laws/stretch.hpp"
 
@@ -22,6 +23,7 @@ class ExactLaw final : public Law {
       : agv_count_(scenario.agvs.size()),
         threshold_m_(violation_threshold_m(scenario.law)),
         current_(scenario.body_count()),
+        bodies_(current_.size()),
         swept_(current_.size()) {}
 
   void piece_started(const Piece& piece) override;
@@ -41,14 +43,22 @@ class ExactLaw final : public Law {
   double threshold_m_;
   double smallest_m_ = kMeasuredBelow_m;
   std::vector<Piece> current_;
+  // Since when a body is on the floor without a break, and the end of its last piece.
+  struct OnFloor {
+    SimTime since = SimTime::min(), until = SimTime::min();
+  };
+  std::vector<OnFloor> bodies_;
   BroadPhase swept_;  // boxes of current_, as planned; none between a piece and the next
   EvaluationCount evaluations_;
+  EvaluationCount describing_;  // spent on violations that are found already: no cost of detection, not reported
   std::vector<Stretch> stretches_;
 };
 
 void ExactLaw::piece_started(const Piece& piece) {
   ensure(piece.entity.index() < current_.size(), "a law hears only of the bodies of its scenario");
   current_[piece.entity.index()] = piece;
+  OnFloor& body = bodies_[piece.entity.index()];
+  if (body.until != piece.begin) body.since = piece.begin;
   swept_.place(piece.entity.index(), piece.planned_box);
 }
 
@@ -57,6 +67,7 @@ void ExactLaw::piece_ended(const Piece& piece) {
   const double reach_m = std::max(smallest_m_, threshold_m_);
   const Box near = swept_.box_of(mine).grown(reach_m);
   swept_.remove(mine);
+  bodies_[mine].until = piece.end;
   for (const std::size_t i : swept_.overlapping(near)) {
     if (mine >= agv_count_ && i >= agv_count_) continue;  // two obstacles cannot violate anything
     const Piece& other = current_[i];
@@ -73,8 +84,9 @@ void ExactLaw::piece_ended(const Piece& piece) {
 
 void ExactLaw::settle(const Piece& a, const Piece& b, Interval within) {
   const bool instant = within.begin == within.end;
-  // An instant after the start is the last one of an interval already settled.
-  if (instant && within.begin > kStart) return;
+  // Unless a body has appeared at this instant, it is the last one of an interval already settled.
+  const bool appeared = std::max(bodies_[a.entity.index()].since, bodies_[b.entity.index()].since) == within.begin;
+  if (instant && !appeared) return;
   if (instant || (a.manner == Manner::Rest && b.manner == Manner::Rest)) {
     settle_standing(a, b, within);
   } else {
@@ -117,14 +129,14 @@ void ExactLaw::collect_stretches(const Piece& a, const Piece& b, const Approach&
     probe = first;
   }
   if (first > approach.first) return collect(a, b, first, last);
-  stretches_.push_back(stretch_of(a, b, first, last, approach.closest));
+  stretches_.push_back(judged_stretch(a, b, first, last, approach.closest, describing_));
 }
 
 void ExactLaw::collect(const Piece& a, const Piece& b, SimTime first, SimTime last) {
   auto closest = closest_approach(a, b, {first, last}, threshold_m_, evaluations_);
   if (!closest)
     closest = ClosestApproach{clearance_at(a, b, first), first};  // a graze shallower than the search resolves
-  stretches_.push_back(stretch_of(a, b, first, last, *closest));
+  stretches_.push_back(judged_stretch(a, b, first, last, *closest, describing_));
 }
 
 double ExactLaw::clearance_at(const Piece& a, const Piece& b, SimTime t) {
@@ -141,7 +153,7 @@ void ExactLaw::finish(SimTime) {
 LawFindings ExactLaw::findings() const {
   LawFindings findings;
   findings.violations = filed(stretches_);
-  if (smallest_m_ < kMeasuredBelow_m) findings.min_clearance_m = smallest_m_;
+  if (smallest_m_ < kMeasuredBelow_m) findings.min_clearance_m = std::max(0.0, smallest_m_);
   findings.distance_evaluations = evaluations_.distance;
   findings.perimeter_checks = evaluations_.distance;
   return findings;

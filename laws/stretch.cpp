@@ -7,32 +7,32 @@
 namespace fleetproof {
 namespace {
 
-Vec2 velocity_mps(const Piece& piece, SimTime t) { return piece.speed_at(t) * piece.pose_at(t).heading; }
-
 std::int64_t nearest_um(double value_m) { return std::llround(value_m * 1e6); }
 
 Violation filed(const Stretch& stretch) {
   const Vec2 middle_m = 0.5 * (stretch.body_a.centre_m + stretch.body_b.centre_m);
   Violation violation{
       .a = stretch.a, .b = stretch.b, .first = stretch.first, .last = stretch.last, .closest_at = stretch.closest.at};
-  violation.min_clearance_um = static_cast<std::int64_t>(std::floor(stretch.closest.clearance_m * 1e6));
-  violation.relative_speed_um_s = nearest_um(stretch.relative_velocity_mps.norm());
+  if (!stretch.contact)
+    violation.min_clearance_um = static_cast<std::int64_t>(std::floor(stretch.closest.clearance_m * 1e6));
+  violation.relative_speed_um_s = nearest_um(stretch.speed.speed_mps);
+  violation.normal_speed_um_s = nearest_um(stretch.speed.normal_mps);
   violation.x_um = nearest_um(middle_m.x());
   violation.y_um = nearest_um(middle_m.y());
-  violation.contact = stretch.contact();
+  violation.contact = stretch.contact;
   return violation;
 }
 
 }  // namespace
 
 void Stretch::absorb(const Stretch& other) {
-  // After a touch, the bodies may lie deeper in each other, by rounding or by much. The speed at the touch is the one
-  // to file.
-  const auto closeness = [](const Stretch& s) {
-    return std::tuple(s.contact() ? 0.0 : s.closest.clearance_m, s.closest.at);
-  };
   const SimTime from = std::min(first, other.first), to = std::max(last, other.last);
-  if (closeness(other) < closeness(*this)) *this = other;
+  const bool as_close = contact == other.contact &&
+                        (contact || std::abs(closest.clearance_m - other.closest.clearance_m) <= kSameClearance_m);
+  const bool closer = contact == other.contact ? other.closest.clearance_m < closest.clearance_m : other.contact;
+  const RelativeSpeed faster = other.speed.speed_mps > speed.speed_mps ? other.speed : speed;
+  if (as_close ? other.closest.at < closest.at : closer) *this = other;
+  if (as_close) speed = faster;
   first = from;
   last = to;
 }
@@ -41,8 +41,15 @@ Stretch stretch_of(const Piece& one, const Piece& other, SimTime first, SimTime 
   const Piece& a = one.entity < other.entity ? one : other;
   const Piece& b = one.entity < other.entity ? other : one;
   const SimTime at = closest.at;
-  return {a.entity, b.entity,      first,         last,
-          closest,  a.body_at(at), b.body_at(at), velocity_mps(a, at) - velocity_mps(b, at)};
+  return {a.entity,
+          b.entity,
+          first,
+          last,
+          closest,
+          a.body_at(at),
+          b.body_at(at),
+          closest.clearance_m < kTouch_m,
+          relative_speed(a, b, at)};
 }
 
 std::vector<Stretch> joined(std::vector<Stretch> stretches, Duration seam) {

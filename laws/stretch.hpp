@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/base/tolerances.hpp"
-#include "core/clearance/clearance_over_time.hpp"
+#include "core/clearance/relative_speed.hpp"
 #include "core/outcome/outcome.hpp"
 #include "core/scenario/scenario.hpp"
 
@@ -17,16 +17,17 @@ struct Stretch {
   EntityId a, b;
   SimTime first = kStart, last = kStart;
   ClosestApproach closest;
-  OrientedRectangle body_a, body_b;           // at closest.at
-  Vec2 relative_velocity_mps = Vec2::Zero();  // of the reference points, at closest.at
+  OrientedRectangle body_a, body_b;  // at closest.at
+  bool contact = false;              // the bodies touch, first at closest.at
+  RelativeSpeed speed;               // the highest during the contact, or while the clearance is the least
 
-  bool contact() const { return closest.clearance_m < kContact_m; }
-  // Adds a stretch of the same pair. The smaller clearance is kept. Of two contacts, or of two equal clearances, the
-  // earlier one is kept.
+  // Adds a stretch of the same pair. A contact, or else the smaller clearance, is kept. Of two contacts, or of two
+  // equal clearances, the earlier one is kept with the higher speed.
   void absorb(const Stretch& other);
 };
 
-// Makes a stretch from two pieces, in either order. Requires: both pieces cover closest.at.
+// Makes a stretch from two pieces, in either order, with the speed at closest.at. Requires: both pieces cover
+// closest.at.
 Stretch stretch_of(const Piece& one, const Piece& other, SimTime first, SimTime last, const ClosestApproach& closest);
 
 // Joins the stretches of a pair that overlap or follow each other within `seam`. Ordered by (a, b, first).

@@ -39,17 +39,18 @@ class Snapshot {
 // A table that holds parts of runs, by run and ordinal.
 struct PartTable {
   const char* name;
-  std::string columns;
+  std::string (*values)(std::int32_t schema);
   void (*take)(const SQLite::Statement& row, Outcome& outcome);
 };
 
 const std::array<PartTable, 3>& part_tables() {
   static const std::array<PartTable, 3> tables{{
-      {"violations", violation_columns(),
+      {"violations", violation_values,
        [](const SQLite::Statement& row, Outcome& o) { o.violations.push_back(read_violation(row)); }},
-      {"incidents", kIncidentColumns,
+      {"incidents", [](std::int32_t) { return std::string(kIncidentColumns); },
        [](const SQLite::Statement& row, Outcome& o) { o.incidents.push_back(read_incident(row)); }},
-      {"probes", kProbeColumns, [](const SQLite::Statement& row, Outcome& o) { o.probes.push_back(read_probe(row)); }},
+      {"probes", [](std::int32_t) { return std::string(kProbeColumns); },
+       [](const SQLite::Statement& row, Outcome& o) { o.probes.push_back(read_probe(row)); }},
   }};
   return tables;
 }
@@ -189,8 +190,8 @@ std::uint64_t ArchiveReader::Impl::read_all(const std::function<void(const RunRe
   };
   std::vector<Cursor> parts;
   for (const auto& table : part_tables()) {
-    SQLite::Statement rows(*db,
-                           fmt::format("SELECT {} FROM {} ORDER BY run_index, ordinal", table.columns, table.name));
+    SQLite::Statement rows(
+        *db, fmt::format("SELECT {} FROM {} ORDER BY run_index, ordinal", table.values(schema), table.name));
     const bool more = rows.executeStep();
     parts.push_back({table, std::move(rows), more});
   }
@@ -243,8 +244,8 @@ std::optional<RunRecord> ArchiveReader::run(std::uint64_t run_index) const {
     if (!rows.executeStep()) return std::nullopt;
     auto stored = impl_->take_run(rows);
     for (const auto& table : part_tables()) {
-      SQLite::Statement parts(
-          *impl_->db, fmt::format("SELECT {} FROM {} WHERE run_index = ? ORDER BY ordinal", table.columns, table.name));
+      SQLite::Statement parts(*impl_->db, fmt::format("SELECT {} FROM {} WHERE run_index = ? ORDER BY ordinal",
+                                                      table.values(impl_->schema), table.name));
       parts.bind(1, std::bit_cast<std::int64_t>(run_index));
       while (parts.executeStep()) impl_->take_part(table, parts, stored);
     }

@@ -56,7 +56,8 @@ void add_method(Bytes& bytes, const GateRecord& gate) {
 }  // namespace
 
 std::uint64_t row_checksum(const RunRecord& run, std::int32_t schema) {
-  const std::string outcome = encode(run.outcome);
+  const std::string outcome =
+      encode(run.outcome, schema < kFirstWithNormalSpeed ? kEncodingWithoutNormalSpeed : kEncodingVersion);
   Bytes bytes;
   bytes.reserve(outcome.size() + 128);
   bytes << run.run_index << std::uint64_t{run.cell} << run.replicate << run.scenario_digest;

@@ -200,8 +200,8 @@ void bind_run(SQLite::Statement& insert, const RunRecord& run, std::uint64_t che
 void bind_violation(SQLite::Statement& insert, int first, std::uint64_t run_index, std::size_t ordinal,
                     const Violation& v) {
   Binder(insert, first) << run_index << std::uint64_t{ordinal} << v.a.value << v.b.value << to_ns(v.first)
-                        << to_ns(v.last) << to_ns(v.closest_at) << v.min_clearance_um << v.relative_speed_um_s << v.x_um
-                        << v.y_um << v.contact;
+                        << to_ns(v.last) << to_ns(v.closest_at) << v.min_clearance_um << v.relative_speed_um_s
+                        << v.normal_speed_um_s << v.x_um << v.y_um << v.contact;
 }
 
 void bind_incident(SQLite::Statement& insert, int first, std::uint64_t run_index, std::size_t ordinal,
@@ -330,6 +330,7 @@ Violation read_violation(const SQLite::Statement& row) {
   v.closest_at = at_ns(from.i64());
   v.min_clearance_um = from.i64();
   v.relative_speed_um_s = from.i64();
+  v.normal_speed_um_s = from.i64();
   v.x_um = from.i64();
   v.y_um = from.i64();
   v.contact = from.flag();

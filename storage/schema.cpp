@@ -98,6 +98,7 @@ CREATE TABLE violations (
   closest_at_ns INTEGER NOT NULL,
   min_clearance_um INTEGER NOT NULL,
   relative_speed_um_s INTEGER NOT NULL,
+  normal_speed_um_s INTEGER NOT NULL,
   x_um INTEGER NOT NULL,
   y_um INTEGER NOT NULL,
   contact INTEGER NOT NULL,
@@ -156,7 +157,7 @@ SELECT c.cell, c.agent, c.layout, c.fleet_size, c.loss, c.delay_s,
        coalesce(sum(r.engine_error), 0) AS engine_error_runs,
        min(r.min_clearance_um) AS min_clearance_um,
        coalesce(sum(r.transports_done), 0) AS transports_done,
-       total(r.simulated_ns * 1e-9 * r.agv_count / 3600.0) AS agv_hours,
+       total(r.simulated_ns / 1e9 * r.agv_count / 3600.0) AS agv_hours,
        c.mean_outage_s, c.loss_to, c.delay_to_s, c.mean_outage_to_s{later_bounds}
 FROM cells c LEFT JOIN runs r ON r.cell = c.cell GROUP BY c.cell;
 CREATE VIEW v1_runs AS
@@ -175,7 +176,7 @@ SELECT v.run_index, v.ordinal, r.cell, r.replicate, c.agent, c.layout, c.fleet_s
        v.entity_a, v.entity_b, v.first_ns, v.last_ns, v.closest_at_ns, v.min_clearance_um,
        v.relative_speed_um_s, v.x_um, v.y_um, v.contact, r.mean_outage_s,
        CASE WHEN NOT v.contact THEN '{near}' WHEN v.relative_speed_um_s > {hazardous} THEN '{hazardous_contact}' ELSE '{contact}' END AS level,
-       CASE WHEN v.entity_b < r.agv_count THEN 'AGV-AGV' ELSE 'AGV-obstacle' END AS entities{later_factors}
+       CASE WHEN v.entity_b < r.agv_count THEN 'AGV-AGV' ELSE 'AGV-obstacle' END AS entities{later_factors}, v.normal_speed_um_s
 FROM violations v JOIN runs r ON r.run_index = v.run_index JOIN cells c ON c.cell = r.cell;
 CREATE VIEW v1_incidents AS
 SELECT i.run_index, i.ordinal, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, r.loss, r.delay_s,
@@ -313,7 +314,14 @@ std::string cell_values(std::int32_t schema) {
 
 std::string violation_columns() {
   return with_prefix("", {"run_index", "ordinal", "entity_a", "entity_b", "first_ns", "last_ns", "closest_at_ns",
-                          "min_clearance_um", "relative_speed_um_s", "x_um", "y_um", "contact"});
+                          "min_clearance_um", "relative_speed_um_s", "normal_speed_um_s", "x_um", "y_um", "contact"});
+}
+
+std::string violation_values(std::int32_t schema) {
+  std::string columns = violation_columns();
+  if (schema >= kFirstWithNormalSpeed) return columns;
+  const std::string_view newer = "normal_speed_um_s";
+  return columns.replace(columns.find(newer), newer.size(), "0 AS normal_speed_um_s");
 }
 
 std::string placeholders(const std::string& columns) {

@@ -21,10 +21,11 @@ namespace fleetproof {
 // whether a touch along a common edge is seen.
 inline constexpr double kTouch_m = 1e-6;
 
-// A law calls a violation a contact below this clearance: the world stops bodies at kTouch_m, and their clearance then
-// reads 1 or 0 micrometres.
-// Larger: near misses are filed as contacts. At kTouch_m or below: contacts that the world has seen are not filed.
-inline constexpr double kContact_m = 2.0 * kTouch_m;
+// A law calls a violation a contact if the clearance is below kTouch_m at the end of a piece, or below this in between.
+// The world looks for kTouch_m and may pass over a dip of kDip_m. So each contact that a law files is one that the
+// world has found, and each stop at a touch is the end of a piece. Larger: the law files contacts at which the world
+// stops nobody. Smaller: contacts of bodies that graze each other are not filed if nothing stops them.
+inline constexpr double kContact_m = kTouch_m - 2e-9;
 
 // What is built at exactly a distance keeps it: a clearance is too small only if this much is missing. It makes the one
 // threshold of all laws (violation_threshold_m), and judges starts and the places at which the operator sets AGVs down.
@@ -40,6 +41,15 @@ inline constexpr double kDip_m = 1e-9;
 // The smallest clearance over an interval is found to within this.
 // Larger: the figure in the outcome is wrong in its last printed digit, a micrometre. Smaller: more evaluations.
 inline constexpr double kSmallestClearance_m = 1e-7;
+
+// Instants have the same least clearance if it differs by less: a flat minimum.
+// Larger: instants count that are not the closest. At kDip_m or below: the walk does not find the ends of the minimum.
+inline constexpr double kSameClearance_m = 2e-9;
+
+// The clearance no longer changes if its rate is smaller: the bottom of a minimum.
+// Larger: the closest instant is dated away from the minimum, by rate over curvature: 1 ns at 1 m/s2. Smaller: rounding
+// decides where a flat minimum begins.
+inline constexpr double kStationary_mps = 1e-9;
 
 // The least clearance that is one: a level for "the bodies overlap".
 // Larger: the first instant of an overlap is dated before the touch. Zero: no clearance is ever below the level.

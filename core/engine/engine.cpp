@@ -117,8 +117,10 @@ void Engine::file_findings(Outcome& outcome) const {
     std::ranges::move(findings.met, std::back_inserter(probes));
     if (law != laws_.front()) continue;
     file_violations(outcome, std::move(findings.violations));
-    if (findings.min_clearance_m)
-      outcome.min_clearance_um = static_cast<std::int64_t>(std::floor(*findings.min_clearance_m * 1e6));
+    if (findings.min_clearance_m) {
+      const auto smallest_um = static_cast<std::int64_t>(std::floor(*findings.min_clearance_m * 1e6));
+      outcome.min_clearance_um = std::min(outcome.min_clearance_um.value_or(smallest_um), smallest_um);
+    }
     outcome.counters.distance_evaluations = findings.distance_evaluations;
     outcome.counters.perimeter_checks = findings.perimeter_checks;
   }

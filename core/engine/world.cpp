@@ -67,10 +67,11 @@ void World::continue_with(EntityId id, const Piece& next) {
 
 void World::predict_touches(EntityId id, std::vector<TouchPrediction>& out) {
   const Body& mine = body(id);
+  const Box reach = mine.piece.planned_box.grown(kTouch_m);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Body& other = bodies_[i];
     const EntityId other_id{i};
-    if (other_id == id || !other.on_floor || !mine.piece.planned_box.overlaps(other.piece.planned_box)) continue;
+    if (other_id == id || !other.on_floor || !reach.overlaps(other.piece.planned_box)) continue;
     if (have_touched(id, other_id)) continue;
     const Interval common{std::max(mine.piece.begin, other.piece.begin),
                           std::min({mine.piece.end, other.piece.end, kStart + scenario_.horizon})};

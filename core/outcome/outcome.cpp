@@ -10,16 +10,14 @@
 namespace fleetproof {
 namespace {
 
-constexpr std::uint32_t kEncodingVersion = 3;
-
 // The order of the fields in the encoding: these, then the counters in the order of their table. Append only, together
 // with a new version.
 constexpr std::array kFlags{&Outcome::violation, &Outcome::contact,       &Outcome::stuck,       &Outcome::crash,
                             &Outcome::hang,      &Outcome::indeterminate, &Outcome::engine_error};
 
-constexpr std::size_t kViolationBytes = 2 * 4 + 7 * 8 + 1;
+constexpr std::size_t kViolationBytes = 2 * 4 + 8 * 8 + 1;
 
-void put(ByteSink& sink, const Violation& v) {
+void put(ByteSink& sink, const Violation& v, std::uint32_t version) {
   sink.u32(v.a.value);
   sink.u32(v.b.value);
   sink.i64(to_ns(v.first));
@@ -27,6 +25,7 @@ void put(ByteSink& sink, const Violation& v) {
   sink.i64(to_ns(v.closest_at));
   sink.i64(v.min_clearance_um);
   sink.i64(v.relative_speed_um_s);
+  if (version > kEncodingWithoutNormalSpeed) sink.i64(v.normal_speed_um_s);
   sink.i64(v.x_um);
   sink.i64(v.y_um);
   sink.u8(v.contact ? 1 : 0);
@@ -41,6 +40,7 @@ Violation get_violation(ByteSource& source) {
   v.closest_at = at_ns(source.i64());
   v.min_clearance_um = source.i64();
   v.relative_speed_um_s = source.i64();
+  v.normal_speed_um_s = source.i64();
   v.x_um = source.i64();
   v.y_um = source.i64();
   v.contact = source.flag();
@@ -139,9 +139,9 @@ OutcomeClass Outcome::outcome_class() const {
   return OutcomeClass::Clean;
 }
 
-std::string encode(const Outcome& outcome) {
+std::string encode(const Outcome& outcome, std::uint32_t version) {
   ByteSink sink;
-  sink.u32(kEncodingVersion);
+  sink.u32(version);
   for (const auto flag : kFlags) sink.u8(outcome.*flag ? 1 : 0);
   sink.u8(outcome.min_clearance_um ? 1 : 0);
   if (outcome.min_clearance_um) sink.i64(*outcome.min_clearance_um);
@@ -153,7 +153,7 @@ std::string encode(const Outcome& outcome) {
   for (const auto digest : outcome.running_digests) sink.u64(digest);
   sink.text(outcome.message);
   sink.u32(static_cast<std::uint32_t>(outcome.violations.size()));
-  for (const auto& violation : outcome.violations) put(sink, violation);
+  for (const auto& violation : outcome.violations) put(sink, violation, version);
   sink.u32(static_cast<std::uint32_t>(outcome.incidents.size()));
   for (const auto& incident : outcome.incidents) put(sink, incident);
   sink.u32(static_cast<std::uint32_t>(outcome.probes.size()));

@@ -22,15 +22,18 @@ struct Violation {
   EntityId a, b;
   SimTime first{}, last{};
   SimTime closest_at{};
-  std::int64_t min_clearance_um = 0;     // rounded down; below zero in an overlap
-  std::int64_t relative_speed_um_s = 0;  // between the reference points at `closest_at`
+  std::int64_t min_clearance_um = 0;     // rounded down; 0 in a contact: the depth of an overlap is not measured
+  std::int64_t relative_speed_um_s = 0;  // of the closest points, as they move with their bodies; at `closest_at`, but
+                                         // in a contact or a flat minimum the highest while it lasts
+  std::int64_t normal_speed_um_s = 0;    // the part of it along the line between these points, or along the contact
+                                         // normal; above zero if they come nearer
   std::int64_t x_um = 0, y_um = 0;       // midway between the reference points at `closest_at`
   bool contact = false;
 
   friend bool operator==(const Violation&, const Violation&) = default;
 };
 
-// The three levels of a violation. Hazardous: the two met faster than kHazardousSpeed_um_s.
+// The three levels of a violation. Hazardous: somewhere in the contact, the two were faster than kHazardousSpeed_um_s.
 enum class ViolationLevel : std::uint8_t { SafetyDistance, Contact, HazardousContact };
 inline constexpr std::int64_t kHazardousSpeed_um_s = 300'000;
 ViolationLevel level_of(const Violation& violation);
@@ -58,8 +61,11 @@ struct Outcome {
 };
 
 // The one canonical byte encoding (little-endian, version first): what a pipe carries and what a row's checksum covers.
-std::string encode(const Outcome& outcome);
-// Throws EngineError on bytes that `encode` did not write.
+// An earlier version has fewer fields; the checksums of older archives are over it.
+inline constexpr std::uint32_t kEncodingVersion = 4;
+inline constexpr std::uint32_t kEncodingWithoutNormalSpeed = 3;
+std::string encode(const Outcome& outcome, std::uint32_t version = kEncodingVersion);
+// Throws EngineError on bytes that `encode` did not write in its newest version.
 Outcome decode_outcome(std::string_view bytes);
 
 // Sets violation, contact and smallest clearance from the violations a law filed.

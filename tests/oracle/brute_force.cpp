@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <vector>
 
 namespace fleetproof::oracle {
 namespace {
@@ -175,6 +176,42 @@ Lowest lowest(const TrajectoryPair& pair) {
   lower(clock, clock.look(pair.begin), clock.look(pair.end), best);
   const Lowest between = by_thirds(pair, std::max(pair.begin, best.at - kTick), std::min(pair.end, best.at + kTick));
   return between.clearance_m < best.clearance_m ? between : best;
+}
+
+Speed relative_speed(const TrajectoryPair& pair, Nanoseconds t) {
+  constexpr double kAsNear_m = 1e-9;
+  constexpr Nanoseconds kShortly = 20'000;
+  struct Points {
+    Point of_a, of_b;
+  };
+  const Corners a = pair.a.corners(t), b = pair.b.corners(t);
+  std::vector<Points> nearest;
+  double least_m = std::numeric_limits<double>::infinity();
+  const auto offer = [&](const Points& points) {
+    nearest.push_back(points);
+    least_m = std::min(least_m, length(points.of_b - points.of_a));
+  };
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (const Point& p : b) offer({nearest_on(p, a[i], a[(i + 1) % 4]), p});
+    for (const Point& p : a) offer({p, nearest_on(p, b[i], b[(i + 1) % 4])});
+  }
+  // The velocity of a material point: its share along the sides of its body stays.
+  const auto velocity = [&](const Trajectory& body, const Corners& now, Point p) {
+    const Point front = now[0] - now[1], side = now[3] - now[0];
+    const double x = dot(p - now[1], front) / dot(front, front), y = dot(p - now[1], side) / dot(side, side);
+    const auto at = [&](Nanoseconds when) {
+      const Corners c = body.corners(when);
+      return c[1] + x * (c[0] - c[1]) + y * (c[3] - c[0]);
+    };
+    return 1e9 / (2.0 * static_cast<double>(kShortly)) * (at(t + kShortly) - at(t - kShortly));
+  };
+  Speed fastest;
+  for (const auto& [p, q] : nearest) {
+    if (length(q - p) > least_m + kAsNear_m) continue;
+    const Point against = velocity(pair.a, a, p) - velocity(pair.b, b, q);
+    if (length(against) > fastest.speed_mps) fastest = {length(against), dot(against, q - p) / length(q - p)};
+  }
+  return fastest;
 }
 
 double roughly_lowest_m(const TrajectoryPair& pair) { return sampled(pair).clearance_m; }

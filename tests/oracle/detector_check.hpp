@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/clearance/relative_speed.hpp"
 #include "tests/oracle/known_pairs.hpp"
 
 // The detector against brute force, pair by pair.
@@ -10,7 +11,8 @@ namespace fleetproof::oracle {
 inline constexpr double kThreshold_m = 0.10 - 1e-6;  // of both
 
 struct Tally {
-  std::uint64_t pairs = 0, violations = 0, touches = 0, within_10um = 0, at_start = 0, evaluations = 0, most = 0;
+  std::uint64_t pairs = 0, violations = 0, touches = 0, within_10um = 0, at_start = 0, evaluations = 0, most = 0,
+                speeds = 0;
 };
 
 inline void check_first(const TrajectoryPair& pair, std::optional<SimTime> found, const Lowest& low) {
@@ -48,6 +50,21 @@ inline void check_closest(const TrajectoryPair& pair, const Approach& approach, 
   EXPECT_NEAR(clearance_m(pair, to_ns(closest.at)), closest.clearance_m, 1e-12);
 }
 
+// The speed of the closest points at the closest instant, where the trajectories are smooth for a while.
+inline void check_speed(const TrajectoryPair& pair, const Piece& a, const Piece& b, Nanoseconds at, Tally& tally) {
+  constexpr Nanoseconds kAround = 50'000;
+  constexpr double kAccuracy_mps = 1e-4, kFarEnough_m = 1e-4;
+  if (at - kAround < pair.begin || at + kAround > pair.end || clearance_m(pair, at) < kFarEnough_m) return;
+  for (const Trajectory* body : {&pair.a, &pair.b}) {
+    if (body->joint_between(at - kAround, at + kAround)) return;
+  }
+  ++tally.speeds;
+  const Speed seen = relative_speed(pair, at);
+  const RelativeSpeed found = fleetproof::relative_speed(a, b, at_ns(at));
+  EXPECT_NEAR(found.speed_mps, seen.speed_mps, kAccuracy_mps) << at;
+  EXPECT_NEAR(found.normal_mps, seen.closing_mps, kAccuracy_mps) << at;
+}
+
 inline void check(const TrajectoryPair& pair, Tally& tally) {
   const OwnPiece a(pair.a), b(pair.b);
   const Interval common{at_ns(pair.begin), at_ns(pair.end)};
@@ -67,6 +84,8 @@ inline void check(const TrajectoryPair& pair, Tally& tally) {
   if (!approach) return;
   EXPECT_EQ(approach->first, *first);
   check_closest(pair, *approach, low);
+  check_speed(pair, a.piece, b.piece, to_ns(approach->closest.at), tally);
+  check_speed(pair, a.piece, b.piece, to_ns(approach->first), tally);
 }
 
 // `pairs` random pairs, every relation in turn; those tuned to the threshold are a seventh.
@@ -84,6 +103,7 @@ inline Tally check_many(std::uint64_t seed, int pairs) {
   EXPECT_GT(tally.violations * 4, tally.pairs);
   EXPECT_LT(tally.violations * 4, tally.pairs * 3);
   EXPECT_GT(tally.at_start * 10, tally.pairs);
+  EXPECT_GT(tally.speeds * 5, tally.pairs);
   EXPECT_LE(tally.most, 500U);
   return tally;
 }

@@ -85,7 +85,7 @@ TEST(ArchiveReader, a_changed_row_is_named) {
       "UPDATE runs SET contact = 2 WHERE run_index = 17",
       "UPDATE runs SET running_digests = x'00' WHERE run_index = 17",
       "INSERT INTO violations SELECT 17, 99, entity_a, entity_b, first_ns, last_ns, closest_at_ns, min_clearance_um, "
-      "relative_speed_um_s, x_um, y_um, contact FROM "
+      "relative_speed_um_s, normal_speed_um_s, x_um, y_um, contact FROM "
       "violations LIMIT 1",
       "INSERT INTO incidents SELECT 17, 99, kind, entity_a, entity_b, first_ns, last_ns, value FROM incidents LIMIT 1",
       "INSERT INTO incidents SELECT 17, 99, 4711, entity_a, entity_b, first_ns, last_ns, value FROM incidents LIMIT 1",

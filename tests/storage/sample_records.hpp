@@ -94,6 +94,7 @@ inline Outcome random_outcome(std::mt19937_64& random) {
     v.closest_at = at_ns(static_cast<std::int64_t>(random()));
     v.min_clearance_um = static_cast<std::int64_t>(random());
     v.relative_speed_um_s = static_cast<std::int64_t>(random());
+    v.normal_speed_um_s = static_cast<std::int64_t>(random());
     v.x_um = static_cast<std::int64_t>(random());
     v.y_um = static_cast<std::int64_t>(random());
     v.contact = random() % 2 == 0;
