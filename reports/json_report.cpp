@@ -47,16 +47,26 @@ Json cell_json(const CellRecord& cell) {
   return json;
 }
 
+// Metres and seconds for people, the whole numbers of the archive for programs.
 Json violation_json(const Violation& v) {
   return {{"a", v.a.value},
           {"b", v.b.value},
           {"first_s", to_seconds(v.first)},
+          {"first_ns", to_ns(v.first)},
           {"last_s", to_seconds(v.last)},
+          {"last_ns", to_ns(v.last)},
           {"closest_at_s", to_seconds(v.closest_at)},
-          {"min_clearance_m", static_cast<double>(v.min_clearance_um) / 1e6},
-          {"relative_speed_mps", static_cast<double>(v.relative_speed_um_s) / 1e6},
-          {"x_m", static_cast<double>(v.x_um) / 1e6},
-          {"y_m", static_cast<double>(v.y_um) / 1e6},
+          {"closest_at_ns", to_ns(v.closest_at)},
+          {"min_clearance_m", metres(v.min_clearance_um)},
+          {"min_clearance_um", v.min_clearance_um},
+          {"relative_speed_mps", metres(v.relative_speed_um_s)},
+          {"relative_speed_um_s", v.relative_speed_um_s},
+          {"normal_speed_mps", metres(v.normal_speed_um_s)},
+          {"normal_speed_um_s", v.normal_speed_um_s},
+          {"x_m", metres(v.x_um)},
+          {"x_um", v.x_um},
+          {"y_m", metres(v.y_um)},
+          {"y_um", v.y_um},
           {"contact", v.contact},
           {"level", name_of(level_of(v))}};
 }
@@ -70,6 +80,7 @@ Json failing_run_json(const ReportInput& input, const std::optional<FailingRun>&
   json["replicate"] = run->replicate;
   json["severity"] = name_of(run->severity);
   json["min_clearance_m"] = metres(run->min_clearance_um);
+  json["min_clearance_um"] = maybe(run->min_clearance_um);
   json["violations"] = run->violations;
   json["closest"] = run->closest ? violation_json(*run->closest) : Json(nullptr);
   json["message"] = run->message;
@@ -90,6 +101,7 @@ void add_tally(Json& json, const Tally& tally) {
   json["engine_error_runs"] = tally.engine_error_runs;
   json["unknown_runs"] = tally.unknown_runs;
   json["min_clearance_m"] = metres(tally.min_clearance_um);
+  json["min_clearance_um"] = maybe(tally.min_clearance_um);
   json["transports_done"] = tally.transports_done;
   json["agv_hours"] = tally.agv_hours();
   json["transports_per_agv_hour"] = maybe(tally.transports_per_agv_hour());

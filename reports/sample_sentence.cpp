@@ -133,7 +133,7 @@ std::string sampled(const Evidence& evidence, const std::vector<std::uint32_t>& 
                           count_text(evidence.complete_replicates(), "replicate"), where(spans, evidence.sampling()),
                           layouts.size() == 1 ? "layout" : "layouts", listed(layouts), joined(sizes, " or "));
   if (tally.longest_ns > 0)
-    text += fmt::format(", {} a run", seconds_text(static_cast<double>(tally.longest_ns) * 1e-9));
+    text += fmt::format(", {} a run", seconds_text(static_cast<double>(tally.longest_ns) / 1e9));
   return text;
 }
 

@@ -77,7 +77,7 @@ Remark describe(const ReportInput& input, const FailingRun& run) {
                   run.severity == Severity::Incident ? info_of(run.incident->kind).name : name_of(run.severity));
   if (run.closest && level_of(*run.closest) == ViolationLevel::HazardousContact) {
     text +=
-        fmt::format(" at hazardous speed ({:.1f} m/s)", static_cast<double>(run.closest->relative_speed_um_s) * 1e-6);
+        fmt::format(" at hazardous speed ({:.1f} m/s)", static_cast<double>(run.closest->relative_speed_um_s) / 1e6);
   }
   if (run.closest) {
     text += fmt::format(", {} at {} between {} and {}", metres_text(run.closest->min_clearance_um),

@@ -13,16 +13,22 @@
 namespace fleetproof::cli {
 namespace {
 
+// A clearance is never shown larger than it was: rounded down to whole steps.
+double metres_down(std::int64_t value_um, std::int64_t step_um) {
+  const std::int64_t steps = value_um / step_um - (value_um % step_um < 0 ? 1 : 0);
+  return static_cast<double>(steps * step_um) / 1e6;
+}
+
 std::string counters_text(const Outcome& outcome) {
   const Counters& c = outcome.counters;
   const double hours = static_cast<double>(outcome.agv_count) * static_cast<double>(outcome.simulated_ns) / 3.6e12;
   std::string text = fmt::format("  {} drives, {} turns, {:.0f} m; transports {} of {} done", c.drives, c.turns,
-                                 static_cast<double>(c.distance_um) * 1e-6, c.transports_done, c.transports_released);
+                                 static_cast<double>(c.distance_um) / 1e6, c.transports_done, c.transports_released);
   if (hours > 0.0) text += fmt::format(" ({:.2f} per AGV-hour)", transports_per_agv_hour(c.transports_done, hours));
   const double lost =
       c.receptions == 0 ? 0.0 : 100.0 * static_cast<double>(c.receptions_lost) / static_cast<double>(c.receptions);
   const double delay =
-      c.receptions == 0 ? 0.0 : static_cast<double>(c.delay_sum_ns) * 1e-9 / static_cast<double>(c.receptions);
+      c.receptions == 0 ? 0.0 : static_cast<double>(c.delay_sum_ns) / 1e9 / static_cast<double>(c.receptions);
   text += fmt::format("\n  {} messages sent; of {} receptions {:.1f} % lost, mean delay {:.2f} s; {} events\n",
                       c.messages_sent, c.receptions, lost, delay, c.events);
   if (c.lost_in_outage + c.lost_by_interference + c.lost_to_sources + c.duplicates > 0) {
@@ -104,7 +110,7 @@ std::string differences_text(const Scenario& scenario, const std::vector<Differe
     text += fmt::format("    {} ({}): {} and {} from {:.3f} s to {:.3f} s, closest {:.3f} m at {:.3f} s\n",
                         d.missed ? "missed" : "accused wrongly", name_of(d.cause), shown_name(scenario, v.a),
                         shown_name(scenario, v.b), to_seconds(v.first), to_seconds(v.last),
-                        static_cast<double>(v.min_clearance_um) * 1e-6, to_seconds(v.closest_at));
+                        metres_down(v.min_clearance_um, 1'000), to_seconds(v.closest_at));
   }
   return text;
 }
@@ -128,9 +134,9 @@ std::string outcome_text(const Scenario& scenario, const Outcome& outcome, bool 
         "  {} and {} closer than {:.2f} m from {:.3f} s to {:.3f} s; closest {:.3f} m at {:.3f} s near ({:.2f}, "
         "{:.2f}), {:.2f} m/s apart{}\n",
         shown_name(scenario, v.a), shown_name(scenario, v.b), scenario.law.safety_distance_m, to_seconds(v.first),
-        to_seconds(v.last), static_cast<double>(v.min_clearance_um) * 1e-6, to_seconds(v.closest_at),
-        static_cast<double>(v.x_um) * 1e-6, static_cast<double>(v.y_um) * 1e-6,
-        static_cast<double>(v.relative_speed_um_s) * 1e-6, v.contact ? std::string(", ") + name_of(level_of(v)) : "");
+        to_seconds(v.last), metres_down(v.min_clearance_um, 1'000), to_seconds(v.closest_at),
+        static_cast<double>(v.x_um) / 1e6, static_cast<double>(v.y_um) / 1e6,
+        static_cast<double>(v.relative_speed_um_s) / 1e6, v.contact ? std::string(", ") + name_of(level_of(v)) : "");
   }
   if (scenario.law.exempt_purposes.bits() != 0) {
     text += fmt::format("  exempt from the safety distance (contact is not): within {:g} m of stations for {}\n",
@@ -141,7 +147,7 @@ std::string outcome_text(const Scenario& scenario, const Outcome& outcome, bool 
   }
   for (const Incident& incident : outcome.incidents) text += "  " + incident_text(scenario, incident) + "\n";
   if (outcome.min_clearance_um) {
-    text += fmt::format("  smallest clearance {:.2f} m\n", static_cast<double>(*outcome.min_clearance_um) * 1e-6);
+    text += fmt::format("  smallest clearance {:.2f} m\n", metres_down(*outcome.min_clearance_um, 10'000));
   } else {
     text += clearance_measured ? "  smallest clearance > 0.5 m\n" : "  smallest clearance not measured\n";
   }

@@ -28,18 +28,30 @@ struct SimulateWords {
   bool json = false, trace = false;
 };
 
+// Divided, not multiplied: the double nearest to the decimal number.
+double millionths(std::int64_t value) { return static_cast<double>(value) / 1e6; }
+
 nlohmann::ordered_json to_json(const Violation& violation, const Scenario& scenario) {
   return {{"entities", {body_name(scenario, violation.a), body_name(scenario, violation.b)}},
           {"first_s", to_seconds(violation.first)},
+          {"first_ns", to_ns(violation.first)},
           {"last_s", to_seconds(violation.last)},
-          {"min_clearance_m", static_cast<double>(violation.min_clearance_um) * 1e-6},
+          {"last_ns", to_ns(violation.last)},
+          {"min_clearance_m", millionths(violation.min_clearance_um)},
+          {"min_clearance_um", violation.min_clearance_um},
           {"at_s", to_seconds(violation.closest_at)},
+          {"at_ns", to_ns(violation.closest_at)},
           {"contact", violation.contact},
           {"level", name_of(level_of(violation))},
           {"entity_kinds", violation.b.index() < scenario.agvs.size() ? "AGV-AGV" : "AGV-obstacle"},
-          {"relative_speed_mps", static_cast<double>(violation.relative_speed_um_s) * 1e-6},
-          {"x_m", static_cast<double>(violation.x_um) * 1e-6},
-          {"y_m", static_cast<double>(violation.y_um) * 1e-6}};
+          {"relative_speed_mps", millionths(violation.relative_speed_um_s)},
+          {"relative_speed_um_s", violation.relative_speed_um_s},
+          {"normal_speed_mps", millionths(violation.normal_speed_um_s)},
+          {"normal_speed_um_s", violation.normal_speed_um_s},
+          {"x_m", millionths(violation.x_um)},
+          {"x_um", violation.x_um},
+          {"y_m", millionths(violation.y_um)},
+          {"y_um", violation.y_um}};
 }
 
 nlohmann::ordered_json to_json(const Incident& incident, const Scenario& scenario) {
@@ -51,7 +63,9 @@ nlohmann::ordered_json to_json(const Incident& incident, const Scenario& scenari
           {"a", name(incident.a)},
           {"b", name(incident.b)},
           {"first_s", to_seconds(incident.first)},
+          {"first_ns", to_ns(incident.first)},
           {"last_s", to_seconds(incident.last)},
+          {"last_ns", to_ns(incident.last)},
           {"value", incident.value},
           {"unit", info.unit}};
 }
@@ -138,7 +152,11 @@ void print_json(const Scenario& scenario, const Outcome& outcome, const Simulate
   }
   json["clearance_measured"] = measures_clearance(words);
   json["min_clearance_m"] = nullptr;
-  if (outcome.min_clearance_um) json["min_clearance_m"] = static_cast<double>(*outcome.min_clearance_um) * 1e-6;
+  json["min_clearance_um"] = nullptr;
+  if (outcome.min_clearance_um) {
+    json["min_clearance_m"] = millionths(*outcome.min_clearance_um);
+    json["min_clearance_um"] = *outcome.min_clearance_um;
+  }
   for (const CounterInfo& counter : kCounters) json["counters"][counter.name] = outcome.counters.*counter.member;
   json["digest"] = fmt::format("{:016x}", outcome.digest);
   if (!outcome.message.empty()) json["message"] = outcome.message;

@@ -31,7 +31,8 @@ inline Duration seconds(double value_s) {
                                                                       : -kLongestDuration.count()};
 }
 
-constexpr double to_seconds(Duration d) { return static_cast<double>(d.count()) * 1e-9; }
+// Divided, not multiplied: the quotient is the double nearest to the decimal number, so that 12.345 s prints as such.
+constexpr double to_seconds(Duration d) { return static_cast<double>(d.count()) / 1e9; }
 constexpr double to_seconds(SimTime t) { return to_seconds(t.time_since_epoch()); }
 constexpr std::int64_t to_ns(SimTime t) { return t.time_since_epoch().count(); }
 constexpr SimTime at_ns(std::int64_t ns) { return SimTime{Duration{ns}}; }
