@@ -2,38 +2,18 @@
 
 #include <fmt/format.h>
 
+#include "core/base/markup_text.hpp"
+#include "core/base/outside_text.hpp"
 #include "reports/gate_section.hpp"
 #include "reports/wording.hpp"
 
 namespace fleetproof {
 namespace {
 
-// As text and as an attribute. What XML cannot hold at all is already visible: see printable.
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : printable_lines(text)) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\n':
-        out += "&#10;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
+// In one line.
+std::string escaped(std::string_view text) { return escaped_for_markup(printable(text)); }
+
+std::string escaped_lines(std::string_view text) { return escaped_for_markup(printable_lines(text)); }
 
 enum class Ending { Passed, Failed, Skipped, Error };
 
@@ -64,7 +44,7 @@ std::string outcome_element(const ReportInput& input, std::size_t index) {
       return "";
     case Ending::Failed:
       return fmt::format("      <failure type=\"{}\" message=\"{}\">{}</failure>\n", escaped(name_of(result.verdict)),
-                         escaped(message), escaped(text));
+                         escaped(message), escaped_lines(text));
     case Ending::Skipped:
       return fmt::format(
           "      <skipped message=\"{}\"/>\n",

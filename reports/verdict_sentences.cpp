@@ -12,17 +12,6 @@
 namespace fleetproof {
 namespace {
 
-// The agents whose gates decide; all agents if there is no such gate.
-bool is_under_test(const ReportInput& input, const std::string& agent) {
-  bool any = false;
-  for (const GateRecord& gate : input.evidence.gates()) {
-    if (!gate.decides) continue;
-    any = true;
-    if (gate.agent == agent) return true;
-  }
-  return !any;
-}
-
 std::vector<std::size_t> deciding_gates(const ReportInput& input, Verdict verdict) {
   std::vector<std::size_t> list;
   for (std::size_t i = 0; i < input.gates.size(); ++i) {
@@ -106,7 +95,7 @@ std::vector<Headline> warnings(const ReportInput& input) {
          {}});
   }
   for (const auto& [agent, runs, worst] : input.evidence.contract_failures()) {
-    if (!is_under_test(input, agent)) continue;
+    if (!is_under_test(input.evidence.gates(), agent)) continue;
     list.push_back(
         {"violation",
          fmt::format("agent {} broke the safety distance in {} within the contract region. The most serious:",

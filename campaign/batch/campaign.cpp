@@ -190,7 +190,7 @@ class Session {
     listener_.run_finished(record);
   }
 
-  // The runs that are kept if the results themselves end the campaign.
+  // How many runs the campaign keeps if its failures or its verdict end it.
   std::optional<std::uint64_t> stop_length() const {
     const auto failures = options_.fail_fast > 0 ? ledger_.length_with_failures(options_.fail_fast) : std::nullopt;
     const auto verdict = verdict_.decided_length();

@@ -71,7 +71,7 @@ void build_first_worlds(const CampaignPlan& plan);
 // The agents of the plan that come from shared objects.
 std::vector<std::string> plugin_agents(const CampaignPlan& plan, const AgentPrograms& programs);
 
-// The gates of the plan with their tables, and whether they decide.
+// The gates of the plan as the archive stores them: each with its table of stopping decisions and whether it decides.
 std::vector<GateRecord> resolved_gates(const CampaignPlan& plan, const AgentPrograms& programs);
 
 CampaignRecord campaign_record(const CampaignPlan& plan, const AgentPrograms& programs);

@@ -17,7 +17,7 @@ class VerdictWatch {
   VerdictWatch(const CampaignRecord& campaign, const CampaignPlan& plan, const std::vector<GateRecord>& gates);
 
   void add(const RunRecord& run);
-  // The runs up to the end of the first replicate after which the campaign is demonstrated or violated.
+  // How many runs the campaign needed to be demonstrated or violated, in whole replicates. Empty until then.
   std::optional<std::uint64_t> decided_length() const { return decided_length_; }
 
  private:

@@ -50,13 +50,9 @@ void tell_ci(const ReportInput& input) {
   }
   const char* actions = std::getenv("GITHUB_ACTIONS");
   if (actions == nullptr || std::string_view(actions) != "true") return;
-  constexpr std::size_t kMostAnnotations = 3;
-  std::size_t told = 0;
-  for (const Headline& headline : verdicts(input)) {
-    if (told++ == kMostAnnotations) break;
-    talk_text("::" + std::string(input.exit_code == 0 ? "notice" : "error") + " title=" +
-              in_command("fleetproof " + headline.word, true) + "::" + in_command(headline.text, false) + "\n");
-  }
+  const Headline claim = verdicts(input).front();
+  talk_text("::" + std::string(input.exit_code == 0 ? "notice" : "error") +
+            " title=" + in_command("fleetproof " + claim.word, true) + "::" + in_command(claim.text, false) + "\n");
 }
 
 }  // namespace fleetproof::cli

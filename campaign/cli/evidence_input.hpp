@@ -18,8 +18,8 @@ struct EvidenceArgument {
 };
 std::span<const EvidenceArgument> evidence_arguments();
 
-// The words that the user gave to one method, checked when they are read. Each function throws InputError with the
-// option, its value and what is allowed. An argument that was not given and has no fallback is an error.
+// The arguments of one method as the user typed them, checked when they are read. Each function throws InputError with
+// the option, its value and what is allowed. An argument that was not given and has no fallback is an error.
 class EvidenceInput {
  public:
   // `given` maps names of arguments to words.

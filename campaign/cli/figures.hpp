@@ -17,9 +17,9 @@ class Figures {
   void add(const std::string& name, const std::optional<double>& value);
   void add_row(Figures row) { rows_.push_back(std::move(row)); }
 
-  // Lines for people: a figure per line with ten digits, a row per line. The names are those of the JSON.
+  // For the terminal: a figure per line with ten digits, a row per line. The names are those of the JSON.
   std::string text() const;
-  // The members of a JSON object, with 17 significant digits, and the rows as the array "rows".
+  // The same as members of a JSON object, with 17 significant digits. The rows are its array "rows".
   std::string json_members(const std::string& indent) const;
 
  private:

@@ -7,8 +7,8 @@
 
 namespace fleetproof {
 
-// The agents whose gates decide, by name: candidates, and plug-ins without a role. Where there is none of these, all
-// agents that are not marked as reference agents. `is_plugin`: by agent of the plan.
+// The names of the agents that default gates bind: candidates, and plug-ins without a role. If the plan has none of
+// these, all agents that are not marked as reference agents. `is_plugin`: by agent of the plan.
 std::vector<std::string> agents_under_test(const CampaignPlan& plan, const std::vector<bool>& is_plugin);
 
 // Gives a claim without gates those that every fleet has to meet, for each agent under test, in the contract region: no

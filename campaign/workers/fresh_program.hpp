@@ -10,8 +10,8 @@
 
 namespace fleetproof {
 
-// A worker that is a program of its own, started by `exec`. It shares no memory with the process that forked
-// it but the slots, and has another address layout. The runs of an audit happen there.
+// A worker that is a program of its own, started by `exec`. It has an address layout of its own, and shares nothing but
+// the slots with the process that started it. The runs of an audit happen there.
 
 // What such a worker must be told: the plan and the plug-ins. The first frame on its channel.
 std::string encode_setup(const CampaignPlan& plan, const AgentPrograms& programs);

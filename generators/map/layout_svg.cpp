@@ -6,6 +6,7 @@
 #include <iterator>
 #include <vector>
 
+#include "core/base/markup_text.hpp"
 #include "core/base/outside_text.hpp"
 
 namespace fleetproof {
@@ -36,26 +37,7 @@ const Look& look_of(const Station& station) {
   return kLooks[3];
 }
 
-// A text in XML. Nothing in it is read as markup, and characters that XML forbids are escaped.
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : printable(text)) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
+std::string shown(std::string_view name) { return escaped_for_markup(printable(name)); }
 
 // The place of a name.
 struct Written {
@@ -82,7 +64,7 @@ class Picture {
         R"(viewBox="0 0 {0:.0f} {1:.0f}" font-family="sans-serif">)",
         width_px_, height_px_);
     const auto size = Vec2(layout_.floor_high_m - layout_.floor_low_m);
-    const auto title = fmt::format("{}: {} stations, {} segment{}", escaped(layout_.name), layout_.stations.size(),
+    const auto title = fmt::format("{}: {} stations, {} segment{}", shown(layout_.name), layout_.stations.size(),
                                    layout_.segments.size(), layout_.segments.size() == 1 ? "" : "s");
     add("<title>{}</title>", title);
     add(R"(<rect width="{:.0f}" height="{:.0f}" fill="#ffffff"/>)", width_px_, height_px_);
@@ -95,7 +77,7 @@ class Picture {
       if (!segment.bidirectional) arrows(segment);
     }
     for (const auto& station : layout_.stations) {
-      add("<g><title>{}</title>", escaped(station.name));
+      add("<g><title>{}</title>", shown(station.name));
       mark(look_of(station).purpose, pixel(station.position_m), radius_px());
       add("</g>");
     }
@@ -190,7 +172,7 @@ class Picture {
       written_.push_back(written);
     }
     add(R"(<text x="{:.1f}" y="{:.1f}" font-size="{:.1f}" fill="#444444">{}</text>)", at.x() + r, at.y() - r, size_px,
-        escaped(station.name));
+        shown(station.name));
   }
 
   // The longest of 1, 2, 5, 10, ... m that takes no more than a fifth of the width.

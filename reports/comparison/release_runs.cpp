@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "reports/evidence/evidence.hpp"
+
 namespace fleetproof {
 
 bool ComparedRun::is_clean() const {
@@ -9,15 +11,12 @@ bool ComparedRun::is_clean() const {
 }
 
 std::vector<std::string> agents_to_compare(const ArchiveReader& archive) {
-  std::vector<std::string> deciding, all;
-  const auto add = [](std::vector<std::string>& list, const std::string& agent) {
-    if (std::ranges::find(list, agent) == list.end()) list.push_back(agent);
-  };
-  for (const GateRecord& gate : archive.gates()) {
-    if (gate.decides) add(deciding, gate.agent);
+  std::vector<std::string> agents;
+  for (const CellRecord& cell : archive.cells()) {
+    if (is_under_test(archive.gates(), cell.agent) && std::ranges::find(agents, cell.agent) == agents.end())
+      agents.push_back(cell.agent);
   }
-  for (const CellRecord& cell : archive.cells()) add(all, cell.agent);
-  return deciding.empty() ? all : deciding;
+  return agents;
 }
 
 ReleaseRuns read_release(const ArchiveReader& archive, std::string path, const std::string& agent) {

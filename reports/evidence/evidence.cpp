@@ -202,6 +202,15 @@ std::vector<AgentCoverage> Evidence::agent_coverage() const {
   return list;
 }
 
+bool is_under_test(const std::vector<GateRecord>& gates, const std::string& agent) {
+  bool any_decides = false;
+  for (const GateRecord& gate : gates) {
+    if (gate.decides && gate.agent == agent) return true;
+    any_decides |= gate.decides;
+  }
+  return !any_decides;
+}
+
 Verdict overall_verdict(const Evidence& evidence, const std::vector<GateResult>& gates) {
   std::size_t deciding = 0, violated = 0, demonstrated = 0;
   for (std::size_t i = 0; i < gates.size(); ++i) {

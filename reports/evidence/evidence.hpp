@@ -102,6 +102,9 @@ class Evidence {
   WorstRuns worst_inside_{kWorstRuns}, worst_outside_{kWorstRuns};
 };
 
+// Whether a gate that decides names the agent. Without any gate that decides, every agent is under test.
+bool is_under_test(const std::vector<GateRecord>& gates, const std::string& agent);
+
 // Of the gates that decide: violated if one of them is violated; demonstrated if all are demonstrated; otherwise, and
 // without such a gate, not demonstrated.
 Verdict overall_verdict(const Evidence& evidence, const std::vector<GateResult>& gates);

@@ -5,39 +5,10 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "core/base/markup_text.hpp"
 #include "core/base/outside_text.hpp"
 
 namespace fleetproof::html {
-namespace {
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  out.reserve(text.size());
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\'':
-        out += "&#39;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
-
-}  // namespace
 
 std::string Attribute::number_text(double value) {
   ensure(std::isfinite(value), "a number on a page is finite");
@@ -47,16 +18,16 @@ std::string Attribute::number_text(double value) {
 
 Element::Element(Word name, std::initializer_list<Attribute> attributes) : name_(name) {
   for (const Attribute& attribute : attributes)
-    attributes_ += fmt::format(" {}=\"{}\"", attribute.name.text(), escaped(printable(attribute.value)));
+    attributes_ += fmt::format(" {}=\"{}\"", attribute.name.text(), escaped_for_markup(printable(attribute.value)));
 }
 
 Element& Element::text(std::string_view text) {
-  content_ += escaped(printable(text));
+  content_ += escaped_for_markup(printable(text));
   return *this;
 }
 
 Element& Element::lines(std::string_view text) {
-  content_ += escaped(printable_lines(text));
+  content_ += escaped_for_markup(printable_lines(text));
   return *this;
 }
 
