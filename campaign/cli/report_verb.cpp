@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "campaign/cli/ci_summary.hpp"
+#include "campaign/cli/film_maker.hpp"
 #include "campaign/cli/output_file.hpp"
 #include "campaign/cli/render.hpp"
 #include "campaign/cli/streams.hpp"
@@ -49,7 +50,8 @@ int html_report(const ArchiveReader& archive, const ReportWords& words) {
   if (!words.out.empty() || words.json || words.format != "text")
     throw InputError("--html",
                      "writes a page of its own; leave out --output, --json and --format, or call report twice");
-  const HtmlInput input = read_html_input(archive, words.archive);
+  HtmlInput input = read_html_input(archive, words.archive);
+  input.strips = film_strips(archive, words.archive, input.figures);
   write_whole({words.html, "--html", OutputKind::Report}, render_html(input));
   return exit_code_of(input.report, words);
 }

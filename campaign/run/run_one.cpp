@@ -1,6 +1,7 @@
 #include "campaign/run/run_one.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "core/engine/simulation.hpp"
@@ -22,7 +23,8 @@ RunRecord RunOne::empty_record(std::uint64_t run_index) const {
   return record;
 }
 
-RunRecord RunOne::operator()(std::uint64_t run_index, TraceSink* sink, const RunWatch& watch) const {
+RunRecord RunOne::operator()(std::uint64_t run_index, TraceSink* sink, const RunWatch& watch,
+                             std::unique_ptr<Law> also) const {
   RunRecord record = empty_record(run_index);
   Scenario scenario;
   try {
@@ -39,7 +41,8 @@ RunRecord RunOne::operator()(std::uint64_t run_index, TraceSink* sink, const Run
   const fp_agent_type* type =
       played ? programs_.all().front().type : programs_.program(factor.program, "factors.agents").type;
   ensure(type != nullptr, "a run is simulated in a process that has loaded its agent");
-  const auto laws = make_default_laws(scenario, plan_.laws_left_out);
+  auto laws = make_default_laws(scenario, plan_.laws_left_out);
+  if (also) laws.push_back(std::move(also));
   record.scenario_digest = scenario_digest(scenario);
   record.outcome = simulate(scenario, *type, laws, sink, plan_.config_of(factor).c_str(), watch);
   return record;

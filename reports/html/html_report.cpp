@@ -143,7 +143,7 @@ std::string render_html(const HtmlInput& input) {
   main.add(html::section_of(html::layout_table(input.report))).add(html::section_of(html::fleet_table(input.report)));
   const auto provenance = std::ranges::find_if(page.sections, is_provenance);
   for (auto section = std::next(gates); section != provenance; ++section) main.add(html::section_of(*section));
-  main.add(html::section_of(html::failure_table(input.report, input.figures)));
+  main.add(html::failure_part(input.report, input.figures, input.strips));
   for (auto section = provenance; section != page.sections.end(); ++section) {
     Element part = html::section_of(*section);
     main.add(is_provenance(*section) ? part.add(plan_part(input.report)) : part);

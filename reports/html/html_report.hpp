@@ -3,6 +3,7 @@
 #include <string>
 
 #include "reports/html/campaign_figures.hpp"
+#include "reports/html/failure_part.hpp"
 #include "reports/report.hpp"
 
 namespace fleetproof {
@@ -11,6 +12,7 @@ namespace fleetproof {
 struct HtmlInput {
   ReportInput report;
   html::CampaignFigures figures;
+  html::FilmStrips strips{};  // of failing runs, if the caller has simulated them again
 };
 
 // Reads all runs of the archive, once. Throws as read_report_input does.

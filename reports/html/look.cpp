@@ -50,6 +50,9 @@ details { margin: 0 0 12px; } summary { cursor: pointer; font-weight: 600; color
 ul.legend { list-style: none; padding: 0; font-size: 14px; }
 figure { margin: 0 0 12px; } figcaption { font-size: 14px; color: var(--soft); margin: 0 0 6px; }
 .maps { display: flex; flex-wrap: wrap; gap: 12px 32px; } .maps figure { min-width: 0; max-width: 100%; }
+.case { margin: 28px 0 0; } .case h3 { margin: 0 0 4px; }
+.film { display: flex; flex-wrap: wrap; gap: 8px 7px; margin: 8px 0 0; } .film svg.frame { flex: none;
+  max-width: 46%; height: auto; }
 .key { font-size: 14px; color: var(--soft); }
 footer { margin-top: 48px; color: var(--soft); font-size: 14px; }
 @media (max-width: 600px) { main { padding: 20px 14px 48px; } h2 { font-size: 19px; } .headline p { font-size: 16px; }

@@ -8,20 +8,12 @@
 #include <tuple>
 
 #include "reports/html/quality_maps.hpp"
-#include "reports/verdict_sentences.hpp"
 #include "reports/wording.hpp"
 
 namespace fleetproof::html {
 namespace {
 
-constexpr std::size_t kMostRows = 500, kMostGroups = 50, kShortTable = 8;
-
-std::string grouped(std::uint64_t count) {
-  std::string text = std::to_string(count);
-  for (auto at = static_cast<std::ptrdiff_t>(text.size()) - 3; at > 0; at -= 3)
-    text.insert(static_cast<std::size_t>(at), " ");
-  return text;
-}
+constexpr std::size_t kMostRows = 500, kShortTable = 8;
 
 Table tally_columns(const char* what) {
   Table table;
@@ -123,30 +115,6 @@ Section layout_table(const ReportInput& input) {
 Section fleet_table(const ReportInput& input) {
   return tally_section(input, "fleet size",
                        [](const CellRecord& cell) { return fmt::format("{} AGVs", cell.fleet_size); });
-}
-
-Section failure_table(const ReportInput& input, const CampaignFigures& figures) {
-  Section section{"Failing runs, by what went wrong first", {}, {}};
-  auto groups = figures.failures().list();
-  if (groups.empty()) {
-    section.remarks.emplace_back().text = "No run failed.";
-    return section;
-  }
-  section.remarks.emplace_back().text =
-      "End point = the most serious thing that happened in the run. First cause = what happened first; what follows "
-      "may be its consequence. Distinct = runs with the same trace count once. The worst run of each group:";
-  section.table.columns = {{"agent", false}, {"end point", false}, {"first cause", false},
-                           {"runs"},         {"distinct"},         {"worst run"}};
-  for (std::size_t i = 0; i < std::min(groups.size(), kMostGroups); ++i) {
-    const auto& group = groups[i];
-    section.table.rows.push_back({printable(group.agent, 40), group.end_point, printable(group.first_cause, 80),
-                                  grouped(group.runs), (group.at_least ? ">= " : "") + grouped(group.distinct),
-                                  std::to_string(group.worst.run_index)});
-    section.remarks.push_back(describe(input, group.worst));
-  }
-  if (groups.size() > kMostGroups)
-    section.remarks.emplace_back().text = fmt::format("{} more groups are left out here.", groups.size() - kMostGroups);
-  return section;
 }
 
 }  // namespace fleetproof::html

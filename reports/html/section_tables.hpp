@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "reports/html/campaign_figures.hpp"
 #include "reports/html/markup.hpp"
 #include "reports/page.hpp"
 
@@ -21,8 +20,5 @@ Element headline_of(const Headline& headline);
 // Counts by layout and by fleet size, within the contract and beyond it.
 Section layout_table(const ReportInput& input);
 Section fleet_table(const ReportInput& input);
-
-// Failing runs by agent, end point and first cause, at most 50 groups.
-Section failure_table(const ReportInput& input, const CampaignFigures& figures);
 
 }  // namespace fleetproof::html

@@ -1,0 +1,134 @@
+#include "reports/html/film_strip.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <pugixml.hpp>
+#include <regex>
+#include <sstream>
+
+namespace fleetproof::html {
+namespace {
+
+using testing::HasSubstr;
+
+FilmBody agv(const char* name, double x_m, double y_m, bool involved) {
+  FilmBody body;
+  body.name = name;
+  body.centre = {x_m, y_m};
+  body.length_m = 2.0;
+  body.width_m = 1.0;
+  body.is_involved = involved;
+  return body;
+}
+
+// Two AGVs that are 10 m apart, so that the window has a side of 10 m + 2 * 1.118 m + 3 m, rounded up.
+FilmStrip two_agvs() {
+  FilmStrip strip;
+  FilmFrame frame;
+  frame.time_s = 12.345;
+  frame.is_worst = true;
+  frame.clearance_m = 8.0;
+  frame.bodies = {agv("AGV 0", 100.0, 50.0, true), agv("AGV 1", 110.0, 50.0, true), agv("AGV 2", 300.0, 50.0, false)};
+  strip.frames = {frame};
+  return strip;
+}
+
+pugi::xml_document parsed(const Element& element) {
+  pugi::xml_document document;
+  const std::string text = element.str();
+  EXPECT_TRUE(document.load_buffer(text.data(), text.size(), pugi::parse_full)) << text;
+  return document;
+}
+
+// The corners of a path such as M1 2L3 4Z, in pixels.
+std::vector<FloorPoint> corners(const std::string& path) {
+  static const std::regex pair(R"((-?[0-9.]+) (-?[0-9.]+))");
+  std::vector<FloorPoint> points;
+  for (std::sregex_iterator at(path.begin(), path.end(), pair), end; at != end; ++at)
+    points.push_back({std::stod((*at)[1]), std::stod((*at)[2])});
+  return points;
+}
+
+std::vector<std::string> bodies_of(const pugi::xml_document& document) {
+  std::vector<std::string> paths;
+  for (const auto& path : document.select_nodes("//svg/svg/path[@stroke='#2b3138']"))
+    paths.emplace_back(path.node().attribute("d").value());
+  return paths;
+}
+
+TEST(FilmStrip, bodies_are_to_scale) {
+  const auto document = parsed(draw(two_agvs()));
+  const auto bodies = bodies_of(document);
+  ASSERT_EQ(bodies.size(), 2u) << "the third is far away";
+  const auto first = corners(bodies[0]), second = corners(bodies[1]);
+  ASSERT_EQ(first.size(), 4u);
+  const double px_per_m = (second[0].x_m - first[0].x_m) / 10.0;
+  EXPECT_NEAR(px_per_m, 156.0 / 16.0, 0.02) << "a window of 16 m";
+  EXPECT_NEAR((first[0].x_m - first[3].x_m) / px_per_m, 2.0, 0.03) << "length, along the heading";
+  EXPECT_NEAR((first[1].y_m - first[0].y_m) / px_per_m, 1.0, 0.03) << "width";
+}
+
+TEST(FilmStrip, a_turned_body_turns) {
+  auto strip = two_agvs();
+  strip.frames[0].bodies[0].heading = {0.0, 1.0};
+  const auto first = corners(bodies_of(parsed(draw(strip)))[0]);
+  EXPECT_NEAR(first[0].x_m, first[3].x_m, 0.11) << "the length is upright";
+  EXPECT_LT(first[0].y_m, first[3].y_m) << "north is up";
+}
+
+TEST(FilmStrip, has_axes_in_metres_time_and_clearance) {
+  const auto document = parsed(draw(two_agvs()));
+  std::vector<std::string> texts;
+  for (const auto& text : document.select_nodes("//svg/text")) texts.emplace_back(text.node().text().get());
+  EXPECT_THAT(texts, testing::IsSupersetOf({"12.35 s", "8.00 m apart", "m", "AGV 0", "AGV 1"}));
+  // The windows starts at x = 97, so the first round multiple of its step (2 m) is 98.
+  EXPECT_THAT(texts, testing::Contains("98"));
+}
+
+TEST(FilmStrip, clearances_are_rounded_down) {
+  auto strip = two_agvs();
+  strip.frames[0].clearance_m = 0.0999;
+  EXPECT_THAT(draw(strip).str(), HasSubstr("0.09 m apart"));
+  strip.frames[0].clearance_m = 0.1 - 1e-9;  // a lane at exactly 0.10 m
+  EXPECT_THAT(draw(strip).str(), HasSubstr("0.10 m apart"));
+  strip.frames[0].clearance_m = 0.0;
+  EXPECT_THAT(draw(strip).str(), HasSubstr("they touch"));
+}
+
+TEST(FilmStrip, only_what_reaches_into_the_window_is_drawn) {
+  auto strip = two_agvs();
+  strip.lanes = {{{90.0, 50.0}, {120.0, 50.0}}, {{90.0, 90.0}, {120.0, 90.0}}};
+  strip.stations = {{105.0, 50.0}, {500.0, 50.0}};
+  const auto document = parsed(draw(strip));
+  const std::string lanes = document.select_node("//path[@stroke='#9aa3ad']").node().attribute("d").value();
+  EXPECT_EQ(std::ranges::count(lanes, 'M'), 1);
+  const std::string stations = document.select_node("//path[@fill='#7b8590']").node().attribute("d").value();
+  EXPECT_EQ(std::ranges::count(stations, 'M'), 1);
+}
+
+TEST(FilmStrip, names_and_notes_stay_text) {
+  auto strip = two_agvs();
+  strip.frames[0].bodies[0].name = "<b>\"&'\xe2\x80\xae";
+  strip.note = "</p><script>]]>";
+  const auto document = parsed(draw(strip));
+  EXPECT_EQ(document.select_nodes("//b | //script").size(), 0u);
+  EXPECT_STREQ(document.select_node("//p").node().text().get(), "</p><script>]]>");
+}
+
+TEST(FilmStrip, without_frames_it_says_why) {
+  FilmStrip strip;
+  strip.note = "No film strip: the software is gone";
+  const auto document = parsed(draw(strip));
+  EXPECT_EQ(document.select_nodes("//svg").size(), 0u);
+  EXPECT_STREQ(document.select_node("//p").node().text().get(), "No film strip: the software is gone");
+}
+
+TEST(FilmStrip, a_strip_of_nothing_is_drawn) {
+  FilmStrip strip;
+  strip.frames.resize(1);
+  EXPECT_EQ(parsed(draw(strip)).select_nodes("//div/svg").size(), 1u);
+}
+
+}  // namespace
+}  // namespace fleetproof::html
