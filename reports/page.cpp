@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "core/base/contract.hpp"
 #include "reports/audit_section.hpp"
+#include "reports/breakdown_tables.hpp"
+#include "reports/comparison_section.hpp"
 #include "reports/condition_table.hpp"
 #include "reports/coverage_section.hpp"
 #include "reports/gate_section.hpp"
@@ -132,24 +135,31 @@ Page build_page(const ReportInput& input, std::size_t most_rows) {
   for (auto& audit : audit_headlines(input)) page.headlines.push_back(std::move(audit));
   for (auto& weak : weak_headlines(input)) page.headlines.push_back(std::move(weak));
   for (auto& verdict : verdicts(input)) page.headlines.push_back(std::move(verdict));
-  page.sections.push_back(gate_section(input));
+  const auto add = [&](Topic topic, Section section) {
+    section.topic = topic;
+    page.sections.push_back(std::move(section));
+  };
+  const auto add_conditions = [&](const std::string& title, bool (*wanted)(const Condition&)) {
+    add(Topic::Conditions, condition_section(input, title, wanted, most_rows));
+  };
+  add(Topic::Gates, gate_section(input));
+  add(Topic::Groups, layout_section(input, most_rows));
+  add(Topic::Groups, fleet_section(input, most_rows));
   const std::string loss = percent(kContractLoss), delay = fmt::format("{:g} s", kContractDelay_s);
-  page.sections.push_back(condition_section(
-      input, fmt::format("Worst case of the contract: {} loss, {} delay", loss, delay),
-      [](const Condition& c) { return c.is_worst_case; }, most_rows));
-  page.sections.push_back(condition_section(
-      input, fmt::format("Contract region: loss <= {}, delay <= {}", loss, delay),
-      [](const Condition& c) { return c.in_contract; }, most_rows));
-  page.sections.push_back(condition_section(
-      input, "Outside the contract", [](const Condition& c) { return !c.in_contract; }, most_rows));
-  page.sections.push_back(table_legend(input));
-  page.sections.push_back(coverage_section(input, most_rows));
-  page.sections.push_back(incident_section(input, most_rows));
-  page.sections.push_back(audit_section(input));
-  page.sections.push_back(weak_point_section(input));
-  page.sections.push_back(worst_run_section(input));
-  page.sections.push_back(provenance_section(input));
-  page.sections.push_back(method_section(input));
+  add_conditions(fmt::format("Worst case of the contract: {} loss, {} delay", loss, delay),
+                 [](const Condition& c) { return c.is_worst_case; });
+  add_conditions(fmt::format("Contract region: loss <= {}, delay <= {}", loss, delay),
+                 [](const Condition& c) { return c.in_contract; });
+  add_conditions("Outside the contract", [](const Condition& c) { return !c.in_contract; });
+  add(Topic::Conditions, table_legend(input));
+  if (!input.baseline.empty()) add(Topic::Comparison, comparison_section(input));
+  add(Topic::Coverage, coverage_section(input, most_rows));
+  add(Topic::Coverage, incident_section(input, most_rows));
+  add(Topic::Audit, audit_section(input));
+  add(Topic::WeakPoints, weak_point_section(input));
+  add(Topic::WorstRuns, worst_run_section(input));
+  add(Topic::Provenance, provenance_section(input));
+  add(Topic::Method, method_section(input));
   return page;
 }
 

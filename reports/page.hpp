@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -32,11 +33,26 @@ struct Table {
   std::vector<std::vector<std::string>> rows;
 };
 
+// What a section is about, for formats with an order of their own.
+enum class Topic : std::uint8_t {
+  Gates,
+  Groups,
+  Conditions,
+  Comparison,
+  Coverage,
+  Audit,
+  WeakPoints,
+  WorstRuns,
+  Provenance,
+  Method
+};
+
 // A title, a table (if it has columns), and remarks.
 struct Section {
   std::string title;
   Table table;
   std::vector<Remark> remarks;
+  Topic topic = Topic::Gates;
 };
 
 struct Page {

@@ -33,6 +33,7 @@ ReportInput read_report_input(const ArchiveReader& archive, std::string archive_
   ReportInput input{std::move(archive_path),
                     archive.campaign(),
                     Evidence(archive.campaign(), archive.cells(), archive.gates()),
+                    Breakdown(archive.cells()),
                     AuditTally(archive.campaign(), archive.cells()),
                     {},
                     0,
@@ -42,6 +43,7 @@ ReportInput read_report_input(const ArchiveReader& archive, std::string archive_
     input.audits.add_run(run);
     if (run.run_index != input.evidence.runs()) return;
     input.evidence.add(run);
+    input.breakdown.add(run);
     if (also) also(run, input.evidence);
   });
   archive.for_each_audit([&](const AuditRecord& audit, bool same) {

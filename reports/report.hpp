@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "core/base/catalogue.hpp"
+#include "reports/comparison/baseline.hpp"
 #include "reports/evidence/audit_tally.hpp"
+#include "reports/evidence/breakdown.hpp"
 #include "reports/evidence/evidence.hpp"
 #include "storage/archive_reader.hpp"
 
@@ -18,10 +20,12 @@ struct ReportInput {
   std::string archive_path;  // as the user typed it; the replay lines contain it
   CampaignRecord campaign;
   Evidence evidence;
+  Breakdown breakdown;
   AuditTally audits;
   std::vector<GateResult> gates;  // in the order of evidence.gates()
   std::uint64_t stored_runs = 0;  // in the file; evidence.runs() of them are before the first gap
   int exit_code = 4;
+  std::vector<BaselineComparison> baseline{};  // empty: the report compares with nothing
 };
 
 // Reads all runs of the archive and judges the runs before the first gap. `also` gets each of those runs after the

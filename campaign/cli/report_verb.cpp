@@ -16,7 +16,7 @@ namespace fleetproof::cli {
 namespace {
 
 struct ReportWords {
-  std::string archive, format = "text", out, html;
+  std::string archive, format = "text", out, html, baseline;
   bool json = false, digest = false, exit_zero = false;
 };
 
@@ -41,6 +41,13 @@ void print_digest(const ArchiveReader& archive, bool json) {
   put_text(printable_json(object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) + "\n");
 }
 
+// The comparison with the baseline, if there is one to compare with.
+void add_baseline(ReportInput& input, const ArchiveReader& archive, const ReportWords& words) {
+  if (words.baseline.empty()) return;
+  const ArchiveReader baseline(words.baseline);
+  input.baseline = compare_with_baseline(archive, words.archive, baseline, words.baseline);
+}
+
 int exit_code_of(const ReportInput& input, const ReportWords& words) {
   tell_ci(input);
   return words.exit_zero && input.exit_code != 3 ? kDemonstrated : input.exit_code;
@@ -51,6 +58,7 @@ int html_report(const ArchiveReader& archive, const ReportWords& words) {
     throw InputError("--html",
                      "writes a page of its own; leave out --output, --json and --format, or call report twice");
   HtmlInput input = read_html_input(archive, words.archive);
+  add_baseline(input.report, archive, words);
   input.strips = film_strips(archive, words.archive, input.figures);
   write_whole({words.html, "--html", OutputKind::Report}, render_html(input));
   return exit_code_of(input.report, words);
@@ -63,7 +71,12 @@ int report(const ReportWords& words) {
     return kDemonstrated;
   }
   if (!words.html.empty()) return html_report(archive, words);
-  const ReportInput input = read_report_input(archive, words.archive);
+  const bool is_page = !words.json && (words.format == "text" || words.format == "markdown");
+  if (!words.baseline.empty() && !is_page)
+    throw InputError("--baseline",
+                     "stands on pages for people (text, markdown, --html); see: fleetproof compare --json");
+  ReportInput input = read_report_input(archive, words.archive);
+  add_baseline(input, archive, words);
   const std::string text = render(input, words.json ? "json" : words.format);
   if (words.out.empty()) {
     put_text(text);
@@ -81,6 +94,7 @@ Action prepare_report(Options& options) {
   options.option("--format", words->format, "text (default), markdown, junit, json or summary");
   options.option("-o,--output", words->out, "write the report to this file instead of standard output");
   options.option("--html", words->html, "write one self-contained HTML page with maps and charts to this file");
+  options.option("--baseline", words->baseline, "also say what changed since this campaign file");
   options.flag("--json", words->json, "the same as --format json");
   options.flag("--digest", words->digest,
                "print one digest of plan and results, the same from every build, and beside it the engine");

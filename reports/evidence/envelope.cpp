@@ -1,9 +1,11 @@
 #include "reports/evidence/envelope.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/base/error.hpp"
 #include "reports/evidence/binomial.hpp"
+#include "reports/evidence/release_gate.hpp"
 
 namespace fleetproof {
 
@@ -18,9 +20,25 @@ std::vector<std::vector<double>> envelope_p_values(const EnvelopeGrid& grid, dou
   return p_values;
 }
 
+std::vector<std::vector<double>> any_time_p_values(const EnvelopeGrid& grid, double limit) {
+  std::vector<std::vector<double>> p_values;
+  for (const auto& row : grid) {
+    auto& of_row = p_values.emplace_back();
+    for (const EnvelopeCell& cell : row) {
+      const double log_e = cell.units == 0 ? 0.0 : log_e_values(cell.failing, cell.units, limit).gate;
+      of_row.push_back(std::min(1.0, std::exp(-log_e)));
+    }
+  }
+  return p_values;
+}
+
 std::vector<std::vector<bool>> safe_envelope(const EnvelopeGrid& grid, double limit, Confidence confidence) {
-  const auto p_values = envelope_p_values(grid, limit);
-  const std::size_t rows = grid.size(), columns = grid.front().size();
+  return predecessor_rule(envelope_p_values(grid, limit), confidence);
+}
+
+std::vector<std::vector<bool>> predecessor_rule(const std::vector<std::vector<double>>& p_values,
+                                                Confidence confidence) {
+  const std::size_t rows = p_values.size(), columns = p_values.front().size();
   const double risk = confidence.risk() / static_cast<double>(std::min(rows, columns));
   std::vector claimed(rows, std::vector<bool>(columns));
   for (std::size_t loss = 0; loss < rows; ++loss) {

@@ -23,11 +23,18 @@ using EnvelopeGrid = std::vector<std::vector<EnvelopeCell>>;  // rows of equal l
 // P(Binomial(units, limit) <= failing).
 std::vector<std::vector<double>> envelope_p_values(const EnvelopeGrid& grid, double limit);
 
+// The same for a campaign that may be watched, stopped and extended: 1 / e of the release gate (release_gate.hpp),
+// which is a p-value at every number of units at once.
+std::vector<std::vector<double>> any_time_p_values(const EnvelopeGrid& grid, double limit);
+
 // The guaranteed envelope: a cell is claimed if its own p-value and that of every cell with no more loss and no more
 // delay are at most risk / min(rows, columns). All claims hold together with the stated confidence: a false claim
 // rejects a minimal unsafe cell, minimal unsafe cells are no predecessors of each other, and a grid has at most
 // min(rows, columns) such cells (union bound). Requires: a grid and a limit that were fixed beforehand.
 std::vector<std::vector<bool>> safe_envelope(const EnvelopeGrid& grid, double limit, Confidence confidence);
+// The same with p-values of either kind.
+std::vector<std::vector<bool>> predecessor_rule(const std::vector<std::vector<double>>& p_values,
+                                                Confidence confidence);
 
 // The same guarantee without regard to the places of the cells: a cell is claimed if its p-value is at most risk /
 // cells (Bonferroni). For more than a few cells it claims less.

@@ -127,7 +127,11 @@ Element map_part(const ReportInput& input, const CampaignFigures& figures) {
     row.add(figure_of(risk_caption(input.evidence), draw(maps.risk)));
     row.add(figure_of("Transports (orders) done per AGV-hour", draw(maps.throughput)));
     row.add(figure_of("Share of time in safe mode", draw(maps.safe_mode)));
+    if (maps.envelope)
+      row.add(
+          figure_of("Guaranteed envelope: where the rate is shown to be below the limit", draw(maps.envelope->map)));
     part.add(row);
+    if (maps.envelope) part.add(paragraph(maps.envelope->sentence));
   }
   std::size_t shown = 0;
   for (const auto& maps : list) shown += maps.risk.fields.size();

@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
+#include <initializer_list>
 #include <utility>
 
-#include "core/base/error.hpp"
 #include "reports/html/campaign_charts.hpp"
 #include "reports/html/look.hpp"
 #include "reports/html/plan_conditions.hpp"
@@ -118,8 +117,6 @@ Element plan_part(const ReportInput& input) {
   return details.add(Element("pre").add(Element("code").lines(plan)));
 }
 
-bool is_provenance(const Section& section) { return section.title == "Provenance"; }
-
 }  // namespace
 
 HtmlInput read_html_input(const ArchiveReader& archive, std::string archive_path) {
@@ -132,22 +129,25 @@ HtmlInput read_html_input(const ArchiveReader& archive, std::string archive_path
 
 std::string render_html(const HtmlInput& input) {
   const Page page = build_page(input.report, kMostRows);
-  ensure(!page.sections.empty(), "the gates stand first on a page");
   Element main("main");
   main.add(text_element("h1", page.title));
   for (const Headline& headline : page.headlines) main.add(html::headline_of(headline));
-  const auto gates = page.sections.begin();
-  main.add(html::section_of(*gates));
+  const auto add = [&](std::initializer_list<Topic> topics) {
+    for (const Topic topic : topics) {
+      for (const Section& section : page.sections) {
+        if (section.topic == topic) main.add(html::section_of(section));
+      }
+    }
+  };
+  add({Topic::Gates});
   main.add(conditions_part(input.report)).add(html::map_part(input.report, input.figures));
+  add({Topic::Groups});
   main.add(html::clearance_part(input.report, input.figures)).add(html::effort_part(input.report, input.figures));
-  main.add(html::section_of(html::layout_table(input.report))).add(html::section_of(html::fleet_table(input.report)));
-  const auto provenance = std::ranges::find_if(page.sections, is_provenance);
-  for (auto section = std::next(gates); section != provenance; ++section) main.add(html::section_of(*section));
+  // The worst run of each group stands there: a list of the worst runs would be one failure many times.
   main.add(html::failure_part(input.report, input.figures, input.strips));
-  for (auto section = provenance; section != page.sections.end(); ++section) {
-    Element part = html::section_of(*section);
-    main.add(is_provenance(*section) ? part.add(plan_part(input.report)) : part);
-  }
+  add({Topic::Comparison, Topic::Coverage, Topic::Conditions, Topic::Audit, Topic::WeakPoints, Topic::Provenance});
+  main.add(plan_part(input.report));
+  add({Topic::Method});
   main.add(assumptions_part()).add(limits_part());
   Element root("html", {{"lang", "en"}});
   root.add(head_of(page)).add(Element("body").add(main).add(Element("script").literal(html::script())));

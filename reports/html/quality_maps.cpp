@@ -95,16 +95,20 @@ QualityMaps maps_of(const std::vector<const Condition*>& conditions, const Evide
   maps.risk = empty_map(losses, delays, "Upper bound of the failure rate. " + maps.title, Ramp::Risk);
   maps.throughput = empty_map(losses, delays, "Transports per AGV-hour. " + maps.title, Ramp::Throughput);
   maps.safe_mode = empty_map(losses, delays, "Share of time in safe mode. " + maps.title, Ramp::SafeMode);
+  std::vector<const Condition*> places(losses.size() * delays.size(), nullptr);
   for (const auto* condition : conditions) {
     const auto row =
         static_cast<std::size_t>(std::distance(losses.begin(), losses.find(span_of(*condition, Factor::Loss))));
     const auto column =
         static_cast<std::size_t>(std::distance(delays.begin(), delays.find(span_of(*condition, Factor::Delay))));
     const auto place = row * delays.size() + column;
+    places[place] = condition;
     maps.risk.fields[place] = risk_field(*condition, evidence);
     maps.throughput.fields[place] = throughput_field(*condition, most_throughput);
     maps.safe_mode.fields[place] = safe_mode_field(*condition, figures);
   }
+  maps.envelope = envelope_map(evidence, conditions.front()->agent, places,
+                               empty_map(losses, delays, "Guaranteed envelope. " + maps.title, Ramp::Throughput));
   return maps;
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "reports/html/campaign_figures.hpp"
+#include "reports/html/envelope_map.hpp"
 #include "reports/html/factor_map.hpp"
 #include "reports/report.hpp"
 
@@ -13,6 +15,7 @@ namespace fleetproof::html {
 struct QualityMaps {
   std::string title;  // "agent sound; outages of 0.5 s"
   FactorMap risk, throughput, safe_mode;
+  std::optional<EnvelopeMap> envelope;
 };
 
 // Agents whose gates decide come first. In a search the shade of a risk is whether any run failed: its counts are not a

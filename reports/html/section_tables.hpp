@@ -17,8 +17,4 @@ Element item_of(const Remark& remark);
 Element section_of(const Section& section);
 Element headline_of(const Headline& headline);
 
-// Counts by layout and by fleet size, within the contract and beyond it.
-Section layout_table(const ReportInput& input);
-Section fleet_table(const ReportInput& input);
-
 }  // namespace fleetproof::html

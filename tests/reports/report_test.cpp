@@ -84,9 +84,9 @@ TEST(Report, a_refuted_gate_shows_its_run) {
 TEST(Report, sections_stand_in_their_order) {
   const auto page = render("text", failing_campaign());
   std::size_t last = 0;
-  for (const auto* title : {"demonstrated |", "Gates (acceptance criteria)", "Worst case of the contract",
-                            "Contract region: loss", "Outside the contract\n", "How to read the tables", "Weak points",
-                            "Worst runs", "Provenance", "How to read this"}) {
+  for (const auto* title : {"demonstrated |", "Gates (acceptance criteria)", "By layout", "By fleet size",
+                            "Worst case of the contract", "Contract region: loss", "Outside the contract\n",
+                            "How to read the tables", "Weak points", "Worst runs", "Provenance", "How to read this"}) {
     const auto at = page.find(title, last);
     ASSERT_NE(at, std::string::npos) << title;
     last = at;

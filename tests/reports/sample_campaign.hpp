@@ -82,12 +82,14 @@ using Change = std::function<void(RunRecord&)>;
 inline ReportInput report_of(CampaignRecord campaign, const std::vector<CellRecord>& cells,
                              const std::vector<GateRecord>& gates, const Change& change = {},
                              std::uint64_t extra_runs = 0, std::uint64_t missing_runs = 0) {
-  ReportInput input{"night.fp", campaign, Evidence(campaign, cells, gates), AuditTally(campaign, cells), {}, 0, 4};
+  ReportInput input{
+      "night.fp", campaign, Evidence(campaign, cells, gates), Breakdown(cells), AuditTally(campaign, cells), {}, 0, 4};
   for (std::uint64_t i = 0; i < campaign.replicates * cells.size() + extra_runs - missing_runs; ++i) {
     auto run = clean_run(i, cells.size());
     run.factors = cells[run.cell].lowest;
     if (change) change(run);
     input.evidence.add(run);
+    input.breakdown.add(run);
     input.audits.add_run(run);
     ++input.stored_runs;
   }

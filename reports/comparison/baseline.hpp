@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reports/comparison/release_comparison.hpp"
+
+namespace fleetproof {
+
+// How one agent of a campaign compares with a campaign before.
+struct BaselineComparison {
+  std::string agent, baseline_path;
+  ComparisonRule rule;
+  std::optional<Comparison> comparison;  // absent: the baseline has no agent to compare with
+};
+
+// One comparison for each agent of `archive` that is under test: with the agent of the same name, or with the only one
+// under test in the baseline.
+std::vector<BaselineComparison> compare_with_baseline(const ArchiveReader& archive, const std::string& archive_path,
+                                                      const ArchiveReader& baseline, const std::string& baseline_path);
+
+}  // namespace fleetproof

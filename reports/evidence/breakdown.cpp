@@ -1,0 +1,96 @@
+#include "reports/evidence/breakdown.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <utility>
+
+#include "reports/evidence/run_result.hpp"
+
+namespace fleetproof {
+namespace {
+
+Pool empty_pool(GateUnit unit) {
+  Pool pool;
+  pool.rule.unit = unit;
+  return pool;
+}
+
+// Behind a wreck nothing moves: that is no fault of its own (run_result.hpp calls it unknown).
+bool stalls(const Outcome& outcome) {
+  if (outcome.incidents.empty()) return false;
+  constexpr std::array kinds{EndPoint::Deadlock, EndPoint::Livelock, EndPoint::Starvation};
+  return std::ranges::any_of(kinds, [&](EndPoint kind) { return result_of(outcome, kind) == RunResult::Failed; });
+}
+
+// Of the agents, in the order of the campaign: a group of all cells, then the layouts, then the fleet sizes.
+std::vector<std::pair<BreakdownKey, std::vector<std::uint32_t>>> grouped_cells(const std::vector<CellRecord>& cells) {
+  std::vector<std::pair<BreakdownKey, std::vector<std::uint32_t>>> groups;
+  std::vector<std::string> agents;
+  for (const CellRecord& cell : cells) {
+    if (std::ranges::find(agents, cell.agent) == agents.end()) agents.push_back(cell.agent);
+  }
+  const auto put = [&](const BreakdownKey& key, std::uint32_t cell) {
+    const auto found = std::ranges::find(
+        groups, key, [](const auto& group) -> const auto& { return group.first; });
+    auto& members = found == groups.end() ? groups.emplace_back(key, std::vector<std::uint32_t>{}) : *found;
+    members.second.push_back(cell);
+  };
+  for (const std::string& agent : agents) {
+    for (const int kind : {0, 1, 2}) {
+      for (const CellRecord& cell : cells) {
+        if (cell.agent != agent) continue;
+        BreakdownKey key{agent, "", 0, cell.in_contract()};
+        if (kind == 1) key.layout = cell.layout;
+        if (kind == 2) key.fleet_size = cell.fleet_size;
+        put(key, cell.index);
+      }
+    }
+  }
+  return groups;
+}
+
+}  // namespace
+
+Breakdown::Breakdown(const std::vector<CellRecord>& cells) : groups_of_cell_(cells.size()) {
+  for (auto& [key, members] : grouped_cells(cells)) {
+    for (const std::uint32_t cell : members) groups_of_cell_[cell].push_back(groups_.size());
+    Pool worlds = empty_pool(GateUnit::World), hours = empty_pool(GateUnit::AgvHour);
+    worlds.cells = hours.cells = members;
+    groups_.push_back({key, PoolCounter(std::move(worlds)), PoolCounter(std::move(hours))});
+  }
+}
+
+void Breakdown::add(const RunRecord& run) {
+  Tally one;
+  one.add(run.outcome);
+  const bool stalled = stalls(run.outcome);
+  for (const std::size_t index : groups_of_cell_[run.cell]) {
+    Group& group = groups_[index];
+    group.violations.add(run);
+    group.violations_per_hour.add(run);
+    group.pending.add(one);
+    group.stalls |= stalled;
+  }
+  if (run.cell + 1 == groups_of_cell_.size()) finish_replicate();
+}
+
+void Breakdown::finish_replicate() {
+  for (Group& group : groups_) {
+    group.violations.finish_replicate();
+    group.violations_per_hour.finish_replicate();
+    group.tally.add(std::exchange(group.pending, Tally{}));
+    group.stalled += std::exchange(group.stalls, false) ? 1 : 0;
+  }
+}
+
+std::vector<BreakdownRow> Breakdown::rows() const {
+  std::vector<BreakdownRow> list;
+  for (const Group& group : groups_) {
+    list.push_back({group.key, group.tally, group.violations.pool(), group.violations_per_hour.pool(), group.stalled,
+                    static_cast<double>(group.tally.longest_ns) / 1e9});
+  }
+  return list;
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "reports/evidence/pool.hpp"
+#include "reports/evidence/tally.hpp"
+#include "storage/records.hpp"
+
+namespace fleetproof {
+
+// Runs of one agent on one layout, or with one fleet size, within the contract region or beyond it. Both empty: on all
+// layouts with all fleets.
+struct BreakdownKey {
+  std::string agent, layout;
+  std::uint32_t fleet_size = 0;
+  bool in_contract = true;
+  friend auto operator<=>(const BreakdownKey&, const BreakdownKey&) = default;
+};
+
+struct BreakdownRow {
+  BreakdownKey key;
+  Tally tally;                // over complete replicates, as all counts here
+  Pool violations;            // worlds with a violation or an unknown outcome
+  Pool violations_per_hour;   // the same events by exposure, which ends at the first in a world
+  std::uint64_t stalled = 0;  // worlds with a deadlock, livelock or starvation that nothing else explains
+  double run_length_s = 0.0;  // the longest run
+};
+
+// Counts a campaign by agent and layout, and by agent and fleet size. Sums of whole numbers, so that their order does
+// not matter. Threads: one.
+class Breakdown {
+ public:
+  explicit Breakdown(const std::vector<CellRecord>& cells);
+  // Runs in order of their index, without gaps.
+  void add(const RunRecord& run);
+  // Agents in the order of the campaign; per agent all, then layouts, then fleets in the order of the cells.
+  std::vector<BreakdownRow> rows() const;
+
+ private:
+  struct Group {
+    BreakdownKey key;
+    PoolCounter violations, violations_per_hour;
+    Tally tally{}, pending{};
+    std::uint64_t stalled = 0;
+    bool stalls = false;  // in the replicate that is not complete yet
+  };
+  void finish_replicate();
+
+  std::vector<Group> groups_;
+  std::vector<std::vector<std::size_t>> groups_of_cell_;
+};
+
+}  // namespace fleetproof

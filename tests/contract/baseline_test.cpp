@@ -1,0 +1,76 @@
+// `report --baseline`: what a page says about the campaign before.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/support/program.hpp"
+
+namespace fleetproof {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+class Baseline : public test::ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    run_release("old", "hull-lock", 1);
+    run_release("new", "reckless", 1);
+  }
+  void run_release(const std::string& name, const std::string& agent, int seed) {
+    write(name + ".toml", fmt::format("seed = {}\nreplicates = 12\nhorizon_s = 120\n[factors]\nagents = [{{ agent = "
+                                      "\"{}\", name = \"candidate\" }}]\nlayouts = [\"aisle-grid\"]\n"
+                                      "fleet_sizes = [4]\nloss = [0.0, 0.4]\ndelay_s = [1]\n",
+                                      seed, agent));
+    run(fmt::format("run {0}.toml --db {0}.db", name));
+  }
+};
+
+constexpr const char* kTitle = "Compared with the baseline";
+
+TEST_F(Baseline, SaysWhatVerbCompareSays) {
+  const auto compared = nlohmann::json::parse(run("compare old.db new.db --json").out);
+  const auto& violation = compared["end_points"][0];
+  const std::string before = fmt::format("{}/12", violation["old_failing"].get<int>()),
+                    now = fmt::format("{}/12", violation["new_failing"].get<int>());
+  ASSERT_EQ(violation["change"], "worse");
+  run("report new.db --baseline old.db --html page.html");
+  for (const std::string& page : {read(path("page.html")), run("report new.db --baseline old.db").out,
+                                  run("report new.db --baseline old.db --format markdown").out}) {
+    EXPECT_THAT(page, HasSubstr(kTitle));
+    EXPECT_THAT(page, HasSubstr("paired, because both ran in the same 12 worlds"));
+    EXPECT_THAT(page, testing::ContainsRegex("violation[^0-9]+worse[^0-9]+" + before + "[^0-9]+" + now));
+    EXPECT_THAT(page, HasSubstr(fmt::format("Newly failing: run {}", compared["newly_failing"][0].get<int>())));
+    EXPECT_THAT(page, HasSubstr(fmt::format("fleetproof replay new.db {}", compared["newly_failing"][0].get<int>())));
+  }
+}
+
+TEST_F(Baseline, OtherSeedsAreNotPaired) {
+  run_release("other", "reckless", 2);
+  EXPECT_THAT(run("report other.db --baseline old.db").out, HasSubstr("not paired: the seeds differ"));
+}
+
+TEST_F(Baseline, WithoutItTheSectionIsAbsent) {
+  EXPECT_THAT(run("report new.db").out, Not(HasSubstr(kTitle)));
+  run("report new.db --html page.html");
+  EXPECT_THAT(read(path("page.html")), Not(HasSubstr(kTitle)));
+}
+
+TEST_F(Baseline, IsNoChangeOfTheVerdict) {
+  EXPECT_EQ(run("report new.db --baseline old.db").exit_code, run("report new.db").exit_code);
+  EXPECT_EQ(run("report old.db --baseline new.db").exit_code, run("report old.db").exit_code);
+}
+
+TEST_F(Baseline, BadWordsAreRefused) {
+  for (const char* words : {"report new.db --baseline none.db", "report new.db --baseline old.db --json",
+                            "report new.db --baseline old.db --format junit", "report new.db --baseline new.toml"}) {
+    const auto refused = run(words);
+    EXPECT_EQ(refused.exit_code, 2) << words;
+    EXPECT_EQ(std::ranges::count(refused.err, '\n'), 1) << refused.err;
+  }
+}
+
+}  // namespace
+}  // namespace fleetproof
