@@ -177,11 +177,13 @@ std::map<std::uint64_t, html::FilmStrip> film_strips(const ArchiveReader& archiv
     maker = std::make_unique<FilmMaker>(archive, archive_path);
   } catch (const InputError& unreadable) {
     no_plan = unreadable.what();
+  } catch (const EngineError& unreadable) {
+    no_plan = unreadable.what();
   }
   for (const auto& group : groups) {
     html::FilmStrip& strip = strips[group.worst.run_index];
     try {
-      strip = maker ? maker->strip(group.worst) : without_frames("the stored plan cannot be read: " + no_plan);
+      strip = maker ? maker->strip(group.worst) : without_frames(no_plan);
     } catch (const InputError& error) {
       strip = without_frames(error.what());
     } catch (const EngineError& error) {

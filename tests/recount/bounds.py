@@ -1,0 +1,131 @@
+"""Bounds and intervals, written from the formulas of the method notes and from no code of the product."""
+from math import exp, inf, lgamma, log, log1p, expm1
+
+
+def bisected(is_above, low, high):
+    """The point at which `is_above` becomes true."""
+    for _ in range(200):
+        middle = 0.5 * (low + high)
+        if not low < middle < high:
+            break
+        if is_above(middle):
+            high = middle
+        else:
+            low = middle
+    return high
+
+
+def beta_fraction(a, b, x):
+    """The continued fraction of the incomplete beta function (modified Lentz)."""
+    tiny = 1e-300
+    c, d = 1.0, 1.0 / max(1.0 - (a + b) * x / (a + 1.0), tiny, key=abs)
+    h = d
+    for m in range(1, 200000):
+        for numerator in (m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m)),
+                          -(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1))):
+            d = 1.0 / (1.0 + numerator * d or tiny)
+            c = 1.0 + numerator / c or tiny
+            h *= c * d
+        if abs(c * d - 1.0) < 1e-16:
+            break
+    return h
+
+
+def beta_cdf(x, a, b):
+    if x <= 0.0 or x >= 1.0:
+        return float(x >= 1.0)
+    front = exp(lgamma(a + b) - lgamma(a) - lgamma(b) + a * log(x) + b * log1p(-x))
+    if x < (a + 1.0) / (a + b + 2.0):
+        return front * beta_fraction(a, b, x) / a
+    return 1.0 - front * beta_fraction(b, a, 1.0 - x) / b
+
+
+def fixed_share(k, n, risk):
+    """Clopper and Pearson, both one-sided bounds at `risk`."""
+    lower = 0.0 if k == 0 or n == 0 else bisected(lambda p: beta_cdf(p, k, n - k + 1) >= risk, 0.0, 1.0)
+    if n == 0 or k == n:
+        return lower, 1.0
+    if k == 0:
+        return 0.0, -expm1(log(risk) / n)
+    return lower, bisected(lambda p: 1.0 - beta_cdf(p, k + 1, n - k) <= risk, 0.0, 1.0)
+
+
+def log_mean(logs):
+    top = max(logs)
+    return top + log(sum(exp(each - top) for each in logs) / len(logs)) if top > -inf else -inf
+
+
+def log_gate(k, n, limit):
+    """The release gate: the mean of three likelihood ratios, q = 0, limit / 10, limit / 3."""
+    clean = -n * log1p(-limit)
+    logs = [clean if k == 0 else -inf]
+    for part in (10.0, 3.0):
+        logs.append(-k * log(part) + (n - k) * log1p(-limit / part) - (n - k) * log1p(-limit))
+    return log_mean(logs)
+
+
+def log_refutation(k, n, limit):
+    return log_mean([k * log(c) - n * log1p((c - 1.0) * limit) for c in (2.0, 5.0, 20.0)])
+
+
+def any_time_share(k, n, risk):
+    goal = -log(risk)
+    lower, upper = 0.0, 1.0
+    if n > 0 and k < n:
+        upper = bisected(lambda p: log_gate(k, n, p) >= goal, 0.0, 1.0)
+    if k > 0 and log_refutation(k, n, 0.0) >= goal:
+        lower = bisected(lambda p: log_refutation(k, n, p) < goal, 0.0, 1.0)
+    return lower, upper
+
+
+def poisson_at_most(k, mean):
+    """P(Poisson(mean) <= k), as a sum from its largest term on."""
+    if mean == 0.0:
+        return 1.0
+    top = min(k, int(mean))
+    log_top = top * log(mean) - mean - lgamma(top + 1)
+    total, term = 0.0, 1.0
+    for i in range(top, -1, -1):
+        total += term
+        term *= i / mean
+        if term < 1e-18 * total:
+            break
+    term = 1.0
+    for i in range(top + 1, k + 1):
+        term *= mean / i
+        total += term
+        if term < 1e-18 * total:
+            break
+    return min(1.0, total * exp(log_top))
+
+
+def fixed_rate(k, hours, risk):
+    """Garwood."""
+    most = (k + 20.0 * (k + 1) ** 0.5 + 40.0) / hours
+    lower = 0.0 if k == 0 else bisected(lambda r: 1.0 - poisson_at_most(k - 1, r * hours) >= risk, 0.0, most)
+    return lower, bisected(lambda r: poisson_at_most(k, r * hours) <= risk, 0.0, most)
+
+
+def any_time_rate(k, hours, risk):
+    """The Gamma-Poisson sequence with shape 0.05 and rate 1."""
+    shape, goal = 0.05, -log(risk)
+
+    def log_m(rate):
+        return (lgamma(shape + k) - lgamma(shape) - (shape + k) * log(1.0 + hours)
+                - (k * log(rate) if k else 0.0) + rate * hours)
+
+    best = k / hours
+    lower = 0.0 if k == 0 else bisected(lambda r: log_m(r) < goal, best * 1e-300, best)
+    most = best + 1.0 / hours
+    while log_m(most) < goal:
+        most *= 2.0
+    return lower, bisected(lambda r: log_m(r) >= goal, best, most)
+
+
+def bounds(method, unit, k, units, risk):
+    """One-sided lower and upper bound at `risk`. Units of AGV-hours are microseconds."""
+    if unit != "agv-hour":
+        return (any_time_share if method == "any-time" else fixed_share)(k, units, risk)
+    if units == 0:
+        return 0.0, inf
+    return (any_time_rate if method == "any-time" else fixed_rate)(k, units / 3.6e9, risk)

@@ -1,0 +1,154 @@
+"""What an archive holds, counted with SQL from its tables. No code of the product."""
+import sqlite3
+from collections import defaultdict
+
+FACTORS = (("loss", "loss_to"), ("delay_s", "delay_to_s"), ("mean_outage_s", "mean_outage_to_s"),
+           ("call_cost_s", "call_cost_to_s"))
+KINDS = {1: "battery-empty", 2: "channel-saturated", 3: "interference-losses", 4: "load-held-by-two",
+         5: "load-vanished", 6: "load-delivered-twice", 7: "load-picked-by-full-agv", 8: "load-at-wrong-station",
+         9: "load-moved-by-nobody", 10: "deadlock", 11: "waits", 12: "waits-inferred", 13: "livelock",
+         14: "starvation", 15: "safe-mode-in-contract", 16: "standstill-in-contract", 17: "throughput-below-floor"}
+EARLY = "(crash OR hang OR indeterminate OR engine_error)"
+
+# By run: whether each end point failed (1), stayed unknown (2) or neither (0). Behind the first contact a lack of
+# progress is a consequence, hence unknown.
+def progress(kind):
+    before = f"EXISTS (SELECT 1 FROM incidents i WHERE i.run_index = r.run_index AND i.kind = {kind} AND first_ns < w)"
+    behind = before.replace("first_ns < w", "first_ns >= w")
+    return f"CASE WHEN {before} AND NOT {EARLY} THEN 1 WHEN {behind} OR {EARLY} OR w < {2**62} THEN 2 ELSE 0 END"
+
+
+def failed_or(failed):
+    return f"CASE WHEN {failed} THEN 1 WHEN {EARLY} THEN 2 ELSE 0 END"
+
+
+def incident(condition):
+    return failed_or(f"EXISTS (SELECT 1 FROM incidents i WHERE i.run_index = r.run_index AND {condition})")
+
+
+END_POINTS = {
+    "violation": failed_or("violation OR contact"),
+    "contact": failed_or("r.contact"),
+    "hazardous-contact": failed_or("EXISTS (SELECT 1 FROM violations v WHERE v.run_index = r.run_index AND v.contact "
+                                   "AND v.relative_speed_um_s > 300000)"),
+    "deadlock": progress(10), "livelock": progress(13), "starvation": progress(14), "standstill": progress(16),
+    "wrong-load": incident("i.kind BETWEEN 4 AND 9"), "empty-battery": incident("i.kind = 1"),
+    "crash": failed_or("crash"), "hang": failed_or("hang")}
+
+
+class Archive:
+    def __init__(self, path):
+        self.db = sqlite3.connect(f"file:{path}?mode=ro", uri=True)
+        self.db.row_factory = sqlite3.Row
+        self.campaign = self.one("SELECT * FROM campaign")
+        self.cells = self.all("SELECT * FROM cells ORDER BY cell")
+        self.gates = self.all("SELECT * FROM gates ORDER BY gate")
+        self.runs = self.one("SELECT coalesce((SELECT min(run_index) + 1 FROM runs r WHERE NOT EXISTS "
+                             "(SELECT 1 FROM runs n WHERE n.run_index = r.run_index + 1)), 0) AS n "
+                             "WHERE EXISTS (SELECT 1 FROM runs WHERE run_index = 0) UNION ALL SELECT 0 LIMIT 1")["n"]
+        self.replicates = self.runs // max(1, len(self.cells))
+        self.search = self.campaign["kind"] == "search"
+        self.agents = list(dict.fromkeys(cell["agent"] for cell in self.cells))
+        self.db.execute(
+            "CREATE TEMP TABLE wrecks AS SELECT run_index, min(first_ns) AS w FROM violations WHERE contact "
+            "GROUP BY run_index")
+        self.db.execute("CREATE UNIQUE INDEX temp.by_run ON wrecks(run_index)")
+
+    def all(self, query, *values):
+        return self.db.execute(query, values).fetchall()
+
+    def one(self, query, *values):
+        return self.all(query, *values)[0]
+
+    def inside(self, cell):
+        return cell["loss_to"] <= 0.4 and cell["delay_to_s"] <= 2.0
+
+    def results(self, end_point, cells):
+        """(replicate, run, cell, result, agv_us, transports) of the complete replicates, in order."""
+        listed = ",".join(str(cell) for cell in cells) or "-1"
+        what = END_POINTS[end_point] if end_point != "throughput" else failed_or("crash")
+        return self.db.execute(
+            f"SELECT replicate, r.run_index, cell, {what} AS result, simulated_ns / 1000 * agv_count AS agv_us, "
+            f"transports_done FROM (SELECT runs.*, coalesce(w, {2**62}) AS w FROM runs LEFT JOIN temp.wrecks "
+            f"USING (run_index)) r WHERE cell IN ({listed}) AND replicate < {self.replicates} ORDER BY r.run_index")
+
+    def units(self, end_point, unit, cells, floor=0.0):
+        """(units, failing, failing or unknown) over the complete replicates."""
+        if unit == "run":
+            return self.worst_cell(end_point, cells, floor)
+        failing = unknown = exposure_us = 0
+        replicate, worst, agv_us, done = None, 0, 0, 0
+
+        def close():
+            nonlocal failing, unknown
+            result = worst
+            if end_point == "throughput" and result == 0:
+                result = 2 if agv_us == 0 else int(done / (agv_us / 3.6e9) < floor)
+            failing += result == 1
+            unknown += result == 2
+
+        for row in self.results(end_point, cells):
+            if row["replicate"] != replicate:
+                if replicate is not None:
+                    close()
+                replicate, worst, agv_us, done = row["replicate"], 0, 0, 0
+            result = row["result"]
+            if end_point == "throughput" and result:
+                result = 2
+            if worst == 0:
+                exposure_us += row["agv_us"]
+            worst = 1 if 1 in (worst, result) else max(worst, result)
+            agv_us += row["agv_us"]
+            done += row["transports_done"]
+        if replicate is not None:
+            close()
+        units = exposure_us if unit == "agv-hour" else (self.replicates if cells else 0)
+        return units, failing, failing + unknown
+
+    def worst_cell(self, end_point, cells, floor):
+        failing, unknown = defaultdict(int), defaultdict(int)
+        for row in self.results(end_point, cells):
+            result = row["result"]
+            if end_point == "throughput":
+                hours = row["agv_us"] / 3.6e9
+                result = 2 if result or hours == 0.0 else int(row["transports_done"] / hours < floor)
+            failing[row["cell"]] += result == 1
+            unknown[row["cell"]] += result != 0
+        units = self.replicates if cells else 0
+        return units, max(failing.values(), default=0), max(unknown.values(), default=0)
+
+    def stalled_worlds(self, cells):
+        worlds = set()
+        for kind in ("deadlock", "livelock", "starvation"):
+            worlds |= {row["replicate"] for row in self.results(kind, cells) if row["result"] == 1}
+        return len(worlds)
+
+    def tally(self, cells):
+        """Sums over the complete replicates."""
+        listed = ",".join(str(cell) for cell in cells) or "-1"
+        return self.one(
+            "SELECT count(*) AS runs, coalesce(sum(violation OR contact), 0) AS violating, "
+            "coalesce(sum(contact), 0) AS contact, coalesce(sum(stuck), 0) AS stuck, "
+            "coalesce(sum(crash) + sum(hang), 0) AS ended, min(min_clearance_um) AS closest_um, "
+            "coalesce(sum(transports_done), 0) AS done, coalesce(sum(simulated_ns / 1000 * agv_count), 0) AS agv_us, "
+            "coalesce(sum(safe_mode_ns), 0) AS safe_mode_ns, coalesce(sum(simulated_ns * agv_count), 0) AS all_ns, "
+            "coalesce(max(simulated_ns), 0) AS longest_ns "
+            f"FROM runs WHERE cell IN ({listed}) AND replicate < {self.replicates}")
+
+    def conditions(self):
+        """[(agent, lowest factors, highest factors, cells)]: agents in their order, then by factors."""
+        pools = defaultdict(list)
+        for cell in self.cells:
+            key = (self.agents.index(cell["agent"]), tuple(cell[low] for low, _ in FACTORS),
+                   tuple(cell[high] for _, high in FACTORS))
+            pools[key].append(cell)
+        return [(self.agents[key[0]], key[1], key[2], cells) for key, cells in sorted(pools.items(), key=lambda p: p[0])]
+
+    def cells_of_gate(self, gate):
+        def covered(cell):
+            if cell["agent"] != gate["agent"] or gate["layout"] not in ("", cell["layout"]):
+                return False
+            at_worst = all(cell[name] == value for name, value in
+                           (("loss", 0.4), ("loss_to", 0.4), ("delay_s", 2.0), ("delay_to_s", 2.0)))
+            return {"contract": self.inside(cell), "worst-case": at_worst, "all": True}[gate["region"]]
+        return [cell["cell"] for cell in self.cells if covered(cell)]

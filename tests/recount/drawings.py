@@ -1,0 +1,104 @@
+"""The numbers that the maps and charts of the HTML page must show."""
+from collections import defaultdict
+from math import log
+
+import wording as w
+from bounds import log_gate, beta_cdf
+from tables import share
+
+
+def axes(places):
+    losses = sorted({(high[0], low[0]) for low, high in places})
+    delays = sorted({(high[1], low[1]) for low, high in places})
+    return losses, delays
+
+
+def panels(archive):
+    """title -> {(loss, delay): cells}, a panel for each agent and each value of the other factors."""
+    found = defaultdict(dict)
+    for agent, low, high, cells in archive.conditions():
+        title = f"Agent {agent}"
+        for i, phrase in ((2, "outages of"), (3, "call cost")):
+            if high[i] > 0.0:
+                title += f", {phrase} {w.span(i, low[i], high[i])}"
+        found[title][low, high] = [cell["cell"] for cell in cells]
+    return found
+
+
+def field_maps(archive):
+    """label -> the texts of the fields, row by row from the bottom."""
+    maps = {}
+    for title, places in panels(archive).items():
+        agent = title.split(",")[0].removeprefix("Agent ")
+        losses, delays = axes(places)
+        by_place = {((high[0], low[0]), (high[1], low[1])): cells for (low, high), cells in places.items()}
+        risk, done, safe = [], [], []
+        for loss in losses:
+            for delay in delays:
+                cells = by_place.get((loss, delay))
+                if not cells or archive.replicates == 0:
+                    continue
+                units, _, failing = archive.units("violation", "world", cells)
+                tally = archive.tally(cells)
+                risk.append(f"{failing}/{units}")
+                risk.append("counts only" if archive.search else "≤ " + w.up(share(archive, agent, failing, units)[0]))
+                if tally["agv_us"]:
+                    done.append(w.per_hour(tally["done"], tally["agv_us"]))
+                if tally["all_ns"]:
+                    safe.append(w.percent(tally["safe_mode_ns"] / tally["all_ns"]))
+        maps["Upper bound of the failure rate. " + title] = risk
+        maps["Transports per AGV-hour. " + title] = done
+        maps["Share of time in safe mode. " + title] = safe
+        envelope = envelope_fields(archive, agent, losses, delays, by_place)
+        if envelope:
+            maps["Guaranteed envelope. " + title] = envelope
+    return maps
+
+
+def gate_on_violations(archive, agent):
+    for gate in archive.gates:
+        if (gate["agent"], gate["end_point"], gate["layout"]) == (agent, "violation", "") \
+                and gate["unit"] != "agv-hour" and 0.0 < gate["limit_rate"] < 1.0:
+            return gate
+    return None
+
+
+def envelope_fields(archive, agent, losses, delays, by_place):
+    gate = gate_on_violations(archive, agent)
+    if gate is None or archive.search or any(high != low for pair in (*losses, *delays) for high, low in [pair]):
+        return None
+    if gate["method"] == "fixed" and archive.replicates < archive.campaign["replicates"]:
+        return None
+    risk = round(1.0 - gate["confidence"], 12) / min(len(losses), len(delays))
+    limit, texts, claimed = gate["limit_rate"], [], {}
+    for r, loss in enumerate(losses):
+        for d, delay in enumerate(delays):
+            cells = by_place.get((loss, delay), [])
+            units, _, failing = archive.units("violation", "world", cells)
+            if units == 0:
+                enough = False
+            elif gate["method"] == "any-time":
+                enough = log_gate(failing, units, limit) >= -log(risk)
+            else:  # P(Binomial(units, limit) <= failing)
+                enough = failing < units and 1.0 - beta_cdf(limit, failing + 1, units - failing) <= risk
+            claimed[r, d] = enough and claimed.get((r - 1, d), True) and claimed.get((r, d - 1), True)
+            if units:
+                texts += ["shown" if claimed[r, d] else "not shown", f"{failing}/{units}"]
+    return texts
+
+
+def clearance_bars(archive):
+    """label -> the counts of the bars that are not empty: contact, then each centimetre below 0.5 m."""
+    bars = {}
+    for agent in archive.agents:
+        for inside, region in ((1, "contract"), (0, "beyond contract")):
+            rows = archive.all(
+                "SELECT CASE WHEN contact THEN -1 WHEN min_clearance_um IS NULL OR min_clearance_um + 1 >= 500000 THEN "
+                "99 ELSE max(min_clearance_um + 1, 0) / 10000 END AS step, count(*) AS runs FROM runs r JOIN cells "
+                "USING (cell) WHERE agent = ? AND (r.loss <= 0.4 AND r.delay_s <= 2.0) = ? AND run_index < ? GROUP BY 1 "
+                "ORDER BY 1", agent, inside, archive.runs)
+            runs, far = sum(row["runs"] for row in rows), sum(row["runs"] for row in rows if row["step"] == 99)
+            if runs:
+                label = f"Agent {agent}, {region}: {w.count(runs, 'run')}, {far} never closer than 0.5 m"
+                bars[label] = [f"{row['runs']} runs" for row in rows if row["step"] != 99]
+    return bars

@@ -1,0 +1,90 @@
+"""Failing runs by agent, end point and first cause, and when each kind was seen first."""
+from collections import defaultdict
+
+from counts import KINDS
+from known_sentences import ENDS, JUDGED
+
+SERIOUS = ("contact", "violation", "crash", "hang", "indeterminate", "engine error", "stuck", "incident")
+
+
+def pair(a, b, agvs):
+    if a is None and b is None:
+        return ""
+    if a is None or b is None:
+        return ", one body"
+    return ", two AGVs" if max(a, b) < agvs else ", AGV and another body"
+
+
+def level(violation):
+    if not violation["contact"]:
+        return "safety distance broken"
+    return "contact at hazardous speed" if violation["relative_speed_um_s"] > 300000 else "contact"
+
+
+def failing_runs(archive):
+    """(agent, end point, first cause, run) in order of run index."""
+    first_violation, first_incident = {}, {}
+    for row in archive.db.execute("SELECT * FROM violations ORDER BY run_index, first_ns, ordinal"):
+        first_violation.setdefault(row["run_index"], row)
+    for row in archive.db.execute(f"SELECT * FROM incidents WHERE kind IN {JUDGED} ORDER BY run_index, ordinal"):
+        first_incident.setdefault(row["run_index"], row)
+    for run in archive.db.execute(f"SELECT r.*, {ENDS} AS end, agent FROM runs r JOIN cells USING (cell) WHERE "
+                                  "run_index < ? ORDER BY run_index", (archive.runs,)):
+        index = run["run_index"]
+        violation, incident = first_violation.get(index), first_incident.get(index)
+        end = run["end"] or ("incident" if incident else None)
+        if end is None:
+            continue
+        cause = "nothing that a law (monitor) names"
+        if incident and (not violation or incident["first_ns"] < violation["first_ns"]):
+            cause = KINDS[incident["kind"]] + pair(incident["entity_a"], incident["entity_b"], run["agv_count"])
+        elif violation:
+            cause = level(violation) + pair(violation["entity_a"], violation["entity_b"], run["agv_count"])
+        yield run["agent"], end, cause, run
+
+
+def ordinal_of(archive, agent, run):
+    """The number of the run among those of its agent, from 1."""
+    own = [cell["cell"] for cell in archive.cells if cell["agent"] == agent]
+    return run["replicate"] * len(own) + own.index(run["cell"]) + 1
+
+
+class Failures:
+    def __init__(self, archive):
+        self.groups = {}
+        self.last_new = defaultdict(int)  # by agent: the number of its run in which a kind was seen first, the latest
+        digests = defaultdict(set)
+        for agent, end, cause, run in failing_runs(archive):
+            key = (agent, end, cause)
+            if key not in self.groups:
+                self.last_new[agent] = ordinal_of(archive, agent, run)
+            count, worst = self.groups.get(key, (0, None))
+            clearance = run["min_clearance_um"] if run["min_clearance_um"] is not None else 2**63
+            rank = (clearance, run["run_index"])
+            self.groups[key] = (count + 1, min(rank, worst or rank))
+            digests[key].add(run["digest"])
+        self.distinct = {key: len(found) for key, found in digests.items()}
+
+    def rows(self):
+        keys = sorted(self.groups, key=lambda key: (SERIOUS.index(key[1]), self.groups[key][1]))
+        return [[*key, str(self.groups[key][0]), str(self.distinct[key]), str(self.groups[key][1][1])] for key in keys]
+
+
+def discoveries(archive, failures):
+    """The legends of the two charts of what was new, as texts."""
+    found = []
+    for agent in archive.agents:
+        runs = archive.one("SELECT count(*) AS n FROM runs JOIN cells USING (cell) WHERE agent = ? AND run_index < ?",
+                           agent, archive.runs)["n"]
+        if runs == 0:
+            continue
+        kinds = sum(key[0] == agent for key in failures.groups)
+        met = archive.all("SELECT min(run_index) AS first FROM probes JOIN runs USING (run_index) JOIN cells USING "
+                          "(cell) WHERE agent = ? AND run_index < ? GROUP BY CAST(name AS TEXT)", agent, archive.runs)
+        latest = max((row["first"] for row in met), default=None)
+        last_met = None if latest is None else ordinal_of(
+            archive, agent, archive.one("SELECT * FROM runs WHERE run_index = ?", latest))
+        for number, last in ((kinds, failures.last_new[agent]), (len(met), last_met)):
+            found.append(f"agent {agent}: " + (f"{number}, the last new one in run {last} of {runs}" if number
+                                               else "none"))
+    return found

@@ -1,0 +1,160 @@
+"""What the remaining sentences may say: patterns, each with a check of its numbers against the archive.
+
+A sentence with digits that no pattern knows is an error, so that no figure reaches a page without a check.
+"""
+import re
+
+import wording as w
+from counts import KINDS
+
+ENDS = "CASE WHEN contact THEN 'contact' WHEN violation THEN 'violation' WHEN crash THEN 'crash' WHEN hang THEN 'hang' " \
+       "WHEN indeterminate THEN 'indeterminate' WHEN engine_error THEN 'engine error' WHEN stuck THEN 'stuck' END"
+JUDGED = "(1, 4, 5, 6, 7, 8, 9, 10, 13, 14, 16)"
+
+
+def body(number, run):
+    fleet = run["fleet_size"]
+    return f"AGV {number}" if number < fleet else f"obstacle {number - fleet}"
+
+
+def run_sentence(archive, index):
+    """The description of a failing run, up to its message."""
+    run = archive.one(f"SELECT r.*, {ENDS} AS end, agent, layout, fleet_size FROM runs r JOIN cells USING (cell) WHERE "
+                      "run_index = ?", index)
+    text = f"run {index}: "
+    if run["end"]:
+        text += run["end"]
+    else:
+        text += KINDS[archive.one(f"SELECT kind FROM incidents WHERE run_index = ? AND kind IN {JUDGED} ORDER BY "
+                                  "ordinal LIMIT 1", index)["kind"]]
+    violations = archive.all("SELECT * FROM violations WHERE run_index = ? ORDER BY min_clearance_um, ordinal", index)
+    if violations:
+        worst = violations[0]
+        if worst["contact"] and worst["relative_speed_um_s"] > 300000:
+            text += f" at hazardous speed ({worst['relative_speed_um_s'] / 1e6:.1f} m/s)"
+        text += (f", {w.metres(worst['min_clearance_um'])} at {w.hundredths(worst['closest_at_ns'] / 1e9)} s between "
+                 f"{body(worst['entity_a'], run)} and {body(worst['entity_b'], run)}")
+        if len(violations) > 1:
+            text += f" (the closest of {len(violations)})"
+    text += f"; agent {run['agent']}, layout {run['layout']}, fleet of {run['fleet_size']}, "
+    values = (run["loss"], run["delay_s"], run["mean_outage_s"], run["call_cost_s"])
+    phrases = ("loss", "delay", "outages of", "call cost")
+    return text + ", ".join(f"{phrases[i]} {w.span(i, value, value)}" for i, value in enumerate(values)
+                            if value > 0.0 or i < 2)
+
+
+def is_run(archive, found):
+    return found[0].startswith(run_sentence(archive, int(found[1])))
+
+
+def is_first_with_kind(archive, found):
+    kind = next(number for number, name in KINDS.items() if name == found[1])
+    first = archive.one("SELECT min(run_index) AS n FROM incidents JOIN runs USING (run_index) JOIN cells USING (cell) "
+                        "WHERE agent = ? AND kind = ?", found[2], kind)["n"]
+    return first == int(found[3])
+
+
+def is_audit(archive, found):
+    row = archive.one("SELECT count(*) AS n, coalesce(sum(a.checksum = r.checksum), 0) AS same FROM audits a JOIN runs r "
+                      "USING (run_index) JOIN cells USING (cell) WHERE agent = ? AND run_index < ?", found[1],
+                      archive.runs)
+    return row["n"] == row["same"] == int(found[2])
+
+
+WEAK = {"have no run": "count(run_index) = 0",
+        "have stuck runs": "coalesce(sum(stuck), 0) > 0",
+        "completed no transport": "count(run_index) > 0 AND coalesce(sum(transports_done), 0) = 0"}
+
+
+def is_weak_point(archive, found):
+    """"48 of 81 cells in the contract region have stuck runs"."""
+    inside = "WHERE loss_to <= 0.4 AND delay_to_s <= 2.0" if found[3] else ""
+    having = next((sql for words, sql in WEAK.items() if words in found.string), None)
+    if having is None:
+        having = f"coalesce(sum({EARLY_UNKNOWN}), 0) > 0"
+    cells = archive.one("SELECT count(*) AS n FROM (SELECT c.cell FROM cells c LEFT JOIN runs r ON r.cell = c.cell AND "
+                        f"replicate < {archive.replicates} {inside} GROUP BY c.cell HAVING {having})")["n"]
+    of = archive.one(f"SELECT count(*) AS n FROM cells {inside}")["n"]
+    return (cells, of) == (int(found[1]), int(found[2]))
+
+
+EARLY_UNKNOWN = "(crash OR hang OR indeterminate OR engine_error) AND NOT (violation OR contact)"
+
+
+def replicates(archive, found):
+    return int(found[1]) == archive.replicates
+
+
+def planned(archive, found):
+    return (int(found[1]), int(found[2])) == (archive.replicates, archive.campaign["replicates"])
+
+
+def uncounted(archive, found):
+    stored = archive.one("SELECT count(*) AS n FROM runs")["n"]
+    return (int(found[1]), int(found[2])) == (stored - archive.replicates * len(archive.cells), stored)
+
+
+def agent_runs(archive, found):
+    return int(found[2]) == archive.one("SELECT count(*) AS n FROM runs JOIN cells USING (cell) WHERE agent = ? AND "
+                                        "replicate < ?", found[1], archive.replicates)["n"]
+
+
+def longest_run(archive, found):
+    tally = archive.tally([cell["cell"] for cell in archive.cells])
+    return found[1] == w.hundredths(tally["longest_ns"] / 1e9)
+
+
+def compared_elsewhere(archive, found):
+    return True
+
+
+constant = compared_elsewhere
+
+PATTERNS = [(re.compile(pattern), check) for pattern, check in (
+    (r"^run ([0-9]+): .*", is_run),
+    (r"^([a-z-]+) of agent (.+), for instance in run ([0-9]+):", is_first_with_kind),
+    (r"^Agent (.+): ([0-9]+) runs? w(?:as|ere) audited, and ", is_audit),
+    (r"^([0-9]+) of ([0-9]+) cells (in the contract region )?\D", is_weak_point),
+    (r"Sampled: ([0-9]+) replicates?\b", replicates),
+    (r"weak evidence for agent (.+): its ([0-9]+) runs? did not meet", agent_runs),
+    (r"A run takes up to ([0-9.]+) s\. stalled", longest_run),
+    (r"^([0-9]+) of ([0-9]+) planned replicates? (?:is|are) complete", planned),
+    (r"^([0-9]+) of ([0-9]+) stored runs are not counted", uncounted),
+    # In recount.py: the title, the claim, the gates, the headlines, the charts.
+    (r"^fleetproof report: ", compared_elsewhere),
+    (r"(the true (share|rate) is at (most|least)|in 0 of 0 (worlds|runs)|in [0-9]+ runs?)\b.*gates? ", compared_elsewhere),
+    (r"^\".*\": [0-9.]+ (of [0-9]+ (replicates|runs) failed|events? in|runs? failed)", compared_elsewhere),
+    (r"broke the safety distance in [0-9]+ runs? within the contract region", compared_elsewhere),
+    (r"ended in an error of the simulator itself", compared_elsewhere),
+    (r"^Agent .*: [0-9]+ runs?, [0-9]+ never closer than 0.5 m$", compared_elsewhere),
+    (r"^Guaranteed envelope: ", compared_elsewhere),
+    (r"^agent .*: ([0-9]+, the last new one in run [0-9]+ of [0-9]+|none)$", compared_elsewhere),
+    (r"^.* \(agent .*, limit ", compared_elsewhere),
+    (r"^.*: (contact|violation|crash|hang|indeterminate|engine error|stuck|incident); first cause: ", compared_elsewhere),
+    (r"^The runs of agent (.+): (never met|too rare): ", compared_elsewhere),
+    (r"^Gate \".*\": every cell of it has ([0-9]+) runs?; even without a failure a limit of ", replicates),
+    # Constants of the method and of the contract.
+    (r"^Required in at least one of 20000 runs: ", constant),
+    (r"upper = one-sided upper bound at [0-9.]+ %", constant),
+    (r"^0 \.\. 40 % = every replicate draws", constant),
+    (r"Thick lines: the bounds of the contract, 40 % loss and 2 s delay", constant),
+    (r"A clearance above 0\.5 m is not measured", constant),
+    (r"The upper bound is the largest limit that the release gate \(an e-value, Ville 1939\)", constant),
+    (r"minimal safety distance \(0\.10 m unless the scenario says otherwise\)", constant),
+    (r"ISO 3691-4", constant),
+    (r"95 % is how often this procedure is right", constant),
+    (r"40 % loss and 2 s delay are stress", constant),
+    (r"^(plan hash|fleetproof|program sha256|compiler|flags|libraries|archive|campaign): ", constant),
+    (r"^No film strip: ", constant),
+    (r"^Agent .*, (outages of|call cost) ", compared_elsewhere),
+    (r"^... ?[0-9]+ more", constant),
+    (r"^[0-9]+ (more )?(rows?|groups?|with fewer failures)", constant),
+)]
+
+
+def explained(archive, text):
+    for pattern, check in PATTERNS:
+        found = pattern.search(text)
+        if found:
+            return check(archive, found)
+    return False

@@ -1,0 +1,81 @@
+"""The numbers that may stand in the reason of a verdict."""
+import re
+from math import ceil, log
+
+import wording as w
+from bounds import bisected, bounds, fixed_share, log_gate, any_time_rate, poisson_at_most
+from known_sentences import ENDS
+
+
+def smallest(is_enough):
+    """The smallest whole number that is enough; none below 10^15."""
+    high = 1
+    while not is_enough(high):
+        high *= 2
+        if high > 10**15:
+            return None
+    low = high // 2
+    while low + 1 < high:
+        middle = (low + high) // 2
+        low, high = (low, middle) if is_enough(middle) else (middle, high)
+    return high
+
+
+def needed(gate, failing, units, risk):
+    limit = gate["limit_rate"]
+    if gate["unit"] == "agv-hour":
+        if gate["method"] == "any-time":
+            return smallest(lambda us: any_time_rate(failing, us / 3.6e9, risk)[1] <= limit)
+        return 3.6e9 * bisected(lambda hours: poisson_at_most(failing, limit * hours) <= risk, 0.0, 1e6 / limit)
+    if gate["method"] == "any-time":
+        return smallest(lambda n: n >= failing and log_gate(failing, n, limit) >= -log(risk))
+    return max(smallest(lambda n: n > failing and fixed_share(failing, n, risk)[1] <= limit), units + 1)
+
+
+def numbers_of_gate(archive, gate, counts):
+    units, known, failing = counts
+    hourly, risk = gate["unit"] == "agv-hour", round(1.0 - gate["confidence"], 12)
+    cells = archive.cells_of_gate(gate)
+    texts = {f"{gate['limit_rate']:g}", f"{gate['min_transports_per_agv_hour']:g}", str(len(cells)), "0",
+             str(archive.replicates), str(archive.campaign["replicates"]), str(failing), str(known),
+             str(failing - known), str(failing_runs(archive, gate, cells))}
+    texts |= {w.up(bounds(gate["method"], gate["unit"], failing, units, risk)[1]),
+              w.down(bounds(gate["method"], gate["unit"], known, units, risk)[0]),
+              w.up(bounds(gate["method"], gate["unit"], known, units, risk)[1])}
+    amount = (lambda n: f"{n / 3.6e9:.6g}") if hourly else str
+    texts.add(amount(units))
+    texts.add(str(known))
+    if units:
+        texts.add(w.rate(failing / (units / 3.6e9 if hourly else units)))
+    due = [cell for cell in cells if archive.inside(archive.cells[cell])] or cells
+    tally = archive.tally(due)
+    texts.add(w.per_hour(tally["done"], tally["agv_us"]))
+    texts.add(str(sum(archive.tally([cell])["done"] == 0 for cell in due)))
+    want = needed(gate, failing, units, risk)
+    if want is not None:
+        want = ceil(want) if hourly else want
+        texts |= {amount(want), amount(want - units)}
+    return texts
+
+
+def failing_runs(archive, gate, cells):
+    if gate["end_point"] == "throughput":
+        return archive.units("throughput", "world", cells, gate["min_transports_per_agv_hour"])[1]
+    complete, archive.replicates = archive.replicates, 10**12  # every run before the first gap
+    found = sum(row["result"] == 1 for row in archive.results(gate["end_point"], cells)
+                if row["run_index"] < archive.runs)
+    archive.replicates = complete
+    return found
+
+
+def unexplained(archive, allowed, text):
+    """Numbers of a reason that no gate has; `text` begins after "Why ..."."""
+    text = re.sub(r"never met: .*|too rare: .*", "", text)
+    serious = re.search(r"Its most serious run is ([0-9]+) \(", text)
+    if serious:
+        run = archive.one(f"SELECT {ENDS} AS end FROM runs WHERE run_index = ?", int(serious[1]))
+        if not run["end"] and not archive.all("SELECT 1 FROM incidents WHERE run_index = ?", int(serious[1])):
+            return [serious[0]]
+        text = text[:serious.start()]
+    return [number for number in re.findall(r"(?<![\w.])[0-9]+(?:\.[0-9]+)?(?:e-?[0-9]+)?(?![\w])", text)
+            if number not in allowed]

@@ -1,0 +1,178 @@
+#!/usr/bin/env python3
+"""Counts an archive again and compares every figure of its text and HTML page: recount.py ARCHIVE TEXT HTML
+
+Prints each difference; exit code 1 if there is one. A sentence or a table with digits that nothing here computes is a
+difference, too.
+"""
+import re
+import sys
+from collections import Counter
+
+import drawings
+import sentences as s
+import tables as t
+from counts import Archive
+from failures import Failures, discoveries
+from known_sentences import explained
+from pages import read_html, read_text
+from reasons import numbers_of_gate, unexplained
+
+DIFFERENCES = []
+REASONS = {"text": set(), "html": set()}  # all numbers that a reason in the head of the page may have
+
+
+def differ(where, expected, shown):
+    DIFFERENCES.append(f"{where}:\n    counted {expected}\n    shown   {shown}")
+
+
+def same_rows(page, title, section, expected, columns=None):
+    """The table of a section has these rows; `columns`: only so many of each row are compared."""
+    shown = [row for table in section.tables[:1] for row in table][1:]
+    if page == "text":
+        expected = [" ".join(row).split() for row in expected]
+    cut = [row[:columns] if columns else row for row in shown]
+    if page == "text" and columns:
+        cut = [row[:len(" ".join(one).split())] for row, one in zip(shown, expected)]
+    if len(cut) < len(expected) and any("left out" in text for text in section.sentences):
+        remaining = Counter(map(tuple, expected))
+        for row in cut:
+            if remaining[tuple(row)] == 0:
+                differ(f"{page}, {title}", "no such row", row)
+            remaining[tuple(row)] -= 1
+        return
+    if len(cut) != len(expected):
+        differ(f"{page}, {title}", f"{len(expected)} rows", f"{len(cut)} rows")
+    for one, other in zip(expected, cut):
+        if list(one) != list(other):
+            differ(f"{page}, {title}", one, other)
+
+
+def check_tables(archive, page, sections):
+    expected = {**t.condition_tables(archive), **t.group_tables(archive)}
+    for title, rows in expected.items():
+        if title not in sections:
+            differ(page, f"a section {title}", "none")
+        elif rows:
+            same_rows(page, title, sections[title], rows)
+    met = t.coverage_rows(archive)
+    shown = [row for row in sections["What the runs met"].tables[0][1:] if "nobody" not in row] \
+        if sections["What the runs met"].tables else []
+    sections["What the runs met"].tables = [[[]] + shown] if shown else []
+    same_rows(page, "What the runs met", sections["What the runs met"], met)
+    same_rows(page, "What the other laws found", sections["What the other laws found"], t.incident_rows(archive), 4)
+
+
+def check_gates(archive, page, section, head):
+    rows = [row for table in section.tables for row in table][1:]
+    for (expected, gate, counts), shown in zip(t.gate_rows(archive), rows):
+        text = " ".join(shown)
+        wanted = " ".join(cell for cell in expected if cell is not None)
+        if not text.startswith(" ".join(wanted.split()) if page == "text" else wanted):
+            differ(f"{page}, gates", wanted, text)
+        allowed = numbers_of_gate(archive, gate, counts)
+        for remark in map(plain, section.sentences):
+            if remark.startswith(f"\"{gate['name']}\"") and "Why " in remark:
+                wrong = unexplained(archive, allowed, remark.split("Why ", 1)[1])
+                if wrong:
+                    differ(f"{page}, gates", sorted(allowed), f"{wrong} in {remark}")
+        REASONS[page] |= allowed
+        if archive.search:
+            continue
+        pattern = re.escape(s.gate_sentence(gate, counts)).replace("UNIT", "(replicates|runs)")
+        if not any(re.match(pattern, each) for each in map(plain, section.sentences)):
+            differ(f"{page}, gates", s.gate_sentence(gate, counts), section.sentences)
+        verdict = re.search(r"(not demonstrated|demonstrated|violated)( \(told only\))?$", text)
+        told = s.finding(gate, counts, verdict and verdict[1])
+        if told and gate["decides"]:
+            first = f"{gate['agent']} {s.FAILURES[gate['end_point']]}"
+            about = [each for each in head if first + " " in each and "within the contract region" not in each]
+            if about and not any(re.search(told, each) for each in about):
+                differ(f"{page}, claim", told, about)
+    if len(rows) != len(archive.gates):
+        differ(f"{page}, gates", f"{len(archive.gates)} rows", f"{len(rows)} rows")
+
+
+def plain(text):
+    """Without the mark of a list and without the command that follows."""
+    return " ".join(text.removeprefix("* ").removeprefix("- ").split(" -> ")[0].split())
+
+
+def check_head(archive, page, sections):
+    head = [plain(text) for text in sections[""].sentences]
+    whole = " ".join(head)
+    for sentence in [s.title(archive), *s.violation_headlines(archive)]:
+        if sentence not in whole:
+            differ(f"{page}, head", sentence, whole[:2000])
+    check_gates(archive, page, sections["Gates (acceptance criteria)"], head)
+
+
+def check_html(archive, sections):
+    facts = {row[0]: row[1] for row in sections["Conditions"].tables[0]}
+    for name, value in (("Cells (test conditions)", str(len(archive.cells))), ("Runs", s.judged(archive)),
+                        ("Fleet-hours", s.agv_hours(archive))):
+        if facts.get(name) != value:
+            differ(f"html, {name}", value, facts.get(name))
+    maps = sections["Failures, throughput and safe mode by radio quality"].drawings
+    for label, expected in drawings.field_maps(archive).items():
+        if label not in maps and len(archive.conditions()) > 1000:
+            continue
+        shown = maps.get(label, [])[:len(expected)]  # the names of the axes follow
+        if shown != expected:
+            differ(f"html, {label}", expected, maps.get(label))
+    close = sections["How close the bodies came"]
+    for label, expected in list(drawings.clearance_bars(archive).items())[:12]:
+        shown = [text for text in close.drawings.get(label, []) if text.endswith(" runs")]
+        if shown != expected:
+            differ(f"html, {label}", expected, close.drawings.get(label))
+    if archive.runs:
+        # Agents whose gates decide stand first.
+        rows = sorted(t.clearance_rows(archive))
+        close.tables[0][1:] = sorted(close.tables[0][1:])
+        same_rows("html", "How close the bodies came", close, rows)
+    failures = Failures(archive)
+    check_failures(failures, sections["Failing runs, by what went wrong first"])
+    legends = [plain(text) for text in sections["Would more runs tell more?"].sentences]
+    for legend in discoveries(archive, failures) if archive.runs else []:
+        if legend not in legends:
+            differ("html, discoveries", legend, legends)
+
+
+def check_failures(failures, section):
+    """Where the page kept too few digests to tell, it says ">=" and has a smaller number."""
+    for table in section.tables[:1]:
+        for row, expected in zip(table[1:], failures.rows()):
+            row[3:5] = [cell.replace(" ", "") for cell in row[3:5]]
+            if row[4].startswith(">=") and int(row[4][2:]) <= int(expected[4]):
+                row[4] = expected[4]
+    if failures.groups or section.tables:
+        same_rows("html", "failing runs", section, failures.rows())
+
+
+def check_rest(archive, page, sections):
+    """Every other sentence with digits is one whose numbers are computed or are constants of the method."""
+    for title, section in sections.items():
+        for text in section.sentences:
+            if title == "" and "Why " in text:
+                wrong = unexplained(archive, REASONS[page], plain(text).split("Why ", 1)[1])
+                if wrong:
+                    differ(f"{page}, head", sorted(REASONS[page]), f"{wrong} in {plain(text)}")
+            elif re.search(r"[0-9]", text) and not explained(archive, plain(text)):
+                differ(f"{page}, {title}", "no such sentence, or other numbers", plain(text))
+
+
+def main():
+    archive = Archive(sys.argv[1])
+    for page, path, read in (("text", sys.argv[2], read_text), ("html", sys.argv[3], read_html)):
+        sections = read(open(path, encoding="utf-8").read())
+        check_head(archive, page, sections)
+        check_tables(archive, page, sections)
+        if page == "html":
+            check_html(archive, sections)
+        check_rest(archive, page, sections)
+    print("\n".join(DIFFERENCES[:40]))
+    print(f"{len(DIFFERENCES)} differences" if DIFFERENCES else "no difference")
+    return 1 if DIFFERENCES else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,83 @@
+"""The sentences with numbers that the pages must contain."""
+import re
+
+import wording as w
+from bounds import bounds
+
+FAILURES = {"violation": "broke the safety distance", "contact": "had a contact",
+            "hazardous-contact": "had a contact at hazardous speed", "deadlock": "deadlocked",
+            "livelock": "moved without a result (livelock)",
+            "starvation": "left an AGV without progress (starvation)",
+            "standstill": "stood still while the radio kept its contract", "wrong-load": "handled a load wrongly",
+            "empty-battery": "let a battery run empty", "crash": "crashed", "hang": "hung"}
+
+
+def title(archive):
+    campaign, planned = archive.campaign, archive.campaign["replicates"]
+    complete = f"INCOMPLETE: {archive.replicates} of {w.count(planned, 'planned replicate')}"
+    if archive.replicates >= planned:
+        complete = w.count(archive.replicates, "replicate") + " complete"
+    judged = archive.replicates * len(archive.cells)
+    return (f"fleetproof report: {campaign['name']} ({campaign['kind']}), {complete} of {len(archive.cells)} cells "
+            f"each, {w.count(judged, 'run')} judged")
+
+
+def gate_sentence(gate, counts):
+    """What the remark about a gate must begin with."""
+    units, _, failing = counts
+    hourly, risk = gate["unit"] == "agv-hour", round(1.0 - gate["confidence"], 12)
+    exposure = units / 3.6e9 if hourly else units
+    upper = bounds(gate["method"], gate["unit"], failing, units, risk)[1]
+    pair = bounds(gate["method"], gate["unit"], failing, units, 0.025)
+    text = (f"\"{gate['name']}\": " + (f"{w.count(failing, 'event')} in {exposure:.6g} AGV-hours" if hourly else
+                                       f"{failing} of {units} UNIT failed"))
+    if units:
+        text += f": rate {w.rate(failing / exposure)}, two-sided 95 % interval {w.interval(pair)}"
+    when = "valid at any time" if gate["method"] == "any-time" else "for the planned replicates"
+    return text + (f", one-sided {w.percent(gate['confidence'])} upper bound {w.up(upper)}, limit "
+                   f"{gate['limit_rate']:g} ({when}).")
+
+
+def finding(gate, counts, verdict):
+    """The claim about a gate in the head of the page, as a pattern."""
+    units, known, failing = counts
+    if gate["end_point"] not in FAILURES:
+        return None
+    hourly = gate["unit"] == "agv-hour"
+    text = re.escape(f"{gate['agent']} {FAILURES[gate['end_point']]}") + "( of 0.10 m)? "
+    text += re.escape(f"{w.count(failing, 'time')} in {units / 3.6e9:.6g} AGV-hours") if hourly else \
+        re.escape(f"in {failing} of {units} ") + "(runs|worlds)"
+    if failing > known:
+        text += re.escape(f", or may have ({failing - known} stayed unknown)")
+    if units == 0:
+        return text
+    risk = round(1.0 - gate["confidence"], 12)
+    violated = verdict == "violated"
+    lower, upper = (bounds(gate["method"], gate["unit"], count, units, risk)[i] for i, count in
+                    enumerate((known, failing)))
+    number = w.down(lower if hourly else 100.0 * lower) if violated else w.up(upper if hourly else 100.0 * upper)
+    bound = f"; the true {'rate' if hourly else 'share'} is at {'least' if violated else 'most'} {number}"
+    bound += " per AGV-hour" if hourly else " %"
+    when = ", at any time" if gate["method"] == "any-time" else ""
+    return text + re.escape(bound + f" ({w.percent(gate['confidence'])}{when})")
+
+
+def agv_hours(archive):
+    us = archive.one("SELECT coalesce(sum(simulated_ns / 1000 * agv_count), 0) AS us FROM runs WHERE replicate < ?",
+                     archive.replicates)["us"]
+    return f"{us / 3.6e9:.1f} AGV-hours simulated"
+
+
+def judged(archive):
+    return (f"{archive.runs} judged, {archive.replicates} of "
+            f"{w.count(archive.campaign['replicates'], 'planned replicate')} complete")
+
+
+def violation_headlines(archive):
+    """agent -> runs that broke the distance within the contract, of the agents under test."""
+    deciding = {gate["agent"] for gate in archive.gates if gate["decides"]}
+    rows = archive.all("SELECT agent, count(*) AS runs FROM runs r JOIN cells USING (cell) WHERE (violation OR contact) "
+                       "AND r.loss <= 0.4 AND r.delay_s <= 2.0 AND run_index < ? GROUP BY agent", archive.runs)
+    return [f"agent {row['agent']} broke the safety distance in {w.count(row['runs'], 'run')} within the contract region"
+            for row in rows if not deciding or row["agent"] in deciding]
+
