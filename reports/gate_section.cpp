@@ -145,6 +145,7 @@ std::string finding_text(const ReportInput& input, std::size_t index) {
   if (result.claim->units == 0) return text;
   const bool violated = result.verdict == Verdict::Violated;
   const double bound = violated ? result.optimistic->lower : result.claim->upper;
+  if (violated && bound <= 0.0) return text;  // one failing run refutes a gate that allows none; it shows no rate
   return text + fmt::format("; the true {} is at {} {} ({}{})", gate.unit == GateUnit::AgvHour ? "rate" : "share",
                             violated ? "least" : "most", bound_text(gate, bound, violated ? rounded_down : rounded_up),
                             percent(gate.confidence), gate.method == GateMethod::AnyTime ? ", at any time" : "");

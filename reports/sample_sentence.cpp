@@ -134,6 +134,13 @@ std::string sampled(const Evidence& evidence, const std::vector<std::uint32_t>& 
                           layouts.size() == 1 ? "layout" : "layouts", listed(layouts), joined(sizes, " or "));
   if (tally.longest_ns > 0)
     text += fmt::format(", {} a run", seconds_text(static_cast<double>(tally.longest_ns) / 1e9));
+  // A loss says little without the length of its bursts.
+  const auto lossy = [](const Span& span) { return span.highest[Factor::Loss] > 0.0; };
+  const auto bursty = [](const Span& span) { return span.highest[Factor::MeanOutage] > 0.0; };
+  if (std::ranges::any_of(spans, lossy)) {
+    text += "; the loss is the configured one";
+    if (std::ranges::none_of(spans, bursty)) text += ", each loss independent of the others";
+  }
   return text;
 }
 

@@ -16,12 +16,12 @@ using testing::Not;
 // Escape sequences, a line end, a C1 control character, a change of direction, a command, quotes, Markdown and HTML.
 const std::string kHostile =
     "-\x1b[2J\n\xc2\x9b"
-    "1m\xe2\x80\xae$(touch pwned)`touch pwned`'\"|<b> end";
+    "1m\xe2\x80\xae$(touch pwned)`touch pwned`'\"|<b></script>]]>&lt;<!-- end";
 // The same for TOML and JSON, which both read it with \u escapes.
-const std::string kWritten = R"(-\u001b[2J\n\u009b1m\u202e$(touch pwned)`touch pwned`'\"|<b> end)";
+const std::string kWritten = R"(-\u001b[2J\n\u009b1m\u202e$(touch pwned)`touch pwned`'\"|<b></script>]]>&lt;<!-- end)";
 // What input files may hold: no control characters.
-const std::string kPlain = "-\xe2\x80\xae$(touch pwned)`touch pwned`'\"|<b> end";
-const std::string kPlainWritten = R"(-\u202e$(touch pwned)`touch pwned`'\"|<b> end)";
+const std::string kPlain = "-\xe2\x80\xae$(touch pwned)`touch pwned`'\"|<b></script>]]>&lt;<!-- end";
+const std::string kPlainWritten = R"(-\u202e$(touch pwned)`touch pwned`'\"|<b></script>]]>&lt;<!-- end)";
 
 class HostileNames : public test::ProgramTest {
  protected:
@@ -32,6 +32,23 @@ class HostileNames : public test::ProgramTest {
     EXPECT_EQ(printable_lines(finished.err), finished.err) << lines;
     EXPECT_FALSE(std::filesystem::exists(folder_ / "pwned")) << lines;
     return finished;
+  }
+  // The page of a report, also with itself as the baseline: well-formed, and with no markup but its own.
+  void expect_sound_page(const std::string& report) const {
+    const std::string archive = report.substr(report.find(" report ") + 8);
+    for (const std::string& more : {std::string(), " --baseline " + archive}) {
+      checked(report + " --exit-zero --html page.html" + more);
+      const std::string page = read(path("page.html"));
+      EXPECT_EQ(printable_lines(page), page);
+      const auto linted = shell("xmllint --noout --nonet page.html");
+      EXPECT_EQ(linted.exit_code, 0) << linted.err;
+      EXPECT_THAT(page, HasSubstr("&lt;/script&gt;]]&gt;&amp;lt;"));
+      for (const char* markup : {"<b>", "]]>", "<!--"}) EXPECT_THAT(page, Not(HasSubstr(markup)));
+      for (const char* once : {"<script>", "</script>", "<style>", "</html>"})
+        EXPECT_EQ(page.find(once), page.rfind(once)) << once;
+      EXPECT_THAT(page, HasSubstr("<script>"));
+      std::filesystem::remove(path("page.html"));
+    }
   }
   static std::string layout() {
     return R"({"version": 1, "layout": {"name": ")" + kPlainWritten +
@@ -69,6 +86,7 @@ TEST_F(HostileNames, ACampaignFromTheFirstRunToTheLastReport) {
       EXPECT_EQ(nlohmann::json::parse(page.out)["campaign"]["name"], kHostile) << "JSON keeps the name to the byte";
     }
   }
+  expect_sound_page("\"$FLEETPROOF\" " + copied);
   checked("\"$FLEETPROOF\" check a.toml");
   EXPECT_EQ(checked("\"$FLEETPROOF\" plan a.toml --max-time 1h").exit_code, 0);
   EXPECT_EQ(checked("\"$FLEETPROOF\" plan a.toml --json").exit_code, 0);

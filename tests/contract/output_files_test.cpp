@@ -20,6 +20,7 @@ class OutputFiles : public test::ProgramTest {
     run("report a.db -o report.txt");
     run("report a.db --format markdown -o report.md");
     run("report a.db --format json -o report.json");
+    run("report a.db --html report.html");
     run("import layout layout.json -o tables.csv");
     run("import layout layout.json -o vda.lif.json");
     ASSERT_EQ(run("replay a.db 0 --scenario scenario.json").exit_code, 0);
@@ -31,9 +32,9 @@ TEST_F(OutputFiles, ReplaceOnlyTheirOwnKind) {
   write("notes.txt", "mine\n");
   write("data.json", "{\"mine\": true}\n");
   write("empty", "");
-  const std::vector<std::string> files = {"a.toml",       "a.db",          "layout.json", "picture.svg",
-                                          "report.txt",   "report.md",     "report.json", "tables.csv",
-                                          "vda.lif.json", "scenario.json", "notes.txt",   "data.json"};
+  const std::vector<std::string> files = {"a.toml",        "a.db",        "layout.json", "picture.svg", "report.txt",
+                                          "report.md",     "report.json", "tables.csv",  "report.html", "vda.lif.json",
+                                          "scenario.json", "notes.txt",   "data.json"};
   struct Option {
     std::string words;
     std::set<std::string> own;
@@ -42,8 +43,9 @@ TEST_F(OutputFiles, ReplaceOnlyTheirOwnKind) {
                             {"generate fishbone --svg ", {"picture.svg"}},
                             {"import layout layout.json --svg ", {"picture.svg"}},
                             {"replay a.db 0 --scenario ", {"scenario.json"}},
-                            {"report a.db -o ", {"report.txt", "report.md", "report.json"}},
-                            {"report a.db --json -o ", {"report.txt", "report.md", "report.json"}}};
+                            {"report a.db -o ", {"report.txt", "report.md", "report.json", "report.html"}},
+                            {"report a.db --html ", {"report.txt", "report.md", "report.json", "report.html"}},
+                            {"report a.db --json -o ", {"report.txt", "report.md", "report.json", "report.html"}}};
   for (const auto& option : options) {
     for (const auto& file : files) {
       const auto before = read(path(file));
@@ -84,6 +86,11 @@ TEST_F(OutputFiles, AreNamedInTheirErrors) {
   EXPECT_THAT(
       run("report a.db -o nowhere/r.txt").err,
       HasSubstr("nowhere/r.txt: cannot be written (No such file or directory); choose another path for --output"));
+  EXPECT_THAT(
+      run("report a.db --html nowhere/r.html").err,
+      HasSubstr("nowhere/r.html: cannot be written (No such file or directory); choose another path for --html"));
+  for (const char* no_file : {"/dev/full", "/dev/null", "."})
+    EXPECT_EQ(run(std::string("report a.db --html ") + no_file).exit_code, 2) << no_file;
   EXPECT_THAT(run("replay a.db 0 --scenario a.toml/s.json").err,
               HasSubstr("a.toml/s.json: cannot be written (Not a directory); choose another path for --scenario"));
   EXPECT_EQ(run("generate fishbone -o ''").exit_code, 0) << "no path: standard output";

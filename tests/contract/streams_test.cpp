@@ -96,6 +96,20 @@ TEST_F(Streams, DataThatCannotBeWrittenIsExit3) {
   EXPECT_EQ(shell("\"$FLEETPROOF\" generate fishbone -o f.json >/dev/full").exit_code, 0);
 }
 
+// The page is a file: streams that are full or closed take nothing from it.
+TEST_F(Streams, APageIsWrittenWhateverTheStreamsAre) {
+  const int exit_code = run("report expected.db").exit_code;
+  for (const std::string to : {">/dev/full", ">&-", "2>/dev/full", "2>&-", "<&- >&- 2>&-"}) {
+    const auto finished = shell("rm -f p.html; \"$FLEETPROOF\" report expected.db --html p.html " + to);
+    EXPECT_EQ(finished.exit_code, exit_code) << to << finished.err;
+    EXPECT_TRUE(read(path("p.html")).ends_with("</html>\n")) << to;
+  }
+  const auto cut = shell("rm -f p.html; ulimit -f 4; \"$FLEETPROOF\" report expected.db --html p.html");
+  EXPECT_EQ(cut.exit_code, 3) << cut.err;
+  EXPECT_THAT(cut.err, HasSubstr("p.html: cannot be written (File too large)"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "p.html"));
+}
+
 TEST_F(Streams, AReaderThatLeavesEndsTheVerbQuietly) {
   const auto finished = shell("\"$FLEETPROOF\" report expected.db | true; echo ${PIPESTATUS[0]}");
   EXPECT_EQ(finished.out, "3\n");

@@ -55,6 +55,8 @@ def finding(gate, counts, verdict):
     violated = verdict == "violated"
     lower, upper = (bounds(gate["method"], gate["unit"], count, units, risk)[i] for i, count in
                     enumerate((known, failing)))
+    if violated and lower <= 0.0:
+        return text
     number = w.down(lower if hourly else 100.0 * lower) if violated else w.up(upper if hourly else 100.0 * upper)
     bound = f"; the true {'rate' if hourly else 'share'} is at {'least' if violated else 'most'} {number}"
     bound += " per AGV-hour" if hourly else " %"
