@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 #include <set>
+#include <utility>
 
 #include "reports/condition_table.hpp"
 #include "reports/evidence/rounding.hpp"
@@ -109,7 +110,9 @@ Section layout_section(const ReportInput& input, std::size_t most_rows) {
     if (!key.layout.empty()) return printable(key.layout, 40);
     return layouts.size() > 1 ? "all" : "";
   });
-  section.remarks.emplace_back().text = explanation(input);
+  Remark words;
+  words.text = explanation(input);
+  section.remarks.insert(section.remarks.begin(), std::move(words));
   return section;
 }
 

@@ -39,7 +39,10 @@ Headline claim(const ReportInput& input) {
     return headline;
   }
   headline.text = subject(input, speaking.front());
-  headline.text += fmt::format(". {} of {} {}", speaking.size(), count_text(deciding, "gate"), name_of(verdict));
+  headline.text += fmt::format(
+      ". {} of {} {}", speaking.size(),
+      deciding == 1 ? "1 gate (acceptance criterion)" : fmt::format("{} gates (acceptance criteria)", deciding),
+      name_of(verdict));
   headline.text += is_weak(input) ? "; the evidence is weak." : ".";
   for (std::size_t i = 0; i < std::min(kGatesTold, speaking.size()); ++i) {
     const GateResult& result = input.gates[speaking[i]];
@@ -48,12 +51,18 @@ Headline claim(const ReportInput& input) {
     if (!result.missing.empty()) text += (text.empty() ? "" : " ") + ("Weak: " + missing_text(result.missing) + ".");
     if (text.empty()) continue;
     headline.details.push_back({text, ""});
-    if (result.worst && verdict != Verdict::Demonstrated)
-      headline.details.back().command = replay_line(input, result.worst->run_index);
+    if (result.worst && verdict != Verdict::Demonstrated) {
+      Remark& detail = headline.details.back();
+      detail.text +=
+          fmt::format(" Its most serious run is {} ({}):", result.worst->run_index, name_of(result.worst->severity));
+      detail.command = replay_line(input, result.worst->run_index);
+    }
   }
   const std::size_t first = speaking.front();
   if (const auto& cells = input.evidence.cells_of(first); !cells.empty())
     headline.details.push_back({"Sampled: " + sampled(input.evidence, cells) + ".", ""});
+  headline.details.emplace_back().text =
+      "A world (replicate) is one draw of all that is random. It is run in every cell (test condition).";
   return headline;
 }
 

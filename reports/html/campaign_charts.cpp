@@ -128,8 +128,7 @@ Element map_part(const ReportInput& input, const CampaignFigures& figures) {
     row.add(figure_of("Transports (orders) done per AGV-hour", draw(maps.throughput)));
     row.add(figure_of("Share of time in safe mode", draw(maps.safe_mode)));
     if (maps.envelope)
-      row.add(
-          figure_of("Guaranteed envelope: where the rate is shown to be below the limit", draw(maps.envelope->map)));
+      row.add(figure_of("Guaranteed envelope: is the rate shown to be below the limit?", draw(maps.envelope->map)));
     part.add(row);
     if (maps.envelope) part.add(paragraph(maps.envelope->sentence));
   }

@@ -27,8 +27,10 @@ Element canvas(const std::string& label, double width) {
   return Element("svg", {{"xmlns", "http://www.w3.org/2000/svg"},
                          {"role", "img"},
                          {"aria-label", label},
+                         {"class", "chart"},
                          {"width", width},
                          {"height", kPlotBottom_px + kBottom_px},
+                         {"viewBox", fmt::format("0 0 {} {}", width, kPlotBottom_px + kBottom_px)},
                          {"font-family", "system-ui, sans-serif"},
                          {"font-size", 12}});
 }

@@ -39,13 +39,14 @@ std::string sentence_of(const GateRecord& gate, const EnvelopeGrid& grid, std::s
   const std::size_t rows = grid.size(), columns = grid.front().size();
   const Confidence each = Confidence(gate.confidence).shared(static_cast<double>(std::min(rows, columns)));
   const bool any_time = gate.method == GateMethod::AnyTime;
-  std::string text = fmt::format(
-      "Guaranteed envelope: shown in {} of {} fields. In these fields, all together, the true share of worlds in which "
-      "{} breaks the safety distance is below {:g} % ({} confidence{}). A field is claimed only together with all "
-      "fields of less loss and less delay. Nothing is assumed about how the truth changes from field to field, and "
-      "nothing is said about values in between.",
-      shown, rows * columns, printable(gate.agent, 40), 100.0 * gate.limit, percent(gate.confidence),
-      any_time ? ", at any time" : "");
+  std::string text = fmt::format("Guaranteed envelope: shown in {} of {} fields. ", shown, rows * columns);
+  text += fmt::format(
+      "Where it says yes, the true share of worlds in which {} breaks the safety distance is below {:g} %: "
+      "in all these fields together, with {} confidence{}. ",
+      printable(gate.agent, 40), 100.0 * gate.limit, percent(gate.confidence), any_time ? ", at any time" : "");
+  text +=
+      "A field is claimed only together with all fields of less loss and less delay. Nothing is assumed about how the "
+      "truth changes from field to field, and nothing is said about values in between.";
   const auto needed = any_time ? gate_units_needed(0, gate.limit, each) : zero_failure_units(gate.limit, each);
   if (needed) text += fmt::format(" Each field needs {} without a failure.", count_text(*needed, "world"));
   return text;
@@ -71,8 +72,7 @@ std::optional<EnvelopeMap> envelope_map(const Evidence& evidence, const std::str
     const EnvelopeCell& cell = grid[row][column];
     if (cell.units == 0) continue;
     shown += claimed[row][column] ? 1 : 0;
-    envelope.map.fields[i] = {claimed[row][column] ? "shown" : "not shown",
-                              fmt::format("{}/{}", cell.failing, cell.units),
+    envelope.map.fields[i] = {claimed[row][column] ? "yes" : "no", fmt::format("{}/{}", cell.failing, cell.units),
                               claimed[row][column] ? kShown : kNotShown};
   }
   envelope.sentence = sentence_of(*gate, grid, shown);

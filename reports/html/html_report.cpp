@@ -64,13 +64,20 @@ Element conditions_part(const ReportInput& input) {
   facts.emplace_back("Software",
                      fmt::format("fleetproof {}, sha256 {}", campaign.engine.version, campaign.engine.program_sha256));
   facts.emplace_back("Plan digest", hex_text(campaign.plan_hash));
-  Element part = titled("Conditions");
-  part.add(paragraph(
-      "A run is one simulation of one agent. A cell (test condition) is one combination of agent, layout, fleet size "
-      "and radio quality. A law (monitor) watches each run and files what must not happen. A gate (acceptance "
-      "criterion) is fixed before the first run. An agent named hull-lock drives within hulls (envelopes) that it "
-      "locks first."));
-  return part.add(facts_of(facts));
+  return titled("Conditions").add(facts_of(facts));
+}
+
+Element words_part() {
+  return text_element(
+      "p",
+      "Words of this page. Run: one simulation of one agent, the control software under test. Cell (test condition): "
+      "one "
+      "combination of agent, layout, fleet size and radio quality. World (replicate): one draw of all that is random, "
+      "run in every cell. Law (monitor): watches each run and files what must not happen. Gate (acceptance criterion): "
+      "a requirement that was fixed before the first run. Transport (order): a load to be brought from one station "
+      "(node) to another. Hull (envelope): the floor that an AGV locks before it drives; agents such as hull-lock are "
+      "named after it.",
+      {{"class", "words"}});
 }
 
 Element listed(const std::string& title, std::initializer_list<const char*> items) {
@@ -139,6 +146,7 @@ std::string render_html(const HtmlInput& input) {
       }
     }
   };
+  main.add(words_part());
   add({Topic::Gates});
   main.add(conditions_part(input.report)).add(html::map_part(input.report, input.figures));
   add({Topic::Groups});

@@ -29,7 +29,12 @@ li { margin: 0 0 6px; max-width: 96ch; }
 .headline .word { text-transform: uppercase; letter-spacing: 0.05em; font-size: 14px; color: var(--open); }
 .demonstrated { border-color: var(--good); } .demonstrated .word { color: var(--good); }
 .violated { border-color: var(--bad); } .violated .word { color: var(--bad); }
-.scroll { overflow-x: auto; margin: 0 0 16px; }
+/* A shadow at an edge says that the table goes on there. */
+.scroll { overflow-x: auto; margin: 0 0 16px; background:
+  linear-gradient(to right, var(--paper) 30%, transparent) left / 40px 100% no-repeat local,
+  linear-gradient(to left, var(--paper) 30%, transparent) right / 40px 100% no-repeat local,
+  linear-gradient(to right, var(--line), transparent) left / 14px 100% no-repeat scroll,
+  linear-gradient(to left, var(--line), transparent) right / 14px 100% no-repeat scroll; }
 table { border-collapse: collapse; font-size: 14px; font-variant-numeric: tabular-nums; }
 th, td { padding: 6px 12px; border-bottom: 1px solid var(--line); vertical-align: top; }
 th { font-weight: 600; color: var(--soft); white-space: nowrap; border-bottom-width: 2px; }
@@ -48,15 +53,16 @@ pre { width: fit-content; max-width: 100%; margin: 4px 0 8px; padding: 5px 12px;
 pre code { user-select: all; }
 details { margin: 0 0 12px; } summary { cursor: pointer; font-weight: 600; color: var(--accent); }
 ul.legend { list-style: none; padding: 0; font-size: 14px; }
-figure { margin: 0 0 12px; } figcaption { font-size: 14px; color: var(--soft); margin: 0 0 6px; }
+svg.chart { max-width: 100%; height: auto; } figure { margin: 0 0 12px; overflow-x: auto; }
+figcaption { font-size: 14px; color: var(--soft); margin: 0 0 6px; }
 .maps { display: flex; flex-wrap: wrap; gap: 12px 32px; } .maps figure { min-width: 0; max-width: 100%; }
 .case { margin: 28px 0 0; } .case h3 { margin: 0 0 4px; }
 .film { display: flex; flex-wrap: wrap; gap: 8px 7px; margin: 8px 0 0; } .film svg.frame { flex: none;
   max-width: 46%; height: auto; }
-.key { font-size: 14px; color: var(--soft); }
+.key, .words { font-size: 14px; color: var(--soft); } .words { max-width: 110ch; margin-top: 14px; }
 footer { margin-top: 48px; color: var(--soft); font-size: 14px; }
 @media (max-width: 600px) { main { padding: 20px 14px 48px; } h2 { font-size: 19px; } .headline p { font-size: 16px; }
-  table.facts th { width: 110px; } th, td { padding: 6px 8px; } }
+  table.facts th { width: 110px; } th, td { padding: 6px 8px; } pre { white-space: pre-wrap; overflow-wrap: anywhere; } }
 @media print { body { font-size: 11pt; } main { max-width: none; padding: 0; } input.filter { display: none; }
   .scroll { overflow: visible; } figure, .headline, tr { break-inside: avoid; } pre { white-space: pre-wrap; } }
 )css";

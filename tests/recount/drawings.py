@@ -83,7 +83,7 @@ def envelope_fields(archive, agent, losses, delays, by_place):
                 enough = failing < units and 1.0 - beta_cdf(limit, failing + 1, units - failing) <= risk
             claimed[r, d] = enough and claimed.get((r - 1, d), True) and claimed.get((r, d - 1), True)
             if units:
-                texts += ["shown" if claimed[r, d] else "not shown", f"{failing}/{units}"]
+                texts += ["yes" if claimed[r, d] else "no", f"{failing}/{units}"]
     return texts
 
 

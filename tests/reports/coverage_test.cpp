@@ -134,7 +134,7 @@ TEST_F(WeakReport, AListedProbeThatIsMissingLeavesTheVerdictAndSaysWeakBesideIt)
     const auto page = render(format, input);
     EXPECT_THAT(page, HasSubstr("this campaign is weak evidence for agent sound")) << format;
     EXPECT_LT(page.find("weak evidence"), page.find("gate \"safe\"")) << "at the head";
-    EXPECT_THAT(page, HasSubstr("1 of 1 gate demonstrated; the evidence is weak")) << format;
+    EXPECT_THAT(page, HasSubstr("1 of 1 gate (acceptance criterion) demonstrated; the evidence is weak")) << format;
     EXPECT_THAT(page, HasSubstr("never met: following")) << format;
   }
   const auto json = nlohmann::json::parse(render("json", input));

@@ -53,7 +53,7 @@ std::vector<std::string> words(const EnvelopeMap& envelope) {
 }
 
 TEST(EnvelopeMap, shows_a_field_from_the_world_on_that_the_formula_names) {
-  const std::vector<std::string> all(4, "shown"), none(4, "not shown");
+  const std::vector<std::string> all(4, "yes"), none(4, "no");
   EXPECT_EQ(words(map_after(worlds_needed())), all);
   EXPECT_EQ(words(map_after(worlds_needed() - 1)), none);
   EXPECT_THAT(map_after(10).sentence, HasSubstr("Each field needs " + std::to_string(worlds_needed()) + " worlds"));
@@ -63,7 +63,7 @@ TEST(EnvelopeMap, a_field_is_claimed_only_with_all_milder_fields) {
   const auto envelope = map_after(worlds_needed(), [](RunRecord& run) {
     if (run.cell == 1 && run.replicate < 5) samples::violate(run);  // loss 0, delay 2 s
   });
-  EXPECT_EQ(words(envelope), (std::vector<std::string>{"shown", "not shown", "shown", "not shown"}));
+  EXPECT_EQ(words(envelope), (std::vector<std::string>{"yes", "no", "yes", "no"}));
   EXPECT_THAT(envelope.sentence, HasSubstr("shown in 2 of 4 fields"));
   EXPECT_EQ(envelope.map.fields[1].lower_line, "5/" + std::to_string(worlds_needed()));
 }
@@ -71,14 +71,14 @@ TEST(EnvelopeMap, a_field_is_claimed_only_with_all_milder_fields) {
 TEST(EnvelopeMap, unknown_outcomes_count_as_failures) {
   const auto envelope =
       map_after(worlds_needed(), [](RunRecord& run) { run.outcome.crash = run.cell == 0 && run.replicate == 0; });
-  EXPECT_EQ(words(envelope), std::vector<std::string>(4, "not shown"));
+  EXPECT_EQ(words(envelope), std::vector<std::string>(4, "no"));
 }
 
 TEST(EnvelopeMap, with_fixed_bounds_it_needs_fewer_worlds) {
   // (1 - limit)^n <= 0.05 / 2
   const auto needed = static_cast<std::uint64_t>(std::ceil(std::log(0.025) / std::log1p(-kLimit)));
-  EXPECT_EQ(words(map_after(needed, {}, GateMethod::Fixed)), std::vector<std::string>(4, "shown"));
-  EXPECT_EQ(words(map_after(needed - 1, {}, GateMethod::Fixed)), std::vector<std::string>(4, "not shown"));
+  EXPECT_EQ(words(map_after(needed, {}, GateMethod::Fixed)), std::vector<std::string>(4, "yes"));
+  EXPECT_EQ(words(map_after(needed - 1, {}, GateMethod::Fixed)), std::vector<std::string>(4, "no"));
 }
 
 TEST(EnvelopeMap, is_absent_without_a_limit_that_was_fixed_beforehand) {
