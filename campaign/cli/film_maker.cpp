@@ -40,7 +40,8 @@ std::vector<Still> blank_stills(const Subject& subject, SimTime end) {
   const double before_s = std::min(3.0 * pace, to_seconds(subject.at));
   for (const double part : {1.0, 2.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0, 0.0})
     instants.insert(std::max(kStart, subject.at - seconds(part * before_s)));
-  instants.insert(std::min(end, subject.at + seconds(pace)));
+  // At the end of a run nothing comes after: one instant more before it.
+  instants.insert(subject.at < end ? std::min(end, subject.at + seconds(pace)) : subject.at - seconds(0.5 * before_s));
   std::vector<Still> stills;
   for (const SimTime at : instants) stills.push_back({at, {}});
   return stills;

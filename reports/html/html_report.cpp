@@ -147,7 +147,10 @@ std::string render_html(const HtmlInput& input) {
     }
   };
   main.add(words_part());
-  add({Topic::Gates});
+  for (const Section& section : page.sections) {
+    if (section.topic == Topic::Gates)
+      main.add(html::folded_section_of(section, "Figures and reason of each gate (acceptance criterion)"));
+  }
   main.add(conditions_part(input.report)).add(html::map_part(input.report, input.figures));
   add({Topic::Groups});
   main.add(html::clearance_part(input.report, input.figures)).add(html::effort_part(input.report, input.figures));

@@ -62,7 +62,8 @@ figcaption { font-size: 14px; color: var(--soft); margin: 0 0 6px; }
 .key, .words { font-size: 14px; color: var(--soft); } .words { max-width: 110ch; margin-top: 14px; }
 footer { margin-top: 48px; color: var(--soft); font-size: 14px; }
 @media (max-width: 600px) { main { padding: 20px 14px 48px; } h2 { font-size: 19px; } .headline p { font-size: 16px; }
-  table.facts th { width: 110px; } th, td { padding: 6px 8px; } pre { white-space: pre-wrap; overflow-wrap: anywhere; } }
+  table.facts th { width: 110px; } th, td { padding: 6px 8px; }
+  pre { white-space: pre-wrap; overflow-wrap: anywhere; } }
 @media print { body { font-size: 11pt; } main { max-width: none; padding: 0; } input.filter { display: none; }
   .scroll { overflow: visible; } figure, .headline, tr { break-inside: avoid; } pre { white-space: pre-wrap; } }
 )css";

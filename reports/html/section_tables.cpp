@@ -13,7 +13,13 @@
 namespace fleetproof::html {
 namespace {
 
-constexpr std::size_t kMostRows = 500, kShortTable = 8;
+constexpr std::size_t kMostRows = 500, kShortTable = 8, kFewRemarks = 4;
+
+Element list_of(const std::vector<Remark>& remarks) {
+  Element list("ul");
+  for (const Remark& remark : remarks) list.add(item_of(remark));
+  return list;
+}
 
 }  // namespace
 
@@ -49,10 +55,14 @@ Element item_of(const Remark& remark) {
 Element section_of(const Section& section) {
   Element element = titled(section.title);
   if (!section.table.columns.empty() && !section.table.rows.empty()) element.add(table_of(section.table));
-  if (section.remarks.empty()) return element;
-  Element list("ul");
-  for (const Remark& remark : section.remarks) list.add(item_of(remark));
-  return element.add(list);
+  return section.remarks.empty() ? element : element.add(list_of(section.remarks));
+}
+
+Element folded_section_of(const Section& section, const std::string& summary) {
+  if (section.remarks.size() <= kFewRemarks) return section_of(section);
+  Element details("details");
+  details.add(text_element("summary", summary)).add(list_of(section.remarks));
+  return section_of({section.title, section.table, {}}).add(details);
 }
 
 Element headline_of(const Headline& headline) {

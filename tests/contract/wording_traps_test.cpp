@@ -58,7 +58,8 @@ std::string words_of(std::string page) {
   cut("<script>", "</script>");
   cut("<h2>What this page does not say</h2>", "</section>");
   page = std::regex_replace(page, std::regex("</?[a-zA-Z][^>]*>"), "|");
-  return std::regex_replace(page, std::regex("[\\s]+"), " ");
+  page = std::regex_replace(page, std::regex("\n {4,}(?=[^ ])"), " ");  // the next line of a sentence
+  return std::regex_replace(page, std::regex("\n|  +"), "|");           // cells of a table
 }
 
 class WordingTraps : public test::ProgramTest {
