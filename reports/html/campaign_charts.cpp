@@ -24,7 +24,8 @@ Element figure_of(const std::string& caption, const Element& drawing) {
 }
 
 std::string risk_caption(const Evidence& evidence) {
-  return evidence.counts_only() ? "Failing units / units" : "Failing units / units, and upper bound of their rate";
+  return evidence.counts_only() ? "Failing worlds / worlds"
+                                : "Failing worlds / worlds, and the upper bound of their share";
 }
 
 // The bars that are closer than the safety distance are marked. A distance above 0.5 m has no line.

@@ -89,14 +89,14 @@ void add_axes(Element& svg, const Window& window) {
     svg.add(Element("path", {{"d", fmt::format("M{:.1f} {}V{}", x, kTop_px, kBottomOfFloor_px)},
                              {"stroke", "currentColor"},
                              {"stroke-opacity", "0.1"}}));
-    if (named) svg.add(note_at(fmt::format("{:g}", x_m), x, kBottomOfFloor_px + 12.0, "middle", 10, "400"));
+    if (named) svg.add(note_at(fmt::format("{:g}", x_m + 0.0), x, kBottomOfFloor_px + 12.0, "middle", 10, "400"));
   });
   ticks(window.low.y_m, [&](double y_m, bool named) {
     const double y = window.y(y_m);
     svg.add(Element("path", {{"d", fmt::format("M{} {:.1f}H{}", kLeft_px, y, kLeft_px + kSide_px)},
                              {"stroke", "currentColor"},
                              {"stroke-opacity", "0.1"}}));
-    if (named) svg.add(note_at(fmt::format("{:g}", y_m), kLeft_px - 4.0, y + 3.5, "end", 10, "400"));
+    if (named) svg.add(note_at(fmt::format("{:g}", y_m + 0.0), kLeft_px - 4.0, y + 3.5, "end", 10, "400"));
   });
 }
 

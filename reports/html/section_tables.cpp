@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
-#include <map>
-#include <tuple>
+#include <string_view>
 
 #include "reports/html/quality_maps.hpp"
 #include "reports/wording.hpp"
@@ -14,6 +12,19 @@ namespace fleetproof::html {
 namespace {
 
 constexpr std::size_t kMostRows = 500, kShortTable = 8, kFewRemarks = 4;
+
+// A unit stays on the line of its figure: the blank between them does not break.
+std::string with_units_kept(const std::string& text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto is_digit = [&](std::size_t at) { return at < text.size() && text[at] >= '0' && text[at] <= '9'; };
+    const bool ends = i + 2 >= text.size() || std::string_view(" .,;:)").find(text[i + 2]) != std::string_view::npos;
+    const bool is_unit = i + 1 < text.size() && std::string_view("%sm").find(text[i + 1]) != std::string_view::npos;
+    const bool keeps = text[i] == ' ' && i > 0 && is_digit(i - 1) && is_unit && ends;
+    out += keeps ? std::string("\u00a0") : std::string(1, text[i]);
+  }
+  return out;
+}
 
 Element list_of(const std::vector<Remark>& remarks) {
   Element list("ul");
@@ -28,7 +39,7 @@ Element titled(const std::string& title) {
   return section.add(text_element("h2", title));
 }
 
-Element paragraph(const std::string& text) { return text_element("p", text); }
+Element paragraph(const std::string& text) { return text_element("p", with_units_kept(text)); }
 
 Element table_of(const Table& table) {
   Element head("tr"), body("tbody");
@@ -47,7 +58,7 @@ Element table_of(const Table& table) {
 
 Element item_of(const Remark& remark) {
   Element item("li");
-  item.text(remark.text);
+  item.text(with_units_kept(remark.text));
   if (!remark.command.empty()) item.add(Element("pre").add(text_element("code", remark.command)));
   return item;
 }

@@ -58,6 +58,7 @@ std::string words_of(std::string page) {
   cut("<script>", "</script>");
   cut("<h2>What this page does not say</h2>", "</section>");
   page = std::regex_replace(page, std::regex("</?[a-zA-Z][^>]*>"), "|");
+  page = std::regex_replace(page, std::regex("\u00a0"), " ");
   page = std::regex_replace(page, std::regex("\n {4,}(?=[^ ])"), " ");  // the next line of a sentence
   return std::regex_replace(page, std::regex("\n|  +"), "|");           // cells of a table
 }
