@@ -17,7 +17,7 @@ namespace {
 
 struct ReportWords {
   std::string archive, format = "text", out, html, baseline;
-  bool json = false, digest = false, exit_zero = false;
+  bool json = false, digest = false, exit_zero = false, no_film = false;
 };
 
 // As sha256sum does: the digest first, then whose it is.
@@ -59,7 +59,7 @@ int html_report(const ArchiveReader& archive, const ReportWords& words) {
                      "writes a page of its own; leave out --output, --json and --format, or call report twice");
   HtmlInput input = read_html_input(archive, words.archive);
   add_baseline(input.report, archive, words);
-  input.strips = film_strips(archive, words.archive, input.figures);
+  if (!words.no_film) input.strips = film_strips(archive, words.archive, input.figures);
   write_whole({words.html, "--html", OutputKind::Report}, render_html(input));
   return exit_code_of(input.report, words);
 }
@@ -95,6 +95,7 @@ Action prepare_report(Options& options) {
   options.option("-o,--output", words->out, "write the report to this file instead of standard output");
   options.option("--html", words->html, "write one self-contained HTML page with maps and charts to this file");
   options.option("--baseline", words->baseline, "also say what changed since this campaign file");
+  options.flag("--no-film", words->no_film, "leave out the film strips, which simulate up to ten runs again");
   options.flag("--json", words->json, "the same as --format json");
   options.flag("--digest", words->digest,
                "print one digest of plan and results, the same from every build, and beside it the engine");

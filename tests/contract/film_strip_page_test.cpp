@@ -54,6 +54,7 @@ TEST_F(FilmStripPage, ShowsTheWorstInstantOfEachGroup) {
   const auto closest = std::ranges::min_element(violations, {}, &Violation::min_clearance_um);
   EXPECT_EQ(frames_in(all[0]), 6u);
   EXPECT_THAT(all[0], HasSubstr(fmt::format(">{:.2f} s</text>", to_seconds(closest->closest_at))));
+  EXPECT_TRUE(strips("c.db --no-film").empty());
   ASSERT_TRUE(closest->contact);
   EXPECT_THAT(all[0], HasSubstr("they touch"));
   EXPECT_THAT(all[0], HasSubstr(fmt::format(">AGV {}</text>", closest->a.value)));
