@@ -12,9 +12,12 @@ namespace {
 
 constexpr std::size_t kRunsTold = 10;
 
-// In percent of the worlds. Rounded away from zero, so that no change looks smaller than it may be.
-std::string points_text(double share) {
-  return share < 0.0 ? "-" + rounded_up(-100.0 * share) : "+" + rounded_up(100.0 * share);
+// Bounds of a difference in percent of the worlds: the lower is rounded down, the upper is rounded up.
+std::string lower_text(double share) {
+  return share < 0.0 ? "-" + rounded_up(-100.0 * share) : "+" + rounded_down(100.0 * share);
+}
+std::string upper_text(double share) {
+  return share < 0.0 ? "-" + rounded_down(-100.0 * share) : "+" + rounded_up(100.0 * share);
 }
 
 std::vector<std::string> row(const std::string& agent, const EndPointChange& change) {
@@ -28,7 +31,7 @@ std::vector<std::string> row(const std::string& agent, const EndPointChange& cha
           fmt::format("{}/{}", change.new_failing, change.new_worlds),
           only(&PairedCounts::only_old),
           only(&PairedCounts::only_new),
-          fmt::format("[{}, {}]", points_text(change.lower), points_text(change.upper)),
+          fmt::format("[{}, {}]", lower_text(change.lower), upper_text(change.upper)),
           change.worlds_needed ? std::to_string(*change.worlds_needed) : "-"};
 }
 

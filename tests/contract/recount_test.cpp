@@ -110,6 +110,28 @@ TEST_F(Recount, ACampaignThatWasRun) {
   expect_same();
 }
 
+// Paired, and with another seed not paired.
+TEST_F(Recount, AComparisonWithABaseline) {
+  auto campaign = campaign_of("claim", 60);
+  const auto cells = many_cells(2, 3);
+  const auto gates = gates_of_every_kind("sound", "cross");
+  samples::write_archive(path("old.db"), campaign, cells, gates, 60 * cells.size(), 0.01);
+  write_archive(campaign, cells, gates, 55 * cells.size(), 0.05);
+  const std::string compared =
+      "\"$FLEETPROOF\" report a.db --exit-zero --baseline old.db >page.txt && \"$FLEETPROOF\" report a.db "
+      "--exit-zero --baseline old.db --html page.html && python3 -B '" +
+      test::source("tests/recount/recount.py") + "' a.db page.txt page.html old.db";
+  const auto paired = shell(compared);
+  EXPECT_EQ(paired.out, "\nno difference\n") << paired.err;
+  EXPECT_THAT(read(path("page.txt")), testing::HasSubstr("paired, because both ran in the same 55 worlds"));
+  std::filesystem::remove(path("old.db"));
+  campaign.seed += 1;
+  samples::write_archive(path("old.db"), campaign, cells, gates, 60 * cells.size(), 0.01);
+  const auto unpaired = shell(compared);
+  EXPECT_EQ(unpaired.out, "\nno difference\n") << unpaired.err;
+  EXPECT_THAT(read(path("page.txt")), testing::HasSubstr("not paired: the seeds differ"));
+}
+
 // The control: one figure that is off by one, in each kind of place.
 TEST_F(Recount, NoticesOneFigureThatIsOff) {
   write_archive(campaign_of("claim", 12), many_cells(3, 4), gates_of_every_kind("sound", "cross"), 12 * 96);

@@ -1,6 +1,6 @@
 """The numbers that the maps and charts of the HTML page must show."""
 from collections import defaultdict
-from math import log
+from math import ceil, log, log1p
 
 import wording as w
 from bounds import log_gate, beta_cdf
@@ -50,7 +50,7 @@ def field_maps(archive):
         maps["Transports per AGV-hour. " + title] = done
         maps["Share of time in safe mode. " + title] = safe
         envelope = envelope_fields(archive, agent, losses, delays, by_place)
-        if envelope:
+        if envelope is not None:
             maps["Guaranteed envelope. " + title] = envelope
     return maps
 
@@ -61,6 +61,27 @@ def gate_on_violations(archive, agent):
                 and gate["unit"] != "agv-hour" and 0.0 < gate["limit_rate"] < 1.0:
             return gate
     return None
+
+
+def grids(archive, agent):
+    """(rows, columns) of the panels of an agent, in the order of field_maps."""
+    sizes = []
+    for title, places in panels(archive).items():
+        if title.split(",")[0] == f"Agent {agent}":
+            losses, delays = axes(places)
+            sizes.append((len(losses), len(delays)))
+    return sizes
+
+
+def worlds_needed(gate, parts):
+    """Without a failure, in each field, when the risk is shared by so many."""
+    risk, limit = round(1.0 - gate["confidence"], 12) / parts, gate["limit_rate"]
+    if gate["method"] == "fixed":
+        return ceil(log(risk) / log1p(-limit))
+    worlds = 1
+    while log_gate(0, worlds, limit) < -log(risk):
+        worlds += 1
+    return worlds
 
 
 def envelope_fields(archive, agent, losses, delays, by_place):

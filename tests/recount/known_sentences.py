@@ -6,6 +6,7 @@ import re
 
 import wording as w
 from counts import KINDS
+from drawings import field_maps, gate_on_violations, grids, worlds_needed
 
 ENDS = "CASE WHEN contact THEN 'contact' WHEN violation THEN 'violation' WHEN crash THEN 'crash' WHEN hang THEN 'hang' " \
        "WHEN indeterminate THEN 'indeterminate' WHEN engine_error THEN 'engine error' WHEN stuck THEN 'stuck' END"
@@ -81,6 +82,31 @@ def is_weak_point(archive, found):
 EARLY_UNKNOWN = "(crash OR hang OR indeterminate OR engine_error) AND NOT (violation OR contact)"
 
 
+def probes_missing(archive, found):
+    """"too rare: NAME (3 of 900 runs)"."""
+    runs = archive.one("SELECT count(*) AS n FROM runs JOIN cells USING (cell) WHERE agent = ? AND replicate < ?",
+                       found[1], archive.replicates)["n"]
+    return all(int(of) == runs for of in re.findall(r"\([0-9]+ of ([0-9]+) runs\)", found.string))
+
+
+def engine_errors(archive, found):
+    return int(found[1]) == archive.one("SELECT coalesce(sum(engine_error), 0) AS n FROM runs WHERE run_index < ?",
+                                        archive.runs)["n"]
+
+
+def is_envelope(archive, found):
+    shown, fields, agent, limit, confidence, any_time, needed = found.groups()
+    gate = gate_on_violations(archive, agent)
+    maps = [texts for label, texts in field_maps(archive).items()
+            if label.startswith(f"Guaranteed envelope. Agent {agent}")]
+    # Which of the panels of an agent a sentence belongs to is not said; one of them must have these numbers.
+    counts = {(str(texts.count("yes")), grid) for texts, grid in zip(maps, grids(archive, agent))}
+    rows_columns = {size for size in grids(archive, agent) if str(size[0] * size[1]) == fields}
+    return ((limit, confidence) == (f"{100.0 * gate['limit_rate']:g}", w.percent(gate["confidence"]))
+            and bool(any_time) == (gate["method"] == "any-time")
+            and any((shown, size) in counts and worlds_needed(gate, min(size)) == int(needed) for size in rows_columns))
+
+
 def replicates(archive, found):
     return int(found[1]) == archive.replicates
 
@@ -125,14 +151,21 @@ PATTERNS = [(re.compile(pattern), check) for pattern, check in (
     (r"(the true (share|rate) is at (most|least)|in 0 of 0 (worlds|runs)|in [0-9]+ runs?)\b.*gates? ", compared_elsewhere),
     (r"^\".*\": [0-9.]+ (of [0-9]+ (replicates|runs) failed|events? in|runs? failed)", compared_elsewhere),
     (r"broke the safety distance in [0-9]+ runs? within the contract region", compared_elsewhere),
-    (r"ended in an error of the simulator itself", compared_elsewhere),
     (r"^Agent .*: [0-9]+ runs?, [0-9]+ never closer than 0.5 m$", compared_elsewhere),
-    (r"^Guaranteed envelope: ", compared_elsewhere),
     (r"^agent .*: ([0-9]+, the last new one in run [0-9]+ of [0-9]+|none)$", compared_elsewhere),
     (r"^.* \(agent .*, limit ", compared_elsewhere),
     (r"^.*: (contact|violation|crash|hang|indeterminate|engine error|stuck|incident); first cause: ", compared_elsewhere),
-    (r"^The runs of agent (.+): (never met|too rare): ", compared_elsewhere),
+    (r"^The runs of agent (.+?): (?:never met|too rare): ", probes_missing),
+    (r"^([0-9]+) runs? ended in an error of the simulator itself", engine_errors),
+    (r"^Guaranteed envelope: shown in ([0-9]+) of ([0-9]+) fields. .* in which (.+) breaks the safety distance is below "
+     r"([0-9.e-]+) %: in all these fields together, with ([0-9.]+ %) confidence(, at any time)?\. .* Each field needs "
+     r"([0-9]+) worlds? without a failure\.$", is_envelope),
     (r"^Gate \".*\": every cell of it has ([0-9]+) runs?; even without a failure a limit of ", replicates),
+    (r"^[^:]*: newly failing: [0-9]+ runs?; newly passing: ", compared_elsewhere),
+    (r"^Newly failing: run [0-9]+", compared_elsewhere),
+    (r"^[0-9]+ more newly failing runs", compared_elsewhere),
+    (r", compared with .* in .*: (not )?paired", compared_elsewhere),
+    (r"^before, now = .* \(95 % confidence\), .* below the margin of 5 %", constant),
     # Constants of the method and of the contract.
     (r"^Required in at least one of 20000 runs: ", constant),
     (r"upper = one-sided upper bound at [0-9.]+ %", constant),

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Counts an archive again and compares every figure of its text and HTML page: recount.py ARCHIVE TEXT HTML
+"""Counts an archive again and compares every figure of its text and HTML page:
+recount.py ARCHIVE TEXT HTML [BASELINE]
 
 Prints each difference; exit code 1 if there is one. A sentence or a table with digits that nothing here computes is a
 difference, too.
@@ -8,6 +9,7 @@ import re
 import sys
 from collections import Counter
 
+import comparison as c
 import drawings
 import sentences as s
 import tables as t
@@ -16,6 +18,7 @@ from failures import Failures, discoveries
 from known_sentences import explained
 from pages import read_html, read_text
 from reasons import numbers_of_gate, unexplained
+from wording import count
 
 DIFFERENCES = []
 REASONS = {"text": set(), "html": set()}  # all numbers that a reason in the head of the page may have
@@ -88,6 +91,13 @@ def check_gates(archive, page, section, head):
             about = [each for each in head if first + " " in each and "within the contract region" not in each]
             if about and not any(re.search(told, each) for each in about):
                 differ(f"{page}, claim", told, about)
+    deciding = [row[-1] if page == "html" else " ".join(row) for (_, gate, _), row in zip(t.gate_rows(archive), rows)
+                if gate["decides"]]
+    for found in re.finditer(r"([0-9]+) of ([0-9]+) gates? \(acceptance criteri(?:on|a)\) (not demonstrated|demonstrated|"
+                             "violated)", " ".join(head)):
+        alike = sum(bool(re.search(r"(?<!not )" + found[3] + "$", text)) for text in deciding)
+        if (alike, len(deciding)) != (int(found[1]), int(found[2])):
+            differ(f"{page}, claim", f"{alike} of {len(deciding)}", found[0])
     if len(rows) != len(archive.gates):
         differ(f"{page}, gates", f"{len(archive.gates)} rows", f"{len(rows)} rows")
 
@@ -137,6 +147,24 @@ def check_html(archive, sections):
             differ("html, discoveries", legend, legends)
 
 
+def check_comparison(old, new, page, section):
+    """Both archives have the same agents and cells; whether the runs are paired, the page says."""
+    sentences = [plain(text) for text in section.sentences]
+    paired = any(f"paired, because both ran in the same {min(old.replicates, new.replicates)} worlds" in text
+                 for text in sentences)
+    agents = c.agents_under_test(new)
+    expected = [c.row_of(old, new, agent, end_point, paired) for agent in agents for end_point in c.END_POINTS]
+    same_rows(page, "Compared with the baseline", section, expected, 8)
+    for agent in agents if paired else []:
+        failing, passing = c.newly_failing(old, new, agent)
+        told = f"{agent}: newly failing: {count(len(failing), 'run')}; newly passing: {count(passing, 'run')}."
+        if told not in sentences:
+            differ(f"{page}, newly failing", told, sentences)
+        for run in failing[:10]:
+            if f"Newly failing: run {run}" not in sentences:
+                differ(f"{page}, newly failing", f"run {run}", sentences)
+
+
 def check_failures(failures, section):
     """Where the page kept too few digests to tell, it says ">=" and has a smaller number."""
     for table in section.tables[:1]:
@@ -168,6 +196,8 @@ def main():
         check_tables(archive, page, sections)
         if page == "html":
             check_html(archive, sections)
+        if len(sys.argv) > 4:
+            check_comparison(Archive(sys.argv[4]), archive, page, sections["Compared with the baseline"])
         check_rest(archive, page, sections)
     print("\n".join(DIFFERENCES[:40]))
     print(f"{len(DIFFERENCES)} differences" if DIFFERENCES else "no difference")
