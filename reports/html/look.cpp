@@ -72,6 +72,9 @@ footer { margin-top: 48px; color: var(--soft); font-size: 14px; }
 Literal script() {
   return R"js(
 'use strict';
+addEventListener('beforeprint', () => {
+  for (const details of document.querySelectorAll('details.reasons')) details.open = true;
+});
 const figure = text => {
   const found = text.replace(/(\d) (?=\d{3}\b)/g, '$1').match(/-?\d+(\.\d+)?(e-?\d+)?/);
   return found ? parseFloat(found[0]) : NaN;

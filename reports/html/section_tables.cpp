@@ -71,7 +71,7 @@ Element section_of(const Section& section) {
 
 Element folded_section_of(const Section& section, const std::string& summary) {
   if (section.remarks.size() <= kFewRemarks) return section_of(section);
-  Element details("details");
+  Element details("details", {{"class", "reasons"}});
   details.add(text_element("summary", summary)).add(list_of(section.remarks));
   return section_of({section.title, section.table, {}}).add(details);
 }
