@@ -10,12 +10,6 @@
 namespace fleetproof {
 namespace {
 
-Pool empty_pool(GateUnit unit) {
-  Pool pool;
-  pool.rule.unit = unit;
-  return pool;
-}
-
 // Behind a wreck nothing moves: that is no fault of its own (run_result.hpp calls it unknown).
 bool stalls(const Outcome& outcome) {
   if (outcome.incidents.empty()) return false;
@@ -55,9 +49,10 @@ std::vector<std::pair<BreakdownKey, std::vector<std::uint32_t>>> grouped_cells(c
 Breakdown::Breakdown(const std::vector<CellRecord>& cells) : groups_of_cell_(cells.size()) {
   for (auto& [key, members] : grouped_cells(cells)) {
     for (const std::uint32_t cell : members) groups_of_cell_[cell].push_back(groups_.size());
-    Pool worlds = empty_pool(GateUnit::World), hours = empty_pool(GateUnit::AgvHour);
-    worlds.cells = hours.cells = members;
-    groups_.push_back({key, PoolCounter(std::move(worlds)), PoolCounter(std::move(hours))});
+    Pool hours;
+    hours.rule.unit = GateUnit::AgvHour;
+    hours.cells = members;
+    groups_.push_back({key, PoolCounter(std::move(hours))});
   }
 }
 
@@ -67,8 +62,7 @@ void Breakdown::add(const RunRecord& run) {
   const bool stalled = stalls(run.outcome);
   for (const std::size_t index : groups_of_cell_[run.cell]) {
     Group& group = groups_[index];
-    group.violations.add(run);
-    group.violations_per_hour.add(run);
+    group.events.add(run);
     group.pending.add(one);
     group.stalls |= stalled;
   }
@@ -76,9 +70,9 @@ void Breakdown::add(const RunRecord& run) {
 }
 
 void Breakdown::finish_replicate() {
+  ++replicates_;
   for (Group& group : groups_) {
-    group.violations.finish_replicate();
-    group.violations_per_hour.finish_replicate();
+    group.events.finish_replicate();
     group.tally.add(std::exchange(group.pending, Tally{}));
     group.stalled += std::exchange(group.stalls, false) ? 1 : 0;
   }
@@ -87,7 +81,10 @@ void Breakdown::finish_replicate() {
 std::vector<BreakdownRow> Breakdown::rows() const {
   std::vector<BreakdownRow> list;
   for (const Group& group : groups_) {
-    list.push_back({group.key, group.tally, group.violations.pool(), group.violations_per_hour.pool(), group.stalled,
+    Pool worlds = group.events.pool();
+    worlds.rule.unit = GateUnit::World;
+    worlds.units = replicates_;
+    list.push_back({group.key, group.tally, std::move(worlds), group.events.pool(), group.stalled,
                     static_cast<double>(group.tally.longest_ns) / 1e9});
   }
   return list;

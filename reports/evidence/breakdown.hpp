@@ -41,13 +41,14 @@ class Breakdown {
  private:
   struct Group {
     BreakdownKey key;
-    PoolCounter violations, violations_per_hour;
+    PoolCounter events;  // of the unit AgvHour: its events are worlds
     Tally tally{}, pending{};
     std::uint64_t stalled = 0;
     bool stalls = false;  // in the replicate that is not complete yet
   };
   void finish_replicate();
 
+  std::uint64_t replicates_ = 0;
   std::vector<Group> groups_;
   std::vector<std::vector<std::size_t>> groups_of_cell_;
 };
