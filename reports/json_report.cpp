@@ -82,7 +82,7 @@ Json failing_run_json(const ReportInput& input, const std::optional<FailingRun>&
   json["min_clearance_m"] = metres(run->min_clearance_um);
   json["min_clearance_um"] = maybe(run->min_clearance_um);
   json["violations"] = run->violations;
-  json["closest"] = run->closest ? violation_json(*run->closest) : Json(nullptr);
+  json["closest"] = run->worst ? violation_json(*run->worst) : Json(nullptr);
   json["message"] = run->message;
   json["replay"] = replay_line(input, run->run_index);
   json["debug"] = run->message.empty() ? Json(nullptr) : Json(debug_command(input.archive_path, run->run_index));

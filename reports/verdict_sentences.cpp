@@ -66,6 +66,9 @@ Headline claim(const ReportInput& input) {
   return headline;
 }
 
+// Cut, not rounded: no digit differs from the archive.
+double hundredths_s(SimTime t) { return static_cast<double>((t - kStart).count() / 10'000'000) / 100.0; }
+
 }  // namespace
 
 Remark describe(const ReportInput& input, const FailingRun& run) {
@@ -73,15 +76,15 @@ Remark describe(const ReportInput& input, const FailingRun& run) {
   auto text =
       fmt::format("run {}: {}", run.run_index,
                   run.severity == Severity::Incident ? info_of(run.incident->kind).name : name_of(run.severity));
-  if (run.closest && level_of(*run.closest) == ViolationLevel::HazardousContact) {
-    text +=
-        fmt::format(" at hazardous speed ({:.1f} m/s)", static_cast<double>(run.closest->relative_speed_um_s) / 1e6);
+  if (run.worst && level_of(*run.worst) == ViolationLevel::HazardousContact) {
+    text += fmt::format(" at hazardous speed ({:.1f} m/s)",
+                        static_cast<double>(run.worst->relative_speed_um_s / 100'000) / 10.0);
   }
-  if (run.closest) {
-    text += fmt::format(", {} at {} between {} and {}", metres_text(run.closest->min_clearance_um),
-                        seconds_text(to_seconds(run.closest->closest_at)), body_name(run.closest->a, cell),
-                        body_name(run.closest->b, cell));
-    if (run.violations > 1) text += fmt::format(" (the closest of {})", run.violations);
+  if (run.worst) {
+    text += fmt::format(", {} at {} between {} and {}", metres_text(run.worst->min_clearance_um),
+                        seconds_text(hundredths_s(run.worst->closest_at)), body_name(run.worst->a, cell),
+                        body_name(run.worst->b, cell));
+    if (run.violations > 1) text += fmt::format(" (the worst of {})", run.violations);
   }
   text += fmt::format("; agent {}, layout {}, fleet of {}, {}", printable(cell.agent, 40), printable(cell.layout, 40),
                       cell.fleet_size, factors_text(run.factors));

@@ -27,7 +27,7 @@ struct Subject {
 };
 
 Subject subject_of(const FailingRun& run, const RunRecord& stored) {
-  if (run.closest) return {run.closest->closest_at, run.closest->a, run.closest->b, true};
+  if (run.worst) return {run.worst->closest_at, run.worst->a, run.worst->b, true};
   if (run.incident) return {run.incident->last, run.incident->a, run.incident->b, false};
   return {at_ns(static_cast<std::int64_t>(stored.outcome.simulated_ns)), {}, {}, false};
 }

@@ -54,6 +54,11 @@ std::optional<Severity> severity_of(const Outcome& o) {
   return std::nullopt;
 }
 
+// The least is the worst: by level, then by the speed of a contact, else by the clearance.
+std::tuple<int, std::int64_t, std::int64_t> worst_first(const Violation& v) {
+  return {-static_cast<int>(level_of(v)), v.contact ? -v.relative_speed_um_s : 0, v.min_clearance_um};
+}
+
 }  // namespace
 
 const char* name_of(Severity severity) {
@@ -91,15 +96,19 @@ std::optional<FailingRun> FailingRun::of(const RunRecord& run) {
   failing.violations = run.outcome.violations.size();
   failing.message = run.outcome.message;
   failing.incident = first_judged(run.outcome);
-  const auto closest = std::ranges::min_element(run.outcome.violations, {}, &Violation::min_clearance_um);
-  if (closest != run.outcome.violations.end()) failing.closest = *closest;
+  if (const Violation* worst = worst_of(run.outcome.violations)) failing.worst = *worst;
   return failing;
+}
+
+const Violation* worst_of(const std::vector<Violation>& violations) {
+  const auto worst = std::ranges::min_element(violations, {}, worst_first);
+  return worst == violations.end() ? nullptr : &*worst;
 }
 
 bool more_serious(const FailingRun& a, const FailingRun& b) {
   const auto rank = [](const FailingRun& run) {
-    return std::tuple(run.severity, run.min_clearance_um.value_or(std::numeric_limits<std::int64_t>::max()),
-                      run.run_index);
+    return std::tuple(run.severity, worst_first(run.worst.value_or(Violation{})),
+                      run.min_clearance_um.value_or(std::numeric_limits<std::int64_t>::max()), run.run_index);
   };
   return rank(a) < rank(b);
 }

@@ -21,7 +21,7 @@ struct FailingRun {
   Severity severity = Severity::Stuck;
   std::optional<std::int64_t> min_clearance_um;
   std::size_t violations = 0;
-  std::optional<Violation> closest;  // the violation with the smallest clearance
+  std::optional<Violation> worst;    // of the violations
   std::optional<Incident> incident;  // the first that a gate may be put on
   std::string message;
 
@@ -29,7 +29,11 @@ struct FailingRun {
   static std::optional<FailingRun> of(const RunRecord& run);
 };
 
-// By severity, then by smallest clearance, then by run index.
+// The violation that leads: contact at hazardous speed before contact before less than the safety distance; the highest
+// relative speed of contacts, else the smallest clearance; of equal ones the first. Null if there is none.
+const Violation* worst_of(const std::vector<Violation>& violations);
+
+// By severity, then by the worst violation, then by smallest clearance, then by run index.
 bool more_serious(const FailingRun& a, const FailingRun& b);
 
 // The most serious of all added runs, the most serious first. The order of adding does not matter.

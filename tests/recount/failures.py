@@ -21,6 +21,13 @@ def level(violation):
     return "contact at hazardous speed" if violation["relative_speed_um_s"] > 300000 else "contact"
 
 
+def rank_of(violation):
+    """The least is the worst: contacts by speed, hazardous ones first; else by clearance."""
+    if not violation["contact"]:
+        return 0, violation["min_clearance_um"]
+    return -2 if violation["relative_speed_um_s"] > 300000 else -1, -violation["relative_speed_um_s"]
+
+
 def failing_runs(archive):
     """(agent, end point, first cause, run) in order of run index."""
     first_violation, first_incident = {}, {}
@@ -54,20 +61,24 @@ class Failures:
         self.groups = {}
         self.last_new = defaultdict(int)  # by agent: the number of its run in which a kind was seen first, the latest
         digests = defaultdict(set)
+        worst_violation = {}
+        for row in archive.db.execute("SELECT * FROM violations"):
+            index = row["run_index"]
+            worst_violation[index] = min(rank_of(row), worst_violation.get(index, (1, 0)))
         for agent, end, cause, run in failing_runs(archive):
             key = (agent, end, cause)
             if key not in self.groups:
                 self.last_new[agent] = ordinal_of(archive, agent, run)
             count, worst = self.groups.get(key, (0, None))
             clearance = run["min_clearance_um"] if run["min_clearance_um"] is not None else 2**63
-            rank = (clearance, run["run_index"])
+            rank = (worst_violation.get(run["run_index"], (0, 0)), clearance, run["run_index"])
             self.groups[key] = (count + 1, min(rank, worst or rank))
             digests[key].add(run["digest"])
         self.distinct = {key: len(found) for key, found in digests.items()}
 
     def rows(self):
         keys = sorted(self.groups, key=lambda key: (SERIOUS.index(key[1]), self.groups[key][1]))
-        return [[*key, str(self.groups[key][0]), str(self.distinct[key]), str(self.groups[key][1][1])] for key in keys]
+        return [[*key, str(self.groups[key][0]), str(self.distinct[key]), str(self.groups[key][1][-1])] for key in keys]
 
 
 def discoveries(archive, failures):

@@ -28,15 +28,16 @@ def run_sentence(archive, index):
     else:
         text += KINDS[archive.one(f"SELECT kind FROM incidents WHERE run_index = ? AND kind IN {JUDGED} ORDER BY "
                                   "ordinal LIMIT 1", index)["kind"]]
-    violations = archive.all("SELECT * FROM violations WHERE run_index = ? ORDER BY min_clearance_um, ordinal", index)
+    violations = archive.all("SELECT * FROM violations WHERE run_index = ? ORDER BY contact DESC, CASE WHEN contact "
+                             "THEN -relative_speed_um_s ELSE min_clearance_um END, ordinal", index)
     if violations:
         worst = violations[0]
         if worst["contact"] and worst["relative_speed_um_s"] > 300000:
-            text += f" at hazardous speed ({worst['relative_speed_um_s'] / 1e6:.1f} m/s)"
-        text += (f", {w.metres(worst['min_clearance_um'])} at {w.hundredths(worst['closest_at_ns'] / 1e9)} s between "
+            text += f" at hazardous speed ({worst['relative_speed_um_s'] // 100000 / 10:.1f} m/s)"
+        text += (f", {w.metres(worst['min_clearance_um'])} at {w.hundredths(worst['closest_at_ns'] // 10**7 / 100)} s between "
                  f"{body(worst['entity_a'], run)} and {body(worst['entity_b'], run)}")
         if len(violations) > 1:
-            text += f" (the closest of {len(violations)})"
+            text += f" (the worst of {len(violations)})"
     text += f"; agent {run['agent']}, layout {run['layout']}, fleet of {run['fleet_size']}, "
     values = (run["loss"], run["delay_s"], run["mean_outage_s"], run["call_cost_s"])
     phrases = ("loss", "delay", "outages of", "call cost")
