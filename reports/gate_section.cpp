@@ -20,7 +20,7 @@ std::string failure_text(const GateRecord& gate, std::optional<double> safety_di
   switch (gate.end_point) {
     case EndPoint::Violation:
       return "broke the safety distance" +
-             (safety_distance_m ? fmt::format(" of {:.2f} m", *safety_distance_m) : std::string());
+             (safety_distance_m ? " of " + distance_text(*safety_distance_m) : std::string());
     case EndPoint::Contact:
       return "had a contact";
     case EndPoint::HazardousContact:

@@ -51,6 +51,10 @@ std::string factor_spans(const FactorValues& lowest, const FactorValues& highest
   return text;
 }
 
+std::string distance_text(double value_m) {
+  const std::string text = fmt::format("{:.2f}", value_m);
+  return (std::stod(text) == value_m ? text : fmt::format("{}", value_m)) + " m";
+}
 std::string metres_text(std::int64_t value_um) {
   return fmt::format("{:.2f} m", std::floor(static_cast<double>(value_um) / 10'000.0) / 100.0);
 }

@@ -24,6 +24,8 @@ std::string factor_span(const FactorInfo& factor, double from, double to);
 std::string factors_text(const FactorValues& factors);
 // The values of the same factors between bounds, with the words of the last ones only: "0 .. 40 %, 2 s".
 std::string factor_spans(const FactorValues& lowest, const FactorValues& highest, std::string_view separator = ", ");
+// A distance that a plan states: hundredths of a metre, or all its digits if it has more.
+std::string distance_text(double value_m);
 std::string metres_text(std::int64_t value_um);
 // "> 0.5 m" if no clearance was below 0.5 m, "-" without runs.
 std::string clearance_text(const Tally& tally);

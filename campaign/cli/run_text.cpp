@@ -9,15 +9,18 @@
 #include "core/outcome/work_and_progress.hpp"
 #include "generators/formats/purpose_words.hpp"
 #include "generators/scenario_file/exempt_pairs.hpp"
+#include "reports/wording.hpp"
 
 namespace fleetproof::cli {
 namespace {
 
-// A clearance is never shown larger than it was: rounded down to whole steps.
-double metres_down(std::int64_t value_um, std::int64_t step_um) {
-  const std::int64_t steps = value_um / step_um - (value_um % step_um < 0 ? 1 : 0);
-  return static_cast<double>(steps * step_um) / 1e6;
+// The first digits of a number in millionths: cut, not rounded, so that no digit differs from the full number.
+double cut(std::int64_t millionths, std::int64_t step) {
+  return static_cast<double>(millionths - millionths % step) / 1e6;
 }
+double to_centimetre(std::int64_t value_um) { return cut(value_um, 10'000); }
+double to_millimetre(std::int64_t value_um) { return cut(value_um, 1'000); }
+double to_millisecond(SimTime t) { return cut((t - kStart).count() / 1'000, 1'000); }
 
 std::string counters_text(const Outcome& outcome) {
   const Counters& c = outcome.counters;
@@ -109,8 +112,8 @@ std::string differences_text(const Scenario& scenario, const std::vector<Differe
     const Violation& v = d.violation;
     text += fmt::format("    {} ({}): {} and {} from {:.3f} s to {:.3f} s, closest {:.3f} m at {:.3f} s\n",
                         d.missed ? "missed" : "accused wrongly", name_of(d.cause), shown_name(scenario, v.a),
-                        shown_name(scenario, v.b), to_seconds(v.first), to_seconds(v.last),
-                        metres_down(v.min_clearance_um, 1'000), to_seconds(v.closest_at));
+                        shown_name(scenario, v.b), to_millisecond(v.first), to_millisecond(v.last),
+                        to_millimetre(v.min_clearance_um), to_millisecond(v.closest_at));
   }
   return text;
 }
@@ -131,12 +134,12 @@ std::string outcome_text(const Scenario& scenario, const Outcome& outcome, bool 
   if (!outcome.message.empty()) text += fmt::format("  {}\n", printable(outcome.message));
   for (const Violation& v : outcome.violations) {
     text += fmt::format(
-        "  {} and {} closer than {:.2f} m from {:.3f} s to {:.3f} s; closest {:.3f} m at {:.3f} s near ({:.2f}, "
+        "  {} and {} closer than {} from {:.3f} s to {:.3f} s; closest {:.3f} m at {:.3f} s near ({:.2f}, "
         "{:.2f}), {:.2f} m/s apart{}\n",
-        shown_name(scenario, v.a), shown_name(scenario, v.b), scenario.law.safety_distance_m, to_seconds(v.first),
-        to_seconds(v.last), metres_down(v.min_clearance_um, 1'000), to_seconds(v.closest_at),
-        static_cast<double>(v.x_um) / 1e6, static_cast<double>(v.y_um) / 1e6,
-        static_cast<double>(v.relative_speed_um_s) / 1e6, v.contact ? std::string(", ") + name_of(level_of(v)) : "");
+        shown_name(scenario, v.a), shown_name(scenario, v.b), distance_text(scenario.law.safety_distance_m),
+        to_millisecond(v.first), to_millisecond(v.last), to_millimetre(v.min_clearance_um),
+        to_millisecond(v.closest_at), to_centimetre(v.x_um), to_centimetre(v.y_um),
+        to_centimetre(v.relative_speed_um_s), v.contact ? std::string(", ") + name_of(level_of(v)) : "");
   }
   if (scenario.law.exempt_purposes.bits() != 0) {
     text += fmt::format("  exempt from the safety distance (contact is not): within {:g} m of stations for {}\n",
@@ -147,7 +150,7 @@ std::string outcome_text(const Scenario& scenario, const Outcome& outcome, bool 
   }
   for (const Incident& incident : outcome.incidents) text += "  " + incident_text(scenario, incident) + "\n";
   if (outcome.min_clearance_um) {
-    text += fmt::format("  smallest clearance {:.2f} m\n", metres_down(*outcome.min_clearance_um, 10'000));
+    text += fmt::format("  smallest clearance {:.2f} m\n", to_centimetre(*outcome.min_clearance_um));
   } else {
     text += clearance_measured ? "  smallest clearance > 0.5 m\n" : "  smallest clearance not measured\n";
   }

@@ -33,7 +33,7 @@ BarChart clearance_chart(const ClearanceCounts& counts, const std::string& label
   const auto limit = static_cast<std::size_t>(std::lround(safety_distance_m * 100.0));
   BarChart chart{label, "smallest clearance of a run (m); a bar is 1 cm wide", {}, {}, {}};
   if (limit < ClearanceCounts::kSteps) chart.line_before = 1 + limit;
-  chart.line_name = fmt::format("{:.2f} m", safety_distance_m);
+  chart.line_name = distance_text(safety_distance_m);
   chart.bars.push_back({"touch", counts.contact, true});
   for (std::size_t i = 0; i < ClearanceCounts::kSteps; ++i) {
     const bool is_labelled = i > 0 && i % 10 == 0;
@@ -64,7 +64,7 @@ CurveChart bound_chart(const ReportInput& input, const CampaignFigures& figures)
   CurveChart chart{"Upper bounds against replicates", "complete replicates", "upper bound", {}, true, false, {}};
   const auto& gates = input.evidence.gates();
   for (std::size_t i = 0; i < figures.bounds().size(); ++i) {
-    Curve curve{printable(gates[i].name, 60), {}};
+    ChartLine curve{printable(gates[i].name, 60), {}};
     for (const auto& [replicates, upper] : figures.bounds()[i]) {
       if (upper > 0.0) curve.points.emplace_back(static_cast<double>(replicates), upper);
     }
@@ -86,7 +86,7 @@ CurveChart discovery_chart(const ReportInput& input, const CampaignFigures& figu
     const auto found = figures.agents().find(agent);
     if (found == figures.agents().end() || chart.curves.size() == kMostAgents) continue;
     const auto& seen = of_failures ? found->second.failures.first_seen : found->second.situations.first_seen;
-    Curve curve{"agent " + printable(agent, 40), {{1.0, 0.0}}};
+    ChartLine curve{"agent " + printable(agent, 40), {{1.0, 0.0}}};
     for (std::size_t i = 0; i < seen.size(); ++i)
       curve.points.emplace_back(static_cast<double>(seen[i]), static_cast<double>(i + 1));
     curve.points.emplace_back(static_cast<double>(found->second.runs), static_cast<double>(seen.size()));

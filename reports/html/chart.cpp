@@ -96,7 +96,7 @@ void add_frame(Element& svg, const CurveChart& chart, const Axis& x, const Axis&
   svg.add(note(chart.y_name, 0.0, 12.0, "start", "600"));
 }
 
-std::string path_of(const Curve& curve, const Axis& x, const Axis& y, bool steps) {
+std::string path_of(const ChartLine& curve, const Axis& x, const Axis& y, bool steps) {
   std::string path;
   for (const auto& [at, value] : curve.points) {
     const double px = kLeft_px + kPlotWidth_px * x.place(at), py = kPlotBottom_px - kHeight_px * y.place(value);

@@ -28,13 +28,13 @@ Element draw(const BarChart& chart);
 
 // Lines through points, each with its own colour and dashes. The axis of x is logarithmic. Requires: all x are above 0,
 // and so are all y of a logarithmic axis.
-struct Curve {
+struct ChartLine {
   std::string name;
   std::vector<std::pair<double, double>> points;
 };
 struct CurveChart {
   std::string label, x_name, y_name;
-  std::vector<Curve> curves;
+  std::vector<ChartLine> curves;
   bool y_logarithmic = false, steps = false;
   std::vector<std::pair<double, std::string>> levels;  // horizontal lines with a name
 };

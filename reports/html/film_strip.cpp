@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reports/wording.hpp"
+
 namespace fleetproof::html {
 namespace {
 
@@ -198,7 +200,8 @@ void add_bodies(Element& svg, const FilmStrip& strip, const FilmFrame& frame, co
 std::string clearance_line(const FilmFrame& frame) {
   if (!frame.clearance_m) return "";
   if (*frame.clearance_m <= kTouch_m) return "they touch";
-  return fmt::format("{:.2f} m apart", std::floor((*frame.clearance_m + 1e-6) * 100.0) / 100.0);
+  // As the archive files it, in whole micrometres rounded down, and then as every page does.
+  return metres_text(static_cast<std::int64_t>(std::floor(*frame.clearance_m * 1e6))) + " apart";
 }
 
 Element frame_of(const FilmStrip& strip, const FilmFrame& frame, const Window& window) {

