@@ -37,6 +37,7 @@ class ExactLaw final : public Law {
   void settle_moving(const Piece& a, const Piece& b, Interval within);
   void collect_stretches(const Piece& a, const Piece& b, const Approach& approach, SimTime last);
   void collect(const Piece& a, const Piece& b, SimTime first, SimTime last);
+  double threshold_m(const Piece& a, const Piece& b) const { return threshold_m_ - allowance_on_curves_m(a, b); }
   double clearance_at(const Piece& a, const Piece& b, SimTime t);
 
   std::size_t agv_count_;
@@ -97,7 +98,7 @@ void ExactLaw::settle(const Piece& a, const Piece& b, Interval within) {
 void ExactLaw::settle_standing(const Piece& a, const Piece& b, Interval within) {
   const double clearance = clearance_at(a, b, within.begin);
   smallest_m_ = std::min(smallest_m_, clearance);
-  if (clearance < threshold_m_)
+  if (clearance < threshold_m(a, b))
     stretches_.push_back(stretch_of(a, b, within.begin, within.end, {clearance, within.begin}));
 }
 
@@ -105,11 +106,12 @@ void ExactLaw::settle_moving(const Piece& a, const Piece& b, Interval within) {
   // Most pairs stay farther apart than the smallest clearance so far, and that settles both questions. Earlier findings
   // have no other influence. A violation is dated and measured from the start of the interval. Therefore the result
   // does not depend on the order in which pieces are announced.
-  const bool lower = smallest_m_ > threshold_m_ + kBuiltToTheLimit_m;
+  const double level_m = threshold_m(a, b);
+  const bool lower = smallest_m_ > level_m + kBuiltToTheLimit_m;
   if (lower && !comes_below(a, b, within, smallest_m_, evaluations_)) return;
-  if (const auto approach = approach_below(a, b, within, threshold_m_, evaluations_)) {
+  if (const auto approach = approach_below(a, b, within, level_m, evaluations_)) {
     smallest_m_ = std::min(smallest_m_, approach->closest.clearance_m);
-    const auto last = last_below(a, b, {approach->first, within.end}, threshold_m_, evaluations_);
+    const auto last = last_below(a, b, {approach->first, within.end}, level_m, evaluations_);
     // The search finds a dip of a nanometre from one side in time, but not from the other side.
     collect_stretches(a, b, *approach, std::max(last.value_or(approach->first), approach->closest.at));
   } else if (lower) {
@@ -121,11 +123,12 @@ void ExactLaw::settle_moving(const Piece& a, const Piece& b, Interval within) {
 // Every rise of kRiseNoticed or longer contains a probe. Exit and return are then found exactly, before and after the
 // probe.
 void ExactLaw::collect_stretches(const Piece& a, const Piece& b, const Approach& approach, SimTime last) {
+  const double level_m = threshold_m(a, b);
   SimTime first = approach.first;
   for (SimTime probe = first + kRiseNoticed; probe < last; probe += kRiseNoticed) {
-    if (clearance_at(a, b, probe) < threshold_m_) continue;
-    collect(a, b, first, last_below(a, b, {first, probe}, threshold_m_, evaluations_).value_or(first));
-    first = first_below(a, b, {probe, last}, threshold_m_, evaluations_).value_or(last);
+    if (clearance_at(a, b, probe) < level_m) continue;
+    collect(a, b, first, last_below(a, b, {first, probe}, level_m, evaluations_).value_or(first));
+    first = first_below(a, b, {probe, last}, level_m, evaluations_).value_or(last);
     probe = first;
   }
   if (first > approach.first) return collect(a, b, first, last);
@@ -133,7 +136,7 @@ void ExactLaw::collect_stretches(const Piece& a, const Piece& b, const Approach&
 }
 
 void ExactLaw::collect(const Piece& a, const Piece& b, SimTime first, SimTime last) {
-  auto closest = closest_approach(a, b, {first, last}, threshold_m_, evaluations_);
+  auto closest = closest_approach(a, b, {first, last}, threshold_m(a, b), evaluations_);
   if (!closest)
     closest = ClosestApproach{clearance_at(a, b, first), first};  // a graze shallower than the search resolves
   stretches_.push_back(judged_stretch(a, b, first, last, *closest, describing_));

@@ -12,6 +12,14 @@ namespace fleetproof {
 // The threshold of all laws: a smaller clearance is a violation.
 inline double violation_threshold_m(const LawSetup& law) { return law.safety_distance_m - kBuiltToTheLimit_m; }
 
+// What is taken off the threshold for two pieces: kBuiltOnCurves_m for each that drives a curve.
+inline double allowance_on_curves_m(const Piece& a, const Piece& b) {
+  const auto on_curve = [](const Piece& piece) {
+    return piece.manner == Manner::Drive && !piece.curve->is_straight() ? kBuiltOnCurves_m : 0.0;
+  };
+  return on_curve(a) + on_curve(b);
+}
+
 // A stretch of time in which two bodies are too close, and how they stand at the closest instant. `a` < `b`.
 struct Stretch {
   EntityId a, b;

@@ -8,8 +8,8 @@
 
 namespace fleetproof::agents {
 
-// Hulls keep this distance in addition to the safety distance. It covers rounding in messages, and turns that are too
-// small to count.
+// Hulls keep this distance in addition to the safety distance. It covers rounding in messages, turns that are too small
+// to count, and arcs that are not quite the track.
 inline constexpr double kHullTolerance_m = 0.02;
 
 // Hulls: all the floor that an AGV may cover while it drives a path, as shapes. The hull of a path has parts: a disc

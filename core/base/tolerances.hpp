@@ -90,9 +90,22 @@ inline constexpr double kStraightArc_rad = 1e-12;
 // Larger: flat bends become straight lines. Smaller: straight segments become chains of arcs of huge radius.
 inline constexpr double kOnTheLine = 1e-11;
 
-// A Bezier curve is replaced by arcs that stay within this distance of it.
-// Larger: bodies are judged where they are not. Smaller: more arcs, so more pieces to judge.
-inline constexpr double kBezierByArcs_m = 1e-3;
+// The place on a Bezier curve at an arc length is right to this, and so is the length of the curve.
+// Larger: the motion of a body is not the one that the bounds of the walk assume; at kDip_m, violations are passed
+// over. Smaller: more parts, so more changes of the law of motion.
+inline constexpr double kAlongCurve_m = 1e-10;
+
+// Control software is given a Bezier curve as arcs that stay within this distance and heading of it. The judge uses the
+// curve itself.
+// Larger: sound software cannot know where its AGV will be to the margin that it keeps. Smaller: more arcs in each map.
+inline constexpr double kBezierByArcs_m = 1e-4;
+inline constexpr double kHeadingByArcs_rad = 2e-3;
+
+// What is built to the safety distance on curves: for each body that drives a curve, a clearance must be this much
+// smaller before it is a violation.
+// Larger: violations by less than this are not found. Smaller: lanes that bend side by side at exactly the safety
+// distance are accused, because the line beside a Bezier curve is no Bezier curve: layouts come near it.
+inline constexpr double kBuiltOnCurves_m = 1e-5;
 
 // Arcs and Bezier curves join smoothly if their headings differ by less.
 // Larger: the heading of an AGV jumps in mid-segment. Smaller: rounding refuses layouts that are smooth.
@@ -159,6 +172,11 @@ inline constexpr double kNoHandle_m = 1e-9;
 // Points of a NURBS curve that are nearer to each other, or to a line, are one point, or lie on the line.
 // Larger: the curve loses its shape. Smaller: rounding in the file makes segments of no length.
 inline constexpr double kNurbsPoint_m = 1e-6;
+
+// Cubic pieces stand for a NURBS curve if they are this near to it, in place and heading.
+// Larger: bodies are judged where they are not, a corner at 3 m by three times the second value. Smaller: more pieces.
+inline constexpr double kNurbsByCubics_m = 1e-6;
+inline constexpr double kNurbsByCubics_rad = 2e-6;
 
 // Two segments are the two directions of one track if their control points differ by less.
 // Larger: neighbouring tracks become one. Smaller: layouts that were rounded to a millimetre get every track twice.

@@ -10,6 +10,7 @@
 namespace fleetproof {
 namespace {
 
+constexpr double kFlattest_per_m = 1e-3;
 constexpr double kNotMet = std::numeric_limits<double>::infinity();
 
 // Least positive root of value + rate * x + bend * x^2 / 2, for a positive value.
@@ -38,6 +39,16 @@ struct Reach {
   double loss, most;  // a third of the bound on the third derivative; the bound on the second
 };
 
+// On a Bezier curve, the lever of a corner also changes with the curvature. `arm_beside` is the part along the
+// direction of the arm turned left.
+void add_change_of_curvature(const PhaseMotion& motion, double arm_beside, Reach& reach) {
+  const double arm_m = std::sqrt(motion.body.half_length_m * motion.body.half_length_m +
+                                 motion.body.half_width_m * motion.body.half_width_m);
+  reach.bend += motion.bending * motion.speed * motion.speed * arm_beside;
+  reach.loss += (motion.per_arm.lever * motion.top_jerk + motion.per_arm.mps3) * arm_m / 3.0;
+  reach.most += (motion.per_arm.lever * motion.top_acceleration + motion.per_arm.mps2) * arm_m;
+}
+
 // The corners that can be the foremost along a direction while the phase lasts.
 struct Reaches {
   std::array<Reach, 4> of;
@@ -59,26 +70,31 @@ struct Reaches {
       const double lever_x = motion.turns_on_spot ? -y : 1.0 - k * y, lever_y = motion.turns_on_spot ? x : k * x;
       const double along = lever_x * ahead + lever_y * beside, square = lever_x * beside - lever_y * ahead;
       const double length = std::sqrt(lever_x * lever_x + lever_y * lever_y);
-      of[count++] = {x * ahead + y * beside, motion.speed * along, motion.acceleration * along + pull * square,
-                     length * motion.top_jerk / 3.0, length * motion.top_acceleration};
+      of[count] = {x * ahead + y * beside, motion.speed * along, motion.acceleration * along + pull * square,
+                   length * motion.top_jerk / 3.0, length * motion.top_acceleration};
+      if (motion.varies) add_change_of_curvature(motion, x * beside - y * ahead, of[count]);
+      ++count;
     }
   }
 };
 
-// The most that turning at a rate (and its own rate, constant) can give a lever of length 1: its second derivative, its
-// third.
+// The most that turning (at a rate, with its first two derivatives) can give a lever of length 1: its second
+// derivative, its third.
 struct TurningBound {
   double second, third;
-  TurningBound(double top_rad_s, double rad_s2) {
-    const double w2 = top_rad_s * top_rad_s, a2 = rad_s2 * rad_s2;
+  TurningBound(double rad_s, double rad_s2, double rad_s3) {
+    const double w2 = rad_s * rad_s, a2 = rad_s2 * rad_s2;
     second = std::sqrt(a2 + w2 * w2);
-    third = std::abs(top_rad_s) * std::sqrt(9.0 * a2 + w2 * w2);
+    third = std::abs(rad_s) * std::sqrt(9.0 * a2 + w2 * w2) + rad_s3;
   }
 };
 
 bool is_side(const Vec2& direction, const OrientedRectangle& body) {
   return std::min(std::abs(direction.dot(body.heading)), std::abs(cross(body.heading, direction))) < kAlongSide;
 }
+
+// A pivot that is farther away bounds nothing.
+bool has_pivot(const PhaseMotion& motion) { return !motion.varies || std::abs(motion.curvature) > kFlattest_per_m; }
 
 Vec2 into_frame(const Vec2& direction, const Vec2& heading) {
   return {direction.dot(heading), cross(heading, direction)};
@@ -145,14 +161,15 @@ void GapBound::add_corners_apart(const PhaseMotion& first, const PhaseMotion& se
 
 // Seen from the body that the axis turns with, that body rests, and a corner at r (from the reference point) of the
 // other has the derivatives that a turning frame gives it: r' - w Jr, r'' - 2w Jr' - a Jr - w^2 r, and a third one
-// below r''' + 3w r'' + 3(a + w^2) r' + (3wa + w^3) r in magnitude; J is left_of, w the frame's rate of turning and a
-// the rate's own.
+// below r''' + 3w r'' + 3(a + w^2) r' + (3wa + w^3 + a') r in magnitude; J is left_of, w the frame's rate of turning, a
+// the rate's own, and a' that of a.
 void GapBound::add_corners_seen_from(const PhaseMotion& frame, const PhaseMotion& other, const Vec2& outward) {
   const PointMotion origin = frame.point(Vec2::Zero());
   const double w = frame.turning_rad_s(), a = frame.turning_rad_s2();
-  const double top_w = std::abs(frame.curvature) * frame.top_speed, top_a = std::abs(a);
+  const double top_w = frame.top_turning.rad_s, top_a = frame.top_turning.rad_s2;
   const double half_m = frame.half_extent_m(outward);
-  const double second = top_a + top_w * top_w, third = 3.0 * top_w * top_a + top_w * top_w * top_w;
+  const double second = top_a + top_w * top_w,
+               third = 3.0 * top_w * top_a + top_w * top_w * top_w + frame.top_turning.rad_s3;
   for (const Vec2& arm : corner_arms(other.body)) {
     const PointMotion corner = other.point(arm);
     const Vec2 r = corner.position_m - origin.position_m, v = corner.velocity_mps - origin.velocity_mps;
@@ -173,19 +190,32 @@ void GapBound::add_corners_seen_from(const PhaseMotion& frame, const PhaseMotion
 
 // If both bodies rotate, the frame shows two motions. The pivot of the other body turns about the pivot of the frame. A
 // corner turns about the pivot of the other body, at the difference of both rates. Bodies that follow each other round
-// the same bend do not move at all.
+// the same bend do not move at all. On Bezier curves, a pivot is a point of the body that stands still at this instant:
+// from then on it drifts as the curvature changes.
 void GapBound::tighten_by_pivots(const PhaseMotion& frame, const PhaseMotion& other) {
-  const Vec2 pivot_m = other.pivot_m();
-  const double between_m = (pivot_m - frame.pivot_m()).norm();
+  if (!has_pivot(frame) || !has_pivot(other)) return;
+  const PointMotion pivot = other.point(other.pivot_arm()), origin = frame.point(frame.pivot_arm());
+  const double between_m = (pivot.position_m - origin.position_m).norm();
   const double w = other.turning_rad_s() - frame.turning_rad_s(), a = other.turning_rad_s2() - frame.turning_rad_s2();
-  const double later_w = w + a * std::min(frame.lasts_s, other.lasts_s);
-  const TurningBound pivots(std::abs(frame.curvature) * frame.top_speed, frame.turning_rad_s2());
-  const TurningBound corners(std::max(std::abs(w), std::abs(later_w)), a);
+  const double lasts_s = std::min(frame.lasts_s, other.lasts_s),
+               top_turn3 = frame.top_turning.rad_s3 + other.top_turning.rad_s3;
+  const double top_a = std::abs(a) + top_turn3 * lasts_s;
+  const double top_w =
+      top_turn3 > 0.0 ? std::abs(w) + top_a * lasts_s : std::max(std::abs(w), std::abs(w + a * lasts_s));
+  const TurningBound pivots(frame.top_turning.rad_s, frame.top_turning.rad_s2, frame.top_turning.rad_s3);
+  const TurningBound corners(top_w, top_a, top_turn3);
+  double drift2 = 0.0, drift3 = 0.0;
+  if (frame.varies || other.varies) {
+    const double v = pivot.top_mps + origin.top_mps, v2 = pivot.top_mps2 + origin.top_mps2;
+    const double turning = frame.top_turning.rad_s, second = frame.top_turning.rad_s2 + turning * turning;
+    drift2 = v2 + 2.0 * turning * v + pivots.second * v * lasts_s;
+    drift3 = pivot.top_mps3 + origin.top_mps3 + 3.0 * turning * v2 + 3.0 * second * v + pivots.third * v * lasts_s;
+  }
   const std::array<Vec2, 4> arms = corner_arms(other.body);
   for (std::size_t i = 0; i < 4; ++i) {
-    const double radius_m = (other.body.centre_m + arms[i] - pivot_m).norm();
-    const double loss = (between_m * pivots.third + radius_m * corners.third) / 3.0;
-    const double least = -(between_m * pivots.second + radius_m * corners.second);
+    const double radius_m = (other.body.centre_m + arms[i] - pivot.position_m).norm();
+    const double loss = (between_m * pivots.third + radius_m * corners.third + drift3) / 3.0;
+    const double least = -(between_m * pivots.second + radius_m * corners.second + drift2);
     Term& term = terms_[i];
     if (loss < term.loss) term.loss = loss, term.loss_growth = 0.0;
     if (least > term.least) term.least = least, term.least_growth = 0.0;

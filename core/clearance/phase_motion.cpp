@@ -12,10 +12,10 @@ namespace {
 // Nanoseconds since the piece began.
 using Elapsed = std::int64_t;
 
-// A phase of the profile on one arc of the curve.
+// A phase of the profile on one part of the curve.
 struct Stretch {
   Elapsed change;  // where it ends, in the sense walked
-  std::size_t phase = 0, arc = 0;
+  std::size_t phase = 0, part = 0;
 };
 
 // Ends of phases and joints are rounded to whole nanoseconds. The error of place is less than the motion of a body in
@@ -35,33 +35,59 @@ Stretch phase_from(const MotionProfile& profile, Elapsed now, TimeSense sense) {
 
 Stretch stretch_from(const Piece& piece, Elapsed now, TimeSense sense) {
   Stretch stretch = phase_from(piece.profile, now, sense);
-  if (piece.manner != Manner::Drive || piece.curve->arcs().size() < 2) return stretch;
+  if (piece.manner != Manner::Drive || piece.curve->parts().size() < 2) return stretch;
   const auto ends = piece.curve->ends_m();
   const double way = piece.way_begin_m + piece.profile.position(to_seconds(Duration{now}));
   const auto joint = [&](std::size_t i) { return seconds(piece.profile.time_at(ends[i] - piece.way_begin_m)).count(); };
-  stretch.arc = static_cast<std::size_t>(&piece.curve->arc_at(way) - piece.curve->arcs().data());
+  stretch.part = piece.curve->part_at(way);
   if (sense == TimeSense::Forward) {
-    while (stretch.arc + 1 < ends.size() && joint(stretch.arc) <= now) ++stretch.arc;
-    if (stretch.arc + 1 < ends.size()) stretch.change = std::min(stretch.change, joint(stretch.arc));
+    while (stretch.part + 1 < ends.size() && joint(stretch.part) <= now) ++stretch.part;
+    if (stretch.part + 1 < ends.size()) stretch.change = std::min(stretch.change, joint(stretch.part));
   } else {
-    while (stretch.arc > 0 && joint(stretch.arc - 1) >= now) --stretch.arc;
-    if (stretch.arc > 0) stretch.change = std::max(stretch.change, joint(stretch.arc - 1));
+    while (stretch.part > 0 && joint(stretch.part - 1) >= now) --stretch.part;
+    if (stretch.part > 0) stretch.change = std::max(stretch.change, joint(stretch.part - 1));
   }
   return stretch;
+}
+
+// The bounds that follow from how the curve bends. With the lever l, the arm r, the speed v, its change a, the
+// curvature k and the turning w = k v, a point has the acceleration a l + w v Jl + k' v^2 Jr, where J is left_of, and
+// the jerk (3 a w + k' v^3) Jl - v w^2 l + (3 a k' v + k'' v^3) Jr - 2 k' v^2 w r.
+void bound_turning(PhaseMotion& motion, const MostBending& most) {
+  const double v = motion.top_speed, a = std::abs(motion.acceleration), way_m = v * motion.lasts_s;
+  motion.varies = most.per_m2 > 0.0 || most.per_m3 > 0.0;
+  const double k2 = std::min(most.per_m2, std::abs(motion.bending) + most.per_m3 * way_m),
+               k = motion.varies ? std::min(most.per_m, std::abs(motion.curvature) + k2 * way_m)
+                                 : std::abs(motion.curvature);
+  const double w = k * v, pull = w * v, changing = k2 * v * v;
+  motion.top_turning.rad_s = w;
+  motion.top_turning.rad_s2 = k * a + changing;
+  motion.top_acceleration = std::sqrt(a * a + pull * pull);
+  if (!motion.varies) {
+    motion.top_jerk = w * std::sqrt(9.0 * (a * a) + pull * pull);
+    return;
+  }
+  const double along = 3.0 * a * w + changing * v, across = pull * w;
+  motion.top_turning.rad_s3 = 3.0 * k2 * v * a + most.per_m3 * v * v * v;
+  motion.top_jerk = std::sqrt(along * along + across * across);
+  motion.per_arm.lever = k2 * way_m;
+  motion.per_arm.mps2 = changing;
+  motion.per_arm.mps3 = motion.top_turning.rad_s3 + 2.0 * changing * w;
 }
 
 }  // namespace
 
 PointMotion PhaseMotion::point(const Vec2& arm) const {
   const Vec2 lever = turns_on_spot ? left_of(arm) : Vec2(body.heading + curvature * left_of(arm));
-  const double length = lever.norm();
   PointMotion motion;
   motion.position_m = body.centre_m + arm;
   motion.velocity_mps = speed * lever;
   motion.acceleration_mps2 = acceleration * lever + curvature * speed * speed * left_of(lever);
+  if (varies) motion.acceleration_mps2 += bending * speed * speed * left_of(arm);
+  const double arm_m = varies ? arm.norm() : 0.0, length = lever.norm() + per_arm.lever * arm_m;
   motion.top_mps = length * top_speed;
-  motion.top_mps2 = length * top_acceleration;
-  motion.top_mps3 = length * top_jerk;
+  motion.top_mps2 = length * top_acceleration + per_arm.mps2 * arm_m;
+  motion.top_mps3 = length * top_jerk + per_arm.mps3 * arm_m;
   return motion;
 }
 
@@ -89,18 +115,19 @@ PhaseMotion motion_from(const Piece& piece, const OrientedRectangle& body, SimTi
   const double sign = piece.manner == Manner::Turn && piece.turn_rad < 0.0 ? -1.0 : 1.0;
   motion.speed = piece.profile.speed_in_phase(stretch.phase, to_seconds(Duration{now})) * (forward ? sign : -sign);
   motion.acceleration = piece.profile.acceleration_in_phase(stretch.phase) * sign;
-  motion.turns_on_spot = piece.manner == Manner::Turn;
-  motion.curvature = motion.turns_on_spot ? 1.0 : piece.curve->arcs()[stretch.arc].curvature_per_m;
   const double later = piece.profile.speed_in_phase(stretch.phase, to_seconds(Duration{change}));
   motion.top_speed = std::max(std::abs(motion.speed), std::abs(later));
   motion.top_acceleration = std::abs(motion.acceleration);
-  if (motion.curvature == 0.0) return motion;
-  // A lever turns at the rate curvature * speed, which pulls square to it.
-  const double squared = motion.acceleration * motion.acceleration,
-               top_turning = std::abs(motion.curvature) * motion.top_speed;
-  const double top_pull = top_turning * motion.top_speed;
-  motion.top_acceleration = std::sqrt(squared + top_pull * top_pull);
-  motion.top_jerk = top_turning * std::sqrt(9.0 * squared + top_pull * top_pull);
+  motion.turns_on_spot = piece.manner == Manner::Turn;
+  if (motion.turns_on_spot) {
+    motion.curvature = 1.0;
+    bound_turning(motion, {1.0, 0.0, 0.0});
+  } else if (const CurvePart& part = piece.curve->parts()[stretch.part]; !part.is_straight()) {
+    const auto [per_m, per_m2] = piece.curve->bending_in(stretch.part, piece.way_at(t));
+    motion.curvature = per_m;
+    motion.bending = per_m2;
+    bound_turning(motion, part.most());
+  }
   return motion;
 }
 

@@ -26,7 +26,7 @@ Twist twist_of(const Piece& piece, const OrientedRectangle& body, SimTime t) {
     twist.turning_rad_s = piece.turn_rad < 0.0 ? -speed : speed;
   } else {
     twist.velocity_mps = speed * body.heading;
-    twist.turning_rad_s = speed * piece.curve->arc_at(piece.way_at(t)).curvature_per_m;
+    twist.turning_rad_s = speed * piece.curve->bending_at(piece.way_at(t)).per_m;
   }
   return twist;
 }

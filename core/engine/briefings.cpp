@@ -58,13 +58,13 @@ void Briefings::renew(AgvId agv, std::uint32_t boot, StationId station, const La
 
 void Briefings::describe_map(const LogicalMap& map) {
   std::size_t arc_count = 0;
-  for (const Lane& lane : map.lanes()) arc_count += lane.curve.arcs().size();
+  for (const Lane& lane : map.lanes()) arc_count += lane.arcs.size();
   arcs_.reserve(arc_count);  // the lanes point into it
   for (const Lane& lane : map.lanes()) {
     const fp_arc* first = arcs_.data() + arcs_.size();
-    for (const Arc& arc : lane.curve.arcs()) arcs_.push_back({c_pose(arc.start), arc.length_m, arc.curvature_per_m});
+    for (const Arc& arc : lane.arcs) arcs_.push_back({c_pose(arc.start), arc.length_m, arc.curvature_per_m});
     lanes_.push_back({lane.segment.value, lane.from.value, lane.to.value, lane.curve.length_m(),
-                      static_cast<std::uint32_t>(lane.curve.arcs().size()), first});
+                      static_cast<std::uint32_t>(lane.arcs.size()), first});
   }
   for (std::size_t i = 0; i < map.station_count(); ++i) {
     const Station& station = map.station(StationId{i});

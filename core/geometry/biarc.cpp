@@ -66,10 +66,16 @@ double off_circle_m(const Arc& arc, const Vec2& point_m) {
   return std::abs(bend) / (1.0 + std::sqrt(std::max(0.0, 1.0 + k * bend)));
 }
 
+// The heading of an arc beside a point.
+Vec2 heading_beside(const Arc& arc, const Vec2& point_m) {
+  const Vec2 offset = point_m - arc.start.position_m;
+  return direction_of(arc.start.heading + arc.curvature_per_m * left_of(offset), arc.start.heading);
+}
+
 class Chain {
  public:
-  Chain(const std::array<Vec2, 4>& control_points, double tolerance_m)
-      : p_(control_points), tolerance_m_(tolerance_m) {}
+  Chain(const std::array<Vec2, 4>& control_points, const ArcTolerance& tolerance)
+      : p_(control_points), tolerance_(tolerance) {}
 
   std::vector<Arc> arcs() {
     at_ = {point(0.0), start_heading()};
@@ -122,24 +128,27 @@ class Chain {
     const Pose end = pair[1].pose_at(pair[1].length_m);
     if ((end.heading - heading(to)).norm() > kKink_rad) return false;
     for (int i = 1; i < kSamples; ++i) {
-      const Vec2 sample = point(from + (to - from) * i / kSamples);
-      if ((sample - at_.position_m).dot(at_.heading) < -0.5 * tolerance_m_) return false;
-      if ((sample - end.position_m).dot(end.heading) > 0.5 * tolerance_m_) return false;
+      const double t = from + (to - from) * i / kSamples;
+      const Vec2 sample = point(t);
+      if ((sample - at_.position_m).dot(at_.heading) < -0.5 * tolerance_.position_m) return false;
+      if ((sample - end.position_m).dot(end.heading) > 0.5 * tolerance_.position_m) return false;
       const Arc& nearer = (sample - joint.position_m).dot(joint.heading) < 0.0 ? pair[0] : pair[1];
-      if (off_circle_m(nearer, sample) > 0.8 * tolerance_m_) return false;
+      if (off_circle_m(nearer, sample) > 0.8 * tolerance_.position_m) return false;
+      // A third is kept back for what lies between the samples: the error is largest at the joint.
+      if ((heading_beside(nearer, sample) - heading(t)).norm() > 0.67 * tolerance_.heading_rad) return false;
     }
     return true;
   }
 
   std::array<Vec2, 4> p_;
-  double tolerance_m_;
+  ArcTolerance tolerance_;
   Pose at_;
   std::vector<Arc> arcs_;
 };
 
-// True without length, or if both control points lie between the ends on the line through the ends. In any order, the
-// curve then never turns back.
-bool is_straight(const std::array<Vec2, 4>& p) {
+}  // namespace
+
+bool is_straight_bezier(const std::array<Vec2, 4>& p) {
   const Vec2 way = p[3] - p[0];
   const double length = way.norm();
   return std::all_of(p.begin() + 1, p.begin() + 3, [&](const Vec2& point) {
@@ -149,17 +158,15 @@ bool is_straight(const std::array<Vec2, 4>& p) {
   });
 }
 
-}  // namespace
-
-std::vector<Arc> biarc_chain(const std::array<Vec2, 4>& control_points_m, double tolerance_m) {
+std::vector<Arc> biarc_chain(const std::array<Vec2, 4>& control_points_m, const ArcTolerance& tolerance) {
   const Vec2 origin = control_points_m[0], way = control_points_m[3] - origin;
   const std::vector<Arc> line{Arc{{origin, direction_of(way, Vec2::UnitX())}, way.norm(), 0.0}};
-  if (is_straight(control_points_m)) return line;
+  if (is_straight_bezier(control_points_m)) return line;
   // Relative to the first point: far from the world's origin the arcs would lose digits.
   std::array<Vec2, 4> relative;
   std::transform(control_points_m.begin(), control_points_m.end(), relative.begin(),
                  [&](const Vec2& p) { return Vec2(p - origin); });
-  std::vector<Arc> arcs = Chain(relative, tolerance_m).arcs();
+  std::vector<Arc> arcs = Chain(relative, tolerance).arcs();
   for (Arc& arc : arcs) arc.start.position_m += origin;
   return arcs.empty() ? line : arcs;
 }

@@ -9,16 +9,16 @@
 namespace fleetproof {
 namespace {
 
-// The part of an arc from its start to an arc length, swept by a footprint. Each corner runs on a circle about the
-// centre of the arc. Its distance to its chord is at most radius * angle^2 / 8. The chords lie in the box of the bodies
-// at their ends.
-void add_swept_arc(Box& box, const Arc& arc, double length_m, const Footprint& footprint) {
+// A part of a curve between two arc lengths, swept by a footprint. The second derivative of a corner's path, times the
+// squared length / 8, bounds its distance to a chord. The chords lie in the box of the bodies at their ends.
+void add_swept(Box& box, const CurvePart& part, double from_m, double to_m, const Footprint& footprint) {
   constexpr double kMostSteps = 1e4;
-  const double turned_rad = std::abs(arc.curvature_per_m) * length_m;
-  const double sagitta_m = (length_m + footprint.half_diagonal_m() * turned_rad) * turned_rad / 8.0;
+  const double length_m = to_m - from_m, turned_rad = part.most().per_m * length_m, arm_m = footprint.half_diagonal_m();
+  const double sagitta_m =
+      ((length_m + arm_m * turned_rad) * turned_rad + arm_m * part.most().per_m2 * length_m * length_m) / 8.0;
   const int steps = 1 + static_cast<int>(std::min(std::sqrt(sagitta_m / kBoxSlack_m), kMostSteps));
   Box bodies;
-  for (int i = 0; i <= steps; ++i) bodies.add(placed(footprint, arc.pose_at(length_m * i / steps)));
+  for (int i = 0; i <= steps; ++i) bodies.add(placed(footprint, part.pose_at(from_m + length_m * i / steps)));
   const Box grown = bodies.grown(sagitta_m / steps / steps);
   box.add(grown.low_m);
   box.add(grown.high_m);
@@ -27,16 +27,13 @@ void add_swept_arc(Box& box, const Arc& arc, double length_m, const Footprint& f
 Box swept_drive(const Piece& piece, double until_m) {
   Box box;
   box.add(placed(piece.footprint, piece.curve->pose_at(piece.way_begin_m)));
-  const auto arcs = piece.curve->arcs();
+  const auto parts = piece.curve->parts();
   const auto ends = piece.curve->ends_m();
   double begin_m = 0.0;
-  for (std::size_t i = 0; i < arcs.size() && begin_m < until_m; ++i) {
+  for (std::size_t i = 0; i < parts.size() && begin_m < until_m; ++i) {
     const double skipped_m = std::max(0.0, piece.way_begin_m - begin_m);
-    if (piece.way_begin_m < ends[i]) {
-      Arc rest = arcs[i];
-      if (skipped_m > 0.0) rest.start = rest.pose_at(skipped_m);
-      add_swept_arc(box, rest, std::min(until_m, ends[i]) - begin_m - skipped_m, piece.footprint);
-    }
+    if (piece.way_begin_m < ends[i])
+      add_swept(box, parts[i], skipped_m, std::min(until_m, ends[i]) - begin_m, piece.footprint);
     begin_m = ends[i];
   }
   return box;

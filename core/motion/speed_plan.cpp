@@ -10,9 +10,9 @@ namespace {
 
 constexpr double kSlowest_mps = 0.05;  // in the tightest of bends
 
-double limit_on(const Arc& arc, double speed_mps, double lateral_mps2) {
-  if (lateral_mps2 == 0.0 || arc.curvature_per_m == 0.0) return speed_mps;
-  return std::min(speed_mps, std::max(kSlowest_mps, std::sqrt(lateral_mps2 / std::abs(arc.curvature_per_m))));
+double limit_on(const CurvePart& part, double speed_mps, double lateral_mps2) {
+  if (lateral_mps2 == 0.0 || part.is_straight()) return speed_mps;
+  return std::min(speed_mps, std::max(kSlowest_mps, std::sqrt(lateral_mps2 / part.most().per_m)));
 }
 
 // Cuts the curve where straight and bent stretches meet.
@@ -21,7 +21,7 @@ void cut(const Curve& curve, double speed_mps, double lateral_mps2, double from_
   const auto ends = curve.ends_m();
   for (std::size_t i = 0; i < ends.size(); ++i) {
     if (ends[i] <= from_m && i + 1 < ends.size()) continue;
-    const double limit = limit_on(curve.arcs()[i], speed_mps, lateral_mps2);
+    const double limit = limit_on(curve.parts()[i], speed_mps, lateral_mps2);
     const bool joins = !legs.empty() && (limit < speed_mps) == (legs.back().limit_mps < speed_mps);
     if (joins) {
       legs.back().end_m = ends[i];

@@ -35,19 +35,18 @@ SimTime first_outside(const Piece& piece, const AccessCell& cell, double spacing
 
 // The instant at which a drive leaves the cell; none if it stays. The drive is in the cell at `way_m`. The function
 // increases `way_m` to a place that the drive reaches inside the cell. A straight line between two points of a cell
-// lies in the cell. An arc deviates from its chord by at most length^2 curvature / 8. A step is therefore as long as
+// lies in the cell. A bend deviates from its chord by at most length^2 curvature / 8. A step is therefore as long as
 // this deviation stays unseen, or as long as the distance to the nearest border.
 std::optional<SimTime> leaves(const Piece& drive, const AccessCell& cell, double spacing_m, double& way_m) {
   const double end_m = drive.way_at(drive.end);  // the end of this leg, not of the whole profile
   while (way_m < end_m) {
-    const auto arc_ends_m = drive.curve->ends_m();
-    const auto arc = static_cast<std::size_t>(std::ranges::upper_bound(arc_ends_m, way_m) - arc_ends_m.begin());
-    const double arc_end_m = arc < arc_ends_m.size() ? std::min(arc_ends_m[arc], end_m) : end_m;
-    const double curvature_per_m = arc < arc_ends_m.size() ? std::abs(drive.curve->arcs()[arc].curvature_per_m) : 0.0;
-    double next_m = arc_end_m;
+    const std::size_t part = drive.curve->part_at(way_m);
+    const double part_end_m = std::min(drive.curve->ends_m()[part], end_m);
+    const double curvature_per_m = drive.curve->parts()[part].most().per_m;
+    double next_m = part_end_m > way_m ? part_end_m : end_m;
     if (curvature_per_m > 0.0) {
       const double room = room_m(cell, spacing_m, drive.curve->pose_at(way_m).position_m);
-      next_m = std::min(arc_end_m, way_m + std::max(room, std::sqrt(8.0 * kUnseenExcursion_m / curvature_per_m)));
+      next_m = std::min(next_m, way_m + std::max(room, std::sqrt(8.0 * kUnseenExcursion_m / curvature_per_m)));
     }
     if (room_m(cell, spacing_m, drive.curve->pose_at(next_m).position_m) < 0.0) {
       return first_outside(drive, cell, spacing_m, time_at(drive, way_m), time_at(drive, next_m));

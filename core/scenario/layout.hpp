@@ -72,6 +72,7 @@ struct Lane {
   SegmentId segment;
   StationId from, to;
   Curve curve;
+  std::vector<Arc> arcs;  // near the curve, to kBezierByArcs_m and kHeadingByArcs_rad: what control software is given
 };
 
 // A layout with what follows from it: the curves of its segments, and the lanes that leave each station. It is built
@@ -100,7 +101,8 @@ class LogicalMap {
   std::vector<std::vector<std::uint32_t>> lanes_from_;  // by station
 };
 
-// The curve of a segment in its forward direction.
+// The curve of a segment in its forward direction, and arcs near it.
 Curve segment_curve(const Layout& layout, const Segment& segment);
+std::vector<Arc> segment_arcs(const Layout& layout, const Segment& segment);
 
 }  // namespace fleetproof

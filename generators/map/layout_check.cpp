@@ -99,14 +99,17 @@ bool on_the_floor(const Vec2& p) {
 // For a Bezier curve with cusps or loops, a trial construction is simpler than a check of the numbers.
 std::string fault_of_curve(const Curve& curve) {
   if (!(curve.length_m() >= kShortestSegment_m)) return "it has no length; move its stations apart or leave it out";
-  const auto arcs = curve.arcs();
-  for (std::size_t i = 0; i < arcs.size(); ++i) {
-    if (!(std::abs(arcs[i].curvature_per_m) <= 1.0 / kSharpestBend_m)) {
+  const auto parts = curve.parts();
+  double sharply_rad = 0.0;  // turned without a break more sharply than kSharpestBend_m
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const bool sharp = !(parts[i].most().per_m <= 1.0 / kSharpestBend_m);
+    sharply_rad = sharp ? sharply_rad + parts[i].most().per_m * parts[i].length_m() : 0.0;
+    if (!(sharply_rad <= kSharpBendTurns_rad)) {
       return "it bends more sharply than a radius of 5 cm; move its control points apart, or put a station there";
     }
     if (i == 0) continue;
     const double kink =
-        std::abs(angle_between(arcs[i - 1].pose_at(arcs[i - 1].length_m).heading, arcs[i].start.heading));
+        std::abs(angle_between(parts[i - 1].pose_at(parts[i - 1].length_m()).heading, parts[i].pose_at(0.0).heading));
     if (kink > kKink_rad) {
       return fmt::format(
           "it has a kink of {:.3g} rad; align the control points beside the joint, or put a station there", kink);

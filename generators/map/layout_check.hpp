@@ -11,6 +11,9 @@ namespace fleetproof {
 inline constexpr double kLargestCoordinate_m = 100'000.0;  // from the origin
 inline constexpr double kShortestSegment_m = 0.01;
 inline constexpr double kSharpestBend_m = 0.05;  // radius
+// Sharper bends are none if they turn by less: the curvature of a Bezier curve whose control point lies on its end has
+// no limit there, and the heading hardly changes.
+inline constexpr double kSharpBendTurns_rad = 0.1;
 
 // The problems that make a layout unusable as a LogicalMap; empty if there are none. Pointers are relative to the
 // layout.

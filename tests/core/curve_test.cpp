@@ -7,93 +7,91 @@
 #include <cmath>
 #include <random>
 
+#include "core/base/tolerances.hpp"
 #include "core/geometry/rotation.hpp"
+#include "tests/core/hard_beziers.hpp"
+#include "tests/oracle/bezier_track.hpp"
 
 namespace fleetproof {
 namespace {
 
-using ControlPoints = std::array<Vec2, 4>;
-constexpr double kTolerance_m = 1e-3;
+using test::ControlPoints;
+using test::expect_joined;
 
-Vec2 de_casteljau(ControlPoints p, double t) {
-  for (std::size_t left = 3; left > 0; --left) {
-    for (std::size_t i = 0; i < left; ++i) p[i] = (1.0 - t) * p[i] + t * p[i + 1];
-  }
-  return p[0];
-}
+Curve curve_of(const ControlPoints& p) { return Curve::bezier(p[0], p[1], p[2], p[3]); }
 
-Curve chain_of(const ControlPoints& p) { return Curve::bezier(p[0], p[1], p[2], p[3], kTolerance_m); }
-
-double distance_to_polyline_m(const std::vector<Vec2>& line, const Vec2& p) {
-  double least = 1e300;
-  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-    const Vec2 way = line[i + 1] - line[i];
-    const double square = way.squaredNorm(),
-                 t = square > 0.0 ? std::clamp(way.dot(p - line[i]) / square, 0.0, 1.0) : 0.0;
-    least = std::min(least, (line[i] + t * way - p).norm());
-  }
-  return least;
-}
-
-// Both ways: no point of either lies farther than the tolerance from the other.
-void expect_close(const ControlPoints& p, const Curve& chain) {
-  constexpr int kDense = 1500;
-  std::vector<Vec2> bezier, arcs;
-  for (int i = 0; i <= kDense; ++i) {
-    bezier.push_back(de_casteljau(p, static_cast<double>(i) / kDense));
-    arcs.push_back(chain.pose_at(chain.length_m() * i / kDense).position_m);
-  }
-  const double slack_m = 1e-5;  // of the polylines
-  for (int i = 0; i <= kDense; i += 5) {
-    ASSERT_LT(distance_to_polyline_m(arcs, bezier[static_cast<std::size_t>(i)]), kTolerance_m + slack_m);
-    ASSERT_LT(distance_to_polyline_m(bezier, arcs[static_cast<std::size_t>(i)]), kTolerance_m + slack_m);
-  }
-}
-
-void expect_joined(const Curve& chain, const Vec2& from, const Vec2& to) {
-  const auto arcs = chain.arcs();
-  ASSERT_FALSE(arcs.empty());
-  for (std::size_t i = 0; i < arcs.size(); ++i) {
-    ASSERT_TRUE(std::isfinite(arcs[i].length_m) && std::isfinite(arcs[i].curvature_per_m));
-    ASSERT_GE(arcs[i].length_m, 0.0);
-    ASSERT_NEAR(arcs[i].start.heading.norm(), 1.0, 1e-12);
-    if (i == 0) continue;
-    const Pose end = arcs[i - 1].pose_at(arcs[i - 1].length_m);
-    ASSERT_LT((end.position_m - arcs[i].start.position_m).norm(), 1e-9);
-    ASSERT_LT((end.heading - arcs[i].start.heading).norm(), 1e-9);
-  }
-  ASSERT_LT((chain.pose_at(0.0).position_m - from).norm(), 1e-12);
-  ASSERT_LT((chain.pose_at(chain.length_m()).position_m - to).norm(), 1e-9);
-}
-
-TEST(Curve, BezierChainsStayNearRunSmoothAndEndExactly) {
-  std::mt19937_64 engine(5);
+ControlPoints drawn(std::mt19937_64& engine) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
-  std::size_t most_arcs = 0;
-  for (int i = 0; i < 60; ++i) {
-    const Vec2 origin(1000.0 * unit(engine), 1000.0 * unit(engine));
-    const double size_m = 2.0 + 20.0 * unit(engine), bulge = 0.2 + 0.5 * unit(engine);
-    const Vec2 out = unit_vector(1.5 * (unit(engine) - 0.5)), in = unit_vector(3.0 * (unit(engine) - 0.5));
-    const ControlPoints p{origin, origin + bulge * size_m * out, origin + Vec2(size_m, 0.0) - bulge * size_m * in,
-                          origin + Vec2(size_m, 0.0)};
-    const Curve chain = chain_of(p);
-    ASSERT_NO_FATAL_FAILURE(expect_joined(chain, p[0], p[3]));
-    ASSERT_NO_FATAL_FAILURE(expect_close(p, chain));
-    ASSERT_LT((chain.pose_at(0.0).heading - out).norm(), 1e-9);
-    ASSERT_LT((chain.pose_at(chain.length_m()).heading - in).norm(), 1e-9);
-    most_arcs = std::max(most_arcs, chain.arcs().size());
-  }
-  EXPECT_GT(most_arcs, 2U);
-  EXPECT_LT(most_arcs, 80U);
+  const Vec2 origin(1000.0 * unit(engine), 1000.0 * unit(engine));
+  const double size_m = 2.0 + 20.0 * unit(engine), bulge = 0.2 + 0.5 * unit(engine);
+  const Vec2 out = unit_vector(1.5 * (unit(engine) - 0.5)), in = unit_vector(3.0 * (unit(engine) - 0.5));
+  return {origin, origin + bulge * size_m * out, origin + Vec2(size_m, 0.0) - bulge * size_m * in,
+          origin + Vec2(size_m, 0.0)};
 }
 
-TEST(Curve, QuarterTurnTakesFewArcs) {
+// A corner 3 m from the reference point is where the definition puts it, to a nanometre.
+TEST(Curve, ABezierCurveIsItselfByArcLength) {
+  constexpr double kReach_m = 3.0;
+  std::mt19937_64 engine(5);
+  std::size_t most_parts = 0;
+  for (int i = 0; i < 200; ++i) {
+    const ControlPoints p = drawn(engine);
+    const Curve curve = curve_of(p);
+    const oracle::BezierTrack track(
+        test::points({Vec2::Zero(), Vec2(p[1] - p[0]), Vec2(p[2] - p[0]), Vec2(p[3] - p[0])}));
+    ASSERT_NO_FATAL_FAILURE(expect_joined(curve, p[0], p[3]));
+    ASSERT_NEAR(curve.length_m(), track.length(), 1e-11);
+    for (int k = 0; k <= 500; ++k) {
+      const double way_m = curve.length_m() * k / 500, t = track.parameter(way_m);
+      const oracle::Point at = track.at(t), along = track.tangent(t);
+      const Pose pose = curve.pose_at(way_m);
+      const double off_m = (pose.position_m - p[0] - Vec2(at.x, at.y)).norm(),
+                   off_rad = (pose.heading - Vec2(along.x, along.y).normalized()).norm();
+      ASSERT_LT(off_m, kAlongCurve_m + 1e-12) << i;
+      ASSERT_LT(off_m + kReach_m * off_rad, 1e-9) << i;
+      ASSERT_NEAR(curve.bending_at(way_m).per_m, track.bend_at(t), 1e-8);
+    }
+    most_parts = std::max(most_parts, curve.parts().size());
+  }
+  EXPECT_GT(most_parts, 2U);
+  EXPECT_LT(most_parts, 80U);
+}
+
+// The bounds of each part hold, and are not far from what is there.
+TEST(Curve, KnowsHowSharplyItsPartsBend) {
+  std::mt19937_64 engine(6);
+  double looseness = 0.0;
+  int parts = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Curve curve = curve_of(drawn(engine));
+    for (const CurvePart& part : curve.parts()) {
+      constexpr int kSamples = 100;
+      MostBending seen;
+      Bending last = part.bending_at(0.0);
+      const double step_m = part.length_m() / kSamples;
+      for (int k = 1; k <= kSamples; ++k) {
+        const Bending here = part.bending_at(step_m * k);
+        seen.per_m = std::max(seen.per_m, std::abs(here.per_m));
+        seen.per_m2 = std::max({seen.per_m2, std::abs(here.per_m2), std::abs(here.per_m - last.per_m) / step_m});
+        seen.per_m3 = std::max(seen.per_m3, std::abs(here.per_m2 - last.per_m2) / step_m);
+        last = here;
+      }
+      constexpr double kRounding = 1.0 + 1e-6;
+      ASSERT_LE(seen.per_m, part.most().per_m * kRounding);
+      ASSERT_LE(seen.per_m2, part.most().per_m2 * kRounding + 1e-6);
+      ASSERT_LE(seen.per_m3, part.most().per_m3 * kRounding + 1e-4);
+      looseness += part.most().per_m / seen.per_m;
+      ++parts;
+    }
+  }
+  EXPECT_LT(looseness / parts, 1.2);
+}
+
+TEST(Curve, QuarterTurnTakesFewParts) {
   const double k = 0.5522847498;
-  const ControlPoints p{Vec2(0, 0), Vec2(2 * k, 0), Vec2(2, 2 - 2 * k), Vec2(2, 2)};
-  const Curve chain = chain_of(p);
-  EXPECT_LE(chain.arcs().size(), 4U);
-  EXPECT_NEAR(chain.length_m(), kPi, 2e-3);
-  ASSERT_NO_FATAL_FAILURE(expect_close(p, chain));
+  const Curve curve = curve_of({Vec2(0, 0), Vec2(2 * k, 0), Vec2(2, 2 - 2 * k), Vec2(2, 2)});
+  EXPECT_LE(curve.parts().size(), 10U);
+  EXPECT_NEAR(curve.length_m(), kPi, 2e-3);
 }
 
 TEST(Curve, StraightBeziersAreOneLine) {
@@ -107,27 +105,15 @@ TEST(Curve, StraightBeziersAreOneLine) {
 }
 
 TEST(Curve, DegenerateBeziersStayFiniteAndSmooth) {
-  const Vec2 o(0, 0);
-  const std::vector<ControlPoints> hard{{o, Vec2(1, 1), Vec2(0, 1), Vec2(1, 0)},     // a cusp
-                                        {o, Vec2(3, 3), Vec2(-2, 3), Vec2(1, 0)},    // a loop
-                                        {o, o, Vec2(2, 1), Vec2(3, 3)},              // first control point on the end
-                                        {o, Vec2(2, 0), Vec2(3, 3), Vec2(3, 3)},     // last one
-                                        {o, o, Vec2(3, 3), Vec2(3, 3)},              // both: a line
-                                        {o, Vec2(-1, 0), Vec2(2, 0), Vec2(1, 0)},    // straight, but doubling back
-                                        {o, Vec2(1, 0), Vec2(0, 1), o},              // closed
-                                        {o, Vec2(3, 3), Vec2(-3, -3), o},            // closed and straight
-                                        {o, Vec2(1, 0), Vec2(1, 0), Vec2(0, 1e-6)},  // ends nearly together
-                                        {o, Vec2(1e-11, 0), Vec2(0, 1e-11), Vec2(1e-11, 1e-11)},  // next to nothing
-                                        {Vec2(7, 7), Vec2(7, 7), Vec2(7, 7), Vec2(7, 7)},         // nothing
-                                        {o, Vec2(0, 1e-13), Vec2(1, 1e-13), Vec2(1, 0)}};
+  const auto hard = test::hard_beziers();
   for (const ControlPoints& p : hard) {
-    const Curve chain = chain_of(p);
-    ASSERT_NO_FATAL_FAILURE(expect_joined(chain, p[0], p[3])) << p[1].transpose() << " / " << p[2].transpose();
-    EXPECT_LT(chain.arcs().size(), 400U);
-    EXPECT_LT(chain.length_m(), 20.0);
+    const Curve curve = curve_of(p);
+    ASSERT_NO_FATAL_FAILURE(expect_joined(curve, p[0], p[3])) << p[1].transpose() << " / " << p[2].transpose();
+    EXPECT_LT(curve.parts().size(), 400U);
+    EXPECT_LT(curve.length_m(), 20.0);
   }
-  EXPECT_GT(chain_of(hard[6]).length_m(), 1.0);
-  EXPECT_EQ(chain_of(hard[10]).length_m(), 0.0);
+  EXPECT_GT(curve_of(hard[6]).length_m(), 1.0);
+  EXPECT_EQ(curve_of(hard[10]).length_m(), 0.0);
 }
 
 TEST(Curve, ArcIsExactAlsoForVastRadii) {
@@ -146,24 +132,27 @@ TEST(Curve, ArcIsExactAlsoForVastRadii) {
   }
 }
 
-TEST(Curve, ClampsReversesAndJoins) {
+TEST(Curve, ClampsReversesMovesAndJoins) {
   const Curve bend = Curve::bezier({0, 0}, {3, 0}, {5, 2}, {5, 6}), line = Curve::straight({5, 6}, {5, 9});
   const Curve both = Curve::joined(std::array{bend, line});
   EXPECT_DOUBLE_EQ(both.length_m(), bend.length_m() + 3.0);
   EXPECT_LT((both.pose_at(1e9).position_m - Vec2(5, 9)).norm(), 1e-9);
   EXPECT_LT((both.pose_at(-1.0).position_m - Vec2(0, 0)).norm(), 1e-12);
   EXPECT_LT((both.pose_at(bend.length_m() + 1.0).position_m - Vec2(5, 7)).norm(), 1e-9);
-  const Curve back = both.reversed();
+  const Curve back = both.reversed(), moved = both.moved({1.0, -2.0});
   ASSERT_NO_FATAL_FAILURE(expect_joined(back, {5, 9}, {0, 0}));
   for (int i = 0; i <= 40; ++i) {
-    const double s = both.length_m() * i / 40.0;
-    const Pose there = both.pose_at(s), again = back.pose_at(both.length_m() - s);
+    const double s = both.length_m() * i / 40.0, rest = both.length_m() - s;
+    const Pose there = both.pose_at(s), again = back.pose_at(rest);
     EXPECT_LT((there.position_m - again.position_m).norm(), 1e-9);
     EXPECT_LT((there.heading + again.heading).norm(), 1e-9);
+    EXPECT_LT((moved.pose_at(s).position_m - there.position_m - Vec2(1.0, -2.0)).norm(), 1e-12);
+    if (s == bend.length_m() || i == 0) continue;
+    EXPECT_NEAR(back.bending_at(rest).per_m, -both.bending_at(s).per_m, 1e-9);
+    EXPECT_NEAR(back.bending_at(rest).per_m2, both.bending_at(s).per_m2, 1e-9);
   }
-  for (std::size_t i = 0; i + 1 < both.ends_m().size(); ++i)
-    EXPECT_EQ(&both.arc_at(both.ends_m()[i]), &both.arcs()[i + 1]);
-  EXPECT_EQ(&both.arc_at(both.length_m()), &both.arcs().back());
+  for (std::size_t i = 0; i + 1 < both.ends_m().size(); ++i) EXPECT_EQ(both.part_at(both.ends_m()[i]), i + 1);
+  EXPECT_EQ(both.part_at(both.length_m()), both.parts().size() - 1);
   EXPECT_EQ(Curve::straight({1, 2}, {1, 2}).length_m(), 0.0);
   EXPECT_TRUE(Curve::straight({1, 2}, {1, 2}).pose_at(0.0).heading.allFinite());
 }

@@ -69,7 +69,15 @@ TEST(DetectorProperties, InvariantUnderRigidMotion) {
     const auto turned = [&](Point p) { return Point{p.x * turn.x - p.y * turn.y, p.x * turn.y + p.y * turn.x}; };
     for (Trajectory* t : {&moved.a, &moved.b}) {
       t->at = turned(t->at) + shift, t->heading = turned(t->heading);
-      for (Stroke& s : t->strokes) s.from = turned(s.from) + shift, s.heading = turned(s.heading);
+      for (Stroke& s : t->strokes) {
+        if (s.bezier) {
+          std::array<Point, 4> p = s.bezier->control_points();
+          for (Point& q : p) q = turned(s.from + q) + shift;
+          s = bezier_stroke(p);
+        } else {
+          s.from = turned(s.from) + shift, s.heading = turned(s.heading);
+        }
+      }
     }
     expect_same(find(pair), find(moved), pair, Duration{5}, 2e-9);
   }));

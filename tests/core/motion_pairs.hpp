@@ -183,9 +183,7 @@ class PairMaker {
     MotionPair result = pair;
     result.b.start.position_m += by_m * way;
     if (pair.b.curve == nullptr) return result;
-    std::vector<Arc> arcs(pair.b.curve->arcs().begin(), pair.b.curve->arcs().end());
-    for (Arc& arc : arcs) arc.start.position_m += by_m * way;
-    curves_ = {Curve(std::move(arcs))};
+    curves_ = {pair.b.curve->moved(by_m * way)};
     result.b.curve = &curves_.back();
     return result;
   }

@@ -53,8 +53,7 @@ TEST(OpenTcs, BendsAreQuarterCirclesInMetresWithTheYAxisUp) {
   for (const auto& lane : map.lanes()) {
     if (lane.curve.is_straight()) continue;
     EXPECT_NEAR(lane.curve.length_m(), 4.712, 0.02);
-    for (const auto& arc : lane.curve.arcs())
-      EXPECT_NEAR(arc.curvature_per_m, 1.0 / 3.0, 0.05) << "left turns of 3 m radius";
+    for (const auto& arc : lane.arcs) EXPECT_NEAR(arc.curvature_per_m, 1.0 / 3.0, 0.05) << "left turns of 3 m radius";
   }
 }
 

@@ -76,6 +76,90 @@ TEST(RelativeSpeed, TheOuterCornerOfABoxOnAnArcIsFasterThanItsMiddle) {
   EXPECT_NEAR(um(violation.normal_speed_um_s), 0.0, kTo_um);
 }
 
+constexpr double kTouched_m = 1e-6;  // a contact begins at this clearance
+
+// The front left corner of an AGV that turns about the origin.
+struct SwungCorner {
+  double angle_rad = 0.0, rate_rad_s = 0.0;  // of the AGV
+
+  Vec2 velocity_mps() const {
+    const double at_rad = angle_rad + kCornerAt_rad;
+    return rate_rad_s * kCorner_m * Vec2(-std::sin(at_rad), std::cos(at_rad));
+  }
+};
+
+// The corner meets the lower side of an AGV that drives by above it, along the x axis.
+TEST(RelativeSpeed, ACornerThatSwingsIntoADrivingAgvAtSeveralRates) {
+  const double height_m = 0.85;
+  for (const double rate_rad_s : {0.4, 0.7, 1.1}) {
+    for (const double driven_mps : {-1.2, 0.5, 1.5}) {
+      Scene scene(12.0);
+      // At full rate at once, up to rounding: the ramps last a microsecond.
+      const double touch_rad = std::asin((height_m - kTouched_m) / kCorner_m) - kCornerAt_rad;
+      const double touch_s = touch_rad / rate_rad_s;
+      scene.agv(facing(0.0, 0.0, 1.0, 0.0)).turn(2.0, {rate_rad_s, 1e6, 1e6}).cut_short_at(touch_s + 1e-6);
+      const double heading = driven_mps < 0.0 ? -1.0 : 1.0, speed = std::abs(driven_mps);
+      scene.agv(facing(-heading * speed * touch_s, height_m + kHalfWidth_m, heading, 0.0))
+          .drive(20.0, {speed, 1e6, 1e6})
+          .cut_short_at(touch_s + 1e-6);
+      const Violation violation = only_violation(scene);
+      EXPECT_TRUE(violation.contact);
+      const Vec2 closing = SwungCorner{touch_rad, rate_rad_s}.velocity_mps() - Vec2(driven_mps, 0.0);
+      EXPECT_NEAR(um(violation.relative_speed_um_s), 1e6 * closing.norm(), kTo_um) << rate_rad_s << " " << driven_mps;
+      EXPECT_NEAR(um(violation.normal_speed_um_s), 1e6 * closing.y(), kTo_um) << rate_rad_s << " " << driven_mps;
+    }
+  }
+}
+
+// The turn slows down while the corner goes on: at the touch, its rate is sqrt(2 d x), x being the angle that is left.
+TEST(RelativeSpeed, ACornerOfATurnThatSlowsDown) {
+  for (const double slowing_rad_s2 : {0.2, 0.5, 2.0}) {
+    const double height_m = 0.75, touch_rad = std::asin((height_m - kTouched_m) / kCorner_m) - kCornerAt_rad;
+    const double left_rad = 0.05, rate_rad_s = std::sqrt(2.0 * slowing_rad_s2 * left_rad);
+    Scene scene = beside_a_wall(height_m);
+    scene.bodies[0].turn(touch_rad + left_rad, {5.0, 8.0, slowing_rad_s2});
+    const auto pieces = scene.bodies[0].until(scene.end);
+    const double end_s = to_seconds(pieces[0].end) - rate_rad_s / slowing_rad_s2;
+    scene.bodies[0].cut_short_at(end_s + 1e-8);
+    const Violation violation = only_violation(scene);
+    EXPECT_TRUE(violation.contact);
+    const Vec2 corner_mps = SwungCorner{touch_rad, rate_rad_s}.velocity_mps();
+    EXPECT_NEAR(um(violation.relative_speed_um_s), 1e6 * corner_mps.norm(), kTo_um) << slowing_rad_s2;
+    EXPECT_NEAR(um(violation.normal_speed_um_s), 1e6 * corner_mps.y(), kTo_um) << slowing_rad_s2;
+  }
+}
+
+// The outer front corner of an AGV on an arc about the origin hits a wall that stands across its circle: its speed is
+// that of the middle times its distance from the centre, and it leads square to the line to the centre.
+TEST(RelativeSpeed, TheCornerOfABoxOnAnArcHitsAWall) {
+  for (const double radius_m : {1.2, 2.5}) {
+    for (const double slowing_mps2 : {0.0, 0.6}) {
+      const double corner_m = std::hypot(radius_m + kHalfWidth_m, kHalfLength_m),
+                   corner_rad = std::atan2(kHalfLength_m, radius_m + kHalfWidth_m), touch_rad = 0.9;
+      const double speed_mps = 1.1, wall_y_m = corner_m * std::sin(corner_rad + touch_rad) + kTouched_m;
+      // Driven on the arc up to the touch, at a constant speed or slowing down from a speed to this one.
+      const double way_m = touch_rad * radius_m;
+      const double left_m = slowing_mps2 > 0.0 ? speed_mps * speed_mps / (2.0 * slowing_mps2) : 1.0;
+      const MotionLimits limits{slowing_mps2 > 0.0 ? 3.0 : speed_mps, slowing_mps2 > 0.0 ? 40.0 : 1e6,
+                                slowing_mps2 > 0.0 ? slowing_mps2 : 1e6};
+      const Pose start = facing(radius_m, 0.0, 0.0, 1.0);
+      Scene scene(12.0);
+      scene.agv(start).drive(Curve({Arc{start, way_m + left_m, 1.0 / radius_m}}), limits);
+      scene.obstacle(facing(0.0, wall_y_m + 0.1, 1.0, 0.0), {30.0, 0.2});
+      const auto pieces = scene.bodies[0].until(scene.end);
+      const double touch_s =
+          slowing_mps2 > 0.0 ? to_seconds(pieces[0].end) - speed_mps / slowing_mps2 : pieces[0].profile.time_at(way_m);
+      scene.bodies[0].cut_short_at(touch_s + 1e-8);
+      const Violation violation = only_violation(scene);
+      EXPECT_TRUE(violation.contact);
+      const double of_corner_mps = speed_mps * corner_m / radius_m;
+      EXPECT_NEAR(um(violation.relative_speed_um_s), 1e6 * of_corner_mps, kTo_um) << radius_m << " " << slowing_mps2;
+      EXPECT_NEAR(um(violation.normal_speed_um_s), 1e6 * of_corner_mps * std::cos(corner_rad + touch_rad), 2.0)
+          << radius_m << " " << slowing_mps2;
+    }
+  }
+}
+
 // Past a long box, side by side at 5 cm: the least clearance lasts from its near end to its far end.
 TEST(RelativeSpeed, OfAFlatMinimumTheFirstInstantAndTheHighestSpeedCount) {
   Scene scene(10.0);

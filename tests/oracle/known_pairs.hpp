@@ -4,6 +4,7 @@
 #include <random>
 
 #include "core/clearance/clearance_over_time.hpp"
+#include "core/geometry/biarc.hpp"
 #include "tests/oracle/brute_force.hpp"
 
 // Random pairs of trajectories, and the same as pieces of the program under test.
@@ -30,14 +31,20 @@ struct OwnPiece {
     piece.turn_rad = t.turn_rad;
     double way = std::abs(t.turn_rad);
     if (t.manner == Manner::Drive) {
-      std::vector<Arc> arcs;
-      for (const Stroke& s : t.strokes) arcs.push_back({{vec(s.from), vec(s.heading)}, s.length, s.curvature});
-      curve = std::make_unique<Curve>(std::move(arcs));
+      std::vector<Curve> curves;
+      for (const Stroke& s : t.strokes) curves.push_back(curve_of(s));
+      curve = std::make_unique<Curve>(Curve::joined(curves));
       piece.curve = curve.get();
       piece.start = {vec(t.strokes[0].from), vec(t.strokes[0].heading)};
       way = curve->length_m();
     }
     piece.profile = MotionProfile(way, {t.limits.speed, t.limits.acceleration, t.limits.deceleration});
+  }
+
+  static Curve curve_of(const Stroke& s) {
+    if (!s.bezier) return Curve({Arc{{vec(s.from), vec(s.heading)}, s.length, s.curvature}});
+    const auto& p = s.bezier->control_points();
+    return Curve::bezier(vec(s.from), vec(s.from + p[1]), vec(s.from + p[2]), vec(s.from + p[3]));
   }
 };
 
@@ -117,13 +124,12 @@ class PairSource {
       const double radius_m = within(1.5, 4.0);
       return {{middle - 0.6 * radius_m * nose, nose, within(0.8, 1.6) * radius_m, either(1.0 / radius_m)}};
     }
-    // The curve of the program under test is a chain of arcs; its arcs, not their evaluation, are what is known of the
-    // trajectory.
     const Point bend = either(within(0.5, 2.5)) * left_of(nose), way = 2.5 * nose;
-    const Curve curve =
-        Curve::bezier(vec(middle - way), vec(middle + bend), vec(middle - within(0.2, 1.0) * bend), vec(middle + way));
+    const std::array<Point, 4> p{middle - way, middle + bend, middle - within(0.2, 1.0) * bend, middle + way};
+    if (!one_in(4)) return {bezier_stroke(p)};
+    // A chain of arcs of the program under test: its arcs, not their evaluation, are what is known of the trajectory.
     std::vector<Stroke> all;
-    for (const Arc& arc : curve.arcs())
+    for (const Arc& arc : biarc_chain({vec(p[0]), vec(p[1]), vec(p[2]), vec(p[3])}, {1e-3, 0.1}))
       all.push_back({point(arc.start.position_m), point(arc.start.heading), arc.length_m, arc.curvature_per_m});
     return all;
   }
@@ -172,6 +178,18 @@ class PairSource {
     return pair;
   }
 
+  // Nearly parallel: the ends are, with the curvature there.
+  static Stroke beside(const Stroke& s, double by_m) {
+    const auto& p = s.bezier->control_points();
+    const auto normal = [&](double t) {
+      const Point along = s.bezier->tangent(t);
+      return (1.0 / length(along)) * left_of(along);
+    };
+    const Point first = s.from + p[0] + by_m * normal(0.0), last = s.from + p[3] + by_m * normal(1.0);
+    return bezier_stroke({first, first + (1.0 - by_m * s.bezier->bend_at(0.0)) * (p[1] - p[0]),
+                          last - (1.0 - by_m * s.bezier->bend_at(1.0)) * (p[3] - p[2]), last});
+  }
+
   TrajectoryPair on_one_track(Relation relation, Point here, double angle_rad) {
     const Path path = driven_path();
     const Limits limits = any_limits();
@@ -189,6 +207,10 @@ class PairSource {
       other = {{here + beside_m * left_of(nose) + 0.5 * way_m() * nose, -1.0 * nose, way_m(), 0.0}};
     } else {
       for (Stroke& s : other) {
+        if (s.bezier) {
+          s = beside(s, beside_m);
+          continue;
+        }
         s.from = s.from + beside_m * left_of(s.heading);
         s.length *= 1.0 - beside_m * s.curvature;
         s.curvature /= 1.0 - beside_m * s.curvature;

@@ -4,25 +4,16 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <vector>
+
+#include "tests/oracle/bezier_track.hpp"
 
 // Trajectories as the paper defines them, evaluated by formulas of this folder's own: libm's sine and cosine, no code
 // of the program under test. Metres, seconds, radians; instants are whole nanoseconds.
 namespace fleetproof::oracle {
 
 using Nanoseconds = std::int64_t;
-
-struct Point {
-  double x = 0.0, y = 0.0;
-};
-inline Point operator+(Point p, Point q) { return {p.x + q.x, p.y + q.y}; }
-inline Point operator-(Point p, Point q) { return {p.x - q.x, p.y - q.y}; }
-inline Point operator*(double s, Point p) { return {s * p.x, s * p.y}; }
-inline double dot(Point p, Point q) { return p.x * q.x + p.y * q.y; }
-inline double cross(Point p, Point q) { return p.x * q.y - p.y * q.x; }
-inline double length(Point p) { return std::sqrt(dot(p, p)); }
-inline Point left_of(Point p) { return {-p.y, p.x}; }
-inline Point direction(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_rad)}; }
 
 struct Limits {
   double speed = 2.0, acceleration = 0.5, deceleration = 1.0;
@@ -58,11 +49,21 @@ class Trapezoid {
   Limits limits_;
 };
 
-// A line (curvature 0) or an arc; positive curvature bends left.
+// A line (curvature 0), an arc (positive curvature bends left), or a Bezier curve whose first point is `from`.
 struct Stroke {
   Point from, heading;
   double length = 0.0, curvature = 0.0;
+  std::shared_ptr<const BezierTrack> bezier = nullptr;  // its first control point is (0, 0)
+
+  double sharpest() const { return bezier ? bezier->sharpest() : std::abs(curvature); }
+  double steepest() const { return bezier ? bezier->steepest() : 0.0; }
 };
+inline Stroke bezier_stroke(const std::array<Point, 4>& p) {
+  const auto track =
+      std::make_shared<const BezierTrack>(std::array<Point, 4>{Point{}, p[1] - p[0], p[2] - p[0], p[3] - p[0]});
+  const Point way = track->tangent(0.0);
+  return {p[0], (1.0 / length(way)) * way, track->length(), 0.0, track};
+}
 
 using Corners = std::array<Point, 4>;  // counter-clockwise
 
@@ -94,6 +95,12 @@ struct Trajectory {
     std::size_t i = 0;
     for (; i + 1 < strokes.size() && way > strokes[i].length; ++i) way -= strokes[i].length;
     const Stroke& s = strokes[i];
+    if (s.bezier) {
+      const double u = s.bezier->parameter(way);
+      const Point along = s.bezier->tangent(u);
+      centre = s.from + s.bezier->at(u), nose = (1.0 / length(along)) * along;
+      return;
+    }
     if (s.curvature == 0.0) {
       centre = s.from + way * s.heading, nose = s.heading;
       return;
@@ -113,8 +120,16 @@ struct Trajectory {
 
   double sharpest_bend() const {
     double most = 0.0;
-    for (const Stroke& s : strokes) most = std::max(most, std::abs(s.curvature));
+    for (const Stroke& s : strokes) most = std::max(most, s.sharpest());
     return most;
+  }
+  double steepest_bend() const {
+    double most = 0.0;
+    for (const Stroke& s : strokes) most = std::max(most, s.steepest());
+    return most;
+  }
+  bool on_bezier() const {
+    return std::any_of(strokes.begin(), strokes.end(), [](const Stroke& s) { return s.bezier != nullptr; });
   }
   // No point of the body is ever faster.
   double fastest_mps() const {
@@ -126,7 +141,9 @@ struct Trajectory {
   double strongest_mps2() const {
     if (manner == Manner::Rest) return 0.0;
     const double v = profile.top(), a = profile.strongest(), bend = sharpest_bend();
-    return manner == Manner::Turn ? (a + v * v) * half_diagonal() : (a + bend * v * v) * (1.0 + bend * half_diagonal());
+    return manner == Manner::Turn
+               ? (a + v * v) * half_diagonal()
+               : (a + bend * v * v) * (1.0 + bend * half_diagonal()) + steepest_bend() * v * v * half_diagonal();
   }
   // Whether a joint of two strokes is passed strictly within: there, corners change their velocity at once.
   bool joint_between(Nanoseconds from, Nanoseconds to) const {

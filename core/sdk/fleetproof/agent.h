@@ -87,6 +87,9 @@ typedef struct fp_arc {
   double curvature_per_m;
 } fp_arc;
 
+/* The arcs of a curved lane lie within 0.1 mm and 2 mrad of its track (the heading counts for the corners of a long
+   AGV). The arcs join without kinks, and both ends are exact. */
+
 /* One way to drive a segment. A bidirectional segment has two lanes with the same segment id. AGVs drive nose first. */
 typedef struct fp_lane {
   uint32_t segment;
