@@ -11,7 +11,6 @@ namespace fleetproof {
 namespace {
 
 constexpr std::size_t kHighestDegree = 9, kMostPoints = 10'000;
-constexpr int kStepsPerSpan = 16;
 
 bool equal_weights(const Nurbs& n) {
   return std::ranges::all_of(n.weights, [&](double w) { return w == n.weights[0]; });
@@ -54,8 +53,14 @@ bool is_straight(const std::vector<Vec2>& p) {
   return true;
 }
 
-// De Boor's algorithm on (w x, w y, w), within the span of knots that begins at index `span`.
-Vec2 point_at(const Nurbs& n, std::size_t span, double u) {
+// A place on a curve, and its change with the parameter.
+struct Place {
+  Vec2 point_m, velocity;
+};
+
+// De Boor's algorithm on (w x, w y, w), within the span of knots that begins at index `span`. The last round also gives
+// the derivative.
+Place place_at(const Nurbs& n, std::size_t span, double u) {
   const auto d = n.degree;
   std::vector<Vec2> points(d + 1);
   std::vector<double> weights(d + 1);
@@ -63,27 +68,92 @@ Vec2 point_at(const Nurbs& n, std::size_t span, double u) {
     weights[i] = n.weights[span - d + i];
     points[i] = n.points_m[span - d + i] * weights[i];
   }
+  Vec2 points_rate = Vec2::Zero();
+  double weights_rate = 0.0;
   for (std::size_t round = 1; round <= d; ++round) {
     for (std::size_t i = d; i >= round; --i) {
       const double low = n.knots[span - d + i], high = n.knots[span + i + 1 - round];
       const double share = (u - low) / (high - low);
+      if (round == d) {
+        points_rate = (points[i] - points[i - 1]) * (static_cast<double>(d) / (high - low));
+        weights_rate = (weights[i] - weights[i - 1]) * (static_cast<double>(d) / (high - low));
+      }
       points[i] = points[i - 1] * (1.0 - share) + points[i] * share;
       weights[i] = weights[i - 1] * (1.0 - share) + weights[i] * share;
     }
   }
-  return points[d] / weights[d];
+  const Vec2 point_m = points[d] / weights[d];
+  return {point_m, (points_rate - weights_rate * point_m) / weights[d]};
 }
 
-std::vector<Vec2> points_along(const Nurbs& n) {
-  std::vector<Vec2> points;
-  const auto add = [&](const Vec2& point) {
-    if (points.empty() || (point - points.back()).norm() > kNurbsPoint_m) points.push_back(point);
-  };
-  const int steps = n.degree == 1 ? 1 : kStepsPerSpan;
+// The cubic piece between two parameters of a span, by the places and velocities at its ends.
+struct CubicPiece {
+  Vec2 begin_m, first_m, second_m, end_m;
+
+  CubicPiece(const Place& from, const Place& to, double width)
+      : begin_m(from.point_m),
+        first_m(from.point_m + from.velocity * (width / 3.0)),
+        second_m(to.point_m - to.velocity * (width / 3.0)),
+        end_m(to.point_m) {}
+  Vec2 point_m(double t) const {
+    const double u = 1.0 - t;
+    return u * u * u * begin_m + 3.0 * u * t * (u * first_m + t * second_m) + t * t * t * end_m;
+  }
+  Vec2 velocity(double t) const {
+    const double u = 1.0 - t;
+    return 3.0 * (u * u * (first_m - begin_m) + 2.0 * u * t * (second_m - first_m) + t * t * (end_m - second_m));
+  }
+};
+
+// Adds the pieces of a span, halved until they are near the curve in place and heading.
+void add_pieces(const Nurbs& n, std::size_t span, double low, double high, int halves_left,
+                std::vector<CubicPiece>& pieces) {
+  const Place from = place_at(n, span, low), to = place_at(n, span, high);
+  const CubicPiece piece(from, to, high - low);
+  bool near = true;
+  for (const double t : {0.25, 0.5, 0.75}) {
+    const Place place = place_at(n, span, low + (high - low) * t);
+    const Vec2 along = piece.velocity(t).stableNormalized(), truth = place.velocity.stableNormalized();
+    near = near && (piece.point_m(t) - place.point_m).norm() < kNurbsByCubics_m &&
+           (along - truth).norm() < kNurbsByCubics_rad;
+  }
+  if (near || halves_left == 0) {
+    if ((to.point_m - from.point_m).norm() > kNurbsPoint_m) pieces.push_back(piece);
+    return;
+  }
+  const double middle = 0.5 * (low + high);
+  add_pieces(n, span, low, middle, halves_left - 1, pieces);
+  add_pieces(n, span, middle, high, halves_left - 1, pieces);
+}
+
+// Where two pieces meet, they take the direction between their own. Rounding makes no kink, and corners are rounded.
+void smooth_joints(std::vector<CubicPiece>& pieces) {
+  for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
+    const Vec2 joint = 0.5 * (pieces[i].end_m + pieces[i + 1].begin_m);
+    const Vec2 in = joint - pieces[i].second_m, out = pieces[i + 1].first_m - joint;
+    Vec2 along = in.stableNormalized() + out.stableNormalized();
+    if (!(along.norm() > 0.5)) along = pieces[i + 1].end_m - pieces[i].begin_m;
+    along.stableNormalize();
+    pieces[i].end_m = pieces[i + 1].begin_m = joint;
+    pieces[i].second_m = joint - in.norm() * along;
+    pieces[i + 1].first_m = joint + out.norm() * along;
+  }
+}
+
+std::vector<CubicPiece> pieces_along(const Nurbs& n) {
+  constexpr int kMostHalves = 8;
+  std::vector<CubicPiece> pieces;
   for (std::size_t span = n.degree; span < n.points_m.size(); ++span) {
-    const double low = n.knots[span], high = n.knots[span + 1];
-    if (!(low < high)) continue;
-    for (int k = 0; k <= steps; ++k) add(point_at(n, span, low + (high - low) * k / steps));
+    if (n.knots[span] < n.knots[span + 1]) add_pieces(n, span, n.knots[span], n.knots[span + 1], kMostHalves, pieces);
+  }
+  smooth_joints(pieces);
+  return pieces;
+}
+
+std::vector<Vec2> corners_of(const Nurbs& n) {
+  std::vector<Vec2> points;
+  for (const Vec2& point : n.points_m) {
+    if (points.empty() || (point - points.back()).norm() > kNurbsPoint_m) points.push_back(point);
   }
   return points;
 }
@@ -145,11 +215,22 @@ CubicPieces cubic_pieces(const Nurbs& n) {
       return pieces;
     }
   }
-  const auto points = points_along(n);
   pieces.exact = false;
-  pieces.begin_m = points.front();
-  pieces.end_m = points.back();
-  if (points.size() > 2) pieces.control_points_m = smooth_through(points);
+  if (n.degree == 1) {
+    const auto points = corners_of(n);
+    pieces.begin_m = points.front();
+    pieces.end_m = points.back();
+    if (points.size() > 2) pieces.control_points_m = smooth_through(points);
+    return pieces;
+  }
+  const auto cubics = pieces_along(n);
+  pieces.begin_m = cubics.empty() ? n.points_m.front() : cubics.front().begin_m;
+  pieces.end_m = cubics.empty() ? n.points_m.back() : cubics.back().end_m;
+  for (std::size_t i = 0; i < cubics.size(); ++i) {
+    if (i > 0) pieces.control_points_m.push_back(cubics[i].begin_m);
+    pieces.control_points_m.push_back(cubics[i].first_m);
+    pieces.control_points_m.push_back(cubics[i].second_m);
+  }
   return pieces;
 }
 

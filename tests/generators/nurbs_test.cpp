@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "independent_check.hpp"
 
 namespace fleetproof {
@@ -59,6 +61,27 @@ TEST(Nurbs, SplinesAreFollowedWithinAMillimetre) {
     for (int k = 0; k < 100; ++k)
       EXPECT_LT(independent::distance_to_segment_m(layout, segment, point(nurbs, low + (high - low) * k / 100.0)),
                 0.001);
+  }
+}
+
+// A quarter circle is a rational curve: its places and headings are known without the curve.
+TEST(Nurbs, RationalCirclesKeepACornerAtThreeMetresWithinTenMicrometres) {
+  constexpr double kReach_m = 3.0;
+  for (const double radius_m : {0.8, 2.0, 6.0}) {
+    const Nurbs nurbs{2,
+                      {0, 0, 0, 1, 1, 1},
+                      {Vec2(radius_m, 0.0), Vec2(radius_m, radius_m), Vec2(0.0, radius_m)},
+                      {1.0, std::sqrt(0.5), 1.0}};
+    const auto pieces = cubic_pieces(nurbs);
+    EXPECT_FALSE(pieces.exact);
+    const Curve curve = segment_curve(between(pieces), segment_of(pieces));
+    for (int i = 0; i <= 1'000; ++i) {
+      const Pose pose = curve.pose_at(curve.length_m() * i / 1'000);
+      const double off_m = std::abs(pose.position_m.norm() - radius_m),
+                   off_rad = std::abs(pose.heading.dot(pose.position_m.normalized()));
+      ASSERT_LT(off_m + kReach_m * off_rad, 10e-6) << radius_m << " " << i;
+    }
+    EXPECT_LT(curve.parts().size(), 150U);
   }
 }
 
