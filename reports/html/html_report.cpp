@@ -110,9 +110,9 @@ Element assumptions_part() {
        "modelled.",
        "Motion follows the speed and acceleration of the vehicle type exactly, apart from the deviations "
        "that the plan draws. Sideways travel, doors and lifts are not modelled.",
-       "Clearances are computed to a micrometre and rounded down. Curves are followed as the layout defines them. Less "
-       "than the safety distance means by more than 1 micrometre, and 10 more for each of the two vehicles that drives "
-       "a curve: lanes that are built to the distance keep it.",
+       "Clearances are computed to a micrometre and rounded down. Curves are followed as the layout defines them. What "
+       "is built to the safety distance keeps it: a micrometre less is allowed, and ten more for each of the two "
+       "vehicles that drives a curve.",
        "The radio loses and delays messages by the models that the plan names. They stand for walls, racks and "
        "other senders; no propagation of waves is computed.",
        "Position and battery are known to the agent without error unless the plan says otherwise.",
