@@ -51,7 +51,9 @@ TEST_F(FilmStripPage, ShowsTheWorstInstantOfEachGroup) {
       std::regex_search(page, match, std::regex("fleetproof replay c.db ([0-9]+)</code></pre><div class=.film")));
   const auto worst = archive.run(std::stoull(match[1]));
   const auto& violations = worst->outcome.violations;
-  const auto closest = std::ranges::min_element(violations, {}, &Violation::min_clearance_um);
+  // The fastest contact.
+  const auto closest = std::ranges::max_element(
+      violations, {}, [](const Violation& v) { return v.contact ? v.relative_speed_um_s : -1; });
   EXPECT_EQ(frames_in(all[0]), 6u);
   EXPECT_THAT(all[0], HasSubstr(fmt::format(">{:.2f} s</text>", to_seconds(closest->closest_at))));
   EXPECT_TRUE(strips("c.db --no-film").empty());
