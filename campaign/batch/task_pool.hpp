@@ -28,6 +28,7 @@ class TaskPool {
 
   // Starts `workers` threads on the runs [begin, end). At most `window` runs lie between the oldest unfinished run and
   // the newest run that was handed out. The runs in `done` are not handed out.
+  // Workers wait while 512 results are not taken.
   TaskPool(int workers, std::uint64_t begin, std::uint64_t end, std::uint64_t window, Simulate simulate,
            std::set<std::uint64_t> done = {});
   // Hands out no more runs and waits for the runs under way.
