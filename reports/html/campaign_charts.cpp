@@ -46,7 +46,7 @@ BarChart clearance_chart(const ClearanceCounts& counts, const std::string& label
 void add_tail_row(Table& table, const std::string& agent, const char* region, const ClearanceCounts& counts) {
   std::vector<std::string> row{printable(agent, 40), region, std::to_string(counts.runs()),
                                std::to_string(counts.contact)};
-  for (const std::size_t limit_cm : {5, 10, 11, 15, 20, 50})
+  for (const std::size_t limit_cm : {5U, 10U, 11U, 15U, 20U, 50U})
     row.push_back(std::to_string(counts.closer_than(limit_cm)));
   row.push_back(std::to_string(counts.farther));
   table.rows.push_back(std::move(row));
