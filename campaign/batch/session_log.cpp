@@ -1,22 +1,16 @@
 #include "campaign/batch/session_log.hpp"
 
-#include <fcntl.h>
-#include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
-#include <cerrno>
-#include <cstring>
-#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.hpp"
-#include "core/base/machine_error.hpp"
+#include "storage/line_log.hpp"
 
 namespace fleetproof {
 namespace {
@@ -24,28 +18,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kFirstWords = "{\"started_utc\":";
-
-// In one piece, so that two campaigns may append to one file. O_NONBLOCK: a pipe of this name is not waited for.
-void append_lines(const std::string& path, const std::string& lines) {
-  const int file = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0644);
-  int error = file < 0 ? errno : 0;
-  struct stat status {};
-  if (error == 0 && (::fstat(file, &status) != 0 || !S_ISREG(status.st_mode))) error = ENOTSUP;
-  if (error == 0) {
-    const auto written = ::write(file, lines.data(), lines.size());
-    error = written < 0 ? errno : static_cast<std::size_t>(written) < lines.size() ? ENOSPC : 0;
-  }
-  if (file >= 0 && ::close(file) != 0 && error == 0) error = errno;
-  if (error == 0) return;
-  throw MachineError(fmt::format("{}: cannot be written ({}); the campaign file itself is as it was", path,
-                                 error == ENOTSUP ? "it is no regular file" : std::strerror(error)));
-}
-
-std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
-
-std::string log_of(const std::string& archive_path) {
-  return std::filesystem::path(archive_path).replace_extension(".sessions.jsonl").string();
-}
 
 std::string line_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
@@ -86,9 +58,9 @@ void require_ours(const std::string& path) {
 
 }  // namespace
 
-SessionLog::SessionLog(const std::string& archive_path) : path_(log_of(archive_path)) { require_ours(path_); }
+SessionLog::SessionLog(const std::string& archive_path) : path_(session_log_path(archive_path)) { require_ours(path_); }
 
-void SessionLog::begin(const RunOptions& options, const AgentPrograms& programs) const {
+void SessionLog::begin(const RunOptions& options, const AgentPrograms& programs, const SessionFacts& facts) const {
   std::array<char, 256> host{};
   gethostname(host.data(), host.size() - 1);
   Json plugins = Json::object();
@@ -99,6 +71,8 @@ void SessionLog::begin(const RunOptions& options, const AgentPrograms& programs)
                                {"host", host.data()},
                                {"pid", ::getpid()},
                                {"jobs", options.workers},
+                               {"ledger", facts.ledger},
+                               {"overrides", facts.overrides},
                                {"plugins", plugins}}));
 }
 
@@ -117,8 +91,28 @@ void SessionLog::end(const CampaignResult& result, int signal_number) const {
   append_lines(path_, lines);
 }
 
+namespace {
+
+// The last text of this key, at the top of a line of the log, that is not empty.
+std::string last_text(const std::string& archive_path, const char* key) {
+  std::ifstream file(session_log_path(archive_path));
+  std::string found;
+  for (std::string line; std::getline(file, line);) {
+    const Json json = Json::parse(line, nullptr, false);
+    if (!json.is_object() || !json.contains(key) || !json[key].is_string()) continue;
+    if (const auto text = json[key].get<std::string>(); !text.empty()) found = text;
+  }
+  return found;
+}
+
+}  // namespace
+
+std::string remembered_ledger(const std::string& archive_path) { return last_text(archive_path, "ledger"); }
+
+std::string remembered_overrides(const std::string& archive_path) { return last_text(archive_path, "overrides"); }
+
 std::string remembered_plugin(const std::string& archive_path, const std::string& agent) {
-  std::ifstream file(log_of(archive_path));
+  std::ifstream file(session_log_path(archive_path));
   std::string found;
   for (std::string line; std::getline(file, line);) {
     if (const std::string remembered = file_in(line, agent); !remembered.empty()) found = remembered;

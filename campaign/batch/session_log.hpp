@@ -6,6 +6,12 @@
 
 namespace fleetproof {
 
+// What a session log keeps beside the options: the ledger of attempts, and the options that changed the plan of the
+// campaign file, as typed.
+struct SessionFacts {
+  std::string ledger, overrides;
+};
+
 // NAME.sessions.jsonl beside the campaign file says where, when and with which files runs were made: one line when a
 // session begins, one when it ends, one for each worker process that it lost. The campaign file itself then has the
 // same bytes on every machine.
@@ -14,7 +20,7 @@ class SessionLog {
   // Throws InputError if a file of this name is no session log.
   explicit SessionLog(const std::string& archive_path);
   // Both throw MachineError if the log cannot be written.
-  void begin(const RunOptions& options, const AgentPrograms& programs) const;
+  void begin(const RunOptions& options, const AgentPrograms& programs, const SessionFacts& facts) const;
   void end(const CampaignResult& result, int signal_number) const;
 
  private:
@@ -23,5 +29,10 @@ class SessionLog {
 
 // The file of the plug-in with this agent, as the last session remembers it; empty: no session does.
 std::string remembered_plugin(const std::string& archive_path, const std::string& agent);
+
+// The ledger that the last session wrote to; empty: no session says so.
+std::string remembered_ledger(const std::string& archive_path);
+// The options that changed the plan in any session; empty: none.
+std::string remembered_overrides(const std::string& archive_path);
 
 }  // namespace fleetproof

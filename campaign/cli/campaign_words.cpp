@@ -11,6 +11,7 @@
 #include "campaign/plan/default_gates.hpp"
 #include "campaign/plan/plan_check.hpp"
 #include "campaign/run/agent_inspection.hpp"
+#include "campaign/run/release.hpp"
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
 
@@ -66,8 +67,9 @@ CampaignFile load_campaign(const std::string& path, AgentPrograms& programs) {
   check_plan(file.plan, file.places);
   std::vector<bool> is_plugin;
   for (const std::string& path_of_object : file.agent_files) is_plugin.push_back(!path_of_object.empty());
-  add_default_gates(file.plan, is_plugin);
   for (std::size_t i = 0; i < agents.size(); ++i) programs.program(agents[i].program, place_of(i) + ": factors.agents");
+  if (file.fresh_seed) file.plan.seed = fresh_seed(file.plan, programs);
+  add_default_gates(file.plan, is_plugin);
   constexpr std::size_t kTold = 3;
   for (std::size_t i = 0; i < std::min(kTold, file.warnings.size()); ++i) talk("warning: {}\n", file.warnings[i]);
   if (file.warnings.size() > kTold) talk("warning: {} more of this kind\n", file.warnings.size() - kTold);

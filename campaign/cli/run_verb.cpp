@@ -10,6 +10,7 @@
 #include "campaign/batch/session_log.hpp"
 #include "campaign/batch/time_budget.hpp"
 #include "campaign/cli/archive_name.hpp"
+#include "campaign/cli/attempt_log.hpp"
 #include "campaign/cli/campaign_words.hpp"
 #include "campaign/cli/ci_summary.hpp"
 #include "campaign/cli/progress.hpp"
@@ -28,7 +29,7 @@ struct RunWords {
   std::string campaign, archive;
   std::optional<std::uint64_t> jobs, replicates, seed;
   std::optional<std::uint64_t> fail_fast;
-  std::string max_time, until;
+  std::string max_time, until, ledger;
   bool overwrite = false, allow_drift = false, until_verdict = false, exit_zero = false, json = false;
 };
 
@@ -80,7 +81,16 @@ std::string resume_command(const RunWords& words) {
   return command;
 }
 
-int finish(const CampaignResult& result, const RunWords& words) {
+// The options that change the plan of the file, as typed.
+std::string overrides(const RunWords& words) {
+  std::string text;
+  if (words.seed) text += fmt::format("--seed {} ", *words.seed);
+  if (words.replicates) text += fmt::format("--replicates {} ", *words.replicates);
+  if (!text.empty()) text.pop_back();
+  return text;
+}
+
+int finish(const CampaignResult& result, const RunWords& words, AttemptLog& attempt) {
   talk("{} of {} runs stored in {} after {:.1f} s ({:.0f} runs/s)\n", result.stored, result.progress.planned,
        words.archive, result.progress.elapsed_s,
        static_cast<double>(result.progress.simulated) / std::max(1e-9, result.progress.elapsed_s));
@@ -93,7 +103,9 @@ int finish(const CampaignResult& result, const RunWords& words) {
   } else if (result.complete() && result.progress.audits_open > 0) {
     talk("{} of its runs are still to be audited; go on: {}\n", result.progress.audits_open, resume_command(words));
   }
-  const ReportInput input = read_report_input(ArchiveReader(words.archive), words.archive);
+  ReportInput input = read_report_input(ArchiveReader(words.archive), words.archive);
+  attempt.end(input);
+  add_history(input, attempt.path());
   if (words.json) {
     put_text(render(input, "json"));
   } else {
@@ -117,20 +129,26 @@ int run(RunWords words) {
   std::signal(SIGTERM, on_signal);
   std::signal(SIGHUP, on_signal);
   std::signal(SIGUSR1, on_status_signal);
+  AttemptLog attempt(words.ledger, {.plan = file.plan,
+                                    .programs = programs,
+                                    .archive = words.archive,
+                                    .fresh_seed = file.fresh_seed && !words.seed,
+                                    .overwrite = words.overwrite});
   CampaignResult result;
   {
     ProgressTalk talk(file.plan, plugin_agents(file.plan, programs), words.archive, options.workers);
     const SessionLog session(words.archive);
     CampaignListener listener = talk.listener();
     listener.started = [&, tell = listener.started] {
-      session.begin(options, programs);
+      session.begin(options, programs, {.ledger = attempt.path(), .overrides = overrides(words)});
+      attempt.begin();
       tell();
     };
     listener.wants_status = [] { return status_wanted.exchange(false); };
     result = run_campaign(file.plan, programs, words.archive, options, listener);
     session.end(result, interrupted.load());
   }
-  return finish(result, words);
+  return finish(result, words, attempt);
 }
 
 }  // namespace
@@ -147,6 +165,8 @@ Action prepare_run(Options& options) {
   options.option("--until", words->until, "stop cleanly at this time of day, as in 06:00");
   options.option("--fail-fast", words->fail_fast, "stop after so many failed runs, in order of run index");
   options.flag("--until-verdict", words->until_verdict, "stop when the gates have given the verdict");
+  options.option("--ledger", words->ledger,
+                 "ledger of the attempts to make a claim (default: attempts.jsonl beside the campaign file)");
   options.flag("--overwrite", words->overwrite, "begin again, and replace an existing campaign file");
   options.flag("--allow-drift", words->allow_drift, "go on in a file of another build or plug-in, and record it");
   options.flag("--exit-zero", words->exit_zero, "end with exit code 0 whatever the verdict is; 3 stays 3");

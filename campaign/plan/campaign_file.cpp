@@ -40,6 +40,10 @@ class CampaignReader {
   static void take_given(const Field& field, const TomlTable::Given& given, auto& target) {
     if (const auto sentence = take(field, given.value, target); !sentence.empty()) given.refuse(sentence);
   }
+  static bool is_fresh(const GivenValue& value) {
+    const auto* word = std::get_if<std::string>(&value);
+    return word != nullptr && *word == "fresh";
+  }
   static std::string word_of(const TomlTable::Given& given) {
     std::string word;
     take_given({}, given, word);
@@ -48,7 +52,13 @@ class CampaignReader {
 
   template <PlainValue Plain>
   void member(TomlTable& table, const Field& field, Plain& target) {
-    if (const auto given = table.given(field.key)) take_given(field, *given, target);
+    const auto given = table.given(field.key);
+    if (!given) return;
+    if (field.is_seed && is_fresh(given->value)) {
+      file_.fresh_seed = true;
+    } else {
+      take_given(field, *given, target);
+    }
   }
 
   // A table that can be switched on is on if the file contains it, unless `on = false` stands in it.

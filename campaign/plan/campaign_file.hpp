@@ -15,6 +15,7 @@ struct CampaignFile {
   std::vector<std::string> agent_files;  // by agent of the plan: the path of its shared object; empty: it has none
   std::vector<std::string> warnings;     // what importing a layout dropped or guessed
   PlanPlaces places;
+  bool fresh_seed = false;  // seed = "fresh": the seed follows from release and plan (campaign/run/release.hpp)
 };
 
 // Reads a TOML campaign file. A layout that is named by its file is read relative to the campaign file. Its extension

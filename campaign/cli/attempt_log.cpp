@@ -1,0 +1,77 @@
+#include "campaign/cli/attempt_log.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <random>
+
+#include "campaign/batch/campaign.hpp"
+#include "campaign/batch/session_log.hpp"
+#include "campaign/run/release.hpp"
+#include "reports/attempts/looks.hpp"
+#include "storage/line_log.hpp"
+
+namespace fleetproof::cli {
+namespace {
+
+std::string named_ledger(const std::string& ledger, const std::string& archive) {
+  return std::filesystem::absolute(ledger.empty() ? default_ledger(archive) : ledger).lexically_normal().string();
+}
+
+bool has_runs(const std::string& archive) {
+  return std::filesystem::exists(archive) || std::filesystem::exists(archive + ".partial");
+}
+
+std::string random_id() {
+  std::random_device device;
+  return fmt::format("{:08x}{:08x}", device(), device());
+}
+
+}  // namespace
+
+AttemptLog::AttemptLog(const std::string& ledger, const Campaign& campaign)
+    : ledger_(named_ledger(ledger, campaign.archive)),
+      attempt_(attempt_of(campaign_record(campaign.plan, campaign.programs))),
+      is_claim_(campaign.plan.kind == CampaignKind::Claim),
+      goes_on_(!campaign.overwrite && has_runs(campaign.archive)),
+      overwrites_(campaign.overwrite && has_runs(campaign.archive)) {
+  attempt_.archive = std::filesystem::absolute(campaign.archive).lexically_normal().string();
+  attempt_.release = release_digest(campaign.plan, campaign.programs);
+  attempt_.planned_runs = campaign.plan.run_count();
+  attempt_.fresh_seed = campaign.fresh_seed;
+}
+
+void AttemptLog::begin() {
+  if (!is_claim_) return;
+  if (goes_on_) {
+    const auto& attempts = ledger_.attempts();
+    const auto found = std::ranges::find_if(attempts.rbegin(), attempts.rend(), [&](const Attempt& earlier) {
+      return earlier.archive == attempt_.archive && earlier.worlds == attempt_.worlds;
+    });
+    if (found != attempts.rend()) {
+      attempt_.id = found->id;
+      return;
+    }
+  }
+  attempt_.id = random_id();
+  attempt_.begun_utc = goes_on_ ? "" : utc_now();
+  ledger_.begin(attempt_, overwrites_);
+}
+
+void AttemptLog::end(const ReportInput& input) {
+  if (!is_claim_) return;
+  attempt_.runs = input.stored_runs;
+  attempt_.verdict = name_of(overall_verdict(input.evidence, input.gates));
+  ledger_.end(attempt_);
+}
+
+void add_history(ReportInput& input, const std::string& ledger) {
+  std::string path = ledger.empty() ? remembered_ledger(input.archive_path) : ledger;
+  if (ledger.empty() && !std::filesystem::exists(path)) path = default_ledger(input.archive_path);
+  input.attempts = attempt_history(AttemptLedger(path), input.campaign);
+  input.looks = looks_at(input.archive_path);
+  input.overrides = remembered_overrides(input.archive_path);
+}
+
+}  // namespace fleetproof::cli

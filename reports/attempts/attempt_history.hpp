@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reports/attempts/attempt_ledger.hpp"
+
+namespace fleetproof {
+
+// What a ledger tells about a campaign file: how often somebody tried before. A campaign that is run again with the
+// same plan has the same runs, so that attempts count by their worlds.
+struct AttemptHistory {
+  std::string ledger;                // empty: none was read
+  std::string since_utc;             // the begin of the oldest attempt in it
+  std::optional<Attempt> own;        // that of this campaign file
+  std::vector<Attempt> others;       // in other worlds, for the same release; the last of each plan
+  std::vector<Attempt> same_worlds;  // of other releases, begun before
+  std::uint64_t broken_lines = 0;
+};
+
+AttemptHistory attempt_history(const AttemptLedger& ledger, const CampaignRecord& campaign);
+
+// One sentence for the head of a page. `risk`: of one attempt, that it demonstrates a limit that is not met; with
+// several attempts it adds up (union bound). Never says that an attempt was the first.
+std::string attempts_sentence(const AttemptHistory& history, double risk);
+
+}  // namespace fleetproof

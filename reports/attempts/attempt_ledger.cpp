@@ -1,0 +1,131 @@
+#include "reports/attempts/attempt_ledger.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "core/base/error.hpp"
+#include "core/base/random.hpp"
+#include "reports/wording.hpp"
+#include "storage/line_log.hpp"
+
+namespace fleetproof {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view kFirstWords = "{\"attempt\":";
+
+std::string line_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+std::string text_in(const Json& json, const char* key) {
+  const auto found = json.find(key);
+  return found != json.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+std::uint64_t number_in(const Json& json, const char* key) {
+  const auto found = json.find(key);
+  return found != json.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : 0;
+}
+
+std::uint64_t hex_in(const Json& json, const char* key) {
+  const std::string text = text_in(json, key);
+  std::uint64_t value = 0;
+  std::from_chars(text.data(), text.data() + text.size(), value, 16);
+  return value;
+}
+
+bool flag_in(const Json& json, const char* key) {
+  const auto found = json.find(key);
+  return found != json.end() && found->is_boolean() && found->get<bool>();
+}
+
+void require_ours(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return;
+  std::ifstream file(path);
+  std::string line;
+  if (std::getline(file, line) && !line.starts_with(kFirstWords))
+    throw InputError(path, "this is no ledger of attempts, and nothing is appended to it; name another with --ledger");
+}
+
+}  // namespace
+
+AttemptLedger::AttemptLedger(std::string path) : path_(std::move(path)) {
+  require_ours(path_);
+  std::ifstream file(path_);
+  for (std::string line; std::getline(file, line);) take(line);
+}
+
+void AttemptLedger::take(const std::string& line) {
+  const Json json = Json::parse(line, nullptr, false);
+  const std::string what = json.is_object() ? text_in(json, "attempt") : "";
+  const std::string id = what.empty() ? "" : text_in(json, "id");
+  const auto known = std::ranges::find(attempts_, id, &Attempt::id);
+  if (what == "begins" && !id.empty() && known == attempts_.end()) {
+    const std::string archive = text_in(json, "archive");
+    if (flag_in(json, "overwrites")) {
+      for (Attempt& earlier : attempts_) earlier.replaced |= earlier.archive == archive;
+    }
+    attempts_.push_back({id, text_in(json, "begun_utc"), "", text_in(json, "campaign"), archive,
+                         text_in(json, "release"), text_in(json, "software"), text_in(json, "worlds"),
+                         number_in(json, "seed"), hex_in(json, "plan_hash"), 0, number_in(json, "planned_runs"), "",
+                         flag_in(json, "fresh_seed"), false});
+  } else if (what == "ends" && known != attempts_.end()) {
+    known->ended_utc = text_in(json, "utc");
+    known->runs = number_in(json, "runs");
+    known->verdict = text_in(json, "verdict");
+  } else {
+    ++broken_lines_;
+  }
+}
+
+void AttemptLedger::begin(const Attempt& attempt, bool overwrites) {
+  const Json json{{"attempt", "begins"},
+                  {"id", attempt.id},
+                  {"begun_utc", attempt.begun_utc},
+                  {"campaign", attempt.campaign},
+                  {"archive", attempt.archive},
+                  {"release", attempt.release},
+                  {"software", attempt.software},
+                  {"worlds", attempt.worlds},
+                  {"plan_hash", hex_text(attempt.plan_hash)},
+                  {"seed", attempt.seed},
+                  {"fresh_seed", attempt.fresh_seed},
+                  {"planned_runs", attempt.planned_runs},
+                  {"overwrites", overwrites}};
+  append_lines(path_, line_of(json));
+  take(line_of(json));
+}
+
+void AttemptLedger::end(const Attempt& attempt) {
+  const Json json{{"attempt", "ends"},
+                  {"id", attempt.id},
+                  {"utc", utc_now()},
+                  {"runs", attempt.runs},
+                  {"verdict", attempt.verdict}};
+  append_lines(path_, line_of(json));
+  take(line_of(json));
+}
+
+std::string default_ledger(const std::string& archive_path) {
+  return (std::filesystem::path(archive_path).parent_path() / "attempts.jsonl").string();
+}
+
+Attempt attempt_of(const CampaignRecord& campaign) {
+  Attempt attempt;
+  attempt.campaign = campaign.name;
+  attempt.software = hex_text(name_hash(campaign.engine.program_sha256 + "\n" + campaign.engine.libraries));
+  auto plan = Json::parse(campaign.plan_json, nullptr, false);
+  if (plan.is_object()) {
+    for (const char* key : {"name", "replicates"}) plan.erase(key);
+  }
+  attempt.worlds = hex_text(name_hash(plan.is_object() ? plan.dump() : campaign.plan_json));
+  attempt.seed = campaign.seed;
+  attempt.plan_hash = campaign.plan_hash;
+  return attempt;
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "storage/records.hpp"
+
+namespace fleetproof {
+
+// One attempt to make a claim about a release: a campaign that was begun, whatever became of it.
+struct Attempt {
+  std::string id;                    // random, of this attempt alone
+  std::string begun_utc, ended_utc;  // no begin: runs were there before the ledger knew of it; no end: it was aborted,
+                                     // or is still under way
+  std::string campaign, archive;     // the name, and the path of the campaign file
+  std::string release;               // digest of the software under test
+  std::string software;              // digest of everything that computed the runs
+  std::string worlds;                // digest of the plan without its name and its number of replicates
+  std::uint64_t seed = 0, plan_hash = 0, runs = 0;
+  std::uint64_t planned_runs = 0;  // when it began
+  std::string verdict;
+  bool fresh_seed = false;  // the seed follows from release and plan: nobody chose it
+  bool replaced = false;    // a later attempt overwrote its campaign file
+};
+
+// The ledger of a folder, or of a release: one line of JSON when an attempt begins, and one when a session of it ends.
+// Lines are only ever appended. Threads: one.
+class AttemptLedger {
+ public:
+  // Throws InputError if the file exists and is no ledger.
+  explicit AttemptLedger(std::string path);
+
+  const std::string& path() const { return path_; }
+  // In the order in which they began. Lines that cannot be read are left out and counted.
+  const std::vector<Attempt>& attempts() const { return attempts_; }
+  std::uint64_t broken_lines() const { return broken_lines_; }
+
+  // Both throw MachineError if the ledger cannot be written.
+  void begin(const Attempt& attempt, bool overwrites);
+  void end(const Attempt& attempt);
+
+ private:
+  void take(const std::string& line);
+
+  std::string path_;
+  std::vector<Attempt> attempts_;
+  std::uint64_t broken_lines_ = 0;
+};
+
+// "attempts.jsonl" beside the campaign file.
+std::string default_ledger(const std::string& archive_path);
+
+// The digests of an attempt that the campaign file itself tells: `software`, `worlds`, plan, seed and numbers.
+Attempt attempt_of(const CampaignRecord& campaign);
+
+}  // namespace fleetproof

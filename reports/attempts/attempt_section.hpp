@@ -1,0 +1,14 @@
+#pragma once
+
+#include "reports/page.hpp"
+
+namespace fleetproof {
+
+// How the evidence came about: the other attempts for the same release, when the plan was fixed, whether the data obey
+// it, and how often somebody looked.
+Section attempt_section(const ReportInput& input);
+
+// One sentence for the head of the page of a claim; empty for a search.
+std::string attempts_headline(const ReportInput& input);
+
+}  // namespace fleetproof

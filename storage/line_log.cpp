@@ -1,0 +1,40 @@
+#include "storage/line_log.hpp"
+
+#include <fcntl.h>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+#include <filesystem>
+
+#include "core/base/machine_error.hpp"
+
+namespace fleetproof {
+
+std::string session_log_path(const std::string& archive_path) {
+  return std::filesystem::path(archive_path).replace_extension(".sessions.jsonl").string();
+}
+
+// O_NONBLOCK: a pipe of this name is not waited for.
+void append_lines(const std::string& path, const std::string& lines) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0644);
+  int error = file < 0 ? errno : 0;
+  struct stat status {};
+  if (error == 0 && (::fstat(file, &status) != 0 || !S_ISREG(status.st_mode))) error = ENOTSUP;
+  if (error == 0) {
+    const auto written = ::write(file, lines.data(), lines.size());
+    error = written < 0 ? errno : static_cast<std::size_t>(written) < lines.size() ? ENOSPC : 0;
+  }
+  if (file >= 0 && ::close(file) != 0 && error == 0) error = errno;
+  if (error == 0) return;
+  throw MachineError(fmt::format("{}: cannot be written ({}); the campaign file itself is as it was", path,
+                                 error == ENOTSUP ? "it is no regular file" : std::strerror(error)));
+}
+
+std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
+
+}  // namespace fleetproof

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+namespace fleetproof {
+
+// NAME.sessions.jsonl beside the archive: where, when and with which files its runs were made.
+std::string session_log_path(const std::string& archive_path);
+
+// Appends whole lines to a log beside the archive, in one piece, so that two programs may write to one file. A new file
+// is made if there is none. Throws MachineError if the file cannot be written, or is no regular file.
+void append_lines(const std::string& path, const std::string& lines);
+
+// "2026-11-21T22:04:05Z".
+std::string utc_now();
+
+}  // namespace fleetproof
