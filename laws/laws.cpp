@@ -7,6 +7,7 @@
 #include "laws/containment_law.hpp"
 #include "laws/coverage_law.hpp"
 #include "laws/exempting_law.hpp"
+#include "laws/fault_record_law.hpp"
 #include "laws/global_step_law.hpp"
 #include "laws/normal_operation_law.hpp"
 #include "laws/paper_law.hpp"
@@ -49,6 +50,10 @@ constexpr Entry<MakeLaw> kLaws[] = {
      "without "
      "driving.",
      make_coverage_law},
+    {"faults",
+     "Accuses nothing. It notes when each injected fault struck which AGV, and each fallen load or obstacle that came "
+     "onto the floor, so that a report can say what came before a failure. It does not see whether that was the cause.",
+     make_fault_record_law},
     {"paper",
      "Finds what the published rule of Figure 5 finds, by axis-aligned perimeters of whole drives and, between two "
      "drives, snapshots (1 cm at the default 2.5 ms). It does not see turns, an AGV that rests for part of a drive, "

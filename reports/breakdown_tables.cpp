@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <set>
 #include <utility>
 
 #include "reports/condition_table.hpp"
+#include "reports/evidence/clusters.hpp"
 #include "reports/evidence/rounding.hpp"
 #include "reports/wording.hpp"
 
@@ -81,6 +83,27 @@ std::string explanation(const ReportInput& input) {
          text;
 }
 
+// Runs on one layout resemble each other. Says how much, and what is left for a claim about other layouts.
+std::vector<std::string> layout_clusters(const ReportInput& input) {
+  std::map<std::string, std::vector<Cluster>> by_agent;  // runs in the contract region, by layout
+  for (const BreakdownRow& group : input.breakdown.rows()) {
+    if (group.key.layout.empty() || !group.key.in_contract || group.tally.runs == 0) continue;
+    by_agent[group.key.agent].push_back({group.tally.violating_runs + group.tally.unknown_runs, group.tally.runs});
+  }
+  std::vector<std::string> sentences;
+  for (const auto& [agent, clusters] : by_agent) {
+    if (clusters.size() < 2 || !is_under_test(input.evidence.gates(), agent)) continue;
+    const ClusterUnits layouts = cluster_units(clusters);
+    const DesignEffect effect = design_effect(clusters);
+    std::string text = fmt::format("Layouts as units: runs of {} failed or stayed unknown on {} of {} layouts",
+                                   printable(agent, 40), layouts.failing, layouts.units);
+    if (effect.ratio) text += fmt::format(" (design effect {:.2f})", *effect.ratio);
+    sentences.push_back(
+        text + fmt::format(". A claim about layouts that were not run has {} units, and no more.", layouts.units));
+  }
+  return sentences;
+}
+
 constexpr const char* kNotAdjusted = "The intervals and bounds are not adjusted for their number.";
 
 Section section_of(const ReportInput& input, const char* what, std::size_t most_rows,
@@ -113,6 +136,8 @@ Section layout_section(const ReportInput& input, std::size_t most_rows) {
   Remark words;
   words.text = explanation(input);
   section.remarks.insert(section.remarks.begin(), std::move(words));
+  if (input.evidence.counts_only()) return section;
+  for (std::string& sentence : layout_clusters(input)) section.remarks.emplace_back().text = std::move(sentence);
   return section;
 }
 

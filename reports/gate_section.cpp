@@ -64,10 +64,13 @@ std::string region_text(const GateRecord& gate) {
 std::string_view unit_text(const GateResult& result) { return result.unit == "runs" ? "runs" : "worlds"; }
 
 std::string counted_text(const GateRecord& gate, const GateResult& result) {
-  const auto& claim = *result.claim;
-  if (gate.unit == GateUnit::AgvHour)
-    return fmt::format("{} in {:.6g} AGV-hours", count_text(claim.failing, "time"), claim.exposure);
-  return fmt::format("in {} of {} {}", claim.failing, claim.units, unit_text(result));
+  const auto &claim = *result.claim, &known = *result.optimistic;
+  const std::string text =
+      gate.unit == GateUnit::AgvHour
+          ? fmt::format("{} in {:.6g} AGV-hours", count_text(known.failing, "time"), claim.exposure)
+          : fmt::format("in {} of {} {}", known.failing, claim.units, unit_text(result));
+  const auto unknown = claim.failing - known.failing;
+  return unknown == 0 ? text : text + fmt::format(", with {} more unknown", unknown);
 }
 
 std::string bound_text(const GateRecord& gate, double bound, std::string (*rounded)(double)) {
@@ -79,6 +82,14 @@ std::string limit_text(const GateRecord& gate) {
                                         : fmt::format("{:g} %", 100.0 * gate.limit);
 }
 
+// "3/40", or "3 +5?/40": what stayed unknown is never called a failure.
+std::string failed_text(const GateRecord& gate, const GateResult& result) {
+  const auto unknown = result.claim->failing - result.optimistic->failing;
+  std::string text = std::to_string(result.optimistic->failing);
+  if (unknown > 0) text += fmt::format(" +{}?", unknown);
+  return gate.unit == GateUnit::AgvHour ? text : text + fmt::format("/{}", result.claim->units);
+}
+
 std::vector<std::string> row(const ReportInput& input, std::size_t index) {
   const GateRecord& gate = input.evidence.gates()[index];
   const GateResult& result = input.gates[index];
@@ -86,8 +97,7 @@ std::vector<std::string> row(const ReportInput& input, std::size_t index) {
   if (!gate.requirement.empty()) what += " [" + printable(gate.requirement, 30) + "]";
   std::vector<std::string> cells{printable(gate.agent, 40), what, region_text(gate)};
   if (result.claim) {
-    cells.push_back(gate.unit == GateUnit::AgvHour ? fmt::format("{}", result.claim->failing)
-                                                   : fmt::format("{}/{}", result.claim->failing, result.claim->units));
+    cells.push_back(failed_text(gate, result));
     cells.push_back(bound_text(gate, result.claim->upper, rounded_up));
     cells.push_back(gate.kind == GateKind::None ? "none; " + limit_text(gate) : limit_text(gate));
   } else {
@@ -101,7 +111,10 @@ std::string estimate_text(const GateRecord& gate, const GateResult& result) {
   const auto& claim = *result.claim;
   std::string text = gate.unit == GateUnit::AgvHour
                          ? fmt::format("{} in {:.6g} AGV-hours", count_text(claim.failing, "event"), claim.exposure)
-                         : fmt::format("{} of {} {} failed", claim.failing, claim.units, result.unit);
+                         : fmt::format("{} of {} {} failed", result.optimistic->failing, claim.units, result.unit);
+  const auto unknown = claim.failing - result.optimistic->failing;
+  if (unknown > 0 && gate.unit != GateUnit::AgvHour)
+    text += fmt::format(" and {} stayed unknown, which counts as failing", unknown);
   if (claim.rate()) {
     text += fmt::format(": rate {}, two-sided 95 % interval [{}, {}]", rounded_rate(*claim.rate()),
                         rounded_down(claim.interval_95.lower), rounded_up(claim.interval_95.upper));
@@ -113,8 +126,9 @@ std::string estimate_text(const GateRecord& gate, const GateResult& result) {
 
 std::string optimistic_text(const GateResult& result) {
   return fmt::format(
-      " What stayed unknown (a crash, a hang, a wreck before) counts as a failure; if none of it had failed: {} of {}, "
-      "upper bound {}.",
+      " Unknown: a crash, a hang, a wreck before, a fallen load or an obstacle. If none of it had failed: {} of {}, "
+      "upper "
+      "bound {}.",
       result.optimistic->failing, result.optimistic->units, rounded_up(result.optimistic->upper));
 }
 
@@ -140,8 +154,6 @@ std::string finding_text(const ReportInput& input, std::size_t index) {
   std::string text = failure_text(gate, safety_distance_m(input.campaign.plan_json)) + " ";
   if (!result.claim) return text + "in " + count_text(result.counts.failing_runs, "run");
   text += counted_text(gate, result);
-  const auto unknown = result.claim->failing - result.optimistic->failing;
-  if (unknown > 0) text += fmt::format(", or may have ({} stayed unknown)", unknown);
   if (result.claim->units == 0) return text;
   const bool violated = result.verdict == Verdict::Violated;
   const double bound = violated ? result.optimistic->lower : result.claim->upper;

@@ -71,6 +71,23 @@ Json violation_json(const Violation& v) {
           {"level", name_of(level_of(v))}};
 }
 
+Json cause_json(const FirstCause& cause) {
+  Json json{{"what", cause.what},
+            {"at_s", to_seconds(cause.at)},
+            {"at_ns", to_ns(cause.at)},
+            {"a", cause.a.valid() ? Json(cause.a.value) : Json(nullptr)},
+            {"b", cause.b.valid() ? Json(cause.b.value) : Json(nullptr)},
+            {"before", name_of(cause.before)}};
+  json["fault"] = nullptr;
+  if (const auto& fault = cause.fault) {
+    json["fault"] = {{"kind", info_of(fault->kind).name},
+                     {"body", fault->a.value},
+                     {"value", fault->value},
+                     {"at_ns", to_ns(fault->first)}};
+  }
+  return json;
+}
+
 Json failing_run_json(const ReportInput& input, const std::optional<FailingRun>& run) {
   if (!run) return nullptr;
   auto cell = input.evidence.cells()[run->cell];
@@ -83,6 +100,7 @@ Json failing_run_json(const ReportInput& input, const std::optional<FailingRun>&
   json["min_clearance_um"] = maybe(run->min_clearance_um);
   json["violations"] = run->violations;
   json["closest"] = run->worst ? violation_json(*run->worst) : Json(nullptr);
+  json["first_cause"] = cause_json(run->cause);
   json["message"] = run->message;
   json["replay"] = replay_line(input, run->run_index);
   json["debug"] = run->message.empty() ? Json(nullptr) : Json(debug_command(input.archive_path, run->run_index));
@@ -252,6 +270,46 @@ Json audit_json(const AgentAudit& audit) {
           {"recordings", audit.recordings}};
 }
 
+Json group_json(const ReportInput& input, const FailureGroup& group) {
+  return {{"agent", group.agent},
+          {"end_point", group.end_point},
+          {"first_cause", group.first_cause},
+          {"before", name_of(group.before)},
+          {"runs", group.runs},
+          {"distinct", group.distinct},
+          {"distinct_is_lower_bound", group.at_least},
+          {"worst_run", failing_run_json(input, group.worst)}};
+}
+
+Json attempt_json(const Attempt& attempt) {
+  return {{"begun_utc", attempt.begun_utc},
+          {"ended_utc", attempt.ended_utc},
+          {"campaign", attempt.campaign},
+          {"release", attempt.release},
+          {"seed", attempt.seed},
+          {"fresh_seed", attempt.fresh_seed},
+          {"plan_hash", hex_text(attempt.plan_hash)},
+          {"runs", attempt.runs},
+          {"planned_runs", attempt.planned_runs},
+          {"verdict", attempt.verdict},
+          {"overwritten", attempt.replaced}};
+}
+
+Json attempts_json(const ReportInput& input) {
+  const AttemptHistory& history = input.attempts;
+  const auto list = [](const std::vector<Attempt>& attempts) {
+    auto json = Json::array();
+    for (const Attempt& attempt : attempts) json.push_back(attempt_json(attempt));
+    return json;
+  };
+  return {{"ledger", history.ledger.empty() ? Json(nullptr) : Json(history.ledger)},
+          {"own", history.own ? attempt_json(*history.own) : Json(nullptr)},
+          {"others", list(history.others)},
+          {"same_worlds", list(history.same_worlds)},
+          {"looks", maybe(input.looks)},
+          {"overrides", input.overrides}};
+}
+
 // Every key is present; a list without content is empty. A program that reads the report need not test for keys.
 Json list_of(std::size_t count, const std::function<Json(std::size_t)>& item) {
   auto list = Json::array();
@@ -278,6 +336,9 @@ std::string render_json(const ReportInput& input) {
   json["conditions"] = list_of(conditions.size(), [&](std::size_t i) { return condition_json(input, conditions[i]); });
   json["cells"] =
       list_of(evidence.cells().size(), [&](std::size_t i) { return one_cell_json(input, evidence.cells()[i]); });
+  json["attempts"] = attempts_json(input);
+  const auto groups = input.failures.list();
+  json["failure_groups"] = list_of(groups.size(), [&](std::size_t i) { return group_json(input, groups[i]); });
   json["coverage"] = coverage_json(input);
   json["incidents"] = incidents_json(input);
   const auto& audits = input.audits.agents();

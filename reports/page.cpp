@@ -6,11 +6,13 @@
 #include <utility>
 
 #include "core/base/contract.hpp"
+#include "reports/attempts/attempt_section.hpp"
 #include "reports/audit_section.hpp"
 #include "reports/breakdown_tables.hpp"
 #include "reports/comparison_section.hpp"
 #include "reports/condition_table.hpp"
 #include "reports/coverage_section.hpp"
+#include "reports/failure_section.hpp"
 #include "reports/gate_section.hpp"
 #include "reports/sample_sentence.hpp"
 #include "reports/verdict_sentences.hpp"
@@ -20,23 +22,12 @@
 namespace fleetproof {
 namespace {
 
+constexpr std::size_t kMostGroups = 50;
+
 Section weak_point_section(const ReportInput& input) {
   Section section{"Weak points of this evidence", {}, {}};
   for (auto& point : weak_points(input)) section.remarks.push_back({std::move(point), ""});
   if (section.remarks.empty()) section.remarks.push_back({"None found by the checks of this page.", ""});
-  return section;
-}
-
-Section worst_run_section(const ReportInput& input) {
-  Section section{"Worst runs, and how to see them", {}, {}};
-  for (const bool in_contract : {true, false}) {
-    for (const auto& run : input.evidence.worst_runs(in_contract)) {
-      auto remark = describe(input, run);
-      if (!in_contract) remark.text += " (outside the contract)";
-      section.remarks.push_back(std::move(remark));
-    }
-  }
-  if (section.remarks.empty()) section.remarks.push_back({"No run failed.", ""});
   return section;
 }
 
@@ -157,7 +148,8 @@ Page build_page(const ReportInput& input, std::size_t most_rows) {
   add(Topic::Coverage, incident_section(input, most_rows));
   add(Topic::Audit, audit_section(input));
   add(Topic::WeakPoints, weak_point_section(input));
-  add(Topic::WorstRuns, worst_run_section(input));
+  add(Topic::Failures, failure_section(input, std::min(most_rows, kMostGroups)));
+  add(Topic::Attempts, attempt_section(input));
   add(Topic::Provenance, provenance_section(input));
   add(Topic::Method, method_section(input));
   return page;

@@ -42,7 +42,8 @@ enum class Topic : std::uint8_t {
   Coverage,
   Audit,
   WeakPoints,
-  WorstRuns,
+  Failures,
+  Attempts,
   Provenance,
   Method
 };

@@ -36,6 +36,7 @@ ReportInput read_report_input(const ArchiveReader& archive, std::string archive_
                     Breakdown(archive.cells()),
                     AuditTally(archive.campaign(), archive.cells()),
                     {},
+                    {},
                     0,
                     4};
   archive.for_each_run([&](const RunRecord& run) {
@@ -44,6 +45,7 @@ ReportInput read_report_input(const ArchiveReader& archive, std::string archive_
     if (run.run_index != input.evidence.runs()) return;
     input.evidence.add(run);
     input.breakdown.add(run);
+    input.failures.add(run, input.evidence.cells()[run.cell].agent);
     if (also) also(run, input.evidence);
   });
   archive.for_each_audit([&](const AuditRecord& audit, bool same) {

@@ -7,10 +7,12 @@
 #include <vector>
 
 #include "core/base/catalogue.hpp"
+#include "reports/attempts/attempt_history.hpp"
 #include "reports/comparison/baseline.hpp"
 #include "reports/evidence/audit_tally.hpp"
 #include "reports/evidence/breakdown.hpp"
 #include "reports/evidence/evidence.hpp"
+#include "reports/evidence/failure_groups.hpp"
 #include "storage/archive_reader.hpp"
 
 namespace fleetproof {
@@ -22,10 +24,15 @@ struct ReportInput {
   Evidence evidence;
   Breakdown breakdown;
   AuditTally audits;
+  FailureGroups failures;         // of the runs before the first gap
   std::vector<GateResult> gates;  // in the order of evidence.gates()
   std::uint64_t stored_runs = 0;  // in the file; evidence.runs() of them are before the first gap
   int exit_code = 4;
   std::vector<BaselineComparison> baseline{};  // empty: the report compares with nothing
+  // Files beside the archive tell these; a caller adds them.
+  AttemptHistory attempts{};
+  std::optional<std::uint64_t> looks{};  // absent: not known
+  std::string overrides{};               // options of a session that changed the plan, as typed
 };
 
 // Reads all runs of the archive and judges the runs before the first gap. `also` gets each of those runs after the

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "reports/attempts/attempt_section.hpp"
 #include "reports/coverage_section.hpp"
 #include "reports/gate_section.hpp"
 #include "reports/sample_sentence.hpp"
@@ -63,11 +64,30 @@ Headline claim(const ReportInput& input) {
     headline.details.push_back({"Sampled: " + sampled(input.evidence, cells) + ".", ""});
   headline.details.emplace_back().text =
       "A world (replicate) is one draw of all that is random. It is run in every cell (test condition).";
+  if (const std::string attempts = attempts_headline(input); !attempts.empty())
+    headline.details.emplace_back().text = attempts;
   return headline;
 }
 
 // Cut, not rounded: no digit differs from the archive.
 double hundredths_s(SimTime t) { return static_cast<double>((t - kStart).count() / 10'000'000) / 100.0; }
+
+// What went wrong first, if it was something else, and what came before it.
+std::string cause_text(const FailingRun& run, const CellRecord& cell) {
+  const FirstCause& cause = run.cause;
+  std::string text;
+  const bool leads = run.worst && run.worst->first == cause.at && run.worst->a == cause.a;
+  const std::string at = seconds_text(hundredths_s(cause.at));
+  if (run.severity == Severity::Incident) {
+    text = "; at " + at;
+  } else if (!leads && cause.a.valid()) {
+    text = fmt::format("; first, at {}: {}", at, cause.what);
+    if (cause.b.valid()) text += fmt::format(" ({} and {})", body_name(cause.a, cell), body_name(cause.b, cell));
+  }
+  text += fmt::format("; before it: {}", name_of(cause.before));
+  if (const std::string fault = fault_text(cause, cell.fleet_size); !fault.empty()) text += ", " + fault;
+  return text;
+}
 
 }  // namespace
 
@@ -88,6 +108,7 @@ Remark describe(const ReportInput& input, const FailingRun& run) {
   }
   text += fmt::format("; agent {}, layout {}, fleet of {}, {}", printable(cell.agent, 40), printable(cell.layout, 40),
                       cell.fleet_size, factors_text(run.factors));
+  text += cause_text(run, cell);
   if (!run.message.empty()) text += fmt::format("; \"{}\"", printable(run.message, 120));
   const std::string debug = debug_command(input.archive_path, run.run_index);
   if (run.severity == Severity::Crash || run.severity == Severity::Hang) return {text, debug};
@@ -105,6 +126,14 @@ std::vector<Headline> warnings(const ReportInput& input) {
              "{} ended in an error of the simulator itself: nothing here is evidence until that error is corrected.",
              count_text(errors, "run")),
          {}});
+  }
+  for (const auto& [agent, runs, worst] : input.evidence.foreign_body_runs()) {
+    list.push_back({"unknown",
+                    fmt::format("in {} of agent {}, AGVs came too close to fallen loads or obstacles only. No control "
+                                "software is told of these, so the runs neither refute it nor speak for it: they count "
+                                "as unknown. For instance:",
+                                count_text(runs, "run"), printable(agent, 40)),
+                    {describe(input, worst)}});
   }
   for (const auto& [agent, runs, worst] : input.evidence.contract_failures()) {
     if (!is_under_test(input.evidence.gates(), agent)) continue;

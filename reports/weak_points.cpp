@@ -88,7 +88,7 @@ std::vector<std::string> weak_points(const ReportInput& input) {
   name_cells(points, evidence, Scope::Contract, "completed no transport",
              [](const Tally& tally) { return tally.runs > 0 && tally.transports_done == 0; });
   name_cells(points, evidence, Scope::All,
-             "have runs with an unknown outcome (crash, hang, indeterminate, engine error)",
+             "have runs with an unknown outcome (crash, hang, indeterminate, engine error, fallen load or obstacle)",
              [](const Tally& tally) { return tally.unknown_runs > 0; });
   name_cells(points, evidence, Scope::Contract, "have stuck runs",
              [](const Tally& tally) { return tally.stuck_runs > 0; });

@@ -10,12 +10,12 @@ inline constexpr std::int32_t kApplicationId = 0x464C5046;  // "FLPF": marks an 
 // What each version added: 2 incidents and probes, 3 bounds of factors, 4 exempt pairs and external sources, 5 the call
 // cost as a factor, 6 the seal, 7 audits, recordings and chunks, 8 gates with
 // their method and tables, and the normal speed of violations.
-inline constexpr std::int32_t kSchemaVersion = 8;
+inline constexpr std::int32_t kSchemaVersion = 9;
 inline constexpr std::int32_t kOldestReadable = 4;
 inline constexpr std::int32_t kFirstSealed = 6;  // a published file of an earlier schema has the digest of its rows
 inline constexpr std::int32_t kFirstChunked = 7;
 inline constexpr std::int32_t kFirstTabled = 8;           // gates of an earlier schema are of the method "fixed"
-inline constexpr std::int32_t kFirstWithNormalSpeed = 8;  // 0 in violations of an earlier schema
+inline constexpr std::int32_t kFirstWithNormalSpeed = 9;  // 0 in violations of an earlier schema
 inline constexpr std::int32_t kPageSize = 4096;
 
 // The tables and the public views of the canonical file, as one script. Each counter of an outcome

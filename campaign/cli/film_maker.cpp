@@ -167,9 +167,9 @@ html::FilmStrip without_frames(const std::string& why) {
 }  // namespace
 
 std::map<std::uint64_t, html::FilmStrip> film_strips(const ArchiveReader& archive, const std::string& archive_path,
-                                                     const html::CampaignFigures& figures) {
+                                                     const FailureGroups& failures) {
   std::map<std::uint64_t, html::FilmStrip> strips;
-  auto groups = figures.failures().list();
+  auto groups = failures.list();
   groups.resize(std::min(groups.size(), kMostStrips));
   if (groups.empty()) return strips;
   std::unique_ptr<FilmMaker> maker;

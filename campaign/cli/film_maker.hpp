@@ -14,6 +14,6 @@ namespace fleetproof::cli {
 // plug-in in a worker process. A strip without frames says why: a run that comes out differently is not shown.
 inline constexpr std::size_t kMostStrips = 10;
 std::map<std::uint64_t, html::FilmStrip> film_strips(const ArchiveReader& archive, const std::string& archive_path,
-                                                     const html::CampaignFigures& figures);
+                                                     const FailureGroups& failures);
 
 }  // namespace fleetproof::cli

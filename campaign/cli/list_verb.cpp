@@ -13,6 +13,7 @@
 #include "generators/families/mutated_import.hpp"
 #include "generators/formats/importer.hpp"
 #include "laws/laws.hpp"
+#include "reports/export/report_schema.hpp"
 #include "reports/report.hpp"
 
 namespace fleetproof::cli {
@@ -80,9 +81,13 @@ int list_fields(bool json) {
 }
 
 int list(const std::string& what, bool json) {
-  constexpr std::string_view kFields = "fields";
+  constexpr std::string_view kFields = "fields", kSchema = "report-schema";
   if (what == kFields) return list_fields(json);
-  std::vector<std::string_view> names{kFields};
+  if (what == kSchema) {
+    put_text(std::string(report_schema()));
+    return kDemonstrated;
+  }
+  std::vector<std::string_view> names{kFields, kSchema};
   for (const Kind& kind : kinds) {
     names.push_back(kind.name);
     if (kind.name != what) continue;
@@ -110,7 +115,7 @@ Action prepare_list(Options& options) {
     bool json = false;
   };
   auto words = std::make_shared<Words>();
-  options.positional("WHAT", words->what, "agents, laws, generators, importers, reports or fields");
+  options.positional("WHAT", words->what, "agents, laws, generators, importers, reports, fields or report-schema");
   options.flag("--json", words->json, "print JSON");
   return [words] { return list(words->what, words->json); };
 }

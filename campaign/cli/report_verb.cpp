@@ -3,20 +3,23 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "campaign/cli/attempt_log.hpp"
 #include "campaign/cli/ci_summary.hpp"
+#include "campaign/cli/evidence_set.hpp"
 #include "campaign/cli/film_maker.hpp"
 #include "campaign/cli/output_file.hpp"
 #include "campaign/cli/render.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "core/base/error.hpp"
+#include "reports/attempts/looks.hpp"
 #include "reports/html/html_report.hpp"
 
 namespace fleetproof::cli {
 namespace {
 
 struct ReportWords {
-  std::string archive, format = "text", out, html, baseline;
+  std::string archive, format = "text", out, html, baseline, ledger, evidence;
   bool json = false, digest = false, exit_zero = false, no_film = false;
 };
 
@@ -53,14 +56,22 @@ int exit_code_of(const ReportInput& input, const ReportWords& words) {
   return words.exit_zero && input.exit_code != 3 ? kDemonstrated : input.exit_code;
 }
 
+// A report on a campaign that still grows is a look at it.
+void show_history(ReportInput& input, const ReportWords& words) {
+  if (!input.evidence.complete()) note_look(words.archive, input.stored_runs);
+  add_history(input, words.ledger);
+}
+
 int html_report(const ArchiveReader& archive, const ReportWords& words) {
   if (!words.out.empty() || words.json || words.format != "text")
-    throw InputError("--html",
-                     "writes a page of its own; leave out --output, --json and --format, or call report twice");
+    throw InputError(words.html.empty() ? "--evidence" : "--html",
+                     "writes files of its own; leave out --output, --json and --format, or call report twice");
   HtmlInput input = read_html_input(archive, words.archive);
   add_baseline(input.report, archive, words);
-  if (!words.no_film) input.strips = film_strips(archive, words.archive, input.figures);
-  write_whole({words.html, "--html", OutputKind::Report}, render_html(input));
+  show_history(input.report, words);
+  if (!words.no_film) input.strips = film_strips(archive, words.archive, input.report.failures);
+  if (!words.html.empty()) write_whole({words.html, "--html", OutputKind::Report}, render_html(input));
+  if (!words.evidence.empty()) write_evidence_set(words.evidence, archive, input);
   return exit_code_of(input.report, words);
 }
 
@@ -70,13 +81,14 @@ int report(const ReportWords& words) {
     print_digest(archive, words.json);
     return kDemonstrated;
   }
-  if (!words.html.empty()) return html_report(archive, words);
+  if (!words.html.empty() || !words.evidence.empty()) return html_report(archive, words);
   const bool is_page = !words.json && (words.format == "text" || words.format == "markdown");
   if (!words.baseline.empty() && !is_page)
     throw InputError("--baseline",
                      "stands on pages for people (text, markdown, --html); see: fleetproof compare --json");
   ReportInput input = read_report_input(archive, words.archive);
   add_baseline(input, archive, words);
+  show_history(input, words);
   const std::string text = render(input, words.json ? "json" : words.format);
   if (words.out.empty()) {
     put_text(text);
@@ -96,6 +108,9 @@ Action prepare_report(Options& options) {
   options.option("--html", words->html, "write one self-contained HTML page with maps and charts to this file");
   options.option("--baseline", words->baseline, "also say what changed since this campaign file");
   options.flag("--no-film", words->no_film, "leave out the film strips, which simulate up to ten runs again");
+  options.option("--evidence", words->evidence,
+                 "write the evidence of a release to this new folder: page, reports, runs as CSV, checksums");
+  options.option("--ledger", words->ledger, "ledger of attempts (default: the one that the campaign wrote to)");
   options.flag("--json", words->json, "the same as --format json");
   options.flag("--digest", words->digest,
                "print one digest of plan and results, the same from every build, and beside it the engine");

@@ -4,13 +4,14 @@
 #include <array>
 
 #include "core/base/error.hpp"
+#include "core/scenario/faults.hpp"
 
 namespace fleetproof {
 namespace {
 
 using enum IncidentKind;
 
-constexpr std::array<IncidentKindInfo, 17> kKinds{{
+constexpr std::array<IncidentKindInfo, 19> kKinds{{
     {BatteryEmpty, "battery-empty", "micrometres to the nearest charging station",
      "the battery of an AGV ran empty away from a charging station"},
     {ChannelSaturated, "channel-saturated", "millionths of the air time, at the peak",
@@ -37,6 +38,12 @@ constexpr std::array<IncidentKindInfo, 17> kKinds{{
      "the fleet stood still while the radio kept its contract"},
     {ThroughputBelowFloor, "throughput-below-floor", "thousandths of a transport per AGV-hour",
      "the fleet finished fewer transports than the floor requires"},
+    {FaultInjected, "fault-injected",
+     "kind of the fault: 1 breakdown, 2 protective stop, 3 load drop, 4 restart, 5 "
+     "freeze, 6 power failure",
+     "a fault of the scenario struck an AGV"},
+    {ForeignBody, "foreign-body", "1: a fallen load; 0: an obstacle",
+     "a body lay on the floor that no control software is told of"},
 }};
 
 static_assert([] {
@@ -56,6 +63,16 @@ const IncidentKindInfo& info_of(IncidentKind kind) {
   const auto number = static_cast<std::uint32_t>(kind);
   ensure(is_incident_kind(number), "a kind of incident is in its catalogue");
   return kKinds[number - 1];
+}
+
+std::string_view fault_word(const Incident& incident) {
+  ensure(incident.kind == IncidentKind::FaultInjected, "an injected fault has a word");
+  return name_of(static_cast<Fault::Kind>(incident.value));
+}
+
+bool is_load_drop(const Incident& incident) {
+  return incident.kind == IncidentKind::FaultInjected &&
+         static_cast<Fault::Kind>(incident.value) == Fault::Kind::LoadDrop;
 }
 
 }  // namespace fleetproof

@@ -85,11 +85,15 @@ void Evidence::add(const RunRecord& run) {
   pending_tallies_[run.cell].add(run.outcome);
   if (const auto failing = FailingRun::of(run)) {
     (run.factors.in_contract() ? worst_inside_ : worst_outside_).add(*failing);
-    if (run.factors.in_contract() && result_of(run.outcome, EndPoint::Violation) == RunResult::Failed)
-      add_contract_failure(*failing);
+    if (run.factors.in_contract() && (run.outcome.violation || run.outcome.contact)) {
+      const bool failed = result_of(run.outcome, EndPoint::Violation) == RunResult::Failed;
+      add_to(failed ? contract_failures_ : foreign_body_runs_, *failing);
+    }
   }
   std::map<IncidentKind, std::uint64_t> incidents;
-  for (const auto& incident : run.outcome.incidents) ++incidents[incident.kind];
+  for (const auto& incident : run.outcome.incidents) {
+    if (accuses(incident.kind)) ++incidents[incident.kind];
+  }
   for (const auto& [kind, count] : incidents) {
     auto& tally =
         incidents_[cells_[run.cell].agent].try_emplace(kind, IncidentTally{0, 0, run.run_index}).first->second;
@@ -105,20 +109,20 @@ void Evidence::add(const RunRecord& run) {
   if (run.cell + 1 == cells_.size()) finish_replicate();
 }
 
-void Evidence::add_contract_failure(const FailingRun& run) {
+void Evidence::add_to(RunsByAgent& runs, const FailingRun& run) const {
   const auto& agent = cells_[run.cell].agent;
-  auto& failures = contract_failures_.try_emplace(agent, ContractFailures{agent, 0, run}).first->second;
-  ++failures.runs;
-  if (more_serious(run, failures.worst)) failures.worst = run;
+  AgentRuns& of_agent = runs.try_emplace(agent, AgentRuns{agent, 0, run}).first->second;
+  ++of_agent.runs;
+  if (more_serious(run, of_agent.worst)) of_agent.worst = run;
 }
 
-std::vector<ContractFailures> Evidence::contract_failures() const {
-  std::vector<ContractFailures> list;
+std::vector<AgentRuns> Evidence::in_order(const RunsByAgent& runs) const {
+  std::vector<AgentRuns> list;
   for (std::size_t i = gates_.size(); i < pools_.size(); ++i) {
-    const auto found = contract_failures_.find(cells_[pools_[i].pool().cells.front()].agent);
-    const bool listed = !list.empty() && found != contract_failures_.end() &&
-                        list.back().agent == found->first;  // conditions come agent by agent
-    if (found != contract_failures_.end() && !listed) list.push_back(found->second);
+    const auto found = runs.find(cells_[pools_[i].pool().cells.front()].agent);
+    const bool listed =
+        !list.empty() && found != runs.end() && list.back().agent == found->first;  // conditions come agent by agent
+    if (found != runs.end() && !listed) list.push_back(found->second);
   }
   return list;
 }

@@ -25,9 +25,8 @@ struct Condition {
   std::optional<FailingRun> worst;  // the most serious run with a violation or an unknown end
 };
 
-// The runs of one agent that broke the safety distance within the contract region, by the factors of the run
-// itself.
-struct ContractFailures {
+// Some runs of one agent, and the most serious of them.
+struct AgentRuns {
   std::string agent;
   std::uint64_t runs = 0;
   FailingRun worst;
@@ -72,14 +71,19 @@ class Evidence {
 
   std::vector<Condition> conditions() const;          // in the order of the campaign's agents, then by factors
   std::vector<AgentCoverage> agent_coverage() const;  // in the order of the campaign's agents
-  std::vector<ContractFailures> contract_failures()
-      const;  // in the order of the campaign's agents; only agents that have such failures
+  // Runs within the contract region, by the factors of the run itself, in the order of the campaign's agents; only
+  // agents that have such runs. The first: the software broke the safety distance. The second: AGVs came too close to
+  // foreign bodies only (foreign_bodies.hpp).
+  std::vector<AgentRuns> contract_failures() const { return in_order(contract_failures_); }
+  std::vector<AgentRuns> foreign_body_runs() const { return in_order(foreign_body_runs_); }
   const std::vector<FailingRun>& worst_runs(bool in_contract) const {
     return (in_contract ? worst_inside_ : worst_outside_).list();
   }
 
  private:
-  void add_contract_failure(const FailingRun& run);
+  using RunsByAgent = std::map<std::string, AgentRuns>;
+  void add_to(RunsByAgent& runs, const FailingRun& run) const;
+  std::vector<AgentRuns> in_order(const RunsByAgent& runs) const;
   void add_to_pool(std::size_t index, const RunRecord& run);
   void finish_replicate();
 
@@ -98,7 +102,7 @@ class Evidence {
   std::vector<Coverage> coverage_, pending_coverage_;  // in the same order
   std::vector<std::string> required_probes_;
   std::map<std::string, std::map<IncidentKind, IncidentTally>> incidents_;  // by agent, of the runs read so far
-  std::map<std::string, ContractFailures> contract_failures_;               // likewise
+  RunsByAgent contract_failures_, foreign_body_runs_;                       // likewise
   WorstRuns worst_inside_{kWorstRuns}, worst_outside_{kWorstRuns};
 };
 

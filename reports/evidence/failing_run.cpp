@@ -9,32 +9,6 @@
 namespace fleetproof {
 namespace {
 
-// Kinds that have an end point (storage/gate_record.hpp).
-bool is_judged(IncidentKind kind) {
-  switch (kind) {
-    case IncidentKind::BatteryEmpty:
-    case IncidentKind::LoadHeldByTwo:
-    case IncidentKind::LoadVanished:
-    case IncidentKind::LoadDeliveredTwice:
-    case IncidentKind::LoadPickedByFullAgv:
-    case IncidentKind::LoadAtWrongStation:
-    case IncidentKind::LoadMovedByNobody:
-    case IncidentKind::Deadlock:
-    case IncidentKind::Livelock:
-    case IncidentKind::Starvation:
-    case IncidentKind::StandstillInContract:
-      return true;
-    case IncidentKind::ChannelSaturated:
-    case IncidentKind::InterferenceLosses:
-    case IncidentKind::WaitsDeclared:
-    case IncidentKind::WaitsInferred:
-    case IncidentKind::SafeModeInContract:
-    case IncidentKind::ThroughputBelowFloor:
-      return false;
-  }
-  invariant_violated("a kind of incident is judged or not");
-}
-
 std::optional<Incident> first_judged(const Outcome& outcome) {
   const auto found =
       std::ranges::find_if(outcome.incidents, [](const Incident& incident) { return is_judged(incident.kind); });
@@ -95,6 +69,9 @@ std::optional<FailingRun> FailingRun::of(const RunRecord& run) {
   failing.min_clearance_um = run.outcome.min_clearance_um;
   failing.violations = run.outcome.violations.size();
   failing.message = run.outcome.message;
+  const auto cause = first_cause(run.outcome);
+  ensure(cause.has_value(), "what failed has a first cause");
+  failing.cause = *cause;
   failing.incident = first_judged(run.outcome);
   if (const Violation* worst = worst_of(run.outcome.violations)) failing.worst = *worst;
   return failing;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "reports/evidence/first_cause.hpp"
 #include "storage/records.hpp"
 
 namespace fleetproof {
@@ -23,6 +24,7 @@ struct FailingRun {
   std::size_t violations = 0;
   std::optional<Violation> worst;    // of the violations
   std::optional<Incident> incident;  // the first that a gate may be put on
+  FirstCause cause;
   std::string message;
 
   // Absent if nothing went wrong in the run.

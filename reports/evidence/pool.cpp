@@ -6,6 +6,7 @@
 #include "core/base/error.hpp"
 #include "core/outcome/work_and_progress.hpp"
 #include "reports/evidence/exposure.hpp"
+#include "reports/evidence/foreign_bodies.hpp"
 
 namespace fleetproof {
 namespace {
@@ -41,16 +42,21 @@ RunResult PoolCounter::result_of_run(const Outcome& outcome) {
   if (pool_.rule.end_point != EndPoint::Throughput) return result_of(outcome, pool_.rule.end_point);
   // A crashed or hung AGV delivers nothing: that the fleet was slow then says nothing about its speed.
   if (result_of(outcome, EndPoint::Crash) != RunResult::Passed) return RunResult::Unknown;
-  if (pool_.rule.unit == GateUnit::Run) return throughput_result(outcome.counters.transports_done, agv_us(outcome));
+  const bool foreign = met_foreign_bodies(outcome);
+  if (pool_.rule.unit == GateUnit::Run)
+    return throughput_result(outcome.counters.transports_done, agv_us(outcome), foreign);
+  pending_.foreign_body_lay |= foreign;
   pending_.transports_done += outcome.counters.transports_done;
   pending_.agv_us += agv_us(outcome);
   return RunResult::Passed;  // the world decides
 }
 
-RunResult PoolCounter::throughput_result(std::uint64_t transports_done, std::uint64_t agv_us) const {
+RunResult PoolCounter::throughput_result(std::uint64_t transports_done, std::uint64_t agv_us,
+                                         bool foreign_body_lay) const {
   if (agv_us == 0) return RunResult::Unknown;
   const bool enough = transports_per_agv_hour(transports_done, agv_hours(agv_us)) >= pool_.rule.floor_per_agv_hour;
-  return enough ? RunResult::Passed : RunResult::Failed;
+  if (enough) return RunResult::Passed;
+  return foreign_body_lay ? RunResult::Unknown : RunResult::Failed;
 }
 
 void PoolCounter::finish_replicate() {
@@ -58,7 +64,7 @@ void PoolCounter::finish_replicate() {
   ensure(pending_.by_cell.size() == pool_.cells.size(), "a complete replicate has a run in every cell");
   if (pool_.rule.end_point == EndPoint::Throughput && pool_.rule.unit == GateUnit::World &&
       pending_.result == RunResult::Passed) {
-    pending_.result = throughput_result(pending_.transports_done, pending_.agv_us);
+    pending_.result = throughput_result(pending_.transports_done, pending_.agv_us, pending_.foreign_body_lay);
     pool_.failing_runs += pending_.result == RunResult::Failed ? 1 : 0;
   }
   Count world{pool_.failing, pool_.failing_or_unknown};

@@ -49,11 +49,12 @@ class PoolCounter {
   struct Pending {
     RunResult result = RunResult::Passed;  // the worst so far: Failed, then Unknown
     std::uint64_t exposure_us = 0, transports_done = 0, agv_us = 0;
+    bool foreign_body_lay = false;  // a low throughput is then no finding
     std::vector<RunResult> by_cell;
   };
 
   RunResult result_of_run(const Outcome& outcome);
-  RunResult throughput_result(std::uint64_t transports_done, std::uint64_t agv_us) const;
+  RunResult throughput_result(std::uint64_t transports_done, std::uint64_t agv_us, bool foreign_body_lay) const;
   void count_cells();
 
   Pool pool_;

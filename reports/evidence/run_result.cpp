@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/error.hpp"
+#include "reports/evidence/foreign_bodies.hpp"
 
 namespace fleetproof {
 namespace {
@@ -16,9 +17,20 @@ RunResult failed_or(bool failed, bool unknown) {
   return unknown ? RunResult::Unknown : RunResult::Passed;
 }
 
-bool has_hazardous_contact(const Outcome& outcome) {
-  return std::ranges::any_of(outcome.violations,
-                             [](const Violation& v) { return level_of(v) == ViolationLevel::HazardousContact; });
+// At least of this level. Without a list of violations, the flags of the outcome say it.
+RunResult violation_result(const Outcome& outcome, ViolationLevel level) {
+  const bool unknown = ended_early(outcome);
+  if (outcome.violations.empty()) {
+    const bool violated = level == ViolationLevel::SafetyDistance ? outcome.violation || outcome.contact
+                                                                  : level == ViolationLevel::Contact && outcome.contact;
+    return failed_or(violated, unknown);
+  }
+  const std::vector<bool> answers = answerable(outcome);
+  bool own = false, foreign = false;
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    if (level_of(outcome.violations[i]) >= level) (answers[i] ? own : foreign) = true;
+  }
+  return failed_or(own, foreign || unknown);
 }
 
 bool is_wrong_load(const Incident& incident) {
@@ -36,12 +48,13 @@ SimTime first_wreck(const Outcome& outcome) {
 
 RunResult progress_result(const Outcome& outcome, IncidentKind kind) {
   const SimTime wreck = first_wreck(outcome);
-  bool before_wreck = false, behind_wreck = false;
+  bool by_itself = false, consequence = false;
   for (const Incident& incident : outcome.incidents) {
-    if (incident.kind == kind) (incident.first < wreck ? before_wreck : behind_wreck) = true;
+    if (incident.kind != kind) continue;
+    (incident.first < wreck && !foreign_body_lay(outcome, incident) ? by_itself : consequence) = true;
   }
   const bool lost_an_agv = ended_early(outcome) || wreck != kForever;
-  return failed_or(before_wreck && !ended_early(outcome), behind_wreck || lost_an_agv);
+  return failed_or(by_itself && !ended_early(outcome), consequence || lost_an_agv);
 }
 
 }  // namespace
@@ -53,11 +66,11 @@ RunResult result_of(const Outcome& outcome, EndPoint end_point) {
   };
   switch (end_point) {
     case EndPoint::Violation:
-      return failed_or(outcome.violation || outcome.contact, unknown);
+      return violation_result(outcome, ViolationLevel::SafetyDistance);
     case EndPoint::Contact:
-      return failed_or(outcome.contact, unknown);
+      return violation_result(outcome, ViolationLevel::Contact);
     case EndPoint::HazardousContact:
-      return failed_or(has_hazardous_contact(outcome), unknown);
+      return violation_result(outcome, ViolationLevel::HazardousContact);
     case EndPoint::Deadlock:
       return progress_result(outcome, IncidentKind::Deadlock);
     case EndPoint::Livelock:

@@ -46,9 +46,8 @@ void CampaignFigures::add(const RunRecord& run, const Evidence& evidence) {
   ++figures.runs;
   (run.factors.in_contract() ? figures.in_contract : figures.beyond).add(run.outcome);
   if (const auto failing = FailingRun::of(run))
-    figures.failures.add(std::string(name_of(failing->severity)) + ": " + first_cause(run, *failing), figures.runs);
+    figures.failures.add(std::string(name_of(failing->severity)) + ": " + failing->cause.what, figures.runs);
   for (const auto& probe : run.outcome.probes) figures.situations.add(probe.name, figures.runs);
-  failures_.add(run, agent);
   pending_time_.resize(cells.size());
   auto& time = pending_time_[run.cell];
   time.safe_mode_s += static_cast<double>(run.outcome.counters.safe_mode_ns) * 1e-9;

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "reports/evidence/evidence.hpp"
-#include "reports/html/failure_groups.hpp"
 
 namespace fleetproof::html {
 
@@ -56,7 +55,6 @@ class CampaignFigures {
 
   const std::map<std::string, AgentFigures>& agents() const { return agents_; }
   const std::vector<std::vector<BoundPoint>>& bounds() const { return bounds_; }  // by gate; empty: no falling bound
-  const FailureGroups& failures() const { return failures_; }
   // Safe mode divided by all time, over AGVs and complete replicates; absent without any time.
   std::optional<double> safe_mode_share(const std::vector<std::uint32_t>& cells) const;
 
@@ -69,7 +67,6 @@ class CampaignFigures {
 
   std::map<std::string, AgentFigures> agents_;
   std::vector<std::vector<BoundPoint>> bounds_;
-  FailureGroups failures_;
   std::vector<Time> time_, pending_time_;  // by cell
   std::uint64_t next_record_ = 1;          // replicates
 };

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "reports/failure_section.hpp"
 #include "reports/html/section_tables.hpp"
 #include "reports/verdict_sentences.hpp"
 #include "reports/wording.hpp"
@@ -13,29 +14,10 @@ namespace {
 
 constexpr std::size_t kMostGroups = 50;
 
-std::string grouped(std::uint64_t count) {
-  std::string text = std::to_string(count);
-  for (auto at = static_cast<std::ptrdiff_t>(text.size()) - 3; at > 0; at -= 3)
-    text.insert(static_cast<std::size_t>(at), " ");
-  return text;
-}
-
-Table table_of_groups(const std::vector<FailureGroup>& groups) {
-  Table table;
-  table.columns = {{"agent", false}, {"end point", false}, {"first cause", false},
-                   {"runs"},         {"distinct"},         {"worst run"}};
-  for (const FailureGroup& group : groups) {
-    table.rows.push_back({printable(group.agent, 40), group.end_point, printable(group.first_cause, 80),
-                          grouped(group.runs), (group.at_least ? ">= " : "") + grouped(group.distinct),
-                          std::to_string(group.worst.run_index)});
-  }
-  return table;
-}
-
 Element worst_of_group(const ReportInput& input, const FailureGroup& group, const FilmStrips& strips) {
   Element block("div", {{"class", "case"}});
-  block.add(text_element("h3", fmt::format("{}: {}; first cause: {}", printable(group.agent, 40), group.end_point,
-                                           printable(group.first_cause, 80))));
+  block.add(text_element("h3", fmt::format("{}: {}; first cause: {}; before it: {}", printable(group.agent, 40),
+                                           group.end_point, printable(group.first_cause, 80), name_of(group.before))));
   const Remark remark = describe(input, group.worst);
   block.add(paragraph(remark.text));
   if (!remark.command.empty()) block.add(Element("pre").add(text_element("code", remark.command)));
@@ -45,16 +27,17 @@ Element worst_of_group(const ReportInput& input, const FailureGroup& group, cons
 
 }  // namespace
 
-Element failure_part(const ReportInput& input, const CampaignFigures& figures, const FilmStrips& strips) {
+Element failure_part(const ReportInput& input, const FilmStrips& strips) {
   Element part = titled("Failing runs, by what went wrong first");
-  auto groups = figures.failures().list();
+  auto groups = input.failures.list();
   if (groups.empty()) return part.add(paragraph("No run failed."));
   const std::size_t all = groups.size();
   groups.resize(std::min(all, kMostGroups));
   part.add(paragraph(
       "End point = the most serious thing that happened in the run. First cause = what happened first; what follows "
-      "may be its consequence. Distinct = runs with the same trace count once."));
-  part.add(table_of(table_of_groups(groups)));
+      "may be its consequence. Before it = what the scenario had done to the bodies involved; that is an order in "
+      "time and shows no cause. Distinct = runs with the same trace count once."));
+  part.add(table_of(failure_table(groups)));
   part.add(paragraph(
       "Below, the worst run of each group with the command that replays it. A film strip shows the floor from above, "
       "in metres, around the worst instant, which has a thick frame. The AGVs in orange are those that went wrong; the "

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <map>
 
-#include "reports/html/campaign_figures.hpp"
 #include "reports/html/film_strip.hpp"
 #include "reports/html/markup.hpp"
 #include "reports/report.hpp"
@@ -15,6 +14,6 @@ using FilmStrips = std::map<std::uint64_t, FilmStrip>;
 
 // Failing runs by agent, end point and first cause, at most 50 groups: a table, then the worst run of each group with
 // its replay line and its strip, if there is one.
-Element failure_part(const ReportInput& input, const CampaignFigures& figures, const FilmStrips& strips);
+Element failure_part(const ReportInput& input, const FilmStrips& strips);
 
 }  // namespace fleetproof::html

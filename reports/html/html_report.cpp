@@ -158,8 +158,9 @@ std::string render_html(const HtmlInput& input) {
   add({Topic::Groups});
   main.add(html::clearance_part(input.report, input.figures)).add(html::effort_part(input.report, input.figures));
   // The worst run of each group stands there: a list of the worst runs would be one failure many times.
-  main.add(html::failure_part(input.report, input.figures, input.strips));
-  add({Topic::Comparison, Topic::Coverage, Topic::Conditions, Topic::Audit, Topic::WeakPoints, Topic::Provenance});
+  main.add(html::failure_part(input.report, input.strips));
+  add({Topic::Comparison, Topic::Coverage, Topic::Conditions, Topic::Audit, Topic::WeakPoints, Topic::Attempts,
+       Topic::Provenance});
   main.add(plan_part(input.report));
   add({Topic::Method});
   main.add(assumptions_part()).add(limits_part());

@@ -36,7 +36,6 @@ const std::map<std::string, std::string> kForTests = {
     {"OutageProcess::next_change", "the exact instants of change; asking `bad_at` would miss short outages"},
     {"RadioSources::on_process", "the process of one source, for the same reason"},
     {"parse_campaign_file", "fuzzers and tests give bytes instead of a file"},
-    {"sha256_hex", "the standard gives its examples as bytes instead of files"},
 };
 
 bool is_product(const Source& source) { return !source.path.starts_with("tests/"); }

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "tests/support/program.hpp"
 
@@ -82,6 +83,26 @@ TEST_F(DefaultGates, CanBeLeftOut) {
   const auto found = verdicts("\"reckless\"", "reckless", 2, "default_gates = false\n");
   EXPECT_EQ(found.at(""), "4");
   EXPECT_EQ(found.size(), 1U);
+}
+
+// Fallen loads lie in the way, and no control software is told of them.
+TEST_F(DefaultGates, BlameNobodyForWhatNoSoftwareIsToldOf) {
+  const auto found =
+      verdicts("\"hull-lock\"", "hull-lock", 30,
+               "seed = 5\nhorizon_s = 300\n[faults]\nload_drops_per_transport = 0.5\nload_lies_s = 200\n");
+  for (const auto& [end_point, verdict] : found) EXPECT_NE(verdict, "violated") << end_point;
+  EXPECT_EQ(found.at(""), "4");
+  const std::string page = std::regex_replace(run("report c.db").out, std::regex("\n +"), " ");
+  EXPECT_THAT(page, testing::HasSubstr("No control software is told of these"));
+  EXPECT_THAT(page, testing::HasSubstr("broke the safety distance of 0.10 m in 0 of 30 worlds"));
+  const auto report = nlohmann::json::parse(run("report c.db --format json").out);
+  std::uint64_t contacts = 0;
+  for (const auto& cell : report.at("cells")) {
+    EXPECT_EQ(cell.at("violating_runs"), 0);
+    contacts += cell.at("contact_runs").get<std::uint64_t>();
+  }
+  EXPECT_GT(contacts, 10U) << "the test is about something";
+  for (const auto& group : report.at("failure_groups")) EXPECT_NE(group.at("before"), "no injected fault");
 }
 
 }  // namespace

@@ -7,15 +7,29 @@ FACTORS = (("loss", "loss_to"), ("delay_s", "delay_to_s"), ("mean_outage_s", "me
 KINDS = {1: "battery-empty", 2: "channel-saturated", 3: "interference-losses", 4: "load-held-by-two",
          5: "load-vanished", 6: "load-delivered-twice", 7: "load-picked-by-full-agv", 8: "load-at-wrong-station",
          9: "load-moved-by-nobody", 10: "deadlock", 11: "waits", 12: "waits-inferred", 13: "livelock",
-         14: "starvation", 15: "safe-mode-in-contract", 16: "standstill-in-contract", 17: "throughput-below-floor"}
+         14: "starvation", 15: "safe-mode-in-contract", 16: "standstill-in-contract", 17: "throughput-below-floor",
+         18: "fault-injected", 19: "foreign-body"}
 EARLY = "(crash OR hang OR indeterminate OR engine_error)"
 
 # By run: whether each end point failed (1), stayed unknown (2) or neither (0). Behind the first contact a lack of
 # progress is a consequence, hence unknown.
+# While a foreign body (a fallen load, an obstacle) lay on the floor, nobody knows what the fleet waited for.
 def progress(kind):
-    before = f"EXISTS (SELECT 1 FROM incidents i WHERE i.run_index = r.run_index AND i.kind = {kind} AND first_ns < w)"
-    behind = before.replace("first_ns < w", "first_ns >= w")
+    lay = ("EXISTS (SELECT 1 FROM incidents b WHERE b.run_index = r.run_index AND b.kind = 19 AND b.first_ns < i.last_ns "
+           "AND b.last_ns > i.first_ns)")
+    of_kind = f"SELECT 1 FROM incidents i WHERE i.run_index = r.run_index AND i.kind = {kind}"
+    before = f"EXISTS ({of_kind} AND first_ns < w AND NOT {lay})"
+    behind = f"EXISTS ({of_kind} AND (first_ns >= w OR {lay}))"
     return f"CASE WHEN {before} AND NOT {EARLY} THEN 1 WHEN {behind} OR {EARLY} OR w < {2**62} THEN 2 ELSE 0 END"
+
+
+# The software answers for violations that have no row in temp.foreign. A run without rows has its flags alone.
+def violation(condition, flags):
+    rows = f"SELECT 1 FROM violations v WHERE v.run_index = r.run_index AND {condition}"
+    own = (f"EXISTS ({rows} AND NOT EXISTS (SELECT 1 FROM temp.foreign_bodies f WHERE f.run_index = v.run_index AND "
+           "f.ordinal = v.ordinal))")
+    bare = "NOT EXISTS (SELECT 1 FROM violations v WHERE v.run_index = r.run_index)"
+    return f"CASE WHEN {own} OR ({flags} AND {bare}) THEN 1 WHEN EXISTS ({rows}) OR {EARLY} THEN 2 ELSE 0 END"
 
 
 def failed_or(failed):
@@ -27,10 +41,9 @@ def incident(condition):
 
 
 END_POINTS = {
-    "violation": failed_or("violation OR contact"),
-    "contact": failed_or("r.contact"),
-    "hazardous-contact": failed_or("EXISTS (SELECT 1 FROM violations v WHERE v.run_index = r.run_index AND v.contact "
-                                   "AND v.relative_speed_um_s > 300000)"),
+    "violation": violation("1", "(r.violation OR r.contact)"),
+    "contact": violation("v.contact", "r.contact"),
+    "hazardous-contact": violation("v.contact AND v.relative_speed_um_s > 300000", "0"),
     "deadlock": progress(10), "livelock": progress(13), "starvation": progress(14), "standstill": progress(16),
     "wrong-load": incident("i.kind BETWEEN 4 AND 9"), "empty-battery": incident("i.kind = 1"),
     "crash": failed_or("crash"), "hang": failed_or("hang")}
@@ -53,6 +66,26 @@ class Archive:
             "CREATE TEMP TABLE wrecks AS SELECT run_index, min(first_ns) AS w FROM violations WHERE contact "
             "GROUP BY run_index")
         self.db.execute("CREATE UNIQUE INDEX temp.by_run ON wrecks(run_index)")
+        self.note_foreign_bodies()
+
+    def note_foreign_bodies(self):
+        """Violations with a body that is no AGV, or with an AGV that hit one before and lies there; and runs with any
+        such body."""
+        self.db.execute("CREATE TEMP TABLE foreign_bodies (run_index, ordinal, PRIMARY KEY (run_index, ordinal))")
+        self.db.execute("CREATE TEMP TABLE met_foreign (run_index INTEGER PRIMARY KEY)")
+        hit = "agv_count > 0 AND (entity_a >= agv_count OR entity_b >= agv_count)"
+        wrecks, run = set(), None
+        for row in self.all(f"SELECT v.*, agv_count FROM violations v JOIN runs USING (run_index) WHERE run_index IN "
+                            f"(SELECT run_index FROM violations JOIN runs USING (run_index) WHERE {hit}) ORDER BY "
+                            "run_index, first_ns, ordinal"):
+            if row["run_index"] != run:
+                wrecks, run = set(), row["run_index"]
+            pair = {row["entity_a"], row["entity_b"]}
+            if max(pair) >= row["agv_count"] or pair & wrecks:
+                self.db.execute("INSERT INTO temp.foreign_bodies VALUES (?, ?)", (run, row["ordinal"]))
+                wrecks |= pair if row["contact"] else set()
+        self.db.execute("INSERT INTO temp.met_foreign SELECT run_index FROM incidents WHERE kind = 19 UNION "
+                        f"SELECT run_index FROM violations JOIN runs USING (run_index) WHERE {hit}")
 
     def all(self, query, *values):
         return self.db.execute(query, values).fetchall()
@@ -69,7 +102,8 @@ class Archive:
         what = END_POINTS[end_point] if end_point != "throughput" else failed_or("crash")
         return self.db.execute(
             f"SELECT replicate, r.run_index, cell, {what} AS result, simulated_ns / 1000 * agv_count AS agv_us, "
-            f"transports_done FROM (SELECT runs.*, coalesce(w, {2**62}) AS w FROM runs LEFT JOIN temp.wrecks "
+            f"transports_done, EXISTS (SELECT 1 FROM temp.met_foreign m WHERE m.run_index = r.run_index) AS foreign_body "
+            f"FROM (SELECT runs.*, coalesce(w, {2**62}) AS w FROM runs LEFT JOIN temp.wrecks "
             f"USING (run_index)) r WHERE cell IN ({listed}) AND replicate < {self.replicates} ORDER BY r.run_index")
 
     def units(self, end_point, unit, cells, floor=0.0):
@@ -77,13 +111,13 @@ class Archive:
         if unit == "run":
             return self.worst_cell(end_point, cells, floor)
         failing = unknown = exposure_us = 0
-        replicate, worst, agv_us, done = None, 0, 0, 0
+        replicate, worst, agv_us, done, foreign = None, 0, 0, 0, 0
 
         def close():
             nonlocal failing, unknown
             result = worst
             if end_point == "throughput" and result == 0:
-                result = 2 if agv_us == 0 else int(done / (agv_us / 3.6e9) < floor)
+                result = 2 if agv_us == 0 else int(done / (agv_us / 3.6e9) < floor) * (1 + foreign)
             failing += result == 1
             unknown += result == 2
 
@@ -91,7 +125,7 @@ class Archive:
             if row["replicate"] != replicate:
                 if replicate is not None:
                     close()
-                replicate, worst, agv_us, done = row["replicate"], 0, 0, 0
+                replicate, worst, agv_us, done, foreign = row["replicate"], 0, 0, 0, 0
             result = row["result"]
             if end_point == "throughput" and result:
                 result = 2
@@ -100,6 +134,7 @@ class Archive:
             worst = 1 if 1 in (worst, result) else max(worst, result)
             agv_us += row["agv_us"]
             done += row["transports_done"]
+            foreign |= row["foreign_body"]
         if replicate is not None:
             close()
         units = exposure_us if unit == "agv-hour" else (self.replicates if cells else 0)
@@ -111,7 +146,8 @@ class Archive:
             result = row["result"]
             if end_point == "throughput":
                 hours = row["agv_us"] / 3.6e9
-                result = 2 if result or hours == 0.0 else int(row["transports_done"] / hours < floor)
+                result = 2 if result or hours == 0.0 else int(row["transports_done"] / hours < floor) * (
+                    1 + row["foreign_body"])
             failing[row["cell"]] += result == 1
             unknown[row["cell"]] += result != 0
         units = self.replicates if cells else 0
@@ -127,13 +163,13 @@ class Archive:
         """Sums over the complete replicates."""
         listed = ",".join(str(cell) for cell in cells) or "-1"
         return self.one(
-            "SELECT count(*) AS runs, coalesce(sum(violation OR contact), 0) AS violating, "
+            f"SELECT count(*) AS runs, coalesce(sum(({END_POINTS['violation']}) = 1), 0) AS violating, "
             "coalesce(sum(contact), 0) AS contact, coalesce(sum(stuck), 0) AS stuck, "
             "coalesce(sum(crash) + sum(hang), 0) AS ended, min(min_clearance_um) AS closest_um, "
             "coalesce(sum(transports_done), 0) AS done, coalesce(sum(simulated_ns / 1000 * agv_count), 0) AS agv_us, "
             "coalesce(sum(safe_mode_ns), 0) AS safe_mode_ns, coalesce(sum(simulated_ns * agv_count), 0) AS all_ns, "
             "coalesce(max(simulated_ns), 0) AS longest_ns "
-            f"FROM runs WHERE cell IN ({listed}) AND replicate < {self.replicates}")
+            f"FROM runs r WHERE cell IN ({listed}) AND replicate < {self.replicates}")
 
     def conditions(self):
         """[(agent, lowest factors, highest factors, cells)]: agents in their order, then by factors."""

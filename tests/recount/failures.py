@@ -12,7 +12,7 @@ def pair(a, b, agvs):
         return ""
     if a is None or b is None:
         return ", one body"
-    return ", two AGVs" if max(a, b) < agvs else ", AGV and another body"
+    return ", two AGVs" if agvs == 0 or max(a, b) < agvs else ", AGV and another body"
 
 
 def level(violation):
@@ -28,8 +28,33 @@ def rank_of(violation):
     return -2 if violation["relative_speed_um_s"] > 300000 else -1, -violation["relative_speed_um_s"]
 
 
+NOTHING, KNOWN, FOREIGN, UNDECIDED = ("no injected fault", "a fault that the software could know of",
+                                     "a body that no software is told of", "faults; which of them matter is not known")
+LOAD_DROP = 3
+
+
+def before(run, faults, at_ns, a, b, is_violation):
+    """What the scenario had done to the bodies before."""
+    agvs = run["agv_count"]
+    foreign = [body is not None and agvs > 0 and body >= agvs for body in (a, b)]
+    named = a is not None and (b is not None or not foreign[0])
+    earlier = [fault for fault in faults if fault["first_ns"] <= at_ns]
+    found = NOTHING
+    for fault in earlier:
+        if named and fault["entity_a"] in (a, b):
+            kind = FOREIGN if fault["kind"] == 19 else UNDECIDED if fault["value"] == LOAD_DROP else KNOWN
+            found = max(found, kind, key=(NOTHING, KNOWN, FOREIGN, UNDECIDED).index)
+    if any(foreign):
+        return FOREIGN
+    unnoted = run["faults"] > 0 and not faults
+    return UNDECIDED if found == NOTHING and (earlier or unnoted) and not is_violation else found
+
+
 def failing_runs(archive):
-    """(agent, end point, first cause, run) in order of run index."""
+    """(agent, end point, first cause, before, run) in order of run index."""
+    faults = defaultdict(list)
+    for row in archive.db.execute("SELECT * FROM incidents WHERE kind >= 18 ORDER BY run_index, ordinal"):
+        faults[row["run_index"]].append(row)
     first_violation, first_incident = {}, {}
     for row in archive.db.execute("SELECT * FROM violations ORDER BY run_index, first_ns, ordinal"):
         first_violation.setdefault(row["run_index"], row)
@@ -42,12 +67,13 @@ def failing_runs(archive):
         end = run["end"] or ("incident" if incident else None)
         if end is None:
             continue
-        cause = "nothing that a law (monitor) names"
-        if incident and (not violation or incident["first_ns"] < violation["first_ns"]):
-            cause = KINDS[incident["kind"]] + pair(incident["entity_a"], incident["entity_b"], run["agv_count"])
-        elif violation:
-            cause = level(violation) + pair(violation["entity_a"], violation["entity_b"], run["agv_count"])
-        yield run["agent"], end, cause, run
+        at, a, b = run["simulated_ns"], None, None
+        cause = "stuck" if end == "stuck" else run["outcome_class"]
+        first = incident if incident and (not violation or incident["first_ns"] < violation["first_ns"]) else violation
+        if first:
+            at, a, b = first["first_ns"], first["entity_a"], first["entity_b"]
+            cause = (level(first) if first is violation else KINDS[first["kind"]]) + pair(a, b, run["agv_count"])
+        yield run["agent"], end, cause, before(run, faults[index], at, a, b, first and first is violation), run
 
 
 def ordinal_of(archive, agent, run):
@@ -65,10 +91,12 @@ class Failures:
         for row in archive.db.execute("SELECT * FROM violations"):
             index = row["run_index"]
             worst_violation[index] = min(rank_of(row), worst_violation.get(index, (1, 0)))
-        for agent, end, cause, run in failing_runs(archive):
-            key = (agent, end, cause)
-            if key not in self.groups:
+        self.kinds = set()  # the charts do not tell what came before
+        for agent, end, cause, came_before, run in failing_runs(archive):
+            key = (agent, end, cause, came_before)
+            if key[:3] not in self.kinds:
                 self.last_new[agent] = ordinal_of(archive, agent, run)
+            self.kinds.add(key[:3])
             count, worst = self.groups.get(key, (0, None))
             clearance = run["min_clearance_um"] if run["min_clearance_um"] is not None else 2**63
             rank = (worst_violation.get(run["run_index"], (0, 0)), clearance, run["run_index"])
@@ -89,7 +117,7 @@ def discoveries(archive, failures):
                            agent, archive.runs)["n"]
         if runs == 0:
             continue
-        kinds = sum(key[0] == agent for key in failures.groups)
+        kinds = sum(kind[0] == agent for kind in failures.kinds)
         met = archive.all("SELECT min(run_index) AS first FROM probes JOIN runs USING (run_index) JOIN cells USING "
                           "(cell) WHERE agent = ? AND run_index < ? GROUP BY CAST(name AS TEXT)", agent, archive.runs)
         latest = max((row["first"] for row in met), default=None)

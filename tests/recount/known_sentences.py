@@ -5,7 +5,7 @@ A sentence with digits that no pattern knows is an error, so that no figure reac
 import re
 
 import wording as w
-from counts import KINDS
+from counts import END_POINTS, KINDS
 from drawings import field_maps, gate_on_violations, grids, worlds_needed
 
 ENDS = "CASE WHEN contact THEN 'contact' WHEN violation THEN 'violation' WHEN crash THEN 'crash' WHEN hang THEN 'hang' " \
@@ -80,7 +80,7 @@ def is_weak_point(archive, found):
     return (cells, of) == (int(found[1]), int(found[2]))
 
 
-EARLY_UNKNOWN = "(crash OR hang OR indeterminate OR engine_error) AND NOT (violation OR contact)"
+EARLY_UNKNOWN = f"({END_POINTS['violation']}) = 2"
 
 
 def probes_missing(archive, found):
@@ -106,6 +106,35 @@ def is_envelope(archive, found):
     return ((limit, confidence) == (f"{100.0 * gate['limit_rate']:g}", w.percent(gate["confidence"]))
             and bool(any_time) == (gate["method"] == "any-time")
             and any((shown, size) in counts and worlds_needed(gate, min(size)) == int(needed) for size in rows_columns))
+
+
+def foreign_body_runs(archive, found):
+    return int(found[1]) == archive.one(
+        f"SELECT count(*) AS n FROM runs r JOIN cells USING (cell) WHERE agent = ? AND r.loss <= 0.4 AND r.delay_s <= 2.0 "
+        f"AND run_index < ? AND (violation OR contact) AND ({END_POINTS['violation']}) != 1", found[2],
+        archive.runs)["n"]
+
+
+def plan_time(archive, found):
+    return found[1] == f"{archive.campaign['plan_hash'] % 2**64:016x}"
+
+
+def seed(archive, found):
+    return int(found[1]) == archive.campaign["seed"] % 2**64
+
+
+def layouts(archive, found):
+    """"Layouts as units: runs of A failed or stayed unknown on 2 of 4 layouts (design effect 3.10). ... 4 units"."""
+    runs = [(row["failing"], row["n"]) for row in archive.all(
+        f"SELECT layout, count(*) AS n, sum(({END_POINTS['violation']}) != 0) AS failing FROM (SELECT r.*, layout FROM "
+        "runs r JOIN cells USING (cell) WHERE agent = ? AND loss_to <= 0.4 AND delay_to_s <= 2.0 AND replicate < ?) r "
+        "GROUP BY layout", found[1], archive.replicates)]
+    rate, units = sum(f for f, _ in runs) / sum(n for _, n in runs), sum(n for _, n in runs)
+    counted = (sum(f > 0 for f, _ in runs), len(runs), len(runs)) == (int(found[2]), int(found[3]), int(found[5]))
+    if found[4] is None:
+        return counted and rate in (0.0, 1.0)
+    spread = len(runs) / (len(runs) - 1) * sum((f - rate * n) ** 2 for f, n in runs) / units**2
+    return counted and abs(spread / (rate * (1.0 - rate) / units) - float(found[4])) <= 0.0051
 
 
 def replicates(archive, found):
@@ -147,6 +176,17 @@ PATTERNS = [(re.compile(pattern), check) for pattern, check in (
     (r"A run takes up to ([0-9.]+) s\. stalled", longest_run),
     (r"^([0-9]+) of ([0-9]+) planned replicates? (?:is|are) complete", planned),
     (r"^([0-9]+) of ([0-9]+) stored runs are not counted", uncounted),
+    (r"\bin ([0-9]+) runs? of agent (.+), AGVs came too close to fallen loads or obstacles only", foreign_body_runs),
+    (r"^Plan ([0-9a-f]{16}) was fixed before run 0, at ", plan_time),
+    (r"^When plan ([0-9a-f]{16}) was fixed is not known", plan_time),
+    (r"^Seed ([0-9]+) (was chosen by a person|follows from)", seed),
+    (r"^The data (?:obey the plan|are a part of the plan): ([0-9]+) of ([0-9]+) planned", planned),
+    (r"^Layouts as units: runs of (.+) failed or stayed unknown on ([0-9]+) of ([0-9]+) layouts(?: \(design effect "
+     r"([0-9.]+)\))?\. A claim about layouts that were not run has ([0-9]+) units", layouts),
+    # From files beside the archive: contract/attempt_ledgers_test.cpp and reports/attempts_test.cpp.
+    (r"^Earlier attempts unknown: the ledger names no other", constant),
+    (r"^The ledger names [0-9]+ other attempt", constant),
+    (r"^The results were looked at [0-9]+ times?", constant),
     # In recount.py: the title, the claim, the gates, the headlines, the charts.
     (r"^fleetproof report: ", compared_elsewhere),
     (r"(the true (share|rate) is at (most|least)|in 0 of 0 (worlds|runs)|in [0-9]+ runs?)\b.*gates? ", compared_elsewhere),

@@ -169,9 +169,9 @@ def check_failures(failures, section):
     """Where the page kept too few digests to tell, it says ">=" and has a smaller number."""
     for table in section.tables[:1]:
         for row, expected in zip(table[1:], failures.rows()):
-            row[3:5] = [cell.replace(" ", "") for cell in row[3:5]]
-            if row[4].startswith(">=") and int(row[4][2:]) <= int(expected[4]):
-                row[4] = expected[4]
+            row[4:6] = [cell.replace(" ", "") for cell in row[4:6]]
+            if row[5].startswith(">=") and int(row[5][2:]) <= int(expected[5]):
+                row[5] = expected[5]
     if failures.groups or section.tables:
         same_rows("html", "failing runs", section, failures.rows())
 

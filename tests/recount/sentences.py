@@ -3,6 +3,7 @@ import re
 
 import wording as w
 from bounds import bounds
+from counts import END_POINTS
 
 FAILURES = {"violation": "broke the safety distance", "contact": "had a contact",
             "hazardous-contact": "had a contact at hazardous speed", "deadlock": "deadlocked",
@@ -24,13 +25,15 @@ def title(archive):
 
 def gate_sentence(gate, counts):
     """What the remark about a gate must begin with."""
-    units, _, failing = counts
+    units, known, failing = counts
     hourly, risk = gate["unit"] == "agv-hour", round(1.0 - gate["confidence"], 12)
     exposure = units / 3.6e9 if hourly else units
     upper = bounds(gate["method"], gate["unit"], failing, units, risk)[1]
     pair = bounds(gate["method"], gate["unit"], failing, units, 0.025)
     text = (f"\"{gate['name']}\": " + (f"{w.count(failing, 'event')} in {exposure:.6g} AGV-hours" if hourly else
-                                       f"{failing} of {units} UNIT failed"))
+                                       f"{known} of {units} UNIT failed"))
+    if failing > known and not hourly:
+        text += f" and {failing - known} stayed unknown, which counts as failing"
     if units:
         text += f": rate {w.rate(failing / exposure)}, two-sided 95 % interval {w.interval(pair)}"
     when = "valid at any time" if gate["method"] == "any-time" else "for the planned replicates"
@@ -45,10 +48,10 @@ def finding(gate, counts, verdict):
         return None
     hourly = gate["unit"] == "agv-hour"
     text = re.escape(f"{gate['agent']} {FAILURES[gate['end_point']]}") + "( of 0.10 m)? "
-    text += re.escape(f"{w.count(failing, 'time')} in {units / 3.6e9:.6g} AGV-hours") if hourly else \
-        re.escape(f"in {failing} of {units} ") + "(runs|worlds)"
+    text += re.escape(f"{w.count(known, 'time')} in {units / 3.6e9:.6g} AGV-hours") if hourly else \
+        re.escape(f"in {known} of {units} ") + "(runs|worlds)"
     if failing > known:
-        text += re.escape(f", or may have ({failing - known} stayed unknown)")
+        text += re.escape(f", with {failing - known} more unknown")
     if units == 0:
         return text
     risk = round(1.0 - gate["confidence"], 12)
@@ -78,8 +81,8 @@ def judged(archive):
 def violation_headlines(archive):
     """agent -> runs that broke the distance within the contract, of the agents under test."""
     deciding = {gate["agent"] for gate in archive.gates if gate["decides"]}
-    rows = archive.all("SELECT agent, count(*) AS runs FROM runs r JOIN cells USING (cell) WHERE (violation OR contact) "
-                       "AND r.loss <= 0.4 AND r.delay_s <= 2.0 AND run_index < ? GROUP BY agent", archive.runs)
+    rows = archive.all(f"SELECT agent, count(*) AS runs FROM runs r JOIN cells USING (cell) WHERE "
+                       f"({END_POINTS['violation']}) = 1 AND r.loss <= 0.4 AND r.delay_s <= 2.0 AND run_index < ? GROUP BY agent", archive.runs)
     return [f"agent {row['agent']} broke the safety distance in {w.count(row['runs'], 'run')} within the contract region"
             for row in rows if not deciding or row["agent"] in deciding]
 

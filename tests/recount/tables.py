@@ -90,7 +90,7 @@ def gate_rows(archive):
     for gate in archive.gates:
         cells = archive.cells_of_gate(gate)
         counts = archive.units(gate["end_point"], gate["unit"], cells, gate["min_transports_per_agv_hour"])
-        units, _, failing = counts
+        units, known, failing = counts
         what = gate["end_point"] + (f" [{gate['requirement']}]" if gate["requirement"] else "")
         where = WHERE[gate["region"]] + (f", layout {gate['layout']}" if gate["layout"] else "")
         row = [gate["agent"], what, where]
@@ -102,7 +102,8 @@ def gate_rows(archive):
             in_unit = (lambda text, number: text(number) + " per AGV-hour") if hourly else (
                 lambda text, number: text(100.0 * number) + " %")
             limit = in_unit(lambda number: f"{number:g}", gate["limit_rate"])
-            row += [str(failing) if hourly else f"{failing}/{units}", in_unit(w.up, upper),
+            failed = str(known) + (f" +{failing - known}?" if failing > known else "")
+            row += [failed if hourly else f"{failed}/{units}", in_unit(w.up, upper),
                     ("none; " if gate["kind"] == "none" else "") + limit]
         rows.append((row, gate, counts))
     return rows
@@ -146,7 +147,7 @@ def incident_rows(archive):
     """Of all runs before the first gap."""
     return [[row["agent"], KINDS[row["kind"]], str(row["runs"]), str(row["incidents"])] for row in archive.all(
         "SELECT agent, kind, count(DISTINCT run_index) AS runs, count(*) AS incidents FROM incidents JOIN runs USING "
-        "(run_index) JOIN cells USING (cell) WHERE run_index < ? GROUP BY agent, kind ORDER BY "
+        "(run_index) JOIN cells USING (cell) WHERE run_index < ? AND kind < 18 GROUP BY agent, kind ORDER BY "
         "(SELECT min(cell) FROM cells c WHERE c.agent = cells.agent), kind", archive.runs)]
 
 

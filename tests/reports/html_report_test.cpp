@@ -163,8 +163,8 @@ TEST(HtmlReport, equal_traces_count_once) {
     for (const auto& cell : row.node().children()) rows.back().emplace_back(cell.text().get());
   }
   const std::vector<std::vector<std::string>> expected = {
-      {"sound", "contact", "contact, two AGVs", "1", "1", "0"},
-      {"sound", "violation", "safety distance broken, two AGVs", "11", "4", "1"}};
+      {"sound", "contact", "contact, two AGVs", "no injected fault", "1", "1", "0"},
+      {"sound", "violation", "safety distance broken, two AGVs", "no injected fault", "11", "4", "1"}};
   EXPECT_EQ(rows, expected);
 }
 

@@ -9,19 +9,18 @@
 #include <vector>
 
 #include "reports/evidence/failing_run.hpp"
+#include "reports/evidence/first_cause.hpp"
 
-namespace fleetproof::html {
+namespace fleetproof {
 
-// Failing runs of one agent with the same end point and the same first cause.
+// Failing runs of one agent with the same end point, the same first cause, and the same kind of thing before it.
 struct FailureGroup {
   std::string agent, end_point, first_cause;
+  CameBefore before = CameBefore::Nothing;
   std::uint64_t runs = 0, distinct = 0;  // distinct: runs with the same trace digest count once
   bool at_least = false;                 // `distinct` is a lower bound: too many digests to keep
   FailingRun worst;
 };
-
-// What went wrong first in a run: the earliest violation or judged incident, with the kind of its pair of bodies.
-std::string first_cause(const RunRecord& run, const FailingRun& failing);
 
 // Groups the failing runs of a campaign in one pass. Memory does not grow with the number of runs. Threads: one.
 class FailureGroups {
@@ -35,9 +34,9 @@ class FailureGroups {
     FailureGroup shown;
     std::unordered_set<std::uint64_t> digests{};
   };
-  std::map<std::tuple<std::string, Severity, std::string>, Group> groups_;
+  std::map<std::tuple<std::string, Severity, std::string, CameBefore>, Group> groups_;
   std::uint64_t failing_runs_ = 0;
   std::size_t digests_ = 0;
 };
 
-}  // namespace fleetproof::html
+}  // namespace fleetproof

@@ -1,0 +1,147 @@
+#include "campaign/cli/evidence_set.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "campaign/cli/streams.hpp"
+#include "campaign/run/sha256.hpp"
+#include "core/base/error.hpp"
+#include "core/base/machine_error.hpp"
+#include "reports/attempts/attempt_section.hpp"
+#include "reports/export/csv_tables.hpp"
+#include "reports/export/report_schema.hpp"
+#include "reports/export/validity.hpp"
+#include "reports/wording.hpp"
+#include "storage/line_log.hpp"
+
+namespace fleetproof::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A folder beside the wanted one, which takes its place at the end. Gone if anything fails before.
+class EvidenceFolder {
+ public:
+  explicit EvidenceFolder(const std::string& folder) : wanted_(fs::path(folder).lexically_normal()) {
+    if (!wanted_.has_filename()) wanted_ = wanted_.parent_path();
+    if (fs::exists(wanted_))
+      throw InputError("--evidence", fmt::format("{} is there already; name a folder that is not", folder));
+    partial_ = wanted_;
+    partial_ += ".partial";
+    std::error_code error;
+    fs::remove_all(partial_, error);
+    if (!fs::create_directory(partial_, error))
+      throw InputError("--evidence", fmt::format("{} cannot be made ({})", folder, error.message()));
+  }
+  EvidenceFolder(const EvidenceFolder&) = delete;
+  EvidenceFolder& operator=(const EvidenceFolder&) = delete;
+  ~EvidenceFolder() {
+    std::error_code ignored;
+    if (!published_) fs::remove_all(partial_, ignored);
+  }
+
+  std::ofstream open(const std::string& name) {
+    std::ofstream file(path_of(name), std::ios::binary);
+    if (!file) fail(name);
+    return file;
+  }
+  void close(std::ofstream& file, const std::string& name) {
+    file.close();
+    if (!file) fail(name);
+    sums_[name] = sha256_of_file(path_of(name));
+  }
+  void write(const std::string& name, std::string_view text) {
+    std::ofstream file = open(name);
+    file << text;
+    close(file, name);
+  }
+  void publish() {
+    std::string sums;
+    for (const auto& [name, sum] : sums_) sums += sum + "  " + name + "\n";
+    write("SHA256SUMS", sums);
+    std::error_code error;
+    fs::rename(partial_, wanted_, error);
+    if (error) throw MachineError(fmt::format("{}: cannot be written ({})", wanted_.string(), error.message()));
+    published_ = true;
+  }
+
+ private:
+  std::string path_of(const std::string& name) const { return (partial_ / name).string(); }
+  [[noreturn]] void fail(const std::string& name) const {
+    throw MachineError(fmt::format("{}: cannot be written ({})", (wanted_ / name).string(), std::strerror(errno)));
+  }
+
+  fs::path wanted_, partial_;
+  std::map<std::string, std::string> sums_;
+  bool published_ = false;
+};
+
+std::string identity_text(const ReportInput& input) {
+  const CampaignRecord& campaign = input.campaign;
+  const auto& own = input.attempts.own;
+  const nlohmann::ordered_json json{{"campaign", campaign.name},
+                                    {"campaign_file_sha256", sha256_of_file(input.archive_path)},
+                                    {"plan_hash", hex_text(campaign.plan_hash)},
+                                    {"plan_fixed_utc", own ? own->begun_utc : ""},
+                                    {"release", own ? own->release : ""},
+                                    {"seed", campaign.seed},
+                                    {"seed_follows_from_release_and_plan", own && own->fresh_seed},
+                                    {"overrides", input.overrides},
+                                    {"agents_of_shared_objects", campaign.plugin_agents},
+                                    {"engine",
+                                     {{"version", campaign.engine.version},
+                                      {"program_sha256", campaign.engine.program_sha256},
+                                      {"compiler", campaign.engine.compiler},
+                                      {"flags", campaign.engine.flags},
+                                      {"libraries", campaign.engine.libraries}}}};
+  return printable_json(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) + "\n";
+}
+
+// The file beside the campaign file as it is; empty if there is none.
+std::string copied(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void write_runs(EvidenceFolder& folder, const ArchiveReader& archive, const ReportInput& input) {
+  const auto& tables = csv_tables();
+  std::vector<std::ofstream> files;
+  for (const CsvTable& table : tables) write_heading(files.emplace_back(folder.open(table.file)), table);
+  std::ofstream replays = folder.open("replay.txt");
+  DuplicateCheck duplicates;
+  archive.for_each_run([&](const RunRecord& run) {
+    const CellRecord& cell = archive.cells()[run.cell];
+    for (std::size_t i = 0; i < tables.size(); ++i) write_rows(files[i], tables[i], run, cell);
+    if (run.outcome.is_failure()) replays << replay_line(input, run.run_index) << "\n";
+    duplicates.add(run);
+  });
+  for (std::size_t i = 0; i < tables.size(); ++i) folder.close(files[i], tables[i].file);
+  folder.close(replays, "replay.txt");
+  folder.write("columns.csv", csv_dictionary());
+  folder.write("validity.txt", validity_text(input, duplicates));
+}
+
+}  // namespace
+
+void write_evidence_set(const std::string& path, const ArchiveReader& archive, const HtmlInput& input) {
+  EvidenceFolder folder(path);
+  const ReportInput& report = input.report;
+  folder.write("report.html", render_html(input));
+  for (const auto& [name, format] : {std::pair{"report.txt", "text"}, {"report.json", "json"}, {"report.xml", "junit"}})
+    folder.write(name, find_entry(report_formats(), format)->make(report));
+  folder.write("report.schema.json", report_schema());
+  folder.write("plan.json", report.campaign.plan_json);
+  folder.write("identity.json", identity_text(report));
+  write_runs(folder, archive, report);
+  folder.write("attempts.jsonl", copied(report.attempts.ledger));
+  folder.write("sessions.jsonl", copied(session_log_path(report.archive_path)));
+  folder.publish();
+}
+
+}  // namespace fleetproof::cli

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/base/words.hpp"
+#include "core/outcome/outcome.hpp"
+
+namespace fleetproof {
+
+// What the scenario had done to the bodies of a failure before it happened. It says what came before, not what caused
+// it.
+enum class CameBefore : std::uint8_t {
+  Nothing,      // no injected fault touched a body involved
+  KnownFault,   // a fault of an AGV involved, which its software could know of: it stopped, or was away
+  ForeignBody,  // a fallen load or an obstacle, which no control software is told of
+  Undecided,    // faults or foreign bodies came before, but whether they touched the bodies involved is not known
+};
+constexpr const char* name_of(CameBefore before) {
+  switch (before) {
+    case CameBefore::Nothing:
+      return "no injected fault";
+    case CameBefore::KnownFault:
+      return "a fault that the software could know of";
+    case CameBefore::ForeignBody:
+      return "a body that no software is told of";
+    case CameBefore::Undecided:
+      return "faults; which of them matter is not known";
+  }
+  return kNoWord;
+}
+
+// The first thing that went wrong in a run: its earliest violation or judged incident (deadlock, wrong load, ...), else
+// its crash, hang or standstill. What follows from it is a consequence.
+struct FirstCause {
+  std::string what;  // "contact, two AGVs"
+  SimTime at{};      // of a crash, a hang or a standstill: the end of the run
+  EntityId a, b;     // each invalid if not known
+  CameBefore before = CameBefore::Nothing;
+  std::optional<Incident> fault;  // the last injected fault or foreign body that `before` speaks of
+};
+
+// Absent if nothing went wrong. Requires: the law "faults" watched the run; otherwise `before` is Nothing, or Undecided
+// if the run counted faults.
+std::optional<FirstCause> first_cause(const Outcome& outcome);
+
+// Whether an end point of this archive may be judged on the incident (a deadlock, a wrong load, ...).
+bool is_judged(IncidentKind kind);
+
+// "1.20 s after a restart of AGV 3"; empty if there is no fault to name.
+std::string fault_text(const FirstCause& cause, std::uint32_t agv_count);
+
+}  // namespace fleetproof

@@ -1,0 +1,38 @@
+#include "reports/evidence/foreign_bodies.hpp"
+
+#include <algorithm>
+#include <set>
+
+namespace fleetproof {
+
+bool is_foreign(EntityId body, const Outcome& outcome) {
+  return body.valid() && outcome.agv_count > 0 && body.value >= outcome.agv_count;
+}
+
+std::vector<bool> answerable(const Outcome& outcome) {
+  std::set<EntityId> wrecks;  // AGVs that hit a foreign body, or such a wreck
+  std::vector<bool> answers;
+  const auto taints = [&](EntityId body) { return is_foreign(body, outcome) || wrecks.contains(body); };
+  for (const Violation& violation : outcome.violations) {  // in order of their beginning
+    const bool tainted = taints(violation.a) || taints(violation.b);
+    answers.push_back(!tainted);
+    if (tainted && violation.contact) wrecks.insert({violation.a, violation.b});
+  }
+  return answers;
+}
+
+bool foreign_body_lay(const Outcome& outcome, const Incident& incident) {
+  return std::ranges::any_of(outcome.incidents, [&](const Incident& body) {
+    return body.kind == IncidentKind::ForeignBody && body.first < incident.last && body.last > incident.first;
+  });
+}
+
+bool met_foreign_bodies(const Outcome& outcome) {
+  const auto is_body = [](const Incident& incident) { return incident.kind == IncidentKind::ForeignBody; };
+  const auto is_with_body = [&](const Violation& violation) {
+    return is_foreign(violation.a, outcome) || is_foreign(violation.b, outcome);
+  };
+  return std::ranges::any_of(outcome.incidents, is_body) || std::ranges::any_of(outcome.violations, is_with_body);
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,49 @@
+#include "reports/failure_section.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "reports/verdict_sentences.hpp"
+#include "reports/wording.hpp"
+
+namespace fleetproof {
+
+Table failure_table(const std::vector<FailureGroup>& groups) {
+  Table table;
+  for (const char* head : {"agent", "end point", "first cause", "before it"}) table.columns.push_back({head, false});
+  for (const char* head : {"runs", "distinct", "worst run"}) table.columns.push_back({head});
+  for (const FailureGroup& group : groups) {
+    table.rows.push_back({printable(group.agent, 40), group.end_point, printable(group.first_cause, 80),
+                          name_of(group.before), std::to_string(group.runs),
+                          (group.at_least ? ">= " : "") + std::to_string(group.distinct),
+                          std::to_string(group.worst.run_index)});
+  }
+  return table;
+}
+
+Section failure_section(const ReportInput& input, std::size_t most_groups) {
+  Section section{"Failing runs, by what went wrong first", {}, {}};
+  auto groups = input.failures.list();
+  if (groups.empty()) {
+    section.remarks.emplace_back().text = "No run failed.";
+    return section;
+  }
+  const std::size_t all = groups.size();
+  groups.resize(std::min(all, most_groups));
+  section.remarks.emplace_back().text =
+      "End point = the most serious thing that happened in the run. First cause = what happened first; the rest may be "
+      "its consequence. Before it = what the scenario had done to the bodies involved; that is an order in time "
+      "and shows no cause. Distinct = runs with the same trace count once. The worst run of each group:";
+  section.table = failure_table(groups);
+  for (const FailureGroup& group : groups) {
+    Remark remark = describe(input, group.worst);
+    if (!group.worst.factors.in_contract()) remark.text += " (outside the contract)";
+    section.remarks.push_back(std::move(remark));
+  }
+  if (all > most_groups)
+    section.remarks.emplace_back().text = fmt::format("{} more groups are left out here.", all - most_groups);
+  return section;
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,105 @@
+// report --evidence: a folder that an assessor can check with sha256sum and any CSV reader.
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "campaign/run/sha256.hpp"
+#include "tests/support/program.hpp"
+
+namespace fleetproof {
+namespace {
+
+using testing::HasSubstr;
+
+// RFC 4180, on its own: fields of one record, with quotes taken off.
+std::vector<std::string> fields_of(std::istream& in) {
+  std::vector<std::string> fields(1);
+  bool quoted = false;
+  for (char c; in.get(c);) {
+    if (quoted && c == '"' && in.peek() == '"') {
+      fields.back() += static_cast<char>(in.get());
+    } else if (c == '"') {
+      quoted = !quoted;
+    } else if (!quoted && c == ',') {
+      fields.emplace_back();
+    } else if (!quoted && c == '\r' && in.peek() == '\n') {
+      in.get();
+      return fields;
+    } else {
+      fields.back() += c;
+    }
+  }
+  return {};
+}
+
+std::vector<std::vector<std::string>> records_of(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::vector<std::vector<std::string>> records;
+  for (auto fields = fields_of(in); !fields.empty(); fields = fields_of(in)) records.push_back(fields);
+  return records;
+}
+
+class EvidenceSet : public test::ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    write("c.toml",
+          "seed = 5\nreplicates = 12\nhorizon_s = 120\n[factors]\nagents = [{ name = \"=cmd,\\\"x\\\"\", agent = "
+          "\"reckless\" }]\nlayouts = [\"aisle-grid\"]\nfleet_sizes = [5]\nloss = [0.4]\ndelay_s = [2]\n");
+    run("run c.toml --db a.db");
+  }
+};
+
+TEST_F(EvidenceSet, HoldsWhatItsSumsSay) {
+  run("report a.db --evidence set");
+  std::ifstream sums(path("set/SHA256SUMS"));
+  std::set<std::string> named{"SHA256SUMS"};
+  for (std::string sum, name; sums >> sum >> name;) {
+    EXPECT_EQ(sha256_of_file(path("set/" + name)), sum) << name;
+    named.insert(name);
+  }
+  std::set<std::string> there;
+  for (const auto& entry : std::filesystem::directory_iterator(path("set"))) there.insert(entry.path().filename());
+  EXPECT_EQ(there, named);
+  EXPECT_THAT(there,
+              testing::IsSupersetOf({"report.html", "report.txt", "report.json", "report.xml", "plan.json",
+                                     "identity.json", "runs.csv", "violations.csv", "incidents.csv", "columns.csv",
+                                     "replay.txt", "attempts.jsonl", "sessions.jsonl", "validity.txt"}));
+  EXPECT_FALSE(std::filesystem::exists(path("set.partial")));
+}
+
+TEST_F(EvidenceSet, TablesHaveOneFieldForEachColumnOfTheDictionary) {
+  run("report a.db --evidence set");
+  std::map<std::string, std::vector<std::string>> columns;
+  for (const auto& record : records_of(path("set/columns.csv"))) {
+    ASSERT_EQ(record.size(), 5U);
+    if (record[0] != "file") columns[record[0]].push_back(record[2]);
+    EXPECT_FALSE(record[4].empty()) << record[2];
+  }
+  EXPECT_EQ(columns.size(), 3U);
+  for (const auto& [file, names] : columns) {
+    const auto records = records_of(path("set/" + file));
+    ASSERT_FALSE(records.empty());
+    EXPECT_EQ(records[0], names) << file;
+    for (const auto& record : records) ASSERT_EQ(record.size(), names.size()) << file;
+  }
+  const auto runs = records_of(path("set/runs.csv"));
+  ASSERT_EQ(runs.size(), 13U);
+  EXPECT_EQ(runs[1][3], "'=cmd,\"x\"") << "no formula";
+}
+
+TEST_F(EvidenceSet, IsNeverWrittenOverAnythingAndNeverHalf) {
+  std::filesystem::create_directory(path("set"));
+  const auto refused = run("report a.db --evidence set");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("there already"));
+  EXPECT_EQ(run("report a.db --evidence no/such/place").exit_code, 2);
+  EXPECT_EQ(run("report a.db --evidence set2 --json").exit_code, 2);
+  EXPECT_FALSE(std::filesystem::exists(path("set2")));
+}
+
+}  // namespace
+}  // namespace fleetproof

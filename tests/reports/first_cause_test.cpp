@@ -1,0 +1,122 @@
+#include "reports/evidence/first_cause.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/scenario/faults.hpp"
+#include "reports/evidence/foreign_bodies.hpp"
+#include "reports/evidence/run_result.hpp"
+#include "tests/support/at_seconds.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr std::uint32_t kAgvs = 4;
+
+// Four AGVs, bodies 0 to 3; 4 and above are obstacles and fallen loads.
+Outcome run_with(std::vector<Violation> violations, std::vector<Incident> incidents = {}) {
+  Outcome outcome;
+  outcome.agv_count = kAgvs;
+  outcome.simulated_ns = 600'000'000'000;
+  file_violations(outcome, std::move(violations));
+  file_incidents(outcome, std::move(incidents));
+  return outcome;
+}
+
+Violation violation(std::uint32_t a, std::uint32_t b, double first_s, bool contact = false) {
+  Violation violation;
+  violation.a = EntityId{a};
+  violation.b = EntityId{b};
+  violation.first = at_seconds(first_s);
+  violation.contact = contact;
+  return violation;
+}
+
+Incident fault(Fault::Kind kind, std::uint32_t agv, double first_s) {
+  return {IncidentKind::FaultInjected, EntityId{agv},         {}, at_seconds(first_s),
+          at_seconds(first_s + 5.0),   static_cast<int>(kind)};
+}
+
+Incident body(std::uint32_t id, double first_s, double last_s) {
+  return {IncidentKind::ForeignBody, EntityId{id}, {}, at_seconds(first_s), at_seconds(last_s), 1};
+}
+
+Incident deadlock(double first_s, double last_s) {
+  return {IncidentKind::Deadlock, EntityId{0u}, EntityId{1u}, at_seconds(first_s), at_seconds(last_s), 2};
+}
+
+TEST(FirstCause, ACleanRunHasNone) { EXPECT_FALSE(first_cause(run_with({}, {body(4, 1.0, 9.0)})).has_value()); }
+
+TEST(FirstCause, ADeadlockBeforeAContactLeads) {
+  const auto outcome = run_with({violation(0, 1, 200.0, true)}, {deadlock(50.0, 180.0)});
+  const auto cause = first_cause(outcome);
+  ASSERT_TRUE(cause);
+  EXPECT_EQ(cause->what, "deadlock, two AGVs");
+  EXPECT_EQ(cause->at, at_seconds(50.0));
+  EXPECT_EQ(cause->before, CameBefore::Nothing);
+}
+
+TEST(FirstCause, AContactBeforeADeadlockLeads) {
+  EXPECT_EQ(first_cause(run_with({violation(0, 1, 20.0, true)}, {deadlock(50.0, 180.0)}))->what, "contact, two AGVs");
+}
+
+TEST(CameBefore, AFaultOfAnAgvInvolvedIsOneThatTheSoftwareCouldKnowOf) {
+  const auto cause = first_cause(run_with({violation(0, 1, 20.0)}, {fault(Fault::Kind::Restart, 1, 17.5)}));
+  EXPECT_EQ(cause->before, CameBefore::KnownFault);
+  EXPECT_EQ(fault_text(*cause, kAgvs), "2.50 s after the restart of AGV 1 began");
+}
+
+TEST(CameBefore, FaultsOfOthersOrLaterOnesDoNotTouchThePair) {
+  EXPECT_EQ(first_cause(run_with({violation(0, 1, 20.0)}, {fault(Fault::Kind::Restart, 2, 17.5)}))->before,
+            CameBefore::Nothing);
+  EXPECT_EQ(first_cause(run_with({violation(0, 1, 20.0)}, {fault(Fault::Kind::Restart, 1, 20.5)}))->before,
+            CameBefore::Nothing);
+}
+
+TEST(CameBefore, OfAFallenLoadNoSoftwareIsTold) {
+  const auto cause = first_cause(run_with({violation(0, 4, 20.0, true)}, {body(4, 10.0, 300.0)}));
+  EXPECT_EQ(cause->what, "contact, AGV and another body");
+  EXPECT_EQ(cause->before, CameBefore::ForeignBody);
+  EXPECT_EQ(fault_text(*cause, kAgvs), "10.00 s after a load fell");
+}
+
+TEST(CameBefore, WhetherADroppedLoadMatteredToItsAgvIsUndecided) {
+  EXPECT_EQ(first_cause(run_with({violation(0, 1, 20.0)}, {fault(Fault::Kind::LoadDrop, 1, 5.0)}))->before,
+            CameBefore::Undecided);
+}
+
+TEST(CameBefore, ADeadlockAfterSomeFaultIsUndecided) {
+  EXPECT_EQ(first_cause(run_with({}, {fault(Fault::Kind::Freeze, 3, 5.0), deadlock(50.0, 180.0)}))->before,
+            CameBefore::Undecided);
+}
+
+TEST(ForeignBodies, RunsWithThemAloneAreUnknown) {
+  const Outcome outcome = run_with({violation(0, 4, 20.0, true)});
+  for (const EndPoint end_point : {EndPoint::Violation, EndPoint::Contact})
+    EXPECT_EQ(result_of(outcome, end_point), RunResult::Unknown) << name_of(end_point);
+}
+
+TEST(ForeignBodies, APairOfAgvsStillRefutes) {
+  EXPECT_EQ(result_of(run_with({violation(0, 4, 20.0, true), violation(1, 2, 30.0)}), EndPoint::Violation),
+            RunResult::Failed);
+  EXPECT_EQ(result_of(run_with({violation(0, 4, 20.0, true), violation(1, 2, 30.0)}), EndPoint::Contact),
+            RunResult::Unknown)
+      << "the only contact is that with the load";
+}
+
+TEST(ForeignBodies, WhoRunsIntoTheWreckOfOneIsNoFindingEither) {
+  const Outcome chain = run_with({violation(0, 4, 20.0, true), violation(0, 1, 30.0, true), violation(1, 2, 40.0)});
+  EXPECT_EQ(answerable(chain), (std::vector<bool>{false, false, false}));
+  const Outcome near_only = run_with({violation(0, 4, 20.0), violation(0, 1, 30.0, true)});
+  EXPECT_EQ(answerable(near_only), (std::vector<bool>{false, true})) << "AGV 0 passed the load and drove on";
+}
+
+TEST(ForeignBodies, AStandstillWhileOneLayIsUnknown) {
+  EXPECT_EQ(result_of(run_with({}, {body(4, 60.0, 90.0), deadlock(50.0, 180.0)}), EndPoint::Deadlock),
+            RunResult::Unknown);
+  EXPECT_EQ(result_of(run_with({}, {body(4, 10.0, 40.0), deadlock(50.0, 180.0)}), EndPoint::Deadlock),
+            RunResult::Failed)
+      << "it was cleared before";
+}
+
+}  // namespace
+}  // namespace fleetproof
