@@ -65,10 +65,10 @@ std::string validity_text(const ReportInput& input, const DuplicateCheck& duplic
       "nothing but the plan. Cells of a replicate share the world, so the world is the unit.\n",
       input.campaign.seed);
   text += fmt::format(
-      "Detector: clearances between straight drives, turns and arcs are exact to {:g} m; a curve is judged as arcs "
-      "within "
-      "{:g} m of it; a clearance counts as too small if more than {:g} m is missing.\n",
-      kSmallestClearance_m, kBezierByArcs_m, kBuiltToTheLimit_m);
+      "Detector: smallest clearances are found to {:g} m, on straight lines, turns, arcs and curves. A clearance is "
+      "too "
+      "small if more than {:g} m is missing, and {:g} m more for each body that drives a curve.\n",
+      kSmallestClearance_m, kBuiltToTheLimit_m, kBuiltOnCurves_m);
   return text;
 }
 
