@@ -126,6 +126,7 @@ Page build_page(const ReportInput& input, std::size_t most_rows) {
   for (auto& audit : audit_headlines(input)) page.headlines.push_back(std::move(audit));
   for (auto& weak : weak_headlines(input)) page.headlines.push_back(std::move(weak));
   for (auto& verdict : verdicts(input)) page.headlines.push_back(std::move(verdict));
+  for (auto& note : foreign_body_notes(input)) page.headlines.push_back(std::move(note));
   const auto add = [&](Topic topic, Section section) {
     section.topic = topic;
     page.sections.push_back(std::move(section));

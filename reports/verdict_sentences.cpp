@@ -127,14 +127,6 @@ std::vector<Headline> warnings(const ReportInput& input) {
              count_text(errors, "run")),
          {}});
   }
-  for (const auto& [agent, runs, worst] : input.evidence.foreign_body_runs()) {
-    list.push_back({"unknown",
-                    fmt::format("in {} of agent {}, AGVs came too close to fallen loads or obstacles only. No control "
-                                "software is told of these, so the runs neither refute it nor speak for it: they count "
-                                "as unknown. For instance:",
-                                count_text(runs, "run"), printable(agent, 40)),
-                    {describe(input, worst)}});
-  }
   for (const auto& [agent, runs, worst] : input.evidence.contract_failures()) {
     if (!is_under_test(input.evidence.gates(), agent)) continue;
     list.push_back(
@@ -151,6 +143,21 @@ std::vector<Headline> verdicts(const ReportInput& input) {
   return {{name_of(Verdict::NotDemonstrated),
            "this campaign has no gate (acceptance criterion), so nothing can be demonstrated.",
            {}}};
+}
+
+std::vector<Headline> foreign_body_notes(const ReportInput& input) {
+  std::vector<Headline> list;
+  for (const auto& [agent, runs, worst] : input.evidence.foreign_body_runs()) {
+    if (!is_under_test(input.evidence.gates(), agent)) continue;
+    list.push_back(
+        {"unknown",
+         fmt::format("in {} of agent {}, AGVs came too close to nothing but fallen loads, obstacles, and AGVs "
+                     "that lay wrecked on these. No control software is told of such bodies, so the runs do "
+                     "not refute it. Bounds count them as failing. For instance:",
+                     count_text(runs, "run"), printable(agent, 40)),
+         {describe(input, worst)}});
+  }
+  return list;
 }
 
 }  // namespace fleetproof

@@ -15,6 +15,9 @@ std::vector<Headline> warnings(const ReportInput& input);
 // violated, an open one if it is not demonstrated. Below it, the reasons, the runs to look at, and what was sampled.
 std::vector<Headline> verdicts(const ReportInput& input);
 
+// What the claim counts as unknown because of fallen loads and obstacles, by agent under test.
+std::vector<Headline> foreign_body_notes(const ReportInput& input);
+
 // "violation, smallest clearance 0.07 m at 12.34 s between AGV 1 and AGV 3; agent sound, layout ring, fleet of 5, loss
 // 40 %, delay 2 s"
 Remark describe(const ReportInput& input, const FailingRun& run);

@@ -93,14 +93,14 @@ void SessionLog::end(const CampaignResult& result, int signal_number) const {
 
 namespace {
 
-// The last text of this key, at the top of a line of the log, that is not empty.
+// The last text of this key at the top of a line of the log.
 std::string last_text(const std::string& archive_path, const char* key) {
   std::ifstream file(session_log_path(archive_path));
   std::string found;
   for (std::string line; std::getline(file, line);) {
     const Json json = Json::parse(line, nullptr, false);
     if (!json.is_object() || !json.contains(key) || !json[key].is_string()) continue;
-    if (const auto text = json[key].get<std::string>(); !text.empty()) found = text;
+    found = json[key].get<std::string>();
   }
   return found;
 }

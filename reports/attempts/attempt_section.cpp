@@ -53,10 +53,10 @@ std::string looks_sentence(const ReportInput& input) {
   const auto& gates = input.evidence.gates();
   const bool fixed = std::ranges::any_of(
       gates, [](const GateRecord& gate) { return gate.decides && gate.method == GateMethod::Fixed; });
-  std::string text =
-      input.looks
-          ? fmt::format("The results were looked at {}, each time with other runs.", count_text(*input.looks, "time"))
-          : "How often the results were looked at is not known: there is no session log beside the file.";
+  std::string text = "How often the results were looked at is not known: there is no session log beside the file.";
+  if (input.looks == 1U) text = "The results were looked at with one number of runs.";
+  if (input.looks.value_or(0) > 1)
+    text = fmt::format("The results were looked at with {} numbers of runs.", *input.looks);
   return text + (fixed ? " A gate of the method fixed may be looked at once, when all is complete."
                        : " Gates of the method any-time allow that.");
 }

@@ -71,6 +71,7 @@ Evidence::Evidence(const CampaignRecord& campaign, std::vector<CellRecord> cells
   coverage_.resize(pools_.size());
   pending_coverage_.resize(pools_.size());
   worst_of_pool_.resize(pools_.size(), WorstRuns(1));
+  worst_unknown_of_pool_.resize(pools_.size(), WorstRuns(1));
   for (std::size_t i = 0; i < pools_.size(); ++i) {
     for (const auto cell : pools_[i].pool().cells) pools_of_cell_[cell].push_back(i);
   }
@@ -128,8 +129,18 @@ std::vector<AgentRuns> Evidence::in_order(const RunsByAgent& runs) const {
 }
 
 void Evidence::add_to_pool(std::size_t index, const RunRecord& run) {
-  if (pools_[index].add(run) == RunResult::Passed) return;
-  if (const auto failing = FailingRun::of(run)) worst_of_pool_[index].add(*failing);  // a slow run is none
+  const RunResult result = pools_[index].add(run);
+  if (result == RunResult::Passed) return;
+  const auto failing = FailingRun::of(run);
+  if (!failing) return;  // a slow run is none
+  (result == RunResult::Failed ? worst_of_pool_ : worst_unknown_of_pool_)[index].add(*failing);
+}
+
+std::optional<FailingRun> Evidence::worst_of(std::size_t pool) const {
+  for (const auto* runs : {&worst_of_pool_, &worst_unknown_of_pool_}) {
+    if (const auto& list = (*runs)[pool].list(); !list.empty()) return list.front();
+  }
+  return std::nullopt;
 }
 
 void Evidence::finish_replicate() {
@@ -169,7 +180,7 @@ GateResult Evidence::judge(std::size_t index) const {
   counts.met_nobody = asks_for_encounters && coverage_[index].seen(kEncounterProbe).runs == 0;
   auto result = judge_gate(gates_[index], counts);
   if (!pool.cells.empty()) result.missing = missing_probes(coverage_[index], required_probes_);
-  if (const auto& worst = worst_of_pool_[index].list(); !worst.empty()) result.worst = worst.front();
+  result.worst = worst_of(index);
   return result;
 }
 
@@ -186,7 +197,7 @@ std::vector<Condition> Evidence::conditions() const {
     Condition condition{first.agent,           first.lowest, first.highest,    first.in_contract(),
                         first.is_worst_case(), {},           pools_[i].pool(), {}};
     for (const auto cell : pools_[i].pool().cells) condition.tally.add(tallies_[cell]);
-    if (const auto& worst = worst_of_pool_[i].list(); !worst.empty()) condition.worst = worst.front();
+    condition.worst = worst_of(i);
     list.push_back(std::move(condition));
   }
   return list;

@@ -85,6 +85,7 @@ class Evidence {
   void add_to(RunsByAgent& runs, const FailingRun& run) const;
   std::vector<AgentRuns> in_order(const RunsByAgent& runs) const;
   void add_to_pool(std::size_t index, const RunRecord& run);
+  std::optional<FailingRun> worst_of(std::size_t pool) const;  // that failed; else that stayed unknown
   void finish_replicate();
 
   bool counts_only_ = false;
@@ -98,7 +99,8 @@ class Evidence {
   std::vector<Tally> tallies_, pending_tallies_;  // by cell
   std::vector<PoolCounter> pools_;                // one for each gate, then one for each condition
   std::vector<std::vector<std::size_t>> pools_of_cell_;
-  std::vector<WorstRuns> worst_of_pool_;               // in the same order
+  std::vector<WorstRuns> worst_of_pool_;               // that failed, in the same order
+  std::vector<WorstRuns> worst_unknown_of_pool_;       // likewise
   std::vector<Coverage> coverage_, pending_coverage_;  // in the same order
   std::vector<std::string> required_probes_;
   std::map<std::string, std::map<IncidentKind, IncidentTally>> incidents_;  // by agent, of the runs read so far

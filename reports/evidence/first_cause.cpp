@@ -37,7 +37,7 @@ FirstCause cause_of(const Incident& incident, const Outcome& outcome) {
 std::optional<FirstCause> bare_cause(const Outcome& outcome) {
   const auto incident = std::ranges::find_if(outcome.incidents, [](const Incident& i) { return is_judged(i.kind); });
   const bool has_incident = incident != outcome.incidents.end();
-  if (!outcome.violations.empty() && (!has_incident || outcome.violations.front().first <= incident->first))
+  if (!outcome.violations.empty() && (!has_incident || outcome.violations.front().first <= surely_began(*incident)))
     return cause_of(outcome.violations.front(), outcome);
   if (has_incident) return cause_of(*incident, outcome);
   const auto end = at_ns(static_cast<std::int64_t>(outcome.simulated_ns));
@@ -79,6 +79,11 @@ std::optional<FirstCause> first_cause(const Outcome& outcome) {
                     cause->at == outcome.violations.front().first;
   if (cause->before == CameBefore::Nothing && any_before && !pair) cause->before = CameBefore::Undecided;
   return cause;
+}
+
+SimTime surely_began(const Incident& incident) {
+  const bool slow = incident.kind == IncidentKind::Livelock || incident.kind == IncidentKind::Starvation;
+  return slow ? incident.last : incident.first;
 }
 
 bool is_judged(IncidentKind kind) {

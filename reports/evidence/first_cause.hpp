@@ -24,7 +24,7 @@ constexpr const char* name_of(CameBefore before) {
     case CameBefore::KnownFault:
       return "a fault that the software could know of";
     case CameBefore::ForeignBody:
-      return "a body that no software is told of";
+      return "a fallen load or an obstacle, of which no software is told";
     case CameBefore::Undecided:
       return "faults; which of them matter is not known";
   }
@@ -44,6 +44,10 @@ struct FirstCause {
 // Absent if nothing went wrong. Requires: the law "faults" watched the run; otherwise `before` is Nothing, or Undecided
 // if the run counted faults.
 std::optional<FirstCause> first_cause(const Outcome& outcome);
+
+// The instant from which the incident was there without doubt. A livelock or starvation is dated from the last
+// progress, long before anybody could call it one: whatever happens until its end may be its cause.
+SimTime surely_began(const Incident& incident);
 
 // Whether an end point of this archive may be judged on the incident (a deadlock, a wrong load, ...).
 bool is_judged(IncidentKind kind);

@@ -1,7 +1,7 @@
 #include "reports/evidence/foreign_bodies.hpp"
 
 #include <algorithm>
-#include <set>
+#include <map>
 
 namespace fleetproof {
 
@@ -10,13 +10,20 @@ bool is_foreign(EntityId body, const Outcome& outcome) {
 }
 
 std::vector<bool> answerable(const Outcome& outcome) {
-  std::set<EntityId> wrecks;  // AGVs that hit a foreign body, or such a wreck
+  std::map<EntityId, SimTime> wrecks;  // AGVs that hit a foreign body, or such a wreck: how long they lie there
   std::vector<bool> answers;
-  const auto taints = [&](EntityId body) { return is_foreign(body, outcome) || wrecks.contains(body); };
+  const auto taints = [&](EntityId body, SimTime at) {
+    const auto wreck = wrecks.find(body);
+    return is_foreign(body, outcome) || (wreck != wrecks.end() && at <= wreck->second);
+  };
   for (const Violation& violation : outcome.violations) {  // in order of their beginning
-    const bool tainted = taints(violation.a) || taints(violation.b);
+    const bool tainted = taints(violation.a, violation.first) || taints(violation.b, violation.first);
     answers.push_back(!tainted);
-    if (tainted && violation.contact) wrecks.insert({violation.a, violation.b});
+    if (!tainted || !violation.contact) continue;
+    for (const EntityId body : {violation.a, violation.b}) {
+      SimTime& until = wrecks.try_emplace(body, violation.last).first->second;
+      until = std::max(until, violation.last);
+    }
   }
   return answers;
 }

@@ -10,7 +10,8 @@ namespace fleetproof {
 bool is_foreign(EntityId body, const Outcome& outcome);
 
 // By violation of the run: whether the fleet's software answers for it. It does not answer for a violation with a
-// foreign body, which it is never told of, nor for one with an AGV that hit such a body before and lies there.
+// foreign body, which it is never told of, nor for one with an AGV that hit such a body and still touches it. An AGV
+// that drives on, or that the operator has taken away, is like any other.
 std::vector<bool> answerable(const Outcome& outcome);
 
 // Whether a fallen load or an obstacle lay on the floor within the time of the incident. Why an AGV stood or waited is

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/error.hpp"
+#include "reports/evidence/first_cause.hpp"
 #include "reports/evidence/foreign_bodies.hpp"
 
 namespace fleetproof {
@@ -51,7 +52,7 @@ RunResult progress_result(const Outcome& outcome, IncidentKind kind) {
   bool by_itself = false, consequence = false;
   for (const Incident& incident : outcome.incidents) {
     if (incident.kind != kind) continue;
-    (incident.first < wreck && !foreign_body_lay(outcome, incident) ? by_itself : consequence) = true;
+    (surely_began(incident) < wreck && !foreign_body_lay(outcome, incident) ? by_itself : consequence) = true;
   }
   const bool lost_an_agv = ended_early(outcome) || wreck != kForever;
   return failed_or(by_itself && !ended_early(outcome), consequence || lost_an_agv);

@@ -93,7 +93,7 @@ TEST_F(DefaultGates, BlameNobodyForWhatNoSoftwareIsToldOf) {
   for (const auto& [end_point, verdict] : found) EXPECT_NE(verdict, "violated") << end_point;
   EXPECT_EQ(found.at(""), "4");
   const std::string page = std::regex_replace(run("report c.db").out, std::regex("\n +"), " ");
-  EXPECT_THAT(page, testing::HasSubstr("No control software is told of these"));
+  EXPECT_THAT(page, testing::HasSubstr("No control software is told of such bodies"));
   EXPECT_THAT(page, testing::HasSubstr("broke the safety distance of 0.10 m in 0 of 30 worlds"));
   const auto report = nlohmann::json::parse(run("report c.db --format json").out);
   std::uint64_t contacts = 0;

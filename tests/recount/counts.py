@@ -18,8 +18,9 @@ def progress(kind):
     lay = ("EXISTS (SELECT 1 FROM incidents b WHERE b.run_index = r.run_index AND b.kind = 19 AND b.first_ns < i.last_ns "
            "AND b.last_ns > i.first_ns)")
     of_kind = f"SELECT 1 FROM incidents i WHERE i.run_index = r.run_index AND i.kind = {kind}"
-    before = f"EXISTS ({of_kind} AND first_ns < w AND NOT {lay})"
-    behind = f"EXISTS ({of_kind} AND (first_ns >= w OR {lay}))"
+    began = "last_ns" if kind in (13, 14) else "first_ns"  # livelock and starvation are dated from the last progress
+    before = f"EXISTS ({of_kind} AND {began} < w AND NOT {lay})"
+    behind = f"EXISTS ({of_kind} AND ({began} >= w OR {lay}))"
     return f"CASE WHEN {before} AND NOT {EARLY} THEN 1 WHEN {behind} OR {EARLY} OR w < {2**62} THEN 2 ELSE 0 END"
 
 
@@ -74,16 +75,17 @@ class Archive:
         self.db.execute("CREATE TEMP TABLE foreign_bodies (run_index, ordinal, PRIMARY KEY (run_index, ordinal))")
         self.db.execute("CREATE TEMP TABLE met_foreign (run_index INTEGER PRIMARY KEY)")
         hit = "agv_count > 0 AND (entity_a >= agv_count OR entity_b >= agv_count)"
-        wrecks, run = set(), None
+        wrecks, run = {}, None  # until when they touch what they hit
         for row in self.all(f"SELECT v.*, agv_count FROM violations v JOIN runs USING (run_index) WHERE run_index IN "
                             f"(SELECT run_index FROM violations JOIN runs USING (run_index) WHERE {hit}) ORDER BY "
                             "run_index, first_ns, ordinal"):
             if row["run_index"] != run:
-                wrecks, run = set(), row["run_index"]
+                wrecks, run = {}, row["run_index"]
             pair = {row["entity_a"], row["entity_b"]}
-            if max(pair) >= row["agv_count"] or pair & wrecks:
+            if max(pair) >= row["agv_count"] or any(wrecks.get(body, -1) >= row["first_ns"] for body in pair):
                 self.db.execute("INSERT INTO temp.foreign_bodies VALUES (?, ?)", (run, row["ordinal"]))
-                wrecks |= pair if row["contact"] else set()
+                for body in pair if row["contact"] else ():
+                    wrecks[body] = max(wrecks.get(body, -1), row["last_ns"])
         self.db.execute("INSERT INTO temp.met_foreign SELECT run_index FROM incidents WHERE kind = 19 UNION "
                         f"SELECT run_index FROM violations JOIN runs USING (run_index) WHERE {hit}")
 

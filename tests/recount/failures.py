@@ -29,7 +29,7 @@ def rank_of(violation):
 
 
 NOTHING, KNOWN, FOREIGN, UNDECIDED = ("no injected fault", "a fault that the software could know of",
-                                     "a body that no software is told of", "faults; which of them matter is not known")
+                                     "a fallen load or an obstacle, of which no software is told", "faults; which of them matter is not known")
 LOAD_DROP = 3
 
 
@@ -69,7 +69,8 @@ def failing_runs(archive):
             continue
         at, a, b = run["simulated_ns"], None, None
         cause = "stuck" if end == "stuck" else run["outcome_class"]
-        first = incident if incident and (not violation or incident["first_ns"] < violation["first_ns"]) else violation
+        began = incident and incident["last_ns" if incident["kind"] in (13, 14) else "first_ns"]
+        first = incident if incident and (not violation or began < violation["first_ns"]) else violation
         if first:
             at, a, b = first["first_ns"], first["entity_a"], first["entity_b"]
             cause = (level(first) if first is violation else KINDS[first["kind"]]) + pair(a, b, run["agv_count"])

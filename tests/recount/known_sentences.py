@@ -176,7 +176,7 @@ PATTERNS = [(re.compile(pattern), check) for pattern, check in (
     (r"A run takes up to ([0-9.]+) s\. stalled", longest_run),
     (r"^([0-9]+) of ([0-9]+) planned replicates? (?:is|are) complete", planned),
     (r"^([0-9]+) of ([0-9]+) stored runs are not counted", uncounted),
-    (r"\bin ([0-9]+) runs? of agent (.+), AGVs came too close to fallen loads or obstacles only", foreign_body_runs),
+    (r"\bin ([0-9]+) runs? of agent (.+), AGVs came too close to nothing but fallen loads", foreign_body_runs),
     (r"^Plan ([0-9a-f]{16}) was fixed before run 0, at ", plan_time),
     (r"^When plan ([0-9a-f]{16}) was fixed is not known", plan_time),
     (r"^Seed ([0-9]+) (was chosen by a person|follows from)", seed),
@@ -186,7 +186,7 @@ PATTERNS = [(re.compile(pattern), check) for pattern, check in (
     # From files beside the archive: contract/attempt_ledgers_test.cpp and reports/attempts_test.cpp.
     (r"^Earlier attempts unknown: the ledger names no other", constant),
     (r"^The ledger names [0-9]+ other attempt", constant),
-    (r"^The results were looked at [0-9]+ times?", constant),
+    (r"^The results were looked at with [0-9]+ numbers of runs", constant),
     # In recount.py: the title, the claim, the gates, the headlines, the charts.
     (r"^fleetproof report: ", compared_elsewhere),
     (r"(the true (share|rate) is at (most|least)|in 0 of 0 (worlds|runs)|in [0-9]+ runs?)\b.*gates? ", compared_elsewhere),

@@ -22,11 +22,13 @@ Outcome run_with(std::vector<Violation> violations, std::vector<Incident> incide
   return outcome;
 }
 
-Violation violation(std::uint32_t a, std::uint32_t b, double first_s, bool contact = false) {
+// A contact lasts to the end of the run, as if the two stayed where they are.
+Violation violation(std::uint32_t a, std::uint32_t b, double first_s, bool contact = false, double last_s = 600.0) {
   Violation violation;
   violation.a = EntityId{a};
   violation.b = EntityId{b};
   violation.first = at_seconds(first_s);
+  violation.last = at_seconds(last_s);
   violation.contact = contact;
   return violation;
 }
@@ -108,6 +110,22 @@ TEST(ForeignBodies, WhoRunsIntoTheWreckOfOneIsNoFindingEither) {
   EXPECT_EQ(answerable(chain), (std::vector<bool>{false, false, false}));
   const Outcome near_only = run_with({violation(0, 4, 20.0), violation(0, 1, 30.0, true)});
   EXPECT_EQ(answerable(near_only), (std::vector<bool>{false, true})) << "AGV 0 passed the load and drove on";
+}
+
+TEST(ForeignBodies, AnAgvThatDrivesOnAfterwardsIsLikeAnyOther) {
+  const Outcome outcome = run_with({violation(0, 4, 20.0, true, 25.0), violation(0, 1, 30.0, true)});
+  EXPECT_EQ(answerable(outcome), (std::vector<bool>{false, true}));
+  EXPECT_EQ(result_of(outcome, EndPoint::Contact), RunResult::Failed);
+}
+
+TEST(FirstCause, AStarvationIsDatedFromTheLastProgressAndLeadsOnlyIfItWasOverBefore) {
+  const Incident starvation{IncidentKind::Starvation, EntityId{2u}, {}, at_seconds(10.0), at_seconds(300.0), 1};
+  const Outcome around = run_with({violation(0, 1, 17.0, true)}, {starvation});
+  EXPECT_EQ(first_cause(around)->what, "contact, two AGVs");
+  EXPECT_EQ(result_of(around, EndPoint::Starvation), RunResult::Unknown);
+  const Outcome before = run_with({violation(0, 1, 400.0, true)}, {starvation});
+  EXPECT_EQ(first_cause(before)->what, "starvation, one body");
+  EXPECT_EQ(result_of(before, EndPoint::Starvation), RunResult::Failed);
 }
 
 TEST(ForeignBodies, AStandstillWhileOneLayIsUnknown) {
