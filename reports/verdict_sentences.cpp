@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "reports/attempts/attempt_section.hpp"
 #include "reports/coverage_section.hpp"
@@ -25,6 +26,29 @@ std::string subject(const ReportInput& input, std::size_t gate) {
   return printable(input.evidence.gates()[gate].agent, 40) + " " + finding_text(input, gate);
 }
 
+// "Gates of fleet-ctl: demonstrated: hang; not demonstrated: violation, crash. Told only, no part of the verdict:
+// old-ctl."
+std::string gates_by_verdict(const ReportInput& input) {
+  std::map<std::string, std::map<Verdict, std::vector<std::string>>> by_agent;
+  for (std::size_t i = 0; i < input.gates.size(); ++i) {
+    const GateRecord& gate = input.evidence.gates()[i];
+    if (gate.decides) by_agent[gate.agent][input.gates[i].verdict].emplace_back(name_of(gate.end_point));
+  }
+  std::string text;
+  for (const auto& [agent, verdicts] : by_agent) {
+    std::vector<std::string> parts;
+    for (const auto& [verdict, end_points] : verdicts)
+      parts.push_back(fmt::format("{}: {}", name_of(verdict), joined(end_points)));
+    text += fmt::format("Gates of {}: {}. ", printable(agent, 40), joined(parts, "; "));
+  }
+  std::vector<std::string> others;
+  for (const AgentCoverage& agent : input.evidence.agent_coverage()) {
+    if (!is_under_test(input.evidence.gates(), agent.agent)) others.push_back(printable(agent.agent, 40));
+  }
+  if (!others.empty()) text += fmt::format("Told only, no part of the verdict: {}.", joined(others));
+  return text;
+}
+
 constexpr std::size_t kGatesTold = 5;
 
 // The gates with the campaign's own verdict speak for it, the first in the sentence itself.
@@ -45,6 +69,7 @@ Headline claim(const ReportInput& input) {
       deciding == 1 ? "1 gate (acceptance criterion)" : fmt::format("{} gates (acceptance criteria)", deciding),
       name_of(verdict));
   headline.text += is_weak(input) ? "; the evidence is weak." : ".";
+  headline.details.emplace_back().text = gates_by_verdict(input);
   for (std::size_t i = 0; i < std::min(kGatesTold, speaking.size()); ++i) {
     const GateResult& result = input.gates[speaking[i]];
     std::string text = i == 0 ? "" : subject(input, speaking[i]) + ". ";

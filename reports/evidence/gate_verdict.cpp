@@ -41,7 +41,10 @@ std::string bound_too_high(const GateRecord& gate, GateResult& result) {
     text +=
         fmt::format(" ({} of {} ended unknown and count as failing)", unknown, amount(gate, claim.units, result.unit));
   const auto needed = units_to_pass(gate, claim.failing, claim.units);
-  if (!needed) return text + (gate.limit > 0.0 ? "; too many for this limit" : "; no number of runs can meet it");
+  if (!needed && gate.limit <= 0.0) return text + "; no number of runs can meet it";
+  if (!needed)
+    return text + (result.counts.failing == 0 ? "; none failed, but too many are unknown for this limit"
+                                              : "; too many failed for this limit");
   if (claim.failing > 0 && claim.rate() >= gate.limit) {
     return text +
            fmt::format(" and the rate seen, {}, is not below it: more runs will not help", rounded_rate(*claim.rate()));

@@ -177,6 +177,7 @@ PATTERNS = [(re.compile(pattern), check) for pattern, check in (
     (r"^([0-9]+) of ([0-9]+) planned replicates? (?:is|are) complete", planned),
     (r"^([0-9]+) of ([0-9]+) stored runs are not counted", uncounted),
     (r"\bin ([0-9]+) runs? of agent (.+), AGVs came too close to nothing but fallen loads", foreign_body_runs),
+    (r"^Gates of .*: (demonstrated|violated|not demonstrated): ", constant),
     (r"^Plan ([0-9a-f]{16}) was fixed before run 0, at ", plan_time),
     (r"^When plan ([0-9a-f]{16}) was fixed is not known", plan_time),
     (r"^Seed ([0-9]+) (was chosen by a person|follows from)", seed),
