@@ -92,9 +92,15 @@ TEST_F(Resume, KilledAtAnyMomentItIsTheFileOfAnUndisturbedRun) {
   int kills = wanted != nullptr ? std::atoi(wanted) : 50;
   std::mt19937 draw(4711);
   std::map<std::string, int> killed;
-  for (int round = 0; kills > 0; ++round) {
+  // When a process is there depends on the load of the machine: it goes on until each kind was killed five times.
+  constexpr int kMostExtraKills = 200;
+  const auto goes_on = [&] {
+    const int least = std::min(killed["supervisor"], killed["forker or worker"]);
+    return kills > 0 || (least < 5 && kills > -kMostExtraKills);
+  };
+  for (int round = 0; goes_on(); ++round) {
     const std::string name = "k" + std::to_string(round) + ".db";
-    for (int code = -1; code != 0 && kills > 0;) {
+    for (int code = -1; code != 0 && goes_on();) {
       const pid_t program = start({"run", "c.toml", "--db", name});
       std::this_thread::sleep_for(std::chrono::milliseconds(draw() % 250));
       const auto family = family_of(program);
