@@ -55,7 +55,7 @@ LinkQuality::Link& LinkQuality::now(std::size_t sender, std::size_t receiver, Si
 void LinkQuality::note(const TraceRecord& record) {
   if (record.kind == TraceKind::Sent) {
     const auto sent = read<traced::Sent>(record);
-    sent_[record.entity.index()][{sent.message_hash, sent.receiver}] = record.at;
+    sent_[record.entity.index()].note(sent.message_hash, sent.receiver, record.at);
     return;
   }
   const auto reception = read<traced::Reception>(record);
@@ -67,14 +67,10 @@ void LinkQuality::note(const TraceRecord& record) {
     ++link.lost;
     return;
   }
-  const SimTime sent = std::max(last_sent(sender, {reception.message_hash, record.entity}),
-                                last_sent(sender, {reception.message_hash, AgvId{}}));
+  const SentMessages& by_sender = sent_[sender];
+  const SimTime sent = std::max(by_sender.last_sent(reception.message_hash, AgvId{record.entity.value}),
+                                by_sender.last_sent(reception.message_hash, AgvId{}));
   if (sent != SimTime::min()) link.longest = std::max(link.longest, record.at - sent);
-}
-
-SimTime LinkQuality::last_sent(std::size_t sender, const Addressed& message) const {
-  const auto known = sent_[sender].find(message);
-  return known == sent_[sender].end() ? SimTime::min() : known->second;
 }
 
 LinkQuality::Link LinkQuality::link(std::size_t sender, std::size_t receiver, std::int64_t second) const {

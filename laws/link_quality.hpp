@@ -2,12 +2,11 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
-#include <utility>
 #include <vector>
 
 #include "core/base/contract.hpp"
 #include "core/outcome/law.hpp"
+#include "laws/sent_messages.hpp"
 
 namespace fleetproof {
 
@@ -49,11 +48,7 @@ class LinkQuality {
   std::size_t agvs_;
   std::vector<std::array<Second, kQualityWindow_s>> seconds_;  // by receiver x AGVs + sender
   std::vector<std::int64_t> last_second_;                      // by receiver: of its newest reception; -1: none
-  using Addressed = std::pair<std::uint64_t, AgvId>;  // hash of the bytes, receiver; invalid: every AGV in range
-  SimTime last_sent(std::size_t sender, const Addressed& message) const;
-
-  // By sender: when such a message was last sent. Kept for the whole run, because a delay has no bound.
-  std::vector<std::map<Addressed, SimTime>> sent_;
+  std::vector<SentMessages> sent_;                             // by sender
 };
 
 }  // namespace fleetproof
