@@ -10,7 +10,9 @@
 #include <cstring>
 #include <ctime>
 #include <filesystem>
+#include <fstream>
 
+#include "core/base/error.hpp"
 #include "core/base/machine_error.hpp"
 
 namespace fleetproof {
@@ -33,6 +35,14 @@ void append_lines(const std::string& path, const std::string& lines) {
   if (error == 0) return;
   throw MachineError(fmt::format("{}: cannot be written ({}); the campaign file itself is as it was", path,
                                  error == ENOTSUP ? "it is no regular file" : std::strerror(error)));
+}
+
+void require_log(const std::string& path, std::string_view first_words, std::string_view sentence) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return;
+  std::ifstream file(path);
+  std::string line;
+  if (std::getline(file, line) && !line.starts_with(first_words)) throw InputError(path, std::string(sentence));
 }
 
 std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }

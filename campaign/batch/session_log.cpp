@@ -44,21 +44,13 @@ std::string file_in(const std::string& line, const std::string& agent) {
   return at->is_string() ? at->get<std::string>() : "";
 }
 
-// Only a file of ours is appended to: an earlier session began it with the same words.
-void require_ours(const std::string& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return;
-  std::ifstream file(path);
-  std::string line;
-  if (std::getline(file, line) && !line.starts_with(kFirstWords))
-    throw InputError(path,
-                     "this is no session log of fleetproof, and nothing is appended to it; give the campaign file "
-                     "another name, or move this file away");
-}
-
 }  // namespace
 
-SessionLog::SessionLog(const std::string& archive_path) : path_(session_log_path(archive_path)) { require_ours(path_); }
+SessionLog::SessionLog(const std::string& archive_path) : path_(session_log_path(archive_path)) {
+  require_log(path_, kFirstWords,
+              "this is no session log of fleetproof, and nothing is appended to it; give the campaign file another "
+              "name, or move this file away");
+}
 
 void SessionLog::begin(const RunOptions& options, const AgentPrograms& programs, const SessionFacts& facts) const {
   std::array<char, 256> host{};

@@ -32,7 +32,7 @@ std::string remembered_plugin(const std::string& archive_path, const std::string
 
 // The ledger that the last session wrote to; empty: no session says so.
 std::string remembered_ledger(const std::string& archive_path);
-// The options that changed the plan in the last session; empty: none.
+// The options that changed the campaign file's plan in the last session, as typed; empty if there were none.
 std::string remembered_overrides(const std::string& archive_path);
 
 }  // namespace fleetproof

@@ -9,6 +9,7 @@
 #include "campaign/batch/campaign.hpp"
 #include "campaign/batch/session_log.hpp"
 #include "campaign/run/release.hpp"
+#include "core/base/error.hpp"
 #include "reports/attempts/looks.hpp"
 #include "storage/line_log.hpp"
 
@@ -69,7 +70,11 @@ void AttemptLog::end(const ReportInput& input) {
 void add_history(ReportInput& input, const std::string& ledger) {
   std::string path = ledger.empty() ? remembered_ledger(input.archive_path) : ledger;
   if (ledger.empty() && !std::filesystem::exists(path)) path = default_ledger(input.archive_path);
-  input.attempts = attempt_history(AttemptLedger(path), input.campaign);
+  try {
+    input.attempts = attempt_history(AttemptLedger(path), input.campaign);
+  } catch (const InputError&) {
+    if (!ledger.empty()) throw;  // nobody named it: a foreign file of this name tells nothing, and stops no report
+  }
   input.looks = looks_at(input.archive_path);
   input.overrides = remembered_overrides(input.archive_path);
 }

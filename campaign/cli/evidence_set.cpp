@@ -30,12 +30,14 @@ class EvidenceFolder {
  public:
   explicit EvidenceFolder(const std::string& folder) : wanted_(fs::path(folder).lexically_normal()) {
     if (!wanted_.has_filename()) wanted_ = wanted_.parent_path();
-    if (fs::exists(wanted_))
-      throw InputError("--evidence", fmt::format("{} is there already; name a folder that is not", folder));
     partial_ = wanted_;
     partial_ += ".partial";
+    for (const fs::path& path : {wanted_, partial_}) {
+      if (fs::exists(path))
+        throw InputError("--evidence",
+                         fmt::format("{} is there already; name another folder, or move it away", path.string()));
+    }
     std::error_code error;
-    fs::remove_all(partial_, error);
     if (!fs::create_directory(partial_, error))
       throw InputError("--evidence", fmt::format("{} cannot be made ({})", folder, error.message()));
   }

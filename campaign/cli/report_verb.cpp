@@ -12,6 +12,7 @@
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "core/base/error.hpp"
+#include "core/base/machine_error.hpp"
 #include "reports/attempts/looks.hpp"
 #include "reports/html/html_report.hpp"
 
@@ -58,7 +59,11 @@ int exit_code_of(const ReportInput& input, const ReportWords& words) {
 
 // A report on a campaign that still grows is a look at it.
 void show_history(ReportInput& input, const ReportWords& words) {
-  if (!input.evidence.complete()) note_look(words.archive, input.stored_runs);
+  try {
+    if (!input.evidence.complete()) note_look(words.archive, input.stored_runs);
+  } catch (const MachineError& error) {
+    talk("this look at the campaign is not counted: {}\n", error.what());
+  }
   add_history(input, words.ledger);
 }
 

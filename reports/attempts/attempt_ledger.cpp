@@ -42,19 +42,11 @@ bool flag_in(const Json& json, const char* key) {
   return found != json.end() && found->is_boolean() && found->get<bool>();
 }
 
-void require_ours(const std::string& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return;
-  std::ifstream file(path);
-  std::string line;
-  if (std::getline(file, line) && !line.starts_with(kFirstWords))
-    throw InputError(path, "this is no ledger of attempts, and nothing is appended to it; name another with --ledger");
-}
-
 }  // namespace
 
 AttemptLedger::AttemptLedger(std::string path) : path_(std::move(path)) {
-  require_ours(path_);
+  require_log(path_, kFirstWords,
+              "this is no ledger of attempts, and nothing is appended to it; name another with --ledger");
   std::ifstream file(path_);
   for (std::string line; std::getline(file, line);) take(line);
 }

@@ -24,7 +24,11 @@ std::string plan_sentence(const ReportInput& input) {
   const auto& own = input.attempts.own;
   const std::string plan = hex_text(input.campaign.plan_hash);
   if (!own || own->begun_utc.empty()) return fmt::format("When plan {} was fixed is not known.", plan);
-  return fmt::format("Plan {} was fixed before run 0, at {}.", plan, printable(own->begun_utc, 40));
+  const std::string begun = printable(own->begun_utc, 40);
+  if (own->plan_hash == input.campaign.plan_hash)
+    return fmt::format("Plan {} was fixed before run 0, at {}.", plan, begun);
+  return fmt::format("Plan {} was fixed before run 0, at {}; its number of replicates was changed since: plan {}.",
+                     hex_text(own->plan_hash), begun, plan);
 }
 
 std::string seed_sentence(const ReportInput& input) {

@@ -47,6 +47,7 @@ TEST_F(AttemptLedgers, CountACampaignThatGoesOnOnce) {
   EXPECT_EQ(told.at("own").at("runs"), 4);
   EXPECT_EQ(told.at("looks"), 2);
   EXPECT_THAT(run("report a.db").out, HasSubstr("The plan had 2 runs when it began and has 4 now"));
+  EXPECT_THAT(run("report a.db").out, HasSubstr("its number of replicates was changed since"));
 }
 
 TEST_F(AttemptLedgers, OutsideTheWorkspaceSurviveIt) {
@@ -67,6 +68,29 @@ TEST_F(AttemptLedgers, OfAForeignFileRefuseTheCampaignBeforeItBegins) {
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, HasSubstr("--ledger"));
   EXPECT_FALSE(std::filesystem::exists(path("a.db")));
+}
+
+TEST_F(AttemptLedgers, StopNoReport) {
+  campaign("1");
+  run("run c.toml --db b.db --ledger elsewhere.jsonl");
+  std::filesystem::remove(path("elsewhere.jsonl"));
+  write("attempts.jsonl", "my notes\n");
+  const auto told = run("report b.db");
+  EXPECT_EQ(told.exit_code, 4) << told.err;
+  EXPECT_THAT(told.out, HasSubstr("Earlier attempts unknown"));
+  EXPECT_EQ(run("report b.db --ledger attempts.jsonl").exit_code, 2) << "it was named";
+}
+
+TEST_F(AttemptLedgers, ALookThatCannotBeCountedStopsNoReport) {
+  write("c.toml",
+        "seed = 1\nreplicates = 40\nhorizon_s = 300\n[factors]\nagents = [\"reckless\"]\nlayouts = "
+        "[\"aisle-grid\"]\nfleet_sizes = [5]\n");
+  run("run c.toml --db a.db --fail-fast 1");
+  std::filesystem::remove(path("a.sessions.jsonl"));
+  std::filesystem::create_directory(path("a.sessions.jsonl"));
+  const auto told = run("report a.db");
+  EXPECT_THAT(told.out, HasSubstr("INCOMPLETE"));
+  EXPECT_THAT(told.err, HasSubstr("this look at the campaign is not counted"));
 }
 
 TEST_F(AttemptLedgers, AFreshSeedFollowsFromReleaseAndPlan) {

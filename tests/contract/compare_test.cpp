@@ -4,28 +4,14 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tests/support/program.hpp"
+#include "tests/contract/two_releases.hpp"
 
 namespace fleetproof {
 namespace {
 
 using testing::HasSubstr;
 
-class Compare : public test::ProgramTest {
- protected:
-  void SetUp() override {
-    ProgramTest::SetUp();
-    run_release("old", "hull-lock", 1);
-    run_release("new", "reckless", 1);
-  }
-  void run_release(const std::string& name, const std::string& agent, int seed) {
-    write(name + ".toml", fmt::format("seed = {}\nreplicates = 12\nhorizon_s = 120\n[factors]\nagents = [{{ agent = "
-                                      "\"{}\", name = \"candidate\" }}]\nlayouts = [\"aisle-grid\"]\n"
-                                      "fleet_sizes = [4]\nloss = [0.0, 0.4]\ndelay_s = [1]\n",
-                                      seed, agent));
-    run(fmt::format("run {0}.toml --db {0}.db", name));
-  }
-};
+using Compare = test::TwoReleases;
 
 TEST_F(Compare, TellsARegressionWithItsRuns) {
   const auto told = run("compare old.db new.db --fail-on-regression");

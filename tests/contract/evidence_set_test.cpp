@@ -96,6 +96,10 @@ TEST_F(EvidenceSet, IsNeverWrittenOverAnythingAndNeverHalf) {
   const auto refused = run("report a.db --evidence set");
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, HasSubstr("there already"));
+  std::filesystem::create_directory(path("mine.partial"));
+  write("mine.partial/notes.txt", "mine");
+  EXPECT_EQ(run("report a.db --evidence mine").exit_code, 2);
+  EXPECT_EQ(read(path("mine.partial/notes.txt")), "mine");
   EXPECT_EQ(run("report a.db --evidence no/such/place").exit_code, 2);
   EXPECT_EQ(run("report a.db --evidence set2 --json").exit_code, 2);
   EXPECT_FALSE(std::filesystem::exists(path("set2")));

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <set>
 
 #include "campaign/batch/pilot.hpp"
 #include "reports/evidence/binomial.hpp"
@@ -23,9 +24,8 @@ TEST(Pilot, AWholeSmallPlanIsRunAndEveryCellHasItsCost) {
     EXPECT_EQ(cell.runs, plan.replicates);
     EXPECT_GT(cell.mean_s, 0.0);
   }
-  // Two workers were busy all the time but for the start and the end.
-  EXPECT_LT(pilot.forecast_s(plan.replicates), pilot.elapsed_s * 1.05);
-  EXPECT_GT(pilot.forecast_s(plan.replicates), pilot.elapsed_s * 0.5);
+  EXPECT_LE(pilot.forecast_s(plan.replicates), pilot.elapsed_s * 1.0001)
+      << "two workers were busy at most all the time";
 }
 
 TEST(Pilot, AShortPilotTakesCellsFromTheWholeReplicate) {
@@ -89,7 +89,12 @@ TEST_F(Plan, SaysWhatTheFileAndTheTimeGive) {
   EXPECT_DOUBLE_EQ(gate["bound_of_file"], upper_bound(0, 30, 0.9));
   EXPECT_DOUBLE_EQ(gate["bound_in_time"], upper_bound(0, in_time, 0.9));
   EXPECT_EQ(gate["limit_met_by"]["replicates"], 230) << "ln(0.1) / ln(0.99), rounded up";
-  EXPECT_EQ(json["costs"]["agent"][0]["what"], "hull-lock") << "it calculates, reckless drives";
+  const auto& costs = json["costs"]["agent"];
+  ASSERT_EQ(costs.size(), 2U);
+  EXPECT_THAT((std::set<std::string>{costs[0]["what"], costs[1]["what"]}),
+              testing::ElementsAre("hull-lock", "reckless"));
+  EXPECT_GE(costs[0]["share"], costs[1]["share"]) << "the most expensive first";
+  EXPECT_NEAR(costs[0]["share"].get<double>() + costs[1]["share"].get<double>(), 1.0, 1e-3);
   EXPECT_EQ(json["costs"]["in_no_gate"]["cells"], 1);
   EXPECT_THAT(run("plan a.toml").out, HasSubstr("1 of 2 cells are judged by no gate"));
   for (const auto& entry : std::filesystem::directory_iterator(folder_))
