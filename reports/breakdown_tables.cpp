@@ -45,7 +45,7 @@ std::vector<std::string> row(const ReportInput& input, const BreakdownRow& group
   } else {
     const GateRecord rule = bound_rule(input.evidence, group.key.agent);
     const Estimate share = estimate(rule, worlds.failing_or_unknown, worlds.units);
-    cells.push_back(fmt::format("{}/{}", share.failing, share.units));
+    cells.push_back(fmt::format("{}/{}", failed_text(worlds.failing, worlds.failing_or_unknown), share.units));
     cells.push_back(worlds.units == 0 ? "-" : rounded_up(share.upper));
     if (hours.units == 0) {
       cells.insert(cells.end(), {"-", "-"});
@@ -76,9 +76,10 @@ std::string explanation(const ReportInput& input) {
   double longest_s = 0.0;
   for (const auto& group : input.breakdown.rows()) longest_s = std::max(longest_s, group.run_length_s);
   return fmt::format(
-             "failed worlds = worlds with a violation or an unknown outcome in a run of this row. per AGV-h = such "
-             "worlds per hour of one AGV; the time of a world ends with its first run that failed. A run takes up to "
-             "{}. ",
+             "failed worlds = worlds with a violation in a run of this row; +N? = N more with an unknown "
+             "outcome, "
+             "which every rate and bound counts as failing. per AGV-h = such worlds per hour of one AGV; the time of "
+             "a world ends with its first run that failed. A run takes up to {}. ",
              seconds_text(longest_s)) +
          text;
 }

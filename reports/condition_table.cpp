@@ -55,7 +55,7 @@ std::vector<std::string> row(const Condition& condition, const Shown& shown, con
     const auto& pool = condition.pool;
     const auto k = pool.failing_or_unknown, n = pool.units;
     const Estimate claim = estimate(rule, k, n);
-    cells.push_back(fmt::format("{}/{}", k, n));
+    cells.push_back(fmt::format("{}/{}", failed_text(pool.failing, k), n));
     cells.push_back(claim.rate() ? rounded_rate(*claim.rate()) : "-");
     cells.push_back(
         fmt::format("[{}, {}]", rounded_down(claim.interval_95.lower), rounded_up(claim.interval_95.upper)));
@@ -145,7 +145,8 @@ Section table_legend(const ReportInput& input) {
     add("0 .. 40 % = every replicate draws its own value in between, the same for all agents, layouts and fleets; a "
         "rate is the mean over the region.");
   if (evidence.counts_only()) return section;
-  add("failed = units with a violation or an unknown outcome, of all units. Rate, interval and bound refer to units.");
+  add("failed = units with a violation, of all units; +N? = N more with an unknown outcome, which rate, interval "
+      "and bound count as failing. Rate, interval and bound refer to units.");
   if (std::ranges::any_of(conditions, [](const Condition& c) { return c.pool.cells.size() > 1; })) {
     add("A row pools several cells (layouts, fleet sizes). Its unit is the replicate, which fails if any of its runs "
         "fails: the cells of a replicate share their world and are not independent. The JSON report has every cell.");

@@ -111,6 +111,12 @@ Section incident_section(const ReportInput& input, std::size_t most_rows) {
   if (section.table.rows.empty()) {
     section.table.columns.clear();
     section.remarks.push_back({"Nothing, or none of them ran.", ""});
+  } else {
+    Remark scope;
+    scope.text =
+        "All that was filed is counted here. Gates, tables by layout and failure groups leave out a deadlock, "
+        "livelock, starvation or standstill that a contact or a foreign body explains.";
+    section.remarks.insert(section.remarks.begin(), std::move(scope));
   }
   cut(section, most_rows);
   return section;

@@ -82,11 +82,8 @@ std::string limit_text(const GateRecord& gate) {
                                         : fmt::format("{:g} %", 100.0 * gate.limit);
 }
 
-// "3/40", or "3 +5?/40": what stayed unknown is never called a failure.
-std::string failed_text(const GateRecord& gate, const GateResult& result) {
-  const auto unknown = result.claim->failing - result.optimistic->failing;
-  std::string text = std::to_string(result.optimistic->failing);
-  if (unknown > 0) text += fmt::format(" +{}?", unknown);
+std::string failed_of_units(const GateRecord& gate, const GateResult& result) {
+  const std::string text = failed_text(result.optimistic->failing, result.claim->failing);
   return gate.unit == GateUnit::AgvHour ? text : text + fmt::format("/{}", result.claim->units);
 }
 
@@ -97,9 +94,9 @@ std::vector<std::string> row(const ReportInput& input, std::size_t index) {
   if (!gate.requirement.empty()) what += " [" + printable(gate.requirement, 30) + "]";
   std::vector<std::string> cells{printable(gate.agent, 40), what, region_text(gate)};
   if (result.claim) {
-    cells.push_back(failed_text(gate, result));
+    cells.push_back(failed_of_units(gate, result));
     cells.push_back(bound_text(gate, result.claim->upper, rounded_up));
-    cells.push_back(gate.kind == GateKind::None ? "none; " + limit_text(gate) : limit_text(gate));
+    cells.push_back(gate.kind == GateKind::None ? "0 allowed; " + limit_text(gate) : limit_text(gate));
   } else {
     cells.push_back(count_text(result.counts.failing_runs, "run"));
   }
@@ -121,14 +118,14 @@ std::string estimate_text(const GateRecord& gate, const GateResult& result) {
   }
   return text + fmt::format(", one-sided {} upper bound {}, limit {:g} ({}).", percent(gate.confidence),
                             rounded_up(claim.upper), gate.limit,
-                            gate.method == GateMethod::AnyTime ? "valid at any time" : "for the planned replicates");
+                            gate.method == GateMethod::AnyTime ? "valid however often one looks"
+                                                               : "for the planned replicates");
 }
 
 std::string optimistic_text(const GateResult& result) {
   return fmt::format(
       " Unknown: a crash, a hang, a wreck before, a fallen load or an obstacle. If none of it had failed: {} of {}, "
-      "upper "
-      "bound {}.",
+      "upper bound {}.",
       result.optimistic->failing, result.optimistic->units, rounded_up(result.optimistic->upper));
 }
 
@@ -160,7 +157,8 @@ std::string finding_text(const ReportInput& input, std::size_t index) {
   if (violated && bound <= 0.0) return text;  // one failing run refutes a gate that allows none; it shows no rate
   return text + fmt::format("; the true {} is at {} {} ({}{})", gate.unit == GateUnit::AgvHour ? "rate" : "share",
                             violated ? "least" : "most", bound_text(gate, bound, violated ? rounded_down : rounded_up),
-                            percent(gate.confidence), gate.method == GateMethod::AnyTime ? ", at any time" : "");
+                            percent(gate.confidence),
+                            gate.method == GateMethod::AnyTime ? ", however often one looks" : "");
 }
 
 Section gate_section(const ReportInput& input) {

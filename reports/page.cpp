@@ -42,7 +42,7 @@ Section provenance_section(const ReportInput& input) {
   add("campaign", fmt::format("{}, kind {}, seed {}, {}, {}", campaign.name, campaign.kind, campaign.seed,
                               count_text(input.evidence.cells().size(), "cell"),
                               count_text(campaign.replicates, "planned replicate")));
-  add("plan hash", hex_text(campaign.plan_hash));
+  add("plan digest", hex_text(campaign.plan_hash));
   add("fleetproof", engine.version);
   add("program sha256", engine.program_sha256);
   add("compiler", engine.compiler);

@@ -8,6 +8,7 @@
 #include "reports/attempts/attempt_section.hpp"
 #include "reports/coverage_section.hpp"
 #include "reports/gate_section.hpp"
+#include "reports/head_notes.hpp"
 #include "reports/sample_sentence.hpp"
 #include "reports/wording.hpp"
 
@@ -70,6 +71,7 @@ Headline claim(const ReportInput& input) {
       name_of(verdict));
   headline.text += is_weak(input) ? "; the evidence is weak." : ".";
   headline.details.emplace_back().text = gates_by_verdict(input);
+  std::ranges::move(stall_notes(input), std::back_inserter(headline.details));
   for (std::size_t i = 0; i < std::min(kGatesTold, speaking.size()); ++i) {
     const GateResult& result = input.gates[speaking[i]];
     std::string text = i == 0 ? "" : subject(input, speaking[i]) + ". ";
@@ -89,6 +91,7 @@ Headline claim(const ReportInput& input) {
     headline.details.push_back({"Sampled: " + sampled(input.evidence, cells) + ".", ""});
   headline.details.emplace_back().text =
       "A world (replicate) is one draw of all that is random. It is run in every cell (test condition).";
+  std::ranges::move(soundness_notes(input), std::back_inserter(headline.details));
   if (const std::string attempts = attempts_headline(input); !attempts.empty())
     headline.details.emplace_back().text = attempts;
   return headline;

@@ -40,9 +40,12 @@ void name_cells(std::vector<std::string>& points, const Evidence& evidence, Scop
 }
 
 // A gate that pools its cells says little about a single cell.
-void name_short_gates(std::vector<std::string>& points, const Evidence& evidence) {
+// A gate with a failure is not helped by that number.
+void name_short_gates(std::vector<std::string>& points, const ReportInput& input) {
+  const Evidence& evidence = input.evidence;
   if (evidence.counts_only()) return;
   for (std::size_t i = 0; i < evidence.gates().size(); ++i) {
+    if (input.gates[i].claim && input.gates[i].claim->failing > 0) continue;
     const auto& gate = evidence.gates()[i];
     const auto needed = gate.unit == GateUnit::AgvHour ? std::nullopt : units_to_pass(gate, 0, 0);
     const auto done = evidence.complete_replicates();
@@ -83,7 +86,7 @@ std::vector<std::string> weak_points(const ReportInput& input) {
       points.push_back(
           fmt::format("The runs of agent {}: {}.", printable(agent.agent, 40), missing_text(agent.missing)));
   }
-  name_short_gates(points, evidence);
+  name_short_gates(points, input);
   name_cells(points, evidence, Scope::All, "have no run", [](const Tally& tally) { return tally.runs == 0; });
   name_cells(points, evidence, Scope::Contract, "completed no transport",
              [](const Tally& tally) { return tally.runs > 0 && tally.transports_done == 0; });

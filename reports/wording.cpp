@@ -69,11 +69,15 @@ std::string per_hour_text(const std::optional<double>& rate) { return rate ? fmt
 std::string count_text(std::uint64_t count, std::string_view singular) {
   return fmt::format("{} {}{}", count, singular, count == 1 ? "" : "s");
 }
+std::string failed_text(std::uint64_t failing, std::uint64_t failing_or_unknown) {
+  const auto unknown = failing_or_unknown - failing;
+  return std::to_string(failing) + (unknown > 0 ? fmt::format(" +{}?", unknown) : "");
+}
 std::string hex_text(std::uint64_t digest) { return fmt::format("{:016x}", digest); }
 
 std::string body_name(EntityId body, const CellRecord& cell) {
   if (body.value < cell.fleet_size) return fmt::format("AGV {}", body.value);
-  return fmt::format("obstacle {}", body.value - cell.fleet_size);
+  return fmt::format("fallen load or obstacle {}", body.value - cell.fleet_size);
 }
 
 std::string replay_command(const std::string& archive_path, std::uint64_t run_index) {

@@ -31,8 +31,10 @@ std::string metres_text(std::int64_t value_um);
 std::string clearance_text(const Tally& tally);
 std::string per_hour_text(const std::optional<double>& rate);
 std::string count_text(std::uint64_t count, std::string_view singular);  // "1 run", "3 runs"
-std::string hex_text(std::uint64_t digest);                              // 16 digits
-std::string body_name(EntityId body, const CellRecord& cell);            // "AGV 3", "obstacle 0"
+// "3", or "3 +5?" with five more that stayed unknown: what is not known is never called a failure.
+std::string failed_text(std::uint64_t failing, std::uint64_t failing_or_unknown);
+std::string hex_text(std::uint64_t digest);                    // 16 digits
+std::string body_name(EntityId body, const CellRecord& cell);  // "AGV 3", "fallen load or obstacle 0"
 
 // The command that replays a run, as a person copies it into a shell.
 std::string replay_command(const std::string& archive_path, std::uint64_t run_index);

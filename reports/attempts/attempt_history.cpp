@@ -13,7 +13,7 @@ constexpr std::size_t kMostTold = 3;
 
 std::string told(const Attempt& attempt) {
   const std::string state = attempt.ended_utc.empty() ? "aborted or still under way" : attempt.verdict;
-  return fmt::format("seed {}, plan {}: {}{}", attempt.seed, hex_text(attempt.plan_hash), printable(state, 40),
+  return fmt::format("seed {}, plan digest {}: {}{}", attempt.seed, hex_text(attempt.plan_hash), printable(state, 40),
                      attempt.replaced ? ", overwritten" : "");
 }
 
@@ -62,9 +62,10 @@ std::string attempts_sentence(const AttemptHistory& history, double risk) {
     if (others.size() > kMostTold) words.push_back(fmt::format("{} more", others.size() - kMostTold));
     const double all = std::min(1.0, risk * static_cast<double>(others.size() + 1));
     text = fmt::format(
-        "The ledger names {} for the same release ({}). One attempt demonstrates a limit that is not met in at most {} "
-        "of cases, one of {} in up to {}.",
-        count_text(others.size(), "other attempt"), joined(words, "; "), percent(risk), others.size() + 1,
+        "The ledger names {} attempts for this release: this one and {} ({}). The bounds hold for one attempt and are "
+        "not adjusted for their number: a limit that is not met is demonstrated by one attempt in at most {} of cases, "
+        "by one of {} in up to {}.",
+        others.size() + 1, count_text(others.size(), "other"), joined(words, "; "), percent(risk), others.size() + 1,
         percent(all));
   }
   if (!history.same_worlds.empty()) {

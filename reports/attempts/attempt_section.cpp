@@ -23,12 +23,13 @@ double risk_of(const ReportInput& input) {
 std::string plan_sentence(const ReportInput& input) {
   const auto& own = input.attempts.own;
   const std::string plan = hex_text(input.campaign.plan_hash);
-  if (!own || own->begun_utc.empty()) return fmt::format("When plan {} was fixed is not known.", plan);
+  if (!own || own->begun_utc.empty()) return fmt::format("When plan digest {} was fixed is not known.", plan);
   const std::string begun = printable(own->begun_utc, 40);
   if (own->plan_hash == input.campaign.plan_hash)
-    return fmt::format("Plan {} was fixed before run 0, at {}.", plan, begun);
-  return fmt::format("Plan {} was fixed before run 0, at {}; its number of replicates was changed since: plan {}.",
-                     hex_text(own->plan_hash), begun, plan);
+    return fmt::format("Plan digest {} was fixed before run 0, at {}.", plan, begun);
+  return fmt::format(
+      "Plan digest {} was fixed before run 0, at {}; the number of replicates was changed since: digest {}.",
+      hex_text(own->plan_hash), begun, plan);
 }
 
 std::string seed_sentence(const ReportInput& input) {
@@ -65,6 +66,15 @@ std::string looks_sentence(const ReportInput& input) {
                        : " Gates of the method any-time allow that.");
 }
 
+std::vector<std::string> row(const Attempt& attempt, const std::string& verdict) {
+  return {attempt.begun_utc.empty() ? "not known" : printable(attempt.begun_utc, 40),
+          printable(attempt.campaign, 40),
+          std::to_string(attempt.seed),
+          hex_text(attempt.plan_hash),
+          fmt::format("{} of {}", attempt.runs, attempt.planned_runs),
+          verdict};
+}
+
 }  // namespace
 
 std::string attempts_headline(const ReportInput& input) {
@@ -79,16 +89,14 @@ Section attempt_section(const ReportInput& input) {
   }
   const auto& others = input.attempts.others;
   if (!others.empty()) {
-    for (const char* head : {"begun", "campaign", "seed", "plan", "runs", "verdict"})
+    for (const char* head : {"begun", "campaign", "seed", "plan digest", "runs", "verdict"})
       section.table.columns.push_back({head, false});
   }
+  if (!others.empty()) section.table.rows.push_back(row(*input.attempts.own, "this page"));
   for (std::size_t i = others.size(); i-- > 0 && section.table.rows.size() < kMostRows;) {
     const Attempt& other = others[i];
     const std::string state = other.ended_utc.empty() ? "aborted or still under way" : printable(other.verdict, 40);
-    section.table.rows.push_back({other.begun_utc.empty() ? "not known" : printable(other.begun_utc, 40),
-                                  printable(other.campaign, 40), std::to_string(other.seed), hex_text(other.plan_hash),
-                                  fmt::format("{} of {}", other.runs, other.planned_runs),
-                                  state + (other.replaced ? ", overwritten" : "")});
+    section.table.rows.push_back(row(other, state + (other.replaced ? ", overwritten" : "")));
   }
   for (std::string text : {attempts_headline(input), plan_sentence(input), seed_sentence(input),
                            obedience_sentence(input), looks_sentence(input)})

@@ -24,8 +24,8 @@ Element figure_of(const std::string& caption, const Element& drawing) {
 }
 
 std::string risk_caption(const Evidence& evidence) {
-  return evidence.counts_only() ? "Failing worlds / worlds"
-                                : "Failing worlds / worlds, and the upper bound of their share";
+  return evidence.counts_only() ? "Failing or unknown worlds / worlds"
+                                : "Failing or unknown worlds / worlds, and the upper bound of their share";
 }
 
 // The bars that are closer than the safety distance are marked. A distance above 0.5 m has no line.

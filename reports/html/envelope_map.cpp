@@ -43,7 +43,8 @@ std::string sentence_of(const GateRecord& gate, const EnvelopeGrid& grid, std::s
   text += fmt::format(
       "Where it says yes, the true share of worlds in which {} breaks the safety distance is below {:g} %: "
       "in all these fields together, with {} confidence{}. ",
-      printable(gate.agent, 40), 100.0 * gate.limit, percent(gate.confidence), any_time ? ", at any time" : "");
+      printable(gate.agent, 40), 100.0 * gate.limit, percent(gate.confidence),
+      any_time ? ", however often one looks" : "");
   text +=
       "A field is claimed only together with all fields of less loss and less delay. Nothing is assumed about how the "
       "truth changes from field to field, and nothing is said about values in between.";

@@ -101,10 +101,14 @@ std::string faults_text(const Json& faults) {
   return words.empty() ? "none injected" : joined(words);
 }
 
-std::string radio_text(const Json& radio) {
+// The model of outages says nothing where no outage is planned.
+std::string radio_text(const Json& radio, bool has_outages) {
+  const std::string losses = has_outages
+                                 ? fmt::format("losses in outages ({}, by {})", word(part(radio, "outage_model")),
+                                               word(part(radio, "outage_scope")))
+                                 : "each loss independent of the others";
   auto text =
-      fmt::format("delay {}, losses {} by {}, range {:g} m", word(part(radio, "delay_model")),
-                  word(part(radio, "outage_model")), word(part(radio, "outage_scope")), number(radio, "range_m"));
+      fmt::format("delay {}, {}, range {:g} m", word(part(radio, "delay_model")), losses, number(radio, "range_m"));
   if (number(radio, "duplicates") > 0.0) text += fmt::format(", duplicates {}", percent(number(radio, "duplicates")));
   if (part(radio, "interference") == Json(true)) text += ", interference";
   if (number(radio, "sources") > 0.0) text += fmt::format(", {:g} outside sources", number(radio, "sources"));
@@ -154,9 +158,10 @@ std::vector<Fact> plan_conditions(const std::string& plan_json) {
   add("Agents (control software)", list(part(factors, "agents")));
   add("Loss", list(part(factors, "loss"), 100.0) + " %");
   add("Delay", list(part(factors, "delay_s")) + " s");
-  if (const Json& outage = part(factors, "mean_outage_s"); outage != Json::array({0.0}))
-    add("Mean outage", list(outage) + " s (0 = losses are independent)");
-  add("Radio", radio_text(part(plan, "radio")));
+  const Json& outage = part(factors, "mean_outage_s");
+  const bool has_outages = outage != Json::array({0.0});
+  if (has_outages) add("Mean outage", list(outage) + " s (0 = each loss independent of the others)");
+  add("Radio", radio_text(part(plan, "radio"), has_outages));
   add("Layouts", layouts_text(part(factors, "layouts")));
   add("Fleet sizes", list(part(factors, "fleet_sizes")) + " AGVs");
   add("Vehicles", vehicles_text(part(plan, "vehicles")));

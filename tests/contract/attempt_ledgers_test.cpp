@@ -47,7 +47,7 @@ TEST_F(AttemptLedgers, CountACampaignThatGoesOnOnce) {
   EXPECT_EQ(told.at("own").at("runs"), 4);
   EXPECT_EQ(told.at("looks"), 2);
   EXPECT_THAT(run("report a.db").out, HasSubstr("The plan had 2 runs when it began and has 4 now"));
-  EXPECT_THAT(run("report a.db").out, HasSubstr("its number of replicates was changed since"));
+  EXPECT_THAT(run("report a.db --format markdown").out, HasSubstr("the number of replicates was changed since"));
 }
 
 TEST_F(AttemptLedgers, OutsideTheWorkspaceSurviveIt) {

@@ -15,7 +15,7 @@ JUDGED = "(1, 4, 5, 6, 7, 8, 9, 10, 13, 14, 16)"
 
 def body(number, run):
     fleet = run["fleet_size"]
-    return f"AGV {number}" if number < fleet else f"obstacle {number - fleet}"
+    return f"AGV {number}" if number < fleet else f"fallen load or obstacle {number - fleet}"
 
 
 def run_sentence(archive, index):
@@ -137,6 +137,19 @@ def layouts(archive, found):
     return counted and abs(spread / (rate * (1.0 - rate) / units) - float(found[4])) <= 0.0051
 
 
+def stalled(archive, found):
+    """"A stalled in 12 of 32 worlds of the contract region"."""
+    cells = [cell["cell"] for cell in archive.cells if cell["agent"] == found[1] and archive.inside(cell)]
+    return (archive.stalled_worlds(cells), archive.replicates) == (int(found[2]), int(found[3]))
+
+
+def soundness(archive, found):
+    row = archive.one("SELECT (SELECT count(*) FROM audits WHERE run_index < ?) AS n, (SELECT coalesce(sum(engine_error), "
+                      "0) FROM runs WHERE run_index < ?) AS errors, (SELECT count(*) FROM audits a JOIN runs r USING "
+                      "(run_index) WHERE a.checksum != r.checksum) AS differing", archive.runs, archive.runs)
+    return (row["n"], row["errors"], row["differing"]) == (int(found[1]), 0, 0)
+
+
 def replicates(archive, found):
     return int(found[1]) == archive.replicates
 
@@ -177,16 +190,18 @@ PATTERNS = [(re.compile(pattern), check) for pattern, check in (
     (r"^([0-9]+) of ([0-9]+) planned replicates? (?:is|are) complete", planned),
     (r"^([0-9]+) of ([0-9]+) stored runs are not counted", uncounted),
     (r"\bin ([0-9]+) runs? of agent (.+), AGVs came too close to nothing but fallen loads", foreign_body_runs),
+    (r"^(.+) stalled in ([0-9]+) of ([0-9]+) worlds of the contract region: ", stalled),
+    (r"^No run ended in an error of the simulator\. ([0-9]+) runs? w(?:as|ere) simulated once more", soundness),
     (r"^Gates of .*: (demonstrated|violated|not demonstrated): ", constant),
-    (r"^Plan ([0-9a-f]{16}) was fixed before run 0, at ", plan_time),
-    (r"^When plan ([0-9a-f]{16}) was fixed is not known", plan_time),
+    (r"^Plan digest ([0-9a-f]{16}) was fixed before run 0, at ", plan_time),
+    (r"^When plan digest ([0-9a-f]{16}) was fixed is not known", plan_time),
     (r"^Seed ([0-9]+) (was chosen by a person|follows from)", seed),
     (r"^The data (?:obey the plan|are a part of the plan): ([0-9]+) of ([0-9]+) planned", planned),
     (r"^Layouts as units: runs of (.+) failed or stayed unknown on ([0-9]+) of ([0-9]+) layouts(?: \(design effect "
      r"([0-9.]+)\))?\. A claim about layouts that were not run has ([0-9]+) units", layouts),
     # From files beside the archive: contract/attempt_ledgers_test.cpp and reports/attempts_test.cpp.
     (r"^Earlier attempts unknown: the ledger names no other", constant),
-    (r"^The ledger names [0-9]+ other attempt", constant),
+    (r"^The ledger names [0-9]+ attempts", constant),
     (r"^The results were looked at with [0-9]+ numbers of runs", constant),
     # In recount.py: the title, the claim, the gates, the headlines, the charts.
     (r"^fleetproof report: ", compared_elsewhere),
@@ -200,7 +215,7 @@ PATTERNS = [(re.compile(pattern), check) for pattern, check in (
     (r"^The runs of agent (.+?): (?:never met|too rare): ", probes_missing),
     (r"^([0-9]+) runs? ended in an error of the simulator itself", engine_errors),
     (r"^Guaranteed envelope: shown in ([0-9]+) of ([0-9]+) fields. .* in which (.+) breaks the safety distance is below "
-     r"([0-9.e-]+) %: in all these fields together, with ([0-9.]+ %) confidence(, at any time)?\. .* Each field needs "
+     r"([0-9.e-]+) %: in all these fields together, with ([0-9.]+ %) confidence(, however often one looks)?\. .* Each field needs "
      r"([0-9]+) worlds? without a failure\.$", is_envelope),
     (r"^Gate \".*\": every cell of it has ([0-9]+) runs?; even without a failure a limit of ", replicates),
     (r"^[^:]*: newly failing: [0-9]+ runs?; newly passing: ", compared_elsewhere),
@@ -219,7 +234,7 @@ PATTERNS = [(re.compile(pattern), check) for pattern, check in (
     (r"ISO 3691-4", constant),
     (r"95 % is how often this procedure is right", constant),
     (r"40 % loss and 2 s delay are stress", constant),
-    (r"^(plan hash|fleetproof|program sha256|compiler|flags|libraries|archive|campaign): ", constant),
+    (r"^(plan digest|fleetproof|program sha256|compiler|flags|libraries|archive|campaign): ", constant),
     (r"^No film strip: ", constant),
     (r"^Agent .*, (outages of|call cost) ", compared_elsewhere),
     (r"^... ?[0-9]+ more", constant),

@@ -36,7 +36,7 @@ def gate_sentence(gate, counts):
         text += f" and {failing - known} stayed unknown, which counts as failing"
     if units:
         text += f": rate {w.rate(failing / exposure)}, two-sided 95 % interval {w.interval(pair)}"
-    when = "valid at any time" if gate["method"] == "any-time" else "for the planned replicates"
+    when = "valid however often one looks" if gate["method"] == "any-time" else "for the planned replicates"
     return text + (f", one-sided {w.percent(gate['confidence'])} upper bound {w.up(upper)}, limit "
                    f"{gate['limit_rate']:g} ({when}).")
 
@@ -63,7 +63,7 @@ def finding(gate, counts, verdict):
     number = w.down(lower if hourly else 100.0 * lower) if violated else w.up(upper if hourly else 100.0 * upper)
     bound = f"; the true {'rate' if hourly else 'share'} is at {'least' if violated else 'most'} {number}"
     bound += " per AGV-hour" if hourly else " %"
-    when = ", at any time" if gate["method"] == "any-time" else ""
+    when = ", however often one looks" if gate["method"] == "any-time" else ""
     return text + re.escape(bound + f" ({w.percent(gate['confidence'])}{when})")
 
 

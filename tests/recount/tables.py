@@ -36,12 +36,12 @@ def condition_tables(archive):
     for agent, low, high, cells in archive.conditions():
         indices = [cell["cell"] for cell in cells]
         tally = archive.tally(indices)
-        units, _, failing = archive.units("violation", "world", indices)
+        units, known, failing = archive.units("violation", "world", indices)
         row = [agent] + ["none" if w.SHOWN[i][3] and high[i] == 0.0 else w.span(i, low[i], high[i]) for i in shown]
         row += [str(tally["runs"]), str(tally["violating"])]
         if not archive.search:
             upper, pair = share(archive, agent, failing, units)
-            row += [f"{failing}/{units}", w.rate(failing / units) if units else "-", w.interval(pair), w.up(upper)]
+            row += [f"{w.failed(known, failing)}/{units}", w.rate(failing / units) if units else "-", w.interval(pair), w.up(upper)]
         row += [str(tally[name]) for name in ("contact", "stuck", "ended")]
         row += [w.closest(tally), w.per_hour(tally["done"], tally["agv_us"])]
         for title, wanted in titles.items():
@@ -52,12 +52,12 @@ def condition_tables(archive):
 
 def group_row(archive, agent, name, inside, cells):
     tally = archive.tally(cells)
-    units, _, failing = archive.units("violation", "world", cells)
+    units, known, failing = archive.units("violation", "world", cells)
     row = [agent, name, "contract" if inside else "beyond", str(tally["runs"])]
     if archive.search:
         row.append(str(tally["violating"]))
     else:
-        row += [f"{failing}/{units}", w.up(share(archive, agent, failing, units)[0]) if units else "-"]
+        row += [f"{w.failed(known, failing)}/{units}", w.up(share(archive, agent, failing, units)[0]) if units else "-"]
         agv_us, _, events = archive.units("violation", "agv-hour", cells)
         if agv_us == 0:
             row += ["-", "-"]
@@ -102,9 +102,9 @@ def gate_rows(archive):
             in_unit = (lambda text, number: text(number) + " per AGV-hour") if hourly else (
                 lambda text, number: text(100.0 * number) + " %")
             limit = in_unit(lambda number: f"{number:g}", gate["limit_rate"])
-            failed = str(known) + (f" +{failing - known}?" if failing > known else "")
+            failed = w.failed(known, failing)
             row += [failed if hourly else f"{failed}/{units}", in_unit(w.up, upper),
-                    ("none; " if gate["kind"] == "none" else "") + limit]
+                    ("0 allowed; " if gate["kind"] == "none" else "") + limit]
         rows.append((row, gate, counts))
     return rows
 

@@ -63,6 +63,10 @@ def count(number, word):
     return f"{number} {word}" + ("" if number == 1 else "s")
 
 
+def failed(known, with_unknown):
+    return str(known) + (f" +{with_unknown - known}?" if with_unknown > known else "")
+
+
 def grouped(number):
     return f"{number:,}".replace(",", " ")
 

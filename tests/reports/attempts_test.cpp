@@ -61,16 +61,16 @@ TEST_F(Attempts, WithOtherSeedsAreToldWithTheirVerdictsAndTheAddedRisk) {
   tried(2, "");
   tried(3, "demonstrated");
   const std::string text = sentence(campaign(3));
-  EXPECT_THAT(text, HasSubstr("2 other attempts"));
-  EXPECT_THAT(text, HasSubstr("seed 1, plan 0000000000000001: violated"));
-  EXPECT_THAT(text, HasSubstr("seed 2, plan 0000000000000002: aborted or still under way"));
-  EXPECT_THAT(text, HasSubstr("at most 5 % of cases, one of 3 in up to 15 %"));
+  EXPECT_THAT(text, HasSubstr("3 attempts for this release: this one and 2 others ("));
+  EXPECT_THAT(text, HasSubstr("seed 1, plan digest 0000000000000001: violated"));
+  EXPECT_THAT(text, HasSubstr("seed 2, plan digest 0000000000000002: aborted or still under way"));
+  EXPECT_THAT(text, HasSubstr("at most 5 % of cases, by one of 3 in up to 15 %"));
 }
 
 TEST_F(Attempts, OverwrittenOnesStay) {
   tried(1, "violated", "r1", "aa", "a.db");
   tried(2, "demonstrated", "r1", "aa", "a.db", true);
-  EXPECT_THAT(sentence(campaign(2)), HasSubstr("seed 1, plan 0000000000000001: violated, overwritten"));
+  EXPECT_THAT(sentence(campaign(2)), HasSubstr("seed 1, plan digest 0000000000000001: violated, overwritten"));
 }
 
 TEST_F(Attempts, WithTheSamePlanAreOne) {
@@ -94,7 +94,7 @@ TEST_F(Attempts, ABrokenLineIsCountedAndCostsNothingElse) {
   tried(1, "violated");
   std::ofstream(path_, std::ios::app) << "{\"attempt\":\"begins\",\"id\":\"9\n[]\n";
   tried(2, "demonstrated");
-  EXPECT_THAT(sentence(campaign(2)), HasSubstr("1 other attempt "));
+  EXPECT_THAT(sentence(campaign(2)), HasSubstr("this one and 1 other ("));
   EXPECT_THAT(sentence(campaign(2)), HasSubstr("2 lines of the ledger cannot be read"));
 }
 

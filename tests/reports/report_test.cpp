@@ -224,6 +224,17 @@ TEST(Report, weak_points_are_named) {
   EXPECT_THAT(points, HasSubstr("No gate judges agent other"));
 }
 
+TEST(Report, no_number_of_worlds_is_offered_to_a_gate_with_a_failure) {
+  for (const bool fails : {false, true}) {
+    const auto input = report_of(campaign_of("claim", 10), grid({"sound"}, {0.4}, {2.0}),
+                                 {gate_of("sound", GateKind::None, Region::Contract, 1e-3)}, [&](RunRecord& run) {
+                                   if (fails && run.replicate == 3) samples::violate(run);
+                                 });
+    const std::string points = nlohmann::json::parse(render("json", input))["weak_points"].dump();
+    EXPECT_EQ(points.find("even without a failure") == std::string::npos, fails);
+  }
+}
+
 TEST(Report, unknown_outcomes_have_their_optimistic_line) {
   const auto input = report_of(campaign_of("claim", 100), grid({"sound"}, {0.4}, {2.0}),
                                {gate_of("sound", GateKind::Rate, Region::WorstCase, 1e-3)},

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "reports/page.hpp"
+
+namespace fleetproof {
+
+// Sentences of the head that belong to no gate.
+
+// The agents under test that stalled within the contract region: deadlock, livelock or starvation that no contact and
+// no foreign body explains.
+std::vector<Remark> stall_notes(const ReportInput& input);
+
+// That nothing casts doubt on the simulator: errors of its own, and audits. Empty if something does: then a headline
+// says so.
+std::vector<Remark> soundness_notes(const ReportInput& input);
+
+}  // namespace fleetproof

@@ -1,0 +1,82 @@
+#include "reports/head_notes.hpp"
+
+#include <gmock/gmock.h>
+
+#include "tests/reports/sample_campaign.hpp"
+
+namespace fleetproof {
+namespace {
+
+using testing::ElementsAre;
+using testing::Field;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+void stall(RunRecord& run, IncidentKind kind) {
+  Incident incident;
+  incident.kind = kind;
+  incident.first = at_seconds(100.0);
+  incident.last = at_seconds(160.0);
+  file_incidents(run.outcome, {incident});
+}
+
+// Two agents of which "ours" is under test, inside the contract and beyond it: cells 0 to 3.
+ReportInput stalling(EndPoint gated, const samples::Change& change) {
+  GateRecord gate = samples::gate_of("ours", GateKind::Rate, Region::Contract, 0.1);
+  gate.end_point = gated;
+  return samples::report_of(samples::campaign_of("claim", 20), samples::grid({"ours", "theirs"}, {0.4, 0.8}, {1.0}),
+                            {gate}, change);
+}
+
+std::string texts(const std::vector<Remark>& remarks) {
+  std::string all;
+  for (const Remark& remark : remarks) all += remark.text + "\n";
+  return all;
+}
+
+TEST(HeadNotes, TellTheStalledWorldsOfTheAgentUnderTestWithinTheContract) {
+  const auto input = stalling(EndPoint::Violation, [](RunRecord& run) {
+    if (run.replicate < 3) stall(run, IncidentKind::Deadlock);  // in every cell, of both agents
+    if (run.replicate == 5 && run.cell == 0) stall(run, IncidentKind::Starvation);
+    if (run.replicate == 6 && run.cell == 1) stall(run, IncidentKind::Livelock);  // beyond the contract
+  });
+  EXPECT_THAT(stall_notes(input),
+              ElementsAre(Field(&Remark::text, HasSubstr("ours stalled in 4 of 20 worlds of the contract region"))));
+  EXPECT_THAT(texts(stall_notes(input)), HasSubstr("No gate judges that."));
+}
+
+TEST(HeadNotes, AGateOnProgressJudgesThem) {
+  const auto input = stalling(EndPoint::Deadlock, [](RunRecord& run) { stall(run, IncidentKind::Deadlock); });
+  EXPECT_THAT(texts(stall_notes(input)), HasSubstr("20 of 20"));
+  EXPECT_THAT(texts(stall_notes(input)), Not(HasSubstr("No gate")));
+}
+
+TEST(HeadNotes, WhatAContactExplainsIsNoStall) {
+  const auto input = stalling(EndPoint::Violation, [](RunRecord& run) {
+    samples::violate(run, 0, true);
+    stall(run, IncidentKind::Deadlock);
+  });
+  EXPECT_THAT(stall_notes(input), IsEmpty());
+}
+
+TEST(HeadNotes, SayThatTheSimulatorWasChecked) {
+  auto input = stalling(EndPoint::Violation, {});
+  EXPECT_THAT(texts(soundness_notes(input)), HasSubstr("No run was simulated once more"));
+  input.audits.add_audit(0, true);
+  input.audits.add_audit(3, true);
+  EXPECT_THAT(texts(soundness_notes(input)),
+              HasSubstr("No run ended in an error of the simulator. 2 runs were simulated once more"));
+  input.audits.add_audit(5, false);
+  EXPECT_THAT(soundness_notes(input), IsEmpty()) << "a headline says more";
+}
+
+TEST(HeadNotes, AreSilentAboutSoundnessBesideAnEngineError) {
+  const auto input = stalling(EndPoint::Violation, [](RunRecord& run) {
+    if (run.run_index == 7) run.outcome.engine_error = true;
+  });
+  EXPECT_THAT(soundness_notes(input), IsEmpty());
+}
+
+}  // namespace
+}  // namespace fleetproof
