@@ -204,37 +204,6 @@ TEST(Report, pooled_rows_say_that_their_unit_is_the_replicate) {
   EXPECT_EQ(nlohmann::json::parse(render("json", pooled))["cells"].size(), 3u);
 }
 
-TEST(Report, weak_points_are_named) {
-  const auto input = report_of(
-      campaign_of("claim", 10), grid({"sound", "other"}, {0.0, 0.4}, {2.0}),
-      {gate_of("sound", GateKind::None, Region::Contract, 1e-3)},
-      [](RunRecord& run) {
-        if (run.cell == 1) run.outcome.counters.transports_done = 0;
-        if (run.cell == 2 && run.replicate == 5) run.outcome.crash = true;
-      },
-      2);
-  const auto json = nlohmann::json::parse(render("json", input));
-  const auto points = json["weak_points"].dump();
-  EXPECT_THAT(points, HasSubstr("2 of 42 stored runs are not counted"));
-  EXPECT_THAT(points, HasSubstr("takes 2995"));
-  EXPECT_THAT(
-      points,
-      HasSubstr("1 of 4 cells in the contract region completed no transport: sound on ring, fleet of 5, 40 %, 2 s"));
-  EXPECT_THAT(points, HasSubstr("1 of 4 cells have runs with an unknown outcome"));
-  EXPECT_THAT(points, HasSubstr("No gate judges agent other"));
-}
-
-TEST(Report, no_number_of_worlds_is_offered_to_a_gate_with_a_failure) {
-  for (const bool fails : {false, true}) {
-    const auto input = report_of(campaign_of("claim", 10), grid({"sound"}, {0.4}, {2.0}),
-                                 {gate_of("sound", GateKind::None, Region::Contract, 1e-3)}, [&](RunRecord& run) {
-                                   if (fails && run.replicate == 3) samples::violate(run);
-                                 });
-    const std::string points = nlohmann::json::parse(render("json", input))["weak_points"].dump();
-    EXPECT_EQ(points.find("even without a failure") == std::string::npos, fails);
-  }
-}
-
 TEST(Report, unknown_outcomes_have_their_optimistic_line) {
   const auto input = report_of(campaign_of("claim", 100), grid({"sound"}, {0.4}, {2.0}),
                                {gate_of("sound", GateKind::Rate, Region::WorstCase, 1e-3)},
