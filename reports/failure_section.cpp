@@ -24,7 +24,7 @@ Table failure_table(const std::vector<FailureGroup>& groups) {
 
 Section failure_section(const ReportInput& input, std::size_t most_groups) {
   Section section{"Failing runs, by what went wrong first", {}, {}};
-  auto groups = input.failures.list();
+  auto groups = input.failures.list(input.evidence.gates());
   if (groups.empty()) {
     section.remarks.emplace_back().text = "No run failed.";
     return section;

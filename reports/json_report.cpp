@@ -337,7 +337,7 @@ std::string render_json(const ReportInput& input) {
   json["cells"] =
       list_of(evidence.cells().size(), [&](std::size_t i) { return one_cell_json(input, evidence.cells()[i]); });
   json["attempts"] = attempts_json(input);
-  const auto groups = input.failures.list();
+  const auto groups = input.failures.list(input.evidence.gates());
   json["failure_groups"] = list_of(groups.size(), [&](std::size_t i) { return group_json(input, groups[i]); });
   json["coverage"] = coverage_json(input);
   json["incidents"] = incidents_json(input);

@@ -169,7 +169,7 @@ html::FilmStrip without_frames(const std::string& why) {
 std::map<std::uint64_t, html::FilmStrip> film_strips(const ArchiveReader& archive, const std::string& archive_path,
                                                      const FailureGroups& failures) {
   std::map<std::uint64_t, html::FilmStrip> strips;
-  auto groups = failures.list();
+  auto groups = failures.list(archive.gates());
   groups.resize(std::min(groups.size(), kMostStrips));
   if (groups.empty()) return strips;
   std::unique_ptr<FilmMaker> maker;

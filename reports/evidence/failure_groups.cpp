@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "reports/evidence/evidence.hpp"
+
 namespace fleetproof {
 namespace {
 
@@ -26,7 +28,7 @@ void FailureGroups::add(const RunRecord& run, const std::string& agent) {
   }
 }
 
-std::vector<FailureGroup> FailureGroups::list() const {
+std::vector<FailureGroup> FailureGroups::list(const std::vector<GateRecord>& gates) const {
   std::vector<FailureGroup> all;
   for (const auto& [key, group] : groups_) {
     all.push_back(group.shown);
@@ -34,6 +36,7 @@ std::vector<FailureGroup> FailureGroups::list() const {
   }
   std::ranges::stable_sort(all,
                            [](const FailureGroup& a, const FailureGroup& b) { return more_serious(a.worst, b.worst); });
+  std::ranges::stable_partition(all, [&](const FailureGroup& group) { return is_under_test(gates, group.agent); });
   return all;
 }
 

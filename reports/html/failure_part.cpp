@@ -29,7 +29,7 @@ Element worst_of_group(const ReportInput& input, const FailureGroup& group, cons
 
 Element failure_part(const ReportInput& input, const FilmStrips& strips) {
   Element part = titled("Failing runs, by what went wrong first");
-  auto groups = input.failures.list();
+  auto groups = input.failures.list(input.evidence.gates());
   if (groups.empty()) return part.add(paragraph("No run failed."));
   const std::size_t all = groups.size();
   groups.resize(std::min(all, kMostGroups));

@@ -85,6 +85,7 @@ def ordinal_of(archive, agent, run):
 
 class Failures:
     def __init__(self, archive):
+        self.gates = archive.gates
         self.groups = {}
         self.last_new = defaultdict(int)  # by agent: the number of its run in which a kind was seen first, the latest
         digests = defaultdict(set)
@@ -105,8 +106,13 @@ class Failures:
             digests[key].add(run["digest"])
         self.distinct = {key: len(found) for key, found in digests.items()}
 
+    def under_test(self, agent):
+        deciding = {gate["agent"] for gate in self.gates if gate["decides"]}
+        return not deciding or agent in deciding
+
     def rows(self):
-        keys = sorted(self.groups, key=lambda key: (SERIOUS.index(key[1]), self.groups[key][1]))
+        keys = sorted(self.groups, key=lambda key: (not self.under_test(key[0]), SERIOUS.index(key[1]),
+                                                    self.groups[key][1]))
         return [[*key, str(self.groups[key][0]), str(self.distinct[key]), str(self.groups[key][1][-1])] for key in keys]
 
 
