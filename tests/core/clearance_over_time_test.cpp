@@ -343,6 +343,27 @@ TEST(ClearanceOverTime, SeesWhatComesAfterAJoint) {
   }
 }
 
+// A post that a corner of the body passes closely where the curve bends. Each way, the bend has the other sign.
+TEST(ClearanceOverTime, ACurveDrivenTheOtherWayBendsToTheOtherSide) {
+  const Curve there = Curve::bezier({0, 0}, {2, 0}, {2, 0}, {2, 2}), back = there.reversed();
+  for (const Vec2& place : {Vec2(0.97, -0.817), Vec2(-0.83, -0.617), Vec2(-0.43, -0.617), Vec2(2.37, -0.417),
+                            Vec2(2.57, -0.217), Vec2(2.77, 0.183)}) {
+    SCOPED_TRACE(place);
+    const Piece post = rest_piece(EntityId{1U}, {0.2, 0.2}, {place, Vec2::UnitX()}, kStart);
+    for (const Curve* curve : {&there, &back}) {
+      Piece piece;
+      piece.manner = Manner::Drive;
+      piece.curve = curve;
+      piece.profile = MotionProfile(curve->length_m(), {});
+      piece.end = piece.begin + piece.profile.duration();
+      const MotionPair pair{piece, post, {piece.begin, piece.end}};
+      const Seen seen = look(pair);
+      ASSERT_GT(seen.least_m, 0.0);
+      ASSERT_NO_FATAL_FAILURE(expect_as_seen(pair, seen));
+    }
+  }
+}
+
 // Bodies that go round a bend together hardly move against each other: hours of evaluations if they were treated as two
 // independent rotations.
 TEST(ClearanceOverTime, PlatoonsOnABendAreCheap) {
