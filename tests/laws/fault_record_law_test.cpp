@@ -25,6 +25,20 @@ TEST(FaultRecord, NotesEachFaultFromItsBeginningToItsEnd) {
                           noted(IncidentKind::FaultInjected, 1, 4.0, 10.0, static_cast<int>(Fault::Kind::Breakdown))));
 }
 
+TEST(FaultRecord, TellsFaultsApartThatLastAtTheSameTime) {
+  const Scenario scenario = row_scenario(2, {0, 1});
+  Told told(scenario, "faults");
+  told.record(1.0, 0, traced::FaultStrikes{Fault::Kind::Restart, 0})
+      .record(2.0, 0, traced::FaultStrikes{Fault::Kind::Freeze, 1})
+      .record(3.0, 1, traced::FaultStrikes{Fault::Kind::Restart, 0})
+      .record(4.0, 0, traced::FaultOver{Fault::Kind::Restart, 0})
+      .record(5.0, 1, traced::FaultOver{Fault::Kind::Restart, 0});
+  EXPECT_THAT(told.finish(10.0).incidents,
+              ElementsAre(noted(IncidentKind::FaultInjected, 0, 1.0, 4.0, static_cast<int>(Fault::Kind::Restart)),
+                          noted(IncidentKind::FaultInjected, 0, 2.0, 10.0, static_cast<int>(Fault::Kind::Freeze)),
+                          noted(IncidentKind::FaultInjected, 1, 3.0, 5.0, static_cast<int>(Fault::Kind::Restart))));
+}
+
 TEST(FaultRecord, NotesBodiesOnTheFloorAndNotAgvsThatAreSetDown) {
   Scenario scenario = row_scenario(2, {0, 1});
   scenario.obstacles.emplace_back();

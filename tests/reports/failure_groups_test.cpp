@@ -2,12 +2,102 @@
 
 #include <gmock/gmock.h>
 
+#include "core/scenario/faults.hpp"
 #include "tests/reports/sample_campaign.hpp"
 
 namespace fleetproof {
 namespace {
 
 using testing::ElementsAre;
+
+// A run with the trace `digest`. AGVs 1 and 3 come too close.
+RunRecord failing(std::uint64_t run_index, std::uint64_t digest, std::int64_t clearance_um = 70'000,
+                  bool contact = false) {
+  RunRecord run = samples::clean_run(run_index, 1);
+  samples::violate(run, clearance_um, contact);
+  run.outcome.digest = digest;
+  return run;
+}
+
+// A restart of AGV 1 comes before.
+RunRecord failing_after_a_fault(std::uint64_t run_index, std::uint64_t digest) {
+  RunRecord run = failing(run_index, digest);
+  const int restart = static_cast<int>(Fault::Kind::Restart);
+  file_incidents(run.outcome,
+                 {{IncidentKind::FaultInjected, EntityId{1U}, {}, at_seconds(2.0), at_seconds(5.0), restart}});
+  return run;
+}
+
+TEST(FailureGroups, LeaveOutRunsInWhichNothingFailed) {
+  FailureGroups groups;
+  groups.add(samples::clean_run(0, 1), "sound");
+  EXPECT_TRUE(groups.list({}).empty());
+  EXPECT_EQ(groups.failing_runs(), 0U);
+}
+
+TEST(FailureGroups, CountRunsAndEachTraceOnceAndShowTheWorst) {
+  FailureGroups groups;
+  groups.add(failing(0, 7, 60'000), "sound");
+  groups.add(failing(1, 7, 60'000), "sound");
+  groups.add(failing(2, 8, 20'000), "sound");
+  groups.add(failing(3, 9, 40'000), "sound");
+  EXPECT_EQ(groups.failing_runs(), 4U);
+  const auto list = groups.list({});
+  ASSERT_EQ(list.size(), 1U);
+  EXPECT_EQ(list[0].agent, "sound");
+  EXPECT_EQ(list[0].end_point, "violation");
+  EXPECT_EQ(list[0].runs, 4U);
+  EXPECT_EQ(list[0].distinct, 3U);
+  EXPECT_FALSE(list[0].at_least);
+  EXPECT_EQ(list[0].worst.run_index, 2U);
+}
+
+TEST(FailureGroups, DifferByAgentEndPointFirstCauseAndWhatCameBefore) {
+  FailureGroups groups;
+  groups.add(failing(0, 1), "sound");
+  groups.add(failing(1, 2), "other");
+  groups.add(failing_after_a_fault(2, 3), "sound");
+  RunRecord crashed = failing(3, 4);  // the same violation first, and a crash in the end
+  crashed.outcome.violation = false;
+  crashed.outcome.crash = true;
+  groups.add(crashed, "sound");
+  RunRecord stuck = samples::clean_run(4, 1);
+  stuck.outcome.stuck = true;
+  groups.add(stuck, "sound");
+  const Incident deadlock{IncidentKind::Deadlock, EntityId{0U}, EntityId{2U}, at_seconds(50.0), at_seconds(60.0), 2};
+  file_incidents(stuck.outcome, {deadlock});
+  groups.add(stuck, "sound");
+  const auto list = groups.list({});
+  EXPECT_EQ(list.size(), 6U);
+  for (const FailureGroup& group : list) EXPECT_EQ(group.runs, 1U) << group.agent << " " << group.first_cause;
+}
+
+TEST(FailureGroups, StandInOrderOfTheirWorstRuns) {
+  FailureGroups groups;
+  groups.add(failing(0, 1, 30'000), "a");
+  groups.add(failing(1, 2, 0, true), "b");
+  groups.add(failing(2, 3, 10'000), "c");
+  std::string order;
+  for (const FailureGroup& group : groups.list({})) order += group.agent;
+  EXPECT_EQ(order, "bca");
+}
+
+TEST(FailureGroups, SayWhenTheyNoLongerTellTracesApart) {
+  constexpr std::uint64_t kKept = 200'000;
+  FailureGroups groups;
+  RunRecord run = failing(0, 0);
+  for (std::uint64_t i = 0; i < kKept; ++i) {
+    run.outcome.digest = i;
+    groups.add(run, "sound");
+  }
+  groups.add(run, "sound");
+  EXPECT_FALSE(groups.list({})[0].at_least) << "the last trace is known";
+  run.outcome.digest = kKept;
+  groups.add(run, "sound");
+  EXPECT_TRUE(groups.list({})[0].at_least);
+  EXPECT_EQ(groups.list({})[0].distinct, kKept);
+  EXPECT_EQ(groups.list({})[0].runs, kKept + 2);
+}
 
 // "a-reference" runs into things, "ours" only comes too close.
 ReportInput two_agents(const std::vector<GateRecord>& gates) {

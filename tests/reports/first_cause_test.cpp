@@ -91,6 +91,35 @@ TEST(CameBefore, ADeadlockAfterSomeFaultIsUndecided) {
             CameBefore::Undecided);
 }
 
+TEST(CameBefore, TheLastFaultIsNamed) {
+  const auto cause = first_cause(
+      run_with({violation(0, 1, 20.0)}, {fault(Fault::Kind::Restart, 1, 5.0), fault(Fault::Kind::Freeze, 0, 15.0)}));
+  EXPECT_EQ(fault_text(*cause, kAgvs), "5.00 s after the freeze of AGV 0 began");
+}
+
+TEST(CameBefore, AForeignBodyIsNamedRatherThanALaterFaultOfItsAgv) {
+  const auto cause =
+      first_cause(run_with({violation(0, 4, 20.0)}, {body(4, 10.0, 300.0), fault(Fault::Kind::Restart, 0, 19.0)}));
+  EXPECT_EQ(cause->before, CameBefore::ForeignBody);
+  EXPECT_EQ(fault_text(*cause, kAgvs), "10.00 s after a load fell");
+}
+
+TEST(CameBefore, ADeadlockAfterSomeFaultStaysUndecidedIfAContactFollows) {
+  EXPECT_EQ(
+      first_cause(run_with({violation(0, 1, 200.0, true)}, {fault(Fault::Kind::Freeze, 3, 5.0), deadlock(50.0, 180.0)}))
+          ->before,
+      CameBefore::Undecided);
+}
+
+TEST(CameBefore, CountedFaultsThatNoLawNotedAreUndecided) {
+  Outcome outcome = run_with({}, {deadlock(50.0, 180.0)});
+  outcome.counters.faults = 1;
+  EXPECT_EQ(first_cause(outcome)->before, CameBefore::Undecided);
+  Outcome noted = run_with({}, {deadlock(50.0, 180.0), fault(Fault::Kind::Freeze, 3, 300.0)});
+  noted.counters.faults = 1;
+  EXPECT_EQ(first_cause(noted)->before, CameBefore::Nothing) << "the fault came later";
+}
+
 TEST(ForeignBodies, RunsWithThemAloneAreUnknown) {
   const Outcome outcome = run_with({violation(0, 4, 20.0, true)});
   for (const EndPoint end_point : {EndPoint::Violation, EndPoint::Contact})
@@ -110,6 +139,18 @@ TEST(ForeignBodies, WhoRunsIntoTheWreckOfOneIsNoFindingEither) {
   EXPECT_EQ(answerable(chain), (std::vector<bool>{false, false, false}));
   const Outcome near_only = run_with({violation(0, 4, 20.0), violation(0, 1, 30.0, true)});
   EXPECT_EQ(answerable(near_only), (std::vector<bool>{false, true})) << "AGV 0 passed the load and drove on";
+}
+
+TEST(ForeignBodies, AWreckLiesThereUntilTheLastOfItsContactsEnds) {
+  const Outcome outcome =
+      run_with({violation(0, 4, 20.0, true), violation(0, 1, 30.0, true, 35.0), violation(0, 2, 40.0)});
+  EXPECT_EQ(answerable(outcome), (std::vector<bool>{false, false, false}));
+}
+
+TEST(ForeignBodies, AreMetOnTheFloorOrInAViolation) {
+  EXPECT_TRUE(met_foreign_bodies(run_with({}, {body(4, 1.0, 9.0)})));
+  EXPECT_TRUE(met_foreign_bodies(run_with({violation(0, 4, 20.0)}))) << "an obstacle from the start is not filed";
+  EXPECT_FALSE(met_foreign_bodies(run_with({violation(0, 1, 20.0)}, {fault(Fault::Kind::Restart, 1, 5.0)})));
 }
 
 TEST(ForeignBodies, AnAgvThatDrivesOnAfterwardsIsLikeAnyOther) {
@@ -134,6 +175,9 @@ TEST(ForeignBodies, AStandstillWhileOneLayIsUnknown) {
   EXPECT_EQ(result_of(run_with({}, {body(4, 10.0, 40.0), deadlock(50.0, 180.0)}), EndPoint::Deadlock),
             RunResult::Failed)
       << "it was cleared before";
+  EXPECT_EQ(result_of(run_with({}, {body(4, 200.0, 240.0), deadlock(50.0, 180.0)}), EndPoint::Deadlock),
+            RunResult::Failed)
+      << "it fell afterwards";
 }
 
 }  // namespace
