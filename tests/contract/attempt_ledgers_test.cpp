@@ -50,6 +50,19 @@ TEST_F(AttemptLedgers, CountACampaignThatGoesOnOnce) {
   EXPECT_THAT(run("report a.db --format markdown").out, HasSubstr("the number of replicates was changed since"));
 }
 
+TEST_F(AttemptLedgers, RememberACampaignThatWasKilled) {
+  campaign("1");
+  shell(
+      "\"$FLEETPROOF\" run c.toml --db a.db --replicates 1000000 & "
+      "for i in $(seq 200); do [ -s attempts.jsonl ] && break; sleep 0.1; done; kill -9 $!; wait");
+  std::filesystem::remove(path("a.db"));
+  run("run c.toml --db b.db --seed 2");
+  const auto told = attempts("b.db").at("others");
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0].at("seed"), 1);
+  EXPECT_THAT(run("report b.db").out, HasSubstr("aborted or still under way"));
+}
+
 TEST_F(AttemptLedgers, OutsideTheWorkspaceSurviveIt) {
   std::filesystem::create_directory(path("kept"));
   campaign("1");

@@ -71,6 +71,9 @@ TEST_F(Attempts, OverwrittenOnesStay) {
   tried(1, "violated", "r1", "aa", "a.db");
   tried(2, "demonstrated", "r1", "aa", "a.db", true);
   EXPECT_THAT(sentence(campaign(2)), HasSubstr("seed 1, plan digest 0000000000000001: violated, overwritten"));
+  tried(3, "demonstrated", "r1", "aa", "b.db", true);
+  EXPECT_THAT(sentence(campaign(3)), HasSubstr("seed 2, plan digest 0000000000000002: demonstrated;"))
+      << "another file was overwritten";
 }
 
 TEST_F(Attempts, WithTheSamePlanAreOne) {
@@ -88,6 +91,42 @@ TEST_F(Attempts, OfAnotherReleaseInTheSameWorldsAreTold) {
   EXPECT_THAT(sentence(campaign(1, "bb")),
               HasSubstr("Another release was tried in the same worlds before (2026-01-01"));
   EXPECT_THAT(sentence(campaign(1, "aa")), Not(HasSubstr("Another release"))) << "it came later";
+}
+
+TEST_F(Attempts, OfAnotherReleaseInOtherWorldsAreNoAttemptsOfThisOne) {
+  tried(1, "violated", "r1", "aa");
+  tried(2, "demonstrated", "r2", "bb");
+  EXPECT_THAT(sentence(campaign(2, "bb")), HasSubstr("names no other attempt"));
+  EXPECT_THAT(sentence(campaign(2, "bb")), Not(HasSubstr("Another release")));
+}
+
+TEST_F(Attempts, InOtherWorldsCountOnceHoweverOftenTheyAreRepeated) {
+  tried(1, "");
+  tried(1, "violated");
+  tried(2, "demonstrated");
+  EXPECT_THAT(sentence(campaign(2)), HasSubstr("this one and 1 other ("));
+  EXPECT_THAT(sentence(campaign(2)), HasSubstr("seed 1, plan digest 0000000000000001: violated"));
+}
+
+TEST_F(Attempts, TheLastWithThisPlanIsThatOfTheCampaignFile) {
+  tried(1, "violated");
+  tried(1, "demonstrated");
+  EXPECT_EQ(attempt_history(AttemptLedger(path_), campaign(1)).own->id, "2");
+}
+
+TEST_F(Attempts, TheLatestOthersAreTold) {
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) tried(seed, "violated");
+  const std::string text = sentence(campaign(5));
+  EXPECT_THAT(text, HasSubstr("(seed 4, "));
+  EXPECT_THAT(text, HasSubstr("seed 2, "));
+  EXPECT_THAT(text, Not(HasSubstr("seed 1, ")));
+  EXPECT_THAT(text, HasSubstr("1 more"));
+}
+
+TEST_F(Attempts, WithOtherLibrariesAreOfOtherSoftware) {
+  CampaignRecord other = campaign(1);
+  other.engine.libraries = "SQLite 3.41";
+  EXPECT_NE(attempt_of(other).software, attempt_of(campaign(1)).software);
 }
 
 TEST_F(Attempts, ABrokenLineIsCountedAndCostsNothingElse) {
@@ -117,6 +156,7 @@ TEST_F(Attempts, LooksCountByTheRunsThatWereThere) {
   note_look(archive, 140);
   note_look(archive, 140);
   EXPECT_EQ(looks_at(archive), 2U);
+  EXPECT_EQ(std::ranges::count(samples::bytes_of(folder_ / "a.sessions.jsonl"), '\n'), 3) << "one line for each look";
 }
 
 }  // namespace
