@@ -3,6 +3,7 @@
 
 #include <fstream>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
@@ -48,7 +49,8 @@ class EvidenceSet : public test::ProgramTest {
     ProgramTest::SetUp();
     write("c.toml",
           "seed = 5\nreplicates = 12\nhorizon_s = 120\n[factors]\nagents = [{ name = \"=cmd,\\\"x\\\"\", agent = "
-          "\"reckless\" }]\nlayouts = [\"aisle-grid\"]\nfleet_sizes = [5]\nloss = [0.4]\ndelay_s = [2]\n");
+          "\"reckless\" }, \"hull-lock\"]\nlayouts = [\"aisle-grid\"]\nfleet_sizes = [5]\nloss = [0.4]\ndelay_s = "
+          "[2]\n");
     run("run c.toml --db a.db");
   }
 };
@@ -87,8 +89,45 @@ TEST_F(EvidenceSet, TablesHaveOneFieldForEachColumnOfTheDictionary) {
     for (const auto& record : records) ASSERT_EQ(record.size(), names.size()) << file;
   }
   const auto runs = records_of(path("set/runs.csv"));
-  ASSERT_EQ(runs.size(), 13U);
+  ASSERT_EQ(runs.size(), 25U);
   EXPECT_EQ(runs[1][3], "'=cmd,\"x\"") << "no formula";
+  EXPECT_EQ(runs[2][3], "hull-lock") << "each run has the factors of its own cell";
+}
+
+TEST_F(EvidenceSet, HoldsTheLogsAndTheIdentityOfItsCampaign) {
+  run("report a.db --evidence set");
+  EXPECT_THAT(read(path("attempts.jsonl")), HasSubstr("begins"));
+  EXPECT_EQ(read(path("set/attempts.jsonl")), read(path("attempts.jsonl")));
+  EXPECT_THAT(read(path("a.sessions.jsonl")), HasSubstr("started_utc"));
+  EXPECT_EQ(read(path("set/sessions.jsonl")), read(path("a.sessions.jsonl")));
+  EXPECT_THAT(read(path("set/report.xml")), testing::StartsWith("<?xml"));
+  EXPECT_EQ(read(path("set/report.json")), run("report a.db --format json").out);
+  const auto identity = nlohmann::json::parse(read(path("set/identity.json")));
+  EXPECT_EQ(identity.at("campaign_file_sha256"), sha256_of_file(path("a.db")));
+  EXPECT_EQ(nlohmann::json::parse(read(path("set/plan.json"))).at("seed"), 5);
+  EXPECT_THAT(read(path("set/validity.txt")), HasSubstr(" of 24 runs have a trace that another run"));
+}
+
+TEST_F(EvidenceSet, ReplaysExactlyTheFailingRuns) {
+  run("report a.db --evidence set");
+  const auto runs = records_of(path("set/runs.csv"));
+  std::string expected;
+  for (std::size_t i = 1; i < runs.size(); ++i) {
+    if (runs[i][12] == "1") expected += "fleetproof replay a.db " + runs[i][0] + "\n";
+  }
+  ASSERT_EQ(runs[0][12], "violation");
+  EXPECT_THAT(expected, HasSubstr("a.db 0\n"));
+  EXPECT_EQ(read(path("set/replay.txt")), expected);
+}
+
+TEST_F(EvidenceSet, IsGoneIfTheDiskIsFull) {
+  for (const std::string blocks : {"4", "100"}) {  // of 1 KiB: in the first file, and in a later one
+    const auto cut = shell("ulimit -f " + blocks + "; \"$FLEETPROOF\" report a.db --evidence set");
+    EXPECT_EQ(cut.exit_code, 3) << blocks;
+    EXPECT_THAT(cut.err, HasSubstr("cannot be written"));
+    EXPECT_FALSE(std::filesystem::exists(path("set")));
+    EXPECT_FALSE(std::filesystem::exists(path("set.partial")));
+  }
 }
 
 TEST_F(EvidenceSet, IsNeverWrittenOverAnythingAndNeverHalf) {
