@@ -6,8 +6,20 @@
 #include <filesystem>
 #include <fstream>
 
+#include "core/base/error.hpp"
+#include "tests/storage/sample_records.hpp"
+
 namespace fleetproof {
 namespace {
+
+TEST(SessionLog, NothingIsAppendedToAForeignFile) {
+  const samples::TemporaryFolder folder;
+  samples::write_bytes(folder / "a.sessions.jsonl", "my notes\n");
+  EXPECT_THROW(SessionLog(folder / "a.db"), InputError);
+  EXPECT_EQ(samples::bytes_of(folder / "a.sessions.jsonl"), "my notes\n");
+  samples::write_bytes(folder / "a.sessions.jsonl", "{\"started_utc\":\"2026-11-21T22:04:05Z\"}\n");
+  EXPECT_NO_THROW(SessionLog(folder / "a.db"));
+}
 
 class RememberedPlugin : public testing::Test {
  protected:

@@ -76,6 +76,20 @@ TEST(TaskPool, ResultsThatNobodyTakesStopTheRuns) {
   EXPECT_EQ(drain(pool).size(), 1000U);
 }
 
+TEST(TaskPool, AtMost512ResultsAreUntakenHoweverLargeTheWindowIs) {
+  constexpr int kHandedOver = 8;  // tasks of two workers that may be on their way when no more results are wanted
+  std::atomic<int> simulated{0};
+  TaskPool pool(2, 0, 3000, 65'536, [&](std::uint64_t index) {
+    ++simulated;
+    return record_of(index);
+  });
+  for (int i = 0; i < 10'000 && simulated < 512; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));  // for runs that should not begin
+  EXPECT_GE(simulated, 512);
+  EXPECT_LE(simulated, 512 + kHandedOver);
+  EXPECT_EQ(drain(pool).size(), 3000U);
+}
+
 TEST(TaskPool, StopsHandingOut) {
   TaskPool pool(2, 0, 1'000'000'000, 1000, record_of);
   (void)pool.next(std::chrono::milliseconds(1000));
