@@ -47,17 +47,24 @@ std::string failure_text(const GateRecord& gate, std::optional<double> safety_di
   invariant_violated("an end point has words");
 }
 
-std::string region_text(const GateRecord& gate) {
-  const std::string layout = gate.layout.empty() ? "" : ", layout " + printable(gate.layout, 40);
-  switch (gate.region) {
+std::string region_text(Region region) {
+  switch (region) {
     case Region::Contract:
-      return fmt::format("loss <= {}, delay <= {:g} s", percent(kContractLoss), kContractDelay_s) + layout;
+      return fmt::format("loss <= {}, delay <= {:g} s", percent(kContractLoss), kContractDelay_s);
     case Region::WorstCase:
-      return fmt::format("loss {}, delay {:g} s", percent(kContractLoss), kContractDelay_s) + layout;
+      return fmt::format("loss {}, delay {:g} s", percent(kContractLoss), kContractDelay_s);
     case Region::All:
-      return "all cells" + layout;
+      return "all cells";
   }
   invariant_violated("a region has words");
+}
+
+// The region, and the cells that the gate names in it. If it names a loss or delay, "all cells" would mislead.
+std::string where_text(const GateRecord& gate) {
+  const std::string named = filter_text(gate.where);
+  const auto& factors = gate.where.factors;
+  if (gate.region == Region::All && (factors[Factor::Loss] || factors[Factor::Delay])) return named;
+  return region_text(gate.region) + (named.empty() ? "" : ", " + named);
 }
 
 // A replicate is a world of its own; for readers it is called so.
@@ -92,7 +99,7 @@ std::vector<std::string> row(const ReportInput& input, std::size_t index) {
   const GateResult& result = input.gates[index];
   std::string what = name_of(gate.end_point);
   if (!gate.requirement.empty()) what += " [" + printable(gate.requirement, 30) + "]";
-  std::vector<std::string> cells{printable(gate.agent, 40), what, region_text(gate)};
+  std::vector<std::string> cells{printable(gate.agent, 40), what, where_text(gate)};
   if (result.claim) {
     cells.push_back(failed_of_units(gate, result));
     cells.push_back(bound_text(gate, result.claim->upper, rounded_up));
@@ -149,6 +156,7 @@ std::string finding_text(const ReportInput& input, std::size_t index) {
   const GateRecord& gate = input.evidence.gates()[index];
   const GateResult& result = input.gates[index];
   std::string text = failure_text(gate, safety_distance_m(input.campaign.plan_json)) + " ";
+  if (const std::string named = filter_text(gate.where); !named.empty()) text += fmt::format("({}) ", named);
   if (!result.claim) return text + "in " + count_text(result.counts.failing_runs, "run");
   text += counted_text(gate, result);
   if (result.claim->units == 0) return text;

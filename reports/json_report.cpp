@@ -167,37 +167,45 @@ Json incidents_json(const ReportInput& input) {
   return list;
 }
 
+// What a gate names of the cells that count; null: any.
+void add_filter(Json& json, const CellFilter& filter) {
+  json["layout"] = filter.layout.empty() ? Json(nullptr) : Json(filter.layout);
+  json["fleet_size"] = maybe(filter.fleet_size);
+  for (const FactorInfo& factor : kFactors) json[std::string(factor.key)] = maybe(filter.factors[factor.id]);
+}
+
 Json gate_json(const ReportInput& input, std::size_t index) {
   const auto& gate = input.evidence.gates()[index];
   const auto& result = input.gates[index];
   const auto& cells = input.evidence.cells_of(index);
-  return {{"gate", gate.index},
-          {"name", gate.name},
-          {"agent", gate.agent},
-          {"requirement", gate.requirement.empty() ? Json(nullptr) : Json(gate.requirement)},
-          {"decides", gate.decides},
-          {"kind", name_of(gate.kind)},
-          {"end_point", name_of(gate.end_point)},
-          {"region", name_of(gate.region)},
-          {"layout", gate.layout.empty() ? Json(nullptr) : Json(gate.layout)},
-          {"counted", name_of(gate.unit)},
-          {"method", name_of(gate.method)},
-          {"limit", gate.limit},
-          {"confidence", gate.confidence},
-          {"min_transports_per_agv_hour", gate.min_transports_per_agv_hour},
-          {"verdict", name_of(result.verdict)},
-          {"reason", result.reason},
-          {"unit", result.unit},
-          {"weak", !result.missing.empty()},
-          {"missing_probes", missing_json(result.missing)},
-          {"claim", estimate_json(result.claim)},
-          {"optimistic", estimate_json(result.optimistic)},
-          {"failing_runs", result.counts.failing_runs},
-          {"transports_per_agv_hour", maybe(result.counts.transports_per_agv_hour)},
-          {"units_needed", maybe(result.units_needed)},
-          {"cells", cells},
-          {"sampled", cells.empty() ? Json(nullptr) : Json(sampled(input.evidence, cells))},
-          {"worst_run", failing_run_json(input, result.worst)}};
+  Json json{{"gate", gate.index},
+            {"name", gate.name},
+            {"agent", gate.agent},
+            {"requirement", gate.requirement.empty() ? Json(nullptr) : Json(gate.requirement)},
+            {"decides", gate.decides},
+            {"kind", name_of(gate.kind)},
+            {"end_point", name_of(gate.end_point)},
+            {"region", name_of(gate.region)}};
+  add_filter(json, gate.where);
+  json.update({{"counted", name_of(gate.unit)},
+               {"method", name_of(gate.method)},
+               {"limit", gate.limit},
+               {"confidence", gate.confidence},
+               {"min_transports_per_agv_hour", gate.min_transports_per_agv_hour},
+               {"verdict", name_of(result.verdict)},
+               {"reason", result.reason},
+               {"unit", result.unit},
+               {"weak", !result.missing.empty()},
+               {"missing_probes", missing_json(result.missing)},
+               {"claim", estimate_json(result.claim)},
+               {"optimistic", estimate_json(result.optimistic)},
+               {"failing_runs", result.counts.failing_runs},
+               {"transports_per_agv_hour", maybe(result.counts.transports_per_agv_hour)},
+               {"units_needed", maybe(result.units_needed)},
+               {"cells", cells},
+               {"sampled", cells.empty() ? Json(nullptr) : Json(sampled(input.evidence, cells))},
+               {"worst_run", failing_run_json(input, result.worst)}});
+  return json;
 }
 
 Json condition_json(const ReportInput& input, const Condition& condition) {

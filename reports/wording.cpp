@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "core/base/outside_text.hpp"
+
 namespace fleetproof {
 namespace {
 
@@ -34,6 +36,17 @@ std::string factors_text(const FactorValues& factors) {
     const double value = factors[factor.id];
     if (value > 0.0 || !factor.only_above_zero)
       words.push_back(fmt::format("{} {}", factor.phrase, factor_text(factor, value)));
+  }
+  return joined(words);
+}
+
+std::string filter_text(const CellFilter& filter) {
+  std::vector<std::string> words;
+  if (!filter.layout.empty()) words.push_back("layout " + printable(filter.layout, 40));
+  if (filter.fleet_size) words.push_back(fmt::format("fleet of {}", *filter.fleet_size));
+  for (const FactorInfo& factor : kFactors) {
+    if (const auto& value = filter.factors[factor.id])
+      words.push_back(fmt::format("{} {}", factor.name, factor_text(factor, *value)));
   }
   return joined(words);
 }

@@ -22,6 +22,8 @@ std::string factor_text(const FactorInfo& factor, double value);
 std::string factor_span(const FactorInfo& factor, double from, double to);
 // "loss 40 %, delay 2 s, outages of 0.5 s". Factors that are only named above 0 stand at the end, or not at all.
 std::string factors_text(const FactorValues& factors);
+// "layout ring, fleet of 5, loss 40 %, delay 2 s": what is given, or nothing.
+std::string filter_text(const CellFilter& filter);
 // The values of the same factors between bounds, with the words of the last ones only: "0 .. 40 %, 2 s".
 std::string factor_spans(const FactorValues& lowest, const FactorValues& highest, std::string_view separator = ", ");
 // A distance that a plan states: hundredths of a metre, or all its digits if it has more.

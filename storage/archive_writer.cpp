@@ -73,7 +73,7 @@ void ArchiveWriter::Impl::insert_plan(const CampaignRecord& campaign, const std:
     bind_cell(insert_cell, cell);
     insert_cell.exec();
   }
-  auto insert_gate = insert_into(*db, "gates", kGateColumns);
+  auto insert_gate = insert_into(*db, "gates", gate_columns());
   for (const auto& gate : gates) {
     insert_gate.reset();
     bind_gate(insert_gate, gate);

@@ -36,7 +36,7 @@ void fix_format(SQLite::Database& db) {
 void copy_rows(SQLite::Database& db, std::uint64_t stop_index) {
   db.exec(fmt::format("INSERT INTO campaign ({0}) SELECT {0} FROM live.campaign ORDER BY id", kCampaignColumns));
   db.exec(fmt::format("INSERT INTO cells ({0}) SELECT {0} FROM live.cells ORDER BY cell", cell_columns()));
-  db.exec(fmt::format("INSERT INTO gates ({0}) SELECT {0} FROM live.gates ORDER BY gate", kGateColumns));
+  db.exec(fmt::format("INSERT INTO gates ({0}) SELECT {0} FROM live.gates ORDER BY gate", gate_columns()));
   const auto copy_below_stop = [&](const std::string& table, const std::string& columns, const std::string& key) {
     SQLite::Statement copy(
         db, fmt::format("INSERT INTO {0} ({1}) SELECT {1} FROM live.{0} WHERE run_index < ? ORDER BY {2}", table,

@@ -45,11 +45,20 @@ class Bytes {
 };
 
 void add_method(Bytes& bytes, const GateRecord& gate) {
-  bytes << gate.requirement << gate.layout << std::string(name_of(gate.unit)) << std::string(name_of(gate.method))
+  bytes << gate.requirement << gate.where.layout << std::string(name_of(gate.unit)) << std::string(name_of(gate.method))
         << std::uint64_t{gate.decides};
   for (const auto* numbers : {&gate.table.passes_from, &gate.table.refuted_up_to}) {
     bytes << std::uint64_t{numbers->size()};
     for (const std::uint64_t number : *numbers) bytes << number;
+  }
+}
+
+void add_cells(Bytes& bytes, const CellFilter& filter, std::int32_t schema) {
+  bytes << std::uint64_t{filter.fleet_size.has_value()} << std::uint64_t{filter.fleet_size.value_or(0)};
+  for (const FactorInfo& factor : kFactors) {
+    if (factor.first_schema > schema) continue;
+    const auto& named = filter.factors[factor.id];
+    bytes << std::uint64_t{named.has_value()} << named.value_or(0.0);
   }
 }
 
@@ -95,6 +104,7 @@ std::uint64_t plan_checksum(const CampaignRecord& campaign, const std::vector<Ce
           << std::string(name_of(gate.end_point));
     bytes << std::string(name_of(gate.region)) << gate.limit << gate.confidence << gate.min_transports_per_agv_hour;
     if (schema >= kFirstTabled) add_method(bytes, gate);
+    if (schema >= kFirstOfOneCell) add_cells(bytes, gate.where, schema);
   }
   return bytes.hash();
 }

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/base/words.hpp"
+#include "storage/factors.hpp"
 
 namespace fleetproof {
 
@@ -112,6 +114,18 @@ struct GateTable {
   friend bool operator==(const GateTable&, const GateTable&) = default;
 };
 
+// Cells of a campaign by what they are called. Each part that is given narrows the choice; all of them name one cell of
+// an agent.
+struct CellFilter {
+  std::string layout;                        // empty: of all layouts
+  std::optional<std::uint32_t> fleet_size;   // absent: of all fleets
+  PerFactor<std::optional<double>> factors;  // absent: of all values, and of bounds
+
+  friend bool operator==(const CellFilter& a, const CellFilter& b) {
+    return a.layout == b.layout && a.fleet_size == b.fleet_size && a.factors.values == b.factors.values;
+  }
+};
+
 // A requirement on a campaign, fixed before its first run.
 struct GateRecord {
   std::uint32_t index = 0;
@@ -120,7 +134,7 @@ struct GateRecord {
   GateKind kind = GateKind::Rate;
   EndPoint end_point = EndPoint::Violation;
   Region region = Region::Contract;
-  std::string layout;  // cells of this layout alone; empty: of all
+  CellFilter where;  // of the cells of the agent in the region, those that count
   GateUnit unit = GateUnit::World;
   GateMethod method = GateMethod::AnyTime;
   double limit = 1e-3;                       // the upper bound must be at or below the limit

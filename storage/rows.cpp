@@ -29,11 +29,13 @@ class Binder {
   Binder& operator<<(const std::string& value) { return statement_.bindNoCopy(next_++, value), *this; }
   Binder& operator<<(std::string&& value) { return statement_.bind(next_++, value), *this; }
   Binder& operator<<(const char* value) { return statement_.bindNoCopy(next_++, value), *this; }
-  Binder& operator<<(const FactorValues& factors) {
-    for (const double value : factors.values) *this << value;
+  template <class Value>
+  Binder& operator<<(const PerFactor<Value>& factors) {
+    for (const Value& value : factors.values) *this << value;
     return *this;
   }
-  Binder& operator<<(std::optional<std::int64_t> value) {
+  template <class Value>
+  Binder& operator<<(const std::optional<Value>& value) {
     if (value) return *this << *value;
     statement_.bind(next_++);
     return *this;
@@ -70,11 +72,7 @@ class Taker {
 
   std::int64_t i64() { return next().getInt64(); }
   std::uint64_t u64() { return std::bit_cast<std::uint64_t>(i64()); }
-  std::uint32_t u32() {
-    const auto value = i64();
-    if (value < 0 || value > 0xffffffffLL) throw EngineError("a row holds a number out of range");
-    return static_cast<std::uint32_t>(value);
-  }
+  std::uint32_t u32() { return in_range(i64()); }
   bool flag() {
     const auto value = i64();
     if (value != 0 && value != 1) throw EngineError("a row holds a yes-or-no field with neither");
@@ -86,17 +84,28 @@ class Taker {
     for (double& value : factors.values) value = real();
     return factors;
   }
+  PerFactor<std::optional<double>> named_factors() {
+    PerFactor<std::optional<double>> named;
+    for (auto& value : named.values) value = maybe_real();
+    return named;
+  }
   std::string text() { return next().getString(); }
   std::optional<std::int64_t> maybe_i64() {
     const auto column = next();
     if (column.isNull()) return std::nullopt;
     return column.getInt64();
   }
-  EntityId entity() {
+  std::optional<double> maybe_real() {
+    const auto column = next();
+    return column.isNull() ? std::nullopt : std::optional(column.getDouble());
+  }
+  std::optional<std::uint32_t> maybe_u32() {
     const auto value = maybe_i64();
-    if (!value) return {};
-    if (*value < 0 || *value > 0xffffffffLL) throw EngineError("a row holds a number out of range");
-    return EntityId{static_cast<std::uint32_t>(*value)};
+    return value ? std::optional(in_range(*value)) : std::nullopt;
+  }
+  EntityId entity() {
+    const auto value = maybe_u32();
+    return value ? EntityId{*value} : EntityId{};
   }
   std::vector<std::uint64_t> digests() {
     const auto bytes = next().getString();
@@ -108,6 +117,10 @@ class Taker {
   }
 
  private:
+  static std::uint32_t in_range(std::int64_t value) {
+    if (value < 0 || value > 0xffffffffLL) throw EngineError("a row holds a number out of range");
+    return static_cast<std::uint32_t>(value);
+  }
   SQLite::Column next() { return row_.getColumn(next_++); }
   const SQLite::Statement& row_;
   int next_ = 0;
@@ -182,8 +195,9 @@ void bind_cell(SQLite::Statement& insert, const CellRecord& cell) {
 void bind_gate(SQLite::Statement& insert, const GateRecord& gate) {
   Binder(insert) << gate.index << gate.name << gate.agent << name_of(gate.kind) << name_of(gate.end_point)
                  << name_of(gate.region) << gate.limit << gate.confidence << gate.min_transports_per_agv_hour
-                 << gate.requirement << gate.layout << name_of(gate.unit) << name_of(gate.method) << gate.decides
-                 << numbers_text(gate.table.passes_from) << numbers_text(gate.table.refuted_up_to);
+                 << gate.requirement << gate.where.layout << name_of(gate.unit) << name_of(gate.method) << gate.decides
+                 << numbers_text(gate.table.passes_from) << numbers_text(gate.table.refuted_up_to)
+                 << gate.where.fleet_size << gate.where.factors;
 }
 
 void bind_run(SQLite::Statement& insert, const RunRecord& run, std::uint64_t checksum) {
@@ -283,12 +297,14 @@ GateRecord read_gate(const SQLite::Statement& row) {
   gate.confidence = from.real();
   gate.min_transports_per_agv_hour = from.real();
   gate.requirement = from.text();
-  gate.layout = from.text();
+  gate.where.layout = from.text();
   gate.unit = word_to<GateUnit>(from.text());
   gate.method = word_to<GateMethod>(from.text());
   gate.decides = from.flag();
   gate.table.passes_from = numbers_of(from.text());
   gate.table.refuted_up_to = numbers_of(from.text());
+  gate.where.fleet_size = from.maybe_u32();
+  gate.where.factors = from.named_factors();
   return gate;
 }
 

@@ -62,7 +62,8 @@ CREATE TABLE gates (
   method TEXT NOT NULL,
   decides INTEGER NOT NULL,
   passes_from TEXT NOT NULL,
-  refuted_up_to TEXT NOT NULL
+  refuted_up_to TEXT NOT NULL,
+  fleet_size INTEGER{gate_factors}
 ) STRICT, WITHOUT ROWID;
 )sql";
 
@@ -194,6 +195,10 @@ SELECT a.run_index, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, a.chec
 FROM audits a JOIN runs r ON r.run_index = a.run_index JOIN cells c ON c.cell = r.cell;
 )sql";
 
+constexpr const char* kGateRule =
+    "gate, name, agent, kind, end_point, region, limit_rate, confidence, min_transports_per_agv_hour";
+constexpr const char* kGateMethod = ", requirement, layout, unit, method, decides, passes_from, refuted_up_to";
+
 // Factors before this one have their places in the views.
 constexpr std::size_t kFirstLaterFactor = static_cast<std::size_t>(Factor::MeanOutage) + 1;
 
@@ -217,9 +222,9 @@ std::string factor_values(std::string_view FactorInfo::*name, std::int32_t schem
   return list;
 }
 
-std::string factor_definitions(std::string_view FactorInfo::*name) {
+std::string factor_definitions(std::string_view FactorInfo::*name, std::string_view type = "REAL NOT NULL") {
   std::string list;
-  for (const FactorInfo& factor : kFactors) list += fmt::format(",\n  {} REAL NOT NULL", factor.*name);
+  for (const FactorInfo& factor : kFactors) list += fmt::format(",\n  {} {}", factor.*name, type);
   return list;
 }
 
@@ -266,7 +271,8 @@ std::string ddl_with(std::string_view runs_order) {
   std::string definitions;
   for (const auto& counter : kCounters) definitions += fmt::format("  {} INTEGER NOT NULL,\n", counter.name);
   const std::string values = factor_definitions(&FactorInfo::key), bounds = factor_definitions(&FactorInfo::key_to);
-  return fmt::format(fmt::runtime(kPlanTables), fmt::arg("factors", values + bounds)) +
+  return fmt::format(fmt::runtime(kPlanTables), fmt::arg("factors", values + bounds),
+                     fmt::arg("gate_factors", factor_definitions(&FactorInfo::key, "REAL"))) +
          fmt::format(fmt::runtime(kRunTables), fmt::arg("factors", values), fmt::arg("counters", definitions),
                      fmt::arg("runs_order", runs_order)) +
          fmt::format(fmt::runtime(kViews), fmt::arg("run_counters", "       " + counter_list("r.")),
@@ -300,10 +306,15 @@ std::string campaign_values(std::int32_t schema) {
   return columns.replace(columns.find(newer), newer.size(), fmt::format("{} AS chunk_runs", kChunkRuns));
 }
 
+std::string gate_columns() { return gate_values(kSchemaVersion); }
+
 std::string gate_values(std::int32_t schema) {
-  std::string columns = kGateColumns;
-  if (schema >= kFirstTabled) return columns;
-  return columns.replace(columns.find("requirement"), std::string::npos, "'', '', 'world', 'fixed', 1, '', ''");
+  std::string columns = kGateRule;
+  columns += schema >= kFirstTabled ? kGateMethod : ", '', '', 'world', 'fixed', 1, '', ''";
+  columns += schema >= kFirstOfOneCell ? ", fleet_size" : ", NULL";
+  for (const FactorInfo& factor : kFactors)
+    columns += schema >= std::max(kFirstOfOneCell, factor.first_schema) ? fmt::format(", {}", factor.key) : ", NULL";
+  return columns;
 }
 
 std::string cell_columns() { return cell_list(factor_names(&FactorInfo::key) + factor_names(&FactorInfo::key_to)); }

@@ -8,14 +8,15 @@ namespace fleetproof {
 inline constexpr std::int32_t kApplicationId = 0x464C5046;  // "FLPF": marks an SQLite file as a campaign file
 
 // What each version added: 2 incidents and probes, 3 bounds of factors, 4 exempt pairs and external sources, 5 the call
-// cost as a factor, 6 the seal, 7 audits, recordings and chunks, 8 gates with
-// their method and tables, and the normal speed of violations.
-inline constexpr std::int32_t kSchemaVersion = 9;
+// cost as a factor, 6 the seal, 7 audits, recordings and chunks, 8 gates with their method and tables, 9 the normal
+// speed of violations, 10 gates on cells of a fleet size or of values of the factors.
+inline constexpr std::int32_t kSchemaVersion = 10;
 inline constexpr std::int32_t kOldestReadable = 4;
 inline constexpr std::int32_t kFirstSealed = 6;  // a published file of an earlier schema has the digest of its rows
 inline constexpr std::int32_t kFirstChunked = 7;
 inline constexpr std::int32_t kFirstTabled = 8;           // gates of an earlier schema are of the method "fixed"
 inline constexpr std::int32_t kFirstWithNormalSpeed = 9;  // 0 in violations of an earlier schema
+inline constexpr std::int32_t kFirstOfOneCell = 10;       // gates of an earlier schema name no fleet and no factor
 inline constexpr std::int32_t kPageSize = 4096;
 
 // The tables and the public views of the canonical file, as one script. Each counter of an outcome
@@ -36,9 +37,7 @@ std::string violation_values(std::int32_t schema);
 inline constexpr const char* kIncidentColumns =
     "run_index, ordinal, kind, entity_a, entity_b, first_ns, last_ns, value";
 inline constexpr const char* kProbeColumns = "run_index, ordinal, source, name, count";
-inline constexpr const char* kGateColumns =
-    "gate, name, agent, kind, end_point, region, limit_rate, confidence, min_transports_per_agv_hour, requirement, "
-    "layout, unit, method, decides, passes_from, refuted_up_to";
+std::string gate_columns();
 std::string gate_values(std::int32_t schema);
 inline constexpr const char* kCampaignColumns =
     "id, name, kind, seed, replicates, plan_json, plan_hash, engine_version, program_sha256, compiler, flags, "

@@ -97,8 +97,19 @@ class CampaignReader {
       if (gate.agent.empty())
         throw InputError(table.place("agent"),
                          fmt::format("gate \"{}\" names no agent; add agent = \"...\"", gate.name));
+      if (names_radio(gate.where) && !table.has("region")) gate.region = Region::All;
       table.finish();
     }
+  }
+  // A region speaks of loss and delay. A gate that names them itself is not cut by a region that nobody wrote.
+  static bool names_radio(const CellFilter& filter) {
+    return filter.factors[Factor::Loss].has_value() || filter.factors[Factor::Delay].has_value();
+  }
+
+  template <OptionalPlain Maybe>
+  void member(TomlTable& table, const Field& field, Maybe& target) {
+    const auto given = table.given(field.key);
+    if (given) take_given(field, *given, target.emplace());
   }
 
   void member(TomlTable& table, const Field& field, std::vector<std::string>& words) {

@@ -108,6 +108,8 @@ class RowWriter {
       return "true or false";
     } else if constexpr (std::is_same_v<Value, std::string>) {
       return "a text";
+    } else if constexpr (OptionalPlain<Value>) {
+      return expected_of(field, typename Value::value_type{});
     } else {
       return special(value);
     }
@@ -125,7 +127,6 @@ class RowWriter {
   static std::string special(const StrongId<Tag>&) {
     return "a name";
   }
-  static std::string special(const std::optional<std::uint32_t>&) { return "a whole number"; }
   static std::string special(const std::optional<std::vector<std::string>>&) { return "a list of texts"; }
   static std::string special(const StreamSeed&) { return "seeds by names of streams"; }
   static std::string special(Purposes) { return without_expected(expected_word({}, kPurposeNames)); }

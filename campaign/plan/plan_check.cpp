@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "campaign/plan/gate_check.hpp"
 #include "campaign/plan/plan_fields.hpp"
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
@@ -61,6 +62,9 @@ class PlanBounds {
       if (!fault.empty()) refuse(path, fmt::format("{}", value), fault);
       if (is_given_as_factor(path, field))
         refuse(path, fmt::format("{}", value), fmt::format("factors.{} gives it; leave one of them out", field.key));
+    } else if constexpr (OptionalPlain<Value>) {
+      if (!value) return;
+      if (const auto fault = fault_of(field, *value); !fault.empty()) refuse(path, fmt::format("{}", *value), fault);
     } else if constexpr (HasFields<Value>) {
       fields(path + ".", value);
       rules(path, value);
@@ -170,37 +174,6 @@ void check_exemption(const LawSetup& law, const PlanPlaces& places) {
   demand(purposes || law.exempt_radius_m == 0.0, places, "law.exempt_radius_m",
          "law.exempt_radius_m is given, but law.exempt_purposes names no stations; name their purposes, as in "
          "[\"charging\"], or leave both out");
-}
-
-void check_gates(const CampaignPlan& plan, const PlanPlaces& places) {
-  if (plan.gates.empty()) return;
-  const auto cells = plan.cells();
-  for (std::size_t i = 0; i < plan.gates.size(); ++i) {
-    const GateRecord& gate = plan.gates[i];
-    const auto path = [&](const char* key) { return fmt::format("gate.{}.{}", i, key); };
-    const std::vector<std::string> agents = plan.agent_names();
-    const std::vector<std::string_view> names(agents.begin(), agents.end());
-    demand(std::ranges::find(agents, gate.agent) != agents.end(), places, path("agent").c_str(),
-           fmt::format("gate \"{}\": agent \"{}\" is not among factors.agents{}", gate.name, gate.agent,
-                       name_hint(gate.agent, names)));
-    demand(
-        gate.layout.empty() || std::ranges::find(plan.layouts, gate.layout, &LayoutFactor::name) != plan.layouts.end(),
-        places, path("layout").c_str(),
-        fmt::format("gate \"{}\": layout \"{}\" is not among factors.layouts", gate.name, gate.layout));
-    demand(gate.end_point != EndPoint::Throughput || gate.unit != GateUnit::AgvHour, places, path("unit").c_str(),
-           fmt::format("gate \"{}\": throughput is judged for a world or a run, not for an AGV-hour", gate.name));
-    demand(gate.unit == GateUnit::AgvHour || gate.limit < 1.0, places, path("limit").c_str(),
-           fmt::format("gate \"{}\": limit {:g} is refused: a share is below 1; only a rate per AGV-hour may be more",
-                       gate.name, gate.limit));
-    const bool covers = std::ranges::any_of(cells, [&](const CellRecord& cell) {
-      return cell.agent == gate.agent && (gate.layout.empty() || cell.layout == gate.layout) &&
-             (gate.region == Region::All || (gate.region == Region::Contract && cell.in_contract()) ||
-              (gate.region == Region::WorstCase && cell.is_worst_case()));
-    });
-    demand(covers, places, path("region").c_str(),
-           fmt::format("gate \"{}\": no cell of this campaign lies in region \"{}\"; add the loss and delay it needs",
-                       gate.name, name_of(gate.region)));
-  }
 }
 
 // The rules of the radio hold for every mean outage of the cells.

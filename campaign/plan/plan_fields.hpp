@@ -25,7 +25,7 @@ inline constexpr double kMostRuns = 1e12;  // a thousand years of this engine; b
 
 template <FieldsOf<GateRecord> Gate, class Visit>
 void visit_fields(Gate& gate, Visit&& visit) {
-  auto& [index, name, agent, requirement, kind, end_point, region, layout, unit, method, limit, confidence,
+  auto& [index, name, agent, requirement, kind, end_point, region, where, unit, method, limit, confidence,
          min_transports_per_agv_hour, decides, table] = gate;
   (void)index, (void)decides, (void)table;  // they follow from the plan
   visit(Field{.key = "name", .text = "name of the gate; left out: gate 1, gate 2, ..."}, name);
@@ -35,7 +35,17 @@ void visit_fields(Gate& gate, Visit&& visit) {
   visit(Field{.key = "kind", .text = "none: any failing run refutes; rate: bounds decide"}, kind);
   visit(Field{.key = "end_point", .text = "what counts as a failure"}, end_point);
   visit(Field{.key = "region", .text = "the cells that count: those of the contract, its worst case, or all"}, region);
-  visit(Field{.key = "layout", .text = "only cells of this layout; left out: of all"}, layout);
+  visit(Field{.key = "layout", .text = "only cells of this layout; left out: of all"}, where.layout);
+  visit(Field{.key = "fleet_size",
+              .text = "only cells with so many AGVs; left out: with any",
+              .low = 1.0,
+              .high = kLargestFleet},
+        where.fleet_size);
+  for (const FactorInfo& factor : kFactors) {
+    Field field = factor_field(factor.id);
+    field.text = "only cells with this value of the factor; left out: with any";
+    visit(field, where.factors[factor.id]);
+  }
   visit(
       Field{.key = "unit", .text = "what is counted: worlds, the runs of each cell (the worst decides), or AGV-hours"},
       unit);

@@ -94,6 +94,10 @@ class PlanWriter {
   static bool is_absent(const std::shared_ptr<const Shared>& value) {
     return value == nullptr;
   }
+  template <OptionalPlain Maybe>
+  static bool is_absent(const Maybe& value) {
+    return !value;
+  }
 
   template <PlainValue Plain>
   Json json(const Plain& value) const {
@@ -102,6 +106,10 @@ class PlanWriter {
     } else {
       return value;
     }
+  }
+  template <OptionalPlain Maybe>
+  Json json(const Maybe& value) const {
+    return json(*value);
   }
   template <class Item>
   Json json(const std::vector<Item>& items) const {
@@ -171,6 +179,10 @@ class PlanReader {
   void value(const Field& field, const Json& json, Plain& target) const {
     if (const auto sentence = take(field, given_by(json), target); !sentence.empty()) refuse(field, json, sentence);
   }
+  template <OptionalPlain Maybe>
+  void value(const Field& field, const Json& json, Maybe& target) const {
+    value(field, json, target.emplace());
+  }
   template <HasFields Setup>
   void value(const Field&, const Json& json, Setup& target) const {
     read(json, target);
@@ -183,8 +195,9 @@ class PlanReader {
   void value(const Field&, const Json& json, std::vector<GateRecord>& gates) const {
     gates.clear();
     for (const Json& item : json) {
-      gates.emplace_back().index = static_cast<std::uint32_t>(gates.size() - 1);
-      read(item, gates.back());
+      GateRecord& gate = gates.emplace_back();
+      gate.index = static_cast<std::uint32_t>(gates.size() - 1);
+      read(item, gate);
     }
   }
   void value(const Field& field, const Json& json, Stream& target) const {

@@ -110,5 +110,11 @@ concept PlainValue =
 template <class Value>
 concept NumberValue = std::same_as<Value, double> || std::same_as<Value, std::uint32_t> ||
     std::same_as<Value, std::uint64_t> || std::same_as<Value, Duration>;
+// A plain value that may be absent.
+template <class Value>
+concept OptionalPlain = requires {
+  typename Value::value_type;
+}
+&&std::same_as<Value, std::optional<typename Value::value_type>>&& PlainValue<typename Value::value_type>;
 
 }  // namespace fleetproof

@@ -8,22 +8,10 @@
 #include "core/base/error.hpp"
 #include "core/outcome/probe_names.hpp"
 #include "reports/evidence/gate_table.hpp"
+#include "storage/gate_cells.hpp"
 
 namespace fleetproof {
 namespace {
-
-bool covers(const GateRecord& gate, const CellRecord& cell) {
-  if (cell.agent != gate.agent || (!gate.layout.empty() && cell.layout != gate.layout)) return false;
-  switch (gate.region) {
-    case Region::Contract:
-      return cell.in_contract();
-    case Region::WorstCase:
-      return cell.is_worst_case();
-    case Region::All:
-      return true;
-  }
-  invariant_violated("a region is known");
-}
 
 // Rows of the tables: agents in the order in which the campaign names them, so that the same campaign always prints the
 // same page.

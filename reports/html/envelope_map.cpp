@@ -18,7 +18,7 @@ constexpr double kShown = 0.6, kNotShown = 0.0;  // shades
 // The limit that was fixed before the first run.
 const GateRecord* gate_on_violations(const Evidence& evidence, const std::string& agent) {
   const auto found = std::ranges::find_if(evidence.gates(), [&](const GateRecord& gate) {
-    return gate.agent == agent && gate.end_point == EndPoint::Violation && gate.layout.empty() &&
+    return gate.agent == agent && gate.end_point == EndPoint::Violation && gate.where == CellFilter{} &&
            gate.unit != GateUnit::AgvHour && gate.limit > 0.0 && gate.limit < 1.0;
   });
   return found == evidence.gates().end() ? nullptr : &*found;

@@ -143,22 +143,25 @@ TEST_F(FieldLists, RulesBetweenFieldsHaveOneSentenceToo) {
 
 TEST_F(FieldLists, EveryFieldOfACampaignIsBounded) {
   const CampaignPlan plan;
-  const auto refused = [](const std::string& table, const Field& field, const auto& value) {
+  const auto refused = [](const auto& self, const std::string& table, const Field& field, const auto& value) -> void {
     using Value = std::remove_cvref_t<decltype(value)>;
-    if constexpr (PlainValue<Value>) {
+    if constexpr (OptionalPlain<Value>) {
+      self(self, table, field, typename Value::value_type{});
+    } else if constexpr (PlainValue<Value>) {
       for (const std::string& bad : bad_values(field, value)) {
         const auto error = campaign_error(table, std::string(field.key), bad);
         EXPECT_TRUE(std::regex_search(error, std::regex("^c\\.toml:[0-9]+:[0-9]+: .* is refused: expected "))) << error;
       }
     }
   };
-  visit_fields(plan.faults, [&](const Field& field, const auto& value) { refused("faults", field, value); });
-  visit_fields(plan.demand, [&](const Field& field, const auto& value) { refused("world", field, value); });
-  visit_fields(plan.sources, [&](const Field& field, const auto& value) { refused("radio", field, value); });
-  visit_fields(plan.vehicles[0], [&](const Field& field, const auto& value) { refused("vehicle", field, value); });
+  visit_fields(plan.faults, [&](const Field& field, const auto& value) { refused(refused, "faults", field, value); });
+  visit_fields(plan.demand, [&](const Field& field, const auto& value) { refused(refused, "world", field, value); });
+  visit_fields(plan.sources, [&](const Field& field, const auto& value) { refused(refused, "radio", field, value); });
+  visit_fields(plan.vehicles[0],
+               [&](const Field& field, const auto& value) { refused(refused, "vehicle", field, value); });
   const GateRecord gate;
-  visit_fields(gate, [&](const Field& field, const auto& value) { refused("[gate]", field, value); });
-  refused("world", kPlacement, plan.placement);
+  visit_fields(gate, [&](const Field& field, const auto& value) { refused(refused, "[gate]", field, value); });
+  refused(refused, "world", kPlacement, plan.placement);
 }
 
 TEST_F(FieldLists, WholeNumbersAreReadExactlyOrRefused) {

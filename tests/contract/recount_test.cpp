@@ -101,6 +101,26 @@ TEST_F(Recount, ASearch) {
   write_archive(campaign_of("search", 20), many_cells(3, 6), gates_of_every_kind("sound", "cross"), 2'000);
   expect_same();
 }
+// Some gates leave a part of the cell open, and some name a cell that is outside of their region.
+TEST_F(Recount, GatesThatNameTheirCells) {
+  const auto cells = many_cells(3, 4);
+  std::vector<GateRecord> gates;
+  for (const CellRecord& cell : cells) {
+    if (cell.index % 5 != 0) continue;
+    auto gate = gates_of_every_kind(cell.agent, "").at(gates.size() % 12);
+    gate.index = static_cast<std::uint32_t>(gates.size());
+    gate.name = "cell " + std::to_string(cell.index);
+    if (cell.index % 2 == 0) gate.where.layout = cell.layout;
+    if (cell.index % 3 != 1) gate.where.fleet_size = cell.fleet_size;
+    for (const FactorInfo& factor : kFactors) {
+      if (cell.index % 7 != 0 || factor.id == Factor::MeanOutage)
+        gate.where.factors[factor.id] = cell.lowest[factor.id];
+    }
+    gates.push_back(gate);
+  }
+  write_archive(campaign_of("claim", 40), cells, gates, 40 * cells.size());
+  expect_same();
+}
 TEST_F(Recount, ACampaignThatWasRun) {
   write("a.toml",
         "replicates = 8\nhorizon_s = 200\n[factors]\nagents = [{ agent = \"hull-lock\", role = \"candidate\" }, "

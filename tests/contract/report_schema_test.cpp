@@ -88,6 +88,8 @@ class ReportSchema : public test::ProgramTest {
 TEST_F(ReportSchema, FitsClaimsSearchesAndWhatIsIncomplete) {
   for (const auto& [kind, agents, more] :
        {std::tuple{"claim", "\"reckless\", \"hull-lock\"", "[faults]\nload_drops_per_transport = 0.5\n"},
+        {"claim", "\"reckless\"",
+         "[[gate]]\nagent = \"reckless\"\nfleet_size = 4\nloss = 0.5\ndelay_s = 2\nmean_outage_s = 0\n"},
         {"claim", "\"timeout-grant\"", "[law]\nexempt_purposes = [\"charging\"]\nexempt_radius_m = 2\n"},
         {"search", "\"reckless\"", ""}}) {
     campaign(kind, agents, more);

@@ -186,6 +186,10 @@ class Archive:
         def covered(cell):
             if cell["agent"] != gate["agent"] or gate["layout"] not in ("", cell["layout"]):
                 return False
+            if gate["fleet_size"] not in (None, cell["fleet_size"]):
+                return False
+            if any(gate[low] is not None and not cell[low] == cell[high] == gate[low] for low, high in FACTORS):
+                return False
             at_worst = all(cell[name] == value for name, value in
                            (("loss", 0.4), ("loss_to", 0.4), ("delay_s", 2.0), ("delay_to_s", 2.0)))
             return {"contract": self.inside(cell), "worst-case": at_worst, "all": True}[gate["region"]]

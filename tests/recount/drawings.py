@@ -57,7 +57,7 @@ def field_maps(archive):
 
 def gate_on_violations(archive, agent):
     for gate in archive.gates:
-        if (gate["agent"], gate["end_point"], gate["layout"]) == (agent, "violation", "") \
+        if (gate["agent"], gate["end_point"], w.named_cells(gate)) == (agent, "violation", "") \
                 and gate["unit"] != "agv-hour" and 0.0 < gate["limit_rate"] < 1.0:
             return gate
     return None

@@ -150,6 +150,32 @@ def soundness(archive, found):
     return (row["n"], row["errors"], row["differing"]) == (int(found[1]), 0, 0)
 
 
+def confidences(archive, found):
+    """"upper = one-sided upper bound, at 95 % for A, 99 % for B."."""
+    said = [f"{w.percent(next((gate['confidence'] for gate in archive.gates if gate['agent'] == agent), 0.95))} for {agent}"
+            for agent in archive.agents]
+    return found[1] == ", ".join(said)
+
+
+def gates_by_verdict(archive, found):
+    """"Gates of A: violated: hang; demonstrated: violation (fleet of 5), crash (3 gates). Gates of B: ..."."""
+    rest = found.string
+    for agent in archive.agents:
+        for end_point in (*END_POINTS, "throughput"):
+            gates = [gate for gate in archive.gates
+                     if gate["decides"] and (gate["agent"], gate["end_point"]) == (agent, end_point)]
+            of_agent = re.search(rf"Gates of {re.escape(agent)}: (.*?)(?=Gates of|Told only|$)", found.string)
+            told = re.findall(rf"(?<![\w-]){end_point}(?: \((.*?)\))?(?=[,;.])", of_agent[1] if of_agent else "")
+            numbers = [int(text.split()[0]) if re.fullmatch("[0-9]+ gates", text) else 1 for text in told]
+            named = {text for text in told if text and not text.endswith(" gates")}
+            if sum(numbers) != len(gates) or not named <= {w.named_cells(gate) for gate in gates}:
+                return False
+            for text in filter(None, told):
+                rest = rest.replace(f"({text})", "")
+        rest = rest.replace(agent, "")
+    return not re.search("[0-9]", rest)
+
+
 def replicates(archive, found):
     return int(found[1]) == archive.replicates
 
@@ -184,6 +210,7 @@ PATTERNS = [(re.compile(pattern), check) for pattern, check in (
     (r"^([a-z-]+) of agent (.+), for instance in run ([0-9]+):", is_first_with_kind),
     (r"^Agent (.+): ([0-9]+) runs? w(?:as|ere) audited, and ", is_audit),
     (r"^([0-9]+) of ([0-9]+) cells (in the contract region )?\D", is_weak_point),
+    (r"^Gates of .+: (?:not )?(?:demonstrated|violated): ", gates_by_verdict),
     (r"Sampled: ([0-9]+) replicates?\b", replicates),
     (r"weak evidence for agent (.+): its ([0-9]+) runs? did not meet", agent_runs),
     (r"A run takes up to ([0-9.]+) s\. stalled", longest_run),
@@ -226,6 +253,7 @@ PATTERNS = [(re.compile(pattern), check) for pattern, check in (
     # Constants of the method and of the contract.
     (r"^Required in at least one of 20000 runs: ", constant),
     (r"upper = one-sided upper bound at [0-9.]+ %", constant),
+    (r"upper = one-sided upper bound, at ([0-9.]+ % for .+)\.$", confidences),
     (r"^0 \.\. 40 % = every replicate draws", constant),
     (r"Thick lines: the bounds of the contract, 40 % loss and 2 s delay", constant),
     (r"A clearance above 0\.5 m is not measured", constant),

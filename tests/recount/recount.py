@@ -87,8 +87,8 @@ def check_gates(archive, page, section, head):
         verdict = re.search(r"(not demonstrated|demonstrated|violated)( \(told only\))?$", text)
         told = s.finding(gate, counts, verdict and verdict[1])
         if told and gate["decides"]:
-            first = f"{gate['agent']} {s.FAILURES[gate['end_point']]}"
-            about = [each for each in head if first + " " in each and "within the contract region" not in each]
+            about = [each for each in head
+                     if re.search(s.subject(gate), each) and "within the contract region" not in each]
             if about and not any(re.search(told, each) for each in about):
                 differ(f"{page}, claim", told, about)
     deciding = [row[-1] if page == "html" else " ".join(row) for (_, gate, _), row in zip(t.gate_rows(archive), rows)

@@ -41,13 +41,20 @@ def gate_sentence(gate, counts):
                    f"{gate['limit_rate']:g} ({when}).")
 
 
+def subject(gate):
+    """How the claim about a gate begins, as a pattern. Gates on the same end point differ in the cells they name."""
+    named = w.named_cells(gate)
+    return (re.escape(f"{gate['agent']} {FAILURES[gate['end_point']]}") + "( of 0.10 m)? " +
+            (re.escape(f"({named}) ") if named else "(?![(])"))
+
+
 def finding(gate, counts, verdict):
     """The claim about a gate in the head of the page, as a pattern."""
     units, known, failing = counts
     if gate["end_point"] not in FAILURES:
         return None
     hourly = gate["unit"] == "agv-hour"
-    text = re.escape(f"{gate['agent']} {FAILURES[gate['end_point']]}") + "( of 0.10 m)? "
+    text = subject(gate)
     text += re.escape(f"{w.count(known, 'time')} in {units / 3.6e9:.6g} AGV-hours") if hourly else \
         re.escape(f"in {known} of {units} ") + "(runs|worlds)"
     if failing > known:

@@ -92,7 +92,10 @@ def gate_rows(archive):
         counts = archive.units(gate["end_point"], gate["unit"], cells, gate["min_transports_per_agv_hour"])
         units, known, failing = counts
         what = gate["end_point"] + (f" [{gate['requirement']}]" if gate["requirement"] else "")
-        where = WHERE[gate["region"]] + (f", layout {gate['layout']}" if gate["layout"] else "")
+        named = w.named_cells(gate)
+        where = ", ".join(filter(None, (WHERE[gate["region"]], named)))
+        if gate["region"] == "all" and (gate["loss"], gate["delay_s"]) != (None, None):
+            where = named
         row = [gate["agent"], what, where]
         if archive.search:
             row.append(None)

@@ -43,6 +43,16 @@ def span(factor, low, high):
     return ("" if low == high else hundredths(low * scale) + " .. ") + hundredths(high * scale) + sign
 
 
+def named_cells(gate):
+    """"layout ring, fleet of 5, loss 40 %, mean outage 0.5 s": what a gate names, or nothing."""
+    words = [f"layout {gate['layout']}"] if gate["layout"] else []
+    words += [f"fleet of {gate['fleet_size']}"] if gate["fleet_size"] is not None else []
+    columns = (("loss", "loss"), ("delay_s", "delay"), ("mean_outage_s", "mean outage"), ("call_cost_s", "call cost"))
+    words += [f"{name} {span(i, gate[column], gate[column])}" for i, (column, name) in enumerate(columns)
+              if gate[column] is not None]
+    return ", ".join(words)
+
+
 def metres(value_um):
     return "%.2f m" % (value_um // 10000 / 100.0)
 

@@ -149,9 +149,27 @@ TEST(AnyTimeGate, OfAReferenceAgentIsToldAndDoesNotDecide) {
 
 TEST(AnyTimeGate, ALayoutOfItsOwnHasItsOwnCells) {
   GateRecord gate = any_time(0.1);
-  gate.layout = "hall";
+  gate.where.layout = "hall";
   const auto input = report_of(campaign_of("claim", 4), grid({"sound"}, {0.4}, {2.0}, {"ring", "hall"}), {gate});
   EXPECT_EQ(input.gates[0].counts.cells, 1U);
+}
+
+// Worlds fail in the cell of 40 % and 2 s alone: a gate on that cell counts them, a gate on its neighbour none.
+TEST(AnyTimeGate, AGateOnOneCellCountsItsRunsAlone) {
+  GateRecord failing = any_time(0.1), clean = any_time(0.1);
+  for (GateRecord* gate : {&failing, &clean}) gate->where.factors[Factor::Loss] = 0.4;
+  failing.where.factors[Factor::Delay] = 2.0;
+  clean.where.factors[Factor::Delay] = 1.0;
+  const auto input = report_of(campaign_of("claim", 60), grid({"sound"}, {0.0, 0.4}, {1.0, 2.0}), {failing, clean},
+                               [](RunRecord& run) {
+                                 if (run.cell == 3 && run.replicate < 40) samples::violate(run);
+                               });
+  EXPECT_EQ(input.gates[0].claim->failing, 40U);
+  EXPECT_EQ(input.gates[0].claim->units, 60U);
+  EXPECT_EQ(input.gates[0].unit, "runs");
+  EXPECT_EQ(input.gates[0].verdict, Verdict::Violated);
+  EXPECT_EQ(input.gates[1].claim->failing, 0U);
+  EXPECT_EQ(input.gates[1].verdict, Verdict::Demonstrated);
 }
 
 }  // namespace

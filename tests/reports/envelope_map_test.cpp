@@ -88,6 +88,10 @@ TEST(EnvelopeMap, is_absent_without_a_limit_that_was_fixed_beforehand) {
   const auto gate = samples::gate_of("sound", GateKind::Rate, Region::All, kLimit);
   const auto search = samples::report_of(samples::campaign_of("search", 5), cells, {gate});
   EXPECT_FALSE(quality_maps(search, CampaignFigures()).front().envelope);
+  auto of_one_cell = gate;  // fixes no limit for the others
+  of_one_cell.where.factors[Factor::Loss] = 0.4;
+  const auto one = samples::report_of(samples::campaign_of("claim", 5), cells, {of_one_cell});
+  EXPECT_FALSE(quality_maps(one, CampaignFigures()).front().envelope);
 }
 
 }  // namespace

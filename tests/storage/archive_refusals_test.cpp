@@ -134,6 +134,11 @@ TEST(ArchiveReader, a_changed_plan_is_noticed) {
   const TemporaryFolder folder;
   const std::vector<std::string> changes{"UPDATE cells SET loss = 0.1 WHERE cell = 3",
                                          "UPDATE gates SET limit_rate = 0.5",
+                                         "UPDATE gates SET fleet_size = 6 WHERE gate = 1",
+                                         "UPDATE gates SET fleet_size = NULL",
+                                         "UPDATE gates SET fleet_size = 0 WHERE gate = 0",
+                                         "UPDATE gates SET loss = 0.0",
+                                         "UPDATE gates SET call_cost_s = NULL",
                                          "UPDATE campaign SET seed = 1",
                                          "UPDATE campaign SET required_probes = ''",
                                          "DELETE FROM gates WHERE gate = 1",

@@ -1,4 +1,4 @@
-// Campaign files of earlier versions of this program: archives/schema4.fp to schema8.fp. The programs of
+// Campaign files of earlier versions of this program: archives/schema4.fp to schema9.fp. The programs of
 // their time wrote them, from one campaign file with a call cost of 10 ms.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -63,6 +63,7 @@ TEST_P(OlderSchemas, AreRead) {
   ASSERT_EQ(reader.gates().size(), 1U);
   EXPECT_EQ(reader.gates()[0].method, GateMethod::Fixed) << "the rule of their time";
   EXPECT_TRUE(reader.gates()[0].decides);
+  EXPECT_EQ(reader.gates()[0].where, CellFilter{}) << "all cells of the region";
   ASSERT_EQ(reader.cells().size(), 4U);
   EXPECT_EQ(reader.cells()[3].lowest[Factor::Loss], 0.4);
   for (const auto& cell : reader.cells()) {
@@ -80,7 +81,7 @@ TEST_P(OlderSchemas, AreCheckedByTheRulesOfTheirTime) {
   const std::string whole = samples::bytes_of(path_);
   for (const char* change :
        {"UPDATE runs SET transports_done = transports_done + 1 WHERE run_index = 3", "UPDATE cells SET loss = 0.1",
-        "UPDATE campaign SET run_count = 11", "UPDATE campaign SET run_count = NULL", "PRAGMA user_version = 9",
+        "UPDATE campaign SET run_count = 11", "UPDATE campaign SET run_count = NULL", "PRAGMA user_version = 10",
         "DELETE FROM runs WHERE run_index = 11; DELETE FROM violations WHERE run_index = 11; DELETE FROM incidents "
         "WHERE "
         "run_index = 11; DELETE FROM probes WHERE run_index = 11"}) {
@@ -139,7 +140,7 @@ TEST_P(OlderSchemas, GoOnFromALiveFileWithALog) {
   EXPECT_FALSE(std::filesystem::exists(other + ".partial-wal"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, OlderSchemas, testing::Values(4, 5, 6, 7, 8));
+INSTANTIATE_TEST_SUITE_P(Each, OlderSchemas, testing::Values(4, 5, 6, 7, 8, 9));
 
 }  // namespace
 }  // namespace fleetproof

@@ -58,7 +58,10 @@ inline std::vector<GateRecord> gates() {
   rate.requirement = "SR-12";
   rate.end_point = EndPoint::Contact;
   rate.region = Region::WorstCase;
-  rate.layout = "ring";
+  rate.where.layout = "ring";
+  rate.where.fleet_size = 5;
+  rate.where.factors[Factor::Delay] = 2.0;
+  rate.where.factors[Factor::CallCost] = 0.0;
   rate.unit = GateUnit::AgvHour;
   rate.limit = 1e-2;
   rate.confidence = 0.99;

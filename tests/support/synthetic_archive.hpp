@@ -96,7 +96,7 @@ inline std::vector<GateRecord> gates_of_every_kind(const std::string& agent, con
     if (gate.end_point == EndPoint::Throughput) gate.unit = GateUnit::World;
     gate.name = "gate " + std::to_string(i);
     gate.requirement = i % 5 == 0 ? "SR-" + std::to_string(i) : "";
-    gate.layout = i % 5 == 3 ? layout : "";
+    gate.where.layout = i % 5 == 3 ? layout : "";
     gate.confidence = i % 3 == 1 ? 0.99 : 0.95;
     gate.index = static_cast<std::uint32_t>(i);
     gates.push_back(gate);
