@@ -8,17 +8,19 @@
 #include <functional>
 #include <queue>
 
-#include "core/base/random.hpp"
-#include "reports/evidence/binomial.hpp"
 #include "reports/evidence/gate_bounds.hpp"
 #include "reports/evidence/gate_table.hpp"
 #include "tests/reports/sample_campaign.hpp"
+#include "tests/reports/synthetic_campaigns.hpp"
 
 namespace fleetproof {
 namespace {
 
-constexpr double kLimit = 0.1, kConfidence = 0.95;
-constexpr std::uint64_t kCampaigns = 10'000, kWorlds = 400;
+using synthetic::kConfidence;
+using synthetic::kLimit;
+using synthetic::most_by_chance;
+using synthetic::share_of;
+constexpr std::uint64_t kWorlds = 400;
 
 GateRecord gate(GateMethod method) {
   GateRecord gate;
@@ -34,10 +36,9 @@ class Worlds {
  public:
   Worlds(std::uint64_t campaign, double rate, std::uint64_t topic = 1) {
     Draws draws(campaign, static_cast<std::uint32_t>(topic));
-    for (std::uint64_t i = 0; i < kWorlds; ++i) failed_.push_back(uniform(draws) < rate);
+    for (std::uint64_t i = 0; i < kWorlds; ++i) failed_.push_back(synthetic::uniform(draws) < rate);
   }
   bool failed(std::uint64_t world) const { return failed_[world]; }
-  static double uniform(Draws& draws) { return static_cast<double>(draws.next() >> 11) * 0x1p-53; }
 
  private:
   std::vector<bool> failed_;
@@ -59,19 +60,6 @@ std::uint64_t failing_of(const Worlds& worlds, std::uint64_t n) {
   std::uint64_t failing = 0;
   for (std::uint64_t i = 0; i < n; ++i) failing += worlds.failed(i) ? 1 : 0;
   return failing;
-}
-
-double share_of(const std::function<bool(std::uint64_t campaign)>& passes) {
-  std::uint64_t passed = 0;
-  for (std::uint64_t campaign = 0; campaign < kCampaigns; ++campaign) passed += passes(campaign) ? 1 : 0;
-  return static_cast<double>(passed) / static_cast<double>(kCampaigns);
-}
-
-// What 10 000 campaigns of a rule that keeps 5 % exceed in one of a million tries.
-double most_by_chance() {
-  std::uint64_t passed = 500;
-  while (probability_of_at_most(passed, kCampaigns, 1.0 - kConfidence) < 1.0 - 1e-6) ++passed;
-  return static_cast<double>(passed) / static_cast<double>(kCampaigns);
 }
 
 const Rule kAnyTime = [](std::uint64_t failing, std::uint64_t worlds) {
