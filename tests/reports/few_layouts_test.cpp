@@ -185,6 +185,10 @@ TEST(FewLayouts, PooledWorldsOfFixedLayoutsAreNoUnits) {
 
 TEST(FewLayouts, LayoutsAsUnitsKeepTheRisk) {
   for (const Row& row : kTable) expect_share(layouts_as_units, row.campaign, row.layouts);
+  // One failing world in ten fails its layout: here a layout fails with probability 0.1, its worlds with 0.01.
+  const Family seldom = {{1.0, 1.0 - std::pow(0.9, 0.1)}};
+  const Campaign campaign{seldom, 60, 10};
+  expect_share(layouts_as_units, campaign, passing(binomial(60, campaign.failing_layout()), binomial(60, kLimit)));
   // Without a failure, 28 layouts are too few and 29 are enough: a claim has no more units than that.
   EXPECT_FALSE(shown(0, 28));
   EXPECT_TRUE(shown(0, 29));
