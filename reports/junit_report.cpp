@@ -7,6 +7,7 @@
 #include "core/base/markup_text.hpp"
 #include "core/base/outside_text.hpp"
 #include "reports/gate_section.hpp"
+#include "reports/gate_shortfall.hpp"
 #include "reports/wording.hpp"
 
 namespace fleetproof {
@@ -27,11 +28,23 @@ Ending ending_of(const ReportInput& input, std::size_t gate) {
   return result.verdict == Verdict::Demonstrated ? Ending::Passed : Ending::Failed;
 }
 
-double simulated_s(const ReportInput& input, std::size_t gate) {
-  double agv_s = 0.0;
-  for (const std::uint32_t cell : input.evidence.cells_of(gate))
-    agv_s += static_cast<double>(input.evidence.tally(cell).agv_us) / 1e6;
-  return agv_s;
+double agv_hours_of(const Evidence& evidence, const std::vector<std::uint32_t>& cells) {
+  Tally sum;
+  for (const std::uint32_t cell : cells) sum.add(evidence.tally(cell));
+  return sum.agv_hours();
+}
+
+double all_agv_hours(const Evidence& evidence) {
+  Tally sum;
+  for (const CellRecord& cell : evidence.cells()) sum.add(evidence.tally(cell.index));
+  return sum.agv_hours();
+}
+
+// What readers show beside every case, passed or not.
+std::string figures_text(const ReportInput& input, std::size_t index) {
+  const GateCounts& counts = input.gates[index].counts;
+  return fmt::format("unknown outcomes: {}; simulated: {:.1f} AGV-hours", counts.failing_or_unknown - counts.failing,
+                     agv_hours_of(input.evidence, input.evidence.cells_of(index)));
 }
 
 // Readers show the content of an element or its message, but not both.
@@ -39,14 +52,14 @@ std::string outcome_element(const ReportInput& input, std::size_t index) {
   const GateRecord& gate = input.evidence.gates()[index];
   const GateResult& result = input.gates[index];
   const std::string message = fmt::format("{}: {} {}", name_of(result.verdict), gate.agent, finding_text(input, index));
-  std::string text = fmt::format("{}\nWhy: {}.", message, result.reason);
+  std::string text = fmt::format("{}\nWhy: {}.\n{}", message, result.reason, figures_text(input, index));
   if (result.worst) text += "\n" + replay_line(input, result.worst->run_index);
   switch (ending_of(input, index)) {
     case Ending::Passed:
       return "";
     case Ending::Failed:
-      return fmt::format("      <failure type=\"{}\" message=\"{}\">{}</failure>\n", escaped(name_of(result.verdict)),
-                         escaped(message), escaped_lines(text));
+      return fmt::format("      <failure type=\"{}\" message=\"{}\">{}</failure>\n",
+                         escaped(shortfall_of(gate, result)), escaped(message), escaped_lines(text));
     case Ending::Skipped:
       return fmt::format(
           "      <skipped message=\"{}\"/>\n",
@@ -58,37 +71,63 @@ std::string outcome_element(const ReportInput& input, std::size_t index) {
   return "";
 }
 
-// "all.ring.fleet of 5, loss 40 %, delay 0,5 s": readers make a folder of every part, and a part ends at a point.
+// Readers take each dot for a step of the hierarchy, and some cut at a blank.
+std::string class_step(std::string text) {
+  std::ranges::replace_if(
+      text, [](char c) { return c == '.' || c == ' '; }, '_');
+  return text;
+}
+
+// "all.ring.fleet_of_5,_loss_40_%,_delay_0,5_s"
 std::string where_text(const GateRecord& gate) {
-  std::string text = name_of(gate.region);
-  if (!gate.where.layout.empty()) text += "." + gate.where.layout;
+  std::string text = class_step(name_of(gate.region));
+  if (!gate.where.layout.empty()) text += "." + class_step(gate.where.layout);
   CellFilter others = gate.where;
   others.layout.clear();
   std::string named = filter_text(others);
   if (named.empty()) return text;
   std::ranges::replace(named, '.', ',');
-  return text + "." + named;
+  return text + "." + class_step(named);
+}
+
+std::string name_of_case(const GateRecord& gate) {
+  std::string name = gate.name;
+  const bool is_named = class_step(gate.agent) == gate.agent || name.find(gate.agent) != std::string::npos;
+  if (!is_named) name += " (agent " + gate.agent + ")";
+  if (!gate.requirement.empty()) name += " [" + gate.requirement + "]";
+  return name;
 }
 
 std::string case_element(const ReportInput& input, std::size_t index) {
   const GateRecord& gate = input.evidence.gates()[index];
-  std::string name = gate.name;
-  if (!gate.requirement.empty()) name += " [" + gate.requirement + "]";
   return fmt::format(
-      "    <testcase name=\"{}\" classname=\"fleetproof.{}.{}\" time=\"{:.3f}\">\n{}"
+      "    <testcase name=\"{}\" classname=\"fleetproof.{}.{}\" time=\"0\">\n{}"
       "      <system-out>{}</system-out>\n    </testcase>\n",
-      escaped(name), escaped(where_text(gate)), escaped(gate.agent), simulated_s(input, index),
-      outcome_element(input, index), escaped(gate.agent + " " + finding_text(input, index)));
+      escaped(name_of_case(gate)), escaped(where_text(gate)), escaped(class_step(gate.agent)),
+      outcome_element(input, index),
+      escaped(gate.agent + " " + finding_text(input, index) + "; " + figures_text(input, index)));
 }
 
 std::string property(std::string_view name, std::string_view value) {
   return fmt::format("      <property name=\"{}\" value=\"{}\"/>\n", name, escaped(value));
 }
 
+std::string audit_properties(const AuditTally& audits) {
+  std::uint64_t audited = 0, differing = 0;
+  for (const AgentAudit& agent : audits.agents()) {
+    audited += agent.audited;
+    differing += agent.differing;
+  }
+  return property("audited_runs", std::to_string(audited)) + property("differing_audits", std::to_string(differing));
+}
+
 std::string properties(const ReportInput& input) {
   const CampaignRecord& campaign = input.campaign;
   return "    <properties>\n" + property("verdict", name_of(overall_verdict(input.evidence, input.gates))) +
+         property("exit_code", std::to_string(input.exit_code)) + property("archive", input.archive_path) +
          property("replicates", fmt::format("{} of {}", input.evidence.complete_replicates(), campaign.replicates)) +
+         property("simulated_agv_hours", fmt::format("{:.1f}", all_agv_hours(input.evidence))) +
+         property("engine_errors", std::to_string(input.evidence.engine_errors())) + audit_properties(input.audits) +
          property("seed", std::to_string(campaign.seed)) + property("plan_hash", hex_text(campaign.plan_hash)) +
          property("fleetproof", campaign.engine.version) + property("program_sha256", campaign.engine.program_sha256) +
          "    </properties>\n";
@@ -98,22 +137,20 @@ std::string properties(const ReportInput& input) {
 
 std::string render_junit(const ReportInput& input) {
   std::size_t failures = 0, errors = 0, skipped = 0;
-  double time_s = 0.0;
   std::string cases;
   for (std::size_t i = 0; i < input.gates.size(); ++i) {
     const Ending ending = ending_of(input, i);
     failures += ending == Ending::Failed ? 1 : 0;
     errors += ending == Ending::Error ? 1 : 0;
     skipped += ending == Ending::Skipped ? 1 : 0;
-    time_s += simulated_s(input, i);
     cases += case_element(input, i);
   }
   const std::string counts =
       fmt::format("tests=\"{}\" failures=\"{}\" errors=\"{}\"", input.gates.size(), failures, errors);
   return fmt::format(
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"fleetproof\" {0} time=\"{1:.3f}\">\n"
-      "  <testsuite name=\"{2}\" {0} skipped=\"{3}\" time=\"{1:.3f}\" id=\"0\">\n{4}{5}  </testsuite>\n</testsuites>\n",
-      counts, time_s, escaped(input.campaign.name), skipped, properties(input), cases);
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"fleetproof\" {0}>\n"
+      "  <testsuite name=\"{1}\" {0} skipped=\"{2}\" id=\"0\">\n{3}{4}  </testsuite>\n</testsuites>\n",
+      counts, escaped(input.campaign.name), skipped, properties(input), cases);
 }
 
 }  // namespace fleetproof

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
 #include <pugixml.hpp>
 
 #include "core/base/outside_text.hpp"
@@ -50,13 +51,94 @@ TEST(JUnitReport, HasOneTestCaseForEachGate) {
     endings.emplace_back(test.child("failure")   ? test.child("failure").attribute("type").as_string()
                          : test.child("skipped") ? "skipped"
                                                  : "passed");
-    EXPECT_THAT(test.attribute("time").as_string(), testing::MatchesRegex("[0-9]+\\.[0-9]+")) << "no exponent";
+    EXPECT_STREQ(test.attribute("time").as_string(), "0") << "simulated time is no time of a test";
   }
   EXPECT_EQ(names[0], "safe [SR-12]");
-  EXPECT_THAT(endings, testing::ElementsAre("passed", "violated", "not demonstrated", "skipped"));
+  EXPECT_THAT(endings, testing::ElementsAre("passed", "violated", "too few runs", "skipped"));
   const std::string told =
       suite.find_child_by_attribute("classname", "fleetproof.all.sound").child("failure").text().get();
   EXPECT_THAT(told, HasSubstr("fleetproof replay night.fp 7"));
+}
+
+// 60 worlds of 2 runs, each with 5 AGVs for 600 s: 100 AGV-hours, 50 of them within the contract.
+TEST(JUnitReport, HasWhatAPipelineAsksForAsProperties) {
+  auto input = four_gates("safe");
+  input.audits.add_audit(3, true);
+  input.audits.add_audit(4, false);
+  const auto suite = parsed(render_junit(input)).child("testsuites").child("testsuite");
+  std::map<std::string, std::string> properties;
+  for (const auto& property : suite.child("properties"))
+    properties[property.attribute("name").as_string()] = property.attribute("value").as_string();
+  EXPECT_EQ(properties["exit_code"], "1");
+  EXPECT_EQ(properties["archive"], "night.fp");
+  EXPECT_EQ(properties["simulated_agv_hours"], "100.0");
+  EXPECT_EQ(properties["engine_errors"], "0");
+  EXPECT_EQ(properties["audited_runs"], "2");
+  EXPECT_EQ(properties["differing_audits"], "1");
+  EXPECT_TRUE(suite.attribute("time").empty());
+  EXPECT_THAT(suite.child("testcase").child("system-out").text().get(), HasSubstr("simulated: 50.0 AGV-hours"));
+}
+
+TEST(JUnitReport, DotsAndBlanksOfNamesAreNoStepsOfTheClass) {
+  GateRecord gate = gate_of("ctl 4.2", GateKind::Rate, Region::WorstCase, 0.1);
+  gate.where.layout = "hall 1.x";
+  GateRecord named = gate;
+  named.name = "ctl 4.2 violation";
+  const auto suite = parsed(render_junit(report_of(campaign_of("claim", 60),
+                                                   grid({"ctl 4.2"}, {0.4}, {2.0}, {"hall 1.x"}), {gate, named})))
+                         .child("testsuites")
+                         .child("testsuite");
+  const auto first = suite.child("testcase"), second = first.next_sibling("testcase");
+  EXPECT_STREQ(first.attribute("classname").as_string(), "fleetproof.worst-case.hall_1_x.ctl_4_2");
+  EXPECT_STREQ(first.attribute("name").as_string(), "safe (agent ctl 4.2)");
+  EXPECT_STREQ(second.attribute("name").as_string(), "ctl 4.2 violation");
+}
+
+std::string type_of_failure(const GateRecord& gate, std::uint64_t replicates, const samples::Change& change,
+                            std::uint64_t missing_runs = 0, const char* kind = "claim") {
+  const auto input =
+      report_of(campaign_of(kind, replicates), grid({"sound"}, {0.4}, {2.0}), {gate}, change, 0, missing_runs);
+  const auto test = parsed(render_junit(input)).child("testsuites").child("testsuite").child("testcase");
+  return test.child("failure").attribute("type").as_string();
+}
+
+// 60 worlds without a failure show a rate below 0.1 (0.95^60 is 4.6 %), and none below 0.01.
+TEST(JUnitReport, TheTypeOfAFailureSaysWhatIsMissing) {
+  const auto loose = gate_of("sound", GateKind::Rate, Region::All, 0.1);
+  const auto strict = gate_of("sound", GateKind::Rate, Region::All, 0.01);
+  const auto idle = gate_of("sound", GateKind::Rate, Region::All, 0.1, 1e3);
+  const auto crashes = [](std::uint64_t every) {
+    return [every](RunRecord& run) { run.outcome.crash = run.run_index % every == 0; };
+  };
+  const auto fails = [](std::uint64_t every) {
+    return [every](RunRecord& run) {
+      if (run.run_index % every == 0) samples::violate(run);
+    };
+  };
+  EXPECT_EQ(type_of_failure(loose, 60, {}), "") << "demonstrated";
+  EXPECT_EQ(type_of_failure(strict, 60, {}), "too few runs") << "of one cell";
+  EXPECT_EQ(type_of_failure(strict, 60, crashes(20)), "unknown outcomes") << "3 of 60 are more than 1 %";
+  EXPECT_EQ(type_of_failure(loose, 60, crashes(12)), "unknown outcomes") << "without them it would be demonstrated";
+  EXPECT_EQ(type_of_failure(loose, 60, fails(10)), "too many failures") << "6 of 60 are not below 10 %";
+  EXPECT_EQ(type_of_failure(loose, 60, fails(2)), "violated");
+  EXPECT_EQ(type_of_failure(loose, 60, {}, 1), "not complete");
+  EXPECT_EQ(type_of_failure(idle, 60, {}), "too little progress");
+  EXPECT_EQ(type_of_failure(loose, 60, {}, 0, "search"), "counts only");
+}
+
+TEST(JUnitReport, WorldsAreTheUnitOfAGateOnManyCells) {
+  const auto strict = gate_of("sound", GateKind::Rate, Region::All, 0.01);
+  EXPECT_THAT(render_junit(report_of(campaign_of("claim", 60), grid({"sound"}, {0.4}, {1.0, 2.0}), {strict})),
+              HasSubstr("<failure type=\"too few worlds\""));
+}
+
+TEST(JUnitReport, SaysHowManyOutcomesStayedUnknown) {
+  const auto gate = gate_of("sound", GateKind::Rate, Region::All, 0.1);
+  const auto crash = [](RunRecord& run) { run.outcome.crash = run.run_index < 7; };
+  const auto text = render_junit(report_of(campaign_of("claim", 60), grid({"sound"}, {0.4}, {2.0}), {gate}, crash));
+  const auto test = parsed(text).child("testsuites").child("testsuite").child("testcase");
+  EXPECT_THAT(test.child("failure").text().get(), HasSubstr("unknown outcomes: 7; "));
+  EXPECT_THAT(test.child("system-out").text().get(), HasSubstr("unknown outcomes: 7; "));
 }
 
 TEST(JUnitReport, AnErrorOfTheEngineIsNoFailure) {
