@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <tuple>
+#include <vector>
 
 #include "campaign/cli/streams.hpp"
 #include "campaign/run/sha256.hpp"
@@ -111,20 +114,39 @@ std::string copied(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+// The failing runs in the order in which a reader looks at them: control software under test before reference agents,
+// the most serious end points first, then by run index. 16 bytes a run.
+class RunsToReplay {
+ public:
+  void add(const RunRecord& run, bool under_test) {
+    const auto failing = FailingRun::of(run);
+    if (run.outcome.is_failure() && failing) runs_.push_back({!under_test, failing->severity, run.run_index});
+  }
+  std::string text(const ReportInput& input) {
+    std::ranges::sort(runs_);
+    std::string lines;
+    for (const auto& [is_reference, severity, run_index] : runs_) lines += replay_line(input, run_index) + "\n";
+    return lines;
+  }
+
+ private:
+  std::vector<std::tuple<bool, Severity, std::uint64_t>> runs_;
+};
+
 void write_runs(EvidenceFolder& folder, const ArchiveReader& archive, const ReportInput& input) {
   const auto& tables = csv_tables();
   std::vector<std::ofstream> files;
   for (const CsvTable& table : tables) write_heading(files.emplace_back(folder.open(table.file)), table);
-  std::ofstream replays = folder.open("replay.txt");
+  RunsToReplay replays;
   DuplicateCheck duplicates;
   archive.for_each_run([&](const RunRecord& run) {
     const CellRecord& cell = archive.cells()[run.cell];
     for (std::size_t i = 0; i < tables.size(); ++i) write_rows(files[i], tables[i], run, cell);
-    if (run.outcome.is_failure()) replays << replay_line(input, run.run_index) << "\n";
+    replays.add(run, is_under_test(archive.gates(), cell.agent));
     duplicates.add(run);
   });
   for (std::size_t i = 0; i < tables.size(); ++i) folder.close(files[i], tables[i].file);
-  folder.close(replays, "replay.txt");
+  folder.write("replay.txt", replays.text(input));
   folder.write("columns.csv", csv_dictionary());
   folder.write("validity.txt", validity_text(input, duplicates));
 }

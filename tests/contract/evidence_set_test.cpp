@@ -108,15 +108,33 @@ TEST_F(EvidenceSet, HoldsTheLogsAndTheIdentityOfItsCampaign) {
   EXPECT_THAT(read(path("set/validity.txt")), HasSubstr(" of 24 runs have a trace that another run"));
 }
 
-TEST_F(EvidenceSet, ReplaysExactlyTheFailingRuns) {
-  run("report a.db --evidence set");
+// The oracle asks the exported table: contacts of agents under test, their other violations, then reference agents.
+TEST_F(EvidenceSet, ReplaysExactlyTheFailingRunsTheWorstOfTheSoftwareUnderTestFirst) {
+  write("d.toml",
+        "seed = 5\nreplicates = 60\nhorizon_s = 40\n[factors]\nagents = [\"reckless\", { name = \"mine\", agent = "
+        "\"timeout-grant\", role = \"candidate\" }]\nlayouts = [\"aisle-grid\"]\nfleet_sizes = [4]\nloss = "
+        "[0.4]\ndelay_s = "
+        "[2]\n");
+  run("run d.toml --db d.db");
+  run("report d.db --evidence set");
   const auto runs = records_of(path("set/runs.csv"));
+  const auto column = [&](const char* name) { return std::ranges::find(runs[0], name) - runs[0].begin(); };
+  const auto agent = column("agent"), contact = column("contact"), violation = column("violation");
+  ASSERT_LT(std::max({agent, contact, violation}), std::ssize(runs[0]));
+  std::vector<std::string> kinds;
   std::string expected;
-  for (std::size_t i = 1; i < runs.size(); ++i) {
-    if (runs[i][12] == "1") expected += "fleetproof replay a.db " + runs[i][0] + "\n";
+  for (const std::string name : {"mine", "reckless"}) {
+    for (const std::string touched : {"1", "0"}) {
+      std::size_t found = 0;
+      for (std::size_t i = 1; i < runs.size(); ++i) {
+        if (runs[i][agent] != name || runs[i][violation] != "1" || runs[i][contact] != touched) continue;
+        expected += "fleetproof replay d.db " + runs[i][0] + "\n";
+        ++found;
+      }
+      if (found > 0) kinds.push_back(name + touched);
+    }
   }
-  ASSERT_EQ(runs[0][12], "violation");
-  EXPECT_THAT(expected, HasSubstr("a.db 0\n"));
+  EXPECT_THAT(kinds, testing::IsSupersetOf({"mine1", "mine0", "reckless1"})) << "an order of one kind shows nothing";
   EXPECT_EQ(read(path("set/replay.txt")), expected);
 }
 
