@@ -101,8 +101,8 @@ TEST_F(OneCellGates, PagesNameTheCell) {
   EXPECT_THAT(run("report c.db --exit-zero").out,
               HasSubstr("layout loop-spurs, fleet of 5, loss 60 %, delay 2 s, mean outage 0.5 s"));
   const std::string junit = run("report c.db --format junit --exit-zero").out;
-  EXPECT_THAT(junit, HasSubstr("classname=\"fleetproof.all.loop-spurs.fleet of 5, loss 60 %, delay 2 s, mean outage "
-                               "0,5 s.timeout-grant\""));
+  EXPECT_THAT(junit, HasSubstr("classname=\"fleetproof.all.loop-spurs.fleet_of_5,_loss_60_%,_delay_2_s,_mean_outage_"
+                               "0,5_s.timeout-grant\""));
 }
 
 TEST_F(OneCellGates, EveryFigureOfThePageIsThatOfARecount) {
