@@ -98,7 +98,9 @@ std::vector<std::string> layout_clusters(const ReportInput& input) {
     const DesignEffect effect = design_effect(clusters);
     std::string text = fmt::format("Layouts as units: runs of {} failed or stayed unknown on {} of {} layouts",
                                    printable(agent, 40), layouts.failing, layouts.units);
-    if (effect.ratio) text += fmt::format(" (design effect {:.2f})", *effect.ratio);
+    if (effect.ratio)
+      text += fmt::format(" (design effect, by which runs on one layout resemble each other more than chance: {:.2f})",
+                          *effect.ratio);
     sentences.push_back(
         text + fmt::format(". A claim about layouts that were not run has {} units, and no more.", layouts.units));
   }

@@ -59,7 +59,7 @@ void add_comparison(Section& section, const ReportInput& input, const BaselineCo
                       comparison.old_transports_per_agv_hour, comparison.new_transports_per_agv_hour);
   if (comparison.paired)
     text += fmt::format(" (slower in {}, faster in {} worlds)", comparison.slower_worlds, comparison.faster_worlds);
-  section.remarks.emplace_back().text = text + ".";
+  section.remarks.emplace_back().text = text + ". All cells count here, those beyond the contract region, too.";
   if (comparison.paired) add_newly_failing(section, input, comparison);
 }
 

@@ -136,8 +136,10 @@ Section table_legend(const ReportInput& input) {
   const auto conditions = evidence.conditions();
   Section section{"How to read the tables", {}, {}};
   const auto add = [&](std::string text) { section.remarks.push_back({std::move(text), ""}); };
-  add("viol. = runs that broke the safety distance; contact = runs with a contact; stuck = runs without progress; "
-      "closest = smallest clearance; done/AGV-h = transports (orders) completed per AGV-hour.");
+  add("viol. = runs that broke the safety distance, without those that met nothing but fallen loads and obstacles: "
+      "their "
+      "outcome is unknown; contact = runs with a contact of any kind; stuck = runs that ended without progress, for "
+      "whatever reason; closest = smallest clearance; done/AGV-h = transports (orders) completed per AGV-hour.");
   for (const FactorInfo& factor : shown_factors(evidence)) {
     if (!factor.legend.empty()) add(std::string(factor.legend));
   }

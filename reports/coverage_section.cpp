@@ -86,7 +86,8 @@ Section coverage_section(const ReportInput& input, std::size_t most_rows) {
   section.remarks.push_back(
       {required.empty()
            ? std::string("This campaign requires nothing to be met ([coverage] probes).")
-           : fmt::format("Required in at least one of {} runs: {}{}.", kRunsPerProbe, printable(joined(required), 400),
+           : fmt::format("Required: at least one in {} runs has to meet {}{}.", kRunsPerProbe,
+                         printable(joined(required), 400),
                          required.back().ends_with('?') ? " (\"?\": only if the agent declares probes)" : ""),
        ""});
   return section;

@@ -23,7 +23,7 @@ Table failure_table(const std::vector<FailureGroup>& groups) {
 }
 
 Section failure_section(const ReportInput& input, std::size_t most_groups) {
-  Section section{"Failing runs, by what went wrong first", {}, {}};
+  Section section{"Runs in which something went wrong, by what came first", {}, {}};
   auto groups = input.failures.list(input.evidence.gates());
   if (groups.empty()) {
     section.remarks.emplace_back().text = "No run failed.";
@@ -32,9 +32,10 @@ Section failure_section(const ReportInput& input, std::size_t most_groups) {
   const std::size_t all = groups.size();
   groups.resize(std::min(all, most_groups));
   section.remarks.emplace_back().text =
-      "End point = the most serious thing that happened in the run. First cause = what happened first; the rest may be "
-      "its consequence. Before it = what the scenario had done to the bodies involved; that is an order in time "
-      "and shows no cause. Distinct = runs with the same trace count once. The worst run of each group:";
+      "Runs with an unknown outcome stand here, too. End point = the most serious thing that happened in the run; at "
+      "hazardous speed = above 0.3 m/s. First cause = what happened first; the rest may be its consequence. Before it "
+      "= what the scenario had done to the bodies involved; that is an order in time and shows no cause. Distinct = "
+      "the number of different traces. The worst run of each group:";
   section.table = failure_table(groups);
   for (const FailureGroup& group : groups) {
     Remark remark = describe(input, group.worst);

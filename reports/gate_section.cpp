@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 #include "core/base/contract.hpp"
 #include "core/base/error.hpp"
 #include "reports/coverage_section.hpp"
 #include "reports/evidence/exposure.hpp"
+#include "reports/evidence/gate_words.hpp"
 #include "reports/evidence/rounding.hpp"
 #include "reports/plan_facts.hpp"
 #include "reports/sample_sentence.hpp"
@@ -67,26 +69,14 @@ std::string where_text(const GateRecord& gate) {
   return region_text(gate.region) + (named.empty() ? "" : ", " + named);
 }
 
-// A replicate is a world of its own; for readers it is called so.
-std::string_view unit_text(const GateResult& result) { return result.unit == "runs" ? "runs" : "worlds"; }
-
 std::string counted_text(const GateRecord& gate, const GateResult& result) {
   const auto &claim = *result.claim, &known = *result.optimistic;
   const std::string text =
       gate.unit == GateUnit::AgvHour
           ? fmt::format("{} in {:.6g} AGV-hours", count_text(known.failing, "time"), claim.exposure)
-          : fmt::format("in {} of {} {}", known.failing, claim.units, unit_text(result));
+          : fmt::format("in {} of {} {}", known.failing, claim.units, result.unit);
   const auto unknown = claim.failing - known.failing;
-  return unknown == 0 ? text : text + fmt::format(", with {} more unknown", unknown);
-}
-
-std::string bound_text(const GateRecord& gate, double bound, std::string (*rounded)(double)) {
-  return gate.unit == GateUnit::AgvHour ? rounded(bound) + " per AGV-hour" : rounded(100.0 * bound) + " %";
-}
-
-std::string limit_text(const GateRecord& gate) {
-  return gate.unit == GateUnit::AgvHour ? fmt::format("{:g} per AGV-hour", gate.limit)
-                                        : fmt::format("{:g} %", 100.0 * gate.limit);
+  return unknown == 0 ? text : text + fmt::format(", and {} more ended unknown and count as failing", unknown);
 }
 
 std::string failed_of_units(const GateRecord& gate, const GateResult& result) {
@@ -98,12 +88,13 @@ std::vector<std::string> row(const ReportInput& input, std::size_t index) {
   const GateRecord& gate = input.evidence.gates()[index];
   const GateResult& result = input.gates[index];
   std::string what = name_of(gate.end_point);
+  if (gate.end_point == EndPoint::Throughput) what += fmt::format(" >= {:g}/AGV-h", gate.min_transports_per_agv_hour);
   if (!gate.requirement.empty()) what += " [" + printable(gate.requirement, 30) + "]";
   std::vector<std::string> cells{printable(gate.agent, 40), what, where_text(gate)};
   if (result.claim) {
     cells.push_back(failed_of_units(gate, result));
-    cells.push_back(bound_text(gate, result.claim->upper, rounded_up));
-    cells.push_back(gate.kind == GateKind::None ? "0 allowed; " + limit_text(gate) : limit_text(gate));
+    cells.push_back(value_text(gate, result.claim->upper, rounded_up));
+    cells.push_back(gate.kind == GateKind::None ? limit_text(gate) + ", none allowed" : limit_text(gate));
   } else {
     cells.push_back(count_text(result.counts.failing_runs, "run"));
   }
@@ -119,21 +110,27 @@ std::string estimate_text(const GateRecord& gate, const GateResult& result) {
   const auto unknown = claim.failing - result.optimistic->failing;
   if (unknown > 0 && gate.unit != GateUnit::AgvHour)
     text += fmt::format(" and {} stayed unknown, which counts as failing", unknown);
+  const auto up = [&](double bound) { return value_text(gate, bound, rounded_up); };
   if (claim.rate()) {
-    text += fmt::format(": rate {}, two-sided 95 % interval [{}, {}]", rounded_rate(*claim.rate()),
-                        rounded_down(claim.interval_95.lower), rounded_up(claim.interval_95.upper));
+    text += ": ";
+    if (claim.failing > 0) text += value_text(gate, *claim.rate(), rounded_rate) + ", ";
+    const double percents = gate.unit == GateUnit::AgvHour ? 1.0 : 100.0;
+    text += fmt::format("two-sided 95 % interval {} to {}", rounded_down(percents * claim.interval_95.lower),
+                        up(claim.interval_95.upper));
   }
-  return text + fmt::format(", one-sided {} upper bound {}, limit {:g} ({}).", percent(gate.confidence),
-                            rounded_up(claim.upper), gate.limit,
-                            gate.method == GateMethod::AnyTime ? "valid however often one looks"
-                                                               : "for the planned replicates");
+  return text +
+         fmt::format(", one-sided {} upper bound {}, limit {} ({}).", percent(gate.confidence), up(claim.upper),
+                     limit_text(gate),
+                     gate.method == GateMethod::AnyTime ? "valid however often one looks" : "for the planned worlds");
 }
 
-std::string optimistic_text(const GateResult& result) {
-  return fmt::format(
-      " Unknown: a crash, a hang, a wreck before, a fallen load or an obstacle. If none of it had failed: {} of {}, "
-      "upper bound {}.",
-      result.optimistic->failing, result.optimistic->units, rounded_up(result.optimistic->upper));
+std::string optimistic_text(const GateRecord& gate, const GateResult& result) {
+  return fmt::format(" If none of the unknown had failed: {} of {}, upper bound {}.", result.optimistic->failing,
+                     result.optimistic->units, value_text(gate, result.optimistic->upper, rounded_up));
+}
+
+bool has_unknown(const GateResult& result) {
+  return result.claim && result.claim->failing != result.optimistic->failing;
 }
 
 Remark remark_of(const ReportInput& input, std::size_t index) {
@@ -142,15 +139,21 @@ Remark remark_of(const ReportInput& input, std::size_t index) {
   std::string text = fmt::format("\"{}\": ", printable(gate.name, 60));
   text += result.claim ? estimate_text(gate, result) : count_text(result.counts.failing_runs, "run") + " failed.";
   if (result.claim && result.optimistic->failing != result.claim->failing && gate.unit != GateUnit::AgvHour)
-    text += optimistic_text(result);
+    text += optimistic_text(gate, result);
   text += fmt::format(" Why {}: {}.", name_of(result.verdict), result.reason);
   if (!result.missing.empty()) text += " Weak: " + missing_text(result.missing) + ".";
   if (!result.worst) return {text, ""};
-  text += fmt::format(" Its most serious run is {} ({}):", result.worst->run_index, name_of(result.worst->severity));
+  text += " " + worst_run_text(result);
   return {text, replay_line(input, result.worst->run_index)};
 }
 
 }  // namespace
+
+std::string worst_run_text(const GateResult& result) {
+  const bool known = !result.optimistic || result.optimistic->failing > 0;
+  return fmt::format("{} is {} ({}):", known ? "Its most serious run" : "The most serious of the unknown runs",
+                     result.worst->run_index, name_of(result.worst->severity));
+}
 
 std::string finding_text(const ReportInput& input, std::size_t index) {
   const GateRecord& gate = input.evidence.gates()[index];
@@ -164,7 +167,7 @@ std::string finding_text(const ReportInput& input, std::size_t index) {
   const double bound = violated ? result.optimistic->lower : result.claim->upper;
   if (violated && bound <= 0.0) return text;  // one failing run refutes a gate that allows none; it shows no rate
   return text + fmt::format("; the true {} is at {} {} ({}{})", gate.unit == GateUnit::AgvHour ? "rate" : "share",
-                            violated ? "least" : "most", bound_text(gate, bound, violated ? rounded_down : rounded_up),
+                            violated ? "least" : "most", value_text(gate, bound, violated ? rounded_down : rounded_up),
                             percent(gate.confidence),
                             gate.method == GateMethod::AnyTime ? ", however often one looks" : "");
 }
@@ -188,6 +191,7 @@ Section gate_section(const ReportInput& input) {
     const auto& cells = input.evidence.cells_of(i);
     if (!cells.empty()) samples.insert("Sampled: " + sampled(input.evidence, cells) + ".");
   }
+  if (std::ranges::any_of(input.gates, has_unknown)) section.remarks.emplace_back().text = std::string(kUnknownMeans);
   for (const std::string& sample : samples) section.remarks.push_back({sample, ""});
   return section;
 }

@@ -220,7 +220,7 @@ Json condition_json(const ReportInput& input, const Condition& condition) {
   const GateRecord rule = bound_rule(input.evidence, condition.agent);
   const auto& pool = condition.pool;
   if (!input.evidence.counts_only()) {
-    json["unit"] = pool.cells.size() == 1 ? "runs" : "replicates";
+    json["unit"] = pool.cells.size() == 1 ? "runs" : "worlds";
     json["confidence"] = rule.confidence;
     json["method"] = name_of(rule.method);
     json["claim"] = estimate_json(estimate(rule, pool.failing_or_unknown, pool.units));

@@ -76,10 +76,11 @@ Section method_section(const ReportInput& input) {
         "are no rates and no bounds.");
   } else {
     add("A replicate is one world: one draw of all randomness, run in every cell (test condition). If several cells "
-        "are judged "
-        "together, the replicate is the unit and fails if any of its runs fails. Runs that crashed, hung or stayed "
-        "indeterminate count as failures in every rate and bound. Stuck runs stay in the count of runs. An upper bound "
+        "are judged together, the world is the unit and fails if any of its runs fails. Runs with an unknown outcome "
+        "count as "
+        "failing in every rate and bound. Stuck runs stay in the count of runs. An upper bound "
         "is rounded up, a lower bound is rounded down.");
+    add(std::string(kUnknownMeans));
     add_methods(section, input.evidence.gates());
     add("\"Demonstrated\" means: if the true rate were above the limit, a result this good would be rarer than one "
         "minus the confidence. It is a statement about the sampled scenarios in the simulator. It says nothing about "
@@ -138,12 +139,12 @@ Page build_page(const ReportInput& input, std::size_t most_rows) {
   add(Topic::Groups, layout_section(input, most_rows));
   add(Topic::Groups, fleet_section(input, most_rows));
   const std::string loss = percent(kContractLoss), delay = fmt::format("{:g} s", kContractDelay_s);
+  add(Topic::Conditions, table_legend(input));
   add_conditions(fmt::format("Worst case of the contract: {} loss, {} delay", loss, delay),
                  [](const Condition& c) { return c.is_worst_case; });
   add_conditions(fmt::format("Contract region: loss <= {}, delay <= {}", loss, delay),
                  [](const Condition& c) { return c.in_contract; });
   add_conditions("Outside the contract", [](const Condition& c) { return !c.in_contract; });
-  add(Topic::Conditions, table_legend(input));
   if (!input.baseline.empty()) add(Topic::Comparison, comparison_section(input));
   add(Topic::Coverage, coverage_section(input, most_rows));
   add(Topic::Coverage, incident_section(input, most_rows));

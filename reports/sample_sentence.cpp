@@ -130,7 +130,7 @@ std::string sampled(const Evidence& evidence, const std::vector<std::uint32_t>& 
   std::vector<std::string> sizes;
   for (const auto size : fleets) sizes.push_back(std::to_string(size));
   auto text = fmt::format("{}{} {}, {} {}, fleets of {}", held_before(evidence, layouts.size() * fleets.size()),
-                          count_text(evidence.complete_replicates(), "replicate"), where(spans, evidence.sampling()),
+                          count_text(evidence.complete_replicates(), "world"), where(spans, evidence.sampling()),
                           layouts.size() == 1 ? "layout" : "layouts", listed(layouts), joined(sizes, " or "));
   if (tally.longest_ns > 0)
     text += fmt::format(", {} a run", seconds_text(static_cast<double>(tally.longest_ns) / 1e9));

@@ -96,11 +96,14 @@ Headline claim(const ReportInput& input) {
     headline.details.push_back({text, ""});
     if (result.worst && verdict != Verdict::Demonstrated) {
       Remark& detail = headline.details.back();
-      detail.text +=
-          fmt::format(" Its most serious run is {} ({}):", result.worst->run_index, name_of(result.worst->severity));
+      detail.text += " " + worst_run_text(result);
       detail.command = replay_line(input, result.worst->run_index);
     }
   }
+  if (speaking.size() > kGatesTold)
+    headline.details.emplace_back().text =
+        fmt::format("{} more {}: the reasons stand below the table of gates.", speaking.size() - kGatesTold,
+                    speaking.size() == kGatesTold + 1 ? "gate" : "gates");
   const std::size_t first = speaking.front();
   if (const auto& cells = input.evidence.cells_of(first); !cells.empty())
     headline.details.push_back({"Sampled: " + sampled(input.evidence, cells) + ".", ""});
@@ -194,9 +197,9 @@ std::vector<Headline> foreign_body_notes(const ReportInput& input) {
     if (!is_under_test(input.evidence.gates(), agent)) continue;
     list.push_back(
         {"unknown",
-         fmt::format("in {} of agent {}, AGVs came too close to nothing but fallen loads, obstacles, and AGVs "
-                     "that lay wrecked on these. No control software is told of such bodies, so the runs do "
-                     "not refute it. Bounds count them as failing. For instance:",
+         fmt::format("in {} of agent {} within the contract region, all that AGVs came too close to were fallen "
+                     "loads, obstacles, and AGVs that lay wrecked on these. No control software is told of such "
+                     "bodies, so these runs accuse nobody; bounds count them as failing. The most serious:",
                      count_text(runs, "run"), printable(agent, 40)),
          {describe(input, worst)}});
   }

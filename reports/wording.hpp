@@ -35,6 +35,13 @@ std::string per_hour_text(const std::optional<double>& rate);
 std::string count_text(std::uint64_t count, std::string_view singular);  // "1 run", "3 runs"
 // "3", or "3 +5?" with five more that stayed unknown: what is not known is never called a failure.
 std::string failed_text(std::uint64_t failing, std::uint64_t failing_or_unknown);
+// What pages mean by an unknown outcome.
+inline constexpr std::string_view kUnknownMeans =
+    "Unknown (+N?): the run cannot tell whether the software would have failed. The software crashed or hung, the run "
+    "was "
+    "indeterminate, AGVs stood behind a wreck, or they met nothing but fallen loads and obstacles. Every rate and "
+    "bound "
+    "counts it as failing.";
 std::string hex_text(std::uint64_t digest);                    // 16 digits
 std::string body_name(EntityId body, const CellRecord& cell);  // "AGV 3", "fallen load or obstacle 0"
 

@@ -110,7 +110,8 @@ void require_readable(const std::string& path) {
 
 OpenedFile open_to_read(const std::string& path) {
   OpenedFile file;
-  file.db = std::make_unique<SQLite::Database>(fs::absolute(path).string(), SQLite::OPEN_READONLY, kBusyTimeoutMs);
+  file.db = std::make_unique<SQLite::Database>(fs::absolute(path).string(),
+                                               SQLite::OPEN_READONLY | SQLite::OPEN_NOMUTEX, kBusyTimeoutMs);
   // The writer alone checkpoints: SQLite 3.40 may damage the file if two do it at the same instant.
   sqlite3_db_config(file.db->getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
   file.published = !has_write_ahead_log(*file.db);

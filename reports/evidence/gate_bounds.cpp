@@ -60,4 +60,15 @@ std::optional<std::uint64_t> units_to_pass(const GateRecord& gate, std::uint64_t
   return needed;
 }
 
+std::optional<std::uint64_t> units_to_pass_at_this_rate(const GateRecord& gate, std::uint64_t failing,
+                                                        std::uint64_t units) {
+  const auto& passes_from = gate.table.passes_from;
+  for (std::uint64_t k = failing; k < passes_from.size(); ++k) {
+    const double expected =
+        static_cast<double>(failing) * (static_cast<double>(passes_from[k]) / static_cast<double>(units));
+    if (expected <= static_cast<double>(k)) return std::max(passes_from[k], units);
+  }
+  return std::nullopt;
+}
+
 }  // namespace fleetproof

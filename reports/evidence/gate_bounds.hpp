@@ -20,6 +20,11 @@ RateInterval gate_bounds(const GateRecord& gate, std::uint64_t failing, std::uin
 // number. Requires: an any-time gate has its table.
 std::optional<std::uint64_t> units_to_pass(const GateRecord& gate, std::uint64_t failing, std::uint64_t units);
 
+// The same if units go on to fail as `failing` of `units` did; none if a gate that fails so often never passes, as far
+// as its table reaches. Of any-time gates alone. Requires: units > 0.
+std::optional<std::uint64_t> units_to_pass_at_this_rate(const GateRecord& gate, std::uint64_t failing,
+                                                        std::uint64_t units);
+
 // Two-sided at 95 %: both one-sided bounds, each with half of the risk.
 RateInterval gate_interval_95(const GateRecord& gate, std::uint64_t failing, std::uint64_t units);
 

@@ -10,6 +10,7 @@
 #include "reports/evidence/exposure.hpp"
 #include "reports/evidence/gate_bounds.hpp"
 #include "reports/evidence/gate_table.hpp"
+#include "reports/evidence/gate_words.hpp"
 #include "reports/evidence/poisson_rate.hpp"
 #include "reports/evidence/rounding.hpp"
 
@@ -18,12 +19,6 @@ namespace {
 
 void add_sentence_part(std::string& sentence, const std::string& part) {
   sentence += (sentence.empty() ? "" : "; ") + part;
-}
-
-// "12 of 380 worlds", or hours.
-std::string amount(const GateRecord& gate, std::uint64_t units, std::string_view unit) {
-  return gate.unit == GateUnit::AgvHour ? fmt::format("{:.6g} {}", agv_hours(units), unit)
-                                        : fmt::format("{} {}", units, unit);
 }
 
 std::string more_text(const GateRecord& gate, std::uint64_t units) {
@@ -35,26 +30,34 @@ std::string more_text(const GateRecord& gate, std::uint64_t units) {
 // a fixed one the number would have to be fixed beforehand.
 std::string bound_too_high(const GateRecord& gate, GateResult& result) {
   const auto& claim = *result.claim;
-  std::string text = fmt::format("the upper bound {} is above the limit {:g}", rounded_up(claim.upper), gate.limit);
+  std::string text = fmt::format("the upper bound {} is above the limit {}", value_text(gate, claim.upper, rounded_up),
+                                 limit_text(gate));
   const auto unknown = result.counts.failing_or_unknown - result.counts.failing;
   if (unknown > 0)
-    text +=
-        fmt::format(" ({} of {} ended unknown and count as failing)", unknown, amount(gate, claim.units, result.unit));
+    text += fmt::format(" ({} of {} ended unknown and count as failing)", unknown,
+                        amount_text(gate, claim.units, result.unit));
   const auto needed = units_to_pass(gate, claim.failing, claim.units);
   if (!needed && gate.limit <= 0.0) return text + "; no number of runs can meet it";
   if (!needed)
     return text + (result.counts.failing == 0 ? "; none failed, but too many are unknown for this limit"
                                               : "; too many failed for this limit");
   if (claim.failing > 0 && claim.rate() >= gate.limit) {
-    return text +
-           fmt::format(" and the rate seen, {}, is not below it: more runs will not help", rounded_rate(*claim.rate()));
+    return text + fmt::format("; so is what was seen, {}: more runs will not help",
+                              value_text(gate, *claim.rate(), rounded_rate));
   }
   result.units_needed = needed;
   const auto clean = claim.failing == 0 ? " without a failure"
                                         : fmt::format(" in all, with no failure beyond the {} counted,", claim.failing);
-  text += fmt::format("; {}{} are needed", amount(gate, *needed, result.unit), clean);
+  text += fmt::format("; {}{} are needed", amount_text(gate, *needed, result.unit), clean);
   if (gate.method == GateMethod::Fixed) return text + ", a number to be planned before the first run";
-  return text + more_text(gate, *needed - claim.units);
+  text += more_text(gate, *needed - claim.units);
+  if (claim.failing == 0) return text;
+  const auto at_this_rate = units_to_pass_at_this_rate(gate, claim.failing, claim.units);
+  if (at_this_rate)
+    return text + fmt::format("; if failures go on as they were seen, about {}",
+                              amount_text(gate, *at_this_rate, result.unit));
+  result.units_needed = std::nullopt;
+  return text + "; if failures go on as they were seen, more runs will not help";
 }
 
 bool meets_limit(const GateRecord& gate, const GateResult& result) {
@@ -102,12 +105,13 @@ std::optional<std::string> refutation(const GateRecord& gate, const GateResult& 
                            ? refutes(gate.table, result.optimistic->failing, result.optimistic->units)
                            : counts.complete() && result.optimistic->lower > gate.limit;
   if (!refuted) return std::nullopt;
-  return fmt::format("the lower bound {} exceeds the limit {:g}", rounded_down(result.optimistic->lower), gate.limit);
+  return fmt::format("the lower bound {} exceeds the limit {}",
+                     value_text(gate, result.optimistic->lower, rounded_down), limit_text(gate));
 }
 
 std::string_view unit_of(const GateRecord& gate, const GateCounts& counts) {
   if (gate.unit == GateUnit::AgvHour) return "AGV-hours";
-  return gate.unit == GateUnit::Run || counts.cells == 1 ? "runs" : "replicates";
+  return gate.unit == GateUnit::Run || counts.cells == 1 ? "runs" : "worlds";
 }
 
 }  // namespace
@@ -160,14 +164,14 @@ GateResult judge_gate(const GateRecord& gate, const GateCounts& counts) {
     result.reason = "no replicate is complete";
     if (result.units_needed)
       result.reason +=
-          fmt::format("; {} without a failure are needed", amount(gate, *result.units_needed, result.unit));
+          fmt::format("; {} without a failure are needed", amount_text(gate, *result.units_needed, result.unit));
   } else {
     result.reason = missing_for_demonstration(gate, result);
   }
   if (!result.reason.empty()) return result;
   result.verdict = Verdict::Demonstrated;
-  result.reason =
-      fmt::format("the upper bound {} is at or below the limit {:g}", rounded_up(result.claim->upper), gate.limit);
+  result.reason = fmt::format("the upper bound {} is at or below the limit {}",
+                              value_text(gate, result.claim->upper, rounded_up), limit_text(gate));
   result.reason += asks_for_progress(gate)
                        ? fmt::format(", and the fleet made progress ({:.2f} transports per AGV-hour)",
                                      counts.transports_per_agv_hour.value_or(0.0))

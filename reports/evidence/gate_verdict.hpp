@@ -46,12 +46,13 @@ struct GateCounts {
 
 struct GateResult {
   Verdict verdict = Verdict::NotDemonstrated;
-  std::string reason;                    // one sentence
-  std::string_view unit = "replicates";  // or "runs", for a gate on one cell or on each; or "AGV-hours"
+  std::string reason;                // one sentence
+  std::string_view unit = "worlds";  // or "runs", for a gate on one cell or on each; or "AGV-hours"
   GateCounts counts;
   std::optional<Estimate> claim;       // unknown outcomes count as failing; absent in a search
   std::optional<Estimate> optimistic;  // unknown outcomes count as passed
-  // How many units the bound needs to meet the limit, if no further unit fails. Set if too few units are the reason.
+  // How many units the bound needs to meet the limit, if no further unit fails. Set if too few units are the reason,
+  // and if more would help although units go on to fail as they did.
   std::optional<std::uint64_t> units_needed;
   std::vector<MissingProbe> missing;  // if not empty, the evidence is weak, whatever the verdict is
   std::optional<FailingRun> worst;    // the most serious run that did not pass

@@ -49,7 +49,9 @@ std::string sentence_of(const GateRecord& gate, const EnvelopeGrid& grid, std::s
       "A field is claimed only together with all fields of less loss and less delay. Nothing is assumed about how the "
       "truth changes from field to field, and nothing is said about values in between.";
   const auto needed = any_time ? gate_units_needed(0, gate.limit, each) : zero_failure_units(gate.limit, each);
-  if (needed) text += fmt::format(" Each field needs {} without a failure.", count_text(*needed, "world"));
+  if (needed)
+    text += fmt::format(" Because all fields are claimed together, each needs {} without a failure.",
+                        count_text(*needed, "world"));
   return text;
 }
 

@@ -43,7 +43,7 @@ class DrawnFactors : public test::ProgramTest {
 
 TEST_F(DrawnFactors, AreStoredReplayedAndClaimedAsARegion) {
   const auto page = campaign(kHead + kFactors + kGate);
-  EXPECT_THAT(page, HasSubstr("8 replicates wherever loss <= 40 % and delay <= 2 s (drawn uniformly"));
+  EXPECT_THAT(page, HasSubstr("8 worlds wherever loss <= 40 % and delay <= 2 s (drawn uniformly"));
   EXPECT_THAT(page, HasSubstr("| 0 .. 40 % | 0 .. 2 s |"));
   EXPECT_EQ(ask("SELECT count(*) FROM v1_cells WHERE in_contract AND NOT is_worst_case"), "4");
   EXPECT_EQ(ask("SELECT count(DISTINCT loss) || ' ' || count(DISTINCT delay_s) || ' ' || count(DISTINCT replicate || ' "

@@ -157,13 +157,13 @@ TEST_F(Recount, NoticesOneFigureThatIsOff) {
   write_archive(campaign_of("claim", 12), many_cells(3, 4), gates_of_every_kind("sound", "cross"), 12 * 96);
   ASSERT_EQ(recount().out, "\nno difference\n");
   for (const char* change :
-       {"sed -i -E '0,/(failed: rate |counts as failing: rate )/s//\\19/' page.txt",
+       {"sed -i -E '0,/(interval [0-9.]+ to )/s//\\19/' page.txt",
         "sed -i -E '0,/sound +all +contract +([0-9]+)/s//sound  all  contract  1\\1/' page.txt",
         "sed -i -E '0,/(run [0-9]+: contact.*at )[0-9]/s//\\19/' page.txt",
         "sed -i -E 's/([0-9]+)\\/12<\\/text>/\\1\\/13<\\/text>/' page.html",
         "sed -i -E 's/judged, 12 of/judged, 11 of/' page.html",
         "sed -i -E 's/the last new one in run ([0-9]+) of/the last new one in run 1\\1 of/' page.html",
-        "sed -i -E 's/<p>End point/<p>In 17 runs of 18. End point/' page.html"}) {
+        "sed -i -E 's/<p>Runs with an unknown/<p>In 17 runs of 18. Runs with an unknown/' page.html"}) {
     const auto finished = recount(std::string("cp page.txt t && cp page.html h && ") + change +
                                   " && ! (cmp -s t page.txt && cmp -s h page.html)");
     EXPECT_EQ(finished.exit_code, 1) << change << finished.out << finished.err;

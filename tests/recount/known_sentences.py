@@ -211,12 +211,13 @@ PATTERNS = [(re.compile(pattern), check) for pattern, check in (
     (r"^Agent (.+): ([0-9]+) runs? w(?:as|ere) audited, and ", is_audit),
     (r"^([0-9]+) of ([0-9]+) cells (in the contract region )?\D", is_weak_point),
     (r"^Gates of .+: (?:not )?(?:demonstrated|violated): ", gates_by_verdict),
-    (r"Sampled: ([0-9]+) replicates?\b", replicates),
+    (r"Sampled: ([0-9]+) worlds?\b", replicates),
     (r"weak evidence for agent (.+): its ([0-9]+) runs? did not meet", agent_runs),
     (r"A run takes up to ([0-9.]+) s\. stalled", longest_run),
     (r"^([0-9]+) of ([0-9]+) planned replicates? (?:is|are) complete", planned),
     (r"^([0-9]+) of ([0-9]+) stored runs are not counted", uncounted),
-    (r"\bin ([0-9]+) runs? of agent (.+), AGVs came too close to nothing but fallen loads", foreign_body_runs),
+    (r"\bin ([0-9]+) runs? of agent (.+) within the contract region, all that AGVs came too close to were fallen loads",
+     foreign_body_runs),
     (r"^(.+) stalled in ([0-9]+) of ([0-9]+) worlds of the contract region: ", stalled),
     (r"^No run ended in an error of the simulator\. ([0-9]+) runs? w(?:as|ere) simulated once more", soundness),
     (r"^Gates of .*: (demonstrated|violated|not demonstrated): ", constant),
@@ -224,16 +225,17 @@ PATTERNS = [(re.compile(pattern), check) for pattern, check in (
     (r"^When plan digest ([0-9a-f]{16}) was fixed is not known", plan_time),
     (r"^Seed ([0-9]+) (was chosen by a person|follows from)", seed),
     (r"^The data (?:obey the plan|are a part of the plan): ([0-9]+) of ([0-9]+) planned", planned),
-    (r"^Layouts as units: runs of (.+) failed or stayed unknown on ([0-9]+) of ([0-9]+) layouts(?: \(design effect "
+    (r"^Layouts as units: runs of (.+) failed or stayed unknown on ([0-9]+) of ([0-9]+) layouts(?: \(design effect, by which .*: "
      r"([0-9.]+)\))?\. A claim about layouts that were not run has ([0-9]+) units", layouts),
     # From files beside the archive: contract/attempt_ledgers_test.cpp and reports/attempts_test.cpp.
     (r"^Earlier attempts unknown: the ledger names no other", constant),
     (r"^The ledger names [0-9]+ attempts", constant),
     (r"^The results were looked at with [0-9]+ numbers of runs", constant),
+    (r"^[0-9]+ more gates?: the reasons stand below", constant),
     # In recount.py: the title, the claim, the gates, the headlines, the charts.
     (r"^fleetproof report: ", compared_elsewhere),
     (r"(the true (share|rate) is at (most|least)|in 0 of 0 (worlds|runs)|in [0-9]+ runs?)\b.*gates? ", compared_elsewhere),
-    (r"^\".*\": [0-9.]+ (of [0-9]+ (replicates|runs) failed|events? in|runs? failed)", compared_elsewhere),
+    (r"^\".*\": [0-9.]+ (of [0-9]+ (worlds|runs) failed|events? in|runs? failed)", compared_elsewhere),
     (r"broke the safety distance in [0-9]+ runs? within the contract region", compared_elsewhere),
     (r"^Agent .*: [0-9]+ runs?, [0-9]+ never closer than 0.5 m$", compared_elsewhere),
     (r"^agent .*: ([0-9]+, the last new one in run [0-9]+ of [0-9]+|none)$", compared_elsewhere),
@@ -242,7 +244,7 @@ PATTERNS = [(re.compile(pattern), check) for pattern, check in (
     (r"^The runs of agent (.+?): (?:never met|too rare): ", probes_missing),
     (r"^([0-9]+) runs? ended in an error of the simulator itself", engine_errors),
     (r"^Guaranteed envelope: shown in ([0-9]+) of ([0-9]+) fields. .* in which (.+) breaks the safety distance is below "
-     r"([0-9.e-]+) %: in all these fields together, with ([0-9.]+ %) confidence(, however often one looks)?\. .* Each field needs "
+     r"([0-9.e-]+) %: in all these fields together, with ([0-9.]+ %) confidence(, however often one looks)?\. .* each needs "
      r"([0-9]+) worlds? without a failure\.$", is_envelope),
     (r"^Gate \".*\": every cell of it has ([0-9]+) runs?; even without a failure a limit of ", replicates),
     (r"^[^:]*: newly failing: [0-9]+ runs?; newly passing: ", compared_elsewhere),
@@ -251,7 +253,7 @@ PATTERNS = [(re.compile(pattern), check) for pattern, check in (
     (r", compared with .* in .*: (not )?paired", compared_elsewhere),
     (r"^before, now = .* \(95 % confidence\), .* below the margin of 5 %", constant),
     # Constants of the method and of the contract.
-    (r"^Required in at least one of 20000 runs: ", constant),
+    (r"^Required: at least one in 20000 runs has to meet ", constant),
     (r"upper = one-sided upper bound at [0-9.]+ %", constant),
     (r"upper = one-sided upper bound, at ([0-9.]+ % for .+)\.$", confidences),
     (r"^0 \.\. 40 % = every replicate draws", constant),
@@ -260,6 +262,7 @@ PATTERNS = [(re.compile(pattern), check) for pattern, check in (
     (r"The upper bound is the largest limit that the release gate \(an e-value, Ville 1939\)", constant),
     (r"minimal safety distance \(0\.10 m unless the scenario says otherwise\)", constant),
     (r"ISO 3691-4", constant),
+    (r"^Runs with an unknown outcome stand here, too\. End point = .* above 0\.3 m/s", constant),
     (r"95 % is how often this procedure is right", constant),
     (r"40 % loss and 2 s delay are stress", constant),
     (r"^(plan digest|fleetproof|program sha256|compiler|flags|libraries|archive|campaign): ", constant),

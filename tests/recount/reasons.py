@@ -32,21 +32,34 @@ def needed(gate, failing, units, risk):
     return max(smallest(lambda n: n > failing and fixed_share(failing, n, risk)[1] <= limit), units + 1)
 
 
+def needed_at_this_rate(gate, failing, units, risk):
+    """Units at which the gate passes although units go on to fail as they did."""
+    for count in range(failing, 1000):
+        wanted = needed(gate, count, units, risk)
+        if wanted is None:
+            return None
+        wanted = ceil(wanted)
+        if failing * (wanted / units) <= count:
+            return max(wanted, units)
+    return None
+
+
 def numbers_of_gate(archive, gate, counts):
     units, known, failing = counts
     hourly, risk = gate["unit"] == "agv-hour", round(1.0 - gate["confidence"], 12)
     cells = archive.cells_of_gate(gate)
-    texts = {f"{gate['limit_rate']:g}", f"{gate['min_transports_per_agv_hour']:g}", str(len(cells)), "0",
+    share = (lambda rounded, value: rounded(value)) if hourly else (lambda rounded, value: rounded(100.0 * value))
+    texts = {share("{:g}".format, gate["limit_rate"]), f"{gate['min_transports_per_agv_hour']:g}", str(len(cells)), "0",
              str(archive.replicates), str(archive.campaign["replicates"]), str(failing), str(known),
              str(failing - known), str(failing_runs(archive, gate, cells))}
-    texts |= {w.up(bounds(gate["method"], gate["unit"], failing, units, risk)[1]),
-              w.down(bounds(gate["method"], gate["unit"], known, units, risk)[0]),
-              w.up(bounds(gate["method"], gate["unit"], known, units, risk)[1])}
+    texts |= {share(w.up, bounds(gate["method"], gate["unit"], failing, units, risk)[1]),
+              share(w.down, bounds(gate["method"], gate["unit"], known, units, risk)[0]),
+              share(w.up, bounds(gate["method"], gate["unit"], known, units, risk)[1])}
     amount = (lambda n: f"{n / 3.6e9:.6g}") if hourly else str
     texts.add(amount(units))
     texts.add(str(known))
     if units:
-        texts.add(w.rate(failing / (units / 3.6e9 if hourly else units)))
+        texts.add(share(w.rate, failing / (units / 3.6e9 if hourly else units)))
     due = [cell for cell in cells if archive.inside(archive.cells[cell])] or cells
     tally = archive.tally(due)
     texts.add(w.per_hour(tally["done"], tally["agv_us"]))
@@ -55,6 +68,9 @@ def numbers_of_gate(archive, gate, counts):
     if want is not None:
         want = ceil(want) if hourly else want
         texts |= {amount(want), amount(want - units)}
+        if failing and gate["method"] == "any-time":
+            at_this_rate = needed_at_this_rate(gate, failing, units, risk)
+            texts |= {amount(at_this_rate)} if at_this_rate else set()
     return texts
 
 
@@ -71,7 +87,7 @@ def failing_runs(archive, gate, cells):
 def unexplained(archive, allowed, text):
     """Numbers of a reason that no gate has; `text` begins after "Why ..."."""
     text = re.sub(r"never met: .*|too rare: .*", "", text)
-    serious = re.search(r"Its most serious run is ([0-9]+) \(", text)
+    serious = re.search(r"(?:Its most serious run|The most serious of the unknown runs) is ([0-9]+) \(", text)
     if serious:
         run = archive.one(f"SELECT {ENDS} AS end FROM runs WHERE run_index = ?", int(serious[1]))
         if not run["end"] and not archive.all("SELECT 1 FROM incidents WHERE run_index = ?", int(serious[1])):

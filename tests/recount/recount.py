@@ -81,7 +81,7 @@ def check_gates(archive, page, section, head):
         REASONS[page] |= allowed
         if archive.search:
             continue
-        pattern = re.escape(s.gate_sentence(gate, counts)).replace("UNIT", "(replicates|runs)")
+        pattern = re.escape(s.gate_sentence(gate, counts)).replace("UNIT", "(worlds|runs)")
         if not any(re.match(pattern, each) for each in map(plain, section.sentences)):
             differ(f"{page}, gates", s.gate_sentence(gate, counts), section.sentences)
         verdict = re.search(r"(not demonstrated|demonstrated|violated)( \(told only\))?$", text)
@@ -140,7 +140,7 @@ def check_html(archive, sections):
         close.tables[0][1:] = sorted(close.tables[0][1:])
         same_rows("html", "How close the bodies came", close, rows)
     failures = Failures(archive)
-    check_failures(failures, sections["Failing runs, by what went wrong first"])
+    check_failures(failures, sections["Runs in which something went wrong, by what came first"])
     legends = [plain(text) for text in sections["Would more runs tell more?"].sentences]
     for legend in discoveries(archive, failures) if archive.runs else []:
         if legend not in legends:

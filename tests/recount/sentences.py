@@ -35,10 +35,12 @@ def gate_sentence(gate, counts):
     if failing > known and not hourly:
         text += f" and {failing - known} stayed unknown, which counts as failing"
     if units:
-        text += f": rate {w.rate(failing / exposure)}, two-sided 95 % interval {w.interval(pair)}"
-    when = "valid however often one looks" if gate["method"] == "any-time" else "for the planned replicates"
-    return text + (f", one-sided {w.percent(gate['confidence'])} upper bound {w.up(upper)}, limit "
-                   f"{gate['limit_rate']:g} ({when}).")
+        text += f": {w.of_gate(gate, w.rate, failing / exposure)}, " if failing else ": "
+        lower = w.down(pair[0] if hourly else 100.0 * pair[0])
+        text += f"two-sided 95 % interval {lower} to {w.of_gate(gate, w.up, pair[1])}"
+    when = "valid however often one looks" if gate["method"] == "any-time" else "for the planned worlds"
+    return text + (f", one-sided {w.percent(gate['confidence'])} upper bound {w.of_gate(gate, w.up, upper)}, limit "
+                   f"{w.of_gate(gate, '{:g}'.format, gate['limit_rate'])} ({when}).")
 
 
 def subject(gate):
@@ -58,7 +60,7 @@ def finding(gate, counts, verdict):
     text += re.escape(f"{w.count(known, 'time')} in {units / 3.6e9:.6g} AGV-hours") if hourly else \
         re.escape(f"in {known} of {units} ") + "(runs|worlds)"
     if failing > known:
-        text += re.escape(f", with {failing - known} more unknown")
+        text += re.escape(f", and {failing - known} more ended unknown and count as failing")
     if units == 0:
         return text
     risk = round(1.0 - gate["confidence"], 12)

@@ -91,7 +91,8 @@ def gate_rows(archive):
         cells = archive.cells_of_gate(gate)
         counts = archive.units(gate["end_point"], gate["unit"], cells, gate["min_transports_per_agv_hour"])
         units, known, failing = counts
-        what = gate["end_point"] + (f" [{gate['requirement']}]" if gate["requirement"] else "")
+        what = gate["end_point"] + (f" >= {gate['min_transports_per_agv_hour']:g}/AGV-h" if gate["end_point"] ==
+                                    "throughput" else "") + (f" [{gate['requirement']}]" if gate["requirement"] else "")
         named = w.named_cells(gate)
         where = ", ".join(filter(None, (WHERE[gate["region"]], named)))
         if gate["region"] == "all" and (gate["loss"], gate["delay_s"]) != (None, None):
@@ -107,7 +108,7 @@ def gate_rows(archive):
             limit = in_unit(lambda number: f"{number:g}", gate["limit_rate"])
             failed = w.failed(known, failing)
             row += [failed if hourly else f"{failed}/{units}", in_unit(w.up, upper),
-                    ("0 allowed; " if gate["kind"] == "none" else "") + limit]
+                    limit + (", none allowed" if gate["kind"] == "none" else "")]
         rows.append((row, gate, counts))
     return rows
 

@@ -77,6 +77,11 @@ def failed(known, with_unknown):
     return str(known) + (f" +{with_unknown - known}?" if with_unknown > known else "")
 
 
+def of_gate(gate, rounded, value):
+    """A share in percent, or a rate per AGV-hour."""
+    return rounded(value) + " per AGV-hour" if gate["unit"] == "agv-hour" else rounded(100.0 * value) + " %"
+
+
 def grouped(number):
     return f"{number:,}".replace(",", " ")
 

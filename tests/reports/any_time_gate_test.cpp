@@ -91,7 +91,35 @@ TEST(AnyTimeGate, SaysWhatAStoppedNightCarries) {
   const auto early =
       report_of(campaign_of("claim", 1000), grid({"sound"}, {0.0, 0.4}, {2.0}), {any_time(0.1)}, {}, 0, 2 * 980);
   EXPECT_EQ(early.gates[0].verdict, Verdict::NotDemonstrated);
-  EXPECT_THAT(early.gates[0].reason, HasSubstr("32 replicates without a failure are needed (12 more)"));
+  EXPECT_THAT(early.gates[0].reason, HasSubstr("32 worlds without a failure are needed (12 more)"));
+}
+
+// Counts up, world by world, with as many failures as the rate brings.
+std::optional<std::uint64_t> first_pass(const GateTable& table, std::uint64_t failing, std::uint64_t units) {
+  for (std::uint64_t n = units; n < 5000; ++n) {
+    if (passes(table, (failing * n + units - 1) / units, n)) return n;
+  }
+  return std::nullopt;
+}
+
+TEST(AnyTimeGate, SaysWhatHelpsIfFailuresGoOn) {
+  GateRecord gate = any_time(0.1);
+  gate.table = gate_table(gate, 4, 1000);
+  for (const auto& [failing, units] : {std::pair(1U, 40U), {1U, 60U}, {2U, 100U}, {3U, 90U}, {5U, 100U}, {10U, 150U}})
+    EXPECT_EQ(units_to_pass_at_this_rate(gate, failing, units), first_pass(gate.table, failing, units))
+        << failing << " of " << units;
+  const auto reason_with = [&](unsigned failing) {
+    return report_of(campaign_of("claim", 150), grid({"sound"}, {0.0, 0.4}, {2.0}), {gate},
+                     [&](RunRecord& run) {
+                       if (run.cell == 0 && run.replicate < failing) run.outcome.crash = true;
+                     })
+        .gates[0]
+        .reason;
+  };
+  EXPECT_THAT(reason_with(10), HasSubstr("10 counted, are needed (72 more); if failures go on as they were seen, more "
+                                         "runs will not help"));
+  EXPECT_THAT(reason_with(7), HasSubstr("if failures go on as they were seen, about"));
+  EXPECT_THAT(reason_with(40), HasSubstr("more runs will not help"));
 }
 
 TEST(AnyTimeGate, OfRunsIsDecidedByTheWorstCell) {

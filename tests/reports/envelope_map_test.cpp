@@ -56,7 +56,7 @@ TEST(EnvelopeMap, shows_a_field_from_the_world_on_that_the_formula_names) {
   const std::vector<std::string> all(4, "yes"), none(4, "no");
   EXPECT_EQ(words(map_after(worlds_needed())), all);
   EXPECT_EQ(words(map_after(worlds_needed() - 1)), none);
-  EXPECT_THAT(map_after(10).sentence, HasSubstr("Each field needs " + std::to_string(worlds_needed()) + " worlds"));
+  EXPECT_THAT(map_after(10).sentence, HasSubstr("each needs " + std::to_string(worlds_needed()) + " worlds"));
 }
 
 TEST(EnvelopeMap, a_field_is_claimed_only_with_all_milder_fields) {

@@ -21,7 +21,7 @@ TEST(Evidence, a_pooled_gate_counts_replicates_not_runs) {
                                  if (run.replicate == 3) samples::violate(run);
                                });
   const auto& gate = input.gates[0];
-  EXPECT_EQ(gate.unit, "replicates");
+  EXPECT_EQ(gate.unit, "worlds");
   EXPECT_EQ(gate.claim->units, 10u);
   EXPECT_EQ(gate.claim->failing, 1u);
   EXPECT_EQ(gate.counts.failing_runs, 6u);

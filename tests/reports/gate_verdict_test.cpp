@@ -79,17 +79,17 @@ TEST(GateVerdict, the_claim_counts_unknown_outcomes_and_the_optimistic_line_does
   EXPECT_EQ(result.optimistic->failing, 2u);
   EXPECT_GT(result.claim->upper, result.optimistic->upper);
   EXPECT_NEAR(result.claim->upper, upper_bound(7, 1000, 0.95), 1e-15);
-  EXPECT_THAT(result.reason, HasSubstr("5 of 1000 replicates ended unknown"));
+  EXPECT_THAT(result.reason, HasSubstr("5 of 1000 worlds ended unknown"));
 }
 
 TEST(GateVerdict, says_how_many_more_are_needed_and_when_more_do_not_help) {
   const auto few = judge_gate(gate(GateKind::None, 1e-3), counts(200, 0));
   EXPECT_EQ(few.units_needed, 2995u);
   EXPECT_THAT(few.reason,
-              HasSubstr("2995 replicates without a failure are needed, a number to be planned before the first run"));
+              HasSubstr("2995 worlds without a failure are needed, a number to be planned before the first run"));
   const auto one = judge_gate(gate(GateKind::Rate, 1e-3), counts(3000, 1));
   EXPECT_EQ(one.units_needed, 4742u);
-  EXPECT_THAT(one.reason, HasSubstr("4742 replicates in all, with no failure beyond the 1 counted"));
+  EXPECT_THAT(one.reason, HasSubstr("4742 worlds in all, with no failure beyond the 1 counted"));
   const auto hopeless = judge_gate(gate(GateKind::Rate, 1e-2), counts(200, 3));
   EXPECT_FALSE(hopeless.units_needed.has_value());
   EXPECT_THAT(hopeless.reason, HasSubstr("more runs will not help"));
@@ -169,7 +169,7 @@ TEST(GateVerdict, a_gate_on_one_cell_counts_runs) {
   auto one = counts(100, 0);
   one.cells = 1;
   EXPECT_EQ(judge_gate(gate(GateKind::None, 1e-3), one).unit, "runs");
-  EXPECT_EQ(judge_gate(gate(GateKind::None, 1e-3), counts(100, 0)).unit, "replicates");
+  EXPECT_EQ(judge_gate(gate(GateKind::None, 1e-3), counts(100, 0)).unit, "worlds");
 }
 
 TEST(GateVerdict, a_gate_without_cells_demonstrates_nothing) {

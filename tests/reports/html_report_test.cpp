@@ -158,7 +158,7 @@ TEST(HtmlReport, equal_traces_count_once) {
   pugi::xml_document document;
   ASSERT_TRUE(document.load_buffer(page.data(), page.size(), pugi::parse_full));
   std::vector<std::vector<std::string>> rows;
-  for (const auto& row : document.select_nodes("//section[h2='Failing runs, by what went wrong first']//tbody/tr")) {
+  for (const auto& row : document.select_nodes("//section[starts-with(h2, 'Runs in which something')]//tbody/tr")) {
     rows.emplace_back();
     for (const auto& cell : row.node().children()) rows.back().emplace_back(cell.text().get());
   }

@@ -50,15 +50,15 @@ TEST(Report, without_a_violation_the_bound_is_printed_all_the_same) {
     auto page = render(format, clean_campaign());
     std::ranges::replace(page, '\n', ' ');
     EXPECT_THAT(page, HasSubstr("not demonstrated")) << format;
-    EXPECT_THAT(page, HasSubstr("0 of 200 replicates failed")) << format;
+    EXPECT_THAT(page, HasSubstr("0 of 200 worlds failed")) << format;
     EXPECT_THAT(page, HasSubstr("0.0149")) << format;
-    EXPECT_THAT(page, HasSubstr("2995 replicates")) << format;
+    EXPECT_THAT(page, HasSubstr("2995 worlds")) << format;
   }
 }
 
 TEST(Report, the_verdict_claims_what_was_sampled) {
   auto page = render("markdown", clean_campaign());
-  EXPECT_THAT(page, HasSubstr("200 replicates at these 12 combinations (loss 0 %, 20 %, 40 %; delay 0 s, 0.5 s, 1 s, 2 "
+  EXPECT_THAT(page, HasSubstr("200 worlds at these 12 combinations (loss 0 %, 20 %, 40 %; delay 0 s, 0.5 s, 1 s, 2 "
                               "s), layout ring, fleets of 5, 600 s a run"));
   EXPECT_THAT(render("markdown", clean_campaign(3000)), HasSubstr("**demonstrated**"));
 }
@@ -86,9 +86,10 @@ TEST(Report, sections_stand_in_their_order) {
   const auto page = render("text", failing_campaign());
   std::size_t last = 0;
   for (const auto* title :
-       {"demonstrated |", "Gates (acceptance criteria)", "By layout", "By fleet size", "Worst case of the contract",
-        "Contract region: loss", "Outside the contract\n", "How to read the tables", "Weak points",
-        "Failing runs, by what went wrong first", "Attempts, plan and looks", "Provenance", "How to read this"}) {
+       {"demonstrated |", "Gates (acceptance criteria)", "By layout", "By fleet size", "How to read the tables",
+        "Worst case of the contract", "Contract region: loss", "Outside the contract\n", "Weak points",
+        "Runs in which something went wrong, by what came first", "Attempts, plan and looks", "Provenance",
+        "How to read this"}) {
     const auto at = page.find(title, last);
     ASSERT_NE(at, std::string::npos) << title;
     last = at;
@@ -210,7 +211,7 @@ TEST(Report, unknown_outcomes_have_their_optimistic_line) {
                                [](RunRecord& run) { run.outcome.crash = run.run_index % 10 == 0; });
   const auto page = render("markdown", input);
   EXPECT_THAT(page, HasSubstr("0 of 100 runs failed and 10 stayed unknown, which counts as failing"));
-  EXPECT_THAT(page, HasSubstr("If none of it had failed: 0 of 100, upper bound 0.0296"));
+  EXPECT_THAT(page, HasSubstr("If none of the unknown had failed: 0 of 100, upper bound 2.96 %"));
 }
 
 TEST(Report, json_has_full_digits_units_and_hexadecimal_digests) {

@@ -47,7 +47,7 @@ ReportInput drawn(const std::vector<CellRecord>& cells, Region region = Region::
 
 TEST(SampleSentence, ADrawnRegionIsClaimedAsARegion) {
   const auto input = drawn({drawn_cell(0, 0.4)});
-  EXPECT_THAT(sampled(input.evidence, {0}), HasSubstr("200 replicates wherever loss <= 40 % and delay <= 2 s (drawn "
+  EXPECT_THAT(sampled(input.evidence, {0}), HasSubstr("200 worlds wherever loss <= 40 % and delay <= 2 s (drawn "
                                                       "uniformly; a rate is the mean over that region"));
   for (const auto* format : {"text", "markdown"}) {
     const auto page = render(format, input);
@@ -79,7 +79,7 @@ TEST(SampleSentence, AGridClaimsItsCombinations) {
   const auto input = report_of(campaign_of("claim", 20), grid({"sound"}, {0.0, 0.4}, {2.0}),
                                {gate_of("sound", GateKind::Rate, Region::Contract, 0.02)});
   EXPECT_THAT(sampled(input.evidence, {0, 1}),
-              HasSubstr("20 replicates at these 2 combinations (loss 0 %, 40 %; delay 2 s)"));
+              HasSubstr("20 worlds at these 2 combinations (loss 0 %, 40 %; delay 2 s)"));
   EXPECT_EQ(nlohmann::json::parse(render("json", input))["campaign"]["sampling"], nullptr);
 }
 
@@ -117,7 +117,7 @@ TEST(SampleSentence, HeldRandomnessLimitsWhatIsClaimed) {
   const std::vector gates{gate_of("sound", GateKind::Rate, Region::Contract, 0.02)};
   const auto one = report_of(campaign, grid({"sound"}, {0.4}, {2.0}), gates);
   EXPECT_THAT(sampled(one.evidence, {0}),
-              testing::StartsWith("in one warehouse, with the placement of replicate 7 throughout, 20 replicates at"));
+              testing::StartsWith("in one warehouse, with the placement of replicate 7 throughout, 20 worlds at"));
   for (const auto* format : {"text", "summary", "markdown"}) {
     EXPECT_THAT(
         render(format, one),

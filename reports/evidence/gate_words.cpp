@@ -1,0 +1,23 @@
+#include "reports/evidence/gate_words.hpp"
+
+#include <fmt/format.h>
+
+#include "reports/evidence/exposure.hpp"
+
+namespace fleetproof {
+
+std::string value_text(const GateRecord& gate, double value, std::string (*rounded)(double)) {
+  return gate.unit == GateUnit::AgvHour ? rounded(value) + " per AGV-hour" : rounded(100.0 * value) + " %";
+}
+
+std::string limit_text(const GateRecord& gate) {
+  return gate.unit == GateUnit::AgvHour ? fmt::format("{:g} per AGV-hour", gate.limit)
+                                        : fmt::format("{:g} %", 100.0 * gate.limit);
+}
+
+std::string amount_text(const GateRecord& gate, std::uint64_t units, std::string_view unit) {
+  return gate.unit == GateUnit::AgvHour ? fmt::format("{:.6g} {}", agv_hours(units), unit)
+                                        : fmt::format("{} {}", units, unit);
+}
+
+}  // namespace fleetproof
