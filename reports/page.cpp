@@ -14,6 +14,7 @@
 #include "reports/coverage_section.hpp"
 #include "reports/failure_section.hpp"
 #include "reports/gate_section.hpp"
+#include "reports/plan_conditions.hpp"
 #include "reports/sample_sentence.hpp"
 #include "reports/verdict_sentences.hpp"
 #include "reports/weak_points.hpp"
@@ -48,6 +49,13 @@ Section provenance_section(const ReportInput& input) {
   add("compiler", engine.compiler);
   add("flags", engine.flags);
   add("libraries", engine.libraries);
+  return section;
+}
+
+Section plan_section(const ReportInput& input) {
+  Section section{"Conditions", {}, {}};
+  for (const auto& [name, value] : campaign_conditions(input))
+    section.remarks.emplace_back().text = fmt::format("{}: {}", name, value);
   return section;
 }
 
@@ -136,6 +144,7 @@ Page build_page(const ReportInput& input, std::size_t most_rows) {
     add(Topic::Conditions, condition_section(input, title, wanted, most_rows));
   };
   add(Topic::Gates, gate_section(input));
+  add(Topic::Plan, plan_section(input));
   add(Topic::Groups, layout_section(input, most_rows));
   add(Topic::Groups, fleet_section(input, most_rows));
   const std::string loss = percent(kContractLoss), delay = fmt::format("{:g} s", kContractDelay_s);

@@ -36,6 +36,7 @@ struct Table {
 // What a section is about, for formats with an order of their own.
 enum class Topic : std::uint8_t {
   Gates,
+  Plan,
   Groups,
   Conditions,
   Comparison,

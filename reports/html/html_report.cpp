@@ -8,9 +8,9 @@
 
 #include "reports/html/campaign_charts.hpp"
 #include "reports/html/look.hpp"
-#include "reports/html/plan_conditions.hpp"
 #include "reports/html/section_tables.hpp"
 #include "reports/page.hpp"
+#include "reports/plan_conditions.hpp"
 #include "reports/wording.hpp"
 
 namespace fleetproof {
@@ -36,13 +36,7 @@ Element head_of(const Page& page) {
   return head.add(Element("style").literal(html::style_sheet()));
 }
 
-double fleet_hours(const Evidence& evidence) {
-  Tally sum;
-  for (const auto& cell : evidence.cells()) sum.add(evidence.tally(cell.index));
-  return sum.agv_hours();
-}
-
-Element facts_of(const std::vector<html::Fact>& facts) {
+Element facts_of(const std::vector<Fact>& facts) {
   Element body("tbody");
   for (const auto& [name, value] : facts) {
     Element row("tr");
@@ -50,21 +44,6 @@ Element facts_of(const std::vector<html::Fact>& facts) {
     body.add(row.add(text_element("td", value)));
   }
   return Element("table", {{"class", "facts"}, {"cellpadding", "4"}}).add(body);
-}
-
-Element conditions_part(const ReportInput& input) {
-  const auto& campaign = input.campaign;
-  const auto& evidence = input.evidence;
-  auto facts = html::plan_conditions(campaign.plan_json);
-  facts.emplace_back("Cells (test conditions)", std::to_string(evidence.cells().size()));
-  facts.emplace_back("Runs",
-                     fmt::format("{} judged, {} of {} complete", evidence.runs(), evidence.complete_replicates(),
-                                 count_text(evidence.planned_replicates(), "planned replicate")));
-  facts.emplace_back("Fleet-hours", fmt::format("{:.1f} AGV-hours simulated", fleet_hours(evidence)));
-  facts.emplace_back("Software",
-                     fmt::format("fleetproof {}, sha256 {}", campaign.engine.version, campaign.engine.program_sha256));
-  facts.emplace_back("Plan digest", hex_text(campaign.plan_hash));
-  return titled("Conditions").add(facts_of(facts));
 }
 
 Element words_part() {
@@ -122,7 +101,7 @@ Element assumptions_part() {
 Element plan_part(const ReportInput& input) {
   Element details("details");
   details.add(text_element("summary", "The resolved plan"));
-  const auto plan = html::plan_listing(input.campaign.plan_json, kMostPlanBytes);
+  const auto plan = plan_listing(input.campaign.plan_json, kMostPlanBytes);
   if (plan.empty()) return details.add(paragraph("The campaign file holds no plan text."));
   return details.add(Element("pre").add(Element("code").lines(plan)));
 }
@@ -154,7 +133,8 @@ std::string render_html(const HtmlInput& input) {
     if (section.topic == Topic::Gates)
       main.add(html::folded_section_of(section, "Figures and reason of each gate (acceptance criterion)"));
   }
-  main.add(conditions_part(input.report)).add(html::map_part(input.report, input.figures));
+  main.add(titled("Conditions").add(facts_of(campaign_conditions(input.report))));
+  main.add(html::map_part(input.report, input.figures));
   add({Topic::Groups});
   main.add(html::clearance_part(input.report, input.figures)).add(html::effort_part(input.report, input.figures));
   // The worst run of each group stands there: a list of the worst runs would be one failure many times.

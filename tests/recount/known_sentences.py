@@ -5,6 +5,7 @@ A sentence with digits that no pattern knows is an error, so that no figure reac
 import re
 
 import wording as w
+from sentences import agv_hours, judged
 from counts import END_POINTS, KINDS
 from drawings import field_maps, gate_on_violations, grids, worlds_needed
 
@@ -176,6 +177,13 @@ def gates_by_verdict(archive, found):
     return not re.search("[0-9]", rest)
 
 
+def condition(archive, found):
+    """"Runs: 96 judged, 12 of 12 planned replicates complete" and the others of the plan."""
+    counted = {"Cells (test conditions)": str(len(archive.cells)), "Runs": judged(archive), "Simulated":
+               agv_hours(archive)}
+    return found[2] == counted.get(found[1], found[2])
+
+
 def replicates(archive, found):
     return int(found[1]) == archive.replicates
 
@@ -210,6 +218,9 @@ PATTERNS = [(re.compile(pattern), check) for pattern, check in (
     (r"^([a-z-]+) of agent (.+), for instance in run ([0-9]+):", is_first_with_kind),
     (r"^Agent (.+): ([0-9]+) runs? w(?:as|ere) audited, and ", is_audit),
     (r"^([0-9]+) of ([0-9]+) cells (in the contract region )?\D", is_weak_point),
+    (r"^(Safety distance|Loss|Delay|Mean outage|Radio|Layouts|Fleet sizes|Vehicles|Transports \(orders\)|Faults|Agents "
+     r"\(control software\)|Laws \(monitors\)|Operator|Horizon of a run|Cells \(test conditions\)|Runs|Simulated|"
+     r"Software|Plan digest): (.*)$", condition),
     (r"^Gates of .+: (?:not )?(?:demonstrated|violated): ", gates_by_verdict),
     (r"Sampled: ([0-9]+) worlds?\b", replicates),
     (r"weak evidence for agent (.+): its ([0-9]+) runs? did not meet", agent_runs),

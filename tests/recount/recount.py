@@ -119,7 +119,7 @@ def check_head(archive, page, sections):
 def check_html(archive, sections):
     facts = {row[0]: row[1] for row in sections["Conditions"].tables[0]}
     for name, value in (("Cells (test conditions)", str(len(archive.cells))), ("Runs", s.judged(archive)),
-                        ("Fleet-hours", s.agv_hours(archive))):
+                        ("Simulated", s.agv_hours(archive))):
         if facts.get(name) != value:
             differ(f"html, {name}", value, facts.get(name))
     maps = sections["Failures, throughput and safe mode by radio quality"].drawings

@@ -79,7 +79,7 @@ def finding(gate, counts, verdict):
 def agv_hours(archive):
     us = archive.one("SELECT coalesce(sum(simulated_ns / 1000 * agv_count), 0) AS us FROM runs WHERE replicate < ?",
                      archive.replicates)["us"]
-    return f"{us / 3.6e9:.1f} AGV-hours simulated"
+    return f"{us / 3.6e9:.1f} AGV-hours, of all agents and cells"
 
 
 def judged(archive):

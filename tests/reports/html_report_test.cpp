@@ -240,7 +240,7 @@ TEST(HtmlReport, the_conditions_come_from_the_plan) {
     "world": {"transports_per_agv_hour": 30, "placement": "random"}, "vehicles": [], "radio": {}})";
   const auto page = Archive(campaign, grid({"sound"}, {0.4}, {2.0}), gates(), 1).page();
   for (const auto* fact : {">0.15 m<", ">all but paper<", ">5, 9 AGVs<", ">0, 40 %<", ">450 s simulated<",
-                           ">breakdowns per agv hour 0.25<", ">0.8 AGV-hours simulated<"}) {
+                           ">breakdowns per agv hour 0.25<", ">0.8 AGV-hours, of all agents and cells<"}) {
     EXPECT_THAT(page, HasSubstr(fact));
   }
 }

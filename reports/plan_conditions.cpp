@@ -1,4 +1,4 @@
-#include "reports/html/plan_conditions.hpp"
+#include "reports/plan_conditions.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include "core/base/outside_text.hpp"
 #include "reports/wording.hpp"
 
-namespace fleetproof::html {
+namespace fleetproof {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -49,6 +49,18 @@ std::string list(const Json& values, double scale = 1.0) {
     } else {
       words.push_back(word(value));
     }
+  }
+  return joined(words);
+}
+
+// A name alone does not say what ran: "fleet-ctl 4.2 (hull-lock)".
+std::string agents_text(const Json& agents) {
+  std::vector<std::string> words;
+  for (const Json& agent : agents) {
+    std::string text = word(agent);
+    if (const std::string program = word(part(agent, "program")); !program.empty() && program != text)
+      text += fmt::format(" ({})", program);
+    words.push_back(std::move(text));
   }
   return joined(words);
 }
@@ -155,7 +167,7 @@ std::vector<Fact> plan_conditions(const std::string& plan_json) {
   const auto add = [&](const char* name, std::string value) { facts.emplace_back(name, std::move(value)); };
   add("Safety distance", distance_text(number(law, "safety_distance_m")));
   add("Laws (monitors)", laws_text(law));
-  add("Agents (control software)", list(part(factors, "agents")));
+  add("Agents (control software)", agents_text(part(factors, "agents")));
   add("Loss", list(part(factors, "loss"), 100.0) + " %");
   add("Delay", list(part(factors, "delay_s")) + " s");
   const Json& outage = part(factors, "mean_outage_s");
@@ -173,6 +185,23 @@ std::vector<Fact> plan_conditions(const std::string& plan_json) {
   return facts;
 }
 
+std::vector<Fact> campaign_conditions(const ReportInput& input) {
+  const auto& campaign = input.campaign;
+  const auto& evidence = input.evidence;
+  Tally all;
+  for (const CellRecord& cell : evidence.cells()) all.add(evidence.tally(cell.index));
+  auto facts = plan_conditions(campaign.plan_json);
+  facts.emplace_back("Cells (test conditions)", std::to_string(evidence.cells().size()));
+  facts.emplace_back("Runs",
+                     fmt::format("{} judged, {} of {} complete", evidence.runs(), evidence.complete_replicates(),
+                                 count_text(evidence.planned_replicates(), "planned replicate")));
+  facts.emplace_back("Simulated", fmt::format("{:.1f} AGV-hours, of all agents and cells", all.agv_hours()));
+  facts.emplace_back("Software",
+                     fmt::format("fleetproof {}, sha256 {}", campaign.engine.version, campaign.engine.program_sha256));
+  facts.emplace_back("Plan digest", hex_text(campaign.plan_hash));
+  return facts;
+}
+
 std::string plan_listing(const std::string& plan_json, std::size_t most_bytes) {
   Json plan = Json::parse(plan_json, nullptr, false);
   if (plan.is_discarded()) return "";
@@ -183,4 +212,4 @@ std::string plan_listing(const std::string& plan_json, std::size_t most_bytes) {
   return text + "\n... (the rest stands in the campaign file)";
 }
 
-}  // namespace fleetproof::html
+}  // namespace fleetproof

@@ -4,7 +4,9 @@
 #include <utility>
 #include <vector>
 
-namespace fleetproof::html {
+#include "reports/report.hpp"
+
+namespace fleetproof {
 
 // A name and its value, such as {"Fleet sizes", "5, 10"}.
 using Fact = std::pair<std::string, std::string>;
@@ -13,8 +15,11 @@ using Fact = std::pair<std::string, std::string>;
 // vehicles, transports, radio, faults, horizon. Empty if the text is no plan.
 std::vector<Fact> plan_conditions(const std::string& plan_json);
 
+// The same, and what was run of it: cells, runs, hours, software, plan digest.
+std::vector<Fact> campaign_conditions(const ReportInput& input);
+
 // The plan with one value in each line. Embedded layouts and long lists are shortened; a text that is still longer than
 // `most_bytes` is cut, and says so.
 std::string plan_listing(const std::string& plan_json, std::size_t most_bytes);
 
-}  // namespace fleetproof::html
+}  // namespace fleetproof
