@@ -9,6 +9,12 @@
 
 namespace fleetproof {
 
+Remark worst_of(const ReportInput& input, const FailureGroup& group) {
+  Remark remark = describe(input, group.worst);
+  if (!group.worst.factors.in_contract()) remark.text += " (outside the contract)";
+  return remark;
+}
+
 Table failure_table(const std::vector<FailureGroup>& groups) {
   Table table;
   for (const char* head : {"agent", "end point", "first cause", "before it"}) table.columns.push_back({head, false});
@@ -37,11 +43,7 @@ Section failure_section(const ReportInput& input, std::size_t most_groups) {
       "= what the scenario had done to the bodies involved; that is an order in time and shows no cause. Distinct = "
       "the number of different traces. The worst run of each group:";
   section.table = failure_table(groups);
-  for (const FailureGroup& group : groups) {
-    Remark remark = describe(input, group.worst);
-    if (!group.worst.factors.in_contract()) remark.text += " (outside the contract)";
-    section.remarks.push_back(std::move(remark));
-  }
+  for (const FailureGroup& group : groups) section.remarks.push_back(worst_of(input, group));
   if (all > most_groups)
     section.remarks.emplace_back().text = fmt::format("{} more groups are left out here.", all - most_groups);
   return section;

@@ -65,6 +65,19 @@ void add_map(html::FilmStrip& strip, const LogicalMap& map) {
     strip.stations.push_back({station.position_m.x(), station.position_m.y()});
 }
 
+// Of a load, shorter than on other pages: a frame is small.
+std::string short_name(const Scenario& scenario, EntityId id) {
+  return printable(body_name(scenario, id, "load of "), 20);
+}
+
+// A load that has not fallen yet, an obstacle that has not come yet, or an AGV that was taken off.
+std::string absence_text(const Scenario& scenario, EntityId id) {
+  std::string what = "load";
+  if (id.index() < scenario.agvs.size() + scenario.obstacles.size()) what = "obstacle";
+  if (id.index() < scenario.agvs.size()) what = short_name(scenario, id);
+  return what + " not on the floor";
+}
+
 html::FilmFrame frame_of(const Still& still, const Subject& subject, const Scenario& scenario) {
   html::FilmFrame frame;
   frame.time_s = to_seconds(still.at);
@@ -75,7 +88,7 @@ html::FilmFrame frame_of(const Still& still, const Subject& subject, const Scena
     if (body.entity == subject.b) second = &body;
     const OrientedRectangle& place = body.place;
     html::FilmBody shown;
-    shown.name = printable(body_name(scenario, body.entity), 20);
+    shown.name = short_name(scenario, body.entity);
     shown.centre = {place.centre_m.x(), place.centre_m.y()};
     shown.heading = {place.heading.x(), place.heading.y()};
     shown.length_m = 2.0 * place.half_length_m;
@@ -86,6 +99,8 @@ html::FilmFrame frame_of(const Still& still, const Subject& subject, const Scena
   }
   if (first != nullptr && second != nullptr)
     frame.clearance_m = std::max(0.0, clearance_m(first->place, second->place));
+  else if (subject.a.valid() && subject.b.valid())
+    frame.without_clearance = absence_text(scenario, first == nullptr ? subject.a : subject.b);
   return frame;
 }
 
@@ -109,8 +124,9 @@ class FilmMaker {
     }
     if (stills.front().bodies.empty()) {
       strip.note =
-          "No film strip: only the calls of runs that broke a distance, crashed or hung are recorded, and this "
-          "agent is never called in this process.";
+          "No film strip: control software in a shared object is drawn from the recording of its calls. Only runs that "
+          "broke a distance, crashed or hung are recorded; this run did none of these (it stalled, for instance). The "
+          "command above simulates it again.";
       return strip;
     }
     const Scenario scenario = source_.scenario(run.run_index);
@@ -169,8 +185,7 @@ html::FilmStrip without_frames(const std::string& why) {
 std::map<std::uint64_t, html::FilmStrip> film_strips(const ArchiveReader& archive, const std::string& archive_path,
                                                      const FailureGroups& failures) {
   std::map<std::uint64_t, html::FilmStrip> strips;
-  auto groups = failures.list(archive.gates());
-  groups.resize(std::min(groups.size(), kMostStrips));
+  const auto groups = failures.list(archive.gates());
   if (groups.empty()) return strips;
   std::unique_ptr<FilmMaker> maker;
   std::string no_plan;
@@ -183,6 +198,10 @@ std::map<std::uint64_t, html::FilmStrip> film_strips(const ArchiveReader& archiv
   }
   for (const auto& group : groups) {
     html::FilmStrip& strip = strips[group.worst.run_index];
+    if (strips.size() > kMostStrips) {
+      strip = without_frames(fmt::format("this page shows only the first {} groups as strips.", kMostStrips));
+      continue;
+    }
     try {
       strip = maker ? maker->strip(group.worst) : without_frames(no_plan);
     } catch (const InputError& error) {

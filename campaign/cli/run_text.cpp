@@ -78,14 +78,14 @@ std::string holder_text(const Scenario& scenario, const Holder& holder) {
 
 }  // namespace
 
-std::string body_name(const Scenario& scenario, EntityId id) {
+std::string body_name(const Scenario& scenario, EntityId id, std::string_view load_of) {
   if (id.index() < scenario.agvs.size()) return scenario.agvs[id.index()].name;
   std::size_t number = id.index() - scenario.agvs.size();
   if (number < scenario.obstacles.size()) return scenario.obstacles[number].name;
   number -= scenario.obstacles.size();
   for (const Fault& fault : scenario.faults) {
     if (fault.kind == Fault::Kind::LoadDrop && number-- == 0)
-      return "load dropped by " + scenario.agvs[fault.agv.index()].name;
+      return std::string(load_of) + scenario.agvs[fault.agv.index()].name;
   }
   return "?";
 }

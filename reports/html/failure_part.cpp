@@ -6,7 +6,6 @@
 
 #include "reports/failure_section.hpp"
 #include "reports/html/section_tables.hpp"
-#include "reports/verdict_sentences.hpp"
 #include "reports/wording.hpp"
 
 namespace fleetproof::html {
@@ -18,7 +17,7 @@ Element worst_of_group(const ReportInput& input, const FailureGroup& group, cons
   Element block("div", {{"class", "case"}});
   block.add(text_element("h3", fmt::format("{}: {}; first cause: {}; before it: {}", printable(group.agent, 40),
                                            group.end_point, printable(group.first_cause, 80), name_of(group.before))));
-  const Remark remark = describe(input, group.worst);
+  const Remark remark = worst_of(input, group);
   block.add(paragraph(remark.text));
   if (!remark.command.empty()) block.add(Element("pre").add(text_element("code", remark.command)));
   if (const auto strip = strips.find(group.worst.run_index); strip != strips.end()) block.add(draw(strip->second));
@@ -39,10 +38,13 @@ Element failure_part(const ReportInput& input, const FilmStrips& strips) {
       "it = what the scenario had done to the bodies involved; that is an order in time and shows no cause. Distinct "
       "= the number of different traces."));
   part.add(table_of(failure_table(groups)));
-  part.add(paragraph(
-      "Below, the worst run of each group with the command that replays it. A film strip shows the floor from above, "
-      "in metres, around the worst instant, which has a thick frame. The AGVs in orange are those that went wrong; the "
-      "dark wedge points to the front, the dashed line is the safety distance, lanes are grey."));
+  part.add(paragraph("Below, the worst run of each group with the command that replays it."));
+  if (!strips.empty()) {
+    part.add(paragraph(
+        "A film strip shows the floor from above, in metres, around the worst instant, which has a thick frame. The "
+        "AGVs in orange are those that went wrong; the dark wedge points to the front, the dashed line is the safety "
+        "distance, lanes are grey."));
+  }
   for (const FailureGroup& group : groups) part.add(worst_of_group(input, group, strips));
   if (all > kMostGroups) part.add(paragraph(fmt::format("{} more groups are left out here.", all - kMostGroups)));
   return part;

@@ -15,7 +15,8 @@ constexpr double kWidth_px = kLeft_px + kSide_px + 2.0;
 constexpr double kBottomOfFloor_px = kTop_px + kSide_px;
 constexpr double kRoom_m = 1.5, kMostSide_m = 120.0;
 constexpr double kNamesUpTo_m = 24.0;
-constexpr double kTouch_m = 1e-5;  // as near as the judge measures
+constexpr double kLetter_px = 5.4;  // of a name, bold
+constexpr double kTouch_m = 1e-5;   // as near as the judge measures
 constexpr std::size_t kMostLanes = 300, kMostStations = 200;
 
 // The square part of the floor that the frames show.
@@ -180,7 +181,10 @@ void add_body(Element& svg, const FilmBody& body, double safety_distance_m, bool
   if (window.side_m > kNamesUpTo_m || !window.has(body.centre)) return;
   const double reach_m = std::hypot(body.length_m, body.width_m) / 2.0;
   const double y = name_above ? window.y(body.centre.y_m + reach_m) - 2.0 : window.y(body.centre.y_m - reach_m) + 9.0;
-  svg.add(note_at(body.name, window.x(body.centre.x_m), y, "middle", 9, body.is_involved ? "600" : "400"));
+  // Near an edge a name moves inwards, so that it is not cut.
+  const double half_px = std::min(kLetter_px * static_cast<double>(body.name.size()), kSide_px) / 2.0;
+  const double x = std::clamp(window.x(body.centre.x_m), kLeft_px + half_px, kLeft_px + kSide_px - half_px);
+  svg.add(note_at(body.name, x, y, "middle", 9, body.is_involved ? "600" : "400"));
 }
 
 // Of two bodies side by side, one has its name above it and one below, so that the names do not cover each other.
@@ -198,7 +202,7 @@ void add_bodies(Element& svg, const FilmStrip& strip, const FilmFrame& frame, co
 }
 
 std::string clearance_line(const FilmFrame& frame) {
-  if (!frame.clearance_m) return "";
+  if (!frame.clearance_m) return frame.without_clearance;
   if (*frame.clearance_m <= kTouch_m) return "they touch";
   // As the archive files it, in whole micrometres rounded down, and then as every page does.
   return metres_text(static_cast<std::int64_t>(std::floor(*frame.clearance_m * 1e6))) + " apart";

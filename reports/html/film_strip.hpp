@@ -26,6 +26,7 @@ struct FilmFrame {
   double time_s = 0.0;
   bool is_worst = false;
   std::optional<double> clearance_m;  // between the two bodies involved; 0: they touch
+  std::string without_clearance{};    // why there is none, in a few words; empty if only one body is involved
   std::vector<FilmBody> bodies;
 };
 

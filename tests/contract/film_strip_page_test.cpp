@@ -97,6 +97,51 @@ TEST_F(FilmStripPage, APlugInThatIsAtHandIsFilmed) {
   for (const std::string& strip : strips("c.db")) EXPECT_THAT(strip, HasSubstr("comes from a shared object"));
 }
 
+TEST_F(FilmStripPage, APlugInThatOnlyStallsHasNoRecordingAndTheNoteSaysSo) {
+  std::filesystem::copy_file(FLEETPROOF_FAULTY_AGENT, path("faulty.so"));
+  write("c.toml",
+        "replicates = 2\nhorizon_s = 600\n[factors]\nagents = [{ file = \"faulty.so\", config = \"stop\" }]\n"
+        "layouts = [\"aisle-grid\"]\nfleet_sizes = [4]\nloss = [0]\ndelay_s = [1]\n");
+  const auto ran = run("run c.toml --db c.db");
+  const auto all = strips("c.db");
+  ASSERT_FALSE(all.empty()) << ran.out;
+  for (const std::string& strip : all) {
+    EXPECT_EQ(frames_in(strip), 0u);
+    EXPECT_THAT(strip, HasSubstr("Only runs that broke a distance, crashed or hung are recorded; this run did none"));
+  }
+}
+
+// Twelve agents under test, so at least twelve groups.
+TEST_F(FilmStripPage, AGroupBeyondTheFirstTenSaysWhyItHasNoFrames) {
+  std::string agents;
+  for (int i = 0; i < 12; ++i)
+    agents += fmt::format("{}{{ name = \"a{}\", agent = \"reckless\" }}", i == 0 ? "" : ", ", i);
+  write("c.toml", fmt::format(kReckless, agents));
+  const auto ran = run("run c.toml --db c.db");
+  const auto all = strips("c.db");
+  ASSERT_GE(all.size(), 12u) << ran.out;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    EXPECT_EQ(frames_in(all[i]) > 0, i < 10) << i;
+    EXPECT_EQ(all[i].find("No film strip: this page shows only the first 10 groups as strips.") == std::string::npos,
+              i < 10);
+  }
+}
+
+// The name of the load fits the frame, and each frame has a distance or says that the load still rides.
+TEST_F(FilmStripPage, AFallenLoadIsNamedAndEachFrameSaysHowFarItIs) {
+  write("c.toml", fmt::format(kReckless, "\"hull-lock\"") + "[faults]\nload_drops_per_transport = 1\n");
+  const auto ran = run("run c.toml --db c.db");
+  const auto all = strips("c.db");
+  ASSERT_FALSE(all.empty()) << ran.out;
+  std::string joined;
+  for (const std::string& strip : all) joined += strip;
+  EXPECT_THAT(joined, testing::ContainsRegex(">load of AGV [0-9]+</text>"));
+  static const std::regex frame("aria-label=\"at ([^\"]*)\"");
+  for (std::sregex_iterator at(joined.begin(), joined.end(), frame), end; at != end; ++at)
+    EXPECT_THAT((*at)[1].str(),
+                testing::AnyOf(HasSubstr(" m apart"), HasSubstr("they touch"), HasSubstr(", load not on the floor")));
+}
+
 // The agent ends its process. It does so in a worker; the program that writes the page lives on.
 TEST_F(FilmStripPage, ACrashOfAPlugInCostsThePageNothing) {
   write_campaign(test::failing("segfault 1"), 3, 0.0);

@@ -96,6 +96,33 @@ TEST(FilmStrip, clearances_are_rounded_down) {
   EXPECT_THAT(draw(strip).str(), HasSubstr("they touch"));
 }
 
+TEST(FilmStrip, a_frame_without_a_clearance_says_why) {
+  auto strip = two_agvs();
+  strip.frames[0].clearance_m.reset();
+  strip.frames[0].without_clearance = "load not on the floor";
+  const auto document = parsed(draw(strip));
+  std::vector<std::string> texts;
+  for (const auto& text : document.select_nodes("//svg/text")) texts.emplace_back(text.node().text().get());
+  EXPECT_THAT(texts, testing::Contains("load not on the floor"));
+  EXPECT_THAT(document.select_node("//svg").node().attribute("aria-label").value(), HasSubstr("load not on the floor"));
+}
+
+// A letter is about 5 px wide.
+TEST(FilmStrip, names_near_an_edge_are_not_cut) {
+  auto strip = two_agvs();
+  strip.least_side_m = 20.0;
+  strip.frames[0].bodies[2] = agv("load of AGV 22", 95.5, 50.0, false);  // the window is from 95 m to 115 m
+  strip.frames[0].bodies.push_back(agv("load of AGV 23", 114.5, 50.0, false));
+  int found = 0;
+  for (const auto& each : parsed(draw(strip)).select_nodes("//svg/text")) {
+    if (!std::string(each.node().text().get()).starts_with("load")) continue;
+    ++found;
+    EXPECT_GE(each.node().attribute("x").as_double(), 30.0 + 14 * 5.0 / 2.0);
+    EXPECT_LE(each.node().attribute("x").as_double(), 30.0 + 156.0 - 14 * 5.0 / 2.0);
+  }
+  EXPECT_EQ(found, 2);
+}
+
 TEST(FilmStrip, only_what_reaches_into_the_window_is_drawn) {
   auto strip = two_agvs();
   strip.lanes = {{{90.0, 50.0}, {120.0, 50.0}}, {{90.0, 90.0}, {120.0, 90.0}}};
