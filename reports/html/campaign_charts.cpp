@@ -173,13 +173,15 @@ Element effort_part(const ReportInput& input, const CampaignFigures& figures) {
   Element part = titled("Would more runs tell more?");
   if (input.evidence.runs() == 0) return part.add(paragraph("There are no runs yet."));
   if (const auto bounds = bound_chart(input, figures); !bounds.curves.empty())
-    part.add(
-        chart_with_legend("The upper bound of each gate (acceptance criterion) as the campaign went on. It holds "
-                          "at every number of replicates at once.",
-                          bounds));
+    part.add(chart_with_legend(
+        "The upper bound of each gate (acceptance criterion) as the campaign went on. It holds "
+        "at every number of replicates at once. Lines on each other take turns; their numbers stand at the "
+        "end.",
+        bounds));
   Element row("div", {{"class", "maps"}});
   row.add(chart_with_legend("New kinds of failures: end point and first cause", discovery_chart(input, figures, true)));
-  row.add(chart_with_legend("New situations that runs met (probes)", discovery_chart(input, figures, false)));
+  row.add(chart_with_legend("New situations (probes): the names in the table of what the runs met",
+                            discovery_chart(input, figures, false)));
   return part.add(row);
 }
 

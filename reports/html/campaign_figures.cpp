@@ -47,7 +47,11 @@ void CampaignFigures::add(const RunRecord& run, const Evidence& evidence) {
   (run.factors.in_contract() ? figures.in_contract : figures.beyond).add(run.outcome);
   if (const auto failing = FailingRun::of(run))
     figures.failures.add(std::string(name_of(failing->severity)) + ": " + failing->cause.what, figures.runs);
-  for (const auto& probe : run.outcome.probes) figures.situations.add(probe.name, figures.runs);
+  Coverage met;  // by the rules of the table of what the runs met, so that both have the same names
+  met.add(run.outcome);
+  for (const auto* names : {&met.by_the_world(), &met.by_agents()}) {
+    for (const auto& [name, seen] : *names) figures.situations.add(name, figures.runs);
+  }
   pending_time_.resize(cells.size());
   auto& time = pending_time_[run.cell];
   time.safe_mode_s += static_cast<double>(run.outcome.counters.safe_mode_ns) * 1e-9;

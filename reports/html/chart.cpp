@@ -16,12 +16,22 @@ constexpr double kPlotBottom_px = kTop_px + kHeight_px;
 struct LineLook {
   const char *colour, *dashes;
 };
-constexpr std::array<LineLook, 6> kLooks{{{"#2f74b5", "1 0"},
-                                          {"#c4562f", "7 3"},
-                                          {"#7a5aa6", "2 3"},
-                                          {"#8a7a2a", "9 3 2 3"},
-                                          {"#4b8f9c", "4 4"},
-                                          {"#a2547a", "12 4"}}};
+// The first six differ in lightness, too, for eyes that tell few colours apart. No two lines have the same dashes, for
+// a print in grey.
+constexpr std::array<LineLook, 12> kLooks{{{"#0072b2", "1 0"},
+                                           {"#d55e00", "8 3"},
+                                           {"currentColor", "2 3"},
+                                           {"#cc79a7", "10 3 2 3"},
+                                           {"#b98600", "16 4"},
+                                           {"#4aa3d8", "4 4"},
+                                           {"#5b6ee1", "10 3 2 3 2 3"},
+                                           {"#a33a00", "16 3 5 3"},
+                                           {"#808890", "2 7"},
+                                           {"#9b4f96", "5 2 5 7"},
+                                           {"#8a7444", "2 2 2 7"},
+                                           {"#5aa9a0", "16 3 2 3 2 3 2 3"}}};
+constexpr double kLine_px = 2.2, kTurn_px = 12.0;
+constexpr double kDigit_px = 7.0, kLineOfText_px = 12.0, kSame_px = 1.0;
 
 Element canvas(const std::string& label, double width) {
   return Element("svg", {{"xmlns", "http://www.w3.org/2000/svg"},
@@ -51,6 +61,8 @@ std::string power_text(int exponent) {
   return fmt::format("1e{}", exponent);
 }
 
+constexpr double kRoom = 0.2;  // decades below the lowest line
+
 // An axis from `low` to `high`, both logarithms to base ten if it is logarithmic.
 struct Axis {
   double low = 0.0, high = 1.0;
@@ -73,7 +85,10 @@ Axis axis_of(const CurveChart& chart, bool of_y) {
   if (of_y) {
     for (const auto& level : chart.levels) take(level.first);
   }
-  axis.low = axis.logarithmic ? std::floor(axis.low) : 0.0;
+  // What lies on the lower end would be taken for the axis.
+  const double lowest = axis.low;
+  axis.low = axis.logarithmic ? std::floor(lowest) : 0.0;
+  if (of_y && axis.logarithmic && lowest - axis.low < kRoom) axis.low -= kRoom;
   axis.high = axis.logarithmic ? std::ceil(axis.high) : axis.high * 1.1;
   if (axis.high <= axis.low) axis.high = axis.low + 1.0;
   return axis;
@@ -86,7 +101,7 @@ void add_frame(Element& svg, const CurveChart& chart, const Axis& x, const Axis&
         .add(note(power_text(i), at, kPlotBottom_px + 16.0, "middle"));
   }
   const double span = y.high - y.low, step = y.logarithmic ? 1.0 : std::max(1.0, std::ceil(span / 6.0));
-  for (double value = y.low; value <= y.high + 1e-9; value += step) {
+  for (double value = std::ceil(y.low); value <= y.high + 1e-9; value += step) {
     const double at = kPlotBottom_px - kHeight_px * (value - y.low) / span;
     svg.add(thin_line(kLeft_px, at, kLeft_px + kPlotWidth_px, at, "0.15"));
     svg.add(note(y.logarithmic ? power_text(static_cast<int>(value)) : fmt::format("{:g}", value), kLeft_px - 8.0,
@@ -104,6 +119,58 @@ std::string path_of(const ChartLine& curve, const Axis& x, const Axis& y, bool s
     path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", px, py);
   }
   return path;
+}
+
+// Where the curves end, in pixels, with the numbers of those that end there.
+struct LineEnd {
+  double x, y;
+  std::string numbers;
+};
+
+// From the top to the bottom.
+std::vector<LineEnd> ends_of(const CurveChart& chart, const Axis& x, const Axis& y) {
+  std::vector<LineEnd> ends;
+  for (std::size_t i = 0; i < chart.curves.size(); ++i) {
+    if (chart.curves[i].points.empty()) continue;
+    const auto& [at, value] = chart.curves[i].points.back();
+    const LineEnd end{kLeft_px + kPlotWidth_px * x.place(at), kPlotBottom_px - kHeight_px * y.place(value),
+                      std::to_string(i + 1)};
+    const auto same = std::ranges::find_if(ends, [&](const LineEnd& known) {
+      return std::abs(known.x - end.x) < kSame_px && std::abs(known.y - end.y) < kSame_px;
+    });
+    if (same == ends.end()) {
+      ends.push_back(end);
+    } else {
+      same->numbers += ", " + end.numbers;
+    }
+  }
+  std::ranges::stable_sort(ends, {}, &LineEnd::y);
+  return ends;
+}
+
+double right_of(const LineEnd& end) { return end.x + 10.0 + kDigit_px * static_cast<double>(end.numbers.size()); }
+
+// The numbers stand beside the ends, below each other where the ends are close.
+void add_numbers(Element& svg, const std::vector<LineEnd>& ends) {
+  double next_y = 0.0;
+  for (const LineEnd& end : ends) {
+    const double y = std::max(end.y + 4.0, next_y);
+    svg.add(note(end.numbers, end.x + 8.0, y, "start", "600"));
+    next_y = y + kLineOfText_px;
+  }
+}
+
+// The dashes of a curve: its own, or its turn if other curves lie on it from end to end.
+std::pair<std::string, double> dashes_of(const CurveChart& chart, std::size_t index) {
+  std::size_t equal = 0, before = 0;
+  for (std::size_t i = 0; i < chart.curves.size(); ++i) {
+    if (chart.curves[i].points != chart.curves[index].points) continue;
+    ++equal;
+    before += i < index ? 1 : 0;
+  }
+  if (equal == 1) return {kLooks[index % kLooks.size()].dashes, 0.0};
+  return {fmt::format("{} {}", kTurn_px, kTurn_px * static_cast<double>(equal - 1)),
+          -kTurn_px * static_cast<double>(before)};
 }
 
 }  // namespace
@@ -153,8 +220,11 @@ Element draw(const BarChart& chart) {
 }
 
 Element draw(const CurveChart& chart) {
-  Element svg = canvas(chart.label, kLeft_px + kPlotWidth_px + 24.0);
   const Axis x = axis_of(chart, false), y = axis_of(chart, true);
+  const auto ends = ends_of(chart, x, y);
+  double right = kLeft_px + kPlotWidth_px + 24.0;
+  for (const LineEnd& end : ends) right = std::max(right, right_of(end));
+  Element svg = canvas(chart.label, right);
   add_frame(svg, chart, x, y);
   for (const auto& [value, name] : chart.levels) {
     const double at = kPlotBottom_px - kHeight_px * y.place(value);
@@ -162,32 +232,32 @@ Element draw(const CurveChart& chart) {
         .add(note(name, kLeft_px + 6.0, at - 4.0, "start"));
   }
   for (std::size_t i = 0; i < chart.curves.size(); ++i) {
-    const auto& look = kLooks[i % kLooks.size()];
+    const auto [dashes, offset] = dashes_of(chart, i);
     svg.add(Element("path", {{"d", path_of(chart.curves[i], x, y, chart.steps)},
                              {"fill", "none"},
-                             {"stroke", look.colour},
-                             {"stroke-width", 2.2},
-                             {"stroke-dasharray", look.dashes}}));
-    if (chart.curves[i].points.empty()) continue;
-    const auto& last = chart.curves[i].points.back();
-    svg.add(Element("circle", {{"cx", kLeft_px + kPlotWidth_px * x.place(last.first)},
-                               {"cy", kPlotBottom_px - kHeight_px * y.place(last.second)},
-                               {"r", 3.5},
-                               {"fill", look.colour}}));
+                             {"stroke", kLooks[i % kLooks.size()].colour},
+                             {"stroke-width", kLine_px},
+                             {"stroke-dasharray", dashes},
+                             {"stroke-dashoffset", offset}}));
   }
+  for (const LineEnd& end : ends)
+    svg.add(Element("circle", {{"cx", end.x}, {"cy", end.y}, {"r", 3.0}, {"fill", "currentColor"}}));
+  add_numbers(svg, ends);
   return svg;
 }
 
 Element draw_sample(std::size_t curve) {
   const auto& look = kLooks[curve % kLooks.size()];
   Element svg("svg",
-              {{"xmlns", "http://www.w3.org/2000/svg"}, {"width", 40}, {"height", 10}, {"role", "presentation"}});
-  return svg.add(Element("line", {{"x1", 0},
-                                  {"y1", 5},
-                                  {"x2", 40},
-                                  {"y2", 5},
+              {{"xmlns", "http://www.w3.org/2000/svg"}, {"width", 76}, {"height", 14}, {"role", "presentation"}});
+  svg.add(text_element("text", std::to_string(curve + 1),
+                       {{"x", 16}, {"y", 12}, {"text-anchor", "end"}, {"fill", "currentColor"}, {"font-size", 12}}));
+  return svg.add(Element("line", {{"x1", 22},
+                                  {"y1", 8},
+                                  {"x2", 74},
+                                  {"y2", 8},
                                   {"stroke", look.colour},
-                                  {"stroke-width", 2.2},
+                                  {"stroke-width", kLine_px},
                                   {"stroke-dasharray", look.dashes}}));
 }
 

@@ -26,7 +26,8 @@ struct BarChart {
 };
 Element draw(const BarChart& chart);
 
-// Lines through points, each with its own colour and dashes. The axis of x is logarithmic. Requires: all x are above 0,
+// Lines through points, each with its own colour and dashes, up to twelve of them, and with its number at its end.
+// Lines on each other from end to end take turns. The axis of x is logarithmic. Requires: all x are above 0,
 // and so are all y of a logarithmic axis.
 struct ChartLine {
   std::string name;
@@ -39,7 +40,7 @@ struct CurveChart {
   std::vector<std::pair<double, std::string>> levels;  // horizontal lines with a name
 };
 Element draw(const CurveChart& chart);
-// A piece of the line of a curve, for a legend.
+// A piece of the line of a curve after its number, for a legend.
 Element draw_sample(std::size_t curve);
 
 }  // namespace fleetproof::html

@@ -3,6 +3,7 @@ from collections import defaultdict
 
 from counts import KINDS
 from known_sentences import ENDS, JUDGED
+from tables import ENCOUNTERS, WORLD
 
 SERIOUS = ("contact", "violation", "crash", "hang", "indeterminate", "engine error", "stuck", "incident")
 
@@ -116,6 +117,21 @@ class Failures:
         return [[*key, str(self.groups[key][0]), str(self.distinct[key]), str(self.groups[key][1][-1])] for key in keys]
 
 
+def situations(archive, agent):
+    """name -> the first run that met it; the names are those of the table of what the runs met."""
+    first, rows = {}, archive.all(
+        "SELECT run_index, source, CAST(name AS TEXT) AS name FROM probes JOIN runs USING (run_index) JOIN cells USING "
+        "(cell) WHERE agent = ? AND run_index < ? ORDER BY run_index", agent, archive.runs)
+    for row in rows:
+        if row["source"] == 0 or not (row["name"] in WORLD or row["name"].startswith("fault:")):
+            first.setdefault(row["name"], row["run_index"])
+        if row["source"] == 0 and row["name"] in ENCOUNTERS:
+            first.setdefault("encounter", row["run_index"])
+    safe = archive.one("SELECT min(run_index) AS n FROM runs JOIN cells USING (cell) WHERE agent = ? AND run_index < ? "
+                       "AND safe_mode_ns > 0", agent, archive.runs)["n"]
+    return first if safe is None else {**first, "safe-mode": safe}
+
+
 def discoveries(archive, failures):
     """The legends of the two charts of what was new, as texts."""
     found = []
@@ -125,9 +141,8 @@ def discoveries(archive, failures):
         if runs == 0:
             continue
         kinds = sum(kind[0] == agent for kind in failures.kinds)
-        met = archive.all("SELECT min(run_index) AS first FROM probes JOIN runs USING (run_index) JOIN cells USING "
-                          "(cell) WHERE agent = ? AND run_index < ? GROUP BY CAST(name AS TEXT)", agent, archive.runs)
-        latest = max((row["first"] for row in met), default=None)
+        met = situations(archive, agent)
+        latest = max(met.values(), default=None)
         last_met = None if latest is None else ordinal_of(
             archive, agent, archive.one("SELECT * FROM runs WHERE run_index = ?", latest))
         for number, last in ((kinds, failures.last_new[agent]), (len(met), last_met)):

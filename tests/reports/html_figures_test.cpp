@@ -81,7 +81,28 @@ TEST(CampaignFigures, number_what_was_new) {
   }
   EXPECT_THAT(figures.agents().at("odd").failures.first_seen, testing::ElementsAre(4u, 6u));
   EXPECT_THAT(figures.agents().at("sound").failures.first_seen, testing::IsEmpty());
-  EXPECT_THAT(figures.agents().at("sound").situations.first_seen, testing::ElementsAre(1u, 1u, 1u));
+  EXPECT_THAT(figures.agents().at("sound").situations.first_seen, testing::ElementsAre(1u, 1u, 1u, 1u))
+      << "crossing, head-on, negotiation, and the sum of the first two";
+}
+
+// The chart and the table of what the runs met count the same names.
+TEST(CampaignFigures, count_the_situations_of_the_table) {
+  const auto cells = samples::grid({"sound"}, {0.4}, {2.0});
+  Evidence evidence(samples::campaign_of("claim", 3), cells, {});
+  CampaignFigures figures;
+  for (std::uint64_t i = 0; i < 3; ++i) {
+    auto run = samples::clean_run(i, 1);
+    run.outcome.counters.safe_mode_ns = i == 1 ? 5 : 0;
+    if (i == 2) file_probes(run.outcome, {{ProbeSource::Agent, "near-miss", 1}, {ProbeSource::Agent, "lost", 1}});
+    evidence.add(run);
+    figures.add(run, evidence);
+  }
+  const Coverage& table = evidence.agent_coverage()[0].coverage;
+  const auto& situations = figures.agents().at("sound").situations;
+  EXPECT_EQ(situations.first_seen.size(), table.by_the_world().size() + table.by_agents().size());
+  EXPECT_THAT(situations.seen,
+              testing::ElementsAre("crossing", "encounter", "head-on", "lost", "negotiation", "safe-mode"));
+  EXPECT_THAT(situations.first_seen, testing::ElementsAre(1u, 1u, 1u, 1u, 2u, 3u));
 }
 
 }  // namespace
