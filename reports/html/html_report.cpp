@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <initializer_list>
 #include <utility>
+#include <vector>
 
 #include "reports/html/campaign_charts.hpp"
 #include "reports/html/look.hpp"
@@ -106,6 +107,46 @@ Element plan_part(const ReportInput& input) {
   return details.add(Element("pre").add(Element("code").lines(plan)));
 }
 
+// All below the headlines, in order.
+std::vector<Element> parts_of(const HtmlInput& input, const Page& page) {
+  std::vector<Element> parts;
+  const auto add = [&](std::initializer_list<Topic> topics) {
+    for (const Topic topic : topics) {
+      for (const Section& section : page.sections) {
+        if (section.topic == topic) parts.push_back(html::section_of(section));
+      }
+    }
+  };
+  for (const Section& section : page.sections) {
+    if (section.topic == Topic::Gates)
+      parts.push_back(html::folded_section_of(section, "Figures and reason of each gate (acceptance criterion)"));
+  }
+  parts.push_back(titled("Conditions").add(facts_of(campaign_conditions(input.report))));
+  parts.push_back(html::map_part(input.report, input.figures));
+  add({Topic::Groups});
+  parts.push_back(html::clearance_part(input.report, input.figures));
+  parts.push_back(html::effort_part(input.report, input.figures));
+  // The worst run of each group stands there: a list of the worst runs would be one failure many times.
+  parts.push_back(html::failure_part(input.report, input.strips));
+  add({Topic::Comparison, Topic::Coverage, Topic::Conditions, Topic::Audit, Topic::WeakPoints, Topic::Attempts,
+       Topic::Provenance});
+  parts.push_back(plan_part(input.report));
+  add({Topic::Method});
+  parts.push_back(assumptions_part());
+  parts.push_back(limits_part());
+  return parts;
+}
+
+Element contents_of(const std::vector<Element>& parts) {
+  Element list("ul");
+  for (const Element& part : parts) {
+    if (part.title().empty()) continue;
+    Element item("li");
+    list.add(item.add(Element::link_to(html::id_of(part.title()), part.title())));
+  }
+  return Element("nav", {{"aria-label", "contents"}}).add(list);
+}
+
 }  // namespace
 
 HtmlInput read_html_input(const ArchiveReader& archive, std::string archive_path) {
@@ -121,29 +162,9 @@ std::string render_html(const HtmlInput& input) {
   Element main("main");
   main.add(text_element("h1", page.title));
   for (const Headline& headline : page.headlines) main.add(html::headline_of(headline));
-  const auto add = [&](std::initializer_list<Topic> topics) {
-    for (const Topic topic : topics) {
-      for (const Section& section : page.sections) {
-        if (section.topic == topic) main.add(html::section_of(section));
-      }
-    }
-  };
-  main.add(words_part());
-  for (const Section& section : page.sections) {
-    if (section.topic == Topic::Gates)
-      main.add(html::folded_section_of(section, "Figures and reason of each gate (acceptance criterion)"));
-  }
-  main.add(titled("Conditions").add(facts_of(campaign_conditions(input.report))));
-  main.add(html::map_part(input.report, input.figures));
-  add({Topic::Groups});
-  main.add(html::clearance_part(input.report, input.figures)).add(html::effort_part(input.report, input.figures));
-  // The worst run of each group stands there: a list of the worst runs would be one failure many times.
-  main.add(html::failure_part(input.report, input.strips));
-  add({Topic::Comparison, Topic::Coverage, Topic::Conditions, Topic::Audit, Topic::WeakPoints, Topic::Attempts,
-       Topic::Provenance});
-  main.add(plan_part(input.report));
-  add({Topic::Method});
-  main.add(assumptions_part()).add(limits_part());
+  const std::vector<Element> parts = parts_of(input, page);
+  main.add(contents_of(parts)).add(words_part());
+  for (const Element& part : parts) main.add(part);
   Element root("html", {{"lang", "en"}});
   root.add(head_of(page)).add(Element("body").add(main).add(Element("script").literal(html::script())));
   return "<!DOCTYPE html>\n" + root.str() + "\n";

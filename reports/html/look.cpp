@@ -14,7 +14,10 @@ Literal style_sheet() {
 * { box-sizing: border-box; }
 body { margin: 0; background: var(--paper); color: var(--ink);
   font: 16px/1.55 system-ui, -apple-system, "Segoe UI", Roboto, sans-serif; }
-main { max-width: 1220px; margin: 0 auto; padding: 32px 28px 80px; overflow-wrap: break-word; }
+/* As wide as the widest table, up to the window. What wraps anyway asks for no width. */
+main { width: fit-content; min-width: min(100%, 1220px); max-width: 100%; margin: 0 auto; padding: 32px 28px 80px;
+  overflow-wrap: break-word; }
+h1, h2, h3, nav, details, .headline, .maps, .case { contain: inline-size; }
 h1 { font-size: 20px; font-weight: 600; margin: 0 0 20px; color: var(--soft); }
 h2 { font-size: 22px; line-height: 1.3; font-weight: 650; margin: 0 0 12px; }
 h3 { font-size: 16px; font-weight: 650; margin: 24px 0 8px; }
@@ -41,7 +44,7 @@ th { font-weight: 600; color: var(--soft); white-space: nowrap; border-bottom-wi
 .scroll td { white-space: nowrap; }
 th.sortable { cursor: pointer; } th.sortable:hover, th.sortable:focus { color: var(--accent); }
 th[aria-sort=ascending]::after { content: " \25B2"; } th[aria-sort=descending]::after { content: " \25BC"; }
-table.facts { width: 100%; table-layout: fixed; }
+table.facts { width: 0; min-width: 100%; table-layout: fixed; }
 table.facts td { overflow-wrap: anywhere; } table.facts th { text-align: left; width: 220px; white-space: normal;
   border-bottom-width: 1px; }
 tbody tr:hover { background: var(--panel); }
@@ -54,17 +57,18 @@ pre code { user-select: all; }
 details { margin: 0 0 12px; } summary { cursor: pointer; font-weight: 600; color: var(--accent); }
 ul.legend { list-style: none; padding: 0; font-size: 14px; }
 svg.chart { max-width: 100%; height: auto; } figure { margin: 0 0 12px; overflow-x: auto; }
-figcaption { font-size: 14px; color: var(--soft); margin: 0 0 6px; }
+figcaption { max-width: 110ch; font-size: 14px; color: var(--soft); margin: 0 0 6px; }
 .maps { display: flex; flex-wrap: wrap; gap: 12px 32px; } .maps figure { min-width: 0; max-width: 100%; }
 .case { margin: 28px 0 0; } .case h3 { margin: 0 0 4px; }
 .film { display: flex; flex-wrap: wrap; gap: 8px 7px; margin: 8px 0 0; } .film svg.frame { flex: none;
   max-width: 46%; height: auto; }
 .key, .words { font-size: 14px; color: var(--soft); } .words { max-width: 110ch; margin-top: 14px; }
-footer { margin-top: 48px; color: var(--soft); font-size: 14px; }
+nav ul { list-style: none; display: flex; flex-wrap: wrap; gap: 2px 18px; padding: 0; margin: 18px 0 0; }
+nav a { color: var(--accent); font-size: 14px; text-decoration: none; } nav a:hover { text-decoration: underline; }
 @media (max-width: 600px) { main { padding: 20px 14px 48px; } h2 { font-size: 19px; } .headline p { font-size: 16px; }
   table.facts th { width: 110px; } th, td { padding: 6px 8px; }
   pre { white-space: pre-wrap; overflow-wrap: anywhere; } }
-@media print { body { font-size: 11pt; } main { max-width: none; padding: 0; } input.filter { display: none; }
+@media print { body { font-size: 11pt; } main { max-width: none; padding: 0; } input.filter, nav { display: none; }
   .scroll { overflow: visible; } figure, .headline, tr { break-inside: avoid; } pre { white-space: pre-wrap; } }
 )css";
 }

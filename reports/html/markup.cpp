@@ -2,13 +2,21 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "core/base/markup_text.hpp"
 #include "core/base/outside_text.hpp"
 
 namespace fleetproof::html {
+
+namespace {
+
+bool is_of_ids(char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-'; }
+
+}  // namespace
 
 std::string Attribute::number_text(double value) {
   ensure(std::isfinite(value), "a number on a page is finite");
@@ -39,6 +47,18 @@ Element& Element::add(const Element& child) {
 Element& Element::literal(Literal text) {
   content_ += text.text();
   return *this;
+}
+
+Element& Element::listed_as(std::string title) {
+  title_ = std::move(title);
+  return *this;
+}
+
+Element Element::link_to(std::string_view id, std::string_view text) {
+  ensure(!id.empty() && std::ranges::all_of(id, is_of_ids), "an id consists of letters, digits and hyphens");
+  Element link("a");
+  link.attributes_ = fmt::format(" href=\"#{}\"", id);
+  return link.text(text);
 }
 
 bool Element::is_void() const { return name_.text() == "meta" || name_.text() == "br"; }

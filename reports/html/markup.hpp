@@ -73,13 +73,19 @@ class Element {
   Element& lines(std::string_view text);  // line feeds stay
   Element& add(const Element& child);
   Element& literal(Literal text);
+  // The title under which a table of contents lists this element. Without one it is not listed.
+  Element& listed_as(std::string title);
+  const std::string& title() const { return title_; }
   std::string str() const;
+
+  // A link to the element of this page that has the id. Requires: an id of letters, digits and hyphens.
+  static Element link_to(std::string_view id, std::string_view text);
 
  private:
   bool is_void() const;
 
   Word name_;
-  std::string attributes_, content_;
+  std::string attributes_, content_, title_;
 };
 
 // An element that has nothing but a text in it.

@@ -11,7 +11,7 @@
 namespace fleetproof::html {
 namespace {
 
-constexpr std::size_t kMostRows = 500, kShortTable = 8, kFewRemarks = 4;
+constexpr std::size_t kMostRows = 500, kShortTable = 8, kFewRemarks = 4, kLongestId = 60;
 
 // A unit stays on the line of its figure: the blank between them does not break.
 std::string with_units_kept(const std::string& text) {
@@ -34,9 +34,23 @@ Element list_of(const std::vector<Remark>& remarks) {
 
 }  // namespace
 
+std::string id_of(std::string_view title) {
+  std::string id;
+  for (const char c : title.substr(0, kLongestId)) {
+    const bool is_upper = c >= 'A' && c <= 'Z', is_kept = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
+    if (is_upper || is_kept) {
+      id += is_upper ? static_cast<char>(c - 'A' + 'a') : c;
+    } else if (!id.empty() && id.back() != '-') {
+      id += '-';
+    }
+  }
+  while (!id.empty() && id.back() == '-') id.pop_back();
+  return id.empty() ? "part" : id;
+}
+
 Element titled(const std::string& title) {
-  Element section("section");
-  return section.add(text_element("h2", title));
+  Element section("section", {{"id", id_of(title)}});
+  return section.add(text_element("h2", title)).listed_as(title);
 }
 
 Element paragraph(const std::string& text) { return text_element("p", with_units_kept(text)); }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "reports/html/markup.hpp"
@@ -7,7 +9,9 @@
 
 namespace fleetproof::html {
 
-// A part of the page with a heading.
+// The id of a part: its title in small letters, with a hyphen for all between letters and digits.
+std::string id_of(std::string_view title);
+// A part of the page with a heading, an id made of the heading, and a place in the table of contents.
 Element titled(const std::string& title);
 Element paragraph(const std::string& text);
 

@@ -57,7 +57,8 @@ void expect_sound(const std::string& page) {
     EXPECT_FALSE(loading.contains(node.name())) << node.name();
     for (const auto& attribute : node.attributes()) {
       const std::string name = attribute.name();
-      EXPECT_FALSE(name == "style" || name == "src" || name == "href" || name.starts_with("on")) << name;
+      EXPECT_FALSE(name == "style" || name == "src" || name.starts_with("on")) << name;
+      EXPECT_TRUE(name != "href" || attribute.value()[0] == '#') << "a link leaves the page";
     }
     if (std::string(node.name()) == "tbody") {
       EXPECT_LE(std::distance(node.begin(), node.end()), 500);
@@ -84,6 +85,40 @@ TEST(HtmlReport, is_whole_for_every_size_of_campaign) {
   const auto large = Archive(campaign, grid({"sound"}, losses, delays_s), gates(), 400).page();
   expect_sound(large);
   EXPECT_LT(large.size(), 2'000'000u);
+}
+
+TEST(HtmlReport, its_contents_link_to_every_section) {
+  const auto page =
+      Archive(campaign_of("claim", 4), grid({"sound", "odd"}, {0.4, 0.8}, {2.0}, {"ring", "cross"}), gates(), 32,
+              [](RunRecord& run) {
+                if (run.run_index == 3) samples::violate(run);
+              })
+          .page();
+  pugi::xml_document document;
+  ASSERT_TRUE(document.load_buffer(page.data(), page.size(), pugi::parse_full));
+  std::vector<std::pair<std::string, std::string>> links, sections;
+  for (const auto& each : document.select_nodes("//nav//a"))
+    links.emplace_back(each.node().attribute("href").value(), each.node().text().get());
+  std::set<std::string> ids;
+  for (const auto& each : document.select_nodes("//section")) {
+    const std::string id = each.node().attribute("id").value();
+    EXPECT_TRUE(ids.insert(id).second) << id << " twice";
+    sections.emplace_back("#" + id, each.node().child("h2").text().get());
+  }
+  EXPECT_EQ(links, sections);
+  EXPECT_THAT(links, testing::Contains(testing::Pair("#would-more-runs-tell-more", "Would more runs tell more?")));
+  EXPECT_LT(page.find("class=\"headline"), page.find("<nav"));
+  EXPECT_LT(page.find("<nav"), page.find("<section"));
+}
+
+TEST(HtmlReport, a_worst_run_outside_the_contract_is_called_so) {
+  const auto page_at = [](double loss) {
+    return Archive(campaign_of("claim", 4), grid({"sound"}, {loss}, {2.0}), gates(), 4,
+                   [](RunRecord& run) { samples::violate(run); })
+        .page();
+  };
+  EXPECT_THAT(page_at(0.8), HasSubstr("(outside the contract)</p>"));
+  EXPECT_THAT(page_at(0.4), Not(HasSubstr("(outside the contract)</p>")));
 }
 
 // Texts of the fields of the map with this label, without the names of its axes.
