@@ -11,8 +11,11 @@
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
 #include "core/base/tolerances.hpp"
+#include "generators/formats/opentcs_drawing.hpp"
+#include "generators/formats/opentcs_positions.hpp"
 #include "generators/map/antiparallel.hpp"
 #include "generators/map/layout_check.hpp"
+#include "generators/text/name_list.hpp"
 #include "generators/text/text_file.hpp"
 #include "generators/text/xml_text.hpp"
 
@@ -20,7 +23,6 @@ namespace fleetproof {
 namespace {
 
 constexpr double kNewestVersion = 7.0;
-constexpr double kDefaultScale_mm = 50.0;  // of a layout unit, if the model gives no scale
 constexpr double kToleratedLength = 0.02;  // share by which a stored length may be wrong
 
 // A word in the name of a location type, or of its symbol, and what it says about the points linked to such locations.
@@ -54,11 +56,17 @@ class ModelReader {
     if (!model) throw InputError(std::string(source_), "has no <model>; expected an openTCS plant model");
     layout_.name = model.attribute("name").as_string("openTCS model");
     check_version(model);
-    read_scale(model);
+    if (model.child("element")) {
+      xml_.refuse(model.child("element"),
+                  "this is a drawing of openTCS 3.0 to 4.7 (.opentcs); open it in the plant overview of openTCS 4.8 or "
+                  "later and save it as a plant model");
+    }
+    drawing_ = read_drawing(xml_, model, warnings_);
     for (const auto point : model.children("point")) add_point(point);
     if (layout_.stations.empty()) xml_.refuse(model, "the model is empty: it has no <point>");
     for (const auto path : model.children("path")) add_path(path);
     if (layout_.segments.empty()) xml_.refuse(model, "the model has no <path> that may be driven; add or unlock some");
+    note_shapes(model);
     note_reversible(model);
     for (const auto type : model.children("locationType")) add_location_type(type);
     for (const auto location : model.children("location")) add_location(location);
@@ -82,19 +90,6 @@ class ModelReader {
     } else if (major > kNewestVersion) {
       warn(model, fmt::format("version {} is newer than 7; it is read as version 7", in_quotes(version)));
     }
-  }
-
-  // Control points of paths are in layout units, and their y axis points down.
-  void read_scale(const pugi::xml_node& model) {
-    const auto layout = model.child("visualLayout");
-    if (!layout) {
-      warn(model,
-           fmt::format("there is no <visualLayout>; control points are taken as units of {} mm", kDefaultScale_mm));
-      return;
-    }
-    scale_mm_ = {xml_.number(layout, "scaleX"), xml_.number(layout, "scaleY")};
-    if (!(scale_mm_.minCoeff() > 0.0))
-      xml_.refuse(layout, fmt::format("scale {} x {} is not positive", scale_mm_.x(), scale_mm_.y()));
   }
 
   std::string name_of_new(const pugi::xml_node& node, std::set<std::string>& taken) {
@@ -146,30 +141,29 @@ class ModelReader {
   }
 
   void bend(const pugi::xml_node& path, Segment& segment) {
-    const auto drawing = path.child("pathLayout");
-    const std::string_view type = drawing.attribute("connectionType").value();
-    std::vector<Vec2> points;
-    for (const auto point : drawing.children("controlPoint")) {
-      points.emplace_back(xml_.number(point, "x") * scale_mm_.x() / 1000.0,
-                          0.0 - xml_.number(point, "y") * scale_mm_.y() / 1000.0);
+    const auto& drawn = drawing_.paths.at(segment.name);
+    if (drawn.connection == "BEZIER" || drawn.connection == "BEZIER_3") {
+      segment.control_points_m = drawn.control_points_m;
+      return smooth(path, segment);
     }
-    const std::size_t expected = type == "BEZIER" ? 2 : type == "BEZIER_3" ? 5 : 0;
-    if (expected == 0) {
-      if (type == "POLYPATH" && !points.empty())
-        warn(path, fmt::format("path {} is a polyline; it is replaced by a straight line", in_quotes(segment.name)));
-      return;
-    }
-    if (points.size() != expected) {
-      xml_.refuse(drawing, fmt::format("path {} has {} control points; {} needs {}", in_quotes(segment.name),
-                                       points.size(), type, expected));
-    }
-    segment.control_points_m = std::move(points);
+    if (drawn.connection != "DIRECT") straightened_[drawn.connection].push_back(segment.name);
+  }
+
+  void smooth(const pugi::xml_node& path, Segment& segment) {
     const double kink = largest_kink_rad(segment);
-    if (kink > kKink_rad && kink <= kSmoothedKink_rad) {
-      smooth_joints(segment);
-      warn(path,
-           fmt::format("the two curves of path {} meet at an angle of {:.3f} rad; their control points were aligned",
-                       in_quotes(segment.name), kink));
+    if (kink <= kKink_rad || kink > kSmoothedKink_rad) return;
+    smooth_joints(segment);
+    warn(path,
+         fmt::format("the two curves of path {} meet at an angle of {:.3f} rad; their control points were aligned",
+                     in_quotes(segment.name), kink));
+  }
+
+  void note_shapes(const pugi::xml_node& model) {
+    for (const auto& [connection, names] : straightened_)
+      warn(model, fmt::format("{} paths are drawn as {}; here they are straight ({})", names.size(), connection,
+                              name_list(names)));
+    for (const auto& sentence : {settle_positions(layout_, drawing_.points_m), detours_of(layout_)}) {
+      if (!sentence.empty()) warn(model, sentence);
     }
   }
 
@@ -249,12 +243,13 @@ class ModelReader {
   std::string_view source_;
   std::vector<std::string>& warnings_;
   TwinPaths twins_;
-  Vec2 scale_mm_ = Vec2::Constant(kDefaultScale_mm);
+  OpenTcsDrawing drawing_;
   Layout layout_;
   std::vector<pugi::xml_node> paths_;  // by segment, as long as no two of them are merged
   std::set<std::string> point_names_, path_names_;
   std::map<std::string, StationId> stations_;
   std::map<std::string, Purposes> location_types_;
+  std::map<std::string, std::vector<std::string>> straightened_;  // names of paths, by their connection
 };
 
 }  // namespace

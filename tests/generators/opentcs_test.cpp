@@ -84,7 +84,7 @@ constexpr const char* kModel = R"(<model version="6.0.0" name="tiny">
   <point name="a" positionX="0" positionY="0" type="HALT_POSITION"/>
   <point name="b" positionX="4000" positionY="0" type="PARK_POSITION"/>
   <path name="ab" sourcePoint="a" destinationPoint="b" length="4000" locked="false"><pathLayout connectionType="DIRECT"/></path>
-  <path name="ba" sourcePoint="b" destinationPoint="a" length="4000" locked="false"><pathLayout connectionType="ELBOW"/></path>
+  <path name="ba" sourcePoint="b" destinationPoint="a" length="4000" locked="false"><pathLayout connectionType="DIRECT"/></path>
   <locationType name="Rack"/>
   <location name="r" type="Rack" positionX="0" positionY="2000"><link point="a"/></location>
   <visualLayout name="v" scaleX="100.0" scaleY="50.0"/>

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "core/scenario/layout.hpp"
+
+namespace fleetproof {
+
+// A plant model can give each point two positions: one in the plant, one in the drawing. Control points belong to the
+// drawing. Curves that mix the two are nonsense.
+//
+// Requires: the stations have the positions of the plant. If the drawing has the same positions (to 1 mm), nothing
+// happens. If it has others, one set is taken for all stations, by what the file shows:
+// * A model with curves takes the drawing. It keeps the plant if the curves become much shorter that way.
+// * A model without curves keeps the plant. It takes the drawing if two stations of a segment are on one spot in the
+//   plant and apart in the drawing.
+// * If a station has no position in the drawing, all keep the plant.
+//
+// Returns a sentence that says which positions were taken, and why; empty if there was no choice.
+std::string settle_positions(Layout& layout, const std::map<std::string, Vec2>& drawn_m);
+
+// A sentence on the curves that lead far away from their stations, which suggests that their control points belong to
+// other coordinates; empty if there are none.
+std::string detours_of(const Layout& layout);
+
+}  // namespace fleetproof
