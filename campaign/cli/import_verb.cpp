@@ -11,32 +11,36 @@
 #include "generators/formats/importer.hpp"
 #include "generators/formats/layout_file.hpp"
 #include "generators/formats/lif_text.hpp"
+#include "generators/map/core_only.hpp"
 #include "generators/map/layout_svg.hpp"
 
 namespace fleetproof::cli {
 namespace {
 
 struct ImportWords {
-  std::string format, file, out, picture, level;
+  std::string format, file, out, picture, level, purposes;
   std::optional<std::uint64_t> graph;
   std::optional<double> cell_pitch_m;
-  bool merge_antiparallel = false;
+  bool keep_antiparallel = false, core_only = false;
 };
 
 // An option that the format does not know is refused, because it would silently change nothing.
-void expect_format(const ImportWords& words, bool given, std::string_view option, std::string_view format) {
-  if (given && words.format != format)
-    throw InputError(option,
-                     fmt::format("has no meaning for format \"{}\"; it belongs to \"{}\"", words.format, format));
+void expect_format(const ImportWords& words, bool given, std::string_view option, const OptionFormats& formats) {
+  if (given && !formats.contains(words.format))
+    throw InputError(option, fmt::format("has no meaning for format \"{}\"; it belongs to {}", words.format,
+                                         fmt::join(formats, ", ")));
 }
 
 ImportChoice choice_of(const ImportWords& words) {
-  expect_format(words, words.merge_antiparallel, "--merge-antiparallel", "opentcs");
-  expect_format(words, words.graph.has_value(), "--graph", "rmf");
-  expect_format(words, !words.level.empty(), "--level", "rmf");
-  expect_format(words, words.cell_pitch_m.has_value(), "--cell-pitch", "grid");
+  expect_format(words, words.keep_antiparallel, "--keep-antiparallel", kFormatsWithTwins);
+  expect_format(words, !words.purposes.empty(), "--purposes", kFormatsWithWords);
+  expect_format(words, words.graph.has_value(), "--graph", {"rmf"});
+  expect_format(words, !words.level.empty(), "--level", {"rmf"});
+  expect_format(words, words.cell_pitch_m.has_value(), "--cell-pitch", {"grid"});
   ImportChoice choice;
-  if (words.merge_antiparallel) choice.twins = TwinPaths::Merge;
+  if (words.keep_antiparallel) choice.twins = TwinPaths::Keep;
+  choice.core_only = words.core_only;
+  choice.purposes = purpose_words_of(words.purposes, "--purposes");
   if (words.graph.value_or(0) > std::numeric_limits<std::uint32_t>::max())
     throw InputError("--graph", fmt::format("is {}; graphs count from 0", *words.graph));
   choice.rmf = {words.level, static_cast<std::int64_t>(words.graph.value_or(0))};
@@ -58,10 +62,11 @@ int import_file(const ImportWords& words) {
   const auto& entry = importer(words.format);
   const ImportChoice choice = choice_of(words);
   std::vector<std::string> warnings;
-  const Layout layout = entry.make(words.file, choice, warnings);
+  const Layout layout = import_layout(entry, words.file, choice, warnings);
   for (const std::string& warning : warnings) talk("warning: {}\n", warning);
   talk("{}: {} stations, {} segments, {} warnings\n", words.file, layout.stations.size(), layout.segments.size(),
        warnings.size());
+  talk("purposes: {}\nreachability: {}\n", purposes_summary(layout), reachability_text(layout));
   if (!words.picture.empty()) write_whole({words.picture, "--svg", OutputKind::Picture}, layout_svg(layout));
   const OutputKind kind = kind_of(words.out);
   const std::string text = text_of(layout, kind);
@@ -84,8 +89,12 @@ Action prepare_import(Options& options) {
                  "write to this file instead of standard output: LIF if it ends in .lif.json, tables if in .csv, else "
                  "our layout file");
   options.option("--svg", words->picture, "draw the layout into this file as well (SVG)");
-  options.flag("--merge-antiparallel", words->merge_antiparallel,
-               "opentcs: two paths back and forth on one track become one bidirectional segment");
+  options.flag("--keep-antiparallel", words->keep_antiparallel,
+               "two one-way segments there and back on one track stay two; left out: they become one two-way segment");
+  options.option("--purposes", words->purposes,
+                 "opentcs, lif: what stations are for, by words of the file, as in \"PACK=storage,Dock 7=charging\"");
+  options.flag("--core-only", words->core_only,
+               "leave out the stations that cannot be reached from all others, and name them");
   options.option("--graph", words->graph, "rmf: graph_idx of the lanes to read (default: 0)");
   options.option("--level", words->level, "rmf: level to read (default: the first)");
   options.option("--cell-pitch", words->cell_pitch_m, "grid: distance of neighbouring cells in metres (default: 1.2)");

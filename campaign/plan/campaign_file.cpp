@@ -24,6 +24,7 @@ class CampaignReader {
   CampaignReader(const std::string& path, CampaignFile& file) : path_(path), file_(file) {}
 
   void read(TomlTable& root) {
+    purposes_ = read_purposes(root);
     fields(root, file_.plan);
     root.finish();
     std::ranges::sort(file_.plan.held_streams);
@@ -194,7 +195,7 @@ class CampaignReader {
     read_agents(table, field.key, path_, agents, file_.agent_files);
   }
   void member(TomlTable& table, const Field& field, std::vector<LayoutFactor>& layouts) {
-    read_layouts(table, field.key, path_, layouts, file_.warnings);
+    read_layouts(table, field.key, path_, purposes_, layouts, file_.warnings);
   }
   void member(TomlTable& table, const Field& field, std::shared_ptr<const OrderList>& orders) {
     const auto given = table.given(field.key);
@@ -208,6 +209,7 @@ class CampaignReader {
 
   std::string path_;
   CampaignFile& file_;
+  PurposeWords purposes_;  // of words in layout files
 };
 
 CampaignFile read_root(TomlTable root, const std::string& path) {

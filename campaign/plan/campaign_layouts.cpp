@@ -9,6 +9,7 @@
 #include "generators/families/layout_family.hpp"
 #include "generators/families/mutated_import.hpp"
 #include "generators/formats/importer.hpp"
+#include "generators/map/core_only.hpp"
 
 namespace fleetproof {
 namespace {
@@ -30,21 +31,27 @@ bool is_family(const std::string& word, const std::string& place) {
 
 std::shared_ptr<const LogicalMap> read_map(const std::string& path, const ImportChoice& choice,
                                            std::vector<std::string>& warnings) {
-  return std::make_shared<const LogicalMap>(import_layout(path, choice, warnings));
+  const Layout layout = import_layout(path, choice, warnings);
+  if (!choice.core_only && parts_of(layout).largest_size < layout.stations.size())
+    warnings.push_back(fmt::format("{}: {}; core_only = true leaves these out", path, reachability_text(layout)));
+  return std::make_shared<const LogicalMap>(layout);
 }
 
 // The keys of the options of `fleetproof import`. A key that the format does not know is refused, because it would
 // silently change nothing.
-ImportChoice import_choice(TomlTable& table, const std::string& path) {
+ImportChoice import_choice(TomlTable& table, const std::string& path, const PurposeWords& purposes) {
   const auto format = importer_of_file(path);
-  for (const auto& [key, owner] :
-       {std::pair{"merge_antiparallel", "opentcs"}, {"cell_pitch_m", "grid"}, {"level", "rmf"}, {"graph", "rmf"}}) {
-    if (!table.has(key) || format == owner) continue;
-    throw InputError(table.place(key),
-                     fmt::format("{} has no meaning for format \"{}\"; it belongs to \"{}\"", key, format, owner));
+  const std::pair<std::string_view, OptionFormats> owned[] = {
+      {"merge_antiparallel", kFormatsWithTwins}, {"cell_pitch_m", {"grid"}}, {"level", {"rmf"}}, {"graph", {"rmf"}}};
+  for (const auto& [key, owners] : owned) {
+    if (!table.has(key) || owners.contains(format)) continue;
+    throw InputError(table.place(key), fmt::format("{} has no meaning for format \"{}\"; it belongs to {}", key, format,
+                                                   fmt::join(owners, ", ")));
   }
   ImportChoice choice;
-  bool merge = false;
+  choice.purposes = purposes;
+  bool merge = true;
+  table.get("core_only", choice.core_only);
   table.get("merge_antiparallel", merge);
   table.get("cell_pitch_m", choice.cell_pitch_m);
   table.get("level", choice.rmf.level);
@@ -68,16 +75,21 @@ std::string layout_name(const std::string& word) {
 }
 
 LayoutFactor layout_from_word(const std::string& place, const std::string& word, const std::string& path,
-                              std::vector<std::string>& warnings) {
+                              const PurposeWords& purposes, std::vector<std::string>& warnings) {
   if (is_family(word, place)) return {word, nullptr};
-  if (is_layout_path(word)) return {layout_name(word), read_map(beside(path, word), {}, warnings)};
+  if (is_layout_path(word)) {
+    ImportChoice choice;
+    choice.purposes = purposes;
+    return {layout_name(word), read_map(beside(path, word), choice, warnings)};
+  }
   const auto names = names_of(layout_families());
   throw InputError(place, fmt::format("factors.layouts names \"{}\", which is neither a family nor a file{}", word,
                                       name_hint(word, names)));
 }
 
 // { file = "plant.xml" } or { mutate = "plant.xml" }, with the options of the importer.
-LayoutFactor layout_from_table(TomlTable& table, const std::string& path, std::vector<std::string>& warnings) {
+LayoutFactor layout_from_table(TomlTable& table, const std::string& path, const PurposeWords& purposes,
+                               std::vector<std::string>& warnings) {
   std::string word, base, name;
   table.get("file", word);
   table.get("mutate", base);
@@ -87,7 +99,7 @@ LayoutFactor layout_from_table(TomlTable& table, const std::string& path, std::v
                      "a table under factors.layouts has either file = \"...\" or mutate = \"...\"");
   const bool mutate = word.empty();
   const std::string at = beside(path, mutate ? base : word);
-  const ImportChoice choice = import_choice(table, at);
+  const ImportChoice choice = import_choice(table, at, purposes);
   table.finish();
   if (name.empty()) name = (mutate ? std::string(kMutatedImport) + "/" : "") + layout_name(at);
   return {name, read_map(at, choice, warnings), mutate};
@@ -96,11 +108,24 @@ LayoutFactor layout_from_table(TomlTable& table, const std::string& path, std::v
 }  // namespace
 
 void read_layouts(TomlTable& factors, std::string_view key, const std::string& campaign_path,
-                  std::vector<LayoutFactor>& layouts, std::vector<std::string>& warnings) {
+                  const PurposeWords& purposes, std::vector<LayoutFactor>& layouts,
+                  std::vector<std::string>& warnings) {
   for (TomlTable::Item& item : factors.words_or_tables(key)) {
-    layouts.push_back(item.table ? layout_from_table(*item.table, campaign_path, warnings)
-                                 : layout_from_word(item.place, item.word, campaign_path, warnings));
+    layouts.push_back(item.table ? layout_from_table(*item.table, campaign_path, purposes, warnings)
+                                 : layout_from_word(item.place, item.word, campaign_path, purposes, warnings));
   }
+}
+
+PurposeWords read_purposes(TomlTable& root) {
+  PurposeWords words;
+  auto table = root.table("purposes");
+  if (!table) return words;
+  for (const auto& word : table->keys()) {
+    std::string purposes;
+    table->get(word, purposes);
+    words.push_back(purpose_word(word, purposes, table->place(word)));
+  }
+  return words;
 }
 
 std::string beside(const std::string& campaign_path, const std::string& word) {

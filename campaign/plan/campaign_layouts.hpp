@@ -6,13 +6,18 @@
 
 #include "campaign/plan/plan.hpp"
 #include "campaign/plan/toml_table.hpp"
+#include "generators/formats/purpose_words.hpp"
 
 namespace fleetproof {
 
 // The array factors.layouts: families, layout files, and tables { file = "..." } or { mutate = "..." } with the options
-// of the importer. Paths of files are relative to `campaign_path`. Throws InputError with the place of the layout.
+// of the importer. `purposes` hold for all of them. Paths of files are relative to `campaign_path`. Throws InputError
+// with the place of the layout.
 void read_layouts(TomlTable& factors, std::string_view key, const std::string& campaign_path,
-                  std::vector<LayoutFactor>& layouts, std::vector<std::string>& warnings);
+                  const PurposeWords& purposes, std::vector<LayoutFactor>& layouts, std::vector<std::string>& warnings);
+
+// The table [purposes]: what words of layout files mean. Empty if the file has none.
+PurposeWords read_purposes(TomlTable& root);
 
 // The path of a file that a campaign file names.
 std::string beside(const std::string& campaign_path, const std::string& word);

@@ -185,6 +185,12 @@ std::map<std::string, std::string, std::less<>> TomlTable::places() const {
   return places;
 }
 
+std::vector<std::string> TomlTable::keys() const {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : *impl_->table) keys.emplace_back(key.str());
+  return keys;
+}
+
 std::optional<TomlTable> TomlTable::table(std::string_view key) {
   std::optional<TomlTable> part;
   with(*impl_->table, impl_->known, key, [&](const toml::node& node) {

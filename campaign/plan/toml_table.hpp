@@ -49,6 +49,7 @@ class TomlTable {
   std::vector<Item> words_or_tables(std::string_view key);
 
   bool has(std::string_view key) const;
+  std::vector<std::string> keys() const;                 // of this table, in the order of the alphabet
   bool is_table(std::string_view key) const;             // written [key], not [[key]]
   std::optional<TomlTable> table(std::string_view key);  // [key]
   std::vector<TomlTable> tables(std::string_view key);   // [[key]]

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "generators/map/core_only.hpp"
 #include "generators/map/layout_check.hpp"
 #include "generators/map/strong_components.hpp"
 
@@ -89,23 +90,6 @@ Layout what_is_left(const Layout& base, const std::vector<Fate>& fates) {
 
 bool is_kept(const Segment& segment, const StrongComponents& parts) {
   return parts.in_largest(segment.from.index()) && parts.in_largest(segment.to.index());
-}
-
-void keep_largest(Layout& layout, const StrongComponents& parts) {
-  std::erase_if(layout.segments, [&](const Segment& s) { return !is_kept(s, parts); });
-  std::vector<std::uint32_t> number(layout.stations.size(), 0);
-  std::uint32_t kept = 0;
-  for (std::size_t i = 0; i < number.size(); ++i) {
-    if (!parts.in_largest(i)) continue;
-    number[i] = kept;
-    if (kept < i) layout.stations[kept] = std::move(layout.stations[i]);
-    ++kept;
-  }
-  layout.stations.erase(layout.stations.begin() + kept, layout.stations.end());
-  for (auto& segment : layout.segments) {
-    segment.from = StationId{number[segment.from.index()]};
-    segment.to = StationId{number[segment.to.index()]};
-  }
 }
 
 bool is_drivable(const Curve& curve) { return fault_of_curve(curve).empty(); }

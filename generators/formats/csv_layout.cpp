@@ -182,12 +182,15 @@ std::string quoted(const std::string& text) {
 
 }  // namespace
 
-Layout read_csv_layout(const std::string& path, std::vector<std::string>& warnings) {
-  return parse_csv_layout(read_text_file(path), path, warnings);
+Layout read_csv_layout(const std::string& path, std::vector<std::string>& warnings, TwinPaths twins) {
+  return parse_csv_layout(read_text_file(path), path, warnings, twins);
 }
 
-Layout parse_csv_layout(std::string_view text, std::string_view source, std::vector<std::string>&) {
-  return TableReader(text, source).read();
+Layout parse_csv_layout(std::string_view text, std::string_view source, std::vector<std::string>& warnings,
+                        TwinPaths twins) {
+  Layout layout = TableReader(text, source).read();
+  settle_twins(layout, twins, source, warnings);
+  return layout;
 }
 
 std::string to_csv(const Layout& layout) {

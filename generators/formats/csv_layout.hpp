@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/scenario/layout.hpp"
+#include "generators/map/antiparallel.hpp"
 
 namespace fleetproof {
 
@@ -24,13 +25,15 @@ namespace fleetproof {
 // - `control_points`: x y x y ... Empty: straight.
 // A field with a comma or a double quote stands in double quotes. Empty lines and lines that begin with # are skipped.
 //
-// Throws InputError with file, line, field, value and remedy if no AGV can drive on the layout. There are no warnings,
-// because nothing is left out or guessed.
-Layout read_csv_layout(const std::string& path, std::vector<std::string>& warnings);
-Layout parse_csv_layout(std::string_view text, std::string_view source, std::vector<std::string>& warnings);
+// Throws InputError with file, line, field, value and remedy if no AGV can drive on the layout. Nothing is left
+// out or guessed; `warnings` receives a sentence on twins that were merged.
+Layout read_csv_layout(const std::string& path, std::vector<std::string>& warnings, TwinPaths twins = TwinPaths::Merge);
+Layout parse_csv_layout(std::string_view text, std::string_view source, std::vector<std::string>& warnings,
+                        TwinPaths twins = TwinPaths::Merge);
 
-// The layout in this form. Reading it gives the same layout, with two exceptions: the name becomes the name of the
-// file, and the floor is fitted again. A layout without segments cannot be read again.
+// The layout in this form. Reading it gives the same layout, with three exceptions: the name becomes the name of the
+// file, the floor is fitted again, and twins become one segment unless the reader keeps them. A layout without segments
+// cannot be read again.
 std::string to_csv(const Layout& layout);
 
 }  // namespace fleetproof

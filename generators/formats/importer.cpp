@@ -8,7 +8,9 @@
 #include "generators/formats/csv_layout.hpp"
 #include "generators/formats/layout_file.hpp"
 #include "generators/formats/lif.hpp"
+#include "generators/map/core_only.hpp"
 #include "generators/text/json_value.hpp"
+#include "generators/text/name_list.hpp"
 #include "generators/text/text_file.hpp"
 
 namespace fleetproof {
@@ -19,20 +21,26 @@ using Warnings = std::vector<std::string>;
 constexpr Entry<ReadLayout> kImporters[] = {
     {"opentcs", "openTCS plant model (.xml)",
      [](const std::string& path, const ImportChoice& choice, Warnings& warnings) {
-       return read_opentcs(path, warnings, choice.twins);
+       return read_opentcs(path, warnings, choice);
      }},
     {"lif", "VDMA Layout Interchange Format, companion of VDA 5050 (.lif.json, .json)",
-     [](const std::string& path, const ImportChoice&, Warnings& warnings) { return read_lif(path, warnings); }},
+     [](const std::string& path, const ImportChoice& choice, Warnings& warnings) {
+       return read_lif(path, warnings, choice);
+     }},
     {"rmf", "Open-RMF building of the traffic editor, or nav graph (.yaml)",
      [](const std::string& path, const ImportChoice& choice, Warnings& warnings) {
-       return read_rmf(path, warnings, choice.rmf);
+       RmfChoice rmf = choice.rmf;
+       rmf.twins = choice.twins;
+       return read_rmf(path, warnings, rmf);
      }},
     {"grid", "grid map of Moving AI or the League of Robot Runners (.map)",
      [](const std::string& path, const ImportChoice& choice, Warnings& warnings) {
        return read_grid_map(path, warnings, choice.cell_pitch_m);
      }},
     {"csv", "tables of nodes and edges (.csv)",
-     [](const std::string& path, const ImportChoice&, Warnings& warnings) { return read_csv_layout(path, warnings); }},
+     [](const std::string& path, const ImportChoice& choice, Warnings& warnings) {
+       return read_csv_layout(path, warnings, choice.twins);
+     }},
     {"layout", "fleetproof's own layout file (.json)",
      [](const std::string& path, const ImportChoice&, Warnings&) { return read_layout(path); }},
 };
@@ -55,6 +63,8 @@ bool is_lif(const std::string& path) {
 
 }  // namespace
 
+const OptionFormats kFormatsWithTwins = {"opentcs", "lif", "rmf", "csv"}, kFormatsWithWords = {"opentcs", "lif"};
+
 std::span<const Entry<ReadLayout>> importers() { return kImporters; }
 
 const Entry<ReadLayout>& importer(std::string_view name) {
@@ -73,8 +83,24 @@ std::string_view importer_of_file(const std::string& path) {
   return lif ? "lif" : extension->importer;
 }
 
+Layout import_layout(const Entry<ReadLayout>& importer, const std::string& path, const ImportChoice& choice,
+                     Warnings& warnings) {
+  Layout layout = importer.make(path, choice, warnings);
+  if (!choice.core_only) return layout;
+  const auto names = keep_core(layout);
+  if (layout.segments.empty()) {
+    throw InputError(path,
+                     "no two stations can reach each other, so nothing is left of its core; make segments "
+                     "two-way, or read it without core_only");
+  }
+  if (!names.empty())
+    warnings.push_back(fmt::format("{}: {} stations cannot be reached from all others and are cut off: {}", path,
+                                   names.size(), name_list(names, names.size())));
+  return layout;
+}
+
 Layout import_layout(const std::string& path, const ImportChoice& choice, Warnings& warnings) {
-  return importer(importer_of_file(path)).make(path, choice, warnings);
+  return import_layout(importer(importer_of_file(path)), path, choice, warnings);
 }
 
 }  // namespace fleetproof

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,8 +15,8 @@
 namespace fleetproof {
 
 // Options of an import. Each format uses the options that it knows.
-struct ImportChoice {
-  TwinPaths twins = TwinPaths::Keep;          // openTCS
+struct ImportChoice : ReadChoice {
+  bool core_only = false;                     // without the stations that not all others reach
   RmfChoice rmf;                              // Open-RMF
   double cell_pitch_m = kDefaultCellPitch_m;  // grid maps
 };
@@ -26,6 +27,10 @@ using ReadLayout = Layout (*)(const std::string& path, const ImportChoice& choic
 
 std::span<const Entry<ReadLayout>> importers();
 
+// The formats for which an option has a meaning.
+using OptionFormats = std::set<std::string_view>;
+extern const OptionFormats kFormatsWithTwins, kFormatsWithWords;
+
 // Throws InputError with a hint if there is no such importer.
 const Entry<ReadLayout>& importer(std::string_view name);
 
@@ -35,7 +40,10 @@ bool is_layout_file(std::string_view path);
 // The importer for the extension of a file. The keys of a .json file decide between LIF and our own layout format.
 std::string_view importer_of_file(const std::string& path);
 
-// Reads a layout file with the importer of importer_of_file().
+// Reads a layout with an importer, and cuts stations off if the choice asks for it; `warnings` receives their names.
+Layout import_layout(const Entry<ReadLayout>& importer, const std::string& path, const ImportChoice& choice,
+                     std::vector<std::string>& warnings);
+// The same with the importer of importer_of_file().
 Layout import_layout(const std::string& path, const ImportChoice& choice, std::vector<std::string>& warnings);
 
 }  // namespace fleetproof

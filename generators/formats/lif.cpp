@@ -27,27 +27,30 @@ std::optional<JsonReader> either(const JsonReader& object, std::string_view old_
   return found ? found : object.find(new_key);
 }
 
-Purposes purpose_of_action(std::string_view type) {
+Purposes purpose_of_action(std::string_view type, const PurposeWords& own) {
+  if (const auto said = said_of(own, type)) return *said;
   if (type == "pick" || type == "drop") return Purpose::Storage;
   return type == "startCharging" ? Purposes(Purpose::Charging) : Purposes::from_bits(0);
 }
 
 // What the vehicles of all types do on one node or edge.
-Purposes purposes_of_actions(const std::optional<JsonReader>& vehicle_types) {
+Purposes purposes_of_actions(const std::optional<JsonReader>& vehicle_types, const PurposeWords& own) {
   auto purposes = Purposes::from_bits(0);
   if (!vehicle_types) return purposes;
   for (const auto& type : vehicle_types->items()) {
     const auto actions = type.find("actions");
     if (!actions) continue;
-    for (const auto& action : actions->items()) purposes = purposes | purpose_of_action(action.at("actionType").text());
+    for (const auto& action : actions->items())
+      purposes = purposes | purpose_of_action(action.at("actionType").text(), own);
   }
   return purposes;
 }
 
 class LifReader {
  public:
-  LifReader(std::string_view text, std::string_view source, std::vector<std::string>& warnings)
-      : root_(parse_json(text, source)), source_(source), warnings_(warnings) {}
+  LifReader(std::string_view text, std::string_view source, std::vector<std::string>& warnings,
+            const ReadChoice& choice)
+      : root_(parse_json(text, source)), source_(source), warnings_(warnings), choice_(choice) {}
 
   Layout read() {
     const auto layout = choose_layout(JsonReader(root_, source_));
@@ -68,7 +71,7 @@ class LifReader {
                        limited_));
     fit_floor(layout_, 3.0);
     refuse_problems(layout);
-    merge_antiparallel(layout_);
+    settle_twins(layout_, choice_.twins, source_, warnings_);
     return std::move(layout_);
   }
 
@@ -111,7 +114,8 @@ class LifReader {
     const auto position = node.at("nodePosition");
     station.position_m = {position.at("x").number(), position.at("y").number()};
     station.purposes = station.purposes |
-                       purposes_of_actions(either(node, "vehicleTypeNodeProperties", "mobileRobotTypeNodeProperties"));
+                       purposes_of_actions(either(node, "vehicleTypeNodeProperties", "mobileRobotTypeNodeProperties"),
+                                           choice_.purposes);
     const auto index = layout_.stations.size();
     std::string description;
     if (const auto found = node.find("nodeDescription"); found && found->is_text()) description = found->text();
@@ -147,7 +151,7 @@ class LifReader {
     segment.to = *to;
     const auto types = either(edge, "vehicleTypeEdgeProperties", "mobileRobotTypeEdgeProperties");
     auto& purposes = layout_.stations[to->index()].purposes;
-    purposes = purposes | purposes_of_actions(types);
+    purposes = purposes | purposes_of_actions(types, choice_.purposes);
     std::optional<JsonReader> trajectory;
     bool limited = false;
     if (types) {
@@ -240,6 +244,7 @@ class LifReader {
   JsonValue root_;
   std::string_view source_;
   std::vector<std::string>& warnings_;
+  const ReadChoice& choice_;
   Layout layout_;
   std::vector<JsonReader> nodes_, edges_;  // by station and by segment, as long as no two segments are merged
   std::set<std::string> node_names_, edge_names_, elsewhere_;
@@ -250,12 +255,13 @@ class LifReader {
 
 }  // namespace
 
-Layout read_lif(const std::string& path, std::vector<std::string>& warnings) {
-  return parse_lif(read_text_file(path), path, warnings);
+Layout read_lif(const std::string& path, std::vector<std::string>& warnings, const ReadChoice& choice) {
+  return parse_lif(read_text_file(path), path, warnings, choice);
 }
 
-Layout parse_lif(std::string_view text, std::string_view source, std::vector<std::string>& warnings) {
-  return LifReader(text, source, warnings).read();
+Layout parse_lif(std::string_view text, std::string_view source, std::vector<std::string>& warnings,
+                 const ReadChoice& choice) {
+  return LifReader(text, source, warnings, choice).read();
 }
 
 }  // namespace fleetproof

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/scenario/layout.hpp"
+#include "generators/formats/read_choice.hpp"
 
 namespace fleetproof {
 
@@ -15,8 +16,9 @@ namespace fleetproof {
 //
 // `warnings` receives one sentence, with file and line, for everything that was left out, guessed or changed. Throws
 // InputError with file, line, field, value and remedy if no AGV can drive on the layout.
-Layout read_lif(const std::string& path, std::vector<std::string>& warnings);
-Layout parse_lif(std::string_view text, std::string_view source, std::vector<std::string>& warnings);
+Layout read_lif(const std::string& path, std::vector<std::string>& warnings, const ReadChoice& choice = {});
+Layout parse_lif(std::string_view text, std::string_view source, std::vector<std::string>& warnings,
+                 const ReadChoice& choice = {});
 
 // The words for purposes in a description, as to_lif writes and parse_lif reads them: "purposes: storage charging".
 inline constexpr std::string_view kPurposesMark = "purposes:";

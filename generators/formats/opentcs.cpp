@@ -12,8 +12,9 @@
 #include "core/base/error.hpp"
 #include "core/base/tolerances.hpp"
 #include "generators/formats/opentcs_drawing.hpp"
+#include "generators/formats/opentcs_left_out.hpp"
 #include "generators/formats/opentcs_positions.hpp"
-#include "generators/map/antiparallel.hpp"
+#include "generators/formats/opentcs_purposes.hpp"
 #include "generators/map/layout_check.hpp"
 #include "generators/text/name_list.hpp"
 #include "generators/text/text_file.hpp"
@@ -25,29 +26,11 @@ namespace {
 constexpr double kNewestVersion = 7.0;
 constexpr double kToleratedLength = 0.02;  // share by which a stored length may be wrong
 
-// A word in the name of a location type, or of its symbol, and what it says about the points linked to such locations.
-struct PurposeWord {
-  std::string_view word;
-  Purpose purpose;
-};
-constexpr PurposeWord kPurposeWords[] = {{"charg", Purpose::Charging},  {"transfer", Purpose::Storage},
-                                         {"storage", Purpose::Storage}, {"work", Purpose::Storage},
-                                         {"load", Purpose::Storage},    {"pick", Purpose::Storage},
-                                         {"drop", Purpose::Storage}};
-
-Purposes purposes_in(std::string name) {
-  for (char& c : name) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  auto purposes = Purposes::from_bits(0);
-  for (const auto& [word, purpose] : kPurposeWords) {
-    if (name.find(word) != std::string::npos) purposes = purposes | purpose;
-  }
-  return purposes;
-}
-
 class ModelReader {
  public:
-  ModelReader(std::string_view text, std::string_view source, std::vector<std::string>& warnings, TwinPaths twins)
-      : xml_(text, source), source_(source), warnings_(warnings), twins_(twins) {}
+  ModelReader(std::string_view text, std::string_view source, std::vector<std::string>& warnings,
+              const ReadChoice& choice)
+      : xml_(text, source), source_(source), warnings_(warnings), choice_(choice) {}
 
   Layout read() {
     pugi::xml_document document;
@@ -67,13 +50,13 @@ class ModelReader {
     for (const auto path : model.children("path")) add_path(path);
     if (layout_.segments.empty()) xml_.refuse(model, "the model has no <path> that may be driven; add or unlock some");
     note_shapes(model);
-    note_reversible(model);
     for (const auto type : model.children("locationType")) add_location_type(type);
     for (const auto location : model.children("location")) add_location(location);
     fit_floor(layout_, 3.0);
     refuse_problems(model);
-    compare_lengths();
-    if (twins_ == TwinPaths::Merge) merge_antiparallel(layout_);
+    compare_lengths(model);
+    note_left_out(xml_, model, warnings_);
+    settle_twins(layout_, choice_.twins, source_, warnings_);
     return std::move(layout_);
   }
 
@@ -109,6 +92,9 @@ class ModelReader {
     station.position_m = Vec2(x_mm, y_mm) / 1000.0;
     const std::string_view type = point.attribute("type").value();
     if (type == "PARK_POSITION") station.purposes = station.purposes | Purpose::Parking;
+    if (!type.empty() && type != "PARK_POSITION" && type != "HALT_POSITION" && type != "REPORT_POSITION")
+      warn(point, fmt::format("type {} of point {} is unknown here; it is taken as HALT_POSITION", in_quotes(type),
+                              in_quotes(station.name)));
     if (type == "REPORT_POSITION")
       warn(point, fmt::format("report position {} becomes a station at which AGVs can stop", in_quotes(station.name)));
     stations_.emplace(station.name, StationId{layout_.stations.size()});
@@ -146,7 +132,9 @@ class ModelReader {
       segment.control_points_m = drawn.control_points_m;
       return smooth(path, segment);
     }
-    if (drawn.connection != "DIRECT") straightened_[drawn.connection].push_back(segment.name);
+    const bool unused = drawn.connection == "DIRECT" && !drawn.control_points_m.empty();
+    if (unused || drawn.connection != "DIRECT")
+      straightened_[drawn.connection + (unused ? " with control points" : "")].push_back(segment.name);
   }
 
   void smooth(const pugi::xml_node& path, Segment& segment) {
@@ -167,24 +155,32 @@ class ModelReader {
     }
   }
 
-  void note_reversible(const pugi::xml_node& model) {
-    const auto count = std::ranges::count_if(
-        paths_, [](const pugi::xml_node& path) { return path.attribute("maxReverseVelocity").as_double() > 0.0; });
-    if (count > 0)
-      warn(model,
-           fmt::format("{} paths may be driven in reverse; here AGVs drive nose first, from source to destination only",
-                       count));
+  static LocationWords words_of(const pugi::xml_node& type, const pugi::xml_node& operations_in) {
+    const auto old_symbol = type.find_child_by_attribute("property", "name", "tcs:defaultLocationTypeSymbol");
+    LocationWords words;
+    words.name = type.attribute("name").value();
+    words.symbol = type.child("locationTypeLayout")
+                       .attribute("locationRepresentation")
+                       .as_string(old_symbol.attribute("value").as_string());
+    for (const auto operation : operations_in.children("allowedOperation"))
+      words.operations.emplace_back(operation.attribute("name").value());
+    return words;
   }
 
   void add_location_type(const pugi::xml_node& type) {
     const auto name = xml_.text(type, "name");
-    auto purposes = purposes_in(name);
-    if (purposes.bits() == 0)
-      purposes = purposes_in(type.child("locationTypeLayout").attribute("locationRepresentation").as_string());
-    if (purposes.bits() == 0)
+    const auto [purposes, source] = purpose_of(words_of(type, type), choice_.purposes);
+    const std::string_view by = source == nullptr ? "nothing" : source;
+    if (by == "nothing")
       warn(type,
-           fmt::format("location type {} names no purpose that is known here; points keep theirs", in_quotes(name)));
-    location_types_.emplace(name, purposes);
+           fmt::format("location type \"{0}\" says nothing that is known here; its points keep their purposes, unless "
+                       "you name one (--purposes \"{0}=storage\")",
+                       printable(name)));
+    if (by == "name" || by == "symbol")
+      warn(type, fmt::format("the operations of location type {} say nothing that is known here; by its {} it is taken "
+                             "to be for {}",
+                             in_quotes(name), by, purposes_text(purposes)));
+    location_types_.emplace(name, type);
   }
 
   void add_location(const pugi::xml_node& location) {
@@ -197,10 +193,13 @@ class ModelReader {
     const bool locked = location.attribute("locked").as_bool();
     if (locked)
       warn(location, fmt::format("location {} is locked; points linked to it keep their purposes", in_quotes(name)));
+    if (!location.child("link"))
+      warn(location, fmt::format("location {} is linked to no point; no AGV can serve it", in_quotes(name)));
     for (const auto link : location.children("link")) {
-      const auto station = station_in(link, "point");
-      if (!locked)
-        layout_.stations[station.index()].purposes = layout_.stations[station.index()].purposes | found->second;
+      auto& purposes = layout_.stations[station_in(link, "point").index()].purposes;
+      // The operations of a link are those of the type that are allowed there.
+      const auto words = words_of(found->second, link.child("allowedOperation") ? link : found->second);
+      if (!locked) purposes = purposes | purpose_of(words, choice_.purposes).purposes;
     }
   }
 
@@ -224,43 +223,52 @@ class ModelReader {
         node, fmt::format("<{}> {}: {}", node.name(), in_quotes(node.attribute("name").value()), problems[0].sentence));
   }
 
-  void compare_lengths() {
+  void compare_lengths(const pugi::xml_node& model) {
+    std::vector<std::string> unreadable, wrong;
+    std::string example;
     for (std::size_t i = 0; i < paths_.size(); ++i) {
       double stored_mm = 0.0;
+      const auto& name = layout_.segments[i].name;
       const double length_m = segment_curve(layout_, layout_.segments[i]).length_m();
       if (!read_number(paths_[i].attribute("length").value(), stored_mm)) {
-        warn(paths_[i], fmt::format("path {} has no length that can be read; its geometry has {:.3f} m",
-                                    in_quotes(layout_.segments[i].name), length_m));
+        unreadable.push_back(name);
       } else if (std::abs(stored_mm / 1000.0 - length_m) > kToleratedLength * length_m) {
-        warn(paths_[i],
-             fmt::format("path {} is stored with a length of {:.3f} m; its geometry has {:.3f} m, which counts",
-                         in_quotes(layout_.segments[i].name), stored_mm / 1000.0, length_m));
+        if (wrong.empty()) example = fmt::format("{:.3f} m instead of {:.3f} m", stored_mm / 1000.0, length_m);
+        wrong.push_back(name);
       }
     }
+    if (!unreadable.empty())
+      warn(model, fmt::format("{} paths have no length that can be read ({}); their geometry counts", unreadable.size(),
+                              name_list(unreadable)));
+    if (!wrong.empty())
+      warn(model,
+           fmt::format("{} of {} paths are stored with another length than their geometry has, which counts ({}; "
+                       "the first with {})",
+                       wrong.size(), paths_.size(), name_list(wrong), example));
   }
 
   XmlText xml_;
   std::string_view source_;
   std::vector<std::string>& warnings_;
-  TwinPaths twins_;
+  const ReadChoice& choice_;
   OpenTcsDrawing drawing_;
   Layout layout_;
   std::vector<pugi::xml_node> paths_;  // by segment, as long as no two of them are merged
   std::set<std::string> point_names_, path_names_;
   std::map<std::string, StationId> stations_;
-  std::map<std::string, Purposes> location_types_;
+  std::map<std::string, pugi::xml_node> location_types_;
   std::map<std::string, std::vector<std::string>> straightened_;  // names of paths, by their connection
 };
 
 }  // namespace
 
-Layout read_opentcs(const std::string& path, std::vector<std::string>& warnings, TwinPaths twins) {
-  return parse_opentcs(read_text_file(path), path, warnings, twins);
+Layout read_opentcs(const std::string& path, std::vector<std::string>& warnings, const ReadChoice& choice) {
+  return parse_opentcs(read_text_file(path), path, warnings, choice);
 }
 
 Layout parse_opentcs(std::string_view text, std::string_view source, std::vector<std::string>& warnings,
-                     TwinPaths twins) {
-  return ModelReader(text, source, warnings, twins).read();
+                     const ReadChoice& choice) {
+  return ModelReader(text, source, warnings, choice).read();
 }
 
 }  // namespace fleetproof

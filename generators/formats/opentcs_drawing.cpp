@@ -61,6 +61,8 @@ class DrawingReader {
       drawing_.points_m.emplace(name, Vec2(xml_.number(layout, x), xml_.number(layout, y)) / 1000.0);
     }
     const auto x = drawn_property(point, "POSITION_X"), y = drawn_property(point, "POSITION_Y");
+    if (!x != !y)
+      xml_.refuse(x ? x : y, fmt::format("point {} is drawn with one coordinate; add the other", in_quotes(name)));
     if (x && y) drawing_.points_m.emplace(name, Vec2(xml_.number(x, "value"), xml_.number(y, "value")) / 1000.0);
   }
 

@@ -1,6 +1,12 @@
 #include "generators/formats/purpose_words.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+
+#include "core/base/catalogue.hpp"
+#include "core/base/error.hpp"
+#include "core/base/outside_text.hpp"
 
 namespace fleetproof {
 
@@ -25,6 +31,38 @@ std::optional<Purposes> purposes_of_text(std::string_view words) {
     purposes = purposes | Purposes::from_bits(static_cast<std::uint8_t>(1U << (found - kPurposeNames.begin())));
     words.remove_prefix(word.size());
   }
+}
+
+PurposeWord purpose_word(std::string_view word, std::string_view purposes, const std::string& place) {
+  const auto known = purposes_of_text(purposes);
+  if (!known || known->bits() == 0) {
+    throw InputError(place, fmt::format("{} is said to be for {}; expected routing, storage, charging or parking{}",
+                                        in_quotes(word), in_quotes(purposes), name_hint(purposes, kPurposeNames)));
+  }
+  return {std::string(word), *known | Purpose::Routing};
+}
+
+PurposeWords purpose_words_of(std::string_view text, const std::string& place) {
+  PurposeWords words;
+  while (!text.empty()) {
+    const auto pair = text.substr(0, text.find(','));
+    const auto sign = pair.find('=');
+    if (sign == std::string_view::npos || sign == 0) {
+      throw InputError(
+          place, fmt::format("{} is not a word with its purpose; expected \"PACK=storage,...\"", in_quotes(pair)));
+    }
+    words.push_back(purpose_word(pair.substr(0, sign), pair.substr(sign + 1), place));
+    text.remove_prefix(std::min(pair.size() + 1, text.size()));
+  }
+  return words;
+}
+
+std::optional<Purposes> said_of(const PurposeWords& words, std::string_view text) {
+  const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  for (const auto& [word, purposes] : words) {
+    if (std::ranges::equal(word, text, {}, small, small)) return purposes;
+  }
+  return std::nullopt;
 }
 
 }  // namespace fleetproof

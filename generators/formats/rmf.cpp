@@ -48,7 +48,7 @@ class LevelReader {
     if (other_graphs_ > 0) warn(lanes, fmt::format("{} lanes of other graphs are left out", other_graphs_));
     fit_floor(layout_, 3.0);
     refuse_problems(level);
-    merge_antiparallel(layout_);
+    settle_twins(layout_, choice_.twins, yaml_.source(), warnings_);
     return std::move(layout_);
   }
 

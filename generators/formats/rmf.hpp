@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/scenario/layout.hpp"
+#include "generators/map/antiparallel.hpp"
 
 namespace fleetproof {
 
@@ -13,6 +14,7 @@ namespace fleetproof {
 struct RmfChoice {
   std::string level;           // empty: the first level
   std::int64_t graph_idx = 0;  // of a building file; a nav graph contains one graph
+  TwinPaths twins = TwinPaths::Merge;
 };
 
 // Reads one level of an Open-RMF building: the file of the traffic editor (*.building.yaml), or a nav graph that was

@@ -1,10 +1,13 @@
 #include "generators/map/antiparallel.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <utility>
 
 #include "core/base/tolerances.hpp"
+#include "generators/text/name_list.hpp"
 
 namespace fleetproof {
 namespace {
@@ -17,7 +20,8 @@ bool is_mirrored(const Segment& there, const Segment& back) {
 
 }  // namespace
 
-std::size_t merge_antiparallel(Layout& layout) {
+std::vector<std::string> merge_antiparallel(Layout& layout) {
+  std::vector<std::string> names;
   std::vector<Segment> kept;
   std::multimap<std::pair<std::size_t, std::size_t>, std::size_t> waiting;  // by (from, to): one-way segments in `kept`
   for (auto& segment : layout.segments) {
@@ -28,15 +32,25 @@ std::size_t merge_antiparallel(Layout& layout) {
     });
     if (twin != end) {
       kept[twin->second].bidirectional = true;
+      names.push_back(kept[twin->second].name);
       waiting.erase(twin);
       continue;
     }
     if (!segment.bidirectional) waiting.emplace(std::pair(from, to), kept.size());
     kept.push_back(std::move(segment));
   }
-  const auto pairs = layout.segments.size() - kept.size();
   layout.segments = std::move(kept);
-  return pairs;
+  return names;
+}
+
+void settle_twins(Layout& layout, TwinPaths twins, std::string_view source, std::vector<std::string>& warnings) {
+  if (twins == TwinPaths::Keep) return;
+  const auto names = merge_antiparallel(layout);
+  if (names.empty()) return;
+  warnings.push_back(
+      fmt::format("{}: {} pairs of one-way segments there and back on one track became two-way segments "
+                  "({})",
+                  source, names.size(), name_list(names)));
 }
 
 }  // namespace fleetproof

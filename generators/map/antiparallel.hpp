@@ -1,14 +1,22 @@
 #pragma once
 
-#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 #include "core/scenario/layout.hpp"
 
 namespace fleetproof {
 
+// Two one-way segments there and back on one track stay two segments, or become one bidirectional segment.
+enum class TwinPaths : std::uint8_t { Keep, Merge };
+
 // Merges two one-way segments that lead there and back between two stations on one track (control points mirrored, to
-// within 1 mm). They become one bidirectional segment: the first in the list, which keeps its name. Returns the number
-// of merged pairs.
-std::size_t merge_antiparallel(Layout& layout);
+// within 1 mm). They become one bidirectional segment: the first in the list, which keeps its name. Returns the names
+// of these segments.
+std::vector<std::string> merge_antiparallel(Layout& layout);
+
+// The same if `twins` asks for it. If there are such segments, `warnings` receives a sentence on them.
+void settle_twins(Layout& layout, TwinPaths twins, std::string_view source, std::vector<std::string>& warnings);
 
 }  // namespace fleetproof

@@ -10,6 +10,7 @@
 #include "core/base/error.hpp"
 #include "core/base/tolerances.hpp"
 #include "core/scenario/scenario_fields.hpp"
+#include "generators/map/core_only.hpp"
 #include "generators/map/layout_check.hpp"
 #include "generators/scenario_file/exempt_pairs.hpp"
 #include "generators/scenario_file/field_rules.hpp"
@@ -190,8 +191,8 @@ class WorldCheck {
   Problems run() {
     if (reachability_.core_share() < kSmallestCoreShare) {
       add(ProblemKind::WeakCore, "/layout",
-          fmt::format("only {} of {} stations can all reach each other, less than 90 %; add segments that lead back",
-                      reachability_.core().size(), scenario_.map->station_count()));
+          fmt::format("only {}, less than 90 %; add segments that lead back, or leave these stations out (core_only)",
+                      reachability_text(scenario_.map->layout())));
     }
     starts();
     for (std::size_t i = 0; i < scenario_.agvs.size(); ++i) transports(i);

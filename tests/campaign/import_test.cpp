@@ -15,10 +15,11 @@ const std::string kCrossdock = "'" + test::source("tests/layouts/crossdock.xml")
 
 TEST_F(ImportTest, WritesLayoutsLifAndCsv) {
   EXPECT_EQ(run("import opentcs " + kCrossdock + " -o plain.json").exit_code, 0);
-  const auto merged = run("import opentcs " + kCrossdock + " --merge-antiparallel -o merged.json");
+  const auto merged = run("import opentcs " + kCrossdock + " -o merged.json");
   EXPECT_EQ(merged.exit_code, 0) << merged.err;
   EXPECT_EQ(merged.out, "");
-  EXPECT_THAT(merged.err, HasSubstr("30 stations, 31 segments, 0 warnings\n"));
+  EXPECT_THAT(merged.err,
+              HasSubstr("12 pairs of one-way segments there and back on one track became two-way segments ("));
   EXPECT_EQ(run("import layout merged.json -o merged.lif.json").exit_code, 0);
   EXPECT_EQ(run("import lif merged.lif.json -o again.json").exit_code, 0);
   EXPECT_EQ(read(path("again.json")), read(path("merged.json")));
@@ -42,7 +43,60 @@ TEST_F(ImportTest, TellsWhatItGuessed) {
   EXPECT_EQ(finished.exit_code, 0);
   EXPECT_EQ(finished.err,
             "warning: m.map: cells are taken to be 1.5 m apart; the map names no charging and no parking\n"
-            "m.map: 3 stations, 2 segments, 1 warnings\n");
+            "m.map: 3 stations, 2 segments, 1 warnings\n"
+            "purposes: 1 storage, 0 charging, 0 parking\n"
+            "reachability: all 3 stations can reach each other\n");
+}
+
+// b can be reached from a and back; nobody comes back from the warehouse at the end.
+const std::string kDeadEnd =
+    "<model version='0.0.3' name='m'><point name='a' xPosition='0' yPosition='0'/><point name='b' xPosition='9000' "
+    "yPosition='0'/><point name='\u4ED3\u5E93' xPosition='18000' yPosition='0'/><path name='ab' sourcePoint='a' "
+    "destinationPoint='b' length='9000'/><path name='ba' sourcePoint='b' destinationPoint='a' length='9000'/><path "
+    "name='bc' sourcePoint='b' destinationPoint='\u4ED3\u5E93' length='9000'/><locationType name='Dock 7'/><location "
+    "name='L' type='Dock 7'><link point='a'/></location></model>";
+
+TEST_F(ImportTest, CutsOffAndNamesWhatCannotBeReachedFromAll) {
+  write("m.xml", kDeadEnd);
+  const auto whole = run("import opentcs m.xml");
+  EXPECT_THAT(whole.err,
+              HasSubstr("reachability: 2 of 3 stations can all reach each other; cut off: \"\u4ED3\u5E93\"\n"));
+  const auto core = run("import opentcs m.xml --core-only");
+  EXPECT_THAT(core.err, HasSubstr("1 stations cannot be reached from all others and are cut off: \"\u4ED3\u5E93\"\n"));
+  EXPECT_THAT(core.err, HasSubstr("reachability: all 2 stations can reach each other\n"));
+  EXPECT_THAT(run("import opentcs m.xml --core-only --keep-antiparallel").err, HasSubstr(": 2 stations, 2 segments, "));
+  write("one-way.csv", "id,x,y\na,0,0\nb,9,0\nfrom,to\na,b\n");
+  EXPECT_THAT(run("import csv one-way.csv --core-only").err, HasSubstr("nothing is left of its core"));
+}
+
+TEST_F(ImportTest, TakesWordsForPurposes) {
+  write("m.xml", kDeadEnd);
+  EXPECT_THAT(run("import opentcs m.xml").err, HasSubstr("purposes: 0 storage, 0 charging, 0 parking\n"));
+  EXPECT_THAT(run("import opentcs m.xml --purposes 'dock 7=storage parking'").err,
+              HasSubstr("purposes: 1 storage, 0 charging, 1 parking\n"));
+  EXPECT_THAT(run("import opentcs m.xml --purposes 'dock 7=stor'").err,
+              HasSubstr("--purposes: \"dock 7\" is said to be for \"stor\""));
+  EXPECT_THAT(run("import csv x.csv --purposes a=storage").err,
+              HasSubstr("--purposes: has no meaning for format \"csv\"; it belongs to lif, opentcs"));
+}
+
+TEST_F(ImportTest, CampaignsTakeWordsAndCores) {
+  write("m.xml", kDeadEnd);
+  const auto checked = [&](const std::string& layout, const std::string& tables) {
+    write("c.toml", "horizon_s = 20\n[factors]\nagents = [\"reckless\"]\nlayouts = [" + layout +
+                        "]\nfleet_sizes = [1]\n" + tables);
+    const auto finished = run("check c.toml");
+    return finished.out + finished.err;
+  };
+  const auto whole = checked("\"m.xml\"", "");
+  EXPECT_THAT(whole,
+              HasSubstr("only 2 of 3 stations can all reach each other; cut off: \"\u4ED3\u5E93\", less than 90 %"));
+  const auto core = checked("{ file = \"m.xml\", core_only = true }", "[purposes]\n\"Dock 7\" = \"storage\"\n");
+  EXPECT_THAT(core, HasSubstr("1 stations cannot be reached from all others and are cut off: \"\u4ED3\u5E93\""));
+  EXPECT_THAT(core, testing::Not(HasSubstr("says nothing that is known")));
+  EXPECT_THAT(checked("\"m.xml\"", "[purposes]\nPACK = \"stor\"\n"),
+              HasSubstr("c.toml:7:8: \"PACK\" is said to be for \"stor\""));
+  EXPECT_THAT(checked("\"m.xml\"", "[purposes]\nPACK = 7\n"), HasSubstr("purposes.PACK"));
 }
 
 TEST_F(ImportTest, RefusesWordsThatMeanNothing) {
@@ -54,14 +108,14 @@ TEST_F(ImportTest, RefusesWordsThatMeanNothing) {
   };
   EXPECT_THAT(error_of("import opentsc x.xml"), HasSubstr("did you mean \"opentcs\"?"));
   EXPECT_THAT(error_of("import csv x.csv --graph 1"),
-              HasSubstr("--graph: has no meaning for format \"csv\"; it belongs to \"rmf\""));
+              HasSubstr("--graph: has no meaning for format \"csv\"; it belongs to rmf"));
   EXPECT_THAT(error_of("import csv none.csv"), HasSubstr("none.csv: there is no such file"));
   EXPECT_THAT(error_of("import opentcs " + kCrossdock + " -o no/where.json"),
               HasSubstr("no/where.json: cannot be written"));
 }
 
 TEST_F(ImportTest, CampaignsTakeLayoutFilesByTheirExtension) {
-  EXPECT_EQ(run("import opentcs " + kCrossdock + " --merge-antiparallel -o dock.lif.json").exit_code, 0);
+  EXPECT_EQ(run("import opentcs " + kCrossdock + " -o dock.lif.json").exit_code, 0);
   EXPECT_EQ(run("import lif dock.lif.json -o tables.csv").exit_code, 0);
   write("c.toml",
         "horizon_s = 20\n[factors]\nagents = [\"reckless\"]\nlayouts = [\"dock.lif.json\", "

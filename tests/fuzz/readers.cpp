@@ -40,7 +40,7 @@ bool accepts_layout(Depth depth, Parse parse) {
 
 bool accepts_opentcs(std::string_view bytes, Depth depth) {
   const auto with = [&](TwinPaths twins) {
-    return accepts_layout(depth, [&](auto& warnings) { return parse_opentcs(bytes, kFile, warnings, twins); });
+    return accepts_layout(depth, [&](auto& warnings) { return parse_opentcs(bytes, kFile, warnings, {twins}); });
   };
   return with(TwinPaths::Keep) && with(TwinPaths::Merge);
 }

@@ -23,7 +23,7 @@ class ImporterTest : public testing::Test {
                std::to_string(getpid()));
     std::filesystem::create_directories(folder_);
     std::vector<std::string> warnings;
-    crossdock_ = read_opentcs(independent::source_file("tests/layouts/crossdock.xml"), warnings, TwinPaths::Merge);
+    crossdock_ = read_opentcs(independent::source_file("tests/layouts/crossdock.xml"), warnings);
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
@@ -52,7 +52,7 @@ class ImporterTest : public testing::Test {
 };
 
 TEST_F(ImporterTest, TheExtensionChooses) {
-  EXPECT_EQ(read(independent::source_file("tests/layouts/crossdock.xml")).segments.size(), 43U);
+  EXPECT_EQ(read(independent::source_file("tests/layouts/crossdock.xml")).segments.size(), 31U);
   EXPECT_EQ(read(file("a.lif.json", to_lif(crossdock_))).segments.size(), 31U);
   EXPECT_EQ(read(file("b.json", to_lif(crossdock_))).segments.size(), 31U);
   EXPECT_EQ(to_text(read(file("c.json", to_text(crossdock_)))), to_text(crossdock_));

@@ -22,9 +22,7 @@ namespace {
 
 Layout crossdock() {
   std::vector<std::string> warnings;
-  ImportChoice merged;
-  merged.twins = TwinPaths::Merge;
-  return import_layout(independent::source_file("tests/layouts/crossdock.xml"), merged, warnings);
+  return import_layout(independent::source_file("tests/layouts/crossdock.xml"), {}, warnings);
 }
 
 // A loop survives few changes; a grid with one-way and two-way aisles many.

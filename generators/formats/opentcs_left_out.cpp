@@ -1,0 +1,249 @@
+#include "generators/formats/opentcs_left_out.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <pugixml.hpp>
+#include <set>
+
+#include "core/base/outside_text.hpp"
+#include "generators/text/name_list.hpp"
+#include "generators/text/xml_text.hpp"
+
+namespace fleetproof {
+namespace {
+
+// A kind of thing that is left out. {0}: how many, {1}: the first names.
+struct Topic {
+  std::string_view sentence;
+};
+constexpr Topic kSpeeds{"{0} paths limit the speed ({1}); here every AGV drives at the speed of its type"};
+constexpr Topic kReverse{
+    "{0} paths may be driven in reverse ({1}); here AGVs drive nose first, from source to destination only"};
+constexpr Topic kCosts{"{0} paths have routing costs ({1}); they are left out"};
+constexpr Topic kHeights{"{0} points and locations lie above or below the floor ({1}); here the floor is flat"};
+constexpr Topic kHeadings{"{0} points ask for a heading ({1}); here an AGV stands as it arrives"};
+constexpr Topic kSizes{"{0} points limit the size of an AGV ({1}); here every AGV may stop at every station"};
+constexpr Topic kEnvelopes{
+    "{0} points and paths have envelopes ({1}); they are left out, because the body of each AGV is followed"};
+constexpr Topic kDevices{
+    "{0} elements operate doors, lifts or other devices ({1}); these are not modelled: an AGV drives on without them"};
+constexpr Topic kBlocks{"{0} blocks are left out ({1}); here the software under test keeps AGVs apart"};
+constexpr Topic kVehicles{"{0} vehicles and types of vehicles are left out ({1}); a campaign has its own fleet"};
+constexpr Topic kByType{"{0} paths have rules for types of vehicles ({1}); they are left out"};
+constexpr Topic kRoutes{"{0} static routes are left out ({1})"};
+constexpr Topic kGroups{"{0} groups are left out ({1})"};
+constexpr Topic kPlaces{"{0} locations stand beside the paths ({1}); here an AGV serves them at the linked points"};
+constexpr Topic kOutgoing{"{0} points list outgoing paths that do not start there ({1}); the ends of the paths count"};
+constexpr Topic kProperties{"{0} properties are left out (keys: {1})"};
+constexpr Topic kNumbers{"the numbers (\"id\") of {0} elements are left out ({1})"};
+constexpr Topic kEditor{"labels, colours, symbols, layers and other aids of the editor are left out"};
+constexpr Topic kDrawsNothing{"{0} elements draw something that is not in the model ({1}); they are left out"};
+constexpr Topic kSecond{"{0} elements stand there a second time ({1}); the first counts"};
+constexpr Topic kUnknown{"{0} elements or attributes are unknown here and left out ({1})"};
+
+// What is done with an element (attribute "*": with all that is in it) or with one of its attributes.
+struct Rule {
+  std::string_view element, attribute;
+  const Topic* topic = nullptr;     // null: it is read
+  std::string_view says_nothing{};  // a value that means the same as no attribute
+};
+constexpr Rule kRules[] = {
+    {"", "version"},
+    {"", "name"},
+    {"property", "*", &kProperties},
+    {"point", "name"},
+    {"point", "type"},
+    {"point", "positionX"},
+    {"point", "positionY"},
+    {"point", "xPosition"},
+    {"point", "yPosition"},
+    {"point", "positionZ", &kHeights, "0"},
+    {"point", "zPosition", &kHeights, "0"},
+    {"point", "vehicleOrientationAngle", &kHeadings, "NaN"},
+    {"point", "id", &kNumbers},
+    {"point/maxVehicleBoundingBox", "*", &kSizes},
+    {"point/vehicleEnvelope", "*", &kEnvelopes},
+    {"point/property", "*", &kProperties},
+    {"point/pointLayout", "positionX"},
+    {"point/pointLayout", "positionY"},
+    {"point/pointLayout", "xPosition"},
+    {"point/pointLayout", "yPosition"},
+    {"point/pointLayout", "labelOffsetX", &kEditor},
+    {"point/pointLayout", "labelOffsetY", &kEditor},
+    {"point/pointLayout", "xLabelOffset", &kEditor},
+    {"point/pointLayout", "yLabelOffset", &kEditor},
+    {"point/pointLayout", "layerId", &kEditor},
+    {"path", "name"},
+    {"path", "sourcePoint"},
+    {"path", "destinationPoint"},
+    {"path", "length"},
+    {"path", "locked"},
+    {"path", "maxVelocity", &kSpeeds, "0"},
+    {"path", "maxReverseVelocity", &kReverse, "0"},
+    {"path", "routingCost", &kCosts, "1"},
+    {"path", "id", &kNumbers},
+    {"path/typeMaxVelocity", "*", &kByType},
+    {"path/typeMaxReverseVelocity", "*", &kByType},
+    {"path/typeLock", "*", &kByType},
+    {"path/typeActions", "*", &kByType},
+    {"path/peripheralOperation", "*", &kDevices},
+    {"path/vehicleEnvelope", "*", &kEnvelopes},
+    {"path/property", "*", &kProperties},
+    {"path/pathLayout", "connectionType"},
+    {"path/pathLayout", "layerId", &kEditor},
+    {"path/pathLayout/controlPoint", "x"},
+    {"path/pathLayout/controlPoint", "y"},
+    {"vehicle", "*", &kVehicles},
+    {"vehicleType", "*", &kVehicles},
+    {"locationType", "name"},
+    {"locationType", "id", &kNumbers},
+    {"locationType", "locationNamePrefix", &kEditor},
+    {"locationType/allowedOperation", "name"},
+    {"locationType/allowedOperation/property", "*", &kProperties},
+    {"locationType/allowedPeripheralOperation", "*", &kDevices},
+    {"locationType/property", "*", &kProperties},
+    {"locationType/locationTypeLayout", "locationRepresentation"},
+    {"location", "name", &kPlaces},
+    {"location", "type"},
+    {"location", "locked"},
+    {"location", "positionX", &kPlaces},
+    {"location", "positionY", &kPlaces},
+    {"location", "xPosition", &kPlaces},
+    {"location", "yPosition", &kPlaces},
+    {"location", "positionZ", &kHeights, "0"},
+    {"location", "zPosition", &kHeights, "0"},
+    {"location", "id", &kNumbers},
+    {"location/link", "point"},
+    {"location/link/allowedOperation", "name"},
+    {"location/link/allowedOperation/property", "*", &kProperties},
+    {"location/property", "*", &kProperties},
+    {"location/locationLayout", "*", &kEditor},
+    {"block", "*", &kBlocks},
+    {"staticRoute", "*", &kRoutes},
+    {"group", "*", &kGroups},
+    {"visualLayout", "scaleX"},
+    {"visualLayout", "scaleY"},
+    {"visualLayout", "name", &kEditor},
+    {"visualLayout", "id", &kNumbers},
+    {"visualLayout/color", "*", &kEditor},
+    {"visualLayout/layer", "*", &kEditor},
+    {"visualLayout/layerGroup", "*", &kEditor},
+    {"visualLayout/shapeLayoutElement", "*", &kEditor},
+    {"visualLayout/viewBookmark", "*", &kEditor},
+    {"visualLayout/property", "*", &kProperties},
+    {"visualLayout/modelLayoutElement", "visualizedObjectName"},
+    {"visualLayout/modelLayoutElement", "layer", &kEditor},
+};
+// Of these the first counts.
+constexpr std::string_view kSingle[] = {"point/pointLayout", "path/pathLayout", "locationType/locationTypeLayout",
+                                        "visualLayout"};
+constexpr std::string_view kReadProperties[] = {"tcs:defaultLocationTypeSymbol"};
+constexpr std::string_view kReadDrawing[] = {"POSITION_X", "POSITION_Y", "CONN_TYPE", "CONTROL_POINTS"};
+
+const Rule* rule_of(std::string_view element, std::string_view attribute) {
+  const auto found = std::ranges::find_if(
+      kRules, [&](const Rule& rule) { return rule.element == element && rule.attribute == attribute; });
+  return found == std::end(kRules) ? nullptr : &*found;
+}
+
+bool is_read(std::string_view element) {
+  return std::ranges::any_of(kRules, [&](const Rule& rule) { return rule.element == element; }) ||
+         element == "point/outgoingPath" || element == "visualLayout/modelLayoutElement/property";
+}
+
+class LeftOut {
+ public:
+  explicit LeftOut(const pugi::xml_node& model) : model_(model) {
+    for (const auto child : model.children()) names_.insert(child.attribute("name").value());
+    for (const auto path : model.children("path"))
+      starts_.emplace(path.attribute("sourcePoint").value(), path.attribute("name").value());
+  }
+
+  void tell(const XmlText& xml, std::vector<std::string>& warnings) {
+    attributes(model_, "");
+    for (const auto child : model_.children()) visit(child, child.name(), child.attribute("name").value());
+    for (const auto& [topic, found] : found_) {
+      const std::size_t count = found.names.size();
+      const std::string names = name_list(found.names);
+      const auto sentence = fmt::vformat(topic->sentence, fmt::make_format_args(count, names));
+      warnings.push_back(fmt::format("{}: {}", xml.place(found.first), sentence));
+    }
+  }
+
+ private:
+  // Ordered by their place in the program text, which is the order of the sentences.
+  struct Found {
+    pugi::xml_node first;
+    std::vector<std::string> names;
+  };
+
+  void add(const Topic& topic, const pugi::xml_node& node, const std::string& name) {
+    auto found = std::ranges::find(found_, &topic, [](const auto& entry) { return entry.first; });
+    if (found == found_.end()) found = found_.insert(found_.end(), {&topic, {node, {}}});
+    auto& names = found->second.names;
+    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+  }
+
+  // `owner`: the name of the point, path, ... that the node belongs to.
+  void visit(const pugi::xml_node& node, const std::string& path, const std::string& owner) {
+    if (node.type() != pugi::node_element) return;
+    if (path == "point/outgoingPath") return outgoing(node, owner);
+    if (path == "visualLayout/modelLayoutElement/property") return drawn_property(node);
+    if (const auto* whole = rule_of(path, "*")) return left_out(*whole, node, owner);
+    if (!is_read(path)) return add(kUnknown, node, path);
+    if (std::ranges::find(kSingle, path) != std::end(kSingle) && node.previous_sibling(node.name()))
+      return add(kSecond, node, owner.empty() ? path : owner);
+    attributes(node, path);
+    for (const auto child : node.children()) visit(child, path + "/" + child.name(), owner);
+  }
+
+  void left_out(const Rule& rule, const pugi::xml_node& node, const std::string& owner) {
+    const std::string key = node.attribute("name").value();
+    if (rule.topic != &kProperties) return add(*rule.topic, node, owner.empty() ? node.name() : owner);
+    if (std::ranges::find(kReadProperties, key) == std::end(kReadProperties)) add(kProperties, node, key);
+  }
+
+  void attributes(const pugi::xml_node& node, const std::string& path) {
+    if (const auto drawn = node.attribute("visualizedObjectName"); drawn && !names_.contains(drawn.value()))
+      add(kDrawsNothing, node, drawn.value());
+    for (const auto attribute : node.attributes()) {
+      const std::string_view name = attribute.name();
+      if (name.starts_with("xmlns") || name.starts_with("xsi:")) continue;
+      const auto* rule = rule_of(path, name);
+      if (rule == nullptr) {
+        add(kUnknown, node, path + "@" + std::string(name));
+      } else if (rule->topic != nullptr && attribute.value() != rule->says_nothing) {
+        add(*rule->topic, node, node.attribute("name").value());
+      }
+    }
+  }
+
+  void outgoing(const pugi::xml_node& node, const std::string& owner) {
+    attributes_but_name(node, "point/outgoingPath");
+    if (!starts_.contains({owner, node.attribute("name").value()})) add(kOutgoing, node, owner);
+  }
+  void drawn_property(const pugi::xml_node& node) {
+    const std::string_view key = node.attribute("name").value();
+    if (std::ranges::find(kReadDrawing, key) == std::end(kReadDrawing)) add(kEditor, node, "");
+  }
+  void attributes_but_name(const pugi::xml_node& node, const std::string& path) {
+    for (const auto attribute : node.attributes()) {
+      if (std::string_view(attribute.name()) != "name") add(kUnknown, node, path + "@" + attribute.name());
+    }
+  }
+
+  const pugi::xml_node model_;
+  std::set<std::string> names_;
+  std::set<std::pair<std::string, std::string>> starts_;  // point and path that starts there
+  std::vector<std::pair<const Topic*, Found>> found_;
+};
+
+}  // namespace
+
+void note_left_out(const XmlText& xml, const pugi::xml_node& model, std::vector<std::string>& warnings) {
+  LeftOut(model).tell(xml, warnings);
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "generators/formats/purpose_words.hpp"
+
+namespace fleetproof {
+
+// What a plant model says about a type of locations, in words that its author chose.
+struct LocationWords {
+  std::string name;
+  std::vector<std::string> operations;  // "LOAD", "Unload cargo", "CHARGE", "NOP"
+  std::string symbol;                   // "LOAD_TRANSFER_GENERIC"
+};
+
+// What locations of a type are for.
+struct LocationPurpose {
+  Purposes purposes;             // routing alone: nothing that is known here
+  const char* source = nullptr;  // "user", "operations", "name" or "symbol"; null: none of them says anything
+};
+
+// The first source that says something decides: a word of the user, the operations, the name, the symbol. `own` are the
+// words of the user; they have to be the whole name, operation or symbol. Other words only have to occur: "load" in
+// "Unload cargo".
+LocationPurpose purpose_of(const LocationWords& words, const PurposeWords& own);
+
+}  // namespace fleetproof

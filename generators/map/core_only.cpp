@@ -1,0 +1,78 @@
+#include "generators/map/core_only.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "generators/text/name_list.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr std::size_t kMostNames = 20;
+
+std::vector<std::string> cut_off(const Layout& layout, const StrongComponents& parts) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < layout.stations.size(); ++i) {
+    if (!parts.in_largest(i)) names.push_back(layout.stations[i].name);
+  }
+  return names;
+}
+
+}  // namespace
+
+StrongComponents parts_of(const Layout& layout) {
+  std::vector<Arrow> arrows;
+  arrows.reserve(2 * layout.segments.size());
+  for (const auto& segment : layout.segments) {
+    arrows.push_back({segment.from.value, segment.to.value});
+    if (segment.bidirectional) arrows.push_back({segment.to.value, segment.from.value});
+  }
+  return strong_components(layout.stations.size(), arrows);
+}
+
+void keep_largest(Layout& layout, const StrongComponents& parts) {
+  std::erase_if(layout.segments,
+                [&](const Segment& s) { return !parts.in_largest(s.from.index()) || !parts.in_largest(s.to.index()); });
+  std::vector<std::uint32_t> number(layout.stations.size(), 0);
+  std::uint32_t kept = 0;
+  for (std::size_t i = 0; i < number.size(); ++i) {
+    if (!parts.in_largest(i)) continue;
+    number[i] = kept;
+    if (kept < i) layout.stations[kept] = std::move(layout.stations[i]);
+    ++kept;
+  }
+  layout.stations.erase(layout.stations.begin() + kept, layout.stations.end());
+  for (auto& segment : layout.segments) {
+    segment.from = StationId{number[segment.from.index()]};
+    segment.to = StationId{number[segment.to.index()]};
+  }
+}
+
+std::vector<std::string> keep_core(Layout& layout) {
+  const auto parts = parts_of(layout);
+  auto names = cut_off(layout, parts);
+  keep_largest(layout, parts);
+  return names;
+}
+
+std::string reachability_text(const Layout& layout) {
+  const auto parts = parts_of(layout);
+  const auto names = cut_off(layout, parts);
+  const auto all = layout.stations.size();
+  if (names.empty()) return fmt::format("all {} stations can reach each other", all);
+  return fmt::format("{} of {} stations can all reach each other; cut off: {}", all - names.size(), all,
+                     name_list(names, kMostNames));
+}
+
+std::string purposes_summary(const Layout& layout) {
+  std::string text;
+  for (const Purpose purpose : {Purpose::Storage, Purpose::Charging, Purpose::Parking}) {
+    const auto count =
+        std::ranges::count_if(layout.stations, [&](const Station& s) { return s.purposes.has(purpose); });
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, name_of(purpose));
+  }
+  return text;
+}
+
+}  // namespace fleetproof
