@@ -80,7 +80,11 @@ class MapReader {
       if (line == "map") break;
       const auto word = line.substr(0, line.find(' '));
       const auto value = line.substr(std::min(line.size(), word.size() + 1));
-      if (word == "type") continue;
+      if (word == "type") {
+        warnings_.push_back(fmt::format("{}: type {} is left out; here cells are joined on their four sides",
+                                        at_line(source_, lines_.number()), in_quotes(value)));
+        continue;
+      }
       if (word != "height" && word != "width")
         refuse(fmt::format("{} is not a line of a map's header; expected type, height, width or map", in_quotes(line)));
       std::size_t side = 0;

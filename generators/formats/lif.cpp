@@ -11,6 +11,7 @@
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
 #include "core/base/tolerances.hpp"
+#include "generators/formats/lif_left_out.hpp"
 #include "generators/formats/nurbs.hpp"
 #include "generators/formats/purpose_words.hpp"
 #include "generators/map/antiparallel.hpp"
@@ -65,10 +66,7 @@ class LifReader {
       for (const auto& station : stations->items()) note_station(station);
     }
     for (const auto& [index, purposes] : stated_) layout_.stations[index].purposes = purposes;
-    if (limited_ > 0)
-      warn(layout,
-           fmt::format("{} edges limit speed, rotation or load; here every AGV drives every segment at its own speed",
-                       limited_));
+    note_left_out(JsonReader(root_, source_), layout, choice_.purposes, warnings_);
     fit_floor(layout_, 3.0);
     refuse_problems(layout);
     settle_twins(layout_, choice_.twins, source_, warnings_);
@@ -153,16 +151,11 @@ class LifReader {
     auto& purposes = layout_.stations[to->index()].purposes;
     purposes = purposes | purposes_of_actions(types, choice_.purposes);
     std::optional<JsonReader> trajectory;
-    bool limited = false;
     if (types) {
       for (const auto& type : types->items()) {
         if (!trajectory) trajectory = type.find("trajectory");
-        for (const auto key :
-             {"maxSpeed", "maximumSpeed", "maxRotationSpeed", "maximumRotationSpeed", "loadRestriction"})
-          limited |= type.find(key).has_value();
       }
     }
-    limited_ += limited ? 1 : 0;
     if (trajectory) bend(*trajectory, segment);
     layout_.segments.push_back(std::move(segment));
     edges_.push_back(edge);
@@ -250,7 +243,6 @@ class LifReader {
   std::set<std::string> node_names_, edge_names_, elsewhere_;
   std::map<std::string, StationId> stations_;
   std::map<std::size_t, Purposes> stated_;  // by station: given in the description of the station
-  std::size_t limited_ = 0;
 };
 
 }  // namespace

@@ -179,7 +179,7 @@ class ModelReader {
     if (by == "name" || by == "symbol")
       warn(type, fmt::format("the operations of location type {} say nothing that is known here; by its {} it is taken "
                              "to be for {}",
-                             in_quotes(name), by, purposes_text(purposes)));
+                             in_quotes(name), by, purposes_text(purposes).substr(std::string_view("routing ").size())));
     location_types_.emplace(name, type);
   }
 

@@ -1,23 +1,15 @@
 #include "generators/formats/opentcs_left_out.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <map>
 #include <pugixml.hpp>
 #include <set>
 
-#include "core/base/outside_text.hpp"
-#include "generators/text/name_list.hpp"
+#include "generators/formats/left_out.hpp"
 #include "generators/text/xml_text.hpp"
 
 namespace fleetproof {
 namespace {
 
-// A kind of thing that is left out. {0}: how many, {1}: the first names.
-struct Topic {
-  std::string_view sentence;
-};
 constexpr Topic kSpeeds{"{0} paths limit the speed ({1}); here every AGV drives at the speed of its type"};
 constexpr Topic kReverse{
     "{0} paths may be driven in reverse ({1}); here AGVs drive nose first, from source to destination only"};
@@ -155,35 +147,22 @@ bool is_read(std::string_view element) {
 
 class LeftOut {
  public:
-  explicit LeftOut(const pugi::xml_node& model) : model_(model) {
+  LeftOut(const XmlText& xml, const pugi::xml_node& model) : xml_(xml), model_(model) {
     for (const auto child : model.children()) names_.insert(child.attribute("name").value());
     for (const auto path : model.children("path"))
       starts_.emplace(path.attribute("sourcePoint").value(), path.attribute("name").value());
   }
 
-  void tell(const XmlText& xml, std::vector<std::string>& warnings) {
+  void tell(std::vector<std::string>& warnings) {
     attributes(model_, "");
     for (const auto child : model_.children()) visit(child, child.name(), child.attribute("name").value());
-    for (const auto& [topic, found] : found_) {
-      const std::size_t count = found.names.size();
-      const std::string names = name_list(found.names);
-      const auto sentence = fmt::vformat(topic->sentence, fmt::make_format_args(count, names));
-      warnings.push_back(fmt::format("{}: {}", xml.place(found.first), sentence));
-    }
+    things_.tell(warnings);
   }
 
  private:
   // Ordered by their place in the program text, which is the order of the sentences.
-  struct Found {
-    pugi::xml_node first;
-    std::vector<std::string> names;
-  };
-
   void add(const Topic& topic, const pugi::xml_node& node, const std::string& name) {
-    auto found = std::ranges::find(found_, &topic, [](const auto& entry) { return entry.first; });
-    if (found == found_.end()) found = found_.insert(found_.end(), {&topic, {node, {}}});
-    auto& names = found->second.names;
-    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+    things_.add(topic, xml_.place(node), name);
   }
 
   // `owner`: the name of the point, path, ... that the node belongs to.
@@ -234,16 +213,17 @@ class LeftOut {
     }
   }
 
+  const XmlText& xml_;
   const pugi::xml_node model_;
   std::set<std::string> names_;
   std::set<std::pair<std::string, std::string>> starts_;  // point and path that starts there
-  std::vector<std::pair<const Topic*, Found>> found_;
+  LeftOutThings things_;
 };
 
 }  // namespace
 
 void note_left_out(const XmlText& xml, const pugi::xml_node& model, std::vector<std::string>& warnings) {
-  LeftOut(model).tell(xml, warnings);
+  LeftOut(xml, model).tell(warnings);
 }
 
 }  // namespace fleetproof

@@ -11,6 +11,7 @@
 
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
+#include "generators/formats/rmf_left_out.hpp"
 #include "generators/map/antiparallel.hpp"
 #include "generators/map/layout_check.hpp"
 #include "generators/text/text_file.hpp"
@@ -18,10 +19,6 @@
 
 namespace fleetproof {
 namespace {
-
-// Attributes of lanes that change how a fleet drives, but that this project does not model.
-constexpr const char* kUnreadLaneWords[] = {
-    "orientation", "orientation_constraint", "speed_limit", "mutex", "dock_name", "door_name", "lift"};
 
 class LevelReader {
  public:
@@ -36,16 +33,15 @@ class LevelReader {
     const auto vertices = yaml_.list(level, "vertices", "the level"), lanes = yaml_.list(level, "lanes", "the level");
     for (const auto vertex : vertices) vertices_.push_back(vertex);
     if (vertices_.empty()) yaml_.refuse(vertices, "the level is empty: it has no vertex");
-    is_nav_graph_ = !vertices_[0].IsSequence() || vertices_[0].size() < 3 || vertices_[0][2].IsMap();
+    is_nav_graph_ = read_.is_nav_graph =
+        !vertices_[0].IsSequence() || vertices_[0].size() < 3 || vertices_[0][2].IsMap();
     read_scale(level);
-    for (const auto lane : lanes) add_lane(lane);
+    std::size_t place = 0;
+    for (const auto lane : lanes) add_lane(lane, place++);
     if (layout_.segments.empty())
       yaml_.refuse(lanes, fmt::format("no lane belongs to graph {}; choose another graph or level", choice_.graph_idx));
-    for (const char* word : kUnreadLaneWords) {
-      if (const auto count = unread_.find(word); count != unread_.end())
-        warn(lanes, fmt::format("{} lanes have \"{}\", which is not read", count->second, word));
-    }
     if (other_graphs_ > 0) warn(lanes, fmt::format("{} lanes of other graphs are left out", other_graphs_));
+    note_left_out(yaml_, root_, level, read_, warnings_);
     fit_floor(layout_, 3.0);
     refuse_problems(level);
     settle_twins(layout_, choice_.twins, yaml_.source(), warnings_);
@@ -176,11 +172,13 @@ class LevelReader {
     const StationId id{layout_.stations.size()};
     layout_.stations.push_back(std::move(station));
     used_.push_back(vertex);
+    read_.vertices.insert(vertex);
     stations_.emplace(vertex, id);
     return id;
   }
 
-  void add_lane(const YAML::Node& lane) {
+  // `place`: in the list of lanes.
+  void add_lane(const YAML::Node& lane, std::size_t place) {
     const auto from = vertex_index(lane, 0, "a lane"), to = vertex_index(lane, 1, "a lane");
     const auto words = words_of(lane);
     const auto graph = parameter(words, "graph_idx");
@@ -195,11 +193,9 @@ class LevelReader {
     segment.to = station_of(to);
     segment.bidirectional = is_set(words, "bidirectional");
     segment.name = fmt::format("lane {}", lanes_.size());
-    for (const char* word : kUnreadLaneWords) {
-      if (is_set(words, word)) ++unread_[word];
-    }
     layout_.segments.push_back(std::move(segment));
     lanes_.push_back(lane);
+    read_.lanes.insert(place);
   }
 
   void refuse_problems(const YAML::Node& level) const {
@@ -227,7 +223,7 @@ class LevelReader {
   std::map<std::size_t, StationId> stations_;  // by vertex
   std::vector<std::size_t> used_;              // vertex, by station
   std::set<std::string> names_;
-  std::map<std::string_view, std::size_t> unread_;  // lanes, by word
+  ReadLevel read_;
   std::size_t other_graphs_ = 0;
 };
 

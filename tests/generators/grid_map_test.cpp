@@ -30,8 +30,9 @@ TEST(GridMap, FreeCellsBecomeStationsJoinedToFourSides) {
   EXPECT_EQ(layout.stations[4].purposes, Purposes(Purpose::Routing) | Purpose::Storage);
   EXPECT_EQ(layout.segments[0].name, "r0c0-r0c1");
   EXPECT_TRUE(layout.segments[0].bidirectional);
-  EXPECT_EQ(warnings, std::vector<std::string>{
-                          "m.map: cells are taken to be 1.5 m apart; the map names no charging and no parking"});
+  EXPECT_EQ(warnings, (std::vector<std::string>{
+                          "m.map:1: type \"octile\" is left out; here cells are joined on their four sides",
+                          "m.map: cells are taken to be 1.5 m apart; the map names no charging and no parking"}));
 }
 
 TEST(GridMap, BearsLineEndsOfOtherSystems) {

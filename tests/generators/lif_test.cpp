@@ -17,17 +17,21 @@ namespace {
 
 struct Import {
   Layout layout;
-  std::vector<std::string> warnings;  // without the one on twins
+  std::vector<std::string> warnings;  // without those on twins and on what every file has and the import leaves out
 };
 
-void drop_twins(std::vector<std::string>& warnings) {
-  std::erase_if(warnings, [](const std::string& w) { return w.find("there and back") != std::string::npos; });
+bool is_usual(const std::string& warning) {
+  for (const char* words : {"there and back", "notes for people", "rules for 1 types of vehicles", "details of actions",
+                            "stand beside the nodes", "(\"stopCharging\")"}) {
+    if (warning.find(words) != std::string::npos) return true;
+  }
+  return false;
 }
 
 Import import(const std::string& text) {
   Import result;
   result.layout = parse_lif(text, "l.json", result.warnings);
-  drop_twins(result.warnings);
+  std::erase_if(result.warnings, is_usual);
   return result;
 }
 
@@ -71,9 +75,8 @@ TEST(Lif, EdgesThereAndBackBecomeOneSegment) {
   EXPECT_EQ(layout.segments[0].name, "ab");
   std::vector<std::string> sentences;
   parse_lif(sample(), "l.json", sentences);
-  EXPECT_EQ(sentences,
-            std::vector<std::string>{"l.json: 1 pairs of one-way segments there and back on one track became "
-                                     "two-way segments (\"ab\")"});
+  EXPECT_EQ(sentences.back(),
+            "l.json: 1 pairs of one-way segments there and back on one track became two-way segments (\"ab\")");
   EXPECT_EQ(parse_lif(sample(), "l.json", sentences, {TwinPaths::Keep, {}}).segments.size(), 2U);
   EXPECT_EQ(layout.stations[1].purposes, Purposes(Purpose::Routing) | Purpose::Charging);
   EXPECT_EQ(import(sample(kThere, kBack)).layout.segments.size(), 1U);

@@ -29,10 +29,10 @@ const Case kCases[] = {
     {"both", "<allowedOperation name='LOAD'/><allowedOperation name='Charge:50'/>", "", "routing storage charging", ""},
     {"Working station", "<allowedOperation name='Drill'/>", "RECHARGE_GENERIC", "routing storage",
      "m.xml:4: the operations of location type \"Working station\" say nothing that is known here; by its name it is "
-     "taken to be for routing storage"},
+     "taken to be for storage"},
     {"S7", "<allowedOperation name='NOP'/>", "RECHARGE_GENERIC", "routing charging",
      "m.xml:4: the operations of location type \"S7\" say nothing that is known here; by its symbol it is taken to be "
-     "for routing charging"},
+     "for charging"},
     {"Fire door", "", "NONE", "routing",
      "m.xml:4: location type \"Fire door\" says nothing that is known here; its points keep their purposes, unless you "
      "name one (--purposes \"Fire door=storage\")"},

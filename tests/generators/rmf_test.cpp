@@ -76,8 +76,11 @@ TEST(Rmf, ABuildingIsScaledAndTurnedUp) {
   EXPECT_TRUE(layout.segments[0].bidirectional);
   EXPECT_FALSE(layout.segments[1].bidirectional);
   EXPECT_EQ(warnings, (std::vector<std::string>{"b.yaml:15: a second vertex is named \"dock\"; it becomes \"v2\"",
-                                                "b.yaml:6: 1 lanes have \"speed_limit\", which is not read",
-                                                "b.yaml:6: 1 lanes of other graphs are left out"}));
+                                                "b.yaml:6: 1 lanes of other graphs are left out",
+                                                "b.yaml:16: 2 vertices lie on no lane that is read and are left out "
+                                                "(\"v3\", \"v4\")",
+                                                "b.yaml:7: 1 lanes limit the speed (\"lane 1\"); here every AGV drives "
+                                                "at the speed of its type"}));
 }
 
 TEST(Rmf, AnotherGraphOrLevelCanBeChosen) {

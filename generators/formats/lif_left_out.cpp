@@ -1,0 +1,196 @@
+#include "generators/formats/lif_left_out.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+#include "generators/formats/left_out.hpp"
+#include "generators/formats/lif.hpp"
+#include "generators/text/json_value.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr Topic kNotes{"{0} kinds of names and notes for people are left out ({1})"};
+constexpr Topic kTypes{"nodes and edges have rules for {0} types of vehicles ({1}); here all rules hold for every AGV"};
+constexpr Topic kHeadings{"{0} nodes ask for a heading ({1}); here an AGV stands as it arrives"};
+constexpr Topic kActions{"{0} types of actions are left out ({1})"};
+constexpr Topic kDetails{
+    "{0} kinds of details of actions are left out ({1}); here an action takes the time of its task"};
+constexpr Topic kSideways{
+    "{0} edges turn the AGV against the way (vehicleOrientation, orientationType) ({1}); sideways and reverse travel "
+    "are "
+    "not modelled: here AGVs drive nose first"};
+constexpr Topic kTurns{"{0} edges have rules for turning ({1}); here an AGV turns at stations only"};
+constexpr Topic kSpeeds{"{0} edges limit the speed ({1}); here every AGV drives at the speed of its type"};
+constexpr Topic kLifts{"{0} edges and stations give the height of a lift or load ({1}); here the floor is flat"};
+constexpr Topic kLoads{"{0} edges are for certain loads ({1}); here every AGV drives every segment"};
+constexpr Topic kReentry{"{0} edges have rules for reentry ({1}); they are left out"};
+constexpr Topic kCorridors{
+    "{0} nodes and edges let an AGV leave the lane ({1}); leaving the lane is not modelled: it stays on the lane"};
+constexpr Topic kGuides{"{0} edges are lines on the floor that guide AGVs ({1}); here this changes nothing"};
+constexpr Topic kPlaces{"{0} stations stand beside the nodes ({1}); here an AGV serves them at their nodes"};
+constexpr Topic kSecond{"{0} edges have more than one trajectory ({1}); the first counts"};
+constexpr Topic kUnknown{"{0} keys are unknown here and left out ({1})"};
+
+enum class Named : std::uint8_t { ByOwner, ByKey, ByValue };
+
+// What is done with a key (all that is in it, if there is a topic). Keys of types of mobile robots are read as those of
+// types of vehicles.
+struct Rule {
+  std::string_view path;
+  const Topic* topic = nullptr;  // null: it is read
+  Named named = Named::ByOwner;
+  std::string_view says_nothing{};  // a value that means the same as no key
+};
+constexpr Rule kRules[] = {
+    {"layoutId"},
+    {"layoutName"},
+    {"layoutVersion", &kNotes, Named::ByKey},
+    {"layoutLevelId", &kNotes, Named::ByKey},
+    {"layoutDescription", &kNotes, Named::ByKey},
+    {"nodes"},
+    {"nodes/nodeId"},
+    {"nodes/nodeName", &kNotes, Named::ByKey},
+    {"nodes/nodeDescription", &kNotes, Named::ByKey},
+    {"nodes/mapId", &kNotes, Named::ByKey},
+    {"nodes/nodePosition"},
+    {"nodes/nodePosition/x"},
+    {"nodes/nodePosition/y"},
+    {"nodes/types"},
+    {"nodes/types/typeId", &kTypes, Named::ByValue},
+    {"nodes/types/theta", &kHeadings},
+    {"nodes/types/allowedDeviationXY", &kCorridors},
+    {"nodes/types/allowedDeviationTheta", &kCorridors},
+    {"nodes/types/actions"},
+    {"edges"},
+    {"edges/edgeId"},
+    {"edges/startNodeId"},
+    {"edges/endNodeId"},
+    {"edges/edgeName", &kNotes, Named::ByKey},
+    {"edges/edgeDescription", &kNotes, Named::ByKey},
+    {"edges/types"},
+    {"edges/types/typeId", &kTypes, Named::ByValue},
+    {"edges/types/vehicleOrientation", &kSideways, Named::ByOwner, "0"},
+    {"edges/types/mobileRobotOrientations", &kSideways},
+    {"edges/types/orientationType", &kSideways, Named::ByOwner, "TANGENTIAL"},
+    {"edges/types/rotationAllowed", &kTurns, Named::ByOwner, "false"},
+    {"edges/types/rotationAtStartNodeAllowed", &kTurns, Named::ByOwner, "BOTH"},
+    {"edges/types/rotationAtEndNodeAllowed", &kTurns, Named::ByOwner, "BOTH"},
+    {"edges/types/reachOrientationBeforeEntering", &kTurns},
+    {"edges/types/maxSpeed", &kSpeeds},
+    {"edges/types/maximumSpeed", &kSpeeds},
+    {"edges/types/maxRotationSpeed", &kTurns},
+    {"edges/types/maximumRotationSpeed", &kTurns},
+    {"edges/types/minHeight", &kLifts},
+    {"edges/types/maxHeight", &kLifts},
+    {"edges/types/minimumHeight", &kLifts},
+    {"edges/types/maximumHeight", &kLifts},
+    {"edges/types/loadRestriction", &kLoads},
+    {"edges/types/actions"},
+    {"edges/types/trajectory"},
+    {"edges/types/trajectory/degree"},
+    {"edges/types/trajectory/knotVector"},
+    {"edges/types/trajectory/controlPoints"},
+    {"edges/types/trajectory/controlPoints/x"},
+    {"edges/types/trajectory/controlPoints/y"},
+    {"edges/types/trajectory/controlPoints/weight"},
+    {"edges/types/reentryAllowed", &kReentry, Named::ByOwner, "true"},
+    {"edges/types/corridor", &kCorridors},
+    {"edges/types/physicalLineGuidedProperty", &kGuides},
+    {"stations"},
+    {"stations/stationId", &kPlaces},
+    {"stations/interactionNodeIds"},
+    {"stations/stationName", &kNotes, Named::ByKey},
+    {"stations/stationDescription", &kNotes, Named::ByKey},
+    {"stations/stationType", &kNotes, Named::ByKey},
+    {"stations/stationHeight", &kLifts},
+    {"stations/stationPosition", &kPlaces},
+};
+
+std::string spelled(std::string_view key) {
+  if (key == "vehicleTypeNodeProperties" || key == "mobileRobotTypeNodeProperties" ||
+      key == "vehicleTypeEdgeProperties" || key == "mobileRobotTypeEdgeProperties")
+    return "types";
+  if (key == "vehicleTypeId" || key == "mobileRobotTypeId" || key == "mobileRobotTypes") return "typeId";
+  return std::string(key);
+}
+
+std::string text_of(const JsonValue& value) {
+  if (const auto* text = std::get_if<std::string>(&value.scalar)) return *text;
+  if (const auto* truth = std::get_if<bool>(&value.scalar)) return *truth ? "true" : "false";
+  if (const auto* number = std::get_if<double>(&value.scalar)) return *number == 0.0 ? "0" : "number";
+  if (const auto* whole = std::get_if<std::int64_t>(&value.scalar)) return std::to_string(*whole);
+  if (const auto* natural = std::get_if<std::uint64_t>(&value.scalar)) return std::to_string(*natural);
+  return "";
+}
+
+class LifWalk {
+ public:
+  LifWalk(LeftOutThings& things, const PurposeWords& own) : things_(things), own_(own) {}
+
+  void members(const JsonReader& object, const std::string& path, std::string owner) {
+    for (const auto* id : {"nodeId", "edgeId", "stationId"}) {
+      if (const auto found = object.find(id); found && found->is_text()) owner = found->text();
+    }
+    for (const auto& key : object.value().keys) member(object.at(key), path, key, owner);
+  }
+
+ private:
+  void member(const JsonReader& value, const std::string& path, const std::string& key, const std::string& owner) {
+    const auto inner = (path.empty() ? "" : path + "/") + spelled(key);
+    const auto rule = std::ranges::find(kRules, inner, &Rule::path);
+    if (rule == std::end(kRules)) return things_.add(kUnknown, value.place(), inner);
+    if (rule->topic != nullptr) return left_out(*rule, value, key, owner);
+    if (inner.ends_with("/types")) one_trajectory(value, owner);
+    if (inner.ends_with("/actions")) return actions(value);
+    if (value.value().shape == JsonValue::Shape::Object) members(value, inner, owner);
+    if (value.value().shape != JsonValue::Shape::Array) return;
+    for (const auto& item : value.items()) {
+      if (item.value().shape == JsonValue::Shape::Object) members(item, inner, owner);
+    }
+  }
+
+  void left_out(const Rule& rule, const JsonReader& value, const std::string& key, const std::string& owner) {
+    const auto text = text_of(value.value());
+    if (!rule.says_nothing.empty() && text == rule.says_nothing) return;
+    // The importer reads purposes that it wrote itself.
+    if (rule.path == "nodes/nodeDescription" && text.starts_with(kPurposesMark)) return;
+    const bool by_value = rule.named == Named::ByValue && !text.empty();
+    things_.add(*rule.topic, value.place(), by_value ? text : rule.named == Named::ByOwner ? owner : key);
+  }
+
+  void one_trajectory(const JsonReader& types, const std::string& owner) {
+    const auto all = types.items();
+    if (std::ranges::count_if(all, [](const JsonReader& t) { return t.find("trajectory").has_value(); }) > 1)
+      things_.add(kSecond, types.place(), owner);
+  }
+
+  void actions(const JsonReader& list) {
+    for (const auto& action : list.items()) {
+      for (const auto& key : action.value().keys) {
+        if (key != "actionType") things_.add(kDetails, action.place(), key);
+      }
+      const auto type = action.at("actionType").text();
+      if (said_of(own_, type)) continue;
+      if (type != "pick" && type != "drop" && type != "startCharging") things_.add(kActions, action.place(), type);
+    }
+  }
+
+  LeftOutThings& things_;
+  const PurposeWords& own_;
+};
+
+}  // namespace
+
+void note_left_out(const JsonReader& root, const JsonReader& layout, const PurposeWords& own,
+                   std::vector<std::string>& warnings) {
+  LeftOutThings things;
+  for (const auto& key : root.value().keys) {
+    if (key == "layouts" || key == "origins") continue;
+    things.add(key == "metaInformation" ? kNotes : kUnknown, root.at(key).place(), key);
+  }
+  LifWalk(things, own).members(layout, "", "");
+  things.tell(warnings);
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,173 @@
+#include "generators/formats/rmf_left_out.hpp"
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "generators/formats/left_out.hpp"
+#include "generators/text/yaml_text.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr Topic kDoors{"{0} doors are left out ({1}); doors are not modelled: an AGV drives through without waiting"};
+constexpr Topic kLifts{"{0} lifts are left out ({1}); lifts are not modelled, and only one level is read"};
+constexpr Topic kParts{"{0} parts of the file are left out ({1}); they change no lane"};
+constexpr Topic kUnused{"{0} vertices lie on no lane that is read and are left out ({1})"};
+constexpr Topic kHeights{"{0} vertices lie above or below the floor ({1}); here the floor is flat"};
+constexpr Topic kSpeeds{"{0} lanes limit the speed ({1}); here every AGV drives at the speed of its type"};
+constexpr Topic kHeadings{
+    "{0} lanes ask for an orientation ({1}); sideways and reverse travel are not modelled: here AGVs drive nose first"};
+constexpr Topic kMutexes{"{0} mutex groups are left out ({1}); here the software under test keeps AGVs apart"};
+constexpr Topic kDocks{"{0} docking manoeuvres are left out ({1})"};
+constexpr Topic kRobots{"{0} robots of the fleet are left out ({1}); a campaign has its own fleet"};
+constexpr Topic kMarks{"{0} kinds of marks on vertices are left out ({1})"};
+constexpr Topic kMocks{"{0} kinds of marks on lanes are left out ({1})"};
+constexpr Topic kUnknown{"{0} attributes are unknown here and left out ({1})"};
+
+enum class Named : std::uint8_t { ByOwner, ByKey, ByValue };
+
+struct Rule {
+  std::string_view key;
+  const Topic* topic = nullptr;  // null: it is read
+  Named named = Named::ByOwner;
+};
+constexpr Rule kLaneRules[] = {{"bidirectional"},
+                               {"graph_idx"},
+                               {"speed_limit", &kSpeeds},
+                               {"orientation", &kHeadings},
+                               {"orientation_constraint", &kHeadings},
+                               {"mutex", &kMutexes, Named::ByValue},
+                               {"dock_name", &kDocks, Named::ByValue},
+                               {"undock_name", &kDocks, Named::ByValue},
+                               {"door_name", &kDoors, Named::ByValue},
+                               {"lift", &kLifts, Named::ByValue},
+                               {"demo_mock_lift_name", &kMocks, Named::ByKey},
+                               {"demo_mock_floor_name", &kMocks, Named::ByKey}};
+constexpr Rule kVertexRules[] = {{"name"},
+                                 {"is_charger"},
+                                 {"is_parking_spot"},
+                                 {"pickup_dispenser"},
+                                 {"dropoff_ingestor"},
+                                 {"lift_cabin"},
+                                 {"lift"},
+                                 {"mutex", &kMutexes, Named::ByValue},
+                                 {"dock_name", &kDocks, Named::ByValue},
+                                 {"spawn_robot_name", &kRobots, Named::ByValue},
+                                 {"spawn_robot_type", &kRobots, Named::ByValue},
+                                 {"is_holding_point", &kMarks, Named::ByKey},
+                                 {"is_passthrough_point", &kMarks, Named::ByKey},
+                                 {"is_cleaning_zone", &kMarks, Named::ByKey},
+                                 {"human_goal_set_name", &kMarks, Named::ByKey},
+                                 {"merge_radius", &kMarks, Named::ByKey}};
+constexpr std::string_view kReadRoot[] = {"levels", "name", "building_name", "coordinate_system"};
+constexpr std::string_view kReadLevel[] = {"vertices", "lanes", "measurements"};
+
+bool contains(const auto& words, std::string_view word) { return std::ranges::find(words, word) != std::end(words); }
+
+bool is_empty(const YAML::Node& node) { return node.IsNull() || (!node.IsScalar() && node.size() == 0); }
+
+std::string word_of(const YAML::Node& key) { return key.IsScalar() ? key.Scalar() : shown(key); }
+
+// The building file says [type, value] where the nav graph says value. Empty if the attribute says nothing.
+std::string value_of(const YAML::Node& node) {
+  const auto value = node.IsSequence() && node.size() == 2 ? node[1] : node;
+  if (!value.IsDefined() || is_empty(value)) return "";
+  if (!value.IsScalar()) return "...";
+  const auto text = value.Scalar();
+  return text == "false" || text == "0" || text == "0.0" ? "" : text;
+}
+
+class LevelWalk {
+ public:
+  LevelWalk(const YamlText& yaml, const ReadLevel& read, LeftOutThings& things)
+      : yaml_(yaml), read_(read), things_(things) {}
+
+  void parts(const YAML::Node& map, const auto& read_keys) {
+    for (const auto entry : map) {
+      const auto key = word_of(entry.first);
+      if (contains(read_keys, key) || is_empty(entry.second)) continue;
+      if (key == "doors") {
+        doors(entry.second);
+      } else if (key == "lifts" && entry.second.IsMap()) {
+        for (const auto lift : entry.second) things_.add(kLifts, yaml_.place(entry.second), word_of(lift.first));
+      } else {
+        things_.add(kParts, yaml_.place(entry.second), key);
+      }
+    }
+  }
+
+  void vertices(const YAML::Node& list) {
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const auto vertex = list[i];
+      const auto name = fmt::format("v{}", i);
+      if (!read_.vertices.contains(i)) {
+        things_.add(kUnused, yaml_.place(vertex), name);
+        continue;
+      }
+      if (!read_.is_nav_graph && vertex.size() > 2 && !value_of(vertex[2]).empty())
+        things_.add(kHeights, yaml_.place(vertex), name);
+      attributes(vertex, kVertexRules, name);
+    }
+  }
+
+  void lanes(const YAML::Node& list) {
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      if (read_.lanes.contains(i)) attributes(list[i], kLaneRules, fmt::format("lane {}", i));
+    }
+  }
+
+ private:
+  void doors(const YAML::Node& list) {
+    if (list.IsMap()) {
+      for (const auto door : list) things_.add(kDoors, yaml_.place(list), word_of(door.first));
+      return;
+    }
+    std::size_t number = 0;
+    for (const auto door : list) {
+      const auto words = door.IsSequence() && door.size() > 2 ? door[2] : door;
+      const auto name = words.IsMap() ? words["name"] : YAML::Node(YAML::NodeType::Undefined);
+      const auto text = name.IsDefined() ? value_of(name) : "";
+      things_.add(kDoors, yaml_.place(list), text.empty() ? fmt::format("door {}", number) : text);
+      ++number;
+    }
+  }
+
+  void attributes(const YAML::Node& item, const auto& rules, const std::string& owner) {
+    const auto words = item.size() > 2 ? item[item.size() - 1] : YAML::Node();
+    if (!words.IsMap()) return;
+    for (const auto entry : words) {
+      const auto key = word_of(entry.first), value = value_of(entry.second);
+      const auto rule = std::ranges::find(rules, key, &Rule::key);
+      if (rule == std::end(rules)) {
+        things_.add(kUnknown, yaml_.place(item), key);
+      } else if (rule->topic != nullptr && !value.empty()) {
+        things_.add(*rule->topic, yaml_.place(item),
+                    rule->named == Named::ByValue ? value
+                    : rule->named == Named::ByKey ? key
+                                                  : owner);
+      }
+    }
+  }
+
+  const YamlText& yaml_;
+  const ReadLevel& read_;
+  LeftOutThings& things_;
+};
+
+}  // namespace
+
+void note_left_out(const YamlText& yaml, const YAML::Node& root, const YAML::Node& level, const ReadLevel& read,
+                   std::vector<std::string>& warnings) {
+  LeftOutThings things;
+  LevelWalk walk(yaml, read, things);
+  walk.parts(root, kReadRoot);
+  walk.parts(level, kReadLevel);
+  walk.vertices(level["vertices"]);
+  walk.lanes(level["lanes"]);
+  things.tell(warnings);
+}
+
+}  // namespace fleetproof

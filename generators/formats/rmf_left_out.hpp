@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace YAML {
+class Node;
+}
+
+namespace fleetproof {
+
+class YamlText;
+
+// What of an Open-RMF level was read: vertices and lanes by their places in their lists.
+struct ReadLevel {
+  bool is_nav_graph = false;
+  std::set<std::size_t> vertices, lanes;
+};
+
+// Adds one sentence for each kind of thing in an Open-RMF building or nav graph that the import does not use: how many
+// there are, and the names of the first. It knows what the import reads and names what it does not know. Of other
+// levels and of lanes of other graphs nothing is told.
+void note_left_out(const YamlText& yaml, const YAML::Node& root, const YAML::Node& level, const ReadLevel& read,
+                   std::vector<std::string>& warnings);
+
+}  // namespace fleetproof
