@@ -42,7 +42,7 @@ class Reckless {
       std::uint32_t segment = FP_HERE;
       bool last = true;
       if (station_ != task.station) {
-        routes_.search(station_, lane_times_s_);
+        routes_.search(station_, lane_times_s_, task.station);
         const auto lanes = routes_.lanes(task.station);
         if (lanes.empty()) {
           tasks_.pop_front();  // the station cannot be reached

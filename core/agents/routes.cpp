@@ -12,7 +12,17 @@ double drive_time_s(double length_m, const fp_agv& agv) {
   return v / a + v / d + (length_m - ramps_m) / v;
 }
 
-void Routes::search(std::uint32_t from, std::span<const double> cost_s) {
+Routes::Routes(const MapView& map) : map_(map) {
+  hops_.reserve(map.lane_count());
+  first_hops_.reserve(map.station_count() + 1);
+  for (std::uint32_t station = 0; station < map.station_count(); ++station) {
+    first_hops_.push_back(static_cast<std::uint32_t>(hops_.size()));
+    for (const std::uint32_t lane : map.lanes_from(station)) hops_.push_back({lane, map.lane(lane).to});
+  }
+  first_hops_.push_back(static_cast<std::uint32_t>(hops_.size()));
+}
+
+void Routes::search(std::uint32_t from, std::span<const double> cost_s, std::uint32_t until) {
   const auto dearer = [](const Open& a, const Open& b) {
     return a.cost_s > b.cost_s || (a.cost_s == b.cost_s && a.station > b.station);
   };
@@ -24,9 +34,10 @@ void Routes::search(std::uint32_t from, std::span<const double> cost_s) {
     std::ranges::pop_heap(open_, dearer);
     const Open here = open_.back();
     open_.pop_back();
+    if (here.station == until) return;
     if (here.cost_s > cost_s_[here.station]) continue;
-    for (const std::uint32_t lane : map_.lanes_from(here.station)) {
-      const std::uint32_t to = map_.lane(lane).to;
+    for (std::uint32_t hop = first_hops_[here.station]; hop < first_hops_[here.station + 1]; ++hop) {
+      const auto [lane, to] = hops_[hop];
       const double cost = here.cost_s + cost_s[lane];
       if (cost >= cost_s_[to]) continue;
       cost_s_[to] = cost;

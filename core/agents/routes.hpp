@@ -15,10 +15,11 @@ double drive_time_s(double length_m, const fp_agv& agv);
 // The quickest ways from one station to all others (Dijkstra). A search reuses the memory of the search before it.
 class Routes {
  public:
-  explicit Routes(const MapView& map) : map_(map) {}
+  explicit Routes(const MapView& map);
 
-  // `cost_s` by lane.
-  void search(std::uint32_t from, std::span<const double> cost_s);
+  // `cost_s` by lane. With `until`, no further than to that station: its way is the same as that of a whole search, and
+  // only its way may be asked for.
+  void search(std::uint32_t from, std::span<const double> cost_s, std::uint32_t until = FP_NONE);
   // Infinite if there is no way.
   double cost_s(std::uint32_t to) const { return cost_s_[to]; }
   // The lanes to drive; empty if there is no way, or if `to` is where the search began. Valid until the next call.
@@ -30,10 +31,17 @@ class Routes {
     std::uint32_t station;
   };
 
+  // A lane that leaves a station. In a plant, the lanes of the map are too far apart in memory for a search.
+  struct Hop {
+    std::uint32_t lane, to;
+  };
+
   const MapView& map_;
-  std::vector<double> cost_s_;          // by station
-  std::vector<std::uint32_t> arrival_;  // the lane by which the way arrives
-  std::vector<Open> open_;              // heap, cheapest first
+  std::vector<Hop> hops_;                  // by station
+  std::vector<std::uint32_t> first_hops_;  // by station, and one more: where its hops begin
+  std::vector<double> cost_s_;             // by station
+  std::vector<std::uint32_t> arrival_;     // the lane by which the way arrives
+  std::vector<Open> open_;                 // heap, cheapest first
   std::vector<std::uint32_t> lanes_;
 };
 

@@ -98,7 +98,7 @@ Stretch StretchPlanner::towards(const Path& standing, Budget budget, std::span<c
   Walk walk(*this, standing, budget);
   for (const Goal& goal : goals) {
     if (walk.station() != goal.station) {
-      routes_.search(walk.station(), costs_s_);
+      routes_.search(walk.station(), costs_s_, goal.station);
       if (!follow(walk, goal.station)) return walk.take();
     }
     walk.transfer(goal);

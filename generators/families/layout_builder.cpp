@@ -39,6 +39,12 @@ void LayoutBuilder::s_bend(StationId from, StationId to, Way way) {
   segment(from, to, way, {{middle, a.y}, {middle, b.y}});
 }
 
+void LayoutBuilder::s_bend_along_y(StationId from, StationId to, Way way) {
+  const PointMm a = position(from), b = position(to);
+  const std::int64_t middle = (a.y + b.y) / 2;
+  segment(from, to, way, {{a.x, middle}, {b.x, middle}});
+}
+
 void LayoutBuilder::quarter_bend(StationId from, PointMm corner, StationId to, Way way) {
   constexpr std::int64_t kPerMille = 552;  // of the way to the corner: 4/3 (sqrt 2 - 1)
   const auto towards_corner = [&](PointMm end) {

@@ -31,9 +31,12 @@ class LayoutBuilder {
   void straight(StationId from, StationId to, Way way = Way::Both);
   // A curve whose tangents at both ends are along the x axis.
   void s_bend(StationId from, StationId to, Way way = Way::Both);
+  // The same along the y axis.
+  void s_bend_along_y(StationId from, StationId to, Way way = Way::Both);
   // Nearly a quarter circle (the best approximation by one cubic Bezier). It leaves `from` towards `corner` and arrives
   // at `to` from `corner`.
   void quarter_bend(StationId from, PointMm corner, StationId to, Way way = Way::Both);
+  std::size_t station_count() const { return positions_.size(); }
   PointMm position(StationId station) const { return positions_[station.index()]; }
 
   // The layout. Its floor extends 3 m beyond the outermost stations.

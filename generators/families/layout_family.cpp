@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
+#include <vector>
+
 #include "core/base/error.hpp"
 #include "generators/families/aisle_grid.hpp"
 #include "generators/families/corridor_sidings.hpp"
@@ -41,7 +45,51 @@ constexpr Entry<MakeLayout> kFamilies[] = {
      "3-6 x 3-6 one-way lines 2.4-4 m apart: segments shorter than usual, traffic at every crossing; 10-24 spurs at "
      "the edge",
      make_dense_crossing},
+    {"plant",
+     "zones of aisles inside rings of two one-way lanes, with docks, buffer lanes and charger rows; 20-5000 stations, "
+     "as in plant/2000, else 40 for each AGV",
+     make_plant},
 };
+
+Layout make(const FamilyRange& choice, Draws& draws, std::uint32_t fleet_size) {
+  if (choice.family->make != static_cast<MakeLayout>(make_plant)) return choice.family->make(draws, choice.range);
+  const std::uint32_t stations = choice.stations > 0 ? choice.stations : plant_stations(fleet_size);
+  return make_plant(draws, {choice.range, stations, choice.provocation});
+}
+
+// One word behind "plant/": the range, a provocation or the number of stations.
+void read_plant_word(std::string_view word, FamilyRange& choice) {
+  const bool is_first_knob = !choice.provocation && choice.range == Range::Normal;
+  const auto provocation = value_of<Provocation>(word);
+  std::uint32_t stations = 0;
+  const char* const end = word.data() + word.size();
+  const auto [rest, fault] = std::from_chars(word.data(), end, stations);
+  if (is_first_knob && word == "stress") {
+    choice.range = Range::Stress;
+  } else if (is_first_knob && provocation) {
+    choice.provocation = provocation;
+  } else if (choice.stations == 0 && fault == std::errc() && rest == end) {
+    if (stations < kFewestStations || stations > kMostStations)
+      throw InputError("layout", fmt::format("a plant of {} stations is refused; ask for {} to {}", stations,
+                                             kFewestStations, kMostStations));
+    choice.stations = stations;
+  } else {
+    std::vector<std::string_view> words(kWordsOf<Provocation>.begin(), kWordsOf<Provocation>.end());
+    words.emplace_back("stress");
+    throw InputError("layout", fmt::format("plant has no range {}{}; it takes one such word and one number of stations",
+                                           in_quotes(word), name_hint(word, words)));
+  }
+}
+
+FamilyRange plant_range(const Entry<MakeLayout>& family, std::string_view words) {
+  FamilyRange choice{&family, Range::Normal};
+  while (true) {
+    const auto slash = words.find('/');
+    read_plant_word(words.substr(0, slash), choice);
+    if (slash == std::string_view::npos) return choice;
+    words.remove_prefix(slash + 1);
+  }
+}
 
 }  // namespace
 
@@ -57,6 +105,7 @@ FamilyRange family_range(std::string_view name) {
   const auto slash = name.find('/');
   const auto& family = layout_family(name.substr(0, slash));
   if (slash == std::string_view::npos) return {&family, Range::Normal};
+  if (family.make == static_cast<MakeLayout>(make_plant)) return plant_range(family, name.substr(slash + 1));
   const auto range = name.substr(slash);
   if (range != kStressSuffix) {
     constexpr std::string_view kRanges[] = {"stress"};
@@ -66,12 +115,11 @@ FamilyRange family_range(std::string_view name) {
   return {&family, Range::Stress};
 }
 
-std::shared_ptr<const LogicalMap> draw_map(FamilyRange choice, Draws& draws) {
-  if (choice.range == Range::Normal)
-    return std::make_shared<const LogicalMap>(choice.family->make(draws, Range::Normal));
+std::shared_ptr<const LogicalMap> draw_map(FamilyRange choice, Draws& draws, std::uint32_t fleet_size) {
+  if (choice.range == Range::Normal) return std::make_shared<const LogicalMap>(make(choice, draws, fleet_size));
   const bool closed = draws.below(kClosedOneIn) == 0;
   while (true) {
-    Layout layout = choice.family->make(draws, Range::Stress);
+    Layout layout = make(choice, draws, fleet_size);
     if (closed && !close_waiting_places(layout)) continue;
     auto map = std::make_shared<const LogicalMap>(layout);
     if (closed || has_open_waiting_place(*map, Reachability(*map))) return map;

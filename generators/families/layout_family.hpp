@@ -1,11 +1,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "core/base/catalogue.hpp"
 #include "core/base/random.hpp"
 #include "core/scenario/layout.hpp"
+#include "generators/families/plant.hpp"
 #include "generators/families/range.hpp"
 
 namespace fleetproof {
@@ -19,6 +21,8 @@ namespace fleetproof {
 //
 // Range::Stress gives up that room. Stations are at least 0.9 m apart. Lanes may cross without a station, run side by
 // side at 1.2 m and be shorter than a vehicle. An AGV that waits may block any lane. There are two places of storage.
+//
+// The family `plant` keeps neither promise of room: its stops are 0.5 to 1.5 m apart, in the aisles.
 using MakeLayout = Layout (*)(Draws& draws, Range range);
 
 std::span<const Entry<MakeLayout>> layout_families();
@@ -27,15 +31,19 @@ std::span<const Entry<MakeLayout>> layout_families();
 struct FamilyRange {
   const Entry<MakeLayout>* family;
   Range range;
+  // Of the family `plant` only:
+  std::uint32_t stations = 0;  // 0: as many as the fleet needs
+  std::optional<Provocation> provocation{};
 };
 
-// Reads "aisle-grid" or "aisle-grid/stress". Throws InputError with a hint if there is no such family or range.
+// Reads "aisle-grid" or "aisle-grid/stress"; of plants also "plant/2000", "plant/tight-gap" and "plant/stress/2000".
+// Throws InputError with a hint if there is no such family, range, size or provocation.
 FamilyRange family_range(std::string_view name);
 
 // Draws a layout of a family and range. Under stress, one layout in ten has no open place to wait (waiting_room.hpp),
 // on purpose; every other layout has at least one. The search for open places needs the map: draw_map() returns it, so
-// that the caller does not build it again.
-std::shared_ptr<const LogicalMap> draw_map(FamilyRange choice, Draws& draws);
+// that the caller does not build it again. The size of a plant without a size follows from `fleet_size`.
+std::shared_ptr<const LogicalMap> draw_map(FamilyRange choice, Draws& draws, std::uint32_t fleet_size = 5);
 Layout draw_layout(FamilyRange choice, Draws& draws);
 
 // Throws InputError with a hint if there is no such family.

@@ -110,7 +110,7 @@ class WorldMaker {
   bool draw_map(std::uint32_t number) {
     Draws draws(key_of(Stream::Layout), attempt_of(Stream::Layout, number));
     if (family_ != nullptr) {
-      set_map(::fleetproof::draw_map(family_range(*family_), draws));
+      set_map(::fleetproof::draw_map(family_range(*family_), draws, spec_.fleet_size));
     } else if (spec_.mutate) {
       auto map = draw_mutated_map(std::get<SharedMap>(spec_.layout)->layout(), draws, counts);
       if (map == nullptr) return false;

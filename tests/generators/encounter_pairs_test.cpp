@@ -164,8 +164,12 @@ TEST_P(Encounters, RandomPlacementsSeldomDo) {
   EXPECT_LT(met, 60) << "the oracle can say no";
 }
 
-// To the oracle's own rounding. On a one-way loop with chords two AGVs seldom reach a station within a second of each
-// other by different segments; an AGV without a partner starts at random.
+// To the oracle's own rounding. On a one-way loop with chords, and on the rings of a plant, two AGVs seldom reach a
+// station within a second of each other by different segments; an AGV without a partner starts at random.
+double share_at_once(std::string_view layout) {
+  return layout.starts_with("plant") ? 0.1 : layout == "loop-spurs/stress" ? 0.6 : 0.9;
+}
+
 TEST_P(Encounters, SymmetricPairsReachOneStationAtOnce) {
   RejectionCounts counts;
   int worlds = 0, at_once = 0, told_together = 0;
@@ -181,7 +185,7 @@ TEST_P(Encounters, SymmetricPairsReachOneStationAtOnce) {
   }
   std::cout << GetParam() << ": " << at_once << " of " << worlds << " worlds meet to 10 us, " << told_together
             << " told to leave within 10 ms\n";
-  EXPECT_GE(at_once, worlds * (GetParam() == "loop-spurs/stress" ? 6 : 9) / 10);
+  EXPECT_GE(at_once, worlds * share_at_once(GetParam()));
 }
 
 TEST_P(Encounters, SameSeedSameWorld) {

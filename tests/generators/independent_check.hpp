@@ -17,7 +17,7 @@
 // and samples.
 namespace fleetproof::independent {
 
-inline constexpr std::size_t kMostStations = 256;
+inline constexpr std::size_t kMostStations = 640;
 using Row = std::bitset<kMostStations>;
 
 // reach[a][b]: station b can be reached from a (Warshall), without passing station `without` if that is given.

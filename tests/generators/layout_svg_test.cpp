@@ -39,7 +39,7 @@ Layout pair(bool bidirectional) {
 TEST(LayoutSvg, EveryFamilyIsSoundXmlWithEveryLaneAndStation) {
   for (const auto& family : layout_families()) {
     Draws draws(stream_key(7, Stream::Layout));
-    const Layout layout = family.make(draws, Range::Normal);
+    const Layout layout = draw_map({&family, Range::Normal}, draws, 3)->layout();  // a plant with names, not tooltips
     const std::string svg = layout_svg(layout);
     const auto document = parsed(svg);
     for (const auto& station : layout.stations)

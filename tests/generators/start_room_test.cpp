@@ -173,8 +173,14 @@ TEST_P(WaitingRoomInFamily, ALoadedAgvThatWaitsLeavesTheOtherLanesFree) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, WaitingRoomInFamily,
-                         testing::ValuesIn(layout_families().begin(), layout_families().end()), [](const auto& test) {
+std::vector<Entry<MakeLayout>> families_with_room_to_wait() {
+  std::vector<Entry<MakeLayout>> families(layout_families().begin(), layout_families().end());
+  std::erase_if(families, [](const auto& family) { return family.name == "plant"; });  // goods stand in its aisles
+  return families;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, WaitingRoomInFamily, testing::ValuesIn(families_with_room_to_wait()),
+                         [](const auto& test) {
                            std::string name(test.param.name);
                            for (char& c : name) c = c == '-' ? '_' : c;
                            return name;

@@ -1,0 +1,65 @@
+#include "core/agents/routes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "drawn_map.hpp"
+
+namespace fleetproof::agents {
+namespace {
+
+// 6 x 5 stations in a grid with every third segment one-way, and lanes that all cost 1, 2 or 3: many ways tie.
+struct TiedGrid {
+  testing::DrawnMap map;
+  std::vector<double> cost_s;
+
+  TiedGrid() {
+    std::uint32_t number = 0;
+    for (std::uint32_t i = 0; i < 30; ++i) map.station(4.0 * (i % 6), 4.0 * (i / 6));
+    for (std::uint32_t i = 0; i < 30; ++i) {
+      if (i % 6 != 5) map.segment(i, i + 1, ++number % 3 != 0);
+      if (i + 6 < 30) map.segment(i + 6, i, ++number % 3 != 0);
+    }
+    for (std::uint32_t lane = 0; lane < map.map().lane_count; ++lane) cost_s.push_back(1.0 + lane % 3);
+  }
+};
+
+TEST(Routes, ASearchThatStopsEarlyFindsTheWayOfAWholeSearch) {
+  TiedGrid grid;
+  const MapView view(grid.map.map());
+  Routes whole(view), early(view);
+  for (std::uint32_t from = 0; from < 30; ++from) {
+    whole.search(from, grid.cost_s);
+    for (std::uint32_t to = 0; to < 30; ++to) {
+      early.search(from, grid.cost_s, to);
+      const auto a = whole.lanes(to), b = early.lanes(to);
+      EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end())) << from << " to " << to;
+      EXPECT_EQ(whole.cost_s(to), early.cost_s(to));
+    }
+  }
+}
+
+// Against Bellman and Ford, which relax every lane as often as there are stations.
+TEST(Routes, CostsAreTheLeastOfAllWays) {
+  TiedGrid grid;
+  const MapView view(grid.map.map());
+  Routes routes(view);
+  for (std::uint32_t from = 0; from < 30; ++from) {
+    std::vector<double> least(30, INFINITY);
+    least[from] = 0.0;
+    for (int round = 0; round < 30; ++round) {
+      for (std::uint32_t lane = 0; lane < grid.cost_s.size(); ++lane) {
+        const fp_lane& way = grid.map.lane_at(lane);
+        least[way.to] = std::min(least[way.to], least[way.from] + grid.cost_s[lane]);
+      }
+    }
+    routes.search(from, grid.cost_s);
+    for (std::uint32_t to = 0; to < 30; ++to) EXPECT_EQ(routes.cost_s(to), least[to]) << from << " to " << to;
+  }
+}
+
+}  // namespace
+}  // namespace fleetproof::agents
