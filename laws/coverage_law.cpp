@@ -9,6 +9,8 @@
 #include "core/clearance/clearance_over_time.hpp"
 #include "core/outcome/trace_records.hpp"
 #include "laws/encounter.hpp"
+#include "laws/map_places.hpp"
+#include "laws/side_by_side.hpp"
 #include "laws/stretch.hpp"
 #include "laws/whereabouts.hpp"
 
@@ -23,6 +25,8 @@ class CoverageLaw final : public Law {
  public:
   explicit CoverageLaw(const Scenario& scenario)
       : margin_m_(violation_threshold_m(scenario.law)),
+        map_(*scenario.map),
+        places_(map_),
         bodies_(scenario),
         swept_(scenario.agvs.size()),
         drives_(scenario.agvs.size()) {}
@@ -40,15 +44,26 @@ class CoverageLaw final : public Law {
     SimTime until = kStart;
     double clearance_m = 0.0;
   };
-  void meet(Track track);
+  // A drive as planned, and the station at which its segment ends; none if it drives no segment of the map.
+  struct Drive {
+    Track track;
+    SegmentId segment;
+    StationId to;
+  };
+  Drive drive_of(const Piece& piece) const;
+  void meet(Drive drive);
+  void meet(const Drive& earlier, const Drive& later);
   void look_closer(const Piece& a, const Piece& b, Interval within);
   void close(const Near& near) { near_misses_ += near.clearance_m >= margin_m_; }
 
   double margin_m_;
+  const LogicalMap& map_;
+  MapPlaces places_;
   Whereabouts bodies_;
   std::vector<Box> swept_;                 // by AGV, as planned; empty between a piece and the next
-  std::vector<std::deque<Track>> drives_;  // by AGV: the drives that ended recently or are under way
+  std::vector<std::deque<Drive>> drives_;  // by AGV: the drives that ended recently or are under way
   std::array<std::uint64_t, kEncounterKinds> encounters_{};
+  std::array<std::uint64_t, kSceneKinds> scenes_{};
   std::map<std::pair<EntityId, EntityId>, Near> near_;
   std::uint64_t near_misses_ = 0;
   std::map<Fault::Kind, std::uint64_t> faults_;
@@ -59,19 +74,41 @@ void CoverageLaw::piece_started(const Piece& piece) {
   bodies_.note(piece);
   if (piece.entity.index() >= swept_.size()) return;
   swept_[piece.entity.index()] = piece.planned_box;
-  if (piece.manner == Manner::Drive) meet(Track::of(piece));
+  if (piece.manner == Manner::Drive) meet(drive_of(piece));
 }
 
-void CoverageLaw::meet(Track track) {
+CoverageLaw::Drive CoverageLaw::drive_of(const Piece& piece) const {
+  Drive drive{Track::of(piece), piece.segment, {}};
+  if (!piece.segment.valid() || piece.segment.index() >= map_.segment_count()) return drive;
+  const Segment& segment = map_.segment(piece.segment);
+  const Vec2 end_m = piece.curve->pose_at(piece.curve->length_m()).position_m;
+  const auto apart = [&](StationId station) { return (map_.station(station).position_m - end_m).squaredNorm(); };
+  drive.to = apart(segment.to) <= apart(segment.from) ? segment.to : segment.from;
+  return drive;
+}
+
+void CoverageLaw::meet(Drive drive) {
+  const Track& track = drive.track;
   for (std::size_t other = 0; other < drives_.size(); ++other) {
     if (other == track.agv.index()) continue;
     auto& drives = drives_[other];
-    while (!drives.empty() && drives.front().end + kLookAhead < track.begin) drives.pop_front();
-    for (const Track& earlier : drives) {
-      if (const auto kind = encounter_of(earlier, track, margin_m_)) ++encounters_[static_cast<std::size_t>(*kind)];
-    }
+    while (!drives.empty() && drives.front().track.end + kLookAhead < track.begin) drives.pop_front();
+    for (const Drive& earlier : drives) meet(earlier, drive);
   }
-  drives_[track.agv.index()].push_back(std::move(track));
+  drives_[track.agv.index()].push_back(std::move(drive));
+}
+
+void CoverageLaw::meet(const Drive& earlier, const Drive& later) {
+  const auto kind = encounter_of(earlier.track, later.track, margin_m_);
+  if (kind) ++encounters_[static_cast<std::size_t>(*kind)];
+  const auto scene = [&](SceneKind met, bool holds) { scenes_[static_cast<std::size_t>(met)] += holds ? 1 : 0; };
+  const SideBySide passing = side_by_side(earlier.track, later.track, margin_m_);
+  scene(SceneKind::TightGap, passing.tight_gap);
+  scene(SceneKind::CurveBesideLane, passing.curve_beside_lane);
+  scene(SceneKind::OverhangPass, passing.overhang_pass);
+  if (!later.to.valid() || earlier.to != later.to || earlier.segment == later.segment) return;
+  scene(SceneKind::Bottleneck, places_.bottleneck[later.to.index()]);
+  scene(SceneKind::FourWay, places_.four_way[later.to.index()]);
 }
 
 void CoverageLaw::piece_ended(const Piece& piece) {
@@ -116,6 +153,9 @@ LawFindings CoverageLaw::findings() const {
     findings.met.push_back({ProbeSource::World, std::move(name), count});
   };
   for (std::size_t i = 0; i < kEncounterKinds; ++i) met(name_of(static_cast<EncounterKind>(i)), encounters_[i]);
+  for (std::size_t i = 0; i < kSceneKinds; ++i) {
+    if (scenes_[i] > 0) met(name_of(static_cast<SceneKind>(i)), scenes_[i]);
+  }
   met(std::string(kNearMissProbe), near_misses_);
   for (const auto& [fault, count] : faults_) met(probe_name(fault), count);
   return findings;

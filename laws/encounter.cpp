@@ -42,7 +42,8 @@ bool at_end(const Track& track, double s_m) { return s_m >= track.length_m - 0.5
 }  // namespace
 
 Track Track::of(const Piece& drive) {
-  Track track{drive.entity, drive.begin, drive.end, drive.curve->length_m(), drive.footprint, {}, {}};
+  Track track{drive.entity, drive.begin, drive.end, drive.curve->length_m(), drive.footprint, {}, {}, {}};
+  track.bends = !drive.curve->is_straight();
   const double half_m = 0.5 * drive.footprint.length_m, whole_m = track.length_m + 2.0 * half_m;
   const int steps = std::max(1, static_cast<int>(std::ceil(whole_m / kStep_m)));
   for (int i = 0; i <= steps; ++i) {

@@ -22,6 +22,7 @@ struct Track {
   Footprint footprint;
   Box box;
   std::vector<Point> points;
+  bool bends = false;  // its curve is not one straight line
 
   static Track of(const Piece& drive);
 };

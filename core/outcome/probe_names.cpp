@@ -25,6 +25,7 @@ std::span<const std::string_view> world_probes() {
   static const std::vector<std::string_view> all = [] {
     std::vector<std::string_view> names;
     names.assign(kWordsOf<EncounterKind>.begin(), kWordsOf<EncounterKind>.end());
+    names.insert(names.end(), kWordsOf<SceneKind>.begin(), kWordsOf<SceneKind>.end());
     names.insert(names.end(), {kNearMissProbe, kEncounterProbe, kSafeModeProbe});
     names.insert(names.end(), faults.begin(), faults.end());
     return names;

@@ -16,6 +16,8 @@ namespace fleetproof {
 // name                                              | met when                                  | reported by
 // --------------------------------------------------|-------------------------------------------|----------------
 // "head-on", "crossing", "following", "merging"     | the drives of two AGVs met in this way    | law coverage
+// "tight-gap", "curve-beside-lane", "overhang-pass" | two AGVs drove side by side in this way   | law coverage
+// "bottleneck", "four-way"                          | two AGVs drove to such a place            | law coverage
 // "near-miss"                                       | two AGVs came close without a violation   | law coverage
 // "fault: KIND", as in "fault: breakdown"           | a fault of this kind struck               | law coverage
 // "encounter"                                       | any of the first four                     | evidence
@@ -37,6 +39,25 @@ constexpr const char* name_of(EncounterKind kind) {
   return kNoWord;
 }
 inline constexpr std::size_t kEncounterKinds = kValuesOf<EncounterKind>.size();
+
+// What two AGVs met on the floor, beside each other (laws/side_by_side.hpp) or at a place (laws/map_places.hpp).
+enum class SceneKind : std::uint8_t { TightGap, CurveBesideLane, OverhangPass, Bottleneck, FourWay };
+constexpr const char* name_of(SceneKind kind) {
+  switch (kind) {
+    case SceneKind::TightGap:
+      return "tight-gap";
+    case SceneKind::CurveBesideLane:
+      return "curve-beside-lane";
+    case SceneKind::OverhangPass:
+      return "overhang-pass";
+    case SceneKind::Bottleneck:
+      return "bottleneck";
+    case SceneKind::FourWay:
+      return "four-way";
+  }
+  return kNoWord;
+}
+inline constexpr std::size_t kSceneKinds = kValuesOf<SceneKind>.size();
 
 inline constexpr std::string_view kNearMissProbe = "near-miss";
 inline constexpr std::string_view kEncounterProbe = "encounter";

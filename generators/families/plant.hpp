@@ -10,7 +10,7 @@
 
 namespace fleetproof {
 
-// What a plant can be asked to contain. The coverage law counts under the same names when a run meets it.
+// What a plant can be asked to contain. The coverage law counts under the same name when a run meets it.
 enum class Provocation : std::uint8_t { Crossing, CurveBesideLane, TightGap, OverhangPass, Bottleneck, FourWay };
 constexpr const char* name_of(Provocation provocation) {
   switch (provocation) {

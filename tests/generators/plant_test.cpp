@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "core/base/error.hpp"
+#include "core/outcome/probe_names.hpp"
 #include "generators/families/layout_family.hpp"
 #include "generators/map/layout_check.hpp"
 #include "independent_check.hpp"
@@ -207,6 +208,10 @@ TEST(Plant, EachKnobMakesWhatItIsNamedAfter) {
   for_each("plant", [&](const Layout& layout) { normal += crossings(layout); });
   for_each("plant/crossing", [&](const Layout& layout) { crossing += crossings(layout); });
   EXPECT_GT(crossing, normal);
+}
+
+TEST(Plant, EveryKnobIsNamedAfterAProbeOfTheWorld) {
+  for (const std::string_view word : kWordsOf<Provocation>) EXPECT_TRUE(is_world_probe(word)) << word;
 }
 
 TEST(Plant, BelongsToAFleetUnlessASizeIsNamed) {

@@ -145,7 +145,8 @@ TEST(Probes, EverythingThatTheLawCountsBearsANameOfTheWorld) {
   const auto findings = told.finish(10.0);
   EXPECT_EQ(findings.met.size(), kEncounterKinds + 1 + kValuesOf<Fault::Kind>.size());
   for (const ProbeCount& probe : findings.met) EXPECT_TRUE(is_world_probe(probe.name)) << probe.name;
-  EXPECT_EQ(world_probes().size(), findings.met.size() + 2) << "and those that the evidence derives";
+  EXPECT_EQ(world_probes().size(), findings.met.size() + 2 + kSceneKinds)
+      << "and those that the evidence derives, and scenes";
 }
 
 TEST(Probes, WhatAnAgentDeclaresIsSummedByName) {

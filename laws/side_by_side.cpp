@@ -1,0 +1,78 @@
+#include "laws/side_by_side.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/tolerances.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr double kAlong = 0.985;  // cosine of 10 degrees
+constexpr double kSlack_m = 1e-6;
+
+double distance_m(const Vec2& p, const Vec2& a, const Vec2& b) {
+  const Vec2 way = b - a;
+  const double square = way.squaredNorm();
+  const double share = square > 0.0 ? std::clamp((p - a).dot(way) / square, 0.0, 1.0) : 0.0;
+  return (p - (a + share * way)).norm();
+}
+
+struct Gaps {
+  double bands_m = 1e300;  // smallest anywhere
+  double along_m = 1e300;  // smallest where they run along each other
+};
+
+// From the points of one track to the middle line of the other one.
+void measure(const Track& a, const Track& b, double within_m, Gaps& gaps) {
+  const double widths_m = 0.5 * (a.footprint.width_m + b.footprint.width_m);
+  const Box near = b.box.grown(widths_m + within_m);
+  for (const auto& p : a.points) {
+    if (!near.overlaps({p.position_m, p.position_m})) continue;
+    for (std::size_t i = 0; i + 1 < b.points.size(); ++i) {
+      const auto& q = b.points[i];
+      const double gap_m = distance_m(p.position_m, q.position_m, b.points[i + 1].position_m) - widths_m;
+      gaps.bands_m = std::min(gaps.bands_m, gap_m);
+      if (std::abs(p.heading.dot(q.heading)) >= kAlong) gaps.along_m = std::min(gaps.along_m, gap_m);
+    }
+  }
+}
+
+// Of the bodies, wherever they are on their tracks. The halves of a track beyond its ends are no places of a body.
+double bodies_apart_m(const Track& a, const Track& b, double within_m) {
+  double least_m = within_m;
+  const double reach_m = within_m + a.footprint.half_diagonal_m() + b.footprint.half_diagonal_m();
+  const auto is_place = [](const Track& track, const Track::Point& p) {
+    return p.s_m >= 0.0 && p.s_m <= track.length_m;
+  };
+  for (const auto& p : a.points) {
+    if (!is_place(a, p)) continue;
+    const auto body = placed(a.footprint, {p.position_m, p.heading});
+    for (const auto& q : b.points) {
+      if (!is_place(b, q) || (p.position_m - q.position_m).norm() > reach_m) continue;
+      least_m = std::min(least_m, clearance_m(body, placed(b.footprint, {q.position_m, q.heading})));
+    }
+  }
+  return least_m;
+}
+
+}  // namespace
+
+SideBySide side_by_side(const Track& a, const Track& b, double margin_m) {
+  SideBySide met;
+  const double widths_m = 0.5 * (a.footprint.width_m + b.footprint.width_m);
+  const double ends_m = 0.5 * std::max(a.footprint.length_m, b.footprint.length_m);
+  if (!a.box.grown(widths_m + kBesideACurve_m + ends_m).overlaps(b.box)) return met;
+  Gaps gaps;
+  measure(a, b, kBesideACurve_m + ends_m, gaps);
+  measure(b, a, kBesideACurve_m + ends_m, gaps);
+  if (gaps.bands_m < -kSlack_m) return met;
+  met.tight_gap = gaps.along_m <= kTightGap_m + kSlack_m;
+  if (!a.bends && !b.bends) return met;
+  const double bodies_m = bodies_apart_m(a, b, kBesideACurve_m + kSlack_m);
+  met.curve_beside_lane = bodies_m <= kBesideACurve_m;
+  met.overhang_pass = gaps.bands_m >= margin_m && bodies_m < margin_m;
+  return met;
+}
+
+}  // namespace fleetproof
