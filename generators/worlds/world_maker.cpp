@@ -43,11 +43,6 @@ void check(const WorldSpec& spec) {
                                              in_quotes(name_of(spec.placement))));
     }
   }
-  if (const auto* map = std::get_if<SharedMap>(&spec.layout);
-      map != nullptr && spec.fleet_size > (*map)->station_count()) {
-    throw InputError("fleet_size", fmt::format("{} AGVs cannot start on the {} stations of this layout; ask for fewer",
-                                               spec.fleet_size, (*map)->station_count()));
-  }
 }
 
 // The first type, with the largest body of all types, unloaded and loaded. A start that has room for this body has room
@@ -104,6 +99,13 @@ class WorldMaker {
 
   Scenario take() { return std::move(scenario_); }
 
+  // The size of a fleet that found room in at least half of the draws; 0 if that was no AGV.
+  std::uint32_t fleet_that_fits() {
+    std::ranges::sort(placed_);
+    return placed_.empty() ? 0 : static_cast<std::uint32_t>(placed_[(placed_.size() - 1) / 2]);
+  }
+  const std::string& layout_name() const { return scenario_.map->layout().name; }
+
   RejectionCounts counts;
 
  private:
@@ -120,6 +122,12 @@ class WorldMaker {
   }
 
   bool place(std::uint32_t attempt) {
+    const bool all = place_agvs(attempt);
+    placed_.push_back(scenario_.agvs.size());
+    return all;
+  }
+
+  bool place_agvs(std::uint32_t attempt) {
     const auto key = key_of(Stream::Placement);
     const auto number = attempt_of(Stream::Placement, attempt);
     const auto placement = placement_of_world(spec_.placement, key);
@@ -187,6 +195,7 @@ class WorldMaker {
   Scenario scenario_;
   std::optional<Reachability> reachability_;
   std::vector<EncounterPair> pairs_;
+  std::vector<std::size_t> placed_;  // AGVs, by draw
 };
 
 struct MadeWorld {
@@ -205,10 +214,13 @@ MadeWorld make_world(const WorldSpec& spec, std::uint64_t seed, std::uint32_t he
     ++maker.counts.worlds_rejected;
   }
   counts.add(maker.counts);
-  throw InputError(
-      "fleet_size",
-      fmt::format("cannot place {} AGVs on this layout in {} draws ({}); ask for fewer or for a larger layout",
-                  spec.fleet_size, kAttempts, rejection_text(maker.counts)));
+  const std::uint32_t fits = std::min(maker.fleet_that_fits(), spec.fleet_size);
+  const std::string found = fmt::format("cannot place {} AGVs on this layout in {} draws ({})", spec.fleet_size,
+                                        kAttempts, rejection_text(maker.counts));
+  if (fits == 0 || fits == spec.fleet_size)  // there is room: something else is wrong
+    throw InputError("fleet_size", found + "; ask for fewer or for a larger layout");
+  throw InputError("fleet_size", fmt::format("{}; {} fit on {}: ask for {} or fewer, or for a larger layout", found,
+                                             fits, in_quotes(maker.layout_name()), fits));
 }
 
 bool shapes_world(Stream stream) {

@@ -3,6 +3,7 @@
 
 #include "campaign/run/agent_programs.hpp"
 #include "core/engine/simulation.hpp"
+#include "generators/worlds/world_maker.hpp"
 #include "laws/laws.hpp"
 #include "tests/bench/allocations.hpp"
 #include "tests/support/grid_world.hpp"
@@ -67,6 +68,24 @@ BENCHMARK_CAPTURE(run, 50x600_hull_lock_no_law, kLarge, "hull-lock", Watch::Nobo
 BENCHMARK_CAPTURE(run, 50x600_hull_lock_all_laws, kLarge, "hull-lock", Watch::DefaultSet)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(run, 50x600_reckless, kLarge, "reckless", Watch::Judge)->Unit(benchmark::kMillisecond);
+
+// A plant of 5000 stations with 100 AGVs: drawn, checked, and simulated for 300 s under all laws.
+void plant(benchmark::State& state) {
+  const AgentPrograms programs;
+  WorldSpec spec;
+  spec.layout = std::string("plant/5000");
+  spec.fleet_size = 100;
+  spec.horizon = std::chrono::seconds(300);
+  std::uint64_t seed = 0;
+  for (auto _ : state) {
+    RejectionCounts counts;
+    const Scenario scenario = generate_world(spec, ++seed, counts);
+    const auto laws = make_default_laws(scenario);
+    benchmark::DoNotOptimize(simulate(scenario, programs.find("reckless", "bench"), laws));
+  }
+}
+
+BENCHMARK(plant)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace fleetproof

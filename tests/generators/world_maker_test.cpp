@@ -225,8 +225,32 @@ TEST(WorldRefusals, NameFieldAndRemedy) {
   EXPECT_NE(refusal(time).find("horizon"), std::string::npos);
   EXPECT_NE(refusal(family).find("known: aisle-grid"), std::string::npos) << refusal(family);
   EXPECT_NE(refusal(crowd).find("cannot place 1000 AGVs"), std::string::npos) << refusal(crowd);
-  EXPECT_NE(refusal(narrow).find("3 AGVs cannot start on the 2 stations"), std::string::npos) << refusal(narrow);
+  EXPECT_NE(refusal(narrow).find("2 fit on \"pair\": ask for 2 or fewer"), std::string::npos) << refusal(narrow);
   EXPECT_NE(refusal(vehicle).find("width_m"), std::string::npos) << refusal(vehicle);
+}
+
+// The number in the refusal fits in other worlds, too, and it is not far too small: twice as many do not.
+TEST(WorldRefusals, SayHowManyAgvsFit) {
+  for (const char* layout : {"corridor-sidings", "loop-spurs", "plant/60", "plant/stress/200"}) {
+    WorldSpec spec;
+    spec.layout = std::string(layout);
+    spec.fleet_size = 400;
+    const std::string text = refusal(spec);
+    const auto at = text.find("ask for ");
+    ASSERT_NE(at, std::string::npos) << text;
+    EXPECT_NE(text.find("fit on \"" + std::string(layout).substr(0, 5)), std::string::npos) << text;
+    const auto fits = static_cast<std::uint32_t>(std::stoul(text.substr(at + 8)));
+    ASSERT_GE(fits, 5U) << text;
+    RejectionCounts counts;
+    spec.fleet_size = fits;
+    for (std::uint64_t seed = 100; seed < 120; ++seed) {
+      const Scenario world = generate_world(spec, seed, counts);
+      EXPECT_EQ(world.agvs.size(), fits);
+      EXPECT_TRUE(problems_of(world).empty());
+    }
+    spec.fleet_size = 2 * fits;
+    EXPECT_THROW(generate_world(spec, 100, counts), InputError) << layout << " " << fits;
+  }
 }
 
 TEST(WorldRefusals, AMapWithoutWaysBackIsNamed) {
