@@ -52,6 +52,7 @@ class ModelReader {
     note_shapes(model);
     for (const auto type : model.children("locationType")) add_location_type(type);
     for (const auto location : model.children("location")) add_location(location);
+    note_operations(model);
     fit_floor(layout_, 3.0);
     refuse_problems(model);
     compare_lengths(model);
@@ -167,9 +168,20 @@ class ModelReader {
     return words;
   }
 
+  void note_operations(const pugi::xml_node& model) {
+    std::set<std::string> seen;
+    std::vector<std::string> unknown;
+    for (const auto& found : model.select_nodes("//allowedOperation")) {
+      const std::string name = found.node().attribute("name").value();
+      if (seen.insert(name).second && !says_purpose(name, choice_.purposes)) unknown.push_back(name);
+    }
+    if (!unknown.empty())
+      warn(model, fmt::format("{} operations say nothing that is known here ({})", unknown.size(), name_list(unknown)));
+  }
+
   void add_location_type(const pugi::xml_node& type) {
     const auto name = xml_.text(type, "name");
-    const auto [purposes, source] = purpose_of(words_of(type, type), choice_.purposes);
+    const auto [purposes, source, overruled] = purpose_of(words_of(type, type), choice_.purposes);
     const std::string_view by = source == nullptr ? "nothing" : source;
     if (by == "nothing")
       warn(type,
@@ -180,6 +192,9 @@ class ModelReader {
       warn(type, fmt::format("the operations of location type {} say nothing that is known here; by its {} it is taken "
                              "to be for {}",
                              in_quotes(name), by, purposes_text(purposes).substr(std::string_view("routing ").size())));
+    if (overruled != nullptr)
+      warn(type, fmt::format("the {} of location type {} says something else than its operations, which count",
+                             overruled, in_quotes(name)));
     location_types_.emplace(name, type);
   }
 

@@ -57,7 +57,7 @@ class DrawingReader {
     const auto layout = point.child("pointLayout");
     const auto name = xml_.text(point, "name");
     for (const auto& [x, y] : {std::pair{"positionX", "positionY"}, {"xPosition", "yPosition"}}) {
-      if (!xml_.has(layout, x)) continue;
+      if (!xml_.has(layout, x) && !xml_.has(layout, y)) continue;
       drawing_.points_m.emplace(name, Vec2(xml_.number(layout, x), xml_.number(layout, y)) / 1000.0);
     }
     const auto x = drawn_property(point, "POSITION_X"), y = drawn_property(point, "POSITION_Y");

@@ -34,6 +34,10 @@ std::optional<Purposes> either(std::optional<Purposes> a, std::optional<Purposes
 
 }  // namespace
 
+bool says_purpose(const std::string& operation, const PurposeWords& own) {
+  return said_of(own, operation) || known_in(operation);
+}
+
 LocationPurpose purpose_of(const LocationWords& words, const PurposeWords& own) {
   std::optional<Purposes> by_user = either(said_of(own, words.name), said_of(own, words.symbol)), by_operations;
   for (const auto& operation : words.operations) {
@@ -41,9 +45,13 @@ LocationPurpose purpose_of(const LocationWords& words, const PurposeWords& own) 
     by_operations = either(by_operations, known_in(operation));
   }
   if (by_user) return {*by_user, "user"};
-  if (by_operations) return {*by_operations, "operations"};
-  if (const auto purposes = known_in(words.name)) return {*purposes, "name"};
-  if (const auto purposes = known_in(words.symbol)) return {*purposes, "symbol"};
+  const auto by_name = known_in(words.name), by_symbol = known_in(words.symbol);
+  if (by_operations) {
+    const auto differs = [&](const auto& other) { return other && (*other | *by_operations) != *by_operations; };
+    return {*by_operations, "operations", differs(by_name) ? "name" : differs(by_symbol) ? "symbol" : nullptr};
+  }
+  if (by_name) return {*by_name, "name"};
+  if (by_symbol) return {*by_symbol, "symbol"};
   return {Purpose::Routing, nullptr};
 }
 

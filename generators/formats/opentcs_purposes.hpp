@@ -16,9 +16,13 @@ struct LocationWords {
 
 // What locations of a type are for.
 struct LocationPurpose {
-  Purposes purposes;             // routing alone: nothing that is known here
-  const char* source = nullptr;  // "user", "operations", "name" or "symbol"; null: none of them says anything
+  Purposes purposes;                // routing alone: nothing that is known here
+  const char* source = nullptr;     // "user", "operations", "name" or "symbol"; null: none of them says anything
+  const char* overruled = nullptr;  // "name" or "symbol", if it says something else than the operations
 };
+
+// Whether an operation says anything.
+bool says_purpose(const std::string& operation, const PurposeWords& own);
 
 // The first source that says something decides: a word of the user, the operations, the name, the symbol. `own` are the
 // words of the user; they have to be the whole name, operation or symbol. Other words only have to occur: "load" in
