@@ -63,9 +63,13 @@ void Briefings::describe_map(const LogicalMap& map) {
   for (const Lane& lane : map.lanes()) {
     const fp_arc* first = arcs_.data() + arcs_.size();
     for (const Arc& arc : lane.arcs) arcs_.push_back({c_pose(arc.start), arc.length_m, arc.curvature_per_m});
+    const Segment& segment = map.segment(lane.segment);
     lanes_.push_back({lane.segment.value, lane.from.value, lane.to.value, lane.curve.length_m(),
-                      static_cast<std::uint32_t>(lane.arcs.size()), first});
+                      static_cast<std::uint32_t>(lane.arcs.size()), first, lane.speed_limit_mps, segment.width_m,
+                      static_cast<std::uint32_t>(segment.blocks.size()), segment.blocks.data()});
   }
+  for (const SegmentBlock& block : map.layout().blocks)
+    blocks_.push_back({block.name.c_str(), static_cast<std::uint32_t>(block.kind)});
   for (std::size_t i = 0; i < map.station_count(); ++i) {
     const Station& station = map.station(StationId{i});
     const auto& leaving = map.lanes_from(StationId{i});
@@ -80,7 +84,10 @@ void Briefings::describe_map(const LogicalMap& map) {
           sizeof(fp_lane),
           sizeof(fp_arc),
           stations_.data(),
-          lanes_.data()};
+          lanes_.data(),
+          static_cast<std::uint32_t>(blocks_.size()),
+          sizeof(fp_block),
+          blocks_.data()};
 }
 
 void Briefings::describe_fleet(const Scenario& scenario) {

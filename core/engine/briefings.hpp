@@ -27,6 +27,7 @@ class Briefings {
   std::vector<fp_arc> arcs_;
   std::vector<fp_lane> lanes_;
   std::vector<fp_station> stations_;
+  std::vector<fp_block> blocks_;
   fp_map map_{};
   std::vector<fp_agv> fleet_;
   std::vector<std::vector<fp_scripted_call>> scripts_;

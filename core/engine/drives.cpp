@@ -14,6 +14,11 @@ bool aligned(const Lane& arriving, const Lane& leaving) {
   return std::abs(angle_between(in, out)) <= kAligned_rad;
 }
 
+MotionLimits on_lane(MotionLimits limits, const Lane& lane) {
+  if (lane.speed_limit_mps > 0.0) limits.speed_mps = std::min(limits.speed_mps, lane.speed_limit_mps);
+  return limits;
+}
+
 }  // namespace
 
 Drives::Drives(RunContext& run, const Ports& ports) : run_(run), ports_(ports), drives_(run.agvs.size()) {}
@@ -48,10 +53,10 @@ void Drives::plan(AgvId agv, double from_m, double speed_mps) {
   from_m = std::min(from_m, curve.length_m());  // the sum of the legs may be rounded up
   drive.leg = 0;
   if (!run_.status(agv).halts.empty()) {
-    plan_stop(curve, drive.limits, from_m, speed_mps, drive.legs);
+    plan_stop(curve, on_lane(drive.limits, *drive.lane), from_m, speed_mps, drive.legs);
   } else {
-    plan_legs(curve, drive.limits, run_.type_of(agv).lateral_mps2, from_m, {speed_mps, exit_speed_mps(agv)},
-              drive.legs);
+    plan_legs(curve, on_lane(drive.limits, *drive.lane), run_.type_of(agv).lateral_mps2, from_m,
+              {speed_mps, exit_speed_mps(agv)}, drive.legs);
   }
 }
 
@@ -63,7 +68,8 @@ double Drives::exit_speed_mps(AgvId agv) const {
   const VehicleType& type = run_.type_of(agv);
   MotionLimits limits = drive.limits;
   limits.speed_mps = std::min(limits.speed_mps, type.drive_with(run_.is_loaded(agv)).speed_mps);
-  return highest_entry_mps(drive.next->curve, limits, type.lateral_mps2);
+  const double entry_mps = highest_entry_mps(drive.next->curve, on_lane(limits, *drive.next), type.lateral_mps2);
+  return std::min(entry_mps, on_lane(drive.limits, *drive.lane).speed_mps);
 }
 
 Piece Drives::piece_of_leg(AgvId agv) const {

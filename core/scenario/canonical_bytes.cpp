@@ -2,6 +2,7 @@
 
 #include <xxhash.h>
 
+#include <algorithm>
 #include <bit>
 
 #include "core/base/error.hpp"
@@ -25,9 +26,30 @@ void CanonicalBytes::add(const Vec2& vector) {
 
 std::uint64_t CanonicalBytes::digest() const { return XXH3_64bits(bytes_.data(), bytes_.size()); }
 
+namespace {
+
+// What most layouts do not have leaves the digest of those without it as it is.
+void add_properties(CanonicalBytes& bytes, const Layout& layout) {
+  if (layout.blocks.empty() && std::ranges::none_of(layout.segments, &Segment::has_properties)) return;
+  for (const Segment& segment : layout.segments) {
+    bytes.add(segment.speed_limit_mps);
+    bytes.add(segment.back_speed_limit_mps);
+    bytes.add(segment.width_m);
+    bytes.add(std::uint64_t{segment.blocks.size()});
+    for (const std::uint32_t block : segment.blocks) bytes.add(std::uint64_t{block});
+  }
+  bytes.add(std::uint64_t{layout.blocks.size()});
+  for (const auto& [name, kind] : layout.blocks) {
+    bytes.add(std::string_view(name));
+    bytes.add_byte(static_cast<std::uint8_t>(kind));
+  }
+}
+
+}  // namespace
+
 // Structured bindings: a member that is added to a layout does not compile until it is part of the digest.
 std::uint64_t layout_digest(const Layout& layout) {
-  const auto& [name, floor_low_m, floor_high_m, stations, segments] = layout;
+  const auto& [name, floor_low_m, floor_high_m, stations, segments, blocks] = layout;
   CanonicalBytes bytes;
   bytes.add(std::string_view(name));
   bytes.add(floor_low_m);
@@ -39,7 +61,8 @@ std::uint64_t layout_digest(const Layout& layout) {
     bytes.add_byte(purposes.bits());
   }
   bytes.add(std::uint64_t{segments.size()});
-  for (const auto& [segment, from, to, bidirectional, control_points_m] : segments) {
+  for (const auto& [segment, from, to, bidirectional, control_points_m, speed_limit_mps, back_speed_limit_mps, width_m,
+                    own_blocks] : segments) {
     bytes.add(std::string_view(segment));
     bytes.add(std::uint64_t{from.value});
     bytes.add(std::uint64_t{to.value});
@@ -47,6 +70,7 @@ std::uint64_t layout_digest(const Layout& layout) {
     bytes.add(std::uint64_t{control_points_m.size()});
     for (const Vec2& point : control_points_m) bytes.add(point);
   }
+  add_properties(bytes, layout);
   return bytes.digest();
 }
 

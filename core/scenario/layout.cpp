@@ -63,9 +63,10 @@ LogicalMap::LogicalMap(const Layout& layout)
     const auto& segment = layout_.segments[i];
     const Curve forward = segment_curve(layout_, segment);
     const std::vector<Arc> arcs = segment_arcs(layout_, segment);
-    lanes_.push_back({SegmentId{i}, segment.from, segment.to, forward, arcs});
+    lanes_.push_back({SegmentId{i}, segment.from, segment.to, forward, arcs, segment.speed_limit_mps});
     if (segment.bidirectional)
-      lanes_.push_back({SegmentId{i}, segment.to, segment.from, forward.reversed(), reversed(arcs)});
+      lanes_.push_back(
+          {SegmentId{i}, segment.to, segment.from, forward.reversed(), reversed(arcs), segment.back_speed_limit_mps});
   }
   for (std::size_t i = 0; i < lanes_.size(); ++i)
     lanes_from_[lanes_[i].from.index()].push_back(static_cast<std::uint32_t>(i));

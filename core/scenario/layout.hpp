@@ -7,6 +7,7 @@
 #include "core/base/strong_id.hpp"
 #include "core/base/words.hpp"
 #include "core/geometry/curve.hpp"
+#include "core/scenario/segment.hpp"
 
 namespace fleetproof {
 
@@ -50,21 +51,13 @@ struct Station {
   Purposes purposes = Purpose::Routing;
 };
 
-// An edge of the logical map. AGVs drive it from `from` to `to`, nose first. A bidirectional segment is also driven in
-// the other direction.
-struct Segment {
-  std::string name;
-  StationId from, to;
-  bool bidirectional = false;
-  std::vector<Vec2> control_points_m;  // none: straight; 2 for each cubic Bezier, and the joints between (2, 5, 8, ...)
-};
-
 // The logical map of a warehouse (Sect. 2.2), as plain data: the content of a layout file and nothing derived.
 struct Layout {
   std::string name;
   Vec2 floor_low_m = Vec2::Zero(), floor_high_m = Vec2::Zero();
   std::vector<Station> stations;
   std::vector<Segment> segments;
+  std::vector<SegmentBlock> blocks{};
 };
 
 // One way to drive a segment.
@@ -73,6 +66,7 @@ struct Lane {
   StationId from, to;
   Curve curve;
   std::vector<Arc> arcs;  // near the curve, to kBezierByArcs_m and kHeadingByArcs_rad: what control software is given
+  double speed_limit_mps = 0.0;  // 0: no limit but the vehicle's own
 };
 
 // A layout with what follows from it: the curves of its segments, and the lanes that leave each station. It is built

@@ -77,6 +77,7 @@ Layout what_is_left(const Layout& base, const std::vector<Fate>& fates) {
   Layout layout;
   layout.name = fmt::format("{}/{}", kMutatedImport, base.name);
   layout.stations = base.stations;
+  layout.blocks = base.blocks;
   layout.segments.reserve(fates.size());
   for (std::size_t i = 0; i < fates.size(); ++i) {
     if (fates[i] == Fate::LeftOut) continue;

@@ -16,9 +16,12 @@ namespace {
 
 constexpr std::int64_t kVersion = 1;
 constexpr std::string_view kFileKeys[] = {"version", "layout"};
-constexpr std::string_view kLayoutKeys[] = {"name", "floor_low_m", "floor_high_m", "stations", "segments"};
+constexpr std::string_view kLayoutKeys[] = {"name", "floor_low_m", "floor_high_m", "stations", "segments", "blocks"};
 constexpr std::string_view kStationKeys[] = {"name", "position_m", "purposes"};
-constexpr std::string_view kSegmentKeys[] = {"name", "from", "to", "bidirectional", "control_points_m"};
+constexpr std::string_view kSegmentKeys[] = {
+    "name",    "from",  "to", "bidirectional", "control_points_m", "speed_limit_mps", "back_speed_limit_mps",
+    "width_m", "blocks"};
+constexpr std::string_view kBlockKeys[] = {"name", "kind"};
 
 using StationsByName = std::map<std::string, StationId>;
 
@@ -72,6 +75,36 @@ Segment read_segment(const JsonReader& reader, const StationsByName& stations) {
   return segment;
 }
 
+std::uint32_t block_named(const JsonReader& reader, const std::vector<SegmentBlock>& blocks) {
+  const auto name = reader.text();
+  const auto found = std::ranges::find(blocks, name, &SegmentBlock::name);
+  if (found == blocks.end()) reader.refuse("there is no such block in \"blocks\" of the layout");
+  return static_cast<std::uint32_t>(found - blocks.begin());
+}
+
+void read_properties(const JsonReader& reader, const std::vector<SegmentBlock>& blocks, Segment& segment) {
+  reader.read("speed_limit_mps", segment.speed_limit_mps);
+  reader.read("back_speed_limit_mps", segment.back_speed_limit_mps);
+  reader.read("width_m", segment.width_m);
+  const auto names = reader.find("blocks");
+  if (!names) return;
+  for (const auto& item : names->items()) segment.blocks.push_back(block_named(item, blocks));
+  std::ranges::sort(segment.blocks);
+  if (std::ranges::adjacent_find(segment.blocks) != segment.blocks.end()) names->refuse("a block is named twice");
+}
+
+SegmentBlock read_block(const JsonReader& reader) {
+  reader.expect_object(kBlockKeys);
+  SegmentBlock block;
+  block.name = reader.at("name").text();
+  if (const auto kind = reader.find("kind")) {
+    const auto value = value_of<BlockKind>(kind->text());
+    if (!value) kind->refuse("there is no such kind" + name_hint(kind->text(), kWordsOf<BlockKind>));
+    block.kind = *value;
+  }
+  return block;
+}
+
 void write_station(JsonWriter& writer, const Station& station) {
   const auto& [name, position_m, purposes] = station;
   writer.open_object(JsonWriter::Style::Line);
@@ -86,7 +119,8 @@ void write_station(JsonWriter& writer, const Station& station) {
 }
 
 void write_segment(JsonWriter& writer, const Layout& layout, const Segment& segment) {
-  const auto& [name, from, to, bidirectional, control_points_m] = segment;
+  const auto& [name, from, to, bidirectional, control_points_m, speed_limit_mps, back_speed_limit_mps, width_m,
+               blocks] = segment;
   writer.open_object(JsonWriter::Style::Line);
   writer.key("name").value(name);
   writer.key("from").value(layout.stations.at(from.index()).name);
@@ -97,6 +131,25 @@ void write_segment(JsonWriter& writer, const Layout& layout, const Segment& segm
     for (const auto& point : control_points_m) writer.value(point);
     writer.close();
   }
+  const auto property = [&](const char* key, double value) {
+    if (value > 0.0) writer.key(key).value(value);
+  };
+  property("speed_limit_mps", speed_limit_mps);
+  property("back_speed_limit_mps", back_speed_limit_mps);
+  property("width_m", width_m);
+  if (!blocks.empty()) {
+    writer.key("blocks").open_array();
+    for (const std::uint32_t block : blocks) writer.value(layout.blocks.at(block).name);
+    writer.close();
+  }
+  writer.close();
+}
+
+void write_block(JsonWriter& writer, const SegmentBlock& block) {
+  const auto& [name, kind] = block;
+  writer.open_object(JsonWriter::Style::Line);
+  writer.key("name").value(name);
+  writer.key("kind").value(name_of(kind));
   writer.close();
 }
 
@@ -122,7 +175,13 @@ Layout read_layout(const JsonReader& reader) {
     layout.stations.push_back(read_station(item));
     by_name.emplace(layout.stations.back().name, StationId{layout.stations.size() - 1});
   }
-  for (const auto& item : reader.at("segments").items()) layout.segments.push_back(read_segment(item, by_name));
+  if (const auto blocks = reader.find("blocks")) {
+    for (const auto& item : blocks->items()) layout.blocks.push_back(read_block(item));
+  }
+  for (const auto& item : reader.at("segments").items()) {
+    layout.segments.push_back(read_segment(item, by_name));
+    read_properties(item, layout.blocks, layout.segments.back());
+  }
   if (reader.find("floor_low_m") || reader.find("floor_high_m")) {
     layout.floor_low_m = reader.at("floor_low_m").vector();
     layout.floor_high_m = reader.at("floor_high_m").vector();
@@ -145,7 +204,7 @@ std::string to_text(const Layout& layout) {
 }
 
 void write_layout(JsonWriter& writer, const Layout& layout) {
-  const auto& [name, floor_low_m, floor_high_m, stations, segments] = layout;
+  const auto& [name, floor_low_m, floor_high_m, stations, segments, blocks] = layout;
   writer.open_object();
   writer.key("name").value(name);
   writer.key("floor_low_m").value(floor_low_m);
@@ -156,6 +215,11 @@ void write_layout(JsonWriter& writer, const Layout& layout) {
   writer.key("segments").open_array();
   for (const auto& segment : segments) write_segment(writer, layout, segment);
   writer.close();
+  if (!blocks.empty()) {
+    writer.key("blocks").open_array();
+    for (const auto& block : blocks) write_block(writer, block);
+    writer.close();
+  }
   writer.close();
 }
 

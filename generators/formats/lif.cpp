@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -67,6 +69,9 @@ class LifReader {
     }
     for (const auto& [index, purposes] : stated_) layout_.stations[index].purposes = purposes;
     note_left_out(JsonReader(root_, source_), layout, choice_.purposes, warnings_);
+    if (of_types_ > 0)
+      warn(layout,
+           fmt::format("{} edges have a speed limit for each type of vehicle; the lowest is taken for all", of_types_));
     fit_floor(layout_, 3.0);
     refuse_problems(layout);
     settle_twins(layout_, choice_.twins, source_, warnings_);
@@ -155,10 +160,25 @@ class LifReader {
       for (const auto& type : types->items()) {
         if (!trajectory) trajectory = type.find("trajectory");
       }
+      limit_speed(*types, segment);
     }
     if (trajectory) bend(*trajectory, segment);
     layout_.segments.push_back(std::move(segment));
     edges_.push_back(edge);
+  }
+
+  // Of all types of vehicles the lowest.
+  void limit_speed(const JsonReader& types, Segment& segment) {
+    std::vector<double> limits_mps;
+    for (const auto& type : types.items()) {
+      const auto limit = either(type, "maxSpeed", "maximumSpeed");
+      if (limit && !(limit->number() > 0.0)) limit->refuse("expected a speed above 0 m/s");
+      limits_mps.push_back(limit ? limit->number() : std::numeric_limits<double>::infinity());
+    }
+    if (limits_mps.empty()) return;
+    const auto [lowest, highest] = std::ranges::minmax(limits_mps);
+    if (std::isfinite(lowest)) segment.speed_limit_mps = lowest;
+    of_types_ += lowest < highest ? 1 : 0;
   }
 
   static Nurbs nurbs_of(const JsonReader& trajectory) {
@@ -243,6 +263,7 @@ class LifReader {
   std::set<std::string> node_names_, edge_names_, elsewhere_;
   std::map<std::string, StationId> stations_;
   std::map<std::size_t, Purposes> stated_;  // by station: given in the description of the station
+  std::size_t of_types_ = 0;  // edges
 };
 
 }  // namespace

@@ -21,7 +21,6 @@ constexpr Topic kSideways{
     "are "
     "not modelled: here AGVs drive nose first"};
 constexpr Topic kTurns{"{0} edges have rules for turning ({1}); here an AGV turns at stations only"};
-constexpr Topic kSpeeds{"{0} edges limit the speed ({1}); here every AGV drives at the speed of its type"};
 constexpr Topic kLifts{"{0} edges and stations give the height of a lift or load ({1}); here the floor is flat"};
 constexpr Topic kLoads{"{0} edges are for certain loads ({1}); here every AGV drives every segment"};
 constexpr Topic kReentry{"{0} edges have rules for reentry ({1}); they are left out"};
@@ -77,8 +76,8 @@ constexpr Rule kRules[] = {
     {"edges/types/rotationAtStartNodeAllowed", &kTurns, Named::ByOwner, "BOTH"},
     {"edges/types/rotationAtEndNodeAllowed", &kTurns, Named::ByOwner, "BOTH"},
     {"edges/types/reachOrientationBeforeEntering", &kTurns},
-    {"edges/types/maxSpeed", &kSpeeds},
-    {"edges/types/maximumSpeed", &kSpeeds},
+    {"edges/types/maxSpeed"},
+    {"edges/types/maximumSpeed"},
     {"edges/types/maxRotationSpeed", &kTurns},
     {"edges/types/maximumRotationSpeed", &kTurns},
     {"edges/types/minHeight", &kLifts},

@@ -78,7 +78,7 @@ void write_trajectory(JsonWriter& writer, const std::vector<Vec2>& points) {
 }
 
 void write_edge(JsonWriter& writer, const std::string& name, const Station& from, const Station& to,
-                const std::vector<Vec2>& points) {
+                const std::vector<Vec2>& points, double speed_limit_mps) {
   writer.open_object();
   writer.key("edgeId").value(name);
   writer.key("startNodeId").value(from.name);
@@ -87,6 +87,7 @@ void write_edge(JsonWriter& writer, const std::string& name, const Station& from
   writer.open_object();
   writer.key("vehicleTypeId").value(kVehicleType);
   writer.key("rotationAllowed").value(false);
+  if (speed_limit_mps > 0.0) writer.key("maxSpeed").value(speed_limit_mps);
   if (points.size() > 2) write_trajectory(writer, points);
   writer.close();
   writer.close();
@@ -101,7 +102,7 @@ void write_edges(JsonWriter& writer, const Layout& layout) {
     std::vector<Vec2> points{from.position_m};
     points.insert(points.end(), segment.control_points_m.begin(), segment.control_points_m.end());
     points.push_back(to.position_m);
-    write_edge(writer, segment.name, from, to, points);
+    write_edge(writer, segment.name, from, to, points, segment.speed_limit_mps);
     if (!segment.bidirectional) continue;
     // Names have at most 200 bytes, and so must this name.
     auto back = segment.name.size() > 190 ? std::to_string(&segment - layout.segments.data()) : segment.name;
@@ -109,7 +110,7 @@ void write_edges(JsonWriter& writer, const Layout& layout) {
       back += '~';
     } while (!taken.insert(back).second);
     std::ranges::reverse(points);
-    write_edge(writer, back, to, from, points);
+    write_edge(writer, back, to, from, points, segment.back_speed_limit_mps);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -18,6 +19,16 @@ bool is_mirrored(const Segment& there, const Segment& back) {
                             [](const Vec2& a, const Vec2& b) { return (a - b).norm() <= kSameTrack_m; });
 }
 
+// What one of the two ways has, the segment has that way; a block holds both.
+void join(Segment& there, const Segment& back) {
+  there.bidirectional = true;
+  there.back_speed_limit_mps = back.speed_limit_mps;
+  there.width_m = std::max(there.width_m, back.width_m);
+  std::vector<std::uint32_t> blocks;
+  std::ranges::set_union(there.blocks, back.blocks, std::back_inserter(blocks));
+  there.blocks = std::move(blocks);
+}
+
 }  // namespace
 
 std::vector<std::string> merge_antiparallel(Layout& layout) {
@@ -31,7 +42,7 @@ std::vector<std::string> merge_antiparallel(Layout& layout) {
       return !segment.bidirectional && is_mirrored(kept[entry.second], segment);
     });
     if (twin != end) {
-      kept[twin->second].bidirectional = true;
+      join(kept[twin->second], segment);
       names.push_back(kept[twin->second].name);
       waiting.erase(twin);
       continue;

@@ -9,10 +9,13 @@
 #include "core/base/tolerances.hpp"
 #include "core/geometry/rectangle.hpp"
 #include "core/geometry/rotation.hpp"
+#include "core/scenario/vehicle_fields.hpp"
 #include "generators/text/text_file.hpp"
 
 namespace fleetproof {
 namespace {
+
+constexpr double kWidestFloor_m = 100.0;
 
 class Check {
  public:
@@ -22,6 +25,7 @@ class Check {
     if (layout_.stations.empty()) add(ProblemKind::BadGeometry, "/stations", "a layout needs at least one station");
     names("stations", layout_.stations);
     names("segments", layout_.segments);
+    names("blocks", layout_.blocks);
     for (std::size_t i = 0; i < layout_.stations.size(); ++i) {
       if (!on_the_floor(layout_.stations[i].position_m)) bad_number(fmt::format("/stations/{}/position_m", i));
     }
@@ -80,8 +84,26 @@ class Check {
       return add(ProblemKind::BadGeometry, pointer + "/control_points_m",
                  fmt::format("{} control points; a curve has 2, 5, 8, ...", c.size()));
     }
+    properties(s, pointer);
     if (const auto fault = fault_of_curve(segment_curve(layout_, s)); !fault.empty())
       add(ProblemKind::BadGeometry, pointer, fault);
+  }
+
+  void properties(const Segment& s, const std::string& pointer) {
+    const auto limit = [&](const char* key, double value, double low, double high, const char* sentence) {
+      if (value != 0.0 && !(value >= low && value <= high))
+        add(ProblemKind::NumberOutOfRange, pointer + "/" + key, sentence);
+    };
+    constexpr const char* kSpeeds = "a speed limit is 0 (none), or 0.001 to 100 m/s";
+    limit("speed_limit_mps", s.speed_limit_mps, kSlowest, kFastest, kSpeeds);
+    limit("back_speed_limit_mps", s.back_speed_limit_mps, kSlowest, kFastest, kSpeeds);
+    limit("width_m", s.width_m, 0.0, kWidestFloor_m, "a width is 0 (not known) to 100 m");
+    if (s.back_speed_limit_mps > 0.0 && !s.bidirectional)
+      add(ProblemKind::BadGeometry, pointer + "/back_speed_limit_mps", "this segment is driven one way alone");
+    for (const std::uint32_t block : s.blocks) {
+      if (block >= layout_.blocks.size())
+        add(ProblemKind::UnknownReference, pointer + "/blocks", "there is no such block");
+    }
   }
 
   const Layout& layout_;

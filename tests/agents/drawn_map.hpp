@@ -51,7 +51,10 @@ class DrawnMap {
             sizeof(fp_lane),
             sizeof(fp_arc),
             stations_.data(),
-            lanes_.data()};
+            lanes_.data(),
+            0,
+            sizeof(fp_block),
+            nullptr};
     return map_;
   }
 
@@ -75,8 +78,8 @@ class DrawnMap {
     double length_m = 0.0;
     for (const fp_arc& arc : arcs) length_m += arc.length_m;
     arcs_.push_back(std::move(arcs));
-    lanes_.push_back(
-        {segments_, from, to, length_m, static_cast<std::uint32_t>(arcs_.back().size()), arcs_.back().data()});
+    lanes_.push_back({segments_, from, to, length_m, static_cast<std::uint32_t>(arcs_.back().size()),
+                      arcs_.back().data(), 0.0, 0.0, 0, nullptr});
   }
 
   std::vector<fp_station> stations_;

@@ -35,6 +35,30 @@ TEST(Briefings, HoldMapFleetAndScript) {
   EXPECT_EQ(second.script[0].segment, 1U);
 }
 
+TEST(Briefings, TellLimitsAndBlocksOfTheLanes) {
+  Layout layout = test::row_scenario(3, {0}).map->layout();
+  layout.blocks = {{"dock", BlockKind::OneVehicle}, {"aisle", BlockKind::SameDirection}};
+  layout.segments[1].speed_limit_mps = 0.5;
+  layout.segments[1].back_speed_limit_mps = 0.25;
+  layout.segments[1].width_m = 1.8;
+  layout.segments[1].blocks = {0, 1};
+  Scenario scenario = test::row_scenario(3, {0});
+  scenario.map = std::make_shared<const LogicalMap>(layout);
+  const Briefings briefings(scenario, "");
+  const fp_map& map = *briefings.of(AgvId{0U}).map;
+  ASSERT_EQ(map.block_count, 2U);
+  EXPECT_STREQ(map.blocks[0].name, "dock");
+  EXPECT_EQ(map.blocks[1].kind, static_cast<std::uint32_t>(FP_SAME_DIRECTION));
+  const fp_lane &free = map.lanes[0], &there = map.lanes[2], &back = map.lanes[3];
+  EXPECT_EQ(free.speed_limit_mps, 0.0);
+  EXPECT_EQ(free.block_count, 0U);
+  EXPECT_EQ(there.speed_limit_mps, 0.5);
+  EXPECT_EQ(back.speed_limit_mps, 0.25);
+  EXPECT_EQ(back.width_m, 1.8);
+  ASSERT_EQ(there.block_count, 2U);
+  EXPECT_EQ(there.blocks[1], 1U);
+}
+
 TEST(Briefings, AfterARestartTellWhereTheAgvIs) {
   const Scenario scenario = test::row_scenario(3, {0, 2});
   Briefings briefings(scenario, "");

@@ -1,6 +1,7 @@
 #include "core/engine/drives.hpp"
 
 #include "tests/core/small_world.hpp"
+#include "tests/support/at_seconds.hpp"
 
 namespace fleetproof {
 namespace {
@@ -33,6 +34,48 @@ TEST(DrivesPart, StraightOnItRollsThroughAndBackItDoesNot) {
   EXPECT_NEAR(on.parts.drives.leg_ends(kFirst).speed_mps, 2.0, 1e-9);
   begin(back, &back.lane(0, 1));
   EXPECT_NEAR(planned_end_s(back), 8.0, 1e-9);
+}
+
+// The row with limits on its first two segments.
+Scenario limited_row(double first_mps, double back_mps, double second_mps) {
+  Scenario scenario = test::row_of_tens({0});
+  Layout layout = scenario.map->layout();
+  layout.segments[0].speed_limit_mps = first_mps;
+  layout.segments[0].back_speed_limit_mps = back_mps;
+  layout.segments[1].speed_limit_mps = second_mps;
+  scenario.map = std::make_shared<const LogicalMap>(layout);
+  return scenario;
+}
+
+TEST(DrivesPart, KeepTheSpeedLimitOfTheirDirection) {
+  SmallWorld limited(limited_row(1.0, 0.0, 0.0)), faster(limited_row(5.0, 1.0, 0.0));
+  begin(limited);
+  EXPECT_NEAR(planned_end_s(limited), 11.5, 1e-9) << "2 s to 1 m/s over 1 m, 8.5 m, 1 s over 0.5 m";
+  begin(faster);
+  EXPECT_NEAR(planned_end_s(faster), 8.0, 1e-9) << "a limit above the vehicle's speed, and one of the other direction";
+}
+
+TEST(DrivesPart, ReachASlowerLaneAtItsLimitAndLeaveASlowLaneAtTheirs) {
+  SmallWorld into_slow(limited_row(0.0, 0.0, 1.0)), out_of_slow(limited_row(1.0, 0.0, 0.0));
+  begin(into_slow, &into_slow.lane(1, 1));
+  into_slow.clock(planned_end_s(into_slow));
+  EXPECT_NEAR(into_slow.parts.drives.leg_ends(kFirst).speed_mps, 1.0, 1e-9);
+  begin(out_of_slow, &out_of_slow.lane(1, 1));
+  EXPECT_NEAR(planned_end_s(out_of_slow), 11.0, 1e-9) << "2 s to 1 m/s over 1 m, then 9 m";
+  out_of_slow.clock(11.0);
+  EXPECT_NEAR(out_of_slow.parts.drives.leg_ends(kFirst).speed_mps, 1.0, 1e-9);
+}
+
+TEST(DrivesPart, ADeviationDoesNotBreakALimit) {
+  Scenario scenario = limited_row(1.0, 0.0, 0.0);
+  scenario.vehicle_types[0].speed_deviation = 0.3;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    scenario.seed = seed;
+    SmallWorld world(scenario);
+    begin(world);
+    const Piece& piece = std::get<SpatialEvolution>(world.run.agvs[0].activity->evolution).piece;
+    for (double t = 0.1; t < 12.0; t += 0.1) EXPECT_LE(piece.speed_at(at_seconds(t)), 1.0 + 1e-12) << seed;
+  }
 }
 
 TEST(DrivesPart, ANextLaneIsTakenIntoAccountUntilTheAgvBrakes) {

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "core/base/error.hpp"
 #include "core/base/random.hpp"
+#include "core/scenario/canonical_bytes.hpp"
 #include "generators/families/layout_family.hpp"
 
 namespace fleetproof {
@@ -70,6 +73,72 @@ TEST(LayoutFile, TextIsCanonical) {
 }
 )");
   EXPECT_EQ(to_text(parse_layout(text, "again")), text);
+}
+
+constexpr const char* kWithProperties = R"({
+  "version": 1,
+  "layout": {
+    "name": "hook",
+    "floor_low_m": [-3, -3],
+    "floor_high_m": [7, 6],
+    "stations": [
+      {"name": "a", "position_m": [0, 0], "purposes": ["routing"]},
+      {"name": "b", "position_m": [4, 3], "purposes": ["storage"]},
+      {"name": "c", "position_m": [4, 6], "purposes": ["routing"]}
+    ],
+    "segments": [
+      {"name": "a-b", "from": "a", "to": "b", "bidirectional": true, "speed_limit_mps": 0.5, )"
+                                        R"("back_speed_limit_mps": 0.3, "width_m": 1.75, "blocks": ["dock", "aisle"]},
+      {"name": "b-c", "from": "b", "to": "c", "bidirectional": false}
+    ],
+    "blocks": [
+      {"name": "dock", "kind": "one-vehicle"},
+      {"name": "aisle", "kind": "same-direction"}
+    ]
+  }
+}
+)";
+
+TEST(LayoutFile, PropertiesOfSegmentsComeBackExactly) {
+  const Layout layout = parse_layout(kWithProperties, "p.json");
+  ASSERT_EQ(layout.blocks.size(), 2U);
+  EXPECT_EQ(layout.blocks[1].kind, BlockKind::SameDirection);
+  EXPECT_EQ(layout.segments[0].speed_limit_mps, 0.5);
+  EXPECT_EQ(layout.segments[0].back_speed_limit_mps, 0.3);
+  EXPECT_EQ(layout.segments[0].blocks, (std::vector<std::uint32_t>{0, 1}));
+  EXPECT_FALSE(layout.segments[1].has_properties());
+  EXPECT_EQ(to_text(layout), kWithProperties);
+}
+
+TEST(LayoutFile, EachPropertyIsPartOfTheDigestAndAbsentOnesAreNot) {
+  EXPECT_EQ(layout_digest(parse_layout(kSmall, "hook.json")), 0x0U) << "as it was before segments had properties";
+  std::set<std::uint64_t> digests{layout_digest(parse_layout(kWithProperties, "p.json"))};
+  for (const auto& [was, is] :
+       {std::pair("_mps\": 0.5", "_mps\": 0.6"),
+        {"0.3", "0.4"},
+        {"1.75", "1.5"},
+        {"[\"dock\", \"aisle\"]", "[\"aisle\"]"},
+        {"one-vehicle", "same-direction"},
+        {"\"name\": \"aisle\", \"kind\": \"same-direction\"", "\"name\": \"aisle\", \"kind\": \"one-vehicle\""}})
+    digests.insert(layout_digest(parse_layout(replaced(kWithProperties, was, is), "p.json")));
+  EXPECT_EQ(digests.size(), 7U);
+}
+
+TEST(LayoutFile, RefusedPropertiesNameTheirPlace) {
+  EXPECT_NE(refusal(replaced(kWithProperties, "0.5", "-0.5")).find("/layout/segments/0/speed_limit_mps: -0.5"),
+            std::string::npos);
+  EXPECT_NE(refusal(replaced(kWithProperties, "0.5", "1000")).find("a speed limit is 0 (none), or 0.001 to 100 m/s"),
+            std::string::npos);
+  EXPECT_NE(refusal(replaced(kWithProperties, "true", "false")).find("this segment is driven one way alone"),
+            std::string::npos);
+  EXPECT_NE(refusal(replaced(kWithProperties, "[\"dock\"", "[\"deck\"")).find("\"deck\" is refused"),
+            std::string::npos);
+  EXPECT_NE(refusal(replaced(kWithProperties, "[\"dock\", \"aisle\"]", "[\"dock\", \"dock\"]")).find("named twice"),
+            std::string::npos);
+  EXPECT_NE(refusal(replaced(kWithProperties, "one-vehicle", "one-vehicles")).find("did you mean \"one-vehicle\"?"),
+            std::string::npos);
+  EXPECT_NE(refusal(replaced(kWithProperties, "{\"name\": \"aisle\"", "{\"name\": \"dock\"")).find("two blocks"),
+            std::string::npos);
 }
 
 TEST(LayoutFile, GeneratedLayoutsComeBackExactly) {

@@ -139,6 +139,27 @@ TEST(Lif, TheFamiliesComeBackAsTheyWere) {
   }
 }
 
+TEST(Lif, EachDirectionHasItsSpeedLimitInEitherSpelling) {
+  const auto read = import(sample(", \"maxSpeed\": 1.2", ", \"maximumSpeed\": 0.4"));
+  ASSERT_EQ(read.layout.segments.size(), 1U);
+  EXPECT_EQ(read.layout.segments[0].speed_limit_mps, 1.2);
+  EXPECT_EQ(read.layout.segments[0].back_speed_limit_mps, 0.4);
+  EXPECT_TRUE(read.warnings.empty()) << read.warnings[0];
+  expect_round_trip(read.layout);
+  EXPECT_NE(refusal(sample(", \"maxSpeed\": 0")).find("maxSpeed: 0 is refused: expected a speed above 0 m/s"),
+            std::string::npos);
+}
+
+TEST(Lif, OfSpeedLimitsByTypeTheLowestIsTakenAndToldSo) {
+  const auto read = import(sample(", \"maxSpeed\": 1.2}, {\"vehicleTypeId\": \"w\", \"maxSpeed\": 0.8",
+                                  ", \"maxSpeed\": 2}, {\"vehicleTypeId\": \"w\""));
+  EXPECT_EQ(read.layout.segments[0].speed_limit_mps, 0.8);
+  EXPECT_EQ(read.layout.segments[0].back_speed_limit_mps, 2.0);
+  ASSERT_EQ(read.warnings.size(), 1U);
+  EXPECT_NE(read.warnings[0].find("2 edges have a speed limit for each type of vehicle; the lowest is taken"),
+            std::string::npos);
+}
+
 TEST(Lif, TheCrossdockComesBackWithItsTwinsAsOne) {
   std::vector<std::string> warnings;
   auto layout = read_opentcs(independent::source_file("tests/layouts/crossdock.xml"), warnings, {TwinPaths::Keep, {}});

@@ -33,7 +33,7 @@ extern "C" {
 #endif
 
 #define FP_ABI_MAJOR 1u
-#define FP_ABI_MINOR 1u
+#define FP_ABI_MINOR 2u
 
 #define FP_NONE 0xffffffffu /* no station, no segment, no AGV */
 #define FP_HERE FP_NONE     /* as the segment of pick, drop, park and charge: where the AGV stands, without driving */
@@ -97,7 +97,25 @@ typedef struct fp_lane {
   double length_m;
   uint32_t arc_count;
   const fp_arc* arcs;
+  /* Since minor 2. The controller keeps the speed limit by itself. `blocks`: indices into the map's blocks, ascending.
+   */
+  double speed_limit_mps; /* 0: no limit but the vehicle's own */
+  double width_m;         /* of the floor drawn for this lane; 0: not known */
+  uint32_t block_count;
+  const uint32_t* blocks;
 } fp_lane;
+
+/* Since minor 2. A block is a named set of segments, as the plant's planner drew it. The warehouse does not enforce it:
+ * keeping it is the agents' task. */
+typedef enum fp_block_kind {
+  FP_ONE_VEHICLE = 0,   /* at most one vehicle inside */
+  FP_SAME_DIRECTION = 1 /* several vehicles, if they drive in one direction */
+} fp_block_kind;
+
+typedef struct fp_block {
+  const char* name;
+  uint32_t kind; /* fp_block_kind */
+} fp_block;
 
 typedef struct fp_map {
   uint32_t struct_size;
@@ -105,6 +123,9 @@ typedef struct fp_map {
   uint32_t station_stride, lane_stride, arc_stride; /* in bytes */
   const fp_station* stations;                       /* by station id */
   const fp_lane* lanes;
+  /* Since minor 2. */
+  uint32_t block_count, block_stride;
+  const fp_block* blocks;
 } fp_map;
 
 /* ---- the briefing ---------------------------------------------------------------------------------------- */
