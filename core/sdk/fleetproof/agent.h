@@ -28,6 +28,8 @@
 
 #include <stdint.h>
 
+#include "map.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -48,8 +50,6 @@ typedef enum fp_result {
   FP_SUSPENDED = -3 /* the engine has given this agent up (more calls than its limit): return at once */
 } fp_result;
 
-typedef enum fp_purpose { FP_ROUTING = 1, FP_STORAGE = 2, FP_CHARGING = 4, FP_PARKING = 8 } fp_purpose;
-
 /* What the AGV is doing. FP_STOPPED: something stopped the AGV in the middle of an action; the AGV will go on without a
  * further call.
  * FP_OUT_OF_ORDER: the AGV is broken down or empty. It may be repaired and then goes on, too. */
@@ -64,69 +64,6 @@ typedef enum fp_action {
   FP_OUT_OF_ORDER,
   FP_STOPPED
 } fp_action;
-
-/* ---- the logical map ------------------------------------------------------------------------------------- */
-
-typedef struct fp_pose {
-  double x_m, y_m;
-  double heading_x, heading_y;
-} fp_pose;
-
-typedef struct fp_station {
-  const char* name;
-  double x_m, y_m;
-  uint32_t purposes; /* fp_purpose, or-ed */
-  uint32_t lane_count;
-  const uint32_t* lanes; /* indices of the lanes that leave this station */
-} fp_station;
-
-/* A straight line (curvature 0) or a circular arc (positive curvature turns left) from `start` along its heading. */
-typedef struct fp_arc {
-  fp_pose start;
-  double length_m;
-  double curvature_per_m;
-} fp_arc;
-
-/* The arcs of a curved lane lie within 0.1 mm and 2 mrad of its track (the heading counts for the corners of a long
-   AGV). The arcs join without kinks, and both ends are exact. */
-
-/* One way to drive a segment. A bidirectional segment has two lanes with the same segment id. AGVs drive nose first. */
-typedef struct fp_lane {
-  uint32_t segment;
-  uint32_t from, to; /* stations */
-  double length_m;
-  uint32_t arc_count;
-  const fp_arc* arcs;
-  /* Since minor 2. The controller keeps the speed limit by itself. `blocks`: indices into the map's blocks, ascending.
-   */
-  double speed_limit_mps; /* 0: no limit but the vehicle's own */
-  double width_m;         /* of the floor drawn for this lane; 0: not known */
-  uint32_t block_count;
-  const uint32_t* blocks;
-} fp_lane;
-
-/* Since minor 2. A block is a named set of segments, as the plant's planner drew it. The warehouse does not enforce it:
- * keeping it is the agents' task. */
-typedef enum fp_block_kind {
-  FP_ONE_VEHICLE = 0,   /* at most one vehicle inside */
-  FP_SAME_DIRECTION = 1 /* several vehicles, if they drive in one direction */
-} fp_block_kind;
-
-typedef struct fp_block {
-  const char* name;
-  uint32_t kind; /* fp_block_kind */
-} fp_block;
-
-typedef struct fp_map {
-  uint32_t struct_size;
-  uint32_t station_count, lane_count, segment_count;
-  uint32_t station_stride, lane_stride, arc_stride; /* in bytes */
-  const fp_station* stations;                       /* by station id */
-  const fp_lane* lanes;
-  /* Since minor 2. */
-  uint32_t block_count, block_stride;
-  const fp_block* blocks;
-} fp_map;
 
 /* ---- the briefing ---------------------------------------------------------------------------------------- */
 
