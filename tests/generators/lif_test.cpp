@@ -144,7 +144,7 @@ TEST(Lif, EachDirectionHasItsSpeedLimitInEitherSpelling) {
   ASSERT_EQ(read.layout.segments.size(), 1U);
   EXPECT_EQ(read.layout.segments[0].speed_limit_mps, 1.2);
   EXPECT_EQ(read.layout.segments[0].back_speed_limit_mps, 0.4);
-  EXPECT_TRUE(read.warnings.empty()) << read.warnings[0];
+  for (const std::string& warning : read.warnings) EXPECT_EQ(warning.find("speed"), std::string::npos) << warning;
   expect_round_trip(read.layout);
   EXPECT_NE(refusal(sample(", \"maxSpeed\": 0")).find("maxSpeed: 0 is refused: expected a speed above 0 m/s"),
             std::string::npos);
@@ -155,9 +155,13 @@ TEST(Lif, OfSpeedLimitsByTypeTheLowestIsTakenAndToldSo) {
                                   ", \"maxSpeed\": 2}, {\"vehicleTypeId\": \"w\""));
   EXPECT_EQ(read.layout.segments[0].speed_limit_mps, 0.8);
   EXPECT_EQ(read.layout.segments[0].back_speed_limit_mps, 2.0);
-  ASSERT_EQ(read.warnings.size(), 1U);
-  EXPECT_NE(read.warnings[0].find("2 edges have a speed limit for each type of vehicle; the lowest is taken"),
-            std::string::npos);
+  EXPECT_EQ(std::ranges::count_if(read.warnings,
+                                  [](const std::string& warning) {
+                                    return warning.find(
+                                               "2 edges have a speed limit for each type of vehicle; the "
+                                               "lowest is taken") != std::string::npos;
+                                  }),
+            1);
 }
 
 TEST(Lif, TheCrossdockComesBackWithItsTwinsAsOne) {
