@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <iterator>
 #include <map>
 
 #include "core/base/catalogue.hpp"
@@ -20,9 +21,18 @@ namespace fleetproof {
 namespace {
 
 constexpr std::string_view kNodeColumns[] = {"id", "x", "y", "purposes"};
-constexpr std::string_view kEdgeColumns[] = {"from", "to", "bidirectional", "name", "control_points"};
+constexpr std::string_view kEdgeColumns[] = {
+    "from", "to", "bidirectional", "name", "control_points", "speed_limit_mps", "back_speed_limit_mps", "width_m"};
 
 constexpr std::string_view kNoPurpose = "none";
+
+struct Property {
+  const char* column;
+  double Segment::*value;
+};
+constexpr Property kProperties[] = {{"speed_limit_mps", &Segment::speed_limit_mps},
+                                    {"back_speed_limit_mps", &Segment::back_speed_limit_mps},
+                                    {"width_m", &Segment::width_m}};
 
 class TableReader {
  public:
@@ -146,6 +156,9 @@ class TableReader {
       refuse(fmt::format("control_points are {} numbers; expected x y x y ...", numbers.size()));
     for (std::size_t i = 0; i < numbers.size(); i += 2)
       segment.control_points_m.emplace_back(numbers[i], numbers[i + 1]);
+    for (const auto& [column, property] : kProperties) {
+      if (const auto value = field(fields, column); !value.empty()) segment.*property = number(value, column);
+    }
     layout_.segments.push_back(std::move(segment));
     segment_lines_.push_back(lines_.number());
   }
@@ -200,13 +213,21 @@ std::string to_csv(const Layout& layout) {
     text += fmt::format("{},{},{},{}\n", quoted(s.name), s.position_m.x(), s.position_m.y(),
                         purposes.empty() ? kNoPurpose : purposes);
   }
-  text += "from,to,bidirectional,name,control_points\n";
+  text += "from,to,bidirectional,name,control_points";
+  std::vector<Property> shown;
+  std::ranges::copy_if(kProperties, std::back_inserter(shown), [&](const Property& property) {
+    return std::ranges::any_of(layout.segments, [&](const Segment& s) { return s.*property.value > 0.0; });
+  });
+  for (const Property& property : shown) text += fmt::format(",{}", property.column);
+  text += '\n';
   for (const auto& s : layout.segments) {
     text += fmt::format("{},{},{},{},", quoted(layout.stations.at(s.from.index()).name),
                         quoted(layout.stations.at(s.to.index()).name), s.bidirectional, quoted(s.name));
     for (std::size_t i = 0; i < s.control_points_m.size(); ++i) {
       text += fmt::format("{}{} {}", i > 0 ? " " : "", s.control_points_m[i].x(), s.control_points_m[i].y());
     }
+    for (const Property& property : shown)
+      text += s.*property.value > 0.0 ? fmt::format(",{}", s.*property.value) : std::string(",");
     text += '\n';
   }
   return text;

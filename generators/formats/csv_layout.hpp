@@ -23,6 +23,7 @@ namespace fleetproof {
 // - `bidirectional`: true, false, 1 or 0. Empty: false.
 // - `name` of an edge. Empty: "dock-fork".
 // - `control_points`: x y x y ... Empty: straight.
+// - `speed_limit_mps`, `back_speed_limit_mps` (of the other direction), `width_m`. Empty: none, or not known.
 // A field with a comma or a double quote stands in double quotes. Empty lines and lines that begin with # are skipped.
 //
 // Throws InputError with file, line, field, value and remedy if no AGV can drive on the layout. Nothing is left
@@ -32,8 +33,8 @@ Layout parse_csv_layout(std::string_view text, std::string_view source, std::vec
                         TwinPaths twins = TwinPaths::Merge);
 
 // The layout in this form. Reading it gives the same layout, with three exceptions: the name becomes the name of the
-// file, the floor is fitted again, and twins become one segment unless the reader keeps them. A layout without segments
-// cannot be read again.
+// file, the floor is fitted again, and twins become one segment unless the reader keeps them. Blocks have no
+// place here. A layout without segments cannot be read again.
 std::string to_csv(const Layout& layout);
 
 }  // namespace fleetproof

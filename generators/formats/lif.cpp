@@ -263,7 +263,7 @@ class LifReader {
   std::set<std::string> node_names_, edge_names_, elsewhere_;
   std::map<std::string, StationId> stations_;
   std::map<std::size_t, Purposes> stated_;  // by station: given in the description of the station
-  std::size_t of_types_ = 0;  // edges
+  std::size_t of_types_ = 0;                // edges
 };
 
 }  // namespace

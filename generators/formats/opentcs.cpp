@@ -11,6 +11,7 @@
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
 #include "core/base/tolerances.hpp"
+#include "core/scenario/vehicle_fields.hpp"
 #include "generators/formats/opentcs_drawing.hpp"
 #include "generators/formats/opentcs_left_out.hpp"
 #include "generators/formats/opentcs_positions.hpp"
@@ -122,9 +123,20 @@ class ModelReader {
       return warn(path, fmt::format("locked path {} is left out", in_quotes(segment.name)));
     if (segment.from == segment.to)
       xml_.refuse(path, fmt::format("path {} leads from a point to itself; leave it out", in_quotes(segment.name)));
+    segment.speed_limit_mps = speed_limit_mps(path);
     bend(path, segment);
     layout_.segments.push_back(std::move(segment));
     paths_.push_back(path);
+  }
+
+  // 0 in the file means none. A limit above all vehicles is none, too.
+  double speed_limit_mps(const pugi::xml_node& path) const {
+    const auto limit = path.attribute("maxVelocity");
+    double limit_mmps = 0.0;
+    if (limit && (!read_number(limit.value(), limit_mmps) || !(limit_mmps >= 0.0)))
+      xml_.refuse(path,
+                  fmt::format("maxVelocity is {}; expected a whole number of mm/s, or 0", in_quotes(limit.value())));
+    return limit_mmps / 1000.0 <= kFastest ? limit_mmps / 1000.0 : 0.0;
   }
 
   void bend(const pugi::xml_node& path, Segment& segment) {

@@ -10,7 +10,6 @@
 namespace fleetproof {
 namespace {
 
-constexpr Topic kSpeeds{"{0} paths limit the speed ({1}); here every AGV drives at the speed of its type"};
 constexpr Topic kReverse{
     "{0} paths may be driven in reverse ({1}); here AGVs drive nose first, from source to destination only"};
 constexpr Topic kCosts{"{0} paths have routing costs ({1}); they are left out"};
@@ -72,7 +71,7 @@ constexpr Rule kRules[] = {
     {"path", "destinationPoint"},
     {"path", "length"},
     {"path", "locked"},
-    {"path", "maxVelocity", &kSpeeds, "0"},
+    {"path", "maxVelocity"},
     {"path", "maxReverseVelocity", &kReverse, "0"},
     {"path", "routingCost", &kCosts, "1"},
     {"path", "id", &kNumbers},

@@ -193,6 +193,11 @@ class LevelReader {
     segment.to = station_of(to);
     segment.bidirectional = is_set(words, "bidirectional");
     segment.name = fmt::format("lane {}", lanes_.size());
+    if (const auto limit = parameter(words, "speed_limit"); limit.IsDefined()) {
+      const double limit_mps = yaml_.number(limit, "speed_limit");
+      segment.speed_limit_mps = limit_mps > 0.0 ? limit_mps : 0.0;  // 0, or -1 in older files: none
+      if (segment.bidirectional) segment.back_speed_limit_mps = segment.speed_limit_mps;
+    }
     layout_.segments.push_back(std::move(segment));
     lanes_.push_back(lane);
     read_.lanes.insert(place);

@@ -17,7 +17,6 @@ constexpr Topic kLifts{"{0} lifts are left out ({1}); lifts are not modelled, an
 constexpr Topic kParts{"{0} parts of the file are left out ({1}); they change no lane"};
 constexpr Topic kUnused{"{0} vertices lie on no lane that is read and are left out ({1})"};
 constexpr Topic kHeights{"{0} vertices lie above or below the floor ({1}); here the floor is flat"};
-constexpr Topic kSpeeds{"{0} lanes limit the speed ({1}); here every AGV drives at the speed of its type"};
 constexpr Topic kHeadings{
     "{0} lanes ask for an orientation ({1}); sideways and reverse travel are not modelled: here AGVs drive nose first"};
 constexpr Topic kMutexes{"{0} mutex groups are left out ({1}); here the software under test keeps AGVs apart"};
@@ -36,7 +35,7 @@ struct Rule {
 };
 constexpr Rule kLaneRules[] = {{"bidirectional"},
                                {"graph_idx"},
-                               {"speed_limit", &kSpeeds},
+                               {"speed_limit"},
                                {"orientation", &kHeadings},
                                {"orientation_constraint", &kHeadings},
                                {"mutex", &kMutexes, Named::ByValue},

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "core/base/error.hpp"
+#include "damage.hpp"
 #include "generators/formats/layout_file.hpp"
 #include "generators/map/reachability.hpp"
 #include "generators/worlds/world_maker.hpp"
@@ -34,10 +35,11 @@ const Station& station(const Layout& layout, std::string_view name) {
 TEST(OpenTcs, ReadsTheCrossdock) {
   std::vector<std::string> warnings;
   const Layout layout = read_opentcs(kCrossdock, warnings);
-  EXPECT_EQ(warnings.size(), 7U) << "speeds, sizes, vehicles, blocks, places, the drawing and twins";
+  EXPECT_EQ(warnings.size(), 6U) << "sizes, vehicles, blocks, places, the drawing and twins";
   EXPECT_EQ(layout.name, "Small cross-dock");
   EXPECT_EQ(layout.stations.size(), 30U);
   EXPECT_EQ(layout.segments.size(), 31U);
+  EXPECT_EQ(std::ranges::count(layout.segments, 2.0, &Segment::speed_limit_mps), 31);
   EXPECT_EQ(curved(layout), 4U);
   EXPECT_TRUE(independent::all_reach_all(layout));
   EXPECT_EQ(std::ranges::count_if(layout.segments, &Segment::bidirectional), 12) << "twins become two-way";
@@ -152,6 +154,24 @@ TEST(OpenTcs, ReadsOlderSpellingsAndBothScales) {
   ASSERT_EQ(layout.segments[0].control_points_m.size(), 2U);
   EXPECT_EQ(layout.segments[0].control_points_m[0], Vec2(1.0, -1.0));
   EXPECT_EQ(layout.segments[0].control_points_m[1], Vec2(3.0, 1.0));
+}
+
+TEST(OpenTcs, EachPathKeepsItsSpeedLimit) {
+  const auto limited = [](const std::string& there, const std::string& back) {
+    return replaced(replaced(kModel, "name=\"ab\"", "name=\"ab\" maxVelocity=\"" + there + "\""), "name=\"ba\"",
+                    "name=\"ba\" maxVelocity=\"" + back + "\"");
+  };
+  std::vector<std::string> warnings;
+  const auto merged = parse_opentcs(limited("1500", "250"), "m.xml", warnings);
+  EXPECT_EQ(merged.segments[0].speed_limit_mps, 1.5);
+  EXPECT_EQ(merged.segments[0].back_speed_limit_mps, 0.25);
+  const auto none = import(limited("0", "2147483647")).layout;
+  EXPECT_EQ(none.segments[0].speed_limit_mps, 0.0);
+  EXPECT_EQ(none.segments[1].speed_limit_mps, 0.0) << "above all vehicles";
+  EXPECT_NE(independent::refusal(import, limited("fast", "0"))
+                .find("maxVelocity is \"fast\"; expected a whole number of mm/s, or 0"),
+            std::string::npos);
+  EXPECT_NE(independent::refusal(import, limited("-5", "0")).find("maxVelocity is \"-5\""), std::string::npos);
 }
 
 TEST(OpenTcs, TwinPathsBecomeOneSegmentUnlessKept) {

@@ -75,12 +75,13 @@ TEST(Rmf, ABuildingIsScaledAndTurnedUp) {
   ASSERT_EQ(layout.segments.size(), 2U);
   EXPECT_TRUE(layout.segments[0].bidirectional);
   EXPECT_FALSE(layout.segments[1].bidirectional);
+  EXPECT_EQ(layout.segments[0].speed_limit_mps, 0.0) << "0 means none";
+  EXPECT_EQ(layout.segments[1].speed_limit_mps, 0.5);
+  EXPECT_EQ(layout.segments[1].back_speed_limit_mps, 0.0);
   EXPECT_EQ(warnings, (std::vector<std::string>{"b.yaml:15: a second vertex is named \"dock\"; it becomes \"v2\"",
                                                 "b.yaml:6: 1 lanes of other graphs are left out",
                                                 "b.yaml:16: 2 vertices lie on no lane that is read and are left out "
-                                                "(\"v3\", \"v4\")",
-                                                "b.yaml:7: 1 lanes limit the speed (\"lane 1\"); here every AGV drives "
-                                                "at the speed of its type"}));
+                                                "(\"v3\", \"v4\")"}));
 }
 
 TEST(Rmf, AnotherGraphOrLevelCanBeChosen) {
