@@ -29,7 +29,7 @@ Table failure_table(const std::vector<FailureGroup>& groups) {
 }
 
 Section failure_section(const ReportInput& input, std::size_t most_groups) {
-  Section section{"Runs in which something went wrong, by what came first", {}, {}};
+  Section section{kFailuresTitle, {}, {}};
   auto groups = input.failures.list(input.evidence.gates());
   if (groups.empty()) {
     section.remarks.emplace_back().text = "No run failed.";
@@ -37,11 +37,7 @@ Section failure_section(const ReportInput& input, std::size_t most_groups) {
   }
   const std::size_t all = groups.size();
   groups.resize(std::min(all, most_groups));
-  section.remarks.emplace_back().text =
-      "Runs with an unknown outcome stand here, too. End point = the most serious thing that happened in the run; at "
-      "hazardous speed = above 0.3 m/s. First cause = what happened first; the rest may be its consequence. Before it "
-      "= what the scenario had done to the bodies involved; that is an order in time and shows no cause. Distinct = "
-      "the number of different traces. The worst run of each group:";
+  section.remarks.emplace_back().text = fmt::format("{} The worst run of each group:", kFailureColumns);
   section.table = failure_table(groups);
   for (const FailureGroup& group : groups) section.remarks.push_back(worst_of(input, group));
   if (all > most_groups)

@@ -1,10 +1,19 @@
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "reports/page.hpp"
 
 namespace fleetproof {
+
+inline constexpr const char* kFailuresTitle = "Runs in which something went wrong, by what came first";
+// What the columns of the table mean.
+inline constexpr std::string_view kFailureColumns =
+    "Runs with an unknown outcome stand here, too. End point = the most serious thing that happened in the run; at "
+    "hazardous speed = above 0.3 m/s. First cause = what happened first; the rest may be its consequence. Before it = "
+    "what the scenario had done to the bodies involved; that is an order in time and shows no cause. Distinct = the "
+    "number of different traces.";
 
 // The worst run of a group in words, with its command.
 Remark worst_of(const ReportInput& input, const FailureGroup& group);

@@ -71,8 +71,8 @@ void build_first_worlds(const CampaignPlan& plan);
 // The agents of the plan that come from shared objects.
 std::vector<std::string> plugin_agents(const CampaignPlan& plan, const AgentPrograms& programs);
 
-// The gates of the plan with everything that the archive stores of them: tables of stopping decisions, and which gates
-// decide the verdict.
+// The gates of the plan as the archive stores them: each with its table of stopping decisions, and whether it decides
+// the verdict.
 std::vector<GateRecord> resolved_gates(const CampaignPlan& plan, const AgentPrograms& programs);
 
 CampaignRecord campaign_record(const CampaignPlan& plan, const AgentPrograms& programs);

@@ -32,7 +32,7 @@ std::string remembered_plugin(const std::string& archive_path, const std::string
 
 // The ledger that the last session wrote to; empty: no session says so.
 std::string remembered_ledger(const std::string& archive_path);
-// The options that changed the campaign file's plan in the last session, as typed; empty if there were none.
+// The options with which the last session changed the plan of the campaign file, as typed. Empty: there were none.
 std::string remembered_overrides(const std::string& archive_path);
 
 }  // namespace fleetproof

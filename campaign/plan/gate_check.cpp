@@ -17,7 +17,7 @@ std::string text_of(double from, double to) {
   return from == to ? fmt::format("{}", from) : fmt::format("{} .. {}", from, to);
 }
 
-// The values of a factor in the cells, each once.
+// The values that a factor has in these cells, without repetition.
 std::vector<std::string> values_of(Factor factor, const std::vector<CellRecord>& cells) {
   std::vector<std::string> values;
   for (const CellRecord& cell : cells) {

@@ -23,7 +23,7 @@ constexpr const char* name_of(BlockKind kind) {
   return kNoWord;
 }
 
-// A named set of segments. Agents are told of it; no law judges whether they keep it, only what comes of it.
+// A named set of segments. Agents are told of it. No law checks that they keep it; laws judge distances and loads.
 struct SegmentBlock {
   std::string name{};
   BlockKind kind = BlockKind::OneVehicle;

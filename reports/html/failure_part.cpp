@@ -27,16 +27,12 @@ Element worst_of_group(const ReportInput& input, const FailureGroup& group, cons
 }  // namespace
 
 Element failure_part(const ReportInput& input, const FilmStrips& strips) {
-  Element part = titled("Runs in which something went wrong, by what came first");
+  Element part = titled(kFailuresTitle);
   auto groups = input.failures.list(input.evidence.gates());
   if (groups.empty()) return part.add(paragraph("No run failed."));
   const std::size_t all = groups.size();
   groups.resize(std::min(all, kMostGroups));
-  part.add(paragraph(
-      "Runs with an unknown outcome stand here, too. End point = the most serious thing that happened in the run; at "
-      "hazardous speed = above 0.3 m/s. First cause = what happened first; what follows may be its consequence. Before "
-      "it = what the scenario had done to the bodies involved; that is an order in time and shows no cause. Distinct "
-      "= the number of different traces."));
+  part.add(paragraph(std::string(kFailureColumns)));
   part.add(table_of(failure_table(groups)));
   part.add(paragraph("Below, the worst run of each group with the command that replays it."));
   if (!strips.empty()) {
