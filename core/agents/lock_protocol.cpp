@@ -63,6 +63,10 @@ namespace {
 constexpr std::int64_t kAskAgain_ns = 700'000'000;
 constexpr std::int64_t kAskAgainLatest_ns = 4 * kSecond_ns;
 constexpr std::int64_t kAskDeferredAgain_ns = 1'500'000'000;
+// After a step back, the new epoch asks nobody for this long. Suppose n AGVs want the same floor over a radio without
+// delay. If each asked at once, every new epoch of one would make all later ones step back again: 2^n epochs at one
+// instant. With the pause, an AGV asks once in each pause.
+constexpr std::int64_t kStepBackPause_ns = 200'000'000;
 constexpr std::uint32_t kQuickAsks = 10;
 constexpr std::uint32_t kJitterDraws = 1;
 
@@ -175,6 +179,7 @@ void LockProtocol::grant(std::uint32_t agv, Neighbour& neighbour, Answer answer)
   if (answer == Answer::GrantAndStepBack) {
     controller_.sometimes("overtaken");
     open_epoch();
+    ask_from_ns_ = controller_.now_ns() + jittered(kStepBackPause_ns);
   }
   send(MessageKind::Grant, agv, neighbour.request_epoch);
 }
@@ -209,7 +214,7 @@ void LockProtocol::receive_answer(std::uint32_t sender, const Message& message) 
 
 bool LockProtocol::settle() {
   answer_those_deferred();
-  if (!requesting_ || !own_place_known_ || !all_consent()) return false;
+  if (!requesting_ || !own_place_known_ || controller_.now_ns() < ask_from_ns_ || !all_consent()) return false;
   for (const std::uint32_t lane : request_.lanes()) held_.append(lane);
   withdraw();
   return true;
@@ -264,6 +269,7 @@ std::int64_t LockProtocol::jittered(std::int64_t pause_ns) {
 std::int64_t LockProtocol::ask_again() {
   if (!requesting_) return -1;
   const std::int64_t now_ns = controller_.now_ns();
+  if (now_ns < ask_from_ns_) return ask_from_ns_;
   std::int64_t next_ns = -1;
   neighbours_.for_each([&](std::uint32_t agv, Neighbour& n) {
     if (n.asked_epoch != epoch_ || n.granted_us_epoch == epoch_) return;

@@ -91,6 +91,7 @@ class LockProtocol {
   Path request_;
   std::int64_t demand_ns_ = 0;
   Epoch epoch_;
+  std::int64_t ask_from_ns_ = 0;     // this epoch asks nobody before this instant
   bool asked_ = false;               // every AGV that had to be asked when this epoch began has been asked
   bool answers_may_change_ = false;  // something changed since the deferred requests were last examined
 
