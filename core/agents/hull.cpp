@@ -21,8 +21,28 @@ HullGeometry::HullGeometry(const MapView& map, const fp_briefing& briefing)
     kind_of_.push_back(static_cast<std::uint32_t>(known - kinds_.begin()));
     if (known == kinds_.end()) kinds_.push_back({length_m, width_m, length(Vec{length_m, width_m}) / 2.0});
   }
-  parts_.resize(kinds_.size() * parts_per_kind_);
-  known_conflicts_.resize(parts_.size());
+  parts_.reserve(kinds_.size() * parts_per_kind_);
+  for (const Kind& kind : kinds_) bound_parts(kind);
+  known_pairs_.resize(parts_.size());
+}
+
+// No point of a lane is further from the middle between its ends than half the length of the lane.
+void HullGeometry::bound_parts(const Kind& kind) {
+  for (std::uint32_t id = 0; id < map_.lane_count(); ++id) {
+    const fp_lane& lane = map_.lane(id);
+    const fp_pose& start = map_.arc(lane, 0).start;
+    const fp_pose end = end_of(map_.arc(lane, lane.arc_count - 1));
+    double length_m = 0.0;
+    for (std::uint32_t i = 0; i < lane.arc_count; ++i) length_m += map_.arc(lane, i).length_m;
+    Part& part = parts_.emplace_back();
+    part.centre_m = Vec{start.x_m + end.x_m, start.y_m + end.y_m} * 0.5;
+    part.reach_m = length_m / 2.0 + kind.half_diagonal_m;
+  }
+  for (std::uint32_t id = 0; id < map_.station_count(); ++id) {
+    Part& part = parts_.emplace_back();
+    part.centre_m = map_.position_m(id);
+    part.reach_m = kind.half_diagonal_m;
+  }
 }
 
 bool HullGeometry::conflict(std::uint32_t agv_a, const Path& a, std::uint32_t agv_b, const Path& b) {
@@ -65,7 +85,7 @@ double HullGeometry::distance_bound_m(Vec point_m, std::uint32_t agv, const Path
   if (parts.count == 0) return length(point_m - parts.body.centre_m) - parts.body.reach_m();
   double least_m = INFINITY;
   for (std::uint32_t i = 0; i < parts.count; ++i) {
-    const Part& p = part(parts.numbers[i]);
+    const Part& p = parts_[parts.numbers[i]];
     least_m = std::min(least_m, length(point_m - p.centre_m) - p.reach_m);
   }
   return least_m;
@@ -83,7 +103,7 @@ void HullGeometry::collect(std::uint32_t agv, const Path& path, Parts& parts) co
   if (parts.count == 0) parts.body = body_at(map_.position_m(path.station), path.heading, kind.length_m, kind.width_m);
 }
 
-const HullGeometry::Part& HullGeometry::part(std::uint32_t number) {
+const HullGeometry::Part& HullGeometry::with_shapes(std::uint32_t number) {
   Part& p = parts_[number];
   if (p.count == 0) work_out(number, p);
   return p;
@@ -101,33 +121,28 @@ void HullGeometry::work_out(std::uint32_t number, Part& part) {
       append_sweep(map_.arc(lane, i), kind.length_m, kind.width_m, shapes_);
   }
   part.count = static_cast<std::uint32_t>(shapes_.size()) - part.first;
-  Vec sum;
-  for (std::uint32_t i = 0; i < part.count; ++i) sum = sum + shapes_[part.first + i].centre_m;
-  part.centre_m = sum * (1.0 / part.count);
-  for (std::uint32_t i = 0; i < part.count; ++i) {
-    const Shape& shape = shapes_[part.first + i];
-    part.reach_m = std::max(part.reach_m, length(shape.centre_m - part.centre_m) + shape.reach_m());
-  }
 }
 
 bool HullGeometry::parts_conflict(std::uint32_t a, std::uint32_t b) {
   if (a > b) std::swap(a, b);
-  auto& row = known_conflicts_[a];
-  if (row.empty()) row.resize(parts_.size() - a);
-  std::uint8_t& known = row[b - a];
-  if (known != 0) return known == 2;
-  const Part& of_a = part(a);
-  const Part& of_b = part(b);
-  bool found = false;
-  if (length(of_a.centre_m - of_b.centre_m) < of_a.reach_m + of_b.reach_m + clearance_m_) {
-    for (std::uint32_t i = 0; i < of_a.count && !found; ++i) {
-      for (std::uint32_t k = 0; k < of_b.count && !found; ++k) {
-        found = closer_than(shapes_[of_a.first + i], shapes_[of_b.first + k], clearance_m_);
-      }
+  const double near_m = parts_[a].reach_m + parts_[b].reach_m + clearance_m_;
+  const Vec apart_m = parts_[a].centre_m - parts_[b].centre_m;
+  if (dot(apart_m, apart_m) >= near_m * near_m) return false;
+  std::vector<Pair>& known = known_pairs_[a];
+  const auto place = std::ranges::lower_bound(known, b, {}, &Pair::other);
+  if (place != known.end() && place->other == b) return place->conflict;
+  const bool found = shapes_conflict(with_shapes(a), with_shapes(b));
+  known.insert(place, {b, found});
+  return found;
+}
+
+bool HullGeometry::shapes_conflict(const Part& a, const Part& b) const {
+  for (std::uint32_t i = 0; i < a.count; ++i) {
+    for (std::uint32_t k = 0; k < b.count; ++k) {
+      if (closer_than(shapes_[a.first + i], shapes_[b.first + k], clearance_m_)) return true;
     }
   }
-  known = found ? 2 : 1;
-  return found;
+  return false;
 }
 
 bool HullGeometry::part_conflicts(std::uint32_t number, const Parts& others) {
@@ -137,10 +152,10 @@ bool HullGeometry::part_conflicts(std::uint32_t number, const Parts& others) {
 }
 
 bool HullGeometry::body_conflicts(const Shape& body, std::uint32_t number) {
-  const Part& p = part(number);
-  const double far_m = p.reach_m + body.reach_m() + clearance_m_;
-  const Vec d = body.centre_m - p.centre_m;
+  const double far_m = parts_[number].reach_m + body.reach_m() + clearance_m_;
+  const Vec d = body.centre_m - parts_[number].centre_m;
   if (dot(d, d) >= far_m * far_m) return false;
+  const Part& p = with_shapes(number);
   return std::any_of(shapes_.begin() + p.first, shapes_.begin() + p.first + p.count,
                      [&](const Shape& shape) { return closer_than(shape, body, clearance_m_); });
 }

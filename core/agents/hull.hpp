@@ -14,7 +14,8 @@ inline constexpr double kHullTolerance_m = 0.02;
 
 // Hulls: all the floor that an AGV may cover while it drives a path, as shapes. The hull of a path has parts: a disc
 // for each turn on the spot, and the sweep of every lane. A path without lanes has the standing body only. Parts, and
-// conflicts between them, are computed when they are first needed.
+// conflicts between them, are computed when they are first needed. Only pairs near each other are remembered, so the
+// memory grows with the number of lanes, not with its square.
 class HullGeometry {
  public:
   HullGeometry(const MapView& map, const fp_briefing& briefing);
@@ -38,8 +39,12 @@ class HullGeometry {
   };
   struct Part {
     std::uint32_t first = 0, count = 0;  // in shapes_; count 0: not computed yet
-    Vec centre_m;
+    Vec centre_m;                        // of a disc that contains the part
     double reach_m = 0.0;
+  };
+  struct Pair {
+    std::uint32_t other = 0;  // the part with the larger number
+    bool conflict = false;
   };
   // The parts of one path. `body` is used only if there are no parts.
   struct Parts {
@@ -55,9 +60,11 @@ class HullGeometry {
     return kind_of_[agv] * parts_per_kind_ + map_.lane_count() + station;
   }
   void collect(std::uint32_t agv, const Path& path, Parts& parts) const;
-  const Part& part(std::uint32_t number);
+  void bound_parts(const Kind& kind);
+  const Part& with_shapes(std::uint32_t number);
   void work_out(std::uint32_t number, Part& part);
   bool parts_conflict(std::uint32_t a, std::uint32_t b);
+  bool shapes_conflict(const Part& a, const Part& b) const;
   bool part_conflicts(std::uint32_t number, const Parts& others);
   bool body_conflicts(const Shape& body, std::uint32_t number);
 
@@ -68,8 +75,7 @@ class HullGeometry {
   double clearance_m_;
   std::vector<Part> parts_;
   std::vector<Shape> shapes_;
-  std::vector<std::vector<std::uint8_t>>
-      known_conflicts_;  // by the smaller part number, then the larger: 0 unknown, 1 no, 2 yes
+  std::vector<std::vector<Pair>> known_pairs_;  // by the smaller part number; ordered by the other
 };
 
 }  // namespace fleetproof::agents

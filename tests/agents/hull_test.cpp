@@ -154,6 +154,47 @@ TEST_F(Crossing, TheSafetyDistanceCountsEverywhere) {
   }
 }
 
+// The oracle: the sweeps themselves, without the discs that rule out pairs far from each other.
+TEST(HullGeometry, DrawnLanesConflictIfTheirSweepsDo) {
+  std::mt19937_64 draws(3);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  DrawnMap drawn;
+  for (std::uint32_t i = 0; i < 80; ++i) {
+    const double angle = 2.0 * M_PI * unit(draws), curvature_per_m = i % 2 == 0 ? 0.0 : 0.8 * (unit(draws) - 0.5);
+    const double length_m = 1.0 + 7.0 * unit(draws);
+    const std::uint32_t from = drawn.station(20.0 * unit(draws), 20.0 * unit(draws));
+    const fp_pose end = end_of(
+        fp_arc{pose(drawn.map().stations[from].x_m, drawn.map().stations[from].y_m, angle), length_m, curvature_per_m});
+    drawn.bend(from, drawn.station(end.x_m, end.y_m), std::cos(angle), std::sin(angle), length_m, curvature_per_m);
+  }
+  const TestFleet fleet(drawn.map(), 2);
+  const MapView map(drawn.map());
+  HullGeometry geometry(map, fleet.briefing(0, 0));
+  const auto sweep = [&](std::uint32_t lane) {
+    std::vector<Shape> shapes;
+    append_sweep(map.arc(map.lane(lane), 0), testing::kTestAgv.length_m, testing::kTestAgv.width_m, shapes);
+    return shapes;
+  };
+  int conflicts = 0;
+  for (int round = 0; round < 2; ++round) {  // what is remembered is the same
+    for (std::uint32_t a = 0; a < map.lane_count(); ++a) {
+      for (std::uint32_t b = 0; b < map.lane_count(); ++b) {
+        bool found = false;
+        for (const Shape& of_a : sweep(a)) {
+          for (const Shape& of_b : sweep(b)) found = found || closer_than(of_a, of_b, 0.12);
+        }
+        Path other;
+        other.station = map.lane(b).from;
+        other.heading = map.start_heading(b);
+        other.append(b);
+        ASSERT_EQ(geometry.lane_conflict(0, a, 1, other), found) << a << " and " << b;
+        conflicts += found;
+      }
+    }
+  }
+  EXPECT_GT(conflicts, 1000);
+}
+
 TEST_F(Crossing, DistanceBoundIsNoMoreThanTheDistance) {
   const Path p = path(0, 1);
   for (double x = -20.0; x < 20.0; x += 1.7) {
