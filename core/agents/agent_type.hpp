@@ -21,7 +21,6 @@ constexpr fp_agent_type agent_type(const char* name, const char* description, Cr
 }
 
 extern const fp_agent_type kHullLock;
-extern const fp_agent_type kTimeoutGrant;
 extern const fp_agent_type kReckless;
 extern const fp_agent_type kScripted;
 

@@ -7,15 +7,16 @@
 
 namespace fleetproof::agents {
 
-HullGeometry::HullGeometry(const MapView& map, const fp_briefing& briefing)
+HullGeometry::HullGeometry(const MapView& map, const fp_briefing& briefing, HullOptions options)
     : map_(map),
+      options_(options),
       parts_per_kind_(map.lane_count() + map.station_count()),
-      clearance_m_(briefing.safety_distance_m + kHullTolerance_m) {
+      clearance_m_((options.margin_is_whole ? 1.0 : 0.5) * briefing.safety_distance_m + kHullTolerance_m) {
   for (std::uint32_t i = 0; i < briefing.fleet_count; ++i) {
-    const fp_agv& agv = agv_of(briefing, i);
+    const fp_agv& agv = agv_of(briefing, options.sizes_differ ? i : briefing.self);
     // Always the size with a load: an AGV does not know whether another AGV is loaded.
-    const double length_m = std::max(agv.length_m, agv.loaded_length_m),
-                 width_m = std::max(agv.width_m, agv.loaded_width_m);
+    const double length_m = options.loads_count ? std::max(agv.length_m, agv.loaded_length_m) : agv.length_m,
+                 width_m = options.loads_count ? std::max(agv.width_m, agv.loaded_width_m) : agv.width_m;
     const auto known =
         std::ranges::find_if(kinds_, [&](const Kind& k) { return k.length_m == length_m && k.width_m == width_m; });
     kind_of_.push_back(static_cast<std::uint32_t>(known - kinds_.begin()));
@@ -46,6 +47,7 @@ void HullGeometry::bound_parts(const Kind& kind) {
 }
 
 bool HullGeometry::conflict(std::uint32_t agv_a, const Path& a, std::uint32_t agv_b, const Path& b) {
+  if (!options_.shapes_decide) return share_a_station(map_, a, b);
   Parts of_a, of_b;
   collect(agv_a, a, of_a);
   collect(agv_b, b, of_b);
@@ -94,7 +96,7 @@ double HullGeometry::distance_bound_m(Vec point_m, std::uint32_t agv, const Path
 void HullGeometry::collect(std::uint32_t agv, const Path& path, Parts& parts) const {
   Vec heading = path.heading;
   for (const std::uint32_t lane : path.lanes()) {
-    if (!same_heading(heading, map_.start_heading(lane)))
+    if (options_.turns_count && !same_heading(heading, map_.start_heading(lane)))
       parts.numbers[parts.count++] = turn_part(agv, map_.lane(lane).from);
     parts.numbers[parts.count++] = lane_part(agv, lane);
     heading = map_.end_heading(lane);
@@ -114,7 +116,10 @@ void HullGeometry::work_out(std::uint32_t number, Part& part) {
   const std::uint32_t what = number % parts_per_kind_;
   part.first = static_cast<std::uint32_t>(shapes_.size());
   if (what >= map_.lane_count()) {
-    shapes_.push_back(disc_at(map_.position_m(what - map_.lane_count()), kind.half_diagonal_m));
+    const double reach_m = options_.corners_count ? kind.half_diagonal_m : kind.length_m / 2.0;
+    shapes_.push_back(disc_at(map_.position_m(what - map_.lane_count()), reach_m));
+  } else if (!options_.bends_count) {
+    append_sweep(chord_of(map_, what), kind.length_m, kind.width_m, shapes_);
   } else {
     const fp_lane& lane = map_.lane(what);
     for (std::uint32_t i = 0; i < lane.arc_count; ++i)

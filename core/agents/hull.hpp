@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/agents/lock_options.hpp"
 #include "core/agents/path.hpp"
 #include "core/sdk/fleetproof/agent.h"
 
@@ -18,7 +19,7 @@ inline constexpr double kHullTolerance_m = 0.02;
 // memory grows with the number of lanes, not with its square.
 class HullGeometry {
  public:
-  HullGeometry(const MapView& map, const fp_briefing& briefing);
+  HullGeometry(const MapView& map, const fp_briefing& briefing, HullOptions options = {});
 
   // True if the hulls of the two paths come closer than the safety distance plus kHullTolerance_m.
   bool conflict(std::uint32_t agv_a, const Path& a, std::uint32_t agv_b, const Path& b);
@@ -69,6 +70,7 @@ class HullGeometry {
   bool body_conflicts(const Shape& body, std::uint32_t number);
 
   const MapView& map_;
+  HullOptions options_;
   std::vector<std::uint32_t> kind_of_;  // by AGV
   std::vector<Kind> kinds_;             // different footprints
   std::uint32_t parts_per_kind_;

@@ -5,7 +5,6 @@
 #include <tuple>
 #include <utility>
 
-#include "core/agents/agent_type.hpp"
 #include "core/agents/fleet.hpp"
 
 namespace fleetproof::agents {
@@ -25,6 +24,7 @@ constexpr double kOverdue_s = 5.0;         // an action that takes this much lon
 constexpr double kClockMargin = 1.02;      // clocks may run wrong by up to 1 %
 constexpr double kFarEnoughCharged = 0.5;  // battery level at which it leaves the charger to other AGVs
 constexpr std::uint32_t kTicksPerLookAtBattery = 8;
+constexpr double kEarly_s = 2.0;
 
 // Members of the briefing that a host of minor version 0 does not have.
 bool knows_restarts(const fp_briefing& briefing) {
@@ -40,16 +40,17 @@ bool has_chargers(const MapView& map) {
 
 }  // namespace
 
-HullLock::HullLock(const fp_host& host, fp_controller* handle, const fp_briefing& briefing, LockOptions options)
-    : settings_(read_settings(briefing.config)),
+HullLock::HullLock(const fp_host& host, fp_controller* handle, const fp_briefing& briefing, const LockOptions& options)
+    : options_(options),
+      settings_(read_settings(briefing.config)),
       boot_(knows_restarts(briefing) ? briefing.boot : 0),
       start_station_(briefing.start_station),
       start_segment_(boot_ > 0 ? briefing.start_segment : FP_NONE),
       controller_(host, handle, boot_),
       map_(*briefing.map),
-      geometry_(map_, briefing),
-      neighbours_(map_, geometry_, briefing, settings_),
-      protocol_(map_, geometry_, neighbours_, controller_, options, boot_),
+      geometry_(map_, briefing, options.hulls),
+      neighbours_(map_, geometry_, briefing, settings_, options),
+      protocol_(map_, geometry_, neighbours_, controller_, options, options.consent.epochs_name_boot ? boot_ : 0),
       planner_(map_, geometry_, neighbours_, agv_of(briefing, briefing.self)),
       longest_claim_m_(longest_claim_m(map_)),
       has_chargers_(has_chargers(map_)) {}
@@ -85,7 +86,7 @@ void HullLock::start() {
   if (controller_.pose(pose)) standing.heading = {pose.heading_x, pose.heading_y};
   protocol_.stand(standing);
   started_s_ = now_s();
-  if (boot_ > 0) start_again(standing);
+  if (boot_ > 0 && options_.holding.lanes_over_restarts) start_again(standing);
   tick();
 }
 
@@ -120,6 +121,7 @@ void HullLock::take_order(const fp_event& event) {
 void HullLock::tick() {
   const double pause_s = kBeacon_s * (0.8 + 0.4 * controller_.random(kBeaconDraws));
   controller_.set_timer(kBeaconTimer, controller_.now_ns() + static_cast<std::int64_t>(pause_s * 1e9));
+  release_early();
   find_own_place();
   look_for_inherited_action();
   look_whether_out_of_order();
@@ -136,7 +138,7 @@ void HullLock::action_done(std::int32_t result) {
     wrecked_ = true;
     return set_out_of_order(true);
   }
-  if (current_.kind == Leg::Kind::Drive) protocol_.lane_passed();
+  if (current_.kind == Leg::Kind::Drive && !current_released_) protocol_.lane_passed();
   if (current_.kind == Leg::Kind::Charge) charging_ = true;
 }
 
@@ -174,7 +176,15 @@ void HullLock::look_whether_out_of_order() {
 // The AGV keeps what it holds, and goes on when it has been repaired.
 void HullLock::set_out_of_order(bool out) {
   if (out && !out_of_order_) protocol_.withdraw();
+  if (out && !options_.holding.lanes_over_failures) protocol_.stand(end_of(map_, protocol_.held()));
   out_of_order_ = out;
+}
+
+void HullLock::release_early() {
+  if (options_.holding.lanes_to_their_end || !acting_ || current_.kind != Leg::Kind::Drive || current_released_) return;
+  if (now_s() < current_ends_s_ - kEarly_s) return;
+  protocol_.lane_passed();
+  current_released_ = true;
 }
 
 void HullLock::look_at_battery() {
@@ -249,6 +259,7 @@ void HullLock::begin(const Leg& leg) {
   if (!accepted) return set_out_of_order(controller_.out_of_order());
   current_ = leg;
   current_ends_s_ = now_s() + leg_time_s(leg, protocol_.held().heading);
+  current_released_ = false;
   acting_ = true;
   legs_.pop_front();
 }
@@ -304,6 +315,7 @@ void HullLock::request(Stretch stretch, Purpose purpose) {
     plan_after_s_ = now_s() + kRetryPlanning_s;
     return;
   }
+  if (!options_.progress.whole_stretches) cut_after_first_lane(stretch);
   stretch_ = std::move(stretch);
   purpose_ = purpose;
   requested_at_s_ = now_s();
@@ -329,7 +341,8 @@ void HullLock::reconsider() {
     return request(std::move(other), purpose);
   }
   const double waited_s = now_s() - blocked_since_s_;
-  if (waited_s < kPatienceInTheWay_s || !in_the_way_of(waited_s < patience_s_)) return;
+  const bool elder_only = options_.progress.elder_stays && waited_s < patience_s_;
+  if (waited_s < kPatienceInTheWay_s || !in_the_way_of(elder_only)) return;
   Stretch retreat = way_out();
   if (retreat.empty()) return;
   controller_.sometimes("retreat");
@@ -368,7 +381,7 @@ double HullLock::leg_time_s(const Leg& leg, Vec heading) const {
 }
 
 void* create_hull_lock(const fp_host* host, fp_controller* controller, const fp_briefing* briefing,
-                       LockOptions options) {
+                       const LockOptions& options) {
   constexpr std::uint32_t kNumbersOnTheWire = 0xffff;
   const fp_map& map = *briefing->map;
   if (map.station_count > kNumbersOnTheWire || map.lane_count > kNumbersOnTheWire) return nullptr;

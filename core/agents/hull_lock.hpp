@@ -4,8 +4,10 @@
 #include <deque>
 #include <vector>
 
+#include "core/agents/agent_type.hpp"
 #include "core/agents/controller.hpp"
 #include "core/agents/hull.hpp"
+#include "core/agents/lock_options.hpp"
 #include "core/agents/lock_protocol.hpp"
 #include "core/agents/map_view.hpp"
 #include "core/agents/neighbours.hpp"
@@ -20,7 +22,7 @@ namespace fleetproof::agents {
 // recently.
 class HullLock {
  public:
-  HullLock(const fp_host& host, fp_controller* handle, const fp_briefing& briefing, LockOptions options = {});
+  HullLock(const fp_host& host, fp_controller* handle, const fp_briefing& briefing, const LockOptions& options = {});
   HullLock(const HullLock&) = delete;
   HullLock& operator=(const HullLock&) = delete;
 
@@ -40,6 +42,7 @@ class HullLock {
   void look_for_inherited_action();
   void look_whether_out_of_order();
   void set_out_of_order(bool out);
+  void release_early();
   void look_at_battery();
   void drive_to_charger();
   bool going_to_charge() const;
@@ -63,6 +66,7 @@ class HullLock {
   double leg_time_s(const Leg& leg, Vec heading) const;
   double now_s() { return static_cast<double>(controller_.now_ns()) * 1e-9; }
 
+  LockOptions options_;
   Settings settings_;
   std::uint32_t boot_, start_station_, start_segment_;
   Controller controller_;
@@ -77,7 +81,8 @@ class HullLock {
   std::deque<Leg> legs_;     // locked legs that have not begun
   bool acting_ = false;      // an action is under way
   Leg current_;
-  double current_ends_s_ = 0.0;  // the expected end of the current leg
+  double current_ends_s_ = 0.0;    // the expected end of the current leg
+  bool current_released_ = false;  // its lane was released before its end
   double started_s_ = 0.0;
   bool out_of_order_ = false;  // broken down or empty; the AGV may be repaired
   bool wrecked_ = false;       // stopped for good in the middle of an action
@@ -103,6 +108,15 @@ class HullLock {
 
 // For the C table. Returns null if the map is too large for the messages.
 void* create_hull_lock(const fp_host* host, fp_controller* controller, const fp_briefing* briefing,
-                       LockOptions options);
+                       const LockOptions& options);
+
+// hull-lock with a fault. Requires: `options` differ from the defaults in one member.
+template <const LockOptions& options>
+constexpr fp_agent_type faulty_hull_lock(const char* name, const char* description) {
+  return agent_type<HullLock>(name, description,
+                              [](const fp_host* host, fp_controller* controller, const fp_briefing* briefing) {
+                                return create_hull_lock(host, controller, briefing, options);
+                              });
+}
 
 }  // namespace fleetproof::agents

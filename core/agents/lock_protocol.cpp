@@ -81,7 +81,9 @@ void LockProtocol::request(const Path& stretch, std::int64_t demand_ns) {
 
 void LockProtocol::open_epoch() {
   ++epoch_;
+  if (!options_.consent.epochs_grow) epoch_ = first_epoch(boot_of(epoch_)) | (number_of(epoch_) & 0xffU);
   asked_ = false;
+  repeated_grants_ = 0;
   answers_may_change_ = true;
   blocked_is_known_ = false;
 }
@@ -136,7 +138,8 @@ bool LockProtocol::receive(std::uint32_t sender, std::span<const std::byte> byte
 
 void LockProtocol::answer_request(std::uint32_t sender) {
   Neighbour& n = neighbours_.of(sender);
-  if (n.granted_epoch == n.request_epoch) {  // a repeated request: the grant was lost or is still under way
+  const bool granted = options_.grants.grants_name_epoch ? n.granted_epoch == n.request_epoch : n.granted_epoch > 0;
+  if (granted) {  // a repeated request: the grant was lost or is still under way
     controller_.sometimes("grant-lost");
     return send(MessageKind::Grant, sender, n.request_epoch);
   }
@@ -148,15 +151,25 @@ void LockProtocol::answer_request(std::uint32_t sender) {
 
 LockProtocol::Answer LockProtocol::answer_to(std::uint32_t agv, const Neighbour& neighbour) {
   const std::uint32_t self = neighbours_.self();
-  if (!own_place_known_ || geometry_.conflict(self, held_, agv, neighbour.request)) return Answer::Defer;
+  if (!own_place_known_) return options_.grants.unknown_place_defers ? Answer::Defer : Answer::Grant;
+  if (!lock_is_over() && geometry_.conflict(self, held_, agv, neighbour.request)) return Answer::Defer;
   if (!requesting_ || !geometry_.conflict(self, request_, agv, neighbour.request)) return Answer::Grant;
+  return comes_first(agv, neighbour) ? Answer::Defer : Answer::GrantAndStepBack;
+}
+
+bool LockProtocol::lock_is_over() {
+  if (!options_.grants.bodies_count && held_.empty()) return true;
+  return options_.grants.locks_end_after_ns > 0 &&
+         controller_.now_ns() - locked_at_ns_ > options_.grants.locks_end_after_ns;
+}
+
+bool LockProtocol::comes_first(std::uint32_t agv, const Neighbour& neighbour) {
   // A blocked request cannot be locked before another AGV moves. It must not stop that AGV, or the AGVs for which that
   // AGV waits. Both sides must find the same order; otherwise two requests would step back from each other for ever.
   // Therefore every message contains `blocked`.
   const bool mine_blocked = is_blocked();
-  const bool mine_first =
-      std::tie(mine_blocked, demand_ns_, self) < std::tie(neighbour.status.blocked, neighbour.demand_ns, agv);
-  return mine_first ? Answer::Defer : Answer::GrantAndStepBack;
+  const std::uint32_t self = options_.grants.smaller_number_first ? neighbours_.self() : agv;
+  return std::tie(mine_blocked, demand_ns_, self) < std::tie(neighbour.status.blocked, neighbour.demand_ns, agv);
 }
 
 bool LockProtocol::is_blocked() {
@@ -178,10 +191,20 @@ void LockProtocol::grant(std::uint32_t agv, Neighbour& neighbour, Answer answer)
   neighbour.granted_epoch = neighbour.request_epoch;
   if (answer == Answer::GrantAndStepBack) {
     controller_.sometimes("overtaken");
-    open_epoch();
-    ask_from_ns_ = controller_.now_ns() + jittered(kStepBackPause_ns);
+    give_way_to(neighbour);
   }
   send(MessageKind::Grant, agv, neighbour.request_epoch);
+}
+
+void LockProtocol::give_way_to(Neighbour& neighbour) {
+  const bool granted = neighbour.granted_us_epoch == epoch_;
+  if (options_.grants.overtaken == Overtaken::StepsBack ||
+      (options_.grants.overtaken == Overtaken::StepsBackIfGranted && granted)) {
+    open_epoch();
+    ask_from_ns_ = controller_.now_ns() + jittered(kStepBackPause_ns);
+    return;
+  }
+  if (options_.grants.overtaken == Overtaken::DropsThatGrant) neighbour.granted_us_epoch = 0;
 }
 
 void LockProtocol::answer_those_deferred() {
@@ -195,12 +218,13 @@ void LockProtocol::answer_those_deferred() {
 }
 
 void LockProtocol::receive_answer(std::uint32_t sender, const Message& message) {
-  if (!requesting_ || message.echo != epoch_) {
+  if (!requesting_ || (options_.consent.answers_name_epoch && message.echo != epoch_)) {
     if (message.kind == MessageKind::Grant && requesting_) controller_.sometimes("late-grant");
     return;
   }
   Neighbour& n = neighbours_.of(sender);
   if (message.kind == MessageKind::Grant) {
+    if (n.granted_us_epoch == epoch_) ++repeated_grants_;
     n.granted_us_epoch = epoch_;
   } else {
     // The sender knows the request and will grant it without a question. Asking again is only needed if that grant is
@@ -216,6 +240,7 @@ bool LockProtocol::settle() {
   answer_those_deferred();
   if (!requesting_ || !own_place_known_ || controller_.now_ns() < ask_from_ns_ || !all_consent()) return false;
   for (const std::uint32_t lane : request_.lanes()) held_.append(lane);
+  if (options_.grants.locks_end_after_ns > 0) locked_at_ns_ = controller_.now_ns();
   withdraw();
   return true;
 }
@@ -223,10 +248,11 @@ bool LockProtocol::settle() {
 bool LockProtocol::all_consent() {
   const std::int64_t now_ns = controller_.now_ns();
   const bool first = !asked_;
-  bool all = true, asked_anybody = false;
+  std::uint32_t missing = 0;
+  bool asked_anybody = false;
   neighbours_.for_each([&](std::uint32_t agv, Neighbour& n) {
     if (consents(agv, n, now_ns)) return;
-    all = false;
+    ++missing;
     if (n.asked_epoch == epoch_) return;
     if (first && !asked_anybody) controller_.sometimes("negotiation");
     asked_anybody = true;
@@ -237,13 +263,13 @@ bool LockProtocol::all_consent() {
     ask(agv, n, now_ns);
   });
   asked_ = true;
-  return all;
+  return missing == 0 || (!options_.consent.senders_count && missing <= repeated_grants_);
 }
 
 bool LockProtocol::consents(std::uint32_t agv, const Neighbour& neighbour, std::int64_t now_ns) {
   if (neighbour.granted_us_epoch == epoch_) return true;
-  if (options_.silence_consents_after_ns > 0 && neighbour.asked_epoch == epoch_ &&
-      now_ns - neighbour.silent_since_ns >= options_.silence_consents_after_ns) {
+  if (options_.consent.silence_consents_after_ns > 0 && neighbour.asked_epoch == epoch_ &&
+      now_ns - neighbour.silent_since_ns >= options_.consent.silence_consents_after_ns) {
     controller_.sometimes("silence-taken-for-consent");
     return true;
   }
@@ -274,7 +300,7 @@ std::int64_t LockProtocol::ask_again() {
   neighbours_.for_each([&](std::uint32_t agv, Neighbour& n) {
     if (n.asked_epoch != epoch_ || n.granted_us_epoch == epoch_) return;
     if (n.ask_at_ns <= now_ns && consents(agv, n, now_ns)) n.ask_at_ns = now_ns + kAskAgainLatest_ns;
-    if (n.ask_at_ns <= now_ns) {
+    if (n.ask_at_ns <= now_ns && options_.progress.asks_again) {
       controller_.sometimes("retransmission");
       ask(agv, n, now_ns);
     }

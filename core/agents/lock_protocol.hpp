@@ -4,16 +4,12 @@
 
 #include "core/agents/controller.hpp"
 #include "core/agents/hull.hpp"
+#include "core/agents/lock_options.hpp"
 #include "core/agents/neighbours.hpp"
 #include "core/agents/path.hpp"
 #include "core/agents/protocol_messages.hpp"
 
 namespace fleetproof::agents {
-
-struct LockOptions {
-  // An AGV that has not answered for this long counts as having granted. 0: silence is never consent. Only 0 is safe.
-  std::int64_t silence_consents_after_ns = 0;
-};
 
 // Mutual exclusion of hulls, by messages that may be lost, late, reordered or doubled. If all AGVs of a fleet run this
 // protocol, no two of them ever hold conflicting hulls. An AGV always holds the path on which it stands or drives, and
@@ -68,8 +64,11 @@ class LockProtocol {
   void open_epoch();
   void answer_request(std::uint32_t sender);
   Answer answer_to(std::uint32_t agv, const Neighbour& neighbour);
+  bool lock_is_over();
+  bool comes_first(std::uint32_t agv, const Neighbour& neighbour);
   bool is_blocked();
   void grant(std::uint32_t agv, Neighbour& neighbour, Answer answer);
+  void give_way_to(Neighbour& neighbour);
   void answer_those_deferred();
   void receive_answer(std::uint32_t sender, const Message& message);
   bool consents(std::uint32_t agv, const Neighbour& neighbour, std::int64_t now_ns);
@@ -91,8 +90,10 @@ class LockProtocol {
   Path request_;
   std::int64_t demand_ns_ = 0;
   Epoch epoch_;
-  std::int64_t ask_from_ns_ = 0;     // this epoch asks nobody before this instant
-  bool asked_ = false;               // every AGV that had to be asked when this epoch began has been asked
+  std::int64_t ask_from_ns_ = 0;       // this epoch asks nobody before this instant
+  bool asked_ = false;                 // every AGV that had to be asked when this epoch began has been asked
+  std::uint32_t repeated_grants_ = 0;  // of this epoch
+  std::int64_t locked_at_ns_ = 0;
   bool answers_may_change_ = false;  // something changed since the deferred requests were last examined
 
   bool blocked_ = false, blocked_is_known_ = false;  // an AGV waits inside the requested hull

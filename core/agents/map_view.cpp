@@ -26,4 +26,13 @@ std::span<const std::uint32_t> MapView::lanes_to(std::uint32_t station_id) const
                                       arriving_begin_[station_id + 1] - arriving_begin_[station_id]);
 }
 
+fp_arc chord_of(const MapView& map, std::uint32_t lane_id) {
+  const Vec from = map.position_m(map.lane(lane_id).from), way = map.position_m(map.lane(lane_id).to) - from;
+  const Vec heading = way * (1.0 / length(way));
+  fp_arc chord{};
+  chord.start = {from.x, from.y, heading.x, heading.y};
+  chord.length_m = length(way);
+  return chord;
+}
+
 }  // namespace fleetproof::agents

@@ -42,6 +42,9 @@ class MapView {
   std::vector<std::uint32_t> arriving_, arriving_begin_;  // lanes, ordered by the station at which they end
 };
 
+// The straight line from the beginning of a lane to its end.
+fp_arc chord_of(const MapView& map, std::uint32_t lane_id);
+
 // Headings that are closer than this need no turn on the spot. The floor that the body sweeps between them is within
 // the tolerance of every hull.
 inline bool same_heading(Vec a, Vec b) {

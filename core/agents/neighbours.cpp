@@ -21,14 +21,15 @@ double longest_claim_m(const MapView& map) {
 }
 
 Neighbours::Neighbours(const MapView& map, HullGeometry& geometry, const fp_briefing& briefing,
-                       const Settings& settings)
+                       const Settings& settings, const LockOptions& options)
     : map_(map),
       geometry_(geometry),
       self_(briefing.self),
       neighbours_(briefing.fleet_count),
       position_margin_m_(std::max(kPositionMargin_m, 2.0 * settings.position_error_m)),
       position_late_s_(settings.position_late_s),
-      claim_m_(longest_claim_m(map)) {
+      claim_m_(longest_claim_m(map)),
+      proofs_age_(options.consent.proofs_age) {
   for (std::uint32_t i = 0; i < briefing.fleet_count; ++i) {
     const fp_agv& agv = agv_of(briefing, i);
     fastest_mps_.push_back(kSpeedMargin * (1.0 + agv.speed_deviation) * agv.speed_mps);
@@ -75,7 +76,7 @@ void Neighbours::note_acknowledgement(Neighbour& neighbour, const Message& messa
 bool Neighbours::surely_beyond(std::uint32_t agv, const Path& path, std::int64_t now_ns) {
   const Neighbour& n = neighbours_[agv];
   if (n.proved_after_ns < 0) return false;
-  const double age_s = static_cast<double>(now_ns - n.proved_after_ns) * 1e-9;
+  const double age_s = proofs_age_ ? static_cast<double>(now_ns - n.proved_after_ns) * 1e-9 : 0.0;
   const double hulls_m = claim_m_ + geometry_.half_diagonal_m(agv) + geometry_.clearance_m();
   const double moved_m = fastest_mps_[agv] * (age_s + position_late_s_) + position_margin_m_;
   const double needed_m = hulls_m + moved_m;

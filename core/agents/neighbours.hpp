@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/agents/hull.hpp"
+#include "core/agents/lock_options.hpp"
 #include "core/agents/path.hpp"
 #include "core/agents/protocol_messages.hpp"
 #include "core/agents/settings.hpp"
@@ -44,7 +45,8 @@ struct Neighbour {
 
 class Neighbours {
  public:
-  Neighbours(const MapView& map, HullGeometry& geometry, const fp_briefing& briefing, const Settings& settings = {});
+  Neighbours(const MapView& map, HullGeometry& geometry, const fp_briefing& briefing, const Settings& settings = {},
+             const LockOptions& options = {});
 
   std::uint32_t fleet_count() const { return static_cast<std::uint32_t>(neighbours_.size()); }
   std::uint32_t self() const { return self_; }
@@ -88,6 +90,7 @@ class Neighbours {
   std::vector<double> fastest_mps_;    // by AGV; includes the error of a clock
   double position_margin_m_, position_late_s_;
   double claim_m_;
+  bool proofs_age_;
   std::uint32_t next_heard_ = 0;
 };
 

@@ -31,6 +31,15 @@ double length_m(const MapView& map, const Path& path) {
   return sum_m;
 }
 
+bool share_a_station(const MapView& map, const Path& a, const Path& b) {
+  const auto passes = [&](const Path& path, std::uint32_t station) {
+    return path.station == station ||
+           std::ranges::any_of(path.lanes(), [&](std::uint32_t lane) { return map.lane(lane).to == station; });
+  };
+  return passes(a, b.station) ||
+         std::ranges::any_of(b.lanes(), [&](std::uint32_t lane) { return passes(a, map.lane(lane).to); });
+}
+
 void pass_first_lane(const MapView& map, Path& path) {
   const std::uint32_t passed = path.lane_ids[0];
   path.station = map.lane(passed).to;

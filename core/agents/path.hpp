@@ -34,6 +34,8 @@ bool is_driveable(const MapView& map, const Path& path);
 // A path without lanes, at the end of this path.
 Path end_of(const MapView& map, const Path& path);
 double length_m(const MapView& map, const Path& path);
+// True if the AGV stands at one station or passes it on both paths.
+bool share_a_station(const MapView& map, const Path& a, const Path& b);
 // Removes the first lane; the path then begins at the end of that lane. Requires: the path is not empty.
 void pass_first_lane(const MapView& map, Path& path);
 

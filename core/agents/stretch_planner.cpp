@@ -17,6 +17,15 @@ constexpr double kNoWayCost_s = 1000.0;
 
 }  // namespace
 
+void cut_after_first_lane(Stretch& stretch) {
+  const auto drives = [](const Leg& leg) { return leg.kind == Leg::Kind::Drive; };
+  const auto first = std::ranges::find_if(stretch.legs, drives);
+  if (first == stretch.legs.end()) return;
+  stretch.legs.erase(first + 1, stretch.legs.end());
+  stretch.path.count = 1;
+  stretch.goals = static_cast<std::uint32_t>(first - stretch.legs.begin());
+}
+
 // A stretch that grows lane by lane and remembers the best end so far.
 struct StretchPlanner::Walk {
   struct End {

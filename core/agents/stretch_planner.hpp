@@ -34,6 +34,9 @@ struct Stretch {
   bool empty() const { return path.empty(); }
 };
 
+// Leaves the first lane, and the transfers before it.
+void cut_after_first_lane(Stretch& stretch);
+
 // How far a stretch may reach. Lanes that are already held count.
 struct Budget {
   double length_m = 0.0;

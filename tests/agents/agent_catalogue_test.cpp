@@ -1,6 +1,10 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <fstream>
 #include <set>
+#include <sstream>
 #include <string>
 
 #include "core/agents/agent_type.hpp"
@@ -19,9 +23,26 @@ TEST(ReferenceAgents, AreCompleteAndSpeakThisVersion) {
     EXPECT_EQ(type.abi_major, FP_ABI_MAJOR);
     EXPECT_TRUE(type.create != nullptr && type.on_event != nullptr && type.destroy != nullptr);
     EXPECT_FALSE(std::string(type.description).empty());
-    names.insert(type.name);
+    EXPECT_TRUE(names.insert(type.name).second) << type.name;
   }
-  EXPECT_EQ(names, (std::set<std::string>{"scripted", "hull-lock", "timeout-grant", "reckless"}));
+  for (const char* known : {"scripted", "hull-lock", "timeout-grant", "reckless"}) EXPECT_TRUE(names.contains(known));
+}
+
+TEST(FaultyAgents, NameTheirFaultInTheirFileAndOnThePage) {
+  const std::string folder = FLEETPROOF_SOURCE_DIR "/core/agents/faulty/";
+  std::ostringstream page;
+  page << std::ifstream(folder + "README.md").rdbuf();
+  const std::set<std::string> others = {"scripted", "hull-lock", "reckless"};
+  for (std::uint32_t i = 0; i < fp_reference_agent_count; ++i) {
+    const std::string name = fp_reference_agents[i]->name;
+    if (others.contains(name)) continue;
+    EXPECT_THAT(page.str(), ::testing::HasSubstr("| `" + name + "` |"));
+    std::string file = name, first;
+    std::ranges::replace(file, '-', '_');
+    std::ifstream source(folder + file + ".cpp");
+    std::getline(source, first);
+    EXPECT_THAT(first, ::testing::StartsWith("// FAULT: ")) << file;
+  }
 }
 
 TEST(Scripted, CallsAtItsInstantsInTheirOrder) {

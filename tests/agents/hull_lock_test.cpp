@@ -1,4 +1,5 @@
 #include "core/agents/hull_lock.hpp"
+#include "core/agents/faulty/faulty_agents.hpp"
 
 #include <gtest/gtest.h>
 

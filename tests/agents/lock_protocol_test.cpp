@@ -254,7 +254,7 @@ TEST_F(LockProtocolTest, SilenceIsNeverConsent) {
 }
 
 TEST_F(LockProtocolTest, TheFaultTakesSilenceForConsent) {
-  fleet_of(2, {.silence_consents_after_ns = 3 * kSecond_ns});
+  fleet_of(2, {.consent = {.silence_consents_after_ns = 3 * kSecond_ns}});
   want(0, 3, 0);
   settle(0);
   now_ns = 3 * kSecond_ns - 1;
