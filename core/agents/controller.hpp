@@ -21,6 +21,10 @@ class Controller {
   // Actions. True if the host accepted the action. `segment` may be FP_HERE for pick and drop.
   bool move(std::uint32_t segment) { return host_.move(handle_, segment) == FP_OK; }
   bool pick(std::uint32_t segment) { return host_.pick(handle_, segment) == FP_OK; }
+  // As `pick`, but the load of this order. A host of an older minor version chooses the load itself.
+  bool pick_load(std::uint32_t segment, std::uint32_t order_id) {
+    return host_.abi_minor < 2 ? pick(segment) : host_.pick_load(handle_, segment, order_id) == FP_OK;
+  }
   bool drop(std::uint32_t segment) { return host_.drop(handle_, segment) == FP_OK; }
   bool park(std::uint32_t segment) { return host_.park(handle_, segment) == FP_OK; }
   bool charge(std::uint32_t segment) { return host_.charge(handle_, segment) == FP_OK; }
@@ -42,6 +46,11 @@ class Controller {
   bool loaded() {
     std::uint32_t loaded = 0;
     return host_.is_loaded(handle_, &loaded) == FP_OK && loaded != 0;
+  }
+  // The order of the load on board. FP_NONE if there is no load, or if the host does not say.
+  std::uint32_t order_on_board() {
+    std::uint32_t order_id = FP_NONE;
+    return host_.abi_minor >= 2 && host_.get_load(handle_, &order_id) == FP_OK ? order_id : FP_NONE;
   }
   // 1.0 (full) if the host does not say.
   double battery_level() {

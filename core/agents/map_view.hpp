@@ -16,8 +16,8 @@ class MapView {
 
   std::uint32_t station_count() const { return map_.station_count; }
   std::uint32_t lane_count() const { return map_.lane_count; }
-  const fp_station& station(std::uint32_t id) const { return at(map_.stations, map_.station_stride, id); }
-  const fp_lane& lane(std::uint32_t id) const { return at(map_.lanes, map_.lane_stride, id); }
+  const fp_station& station(std::uint32_t id) const { return *fp_station_at(&map_, id); }
+  const fp_lane& lane(std::uint32_t id) const { return *fp_lane_at(&map_, id); }
   const fp_arc& arc(const fp_lane& lane, std::uint32_t i) const { return at(lane.arcs, map_.arc_stride, i); }
 
   Vec position_m(std::uint32_t station_id) const { return {station(station_id).x_m, station(station_id).y_m}; }

@@ -48,8 +48,8 @@ Actions::Actions(RunContext& run, const Ports& ports) : run_(run), ports_(ports)
 
 // ---- calls
 
-bool Actions::accept(AgvId agv, fp_call call, std::uint32_t segment) {
-  if (!is_possible(agv, call, segment)) {
+bool Actions::accept(AgvId agv, fp_call call, std::uint32_t segment, LoadId load) {
+  if (!is_possible(agv, call, segment, load)) {
     ++run_.counters.refused_calls;
     run_.trace(agv, traced::CallRefused{static_cast<std::uint32_t>(call), SegmentId{segment}});
     return false;
@@ -58,19 +58,23 @@ bool Actions::accept(AgvId agv, fp_call call, std::uint32_t segment) {
   return true;
 }
 
-// A second action may follow a move that is under way, if it leaves the station where that move ends.
-bool Actions::is_possible(AgvId agv, fp_call call, std::uint32_t segment) const {
+// A second action may follow a move that is under way, if it leaves the station where that move ends. A load that waits
+// for this AGV stays where it is: no action in between takes it.
+bool Actions::is_possible(AgvId agv, fp_call call, std::uint32_t segment, LoadId load) const {
   const Slice& slice = slices_[agv.index()];
   const AgvStatus& status = run_.status(agv);
   if (status.out_of_order || slice.accepted) return false;
-  const LogicalMap& map = *run_.scenario.map;
   const bool here = segment == FP_HERE && call != FP_CALL_MOVE;
-  if (!slice.committed) return here || map.lane(SegmentId{segment}, status.station) != nullptr;
   const bool on_its_way = slice.acting && slice.plan.lane != nullptr && slice.plan.call == FP_CALL_MOVE && !slice.next;
-  return !here && on_its_way && map.lane(SegmentId{segment}, slice.plan.lane->to) != nullptr;
+  if (slice.committed && (here || !on_its_way)) return false;
+  const StationId begins_at = slice.committed ? slice.plan.lane->to : status.station;
+  const Lane* lane = here ? nullptr : run_.scenario.map->lane(SegmentId{segment}, begins_at);
+  if (!here && lane == nullptr) return false;
+  const StationId ends_at = here ? begins_at : lane->to;
+  return !load.valid() || (!run_.is_loaded(agv) && run_.world.is_waiting(load, agv, ends_at));
 }
 
-void Actions::begin(AgvId agv, fp_call call, std::uint32_t segment) {
+void Actions::begin(AgvId agv, fp_call call, std::uint32_t segment, LoadId load) {
   Slice& slice = slices_[agv.index()];
   AgvStatus& status = run_.status(agv);
   slice.accepted = false;
@@ -78,10 +82,10 @@ void Actions::begin(AgvId agv, fp_call call, std::uint32_t segment) {
     slice.acting = slice.committed = false;
     return tell_done(agv, FP_REFUSED);
   }
-  if (slice.acting) return take_next(agv, call, segment);  // the action before this one is not over yet
-  if (status.activity) ports_.activities.end(agv, false);  // charging goes on until the next action
-  begin_plan(agv, call, segment == FP_HERE ? nullptr : run_.scenario.map->lane(SegmentId{segment}, status.station),
-             0.0);
+  if (slice.acting) return take_next(agv, call, segment, load);  // the action before this one is not over yet
+  if (status.activity) ports_.activities.end(agv, false);        // charging goes on until the next action
+  const Lane* lane = segment == FP_HERE ? nullptr : run_.scenario.map->lane(SegmentId{segment}, status.station);
+  begin_plan(agv, {call, lane, load}, 0.0);
 }
 
 void Actions::withdraw_accepted(AgvId agv) {
@@ -91,11 +95,11 @@ void Actions::withdraw_accepted(AgvId agv) {
   slice.committed = slice.acting;
 }
 
-void Actions::take_next(AgvId agv, fp_call call, std::uint32_t segment) {
+void Actions::take_next(AgvId agv, fp_call call, std::uint32_t segment, LoadId load) {
   Slice& slice = slices_[agv.index()];
   const Lane* lane = run_.scenario.map->lane(SegmentId{segment}, slice.plan.lane->to);
   ensure(lane != nullptr, "the next action begins where this one ends");
-  slice.next = NextAction{call, lane};
+  slice.next = NextAction{call, lane, load};
   if (run_.status(agv).is_driving()) ports_.drives.release_next(agv, *lane);
 }
 
@@ -108,11 +112,12 @@ void Actions::tell_done(AgvId agv, fp_result result) {
 
 // ---- from one activity to the next
 
-void Actions::begin_plan(AgvId agv, fp_call call, const Lane* lane, double entry_mps) {
+void Actions::begin_plan(AgvId agv, const NextAction& action, double entry_mps) {
   Slice& slice = slices_[agv.index()];
   slice.acting = slice.committed = true;
+  const auto& [call, lane, load] = action;
   const bool docks = call == FP_CALL_CHARGE && run_.type_of(agv).dock_s > 0.0;
-  slice.plan = {call, lane, lane != nullptr, false, docks, call != FP_CALL_MOVE, 0.0};
+  slice.plan = {call, lane, lane != nullptr, false, docks, call != FP_CALL_MOVE, 0.0, load};
   continue_plan(agv, entry_mps);
 }
 
@@ -134,7 +139,7 @@ void Actions::finish(AgvId agv, double speed_mps) {
   const auto next = slice.next;
   slice.next.reset();
   slice.acting = slice.committed = false;
-  if (next) begin_plan(agv, next->call, next->lane, speed_mps);
+  if (next) begin_plan(agv, *next, speed_mps);
   tell_done(agv, FP_OK);
 }
 
@@ -199,7 +204,8 @@ void Actions::begin_transfer(AgvId agv, ActivityKind kind) {
   const bool pick = kind == ActivityKind::Pick;
   ContainmentEvolution evolution;
   const LoadId carried = run_.world.carried_load(agv);
-  if (pick && !carried.valid()) evolution.load = run_.world.waiting_load(agv, station);
+  const LoadId named = slices_[agv.index()].plan.load;
+  if (pick && !carried.valid()) evolution.load = named.valid() ? named : run_.world.waiting_load(agv, station);
   if (!pick) evolution.load = carried;
   evolution.to = pick ? Holder{Holder::Kind::Agv, agv.value} : Holder{Holder::Kind::Station, station.value};
   const bool at_storage = run_.scenario.map->station(station).purposes.has(Purpose::Storage);

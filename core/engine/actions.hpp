@@ -22,9 +22,10 @@ class Actions {
 
   // Whether the controller takes this call; if not, the refusal is traced. Requires after true: `begin` or
   // `withdraw_accepted`, before which no other call is taken.
-  bool accept(AgvId agv, fp_call call, std::uint32_t segment);
+  // `load`: the load that a pick is to take, if the agent has named one.
+  bool accept(AgvId agv, fp_call call, std::uint32_t segment, LoadId load = {});
   // The accepted call takes effect.
-  void begin(AgvId agv, fp_call call, std::uint32_t segment);
+  void begin(AgvId agv, fp_call call, std::uint32_t segment, LoadId load = {});
   // The accepted call, if there is one, never takes effect: the agent is gone.
   void withdraw_accepted(AgvId agv);
   void activity_ends(AgvId agv);
@@ -50,11 +51,13 @@ class Actions {
     const Lane* lane = nullptr;
     bool drive_due = false, settle_due = false, dock_due = false, stay_due = false;
     double way_m = 0.0;  // along the lane: where a drive goes on that a halt has cut short
+    LoadId load{};       // named for a pick
   };
   // An action accepted while the AGV was still on its way to the station at which it begins.
   struct NextAction {
     fp_call call = FP_CALL_MOVE;
     const Lane* lane = nullptr;
+    LoadId load{};
   };
   struct Slice {
     bool acting = false;     // an action is under way
@@ -67,8 +70,8 @@ class Actions {
     std::uint32_t transfers = 0;  // begun in this run: they number the draws of the motion stream
   };
 
-  bool is_possible(AgvId agv, fp_call call, std::uint32_t segment) const;
-  void begin_plan(AgvId agv, fp_call call, const Lane* lane, double entry_mps);
+  bool is_possible(AgvId agv, fp_call call, std::uint32_t segment, LoadId load) const;
+  void begin_plan(AgvId agv, const NextAction& action, double entry_mps);
   void continue_plan(AgvId agv, double entry_mps);
   void finish(AgvId agv, double speed_mps);
   void turn_or_drive(AgvId agv, double entry_mps);
@@ -78,7 +81,7 @@ class Actions {
   void begin_transfer(AgvId agv, ActivityKind kind);
   void begin_activity(AgvId agv, const Activity& activity, std::uint64_t subject);
   void leg_ends(AgvId agv);
-  void take_next(AgvId agv, fp_call call, std::uint32_t segment);
+  void take_next(AgvId agv, fp_call call, std::uint32_t segment, LoadId load);
   void tell_done(AgvId agv, fp_result result);
 
   RunContext& run_;

@@ -180,14 +180,19 @@ void AgentHost::comes_back(AgvId agv) {
   if (--slice.away > 0) return;  // another reason still holds
   ++slice.boot;
   start(agv);
-  // The transports that are not done are handed out again.
-  for (std::size_t i = 0; i < run_.world.loads().size(); ++i) {
-    const Load& load = run_.world.loads()[i];
-    if (load.carrier != agv || load.is_over()) continue;
-    const TransportOrder& order = run_.setup(agv).transports[run_.own_number(agv, load.transport)];
-    const bool at_station = load.holder.kind == Holder::Kind::Station;
-    tell_order(agv, load.transport, at_station ? StationId{load.holder.index} : order.from, order.to);
+  // The transports that are not done are handed out again, that of the load on board first.
+  const auto loads = run_.world.loads();
+  const LoadId on_board = run_.world.carried_load(agv);
+  if (on_board.valid()) tell_again(agv, loads[on_board.index()]);
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    if (loads[i].carrier == agv && !loads[i].is_over() && LoadId{i} != on_board) tell_again(agv, loads[i]);
   }
+}
+
+void AgentHost::tell_again(AgvId agv, const Load& load) {
+  const TransportOrder& order = run_.setup(agv).transports[run_.own_number(agv, load.transport)];
+  const bool at_station = load.holder.kind == Holder::Kind::Station;
+  tell_order(agv, load.transport, at_station ? StationId{load.holder.index} : order.from, order.to);
 }
 
 void AgentHost::renew_briefing(AgvId agv) {

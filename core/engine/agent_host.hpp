@@ -75,6 +75,7 @@ class AgentHost {
   void give_up(AgvId agv, bool hang, std::string_view message);
   bool file_failure(AgvId agv, bool hang, std::string_view message);
   void tell_order(AgvId agv, TransportId transport, StationId from, StationId to);
+  void tell_again(AgvId agv, const Load& load);
   void renew_briefing(AgvId agv);
   void destroy(AgvId agv);
 

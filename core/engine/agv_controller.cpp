@@ -56,15 +56,7 @@ void AgvController::forget(AgvId agv) {
     call.kind = PendingCall::Kind::Nothing;  // its event still comes
   }
   ports_.actions.withdraw_accepted(agv);
-  apply_safe_mode(agv, false);
-  run_.trace(agv, traced::WaitingFor{});
-}
-
-void AgvController::close_books() {
-  for (std::size_t i = 0; i < slices_.size(); ++i) {
-    apply_safe_mode(AgvId{i}, false);
-    run_.counters.safe_mode_ns += slices_[i].safe_mode_ns;
-  }
+  ports_.declarations.forget(agv);
 }
 
 // ---- calls
@@ -114,13 +106,13 @@ void AgvController::call_takes_effect(AgvId agv) {
 void AgvController::carry_out(AgvId agv, const PendingCall& call) {
   switch (call.kind) {
     case PendingCall::Kind::Action:
-      return ports_.actions.begin(agv, static_cast<fp_call>(call.what), call.segment);
+      return ports_.actions.begin(agv, static_cast<fp_call>(call.what), call.segment, call.load);
     case PendingCall::Kind::Send:
       return ports_.messenger.transmit(agv, call.message, call.what);
     case PendingCall::Kind::SafeMode:
-      return apply_safe_mode(agv, call.what != 0);
+      return ports_.declarations.set_safe_mode(agv, call.what != 0);
     case PendingCall::Kind::WaitingFor:
-      return run_.trace(agv, traced::WaitingFor{AgvId{call.what}});
+      return ports_.declarations.set_waiting_for(agv, AgvId{call.what});
     case PendingCall::Kind::Timer:
       return ports_.timers.set(agv, call.what, call.instant_ns);
     case PendingCall::Kind::Nothing:
@@ -128,12 +120,24 @@ void AgvController::carry_out(AgvId agv, const PendingCall& call) {
   }
 }
 
-std::int32_t AgvController::act(AgvId agv, fp_call call, std::uint32_t segment) {
+std::int32_t AgvController::act(AgvId agv, fp_call call, std::uint32_t segment, LoadId load) {
   const bool here = segment == FP_HERE && call != FP_CALL_MOVE;
   if (!here && segment >= run_.scenario.map->segment_count()) return FP_INVALID;
-  if (!ports_.actions.accept(agv, call, segment)) return FP_REFUSED;
-  return take_effect(agv,
-                     {.kind = PendingCall::Kind::Action, .what = static_cast<std::uint32_t>(call), .segment = segment});
+  if (!ports_.actions.accept(agv, call, segment, load)) return FP_REFUSED;
+  return take_effect(
+      agv,
+      {.kind = PendingCall::Kind::Action, .what = static_cast<std::uint32_t>(call), .segment = segment, .load = load});
+}
+
+std::int32_t AgvController::pick_load(AgvId agv, std::uint32_t segment, std::uint32_t order) {
+  const LoadId load = run_.world.load_of(TransportId{order});
+  if (!load.valid() || run_.world.load(load).carrier != agv) return FP_INVALID;
+  return act(agv, FP_CALL_PICK, segment, load);
+}
+
+std::uint32_t AgvController::order_on_board(AgvId agv) const {
+  const LoadId load = run_.world.carried_load(agv);
+  return load.valid() ? run_.world.loads()[load.index()].transport.value : FP_NONE;
 }
 
 std::int32_t AgvController::send(AgvId agv, std::string_view bytes, std::uint32_t receiver) {
@@ -161,29 +165,10 @@ std::int32_t AgvController::declare_cost(AgvId agv, std::int64_t cost_ns) {
   return FP_OK;
 }
 
-void AgvController::apply_safe_mode(AgvId agv, bool on) {
-  Slice& slice = slices_[agv.index()];
-  if (on == slice.safe_since.has_value()) return;
-  if (on) {
-    slice.safe_since = run_.now;
-  } else {
-    slice.safe_mode_ns += static_cast<std::uint64_t>((run_.now - *slice.safe_since).count());
-    slice.safe_since.reset();
-  }
-  run_.trace(agv, traced::SafeMode{on});
-}
-
 std::uint64_t AgvController::random(AgvId agv, std::uint32_t purpose, std::uint64_t index) const {
   return word64(philox(random_key_, {static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(index >> 32),
                                      purpose, agv.value}),
                 0);
-}
-
-void AgvController::note(AgvId agv, TraceKind kind, std::string_view text) {
-  const std::uint64_t hash = name_hash(text);
-  if (kind == TraceKind::Log) return run_.trace(agv, traced::Log{hash}, text);
-  probes_.declare(text, hash);
-  run_.trace(agv, traced::Probe{hash}, text);
 }
 
 }  // namespace fleetproof

@@ -1,13 +1,11 @@
 #pragma once
 
 #include <deque>
-#include <optional>
 #include <string_view>
 #include <vector>
 
 #include "core/engine/ports.hpp"
 #include "core/engine/run_context.hpp"
-#include "core/outcome/incident.hpp"
 
 namespace fleetproof {
 class AgvController;
@@ -31,6 +29,7 @@ class AgvController {
   struct Ports {
     ActionsPort actions;
     BatteryPort battery;
+    DeclarationsPort declarations;
     MessengerPort messenger;
     PositionSensorPort sensor;
     TimersPort timers;
@@ -45,9 +44,6 @@ class AgvController {
   void forget(AgvId agv);
   // The event. Pending calls take effect in the order in which they were made.
   void call_takes_effect(AgvId agv);
-  // At the end of the run.
-  void close_books();
-  const ProbeTally& probes() const { return probes_; }
 
   // ---- calls
   // Counts the call and its cost. False: the call is not carried out.
@@ -57,23 +53,26 @@ class AgvController {
   // So many calls of `admit_service`, and of `admit` when its limit is reached, in one.
   void admit_services(AgvId agv, std::uint64_t count);
   void refuse(AgvId agv, std::uint64_t count);
-  std::int32_t act(AgvId agv, fp_call call, std::uint32_t segment);
+  // `load`: named for a pick.
+  std::int32_t act(AgvId agv, fp_call call, std::uint32_t segment, LoadId load = {});
+  std::int32_t pick_load(AgvId agv, std::uint32_t segment, std::uint32_t order);
   std::int32_t send(AgvId agv, std::string_view bytes, std::uint32_t receiver);
   std::int32_t set_timer(AgvId agv, std::uint32_t number, std::int64_t at_ns);
   std::int32_t declare_safe_mode(AgvId agv, bool on);
   std::int32_t declare_waiting(AgvId agv, std::uint32_t other);
   std::int32_t declare_cost(AgvId agv, std::int64_t cost_ns);
-  // Perceptions are passed on as they are.
+  // Perceptions and notes are passed on as they are.
   const Ports& ports() const { return ports_; }
   bool is_loaded(AgvId agv) const { return run_.is_loaded(agv); }
+  std::uint32_t order_on_board(AgvId agv) const;  // FP_NONE: no load
   std::uint64_t random(AgvId agv, std::uint32_t purpose, std::uint64_t index) const;
-  void note(AgvId agv, TraceKind kind, std::string_view text);
 
  private:
   struct PendingCall {
     enum class Kind : std::uint8_t { Action, Send, SafeMode, WaitingFor, Timer, Nothing } kind = Kind::Action;
     std::uint32_t what = 0;  // fp_call, receiver, flag, AGV or timer number
     std::uint32_t segment = FP_NONE;
+    LoadId load{};
     std::uint32_t message = 0;  // slot
     std::int64_t instant_ns = 0;
   };
@@ -83,19 +82,15 @@ class AgvController {
     Duration cost{};                        // of the calls of this activation
     std::uint64_t calls = 0, services = 0;  // in this activation
     std::deque<PendingCall> pending;
-    std::optional<SimTime> safe_since;
-    std::uint64_t safe_mode_ns = 0;
   };
   // Carries the call out now, or later if the calls before it have cost time.
   std::int32_t take_effect(AgvId agv, const PendingCall& call);
   void carry_out(AgvId agv, const PendingCall& call);
-  void apply_safe_mode(AgvId agv, bool on);
 
   RunContext& run_;
   Ports ports_;
   Duration call_cost_;
   std::uint64_t random_key_;
-  ProbeTally probes_;
   std::vector<Slice> slices_;  // by AGV
 };
 

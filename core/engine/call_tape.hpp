@@ -41,6 +41,8 @@ enum class TapeItem : std::uint8_t {
   WaitingFor,
   Sometimes,
   Log,
+  PickLoad,
+  GetLoad,
 };
 
 inline constexpr std::uint8_t kTapeVersion = 1;

@@ -19,6 +19,10 @@ std::int32_t action(fp_controller* controller, std::uint32_t segment) {
   return admitted(controller, [&](AgvController& part, AgvId agv) { return part.act(agv, kCall, segment); });
 }
 
+std::int32_t pick_load(fp_controller* controller, std::uint32_t segment, std::uint32_t order) {
+  return admitted(controller, [&](AgvController& part, AgvId agv) { return part.pick_load(agv, segment, order); });
+}
+
 std::int32_t send_unicast(fp_controller* controller, const void* bytes, std::uint32_t size, std::uint32_t receiver) {
   return admitted(controller, [&](AgvController& part, AgvId agv) -> std::int32_t {
     if (bytes == nullptr && size > 0) return FP_INVALID;
@@ -58,6 +62,14 @@ std::int32_t is_loaded(fp_controller* controller, std::uint32_t* out) {
   return admitted(controller, [&](AgvController& part, AgvId agv) -> std::int32_t {
     if (out == nullptr) return FP_INVALID;
     *out = part.is_loaded(agv) ? 1 : 0;
+    return FP_OK;
+  });
+}
+
+std::int32_t get_load(fp_controller* controller, std::uint32_t* order) {
+  return admitted(controller, [&](AgvController& part, AgvId agv) -> std::int32_t {
+    if (order == nullptr) return FP_INVALID;
+    *order = part.order_on_board(agv);
     return FP_OK;
   });
 }
@@ -102,7 +114,7 @@ template <TraceKind kKind>
 std::int32_t note(fp_controller* controller, const char* text) {
   return admitted(controller, [&](AgvController& part, AgvId agv) -> std::int32_t {
     if (text == nullptr) return FP_INVALID;
-    part.note(agv, kKind, text);
+    part.ports().declarations.note(agv, kKind, text);
     return FP_OK;
   });
 }
@@ -133,6 +145,8 @@ const fp_host kHost = {
     waiting_for,
     note<TraceKind::Probe>,
     note<TraceKind::Log>,
+    pick_load,
+    get_load,
 };
 
 }  // namespace fleetproof

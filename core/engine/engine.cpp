@@ -23,7 +23,7 @@ void Engine::run() {
     handle(event);
   }
   run_.now = end;
-  parts_.controller.close_books();
+  parts_.declarations.close_books();
   parts_.battery.close_books();
   run_.world.finish(end);
 }
@@ -109,8 +109,8 @@ Outcome Engine::finish() {
 // The first law is the judge of violations; the incidents and the coverage of all laws are filed.
 void Engine::file_findings(Outcome& outcome) const {
   std::vector<Incident> incidents;
-  std::vector<ProbeCount> probes = parts_.controller.probes().counts();
-  outcome.counters.probes_left_out = parts_.controller.probes().left_out();
+  std::vector<ProbeCount> probes = parts_.declarations.probes().counts();
+  outcome.counters.probes_left_out = parts_.declarations.probes().left_out();
   for (const auto& law : laws_) {
     LawFindings findings = law->findings();
     std::ranges::move(findings.incidents, std::back_inserter(incidents));

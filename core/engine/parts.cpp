@@ -19,8 +19,9 @@ Parts::Parts(RunContext& run, const fp_agent_type& agent, const char* agent_conf
                           FaultDeskPort(faults), HaltsPort(halts), MessengerPort(messenger), PositionSensorPort(sensor),
                           ScannerPort(scanner)}),
       timers(run, AgentHostPort(agents)),
-      controller(run, {ActionsPort(actions), BatteryPort(battery), MessengerPort(messenger), PositionSensorPort(sensor),
-                       TimersPort(timers)}),
+      declarations(run),
+      controller(run, {ActionsPort(actions), BatteryPort(battery), DeclarationsPort(declarations),
+                       MessengerPort(messenger), PositionSensorPort(sensor), TimersPort(timers)}),
       agents(run, {ActionsPort(actions), AgvControllerPort(controller), TimersPort(timers)}, agent, agent_config,
              watch) {}
 

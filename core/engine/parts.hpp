@@ -6,6 +6,7 @@
 #include "core/engine/agv_controller.hpp"
 #include "core/engine/battery.hpp"
 #include "core/engine/contacts.hpp"
+#include "core/engine/declarations.hpp"
 #include "core/engine/drives.hpp"
 #include "core/engine/fault_desk.hpp"
 #include "core/engine/halts.hpp"
@@ -36,6 +37,7 @@ struct Parts {
   FaultDesk faults;
   OperatorDesk operator_desk;
   Timers timers;
+  Declarations declarations;
   AgvController controller;
   AgentHost agents;
 };

@@ -6,6 +6,7 @@
 #include "core/engine/agv_controller.hpp"
 #include "core/engine/battery.hpp"
 #include "core/engine/contacts.hpp"
+#include "core/engine/declarations.hpp"
 #include "core/engine/drives.hpp"
 #include "core/engine/fault_desk.hpp"
 #include "core/engine/halts.hpp"
@@ -63,10 +64,12 @@ void DrivesPort::release_next(AgvId agv, const Lane& next) const { part_->releas
 LegEnd DrivesPort::leg_ends(AgvId agv) const { return part_->leg_ends(agv); }
 std::uint32_t DrivesPort::begun(AgvId agv) const { return part_->begun(agv); }
 
-bool ActionsPort::accept(AgvId agv, fp_call call, std::uint32_t segment) const {
-  return part_->accept(agv, call, segment);
+bool ActionsPort::accept(AgvId agv, fp_call call, std::uint32_t segment, LoadId load) const {
+  return part_->accept(agv, call, segment, load);
 }
-void ActionsPort::begin(AgvId agv, fp_call call, std::uint32_t segment) const { part_->begin(agv, call, segment); }
+void ActionsPort::begin(AgvId agv, fp_call call, std::uint32_t segment, LoadId load) const {
+  part_->begin(agv, call, segment, load);
+}
 void ActionsPort::withdraw_accepted(AgvId agv) const { part_->withdraw_accepted(agv); }
 fp_action ActionsPort::doing(AgvId agv) const { return part_->doing(agv); }
 LanesAhead ActionsPort::lanes(AgvId agv) const { return part_->lanes(agv); }
@@ -92,6 +95,11 @@ void ScannerPort::set_muted(AgvId agv, bool muted) const { part_->set_muted(agv,
 std::int64_t TimersPort::now_ns(AgvId agv) const { return part_->now_ns(agv); }
 void TimersPort::set(AgvId agv, std::uint32_t number, std::int64_t at_ns) const { part_->set(agv, number, at_ns); }
 void TimersPort::forget(AgvId agv) const { part_->forget(agv); }
+
+void DeclarationsPort::set_safe_mode(AgvId agv, bool on) const { part_->set_safe_mode(agv, on); }
+void DeclarationsPort::set_waiting_for(AgvId agv, AgvId other) const { part_->set_waiting_for(agv, other); }
+void DeclarationsPort::note(AgvId agv, TraceKind kind, std::string_view text) const { part_->note(agv, kind, text); }
+void DeclarationsPort::forget(AgvId agv) const { part_->forget(agv); }
 
 fp_controller* AgvControllerPort::handle_of(AgvId agv) const { return part_->handle_of(agv); }
 void AgvControllerPort::begin_activation(AgvId agv) const { part_->begin_activation(agv); }

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/engine/agv_status.hpp"
+#include "core/outcome/trace.hpp"
 #include "core/scenario/faults.hpp"
 #include "core/sdk/fleetproof/agent.h"
 
@@ -20,6 +21,7 @@ class AgvController;
 class Battery;
 class Contacts;
 class Drives;
+class Declarations;
 class FaultDesk;
 class Halts;
 class Messenger;
@@ -129,8 +131,8 @@ struct LanesAhead {
 class ActionsPort {
  public:
   explicit ActionsPort(Actions& part) : part_(&part) {}
-  bool accept(AgvId agv, fp_call call, std::uint32_t segment) const;
-  void begin(AgvId agv, fp_call call, std::uint32_t segment) const;
+  bool accept(AgvId agv, fp_call call, std::uint32_t segment, LoadId load) const;
+  void begin(AgvId agv, fp_call call, std::uint32_t segment, LoadId load) const;
   void withdraw_accepted(AgvId agv) const;
   fp_action doing(AgvId agv) const;
   LanesAhead lanes(AgvId agv) const;
@@ -194,6 +196,18 @@ class TimersPort {
 
  private:
   Timers* part_;
+};
+
+class DeclarationsPort {
+ public:
+  explicit DeclarationsPort(Declarations& part) : part_(&part) {}
+  void set_safe_mode(AgvId agv, bool on) const;
+  void set_waiting_for(AgvId agv, AgvId other) const;
+  void note(AgvId agv, TraceKind kind, std::string_view text) const;
+  void forget(AgvId agv) const;
+
+ private:
+  Declarations* part_;
 };
 
 // What an activation has used up.

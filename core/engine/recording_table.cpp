@@ -11,6 +11,10 @@ namespace {
 
 void record(CallTape& tape, TapeItem item, std::uint32_t what) { tape.controller_call(item, what); }
 
+void record(CallTape& tape, TapeItem item, std::uint32_t segment, std::uint32_t order) {
+  tape.controller_call(item, segment, order);
+}
+
 void record(CallTape& tape, TapeItem item, std::int64_t cost_ns) { tape.controller_call(item, cost_ns); }
 
 void record(CallTape& tape, TapeItem item, std::uint32_t timer, std::int64_t at_ns) {
@@ -91,6 +95,8 @@ const fp_host kRecordingHost = {
     recorded<&fp_host::waiting_for, TapeItem::WaitingFor>,
     recorded<&fp_host::sometimes, TapeItem::Sometimes>,
     recorded<&fp_host::log, TapeItem::Log>,
+    recorded<&fp_host::pick_load, TapeItem::PickLoad>,
+    recorded<&fp_host::get_load, TapeItem::GetLoad>,
 };
 
 }  // namespace fleetproof

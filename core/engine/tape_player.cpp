@@ -58,6 +58,10 @@ void TapePlayer::play_controller_call(TapeItem item, fp_controller* c) {
       return void(kHost.park(c, id()));
     case TapeItem::Charge:
       return void(kHost.charge(c, id()));
+    case TapeItem::PickLoad: {
+      const std::uint32_t segment = id();
+      return void(kHost.pick_load(c, segment, id()));
+    }
     case TapeItem::SendBroadcast:
     case TapeItem::SendUnicast:
       return play_message(item, c);
@@ -104,6 +108,8 @@ void TapePlayer::play_perception(TapeItem item, fp_controller* c) {
       return void(kHost.is_loaded(c, &word));
     case TapeItem::GetAction:
       return void(kHost.get_action(c, &word));
+    case TapeItem::GetLoad:
+      return void(kHost.get_load(c, &word));
     default:
       fail("it holds something that no agent does");
   }

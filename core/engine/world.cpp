@@ -108,12 +108,15 @@ LoadId World::add_load(TransportId transport, AgvId carrier, StationId at, Stati
 
 LoadId World::waiting_load(AgvId agv, StationId station) const {
   for (std::size_t i = 0; i < loads_.size(); ++i) {
-    const Load& load = loads_[i];
-    if (load.carrier == agv && load.holder == Holder{Holder::Kind::Station, station.value} &&
-        load.destination != station)
-      return LoadId{i};
+    if (is_waiting(LoadId{i}, agv, station)) return LoadId{i};
   }
   return {};
+}
+
+bool World::is_waiting(LoadId id, AgvId agv, StationId station) const {
+  const Load& load = loads_[id.index()];
+  return load.carrier == agv && load.holder == Holder{Holder::Kind::Station, station.value} &&
+         load.destination != station;
 }
 
 LoadId World::carried_load(AgvId agv) const {
@@ -121,6 +124,11 @@ LoadId World::carried_load(AgvId agv) const {
     if (loads_[i].holder == Holder{Holder::Kind::Agv, agv.value}) return LoadId{i};
   }
   return {};
+}
+
+LoadId World::load_of(TransportId transport) const {
+  const auto found = std::ranges::find(loads_, transport, &Load::transport);
+  return found == loads_.end() ? LoadId{} : LoadId{static_cast<std::size_t>(found - loads_.begin())};
 }
 
 }  // namespace fleetproof

@@ -67,7 +67,10 @@ class World {
   Load& load(LoadId id) { return loads_[id.index()]; }
   // The oldest load that `agv` has to fetch at `station`; invalid if there is none.
   LoadId waiting_load(AgvId agv, StationId station) const;
+  bool is_waiting(LoadId load, AgvId agv, StationId station) const;
   LoadId carried_load(AgvId agv) const;
+  // Invalid if the transport has not been released.
+  LoadId load_of(TransportId transport) const;
 
  private:
   void begin(Body& body, const Piece& piece);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <deque>
 #include <functional>
@@ -14,16 +15,10 @@
 
 #include "core/sdk/fleetproof/agent.h"
 #include "tests/agents/drawn_map.hpp"
+#include "tests/agents/fake_agv.hpp"
 #include "tests/agents/rectangles.hpp"
 
 namespace fleetproof::agents::testing {
-
-struct FakeRadio {
-  double loss = 0.0;
-  double delay_s = 0.0;
-  bool uniform = false;     // on 0 .. delay, so that messages overtake each other
-  double duplicates = 0.0;  // share of receptions that come a second time, later
-};
 
 // The part of a warehouse that agents need: AGVs that turn and drive at the right times, transfers, timers, and a bad
 // radio.
@@ -33,7 +28,7 @@ class FakeWarehouse {
                 const fp_agent_type& type, FakeRadio radio, std::uint64_t seed)
       : drawn_(drawn), fleet_(fleet), type_(type), radio_(radio), draws_(seed), seed_(seed), host_(make_host()) {
     for (std::uint32_t id = 0; id < starts.size(); ++id) {
-      auto agv = std::make_unique<Agv>();
+      auto agv = std::make_unique<FakeAgv>();
       agv->handle = {this, id};
       agv->station = starts[id];
       const fp_station& s = fleet.map.stations[starts[id]];
@@ -57,27 +52,29 @@ class FakeWarehouse {
   }
   void order(std::uint32_t agv, double at_s, std::uint32_t from, std::uint32_t to) {
     at(seconds(at_s), [this, agv, from, to] {
-      agvs_[agv]->orders.push_back({from, to});
-      tell_order(agv, from, to);
+      agvs_[agv]->orders.push_back({orders_++, from, to});
+      tell_order(agv, agvs_[agv]->orders.back());
     });
   }
   // The agent's computer goes down, and comes up again without memory; the AGV finishes what it is doing.
   void restart(std::uint32_t id, double at_s, double away_s) {
     at(seconds(at_s), [this, id] {
-      Agv& agv = *agvs_[id];
+      FakeAgv& agv = *agvs_[id];
       type_.destroy(agv.agent);
       agv.agent = nullptr;
       agv.timers.clear();
       agv.inbox.clear();
     });
     at(seconds(at_s + away_s), [this, id] {
-      Agv& agv = *agvs_[id];
+      FakeAgv& agv = *agvs_[id];
       ++agv.briefing.boot;
       agv.briefing.start_station = agv.station;
       agv.briefing.start_segment = agv.lane != nullptr ? agv.lane->segment : FP_NONE;
       agv.agent = type_.create(&host_, reinterpret_cast<fp_controller*>(&agv.handle), &agv.briefing);
       tell(id, fp_event{});
-      for (const auto& [from, to] : agv.orders) tell_order(id, from, to);
+      std::deque<FakeOrder> orders = agv.orders;
+      std::ranges::stable_partition(orders, [&](const FakeOrder& o) { return agv.loaded && o.id == agv.carried; });
+      for (const FakeOrder& order : orders) tell_order(id, order);
     });
   }
 
@@ -112,7 +109,7 @@ class FakeWarehouse {
   // A battery that keeps its level, and gains 2 % per second at a charger.
   void battery(std::uint32_t id, double level) { agvs_[id]->battery = level; }
   double battery_of(std::uint32_t id) const {
-    const Agv& agv = *agvs_[id];
+    const FakeAgv& agv = *agvs_[id];
     const double charged_s =
         agv.doing == FP_CHARGING_NOW && !agv.busy ? static_cast<double>(now_ns_ - agv.charging_since_ns) * 1e-9 : 0.0;
     return std::min(1.0, agv.battery + 0.02 * charged_s);
@@ -123,31 +120,6 @@ class FakeWarehouse {
   void stop_motion_of(std::uint32_t id) { agvs_[id]->stopped = true; }
 
  private:
-  struct Handle {
-    FakeWarehouse* warehouse;
-    std::uint32_t id;
-  };
-  struct Received {
-    std::uint32_t sender;
-    std::string bytes;
-  };
-  struct Agv {
-    Handle handle{};
-    fp_briefing briefing{};
-    void* agent = nullptr;
-    std::uint32_t station = 0;
-    fp_pose pose{};
-    const fp_lane* lane = nullptr;  // being driven
-    std::int64_t turn_begins_ns = 0, drive_begins_ns = 0, drive_ends_ns = 0;
-    bool busy = false, loaded = false, stopped = false;
-    std::uint32_t doing = FP_IDLE;
-    double battery = 1.0;
-    std::int64_t charging_since_ns = 0;
-    std::deque<std::pair<std::uint32_t, std::uint32_t>> orders;  // not done
-    std::deque<Received> inbox;
-    Received in_hand;
-    std::vector<std::pair<std::uint32_t, std::uint64_t>> timers;  // number, stamp
-  };
   struct Event {
     std::int64_t at_ns;
     std::uint64_t order;
@@ -158,15 +130,16 @@ class FakeWarehouse {
   };
 
   static std::int64_t seconds(double s) { return static_cast<std::int64_t>(s * 1e9); }
-  static Handle& handle(fp_controller* controller) { return *reinterpret_cast<Handle*>(controller); }
+  static FakeHandle& handle(fp_controller* controller) { return *reinterpret_cast<FakeHandle*>(controller); }
   void at(std::int64_t at_ns, std::function<void()> what) { queue_.push({at_ns, ++events_, std::move(what)}); }
   double draw() { return std::uniform_real_distribution<double>()(draws_); }
 
-  void tell_order(std::uint32_t agv, std::uint32_t from, std::uint32_t to) {
+  void tell_order(std::uint32_t agv, const FakeOrder& order) {
     fp_event event{};
     event.kind = FP_EVENT_ORDER;
-    event.from = from;
-    event.to = to;
+    event.order_id = order.id;
+    event.from = order.from;
+    event.to = order.to;
     tell(agv, event);
   }
 
@@ -178,7 +151,7 @@ class FakeWarehouse {
     if (after_activation) after_activation(id);
   }
 
-  fp_pose pose_of(const Agv& agv) const {
+  fp_pose pose_of(const FakeAgv& agv) const {
     if (agv.lane == nullptr) return agv.pose;
     if (now_ns_ < agv.drive_begins_ns) {  // turning: headings in between, the shorter way
       const double share = static_cast<double>(now_ns_ - agv.turn_begins_ns) /
@@ -203,9 +176,10 @@ class FakeWarehouse {
     at(now_ns_ + seconds(0.1), [this] { look(); });
   }
 
-  std::int32_t act(std::uint32_t id, fp_call call, std::uint32_t segment) {
+  // `named`: the order whose load a pick takes; FP_NONE: the oldest order.
+  std::int32_t act(std::uint32_t id, fp_call call, std::uint32_t segment, std::uint32_t named = FP_NONE) {
     calls_.emplace_back(static_cast<double>(now_ns_) * 1e-9, call);
-    Agv& agv = *agvs_[id];
+    FakeAgv& agv = *agvs_[id];
     if (agv.busy || agv.stopped) return FP_REFUSED;
     const fp_lane* lane = nullptr;
     for (std::uint32_t i = 0; i < fleet_.map.lane_count; ++i) {
@@ -213,6 +187,11 @@ class FakeWarehouse {
       if (l.segment == segment && l.from == agv.station) lane = &l;
     }
     if (lane == nullptr && (segment != FP_HERE || call == FP_CALL_MOVE)) return FP_REFUSED;
+    const std::uint32_t ends_at = lane != nullptr ? lane->to : agv.station;
+    if (named != FP_NONE && (agv.loaded || std::ranges::none_of(agv.orders, [&](const FakeOrder& order) {
+                               return order.id == named && order.from == ends_at;
+                             })))
+      return FP_REFUSED;
     agv.battery = battery_of(id);
     agv.busy = true;
     agv.doing = call == FP_CALL_PICK     ? FP_PICKING
@@ -232,12 +211,12 @@ class FakeWarehouse {
       ends_ns = agv.drive_ends_ns;
     }
     if (call == FP_CALL_PICK || call == FP_CALL_DROP) ends_ns += seconds(5.0);
-    at(ends_ns, [this, id, call] { done(id, call); });
+    at(ends_ns, [this, id, call, named] { done(id, call, named); });
     return FP_OK;
   }
 
-  void done(std::uint32_t id, fp_call call) {
-    Agv& agv = *agvs_[id];
+  void done(std::uint32_t id, fp_call call, std::uint32_t named) {
+    FakeAgv& agv = *agvs_[id];
     fp_event event{};
     event.kind = FP_EVENT_ACTION_DONE;
     if (agv.stopped) {
@@ -251,12 +230,16 @@ class FakeWarehouse {
     if (call != FP_CALL_CHARGE) agv.doing = FP_IDLE;
     if (call == FP_CALL_DROP && agv.loaded) {
       ++drops_, last_drop_s_ = static_cast<double>(now_ns_) * 1e-9;
-      misplaced_ += agv.orders.empty() || agv.orders.front().second != agv.station;
-      if (!agv.orders.empty()) agv.orders.pop_front();
+      const auto order = std::ranges::find(agv.orders, agv.carried, &FakeOrder::id);
+      misplaced_ += order == agv.orders.end() || order->to != agv.station;
+      if (order != agv.orders.end()) agv.orders.erase(order);
     }
     // An AGV that picks at a place without a load of its own has no load afterwards, unless it had one before.
-    if (call == FP_CALL_PICK)
-      agv.loaded = agv.loaded || (!agv.orders.empty() && agv.orders.front().first == agv.station);
+    if (call == FP_CALL_PICK && !agv.loaded && !agv.orders.empty()) {
+      const auto order = named == FP_NONE ? agv.orders.begin() : std::ranges::find(agv.orders, named, &FakeOrder::id);
+      agv.loaded = order != agv.orders.end() && order->from == agv.station;
+      if (agv.loaded) agv.carried = order->id;
+    }
     if (call == FP_CALL_DROP) agv.loaded = false;
     if (call == FP_CALL_CHARGE) agv.charging_since_ns = now_ns_;
     tell(id, event);
@@ -278,7 +261,7 @@ class FakeWarehouse {
   }
 
   void set_timer(std::uint32_t id, std::uint32_t number, std::int64_t at_ns) {
-    Agv& agv = *agvs_[id];
+    FakeAgv& agv = *agvs_[id];
     auto timer = std::find_if(agv.timers.begin(), agv.timers.end(), [&](const auto& t) { return t.first == number; });
     if (timer == agv.timers.end()) timer = agv.timers.insert(timer, {number, 0});
     const std::uint64_t stamp = timer->second = ++stamps_;
@@ -295,6 +278,7 @@ class FakeWarehouse {
   }
 
   static fp_host make_host();
+  static void add_minor_2(fp_host& host);
 
   const DrawnMap& drawn_;
   const TestFleet& fleet_;
@@ -303,15 +287,26 @@ class FakeWarehouse {
   std::mt19937_64 draws_;
   std::uint64_t seed_;
   fp_host host_;
-  std::vector<std::unique_ptr<Agv>> agvs_;
+  std::vector<std::unique_ptr<FakeAgv>> agvs_;
   std::priority_queue<Event> queue_;
   std::int64_t now_ns_ = 0;
   std::uint64_t events_ = 0, stamps_ = 0;
-  std::uint32_t drops_ = 0, misplaced_ = 0;
+  std::uint32_t drops_ = 0, misplaced_ = 0, orders_ = 0;
   double last_drop_s_ = 0.0, least_clearance_m_ = 1e9;
   std::multiset<std::string> probes_;
   std::vector<std::pair<double, std::uint32_t>> calls_;
 };
+
+inline void FakeWarehouse::add_minor_2(fp_host& host) {
+  host.pick_load = [](fp_controller* c, std::uint32_t s, std::uint32_t order) {
+    return handle(c).warehouse->act(handle(c).id, FP_CALL_PICK, s, order);
+  };
+  host.get_load = [](fp_controller* c, std::uint32_t* order) -> std::int32_t {
+    const FakeAgv& agv = *handle(c).warehouse->agvs_[handle(c).id];
+    *order = agv.loaded ? agv.carried : FP_NONE;
+    return FP_OK;
+  };
+}
 
 inline fp_host FakeWarehouse::make_host() {
   fp_host host{};
@@ -342,7 +337,7 @@ inline fp_host FakeWarehouse::make_host() {
     return FP_OK;
   };
   host.get_message = [](fp_controller* c, fp_message* out) -> std::int32_t {
-    Agv& agv = *handle(c).warehouse->agvs_[handle(c).id];
+    FakeAgv& agv = *handle(c).warehouse->agvs_[handle(c).id];
     if (agv.inbox.empty()) return FP_EMPTY;
     agv.in_hand = std::move(agv.inbox.front());
     agv.inbox.pop_front();
@@ -352,7 +347,7 @@ inline fp_host FakeWarehouse::make_host() {
     return FP_OK;
   };
   host.get_action = [](fp_controller* c, std::uint32_t* out) -> std::int32_t {
-    const Agv& agv = *handle(c).warehouse->agvs_[handle(c).id];
+    const FakeAgv& agv = *handle(c).warehouse->agvs_[handle(c).id];
     *out = agv.stopped ? static_cast<std::uint32_t>(FP_OUT_OF_ORDER) : agv.doing;
     return FP_OK;
   };
@@ -377,6 +372,7 @@ inline fp_host FakeWarehouse::make_host() {
     handle(c).warehouse->probes_.insert(probe);
     return FP_OK;
   };
+  add_minor_2(host);
   return host;
 }
 

@@ -38,7 +38,7 @@ const std::map<std::string, std::string> kLargeClasses = {
     {"laws/progress_law.cpp ProgressLaw", "one number for each end point that the law judges"},
     {"reports/evidence/evidence.hpp Evidence", "plain figures of one campaign, counted in one pass"},
     {"tests/agents/fake_warehouse.hpp FakeWarehouse", "stands in for the whole C table of a controller"},
-    {"tests/agents/fake_warehouse.hpp Agv", "plain data: all that the fake says of one AGV"},
+    {"tests/agents/fake_agv.hpp FakeAgv", "plain data: all that the fake says of one AGV"},
 };
 
 // Files with longer lines, each with the reason.

@@ -80,7 +80,7 @@ TEST(AgvControllerPart, TimeInSafeModeIsCountedToTheEndOfTheRun) {
   world.parts.controller.declare_safe_mode(kFirst, false);
   world.parts.controller.declare_safe_mode(kSecond, true);
   world.clock(10.0);
-  world.parts.controller.close_books();
+  world.parts.declarations.close_books();
   EXPECT_EQ(world.run.counters.safe_mode_ns, 9'000'000'000U);
 }
 

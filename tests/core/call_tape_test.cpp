@@ -97,6 +97,7 @@ TEST(CallTape, PlaysEveryKindOfCall) {
     host.get_battery_level(c, &level);
     host.is_loaded(c, &word);
     host.get_action(c, &word);
+    host.get_load(c, &word);
     host.declare_cost_ns(c, 1'000'000);
     host.send_broadcast(c, "to all", 6);
     host.send_unicast(c, "\0zeros\0", 7, 1);
@@ -104,7 +105,11 @@ TEST(CallTape, PlaysEveryKindOfCall) {
     host.log(c, "looking around");
     host.set_timer(c, 3, e.now_ns + 500'000'000);
     host.set_timer(c, 4, -5);
-    if (e.kind == FP_EVENT_ORDER) host.pick(c, FP_HERE);
+    if (e.kind == FP_EVENT_ORDER) {
+      host.pick_load(c, FP_HERE, e.order_id + 1);
+      host.pick_load(c, FP_HERE, e.order_id);
+      host.pick(c, FP_HERE);
+    }
     if (e.kind == FP_EVENT_ACTION_DONE) {
       host.move(c, 0);
       host.drop(c, 1);
@@ -130,6 +135,8 @@ TEST(CallTape, PlaysInvalidCalls) {
     host.get_battery_level(c, nullptr);
     host.is_loaded(c, nullptr);
     host.get_action(c, nullptr);
+    host.get_load(c, nullptr);
+    host.pick_load(c, 99, 0);
     host.get_message(c, nullptr);
     host.get_message(c, &small);
     host.send_broadcast(c, nullptr, 1);
@@ -146,7 +153,7 @@ TEST(CallTape, PlaysInvalidCalls) {
   };
   const Scenario scenario = two_agvs(0.01);
   const ToldRun run = recorded_handler(scenario, handler);
-  EXPECT_EQ(run.outcome.counters.agent_calls, run.outcome.counters.activations * 17 + 2);
+  EXPECT_EQ(run.outcome.counters.agent_calls, run.outcome.counters.activations * 19 + 2);
   expect_same(run, played(scenario, run.tape));
 }
 

@@ -11,8 +11,8 @@ struct Rover {
 static void on_event(void* agent, const fp_event* event) {
   auto& [host, agv, map, station] = *static_cast<Rover*>(agent);
   if (event->kind != FP_EVENT_START && event->kind != FP_EVENT_ACTION_DONE) return;
-  const fp_station& here = map->stations[station];
-  const fp_lane& lane = map->lanes[here.lanes[host->random(agv, 0, event->now_ns) % here.lane_count]];
+  const fp_station& here = *fp_station_at(map, station);
+  const fp_lane& lane = *fp_lane_at(map, here.lanes[host->random(agv, 0, event->now_ns) % here.lane_count]);
   if (host->move(agv, lane.segment) == FP_OK) station = lane.to;
 }
 

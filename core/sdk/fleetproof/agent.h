@@ -9,8 +9,11 @@
  * call takes effect at t plus the costs so far (the scenario's cost for each call, plus what the agent declares). If an
  * event arrives while the agent is busy, the agent receives it when it is free.
  *
- * Limits. In one activation an agent may make 10 000 controller calls, and ten million more of random and now_ns. One
- * that makes more is filed as a hang. So is one that is called 10 000 times without time advancing.
+ * Limits. In one activation an agent may make 10 000 controller calls, and ten million more of random and now_ns. Every
+ * call counts, whatever it returns, and those in create() count with FP_EVENT_START. An agent that makes more is filed
+ * as a hang. So is one that is called 10 000 times without time advancing. It is then suspended to the end of the run:
+ * its calls return FP_SUSPENDED, it receives no event, and a restart does not bring it back. Its AGV completes the
+ * actions that it has accepted.
  *
  * Rules for the agent. Keep all state in the instance that create() returned. Many instances live in one process, on
  * several threads, but no instance is called from two threads at once. Use no clock, random source or thread of your
@@ -18,7 +21,8 @@
  * agent in another language must not let an exception leave its functions.
  *
  * Versions. Every struct that may grow begins with its size in bytes, as the side that fills it knows it. Arrays of
- * structs have a stride. A host refuses an agent with another FP_ABI_MAJOR. A higher minor adds members at the end.
+ * structs have a stride. A host refuses an agent with another FP_ABI_MAJOR. A higher minor adds members at the end: an
+ * agent may use those "since minor n" if the host's abi_minor is n or more.
  *
  * Units: metres, metres per second, nanoseconds (64-bit, since the start of the run), radians. Headings are unit
  * vectors in the world frame.
@@ -44,15 +48,18 @@ extern "C" {
 /* What a controller call returns. */
 typedef enum fp_result {
   FP_OK = 0,
-  FP_EMPTY = 1,     /* get_message: no more messages */
-  FP_REFUSED = -1,  /* the AGV is busy, out of order, or not at an end of that segment (or the segment is one-way) */
-  FP_INVALID = -2,  /* a wrong argument: no such segment, receiver or purpose, or a message that is too long */
-  FP_SUSPENDED = -3 /* the engine has given this agent up (more calls than its limit): return at once */
+  FP_EMPTY = 1,    /* get_message: no more messages */
+  FP_REFUSED = -1, /* the AGV is busy, out of order after a contact, or not at an end of that segment (or the segment is
+                      one-way) */
+  FP_INVALID = -2, /* a wrong argument: no such segment, receiver or purpose, or a message that is too long */
+  FP_SUSPENDED = -3 /* the agent is suspended (more calls than its limit), or not in an activation: return at once */
 } fp_result;
 
 /* What the AGV is doing. FP_STOPPED: something stopped the AGV in the middle of an action; the AGV will go on without a
  * further call.
- * FP_OUT_OF_ORDER: the AGV is broken down or empty. It may be repaired and then goes on, too. */
+ * FP_OUT_OF_ORDER: the AGV is broken down or empty. It may be repaired and then goes on, too; until then it accepts
+ * actions and begins none. Or a contact has put it out of order. In all three cases the computer works on: the agent
+ * receives events, and the AGV sends and receives messages. */
 typedef enum fp_action {
   FP_IDLE = 0,
   FP_DRIVING,
@@ -114,12 +121,14 @@ typedef struct fp_briefing {
 
 typedef enum fp_event_kind {
   FP_EVENT_START = 0, /* the run begins, or the agent begins again after a restart */
-  FP_EVENT_ORDER,     /* a transport was released for this AGV: order_id, from, to; after a restart, sent again for each
-                         transport that is not done */
+  FP_EVENT_ORDER,     /* a transport was released for this AGV: order_id, from, to. After a restart, sent again for each
+                         transport that is not done: first that of the load on board, then the oldest first; if the load
+                         waits at a station, that is `from` */
   FP_EVENT_MESSAGE,   /* the inbox is not empty; read it until FP_EMPTY */
   FP_EVENT_TIMER,     /* a timer went off: timer */
   FP_EVENT_ACTION_DONE
-  /* an action ended: result FP_OK, or FP_REFUSED if a contact put the AGV out of order */
+  /* an action ended: result FP_OK, or FP_REFUSED if a contact put the AGV out of order. FP_REFUSED is final: the action
+     never goes on, and the AGV accepts none until the operator has set it down and the agent has restarted */
 } fp_event_kind;
 
 typedef struct fp_event {
@@ -150,7 +159,9 @@ typedef struct fp_host {
    * and drop transfer a load there; park and charge stay. One FP_EVENT_ACTION_DONE follows for every accepted action.
    * While a move is under way, one more action may be given. Its segment must leave the station where the move ends,
    * and it begins when the move ends. If it is given before the AGV brakes, and if the segment goes straight on, the
-   * AGV rolls through the station without a stop. */
+   * AGV rolls through the station without a stop.
+   * `pick` takes the load of the oldest order of this AGV that waits at the station. If none waits or the AGV is
+   * loaded, it takes none, and ends with FP_OK all the same. */
   int32_t (*move)(fp_controller*, uint32_t segment);
   int32_t (*pick)(fp_controller*, uint32_t segment);
   int32_t (*drop)(fp_controller*, uint32_t segment);
@@ -184,6 +195,11 @@ typedef struct fp_host {
      counts further probes without their names. */
   int32_t (*sometimes)(fp_controller*, const char* probe);
   int32_t (*log)(fp_controller*, const char* text);
+
+  /* Since minor 2. As `pick`, but takes the load of this order. FP_REFUSED also if that load does not wait at the
+     station or if the AGV is loaded. FP_INVALID if no such order was released for this AGV. */
+  int32_t (*pick_load)(fp_controller*, uint32_t segment, uint32_t order_id);
+  int32_t (*get_load)(fp_controller*, uint32_t* order_id); /* the order of the load on board; FP_NONE: no load */
 } fp_host;
 
 /* ---- the agent ------------------------------------------------------------------------------------------- */

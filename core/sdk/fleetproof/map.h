@@ -4,6 +4,7 @@
 #ifndef FLEETPROOF_MAP_H
 #define FLEETPROOF_MAP_H
 
+#include <stddef.h>
 #include <stdint.h>
 
 #ifdef __cplusplus
@@ -72,6 +73,22 @@ typedef struct fp_map {
   uint32_t block_count, block_stride;
   const fp_block* blocks;
 } fp_map;
+
+#ifdef __cplusplus
+#define FP_CAST(type, value) reinterpret_cast<type>(value)
+#else
+#define FP_CAST(type, value) ((type)(value))
+#endif
+
+/* Read the arrays of the map with these functions: a newer host's structs are larger than this header knows them. */
+static inline const fp_station* fp_station_at(const fp_map* map, uint32_t station) {
+  const size_t index = station;
+  return FP_CAST(const fp_station*, FP_CAST(const char*, map->stations) + index * map->station_stride);
+}
+static inline const fp_lane* fp_lane_at(const fp_map* map, uint32_t lane) {
+  const size_t index = lane;
+  return FP_CAST(const fp_lane*, FP_CAST(const char*, map->lanes) + index * map->lane_stride);
+}
 
 #ifdef __cplusplus
 }
