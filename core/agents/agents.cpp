@@ -24,6 +24,7 @@ const fp_agent_type* const fp_reference_agents[] = {&kScripted,           &kHull
                                                     &kOvertakenIfGranted, &kTieWithoutNumber,
                                                     &kEarlyRelease,       &kRestartForgetsLane,
                                                     &kFailureFreesLane,   &kAsksOnce,
-                                                    &kBothMakeWay,        &kLaneByLane};
+                                                    &kBothStepBack,       &kNeverMakesWay,
+                                                    &kLaneByLane};
 const uint32_t fp_reference_agent_count = std::size(fp_reference_agents);
 }

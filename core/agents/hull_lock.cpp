@@ -307,6 +307,7 @@ void HullLock::plan_making_way() {
 Stretch HullLock::way_on() { return planner_.towards(end_of(map_, protocol_.held()), budget(), goals_); }
 
 Stretch HullLock::way_out() {
+  if (!options_.progress.makes_way) return {};
   return planner_.out_of_the_way(protocol_.held(), budget(), is_idle(), controller_.random(kPlaceDraws));
 }
 
@@ -341,8 +342,7 @@ void HullLock::reconsider() {
     return request(std::move(other), purpose);
   }
   const double waited_s = now_s() - blocked_since_s_;
-  const bool elder_only = options_.progress.elder_stays && waited_s < patience_s_;
-  if (waited_s < kPatienceInTheWay_s || !in_the_way_of(elder_only)) return;
+  if (waited_s < kPatienceInTheWay_s || !in_the_way_of(waited_s < patience_s_)) return;
   Stretch retreat = way_out();
   if (retreat.empty()) return;
   controller_.sometimes("retreat");

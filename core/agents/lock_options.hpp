@@ -37,7 +37,6 @@ struct GrantOptions {
   bool grants_name_epoch = true;        // false: a grant is for all later requests of that AGV
   std::int64_t locks_end_after_ns = 0;  // a lock is over after so long; 0: time releases nothing
   Overtaken overtaken = Overtaken::StepsBack;
-  bool smaller_number_first = true;  // of two demands of the same age; false: both give way
 };
 
 // What an AGV goes on holding.
@@ -49,9 +48,11 @@ struct HoldingOptions {
 
 // What progress rests on.
 struct ProgressOptions {
-  bool asks_again = true;       // a REQUEST without an answer is sent again
-  bool elder_stays = true;      // of two AGVs that block each other, one makes way first
-  bool whole_stretches = true;  // an AGV locks the way to a waiting place at once, not lane by lane
+  bool asks_again = true;            // a REQUEST without an answer is sent again
+  bool makes_way = true;             // an AGV leaves a place that others need
+  bool order_is_common = true;       // of two requests, both AGVs let the same one go first
+  bool smaller_number_first = true;  // of two demands of the same age
+  bool whole_stretches = true;       // an AGV locks the way to a waiting place at once, not lane by lane
 };
 
 struct LockOptions {

@@ -81,7 +81,10 @@ void LockProtocol::request(const Path& stretch, std::int64_t demand_ns) {
 
 void LockProtocol::open_epoch() {
   ++epoch_;
-  if (!options_.consent.epochs_grow) epoch_ = first_epoch(boot_of(epoch_)) | (number_of(epoch_) & 0xffU);
+  if (!options_.consent.epochs_grow && number_of(epoch_) > 0xffU) {
+    controller_.sometimes("number-wrapped");
+    epoch_ = first_epoch(boot_of(epoch_));
+  }
   asked_ = false;
   repeated_grants_ = 0;
   answers_may_change_ = true;
@@ -168,8 +171,9 @@ bool LockProtocol::comes_first(std::uint32_t agv, const Neighbour& neighbour) {
   // AGV waits. Both sides must find the same order; otherwise two requests would step back from each other for ever.
   // Therefore every message contains `blocked`.
   const bool mine_blocked = is_blocked();
-  const std::uint32_t self = options_.grants.smaller_number_first ? neighbours_.self() : agv;
-  return std::tie(mine_blocked, demand_ns_, self) < std::tie(neighbour.status.blocked, neighbour.demand_ns, agv);
+  const bool other_blocked = neighbour.status.blocked && options_.progress.order_is_common;
+  const std::uint32_t self = options_.progress.smaller_number_first ? neighbours_.self() : agv;
+  return std::tie(mine_blocked, demand_ns_, self) < std::tie(other_blocked, neighbour.demand_ns, agv);
 }
 
 bool LockProtocol::is_blocked() {

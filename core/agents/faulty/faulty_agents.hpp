@@ -8,7 +8,7 @@ namespace fleetproof::agents {
 extern const fp_agent_type kAgelessProof;
 extern const fp_agent_type kAsksOnce;
 extern const fp_agent_type kBendsAsChords;
-extern const fp_agent_type kBothMakeWay;
+extern const fp_agent_type kBothStepBack;
 extern const fp_agent_type kCountsMessages;
 extern const fp_agent_type kEarlyRelease;
 extern const fp_agent_type kFailureFreesLane;
@@ -20,6 +20,7 @@ extern const fp_agent_type kIgnoresParked;
 extern const fp_agent_type kLaneByLane;
 extern const fp_agent_type kLockExpires;
 extern const fp_agent_type kNamesNotShapes;
+extern const fp_agent_type kNeverMakesWay;
 extern const fp_agent_type kNoHalfDiagonal;
 extern const fp_agent_type kNoOverhang;
 extern const fp_agent_type kNoTurnSweep;

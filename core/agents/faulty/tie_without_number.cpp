@@ -4,7 +4,7 @@
 
 namespace fleetproof::agents {
 namespace {
-constexpr LockOptions kFault{.grants = {.smaller_number_first = false}};
+constexpr LockOptions kFault{.progress = {.smaller_number_first = false}};
 }
 
 constinit const fp_agent_type kTieWithoutNumber =
