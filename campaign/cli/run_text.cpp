@@ -195,6 +195,8 @@ std::string TracePrinter::details_of(const TraceRecord& record, std::string_view
       return "with " + body(read<traced::Contact>(record).other);
     case TraceKind::SafeMode:
       return read<traced::SafeMode>(record).on ? "1" : "0";
+    case TraceKind::StoppedByAgent:
+      return read<traced::StoppedByAgent>(record).on ? "1" : "0";
     case TraceKind::WaitingFor: {
       const auto waiting = read<traced::WaitingFor>(record);
       return waiting.agv.valid() ? body(waiting.agv) : "nobody";

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "core/base/tolerances.hpp"
@@ -117,13 +118,14 @@ void Actions::begin_plan(AgvId agv, const NextAction& action, double entry_mps) 
   slice.acting = slice.committed = true;
   const auto& [call, lane, load] = action;
   const bool docks = call == FP_CALL_CHARGE && run_.type_of(agv).dock_s > 0.0;
-  slice.plan = {call, lane, lane != nullptr, false, docks, call != FP_CALL_MOVE, 0.0, load};
+  slice.plan = {call, lane, lane != nullptr, false, docks, call != FP_CALL_MOVE, 0.0, false, load};
   continue_plan(agv, entry_mps);
 }
 
 void Actions::continue_plan(AgvId agv, double entry_mps) {
   Slice& slice = slices_[agv.index()];
-  slice.waits = !run_.status(agv).halts.empty() && entry_mps == 0.0;
+  const AgvStatus& status = run_.status(agv);
+  slice.waits = entry_mps == 0.0 && (slice.plan.drive_due ? !status.halts.empty() : status.is_held());
   if (slice.waits) return;  // the end of the halt continues it
   if (slice.plan.drive_due) return turn_or_drive(agv, entry_mps);
   if (slice.plan.settle_due) return begin_settling(agv);
@@ -223,7 +225,11 @@ void Actions::activity_ends(AgvId agv) {
     case ActivityKind::Drive:
       return leg_ends(agv);
     case ActivityKind::Turn:
-      ports_.activities.end_turn_at(agv, slice.plan.lane->curve.pose_at(slice.plan.way_m).heading);
+      if (std::exchange(slice.plan.turn_ends_early, false)) {
+        ports_.activities.end(agv, false);
+      } else {
+        ports_.activities.end_turn_at(agv, slice.plan.lane->curve.pose_at(slice.plan.way_m).heading);
+      }
       return continue_plan(agv, 0.0);
     case ActivityKind::Charge:
       ports_.activities.end(agv, true);
@@ -264,9 +270,11 @@ void Actions::leg_ends(AgvId agv) {
 // ---- what cuts an action short
 
 void Actions::brake(AgvId agv) {
-  switch (run_.status(agv).activity->kind) {
-    case ActivityKind::Drive:
-      return ports_.drives.replan(agv);
+  const AgvStatus& status = run_.status(agv);
+  const ActivityKind kind = status.activity->kind;
+  if (kind == ActivityKind::Drive) return ports_.drives.replan(agv);
+  if (!status.is_held()) return kind == ActivityKind::Turn ? brake_turn(agv) : void();  // the agent holds motion only
+  switch (kind) {
     case ActivityKind::Pick:
     case ActivityKind::Drop:
       slices_[agv.index()].plan.stay_due = true;  // from its beginning
@@ -275,6 +283,8 @@ void Actions::brake(AgvId agv) {
       slices_[agv.index()].plan.dock_due = true;  // from its beginning
       break;
     case ActivityKind::Turn:
+      slices_[agv.index()].plan.turn_ends_early = false;  // it ends here
+      break;
     case ActivityKind::Settle:
       break;
     default:
@@ -282,6 +292,21 @@ void Actions::brake(AgvId agv) {
   }
   ports_.activities.end(agv, false);
   continue_plan(agv, 0.0);
+}
+
+// If the agent goes on before the AGV stands, the turn ends all the same, and another one follows.
+void Actions::brake_turn(AgvId agv) {
+  const Piece turn = std::get<SpatialEvolution>(run_.status(agv).activity->evolution).piece;
+  const MotionLimits limits = run_.type_of(agv).turn.as_motion();
+  const double rate_radps = turn.profile.speed(to_seconds(run_.now - turn.begin));
+  const double way_rad = rate_radps * rate_radps / (2.0 * limits.deceleration_mps2);
+  Piece piece = run_.standing_piece(agv, run_.pose_now(agv));
+  piece.manner = Manner::Turn;
+  piece.turn_rad = std::copysign(way_rad, turn.turn_rad);
+  piece.profile = MotionProfile(way_rad, limits, {.entry_mps = rate_radps, .exit_mps = 0.0});
+  piece.end = piece.begin + piece.profile.duration();
+  slices_[agv.index()].plan.turn_ends_early = true;
+  ports_.activities.continue_with(agv, piece);
 }
 
 void Actions::go_on(AgvId agv) {

@@ -33,9 +33,9 @@ class Actions {
   fp_action doing(AgvId agv) const;
   LanesAhead lanes(AgvId agv) const;
 
-  // A first halt holds the AGV.
+  // A first halt holds the AGV, or one that holds more than its motion.
   void brake(AgvId agv);
-  // The last halt is over.
+  // The last halt is over, or the last one that held more than motion.
   void go_on(AgvId agv);
   // The AGV's load has fallen off.
   void reshape(AgvId agv);
@@ -50,8 +50,9 @@ class Actions {
     fp_call call = FP_CALL_MOVE;
     const Lane* lane = nullptr;
     bool drive_due = false, settle_due = false, dock_due = false, stay_due = false;
-    double way_m = 0.0;  // along the lane: where a drive goes on that a halt has cut short
-    LoadId load{};       // named for a pick
+    double way_m = 0.0;            // along the lane: where a drive goes on that a halt has cut short
+    bool turn_ends_early = false;  // the turn under way brakes before the lane's heading
+    LoadId load{};                 // named for a pick
   };
   // An action accepted while the AGV was still on its way to the station at which it begins.
   struct NextAction {
@@ -75,6 +76,7 @@ class Actions {
   void continue_plan(AgvId agv, double entry_mps);
   void finish(AgvId agv, double speed_mps);
   void turn_or_drive(AgvId agv, double entry_mps);
+  void brake_turn(AgvId agv);
   void begin_settling(AgvId agv);
   void begin_docking(AgvId agv);
   void begin_stay(AgvId agv);

@@ -63,6 +63,7 @@ void AgentHost::becomes_free(AgvId agv) {
   if (run_.now < slice.free_at) return wake(agv);  // frozen since
   const fp_event event = slice.waiting_events.front();
   slice.waiting_events.pop_front();
+  if (event.kind == FP_EVENT_ORDER && is_over(TransportId{event.order_id})) return wake(agv);  // done meanwhile
   activate(agv, event);
 }
 
@@ -85,6 +86,7 @@ void AgentHost::activate(AgvId agv, const fp_event& what) {
   slice.in_activation = false;
   if (use.broken_limit != nullptr) give_up(agv, true, use.broken_limit);
   slice.free_at = std::max(slice.free_at, run_.now + use.cost);
+  if (event.kind == FP_EVENT_START && slice.boot > 0) tell_open_orders(agv);
   wake(agv);
 }
 
@@ -180,13 +182,25 @@ void AgentHost::comes_back(AgvId agv) {
   if (--slice.away > 0) return;  // another reason still holds
   ++slice.boot;
   start(agv);
-  // The transports that are not done are handed out again, that of the load on board first.
+}
+
+// The agent has been started again, perhaps long after its computer was back. The transports that are not done by now
+// are handed out again, that of the load on board first, and before all that has arrived since.
+void AgentHost::tell_open_orders(AgvId agv) {
+  auto& waiting = slices_[agv.index()].waiting_events;
+  std::erase_if(waiting, [](const fp_event& event) { return event.kind == FP_EVENT_ORDER; });
+  const auto arrived = std::exchange(waiting, {});
   const auto loads = run_.world.loads();
   const LoadId on_board = run_.world.carried_load(agv);
   if (on_board.valid()) tell_again(agv, loads[on_board.index()]);
   for (std::size_t i = 0; i < loads.size(); ++i) {
     if (loads[i].carrier == agv && !loads[i].is_over() && LoadId{i} != on_board) tell_again(agv, loads[i]);
   }
+  if (!slices_[agv.index()].failed) waiting.insert(waiting.end(), arrived.begin(), arrived.end());
+}
+
+bool AgentHost::is_over(TransportId transport) const {
+  return run_.world.loads()[run_.world.load_of(transport).index()].is_over();
 }
 
 void AgentHost::tell_again(AgvId agv, const Load& load) {

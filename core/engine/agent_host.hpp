@@ -75,7 +75,9 @@ class AgentHost {
   void give_up(AgvId agv, bool hang, std::string_view message);
   bool file_failure(AgvId agv, bool hang, std::string_view message);
   void tell_order(AgvId agv, TransportId transport, StationId from, StationId to);
+  void tell_open_orders(AgvId agv);
   void tell_again(AgvId agv, const Load& load);
+  bool is_over(TransportId transport) const;
   void renew_briefing(AgvId agv);
   void destroy(AgvId agv);
 

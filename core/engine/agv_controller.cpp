@@ -107,6 +107,8 @@ void AgvController::carry_out(AgvId agv, const PendingCall& call) {
   switch (call.kind) {
     case PendingCall::Kind::Action:
       return ports_.actions.begin(agv, static_cast<fp_call>(call.what), call.segment, call.load);
+    case PendingCall::Kind::Stop:
+      return apply_stop(agv, call.what != 0);
     case PendingCall::Kind::Send:
       return ports_.messenger.transmit(agv, call.message, call.what);
     case PendingCall::Kind::SafeMode:
@@ -133,6 +135,20 @@ std::int32_t AgvController::pick_load(AgvId agv, std::uint32_t segment, std::uin
   const LoadId load = run_.world.load_of(TransportId{order});
   if (!load.valid() || run_.world.load(load).carrier != agv) return FP_INVALID;
   return act(agv, FP_CALL_PICK, segment, load);
+}
+
+std::int32_t AgvController::stop(AgvId agv, bool on) {
+  return take_effect(agv, {.kind = PendingCall::Kind::Stop, .what = on ? 1U : 0U});
+}
+
+void AgvController::apply_stop(AgvId agv, bool on) {
+  if (on == run_.status(agv).is_held_by(Halt::Reason::Agent)) return;
+  run_.trace(agv, traced::StoppedByAgent{on});
+  if (on) {
+    ports_.halts.begin(agv, Halt::Reason::Agent);
+  } else {
+    ports_.halts.end_all(agv, Halt::Reason::Agent);
+  }
 }
 
 std::uint32_t AgvController::order_on_board(AgvId agv) const {

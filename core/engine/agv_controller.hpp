@@ -30,6 +30,7 @@ class AgvController {
     ActionsPort actions;
     BatteryPort battery;
     DeclarationsPort declarations;
+    HaltsPort halts;
     MessengerPort messenger;
     PositionSensorPort sensor;
     TimersPort timers;
@@ -56,6 +57,8 @@ class AgvController {
   // `load`: named for a pick.
   std::int32_t act(AgvId agv, fp_call call, std::uint32_t segment, LoadId load = {});
   std::int32_t pick_load(AgvId agv, std::uint32_t segment, std::uint32_t order);
+  // `on`: it stops, else it goes on.
+  std::int32_t stop(AgvId agv, bool on);
   std::int32_t send(AgvId agv, std::string_view bytes, std::uint32_t receiver);
   std::int32_t set_timer(AgvId agv, std::uint32_t number, std::int64_t at_ns);
   std::int32_t declare_safe_mode(AgvId agv, bool on);
@@ -69,7 +72,7 @@ class AgvController {
 
  private:
   struct PendingCall {
-    enum class Kind : std::uint8_t { Action, Send, SafeMode, WaitingFor, Timer, Nothing } kind = Kind::Action;
+    enum class Kind : std::uint8_t { Action, Stop, Send, SafeMode, WaitingFor, Timer, Nothing } kind = Kind::Action;
     std::uint32_t what = 0;  // fp_call, receiver, flag, AGV or timer number
     std::uint32_t segment = FP_NONE;
     LoadId load{};
@@ -86,6 +89,7 @@ class AgvController {
   // Carries the call out now, or later if the calls before it have cost time.
   std::int32_t take_effect(AgvId agv, const PendingCall& call);
   void carry_out(AgvId agv, const PendingCall& call);
+  void apply_stop(AgvId agv, bool on);
 
   RunContext& run_;
   Ports ports_;

@@ -12,7 +12,13 @@ namespace fleetproof {
 
 // Why an AGV brakes and stands, wherever it is.
 struct Halt {
-  enum class Reason : std::uint8_t { ProtectiveStop, Scanner, Breakdown, EmptyBattery } reason = Reason::ProtectiveStop;
+  enum class Reason : std::uint8_t {
+    ProtectiveStop,
+    Scanner,
+    Breakdown,
+    EmptyBattery,
+    Agent  // holds only motion: what the AGV does at rest goes on
+  } reason = Reason::ProtectiveStop;
   std::uint64_t number = 0;  // unique per AGV
   bool out_of_order() const { return reason == Reason::Breakdown || reason == Reason::EmptyBattery; }
 };
@@ -35,6 +41,10 @@ struct AgvStatus {
   SimTime last_progress = kStart;
 
   bool is_driving() const { return activity && activity->kind == ActivityKind::Drive; }
+  // By something else than its agent.
+  bool is_held() const {
+    return std::ranges::any_of(halts, [](const Halt& halt) { return halt.reason != Halt::Reason::Agent; });
+  }
   bool is_held_by(Halt::Reason reason) const { return std::ranges::find(halts, reason, &Halt::reason) != halts.end(); }
 };
 

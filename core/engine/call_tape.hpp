@@ -43,6 +43,8 @@ enum class TapeItem : std::uint8_t {
   Log,
   PickLoad,
   GetLoad,
+  Stop,
+  GoOn,
 };
 
 inline constexpr std::uint8_t kTapeVersion = 1;

@@ -23,6 +23,11 @@ std::int32_t pick_load(fp_controller* controller, std::uint32_t segment, std::ui
   return admitted(controller, [&](AgvController& part, AgvId agv) { return part.pick_load(agv, segment, order); });
 }
 
+template <bool kOn>
+std::int32_t stop(fp_controller* controller) {
+  return admitted(controller, [](AgvController& part, AgvId agv) { return part.stop(agv, kOn); });
+}
+
 std::int32_t send_unicast(fp_controller* controller, const void* bytes, std::uint32_t size, std::uint32_t receiver) {
   return admitted(controller, [&](AgvController& part, AgvId agv) -> std::int32_t {
     if (bytes == nullptr && size > 0) return FP_INVALID;
@@ -147,6 +152,8 @@ const fp_host kHost = {
     note<TraceKind::Log>,
     pick_load,
     get_load,
+    stop<true>,
+    stop<false>,
 };
 
 }  // namespace fleetproof

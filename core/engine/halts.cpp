@@ -9,15 +9,18 @@ Halts::Halts(RunContext& run, ActionsPort actions) : run_(run), actions_(actions
 std::uint64_t Halts::begin(AgvId agv, Halt::Reason reason) {
   AgvStatus& status = run_.status(agv);
   const std::uint64_t number = ++begun_[agv.index()];
+  const bool held_as_much = reason == Halt::Reason::Agent ? !status.halts.empty() : status.is_held();
   status.halts.push_back({reason, number});
-  if (status.halts.size() == 1 && status.activity) actions_.brake(agv);
+  if (!held_as_much && status.activity) actions_.brake(agv);
   return number;
 }
 
 void Halts::end(AgvId agv, std::uint64_t number) {
   AgvStatus& status = run_.status(agv);
+  const bool was_held = status.is_held();
   const auto erased = std::erase_if(status.halts, [&](const Halt& halt) { return halt.number == number; });
-  if (erased > 0 && status.halts.empty() && !status.out_of_order) actions_.go_on(agv);
+  const bool held_less = erased > 0 && (status.halts.empty() || (was_held && !status.is_held()));
+  if (held_less && !status.out_of_order) actions_.go_on(agv);
 }
 
 void Halts::end_all(AgvId agv, Halt::Reason reason) {

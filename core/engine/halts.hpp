@@ -8,7 +8,8 @@
 namespace fleetproof {
 
 // Why AGVs stand: each halt has a reason and a number. The first one brakes the AGV, wherever it is; when the last one
-// is over, the AGV goes on with what it was doing.
+// is over, the AGV goes on with what it was doing. A halt by the agent holds motion only. So the first halt for another
+// reason brakes once more, and when the last of those is over, what needs no motion goes on.
 class Halts {
  public:
   Halts(RunContext& run, ActionsPort actions);

@@ -148,7 +148,7 @@ bool OperatorDesk::stands_still() const {
   if (!run_.transports_are_open()) return false;
   for (std::size_t i = 0; i < run_.agvs.size(); ++i) {
     const AgvStatus& status = run_.agvs[i];
-    const bool waits_for_help = !status.halts.empty() || (status.out_of_order && run_.world.body(AgvId{i}).on_floor);
+    const bool waits_for_help = status.is_held() || (status.out_of_order && run_.world.body(AgvId{i}).on_floor);
     if (waits_for_help || (status.activity && is_work(status.activity->kind))) return false;
   }
   return true;

@@ -20,7 +20,7 @@ Parts::Parts(RunContext& run, const fp_agent_type& agent, const char* agent_conf
                           ScannerPort(scanner)}),
       timers(run, AgentHostPort(agents)),
       declarations(run),
-      controller(run, {ActionsPort(actions), BatteryPort(battery), DeclarationsPort(declarations),
+      controller(run, {ActionsPort(actions), BatteryPort(battery), DeclarationsPort(declarations), HaltsPort(halts),
                        MessengerPort(messenger), PositionSensorPort(sensor), TimersPort(timers)}),
       agents(run, {ActionsPort(actions), AgvControllerPort(controller), TimersPort(timers)}, agent, agent_config,
              watch) {}

@@ -50,8 +50,12 @@ void record(CallTape& tape, TapeItem item, const char* text) {
   tape.controller_call(item, std::string_view(text));
 }
 
-void record(CallTape& tape, TapeItem) { tape.service(); }                                // now_ns
 void record(CallTape& tape, TapeItem, std::uint32_t, std::uint64_t) { tape.service(); }  // random
+
+void record(CallTape& tape, TapeItem item) {
+  if (item == TapeItem::Services) return tape.service();  // now_ns
+  tape.controller_call(item);
+}
 
 // ---- the function of the table for a member of fp_host
 
@@ -97,6 +101,8 @@ const fp_host kRecordingHost = {
     recorded<&fp_host::log, TapeItem::Log>,
     recorded<&fp_host::pick_load, TapeItem::PickLoad>,
     recorded<&fp_host::get_load, TapeItem::GetLoad>,
+    recorded<&fp_host::stop, TapeItem::Stop>,
+    recorded<&fp_host::go_on, TapeItem::GoOn>,
 };
 
 }  // namespace fleetproof

@@ -62,6 +62,10 @@ void TapePlayer::play_controller_call(TapeItem item, fp_controller* c) {
       const std::uint32_t segment = id();
       return void(kHost.pick_load(c, segment, id()));
     }
+    case TapeItem::Stop:
+      return void(kHost.stop(c));
+    case TapeItem::GoOn:
+      return void(kHost.go_on(c));
     case TapeItem::SendBroadcast:
     case TapeItem::SendUnicast:
       return play_message(item, c);

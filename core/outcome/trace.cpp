@@ -72,6 +72,8 @@ const char* name_of(TraceKind kind) {
       return "appears";
     case TraceKind::Leaves:
       return "leaves";
+    case TraceKind::StoppedByAgent:
+      return "stop by agent";
     case TraceKind::LostInOutage:
       return "lost in an outage";
     case TraceKind::LostByInterference:

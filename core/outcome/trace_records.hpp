@@ -138,6 +138,13 @@ struct SafeMode {
   static constexpr SafeMode of(const TraceRecord& r) { return {r.a != 0}; }
 };
 
+struct StoppedByAgent {
+  static constexpr TraceKind kKind = TraceKind::StoppedByAgent;
+  bool on = false;
+  constexpr void put(TraceRecord& r) const { r.a = on ? 1 : 0; }
+  static constexpr StoppedByAgent of(const TraceRecord& r) { return {r.a != 0}; }
+};
+
 struct WaitingFor {
   static constexpr TraceKind kKind = TraceKind::WaitingFor;
   AgvId agv;  // invalid: for none

@@ -151,5 +151,25 @@ TEST(AgentHeader, AfterARestartTheOrderOfTheLoadOnBoardComesFirst) {
   EXPECT_THAT(on_board, testing::ElementsAre(FP_NONE, 2U)) << "and the controller says what it took";
 }
 
+// The computer is back at 16 s, but frozen until 24 s. At 18 s the AGV has dropped the load of order 0. At 20 s order 2
+// is released.
+TEST(AgentHeader, AfterARestartNoOrderIsSentThatIsDoneByThen) {
+  Scenario scenario = test::row_of_tens({0}, 40.0);
+  scenario.agvs[0].transports = {{StationId{0U}, StationId{1U}, seconds(0.0)},
+                                 {StationId{0U}, StationId{2U}, seconds(0.0)},
+                                 {StationId{0U}, StationId{3U}, seconds(20.0)}};
+  scenario.faults = {fault(Fault::Kind::Freeze, 14.0, 10.0), fault(Fault::Kind::Restart, 15.0, 1.0)};
+  std::vector<std::string> told;
+  simulate_with(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
+    if (b.boot == 1 && e.kind == FP_EVENT_START) told.push_back("start");
+    if (b.boot == 1 && e.kind == FP_EVENT_ORDER) told.push_back("order " + std::to_string(e.order_id));
+    if (b.boot == 1 && e.kind == FP_EVENT_ACTION_DONE) told.push_back("done");
+    EXPECT_TRUE(b.boot == 0 || e.now_ns >= 24 * kSecond_ns);
+    if (b.boot == 0 && e.kind == FP_EVENT_ORDER && e.order_id == 0) host.pick(c, FP_HERE);
+    if (b.boot == 0 && e.kind == FP_EVENT_ACTION_DONE) host.drop(c, 0);
+  });
+  EXPECT_THAT(told, testing::ElementsAre("start", "order 1", "order 2", "done"));
+}
+
 }  // namespace
 }  // namespace fleetproof

@@ -39,6 +39,8 @@ std::vector<Call> counted_calls() {
         std::uint32_t order = 0;
         h.get_load(c, &order);
       },
+      [](Host h, Handle c) { h.stop(c); },
+      [](Host h, Handle c) { h.go_on(c); },
       [](Host h, Handle c) { h.set_timer(c, 0, -1); },
       [](Host h, Handle c) { h.declare_cost_ns(c, 0); },
       [](Host h, Handle c) { h.safe_mode(c, 0); },

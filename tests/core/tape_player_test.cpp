@@ -258,7 +258,7 @@ TEST(TapePlayer, SurvivesNoise) {
     // The start of AGV 0, and then anything. Small numbers are items.
     if (i % 2 == 0) noise += std::string("\x01\x01\x03", 3);
     for (std::uint32_t n = draws.below(200); n > 0; --n)
-      noise += static_cast<char>(draws.below(4) == 0 ? draws.below(256) : draws.below(27));
+      noise += static_cast<char>(draws.below(4) == 0 ? draws.below(256) : draws.below(34));
     EXPECT_TRUE(error_of_copy(restarts(), noise));
   }
 }

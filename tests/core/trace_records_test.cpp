@@ -39,6 +39,7 @@ TEST(TraceRecords, WriteTheWordsOfTheDigest) {
   expect_words(record_of(traced::CallRefused{1, {}}), CallRefused, 1, none);
   expect_words(record_of(traced::Contact{EntityId{4U}}), Contact, 4, 0);
   expect_words(record_of(traced::SafeMode{true}), SafeMode, 1, 0);
+  expect_words(record_of(traced::StoppedByAgent{true}), StoppedByAgent, 1, 0);
   expect_words(record_of(traced::WaitingFor{}), WaitingFor, none, 0);
   expect_words(record_of(traced::Probe{88}), Probe, 88, 0);
   expect_words(record_of(traced::Log{99}), Log, 99, 0);

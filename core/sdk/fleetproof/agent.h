@@ -56,7 +56,7 @@ typedef enum fp_result {
 } fp_result;
 
 /* What the AGV is doing. FP_STOPPED: something stopped the AGV in the middle of an action; the AGV will go on without a
- * further call.
+ * further call, unless `stop` holds it.
  * FP_OUT_OF_ORDER: the AGV is broken down or empty. It may be repaired and then goes on, too; until then it accepts
  * actions and begins none. Or a contact has put it out of order. In all three cases the computer works on: the agent
  * receives events, and the AGV sends and receives messages. */
@@ -200,6 +200,14 @@ typedef struct fp_host {
      station or if the AGV is loaded. FP_INVALID if no such order was released for this AGV. */
   int32_t (*pick_load)(fp_controller*, uint32_t segment, uint32_t order_id);
   int32_t (*get_load)(fp_controller*, uint32_t* order_id); /* the order of the load on board; FP_NONE: no load */
+
+  /* Since minor 2. `stop` brakes the drive or the turn under way with the vehicle's own deceleration and holds the AGV;
+     `go_on` lets it go on. The action stays under way, so no event follows. An AGV that is held accepts actions as
+     always. It carries out what needs no motion (transfers, docking, charging); it turns and drives after `go_on`. A
+     restart does not let it go on. Breakdowns and protective stops are independent: it moves when nothing holds it. If
+     there is nothing to change, the calls return FP_OK and do nothing. */
+  int32_t (*stop)(fp_controller*);
+  int32_t (*go_on)(fp_controller*);
 } fp_host;
 
 /* ---- the agent ------------------------------------------------------------------------------------------- */
