@@ -7,6 +7,7 @@
 #include "campaign/cli/output_file.hpp"
 #include "campaign/cli/run_text.hpp"
 #include "campaign/cli/streams.hpp"
+#include "campaign/cli/trace_printer.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "campaign/plan/plan_text.hpp"
 #include "campaign/plan/scenario_source.hpp"

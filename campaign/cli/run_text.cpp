@@ -46,35 +46,7 @@ std::string counters_text(const Outcome& outcome) {
   return text;
 }
 
-const char* text_of(Assist assist) {
-  switch (assist) {
-    case Assist::Battery:
-      return "with the battery";
-    case Assist::Jam:
-      return "past what the scanner sees";
-    case Assist::Contact:
-      return "after a contact: takes it off the floor";
-    case Assist::Standstill:
-      return "at a standstill: restarts the agent";
-  }
-  return "?";
-}
-
 std::string shown_name(const Scenario& scenario, EntityId id) { return printable(body_name(scenario, id)); }
-
-std::string holder_text(const Scenario& scenario, const Holder& holder) {
-  switch (holder.kind) {
-    case Holder::Kind::Station:
-      return "at " + printable(scenario.map->station(StationId{holder.index}).name);
-    case Holder::Kind::Agv:
-      return "on " + shown_name(scenario, EntityId{holder.index});
-    case Holder::Kind::Floor:
-      return "on the floor";
-    case Holder::Kind::ClearedAway:
-      return "cleared away";
-  }
-  return "?";
-}
 
 }  // namespace
 
@@ -157,81 +129,6 @@ std::string outcome_text(const Scenario& scenario, const Outcome& outcome, bool 
   if (outcome.counters.perimeter_checks > 0)
     text += fmt::format("  {} perimeter checks by the law\n", outcome.counters.perimeter_checks);
   return text + counters_text(outcome) + met_text(outcome) + fmt::format("  trace digest {:016x}\n", outcome.digest);
-}
-
-// The content of a record, without its time, entity and kind.
-std::string TracePrinter::details_of(const TraceRecord& record, std::string_view text) const {
-  const auto body = [&](EntityId id) { return body_name(scenario_, id); };
-  switch (record.kind) {
-    case TraceKind::ActivityBegins: {
-      const auto begun = read<traced::ActivityBegins>(record);
-      const std::string activity = name_of(begun.activity);
-      if (begun.activity != ActivityKind::Drive) return activity;
-      return activity + " " + scenario_.map->segment(begun.segment()).name;
-    }
-    case TraceKind::ActivityEnds: {
-      const auto ended = read<traced::ActivityEnds>(record);
-      return std::string(name_of(ended.activity)) + (ended.as_planned ? "" : " (cut short)");
-    }
-    case TraceKind::OrderReleased:
-      return std::to_string(read<traced::OrderReleased>(record).transport.value);
-    case TraceKind::TransportDone:
-      return std::to_string(read<traced::TransportDone>(record).transport.value);
-    case TraceKind::Sent: {
-      const auto sent = read<traced::Sent>(record);
-      return sent.to_all() ? "to all" : "to " + body(sent.receiver);
-    }
-    case TraceKind::Lost:
-    case TraceKind::LostInOutage:
-    case TraceKind::LostByInterference:
-    case TraceKind::LostToSource:
-    case TraceKind::Received:
-      return "from " + body(read<traced::Reception>(record).sender);
-    case TraceKind::TimerWentOff:
-      return std::to_string(read<traced::TimerWentOff>(record).timer);
-    case TraceKind::CallRefused:
-      return std::to_string(read<traced::CallRefused>(record).call);
-    case TraceKind::Contact:
-      return "with " + body(read<traced::Contact>(record).other);
-    case TraceKind::SafeMode:
-      return read<traced::SafeMode>(record).on ? "1" : "0";
-    case TraceKind::StoppedByAgent:
-      return read<traced::StoppedByAgent>(record).on ? "1" : "0";
-    case TraceKind::WaitingFor: {
-      const auto waiting = read<traced::WaitingFor>(record);
-      return waiting.agv.valid() ? body(waiting.agv) : "nobody";
-    }
-    case TraceKind::LoadMoves: {
-      const auto [load, to] = read<traced::LoadMoves>(record);
-      return fmt::format("{} {}", load.value, holder_text(scenario_, to));
-    }
-    case TraceKind::FaultStrikes:
-      return name_of(read<traced::FaultStrikes>(record).fault);
-    case TraceKind::FaultOver:
-      return name_of(read<traced::FaultOver>(record).fault);
-    case TraceKind::ScannerStops:
-      return "for " + body(read<traced::ScannerStops>(record).body);
-    case TraceKind::OperatorAssists:
-      return text_of(read<traced::OperatorAssists>(record).assist);
-    case TraceKind::Appears:
-      if (record.entity.index() >= scenario_.agvs.size()) return {};
-      return "at " + scenario_.map->station(read<traced::Appears>(record).station).name;
-    case TraceKind::Probe:
-    case TraceKind::Log:
-      return std::string(text);
-    case TraceKind::AgentCrashed:
-    case TraceKind::AgentHung:
-    case TraceKind::BatteryEmpty:
-    case TraceKind::Leaves:
-      return {};
-  }
-  return {};
-}
-
-void TracePrinter::record(const TraceRecord& record, std::string_view text) {
-  talk_text(fmt::format("{:>12.6f}  {:<6} {:<14} {}\n", to_seconds(record.at), shown_name(scenario_, record.entity),
-                        name_of(record.kind), printable(details_of(record, text))),
-            kForever_ms);
 }
 
 }  // namespace fleetproof::cli

@@ -24,15 +24,4 @@ std::string met_text(const Outcome& outcome);
 // would hide small differences. Published laws leave the clearance of bodies that they do not accuse unmeasured.
 std::string outcome_text(const Scenario& scenario, const Outcome& outcome, bool clearance_measured = true);
 
-// Prints the trace of a run on stderr, one event a line.
-class TracePrinter final : public TraceSink {
- public:
-  explicit TracePrinter(const Scenario& scenario) : scenario_(scenario) {}
-  void record(const TraceRecord& record, std::string_view text) override;
-
- private:
-  std::string details_of(const TraceRecord& record, std::string_view text) const;
-  const Scenario& scenario_;
-};
-
 }  // namespace fleetproof::cli

@@ -8,6 +8,7 @@
 
 #include "campaign/cli/run_text.hpp"
 #include "campaign/cli/streams.hpp"
+#include "campaign/cli/trace_printer.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "campaign/run/agent_programs.hpp"
 #include "core/base/error.hpp"

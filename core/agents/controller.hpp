@@ -82,11 +82,29 @@ class Controller {
   }
   void sometimes(const char* probe) { host_.sometimes(handle_, probe); }
 
+  // Notes for people who look at a trace. A host of an older minor version takes none.
+  void describe(const char* kind) {
+    if (takes_notes()) host_.describe(handle_, kind);
+  }
+  // `state` is a constant.
+  void declare_state(const char* state) {
+    if (state == state_ || !takes_notes()) return;
+    state_ = state;
+    host_.declare_state(handle_, state);
+  }
+  void believe(std::uint32_t agv, Vec position_m, std::int64_t as_of_ns) {
+    const fp_pose where{position_m.x, position_m.y, 0.0, 0.0};
+    if (takes_notes()) host_.believe(handle_, agv, &where, as_of_ns);
+  }
+
  private:
+  bool takes_notes() const { return host_.abi_minor >= 2; }
+
   const fp_host& host_;
   fp_controller* handle_;
   std::uint64_t draws_;
   std::uint32_t declared_ = FP_NONE;
+  const char* state_ = nullptr;
 };
 
 }  // namespace fleetproof::agents

@@ -227,6 +227,7 @@ void HullLock::advance() {
       break;
     }
   }
+  controller_.declare_state(state());
   const std::int64_t ask_at_ns = protocol_.ask_again();
   if (ask_at_ns < 0 || ask_at_ns == ask_timer_ns_) return;
   ask_timer_ns_ = ask_at_ns;

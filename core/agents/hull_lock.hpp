@@ -61,6 +61,12 @@ class HullLock {
   bool in_the_way_of(bool elder_only);
   bool is_waiting() const { return !acting_ && legs_.empty(); }
   bool is_idle() const { return is_waiting() && goals_.empty(); }
+  // For people who look at a trace.
+  const char* state() const {
+    if (out_of_order_) return "out of order";
+    if (acting_) return name_of(current_.kind);
+    return charging_ ? "charging" : protocol_.requesting() ? "requesting" : is_idle() ? "idle" : "waiting";
+  }
   Budget budget() const;
   double time_left_s();
   double leg_time_s(const Leg& leg, Vec heading) const;

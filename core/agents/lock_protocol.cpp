@@ -126,6 +126,7 @@ bool LockProtocol::receive(std::uint32_t sender, std::span<const std::byte> byte
   }
   switch (message->kind) {
     case MessageKind::State:
+      controller_.believe(sender, message->status.position_m, std::int64_t{message->status.stamp_ms} * 1'000'000);
       break;
     case MessageKind::Request:
       if (message->status.epoch == neighbours_.of(sender).request_epoch && neighbours_.of(sender).request_is_open())
@@ -318,6 +319,7 @@ void LockProtocol::broadcast_state() {
   fill_in(message.status);
   // Others take the table as proof that the position is newer than what it acknowledges.
   if (position_at_ns_ == controller_.now_ns()) neighbours_.tell_heard_from(message.heard);
+  controller_.describe(name_of(message.kind));
   controller_.broadcast(WireMessage(message).bytes());
 }
 
@@ -328,6 +330,7 @@ void LockProtocol::send(MessageKind kind, std::uint32_t receiver, Epoch echo) {
   message.demand_ns = demand_ns_;
   if (kind == MessageKind::Request) message.request = request_;
   message.echo = echo;
+  controller_.describe(name_of(kind));
   controller_.send(WireMessage(message).bytes(), receiver);
 }
 

@@ -11,6 +11,19 @@
 namespace fleetproof::agents {
 
 enum class MessageKind : std::uint8_t { State = 1, Request, Grant, Defer };
+constexpr const char* name_of(MessageKind kind) {
+  switch (kind) {
+    case MessageKind::State:
+      return "STATE";
+    case MessageKind::Request:
+      return "REQUEST";
+    case MessageKind::Grant:
+      return "GRANT";
+    case MessageKind::Defer:
+      return "DEFER";
+  }
+  return "?";
+}
 
 // The number of a request: the boot of the AGV's computer, then the number of the request since that boot. Numbers only
 // grow and none is used twice, because the number of the boot survives a restart. Compare whole numbers, never modulo.

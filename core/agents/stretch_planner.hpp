@@ -19,6 +19,21 @@ struct Leg {
   Kind kind = Kind::Drive;
   std::uint32_t lane = FP_NONE;
 };
+constexpr const char* name_of(Leg::Kind kind) {
+  switch (kind) {
+    case Leg::Kind::Drive:
+      return "driving";
+    case Leg::Kind::Pick:
+      return "picking";
+    case Leg::Kind::Drop:
+      return "dropping";
+    case Leg::Kind::Charge:
+      return "connecting to a charger";
+    case Leg::Kind::Inherited:
+      return "finishing what its former self began";
+  }
+  return "?";
+}
 
 // A station to go to, and what to do there.
 struct Goal {

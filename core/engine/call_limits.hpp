@@ -8,4 +8,8 @@ namespace fleetproof {
 inline constexpr std::uint32_t kCallsMax = 10'000;         // calls that act, perceive or declare
 inline constexpr std::uint32_t kServicesMax = 10'000'000;  // calls of random and now_ns
 
+// What a trace and a tape keep of the notes of one activation.
+inline constexpr std::uint32_t kNotesMax = 1'000;
+inline constexpr std::uint32_t kNoteBytesMax = 64;  // of each text
+
 }  // namespace fleetproof

@@ -4,8 +4,6 @@
 #include <new>
 #include <utility>
 
-#include "core/engine/call_limits.hpp"
-
 namespace fleetproof {
 
 CallTape::CallTape(std::size_t longest_bytes) : longest_bytes_(longest_bytes) {
@@ -18,7 +16,7 @@ std::string CallTape::take() { return std::exchange(bytes_, {}); }
 // ---- calls into agents
 
 void CallTape::call_begins(AgvId agv, std::uint32_t event) {
-  calls_ = services_ = 0;
+  calls_ = services_ = notes_ = 0;
   put(agv.value);
   put(event);
 }
@@ -33,6 +31,10 @@ void CallTape::call_ends(TapeItem how) {
   if (calls_ > kCallsMax) {
     put(TapeItem::OverLimit);
     put_number(calls_ - kCallsMax);
+  }
+  if (notes_ > kNotesMax) {
+    put(TapeItem::NotesLeftOut);
+    put_number(notes_ - kNotesMax);
   }
   put(how);
 }

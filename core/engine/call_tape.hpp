@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/base/strong_id.hpp"
+#include "core/engine/call_limits.hpp"
 
 namespace fleetproof {
 
@@ -45,6 +46,11 @@ enum class TapeItem : std::uint8_t {
   GetLoad,
   Stop,
   GoOn,
+  // Notes.
+  Describe,
+  DeclareState,
+  Believe,
+  NotesLeftOut,  // count: so many notes beyond kNotesMax
 };
 
 inline constexpr std::uint8_t kTapeVersion = 1;
@@ -77,6 +83,12 @@ class CallTape {
     (put(arguments), ...);
   }
   void service() { ++services_; }
+  template <class... Arguments>
+  void note(TapeItem item, Arguments... arguments) {
+    if (++notes_ > kNotesMax) return;
+    put(item);
+    (put(arguments), ...);
+  }
 
   // ---- for the caller of simulate()
   // False: the tape was dropped, because it became too long or there was not enough memory.
@@ -97,7 +109,7 @@ class CallTape {
 
   std::size_t longest_bytes_;
   bool complete_ = true;
-  std::uint64_t calls_ = 0, services_ = 0;  // of this call into an agent; services not yet on the tape
+  std::uint64_t calls_ = 0, services_ = 0, notes_ = 0;  // of this call into an agent; services not yet on the tape
   std::string bytes_;
 };
 

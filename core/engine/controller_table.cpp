@@ -124,6 +124,26 @@ std::int32_t note(fp_controller* controller, const char* text) {
   });
 }
 
+// ---- notes
+
+void describe(fp_controller* controller, const char* kind) {
+  const auto text = noted(kind);
+  if (text && controller->part->admit_note(controller->agv))
+    controller->part->ports().declarations.describe(controller->agv, *text);
+}
+
+void declare_state(fp_controller* controller, const char* state) {
+  const auto text = noted(state);
+  if (text && controller->part->admit_note(controller->agv))
+    controller->part->ports().declarations.set_state(controller->agv, *text);
+}
+
+void believe(fp_controller* controller, std::uint32_t about, const fp_pose* where, std::int64_t as_of_ns) {
+  const auto pose = noted(where);
+  if (pose && controller->part->admit_note(controller->agv))
+    controller->part->ports().declarations.believe(controller->agv, about, *pose, as_of_ns);
+}
+
 }  // namespace
 
 const fp_host kHost = {
@@ -154,6 +174,9 @@ const fp_host kHost = {
     get_load,
     stop<true>,
     stop<false>,
+    describe,
+    declare_state,
+    believe,
 };
 
 }  // namespace fleetproof

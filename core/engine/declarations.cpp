@@ -1,5 +1,7 @@
 #include "core/engine/declarations.hpp"
 
+#include <algorithm>
+
 namespace fleetproof {
 
 void Declarations::set_safe_mode(AgvId agv, bool on) {
@@ -26,6 +28,40 @@ void Declarations::note(AgvId agv, TraceKind kind, std::string_view text) {
 void Declarations::forget(AgvId agv) {
   set_safe_mode(agv, false);
   set_waiting_for(agv, {});
+  set_state(agv, {});
+}
+
+// ---- notes
+
+void Declarations::leave_out(AgvId agv, std::uint64_t notes) {
+  std::uint64_t& sum = slices_[agv.index()].notes;
+  sum += std::min(notes, ~sum);  // a damaged recording may hold any count
+}
+
+void Declarations::message_sent(AgvId agv, std::uint64_t hash) {
+  std::string& kind = slices_[agv.index()].described;
+  if (kind.empty()) return;
+  run_.note(agv, traced::Described{hash}, kind);
+  kind.clear();
+}
+
+void Declarations::set_state(AgvId agv, std::string_view state) {
+  Slice& slice = slices_[agv.index()];
+  if (state == slice.state) return;
+  slice.state = state;
+  run_.note(agv, traced::AgentState{}, state);
+}
+
+void Declarations::believe(AgvId agv, std::uint32_t about, const NotedPose& where, std::int64_t as_of_ns) {
+  if (about >= slices_.size()) return;
+  run_.note(agv, traced::Belief{AgvId{about}, as_of_ns, where});
+}
+
+void Declarations::end_activation(AgvId agv) {
+  Slice& slice = slices_[agv.index()];
+  if (slice.notes > kNotesMax) run_.note(agv, traced::NotesLeftOut{slice.notes - kNotesMax});
+  slice.notes = 0;
+  slice.described.clear();
 }
 
 void Declarations::close_books() {

@@ -1,15 +1,19 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/engine/call_limits.hpp"
+#include "core/engine/notes.hpp"
 #include "core/engine/run_context.hpp"
 #include "core/outcome/probes.hpp"
 
 namespace fleetproof {
 
-// What agents declare. It moves nothing: it goes into the trace, and some of it is counted.
+// What agents declare. It moves nothing: it goes into the trace, and some of it is counted. Their notes are for people:
+// they go to the sink of the trace, and the run is the same without them.
 class Declarations {
  public:
   explicit Declarations(RunContext& run) : run_(run), slices_(run.agvs.size()) {}
@@ -19,8 +23,19 @@ class Declarations {
   void set_waiting_for(AgvId agv, AgvId other);
   // `kind`: Probe or Log.
   void note(AgvId agv, TraceKind kind, std::string_view text);
-  // The AGV's computer goes down: its safe mode and its waiting are over.
+  // The AGV's computer goes down: its safe mode, its waiting and its state are over.
   void forget(AgvId agv);
+
+  // ---- notes, of one activation at a time. `leave_out` counts notes that are too many.
+  // Counts a note. False: it is too many.
+  bool admits_note(AgvId agv) { return ++slices_[agv.index()].notes <= kNotesMax; }
+  void leave_out(AgvId agv, std::uint64_t notes);
+  // Of the next message that is sent.
+  void describe(AgvId agv, std::string_view kind) { slices_[agv.index()].described = kind; }
+  void message_sent(AgvId agv, std::uint64_t hash);
+  void set_state(AgvId agv, std::string_view state);
+  void believe(AgvId agv, std::uint32_t about, const NotedPose& where, std::int64_t as_of_ns);
+  void end_activation(AgvId agv);
 
   // At the end of the run.
   void close_books();
@@ -30,6 +45,9 @@ class Declarations {
   struct Slice {
     std::optional<SimTime> safe_since;
     std::uint64_t safe_mode_ns = 0;
+    std::uint64_t notes = 0;  // in this activation
+    std::string described;    // what the next message is; empty: not known
+    std::string state;
   };
 
   RunContext& run_;

@@ -25,6 +25,7 @@ class Messenger {
   // slot, or nothing if the message is too long or there is no such receiver. Requires: `transmit` or `withdraw`.
   std::optional<std::uint32_t> accept(AgvId sender, std::string_view bytes, std::uint32_t receiver);
   void transmit(AgvId sender, std::uint32_t slot, std::uint32_t receiver);
+  std::uint64_t hash_of(std::uint32_t slot) const { return pool_[slot].hash; }
   void withdraw(std::uint32_t slot) { pool_.release_unsent(slot); }
   // The event. `payload` is the messenger's own.
   void arrives(AgvId receiver, std::uint64_t payload);

@@ -36,6 +36,7 @@ void MessengerPort::forget_path(AgvId agv) const { part_->forget_path(agv); }
 std::optional<std::uint32_t> MessengerPort::accept(AgvId sender, std::string_view bytes, std::uint32_t receiver) const {
   return part_->accept(sender, bytes, receiver);
 }
+std::uint64_t MessengerPort::hash_of(std::uint32_t slot) const { return part_->hash_of(slot); }
 void MessengerPort::transmit(AgvId sender, std::uint32_t slot, std::uint32_t receiver) const {
   part_->transmit(sender, slot, receiver);
 }
@@ -99,6 +100,15 @@ void TimersPort::forget(AgvId agv) const { part_->forget(agv); }
 void DeclarationsPort::set_safe_mode(AgvId agv, bool on) const { part_->set_safe_mode(agv, on); }
 void DeclarationsPort::set_waiting_for(AgvId agv, AgvId other) const { part_->set_waiting_for(agv, other); }
 void DeclarationsPort::note(AgvId agv, TraceKind kind, std::string_view text) const { part_->note(agv, kind, text); }
+bool DeclarationsPort::admits_note(AgvId agv) const { return part_->admits_note(agv); }
+void DeclarationsPort::leave_out(AgvId agv, std::uint64_t notes) const { part_->leave_out(agv, notes); }
+void DeclarationsPort::describe(AgvId agv, std::string_view kind) const { part_->describe(agv, kind); }
+void DeclarationsPort::message_sent(AgvId agv, std::uint64_t hash) const { part_->message_sent(agv, hash); }
+void DeclarationsPort::set_state(AgvId agv, std::string_view state) const { part_->set_state(agv, state); }
+void DeclarationsPort::believe(AgvId agv, std::uint32_t about, const NotedPose& where, std::int64_t as_of_ns) const {
+  part_->believe(agv, about, where, as_of_ns);
+}
+void DeclarationsPort::end_activation(AgvId agv) const { part_->end_activation(agv); }
 void DeclarationsPort::forget(AgvId agv) const { part_->forget(agv); }
 
 fp_controller* AgvControllerPort::handle_of(AgvId agv) const { return part_->handle_of(agv); }

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/engine/agv_status.hpp"
+#include "core/engine/notes.hpp"
 #include "core/outcome/trace.hpp"
 #include "core/scenario/faults.hpp"
 #include "core/sdk/fleetproof/agent.h"
@@ -76,6 +77,7 @@ class MessengerPort {
   void piece_begins(const Piece& piece) const;
   void forget_path(AgvId agv) const;
   std::optional<std::uint32_t> accept(AgvId sender, std::string_view bytes, std::uint32_t receiver) const;
+  std::uint64_t hash_of(std::uint32_t slot) const;
   void transmit(AgvId sender, std::uint32_t slot, std::uint32_t receiver) const;
   void withdraw(std::uint32_t slot) const;
   bool read(AgvId agv, fp_message& out) const;
@@ -204,6 +206,13 @@ class DeclarationsPort {
   void set_safe_mode(AgvId agv, bool on) const;
   void set_waiting_for(AgvId agv, AgvId other) const;
   void note(AgvId agv, TraceKind kind, std::string_view text) const;
+  bool admits_note(AgvId agv) const;
+  void leave_out(AgvId agv, std::uint64_t notes) const;
+  void describe(AgvId agv, std::string_view kind) const;
+  void message_sent(AgvId agv, std::uint64_t hash) const;
+  void set_state(AgvId agv, std::string_view state) const;
+  void believe(AgvId agv, std::uint32_t about, const NotedPose& where, std::int64_t as_of_ns) const;
+  void end_activation(AgvId agv) const;
   void forget(AgvId agv) const;
 
  private:

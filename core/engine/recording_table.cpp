@@ -3,6 +3,7 @@
 #include "core/engine/agv_controller.hpp"
 #include "core/engine/call_tape.hpp"
 #include "core/engine/controller_table.hpp"
+#include "core/engine/notes.hpp"
 
 namespace fleetproof {
 namespace {
@@ -46,6 +47,10 @@ void record(CallTape& tape, TapeItem item, fp_message* out) {
 }
 
 void record(CallTape& tape, TapeItem item, const char* text) {
+  if (item == TapeItem::Describe || item == TapeItem::DeclareState) {
+    if (const auto kept = noted(text)) tape.note(item, *kept);
+    return;
+  }
   if (text == nullptr) return tape.controller_call(TapeItem::NoEffect);
   tape.controller_call(item, std::string_view(text));
 }
@@ -55,6 +60,13 @@ void record(CallTape& tape, TapeItem, std::uint32_t, std::uint64_t) { tape.servi
 void record(CallTape& tape, TapeItem item) {
   if (item == TapeItem::Services) return tape.service();  // now_ns
   tape.controller_call(item);
+}
+
+void record(CallTape& tape, TapeItem item, std::uint32_t about, const fp_pose* where, std::int64_t as_of_ns) {
+  const auto kept = noted(where);
+  if (!kept) return;
+  tape.note(item, about, std::int64_t{kept->x_mm}, std::int64_t{kept->y_mm}, std::int64_t{kept->heading_x},
+            std::int64_t{kept->heading_y}, as_of_ns);
 }
 
 // ---- the function of the table for a member of fp_host
@@ -103,6 +115,9 @@ const fp_host kRecordingHost = {
     recorded<&fp_host::get_load, TapeItem::GetLoad>,
     recorded<&fp_host::stop, TapeItem::Stop>,
     recorded<&fp_host::go_on, TapeItem::GoOn>,
+    recorded<&fp_host::describe, TapeItem::Describe>,
+    recorded<&fp_host::declare_state, TapeItem::DeclareState>,
+    recorded<&fp_host::believe, TapeItem::Believe>,
 };
 
 }  // namespace fleetproof

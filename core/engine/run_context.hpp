@@ -62,6 +62,12 @@ struct RunContext {
     writer.write(trace_record(now, entity, what), text);
   }
 
+  // Likewise, a note of an agent.
+  template <class What>
+  void note(AgvId agv, const What& what, std::string_view text = {}) {
+    writer.note(trace_record(now, agv, what), text);
+  }
+
  private:
   std::vector<std::uint64_t> first_transport_;  // by AGV
 };

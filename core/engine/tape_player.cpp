@@ -3,6 +3,7 @@
 #include "core/base/error.hpp"
 #include "core/engine/agv_controller.hpp"
 #include "core/engine/controller_table.hpp"
+#include "core/engine/notes.hpp"
 
 namespace fleetproof {
 
@@ -84,6 +85,11 @@ void TapePlayer::play_controller_call(TapeItem item, fp_controller* c) {
       const auto note = item == TapeItem::Log ? kHost.log : kHost.sometimes;
       return void(note(c, std::string(text()).c_str()));
     }
+    case TapeItem::Describe:
+    case TapeItem::DeclareState:
+    case TapeItem::Believe:
+    case TapeItem::NotesLeftOut:
+      return play_note(item, c);
     default:
       return play_perception(item, c);
   }
@@ -116,6 +122,24 @@ void TapePlayer::play_perception(TapeItem item, fp_controller* c) {
       return void(kHost.get_load(c, &word));
     default:
       fail("it holds something that no agent does");
+  }
+}
+
+void TapePlayer::play_note(TapeItem item, fp_controller* c) {
+  if (item == TapeItem::NotesLeftOut) {
+    c->part->ports().declarations.leave_out(c->agv, number());
+  } else if (item == TapeItem::Believe) {
+    const std::uint32_t about = id();
+    NotedPose where;
+    where.x_mm = static_cast<std::int32_t>(time_ns());
+    where.y_mm = static_cast<std::int32_t>(time_ns());
+    where.heading_x = static_cast<std::int16_t>(time_ns());
+    where.heading_y = static_cast<std::int16_t>(time_ns());
+    const fp_pose pose = as_given(where);
+    kHost.believe(c, about, &pose, time_ns());
+  } else {
+    const std::string words(text());
+    (item == TapeItem::Describe ? kHost.describe : kHost.declare_state)(c, words.c_str());
   }
 }
 

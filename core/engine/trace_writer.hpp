@@ -18,6 +18,11 @@ class TraceWriter {
 
   // `text` are the words of a probe or a log line, else empty.
   void write(const TraceRecord& record, std::string_view text);
+  // Hands a note of an agent to the sink and to nothing else.
+  void note(const TraceRecord& note, std::string_view text) {
+    if (has_sink()) sink_->record(note, text);
+  }
+  bool has_sink() const { return sink_ != nullptr; }
   TraceDigest& digest() { return digest_; }
 
  private:

@@ -80,6 +80,14 @@ const char* name_of(TraceKind kind) {
       return "lost by interference";
     case TraceKind::LostToSource:
       return "lost to an external source";
+    case TraceKind::Described:
+      return "described";
+    case TraceKind::AgentState:
+      return "state";
+    case TraceKind::Belief:
+      return "believes";
+    case TraceKind::NotesLeftOut:
+      return "notes left out";
   }
   return "?";
 }

@@ -41,6 +41,12 @@ enum class TraceKind : std::uint32_t {
   LostInOutage = 32,        // as Lost, while the link or place was in an outage
   LostByInterference = 33,  // as Lost, at the end of the transmission: another transmission was in the air
   LostToSource = 34,        // as Lost, to an external source near the receiver; otherwise it would have arrived
+
+  // Notes of agents. They go to a TraceSink only, and are not part of the digest.
+  Described = 40,     // what a message is
+  AgentState = 41,    // what the agent does
+  Belief = 42,        // where the agent believes another AGV to be
+  NotesLeftOut = 43,  // how many notes of an activation were too many
 };
 const char* name_of(TraceKind kind);
 
@@ -56,11 +62,11 @@ struct TraceRecord {
   EntityId entity;
   TraceKind kind = TraceKind::ActivityBegins;
   std::uint64_t a = 0, b = 0;
-  std::uint32_t bytes = 0;  // not part of the digest
+  std::uint32_t bytes = 0, more = 0;  // not part of the digest
 };
 
-// An observer of the whole trace. `text` holds the words of a probe or log record, else nothing; it is valid during the
-// call.
+// An observer of the whole trace. `text` holds the words of a probe, a log record or a note, else nothing; it is valid
+// during the call.
 class TraceSink {
  public:
   virtual ~TraceSink() = default;

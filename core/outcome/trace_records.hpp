@@ -19,9 +19,9 @@ namespace fleetproof {
 //
 //     const auto [load, to] = read<traced::LoadMoves>(record);
 //
-// Only this header knows how a struct is packed into the two words of a record. The packing is part of the digest:
-// never change it, only add structs. To add one, add its kind to TraceKind (trace.hpp), the struct here, and a line to
-// tests/core/trace_records_test.cpp.
+// note_records.hpp has the notes of agents. Only these two headers know how a struct is packed into the two words of a
+// record. The packing is part of the digest: never change it, only add structs. To add one, add its kind to TraceKind
+// (trace.hpp), the struct here, and a line to tests/core/trace_records_test.cpp.
 namespace traced {
 
 template <class Id>

@@ -306,6 +306,9 @@ inline void FakeWarehouse::add_minor_2(fp_host& host) {
     *order = agv.loaded ? agv.carried : FP_NONE;
     return FP_OK;
   };
+  host.describe = [](fp_controller*, const char*) {};
+  host.declare_state = [](fp_controller*, const char*) {};
+  host.believe = [](fp_controller*, std::uint32_t, const fp_pose*, std::int64_t) {};
 }
 
 inline fp_host FakeWarehouse::make_host() {

@@ -19,7 +19,8 @@ namespace fleetproof::test {
 
 // Everything that a run tells.
 struct ToldRun {
-  using Line = std::tuple<SimTime, EntityId, TraceKind, std::uint64_t, std::uint64_t, std::uint32_t, std::string>;
+  using Line =
+      std::tuple<SimTime, EntityId, TraceKind, std::uint64_t, std::uint64_t, std::uint32_t, std::uint32_t, std::string>;
   Outcome outcome;
   std::vector<Line> trace;
   std::string tape;  // if it was recorded
@@ -34,7 +35,7 @@ class Listener final : public TraceSink {
  public:
   explicit Listener(std::vector<ToldRun::Line>& lines) : lines_(lines) {}
   void record(const TraceRecord& r, std::string_view text) override {
-    lines_.emplace_back(r.at, r.entity, r.kind, r.a, r.b, r.bytes, text);
+    lines_.emplace_back(r.at, r.entity, r.kind, r.a, r.b, r.bytes, r.more, text);
   }
 
  private:

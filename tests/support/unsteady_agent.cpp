@@ -82,6 +82,7 @@ void* create(const fp_host* host, fp_controller* controller, const fp_briefing* 
 void on_event(void* instance, const fp_event* event) {
   auto& agent = *static_cast<Unsteady*>(instance);
   agent.host->declare_cost_ns(agent.controller, cost_ns(agent));
+  agent.host->declare_state(agent.controller, event->kind == FP_EVENT_START ? "fresh" : "unsteady");
   kReckless.on_event(agent.inner, event);
 }
 

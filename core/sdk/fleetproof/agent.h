@@ -208,6 +208,14 @@ typedef struct fp_host {
      there is nothing to change, the calls return FP_OK and do nothing. */
   int32_t (*stop)(fp_controller*);
   int32_t (*go_on)(fp_controller*);
+
+  /* Since minor 2. Notes for people who look at a trace. A note changes nothing and takes no simulated time; if nobody
+     traces, it is ignored. Notes do not count as calls and return nothing. A trace keeps the first 1 000 notes of an
+     activation, and 64 bytes of each text. */
+  void (*describe)(fp_controller*, const char* kind);       /* the next message of this activation, e.g. "GRANT" */
+  void (*declare_state)(fp_controller*, const char* state); /* what the agent does, in its own word, e.g. "waiting" */
+  /* Where another AGV was at `as_of_ns`, as far as the agent knows. Heading (0, 0): not known. */
+  void (*believe)(fp_controller*, uint32_t agv, const fp_pose* where, int64_t as_of_ns);
 } fp_host;
 
 /* ---- the agent ------------------------------------------------------------------------------------------- */

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/outcome/trace_records.hpp"
+
+namespace fleetproof {
+
+// A place as notes keep it.
+struct NotedPose {
+  std::int32_t x_mm = 0, y_mm = 0;
+  std::int16_t heading_x = 0, heading_y = 0;  // a unit vector times kHeadingUnits; both 0: not known
+
+  static constexpr double kHeadingUnits = 32767.0;
+  bool has_heading() const { return heading_x != 0 || heading_y != 0; }
+};
+
+// What agents note for people who look at a trace. The entity is the AGV of the agent. These records go to a TraceSink
+// only: they are not part of the digest, and no law reads them.
+namespace traced {
+
+// The agent sends the message with this hash. What the message is, goes to the TraceSink beside the record.
+struct Described {
+  static constexpr TraceKind kKind = TraceKind::Described;
+  std::uint64_t message_hash = 0;
+  constexpr void put(TraceRecord& r) const { r.a = message_hash; }
+  static constexpr Described of(const TraceRecord& r) { return {r.a}; }
+};
+
+// The word goes to the TraceSink beside the record; no word: the agent is gone.
+using AgentState = Bare<TraceKind::AgentState>;
+
+struct Belief {
+  static constexpr TraceKind kKind = TraceKind::Belief;
+  AgvId about;
+  std::int64_t as_of_ns = 0;  // as the agent says
+  NotedPose where;
+
+  constexpr void put(TraceRecord& r) const {
+    r.a = static_cast<std::uint64_t>(as_of_ns);
+    r.b = std::uint64_t{static_cast<std::uint32_t>(where.x_mm)} << 32 | static_cast<std::uint32_t>(where.y_mm);
+    r.bytes = about.value;
+    r.more =
+        std::uint32_t{static_cast<std::uint16_t>(where.heading_x)} << 16 | static_cast<std::uint16_t>(where.heading_y);
+  }
+  static constexpr Belief of(const TraceRecord& r) {
+    return {AgvId{r.bytes},
+            static_cast<std::int64_t>(r.a),
+            {static_cast<std::int32_t>(r.b >> 32), static_cast<std::int32_t>(r.b),
+             static_cast<std::int16_t>(r.more >> 16), static_cast<std::int16_t>(r.more)}};
+  }
+};
+
+struct NotesLeftOut {
+  static constexpr TraceKind kKind = TraceKind::NotesLeftOut;
+  std::uint64_t count = 0;
+  constexpr void put(TraceRecord& r) const { r.a = count; }
+  static constexpr NotesLeftOut of(const TraceRecord& r) { return {r.a}; }
+};
+
+}  // namespace traced
+}  // namespace fleetproof

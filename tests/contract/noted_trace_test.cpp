@@ -1,0 +1,37 @@
+// What agents note is printed with a trace, and changes nothing else.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <string>
+
+#include "tests/support/program.hpp"
+
+namespace fleetproof {
+namespace {
+
+using test::source;
+using testing::HasSubstr;
+using NotedTrace = test::ProgramTest;
+
+TEST_F(NotedTrace, IsPrintedForHullLock) {
+  const std::string words = "simulate '" + source("tests/scenarios/figure4.json") + "' --agent hull-lock";
+  const auto traced = run(words + " --trace"), untraced = run(words);
+  EXPECT_THAT(traced.err, HasSubstr("sent           to all: STATE"));
+  EXPECT_THAT(traced.err, HasSubstr("received       from B: STATE"));
+  EXPECT_THAT(traced.err, HasSubstr("state          idle"));
+  EXPECT_THAT(traced.err, testing::ContainsRegex("believes       [A-D] was at \\(-?[0-9]+\\.[0-9][0-9], "));
+  EXPECT_EQ(traced.out, untraced.out) << "with the digest";
+  EXPECT_EQ(untraced.err, "");
+}
+
+// Plug-ins are loaded at run time, and their notes are the same.
+TEST_F(NotedTrace, IsTheSameForAPlugin) {
+  const std::string words = "simulate '" + source("tests/scenarios/figure4.json") + "' --trace --agent ";
+  const auto built_in = run(words + "hull-lock");
+  const auto loaded = run(words + "hull-lock-plugin --plugin '" FLEETPROOF_PLUGIN "'");
+  EXPECT_THAT(loaded.err, HasSubstr("sent           to all: STATE"));
+  EXPECT_EQ(built_in.err, loaded.err);
+}
+
+}  // namespace
+}  // namespace fleetproof
