@@ -31,6 +31,8 @@ int main(int argc, char** argv) {
            "fleetproof evidence clopper-pearson --failing 3 --units 1000 --confidence 0.95", prepare_evidence},
       Verb{"compare", "compare two releases: what is worse, better, not worse, or not to be told",
            "fleetproof compare old.db new.db --fail-on-regression", prepare_compare},
+      Verb{"sensitivity", "run agents with planted faults in the worlds of a campaign, and say which faults it detects",
+           "fleetproof sensitivity tests/campaigns/standard-short.toml --runs 1000", prepare_sensitivity},
       Verb{"list", "list agents, laws, generators, importers, reports or fields", "fleetproof list agents",
            prepare_list},
   };

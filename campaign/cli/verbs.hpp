@@ -16,6 +16,7 @@ Action prepare_verify(Options& options);
 Action prepare_plan(Options& options);
 Action prepare_evidence(Options& options);
 Action prepare_compare(Options& options);
+Action prepare_sensitivity(Options& options);
 Action prepare_list(Options& options);
 
 }  // namespace fleetproof::cli

@@ -7,11 +7,13 @@
 
 namespace {
 using namespace fleetproof::agents;
-}
+
+constexpr uint32_t kWithoutFault = 3;  // at the beginning of the table
+}  // namespace
 
 extern "C" {
 const fp_agent_type* const fp_reference_agents[] = {&kScripted,           &kHullLock,
-                                                    &kTimeoutGrant,       &kReckless,
+                                                    &kReckless,           &kTimeoutGrant,
                                                     &kNoTurnSweep,        &kNoHalfDiagonal,
                                                     &kNoOverhang,         &kOneSizeForAll,
                                                     &kBendsAsChords,      &kHalfMargin,
@@ -27,4 +29,6 @@ const fp_agent_type* const fp_reference_agents[] = {&kScripted,           &kHull
                                                     &kBothStepBack,       &kNeverMakesWay,
                                                     &kLaneByLane};
 const uint32_t fp_reference_agent_count = std::size(fp_reference_agents);
+const fp_agent_type* const* const fp_faulty_agents = fp_reference_agents + kWithoutFault;
+const uint32_t fp_faulty_agent_count = std::size(fp_reference_agents) - kWithoutFault;
 }

@@ -10,6 +10,9 @@ extern "C" {
 
 extern const fp_agent_type* const fp_reference_agents[];
 extern const uint32_t fp_reference_agent_count;
+/* Those of them that are hull-lock with a planted fault. */
+extern const fp_agent_type* const* const fp_faulty_agents;
+extern const uint32_t fp_faulty_agent_count;
 
 #ifdef __cplusplus
 }

@@ -67,6 +67,8 @@ TEST_F(Streams, DataThatCannotBeWrittenIsExit3) {
                                           "verify expected.db --json",
                                           "plan a.toml",
                                           "plan a.toml --json",
+                                          "sensitivity a.toml --runs 1 --agent wraps-at-256",
+                                          "sensitivity a.toml --runs 1 --agent wraps-at-256 --json",
                                           "replay expected.db 0",
                                           "replay expected.db 0 --json",
                                           "simulate s.json --agent reckless",

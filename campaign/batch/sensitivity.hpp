@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "campaign/plan/plan.hpp"
+#include "campaign/run/agent_programs.hpp"
+#include "storage/records.hpp"
+
+namespace fleetproof {
+
+// What one agent did in the worlds of a plan.
+struct AgentTally {
+  std::string agent;
+  std::uint64_t runs = 0;
+  // Runs with at least one, by what the laws accuse: "violation", "stuck", or the name of an incident kind.
+  std::map<std::string, std::uint64_t> accused;
+  std::map<std::string, RunRecord> first;    // of each: the first run, in order of run index
+  std::map<std::string, std::uint64_t> met;  // runs that met it, by probe of the world
+};
+
+// How a planted fault shows in the worlds of a plan.
+struct FaultFinding {
+  AgentTally tally;
+  // What the fault was accused of; empty: it was missed.
+  std::string seen_as;
+  bool by_rate = false;    // accused more often than the sound agent, not for the first violation
+  std::uint64_t runs = 0;  // until the first violation; of a rate, or if it was missed: all
+  CellRecord cell;         // of the first such run
+  std::string probe;       // the rarest thing of the world that the first such run met; empty: none
+};
+
+struct Sensitivity {
+  AgentTally sound;
+  std::vector<FaultFinding> faults;  // in the order of the catalogue
+  std::uint64_t detected() const;
+};
+
+struct SensitivityOptions {
+  std::uint64_t runs = 10'000;  // of each agent, at most; never more than the plan has
+  int workers = 1;
+  std::vector<std::string> agents;  // empty: all faulty agents
+};
+
+// Runs the sound agent and the faulty agents in the worlds of `plan`, whatever its agents are, and stores nothing.
+// A fault is detected by its first violation, if the sound agent has none in all its runs; then its other runs are not
+// simulated. Otherwise a fault is detected if the laws accuse it of something in more runs than the sound agent: the
+// lower bound of one rate lies above the upper bound of the other, with 5 % risk over all comparisons of this fault.
+// Throws InputError for an agent that is not a faulty one. `told` hears each finding.
+Sensitivity measure_sensitivity(const CampaignPlan& plan, const AgentPrograms& programs,
+                                const SensitivityOptions& options,
+                                const std::function<void(const FaultFinding&)>& told = {});
+
+// The names of the faulty agents, in the order of the catalogue.
+std::vector<std::string> faulty_agent_names();
+
+}  // namespace fleetproof
