@@ -72,6 +72,12 @@ TEST(AgentLimits, TimeAndRandomnessHaveALimitOfTheirOwn) {
   EXPECT_TRUE(hangs([](const fp_host& h, fp_controller* c) { h.now_ns(c); }, kServicesMax + 1));
 }
 
+TEST(AgentLimits, NotesDoNotCount) {
+  EXPECT_FALSE(hangs([](const fp_host& h, fp_controller* c) { h.describe(c, "GRANT"); }, 20 * kCallsMax));
+  EXPECT_FALSE(hangs([](const fp_host& h, fp_controller* c) { h.declare_state(c, "waiting"); }, 20 * kCallsMax));
+  EXPECT_FALSE(hangs([](const fp_host& h, fp_controller* c) { h.believe(c, 0, nullptr, 0); }, 20 * kCallsMax));
+}
+
 // Calls in create() and calls at FP_EVENT_START have one limit together.
 TEST(AgentLimits, CreateAndStartAreOneActivation) {
   static std::uint32_t at_start;
