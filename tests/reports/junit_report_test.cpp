@@ -65,7 +65,8 @@ TEST(JUnitReport, HasWhatAPipelineAsksForAsProperties) {
   auto input = four_gates("safe");
   input.audits.add_audit(3, true);
   input.audits.add_audit(4, false);
-  const auto suite = parsed(render_junit(input)).child("testsuites").child("testsuite");
+  const auto document = parsed(render_junit(input));
+  const auto suite = document.child("testsuites").child("testsuite");
   std::map<std::string, std::string> properties;
   for (const auto& property : suite.child("properties"))
     properties[property.attribute("name").as_string()] = property.attribute("value").as_string();
@@ -84,10 +85,9 @@ TEST(JUnitReport, DotsAndBlanksOfNamesAreNoStepsOfTheClass) {
   gate.where.layout = "hall 1.x";
   GateRecord named = gate;
   named.name = "ctl 4.2 violation";
-  const auto suite = parsed(render_junit(report_of(campaign_of("claim", 60),
-                                                   grid({"ctl 4.2"}, {0.4}, {2.0}, {"hall 1.x"}), {gate, named})))
-                         .child("testsuites")
-                         .child("testsuite");
+  const auto document = parsed(
+      render_junit(report_of(campaign_of("claim", 60), grid({"ctl 4.2"}, {0.4}, {2.0}, {"hall 1.x"}), {gate, named})));
+  const auto suite = document.child("testsuites").child("testsuite");
   const auto first = suite.child("testcase"), second = first.next_sibling("testcase");
   EXPECT_STREQ(first.attribute("classname").as_string(), "fleetproof.worst-case.hall_1_x.ctl_4_2");
   EXPECT_STREQ(first.attribute("name").as_string(), "safe (agent ctl 4.2)");
@@ -98,7 +98,8 @@ std::string type_of_failure(const GateRecord& gate, std::uint64_t replicates, co
                             std::uint64_t missing_runs = 0, const char* kind = "claim") {
   const auto input =
       report_of(campaign_of(kind, replicates), grid({"sound"}, {0.4}, {2.0}), {gate}, change, 0, missing_runs);
-  const auto test = parsed(render_junit(input)).child("testsuites").child("testsuite").child("testcase");
+  const auto document = parsed(render_junit(input));
+  const auto test = document.child("testsuites").child("testsuite").child("testcase");
   return test.child("failure").attribute("type").as_string();
 }
 
@@ -136,7 +137,8 @@ TEST(JUnitReport, SaysHowManyOutcomesStayedUnknown) {
   const auto gate = gate_of("sound", GateKind::Rate, Region::All, 0.1);
   const auto crash = [](RunRecord& run) { run.outcome.crash = run.run_index < 7; };
   const auto text = render_junit(report_of(campaign_of("claim", 60), grid({"sound"}, {0.4}, {2.0}), {gate}, crash));
-  const auto test = parsed(text).child("testsuites").child("testsuite").child("testcase");
+  const auto document = parsed(text);
+  const auto test = document.child("testsuites").child("testsuite").child("testcase");
   EXPECT_THAT(test.child("failure").text().get(), HasSubstr("unknown outcomes: 7; "));
   EXPECT_THAT(test.child("system-out").text().get(), HasSubstr("unknown outcomes: 7; "));
 }
