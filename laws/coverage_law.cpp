@@ -102,6 +102,7 @@ void CoverageLaw::meet(const Drive& earlier, const Drive& later) {
   const auto kind = encounter_of(earlier.track, later.track, margin_m_);
   if (kind) ++encounters_[static_cast<std::size_t>(*kind)];
   const auto scene = [&](SceneKind met, bool holds) { scenes_[static_cast<std::size_t>(met)] += holds ? 1 : 0; };
+  scene(SceneKind::BackIn, kind && (earlier.track.tail_first || later.track.tail_first));
   const SideBySide passing = side_by_side(earlier.track, later.track, margin_m_);
   scene(SceneKind::TightGap, passing.tight_gap);
   scene(SceneKind::CurveBesideLane, passing.curve_beside_lane);

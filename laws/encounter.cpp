@@ -44,13 +44,15 @@ bool at_end(const Track& track, double s_m) { return s_m >= track.length_m - 0.5
 Track Track::of(const Piece& drive) {
   Track track{drive.entity, drive.begin, drive.end, drive.curve->length_m(), drive.footprint, {}, {}, {}};
   track.bends = !drive.curve->is_straight();
+  track.tail_first = drive.curve->is_tail_first();
   const double half_m = 0.5 * drive.footprint.length_m, whole_m = track.length_m + 2.0 * half_m;
   const int steps = std::max(1, static_cast<int>(std::ceil(whole_m / kStep_m)));
   for (int i = 0; i <= steps; ++i) {
     const double s_m = -half_m + whole_m * i / steps;
     const Pose pose = drive.curve->pose_at(s_m);
+    const Vec2 travel = track.tail_first ? Vec2(-pose.heading) : pose.heading;
     const double beyond_m = s_m - std::clamp(s_m, 0.0, track.length_m);
-    track.points.push_back({s_m, pose.position_m + beyond_m * pose.heading, pose.heading});
+    track.points.push_back({s_m, pose.position_m + beyond_m * travel, travel});
     track.box.add(track.points.back().position_m);
   }
   return track;

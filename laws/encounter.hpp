@@ -14,7 +14,7 @@ struct Track {
   struct Point {
     // along the track; below 0 behind the start and above the length beyond the end, for the halves of the body
     double s_m = 0.0;
-    Vec2 position_m, heading;
+    Vec2 position_m, heading;  // of the travel
   };
   EntityId agv;
   SimTime begin, end;  // as planned
@@ -22,9 +22,13 @@ struct Track {
   Footprint footprint;
   Box box;
   std::vector<Point> points;
-  bool bends = false;  // its curve is not one straight line
+  bool bends = false;       // its curve is not one straight line
+  bool tail_first = false;  // the nose points against the travel
 
   static Track of(const Piece& drive);
+  OrientedRectangle body_at(const Point& point) const {
+    return placed(footprint, {point.position_m, tail_first ? Vec2(-point.heading) : point.heading});
+  }
 };
 
 // How two drives meet, judged where their tracks come closest. None if the tracks stay `margin_m` and half their widths

@@ -41,16 +41,16 @@ void measure(const Track& a, const Track& b, double within_m, Gaps& gaps) {
 // Of the bodies, wherever they are on their tracks. The halves of a track beyond its ends are no places of a body.
 double bodies_apart_m(const Track& a, const Track& b, double within_m) {
   double least_m = within_m;
-  const double reach_m = within_m + a.footprint.half_diagonal_m() + b.footprint.half_diagonal_m();
+  const double reach_m = within_m + a.footprint.reach_m() + b.footprint.reach_m();
   const auto is_place = [](const Track& track, const Track::Point& p) {
     return p.s_m >= 0.0 && p.s_m <= track.length_m;
   };
   for (const auto& p : a.points) {
     if (!is_place(a, p)) continue;
-    const auto body = placed(a.footprint, {p.position_m, p.heading});
+    const auto body = a.body_at(p);
     for (const auto& q : b.points) {
       if (!is_place(b, q) || (p.position_m - q.position_m).norm() > reach_m) continue;
-      least_m = std::min(least_m, clearance_m(body, placed(b.footprint, {q.position_m, q.heading})));
+      least_m = std::min(least_m, clearance_m(body, b.body_at(q)));
     }
   }
   return least_m;

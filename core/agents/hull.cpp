@@ -17,18 +17,18 @@ HullGeometry::HullGeometry(const MapView& map, const fp_briefing& briefing, Hull
     // Always the size with a load: an AGV does not know whether another AGV is loaded.
     const double length_m = options.loads_count ? std::max(agv.length_m, agv.loaded_length_m) : agv.length_m,
                  width_m = options.loads_count ? std::max(agv.width_m, agv.loaded_width_m) : agv.width_m;
-    const auto known =
-        std::ranges::find_if(kinds_, [&](const Kind& k) { return k.length_m == length_m && k.width_m == width_m; });
+    const Body body{length_m, width_m, tells_minor_2(briefing) ? agv.centre_ahead_m : 0.0};
+    const auto known = std::ranges::find(kinds_, body);
     kind_of_.push_back(static_cast<std::uint32_t>(known - kinds_.begin()));
-    if (known == kinds_.end()) kinds_.push_back({length_m, width_m, length(Vec{length_m, width_m}) / 2.0});
+    if (known == kinds_.end()) kinds_.push_back(body);
   }
   parts_.reserve(kinds_.size() * parts_per_kind_);
-  for (const Kind& kind : kinds_) bound_parts(kind);
+  for (const Body& kind : kinds_) bound_parts(kind);
   known_pairs_.resize(parts_.size());
 }
 
 // No point of a lane is further from the middle between its ends than half the length of the lane.
-void HullGeometry::bound_parts(const Kind& kind) {
+void HullGeometry::bound_parts(const Body& kind) {
   for (std::uint32_t id = 0; id < map_.lane_count(); ++id) {
     const fp_lane& lane = map_.lane(id);
     const fp_pose& start = map_.arc(lane, 0).start;
@@ -37,12 +37,12 @@ void HullGeometry::bound_parts(const Kind& kind) {
     for (std::uint32_t i = 0; i < lane.arc_count; ++i) length_m += map_.arc(lane, i).length_m;
     Part& part = parts_.emplace_back();
     part.centre_m = Vec{start.x_m + end.x_m, start.y_m + end.y_m} * 0.5;
-    part.reach_m = length_m / 2.0 + kind.half_diagonal_m;
+    part.reach_m = length_m / 2.0 + kind.reach_m();
   }
   for (std::uint32_t id = 0; id < map_.station_count(); ++id) {
     Part& part = parts_.emplace_back();
     part.centre_m = map_.position_m(id);
-    part.reach_m = kind.half_diagonal_m;
+    part.reach_m = kind.reach_m();
   }
 }
 
@@ -101,8 +101,7 @@ void HullGeometry::collect(std::uint32_t agv, const Path& path, Parts& parts) co
     parts.numbers[parts.count++] = lane_part(agv, lane);
     heading = map_.end_heading(lane);
   }
-  const Kind& kind = kinds_[kind_of_[agv]];
-  if (parts.count == 0) parts.body = body_at(map_.position_m(path.station), path.heading, kind.length_m, kind.width_m);
+  if (parts.count == 0) parts.body = body_at(map_.position_m(path.station), path.heading, kinds_[kind_of_[agv]]);
 }
 
 const HullGeometry::Part& HullGeometry::with_shapes(std::uint32_t number) {
@@ -112,18 +111,18 @@ const HullGeometry::Part& HullGeometry::with_shapes(std::uint32_t number) {
 }
 
 void HullGeometry::work_out(std::uint32_t number, Part& part) {
-  const Kind& kind = kinds_[number / parts_per_kind_];
+  const Body& kind = kinds_[number / parts_per_kind_];
   const std::uint32_t what = number % parts_per_kind_;
   part.first = static_cast<std::uint32_t>(shapes_.size());
   if (what >= map_.lane_count()) {
-    const double reach_m = options_.corners_count ? kind.half_diagonal_m : kind.length_m / 2.0;
+    const double reach_m = options_.corners_count ? kind.reach_m() : kind.length_m / 2.0;
     shapes_.push_back(disc_at(map_.position_m(what - map_.lane_count()), reach_m));
   } else if (!options_.bends_count) {
-    append_sweep(chord_of(map_, what), kind.length_m, kind.width_m, shapes_);
+    append_sweep(chord_of(map_, what), map_.is_backward(what), kind, shapes_);
   } else {
     const fp_lane& lane = map_.lane(what);
     for (std::uint32_t i = 0; i < lane.arc_count; ++i)
-      append_sweep(map_.arc(lane, i), kind.length_m, kind.width_m, shapes_);
+      append_sweep(map_.arc(lane, i), map_.is_backward(what), kind, shapes_);
   }
   part.count = static_cast<std::uint32_t>(shapes_.size()) - part.first;
 }

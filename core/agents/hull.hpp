@@ -31,13 +31,11 @@ class HullGeometry {
   // A lower bound of the distance from `point_m` to the hull.
   double distance_bound_m(Vec point_m, std::uint32_t agv, const Path& path);
 
-  double half_diagonal_m(std::uint32_t agv) const { return kinds_[kind_of_[agv]].half_diagonal_m; }
+  // From the reference point of the AGV to its farthest corner.
+  double reach_m(std::uint32_t agv) const { return kinds_[kind_of_[agv]].reach_m(); }
   double clearance_m() const { return clearance_m_; }
 
  private:
-  struct Kind {
-    double length_m, width_m, half_diagonal_m;
-  };
   struct Part {
     std::uint32_t first = 0, count = 0;  // in shapes_; count 0: not computed yet
     Vec centre_m;                        // of a disc that contains the part
@@ -61,7 +59,7 @@ class HullGeometry {
     return kind_of_[agv] * parts_per_kind_ + map_.lane_count() + station;
   }
   void collect(std::uint32_t agv, const Path& path, Parts& parts) const;
-  void bound_parts(const Kind& kind);
+  void bound_parts(const Body& kind);
   const Part& with_shapes(std::uint32_t number);
   void work_out(std::uint32_t number, Part& part);
   bool parts_conflict(std::uint32_t a, std::uint32_t b);
@@ -72,7 +70,7 @@ class HullGeometry {
   const MapView& map_;
   HullOptions options_;
   std::vector<std::uint32_t> kind_of_;  // by AGV
-  std::vector<Kind> kinds_;             // different footprints
+  std::vector<Body> kinds_;             // different footprints
   std::uint32_t parts_per_kind_;
   double clearance_m_;
   std::vector<Part> parts_;

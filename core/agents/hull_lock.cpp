@@ -95,7 +95,7 @@ void HullLock::start_again(const Path& standing) {
   controller_.sometimes("restarted");
   acting_ = true;
   for (const std::uint32_t lane : map_.lanes_from(start_station_)) {
-    if (map_.lane(lane).segment != start_segment_) continue;
+    if (map_.action_segment(lane) != start_segment_) continue;
     current_ = {Leg::Kind::Drive, lane};
     Path driving = standing;
     driving.heading = map_.start_heading(lane) * -1.0;  // it may still be turning, from an unknown heading
@@ -206,7 +206,7 @@ bool HullLock::going_to_charge() const {
 void HullLock::drive_to_charger() {
   const bool bound = !goals_.empty() && goals_.front().transfer == Leg::Kind::Charge;
   if (bound && !protocol_.requesting()) return;
-  const std::uint32_t charger = planner_.free_charger(end_of(map_, protocol_.held()).station);
+  const std::uint32_t charger = planner_.free_charger(end_of(map_, protocol_.held()));
   if (charger == FP_NONE || (bound && goals_.front().station == charger)) return;
   protocol_.withdraw();  // a request counts goals by their numbers in the row
   if (bound) goals_.erase(goals_.begin());
@@ -243,7 +243,7 @@ void HullLock::begin(const Leg& leg) {
   bool accepted = false;
   switch (leg.kind) {
     case Leg::Kind::Drive:
-      accepted = controller_.move(map_.lane(leg.lane).segment);
+      accepted = controller_.move(map_.action_segment(leg.lane));
       break;
     case Leg::Kind::Pick:
       accepted = controller_.pick(FP_HERE);
@@ -309,7 +309,8 @@ Stretch HullLock::way_on() { return planner_.towards(end_of(map_, protocol_.held
 
 Stretch HullLock::way_out() {
   if (!options_.progress.makes_way) return {};
-  return planner_.out_of_the_way(protocol_.held(), budget(), is_idle(), controller_.random(kPlaceDraws));
+  return planner_.out_of_the_way(protocol_.held(), budget(), carries_load(goals_), is_idle(),
+                                 controller_.random(kPlaceDraws));
 }
 
 void HullLock::request(Stretch stretch, Purpose purpose) {

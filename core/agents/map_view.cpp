@@ -1,8 +1,16 @@
 #include "core/agents/map_view.hpp"
 
+#include <algorithm>
+#include <cstddef>
+
 namespace fleetproof::agents {
 
-MapView::MapView(const fp_map& map) : map_(map), lanes_of_segment_(map.segment_count) {
+MapView::MapView(const fp_map& map)
+    : map_(map),
+      rules_known_(map.lane_stride >= offsetof(fp_lane, permissions) + sizeof(fp_lane::permissions) &&
+                   map.station_stride >= offsetof(fp_station, heading_y) + sizeof(fp_station::heading_y)),
+      two_way_(map.segment_count, false) {
+  std::vector<std::uint32_t> first_from(map.segment_count, FP_NONE);
   start_headings_.reserve(lane_count());
   end_headings_.reserve(lane_count());
   arriving_begin_.assign(station_count() + 1, 0);
@@ -10,9 +18,11 @@ MapView::MapView(const fp_map& map) : map_(map), lanes_of_segment_(map.segment_c
     const fp_lane& l = lane(id);
     const fp_pose& start = arc(l, 0).start;
     const fp_pose end = end_of(arc(l, l.arc_count - 1));
-    start_headings_.push_back({start.heading_x, start.heading_y});
-    end_headings_.push_back({end.heading_x, end.heading_y});
-    ++lanes_of_segment_[l.segment];
+    const double nose = is_backward(id) ? -1.0 : 1.0;
+    start_headings_.push_back({nose * start.heading_x, nose * start.heading_y});
+    end_headings_.push_back({nose * end.heading_x, nose * end.heading_y});
+    if (first_from[l.segment] == FP_NONE) first_from[l.segment] = l.from;
+    two_way_[l.segment] = two_way_[l.segment] || first_from[l.segment] != l.from;
     ++arriving_begin_[l.to + 1];
   }
   for (std::uint32_t s = 0; s < station_count(); ++s) arriving_begin_[s + 1] += arriving_begin_[s];
@@ -33,6 +43,21 @@ fp_arc chord_of(const MapView& map, std::uint32_t lane_id) {
   chord.start = {from.x, from.y, heading.x, heading.y};
   chord.length_m = length(way);
   return chord;
+}
+
+bool MapView::permits(std::uint32_t lane_id, std::uint32_t vehicle_type, bool loaded) const {
+  const fp_lane& l = lane(lane_id);
+  if (!rules_known_ || l.permission_count == 0) return true;
+  return std::any_of(l.permissions, l.permissions + l.permission_count, [&](const fp_permission& permission) {
+    return (permission.vehicle_type == FP_ANY_TYPE || permission.vehicle_type == vehicle_type) &&
+           permission.load != (loaded ? FP_EMPTY_ONLY : FP_LOADED_ONLY);
+  });
+}
+
+bool MapView::may_stay(std::uint32_t station_id, Vec heading) const {
+  if (!rules_known_) return true;
+  const Vec wanted{station(station_id).heading_x, station(station_id).heading_y};
+  return (wanted.x == 0.0 && wanted.y == 0.0) || same_heading(wanted, heading);
 }
 
 }  // namespace fleetproof::agents

@@ -9,6 +9,12 @@
 
 namespace fleetproof::agents {
 
+// Headings that are closer than this need no turn on the spot. The floor that the body sweeps between them is within
+// the tolerance of every hull.
+inline bool same_heading(Vec a, Vec b) {
+  return dot(a, b) > 1.0 - 1e-6;
+}  // 1.4 mrad: 1.4 mm at the corner of a 2 m long AGV
+
 // The logical map by index, with the headings at the ends of its lanes. Requires: the map of the briefing outlives it.
 class MapView {
  public:
@@ -25,10 +31,22 @@ class MapView {
     return {station(station_id).lanes, station(station_id).lane_count};
   }
   std::span<const std::uint32_t> lanes_to(std::uint32_t station_id) const;
+  // Of the AGV's nose.
   Vec start_heading(std::uint32_t lane_id) const { return start_headings_[lane_id]; }
   Vec end_heading(std::uint32_t lane_id) const { return end_headings_[lane_id]; }
+  bool is_backward(std::uint32_t lane_id) const { return rules_known_ && lane(lane_id).backward != 0; }
+  // As the AGV's actions name this lane.
+  std::uint32_t action_segment(std::uint32_t lane_id) const {
+    return is_backward(lane_id) ? lane(lane_id).segment | FP_BACKWARD : lane(lane_id).segment;
+  }
   // Whether the segment of this lane also has a lane in the other direction.
-  bool two_way(std::uint32_t lane_id) const { return lanes_of_segment_[lane(lane_id).segment] > 1; }
+  bool two_way(std::uint32_t lane_id) const { return two_way_[lane(lane_id).segment]; }
+
+  // Whether the host tells limits and rules: since minor 2 of the header. Before, everything is allowed.
+  bool tells_rules() const { return rules_known_; }
+  bool permits(std::uint32_t lane_id, std::uint32_t vehicle_type, bool loaded) const;
+  bool may_turn(std::uint32_t station_id) const { return !rules_known_ || station(station_id).turning_forbidden == 0; }
+  bool may_stay(std::uint32_t station_id, Vec heading) const;
 
  private:
   template <class T>
@@ -38,17 +56,12 @@ class MapView {
 
   const fp_map& map_;
   std::vector<Vec> start_headings_, end_headings_;  // by lane
-  std::vector<std::uint8_t> lanes_of_segment_;
+  bool rules_known_;
+  std::vector<bool> two_way_;                             // by segment
   std::vector<std::uint32_t> arriving_, arriving_begin_;  // lanes, ordered by the station at which they end
 };
 
 // The straight line from the beginning of a lane to its end.
 fp_arc chord_of(const MapView& map, std::uint32_t lane_id);
-
-// Headings that are closer than this need no turn on the spot. The floor that the body sweeps between them is within
-// the tolerance of every hull.
-inline bool same_heading(Vec a, Vec b) {
-  return dot(a, b) > 1.0 - 1e-6;
-}  // 1.4 mrad: 1.4 mm at the corner of a 2 m long AGV
 
 }  // namespace fleetproof::agents

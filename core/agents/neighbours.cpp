@@ -77,7 +77,7 @@ bool Neighbours::surely_beyond(std::uint32_t agv, const Path& path, std::int64_t
   const Neighbour& n = neighbours_[agv];
   if (n.proved_after_ns < 0) return false;
   const double age_s = proofs_age_ ? static_cast<double>(now_ns - n.proved_after_ns) * 1e-9 : 0.0;
-  const double hulls_m = claim_m_ + geometry_.half_diagonal_m(agv) + geometry_.clearance_m();
+  const double hulls_m = claim_m_ + geometry_.reach_m(agv) + geometry_.clearance_m();
   const double moved_m = fastest_mps_[agv] * (age_s + position_late_s_) + position_margin_m_;
   const double needed_m = hulls_m + moved_m;
   if (length(n.proved_position_m - map_.position_m(path.station)) <= needed_m)

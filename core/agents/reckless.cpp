@@ -1,4 +1,6 @@
 // FAULT: carries out its transports by the quickest ways. It asks no other AGV and answers no message.
+#include <array>
+#include <cmath>
 #include <deque>
 
 #include "core/agents/agent_type.hpp"
@@ -13,10 +15,16 @@ namespace {
 class Reckless {
  public:
   Reckless(const fp_host& host, fp_controller* handle, const fp_briefing& briefing)
-      : controller_(host, handle), map_(*briefing.map), routes_(map_), station_(briefing.start_station) {
+      : controller_(host, handle),
+        map_(*briefing.map),
+        rules_(map_, map_.tells_rules() ? agv_of(briefing, briefing.self).vehicle_type : 0),
+        routes_(map_, rules_),
+        station_(briefing.start_station) {
     const fp_agv& self = agv_of(briefing, briefing.self);
-    for (std::uint32_t id = 0; id < map_.lane_count(); ++id)
-      lane_times_s_.push_back(drive_time_s(map_.lane(id).length_m, self));
+    for (const bool loaded : {false, true}) {
+      for (std::uint32_t id = 0; id < map_.lane_count(); ++id)
+        lane_times_s_[loaded].push_back(rules_.is_usable(id, loaded) ? lane_time_s(map_, id, self) : INFINITY);
+    }
   }
 
   void on_event(const fp_event& event) {
@@ -41,14 +49,15 @@ class Reckless {
       const Task task = tasks_.front();
       std::uint32_t segment = FP_HERE;
       bool last = true;
-      if (station_ != task.station) {
-        routes_.search(station_, lane_times_s_, task.station);
+      const Vec heading = rules_.any() ? seen_heading() : Vec{1.0, 0.0};
+      if (station_ != task.station || !map_.may_stay(station_, heading)) {
+        routes_.search(station_, heading, lane_times_s_[task.pick ? 0 : 1], task.station);
         const auto lanes = routes_.lanes(task.station);
         if (lanes.empty()) {
           tasks_.pop_front();  // the station cannot be reached
           continue;
         }
-        segment = map_.lane(lanes.front()).segment;
+        segment = map_.action_segment(lanes.front());
         station_ = map_.lane(lanes.front()).to;
         last = lanes.size() == 1;
       }
@@ -58,10 +67,17 @@ class Reckless {
     }
   }
 
+  Vec seen_heading() {
+    fp_pose pose{0.0, 0.0, 1.0, 0.0};
+    controller_.pose(pose);
+    return {pose.heading_x, pose.heading_y};
+  }
+
   Controller controller_;
   MapView map_;
+  DriveRules rules_;
   Routes routes_;
-  std::vector<double> lane_times_s_;
+  std::array<std::vector<double>, 2> lane_times_s_;  // without a load, with one
   std::deque<Task> tasks_;
   std::uint32_t station_;  // where the AGV stands, or where its action ends
   bool acting_ = false;

@@ -12,7 +12,24 @@ double drive_time_s(double length_m, const fp_agv& agv) {
   return v / a + v / d + (length_m - ramps_m) / v;
 }
 
-Routes::Routes(const MapView& map) : map_(map) {
+double lane_time_s(const MapView& map, std::uint32_t lane, const fp_agv& agv) {
+  const fp_lane& driven = map.lane(lane);
+  if (!map.tells_rules()) return drive_time_s(driven.length_m, agv);
+  fp_agv limited = agv;
+  const auto limit = [&](double mps) {
+    if (mps > 0.0) limited.speed_mps = std::min(limited.speed_mps, mps);
+  };
+  limit(driven.speed_limit_mps);
+  if (map.is_backward(lane)) limit(agv.reverse_speed_mps);
+  return drive_time_s(driven.length_m, limited);
+}
+
+// The cheapest is at the top of the heap; of equals, the one with the smallest number.
+constexpr auto is_dearer = [](const auto& a, const auto& b) {
+  return a.cost_s > b.cost_s || (a.cost_s == b.cost_s && a.place > b.place);
+};
+
+Routes::Routes(const MapView& map, const DriveRules& rules) : map_(map), rules_(rules) {
   hops_.reserve(map.lane_count());
   first_hops_.reserve(map.station_count() + 1);
   for (std::uint32_t station = 0; station < map.station_count(); ++station) {
@@ -22,36 +39,76 @@ Routes::Routes(const MapView& map) : map_(map) {
   first_hops_.push_back(static_cast<std::uint32_t>(hops_.size()));
 }
 
-void Routes::search(std::uint32_t from, std::span<const double> cost_s, std::uint32_t until) {
-  const auto dearer = [](const Open& a, const Open& b) {
-    return a.cost_s > b.cost_s || (a.cost_s == b.cost_s && a.station > b.station);
-  };
+void Routes::push(Open open) {
+  open_.push_back(open);
+  std::ranges::push_heap(open_, is_dearer);
+}
+
+Routes::Open Routes::pop() {
+  std::ranges::pop_heap(open_, is_dearer);
+  const Open cheapest = open_.back();
+  open_.pop_back();
+  return cheapest;
+}
+
+void Routes::search(std::uint32_t from, Vec heading, std::span<const double> cost_s, std::uint32_t until) {
   cost_s_.assign(map_.station_count(), INFINITY);
   arrival_.assign(map_.station_count(), FP_NONE);
-  open_.assign(1, {0.0, from});
-  cost_s_[from] = 0.0;
+  open_.clear();
+  // With a heading with which it may not stay, an AGV is not there yet.
+  cost_s_[from] = map_.may_stay(from, heading) ? 0.0 : INFINITY;
+  rules_.any() ? search_lanes(from, heading, cost_s, until) : search_stations(from, cost_s, until);
+}
+
+void Routes::search_stations(std::uint32_t from, std::span<const double> cost_s, std::uint32_t until) {
+  push({0.0, from});
   while (!open_.empty()) {
-    std::ranges::pop_heap(open_, dearer);
-    const Open here = open_.back();
-    open_.pop_back();
-    if (here.station == until) return;
-    if (here.cost_s > cost_s_[here.station]) continue;
-    for (std::uint32_t hop = first_hops_[here.station]; hop < first_hops_[here.station + 1]; ++hop) {
+    const auto [so_far_s, here] = pop();
+    if (here == until) return;
+    if (so_far_s > cost_s_[here]) continue;
+    for (std::uint32_t hop = first_hops_[here]; hop < first_hops_[here + 1]; ++hop) {
       const auto [lane, to] = hops_[hop];
-      const double cost = here.cost_s + cost_s[lane];
+      const double cost = so_far_s + cost_s[lane];
       if (cost >= cost_s_[to]) continue;
       cost_s_[to] = cost;
       arrival_[to] = lane;
-      open_.push_back({cost, to});
-      std::ranges::push_heap(open_, dearer);
+      push({cost, to});
     }
   }
 }
 
+void Routes::search_lanes(std::uint32_t from, Vec heading, std::span<const double> cost_s, std::uint32_t until) {
+  driven_s_.assign(map_.lane_count(), INFINITY);
+  before_.assign(map_.lane_count(), FP_NONE);
+  for (const std::uint32_t lane : map_.lanes_from(from)) {
+    if (rules_.may_leave(heading, lane)) reach(lane, cost_s[lane], FP_NONE);
+  }
+  while (!open_.empty()) {
+    const auto [so_far_s, here] = pop();
+    if (so_far_s > driven_s_[here]) continue;
+    const std::uint32_t station = map_.lane(here).to;
+    if (so_far_s < cost_s_[station] && map_.may_stay(station, map_.end_heading(here))) {
+      cost_s_[station] = so_far_s;
+      arrival_[station] = here;
+      if (station == until) return;
+    }
+    for (const std::uint32_t next : map_.lanes_from(station)) {
+      if (rules_.may_leave(map_.end_heading(here), next)) reach(next, so_far_s + cost_s[next], here);
+    }
+  }
+}
+
+void Routes::reach(std::uint32_t lane, double cost_s, std::uint32_t before) {
+  if (cost_s >= driven_s_[lane]) return;
+  driven_s_[lane] = cost_s;
+  before_[lane] = before;
+  push({cost_s, lane});
+}
+
 std::span<const std::uint32_t> Routes::lanes(std::uint32_t to) {
   lanes_.clear();
-  for (std::uint32_t lane = arrival_[to]; lane != FP_NONE; lane = arrival_[map_.lane(lane).from])
-    lanes_.push_back(lane);
+  const auto before = [&](std::uint32_t lane) { return rules_.any() ? before_[lane] : arrival_[map_.lane(lane).from]; };
+  for (std::uint32_t lane = arrival_[to]; lane != FP_NONE; lane = before(lane)) lanes_.push_back(lane);
   std::ranges::reverse(lanes_);
   return lanes_;
 }

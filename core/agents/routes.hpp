@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/agents/drive_rules.hpp"
 #include "core/agents/map_view.hpp"
 #include "core/sdk/fleetproof/agent.h"
 
@@ -12,14 +13,18 @@ namespace fleetproof::agents {
 // The time that AGVs of this type need for a lane, from rest to rest, without turns.
 double drive_time_s(double length_m, const fp_agv& agv);
 
-// The quickest ways from one station to all others (Dijkstra). A search reuses the memory of the search before it.
+// The same for a lane of the map, with its speed limit, and with the AGV's own when it drives backward.
+double lane_time_s(const MapView& map, std::uint32_t lane, const fp_agv& agv);
+
+// The quickest ways from one station to all others (Dijkstra). A search reuses the memory of the search before it. In a
+// plant with rules, the ways keep them: what comes next then depends on the lane by which the AGV has come.
 class Routes {
  public:
-  explicit Routes(const MapView& map);
+  Routes(const MapView& map, const DriveRules& rules);
 
-  // `cost_s` by lane. With `until`, no further than to that station: its way is the same as that of a whole search, and
-  // only its way may be asked for.
-  void search(std::uint32_t from, std::span<const double> cost_s, std::uint32_t until = FP_NONE);
+  // `cost_s` by lane; infinite where the AGV must not drive. `heading`: of the AGV at the beginning. With `until`, no
+  // further than to that station: its way is the same as that of a whole search, and only its way may be asked for.
+  void search(std::uint32_t from, Vec heading, std::span<const double> cost_s, std::uint32_t until = FP_NONE);
   // Infinite if there is no way.
   double cost_s(std::uint32_t to) const { return cost_s_[to]; }
   // The lanes to drive; empty if there is no way, or if `to` is where the search began. Valid until the next call.
@@ -28,7 +33,7 @@ class Routes {
  private:
   struct Open {
     double cost_s;
-    std::uint32_t station;
+    std::uint32_t place;  // a station; in a plant with rules, a lane that has been driven
   };
 
   // A lane that leaves a station. In a plant, the lanes of the map are too far apart in memory for a search.
@@ -36,11 +41,20 @@ class Routes {
     std::uint32_t lane, to;
   };
 
+  void search_stations(std::uint32_t from, std::span<const double> cost_s, std::uint32_t until);
+  void search_lanes(std::uint32_t from, Vec heading, std::span<const double> cost_s, std::uint32_t until);
+  void reach(std::uint32_t lane, double cost_s, std::uint32_t before);
+  void push(Open open);
+  Open pop();
+
   const MapView& map_;
+  const DriveRules& rules_;
   std::vector<Hop> hops_;                  // by station
   std::vector<std::uint32_t> first_hops_;  // by station, and one more: where its hops begin
   std::vector<double> cost_s_;             // by station
-  std::vector<std::uint32_t> arrival_;     // the lane by which the way arrives
+  std::vector<std::uint32_t> arrival_;     // by station: the lane by which the way arrives
+  std::vector<double> driven_s_;           // in a plant with rules, by lane: the cost up to its end
+  std::vector<std::uint32_t> before_;      // likewise: the lane before it
   std::vector<Open> open_;                 // heap, cheapest first
   std::vector<std::uint32_t> lanes_;
 };

@@ -74,8 +74,8 @@ fp_pose end_of(const fp_arc& arc) {
   return {end.x, end.y, last.x, last.y};
 }
 
-Shape body_at(Vec centre_m, Vec heading, double length_m, double width_m) {
-  return {centre_m, heading, length_m / 2.0, width_m / 2.0, 0.0};
+Shape body_at(Vec at_m, Vec heading, const Body& body) {
+  return {at_m + heading * body.ahead_m, heading, body.length_m / 2.0, body.width_m / 2.0, 0.0};
 }
 
 Shape disc_at(Vec centre_m, double radius_m) { return {centre_m, {1.0, 0.0}, 0.0, 0.0, radius_m}; }
@@ -90,11 +90,13 @@ bool closer_than(const Shape& a, const Shape& b, double distance_m) {
   return std::min(smallest_corner_distance2(a, b), smallest_corner_distance2(b, a)) < near * near;
 }
 
-void append_sweep(const fp_arc& arc, double length_m, double width_m, std::vector<Shape>& shapes) {
+void append_sweep(const fp_arc& arc, bool tail_first, const Body& body, std::vector<Shape>& shapes) {
+  const double length_m = body.length_m, width_m = body.width_m;
+  const double ahead_m = tail_first ? -body.ahead_m : body.ahead_m;  // of the travel
   Vec at{arc.start.x_m, arc.start.y_m}, heading{arc.start.heading_x, arc.start.heading_y};
   if (is_straight(arc)) {
     shapes.push_back(
-        {at + heading * (arc.length_m / 2.0), heading, (arc.length_m + length_m) / 2.0, width_m / 2.0, 0.0});
+        {at + heading * (arc.length_m / 2.0 + ahead_m), heading, (arc.length_m + length_m) / 2.0, width_m / 2.0, 0.0});
     return;
   }
   const double angle_rad = std::abs(arc.curvature_per_m) * arc.length_m;
@@ -105,9 +107,10 @@ void append_sweep(const fp_arc& arc, double length_m, double width_m, std::vecto
   const Turn half = small_turn(2.0 * quarter_rad);
   const double half_chord_m = radius_m * half.sine, sagitta_m = radius_m * (1.0 - half.cosine);
   // Compared with the middle of the piece, the body is turned by at most half the angle of the piece. It is off the
-  // tangent by at most the sagitta.
-  const double half_length_m = half_chord_m + length_m / 2.0 + width_m / 2.0 * half.sine + kRounding_m;
-  const double half_width_m = width_m / 2.0 + length_m / 2.0 * half.sine + sagitta_m + kRounding_m;
+  // tangent by at most the sagitta, and its centre swings about the reference point.
+  const double off_m = std::abs(ahead_m) * half.sine, back_m = std::abs(ahead_m) * (1.0 - half.cosine);
+  const double half_length_m = half_chord_m + length_m / 2.0 + width_m / 2.0 * half.sine + back_m + kRounding_m;
+  const double half_width_m = width_m / 2.0 + length_m / 2.0 * half.sine + sagitta_m + off_m + kRounding_m;
   const auto advance_half = [&] {  // along the chord, which lies half-way between the two headings
     heading = apply(quarter, heading);
     at = at + heading * (2.0 * radius_m * std::abs(quarter.sine));
@@ -115,7 +118,7 @@ void append_sweep(const fp_arc& arc, double length_m, double width_m, std::vecto
   };
   for (double i = 0.0; i < pieces; i += 1.0) {
     advance_half();
-    shapes.push_back({at, heading, half_length_m, half_width_m, 0.0});
+    shapes.push_back({at + heading * ahead_m, heading, half_length_m, half_width_m, 0.0});
     advance_half();
   }
 }

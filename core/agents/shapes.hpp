@@ -35,14 +35,24 @@ struct Shape {
   double reach_m() const { return std::sqrt(half_length_m * half_length_m + half_width_m * half_width_m) + radius_m; }
 };
 
-Shape body_at(Vec centre_m, Vec heading, double length_m, double width_m);
+// Seen from above. The centre lies `ahead_m` ahead of the reference point.
+struct Body {
+  double length_m = 0.0, width_m = 0.0, ahead_m = 0.0;
+
+  // From the reference point to the farthest corner.
+  double reach_m() const { return length(Vec{length_m / 2.0 + std::abs(ahead_m), width_m / 2.0}); }
+  friend bool operator==(const Body&, const Body&) = default;
+};
+
+// `at_m`: of the reference point.
+Shape body_at(Vec at_m, Vec heading, const Body& body);
 Shape disc_at(Vec centre_m, double radius_m);
 
 // True if the distance between the two shapes is less than `distance_m`.
 bool closer_than(const Shape& a, const Shape& b, double distance_m);
 
-// Appends shapes that together cover the floor that a body of this size sweeps while its centre moves along `arc`, nose
-// first. Exact for a straight line; too large by a few centimetres in bends.
-void append_sweep(const fp_arc& arc, double length_m, double width_m, std::vector<Shape>& shapes);
+// Appends shapes that together cover the floor that a body sweeps while its reference point moves along `arc`, nose
+// first or tail first. Exact for a straight line; too large by a few centimetres in bends.
+void append_sweep(const fp_arc& arc, bool tail_first, const Body& body, std::vector<Shape>& shapes);
 
 }  // namespace fleetproof::agents

@@ -17,6 +17,8 @@ constexpr double kNoWayCost_s = 1000.0;
 
 }  // namespace
 
+bool carries_load(std::span<const Goal> goals) { return !goals.empty() && goals.front().transfer == Leg::Kind::Drop; }
+
 void cut_after_first_lane(Stretch& stretch) {
   const auto drives = [](const Leg& leg) { return leg.kind == Leg::Kind::Drive; };
   const auto first = std::ranges::find_if(stretch.legs, drives);
@@ -96,32 +98,42 @@ struct StretchPlanner::Walk {
 };
 
 StretchPlanner::StretchPlanner(const MapView& map, HullGeometry& geometry, Neighbours& neighbours, const fp_agv& self)
-    : map_(map), geometry_(geometry), neighbours_(neighbours), places_(map, geometry), routes_(map) {
+    : map_(map),
+      geometry_(geometry),
+      neighbours_(neighbours),
+      places_(map, geometry),
+      rules_(map, map.tells_rules() ? self.vehicle_type : 0),
+      routes_(map, rules_) {
   lane_times_s_.reserve(map.lane_count());
-  for (std::uint32_t id = 0; id < map.lane_count(); ++id)
-    lane_times_s_.push_back(drive_time_s(map.lane(id).length_m, self));
+  for (std::uint32_t id = 0; id < map.lane_count(); ++id) lane_times_s_.push_back(agents::lane_time_s(map, id, self));
 }
 
 Stretch StretchPlanner::towards(const Path& standing, Budget budget, std::span<const Goal> goals) {
-  price_lanes(kWaitingCost_s, kIdleCost_s);
+  bool loaded = carries_load(goals);
+  price_lanes(loaded, kWaitingCost_s, kIdleCost_s);
   Walk walk(*this, standing, budget);
   for (const Goal& goal : goals) {
-    if (walk.station() != goal.station) {
-      routes_.search(walk.station(), costs_s_, goal.station);
+    const Path here = end_of(map_, walk.stretch.path);
+    if (here.station != goal.station || !map_.may_stay(here.station, here.heading)) {
+      routes_.search(here.station, here.heading, costs_s_, goal.station);
       if (!follow(walk, goal.station)) return walk.take();
     }
     walk.transfer(goal);
     if (walk.is_done()) return walk.take();
+    const bool now_loaded = goal.transfer == Leg::Kind::Pick;
+    if (rules_.any() && now_loaded != loaded) price_lanes(now_loaded, kWaitingCost_s, kIdleCost_s);
+    loaded = now_loaded;
   }
-  const std::uint32_t place = best_place(walk.station(), false, 0.0);
+  const std::uint32_t place = best_place(end_of(map_, walk.stretch.path), false, 0.0);
   if (place != FP_NONE) follow(walk, place);
   return walk.take();
 }
 
-Stretch StretchPlanner::out_of_the_way(const Path& standing, Budget budget, bool prefer_parking, double draw) {
-  price_lanes(kNoWayCost_s, kNoWayCost_s);
+Stretch StretchPlanner::out_of_the_way(const Path& standing, Budget budget, bool loaded, bool prefer_parking,
+                                       double draw) {
+  price_lanes(loaded, kNoWayCost_s, kNoWayCost_s);
   Walk walk(*this, standing, budget);
-  const std::uint32_t place = best_place(standing.station, prefer_parking, draw);
+  const std::uint32_t place = best_place(standing, prefer_parking, draw);
   if (place == FP_NONE) return {};
   for (const std::uint32_t lane : routes_.lanes(place)) {
     if (!walk.drive(lane)) return walk.take();
@@ -130,9 +142,9 @@ Stretch StretchPlanner::out_of_the_way(const Path& standing, Budget budget, bool
   return walk.take();
 }
 
-std::uint32_t StretchPlanner::free_charger(std::uint32_t from) {
-  price_lanes(kWaitingCost_s, kIdleCost_s);
-  routes_.search(from, costs_s_);
+std::uint32_t StretchPlanner::free_charger(const Path& standing) {
+  price_lanes(false, kWaitingCost_s, kIdleCost_s);
+  routes_.search(standing.station, standing.heading, costs_s_);
   std::uint32_t best = FP_NONE;
   double best_s = kNoWayCost_s;
   for (std::uint32_t station = 0; station < map_.station_count(); ++station) {
@@ -162,8 +174,11 @@ bool StretchPlanner::follow(Walk& walk, std::uint32_t to) {
   return true;
 }
 
-void StretchPlanner::price_lanes(double waiting_s, double idle_s) {
+void StretchPlanner::price_lanes(bool loaded, double waiting_s, double idle_s) {
   costs_s_ = lane_times_s_;
+  for (std::uint32_t lane = 0; rules_.any() && lane < map_.lane_count(); ++lane) {
+    if (!rules_.is_usable(lane, loaded)) costs_s_[lane] = INFINITY;
+  }
   neighbours_.for_each([&](std::uint32_t, const Neighbour& n) {
     if (!n.known) return;
     const Status& status = n.status;
@@ -186,14 +201,14 @@ void StretchPlanner::price_station(std::uint32_t station, double extra_s) {
   }
 }
 
-// Afterwards, the routes are those from `from`.
-std::uint32_t StretchPlanner::best_place(std::uint32_t from, bool prefer_parking, double draw) {
-  routes_.search(from, costs_s_);
+// Afterwards, the routes are those from there.
+std::uint32_t StretchPlanner::best_place(const Path& standing, bool prefer_parking, double draw) {
+  routes_.search(standing.station, standing.heading, costs_s_);
   std::uint32_t best = FP_NONE;
   double best_s = INFINITY;
   for (std::uint32_t station = 0; station < map_.station_count(); ++station) {
     double cost_s = routes_.cost_s(station);
-    if (station == from || cost_s >= kNoWayCost_s) continue;
+    if (station == standing.station || cost_s >= kNoWayCost_s) continue;
     if (prefer_parking && (map_.station(station).purposes & FP_PARKING) == 0) cost_s += 10.0;
     // Every draw prefers other stations, so that two AGVs that block each other do not repeat the same choice.
     cost_s += 12.0 * draw * ((station * 7 + 3) % 5) / 4.0;

@@ -41,6 +41,9 @@ struct Goal {
   Leg::Kind transfer = Leg::Kind::Pick;
 };
 
+// Whether an AGV with these goals ahead carries a load: the next thing it does is to put it down.
+bool carries_load(std::span<const Goal> goals);
+
 // What is locked at once: a path, and the legs that drive it. The transfers on the path are legs too.
 struct Stretch {
   Path path;
@@ -72,23 +75,24 @@ class StretchPlanner {
   Stretch towards(const Path& standing, Budget budget, std::span<const Goal> goals);
   // A stretch to a place where the AGV blocks no other AGV, as far as is known. Empty if there is none. `draw` in [0,
   // 1) varies the choice.
-  Stretch out_of_the_way(const Path& standing, Budget budget, bool prefer_parking, double draw);
+  Stretch out_of_the_way(const Path& standing, Budget budget, bool loaded, bool prefer_parking, double draw);
   // The charging station that is quickest to reach, at which the AGV blocks no other AGV and no other AGV is known to
   // be. FP_NONE if there is none.
-  std::uint32_t free_charger(std::uint32_t from);
+  std::uint32_t free_charger(const Path& standing);
 
  private:
   struct Walk;
 
-  void price_lanes(double waiting_s, double idle_s);
+  void price_lanes(bool loaded, double waiting_s, double idle_s);
   void price_station(std::uint32_t station, double extra_s);
-  std::uint32_t best_place(std::uint32_t from, bool prefer_parking, double draw);
+  std::uint32_t best_place(const Path& standing, bool prefer_parking, double draw);
   bool follow(Walk& walk, std::uint32_t to);
 
   const MapView& map_;
   HullGeometry& geometry_;
   Neighbours& neighbours_;
   WaitingPlaces places_;
+  DriveRules rules_;
   Routes routes_;
   std::vector<double> lane_times_s_;  // by lane
   std::vector<double> costs_s_;       // by lane: the time, and a price for other AGVs on the lane

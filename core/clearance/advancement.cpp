@@ -71,7 +71,8 @@ class Walk {
   // How far a body that keeps its heading still gets along a direction before the walk ends.
   double comes_nearer_m(const Piece& piece, const OrientedRectangle& body, const Vec2& direction) const {
     if (piece.manner == Manner::Rest) return 0.0;
-    return std::max(0.0, (piece.way_at(to_) - piece.way_at(now_)) * direction.dot(body.heading));
+    const double way_m = piece.way_at(to_) - piece.way_at(now_);
+    return std::max(0.0, (piece.moves_against_heading() ? -way_m : way_m) * direction.dot(body.heading));
   }
 
   // If bodies keep their headings, they come nearer along a direction by at most the rest of their ways, in every

@@ -20,7 +20,7 @@ double first_root(double value, double rate, double bend) {
   return bend < 0.0 ? (rate + std::sqrt(square)) / -bend : kNotMet;
 }
 
-// From the reference point.
+// From the centre.
 std::array<Vec2, 4> corner_arms(const OrientedRectangle& body) {
   const Vec2 along = body.half_length_m * body.heading, aside = body.half_width_m * left_of(body.heading);
   return {along + aside, aside - along, -along - aside, along - aside};
@@ -32,7 +32,7 @@ Vec2 foremost_corner(const OrientedRectangle& body, const Vec2& direction) {
   return ahead * body.heading + beside * left_of(body.heading);
 }
 
-// How far a corner reaches from the reference point along a direction fixed to the floor, and how that changes with the
+// How far a corner reaches from the centre along a direction fixed to the floor, and how that changes with the
 // corner's motion.
 struct Reach {
   double value, rate, bend;
@@ -40,10 +40,10 @@ struct Reach {
 };
 
 // On a Bezier curve, the lever of a corner also changes with the curvature. `arm_beside` is the part along the
-// direction of the arm turned left.
+// direction of the arm (from the reference point) turned left.
 void add_change_of_curvature(const PhaseMotion& motion, double arm_beside, Reach& reach) {
-  const double arm_m = std::sqrt(motion.body.half_length_m * motion.body.half_length_m +
-                                 motion.body.half_width_m * motion.body.half_width_m);
+  const double ahead_m = motion.body.half_length_m + std::abs(motion.centre_ahead_m),
+               arm_m = std::sqrt(ahead_m * ahead_m + motion.body.half_width_m * motion.body.half_width_m);
   reach.bend += motion.bending * motion.speed * motion.speed * arm_beside;
   reach.loss += (motion.per_arm.lever * motion.top_jerk + motion.per_arm.mps3) * arm_m / 3.0;
   reach.most += (motion.per_arm.lever * motion.top_acceleration + motion.per_arm.mps2) * arm_m;
@@ -67,12 +67,14 @@ struct Reaches {
     for (const auto& [x, y] :
          {std::pair{body.half_length_m, body.half_width_m}, std::pair{-body.half_length_m, body.half_width_m},
           std::pair{-body.half_length_m, -body.half_width_m}, std::pair{body.half_length_m, -body.half_width_m}}) {
-      const double lever_x = motion.turns_on_spot ? -y : 1.0 - k * y, lever_y = motion.turns_on_spot ? x : k * x;
+      const double arm_x = x + motion.centre_ahead_m;
+      const double lever_x = motion.turns_on_spot ? -y : 1.0 - k * y,
+                   lever_y = motion.turns_on_spot ? arm_x : k * arm_x;
       const double along = lever_x * ahead + lever_y * beside, square = lever_x * beside - lever_y * ahead;
       const double length = std::sqrt(lever_x * lever_x + lever_y * lever_y);
       of[count] = {x * ahead + y * beside, motion.speed * along, motion.acceleration * along + pull * square,
                    length * motion.top_jerk / 3.0, length * motion.top_acceleration};
-      if (motion.varies) add_change_of_curvature(motion, x * beside - y * ahead, of[count]);
+      if (motion.varies) add_change_of_curvature(motion, arm_x * beside - y * ahead, of[count]);
       ++count;
     }
   }
@@ -159,8 +161,8 @@ void GapBound::add_corners_apart(const PhaseMotion& first, const PhaseMotion& se
   }
 }
 
-// Seen from the body that the axis turns with, that body rests, and a corner at r (from the reference point) of the
-// other has the derivatives that a turning frame gives it: r' - w Jr, r'' - 2w Jr' - a Jr - w^2 r, and a third one
+// Seen from the body that the axis turns with, that body rests, and a corner at r (from its centre) of the other
+// has the derivatives that a turning frame gives it: r' - w Jr, r'' - 2w Jr' - a Jr - w^2 r, and a third one
 // below r''' + 3w r'' + 3(a + w^2) r' + (3wa + w^3 + a') r in magnitude; J is left_of, w the frame's rate of turning, a
 // the rate's own, and a' that of a.
 void GapBound::add_corners_seen_from(const PhaseMotion& frame, const PhaseMotion& other, const Vec2& outward) {

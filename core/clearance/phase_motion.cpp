@@ -78,13 +78,14 @@ void bound_turning(PhaseMotion& motion, const MostBending& most) {
 }  // namespace
 
 PointMotion PhaseMotion::point(const Vec2& arm) const {
-  const Vec2 lever = turns_on_spot ? left_of(arm) : Vec2(body.heading + curvature * left_of(arm));
+  const Vec2 from_reference = arm + centre_ahead_m * body.heading;
+  const Vec2 lever = turns_on_spot ? left_of(from_reference) : Vec2(body.heading + curvature * left_of(from_reference));
   PointMotion motion;
   motion.position_m = body.centre_m + arm;
   motion.velocity_mps = speed * lever;
   motion.acceleration_mps2 = acceleration * lever + curvature * speed * speed * left_of(lever);
-  if (varies) motion.acceleration_mps2 += bending * speed * speed * left_of(arm);
-  const double arm_m = varies ? arm.norm() : 0.0, length = lever.norm() + per_arm.lever * arm_m;
+  if (varies) motion.acceleration_mps2 += bending * speed * speed * left_of(from_reference);
+  const double arm_m = varies ? from_reference.norm() : 0.0, length = lever.norm() + per_arm.lever * arm_m;
   motion.top_mps = length * top_speed;
   motion.top_mps2 = length * top_acceleration + per_arm.mps2 * arm_m;
   motion.top_mps3 = length * top_jerk + per_arm.mps3 * arm_m;
@@ -99,6 +100,7 @@ double PhaseMotion::half_extent_m(const Vec2& direction) const {
 PhaseMotion motion_from(const Piece& piece, const OrientedRectangle& body, SimTime t, SimTime limit, TimeSense sense) {
   PhaseMotion motion;
   motion.body = body;
+  motion.centre_ahead_m = piece.footprint.centre_ahead_m;
   motion.change = limit;
   motion.lasts_s = to_seconds(Duration{std::abs((limit - t).count())});
   const bool forward = sense == TimeSense::Forward;
@@ -112,7 +114,7 @@ PhaseMotion motion_from(const Piece& piece, const OrientedRectangle& body, SimTi
   motion.change = piece.begin + Duration{change};
   motion.lasts_s = to_seconds(Duration{std::abs(change - now)});
   if (has_arrived) return motion;
-  const double sign = piece.manner == Manner::Turn && piece.turn_rad < 0.0 ? -1.0 : 1.0;
+  const double sign = piece.moves_against_heading() ? -1.0 : 1.0;
   motion.speed = piece.profile.speed_in_phase(stretch.phase, to_seconds(Duration{now})) * (forward ? sign : -sign);
   motion.acceleration = piece.profile.acceleration_in_phase(stretch.phase) * sign;
   const double later = piece.profile.speed_in_phase(stretch.phase, to_seconds(Duration{change}));
@@ -124,7 +126,7 @@ PhaseMotion motion_from(const Piece& piece, const OrientedRectangle& body, SimTi
     bound_turning(motion, {1.0, 0.0, 0.0});
   } else if (const CurvePart& part = piece.curve->parts()[stretch.part]; !part.is_straight()) {
     const auto [per_m, per_m2] = piece.curve->bending_in(stretch.part, piece.way_at(t));
-    motion.curvature = per_m;
+    motion.curvature = sign * per_m;
     motion.bending = per_m2;
     bound_turning(motion, part.most());
   }

@@ -21,12 +21,13 @@ struct PointMotion {
 // the curvature, by the change times the arm of the point.
 struct PhaseMotion {
   OrientedRectangle body;
-  double speed = 0.0;         // now, in the direction of the walk: m/s; in a turn rad/s, left positive
+  double centre_ahead_m = 0.0;  // of the reference point, whose speed this is
+  double speed = 0.0;         // now, in the direction of the walk: m/s, ahead positive; in a turn rad/s, left positive
   double acceleration = 0.0;  // constant
   double top_speed = 0.0;     // largest magnitudes before the change, per length of the lever
   double top_acceleration = 0.0, top_jerk = 0.0;
-  double curvature = 0.0;  // now, 1/m; in a turn 1
-  double bending = 0.0;    // now: the change of the curvature with the distance driven, 1/m2
+  double curvature = 0.0;  // now, seen along the heading, 1/m; in a turn 1
+  double bending = 0.0;    // now: the change of the curvature along the heading, 1/m2
   bool turns_on_spot = false;
   bool varies = false;  // the curvature changes
   // Largest magnitudes before the change: of the turning, and of what a point moves beyond the bounds of its lever as
@@ -43,9 +44,12 @@ struct PhaseMotion {
   bool rotates() const { return curvature != 0.0 || varies; }
   double turning_rad_s() const { return curvature * speed; }
   double turning_rad_s2() const { return curvature * acceleration + bending * speed * speed; }
-  // The centre of the rotation, from the reference point: the point of the body that stands still now.
-  Vec2 pivot_arm() const { return turns_on_spot ? Vec2(Vec2::Zero()) : Vec2(left_of(body.heading) / curvature); }
-  // `arm` leads from the reference point to the point.
+  // The centre of the rotation, from the body's centre: the point of the body that stands still now.
+  Vec2 pivot_arm() const {
+    const Vec2 reference = -centre_ahead_m * body.heading;
+    return turns_on_spot ? reference : Vec2(reference + left_of(body.heading) / curvature);
+  }
+  // `arm` leads from the body's centre to the point.
   PointMotion point(const Vec2& arm) const;
   // Half of the body's width as seen along a direction.
   double half_extent_m(const Vec2& direction) const;

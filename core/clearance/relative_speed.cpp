@@ -10,22 +10,22 @@ namespace {
 
 // How a body moves at an instant.
 struct Twist {
-  Vec2 centre_m, velocity_mps;
+  Vec2 reference_m, velocity_mps;
   double turning_rad_s = 0.0;
 
   Vec2 velocity_of(const Vec2& point_m) const {
-    return velocity_mps + turning_rad_s * left_of(Vec2(point_m - centre_m));
+    return velocity_mps + turning_rad_s * left_of(Vec2(point_m - reference_m));
   }
 };
 
 Twist twist_of(const Piece& piece, const OrientedRectangle& body, SimTime t) {
-  Twist twist{body.centre_m, Vec2::Zero()};
+  Twist twist{body.centre_m - piece.footprint.centre_ahead_m * body.heading, Vec2::Zero()};
   if (piece.manner == Manner::Rest) return twist;
   const double speed = piece.profile.speed(to_seconds(std::clamp(t, piece.begin, piece.end) - piece.begin));
   if (piece.manner == Manner::Turn) {
-    twist.turning_rad_s = piece.turn_rad < 0.0 ? -speed : speed;
+    twist.turning_rad_s = piece.moves_against_heading() ? -speed : speed;
   } else {
-    twist.velocity_mps = speed * body.heading;
+    twist.velocity_mps = (piece.moves_against_heading() ? -speed : speed) * body.heading;
     twist.turning_rad_s = speed * piece.curve->bending_at(piece.way_at(t)).per_m;
   }
   return twist;

@@ -7,6 +7,7 @@
 #include "core/base/error.hpp"
 #include "core/base/tolerances.hpp"
 #include "core/geometry/rotation.hpp"
+#include "core/scenario/lane_rules.hpp"
 
 namespace fleetproof {
 namespace {
@@ -43,6 +44,13 @@ fp_action action_during(ActivityKind kind) {
   }
 }
 
+// The lane that a call means; null: there is none. Without FP_BACKWARD it is the way forward, or backward if there is
+// no other.
+const Lane* called_lane(const LogicalMap& map, std::uint32_t segment, StationId from) {
+  if ((segment & FP_BACKWARD) != 0) return map.backward_lane(SegmentId{segment & ~FP_BACKWARD}, from);
+  return map.lane(SegmentId{segment}, from);
+}
+
 }  // namespace
 
 Actions::Actions(RunContext& run, const Ports& ports) : run_(run), ports_(ports), slices_(run.agvs.size()) {}
@@ -52,7 +60,8 @@ Actions::Actions(RunContext& run, const Ports& ports) : run_(run), ports_(ports)
 bool Actions::accept(AgvId agv, fp_call call, std::uint32_t segment, LoadId load) {
   if (!is_possible(agv, call, segment, load)) {
     ++run_.counters.refused_calls;
-    run_.trace(agv, traced::CallRefused{static_cast<std::uint32_t>(call), SegmentId{segment}});
+    const SegmentId refused{segment == FP_HERE ? segment : segment & ~FP_BACKWARD};
+    run_.trace(agv, traced::CallRefused{static_cast<std::uint32_t>(call), refused});
     return false;
   }
   slices_[agv.index()].committed = slices_[agv.index()].accepted = true;
@@ -65,13 +74,17 @@ bool Actions::is_possible(AgvId agv, fp_call call, std::uint32_t segment, LoadId
   const Slice& slice = slices_[agv.index()];
   const AgvStatus& status = run_.status(agv);
   if (status.out_of_order || slice.accepted) return false;
+  const LogicalMap& map = *run_.scenario.map;
+  const LaneRules rules{map, run_.type_of(agv).name, run_.is_loaded(agv)};
   const bool here = segment == FP_HERE && call != FP_CALL_MOVE;
   const bool on_its_way = slice.acting && slice.plan.lane != nullptr && slice.plan.call == FP_CALL_MOVE && !slice.next;
   if (slice.committed && (here || !on_its_way)) return false;
   const StationId begins_at = slice.committed ? slice.plan.lane->to : status.station;
-  const Lane* lane = here ? nullptr : run_.scenario.map->lane(SegmentId{segment}, begins_at);
-  if (!here && lane == nullptr) return false;
+  const Vec2 heading = slice.committed ? slice.plan.lane->end_heading() : run_.pose_now(agv).heading;
+  const Lane* lane = here ? nullptr : called_lane(map, segment, begins_at);
+  if (!here && (lane == nullptr || !rules.may_drive(*lane, heading))) return false;
   const StationId ends_at = here ? begins_at : lane->to;
+  if (call != FP_CALL_MOVE && !rules.may_stay(ends_at, here ? heading : lane->end_heading())) return false;
   return !load.valid() || (!run_.is_loaded(agv) && run_.world.is_waiting(load, agv, ends_at));
 }
 
@@ -85,7 +98,7 @@ void Actions::begin(AgvId agv, fp_call call, std::uint32_t segment, LoadId load)
   }
   if (slice.acting) return take_next(agv, call, segment, load);  // the action before this one is not over yet
   if (status.activity) ports_.activities.end(agv, false);        // charging goes on until the next action
-  const Lane* lane = segment == FP_HERE ? nullptr : run_.scenario.map->lane(SegmentId{segment}, status.station);
+  const Lane* lane = segment == FP_HERE ? nullptr : called_lane(*run_.scenario.map, segment, status.station);
   begin_plan(agv, {call, lane, load}, 0.0);
 }
 
@@ -98,7 +111,7 @@ void Actions::withdraw_accepted(AgvId agv) {
 
 void Actions::take_next(AgvId agv, fp_call call, std::uint32_t segment, LoadId load) {
   Slice& slice = slices_[agv.index()];
-  const Lane* lane = run_.scenario.map->lane(SegmentId{segment}, slice.plan.lane->to);
+  const Lane* lane = called_lane(*run_.scenario.map, segment, slice.plan.lane->to);
   ensure(lane != nullptr, "the next action begins where this one ends");
   slice.next = NextAction{call, lane, load};
   if (run_.status(agv).is_driving()) ports_.drives.release_next(agv, *lane);

@@ -125,7 +125,7 @@ void AgvController::carry_out(AgvId agv, const PendingCall& call) {
 
 std::int32_t AgvController::act(AgvId agv, fp_call call, std::uint32_t segment, LoadId load) {
   const bool here = segment == FP_HERE && call != FP_CALL_MOVE;
-  if (!here && segment >= run_.scenario.map->segment_count()) return FP_INVALID;
+  if (!here && (segment & ~FP_BACKWARD) >= run_.scenario.map->segment_count()) return FP_INVALID;
   if (!ports_.actions.accept(agv, call, segment, load)) return FP_REFUSED;
   return take_effect(
       agv,

@@ -21,9 +21,12 @@ class Briefings {
   void renew(AgvId agv, std::uint32_t boot, StationId station, const Lane* lane, const Lane* next);
 
  private:
+  void describe_permissions(const Scenario& scenario);
   void describe_map(const LogicalMap& map);
+  void describe_lane(const LogicalMap& map, const Lane& lane);
   void describe_fleet(const Scenario& scenario);
 
+  std::vector<std::vector<fp_permission>> permissions_;  // by segment
   std::vector<fp_arc> arcs_;
   std::vector<fp_lane> lanes_;
   std::vector<fp_station> stations_;

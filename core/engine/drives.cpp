@@ -9,14 +9,10 @@
 namespace fleetproof {
 namespace {
 
-bool aligned(const Lane& arriving, const Lane& leaving) {
-  const Vec2 in = arriving.curve.pose_at(arriving.curve.length_m()).heading, out = leaving.curve.pose_at(0.0).heading;
-  return std::abs(angle_between(in, out)) <= kAligned_rad;
-}
-
-MotionLimits on_lane(MotionLimits limits, const Lane& lane) {
-  if (lane.speed_limit_mps > 0.0) limits.speed_mps = std::min(limits.speed_mps, lane.speed_limit_mps);
-  return limits;
+// Whether an AGV may roll from one lane onto the next: it changes neither its heading nor the end that goes first.
+bool goes_on(const Lane& arriving, const Lane& leaving) {
+  return arriving.is_backward() == leaving.is_backward() &&
+         std::abs(angle_between(arriving.end_heading(), leaving.start_heading())) <= kAligned_rad;
 }
 
 }  // namespace
@@ -31,7 +27,8 @@ void Drives::begin(AgvId agv, const Lane& lane, double from_m, double entry_mps,
   ++run_.counters.drives;
   run_.progressed(agv);
   plan(agv, from_m, entry_mps);
-  ports_.activities.begin_moving(agv, ActivityKind::Drive, piece_of_leg(agv), lane.segment.value);
+  ports_.activities.begin_moving(agv, ActivityKind::Drive, piece_of_leg(agv),
+                                 traced::ActivityBegins::drive_subject(lane.segment, lane.is_backward()));
   if (run_.scenario.scanner.on) ports_.scanner.drive_begins(agv);
 }
 
@@ -49,13 +46,14 @@ MotionLimits Drives::draw_limits(AgvId agv, std::uint32_t number) const {
 
 void Drives::plan(AgvId agv, double from_m, double speed_mps) {
   Drive& drive = drive_of(agv);
+  const VehicleType& type = run_.type_of(agv);
   const Curve& curve = drive.lane->curve;
   from_m = std::min(from_m, curve.length_m());  // the sum of the legs may be rounded up
   drive.leg = 0;
   if (!run_.status(agv).halts.empty()) {
-    plan_stop(curve, on_lane(drive.limits, *drive.lane), from_m, speed_mps, drive.legs);
+    plan_stop(curve, drive.lane->limits(drive.limits, type.reverse_speed_mps), from_m, speed_mps, drive.legs);
   } else {
-    plan_legs(curve, on_lane(drive.limits, *drive.lane), run_.type_of(agv).lateral_mps2, from_m,
+    plan_legs(curve, drive.lane->limits(drive.limits, type.reverse_speed_mps), type.lateral_mps2, from_m,
               {speed_mps, exit_speed_mps(agv)}, drive.legs);
   }
 }
@@ -64,12 +62,13 @@ void Drives::plan(AgvId agv, double from_m, double speed_mps) {
 // released and goes straight on.
 double Drives::exit_speed_mps(AgvId agv) const {
   const Drive& drive = drives_[agv.index()];
-  if (drive.next == nullptr || !aligned(*drive.lane, *drive.next)) return 0.0;
+  if (drive.next == nullptr || !goes_on(*drive.lane, *drive.next)) return 0.0;
   const VehicleType& type = run_.type_of(agv);
   MotionLimits limits = drive.limits;
   limits.speed_mps = std::min(limits.speed_mps, type.drive_with(run_.is_loaded(agv)).speed_mps);
-  const double entry_mps = highest_entry_mps(drive.next->curve, on_lane(limits, *drive.next), type.lateral_mps2);
-  return std::min(entry_mps, on_lane(drive.limits, *drive.lane).speed_mps);
+  const double entry_mps =
+      highest_entry_mps(drive.next->curve, drive.next->limits(limits, type.reverse_speed_mps), type.lateral_mps2);
+  return std::min(entry_mps, drive.lane->limits(drive.limits, type.reverse_speed_mps).speed_mps);
 }
 
 Piece Drives::piece_of_leg(AgvId agv) const {

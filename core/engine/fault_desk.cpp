@@ -124,8 +124,8 @@ bool FaultDesk::load_drops(AgvId agv, std::uint64_t number) {
   if (!load.valid()) return false;
   if (fault.transport && run_.own_number(agv, run_.world.load(load).transport) != *fault.transport)
     return false;  // the fault belongs to another transport
-  const Pose from = run_.pose_now(agv);
-  const Pose pose{from.position_m + fault.ahead_m * from.heading + fault.left_m * left_of(from.heading), from.heading};
+  const OrientedRectangle from = run_.world.body(agv).piece.body_at(run_.now);
+  const Pose pose{from.centre_m + fault.ahead_m * from.heading + fault.left_m * left_of(from.heading), from.heading};
   if (!run_.world.is_free(placed(fault.load, pose), run_.scenario.law.safety_distance_m, run_.now)) return false;
   const EntityId body = fallen_body(number);
   run_.move_load(load, {Holder::Kind::Floor, body.value});

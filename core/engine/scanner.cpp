@@ -21,7 +21,10 @@ double Scanner::field_length_m(AgvId agv) const {
 // The first body, by number, that stands in the field.
 std::optional<EntityId> Scanner::intruder(AgvId agv, double length_m) const {
   const OrientedRectangle own = run_.world.body(agv).piece.body_at(run_.now);
-  const OrientedRectangle field{own.centre_m + (own.half_length_m + 0.5 * length_m) * own.heading, own.heading,
+  const double sign =
+      run_.world.body(agv).piece.manner == Manner::Drive && run_.world.body(agv).piece.moves_against_heading() ? -1.0
+                                                                                                               : 1.0;
+  const OrientedRectangle field{own.centre_m + sign * (own.half_length_m + 0.5 * length_m) * own.heading, own.heading,
                                 0.5 * length_m, own.half_width_m + run_.scenario.scanner.margin_m};
   for (std::size_t i = 0; i < run_.world.body_count(); ++i) {
     const Body& body = run_.world.body(EntityId{i});

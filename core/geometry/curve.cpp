@@ -95,9 +95,10 @@ Curve Curve::joined(std::span<const Curve> curves) {
 Pose Curve::pose_at(double s_m) const {
   if (parts_.empty()) return {};
   const double s = std::clamp(s_m, 0.0, length_m());
-  if (parts_.size() == 1) return parts_[0].pose_at(s);
-  const std::size_t part = part_at(s);
-  return parts_[part].pose_at(s - begin_m(part));
+  const std::size_t part = parts_.size() == 1 ? 0 : part_at(s);
+  Pose pose = parts_[part].pose_at(s - begin_m(part));
+  if (tail_first_) pose.heading = -pose.heading;
+  return pose;
 }
 
 Bending Curve::bending_in(std::size_t part, double s_m) const {
@@ -112,13 +113,23 @@ std::size_t Curve::part_at(double s_m) const {
 Curve Curve::reversed() const {
   std::vector<CurvePart> parts;
   for (auto part = parts_.rbegin(); part != parts_.rend(); ++part) parts.push_back(part->reversed());
-  return Curve(std::move(parts));
+  Curve back(std::move(parts));
+  back.tail_first_ = tail_first_;
+  return back;
+}
+
+Curve Curve::tail_first() const {
+  Curve same = *this;
+  same.tail_first_ = true;
+  return same;
 }
 
 Curve Curve::moved(const Vec2& by_m) const {
   std::vector<CurvePart> parts;
   for (const CurvePart& part : parts_) parts.push_back(part.moved(by_m));
-  return Curve(std::move(parts));
+  Curve there(std::move(parts));
+  there.tail_first_ = tail_first_;
+  return there;
 }
 
 }  // namespace fleetproof

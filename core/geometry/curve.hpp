@@ -30,7 +30,8 @@ class CurvePart {
 };
 
 // A track on the floor by arc length: parts joined without kinks (heading continuous to kKink_rad). Lines, arcs and
-// Bezier curves are what they are, up to kAlongCurve_m: nothing is replaced by something simpler.
+// Bezier curves are what they are, up to kAlongCurve_m: nothing is replaced by something simpler. A vehicle follows it
+// nose first, or tail first: then the headings of its poses, which are those of the nose, point against the travel.
 class Curve {
  public:
   Curve() = default;
@@ -55,9 +56,12 @@ class Curve {
   std::span<const double> ends_m() const { return ends_m_; }
   std::span<const CurvePart> parts() const { return parts_; }
   bool is_straight() const { return parts_.size() == 1 && parts_[0].is_straight(); }
+  bool is_tail_first() const { return tail_first_; }
 
-  // The same track driven the other way.
+  // The same track driven the other way, with the same end of the vehicle first.
   Curve reversed() const;
+  // The same track driven the same way, tail first.
+  Curve tail_first() const;
   Curve moved(const Vec2& by_m) const;
 
  private:
@@ -65,6 +69,7 @@ class Curve {
 
   std::vector<CurvePart> parts_;
   std::vector<double> ends_m_;
+  bool tail_first_ = false;
 };
 
 }  // namespace fleetproof

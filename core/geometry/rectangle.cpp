@@ -91,10 +91,16 @@ Vec2 widest_axis(const MutualView& view, const OrientedRectangle& first, const O
 
 }  // namespace
 
-double Footprint::half_diagonal_m() const { return 0.5 * std::sqrt(length_m * length_m + width_m * width_m); }
+double Footprint::reach_m() const {
+  const double ahead_m = length_m + 2.0 * std::abs(centre_ahead_m);
+  return 0.5 * std::sqrt(ahead_m * ahead_m + width_m * width_m);
+}
 
 OrientedRectangle placed(const Footprint& footprint, const Pose& pose) {
-  return {pose.position_m, pose.heading, 0.5 * footprint.length_m, 0.5 * footprint.width_m};
+  const Vec2 centre_m = footprint.centre_ahead_m == 0.0
+                            ? pose.position_m
+                            : Vec2(pose.position_m + footprint.centre_ahead_m * pose.heading);
+  return {centre_m, pose.heading, 0.5 * footprint.length_m, 0.5 * footprint.width_m};
 }
 
 OrientedRectangle widened(const OrientedRectangle& rectangle, double margin_m) {

@@ -4,12 +4,15 @@
 
 namespace fleetproof {
 
-// The size of a body, seen from above. The reference point is the centre; the length is along the heading.
+// The size of a body, seen from above. The length is along the heading. The reference point follows the track, and the
+// body turns about it on the spot.
 struct Footprint {
   double length_m = 1.6;
   double width_m = 1.0;
+  double centre_ahead_m = 0.0;  // from the reference point to the centre, along the heading
 
-  double half_diagonal_m() const;
+  // From the reference point to the farthest corner.
+  double reach_m() const;
   friend bool operator==(const Footprint&, const Footprint&) = default;
 };
 

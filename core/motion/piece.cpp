@@ -11,14 +11,19 @@ namespace {
 
 // A part of a curve between two arc lengths, swept by a footprint. The second derivative of a corner's path, times the
 // squared length / 8, bounds its distance to a chord. The chords lie in the box of the bodies at their ends.
-void add_swept(Box& box, const CurvePart& part, double from_m, double to_m, const Footprint& footprint) {
+void add_swept(Box& box, const CurvePart& part, double from_m, double to_m, const Footprint& footprint,
+               bool tail_first) {
   constexpr double kMostSteps = 1e4;
-  const double length_m = to_m - from_m, turned_rad = part.most().per_m * length_m, arm_m = footprint.half_diagonal_m();
+  const double length_m = to_m - from_m, turned_rad = part.most().per_m * length_m, arm_m = footprint.reach_m();
   const double sagitta_m =
       ((length_m + arm_m * turned_rad) * turned_rad + arm_m * part.most().per_m2 * length_m * length_m) / 8.0;
   const int steps = 1 + static_cast<int>(std::min(std::sqrt(sagitta_m / kBoxSlack_m), kMostSteps));
   Box bodies;
-  for (int i = 0; i <= steps; ++i) bodies.add(placed(footprint, part.pose_at(from_m + length_m * i / steps)));
+  for (int i = 0; i <= steps; ++i) {
+    Pose pose = part.pose_at(from_m + length_m * i / steps);
+    if (tail_first) pose.heading = -pose.heading;
+    bodies.add(placed(footprint, pose));
+  }
   const Box grown = bodies.grown(sagitta_m / steps / steps);
   box.add(grown.low_m);
   box.add(grown.high_m);
@@ -33,7 +38,8 @@ Box swept_drive(const Piece& piece, double until_m) {
   for (std::size_t i = 0; i < parts.size() && begin_m < until_m; ++i) {
     const double skipped_m = std::max(0.0, piece.way_begin_m - begin_m);
     if (piece.way_begin_m < ends[i])
-      add_swept(box, parts[i], skipped_m, std::min(until_m, ends[i]) - begin_m, piece.footprint);
+      add_swept(box, parts[i], skipped_m, std::min(until_m, ends[i]) - begin_m, piece.footprint,
+                piece.curve->is_tail_first());
     begin_m = ends[i];
   }
   return box;
@@ -65,7 +71,7 @@ Box Piece::swept_box(SimTime until) const {
     box.add(placed(footprint, start));
   } else {
     box.add(start.position_m);
-    box = box.grown(footprint.half_diagonal_m());
+    box = box.grown(footprint.reach_m());
   }
   return box;
 }

@@ -37,6 +37,10 @@ struct Piece {
   double way_at(SimTime t) const;
   // Whether the body rests, or drives along one straight line.
   bool keeps_heading() const { return manner == Manner::Rest || (manner == Manner::Drive && curve->is_straight()); }
+  // Whether it drives tail first, or turns right: then ways and speeds count against the heading, or against the left.
+  bool moves_against_heading() const {
+    return manner == Manner::Turn ? turn_rad < 0.0 : manner == Manner::Drive && curve->is_tail_first();
+  }
   // Speed of the reference point.
   double speed_at(SimTime t) const;
   // The box of everything that the body covers from begin to `until`.

@@ -17,6 +17,7 @@ namespace fleetproof {
 // --------------------------------------------------|-------------------------------------------|----------------
 // "head-on", "crossing", "following", "merging"     | the drives of two AGVs met in this way    | law coverage
 // "tight-gap", "curve-beside-lane", "overhang-pass" | two AGVs drove side by side in this way   | law coverage
+// "back-in"                                         | two drives met, one of them backward      | law coverage
 // "bottleneck", "four-way"                          | two AGVs drove to such a place            | law coverage
 // "near-miss"                                       | two AGVs came close without a violation   | law coverage
 // "fault: KIND", as in "fault: breakdown"           | a fault of this kind struck               | law coverage
@@ -41,7 +42,7 @@ constexpr const char* name_of(EncounterKind kind) {
 inline constexpr std::size_t kEncounterKinds = kValuesOf<EncounterKind>.size();
 
 // What two AGVs met on the floor, beside each other (laws/side_by_side.hpp) or at a place (laws/map_places.hpp).
-enum class SceneKind : std::uint8_t { TightGap, CurveBesideLane, OverhangPass, Bottleneck, FourWay };
+enum class SceneKind : std::uint8_t { TightGap, CurveBesideLane, OverhangPass, Bottleneck, FourWay, BackIn };
 constexpr const char* name_of(SceneKind kind) {
   switch (kind) {
     case SceneKind::TightGap:
@@ -54,6 +55,8 @@ constexpr const char* name_of(SceneKind kind) {
       return "bottleneck";
     case SceneKind::FourWay:
       return "four-way";
+    case SceneKind::BackIn:
+      return "back-in";
   }
   return kNoWord;
 }

@@ -44,8 +44,12 @@ using Leaves = Bare<TraceKind::Leaves>;
 struct ActivityBegins {
   static constexpr TraceKind kKind = TraceKind::ActivityBegins;
   ActivityKind activity = ActivityKind::Park;
-  std::uint64_t subject = 0;  // drive: the segment; pick, drop: the load (invalid: none); else: the station
+  std::uint64_t subject = 0;  // drive: drive_subject; pick, drop: the load (invalid: none); else: the station
 
+  static constexpr std::uint64_t drive_subject(SegmentId segment, bool backward) {
+    return std::uint64_t{backward ? 1U : 0U} << 32 | segment.value;
+  }
+  constexpr bool backward() const { return (subject >> 32) != 0; }
   constexpr SegmentId segment() const { return id_in<SegmentId>(subject); }
   constexpr LoadId load() const { return id_in<LoadId>(subject); }
   constexpr void put(TraceRecord& r) const { r.a = static_cast<std::uint64_t>(activity), r.b = subject; }

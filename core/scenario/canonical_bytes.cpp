@@ -45,6 +45,26 @@ void add_properties(CanonicalBytes& bytes, const Layout& layout) {
   }
 }
 
+void add_rules(CanonicalBytes& bytes, const Layout& layout) {
+  if (std::ranges::none_of(layout.segments, &Segment::has_rules) &&
+      std::ranges::none_of(layout.stations, &Station::has_rules))
+    return;
+  for (const Segment& segment : layout.segments) {
+    bytes.add_byte(static_cast<std::uint8_t>(segment.travel));
+    bytes.add_byte(static_cast<std::uint8_t>(segment.back_travel));
+    bytes.add(std::uint64_t{segment.permissions.size()});
+    for (const auto& [vehicle_type, load] : segment.permissions) {
+      bytes.add(std::string_view(vehicle_type));
+      bytes.add_byte(static_cast<std::uint8_t>(load));
+    }
+  }
+  for (const Station& station : layout.stations) {
+    bytes.add_byte(station.turning ? 1 : 0);
+    bytes.add_byte(station.heading ? 1 : 0);
+    if (station.heading) bytes.add(*station.heading);
+  }
+}
+
 }  // namespace
 
 // Structured bindings: a member that is added to a layout does not compile until it is part of the digest.
@@ -55,14 +75,14 @@ std::uint64_t layout_digest(const Layout& layout) {
   bytes.add(floor_low_m);
   bytes.add(floor_high_m);
   bytes.add(std::uint64_t{stations.size()});
-  for (const auto& [station, position_m, purposes] : stations) {
+  for (const auto& [station, position_m, purposes, turning, heading] : stations) {
     bytes.add(std::string_view(station));
     bytes.add(position_m);
     bytes.add_byte(purposes.bits());
   }
   bytes.add(std::uint64_t{segments.size()});
   for (const auto& [segment, from, to, bidirectional, control_points_m, speed_limit_mps, back_speed_limit_mps, width_m,
-                    own_blocks] : segments) {
+                    own_blocks, travel, back_travel, permissions] : segments) {
     bytes.add(std::string_view(segment));
     bytes.add(std::uint64_t{from.value});
     bytes.add(std::uint64_t{to.value});
@@ -71,6 +91,7 @@ std::uint64_t layout_digest(const Layout& layout) {
     for (const Vec2& point : control_points_m) bytes.add(point);
   }
   add_properties(bytes, layout);
+  add_rules(bytes, layout);
   return bytes.digest();
 }
 

@@ -11,7 +11,7 @@ inline constexpr double kLongest_s = 1e9;  // of any time in a scenario: keeps s
 template <FieldsOf<Fault> Given, class Visit>
 void visit_fields(Given& fault, Visit&& visit) {
   auto& [kind, agv, at, transport, lasts, load, ahead_m, left_m] = fault;
-  auto& [length_m, width_m] = load;
+  auto& [length_m, width_m, centre_ahead_m] = load;
   const bool no_load = kind != Fault::Kind::LoadDrop;
   visit(Field{.key = "kind", .text = "what goes wrong", .needed = true}, kind);
   visit(Field{.key = "agv", .text = "name of the AGV", .needed = true}, agv);

@@ -1,5 +1,7 @@
 #include "core/scenario/layout.hpp"
 
+#include <algorithm>
+
 #include "core/base/error.hpp"
 #include "core/base/tolerances.hpp"
 #include "core/geometry/biarc.hpp"
@@ -57,24 +59,46 @@ std::vector<Arc> segment_arcs(const Layout& layout, const Segment& segment) {
   return arcs;
 }
 
+MotionLimits Lane::limits(MotionLimits of_vehicle, double reverse_speed_mps) const {
+  double& speed_mps = of_vehicle.speed_mps;
+  if (is_backward() && reverse_speed_mps > 0.0) speed_mps = std::min(speed_mps, reverse_speed_mps);
+  if (speed_limit_mps > 0.0) speed_mps = std::min(speed_mps, speed_limit_mps);
+  return of_vehicle;
+}
+
 LogicalMap::LogicalMap(const Layout& layout)
     : layout_(layout), digest_(layout_digest(layout)), lanes_from_(layout.stations.size()) {
   for (std::size_t i = 0; i < layout_.segments.size(); ++i) {
     const auto& segment = layout_.segments[i];
     const Curve forward = segment_curve(layout_, segment);
     const std::vector<Arc> arcs = segment_arcs(layout_, segment);
-    lanes_.push_back({SegmentId{i}, segment.from, segment.to, forward, arcs, segment.speed_limit_mps});
+    add_lanes({SegmentId{i}, segment.from, segment.to, forward, arcs, segment.speed_limit_mps}, segment.travel);
     if (segment.bidirectional)
-      lanes_.push_back(
-          {SegmentId{i}, segment.to, segment.from, forward.reversed(), reversed(arcs), segment.back_speed_limit_mps});
+      add_lanes(
+          {SegmentId{i}, segment.to, segment.from, forward.reversed(), reversed(arcs), segment.back_speed_limit_mps},
+          segment.back_travel);
   }
   for (std::size_t i = 0; i < lanes_.size(); ++i)
     lanes_from_[lanes_[i].from.index()].push_back(static_cast<std::uint32_t>(i));
 }
 
+void LogicalMap::add_lanes(const Lane& forward, Travel travel) {
+  if (travel != Travel::Backward) lanes_.push_back(forward);
+  if (travel == Travel::Forward) return;
+  lanes_.push_back(forward);
+  lanes_.back().curve = forward.curve.tail_first();
+}
+
 const Lane* LogicalMap::lane(SegmentId segment, StationId from) const {
   for (const auto i : lanes_from_[from.index()]) {
     if (lanes_[i].segment == segment) return &lanes_[i];
+  }
+  return nullptr;
+}
+
+const Lane* LogicalMap::backward_lane(SegmentId segment, StationId from) const {
+  for (const auto i : lanes_from_[from.index()]) {
+    if (lanes_[i].segment == segment && lanes_[i].is_backward()) return &lanes_[i];
   }
   return nullptr;
 }

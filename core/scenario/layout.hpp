@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/base/strong_id.hpp"
 #include "core/base/words.hpp"
 #include "core/geometry/curve.hpp"
+#include "core/motion/motion_profile.hpp"
 #include "core/scenario/segment.hpp"
 
 namespace fleetproof {
@@ -49,6 +51,10 @@ struct Station {
   std::string name;
   Vec2 position_m = Vec2::Zero();
   Purposes purposes = Purpose::Routing;
+  bool turning = true;            // AGVs may turn on the spot here
+  std::optional<Vec2> heading{};  // of an AGV that picks, drops, parks or charges here; none: any
+
+  bool has_rules() const { return !turning || heading.has_value(); }
 };
 
 // The logical map of a warehouse (Sect. 2.2), as plain data: the content of a layout file and nothing derived.
@@ -60,13 +66,20 @@ struct Layout {
   std::vector<SegmentBlock> blocks{};
 };
 
-// One way to drive a segment.
+// One way to drive a segment: in one direction, with one end of the AGV first.
 struct Lane {
   SegmentId segment;
   StationId from, to;
-  Curve curve;
+  Curve curve;            // tail first if the AGV drives backward
   std::vector<Arc> arcs;  // near the curve, to kBezierByArcs_m and kHeadingByArcs_rad: what control software is given
   double speed_limit_mps = 0.0;  // 0: no limit but the vehicle's own
+
+  bool is_backward() const { return curve.is_tail_first(); }
+  // Of the AGV's nose, at either end.
+  Vec2 start_heading() const { return curve.pose_at(0.0).heading; }
+  Vec2 end_heading() const { return curve.pose_at(curve.length_m()).heading; }
+  // The limits of a vehicle, with that of the lane; `reverse_speed_mps` as in VehicleType.
+  MotionLimits limits(MotionLimits of_vehicle, double reverse_speed_mps) const;
 };
 
 // A layout with what follows from it: the curves of its segments, and the lanes that leave each station. It is built
@@ -82,16 +95,20 @@ class LogicalMap {
   const Station& station(StationId id) const { return layout_.stations[id.index()]; }
   const Segment& segment(SegmentId id) const { return layout_.segments[id.index()]; }
 
-  // The lane on `segment` that leaves `from`; null if the segment cannot be driven from there.
+  // The lane on `segment` that leaves `from`; null if the segment cannot be driven from there. If it can be driven with
+  // either end first, this is the way forward.
   const Lane* lane(SegmentId segment, StationId from) const;
+  const Lane* backward_lane(SegmentId segment, StationId from) const;
   const std::vector<Lane>& lanes() const { return lanes_; }
   // The lanes that leave a station, as indices into lanes().
   const std::vector<std::uint32_t>& lanes_from(StationId station) const { return lanes_from_[station.index()]; }
 
  private:
+  void add_lanes(const Lane& forward, Travel travel);
+
   Layout layout_;
   std::uint64_t digest_ = 0;
-  std::vector<Lane> lanes_;                             // by segment; forward before backward
+  std::vector<Lane> lanes_;                             // by segment; there, then back; each forward, then backward
   std::vector<std::vector<std::uint32_t>> lanes_from_;  // by station
 };
 

@@ -27,6 +27,7 @@ struct ScriptedCall {
   Duration at{};
   Action action = Action::Move;
   SegmentId segment;
+  bool backward = false;
 };
 constexpr const char* name_of(ScriptedCall::Action action) {
   switch (action) {

@@ -55,10 +55,12 @@ void visit_fields(Order& order, Visit&& visit) {
 
 template <FieldsOf<ScriptedCall> Call, class Visit>
 void visit_fields(Call& call, Visit&& visit) {
-  auto& [at, action, segment] = call;
+  auto& [at, action, segment, backward] = call;
   visit(Field{.key = "at_s", .text = "when the call is made", .high = kLongest_s, .needed = true}, at);
   visit(Field{.key = "action", .text = "the controller call", .needed = true}, action);
   visit(Field{.key = "segment", .text = "name of the segment that the call is about", .needed = true}, segment);
+  visit(Field{.key = "backward", .text = "whether the AGV drives the segment backward", .left_out = !backward},
+        backward);
 }
 
 template <FieldsOf<AgvSetup> Agv, class Visit>
@@ -82,7 +84,7 @@ void visit_fields(Agv& agv, Visit&& visit) {
 template <FieldsOf<ObstacleSetup> Obstacle, class Visit>
 void visit_fields(Obstacle& obstacle, Visit&& visit) {
   auto& [name, footprint, pose, appears, leaves] = obstacle;
-  auto& [length_m, width_m] = footprint;
+  auto& [length_m, width_m, centre_ahead_m] = footprint;
   auto& [position_m, heading] = pose;
   Field length = kLength, width = kWidth;
   length.needed = width.needed = true;

@@ -14,11 +14,20 @@ inline constexpr double kSlowest = 0.001, kFastest = 100.0;
 inline constexpr Field kLength{"length_m", "length of the body, along its heading", kSmallestBody_m, kLargestBody_m};
 inline constexpr Field kWidth{"width_m", "width of the body", kSmallestBody_m, kLargestBody_m};
 
+inline constexpr Field kCentreAhead{
+    .key = "centre_ahead_m",
+    .text = "the body's centre, ahead of the reference point, which follows the track and about which it turns",
+    .low = -kLargestBody_m,
+    .high = kLargestBody_m};
+inline constexpr Field kReverseSpeed{
+    .key = "reverse_speed_mps", .text = "top speed of driving backward; 0: as forward", .high = kFastest};
+
 template <FieldsOf<VehicleType> Vehicle, class Visit>
 void visit_fields(Vehicle& vehicle, Visit&& visit) {
-  auto& [name, footprint, drive, turn, loaded, lateral_mps2, speed_deviation, settle_s, battery_per_m,
-         battery_idle_per_s, charge_per_s, dock_s, pick_s, drop_s, storage_spread_s, other_spread_s] = vehicle;
-  auto& [length_m, width_m] = footprint;
+  auto& [name, footprint, drive, turn, loaded, lateral_mps2, reverse_speed_mps, speed_deviation, settle_s,
+         battery_per_m, battery_idle_per_s, charge_per_s, dock_s, pick_s, drop_s, storage_spread_s, other_spread_s] =
+      vehicle;
+  auto& [length_m, width_m, centre_ahead_m] = footprint;
   auto& [speed_mps, acceleration_mps2, deceleration_mps2] = drive;
   auto& [speed_radps, acceleration_radps2, deceleration_radps2] = turn;
   auto& [extra_length_m, extra_width_m, speed_share, acceleration_share] = loaded;
@@ -34,6 +43,7 @@ void visit_fields(Vehicle& vehicle, Visit&& visit) {
   visit(Field{.key = "name", .text = "name of the vehicle type"}, name);
   visit(kLength, length_m);
   visit(kWidth, width_m);
+  visit(kCentreAhead.left_out_if(centre_ahead_m == 0.0), centre_ahead_m);
   visit(rate("speed_mps", "top speed", "drive/speed_mps"), speed_mps);
   visit(rate("acceleration_mps2", "acceleration of a drive", "drive/acceleration_mps2"), acceleration_mps2);
   visit(rate("deceleration_mps2", "braking of a drive", "drive/deceleration_mps2"), deceleration_mps2);
@@ -53,6 +63,7 @@ void visit_fields(Vehicle& vehicle, Visit&& visit) {
               .text = "in a bend of radius R the speed is at most sqrt(lateral_mps2 * R); 0: as on the straight",
               .high = kFastest},
         lateral_mps2);
+  visit(kReverseSpeed.left_out_if(reverse_speed_mps == 0.0), reverse_speed_mps);
   visit(Field{.key = "speed_deviation", .text = "every drive is faster or slower by up to this share", .high = 0.5},
         speed_deviation);
   visit(Field{.key = "settle_s", .text = "longest fine positioning after a drive to a stop; uniform", .high = kHour_s},

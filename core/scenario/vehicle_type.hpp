@@ -23,9 +23,10 @@ struct VehicleType {
   MotionLimits drive;
   TurnLimits turn;
   LoadEffect loaded;
-  double lateral_mps2 = 0.0;     // the speed in a bend of radius R is at most sqrt(lateral_mps2 * R); 0: no limit
-  double speed_deviation = 0.0;  // every drive is faster or slower by up to this share, in speed and acceleration
-  double settle_s = 0.0;         // fine positioning after every drive to a stop: uniform on [0, settle_s)
+  double lateral_mps2 = 0.0;       // the speed in a bend of radius R is at most sqrt(lateral_mps2 * R); 0: no limit
+  double reverse_speed_mps = 0.0;  // top speed of driving backward; 0: as forward
+  double speed_deviation = 0.0;    // every drive is faster or slower by up to this share, in speed and acceleration
+  double settle_s = 0.0;           // fine positioning after every drive to a stop: uniform on [0, settle_s)
   double battery_per_m = 1.0 / 20000.0;  // share of a full battery
   double battery_idle_per_s = 0.0;       // share that the AGV uses while it is switched on
   double charge_per_s = 1.0 / 3600.0;
@@ -35,7 +36,8 @@ struct VehicleType {
   double other_spread_s = 0.0;        // how much longer a transfer may take at any other station, uniform
 
   Footprint footprint_with(bool load) const {
-    return load ? Footprint{footprint.length_m + loaded.extra_length_m, footprint.width_m + loaded.extra_width_m}
+    return load ? Footprint{footprint.length_m + loaded.extra_length_m, footprint.width_m + loaded.extra_width_m,
+                            footprint.centre_ahead_m}
                 : footprint;
   }
   MotionLimits drive_with(bool load) const {

@@ -11,13 +11,13 @@
 // and so do their tests.
 namespace fleetproof::agents::testing {
 
-inline constexpr fp_agv kTestAgv{1.6, 1.0, 2.0, 0.5, 1.0, 1.0, 1.0, 1.0, 1.6, 1.0, 0.0};
+inline constexpr fp_agv kTestAgv{1.6, 1.0, 2.0, 0.5, 1.0, 1.0, 1.0, 1.0, 1.6, 1.0, 0.0, 0.0, 0.0, 0};
 
 // Stations and segments by number, in the order in which they were added. Finish with map().
 class DrawnMap {
  public:
   std::uint32_t station(double x_m, double y_m, std::uint32_t purposes = FP_ROUTING) {
-    stations_.push_back({"", x_m, y_m, purposes, 0, nullptr});
+    stations_.push_back({"", x_m, y_m, purposes, 0, nullptr, 0, 0.0, 0.0});
     return static_cast<std::uint32_t>(stations_.size() - 1);
   }
 
@@ -79,7 +79,7 @@ class DrawnMap {
     for (const fp_arc& arc : arcs) length_m += arc.length_m;
     arcs_.push_back(std::move(arcs));
     lanes_.push_back({segments_, from, to, length_m, static_cast<std::uint32_t>(arcs_.back().size()),
-                      arcs_.back().data(), 0.0, 0.0, 0, nullptr});
+                      arcs_.back().data(), 0.0, 0.0, 0, nullptr, 0, 0, nullptr});
   }
 
   std::vector<fp_station> stations_;

@@ -16,7 +16,7 @@ using testing::TestFleet;
 
 fp_pose pose(double x, double y, double angle) { return {x, y, std::cos(angle), std::sin(angle)}; }
 Shape body(const fp_pose& p, double length_m, double width_m) {
-  return body_at({p.x_m, p.y_m}, {p.heading_x, p.heading_y}, length_m, width_m);
+  return body_at({p.x_m, p.y_m}, {p.heading_x, p.heading_y}, {length_m, width_m});
 }
 
 double distance_m(Vec p, const Shape& s) {
@@ -52,22 +52,31 @@ TEST(AgentShapes, CloserThanAgreesWithTheDistanceOfTheSides) {
   EXPECT_GT(near, 5000);
 }
 
-// Whatever the body covers at any point of the arc, the shapes cover; and not much more.
+// The corners of a body whose reference point is at the pose.
+auto corners_of(fp_pose reference, bool tail_first, const Body& body) {
+  const double nose = tail_first ? -1.0 : 1.0;
+  reference.heading_x *= nose, reference.heading_y *= nose;
+  reference.x_m += body.ahead_m * reference.heading_x, reference.y_m += body.ahead_m * reference.heading_y;
+  return testing::corners(reference, body.length_m, body.width_m);
+}
+
+// Whatever the body covers at any point of the arc, nose first or tail first, the shapes cover; and not much more.
 TEST(AgentShapes, SweepCoversTheBodyEverywhereOnTheArc) {
   std::mt19937_64 draws(2);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 120; ++i) {
     const double radius_m = 0.8 + 4.0 * unit(draws), angle = 0.05 + 3.0 * unit(draws);
     const fp_arc arc{pose(5.0 * unit(draws), 5.0 * unit(draws), 6.3 * unit(draws)), i % 6 == 0 ? 4.0 : radius_m * angle,
                      i % 6 == 0 ? 0.0 : (i % 2 == 0 ? 1.0 : -1.0) / radius_m};
-    const double length_m = 1.0 + 1.6 * unit(draws), width_m = 0.6 + 0.7 * unit(draws);
+    const Body body{1.0 + 1.6 * unit(draws), 0.6 + 0.7 * unit(draws), i < 60 ? 0.0 : unit(draws) - 0.5};
+    const bool tail_first = i % 4 >= 2;
     std::vector<Shape> shapes;
-    append_sweep(arc, length_m, width_m, shapes);
+    append_sweep(arc, tail_first, body, shapes);
     double widest_m = 0.0;
-    for (const Shape& s : shapes) widest_m = std::max(widest_m, s.half_width_m - width_m / 2.0);
-    EXPECT_LT(widest_m, 0.08);
+    for (const Shape& s : shapes) widest_m = std::max(widest_m, s.half_width_m - body.width_m / 2.0);
+    EXPECT_LT(widest_m, 0.08 + 0.06 * std::abs(body.ahead_m));
     for (double t = 0.0; t <= 1.0; t += 1.0 / 512) {
-      for (const auto& corner : testing::corners(testing::on_arc(arc, t * arc.length_m), length_m, width_m)) {
+      for (const auto& corner : corners_of(testing::on_arc(arc, t * arc.length_m), tail_first, body)) {
         double nearest_m = 1e9;
         for (const Shape& s : shapes) nearest_m = std::min(nearest_m, distance_m({corner.x, corner.y}, s));
         ASSERT_LE(nearest_m, 1e-9) << "arc " << i << " at " << t;
@@ -172,7 +181,7 @@ TEST(HullGeometry, DrawnLanesConflictIfTheirSweepsDo) {
   HullGeometry geometry(map, fleet.briefing(0, 0));
   const auto sweep = [&](std::uint32_t lane) {
     std::vector<Shape> shapes;
-    append_sweep(map.arc(map.lane(lane), 0), testing::kTestAgv.length_m, testing::kTestAgv.width_m, shapes);
+    append_sweep(map.arc(map.lane(lane), 0), false, {testing::kTestAgv.length_m, testing::kTestAgv.width_m}, shapes);
     return shapes;
   };
   int conflicts = 0;

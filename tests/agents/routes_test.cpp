@@ -30,11 +30,12 @@ struct TiedGrid {
 TEST(Routes, ASearchThatStopsEarlyFindsTheWayOfAWholeSearch) {
   TiedGrid grid;
   const MapView view(grid.map.map());
-  Routes whole(view), early(view);
+  const DriveRules rules(view, 0);
+  Routes whole(view, rules), early(view, rules);
   for (std::uint32_t from = 0; from < 30; ++from) {
-    whole.search(from, grid.cost_s);
+    whole.search(from, {1.0, 0.0}, grid.cost_s);
     for (std::uint32_t to = 0; to < 30; ++to) {
-      early.search(from, grid.cost_s, to);
+      early.search(from, {1.0, 0.0}, grid.cost_s, to);
       const auto a = whole.lanes(to), b = early.lanes(to);
       EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end())) << from << " to " << to;
       EXPECT_EQ(whole.cost_s(to), early.cost_s(to));
@@ -46,7 +47,8 @@ TEST(Routes, ASearchThatStopsEarlyFindsTheWayOfAWholeSearch) {
 TEST(Routes, CostsAreTheLeastOfAllWays) {
   TiedGrid grid;
   const MapView view(grid.map.map());
-  Routes routes(view);
+  const DriveRules rules(view, 0);
+  Routes routes(view, rules);
   for (std::uint32_t from = 0; from < 30; ++from) {
     std::vector<double> least(30, INFINITY);
     least[from] = 0.0;
@@ -56,7 +58,7 @@ TEST(Routes, CostsAreTheLeastOfAllWays) {
         least[way.to] = std::min(least[way.to], least[way.from] + grid.cost_s[lane]);
       }
     }
-    routes.search(from, grid.cost_s);
+    routes.search(from, {1.0, 0.0}, grid.cost_s);
     for (std::uint32_t to = 0; to < 30; ++to) EXPECT_EQ(routes.cost_s(to), least[to]) << from << " to " << to;
   }
 }

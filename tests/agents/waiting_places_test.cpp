@@ -132,7 +132,7 @@ TEST_F(Planning, GetsOutOfTheWayOfWhatIsHeld) {
   Path standing;
   standing.station = 3;
   for (const double draw : {0.0, 0.3, 0.6, 0.9}) {
-    const Stretch s = planner.out_of_the_way(standing, {40.0, kPathLanesMax}, false, draw);
+    const Stretch s = planner.out_of_the_way(standing, {40.0, kPathLanesMax}, false, false, draw);
     ASSERT_FALSE(s.empty());
     EXPECT_TRUE(end(s) == 0U || end(s) == 6U || end(s) == 7U) << end(s);
   }

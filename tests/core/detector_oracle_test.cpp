@@ -7,6 +7,10 @@ namespace {
 
 TEST(DetectorOracle, AgreesWithTheDetectorOnTwoHundredPairs) { EXPECT_EQ(check_many(3, 210).pairs, 210U); }
 
+TEST(DetectorOracle, AgreesOnBodiesThatDriveTailFirstOrTurnAboutAnotherPoint) {
+  EXPECT_EQ(check_many(4, 1'050, PairSource::Bodies::Odd).pairs, 1'050U);
+}
+
 // On straight lines the walk is exact, over all phases of both drives: the first instant is the true one to a
 // nanosecond or two, however long ago the last measurement was. (A phase begun with a speed wrong by a nanometre per
 // second would show.)

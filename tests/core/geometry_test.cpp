@@ -88,7 +88,7 @@ TEST(Rectangle, CornersRunCounterClockwiseFromFrontLeft) {
   const OrientedRectangle r = placed({2.0, 1.0}, {{10.0, 20.0}, Vec2::UnitY()});
   const std::array<Vec2, 4> expected{Vec2(9.5, 21.0), Vec2(9.5, 19.0), Vec2(10.5, 19.0), Vec2(10.5, 21.0)};
   for (int i = 0; i < 4; ++i) EXPECT_NEAR((corner_of(r, i) - expected[static_cast<std::size_t>(i)]).norm(), 0.0, 1e-15);
-  EXPECT_DOUBLE_EQ((Footprint{1.6, 1.2}).half_diagonal_m(), 1.0);
+  EXPECT_DOUBLE_EQ((Footprint{1.6, 1.2}).reach_m(), 1.0);
   EXPECT_DOUBLE_EQ(clearance_m(widened(r, 0.25), placed({1.0, 1.0}, {{12.0, 20.0}, Vec2::UnitX()})), 0.75);
 }
 

@@ -96,8 +96,8 @@ inline void check(const TrajectoryPair& pair, Tally& tally) {
 }
 
 // `pairs` random pairs, every relation in turn; those tuned to the threshold are a seventh.
-inline Tally check_many(std::uint64_t seed, int pairs) {
-  PairSource source(seed);
+inline Tally check_many(std::uint64_t seed, int pairs, PairSource::Bodies bodies = PairSource::Bodies::Plain) {
+  PairSource source(seed, bodies);
   Tally tally;
   for (int i = 0; i < pairs; ++i) {
     const auto relation = static_cast<Relation>(i % kRelations);

@@ -24,7 +24,7 @@ struct OwnPiece {
 
   explicit OwnPiece(const Trajectory& t) {
     piece.begin = at_ns(t.begin), piece.end = at_ns(t.end);
-    piece.footprint = {t.body_length, t.body_width};
+    piece.footprint = {t.body_length, t.body_width, t.ahead};
     piece.start = {vec(t.at), vec(t.heading)};
     if (t.manner == Manner::Rest) return;
     piece.manner = t.manner == Manner::Turn ? fleetproof::Manner::Turn : fleetproof::Manner::Drive;
@@ -34,8 +34,9 @@ struct OwnPiece {
       std::vector<Curve> curves;
       for (const Stroke& s : t.strokes) curves.push_back(curve_of(s));
       curve = std::make_unique<Curve>(Curve::joined(curves));
+      if (t.tail_first) *curve = curve->tail_first();
       piece.curve = curve.get();
-      piece.start = {vec(t.strokes[0].from), vec(t.strokes[0].heading)};
+      piece.start = curve->pose_at(0.0);
       way = curve->length_m();
     }
     piece.profile = MotionProfile(way, {t.limits.speed, t.limits.acceleration, t.limits.deceleration});
@@ -50,7 +51,9 @@ struct OwnPiece {
 
 class PairSource {
  public:
-  explicit PairSource(std::uint64_t seed) : random_(seed) {}
+  // Odd bodies drive tail first as often as not, and their centres need not be where they turn.
+  enum class Bodies { Plain, Odd };
+  explicit PairSource(std::uint64_t seed, Bodies bodies = Bodies::Plain) : random_(seed), bodies_(bodies) {}
 
   // A pair whose bodies come at least near each other; `level_m` is what tangents are tuned to and what violations at
   // the start lie below.
@@ -156,6 +159,9 @@ class PairSource {
   void dress(TrajectoryPair& pair) {
     for (Trajectory* t : {&pair.a, &pair.b}) {
       if (one_in(3)) t->body_length = within(0.5, 2.0), t->body_width = one_in(3) ? t->body_length : within(0.3, 1.5);
+      if (bodies_ == Bodies::Plain) continue;
+      t->tail_first = t->manner == Manner::Drive && one_in(2);
+      t->ahead = one_in(4) ? 0.0 : within(-0.9, 0.9);
     }
   }
 
@@ -222,6 +228,7 @@ class PairSource {
   }
 
   std::mt19937_64 random_;
+  Bodies bodies_;
 };
 
 }  // namespace fleetproof::oracle

@@ -74,16 +74,26 @@ struct Trajectory {
   Manner manner = Manner::Rest;
   Nanoseconds begin = 0, end = 0;
   double body_length = 1.8, body_width = 1.2;
+  double ahead = 0.0;       // of the point that follows the strokes, and about which the body turns: the body's centre
+  bool tail_first = false;  // Drive
   Point at, heading{1.0, 0.0};  // Rest and Turn
   std::vector<Stroke> strokes;  // Drive
   double turn_rad = 0.0;        // Turn, left positive
   Limits limits;
   Trapezoid profile;
 
-  double half_diagonal() const { return 0.5 * std::hypot(body_length, body_width); }
+  // No corner is farther from the point that follows the strokes.
+  double reach() const { return std::abs(ahead) + 0.5 * std::hypot(body_length, body_width); }
   double elapsed_s(Nanoseconds t) const { return static_cast<double>(t - begin) * 1e-9; }
 
   void place(Nanoseconds t, Point& centre, Point& nose) const {
+    follow(t, centre, nose);
+    if (manner == Manner::Drive && tail_first) nose = -1.0 * nose;
+    centre = centre + ahead * nose;
+  }
+
+  // Of the point that follows the strokes, with the way it goes.
+  void follow(Nanoseconds t, Point& centre, Point& nose) const {
     centre = at, nose = heading;
     if (manner == Manner::Rest) return;
     double way = profile.way(elapsed_s(t));
@@ -134,16 +144,14 @@ struct Trajectory {
   // No point of the body is ever faster.
   double fastest_mps() const {
     if (manner == Manner::Rest) return 0.0;
-    return manner == Manner::Turn ? profile.top() * half_diagonal()
-                                  : profile.top() * (1.0 + sharpest_bend() * half_diagonal());
+    return manner == Manner::Turn ? profile.top() * reach() : profile.top() * (1.0 + sharpest_bend() * reach());
   }
   // No point of the body is ever accelerated more, but where two strokes meet.
   double strongest_mps2() const {
     if (manner == Manner::Rest) return 0.0;
     const double v = profile.top(), a = profile.strongest(), bend = sharpest_bend();
-    return manner == Manner::Turn
-               ? (a + v * v) * half_diagonal()
-               : (a + bend * v * v) * (1.0 + bend * half_diagonal()) + steepest_bend() * v * v * half_diagonal();
+    return manner == Manner::Turn ? (a + v * v) * reach()
+                                  : (a + bend * v * v) * (1.0 + bend * reach()) + steepest_bend() * v * v * reach();
   }
   // Whether a joint of two strokes is passed strictly within: there, corners change their velocity at once.
   bool joint_between(Nanoseconds from, Nanoseconds to) const {

@@ -59,7 +59,8 @@ class GlobalClock final : public Law {
 
   static Placed place(const Piece& piece, SimTime t) {
     const Pose pose = piece.pose_at(t);
-    const Point centre{pose.position_m.x(), pose.position_m.y()}, nose{pose.heading.x(), pose.heading.y()};
+    const Point nose{pose.heading.x(), pose.heading.y()},
+        centre = Point{pose.position_m.x(), pose.position_m.y()} + piece.footprint.centre_ahead_m * nose;
     const Point l = 0.5 * piece.footprint.length_m * nose, w = 0.5 * piece.footprint.width_m * left_of(nose);
     return {centre,
             0.5 * std::hypot(piece.footprint.length_m, piece.footprint.width_m),

@@ -48,10 +48,11 @@ extern "C" {
 /* What a controller call returns. */
 typedef enum fp_result {
   FP_OK = 0,
-  FP_EMPTY = 1,    /* get_message: no more messages */
-  FP_REFUSED = -1, /* the AGV is busy, out of order after a contact, or not at an end of that segment (or the segment is
-                      one-way) */
-  FP_INVALID = -2, /* a wrong argument: no such segment, receiver or purpose, or a message that is too long */
+  FP_EMPTY = 1,     /* get_message: no more messages */
+  FP_REFUSED = -1,  /* the AGV is busy, out of order after a contact, or not at an end of that segment; the segment is
+                       one-way, or not for this AGV; or the AGV would have to turn where it must not, or to stay with a
+                       wrong heading */
+  FP_INVALID = -2,  /* a wrong argument: no such segment, receiver or purpose, or a message that is too long */
   FP_SUSPENDED = -3 /* the agent is suspended (more calls than its limit), or not in an activation: return at once */
 } fp_result;
 
@@ -74,8 +75,8 @@ typedef enum fp_action {
 
 /* ---- the briefing ---------------------------------------------------------------------------------------- */
 
-/* An AGV of the fleet; the fleet contains the agent's own AGV. The reference point is the centre of the footprint. The
- * length of the footprint is along the heading. */
+/* An AGV of the fleet; the fleet contains the agent's own AGV. The length of the footprint is along the heading. The
+ * reference point follows the lanes, and the AGV turns about it. Before minor 2 it was the centre of the footprint. */
 typedef struct fp_agv {
   double length_m, width_m;
   double speed_mps, acceleration_mps2, deceleration_mps2;
@@ -83,13 +84,18 @@ typedef struct fp_agv {
   /* Since minor 1: the size with a load, and the share by which a drive may be faster or slower. */
   double loaded_length_m, loaded_width_m;
   double speed_deviation;
+  /* Since minor 2: the centre of the footprint, ahead of the reference point; the top speed of driving backward; and
+   * the number of its vehicle type, for permissions. */
+  double centre_ahead_m;
+  double reverse_speed_mps;
+  uint32_t vehicle_type;
 } fp_agv;
 
 /* A controller call at a fixed time, for the `scripted` agent. */
 typedef struct fp_scripted_call {
   int64_t at_ns;
-  uint32_t action; /* fp_call */
-  uint32_t segment;
+  uint32_t action;  /* fp_call */
+  uint32_t segment; /* with FP_BACKWARD, if so */
 } fp_scripted_call;
 
 typedef enum fp_call { FP_CALL_MOVE = 0, FP_CALL_PICK, FP_CALL_DROP, FP_CALL_PARK, FP_CALL_CHARGE } fp_call;
@@ -111,7 +117,8 @@ typedef struct fp_briefing {
   /* Since minor 1. `boot` says how often this AGV's computer has restarted in this run. The computer keeps only this
    * number. After a restart, start_station is the station at which the AGV stands, or which it left last. start_segment
    * is the segment that the AGV is driving, or FP_NONE. next_segment is the segment that the AGV will drive next,
-   * because of a call before the restart, or FP_NONE. For the actions under way, FP_EVENT_ACTION_DONE still follows. */
+   * because of a call before the restart, or FP_NONE; both with FP_BACKWARD, if the AGV drives backward. For the
+   * actions under way, FP_EVENT_ACTION_DONE still follows. */
   uint32_t boot;
   uint32_t start_segment;
   uint32_t next_segment;

@@ -24,6 +24,9 @@ typedef struct fp_station {
   uint32_t purposes; /* fp_purpose, or-ed */
   uint32_t lane_count;
   const uint32_t* lanes; /* indices of the lanes that leave this station */
+  /* Since minor 2. */
+  uint32_t turning_forbidden;  /* 1: no AGV turns on the spot here */
+  double heading_x, heading_y; /* that an AGV must have to pick, drop, park or charge here; (0, 0): any */
 } fp_station;
 
 /* A straight line (curvature 0) or a circular arc (positive curvature turns left) from `start` along its heading. */
@@ -36,7 +39,22 @@ typedef struct fp_arc {
 /* The arcs of a curved lane lie within 0.1 mm and 2 mrad of its track (the heading counts for the corners of a long
    AGV). The arcs join without kinks, and both ends are exact. */
 
-/* One way to drive a segment. A bidirectional segment has two lanes with the same segment id. AGVs drive nose first. */
+/* Who may drive a lane. */
+typedef enum fp_load_state { FP_ANY_LOAD = 0, FP_EMPTY_ONLY = 1, FP_LOADED_ONLY = 2 } fp_load_state;
+
+typedef struct fp_permission {
+  uint32_t vehicle_type; /* the vehicle_type of an fp_agv; FP_ANY_TYPE: every type */
+  uint32_t load;         /* fp_load_state */
+} fp_permission;
+
+#define FP_ANY_TYPE 0xffffffffu
+
+/* Or-ed to the segment of an action: the AGV drives it backward. Without it, the AGV drives forward, or backward if
+ * that is the only way. */
+#define FP_BACKWARD 0x80000000u
+
+/* One way to drive a segment: in one direction, forward or backward. All lanes of a segment have the same segment id.
+ * The arcs are the way of the reference point; on a lane driven backward, the nose points against them. */
 typedef struct fp_lane {
   uint32_t segment;
   uint32_t from, to; /* stations */
@@ -49,6 +67,9 @@ typedef struct fp_lane {
   double width_m;         /* of the floor drawn for this lane; 0: not known */
   uint32_t block_count;
   const uint32_t* blocks;
+  uint32_t backward;         /* 1: the AGV drives tail first; its actions take segment | FP_BACKWARD */
+  uint32_t permission_count; /* an AGV needs one of these; 0: every AGV may drive here */
+  const fp_permission* permissions;
 } fp_lane;
 
 /* Since minor 2. A block is a named set of segments, as the plant's planner drew it. The warehouse does not enforce it:

@@ -1,0 +1,69 @@
+#include "core/agents/drive_rules.hpp"
+
+#include <algorithm>
+
+namespace fleetproof::agents {
+
+DriveRules::DriveRules(const MapView& map, std::uint32_t vehicle_type) : map_(map), vehicle_type_(vehicle_type) {
+  if (has_rules()) keep_those_that_lead_back();
+}
+
+bool DriveRules::has_rules() const {
+  for (std::uint32_t lane = 0; lane < map_.lane_count(); ++lane) {
+    if (!map_.permits(lane, vehicle_type_, false) || !map_.permits(lane, vehicle_type_, true)) return true;
+    const std::uint32_t end = map_.lane(lane).to;
+    if (!map_.may_turn(end) || !map_.may_stay(end, map_.end_heading(lane))) return true;
+  }
+  return false;
+}
+
+bool DriveRules::leads_to(std::uint32_t state, std::uint32_t next) const {
+  const std::uint32_t lane = state / 2, next_lane = next / 2;
+  if (lane == next_lane) return map_.may_stay(map_.lane(lane).to, map_.end_heading(lane));  // takes up or puts down
+  return state % 2 == next % 2 &&
+         (map_.may_turn(map_.lane(lane).to) || same_heading(map_.end_heading(lane), map_.start_heading(next_lane)));
+}
+
+// All states that can be reached from one, or from which it can be reached; the state itself among them.
+DriveRules::States DriveRules::connected(std::uint32_t from, bool backwards) const {
+  States seen(2 * map_.lane_count(), false);
+  std::vector<std::uint32_t> open{from};
+  seen[from] = true;
+  const auto visit = [&](std::uint32_t here, std::uint32_t there) {
+    if (seen[there] || !permits(there) || !(backwards ? leads_to(there, here) : leads_to(here, there))) return;
+    seen[there] = true;
+    open.push_back(there);
+  };
+  while (!open.empty()) {
+    const std::uint32_t here = open.back();
+    open.pop_back();
+    const fp_lane& lane = map_.lane(here / 2);
+    for (const std::uint32_t next : backwards ? map_.lanes_to(lane.from) : map_.lanes_from(lane.to))
+      visit(here, 2 * next + here % 2);
+    visit(here, here ^ 1U);
+  }
+  return seen;
+}
+
+// The largest set of states that lead to each other; where all can, that is the first.
+void DriveRules::keep_those_that_lead_back() {
+  States judged(2 * map_.lane_count(), false);
+  std::ptrdiff_t largest = -1;
+  for (std::uint32_t state = 0; state < judged.size(); ++state) {
+    if (judged[state] || !permits(state)) continue;
+    States both = connected(state, false);
+    const States back = connected(state, true);
+    for (std::size_t i = 0; i < both.size(); ++i) {
+      both[i] = both[i] && back[i];
+      judged[i] = judged[i] || both[i];
+    }
+    const auto size = std::ranges::count(both, true);
+    if (size <= largest) continue;
+    largest = size;
+    usable_ = std::move(both);
+    if (2 * largest >= static_cast<std::ptrdiff_t>(judged.size())) return;
+  }
+  if (usable_.empty()) usable_.assign(judged.size(), false);
+}
+
+}  // namespace fleetproof::agents

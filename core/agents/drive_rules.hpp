@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/agents/map_view.hpp"
+
+namespace fleetproof::agents {
+
+// What the plant allows a vehicle type: permissions, and stations where no AGV turns or where it must stay with one
+// heading. Requires: the map outlives the object.
+class DriveRules {
+ public:
+  DriveRules(const MapView& map, std::uint32_t vehicle_type);
+
+  // False for most plants: then everything below is allowed.
+  bool any() const { return !usable_.empty(); }
+  // Whether the AGV may drive the lane, with a load or without one, and can come back to where it was.
+  bool is_usable(std::uint32_t lane, bool loaded) const { return !any() || usable_[2 * lane + (loaded ? 1 : 0)]; }
+  // Whether an AGV with this heading may leave by this lane.
+  bool may_leave(Vec heading, std::uint32_t lane) const {
+    return !any() || map_.may_turn(map_.lane(lane).from) || same_heading(heading, map_.start_heading(lane));
+  }
+
+ private:
+  // A state is a lane that has been driven, with a load or without one: 2 * lane + loaded.
+  using States = std::vector<bool>;
+
+  bool has_rules() const;
+  bool permits(std::uint32_t state) const { return map_.permits(state / 2, vehicle_type_, state % 2 == 1); }
+  bool leads_to(std::uint32_t state, std::uint32_t next) const;
+  States connected(std::uint32_t from, bool backwards) const;
+  void keep_those_that_lead_back();
+
+  const MapView& map_;
+  std::uint32_t vehicle_type_;
+  States usable_;  // empty: no rules
+};
+
+}  // namespace fleetproof::agents
