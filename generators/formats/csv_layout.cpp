@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
-#include <iterator>
+#include <functional>
 #include <map>
 
 #include "core/base/catalogue.hpp"
@@ -20,9 +20,10 @@
 namespace fleetproof {
 namespace {
 
-constexpr std::string_view kNodeColumns[] = {"id", "x", "y", "purposes"};
+constexpr std::string_view kNodeColumns[] = {"id", "x", "y", "purposes", "turning", "heading"};
 constexpr std::string_view kEdgeColumns[] = {
-    "from", "to", "bidirectional", "name", "control_points", "speed_limit_mps", "back_speed_limit_mps", "width_m"};
+    "from",    "to",     "bidirectional", "name",        "control_points", "speed_limit_mps", "back_speed_limit_mps",
+    "width_m", "travel", "back_travel",   "permissions", "blocks"};
 
 constexpr std::string_view kNoPurpose = "none";
 
@@ -33,6 +34,17 @@ struct Property {
 constexpr Property kProperties[] = {{"speed_limit_mps", &Segment::speed_limit_mps},
                                     {"back_speed_limit_mps", &Segment::back_speed_limit_mps},
                                     {"width_m", &Segment::width_m}};
+
+// The parts of a text between separators, without empty ones.
+std::vector<std::string_view> words_of(std::string_view text, char separator) {
+  std::vector<std::string_view> words;
+  while (!text.empty()) {
+    const auto word = text.substr(0, text.find(separator));
+    if (!word.empty()) words.push_back(word);
+    text.remove_prefix(std::min(word.size() + 1, text.size()));
+  }
+  return words;
+}
 
 class TableReader {
  public:
@@ -100,6 +112,57 @@ class TableReader {
     return value;
   }
 
+  std::vector<double> numbers(std::string_view text, std::string_view column) const {
+    std::vector<double> found;
+    for (const auto word : words_of(text, ' ')) found.push_back(number(word, column));
+    return found;
+  }
+
+  bool truth(const std::string& word, std::string_view column, bool if_empty) const {
+    if (word.empty()) return if_empty;
+    if (word != "true" && word != "1" && word != "false" && word != "0")
+      refuse(fmt::format("{} is {}; expected true or false", column, in_quotes(word)));
+    return word == "true" || word == "1";
+  }
+
+  template <HasWords Enum>
+  Enum word(std::string_view text, std::string_view column) const {
+    const auto value = value_of<Enum>(text);
+    if (!value) refuse(fmt::format("{} is {}{}", column, in_quotes(text), name_hint(text, kWordsOf<Enum>)));
+    return *value;
+  }
+
+  // "tugger:loaded|:empty": for tuggers with a load, and for every type without one.
+  std::vector<Permission> permissions(std::string_view text) const {
+    std::vector<Permission> found;
+    for (const auto one : words_of(text, '|')) {
+      const auto colon = one.rfind(':');
+      if (colon == std::string_view::npos)
+        refuse(fmt::format("permission {}; expected TYPE:any, TYPE:empty or TYPE:loaded, with | between them",
+                           in_quotes(one)));
+      found.push_back({std::string(one.substr(0, colon)), word<LoadState>(one.substr(colon + 1), "a load state")});
+    }
+    return found;
+  }
+
+  // "dock:one-vehicle".
+  std::uint32_t block(std::string_view text) {
+    const auto colon = text.rfind(':');
+    if (colon == std::string_view::npos)
+      refuse(fmt::format("block {}; expected NAME:one-vehicle or NAME:same-direction, with | between them",
+                         in_quotes(text)));
+    const SegmentBlock one{std::string(text.substr(0, colon)),
+                           word<BlockKind>(text.substr(colon + 1), "a block's kind")};
+    const auto known = std::ranges::find(layout_.blocks, one.name, &SegmentBlock::name);
+    const auto number = static_cast<std::uint32_t>(known - layout_.blocks.begin());
+    if (known == layout_.blocks.end()) {
+      layout_.blocks.push_back(one);
+    } else if (known->kind != one.kind) {
+      refuse(fmt::format("block {} is {} above; a block has one kind", in_quotes(one.name), name_of(known->kind)));
+    }
+    return number;
+  }
+
   void check_width(const std::vector<std::string>& fields) const {
     if (fields.size() > columns_.size())
       refuse(fmt::format("the line has {} fields, its table {} columns", fields.size(), columns_.size()));
@@ -118,6 +181,12 @@ class TableReader {
         refuse(fmt::format("purposes are {}; expected routing, storage, charging or parking, with blanks between them",
                            in_quotes(words)));
       station.purposes = *purposes;
+    }
+    station.turning = truth(field(fields, "turning"), "turning", true);
+    if (const auto heading = numbers(field(fields, "heading"), "heading"); heading.size() == 2) {
+      station.heading = Vec2(heading[0], heading[1]);
+    } else if (!heading.empty()) {
+      refuse(fmt::format("heading is {} numbers; expected a direction x y", heading.size()));
     }
     stations_.emplace(station.name, StationId{layout_.stations.size()});
     layout_.stations.push_back(std::move(station));
@@ -141,21 +210,18 @@ class TableReader {
     segment.to = station_in(to, "to");
     segment.name = field(fields, "name");
     if (segment.name.empty()) segment.name = from + "-" + to;
-    segment.bidirectional = both == "true" || both == "1";
-    if (!segment.bidirectional && !both.empty() && both != "false" && both != "0") {
-      refuse(fmt::format("bidirectional is {}; expected true or false", in_quotes(both)));
-    }
-    std::vector<double> numbers;
-    const auto points = field(fields, "control_points");
-    for (std::string_view rest = points; !rest.empty();) {
-      const auto word = rest.substr(0, rest.find(' '));
-      if (!word.empty()) numbers.push_back(number(word, "a number of control_points"));
-      rest.remove_prefix(std::min(word.size() + 1, rest.size()));
-    }
-    if (numbers.size() % 2 != 0)
-      refuse(fmt::format("control_points are {} numbers; expected x y x y ...", numbers.size()));
-    for (std::size_t i = 0; i < numbers.size(); i += 2)
-      segment.control_points_m.emplace_back(numbers[i], numbers[i + 1]);
+    segment.bidirectional = truth(both, "bidirectional", false);
+    const auto points = numbers(field(fields, "control_points"), "a number of control_points");
+    if (points.size() % 2 != 0)
+      refuse(fmt::format("control_points are {} numbers; expected x y x y ...", points.size()));
+    for (std::size_t i = 0; i < points.size(); i += 2) segment.control_points_m.emplace_back(points[i], points[i + 1]);
+    if (const auto travel = field(fields, "travel"); !travel.empty()) segment.travel = word<Travel>(travel, "travel");
+    if (const auto travel = field(fields, "back_travel"); !travel.empty())
+      segment.back_travel = word<Travel>(travel, "back_travel");
+    segment.permissions = permissions(field(fields, "permissions"));
+    const auto blocks = field(fields, "blocks");
+    for (const auto one : words_of(blocks, '|')) segment.blocks.push_back(block(one));
+    std::ranges::sort(segment.blocks);
     for (const auto& [column, property] : kProperties) {
       if (const auto value = field(fields, column); !value.empty()) segment.*property = number(value, column);
     }
@@ -185,12 +251,92 @@ class TableReader {
   Layout layout_;
 };
 
-std::string quoted(const std::string& text) {
+std::string csv_field(const std::string& text) {
   // A line that begins with # would be a comment.
   if (text.find_first_of(",\"#") == std::string::npos) return text;
   std::string result = "\"";
   for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
   return result + "\"";
+}
+
+template <class Item>
+struct Column {
+  const char* name;
+  std::function<std::string(const Item&)> text;
+  bool always = true;  // else only if some field in it says something
+};
+
+std::vector<Column<Station>> node_columns(const Layout&) {
+  return {{"id", [](const Station& s) { return csv_field(s.name); }},
+          {"x", [](const Station& s) { return fmt::format("{}", s.position_m.x()); }},
+          {"y", [](const Station& s) { return fmt::format("{}", s.position_m.y()); }},
+          {"purposes",
+           [](const Station& s) {
+             const auto purposes = purposes_text(s.purposes);
+             return purposes.empty() ? std::string(kNoPurpose) : purposes;
+           }},
+          {"turning", [](const Station& s) { return std::string(s.turning ? "" : "false"); }, false},
+          {"heading",
+           [](const Station& s) {
+             return s.heading ? fmt::format("{} {}", s.heading->x(), s.heading->y()) : std::string();
+           },
+           false}};
+}
+
+std::string points_text(const Segment& segment) {
+  std::string text;
+  for (const Vec2& point : segment.control_points_m)
+    text += fmt::format("{}{} {}", text.empty() ? "" : " ", point.x(), point.y());
+  return text;
+}
+
+std::string permissions_text(const Segment& segment) {
+  std::string text;
+  for (const auto& [vehicle_type, load] : segment.permissions)
+    text += fmt::format("{}{}:{}", text.empty() ? "" : "|", vehicle_type, name_of(load));
+  return text.empty() ? text : csv_field(text);
+}
+
+std::string number_text(double value) { return value > 0.0 ? fmt::format("{}", value) : std::string(); }
+std::string travel_text(Travel travel) { return travel == Travel::Forward ? "" : name_of(travel); }
+
+std::vector<Column<Segment>> edge_columns(const Layout& layout) {
+  const auto station = [&layout](StationId id) { return csv_field(layout.stations.at(id.index()).name); };
+  const auto blocks = [&layout](const Segment& segment) {
+    std::string text;
+    for (const std::uint32_t number : segment.blocks) {
+      const SegmentBlock& block = layout.blocks.at(number);
+      text += fmt::format("{}{}:{}", text.empty() ? "" : "|", block.name, name_of(block.kind));
+    }
+    return text.empty() ? text : csv_field(text);
+  };
+  return {{"from", [station](const Segment& s) { return station(s.from); }},
+          {"to", [station](const Segment& s) { return station(s.to); }},
+          {"bidirectional", [](const Segment& s) { return fmt::format("{}", s.bidirectional); }},
+          {"name", [](const Segment& s) { return csv_field(s.name); }},
+          {"control_points", points_text},
+          {"speed_limit_mps", [](const Segment& s) { return number_text(s.speed_limit_mps); }, false},
+          {"back_speed_limit_mps", [](const Segment& s) { return number_text(s.back_speed_limit_mps); }, false},
+          {"width_m", [](const Segment& s) { return number_text(s.width_m); }, false},
+          {"travel", [](const Segment& s) { return travel_text(s.travel); }, false},
+          {"back_travel", [](const Segment& s) { return travel_text(s.back_travel); }, false},
+          {"permissions", permissions_text, false},
+          {"blocks", blocks, false}};
+}
+
+template <class Item>
+std::string columns_text(const std::vector<Item>& items, std::vector<Column<Item>> columns) {
+  std::erase_if(columns, [&](const Column<Item>& column) {
+    return !column.always && std::ranges::all_of(items, [&](const Item& item) { return column.text(item).empty(); });
+  });
+  std::string text;
+  const auto line = [&](const auto& field) {
+    for (const Column<Item>& column : columns) text += (&column == &columns.front() ? "" : ",") + field(column);
+    text += '\n';
+  };
+  line([](const Column<Item>& column) { return std::string(column.name); });
+  for (const Item& item : items) line([&](const Column<Item>& column) { return column.text(item); });
+  return text;
 }
 
 }  // namespace
@@ -207,30 +353,7 @@ Layout parse_csv_layout(std::string_view text, std::string_view source, std::vec
 }
 
 std::string to_csv(const Layout& layout) {
-  std::string text = "id,x,y,purposes\n";
-  for (const auto& s : layout.stations) {
-    const auto purposes = purposes_text(s.purposes);
-    text += fmt::format("{},{},{},{}\n", quoted(s.name), s.position_m.x(), s.position_m.y(),
-                        purposes.empty() ? kNoPurpose : purposes);
-  }
-  text += "from,to,bidirectional,name,control_points";
-  std::vector<Property> shown;
-  std::ranges::copy_if(kProperties, std::back_inserter(shown), [&](const Property& property) {
-    return std::ranges::any_of(layout.segments, [&](const Segment& s) { return s.*property.value > 0.0; });
-  });
-  for (const Property& property : shown) text += fmt::format(",{}", property.column);
-  text += '\n';
-  for (const auto& s : layout.segments) {
-    text += fmt::format("{},{},{},{},", quoted(layout.stations.at(s.from.index()).name),
-                        quoted(layout.stations.at(s.to.index()).name), s.bidirectional, quoted(s.name));
-    for (std::size_t i = 0; i < s.control_points_m.size(); ++i) {
-      text += fmt::format("{}{} {}", i > 0 ? " " : "", s.control_points_m[i].x(), s.control_points_m[i].y());
-    }
-    for (const Property& property : shown)
-      text += s.*property.value > 0.0 ? fmt::format(",{}", s.*property.value) : std::string(",");
-    text += '\n';
-  }
-  return text;
+  return columns_text(layout.stations, node_columns(layout)) + columns_text(layout.segments, edge_columns(layout));
 }
 
 }  // namespace fleetproof

@@ -17,11 +17,12 @@ namespace {
 constexpr std::int64_t kVersion = 1;
 constexpr std::string_view kFileKeys[] = {"version", "layout"};
 constexpr std::string_view kLayoutKeys[] = {"name", "floor_low_m", "floor_high_m", "stations", "segments", "blocks"};
-constexpr std::string_view kStationKeys[] = {"name", "position_m", "purposes"};
+constexpr std::string_view kStationKeys[] = {"name", "position_m", "purposes", "turning", "heading"};
 constexpr std::string_view kSegmentKeys[] = {
-    "name",    "from",  "to", "bidirectional", "control_points_m", "speed_limit_mps", "back_speed_limit_mps",
-    "width_m", "blocks"};
+    "name",    "from",   "to",     "bidirectional", "control_points_m", "speed_limit_mps", "back_speed_limit_mps",
+    "width_m", "blocks", "travel", "back_travel",   "permissions"};
 constexpr std::string_view kBlockKeys[] = {"name", "kind"};
+constexpr std::string_view kPermissionKeys[] = {"vehicle_type", "load"};
 
 using StationsByName = std::map<std::string, StationId>;
 
@@ -41,12 +42,23 @@ Purposes read_purposes(const JsonReader& reader) {
   return purposes;
 }
 
+// A value that is one of a few words.
+template <HasWords Enum>
+Enum read_word(const JsonReader& reader) {
+  const auto word = reader.text();
+  const auto value = value_of<Enum>(word);
+  if (!value) reader.refuse("there is no such word here" + name_hint(word, kWordsOf<Enum>));
+  return *value;
+}
+
 Station read_station(const JsonReader& reader) {
   reader.expect_object(kStationKeys);
   Station station;
   station.name = reader.at("name").text();
   station.position_m = reader.at("position_m").vector();
   if (const auto purposes = reader.find("purposes")) station.purposes = read_purposes(*purposes);
+  reader.read("turning", station.turning);
+  if (const auto heading = reader.find("heading")) station.heading = heading->heading();
   return station;
 }
 
@@ -82,10 +94,23 @@ std::uint32_t block_named(const JsonReader& reader, const std::vector<SegmentBlo
   return static_cast<std::uint32_t>(found - blocks.begin());
 }
 
+Permission read_permission(const JsonReader& reader) {
+  reader.expect_object(kPermissionKeys);
+  Permission permission;
+  reader.read("vehicle_type", permission.vehicle_type);
+  if (const auto load = reader.find("load")) permission.load = read_word<LoadState>(*load);
+  return permission;
+}
+
 void read_properties(const JsonReader& reader, const std::vector<SegmentBlock>& blocks, Segment& segment) {
   reader.read("speed_limit_mps", segment.speed_limit_mps);
   reader.read("back_speed_limit_mps", segment.back_speed_limit_mps);
   reader.read("width_m", segment.width_m);
+  if (const auto travel = reader.find("travel")) segment.travel = read_word<Travel>(*travel);
+  if (const auto travel = reader.find("back_travel")) segment.back_travel = read_word<Travel>(*travel);
+  if (const auto permissions = reader.find("permissions")) {
+    for (const auto& item : permissions->items()) segment.permissions.push_back(read_permission(item));
+  }
   const auto names = reader.find("blocks");
   if (!names) return;
   for (const auto& item : names->items()) segment.blocks.push_back(block_named(item, blocks));
@@ -97,16 +122,12 @@ SegmentBlock read_block(const JsonReader& reader) {
   reader.expect_object(kBlockKeys);
   SegmentBlock block;
   block.name = reader.at("name").text();
-  if (const auto kind = reader.find("kind")) {
-    const auto value = value_of<BlockKind>(kind->text());
-    if (!value) kind->refuse("there is no such kind" + name_hint(kind->text(), kWordsOf<BlockKind>));
-    block.kind = *value;
-  }
+  if (const auto kind = reader.find("kind")) block.kind = read_word<BlockKind>(*kind);
   return block;
 }
 
 void write_station(JsonWriter& writer, const Station& station) {
-  const auto& [name, position_m, purposes] = station;
+  const auto& [name, position_m, purposes, turning, heading] = station;
   writer.open_object(JsonWriter::Style::Line);
   writer.key("name").value(name);
   writer.key("position_m").value(position_m);
@@ -115,12 +136,25 @@ void write_station(JsonWriter& writer, const Station& station) {
     if (purposes.has(static_cast<Purpose>(1 << bit))) writer.value(kPurposeNames[bit]);
   }
   writer.close();
+  if (!turning) writer.key("turning").value(turning);
+  if (heading) writer.key("heading").value(*heading);
+  writer.close();
+}
+
+void write_permissions(JsonWriter& writer, const std::vector<Permission>& permissions) {
+  writer.key("permissions").open_array();
+  for (const auto& [vehicle_type, load] : permissions) {
+    writer.open_object(JsonWriter::Style::Line);
+    if (!vehicle_type.empty()) writer.key("vehicle_type").value(vehicle_type);
+    if (load != LoadState::Any) writer.key("load").value(name_of(load));
+    writer.close();
+  }
   writer.close();
 }
 
 void write_segment(JsonWriter& writer, const Layout& layout, const Segment& segment) {
-  const auto& [name, from, to, bidirectional, control_points_m, speed_limit_mps, back_speed_limit_mps, width_m,
-               blocks] = segment;
+  const auto& [name, from, to, bidirectional, control_points_m, speed_limit_mps, back_speed_limit_mps, width_m, blocks,
+               travel, back_travel, permissions] = segment;
   writer.open_object(JsonWriter::Style::Line);
   writer.key("name").value(name);
   writer.key("from").value(layout.stations.at(from.index()).name);
@@ -142,6 +176,9 @@ void write_segment(JsonWriter& writer, const Layout& layout, const Segment& segm
     for (const std::uint32_t block : blocks) writer.value(layout.blocks.at(block).name);
     writer.close();
   }
+  if (travel != Travel::Forward) writer.key("travel").value(name_of(travel));
+  if (back_travel != Travel::Forward) writer.key("back_travel").value(name_of(back_travel));
+  if (!permissions.empty()) write_permissions(writer, permissions);
   writer.close();
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <set>
 
@@ -19,6 +20,7 @@
 #include "generators/map/antiparallel.hpp"
 #include "generators/map/layout_check.hpp"
 #include "generators/text/json_value.hpp"
+#include "generators/text/name_list.hpp"
 #include "generators/text/text_file.hpp"
 
 namespace fleetproof {
@@ -49,6 +51,8 @@ Purposes purposes_of_actions(const std::optional<JsonReader>& vehicle_types, con
   return purposes;
 }
 
+constexpr double kHalfTurns = 0.005;  // tolerance of an orientation, in half turns
+
 class LifReader {
  public:
   LifReader(std::string_view text, std::string_view source, std::vector<std::string>& warnings,
@@ -69,6 +73,10 @@ class LifReader {
     }
     for (const auto& [index, purposes] : stated_) layout_.stations[index].purposes = purposes;
     note_left_out(JsonReader(root_, source_), layout, choice_.purposes, warnings_);
+    if (!sideways_.empty())
+      warn(layout, fmt::format("{} edges turn the AGV sideways or by a heading on the map ({}); sideways travel is not "
+                               "modelled: here AGVs drive them nose first",
+                               sideways_.size(), name_list(sideways_)));
     if (of_types_ > 0)
       warn(layout,
            fmt::format("{} edges have a speed limit for each type of vehicle; the lowest is taken for all", of_types_));
@@ -161,6 +169,10 @@ class LifReader {
         if (!trajectory) trajectory = type.find("trajectory");
       }
       limit_speed(*types, segment);
+      say_travel(*types, segment);
+      if (!say_loads(*types, segment))
+        return warn(edge, fmt::format("edge {} is for AGVs neither with a load nor without one; it is left out",
+                                      in_quotes(segment.name)));
     }
     if (trajectory) bend(*trajectory, segment);
     layout_.segments.push_back(std::move(segment));
@@ -179,6 +191,44 @@ class LifReader {
     const auto [lowest, highest] = std::ranges::minmax(limits_mps);
     if (std::isfinite(lowest)) segment.speed_limit_mps = lowest;
     of_types_ += lowest < highest ? 1 : 0;
+  }
+
+  // Whether the types drive it forward, backward, or some one way and some the other.
+  void say_travel(const JsonReader& types, Segment& segment) {
+    bool forward = false, backward = false;
+    for (const auto& type : types.items()) {
+      const auto orientation = type.find("vehicleOrientation");
+      const double rad = orientation ? orientation->number() : 0.0;
+      if (!(std::abs(rad) <= 1e6)) orientation->refuse("expected an angle in radians");
+      std::string reference = "TANGENTIAL";
+      type.read("orientationType", reference);
+      const double turns = std::abs(rad) / std::numbers::pi;  // half turns
+      const auto whole = static_cast<std::int64_t>(turns + 0.5);
+      const bool along = std::abs(turns - static_cast<double>(whole)) < kHalfTurns;
+      if (reference != "TANGENTIAL" || !along) {
+        sideways_.push_back(segment.name);
+        forward = true;
+      } else {
+        (whole % 2 == 0 ? forward : backward) = true;
+      }
+    }
+    if (backward) segment.travel = forward ? Travel::Either : Travel::Backward;
+  }
+
+  // Whether any type may drive it, with a load or without one.
+  static bool say_loads(const JsonReader& types, Segment& segment) {
+    bool empty = false, loaded = false;
+    for (const auto& type : types.items()) {
+      bool this_empty = true, this_loaded = true;
+      if (const auto restriction = type.find("loadRestriction")) {
+        restriction->read("unloaded", this_empty);
+        restriction->read("loaded", this_loaded);
+      }
+      empty = empty || this_empty;
+      loaded = loaded || this_loaded;
+    }
+    if (empty != loaded) segment.permissions = {{"", empty ? LoadState::Empty : LoadState::Loaded}};
+    return empty || loaded || types.items().empty();
   }
 
   static Nurbs nurbs_of(const JsonReader& trajectory) {
@@ -264,6 +314,7 @@ class LifReader {
   std::map<std::string, StationId> stations_;
   std::map<std::size_t, Purposes> stated_;  // by station: given in the description of the station
   std::size_t of_types_ = 0;                // edges
+  std::vector<std::string> sideways_;       // names of edges
 };
 
 }  // namespace

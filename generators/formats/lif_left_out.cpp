@@ -16,13 +16,10 @@ constexpr Topic kHeadings{"{0} nodes ask for a heading ({1}); here an AGV stands
 constexpr Topic kActions{"{0} types of actions are left out ({1})"};
 constexpr Topic kDetails{
     "{0} kinds of details of actions are left out ({1}); here an action takes the time of its task"};
-constexpr Topic kSideways{
-    "{0} edges turn the AGV against the way (vehicleOrientation, orientationType) ({1}); sideways and reverse travel "
-    "are "
-    "not modelled: here AGVs drive nose first"};
+constexpr Topic kSideways{"{0} edges list orientations of robots ({1}); they are left out"};
 constexpr Topic kTurns{"{0} edges have rules for turning ({1}); here an AGV turns at stations only"};
 constexpr Topic kLifts{"{0} edges and stations give the height of a lift or load ({1}); here the floor is flat"};
-constexpr Topic kLoads{"{0} edges are for certain loads ({1}); here every AGV drives every segment"};
+constexpr Topic kLoads{"{0} edges are for sets of loads ({1}); here all loads are alike"};
 constexpr Topic kReentry{"{0} edges have rules for reentry ({1}); they are left out"};
 constexpr Topic kCorridors{
     "{0} nodes and edges let an AGV leave the lane ({1}); leaving the lane is not modelled: it stays on the lane"};
@@ -69,9 +66,9 @@ constexpr Rule kRules[] = {
     {"edges/edgeDescription", &kNotes, Named::ByKey},
     {"edges/types"},
     {"edges/types/typeId", &kTypes, Named::ByValue},
-    {"edges/types/vehicleOrientation", &kSideways, Named::ByOwner, "0"},
+    {"edges/types/vehicleOrientation"},
     {"edges/types/mobileRobotOrientations", &kSideways},
-    {"edges/types/orientationType", &kSideways, Named::ByOwner, "TANGENTIAL"},
+    {"edges/types/orientationType"},
     {"edges/types/rotationAllowed", &kTurns, Named::ByOwner, "false"},
     {"edges/types/rotationAtStartNodeAllowed", &kTurns, Named::ByOwner, "BOTH"},
     {"edges/types/rotationAtEndNodeAllowed", &kTurns, Named::ByOwner, "BOTH"},
@@ -84,7 +81,10 @@ constexpr Rule kRules[] = {
     {"edges/types/maxHeight", &kLifts},
     {"edges/types/minimumHeight", &kLifts},
     {"edges/types/maximumHeight", &kLifts},
-    {"edges/types/loadRestriction", &kLoads},
+    {"edges/types/loadRestriction"},
+    {"edges/types/loadRestriction/loaded"},
+    {"edges/types/loadRestriction/unloaded"},
+    {"edges/types/loadRestriction/loadSetNames", &kLoads},
     {"edges/types/actions"},
     {"edges/types/trajectory"},
     {"edges/types/trajectory/degree"},

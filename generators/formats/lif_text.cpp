@@ -1,6 +1,7 @@
 #include "generators/formats/lif_text.hpp"
 
 #include <algorithm>
+#include <numbers>
 #include <set>
 
 #include "generators/formats/lif.hpp"
@@ -77,19 +78,47 @@ void write_trajectory(JsonWriter& writer, const std::vector<Vec2>& points) {
   writer.close();
 }
 
-void write_edge(JsonWriter& writer, const std::string& name, const Station& from, const Station& to,
-                const std::vector<Vec2>& points, double speed_limit_mps) {
-  writer.open_object();
-  writer.key("edgeId").value(name);
-  writer.key("startNodeId").value(from.name);
-  writer.key("endNodeId").value(to.name);
-  writer.key("vehicleTypeEdgeProperties").open_array();
+// What LIF has a place for: a load state that holds for every type of vehicle.
+LoadState load_of(const Segment& segment) {
+  const auto& all = segment.permissions;
+  return all.size() == 1 && all[0].vehicle_type.empty() ? all[0].load : LoadState::Any;
+}
+
+struct Edge {
+  std::string name;
+  const Station &from, &to;
+  std::vector<Vec2> points;
+  Travel travel;
+  double speed_limit_mps;
+  LoadState load;
+};
+
+void write_type(JsonWriter& writer, const Edge& edge, bool backward, bool first) {
   writer.open_object();
   writer.key("vehicleTypeId").value(kVehicleType);
+  if (backward) writer.key("vehicleOrientation").value(std::numbers::pi);
   writer.key("rotationAllowed").value(false);
-  if (speed_limit_mps > 0.0) writer.key("maxSpeed").value(speed_limit_mps);
-  if (points.size() > 2) write_trajectory(writer, points);
+  if (edge.speed_limit_mps > 0.0) writer.key("maxSpeed").value(edge.speed_limit_mps);
+  if (edge.load != LoadState::Any) {
+    writer.key("loadRestriction").open_object(Style::Line);
+    writer.key("unloaded").value(edge.load == LoadState::Empty);
+    writer.key("loaded").value(edge.load == LoadState::Loaded);
+    writer.close();
+  }
+  if (first && edge.points.size() > 2) write_trajectory(writer, edge.points);
   writer.close();
+}
+
+// An edge that is driven either way has its type of vehicle twice.
+void write_edge(JsonWriter& writer, const Edge& edge) {
+  writer.open_object();
+  writer.key("edgeId").value(edge.name);
+  writer.key("startNodeId").value(edge.from.name);
+  writer.key("endNodeId").value(edge.to.name);
+  writer.key("vehicleTypeEdgeProperties").open_array();
+  const bool forward = edge.travel != Travel::Backward;
+  if (forward) write_type(writer, edge, false, true);
+  if (edge.travel != Travel::Forward) write_type(writer, edge, true, !forward);
   writer.close();
   writer.close();
 }
@@ -102,7 +131,7 @@ void write_edges(JsonWriter& writer, const Layout& layout) {
     std::vector<Vec2> points{from.position_m};
     points.insert(points.end(), segment.control_points_m.begin(), segment.control_points_m.end());
     points.push_back(to.position_m);
-    write_edge(writer, segment.name, from, to, points, segment.speed_limit_mps);
+    write_edge(writer, {segment.name, from, to, points, segment.travel, segment.speed_limit_mps, load_of(segment)});
     if (!segment.bidirectional) continue;
     // Names have at most 200 bytes, and so must this name.
     auto back = segment.name.size() > 190 ? std::to_string(&segment - layout.segments.data()) : segment.name;
@@ -110,7 +139,7 @@ void write_edges(JsonWriter& writer, const Layout& layout) {
       back += '~';
     } while (!taken.insert(back).second);
     std::ranges::reverse(points);
-    write_edge(writer, back, to, from, points, segment.back_speed_limit_mps);
+    write_edge(writer, {back, to, from, points, segment.back_travel, segment.back_speed_limit_mps, load_of(segment)});
   }
 }
 

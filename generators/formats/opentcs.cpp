@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <pugixml.hpp>
 #include <set>
+#include <utility>
 
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
@@ -54,6 +56,7 @@ class ModelReader {
     for (const auto type : model.children("locationType")) add_location_type(type);
     for (const auto location : model.children("location")) add_location(location);
     note_operations(model);
+    for (const auto block : model.children("block")) add_block(block);
     fit_floor(layout_, 3.0);
     refuse_problems(model);
     compare_lengths(model);
@@ -123,21 +126,46 @@ class ModelReader {
       return warn(path, fmt::format("locked path {} is left out", in_quotes(segment.name)));
     if (segment.from == segment.to)
       xml_.refuse(path, fmt::format("path {} leads from a point to itself; leave it out", in_quotes(segment.name)));
-    segment.speed_limit_mps = speed_limit_mps(path);
     bend(path, segment);
+    if (!say_travel(path, segment))
+      return warn(path, fmt::format("path {} is left out: both of its velocities are 0", in_quotes(segment.name)));
     layout_.segments.push_back(std::move(segment));
     paths_.push_back(path);
   }
 
-  // 0 in the file means none. A limit above all vehicles is none, too.
-  double speed_limit_mps(const pugi::xml_node& path) const {
-    const auto limit = path.attribute("maxVelocity");
-    double limit_mmps = 0.0;
-    if (limit && (!read_number(limit.value(), limit_mmps) || !(limit_mmps >= 0.0)))
-      xml_.refuse(path,
-                  fmt::format("maxVelocity is {}; expected a whole number of mm/s, or 0", in_quotes(limit.value())));
-    return limit_mmps / 1000.0 <= kFastest ? limit_mmps / 1000.0 : 0.0;
+  // A path is driven forward from source to destination, and backward from destination to source, each unless its
+  // velocity is 0. False if both are.
+  bool say_travel(const pugi::xml_node& path, Segment& segment) const {
+    const auto forward = velocity_mps(path, "maxVelocity"), backward = velocity_mps(path, "maxReverseVelocity");
+    const bool reverses = backward.value_or(0.0) > 0.0;
+    if (forward.value_or(1.0) > 0.0) {
+      segment.speed_limit_mps = limit_mps(forward.value_or(0.0));
+      segment.bidirectional = reverses;
+      if (!reverses) return true;
+      segment.back_travel = Travel::Backward;
+      segment.back_speed_limit_mps = limit_mps(*backward);
+      return true;
+    }
+    if (!reverses) return false;
+    std::swap(segment.from, segment.to);
+    std::ranges::reverse(segment.control_points_m);
+    segment.travel = Travel::Backward;
+    segment.speed_limit_mps = limit_mps(*backward);
+    return true;
   }
+
+  std::optional<double> velocity_mps(const pugi::xml_node& path, const char* name) const {
+    const auto velocity = path.attribute(name);
+    if (!velocity) return std::nullopt;
+    double velocity_mmps = 0.0;
+    if (!read_number(velocity.value(), velocity_mmps) || !(velocity_mmps >= 0.0))
+      xml_.refuse(path,
+                  fmt::format("{} is {}; expected a whole number of mm/s, or 0", name, in_quotes(velocity.value())));
+    return velocity_mmps / 1000.0;
+  }
+
+  // A limit above all vehicles is none.
+  static double limit_mps(double velocity_mps) { return velocity_mps <= kFastest ? velocity_mps : 0.0; }
 
   void bend(const pugi::xml_node& path, Segment& segment) {
     const auto& drawn = drawing_.paths.at(segment.name);
@@ -230,6 +258,26 @@ class ModelReader {
     }
   }
 
+  // Of the paths that are read. Points and locations in it are told as left out.
+  void add_block(const pugi::xml_node& block) {
+    SegmentBlock made{name_of_new(block, block_names_), BlockKind::OneVehicle};
+    const std::string_view type = block.attribute("type").as_string("SINGLE_VEHICLE_ONLY");
+    if (type == "SAME_DIRECTION_ONLY") made.kind = BlockKind::SameDirection;
+    if (type != "SAME_DIRECTION_ONLY" && type != "SINGLE_VEHICLE_ONLY")
+      warn(block, fmt::format("type {} of block {} is unknown here; it is taken for one vehicle at a time",
+                              in_quotes(type), in_quotes(made.name)));
+    const auto number = static_cast<std::uint32_t>(layout_.blocks.size());
+    bool holds_one = false;
+    for (const auto member : block.children("member")) {
+      const auto found = std::ranges::find(layout_.segments, member.attribute("name").value(), &Segment::name);
+      if (found == layout_.segments.end() || std::ranges::count(found->blocks, number) > 0) continue;
+      found->blocks.push_back(number);
+      holds_one = true;
+    }
+    if (holds_one) return layout_.blocks.push_back(std::move(made));
+    warn(block, fmt::format("block {} holds no path that is read; it is left out", in_quotes(made.name)));
+  }
+
   // The place in the file that caused a fault of the finished layout.
   pugi::xml_node origin(std::string_view pointer, const pugi::xml_node& model) const {
     const bool of_segment = pointer.starts_with("/segments/");
@@ -281,7 +329,7 @@ class ModelReader {
   OpenTcsDrawing drawing_;
   Layout layout_;
   std::vector<pugi::xml_node> paths_;  // by segment, as long as no two of them are merged
-  std::set<std::string> point_names_, path_names_;
+  std::set<std::string> point_names_, path_names_, block_names_;
   std::map<std::string, StationId> stations_;
   std::map<std::string, pugi::xml_node> location_types_;
   std::map<std::string, std::vector<std::string>> straightened_;  // names of paths, by their connection

@@ -10,8 +10,6 @@
 namespace fleetproof {
 namespace {
 
-constexpr Topic kReverse{
-    "{0} paths may be driven in reverse ({1}); here AGVs drive nose first, from source to destination only"};
 constexpr Topic kCosts{"{0} paths have routing costs ({1}); they are left out"};
 constexpr Topic kHeights{"{0} points and locations lie above or below the floor ({1}); here the floor is flat"};
 constexpr Topic kHeadings{"{0} points ask for a heading ({1}); here an AGV stands as it arrives"};
@@ -20,7 +18,7 @@ constexpr Topic kEnvelopes{
     "{0} points and paths have envelopes ({1}); they are left out, because the body of each AGV is followed"};
 constexpr Topic kDevices{
     "{0} elements operate doors, lifts or other devices ({1}); these are not modelled: an AGV drives on without them"};
-constexpr Topic kBlocks{"{0} blocks are left out ({1}); here the software under test keeps AGVs apart"};
+constexpr Topic kMembers{"{0} members of blocks are no paths ({1}); here a block holds paths alone"};
 constexpr Topic kVehicles{"{0} vehicles and types of vehicles are left out ({1}); a campaign has its own fleet"};
 constexpr Topic kByType{"{0} paths have rules for types of vehicles ({1}); they are left out"};
 constexpr Topic kRoutes{"{0} static routes are left out ({1})"};
@@ -72,7 +70,7 @@ constexpr Rule kRules[] = {
     {"path", "length"},
     {"path", "locked"},
     {"path", "maxVelocity"},
-    {"path", "maxReverseVelocity", &kReverse, "0"},
+    {"path", "maxReverseVelocity"},
     {"path", "routingCost", &kCosts, "1"},
     {"path", "id", &kNumbers},
     {"path/typeMaxVelocity", "*", &kByType},
@@ -111,7 +109,12 @@ constexpr Rule kRules[] = {
     {"location/link/allowedOperation/property", "*", &kProperties},
     {"location/property", "*", &kProperties},
     {"location/locationLayout", "*", &kEditor},
-    {"block", "*", &kBlocks},
+    {"block", "name"},
+    {"block", "type"},
+    {"block", "id", &kNumbers},
+    {"block/member", "name"},
+    {"block/property", "*", &kProperties},
+    {"block/blockLayout", "*", &kEditor},
     {"staticRoute", "*", &kRoutes},
     {"group", "*", &kGroups},
     {"visualLayout", "scaleX"},
@@ -148,8 +151,10 @@ class LeftOut {
  public:
   LeftOut(const XmlText& xml, const pugi::xml_node& model) : xml_(xml), model_(model) {
     for (const auto child : model.children()) names_.insert(child.attribute("name").value());
-    for (const auto path : model.children("path"))
+    for (const auto path : model.children("path")) {
       starts_.emplace(path.attribute("sourcePoint").value(), path.attribute("name").value());
+      paths_.insert(path.attribute("name").value());
+    }
   }
 
   void tell(std::vector<std::string>& warnings) {
@@ -174,6 +179,8 @@ class LeftOut {
     if (std::ranges::find(kSingle, path) != std::end(kSingle) && node.previous_sibling(node.name()))
       return add(kSecond, node, owner.empty() ? path : owner);
     attributes(node, path);
+    if (path == "block/member" && !paths_.contains(node.attribute("name").value()))
+      add(kMembers, node, node.attribute("name").value());
     for (const auto child : node.children()) visit(child, path + "/" + child.name(), owner);
   }
 
@@ -214,7 +221,7 @@ class LeftOut {
 
   const XmlText& xml_;
   const pugi::xml_node model_;
-  std::set<std::string> names_;
+  std::set<std::string> names_, paths_;
   std::set<std::pair<std::string, std::string>> starts_;  // point and path that starts there
   LeftOutThings things_;
 };

@@ -14,6 +14,7 @@
 #include "generators/formats/rmf_left_out.hpp"
 #include "generators/map/antiparallel.hpp"
 #include "generators/map/layout_check.hpp"
+#include "generators/text/name_list.hpp"
 #include "generators/text/text_file.hpp"
 #include "generators/text/yaml_text.hpp"
 
@@ -40,7 +41,11 @@ class LevelReader {
     for (const auto lane : lanes) add_lane(lane, place++);
     if (layout_.segments.empty())
       yaml_.refuse(lanes, fmt::format("no lane belongs to graph {}; choose another graph or level", choice_.graph_idx));
-    if (other_graphs_ > 0) warn(lanes, fmt::format("{} lanes of other graphs are left out", other_graphs_));
+    if (!told_.other_end_back.empty())
+      warn(level, fmt::format("{} two-way lanes ask for an orientation ({}); AGVs drive them back with the other end "
+                              "first, without a turn",
+                              told_.other_end_back.size(), name_list(told_.other_end_back)));
+    if (told_.other_graphs > 0) warn(lanes, fmt::format("{} lanes of other graphs are left out", told_.other_graphs));
     note_left_out(yaml_, root_, level, read_, warnings_);
     fit_floor(layout_, 3.0);
     refuse_problems(level);
@@ -184,7 +189,7 @@ class LevelReader {
     const auto graph = parameter(words, "graph_idx");
     if (!is_nav_graph_ &&
         (graph.IsDefined() ? yaml_.number(graph, "graph_idx") : 0.0) != static_cast<double>(choice_.graph_idx)) {
-      ++other_graphs_;
+      ++told_.other_graphs;
       return;
     }
     if (from == to) yaml_.refuse(lane, fmt::format("a lane leads from vertex {} to itself; leave it out", from));
@@ -198,9 +203,45 @@ class LevelReader {
       segment.speed_limit_mps = limit_mps > 0.0 ? limit_mps : 0.0;  // 0, or -1 in older files: none
       if (segment.bidirectional) segment.back_speed_limit_mps = segment.speed_limit_mps;
     }
+    say_travel(lane, words, segment);
+    say_mutex(words, segment);
     layout_.segments.push_back(std::move(segment));
     lanes_.push_back(lane);
     read_.lanes.insert(place);
+  }
+
+  // Along the lane as drawn. A two-way lane is driven back with the other end first, without a turn.
+  void say_travel(const YAML::Node& lane, const YAML::Node& words, Segment& segment) {
+    for (const char* key : {"orientation", "orientation_constraint"}) {
+      const std::string word = text_of(words, key);
+      if (word.empty() || word == "none") continue;
+      const auto travel = value_of<Travel>(word);
+      if (!travel || *travel == Travel::Either) {
+        warn(lane, fmt::format("{} asks for the orientation {}, which is unknown here; AGVs drive it nose first",
+                               segment.name, in_quotes(word)));
+        continue;
+      }
+      segment.travel = *travel;
+      if (!segment.bidirectional) continue;
+      segment.back_travel = *travel == Travel::Forward ? Travel::Backward : Travel::Forward;
+      told_.other_end_back.push_back(segment.name);
+    }
+  }
+
+  // All lanes of one mutex group are one block.
+  void say_mutex(const YAML::Node& words, Segment& segment) {
+    const std::string name = text_of(words, "mutex");
+    if (name.empty()) return;
+    auto& blocks = layout_.blocks;
+    const auto known = std::ranges::find(blocks, name, &SegmentBlock::name);
+    segment.blocks.push_back(static_cast<std::uint32_t>(known - blocks.begin()));
+    if (known == blocks.end()) blocks.push_back({name, BlockKind::OneVehicle});
+  }
+
+  // Empty if there is no such parameter.
+  static std::string text_of(const YAML::Node& words, const char* key) {
+    const auto value = parameter(words, key);
+    return value.IsDefined() && value.IsScalar() ? value.Scalar() : "";
   }
 
   void refuse_problems(const YAML::Node& level) const {
@@ -229,7 +270,10 @@ class LevelReader {
   std::vector<std::size_t> used_;              // vertex, by station
   std::set<std::string> names_;
   ReadLevel read_;
-  std::size_t other_graphs_ = 0;
+  struct {
+    std::size_t other_graphs = 0;             // lanes
+    std::vector<std::string> other_end_back;  // names of segments
+  } told_;
 };
 
 }  // namespace

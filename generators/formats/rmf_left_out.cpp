@@ -17,9 +17,7 @@ constexpr Topic kLifts{"{0} lifts are left out ({1}); lifts are not modelled, an
 constexpr Topic kParts{"{0} parts of the file are left out ({1}); they change no lane"};
 constexpr Topic kUnused{"{0} vertices lie on no lane that is read and are left out ({1})"};
 constexpr Topic kHeights{"{0} vertices lie above or below the floor ({1}); here the floor is flat"};
-constexpr Topic kHeadings{
-    "{0} lanes ask for an orientation ({1}); sideways and reverse travel are not modelled: here AGVs drive nose first"};
-constexpr Topic kMutexes{"{0} mutex groups are left out ({1}); here the software under test keeps AGVs apart"};
+constexpr Topic kMutexes{"{0} mutex groups of vertices are left out ({1}); here a block holds lanes alone"};
 constexpr Topic kDocks{"{0} docking manoeuvres are left out ({1})"};
 constexpr Topic kRobots{"{0} robots of the fleet are left out ({1}); a campaign has its own fleet"};
 constexpr Topic kMarks{"{0} kinds of marks on vertices are left out ({1})"};
@@ -36,9 +34,9 @@ struct Rule {
 constexpr Rule kLaneRules[] = {{"bidirectional"},
                                {"graph_idx"},
                                {"speed_limit"},
-                               {"orientation", &kHeadings},
-                               {"orientation_constraint", &kHeadings},
-                               {"mutex", &kMutexes, Named::ByValue},
+                               {"orientation"},
+                               {"orientation_constraint"},
+                               {"mutex"},
                                {"dock_name", &kDocks, Named::ByValue},
                                {"undock_name", &kDocks, Named::ByValue},
                                {"door_name", &kDoors, Named::ByValue},

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
+#include "core/base/tolerances.hpp"
 #include "generators/text/text_file.hpp"
 
 namespace fleetproof {
@@ -244,6 +246,14 @@ Vec2 JsonReader::vector() const {
   if (value_->shape != JsonValue::Shape::Array || value_->items.size() != 2) refuse("expected two numbers [x, y]");
   const auto both = items();
   return {both[0].number(), both[1].number()};
+}
+
+// A vector that is a unit vector to the last digits stays as it is: what is written and read again is unchanged.
+Vec2 JsonReader::heading() const {
+  const Vec2 heading = vector();
+  const double norm = heading.norm();
+  if (!(norm > kShortestHeading) || !(norm < 1e9)) refuse("a heading is a direction [x, y] other than [0, 0]");
+  return std::abs(heading.squaredNorm() - 1.0) <= kUnitVectorToTheLastDigits ? heading : Vec2(heading / norm);
 }
 
 void JsonReader::read(std::string_view key, double& target) const {

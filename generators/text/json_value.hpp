@@ -46,7 +46,8 @@ class JsonReader {
   bool boolean() const;
   std::int64_t integer() const;
   std::uint64_t natural() const;
-  Vec2 vector() const;  // [x, y]
+  Vec2 vector() const;   // [x, y]
+  Vec2 heading() const;  // a direction [x, y], as a unit vector
 
   // Sets `target` if the key is there.
   void read(std::string_view key, double& target) const;

@@ -1,6 +1,7 @@
 // The verb `import`, and layout files of other programs in campaigns.
 #include <gmock/gmock.h>
 
+#include "generators/formats/layout_file.hpp"
 #include "tests/support/program.hpp"
 
 namespace fleetproof {
@@ -10,6 +11,14 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 class ImportTest : public test::ProgramTest {};
+
+// LIF has no place for blocks.
+std::string without_blocks(const std::string& text) {
+  Layout layout = parse_layout(text, "l.json");
+  layout.blocks.clear();
+  for (Segment& segment : layout.segments) segment.blocks.clear();
+  return to_text(layout);
+}
 
 const std::string kCrossdock = "'" + test::source("tests/layouts/crossdock.xml") + "'";
 
@@ -22,10 +31,10 @@ TEST_F(ImportTest, WritesLayoutsLifAndCsv) {
               HasSubstr("12 pairs of one-way segments there and back on one track became two-way segments ("));
   EXPECT_EQ(run("import layout merged.json -o merged.lif.json").exit_code, 0);
   EXPECT_EQ(run("import lif merged.lif.json -o again.json").exit_code, 0);
-  EXPECT_EQ(read(path("again.json")), read(path("merged.json")));
+  EXPECT_EQ(read(path("again.json")), without_blocks(read(path("merged.json"))));
   EXPECT_EQ(run("import lif merged.lif.json -o merged.csv").exit_code, 0);
   EXPECT_THAT(read(path("merged.csv")), StartsWith("id,x,y,purposes\n"));
-  EXPECT_EQ(run("import lif merged.lif.json").out, read(path("merged.json")))
+  EXPECT_EQ(run("import lif merged.lif.json").out, without_blocks(read(path("merged.json"))))
       << "without -o the layout goes to standard output";
 }
 

@@ -114,5 +114,32 @@ TEST(CsvLayoutErrors, CutAndDamagedFilesAreReadOrRefused) {
   independent::bear_damage(import, kTables, 3000, "0123456789-.,\"# \n\r\x80\xff");
 }
 
+TEST(CsvLayout, RulesComeBack) {
+  auto layout = import(kTables);
+  layout.stations[0].turning = false;
+  layout.stations[1].heading = Vec2(0.6, -0.8);
+  layout.segments[0].travel = Travel::Either;
+  layout.segments[0].back_travel = Travel::Backward;
+  layout.segments[1].permissions = {{"tug, long", LoadState::Any}, {"", LoadState::Empty}};
+  layout.blocks = {{"dock", BlockKind::OneVehicle}, {"aisle: 3", BlockKind::SameDirection}};
+  layout.segments[0].blocks = {0};
+  layout.segments[1].blocks = {0, 1};
+  expect_round_trip(layout);
+}
+
+TEST(CsvLayout, RefusedRulesNameTheirPlace) {
+  const auto edge = [](const std::string& columns, const std::string& fields) {
+    return "id,x,y\na,0,0\nb,4,0\nfrom,to," + columns + "\na,b," + fields + "\n";
+  };
+  const auto says = [&](const std::string& columns, const std::string& fields, const char* what) {
+    EXPECT_NE(independent::refusal(import, edge(columns, fields)).find(what), std::string::npos) << what;
+  };
+  says("travel", "forwards", "travel is \"forwards\"; did you mean \"forward\"?");
+  says("back_travel", "backward", "this segment is driven one way alone");
+  says("permissions", "tugger", "permission \"tugger\"; expected TYPE:any");
+  says("permissions", "tugger:full", "a load state is \"full\"");
+  says("blocks", "dock", "block \"dock\"; expected NAME:one-vehicle");
+}
+
 }  // namespace
 }  // namespace fleetproof

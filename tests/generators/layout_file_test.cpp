@@ -125,6 +125,56 @@ TEST(LayoutFile, EachPropertyIsPartOfTheDigestAndAbsentOnesAreNot) {
   EXPECT_EQ(digests.size(), 7U);
 }
 
+constexpr const char* kWithRules = R"({
+  "version": 1,
+  "layout": {
+    "name": "spur",
+    "floor_low_m": [-3, -3],
+    "floor_high_m": [7, 6],
+    "stations": [
+      {"name": "a", "position_m": [0, 0], "purposes": ["routing"]},
+      {"name": "b", "position_m": [4, 3], "purposes": ["storage"], "turning": false, "heading": [0.6, 0.8]}
+    ],
+    "segments": [
+      {"name": "a-b", "from": "a", "to": "b", "bidirectional": true, "travel": "backward", "back_travel": "either", )"
+                                   R"("permissions": [{"vehicle_type": "tugger", "load": "loaded"}, {"load": "empty"}]}
+    ]
+  }
+}
+)";
+
+TEST(LayoutFile, RulesComeBackExactlyAndEachIsPartOfTheDigest) {
+  const Layout layout = parse_layout(kWithRules, "r.json");
+  EXPECT_EQ(layout.segments[0].travel, Travel::Backward);
+  EXPECT_EQ(layout.segments[0].back_travel, Travel::Either);
+  EXPECT_EQ(layout.segments[0].permissions,
+            (std::vector<Permission>{{"tugger", LoadState::Loaded}, {"", LoadState::Empty}}));
+  EXPECT_FALSE(layout.stations[1].turning);
+  EXPECT_EQ(layout.stations[1].heading, Vec2(0.6, 0.8));
+  EXPECT_EQ(to_text(layout), kWithRules);
+  std::set<std::uint64_t> digests{layout_digest(layout)};
+  for (const auto& [was, is] : {std::pair("\"travel\": \"backward\"", "\"travel\": \"forward\""),
+                                {"\"either\"", "\"backward\""},
+                                {"tugger", "forklift"},
+                                {"\"loaded\"", "\"any\""},
+                                {"\"turning\": false", "\"turning\": true"},
+                                {"[0.6, 0.8]", "[0.8, 0.6]"}})
+    digests.insert(layout_digest(parse_layout(replaced(kWithRules, was, is), "r.json")));
+  EXPECT_EQ(digests.size(), 7U);
+}
+
+TEST(LayoutFile, RefusedRulesNameTheirPlace) {
+  EXPECT_NE(refusal(replaced(kWithRules, "\"backward\"", "\"backwards\"")).find("did you mean \"backward\"?"),
+            std::string::npos);
+  EXPECT_NE(refusal(replaced(kWithRules, "\"bidirectional\": true", "\"bidirectional\": false"))
+                .find("/layout/segments/0/back_travel: \"either\" is refused: this segment is driven one way alone"),
+            std::string::npos);
+  EXPECT_NE(refusal(replaced(kWithRules, "[0.6, 0.8]", "[0, 0]")).find("/layout/stations/1/heading"),
+            std::string::npos);
+  EXPECT_NE(refusal(replaced(kWithRules, "\"tugger\"", "\"\\u0007\"")).find("permissions/0/vehicle_type"),
+            std::string::npos);
+}
+
 TEST(LayoutFile, RefusedPropertiesNameTheirPlace) {
   EXPECT_NE(refusal(replaced(kWithProperties, "0.5", "-0.5")).find("/layout/segments/0/speed_limit_mps: -0.5"),
             std::string::npos);

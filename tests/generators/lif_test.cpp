@@ -139,6 +139,33 @@ TEST(Lif, TheFamiliesComeBackAsTheyWere) {
   }
 }
 
+TEST(Lif, OrientationsAndLoadsComeBack) {
+  Layout layout = import(sample()).layout;
+  for (const Travel there : kValuesOf<Travel>) {
+    for (const Travel back : kValuesOf<Travel>) {
+      for (const LoadState load : kValuesOf<LoadState>) {
+        layout.segments[0].travel = there;
+        layout.segments[0].back_travel = back;
+        layout.segments[0].permissions.clear();
+        if (load != LoadState::Any) layout.segments[0].permissions = {{"", load}};
+        expect_round_trip(layout);
+      }
+    }
+  }
+}
+
+TEST(Lif, OneTypeBackwardAndOneForwardIsEitherWay) {
+  const auto read = import(
+      sample(", \"vehicleOrientation\": 3.14159}, {\"vehicleTypeId\": \"w\"", ", \"vehicleOrientation\": -3.1416"));
+  EXPECT_EQ(read.layout.segments[0].travel, Travel::Either);
+  EXPECT_EQ(read.layout.segments[0].back_travel, Travel::Backward);
+  const auto global = import(sample(", \"orientationType\": \"GLOBAL\", \"vehicleOrientation\": 3.14159"));
+  EXPECT_EQ(global.layout.segments[0].travel, Travel::Forward);
+  EXPECT_TRUE(std::ranges::any_of(global.warnings, [](const std::string& warning) {
+    return warning.find("sideways travel is not modelled") != std::string::npos;
+  }));
+}
+
 TEST(Lif, EachDirectionHasItsSpeedLimitInEitherSpelling) {
   const auto read = import(sample(", \"maxSpeed\": 1.2", ", \"maximumSpeed\": 0.4"));
   ASSERT_EQ(read.layout.segments.size(), 1U);
@@ -167,6 +194,8 @@ TEST(Lif, OfSpeedLimitsByTypeTheLowestIsTakenAndToldSo) {
 TEST(Lif, TheCrossdockComesBackWithItsTwinsAsOne) {
   std::vector<std::string> warnings;
   auto layout = read_opentcs(independent::source_file("tests/layouts/crossdock.xml"), warnings, {TwinPaths::Keep, {}});
+  layout.blocks.clear();  // for which LIF has no place
+  for (Segment& segment : layout.segments) segment.blocks.clear();
   const auto text = to_lif(layout);
   EXPECT_EQ(merge_antiparallel(layout).size(), 12U);
   EXPECT_EQ(to_text(import(text).layout), to_text(layout));

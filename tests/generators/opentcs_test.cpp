@@ -35,7 +35,7 @@ const Station& station(const Layout& layout, std::string_view name) {
 TEST(OpenTcs, ReadsTheCrossdock) {
   std::vector<std::string> warnings;
   const Layout layout = read_opentcs(kCrossdock, warnings);
-  EXPECT_EQ(warnings.size(), 6U) << "sizes, vehicles, blocks, places, the drawing and twins";
+  EXPECT_EQ(warnings.size(), 5U) << "sizes, vehicles, places, the drawing and twins";
   EXPECT_EQ(layout.name, "Small cross-dock");
   EXPECT_EQ(layout.stations.size(), 30U);
   EXPECT_EQ(layout.segments.size(), 31U);
@@ -137,10 +137,6 @@ TEST(OpenTcs, WarnsOfWhatItLeavesOutGuessesAndChanges) {
   EXPECT_EQ(warning("HALT_POSITION", "REPORT_POSITION"),
             "m.xml:2: report position \"a\" becomes a station at which AGVs can stop");
   EXPECT_EQ(warning("locked=\"false\"", "locked=\"true\""), "m.xml:4: locked path \"ab\" is left out");
-  EXPECT_EQ(
-      warning("locked=\"false\"", "maxReverseVelocity=\"300\""),
-      "m.xml:4: 1 paths may be driven in reverse (\"ab\"); here AGVs drive nose first, from source to destination "
-      "only");
   EXPECT_EQ(import(replaced(plain, "locked=\"false\"", "locked=\"true\"")).layout.segments.size(), 1U);
 }
 
@@ -165,13 +161,52 @@ TEST(OpenTcs, EachPathKeepsItsSpeedLimit) {
   const auto merged = parse_opentcs(limited("1500", "250"), "m.xml", warnings);
   EXPECT_EQ(merged.segments[0].speed_limit_mps, 1.5);
   EXPECT_EQ(merged.segments[0].back_speed_limit_mps, 0.25);
-  const auto none = import(limited("0", "2147483647")).layout;
-  EXPECT_EQ(none.segments[0].speed_limit_mps, 0.0);
+  const auto none = import(limited("100", "2147483647")).layout;
+  EXPECT_EQ(none.segments[0].speed_limit_mps, 0.1);
   EXPECT_EQ(none.segments[1].speed_limit_mps, 0.0) << "above all vehicles";
   EXPECT_NE(independent::refusal(import, limited("fast", "0"))
                 .find("maxVelocity is \"fast\"; expected a whole number of mm/s, or 0"),
             std::string::npos);
   EXPECT_NE(independent::refusal(import, limited("-5", "0")).find("maxVelocity is \"-5\""), std::string::npos);
+}
+
+TEST(OpenTcs, APathIsDrivenBackwardFromItsDestination) {
+  const auto with = [](const std::string& velocities) {
+    return import(replaced(kModel, "name=\"ab\"", "name=\"ab\" " + velocities));
+  };
+  const Segment both = with("maxVelocity=\"1000\" maxReverseVelocity=\"300\"").layout.segments[0];
+  EXPECT_TRUE(both.bidirectional);
+  EXPECT_EQ(both.travel, Travel::Forward);
+  EXPECT_EQ(both.back_travel, Travel::Backward);
+  EXPECT_EQ(both.speed_limit_mps, 1.0);
+  EXPECT_EQ(both.back_speed_limit_mps, 0.3);
+  const Segment only = with("maxVelocity=\"0\" maxReverseVelocity=\"300\"").layout.segments[0];
+  EXPECT_FALSE(only.bidirectional);
+  EXPECT_EQ(only.from, both.to);
+  EXPECT_EQ(only.to, both.from);
+  EXPECT_EQ(only.travel, Travel::Backward);
+  EXPECT_EQ(only.speed_limit_mps, 0.3);
+  const auto none = with("maxVelocity=\"0\"");
+  EXPECT_EQ(none.layout.segments.size(), 1U);
+  EXPECT_EQ(none.warnings[0], "m.xml:4: path \"ab\" is left out: both of its velocities are 0");
+}
+
+TEST(OpenTcs, BlocksHoldTheirPaths) {
+  const auto text = replaced(kModel, "</model>",
+                             "<block name=\"dock\" type=\"SAME_DIRECTION_ONLY\"><member name=\"ba\"/><member "
+                             "name=\"a\"/></block><block name=\"void\"/></model>");
+  std::vector<std::string> warnings;
+  const Layout layout = parse_opentcs(text, "m.xml", warnings, {.twins = TwinPaths::Keep});
+  ASSERT_EQ(layout.blocks.size(), 1U);
+  EXPECT_EQ(layout.blocks[0].name, "dock");
+  EXPECT_EQ(layout.blocks[0].kind, BlockKind::SameDirection);
+  EXPECT_TRUE(layout.segments[0].blocks.empty());
+  EXPECT_EQ(layout.segments[1].blocks, std::vector<std::uint32_t>{0});
+  const auto says = [&](std::string_view words) {
+    return std::ranges::any_of(warnings, [&](const std::string& w) { return w.find(words) != std::string::npos; });
+  };
+  EXPECT_TRUE(says("1 members of blocks are no paths (\"a\"); here a block holds paths alone"));
+  EXPECT_TRUE(says("block \"void\" holds no path that is read; it is left out"));
 }
 
 TEST(OpenTcs, TwinPathsBecomeOneSegmentUnlessKept) {
