@@ -33,6 +33,11 @@ StationId LayoutBuilder::station(std::string name, PointMm at, Purposes purposes
 
 void LayoutBuilder::straight(StationId from, StationId to, Way way) { segment(from, to, way, {}); }
 
+void LayoutBuilder::back_in_spur(StationId from, StationId end) {
+  straight(from, end);
+  layout_.segments.back().travel = Travel::Backward;
+}
+
 void LayoutBuilder::s_bend(StationId from, StationId to, Way way) {
   const PointMm a = position(from), b = position(to);
   const std::int64_t middle = (a.x + b.x) / 2;

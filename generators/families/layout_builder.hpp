@@ -29,6 +29,8 @@ class LayoutBuilder {
 
   StationId station(std::string name, PointMm at, Purposes purposes = Purpose::Routing);
   void straight(StationId from, StationId to, Way way = Way::Both);
+  // A dead end that AGVs back into and leave nose first.
+  void back_in_spur(StationId from, StationId end);
   // A curve whose tangents at both ends are along the x axis.
   void s_bend(StationId from, StationId to, Way way = Way::Both);
   // The same along the y axis.

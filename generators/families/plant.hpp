@@ -11,7 +11,15 @@
 namespace fleetproof {
 
 // What a plant can be asked to contain. The coverage law counts under the same name when a run meets it.
-enum class Provocation : std::uint8_t { Crossing, CurveBesideLane, TightGap, OverhangPass, Bottleneck, FourWay };
+enum class Provocation : std::uint8_t {
+  Crossing,
+  CurveBesideLane,
+  TightGap,
+  OverhangPass,
+  Bottleneck,
+  FourWay,
+  BackIn
+};
 constexpr const char* name_of(Provocation provocation) {
   switch (provocation) {
     case Provocation::Crossing:
@@ -26,6 +34,8 @@ constexpr const char* name_of(Provocation provocation) {
       return "bottleneck";
     case Provocation::FourWay:
       return "four-way";
+    case Provocation::BackIn:
+      return "back-in";
   }
   return kNoWord;
 }

@@ -37,6 +37,8 @@ PlantKnobs draw_plant_knobs(Draws& draws, const PlantWish& wish) {
   k.stop_pitch = draw(draws, {1000, 1500, 50}, {500, 1500, 50}, stress);
   k.aisle_rest = draw_between(draws, 2000, 3600, 100);
   k.corridor = draw_between(draws, 6000, 12000, 500);
+  // Every second plant. The corridors say which, so that this takes no draw of its own.
+  k.back_in = k.corridor >= 9'000 || wish.provocation == Provocation::BackIn;
   return k;
 }
 

@@ -22,6 +22,7 @@ struct PlantKnobs {
   bool bottleneck = false;         // one corridor between two zones, and one way only through the plant; else two
   bool four_way = false;           // a cross aisle meets every aisle at a station
   bool side_lanes_everywhere = false;
+  bool back_in = false;  // AGVs back into docks and chargers, and leave them nose first
 
   std::int64_t lane_pitch() const { return kPlantVehicleWidth_mm + lane_gap; }
   std::int64_t side_pitch() const { return kPlantVehicleWidth_mm + side_gap; }

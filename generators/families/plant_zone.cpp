@@ -127,17 +127,26 @@ void PlantZone::cross_aisle() {
   builder_.straight(last, mouth(PlantRing::East, middle));
 }
 
-void PlantZone::spur(PlantRing::Side side, std::int64_t place, Purposes purposes, std::string_view letter) {
-  next(ring_.outermost(side, place), ring_.point(side, place, ring_.outer_line() + kSpur), purposes, letter);
+// A dead end outwards.
+void PlantZone::spur(StationId from, PointMm end, Purposes purposes, std::string_view letter) {
+  if (!knobs_.back_in) {
+    next(from, end, purposes, letter);
+  } else {
+    builder_.back_in_spur(from, builder_.station(fmt::format("{}.{}{}", name_, letter, ++numbered_), end, purposes));
+  }
+}
+
+void PlantZone::spur_of_ring(PlantRing::Side side, std::int64_t place, Purposes purposes, std::string_view letter) {
+  spur(ring_.outermost(side, place), ring_.point(side, place, ring_.outer_line() + kSpur), purposes, letter);
 }
 
 // A dock opposite every aisle. A zone with one lane has no charger row, but a charger.
 void PlantZone::spurs() {
   for (const auto slot : aisle_slots())
-    spur(PlantRing::South, shape_.slot_place(knobs_, slot), Purpose::Storage, "dock");
+    spur_of_ring(PlantRing::South, shape_.slot_place(knobs_, slot), Purpose::Storage, "dock");
   if (!shape_.has_outer_lane) {
     const auto place = shape_.slot_place(knobs_, 0);
-    spur(PlantRing::North, ring_.length(PlantRing::North) - place, kDepot, "charge");
+    spur_of_ring(PlantRing::North, ring_.length(PlantRing::North) - place, kDepot, "charge");
   }
 }
 
@@ -173,7 +182,7 @@ void PlantZone::side_lane(std::int64_t first_gap, std::int64_t gaps, bool charge
       builder_.straight(last, stop, Way::Forward);
     }
     if (charges && i >= queue)
-      next(stop, ring_.point(PlantRing::North, place, line + kSpur), Purpose::Charging, "charge");
+      spur(stop, ring_.point(PlantRing::North, place, line + kSpur), Purpose::Charging, "charge");
     last = stop;
   }
   builder_.s_bend(last, ring_.outermost(PlantRing::North, end), Way::Forward);

@@ -49,7 +49,8 @@ class PlantZone {
   StationId next(StationId from, PointMm at, Purposes purposes, std::string_view letter);
   void cross_aisle();
   void spurs();
-  void spur(PlantRing::Side side, std::int64_t place, Purposes purposes, std::string_view letter);
+  void spur(StationId from, PointMm end, Purposes purposes, std::string_view letter);
+  void spur_of_ring(PlantRing::Side side, std::int64_t place, Purposes purposes, std::string_view letter);
   void side_lanes();
   void side_lane(std::int64_t first_gap, std::int64_t gaps, bool charges);
 

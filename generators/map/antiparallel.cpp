@@ -23,6 +23,7 @@ bool is_mirrored(const Segment& there, const Segment& back) {
 void join(Segment& there, const Segment& back) {
   there.bidirectional = true;
   there.back_speed_limit_mps = back.speed_limit_mps;
+  there.back_travel = back.travel;
   there.width_m = std::max(there.width_m, back.width_m);
   std::vector<std::uint32_t> blocks;
   std::ranges::set_union(there.blocks, back.blocks, std::back_inserter(blocks));
@@ -39,7 +40,8 @@ std::vector<std::string> merge_antiparallel(Layout& layout) {
     const auto from = segment.from.index(), to = segment.to.index();
     const auto [begin, end] = waiting.equal_range({to, from});
     const auto twin = std::find_if(begin, end, [&](const auto& entry) {
-      return !segment.bidirectional && is_mirrored(kept[entry.second], segment);
+      const Segment& there = kept[entry.second];
+      return !segment.bidirectional && there.permissions == segment.permissions && is_mirrored(there, segment);
     });
     if (twin != end) {
       join(kept[twin->second], segment);

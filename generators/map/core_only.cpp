@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "generators/map/reachability.hpp"
 #include "generators/text/name_list.hpp"
 
 namespace fleetproof {
@@ -19,9 +20,21 @@ std::vector<std::string> cut_off(const Layout& layout, const StrongComponents& p
   return names;
 }
 
+// As an AGV with all permissions drives it: the core, and every other station for itself.
+StrongComponents parts_under_rules(const Layout& layout) {
+  const LogicalMap map(layout);
+  const Reachability reachability(map);
+  StrongComponents parts;
+  for (std::uint32_t i = 0; i < layout.stations.size(); ++i)
+    parts.component.push_back(reachability.in_core(StationId{i}) ? 0 : i + 1);
+  parts.largest_size = reachability.core().size();
+  return parts;
+}
+
 }  // namespace
 
 StrongComponents parts_of(const Layout& layout) {
+  if (has_rules(layout)) return parts_under_rules(layout);
   std::vector<Arrow> arrows;
   arrows.reserve(2 * layout.segments.size());
   for (const auto& segment : layout.segments) {

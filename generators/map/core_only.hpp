@@ -8,7 +8,7 @@
 
 namespace fleetproof {
 
-// Which stations can all reach each other.
+// Which stations can all reach each other. On a layout with rules, only the largest set is told from the others.
 StrongComponents parts_of(const Layout& layout);
 
 // Keeps the largest part, with the segments between its stations. Their order stays. Requires: parts_of(layout), or the

@@ -28,6 +28,9 @@ class Check {
     names("blocks", layout_.blocks);
     for (std::size_t i = 0; i < layout_.stations.size(); ++i) {
       if (!on_the_floor(layout_.stations[i].position_m)) bad_number(fmt::format("/stations/{}/position_m", i));
+      if (const auto& heading = layout_.stations[i].heading;
+          heading && !(std::abs(heading->squaredNorm() - 1.0) <= kUnitVectorToTheLastDigits))
+        add(ProblemKind::NumberOutOfRange, fmt::format("/stations/{}/heading", i), "a heading is a unit vector [x, y]");
     }
     floor();
     // A curve is only built from sound numbers.
@@ -100,6 +103,13 @@ class Check {
     limit("width_m", s.width_m, 0.0, kWidestFloor_m, "a width is 0 (not known) to 100 m");
     if (s.back_speed_limit_mps > 0.0 && !s.bidirectional)
       add(ProblemKind::BadGeometry, pointer + "/back_speed_limit_mps", "this segment is driven one way alone");
+    if (s.back_travel != Travel::Forward && !s.bidirectional)
+      add(ProblemKind::BadGeometry, pointer + "/back_travel", "this segment is driven one way alone");
+    for (std::size_t i = 0; i < s.permissions.size(); ++i) {
+      const std::string& type = s.permissions[i].vehicle_type;
+      const char* fault = type.empty() ? nullptr : fault_of_name(type);
+      if (fault != nullptr) add(ProblemKind::BadName, fmt::format("{}/permissions/{}/vehicle_type", pointer, i), fault);
+    }
     for (const std::uint32_t block : s.blocks) {
       if (block >= layout_.blocks.size())
         add(ProblemKind::UnknownReference, pointer + "/blocks", "there is no such block");

@@ -1,26 +1,51 @@
 #include "generators/map/reachability.hpp"
 
+#include <algorithm>
+
 namespace fleetproof {
 namespace {
 
-StrongComponents parts_of(const LogicalMap& map) {
+std::vector<bool> core_without_rules(const LogicalMap& map) {
   std::vector<Arrow> arrows;
   arrows.reserve(map.lanes().size());
   for (const auto& lane : map.lanes()) arrows.push_back({lane.from.value, lane.to.value});
-  return strong_components(map.station_count(), arrows);
+  const StrongComponents parts = strong_components(map.station_count(), arrows);
+  std::vector<bool> in_core(map.station_count());
+  for (std::size_t i = 0; i < in_core.size(); ++i) in_core[i] = parts.in_largest(i);
+  return in_core;
 }
 
 }  // namespace
 
-Reachability::Reachability(const LogicalMap& map) : map_(&map), parts_(parts_of(map)) {
-  core_.reserve(parts_.largest_size);
-  for (std::size_t i = 0; i < map.station_count(); ++i) {
-    if (parts_.in_largest(i)) core_.emplace_back(i);
+Reachability::Reachability(const LogicalMap& map, std::span<const std::string> vehicle_types) : map_(&map) {
+  if (!has_rules(map.layout())) {
+    in_core_ = core_without_rules(map);
+  } else {
+    for (const std::string& type : vehicle_types) states_.emplace_back(map, type);
+    if (states_.empty()) states_.emplace_back(map, "");
+    in_core_.assign(map.station_count(), true);
+    for (const DriveStates& states : states_) {
+      const auto of_type = states.stations_in_core();
+      for (std::size_t i = 0; i < in_core_.size(); ++i) in_core_[i] = in_core_[i] && of_type[i];
+    }
+  }
+  for (std::size_t i = 0; i < in_core_.size(); ++i) {
+    if (in_core_[i]) core_.emplace_back(i);
   }
 }
 
+bool Reachability::may_start_along(std::uint32_t lane) const {
+  return std::ranges::all_of(states_, [&](const DriveStates& states) { return states.in_core(lane); });
+}
+
 bool Reachability::reaches(StationId from, StationId to) const {
-  if (parts_.component[from.index()] == parts_.component[to.index()]) return true;
+  if (in_core(from) && in_core(to)) return true;
+  if (states_.empty()) return reaches_without_rules(from, to);
+  return std::ranges::all_of(states_, [&](const DriveStates& states) { return states.reaches(from, to); });
+}
+
+bool Reachability::reaches_without_rules(StationId from, StationId to) const {
+  if (from == to) return true;
   std::vector<bool> seen(map_->station_count(), false);
   std::vector<StationId> open{from};
   seen[from.index()] = true;

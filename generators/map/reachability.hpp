@@ -1,27 +1,36 @@
 #pragma once
 
+#include <span>
+#include <string>
 #include <vector>
 
 #include "core/scenario/layout.hpp"
-#include "generators/map/strong_components.hpp"
+#include "generators/map/drive_states.hpp"
 
 namespace fleetproof {
 
-// Which stations of a logical map can be reached from which. Requires: the map outlives the object.
+// Which stations of a logical map can be reached from which, under the rules of the plant. Requires: the map outlives
+// the object.
 class Reachability {
  public:
-  explicit Reachability(const LogicalMap& map);
+  // For a fleet of vehicle types with these names; without a name, of one type that has the permissions of all.
+  explicit Reachability(const LogicalMap& map, std::span<const std::string> vehicle_types = {});
 
   // The largest set of stations that can all reach each other, in ascending order. Of equal sets, the set with the
   // smallest id.
   const std::vector<StationId>& core() const { return core_; }
-  bool in_core(StationId station) const { return parts_.in_largest(station.index()); }
-  double core_share() const { return static_cast<double>(core_.size()) / static_cast<double>(parts_.component.size()); }
+  bool in_core(StationId station) const { return in_core_[station.index()]; }
+  double core_share() const { return static_cast<double>(core_.size()) / static_cast<double>(in_core_.size()); }
   bool reaches(StationId from, StationId to) const;
+  // Whether an AGV that stands at the beginning of the lane can leave by it, and come back.
+  bool may_start_along(std::uint32_t lane) const;
 
  private:
+  bool reaches_without_rules(StationId from, StationId to) const;
+
   const LogicalMap* map_;
-  StrongComponents parts_;  // of stations
+  std::vector<DriveStates> states_;  // by vehicle type; none: the plant has no rules
+  std::vector<bool> in_core_;        // by station
   std::vector<StationId> core_;
 };
 

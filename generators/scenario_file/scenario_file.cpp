@@ -43,15 +43,6 @@ class Names {
   std::map<std::string, std::uint32_t> ids_;
 };
 
-Vec2 heading_of(const JsonReader& reader) {
-  const Vec2 heading = reader.vector();
-  const double norm = heading.norm();
-  if (!(norm > kShortestHeading) || !(norm < 1e9)) reader.refuse("a heading is a direction [x, y] other than [0, 0]");
-  // A vector that is a unit vector to the last digits stays as it is. A scenario that is written and read again is
-  // therefore unchanged.
-  return std::abs(heading.squaredNorm() - 1.0) <= kUnitVectorToTheLastDigits ? heading : Vec2(heading / norm);
-}
-
 RecordedMessage recorded_message(const JsonReader& reader) {
   const auto items = reader.items();
   if (items.size() != 3 && items.size() != 4)
@@ -127,7 +118,7 @@ class ScenarioReader {
     }
   }
   void value(const Field&, const JsonReader& reader, const Direction<Vec2>& target) {
-    target.vector = heading_of(reader);
+    target.vector = reader.heading();
   }
   void value(const Field&, const JsonReader& reader, StationId& target) { target = StationId{stations_->at(reader)}; }
   void value(const Field&, const JsonReader& reader, SegmentId& target) { target = SegmentId{segments_->at(reader)}; }

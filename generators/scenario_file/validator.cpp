@@ -191,8 +191,9 @@ class WorldCheck {
   Problems run() {
     if (reachability_.core_share() < kSmallestCoreShare) {
       add(ProblemKind::WeakCore, "/layout",
-          fmt::format("only {}, less than 90 %; add segments that lead back, or leave these stations out (core_only)",
-                      reachability_text(scenario_.map->layout())));
+          fmt::format(
+              "only {}, less than 90 %; add segments that lead back, or leave these stations out (core_only)",
+              has_rules(scenario_.map->layout()) ? core_under_rules() : reachability_text(scenario_.map->layout())));
     }
     starts();
     for (std::size_t i = 0; i < scenario_.agvs.size(); ++i) transports(i);
@@ -202,6 +203,13 @@ class WorldCheck {
  private:
   void add(ProblemKind kind, std::string pointer, std::string sentence) {
     problems_.push_back({kind, std::move(pointer), std::move(sentence)});
+  }
+
+  std::string core_under_rules() const {
+    return fmt::format(
+        "{} of {} stations can all reach each other by what the layout permits the vehicle types of this fleet (turns, "
+        "headings, loads and types)",
+        reachability_.core().size(), scenario_.map->station_count());
   }
 
   void starts() {
@@ -277,8 +285,10 @@ Problems world_problems(const Scenario& scenario, const Reachability& reachabili
 }
 
 Problems problems_of(const Scenario& scenario) {
+  std::vector<std::string> types;
+  for (const VehicleType& type : scenario.vehicle_types) types.push_back(type.name);
   auto problems = unusable_problems(scenario);
-  if (problems.empty()) problems = world_problems(scenario, Reachability(*scenario.map));
+  if (problems.empty()) problems = world_problems(scenario, Reachability(*scenario.map, types));
   return problems;
 }
 

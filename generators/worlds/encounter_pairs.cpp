@@ -204,7 +204,7 @@ class PairMaker {
   }
 
   Vec2 heading(StationId start, StationId goal) {
-    return map_.lanes()[timetable_.from(start).at(goal).first].curve.pose_at(0.0).heading;
+    return map_.lanes()[timetable_.from(start).at(goal).first].start_heading();
   }
 
   bool add(StationId start, StationId goal, RejectionCounts& counts) {

@@ -52,15 +52,17 @@ std::optional<ProblemKind> rejection(const Scenario& scenario, const AgvSetup& a
 }
 
 // Heading along one of the lanes that leave the station.
-bool add_agv_at(Scenario& scenario, StationId station, Draws& draws, RejectionCounts& counts) {
-  const auto& lanes = scenario.map->lanes_from(station);
+bool add_agv_at(Scenario& scenario, const Reachability& reachability, StationId station, Draws& draws,
+                RejectionCounts& counts) {
+  auto lanes = scenario.map->lanes_from(station);
+  std::erase_if(lanes, [&](std::uint32_t lane) { return !reachability.may_start_along(lane); });
   if (lanes.empty()) {
     ++counts.starts_tried;
     ++counts.of(ProblemKind::StartWithoutLane);
     return false;
   }
   const auto& lane = scenario.map->lanes()[lanes[draws.below(static_cast<std::uint32_t>(lanes.size()))]];
-  return add_agv(scenario, station, lane.curve.pose_at(0.0).heading, counts);
+  return add_agv(scenario, station, lane.start_heading(), counts);
 }
 
 }  // namespace
@@ -85,7 +87,7 @@ bool place_fleet(Scenario& scenario, std::uint32_t fleet_size, const Reachabilit
         ++counts.fleets_without_room;
         return false;
       }
-      if (add_agv_at(scenario, *station, draws, counts)) break;
+      if (add_agv_at(scenario, reachability, *station, draws, counts)) break;
     }
   }
   return true;
@@ -108,7 +110,7 @@ bool place_at_charger_bank(Scenario& scenario, std::uint32_t fleet_size, const R
   for (const auto station : stations) {
     if (scenario.agvs.size() == fleet_size) break;
     Draws draws(key, attempt, static_cast<std::uint32_t>(scenario.agvs.size()));
-    add_agv_at(scenario, station, draws, counts);
+    add_agv_at(scenario, reachability, station, draws, counts);
   }
   if (scenario.agvs.size() == fleet_size) return true;
   ++counts.fleets_without_room;

@@ -45,19 +45,38 @@ void check(const WorldSpec& spec) {
   }
 }
 
+// How far footprints reach from their reference points.
+struct Extent {
+  double front_m = -1e9, back_m = 1e9, width_m = 0.0;
+
+  void add(const Footprint& footprint) {
+    front_m = std::max(front_m, footprint.centre_ahead_m + 0.5 * footprint.length_m);
+    back_m = std::min(back_m, footprint.centre_ahead_m - 0.5 * footprint.length_m);
+    width_m = std::max(width_m, footprint.width_m);
+  }
+};
+
 // The first type, with the largest body of all types, unloaded and loaded. A start that has room for this body has room
 // for every type, whatever load the AGV picks there.
 VehicleType envelope(const std::vector<VehicleShare>& vehicles) {
   VehicleType type = vehicles.front().type;
-  Footprint &empty = type.footprint, loaded = empty;
+  Extent empty, loaded;
   for (const auto& [other, share] : vehicles) {
-    const Footprint grown = other.footprint_with(true);
-    empty = {std::max(empty.length_m, other.footprint.length_m), std::max(empty.width_m, other.footprint.width_m)};
-    loaded = {std::max(loaded.length_m, grown.length_m), std::max(loaded.width_m, grown.width_m)};
+    empty.add(other.footprint);
+    loaded.add(other.footprint_with(true));
   }
-  type.loaded.extra_length_m = loaded.length_m - empty.length_m;
+  const double centre_m = 0.5 * (empty.front_m + empty.back_m);
+  type.footprint = {empty.front_m - empty.back_m, empty.width_m, centre_m};
+  const double loaded_length_m = 2.0 * std::max(loaded.front_m - centre_m, centre_m - loaded.back_m);
+  type.loaded.extra_length_m = loaded_length_m - type.footprint.length_m;
   type.loaded.extra_width_m = loaded.width_m - empty.width_m;
   return type;
+}
+
+std::vector<std::string> names_of(const std::vector<VehicleShare>& vehicles) {
+  std::vector<std::string> names;
+  for (const auto& [type, share] : vehicles) names.push_back(type.name);
+  return names;
 }
 
 // The worlds of one seed, one after the other until one is sound.
@@ -185,7 +204,7 @@ class WorldMaker {
 
   void set_map(SharedMap map) {
     scenario_.map = std::move(map);
-    reachability_.emplace(*scenario_.map);
+    reachability_.emplace(*scenario_.map, names_of(spec_.vehicles));
     scenario_.name = fmt::format("{}, {} AGVs", scenario_.map->layout().name, spec_.fleet_size);
   }
 

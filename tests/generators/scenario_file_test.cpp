@@ -45,11 +45,12 @@ Scenario unusual() {
            1.5,
            {{"tug", "pallet-agv"}, {"obstacle", "tug"}}};
   s.vehicle_types[0] = {"tug",
-                        {2.1, 0.9},
+                        {2.1, 0.9, 0.3},
                         {1.5, 0.4, 0.7},
                         {0.9, 0.8, 0.6},
                         {0.3, 0.2, 0.8, 0.7},
                         0.4,
+                        0.6,
                         0.05,
                         2.5,
                         1e-4,
@@ -64,7 +65,7 @@ Scenario unusual() {
   s.agvs[1].type = 1;
   s.agvs[1].battery = 0.625;
   s.agvs[2].heading = Vec2(0.6, 0.8);
-  s.agvs[2].script = {{Duration{5}, ScriptedCall::Action::Charge, SegmentId{3U}},
+  s.agvs[2].script = {{Duration{5}, ScriptedCall::Action::Charge, SegmentId{3U}, true},
                       {Duration{6}, ScriptedCall::Action::Drop, SegmentId{2U}}};
   s.agvs[1].sensing = {0.5, -40.0, 0.01, 0.3};
   s.obstacles = {{"rack", {0.5, 3.25}, {Vec2(-30.5, 40.25), Vec2::UnitY()}, Duration{9}, Duration{10}}};
@@ -116,12 +117,15 @@ TEST(ScenarioFile, EveryFieldComesBack) {
   EXPECT_EQ(back.vehicle_types[0].footprint, s.vehicle_types[0].footprint);
   EXPECT_EQ(back.vehicle_types[0].drive, s.vehicle_types[0].drive);
   EXPECT_EQ(back.vehicle_types[0].turn, s.vehicle_types[0].turn);
+  EXPECT_EQ(back.vehicle_types[0].reverse_speed_mps, 0.6);
   EXPECT_EQ(back.vehicle_types[0].dock_s, 7.0);
   EXPECT_EQ(back.vehicle_types[0].drop_s, 4.0);
   EXPECT_EQ(back.agvs[1].type, 1U);
   EXPECT_EQ(back.agvs[1].battery, 0.625);
   EXPECT_EQ(back.agvs[2].heading, s.agvs[2].heading);
   EXPECT_EQ(back.agvs[2].script[0].action, ScriptedCall::Action::Charge);
+  EXPECT_TRUE(back.agvs[2].script[0].backward);
+  EXPECT_FALSE(back.agvs[2].script[1].backward);
   EXPECT_EQ(back.agvs[2].script[1].segment, SegmentId{2U});
   EXPECT_EQ(back.agvs[0].transports[0].release, s.agvs[0].transports[0].release);
   EXPECT_EQ(back.obstacles[0].pose.position_m, s.obstacles[0].pose.position_m);
@@ -162,9 +166,9 @@ TEST(ScenarioFile, DigestsTellScenariosApart) {
 // The same program and seed mean the same world on every machine and in every later version; a change here breaks
 // stored campaigns.
 TEST(ScenarioFile, DigestsOfGeneratedWorldsArePinned) {
-  const std::uint64_t expected[] = {2165073385411953786ULL,  14656204409252922583ULL, 16361839978701145177ULL,
-                                    18266303024975929340ULL, 15848823033936837846ULL, 4426957922428652369ULL,
-                                    17529725289951024775ULL};
+  const std::uint64_t expected[] = {7142369576780196760ULL, 11610651951420452523ULL, 1171421907722787267ULL,
+                                    3934697604681554813ULL, 9896758634200233514ULL,  2057636188919755276ULL,
+                                    13110630515544007976ULL};
   ASSERT_EQ(std::size(expected), layout_families().size());
   for (std::size_t i = 0; i < layout_families().size(); ++i) {
     WorldSpec spec;
@@ -175,9 +179,9 @@ TEST(ScenarioFile, DigestsOfGeneratedWorldsArePinned) {
 }
 
 TEST(ScenarioFile, DigestsOfWorldsUnderStressArePinned) {
-  const std::uint64_t expected[] = {11110819438303539760ULL, 6448404124408396214ULL, 13901050191260677096ULL,
-                                    3255769309611709504ULL,  7099156350888111994ULL, 3620109990692207951ULL,
-                                    17526258054131831715ULL};
+  const std::uint64_t expected[] = {4101706770585422488ULL, 11978922582003015565ULL, 17978406151606975635ULL,
+                                    5026178257387433302ULL, 10422745916804585531ULL, 13969220589142936021ULL,
+                                    1057693600779620613ULL};
   ASSERT_EQ(std::size(expected), layout_families().size());
   for (std::size_t i = 0; i < layout_families().size(); ++i) {
     WorldSpec spec;
