@@ -50,7 +50,7 @@ std::string TracePrinter::details_of(const TraceRecord& record, std::string_view
       const auto begun = read<traced::ActivityBegins>(record);
       const std::string activity = name_of(begun.activity);
       if (begun.activity != ActivityKind::Drive) return activity;
-      return activity + " " + scenario_.map->segment(begun.segment()).name;
+      return activity + " " + scenario_.map->segment(begun.segment()).name + (begun.backward() ? " backward" : "");
     }
     case TraceKind::ActivityEnds: {
       const auto ended = read<traced::ActivityEnds>(record);

@@ -80,12 +80,17 @@ class PlanWriter {
   Json json(const Setup& setup) const {
     Json object = Json::object();
     visit_fields(setup, [&](const Field& field, const auto& value) {
-      if (field.home == FieldHome::Both && !is_absent(value)) object[json_key(field)] = json(value);
+      if (field.home == FieldHome::Both && !is_absent(value) && !is_left_out(field))
+        object[json_key(field)] = json(value);
     });
     return object;
   }
 
  private:
+  // Plans of before these fields keep their hash.
+  static bool is_left_out(const Field& field) {
+    return field.left_out && (field.key == kCentreAhead.key || field.key == kReverseSpeed.key);
+  }
   template <class Value>
   static bool is_absent(const Value&) {
     return false;

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <set>
 
 #include "campaign/plan/campaign_file.hpp"
@@ -181,7 +182,11 @@ TEST(CallCost, VariesOverTheSameWorldAndSlowsTheAgentsDown) {
     return simulate(source.scenario(index), programs.find(source.place(index).cell.agent, "test"), {});
   };
   EXPECT_NE(run(1).digest, run(3).digest);
-  EXPECT_LT(run(3).counters.messages_sent, run(1).counters.messages_sent);
+  // Over all worlds: in a single one, an agent that is late may have to ask more often.
+  std::array<std::uint64_t, 2> sent{};
+  for (std::uint64_t index = 0; index < plan.cell_count(); ++index)
+    sent[source.scenario(index).agent_clock.call_cost_s > 0.0 ? 1 : 0] += run(index).counters.messages_sent;
+  EXPECT_LT(sent[1], sent[0]);
 }
 
 TEST(CallCost, IsDrawnWithoutMovingWhatElseIsDrawn) {
