@@ -11,8 +11,9 @@ DriveRules::DriveRules(const MapView& map, std::uint32_t vehicle_type) : map_(ma
 bool DriveRules::has_rules() const {
   for (std::uint32_t lane = 0; lane < map_.lane_count(); ++lane) {
     if (!map_.permits(lane, vehicle_type_, false) || !map_.permits(lane, vehicle_type_, true)) return true;
-    const std::uint32_t end = map_.lane(lane).to;
-    if (!map_.may_turn(end) || !map_.may_stay(end, map_.end_heading(lane))) return true;
+  }
+  for (std::uint32_t station = 0; station < map_.station_count(); ++station) {
+    if (!map_.may_turn(station) || map_.asks_for_a_heading(station)) return true;
   }
   return false;
 }
@@ -20,7 +21,7 @@ bool DriveRules::has_rules() const {
 bool DriveRules::leads_to(std::uint32_t state, std::uint32_t next) const {
   const std::uint32_t lane = state / 2, next_lane = next / 2;
   if (lane == next_lane) return map_.may_stay(map_.lane(lane).to, map_.end_heading(lane));  // takes up or puts down
-  return state % 2 == next % 2 &&
+  return state % 2 == next % 2 && permits(next) &&
          (map_.may_turn(map_.lane(lane).to) || same_heading(map_.end_heading(lane), map_.start_heading(next_lane)));
 }
 
@@ -30,7 +31,7 @@ DriveRules::States DriveRules::connected(std::uint32_t from, bool backwards) con
   std::vector<std::uint32_t> open{from};
   seen[from] = true;
   const auto visit = [&](std::uint32_t here, std::uint32_t there) {
-    if (seen[there] || !permits(there) || !(backwards ? leads_to(there, here) : leads_to(here, there))) return;
+    if (seen[there] || !(backwards ? leads_to(there, here) : leads_to(here, there))) return;
     seen[there] = true;
     open.push_back(there);
   };
@@ -45,12 +46,13 @@ DriveRules::States DriveRules::connected(std::uint32_t from, bool backwards) con
   return seen;
 }
 
-// The largest set of states that lead to each other; where all can, that is the first.
+// The largest set of states that lead to each other; where all can, that is the first. Of these, those that are driven:
+// an AGV that has put its load down has come by a lane that it may not drive any more.
 void DriveRules::keep_those_that_lead_back() {
   States judged(2 * map_.lane_count(), false);
   std::ptrdiff_t largest = -1;
   for (std::uint32_t state = 0; state < judged.size(); ++state) {
-    if (judged[state] || !permits(state)) continue;
+    if (judged[state]) continue;
     States both = connected(state, false);
     const States back = connected(state, true);
     for (std::size_t i = 0; i < both.size(); ++i) {
@@ -61,9 +63,9 @@ void DriveRules::keep_those_that_lead_back() {
     if (size <= largest) continue;
     largest = size;
     usable_ = std::move(both);
-    if (2 * largest >= static_cast<std::ptrdiff_t>(judged.size())) return;
+    if (2 * largest >= static_cast<std::ptrdiff_t>(judged.size())) break;
   }
-  if (usable_.empty()) usable_.assign(judged.size(), false);
+  for (std::uint32_t state = 0; state < judged.size(); ++state) usable_[state] = usable_[state] && permits(state);
 }
 
 }  // namespace fleetproof::agents

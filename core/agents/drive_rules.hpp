@@ -23,7 +23,7 @@ class DriveRules {
   }
 
  private:
-  // A state is a lane that has been driven, with a load or without one: 2 * lane + loaded.
+  // A state is the lane by which the AGV has come, and whether it now carries a load: 2 * lane + loaded.
   using States = std::vector<bool>;
 
   bool has_rules() const;

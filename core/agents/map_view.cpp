@@ -55,9 +55,8 @@ bool MapView::permits(std::uint32_t lane_id, std::uint32_t vehicle_type, bool lo
 }
 
 bool MapView::may_stay(std::uint32_t station_id, Vec heading) const {
-  if (!rules_known_) return true;
-  const Vec wanted{station(station_id).heading_x, station(station_id).heading_y};
-  return (wanted.x == 0.0 && wanted.y == 0.0) || same_heading(wanted, heading);
+  if (!asks_for_a_heading(station_id)) return true;
+  return same_heading({station(station_id).heading_x, station(station_id).heading_y}, heading);
 }
 
 }  // namespace fleetproof::agents

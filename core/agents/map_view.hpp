@@ -46,6 +46,9 @@ class MapView {
   bool tells_rules() const { return rules_known_; }
   bool permits(std::uint32_t lane_id, std::uint32_t vehicle_type, bool loaded) const;
   bool may_turn(std::uint32_t station_id) const { return !rules_known_ || station(station_id).turning_forbidden == 0; }
+  bool asks_for_a_heading(std::uint32_t station_id) const {
+    return rules_known_ && (station(station_id).heading_x != 0.0 || station(station_id).heading_y != 0.0);
+  }
   bool may_stay(std::uint32_t station_id, Vec heading) const;
 
  private:

@@ -49,9 +49,9 @@ class Reckless {
       const Task task = tasks_.front();
       std::uint32_t segment = FP_HERE;
       bool last = true;
-      const Vec heading = rules_.any() ? seen_heading() : Vec{1.0, 0.0};
-      if (station_ != task.station || !map_.may_stay(station_, heading)) {
-        routes_.search(station_, heading, lane_times_s_[task.pick ? 0 : 1], task.station);
+      if (rules_.any() && !heading_known_) look();
+      if (station_ != task.station || !map_.may_stay(station_, heading_)) {
+        routes_.search(station_, heading_, lane_times_s_[task.pick ? 0 : 1], task.station);
         const auto lanes = routes_.lanes(task.station);
         if (lanes.empty()) {
           tasks_.pop_front();  // the station cannot be reached
@@ -59,6 +59,7 @@ class Reckless {
         }
         segment = map_.action_segment(lanes.front());
         station_ = map_.lane(lanes.front()).to;
+        heading_ = map_.end_heading(lanes.front());
         last = lanes.size() == 1;
       }
       acting_ = !last ? controller_.move(segment) : task.pick ? controller_.pick(segment) : controller_.drop(segment);
@@ -67,10 +68,10 @@ class Reckless {
     }
   }
 
-  Vec seen_heading() {
+  void look() {
     fp_pose pose{0.0, 0.0, 1.0, 0.0};
-    controller_.pose(pose);
-    return {pose.heading_x, pose.heading_y};
+    heading_known_ = controller_.pose(pose);
+    heading_ = {pose.heading_x, pose.heading_y};
   }
 
   Controller controller_;
@@ -80,6 +81,8 @@ class Reckless {
   std::array<std::vector<double>, 2> lane_times_s_;  // without a load, with one
   std::deque<Task> tasks_;
   std::uint32_t station_;  // where the AGV stands, or where its action ends
+  Vec heading_{1.0, 0.0};  // likewise; only plants with rules ask for it
+  bool heading_known_ = false;
   bool acting_ = false;
 };
 

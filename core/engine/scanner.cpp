@@ -21,9 +21,7 @@ double Scanner::field_length_m(AgvId agv) const {
 // The first body, by number, that stands in the field.
 std::optional<EntityId> Scanner::intruder(AgvId agv, double length_m) const {
   const OrientedRectangle own = run_.world.body(agv).piece.body_at(run_.now);
-  const double sign =
-      run_.world.body(agv).piece.manner == Manner::Drive && run_.world.body(agv).piece.moves_against_heading() ? -1.0
-                                                                                                               : 1.0;
+  const double sign = slices_[agv.index()].backward ? -1.0 : 1.0;
   const OrientedRectangle field{own.centre_m + sign * (own.half_length_m + 0.5 * length_m) * own.heading, own.heading,
                                 0.5 * length_m, own.half_width_m + run_.scenario.scanner.margin_m};
   for (std::size_t i = 0; i < run_.world.body_count(); ++i) {
@@ -38,6 +36,7 @@ void Scanner::looks(AgvId agv, std::uint64_t stamp) {
   Slice& slice = slices_[agv.index()];
   const AgvStatus& status = run_.status(agv);
   const bool held = status.is_held_by(Halt::Reason::Scanner);
+  if (status.is_driving()) slice.backward = run_.world.body(agv).piece.moves_against_heading();
   // For an AGV that stands for another reason, the scanner starts to look when the next drive begins.
   if (stamp != slice.stamp || status.out_of_order || (!status.is_driving() && !held)) return;
   double length_m = field_length_m(agv);

@@ -29,6 +29,7 @@ class Scanner {
   struct Slice {
     std::uint64_t stamp = 0;
     bool muted = false;
+    bool backward = false;  // the drive that it watches, or has stopped
     // The length of the field when it stopped the AGV, and where that was: so much has to be clear again.
     double field_m = 0.0;
     Vec2 field_from_m = Vec2::Zero();

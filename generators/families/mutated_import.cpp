@@ -77,6 +77,11 @@ Layout what_is_left(const Layout& base, const std::vector<Fate>& fates) {
   Layout layout;
   layout.name = fmt::format("{}/{}", kMutatedImport, base.name);
   layout.stations = base.stations;
+  // Stations move, and the lanes of a mutation no longer arrive with these headings.
+  for (Station& station : layout.stations) {
+    station.turning = true;
+    station.heading.reset();
+  }
   layout.blocks = base.blocks;
   layout.segments.reserve(fates.size());
   for (std::size_t i = 0; i < fates.size(); ++i) {

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <map>
 
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
+#include "core/base/tolerances.hpp"
 #include "generators/formats/purpose_words.hpp"
 #include "generators/map/layout_check.hpp"
 #include "generators/text/csv_fields.hpp"
@@ -184,7 +186,11 @@ class TableReader {
     }
     station.turning = truth(field(fields, "turning"), "turning", true);
     if (const auto heading = numbers(field(fields, "heading"), "heading"); heading.size() == 2) {
-      station.heading = Vec2(heading[0], heading[1]);
+      const Vec2 direction(heading[0], heading[1]);
+      const double norm = direction.norm();
+      if (!(norm > kShortestHeading && norm < 1e9)) refuse("a heading is a direction x y other than 0 0");
+      const bool is_unit = std::abs(direction.squaredNorm() - 1.0) <= kUnitVectorToTheLastDigits;
+      station.heading = is_unit ? direction : Vec2(direction / norm);
     } else if (!heading.empty()) {
       refuse(fmt::format("heading is {} numbers; expected a direction x y", heading.size()));
     }
@@ -222,6 +228,7 @@ class TableReader {
     const auto blocks = field(fields, "blocks");
     for (const auto one : words_of(blocks, '|')) segment.blocks.push_back(block(one));
     std::ranges::sort(segment.blocks);
+    if (std::ranges::adjacent_find(segment.blocks) != segment.blocks.end()) refuse("a block is named twice");
     for (const auto& [column, property] : kProperties) {
       if (const auto value = field(fields, column); !value.empty()) segment.*property = number(value, column);
     }

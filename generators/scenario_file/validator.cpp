@@ -233,9 +233,13 @@ class WorldCheck {
             fmt::format("{} starts closer than {} m to obstacle {}{}; move one", in_quotes(agv.name), distance_m,
                         in_quotes(obstacle.name), with_load(agv, agv)));
       }
-      if (scenario_.map->lanes_from(agv.start).empty()) {
+      const LaneRules rules{*scenario_.map, scenario_.type_of(agv).name, false};
+      const auto& lanes = scenario_.map->lanes_from(agv.start);
+      if (std::ranges::none_of(
+              lanes, [&](std::uint32_t lane) { return rules.may_drive(scenario_.map->lanes()[lane], agv.heading); })) {
         add(ProblemKind::StartWithoutLane, pointer(),
-            fmt::format("no lane leaves the station where {} starts", in_quotes(agv.name)));
+            fmt::format("no lane leaves the station where {} starts{}", in_quotes(agv.name),
+                        lanes.empty() ? "" : ", by what the layout allows it: permissions, and turns on the spot"));
       }
     }
   }

@@ -227,5 +227,72 @@ TEST(PlantRulesOracle, TheDetectorSeesWhatAClockSees) {
   EXPECT_GT(pairs, 100);
 }
 
+// A ring with five spurs: two that AGVs back into, one by choice, one with a heading, one for loads in and empties out.
+Layout ring_with_spurs() {
+  Layout layout;
+  layout.name = "spurs";
+  layout.floor_low_m = {-10.0, -10.0};
+  layout.floor_high_m = {30.0, 20.0};
+  const auto station = [&](const char* name, double x, double y, Purposes purposes) {
+    layout.stations.push_back({name, {x, y}, purposes});
+    return StationId{layout.stations.size() - 1};
+  };
+  const auto segment = [&](StationId from, StationId to, bool both) -> Segment& {
+    layout.segments.push_back({"e" + std::to_string(layout.segments.size()), from, to, both});
+    return layout.segments.back();
+  };
+  std::vector<StationId> ring;
+  for (const auto& [x, y] : {std::pair(0.0, 0.0), {10.0, 0.0}, {20.0, 0.0}, {20.0, 8.0}, {10.0, 8.0}, {0.0, 8.0}})
+    ring.push_back(station(("r" + std::to_string(ring.size())).c_str(), x, y, Purpose::Routing));
+  for (std::size_t i = 0; i < ring.size(); ++i) segment(ring[i], ring[(i + 1) % ring.size()], false);
+  const auto spur = [&](StationId from, const char* name, double dy) {
+    const Vec2 at = layout.stations[from.index()].position_m;
+    const StationId end = station(name, at.x(), at.y() + dy, Purpose::Storage);
+    layout.stations.back().turning = false;
+    return end;
+  };
+  for (const std::size_t i : {0U, 1U})
+    segment(ring[i], spur(ring[i], i == 0 ? "dock" : "rack", -5.0), true).travel = Travel::Backward;
+  Segment& either = segment(ring[2], spur(ring[2], "gate", -5.0), true);
+  either.travel = either.back_travel = Travel::Either;
+  Segment& headed = segment(ring[3], spur(ring[3], "lift", 5.0), true);
+  headed.travel = Travel::Either;
+  headed.back_travel = Travel::Either;
+  layout.stations.back().heading = Vec2(0.0, -1.0);
+  const StationId last = spur(ring[4], "bay", 5.0);
+  layout.stations.back().turning = true;
+  segment(ring[4], last, true);
+  segment(last, ring[5], false).permissions = {{"", LoadState::Loaded}};
+  return layout;
+}
+
+// Agents that plan within the rules are refused nothing, and the loads arrive.
+TEST(PlantRulesOracle, TheReferenceAgentsKeepTheRules) {
+  const AgentPrograms programs;
+  WorldSpec spec;
+  spec.layout = std::make_shared<const LogicalMap>(ring_with_spurs());
+  spec.demand.transports_per_agv_hour = 60.0;
+  spec.vehicles[0].type.footprint = {1.6, 0.9, 0.4};
+  std::uint64_t done = 0;
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    spec.fleet_size = seed % 3 == 0 ? 1 : 2;
+    RejectionCounts counts;
+    Scenario scenario = generate_world(spec, seed, counts);
+    scenario.radio.loss = seed % 2 == 0 ? 0.0 : 0.4;
+    scenario.radio.delay_s = 1.0;
+    std::vector<std::unique_ptr<Law>> laws;
+    laws.push_back(find_law("exact")->make(scenario));
+    const Outcome outcome = simulate(scenario, programs.find("hull-lock", "test"), laws);
+    EXPECT_TRUE(laws[0]->findings().violations.empty()) << "seed " << seed;
+    EXPECT_EQ(outcome.counters.refused_calls, 0U) << "seed " << seed;
+    done += outcome.counters.transports_done;
+    if (spec.fleet_size > 1) continue;
+    const Outcome alone = simulate(scenario, programs.find("reckless", "test"), {});
+    EXPECT_EQ(alone.counters.refused_calls, 0U) << "reckless, seed " << seed;
+    EXPECT_GT(alone.counters.transports_done, 3U) << "reckless, seed " << seed;
+  }
+  EXPECT_GT(done, 60U);
+}
+
 }  // namespace
 }  // namespace fleetproof::oracle

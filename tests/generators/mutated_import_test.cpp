@@ -114,5 +114,18 @@ TEST(MutatedRealLayouts, WorldsOfRealLayoutsAreSound) {
   }
 }
 
+TEST(MutatedImport, KeepsWaysOfTravelButNoHeadings) {
+  Layout base = aisles();
+  for (Segment& segment : base.segments) segment.travel = Travel::Either;
+  base.stations[0].turning = false;
+  base.stations[1].heading = Vec2(1.0, 0.0);
+  RejectionCounts counts;
+  Draws draws(5);
+  const auto layout = draw_mutation(base, draws, counts);
+  ASSERT_TRUE(layout.has_value());
+  EXPECT_TRUE(std::ranges::none_of(layout->stations, &Station::has_rules));
+  EXPECT_TRUE(std::ranges::all_of(layout->segments, [](const Segment& s) { return s.travel == Travel::Either; }));
+}
+
 }  // namespace
 }  // namespace fleetproof

@@ -55,5 +55,51 @@ TEST(Reachability, LongChainsDoNotExhaustTheStack) {
   EXPECT_EQ(Reachability(map).core().size(), kStations);
 }
 
+// a - b - c on a line, both ways, nose first.
+Layout line_of_three() {
+  Layout layout;
+  layout.stations = {{"a", {0.0, 0.0}}, {"b", {5.0, 0.0}}, {"c", {10.0, 0.0}}};
+  layout.segments = {{"a-b", StationId{0U}, StationId{1U}, true}, {"b-c", StationId{1U}, StationId{2U}, true}};
+  return layout;
+}
+
+std::size_t core_of(const Layout& layout, std::vector<std::string> types = {"tugger"}) {
+  const LogicalMap map(layout);
+  return Reachability(map, types).core().size();
+}
+
+TEST(ReachabilityUnderRules, ADeadEndWithoutTurningIsATrapUnlessOneBacksOut) {
+  Layout layout = line_of_three();
+  layout.stations[2].turning = false;
+  EXPECT_EQ(core_of(layout), 2U);
+  EXPECT_TRUE(Reachability(LogicalMap(layout)).reaches(StationId{0U}, StationId{2U})) << "one gets in";
+  layout.segments[1].back_travel = Travel::Backward;
+  EXPECT_EQ(core_of(layout), 3U);
+}
+
+TEST(ReachabilityUnderRules, AHeadingMustBePossible) {
+  Layout layout = line_of_three();
+  layout.stations[2].heading = Vec2(-1.0, 0.0);
+  EXPECT_EQ(core_of(layout), 2U);
+  layout.segments[1].travel = Travel::Either;
+  EXPECT_EQ(core_of(layout), 3U);
+}
+
+TEST(ReachabilityUnderRules, PermissionsCountForEveryTypeAndLoad) {
+  Layout layout = line_of_three();
+  layout.segments[1].permissions = {{"tugger", LoadState::Any}};
+  EXPECT_EQ(core_of(layout), 3U);
+  EXPECT_EQ(core_of(layout, {"tugger", "forklift"}), 2U);
+  EXPECT_EQ(core_of(layout, {}), 3U) << "no fleet yet: all permissions";
+  layout.segments[1].permissions = {{"", LoadState::Loaded}};
+  EXPECT_EQ(core_of(layout), 2U) << "nobody gets there to take a load up";
+  layout.segments.push_back({"c-b", StationId{2U}, StationId{1U}, false});
+  layout.segments[1].bidirectional = false;
+  EXPECT_EQ(core_of(layout), 2U) << "there with a load, back without one: nothing can be fetched";
+  layout.segments.push_back({"b-c 2", StationId{1U}, StationId{2U}, true});
+  layout.segments.back().permissions = {{"", LoadState::Empty}};
+  EXPECT_EQ(core_of(layout), 3U) << "c-b is for all";
+}
+
 }  // namespace
 }  // namespace fleetproof
