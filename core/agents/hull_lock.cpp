@@ -275,8 +275,8 @@ void HullLock::adopt_stretch() {
 }
 
 void HullLock::plan() {
-  const std::uint32_t end = end_of(map_, protocol_.held()).station;
-  while (!goals_.empty() && goals_.front().station == end) {
+  const Path end = end_of(map_, protocol_.held());
+  while (!goals_.empty() && goals_.front().station == end.station && map_.may_stay(end.station, end.heading)) {
     legs_.push_back({goals_.front().transfer, FP_NONE});
     goals_.erase(goals_.begin());
   }

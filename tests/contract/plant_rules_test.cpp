@@ -266,6 +266,29 @@ Layout ring_with_spurs() {
   return layout;
 }
 
+// A dock that asks for a heading, and allows turns: an AGV that starts there with its nose out has to come back.
+TEST(PlantRulesOracle, AnAgvLeavesADockInWhichItStandsTheWrongWay) {
+  Layout layout;
+  layout.name = "dock";
+  layout.floor_low_m = {-5.0, -10.0};
+  layout.floor_high_m = {15.0, 5.0};
+  layout.stations = {{"a", {0.0, 0.0}, Purpose::Storage}, {"b", {6.0, 0.0}}, {"dock", {6.0, -6.0}, Purpose::Storage}};
+  layout.stations[2].heading = Vec2(0.0, -1.0);
+  layout.segments.push_back({"a-b", StationId{0U}, StationId{1U}, true});
+  layout.segments.push_back({"b-dock", StationId{1U}, StationId{2U}, true});
+  Scenario scenario = test::row_scenario(4, {2}, 300.0);
+  scenario.map = std::make_shared<const LogicalMap>(layout);
+  scenario.agvs[0].heading = Vec2(0.0, 1.0);
+  scenario.agvs[0].transports = {{StationId{0U}, StationId{2U}, Duration{}},
+                                 {StationId{2U}, StationId{0U}, Duration{}}};
+  const AgentPrograms programs;
+  for (const char* agent : {"hull-lock", "reckless"}) {
+    const Outcome outcome = simulate(scenario, programs.find(agent, "test"), {});
+    EXPECT_EQ(outcome.counters.transports_done, 2U) << agent;
+    EXPECT_EQ(outcome.counters.refused_calls, 0U) << agent;
+  }
+}
+
 // Agents that plan within the rules are refused nothing, and the loads arrive.
 TEST(PlantRulesOracle, TheReferenceAgentsKeepTheRules) {
   const AgentPrograms programs;
