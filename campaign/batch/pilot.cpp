@@ -82,8 +82,7 @@ std::uint64_t Pilot::replicates_within(double time_s) const {
 
 double Pilot::runs_per_s() const { return static_cast<double>(cells.size()) * workers / std::max(1e-9, replicate_s()); }
 
-Pilot run_pilot(const CampaignPlan& plan, const AgentPrograms& programs, int workers,
-                std::chrono::milliseconds length) {
+Pilot run_pilot(const CampaignPlan& plan, const AgentPrograms& programs, int workers, PilotLength length) {
   const std::uint64_t cells = plan.cell_count(), step = spread_step(cells);
   Costs costs(cells);
   RunHost runs(plan, programs, {.workers = workers});
@@ -98,10 +97,10 @@ Pilot run_pilot(const CampaignPlan& plan, const AgentPrograms& programs, int wor
   const auto begin = Clock::now();
   {
     constexpr std::uint64_t kRecordsAhead = 1024;
-    TaskPool pool(workers, 0, plan.run_count(), kRecordsAhead, timed_run);
+    TaskPool pool(workers, 0, std::min(plan.run_count(), length.runs), kRecordsAhead, timed_run);
     while (!pool.finished()) {
       if (pool.next(std::chrono::milliseconds(10))) ++pilot.runs;
-      if (Clock::now() - begin >= length) pool.stop();
+      if (Clock::now() - begin >= length.time) pool.stop();
     }
   }
   pilot.elapsed_s = seconds_since(begin);

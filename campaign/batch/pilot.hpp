@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "campaign/plan/plan.hpp"
@@ -32,9 +33,15 @@ struct Pilot {
   double runs_per_s() const;
 };
 
-// Runs the first replicates of a plan for about `length`, or to the end of the plan, and stores nothing. The cells of a
+// How much a pilot simulates at most.
+struct PilotLength {
+  std::chrono::milliseconds time{0};  // after that no run is begun
+  std::uint64_t runs = std::numeric_limits<std::uint64_t>::max();
+};
+
+// Runs the first replicates of a plan to the length or to the end of the plan, and stores nothing. The cells of a
 // replicate take turns in a spread order, so that a replicate that is longer than the pilot is sampled evenly. Each
 // run that was begun is finished and counts: otherwise short runs would be over-represented.
-Pilot run_pilot(const CampaignPlan& plan, const AgentPrograms& programs, int workers, std::chrono::milliseconds length);
+Pilot run_pilot(const CampaignPlan& plan, const AgentPrograms& programs, int workers, PilotLength length);
 
 }  // namespace fleetproof

@@ -236,7 +236,7 @@ int plan(const PlanWords& words) {
   std::optional<std::chrono::seconds> budget;
   if (!words.max_time.empty()) budget = duration_of(words.max_time, "--max-time");
   build_first_worlds(forecast.plan);
-  forecast.pilot = run_pilot(forecast.plan, programs, workers, kPilotLength);
+  forecast.pilot = run_pilot(forecast.plan, programs, workers, {.time = kPilotLength});
   forecast.file = {forecast.plan.replicates, forecast.pilot.forecast_s(forecast.plan.replicates)};
   if (budget) {
     const auto time_s = static_cast<double>(budget->count());
