@@ -36,8 +36,11 @@ std::optional<Closest> closest_points(const Track& a, const Track& b, double rea
   return closest;
 }
 
-bool at_start(const Track& track, double s_m) { return s_m <= 0.5 * track.footprint.length_m; }
-bool at_end(const Track& track, double s_m) { return s_m >= track.length_m - 0.5 * track.footprint.length_m; }
+// Where the body is when it stands at the start or at the end.
+bool at_start(const Track& track, double s_m) { return s_m <= track.centre_m + 0.5 * track.footprint.length_m; }
+bool at_end(const Track& track, double s_m) {
+  return s_m >= track.length_m + track.centre_m - 0.5 * track.footprint.length_m;
+}
 
 }  // namespace
 
@@ -45,10 +48,12 @@ Track Track::of(const Piece& drive) {
   Track track{drive.entity, drive.begin, drive.end, drive.curve->length_m(), drive.footprint, {}, {}, {}};
   track.bends = !drive.curve->is_straight();
   track.tail_first = drive.curve->is_tail_first();
-  const double half_m = 0.5 * drive.footprint.length_m, whole_m = track.length_m + 2.0 * half_m;
+  track.centre_m = (track.tail_first ? -1.0 : 1.0) * drive.footprint.centre_ahead_m;
+  const double first_m = track.centre_m - 0.5 * drive.footprint.length_m,
+               whole_m = track.length_m + drive.footprint.length_m;
   const int steps = std::max(1, static_cast<int>(std::ceil(whole_m / kStep_m)));
   for (int i = 0; i <= steps; ++i) {
-    const double s_m = -half_m + whole_m * i / steps;
+    const double s_m = first_m + whole_m * i / steps;
     const Pose pose = drive.curve->pose_at(s_m);
     const Vec2 travel = track.tail_first ? Vec2(-pose.heading) : pose.heading;
     const double beyond_m = s_m - std::clamp(s_m, 0.0, track.length_m);

@@ -12,7 +12,7 @@ namespace fleetproof {
 // it was made.
 struct Track {
   struct Point {
-    // along the track; below 0 behind the start and above the length beyond the end, for the halves of the body
+    // along the track of the reference point; below 0 and above the length where the body reaches beyond it
     double s_m = 0.0;
     Vec2 position_m, heading;  // of the travel
   };
@@ -24,6 +24,7 @@ struct Track {
   std::vector<Point> points;
   bool bends = false;       // its curve is not one straight line
   bool tail_first = false;  // the nose points against the travel
+  double centre_m = 0.0;    // of the body, from its reference point, along the travel
 
   static Track of(const Piece& drive);
   OrientedRectangle body_at(const Point& point) const {

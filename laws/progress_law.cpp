@@ -243,7 +243,8 @@ Wait ProgressLaw::wait_of(EntityId agv, SimTime now) const {
   const StationId here = station_of(*scenario_.map, bodies_.position_m(agv, now));
   if (!here.valid()) return {};
   const TransportOrder& order = orders_[state.carried.value_or(state.open.front()).index()];
-  const Lane* lane = first_lane_of_way(*scenario_.map, here, state.carried ? order.to : order.from);
+  const LaneRules rules{*scenario_.map, scenario_.type_of(scenario_.agvs[agv.index()]).name, state.carried.has_value()};
+  const Lane* lane = first_lane_of_way(rules, here, state.carried ? order.to : order.from);
   return lane == nullptr ? Wait{} : Wait{first_in_the_way(scenario_, bodies_, agv, *lane, now), true};
 }
 

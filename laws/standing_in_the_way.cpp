@@ -10,8 +10,8 @@ constexpr double kStep_m = 0.1;  // between poses of the way
 
 }  // namespace
 
-const Lane* first_lane_of_way(const LogicalMap& map, StationId from, StationId to) {
-  const ShortestWay way = shortest_ways(map, from, to).back();
+const Lane* first_lane_of_way(const LaneRules& rules, StationId from, StationId to) {
+  const ShortestWay way = shortest_ways(rules.map, from, to, &rules).back();
   return way.to == to ? way.first : nullptr;
 }
 

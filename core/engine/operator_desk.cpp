@@ -88,7 +88,8 @@ void OperatorDesk::look_for_place(AgvId agv) {
   const AgvStatus& status = run_.status(agv);
   const Footprint footprint = run_.type_of(agv).footprint_with(run_.is_loaded(agv));
   const double margin_m = std::max(0.0, run_.scenario.law.safety_distance_m - kBuiltToTheLimit_m);
-  const auto places = recovery_places(*run_.scenario.map, status.station, status.stopped_on, run_.pose_now(agv));
+  const LaneRules rules{*run_.scenario.map, run_.type_of(agv).name, run_.is_loaded(agv)};
+  const auto places = recovery_places(rules, status.station, status.stopped_on, run_.pose_now(agv));
   const auto place = std::ranges::find_if(places, [&](const RecoveryPlace& p) {
     const OrientedRectangle body = placed(footprint, p.pose);
     return run_.world.stays_free(body, margin_m, run_.now) && !is_on_the_way(body, margin_m);

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/scenario/layout.hpp"
+#include "core/scenario/lane_rules.hpp"
 
 namespace fleetproof {
 
@@ -14,9 +14,11 @@ struct RecoveryPlace {
 
 // In order of preference. The first place is the station at which the AGV stood, with its heading there; if the AGV
 // stood on a lane (`stopped_on`; null: on none), it is the end of that lane. The other agents expect the AGV at this
-// place. Then come all stations to which the AGV could have driven from there, by length of the way; equals by number.
-// The heading is the one with which the AGV would have arrived.
-std::vector<RecoveryPlace> recovery_places(const LogicalMap& map, StationId station, const Lane* stopped_on,
+// place. Then come all stations to which lanes lead from there, by length of the way; equals by number. The operator
+// pushes the AGV, so that no permission counts on the way. The heading is the one that the station demands, otherwise
+// the one with which the AGV would have arrived. Places are left out whose rules let such an AGV
+// drive off by no lane.
+std::vector<RecoveryPlace> recovery_places(const LaneRules& rules, StationId station, const Lane* stopped_on,
                                            const Pose& stood);
 
 }  // namespace fleetproof

@@ -1,5 +1,6 @@
 #include "core/scenario/ways.hpp"
 
+#include <limits>
 #include <queue>
 #include <utility>
 
@@ -25,14 +26,15 @@ class NearestFirst {
 
 }  // namespace
 
-std::vector<ShortestWay> shortest_ways(const LogicalMap& map, StationId from, StationId until) {
+std::vector<ShortestWay> shortest_ways(const LogicalMap& map, StationId from, StationId until, const LaneRules* rules) {
   std::vector<ShortestWay> ways;
   std::vector<const Lane*> first(map.station_count(), nullptr);
   std::vector<ReachedStation<double>> reached;
   NearestFirst open;
   const auto hop = [&](std::uint32_t index) {
     const Lane& lane = map.lanes()[index];
-    return std::pair(lane.to.value, lane.curve.length_m());
+    const bool permitted = rules == nullptr || map.segment(lane.segment).permits(rules->vehicle_type, rules->loaded);
+    return std::pair(lane.to.value, permitted ? lane.curve.length_m() : std::numeric_limits<double>::infinity());
   };
   search_ways(map, from, open, reached, hop, [&](StationId station) {
     const auto& [length_m, next_best, index] = reached[station.index()];

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/scenario/layout.hpp"
+#include "core/scenario/lane_rules.hpp"
 
 namespace fleetproof {
 
@@ -61,7 +61,9 @@ struct ShortestWay {
 };
 
 // The shortest ways from a station to all that can be reached, by length, of equals by number; `from` itself is the
-// first. With `until`, no further than to that station.
-std::vector<ShortestWay> shortest_ways(const LogicalMap& map, StationId from, StationId until = {});
+// first. With `until`, no further than to that station. With `rules`, over lanes only for which the AGV has permission,
+// whatever its heading.
+std::vector<ShortestWay> shortest_ways(const LogicalMap& map, StationId from, StationId until = {},
+                                       const LaneRules* rules = nullptr);
 
 }  // namespace fleetproof

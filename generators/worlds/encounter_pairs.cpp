@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/base/random.hpp"
+#include "core/scenario/lane_rules.hpp"
 #include "generators/families/layout_builder.hpp"
 #include "generators/map/timetable.hpp"
 #include "generators/worlds/transports.hpp"
@@ -34,6 +35,7 @@ class PairMaker {
   PairMaker(Scenario& scenario, const Reachability& reachability, bool ties, RejectionCounts& counts)
       : scenario_(scenario),
         map_(*scenario.map),
+        reachability_(reachability),
         counts_(counts),
         ties_(ties),
         type_(scenario.vehicle_types[0]),
@@ -85,7 +87,8 @@ class PairMaker {
     const auto start = starts[draws.below(static_cast<std::uint32_t>(starts.size()))];
     const auto goal = goals_[draws.below(static_cast<std::uint32_t>(goals_.size()))];
     const auto& ways = timetable_.from(start);
-    if (start == goal || !ways.at(goal).unique || !has_room(start, goal, std::nullopt)) return std::nullopt;
+    if (start == goal || !ways.at(goal).unique || !may_go(ways, goal) || !has_room(start, goal, std::nullopt))
+      return std::nullopt;
     const auto way = passed_on(ways, goal);
     std::vector<StationId> others;
     others.reserve(starts.size());
@@ -194,13 +197,23 @@ class PairMaker {
     std::vector<StationId> through;
     through.reserve(goals_.size());
     for (const auto goal : goals_) {
-      if (goal == meeting.start || !ways.at(goal).unique) continue;
+      if (goal == meeting.start || !ways.at(goal).unique || !may_go(ways, goal)) continue;
       StationId s = goal;
       while (ways.at(s).arrives > met) s = map_.lanes()[ways.at(s).lane].from;
       if (s == meeting.through) through.push_back(goal);
     }
     if (through.empty()) return std::nullopt;
     return through[draws.below(static_cast<std::uint32_t>(through.size()))];
+  }
+
+  // Whether the plant permits the quickest way to an empty AGV. The timetable knows no rules.
+  bool may_go(const QuickestWays& ways, StationId goal) const {
+    if (!has_rules(map_.layout())) return true;
+    const auto lanes = ways.lanes(map_, goal);
+    return !lanes.empty() && reachability_.may_start_along(lanes.front()) &&
+           std::ranges::all_of(lanes, [&](std::uint32_t lane) {
+             return map_.segment(map_.lanes()[lane].segment).permits(type_.name, false);
+           });
   }
 
   Vec2 heading(StationId start, StationId goal) {
@@ -223,6 +236,7 @@ class PairMaker {
 
   Scenario& scenario_;
   const LogicalMap& map_;
+  const Reachability& reachability_;
   RejectionCounts& counts_;
   bool ties_;
   const VehicleType& type_;

@@ -53,6 +53,36 @@ TEST(ScannerPart, StopsTheAgvAsSoonAsABodyIsInItsField) {
   EXPECT_EQ(world.run.counters.scanner_saves, 1U) << "a touch was under way";
 }
 
+// The AGV's nose points away from the crate; it comes tail first. Its centre is 0.3 m ahead of its reference point.
+TEST(ScannerPart, LooksBehindWhileTheAgvDrivesBackward) {
+  Scenario scenario = with_crate();
+  Layout layout = scenario.map->layout();
+  for (Segment& segment : layout.segments) segment.travel = Travel::Backward;
+  scenario.map = std::make_shared<const LogicalMap>(layout);
+  scenario.agvs[0].heading = Vec2(-1.0, 0.0);
+  scenario.vehicle_types[0].footprint.centre_ahead_m = 0.3;
+  SmallWorld world(scenario);
+  drive(world);
+  const double stopped_s = time_of(world, true, 8.0);
+  ASSERT_GT(stopped_s, 0.0);
+  const double v = 0.5 * stopped_s,
+               tail_m = world.x_m(kFirst) - 0.3 + 0.5 * world.run.type_of(kFirst).footprint.length_m;
+  EXPECT_GE(tail_m + v * 0.08 + v * v / 2.0 + 0.15, 5.5);
+  EXPECT_LT(tail_m + v * 0.08 + v * v / 2.0 + 0.15, 5.5 + 2.0 * v * 0.08 + 0.1) << "one look earlier it was clear";
+}
+
+TEST(ScannerPart, DoesNotLookWhereTheNosePointsWhileTheAgvDrivesBackward) {
+  Scenario scenario = with_crate();
+  Layout layout = scenario.map->layout();
+  for (Segment& segment : layout.segments) segment.travel = Travel::Backward;
+  scenario.map = std::make_shared<const LogicalMap>(layout);
+  scenario.agvs[0].heading = Vec2(-1.0, 0.0);
+  scenario.obstacles[0].pose.position_m = {-2.0, 0.0};  // ahead of the nose, and the AGV drives away from it
+  SmallWorld world(scenario);
+  drive(world);
+  EXPECT_EQ(time_of(world, true, 8.0), -1.0);
+}
+
 // How far the crate is from the nose when the scanner stops the AGV.
 double gap_at_stop_m(const Scenario& scenario) {
   SmallWorld world(scenario);

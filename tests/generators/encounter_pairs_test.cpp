@@ -11,6 +11,7 @@
 #include <map>
 #include <optional>
 #include <queue>
+#include <set>
 
 #include "campaign/run/agent_programs.hpp"
 #include "core/engine/simulation.hpp"
@@ -206,6 +207,45 @@ INSTANTIATE_TEST_SUITE_P(All, Encounters, testing::ValuesIn(all_ranges()), [](co
   for (char& c : name) c = c == '-' || c == '/' ? '_' : c;
   return name;
 });
+
+// The rules are read from the plain layout: every leg of a quickest way has permission, and a pair starts along it.
+TEST(AdversarialPlacement, PairsAreNotSentWhereThePlantForbidsIt) {
+  WorldSpec spec;
+  spec.fleet_size = 4;
+  spec.placement = Placement::Adversarial;
+  spec.layout = std::string("random-planar");
+  RejectionCounts counts;
+  Layout layout = generate_world(spec, 1, counts).map->layout();
+  std::set<std::size_t> forbidden;
+  for (std::size_t i = 0; i < layout.segments.size(); ++i) {
+    layout.segments[i].permissions = {{"", LoadState::Loaded}};
+    if (Reachability(LogicalMap(layout)).core_share() == 1.0)
+      forbidden.insert(i);
+    else
+      layout.segments[i].permissions.clear();
+  }
+  ASSERT_GE(forbidden.size(), 5U);
+  spec.layout = std::make_shared<const LogicalMap>(layout);
+  int pairs = 0, rest = 0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    RejectionCounts of_world;
+    const Scenario s = generate_world(spec, seed, of_world);
+    if (of_world.pairs_made == 0) {
+      ++rest;
+      continue;
+    }
+    ++pairs;
+    for (const std::size_t i : {0, 1}) {
+      const auto ways = ways_of(layout, s.vehicle_types[0]);
+      const auto legs =
+          quickest(layout, ways, s.vehicle_types[0], s.agvs[i].start.index(), s.agvs[i].transports[0].from.index());
+      ASSERT_FALSE(legs.empty());
+      EXPECT_LT((legs[0].way->start - s.agvs[i].heading).norm(), 1e-9) << seed;
+      for (const Leg& leg : legs) EXPECT_FALSE(forbidden.contains(leg.way->segment)) << seed;
+    }
+  }
+  EXPECT_GE(pairs, 50) << rest << " worlds without a pair";
+}
 
 TEST(ChargerBank, TheFleetStandsRoundOneCharger) {
   WorldSpec bank, random;

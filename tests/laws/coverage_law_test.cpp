@@ -31,6 +31,15 @@ TEST(Encounters, OneAgainstTheOtherIsHeadOn) {
   EXPECT_EQ(met(scene), (Met{{"head-on", 1}}));
 }
 
+TEST(Encounters, ABodyAheadOfItsReferencePointMeetsWhatLiesBeforeTheEndOfTheTrack) {
+  for (const double ahead_m : {0.0, 2.0}) {
+    Scene scene(20.0);
+    scene.agv(facing(0.0, 0.0, 1.0, 0.0), {1.2, 0.8, ahead_m}).drive(4.0);
+    scene.agv(facing(6.0, -5.0, 0.0, 1.0)).drive(10.0);
+    EXPECT_EQ(met(scene), ahead_m == 0.0 ? Met{} : (Met{{"crossing", 1}}));
+  }
+}
+
 TEST(Encounters, WhoeverWaitsUntilTheOtherHasPassedHasStillMetIt) {
   Scene scene(40.0);
   scene.agv(facing(0.0, 0.0, 1.0, 0.0)).drive(10.0);  // until 8 s, past the crossing

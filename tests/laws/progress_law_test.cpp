@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "laws/standing_in_the_way.hpp"
 #include "tests/laws/told.hpp"
 #include "tests/support/at_seconds.hpp"
 #include "tests/support/worlds.hpp"
@@ -219,6 +220,21 @@ TEST_F(Progress, AWaitThatIsTakenBackIsNone) {
   const auto found = law.finish(600.0).incidents;
   EXPECT_THAT(kinds_of(found), ElementsAre(Deadlock, WaitsDeclared, WaitsInferred))
       << "what it no longer says is inferred";
+}
+
+TEST(FirstLaneOfWay, LeadsWhereTheAgvHasPermission) {
+  Layout layout = row_map(3)->layout();  // and a detour from its beginning to its end
+  layout.stations.push_back({"detour", {4.0, 9.0}});
+  layout.segments.push_back({"up", StationId{0U}, StationId{3U}, true});
+  layout.segments.push_back({"down", StationId{3U}, StationId{2U}, true});
+  layout.segments[1].permissions = {{"tug", LoadState::Empty}};
+  const LogicalMap map(layout);
+  const auto leads_to = [&](const LaneRules& rules) {
+    return first_lane_of_way(rules, StationId{0U}, StationId{2U})->to.value;
+  };
+  EXPECT_EQ(leads_to({map, "tug", false}), 1U);
+  EXPECT_EQ(leads_to({map, "tug", true}), 3U);
+  EXPECT_EQ(leads_to({map, "truck", false}), 3U);
 }
 
 }  // namespace
