@@ -11,7 +11,7 @@ HullGeometry::HullGeometry(const MapView& map, const fp_briefing& briefing, Hull
     : map_(map),
       options_(options),
       parts_per_kind_(map.lane_count() + map.station_count()),
-      clearance_m_((options.margin_is_whole ? 1.0 : 0.5) * briefing.safety_distance_m + kHullTolerance_m) {
+      clearance_m_((options.margin_is_whole ? 1.0 : 0.5) * briefing.safety_distance_m) {
   for (std::uint32_t i = 0; i < briefing.fleet_count; ++i) {
     const fp_agv& agv = agv_of(briefing, options.sizes_differ ? i : briefing.self);
     // Always the size with a load: an AGV does not know whether another AGV is loaded.
@@ -22,6 +22,9 @@ HullGeometry::HullGeometry(const MapView& map, const fp_briefing& briefing, Hull
     kind_of_.push_back(static_cast<std::uint32_t>(known - kinds_.begin()));
     if (known == kinds_.end()) kinds_.push_back(body);
   }
+  double reach_m = 0.0;
+  for (const Body& kind : kinds_) reach_m = std::max(reach_m, kind.reach_m());
+  clearance_m_ += std::max(kHullTolerance_m, 2.0 * kArcHeading_rad * reach_m);
   parts_.reserve(kinds_.size() * parts_per_kind_);
   for (const Body& kind : kinds_) bound_parts(kind);
   known_pairs_.resize(parts_.size());

@@ -10,8 +10,11 @@
 namespace fleetproof::agents {
 
 // Hulls keep this distance in addition to the safety distance. It covers rounding in messages, turns that are too small
-// to count, and arcs that are not quite the track.
+// to count, and arcs that are not quite the track, of bodies that reach 4.5 m from their reference points.
 inline constexpr double kHullTolerance_m = 0.02;
+// By this angle a body may point elsewhere than the arcs say (the map gives arcs to 2e-3 rad). Two bodies that reach
+// further need more distance.
+inline constexpr double kArcHeading_rad = 2.2e-3;
 
 // Hulls: all the floor that an AGV may cover while it drives a path, as shapes. The hull of a path has parts: a disc
 // for each turn on the spot, and the sweep of every lane. A path without lanes has the standing body only. Parts, and
@@ -21,7 +24,7 @@ class HullGeometry {
  public:
   HullGeometry(const MapView& map, const fp_briefing& briefing, HullOptions options = {});
 
-  // True if the hulls of the two paths come closer than the safety distance plus kHullTolerance_m.
+  // True if the hulls of the two paths come closer than the safety distance plus the tolerance.
   bool conflict(std::uint32_t agv_a, const Path& a, std::uint32_t agv_b, const Path& b);
   // The same for one lane, or for turning at one station.
   bool lane_conflict(std::uint32_t agv_a, std::uint32_t lane, std::uint32_t agv_b, const Path& b);

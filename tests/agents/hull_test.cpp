@@ -143,6 +143,19 @@ TEST_F(Crossing, StandingAgvHoldsItsBody) {
   EXPECT_TRUE(geometry.conflict(0, standing, 1, path(4, 5)));
 }
 
+// The map gives arcs whose heading is right to 2 mrad: the end of a long body lies that much further aside.
+TEST_F(Crossing, LongBodiesKeepMoreDistance) {
+  EXPECT_DOUBLE_EQ(geometry.clearance_m(), 0.10 + kHullTolerance_m);
+  fp_agv train = testing::kTestAgv;
+  train.length_m = train.loaded_length_m = 20.0;
+  fp_agv tug = testing::kTestAgv;
+  tug.centre_ahead_m = -12.0;
+  for (const auto& [agv, reach_m] : {std::pair(train, 10.0), {tug, 12.0}}) {
+    const TestFleet two(drawn.map(), 2, agv);
+    EXPECT_GE(HullGeometry(map, two.briefing(0, 0)).clearance_m(), 0.10 + 2.0 * 2e-3 * reach_m);
+  }
+}
+
 TEST_F(Crossing, TheSafetyDistanceCountsEverywhere) {
   // Bodies 1 m wide beside each other, the centres 1.08 m or 1.15 m apart: 0.08 m is too near, driving or standing.
   for (const auto& [y_m, conflict] : {std::pair(1.08, true), {1.15, false}}) {
