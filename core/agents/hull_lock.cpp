@@ -31,13 +31,6 @@ bool knows_restarts(const fp_briefing& briefing) {
   return briefing.struct_size >= offsetof(fp_briefing, start_segment) + sizeof(briefing.start_segment);
 }
 
-bool has_chargers(const MapView& map) {
-  for (std::uint32_t id = 0; id < map.station_count(); ++id) {
-    if ((map.station(id).purposes & FP_CHARGING) != 0) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 HullLock::HullLock(const fp_host& host, fp_controller* handle, const fp_briefing& briefing, const LockOptions& options)
@@ -52,8 +45,7 @@ HullLock::HullLock(const fp_host& host, fp_controller* handle, const fp_briefing
       neighbours_(map_, geometry_, briefing, settings_, options),
       protocol_(map_, geometry_, neighbours_, controller_, options, options.consent.epochs_name_boot ? boot_ : 0),
       planner_(map_, geometry_, neighbours_, agv_of(briefing, briefing.self)),
-      longest_claim_m_(longest_claim_m(map_)),
-      has_chargers_(has_chargers(map_)) {}
+      has_chargers_(map_.has_chargers()) {}
 
 void HullLock::on_event(const fp_event& event) {
   switch (event.kind) {
@@ -176,15 +168,19 @@ void HullLock::look_whether_out_of_order() {
 // The AGV keeps what it holds, and goes on when it has been repaired.
 void HullLock::set_out_of_order(bool out) {
   if (out && !out_of_order_) protocol_.withdraw();
-  if (out && !options_.holding.lanes_over_failures) protocol_.stand(end_of(map_, protocol_.held()));
+  if (out && !options_.holding.lanes_over_failures) release_lane();
   out_of_order_ = out;
 }
 
-void HullLock::release_early() {
-  if (options_.holding.lanes_to_their_end || !acting_ || current_.kind != Leg::Kind::Drive || current_released_) return;
-  if (now_s() < current_ends_s_ - kEarly_s) return;
+// Before the end of the lane: only if a rule of holding is broken.
+void HullLock::release_lane() {
+  if (!acting_ || current_.kind != Leg::Kind::Drive || current_released_) return;
   protocol_.lane_passed();
   current_released_ = true;
+}
+
+void HullLock::release_early() {
+  if (!options_.holding.lanes_to_their_end && now_s() >= current_ends_s_ - kEarly_s) release_lane();
 }
 
 void HullLock::look_at_battery() {
@@ -243,7 +239,7 @@ void HullLock::begin(const Leg& leg) {
   bool accepted = false;
   switch (leg.kind) {
     case Leg::Kind::Drive:
-      accepted = controller_.move(map_.action_segment(leg.lane));
+      accepted = protocol_.may_drive(leg.lane) && controller_.move(map_.action_segment(leg.lane));
       break;
     case Leg::Kind::Pick:
       accepted = controller_.pick(FP_HERE);
@@ -323,7 +319,8 @@ void HullLock::request(Stretch stretch, Purpose purpose) {
   purpose_ = purpose;
   requested_at_s_ = now_s();
   blocked_since_s_ = -1.0;
-  protocol_.request(stretch_.path, demand_ns_ < 0 ? controller_.now_ns() : demand_ns_);
+  if (!protocol_.request(stretch_.path, demand_ns_ < 0 ? controller_.now_ns() : demand_ns_))
+    plan_after_s_ = now_s() + kRetryPlanning_s;
 }
 
 // If the AGV waits for an AGV that only waits itself, it looks for another way. In the end it makes way.
@@ -364,7 +361,7 @@ bool HullLock::in_the_way_of(bool elder_only) {
 }
 
 Budget HullLock::budget() const {
-  return {longest_claim_m_ - length_m(map_, protocol_.held()), kPathLanesMax - protocol_.held().count};
+  return {neighbours_.claim_limit_m() - length_m(map_, protocol_.held()), kPathLanesMax - protocol_.held().count};
 }
 
 double HullLock::time_left_s() {

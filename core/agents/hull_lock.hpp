@@ -43,6 +43,7 @@ class HullLock {
   void look_whether_out_of_order();
   void set_out_of_order(bool out);
   void release_early();
+  void release_lane();
   void look_at_battery();
   void drive_to_charger();
   bool going_to_charge() const;
@@ -81,7 +82,6 @@ class HullLock {
   Neighbours neighbours_;
   LockProtocol protocol_;
   StretchPlanner planner_;
-  double longest_claim_m_;
 
   std::vector<Goal> goals_;  // goals that the locked stretches do not reach
   std::deque<Leg> legs_;     // locked legs that have not begun

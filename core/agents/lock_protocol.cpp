@@ -26,9 +26,18 @@
 //
 // The proof uses no assumption about the delay, the order or the number of messages, about clocks or keys, or about
 // which of several GRANTs was used. Keys, retransmission and making way serve progress only. The first hulls are the
-// bodies at the start, and the warehouse keeps those apart. A hull loses only lanes whose end the AGV has reached. What
-// the AGV still covers then belongs to the next lane, to a turn, or to the standing body. Time releases nothing: an AGV
-// that is stopped, broken down or empty in the middle of a lane holds that lane.
+// bodies at the start, and the warehouse keeps those apart. Time releases nothing.
+//
+// What i holds contains its body. The proof above is about held paths; these rules tie the body to the held path:
+// - At the start and at a restart, i holds the standing body or the lane under way (see Restarts).
+// - The held path is always one way that can be driven: it grows only by a stretch that begins where it ends
+//   (continues_held), and loses only its first lane.
+// - i moves only over the first held lane (may_drive), and gives no action while another one may be under way. A call
+//   that is refused moves nothing. So whatever stops, delays or frees the AGV, its body covers the first held lane, the
+//   turn before it, or the place where it stands. Which leg the agent had in mind, and why, plays no part.
+// - That lane is released when the action ends with FP_OK, so the AGV stands at its end. What the AGV still covers then
+//   belongs to the next lane, to a turn, or to the standing body. An action that ends otherwise, or does not end,
+//   releases nothing: an AGV that is stopped, broken down or empty in the middle of a lane holds that lane.
 //
 // Why may a GRANT be repeated without stepping back? Because the first decision counts: every later epoch of i asks j,
 // and j is inside f until it has ended f. If i did not remember its grants, each repeated REQUEST would make i step
@@ -69,14 +78,27 @@ constexpr std::int64_t kAskDeferredAgain_ns = 1'500'000'000;
 constexpr std::int64_t kStepBackPause_ns = 200'000'000;
 constexpr std::uint32_t kQuickAsks = 10;
 constexpr std::uint32_t kJitterDraws = 1;
+constexpr double kRounding_m = 1e-6;  // of sums of lengths; the proof of distance has a margin of a metre
 
 }  // namespace
 
-void LockProtocol::request(const Path& stretch, std::int64_t demand_ns) {
+bool LockProtocol::request(const Path& stretch, std::int64_t demand_ns) {
+  if (!continues_held(stretch)) {
+    withdraw();
+    return false;
+  }
   request_ = stretch;
+  request_.heading = end_of(map_, held_).heading;
   demand_ns_ = demand_ns;
   requesting_ = true;
   open_epoch();
+  return true;
+}
+
+bool LockProtocol::continues_held(const Path& stretch) const {
+  const double claim_m = length_m(map_, held_) + length_m(map_, stretch);
+  return stretch.station == end_of(map_, held_).station && is_driveable(map_, stretch) &&
+         stretch.count <= kPathLanesMax - held_.count && claim_m <= neighbours_.claim_limit_m() + kRounding_m;
 }
 
 void LockProtocol::open_epoch() {

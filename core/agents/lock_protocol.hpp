@@ -38,9 +38,11 @@ class LockProtocol {
 
   // Requests `stretch` in addition to the held path. Replaces an open request. `demand_ns`: since when the AGV has
   // wanted to go on. If two AGVs wait for each other, the older demand comes first.
-  // Requires: `stretch` begins where the held path ends.
-  void request(const Path& stretch, std::int64_t demand_ns);
+  // False if `stretch` does not begin where the held path ends, or is too long. Nothing is requested then.
+  bool request(const Path& stretch, std::int64_t demand_ns);
   void withdraw();
+  // True if the held path begins with this lane. The AGV must drive no other lane.
+  bool may_drive(std::uint32_t lane) const { return !held_.empty() && held_.lane_ids[0] == lane; }
   // The AGV has reached the end of the first held lane, and releases that lane. No effect if no lane is held.
   void lane_passed();
   // The state of the AGV that the next messages contain.
@@ -61,6 +63,7 @@ class LockProtocol {
  private:
   enum class Answer : std::uint8_t { Grant, GrantAndStepBack, Defer };
 
+  bool continues_held(const Path& stretch) const;
   void open_epoch();
   void answer_request(std::uint32_t sender);
   Answer answer_to(std::uint32_t agv, const Neighbour& neighbour);

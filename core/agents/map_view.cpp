@@ -31,6 +31,13 @@ MapView::MapView(const fp_map& map)
   for (std::uint32_t id = 0; id < lane_count(); ++id) arriving_[next[lane(id).to]++] = id;
 }
 
+bool MapView::has_chargers() const {
+  for (std::uint32_t id = 0; id < station_count(); ++id) {
+    if ((station(id).purposes & FP_CHARGING) != 0) return true;
+  }
+  return false;
+}
+
 std::span<const std::uint32_t> MapView::lanes_to(std::uint32_t station_id) const {
   return std::span(arriving_).subspan(arriving_begin_[station_id],
                                       arriving_begin_[station_id + 1] - arriving_begin_[station_id]);

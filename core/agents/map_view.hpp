@@ -26,6 +26,7 @@ class MapView {
   const fp_lane& lane(std::uint32_t id) const { return *fp_lane_at(&map_, id); }
   const fp_arc& arc(const fp_lane& lane, std::uint32_t i) const { return at(lane.arcs, map_.arc_stride, i); }
 
+  bool has_chargers() const;
   Vec position_m(std::uint32_t station_id) const { return {station(station_id).x_m, station(station_id).y_m}; }
   std::span<const std::uint32_t> lanes_from(std::uint32_t station_id) const {
     return {station(station_id).lanes, station(station_id).lane_count};

@@ -50,6 +50,7 @@ class Neighbours {
 
   std::uint32_t fleet_count() const { return static_cast<std::uint32_t>(neighbours_.size()); }
   std::uint32_t self() const { return self_; }
+  double claim_limit_m() const { return claim_m_; }
   Neighbour& of(std::uint32_t agv) { return neighbours_[agv]; }
   const Neighbour& of(std::uint32_t agv) const { return neighbours_[agv]; }
   // Calls `f(agv, neighbour)` for every other AGV.

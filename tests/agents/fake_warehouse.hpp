@@ -106,6 +106,7 @@ class FakeWarehouse {
   std::uint32_t misplaced() const { return misplaced_; }  // drops elsewhere than ordered
   std::uint32_t boot_of(std::uint32_t id) const { return agvs_[id]->briefing.boot; }
   std::uint32_t station_of(std::uint32_t id) const { return agvs_[id]->station; }
+  const fp_lane* lane_of(std::uint32_t id) const { return agvs_[id]->lane; }  // under way; null: the AGV stands
   // A battery that keeps its level, and gains 2 % per second at a charger.
   void battery(std::uint32_t id, double level) { agvs_[id]->battery = level; }
   double battery_of(std::uint32_t id) const {

@@ -41,6 +41,7 @@ TEST_P(JunctionCells, HullLockNeverHoldsInConflictAndEverybodyGetsAcross) {
   const Tally tally = cross_the_junction(kHullLock, GetParam(), 200, 300.0);
   EXPECT_EQ(tally.conflicting_holds, 0U);
   EXPECT_EQ(tally.claims_too_long, 0U);
+  EXPECT_EQ(tally.places_not_held, 0U);
   EXPECT_EQ(tally.violations, 0U);
   EXPECT_EQ(tally.drops, 4 * tally.runs) << "latest " << tally.latest_drop_s << " s";
   EXPECT_GE(tally.locks, 4 * tally.runs);
@@ -123,6 +124,7 @@ TEST(HullLock, ClaimsNoMoreThanOthersCountOn) {
   warehouse.run(400.0, 2);
   EXPECT_EQ(warehouse.drops(), 2U);
   EXPECT_EQ(tally.claims_too_long, 0U);
+  EXPECT_EQ(tally.places_not_held, 0U);
   EXPECT_EQ(tally.conflicting_holds, 0U);
 }
 

@@ -32,13 +32,21 @@ struct Junction {
 };
 
 struct Tally {
-  std::uint32_t runs = 0, conflicting_holds = 0, claims_too_long = 0, violations = 0, drops = 0, locks = 0;
+  std::uint32_t runs = 0, conflicting_holds = 0, claims_too_long = 0, places_not_held = 0, violations = 0, drops = 0,
+                locks = 0;
   std::uint32_t overtaken = 0, restarts = 0, restarts_on_lanes = 0, misplaced = 0;
   double latest_drop_s = 0.0;
 };
 
-// Watches what AGVs hold. When an AGV holds more, no other AGV may hold anything that conflicts with it. No AGV claims
-// more than the longest claim.
+// True if the path begins where the AGV stands, or with the lane that the AGV drives.
+inline bool begins_where_it_is(const FakeWarehouse& warehouse, const MapView& map, std::uint32_t id, const Path& held) {
+  const fp_lane* lane = warehouse.lane_of(id);
+  if (held.station != warehouse.station_of(id) || !is_driveable(map, held)) return false;
+  return lane == nullptr || (!held.empty() && &map.lane(held.lane_ids[0]) == lane);
+}
+
+// Watches what AGVs hold. It contains the place of the AGV. When an AGV holds more, no other AGV may hold anything that
+// conflicts with it. No AGV claims more than the longest claim.
 inline void watch_holds(FakeWarehouse& warehouse, const TestFleet& fleet, Tally& tally) {
   struct Watch {
     Watch(const TestFleet& fleet, std::size_t count)
@@ -56,6 +64,7 @@ inline void watch_holds(FakeWarehouse& warehouse, const TestFleet& fleet, Tally&
     const Path& mine = protocol.held();
     const double requested_m = protocol.requesting() ? length_m(watch->map, protocol.requested()) : 0.0;
     tally.claims_too_long += length_m(watch->map, mine) + requested_m > longest_claim_m(watch->map);
+    tally.places_not_held += !begins_where_it_is(warehouse, watch->map, id, mine);
     const bool restarted = warehouse.boot_of(id) != watch->boots[id];
     const bool more = !restarted && mine.count > watch->held[id];
     tally.restarts += restarted;

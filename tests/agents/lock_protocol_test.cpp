@@ -113,6 +113,29 @@ TEST_F(LockProtocolTest, AloneItLocksAtOnce) {
   EXPECT_EQ(members[0]->protocol->held().count, 2U);
 }
 
+// What an AGV holds contains its body only as long as the held path is one way that begins where the AGV is.
+TEST_F(LockProtocolTest, OnlyAContinuationOfTheHeldPathIsRequested) {
+  fleet_of(1);
+  LockProtocol& protocol = *members[0]->protocol;
+  want(0, 3, 0);
+  ASSERT_TRUE(settle(0));  // it holds 1 > 0 > 3, and stands at 1
+  const std::uint32_t first = drawn.lane_between(1, 0), second = drawn.lane_between(0, 3);
+  EXPECT_TRUE(protocol.may_drive(first));
+  EXPECT_FALSE(protocol.may_drive(second));
+  const auto request = [&](std::uint32_t from, std::vector<std::uint32_t> lanes) {
+    Path path;
+    path.station = from;
+    for (const std::uint32_t lane : lanes) path.append(lane);
+    const bool requested = protocol.request(path, 0);
+    EXPECT_EQ(protocol.requesting(), requested);
+    return settle(0);
+  };
+  EXPECT_FALSE(request(1, {first})) << "from where the AGV stands";
+  EXPECT_FALSE(request(3, {first})) << "a lane from elsewhere";
+  EXPECT_TRUE(request(3, {drawn.lane_between(3, 0)}));
+  EXPECT_FALSE(request(0, {second, drawn.lane_between(3, 0), second, drawn.lane_between(3, 0)})) << "42 m";
+}
+
 TEST_F(LockProtocolTest, EverybodyMustGrant) {
   fleet_of(3);
   want(0, 4, 0);

@@ -47,6 +47,7 @@ TEST_P(RestartCells, NobodyHoldsInConflictAndEveryLoadArrives) {
   const Tally tally = cross_with_restarts(GetParam(), 100);
   EXPECT_EQ(tally.conflicting_holds, 0U);
   EXPECT_EQ(tally.claims_too_long, 0U);
+  EXPECT_EQ(tally.places_not_held, 0U);
   EXPECT_EQ(tally.violations, 0U);
   EXPECT_EQ(tally.misplaced, 0U);
   EXPECT_EQ(tally.drops, 8 * tally.runs) << "latest " << tally.latest_drop_s << " s";
