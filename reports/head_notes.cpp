@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "reports/coverage_section.hpp"
+#include "reports/sensitivity/sensitivity_section.hpp"
 #include "reports/wording.hpp"
 
 namespace fleetproof {
@@ -51,6 +52,13 @@ std::vector<Remark> soundness_notes(const ReportInput& input) {
                                      audited == 1 ? "1 run was" : fmt::format("{} runs were", audited));
   notes.emplace_back().text = std::move(text);
   return notes;
+}
+
+std::vector<Remark> sensitivity_notes(const ReportInput& input) {
+  const auto& [record, trouble] = input.sensitivity;
+  if (!record) return trouble.empty() ? std::vector<Remark>{} : std::vector<Remark>{{printable(trouble, 400), ""}};
+  return {
+      {fmt::format("Tried with planted faults, a campaign in these worlds {}.", sensitivity_sentence(*record)), ""}};
 }
 
 }  // namespace fleetproof

@@ -16,4 +16,7 @@ std::vector<Remark> stall_notes(const ReportInput& input);
 // says so.
 std::vector<Remark> soundness_notes(const ReportInput& input);
 
+// Which planted faults these worlds detect, if that was measured, or why what was measured tells nothing.
+std::vector<Remark> sensitivity_notes(const ReportInput& input);
+
 }  // namespace fleetproof

@@ -16,6 +16,7 @@
 #include "reports/gate_section.hpp"
 #include "reports/plan_conditions.hpp"
 #include "reports/sample_sentence.hpp"
+#include "reports/sensitivity/sensitivity_section.hpp"
 #include "reports/verdict_sentences.hpp"
 #include "reports/weak_points.hpp"
 #include "reports/wording.hpp"
@@ -157,6 +158,7 @@ Page build_page(const ReportInput& input, std::size_t most_rows) {
   if (!input.baseline.empty()) add(Topic::Comparison, comparison_section(input));
   add(Topic::Coverage, coverage_section(input, most_rows));
   add(Topic::Coverage, incident_section(input, most_rows));
+  add(Topic::Sensitivity, sensitivity_section(input));
   add(Topic::Audit, audit_section(input));
   add(Topic::WeakPoints, weak_point_section(input));
   add(Topic::Failures, failure_section(input, std::min(most_rows, kMostGroups)));

@@ -41,6 +41,7 @@ enum class Topic : std::uint8_t {
   Conditions,
   Comparison,
   Coverage,
+  Sensitivity,
   Audit,
   WeakPoints,
   Failures,

@@ -13,6 +13,7 @@
 #include "reports/evidence/breakdown.hpp"
 #include "reports/evidence/evidence.hpp"
 #include "reports/evidence/failure_groups.hpp"
+#include "reports/sensitivity/sensitivity_record.hpp"
 #include "storage/archive_reader.hpp"
 
 namespace fleetproof {
@@ -32,7 +33,8 @@ struct ReportInput {
   // Files beside the archive tell these; a caller adds them.
   AttemptHistory attempts{};
   std::optional<std::uint64_t> looks{};  // absent: not known
-  std::string overrides{};               // options of a session that changed the plan, as typed
+  SensitivityFile sensitivity{};
+  std::string overrides{};  // options of a session that changed the plan, as typed
 };
 
 // Reads all runs of the archive and judges the runs before the first gap. `also` gets each of those runs after the

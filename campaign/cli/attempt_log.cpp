@@ -76,6 +76,7 @@ void add_history(ReportInput& input, const std::string& ledger) {
     if (!ledger.empty()) throw;  // nobody named it: a foreign file of this name tells nothing, and stops no report
   }
   input.looks = looks_at(input.archive_path);
+  input.sensitivity = sensitivity_beside(input.archive_path, input.campaign);
   input.overrides = remembered_overrides(input.archive_path);
 }
 

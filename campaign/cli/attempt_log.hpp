@@ -33,7 +33,7 @@ class AttemptLog {
   bool is_claim_, goes_on_, overwrites_;
 };
 
-// What the ledger and the session log tell about the campaign file: see attempts and looks of ReportInput. `ledger`
+// What the ledger, the session log and a measured sensitivity tell about the campaign file: see ReportInput. `ledger`
 // empty: the one that the last session wrote to, else attempts.jsonl beside the file.
 void add_history(ReportInput& input, const std::string& ledger);
 

@@ -165,6 +165,7 @@ void write_evidence_set(const std::string& path, const ArchiveReader& archive, c
   write_runs(folder, archive, report);
   folder.write("attempts.jsonl", copied(report.attempts.ledger));
   folder.write("sessions.jsonl", copied(session_log_path(report.archive_path)));
+  if (report.sensitivity.record) folder.write("sensitivity.json", sensitivity_text(*report.sensitivity.record));
   folder.publish();
 }
 

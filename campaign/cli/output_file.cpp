@@ -38,6 +38,7 @@ bool is_report(std::string_view text) {
          text.find("<testsuites name=\"fleetproof\"") != std::string_view::npos ||
          (has_key(text, "schema_version") && has_key(text, "verdict"));
 }
+bool is_sensitivity(std::string_view text) { return has_key(text, "worlds") && has_key(text, "faults"); }
 
 struct Kind {
   std::string_view noun;
@@ -45,22 +46,31 @@ struct Kind {
 };
 
 // In the order of OutputKind.
-constexpr Kind kKinds[] = {{"a layout file", is_layout},   {"a LIF file", is_lif},           {"a CSV layout", is_csv},
-                           {"an SVG picture", is_picture}, {"a scenario file", is_scenario}, {"a report", is_report}};
+constexpr Kind kKinds[] = {{"a layout file", is_layout},
+                           {"a LIF file", is_lif},
+                           {"a CSV layout", is_csv},
+                           {"an SVG picture", is_picture},
+                           {"a scenario file", is_scenario},
+                           {"a report", is_report},
+                           {"a measured sensitivity", is_sensitivity}};
+
+std::string remedy_of(const OutputFile& file) { return "choose another path for " + file.option; }
 
 }  // namespace
 
-void write_whole(const OutputFile& file, std::string_view text) {
+void require_writable(const OutputFile& file) {
   const Kind& kind = kKinds[static_cast<std::size_t>(file.kind)];
-  const std::string remedy = "choose another path for " + file.option;
   std::error_code ignored;
-  if (std::filesystem::is_regular_file(file.path, ignored)) {
-    const std::string before = read_text_file(file.path);
-    if (!before.empty() && !kind.is_one(before))
-      throw InputError(file.path,
-                       fmt::format("is there already and is not {}; it is not overwritten; {}", kind.noun, remedy));
-  }
-  write_text_file(file.path, text, remedy);
+  if (!std::filesystem::is_regular_file(file.path, ignored)) return;
+  const std::string before = read_text_file(file.path);
+  if (before.empty() || kind.is_one(before)) return;
+  throw InputError(
+      file.path, fmt::format("is there already and is not {}; it is not overwritten; {}", kind.noun, remedy_of(file)));
+}
+
+void write_whole(const OutputFile& file, std::string_view text) {
+  require_writable(file);
+  write_text_file(file.path, text, remedy_of(file));
 }
 
 }  // namespace fleetproof::cli

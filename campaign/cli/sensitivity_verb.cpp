@@ -1,13 +1,16 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 
-#include "campaign/batch/sensitivity.hpp"
+#include "campaign/cli/archive_name.hpp"
 #include "campaign/cli/campaign_words.hpp"
+#include "campaign/cli/output_file.hpp"
+#include "campaign/cli/sensitivity_summary.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "core/base/error.hpp"
+#include "core/base/outside_text.hpp"
+#include "reports/sensitivity/sensitivity_section.hpp"
 #include "reports/wording.hpp"
 
 namespace fleetproof::cli {
@@ -15,26 +18,24 @@ namespace {
 
 struct SensitivityWords {
   std::string campaign;
-  std::optional<std::uint64_t> jobs, seed, runs;
+  std::optional<std::uint64_t> jobs, seed, seeds, runs;
   std::vector<std::string> agents;
+  std::string out;
   bool json = false;
 };
 
-std::string cell_text(const CellRecord& cell) {
-  return fmt::format("{}, {} AGVs, {}", cell.layout, cell.fleet_size, factor_spans(cell.lowest, cell.highest));
+constexpr std::uint64_t kMostSeeds = 100;
+
+void put_fault(const PlantedFault& fault, std::size_t seeds) {
+  const std::string found = seeds == 1 ? "" : fmt::format(" with {} of {} seeds", fault.seeds, seeds);
+  if (fault.seeds == 0) return put("  {:24} missed\n", fault.agent);
+  if (fault.by_rate) return put("  {:24} {} more often than the sound agent{}\n", fault.agent, fault.seen_as, found);
+  const std::string runs = fault.median_runs ? fmt::format("{:g}", *fault.median_runs) : "too many";
+  put("  {:24} {} after {} runs{}{} ({}{})\n", fault.agent, fault.seen_as, runs, seeds == 1 ? "" : " (median)", found,
+      fault.cell, fault.probe.empty() ? "" : "; met " + fault.probe);
 }
 
-void put_finding(const FaultFinding& finding) {
-  const std::string& agent = finding.tally.agent;
-  if (finding.seen_as.empty()) return put("  {:24} missed in {}\n", agent, count_text(finding.runs, "run"));
-  const std::string met = finding.probe.empty() ? "" : "; met " + finding.probe;
-  if (!finding.by_rate)
-    return put("  {:24} {} in run {} ({}{})\n", agent, finding.seen_as, finding.runs, cell_text(finding.cell), met);
-  put("  {:24} {} in {} of {}\n", agent, finding.seen_as, finding.tally.accused.at(finding.seen_as),
-      count_text(finding.runs, "run"));
-}
-
-// The sound agent beside which rates are judged, and what it was accused of itself.
+// What the sound agent, beside which rates are judged, was accused of itself.
 void put_sound(const AgentTally& sound) {
   std::vector<std::string> parts;
   for (const auto& [name, runs] : sound.accused) parts.push_back(fmt::format("{} in {}", name, runs));
@@ -47,39 +48,24 @@ void put_sound(const AgentTally& sound) {
         sound.agent);
 }
 
-void put_text_of(const Sensitivity& result) {
-  std::vector<std::string> missed;
-  for (const FaultFinding& finding : result.faults) {
-    put_finding(finding);
-    if (finding.seen_as.empty()) missed.push_back(finding.tally.agent);
+void put_text_of(const SensitivityRecord& record, const std::vector<SeededSensitivity>& measured) {
+  for (const PlantedFault& fault : record.faults) put_fault(fault, record.seeds.size());
+  for (const SeededSensitivity& one : measured) put_sound(one.found.sound);
+  put("{}\n", sensitivity_sentence(record));
+}
+
+std::vector<SeededSensitivity> measure(CampaignPlan plan, const AgentPrograms& programs,
+                                       const SensitivityOptions& options, std::uint64_t seeds) {
+  std::vector<SeededSensitivity> measured;
+  for (std::uint64_t i = 0; i < seeds; ++i, ++plan.seed) {
+    std::size_t done = 0;
+    Sensitivity found = measure_sensitivity(plan, programs, options, [&](const FaultFinding& finding) {
+      talk("seed {}: {}: {} {}\n", plan.seed, ++done, finding.tally.agent,
+           finding.seen_as.empty() ? "missed" : "detected");
+    });
+    measured.push_back({plan.seed, std::move(found)});
   }
-  put_sound(result.sound);
-  put("detects {} of {}{}\n", result.detected(), count_text(result.faults.size(), "planted fault"),
-      missed.empty() ? "" : "; misses " + joined(missed, ", "));
-}
-
-nlohmann::ordered_json json_of(const FaultFinding& finding) {
-  nlohmann::ordered_json json = {
-      {"agent", finding.tally.agent}, {"detected", !finding.seen_as.empty()}, {"runs", finding.runs}};
-  if (finding.seen_as.empty()) return json;
-  json["seen_as"] = finding.seen_as;
-  json["by_rate"] = finding.by_rate;
-  if (finding.by_rate) json["accused_runs"] = finding.tally.accused.at(finding.seen_as);
-  json["first"] = {{"layout", finding.cell.layout},
-                   {"fleet_size", finding.cell.fleet_size},
-                   {"radio", factor_spans(finding.cell.lowest, finding.cell.highest)},
-                   {"probe", finding.probe}};
-  return json;
-}
-
-nlohmann::ordered_json json_of(const Sensitivity& result) {
-  nlohmann::ordered_json json = {{"schema_version", 1},
-                                 {"detected", result.detected()},
-                                 {"sound", {{"agent", result.sound.agent}, {"runs", result.sound.runs}}}};
-  json["sound"]["accused_runs"] = result.sound.accused;
-  json["faults"] = nlohmann::ordered_json::array();
-  for (const FaultFinding& finding : result.faults) json["faults"].push_back(json_of(finding));
-  return json;
+  return measured;
 }
 
 int sensitivity(const SensitivityWords& words) {
@@ -91,15 +77,21 @@ int sensitivity(const SensitivityWords& words) {
   options.runs = words.runs.value_or(options.runs);
   if (options.runs < 1) throw InputError("--runs", "is 0; it is at least 1");
   options.agents = words.agents;
-  std::size_t done = 0;
-  const Sensitivity result = measure_sensitivity(plan, programs, options, [&](const FaultFinding& finding) {
-    talk("{}: {} {}\n", ++done, finding.tally.agent, finding.seen_as.empty() ? "missed" : "detected");
-  });
+  const std::uint64_t seeds = words.seeds.value_or(1);
+  if (seeds < 1 || seeds > kMostSeeds)
+    throw InputError("--seeds", fmt::format("is {}; it is 1 to {}", seeds, kMostSeeds));
+  const OutputFile file{words.out.empty() ? sensitivity_path(archive_name_of(plan.name)) : words.out, "--output",
+                        OutputKind::Sensitivity};
+  require_writable(file);
+  const auto measured = measure(plan, programs, options, seeds);
+  const SensitivityRecord record = summary_of(plan, programs, measured);
   if (words.json) {
-    put_text(printable_json(json_of(result).dump(2)) + "\n");
+    put_text(sensitivity_text(record));
   } else {
-    put_text_of(result);
+    put_text_of(record, measured);
   }
+  write_whole(file, sensitivity_text(record));
+  talk("{}: a report of this campaign beside it tells this, too\n", shell_word(file.path));
   return kDemonstrated;
 }
 
@@ -110,8 +102,11 @@ Action prepare_sensitivity(Options& options) {
   options.positional("CAMPAIGN", words->campaign, "campaign file (TOML)");
   options.option("--runs", words->runs, "runs of each agent, at most (default: 10000, or all of the plan)");
   options.option("--seed", words->seed, "instead of the file's seed");
+  options.option("--seeds", words->seeds, "measure with so many seeds, this one and those after it (default: 1)");
   options.option("-j,--jobs", words->jobs, "worker threads (default: one per core)");
   options.option("--agent", words->agents, "this faulty agent only; may be repeated");
+  options.option("-o,--output", words->out,
+                 "write the result to this file (default: NAME.sensitivity.json, where reports of NAME.db look)");
   options.flag("--json", words->json, "print JSON");
   return [words] { return sensitivity(*words); };
 }

@@ -17,6 +17,7 @@ Action prepare_plan(Options& options);
 Action prepare_evidence(Options& options);
 Action prepare_compare(Options& options);
 Action prepare_sensitivity(Options& options);
+Action prepare_new(Options& options);
 Action prepare_list(Options& options);
 
 }  // namespace fleetproof::cli

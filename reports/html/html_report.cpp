@@ -128,8 +128,8 @@ std::vector<Element> parts_of(const HtmlInput& input, const Page& page) {
   parts.push_back(html::effort_part(input.report, input.figures));
   // The worst run of each group stands there: a list of the worst runs would be one failure many times.
   parts.push_back(html::failure_part(input.report, input.strips));
-  add({Topic::Comparison, Topic::Coverage, Topic::Conditions, Topic::Audit, Topic::WeakPoints, Topic::Attempts,
-       Topic::Provenance});
+  add({Topic::Comparison, Topic::Coverage, Topic::Sensitivity, Topic::Conditions, Topic::Audit, Topic::WeakPoints,
+       Topic::Attempts, Topic::Provenance});
   parts.push_back(plan_part(input.report));
   add({Topic::Method});
   parts.push_back(assumptions_part());

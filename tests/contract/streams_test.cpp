@@ -69,6 +69,7 @@ TEST_F(Streams, DataThatCannotBeWrittenIsExit3) {
                                           "plan a.toml --json",
                                           "sensitivity a.toml --runs 1 --agent wraps-at-256",
                                           "sensitivity a.toml --runs 1 --agent wraps-at-256 --json",
+                                          "new campaign",
                                           "replay expected.db 0",
                                           "replay expected.db 0 --json",
                                           "simulate s.json --agent reckless",

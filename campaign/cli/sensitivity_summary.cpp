@@ -1,0 +1,94 @@
+#include "campaign/cli/sensitivity_summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+#include "campaign/plan/plan_text.hpp"
+#include "campaign/run/engine_identity.hpp"
+#include "reports/wording.hpp"
+
+namespace fleetproof::cli {
+namespace {
+
+constexpr double kMissed = std::numeric_limits<double>::infinity();
+
+double median(std::vector<double> values) {
+  std::ranges::sort(values);
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+std::string cell_text(const CellRecord& cell) {
+  return fmt::format("{}, {} AGVs, {}", cell.layout, cell.fleet_size, factor_spans(cell.lowest, cell.highest));
+}
+
+// What most detections were; of equals the first by name.
+template <class Value>
+Value usual(const std::map<Value, std::uint64_t>& counts) {
+  return std::ranges::max_element(counts, {}, [](const auto& entry) { return entry.second; })->first;
+}
+
+PlantedFault summary_of(const std::vector<SeededSensitivity>& measured, std::size_t place) {
+  PlantedFault fault;
+  fault.agent = measured.front().found.faults[place].tally.agent;
+  std::vector<double> runs;
+  std::map<std::string, std::uint64_t> seen_as;
+  std::uint64_t by_rate = 0;
+  for (const auto& [seed, found] : measured) {
+    const FaultFinding& finding = found.faults[place];
+    runs.push_back(finding.seen_as.empty() ? kMissed : static_cast<double>(finding.runs));
+    if (finding.seen_as.empty()) continue;
+    if (fault.seeds++ == 0) {
+      fault.cell = cell_text(finding.cell);
+      fault.probe = finding.probe;
+    }
+    ++seen_as[finding.seen_as];
+    by_rate += finding.by_rate ? 1 : 0;
+  }
+  if (seen_as.empty()) return fault;
+  fault.seen_as = usual(seen_as);
+  fault.by_rate = 2 * by_rate > fault.seeds;
+  if (fault.by_rate) return fault;
+  if (const double middle = median(runs); middle < kMissed) fault.median_runs = middle;
+  if (const double most = *std::ranges::max_element(runs); most < kMissed)
+    fault.most_runs = static_cast<std::uint64_t>(most);
+  return fault;
+}
+
+// What the agent says of itself, without the words that all faulty agents begin with.
+std::string fault_of(const AgentPrograms& programs, const std::string& name) {
+  for (const AgentProgram& program : programs.all()) {
+    if (program.name != name) continue;
+    const std::size_t colon = program.description.find(": ");
+    return colon == std::string::npos ? program.description : program.description.substr(colon + 2);
+  }
+  return {};
+}
+
+}  // namespace
+
+SensitivityRecord summary_of(const CampaignPlan& plan, const AgentPrograms& programs,
+                             const std::vector<SeededSensitivity>& measured) {
+  SensitivityRecord record;
+  record.worlds = worlds_of(plan_text(plan));
+  record.engine_version = engine_identity().version;
+  record.program_sha256 = engine_identity().program_sha256;
+  record.sound_agent = measured.front().found.sound.agent;
+  for (const auto& [seed, found] : measured) {
+    record.seeds.push_back(seed);
+    record.runs = std::max(record.runs, found.sound.runs);
+    record.sound_runs += found.sound.runs;
+    const auto violations = found.sound.accused.find("violation");
+    if (violations != found.sound.accused.end()) record.sound_violations += violations->second;
+  }
+  for (std::size_t place = 0; place < measured.front().found.faults.size(); ++place) {
+    record.faults.push_back(summary_of(measured, place));
+    record.faults.back().text = fault_of(programs, record.faults.back().agent);
+  }
+  return record;
+}
+
+}  // namespace fleetproof::cli

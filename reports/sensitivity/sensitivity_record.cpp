@@ -1,0 +1,127 @@
+#include "reports/sensitivity/sensitivity_record.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "core/base/outside_text.hpp"
+#include "core/base/random.hpp"
+#include "reports/wording.hpp"
+
+namespace fleetproof {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kSchemaVersion = 2;
+constexpr const char* kEnding = ".sensitivity.json";
+
+template <class T>
+Json maybe(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+template <class T>
+void take(const Json& json, const char* key, std::optional<T>& value) {
+  if (!json.at(key).is_null()) value = json.at(key).get<T>();
+}
+
+Json json_of(const PlantedFault& fault, const SensitivityRecord& record) {
+  return {{"agent", fault.agent},
+          {"text", fault.text},
+          {"detected", record.detects(fault)},
+          {"seeds", fault.seeds},
+          {"seen_as", fault.seen_as},
+          {"by_rate", fault.by_rate},
+          {"median_runs", maybe(fault.median_runs)},
+          {"most_runs", maybe(fault.most_runs)},
+          {"cell", fault.cell},
+          {"probe", fault.probe}};
+}
+
+PlantedFault fault_from(const Json& json) {
+  PlantedFault fault;
+  fault.agent = json.at("agent");
+  fault.text = json.at("text");
+  fault.seeds = json.at("seeds");
+  fault.seen_as = json.at("seen_as");
+  fault.by_rate = json.at("by_rate");
+  take(json, "median_runs", fault.median_runs);
+  take(json, "most_runs", fault.most_runs);
+  fault.cell = json.at("cell");
+  fault.probe = json.at("probe");
+  return fault;
+}
+
+SensitivityRecord record_from(const Json& json) {
+  SensitivityRecord record;
+  record.worlds = json.at("worlds");
+  record.engine_version = json.at("engine").at("version");
+  record.program_sha256 = json.at("engine").at("program_sha256");
+  record.seeds = json.at("seeds").get<std::vector<std::uint64_t>>();
+  record.runs = json.at("runs");
+  record.sound_agent = json.at("sound").at("agent");
+  record.sound_runs = json.at("sound").at("runs");
+  record.sound_violations = json.at("sound").at("violating_runs");
+  for (const Json& fault : json.at("faults")) record.faults.push_back(fault_from(fault));
+  return record;
+}
+
+}  // namespace
+
+std::uint64_t SensitivityRecord::detected() const {
+  return static_cast<std::uint64_t>(
+      std::ranges::count_if(faults, [&](const PlantedFault& fault) { return detects(fault); }));
+}
+
+std::string worlds_of(const std::string& plan_json) {
+  auto plan = nlohmann::json::parse(plan_json, nullptr, false);
+  if (!plan.is_object()) return hex_text(name_hash(plan_json));
+  for (const char* key :
+       {"name", "kind", "seed", "replicates", "agent_config", "coverage", "limits", "audit", "default_gates", "gates"})
+    plan.erase(key);
+  if (plan.contains("factors") && plan["factors"].is_object()) plan["factors"].erase("agents");
+  return hex_text(name_hash(plan.dump()));
+}
+
+std::string sensitivity_text(const SensitivityRecord& record) {
+  Json json = {
+      {"schema_version", kSchemaVersion},
+      {"worlds", record.worlds},
+      {"engine", {{"version", record.engine_version}, {"program_sha256", record.program_sha256}}},
+      {"seeds", record.seeds},
+      {"runs", record.runs},
+      {"sound",
+       {{"agent", record.sound_agent}, {"runs", record.sound_runs}, {"violating_runs", record.sound_violations}}},
+      {"detected", record.detected()},
+      {"faults", Json::array()}};
+  for (const PlantedFault& fault : record.faults) json["faults"].push_back(json_of(fault, record));
+  return printable_json(json.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n";
+}
+
+std::optional<SensitivityRecord> parse_sensitivity(const std::string& text) {
+  const Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object() || json.value("schema_version", Json()) != kSchemaVersion) return std::nullopt;
+  try {
+    return record_from(json);
+  } catch (const Json::exception&) {
+    return std::nullopt;
+  }
+}
+
+std::string sensitivity_path(const std::string& archive_path) {
+  return std::filesystem::path(archive_path).replace_extension().string() + kEnding;
+}
+
+SensitivityFile sensitivity_beside(const std::string& archive_path, const CampaignRecord& campaign) {
+  const std::string path = sensitivity_path(archive_path);
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return {};
+  auto record = parse_sensitivity({std::istreambuf_iterator<char>(file), {}});
+  if (!record) return {{}, path + " is damaged, or of another version of fleetproof: measure again."};
+  if (record->worlds != worlds_of(campaign.plan_json))
+    return {{}, path + " was measured in the worlds of another plan: measure again."};
+  return {std::move(record), {}};
+}
+
+}  // namespace fleetproof

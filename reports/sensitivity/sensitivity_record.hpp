@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "storage/records.hpp"
+
+namespace fleetproof {
+
+// What one faulty agent showed in the worlds of a plan, over several seeds.
+struct PlantedFault {
+  std::string agent, text;                 // name, and what it does otherwise than the sound agent
+  std::uint64_t seeds = 0;                 // in so many seeds it was detected
+  std::string seen_as;                     // what it was accused of, in most of them; empty: of nothing
+  bool by_rate = false;                    // accused more often than the sound agent, not by its first violation
+  std::optional<double> median_runs;       // until the first violation; absent: by rate, or missed in half of the seeds
+  std::optional<std::uint64_t> most_runs;  // absent: by rate, or missed in a seed
+  std::string cell, probe;                 // of the first such run of the first seed that detected it
+};
+
+// Which planted faults the worlds of a plan detect: what `fleetproof sensitivity` measured.
+struct SensitivityRecord {
+  std::string worlds;                          // worlds_of() the plan
+  std::string engine_version, program_sha256;  // that measured
+  std::vector<std::uint64_t> seeds;
+  std::uint64_t runs = 0;  // of each agent with each seed, at most
+  std::string sound_agent;
+  std::uint64_t sound_runs = 0, sound_violations = 0;  // runs, and runs with a violation
+  std::vector<PlantedFault> faults;                    // in the order of the catalogue
+
+  // In at least nine of ten seeds.
+  bool detects(const PlantedFault& fault) const { return fault.seeds > 0 && 10 * fault.seeds >= 9 * seeds.size(); }
+  std::uint64_t detected() const;
+};
+
+// A digest of what decides in which worlds agents are tried: the plan without its name, seed, replicates, agents and
+// gates.
+std::string worlds_of(const std::string& plan_json);
+
+// The record as JSON, and back. None: this is no such text.
+std::string sensitivity_text(const SensitivityRecord& record);
+std::optional<SensitivityRecord> parse_sensitivity(const std::string& text);
+
+// NAME.sensitivity.json beside the campaign file NAME.db.
+std::string sensitivity_path(const std::string& archive_path);
+
+// What stands beside a campaign file. `trouble`: why the file there tells nothing of this campaign.
+struct SensitivityFile {
+  std::optional<SensitivityRecord> record;
+  std::string trouble;
+};
+SensitivityFile sensitivity_beside(const std::string& archive_path, const CampaignRecord& campaign);
+
+}  // namespace fleetproof

@@ -1,0 +1,83 @@
+#include "reports/sensitivity/sensitivity_section.hpp"
+
+#include <fmt/format.h>
+
+#include "core/base/outside_text.hpp"
+#include "reports/wording.hpp"
+
+namespace fleetproof {
+namespace {
+
+std::string runs_text(const PlantedFault& fault) {
+  if (fault.by_rate) return "by rate";
+  return fault.median_runs ? fmt::format("{:g}", *fault.median_runs) : "-";
+}
+
+std::string most_text(const PlantedFault& fault) { return fault.most_runs ? std::to_string(*fault.most_runs) : "-"; }
+
+std::string or_dash(const std::string& text) { return text.empty() ? "-" : printable(text, 80); }
+
+std::string measured_text(const SensitivityRecord& record) {
+  std::string text = fmt::format(
+      "Measured with {}, in at most {} of each agent. A fault is detected if it ends in a violation, or is accused of "
+      "something more often than {} is (95 % confidence){}. ",
+      count_text(record.seeds.size(), "seed"), count_text(record.runs, "run"), printable(record.sound_agent, 40),
+      record.seeds.size() == 1 ? "" : ", with at least nine of ten seeds");
+  text += record.sound_violations == 0
+              ? fmt::format("{} had no violation in {}.", printable(record.sound_agent, 40),
+                            count_text(record.sound_runs, "run"))
+              : fmt::format("{} itself had violations in {} of {} runs, so that violations count as rates.",
+                            printable(record.sound_agent, 40), record.sound_violations, record.sound_runs);
+  return text;
+}
+
+}  // namespace
+
+std::string sensitivity_sentence(const SensitivityRecord& record) {
+  std::vector<std::string> missed;
+  for (const PlantedFault& fault : record.faults) {
+    if (!record.detects(fault)) missed.push_back(printable(fault.agent, 40));
+  }
+  return fmt::format("detects {} of {}{}", record.detected(), count_text(record.faults.size(), "planted fault"),
+                     missed.empty() ? "" : "; misses " + joined(missed));
+}
+
+Table sensitivity_table(const SensitivityRecord& record) {
+  Table table{{{"planted fault", false},
+               {"what it does", false},
+               {"seeds", true},
+               {"first after runs, median", true},
+               {"most", true},
+               {"accused of", false},
+               {"first in", false},
+               {"met there", false}},
+              {}};
+  for (const PlantedFault& fault : record.faults) {
+    table.rows.push_back({printable(fault.agent, 40), printable(fault.text, 80),
+                          fmt::format("{} of {}", fault.seeds, record.seeds.size()), runs_text(fault), most_text(fault),
+                          or_dash(fault.seen_as), or_dash(fault.cell), or_dash(fault.probe)});
+  }
+  return table;
+}
+
+Section sensitivity_section(const ReportInput& input) {
+  Section section{"Which planted faults these worlds detect", {}, {}};
+  const auto& [record, trouble] = input.sensitivity;
+  if (!record) {
+    section.remarks.push_back({trouble.empty() ? "Not measured. Agents with known faults can be tried in these worlds "
+                                                 "(fleetproof sensitivity CAMPAIGN)."
+                                               : "Not known: " + printable(trouble, 400),
+                               ""});
+    return section;
+  }
+  section.table = sensitivity_table(*record);
+  section.remarks.push_back({fmt::format("A campaign in these worlds {}.", sensitivity_sentence(*record)), ""});
+  section.remarks.push_back({measured_text(*record), ""});
+  if (record->program_sha256 != input.campaign.engine.program_sha256) {
+    section.remarks.push_back(
+        {fmt::format("It was measured by another build: fleetproof {}.", printable(record->engine_version, 40)), ""});
+  }
+  return section;
+}
+
+}  // namespace fleetproof
