@@ -23,6 +23,7 @@ struct ConsentOptions {
   bool answers_name_epoch = true;              // a GRANT counts only for the request that it answers
   bool senders_count = true;                   // false: a second GRANT of one AGV counts as the GRANT of another
   bool proofs_age = true;                      // an AGV that was far away may have come nearer since
+  bool places_spread = true;                   // false: it has gone on as it did between its last two positions
   bool epochs_name_boot = true;                // false: a restarted AGV uses the numbers of its requests again
   bool epochs_grow = true;                     // false: 0 comes after 255
 };

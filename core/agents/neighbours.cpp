@@ -29,7 +29,8 @@ Neighbours::Neighbours(const MapView& map, HullGeometry& geometry, const fp_brie
       position_margin_m_(std::max(kPositionMargin_m, 2.0 * settings.position_error_m)),
       position_late_s_(settings.position_late_s),
       claim_m_(longest_claim_m(map)),
-      proofs_age_(options.consent.proofs_age) {
+      proofs_age_(options.consent.proofs_age),
+      places_spread_(options.consent.places_spread) {
   for (std::uint32_t i = 0; i < briefing.fleet_count; ++i) {
     const fp_agv& agv = agv_of(briefing, i);
     fastest_mps_.push_back(kSpeedMargin * (1.0 + agv.speed_deviation) * agv.speed_mps);
@@ -69,6 +70,10 @@ void Neighbours::note_acknowledgement(Neighbour& neighbour, const Message& messa
   const std::int64_t stamp_ms = heard.stamps_ms[self_ - heard.first];
   const std::int64_t sent_ns = (stamp_ms - 1) * 1'000'000;
   if (stamp_ms == 0 || sent_ns > now_ns || sent_ns < neighbour.proved_after_ns) return;
+  if (!places_spread_ && neighbour.proved_after_ns >= 0 && sent_ns > neighbour.proved_after_ns) {
+    const double apart_s = static_cast<double>(sent_ns - neighbour.proved_after_ns) * 1e-9;
+    neighbour.proved_velocity_mps = (message.status.position_m - neighbour.proved_position_m) * (1.0 / apart_s);
+  }
   neighbour.proved_after_ns = sent_ns;
   neighbour.proved_position_m = message.status.position_m;
 }
@@ -78,11 +83,12 @@ bool Neighbours::surely_beyond(std::uint32_t agv, const Path& path, std::int64_t
   if (n.proved_after_ns < 0) return false;
   const double age_s = proofs_age_ ? static_cast<double>(now_ns - n.proved_after_ns) * 1e-9 : 0.0;
   const double hulls_m = claim_m_ + geometry_.reach_m(agv) + geometry_.clearance_m();
-  const double moved_m = fastest_mps_[agv] * (age_s + position_late_s_) + position_margin_m_;
+  const Vec position_m = n.proved_position_m + n.proved_velocity_mps * (places_spread_ ? 0.0 : age_s);
+  const double moved_m = fastest_mps_[agv] * ((places_spread_ ? age_s : 0.0) + position_late_s_) + position_margin_m_;
   const double needed_m = hulls_m + moved_m;
-  if (length(n.proved_position_m - map_.position_m(path.station)) <= needed_m)
+  if (length(position_m - map_.position_m(path.station)) <= needed_m)
     return false;  // mostly; saves looking at all parts
-  return geometry_.distance_bound_m(n.proved_position_m, self_, path) > needed_m;
+  return geometry_.distance_bound_m(position_m, self_, path) > needed_m;
 }
 
 void Neighbours::tell_heard_from(HeardFrom& heard) {

@@ -25,6 +25,7 @@ struct Neighbour {
   // The other AGV was at this position after this instant of the own clock; negative: never proved.
   Vec proved_position_m;
   std::int64_t proved_after_ns = -1;
+  Vec proved_velocity_mps;  // between that position and the one before; for agents that guess alone
 
   // Its newest request, and the answer of this AGV.
   Epoch request_epoch = 0;
@@ -91,7 +92,7 @@ class Neighbours {
   std::vector<double> fastest_mps_;    // by AGV; includes the error of a clock
   double position_margin_m_, position_late_s_;
   double claim_m_;
-  bool proofs_age_;
+  bool proofs_age_, places_spread_;
   std::uint32_t next_heard_ = 0;
 };
 

@@ -30,6 +30,7 @@ extern const fp_agent_type kOvertakenGoesOn;
 extern const fp_agent_type kOvertakenIfGranted;
 extern const fp_agent_type kRestartForgetsLane;
 extern const fp_agent_type kStaleGrant;
+extern const fp_agent_type kStraightOn;
 extern const fp_agent_type kTieWithoutNumber;
 extern const fp_agent_type kTimeoutGrant;
 extern const fp_agent_type kWrapsAt256;
