@@ -69,21 +69,21 @@ void Neighbours::note_acknowledgement(Neighbour& neighbour, const Message& messa
   if (self_ < heard.first || self_ - heard.first >= heard.count) return;
   const std::int64_t stamp_ms = heard.stamps_ms[self_ - heard.first];
   const std::int64_t sent_ns = (stamp_ms - 1) * 1'000'000;
-  if (stamp_ms == 0 || sent_ns > now_ns || sent_ns < neighbour.proved_after_ns) return;
-  if (!places_spread_ && neighbour.proved_after_ns >= 0 && sent_ns > neighbour.proved_after_ns) {
-    const double apart_s = static_cast<double>(sent_ns - neighbour.proved_after_ns) * 1e-9;
-    neighbour.proved_velocity_mps = (message.status.position_m - neighbour.proved_position_m) * (1.0 / apart_s);
+  if (stamp_ms == 0 || sent_ns > now_ns || sent_ns < neighbour.proved.after_ns) return;
+  if (!places_spread_ && neighbour.proved.after_ns >= 0 && sent_ns > neighbour.proved.after_ns) {
+    const double apart_s = static_cast<double>(sent_ns - neighbour.proved.after_ns) * 1e-9;
+    neighbour.proved.velocity_mps = (message.status.position_m - neighbour.proved.position_m) * (1.0 / apart_s);
   }
-  neighbour.proved_after_ns = sent_ns;
-  neighbour.proved_position_m = message.status.position_m;
+  neighbour.proved.after_ns = sent_ns;
+  neighbour.proved.position_m = message.status.position_m;
 }
 
 bool Neighbours::surely_beyond(std::uint32_t agv, const Path& path, std::int64_t now_ns) {
   const Neighbour& n = neighbours_[agv];
-  if (n.proved_after_ns < 0) return false;
-  const double age_s = proofs_age_ ? static_cast<double>(now_ns - n.proved_after_ns) * 1e-9 : 0.0;
+  if (n.proved.after_ns < 0) return false;
+  const double age_s = proofs_age_ ? static_cast<double>(now_ns - n.proved.after_ns) * 1e-9 : 0.0;
   const double hulls_m = claim_m_ + geometry_.reach_m(agv) + geometry_.clearance_m();
-  const Vec position_m = n.proved_position_m + n.proved_velocity_mps * (places_spread_ ? 0.0 : age_s);
+  const Vec position_m = n.proved.position_m + n.proved.velocity_mps * (places_spread_ ? 0.0 : age_s);
   const double moved_m = fastest_mps_[agv] * ((places_spread_ ? age_s : 0.0) + position_late_s_) + position_margin_m_;
   const double needed_m = hulls_m + moved_m;
   if (length(position_m - map_.position_m(path.station)) <= needed_m)

@@ -23,9 +23,12 @@ struct Neighbour {
   Status status;  // the newest status that the other AGV sent
 
   // The other AGV was at this position after this instant of the own clock; negative: never proved.
-  Vec proved_position_m;
-  std::int64_t proved_after_ns = -1;
-  Vec proved_velocity_mps;  // between that position and the one before; for agents that guess alone
+  struct ProvedPlace {
+    Vec position_m;
+    std::int64_t after_ns = -1;
+    Vec velocity_mps;  // between the position before and this one; only for agents that guess
+  };
+  ProvedPlace proved;
 
   // Its newest request, and the answer of this AGV.
   Epoch request_epoch = 0;
