@@ -26,7 +26,7 @@ bool covers_floor(const RadioSetup& radio, const LogicalMap& map) {
 Messenger::Messenger(RunContext& run, AgentHostPort agents)
     : run_(run),
       agents_(agents),
-      radio_(run.scenario.radio, run.scenario.seed_of(Stream::Radio)),
+      radio_(run.scenario.radio, run.scenario.seed_of(Stream::Radio), run.scenario.fates),
       channel_(run.scenario.radio, run.scenario.seed_of(Stream::Radio)),
       unlimited_range_(covers_floor(run.scenario.radio, *run.scenario.map)),
       needs_places_(!unlimited_range_ || radio_.depends_on_place()),
@@ -79,7 +79,7 @@ void Messenger::transmit_to(AgvId sender, AgvId receiver, std::uint32_t slot, co
   ++counters.receptions;
   counters.delay_sum_ns += static_cast<std::uint64_t>((arrival - run_.now).count());
   if (fate.lost) return lose(receiver, slot, fate);
-  if (run_.scenario.radio.contention.interference)
+  if (run_.scenario.radio.contention.interference && !fate.given)
     run_.queue.push(on_air_until, receiver, Event::Kind::MessageArrives, slot | kAirTimeEnds);
   run_.queue.push(arrival, receiver, Event::Kind::MessageArrives, slot);
   if (fate.copy_delay) {

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/radio/delay_model.hpp"
+#include "core/radio/given_fates.hpp"
 #include "core/radio/outage_process.hpp"
 #include "core/radio/radio_channel.hpp"
 #include "core/radio/radio_crossings.hpp"
@@ -26,6 +28,7 @@ struct Fate {
   bool to_source = false;  // lost to an external source; without the source, the message would have arrived
   Duration delay{};        // from sending to the inbox; drawn for lost messages too, so that losses shift no draws
   std::optional<Duration> copy_delay{};  // the delay of a second copy, if there is one
+  bool given = false;                    // by the scenario: other transmissions in the air do not destroy it
 };
 
 // The reference points of sender and receiver at the instant of sending. Used only if the radio depends on place.
@@ -38,7 +41,8 @@ struct LinkPlaces {
 // Threads: one object serves one run on one thread.
 class Radio {
  public:
-  Radio(const RadioSetup& setup, std::uint64_t world_seed);
+  // `fates` go over what the models draw.
+  Radio(const RadioSetup& setup, std::uint64_t world_seed, std::span<const GivenFate> fates = {});
   bool depends_on_place() const { return depends_on_place_; }
   // Call this for every piece that starts after time zero. Roaming depends on the path of the AGV.
   void piece_begins(const Piece& piece) {
@@ -51,6 +55,7 @@ class Radio {
   OutageProcess& process_of(AgvId sender, AgvId receiver);
 
  private:
+  Fate drawn_fate(const MessageKey& message, const LinkPlaces& places);
   struct StateLoss {
     double good, bad;
   };
@@ -64,6 +69,7 @@ class Radio {
   std::uint64_t key_, state_key_, copy_key_;
   DelayModel delay_;
   bool has_states_, depends_on_place_;
+  GivenFates given_;
   RecordedRadio recorded_;
   RadioPlaces places_;
   RadioCrossings crossings_;

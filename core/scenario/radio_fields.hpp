@@ -145,4 +145,20 @@ void visit_fields(Radio& radio, Visit&& visit) {
         trace);
 }
 
+template <FieldsOf<GivenFate> Given, class Visit>
+void visit_fields(Given& fate, Visit&& visit) {
+  auto& [sender, receiver, sent, ordinal, lost, delay] = fate;
+  visit(Field{.key = "sender", .text = "name of the AGV that sends the message", .needed = true}, sender);
+  visit(Field{.key = "receiver", .text = "name of the AGV at which it has this fate", .needed = true}, receiver);
+  visit(Field{.key = "sent_s", .text = "when it is sent, to the nanosecond", .high = 1e9, .needed = true}, sent);
+  visit(Field{.key = "ordinal",
+              .text = "which of the messages from the one to the other at that instant, from 0 on",
+              .high = 4294967295.0,
+              .left_out = ordinal == 0},
+        ordinal);
+  visit(Field{.key = "lost", .text = "it does not arrive", .left_out = !lost}, lost);
+  visit(Field{.key = "delay_s", .text = "when it arrives after it was sent", .high = kLongestDelay_s, .left_out = lost},
+        delay);
+}
+
 }  // namespace fleetproof

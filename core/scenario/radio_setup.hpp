@@ -109,6 +109,18 @@ struct RecordedMessage {
 // In order of (sender, receiver, sent); times from 0 on.
 using RadioTrace = std::vector<RecordedMessage>;
 
+// What becomes of one message at one receiver, whatever the models of the radio would draw for it. The fate of no other
+// message moves. A message of this key that is never sent, or is out of range, has no fate.
+struct GivenFate {
+  AgvId sender, receiver;
+  Duration sent{};            // since the start of the run
+  std::uint32_t ordinal = 0;  // among the messages from this sender to this receiver at that instant, from 0 on
+  bool lost = false;
+  Duration delay{};  // if it is not lost; it has no second copy then
+
+  friend bool operator==(const GivenFate&, const GivenFate&) = default;
+};
+
 // The radio as a function of time and place. Traffic does not change it, except through interference.
 struct RadioSetup {
   // Always delay_s | uniform on [0, delay_s), which reorders messages | mostly short, seldom long: DelayTailSetup.

@@ -153,7 +153,7 @@ void visit_fields(Law& law, Visit&& visit) {
 
 template <FieldsOf<Scenario> Given, class Visit>
 void visit_fields(Given& scenario, Visit&& visit) {
-  auto& [name, map, vehicle_types, agvs, obstacles, faults, scanner, operator_help, radio, agent_clock, law,
+  auto& [name, map, vehicle_types, agvs, obstacles, faults, scanner, operator_help, radio, fates, agent_clock, law,
          contact_stops, horizon, stuck_after, seed, stream_seeds, agent, agent_config] = scenario;
   visit(Field{.key = "name", .text = "name of the scenario"}, name);
   visit(kSeed, seed);
@@ -181,6 +181,11 @@ void visit_fields(Given& scenario, Visit&& visit) {
   visit(Field{.key = "faults", .text = "what goes wrong, and when", .left_out = faults.empty()}, faults);
   visit(Field{.key = "scanner", .text = "the laser scanners", .left_out = scanner == ScannerSetup{}}, scanner);
   visit(Field{.key = "operator", .text = "the operator", .left_out = operator_help == OperatorSetup{}}, operator_help);
+  visit(Field{.key = "fates",
+              .text = "what becomes of single messages, whatever the radio would draw for them",
+              .home = FieldHome::ScenarioOnly,
+              .left_out = fates.empty()},
+        fates);
   visit(Field{.key = "layout", .text = "the logical map", .needed = true}, map);
 }
 

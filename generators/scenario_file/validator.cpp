@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 #include <string_view>
+#include <tuple>
 
 #include "core/base/error.hpp"
 #include "core/base/tolerances.hpp"
@@ -107,6 +108,7 @@ class MeaningCheck {
             "an obstacle leaves after it has appeared");
     }
     for (std::size_t i = 0; i < scenario_.faults.size(); ++i) fault(i);
+    fates();
   }
 
  private:
@@ -146,6 +148,21 @@ class MeaningCheck {
     if (!f.transport || *f.transport < agv.transports.size()) return;
     add(ProblemKind::UnknownReference, fmt::format("/faults/{}/transport", i),
         fmt::format("{} has {} transports; they count from 0", in_quotes(agv.name), agv.transports.size()));
+  }
+
+  void fates() {
+    std::set<std::tuple<AgvId, AgvId, Duration, std::uint32_t>> seen;
+    for (std::size_t i = 0; i < scenario_.fates.size(); ++i) {
+      const GivenFate& fate = scenario_.fates[i];
+      const auto bad = [&](std::string_view key, const char* sentence) {
+        add(ProblemKind::UnknownReference, fmt::format("/fates/{}{}", i, key), sentence);
+      };
+      if (fate.sender.index() >= scenario_.agvs.size()) bad("/sender", "there is no such AGV");
+      if (fate.receiver.index() >= scenario_.agvs.size()) bad("/receiver", "there is no such AGV");
+      if (fate.sender == fate.receiver) bad("/receiver", "no AGV sends to itself; name another AGV");
+      if (!seen.emplace(fate.sender, fate.receiver, fate.sent, fate.ordinal).second)
+        bad("", "this message has a fate already; give each message one");
+    }
   }
 
   bool has_station(StationId id) const { return id.index() < scenario_.map->station_count(); }
