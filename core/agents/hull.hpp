@@ -29,6 +29,9 @@ class HullGeometry {
   // The same for one lane, or for turning at one station.
   bool lane_conflict(std::uint32_t agv_a, std::uint32_t lane, std::uint32_t agv_b, const Path& b);
   bool turn_conflict(std::uint32_t agv_a, std::uint32_t station, std::uint32_t agv_b, const Path& b);
+  bool turns_conflict(std::uint32_t agv_a, std::uint32_t station_a, std::uint32_t agv_b, std::uint32_t station_b) {
+    return parts_conflict(turn_part(agv_a, station_a), turn_part(agv_b, station_b));
+  }
   // True if, for some pair of AGV types, turning at `station` conflicts with driving on `lane`.
   bool turning_blocks_lane(std::uint32_t station, std::uint32_t lane);
   // A lower bound of the distance from `point_m` to the hull.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <tuple>
 #include <utility>
 
 #include "core/agents/fleet.hpp"
@@ -11,14 +10,12 @@ namespace fleetproof::agents {
 namespace {
 
 enum Timer : std::uint32_t { kBeaconTimer = 1, kAskTimer = 2 };
-enum Draws : std::uint32_t { kBeaconDraws = 10, kPatienceDraws = 11, kPlaceDraws = 12 };
+enum Draws : std::uint32_t { kBeaconDraws = 10, kPlaceDraws = 12 };
 
 constexpr double kBeacon_s = 1.0;
 constexpr double kTransfer_s = 5.0;     // expected, of a pick or drop
 constexpr double kTurn_s = 3.0;         // expected, of a turn on the spot
 constexpr double kLongestLead_s = 8.0;  // how long before the end of a stretch the next one is asked for, at most
-constexpr double kPatience_s = 10.0;    // how long to wait for an AGV that stands in the way; up to half of it is added
-constexpr double kPatienceInTheWay_s = 3.0;
 constexpr double kRetryPlanning_s = 2.0;
 constexpr double kOverdue_s = 5.0;         // an action that takes this much longer than expected may have been stopped
 constexpr double kClockMargin = 1.02;      // clocks may run wrong by up to 1 %
@@ -45,6 +42,7 @@ HullLock::HullLock(const fp_host& host, fp_controller* handle, const fp_briefing
       neighbours_(map_, geometry_, briefing, settings_, options),
       protocol_(map_, geometry_, neighbours_, controller_, options, options.consent.epochs_name_boot ? boot_ : 0),
       planner_(map_, geometry_, neighbours_, agv_of(briefing, briefing.self)),
+      right_of_way_(geometry_, neighbours_, controller_),
       has_chargers_(map_.has_chargers()) {}
 
 void HullLock::on_event(const fp_event& event) {
@@ -264,7 +262,8 @@ void HullLock::begin(const Leg& leg) {
 void HullLock::adopt_stretch() {
   legs_.insert(legs_.end(), stretch_.legs.begin(), stretch_.legs.end());
   goals_.erase(goals_.begin(), goals_.begin() + stretch_.goals);
-  if (purpose_ == Purpose::Transport) demand_ns_ = -1;
+  if (stretch_.goals > 0) demand_ns_ = -1;  // an AGV that gets on only step by step stays old
+  right_of_way_.got_on();
   charging_ = false;  // of the AGVs that charge, only one that makes way locks floor
   const double took_s = std::min(now_s() - requested_at_s_, kLongestLead_s);
   locking_takes_s_ += 0.3 * (took_s - locking_takes_s_);
@@ -278,7 +277,8 @@ void HullLock::plan() {
   }
   if (now_s() < plan_after_s_) return;
   if (charging_ || going_to_charge()) {
-    if (charging_ && in_the_way_of(false) && controller_.battery_level() >= kFarEnoughCharged) plan_making_way();
+    if (charging_ && right_of_way_.is_asked_for(protocol_.held()) && controller_.battery_level() >= kFarEnoughCharged)
+      plan_making_way();
   } else if (!goals_.empty()) {
     plan_transport();
   } else if (is_idle()) {
@@ -295,21 +295,24 @@ void HullLock::plan_transport() {
 // An AGV without transports leaves a place that another AGV asks for. It also leaves a place that is not safe to wait
 // at.
 void HullLock::plan_making_way() {
-  const bool asked = in_the_way_of(false);
+  const bool asked = right_of_way_.is_asked_for(protocol_.held());
   if (!asked && (planner_.places().is_safe(protocol_.held().station) || now_s() - started_s_ < 2.0)) return;
   if (asked) controller_.sometimes("makes-way");
-  request(way_out(), Purpose::MakeWay);
+  request(way_out(Yields::ToAll), Purpose::MakeWay);
 }
 
 Stretch HullLock::way_on() { return planner_.towards(end_of(map_, protocol_.held()), budget(), goals_); }
 
-Stretch HullLock::way_out() {
+Stretch HullLock::way_out(Yields to) {
   if (!options_.progress.makes_way) return {};
+  const auto goes_first = [&](std::uint32_t agv, const Neighbour& n) {
+    return right_of_way_.goes_first(to, demand_ns_, agv, n);
+  };
   return planner_.out_of_the_way(protocol_.held(), budget(), carries_load(goals_), is_idle(),
-                                 controller_.random(kPlaceDraws));
+                                 controller_.random(kPlaceDraws), goes_first);
 }
 
-void HullLock::request(Stretch stretch, Purpose purpose) {
+void HullLock::request(Stretch stretch, Purpose purpose, std::int64_t demand_ns) {
   if (stretch.empty()) {
     plan_after_s_ = now_s() + kRetryPlanning_s;
     return;
@@ -318,46 +321,30 @@ void HullLock::request(Stretch stretch, Purpose purpose) {
   stretch_ = std::move(stretch);
   purpose_ = purpose;
   requested_at_s_ = now_s();
-  blocked_since_s_ = -1.0;
-  if (!protocol_.request(stretch_.path, demand_ns_ < 0 ? controller_.now_ns() : demand_ns_))
+  if (demand_ns < 0) demand_ns = demand_ns_;
+  if (!protocol_.request(stretch_.path, demand_ns < 0 ? controller_.now_ns() : demand_ns))
     plan_after_s_ = now_s() + kRetryPlanning_s;
 }
 
 // If the AGV waits for an AGV that only waits itself, it looks for another way. In the end it makes way.
 void HullLock::reconsider() {
   if (!protocol_.requesting() || !is_waiting() || out_of_order_) return;
-  if (protocol_.waiting_inside(protocol_.requested()) == FP_NONE) {
-    blocked_since_s_ = -1.0;
-    return;
-  }
-  if (blocked_since_s_ < 0.0) {
-    blocked_since_s_ = now_s();
-    patience_s_ = kPatience_s * (1.0 + 0.5 * controller_.random(kPatienceDraws));
-  }
+  if (!protocol_.is_held(protocol_.requested())) return;
   const Purpose purpose = goals_.empty() ? Purpose::MakeWay : Purpose::Transport;
-  Stretch other = purpose == Purpose::Transport ? way_on() : way_out();
-  if (!other.empty() && !(other.path == protocol_.requested()) && protocol_.waiting_inside(other.path) == FP_NONE) {
+  Stretch other = purpose == Purpose::Transport ? way_on() : way_out(Yields::ToAll);
+  if (!other.empty() && !(other.path == protocol_.requested()) && !protocol_.is_held(other.path)) {
     controller_.sometimes("another-way-round");
     return request(std::move(other), purpose);
   }
-  const double waited_s = now_s() - blocked_since_s_;
-  if (waited_s < kPatienceInTheWay_s || !in_the_way_of(waited_s < patience_s_)) return;
-  Stretch retreat = way_out();
-  if (retreat.empty()) return;
+  if (protocol_.waiting_inside(protocol_.requested()) == FP_NONE) return;
+  const Yields to = right_of_way_.when_blocked(protocol_.held(), demand_ns_);
+  if (to == Yields::ToNobody) return;
+  Stretch retreat = way_out(to);
+  if (retreat.empty() || retreat.path == protocol_.requested()) return;
   controller_.sometimes("retreat");
-  request(std::move(retreat), Purpose::MakeWay);
-}
-
-// Whether another AGV requests the place where this AGV stands. `elder_only`: only requests with an older demand count.
-bool HullLock::in_the_way_of(bool elder_only) {
-  bool found = false;
-  neighbours_.for_each([&](std::uint32_t agv, const Neighbour& n) {
-    if (found || !n.request_is_open()) return;
-    const std::uint32_t self = neighbours_.self();
-    if (elder_only && std::tie(n.demand_ns, agv) > std::tie(demand_ns_, self)) return;
-    found = geometry_.conflict(self, protocol_.held(), agv, n.request);
-  });
-  return found;
+  const std::int64_t eldest_ns = right_of_way_.eldest_demand_ns(protocol_.held(), demand_ns_);
+  if (to == Yields::ToAll) demand_ns_ = -1;  // otherwise it would come back before the younger AGV has passed
+  request(std::move(retreat), Purpose::MakeWay, to == Yields::ToElders ? eldest_ns : -1);
 }
 
 Budget HullLock::budget() const {

@@ -11,6 +11,7 @@
 #include "core/agents/lock_protocol.hpp"
 #include "core/agents/map_view.hpp"
 #include "core/agents/neighbours.hpp"
+#include "core/agents/right_of_way.hpp"
 #include "core/agents/settings.hpp"
 #include "core/agents/stretch_planner.hpp"
 #include "core/sdk/fleetproof/agent.h"
@@ -56,10 +57,9 @@ class HullLock {
   void plan_transport();
   void plan_making_way();
   void reconsider();
-  void request(Stretch stretch, Purpose purpose);
+  void request(Stretch stretch, Purpose purpose, std::int64_t demand_ns = -1);
   Stretch way_on();
-  Stretch way_out();
-  bool in_the_way_of(bool elder_only);
+  Stretch way_out(Yields to);
   bool is_waiting() const { return !acting_ && legs_.empty(); }
   bool is_idle() const { return is_waiting() && goals_.empty(); }
   // For people who look at a trace.
@@ -82,6 +82,7 @@ class HullLock {
   Neighbours neighbours_;
   LockProtocol protocol_;
   StretchPlanner planner_;
+  RightOfWay right_of_way_;
 
   std::vector<Goal> goals_;  // goals that the locked stretches do not reach
   std::deque<Leg> legs_;     // locked legs that have not begun
@@ -109,7 +110,6 @@ class HullLock {
   double locking_takes_s_ = 1.0;
   double plan_after_s_ = 0.0;
   std::int64_t ask_timer_ns_ = -1;
-  double blocked_since_s_ = -1.0, patience_s_ = 0.0;
 };
 
 // For the C table. Returns null if the map is too large for the messages.

@@ -214,6 +214,14 @@ std::uint32_t LockProtocol::waiting_inside(const Path& path) {
   return found;
 }
 
+bool LockProtocol::is_held(const Path& path) {
+  bool held = false;
+  neighbours_.for_each([&](std::uint32_t agv, const Neighbour& n) {
+    held = held || (n.known && geometry_.conflict(neighbours_.self(), path, agv, n.status.held));
+  });
+  return held;
+}
+
 void LockProtocol::grant(std::uint32_t agv, Neighbour& neighbour, Answer answer) {
   neighbour.granted_epoch = neighbour.request_epoch;
   if (answer == Answer::GrantAndStepBack) {

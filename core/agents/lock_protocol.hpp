@@ -59,6 +59,8 @@ class LockProtocol {
 
   // An AGV that stands and waits inside the hull of `path`; FP_NONE if none is known.
   std::uint32_t waiting_inside(const Path& path);
+  // Whether another AGV is known to hold floor inside the hull of `path`.
+  bool is_held(const Path& path);
 
  private:
   enum class Answer : std::uint8_t { Grant, GrantAndStepBack, Defer };

@@ -45,6 +45,7 @@ struct StretchPlanner::Walk {
   double length_m = 0.0;
   bool blocked = false;  // it reaches floor that another AGV is known to hold
   End here, best, least_bad;
+  bool best_is_roomy = false;
   std::uint32_t least_burden = ~0U;
 
   std::uint32_t station() const { return end_of(planner.map_, stretch.path).station; }
@@ -73,7 +74,10 @@ struct StretchPlanner::Walk {
     here.legs = stretch.legs.size();
     if (here.lanes == 0) return;
     const std::uint32_t burden = planner.places_.burden(station());
-    if (burden == 0 && (!blocked || best.lanes == 0)) best = here;
+    if (burden == 0 && (best.lanes == 0 || (!blocked && !(best_is_roomy && planner.is_cramped(station()))))) {
+      best = here;
+      best_is_roomy = !blocked && !planner.is_cramped(station());
+    }
     if (burden <= least_burden) {
       least_burden = burden;
       least_bad = here;
@@ -110,7 +114,7 @@ StretchPlanner::StretchPlanner(const MapView& map, HullGeometry& geometry, Neigh
 
 Stretch StretchPlanner::towards(const Path& standing, Budget budget, std::span<const Goal> goals) {
   bool loaded = carries_load(goals);
-  price_lanes(loaded, kWaitingCost_s, kIdleCost_s);
+  price_lanes(loaded, kWaitingCost_s, kIdleCost_s, {});
   Walk walk(*this, standing, budget);
   for (const Goal& goal : goals) {
     const Path here = end_of(map_, walk.stretch.path);
@@ -121,29 +125,33 @@ Stretch StretchPlanner::towards(const Path& standing, Budget budget, std::span<c
     walk.transfer(goal);
     if (walk.is_done()) return walk.take();
     const bool now_loaded = goal.transfer == Leg::Kind::Pick;
-    if (rules_.any() && now_loaded != loaded) price_lanes(now_loaded, kWaitingCost_s, kIdleCost_s);
+    if (rules_.any() && now_loaded != loaded) price_lanes(now_loaded, kWaitingCost_s, kIdleCost_s, {});
     loaded = now_loaded;
   }
-  const std::uint32_t place = best_place(end_of(map_, walk.stretch.path), false, 0.0);
+  const std::uint32_t place = best_place(end_of(map_, walk.stretch.path), false, 0.0, {});
   if (place != FP_NONE) follow(walk, place);
   return walk.take();
 }
 
 Stretch StretchPlanner::out_of_the_way(const Path& standing, Budget budget, bool loaded, bool prefer_parking,
-                                       double draw) {
-  price_lanes(loaded, kNoWayCost_s, kNoWayCost_s);
-  Walk walk(*this, standing, budget);
-  const std::uint32_t place = best_place(standing, prefer_parking, draw);
-  if (place == FP_NONE) return {};
-  for (const std::uint32_t lane : routes_.lanes(place)) {
-    if (!walk.drive(lane)) return walk.take();
+                                       double draw, const GoesFirst& goes_first) {
+  for (const bool through_waiting : {false, true}) {
+    price_lanes(loaded, through_waiting ? kWaitingCost_s : kNoWayCost_s, through_waiting ? kIdleCost_s : kNoWayCost_s,
+                goes_first);
+    const std::uint32_t place = best_place(standing, prefer_parking, draw, goes_first);
+    if (place == FP_NONE) continue;
+    Walk walk(*this, standing, budget);
+    for (const std::uint32_t lane : routes_.lanes(place)) {
+      if (!walk.drive(lane)) return walk.take();
+    }
+    walk.best = walk.here;  // best_place() chose this place, even if it is not safe
+    return walk.take();
   }
-  walk.best = walk.here;  // best_place() chose this place, even if it is not safe
-  return walk.take();
+  return {};
 }
 
 std::uint32_t StretchPlanner::free_charger(const Path& standing) {
-  price_lanes(false, kWaitingCost_s, kIdleCost_s);
+  price_lanes(false, kWaitingCost_s, kIdleCost_s, {});
   routes_.search(standing.station, standing.heading, costs_s_);
   std::uint32_t best = FP_NONE;
   double best_s = kNoWayCost_s;
@@ -174,18 +182,16 @@ bool StretchPlanner::follow(Walk& walk, std::uint32_t to) {
   return true;
 }
 
-void StretchPlanner::price_lanes(bool loaded, double waiting_s, double idle_s) {
+void StretchPlanner::price_lanes(bool loaded, double waiting_s, double idle_s, const GoesFirst& goes_first) {
   costs_s_ = lane_times_s_;
   for (std::uint32_t lane = 0; rules_.any() && lane < map_.lane_count(); ++lane) {
     if (!rules_.is_usable(lane, loaded)) costs_s_[lane] = INFINITY;
   }
-  neighbours_.for_each([&](std::uint32_t, const Neighbour& n) {
+  neighbours_.for_each([&](std::uint32_t agv, const Neighbour& n) {
     if (!n.known) return;
     const Status& status = n.status;
-    const double extra_s = status.out_of_order ? kNoWayCost_s
-                           : !status.waiting   ? kArrivingCost_s
-                           : status.idle       ? idle_s
-                                               : waiting_s;
+    const bool wall = status.out_of_order || (status.waiting && goes_first && goes_first(agv, n));
+    const double extra_s = wall ? kNoWayCost_s : !status.waiting ? kArrivingCost_s : status.idle ? idle_s : waiting_s;
     price_station(end_of(map_, status.held).station, extra_s);
   });
 }
@@ -202,7 +208,8 @@ void StretchPlanner::price_station(std::uint32_t station, double extra_s) {
 }
 
 // Afterwards, the routes are those from there.
-std::uint32_t StretchPlanner::best_place(const Path& standing, bool prefer_parking, double draw) {
+std::uint32_t StretchPlanner::best_place(const Path& standing, bool prefer_parking, double draw,
+                                         const GoesFirst& goes_first) {
   routes_.search(standing.station, standing.heading, costs_s_);
   std::uint32_t best = FP_NONE;
   double best_s = INFINITY;
@@ -219,13 +226,32 @@ std::uint32_t StretchPlanner::best_place(const Path& standing, bool prefer_parki
     neighbours_.for_each([&](std::uint32_t agv, const Neighbour& n) {
       if (held || !n.known || cost_s >= best_s) return;
       held = geometry_.turn_conflict(neighbours_.self(), station, agv, n.status.held);
-      if (n.request_is_open() && geometry_.turn_conflict(neighbours_.self(), station, agv, n.request)) cost_s += 60.0;
+      if (!held && n.request_is_open() && geometry_.turn_conflict(neighbours_.self(), station, agv, n.request)) {
+        cost_s += 60.0;
+        held = goes_first && goes_first(agv, n);
+      }
+      if (!held && is_cramped(station, agv, n)) cost_s += 60.0;
     });
     if (held || cost_s >= best_s) continue;
     best = station;
     best_s = cost_s;
   }
   return best;
+}
+
+// Whether the other AGV, at the end of its way, could not turn while this AGV turns at `station`: each could lock the
+// other in.
+bool StretchPlanner::is_cramped(std::uint32_t station) {
+  bool cramped = false;
+  neighbours_.for_each(
+      [&](std::uint32_t agv, const Neighbour& n) { cramped = cramped || (n.known && is_cramped(station, agv, n)); });
+  return cramped;
+}
+
+bool StretchPlanner::is_cramped(std::uint32_t station, std::uint32_t agv, const Neighbour& n) {
+  const std::uint32_t self = neighbours_.self();
+  return geometry_.turns_conflict(self, station, agv, end_of(map_, n.status.held).station) ||
+         (n.request_is_open() && geometry_.turns_conflict(self, station, agv, end_of(map_, n.request).station));
 }
 
 }  // namespace fleetproof::agents

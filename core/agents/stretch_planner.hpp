@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -66,6 +67,8 @@ struct Budget {
 // about other AGVs may be old: a bad choice costs time, never safety.
 class StretchPlanner {
  public:
+  using GoesFirst = std::function<bool(std::uint32_t agv, const Neighbour&)>;
+
   StretchPlanner(const MapView& map, HullGeometry& geometry, Neighbours& neighbours, const fp_agv& self);
 
   WaitingPlaces& places() { return places_; }
@@ -74,8 +77,10 @@ class StretchPlanner {
   // A stretch from `standing` towards the goals. Empty if there is no way to the first goal.
   Stretch towards(const Path& standing, Budget budget, std::span<const Goal> goals);
   // A stretch to a place where the AGV blocks no other AGV, as far as is known. Empty if there is none. `draw` in [0,
-  // 1) varies the choice.
-  Stretch out_of_the_way(const Path& standing, Budget budget, bool loaded, bool prefer_parking, double draw);
+  // 1) varies the choice. The place keeps clear of the requests of all AGVs that go first, and the way keeps clear of
+  // these AGVs while they wait. If there is no such way, it may lead through other waiting AGVs: they make way in turn.
+  Stretch out_of_the_way(const Path& standing, Budget budget, bool loaded, bool prefer_parking, double draw,
+                         const GoesFirst& goes_first);
   // The charging station that is quickest to reach, at which the AGV blocks no other AGV and no other AGV is known to
   // be. FP_NONE if there is none.
   std::uint32_t free_charger(const Path& standing);
@@ -83,9 +88,11 @@ class StretchPlanner {
  private:
   struct Walk;
 
-  void price_lanes(bool loaded, double waiting_s, double idle_s);
+  void price_lanes(bool loaded, double waiting_s, double idle_s, const GoesFirst& goes_first);
   void price_station(std::uint32_t station, double extra_s);
-  std::uint32_t best_place(const Path& standing, bool prefer_parking, double draw);
+  std::uint32_t best_place(const Path& standing, bool prefer_parking, double draw, const GoesFirst& goes_first);
+  bool is_cramped(std::uint32_t station);
+  bool is_cramped(std::uint32_t station, std::uint32_t agv, const Neighbour& n);
   bool follow(Walk& walk, std::uint32_t to);
 
   const MapView& map_;

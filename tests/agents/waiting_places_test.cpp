@@ -53,6 +53,23 @@ TEST(WaitingPlaces, AreNotBesideALaneTooNear) {
   EXPECT_TRUE(places.is_safe(e));
 }
 
+// In the bay, the AGV reaches into the lane in front of it. Nobody else has anything to do on that lane.
+TEST(WaitingPlaces, AreInABayWhoseEntranceNobodyElseNeeds) {
+  DrawnMap drawn;
+  const auto west = drawn.station(0, 0, FP_STORAGE), middle = drawn.station(8, 0),
+             east = drawn.station(16, 0, FP_STORAGE), entrance = drawn.station(8, -4),
+             bay = drawn.station(8, -5.2, FP_STORAGE);
+  drawn.segment(west, middle), drawn.segment(middle, east), drawn.segment(middle, entrance),
+      drawn.segment(entrance, bay);
+  const MapView map(drawn.map());
+  const TestFleet fleet(drawn.map(), 2);
+  HullGeometry geometry(map, fleet.briefing(0, 0));
+  WaitingPlaces places(map, geometry);
+  EXPECT_TRUE(places.is_safe(bay));
+  EXPECT_EQ(places.burden(middle), 2U) << "one of three goals is left";
+  EXPECT_EQ(places.burden(entrance), 1U) << "cuts off the bay";
+}
+
 TEST(WaitingPlaces, OnAOneWayLoopOnlyFollowersWait) {
   DrawnMap drawn;
   for (const auto& [x, y] : {std::pair(0, 0), {8, 0}, {8, 8}, {0, 8}}) drawn.station(x, y);
@@ -132,9 +149,31 @@ TEST_F(Planning, GetsOutOfTheWayOfWhatIsHeld) {
   Path standing;
   standing.station = 3;
   for (const double draw : {0.0, 0.3, 0.6, 0.9}) {
-    const Stretch s = planner.out_of_the_way(standing, {40.0, kPathLanesMax}, false, false, draw);
+    const Stretch s = planner.out_of_the_way(standing, {40.0, kPathLanesMax}, false, false, draw, {});
     ASSERT_FALSE(s.empty());
     EXPECT_TRUE(end(s) == 0U || end(s) == 6U || end(s) == 7U) << end(s);
+  }
+}
+
+TEST_F(Planning, KeepsClearOfTheRequestsOfThoseThatGoFirst) {
+  put(1, 8);
+  Message m;
+  m.kind = MessageKind::Request;
+  m.status.stamp_ms = ++stamp;
+  m.status.epoch = first_epoch(0) + 1;
+  m.status.requesting = m.status.waiting = true;
+  m.status.held.station = 5;
+  m.request.station = 5;
+  for (const auto& [from, to] : {std::pair(5U, 4U), {4U, 7U}, {7U, 6U}})
+    m.request.append(street.drawn.lane_between(from, to));
+  ASSERT_NE(neighbours.note(2, m, 0), Neighbours::News::Refused);
+  Path standing;
+  standing.station = 3;
+  const Budget budget{40.0, kPathLanesMax};
+  const auto goes_first = [](std::uint32_t agv, const Neighbour&) { return agv == 2; };
+  for (const double draw : {0.0, 0.3, 0.6, 0.9}) {
+    const std::uint32_t place = end(planner.out_of_the_way(standing, budget, false, draw, goes_first));
+    EXPECT_LT(place, 3U) << "the others are requested or taken";
   }
 }
 

@@ -1,0 +1,52 @@
+#include "core/agents/right_of_way.hpp"
+
+#include <utility>
+
+namespace fleetproof::agents {
+namespace {
+
+enum Draws : std::uint32_t { kPatienceDraws = 11 };
+
+constexpr double kPatienceWithElders_s = 3.0;
+constexpr double kPatience_s = 10.0;  // up to half of it is added, so that two AGVs do not yield to each other at once
+
+}  // namespace
+
+Yields RightOfWay::when_blocked(const Path& held, std::int64_t demand_ns) {
+  const double now_s = static_cast<double>(controller_.now_ns()) * 1e-9;
+  if (blocked_since_s_ < 0.0) {
+    blocked_since_s_ = now_s;
+    patience_s_ = kPatience_s * (1.0 + 0.5 * controller_.random(kPatienceDraws));
+  }
+  const double waited_s = now_s - blocked_since_s_;
+  if (waited_s < kPatienceWithElders_s) return Yields::ToNobody;
+  const Yields to = waited_s < patience_s_ ? Yields::ToElders : Yields::ToAll;
+  return in_the_way(held, demand_ns, to) ? to : Yields::ToNobody;
+}
+
+bool RightOfWay::is_asked_for(const Path& held) { return in_the_way(held, 0, Yields::ToAll); }
+
+bool RightOfWay::in_the_way(const Path& held, std::int64_t demand_ns, Yields to) {
+  bool found = false;
+  neighbours_.for_each([&](std::uint32_t agv, const Neighbour& n) {
+    found =
+        found || (goes_first(to, demand_ns, agv, n) && geometry_.conflict(neighbours_.self(), held, agv, n.request));
+  });
+  return found;
+}
+
+std::int64_t RightOfWay::eldest_demand_ns(const Path& held, std::int64_t demand_ns) {
+  std::int64_t eldest_ns = demand_ns;
+  neighbours_.for_each([&](std::uint32_t agv, const Neighbour& n) {
+    if (n.request_is_open() && n.demand_ns < eldest_ns && geometry_.conflict(neighbours_.self(), held, agv, n.request))
+      eldest_ns = n.demand_ns;
+  });
+  return eldest_ns;
+}
+
+bool RightOfWay::goes_first(Yields to, std::int64_t demand_ns, std::uint32_t agv, const Neighbour& neighbour) const {
+  if (!neighbour.request_is_open() || to == Yields::ToNobody) return false;
+  return to == Yields::ToAll || std::pair(neighbour.demand_ns, agv) < std::pair(demand_ns, neighbours_.self());
+}
+
+}  // namespace fleetproof::agents
