@@ -37,6 +37,7 @@ HullLock::HullLock(const fp_host& host, fp_controller* handle, const fp_briefing
       start_station_(briefing.start_station),
       start_segment_(boot_ > 0 ? briefing.start_segment : FP_NONE),
       controller_(host, handle, boot_),
+      errands_(controller_, boot_),
       map_(*briefing.map),
       geometry_(map_, briefing, options.hulls),
       neighbours_(map_, geometry_, briefing, settings_, options),
@@ -51,7 +52,7 @@ void HullLock::on_event(const fp_event& event) {
       start();
       break;
     case FP_EVENT_ORDER:
-      take_order(event);
+      errands_.take(event);
       break;
     case FP_EVENT_MESSAGE:
       controller_.drain_inbox(
@@ -86,26 +87,18 @@ void HullLock::start_again(const Path& standing) {
   acting_ = true;
   for (const std::uint32_t lane : map_.lanes_from(start_station_)) {
     if (map_.action_segment(lane) != start_segment_) continue;
-    current_ = {Leg::Kind::Drive, lane};
+    current_ = {Leg::Kind::Drive, lane, FP_NONE};
     Path driving = standing;
     driving.heading = map_.start_heading(lane) * -1.0;  // it may still be turning, from an unknown heading
     current_ends_s_ = now_s() + leg_time_s(current_, driving.heading);
     driving.append(lane);
     return protocol_.stand(driving);
   }
-  current_ = {Leg::Kind::Inherited, FP_NONE};
+  current_ = {Leg::Kind::Inherited, FP_NONE, FP_NONE};
   current_ends_s_ = now_s();
   place_known_ = false;
   place_known_after_s_ = now_s() + kClockMargin * settings_.position_late_s + 0.1;
   protocol_.know_own_place(false);
-}
-
-// After a restart, orders are sent again, the oldest first. A load on board belongs to the first order.
-void HullLock::take_order(const fp_event& event) {
-  const bool on_board = boot_ > 0 && !order_seen_ && controller_.loaded();
-  order_seen_ = true;
-  if (!on_board) goals_.push_back({event.from, Leg::Kind::Pick});
-  goals_.push_back({event.to, Leg::Kind::Drop});
 }
 
 void HullLock::tick() {
@@ -184,7 +177,7 @@ void HullLock::release_early() {
 void HullLock::look_at_battery() {
   const double level = controller_.battery_level();
   if (level >= settings_.charge_to) charging_ = false;
-  const bool in_between = goals_.empty() || goals_.front().transfer != Leg::Kind::Drop;
+  const bool in_between = !errands_.next_is(Leg::Kind::Drop);
   const bool under_way = std::ranges::any_of(legs_, [](const Leg& leg) { return leg.kind == Leg::Kind::Pick; }) ||
                          going_to_charge() || (acting_ && current_.kind != Leg::Kind::Drive);
   if (level < settings_.charge_below && !charging_ && in_between && !under_way && place_known_ && !out_of_order_)
@@ -198,13 +191,12 @@ bool HullLock::going_to_charge() const {
 
 // Drives to the charger that is best now. Since the last choice, chargers may have become free or occupied.
 void HullLock::drive_to_charger() {
-  const bool bound = !goals_.empty() && goals_.front().transfer == Leg::Kind::Charge;
+  const bool bound = errands_.next_is(Leg::Kind::Charge);
   if (bound && !protocol_.requesting()) return;
   const std::uint32_t charger = planner_.free_charger(end_of(map_, protocol_.held()));
-  if (charger == FP_NONE || (bound && goals_.front().station == charger)) return;
+  if (charger == FP_NONE || (bound && errands_.goals().front().station == charger)) return;
   protocol_.withdraw();  // a request counts goals by their numbers in the row
-  if (bound) goals_.erase(goals_.begin());
-  goals_.insert(goals_.begin(), {charger, Leg::Kind::Charge});
+  errands_.charge_at(charger);
   controller_.sometimes("drives-to-charger");
 }
 
@@ -229,8 +221,9 @@ void HullLock::advance() {
 }
 
 void HullLock::act() {
-  if (acting_ || charging_ || legs_.empty() || out_of_order_) return;
-  begin(legs_.front());
+  if (acting_ || charging_ || out_of_order_) return;
+  while (!legs_.empty() && errands_.is_needless(legs_.front())) legs_.pop_front();
+  if (!legs_.empty()) begin(legs_.front());
 }
 
 void HullLock::begin(const Leg& leg) {
@@ -240,7 +233,7 @@ void HullLock::begin(const Leg& leg) {
       accepted = protocol_.may_drive(leg.lane) && controller_.move(map_.action_segment(leg.lane));
       break;
     case Leg::Kind::Pick:
-      accepted = controller_.pick(FP_HERE);
+      accepted = controller_.pick_load(FP_HERE, leg.order);
       break;
     case Leg::Kind::Drop:
       accepted = controller_.drop(FP_HERE);
@@ -251,7 +244,13 @@ void HullLock::begin(const Leg& leg) {
     case Leg::Kind::Inherited:
       break;
   }
-  if (!accepted) return set_out_of_order(controller_.out_of_order());
+  if (!accepted) {
+    set_out_of_order(controller_.out_of_order());
+    if (leg.kind != Leg::Kind::Pick || controller_.action() != FP_IDLE) return;
+    protocol_.withdraw();  // a request counts goals by their numbers in the row
+    errands_.forget(leg.order);
+    return legs_.pop_front();
+  }
   current_ = leg;
   current_ends_s_ = now_s() + leg_time_s(leg, protocol_.held().heading);
   current_released_ = false;
@@ -261,7 +260,7 @@ void HullLock::begin(const Leg& leg) {
 
 void HullLock::adopt_stretch() {
   legs_.insert(legs_.end(), stretch_.legs.begin(), stretch_.legs.end());
-  goals_.erase(goals_.begin(), goals_.begin() + stretch_.goals);
+  errands_.reached(stretch_.goals);
   if (stretch_.goals > 0) demand_ns_ = -1;  // an AGV that gets on only step by step stays old
   right_of_way_.got_on();
   charging_ = false;  // of the AGVs that charge, only one that makes way locks floor
@@ -271,15 +270,17 @@ void HullLock::adopt_stretch() {
 
 void HullLock::plan() {
   const Path end = end_of(map_, protocol_.held());
-  while (!goals_.empty() && goals_.front().station == end.station && map_.may_stay(end.station, end.heading)) {
-    legs_.push_back({goals_.front().transfer, FP_NONE});
-    goals_.erase(goals_.begin());
+  while (!errands_.empty() && errands_.goals().front().station == end.station &&
+         map_.may_stay(end.station, end.heading)) {
+    const Goal here = errands_.goals().front();
+    legs_.push_back({here.transfer, FP_NONE, here.order});
+    errands_.reached(1);
   }
   if (now_s() < plan_after_s_) return;
   if (charging_ || going_to_charge()) {
     if (charging_ && right_of_way_.is_asked_for(protocol_.held()) && controller_.battery_level() >= kFarEnoughCharged)
       plan_making_way();
-  } else if (!goals_.empty()) {
+  } else if (!errands_.empty()) {
     plan_transport();
   } else if (is_idle()) {
     plan_making_way();
@@ -301,14 +302,14 @@ void HullLock::plan_making_way() {
   request(way_out(Yields::ToAll), Purpose::MakeWay);
 }
 
-Stretch HullLock::way_on() { return planner_.towards(end_of(map_, protocol_.held()), budget(), goals_); }
+Stretch HullLock::way_on() { return planner_.towards(end_of(map_, protocol_.held()), budget(), errands_.goals()); }
 
 Stretch HullLock::way_out(Yields to) {
   if (!options_.progress.makes_way) return {};
   const auto goes_first = [&](std::uint32_t agv, const Neighbour& n) {
     return right_of_way_.goes_first(to, demand_ns_, agv, n);
   };
-  return planner_.out_of_the_way(protocol_.held(), budget(), carries_load(goals_), is_idle(),
+  return planner_.out_of_the_way(protocol_.held(), budget(), carries_load(errands_.goals()), is_idle(),
                                  controller_.random(kPlaceDraws), goes_first);
 }
 
@@ -330,7 +331,7 @@ void HullLock::request(Stretch stretch, Purpose purpose, std::int64_t demand_ns)
 void HullLock::reconsider() {
   if (!protocol_.requesting() || !is_waiting() || out_of_order_) return;
   if (!protocol_.is_held(protocol_.requested())) return;
-  const Purpose purpose = goals_.empty() ? Purpose::MakeWay : Purpose::Transport;
+  const Purpose purpose = errands_.empty() ? Purpose::MakeWay : Purpose::Transport;
   Stretch other = purpose == Purpose::Transport ? way_on() : way_out(Yields::ToAll);
   if (!other.empty() && !(other.path == protocol_.requested()) && !protocol_.is_held(other.path)) {
     controller_.sometimes("another-way-round");

@@ -6,6 +6,7 @@
 
 #include "core/agents/agent_type.hpp"
 #include "core/agents/controller.hpp"
+#include "core/agents/errands.hpp"
 #include "core/agents/hull.hpp"
 #include "core/agents/lock_options.hpp"
 #include "core/agents/lock_protocol.hpp"
@@ -36,7 +37,6 @@ class HullLock {
 
   void start();
   void start_again(const Path& standing);
-  void take_order(const fp_event& event);
   void action_done(std::int32_t result);
   void tick();
   void find_own_place();
@@ -61,7 +61,7 @@ class HullLock {
   Stretch way_on();
   Stretch way_out(Yields to);
   bool is_waiting() const { return !acting_ && legs_.empty(); }
-  bool is_idle() const { return is_waiting() && goals_.empty(); }
+  bool is_idle() const { return is_waiting() && errands_.empty(); }
   // For people who look at a trace.
   const char* state() const {
     if (out_of_order_) return "out of order";
@@ -77,6 +77,7 @@ class HullLock {
   Settings settings_;
   std::uint32_t boot_, start_station_, start_segment_;
   Controller controller_;
+  Errands errands_;
   MapView map_;
   HullGeometry geometry_;
   Neighbours neighbours_;
@@ -84,9 +85,8 @@ class HullLock {
   StretchPlanner planner_;
   RightOfWay right_of_way_;
 
-  std::vector<Goal> goals_;  // goals that the locked stretches do not reach
-  std::deque<Leg> legs_;     // locked legs that have not begun
-  bool acting_ = false;      // an action is under way
+  std::deque<Leg> legs_;  // locked legs that have not begun
+  bool acting_ = false;   // an action is under way
   Leg current_;
   double current_ends_s_ = 0.0;    // the expected end of the current leg
   bool current_released_ = false;  // its lane was released before its end
@@ -95,7 +95,6 @@ class HullLock {
   bool wrecked_ = false;       // stopped for good in the middle of an action
 
   // After a restart.
-  bool order_seen_ = false;
   bool place_known_ = true;  // the agent knows where the AGV stands, and its heading
   double place_known_after_s_ = 0.0;
   bool seen_idle_ = false;  // the AGV was idle at the last tick; the end of an inherited action may still be announced

@@ -17,7 +17,10 @@ constexpr double kNoWayCost_s = 1000.0;
 
 }  // namespace
 
-bool carries_load(std::span<const Goal> goals) { return !goals.empty() && goals.front().transfer == Leg::Kind::Drop; }
+bool carries_load(std::span<const Goal> goals) {
+  const auto next = std::ranges::find_if(goals, [](const Goal& goal) { return goal.transfer != Leg::Kind::Charge; });
+  return next != goals.end() && next->transfer == Leg::Kind::Drop;
+}
 
 void cut_after_first_lane(Stretch& stretch) {
   const auto drives = [](const Leg& leg) { return leg.kind == Leg::Kind::Drive; };
@@ -65,7 +68,7 @@ struct StretchPlanner::Walk {
   }
 
   void transfer(const Goal& goal) {
-    stretch.legs.push_back({goal.transfer, FP_NONE});
+    stretch.legs.push_back({goal.transfer, FP_NONE, goal.order});
     ++here.goals;
     note_end();
   }
@@ -124,7 +127,7 @@ Stretch StretchPlanner::towards(const Path& standing, Budget budget, std::span<c
     }
     walk.transfer(goal);
     if (walk.is_done()) return walk.take();
-    const bool now_loaded = goal.transfer == Leg::Kind::Pick;
+    const bool now_loaded = goal.transfer == Leg::Kind::Charge ? loaded : goal.transfer == Leg::Kind::Pick;
     if (rules_.any() && now_loaded != loaded) price_lanes(now_loaded, kWaitingCost_s, kIdleCost_s, {});
     loaded = now_loaded;
   }

@@ -19,6 +19,7 @@ struct Leg {
   enum class Kind : std::uint8_t { Drive, Pick, Drop, Charge, Inherited };
   Kind kind = Kind::Drive;
   std::uint32_t lane = FP_NONE;
+  std::uint32_t order = FP_NONE;  // Pick, Drop: whose load
 };
 constexpr const char* name_of(Leg::Kind kind) {
   switch (kind) {
@@ -40,9 +41,10 @@ constexpr const char* name_of(Leg::Kind kind) {
 struct Goal {
   std::uint32_t station = FP_NONE;
   Leg::Kind transfer = Leg::Kind::Pick;
+  std::uint32_t order = FP_NONE;
 };
 
-// Whether an AGV with these goals ahead carries a load: the next thing it does is to put it down.
+// Whether an AGV with these goals ahead carries a load: the next load that it transfers is put down.
 bool carries_load(std::span<const Goal> goals);
 
 // What is locked at once: a path, and the legs that drive it. The transfers on the path are legs too.

@@ -172,7 +172,7 @@ TEST_F(Planning, KeepsClearOfTheRequestsOfThoseThatGoFirst) {
   const Budget budget{40.0, kPathLanesMax};
   const auto goes_first = [](std::uint32_t agv, const Neighbour&) { return agv == 2; };
   for (const double draw : {0.0, 0.3, 0.6, 0.9}) {
-    const std::uint32_t place = end(planner.out_of_the_way(standing, budget, false, draw, goes_first));
+    const std::uint32_t place = end(planner.out_of_the_way(standing, budget, false, false, draw, goes_first));
     EXPECT_LT(place, 3U) << "the others are requested or taken";
   }
 }
