@@ -230,8 +230,8 @@ TEST(Notes, AreOnTheTapeEvenIfNobodyLookedWhenItWasRecorded) {
 // ---- hull-lock
 
 TEST(Notes, OfHullLock) {
-  Scenario scenario = row_of_tens({0, 3}, 120.0);
-  scenario.agvs[0].transports = {{StationId{0U}, StationId{3U}, seconds(1.0)}};
+  Scenario scenario = row_of_tens({0, 2}, 120.0);
+  scenario.agvs[0].transports = {{StationId{0U}, StationId{2U}, seconds(1.0)}};
   const auto type = std::find_if(fp_reference_agents, fp_reference_agents + fp_reference_agent_count,
                                  [](const fp_agent_type* t) { return std::string_view(t->name) == "hull-lock"; });
   Notebook notebook;
@@ -244,7 +244,7 @@ TEST(Notes, OfHullLock) {
   const auto beliefs = notebook.of(TraceKind::Belief);
   ASSERT_FALSE(beliefs.empty());
   const auto first = read<traced::Belief>(beliefs.front().record);
-  EXPECT_EQ(first.where.x_mm, first.about == AgvId{0U} ? 0 : 30'000) << "where it stands at the start";
+  EXPECT_EQ(first.where.x_mm, first.about == AgvId{0U} ? 0 : 20'000) << "where it stands at the start";
 }
 
 }  // namespace
