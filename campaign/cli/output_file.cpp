@@ -38,6 +38,13 @@ bool is_report(std::string_view text) {
          text.find("<testsuites name=\"fleetproof\"") != std::string_view::npos ||
          (has_key(text, "schema_version") && has_key(text, "verdict"));
 }
+// A line of text begins with an instant to the nanosecond.
+bool is_trace(std::string_view text) {
+  const std::size_t digits = text.find_first_not_of(' ');
+  const std::size_t point = text.find_first_not_of("0123456789", digits);
+  return text.starts_with("{\"t_ns\":") || (point != std::string_view::npos && point > digits && text[point] == '.' &&
+                                            text.find_first_not_of("0123456789", point + 1) == point + 10);
+}
 bool is_sensitivity(std::string_view text) { return has_key(text, "worlds") && has_key(text, "faults"); }
 
 struct Kind {
@@ -52,7 +59,8 @@ constexpr Kind kKinds[] = {{"a layout file", is_layout},
                            {"an SVG picture", is_picture},
                            {"a scenario file", is_scenario},
                            {"a report", is_report},
-                           {"a measured sensitivity", is_sensitivity}};
+                           {"a measured sensitivity", is_sensitivity},
+                           {"a trace", is_trace}};
 
 std::string remedy_of(const OutputFile& file) { return "choose another path for " + file.option; }
 

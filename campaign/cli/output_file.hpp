@@ -7,7 +7,7 @@
 namespace fleetproof::cli {
 
 // What an output option writes.
-enum class OutputKind : std::uint8_t { Layout, LifLayout, CsvLayout, Picture, Scenario, Report, Sensitivity };
+enum class OutputKind : std::uint8_t { Layout, LifLayout, CsvLayout, Picture, Scenario, Report, Sensitivity, Trace };
 
 // An output that the user asked for: the path, the option that named it, and the kind of the file.
 struct OutputFile {

@@ -7,7 +7,7 @@
 #include "campaign/cli/output_file.hpp"
 #include "campaign/cli/run_text.hpp"
 #include "campaign/cli/streams.hpp"
-#include "campaign/cli/trace_printer.hpp"
+#include "campaign/cli/trace_words.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "campaign/plan/plan_text.hpp"
 #include "campaign/plan/scenario_source.hpp"
@@ -24,7 +24,8 @@ struct ReplayWords {
   std::string archive, scenario_out;
   std::uint64_t run = 0;
   std::vector<std::string> plugins;
-  bool json = false, trace = false, in_process = false;
+  TraceWords trace;
+  bool json = false, in_process = false;
 };
 
 void print_json(const ReplayResult& result, const CellRecord& cell) {
@@ -110,10 +111,14 @@ int replay_run(const ReplayWords& words) {
   Scenario scenario = source.scenario(words.run);
   scenario.agent = agent.program;
   scenario.agent_config = plan.config_of(agent);
-  TracePrinter printer(scenario);
-  TraceSink* const sink = words.trace ? &printer : nullptr;
+  std::optional<TraceOutput> trace;
+  if (words.trace.wanted()) {
+    const auto stored = archive.run(words.run);
+    trace.emplace(words.trace, scenario, stored ? stored->outcome.violations : std::vector<Violation>());
+  }
   AgentPrograms programs;
-  const ReplayResult result = replay_either_way(words, archive, plan, programs, sink);
+  const ReplayResult result = replay_either_way(words, archive, plan, programs, trace ? &trace->sink() : nullptr);
+  if (trace) trace->finish();
   if (!words.scenario_out.empty())
     write_whole({words.scenario_out, "--scenario", OutputKind::Scenario}, printable_json(to_text(scenario)));
   if (words.json) {
@@ -148,7 +153,7 @@ Action prepare_replay(Options& options) {
                  "also write the run's scenario to this file (see: fleetproof simulate)");
   options.flag("--in-process", words->in_process, "run the agent in this process and on one thread, for a debugger");
   options.flag("--json", words->json, "print JSON");
-  options.flag("--trace", words->trace, "print every event on stderr");
+  add_trace_options(options, words->trace);
   return [words] { return replay_run(*words); };
 }
 

@@ -8,7 +8,7 @@
 
 #include "campaign/cli/run_text.hpp"
 #include "campaign/cli/streams.hpp"
-#include "campaign/cli/trace_printer.hpp"
+#include "campaign/cli/trace_words.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "campaign/run/agent_programs.hpp"
 #include "core/base/error.hpp"
@@ -26,7 +26,8 @@ struct SimulateWords {
   std::string scenario, agent, law, config;
   std::vector<std::string> plugins;
   std::string granularity;
-  bool json = false, trace = false;
+  TraceWords trace;
+  bool json = false;
 };
 
 // Divided, not multiplied: the double nearest to the decimal number.
@@ -177,6 +178,15 @@ std::string agent_of(const SimulateWords& words, const Scenario& scenario, const
                                fmt::join(names, ", ")));
 }
 
+// The run is simulated once before its trace is printed, so that lines about the safety distance stand where they
+// belong. A plug-in runs once: it may crash, and then its trace is wanted.
+std::vector<Violation> violations_before(const SimulateWords& words, const Scenario& scenario,
+                                         const fp_agent_type& agent) {
+  if (!words.plugins.empty()) return {};
+  const Observers observers = observers_of(words.law, scenario);
+  return simulate(scenario, agent, observers.laws, nullptr, words.config.c_str()).violations;
+}
+
 int simulate_scenario(SimulateWords words) {
   Scenario scenario = read_scenario(words.scenario);
   if (!words.granularity.empty()) scenario.law.snapshot_s = granularity_s(words.granularity);
@@ -186,9 +196,11 @@ int simulate_scenario(SimulateWords words) {
   if (words.config.empty()) words.config = scenario.agent_config;
   const fp_agent_type& agent = programs.find(words.agent, "--agent");
   const Observers observers = observers_of(words.law, scenario);
-  TracePrinter printer(scenario);
+  std::optional<TraceOutput> trace;
+  if (words.trace.wanted()) trace.emplace(words.trace, scenario, violations_before(words, scenario, agent));
   const Outcome outcome =
-      simulate(scenario, agent, observers.laws, words.trace ? &printer : nullptr, words.config.c_str());
+      simulate(scenario, agent, observers.laws, trace ? &trace->sink() : nullptr, words.config.c_str());
+  if (trace) trace->finish();
   if (words.json) {
     print_json(scenario, outcome, words, observers);
   } else {
@@ -216,7 +228,7 @@ Action prepare_simulate(Options& options) {
   options.option("--granularity", words->granularity,
                  "snapshot step of the published laws: 1s, 2.5ms or plain seconds (default: the scenario's, 0.0025)");
   options.flag("--json", words->json, "print JSON");
-  options.flag("--trace", words->trace, "print every event on stderr");
+  add_trace_options(options, words->trace);
   return [words] { return simulate_scenario(*words); };
 }
 

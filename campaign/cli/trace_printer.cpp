@@ -2,150 +2,117 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
 #include "campaign/cli/run_text.hpp"
-#include "campaign/cli/streams.hpp"
-#include "core/outcome/note_records.hpp"
-#include "reports/wording.hpp"
+#include "campaign/cli/trace_details.hpp"
+#include "core/base/outside_text.hpp"
+#include "core/base/words.hpp"
 
 namespace fleetproof::cli {
 namespace {
 
-std::string shown_name(const Scenario& scenario, EntityId id) { return printable(body_name(scenario, id)); }
+using Json = nlohmann::ordered_json;
 
-const char* text_of(Assist assist) {
-  switch (assist) {
-    case Assist::Battery:
-      return "with the battery";
-    case Assist::Jam:
-      return "past what the scanner sees";
-    case Assist::Contact:
-      return "after a contact: takes it off the floor";
-    case Assist::Standstill:
-      return "at a standstill: restarts the agent";
-  }
-  return "?";
+double to_millimetre(std::int64_t value_um) { return static_cast<double>(value_um - value_um % 1000) / 1e6; }
+
+std::string text_of(const TracedMotion& motion) {
+  return fmt::format("({:.3f}, {:.3f}) {:.1f} deg, {:.3f} m/s {}", motion.position_m.x(), motion.position_m.y(),
+                     motion.heading_deg, motion.speed_mps, motion.where);
 }
 
-std::string holder_text(const Scenario& scenario, const Holder& holder) {
-  switch (holder.kind) {
-    case Holder::Kind::Station:
-      return "at " + printable(scenario.map->station(StationId{holder.index}).name);
-    case Holder::Kind::Agv:
-      return "on " + shown_name(scenario, EntityId{holder.index});
-    case Holder::Kind::Floor:
-      return "on the floor";
-    case Holder::Kind::ClearedAway:
-      return "cleared away";
-  }
-  return "?";
+Json json_of(const TracedMotion& motion) {
+  return {{"x_m", motion.position_m.x()},
+          {"y_m", motion.position_m.y()},
+          {"heading_deg", motion.heading_deg},
+          {"speed_mps", motion.speed_mps},
+          {"where", motion.where}};
+}
+
+Json json_of(const TracedMessage& message, const Scenario& scenario, SimTime now) {
+  return {{"number", message.number},
+          {"kind", message.kind},
+          {"bytes", message.bytes},
+          {"sender", body_name(scenario, message.sender)},
+          {"receiver", message.receiver.valid() ? Json(body_name(scenario, message.receiver)) : Json(nullptr)},
+          {"sent_ns", to_ns(message.sent)},
+          {"age_ns", to_ns(now) - to_ns(message.sent)}};
 }
 
 }  // namespace
 
-// The content of a record, without its time, entity and kind.
-std::string TracePrinter::details_of(const TraceRecord& record, std::string_view text) const {
-  const auto body = [&](EntityId id) { return body_name(scenario_, id); };
-  switch (record.kind) {
-    case TraceKind::ActivityBegins: {
-      const auto begun = read<traced::ActivityBegins>(record);
-      const std::string activity = name_of(begun.activity);
-      if (begun.activity != ActivityKind::Drive) return activity;
-      return activity + " " + scenario_.map->segment(begun.segment()).name + (begun.backward() ? " backward" : "");
-    }
-    case TraceKind::ActivityEnds: {
-      const auto ended = read<traced::ActivityEnds>(record);
-      return std::string(name_of(ended.activity)) + (ended.as_planned ? "" : " (cut short)");
-    }
-    case TraceKind::OrderReleased:
-      return std::to_string(read<traced::OrderReleased>(record).transport.value);
-    case TraceKind::TransportDone:
-      return std::to_string(read<traced::TransportDone>(record).transport.value);
-    case TraceKind::Sent:
-    case TraceKind::Lost:
-    case TraceKind::LostInOutage:
-    case TraceKind::LostByInterference:
-    case TraceKind::LostToSource:
-    case TraceKind::Received:
-      return message_details(record);
-    case TraceKind::TimerWentOff:
-      return std::to_string(read<traced::TimerWentOff>(record).timer);
-    case TraceKind::CallRefused:
-      return std::to_string(read<traced::CallRefused>(record).call);
-    case TraceKind::Contact:
-      return "with " + body(read<traced::Contact>(record).other);
-    case TraceKind::SafeMode:
-      return read<traced::SafeMode>(record).on ? "1" : "0";
-    case TraceKind::StoppedByAgent:
-      return read<traced::StoppedByAgent>(record).on ? "1" : "0";
-    case TraceKind::WaitingFor: {
-      const auto waiting = read<traced::WaitingFor>(record);
-      return waiting.agv.valid() ? body(waiting.agv) : "nobody";
-    }
-    case TraceKind::LoadMoves: {
-      const auto [load, to] = read<traced::LoadMoves>(record);
-      return fmt::format("{} {}", load.value, holder_text(scenario_, to));
-    }
-    case TraceKind::FaultStrikes:
-      return name_of(read<traced::FaultStrikes>(record).fault);
-    case TraceKind::FaultOver:
-      return name_of(read<traced::FaultOver>(record).fault);
-    case TraceKind::ScannerStops:
-      return "for " + body(read<traced::ScannerStops>(record).body);
-    case TraceKind::OperatorAssists:
-      return text_of(read<traced::OperatorAssists>(record).assist);
-    case TraceKind::Appears:
-      if (record.entity.index() >= scenario_.agvs.size()) return {};
-      return "at " + scenario_.map->station(read<traced::Appears>(record).station).name;
-    case TraceKind::Probe:
-    case TraceKind::Log:
-      return std::string(text);
-    case TraceKind::Described:
-    case TraceKind::AgentState:
-    case TraceKind::Belief:
-    case TraceKind::NotesLeftOut:
-      return note_details(record, text);
-    case TraceKind::AgentCrashed:
-    case TraceKind::AgentHung:
-    case TraceKind::BatteryEmpty:
-    case TraceKind::Leaves:
-      return {};
+TracePrinter::TracePrinter(const Scenario& scenario, TraceFormat format, TraceFilter filter,
+                           std::vector<Violation> violations, Print print)
+    : context_(scenario), format_(format), filter_(std::move(filter)), print_(std::move(print)) {
+  for (const Violation& v : violations) {
+    const std::string other = body_name(scenario, v.b);
+    distances_.push_back(
+        {v.first, v.a, kDistance, fmt::format("to {} falls below {} m", other, scenario.law.safety_distance_m), {}});
+    distances_.push_back({v.closest_at,
+                          v.a,
+                          kDistance,
+                          v.contact
+                              ? fmt::format("to {} is 0: contact", other)
+                              : fmt::format("to {} is smallest: {:.3f} m", other, to_millimetre(v.min_clearance_um)),
+                          {}});
   }
-  return {};
-}
-
-std::string TracePrinter::message_details(const TraceRecord& record) const {
-  const bool is_sent = record.kind == TraceKind::Sent;
-  const auto sent = traced::Sent::of(record);
-  const auto reception = traced::Reception::of(record);
-  const auto kind = described_.find(is_sent ? sent.message_hash : reception.message_hash);
-  return (!is_sent        ? "from " + body_name(scenario_, reception.sender)
-          : sent.to_all() ? "to all"
-                          : "to " + body_name(scenario_, sent.receiver)) +
-         (kind == described_.end() ? "" : ": " + kind->second);
-}
-
-std::string TracePrinter::note_details(const TraceRecord& record, std::string_view text) const {
-  if (record.kind == TraceKind::NotesLeftOut) return std::to_string(read<traced::NotesLeftOut>(record).count);
-  if (record.kind != TraceKind::Belief) return text.empty() ? "none" : std::string(text);
-  const auto belief = read<traced::Belief>(record);
-  std::string heading;
-  const NotedPose& where = belief.where;
-  if (where.has_heading()) {
-    heading = fmt::format(" heading ({:.2f}, {:.2f})", where.heading_x / NotedPose::kHeadingUnits,
-                          where.heading_y / NotedPose::kHeadingUnits);
-  }
-  return fmt::format("{} was at ({:.2f}, {:.2f}){} at {:.3f} s", body_name(scenario_, belief.about), where.x_mm / 1e3,
-                     where.y_mm / 1e3, heading, static_cast<double>(belief.as_of_ns) / 1e9);
+  std::ranges::stable_sort(distances_, std::ranges::greater(), &Line::at);
 }
 
 void TracePrinter::record(const TraceRecord& record, std::string_view text) {
-  if (record.kind == TraceKind::Described) {
-    described_[read<traced::Described>(record).message_hash] = text;
-    return;
+  context_.note(record, text);
+  if (record.kind == TraceKind::Described || record.kind == TraceKind::FateDecided) return;
+  print_distances(record.at);
+  Line line{record.at, record.entity, name_of(record.kind), trace_details(record, text, context_), {}};
+  const bool of_message = record.kind == TraceKind::Sent || record.kind == TraceKind::Received || is_loss(record.kind);
+  if (of_message) line.message = context_.message_of(record);
+  print(line);
+}
+
+void TracePrinter::finish() { print_distances(kForever); }
+
+// A line that falls on the instant of a record comes after it.
+void TracePrinter::print_distances(SimTime until) {
+  while (!distances_.empty() && distances_.back().at < until) {
+    print(distances_.back());
+    distances_.pop_back();
   }
-  talk_text(fmt::format("{:>12.6f}  {:<6} {:<14} {}\n", to_seconds(record.at), shown_name(scenario_, record.entity),
-                        name_of(record.kind), printable(details_of(record, text))),
-            kForever_ms);
+}
+
+bool TracePrinter::passes(const Line& line) const {
+  return line.at >= filter_.from && line.at <= filter_.to &&
+         (filter_.bodies.empty() || filter_.bodies.contains(line.body)) &&
+         (filter_.kinds.empty() || filter_.kinds.contains(line.event));
+}
+
+void TracePrinter::print(const Line& line) {
+  if (!passes(line)) return;
+  const Scenario& scenario = context_.scenario();
+  const auto motion = context_.motion_of(line.body, line.at);
+  if (format_ == TraceFormat::Text) {
+    return print_(fmt::format("{:>16}  {:<6} {:<14} {}{}\n", nanosecond_text(line.at),
+                              printable(body_name(scenario, line.body)), line.event, printable(line.details),
+                              motion ? "  | " + printable(text_of(*motion)) : ""));
+  }
+  Json json = {{"t_ns", to_ns(line.at)},
+               {"body", body_name(scenario, line.body)},
+               {"event", line.event},
+               {"details", line.details},
+               {"motion", motion ? json_of(*motion) : Json(nullptr)}};
+  if (line.message) json["message"] = json_of(*line.message, scenario, line.at);
+  print_(printable_json(json.dump(-1, ' ', false, Json::error_handler_t::replace)) + "\n");
+}
+
+std::vector<std::string> trace_kind_words() {
+  std::vector<std::string> words{kDistance};
+  for (std::uint32_t number = 1; number < 64; ++number) {
+    const std::string word = name_of(static_cast<TraceKind>(number));
+    const bool is_line =
+        word != kNoWord && word != name_of(TraceKind::Described) && word != name_of(TraceKind::FateDecided);
+    if (is_line) words.push_back(word);
+  }
+  return words;
 }
 
 }  // namespace fleetproof::cli

@@ -48,7 +48,9 @@ void Messenger::transmit(AgvId sender, std::uint32_t slot, std::uint32_t receive
   ++run_.counters.messages_sent;
   const Message& message = pool_[slot];
   const std::size_t size = message.bytes.size();
-  run_.trace(sender, traced::Sent{AgvId{receiver}, message.hash, static_cast<std::uint32_t>(size)});
+  pool_.set_number(slot, static_cast<std::uint32_t>(run_.counters.messages_sent));
+  run_.trace(sender, traced::Sent{AgvId{receiver}, message.hash, static_cast<std::uint32_t>(size), message.number},
+             message.bytes);
   const Pose from = needs_places_ ? run_.pose_now(sender) : Pose{};
   const Duration air_time = run_.scenario.radio.air_time(size);
   const bool contended = run_.scenario.radio.contention.interference;
@@ -78,6 +80,8 @@ void Messenger::transmit_to(AgvId sender, AgvId receiver, std::uint32_t slot, co
   const SimTime arrival = std::max(run_.now + fate.delay, on_air_until);
   ++counters.receptions;
   counters.delay_sum_ns += static_cast<std::uint64_t>((arrival - run_.now).count());
+  if (run_.writer.has_sink())
+    run_.note(receiver, traced::FateDecided{sender, ordinal, fate.lost, arrival - run_.now, pool_[slot].number});
   if (fate.lost) return lose(receiver, slot, fate);
   if (run_.scenario.radio.contention.interference && !fate.given)
     run_.queue.push(on_air_until, receiver, Event::Kind::MessageArrives, slot | kAirTimeEnds);
@@ -97,7 +101,7 @@ void Messenger::lose(AgvId receiver, std::uint32_t slot, const Fate& fate) {
                                            : TraceKind::Lost;
   counters.lost_in_outage += cause == TraceKind::LostInOutage ? 1 : 0;
   counters.lost_to_sources += cause == TraceKind::LostToSource ? 1 : 0;
-  run_.trace(receiver, traced::Reception{cause, pool_[slot].sender, pool_[slot].hash});
+  run_.trace(receiver, traced::Reception{cause, pool_[slot].sender, pool_[slot].hash, pool_[slot].number});
   pool_.release(slot);
 }
 
@@ -107,7 +111,7 @@ void Messenger::air_time_ends(AgvId receiver, std::uint32_t slot) {
   if (!is_drowned(receiver, message)) return;
   ++run_.counters.receptions_lost;
   ++run_.counters.lost_by_interference;
-  run_.trace(receiver, traced::Reception{TraceKind::LostByInterference, message.sender, message.hash});
+  run_.trace(receiver, traced::Reception{TraceKind::LostByInterference, message.sender, message.hash, message.number});
   pool_.destroy_at(slot, receiver);
 }
 
@@ -127,7 +131,7 @@ void Messenger::arrives(AgvId receiver, std::uint64_t payload) {
   const Message& message = pool_[slot];
   if (message.is_destroyed_at(receiver)) return pool_.release(slot);
   if ((bits & kCopy) != 0) ++run_.counters.duplicates;
-  run_.trace(receiver, traced::Reception{TraceKind::Received, message.sender, message.hash});
+  run_.trace(receiver, traced::Reception{TraceKind::Received, message.sender, message.hash, message.number});
   ++run_.counters.received;
   if (!agents_.is_up(receiver)) return pool_.release(slot);
   Slice& slice = slice_of(receiver);

@@ -7,7 +7,7 @@ namespace fleetproof {
 
 RunContext::RunContext(const Scenario& of, std::span<const std::unique_ptr<Law>> laws, TraceSink* sink)
     : scenario(of),
-      world(of, laws),
+      world(of, laws, sink),
       writer(laws, sink),
       agvs(of.agvs.size()),
       motion_key(stream_key(of.seed_of(Stream::Motion), Stream::Motion)) {

@@ -7,7 +7,8 @@
 
 namespace fleetproof {
 
-World::World(const Scenario& scenario, std::span<const std::unique_ptr<Law>> laws) : scenario_(scenario), laws_(laws) {
+World::World(const Scenario& scenario, std::span<const std::unique_ptr<Law>> laws, TraceSink* sink)
+    : scenario_(scenario), laws_(laws), sink_(sink) {
   bodies_.resize(scenario.body_count());
   for (std::size_t i = 0; i < scenario.agvs.size(); ++i) {
     const AgvSetup& agv = scenario.agvs[i];
@@ -28,11 +29,16 @@ void World::put_on_floor(EntityId id, const Footprint& footprint, const Pose& po
   begin(body, rest_piece(id, footprint, pose, t));
 }
 
+void World::announce_end(const Piece& piece) {
+  for (const auto& law : laws_) law->piece_ended(piece);
+  if (sink_ != nullptr) sink_->piece_ended(piece);
+}
+
 void World::take_off_floor(EntityId id, SimTime t) {
   Body& body = bodies_[id.index()];
   body.on_floor = false;
   body.piece.end = t;
-  for (const auto& law : laws_) law->piece_ended(body.piece);
+  announce_end(body.piece);
 }
 
 bool World::is_free(const OrientedRectangle& place, double margin_m, SimTime t) const {
@@ -55,13 +61,14 @@ void World::begin(Body& body, const Piece& piece) {
   body.piece.number = pieces_++;
   body.piece.planned_box = piece.swept_box(piece.end);
   for (const auto& law : laws_) law->piece_started(body.piece);
+  if (sink_ != nullptr) sink_->piece_started(body.piece);
 }
 
 void World::continue_with(EntityId id, const Piece& next) {
   Body& body = bodies_[id.index()];
   ensure(next.begin >= body.piece.begin && next.begin <= body.piece.end, "a piece ends within its planned interval");
   body.piece.end = next.begin;
-  for (const auto& law : laws_) law->piece_ended(body.piece);
+  announce_end(body.piece);
   begin(body, next);
 }
 
@@ -96,7 +103,7 @@ void World::finish(SimTime end) {
   for (Body& body : bodies_) {
     if (!body.on_floor) continue;
     body.piece.end = std::min(body.piece.end, end);
-    for (const auto& law : laws_) law->piece_ended(body.piece);
+    announce_end(body.piece);
   }
   for (const auto& law : laws_) law->finish(end);
 }

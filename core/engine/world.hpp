@@ -39,7 +39,8 @@ struct TouchPrediction {
 // pieces; they cannot change it.
 class World {
  public:
-  World(const Scenario& scenario, std::span<const std::unique_ptr<Law>> laws);
+  // `sink` may be null.
+  World(const Scenario& scenario, std::span<const std::unique_ptr<Law>> laws, TraceSink* sink = nullptr);
 
   std::size_t body_count() const { return bodies_.size(); }
   const Body& body(EntityId id) const { return bodies_[id.index()]; }
@@ -74,9 +75,11 @@ class World {
 
  private:
   void begin(Body& body, const Piece& piece);
+  void announce_end(const Piece& piece);
 
   const Scenario& scenario_;
   std::span<const std::unique_ptr<Law>> laws_;
+  TraceSink* sink_;
   std::vector<Body> bodies_;
   std::vector<Load> loads_;
   std::vector<std::pair<EntityId, EntityId>> touched_;

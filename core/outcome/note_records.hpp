@@ -15,8 +15,8 @@ struct NotedPose {
   bool has_heading() const { return heading_x != 0 || heading_y != 0; }
 };
 
-// What agents note for people who look at a trace. The entity is the AGV of the agent. These records go to a TraceSink
-// only: they are not part of the digest, and no law reads them.
+// What agents note for people who look at a trace, and what the engine adds for them. The entity is the AGV of the
+// agent. These records go to a TraceSink only: they are not part of the digest, and no law reads them.
 namespace traced {
 
 // The agent sends the message with this hash. What the message is, goes to the TraceSink beside the record.
@@ -56,6 +56,27 @@ struct NotesLeftOut {
   std::uint64_t count = 0;
   constexpr void put(TraceRecord& r) const { r.a = count; }
   static constexpr NotesLeftOut of(const TraceRecord& r) { return {r.a}; }
+};
+
+// Decided at the instant of sending; the entity is the receiver. Interference may still destroy the message.
+struct FateDecided {
+  static constexpr TraceKind kKind = TraceKind::FateDecided;
+  AgvId sender;
+  std::uint32_t ordinal = 0;  // as in MessageKey
+  bool lost = false;
+  Duration due_after{};      // it arrives so long after it was sent, if it is not lost
+  std::uint32_t number = 0;  // of the message
+
+  constexpr void put(TraceRecord& r) const {
+    r.a = std::uint64_t{ordinal} << 32 | sender.value;
+    r.b = static_cast<std::uint64_t>(due_after.count());
+    r.bytes = lost ? 1 : 0;
+    r.more = number;
+  }
+  static constexpr FateDecided of(const TraceRecord& r) {
+    return {id_in<AgvId>(r.a), static_cast<std::uint32_t>(r.a >> 32), r.bytes != 0,
+            Duration{static_cast<std::int64_t>(r.b)}, r.more};
+  }
 };
 
 }  // namespace traced

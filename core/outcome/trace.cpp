@@ -22,6 +22,18 @@ XXH3_state_t* hash(void* state) { return static_cast<XXH3_state_t*>(state); }
 
 }  // namespace
 
+namespace {
+
+const char* name_of_note(TraceKind kind) {
+  return kind == TraceKind::Described      ? "described"
+         : kind == TraceKind::AgentState   ? "state"
+         : kind == TraceKind::Belief       ? "believes"
+         : kind == TraceKind::NotesLeftOut ? "notes left out"
+                                           : "fate";
+}
+
+}  // namespace
+
 const char* name_of(TraceKind kind) {
   switch (kind) {
     case TraceKind::ActivityBegins:
@@ -81,13 +93,11 @@ const char* name_of(TraceKind kind) {
     case TraceKind::LostToSource:
       return "lost to an external source";
     case TraceKind::Described:
-      return "described";
     case TraceKind::AgentState:
-      return "state";
     case TraceKind::Belief:
-      return "believes";
     case TraceKind::NotesLeftOut:
-      return "notes left out";
+    case TraceKind::FateDecided:
+      return name_of_note(kind);
   }
   return "?";
 }

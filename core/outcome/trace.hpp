@@ -47,6 +47,8 @@ enum class TraceKind : std::uint32_t {
   AgentState = 41,    // what the agent does
   Belief = 42,        // where the agent believes another AGV to be
   NotesLeftOut = 43,  // how many notes of an activation were too many
+  // Likewise to a TraceSink only:
+  FateDecided = 44,  // what will become of a message at one receiver, at the instant of sending
 };
 const char* name_of(TraceKind kind);
 
@@ -65,12 +67,17 @@ struct TraceRecord {
   std::uint32_t bytes = 0, more = 0;  // not part of the digest
 };
 
-// An observer of the whole trace. `text` holds the words of a probe, a log record or a note, else nothing; it is valid
-// during the call.
+struct Piece;
+
+// An observer of the whole trace, and of the pieces of all bodies, which it hears as laws do (core/outcome/law.hpp).
+// `text` holds the words of a probe, a log record or a note, or the bytes of a message that is sent, else nothing; it
+// is valid during the call.
 class TraceSink {
  public:
   virtual ~TraceSink() = default;
   virtual void record(const TraceRecord& record, std::string_view text) = 0;
+  virtual void piece_started(const Piece& piece) { (void)piece; }
+  virtual void piece_ended(const Piece& piece) { (void)piece; }
 };
 
 // XXH3 (64 bits) over the records as they happen. Encoding of a record, little-endian: at in ns (8 bytes), entity (4),

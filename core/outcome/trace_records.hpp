@@ -91,11 +91,14 @@ struct Sent {
   static constexpr TraceKind kKind = TraceKind::Sent;
   AgvId receiver;  // invalid: every AGV in range
   std::uint64_t message_hash = 0;
-  std::uint32_t bytes = 0;  // not in the digest, which has the hash
+  std::uint32_t bytes = 0;   // not in the digest, which has the hash
+  std::uint32_t number = 0;  // of the message in its run, from 1 on; likewise
 
   constexpr bool to_all() const { return !receiver.valid(); }
-  constexpr void put(TraceRecord& r) const { r.a = receiver.value, r.b = message_hash, r.bytes = bytes; }
-  static constexpr Sent of(const TraceRecord& r) { return {id_in<AgvId>(r.a), r.b, r.bytes}; }
+  constexpr void put(TraceRecord& r) const {
+    r.a = receiver.value, r.b = message_hash, r.bytes = bytes, r.more = number;
+  }
+  static constexpr Sent of(const TraceRecord& r) { return {id_in<AgvId>(r.a), r.b, r.bytes, r.more}; }
 };
 
 // What became of a message at one receiver, which is the entity. `fate` is Received or one of the kinds of losses.
@@ -103,11 +106,12 @@ struct Reception {
   TraceKind fate = TraceKind::Received;
   AgvId sender;
   std::uint64_t message_hash = 0;
+  std::uint32_t number = 0;  // of the message, as Sent has it; not in the digest
 
   static constexpr bool describes(TraceKind kind) { return kind == TraceKind::Received || is_loss(kind); }
   constexpr bool is_lost() const { return is_loss(fate); }
-  constexpr void put(TraceRecord& r) const { r.kind = fate, r.a = sender.value, r.b = message_hash; }
-  static constexpr Reception of(const TraceRecord& r) { return {r.kind, id_in<AgvId>(r.a), r.b}; }
+  constexpr void put(TraceRecord& r) const { r.kind = fate, r.a = sender.value, r.b = message_hash, r.more = number; }
+  static constexpr Reception of(const TraceRecord& r) { return {r.kind, id_in<AgvId>(r.a), r.b, r.more}; }
 };
 
 struct TimerWentOff {

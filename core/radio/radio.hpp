@@ -83,6 +83,7 @@ struct Message {
   AgvId sender;
   std::string bytes;
   std::uint64_t hash = 0;
+  std::uint32_t number = 0;  // in its run, from 1 on; 0: not sent yet
   std::uint32_t copies = 0;  // receptions that are under way or unread
   // With interference: the receivers at which the message was destroyed.
   AirInterval on_air;
@@ -96,6 +97,7 @@ class MessagePool {
   std::uint32_t add(AgvId sender, std::string_view bytes, std::uint32_t copies);
   const Message& operator[](std::uint32_t slot) const { return messages_[slot]; }
   void hold(std::uint32_t slot) { ++messages_[slot].copies; }
+  void set_number(std::uint32_t slot, std::uint32_t number) { messages_[slot].number = number; }
   void goes_out(std::uint32_t slot, const AirInterval& on_air) { messages_[slot].on_air = on_air; }
   void destroy_at(std::uint32_t slot, AgvId receiver) { messages_[slot].destroyed_at.push_back(receiver); }
   void release(std::uint32_t slot);
