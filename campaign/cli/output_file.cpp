@@ -45,6 +45,8 @@ bool is_trace(std::string_view text) {
   return text.starts_with("{\"t_ns\":") || (point != std::string_view::npos && point > digits && text[point] == '.' &&
                                             text.find_first_not_of("0123456789", point + 1) == point + 10);
 }
+bool is_pieces(std::string_view text) { return has_key(text, "bodies") && has_key(text, "safety_distance_m"); }
+bool is_poses(std::string_view text) { return text.starts_with("body,t_s,"); }
 bool is_sensitivity(std::string_view text) { return has_key(text, "worlds") && has_key(text, "faults"); }
 
 struct Kind {
@@ -60,7 +62,9 @@ constexpr Kind kKinds[] = {{"a layout file", is_layout},
                            {"a scenario file", is_scenario},
                            {"a report", is_report},
                            {"a measured sensitivity", is_sensitivity},
-                           {"a trace", is_trace}};
+                           {"a trace", is_trace},
+                           {"a file of pieces", is_pieces},
+                           {"a file of poses", is_poses}};
 
 std::string remedy_of(const OutputFile& file) { return "choose another path for " + file.option; }
 

@@ -7,7 +7,18 @@
 namespace fleetproof::cli {
 
 // What an output option writes.
-enum class OutputKind : std::uint8_t { Layout, LifLayout, CsvLayout, Picture, Scenario, Report, Sensitivity, Trace };
+enum class OutputKind : std::uint8_t {
+  Layout,
+  LifLayout,
+  CsvLayout,
+  Picture,
+  Scenario,
+  Report,
+  Sensitivity,
+  Trace,
+  Pieces,
+  Poses
+};
 
 // An output that the user asked for: the path, the option that named it, and the kind of the file.
 struct OutputFile {

@@ -5,9 +5,9 @@
 
 #include "campaign/cli/campaign_words.hpp"
 #include "campaign/cli/output_file.hpp"
+#include "campaign/cli/run_observers.hpp"
 #include "campaign/cli/run_text.hpp"
 #include "campaign/cli/streams.hpp"
-#include "campaign/cli/trace_words.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "campaign/plan/plan_text.hpp"
 #include "campaign/plan/scenario_source.hpp"
@@ -24,7 +24,7 @@ struct ReplayWords {
   std::string archive, scenario_out;
   std::uint64_t run = 0;
   std::vector<std::string> plugins;
-  TraceWords trace;
+  ObserverWords observed;
   bool json = false, in_process = false;
 };
 
@@ -111,14 +111,14 @@ int replay_run(const ReplayWords& words) {
   Scenario scenario = source.scenario(words.run);
   scenario.agent = agent.program;
   scenario.agent_config = plan.config_of(agent);
-  std::optional<TraceOutput> trace;
-  if (words.trace.wanted()) {
+  std::optional<RunObservers> observed;
+  if (words.observed.wanted()) {
     const auto stored = archive.run(words.run);
-    trace.emplace(words.trace, scenario, stored ? stored->outcome.violations : std::vector<Violation>());
+    observed.emplace(words.observed, scenario, stored ? stored->outcome.violations : std::vector<Violation>());
   }
   AgentPrograms programs;
-  const ReplayResult result = replay_either_way(words, archive, plan, programs, trace ? &trace->sink() : nullptr);
-  if (trace) trace->finish();
+  const ReplayResult result = replay_either_way(words, archive, plan, programs, observed ? &*observed : nullptr);
+  if (observed) observed->finish();
   if (!words.scenario_out.empty())
     write_whole({words.scenario_out, "--scenario", OutputKind::Scenario}, printable_json(to_text(scenario)));
   if (words.json) {
@@ -153,7 +153,7 @@ Action prepare_replay(Options& options) {
                  "also write the run's scenario to this file (see: fleetproof simulate)");
   options.flag("--in-process", words->in_process, "run the agent in this process and on one thread, for a debugger");
   options.flag("--json", words->json, "print JSON");
-  add_trace_options(options, words->trace);
+  add_observer_options(options, words->observed);
   return [words] { return replay_run(*words); };
 }
 

@@ -6,9 +6,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "campaign/cli/run_observers.hpp"
 #include "campaign/cli/run_text.hpp"
 #include "campaign/cli/streams.hpp"
-#include "campaign/cli/trace_words.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "campaign/run/agent_programs.hpp"
 #include "core/base/error.hpp"
@@ -26,7 +26,7 @@ struct SimulateWords {
   std::string scenario, agent, law, config;
   std::vector<std::string> plugins;
   std::string granularity;
-  TraceWords trace;
+  ObserverWords observed;
   bool json = false;
 };
 
@@ -182,7 +182,7 @@ std::string agent_of(const SimulateWords& words, const Scenario& scenario, const
 // belong. A plug-in runs once: it may crash, and then its trace is wanted.
 std::vector<Violation> violations_before(const SimulateWords& words, const Scenario& scenario,
                                          const fp_agent_type& agent) {
-  if (!words.plugins.empty()) return {};
+  if (!words.observed.trace.wanted() || !words.plugins.empty()) return {};
   const Observers observers = observers_of(words.law, scenario);
   return simulate(scenario, agent, observers.laws, nullptr, words.config.c_str()).violations;
 }
@@ -196,11 +196,11 @@ int simulate_scenario(SimulateWords words) {
   if (words.config.empty()) words.config = scenario.agent_config;
   const fp_agent_type& agent = programs.find(words.agent, "--agent");
   const Observers observers = observers_of(words.law, scenario);
-  std::optional<TraceOutput> trace;
-  if (words.trace.wanted()) trace.emplace(words.trace, scenario, violations_before(words, scenario, agent));
+  std::optional<RunObservers> observed;
+  if (words.observed.wanted()) observed.emplace(words.observed, scenario, violations_before(words, scenario, agent));
   const Outcome outcome =
-      simulate(scenario, agent, observers.laws, trace ? &trace->sink() : nullptr, words.config.c_str());
-  if (trace) trace->finish();
+      simulate(scenario, agent, observers.laws, observed ? &*observed : nullptr, words.config.c_str());
+  if (observed) observed->finish();
   if (words.json) {
     print_json(scenario, outcome, words, observers);
   } else {
@@ -228,7 +228,7 @@ Action prepare_simulate(Options& options) {
   options.option("--granularity", words->granularity,
                  "snapshot step of the published laws: 1s, 2.5ms or plain seconds (default: the scenario's, 0.0025)");
   options.flag("--json", words->json, "print JSON");
-  add_trace_options(options, words->trace);
+  add_observer_options(options, words->observed);
   return [words] { return simulate_scenario(*words); };
 }
 

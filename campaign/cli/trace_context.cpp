@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/error.hpp"
 #include "core/base/tolerances.hpp"
 #include "core/outcome/note_records.hpp"
 
@@ -24,6 +25,19 @@ double degrees(const Vec2& heading) { return std::atan2(heading.y(), heading.x()
 
 }  // namespace
 
+Piece with_curve_of(const LogicalMap& map, const Piece& piece) {
+  Piece own = piece;
+  if (piece.manner != Manner::Drive) return own;
+  const Vec2 begin_m = piece.curve->pose_at(0.0).position_m;
+  const auto lane = std::ranges::find_if(map.lanes(), [&](const Lane& candidate) {
+    return candidate.segment == piece.segment && candidate.curve.is_tail_first() == piece.curve->is_tail_first() &&
+           candidate.curve.pose_at(0.0).position_m == begin_m;
+  });
+  ensure(lane != map.lanes().end(), "a drive follows a lane of the scenario's map");
+  own.curve = &lane->curve;
+  return own;
+}
+
 std::string TracedMessage::text() const { return fmt::format("#{} {} ({} bytes)", number, kind, bytes); }
 
 // An agent describes a message before it is sent.
@@ -40,7 +54,7 @@ void TraceContext::note(const TraceRecord& record, std::string_view text) {
 
 void TraceContext::note(const Piece& started) {
   if (pieces_.size() <= started.entity.index()) pieces_.resize(started.entity.index() + 1);
-  pieces_[started.entity.index()] = started;
+  pieces_[started.entity.index()] = with_curve_of(*scenario_.map, started);
   if (started.manner == Manner::Turn) turn_goals_deg_[started.entity] = degrees(started.pose_at(started.end).heading);
 }
 

@@ -32,6 +32,9 @@ struct TracedMotion {
   std::string where;         // "on s1-s2 from station A to B, backward", or "at station A"; empty: neither
 };
 
+// The piece with the curve of this map instead of an equal curve of a map that may be gone after the run.
+Piece with_curve_of(const LogicalMap& map, const Piece& piece);
+
 // What one needs to make a record of a trace readable: the messages and motions that came before it.
 class TraceContext {
  public:

@@ -1,0 +1,59 @@
+#include "campaign/cli/run_observers.hpp"
+
+#include <fmt/format.h>
+
+#include "campaign/cli/output_file.hpp"
+#include "core/base/error.hpp"
+
+namespace fleetproof::cli {
+namespace {
+
+constexpr std::uint64_t kEvery_ms = 10, kMostEvery_ms = 3'600'000;
+
+Duration step_of(const ObserverWords& words) {
+  const std::uint64_t every_ms = words.every_ms.value_or(kEvery_ms);
+  if (every_ms < 1 || every_ms > kMostEvery_ms)
+    throw InputError("--every-ms", fmt::format("is {}; it is 1 to {}", every_ms, kMostEvery_ms));
+  return std::chrono::milliseconds(every_ms);
+}
+
+OutputFile pieces_file(const ObserverWords& words) { return {words.pieces, "--pieces", OutputKind::Pieces}; }
+OutputFile poses_file(const ObserverWords& words) { return {words.poses, "--poses", OutputKind::Poses}; }
+
+}  // namespace
+
+void add_observer_options(Options& options, ObserverWords& words) {
+  add_trace_options(options, words.trace);
+  options.option("--pieces", words.pieces, "write the exact motion of every body to this file (JSON)");
+  options.option("--poses", words.poses, "write the pose of every body at equal steps to this file (CSV)");
+  options.option("--every-ms", words.every_ms, "step of --poses in milliseconds (default: 10)");
+}
+
+RunObservers::RunObservers(const ObserverWords& words, const Scenario& scenario, std::vector<Violation> violations)
+    : words_(words), scenario_(scenario) {
+  step_of(words);
+  if (!words.pieces.empty()) require_writable(pieces_file(words));
+  if (!words.poses.empty()) require_writable(poses_file(words));
+  if (words.trace.wanted()) trace_.emplace(words.trace, scenario, std::move(violations));
+  if (!words.pieces.empty() || !words.poses.empty()) pieces_.emplace(*scenario.map);
+}
+
+void RunObservers::record(const TraceRecord& record, std::string_view text) {
+  if (trace_) trace_->sink().record(record, text);
+}
+
+void RunObservers::piece_started(const Piece& piece) {
+  if (trace_) trace_->sink().piece_started(piece);
+}
+
+void RunObservers::piece_ended(const Piece& piece) {
+  if (pieces_) pieces_->piece_ended(piece);
+}
+
+void RunObservers::finish() {
+  if (trace_) trace_->finish();
+  if (!words_.pieces.empty()) write_whole(pieces_file(words_), pieces_json(scenario_, pieces_->pieces()));
+  if (!words_.poses.empty()) write_whole(poses_file(words_), poses_csv(scenario_, pieces_->pieces(), step_of(words_)));
+}
+
+}  // namespace fleetproof::cli

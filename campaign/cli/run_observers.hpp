@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "campaign/cli/command_line.hpp"
+#include "campaign/cli/pieces_file.hpp"
+#include "campaign/cli/trace_words.hpp"
+
+namespace fleetproof::cli {
+
+// What the user wants to see or keep of one run, besides its outcome.
+struct ObserverWords {
+  TraceWords trace;
+  std::string pieces, poses;
+  std::optional<std::uint64_t> every_ms;
+
+  bool wanted() const { return trace.wanted() || !pieces.empty() || !poses.empty(); }
+};
+
+void add_observer_options(Options& options, ObserverWords& words);
+
+// All that observes one run, as one sink.
+class RunObservers final : public TraceSink {
+ public:
+  // `violations` of the run, if they are known before it. Throws InputError. Requires: words and scenario outlive the
+  // observers.
+  RunObservers(const ObserverWords& words, const Scenario& scenario, std::vector<Violation> violations);
+
+  void record(const TraceRecord& record, std::string_view text) override;
+  void piece_started(const Piece& piece) override;
+  void piece_ended(const Piece& piece) override;
+  // Call this after the run: writes the files.
+  void finish();
+
+ private:
+  const ObserverWords& words_;
+  const Scenario& scenario_;
+  std::optional<TraceOutput> trace_;
+  std::optional<PieceKeeper> pieces_;
+};
+
+}  // namespace fleetproof::cli
