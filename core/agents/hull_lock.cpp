@@ -20,7 +20,8 @@ constexpr double kRetryPlanning_s = 2.0;
 constexpr double kOverdue_s = 5.0;         // an action that takes this much longer than expected may have been stopped
 constexpr double kClockMargin = 1.02;      // clocks may run wrong by up to 1 %
 constexpr double kFarEnoughCharged = 0.5;  // battery level at which it leaves the charger to other AGVs
-constexpr std::uint32_t kTicksPerLookAtBattery = 8;
+constexpr std::uint32_t kLooksPerChoice = 8;
+constexpr double kUrgent = 1.0 / 3.0;  // of `charge_below`: it goes to a charger with a load, and to any charger
 constexpr double kEarly_s = 2.0;
 
 // Members of the briefing that a host of minor version 0 does not have.
@@ -108,7 +109,7 @@ void HullLock::tick() {
   find_own_place();
   look_for_inherited_action();
   look_whether_out_of_order();
-  if (has_chargers_ && (charging_ || ++ticks_ % kTicksPerLookAtBattery == 0)) look_at_battery();
+  if (has_chargers_) look_at_battery();
   protocol_.describe(is_waiting(), is_idle(), out_of_order_);
   reconsider();
   protocol_.broadcast_state();
@@ -177,11 +178,13 @@ void HullLock::release_early() {
 void HullLock::look_at_battery() {
   const double level = controller_.battery_level();
   if (level >= settings_.charge_to) charging_ = false;
-  const bool in_between = !errands_.next_is(Leg::Kind::Drop);
-  const bool under_way = std::ranges::any_of(legs_, [](const Leg& leg) { return leg.kind == Leg::Kind::Pick; }) ||
-                         going_to_charge() || (acting_ && current_.kind != Leg::Kind::Drive);
-  if (level < settings_.charge_below && !charging_ && in_between && !under_way && place_known_ && !out_of_order_)
-    drive_to_charger();
+  const bool urgent = level < kUrgent * settings_.charge_below;
+  const bool in_between = urgent || !errands_.next_is(Leg::Kind::Drop);
+  const bool transfers = std::ranges::any_of(legs_, [](const Leg& leg) { return leg.kind == Leg::Kind::Pick; }) ||
+                         (acting_ && (current_.kind == Leg::Kind::Pick || current_.kind == Leg::Kind::Drop));
+  if (level < settings_.charge_below && !charging_ && in_between && !transfers && !going_to_charge() && place_known_ &&
+      !out_of_order_)
+    drive_to_charger(urgent);
 }
 
 bool HullLock::going_to_charge() const {
@@ -190,10 +193,11 @@ bool HullLock::going_to_charge() const {
 }
 
 // Drives to the charger that is best now. Since the last choice, chargers may have become free or occupied.
-void HullLock::drive_to_charger() {
+void HullLock::drive_to_charger(bool urgent) {
   const bool bound = errands_.next_is(Leg::Kind::Charge);
-  if (bound && !protocol_.requesting()) return;
-  const std::uint32_t charger = planner_.free_charger(end_of(map_, protocol_.held()));
+  if (bound && (!protocol_.requesting() || ++looks_ % kLooksPerChoice != 0)) return;
+  const bool loaded = carries_load(errands_.goals());
+  const std::uint32_t charger = planner_.free_charger(end_of(map_, protocol_.held()), loaded, urgent);
   if (charger == FP_NONE || (bound && errands_.goals().front().station == charger)) return;
   protocol_.withdraw();  // a request counts goals by their numbers in the row
   errands_.charge_at(charger);
@@ -309,7 +313,7 @@ Stretch HullLock::way_out(Yields to) {
   const auto goes_first = [&](std::uint32_t agv, const Neighbour& n) {
     return right_of_way_.goes_first(to, demand_ns_, agv, n);
   };
-  return planner_.out_of_the_way(protocol_.held(), budget(), carries_load(errands_.goals()), is_idle(),
+  return planner_.out_of_the_way(end_of(map_, protocol_.held()), budget(), carries_load(errands_.goals()), is_idle(),
                                  controller_.random(kPlaceDraws), goes_first);
 }
 

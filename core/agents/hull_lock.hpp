@@ -46,7 +46,7 @@ class HullLock {
   void release_early();
   void release_lane();
   void look_at_battery();
-  void drive_to_charger();
+  void drive_to_charger(bool urgent);
   bool going_to_charge() const;
   // Does everything that can be done now: acts, locks, plans, asks.
   void advance();
@@ -100,7 +100,7 @@ class HullLock {
   bool seen_idle_ = false;  // the AGV was idle at the last tick; the end of an inherited action may still be announced
 
   bool has_chargers_ = false, charging_ = false;
-  std::uint32_t ticks_ = 0;
+  std::uint32_t looks_ = 0;  // at the battery, since a charger was chosen
 
   Stretch stretch_;  // the requested stretch
   Purpose purpose_ = Purpose::Transport;

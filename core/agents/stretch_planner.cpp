@@ -95,6 +95,12 @@ struct StretchPlanner::Walk {
     return far_enough && best.lanes == here.lanes;
   }
 
+  // Also if this is not a place to wait at, unless other AGVs are in the way.
+  Stretch take_up_to_here() {
+    if (!blocked || best.lanes == 0) best = here;
+    return take();
+  }
+
   Stretch take() {
     const End& end = best.lanes > 0 ? best : least_bad;
     stretch.legs.resize(end.legs);
@@ -126,6 +132,7 @@ Stretch StretchPlanner::towards(const Path& standing, Budget budget, std::span<c
       if (!follow(walk, goal.station)) return walk.take();
     }
     walk.transfer(goal);
+    if (goal.transfer == Leg::Kind::Charge) return walk.take_up_to_here();  // it stays there, and nothing is behind it
     if (walk.is_done()) return walk.take();
     const bool now_loaded = goal.transfer == Leg::Kind::Charge ? loaded : goal.transfer == Leg::Kind::Pick;
     if (rules_.any() && now_loaded != loaded) price_lanes(now_loaded, kWaitingCost_s, kIdleCost_s, {});
@@ -153,25 +160,29 @@ Stretch StretchPlanner::out_of_the_way(const Path& standing, Budget budget, bool
   return {};
 }
 
-std::uint32_t StretchPlanner::free_charger(const Path& standing) {
-  price_lanes(false, kWaitingCost_s, kIdleCost_s, {});
+std::uint32_t StretchPlanner::free_charger(const Path& standing, bool loaded, bool urgent) {
+  price_lanes(loaded, kWaitingCost_s, kIdleCost_s, {});
   routes_.search(standing.station, standing.heading, costs_s_);
   std::uint32_t best = FP_NONE;
-  double best_s = kNoWayCost_s;
+  double best_s = urgent ? 2.0 * kNoWayCost_s : kNoWayCost_s;
   for (std::uint32_t station = 0; station < map_.station_count(); ++station) {
-    if ((map_.station(station).purposes & FP_CHARGING) == 0 || routes_.cost_s(station) >= best_s ||
-        !places_.is_safe(station))
-      continue;
-    bool taken = false;
-    neighbours_.for_each([&](std::uint32_t agv, const Neighbour& n) {
-      taken =
-          taken || (n.known && geometry_.turn_conflict(neighbours_.self(), station, agv, end_of(map_, n.status.held)));
-    });
-    if (taken) continue;
+    if ((map_.station(station).purposes & FP_CHARGING) == 0 || routes_.cost_s(station) >= best_s) continue;
+    const bool unfit = !places_.is_safe(station) || is_taken(station);
+    const double cost_s = routes_.cost_s(station) + (unfit ? kNoWayCost_s : 0.0);
+    if (cost_s >= best_s) continue;
     best = station;
-    best_s = routes_.cost_s(station);
+    best_s = cost_s;
   }
   return best;
+}
+
+bool StretchPlanner::is_taken(std::uint32_t station) {
+  bool taken = false;
+  neighbours_.for_each([&](std::uint32_t agv, const Neighbour& n) {
+    taken =
+        taken || (n.known && geometry_.turn_conflict(neighbours_.self(), station, agv, end_of(map_, n.status.held)));
+  });
+  return taken;
 }
 
 // Extends the walk to a station. False if the walk ends before, or cannot go on.

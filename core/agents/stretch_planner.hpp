@@ -84,8 +84,9 @@ class StretchPlanner {
   Stretch out_of_the_way(const Path& standing, Budget budget, bool loaded, bool prefer_parking, double draw,
                          const GoesFirst& goes_first);
   // The charging station that is quickest to reach, at which the AGV blocks no other AGV and no other AGV is known to
-  // be. FP_NONE if there is none.
-  std::uint32_t free_charger(const Path& standing);
+  // be. If it is `urgent` and there is none, any that can be reached: an AGV that is charged enough makes room.
+  // FP_NONE if there is none.
+  std::uint32_t free_charger(const Path& standing, bool loaded, bool urgent);
 
  private:
   struct Walk;
@@ -95,6 +96,7 @@ class StretchPlanner {
   std::uint32_t best_place(const Path& standing, bool prefer_parking, double draw, const GoesFirst& goes_first);
   bool is_cramped(std::uint32_t station);
   bool is_cramped(std::uint32_t station, std::uint32_t agv, const Neighbour& n);
+  bool is_taken(std::uint32_t station);
   bool follow(Walk& walk, std::uint32_t to);
 
   const MapView& map_;

@@ -155,5 +155,52 @@ TEST(Charging, AnEmptyAgvDrivesToTheChargerAndGoesOnAfterwards) {
   EXPECT_GE(warehouse.battery_of(0), 0.9);
 }
 
+// When it picks for the first time and what its battery then has.
+double battery_at_the_first_pick(double battery, double restart_at_s, std::uint32_t from) {
+  Corridor corridor;
+  const auto charger = corridor.drawn.station(8, 4, FP_CHARGING);
+  corridor.drawn.segment(1, charger);
+  const TestFleet fleet(corridor.drawn.map(), 1);
+  FakeWarehouse warehouse(corridor.drawn, fleet, {0}, kHullLock, {}, 1);
+  warehouse.battery(0, battery);
+  warehouse.order(0, 0.1, from, 2);
+  if (restart_at_s > 0.0) warehouse.restart(0, restart_at_s, 1.0);
+  double level = -1.0;
+  warehouse.after_activation = [&](std::uint32_t) {
+    const bool picks = !warehouse.calls().empty() && warehouse.calls().back().second == FP_CALL_PICK;
+    if (level < 0.0 && picks) level = warehouse.battery_of(0);
+  };
+  warehouse.run(400.0);
+  EXPECT_EQ(warehouse.drops(), 1U);
+  return level;
+}
+
+TEST(Charging, ItLooksAtTheBatteryBeforeItSetsOutEvenAfterARestart) {
+  EXPECT_GT(battery_at_the_first_pick(0.2, 0.0, 3), 0.8);
+  EXPECT_GT(battery_at_the_first_pick(0.2, 1.0, 3), 0.8);
+}
+
+TEST(Charging, AnAlmostEmptyAgvChargesWithItsLoad) {
+  Corridor corridor;
+  const auto charger = corridor.drawn.station(8, 4, FP_CHARGING);
+  corridor.drawn.segment(1, charger);
+  const TestFleet fleet(corridor.drawn.map(), 1);
+  for (const bool almost_empty : {false, true}) {
+    FakeWarehouse warehouse(corridor.drawn, fleet, {0}, kHullLock, {}, 1);
+    warehouse.battery(0, 1.0);
+    warehouse.order(0, 0.1, 0, 3);
+    double level = 0.0;
+    warehouse.after_activation = [&](std::uint32_t) {
+      const bool picked = !warehouse.calls().empty() && warehouse.calls().back().first > 5.0;
+      if (level == 0.0 && picked) warehouse.battery(0, almost_empty ? 0.08 : 0.25), level = 0.08;
+      if (warehouse.calls().size() > 1 && warehouse.calls().back().second == FP_CALL_DROP)
+        level = std::max(level, warehouse.battery_of(0));
+    };
+    warehouse.run(400.0);
+    EXPECT_EQ(warehouse.drops(), 1U);
+    EXPECT_EQ(level > 0.8, almost_empty) << level;
+  }
+}
+
 }  // namespace
 }  // namespace fleetproof::agents
