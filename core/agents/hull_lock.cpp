@@ -227,7 +227,13 @@ void HullLock::advance() {
 void HullLock::act() {
   if (acting_ || charging_ || out_of_order_) return;
   while (!legs_.empty() && errands_.is_needless(legs_.front())) legs_.pop_front();
-  if (!legs_.empty()) begin(legs_.front());
+  if (!legs_.empty() && !must_lock_first()) begin(legs_.front());
+}
+
+// The AGV starts without a load, and the warehouse keeps only bodies without loads apart. The floor under its load is
+// its own when it has locked its way from there.
+bool HullLock::must_lock_first() const {
+  return !has_locked_ && !legs_.empty() && legs_.front().kind == Leg::Kind::Pick;
 }
 
 void HullLock::begin(const Leg& leg) {
@@ -265,6 +271,7 @@ void HullLock::begin(const Leg& leg) {
 void HullLock::adopt_stretch() {
   legs_.insert(legs_.end(), stretch_.legs.begin(), stretch_.legs.end());
   errands_.reached(stretch_.goals);
+  has_locked_ = true;
   if (stretch_.goals > 0) demand_ns_ = -1;  // an AGV that gets on only step by step stays old
   right_of_way_.got_on();
   charging_ = false;  // of the AGVs that charge, only one that makes way locks floor
@@ -292,7 +299,7 @@ void HullLock::plan() {
 }
 
 void HullLock::plan_transport() {
-  if (time_left_s() > locking_takes_s_) return;
+  if (time_left_s() > locking_takes_s_ && !must_lock_first()) return;
   if (demand_ns_ < 0) demand_ns_ = controller_.now_ns();
   request(way_on(), Purpose::Transport);
 }

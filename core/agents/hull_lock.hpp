@@ -60,7 +60,8 @@ class HullLock {
   void request(Stretch stretch, Purpose purpose, std::int64_t demand_ns = -1);
   Stretch way_on();
   Stretch way_out(Yields to);
-  bool is_waiting() const { return !acting_ && legs_.empty(); }
+  bool must_lock_first() const;
+  bool is_waiting() const { return !acting_ && (legs_.empty() || must_lock_first()); }
   bool is_idle() const { return is_waiting() && errands_.empty(); }
   // For people who look at a trace.
   const char* state() const {
@@ -85,8 +86,9 @@ class HullLock {
   StretchPlanner planner_;
   RightOfWay right_of_way_;
 
-  std::deque<Leg> legs_;  // locked legs that have not begun
-  bool acting_ = false;   // an action is under way
+  std::deque<Leg> legs_;     // locked legs that have not begun
+  bool has_locked_ = false;  // a stretch, since this boot
+  bool acting_ = false;      // an action is under way
   Leg current_;
   double current_ends_s_ = 0.0;    // the expected end of the current leg
   bool current_released_ = false;  // its lane was released before its end

@@ -25,8 +25,10 @@
 //   contradiction. (If all three are one instant, the activations of j still have an order.)
 //
 // The proof uses no assumption about the delay, the order or the number of messages, about clocks or keys, or about
-// which of several GRANTs was used. Keys, retransmission and making way serve progress only. The first hulls are the
-// bodies at the start, and the warehouse keeps those apart. Time releases nothing.
+// which of several GRANTs was used. Keys, retransmission, the pause after a step back and making way serve progress
+// only. Time releases nothing. The first hulls are the bodies at the start, and the warehouse keeps those apart. It
+// does so without their loads; an AGV takes a load there only when it has locked its way from there, and with it the
+// floor under the load (HullLock::must_lock_first).
 //
 // What i holds contains its body. The proof above is about held paths; these rules tie the body to the held path:
 // - At the start and at a restart, i holds the standing body or the lane under way (see Restarts).

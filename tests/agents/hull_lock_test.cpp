@@ -169,5 +169,22 @@ TEST(HullLock, AFleetOutOfRadioReachStandsStill) {
   EXPECT_EQ(tally.drops, 0U);
 }
 
+// The bodies are clear of each other, the bodies with loads are not.
+TEST(HullLock, WhereItStartsItTakesALoadOnlyIfThereIsRoomForIt) {
+  fp_agv wide = testing::kTestAgv;
+  wide.loaded_width_m = 1.4;
+  for (const double apart_m : {1.2, 6.0}) {
+    DrawnMap drawn;
+    for (const double y_m : {0.0, apart_m}) drawn.station(0, y_m), drawn.station(6, y_m);
+    drawn.segment(0, 1), drawn.segment(2, 3);
+    const TestFleet fleet(drawn.map(), 2, wide);
+    FakeWarehouse warehouse(drawn, fleet, {0, 2}, kHullLock, {}, 1);
+    warehouse.order(0, 0.1, 0, 1);
+    warehouse.run(100.0);
+    EXPECT_EQ(warehouse.calls().empty(), apart_m < 2.0);
+    EXPECT_EQ(warehouse.drops(), apart_m < 2.0 ? 0U : 1U);
+  }
+}
+
 }  // namespace
 }  // namespace fleetproof::agents

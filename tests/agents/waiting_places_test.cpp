@@ -132,6 +132,15 @@ TEST_F(Planning, AfterTheLastGoalItLeavesForAWaitingPlace) {
   EXPECT_EQ(s.legs.back().kind, Leg::Kind::Drive);
 }
 
+// It stays there until it is charged, whoever asks for the place: it must not hold a way on meanwhile.
+TEST_F(Planning, EndsAtTheChargerEvenIfItIsNoWaitingPlace) {
+  const Stretch s = towards(0, {{2, Leg::Kind::Charge}, {8, Leg::Kind::Drop}});
+  EXPECT_FALSE(planner.places().is_safe(2));
+  EXPECT_EQ(end(s), 2U);
+  EXPECT_EQ(s.goals, 1U);
+  EXPECT_EQ(s.legs.back().kind, Leg::Kind::Charge);
+}
+
 TEST_F(Planning, GoesRoundAWaitingAgv) {
   put(1, 3);
   const Stretch s = towards(0, {{5, Leg::Kind::Pick}});
