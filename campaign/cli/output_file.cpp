@@ -46,6 +46,7 @@ bool is_trace(std::string_view text) {
                                             text.find_first_not_of("0123456789", point + 1) == point + 10);
 }
 bool is_pieces(std::string_view text) { return has_key(text, "bodies") && has_key(text, "safety_distance_m"); }
+bool is_chrome_trace(std::string_view text) { return has_key(text, "traceEvents"); }
 bool is_poses(std::string_view text) { return text.starts_with("body,t_s,"); }
 bool is_sensitivity(std::string_view text) { return has_key(text, "worlds") && has_key(text, "faults"); }
 
@@ -64,7 +65,8 @@ constexpr Kind kKinds[] = {{"a layout file", is_layout},
                            {"a measured sensitivity", is_sensitivity},
                            {"a trace", is_trace},
                            {"a file of pieces", is_pieces},
-                           {"a file of poses", is_poses}};
+                           {"a file of poses", is_poses},
+                           {"a Chrome trace", is_chrome_trace}};
 
 std::string remedy_of(const OutputFile& file) { return "choose another path for " + file.option; }
 

@@ -17,7 +17,8 @@ enum class OutputKind : std::uint8_t {
   Sensitivity,
   Trace,
   Pieces,
-  Poses
+  Poses,
+  ChromeTrace
 };
 
 // An output that the user asked for: the path, the option that named it, and the kind of the file.

@@ -118,7 +118,7 @@ int replay_run(const ReplayWords& words) {
   }
   AgentPrograms programs;
   const ReplayResult result = replay_either_way(words, archive, plan, programs, observed ? &*observed : nullptr);
-  if (observed) observed->finish();
+  if (observed) observed->finish(result.recomputed.outcome);
   if (!words.scenario_out.empty())
     write_whole({words.scenario_out, "--scenario", OutputKind::Scenario}, printable_json(to_text(scenario)));
   if (words.json) {

@@ -20,12 +20,16 @@ Duration step_of(const ObserverWords& words) {
 OutputFile pieces_file(const ObserverWords& words) { return {words.pieces, "--pieces", OutputKind::Pieces}; }
 OutputFile poses_file(const ObserverWords& words) { return {words.poses, "--poses", OutputKind::Poses}; }
 
+OutputFile chrome_file(const ObserverWords& words) { return {words.chrome, "--chrome-trace", OutputKind::ChromeTrace}; }
+
 }  // namespace
 
 void add_observer_options(Options& options, ObserverWords& words) {
   add_trace_options(options, words.trace);
   options.option("--pieces", words.pieces, "write the exact motion of every body to this file (JSON)");
   options.option("--poses", words.poses, "write the pose of every body at equal steps to this file (CSV)");
+  options.option("--chrome-trace", words.chrome,
+                 "write activities and messages to this file, for Perfetto (ui.perfetto.dev) and chrome://tracing");
   options.option("--every-ms", words.every_ms, "step of --poses in milliseconds (default: 10)");
 }
 
@@ -34,26 +38,36 @@ RunObservers::RunObservers(const ObserverWords& words, const Scenario& scenario,
   step_of(words);
   if (!words.pieces.empty()) require_writable(pieces_file(words));
   if (!words.poses.empty()) require_writable(poses_file(words));
+  if (!words.chrome.empty()) {
+    require_writable(chrome_file(words));
+    chrome_.emplace(scenario);
+  }
   if (words.trace.wanted()) trace_.emplace(words.trace, scenario, std::move(violations));
   if (!words.pieces.empty() || !words.poses.empty()) pieces_.emplace(*scenario.map);
 }
 
 void RunObservers::record(const TraceRecord& record, std::string_view text) {
   if (trace_) trace_->sink().record(record, text);
+  if (chrome_) chrome_->record(record, text);
 }
 
 void RunObservers::piece_started(const Piece& piece) {
   if (trace_) trace_->sink().piece_started(piece);
+  if (chrome_) chrome_->piece_started(piece);
 }
 
 void RunObservers::piece_ended(const Piece& piece) {
   if (pieces_) pieces_->piece_ended(piece);
 }
 
-void RunObservers::finish() {
+void RunObservers::finish(const Outcome& outcome) {
   if (trace_) trace_->finish();
   if (!words_.pieces.empty()) write_whole(pieces_file(words_), pieces_json(scenario_, pieces_->pieces()));
   if (!words_.poses.empty()) write_whole(poses_file(words_), poses_csv(scenario_, pieces_->pieces(), step_of(words_)));
+  if (chrome_) {
+    const SimTime end = at_ns(static_cast<std::int64_t>(outcome.simulated_ns));
+    write_whole(chrome_file(words_), chrome_->text(outcome.violations, end));
+  }
 }
 
 }  // namespace fleetproof::cli

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "campaign/cli/chrome_trace.hpp"
 #include "campaign/cli/command_line.hpp"
 #include "campaign/cli/pieces_file.hpp"
 #include "campaign/cli/trace_words.hpp"
@@ -13,10 +14,10 @@ namespace fleetproof::cli {
 // What the user wants to see or keep of one run, besides its outcome.
 struct ObserverWords {
   TraceWords trace;
-  std::string pieces, poses;
+  std::string pieces, poses, chrome;
   std::optional<std::uint64_t> every_ms;
 
-  bool wanted() const { return trace.wanted() || !pieces.empty() || !poses.empty(); }
+  bool wanted() const { return trace.wanted() || !pieces.empty() || !poses.empty() || !chrome.empty(); }
 };
 
 void add_observer_options(Options& options, ObserverWords& words);
@@ -32,13 +33,14 @@ class RunObservers final : public TraceSink {
   void piece_started(const Piece& piece) override;
   void piece_ended(const Piece& piece) override;
   // Call this after the run: writes the files.
-  void finish();
+  void finish(const Outcome& outcome);
 
  private:
   const ObserverWords& words_;
   const Scenario& scenario_;
   std::optional<TraceOutput> trace_;
   std::optional<PieceKeeper> pieces_;
+  std::optional<ChromeTrace> chrome_;
 };
 
 }  // namespace fleetproof::cli

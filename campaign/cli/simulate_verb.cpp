@@ -200,7 +200,7 @@ int simulate_scenario(SimulateWords words) {
   if (words.observed.wanted()) observed.emplace(words.observed, scenario, violations_before(words, scenario, agent));
   const Outcome outcome =
       simulate(scenario, agent, observers.laws, observed ? &*observed : nullptr, words.config.c_str());
-  if (observed) observed->finish();
+  if (observed) observed->finish(outcome);
   if (words.json) {
     print_json(scenario, outcome, words, observers);
   } else {
