@@ -7,7 +7,7 @@
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "core/base/error.hpp"
-#include "generators/formats/csv_layout.hpp"
+#include "generators/formats/csv_text.hpp"
 #include "generators/formats/importer.hpp"
 #include "generators/formats/layout_file.hpp"
 #include "generators/formats/lif_text.hpp"
@@ -21,7 +21,7 @@ struct ImportWords {
   std::string format, file, out, picture, level, purposes;
   std::optional<std::uint64_t> graph;
   std::optional<double> cell_pitch_m;
-  bool keep_antiparallel = false, core_only = false;
+  bool keep_antiparallel = false, core_only = false, any_type = false;
 };
 
 // An option that the format does not know is refused, because it would silently change nothing.
@@ -35,15 +35,17 @@ ImportChoice choice_of(const ImportWords& words) {
   expect_format(words, words.keep_antiparallel, "--keep-antiparallel", kFormatsWithTwins);
   expect_format(words, !words.purposes.empty(), "--purposes", kFormatsWithWords);
   expect_format(words, words.graph.has_value(), "--graph", {"rmf"});
-  expect_format(words, !words.level.empty(), "--level", {"rmf"});
+  expect_format(words, !words.level.empty(), "--level", kFormatsWithLevels);
   expect_format(words, words.cell_pitch_m.has_value(), "--cell-pitch", {"grid"});
   ImportChoice choice;
   if (words.keep_antiparallel) choice.twins = TwinPaths::Keep;
   choice.core_only = words.core_only;
+  choice.any_type = words.any_type;
   choice.purposes = purpose_words_of(words.purposes, "--purposes");
   if (words.graph.value_or(0) > std::numeric_limits<std::uint32_t>::max())
     throw InputError("--graph", fmt::format("is {}; graphs count from 0", *words.graph));
-  choice.rmf = {words.level, static_cast<std::int64_t>(words.graph.value_or(0))};
+  choice.level = words.level;
+  choice.rmf.graph_idx = static_cast<std::int64_t>(words.graph.value_or(0));
   choice.cell_pitch_m = words.cell_pitch_m.value_or(kDefaultCellPitch_m);
   return choice;
 }
@@ -69,6 +71,9 @@ int import_file(const ImportWords& words) {
   talk("purposes: {}\nreachability: {}\n", purposes_summary(layout), reachability_text(layout));
   if (!words.picture.empty()) write_whole({words.picture, "--svg", OutputKind::Picture}, layout_svg(layout));
   const OutputKind kind = kind_of(words.out);
+  if (kind == OutputKind::LifLayout) {
+    for (const std::string& sentence : lost_in_lif(layout)) talk("warning: {}: {}\n", words.out, sentence);
+  }
   const std::string text = text_of(layout, kind);
   if (words.out.empty()) {
     put_text(text);
@@ -95,8 +100,10 @@ Action prepare_import(Options& options) {
                  "opentcs, lif: what stations are for, by words of the file, as in \"PACK=storage,Dock 7=charging\"");
   options.flag("--core-only", words->core_only,
                "leave out the stations that cannot be reached from all others, and name them");
+  options.flag("--any-type", words->any_type, "every AGV may drive what one type of vehicle may");
   options.option("--graph", words->graph, "rmf: graph_idx of the lanes to read (default: 0)");
-  options.option("--level", words->level, "rmf: level to read (default: the first)");
+  options.option("--level", words->level,
+                 "rmf: level to read (default: the first); lif: id or level of the layout to read");
   options.option("--cell-pitch", words->cell_pitch_m, "grid: distance of neighbouring cells in metres (default: 1.2)");
   return [words] { return import_file(*words); };
 }

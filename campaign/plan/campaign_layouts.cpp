@@ -41,8 +41,10 @@ std::shared_ptr<const LogicalMap> read_map(const std::string& path, const Import
 // silently change nothing.
 ImportChoice import_choice(TomlTable& table, const std::string& path, const PurposeWords& purposes) {
   const auto format = importer_of_file(path);
-  const std::pair<std::string_view, OptionFormats> owned[] = {
-      {"merge_antiparallel", kFormatsWithTwins}, {"cell_pitch_m", {"grid"}}, {"level", {"rmf"}}, {"graph", {"rmf"}}};
+  const std::pair<std::string_view, OptionFormats> owned[] = {{"merge_antiparallel", kFormatsWithTwins},
+                                                              {"cell_pitch_m", {"grid"}},
+                                                              {"level", kFormatsWithLevels},
+                                                              {"graph", {"rmf"}}};
   for (const auto& [key, owners] : owned) {
     if (!table.has(key) || owners.contains(format)) continue;
     throw InputError(table.place(key), fmt::format("{} has no meaning for format \"{}\"; it belongs to {}", key, format,
@@ -52,9 +54,10 @@ ImportChoice import_choice(TomlTable& table, const std::string& path, const Purp
   choice.purposes = purposes;
   bool merge = true;
   table.get("core_only", choice.core_only);
+  table.get("any_type", choice.any_type);
   table.get("merge_antiparallel", merge);
   table.get("cell_pitch_m", choice.cell_pitch_m);
-  table.get("level", choice.rmf.level);
+  table.get("level", choice.level);
   if (const auto graph = table.given("graph")) {
     std::uint32_t number = 0;
     const auto sentence = take(Field{.key = "graph", .text = "", .high = 1e6}, graph->value, number);

@@ -6,7 +6,6 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <functional>
 #include <map>
 
 #include "core/base/catalogue.hpp"
@@ -27,7 +26,14 @@ constexpr std::string_view kEdgeColumns[] = {
     "from",    "to",     "bidirectional", "name",        "control_points", "speed_limit_mps", "back_speed_limit_mps",
     "width_m", "travel", "back_travel",   "permissions", "blocks"};
 
-constexpr std::string_view kNoPurpose = "none";
+constexpr std::string_view kBlockColumns[] = {"block", "kind"};
+
+enum class Table : std::uint8_t { None, Nodes, Blocks, Edges };
+
+std::span<const std::string_view> columns_of(Table table) {
+  if (table == Table::Blocks) return kBlockColumns;
+  return table == Table::Edges ? std::span<const std::string_view>(kEdgeColumns) : kNodeColumns;
+}
 
 struct Property {
   const char* column;
@@ -36,6 +42,21 @@ struct Property {
 constexpr Property kProperties[] = {{"speed_limit_mps", &Segment::speed_limit_mps},
                                     {"back_speed_limit_mps", &Segment::back_speed_limit_mps},
                                     {"width_m", &Segment::width_m}};
+
+// The parts of a text between bars, without empty ones. A bar or backslash after a backslash belongs to a part.
+std::vector<std::string> parts_of(std::string_view text) {
+  std::vector<std::string> parts(1);
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '|') {
+      parts.emplace_back();
+      continue;
+    }
+    if (text[i] == '\\' && i + 1 < text.size() && (text[i + 1] == '|' || text[i + 1] == '\\')) ++i;
+    parts.back() += text[i];
+  }
+  std::erase(parts, "");
+  return parts;
+}
 
 // The parts of a text between separators, without empty ones.
 std::vector<std::string_view> words_of(std::string_view text, char separator) {
@@ -58,12 +79,11 @@ class TableReader {
     while (const auto line = lines_.next()) {
       if (is_csv_remark(*line)) continue;
       const auto fields = csv_fields(*line, source_, lines_.number());
-      if (is_heading(fields)) {
-        take_heading(fields);
-      } else if (columns_.empty()) {
-        refuse("expected a line with the names of the columns first: id,x,y,purposes");
+      const Table begun = table_begun_by(fields);
+      if (begun != Table::None) {
+        take_heading(begun, fields);
       } else {
-        of_edges_ ? add_edge(fields) : add_node(fields);
+        add_row(fields);
       }
     }
     if (layout_.stations.empty())
@@ -81,20 +101,31 @@ class TableReader {
   }
 
   // Each table has its header at its top. In the rows below, stations may have the names "from" and "to".
-  bool is_heading(const std::vector<std::string>& fields) const {
+  Table table_begun_by(const std::vector<std::string>& fields) const {
     const auto has = [&](std::string_view name) { return std::ranges::find(fields, name) != fields.end(); };
-    if (columns_.empty() && has("id") && has("x") && has("y")) return true;
-    return !of_edges_ && has("from") && has("to");
+    if (table_ == Table::None && has("id") && has("x") && has("y")) return Table::Nodes;
+    if (table_ != Table::Edges && has("from") && has("to")) return Table::Edges;
+    return table_ != Table::Edges && has("block") && has("kind") ? Table::Blocks : Table::None;
   }
 
-  void take_heading(const std::vector<std::string>& fields) {
-    of_edges_ = std::ranges::find(fields, "from") != fields.end();
-    const std::span<const std::string_view> known =
-        of_edges_ ? std::span<const std::string_view>(kEdgeColumns) : kNodeColumns;
+  void add_row(const std::vector<std::string>& fields) {
+    if (table_ == Table::None) refuse("expected a line with the names of the columns first: id,x,y,purposes");
+    if (fields.size() > columns_.size())
+      refuse(fmt::format("the line has {} fields, its table {} columns", fields.size(), columns_.size()));
+    if (table_ == Table::Nodes) return add_node(fields);
+    return table_ == Table::Blocks ? add_block(fields) : add_edge(fields);
+  }
+
+  void take_heading(Table table, const std::vector<std::string>& fields) {
+    table_ = table;
+    const auto known = columns_of(table);
     columns_.clear();
     for (std::size_t i = 0; i < fields.size(); ++i) {
       if (std::ranges::find(known, fields[i]) == known.end()) {
-        refuse(fmt::format("{} is not a column of {}{}", in_quotes(fields[i]), of_edges_ ? "edges" : "nodes",
+        refuse(fmt::format("{} is not a column of {}{}", in_quotes(fields[i]),
+                           table == Table::Nodes    ? "nodes"
+                           : table == Table::Blocks ? "blocks"
+                                                    : "edges",
                            name_hint(fields[i], known)));
       }
       if (!columns_.emplace(fields[i], i).second)
@@ -137,7 +168,7 @@ class TableReader {
   // "tugger:loaded|:empty": for tuggers with a load, and for every type without one.
   std::vector<Permission> permissions(std::string_view text) const {
     std::vector<Permission> found;
-    for (const auto one : words_of(text, '|')) {
+    for (const std::string_view one : parts_of(text)) {
       const auto colon = one.rfind(':');
       if (colon == std::string_view::npos)
         refuse(fmt::format("permission {}; expected TYPE:any, TYPE:empty or TYPE:loaded, with | between them",
@@ -165,13 +196,16 @@ class TableReader {
     return number;
   }
 
-  void check_width(const std::vector<std::string>& fields) const {
-    if (fields.size() > columns_.size())
-      refuse(fmt::format("the line has {} fields, its table {} columns", fields.size(), columns_.size()));
+  void add_block(const std::vector<std::string>& fields) {
+    const SegmentBlock block{field(fields, "block"), word<BlockKind>(field(fields, "kind"), "kind")};
+    if (std::ranges::find(layout_.blocks, block.name, &SegmentBlock::name) != layout_.blocks.end())
+      refuse(fmt::format("block {} stands above; rename one", in_quotes(block.name)));
+    if (const char* fault = fault_of_name(block.name))
+      refuse(fmt::format("block {}: {}", in_quotes(block.name), fault));
+    layout_.blocks.push_back(block);
   }
 
   void add_node(const std::vector<std::string>& fields) {
-    check_width(fields);
     Station station;
     station.name = field(fields, "id");
     station.position_m = {number(field(fields, "x"), "x"), number(field(fields, "y"), "y")};
@@ -209,7 +243,6 @@ class TableReader {
   }
 
   void add_edge(const std::vector<std::string>& fields) {
-    check_width(fields);
     Segment segment;
     const auto from = field(fields, "from"), to = field(fields, "to"), both = field(fields, "bidirectional");
     segment.from = station_in(from, "from");
@@ -226,7 +259,7 @@ class TableReader {
       segment.back_travel = word<Travel>(travel, "back_travel");
     segment.permissions = permissions(field(fields, "permissions"));
     const auto blocks = field(fields, "blocks");
-    for (const auto one : words_of(blocks, '|')) segment.blocks.push_back(block(one));
+    for (const auto& one : parts_of(blocks)) segment.blocks.push_back(block(one));
     std::ranges::sort(segment.blocks);
     if (std::ranges::adjacent_find(segment.blocks) != segment.blocks.end()) refuse("a block is named twice");
     for (const auto& [column, property] : kProperties) {
@@ -251,100 +284,12 @@ class TableReader {
 
   TextLines lines_;
   std::string_view source_;
-  bool of_edges_ = false;
+  Table table_ = Table::None;
   std::map<std::string, std::size_t, std::less<>> columns_;
   std::map<std::string, StationId> stations_;
   std::vector<std::size_t> station_lines_, segment_lines_;
   Layout layout_;
 };
-
-std::string csv_field(const std::string& text) {
-  // A line that begins with # would be a comment.
-  if (text.find_first_of(",\"#") == std::string::npos) return text;
-  std::string result = "\"";
-  for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return result + "\"";
-}
-
-template <class Item>
-struct Column {
-  const char* name;
-  std::function<std::string(const Item&)> text;
-  bool always = true;  // else only if some field in it says something
-};
-
-std::vector<Column<Station>> node_columns(const Layout&) {
-  return {{"id", [](const Station& s) { return csv_field(s.name); }},
-          {"x", [](const Station& s) { return fmt::format("{}", s.position_m.x()); }},
-          {"y", [](const Station& s) { return fmt::format("{}", s.position_m.y()); }},
-          {"purposes",
-           [](const Station& s) {
-             const auto purposes = purposes_text(s.purposes);
-             return purposes.empty() ? std::string(kNoPurpose) : purposes;
-           }},
-          {"turning", [](const Station& s) { return std::string(s.turning ? "" : "false"); }, false},
-          {"heading",
-           [](const Station& s) {
-             return s.heading ? fmt::format("{} {}", s.heading->x(), s.heading->y()) : std::string();
-           },
-           false}};
-}
-
-std::string points_text(const Segment& segment) {
-  std::string text;
-  for (const Vec2& point : segment.control_points_m)
-    text += fmt::format("{}{} {}", text.empty() ? "" : " ", point.x(), point.y());
-  return text;
-}
-
-std::string permissions_text(const Segment& segment) {
-  std::string text;
-  for (const auto& [vehicle_type, load] : segment.permissions)
-    text += fmt::format("{}{}:{}", text.empty() ? "" : "|", vehicle_type, name_of(load));
-  return text.empty() ? text : csv_field(text);
-}
-
-std::string number_text(double value) { return value > 0.0 ? fmt::format("{}", value) : std::string(); }
-std::string travel_text(Travel travel) { return travel == Travel::Forward ? "" : name_of(travel); }
-
-std::vector<Column<Segment>> edge_columns(const Layout& layout) {
-  const auto station = [&layout](StationId id) { return csv_field(layout.stations.at(id.index()).name); };
-  const auto blocks = [&layout](const Segment& segment) {
-    std::string text;
-    for (const std::uint32_t number : segment.blocks) {
-      const SegmentBlock& block = layout.blocks.at(number);
-      text += fmt::format("{}{}:{}", text.empty() ? "" : "|", block.name, name_of(block.kind));
-    }
-    return text.empty() ? text : csv_field(text);
-  };
-  return {{"from", [station](const Segment& s) { return station(s.from); }},
-          {"to", [station](const Segment& s) { return station(s.to); }},
-          {"bidirectional", [](const Segment& s) { return fmt::format("{}", s.bidirectional); }},
-          {"name", [](const Segment& s) { return csv_field(s.name); }},
-          {"control_points", points_text},
-          {"speed_limit_mps", [](const Segment& s) { return number_text(s.speed_limit_mps); }, false},
-          {"back_speed_limit_mps", [](const Segment& s) { return number_text(s.back_speed_limit_mps); }, false},
-          {"width_m", [](const Segment& s) { return number_text(s.width_m); }, false},
-          {"travel", [](const Segment& s) { return travel_text(s.travel); }, false},
-          {"back_travel", [](const Segment& s) { return travel_text(s.back_travel); }, false},
-          {"permissions", permissions_text, false},
-          {"blocks", blocks, false}};
-}
-
-template <class Item>
-std::string columns_text(const std::vector<Item>& items, std::vector<Column<Item>> columns) {
-  std::erase_if(columns, [&](const Column<Item>& column) {
-    return !column.always && std::ranges::all_of(items, [&](const Item& item) { return column.text(item).empty(); });
-  });
-  std::string text;
-  const auto line = [&](const auto& field) {
-    for (const Column<Item>& column : columns) text += (&column == &columns.front() ? "" : ",") + field(column);
-    text += '\n';
-  };
-  line([](const Column<Item>& column) { return std::string(column.name); });
-  for (const Item& item : items) line([&](const Column<Item>& column) { return column.text(item); });
-  return text;
-}
 
 }  // namespace
 
@@ -357,10 +302,6 @@ Layout parse_csv_layout(std::string_view text, std::string_view source, std::vec
   Layout layout = TableReader(text, source).read();
   settle_twins(layout, twins, source, warnings);
   return layout;
-}
-
-std::string to_csv(const Layout& layout) {
-  return columns_text(layout.stations, node_columns(layout)) + columns_text(layout.segments, edge_columns(layout));
 }
 
 }  // namespace fleetproof

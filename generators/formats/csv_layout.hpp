@@ -24,6 +24,12 @@ namespace fleetproof {
 // - `name` of an edge. Empty: "dock-fork".
 // - `control_points`: x y x y ... Empty: straight.
 // - `speed_limit_mps`, `back_speed_limit_mps` (of the other direction), `width_m`. Empty: none, or not known.
+// - `turning` and `heading` of a node: true or false; a direction x y.
+// - `travel`, `back_travel` of an edge: forward, backward or either.
+// - `permissions` of an edge: TYPE:any|TYPE:loaded. `blocks`: NAME:one-vehicle|NAME:same-direction. A bar or backslash
+// in
+//   a name stands after a backslash.
+// A table of blocks, block,kind, may stand before the edges: blocks without edges have no other place.
 // A field with a comma or a double quote stands in double quotes. Empty lines and lines that begin with # are skipped.
 //
 // Throws InputError with file, line, field, value and remedy if no AGV can drive on the layout. Nothing is left
@@ -32,9 +38,7 @@ Layout read_csv_layout(const std::string& path, std::vector<std::string>& warnin
 Layout parse_csv_layout(std::string_view text, std::string_view source, std::vector<std::string>& warnings,
                         TwinPaths twins = TwinPaths::Merge);
 
-// The layout in this form. Reading it gives the same layout, with three exceptions: the name becomes the name of the
-// file, the floor is fitted again, and twins become one segment unless the reader keeps them. Blocks have no
-// place here. A layout without segments cannot be read again.
-std::string to_csv(const Layout& layout);
+// The word for a node without any purpose.
+inline constexpr std::string_view kNoPurpose = "none";
 
 }  // namespace fleetproof

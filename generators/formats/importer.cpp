@@ -5,10 +5,12 @@
 #include <algorithm>
 
 #include "core/base/error.hpp"
+#include "core/scenario/lane_rules.hpp"
 #include "generators/formats/csv_layout.hpp"
 #include "generators/formats/layout_file.hpp"
 #include "generators/formats/lif.hpp"
 #include "generators/map/core_only.hpp"
+#include "generators/map/permitted_types.hpp"
 #include "generators/text/json_value.hpp"
 #include "generators/text/name_list.hpp"
 #include "generators/text/text_file.hpp"
@@ -31,6 +33,7 @@ constexpr Entry<ReadLayout> kImporters[] = {
      [](const std::string& path, const ImportChoice& choice, Warnings& warnings) {
        RmfChoice rmf = choice.rmf;
        rmf.twins = choice.twins;
+       rmf.level = choice.level;
        return read_rmf(path, warnings, rmf);
      }},
     {"grid", "grid map of Moving AI or the League of Robot Runners (.map)",
@@ -63,7 +66,8 @@ bool is_lif(const std::string& path) {
 
 }  // namespace
 
-const OptionFormats kFormatsWithTwins = {"opentcs", "lif", "rmf", "csv"}, kFormatsWithWords = {"opentcs", "lif"};
+const OptionFormats kFormatsWithTwins = {"opentcs", "lif", "rmf", "csv"}, kFormatsWithWords = {"opentcs", "lif"},
+                    kFormatsWithLevels = {"rmf", "lif"};
 
 std::span<const Entry<ReadLayout>> importers() { return kImporters; }
 
@@ -86,12 +90,21 @@ std::string_view importer_of_file(const std::string& path) {
 Layout import_layout(const Entry<ReadLayout>& importer, const std::string& path, const ImportChoice& choice,
                      Warnings& warnings) {
   Layout layout = importer.make(path, choice, warnings);
+  if (choice.any_type) {
+    const auto names = lift_types(layout);
+    if (!names.empty())
+      warnings.push_back(
+          fmt::format("{}: {} segments are for some types of vehicles only; here they are for every type ({})", path,
+                      names.size(), name_list(names)));
+  }
   if (!choice.core_only) return layout;
+  const bool rules = has_rules(layout);
   const auto names = keep_core(layout);
   if (layout.segments.empty()) {
-    throw InputError(path,
-                     "no two stations can reach each other, so nothing is left of its core; make segments "
-                     "two-way, or read it without core_only");
+    throw InputError(
+        path, fmt::format("no two stations can reach each other{}, so nothing is left of its core; make segments "
+                          "two-way, or read it without core_only",
+                          rules ? " by what the layout permits (turns, headings, loads and types)" : ""));
   }
   if (!names.empty())
     warnings.push_back(fmt::format("{}: {} stations cannot be reached from all others and are cut off: {}", path,

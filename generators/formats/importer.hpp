@@ -16,6 +16,7 @@ namespace fleetproof {
 
 // Options of an import. Each format uses the options that it knows.
 struct ImportChoice : ReadChoice {
+  bool any_type = false;                      // every AGV may drive what one type of vehicle may
   bool core_only = false;                     // without the stations that not all others reach
   RmfChoice rmf;                              // Open-RMF
   double cell_pitch_m = kDefaultCellPitch_m;  // grid maps
@@ -29,7 +30,7 @@ std::span<const Entry<ReadLayout>> importers();
 
 // The formats for which an option has a meaning.
 using OptionFormats = std::set<std::string_view>;
-extern const OptionFormats kFormatsWithTwins, kFormatsWithWords;
+extern const OptionFormats kFormatsWithTwins, kFormatsWithWords, kFormatsWithLevels;
 
 // Throws InputError with a hint if there is no such importer.
 const Entry<ReadLayout>& importer(std::string_view name);
@@ -40,7 +41,8 @@ bool is_layout_file(std::string_view path);
 // The importer for the extension of a file. The keys of a .json file decide between LIF and our own layout format.
 std::string_view importer_of_file(const std::string& path);
 
-// Reads a layout with an importer, and cuts stations off if the choice asks for it; `warnings` receives their names.
+// Reads a layout with an importer. Lifts permissions and cuts stations off if the choice asks for it; `warnings`
+// receives what was lifted, and the names of the stations.
 Layout import_layout(const Entry<ReadLayout>& importer, const std::string& path, const ImportChoice& choice,
                      std::vector<std::string>& warnings);
 // The same with the importer of importer_of_file().

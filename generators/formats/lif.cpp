@@ -14,7 +14,11 @@
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
 #include "core/base/tolerances.hpp"
+#include "generators/formats/heading.hpp"
+#include "generators/formats/lif_layouts.hpp"
 #include "generators/formats/lif_left_out.hpp"
+#include "generators/formats/lif_turns.hpp"
+#include "generators/formats/lif_types.hpp"
 #include "generators/formats/nurbs.hpp"
 #include "generators/formats/purpose_words.hpp"
 #include "generators/map/antiparallel.hpp"
@@ -26,12 +30,6 @@
 namespace fleetproof {
 namespace {
 
-// The first of two spellings that the file has. LIF 1.0 says vehicleType, its successor says mobileRobotType.
-std::optional<JsonReader> either(const JsonReader& object, std::string_view old_key, std::string_view new_key) {
-  auto found = object.find(old_key);
-  return found ? found : object.find(new_key);
-}
-
 Purposes purpose_of_action(std::string_view type, const PurposeWords& own) {
   if (const auto said = said_of(own, type)) return *said;
   if (type == "pick" || type == "drop") return Purpose::Storage;
@@ -39,10 +37,9 @@ Purposes purpose_of_action(std::string_view type, const PurposeWords& own) {
 }
 
 // What the vehicles of all types do on one node or edge.
-Purposes purposes_of_actions(const std::optional<JsonReader>& vehicle_types, const PurposeWords& own) {
+Purposes purposes_of_actions(const std::vector<JsonReader>& rules, const PurposeWords& own) {
   auto purposes = Purposes::from_bits(0);
-  if (!vehicle_types) return purposes;
-  for (const auto& type : vehicle_types->items()) {
+  for (const auto& type : rules) {
     const auto actions = type.find("actions");
     if (!actions) continue;
     for (const auto& action : actions->items())
@@ -51,6 +48,7 @@ Purposes purposes_of_actions(const std::optional<JsonReader>& vehicle_types, con
   return purposes;
 }
 
+constexpr double kLargestAngle_rad = 1e4;
 constexpr double kHalfTurns = 0.005;  // tolerance of an orientation, in half turns
 
 class LifReader {
@@ -60,12 +58,16 @@ class LifReader {
       : root_(parse_json(text, source)), source_(source), warnings_(warnings), choice_(choice) {}
 
   Layout read() {
-    const auto layout = choose_layout(JsonReader(root_, source_));
+    auto chosen = choose_layout(JsonReader(root_, source_), choice_.level);
+    if (!chosen.sentence.empty()) warnings_.push_back(chosen.sentence);
+    elsewhere_ = std::move(chosen.elsewhere);
+    const JsonReader& layout = chosen.layout;
     layout.read("layoutId", layout_.name);
     layout.read("layoutName", layout_.name);
     for (const auto& node : layout.at("nodes").items()) add_node(node);
     if (layout_.stations.empty()) layout.refuse("the layout is empty: it has no node");
     const auto edges = layout.at("edges").items();
+    types_ = LifTypes(nodes_, edges);
     for (const auto& edge : edges) add_edge(edge);
     if (layout_.segments.empty()) layout.refuse("the layout has no edge that can be driven; add some");
     if (const auto stations = layout.find("stations")) {
@@ -73,15 +75,14 @@ class LifReader {
     }
     for (const auto& [index, purposes] : stated_) layout_.stations[index].purposes = purposes;
     note_left_out(JsonReader(root_, source_), layout, choice_.purposes, warnings_);
-    if (!sideways_.empty())
+    if (!told_.sideways.empty())
       warn(layout, fmt::format("{} edges turn the AGV sideways or by a heading on the map ({}); sideways travel is not "
                                "modelled: here AGVs drive them nose first",
-                               sideways_.size(), name_list(sideways_)));
-    if (of_types_ > 0)
-      warn(layout,
-           fmt::format("{} edges have a speed limit for each type of vehicle; the lowest is taken for all", of_types_));
+                               told_.sideways.size(), name_list(told_.sideways)));
+    note_types(layout);
     fit_floor(layout_, 3.0);
     refuse_problems(layout);
+    note_headings(layout);
     settle_twins(layout_, choice_.twins, source_, warnings_);
     return std::move(layout_);
   }
@@ -91,25 +92,31 @@ class LifReader {
     warnings_.push_back(fmt::format("{}: {}", at.place(), sentence));
   }
 
-  JsonReader choose_layout(const JsonReader& root) {
-    auto holder = root;
-    if (const auto origins = root.find("origins"); origins && !root.find("layouts")) {
-      const auto all = origins->items();
-      if (all.empty()) origins->refuse("there is no origin; expected a layout in LIF");
-      if (all.size() > 1) warn(*origins, fmt::format("the first of {} origins is read", all.size()));
-      holder = all[0];
-    }
-    const auto layouts = holder.at("layouts");
-    const auto all = layouts.items();
-    if (all.empty()) layouts.refuse("there is no layout; add one");
-    if (all.size() > 1)
-      warn(layouts, fmt::format("the first of {} layouts is read; the others are left out", all.size()));
-    for (const auto& other : std::span(all).subspan(1)) {
-      if (const auto nodes = other.find("nodes")) {
-        for (const auto& node : nodes->items()) elsewhere_.insert(node.at("nodeId").text());
-      }
-    }
-    return all[0];
+  void note_headings(const JsonReader& layout) {
+    const auto torn = settle_headings(layout_);
+    if (!torn.empty())
+      warn(layout, fmt::format("{} nodes ask for a heading with which no edge arrives ({}); it is left out, because an "
+                               "AGV stands there as it arrives",
+                               torn.size(), name_list(torn)));
+  }
+
+  void note_types(const JsonReader& layout) {
+    const auto tell = [&](const std::string& sentence) {
+      if (!sentence.empty()) warn(layout, sentence);
+    };
+    tell(types_.sentence());
+    for (const auto& sentence : turns_.settle(layout_)) tell(sentence);
+    if (told_.of_types > 0)
+      tell(fmt::format("{} edges have a speed limit for each type of vehicle; the lowest is taken for all",
+                       told_.of_types));
+    if (!told_.both_ways.empty())
+      tell(
+          fmt::format("{} edges are driven forward by some types of vehicles and backward by others ({}); here every "
+                      "type may do both",
+                      told_.both_ways.size(), name_list(told_.both_ways)));
+    if (!told_.torn.empty())
+      tell(fmt::format("{} nodes ask each type of vehicle for another heading ({}); here an AGV stands as it arrives",
+                       told_.torn.size(), name_list(told_.torn)));
   }
 
   static std::string name_in(const JsonReader& id, std::set<std::string>& taken) {
@@ -124,9 +131,9 @@ class LifReader {
     station.name = name_in(node.at("nodeId"), node_names_);
     const auto position = node.at("nodePosition");
     station.position_m = {position.at("x").number(), position.at("y").number()};
-    station.purposes = station.purposes |
-                       purposes_of_actions(either(node, "vehicleTypeNodeProperties", "mobileRobotTypeNodeProperties"),
-                                           choice_.purposes);
+    const auto rules = rules_by_type(node);
+    station.purposes = station.purposes | purposes_of_actions(rules, choice_.purposes);
+    station.heading = heading_of(rules, station.name);
     const auto index = layout_.stations.size();
     std::string description;
     if (const auto found = node.find("nodeDescription"); found && found->is_text()) description = found->text();
@@ -137,6 +144,23 @@ class LifReader {
     stations_.emplace(station.name, StationId{index});
     layout_.stations.push_back(std::move(station));
     nodes_.push_back(node);
+  }
+
+  // The heading for which all rules ask that ask for any.
+  std::optional<Vec2> heading_of(const std::vector<JsonReader>& rules, const std::string& name) {
+    std::optional<Vec2> heading;
+    for (const auto& rule : rules) {
+      const auto theta = rule.find("theta");
+      if (!theta) continue;
+      if (!(std::abs(theta->number()) <= kLargestAngle_rad)) theta->refuse("expected an angle in radians");
+      const Vec2 asked = heading_at(theta->number());
+      if (heading && *heading != asked) {
+        told_.torn.push_back(name);
+        return std::nullopt;
+      }
+      heading = asked;
+    }
+    return heading;
   }
 
   // None: a node of another layout.
@@ -160,29 +184,31 @@ class LifReader {
     if (*from == *to) edge.at("endNodeId").refuse("the edge leads from a node to itself; leave it out");
     segment.from = *from;
     segment.to = *to;
-    const auto types = either(edge, "vehicleTypeEdgeProperties", "mobileRobotTypeEdgeProperties");
+    const auto types = rules_by_type(edge);
     auto& purposes = layout_.stations[to->index()].purposes;
     purposes = purposes | purposes_of_actions(types, choice_.purposes);
+    auto permissions = types_.permissions(edge, nodes_[from->index()], nodes_[to->index()]);
+    if (!permissions)
+      return warn(edge, fmt::format("no AGV may drive edge {}: no type of vehicle has a rule at it and at both of its "
+                                    "nodes, with a load or without one; it is left out",
+                                    in_quotes(segment.name)));
+    segment.permissions = std::move(*permissions);
     std::optional<JsonReader> trajectory;
-    if (types) {
-      for (const auto& type : types->items()) {
-        if (!trajectory) trajectory = type.find("trajectory");
-      }
-      limit_speed(*types, segment);
-      say_travel(*types, segment);
-      if (!say_loads(*types, segment))
-        return warn(edge, fmt::format("edge {} is for AGVs neither with a load nor without one; it is left out",
-                                      in_quotes(segment.name)));
+    for (const auto& type : types) {
+      if (!trajectory) trajectory = type.find("trajectory");
     }
+    limit_speed(types, segment);
+    say_travel(types, segment);
+    turns_.add(edge, segment.from, segment.to, !told_.sideways.empty() && told_.sideways.back() == segment.name);
     if (trajectory) bend(*trajectory, segment);
     layout_.segments.push_back(std::move(segment));
     edges_.push_back(edge);
   }
 
   // Of all types of vehicles the lowest.
-  void limit_speed(const JsonReader& types, Segment& segment) {
+  void limit_speed(const std::vector<JsonReader>& types, Segment& segment) {
     std::vector<double> limits_mps;
-    for (const auto& type : types.items()) {
+    for (const auto& type : types) {
       const auto limit = either(type, "maxSpeed", "maximumSpeed");
       if (limit && !(limit->number() > 0.0)) limit->refuse("expected a speed above 0 m/s");
       limits_mps.push_back(limit ? limit->number() : std::numeric_limits<double>::infinity());
@@ -190,45 +216,33 @@ class LifReader {
     if (limits_mps.empty()) return;
     const auto [lowest, highest] = std::ranges::minmax(limits_mps);
     if (std::isfinite(lowest)) segment.speed_limit_mps = lowest;
-    of_types_ += lowest < highest ? 1 : 0;
+    told_.of_types += lowest < highest ? 1 : 0;
   }
 
   // Whether the types drive it forward, backward, or some one way and some the other.
-  void say_travel(const JsonReader& types, Segment& segment) {
+  void say_travel(const std::vector<JsonReader>& types, Segment& segment) {
     bool forward = false, backward = false;
-    for (const auto& type : types.items()) {
+    std::map<std::vector<std::string>, std::set<bool>> ways;  // by type: whether forward
+    for (const auto& type : types) {
       const auto orientation = type.find("vehicleOrientation");
       const double rad = orientation ? orientation->number() : 0.0;
-      if (!(std::abs(rad) <= 1e6)) orientation->refuse("expected an angle in radians");
+      if (!(std::abs(rad) <= kLargestAngle_rad)) orientation->refuse("expected an angle in radians");
       std::string reference = "TANGENTIAL";
       type.read("orientationType", reference);
       const double turns = std::abs(rad) / std::numbers::pi;  // half turns
       const auto whole = static_cast<std::int64_t>(turns + 0.5);
       const bool along = std::abs(turns - static_cast<double>(whole)) < kHalfTurns;
       if (reference != "TANGENTIAL" || !along) {
-        sideways_.push_back(segment.name);
+        told_.sideways.push_back(segment.name);
         forward = true;
       } else {
         (whole % 2 == 0 ? forward : backward) = true;
+        ways[types_of(type)].insert(whole % 2 == 0);
       }
     }
+    if (forward && backward && std::ranges::any_of(ways, [](const auto& way) { return way.second.size() == 1; }))
+      told_.both_ways.push_back(segment.name);
     if (backward) segment.travel = forward ? Travel::Either : Travel::Backward;
-  }
-
-  // Whether any type may drive it, with a load or without one.
-  static bool say_loads(const JsonReader& types, Segment& segment) {
-    bool empty = false, loaded = false;
-    for (const auto& type : types.items()) {
-      bool this_empty = true, this_loaded = true;
-      if (const auto restriction = type.find("loadRestriction")) {
-        restriction->read("unloaded", this_empty);
-        restriction->read("loaded", this_loaded);
-      }
-      empty = empty || this_empty;
-      loaded = loaded || this_loaded;
-    }
-    if (empty != loaded) segment.permissions = {{"", empty ? LoadState::Empty : LoadState::Loaded}};
-    return empty || loaded || types.items().empty();
   }
 
   static Nurbs nurbs_of(const JsonReader& trajectory) {
@@ -313,8 +327,13 @@ class LifReader {
   std::set<std::string> node_names_, edge_names_, elsewhere_;
   std::map<std::string, StationId> stations_;
   std::map<std::size_t, Purposes> stated_;  // by station: given in the description of the station
-  std::size_t of_types_ = 0;                // edges
-  std::vector<std::string> sideways_;       // names of edges
+  LifTypes types_{{}, {}};
+  LifTurns turns_;
+  struct {
+    std::size_t of_types = 0;                      // edges
+    std::vector<std::string> sideways, both_ways;  // names of edges
+    std::vector<std::string> torn;                 // names of nodes
+  } told_;
 };
 
 }  // namespace

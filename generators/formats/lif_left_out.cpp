@@ -11,13 +11,11 @@ namespace fleetproof {
 namespace {
 
 constexpr Topic kNotes{"{0} kinds of names and notes for people are left out ({1})"};
-constexpr Topic kTypes{"nodes and edges have rules for {0} types of vehicles ({1}); here all rules hold for every AGV"};
-constexpr Topic kHeadings{"{0} nodes ask for a heading ({1}); here an AGV stands as it arrives"};
 constexpr Topic kActions{"{0} types of actions are left out ({1})"};
 constexpr Topic kDetails{
     "{0} kinds of details of actions are left out ({1}); here an action takes the time of its task"};
 constexpr Topic kSideways{"{0} edges list orientations of robots ({1}); they are left out"};
-constexpr Topic kTurns{"{0} edges have rules for turning ({1}); here an AGV turns at stations only"};
+constexpr Topic kTurns{"{0} edges have rules for turning ({1}); here an AGV turns at stations only, at its own speed"};
 constexpr Topic kLifts{"{0} edges and stations give the height of a lift or load ({1}); here the floor is flat"};
 constexpr Topic kLoads{"{0} edges are for sets of loads ({1}); here all loads are alike"};
 constexpr Topic kReentry{"{0} edges have rules for reentry ({1}); they are left out"};
@@ -53,8 +51,10 @@ constexpr Rule kRules[] = {
     {"nodes/nodePosition/x"},
     {"nodes/nodePosition/y"},
     {"nodes/types"},
-    {"nodes/types/typeId", &kTypes, Named::ByValue},
-    {"nodes/types/theta", &kHeadings},
+    {"nodes/types/typeId"},
+    {"nodes/types/typeId/manufacturer", &kNotes, Named::ByKey},
+    {"nodes/types/typeId/seriesName"},
+    {"nodes/types/theta"},
     {"nodes/types/allowedDeviationXY", &kCorridors},
     {"nodes/types/allowedDeviationTheta", &kCorridors},
     {"nodes/types/actions"},
@@ -65,13 +65,15 @@ constexpr Rule kRules[] = {
     {"edges/edgeName", &kNotes, Named::ByKey},
     {"edges/edgeDescription", &kNotes, Named::ByKey},
     {"edges/types"},
-    {"edges/types/typeId", &kTypes, Named::ByValue},
+    {"edges/types/typeId"},
+    {"edges/types/typeId/manufacturer", &kNotes, Named::ByKey},
+    {"edges/types/typeId/seriesName"},
     {"edges/types/vehicleOrientation"},
     {"edges/types/mobileRobotOrientations", &kSideways},
     {"edges/types/orientationType"},
     {"edges/types/rotationAllowed", &kTurns, Named::ByOwner, "false"},
-    {"edges/types/rotationAtStartNodeAllowed", &kTurns, Named::ByOwner, "BOTH"},
-    {"edges/types/rotationAtEndNodeAllowed", &kTurns, Named::ByOwner, "BOTH"},
+    {"edges/types/rotationAtStartNodeAllowed"},
+    {"edges/types/rotationAtEndNodeAllowed"},
     {"edges/types/reachOrientationBeforeEntering", &kTurns},
     {"edges/types/maxSpeed"},
     {"edges/types/maximumSpeed"},

@@ -1,19 +1,59 @@
 #include "generators/formats/lif_text.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numbers>
+#include <optional>
 #include <set>
 
+#include "core/base/outside_text.hpp"
+#include "core/geometry/rotation.hpp"
 #include "generators/formats/lif.hpp"
 #include "generators/formats/purpose_words.hpp"
 #include "generators/text/json_writer.hpp"
+#include "generators/text/name_list.hpp"
 
 namespace fleetproof {
 namespace {
 
 using Style = JsonWriter::Style;
 
-constexpr std::string_view kVehicleType = "agv";  // layouts know no vehicle types; LIF must name one
+// LIF names every type of vehicle. A layout names those with rules of their own, and no others.
+struct Types {
+  std::vector<std::string> named;
+  std::string others = "agv";
+};
+
+Types types_in(const Layout& layout) {
+  Types types;
+  for (const auto& segment : layout.segments) {
+    for (const auto& [type, load] : segment.permissions) {
+      if (!type.empty() && std::ranges::find(types.named, type) == types.named.end()) types.named.push_back(type);
+    }
+  }
+  while (std::ranges::find(types.named, types.others) != types.named.end()) types.others += '~';
+  return types;
+}
+
+std::vector<std::string> all_of(const Types& types) {
+  auto all = types.named;
+  all.push_back(types.others);
+  return all;
+}
+
+// The loads with which a type may drive a segment; none: it may not.
+std::optional<LoadState> load_of(const Segment& segment, const std::string& type) {
+  const bool empty = segment.permits(type, false), loaded = segment.permits(type, true);
+  if (empty && loaded) return LoadState::Any;
+  if (!empty && !loaded) return std::nullopt;
+  return empty ? LoadState::Empty : LoadState::Loaded;
+}
+
+bool mixes_types(const Segment& segment) {
+  const auto is_named = [](const Permission& one) { return !one.vehicle_type.empty(); };
+  return std::ranges::any_of(segment.permissions, is_named) && !std::ranges::all_of(segment.permissions, is_named);
+}
 
 void write_actions(JsonWriter& writer, Purposes purposes) {
   const auto action = [&](const char* type) {
@@ -42,7 +82,7 @@ void write_xy(JsonWriter& writer, const Vec2& point) {
   writer.close();
 }
 
-void write_node(JsonWriter& writer, const Station& station) {
+void write_node(JsonWriter& writer, const Station& station, const Types& types) {
   writer.open_object();
   writer.key("nodeId").value(station.name);
   if (station.purposes != Purposes(Purpose::Routing)) {
@@ -52,10 +92,13 @@ void write_node(JsonWriter& writer, const Station& station) {
   writer.key("nodePosition");
   write_xy(writer, station.position_m);
   writer.key("vehicleTypeNodeProperties").open_array();
-  writer.open_object();
-  writer.key("vehicleTypeId").value(kVehicleType);
-  write_actions(writer, station.purposes);
-  writer.close();
+  for (const auto& type : all_of(types)) {
+    writer.open_object();
+    writer.key("vehicleTypeId").value(type);
+    if (station.heading) writer.key("theta").value(angle_between(Vec2(1.0, 0.0), *station.heading));
+    write_actions(writer, station.purposes);
+    writer.close();
+  }
   writer.close();
   writer.close();
 }
@@ -78,31 +121,28 @@ void write_trajectory(JsonWriter& writer, const std::vector<Vec2>& points) {
   writer.close();
 }
 
-// What LIF has a place for: a load state that holds for every type of vehicle.
-LoadState load_of(const Segment& segment) {
-  const auto& all = segment.permissions;
-  return all.size() == 1 && all[0].vehicle_type.empty() ? all[0].load : LoadState::Any;
-}
-
 struct Edge {
   std::string name;
   const Station &from, &to;
   std::vector<Vec2> points;
   Travel travel;
   double speed_limit_mps;
-  LoadState load;
+  const Segment& segment;
 };
 
-void write_type(JsonWriter& writer, const Edge& edge, bool backward, bool first) {
+void write_type(JsonWriter& writer, const Edge& edge, const std::string& type, bool backward, bool first) {
+  const LoadState load = load_of(edge.segment, type).value_or(LoadState::Any);
   writer.open_object();
-  writer.key("vehicleTypeId").value(kVehicleType);
+  writer.key("vehicleTypeId").value(type);
   if (backward) writer.key("vehicleOrientation").value(std::numbers::pi);
   writer.key("rotationAllowed").value(false);
+  if (!edge.from.turning) writer.key("rotationAtStartNodeAllowed").value("NONE");
+  if (!edge.to.turning) writer.key("rotationAtEndNodeAllowed").value("NONE");
   if (edge.speed_limit_mps > 0.0) writer.key("maxSpeed").value(edge.speed_limit_mps);
-  if (edge.load != LoadState::Any) {
+  if (load != LoadState::Any) {
     writer.key("loadRestriction").open_object(Style::Line);
-    writer.key("unloaded").value(edge.load == LoadState::Empty);
-    writer.key("loaded").value(edge.load == LoadState::Loaded);
+    writer.key("unloaded").value(load == LoadState::Empty);
+    writer.key("loaded").value(load == LoadState::Loaded);
     writer.close();
   }
   if (first && edge.points.size() > 2) write_trajectory(writer, edge.points);
@@ -110,20 +150,26 @@ void write_type(JsonWriter& writer, const Edge& edge, bool backward, bool first)
 }
 
 // An edge that is driven either way has its type of vehicle twice.
-void write_edge(JsonWriter& writer, const Edge& edge) {
+void write_edge(JsonWriter& writer, const Edge& edge, const Types& types) {
   writer.open_object();
   writer.key("edgeId").value(edge.name);
   writer.key("startNodeId").value(edge.from.name);
   writer.key("endNodeId").value(edge.to.name);
   writer.key("vehicleTypeEdgeProperties").open_array();
-  const bool forward = edge.travel != Travel::Backward;
-  if (forward) write_type(writer, edge, false, true);
-  if (edge.travel != Travel::Forward) write_type(writer, edge, true, !forward);
+  bool first = true;
+  for (const auto& type : all_of(types)) {
+    if (!load_of(edge.segment, type)) continue;
+    for (const bool backward : {false, true}) {
+      if (edge.travel == (backward ? Travel::Forward : Travel::Backward)) continue;
+      write_type(writer, edge, type, backward, first);
+      first = false;
+    }
+  }
   writer.close();
   writer.close();
 }
 
-void write_edges(JsonWriter& writer, const Layout& layout) {
+void write_edges(JsonWriter& writer, const Layout& layout, const Types& types) {
   std::set<std::string> taken;
   for (const auto& segment : layout.segments) taken.insert(segment.name);
   for (const auto& segment : layout.segments) {
@@ -131,7 +177,7 @@ void write_edges(JsonWriter& writer, const Layout& layout) {
     std::vector<Vec2> points{from.position_m};
     points.insert(points.end(), segment.control_points_m.begin(), segment.control_points_m.end());
     points.push_back(to.position_m);
-    write_edge(writer, {segment.name, from, to, points, segment.travel, segment.speed_limit_mps, load_of(segment)});
+    write_edge(writer, {segment.name, from, to, points, segment.travel, segment.speed_limit_mps, segment}, types);
     if (!segment.bidirectional) continue;
     // Names have at most 200 bytes, and so must this name.
     auto back = segment.name.size() > 190 ? std::to_string(&segment - layout.segments.data()) : segment.name;
@@ -139,7 +185,7 @@ void write_edges(JsonWriter& writer, const Layout& layout) {
       back += '~';
     } while (!taken.insert(back).second);
     std::ranges::reverse(points);
-    write_edge(writer, {back, to, from, points, segment.back_travel, segment.back_speed_limit_mps, load_of(segment)});
+    write_edge(writer, {back, to, from, points, segment.back_travel, segment.back_speed_limit_mps, segment}, types);
   }
 }
 
@@ -157,7 +203,32 @@ void write_stations(JsonWriter& writer, const Layout& layout) {
 
 }  // namespace
 
+std::vector<std::string> lost_in_lif(const Layout& layout) {
+  std::vector<std::string> blocks, widths, mixed, sentences;
+  for (const auto& block : layout.blocks) blocks.push_back(block.name);
+  for (const auto& segment : layout.segments) {
+    if (segment.width_m > 0.0) widths.push_back(segment.name);
+    if (mixes_types(segment)) mixed.push_back(segment.name);
+  }
+  const auto tell = [&](const std::vector<std::string>& names, std::string_view sentence) {
+    const std::size_t count = names.size();
+    const auto list = name_list(names);
+    if (count > 0) sentences.push_back(fmt::vformat(sentence, fmt::make_format_args(count, list)));
+  };
+  tell(blocks, "LIF has no place for blocks: {0} are left out ({1})");
+  tell(widths, "LIF has no place for the width of a lane: {0} segments lose it ({1})");
+  const Types types = types_in(layout);
+  if (!mixed.empty()) {
+    sentences.push_back(fmt::format(
+        "LIF has no word for every type of vehicle: {} segments permit something to every type and more to some ({}); "
+        "in the file they are for {} alone, where {} stands for all others",
+        mixed.size(), name_list(mixed), name_list(all_of(types), types.named.size() + 1), in_quotes(types.others)));
+  }
+  return sentences;
+}
+
 std::string to_lif(const Layout& layout) {
+  const Types types = types_in(layout);
   JsonWriter writer;
   writer.open_object();
   writer.key("metaInformation").open_object();
@@ -173,10 +244,10 @@ std::string to_lif(const Layout& layout) {
   writer.key("layoutName").value(layout.name);
   writer.key("layoutVersion").value("1");
   writer.key("nodes").open_array();
-  for (const auto& station : layout.stations) write_node(writer, station);
+  for (const auto& station : layout.stations) write_node(writer, station, types);
   writer.close();
   writer.key("edges").open_array();
-  write_edges(writer, layout);
+  write_edges(writer, layout, types);
   writer.close();
   writer.key("stations").open_array();
   write_stations(writer, layout);

@@ -13,7 +13,9 @@
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
 #include "core/base/tolerances.hpp"
+#include "core/geometry/rotation.hpp"
 #include "core/scenario/vehicle_fields.hpp"
+#include "generators/formats/heading.hpp"
 #include "generators/formats/opentcs_drawing.hpp"
 #include "generators/formats/opentcs_left_out.hpp"
 #include "generators/formats/opentcs_positions.hpp"
@@ -27,6 +29,7 @@ namespace fleetproof {
 namespace {
 
 constexpr double kNewestVersion = 7.0;
+constexpr double kLargestAngle_deg = 1e5;
 constexpr double kToleratedLength = 0.02;  // share by which a stored length may be wrong
 
 class ModelReader {
@@ -60,6 +63,7 @@ class ModelReader {
     fit_floor(layout_, 3.0);
     refuse_problems(model);
     compare_lengths(model);
+    note_headings(model);
     note_left_out(xml_, model, warnings_);
     settle_twins(layout_, choice_.twins, source_, warnings_);
     return std::move(layout_);
@@ -96,6 +100,8 @@ class ModelReader {
                  y_mm = xml_.number(point, old_spelling ? "yPosition" : "positionY");
     station.position_m = Vec2(x_mm, y_mm) / 1000.0;
     const std::string_view type = point.attribute("type").value();
+    station.heading = heading_of(point);
+    if (station.heading) headed_.push_back(station.name);
     if (type == "PARK_POSITION") station.purposes = station.purposes | Purpose::Parking;
     if (!type.empty() && type != "PARK_POSITION" && type != "HALT_POSITION" && type != "REPORT_POSITION")
       warn(point, fmt::format("type {} of point {} is unknown here; it is taken as HALT_POSITION", in_quotes(type),
@@ -104,6 +110,29 @@ class ModelReader {
       warn(point, fmt::format("report position {} becomes a station at which AGVs can stop", in_quotes(station.name)));
     stations_.emplace(station.name, StationId{layout_.stations.size()});
     layout_.stations.push_back(std::move(station));
+  }
+
+  // In degrees, counterclockwise from the x axis; NaN: none.
+  std::optional<Vec2> heading_of(const pugi::xml_node& point) const {
+    const std::string_view angle = point.attribute("vehicleOrientationAngle").as_string("NaN");
+    if (angle == "NaN") return std::nullopt;
+    double angle_deg = 0.0;
+    if (!read_number(angle, angle_deg) || !(std::abs(angle_deg) <= kLargestAngle_deg))
+      xml_.refuse(point, fmt::format("vehicleOrientationAngle is {}; expected degrees or NaN", in_quotes(angle)));
+    return heading_at(angle_deg / 180.0 * kPi);
+  }
+
+  void note_headings(const pugi::xml_node& model) {
+    const auto torn = settle_headings(layout_);
+    if (!torn.empty())
+      warn(model, fmt::format("{} points give an orientation with which no path arrives ({}); it is left out, because "
+                              "an AGV stands there as it arrives",
+                              torn.size(), name_list(torn)));
+    std::erase_if(headed_, [&](const std::string& name) { return std::ranges::find(torn, name) != torn.end(); });
+    if (headed_.empty()) return;
+    warn(model, fmt::format("{} points give the orientation of a vehicle ({}); here AGVs pick, drop, park and charge "
+                            "there with this heading alone",
+                            headed_.size(), name_list(headed_)));
   }
 
   StationId station_in(const pugi::xml_node& node, const char* attribute) {
@@ -329,6 +358,7 @@ class ModelReader {
   OpenTcsDrawing drawing_;
   Layout layout_;
   std::vector<pugi::xml_node> paths_;  // by segment, as long as no two of them are merged
+  std::vector<std::string> headed_;    // names of points
   std::set<std::string> point_names_, path_names_, block_names_;
   std::map<std::string, StationId> stations_;
   std::map<std::string, pugi::xml_node> location_types_;

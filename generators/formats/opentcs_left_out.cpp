@@ -12,7 +12,6 @@ namespace {
 
 constexpr Topic kCosts{"{0} paths have routing costs ({1}); they are left out"};
 constexpr Topic kHeights{"{0} points and locations lie above or below the floor ({1}); here the floor is flat"};
-constexpr Topic kHeadings{"{0} points ask for a heading ({1}); here an AGV stands as it arrives"};
 constexpr Topic kSizes{"{0} points limit the size of an AGV ({1}); here every AGV may stop at every station"};
 constexpr Topic kEnvelopes{
     "{0} points and paths have envelopes ({1}); they are left out, because the body of each AGV is followed"};
@@ -50,7 +49,7 @@ constexpr Rule kRules[] = {
     {"point", "yPosition"},
     {"point", "positionZ", &kHeights, "0"},
     {"point", "zPosition", &kHeights, "0"},
-    {"point", "vehicleOrientationAngle", &kHeadings, "NaN"},
+    {"point", "vehicleOrientationAngle"},
     {"point", "id", &kNumbers},
     {"point/maxVehicleBoundingBox", "*", &kSizes},
     {"point/vehicleEnvelope", "*", &kEnvelopes},

@@ -21,6 +21,8 @@
 namespace fleetproof {
 namespace {
 
+constexpr std::size_t kListed = 50;  // levels in a sentence
+
 class LevelReader {
  public:
   LevelReader(std::string_view text, std::string_view source, std::vector<std::string>& warnings,
@@ -39,8 +41,7 @@ class LevelReader {
     read_scale(level);
     std::size_t place = 0;
     for (const auto lane : lanes) add_lane(lane, place++);
-    if (layout_.segments.empty())
-      yaml_.refuse(lanes, fmt::format("no lane belongs to graph {}; choose another graph or level", choice_.graph_idx));
+    if (layout_.segments.empty()) refuse_choice(lanes);
     if (!told_.other_end_back.empty())
       warn(level, fmt::format("{} two-way lanes ask for an orientation ({}); AGVs drive them back with the other end "
                               "first, without a turn",
@@ -58,6 +59,19 @@ class LevelReader {
     warnings_.push_back(fmt::format("{}: {}", yaml_.place(node), sentence));
   }
 
+  [[noreturn]] void refuse_choice(const YAML::Node& lanes) const {
+    std::vector<std::string> levels;
+    for (const auto entry : root_["levels"]) levels.push_back(entry.first.Scalar());
+    yaml_.refuse(
+        lanes,
+        told_.graphs.empty()
+            ? fmt::format("level {} has no lane; levels of the file: {}", in_quotes(read_.name),
+                          name_list(levels, kListed))
+            : fmt::format("no lane of level {} belongs to graph {}; graphs of its lanes: {}; levels of the file: {}",
+                          in_quotes(read_.name), choice_.graph_idx, fmt::join(told_.graphs, ", "),
+                          name_list(levels, kListed)));
+  }
+
   YAML::Node choose_level() {
     const auto levels = root_["levels"];
     if (!levels.IsMap() || levels.size() == 0)
@@ -68,10 +82,12 @@ class LevelReader {
         yaml_.refuse(levels, "a level is not a map of vertices and lanes; expected L1: {vertices: ..., lanes: ...}");
       names.push_back(entry.first.Scalar());
     }
-    const auto& wanted = choice_.level.empty() ? names[0] : choice_.level;
+    const auto& wanted = read_.name = choice_.level.empty() ? names[0] : choice_.level;
     for (const auto entry : levels) {
       if (entry.first.Scalar() != wanted) continue;
-      if (names.size() > 1) warn(levels, fmt::format("of {} levels, {} is read", names.size(), in_quotes(wanted)));
+      if (names.size() > 1)
+        warn(levels, fmt::format("of {} levels, {} is read (levels: {})", names.size(), in_quotes(wanted),
+                                 name_list(names, kListed)));
       layout_.name = wanted;
       for (const char* key : {"building_name", "name"}) {
         if (const auto name = root_[key]; name.IsDefined() && name.IsScalar())
@@ -79,8 +95,8 @@ class LevelReader {
       }
       return entry.second;
     }
-    const std::vector<std::string_view> known(names.begin(), names.end());
-    yaml_.refuse(levels, fmt::format("there is no level {}{}", in_quotes(wanted), name_hint(wanted, known)));
+    yaml_.refuse(levels, fmt::format("there is no level {}; levels of the file: {}", in_quotes(wanted),
+                                     name_list(names, kListed)));
   }
 
   std::size_t vertex_index(const YAML::Node& list, std::size_t at, const char* what) const {
@@ -190,6 +206,7 @@ class LevelReader {
     if (!is_nav_graph_ &&
         (graph.IsDefined() ? yaml_.number(graph, "graph_idx") : 0.0) != static_cast<double>(choice_.graph_idx)) {
       ++told_.other_graphs;
+      told_.graphs.insert(text_of(words, "graph_idx"));
       return;
     }
     if (from == to) yaml_.refuse(lane, fmt::format("a lane leads from vertex {} to itself; leave it out", from));
@@ -272,6 +289,7 @@ class LevelReader {
   ReadLevel read_;
   struct {
     std::size_t other_graphs = 0;             // lanes
+    std::set<std::string> graphs;             // other ones, by number
     std::vector<std::string> other_end_back;  // names of segments
   } told_;
 };

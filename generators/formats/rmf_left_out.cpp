@@ -20,6 +20,9 @@ constexpr Topic kHeights{"{0} vertices lie above or below the floor ({1}); here 
 constexpr Topic kMutexes{"{0} mutex groups of vertices are left out ({1}); here a block holds lanes alone"};
 constexpr Topic kDocks{"{0} docking manoeuvres are left out ({1})"};
 constexpr Topic kRobots{"{0} robots of the fleet are left out ({1}); a campaign has its own fleet"};
+constexpr Topic kHolding{"is_holding_point of {0} vertices ({1}) is left out; here an AGV may wait at every station"};
+constexpr Topic kPassing{
+    "is_passthrough_point of {0} vertices ({1}) is left out; here an AGV may stop at every station"};
 constexpr Topic kMarks{"{0} kinds of marks on vertices are left out ({1})"};
 constexpr Topic kMocks{"{0} kinds of marks on lanes are left out ({1})"};
 constexpr Topic kUnknown{"{0} attributes are unknown here and left out ({1})"};
@@ -54,8 +57,8 @@ constexpr Rule kVertexRules[] = {{"name"},
                                  {"dock_name", &kDocks, Named::ByValue},
                                  {"spawn_robot_name", &kRobots, Named::ByValue},
                                  {"spawn_robot_type", &kRobots, Named::ByValue},
-                                 {"is_holding_point", &kMarks, Named::ByKey},
-                                 {"is_passthrough_point", &kMarks, Named::ByKey},
+                                 {"is_holding_point", &kHolding},
+                                 {"is_passthrough_point", &kPassing},
                                  {"is_cleaning_zone", &kMarks, Named::ByKey},
                                  {"human_goal_set_name", &kMarks, Named::ByKey},
                                  {"merge_radius", &kMarks, Named::ByKey}};

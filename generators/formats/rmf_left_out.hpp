@@ -15,6 +15,7 @@ class YamlText;
 
 // What of an Open-RMF level was read: vertices and lanes by their places in their lists.
 struct ReadLevel {
+  std::string name{};
   bool is_nav_graph = false;
   std::set<std::size_t> vertices, lanes;
 };

@@ -1,4 +1,5 @@
 #include "generators/formats/csv_layout.hpp"
+#include "generators/formats/csv_text.hpp"
 
 #include <gtest/gtest.h>
 
@@ -125,6 +126,32 @@ TEST(CsvLayout, RulesComeBack) {
   layout.segments[0].blocks = {0};
   layout.segments[1].blocks = {0, 1};
   expect_round_trip(layout);
+}
+
+TEST(CsvLayout, NamesMayHaveBarsAndBackslashes) {
+  auto layout = import(kTables);
+  layout.segments[0].permissions = {
+      {"a|b", LoadState::Any}, {"c\\", LoadState::Empty}, {"\\|:x\\y", LoadState::Loaded}};
+  layout.blocks = {
+      {"|", BlockKind::OneVehicle}, {"aisle \\| 3", BlockKind::SameDirection}, {"\\", BlockKind::OneVehicle}};
+  layout.segments[0].blocks = {0, 1};
+  layout.segments[1].blocks = {1, 2};
+  expect_round_trip(layout);
+}
+
+TEST(CsvLayout, BlocksComeBackInTheirOrderAndWithoutEdges) {
+  auto layout = import(kTables);
+  layout.blocks = {
+      {"empty, yet", BlockKind::SameDirection}, {"b", BlockKind::OneVehicle}, {"c", BlockKind::OneVehicle}};
+  layout.segments[0].blocks = {2};
+  layout.segments[1].blocks = {1, 2};
+  expect_round_trip(layout);
+  EXPECT_EQ(import(to_csv(layout)).blocks[0].name, "empty, yet");
+  const std::string table = "id,x,y\na,0,0\nb,4,0\nblock,kind\n";
+  EXPECT_EQ(independent::refusal(import, table + "b,one\nfrom,to\na,b\n"),
+            "l.csv:5: kind is \"one\"; known: one-vehicle, same-direction");
+  EXPECT_EQ(independent::refusal(import, table + "b,one-vehicle\nb,one-vehicle\nfrom,to\na,b\n"),
+            "l.csv:6: block \"b\" stands above; rename one");
 }
 
 TEST(CsvLayout, RefusedRulesNameTheirPlace) {

@@ -1,0 +1,119 @@
+#include "generators/formats/lif_types.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "generators/text/name_list.hpp"
+
+namespace fleetproof {
+namespace {
+
+struct Loads {
+  bool empty = false, loaded = false;
+
+  LoadState state() const { return empty && loaded ? LoadState::Any : empty ? LoadState::Empty : LoadState::Loaded; }
+};
+
+bool is_named(const JsonReader& rule, const std::string& type) {
+  const auto types = types_of(rule);
+  return std::ranges::find(types, type) != types.end() || std::ranges::find(types, "") != types.end();
+}
+
+// The loads with which a type may be on a node or edge.
+Loads loads_of(const std::vector<JsonReader>& rules, const std::string& type) {
+  Loads loads{rules.empty(), rules.empty()};
+  for (const auto& rule : rules) {
+    if (!is_named(rule, type)) continue;
+    Loads here{true, true};
+    if (const auto restriction = rule.find("loadRestriction")) {
+      restriction->read("unloaded", here.empty);
+      restriction->read("loaded", here.loaded);
+    }
+    loads.empty |= here.empty;
+    loads.loaded |= here.loaded;
+  }
+  return loads;
+}
+
+bool has_place_for(const JsonReader& node, const std::string& type) {
+  const auto rules = rules_by_type(node);
+  return rules.empty() || std::ranges::any_of(rules, [&](const JsonReader& rule) { return is_named(rule, type); });
+}
+
+}  // namespace
+
+std::optional<JsonReader> either(const JsonReader& object, std::string_view old_key, std::string_view new_key) {
+  auto found = object.find(old_key);
+  return found ? found : object.find(new_key);
+}
+
+std::vector<JsonReader> rules_by_type(const JsonReader& element) {
+  for (const char* what : {"Node", "Edge"}) {
+    const auto found =
+        either(element, fmt::format("vehicleType{}Properties", what), fmt::format("mobileRobotType{}Properties", what));
+    if (found) return found->items();
+  }
+  return {};
+}
+
+std::vector<std::string> types_of(const JsonReader& rule) {
+  if (const auto id = either(rule, "vehicleTypeId", "mobileRobotTypeId")) return {id->text()};
+  std::vector<std::string> names;
+  if (const auto robots = rule.find("mobileRobotTypes")) {
+    for (const auto& robot : robots->items()) {
+      names.emplace_back();
+      robot.read("seriesName", names.back());
+    }
+  }
+  if (names.empty()) names.emplace_back();
+  return names;
+}
+
+LifTypes::LifTypes(const std::vector<JsonReader>& nodes, const std::vector<JsonReader>& edges) {
+  for (const auto& node : nodes) note(node);
+  for (const auto& edge : edges) note(edge);
+}
+
+void LifTypes::note(const JsonReader& element) {
+  for (const auto& rule : rules_by_type(element)) {
+    for (const auto& name : types_of(rule)) {
+      if (!name.empty() && std::ranges::find(names_, name) == names_.end()) names_.push_back(name);
+    }
+  }
+}
+
+std::optional<std::vector<Permission>> LifTypes::permissions(const JsonReader& edge, const JsonReader& from,
+                                                             const JsonReader& to) {
+  const auto rules = rules_by_type(edge);
+  std::vector<Permission> found;
+  for (const auto& name : names_.empty() ? std::vector<std::string>{""} : names_) {
+    const Loads loads = loads_of(rules, name);
+    if ((loads.empty || loads.loaded) && has_place_for(from, name) && has_place_for(to, name))
+      found.push_back({name, loads.state()});
+  }
+  if (found.empty()) return std::nullopt;
+  ++edges_;
+  const bool alike = std::ranges::all_of(found, [&](const Permission& one) { return one.load == found[0].load; });
+  if (!alike || found.size() < names_.size()) {
+    ++restricted_;
+    return found;
+  }
+  if (found[0].load == LoadState::Any) return std::vector<Permission>{};
+  return std::vector<Permission>{{"", found[0].load}};
+}
+
+std::string LifTypes::sentence() const {
+  if (names_.empty()) return "";
+  if (restricted_ == 0) {
+    return fmt::format("nodes and edges have rules for {} types of vehicles ({}); here they hold for every AGV",
+                       names_.size(), name_list(names_));
+  }
+  return fmt::format(
+      "{} of {} edges are for some types of vehicles only; a campaign needs a [[vehicle]] with one of their names "
+      "({}), "
+      "or lets every AGV drive what one of them may (any_type). What stations are for holds for all types",
+      restricted_, edges_, name_list(names_, names_.size()));
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/scenario/segment.hpp"
+#include "generators/text/json_value.hpp"
+
+namespace fleetproof {
+
+// The first of two spellings that the object has. LIF 1.0 says vehicleType, its successor says mobileRobotType.
+std::optional<JsonReader> either(const JsonReader& object, std::string_view old_key, std::string_view new_key);
+
+// What a node or edge of LIF says for each type of vehicle; empty if it says nothing.
+std::vector<JsonReader> rules_by_type(const JsonReader& element);
+
+// The types for which one of these rules holds. An empty name: every type.
+std::vector<std::string> types_of(const JsonReader& rule);
+
+// Who may drive the edges of a LIF layout. A type needs a rule at the edge and at both of its nodes; a node or edge
+// without any rule is for every type.
+class LifTypes {
+ public:
+  LifTypes(const std::vector<JsonReader>& nodes, const std::vector<JsonReader>& edges);
+
+  // As a segment has it: empty if every type that the layout names may drive it, with a load and without one. None: no
+  // AGV may.
+  std::optional<std::vector<Permission>> permissions(const JsonReader& edge, const JsonReader& from,
+                                                     const JsonReader& to);
+
+  // What happens to the names of types, as a sentence; empty if the layout names none.
+  std::string sentence() const;
+
+ private:
+  void note(const JsonReader& element);
+
+  std::vector<std::string> names_;  // in the order of the file
+  std::size_t edges_ = 0, restricted_ = 0;
+};
+
+}  // namespace fleetproof

@@ -1,0 +1,212 @@
+// What LIF says for each type of vehicle, about turns and headings, and which of several layouts is read.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "damage.hpp"
+#include "generators/formats/heading.hpp"
+#include "generators/formats/layout_file.hpp"
+#include "generators/formats/lif.hpp"
+#include "generators/formats/lif_text.hpp"
+#include "generators/map/permitted_types.hpp"
+
+namespace fleetproof {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+struct Plant {
+  Layout layout;
+  std::string sentences;
+};
+
+// Nodes a, b and c in a row, 5 m apart; edges ab, bc and cb. Each text is the list of rules of one element.
+struct Rules {
+  std::string a{}, b{}, c{}, ab{}, bc{}, cb{};
+};
+
+std::string file_of(const Rules& rules) {
+  const auto node = [](const char* name, int x, const std::string& list) {
+    return fmt::format(R"({{"nodeId": "{}", "nodePosition": {{"x": {}, "y": 0}}, "vehicleTypeNodeProperties": [{}]}})",
+                       name, x, list);
+  };
+  const auto edge = [](const char* from, const char* to, const std::string& list) {
+    return fmt::format(R"({{"edgeId": "{0}{1}", "startNodeId": "{0}", "endNodeId": "{1}",
+                           "vehicleTypeEdgeProperties": [{2}]}})",
+                       from, to, list);
+  };
+  return fmt::format(R"({{"layouts": [{{"layoutId": "L", "nodes": [{},
+{},
+{}], "edges": [{},
+{},
+{}]}}]}})",
+                     node("a", 0, rules.a), node("b", 5, rules.b), node("c", 10, rules.c), edge("a", "b", rules.ab),
+                     edge("b", "c", rules.bc), edge("c", "b", rules.cb));
+}
+
+Plant import(const Rules& rules) {
+  Plant plant;
+  std::vector<std::string> warnings;
+  plant.layout = parse_lif(file_of(rules), "l.json", warnings, {TwinPaths::Keep, {}, ""});
+  plant.sentences = fmt::format("{}", fmt::join(warnings, "\n"));
+  return plant;
+}
+
+const std::string kFork = R"({"vehicleTypeId": "fork"})", kTug = R"({"vehicleTypeId": "tug"})",
+                  kBoth = kFork + ", " + kTug;
+
+std::vector<std::string> permissions(const Plant& plant, std::size_t segment) {
+  std::vector<std::string> words;
+  for (const auto& [type, load] : plant.layout.segments.at(segment).permissions)
+    words.push_back(type + ":" + name_of(load));
+  return words;
+}
+
+TEST(LifRules, OneTypeOfVehicleIsEveryAgv) {
+  const auto plant = import({kFork, kFork, kFork, kFork, kFork, kFork});
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_THAT(permissions(plant, i), IsEmpty());
+  EXPECT_THAT(plant.sentences, HasSubstr("rules for 1 types of vehicles (\"fork\"); here they hold for every AGV"));
+}
+
+TEST(LifRules, ATypeNeedsARuleAtTheEdgeAndAtBothNodes) {
+  const auto plant = import({kBoth, kBoth, kFork, kTug, kBoth, ""});
+  EXPECT_THAT(permissions(plant, 0), ElementsAre("tug:any"));
+  EXPECT_THAT(permissions(plant, 1), ElementsAre("fork:any")) << "tug may not be at c";
+  EXPECT_THAT(permissions(plant, 2), ElementsAre("fork:any")) << "an edge without rules is for all that may be there";
+  EXPECT_THAT(plant.sentences, HasSubstr("3 of 3 edges are for some types of vehicles only"));
+  EXPECT_THAT(plant.sentences, HasSubstr("(\"fork\", \"tug\")"));
+}
+
+TEST(LifRules, AnEdgeForNobodyIsLeftOut) {
+  const auto plant = import({kBoth, kBoth, kFork, kBoth, kTug, kFork});
+  EXPECT_EQ(plant.layout.segments.size(), 2U);
+  EXPECT_THAT(plant.sentences, HasSubstr("l.json:5: no AGV may drive edge \"bc\""));
+}
+
+TEST(LifRules, LoadsAreByType) {
+  const std::string loaded = R"({"vehicleTypeId": "fork", "loadRestriction": {"unloaded": false, "loaded": true}})",
+                    empty = R"({"vehicleTypeId": "fork", "loadRestriction": {"unloaded": true, "loaded": false}})";
+  const auto plant = import({kBoth, kBoth, kBoth, loaded + ", " + kTug, loaded + ", " + empty + ", " + kTug, loaded});
+  EXPECT_THAT(permissions(plant, 0), ElementsAre("fork:loaded", "tug:any"));
+  EXPECT_THAT(permissions(plant, 1), IsEmpty()) << "a type that is listed twice may do both";
+  EXPECT_THAT(permissions(plant, 2), ElementsAre("fork:loaded"));
+  EXPECT_THAT(permissions(import({kFork, kFork, kFork, loaded, kFork, kFork}), 0), ElementsAre(":loaded"));
+}
+
+TEST(LifRules, TypesCanBeLifted) {
+  const std::string loaded = R"({"vehicleTypeId": "fork", "loadRestriction": {"unloaded": false, "loaded": true}})";
+  auto plant = import({kBoth, kBoth, kBoth, loaded, loaded + ", " + kTug, kBoth});
+  EXPECT_THAT(lift_types(plant.layout), ElementsAre("ab", "bc"));
+  EXPECT_THAT(permissions(plant, 0), ElementsAre(":loaded"));
+  EXPECT_THAT(permissions(plant, 1), IsEmpty());
+}
+
+// Typed permissions, turns and headings come back; what does not is told.
+TEST(LifRules, RulesAreWritten) {
+  const std::string loaded = R"({"vehicleTypeId": "fork", "loadRestriction": {"unloaded": false, "loaded": true}})",
+                    no_turn = R"({"rotationAtEndNodeAllowed": "NONE"})";
+  for (const Rules& rules : {Rules{kBoth, kBoth, kFork, kTug, kBoth, loaded}, Rules{.ab = loaded, .bc = no_turn},
+                             Rules{.b = R"({"theta": 0})", .c = R"({"theta": 0})"}}) {
+    const auto layout = import(rules).layout;
+    EXPECT_THAT(lost_in_lif(layout), IsEmpty());
+    std::vector<std::string> warnings;
+    EXPECT_EQ(to_text(parse_lif(to_lif(layout), "l.json", warnings, {TwinPaths::Keep, {}, ""})), to_text(layout));
+  }
+}
+
+TEST(LifRules, WhatCannotBeWrittenIsTold) {
+  auto layout = import({}).layout;
+  layout.blocks = {{"dock", BlockKind::OneVehicle}};
+  layout.segments[0].width_m = 2.0;
+  layout.segments[1].permissions = {{"", LoadState::Empty}, {"tug", LoadState::Any}};
+  EXPECT_THAT(
+      lost_in_lif(layout),
+      ElementsAre(
+          "LIF has no place for blocks: 1 are left out (\"dock\")",
+          "LIF has no place for the width of a lane: 1 segments lose it (\"ab\")",
+          "LIF has no word for every type of vehicle: 1 segments permit something to every type and more to some "
+          "(\"bc\"); in the file they are for \"tug\", \"agv\" alone, where \"agv\" stands for all others"));
+  std::vector<std::string> warnings;
+  EXPECT_EQ(parse_lif(to_lif(layout), "l.json", warnings, {TwinPaths::Keep, {}, ""}).segments[1].permissions,
+            (std::vector<Permission>{{"tug", LoadState::Any}, {"agv", LoadState::Empty}}));
+}
+
+std::string turning(const Plant& plant) {
+  std::string text;
+  for (const auto& station : plant.layout.stations) text += station.turning ? '+' : '-';
+  return text;
+}
+
+TEST(LifRules, NoAgvTurnsWhereNoEdgeLetsIt) {
+  const std::string not_at_end = R"({"rotationAtEndNodeAllowed": "NONE"})",
+                    not_at_start = R"({"rotationAtStartNodeAllowed": "NONE"})";
+  EXPECT_EQ(turning(import({})), "+++");
+  EXPECT_EQ(turning(import({.bc = not_at_end})), "++-") << "all edges that arrive at c";
+  EXPECT_EQ(turning(import({.cb = not_at_start})), "++-") << "all edges that leave c";
+  EXPECT_EQ(turning(import({.ab = not_at_end, .cb = not_at_end})), "+-+");
+  const auto some = import({.ab = not_at_end});
+  EXPECT_EQ(turning(some), "+++");
+  EXPECT_THAT(some.sentences, HasSubstr("1 nodes let some AGVs turn, or between some edges only (\"b\")"));
+}
+
+TEST(LifRules, AnAgvThatTurnsOnAnEdgeTurnsAtItsEnds) {
+  for (const char* more : {R"("rotationAllowed": true)", R"("vehicleOrientation": 1.5707963)"}) {
+    const auto plant = import({.bc = fmt::format(R"({{"rotationAtEndNodeAllowed": "NONE", {}}})", more)});
+    EXPECT_EQ(turning(plant), "+++") << more;
+    EXPECT_THAT(plant.sentences, HasSubstr("1 nodes let some AGVs turn, or between some edges only (\"c\")"));
+  }
+}
+
+TEST(LifRules, OneSenseOfTurnsIsTold) {
+  const auto plant = import({.bc = R"({"rotationAtEndNodeAllowed": "CCW"})"});
+  EXPECT_EQ(turning(plant), "+++");
+  EXPECT_THAT(plant.sentences, HasSubstr("1 nodes let an AGV turn in one sense only (\"c\")"));
+  EXPECT_THAT(
+      independent::refusal([](const std::string& bc) { import({.bc = bc}); }, R"({"rotationAtEndNodeAllowed": "ccw"})"),
+      HasSubstr("\"ccw\" is refused: there is no such word; "));
+}
+
+TEST(LifRules, AHeadingIsThatOfALaneThatArrives) {
+  const auto plant = import({.b = R"({"theta": 3.14})", .c = R"({"theta": 0.01})"});
+  EXPECT_EQ(plant.layout.stations[1].heading, std::optional(Vec2(-1.0, 0.0)));
+  EXPECT_EQ(plant.layout.stations[2].heading, std::optional(Vec2(1.0, 0.0))) << "0.6 degrees beside edge bc";
+  EXPECT_EQ(plant.layout.stations[0].heading, std::nullopt);
+  const auto torn = import({.b = R"({"theta": 0}, {"theta": 3.14159})", .c = R"({"theta": 1.57})"});
+  EXPECT_EQ(torn.layout.stations[1].heading, std::nullopt);
+  EXPECT_THAT(torn.sentences, HasSubstr("1 nodes ask each type of vehicle for another heading (\"b\")"));
+  EXPECT_EQ(torn.layout.stations[2].heading, std::nullopt);
+  EXPECT_THAT(torn.sentences, HasSubstr("1 nodes ask for a heading with which no edge arrives (\"c\")"));
+}
+
+TEST(Heading, AQuarterTurnIsExact) {
+  EXPECT_EQ(heading_at(1.57), Vec2(0.0, 1.0));
+  EXPECT_EQ(heading_at(-1.5707963), Vec2(0.0, -1.0));
+  EXPECT_EQ(heading_at(3.0 * 3.1415926), Vec2(-1.0, 0.0));
+  EXPECT_NEAR(heading_at(0.5).x(), 0.877582561890373, 1e-15);
+}
+
+const std::string kFloors = R"({"layouts": [
+{"layoutId": "hall", "layoutLevelId": "0", "nodes": [{"nodeId": "a", "nodePosition": {"x": 0, "y": 0}},
+{"nodeId": "b", "nodePosition": {"x": 5, "y": 0}}], "edges": [{"edgeId": "ab", "startNodeId": "a", "endNodeId": "b"}]},
+{"layoutId": "attic", "layoutLevelId": "1", "nodes": [{"nodeId": "c", "nodePosition": {"x": 0, "y": 0}},
+{"nodeId": "d", "nodePosition": {"x": 5, "y": 0}}], "edges": [{"edgeId": "cd", "startNodeId": "c", "endNodeId": "d"},
+{"edgeId": "ca", "startNodeId": "c", "endNodeId": "a"}]}]})";
+
+TEST(LifLevels, OneOfSeveralLayoutsIsChosen) {
+  const auto name_of_first = [](const std::string& level) {
+    std::vector<std::string> warnings;
+    return parse_lif(kFloors, "l.json", warnings, {TwinPaths::Merge, {}, level}).stations[0].name;
+  };
+  EXPECT_EQ(name_of_first("hall"), "a");
+  EXPECT_EQ(name_of_first("attic"), "c");
+  EXPECT_EQ(name_of_first("1"), "c");
+  const std::string known = R"("hall" (level "0"), "attic" (level "1"))";
+  EXPECT_THAT(independent::refusal(name_of_first, ""),
+              AllOf(HasSubstr("there are 2 layouts; choose one by its id or level (--level"), HasSubstr(known)));
+  EXPECT_THAT(independent::refusal(name_of_first, "cellar"),
+              HasSubstr("no layouts have the id or level \"cellar\"; choose one of: " + known));
+}
+
+}  // namespace
+}  // namespace fleetproof

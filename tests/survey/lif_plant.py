@@ -1,0 +1,181 @@
+"""LIF 1.0 and the spellings of its successor, by the names in their specification."""
+import json
+from math import dist, pi
+
+from plant import ANY, BACKWARD, EMPTY, FORWARD, LOADED, Drive, Plant, Station, course, path_length
+
+ON_THE_NODE_M = 0.05
+
+
+def given(entry, *keys):
+    return next((entry[key] for key in keys if key in entry), None)
+
+
+def rules_of(element):
+    return given(element, "vehicleTypeNodeProperties", "mobileRobotTypeNodeProperties", "vehicleTypeEdgeProperties",
+                 "mobileRobotTypeEdgeProperties") or []
+
+
+def types_of(entry):
+    """Names of types of vehicles; [""]: all of them."""
+    name = given(entry, "vehicleTypeId", "mobileRobotTypeId")
+    if name is not None:
+        return [name]
+    return [robot.get("seriesName", "") for robot in entry.get("mobileRobotTypes", [])] or [""]
+
+
+def named_types(elements):
+    return {name for element in elements for entry in rules_of(element) for name in types_of(entry)} - {""}
+
+
+def permitted(element, everyone):
+    """Type -> set of loads."""
+    entries = rules_of(element)
+    if not entries:
+        return {name: {EMPTY, LOADED} for name in everyone}
+    found = {}
+    for entry in entries:
+        loads = entry.get("loadRestriction", {"unloaded": True, "loaded": True})
+        states = {state for key, state in (("unloaded", EMPTY), ("loaded", LOADED)) if loads.get(key, True)}
+        for name in types_of(entry):
+            for each in [name] if name else everyone:
+                found.setdefault(each, set()).update(states)
+    return found
+
+
+def permissions(edge, nodes, everyone):
+    """None: no AGV may drive here."""
+    by_type = permitted(edge, everyone)
+    for node in nodes:
+        by_type = {name: loads for name, loads in by_type.items() if name in permitted(node, everyone)}
+    by_type = {name: loads for name, loads in by_type.items() if loads}
+    if not by_type:
+        return None
+    word = {name: ANY if len(loads) == 2 else next(iter(loads)) for name, loads in by_type.items()}
+    if set(by_type) == set(everyone) and len(set(word.values())) == 1:
+        return (("", next(iter(word.values()))),)
+    return tuple(word.items())
+
+
+def purposes_of(element):
+    found = set()
+    for entry in rules_of(element):
+        for action in entry.get("actions", []):
+            found |= {"pick": {"storage"}, "drop": {"storage"}, "startCharging": {"charging"}}.get(
+                action["actionType"], set())
+    return found
+
+
+def firsts_of(edge):
+    """Which end of the AGV goes first; sideways travel is taken as forward."""
+    firsts = set()
+    for entry in rules_of(edge) or [{}]:
+        half_turns = round(abs(entry.get("vehicleOrientation", 0.0)) / pi)
+        firsts.add(BACKWARD if along(entry) and half_turns % 2 else FORWARD)
+    return firsts
+
+
+def spline_length(trajectory, ends):
+    """A NURBS by de Boor's recursion. None if its ends are not on the nodes: then it is changed."""
+    degree, knots = int(trajectory.get("degree", 1)), trajectory["knotVector"]
+    controls = [(p["x"], p["y"], p.get("weight", 1.0)) for p in trajectory["controlPoints"]]
+    points = []
+    for k in range(4001):
+        t = knots[degree] + (knots[-degree - 1] - knots[degree]) * k / 4000
+        span = max(i for i in range(degree, len(controls)) if knots[i] <= t or i == degree)
+        d = [(x * w, y * w, w) for x, y, w in controls[span - degree:span + 1]]
+        for r in range(1, degree + 1):
+            for j in range(degree, r - 1, -1):
+                low, high = knots[j + span - degree], knots[j + 1 + span - r]
+                a = (t - low) / (high - low) if high > low else 0.0
+                d[j] = tuple((1.0 - a) * u + a * v for u, v in zip(d[j - 1], d[j]))
+        points.append((d[degree][0] / d[degree][2], d[degree][1] / d[degree][2]))
+    off = min(max(dist(points[0], a), dist(points[-1], b)) for a, b in (ends, ends[::-1]))
+    return path_length(points) if off < ON_THE_NODE_M else None
+
+
+def heading_of(node):
+    angles = {round(entry["theta"] * 180.0 / pi, 4) for entry in rules_of(node) if "theta" in entry}
+    return angles.pop() if len(angles) == 1 else None
+
+
+def turning_of(name, edges):
+    """No AGV may turn at a node if no edge that arrives there lets it, or none that leaves."""
+    for end, key in (("endNodeId", "rotationAtEndNodeAllowed"), ("startNodeId", "rotationAtStartNodeAllowed")):
+        here = [edge for edge in edges if edge[end] == name]
+        if here and all(forbids(edge, key) for edge in here):
+            return False
+    return True
+
+
+def forbids(edge, key):
+    """An AGV that may turn on the edge, or drives it sideways, must turn somewhere."""
+    entries = rules_of(edge)
+    return bool(entries) and not is_sideways(edge) and \
+        all(entry.get(key) == "NONE" and not entry.get("rotationAllowed") for entry in entries)
+
+
+def is_sideways(edge):
+    return not all(along(entry) for entry in rules_of(edge))
+
+
+def along(entry):
+    half_turns = abs(entry.get("vehicleOrientation", 0.0)) / pi
+    return entry.get("orientationType", "TANGENTIAL") == "TANGENTIAL" and abs(half_turns - round(half_turns)) < 0.005
+
+
+def layouts_of(root):
+    return [layout for holder in root.get("origins", [root]) for layout in holder.get("layouts", [])]
+
+
+def read(path, level=None):
+    with open(path, encoding="utf-8-sig") as file:
+        layouts = layouts_of(json.load(file))
+    found = [layout for layout in layouts
+             if level is None or level in (layout.get("layoutId"), layout.get("layoutLevelId"))]
+    if len(found) != 1:
+        raise ValueError(f"{len(found)} layouts to choose from")
+    chosen = found[0]
+    nodes = {node["nodeId"]: node for node in chosen["nodes"]}
+    edges = [edge for edge in chosen["edges"] if edge["startNodeId"] in nodes and edge["endNodeId"] in nodes]
+    everyone = named_types([*chosen["nodes"], *chosen["edges"]]) or {""}
+    plant = Plant()
+    for name, node in nodes.items():
+        place = node["nodePosition"]
+        plant.add(Station(name, place["x"], place["y"], purposes_of(node), heading_of(node)))
+    kept = []
+    for edge in edges:
+        add_edge(plant, edge, nodes, everyone, kept)
+    for name in nodes:
+        plant.stations[name].turning = turning_of(name, kept)
+    for station in chosen.get("stations", []):
+        for name in station["interactionNodeIds"]:
+            if name in nodes and not plant.stations[name].purposes:
+                plant.stations[name].purposes.add("storage")
+    plant.settle_headings()
+    return plant
+
+
+def add_edge(plant, edge, nodes, everyone, kept):
+    start, end = edge["startNodeId"], edge["endNodeId"]
+    plant.stations[end].purposes |= purposes_of(edge)
+    who = permissions(edge, (nodes[start], nodes[end]), everyone)
+    if who is None:
+        return
+    kept.append(edge)
+    ends = [(plant.stations[name].x, plant.stations[name].y) for name in (start, end)]
+    drawn = next((entry["trajectory"] for entry in rules_of(edge) if "trajectory" in entry), None)
+    length = spline_length(drawn, ends) if drawn else dist(*ends)
+    if length is not None and length < 0.01:
+        plant.faults.append(edge["edgeId"])
+    limits = [given(entry, "maxSpeed", "maximumSpeed") for entry in rules_of(edge)]
+    lowest = min((value for value in limits if value is not None), default=None)
+    for first in firsts_of(edge):
+        plant.drives.append(Drive(start, end, length, first, lowest, who, course=course(way_of(drawn, ends))))
+
+
+def way_of(trajectory, ends):
+    controls = [(p["x"], p["y"]) for p in trajectory["controlPoints"]] if trajectory else []
+    if controls and dist(controls[0], ends[1]) < dist(controls[0], ends[0]):
+        controls.reverse()
+    return [ends[0], *controls[1:-1], ends[1]]
