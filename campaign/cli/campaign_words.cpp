@@ -14,6 +14,7 @@
 #include "campaign/run/release.hpp"
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
+#include "generators/map/permitted_types.hpp"
 
 namespace fleetproof::cli {
 namespace {
@@ -42,6 +43,20 @@ bool wants_global_symbols(const std::string& path, std::span<const AgentFactor> 
   return agent != agents.end() && agent->global_symbols;
 }
 
+// Rules for types of vehicles that are not in the fleet may be meant for another fleet. They are told first.
+void warn_of_foreign_types(CampaignFile& file) {
+  std::vector<std::string> fleet, sentences;
+  for (const auto& [type, share] : file.plan.vehicles) fleet.push_back(type.name);
+  for (const auto& factor : file.plan.layouts) {
+    if (factor.map == nullptr) continue;
+    const auto foreign = foreign_types(factor.map->layout(), fleet);
+    if (!foreign.empty())
+      sentences.push_back(
+          fmt::format("layout {}: {}", in_quotes(factor.name), sentence_on(foreign[0], factor.map->layout(), fleet)));
+  }
+  file.warnings.insert(file.warnings.begin(), sentences.begin(), sentences.end());
+}
+
 }  // namespace
 
 CampaignFile load_campaign(const std::string& path, AgentPrograms& programs) {
@@ -65,6 +80,7 @@ CampaignFile load_campaign(const std::string& path, AgentPrograms& programs) {
     if (agents[i].name.empty()) agents[i].name = object.program;
   }
   check_plan(file.plan, file.places);
+  warn_of_foreign_types(file);
   std::vector<bool> is_plugin;
   for (const std::string& path_of_object : file.agent_files) is_plugin.push_back(!path_of_object.empty());
   for (std::size_t i = 0; i < agents.size(); ++i) programs.program(agents[i].program, place_of(i) + ": factors.agents");

@@ -8,8 +8,10 @@
 #include "campaign/plan/plan_fields.hpp"
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
+#include "core/base/outside_text.hpp"
 #include "core/outcome/probe_names.hpp"
 #include "core/outcome/probes.hpp"
+#include "generators/map/permitted_types.hpp"
 #include "generators/scenario_file/exempt_pairs.hpp"
 #include "generators/scenario_file/field_rules.hpp"
 #include "laws/laws.hpp"
@@ -203,6 +205,13 @@ void check_vehicles(const CampaignPlan& plan, const PlanPlaces& places) {
   std::vector<std::string> names;
   for (const auto& [type, share] : plan.vehicles) names.push_back(type.name);
   demand(!has_duplicates(names), places, "vehicle", "two vehicles have one name; give each its own");
+  for (const auto& factor : plan.layouts) {
+    if (factor.map == nullptr) continue;
+    for (const auto& type : foreign_types(factor.map->layout(), names)) {
+      demand(type.meant.empty(), places, "vehicle",
+             fmt::format("layout {}: {}", in_quotes(factor.name), sentence_on(type, factor.map->layout(), names)));
+    }
+  }
 }
 
 void check_laws_and_coverage(const CampaignPlan& plan, const PlanPlaces& places) {

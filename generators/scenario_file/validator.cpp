@@ -13,6 +13,7 @@
 #include "core/scenario/scenario_fields.hpp"
 #include "generators/map/core_only.hpp"
 #include "generators/map/layout_check.hpp"
+#include "generators/map/permitted_types.hpp"
 #include "generators/scenario_file/exempt_pairs.hpp"
 #include "generators/scenario_file/field_rules.hpp"
 #include "generators/text/text_file.hpp"
@@ -84,6 +85,12 @@ class BoundsCheck {
   Problems& problems_;
 };
 
+std::vector<std::string> types_of(const Scenario& scenario) {
+  std::vector<std::string> types;
+  for (const VehicleType& type : scenario.vehicle_types) types.push_back(type.name);
+  return types;
+}
+
 // Names, references, and rules between fields.
 class MeaningCheck {
  public:
@@ -98,6 +105,7 @@ class MeaningCheck {
     if (scenario_.vehicle_types.empty())
       add(ProblemKind::UnknownReference, "/vehicle_types", "at least one vehicle type is needed");
     names("/vehicle_types", scenario_.vehicle_types);
+    permissions();
     if (scenario_.agvs.empty()) add(ProblemKind::EmptyFleet, "/agvs", "a scenario needs at least one AGV");
     names("/agvs", scenario_.agvs);
     for (std::size_t i = 0; i < scenario_.agvs.size(); ++i) agv(i);
@@ -165,6 +173,17 @@ class MeaningCheck {
     }
   }
 
+  // A type that is spelled nearly like one of the fleet: a mistake. Any other may belong to a fleet that is not here.
+  void permissions() {
+    const auto fleet = types_of(scenario_);
+    for (const auto& type : foreign_types(scenario_.map->layout(), fleet)) {
+      if (type.meant.empty()) continue;
+      add(ProblemKind::UnknownReference,
+          fmt::format("/layout/segments/{}/permissions/{}/vehicle_type", type.segment, type.permission),
+          sentence_on(type, scenario_.map->layout(), fleet));
+    }
+  }
+
   bool has_station(StationId id) const { return id.index() < scenario_.map->station_count(); }
 
   void agv(std::size_t i) {
@@ -180,11 +199,32 @@ class MeaningCheck {
       const auto& call = a.script[k];
       if (call.segment.index() >= scenario_.map->segment_count())
         unknown(fmt::format("script/{}/segment", k), "there is no such segment");
+      else if (call.backward)
+        backward_call(i, k);
       if (call.at < last)
         add(ProblemKind::NumberOutOfRange, fmt::format("/agvs/{}/script/{}/at_ns", i, k),
             fmt::format("{} s: calls are listed in order of time", to_seconds(call.at)));
       last = call.at;
     }
+  }
+
+  // The first call begins at the AGV's start. Where a later one begins depends on the run.
+  void backward_call(std::size_t i, std::size_t k) {
+    const auto& map = *scenario_.map;
+    const auto& agv = scenario_.agvs[i];
+    const auto id = agv.script[k].segment;
+    const Segment& segment = map.segment(id);
+    const bool first = k == 0 && (agv.start == segment.from || agv.start == segment.to);
+    const bool there = map.backward_lane(id, segment.from) != nullptr,
+               back = map.backward_lane(id, segment.to) != nullptr;
+    if (first ? (agv.start == segment.from ? there : back) : there || back) return;
+    add(ProblemKind::UnknownReference, fmt::format("/agvs/{}/script/{}/backward", i, k),
+        fmt::format(
+            "{} cannot drive segment {} backward{}; leave backward out, or set {} of the segment to backward or "
+            "either",
+            in_quotes(agv.name), in_quotes(segment.name),
+            first ? " from " + in_quotes(map.station(agv.start).name) : "",
+            first && agv.start == segment.to ? "back_travel" : "travel"));
   }
 
   void transport(std::size_t i, std::size_t k, const TransportOrder& order) {
@@ -225,8 +265,9 @@ class WorldCheck {
   std::string core_under_rules() const {
     return fmt::format(
         "{} of {} stations can all reach each other by what the layout permits the vehicle types of this fleet (turns, "
-        "headings, loads and types)",
-        reachability_.core().size(), scenario_.map->station_count());
+        "headings, loads and types{})",
+        reachability_.core().size(), scenario_.map->station_count(),
+        foreign_types_hint(scenario_.map->layout(), types_of(scenario_)));
   }
 
   void starts() {
@@ -256,7 +297,9 @@ class WorldCheck {
               lanes, [&](std::uint32_t lane) { return rules.may_drive(scenario_.map->lanes()[lane], agv.heading); })) {
         add(ProblemKind::StartWithoutLane, pointer(),
             fmt::format("no lane leaves the station where {} starts{}", in_quotes(agv.name),
-                        lanes.empty() ? "" : ", by what the layout allows it: permissions, and turns on the spot"));
+                        lanes.empty() ? std::string()
+                                      : ", by what the layout allows it: permissions, and turns on the spot" +
+                                            foreign_types_hint(scenario_.map->layout(), types_of(scenario_))));
       }
     }
   }
@@ -306,8 +349,7 @@ Problems world_problems(const Scenario& scenario, const Reachability& reachabili
 }
 
 Problems problems_of(const Scenario& scenario) {
-  std::vector<std::string> types;
-  for (const VehicleType& type : scenario.vehicle_types) types.push_back(type.name);
+  const auto types = types_of(scenario);
   auto problems = unusable_problems(scenario);
   if (problems.empty()) problems = world_problems(scenario, Reachability(*scenario.map, types));
   return problems;

@@ -67,6 +67,10 @@ Scenario unusual() {
   s.agvs[1].type = 1;
   s.agvs[1].battery = 0.625;
   s.agvs[2].heading = Vec2(0.6, 0.8);
+  Layout layout = s.map->layout();
+  layout.segments[3].travel = Travel::Either;
+  if (layout.segments[3].bidirectional) layout.segments[3].back_travel = Travel::Either;
+  s.map = std::make_shared<const LogicalMap>(layout);
   s.agvs[2].script = {{Duration{5}, ScriptedCall::Action::Charge, SegmentId{3U}, true},
                       {Duration{6}, ScriptedCall::Action::Drop, SegmentId{2U}}};
   s.agvs[1].sensing = {0.5, -40.0, 0.01, 0.3};

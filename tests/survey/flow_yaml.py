@@ -1,7 +1,8 @@
 """The part of YAML in which Open-RMF writes its files: block maps and lists, with flow values at their ends."""
 import re
 
-TOKEN = re.compile(r'\s*("(?:[^"\\]|\\.)*"|\'(?:[^\']|\'\')*\'|[\[\]{},]|:(?=\s|$)|[^\[\]{},"\'\s](?:[^,\[\]{}:]|:(?!\s|$))*)')
+TOKEN = re.compile(r'\s*("(?:[^"\\]|\\.)*"|\'(?:[^\']|\'\')*\'|[\[\]{},]|:(?=\s|$)|'
+                   r'[^\[\]{},"\'\s](?:[^,\[\]{}:]|:(?!\s|$))*)')
 
 
 def scalar(text):

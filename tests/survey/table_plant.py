@@ -25,7 +25,8 @@ def read_layout(path):
         heading = angle_of(*s["heading"]) if "heading" in s else None
         plant.add(Station(s["name"], *s["position_m"], s.get("purposes", ["routing"]), heading, s.get("turning", True)))
     for s in layout["segments"]:
-        ways = [(s.get("travel", ""), s.get("speed_limit_mps")), (s.get("back_travel", ""), s.get("back_speed_limit_mps"))]
+        ways = [(s.get("travel", ""), s.get("speed_limit_mps")),
+                (s.get("back_travel", ""), s.get("back_speed_limit_mps"))]
         who = [(p.get("vehicle_type", ""), p.get("load", "any")) for p in s.get("permissions", [])]
         add_segment(plant, s["from"], s["to"], s.get("control_points_m", []), ways[:2 if s.get("bidirectional") else 1],
                     who, s.get("blocks", []))
