@@ -8,9 +8,11 @@
 #include "campaign/cli/verbs.hpp"
 #include "core/base/error.hpp"
 #include "generators/formats/csv_text.hpp"
+#include "generators/formats/factsheet.hpp"
 #include "generators/formats/importer.hpp"
 #include "generators/formats/layout_file.hpp"
 #include "generators/formats/lif_text.hpp"
+#include "generators/formats/opentcs_vehicles.hpp"
 #include "generators/map/core_only.hpp"
 #include "generators/map/layout_svg.hpp"
 
@@ -18,7 +20,7 @@ namespace fleetproof::cli {
 namespace {
 
 struct ImportWords {
-  std::string format, file, out, picture, level, purposes;
+  std::string format, file, out, picture, level, purposes, vehicles, factsheet;
   std::optional<std::uint64_t> graph;
   std::optional<double> cell_pitch_m;
   bool keep_antiparallel = false, core_only = false, any_type = false;
@@ -60,15 +62,40 @@ std::string text_of(const Layout& layout, OutputKind kind) {
   return printable_json(kind == OutputKind::LifLayout ? to_lif(layout) : to_text(layout));
 }
 
+// The vehicles of the model, or of the factsheet beside a layout.
+std::vector<ForeignVehicle> read_vehicles(const ImportWords& words, std::vector<std::string>& warnings) {
+  if (words.format == "opentcs") return read_opentcs_vehicles(words.file, warnings);
+  return {read_factsheet(words.factsheet, warnings)};
+}
+
+void expect_vehicles(const ImportWords& words) {
+  expect_format(words, !words.vehicles.empty(), "--vehicles", {"opentcs", "lif"});
+  expect_format(words, !words.factsheet.empty(), "--factsheet", {"lif"});
+  if (!words.factsheet.empty() && words.vehicles.empty())
+    throw InputError("--factsheet", "is given without --vehicles; name the file to write with --vehicles");
+  if (words.format == "lif" && !words.vehicles.empty() && words.factsheet.empty())
+    throw InputError("--vehicles", "LIF has no vehicles; name their VDA 5050 factsheet with --factsheet");
+}
+
+void write_vehicles(const ImportWords& words) {
+  std::vector<std::string> warnings;
+  const auto vehicles = read_vehicles(words, warnings);
+  for (const std::string& warning : warnings) talk("warning: {}\n", warning);
+  const std::string& source = words.factsheet.empty() ? words.file : words.factsheet;
+  write_whole({words.vehicles, "--vehicles", OutputKind::Fleet}, fleet_text(vehicles, source));
+}
+
 int import_file(const ImportWords& words) {
   const auto& entry = importer(words.format);
   const ImportChoice choice = choice_of(words);
+  expect_vehicles(words);
   std::vector<std::string> warnings;
   const Layout layout = import_layout(entry, words.file, choice, warnings);
   for (const std::string& warning : warnings) talk("warning: {}\n", warning);
   talk("{}: {} stations, {} segments, {} warnings\n", words.file, layout.stations.size(), layout.segments.size(),
        warnings.size());
   talk("purposes: {}\nreachability: {}\n", purposes_summary(layout), reachability_text(layout));
+  if (!words.vehicles.empty()) write_vehicles(words);
   if (!words.picture.empty()) write_whole({words.picture, "--svg", OutputKind::Picture}, layout_svg(layout));
   const OutputKind kind = kind_of(words.out);
   if (kind == OutputKind::LifLayout) {
@@ -98,6 +125,11 @@ Action prepare_import(Options& options) {
                "two one-way segments there and back on one track stay two; left out: they become one two-way segment");
   options.option("--purposes", words->purposes,
                  "opentcs, lif: what stations are for, by words of the file, as in \"PACK=storage,Dock 7=charging\"");
+  options.option(
+      "--vehicles", words->vehicles,
+      "write [[vehicle]] tables for a campaign into this file; opentcs: of the vehicles of the model; lif: of "
+      "the factsheet");
+  options.option("--factsheet", words->factsheet, "lif: VDA 5050 factsheet (JSON) of the vehicle");
   options.flag("--core-only", words->core_only,
                "leave out the stations that cannot be reached from all others, and name them");
   options.flag("--any-type", words->any_type, "every AGV may drive what one type of vehicle may");

@@ -50,6 +50,8 @@ bool is_chrome_trace(std::string_view text) { return has_key(text, "traceEvents"
 bool is_poses(std::string_view text) { return text.starts_with("body,t_s,"); }
 bool is_sensitivity(std::string_view text) { return has_key(text, "worlds") && has_key(text, "faults"); }
 
+bool is_fleet(std::string_view text) { return text.starts_with("# vehicles of "); }
+
 struct Kind {
   std::string_view noun;
   bool (*is_one)(std::string_view text);
@@ -66,7 +68,8 @@ constexpr Kind kKinds[] = {{"a layout file", is_layout},
                            {"a trace", is_trace},
                            {"a file of pieces", is_pieces},
                            {"a file of poses", is_poses},
-                           {"a Chrome trace", is_chrome_trace}};
+                           {"a Chrome trace", is_chrome_trace},
+                           {"a file of vehicles", is_fleet}};
 
 std::string remedy_of(const OutputFile& file) { return "choose another path for " + file.option; }
 

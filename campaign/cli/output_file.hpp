@@ -18,7 +18,8 @@ enum class OutputKind : std::uint8_t {
   Trace,
   Pieces,
   Poses,
-  ChromeTrace
+  ChromeTrace,
+  Fleet
 };
 
 // An output that the user asked for: the path, the option that named it, and the kind of the file.

@@ -18,7 +18,9 @@ constexpr Topic kEnvelopes{
 constexpr Topic kDevices{
     "{0} elements operate doors, lifts or other devices ({1}); these are not modelled: an AGV drives on without them"};
 constexpr Topic kMembers{"{0} members of blocks are no paths ({1}); here a block holds paths alone"};
-constexpr Topic kVehicles{"{0} vehicles and types of vehicles are left out ({1}); a campaign has its own fleet"};
+constexpr Topic kVehicles{
+    "{0} vehicles and types of vehicles are left out ({1}); a campaign has its own fleet, which import --vehicles "
+    "writes from them"};
 constexpr Topic kByType{"{0} paths have rules for types of vehicles ({1}); they are left out"};
 constexpr Topic kRoutes{"{0} static routes are left out ({1})"};
 constexpr Topic kGroups{"{0} groups are left out ({1})"};

@@ -91,5 +91,30 @@ TEST_F(FleetRules, AScriptThatDrivesBackwardNeedsALaneForIt) {
               HasSubstr("\"A\" cannot drive segment \"b-c\" backward; leave backward out"));
 }
 
+// The vehicles of a file, in a campaign on its layout.
+TEST_F(FleetRules, VehiclesOfAFileAreAFleet) {
+  const std::string campaign = "horizon_s = 1\n[factors]\nagents = [\"hull-lock\"]\nfleet_sizes = [1]\nlayouts = [\"";
+  const auto today = test::source("tests/survey/files/today.xml"),
+             rules = test::source("tests/survey/files/rules.lif.json");
+  const auto drawn = run("import opentcs '" + today + "' --vehicles fleet.toml -o layout.json");
+  EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+  EXPECT_EQ(read(path("fleet.toml")), "# vehicles of " + today +
+                                          "\n\n[[vehicle]]\nname = \"V 1\"\nlength_m = 1.4\nwidth_m = 0.7\n"
+                                          "centre_ahead_m = 0.2\nspeed_mps = 1.2\nreverse_speed_mps = 0.4\n");
+  EXPECT_THAT(drawn.err, HasSubstr("details of vehicles are left out (\"height\", \"energyLevelCritical\")"));
+  write("c.toml", campaign + today + "\"]\n" + read(path("fleet.toml")));
+  const auto checked = run("check c.toml");
+  EXPECT_EQ(checked.exit_code, 0) << checked.err;
+
+  write("sheet.json", R"({"typeSpecification": {"seriesName": "fork"}, "physicalParameters": {"speedMax": 1.5,
+    "accelerationMax": 0.5, "decelerationMax": 0.9, "length": 1.3, "width": 0.8}})");
+  const auto beside = run("import lif '" + rules + "' --factsheet sheet.json --vehicles fork.toml -o layout.json");
+  EXPECT_EQ(beside.exit_code, 0) << beside.err;
+  EXPECT_THAT(read(path("fork.toml")), HasSubstr("name = \"fork\"\nlength_m = 1.3\nwidth_m = 0.8\nspeed_mps = 1.5\n"));
+  EXPECT_THAT(run("import lif '" + rules + "' --vehicles fork.toml").err, HasSubstr("name their VDA 5050 factsheet"));
+  EXPECT_THAT(run("import lif '" + rules + "' --factsheet sheet.json").err, HasSubstr("given without --vehicles"));
+  EXPECT_THAT(run("import opentcs '" + today + "' --vehicles layout.json -o l.json").err, HasSubstr("--vehicles"));
+}
+
 }  // namespace
 }  // namespace fleetproof

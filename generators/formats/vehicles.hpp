@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/scenario/vehicle_type.hpp"
+
+namespace fleetproof {
+
+// A vehicle type as a file of another program describes it.
+struct ForeignVehicle {
+  VehicleType type{};
+  std::vector<std::string_view> keys{};  // of the fields that the file gives; the others have their defaults
+  std::vector<std::string> vehicles{};   // names of the vehicles that are of this type
+
+  void give(std::string_view key, double& field, double value) {
+    field = value;
+    keys.push_back(key);
+  }
+};
+
+// Joins types that differ in nothing but their names. The first name stays.
+std::vector<ForeignVehicle> joined(const std::vector<ForeignVehicle>& vehicles);
+
+// As [[vehicle]] tables of a campaign file, with the fields that the file gave. `source`: the name of that file.
+std::string fleet_text(const std::vector<ForeignVehicle>& vehicles, std::string_view source);
+
+}  // namespace fleetproof

@@ -1,0 +1,117 @@
+// The vehicles of plant models and factsheets, as tables of a campaign.
+#include "generators/formats/vehicles.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "damage.hpp"
+#include "generators/formats/factsheet.hpp"
+#include "generators/formats/opentcs_vehicles.hpp"
+
+namespace fleetproof {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+struct Fleet {
+  std::string text, sentences;
+};
+
+Fleet import_model(const std::string& vehicles) {
+  std::vector<std::string> warnings;
+  const auto fleet = parse_opentcs_vehicles("<model version=\"7.0.0\">\n" + vehicles + "\n</model>", "m.xml", warnings);
+  return {fleet_text(fleet, "m.xml"), fmt::format("{}", fmt::join(warnings, "\n"))};
+}
+
+Fleet import_sheet(const std::string& text) {
+  std::vector<std::string> warnings;
+  const auto vehicle = parse_factsheet(text, "f.json", warnings);
+  return {fleet_text({vehicle}, "f.json"), fmt::format("{}", fmt::join(warnings, "\n"))};
+}
+
+std::string vehicle(const std::string& name, const std::string& box, const std::string& more = "") {
+  return fmt::format("<vehicle name=\"{}\" maxVelocity=\"1500\" maxReverseVelocity=\"500\" {}>{}</vehicle>", name, more,
+                     box);
+}
+
+const std::string kBox =
+    R"(<boundingBox length="2100" width="900" height="1000" referenceOffsetX="-300" referenceOffsetY="0"/>)";
+
+TEST(OpenTcsVehicles, HaveTheirBodiesAndVelocities) {
+  const auto fleet = import_model(vehicle("Gabel &quot;1&quot;", kBox) + vehicle("林 2", kBox) +
+                                  vehicle("tug", R"(<boundingBox length="3000" width="1000" height="1"/>)"));
+  EXPECT_EQ(fleet.text,
+            "# vehicles of m.xml\n\n[[vehicle]]\nname = \"Gabel \\\"1\\\"\"\nshare = 2  # Gabel \"1\", 林 2\n"
+            "length_m = 2.1\nwidth_m = 0.9\ncentre_ahead_m = 0.3\nspeed_mps = 1.5\nreverse_speed_mps = 0.5\n"
+            "\n[[vehicle]]\nname = \"tug\"\nlength_m = 3\nwidth_m = 1\nspeed_mps = 1.5\nreverse_speed_mps = 0.5\n");
+}
+
+TEST(OpenTcsVehicles, SayWhatIsGuessedAndLeftOut) {
+  const auto old =
+      import_model(R"(<vehicle name="a" length="1000" maxVelocity="0" energyLevelGood="90" envelopeKey="e"/>)");
+  EXPECT_EQ(old.text, "# vehicles of m.xml\n\n[[vehicle]]\nname = \"a\"\nlength_m = 1\n");
+  EXPECT_THAT(old.sentences, AllOf(HasSubstr("m.xml:2: 1 vehicles have no width (\"a\")"),
+                                   HasSubstr("1 vehicles have no velocity above 0 (\"a\")"),
+                                   HasSubstr("1 vehicles cannot drive backward (\"a\")"),
+                                   HasSubstr("1 vehicles have an envelope key (\"a\")"),
+                                   HasSubstr("1 kinds of details of vehicles are left out (\"energyLevelGood\")")));
+  const auto aside =
+      import_model(vehicle("b", R"(<boundingBox length="1" width="1" height="1" referenceOffsetY="5"/>)"));
+  EXPECT_THAT(aside.sentences, HasSubstr("1 vehicles have their reference point beside their middle line (\"b\")"));
+}
+
+TEST(OpenTcsVehicles, AreRefusedWithTheirPlace) {
+  EXPECT_EQ(independent::refusal(import_model, ""),
+            "m.xml: has no <vehicle>; write the [[vehicle]] tables of the campaign by hand");
+  EXPECT_THAT(independent::refusal(import_model, vehicle("a", R"(<boundingBox length="0" width="1"/>)")),
+              HasSubstr("m.xml:2: length is 0 m; expected 1 to 100000 mm"));
+  const auto two = vehicle("a", kBox) + vehicle("b", kBox);
+  independent::bear_cuts(import_model, two, 100);
+  independent::bear_damage(import_model, two, 300, "<>\"= -.0");
+}
+
+const std::string kSheet = R"({"headerId": 1, "typeSpecification": {"seriesName": "Hauler 7", "agvClass": "TUGGER"},
+"physicalParameters": {"speedMin": 0.1, "speedMax": 1.8, "accelerationMax": 0.6, "decelerationMax": 0.9, "width": 0.8,
+"length": 2.0, "heightMax": 1}, "agvGeometry": {"envelopes2d": [{"set": "s", "polygonPoints": [{"x": -0.5, "y": -0.4},
+{"x": 1.5, "y": -0.4}, {"x": 1.5, "y": 0.4}, {"x": -0.5, "y": 0.4}]}]}})";
+
+TEST(Factsheet, IsAVehicle) {
+  const auto fleet = import_sheet(kSheet);
+  EXPECT_EQ(fleet.text,
+            "# vehicles of f.json\n\n[[vehicle]]\nname = \"Hauler 7\"\nlength_m = 2\nwidth_m = 0.8\n"
+            "centre_ahead_m = 0.5\nspeed_mps = 1.8\nacceleration_mps2 = 0.6\ndeceleration_mps2 = 0.9\n");
+  EXPECT_THAT(fleet.sentences,
+              AllOf(HasSubstr("f.json:2: gives no maximumAngularSpeed; turn_speed_radps stays 1"),
+                    HasSubstr("4 parts of the factsheet are left out (\"headerId\", \"typeSpecification.agvClass\", "
+                              "\"physicalParameters.speedMin\" and 1 more)")));
+}
+
+TEST(Factsheet, HasTheSpellingOfVersion3) {
+  const auto fleet = import_sheet(R"({"physicalParameters": {"maximumSpeed": 1.2, "maximumAcceleration": 0.3,
+    "maximumDeceleration": 0.4, "maximumAngularSpeed": 0.7, "length": 1.5, "width": 0.75}})");
+  EXPECT_EQ(
+      fleet.text,
+      "# vehicles of f.json\n\n[[vehicle]]\nname = \"pallet-agv\"\nlength_m = 1.5\nwidth_m = 0.75\nspeed_mps = 1.2\n"
+      "acceleration_mps2 = 0.3\ndeceleration_mps2 = 0.4\nturn_speed_radps = 0.7\n");
+}
+
+TEST(Factsheet, TheLargerOfBodyAndEnvelopeCounts) {
+  auto text = kSheet;
+  const auto fleet = import_sheet(text.replace(text.find("\"y\": 0.4"), 8, "\"y\": 0.6"));
+  EXPECT_THAT(fleet.text, HasSubstr("width_m = 1.2\n"));
+  EXPECT_THAT(fleet.sentences, HasSubstr("width_m is 0.8 m, and the envelope has 1.2 m; the larger counts"));
+}
+
+TEST(Factsheet, IsRefusedWithItsPlace) {
+  EXPECT_THAT(independent::refusal(import_sheet, "{}"), HasSubstr("has no physicalParameters"));
+  EXPECT_THAT(independent::refusal(import_sheet, R"({"physicalParameters": {"speedMax": -1}})"),
+              HasSubstr("/physicalParameters/speedMax: -1 is refused: expected 0.001 to 100"));
+  EXPECT_THAT(independent::refusal(import_sheet, R"({"physicalParameters": {"length": 1}})"),
+              HasSubstr("gives no length and width"));
+  independent::bear_cuts(import_sheet, kSheet, 100);
+  independent::bear_damage(import_sheet, kSheet, 300, "{}[]\",:-.0");
+}
+
+}  // namespace
+}  // namespace fleetproof
