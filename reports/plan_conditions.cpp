@@ -79,10 +79,10 @@ std::string layouts_text(const Json& layouts) {
 }
 
 std::string vehicle_text(const Json& vehicle) {
-  return fmt::format("{}: {:g} m x {:g} m, {:g} m/s, accelerates {:g} m/s², brakes {:g} m/s², share {}",
+  return fmt::format("{}: {:g} m x {:g} m, {:g} m/s, accelerates {:g} m/s², brakes {:g} m/s², share {:g}",
                      word(part(vehicle, "name")), number(vehicle, "length_m"), number(vehicle, "width_m"),
                      number(vehicle, "speed_mps"), number(vehicle, "acceleration_mps2"),
-                     number(vehicle, "deceleration_mps2"), percent(number(vehicle, "share")));
+                     number(vehicle, "deceleration_mps2"), number(vehicle, "share"));
 }
 
 std::string vehicles_text(const Json& vehicles) {

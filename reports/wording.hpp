@@ -31,6 +31,7 @@ std::string distance_text(double value_m);
 std::string metres_text(std::int64_t value_um);
 // "> 0.5 m" if no clearance was below 0.5 m, "-" without runs.
 std::string clearance_text(const Tally& tally);
+inline constexpr std::int64_t kSlack_um = 1;  // of clearances that are not violations: kBuiltToTheLimit_m
 std::string per_hour_text(const std::optional<double>& rate);
 std::string count_text(std::uint64_t count, std::string_view singular);  // "1 run", "3 runs"
 // "3", or "3 +5?" with five more that stayed unknown: what is not known is never called a failure.

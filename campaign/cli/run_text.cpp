@@ -46,6 +46,14 @@ std::string counters_text(const Outcome& outcome) {
   return text;
 }
 
+// The value of an incident with its unit; a word where the number stands for one.
+std::string value_text(const Incident& incident) {
+  if (incident.kind == IncidentKind::FaultInjected)
+    return name_of(static_cast<Fault::Kind>(static_cast<std::uint8_t>(incident.value)));
+  if (incident.kind == IncidentKind::ForeignBody) return incident.value == 1 ? "a fallen load" : "an obstacle";
+  return fmt::format("{}: {}", info_of(incident.kind).unit, incident.value);
+}
+
 std::string shown_name(const Scenario& scenario, EntityId id) { return printable(body_name(scenario, id)); }
 
 }  // namespace
@@ -69,8 +77,8 @@ std::string incident_text(const Scenario& scenario, const Incident& incident) {
   if (incident.b.valid()) whom += std::string(incident.a.valid() ? " ->" : "") + " " + shown_name(scenario, incident.b);
   const std::string until =
       incident.last > incident.first ? fmt::format(" to {:.3f} s", to_seconds(incident.last)) : "";
-  return fmt::format("{}:{} from {:.3f} s{}; {} ({}: {})", info.name, whom, to_seconds(incident.first), until,
-                     info.meaning, info.unit, incident.value);
+  return fmt::format("{}:{} from {:.3f} s{}; {} ({})", info.name, whom, to_seconds(incident.first), until, info.meaning,
+                     value_text(incident));
 }
 
 std::string differences_text(const Scenario& scenario, const std::vector<Difference>& differences,
@@ -122,7 +130,7 @@ std::string outcome_text(const Scenario& scenario, const Outcome& outcome, bool 
   }
   for (const Incident& incident : outcome.incidents) text += "  " + incident_text(scenario, incident) + "\n";
   if (outcome.min_clearance_um) {
-    text += fmt::format("  smallest clearance {:.2f} m\n", to_centimetre(*outcome.min_clearance_um));
+    text += fmt::format("  smallest clearance {:.2f} m\n", to_centimetre(*outcome.min_clearance_um + kSlack_um));
   } else {
     text += clearance_measured ? "  smallest clearance > 0.5 m\n" : "  smallest clearance not measured\n";
   }

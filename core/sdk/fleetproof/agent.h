@@ -25,7 +25,13 @@
  * agent may use those "since minor n" if the host's abi_minor is n or more.
  *
  * Units: metres, metres per second, nanoseconds (64-bit, since the start of the run), radians. Headings are unit
- * vectors in the world frame.
+ * vectors in the world frame. Numbers of AGVs, stations, lanes and segments are the same for every agent of a run.
+ *
+ * Motion. Positions are those of the reference point. Before a drive whose lane begins with another heading, the AGV
+ * turns on the spot, about its reference point, by the shorter way; half a turn may go either way. A difference of less
+ * than 1e-7 rad is no turn. The footprint has its size with a load from the end of a pick to the end of a drop; the
+ * load extends it by equal parts at both ends and both sides, so that centre_ahead_m stays. map.h says what arcs
+ * promise.
  */
 #ifndef FLEETPROOF_AGENT_H
 #define FLEETPROOF_AGENT_H
@@ -116,7 +122,8 @@ typedef struct fp_briefing {
   const char* config; /* the agent's own parameters, as text; never null */
   /* Since minor 1. `boot` says how often this AGV's computer has restarted in this run. The computer keeps only this
    * number. After a restart, start_station is the station at which the AGV stands, or which it left last. start_segment
-   * is the segment that the AGV is driving, or FP_NONE. next_segment is the segment that the AGV will drive next,
+   * is the segment of the action under way until the AGV has reached its end, also while it turns towards it, or
+   * FP_NONE. next_segment is the segment that the AGV will drive next,
    * because of a call before the restart, or FP_NONE; both with FP_BACKWARD, if the AGV drives backward. For the
    * actions under way, FP_EVENT_ACTION_DONE still follows. */
   uint32_t boot;
@@ -179,7 +186,7 @@ typedef struct fp_host {
   int32_t (*send_unicast)(fp_controller*, const void* bytes, uint32_t size, uint32_t receiver);
 
   /* Perceptions. */
-  int32_t (*get_position)(fp_controller*, fp_pose* out);
+  int32_t (*get_position)(fp_controller*, fp_pose* out);     /* perceived: it may be late, and wrong by a little */
   int32_t (*get_battery_level)(fp_controller*, double* out); /* 0 .. 1 */
   int32_t (*get_message)(fp_controller*, fp_message* out);   /* set out->struct_size first */
   int32_t (*is_loaded)(fp_controller*, uint32_t* out);       /* 0 or 1 */
