@@ -67,16 +67,20 @@ Scenario side_by_side(const LoadEffect& loaded) {
   return s;
 }
 
-Outcome outcome_of(const Scenario& s) {
+Outcome outcome_of(const Scenario& s, const char* agent) {
   const AgentPrograms programs;
   std::vector<std::unique_ptr<Law>> laws;
   laws.push_back(find_law("exact")->make(s));
-  return simulate(s, programs.find("hull-lock", "test"), laws);
+  return simulate(s, programs.find(agent, "test"), laws);
 }
 
 TEST(StartRoom, AnAgvThatPicksWhereItStartsGrowsIntoItsNeighbour) {
-  EXPECT_FALSE(outcome_of(side_by_side({.extra_width_m = 0.1})).violation);
-  EXPECT_TRUE(outcome_of(side_by_side({.extra_width_m = 0.4})).violation) << "no agent can prevent this";
+  EXPECT_FALSE(outcome_of(side_by_side({.extra_width_m = 0.1}), "reckless").violation);
+  EXPECT_TRUE(outcome_of(side_by_side({.extra_width_m = 0.4}), "reckless").violation);
+  const Outcome sound = outcome_of(side_by_side({.extra_width_m = 0.4}), "hull-lock");
+  EXPECT_FALSE(sound.violation) << "it does not pick without room for the loaded body";
+  EXPECT_EQ(sound.counters.transports_done, 0U);
+  EXPECT_EQ(outcome_of(side_by_side({.extra_width_m = 0.1}), "hull-lock").counters.transports_done, 1U);
 }
 
 TEST(StartRoom, TheValidatorMeasuresLoadedBodies) {

@@ -26,7 +26,6 @@
  *
  * Units: metres, metres per second, nanoseconds (64-bit, since the start of the run), radians. Headings are unit
  * vectors in the world frame. Numbers of AGVs, stations, lanes and segments are the same for every agent of a run.
- *
  * Motion. Positions are those of the reference point. Before a drive whose lane begins with another heading, the AGV
  * turns on the spot, about its reference point, by the shorter way; half a turn may go either way. A difference of less
  * than 1e-7 rad is no turn. The footprint has its size with a load from the end of a pick to the end of a drop; the
