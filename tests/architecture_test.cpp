@@ -56,13 +56,14 @@ const std::map<std::string, std::set<std::string>> kMayInclude = [] {
       {"reports/evidence", {"core/base", "core/outcome", "storage"}},
       {"reports", {"core/base", "core/outcome", "storage", "reports/evidence"}},
       {"reports/html", {"core/base", "core/outcome", "storage", "reports/evidence", "reports"}},
+      {"reports/web", {"core/base", "core/outcome", "storage", "reports/evidence", "reports", "reports/html"}},
   };
   rooms["campaign/plan"] = with(with(model, generators), {"core/outcome", "laws", "storage"});
   rooms["campaign/run"] = with(with(core, generators), {"core/engine", "core/sdk", "core/agents", "laws", "storage",
                                                         "reports/evidence", "campaign/plan"});
   rooms["campaign/workers"] = with(rooms["campaign/run"], {"campaign/run"});
   rooms["campaign/batch"] = with(rooms["campaign/workers"], {"campaign/workers"});
-  rooms["campaign/cli"] = with(rooms["campaign/batch"], {"campaign/batch", "reports", "reports/html"});
+  rooms["campaign/cli"] = with(rooms["campaign/batch"], {"campaign/batch", "reports", "reports/html", "reports/web"});
   return rooms;
 }();
 

@@ -8,6 +8,7 @@
 #include "generators/text/json_value.hpp"
 #include "generators/text/text_file.hpp"
 #include "generators/text/text_lines.hpp"
+#include "reports/web/replay_page.hpp"
 
 namespace fleetproof::cli {
 namespace {
@@ -33,7 +34,8 @@ bool is_picture(std::string_view text) {
 bool is_scenario(std::string_view text) { return has_key(text, "agvs"); }
 // Every format for people begins with the title.
 bool is_report(std::string_view text) {
-  const bool is_page = text.starts_with("<!DOCTYPE html>") && text.find("fleetproof report") != std::string_view::npos;
+  const bool is_page =
+      text.starts_with("<!DOCTYPE html>") && text.find("content=\"fleetproof report\"") != std::string_view::npos;
   return is_page || text.starts_with("fleetproof report") || text.starts_with("# fleetproof report") ||
          text.find("<testsuites name=\"fleetproof\"") != std::string_view::npos ||
          (has_key(text, "schema_version") && has_key(text, "verdict"));
@@ -50,6 +52,9 @@ bool is_chrome_trace(std::string_view text) { return has_key(text, "traceEvents"
 bool is_poses(std::string_view text) { return text.starts_with("body,t_s,"); }
 bool is_sensitivity(std::string_view text) { return has_key(text, "worlds") && has_key(text, "faults"); }
 
+bool is_replay_page(std::string_view text) {
+  return text.starts_with("<!DOCTYPE html>") && text.find(web::kReplayPageMark) != std::string_view::npos;
+}
 bool is_fleet(std::string_view text) { return text.starts_with("# vehicles of "); }
 
 struct Kind {
@@ -69,6 +74,7 @@ constexpr Kind kKinds[] = {{"a layout file", is_layout},
                            {"a file of pieces", is_pieces},
                            {"a file of poses", is_poses},
                            {"a Chrome trace", is_chrome_trace},
+                           {"a replay page", is_replay_page},
                            {"a file of vehicles", is_fleet}};
 
 std::string remedy_of(const OutputFile& file) { return "choose another path for " + file.option; }

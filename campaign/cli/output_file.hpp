@@ -19,6 +19,7 @@ enum class OutputKind : std::uint8_t {
   Pieces,
   Poses,
   ChromeTrace,
+  ReplayPage,
   Fleet
 };
 

@@ -20,7 +20,7 @@
 namespace fleetproof::cli {
 namespace {
 
-struct ReplayWords {
+struct ReplayVerbWords {
   std::string archive, scenario_out;
   std::uint64_t run = 0;
   std::vector<std::string> plugins;
@@ -61,7 +61,7 @@ void tell_other_software(const ArchiveReader& archive, const AgentProgram& agent
 }
 
 // By the software itself.
-ReplayResult replay_software(const ReplayWords& words, const ArchiveReader& archive, const CampaignPlan& plan,
+ReplayResult replay_software(const ReplayVerbWords& words, const ArchiveReader& archive, const CampaignPlan& plan,
                              AgentPrograms& programs, TraceSink* sink) {
   // A trace is printed while the run goes on, so it needs the agent in this process.
   const bool in_process = words.in_process || sink != nullptr;
@@ -72,7 +72,7 @@ ReplayResult replay_software(const ReplayWords& words, const ArchiveReader& arch
 }
 
 // By the software, if it is at hand and the audits found nothing against it; else from the recording, if there is one.
-ReplayResult replay_either_way(const ReplayWords& words, const ArchiveReader& archive, const CampaignPlan& plan,
+ReplayResult replay_either_way(const ReplayVerbWords& words, const ArchiveReader& archive, const CampaignPlan& plan,
                                AgentPrograms& programs, TraceSink* sink) {
   const bool wants_software = words.in_process || !words.plugins.empty();
   if (wants_software || !archive.recording(words.run)) return replay_software(words, archive, plan, programs, sink);
@@ -98,7 +98,19 @@ void print_text(const ReplayResult& result, const CellRecord& cell, const Scenar
   if (other_outcome) put("  stored outcome: {}\n", name_of(result.stored.outcome.outcome_class()));
 }
 
-int replay_run(const ReplayWords& words) {
+// What a replay page says of a run of a campaign.
+ReplayWords page_words(const ReplayVerbWords& words, const CellRecord& cell) {
+  return {replay_command(words.archive, words.run), {{"run", fmt::format("{}", words.run)}, {"agent", cell.agent}}};
+}
+
+// On a replay page that does not show the run of the archive.
+std::string remark_of(const ReplayResult& result) {
+  if (result.verdict == ReplayVerdict::Reproduced) return {};
+  return fmt::format("{}: this page does not show the run of the archive. {}", name_of(result.verdict),
+                     result.explanation);
+}
+
+int replay_run(const ReplayVerbWords& words) {
   const ArchiveReader archive(words.archive, Checksums::Ignore);
   const CampaignPlan plan = parse_plan(archive.campaign().plan_json);
   const ScenarioSource source(plan);
@@ -114,11 +126,12 @@ int replay_run(const ReplayWords& words) {
   std::optional<RunObservers> observed;
   if (words.observed.wanted()) {
     const auto stored = archive.run(words.run);
-    observed.emplace(words.observed, scenario, stored ? stored->outcome.violations : std::vector<Violation>());
+    observed.emplace(words.observed, scenario, stored ? stored->outcome.violations : std::vector<Violation>(),
+                     page_words(words, cell));
   }
   AgentPrograms programs;
   const ReplayResult result = replay_either_way(words, archive, plan, programs, observed ? &*observed : nullptr);
-  if (observed) observed->finish(result.recomputed.outcome);
+  if (observed) observed->finish(result.recomputed.outcome, remark_of(result));
   if (!words.scenario_out.empty())
     write_whole({words.scenario_out, "--scenario", OutputKind::Scenario}, printable_json(to_text(scenario)));
   if (words.json) {
@@ -144,7 +157,7 @@ int replay_run(const ReplayWords& words) {
 }  // namespace
 
 Action prepare_replay(Options& options) {
-  auto words = std::make_shared<ReplayWords>();
+  auto words = std::make_shared<ReplayVerbWords>();
   options.positional("DB", words->archive, "campaign file");
   options.positional("RUN", words->run, "run index");
   options.option("--plugin", words->plugins,

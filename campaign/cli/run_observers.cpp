@@ -22,6 +22,8 @@ OutputFile poses_file(const ObserverWords& words) { return {words.poses, "--pose
 
 OutputFile chrome_file(const ObserverWords& words) { return {words.chrome, "--chrome-trace", OutputKind::ChromeTrace}; }
 
+OutputFile html_file(const ObserverWords& words) { return {words.html, "--html", OutputKind::ReplayPage}; }
+
 }  // namespace
 
 void add_observer_options(Options& options, ObserverWords& words) {
@@ -30,17 +32,24 @@ void add_observer_options(Options& options, ObserverWords& words) {
   options.option("--poses", words.poses, "write the pose of every body at equal steps to this file (CSV)");
   options.option("--chrome-trace", words.chrome,
                  "write activities and messages to this file, for Perfetto (ui.perfetto.dev) and chrome://tracing");
+  options.option("--html", words.html,
+                 "write a page to this file that shows the run in a browser: floor, messages, beliefs, clearance");
   options.option("--every-ms", words.every_ms, "step of --poses in milliseconds (default: 10)");
 }
 
-RunObservers::RunObservers(const ObserverWords& words, const Scenario& scenario, std::vector<Violation> violations)
-    : words_(words), scenario_(scenario) {
+RunObservers::RunObservers(const ObserverWords& words, const Scenario& scenario, std::vector<Violation> violations,
+                           ReplayWords replay)
+    : words_(words), scenario_(scenario), replay_(std::move(replay)) {
   step_of(words);
   if (!words.pieces.empty()) require_writable(pieces_file(words));
   if (!words.poses.empty()) require_writable(poses_file(words));
   if (!words.chrome.empty()) {
     require_writable(chrome_file(words));
     chrome_.emplace(scenario);
+  }
+  if (!words.html.empty()) {
+    require_writable(html_file(words));
+    film_.emplace(scenario);
   }
   if (words.trace.wanted()) trace_.emplace(words.trace, scenario, std::move(violations));
   if (!words.pieces.empty() || !words.poses.empty()) pieces_.emplace(*scenario.map);
@@ -49,18 +58,21 @@ RunObservers::RunObservers(const ObserverWords& words, const Scenario& scenario,
 void RunObservers::record(const TraceRecord& record, std::string_view text) {
   if (trace_) trace_->sink().record(record, text);
   if (chrome_) chrome_->record(record, text);
+  if (film_) film_->record(record, text);
 }
 
 void RunObservers::piece_started(const Piece& piece) {
   if (trace_) trace_->sink().piece_started(piece);
   if (chrome_) chrome_->piece_started(piece);
+  if (film_) film_->piece_started(piece);
 }
 
 void RunObservers::piece_ended(const Piece& piece) {
   if (pieces_) pieces_->piece_ended(piece);
+  if (film_) film_->piece_ended(piece);
 }
 
-void RunObservers::finish(const Outcome& outcome) {
+void RunObservers::finish(const Outcome& outcome, const std::string& remark) {
   if (trace_) trace_->finish();
   if (!words_.pieces.empty()) write_whole(pieces_file(words_), pieces_json(scenario_, pieces_->pieces()));
   if (!words_.poses.empty()) write_whole(poses_file(words_), poses_csv(scenario_, pieces_->pieces(), step_of(words_)));
@@ -68,6 +80,7 @@ void RunObservers::finish(const Outcome& outcome) {
     const SimTime end = at_ns(static_cast<std::int64_t>(outcome.simulated_ns));
     write_whole(chrome_file(words_), chrome_->text(outcome.violations, end));
   }
+  if (film_) write_whole(html_file(words_), replay_html(*film_, scenario_, outcome, replay_, remark));
 }
 
 }  // namespace fleetproof::cli

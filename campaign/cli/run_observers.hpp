@@ -7,6 +7,7 @@
 #include "campaign/cli/chrome_trace.hpp"
 #include "campaign/cli/command_line.hpp"
 #include "campaign/cli/pieces_file.hpp"
+#include "campaign/cli/replay_file.hpp"
 #include "campaign/cli/trace_words.hpp"
 
 namespace fleetproof::cli {
@@ -14,10 +15,12 @@ namespace fleetproof::cli {
 // What the user wants to see or keep of one run, besides its outcome.
 struct ObserverWords {
   TraceWords trace;
-  std::string pieces, poses, chrome;
+  std::string pieces, poses, chrome, html;
   std::optional<std::uint64_t> every_ms;
 
-  bool wanted() const { return trace.wanted() || !pieces.empty() || !poses.empty() || !chrome.empty(); }
+  bool wanted() const {
+    return trace.wanted() || !pieces.empty() || !poses.empty() || !chrome.empty() || !html.empty();
+  }
 };
 
 void add_observer_options(Options& options, ObserverWords& words);
@@ -27,13 +30,14 @@ class RunObservers final : public TraceSink {
  public:
   // `violations` of the run, if they are known before it. Throws InputError. Requires: words and scenario outlive the
   // observers.
-  RunObservers(const ObserverWords& words, const Scenario& scenario, std::vector<Violation> violations);
+  RunObservers(const ObserverWords& words, const Scenario& scenario, std::vector<Violation> violations,
+               ReplayWords replay);
 
   void record(const TraceRecord& record, std::string_view text) override;
   void piece_started(const Piece& piece) override;
   void piece_ended(const Piece& piece) override;
-  // Call this after the run: writes the files.
-  void finish(const Outcome& outcome);
+  // Call this after the run: writes the files. `remark` is for the replay page.
+  void finish(const Outcome& outcome, const std::string& remark = {});
 
  private:
   const ObserverWords& words_;
@@ -41,6 +45,8 @@ class RunObservers final : public TraceSink {
   std::optional<TraceOutput> trace_;
   std::optional<PieceKeeper> pieces_;
   std::optional<ChromeTrace> chrome_;
+  ReplayWords replay_;
+  std::optional<FilmRecorder> film_;
 };
 
 }  // namespace fleetproof::cli

@@ -12,6 +12,7 @@
 #include "campaign/cli/verbs.hpp"
 #include "campaign/run/agent_programs.hpp"
 #include "core/base/error.hpp"
+#include "core/base/outside_text.hpp"
 #include "core/engine/simulation.hpp"
 #include "generators/formats/purpose_words.hpp"
 #include "generators/scenario_file/scenario_file.hpp"
@@ -187,6 +188,16 @@ std::vector<Violation> violations_before(const SimulateWords& words, const Scena
   return simulate(scenario, agent, observers.laws, nullptr, words.config.c_str()).violations;
 }
 
+// What a replay page says of the run of a scenario file. A word that was not given is not in the command.
+ReplayWords page_words(const SimulateWords& words) {
+  std::string command = "fleetproof simulate " + shell_word(words.scenario) + " --agent " + shell_word(words.agent);
+  for (const std::string& plugin : words.plugins) command += " --plugin " + shell_word(plugin);
+  if (!words.config.empty()) command += " --agent-config " + shell_word(words.config);
+  if (words.law != laws().front().name) command += " --law " + shell_word(words.law);
+  if (!words.granularity.empty()) command += " --granularity " + shell_word(words.granularity);
+  return {command, {{"agent", words.agent}}};
+}
+
 int simulate_scenario(SimulateWords words) {
   Scenario scenario = read_scenario(words.scenario);
   if (!words.granularity.empty()) scenario.law.snapshot_s = granularity_s(words.granularity);
@@ -197,7 +208,8 @@ int simulate_scenario(SimulateWords words) {
   const fp_agent_type& agent = programs.find(words.agent, "--agent");
   const Observers observers = observers_of(words.law, scenario);
   std::optional<RunObservers> observed;
-  if (words.observed.wanted()) observed.emplace(words.observed, scenario, violations_before(words, scenario, agent));
+  if (words.observed.wanted())
+    observed.emplace(words.observed, scenario, violations_before(words, scenario, agent), page_words(words));
   const Outcome outcome =
       simulate(scenario, agent, observers.laws, observed ? &*observed : nullptr, words.config.c_str());
   if (observed) observed->finish(outcome);

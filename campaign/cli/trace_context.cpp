@@ -25,16 +25,19 @@ double degrees(const Vec2& heading) { return std::atan2(heading.y(), heading.x()
 
 }  // namespace
 
-Piece with_curve_of(const LogicalMap& map, const Piece& piece) {
-  Piece own = piece;
-  if (piece.manner != Manner::Drive) return own;
-  const Vec2 begin_m = piece.curve->pose_at(0.0).position_m;
+const Lane& lane_of(const LogicalMap& map, const Piece& drive) {
+  const Vec2 begin_m = drive.curve->pose_at(0.0).position_m;
   const auto lane = std::ranges::find_if(map.lanes(), [&](const Lane& candidate) {
-    return candidate.segment == piece.segment && candidate.curve.is_tail_first() == piece.curve->is_tail_first() &&
+    return candidate.segment == drive.segment && candidate.curve.is_tail_first() == drive.curve->is_tail_first() &&
            candidate.curve.pose_at(0.0).position_m == begin_m;
   });
   ensure(lane != map.lanes().end(), "a drive follows a lane of the scenario's map");
-  own.curve = &lane->curve;
+  return *lane;
+}
+
+Piece with_curve_of(const LogicalMap& map, const Piece& piece) {
+  Piece own = piece;
+  if (piece.manner == Manner::Drive) own.curve = &lane_of(map, piece).curve;
   return own;
 }
 

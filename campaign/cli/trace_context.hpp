@@ -32,6 +32,8 @@ struct TracedMotion {
   std::string where;         // "on s1-s2 from station A to B, backward", or "at station A"; empty: neither
 };
 
+// The lane of the map that a drive follows.
+const Lane& lane_of(const LogicalMap& map, const Piece& drive);
 // The piece with the curve of this map instead of an equal curve of a map that may be gone after the run.
 Piece with_curve_of(const LogicalMap& map, const Piece& piece);
 

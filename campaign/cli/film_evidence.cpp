@@ -1,0 +1,141 @@
+#include "campaign/cli/film_evidence.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "campaign/cli/film_floor.hpp"
+#include "campaign/cli/run_text.hpp"
+#include "core/base/outside_text.hpp"
+#include "reports/wording.hpp"
+
+namespace fleetproof::cli {
+namespace {
+
+constexpr std::int64_t kTalk_us = 10'000'000;
+constexpr std::int64_t kFaultsBefore_us = 120'000'000;
+
+double in_seconds(std::int64_t us) { return static_cast<double>(us) / 1e6; }
+
+// The last row of `body` at or before an instant; null if there is none.
+template <class Row>
+const Row* last_until(const std::vector<Row>& rows, std::size_t body, std::int64_t at_us) {
+  const Row* found = nullptr;
+  for (const Row& row : rows) {
+    if (row.body == body && row.at_us <= at_us) found = &row;
+  }
+  return found;
+}
+
+}  // namespace
+
+std::string FilmEvidence::name(EntityId id) const { return printable(body_name(scenario_, id)); }
+
+std::string FilmEvidence::doing(EntityId body, SimTime at) const {
+  const Piece* piece = piece_at(bodies_, body, at);
+  if (piece == nullptr) return name(body) + " was not on the floor.";
+  if (!is_agv(body)) return name(body) + " lay on the floor.";
+  const std::int64_t at_us = film_us(at);
+  const web::ActivityBar* activity = nullptr;
+  for (const web::ActivityBar& bar : film_.activities) {
+    if (bar.body == body.index() && bar.begin_us <= at_us && at_us <= bar.end_us) activity = &bar;
+  }
+  const Pose pose = piece->pose_at(at);
+  std::string text = fmt::format("{} ", name(body));
+  if (piece->manner == Manner::Drive) {
+    text += fmt::format("was driving from {} at {:.2f} m/s", activity == nullptr ? "" : activity->details,
+                        piece->speed_at(at));
+  } else if (piece->manner == Manner::Turn) {
+    text += fmt::format("was turning on the spot at ({:.2f}, {:.2f}) m", pose.position_m.x(), pose.position_m.y());
+  } else {
+    text += fmt::format("stood at ({:.2f}, {:.2f}) m{}", pose.position_m.x(), pose.position_m.y(),
+                        activity == nullptr ? "" : ", activity " + activity->kind);
+  }
+  if (const web::Declared* state = last_until(film_.states, body.index(), at_us);
+      state != nullptr && !state->word.empty())
+    text += fmt::format("; its agent said \"{}\" since {:.2f} s", state->word, in_seconds(state->at_us));
+  if (const web::Waiting* wait = last_until(film_.waits, body.index(), at_us); wait != nullptr && wait->for_whom)
+    text += fmt::format(" and that it waited for {}", name(EntityId{*wait->for_whom}));
+  return text + ".";
+}
+
+std::vector<std::string> FilmEvidence::belief(EntityId agv, EntityId other, SimTime at) const {
+  if (!is_agv(agv) || !is_agv(other)) return {};
+  const web::Belief* last = nullptr;
+  bool any = false;
+  const std::int64_t at_us = film_us(at);
+  for (const web::Belief& b : film_.beliefs) {
+    any = any || b.body == agv.index();
+    if (b.body == agv.index() && b.about == other.index() && b.at_us <= at_us) last = &b;
+  }
+  if (!any) return {};
+  if (last == nullptr)
+    return {fmt::format("The agent of {} had no belief about where {} was.", name(agv), name(other))};
+  std::string text = fmt::format(
+      "The agent of {} believed {} to be at ({:.2f}, {:.2f}) m, as of {:.2f} s: {:.1f} s old", name(agv), name(other),
+      in_seconds(last->x_um), in_seconds(last->y_um), in_seconds(last->as_of_us), in_seconds(at_us - last->as_of_us));
+  if (const Piece* piece = piece_at(bodies_, other, at)) {
+    const Vec2 believed(in_seconds(last->x_um), in_seconds(last->y_um));
+    text += fmt::format(", {:.1f} m from where it was", (piece->pose_at(at).position_m - believed).norm());
+  }
+  return {text + "."};
+}
+
+std::string FilmEvidence::messages_between(EntityId sender, EntityId receiver, SimTime at) const {
+  const std::int64_t at_us = film_us(at);
+  std::size_t sent = 0, lost = 0, under_way = 0;
+  const web::Message* newest = nullptr;
+  std::int64_t newest_age_us = 0, newest_at_us = -1;
+  for (const web::Message& m : film_.messages) {
+    if (m.sender != sender.index() || m.sent_us > at_us) continue;
+    for (const web::Arrival& arrival : m.arrivals) {
+      if (arrival.receiver != receiver.index()) continue;
+      const bool recent = m.sent_us >= at_us - kTalk_us, received = arrival.fate == web::Fate::Received;
+      sent += recent;
+      lost += recent && !received;
+      under_way += recent && received && m.sent_us + arrival.after_us > at_us;
+      if (!received || m.sent_us + arrival.after_us > at_us || m.sent_us + arrival.after_us < newest_at_us) continue;
+      newest = &m;
+      newest_at_us = m.sent_us + arrival.after_us;
+      newest_age_us = arrival.after_us;
+    }
+  }
+  std::string text =
+      fmt::format("In the {:.0f} s before, {} sent {} to {}: {} lost, {} still under way", in_seconds(kTalk_us),
+                  name(sender), count_text(sent, "message"), name(receiver), lost, under_way);
+  if (sent == 0)
+    text = fmt::format("In the {:.0f} s before, {} sent no message to {}", in_seconds(kTalk_us), name(sender),
+                       name(receiver));
+  if (newest == nullptr) return text + "; none had ever arrived.";
+  return text +
+         fmt::format("; the last that arrived was #{} {}, sent at {:.2f} s, received at {:.2f} s ({:.2f} s old then).",
+                     newest->number, newest->kind, in_seconds(newest->sent_us), in_seconds(newest_at_us),
+                     in_seconds(newest_age_us));
+}
+
+std::vector<std::string> FilmEvidence::messages(EntityId one, EntityId other, SimTime at) const {
+  if (!is_agv(one) || !is_agv(other)) return {};
+  if (film_.messages.empty()) return {"No AGV sent any message in this run: the agents did not coordinate."};
+  const auto sends = [&](EntityId agv) {
+    return std::ranges::any_of(
+        film_.messages, [&](const web::Message& m) { return m.sender == agv.index() && m.sent_us <= film_us(at); });
+  };
+  if (!sends(one) && !sends(other))
+    return {fmt::format("Until then, neither {} nor {} had sent a message.", name(one), name(other))};
+  return {messages_between(one, other, at), messages_between(other, one, at)};
+}
+
+std::string FilmEvidence::faults(const std::vector<std::size_t>& bodies, SimTime at) const {
+  const std::int64_t at_us = film_us(at);
+  std::vector<std::string> found;
+  for (const web::Happening& h : film_.happenings) {
+    if (!h.is_fault || h.at_us > at_us || h.at_us < at_us - kFaultsBefore_us) continue;
+    if (std::ranges::find(bodies, h.body) == bodies.end()) continue;
+    found.push_back(fmt::format("{} of {}: {} at {:.2f} s, {:.2f} s before", h.details, name(EntityId{h.body}), h.what,
+                                in_seconds(h.at_us), in_seconds(at_us - h.at_us)));
+  }
+  if (found.empty()) return "No injected fault struck them in the two minutes before.";
+  return "Faults before it: " + joined(found, "; ") + ".";
+}
+
+}  // namespace fleetproof::cli

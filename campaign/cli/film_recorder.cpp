@@ -1,0 +1,204 @@
+#include "campaign/cli/film_recorder.hpp"
+
+#include <fmt/format.h>
+
+#include <numeric>
+
+#include "campaign/cli/film_floor.hpp"
+#include "campaign/cli/run_text.hpp"
+#include "campaign/cli/trace_details.hpp"
+#include "core/base/outside_text.hpp"
+#include "core/outcome/note_records.hpp"
+
+namespace fleetproof::cli {
+namespace {
+
+constexpr std::size_t kLongestText = 160;
+
+bool is_fault(TraceKind kind) {
+  return kind == TraceKind::FaultStrikes || kind == TraceKind::FaultOver || kind == TraceKind::AgentCrashed ||
+         kind == TraceKind::AgentHung || kind == TraceKind::BatteryEmpty;
+}
+bool is_note(TraceKind kind) {
+  return kind == TraceKind::Probe || kind == TraceKind::Log || kind == TraceKind::NotesLeftOut;
+}
+
+web::Fate fate_of(TraceKind kind) {
+  switch (kind) {
+    case TraceKind::LostInOutage:
+      return web::Fate::LostInOutage;
+    case TraceKind::LostByInterference:
+      return web::Fate::LostByInterference;
+    case TraceKind::LostToSource:
+      return web::Fate::LostToSource;
+    case TraceKind::Lost:
+      return web::Fate::LostByChance;
+    default:
+      return web::Fate::Received;
+  }
+}
+
+// The transports of a scenario have one number after the other.
+const TransportOrder& order_of(const Scenario& scenario, std::size_t number) {
+  std::size_t agv = 0;
+  while (number >= scenario.agvs[agv].transports.size()) number -= scenario.agvs[agv++].transports.size();
+  return scenario.agvs[agv].transports[number];
+}
+
+}  // namespace
+
+FilmRecorder::FilmRecorder(const Scenario& scenario)
+    : scenario_(scenario), context_(scenario), pieces_(*scenario.map) {}
+
+void FilmRecorder::piece_started(const Piece& piece) {
+  context_.note(piece);
+  if (piece.manner != Manner::Drive) return;
+  const Lane& lane = lane_of(*scenario_.map, piece);
+  way_of_[piece.entity] = fmt::format("{} to {}{}", scenario_.map->station(lane.from).name,
+                                      scenario_.map->station(lane.to).name, lane.is_backward() ? ", backward" : "");
+}
+
+void FilmRecorder::record(const TraceRecord& record, std::string_view text) {
+  context_.note(record, text);
+  switch (record.kind) {
+    case TraceKind::ActivityBegins:
+    case TraceKind::ActivityEnds:
+      return note_activity(record);
+    case TraceKind::Sent:
+    case TraceKind::Received:
+    case TraceKind::Lost:
+    case TraceKind::LostInOutage:
+    case TraceKind::LostByInterference:
+    case TraceKind::LostToSource:
+      return note_message(record);
+    case TraceKind::Belief:
+      return note_belief(record);
+    case TraceKind::WaitingFor:
+      return note_waiting(record);
+    case TraceKind::AgentState:
+      film_.states.push_back({record.entity.index(), film_us(record.at), printable(text, kLongestText)});
+      return;
+    case TraceKind::Described:
+    case TraceKind::FateDecided:
+    case TraceKind::TimerWentOff:
+      return;
+    case TraceKind::LoadMoves:
+      return note_load(record);
+    case TraceKind::OrderReleased:
+    case TraceKind::TransportDone:
+      return note_order(record);
+    default:
+      return note_happening(record, text);
+  }
+}
+
+void FilmRecorder::end_activity(std::size_t body, SimTime at) {
+  const auto open = open_.find(body);
+  if (open == open_.end()) return;
+  open->second.end_us = film_us(at);
+  film_.activities.push_back(std::move(open->second));
+  open_.erase(open);
+}
+
+void FilmRecorder::note_activity(const TraceRecord& record) {
+  const std::size_t body = record.entity.index();
+  end_activity(body, record.at);
+  if (record.kind == TraceKind::ActivityEnds) return;
+  const ActivityKind kind = traced::activity_of(record);
+  web::ActivityBar bar{body, film_us(record.at), 0, name_of(kind), {}};
+  if (kind == ActivityKind::Drive) bar.details = way_of_[record.entity];
+  if (kind == ActivityKind::Turn) bar.details = fmt::format("to {:.0f}\u00b0", context_.turn_goal_deg(record.entity));
+  open_[body] = std::move(bar);
+}
+
+void FilmRecorder::note_message(const TraceRecord& record) {
+  const TracedMessage& traced = context_.message_of(record);
+  if (record.kind == TraceKind::Sent) {
+    message_of_[traced.number] = film_.messages.size();
+    web::Message& message = film_.messages.emplace_back();
+    message.number = traced.number;
+    message.bytes = traced.bytes;
+    message.sender = traced.sender.index();
+    if (traced.receiver.valid()) message.receiver = traced.receiver.index();
+    message.sent_us = film_us(record.at);
+    message.kind = printable(traced.kind, kLongestText);
+    return;
+  }
+  web::Message& message = film_.messages[message_of_.at(traced.number)];
+  message.arrivals.push_back({record.entity.index(), fate_of(record.kind), film_us(record.at) - message.sent_us});
+}
+
+void FilmRecorder::note_belief(const TraceRecord& record) {
+  const auto belief = read<traced::Belief>(record);
+  const NotedPose& where = belief.where;
+  web::Belief noted;
+  noted.body = record.entity.index();
+  noted.about = belief.about.index();
+  noted.at_us = film_us(record.at);
+  noted.as_of_us = film_us(Duration{belief.as_of_ns});
+  noted.x_um = std::int64_t{where.x_mm} * 1000;
+  noted.y_um = std::int64_t{where.y_mm} * 1000;
+  if (where.has_heading()) {
+    const Vec2 heading(where.heading_x, where.heading_y);
+    noted.heading_urad = film_urad(heading);
+  }
+  if (noted.about < scenario_.agvs.size()) film_.beliefs.push_back(noted);
+}
+
+// An agent repeats itself: only what changes is kept.
+void FilmRecorder::note_waiting(const TraceRecord& record) {
+  const AgvId agv = read<traced::WaitingFor>(record).agv;
+  const std::size_t body = record.entity.index();
+  std::optional<std::size_t> for_whom;
+  if (agv.valid() && agv.index() < scenario_.agvs.size()) for_whom = agv.index();
+  const auto [known, fresh] = waits_.emplace(body, std::nullopt);
+  if (known->second == for_whom) return;
+  known->second = for_whom;
+  film_.waits.push_back({body, film_us(record.at), for_whom});
+}
+
+void FilmRecorder::note_load(const TraceRecord& record) {
+  const auto [load, to] = read<traced::LoadMoves>(record);
+  const auto before = carrier_of_.find(load);
+  if (before != carrier_of_.end()) {
+    film_.loads.push_back({before->second, film_us(record.at), false});
+    carrier_of_.erase(before);
+  }
+  if (to.kind == Holder::Kind::Agv) {
+    film_.loads.push_back({to.index, film_us(record.at), true});
+    carrier_of_[load] = to.index;
+  }
+}
+
+void FilmRecorder::note_order(const TraceRecord& record) {
+  const bool released = record.kind == TraceKind::OrderReleased;
+  const TransportId transport =
+      released ? read<traced::OrderReleased>(record).transport : read<traced::TransportDone>(record).transport;
+  const TransportOrder& order = order_of(scenario_, transport.index());
+  const std::string from = scenario_.map->station(order.from).name, to = scenario_.map->station(order.to).name;
+  if (released && !order_of_.contains(transport.index())) {
+    order_of_[transport.index()] = film_.orders.size();
+    film_.orders.push_back({record.entity.index(), transport.value, from, to, film_us(record.at), {}});
+  }
+  const auto known = order_of_.find(transport.index());
+  if (!released && known != order_of_.end()) film_.orders[known->second].done_us = film_us(record.at);
+  film_.happenings.push_back({record.entity.index(), film_us(record.at), released ? "order" : "transport done",
+                              fmt::format("{}: {} to {}", transport.value, from, to)});
+}
+
+void FilmRecorder::note_happening(const TraceRecord& record, std::string_view text) {
+  web::Happening happening{record.entity.index(), film_us(record.at), name_of(record.kind),
+                           printable(trace_details(record, text, context_), kLongestText)};
+  happening.is_fault = is_fault(record.kind);
+  happening.is_note = is_note(record.kind);
+  film_.happenings.push_back(std::move(happening));
+}
+
+web::Film FilmRecorder::take(SimTime end) {
+  while (!open_.empty()) end_activity(open_.begin()->first, end);
+  std::ranges::stable_sort(film_.activities, {}, &web::ActivityBar::begin_us);
+  film_.end_us = film_us(end);
+  return std::move(film_);
+}
+
+}  // namespace fleetproof::cli

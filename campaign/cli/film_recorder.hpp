@@ -1,0 +1,51 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "campaign/cli/pieces_file.hpp"
+#include "campaign/cli/trace_context.hpp"
+#include "core/outcome/trace.hpp"
+#include "core/scenario/scenario.hpp"
+#include "reports/web/film.hpp"
+
+namespace fleetproof::cli {
+
+// Listens to a run and keeps what the replay page shows of it.
+class FilmRecorder final : public TraceSink {
+ public:
+  // Requires: the scenario outlives the recorder.
+  explicit FilmRecorder(const Scenario& scenario);
+
+  void record(const TraceRecord& record, std::string_view text) override;
+  void piece_started(const Piece& piece) override;
+  void piece_ended(const Piece& piece) override { pieces_.piece_ended(piece); }
+
+  const std::vector<Piece>& pieces() const { return pieces_.pieces(); }
+  // Call this once, after the run: what the trace said. The film has no motion yet, and no words.
+  web::Film take(SimTime end);
+
+ private:
+  void note_activity(const TraceRecord& record);
+  void note_message(const TraceRecord& record);
+  void note_belief(const TraceRecord& record);
+  void note_waiting(const TraceRecord& record);
+  void note_load(const TraceRecord& record);
+  void note_order(const TraceRecord& record);
+  void note_happening(const TraceRecord& record, std::string_view text);
+  void end_activity(std::size_t body, SimTime at);
+
+  const Scenario& scenario_;
+  TraceContext context_;
+  PieceKeeper pieces_;
+  web::Film film_;
+  std::map<std::size_t, web::ActivityBar> open_;     // by body
+  std::map<std::size_t, std::size_t> order_of_;      // a transport's place in film_.orders
+  std::map<std::uint32_t, std::size_t> message_of_;  // a number's place in film_.messages
+  std::map<std::size_t, std::optional<std::size_t>> waits_;
+  std::map<EntityId, std::string> way_of_;  // "A to B", of the drive that an AGV began last
+  std::map<LoadId, std::size_t> carrier_of_;
+};
+
+}  // namespace fleetproof::cli

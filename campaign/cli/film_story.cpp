@@ -1,0 +1,186 @@
+#include "campaign/cli/film_story.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "campaign/cli/film_evidence.hpp"
+#include "campaign/cli/film_floor.hpp"
+#include "campaign/cli/run_text.hpp"
+#include "core/base/outside_text.hpp"
+#include "reports/wording.hpp"
+
+namespace fleetproof::cli {
+namespace {
+
+constexpr std::int64_t kBeforeViolation_us = 3'000'000, kBeforeJam_us = 5'000'000;
+constexpr std::size_t kMostInvolved = 8;
+
+// Cut, not rounded: no digit differs from the full number.
+double millimetres(std::int64_t um) { return static_cast<double>(um - um % 1000) / 1e6; }
+double in_seconds(SimTime t) { return static_cast<double>(film_us(t) / 1000) / 1e3; }
+
+// Tells one story, into one film.
+class Storyteller {
+ public:
+  Storyteller(web::Film& film, const Scenario& scenario, const PiecesOfBodies& bodies, const Outcome& outcome)
+      : film_(film), scenario_(scenario), outcome_(outcome), evidence_(film, scenario, bodies) {}
+
+  void tell() {
+    film_.failed = outcome_.outcome_class() != OutcomeClass::Clean;
+    if (!outcome_.violations.empty()) return tell_violation(outcome_.violations.front());
+    if (const web::Happening* end = crash()) return tell_crash(*end);
+    for (const IncidentKind kind : {IncidentKind::Deadlock, IncidentKind::Livelock, IncidentKind::Starvation}) {
+      if (const Incident* incident = longest(kind)) return tell_stall(*incident);
+    }
+    for (const Incident& incident : outcome_.incidents) {
+      if (accuses(incident.kind) && film_.failed) return tell_stall(incident);
+    }
+    tell_end();
+  }
+
+ private:
+  std::string name(EntityId id) const { return printable(body_name(scenario_, id)); }
+  void add(std::string sentence) { film_.story.push_back(std::move(sentence)); }
+  void look_at(SimTime focus, std::int64_t before_us) {
+    film_.focus_us = film_us(focus);
+    film_.open_us = std::max<std::int64_t>(0, film_.focus_us - before_us);
+  }
+
+  void tell_violation(const Violation& v) {
+    look_at(v.first, kBeforeViolation_us);
+    film_.involved = {v.a.index(), v.b.index()};
+    const char* what = v.contact ? "Contact" : "Safety distance broken";
+    film_.title = fmt::format("{}: {} and {} at {:.2f} s", what, name(v.a), name(v.b), in_seconds(v.first));
+    const std::string limit = distance_text(scenario_.law.safety_distance_m);
+    const double speed_mps = millimetres(v.relative_speed_um_s);
+    const std::string where =
+        fmt::format("near ({:.2f}, {:.2f}) m", static_cast<double>(v.x_um) / 1e6, static_cast<double>(v.y_um) / 1e6);
+    if (v.contact) {
+      add(
+          fmt::format("{} and {} come closer than {} at {:.3f} s and touch, {}, with {:.2f} m/s between their closest "
+                      "points ({}).",
+                      name(v.a), name(v.b), limit, in_seconds(v.first), where, speed_mps, name_of(level_of(v))));
+    } else {
+      add(
+          fmt::format("{} and {} are closer than {} from {:.3f} s to {:.3f} s: {:.3f} m at {:.3f} s, {}, with {:.2f} "
+                      "m/s between their closest points.",
+                      name(v.a), name(v.b), limit, in_seconds(v.first), in_seconds(v.last),
+                      millimetres(v.min_clearance_um), in_seconds(v.closest_at), where, speed_mps));
+    }
+    for (const auto& [one, other] : {std::pair(v.a, v.b), std::pair(v.b, v.a)}) {
+      add(evidence_.doing(one, v.first));
+      for (std::string& sentence : evidence_.belief(one, other, v.first)) add(std::move(sentence));
+    }
+    for (std::string& sentence : evidence_.messages(v.a, v.b, v.first)) add(std::move(sentence));
+    add(evidence_.faults(film_.involved, v.first));
+    tell_more_violations();
+  }
+
+  void tell_more_violations() {
+    const std::size_t more = outcome_.violations.size() - 1;
+    if (more == 0) return;
+    const Violation& next = outcome_.violations[1];
+    add(fmt::format("{} after it, the next between {} and {} at {:.2f} s. They may follow from the first.",
+                    count_text(more, "more violation"), name(next.a), name(next.b), in_seconds(next.first)));
+  }
+
+  const web::Happening* crash() const {
+    if (!outcome_.crash && !outcome_.hang) return nullptr;
+    const auto found = std::ranges::find_if(film_.happenings, [](const web::Happening& h) {
+      return h.what == name_of(TraceKind::AgentCrashed) || h.what == name_of(TraceKind::AgentHung);
+    });
+    return found == film_.happenings.end() ? nullptr : &*found;
+  }
+  void tell_crash(const web::Happening& end) {
+    film_.focus_us = end.at_us;
+    film_.open_us = std::max<std::int64_t>(0, end.at_us - kBeforeViolation_us);
+    film_.involved = {end.body};
+    const EntityId agv{end.body};
+    film_.title = fmt::format("{} of the agent of {} at {:.2f} s", outcome_.crash ? "Crash" : "Hang", name(agv),
+                              static_cast<double>(end.at_us / 1000) / 1e3);
+    add(fmt::format("The run ended there: the agent of {} {}.", name(agv),
+                    outcome_.crash ? "crashed" : "did not come to an end"));
+    if (!outcome_.message.empty()) add("The agent's end in its own words: " + printable(outcome_.message, 300));
+    const SimTime at = at_ns(end.at_us * 1000);
+    add(evidence_.doing(agv, at));
+    add(evidence_.faults(film_.involved, at));
+  }
+
+  // The one that was there longest, the first of equals.
+  const Incident* longest(IncidentKind kind) const {
+    const Incident* found = nullptr;
+    for (const Incident& incident : outcome_.incidents) {
+      if (incident.kind != kind) continue;
+      if (found == nullptr || incident.last - incident.first > found->last - found->first) found = &incident;
+    }
+    return found;
+  }
+
+  void tell_stall(const Incident& incident) {
+    look_at(incident.first, kBeforeJam_us);
+    const auto involve = [&](EntityId id) {
+      if (!id.valid() || film_.involved.size() == kMostInvolved) return;
+      if (std::ranges::find(film_.involved, id.index()) == film_.involved.end()) film_.involved.push_back(id.index());
+    };
+    involve(incident.a);
+    involve(incident.b);
+    std::vector<const Incident*> waits;
+    for (const Incident& wait : outcome_.incidents) {
+      const bool is_wait = wait.kind == IncidentKind::WaitsDeclared || wait.kind == IncidentKind::WaitsInferred;
+      if (incident.kind != IncidentKind::Deadlock || !is_wait || wait.first != incident.first) continue;
+      if (wait.last != incident.last) continue;
+      waits.push_back(&wait);
+      involve(wait.a);
+      involve(wait.b);
+    }
+    const IncidentKindInfo& info = info_of(incident.kind);
+    std::string word(info.name);
+    word.front() = static_cast<char>(word.front() - 'a' + 'A');
+    std::string whom;
+    for (const std::size_t body : film_.involved) whom += (whom.empty() ? "" : ", ") + name(EntityId{body});
+    film_.title =
+        fmt::format("{}{}{} from {:.2f} s on", word, whom.empty() ? "" : ": ", whom, in_seconds(incident.first));
+    add(fmt::format("From {:.2f} s to {:.2f} s: {}.", in_seconds(incident.first), in_seconds(incident.last),
+                    info.meaning));
+    for (const Incident* wait : waits) {
+      add(fmt::format("{} waits for {}{}.", name(wait->a), name(wait->b),
+                      wait->kind == IncidentKind::WaitsDeclared
+                          ? ", as its agent declares"
+                          : ", which stands in its way (its agent declares nothing)"));
+    }
+    for (const std::size_t body : film_.involved) add(evidence_.doing(EntityId{body}, incident.last));
+    add(evidence_.faults(film_.involved, incident.first));
+    std::set<std::string> others;
+    for (const Incident& other : outcome_.incidents) {
+      if (accuses(other.kind) && other.kind != incident.kind && other.kind != IncidentKind::WaitsDeclared &&
+          other.kind != IncidentKind::WaitsInferred)
+        others.insert(std::string(info_of(other.kind).name));
+    }
+    if (!others.empty()) add("The run was also filed for: " + joined({others.begin(), others.end()}) + ".");
+  }
+
+  void tell_end() {
+    look_at(film_.failed ? at_ns(static_cast<std::int64_t>(outcome_.simulated_ns)) : kStart, kBeforeViolation_us);
+    film_.title = fmt::format("{}: {}", printable(scenario_.name), name_of(outcome_.outcome_class()));
+    add(film_.failed ? fmt::format("The run ended at {:.2f} s: {}.",
+                                   in_seconds(at_ns(static_cast<std::int64_t>(outcome_.simulated_ns))),
+                                   name_of(outcome_.outcome_class()))
+                     : "No two bodies came closer than the safety distance, and the run came to its end.");
+    if (!outcome_.message.empty()) add(printable(outcome_.message, 300));
+  }
+
+  web::Film& film_;
+  const Scenario& scenario_;
+  const Outcome& outcome_;
+  FilmEvidence evidence_;
+};
+
+}  // namespace
+
+void tell_story(web::Film& film, const Scenario& scenario, const PiecesOfBodies& bodies, const Outcome& outcome) {
+  Storyteller(film, scenario, bodies, outcome).tell();
+}
+
+}  // namespace fleetproof::cli

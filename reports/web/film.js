@@ -1,0 +1,71 @@
+// The film: what the page knows of the run, and the questions that the drawings ask of it. Seconds and metres.
+'use strict';
+const film = JSON.parse(document.getElementById('film').textContent);
+const kSafety_m = film.safety_distance_um / 1e6, kEnd_s = film.end_us / 1e6, kFocus_s = film.focus_us / 1e6;
+const word = index => film.words[index];
+const nameOf = body => film.bodies[body].name;
+const isInvolved = body => film.involved.includes(body);
+
+// The number of items, in order of `key`, whose key is at most `value`.
+const countUpTo = (items, key, value) => {
+  let low = 0, high = items.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (key(items[middle]) > value) high = middle; else low = middle + 1;
+  }
+  return low;
+};
+const lastUpTo = (items, key, value) => items[countUpTo(items, key, value) - 1];
+
+const byBody = rows => {
+  const lists = film.bodies.map(() => []);
+  for (const row of rows) lists[row[0]].push(row);
+  return lists;
+};
+const piecesOf = byBody(film.pieces_us_um_urad), activitiesOf = byBody(film.activities_ms);
+const statesOf = byBody(film.states_ms), waitsOf = byBody(film.waits_ms), loadsOf = byBody(film.loads_ms);
+const happeningsOf = byBody(film.happenings_ms);
+
+// What an agent believes of each other AGV: beliefsOf[agent] is a map from the other AGV to rows in order of time.
+const beliefsOf = byBody(film.beliefs_ms_mm_mrad).map(rows => {
+  const about = new Map();
+  for (const row of rows) {
+    if (!about.has(row[1])) about.set(row[1], []);
+    about.get(row[1]).push(row);
+  }
+  return about;
+});
+
+// Every arrival of a message at one receiver, in order of sending. `age_s` null: lost.
+const kFates = ['received', 'lost by chance', 'lost in an outage', 'lost by interference', 'lost to a source'];
+const arrivals = [];
+for (const [number, sender, to, sent_ms, kind, bytes, ...pairs] of film.messages_ms) {
+  for (let i = 0; i < pairs.length; i += 2) {
+    const lost = pairs[i + 1] < 0;
+    arrivals.push({number, sender, receiver: pairs[i], sent_s: sent_ms / 1e3, kind: word(kind), bytes, to,
+                   age_s: lost ? null : pairs[i + 1] / 1e3, fate: kFates[lost ? -pairs[i + 1] : 0]});
+  }
+}
+const kLongestAge_s = arrivals.reduce((most, a) => Math.max(most, a.age_s || 0), 1);
+const arrivalsOf = film.bodies.map(() => []);
+for (const arrival of arrivals) {
+  arrivalsOf[arrival.sender].push(arrival);
+  if (arrival.receiver !== arrival.sender) arrivalsOf[arrival.receiver].push(arrival);
+}
+
+const stateOf = (body, t_s) => {
+  const row = lastUpTo(statesOf[body], r => r[1], t_s * 1e3 + 0.5);
+  return row ? word(row[2]) : '';
+};
+const waitOf = (body, t_s) => {
+  const row = lastUpTo(waitsOf[body], r => r[1], t_s * 1e3 + 0.5);
+  return row && row[2] >= 0 ? row[2] : null;
+};
+const isLoaded = (body, t_s) => {
+  const row = lastUpTo(loadsOf[body], r => r[1], t_s * 1e3 + 0.5);
+  return Boolean(row && row[2]);
+};
+const activityOf = (body, t_s) => {
+  const row = lastUpTo(activitiesOf[body], r => r[1], t_s * 1e3);
+  return row && row[2] >= t_s * 1e3 ? row : null;
+};

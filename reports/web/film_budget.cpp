@@ -1,0 +1,118 @@
+#include "reports/web/film_budget.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace fleetproof::web {
+namespace {
+
+constexpr std::int64_t kAfterCounts = 3, kOthersCount = 8;
+
+// How far from the failure something is: microseconds, more of them after it and for bodies that are not involved.
+class Distance {
+ public:
+  explicit Distance(const Film& film) : focus_us_(film.focus_us), involved_(film.bodies.size(), false) {
+    for (const std::size_t body : film.involved) involved_[body] = true;
+  }
+  bool is_involved(std::size_t body) const { return involved_[body]; }
+  std::int64_t of(std::int64_t at_us, bool involved) const {
+    const std::int64_t away_us = at_us < focus_us_ ? focus_us_ - at_us : kAfterCounts * (at_us - focus_us_);
+    return away_us * (involved ? 1 : kOthersCount);
+  }
+
+ private:
+  std::int64_t focus_us_;
+  std::vector<bool> involved_;
+};
+
+struct Candidate {
+  std::int64_t distance = 0;
+  std::size_t bytes = 0;
+};
+
+// The largest distance that fits the budget, with all that is nearer.
+std::int64_t reach_of(std::vector<Candidate> candidates, std::size_t budget_bytes) {
+  std::ranges::stable_sort(candidates, {}, &Candidate::distance);
+  std::size_t spent = 0;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    spent += candidates[i].bytes;
+    if (spent > budget_bytes) return candidates[i].distance - 1;
+  }
+  return candidates.empty() ? 0 : candidates.back().distance;
+}
+
+std::string span_text(const Film& film, std::int64_t reach_us) {
+  const std::int64_t from_us = std::max<std::int64_t>(0, film.focus_us - reach_us);
+  const std::int64_t to_us = std::min(film.end_us, film.focus_us + reach_us / kAfterCounts);
+  return fmt::format("{:.1f} s to {:.1f} s", static_cast<double>(from_us) / 1e6, static_cast<double>(to_us) / 1e6);
+}
+
+void tell(Film& film, const char* what, std::size_t kept, std::size_t all, std::int64_t reach_us) {
+  if (kept == all) return;
+  film.left_out.push_back(fmt::format("This page has {} of {} {}: all from {}, and all of the bodies involved from {}.",
+                                      kept, all, what, span_text(film, reach_us / kOthersCount),
+                                      span_text(film, reach_us)));
+}
+
+// Of the items that `is_meant`, those that fit the budget.
+template <class Item, class DistanceOf, class BytesOf, class IsMeant>
+void keep_nearest(Film& film, std::vector<Item>& items, const char* what, std::size_t budget_bytes,
+                  DistanceOf distance_of, BytesOf bytes_of, IsMeant is_meant) {
+  std::vector<Candidate> candidates;
+  for (const Item& item : items) {
+    if (is_meant(item)) candidates.push_back({distance_of(item), bytes_of(item)});
+  }
+  const std::size_t all = candidates.size();
+  const std::int64_t reach = reach_of(std::move(candidates), budget_bytes);
+  const std::size_t gone =
+      std::erase_if(items, [&](const Item& item) { return is_meant(item) && distance_of(item) > reach; });
+  tell(film, what, all - gone, all, reach);
+}
+
+// An arrival costs its part of the message, and itself.
+void keep_messages(Film& film, const Distance& distance, std::size_t budget_bytes) {
+  constexpr std::size_t kMessage = 34, kArrival = 9;
+  const auto distance_of = [&](const Message& message, const Arrival& arrival) {
+    return distance.of(message.sent_us, distance.is_involved(message.sender) || distance.is_involved(arrival.receiver));
+  };
+  std::vector<Candidate> candidates;
+  for (const Message& message : film.messages) {
+    for (const Arrival& arrival : message.arrivals)
+      candidates.push_back({distance_of(message, arrival), kArrival + kMessage / message.arrivals.size()});
+  }
+  const std::size_t all = candidates.size();
+  const std::int64_t reach = reach_of(std::move(candidates), budget_bytes);
+  std::size_t kept = 0;
+  for (Message& message : film.messages) {
+    std::erase_if(message.arrivals, [&](const Arrival& arrival) { return distance_of(message, arrival) > reach; });
+    kept += message.arrivals.size();
+  }
+  if (kept == all) return;
+  std::erase_if(film.messages, [](const Message& message) { return message.arrivals.empty(); });
+  tell(film, "receptions of messages", kept, all, reach);
+}
+
+}  // namespace
+
+void keep_within(Film& film, const FilmBudget& budget) {
+  const Distance distance(film);
+  keep_messages(film, distance, budget.message_bytes);
+  keep_nearest(
+      film, film.beliefs, "beliefs of agents", budget.belief_bytes,
+      [&](const Belief& b) { return distance.of(b.at_us, distance.is_involved(b.body)); },
+      [](const Belief&) { return std::size_t{34}; }, [](const Belief&) { return true; });
+  for (const bool notes : {false, true}) {
+    keep_nearest(
+        film, film.happenings, notes ? "notes of agents" : "events", budget.happening_bytes / 2,
+        [&](const Happening& h) { return h.is_fault ? 0 : distance.of(h.at_us, distance.is_involved(h.body)); },
+        [](const Happening& h) { return 16 + h.details.size(); },
+        [&](const Happening& h) { return h.is_note == notes; });
+  }
+  keep_nearest(
+      film, film.waits, "declarations of whom an AGV waits for", budget.wait_bytes,
+      [&](const Waiting& w) { return distance.of(w.at_us, distance.is_involved(w.body)); },
+      [](const Waiting&) { return std::size_t{13}; }, [](const Waiting&) { return true; });
+}
+
+}  // namespace fleetproof::web

@@ -1,0 +1,105 @@
+// The words beside the floor: the pair that fails, and the AGV that is selected. Names pass through textContent only.
+const panel = document.getElementById('selected'), pairBox = document.getElementById('pair');
+
+const element = (tag, text, className) => {
+  const made = document.createElement(tag);
+  if (text !== undefined) made.textContent = text;
+  if (className) made.className = className;
+  return made;
+};
+const tableOf = lines => {
+  const table = element('table');
+  for (const cells of lines) {
+    const row = table.insertRow();
+    for (const [text, className] of cells.map(cell => (Array.isArray(cell) ? cell : [cell])))
+      row.append(element('td', text, className));
+  }
+  return table;
+};
+const seconds = value_s => value_s.toFixed(2) + ' s';
+const place = pose => '(' + pose.x_m.toFixed(2) + ', ' + pose.y_m.toFixed(2) + ') m';
+const heading = pose => (((pose.heading_rad * 180 / Math.PI) % 360 + 540) % 360 - 180).toFixed(0) + '°';
+
+const tellPair = (t_s, all) => {
+  const pair = pairAt(t_s), gap = gapAt(all, pair);
+  pairBox.replaceChildren();
+  if (!pair) {
+    pairBox.append(element('span', film.involved.map(nameOf).join(', ') || 'No pair came too close.', 'soft'));
+    return;
+  }
+  pairBox.append(element('span', nameOf(pair[0]) + ' to ' + nameOf(pair[1]), 'soft'), element('br'));
+  if (!gap) return void pairBox.append(element('span', 'not both on the floor', 'soft'));
+  const broken = gap.apart_m < kSafety_m - 2e-6;
+  pairBox.append(element('b', gap.apart_m === 0 ? 'contact' : gap.apart_m.toFixed(3) + ' m', broken ? 'bad' : ''));
+  pairBox.append(element('span', broken ? '  below ' + kSafety_m.toFixed(2) + ' m' : '  clearance', broken ? 'bad' : 'soft'));
+};
+
+const aboutActivity = (body, t_s) => {
+  const row = activityOf(body, t_s);
+  return row ? word(row[3]) + ' ' + word(row[4]) + ', until ' + seconds(row[2] / 1e3) : 'idle';
+};
+const aboutBeliefs = (body, t_s, all) => {
+  const lines = [];
+  for (const [about, list] of beliefsOf[body]) {
+    const row = lastUpTo(list, r => r[2], t_s * 1e3 + 0.5), real = all[about];
+    if (!row) continue;
+    const away_m = real ? Math.hypot(real.pose.x_m - row[4] / 1e3, real.pose.y_m - row[5] / 1e3) : 0;
+    const near_m = real && all[body] ? Math.hypot(real.pose.x_m - all[body].pose.x_m,
+                                                  real.pose.y_m - all[body].pose.y_m) : 1e9;
+    lines.push([near_m, [nameOf(about), (t_s - row[3] / 1e3).toFixed(1) + ' s old',
+                         [away_m.toFixed(1) + ' m off', away_m > 1 ? 'bad' : 'soft']]]);
+  }
+  return lines.sort((a, b) => a[0] - b[0]).slice(0, 6).map(line => line[1]);
+};
+const aboutMessages = (body, t_s) => {
+  const list = arrivalsOf[body], lines = [], numbers = new Set();
+  for (let i = countUpTo(list, a => a.sent_s, t_s) - 1; i >= 0 && lines.length < 7; --i) {
+    const a = list[i], sends = a.sender === body;
+    if (sends && a.to === -1 && numbers.has(a.number)) continue;
+    numbers.add(a.number);
+    const arrived = a.age_s !== null && a.sent_s + a.age_s <= t_s;
+    const fate = sends && a.to === -1 ? '' : a.age_s === null ? a.fate : arrived ? 'after ' + seconds(a.age_s) : 'under way';
+    lines.push([seconds(a.sent_s), (sends ? 'to ' : 'from ') + (sends ? (a.to === -1 ? 'all' : nameOf(a.to)) : nameOf(a.sender)),
+                a.kind, [fate, a.age_s === null ? 'bad' : 'soft']]);
+  }
+  return lines;
+};
+const aboutEvents = (body, t_s) => {
+  const list = happeningsOf[body], last = countUpTo(list, r => r[1], t_s * 1e3 + 0.5);
+  return list.slice(Math.max(0, last - 5), last).reverse().map(
+    ([, at_ms, what, details, flags]) => [seconds(at_ms / 1e3), [word(what), flags === 1 ? 'bad' : ''], word(details)]);
+};
+
+const tellBody = (body, t_s, all, box) => {
+  const one = all[body];
+  box.append(element('div', nameOf(body), isInvolved(body) ? 'who bad' : 'who'));
+  if (!one) return void box.append(element('p', 'is not on the floor', 'soft'));
+  const speed = one.piece[kManner] === 1 ? speedAt(one.piece, t_s * 1e6) : 0;
+  const lines = [['at', place(one.pose) + ', heads ' + heading(one.pose)],
+                 ['speed', speed.toFixed(2) + ' m/s']];
+  if (film.bodies[body].kind === 'AGV') {
+    lines.push(['does', aboutActivity(body, t_s)], ['load', isLoaded(body, t_s) ? 'yes' : 'no']);
+    if (stateOf(body, t_s)) lines.push(['its agent says', stateOf(body, t_s)]);
+    if (waitOf(body, t_s) !== null) lines.push(['waits for', [nameOf(waitOf(body, t_s)), 'bad']]);
+  }
+  box.append(tableOf(lines.map(([name, value]) => [[name, 'soft'], value])));
+};
+const tellDetails = (body, t_s, all, box) => {
+  for (const [title, lines] of [['believes', aboutBeliefs(body, t_s, all)], ['messages', aboutMessages(body, t_s)],
+                                ['events', aboutEvents(body, t_s)]]) {
+    if (lines.length) box.append(element('h3', title), tableOf(lines));
+  }
+};
+
+// The selected AGV with all details; without one, those involved in short.
+const tell = (t_s, all) => {
+  tellPair(t_s, all);
+  const box = document.createDocumentFragment();
+  const bodies = selected === null ? film.involved.slice(0, 6) : [selected];
+  for (const body of bodies) {
+    tellBody(body, t_s, all, box);
+    if (bodies.length <= 2) tellDetails(body, t_s, all, box);
+  }
+  if (!bodies.length) box.append(element('p', 'Select an AGV: click on it, or press 1 to 9.', 'soft'));
+  panel.replaceChildren(box);
+};

@@ -1,0 +1,140 @@
+// The timeline: a row for each AGV with activities, what its agent says, messages, events and faults.
+const rows = document.getElementById('rows'), rowsBox = document.getElementById('rows-box');
+const playhead = document.getElementById('playhead');
+const kAgvs = film.bodies.map((body, i) => i).filter(i => film.bodies[i].kind === 'AGV');
+const kRow_px = kAgvs.length > 12 ? 26 : 40, kAxis_px = 20;
+// Those involved stand first.
+const kOrder = [...kAgvs.filter(isInvolved), ...kAgvs.filter(i => !isInvolved(i))];
+const window_s = {from: 0, to: 1, length: 40};
+const kBarColours = {drive: 'drive', turn: 'turn', pick: 'transfer', drop: 'transfer', charge: 'charge', dock: 'charge'};
+
+const nameWidth = () => (rows.clientWidth < 600 ? 64 : 96);
+const rowX = t_s => nameWidth() + (t_s - window_s.from) / (window_s.to - window_s.from) * (rows.clientWidth - nameWidth());
+const moveWindow = t_s => {
+  const length_s = window_s.length > 0 ? Math.min(window_s.length, Math.max(kEnd_s, 1)) : Math.max(kEnd_s, 1);
+  const from_s = Math.min(Math.max(0, t_s - 0.6 * length_s), Math.max(0, kEnd_s - length_s));
+  Object.assign(window_s, {from: from_s, to: from_s + length_s});
+};
+const isInWindow = t_s => window_s.from <= t_s && t_s <= window_s.to;
+
+// Text that is cut at `most_px`.
+const textIn = (context, text, x, y, most_px) => {
+  let shownText = text;
+  while (shownText && context.measureText(shownText).width > most_px) shownText = shownText.slice(0, -1);
+  if (shownText.length > 1 || shownText === text) context.fillText(shownText, x, y);
+};
+
+const drawActivities = (context, body, y) => {
+  const list = activitiesOf[body], height = kRow_px * 0.38;
+  for (let i = Math.max(0, countUpTo(list, r => r[1], window_s.from * 1e3) - 1); i < list.length; ++i) {
+    const [, begin_ms, end_ms, kind, details] = list[i];
+    if (begin_ms > window_s.to * 1e3) break;
+    const x0 = Math.max(nameWidth(), rowX(begin_ms / 1e3)), x1 = Math.max(x0 + 1, rowX(end_ms / 1e3));
+    if (end_ms / 1e3 < window_s.from) continue;
+    context.fillStyle = colours[kBarColours[word(kind)] || 'other'];
+    context.fillRect(x0, y + 3, x1 - x0 - 0.5, height);
+    if (x1 - x0 < 26) continue;
+    context.fillStyle = colours.ink;
+    textIn(context, word(details) || word(kind), x0 + 3, y + 3 + height * 0.5 + 4, x1 - x0 - 6);
+  }
+};
+const drawStates = (context, body, y) => {
+  const list = statesOf[body], top = y + 4 + kRow_px * 0.38;
+  for (let i = Math.max(0, countUpTo(list, r => r[1], window_s.from * 1e3) - 1); i < list.length; ++i) {
+    const from_s = list[i][1] / 1e3, to_s = i + 1 < list.length ? list[i + 1][1] / 1e3 : kEnd_s;
+    if (from_s > window_s.to) break;
+    const x0 = Math.max(nameWidth(), rowX(from_s)), x1 = rowX(Math.min(to_s, window_s.to));
+    if (x1 <= x0) continue;
+    context.fillStyle = colours.grid;
+    context.fillRect(x0, top, x1 - x0 - 0.5, kRow_px * 0.3);
+    context.fillStyle = colours.soft;
+    if (kRow_px > 30 && x1 - x0 > 20) textIn(context, word(list[i][2]), x0 + 3, top + 10, x1 - x0 - 6);
+  }
+};
+// Marks of messages, if there is room for them.
+const drawMarks = (context, body, y) => {
+  const bottom = y + kRow_px - 2, list = arrivalsOf[body], first = countUpTo(list, a => a.sent_s, window_s.from - 10);
+  const seen = new Set();
+  if (window_s.to - window_s.from <= 130) {
+    for (let i = first; i < list.length && list[i].sent_s <= window_s.to; ++i) {
+      const a = list[i], sends = a.sender === body, at_s = sends || a.age_s === null ? a.sent_s : a.sent_s + a.age_s;
+      const x = Math.round(rowX(at_s)), key = x * 4 + (sends ? 0 : a.age_s === null ? 1 : 2);
+      if (!isInWindow(at_s) || seen.has(key)) continue;
+      seen.add(key);
+      context.fillStyle = context.strokeStyle = !sends && a.age_s === null ? colours.bad : colours.message;
+      context.beginPath();
+      if (!sends && a.age_s === null) {
+        context.moveTo(x - 2.5, bottom - 5);
+        context.lineTo(x + 2.5, bottom);
+        context.moveTo(x + 2.5, bottom - 5);
+        context.lineTo(x - 2.5, bottom);
+        context.stroke();
+      } else {
+        const tip = sends ? bottom - 5 : bottom, base = sends ? bottom : bottom - 5;
+        context.moveTo(x, tip);
+        context.lineTo(x + 2.5, base);
+        context.lineTo(x - 2.5, base);
+        context.fill();
+      }
+    }
+  }
+  for (const [, at_ms, , , flags] of happeningsOf[body]) {
+    if (!isInWindow(at_ms / 1e3) || flags >= 2) continue;
+    context.fillStyle = flags === 1 ? colours.bad : colours.accent;
+    context.font = flags === 1 ? '600 15px system-ui' : '600 10px system-ui';
+    context.fillText(flags === 1 ? '⚑' : '◆', rowX(at_ms / 1e3) - 4, y + kRow_px * 0.38 + 2);
+    context.font = '11px system-ui, sans-serif';
+  }
+};
+const drawBroken = (context, body, y) => {
+  for (const v of film.violations) {
+    if (v.a !== body && v.b !== body) continue;
+    const x0 = Math.max(nameWidth(), rowX(v.first_us / 1e6)), x1 = Math.max(rowX(v.last_us / 1e6), x0 + 2);
+    if (v.first_us / 1e6 > window_s.to || v.last_us / 1e6 < window_s.from) continue;
+    context.fillStyle = colours.bad;
+    context.globalAlpha = 0.22;
+    context.fillRect(x0, y + 1, Math.min(x1, rows.clientWidth) - x0, kRow_px - 2);
+    context.globalAlpha = 1;
+  }
+};
+
+const drawRows = () => {
+  const width = rowsBox.clientWidth, height = kAxis_px + kOrder.length * kRow_px;
+  rows.style.height = height + 'px';
+  playhead.style.height = height + 'px';
+  const context = contextOf(rows, width, height);
+  context.fillStyle = colours.paper;
+  context.fillRect(0, 0, width, height);
+  context.font = '11px system-ui, sans-serif';
+  context.textAlign = 'left';
+  const step_s = [1, 2, 5, 10, 20, 60, 120, 300, 600, 1800].find(
+    step => step / (window_s.to - window_s.from) * (width - nameWidth()) >= 55) || 3600;
+  for (let t = Math.ceil(window_s.from / step_s) * step_s; t <= window_s.to; t += step_s) {
+    context.fillStyle = colours.line;
+    context.fillRect(rowX(t), kAxis_px - 4, 1, height);
+    context.fillStyle = colours.soft;
+    if (rowX(t) < width - 24) context.fillText(t + ' s', rowX(t) + 3, 12);
+  }
+  kOrder.forEach((body, i) => {
+    const y = kAxis_px + i * kRow_px;
+    context.save();
+    context.beginPath();
+    context.rect(nameWidth(), y, width, kRow_px);
+    context.clip();
+    drawActivities(context, body, y);
+    drawStates(context, body, y);
+    drawBroken(context, body, y);
+    drawMarks(context, body, y);
+    context.restore();
+    if (body === selected) {
+      context.fillStyle = colours.accent;
+      context.fillRect(0, y, 4, kRow_px);
+    }
+    context.fillStyle = isInvolved(body) ? colours.bad : colours.ink;
+    context.font = (isInvolved(body) ? '650 ' : '') + '12px system-ui, sans-serif';
+    textIn(context, nameOf(body), 8, y + kRow_px / 2 + 4, nameWidth() - 12);
+    context.font = '11px system-ui, sans-serif';
+    context.fillStyle = colours.line;
+    context.fillRect(0, y, width, 1);
+  });
+};
