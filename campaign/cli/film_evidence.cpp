@@ -3,17 +3,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "campaign/cli/film_floor.hpp"
 #include "campaign/cli/run_text.hpp"
 #include "core/base/outside_text.hpp"
+#include "core/outcome/trace.hpp"
 #include "reports/wording.hpp"
 
 namespace fleetproof::cli {
 namespace {
 
-constexpr std::int64_t kTalk_us = 10'000'000;
+constexpr std::int64_t kTalk_us = 20'000'000;
 constexpr std::int64_t kFaultsBefore_us = 120'000'000;
+constexpr std::size_t kMostFaults = 4;
 
 double in_seconds(std::int64_t us) { return static_cast<double>(us) / 1e6; }
 
@@ -81,36 +84,52 @@ std::vector<std::string> FilmEvidence::belief(EntityId agv, EntityId other, SimT
   return {text + "."};
 }
 
+namespace {
+
+// What became of the messages of one kind.
+struct KindCount {
+  std::size_t sent = 0, lost = 0, under_way = 0;
+};
+std::string counts_text(const std::map<std::string, KindCount>& kinds) {
+  std::vector<std::string> texts;
+  for (const auto& [kind, count] : kinds) {
+    std::string text = fmt::format("{} {}", count.sent, kind);
+    if (count.lost + count.under_way > 0) text += fmt::format(" ({} lost, {} under way)", count.lost, count.under_way);
+    texts.push_back(std::move(text));
+  }
+  return joined(texts);
+}
+
+}  // namespace
+
 std::string FilmEvidence::messages_between(EntityId sender, EntityId receiver, SimTime at) const {
   const std::int64_t at_us = film_us(at);
-  std::size_t sent = 0, lost = 0, under_way = 0;
+  std::map<std::string, KindCount> kinds;
   const web::Message* newest = nullptr;
-  std::int64_t newest_age_us = 0, newest_at_us = -1;
+  std::int64_t newest_at_us = -1;
   for (const web::Message& m : film_.messages) {
     if (m.sender != sender.index() || m.sent_us > at_us) continue;
     for (const web::Arrival& arrival : m.arrivals) {
       if (arrival.receiver != receiver.index()) continue;
-      const bool recent = m.sent_us >= at_us - kTalk_us, received = arrival.fate == web::Fate::Received;
-      sent += recent;
-      lost += recent && !received;
-      under_way += recent && received && m.sent_us + arrival.after_us > at_us;
-      if (!received || m.sent_us + arrival.after_us > at_us || m.sent_us + arrival.after_us < newest_at_us) continue;
+      const bool received = arrival.fate == web::Fate::Received;
+      const std::int64_t arrives_us = m.sent_us + arrival.after_us;
+      if (m.sent_us >= at_us - kTalk_us) {
+        KindCount& count = kinds[m.kind];
+        ++count.sent;
+        count.lost += received ? 0 : 1;
+        count.under_way += received && arrives_us > at_us ? 1 : 0;
+      }
+      if (!received || arrives_us > at_us || arrives_us < newest_at_us) continue;
       newest = &m;
-      newest_at_us = m.sent_us + arrival.after_us;
-      newest_age_us = arrival.after_us;
+      newest_at_us = arrives_us;
     }
   }
-  std::string text =
-      fmt::format("In the {:.0f} s before, {} sent {} to {}: {} lost, {} still under way", in_seconds(kTalk_us),
-                  name(sender), count_text(sent, "message"), name(receiver), lost, under_way);
-  if (sent == 0)
-    text = fmt::format("In the {:.0f} s before, {} sent no message to {}", in_seconds(kTalk_us), name(sender),
-                       name(receiver));
-  if (newest == nullptr) return text + "; none had ever arrived.";
-  return text +
-         fmt::format("; the last that arrived was #{} {}, sent at {:.2f} s, received at {:.2f} s ({:.2f} s old then).",
-                     newest->number, newest->kind, in_seconds(newest->sent_us), in_seconds(newest_at_us),
-                     in_seconds(newest_age_us));
+  std::string text = fmt::format("In the {:.0f} s before, {} sent to {}: {}.", in_seconds(kTalk_us), name(sender),
+                                 name(receiver), kinds.empty() ? "nothing" : counts_text(kinds));
+  if (newest == nullptr) return text + " None had ever arrived.";
+  return text + fmt::format(" The last that arrived was #{} {}, sent at {:.2f} s, {:.2f} s old on arrival.",
+                            newest->number, newest->kind, in_seconds(newest->sent_us),
+                            in_seconds(newest_at_us - newest->sent_us));
 }
 
 std::vector<std::string> FilmEvidence::messages(EntityId one, EntityId other, SimTime at) const {
@@ -131,11 +150,17 @@ std::string FilmEvidence::faults(const std::vector<std::size_t>& bodies, SimTime
   for (const web::Happening& h : film_.happenings) {
     if (!h.is_fault || h.at_us > at_us || h.at_us < at_us - kFaultsBefore_us) continue;
     if (std::ranges::find(bodies, h.body) == bodies.end()) continue;
-    found.push_back(fmt::format("{} of {}: {} at {:.2f} s, {:.2f} s before", h.details, name(EntityId{h.body}), h.what,
-                                in_seconds(h.at_us), in_seconds(at_us - h.at_us)));
+    const std::string what = h.details.empty() ? h.what : h.details;
+    const bool is_end = h.what == name_of(TraceKind::FaultOver);
+    found.push_back(fmt::format("{}{} of {} {:.2f} s before ({:.2f} s)", is_end ? "end of the " : "", what,
+                                name(EntityId{h.body}), in_seconds(at_us - h.at_us), in_seconds(h.at_us)));
   }
   if (found.empty()) return "No injected fault struck them in the two minutes before.";
-  return "Faults before it: " + joined(found, "; ") + ".";
+  std::ranges::reverse(found);
+  const std::size_t more = found.size() > kMostFaults ? found.size() - kMostFaults : 0;
+  found.resize(found.size() - more);
+  return "Faults before it, the latest first: " + joined(found, "; ") +
+         (more > 0 ? fmt::format("; and {} more", more) : "") + ".";
 }
 
 }  // namespace fleetproof::cli

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "campaign/cli/film_evidence.hpp"
@@ -151,6 +152,7 @@ class Storyteller {
                           : ", which stands in its way (its agent declares nothing)"));
     }
     for (const std::size_t body : film_.involved) add(evidence_.doing(EntityId{body}, incident.last));
+    tell_waiting_fleet(incident.last);
     add(evidence_.faults(film_.involved, incident.first));
     std::set<std::string> others;
     for (const Incident& other : outcome_.incidents) {
@@ -159,6 +161,17 @@ class Storyteller {
         others.insert(std::string(info_of(other.kind).name));
     }
     if (!others.empty()) add("The run was also filed for: " + joined({others.begin(), others.end()}) + ".");
+  }
+
+  void tell_waiting_fleet(SimTime at) {
+    std::map<std::size_t, bool> waits;
+    for (const web::Waiting& w : film_.waits) {
+      if (w.at_us <= film_us(at)) waits[w.body] = w.for_whom.has_value();
+    }
+    const auto waiting = std::ranges::count_if(waits, [](const auto& entry) { return entry.second; });
+    if (waiting > 0)
+      add(fmt::format("At {:.2f} s, {} of {} AGVs declared that they waited for another.", in_seconds(at), waiting,
+                      scenario_.agvs.size()));
   }
 
   void tell_end() {

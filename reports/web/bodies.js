@@ -1,5 +1,5 @@
 // What moves on the floor: bodies with perimeters and hulls, beliefs as ghosts, messages as arrows.
-const shown = {perimeters: true, hulls: true, beliefs: true, messages: true, names: true, whose: 'some'};
+const shown = {perimeters: true, hulls: true, beliefs: true, messages: true, waits: true, names: true, whose: 'some'};
 let selected = null;  // an AGV
 
 // Those whose beliefs and messages are drawn.
@@ -70,6 +70,7 @@ const drawBody = (context, {body, box}, isBroken, t_s) => {
 
 // Where `agent` believes the others to be.
 const drawBeliefs = (context, agent, all, t_s, label) => {
+  if (!isKept('beliefs', agent, t_s)) return;
   for (const [about, rows] of beliefsOf[agent]) {
     const row = lastUpTo(rows, r => r[2], t_s * 1e3 + 0.5), real = all[about];
     if (!row || (shown.whose === 'some' && selected === null && !isInvolved(about))) continue;
@@ -91,8 +92,34 @@ const drawBeliefs = (context, agent, all, t_s, label) => {
     context.stroke();
     context.setLineDash([]);
     const away_m = real ? Math.hypot(real.pose.x_m - pose.x_m, real.pose.y_m - pose.y_m) : 0;
-    if (away_m > 0.3 || about === selected || agent === selected)
+    if (away_m > 0.3 || (age_s > 3 && about !== agent && isInvolved(about)))
       label(nameOf(agent) + ' believes ' + nameOf(about) + ', ' + age_s.toFixed(1) + ' s old', x, y - 8, colours.ghost);
+  }
+};
+
+// From each AGV that says it waits to the one for which it waits.
+const drawWaits = (context, all, t_s) => {
+  for (const one of all) {
+    const other = one && waitOf(one.body, t_s) !== null ? all[waitOf(one.body, t_s)] : null;
+    if (!other) continue;
+    const hot = (isInvolved(one.body) && isInvolved(other.body)) || one.body === selected;
+    const x0 = toX(one.box.x_m), y0 = toY(one.box.y_m), x1 = toX(other.box.x_m), y1 = toY(other.box.y_m);
+    const bend = 0.18, cx = (x0 + x1) / 2 - bend * (y1 - y0), cy = (y0 + y1) / 2 + bend * (x1 - x0);
+    const out = Math.atan2(y1 - cy, x1 - cx), size = hot ? 13 : 8;
+    context.strokeStyle = context.fillStyle = colours.wait;
+    context.globalAlpha = hot ? 1 : 0.45;
+    context.lineWidth = hot ? 3 : 1.3;
+    context.beginPath();
+    context.moveTo(x0, y0);
+    context.quadraticCurveTo(cx, cy, x1, y1);
+    context.stroke();
+    context.beginPath();
+    for (const turn of [0, 2.7, -2.7]) {
+      const reach = turn === 0 ? 0 : size;
+      context.lineTo(x1 + reach * Math.cos(out + turn), y1 + reach * Math.sin(out + turn));
+    }
+    context.fill();
+    context.globalAlpha = 1;
   }
 };
 
@@ -118,7 +145,7 @@ const drawMessages = (context, all, t_s, label) => {
     const from = all[a.sender], to = all[a.receiver];
     if (!from || !to) continue;
     const lost = a.age_s === null, between = isInvolved(a.sender) && isInvolved(a.receiver);
-    if (crowded && !between && lost) continue;
+    if (crowded && !between && (lost || (shown.whose === 'some' && selected === null))) continue;
     const x0 = toX(from.pose.x_m), y0 = toY(from.pose.y_m), x1 = toX(to.pose.x_m), y1 = toY(to.pose.y_m);
     const k = lost ? 0.5 : share, x = x0 + k * (x1 - x0), y = y0 + k * (y1 - y0), out = Math.atan2(y1 - y0, x1 - x0);
     context.strokeStyle = context.fillStyle = lost ? colours.bad : colours.message;
@@ -184,6 +211,7 @@ const drawFloor = t_s => {
         label(nameOf(body), toX(box.x_m), toY(box.y_m - reach_m) + 13, colours.ink, isInvolved(body));
     }
   }
+  if (shown.waits) drawWaits(context, all, t_s);
   if (shown.beliefs) spotlight().forEach(agent => drawBeliefs(context, agent, all, t_s, label));
   if (shown.messages) drawMessages(context, all, t_s, label);
   stationNames();

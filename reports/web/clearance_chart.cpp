@@ -12,7 +12,7 @@ using html::Element;
 using html::text_element;
 
 constexpr double kWidth_px = 760, kHeight_px = 210, kLeft_px = 52, kRight_px = 16, kTop_px = 14, kBottom_px = 34;
-constexpr std::int64_t kMostShown_um = 2'000'000;
+constexpr std::int64_t kMostShown_um = 2'000'000, kLead_us = 1'000'000;
 
 double in_seconds(std::int64_t us) { return static_cast<double>(us) / 1e6; }
 
@@ -29,10 +29,13 @@ struct Scale {
   }
 };
 
+// From a second before the curve comes into the chart.
 Scale scale_of(const Film& film, const ClearanceCurve& curve) {
   Scale scale{curve.points.front().at_us, curve.points.back().at_us, 2 * film.safety_distance_um};
   for (const ClearancePoint& p : curve.points) scale.top_um = std::max(scale.top_um, p.clearance_um);
   scale.top_um = std::min(scale.top_um, std::max(kMostShown_um, 2 * film.safety_distance_um));
+  const auto first = std::ranges::find_if(curve.points, [&](const auto& p) { return p.clearance_um <= scale.top_um; });
+  if (first != curve.points.end()) scale.from_us = std::max(scale.from_us, first->at_us - kLead_us);
   scale.to_us = std::max(scale.to_us, scale.from_us + 1);
   return scale;
 }
@@ -79,10 +82,20 @@ void add_axes(Element& svg, const Scale& scale) {
   }
 }
 
+// What is above the chart is left out, so the line begins and ends at its upper edge.
 std::string path_of(const ClearanceCurve& curve, const Scale& scale) {
   std::string path;
-  for (const ClearancePoint& p : curve.points)
-    path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", scale.x(p.at_us), scale.y(p.clearance_um));
+  const auto is_above = [&](std::size_t i) {
+    return i >= curve.points.size() || curve.points[i].clearance_um > scale.top_um;
+  };
+  bool goes_on = false;
+  for (std::size_t i = 0; i < curve.points.size(); ++i) {
+    const ClearancePoint& p = curve.points[i];
+    const bool is_shown = !is_above(i) || (i > 0 && !is_above(i - 1)) || !is_above(i + 1);
+    if (is_shown)
+      path += fmt::format("{}{:.1f} {:.1f}", goes_on ? "L" : "M", scale.x(p.at_us), scale.y(p.clearance_um));
+    goes_on = is_shown;
+  }
   return path;
 }
 

@@ -142,6 +142,13 @@ struct FilmFact {
   std::string name, value;
 };
 
+// From when to when the page has all of something: of the bodies involved, and of the others. An end beyond that of the
+// run: to its end.
+struct Kept {
+  static constexpr std::int64_t kAlways_us = std::int64_t{1} << 50;
+  std::int64_t involved_from_us = 0, involved_to_us = kAlways_us, others_from_us = 0, others_to_us = kAlways_us;
+};
+
 struct Film {
   std::string title, command;
   bool failed = false;
@@ -166,6 +173,7 @@ struct Film {
   std::vector<TooClose> violations;
   std::vector<ClearanceCurve> clearances;
   std::vector<Order> orders;
+  Kept kept_messages, kept_beliefs, kept_waits;
   std::vector<std::string> left_out;  // what the page does not have of the run, in sentences
   html::FilmStrip strip;
 };

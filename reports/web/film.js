@@ -53,11 +53,18 @@ for (const arrival of arrivals) {
   if (arrival.receiver !== arrival.sender) arrivalsOf[arrival.receiver].push(arrival);
 }
 
+// Whether the page has all "messages", "beliefs" or "waits" of a body at an instant. A large fleet has too many.
+const isKept = (what, body, t_s) => {
+  const [from_ms, to_ms] = isInvolved(body) ? film.kept_ms[what] : film.kept_ms[what].slice(2);
+  return from_ms / 1e3 <= t_s + 1e-3 && t_s <= to_ms / 1e3 + 1e-3;
+};
+
 const stateOf = (body, t_s) => {
   const row = lastUpTo(statesOf[body], r => r[1], t_s * 1e3 + 0.5);
   return row ? word(row[2]) : '';
 };
 const waitOf = (body, t_s) => {
+  if (!isKept('waits', body, t_s)) return null;
   const row = lastUpTo(waitsOf[body], r => r[1], t_s * 1e3 + 0.5);
   return row && row[2] >= 0 ? row[2] : null;
 };

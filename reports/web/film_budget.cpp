@@ -42,22 +42,29 @@ std::int64_t reach_of(std::vector<Candidate> candidates, std::size_t budget_byte
   return candidates.empty() ? 0 : candidates.back().distance;
 }
 
-std::string span_text(const Film& film, std::int64_t reach_us) {
-  const std::int64_t from_us = std::max<std::int64_t>(0, film.focus_us - reach_us);
-  const std::int64_t to_us = std::min(film.end_us, film.focus_us + reach_us / kAfterCounts);
+std::string span_text(std::int64_t from_us, std::int64_t to_us) {
   return fmt::format("{:.1f} s to {:.1f} s", static_cast<double>(from_us) / 1e6, static_cast<double>(to_us) / 1e6);
 }
 
-void tell(Film& film, const char* what, std::size_t kept, std::size_t all, std::int64_t reach_us) {
-  if (kept == all) return;
+// Where nothing is left out.
+Kept kept_within(const Film& film, std::int64_t reach_us) {
+  const auto from_us = [&](std::int64_t reach) { return std::max<std::int64_t>(0, film.focus_us - reach); };
+  const auto to_us = [&](std::int64_t reach) { return std::min(film.end_us, film.focus_us + reach / kAfterCounts); };
+  return {from_us(reach_us), to_us(reach_us), from_us(reach_us / kOthersCount), to_us(reach_us / kOthersCount)};
+}
+
+Kept tell(Film& film, const char* what, std::size_t kept, std::size_t all, std::int64_t reach_us) {
+  if (kept == all) return {};
+  const Kept whole = kept_within(film, reach_us);
   film.left_out.push_back(fmt::format("This page has {} of {} {}: all from {}, and all of the bodies involved from {}.",
-                                      kept, all, what, span_text(film, reach_us / kOthersCount),
-                                      span_text(film, reach_us)));
+                                      kept, all, what, span_text(whole.others_from_us, whole.others_to_us),
+                                      span_text(whole.involved_from_us, whole.involved_to_us)));
+  return whole;
 }
 
 // Of the items that `is_meant`, those that fit the budget.
 template <class Item, class DistanceOf, class BytesOf, class IsMeant>
-void keep_nearest(Film& film, std::vector<Item>& items, const char* what, std::size_t budget_bytes,
+Kept keep_nearest(Film& film, std::vector<Item>& items, const char* what, std::size_t budget_bytes,
                   DistanceOf distance_of, BytesOf bytes_of, IsMeant is_meant) {
   std::vector<Candidate> candidates;
   for (const Item& item : items) {
@@ -67,11 +74,11 @@ void keep_nearest(Film& film, std::vector<Item>& items, const char* what, std::s
   const std::int64_t reach = reach_of(std::move(candidates), budget_bytes);
   const std::size_t gone =
       std::erase_if(items, [&](const Item& item) { return is_meant(item) && distance_of(item) > reach; });
-  tell(film, what, all - gone, all, reach);
+  return tell(film, what, all - gone, all, reach);
 }
 
 // An arrival costs its part of the message, and itself.
-void keep_messages(Film& film, const Distance& distance, std::size_t budget_bytes) {
+Kept keep_messages(Film& film, const Distance& distance, std::size_t budget_bytes) {
   constexpr std::size_t kMessage = 34, kArrival = 9;
   const auto distance_of = [&](const Message& message, const Arrival& arrival) {
     return distance.of(message.sent_us, distance.is_involved(message.sender) || distance.is_involved(arrival.receiver));
@@ -88,17 +95,17 @@ void keep_messages(Film& film, const Distance& distance, std::size_t budget_byte
     std::erase_if(message.arrivals, [&](const Arrival& arrival) { return distance_of(message, arrival) > reach; });
     kept += message.arrivals.size();
   }
-  if (kept == all) return;
+  if (kept == all) return {};
   std::erase_if(film.messages, [](const Message& message) { return message.arrivals.empty(); });
-  tell(film, "receptions of messages", kept, all, reach);
+  return tell(film, "receptions of messages", kept, all, reach);
 }
 
 }  // namespace
 
 void keep_within(Film& film, const FilmBudget& budget) {
   const Distance distance(film);
-  keep_messages(film, distance, budget.message_bytes);
-  keep_nearest(
+  film.kept_messages = keep_messages(film, distance, budget.message_bytes);
+  film.kept_beliefs = keep_nearest(
       film, film.beliefs, "beliefs of agents", budget.belief_bytes,
       [&](const Belief& b) { return distance.of(b.at_us, distance.is_involved(b.body)); },
       [](const Belief&) { return std::size_t{34}; }, [](const Belief&) { return true; });
@@ -109,7 +116,7 @@ void keep_within(Film& film, const FilmBudget& budget) {
         [](const Happening& h) { return 16 + h.details.size(); },
         [&](const Happening& h) { return h.is_note == notes; });
   }
-  keep_nearest(
+  film.kept_waits = keep_nearest(
       film, film.waits, "declarations of whom an AGV waits for", budget.wait_bytes,
       [&](const Waiting& w) { return distance.of(w.at_us, distance.is_involved(w.body)); },
       [](const Waiting&) { return std::size_t{13}; }, [](const Waiting&) { return true; });

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <initializer_list>
 #include <iterator>
 #include <map>
@@ -142,7 +143,16 @@ void add_failure(Members& members, const Film& film) {
   });
 }
 
+std::string kept_json(const Film& film, const Kept& kept) {
+  const auto until = [&](std::int64_t to_us) { return thousandth(std::min(to_us, film.end_us)); };
+  return row(thousandth(kept.involved_from_us), until(kept.involved_to_us), thousandth(kept.others_from_us),
+             until(kept.others_to_us));
+}
+
 void add_what_happened(Members& members, const Film& film, Words& words) {
+  members.add("kept_ms",
+              fmt::format("{{\"messages\":{},\"beliefs\":{},\"waits\":{}}}", kept_json(film, film.kept_messages),
+                          kept_json(film, film.kept_beliefs), kept_json(film, film.kept_waits)));
   members.rows("activities_ms", film.activities, [&](const ActivityBar& a) {
     return row(a.body, thousandth(a.begin_us), thousandth(a.end_us), words.index_of(a.kind), words.index_of(a.details));
   });

@@ -18,7 +18,11 @@ const tableOf = lines => {
 };
 const seconds = value_s => value_s.toFixed(2) + ' s';
 const place = pose => '(' + pose.x_m.toFixed(2) + ', ' + pose.y_m.toFixed(2) + ') m';
-const heading = pose => (((pose.heading_rad * 180 / Math.PI) % 360 + 540) % 360 - 180).toFixed(0) + '°';
+// From -179 to 180 degrees, without a minus before a zero.
+const heading = pose => {
+  const degrees = Math.round(pose.heading_rad * 180 / Math.PI) % 360;
+  return (degrees > 180 ? degrees - 360 : degrees <= -180 ? degrees + 360 : degrees) + 0 + '°';
+};
 
 const tellPair = (t_s, all) => {
   const pair = pairAt(t_s), gap = gapAt(all, pair);
@@ -85,8 +89,11 @@ const tellBody = (body, t_s, all, box) => {
   box.append(tableOf(lines.map(([name, value]) => [[name, 'soft'], value])));
 };
 const tellDetails = (body, t_s, all, box) => {
-  for (const [title, lines] of [['believes', aboutBeliefs(body, t_s, all)], ['messages', aboutMessages(body, t_s)],
-                                ['events', aboutEvents(body, t_s)]]) {
+  const missing = [['(not on this page at this instant)']];
+  for (const [title, lines] of [
+         ['believes', isKept('beliefs', body, t_s) ? aboutBeliefs(body, t_s, all) : missing],
+         ['messages', isKept('messages', body, t_s) ? aboutMessages(body, t_s) : missing],
+         ['events', aboutEvents(body, t_s)]]) {
     if (lines.length) box.append(element('h3', title), tableOf(lines));
   }
 };

@@ -167,7 +167,7 @@ byId('previous').addEventListener('click', () => jump(false));
 byId('speed').addEventListener('change', event => { player.speed = Number(event.target.value); });
 byId('span').addEventListener('change', event => { window_s.length = Number(event.target.value); drawAll(); });
 byId('whose').addEventListener('change', event => { shown.whose = event.target.value; draw(); });
-for (const what of ['perimeters', 'hulls', 'beliefs', 'messages', 'names'])
+for (const what of ['perimeters', 'hulls', 'beliefs', 'messages', 'waits', 'names'])
   byId('show-' + what).addEventListener('change', event => { shown[what] = event.target.checked; draw(); });
 byId('whole').addEventListener('click', kKeys.w);
 byId('failure').addEventListener('click', kKeys.f);

@@ -45,10 +45,9 @@ Element header_of(const Film& film) {
   header.add(text_element("h1", film.title));
   Element story("div", {{"class", film.failed ? "story failed" : "story"}});
   for (const std::string& sentence : film.story) story.add(text_element("p", sentence));
-  header.add(story);
+  header.add(Element("div", {{"class", "head"}}).add(story).add(facts_of(film)));
   Element command("p", {{"class", "again"}});
-  header.add(command.add(text_element("span", "Again: ")).add(text_element("code", film.command)));
-  return header.add(facts_of(film));
+  return header.add(command.add(text_element("span", "Again: ")).add(text_element("code", film.command)));
 }
 
 Element clearance_part(const Film& film) {

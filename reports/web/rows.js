@@ -51,31 +51,40 @@ const drawStates = (context, body, y) => {
     if (kRow_px > 30 && x1 - x0 > 20) textIn(context, word(list[i][2]), x0 + 3, top + 10, x1 - x0 - 6);
   }
 };
-// Marks of messages, if there is room for them.
+// The arrivals of which there are marks: all, or those between bodies involved if all would be a band.
+const markedArrivals = body => {
+  const list = arrivalsOf[body], first = countUpTo(list, a => a.sent_s, window_s.from - 10);
+  const there = list.slice(first, countUpTo(list, a => a.sent_s, window_s.to));
+  return there.length < 400 ? there : there.filter(a => isInvolved(a.sender) && isInvolved(a.receiver));
+};
 const drawMarks = (context, body, y) => {
-  const bottom = y + kRow_px - 2, list = arrivalsOf[body], first = countUpTo(list, a => a.sent_s, window_s.from - 10);
+  const bottom = y + kRow_px - 2, list = window_s.to - window_s.from <= 130 ? markedArrivals(body) : [];
   const seen = new Set();
-  if (window_s.to - window_s.from <= 130) {
-    for (let i = first; i < list.length && list[i].sent_s <= window_s.to; ++i) {
-      const a = list[i], sends = a.sender === body, at_s = sends || a.age_s === null ? a.sent_s : a.sent_s + a.age_s;
-      const x = Math.round(rowX(at_s)), key = x * 4 + (sends ? 0 : a.age_s === null ? 1 : 2);
-      if (!isInWindow(at_s) || seen.has(key)) continue;
-      seen.add(key);
-      context.fillStyle = context.strokeStyle = !sends && a.age_s === null ? colours.bad : colours.message;
-      context.beginPath();
-      if (!sends && a.age_s === null) {
-        context.moveTo(x - 2.5, bottom - 5);
-        context.lineTo(x + 2.5, bottom);
-        context.moveTo(x + 2.5, bottom - 5);
-        context.lineTo(x - 2.5, bottom);
-        context.stroke();
-      } else {
-        const tip = sends ? bottom - 5 : bottom, base = sends ? bottom : bottom - 5;
-        context.moveTo(x, tip);
-        context.lineTo(x + 2.5, base);
-        context.lineTo(x - 2.5, base);
-        context.fill();
-      }
+  const kept = isKept('messages', body, window_s.from) && isKept('messages', body, window_s.to - 0.01);
+  if (!kept && window_s.length > 0 && window_s.length <= 130) {
+    context.fillStyle = colours.soft;
+    context.fillText('messages only in part', nameWidth() + 6, bottom - 1);
+  }
+  for (const a of list) {
+    const sends = a.sender === body, lost = !sends && a.age_s === null;
+    const at_s = sends || lost ? a.sent_s : a.sent_s + a.age_s, x = Math.round(rowX(at_s));
+    const key = x * 4 + (sends ? 0 : lost ? 1 : 2);
+    if (!isInWindow(at_s) || seen.has(key)) continue;
+    seen.add(key);
+    context.fillStyle = context.strokeStyle = lost ? colours.bad : colours.message;
+    context.beginPath();
+    if (lost) {
+      context.moveTo(x - 2.5, bottom - 5);
+      context.lineTo(x + 2.5, bottom);
+      context.moveTo(x + 2.5, bottom - 5);
+      context.lineTo(x - 2.5, bottom);
+      context.stroke();
+    } else {
+      const tip = sends ? bottom - 5 : bottom, base = sends ? bottom : bottom - 5;
+      context.moveTo(x, tip);
+      context.lineTo(x + 2.5, base);
+      context.lineTo(x - 2.5, base);
+      context.fill();
     }
   }
   for (const [, at_ms, , , flags] of happeningsOf[body]) {
@@ -85,6 +94,24 @@ const drawMarks = (context, body, y) => {
     context.fillText(flags === 1 ? '⚑' : '◆', rowX(at_ms / 1e3) - 4, y + kRow_px * 0.38 + 2);
     context.font = '11px system-ui, sans-serif';
   }
+};
+// From the strike of a fault to its end: a line along the upper edge of the row.
+const drawFaults = (context, body, y) => {
+  const struck = new Map();
+  const line = (from_s, to_s) => {
+    const x0 = Math.max(nameWidth(), rowX(from_s));
+    context.fillStyle = colours.bad;
+    if (to_s >= window_s.from) context.fillRect(x0, y + 1, Math.max(2, rowX(to_s) - x0), 2.5);
+  };
+  for (const [, at_ms, what, details, flags] of happeningsOf[body]) {
+    if (flags !== 1) continue;
+    if (word(what) !== 'fault over') struck.set(details, at_ms / 1e3);
+    else if (struck.has(details)) {
+      line(struck.get(details), at_ms / 1e3);
+      struck.delete(details);
+    }
+  }
+  for (const from_s of struck.values()) line(from_s, kEnd_s);
 };
 const drawBroken = (context, body, y) => {
   for (const v of film.violations) {
@@ -124,6 +151,7 @@ const drawRows = () => {
     drawActivities(context, body, y);
     drawStates(context, body, y);
     drawBroken(context, body, y);
+    drawFaults(context, body, y);
     drawMarks(context, body, y);
     context.restore();
     if (body === selected) {
