@@ -11,11 +11,11 @@ namespace {
 
 constexpr std::size_t kMostCurves = 6;
 constexpr Duration kStep = std::chrono::milliseconds(40), kFineStep = std::chrono::milliseconds(4);
-constexpr Duration kBefore = std::chrono::seconds(12), kAfter = std::chrono::seconds(6),
+constexpr Duration kBefore = std::chrono::seconds(12), kAfter = std::chrono::seconds(2),
                    kFine = std::chrono::milliseconds(400);
 
 std::set<SimTime> instants_of(const Violation& v, SimTime end) {
-  std::set<SimTime> instants{v.first, v.closest_at, std::min(v.last, v.first + kBefore)};
+  std::set<SimTime> instants{v.first, v.closest_at, std::min(v.last, v.closest_at + kAfter)};
   const SimTime from = std::max(kStart, v.first - kBefore);
   const SimTime to = std::min(end, std::max(v.closest_at, std::min(v.last, v.first + kAfter)) + kAfter);
   for (SimTime t = from; t <= to; t += kStep) instants.insert(t);

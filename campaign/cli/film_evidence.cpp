@@ -94,7 +94,8 @@ std::string counts_text(const std::map<std::string, KindCount>& kinds) {
   std::vector<std::string> texts;
   for (const auto& [kind, count] : kinds) {
     std::string text = fmt::format("{} {}", count.sent, kind);
-    if (count.lost + count.under_way > 0) text += fmt::format(" ({} lost, {} under way)", count.lost, count.under_way);
+    if (count.lost > 0) text += fmt::format(" ({} lost)", count.lost);
+    if (count.under_way > 0) text += fmt::format(" ({} under way)", count.under_way);
     texts.push_back(std::move(text));
   }
   return joined(texts);

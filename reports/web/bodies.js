@@ -181,7 +181,8 @@ const pairAt = t_s => {
   const near = film.violations.find(v => v.last_us / 1e6 + 2 >= t_s) || film.violations[film.violations.length - 1];
   return near ? [near.a, near.b] : film.clearances.length ? [film.clearances[0].a, film.clearances[0].b] : null;
 };
-const gapAt = (all, pair) => pair && all[pair[0]] && all[pair[1]] ? closestPoints(all[pair[0]].box, all[pair[1]].box) : null;
+const gapAt = (all, pair) =>
+  pair && all[pair[0]] && all[pair[1]] ? closestPoints(all[pair[0]].box, all[pair[1]].box) : null;
 const isBrokenAt = (body, t_s) =>
   film.violations.some(v => (v.a === body || v.b === body) && v.first_us / 1e6 <= t_s && t_s <= v.last_us / 1e6);
 

@@ -3,7 +3,8 @@ const floor = document.getElementById('floor');
 const view = {x_m: 0, y_m: 0, scale: 20};  // the middle of the canvas; pixels for a metre
 let colours = {};
 const kColours = ['ink', 'soft', 'floor', 'grid', 'lane', 'station', 'agv', 'agv-line', 'hot', 'hot-line', 'thing',
-                  'load', 'hull', 'ghost', 'wait', 'message', 'bad', 'accent', 'paper', 'line', 'drive', 'turn', 'transfer',
+                  'load', 'hull', 'ghost', 'wait',
+                  'message', 'bad', 'accent', 'paper', 'line', 'drive', 'turn', 'transfer',
                   'charge', 'other', 'panel'];
 const readColours = () => {
   const style = getComputedStyle(document.documentElement);

@@ -1,6 +1,6 @@
 // Where bodies are: the pieces of the film, evaluated at any instant.
-// A piece: body, manner (0 rests, 1 drives, 2 turns), begin_us, end_us, outline; then of a drive track, flags (1 against
-// the track, 2 tail first), way_begin_um, planned_um, and else x_um, y_um, heading_urad, planned_urad; then phases.
+// A piece: body, manner (0 rests, 1 drives, 2 turns), begin_us, end_us, outline; of a drive track, flags (1 against the
+// track, 2 tail first), way_begin_um, planned_um, else x_um, y_um, heading_urad, planned_urad; then phases.
 const kManner = 1, kBegin = 2, kEnd = 3, kOutline = 4, kPhases = 9;
 
 const pieceAt = (body, t_s) => {

@@ -35,7 +35,8 @@ const tellPair = (t_s, all) => {
   if (!gap) return void pairBox.append(element('span', 'not both on the floor', 'soft'));
   const broken = gap.apart_m < kSafety_m - 2e-6;
   pairBox.append(element('b', gap.apart_m === 0 ? 'contact' : gap.apart_m.toFixed(3) + ' m', broken ? 'bad' : ''));
-  pairBox.append(element('span', broken ? '  below ' + kSafety_m.toFixed(2) + ' m' : '  clearance', broken ? 'bad' : 'soft'));
+  const meaning = broken ? '  below ' + kSafety_m.toFixed(2) + ' m' : '  clearance';
+  pairBox.append(element('span', meaning, broken ? 'bad' : 'soft'));
 };
 
 const aboutActivity = (body, t_s) => {
@@ -62,9 +63,10 @@ const aboutMessages = (body, t_s) => {
     if (sends && a.to === -1 && numbers.has(a.number)) continue;
     numbers.add(a.number);
     const arrived = a.age_s !== null && a.sent_s + a.age_s <= t_s;
-    const fate = sends && a.to === -1 ? '' : a.age_s === null ? a.fate : arrived ? 'after ' + seconds(a.age_s) : 'under way';
-    lines.push([seconds(a.sent_s), (sends ? 'to ' : 'from ') + (sends ? (a.to === -1 ? 'all' : nameOf(a.to)) : nameOf(a.sender)),
-                a.kind, [fate, a.age_s === null ? 'bad' : 'soft']]);
+    const toAll = sends && a.to === -1;
+    const whom = !sends ? 'from ' + nameOf(a.sender) : toAll ? 'to all' : 'to ' + nameOf(a.to);
+    const fate = a.age_s === null ? a.fate : arrived ? 'after ' + seconds(a.age_s) : 'under way';
+    lines.push([seconds(a.sent_s), whom, a.kind, toAll ? '' : [fate, a.age_s === null ? 'bad' : 'soft']]);
   }
   return lines;
 };

@@ -8,7 +8,8 @@ const movePlayhead = () => { playhead.style.left = rowX(player.t_s) + 'px'; };
 const moveCharts = () => {
   const pair = pairAt(player.t_s);
   for (const figure of document.querySelectorAll('figure.clearance')) {
-    const d = figure.dataset, share = (player.t_s * 1e6 - d.fromUs) / (d.toUs - d.fromUs), curve = film.clearances[d.curve];
+    const d = figure.dataset, share = (player.t_s * 1e6 - d.fromUs) / (d.toUs - d.fromUs);
+    const curve = film.clearances[d.curve];
     const x = share >= 0 && share <= 1 ? +d.leftPx + share * (d.rightPx - d.leftPx) : -9;
     const line = figure.querySelector('.now');
     line.setAttribute('x1', x);
@@ -80,7 +81,8 @@ const jump = forward => {
 };
 
 const showFailure = () => {
-  const places = film.involved.map(body => pieceAt(body, kFocus_s)).filter(Boolean).map(piece => poseAt(piece, kFocus_s));
+  const pieces = film.involved.map(body => pieceAt(body, kFocus_s)).filter(Boolean);
+  const places = pieces.map(piece => poseAt(piece, kFocus_s));
   if (!places.length) return wholeFloor();
   const xs = places.map(p => p.x_m), ys = places.map(p => p.y_m), room_m = 7;
   fitTo([Math.min(...xs) - room_m, Math.min(...ys) - room_m], [Math.max(...xs) + room_m, Math.max(...ys) + room_m]);
@@ -145,7 +147,7 @@ floor.addEventListener('pointerup', event => {
   fingers.delete(event.pointerId);
   if (moved_px > 5) return;
   const at = toFloor(event.offsetX, event.offsetY);
-  const hit = bodiesAt(player.t_s).find(one => one && isInside(at, {...one.box, long_m: one.box.long_m + 0.2, wide_m: one.box.wide_m + 0.2}));
+  const hit = bodiesAt(player.t_s).find(one => one && isInside(at, boxOf(one.piece, one.pose, 0.2)));
   if (hit) select(hit.body);
 });
 floor.addEventListener('pointercancel', event => fingers.delete(event.pointerId));
@@ -156,7 +158,8 @@ floor.addEventListener('wheel', event => {
 rows.addEventListener('click', event => {
   const row = Math.floor((event.offsetY - kAxis_px) / kRow_px);
   if (event.offsetX < nameWidth()) return void (row in kOrder && select(kOrder[row]));
-  goTo(window_s.from + (event.offsetX - nameWidth()) / (rows.clientWidth - nameWidth()) * (window_s.to - window_s.from));
+  const share = (event.offsetX - nameWidth()) / (rows.clientWidth - nameWidth());
+  goTo(window_s.from + share * (window_s.to - window_s.from));
 });
 
 slider.max = kEnd_s;

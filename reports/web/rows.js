@@ -6,10 +6,12 @@ const kRow_px = kAgvs.length > 12 ? 26 : 40, kAxis_px = 20;
 // Those involved stand first.
 const kOrder = [...kAgvs.filter(isInvolved), ...kAgvs.filter(i => !isInvolved(i))];
 const window_s = {from: 0, to: 1, length: 40};
-const kBarColours = {drive: 'drive', turn: 'turn', pick: 'transfer', drop: 'transfer', charge: 'charge', dock: 'charge'};
+const kBarColours = {drive: 'drive', turn: 'turn', pick: 'transfer', drop: 'transfer', charge: 'charge',
+                     dock: 'charge'};
 
 const nameWidth = () => (rows.clientWidth < 600 ? 64 : 96);
-const rowX = t_s => nameWidth() + (t_s - window_s.from) / (window_s.to - window_s.from) * (rows.clientWidth - nameWidth());
+const rowX = t_s =>
+  nameWidth() + (t_s - window_s.from) / (window_s.to - window_s.from) * (rows.clientWidth - nameWidth());
 const moveWindow = t_s => {
   const length_s = window_s.length > 0 ? Math.min(window_s.length, Math.max(kEnd_s, 1)) : Math.max(kEnd_s, 1);
   const from_s = Math.min(Math.max(0, t_s - 0.6 * length_s), Math.max(0, kEnd_s - length_s));

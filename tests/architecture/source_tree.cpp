@@ -27,7 +27,8 @@ bool ends_like(const fs::path& path, std::initializer_list<const char*> extensio
 
 // Scripts have no extension.
 bool is_other_text(const fs::path& path) {
-  return ends_like(path, {".md", ".txt", ".cmake", ".toml", ""}) && path.filename() != "LICENSE";
+  return ends_like(path, {".md", ".txt", ".cmake", ".toml", ".js", ".css", ".html", ""}) &&
+         path.filename() != "LICENSE";
 }
 
 template <class Wanted>

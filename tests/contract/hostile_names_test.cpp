@@ -50,6 +50,16 @@ class HostileNames : public test::ProgramTest {
       std::filesystem::remove(path("page.html"));
     }
   }
+  // The names are text on the page and in its data, and no markup.
+  void expect_sound_replay_page(const std::string& file) const {
+    const std::string page = read(path(file));
+    EXPECT_EQ(printable_lines(page), page);
+    const auto linted = shell("xmllint --noout --nonet " + file);
+    EXPECT_EQ(linted.exit_code, 0) << linted.err;
+    EXPECT_THAT(page, HasSubstr("&lt;/script&gt;]]&gt;&amp;lt;"));
+    for (const char* markup : {"<b>", "<!-- "}) EXPECT_THAT(page, Not(HasSubstr(markup)));
+    for (const char* once : {"<style>", "</style>", "</html>"}) EXPECT_EQ(page.find(once), page.rfind(once)) << once;
+  }
   static std::string layout() {
     return R"({"version": 1, "layout": {"name": ")" + kPlainWritten +
            R"(", "floor_low_m": [-5, -5], "floor_high_m": [25, 5],
@@ -96,14 +106,16 @@ TEST_F(HostileNames, ACampaignFromTheFirstRunToTheLastReport) {
 TEST_F(HostileNames, AScenarioThroughReplayAndSimulate) {
   write_campaign();
   checked("\"$FLEETPROOF\" run a.toml --db a.db");
-  const auto replayed = checked("\"$FLEETPROOF\" replay a.db 0 --trace --scenario s.json");
+  const auto replayed = checked("\"$FLEETPROOF\" replay a.db 0 --trace --scenario s.json --html p.html");
   EXPECT_EQ(replayed.exit_code, 0) << replayed.err;
   EXPECT_EQ(printable_lines(read(path("s.json"))), read(path("s.json")));
+  expect_sound_replay_page("p.html");
   checked("\"$FLEETPROOF\" replay a.db 0 --json");
-  const auto simulated = checked("\"$FLEETPROOF\" simulate s.json --agent reckless --trace");
+  const auto simulated = checked("\"$FLEETPROOF\" simulate s.json --agent reckless --trace --html q.html");
   EXPECT_THAT(simulated.exit_code, testing::AnyOf(0, 1, 4)) << simulated.err;
   EXPECT_EQ(nlohmann::json::parse(checked("\"$FLEETPROOF\" simulate s.json --agent reckless --json").out)["scenario"],
             nlohmann::json::parse(read(path("s.json")))["name"]);
+  expect_sound_replay_page("q.html");
   checked("\"$FLEETPROOF\" check s.json");
 }
 

@@ -23,7 +23,7 @@ class OutputFiles : public test::ProgramTest {
     run("report a.db --html report.html");
     run("import layout layout.json -o tables.csv");
     run("import layout layout.json -o vda.lif.json");
-    ASSERT_EQ(run("replay a.db 0 --scenario scenario.json").exit_code, 0);
+    ASSERT_EQ(run("replay a.db 0 --scenario scenario.json --html case.html").exit_code, 0);
   }
 };
 
@@ -34,7 +34,7 @@ TEST_F(OutputFiles, ReplaceOnlyTheirOwnKind) {
   write("empty", "");
   const std::vector<std::string> files = {"a.toml",        "a.db",        "layout.json", "picture.svg", "report.txt",
                                           "report.md",     "report.json", "tables.csv",  "report.html", "vda.lif.json",
-                                          "scenario.json", "notes.txt",   "data.json"};
+                                          "scenario.json", "case.html",   "notes.txt",   "data.json"};
   struct Option {
     std::string words;
     std::set<std::string> own;
@@ -43,6 +43,7 @@ TEST_F(OutputFiles, ReplaceOnlyTheirOwnKind) {
                             {"generate fishbone --svg ", {"picture.svg"}},
                             {"import layout layout.json --svg ", {"picture.svg"}},
                             {"replay a.db 0 --scenario ", {"scenario.json"}},
+                            {"replay a.db 0 --html ", {"case.html"}},
                             {"report a.db -o ", {"report.txt", "report.md", "report.json", "report.html"}},
                             {"report a.db --html ", {"report.txt", "report.md", "report.json", "report.html"}},
                             {"report a.db --json -o ", {"report.txt", "report.md", "report.json", "report.html"}}};
