@@ -62,11 +62,6 @@ const markedArrivals = body => {
 const drawMarks = (context, body, y) => {
   const bottom = y + kRow_px - 2, list = window_s.to - window_s.from <= 130 ? markedArrivals(body) : [];
   const seen = new Set();
-  const kept = isKept('messages', body, window_s.from) && isKept('messages', body, window_s.to - 0.01);
-  if (!kept && window_s.length > 0 && window_s.length <= 130) {
-    context.fillStyle = colours.soft;
-    context.fillText('messages only in part', nameWidth() + 6, bottom - 1);
-  }
   for (const a of list) {
     const sends = a.sender === body, lost = !sends && a.age_s === null;
     const at_s = sends || lost ? a.sent_s : a.sent_s + a.age_s, x = Math.round(rowX(at_s));
@@ -127,7 +122,17 @@ const drawBroken = (context, body, y) => {
   }
 };
 
+// What the window lacks, because the page has it only near the failure.
+const tellMissing = () => {
+  const ends_s = [window_s.from, Math.min(window_s.to - 0.01, kEnd_s)];
+  const isWhole = body => ends_s.every(t_s => isKept('messages', body, t_s));
+  const all = kAgvs.every(isWhole), long = window_s.to - window_s.from > 130;
+  document.getElementById('missing').textContent =
+    long ? 'messages: choose 2 min or less' : all ? '' : 'here the page has messages only in part';
+};
+
 const drawRows = () => {
+  tellMissing();
   const width = rowsBox.clientWidth, height = kAxis_px + kOrder.length * kRow_px;
   rows.style.height = height + 'px';
   playhead.style.height = height + 'px';
