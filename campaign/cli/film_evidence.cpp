@@ -16,9 +16,11 @@ namespace {
 
 constexpr std::int64_t kTalk_us = 20'000'000;
 constexpr std::int64_t kFaultsBefore_us = 120'000'000;
-constexpr std::size_t kMostFaults = 4;
+constexpr std::size_t kMostFaults = 4, kMostKinds = 6;
 
-double in_seconds(std::int64_t us) { return static_cast<double>(us) / 1e6; }
+// Cut to hundredths, as everywhere on the page.
+double in_seconds(std::int64_t us) { return static_cast<double>(us / 10'000) / 1e2; }
+double in_metres(std::int64_t um) { return static_cast<double>(um) / 1e6; }
 
 // The last row of `body` at or before an instant; null if there is none.
 template <class Row>
@@ -76,9 +78,9 @@ std::vector<std::string> FilmEvidence::belief(EntityId agv, EntityId other, SimT
     return {fmt::format("The agent of {} had no belief about where {} was.", name(agv), name(other))};
   std::string text = fmt::format(
       "The agent of {} believed {} to be at ({:.2f}, {:.2f}) m, as of {:.2f} s: {:.1f} s old", name(agv), name(other),
-      in_seconds(last->x_um), in_seconds(last->y_um), in_seconds(last->as_of_us), in_seconds(at_us - last->as_of_us));
+      in_metres(last->x_um), in_metres(last->y_um), in_seconds(last->as_of_us), in_seconds(at_us - last->as_of_us));
   if (const Piece* piece = piece_at(bodies_, other, at)) {
-    const Vec2 believed(in_seconds(last->x_um), in_seconds(last->y_um));
+    const Vec2 believed(in_metres(last->x_um), in_metres(last->y_um));
     text += fmt::format(", {:.1f} m from where it was", (piece->pose_at(at).position_m - believed).norm());
   }
   return {text + "."};
@@ -86,51 +88,55 @@ std::vector<std::string> FilmEvidence::belief(EntityId agv, EntityId other, SimT
 
 namespace {
 
-// What became of the messages of one kind.
-struct KindCount {
-  std::size_t sent = 0, lost = 0, under_way = 0;
-};
-std::string counts_text(const std::map<std::string, KindCount>& kinds) {
-  std::vector<std::string> texts;
-  for (const auto& [kind, count] : kinds) {
-    std::string text = fmt::format("{} {}", count.sent, kind);
-    if (count.lost > 0) text += fmt::format(" ({} lost)", count.lost);
-    if (count.under_way > 0) text += fmt::format(" ({} under way)", count.under_way);
-    texts.push_back(std::move(text));
+// The messages of one kind from one AGV to another.
+struct OneKind {
+  std::size_t sent = 0, lost = 0, under_way = 0;  // of late
+  const web::Message* last = nullptr;             // that has arrived, ever
+  std::int64_t last_arrived_us = -1;
+
+  void count(const web::Message& message, const web::Arrival& arrival, std::int64_t at_us) {
+    const bool received = arrival.fate == web::Fate::Received;
+    const std::int64_t arrives_us = message.sent_us + arrival.after_us;
+    if (message.sent_us >= at_us - kTalk_us) {
+      ++sent;
+      lost += received ? 0 : 1;
+      under_way += received && arrives_us > at_us ? 1 : 0;
+    }
+    if (!received || arrives_us > at_us || arrives_us < last_arrived_us) return;
+    last = &message;
+    last_arrived_us = arrives_us;
   }
-  return joined(texts);
-}
+  std::string counts(const std::string& kind) const {
+    std::string text = fmt::format("{} {}", sent, kind);
+    if (lost + under_way == 0) return text;
+    return text + fmt::format(" ({}{}{})", lost > 0 ? fmt::format("{} lost", lost) : "",
+                              lost > 0 && under_way > 0 ? ", " : "",
+                              under_way > 0 ? fmt::format("{} under way", under_way) : "");
+  }
+};
 
 }  // namespace
 
 std::string FilmEvidence::messages_between(EntityId sender, EntityId receiver, SimTime at) const {
   const std::int64_t at_us = film_us(at);
-  std::map<std::string, KindCount> kinds;
-  const web::Message* newest = nullptr;
-  std::int64_t newest_at_us = -1;
-  for (const web::Message& m : film_.messages) {
-    if (m.sender != sender.index() || m.sent_us > at_us) continue;
-    for (const web::Arrival& arrival : m.arrivals) {
-      if (arrival.receiver != receiver.index()) continue;
-      const bool received = arrival.fate == web::Fate::Received;
-      const std::int64_t arrives_us = m.sent_us + arrival.after_us;
-      if (m.sent_us >= at_us - kTalk_us) {
-        KindCount& count = kinds[m.kind];
-        ++count.sent;
-        count.lost += received ? 0 : 1;
-        count.under_way += received && arrives_us > at_us ? 1 : 0;
-      }
-      if (!received || arrives_us > at_us || arrives_us < newest_at_us) continue;
-      newest = &m;
-      newest_at_us = arrives_us;
+  std::map<std::string, OneKind> kinds;
+  for (const web::Message& message : film_.messages) {
+    if (message.sender != sender.index() || message.sent_us > at_us) continue;
+    for (const web::Arrival& arrival : message.arrivals) {
+      if (arrival.receiver == receiver.index()) kinds[message.kind].count(message, arrival, at_us);
     }
   }
-  std::string text = fmt::format("In the {:.0f} s before, {} sent to {}: {}.", in_seconds(kTalk_us), name(sender),
-                                 name(receiver), kinds.empty() ? "nothing" : counts_text(kinds));
-  if (newest == nullptr) return text + " None had ever arrived.";
-  return text + fmt::format(" The last that arrived was #{} {}, sent at {:.2f} s, {:.2f} s old on arrival.",
-                            newest->number, newest->kind, in_seconds(newest->sent_us),
-                            in_seconds(newest_at_us - newest->sent_us));
+  std::vector<std::string> recent, last;
+  for (const auto& [kind, one] : kinds) {
+    if (one.sent > 0) recent.push_back(one.counts(kind));
+    if (one.last != nullptr && last.size() < kMostKinds)
+      last.push_back(fmt::format("{} #{} (sent {:.2f} s, received {:.2f} s)", kind, one.last->number,
+                                 in_seconds(one.last->sent_us), in_seconds(one.last_arrived_us)));
+  }
+  return fmt::format(
+      "In the {:.0f} s before, {} sent to {}: {}. {}", in_seconds(kTalk_us), name(sender), name(receiver),
+      recent.empty() ? "nothing" : joined(recent),
+      last.empty() ? "None had ever arrived." : "The last of each kind that arrived: " + joined(last) + ".");
 }
 
 std::vector<std::string> FilmEvidence::messages(EntityId one, EntityId other, SimTime at) const {

@@ -20,7 +20,9 @@ constexpr std::size_t kMostInvolved = 8;
 
 // Cut, not rounded: no digit differs from the full number.
 double millimetres(std::int64_t um) { return static_cast<double>(um - um % 1000) / 1e6; }
-double in_seconds(SimTime t) { return static_cast<double>(film_us(t) / 1000) / 1e3; }
+double in_milliseconds(SimTime t) { return static_cast<double>(film_us(t) / 1000) / 1e3; }
+double in_hundredths(std::int64_t us) { return static_cast<double>(us / 10'000) / 1e2; }
+double in_hundredths(SimTime t) { return in_hundredths(film_us(t)); }
 
 // Tells one story, into one film.
 class Storyteller {
@@ -53,7 +55,7 @@ class Storyteller {
     look_at(v.first, kBeforeViolation_us);
     film_.involved = {v.a.index(), v.b.index()};
     const char* what = v.contact ? "Contact" : "Safety distance broken";
-    film_.title = fmt::format("{}: {} and {} at {:.2f} s", what, name(v.a), name(v.b), in_seconds(v.first));
+    film_.title = fmt::format("{}: {} and {} at {:.2f} s", what, name(v.a), name(v.b), in_hundredths(v.first));
     const std::string limit = distance_text(scenario_.law.safety_distance_m);
     const double speed_mps = millimetres(v.relative_speed_um_s);
     const std::string where =
@@ -62,13 +64,13 @@ class Storyteller {
       add(
           fmt::format("{} and {} come closer than {} at {:.3f} s and touch, {}, with {:.2f} m/s between their closest "
                       "points ({}).",
-                      name(v.a), name(v.b), limit, in_seconds(v.first), where, speed_mps, name_of(level_of(v))));
+                      name(v.a), name(v.b), limit, in_milliseconds(v.first), where, speed_mps, name_of(level_of(v))));
     } else {
       add(
           fmt::format("{} and {} are closer than {} from {:.3f} s to {:.3f} s: {:.3f} m at {:.3f} s, {}, with {:.2f} "
                       "m/s between their closest points.",
-                      name(v.a), name(v.b), limit, in_seconds(v.first), in_seconds(v.last),
-                      millimetres(v.min_clearance_um), in_seconds(v.closest_at), where, speed_mps));
+                      name(v.a), name(v.b), limit, in_milliseconds(v.first), in_milliseconds(v.last),
+                      millimetres(v.min_clearance_um), in_milliseconds(v.closest_at), where, speed_mps));
     }
     for (const auto& [one, other] : {std::pair(v.a, v.b), std::pair(v.b, v.a)}) {
       add(evidence_.doing(one, v.first));
@@ -84,7 +86,7 @@ class Storyteller {
     if (more == 0) return;
     const Violation& next = outcome_.violations[1];
     add(fmt::format("{} after it, the next between {} and {} at {:.2f} s. They may follow from the first.",
-                    count_text(more, "more violation"), name(next.a), name(next.b), in_seconds(next.first)));
+                    count_text(more, "more violation"), name(next.a), name(next.b), in_hundredths(next.first)));
   }
 
   const web::Happening* crash() const {
@@ -100,7 +102,7 @@ class Storyteller {
     film_.involved = {end.body};
     const EntityId agv{end.body};
     film_.title = fmt::format("{} of the agent of {} at {:.2f} s", outcome_.crash ? "Crash" : "Hang", name(agv),
-                              static_cast<double>(end.at_us / 1000) / 1e3);
+                              in_hundredths(end.at_us));
     add(fmt::format("The run ended there: the agent of {} {}.", name(agv),
                     outcome_.crash ? "crashed" : "did not come to an end"));
     if (!outcome_.message.empty()) add("The agent's end in its own words: " + printable(outcome_.message, 300));
@@ -142,8 +144,8 @@ class Storyteller {
     std::string whom;
     for (const std::size_t body : film_.involved) whom += (whom.empty() ? "" : ", ") + name(EntityId{body});
     film_.title =
-        fmt::format("{}{}{} from {:.2f} s on", word, whom.empty() ? "" : ": ", whom, in_seconds(incident.first));
-    add(fmt::format("From {:.2f} s to {:.2f} s: {}.", in_seconds(incident.first), in_seconds(incident.last),
+        fmt::format("{}{}{} from {:.2f} s on", word, whom.empty() ? "" : ": ", whom, in_hundredths(incident.first));
+    add(fmt::format("From {:.2f} s to {:.2f} s: {}.", in_hundredths(incident.first), in_hundredths(incident.last),
                     info.meaning));
     for (const Incident* wait : waits) {
       add(fmt::format("{} waits for {}{}.", name(wait->a), name(wait->b),
@@ -170,7 +172,7 @@ class Storyteller {
     }
     const auto waiting = std::ranges::count_if(waits, [](const auto& entry) { return entry.second; });
     if (waiting > 0)
-      add(fmt::format("At {:.2f} s, {} of {} AGVs declared that they waited for another.", in_seconds(at), waiting,
+      add(fmt::format("At {:.2f} s, {} of {} AGVs declared that they waited for another.", in_hundredths(at), waiting,
                       scenario_.agvs.size()));
   }
 
@@ -178,7 +180,7 @@ class Storyteller {
     look_at(film_.failed ? at_ns(static_cast<std::int64_t>(outcome_.simulated_ns)) : kStart, kBeforeViolation_us);
     film_.title = fmt::format("{}: {}", printable(scenario_.name), name_of(outcome_.outcome_class()));
     add(film_.failed ? fmt::format("The run ended at {:.2f} s: {}.",
-                                   in_seconds(at_ns(static_cast<std::int64_t>(outcome_.simulated_ns))),
+                                   in_hundredths(at_ns(static_cast<std::int64_t>(outcome_.simulated_ns))),
                                    name_of(outcome_.outcome_class()))
                      : "No two bodies came closer than the safety distance, and the run came to its end.");
     if (!outcome_.message.empty()) add(printable(outcome_.message, 300));

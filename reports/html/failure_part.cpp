@@ -34,7 +34,9 @@ Element failure_part(const ReportInput& input, const FilmStrips& strips) {
   groups.resize(std::min(all, kMostGroups));
   part.add(paragraph(std::string(kFailureColumns)));
   part.add(table_of(failure_table(groups)));
-  part.add(paragraph("Below, the worst run of each group with the command that replays it."));
+  part.add(
+      paragraph("Below, the worst run of each group with the command that replays it. With --html FILE added, the "
+                "command writes a page that shows the run in a browser."));
   if (!strips.empty()) {
     part.add(paragraph(
         "A film strip shows the floor from above, in metres, around the worst instant, which has a thick frame. The "

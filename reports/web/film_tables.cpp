@@ -15,8 +15,10 @@ using html::Element;
 constexpr std::int64_t kBefore_us = 30'000'000, kAfter_us = 5'000'000;
 constexpr std::size_t kMostEvents = 120, kMostMessages = 60;
 
-std::string time_text(std::int64_t at_us) { return fmt::format("{:.2f}", static_cast<double>(at_us) / 1e6); }
 // Cut, not rounded: no digit differs from the full number.
+std::string time_text(std::int64_t at_us) {
+  return fmt::format("{:.2f}", static_cast<double>(at_us - at_us % 10'000) / 1e6);
+}
 std::string millimetres_text(std::int64_t value_um) {
   return fmt::format("{:.3f}", static_cast<double>(value_um - value_um % 1000) / 1e6);
 }
