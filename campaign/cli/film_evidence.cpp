@@ -157,9 +157,13 @@ std::string FilmEvidence::faults(const std::vector<std::size_t>& bodies, SimTime
   for (const web::Happening& h : film_.happenings) {
     if (!h.is_fault || h.at_us > at_us || h.at_us < at_us - kFaultsBefore_us) continue;
     if (std::ranges::find(bodies, h.body) == bodies.end()) continue;
-    const std::string what = h.details.empty() ? h.what : h.details;
+    if (h.details.empty()) {  // no injected fault
+      found.push_back(fmt::format("{}: {} {:.2f} s before ({:.2f} s)", name(EntityId{h.body}), h.what,
+                                  in_seconds(at_us - h.at_us), in_seconds(h.at_us)));
+      continue;
+    }
     const bool is_end = h.what == name_of(TraceKind::FaultOver);
-    found.push_back(fmt::format("{}{} of {} {:.2f} s before ({:.2f} s)", is_end ? "end of the " : "", what,
+    found.push_back(fmt::format("{}{} of {} {:.2f} s before ({:.2f} s)", is_end ? "end of the " : "", h.details,
                                 name(EntityId{h.body}), in_seconds(at_us - h.at_us), in_seconds(h.at_us)));
   }
   if (found.empty()) return "No injected fault struck them in the two minutes before.";

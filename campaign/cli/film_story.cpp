@@ -72,6 +72,8 @@ class Storyteller {
                       name(v.a), name(v.b), limit, in_milliseconds(v.first), in_milliseconds(v.last),
                       millimetres(v.min_clearance_um), in_milliseconds(v.closest_at), where, speed_mps));
     }
+    const web::Happening* end = crash();
+    if (end != nullptr && end->at_us <= film_us(v.first)) add(crash_text(*end));
     for (const auto& [one, other] : {std::pair(v.a, v.b), std::pair(v.b, v.a)}) {
       add(evidence_.doing(one, v.first));
       for (std::string& sentence : evidence_.belief(one, other, v.first)) add(std::move(sentence));
@@ -96,6 +98,12 @@ class Storyteller {
     });
     return found == film_.happenings.end() ? nullptr : &*found;
   }
+  std::string crash_text(const web::Happening& end) const {
+    const bool hung = end.what == name_of(TraceKind::AgentHung);
+    return fmt::format("The agent of {} {} at {:.2f} s{}{}.", name(EntityId{end.body}),
+                       hung ? "did not return from a call" : "crashed", in_hundredths(end.at_us),
+                       outcome_.message.empty() ? "" : ": ", printable(outcome_.message, 300));
+  }
   void tell_crash(const web::Happening& end) {
     film_.focus_us = end.at_us;
     film_.open_us = std::max<std::int64_t>(0, end.at_us - kBeforeViolation_us);
@@ -103,9 +111,7 @@ class Storyteller {
     const EntityId agv{end.body};
     film_.title = fmt::format("{} of the agent of {} at {:.2f} s", outcome_.crash ? "Crash" : "Hang", name(agv),
                               in_hundredths(end.at_us));
-    add(fmt::format("The run ended there: the agent of {} {}.", name(agv),
-                    outcome_.crash ? "crashed" : "did not come to an end"));
-    if (!outcome_.message.empty()) add("The agent's end in its own words: " + printable(outcome_.message, 300));
+    add(crash_text(end));
     const SimTime at = at_ns(end.at_us * 1000);
     add(evidence_.doing(agv, at));
     add(evidence_.faults(film_.involved, at));

@@ -76,6 +76,9 @@ ReplayResult replay_either_way(const ReplayVerbWords& words, const ArchiveReader
                                AgentPrograms& programs, TraceSink* sink) {
   const bool wants_software = words.in_process || !words.plugins.empty();
   if (wants_software || !archive.recording(words.run)) return replay_software(words, archive, plan, programs, sink);
+  // Files about the run need all of it: software that crashes in this process would leave none. A trace is printed
+  // while the run goes on, so it ends where the software crashed.
+  if (sink != nullptr && !words.observed.trace.wanted()) return *replay_recording(archive, plan, words.run, sink);
   if (audits_of(archive, plan, plan.agent_of_cell(words.run)).differing == 0) {
     try {
       ReplayResult result = replay_software(words, archive, plan, programs, sink);

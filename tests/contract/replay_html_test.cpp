@@ -239,6 +239,18 @@ TEST_F(ReplayHtml, ADeadlockSaysWhoWaitsForWhom) {
   EXPECT_GE(film("p.html")["involved"].size(), 2U);
 }
 
+// Its recording plays the run: the software would end this process.
+TEST_F(ReplayHtml, ACrashOfAPlugInIsShownFromItsRecording) {
+  std::filesystem::copy_file(FLEETPROOF_FAILING_AGENT, path("failing.so"));
+  write("c.toml",
+        "kind = \"search\"\nhorizon_s = 30\n[factors]\nagents = [{ file = \"failing.so\", config = \"abort 1\" "
+        "}]\nlayouts = [\"aisle-grid\"]\nfleet_sizes = [3]\n");
+  ASSERT_LE(run("run c.toml --db c.db").exit_code, 4);
+  const auto replayed = run("replay c.db 0 --html p.html");
+  ASSERT_EQ(replayed.exit_code, 0) << replayed.err;
+  EXPECT_THAT(read(path("p.html")), testing::ContainsRegex("<h1>Crash of the agent of AGV [0-9]+ at "));
+}
+
 // In the browser: the scripts run, the address decides the instant and the AGV, and the panel has the pose of the
 // engine.
 TEST_F(ReplayHtml, RunsInABrowser) {
