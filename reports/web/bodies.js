@@ -61,8 +61,8 @@ const drawBody = (context, {body, box}, isBroken, t_s) => {
                                    toY(box.y_m + along * box.long_m * box.uy + aside * box.wide_m * box.ux)];
   context.beginPath();  // the nose
   context.moveTo(...point(0.94, 0));
-  context.lineTo(...point(0.5, 0.6));
-  context.lineTo(...point(0.5, -0.6));
+  context.lineTo(...point(0.3, 0.42));
+  context.lineTo(...point(0.3, -0.42));
   context.closePath();
   context.fillStyle = hot ? colours['hot-line'] : colours['agv-line'];
   context.fill();
@@ -171,7 +171,7 @@ const drawMessages = (context, all, t_s, label) => {
       context.fill();
     }
     context.globalAlpha = 1;
-    const age = lost ? a.fate : (t_s - a.sent_s).toFixed(1) + ' s old';
+    const age = lost ? a.fate : Math.min(t_s - a.sent_s, a.age_s).toFixed(1) + ' s old';
     if (!crowded || between) label(a.kind + ', ' + age, x, y - 6, lost ? colours.bad : colours.message);
   }
 };

@@ -123,6 +123,7 @@ const roundedPath = (context, box, margin_m) => {
   const r = margin_m * view.scale, corners = cornersOf(box).map(([x, y]) => [toX(x), toY(y)]);
   corners.forEach(([x, y], i) => {
     const [px, py] = corners[(i + 3) % 4], out = Math.atan2(x - px, py - y);  // away from the side before this corner
+    if (i === 0) context.moveTo(x + r * Math.cos(out), y + r * Math.sin(out));
     context.arc(x, y, r, out, out - Math.PI / 2, true);
   });
   context.closePath();
