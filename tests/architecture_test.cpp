@@ -63,7 +63,10 @@ const std::map<std::string, std::set<std::string>> kMayInclude = [] {
                                                         "reports/evidence", "campaign/plan"});
   rooms["campaign/workers"] = with(rooms["campaign/run"], {"campaign/run"});
   rooms["campaign/batch"] = with(rooms["campaign/workers"], {"campaign/workers"});
-  rooms["campaign/cli"] = with(rooms["campaign/batch"], {"campaign/batch", "reports", "reports/html", "reports/web"});
+  rooms["campaign/shrink"] = with(rooms["campaign/batch"], {"campaign/batch"});
+  rooms["campaign/explain"] = with(rooms["campaign/shrink"], {"campaign/shrink"});
+  rooms["campaign/cli"] =
+      with(rooms["campaign/explain"], {"campaign/explain", "reports", "reports/html", "reports/web"});
   return rooms;
 }();
 

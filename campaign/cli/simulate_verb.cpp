@@ -11,6 +11,7 @@
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "campaign/run/agent_programs.hpp"
+#include "campaign/run/case_run.hpp"
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
 #include "core/engine/simulation.hpp"
@@ -126,7 +127,7 @@ Observers observers_of(const std::string& name, const Scenario& scenario) {
 bool measures_clearance(const SimulateWords& words) { return find_law(words.law) == &laws().front(); }
 
 void print_json(const Scenario& scenario, const Outcome& outcome, const SimulateWords& words,
-                const Observers& observers) {
+                const Observers& observers, const ExpectedOutcome& found) {
   nlohmann::ordered_json json;
   json["schema_version"] = 1;
   json["scenario"] = scenario.name;
@@ -137,6 +138,12 @@ void print_json(const Scenario& scenario, const Outcome& outcome, const Simulate
   json["exempt_pairs"] = nlohmann::ordered_json::array();
   for (const auto& [one, other] : scenario.law.exempt_pairs) json["exempt_pairs"].push_back({one, other});
   json["outcome"] = name_of(outcome.outcome_class());
+  if (scenario.expected != ExpectedOutcome{}) {
+    json["expected"] = {{"failure", scenario.expected.failure},
+                        {"found", found.failure},
+                        {"same_failure", scenario.expected.failure == found.failure},
+                        {"same_run", scenario.expected == found}};
+  }
   json["violations"] = nlohmann::ordered_json::array();
   for (const Violation& violation : outcome.violations) json["violations"].push_back(to_json(violation, scenario));
   json["incidents"] = nlohmann::ordered_json::array();
@@ -179,6 +186,14 @@ std::string agent_of(const SimulateWords& words, const Scenario& scenario, const
                                fmt::join(names, ", ")));
 }
 
+// Whether a saved case does what it did when it was saved.
+std::string expectation_text(const ExpectedOutcome& expected, const ExpectedOutcome& found) {
+  if (expected == found) return fmt::format("  as expected: {}\n", expected.failure);
+  if (expected.failure == found.failure)
+    return fmt::format("  expected: {}; it fails so, but the run took another course\n", expected.failure);
+  return fmt::format("  NOT as expected: {} was expected, {} was found\n", expected.failure, found.failure);
+}
+
 // The run is simulated once before its trace is printed, so that lines about the safety distance stand where they
 // belong. A plug-in runs once: it may crash, and then its trace is wanted.
 std::vector<Violation> violations_before(const SimulateWords& words, const Scenario& scenario,
@@ -213,13 +228,17 @@ int simulate_scenario(SimulateWords words) {
   const Outcome outcome =
       simulate(scenario, agent, observers.laws, observed ? &*observed : nullptr, words.config.c_str());
   if (observed) observed->finish(outcome);
+  const bool is_saved_case = scenario.expected != ExpectedOutcome{};
+  const ExpectedOutcome found =
+      is_saved_case ? expectation_of(run_case(scenario, agent, words.config)) : ExpectedOutcome{};
   if (words.json) {
-    print_json(scenario, outcome, words, observers);
+    print_json(scenario, outcome, words, observers, found);
   } else {
     put_text(outcome_text(scenario, outcome, measures_clearance(words)));
     if (observers.compared_with != nullptr)
       put_text(differences_text(scenario, observers.differences(scenario), find_law(words.law)->name));
   }
+  if (!words.json && is_saved_case) put_text(expectation_text(scenario.expected, found));
   if (outcome.engine_error) return kEngineFault;
   if (outcome.violation || outcome.contact) return kViolated;
   return outcome.outcome_class() == OutcomeClass::Clean ? kDemonstrated : kNotDemonstrated;

@@ -8,6 +8,8 @@ namespace fleetproof::cli {
 Action prepare_run(Options& options);
 Action prepare_report(Options& options);
 Action prepare_replay(Options& options);
+Action prepare_explain(Options& options);
+Action prepare_shrink(Options& options);
 Action prepare_simulate(Options& options);
 Action prepare_generate(Options& options);
 Action prepare_import(Options& options);

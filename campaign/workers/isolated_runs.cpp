@@ -12,6 +12,8 @@
 #include "campaign/workers/worker_watch.hpp"
 #include "core/base/error.hpp"
 #include "core/scenario/canonical_bytes.hpp"
+#include "generators/scenario_file/scenario_file.hpp"
+#include "generators/scenario_file/scenario_text.hpp"
 
 namespace fleetproof {
 namespace {
@@ -40,20 +42,31 @@ IsolatedRuns::IsolatedRuns(const CampaignPlan& plan, const AgentPrograms& progra
 }
 
 RunRecord IsolatedRuns::operator()(std::uint64_t run_index, bool record_calls) {
-  Member member = take_member();
   RunRecord record = run_one_.empty_record(run_index);
+  RunAnswer answer = answer_of({run_index, {}, record_calls, {}, false});
+  record.scenario_digest = answer.scenario_digest;
+  record.outcome = std::move(answer.outcome);
+  record.recording = std::move(answer.recording);
+  return record;
+}
+
+CaseRun IsolatedRuns::of_case(const Scenario& scenario, Fates fates) {
+  RunAnswer answer = answer_of({0, {}, false, to_text(scenario), fates == Fates::Kept});
+  return {std::move(answer.outcome),   std::move(answer.states), std::move(answer.words),
+          std::move(answer.all_words), std::move(answer.fates),  std::move(answer.notes)};
+}
+
+RunAnswer IsolatedRuns::answer_of(RunOrder order) {
+  Member member = take_member();
   try {
-    RunAnswer answer = answer_of(member, {run_index, {}, record_calls});
-    record.scenario_digest = answer.scenario_digest;
-    record.outcome = std::move(answer.outcome);
-    record.recording = std::move(answer.recording);
+    RunAnswer answer = answer_of(member, std::move(order));
     if (member.runs_left == 0) retire(member);
+    give_back(std::move(member));
+    return answer;
   } catch (...) {
     give_back(std::move(member));
     throw;
   }
-  give_back(std::move(member));
-  return record;
 }
 
 RunAnswer IsolatedRuns::answer_of(Member& member, RunOrder order) {
@@ -74,14 +87,20 @@ RunAnswer IsolatedRuns::repeat(Member& member, RunOrder order) {
       order.known_ends.push_back({again.cause.call, again.cause.hang, again.cause.message});
       continue;
     }
-    RunAnswer unexplained;
-    unexplained.scenario_digest = scenario_digest(run_one_.scenarios().scenario(order.run_index));
-    unexplained.outcome.crash = !again.cause.hang;
-    unexplained.outcome.hang = again.cause.hang;
-    unexplained.outcome.message = again.cause.message + "; what happened after it is not known";
-    unexplained.outcome.agv_count = run_one_.scenarios().place(order.run_index).cell.fleet_size;
-    return unexplained;
+    return unexplained(order, again.cause);
   }
+}
+
+RunAnswer IsolatedRuns::unexplained(const RunOrder& order, const CauseOfDeath& cause) const {
+  const Scenario scenario = order.scenario.empty() ? run_one_.scenarios().scenario(order.run_index)
+                                                   : parse_scenario(order.scenario, "an order to a worker");
+  RunAnswer answer;
+  answer.scenario_digest = scenario_digest(scenario);
+  answer.outcome.crash = !cause.hang;
+  answer.outcome.hang = cause.hang;
+  answer.outcome.message = cause.message + "; what happened after it is not known";
+  answer.outcome.agv_count = static_cast<std::uint32_t>(scenario.agvs.size());
+  return answer;
 }
 
 IsolatedRuns::Attempt IsolatedRuns::attempt(Member& member, const RunOrder& order, double cpu_limit_s) {

@@ -9,6 +9,7 @@
 
 #include "campaign/plan/plan.hpp"
 #include "campaign/run/agent_programs.hpp"
+#include "campaign/run/case_run.hpp"
 #include "campaign/run/run_one.hpp"
 #include "campaign/workers/cause_of_death.hpp"
 #include "campaign/workers/forker.hpp"
@@ -49,6 +50,8 @@ class IsolatedRuns {
   // Throws RunAbandoned after abandon(), and EngineError if no worker can be started or a plug-in's file has changed.
   // `record`: the record of a failed run has a recording of what its agents did.
   RunRecord operator()(std::uint64_t run_index, bool record = false);
+  // The same for one scenario and the first agent of the plan.
+  CaseRun of_case(const Scenario& scenario, Fates fates);
   // All runs under way end within a second.
   void abandon() { abandoned_ = true; }
   // The CPU time of the slowest run so far; the limit of each run follows it. A higher one may come from elsewhere.
@@ -78,6 +81,8 @@ class IsolatedRuns {
   Attempt lost(Member& member, std::uint64_t run_index, WorkerState state);
   RunAnswer repeat(Member& member, RunOrder order);
   RunAnswer answer_of(Member& member, RunOrder order);
+  RunAnswer answer_of(RunOrder order);
+  RunAnswer unexplained(const RunOrder& order, const CauseOfDeath& cause) const;
   double cpu_limit_s(std::uint64_t run_index) const;
 
   const CampaignPlan& plan_;

@@ -5,7 +5,37 @@
 namespace fleetproof {
 namespace {
 
-constexpr std::size_t kShortestEndBytes = 8 + 1 + 4;
+constexpr std::size_t kShortestEndBytes = 8 + 1 + 4, kShortestTextBytes = 4,
+                      kShortestFateBytes = 3 * 4 + 3 * 8 + 2 + 4 + 4 + 8;
+
+void put(ByteSink& sink, const std::vector<std::string>& texts) {
+  sink.u32(static_cast<std::uint32_t>(texts.size()));
+  for (const std::string& text : texts) sink.text(text);
+}
+
+std::vector<std::string> take_texts(ByteSource& source) {
+  std::vector<std::string> texts(source.count(kShortestTextBytes));
+  for (std::string& text : texts) text = source.text();
+  return texts;
+}
+
+void put(ByteSink& sink, const MessageFate& message) {
+  const auto& [sender, receiver, sent, ordinal, lost, delay, copied, copy_delay] = message.fate;
+  for (const std::uint32_t word : {sender.value, receiver.value, ordinal, message.number}) sink.u32(word);
+  for (const Duration time : {sent, delay, copy_delay}) sink.i64(time.count());
+  for (const bool flag : {lost, copied}) sink.u8(flag ? 1 : 0);
+  sink.text(message.kind);
+  sink.u64(message.hash);
+}
+
+void take(ByteSource& source, MessageFate& message) {
+  auto& [sender, receiver, sent, ordinal, lost, delay, copied, copy_delay] = message.fate;
+  for (std::uint32_t* word : {&sender.value, &receiver.value, &ordinal, &message.number}) *word = source.u32();
+  for (Duration* time : {&sent, &delay, &copy_delay}) *time = Duration{source.i64()};
+  for (bool* flag : {&lost, &copied}) *flag = source.flag();
+  message.kind = source.text();
+  message.hash = source.u64();
+}
 
 }  // namespace
 
@@ -19,6 +49,8 @@ std::string encode(const RunOrder& order) {
     sink.text(end.message);
   }
   sink.u8(order.record ? 1 : 0);
+  sink.text(order.scenario);
+  sink.u8(order.fates ? 1 : 0);
   return sink.take();
 }
 
@@ -33,6 +65,8 @@ RunOrder decode_order(std::string_view bytes) {
     end.message = source.text();
   }
   order.record = source.flag();
+  order.scenario = source.text();
+  order.fates = source.flag();
   source.end();
   return order;
 }
@@ -45,6 +79,12 @@ std::string encode(const RunAnswer& answer) {
   sink.u64(answer.scenario_digest);
   sink.text(encode(answer.outcome));
   sink.text(answer.recording);
+  put(sink, answer.states);
+  put(sink, answer.words);
+  put(sink, answer.all_words);
+  put(sink, answer.notes);
+  sink.u32(static_cast<std::uint32_t>(answer.fates.size()));
+  for (const MessageFate& message : answer.fates) put(sink, message);
   return sink.take();
 }
 
@@ -57,6 +97,12 @@ RunAnswer decode_answer(std::string_view bytes) {
   answer.scenario_digest = source.u64();
   answer.outcome = decode_outcome(source.text());
   answer.recording = source.text();
+  answer.states = take_texts(source);
+  answer.words = take_texts(source);
+  answer.all_words = take_texts(source);
+  answer.notes = take_notes(source);
+  answer.fates.resize(source.count(kShortestFateBytes));
+  for (MessageFate& message : answer.fates) take(source, message);
   source.end();
   return answer;
 }

@@ -10,12 +10,14 @@
 #include <fstream>
 #include <new>
 
+#include "campaign/run/case_run.hpp"
 #include "campaign/run/run_one.hpp"
 #include "campaign/workers/fatal_signals.hpp"
 #include "campaign/workers/fresh_program.hpp"
 #include "campaign/workers/run_order.hpp"
 #include "core/base/error.hpp"
 #include "core/engine/call_tape.hpp"
+#include "generators/scenario_file/scenario_file.hpp"
 
 namespace fleetproof {
 namespace {
@@ -50,7 +52,14 @@ void set_limits(std::uint64_t memory_mb) {
   limit_memory(memory_mb, mapped_bytes());
 }
 
-RunAnswer answer_to(const RunOrder& order, const RunOne& run_one, WorkerSlot& slot) {
+// What a worker needs to simulate.
+struct Stage {
+  const CampaignPlan& plan;
+  const AgentPrograms& programs;
+  RunOne run_one{plan, programs};
+};
+
+RunAnswer answer_to(const RunOrder& order, const Stage& stage, WorkerSlot& slot) {
   RunAnswer answer;
   const std::uint64_t begin_ns = cpu_ns();
   RunWatch watch;
@@ -58,9 +67,22 @@ RunAnswer answer_to(const RunOrder& order, const RunOne& run_one, WorkerSlot& sl
   watch.known_ends = order.known_ends;
   CallTape tape;
   if (order.record) watch.record = &tape;
-  RunRecord record = run_one(order.run_index, nullptr, watch);
-  answer.scenario_digest = record.scenario_digest;
-  answer.outcome = std::move(record.outcome);
+  if (order.scenario.empty()) {
+    RunRecord record = stage.run_one(order.run_index, nullptr, watch);
+    answer.scenario_digest = record.scenario_digest;
+    answer.outcome = std::move(record.outcome);
+  } else {
+    const AgentFactor& agent = stage.plan.agents.front();
+    CaseRun run = run_case(parse_scenario(order.scenario, "an order to a worker"),
+                           stage.programs.find(agent.program, "agent"), stage.plan.config_of(agent),
+                           stage.plan.laws_left_out, order.fates ? Fates::Kept : Fates::Ignored, watch);
+    answer.outcome = std::move(run.outcome);
+    answer.states = std::move(run.states);
+    answer.words = std::move(run.words);
+    answer.all_words = std::move(run.all_words);
+    answer.fates = std::move(run.fates);
+    answer.notes = std::move(run.notes);
+  }
   if (order.record && answer.outcome.is_failure()) answer.recording = tape.take();
   answer.cpu_ns = cpu_ns() - begin_ns;
   return answer;
@@ -70,14 +92,14 @@ RunAnswer answer_to(const RunOrder& order, const RunOne& run_one, WorkerSlot& sl
 
 void take_orders(const CampaignPlan& plan, const AgentPrograms& programs, WorkerSlot& slot, Channel& channel,
                  const std::function<void(const RunOrder& order)>& before_each) {
-  const RunOne run_one(plan, programs);
+  const Stage stage{plan, programs};
   for (;;) {
     Channel::Wait state = Channel::Wait::NotYet;
     while (state == Channel::Wait::NotYet) state = channel.wait(std::chrono::hours(1));
     if (state == Channel::Wait::Gone) return;
     const RunOrder order = decode_order(channel.received());
     before_each(order);
-    if (!channel.send(encode(answer_to(order, run_one, slot)))) ::_exit(kChannelClosedExit);
+    if (!channel.send(encode(answer_to(order, stage, slot)))) ::_exit(kChannelClosedExit);
   }
 }
 

@@ -185,7 +185,7 @@ std::int32_t AgvController::declare_cost(AgvId agv, std::int64_t cost_ns) {
 
 std::uint64_t AgvController::random(AgvId agv, std::uint32_t purpose, std::uint64_t index) const {
   return word64(philox(random_key_, {static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(index >> 32),
-                                     purpose, agv.value}),
+                                     purpose, run_.draw_numbers.of(agv).value}),
                 0);
 }
 

@@ -26,8 +26,8 @@ bool covers_floor(const RadioSetup& radio, const LogicalMap& map) {
 Messenger::Messenger(RunContext& run, AgentHostPort agents)
     : run_(run),
       agents_(agents),
-      radio_(run.scenario.radio, run.scenario.seed_of(Stream::Radio), run.scenario.fates),
-      channel_(run.scenario.radio, run.scenario.seed_of(Stream::Radio)),
+      radio_(run.scenario.radio, run.scenario.seed_of(Stream::Radio), run.scenario.fates, run.draw_numbers),
+      channel_(run.scenario.radio, run.scenario.seed_of(Stream::Radio), run.draw_numbers),
       unlimited_range_(covers_floor(run.scenario.radio, *run.scenario.map)),
       needs_places_(!unlimited_range_ || radio_.depends_on_place()),
       slices_(run.agvs.size()),
@@ -80,8 +80,7 @@ void Messenger::transmit_to(AgvId sender, AgvId receiver, std::uint32_t slot, co
   const SimTime arrival = std::max(run_.now + fate.delay, on_air_until);
   ++counters.receptions;
   counters.delay_sum_ns += static_cast<std::uint64_t>((arrival - run_.now).count());
-  if (run_.writer.has_sink())
-    run_.note(receiver, traced::FateDecided{sender, ordinal, fate.lost, arrival - run_.now, pool_[slot].number});
+  if (run_.writer.has_sink()) note_fate(sender, receiver, ordinal, slot, fate);
   if (fate.lost) return lose(receiver, slot, fate);
   if (run_.scenario.radio.contention.interference && !fate.given)
     run_.queue.push(on_air_until, receiver, Event::Kind::MessageArrives, slot | kAirTimeEnds);
@@ -91,6 +90,17 @@ void Messenger::transmit_to(AgvId sender, AgvId receiver, std::uint32_t slot, co
     run_.queue.push(std::max(run_.now + *fate.copy_delay, on_air_until), receiver, Event::Kind::MessageArrives,
                     slot | kCopy);
   }
+}
+
+void Messenger::note_fate(AgvId sender, AgvId receiver, std::uint32_t ordinal, std::uint32_t slot, const Fate& fate) {
+  const Duration least = pool_[slot].on_air.end - run_.now;
+  traced::FateDecided decided{.sender = sender, .ordinal = ordinal, .lost = fate.lost, .number = pool_[slot].number};
+  decided.due_after = std::max(fate.delay, least);
+  run_.note(receiver, decided);
+  if (fate.lost || !fate.copy_delay) return;
+  decided.is_copy = true;
+  decided.due_after = std::max(*fate.copy_delay, least);
+  run_.note(receiver, decided);
 }
 
 void Messenger::lose(AgvId receiver, std::uint32_t slot, const Fate& fate) {

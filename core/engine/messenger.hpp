@@ -56,6 +56,8 @@ class Messenger {
   };
   Slice& slice_of(AgvId agv) { return slices_[agv.index()]; }
   void transmit_to(AgvId sender, AgvId receiver, std::uint32_t slot, const Pose& from);
+  // For an observer that wants to write the run's fates down.
+  void note_fate(AgvId sender, AgvId receiver, std::uint32_t ordinal, std::uint32_t slot, const Fate& fate);
   void lose(AgvId receiver, std::uint32_t slot, const Fate& fate);
   void air_time_ends(AgvId receiver, std::uint32_t slot);
   bool is_drowned(AgvId receiver, const Message& message) const;

@@ -22,7 +22,7 @@ OperatorDesk::OperatorDesk(RunContext& run, const Ports& ports) : run_(run), por
 Duration OperatorDesk::until_help_comes(AgvId agv, std::uint32_t topic, std::uint32_t number) const {
   const OperatorSetup& help = run_.scenario.operator_help;
   const auto key = stream_key(run_.scenario.seed_of(Stream::Faults), Stream::Faults);
-  const auto draw = unit_interval(word64(philox(key, {number, 0, topic, agv.value}), 0));
+  const auto draw = unit_interval(word64(philox(key, {number, 0, topic, run_.draw_numbers.of(agv).value}), 0));
   return seconds(help.least_s + (help.most_s - help.least_s) * draw);
 }
 

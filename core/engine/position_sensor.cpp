@@ -28,8 +28,9 @@ Pose PositionSensor::perceived(AgvId agv) const {
   const double error_m = run_.setup(agv).sensing.position_error_m;
   if (error_m == 0.0) return pose;
   const auto slot = static_cast<std::uint64_t>(to_ns(run_.now) / kErrorLasts_ns);
-  const Block block = philox(run_.motion_key, {static_cast<std::uint32_t>(slot), static_cast<std::uint32_t>(slot >> 32),
-                                               static_cast<std::uint32_t>(MotionTopic::Position), agv.value});
+  const Block block =
+      philox(run_.motion_key, {static_cast<std::uint32_t>(slot), static_cast<std::uint32_t>(slot >> 32),
+                               static_cast<std::uint32_t>(MotionTopic::Position), run_.draw_numbers.of(agv).value});
   const auto error = [&](std::size_t half) { return error_m * (2.0 * unit_interval(word64(block, half)) - 1.0); };
   pose.position_m += Vec2{error(0), error(1)};
   return pose;

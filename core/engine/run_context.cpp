@@ -10,7 +10,8 @@ RunContext::RunContext(const Scenario& of, std::span<const std::unique_ptr<Law>>
       world(of, laws, sink),
       writer(laws, sink),
       agvs(of.agvs.size()),
-      motion_key(stream_key(of.seed_of(Stream::Motion), Stream::Motion)) {
+      motion_key(stream_key(of.seed_of(Stream::Motion), Stream::Motion)),
+      draw_numbers(of) {
   std::uint64_t transports = 0;
   for (std::size_t i = 0; i < agvs.size(); ++i) {
     agvs[i].station = of.agvs[i].start;
@@ -24,7 +25,8 @@ Piece RunContext::standing_piece(AgvId agv, const Pose& pose) const {
 }
 
 double RunContext::motion_draw(MotionTopic topic, AgvId agv, std::uint32_t number) const {
-  return unit_interval(word64(philox(motion_key, {number, 0, static_cast<std::uint32_t>(topic), agv.value}), 0));
+  return unit_interval(
+      word64(philox(motion_key, {number, 0, static_cast<std::uint32_t>(topic), draw_numbers.of(agv).value}), 0));
 }
 
 TransportId RunContext::transport_of(AgvId agv, std::uint64_t own_number) const {

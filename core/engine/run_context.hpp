@@ -11,6 +11,7 @@
 #include "core/engine/world.hpp"
 #include "core/outcome/outcome.hpp"
 #include "core/outcome/trace_records.hpp"
+#include "core/scenario/draw_numbers.hpp"
 #include "core/scenario/scenario.hpp"
 
 namespace fleetproof {
@@ -34,6 +35,7 @@ struct RunContext {
   Counters counters;
   std::vector<AgvStatus> agvs;
   std::uint64_t motion_key;
+  DrawNumbers draw_numbers;
 
   AgvStatus& status(AgvId agv) { return agvs[agv.index()]; }
   const AgvStatus& status(AgvId agv) const { return agvs[agv.index()]; }

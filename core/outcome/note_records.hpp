@@ -58,7 +58,8 @@ struct NotesLeftOut {
   static constexpr NotesLeftOut of(const TraceRecord& r) { return {r.a}; }
 };
 
-// Decided at the instant of sending; the entity is the receiver. Interference may still destroy the message.
+// Decided at the instant of sending; the entity is the receiver. Interference may still destroy the message. A message
+// that arrives twice has two of these notes.
 struct FateDecided {
   static constexpr TraceKind kKind = TraceKind::FateDecided;
   AgvId sender;
@@ -66,16 +67,21 @@ struct FateDecided {
   bool lost = false;
   Duration due_after{};      // it arrives so long after it was sent, if it is not lost
   std::uint32_t number = 0;  // of the message
+  bool is_copy = false;      // the second one
 
   constexpr void put(TraceRecord& r) const {
     r.a = std::uint64_t{ordinal} << 32 | sender.value;
     r.b = static_cast<std::uint64_t>(due_after.count());
-    r.bytes = lost ? 1 : 0;
+    r.bytes = (lost ? 1U : 0U) | (is_copy ? 2U : 0U);
     r.more = number;
   }
   static constexpr FateDecided of(const TraceRecord& r) {
-    return {id_in<AgvId>(r.a), static_cast<std::uint32_t>(r.a >> 32), r.bytes != 0,
-            Duration{static_cast<std::int64_t>(r.b)}, r.more};
+    return {id_in<AgvId>(r.a),
+            static_cast<std::uint32_t>(r.a >> 32),
+            (r.bytes & 1U) != 0,
+            Duration{static_cast<std::int64_t>(r.b)},
+            r.more,
+            (r.bytes & 2U) != 0};
   }
 };
 

@@ -23,7 +23,7 @@ double loss_at_distance(double loss, const RadioSetup& setup, const LinkPlaces& 
 
 }  // namespace
 
-Radio::Radio(const RadioSetup& setup, std::uint64_t world_seed, std::span<const GivenFate> fates)
+Radio::Radio(const RadioSetup& setup, std::uint64_t world_seed, std::span<const GivenFate> fates, DrawNumbers numbers)
     : setup_(setup),
       key_(stream_key(world_seed, Stream::Radio)),
       state_key_(stream_key(world_seed, Stream::RadioState)),
@@ -33,6 +33,7 @@ Radio::Radio(const RadioSetup& setup, std::uint64_t world_seed, std::span<const 
                   setup.places.roaming_at_crossing),
       depends_on_place_(setup.places.roaming_border_m > 0.0 || setup.range_falloff_m > 0.0 || !setup.sources.empty() ||
                         (setup.outages.mean_outage_s > 0.0 && setup.outages.scope == OutageSetup::Scope::Place)),
+      numbers_(std::move(numbers)),
       given_(fates),
       recorded_(setup.trace),
       places_(setup.places, outage_law(setup.loss), state_key_),
@@ -40,10 +41,13 @@ Radio::Radio(const RadioSetup& setup, std::uint64_t world_seed, std::span<const 
       sources_(setup.sources, stream_key(world_seed, Stream::RadioSources)) {}
 
 Fate Radio::fate(AgvId sender, AgvId receiver, SimTime sent, std::uint32_t ordinal, const LinkPlaces& places) {
-  const MessageKey message{sender, receiver, sent, ordinal};
-  if (const GivenFate* given = given_.empty() ? nullptr : given_.of(message))
-    return {.lost = given->lost, .delay = given->delay, .given = true};
-  return drawn_fate(message, places);
+  if (const GivenFate* given = given_.empty() ? nullptr : given_.of({sender, receiver, sent, ordinal})) {
+    Fate fate{.lost = given->lost, .delay = given->delay, .given = true};
+    if (given->copied) fate.copy_delay = given->copy_delay;
+    return fate;
+  }
+  if (!setup_.adverse.contains(sent)) return {};
+  return drawn_fate({numbers_.of(sender), numbers_.of(receiver), sent, ordinal}, places);
 }
 
 Fate Radio::drawn_fate(const MessageKey& message, const LinkPlaces& places) {

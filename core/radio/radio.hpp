@@ -16,6 +16,7 @@
 #include "core/radio/radio_places.hpp"
 #include "core/radio/radio_sources.hpp"
 #include "core/radio/recorded_radio.hpp"
+#include "core/scenario/draw_numbers.hpp"
 #include "core/scenario/radio_setup.hpp"
 
 namespace fleetproof {
@@ -41,15 +42,19 @@ struct LinkPlaces {
 // Threads: one object serves one run on one thread.
 class Radio {
  public:
-  // `fates` go over what the models draw.
-  Radio(const RadioSetup& setup, std::uint64_t world_seed, std::span<const GivenFate> fates = {});
+  // `fates` go over what the models draw. The models know AGVs by their draw numbers alone.
+  Radio(const RadioSetup& setup, std::uint64_t world_seed, std::span<const GivenFate> fates = {},
+        DrawNumbers numbers = {});
   bool depends_on_place() const { return depends_on_place_; }
   // Call this for every piece that starts after time zero. Roaming depends on the path of the AGV.
   void piece_begins(const Piece& piece) {
-    if (crossings_.is_on()) crossings_.piece_begins(piece);
+    if (!crossings_.is_on()) return;
+    Piece drawn = piece;
+    drawn.entity = numbers_.of(piece.entity);
+    crossings_.piece_begins(drawn);
   }
   // Call this when the operator carries the AGV to another place. That is not a crossing.
-  void forget_path(AgvId agv) { crossings_.forget_path(agv); }
+  void forget_path(AgvId agv) { crossings_.forget_path(numbers_.of(agv)); }
   Fate fate(AgvId sender, AgvId receiver, SimTime sent, std::uint32_t ordinal, const LinkPlaces& places = {});
   // The outage process of messages from this sender to this receiver. Not for the scope Place.
   OutageProcess& process_of(AgvId sender, AgvId receiver);
@@ -69,6 +74,7 @@ class Radio {
   std::uint64_t key_, state_key_, copy_key_;
   DelayModel delay_;
   bool has_states_, depends_on_place_;
+  DrawNumbers numbers_;
   GivenFates given_;
   RecordedRadio recorded_;
   RadioPlaces places_;

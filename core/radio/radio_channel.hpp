@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/strong_id.hpp"
+#include "core/scenario/draw_numbers.hpp"
 #include "core/scenario/radio_setup.hpp"
 
 namespace fleetproof {
@@ -32,7 +33,7 @@ struct AirInterval {
 // Threads: one object serves one run on one thread.
 class RadioChannel {
  public:
-  RadioChannel(const RadioSetup& setup, std::uint64_t world_seed);
+  RadioChannel(const RadioSetup& setup, std::uint64_t world_seed, DrawNumbers numbers = {});
 
   // The time at which this message is in the air. Requires: `sent` does not decrease from call to call.
   AirInterval contend(AgvId sender, SimTime sent, std::uint32_t ordinal, Duration air_time);
@@ -52,6 +53,7 @@ class RadioChannel {
  private:
   std::uint32_t contention_window_;
   std::uint64_t key_;
+  DrawNumbers numbers_;
   Duration longest_{};                                   // the longest air time so far
   std::vector<SimTime> free_from_;                       // by sender: the end of its last transmission
   std::map<std::pair<SimTime, AgvId>, SimTime> on_air_;  // by begin and sender: the end of the transmission

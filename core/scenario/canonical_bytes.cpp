@@ -109,6 +109,8 @@ class ScenarioBytes {
   template <HasFields Setup>
   void fields(const Setup& setup) {
     visit_fields(setup, [this](const Field& field, const auto& value) {
+      if (field.is_later && field.left_out) return;
+      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, ExpectedOutcome>) return;
       bytes_.add_byte(field.left_out ? 0 : 1);
       if (!field.left_out) add(value);
     });

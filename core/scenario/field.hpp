@@ -34,6 +34,7 @@ struct Field {
   FieldHome home = FieldHome::Both;
   bool needed = false;    // a file must give it
   bool left_out = false;  // neither written nor part of a digest: it has its default, or means nothing here
+  bool is_later = false;  // added after digests were stored: a digest without it is as it was before
   bool is_seed = false;   // a file may give it as "0x" and hexadecimal digits
 
   constexpr std::string_view scenario_place() const { return place.empty() ? key : place; }

@@ -101,10 +101,29 @@ void visit_fields(Contention& contention, Visit&& visit) {
         contention_window);
 }
 
+template <FieldsOf<AdverseTime> Adverse, class Visit>
+void visit_fields(Adverse& adverse, Visit&& visit) {
+  auto& [adverse_from_s, adverse_until_s] = adverse;
+  visit(Field{.key = "adverse_from_s",
+              .text = "what is sent earlier arrives, at once and once",
+              .high = 1e7,
+              .home = FieldHome::ScenarioOnly,
+              .left_out = adverse_from_s == 0.0,
+              .is_later = true},
+        adverse_from_s);
+  visit(Field{.key = "adverse_until_s",
+              .text = "so does what is sent then or later; 0: no end",
+              .high = 1e7,
+              .home = FieldHome::ScenarioOnly,
+              .left_out = adverse_until_s == 0.0,
+              .is_later = true},
+        adverse_until_s);
+}
+
 template <FieldsOf<RadioSetup> Radio, class Visit>
 void visit_fields(Radio& radio, Visit&& visit) {
   auto& [loss, delay_s, delay_model, range_m, range_falloff_m, air_time_s, air_time_per_byte_s, outages, delay_tail,
-         asymmetry, duplicates, places, contention, sources, trace] = radio;
+         adverse, asymmetry, duplicates, places, contention, sources, trace] = radio;
   visit(Field{.key = "loss", .text = "nominal share of receptions lost", .home = FieldHome::Factor}, loss);
   visit(Field{.key = "delay_s",
               .text = "nominal delay of a message; the longest one, but for \"heavy-tail\"",
@@ -130,6 +149,7 @@ void visit_fields(Radio& radio, Visit&& visit) {
         air_time_per_byte_s);
   visit_fields(outages, visit);
   visit_fields(delay_tail, visit);
+  visit_fields(adverse, visit);
   visit(Field{.key = "asymmetry", .text = "how far the losses of the two directions of a pair differ"}, asymmetry);
   visit(Field{.key = "duplicates", .text = "share of the messages received that arrive twice"}, duplicates);
   visit_fields(places, visit);
@@ -147,7 +167,7 @@ void visit_fields(Radio& radio, Visit&& visit) {
 
 template <FieldsOf<GivenFate> Given, class Visit>
 void visit_fields(Given& fate, Visit&& visit) {
-  auto& [sender, receiver, sent, ordinal, lost, delay] = fate;
+  auto& [sender, receiver, sent, ordinal, lost, delay, copied, copy_delay] = fate;
   visit(Field{.key = "sender", .text = "name of the AGV that sends the message", .needed = true}, sender);
   visit(Field{.key = "receiver", .text = "name of the AGV at which it has this fate", .needed = true}, receiver);
   visit(Field{.key = "sent_s", .text = "when it is sent, to the nanosecond", .high = 1e9, .needed = true}, sent);
@@ -159,6 +179,13 @@ void visit_fields(Given& fate, Visit&& visit) {
   visit(Field{.key = "lost", .text = "it does not arrive", .left_out = !lost}, lost);
   visit(Field{.key = "delay_s", .text = "when it arrives after it was sent", .high = kLongestDelay_s, .left_out = lost},
         delay);
+  visit(Field{.key = "copied", .text = "it arrives twice", .left_out = !copied, .is_later = true}, copied);
+  visit(Field{.key = "copy_delay_s",
+              .text = "when its copy arrives after it was sent",
+              .high = kLongestDelay_s,
+              .left_out = !copied,
+              .is_later = true},
+        copy_delay);
 }
 
 }  // namespace fleetproof

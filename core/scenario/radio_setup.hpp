@@ -116,9 +116,22 @@ struct GivenFate {
   Duration sent{};            // since the start of the run
   std::uint32_t ordinal = 0;  // among the messages from this sender to this receiver at that instant, from 0 on
   bool lost = false;
-  Duration delay{};  // if it is not lost; it has no second copy then
+  Duration delay{};       // if it is not lost
+  bool copied = false;    // a second copy arrives
+  Duration copy_delay{};  // the delay of this copy, if there is one
 
   friend bool operator==(const GivenFate&, const GivenFate&) = default;
+};
+
+// When the radio is as bad as it can be. Nothing is lost, late or copied that is sent before adverse_from_s, or at
+// adverse_until_s or later. Contention for the air is as ever.
+struct AdverseTime {
+  double adverse_from_s = 0.0, adverse_until_s = 0.0;  // until 0: no end
+
+  bool contains(SimTime sent) const {
+    return sent >= kStart + seconds(adverse_from_s) &&
+           (adverse_until_s == 0.0 || sent < kStart + seconds(adverse_until_s));
+  }
 };
 
 // The radio as a function of time and place. Traffic does not change it, except through interference.
@@ -136,6 +149,7 @@ struct RadioSetup {
   double air_time_s = 0.001, air_time_per_byte_s = 0.0;
   OutageSetup outages{};
   DelayTailSetup delay_tail{};
+  AdverseTime adverse{};
   // 0 .. 1. The loss of a to b is loss + x loss (1 - loss), of b to a loss - x loss (1 - loss); x is drawn per pair,
   // uniform in +-asymmetry.
   double asymmetry = 0.0;

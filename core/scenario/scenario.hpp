@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -64,6 +65,9 @@ struct AgvSetup {
   SensingSetup sensing;
   std::vector<TransportOrder> transports;  // the agent receives each order at its release
   std::vector<ScriptedCall> script;
+  // Under this number everything random about the AGV is drawn. Without it, its place in the fleet is the number. An
+  // AGV that keeps its number keeps its draws when others are taken out of the fleet.
+  std::optional<std::uint32_t> draws_as;
 };
 
 // A body that stands on the floor. If it appears later, it waits until its place is clear of every other body by the
@@ -99,6 +103,14 @@ struct LawSetup {
   std::vector<ExemptPair> exempt_pairs;  // safety-distance: two such bodies may be close to each other anywhere
 };
 
+// What a saved case is known to do. It changes nothing.
+struct ExpectedOutcome {
+  std::string failure;       // how it fails, in the words of `shrink`
+  std::uint64_t digest = 0;  // of its trace
+
+  friend bool operator==(const ExpectedOutcome&, const ExpectedOutcome&) = default;
+};
+
 // Everything that one simulation needs, as plain data.
 struct Scenario {
   std::string name;
@@ -122,6 +134,7 @@ struct Scenario {
   // The control software of the fleet and its parameters, for scenario files. Campaigns combine every world with
   // several agents and leave both empty.
   std::string agent, agent_config;
+  ExpectedOutcome expected;
 
   std::uint64_t seed_of(Stream stream) const;  // `stream` is one of kRunStreams
   const VehicleType& type_of(const AgvSetup& agv) const { return vehicle_types[agv.type]; }

@@ -65,7 +65,7 @@ void visit_fields(Call& call, Visit&& visit) {
 
 template <FieldsOf<AgvSetup> Agv, class Visit>
 void visit_fields(Agv& agv, Visit&& visit) {
-  auto& [name, type, start, heading, battery, sensing, transports, script] = agv;
+  auto& [name, type, start, heading, battery, sensing, transports, script, draws_as] = agv;
   visit(Field{.key = "name", .text = "name of the AGV", .needed = true}, name);
   visit(Field{.key = "type", .text = "name of its vehicle type; left out: the first one"},
         TypeIndex<decltype(type)>{type});
@@ -79,6 +79,12 @@ void visit_fields(Agv& agv, Visit&& visit) {
       sensing);
   visit(Field{.key = "transports", .text = "its orders"}, transports);
   visit(Field{.key = "script", .text = "controller calls of the `scripted` agent, in order of time"}, script);
+  visit(Field{.key = "draws_as",
+              .text = "number under which what is random about it is drawn; left out: its place in the list",
+              .high = 65535.0,
+              .left_out = !draws_as.has_value(),
+              .is_later = true},
+        draws_as);
 }
 
 template <FieldsOf<ObstacleSetup> Obstacle, class Visit>
@@ -151,10 +157,17 @@ void visit_fields(Law& law, Visit&& visit) {
         exempt_pairs);
 }
 
+template <FieldsOf<ExpectedOutcome> Expected, class Visit>
+void visit_fields(Expected& expected, Visit&& visit) {
+  auto& [failure, digest] = expected;
+  visit(Field{.key = "failure", .text = "how the run fails, as shrink says it", .needed = true}, failure);
+  visit(Field{.key = "digest", .text = "digest of its trace, as 0x and hexadecimal digits", .is_seed = true}, digest);
+}
+
 template <FieldsOf<Scenario> Given, class Visit>
 void visit_fields(Given& scenario, Visit&& visit) {
   auto& [name, map, vehicle_types, agvs, obstacles, faults, scanner, operator_help, radio, fates, agent_clock, law,
-         contact_stops, horizon, stuck_after, seed, stream_seeds, agent, agent_config] = scenario;
+         contact_stops, horizon, stuck_after, seed, stream_seeds, agent, agent_config, expected] = scenario;
   visit(Field{.key = "name", .text = "name of the scenario"}, name);
   visit(kSeed, seed);
   visit(Field{.key = "stream_seeds",
@@ -169,6 +182,11 @@ void visit_fields(Given& scenario, Visit&& visit) {
       Field{
           .key = "agent_config", .text = "a text that every agent gets at its start", .left_out = agent_config.empty()},
       agent_config);
+  visit(Field{.key = "expected",
+              .text = "what a saved case is known to do; it changes nothing",
+              .left_out = expected == ExpectedOutcome{},
+              .is_later = true},
+        expected);
   visit(kHorizon, horizon);
   visit(kStuckAfter, stuck_after);
   visit(kContactStops, contact_stops);

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <string_view>
 #include <tuple>
 
 #include "core/base/error.hpp"
 #include "core/base/tolerances.hpp"
+#include "core/scenario/draw_numbers.hpp"
 #include "core/scenario/scenario_fields.hpp"
 #include "generators/map/core_only.hpp"
 #include "generators/map/layout_check.hpp"
@@ -117,6 +119,7 @@ class MeaningCheck {
     }
     for (std::size_t i = 0; i < scenario_.faults.size(); ++i) fault(i);
     fates();
+    draw_numbers();
   }
 
  private:
@@ -170,6 +173,19 @@ class MeaningCheck {
       if (fate.sender == fate.receiver) bad("/receiver", "no AGV sends to itself; name another AGV");
       if (!seen.emplace(fate.sender, fate.receiver, fate.sent, fate.ordinal).second)
         bad("", "this message has a fate already; give each message one");
+    }
+  }
+
+  void draw_numbers() {
+    const DrawNumbers numbers(scenario_);
+    std::map<AgvId, std::size_t> seen;
+    for (std::size_t i = 0; i < scenario_.agvs.size(); ++i) {
+      const auto [other, is_new] = seen.emplace(numbers.of(AgvId{i}), i);
+      if (is_new) continue;
+      const bool own = scenario_.agvs[i].draws_as.has_value();
+      add(ProblemKind::NumberOutOfRange, fmt::format("/agvs/{}/draws_as", own ? i : other->second),
+          fmt::format("{} draws under this number, too; give each AGV its own",
+                      in_quotes(scenario_.agvs[own ? other->second : i].name)));
     }
   }
 

@@ -30,6 +30,7 @@ const std::map<std::string, std::string> kLargeClasses = {
     {"core/scenario/scenario.hpp Scenario", "plain data: everything that one simulation needs"},
     {"core/scenario/vehicle_type.hpp VehicleType", "plain data: everything that a kind of AGV can do"},
     {"core/outcome/counters.hpp Counters", "plain data: one number for each counter"},
+    {"core/scenario/radio_setup.hpp RadioSetup", "plain data: everything that a scenario says of its radio"},
     {"core/outcome/outcome.hpp Outcome", "plain data: everything that a run leaves"},
     {"storage/records.hpp CampaignRecord", "plain data: everything that a file says of its campaign"},
     {"campaign/plan/plan.hpp CampaignPlan", "plain data: everything that a campaign file says"},

@@ -50,10 +50,12 @@ TEST(Channel, RefusesWhatIsNoFrame) {
 }
 
 TEST(RunOrder, IsWhatWasEncoded) {
-  const RunOrder order{4711, {{17, false, "stack overflow"}, {18, true, ""}}};
+  const RunOrder order{4711, {{17, false, "stack overflow"}, {18, true, ""}}, true, "{}", true};
   const RunOrder decoded = decode_order(encode(order));
   EXPECT_EQ(decoded.run_index, order.run_index);
   EXPECT_EQ(decoded.known_ends, order.known_ends);
+  EXPECT_TRUE(decoded.record && decoded.fates);
+  EXPECT_EQ(decoded.scenario, "{}");
 }
 
 TEST(RunAnswer, IsWhatWasEncodedAndNothingShorter) {
@@ -64,6 +66,14 @@ TEST(RunAnswer, IsWhatWasEncodedAndNothingShorter) {
   answer.scenario_digest = 6;
   answer.outcome.digest = 7;
   answer.outcome.running_digests = {1, 2};
+  answer.states = {"driving"};
+  answer.words = {"driving", "late"};
+  answer.all_words = {"late"};
+  MessageFate& message = answer.fates.emplace_back();
+  message.fate = {AgvId{1U}, AgvId{2U}, Duration{3}, 4, true, Duration{5}, true, Duration{6}};
+  message.kind = "GRANT";
+  message.number = 7;
+  message.hash = 8;
   const std::string bytes = encode(answer);
   const RunAnswer decoded = decode_answer(bytes);
   EXPECT_TRUE(decoded.failed);
@@ -71,6 +81,13 @@ TEST(RunAnswer, IsWhatWasEncodedAndNothingShorter) {
   EXPECT_EQ(decoded.cpu_ns, 5U);
   EXPECT_EQ(decoded.scenario_digest, 6U);
   EXPECT_EQ(decoded.outcome, answer.outcome);
+  EXPECT_EQ(decoded.states, answer.states);
+  EXPECT_EQ(decoded.words, answer.words);
+  EXPECT_EQ(decoded.all_words, answer.all_words);
+  ASSERT_EQ(decoded.fates.size(), 1U);
+  EXPECT_EQ(decoded.fates[0].fate, message.fate);
+  EXPECT_EQ(std::tuple(decoded.fates[0].kind, decoded.fates[0].number, decoded.fates[0].hash),
+            std::tuple(message.kind, message.number, message.hash));
   for (std::size_t length = 0; length < bytes.size(); ++length)
     EXPECT_THROW(decode_answer(std::string_view(bytes).substr(0, length)), EngineError) << length;
   EXPECT_THROW(decode_answer(bytes + "x"), EngineError);

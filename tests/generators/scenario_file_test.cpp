@@ -29,6 +29,8 @@ Scenario unusual() {
   s.radio = {0.1 + 0.2, 1.0 / 3.0, RadioSetup::DelayModel::Uniform, 55.5, 12.5, 0.25, 8e-6};
   s.radio.outages = {0.75, OutageSetup::Model::HeavyTail, 1.25, OutageSetup::Scope::Direction, 0.02, 0.98};
   s.radio.delay_tail = {0.2, 0.3, 2.5, 0.0};
+  s.radio.adverse.adverse_from_s = 3.5;
+  s.radio.adverse.adverse_until_s = 50.25;
   s.radio.asymmetry = 0.4;
   s.radio.duplicates = 0.05;
   s.radio.places = {30.0, true, 2.5, 0.02, 0.05, 7.0};
@@ -37,7 +39,9 @@ Scenario unusual() {
   s.radio.trace = std::make_shared<const RadioTrace>(
       RadioTrace{{AgvId{0U}, AgvId{1U}, Duration{5}, Duration{17}}, {AgvId{0U}, AgvId{1U}, Duration{9}, std::nullopt}});
   s.fates = {{AgvId{0U}, AgvId{1U}, Duration{61'204'000'007}, 2, true, {}},
-             {AgvId{1U}, AgvId{0U}, Duration{3}, 0, false, Duration{250'000'001}}};
+             {AgvId{1U}, AgvId{0U}, Duration{3}, 0, false, Duration{250'000'001}, true, Duration{4}}};
+  s.agvs[1].draws_as = 17;
+  s.expected = {"contact, two AGVs (driving)", 0x0123456789abcdefULL};
   s.agent_clock.call_cost_s = 0.012;
   s.law = {0.3,
            0.01,
@@ -141,6 +145,9 @@ TEST(ScenarioFile, EveryFieldComesBack) {
   EXPECT_EQ(back.vehicle_types[0].other_spread_s, 6.0);
   EXPECT_EQ(back.agvs[1].sensing, s.agvs[1].sensing);
   EXPECT_EQ(back.fates, s.fates);
+  EXPECT_EQ(back.agvs[1].draws_as, 17U);
+  EXPECT_FALSE(back.agvs[0].draws_as);
+  EXPECT_EQ(back.expected, s.expected);
   ASSERT_EQ(back.faults.size(), 2U);
   EXPECT_EQ(back.faults[0].kind, Fault::Kind::Breakdown);
   EXPECT_EQ(back.faults[1].transport, 0U);

@@ -1,0 +1,137 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "campaign/batch/time_budget.hpp"
+#include "campaign/cli/campaign_words.hpp"
+#include "campaign/cli/case_source.hpp"
+#include "campaign/cli/output_file.hpp"
+#include "campaign/cli/streams.hpp"
+#include "campaign/cli/verbs.hpp"
+#include "campaign/explain/sentences.hpp"
+#include "campaign/shrink/shrink.hpp"
+#include "core/base/error.hpp"
+#include "generators/scenario_file/scenario_text.hpp"
+
+namespace fleetproof::cli {
+namespace {
+
+struct ExplainWords {
+  CaseWords from;
+  std::string runs, max_time = "60";
+  std::optional<std::uint64_t> jobs, trials;
+  bool json = false;
+};
+
+std::string file_of_claim(const std::string& folder, std::size_t number) {
+  return (std::filesystem::path(folder) / fmt::format("{:03}.json", number)).string();
+}
+
+nlohmann::ordered_json to_json(const Explanation& explanation) {
+  const Scenario& small = explanation.small.scenario;
+  nlohmann::ordered_json json = {{"schema_version", 1},
+                                 {"failure", text_of(explanation.pattern.kind)},
+                                 {"telling_words", explanation.pattern.telling_words},
+                                 {"at_s", to_seconds(explanation.original.failure.at - kStart)},
+                                 {"small_at_s", to_seconds(explanation.small.failure.at - kStart)},
+                                 {"sentences", sentences_of(explanation)}};
+  json["messages"] = nlohmann::ordered_json::array();
+  for (const MessageNeed& need : explanation.messages) {
+    const GivenFate& fate = need.message.fate;
+    json["messages"].push_back({{"number", need.message.number},
+                                {"kind", need.message.kind},
+                                {"sender", name_of_body(small, fate.sender)},
+                                {"receiver", name_of_body(small, fate.receiver)},
+                                {"sent_s", to_seconds(fate.sent)},
+                                {"lost", fate.lost},
+                                {"delay_s", to_seconds(fate.delay)},
+                                {"needed", need.is_needed},
+                                {"saves_delay_s", nullptr}});
+    if (need.saves) json["messages"].back()["saves_delay_s"] = to_seconds(*need.saves);
+  }
+  json["runs"] = nlohmann::ordered_json::array();
+  for (const Claim* claim : claims_of(explanation))
+    json["runs"].push_back(
+        {{"number", json["runs"].size() + 1}, {"what", claim->sentence}, {"outcome", claim->outcome}});
+  json["shares"] = nlohmann::ordered_json::array();
+  for (const Share& share : explanation.shares)
+    json["shares"].push_back({{"if", share.what}, {"failing", share.failing}, {"of", share.of}});
+  json["branches_each"] = kBranches;
+  json["curve_of_no_return"] = nlohmann::ordered_json::array();
+  for (const Branching& branching : explanation.no_return.curve)
+    json["curve_of_no_return"].push_back({{"at_s", to_seconds(branching.at - kStart)}, {"failing", branching.failing}});
+  json["open_until_s"] = to_seconds(explanation.no_return.open_until - kStart);
+  json["likely_from_s"] = json["certain_from_s"] = nullptr;
+  if (const auto at = explanation.no_return.likely_from) json["likely_from_s"] = to_seconds(*at - kStart);
+  if (const auto at = explanation.no_return.certain_from) json["certain_from_s"] = to_seconds(*at - kStart);
+  return json;
+}
+
+// Each run that a sentence names, as a scenario file.
+void save_runs(const ExplainWords& words, const CaseSource& source, CaseHost& host, const Explanation& explanation) {
+  if (words.runs.empty()) return;
+  std::error_code error;
+  std::filesystem::create_directories(words.runs, error);
+  if (error) throw InputError("--runs", fmt::format("{} cannot be made: {}", words.runs, error.message()));
+  std::size_t number = 0;
+  for (const Claim* claim : claims_of(explanation)) {
+    Scenario scenario = claim->run;
+    scenario.agent = source.agent.program;
+    scenario.agent_config = source.agent.config;
+    scenario.expected = expectation_of(host(scenario));
+    write_whole({file_of_claim(words.runs, ++number), "--runs", OutputKind::Scenario},
+                printable_json(to_text(scenario)));
+  }
+}
+
+void put_curve(const NoReturn& curve) {
+  put("\nbranches that fail, of {} with a new radio from then on:\n", kBranches);
+  for (const Branching& branching : curve.curve) {
+    const std::size_t width = 40 * branching.failing / kBranches;
+    put("  {:10.2f} s  {:2}  {}\n", to_seconds(branching.at - kStart), branching.failing, std::string(width, '#'));
+  }
+}
+
+int explain_case(const ExplainWords& words) {
+  const auto deadline = std::chrono::steady_clock::now() + duration_of(words.max_time, "--max-time");
+  AgentPrograms programs;
+  const CaseSource source = read_case(words.from, programs);
+  CaseHost host(source.agent, programs, worker_count(words.jobs));
+  const FailingCase original = failing_case(host, source);
+  const FailurePattern pattern = pattern_of(host, original);
+  TrialCache cache;
+  const ShrinkResult small =
+      shrink(host, cache, original, pattern, {deadline, words.trials}, [](const FailingCase&, std::string_view) {});
+  const Explanation explanation = explain(host, original, small.best, pattern);
+  save_runs(words, source, host, explanation);
+  if (words.json) {
+    put_text(
+        printable_json(to_json(explanation).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) +
+        "\n");
+    return kDemonstrated;
+  }
+  put("{}: {}\n", source.name, text_of(pattern.kind));
+  for (const std::string& sentence : sentences_of(explanation)) put("- {}\n", sentence);
+  put_curve(explanation.no_return);
+  put("\n[n]: the run that shows it; {}\n", words.runs.empty()
+                                                ? "--runs DIR writes each as a scenario file"
+                                                : "fleetproof simulate " + file_of_claim(words.runs, 1) + " and so on");
+  return kDemonstrated;
+}
+
+}  // namespace
+
+Action prepare_explain(Options& options) {
+  auto words = std::make_shared<ExplainWords>();
+  add_case_options(options, words->from);
+  options.option("--runs", words->runs, "write each run that shows a claim to this folder, as a scenario file");
+  options.option("--max-time", words->max_time, "look for the smallest case so long at most (default: 60)");
+  options.option("--max-trials", words->trials, "and with so many trials; the result is the same on any machine");
+  options.option("-j,--jobs", words->jobs, "worker threads (default: one per core)");
+  options.flag("--json", words->json, "print JSON");
+  return [words] { return explain_case(*words); };
+}
+
+}  // namespace fleetproof::cli

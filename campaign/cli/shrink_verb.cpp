@@ -1,0 +1,119 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "campaign/batch/time_budget.hpp"
+#include "campaign/cli/campaign_words.hpp"
+#include "campaign/cli/case_source.hpp"
+#include "campaign/cli/output_file.hpp"
+#include "campaign/cli/streams.hpp"
+#include "campaign/cli/verbs.hpp"
+#include "campaign/shrink/failure_pattern.hpp"
+#include "campaign/shrink/shrink.hpp"
+#include "campaign/shrink/trial_file.hpp"
+#include "core/base/error.hpp"
+#include "generators/scenario_file/scenario_text.hpp"
+#include "reports/wording.hpp"
+
+namespace fleetproof::cli {
+namespace {
+
+constexpr std::string_view kDefaultTime = "60";
+
+struct ShrinkWords {
+  CaseWords from;
+  std::string out, max_time = std::string(kDefaultTime);
+  std::optional<std::uint64_t> jobs, trials;
+  bool json = false;
+};
+
+std::string size_text(const CaseSize& size) {
+  std::string text = fmt::format("{}, {}", count_text(size.agvs, "AGV"), count_text(size.transports, "transport"));
+  if (size.faults > 0) text += ", " + count_text(size.faults, "fault");
+  if (size.obstacles > 0) text += ", " + count_text(size.obstacles, "obstacle");
+  text += size.fates_are_drawn ? std::string(", lost and late messages as the radio draws them")
+                               : ", " + count_text(size.fates, "lost or late message");
+  return text + fmt::format(", {}, {:.2f} s", count_text(size.segments, "segment"), to_seconds(size.horizon));
+}
+
+nlohmann::ordered_json to_json(const CaseSize& size) {
+  nlohmann::ordered_json json = {{"agvs", size.agvs},
+                                 {"transports", size.transports},
+                                 {"faults", size.faults},
+                                 {"obstacles", size.obstacles},
+                                 {"segments", size.segments},
+                                 {"fates", nullptr},
+                                 {"horizon_s", to_seconds(size.horizon)}};
+  if (!size.fates_are_drawn) json["fates"] = size.fates;
+  return json;
+}
+
+void put_result(const ShrinkWords& words, const FailingCase& original, const ShrinkResult& result) {
+  if (words.json) {
+    const nlohmann::ordered_json json = {{"schema_version", 1},
+                                         {"failure", text_of(original.failure.kind)},
+                                         {"at_s", to_seconds(result.best.failure.at - kStart)},
+                                         {"before", to_json(result.before)},
+                                         {"after", to_json(result.after)},
+                                         {"trials", result.trials},
+                                         {"one_minimal", result.one_minimal},
+                                         {"why_not", result.why_not},
+                                         {"case", words.out}};
+    return put_text(printable_json(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) + "\n");
+  }
+  put("{}\n", text_of(original.failure.kind));
+  put("  before: {}\n", size_text(result.before));
+  put("  after:  {}\n", size_text(result.after));
+  if (result.one_minimal) {
+    put("  1-minimal: nothing of it can be left out alone ({})\n", count_text(result.trials, "trial"));
+  } else {
+    put("  1-minimal: not known; {}; the same command goes on where this one ended\n", result.why_not);
+  }
+  put("  fleetproof simulate {}\n", shell_word(words.out));
+}
+
+void save(const ShrinkWords& words, CaseHost& host, const CaseSource& source, FailingCase failing) {
+  failing.scenario.agent = source.agent.program;
+  failing.scenario.agent_config = source.agent.config;
+  failing.scenario.expected = expectation_of(host(failing.scenario));
+  write_whole({words.out, "--output", OutputKind::Scenario}, printable_json(to_text(failing.scenario)));
+}
+
+int shrink_case(ShrinkWords words) {
+  const auto deadline = std::chrono::steady_clock::now() + duration_of(words.max_time, "--max-time");
+  AgentPrograms programs;
+  const CaseSource source = read_case(words.from, programs);
+  if (words.out.empty()) words.out = source.name + ".case.json";
+  require_writable({words.out, "--output", OutputKind::Scenario});
+  CaseHost host(source.agent, programs, worker_count(words.jobs));
+  const FailingCase original = failing_case(host, source);
+  const FailurePattern pattern = pattern_of(host, original);
+  TrialFile trials(words.out + ".trials", source.identity);
+  std::string told;
+  const auto tell = [&](const FailingCase& smaller, std::string_view pass) {
+    std::string size = size_text(CaseSize::of(smaller.scenario));
+    if (size != told) talk("{}: {}\n", pass, size);
+    told = std::move(size);
+  };
+  const ShrinkResult result = shrink(host, trials, original, pattern, {deadline, words.trials}, tell);
+  save(words, host, source, result.best);
+  if (result.one_minimal) trials.remove();
+  put_result(words, original, result);
+  return kDemonstrated;
+}
+
+}  // namespace
+
+Action prepare_shrink(Options& options) {
+  auto words = std::make_shared<ShrinkWords>();
+  add_case_options(options, words->from);
+  options.option("-o,--output", words->out, "the smallest case, a scenario file (default: NAME-RUN.case.json)");
+  options.option("--max-time", words->max_time, "end after this time with the smallest case so far (default: 60)");
+  options.option("--max-trials", words->trials, "end after so many trials; the result is the same on any machine");
+  options.option("-j,--jobs", words->jobs, "worker threads (default: one per core)");
+  options.flag("--json", words->json, "print JSON");
+  return [words] { return shrink_case(*words); };
+}
+
+}  // namespace fleetproof::cli

@@ -1,0 +1,23 @@
+#include "campaign/explain/claim.hpp"
+
+#include <fmt/format.h>
+
+namespace fleetproof {
+
+std::string outcome_text(const std::optional<Failure>& failure) { return failure ? text_of(failure->kind) : "none"; }
+
+std::string name_of_body(const Scenario& scenario, EntityId body) {
+  if (body.index() < scenario.agvs.size()) return scenario.agvs[body.index()].name;
+  const std::size_t obstacle = body.index() - scenario.agvs.size();
+  if (obstacle < scenario.obstacles.size()) return scenario.obstacles[obstacle].name;
+  return "a fallen load";
+}
+
+std::string message_text(const Scenario& scenario, const MessageFate& message) {
+  const GivenFate& fate = message.fate;
+  return fmt::format("message {} ({}{} to {}, {:.3f} s)", message.number,
+                     message.kind.empty() ? "" : message.kind + ", ", name_of_body(scenario, fate.sender),
+                     name_of_body(scenario, fate.receiver), to_seconds(fate.sent));
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,55 @@
+#include "campaign/explain/explanation.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "campaign/shrink/adverse_fates.hpp"
+
+namespace fleetproof {
+namespace {
+
+// A run that ends with its failure would not show a failure that comes a little later.
+constexpr Duration kLonger = std::chrono::seconds(30);
+
+// The smallest case with time for the failure to come later. If it fails otherwise then, the case as it is.
+FailingCase with_more_time(CaseHost& host, const FailingCase& small, const FailingCase& original,
+                           const FailurePattern& pattern) {
+  FailingCase longer = small;
+  longer.scenario.horizon = std::min(small.scenario.horizon + kLonger, original.scenario.horizon);
+  const auto failure = pattern.match(host(longer.scenario));
+  if (!failure) return small;
+  longer.failure = *failure;
+  return longer;
+}
+
+}  // namespace
+
+Explanation explain(CaseHost& host, const FailingCase& original, const FailingCase& small,
+                    const FailurePattern& pattern) {
+  Explanation found;
+  found.original = original;
+  found.pattern = pattern;
+  found.small = with_more_time(host, small, original, pattern);
+  found.messages = needs_of_messages(host, found.small, pattern);
+  found.things = without_each_thing(host, found.small, pattern);
+  found.stops = last_stops(host, found.small, pattern);
+  found.notes = host(found.small.scenario, Fates::Kept).notes;
+  CaseRun lucky = host(with_fates_only(found.small.scenario, {}));
+  if (!failure_of(lucky)) found.lucky_words = std::move(lucky.all_words);
+  found.shares = shares_of(host, original, pattern);
+  found.no_return = curve_of_no_return(host, original, pattern);
+  return found;
+}
+
+std::vector<const Claim*> claims_of(const Explanation& explanation) {
+  std::vector<const Claim*> claims;
+  const auto add = [&](const std::vector<Claim>& more) {
+    for (const Claim& claim : more) claims.push_back(&claim);
+  };
+  for (const MessageNeed& need : explanation.messages) add(need.claims);
+  add(explanation.things);
+  for (const LastStop& stop : explanation.stops) add(stop.claims);
+  return claims;
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "campaign/explain/last_stop.hpp"
+#include "campaign/explain/necessity.hpp"
+#include "campaign/explain/no_return.hpp"
+#include "campaign/explain/shares.hpp"
+
+namespace fleetproof {
+
+// Why a run fails. All that is said of single messages, things and stops is about `small`, the smallest case that fails
+// in the same way; shares and the curve are about the run itself.
+struct Explanation {
+  FailingCase original, small;
+  FailurePattern pattern;
+  std::vector<MessageNeed> messages;
+  std::vector<Claim> things;
+  std::vector<LastStop> stops;
+  CaseNotes notes;  // of the smallest case
+  // All words of its agents on a perfect radio, sorted; none if it fails there, too.
+  std::vector<std::string> lucky_words;
+  std::vector<Share> shares;
+  NoReturn no_return;
+};
+
+// Requires: both fail in the way of the pattern.
+Explanation explain(CaseHost& host, const FailingCase& original, const FailingCase& small,
+                    const FailurePattern& pattern);
+
+// The runs that show what is said of single messages, things and stops, in this order.
+std::vector<const Claim*> claims_of(const Explanation& explanation);
+
+}  // namespace fleetproof

@@ -1,0 +1,59 @@
+#include "campaign/explain/last_stop.hpp"
+
+#include <fmt/format.h>
+
+#include "campaign/shrink/all_runs.hpp"
+#include "campaign/shrink/trials.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr Duration kGrain = std::chrono::milliseconds(100), kLookBack = std::chrono::seconds(30);
+
+Scenario stopped_at(const Scenario& scenario, EntityId agv, SimTime at) {
+  Scenario stopped = scenario;
+  Fault stop;
+  stop.kind = Fault::Kind::ProtectiveStop;
+  stop.agv = agv;
+  stop.at = at - kStart;
+  stop.lasts = scenario.horizon;
+  stopped.faults.push_back(stop);
+  return stopped;
+}
+
+Claim stop_claim(CaseHost& host, const FailingCase& failing, EntityId agv, SimTime at) {
+  Scenario stopped = stopped_at(failing.scenario, agv, at);
+  const auto failure = failure_of(host(stopped));
+  return {fmt::format("{} brakes at {:.1f} s", name_of_body(failing.scenario, agv), to_seconds(at - kStart)),
+          std::move(stopped), outcome_text(failure)};
+}
+
+LastStop last_stop_of(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern, EntityId agv) {
+  LastStop found;
+  found.agv = name_of_body(failing.scenario, agv);
+  const Duration end = (failing.failure.at - kStart) / kGrain * kGrain;
+  const auto count = static_cast<std::size_t>(std::min(end, kLookBack) / kGrain + 1);
+  const auto at = [&](std::size_t i) { return kStart + end - kGrain * static_cast<std::int64_t>(i); };
+  const auto runs =
+      all_runs(host, {count, [&](std::size_t i) { return std::optional(stopped_at(failing.scenario, agv, at(i))); }});
+  for (std::size_t i = 0; i < count && !found.at; ++i) {
+    if (pattern.match(*runs[i])) continue;
+    found.at = at(i);
+    found.claims.push_back(stop_claim(host, failing, agv, at(i)));
+    if (i > 0) found.claims.push_back(stop_claim(host, failing, agv, at(i - 1)));
+  }
+  return found;
+}
+
+}  // namespace
+
+std::vector<LastStop> last_stops(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern) {
+  std::vector<LastStop> stops;
+  for (const EntityId body : {failing.failure.a, failing.failure.b}) {
+    if (body.valid() && body.index() < failing.scenario.agvs.size())
+      stops.push_back(last_stop_of(host, failing, pattern, body));
+  }
+  return stops;
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,137 @@
+#include "campaign/explain/necessity.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "campaign/shrink/adverse_fates.hpp"
+#include "campaign/shrink/all_runs.hpp"
+#include "campaign/shrink/fitness.hpp"
+#include "campaign/shrink/surgery.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr Duration kGrain = std::chrono::milliseconds(10);
+
+Scenario with_fate(const Scenario& scenario, std::size_t i, const GivenFate& fate) {
+  Scenario changed = scenario;
+  changed.fates[i] = fate;
+  return changed;
+}
+
+GivenFate arriving_after(GivenFate fate, Duration delay) {
+  fate.lost = fate.copied = false;
+  fate.delay = delay;
+  fate.copy_delay = Duration::zero();
+  return fate;
+}
+
+bool same_message(const GivenFate& a, const GivenFate& b) {
+  return a.sender == b.sender && a.receiver == b.receiver && a.sent == b.sent && a.ordinal == b.ordinal;
+}
+
+// The latest arrival that avoids the failure, by halving; the one found avoids it, and kGrain later it is not avoided.
+std::optional<Duration> latest_that_saves(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern,
+                                          std::size_t i) {
+  const GivenFate& fate = failing.scenario.fates[i];
+  const auto avoids = [&](Duration delay) {
+    return !pattern.match(host(with_fate(failing.scenario, i, arriving_after(fate, delay))));
+  };
+  Duration low{}, high = fate.lost ? failing.failure.at - kStart - fate.sent : fate.delay;
+  if (high <= kGrain || avoids(high)) return std::nullopt;
+  while (high - low > kGrain) {
+    const Duration middle = low + (high - low) / 2;
+    (avoids(middle) ? low : high) = middle;
+  }
+  return low;
+}
+
+struct Without {
+  std::string what;
+  std::function<Scenario(const Scenario&)> edit;
+};
+
+std::vector<Without> things_of(const Scenario& scenario) {
+  std::vector<Without> things;
+  const auto but = [](std::size_t i) { return [i](std::size_t other) { return other != i; }; };
+  for (std::size_t i = 0; i < scenario.agvs.size(); ++i)
+    things.push_back({scenario.agvs[i].name, [=](const Scenario& s) { return with_agvs(s, but(i)); }});
+  const auto transports = transports_of(scenario);
+  for (std::size_t i = 0; i < transports.size(); ++i) {
+    const AgvSetup& agv = scenario.agvs[transports[i].agv];
+    const TransportOrder& order = agv.transports[transports[i].number];
+    things.push_back({fmt::format("the order of {} from {} to {}", agv.name, scenario.map->station(order.from).name,
+                                  scenario.map->station(order.to).name),
+                      [=](const Scenario& s) { return with_transports(s, but(i)); }});
+  }
+  for (std::size_t i = 0; i < scenario.faults.size(); ++i) {
+    const Fault& fault = scenario.faults[i];
+    things.push_back({fmt::format("the {} of {} at {:.2f} s", name_of(fault.kind), name_of_body(scenario, fault.agv),
+                                  to_seconds(fault.at)),
+                      [=](const Scenario& s) {
+                        Scenario less = s;
+                        less.faults = kept(s.faults, but(i));
+                        return less;
+                      }});
+  }
+  for (std::size_t i = 0; i < scenario.obstacles.size(); ++i) {
+    things.push_back({"the obstacle " + scenario.obstacles[i].name, [=](const Scenario& s) {
+                        Scenario less = s;
+                        less.obstacles = kept(s.obstacles, but(i));
+                        return less;
+                      }});
+  }
+  return things;
+}
+
+}  // namespace
+
+std::vector<MessageNeed> needs_of_messages(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern) {
+  const auto messages = host(failing.scenario, Fates::Kept).fates;
+  std::vector<MessageNeed> needs;
+  for (std::size_t i = 0; i < failing.scenario.fates.size(); ++i) {
+    const GivenFate& fate = failing.scenario.fates[i];
+    const auto sent =
+        std::ranges::find_if(messages, [&](const MessageFate& message) { return same_message(message.fate, fate); });
+    if (sent == messages.end()) continue;  // it was never sent, so its fate changed nothing
+    MessageNeed need;
+    need.message = *sent;
+    Scenario arrived = with_fate(failing.scenario, i, arriving_after(fate, Duration::zero()));
+    const CaseRun run = host(arrived);
+    need.is_needed = !pattern.match(run);
+    need.claims.push_back({fmt::format("{} arrived at once", message_text(failing.scenario, need.message)),
+                           std::move(arrived), outcome_text(failure_of(run))});
+    if (need.is_needed) need.saves = latest_that_saves(host, failing, pattern, i);
+    for (const Duration late :
+         {need.saves.value_or(Duration::zero()), need.saves.value_or(Duration::zero()) + kGrain}) {
+      if (!need.saves) break;
+      Scenario later = with_fate(failing.scenario, i, arriving_after(fate, late));
+      need.claims.push_back({fmt::format("it arrived by {:.3f} s", to_seconds(fate.sent + late)), later,
+                             outcome_text(failure_of(host(later)))});
+    }
+    needs.push_back(std::move(need));
+  }
+  return needs;
+}
+
+std::vector<Claim> without_each_thing(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern) {
+  const auto things = things_of(failing.scenario);
+  const auto make = [&](std::size_t i) -> std::optional<Scenario> {
+    Scenario less = things[i].edit(failing.scenario);
+    return is_fair(less) ? std::optional(std::move(less)) : std::nullopt;
+  };
+  const auto runs = all_runs(host, {things.size(), make});
+  std::vector<Claim> claims;
+  for (std::size_t i = 0; i < things.size(); ++i) {
+    if (!runs[i]) continue;
+    const auto failure = failure_of(*runs[i]);
+    const bool same = pattern.match(*runs[i]).has_value();
+    claims.push_back({fmt::format("{} without {}", same ? "fails in the same way" : "does not fail so", things[i].what),
+                      *make(i), outcome_text(failure)});
+  }
+  return claims;
+}
+
+}  // namespace fleetproof

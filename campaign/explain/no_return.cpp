@@ -1,0 +1,72 @@
+#include "campaign/explain/no_return.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "campaign/shrink/all_runs.hpp"
+#include "campaign/shrink/other_luck.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr double kLast_s = 0.2, kFirst_s = 60.0;  // before the failure
+constexpr Duration kAfterwards = std::chrono::seconds(5);
+
+// From far to near: each is a fixed share of the one before, so that the last seconds are looked at closely. Built by
+// multiplication alone, as all that a result rests on.
+std::vector<SimTime> instants_before(SimTime failure) {
+  const double first_s = std::min(kFirst_s, to_seconds(failure - kStart));
+  if (first_s <= kLast_s) return {kStart};
+  double share = 0.5;  // the kInstants - 1st root of last / first, by halving
+  for (double step = 0.25; step > 1e-12; step /= 2.0) {
+    double last_s = first_s;
+    for (std::size_t i = 1; i < kInstants; ++i) last_s *= share;
+    share += last_s < kLast_s ? step : -step;
+  }
+  std::vector<SimTime> instants;
+  double before_s = first_s;
+  for (std::size_t i = 0; i < kInstants; ++i, before_s *= share) instants.push_back(failure - seconds(before_s));
+  return instants;
+}
+
+// Whether so many branches that fail are no more than `before`, but for two standard errors of the difference.
+bool is_as_before(std::size_t failing, std::size_t before) {
+  if (failing <= before) return true;
+  const std::size_t more = failing - before, sum = failing + before;
+  return more * more * 2 * kBranches <= 4 * sum * (2 * kBranches - sum);
+}
+
+}  // namespace
+
+NoReturn curve_of_no_return(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern) {
+  Scenario scenario = failing.scenario;
+  scenario.horizon = std::min(scenario.horizon, failing.failure.seen - kStart + kAfterwards);
+  const auto messages = host(scenario, Fates::Kept).fates;
+  const auto instants = instants_before(failing.failure.at);
+  const auto branch = [&](std::size_t rank) {
+    const SimTime at = instants[rank / kBranches];
+    Scenario other = with_other_radio(scenario, static_cast<std::uint32_t>(rank % kBranches + 1));
+    other.fates.clear();
+    for (const MessageFate& message : messages) {
+      if (kStart + message.fate.sent < at) other.fates.push_back(message.fate);
+    }
+    return std::optional(std::move(other));
+  };
+  const auto runs = all_runs(host, {instants.size() * kBranches, branch});
+  NoReturn found;
+  for (std::size_t i = 0; i < instants.size(); ++i) {
+    Branching& branching = found.curve.emplace_back(Branching{instants[i], 0});
+    for (std::size_t k = 0; k < kBranches; ++k) branching.failing += pattern.match(*runs[i * kBranches + k]) ? 1 : 0;
+  }
+  found.open_until = found.curve.front().at;
+  for (const Branching& branching : found.curve) {
+    if (is_as_before(branching.failing, found.curve.front().failing)) found.open_until = branching.at;
+    if (2 * branching.failing < kBranches) found.likely_from.reset();
+    if (2 * branching.failing >= kBranches && !found.likely_from) found.likely_from = branching.at;
+    if (branching.failing < kBranches) found.certain_from.reset();
+    if (branching.failing == kBranches && !found.certain_from) found.certain_from = branching.at;
+  }
+  return found;
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "campaign/shrink/failure_pattern.hpp"
+
+namespace fleetproof {
+
+// So many branches leave the run at each instant. If none of them fails, less than 5 % do (95 %): 1 - 0.05^(1/59).
+inline constexpr std::size_t kBranches = 59, kInstants = 20;
+
+// What becomes of a run if the radio draws anew from an instant on.
+struct Branching {
+  SimTime at{};
+  std::size_t failing = 0;  // of kBranches: in the same way, not later than a while after the run itself
+};
+
+// The curve of no return, in order of time: when the failure became likely, and when it became certain.
+struct NoReturn {
+  std::vector<Branching> curve;
+  // Behind the last instant from which less than half of the branches fail, the failure is likely; from the first
+  // instant on, behind which all fail, it is certain. Absent: not in the time that was looked at.
+  std::optional<SimTime> likely_from, certain_from;
+  // The last instant at which no more branches fail than at the first, as far as their number can tell (two standard
+  // errors): what decided it lies between there and certain_from.
+  SimTime open_until{};
+};
+
+// Branches a run whose radio draws. The instants lie before the failure, the last ones close to it; each branch keeps
+// all that was sent before its instant as it was.
+NoReturn curve_of_no_return(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern);
+
+}  // namespace fleetproof

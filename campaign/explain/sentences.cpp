@@ -1,0 +1,167 @@
+#include "campaign/explain/sentences.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <span>
+
+namespace fleetproof {
+namespace {
+
+constexpr std::size_t kEnoughToCompare = 12;
+
+double seconds_of(SimTime t) { return to_seconds(t - kStart); }
+
+class Words {
+ public:
+  explicit Words(const Explanation& of) : of_(of), scenario_(of.small.scenario) {}
+
+  std::vector<std::string> all() {
+    what_happens();
+    for (const MessageNeed& need : of_.messages) message(need);
+    things();
+    for (const LastStop& stop : of_.stops) last_stop(stop);
+    for (const EntityId agv : involved()) knowledge(agv);
+    shares();
+    no_return();
+    return std::move(lines_);
+  }
+
+ private:
+  template <class... Parts>
+  void say(fmt::format_string<Parts...> format, Parts&&... parts) {
+    lines_.push_back(fmt::format(format, std::forward<Parts>(parts)...));
+  }
+
+  // Claims are told in the order of claims_of, so that their numbers go up.
+  std::string runs(std::size_t count) {
+    std::vector<std::size_t> numbers;
+    for (std::size_t i = 0; i < count; ++i) numbers.push_back(++claim_);
+    return fmt::format("[{}]", fmt::join(numbers, ", "));
+  }
+
+  std::vector<EntityId> involved() const {
+    std::vector<EntityId> agvs;
+    for (const EntityId body : {of_.small.failure.a, of_.small.failure.b}) {
+      if (body.valid() && body.index() < scenario_.agvs.size()) agvs.push_back(body);
+    }
+    return agvs;
+  }
+
+  void what_happens() {
+    const Failure& failure = of_.small.failure;
+    std::string who;
+    if (failure.a.valid()) who = " of " + name_of_body(scenario_, failure.a);
+    if (failure.b.valid()) who += " and " + name_of_body(scenario_, failure.b);
+    say("The smallest case fails at {:.3f} s: {}{}.", seconds_of(failure.at), failure.kind.what, who);
+  }
+
+  void message(const MessageNeed& need) {
+    const std::string name = message_text(scenario_, need.message);
+    const GivenFate& fate = need.message.fate;
+    const std::string trouble = fate.lost     ? "the loss"
+                                : fate.copied ? "the second copy"
+                                              : fmt::format("the delay of {:.2f} s", to_seconds(fate.delay));
+    const std::size_t count = need.claims.size();
+    if (!need.is_needed) return say("It does not need {} of {} {}.", trouble, name, runs(count));
+    if (!need.saves)
+      return say("It needs {} of {}: had it arrived at once, no such failure {}.", trouble, name, runs(count));
+    say("It needs {} of {}. Had it arrived by {:.2f} s, no such failure; 10 ms later, it fails {}.", trouble, name,
+        to_seconds(fate.sent + *need.saves), runs(count));
+  }
+
+  void things() {
+    for (const Claim& claim : of_.things) say("It {} {}.", claim.sentence, runs(1));
+  }
+
+  void last_stop(const LastStop& stop) {
+    if (!stop.at) return say("No brake of {} in the last 30 s avoids it.", stop.agv);
+    const std::size_t count = stop.claims.size();
+    if (count == 1)
+      return say("{} avoids it by braking at {:.1f} s, 0.1 s before it {}.", stop.agv, seconds_of(*stop.at),
+                 runs(count));
+    say("{} avoids it by braking at {:.1f} s at the latest; 0.1 s later is too late {}.", stop.agv,
+        seconds_of(*stop.at), runs(count));
+  }
+
+  // What it said last, and what it had from the other.
+  void knowledge(EntityId agv) {
+    const std::string name = name_of_body(scenario_, agv);
+    for (const Declared& declared : of_.notes.declared) {
+      if (declared.agv == agv && !of_.lucky_words.empty() &&
+          !std::ranges::binary_search(of_.lucky_words, declared.word))
+        say("{} said \"{}\" at {:.3f} s; on a perfect radio, nobody says it.", name, declared.word,
+            seconds_of(declared.at));
+    }
+    for (const EntityId other : involved()) {
+      if (other != agv) heard(agv, other);
+    }
+  }
+
+  void heard(EntityId agv, EntityId other) {
+    const std::string name = name_of_body(scenario_, agv), from = name_of_body(scenario_, other);
+    const auto last =
+        std::ranges::find_if(of_.notes.heard, [&](const Heard& h) { return h.by == agv && h.of == other; });
+    if (last == of_.notes.heard.end()) {
+      say("{} had never heard {}.", name, from);
+    } else {
+      say("The last that {} had heard of {} was message {}{}, sent at {:.3f} s: {:.2f} s old at the failure.", name,
+          from, last->number, last->kind.empty() ? "" : " (" + last->kind + ")", seconds_of(last->sent),
+          to_seconds(of_.small.failure.at - last->sent));
+    }
+    const auto belief =
+        std::ranges::find_if(of_.notes.believed, [&](const Believed& b) { return b.by == agv && b.about == other; });
+    if (belief == of_.notes.believed.end()) return;
+    say("It believed {} at ({:.2f}, {:.2f}), as of {:.2f} s by its clock.", from, 1e-3 * belief->where.x_mm,
+        1e-3 * belief->where.y_mm, seconds_of(belief->as_of));
+  }
+
+  void shares() {
+    if (of_.shares.empty()) return;
+    const Share& base = of_.shares.front();
+    say("With other luck, the run fails in the same way in {} of {}.", base.failing, base.of);
+    for (const Share& share : std::span(of_.shares).subspan(1))
+      say("If {}: {} of {}{}.", share.what, share.failing, share.of, verdict(share, base));
+  }
+
+  // Only said where the run as it is fails often enough to compare.
+  static const char* verdict(const Share& share, const Share& base) {
+    if (base.failing < kEnoughToCompare) return "";
+    if (share.failing == 0) return " (below 5 %, 95 % sure): the failure needs this to be otherwise";
+    return 2 * share.failing >= base.failing ? ": that does not decide it" : ": that makes it rarer";
+  }
+
+  void no_return() {
+    const NoReturn& curve = of_.no_return;
+    if (curve.curve.empty()) return;
+    const SimTime at = of_.original.failure.at;
+    if (curve.certain_from == curve.curve.front().at)
+      return say(
+          "The run itself fails at {:.3f} s. That is certain from {:.2f} s on, the first instant looked at: all {} "
+          "branches with a new radio fail so.",
+          seconds_of(at), seconds_of(*curve.certain_from), kBranches);
+    say("The run itself fails at {:.3f} s. From {:.2f} s before that, {} of {} branches with a new radio fail.",
+        seconds_of(at), to_seconds(at - curve.curve.front().at), curve.curve.front().failing, kBranches);
+    if (curve.likely_from)
+      say("It is likely from {:.2f} s on ({:.2f} s before).", seconds_of(*curve.likely_from),
+          to_seconds(at - *curve.likely_from));
+    if (curve.certain_from) {
+      say("It is certain from {:.2f} s on ({:.2f} s before): what decided it happened between {:.2f} s and then.",
+          seconds_of(*curve.certain_from), to_seconds(at - *curve.certain_from), seconds_of(curve.open_until));
+    } else {
+      say("Until {:.2f} s before it, a new radio could still avoid it.", to_seconds(at - curve.curve.back().at));
+    }
+  }
+
+  const Explanation& of_;
+  const Scenario& scenario_;
+  std::vector<std::string> lines_;
+  std::size_t claim_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::string> sentences_of(const Explanation& explanation) { return Words(explanation).all(); }
+
+}  // namespace fleetproof

@@ -1,0 +1,99 @@
+#include "campaign/explain/shares.hpp"
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <utility>
+
+#include "campaign/shrink/adverse_fates.hpp"
+#include "campaign/shrink/all_runs.hpp"
+#include "campaign/shrink/fitness.hpp"
+#include "campaign/shrink/other_luck.hpp"
+#include "campaign/shrink/surgery.hpp"
+#include "core/scenario/canonical_bytes.hpp"
+
+namespace fleetproof {
+namespace {
+
+struct Change {
+  std::string what;
+  std::function<void(Scenario&)> edit;
+};
+
+void scale_speeds(Scenario& scenario, double factor) {
+  for (VehicleType& type : scenario.vehicle_types) {
+    type.drive.speed_mps *= factor;
+    type.reverse_speed_mps *= factor;
+  }
+}
+
+void add_radio(std::vector<Change>& changes, const RadioSetup& radio) {
+  if (radio.loss > 0.0) changes.push_back({"no message is lost by chance", [](Scenario& s) { s.radio.loss = 0.0; }});
+  if (radio.delay_s > 0.0) changes.push_back({"no message is late", [](Scenario& s) { s.radio.delay_s = 0.0; }});
+  if (radio.duplicates > 0.0)
+    changes.push_back({"no message arrives twice", [](Scenario& s) { s.radio.duplicates = 0.0; }});
+  changes.push_back({"the radio is perfect", [](Scenario& s) { s.radio = perfect(s.radio); }});
+}
+
+std::vector<Change> changes_of(const Scenario& scenario) {
+  std::vector<Change> changes{{"as it is", [](Scenario&) {}}};
+  add_radio(changes, scenario.radio);
+  if (!scenario.faults.empty()) changes.push_back({"no fault strikes", [](Scenario& s) { s.faults.clear(); }});
+  if (!scenario.obstacles.empty())
+    changes.push_back({"there are no obstacles", [](Scenario& s) { s.obstacles.clear(); }});
+  changes.push_back({"speeds are a tenth lower", [](Scenario& s) { scale_speeds(s, 0.9); }});
+  changes.push_back({"loads change no body and no speed", [](Scenario& s) {
+                       for (VehicleType& type : s.vehicle_types) type.loaded = {};
+                     }});
+  changes.push_back({"all batteries are full", [](Scenario& s) {
+                       for (AgvSetup& agv : s.agvs) agv.battery = 1.0;
+                     }});
+  changes.push_back({"clocks and positions are right", [](Scenario& s) {
+                       for (AgvSetup& agv : s.agvs) agv.sensing = {};
+                     }});
+  return changes;
+}
+
+// Where a change changes nothing, its share would say nothing.
+bool changes_it(const Change& change, const Scenario& scenario) {
+  Scenario changed = scenario;
+  change.edit(changed);
+  return scenario_digest(changed) != scenario_digest(scenario);
+}
+
+}  // namespace
+
+std::vector<Share> shares_of(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern) {
+  auto changes = changes_of(failing.scenario);
+  std::erase_if(changes, [&, first = true](const Change& change) mutable {
+    return !std::exchange(first, false) && !changes_it(change, failing.scenario);
+  });
+  for (std::size_t i = 0; i < failing.scenario.agvs.size(); ++i) {
+    if (EntityId{i} == failing.failure.a || EntityId{i} == failing.failure.b) continue;
+    changes.push_back({failing.scenario.agvs[i].name + " is not there",
+                       [i](Scenario& s) { s = with_agvs(s, [i](std::size_t other) { return other != i; }); }});
+  }
+  const auto make = [&](std::size_t rank) -> std::optional<Scenario> {
+    Scenario changed = failing.scenario;
+    changes[rank / kLuckRuns].edit(changed);
+    if (!is_fair(changed)) return std::nullopt;
+    return with_other_luck(std::move(changed), static_cast<std::uint32_t>(rank % kLuckRuns + 1));
+  };
+  const auto runs = all_runs(host, {changes.size() * kLuckRuns, make});
+  std::vector<Share> shares;
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    Share share;
+    share.what = changes[i].what;
+    for (std::size_t k = 0; k < kLuckRuns; ++k) {
+      const auto& run = runs[i * kLuckRuns + k];
+      share.of += run ? 1 : 0;
+      share.failing += run && pattern.match(*run) ? 1 : 0;
+    }
+    if (share.of == 0) continue;
+    share.first = *make(i * kLuckRuns);
+    shares.push_back(std::move(share));
+  }
+  return shares;
+}
+
+}  // namespace fleetproof

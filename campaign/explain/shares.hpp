@@ -1,0 +1,15 @@
+#pragma once
+
+#include <vector>
+
+#include "campaign/explain/claim.hpp"
+
+namespace fleetproof {
+
+inline constexpr std::size_t kLuckRuns = 59;
+
+// How often the run fails in the same way with other luck: as it is, and with one thing changed at a time. The first
+// is the run as it is.
+std::vector<Share> shares_of(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern);
+
+}  // namespace fleetproof

@@ -1,0 +1,128 @@
+#include "campaign/run/case_run.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "core/engine/simulation.hpp"
+#include "core/outcome/note_records.hpp"
+#include "laws/laws.hpp"
+#include "reports/evidence/first_cause.hpp"
+
+namespace fleetproof {
+namespace {
+
+// What each agent declared, with the instants.
+class Declarations {
+ public:
+  void record(const TraceRecord& record, std::string_view text) {
+    if (record.kind == TraceKind::AgentState) {
+      auto& past = states_[record.entity];
+      if (past.empty() || past.back().second != text) past.emplace_back(record.at, text);
+    }
+    if (record.kind == TraceKind::AgentState || record.kind == TraceKind::Probe)
+      first_.try_emplace({record.entity, std::string(text)}, record.at);
+  }
+
+  // States and probes until `t`.
+  std::vector<std::string> words(const std::vector<EntityId>& agvs, SimTime t) const {
+    std::set<std::string> said;
+    for (const auto& [key, at] : first_) {
+      const bool counts = agvs.empty() || std::ranges::find(agvs, key.first) != agvs.end();
+      if (counts && at <= t && !key.second.empty()) said.insert(key.second);
+    }
+    return {said.begin(), said.end()};
+  }
+
+  // Empty if it had declared nothing.
+  std::string state(EntityId agv, SimTime t) const {
+    const auto found = states_.find(agv);
+    if (found == states_.end()) return {};
+    std::string state;
+    for (const auto& [at, word] : found->second) {
+      if (at <= t) state = word;
+    }
+    return state;
+  }
+
+ private:
+  std::map<EntityId, std::vector<std::pair<SimTime, std::string>>> states_;
+  std::map<std::pair<EntityId, std::string>, SimTime> first_;
+};
+
+class CaseSink final : public TraceSink {
+ public:
+  CaseSink(const Scenario& scenario, Fates wanted) : fates(scenario), wanted_(wanted) {}
+  void record(const TraceRecord& record, std::string_view text) override {
+    declared.record(record, text);
+    if (wanted_ != Fates::Kept) return;
+    fates.record(record, text);
+    notes.record(record, text);
+  }
+
+  Declarations declared;
+  FateKeeper fates;
+  NoteKeeper notes;
+
+ private:
+  Fates wanted_;
+};
+
+// From when on the first cause was what it is: a violation may become a contact after it began.
+SimTime seen_at(const FirstCause& cause, const Outcome& outcome) {
+  for (const Violation& violation : outcome.violations) {
+    if (violation.first == cause.at && violation.a == cause.a && violation.b == cause.b) return violation.closest_at;
+  }
+  for (const Incident& incident : outcome.incidents) {
+    if (incident.first == cause.at && incident.a == cause.a && incident.b == cause.b) return incident.last;
+  }
+  return cause.at;
+}
+
+}  // namespace
+
+CaseRun run_case(const Scenario& scenario, const fp_agent_type& agent, const std::string& agent_config,
+                 const std::vector<std::string>& laws_left_out, Fates fates, const RunWatch& watch) {
+  CaseRun run;
+  CaseSink sink(scenario, fates);
+  const auto laws = make_default_laws(scenario, laws_left_out);
+  run.outcome = simulate(scenario, agent, laws, &sink, agent_config.c_str(), watch);
+  if (fates == Fates::Kept) run.fates = sink.fates.fates();
+  run.all_words = sink.declared.words({}, kForever);
+  const auto cause = first_cause(run.outcome);
+  if (!cause) return run;
+  std::vector<EntityId> agvs;
+  for (const EntityId body : {cause->a, cause->b}) {
+    if (!body.valid() || body.index() >= scenario.agvs.size()) continue;
+    agvs.push_back(body);
+    std::string state = sink.declared.state(body, cause->at);
+    if (!state.empty()) run.states.push_back(std::move(state));
+  }
+  run.words = sink.declared.words(agvs, cause->at);
+  if (fates == Fates::Kept) run.notes = sink.notes.until(cause->at);
+  return run;
+}
+
+std::string text_of(const FailureKind& kind) {
+  return kind.states.empty() ? kind.what : fmt::format("{} ({})", kind.what, fmt::join(kind.states, ", "));
+}
+
+ExpectedOutcome expectation_of(const CaseRun& run) {
+  const auto failure = failure_of(run);
+  return {failure ? text_of(failure->kind) : "none", run.outcome.digest};
+}
+
+std::optional<Failure> failure_of(const CaseRun& run) {
+  auto cause = first_cause(run.outcome);
+  if (!cause) return std::nullopt;
+  const SimTime seen = seen_at(*cause, run.outcome);
+  Failure failure{{std::move(cause->what), run.states}, cause->at, seen, cause->a, cause->b};
+  std::ranges::sort(failure.kind.states);
+  return failure;
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "campaign/run/case_notes.hpp"
+#include "campaign/run/message_fates.hpp"
+#include "core/engine/run_watch.hpp"
+#include "core/outcome/outcome.hpp"
+#include "core/scenario/scenario.hpp"
+#include "core/sdk/fleetproof/agent.h"
+
+namespace fleetproof {
+
+// One scenario, simulated to learn how it fails.
+struct CaseRun {
+  Outcome outcome;
+  // What the agents of the bodies of the first cause had last declared when it happened, in the order of the bodies.
+  // Empty: the run did not fail, no body is known, or no agent declares anything.
+  std::vector<std::string> states;
+  // All states and probes that these agents had declared until then, sorted, each once; of the whole fleet if none of
+  // its AGVs is known to have failed. And those of the whole fleet in the whole run.
+  std::vector<std::string> words, all_words;
+  std::vector<MessageFate> fates;  // of all messages, if they were asked for
+  CaseNotes notes;                 // until the failure, likewise
+};
+enum class Fates : bool { Ignored, Kept };
+
+// Under the default laws without those in `laws_left_out`.
+CaseRun run_case(const Scenario& scenario, const fp_agent_type& agent, const std::string& agent_config,
+                 const std::vector<std::string>& laws_left_out = {}, Fates fates = Fates::Ignored,
+                 const RunWatch& watch = {});
+
+// How a run failed: two runs fail in the same way if their kinds are equal.
+struct FailureKind {
+  std::string what;                 // of the first cause: "contact, two AGVs"
+  std::vector<std::string> states;  // of its AGVs, sorted
+
+  friend bool operator==(const FailureKind&, const FailureKind&) = default;
+};
+// "contact, two AGVs (driving, waiting)"
+std::string text_of(const FailureKind& kind);
+
+// The run as a saved case expects it.
+ExpectedOutcome expectation_of(const CaseRun& run);
+
+struct Failure {
+  FailureKind kind;
+  SimTime at{};    // when it began
+  SimTime seen{};  // from then on it was what it is
+  EntityId a, b;   // each invalid if not known
+};
+// Absent if nothing went wrong. Of a crash or a hang, `at` is the end of the run.
+std::optional<Failure> failure_of(const CaseRun& run);
+
+}  // namespace fleetproof

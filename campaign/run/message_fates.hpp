@@ -1,0 +1,43 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/outcome/note_records.hpp"
+#include "core/outcome/trace.hpp"
+#include "core/scenario/scenario.hpp"
+
+namespace fleetproof {
+
+// A message at one receiver, and what became of it.
+struct MessageFate {
+  GivenFate fate;
+  std::string kind;          // as its sender describes it; empty if it does not
+  std::uint32_t number = 0;  // of the message in its run
+  std::uint64_t hash = 0;    // of its bytes
+
+  // Lost, or later than the air takes, or twice.
+  bool is_adverse() const { return fate.lost || fate.copied || fate.delay > Duration::zero(); }
+};
+
+// Keeps the fates of all messages of a run, in the order in which they were sent.
+class FateKeeper final : public TraceSink {
+ public:
+  explicit FateKeeper(const Scenario& scenario) : radio_(scenario.radio) {}
+  void record(const TraceRecord& record, std::string_view text) override;
+  const std::vector<MessageFate>& fates() const { return fates_; }
+
+ private:
+  void decided(const TraceRecord& record);
+
+  RadioSetup radio_;
+  std::vector<MessageFate> fates_;
+  std::map<std::uint32_t, std::size_t> first_of_;  // by message number: its first fate
+  std::map<std::uint64_t, std::string> kinds_;     // by hash of the message
+  std::string kind_;
+  std::uint64_t hash_ = 0;
+  std::size_t bytes_ = 0;  // of the message that was sent last
+};
+
+}  // namespace fleetproof

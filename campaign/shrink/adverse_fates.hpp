@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "campaign/run/message_fates.hpp"
+#include "core/scenario/scenario.hpp"
+
+namespace fleetproof {
+
+std::vector<MessageFate> adverse_of(const std::vector<MessageFate>& fates);
+
+// A radio on which every message arrives at once and once, as far as it did.
+RadioSetup perfect(const RadioSetup& radio);
+
+// The same scenario with its bad luck written down: on a perfect radio, the given fates alone are adverse.
+Scenario with_fates_only(const Scenario& scenario, std::vector<GivenFate> fates);
+
+}  // namespace fleetproof

@@ -1,0 +1,24 @@
+#include "campaign/shrink/case_host.hpp"
+
+namespace fleetproof {
+
+CaseHost::CaseHost(const CaseAgent& agent, const AgentPrograms& programs, int workers)
+    : programs_(programs), workers_(workers) {
+  AgentFactor& factor = plan_.agents.emplace_back();
+  factor.name = factor.program = programs.program(agent.program, "agent").name;
+  plan_.agent_config = agent.config;
+  plan_.laws_left_out = agent.laws_left_out;
+  plan_.limits = agent.limits;
+  if (!programs.is_plugin(agent.program)) return;
+  Hosting hosting;
+  hosting.workers = workers;
+  isolated_ = std::make_unique<IsolatedRuns>(plan_, programs, hosting);
+}
+
+CaseRun CaseHost::operator()(const Scenario& scenario, Fates fates) {
+  if (isolated_) return isolated_->of_case(scenario, fates);
+  return run_case(scenario, programs_.find(plan_.agents.front().program, "agent"), plan_.agent_config,
+                  plan_.laws_left_out, fates);
+}
+
+}  // namespace fleetproof

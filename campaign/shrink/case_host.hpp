@@ -1,0 +1,39 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "campaign/plan/plan.hpp"
+#include "campaign/run/agent_programs.hpp"
+#include "campaign/run/case_run.hpp"
+#include "campaign/workers/isolated_runs.hpp"
+
+namespace fleetproof {
+
+// The control software that plays cases, and how it is judged.
+struct CaseAgent {
+  std::string program, config;
+  std::vector<std::string> laws_left_out{};
+  LimitSetup limits{};
+};
+
+// Simulates cases: a reference agent on the thread of the caller, a plug-in in worker processes, so that a crash costs
+// one case. Threads: as many as there are workers.
+class CaseHost {
+ public:
+  // Make the object before threads are started, as IsolatedRuns asks. `programs` outlive it. Throws InputError if the
+  // agent is not known.
+  CaseHost(const CaseAgent& agent, const AgentPrograms& programs, int workers);
+
+  CaseRun operator()(const Scenario& scenario, Fates fates = Fates::Ignored);
+  int workers() const { return workers_; }
+
+ private:
+  CampaignPlan plan_;  // its one agent; no layouts
+  const AgentPrograms& programs_;
+  int workers_;
+  std::unique_ptr<IsolatedRuns> isolated_;  // null: a reference agent
+};
+
+}  // namespace fleetproof

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/scenario/scenario.hpp"
+
+namespace fleetproof {
+
+// The same scenario with other draws of the radio and of the agents. Each number gives other ones.
+Scenario with_other_luck(Scenario scenario, std::uint32_t number);
+// Of the radio alone.
+Scenario with_other_radio(Scenario scenario, std::uint32_t number);
+
+}  // namespace fleetproof

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "campaign/shrink/trials.hpp"
+
+namespace fleetproof {
+
+// How much there is of a scenario. `fates`: of single messages; not counted while the radio draws them.
+struct CaseSize {
+  std::size_t agvs = 0, transports = 0, faults = 0, obstacles = 0, segments = 0, fates = 0;
+  bool fates_are_drawn = true;
+  Duration horizon{};
+  static CaseSize of(const Scenario& scenario);
+};
+
+// The smallest case that was found. `one_minimal`: each single AGV, transport, fault, obstacle, segment and message
+// fate was taken away once, and the failure was another one or none. Otherwise `why_not` says why that is not known.
+struct ShrinkResult {
+  FailingCase best;
+  CaseSize before, after;
+  std::uint64_t trials = 0;  // that one worker would have made
+  bool one_minimal = false;
+  std::string why_not;
+};
+
+// Hears of each smaller case, with the pass that found it.
+using OnSmaller = std::function<void(const FailingCase& smaller, std::string_view pass)>;
+
+// Makes a failing scenario smaller as long as it fails in the same way: fewer AGVs, less bad luck on the radio, fewer
+// transports, faults and obstacles, a smaller plant, a shorter run, simpler numbers. The result is the same for any
+// number of workers, unless the deadline ends the work. Requires: `original` fails as it says, and shows
+// the pattern.
+ShrinkResult shrink(CaseHost& host, TrialCache& cache, const FailingCase& original, const FailurePattern& pattern,
+                    const TrialLimits& limits, const OnSmaller& on_smaller);
+
+}  // namespace fleetproof

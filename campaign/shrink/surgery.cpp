@@ -1,0 +1,110 @@
+#include "campaign/shrink/surgery.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "core/scenario/draw_numbers.hpp"
+#include "generators/map/layout_check.hpp"
+
+namespace fleetproof {
+namespace {
+
+// Old places to new ones, for a list of which some items stay.
+class Places {
+ public:
+  Places(std::size_t count, const Keeps& keeps) {
+    for (std::size_t i = 0; i < count; ++i) {
+      new_.push_back(keeps(i) ? std::optional(left_++) : std::nullopt);
+    }
+  }
+  bool has(std::size_t old) const { return new_[old].has_value(); }
+  std::uint32_t operator[](std::size_t old) const { return *new_[old]; }
+  template <class Id>
+  void renumber(Id& id) const {
+    id = Id{(*this)[id.index()]};
+  }
+
+ private:
+  std::vector<std::optional<std::uint32_t>> new_;
+  std::uint32_t left_ = 0;
+};
+
+}  // namespace
+
+Scenario with_agvs(const Scenario& scenario, const Keeps& keeps) {
+  const Places places(scenario.agvs.size(), keeps);
+  const DrawNumbers numbers(scenario);
+  Scenario less = scenario;
+  for (std::size_t i = 0; i < less.agvs.size(); ++i) less.agvs[i].draws_as = numbers.of(AgvId{i}).value;
+  less.agvs = kept(less.agvs, keeps);
+  std::erase_if(less.faults, [&](const Fault& fault) { return !places.has(fault.agv.index()); });
+  for (Fault& fault : less.faults) places.renumber(fault.agv);
+  std::erase_if(less.fates, [&](const GivenFate& fate) {
+    return !places.has(fate.sender.index()) || !places.has(fate.receiver.index());
+  });
+  for (GivenFate& fate : less.fates) {
+    places.renumber(fate.sender);
+    places.renumber(fate.receiver);
+  }
+  return less;
+}
+
+std::vector<TransportPlace> transports_of(const Scenario& scenario) {
+  std::vector<TransportPlace> places;
+  for (std::size_t agv = 0; agv < scenario.agvs.size(); ++agv) {
+    for (std::size_t i = 0; i < scenario.agvs[agv].transports.size(); ++i) places.push_back({agv, i});
+  }
+  return places;
+}
+
+Scenario with_transports(const Scenario& scenario, const Keeps& keeps) {
+  Scenario less = scenario;
+  std::size_t first = 0;
+  for (std::size_t agv = 0; agv < less.agvs.size(); ++agv) {
+    const std::size_t count = scenario.agvs[agv].transports.size();
+    const auto stays = [&](std::size_t i) { return keeps(first + i); };
+    const Places places(count, stays);
+    less.agvs[agv].transports = kept(scenario.agvs[agv].transports, stays);
+    const auto goes = [&](const Fault& fault) {
+      return fault.transport && fault.agv == AgvId{agv} && !places.has(*fault.transport);
+    };
+    std::erase_if(less.faults, goes);
+    for (Fault& fault : less.faults) {
+      if (fault.transport && fault.agv == AgvId{agv}) fault.transport = places[*fault.transport];
+    }
+    first += count;
+  }
+  return less;
+}
+
+Scenario with_segments(const Scenario& scenario, const Keeps& keeps) {
+  Layout layout = scenario.map->layout();
+  std::vector<bool> needed(layout.stations.size(), false);
+  for (const AgvSetup& agv : scenario.agvs) {
+    needed[agv.start.index()] = true;
+    for (const TransportOrder& order : agv.transports) needed[order.from.index()] = needed[order.to.index()] = true;
+  }
+  const Places segments(layout.segments.size(), keeps);
+  layout.segments = kept(layout.segments, keeps);
+  for (const Segment& segment : layout.segments) needed[segment.from.index()] = needed[segment.to.index()] = true;
+  const auto stays = [&](std::size_t i) { return needed[i]; };
+  const Places stations(layout.stations.size(), stays);
+  layout.stations = kept(layout.stations, stays);
+  for (Segment& segment : layout.segments) {
+    stations.renumber(segment.from);
+    stations.renumber(segment.to);
+  }
+  Scenario less = scenario;
+  less.map = std::make_shared<const LogicalMap>(layout);
+  for (AgvSetup& agv : less.agvs) {
+    stations.renumber(agv.start);
+    for (TransportOrder& order : agv.transports) {
+      stations.renumber(order.from);
+      stations.renumber(order.to);
+    }
+    for (ScriptedCall& call : agv.script) segments.renumber(call.segment);
+  }
+  return less;
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,143 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "campaign/explain/sentences.hpp"
+#include "campaign/shrink/shrink.hpp"
+#include "generators/worlds/world_maker.hpp"
+
+namespace fleetproof {
+namespace {
+
+struct Explained {
+  explicit Explained(const std::string& agent, std::uint64_t seed) : host({agent, ""}, programs, 2) {
+    WorldSpec spec;
+    spec.horizon = std::chrono::seconds(60);
+    spec.demand.transports_per_agv_hour = 60.0;
+    for (;; ++seed) {
+      RejectionCounts ignored;
+      Scenario scenario = generate_world(spec, seed, ignored);
+      scenario.radio.loss = 0.3;
+      scenario.radio.delay_s = 1.0;
+      const auto failure = failure_of(host(scenario));
+      if (!failure) continue;
+      original = {scenario, *failure};
+      break;
+    }
+    pattern = pattern_of(host, original);
+    TrialCache cache;
+    small = shrink(host, cache, original, pattern, {{}, 3000}, [](const FailingCase&, std::string_view) {}).best;
+    is = explain(host, original, small, pattern);
+  }
+
+  AgentPrograms programs;
+  CaseHost host;
+  FailingCase original, small;
+  FailurePattern pattern;
+  Explanation is;
+};
+
+// Every run that a sentence names is simulated again, and does what the sentence says.
+TEST(Explain, NoClaimIsFalse) {
+  for (const std::uint64_t seed : {1U, 11U}) {
+    Explained explained("timeout-grant", seed);
+    const Explanation& is = explained.is;
+    ASSERT_FALSE(is.messages.empty());
+    for (const Claim* claim : claims_of(is)) {
+      const auto failure = failure_of(explained.host(claim->run));
+      EXPECT_EQ(claim->outcome, failure ? text_of(failure->kind) : "none") << claim->sentence;
+    }
+    for (const MessageNeed& need : is.messages) {
+      const auto fails = [&](const Claim& claim) {
+        return explained.pattern.match(explained.host(claim.run)).has_value();
+      };
+      ASSERT_FALSE(need.claims.empty());
+      EXPECT_EQ(fails(need.claims[0]), !need.is_needed);
+      if (!need.saves) continue;
+      ASSERT_EQ(need.claims.size(), 3U);
+      EXPECT_FALSE(fails(need.claims[1]));
+      EXPECT_TRUE(fails(need.claims[2]));
+    }
+    for (const LastStop& stop : is.stops) {
+      if (!stop.at) continue;
+      EXPECT_FALSE(explained.pattern.match(explained.host(stop.claims[0].run)));
+      if (stop.claims.size() == 2) {
+        EXPECT_TRUE(explained.pattern.match(explained.host(stop.claims[1].run)));
+      }
+    }
+  }
+}
+
+TEST(Explain, TheSentencesNameTheFault) {
+  Explained explained("timeout-grant", 1);
+  const auto sentences = sentences_of(explained.is);
+  const auto says = [&](std::string_view words) {
+    return std::ranges::any_of(sentences, [&](const std::string& s) { return s.find(words) != std::string::npos; });
+  };
+  EXPECT_TRUE(says("said \"silence-taken-for-consent\" at "));
+  EXPECT_TRUE(says("If the radio is perfect: 0 of 59"));
+  EXPECT_TRUE(says("It needs the "));
+  EXPECT_TRUE(says(" [1, "));
+}
+
+// The last numbers in brackets are those of the last claims: no claim is told twice or left out.
+TEST(Explain, TheSentencesNumberTheirRuns) {
+  Explained explained("timeout-grant", 1);
+  std::size_t highest = 0;
+  for (const std::string& sentence : sentences_of(explained.is)) {
+    const auto open = sentence.find(" [");
+    if (open == std::string::npos) continue;
+    std::size_t number = 0;
+    for (const char c : sentence.substr(open + 2)) {
+      if (c >= '0' && c <= '9') {
+        number = 10 * number + static_cast<std::size_t>(c - '0');
+      } else {
+        if (number > 0) {
+          EXPECT_EQ(number, ++highest) << sentence;
+        }
+        number = 0;
+      }
+    }
+  }
+  EXPECT_EQ(highest, claims_of(explained.is).size());
+}
+
+// Before the message that decides it is sent, nothing is decided; from then on, it is.
+TEST(NoReturn, IsAtTheMessageThatDecidesIt) {
+  AgentPrograms programs;
+  CaseHost host({"timeout-grant", ""}, programs, 2);
+  std::size_t with_end = 0;
+  for (std::uint64_t seed = 1; with_end < 5 && seed < 400; ++seed) {
+    WorldSpec spec;
+    spec.horizon = std::chrono::seconds(60);
+    spec.fleet_size = 3;
+    RejectionCounts ignored;
+    Scenario scenario = generate_world(spec, seed, ignored);
+    scenario.radio.loss = 0.2;
+    const auto failure = failure_of(host(scenario));
+    if (!failure) continue;
+    const FailingCase failing{scenario, *failure};
+    const FailurePattern pattern = pattern_of(host, failing);
+    const NoReturn curve = curve_of_no_return(host, failing, pattern);
+    ASSERT_EQ(curve.curve.size(), kInstants);
+    EXPECT_TRUE(std::ranges::is_sorted(curve.curve, {}, &Branching::at));
+    EXPECT_LE(curve.curve.back().at, failure->at);
+    if (!curve.certain_from) continue;
+    ++with_end;
+    // Its own word for what it does wrong comes in the window that the curve marks.
+    const CaseNotes notes = host(scenario, Fates::Kept).notes;
+    std::optional<SimTime> said;
+    for (const Declared& declared : notes.declared) {
+      const bool involved = declared.agv == failure->a || declared.agv == failure->b;
+      if (involved && declared.word == "silence-taken-for-consent") said = std::max(said.value_or(kStart), declared.at);
+    }
+    ASSERT_TRUE(said);
+    EXPECT_LE(curve.open_until, *curve.certain_from);
+    EXPECT_GE(*said + std::chrono::seconds(1), curve.open_until);
+  }
+  EXPECT_EQ(with_end, 5U);
+}
+
+}  // namespace
+}  // namespace fleetproof

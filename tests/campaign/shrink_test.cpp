@@ -1,0 +1,255 @@
+#include "campaign/shrink/shrink.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "campaign/shrink/adverse_fates.hpp"
+#include "campaign/shrink/other_luck.hpp"
+#include "campaign/shrink/surgery.hpp"
+#include "campaign/shrink/trial_file.hpp"
+#include "core/scenario/canonical_bytes.hpp"
+#include "generators/scenario_file/scenario_text.hpp"
+#include "generators/worlds/world_maker.hpp"
+
+namespace fleetproof {
+namespace {
+
+// A warehouse at the contract's worst radio.
+Scenario bad_night(std::uint64_t seed, std::uint32_t fleet_size = 5) {
+  WorldSpec spec;
+  spec.fleet_size = fleet_size;
+  spec.horizon = std::chrono::seconds(60);
+  spec.demand.transports_per_agv_hour = 60.0;
+  RejectionCounts ignored;
+  Scenario scenario = generate_world(spec, seed, ignored);
+  scenario.radio.loss = 0.4;
+  scenario.radio.delay_s = 2.0;
+  scenario.radio.delay_model = RadioSetup::DelayModel::Uniform;
+  return scenario;
+}
+
+const OnSmaller kNobody = [](const FailingCase&, std::string_view) {};
+
+struct Bench {
+  explicit Bench(const std::string& agent, int workers = 2) : host({agent, ""}, programs, workers) {}
+
+  // The first seed from `seed` on whose run fails.
+  FailingCase failing(std::uint64_t seed) {
+    for (;; ++seed) {
+      const Scenario scenario = bad_night(seed);
+      if (const auto failure = failure_of(host(scenario))) return {scenario, *failure};
+    }
+  }
+  ShrinkResult shrunk(const FailingCase& failing, const TrialLimits& limits = {}, TrialCache* cache = nullptr) {
+    TrialCache own;
+    return shrink(host, cache != nullptr ? *cache : own, failing, pattern_of(host, failing), limits, kNobody);
+  }
+
+  AgentPrograms programs;
+  CaseHost host;
+};
+
+TEST(Shrink, ASmallCaseFailsInTheSameWay) {
+  Bench bench("timeout-grant");
+  for (const std::uint64_t seed : {1U, 20U, 40U}) {
+    const FailingCase failing = bench.failing(seed);
+    const ShrinkResult result = bench.shrunk(failing);
+    const CaseRun again = bench.host(result.best.scenario);
+    const auto failure = failure_of(again);
+    ASSERT_TRUE(failure);
+    EXPECT_EQ(failure->kind, failing.failure.kind);
+    EXPECT_EQ(failure->at, result.best.failure.at);
+    // its own word for what it does wrong
+    EXPECT_TRUE(std::ranges::binary_search(again.words, "silence-taken-for-consent"));
+    EXPECT_LE(result.after.agvs, 3U);
+    EXPECT_FALSE(result.after.fates_are_drawn);
+    EXPECT_LE(result.after.fates, 8U);
+    EXPECT_LE(result.after.horizon, failing.failure.seen - kStart + std::chrono::seconds(10));
+  }
+}
+
+// What is left is looked at once more, by other code: without any one thing, the run does not fail in this way.
+TEST(Shrink, NothingOfItCanBeLeftOutAlone) {
+  Bench bench("timeout-grant");
+  const FailingCase failing = bench.failing(1);
+  const ShrinkResult result = bench.shrunk(failing);
+  ASSERT_TRUE(result.one_minimal) << result.why_not;
+  const FailurePattern pattern = pattern_of(bench.host, failing);
+  const Scenario& least = result.best.scenario;
+  const auto still_fails = [&](const Scenario& less) { return pattern.match(bench.host(less)).has_value(); };
+  ASSERT_TRUE(still_fails(least));
+  for (std::size_t i = 0; i < least.fates.size(); ++i) {
+    Scenario less = least;
+    less.fates.erase(less.fates.begin() + static_cast<std::ptrdiff_t>(i));
+    EXPECT_FALSE(still_fails(less)) << "message " << i;
+  }
+  for (std::size_t agv = 0; agv < least.agvs.size(); ++agv) {
+    for (std::size_t i = 0; i < least.agvs[agv].transports.size(); ++i) {
+      Scenario less = least;
+      auto& orders = less.agvs[agv].transports;
+      orders.erase(orders.begin() + static_cast<std::ptrdiff_t>(i));
+      EXPECT_FALSE(still_fails(less)) << "transport " << i << " of AGV " << agv;
+    }
+  }
+  ASSERT_FALSE(least.fates.empty());
+}
+
+TEST(Shrink, GivesTheSameCaseForAnyNumberOfWorkers) {
+  std::vector<std::string> texts;
+  for (const int workers : {1, 2, 7}) {
+    Bench bench("timeout-grant", workers);
+    texts.push_back(to_text(bench.shrunk(bench.failing(3), {{}, 3000}).best.scenario));
+  }
+  EXPECT_EQ(texts[0], texts[1]);
+  EXPECT_EQ(texts[0], texts[2]);
+}
+
+class ShrinkFile : public testing::Test {
+ protected:
+  ShrinkFile() { std::filesystem::create_directories(folder_); }
+  ~ShrinkFile() override { std::filesystem::remove_all(folder_); }
+  std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() /
+      (std::string("fleetproof-") + testing::UnitTest::GetInstance()->current_test_info()->name());
+};
+
+TEST_F(ShrinkFile, GoesOnWhereItEnded) {
+  Bench bench("timeout-grant");
+  const FailingCase failing = bench.failing(3);
+  const std::string whole = to_text(bench.shrunk(failing, {{}, 3000}).best.scenario);
+  const std::string path = folder_ / "case.json.trials";
+  for (const std::uint64_t trials : {50U, 400U, 3000U}) {
+    TrialFile file(path, "of this case");
+    const ShrinkResult result = bench.shrunk(failing, {{}, trials}, &file);
+    if (trials == 3000) {
+      EXPECT_EQ(to_text(result.best.scenario), whole);
+    } else {
+      EXPECT_FALSE(result.one_minimal);
+      EXPECT_FALSE(result.why_not.empty());
+    }
+    std::ofstream(path, std::ios::app) << "0123";  // the program was killed while it wrote
+  }
+}
+
+TEST_F(ShrinkFile, VerdictsOnAnotherCaseAreDropped) {
+  const std::string path = folder_ / "case.json.trials";
+  TrialFile(path, "one").add(7, false);
+  EXPECT_EQ(TrialFile(path, "one").find(7), std::optional(false));
+  EXPECT_EQ(TrialFile(path, "two").find(7), std::nullopt);
+  std::ofstream(path) << "a letter\n";
+  EXPECT_THROW(TrialFile(path, "one"), InputError);
+}
+
+TEST(Shrink, EndsInTime) {
+  Bench bench("timeout-grant");
+  const FailingCase failing = bench.failing(1);
+  const ShrinkResult result = bench.shrunk(failing, {std::chrono::steady_clock::now(), {}});
+  EXPECT_FALSE(result.one_minimal);
+  EXPECT_EQ(result.trials, 0U);
+  EXPECT_EQ(scenario_digest(result.best.scenario), scenario_digest(failing.scenario));
+}
+
+// ---- what it rests on
+
+// The run is the same when its luck is written down instead of drawn.
+TEST(WrittenFates, GiveTheSameRun) {
+  Bench bench("hull-lock");
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    Scenario scenario = bad_night(seed);
+    scenario.radio.duplicates = 0.1;
+    const CaseRun drawn = bench.host(scenario, Fates::Kept);
+    std::vector<GivenFate> fates;
+    for (const MessageFate& message : adverse_of(drawn.fates)) fates.push_back(message.fate);
+    EXPECT_GT(fates.size(), 100U);
+    const CaseRun written = bench.host(with_fates_only(scenario, fates));
+    EXPECT_EQ(written.outcome.digest, drawn.outcome.digest);
+    fates.pop_back();
+    fates.erase(fates.begin());
+    EXPECT_NE(bench.host(with_fates_only(scenario, fates)).outcome.digest, drawn.outcome.digest);
+  }
+}
+
+// Where agents do not hear each other, an AGV does the same with and without the others.
+TEST(DrawNumbers, AnAgvKeepsItsDrawsWithoutTheOthers) {
+  Bench bench("reckless");
+  Scenario scenario = bad_night(5, 4);
+  scenario.contact_stops = false;
+  scenario.vehicle_types[0].speed_deviation = 0.1;
+  scenario.vehicle_types[0].settle_s = 1.0;
+  const auto alone = [&](std::size_t agv) { return with_agvs(scenario, [agv](std::size_t i) { return i == agv; }); };
+  std::uint64_t sum_um = 0;
+  for (std::size_t agv = 0; agv < 4; ++agv) sum_um += bench.host(alone(agv)).outcome.counters.distance_um;
+  EXPECT_EQ(sum_um, bench.host(scenario).outcome.counters.distance_um);
+  Scenario renumbered = alone(2);
+  renumbered.agvs[0].draws_as.reset();
+  EXPECT_NE(bench.host(renumbered).outcome.digest, bench.host(alone(2)).outcome.digest);
+}
+
+TEST(AdverseTime, NothingIsLostOrLateOutsideIt) {
+  Bench bench("hull-lock");
+  Scenario scenario = bad_night(4);
+  scenario.radio.adverse.adverse_from_s = 20.0;
+  scenario.radio.adverse.adverse_until_s = 25.0;
+  std::size_t inside = 0;
+  for (const MessageFate& message : bench.host(scenario, Fates::Kept).fates) {
+    const bool is_inside = message.fate.sent >= seconds(20.0) && message.fate.sent < seconds(25.0);
+    inside += is_inside ? 1 : 0;
+    EXPECT_TRUE(is_inside || !message.is_adverse());
+  }
+  EXPECT_GT(inside, 20U);
+}
+
+TEST(Surgery, WhatReferredToAnAgvGoesWithIt) {
+  Scenario scenario = bad_night(1);
+  for (std::uint32_t agv = 0; agv < 5; ++agv) scenario.faults.push_back({.agv = AgvId{agv}, .transport = 0U});
+  scenario.fates = {{AgvId{0U}, AgvId{1U}, {}, 0, true}, {AgvId{3U}, AgvId{4U}, {}, 0, true}};
+  const Scenario less = with_agvs(scenario, [](std::size_t agv) { return agv >= 3; });
+  ASSERT_EQ(less.agvs.size(), 2U);
+  EXPECT_EQ(less.agvs[0].name, scenario.agvs[3].name);
+  EXPECT_EQ(less.agvs[0].draws_as, 3U);
+  ASSERT_EQ(less.faults.size(), 2U);
+  EXPECT_EQ(less.faults[1].agv, AgvId{1U});
+  ASSERT_EQ(less.fates.size(), 1U);
+  EXPECT_EQ(less.fates[0].sender, AgvId{0U});
+  const Scenario one = with_agvs(less, [](std::size_t agv) { return agv == 1; });
+  EXPECT_EQ(one.agvs[0].draws_as, 4U);
+}
+
+TEST(Surgery, FaultsFollowTheirTransport) {
+  Scenario scenario = bad_night(1);
+  ASSERT_GE(scenario.agvs[1].transports.size(), 1U);
+  scenario.agvs[1].transports.resize(3, scenario.agvs[1].transports[0]);
+  for (std::uint32_t number = 0; number < 3; ++number)
+    scenario.faults.push_back({.agv = AgvId{1U}, .transport = number});
+  const std::size_t before = scenario.agvs[0].transports.size();
+  const Scenario less = with_transports(scenario, [&](std::size_t i) { return i != before + 1; });
+  EXPECT_EQ(less.agvs[1].transports.size(), 2U);
+  ASSERT_EQ(less.faults.size(), 2U);
+  EXPECT_EQ(less.faults[0].transport, 0U);
+  EXPECT_EQ(less.faults[1].transport, 1U);
+}
+
+TEST(Surgery, StationsKeepTheirNamesWhenOthersGo) {
+  const Scenario scenario = bad_night(1);
+  const auto name_at = [](const Scenario& s, StationId id) { return s.map->station(id).name; };
+  const std::size_t half = scenario.map->segment_count() / 2;
+  const Scenario less = with_segments(scenario, [&](std::size_t i) { return i < half; });
+  EXPECT_EQ(less.map->segment_count(), half);
+  EXPECT_LT(less.map->station_count(), scenario.map->station_count());
+  for (std::size_t agv = 0; agv < 5; ++agv) {
+    EXPECT_EQ(name_at(less, less.agvs[agv].start), name_at(scenario, scenario.agvs[agv].start));
+    for (std::size_t i = 0; i < less.agvs[agv].transports.size(); ++i)
+      EXPECT_EQ(name_at(less, less.agvs[agv].transports[i].to), name_at(scenario, scenario.agvs[agv].transports[i].to));
+  }
+  for (std::size_t i = 0; i < half; ++i) {
+    EXPECT_EQ(less.map->layout().segments[i].name, scenario.map->layout().segments[i].name);
+    EXPECT_EQ(name_at(less, less.map->layout().segments[i].from),
+              name_at(scenario, scenario.map->layout().segments[i].from));
+  }
+}
+
+}  // namespace
+}  // namespace fleetproof
