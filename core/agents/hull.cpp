@@ -84,6 +84,16 @@ bool HullGeometry::turning_blocks_lane(std::uint32_t station, std::uint32_t lane
   return false;
 }
 
+bool HullGeometry::standing_blocks_lane(std::uint32_t station, Vec heading, std::uint32_t lane) {
+  for (const Body& standing : kinds_) {
+    const Shape body = body_at(map_.position_m(station), heading, standing);
+    for (std::uint32_t driving = 0; driving < kinds_.size(); ++driving) {
+      if (body_conflicts(body, driving * parts_per_kind_ + lane)) return true;
+    }
+  }
+  return false;
+}
+
 double HullGeometry::distance_bound_m(Vec point_m, std::uint32_t agv, const Path& path) {
   Parts parts;
   collect(agv, path, parts);

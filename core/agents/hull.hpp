@@ -34,6 +34,8 @@ class HullGeometry {
   }
   // True if, for some pair of AGV types, turning at `station` conflicts with driving on `lane`.
   bool turning_blocks_lane(std::uint32_t station, std::uint32_t lane);
+  // The same for standing at `station` with this heading.
+  bool standing_blocks_lane(std::uint32_t station, Vec heading, std::uint32_t lane);
   // A lower bound of the distance from `point_m` to the hull.
   double distance_bound_m(Vec point_m, std::uint32_t agv, const Path& path);
 

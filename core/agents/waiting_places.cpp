@@ -28,7 +28,7 @@ std::uint32_t WaitingPlaces::work_out(std::uint32_t station) {
   if (holds_up_followers_only && blocked_list_.empty()) return 0;
   const std::uint32_t others = goal_count_ - (goals_[station] ? 1 : 0);
   const std::uint32_t connected = mark_largest_part(station, others);
-  const bool misses_lanes = std::ranges::any_of(blocked_list_, [&](std::uint32_t lane) { return is_missed(lane); });
+  const bool misses_lanes = std::ranges::any_of(blocked_list_, [&](std::uint32_t lane) { return is_missed(station, lane); });
   return (holds_up_followers_only ? 0 : others - connected) + (misses_lanes ? kFoulsLanes : 0);
 }
 
@@ -50,13 +50,28 @@ void WaitingPlaces::block_lanes(std::uint32_t station) {
   }
 }
 
-// A blocked lane that leads into a part that is cut off anyway, as in front of a bay, is not missed.
-bool WaitingPlaces::is_missed(std::uint32_t lane) const {
-  return marks_[map_.lane(lane).from] == kInLargest && marks_[map_.lane(lane).to] == kInLargest;
+// An AGV that comes from the largest part would wait before such a lane to get back there. On a one-way lane it cannot
+// turn back: it misses the lane whatever else is cut off, if an AGV that stands here blocks it. A two-way lane that
+// leads into a part that is cut off anyway, as in front of a bay, is not missed.
+bool WaitingPlaces::is_missed(std::uint32_t station, std::uint32_t lane) {
+  if (!map_.two_way(lane) && blocks_while_waiting(station, lane)) return true;
+  return (marks_[map_.lane(lane).from] & kReached) != 0 && (marks_[map_.lane(lane).to] & kReaches) != 0;
+}
+
+// An AGV that comes by one lane and leaves straight on by another one does not turn.
+bool WaitingPlaces::blocks_while_waiting(std::uint32_t station, std::uint32_t lane) {
+  return std::ranges::any_of(map_.lanes_to(station), [&](std::uint32_t arriving) {
+    const Vec heading = map_.end_heading(arriving);
+    const bool straight_on = std::ranges::any_of(map_.lanes_from(station), [&](std::uint32_t leaving) {
+      return same_heading(heading, map_.start_heading(leaving));
+    });
+    return !straight_on || geometry_.standing_blocks_lane(station, heading, lane);
+  });
 }
 
 // Marks the largest part of the map that stays connected. Every part was connected to the others by a lane that is now
-// missing: it is enough to look where such lanes began and ended. Returns the number of goals in the part.
+// missing: it is enough to look where such lanes began and ended. Returns the number of goals in the part. Afterwards,
+// the stations that the part reaches, and that reach it, are marked too.
 std::uint32_t WaitingPlaces::mark_largest_part(std::uint32_t without, std::uint32_t all) {
   std::ranges::fill(marks_, std::uint8_t{0});
   std::uint32_t largest = 0;
@@ -75,6 +90,8 @@ std::uint32_t WaitingPlaces::mark_largest_part(std::uint32_t without, std::uint3
   for (const std::uint32_t lane : map_.lanes_from(without)) try_from(map_.lane(lane).to);
   for (const std::uint32_t lane : map_.lanes_to(without)) try_from(map_.lane(lane).from);
   for (const std::uint32_t lane : blocked_list_) try_from(map_.lane(lane).from), try_from(map_.lane(lane).to);
+  const auto inside = std::ranges::find(marks_, std::uint8_t{kInLargest});
+  if (inside != marks_.end()) mark_part(static_cast<std::uint32_t>(inside - marks_.begin()), without);
   return largest;
 }
 

@@ -31,7 +31,8 @@ class WaitingPlaces {
   std::uint32_t work_out(std::uint32_t station);
   bool is_all_one_way(std::uint32_t station) const;
   void block_lanes(std::uint32_t station);
-  bool is_missed(std::uint32_t lane) const;
+  bool is_missed(std::uint32_t station, std::uint32_t lane);
+  bool blocks_while_waiting(std::uint32_t station, std::uint32_t lane);
   std::uint32_t mark_largest_part(std::uint32_t without, std::uint32_t all);
   std::uint32_t mark_part(std::uint32_t from, std::uint32_t without);
   void mark_reachable(std::uint32_t from, std::uint32_t without, bool backwards);
