@@ -113,6 +113,7 @@ void HullLock::tick() {
   protocol_.describe(is_waiting(), is_idle(), out_of_order_);
   reconsider();
   protocol_.broadcast_state();
+  protocol_.repeat_grants();
 }
 
 void HullLock::action_done(std::int32_t result) {

@@ -41,7 +41,7 @@
 //   belongs to the next lane, to a turn, or to the standing body. An action that ends otherwise, or does not end,
 //   releases nothing: an AGV that is stopped, broken down or empty in the middle of a lane holds that lane.
 //
-// Why may a GRANT be repeated without stepping back? Because the first decision counts: every later epoch of i asks j,
+// Why may a GRANT be repeated without stepping back, asked for again or not? Because the first decision counts: every later epoch of i asks j,
 // and j is inside f until it has ended f. If i did not remember its grants, each repeated REQUEST would make i step
 // back again. At 40 % loss no AGV would then make progress.
 //
@@ -72,7 +72,7 @@ namespace fleetproof::agents {
 namespace {
 
 constexpr std::int64_t kAskAgain_ns = 700'000'000;
-constexpr std::int64_t kAskAgainLatest_ns = 4 * kSecond_ns;
+constexpr std::int64_t kAskAgainLatest_ns = 2 * kSecond_ns;
 constexpr std::int64_t kAskDeferredAgain_ns = 1'500'000'000;
 // After a step back, the new epoch asks nobody for this long. Suppose n AGVs want the same floor over a radio without
 // delay. If each asked at once, every new epoch of one would make all later ones step back again: 2^n epochs at one
@@ -242,6 +242,12 @@ void LockProtocol::give_way_to(Neighbour& neighbour) {
     return;
   }
   if (options_.grants.overtaken == Overtaken::DropsThatGrant) neighbour.granted_us_epoch = 0;
+}
+
+void LockProtocol::repeat_grants() {
+  neighbours_.for_each([&](std::uint32_t agv, const Neighbour& n) {
+    if (n.request_is_open() && n.granted_epoch == n.request_epoch) send(MessageKind::Grant, agv, n.request_epoch);
+  });
 }
 
 void LockProtocol::answer_those_deferred() {

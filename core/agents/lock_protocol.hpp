@@ -56,6 +56,9 @@ class LockProtocol {
   // Asks AGVs that have not granted again, if it is time. Returns when to call next; negative if no request is open.
   std::int64_t ask_again();
   void broadcast_state();
+  // Sends the GRANT for every open request again that this AGV has granted. Call this about once a second: the requester
+  // then gets its GRANT when the radio recovers in one direction, and need not be heard again.
+  void repeat_grants();
 
   // An AGV that stands and waits inside the hull of `path`; FP_NONE if none is known.
   std::uint32_t waiting_inside(const Path& path);
