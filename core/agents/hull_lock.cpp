@@ -13,8 +13,6 @@ enum Timer : std::uint32_t { kBeaconTimer = 1, kAskTimer = 2 };
 enum Draws : std::uint32_t { kBeaconDraws = 10, kPlaceDraws = 12 };
 
 constexpr double kBeacon_s = 1.0;
-constexpr double kTransfer_s = 5.0;     // expected, of a pick or drop
-constexpr double kTurn_s = 3.0;         // expected, of a turn on the spot
 constexpr double kLongestLead_s = 8.0;  // how long before the end of a stretch the next one is asked for, at most
 constexpr double kRetryPlanning_s = 2.0;
 constexpr double kOverdue_s = 5.0;         // an action that takes this much longer than expected may have been stopped
@@ -26,8 +24,10 @@ constexpr double kEarly_s = 2.0;
 
 // Members of the briefing that a host of minor version 0 does not have.
 bool knows_restarts(const fp_briefing& briefing) {
-  return briefing.struct_size >= offsetof(fp_briefing, start_segment) + sizeof(briefing.start_segment);
+  return briefing.struct_size >= offsetof(fp_briefing, next_segment) + sizeof(briefing.next_segment);
 }
+
+double braking_s(const fp_agv& agv) { return agv.speed_mps / agv.deceleration_mps2; }
 
 }  // namespace
 
@@ -37,6 +37,7 @@ HullLock::HullLock(const fp_host& host, fp_controller* handle, const fp_briefing
       boot_(knows_restarts(briefing) ? briefing.boot : 0),
       start_station_(briefing.start_station),
       start_segment_(boot_ > 0 ? briefing.start_segment : FP_NONE),
+      next_segment_(boot_ > 0 ? briefing.next_segment : FP_NONE),
       controller_(host, handle, boot_),
       errands_(controller_, boot_),
       map_(*briefing.map),
@@ -44,8 +45,10 @@ HullLock::HullLock(const fp_host& host, fp_controller* handle, const fp_briefing
       neighbours_(map_, geometry_, briefing, settings_, options),
       protocol_(map_, geometry_, neighbours_, controller_, options, options.consent.epochs_name_boot ? boot_ : 0),
       planner_(map_, geometry_, neighbours_, agv_of(briefing, briefing.self)),
-      right_of_way_(geometry_, neighbours_, controller_),
-      has_chargers_(map_.has_chargers()) {}
+      right_of_way_(geometry_, neighbours_, controller_, options.progress),
+      way_(map_, agv_of(briefing, briefing.self)),
+      has_chargers_(map_.has_chargers()),
+      braking_s_(braking_s(agv_of(briefing, briefing.self))) {}
 
 void HullLock::on_event(const fp_event& event) {
   switch (event.kind) {
@@ -82,24 +85,32 @@ void HullLock::start() {
   tick();
 }
 
-// The AGV may still carry out an action of the former self. The agent holds the floor of that action until it ends.
+// The AGV may still carry out actions of the former self. The agent holds the floor of these actions until they end.
 void HullLock::start_again(const Path& standing) {
   controller_.sometimes("restarted");
-  acting_ = true;
-  for (const std::uint32_t lane : map_.lanes_from(start_station_)) {
-    if (map_.action_segment(lane) != start_segment_) continue;
-    current_ = {Leg::Kind::Drive, lane, FP_NONE};
-    Path driving = standing;
-    driving.heading = map_.start_heading(lane) * -1.0;  // it may still be turning, from an unknown heading
-    current_ends_s_ = now_s() + leg_time_s(current_, driving.heading);
-    driving.append(lane);
-    return protocol_.stand(driving);
+  Path driving = standing;
+  const bool drives = append_lane(driving, start_segment_);
+  const bool drives_next = append_lane(driving, next_segment_);
+  // The AGV may still be turning to the first lane, from an unknown heading.
+  if (!driving.empty()) driving.heading = map_.start_heading(driving.lane_ids[0]) * -1.0;
+  protocol_.stand(driving);
+  way_.begin(drives ? Leg{Leg::Kind::Drive, driving.lane_ids[0]} : Leg{Leg::Kind::Inherited}, driving.heading, now_s());
+  if (drives_next) {
+    way_.append({Leg::Kind::Drive, driving.lane_ids[driving.count - 1]});
+    way_.give_next();
   }
-  current_ = {Leg::Kind::Inherited, FP_NONE, FP_NONE};
-  current_ends_s_ = now_s();
+  if (!driving.empty()) return;
   place_known_ = false;
   place_known_after_s_ = now_s() + kClockMargin * settings_.position_late_s + 0.1;
   protocol_.know_own_place(false);
+}
+
+// The lane that leaves the end of the path by this segment. False if there is none.
+bool HullLock::append_lane(Path& path, std::uint32_t segment) const {
+  for (const std::uint32_t lane : map_.lanes_from(end_of(map_, path).station)) {
+    if (map_.action_segment(lane) == segment) return path.append(lane);
+  }
+  return false;
 }
 
 void HullLock::tick() {
@@ -117,14 +128,16 @@ void HullLock::tick() {
 }
 
 void HullLock::action_done(std::int32_t result) {
-  if (!acting_) return;
-  acting_ = false;
+  if (!way_.acting()) return;
   if (result != FP_OK) {  // it stays where it is for good; its held hull covers that place
+    way_.stop();
     wrecked_ = true;
     return set_out_of_order(true);
   }
-  if (current_.kind == Leg::Kind::Drive && !current_released_) protocol_.lane_passed();
-  if (current_.kind == Leg::Kind::Charge) charging_ = true;
+  if (way_.current().kind == Leg::Kind::Drive && !current_released_) protocol_.lane_passed();
+  if (way_.current().kind == Leg::Kind::Charge) charging_ = true;
+  current_released_ = false;
+  way_.end(now_s());
 }
 
 // The AGV has been at rest since the restart. When no position can be older than the restart, the heading is right.
@@ -146,15 +159,15 @@ void HullLock::find_own_place() {
 // The agent does not know whether an action of the former self was under way. If one was, its end arrives as an event.
 // If the AGV was idle at one tick and no such event arrives before the next tick, there was none.
 void HullLock::look_for_inherited_action() {
-  if (!acting_ || current_.kind != Leg::Kind::Inherited) return;
+  if (!way_.acting() || way_.current().kind != Leg::Kind::Inherited) return;
   const std::uint32_t action = controller_.action();
   const bool idle = action == FP_IDLE || action == FP_CHARGING_NOW;
-  if (idle && seen_idle_) acting_ = false, charging_ = action == FP_CHARGING_NOW;
+  if (idle && seen_idle_) way_.stop(), charging_ = action == FP_CHARGING_NOW;
   seen_idle_ = idle;
 }
 
 void HullLock::look_whether_out_of_order() {
-  if (wrecked_ || !(out_of_order_ || is_waiting() || now_s() > current_ends_s_ + kOverdue_s)) return;
+  if (wrecked_ || !(out_of_order_ || is_waiting() || now_s() > way_.current_ends_s() + kOverdue_s)) return;
   set_out_of_order(controller_.out_of_order());
 }
 
@@ -167,13 +180,13 @@ void HullLock::set_out_of_order(bool out) {
 
 // Before the end of the lane: only if a rule of holding is broken.
 void HullLock::release_lane() {
-  if (!acting_ || current_.kind != Leg::Kind::Drive || current_released_) return;
+  if (!way_.acting() || way_.current().kind != Leg::Kind::Drive || current_released_) return;
   protocol_.lane_passed();
   current_released_ = true;
 }
 
 void HullLock::release_early() {
-  if (!options_.holding.lanes_to_their_end && now_s() >= current_ends_s_ - kEarly_s) release_lane();
+  if (!options_.holding.lanes_to_their_end && now_s() >= way_.current_ends_s() - kEarly_s) release_lane();
 }
 
 void HullLock::look_at_battery() {
@@ -181,16 +194,10 @@ void HullLock::look_at_battery() {
   if (level >= settings_.charge_to) charging_ = false;
   const bool urgent = level < kUrgent * settings_.charge_below;
   const bool in_between = urgent || !errands_.next_is(Leg::Kind::Drop);
-  const bool transfers = std::ranges::any_of(legs_, [](const Leg& leg) { return leg.kind == Leg::Kind::Pick; }) ||
-                         (acting_ && (current_.kind == Leg::Kind::Pick || current_.kind == Leg::Kind::Drop));
-  if (level < settings_.charge_below && !charging_ && in_between && !transfers && !going_to_charge() && place_known_ &&
-      !out_of_order_)
+  const bool transfers = way_.contains(Leg::Kind::Pick) || (way_.acting() && way_.current().kind == Leg::Kind::Drop);
+  if (level < settings_.charge_below && !charging_ && in_between && !transfers && !way_.contains(Leg::Kind::Charge) &&
+      place_known_ && !out_of_order_)
     drive_to_charger(urgent);
-}
-
-bool HullLock::going_to_charge() const {
-  return (acting_ && current_.kind == Leg::Kind::Charge) ||
-         std::ranges::any_of(legs_, [](const Leg& leg) { return leg.kind == Leg::Kind::Charge; });
 }
 
 // Drives to the charger that is best now. Since the last choice, chargers may have become free or occupied.
@@ -213,7 +220,7 @@ void HullLock::advance() {
       adopt_stretch();
     } else if (!protocol_.requesting() && !out_of_order_ && place_known_) {
       plan();
-      if (!protocol_.requesting() && (acting_ || legs_.empty())) break;
+      if (!protocol_.requesting() && (way_.acting() || way_.empty())) break;
     } else {
       break;
     }
@@ -226,18 +233,25 @@ void HullLock::advance() {
 }
 
 void HullLock::act() {
-  if (acting_ || charging_ || out_of_order_) return;
-  while (!legs_.empty() && errands_.is_needless(legs_.front())) legs_.pop_front();
-  if (!legs_.empty() && !must_lock_first()) begin(legs_.front());
+  if (charging_ || out_of_order_) return;
+  if (!way_.acting()) {
+    while (!way_.empty() && errands_.is_needless(way_.next())) way_.drop_next();
+    if (!way_.empty() && !must_lock_first()) begin(way_.next());
+  }
+  if (way_.can_roll_on() && !current_released_) roll_on();
+}
+
+// The next move is given while the AGV still drives, so that it passes the station without a stop.
+void HullLock::roll_on() {
+  const std::uint32_t lane = way_.next().lane;
+  if (protocol_.may_drive_next(lane) && controller_.move(map_.action_segment(lane))) way_.give_next();
 }
 
 // The AGV starts without a load, and the warehouse keeps only bodies without loads apart. The floor under its load is
 // its own when it has locked its way from there.
-bool HullLock::must_lock_first() const {
-  return !has_locked_ && !legs_.empty() && legs_.front().kind == Leg::Kind::Pick;
-}
+bool HullLock::must_lock_first() const { return !has_locked_ && !way_.empty() && way_.next().kind == Leg::Kind::Pick; }
 
-void HullLock::begin(const Leg& leg) {
+void HullLock::begin(Leg leg) {
   bool accepted = false;
   switch (leg.kind) {
     case Leg::Kind::Drive:
@@ -260,17 +274,14 @@ void HullLock::begin(const Leg& leg) {
     if (leg.kind != Leg::Kind::Pick || controller_.action() != FP_IDLE) return;
     protocol_.withdraw();  // a request counts goals by their numbers in the row
     errands_.forget(leg.order);
-    return legs_.pop_front();
+    return way_.drop_next();
   }
-  current_ = leg;
-  current_ends_s_ = now_s() + leg_time_s(leg, protocol_.held().heading);
-  current_released_ = false;
-  acting_ = true;
-  legs_.pop_front();
+  way_.drop_next();
+  way_.begin(leg, protocol_.held().heading, now_s());
 }
 
 void HullLock::adopt_stretch() {
-  legs_.insert(legs_.end(), stretch_.legs.begin(), stretch_.legs.end());
+  for (const Leg& leg : stretch_.legs) way_.append(leg);
   errands_.reached(stretch_.goals);
   has_locked_ = true;
   if (stretch_.goals > 0) demand_ns_ = -1;  // an AGV that gets on only step by step stays old
@@ -285,11 +296,11 @@ void HullLock::plan() {
   while (!errands_.empty() && errands_.goals().front().station == end.station &&
          map_.may_stay(end.station, end.heading)) {
     const Goal here = errands_.goals().front();
-    legs_.push_back({here.transfer, FP_NONE, here.order});
+    way_.append({here.transfer, FP_NONE, here.order});
     errands_.reached(1);
   }
   if (now_s() < plan_after_s_) return;
-  if (charging_ || going_to_charge()) {
+  if (charging_ || way_.contains(Leg::Kind::Charge)) {
     if (charging_ && right_of_way_.is_asked_for(protocol_.held()) && controller_.battery_level() >= kFarEnoughCharged)
       plan_making_way();
   } else if (!errands_.empty()) {
@@ -300,7 +311,7 @@ void HullLock::plan() {
 }
 
 void HullLock::plan_transport() {
-  if (time_left_s() > locking_takes_s_ && !must_lock_first()) return;
+  if (way_.time_left_s(protocol_.held().heading, now_s()) > locking_takes_s_ + braking_s_ && !must_lock_first()) return;
   if (demand_ns_ < 0) demand_ns_ = controller_.now_ns();
   request(way_on(), Purpose::Transport);
 }
@@ -362,21 +373,6 @@ void HullLock::reconsider() {
 
 Budget HullLock::budget() const {
   return {neighbours_.claim_limit_m() - length_m(map_, protocol_.held()), kPathLanesMax - protocol_.held().count};
-}
-
-double HullLock::time_left_s() {
-  double left_s = acting_ ? std::max(0.0, current_ends_s_ - now_s()) : 0.0;
-  Vec heading = protocol_.held().heading;
-  for (const Leg& leg : legs_) {
-    left_s += leg_time_s(leg, heading);
-    if (leg.kind == Leg::Kind::Drive) heading = map_.end_heading(leg.lane);
-  }
-  return left_s;
-}
-
-double HullLock::leg_time_s(const Leg& leg, Vec heading) const {
-  if (leg.kind != Leg::Kind::Drive) return kTransfer_s;
-  return planner_.lane_time_s(leg.lane) + (same_heading(heading, map_.start_heading(leg.lane)) ? 0.0 : kTurn_s);
 }
 
 void* create_hull_lock(const fp_host* host, fp_controller* controller, const fp_briefing* briefing,

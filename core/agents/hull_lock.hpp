@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <vector>
 
 #include "core/agents/agent_type.hpp"
@@ -15,6 +14,7 @@
 #include "core/agents/right_of_way.hpp"
 #include "core/agents/settings.hpp"
 #include "core/agents/stretch_planner.hpp"
+#include "core/agents/way_ahead.hpp"
 #include "core/sdk/fleetproof/agent.h"
 
 namespace fleetproof::agents {
@@ -37,6 +37,7 @@ class HullLock {
 
   void start();
   void start_again(const Path& standing);
+  bool append_lane(Path& path, std::uint32_t segment) const;
   void action_done(std::int32_t result);
   void tick();
   void find_own_place();
@@ -47,11 +48,11 @@ class HullLock {
   void release_lane();
   void look_at_battery();
   void drive_to_charger(bool urgent);
-  bool going_to_charge() const;
   // Does everything that can be done now: acts, locks, plans, asks.
   void advance();
   void act();
-  void begin(const Leg& leg);
+  void begin(Leg leg);
+  void roll_on();
   void adopt_stretch();
   void plan();
   void plan_transport();
@@ -61,22 +62,20 @@ class HullLock {
   Stretch way_on();
   Stretch way_out(Yields to);
   bool must_lock_first() const;
-  bool is_waiting() const { return !acting_ && (legs_.empty() || must_lock_first()); }
+  bool is_waiting() const { return !way_.acting() && (way_.empty() || must_lock_first()); }
   bool is_idle() const { return is_waiting() && errands_.empty(); }
   // For people who look at a trace.
   const char* state() const {
     if (out_of_order_) return "out of order";
-    if (acting_) return name_of(current_.kind);
+    if (way_.acting()) return name_of(way_.current().kind);
     return charging_ ? "charging" : protocol_.requesting() ? "requesting" : is_idle() ? "idle" : "waiting";
   }
   Budget budget() const;
-  double time_left_s();
-  double leg_time_s(const Leg& leg, Vec heading) const;
   double now_s() { return static_cast<double>(controller_.now_ns()) * 1e-9; }
 
   LockOptions options_;
   Settings settings_;
-  std::uint32_t boot_, start_station_, start_segment_;
+  std::uint32_t boot_, start_station_, start_segment_, next_segment_;
   Controller controller_;
   Errands errands_;
   MapView map_;
@@ -86,12 +85,9 @@ class HullLock {
   StretchPlanner planner_;
   RightOfWay right_of_way_;
 
-  std::deque<Leg> legs_;     // locked legs that have not begun
-  bool has_locked_ = false;  // a stretch, since this boot
-  bool acting_ = false;      // an action is under way
-  Leg current_;
-  double current_ends_s_ = 0.0;    // the expected end of the current leg
-  bool current_released_ = false;  // its lane was released before its end
+  WayAhead way_;
+  bool has_locked_ = false;        // a stretch, since this boot
+  bool current_released_ = false;  // the lane of the current leg was released before its end
   double started_s_ = 0.0;
   bool out_of_order_ = false;  // broken down or empty; the AGV may be repaired
   bool wrecked_ = false;       // stopped for good in the middle of an action
@@ -109,6 +105,7 @@ class HullLock {
   double requested_at_s_ = 0.0;
   std::int64_t demand_ns_ = -1;  // since when the AGV has wanted to go on with its transports; negative: it does not
   double locking_takes_s_ = 1.0;
+  double braking_s_;  // from top speed
   double plan_after_s_ = 0.0;
   std::int64_t ask_timer_ns_ = -1;
 };

@@ -31,28 +31,32 @@
 // floor under the load (HullLock::must_lock_first).
 //
 // What i holds contains its body. The proof above is about held paths; these rules tie the body to the held path:
-// - At the start and at a restart, i holds the standing body or the lane under way (see Restarts).
+// - At the start and at a restart, i holds the standing body or the lanes to be driven (see Restarts).
 // - The held path is always one way that can be driven: it grows only by a stretch that begins where it ends
 //   (continues_held), and loses only its first lane.
-// - i moves only over the first held lane (may_drive), and gives no action while another one may be under way. A call
-//   that is refused moves nothing. So whatever stops, delays or frees the AGV, its body covers the first held lane, the
-//   turn before it, or the place where it stands. Which leg the agent had in mind, and why, plays no part.
-// - That lane is released when the action ends with FP_OK, so the AGV stands at its end. What the AGV still covers then
-//   belongs to the next lane, to a turn, or to the standing body. An action that ends otherwise, or does not end,
-//   releases nothing: an AGV that is stopped, broken down or empty in the middle of a lane holds that lane.
+// - i moves only over the first held lane (may_drive), and gives no action while another one may be under way, but for
+//   one: while i drives the first held lane, it may give the move over the second one (may_drive_next). That move
+//   begins when the first one ends, so i drives the held lanes in their order, with a stop between them or without. A
+//   call that is refused moves nothing. So whatever stops, delays or frees the AGV, its body covers the first held
+//   lane, the turn before it, or the place where it stands. Which leg the agent had in mind, and why, plays no part.
+// - That lane is released when its move ends with FP_OK, so the AGV stands at its end or passes it. What the AGV still
+//   covers then belongs to the next lane, to a turn, or to the standing body. An AGV passes a station only if the next
+//   lane goes straight on: then the body at the end of one lane is the body at the beginning of the next one. A move
+//   that ends otherwise, or does not end, releases nothing: an AGV that is stopped, broken down or empty in the middle
+//   of a lane holds that lane.
 //
-// Why may a GRANT be repeated without stepping back, asked for again or not? Because the first decision counts: every later epoch of i asks j,
-// and j is inside f until it has ended f. If i did not remember its grants, each repeated REQUEST would make i step
-// back again. At 40 % loss no AGV would then make progress.
+// Why may a GRANT be repeated without stepping back, asked for again or not? Because the first decision counts: every
+// later epoch of i asks j, and j is inside f until it has ended f. If i did not remember its grants, each repeated
+// REQUEST would make i step back again. At 40 % loss no AGV would then make progress.
 //
 // Restarts. A restarted i has forgotten its knowledge of other AGVs, and the requests that it granted. No step above
 // needs this memory:
-// - The restart of i ends its epoch. i then holds only what the AGV covers until its action ends: the lane under way,
-// or
-//   the standing body. This part of the locked floor is held without a gap, by the former self and by the new self from
-//   its first instant, because the new self answers no message before. So (1) is true of every s_i in [t_i, t_j], with
-//   or without a restart between them. The new self may also hold the turn before the lane without having locked it.
-//   That only makes it defer more often.
+// - The restart of i ends its epoch. i then holds only what the AGV covers until its actions end: the lane under way
+// and
+//   the lane of a move that has been given already, or the standing body. This part of the locked floor is held without
+//   a gap, by the former self and by the new self from its first instant, because the new self answers no message
+//   before. So (1) is true of every s_i in [t_i, t_j], with or without a restart between them. The new self may also
+//   hold the turn before the lane without having locked it. That only makes it defer more often.
 // - A GRANT of the former self for f may still be in the air, or j may have it. It stays true, because s_i lies before
 //   every epoch of the new self. When the new self requests e, there are two cases. If f is over, the GRANT has no
 //   effect. If j is still inside f, the new self must ask j, in an epoch of the new boot. To grant it, j ends f, and

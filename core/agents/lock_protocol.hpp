@@ -43,6 +43,8 @@ class LockProtocol {
   void withdraw();
   // True if the held path begins with this lane. The AGV must drive no other lane.
   bool may_drive(std::uint32_t lane) const { return !held_.empty() && held_.lane_ids[0] == lane; }
+  // True if this is the second lane of the held path. While the AGV drives the first one, this move may be given.
+  bool may_drive_next(std::uint32_t lane) const { return held_.count > 1 && held_.lane_ids[1] == lane; }
   // The AGV has reached the end of the first held lane, and releases that lane. No effect if no lane is held.
   void lane_passed();
   // The state of the AGV that the next messages contain.
@@ -56,8 +58,8 @@ class LockProtocol {
   // Asks AGVs that have not granted again, if it is time. Returns when to call next; negative if no request is open.
   std::int64_t ask_again();
   void broadcast_state();
-  // Sends the GRANT for every open request again that this AGV has granted. Call this about once a second: the requester
-  // then gets its GRANT when the radio recovers in one direction, and need not be heard again.
+  // Sends the GRANT for every open request again that this AGV has granted. Call this about once a second: the
+  // requester then gets its GRANT when the radio recovers in one direction, and need not be heard again.
   void repeat_grants();
 
   // An AGV that stands and waits inside the hull of `path`; FP_NONE if none is known.

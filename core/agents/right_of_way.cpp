@@ -46,7 +46,8 @@ std::int64_t RightOfWay::eldest_demand_ns(const Path& held, std::int64_t demand_
 
 bool RightOfWay::goes_first(Yields to, std::int64_t demand_ns, std::uint32_t agv, const Neighbour& neighbour) const {
   if (!neighbour.request_is_open() || to == Yields::ToNobody) return false;
-  return to == Yields::ToAll || std::pair(neighbour.demand_ns, agv) < std::pair(demand_ns, neighbours_.self());
+  const std::uint32_t self = smaller_number_first_ ? neighbours_.self() : agv;
+  return to == Yields::ToAll || std::pair(neighbour.demand_ns, agv) < std::pair(demand_ns, self);
 }
 
 }  // namespace fleetproof::agents

@@ -4,6 +4,7 @@
 
 #include "core/agents/controller.hpp"
 #include "core/agents/hull.hpp"
+#include "core/agents/lock_options.hpp"
 #include "core/agents/neighbours.hpp"
 #include "core/agents/path.hpp"
 
@@ -17,8 +18,12 @@ enum class Yields : std::uint8_t { ToNobody, ToElders, ToAll };
 // Wrong knowledge about other AGVs costs time here, never safety.
 class RightOfWay {
  public:
-  RightOfWay(HullGeometry& geometry, Neighbours& neighbours, Controller& controller)
-      : geometry_(geometry), neighbours_(neighbours), controller_(controller) {}
+  RightOfWay(HullGeometry& geometry, Neighbours& neighbours, Controller& controller,
+             const ProgressOptions& options = {})
+      : geometry_(geometry),
+        neighbours_(neighbours),
+        controller_(controller),
+        smaller_number_first_(options.smaller_number_first) {}
 
   // Call this again and again while another waiting AGV blocks the own request. An AGV yields to older demands after a
   // few seconds. If it still stands there much later, the older demands cannot get on without its help, because they
@@ -41,6 +46,7 @@ class RightOfWay {
   HullGeometry& geometry_;
   Neighbours& neighbours_;
   Controller& controller_;
+  bool smaller_number_first_;
   double blocked_since_s_ = -1.0, patience_s_ = 0.0;
 };
 

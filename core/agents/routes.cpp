@@ -12,16 +12,20 @@ double drive_time_s(double length_m, const fp_agv& agv) {
   return v / a + v / d + (length_m - ramps_m) / v;
 }
 
-double lane_time_s(const MapView& map, std::uint32_t lane, const fp_agv& agv) {
-  const fp_lane& driven = map.lane(lane);
-  if (!map.tells_rules()) return drive_time_s(driven.length_m, agv);
-  fp_agv limited = agv;
+double lane_speed_mps(const MapView& map, std::uint32_t lane, const fp_agv& agv) {
+  double speed_mps = agv.speed_mps;
   const auto limit = [&](double mps) {
-    if (mps > 0.0) limited.speed_mps = std::min(limited.speed_mps, mps);
+    if (mps > 0.0) speed_mps = std::min(speed_mps, mps);
   };
-  limit(driven.speed_limit_mps);
+  if (map.tells_rules()) limit(map.lane(lane).speed_limit_mps);
   if (map.is_backward(lane)) limit(agv.reverse_speed_mps);
-  return drive_time_s(driven.length_m, limited);
+  return speed_mps;
+}
+
+double lane_time_s(const MapView& map, std::uint32_t lane, const fp_agv& agv) {
+  fp_agv limited = agv;
+  limited.speed_mps = lane_speed_mps(map, lane, agv);
+  return drive_time_s(map.lane(lane).length_m, limited);
 }
 
 // The cheapest is at the top of the heap; of equals, the one with the smallest number.

@@ -13,7 +13,11 @@ namespace fleetproof::agents {
 // The time that AGVs of this type need for a lane, from rest to rest, without turns.
 double drive_time_s(double length_m, const fp_agv& agv);
 
-// The same for a lane of the map, with its speed limit, and with the AGV's own when it drives backward.
+// The top speed of such an AGV on a lane of the map, with the limit of the lane, and with the AGV's own when it drives
+// backward.
+double lane_speed_mps(const MapView& map, std::uint32_t lane, const fp_agv& agv);
+
+// The time for a lane, from rest to rest.
 double lane_time_s(const MapView& map, std::uint32_t lane, const fp_agv& agv);
 
 // The quickest ways from one station to all others (Dijkstra). A search reuses the memory of the search before it. In a

@@ -14,6 +14,9 @@ constexpr double kArrivingCost_s = 8.0;
 constexpr double kIdleCost_s = 10.0;
 constexpr double kWaitingCost_s = 20.0;
 constexpr double kNoWayCost_s = 1000.0;
+// In a row of chargers, wide AGVs cannot turn beside each other. An AGV would rather hold up others there than run
+// empty.
+constexpr double kUnsafeChargerCost_s = 30.0;
 
 }  // namespace
 
@@ -167,8 +170,8 @@ std::uint32_t StretchPlanner::free_charger(const Path& standing, bool loaded, bo
   double best_s = urgent ? 2.0 * kNoWayCost_s : kNoWayCost_s;
   for (std::uint32_t station = 0; station < map_.station_count(); ++station) {
     if ((map_.station(station).purposes & FP_CHARGING) == 0 || routes_.cost_s(station) >= best_s) continue;
-    const bool unfit = !places_.is_safe(station) || is_taken(station);
-    const double cost_s = routes_.cost_s(station) + (unfit ? kNoWayCost_s : 0.0);
+    const double cost_s = routes_.cost_s(station) + (places_.is_safe(station) ? 0.0 : kUnsafeChargerCost_s) +
+                          (is_taken(station) ? kNoWayCost_s : 0.0);
     if (cost_s >= best_s) continue;
     best = station;
     best_s = cost_s;

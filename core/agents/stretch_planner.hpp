@@ -83,9 +83,9 @@ class StretchPlanner {
   // these AGVs while they wait. If there is no such way, it may lead through other waiting AGVs: they make way in turn.
   Stretch out_of_the_way(const Path& standing, Budget budget, bool loaded, bool prefer_parking, double draw,
                          const GoesFirst& goes_first);
-  // The charging station that is quickest to reach, at which the AGV blocks no other AGV and no other AGV is known to
-  // be. If it is `urgent` and there is none, any that can be reached: an AGV that is charged enough makes room.
-  // FP_NONE if there is none.
+  // The charging station that is quickest to reach and at which no other AGV is known to be; if possible one at which
+  // this AGV blocks no other AGV. If it is `urgent` and there is none, any that can be reached: an AGV that is charged
+  // enough makes room. FP_NONE if there is none.
   std::uint32_t free_charger(const Path& standing, bool loaded, bool urgent);
 
  private:

@@ -28,7 +28,8 @@ std::uint32_t WaitingPlaces::work_out(std::uint32_t station) {
   if (holds_up_followers_only && blocked_list_.empty()) return 0;
   const std::uint32_t others = goal_count_ - (goals_[station] ? 1 : 0);
   const std::uint32_t connected = mark_largest_part(station, others);
-  const bool misses_lanes = std::ranges::any_of(blocked_list_, [&](std::uint32_t lane) { return is_missed(station, lane); });
+  const bool misses_lanes =
+      std::ranges::any_of(blocked_list_, [&](std::uint32_t lane) { return is_missed(station, lane); });
   return (holds_up_followers_only ? 0 : others - connected) + (misses_lanes ? kFoulsLanes : 0);
 }
 

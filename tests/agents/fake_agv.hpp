@@ -41,6 +41,7 @@ struct FakeAgv {
   std::uint32_t station = 0;
   fp_pose pose{};
   const fp_lane* lane = nullptr;  // being driven
+  const fp_lane* next = nullptr;  // to be driven afterwards; the warehouse stops every AGV between two lanes
   std::int64_t turn_begins_ns = 0, drive_begins_ns = 0, drive_ends_ns = 0;
   bool busy = false, loaded = false, stopped = false;
   std::uint32_t doing = FP_IDLE;

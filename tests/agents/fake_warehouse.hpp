@@ -70,6 +70,7 @@ class FakeWarehouse {
       ++agv.briefing.boot;
       agv.briefing.start_station = agv.station;
       agv.briefing.start_segment = agv.lane != nullptr ? agv.lane->segment : FP_NONE;
+      agv.briefing.next_segment = agv.next != nullptr ? agv.next->segment : FP_NONE;
       agv.agent = type_.create(&host_, reinterpret_cast<fp_controller*>(&agv.handle), &agv.briefing);
       tell(id, fp_event{});
       std::deque<FakeOrder> orders = agv.orders;
@@ -107,6 +108,7 @@ class FakeWarehouse {
   std::uint32_t boot_of(std::uint32_t id) const { return agvs_[id]->briefing.boot; }
   std::uint32_t station_of(std::uint32_t id) const { return agvs_[id]->station; }
   const fp_lane* lane_of(std::uint32_t id) const { return agvs_[id]->lane; }  // under way; null: the AGV stands
+  const fp_lane* next_of(std::uint32_t id) const { return agvs_[id]->next; }  // given to follow it; null: none
   // A battery that keeps its level, and gains 2 % per second at a charger.
   void battery(std::uint32_t id, double level) { agvs_[id]->battery = level; }
   double battery_of(std::uint32_t id) const {
@@ -177,16 +179,22 @@ class FakeWarehouse {
     at(now_ns_ + seconds(0.1), [this] { look(); });
   }
 
+  const fp_lane* lane_from(std::uint32_t station, std::uint32_t segment) const {
+    for (std::uint32_t i = 0; i < fleet_.map.lane_count; ++i) {
+      const fp_lane& l = drawn_.lane_at(i);
+      if (l.segment == segment && l.from == station) return &l;
+    }
+    return nullptr;
+  }
+
   // `named`: the order whose load a pick takes; FP_NONE: the oldest order.
   std::int32_t act(std::uint32_t id, fp_call call, std::uint32_t segment, std::uint32_t named = FP_NONE) {
     calls_.emplace_back(static_cast<double>(now_ns_) * 1e-9, call);
     FakeAgv& agv = *agvs_[id];
+    if (call == FP_CALL_MOVE && agv.lane != nullptr && agv.next == nullptr && !agv.stopped)
+      return (agv.next = lane_from(agv.lane->to, segment)) != nullptr ? FP_OK : FP_REFUSED;
     if (agv.busy || agv.stopped) return FP_REFUSED;
-    const fp_lane* lane = nullptr;
-    for (std::uint32_t i = 0; i < fleet_.map.lane_count; ++i) {
-      const fp_lane& l = drawn_.lane_at(i);
-      if (l.segment == segment && l.from == agv.station) lane = &l;
-    }
+    const fp_lane* lane = lane_from(agv.station, segment);
     if (lane == nullptr && (segment != FP_HERE || call == FP_CALL_MOVE)) return FP_REFUSED;
     const std::uint32_t ends_at = lane != nullptr ? lane->to : agv.station;
     if (named != FP_NONE && (agv.loaded || std::ranges::none_of(agv.orders, [&](const FakeOrder& order) {
@@ -243,6 +251,9 @@ class FakeWarehouse {
     }
     if (call == FP_CALL_DROP) agv.loaded = false;
     if (call == FP_CALL_CHARGE) agv.charging_since_ns = now_ns_;
+    const fp_lane* next = agv.next;
+    agv.next = nullptr;
+    if (next != nullptr && !agv.stopped) act(id, FP_CALL_MOVE, next->segment);
     tell(id, event);
   }
 

@@ -163,6 +163,28 @@ TEST(HullLock, KeepsHoldingWhenItBreaksDown) {
   EXPECT_GE(static_cast<const HullLock*>(warehouse.agent(0))->protocol().held().count, 1U);
 }
 
+// The next move is given while the lane before it is driven, on floor that is held.
+TEST(HullLock, DrivesStraightOnWithoutAStop) {
+  DrawnMap drawn;
+  for (int i = 0; i < 5; ++i) drawn.station(8.0 * i, 0, i % 4 == 0 ? FP_STORAGE : FP_ROUTING);
+  for (std::uint32_t i = 0; i < 4; ++i) drawn.segment(i, i + 1);
+  const TestFleet fleet(drawn.map(), 1);
+  FakeWarehouse warehouse(drawn, fleet, {0}, kHullLock, {}, 1);
+  warehouse.order(0, 0.1, 0, 4);
+  std::uint32_t given = 0;
+  const fp_lane* last = nullptr;
+  warehouse.after_activation = [&](std::uint32_t) {
+    const fp_lane* next = warehouse.next_of(0);
+    given += next != nullptr && next != last;
+    const Path& held = static_cast<const HullLock*>(warehouse.agent(0))->protocol().held();
+    EXPECT_TRUE(next == nullptr || held.count > 1U);
+    last = next;
+  };
+  warehouse.run(100.0, 1);
+  EXPECT_EQ(warehouse.drops(), 1U);
+  EXPECT_EQ(given, 3U) << "all lanes but the first";
+}
+
 TEST(HullLock, AFleetOutOfRadioReachStandsStill) {
   const Tally tally = cross_the_junction(kHullLock, {1.0, 0.0, false, 0.0}, 3, 120.0);
   EXPECT_EQ(tally.locks, 0U);

@@ -38,11 +38,12 @@ struct Tally {
   double latest_drop_s = 0.0;
 };
 
-// True if the path begins where the AGV stands, or with the lane that the AGV drives.
+// True if the path begins where the AGV stands, or with the lanes that the AGV drives and will drive.
 inline bool begins_where_it_is(const FakeWarehouse& warehouse, const MapView& map, std::uint32_t id, const Path& held) {
-  const fp_lane* lane = warehouse.lane_of(id);
+  const fp_lane *lane = warehouse.lane_of(id), *next = warehouse.next_of(id);
   if (held.station != warehouse.station_of(id) || !is_driveable(map, held)) return false;
-  return lane == nullptr || (!held.empty() && &map.lane(held.lane_ids[0]) == lane);
+  if (lane != nullptr && (held.empty() || &map.lane(held.lane_ids[0]) != lane)) return false;
+  return next == nullptr || (held.count > 1 && &map.lane(held.lane_ids[1]) == next);
 }
 
 // Watches what AGVs hold. It contains the place of the AGV. When an AGV holds more, no other AGV may hold anything that
@@ -68,7 +69,7 @@ inline void watch_holds(FakeWarehouse& warehouse, const TestFleet& fleet, Tally&
     const bool restarted = warehouse.boot_of(id) != watch->boots[id];
     const bool more = !restarted && mine.count > watch->held[id];
     tally.restarts += restarted;
-    tally.restarts_on_lanes += restarted && mine.count == 1;
+    tally.restarts_on_lanes += restarted && mine.count > 0;
     // An AGV that restarts on a lane may also hold the turn before the lane. Its former held path says whether it had
     // locked the turn.
     Path& locked = watch->locked[id];

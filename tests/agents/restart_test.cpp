@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <tuple>
 
 #include "core/agents/agent_type.hpp"
 #include "tests/agents/junction.hpp"
@@ -76,25 +77,30 @@ const Path& held_by(FakeWarehouse& warehouse, std::uint32_t id) {
   return static_cast<const HullLock*>(warehouse.agent(id))->protocol().held();
 }
 
-TEST(Restart, HoldsTheWholeLaneUnderWayFromItsFirstInstantAndNothingBeyond) {
+// Lanes of 8 m, each 7 s. The former self has given the move over the second lane when it was on the first one.
+TEST(Restart, HoldsTheLanesThatTheAgvWillDriveFromItsFirstInstantAndNothingBeyond) {
   Corridor corridor;
   const TestFleet fleet(corridor.drawn.map(), 1);
-  FakeWarehouse warehouse(corridor.drawn, fleet, {0}, kHullLock, {}, 1);
-  warehouse.order(0, 0.1, 0, 3);  // 5 s of picking, then lanes of 7 s
-  warehouse.restart(0, 7.0, 2.0);
-  std::vector<std::uint32_t> counts;
-  warehouse.after_activation = [&](std::uint32_t) {
-    if (warehouse.boot_of(0) == 1 && counts.empty()) {
-      EXPECT_EQ(held_by(warehouse, 0).station, 0U);
-      EXPECT_EQ(held_by(warehouse, 0).lane_ids[0], corridor.drawn.lane_between(0, 1));
-    }
-    if (warehouse.boot_of(0) == 1) counts.push_back(held_by(warehouse, 0).count);
-  };
-  warehouse.run(100.0);
-  ASSERT_FALSE(counts.empty());
-  EXPECT_EQ(counts.front(), 1U);
-  EXPECT_EQ(warehouse.drops(), 1U);
-  EXPECT_EQ(warehouse.misplaced(), 0U);
+  for (const auto& [at_s, first, lanes] : {std::tuple(7.0, 0U, 2U), {21.0, 2U, 1U}}) {
+    FakeWarehouse warehouse(corridor.drawn, fleet, {0}, kHullLock, {}, 1);
+    warehouse.order(0, 0.1, 0, 3);  // 5 s of picking
+    warehouse.restart(0, at_s, 2.0);
+    std::vector<std::uint32_t> counts;
+    warehouse.after_activation = [&](std::uint32_t) {
+      if (warehouse.boot_of(0) == 1 && counts.empty()) {
+        EXPECT_EQ(held_by(warehouse, 0).station, first);
+        EXPECT_EQ(held_by(warehouse, 0).lane_ids[0], corridor.drawn.lane_between(first, first + 1));
+        const std::uint32_t next = corridor.drawn.lane_between(first + 1, first + 2);
+        EXPECT_TRUE(lanes < 2 || held_by(warehouse, 0).lane_ids[1] == next);
+      }
+      if (warehouse.boot_of(0) == 1) counts.push_back(held_by(warehouse, 0).count);
+    };
+    warehouse.run(100.0);
+    ASSERT_FALSE(counts.empty());
+    EXPECT_EQ(counts.front(), lanes);
+    EXPECT_EQ(warehouse.drops(), 1U);
+    EXPECT_EQ(warehouse.misplaced(), 0U);
+  }
 }
 
 TEST(Restart, DuringATransferItWaitsForItsEndAndNeitherPicksNorDropsTwice) {

@@ -84,6 +84,36 @@ TEST(WaitingPlaces, OnAOneWayLoopOnlyFollowersWait) {
   EXPECT_FALSE(places.is_safe(2)) << "who waits there locks in whoever is in the spur";
 }
 
+// Two one-way streets side by side, in opposite directions, with a dock beside each: `south` to the east, 0-1-2, and
+// `north` to the west, 3-4-5. They meet beyond both ends.
+struct Streets {
+  explicit Streets(double apart_m) {
+    for (int i = 0; i < 3; ++i) drawn.station(8.0 * i, 0);
+    for (int i = 2; i >= 0; --i) drawn.station(8.0 * i + 4.0, apart_m);
+    const auto east = drawn.station(30, 2, FP_STORAGE), west = drawn.station(-12, 2, FP_STORAGE);
+    for (const std::uint32_t i : {0U, 1U, 3U, 4U}) drawn.segment(i, i + 1, false);
+    drawn.segment(2, east, false), drawn.segment(east, 3, false);
+    drawn.segment(5, west, false), drawn.segment(west, 0, false);
+    drawn.segment(west, east);  // another way, so that no goal is cut off
+    drawn.map();
+  }
+  DrawnMap drawn;
+};
+
+// An AGV on the other street could neither pass nor turn back. AGVs whose bodies pass each other may wait, even if
+// there is no room to turn.
+TEST(WaitingPlaces, AreNotWhereABodyBlocksAOneWayLane) {
+  for (const auto& [apart_m, safe] : {std::pair(1.0, false), {1.3, true}, {4.0, true}}) {
+    Streets streets(apart_m);
+    const MapView map(streets.drawn.map());
+    const TestFleet fleet(streets.drawn.map(), 2);
+    HullGeometry geometry(map, fleet.briefing(0, 0));
+    WaitingPlaces places(map, geometry);
+    EXPECT_EQ(places.is_safe(1), safe) << apart_m;
+    EXPECT_EQ(places.is_safe(4), safe) << apart_m;
+  }
+}
+
 class Planning : public ::testing::Test {
  protected:
   Stretch towards(std::uint32_t from, std::vector<Goal> goals, double budget_m = 40.0) {
