@@ -4,6 +4,10 @@
 
 namespace fleetproof {
 
+bool avoids(const CaseRun& run, const FailingCase& failing, const FailurePattern& pattern) {
+  return failing.failure.is_violation ? run.outcome.violations.empty() : !pattern.match(run);
+}
+
 std::string outcome_text(const std::optional<Failure>& failure) { return failure ? text_of(failure->kind) : "none"; }
 
 std::string name_of_body(const Scenario& scenario, EntityId body) {

@@ -22,6 +22,10 @@ struct Share {
   Scenario first;  // of these runs; the others have other luck (other_luck.hpp)
 };
 
+// Whether a changed run avoids the failure: if bodies came too close, none do in any way; otherwise it does not fail in
+// the same way.
+bool avoids(const CaseRun& run, const FailingCase& failing, const FailurePattern& pattern);
+
 // What the run with this scenario shows: how it fails, or "none".
 std::string outcome_text(const std::optional<Failure>& failure);
 

@@ -37,7 +37,7 @@ LastStop last_stop_of(CaseHost& host, const FailingCase& failing, const FailureP
   const auto runs =
       all_runs(host, {count, [&](std::size_t i) { return std::optional(stopped_at(failing.scenario, agv, at(i))); }});
   for (std::size_t i = 0; i < count && !found.at; ++i) {
-    if (pattern.match(*runs[i])) continue;
+    if (!avoids(*runs[i], failing, pattern)) continue;
     found.at = at(i);
     found.claims.push_back(stop_claim(host, failing, agv, at(i)));
     if (i > 0) found.claims.push_back(stop_claim(host, failing, agv, at(i - 1)));

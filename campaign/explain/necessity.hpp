@@ -9,7 +9,7 @@ namespace fleetproof {
 // What one adverse message did, in a case whose luck is written down.
 struct MessageNeed {
   MessageFate message;
-  bool is_needed = false;         // had it arrived at once and once, the run would not fail in the same way
+  bool is_needed = false;         // had it arrived at once and once, the run would avoid the failure
   std::optional<Duration> saves;  // so late it may arrive at most to avoid the failure, to 10 ms; if it is needed
   std::vector<Claim> claims;
 };

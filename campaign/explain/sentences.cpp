@@ -66,8 +66,8 @@ class Words {
     const std::size_t count = need.claims.size();
     if (!need.is_needed) return say("It does not need {} of {} {}.", trouble, name, runs(count));
     if (!need.saves)
-      return say("It needs {} of {}: had it arrived at once, no such failure {}.", trouble, name, runs(count));
-    say("It needs {} of {}. Had it arrived by {:.2f} s, no such failure; 10 ms later, it fails {}.", trouble, name,
+      return say("It needs {} of {}: had it arrived at once, no failure {}.", trouble, name, runs(count));
+    say("It needs {} of {}. Had it arrived by {:.2f} s, no failure; 10 ms later, it fails {}.", trouble, name,
         to_seconds(fate.sent + *need.saves), runs(count));
   }
 

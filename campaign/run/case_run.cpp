@@ -121,6 +121,9 @@ std::optional<Failure> failure_of(const CaseRun& run) {
   if (!cause) return std::nullopt;
   const SimTime seen = seen_at(*cause, run.outcome);
   Failure failure{{std::move(cause->what), run.states}, cause->at, seen, cause->a, cause->b};
+  failure.is_violation = std::ranges::any_of(run.outcome.violations, [&](const Violation& violation) {
+    return violation.first == cause->at && violation.a == cause->a && violation.b == cause->b;
+  });
   std::ranges::sort(failure.kind.states);
   return failure;
 }

@@ -47,9 +47,10 @@ ExpectedOutcome expectation_of(const CaseRun& run);
 
 struct Failure {
   FailureKind kind;
-  SimTime at{};    // when it began
-  SimTime seen{};  // from then on it was what it is
-  EntityId a, b;   // each invalid if not known
+  SimTime at{};               // when it began
+  SimTime seen{};             // from then on it was what it is
+  EntityId a, b;              // each invalid if not known
+  bool is_violation = false;  // the two came too close
 };
 // Absent if nothing went wrong. Of a crash or a hang, `at` is the end of the run.
 std::optional<Failure> failure_of(const CaseRun& run);
