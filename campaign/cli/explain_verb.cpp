@@ -48,8 +48,11 @@ nlohmann::ordered_json to_json(const Explanation& explanation) {
                                 {"lost", fate.lost},
                                 {"delay_s", to_seconds(fate.delay)},
                                 {"needed", need.is_needed},
-                                {"saves_delay_s", nullptr}});
-    if (need.saves) json["messages"].back()["saves_delay_s"] = to_seconds(*need.saves);
+                                {"saves_delay_s", nullptr},
+                                {"too_late_delay_s", nullptr}});
+    if (!need.latest) continue;
+    json["messages"].back()["saves_delay_s"] = to_seconds(need.latest->in_time);
+    json["messages"].back()["too_late_delay_s"] = to_seconds(need.latest->too_late);
   }
   json["runs"] = nlohmann::ordered_json::array();
   for (const Claim* claim : claims_of(explanation))

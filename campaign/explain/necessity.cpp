@@ -32,20 +32,20 @@ bool same_message(const GivenFate& a, const GivenFate& b) {
   return a.sender == b.sender && a.receiver == b.receiver && a.sent == b.sent && a.ordinal == b.ordinal;
 }
 
-// The latest arrival that avoids the failure, by halving; the one found avoids it, and kGrain later it is not avoided.
-std::optional<Duration> latest_that_saves(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern,
-                                          std::size_t i) {
+// By halving.
+std::optional<LatestArrival> latest_that_saves(CaseHost& host, const FailingCase& failing,
+                                               const FailurePattern& pattern, std::size_t i) {
   const GivenFate& fate = failing.scenario.fates[i];
-  const auto avoids = [&](Duration delay) {
+  const auto saves = [&](Duration delay) {
     return avoids(host(with_fate(failing.scenario, i, arriving_after(fate, delay))), failing, pattern);
   };
   Duration low{}, high = fate.lost ? failing.failure.at - kStart - fate.sent : fate.delay;
-  if (high <= kGrain || avoids(high)) return std::nullopt;
+  if (high <= kGrain || saves(high)) return std::nullopt;
   while (high - low > kGrain) {
     const Duration middle = low + (high - low) / 2;
-    (avoids(middle) ? low : high) = middle;
+    (saves(middle) ? low : high) = middle;
   }
-  return low;
+  return LatestArrival{low, high};
 }
 
 struct Without {
@@ -103,13 +103,14 @@ std::vector<MessageNeed> needs_of_messages(CaseHost& host, const FailingCase& fa
     need.is_needed = avoids(run, failing, pattern);
     need.claims.push_back({fmt::format("{} arrived at once", message_text(failing.scenario, need.message)),
                            std::move(arrived), outcome_text(failure_of(run))});
-    if (need.is_needed) need.saves = latest_that_saves(host, failing, pattern, i);
-    for (const Duration late :
-         {need.saves.value_or(Duration::zero()), need.saves.value_or(Duration::zero()) + kGrain}) {
-      if (!need.saves) break;
-      Scenario later = with_fate(failing.scenario, i, arriving_after(fate, late));
-      need.claims.push_back({fmt::format("it arrived by {:.3f} s", to_seconds(fate.sent + late)), later,
-                             outcome_text(failure_of(host(later)))});
+    if (need.is_needed) need.latest = latest_that_saves(host, failing, pattern, i);
+    if (need.latest) {
+      for (const Duration late : {need.latest->in_time, need.latest->too_late}) {
+        Scenario later = with_fate(failing.scenario, i, arriving_after(fate, late));
+        std::string outcome = outcome_text(failure_of(host(later)));
+        need.claims.push_back({fmt::format("it arrived at {:.3f} s", to_seconds(fate.sent + late)), std::move(later),
+                               std::move(outcome)});
+      }
     }
     needs.push_back(std::move(need));
   }

@@ -6,11 +6,16 @@
 
 namespace fleetproof {
 
+// A message that arrives so long after it was sent avoids the failure, and one that arrives up to 10 ms later does not.
+struct LatestArrival {
+  Duration in_time{}, too_late{};
+};
+
 // What one adverse message did, in a case whose luck is written down.
 struct MessageNeed {
   MessageFate message;
-  bool is_needed = false;         // had it arrived at once and once, the run would avoid the failure
-  std::optional<Duration> saves;  // so late it may arrive at most to avoid the failure, to 10 ms; if it is needed
+  bool is_needed = false;               // had it arrived at once and once, the run would avoid the failure
+  std::optional<LatestArrival> latest;  // that avoids the failure; if it is needed
   std::vector<Claim> claims;
 };
 std::vector<MessageNeed> needs_of_messages(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern);

@@ -65,10 +65,10 @@ class Words {
                                               : fmt::format("the delay of {:.2f} s", to_seconds(fate.delay));
     const std::size_t count = need.claims.size();
     if (!need.is_needed) return say("It does not need {} of {} {}.", trouble, name, runs(count));
-    if (!need.saves)
+    if (!need.latest)
       return say("It needs {} of {}: had it arrived at once, no failure {}.", trouble, name, runs(count));
-    say("It needs {} of {}. Had it arrived by {:.2f} s, no failure; 10 ms later, it fails {}.", trouble, name,
-        to_seconds(fate.sent + *need.saves), runs(count));
+    say("It needs {} of {}. Had it arrived by {:.2f} s, no failure; at {:.2f} s, it fails {}.", trouble, name,
+        to_seconds(fate.sent + need.latest->in_time), to_seconds(fate.sent + need.latest->too_late), runs(count));
   }
 
   void things() {

@@ -1,6 +1,8 @@
 #include "campaign/shrink/fate_passes.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <iterator>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -15,7 +17,8 @@ namespace {
 
 constexpr std::size_t kMostPairs = 40'000;
 constexpr Duration kDelayStep = std::chrono::milliseconds(100), kWindow = std::chrono::milliseconds(500);
-constexpr std::size_t kLuckOfAWindow = 24;
+constexpr Duration kStretches[] = {16 * kWindow, 8 * kWindow, 4 * kWindow, 2 * kWindow, kWindow};
+constexpr std::size_t kLuckOfAWindow = 96;
 
 std::vector<GivenFate> fates_of(const std::vector<MessageFate>& messages) {
   std::vector<GivenFate> fates;
@@ -42,54 +45,84 @@ std::vector<GivenFate> troubles_of(const std::vector<MessageFate>& messages, Sim
   return troubles;
 }
 
-// One window of the way from front to back: the messages before it have their fates, those behind it are drawn.
+// The way from front to back: the messages before `from_` have their fates, those behind it are drawn.
 class FrontToBack {
  public:
-  FrontToBack(Shrinker& shrinker, Duration from, Duration to) : shrinker_(shrinker), from_(from), to_(to) {}
+  explicit FrontToBack(Shrinker& shrinker)
+      : shrinker_(shrinker), from_(seconds(shrinker.best().scenario.radio.adverse.adverse_from_s)) {}
 
-  bool pass() {
-    if (try_committing({})) return true;
-    std::vector<GivenFate> window = window_of_best();
-    // With all of them, the run stays as it is.
-    if (!try_committing(window)) return false;
-    for (std::size_t length = (window.size() + 1) / 2; length >= 1; length = length == 1 ? 0 : (length + 1) / 2) {
-      for (std::size_t end = window.size(); end > 0;) {
-        const std::size_t begin = end > length ? end - length : 0;
-        std::vector<GivenFate> fewer = window;
-        fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(begin),
-                    fewer.begin() + static_cast<std::ptrdiff_t>(end));
-        if (try_committing(fewer)) window = std::move(fewer);
-        end = begin;
-      }
+  // False if the end could not be reached.
+  bool run() {
+    while (kStart + from_ <= shrinker_.best().failure.at) {
+      if (!heal() && !commit_window()) return false;
     }
     return true;
   }
 
  private:
-  std::vector<GivenFate> window_of_best() const {
+  // A stretch without bad luck, as long as possible.
+  bool heal() {
+    const auto found = try_committing(
+        std::size(kStretches), [&](std::size_t i) { return Commitment{.until = from_ + kStretches[i], .window = {}}; });
+    if (found) from_ += kStretches[*found];
+    return found.has_value();
+  }
+
+  // As few adverse messages of the next window as suffice. With all of them the run stays as it is.
+  bool commit_window() {
+    const Duration until = from_ + kWindow;
+    std::vector<GivenFate> window = window_of_best(until);
+    const auto commits = [&](const std::vector<GivenFate>& messages) {
+      return try_committing(1, [&](std::size_t) { return Commitment{until, messages}; }).has_value();
+    };
+    if (!commits(window)) return false;
+    for (std::size_t length = (window.size() + 1) / 2; length >= 1; length = length == 1 ? 0 : (length + 1) / 2) {
+      for (std::size_t end = window.size(); end > 0;) {
+        const std::size_t begin = end > length ? end - length : 0;
+        const auto fewer = kept(window, [&](std::size_t place) { return place < begin || place >= end; });
+        if (commits(fewer)) window = fewer;
+        end = begin;
+      }
+    }
+    from_ = until;
+    return true;
+  }
+
+  std::vector<GivenFate> window_of_best(Duration until) const {
     std::vector<GivenFate> window;
     for (const MessageFate& message : shrinker_.trials().host()(shrinker_.best().scenario, Fates::Kept).fates) {
-      if (message.is_adverse() && message.fate.sent >= from_ && message.fate.sent < to_) window.push_back(message.fate);
+      if (message.is_adverse() && message.fate.sent >= from_ && message.fate.sent < until)
+        window.push_back(message.fate);
     }
     return window;
   }
 
-  // Luck 0 keeps what was drawn behind the window, as far as the same messages are sent.
-  bool try_committing(const std::vector<GivenFate>& window) {
-    Scenario committed = shrinker_.best().scenario;
-    std::erase_if(committed.fates, [&](const GivenFate& fate) { return fate.sent >= from_; });
-    committed.fates.insert(committed.fates.end(), window.begin(), window.end());
-    committed.radio.adverse.adverse_from_s = to_seconds(to_);
-    const std::vector<StreamSeed> seeds = committed.stream_seeds;
+  struct Commitment {
+    Duration until;
+    std::vector<GivenFate> window;
+  };
+  // Each commitment is tried with much luck behind it. Luck 0 keeps what was drawn there, as far as the same messages
+  // are sent.
+  std::optional<std::size_t> try_committing(std::size_t count, const std::function<Commitment(std::size_t)>& make) {
+    const Scenario best = shrinker_.best().scenario;
     auto found = shrinker_.trials().first_failing(
-        {kLuckOfAWindow, [&](std::size_t luck) {
-           return std::optional(luck == 0 ? committed : with_other_radio(committed, static_cast<std::uint32_t>(luck)));
+        {count * kLuckOfAWindow, [&](std::size_t rank) {
+           const Commitment commitment = make(rank / kLuckOfAWindow);
+           Scenario committed = best;
+           std::erase_if(committed.fates, [&](const GivenFate& fate) { return fate.sent >= from_; });
+           committed.fates.insert(committed.fates.end(), commitment.window.begin(), commitment.window.end());
+           committed.radio.adverse.adverse_from_s = to_seconds(commitment.until);
+           const auto luck = static_cast<std::uint32_t>(rank % kLuckOfAWindow);
+           return std::optional(luck == 0 ? std::move(committed) : with_other_radio(std::move(committed), luck));
          }});
-    return shrinker_.accept(std::move(found), "bad luck written down");
+    if (!found) return std::nullopt;
+    const std::size_t which = found->rank / kLuckOfAWindow;
+    shrinker_.accept(std::move(found), "bad luck written down");
+    return which;
   }
 
   Shrinker& shrinker_;
-  Duration from_, to_;
+  Duration from_;
 };
 
 bool take_out_groups(Shrinker& shrinker, const std::vector<std::uint64_t>& groups) {
@@ -139,11 +172,8 @@ bool write_fates_down(Shrinker& shrinker) {
 
 bool write_least_fates_down(Shrinker& shrinker) {
   if (!CaseSize::of(shrinker.best().scenario).fates_are_drawn) return false;
-  bool smaller = false;
-  for (Duration from = seconds(shrinker.best().scenario.radio.adverse.adverse_from_s);
-       kStart + from <= shrinker.best().failure.at && !shrinker.trials().ended(); from += kWindow)
-    smaller |= FrontToBack(shrinker, from, from + kWindow).pass();
-  return write_fates_down(shrinker) || smaller;
+  FrontToBack(shrinker).run();
+  return write_fates_down(shrinker);
 }
 
 bool take_out_fates(Shrinker& shrinker) {

@@ -25,8 +25,8 @@ CaseSize CaseSize::of(const Scenario& scenario) {
 namespace {
 
 // So many ways in which the failure comes about are compared: with sparse luck, and with as much luck as there was.
-constexpr std::size_t kSparseStarts = 8;
-constexpr std::uint32_t kOtherStarts = 16;
+constexpr std::size_t kSparseStarts = 4;
+constexpr std::uint32_t kOtherStarts = 6;
 constexpr std::size_t kFew = 2;  // adverse messages: fewer are not looked for elsewhere
 
 // While the radio draws, a run that takes another course meets bad luck again.

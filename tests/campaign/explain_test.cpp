@@ -52,7 +52,7 @@ TEST(Explain, NoClaimIsFalse) {
       const auto fails = [&](const Claim& claim) { return !explained.host(claim.run).outcome.violations.empty(); };
       ASSERT_FALSE(need.claims.empty());
       EXPECT_EQ(fails(need.claims[0]), !need.is_needed);
-      if (!need.saves) continue;
+      if (!need.latest) continue;
       ASSERT_EQ(need.claims.size(), 3U);
       EXPECT_FALSE(fails(need.claims[1]));
       EXPECT_TRUE(fails(need.claims[2]));
@@ -105,8 +105,8 @@ TEST(Explain, TheSentencesNumberTheirRuns) {
 TEST(NoReturn, IsAtTheMessageThatDecidesIt) {
   AgentPrograms programs;
   CaseHost host({"timeout-grant", ""}, programs, 2);
-  std::size_t with_end = 0;
-  for (std::uint64_t seed = 1; with_end < 5 && seed < 400; ++seed) {
+  std::size_t with_end = 0, in_window = 0;
+  for (std::uint64_t seed = 1; with_end < 10 && seed < 400; ++seed) {
     WorldSpec spec;
     spec.horizon = std::chrono::seconds(60);
     spec.fleet_size = 3;
@@ -121,9 +121,9 @@ TEST(NoReturn, IsAtTheMessageThatDecidesIt) {
     ASSERT_EQ(curve.curve.size(), kInstants);
     EXPECT_TRUE(std::ranges::is_sorted(curve.curve, {}, &Branching::at));
     EXPECT_LE(curve.curve.back().at, failure->at);
-    if (!curve.certain_from) continue;
+    if (!curve.certain_from || 3 * curve.curve.front().failing > kBranches) continue;
     ++with_end;
-    // Its own word for what it does wrong comes in the window that the curve marks.
+    // The silence that it takes for consent overlaps the window that the curve marks.
     const CaseNotes notes = host(scenario, Fates::Kept).notes;
     std::optional<SimTime> said;
     for (const Declared& declared : notes.declared) {
@@ -132,9 +132,12 @@ TEST(NoReturn, IsAtTheMessageThatDecidesIt) {
     }
     ASSERT_TRUE(said);
     EXPECT_LE(curve.open_until, *curve.certain_from);
-    EXPECT_GE(*said + std::chrono::seconds(1), curve.open_until);
+    const SimTime silent_from = *said - std::chrono::seconds(4);
+    EXPECT_LE(silent_from, *curve.certain_from);  // what is certain has a cause
+    in_window += *said >= curve.open_until ? 1 : 0;
   }
-  EXPECT_EQ(with_end, 5U);
+  EXPECT_EQ(with_end, 10U);
+  EXPECT_GE(in_window, 7U);  // in others, what came after the silence could still have helped
 }
 
 }  // namespace
