@@ -1,0 +1,76 @@
+#include "campaign/shrink/trials.hpp"
+
+#include <gtest/gtest.h>
+
+#include "campaign/shrink/all_runs.hpp"
+#include "campaign/shrink/other_luck.hpp"
+#include "generators/worlds/world_maker.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr std::size_t kLucks = 40;
+
+// Draws of one scenario of which some fail and some do not.
+struct Lucks {
+  Lucks() {
+    WorldSpec spec;
+    spec.fleet_size = 3;
+    spec.horizon = std::chrono::seconds(30);
+    spec.demand.transports_per_agv_hour = 120.0;
+    RejectionCounts ignored;
+    scenario = generate_world(spec, 3, ignored);
+    scenario.radio.loss = 0.4;
+    scenario.radio.delay_s = 2.0;
+  }
+  Candidates from(std::size_t first) const {
+    return {kLucks - first, [this, first](std::size_t rank) {
+              return std::optional(with_other_luck(scenario, static_cast<std::uint32_t>(first + rank)));
+            }};
+  }
+  Scenario scenario;
+};
+
+TEST(Trials, TheFirstInOrderCountsForAnyNumberOfWorkers) {
+  const Lucks lucks;
+  AgentPrograms programs;
+  CaseHost alone({"timeout-grant", ""}, programs, 1), crowd({"timeout-grant", ""}, programs, 7);
+  const auto runs = all_runs(crowd, lucks.from(0));
+  std::optional<FailurePattern> pattern;
+  std::size_t failing = 0;
+  for (const auto& run : runs) {
+    const auto failure = failure_of(*run);
+    failing += failure ? 1 : 0;
+    if (failure && !pattern) pattern = FailurePattern{failure->kind};
+  }
+  ASSERT_GT(failing, 1U);
+  ASSERT_LT(failing, kLucks);
+  for (std::size_t first = 0; first < kLucks; first += 3) {
+    std::optional<std::size_t> expected;
+    for (std::size_t i = first; i < kLucks && !expected; ++i) {
+      if (pattern->match(alone(*lucks.from(0).make(i)))) expected = i - first;
+    }
+    TrialCache cache;
+    Trials trials(crowd, cache, *pattern, {});
+    const auto found = trials.first_failing(lucks.from(first));
+    EXPECT_EQ(found ? std::optional(found->rank) : std::nullopt, expected) << first;
+    EXPECT_EQ(trials.count(), expected ? *expected + 1 : kLucks - first);
+  }
+}
+
+TEST(Trials, NoneIsMadeBeyondTheLimit) {
+  const Lucks lucks;
+  AgentPrograms programs;
+  CaseHost host({"timeout-grant", ""}, programs, 2);
+  TrialCache cache;
+  Trials trials(host, cache, FailurePattern{{"never seen", {}}}, {{}, 7});
+  EXPECT_FALSE(trials.first_failing(lucks.from(0)));
+  EXPECT_EQ(trials.count(), 7U);
+  EXPECT_EQ(trials.simulated(), 7U);
+  EXPECT_FALSE(trials.first_failing(lucks.from(10)));
+  EXPECT_TRUE(trials.ended());
+  EXPECT_EQ(trials.simulated(), 7U);
+}
+
+}  // namespace
+}  // namespace fleetproof
