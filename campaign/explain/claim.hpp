@@ -19,7 +19,6 @@ struct Claim {
 struct Share {
   std::string what;  // "without faults"
   std::size_t failing = 0, of = 0;
-  Scenario first;  // of these runs; the others have other luck (other_luck.hpp)
 };
 
 // Whether a changed run avoids the failure: if bodies came too close, none do in any way; otherwise it does not fail in

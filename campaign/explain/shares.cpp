@@ -89,9 +89,7 @@ std::vector<Share> shares_of(CaseHost& host, const FailingCase& failing, const F
       share.of += run ? 1 : 0;
       share.failing += run && pattern.match(*run) ? 1 : 0;
     }
-    if (share.of == 0) continue;
-    share.first = *make(i * kLuckRuns);
-    shares.push_back(std::move(share));
+    if (share.of > 0) shares.push_back(std::move(share));
   }
   return shares;
 }

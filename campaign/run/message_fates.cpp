@@ -10,7 +10,6 @@ void FateKeeper::record(const TraceRecord& record, std::string_view text) {
     const auto sent = read<traced::Sent>(record);
     const auto kind = kinds_.find(sent.message_hash);
     kind_ = kind == kinds_.end() ? "" : kind->second;
-    hash_ = sent.message_hash;
     bytes_ = sent.bytes;
   } else if (record.kind == TraceKind::FateDecided) {
     decided(record);
@@ -41,7 +40,6 @@ void FateKeeper::decided(const TraceRecord& record) {
   if (!lost) message.fate.delay = delay;
   message.kind = kind_;
   message.number = number;
-  message.hash = hash_;
   first_of_.emplace(number, fates_.size());
   fates_.push_back(std::move(message));
 }

@@ -15,7 +15,6 @@ struct MessageFate {
   GivenFate fate;
   std::string kind;          // as its sender describes it; empty if it does not
   std::uint32_t number = 0;  // of the message in its run
-  std::uint64_t hash = 0;    // of its bytes
 
   // Lost, or later than the air takes, or twice.
   bool is_adverse() const { return fate.lost || fate.copied || fate.delay > Duration::zero(); }
@@ -36,7 +35,6 @@ class FateKeeper final : public TraceSink {
   std::map<std::uint32_t, std::size_t> first_of_;  // by message number: its first fate
   std::map<std::uint64_t, std::string> kinds_;     // by hash of the message
   std::string kind_;
-  std::uint64_t hash_ = 0;
   std::size_t bytes_ = 0;  // of the message that was sent last
 };
 

@@ -1,5 +1,7 @@
 #include "campaign/shrink/shrink.hpp"
 
+#include <algorithm>
+
 #include "campaign/shrink/fate_passes.hpp"
 #include "campaign/shrink/other_luck.hpp"
 #include "campaign/shrink/shrinker.hpp"
@@ -101,6 +103,16 @@ class LeastBadLuck {
   FailingCase best_;
 };
 
+// Why it is not known whether something of the case could be left out alone; empty if it is known.
+std::string why_not_known(const ShrinkResult& result, bool ended) {
+  if (ended) return "the time or the trials that were allowed ended before all had been tried";
+  if (result.after.fates_are_drawn)
+    return "the radio still draws: with its fates written down, the run fails otherwise";
+  const auto has_script = [](const AgvSetup& agv) { return !agv.script.empty(); };
+  if (std::ranges::any_of(result.best.scenario.agvs, has_script)) return "segments that a script may name stay";
+  return "";
+}
+
 }  // namespace
 
 // When the fates of messages are written down, each further step must keep the course of the run up to them.
@@ -122,8 +134,8 @@ ShrinkResult shrink(CaseHost& host, TrialCache& cache, const FailingCase& origin
   result.before = CaseSize::of(original.scenario);
   result.after = CaseSize::of(result.best.scenario);
   result.trials = trials.count();
-  result.one_minimal = !trials.ended();
-  if (!result.one_minimal) result.why_not = "the time or the trials that were allowed ended before all had been tried";
+  result.why_not = why_not_known(result, trials.ended());
+  result.one_minimal = result.why_not.empty();
   return result;
 }
 

@@ -71,6 +71,7 @@ std::optional<Trials::Found> Trials::first_failing(const Candidates& candidates)
     }
   }
   count_ += found ? found->rank + 1 : end;
+  if (!found && end < candidates.count) ended_ = true;  // the others were not tried
   // A candidate before the one that was found may not have been tried any more: the result would depend on the clock.
   if (late) ended_ = true;
   if (late && best != 0) return std::nullopt;

@@ -6,7 +6,7 @@ namespace fleetproof {
 namespace {
 
 constexpr std::size_t kShortestEndBytes = 8 + 1 + 4, kShortestTextBytes = 4,
-                      kShortestFateBytes = 3 * 4 + 3 * 8 + 2 + 4 + 4 + 8;
+                      kShortestFateBytes = 3 * 4 + 3 * 8 + 2 + 4 + 4;
 
 void put(ByteSink& sink, const std::vector<std::string>& texts) {
   sink.u32(static_cast<std::uint32_t>(texts.size()));
@@ -25,7 +25,6 @@ void put(ByteSink& sink, const MessageFate& message) {
   for (const Duration time : {sent, delay, copy_delay}) sink.i64(time.count());
   for (const bool flag : {lost, copied}) sink.u8(flag ? 1 : 0);
   sink.text(message.kind);
-  sink.u64(message.hash);
 }
 
 void take(ByteSource& source, MessageFate& message) {
@@ -34,7 +33,6 @@ void take(ByteSource& source, MessageFate& message) {
   for (Duration* time : {&sent, &delay, &copy_delay}) *time = Duration{source.i64()};
   for (bool* flag : {&lost, &copied}) *flag = source.flag();
   message.kind = source.text();
-  message.hash = source.u64();
 }
 
 }  // namespace

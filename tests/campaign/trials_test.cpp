@@ -67,6 +67,7 @@ TEST(Trials, NoneIsMadeBeyondTheLimit) {
   EXPECT_FALSE(trials.first_failing(lucks.from(0)));
   EXPECT_EQ(trials.count(), 7U);
   EXPECT_EQ(trials.simulated(), 7U);
+  EXPECT_TRUE(trials.ended());  // 33 were not tried
   EXPECT_FALSE(trials.first_failing(lucks.from(10)));
   EXPECT_TRUE(trials.ended());
   EXPECT_EQ(trials.simulated(), 7U);
