@@ -214,6 +214,7 @@ TEST(Surgery, WhatReferredToAnAgvGoesWithIt) {
   EXPECT_EQ(less.faults[1].agv, AgvId{1U});
   ASSERT_EQ(less.fates.size(), 1U);
   EXPECT_EQ(less.fates[0].sender, AgvId{0U});
+  EXPECT_EQ(less.fates[0].receiver, AgvId{1U});
   const Scenario one = with_agvs(less, [](std::size_t agv) { return agv == 1; });
   EXPECT_EQ(one.agvs[0].draws_as, 4U);
 }
