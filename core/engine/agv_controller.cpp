@@ -39,7 +39,7 @@ void AgvController::begin_activation(AgvId agv) {
 ActivationUse AgvController::end_activation(AgvId agv) {
   Slice& slice = slices_[agv.index()];
   ports_.messenger.put_down(agv);
-  if (run_.writer.has_sink()) ports_.declarations.end_activation(agv);
+  if (run_.hears_notes()) ports_.declarations.end_activation(agv);
   slice.in_activation = false;
   run_.counters.agent_calls += slice.calls + slice.services;
   const char* limit = slice.calls > kCallsMax         ? "10 000 controller calls in one activation"
@@ -160,7 +160,8 @@ std::uint32_t AgvController::order_on_board(AgvId agv) const {
 std::int32_t AgvController::send(AgvId agv, std::string_view bytes, std::uint32_t receiver) {
   const auto slot = ports_.messenger.accept(agv, bytes, receiver);
   if (!slot) return FP_INVALID;
-  if (run_.writer.has_sink()) ports_.declarations.message_sent(agv, ports_.messenger.hash_of(*slot));
+  if (run_.hears_notes() && ports_.declarations.message_sent(agv, ports_.messenger.hash_of(*slot)))
+    ports_.messenger.spare(*slot);
   return take_effect(agv, {.kind = PendingCall::Kind::Send, .what = receiver, .message = *slot});
 }
 

@@ -51,9 +51,9 @@ class AgvController {
   bool admit(AgvId agv);
   // Likewise for `random` and `now_ns`, which have a limit of their own: they neither act nor perceive.
   bool admit_service(AgvId agv);
-  // Likewise for notes, which do not count as calls. False if nobody traces.
+  // Likewise for notes, which do not count as calls. False if nobody hears them.
   bool admit_note(AgvId agv) {
-    return run_.writer.has_sink() && slices_[agv.index()].in_activation && ports_.declarations.admits_note(agv);
+    return run_.hears_notes() && slices_[agv.index()].in_activation && ports_.declarations.admits_note(agv);
   }
   // So many calls of `admit_service`, and of `admit` when its limit is reached, in one.
   void admit_services(AgvId agv, std::uint64_t count);

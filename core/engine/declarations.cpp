@@ -38,11 +38,14 @@ void Declarations::leave_out(AgvId agv, std::uint64_t notes) {
   sum += std::min(notes, ~sum);  // a damaged recording may hold any count
 }
 
-void Declarations::message_sent(AgvId agv, std::uint64_t hash) {
+bool Declarations::message_sent(AgvId agv, std::uint64_t hash) {
   std::string& kind = slices_[agv.index()].described;
-  if (kind.empty()) return;
+  if (kind.empty()) return false;
   run_.note(agv, traced::Described{hash}, kind);
+  const auto& spared = run_.scenario.radio.adverse.spared_kinds;
+  const bool is_spared = std::ranges::find(spared, kind) != spared.end();
   kind.clear();
+  return is_spared;
 }
 
 void Declarations::set_state(AgvId agv, std::string_view state) {

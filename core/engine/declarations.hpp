@@ -13,7 +13,7 @@
 namespace fleetproof {
 
 // What agents declare. It moves nothing: it goes into the trace, and some of it is counted. Their notes are for people:
-// they go to the sink of the trace, and the run is the same without them.
+// they go to the sink of the trace, and the run is the same without them, unless its radio spares kinds of messages.
 class Declarations {
  public:
   explicit Declarations(RunContext& run) : run_(run), slices_(run.agvs.size()) {}
@@ -32,7 +32,8 @@ class Declarations {
   void leave_out(AgvId agv, std::uint64_t notes);
   // Of the next message that is sent.
   void describe(AgvId agv, std::string_view kind) { slices_[agv.index()].described = kind; }
-  void message_sent(AgvId agv, std::uint64_t hash);
+  // Whether it is of a kind that the radio spares.
+  bool message_sent(AgvId agv, std::uint64_t hash);
   void set_state(AgvId agv, std::string_view state);
   void believe(AgvId agv, std::uint32_t about, const NotedPose& where, std::int64_t as_of_ns);
   void end_activation(AgvId agv);

@@ -75,7 +75,7 @@ void Messenger::transmit_to(AgvId sender, AgvId receiver, std::uint32_t slot, co
     return pool_.release(slot);
   }
   const std::uint32_t ordinal = links_[sender.index() * slices_.size() + receiver.index()].next(run_.now);
-  const Fate fate = radio_.fate(sender, receiver, run_.now, ordinal, places);
+  const Fate fate = radio_.fate(sender, receiver, run_.now, ordinal, places, pool_[slot].spared);
   const SimTime on_air_until = pool_[slot].on_air.end;
   const SimTime arrival = std::max(run_.now + fate.delay, on_air_until);
   ++counters.receptions;

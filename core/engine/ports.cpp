@@ -36,6 +36,7 @@ void MessengerPort::forget_path(AgvId agv) const { part_->forget_path(agv); }
 std::optional<std::uint32_t> MessengerPort::accept(AgvId sender, std::string_view bytes, std::uint32_t receiver) const {
   return part_->accept(sender, bytes, receiver);
 }
+void MessengerPort::spare(std::uint32_t slot) const { part_->spare(slot); }
 std::uint64_t MessengerPort::hash_of(std::uint32_t slot) const { return part_->hash_of(slot); }
 void MessengerPort::transmit(AgvId sender, std::uint32_t slot, std::uint32_t receiver) const {
   part_->transmit(sender, slot, receiver);
@@ -103,7 +104,7 @@ void DeclarationsPort::note(AgvId agv, TraceKind kind, std::string_view text) co
 bool DeclarationsPort::admits_note(AgvId agv) const { return part_->admits_note(agv); }
 void DeclarationsPort::leave_out(AgvId agv, std::uint64_t notes) const { part_->leave_out(agv, notes); }
 void DeclarationsPort::describe(AgvId agv, std::string_view kind) const { part_->describe(agv, kind); }
-void DeclarationsPort::message_sent(AgvId agv, std::uint64_t hash) const { part_->message_sent(agv, hash); }
+bool DeclarationsPort::message_sent(AgvId agv, std::uint64_t hash) const { return part_->message_sent(agv, hash); }
 void DeclarationsPort::set_state(AgvId agv, std::string_view state) const { part_->set_state(agv, state); }
 void DeclarationsPort::believe(AgvId agv, std::uint32_t about, const NotedPose& where, std::int64_t as_of_ns) const {
   part_->believe(agv, about, where, as_of_ns);

@@ -79,6 +79,7 @@ class MessengerPort {
   std::optional<std::uint32_t> accept(AgvId sender, std::string_view bytes, std::uint32_t receiver) const;
   std::uint64_t hash_of(std::uint32_t slot) const;
   void transmit(AgvId sender, std::uint32_t slot, std::uint32_t receiver) const;
+  void spare(std::uint32_t slot) const;
   void withdraw(std::uint32_t slot) const;
   bool read(AgvId agv, fp_message& out) const;
   void put_down(AgvId agv) const;
@@ -209,7 +210,7 @@ class DeclarationsPort {
   bool admits_note(AgvId agv) const;
   void leave_out(AgvId agv, std::uint64_t notes) const;
   void describe(AgvId agv, std::string_view kind) const;
-  void message_sent(AgvId agv, std::uint64_t hash) const;
+  bool message_sent(AgvId agv, std::uint64_t hash) const;
   void set_state(AgvId agv, std::string_view state) const;
   void believe(AgvId agv, std::uint32_t about, const NotedPose& where, std::int64_t as_of_ns) const;
   void end_activation(AgvId agv) const;

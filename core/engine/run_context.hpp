@@ -64,6 +64,9 @@ struct RunContext {
     writer.write(trace_record(now, entity, what), text);
   }
 
+  // Whether anything becomes of the notes of agents: an observer hears them, or the radio spares messages by their
+  // kind.
+  bool hears_notes() const { return writer.has_sink() || !scenario.radio.adverse.spared_kinds.empty(); }
   // Likewise, a note of an agent.
   template <class What>
   void note(AgvId agv, const What& what, std::string_view text = {}) {

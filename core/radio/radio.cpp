@@ -40,13 +40,14 @@ Radio::Radio(const RadioSetup& setup, std::uint64_t world_seed, std::span<const 
       crossings_(setup.places, state_key_),
       sources_(setup.sources, stream_key(world_seed, Stream::RadioSources)) {}
 
-Fate Radio::fate(AgvId sender, AgvId receiver, SimTime sent, std::uint32_t ordinal, const LinkPlaces& places) {
+Fate Radio::fate(AgvId sender, AgvId receiver, SimTime sent, std::uint32_t ordinal, const LinkPlaces& places,
+                 bool spared) {
   if (const GivenFate* given = given_.empty() ? nullptr : given_.of({sender, receiver, sent, ordinal})) {
     Fate fate{.lost = given->lost, .delay = given->delay, .given = true};
     if (given->copied) fate.copy_delay = given->copy_delay;
     return fate;
   }
-  if (!setup_.adverse.contains(sent)) return {};
+  if (spared || !setup_.adverse.contains(sent)) return {};
   return drawn_fate({numbers_.of(sender), numbers_.of(receiver), sent, ordinal}, places);
 }
 
@@ -146,6 +147,7 @@ std::uint32_t MessagePool::add(AgvId sender, std::string_view bytes, std::uint32
   message.bytes.assign(bytes);  // reuses the memory of the slot, so that nothing is allocated in the long run
   message.hash = XXH3_64bits(bytes.data(), bytes.size());
   message.copies = copies;
+  message.spared = false;
   message.destroyed_at.clear();
   return slot;
 }

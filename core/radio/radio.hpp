@@ -55,7 +55,9 @@ class Radio {
   }
   // Call this when the operator carries the AGV to another place. That is not a crossing.
   void forget_path(AgvId agv) { crossings_.forget_path(numbers_.of(agv)); }
-  Fate fate(AgvId sender, AgvId receiver, SimTime sent, std::uint32_t ordinal, const LinkPlaces& places = {});
+  // `spared`: it is of a kind that is neither lost nor late unless a given fate says so.
+  Fate fate(AgvId sender, AgvId receiver, SimTime sent, std::uint32_t ordinal, const LinkPlaces& places = {},
+            bool spared = false);
   // The outage process of messages from this sender to this receiver. Not for the scope Place.
   OutageProcess& process_of(AgvId sender, AgvId receiver);
 
@@ -91,6 +93,7 @@ struct Message {
   std::uint64_t hash = 0;
   std::uint32_t number = 0;  // in its run, from 1 on; 0: not sent yet
   std::uint32_t copies = 0;  // receptions that are under way or unread
+  bool spared = false;       // see Radio::fate
   // With interference: the receivers at which the message was destroyed.
   AirInterval on_air;
   std::vector<AgvId> destroyed_at;
@@ -104,6 +107,7 @@ class MessagePool {
   const Message& operator[](std::uint32_t slot) const { return messages_[slot]; }
   void hold(std::uint32_t slot) { ++messages_[slot].copies; }
   void set_number(std::uint32_t slot, std::uint32_t number) { messages_[slot].number = number; }
+  void spare(std::uint32_t slot) { messages_[slot].spared = true; }
   void goes_out(std::uint32_t slot, const AirInterval& on_air) { messages_[slot].on_air = on_air; }
   void destroy_at(std::uint32_t slot, AgvId receiver) { messages_[slot].destroyed_at.push_back(receiver); }
   void release(std::uint32_t slot);

@@ -101,9 +101,9 @@ void visit_fields(Contention& contention, Visit&& visit) {
         contention_window);
 }
 
-template <FieldsOf<AdverseTime> Adverse, class Visit>
+template <FieldsOf<AdverseScope> Adverse, class Visit>
 void visit_fields(Adverse& adverse, Visit&& visit) {
-  auto& [adverse_from_s, adverse_until_s] = adverse;
+  auto& [adverse_from_s, adverse_until_s, spared_kinds] = adverse;
   visit(Field{.key = "adverse_from_s",
               .text = "what is sent earlier arrives, at once and once",
               .high = 1e7,
@@ -118,6 +118,12 @@ void visit_fields(Adverse& adverse, Visit&& visit) {
               .left_out = adverse_until_s == 0.0,
               .is_later = true},
         adverse_until_s);
+  visit(Field{.key = "spared_kinds",
+              .text = "messages that their sender describes so arrive, at once and once",
+              .home = FieldHome::ScenarioOnly,
+              .left_out = spared_kinds.empty(),
+              .is_later = true},
+        spared_kinds);
 }
 
 template <FieldsOf<RadioSetup> Radio, class Visit>

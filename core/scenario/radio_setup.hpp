@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/base/sim_time.hpp"
@@ -123,10 +124,12 @@ struct GivenFate {
   friend bool operator==(const GivenFate&, const GivenFate&) = default;
 };
 
-// When the radio is as bad as it can be. Nothing is lost, late or copied that is sent before adverse_from_s, or at
-// adverse_until_s or later. Contention for the air is as ever.
-struct AdverseTime {
+// Which messages the radio loses, delays and copies. All others arrive at once and once: those that are sent before
+// adverse_from_s, or at adverse_until_s or later, and those that their sender describes by one of spared_kinds.
+// Contention for the air is as ever.
+struct AdverseScope {
   double adverse_from_s = 0.0, adverse_until_s = 0.0;  // until 0: no end
+  std::vector<std::string> spared_kinds{};
 
   bool contains(SimTime sent) const {
     return sent >= kStart + seconds(adverse_from_s) &&
@@ -149,7 +152,7 @@ struct RadioSetup {
   double air_time_s = 0.001, air_time_per_byte_s = 0.0;
   OutageSetup outages{};
   DelayTailSetup delay_tail{};
-  AdverseTime adverse{};
+  AdverseScope adverse{};
   // 0 .. 1. The loss of a to b is loss + x loss (1 - loss), of b to a loss - x loss (1 - loss); x is drawn per pair,
   // uniform in +-asymmetry.
   double asymmetry = 0.0;

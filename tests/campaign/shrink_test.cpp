@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
 
 #include "campaign/shrink/adverse_fates.hpp"
 #include "campaign/shrink/other_luck.hpp"
 #include "campaign/shrink/surgery.hpp"
 #include "campaign/shrink/trial_file.hpp"
+#include "core/engine/simulation.hpp"
 #include "core/scenario/canonical_bytes.hpp"
 #include "generators/scenario_file/scenario_text.hpp"
 #include "generators/worlds/world_maker.hpp"
@@ -188,7 +190,25 @@ TEST(DrawNumbers, AnAgvKeepsItsDrawsWithoutTheOthers) {
   EXPECT_NE(bench.host(renumbered).outcome.digest, bench.host(alone(2)).outcome.digest);
 }
 
-TEST(AdverseTime, NothingIsLostOrLateOutsideIt) {
+TEST(AdverseScope, NothingOfASparedKindIsLostOrLate) {
+  Bench bench("hull-lock");
+  Scenario scenario = bad_night(4);
+  scenario.radio.adverse.spared_kinds = {"GRANT", "REQUEST"};
+  std::map<std::string, std::size_t> adverse, all;
+  const CaseRun run = bench.host(scenario, Fates::Kept);
+  for (const MessageFate& message : run.fates) {
+    ++all[message.kind];
+    adverse[message.kind] += message.is_adverse() ? 1 : 0;
+  }
+  EXPECT_EQ(adverse["GRANT"] + adverse["REQUEST"], 0U);
+  EXPECT_GT(all["GRANT"], 5U);
+  EXPECT_GT(all["REQUEST"], 5U);
+  EXPECT_GT(adverse["STATE"], 20U);
+  const auto& agent = AgentPrograms().find("hull-lock", "agent");
+  EXPECT_EQ(simulate(scenario, agent, {}, nullptr).digest, run.outcome.digest) << "nobody traces, and it is the same";
+}
+
+TEST(AdverseScope, NothingIsLostOrLateOutsideItsTime) {
   Bench bench("hull-lock");
   Scenario scenario = bad_night(4);
   scenario.radio.adverse.adverse_from_s = 20.0;

@@ -31,6 +31,7 @@ Scenario unusual() {
   s.radio.delay_tail = {0.2, 0.3, 2.5, 0.0};
   s.radio.adverse.adverse_from_s = 3.5;
   s.radio.adverse.adverse_until_s = 50.25;
+  s.radio.adverse.spared_kinds = {"STATE", "a \"kind\""};
   s.radio.asymmetry = 0.4;
   s.radio.duplicates = 0.05;
   s.radio.places = {30.0, true, 2.5, 0.02, 0.05, 7.0};
