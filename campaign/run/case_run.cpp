@@ -54,17 +54,67 @@ class Declarations {
   std::map<std::pair<EntityId, std::string>, SimTime> first_;
 };
 
+// What each AGV does, with the instants.
+class Doings {
+ public:
+  explicit Doings(const LogicalMap& map) : map_(map) {}
+
+  void record(const TraceRecord& record) {
+    if (record.kind == TraceKind::ActivityBegins) {
+      past_[record.entity].push_back({record.at, kForever, read<traced::ActivityBegins>(record)});
+    } else if (record.kind == TraceKind::ActivityEnds && !past_[record.entity].empty()) {
+      past_[record.entity].back().end = record.at;
+    }
+  }
+
+  std::string at(EntityId agv, SimTime t) const {
+    const auto found = past_.find(agv);
+    if (found == past_.end()) return kStanding;
+    std::string doing = kStanding;
+    for (const auto& [begin, end, activity] : found->second) {
+      if (begin <= t && t <= end) doing = word_of(activity);
+    }
+    return doing;
+  }
+
+ private:
+  struct Doing {
+    SimTime begin, end;
+    traced::ActivityBegins activity;
+  };
+
+  const char* word_of(const traced::ActivityBegins& begins) const {
+    switch (begins.activity) {
+      case ActivityKind::Turn:
+        return kTurning;
+      case ActivityKind::Drive:
+        if (begins.backward()) return kBackward;
+        return segment_curve(map_.layout(), map_.segment(begins.segment())).is_straight() ? kDriving : kOnABend;
+      case ActivityKind::Pick:
+      case ActivityKind::Drop:
+        return kTransferring;
+      default:
+        return kStanding;
+    }
+  }
+
+  const LogicalMap& map_;
+  std::map<EntityId, std::vector<Doing>> past_;
+};
+
 class CaseSink final : public TraceSink {
  public:
-  CaseSink(const Scenario& scenario, Fates wanted) : fates(scenario), wanted_(wanted) {}
+  CaseSink(const Scenario& scenario, Fates wanted) : doings(*scenario.map), fates(scenario), wanted_(wanted) {}
   void record(const TraceRecord& record, std::string_view text) override {
     declared.record(record, text);
+    doings.record(record);
     if (wanted_ != Fates::Kept) return;
     fates.record(record, text);
     notes.record(record, text);
   }
 
   Declarations declared;
+  Doings doings;
   FateKeeper fates;
   NoteKeeper notes;
 
@@ -99,6 +149,7 @@ CaseRun run_case(const Scenario& scenario, const fp_agent_type& agent, const std
   for (const EntityId body : {cause->a, cause->b}) {
     if (!body.valid() || body.index() >= scenario.agvs.size()) continue;
     agvs.push_back(body);
+    run.doing.push_back(sink.doings.at(body, cause->at));
     std::string state = sink.declared.state(body, cause->at);
     if (!state.empty()) run.states.push_back(std::move(state));
   }

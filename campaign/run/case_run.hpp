@@ -13,12 +13,18 @@
 
 namespace fleetproof {
 
+// What an AGV may do when a run fails: "bend" is a drive on a lane that is not straight.
+inline constexpr const char *kTurning = "turn", *kOnABend = "bend", *kBackward = "backward", *kDriving = "drive",
+                            *kTransferring = "transfer", *kStanding = "stand";
+
 // One scenario, simulated to learn how it fails.
 struct CaseRun {
   Outcome outcome;
   // What the agents of the bodies of the first cause had last declared when it happened, in the order of the bodies.
   // Empty: the run did not fail, no body is known, or no agent declares anything.
   std::vector<std::string> states;
+  // What these AGVs did then, in the order of the bodies.
+  std::vector<std::string> doing;
   // All states and probes that these agents had declared until then, sorted, each once; of the whole fleet if none of
   // its AGVs is known to have failed. And those of the whole fleet in the whole run.
   std::vector<std::string> words, all_words;

@@ -1,5 +1,7 @@
 #include "campaign/shrink/other_luck.hpp"
 
+#include <algorithm>
+#include <initializer_list>
 #include <utility>
 
 #include "core/base/random.hpp"
@@ -7,15 +9,13 @@
 namespace fleetproof {
 namespace {
 
-constexpr std::uint32_t kLuckTopic = 1;
+enum Topic : std::uint32_t { kLuckTopic = 1, kLaterTopic = 2 };
 
-// `of_agents`: the streams of the agents change, too.
-Scenario redrawn(Scenario scenario, std::uint32_t number, bool of_agents) {
+Scenario redrawn(Scenario scenario, std::uint32_t number, std::initializer_list<Stream> streams) {
   const std::uint64_t seed = word64(philox(scenario.seed, {number, 0, kLuckTopic, 0}), 0);
   std::vector<StreamSeed> seeds;
   for (const Stream stream : kRunStreams) {
-    const bool is_luck = stream == Stream::Radio || (of_agents && stream == Stream::Agent);
-    const std::uint64_t own = is_luck ? seed : scenario.seed_of(stream);
+    const std::uint64_t own = std::ranges::count(streams, stream) > 0 ? seed : scenario.seed_of(stream);
     if (own != scenario.seed) seeds.push_back({stream, own});
   }
   scenario.stream_seeds = std::move(seeds);
@@ -24,10 +24,26 @@ Scenario redrawn(Scenario scenario, std::uint32_t number, bool of_agents) {
 
 }  // namespace
 
-Scenario with_other_luck(Scenario scenario, std::uint32_t number) { return redrawn(std::move(scenario), number, true); }
+Scenario with_other_luck(Scenario scenario, std::uint32_t number) {
+  return redrawn(std::move(scenario), number, {Stream::Radio, Stream::Agent});
+}
 
 Scenario with_other_radio(Scenario scenario, std::uint32_t number) {
-  return redrawn(std::move(scenario), number, false);
+  return redrawn(std::move(scenario), number, {Stream::Radio});
+}
+
+// An AGV keeps its shift when others are taken out of the fleet.
+Scenario with_other_course(Scenario scenario, std::uint32_t number, Duration later) {
+  std::vector<Duration> shifts;
+  for (std::uint32_t i = 0; i < scenario.agvs.size(); ++i) {
+    const auto block = philox(scenario.seed, {number, scenario.agvs[i].draws_as.value_or(i), kLaterTopic, 0});
+    shifts.push_back(seconds(to_seconds(later) * unit_interval(word64(block, 0))));
+    for (TransportOrder& order : scenario.agvs[i].transports) order.release += shifts[i];
+  }
+  for (Fault& fault : scenario.faults) {
+    if (!fault.transport) fault.at += shifts[fault.agv.index()];
+  }
+  return redrawn(std::move(scenario), number, {Stream::Motion, Stream::Radio, Stream::Agent});
 }
 
 }  // namespace fleetproof

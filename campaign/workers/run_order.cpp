@@ -78,6 +78,7 @@ std::string encode(const RunAnswer& answer) {
   sink.text(encode(answer.outcome));
   sink.text(answer.recording);
   put(sink, answer.states);
+  put(sink, answer.doing);
   put(sink, answer.words);
   put(sink, answer.all_words);
   put(sink, answer.notes);
@@ -96,6 +97,7 @@ RunAnswer decode_answer(std::string_view bytes) {
   answer.outcome = decode_outcome(source.text());
   answer.recording = source.text();
   answer.states = take_texts(source);
+  answer.doing = take_texts(source);
   answer.words = take_texts(source);
   answer.all_words = take_texts(source);
   answer.notes = take_notes(source);

@@ -31,9 +31,9 @@ struct RunAnswer {
   std::uint64_t scenario_digest = 0;
   Outcome outcome;
   std::string recording;  // of a failed run, if the order asks for it; empty: there is none, or it is too long
-  std::vector<std::string> states, words, all_words;  // of a scenario: see CaseRun
-  CaseNotes notes;                                    // likewise
-  std::vector<MessageFate> fates;                     // likewise
+  std::vector<std::string> states, doing, words, all_words;  // of a scenario: see CaseRun
+  CaseNotes notes;                                           // likewise
+  std::vector<MessageFate> fates;                            // likewise
 };
 std::string encode(const RunAnswer& answer);
 RunAnswer decode_answer(std::string_view bytes);  // throws EngineError on bytes that `encode` did not write

@@ -78,6 +78,7 @@ RunAnswer answer_to(const RunOrder& order, const Stage& stage, WorkerSlot& slot)
                            stage.plan.laws_left_out, order.fates ? Fates::Kept : Fates::Ignored, watch);
     answer.outcome = std::move(run.outcome);
     answer.states = std::move(run.states);
+    answer.doing = std::move(run.doing);
     answer.words = std::move(run.words);
     answer.all_words = std::move(run.all_words);
     answer.fates = std::move(run.fates);
