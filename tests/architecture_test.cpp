@@ -65,8 +65,9 @@ const std::map<std::string, std::set<std::string>> kMayInclude = [] {
   rooms["campaign/batch"] = with(rooms["campaign/workers"], {"campaign/workers"});
   rooms["campaign/shrink"] = with(rooms["campaign/batch"], {"campaign/batch"});
   rooms["campaign/explain"] = with(rooms["campaign/shrink"], {"campaign/shrink"});
+  rooms["campaign/findings"] = with(rooms["campaign/explain"], {"campaign/explain"});
   rooms["campaign/cli"] =
-      with(rooms["campaign/explain"], {"campaign/explain", "reports", "reports/html", "reports/web"});
+      with(rooms["campaign/findings"], {"campaign/findings", "reports", "reports/html", "reports/web"});
   return rooms;
 }();
 

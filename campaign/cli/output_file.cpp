@@ -55,6 +55,10 @@ bool is_sensitivity(std::string_view text) { return has_key(text, "worlds") && h
 bool is_replay_page(std::string_view text) {
   return text.starts_with("<!DOCTYPE html>") && text.find(web::kReplayPageMark) != std::string_view::npos;
 }
+bool is_findings(std::string_view text) {
+  return text.starts_with("# findings") || text.find("[[finding]]") != std::string_view::npos;
+}
+bool is_explanation(std::string_view text) { return text.starts_with("# F-"); }
 bool is_fleet(std::string_view text) { return text.starts_with("# vehicles of "); }
 
 struct Kind {
@@ -75,7 +79,9 @@ constexpr Kind kKinds[] = {{"a layout file", is_layout},
                            {"a file of poses", is_poses},
                            {"a Chrome trace", is_chrome_trace},
                            {"a replay page", is_replay_page},
-                           {"a file of vehicles", is_fleet}};
+                           {"a file of vehicles", is_fleet},
+                           {"a findings file", is_findings},
+                           {"an explanation", is_explanation}};
 
 std::string remedy_of(const OutputFile& file) { return "choose another path for " + file.option; }
 

@@ -20,7 +20,9 @@ enum class OutputKind : std::uint8_t {
   Poses,
   ChromeTrace,
   ReplayPage,
-  Fleet
+  Fleet,
+  Findings,
+  Explanation
 };
 
 // An output that the user asked for: the path, the option that named it, and the kind of the file.

@@ -9,6 +9,8 @@ Action prepare_run(Options& options);
 Action prepare_report(Options& options);
 Action prepare_replay(Options& options);
 Action prepare_explain(Options& options);
+Action prepare_findings(Options& options);
+Action prepare_retest(Options& options);
 Action prepare_shrink(Options& options);
 Action prepare_simulate(Options& options);
 Action prepare_generate(Options& options);

@@ -1,0 +1,186 @@
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "campaign/cli/campaign_words.hpp"
+#include "campaign/cli/output_file.hpp"
+#include "campaign/cli/streams.hpp"
+#include "campaign/cli/verbs.hpp"
+#include "campaign/explain/sentences.hpp"
+#include "campaign/findings/findings_file.hpp"
+#include "campaign/findings/keeper.hpp"
+#include "campaign/findings/survey.hpp"
+#include "campaign/plan/plan_text.hpp"
+#include "core/base/error.hpp"
+#include "generators/scenario_file/scenario_text.hpp"
+#include "generators/text/text_file.hpp"
+#include "reports/wording.hpp"
+
+namespace fleetproof::cli {
+namespace {
+
+constexpr std::uint64_t kMostFailures = 100, kShrinkTrials = 4000;
+
+struct FindingsWords {
+  std::string archive, file;
+  std::vector<std::string> plugins;
+  std::optional<std::uint64_t> most, jobs, trials;
+  bool add = false, json = false;
+};
+
+std::string today() { return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::chrono::system_clock::now())); }
+
+// One campaign file and the findings in it.
+class FindingsDesk {
+ public:
+  explicit FindingsDesk(const FindingsWords& words)
+      : words_(words),
+        archive_(words.archive),
+        plan_(parse_plan(archive_.campaign().plan_json)),
+        file_(words.file),
+        runs_(failing_runs(archive_, plan_, words.most.value_or(kMostFailures))) {
+    meet_plugins(words.archive, archive_.campaign(), plan_.agents, words.plugins, programs_, &AgentPrograms::know);
+    if (words.add) require_writable({words.file, "--file", OutputKind::Findings});
+  }
+
+  int find() {
+    AgentHosts hosts(plan_, programs_, runs_.looked_at, worker_count(words_.jobs));
+    const auto tell = [&](std::size_t done) {
+      if (done % 50 == 0) talk("{} of {} failures looked at\n", done, runs_.looked_at.size());
+    };
+    survey_ = survey(plan_, runs_.looked_at, hosts, tell);
+    findings_ = findings_of(survey_.failures);
+    if (words_.add) add_new(hosts);
+    words_.json ? put_json() : put_lines();
+    const auto is_open = [&](const Finding& f) { return needs_attention(kept(f), today()); };
+    const bool all_seen = words_.add || std::ranges::none_of(findings_, is_open);
+    return all_seen ? kDemonstrated : kViolated;
+  }
+
+ private:
+  const KeptFinding* kept(const Finding& finding) const { return file_.find(finding.id()); }
+  const KnownFailure& representative(const Finding& finding) const { return survey_.failures[finding.representative]; }
+
+  void add_new(AgentHosts& hosts) {
+    std::string text = std::filesystem::exists(words_.file) ? read_text_file(words_.file)
+                                                            : "# findings: what is known about failures\n";
+    for (const Finding& finding : findings_) {
+      const std::string id = finding.id();
+      if (kept(finding) != nullptr) continue;
+      talk("{}: looking for its smallest case\n", id);
+      text += toml_of(keep(hosts.of(finding.agent), finding));
+    }
+    write_whole({words_.file, "--file", OutputKind::Findings}, text);
+  }
+
+  // Writes its scenarios and its explanation beside the findings file.
+  KeptFinding keep(CaseHost& host, const Finding& finding) {
+    const std::string id = finding.id();
+    FindingRecord record =
+        record_of(host, finding, representative(finding).needs, words_.trials.value_or(kShrinkTrials));
+    const AgentFactor& agent = plan_.agent_of_cell(representative(finding).run);
+    for (Scenario* scenario : {&record.kept.smallest, &record.kept.world}) {
+      scenario->agent = agent.program;
+      scenario->agent_config = plan_.config_of(agent);
+      scenario->expected = expectation_of(host(*scenario));
+    }
+    const KeptFinding kept{.id = id,
+                           .mechanism = finding.mechanism.text(),
+                           .until = {},
+                           .reason = {},
+                           .end = finding.mechanism.end,
+                           .ways = record.kept.ways,
+                           .found_in = finding.agent,
+                           .smallest = id + ".case.json",
+                           .world = id + ".world.json",
+                           .neighbours = record.neighbours};
+    write_beside(kept.smallest, OutputKind::Scenario, printable_json(to_text(record.kept.smallest)));
+    write_beside(kept.world, OutputKind::Scenario, printable_json(to_text(record.kept.world)));
+    std::string text = fmt::format("# {}: {}\n\n", id, printable(finding.mechanism.text()));
+    for (const std::string& sentence : sentences_of(record.explanation))
+      text += fmt::format("- {}\n", printable(sentence));
+    write_beside(id + ".md", OutputKind::Explanation, text);
+    return kept;
+  }
+  void write_beside(const std::string& name, OutputKind kind, std::string_view text) const {
+    write_whole({file_.path_beside(name), "--file", kind}, text);
+  }
+
+  void put_lines() const {
+    put("{}: {} of {} failing runs looked at; {}\n", words_.archive, runs_.looked_at.size(), runs_.all,
+        count_text(findings_.size(), "finding"));
+    for (const Finding& finding : findings_) {
+      put("\n{}  {}  {} of {}\n", finding.id(), standing_of(kept(finding), today()),
+          count_text(finding.members.size(), "failure"), finding.agent);
+      put("  {}\n", finding.mechanism.text());
+      put("  fleetproof explain {} {}\n", shell_word(words_.archive), representative(finding).run);
+    }
+    if (!survey_.not_again.empty())
+      put("\n{} did not fail again: {}\n", count_text(survey_.not_again.size(), "run"),
+          fmt::format("{}", fmt::join(survey_.not_again, ", ")));
+  }
+
+  void put_json() const {
+    nlohmann::ordered_json json = {{"schema_version", 1},
+                                   {"failing_runs", runs_.all},
+                                   {"looked_at", runs_.looked_at.size()},
+                                   {"not_again", survey_.not_again}};
+    json["findings"] = nlohmann::ordered_json::array();
+    for (const Finding& finding : findings_) {
+      nlohmann::ordered_json one = {{"id", finding.id()},
+                                    {"standing", standing_of(kept(finding), today())},
+                                    {"agent", finding.agent},
+                                    {"mechanism", finding.mechanism.text()},
+                                    {"end", finding.mechanism.end},
+                                    {"needs", finding.mechanism.needs},
+                                    {"traits", finding.mechanism.traits},
+                                    {"representative", representative(finding).run}};
+      one["failures"] = nlohmann::ordered_json::array();
+      for (const std::size_t member : finding.members) {
+        const KnownFailure& failure = survey_.failures[member];
+        one["failures"].push_back({{"run", failure.run},
+                                   {"needs", failure.needs.needs},
+                                   {"traits", failure.needs.traits},
+                                   {"replays", failure.needs.replays}});
+      }
+      json["findings"].push_back(std::move(one));
+    }
+    put_text(printable_json(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) + "\n");
+  }
+
+  const FindingsWords& words_;
+  ArchiveReader archive_;
+  CampaignPlan plan_;
+  AgentPrograms programs_;
+  FindingsFile file_;
+  FailingRuns runs_;
+  Survey survey_;
+  std::vector<Finding> findings_;
+};
+
+int find_findings(const FindingsWords& words) {
+  if (words.add && words.file.empty()) throw InputError("--add", "name the findings file with --file");
+  return FindingsDesk(words).find();
+}
+
+}  // namespace
+
+Action prepare_findings(Options& options) {
+  auto words = std::make_shared<FindingsWords>();
+  options.positional("DB", words->archive, "campaign file");
+  options.option("--file", words->file, "findings file (TOML) that says what is known, fixed or waived");
+  options.flag("--add", words->add, "add what is new to it, with its smallest case and its explanation beside it");
+  options.option("--max-failures", words->most, "look at so many failing runs of each agent at most (default: 100)");
+  options.option("--max-trials", words->trials, "of each smallest case, at most (default: 4000)");
+  options.option("--plugin", words->plugins,
+                 "shared object with an agent (default: the file that the campaign used); may be repeated");
+  options.option("-j,--jobs", words->jobs, "worker threads (default: one per core)");
+  options.flag("--json", words->json, "print JSON");
+  return [words] { return find_findings(*words); };
+}
+
+}  // namespace fleetproof::cli

@@ -1,0 +1,117 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "campaign/cli/campaign_words.hpp"
+#include "campaign/cli/streams.hpp"
+#include "campaign/cli/verbs.hpp"
+#include "campaign/findings/findings_file.hpp"
+#include "campaign/findings/retest.hpp"
+#include "core/base/error.hpp"
+#include "reports/wording.hpp"
+
+namespace fleetproof::cli {
+namespace {
+
+// What `git bisect run` takes as "this revision cannot be tested".
+constexpr int kCannotTest = 125;
+
+struct RetestWords {
+  std::string file, agent, config;
+  std::vector<std::string> plugins, ids;
+  std::optional<std::uint64_t> jobs, neighbours;
+  bool bisect = false, json = false;
+};
+
+struct Retested {
+  const KeptFinding& finding;
+  Retest result;
+};
+
+std::vector<const KeptFinding*> chosen(const FindingsFile& file, const std::vector<std::string>& ids) {
+  std::vector<const KeptFinding*> findings;
+  for (const std::string& id : ids) {
+    findings.push_back(file.find(id));
+    if (findings.back() == nullptr) throw InputError("--finding", fmt::format("{} is not in the file", id));
+  }
+  if (!ids.empty()) return findings;
+  for (const KeptFinding& finding : file.findings()) findings.push_back(&finding);
+  if (findings.empty()) throw InputError("FINDINGS", "there is no finding in this file");
+  return findings;
+}
+
+bool is_bad(const Retested& retested) {
+  return retested.result.verdict != RetestVerdict::Fixed && retested.result.verdict != RetestVerdict::NotKnown;
+}
+
+void put_line(const Retested& retested) {
+  const auto& [finding, result] = retested;
+  put("{}  {}\n  {}\n", finding.id, name_of(result.verdict), finding.mechanism);
+  put("  {} of {} neighbours fail so (below {:.2f} %, 95 % sure); {} of {} when it was found in {}\n", result.now.alike,
+      result.now.of, 100.0 * result.upper_bound, finding.neighbours.alike, finding.neighbours.of, finding.found_in);
+  if (!result.new_kind.empty()) put("  new: {}\n", result.new_kind);
+}
+
+void put_json(const std::vector<Retested>& all) {
+  nlohmann::ordered_json json = {{"schema_version", 1}};
+  json["findings"] = nlohmann::ordered_json::array();
+  for (const auto& [finding, result] : all)
+    json["findings"].push_back({{"id", finding.id},
+                                {"verdict", name_of(result.verdict)},
+                                {"neighbours", result.now.of},
+                                {"failing", result.now.alike},
+                                {"upper_bound", result.upper_bound},
+                                {"otherwise", result.now.otherwise},
+                                {"new_kind", result.new_kind},
+                                {"failing_before", finding.neighbours.alike},
+                                {"neighbours_before", finding.neighbours.of}});
+  put_text(printable_json(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) + "\n");
+}
+
+int retest_findings(const RetestWords& words) {
+  AgentPrograms programs;
+  for (const std::string& plugin : words.plugins) programs.know(plugin);
+  const FindingsFile file(words.file);
+  CaseHost host({words.agent, words.config}, programs, worker_count(words.jobs));
+  std::vector<Retested> all;
+  for (const KeptFinding* finding : chosen(file, words.ids)) {
+    const auto neighbours = static_cast<std::uint32_t>(words.neighbours.value_or(kNeighbours));
+    all.push_back({*finding, retest(host, file.failure(*finding), finding->neighbours, neighbours)});
+    if (!words.json) put_line(all.back());
+  }
+  if (words.json) put_json(all);
+  if (std::ranges::any_of(all, is_bad)) return kViolated;
+  const auto is_fixed = [](const Retested& one) { return one.result.verdict == RetestVerdict::Fixed; };
+  if (std::ranges::all_of(all, is_fixed)) return kDemonstrated;
+  return words.bisect ? kCannotTest : kNotDemonstrated;
+}
+
+// Software that cannot be built or loaded is neither good nor bad.
+int retest_or_skip(const RetestWords& words) {
+  if (!words.bisect) return retest_findings(words);
+  try {
+    return retest_findings(words);
+  } catch (const std::exception& error) {
+    talk("cannot test: {}\n", error.what());
+    return kCannotTest;
+  }
+}
+
+}  // namespace
+
+Action prepare_retest(Options& options) {
+  auto words = std::make_shared<RetestWords>();
+  options.positional("FINDINGS", words->file, "findings file, with the scenario files that it names");
+  options.option("--agent", words->agent, "the control software to test");
+  options.option("--agent-config", words->config, "text handed to the agent");
+  options.option("--plugin", words->plugins, "shared object with the agent; may be repeated");
+  options.option("--finding", words->ids, "only this finding, as F-1c2d3e4f; may be repeated");
+  options.option("--neighbours", words->neighbours, "scenarios beside each case (default: 1000)");
+  options.flag("--bisect", words->bisect, "exit as git bisect run wants it: 0 fixed, 1 not, 125 cannot be tested");
+  options.option("-j,--jobs", words->jobs, "worker threads (default: one per core)");
+  options.flag("--json", words->json, "print JSON");
+  return [words] { return retest_or_skip(*words); };
+}
+
+}  // namespace fleetproof::cli

@@ -1,0 +1,191 @@
+#include "campaign/findings/failure_needs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "campaign/findings/ingredients.hpp"
+#include "campaign/shrink/adverse_fates.hpp"
+#include "campaign/shrink/fitness.hpp"
+#include "campaign/shrink/other_luck.hpp"
+#include "campaign/shrink/surgery.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr std::uint32_t kEnoughToCompare = 4, kFewestTries = 8, kMostTries = 24;
+// A run that seldom fails with other luck may need nothing but that two AGVs meet in some way. That is looked for
+// first.
+constexpr std::size_t kFewLucks = 2;
+constexpr std::uint32_t kTriesForNothing = 40;
+constexpr Duration kLater = std::chrono::seconds(5);
+// What keeps a fleet from its work is told apart by who waits for whom, which is chance.
+constexpr std::array kStandstills = {"deadlock", "livelock", "starvation", "standstill-in-contract", "stuck"};
+
+std::vector<std::string> adverse_kinds(const std::vector<MessageFate>& fates) {
+  std::set<std::string> kinds;
+  for (const MessageFate& message : fates) {
+    if (message.is_adverse() && !message.kind.empty()) kinds.insert(message.kind);
+  }
+  return {kinds.begin(), kinds.end()};
+}
+
+std::string trait_of_doing(const std::string& doing) {
+  if (doing == kTurning) return "one turns";
+  if (doing == kOnABend) return "one is on a bend";
+  if (doing == kBackward) return "one drives backward";
+  if (doing == kTransferring) return "one moves a load";
+  return "";
+}
+
+std::string trait_of_word(const std::string& word) { return fmt::format("says \"{}\"", word); }
+
+// Takes things out of one failing scenario.
+class Reduction {
+ public:
+  Reduction(CaseHost& host, const Scenario& scenario) : host_(host), original_(scenario) {}
+
+  std::optional<FailureNeeds> find() {
+    const CaseRun run = simulate(original_, Fates::Kept);
+    const auto failure = failure_of(run);
+    if (!failure) return std::nullopt;
+    likeness_.end = end_of(*failure);
+    best_ = {original_, *failure};
+    learn_words(run);
+    found_.end = likeness_.end;
+    take_out_ingredients(ingredients_of(original_, adverse_kinds(run.fates)));
+    add_traits();
+    found_.reduced = std::move(best_);
+    found_.failing_lucks = static_cast<std::uint32_t>(failing_lucks_.size());
+    found_.replays = replays_;
+    return std::move(found_);
+  }
+
+ private:
+  static Scenario another(const Scenario& scenario, std::uint32_t luck) {
+    return with_other_course(scenario, luck, kLater);
+  }
+  CaseRun simulate(const Scenario& scenario, Fates fates = Fates::Ignored) {
+    ++replays_;
+    return host_(scenario, fates);
+  }
+
+  // Words that its agents say in each run that ends so, and not in nearly each run without a failure.
+  void learn_words(const CaseRun& run) {
+    std::vector<std::string> words = run.words;
+    std::map<std::string, std::uint32_t> saying;
+    std::uint32_t passing = 0;
+    const CaseRun lucky = simulate(with_fates_only(original_, {}));
+    if (!failure_of(lucky))
+      std::erase_if(words, [&](const std::string& w) { return std::ranges::binary_search(lucky.all_words, w); });
+    for (std::uint32_t luck = 1; luck <= kOtherRuns; ++luck) {
+      const CaseRun other = simulate(another(original_, luck));
+      const auto failure = failure_of(other);
+      if (!failure) {
+        ++passing;
+        for (const std::string& word : other.all_words) ++saying[word];
+      }
+      if (!failure || end_of(*failure) != likeness_.end) continue;
+      failing_lucks_.push_back(luck);
+      std::erase_if(words, [&](const std::string& w) { return !std::ranges::binary_search(other.words, w); });
+    }
+    if (passing < kEnoughToCompare) return;
+    std::erase_if(words, [&](const std::string& word) { return 10 * saying[word] > 9 * passing; });
+    likeness_.words = std::move(words);
+  }
+
+  void take_out_ingredients(const std::vector<Ingredient>& ingredients) {
+    const bool seldom = failing_lucks_.size() < kFewLucks;
+    const bool needs_nothing = seldom && fails_after(all_of(ingredients), kTriesForNothing);
+    const auto budget = static_cast<std::uint32_t>(kReplaysPerFailure - replays_ - 2);
+    const auto tries =
+        std::clamp(budget / static_cast<std::uint32_t>(ingredients.size() + 1), kFewestTries, kMostTries);
+    for (const Ingredient& ingredient : ingredients) {
+      if (!needs_nothing && !fails_after(ingredient.take_out, tries)) found_.needs.push_back(ingredient.name);
+    }
+    if (!is_pair() || best_.scenario.agvs.size() == 2) return;
+    const auto [a, b] = std::pair(best_.failure.a.index(), best_.failure.b.index());
+    const auto leave_the_two = [a = a, b = b](Scenario& s) {
+      s = with_agvs(s, [a, b](std::size_t agv) { return agv == a || agv == b; });
+    };
+    needs_third_ = !fails_after(leave_the_two, tries);
+  }
+
+  static std::function<void(Scenario&)> all_of(const std::vector<Ingredient>& ingredients) {
+    return [&](Scenario& scenario) {
+      for (const Ingredient& ingredient : ingredients) ingredient.take_out(scenario);
+    };
+  }
+
+  bool is_pair() const {
+    const auto is_agv = [&](EntityId body) { return body.valid() && body.index() < best_.scenario.agvs.size(); };
+    return is_agv(best_.failure.a) && is_agv(best_.failure.b);
+  }
+
+  // With the luck that it has now, with those with which the whole scenario failed, and with others.
+  bool fails_after(const std::function<void(Scenario&)>& edit, std::uint32_t tries) {
+    Scenario less = best_.scenario;
+    edit(less);
+    if (!is_fair(less)) return false;
+    const auto fails = [&](Scenario scenario) {
+      if (replays_ >= kReplaysPerFailure - 1) return false;
+      auto failure = likeness_.match(simulate(scenario));
+      if (failure) best_ = {std::move(scenario), *std::move(failure)};
+      return failure.has_value();
+    };
+    if (fails(less)) return true;
+    std::uint32_t tried = 1;
+    for (std::size_t i = 0; i < failing_lucks_.size() && tried < tries; ++i, ++tried) {
+      if (fails(another(less, failing_lucks_[i]))) return true;
+    }
+    for (std::uint32_t luck = kOtherRuns + 1; tried < tries; ++luck, ++tried) {
+      if (fails(another(less, luck))) return true;
+    }
+    return false;
+  }
+
+  void add_traits() {
+    std::set<std::string> traits;
+    for (const std::string& doing : simulate(best_.scenario).doing) {
+      if (std::string trait = trait_of_doing(doing); !trait.empty()) traits.insert(std::move(trait));
+    }
+    for (const std::string& word : likeness_.words) traits.insert(trait_of_word(word));
+    if (needs_third_) traits.insert(kThirdAgvTrait);
+    found_.traits.assign(traits.begin(), traits.end());
+  }
+
+  CaseHost& host_;
+  const Scenario& original_;
+  FailureLikeness likeness_;
+  FailingCase best_;
+  FailureNeeds found_;
+  std::vector<std::uint32_t> failing_lucks_;
+  std::uint64_t replays_ = 0;
+  bool needs_third_ = false;
+};
+
+}  // namespace
+
+std::string end_of(const Failure& failure) {
+  const auto comma = failure.kind.what.find(',');
+  const std::string what = failure.kind.what.substr(0, comma);
+  if (std::ranges::count(kStandstills, what) > 0) return "no progress";
+  if (!failure.is_violation) return failure.kind.what;
+  return "too close" + (comma == std::string::npos ? "" : failure.kind.what.substr(comma));
+}
+
+std::optional<Failure> FailureLikeness::match(const CaseRun& run) const {
+  auto failure = failure_of(run);
+  if (!failure || end_of(*failure) != end || !std::ranges::includes(run.words, words)) return std::nullopt;
+  return failure;
+}
+
+std::optional<FailureNeeds> needs_of(CaseHost& host, const Scenario& scenario) {
+  return Reduction(host, scenario).find();
+}
+
+}  // namespace fleetproof

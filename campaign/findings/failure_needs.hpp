@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "campaign/shrink/failure_pattern.hpp"
+
+namespace fleetproof {
+
+// So many runs are simulated for one failure at most.
+inline constexpr std::uint64_t kReplaysPerFailure = 200;
+inline constexpr std::uint32_t kOtherRuns = 16;
+
+// What one failing run needs, found by taking things away and simulating again, with other luck where it takes another
+// course then. What is not named here was taken away, and the run still failed. What is named may be missing in a run
+// that fails all the same, if such runs are rare.
+struct FailureNeeds {
+  std::string end;                  // "too close, two AGVs"
+  std::vector<std::string> needs;   // ingredients, in the order of ingredients_of
+  std::vector<std::string> traits;  // what was true when `reduced` failed: "one turns"; sorted
+  FailingCase reduced;              // fails with nothing but what it needs
+  std::uint32_t failing_lucks = 0;  // of kOtherRuns runs of the scenario with other luck: that end alike
+  std::uint64_t replays = 0;
+};
+
+inline constexpr const char* kThirdAgvTrait = "needs a third AGV";
+
+// How a failure ends, without what is chance: how close two bodies came, and at what speed.
+std::string end_of(const Failure& failure);
+
+// Whether a run fails as another one did: with the same end, and with the words that its agents always say then.
+struct FailureLikeness {
+  std::string end;
+  std::vector<std::string> words{};  // sorted
+  std::optional<Failure> match(const CaseRun& run) const;
+};
+
+// Absent if the scenario does not fail. Threads: may be called from several, for one host.
+std::optional<FailureNeeds> needs_of(CaseHost& host, const Scenario& scenario);
+
+}  // namespace fleetproof

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "campaign/findings/failure_needs.hpp"
+
+namespace fleetproof {
+
+// Why a failure comes about, in words that do not depend on seeds, places or names of AGVs.
+struct Mechanism {
+  std::string end;                         // "too close, two AGVs"
+  std::vector<std::string> needs, traits;  // as FailureNeeds has them
+
+  // "too close, two AGVs; needs lost messages, GRANT messages; one turns"
+  std::string text() const;
+  friend bool operator==(const Mechanism&, const Mechanism&) = default;
+};
+
+// A failing run of a campaign, and what it needs.
+struct KnownFailure {
+  std::uint64_t run = 0;
+  std::string agent;
+  FailureNeeds needs;
+};
+
+// The failures of one agent that come about in one way.
+struct Finding {
+  std::string agent;
+  Mechanism mechanism;
+  std::vector<std::size_t> members;  // places in the list of failures, in its order
+  std::size_t representative = 0;    // one of them: the simplest
+
+  // "F-1c2d3e4f": the same for the same agent and the same mechanism on any machine, in any campaign.
+  std::string id() const;
+};
+
+// Failures of one agent with the same end and the same needs are one finding. A set of needs that is rare joins the
+// most frequent one that it contains: all that the other needs, it needs, too. A trait belongs to a finding if nine in
+// ten of its failures have it. Findings are in order of how many failures they have.
+std::vector<Finding> findings_of(std::span<const KnownFailure> failures);
+
+}  // namespace fleetproof

@@ -1,0 +1,166 @@
+#include "campaign/findings/findings_file.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "campaign/plan/toml_table.hpp"
+#include "core/base/error.hpp"
+#include "generators/scenario_file/scenario_file.hpp"
+
+namespace fleetproof {
+namespace {
+
+// In the quotes of TOML's basic strings.
+std::string toml_text(std::string_view text) {
+  std::string written = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') written += '\\';
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+      written += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    } else {
+      written += c;
+    }
+  }
+  return written + "\"";
+}
+
+std::string list_of(const std::vector<std::string>& texts) {
+  std::vector<std::string> items;
+  for (const std::string& text : texts) items.push_back(toml_text(text));
+  return fmt::format("[{}]", fmt::join(items, ", "));
+}
+
+bool is_day(std::string_view text) {
+  if (text.size() != 10 || text[4] != '-' || text[7] != '-') return false;
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  return std::ranges::count_if(text, is_digit) == 8;
+}
+
+std::string needed(TomlTable& table, std::string_view key) {
+  std::string value;
+  table.get(key, value);
+  if (value.empty()) throw InputError(table.place(key), fmt::format("a finding needs \"{}\"", key));
+  return value;
+}
+
+std::vector<std::vector<std::string>> lists(TomlTable& table, std::string_view key) {
+  std::vector<std::vector<std::string>> lists;
+  for (const TomlTable::Row& row : table.arrays(key)) {
+    lists.emplace_back();
+    for (const TomlTable::Given& given : row.items) {
+      const auto* text = std::get_if<std::string>(&given.value);
+      if (text == nullptr) given.refuse("expected a text");
+      lists.back().push_back(*text);
+    }
+  }
+  return lists;
+}
+
+void read_neighbours(TomlTable& table, NeighbourCounts& counts) {
+  std::uint64_t of = 0, alike = 0;
+  table.get("neighbours", of);
+  table.get("neighbours_failing", alike);
+  counts.of = of;
+  counts.alike = alike;
+  if (counts.alike > counts.of)
+    throw InputError(table.place("neighbours_failing"), "more neighbours failed than were tried");
+  auto otherwise = table.table("neighbours_otherwise");
+  if (!otherwise) return;
+  for (const std::string& end : otherwise->keys()) {
+    std::uint64_t count = 0;
+    otherwise->get(end, count);
+    counts.otherwise[end] = count;
+  }
+  otherwise->finish();
+}
+
+KeptFinding read_finding(TomlTable& table) {
+  KeptFinding finding;
+  finding.id = needed(table, "id");
+  finding.mechanism = needed(table, "mechanism");
+  if (const auto given = table.given("status")) {
+    const auto sentence = take(Field{.key = "status", .text = ""}, given->value, finding.status);
+    if (!sentence.empty()) given->refuse(sentence);
+  }
+  table.get("until", finding.until);
+  table.get("reason", finding.reason);
+  if (finding.status == FindingStatus::Waived && (!is_day(finding.until) || finding.reason.empty()))
+    throw InputError(table.place("status"),
+                     "a waiver has a last day and a reason: until = \"2027-01-31\" and reason = \"...\"");
+  finding.end = needed(table, "end");
+  finding.ways = lists(table, "ways");
+  finding.found_in = needed(table, "found_in");
+  finding.smallest = needed(table, "case");
+  finding.world = needed(table, "world");
+  read_neighbours(table, finding.neighbours);
+  table.finish();
+  return finding;
+}
+
+}  // namespace
+
+FindingsFile::FindingsFile(std::string path) : path_(std::move(path)) {
+  if (!std::filesystem::exists(path_)) return;
+  TomlTable root = TomlTable::read(path_);
+  for (TomlTable& table : root.tables("finding")) {
+    findings_.push_back(read_finding(table));
+    const std::string& id = findings_.back().id;
+    if (find(id) != &findings_.back())
+      throw InputError(table.place("id"), fmt::format("{} stands in the file twice", toml_text(id)));
+  }
+  root.finish();
+}
+
+const KeptFinding* FindingsFile::find(std::string_view id) const {
+  const auto found = std::ranges::find(findings_, id, &KeptFinding::id);
+  return found == findings_.end() ? nullptr : &*found;
+}
+
+std::string FindingsFile::path_beside(const std::string& name) const {
+  return (std::filesystem::path(path_).parent_path() / name).string();
+}
+
+KeptFailure FindingsFile::failure(const KeptFinding& finding) const {
+  return {read_scenario(path_beside(finding.smallest)), read_scenario(path_beside(finding.world)), finding.end,
+          finding.ways};
+}
+
+std::string toml_of(const KeptFinding& finding) {
+  std::string text = fmt::format("\n[[finding]]\nid = {}\nmechanism = {}\nstatus = \"{}\"\n", toml_text(finding.id),
+                                 toml_text(finding.mechanism), name_of(finding.status));
+  std::vector<std::string> ways;
+  for (const auto& way : finding.ways) ways.push_back(list_of(way));
+  text += fmt::format("end = {}\nways = [{}]\nfound_in = {}\ncase = {}\nworld = {}\n", toml_text(finding.end),
+                      fmt::join(ways, ", "), toml_text(finding.found_in), toml_text(finding.smallest),
+                      toml_text(finding.world));
+  text += fmt::format("neighbours = {}\nneighbours_failing = {}\n", finding.neighbours.of, finding.neighbours.alike);
+  if (finding.neighbours.otherwise.empty()) return text;
+  std::vector<std::string> ends;
+  for (const auto& [end, count] : finding.neighbours.otherwise)
+    ends.push_back(toml_text(end) + fmt::format(" = {}", count));
+  return text + fmt::format("neighbours_otherwise = {{ {} }}\n", fmt::join(ends, ", "));
+}
+
+std::string standing_of(const KeptFinding* kept, std::string_view today) {
+  if (kept == nullptr) return "new";
+  switch (kept->status) {
+    case FindingStatus::Known:
+      return "known";
+    case FindingStatus::Fixed:
+      return "back";
+    case FindingStatus::Waived:
+      return kept->until >= today ? "waived until " + kept->until : "known (waived until " + kept->until + ")";
+  }
+  invariant_violated("a finding has a status");
+}
+
+bool needs_attention(const KeptFinding* kept, std::string_view today) {
+  if (kept == nullptr || kept->status == FindingStatus::Fixed) return true;
+  return kept->status == FindingStatus::Waived && kept->until < today;
+}
+
+}  // namespace fleetproof

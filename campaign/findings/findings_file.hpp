@@ -1,0 +1,65 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "campaign/findings/finding.hpp"
+#include "campaign/findings/neighbourhood.hpp"
+#include "campaign/shrink/case_host.hpp"
+
+namespace fleetproof {
+
+// What the user has decided about a finding.
+enum class FindingStatus : std::uint8_t { Known, Fixed, Waived };
+constexpr const char* name_of(FindingStatus status) {
+  switch (status) {
+    case FindingStatus::Known:
+      return "known";
+    case FindingStatus::Fixed:
+      return "fixed";
+    case FindingStatus::Waived:
+      return "waived";
+  }
+  return kNoWord;
+}
+
+// One finding of a findings file, with the scenario files beside it.
+struct KeptFinding {
+  std::string id, mechanism;  // "F-1c2d3e4f", and in words
+  FindingStatus status = FindingStatus::Known;
+  std::string until, reason;  // of a waiver: "2027-01-31", its last day
+  std::string end;
+  std::vector<std::vector<std::string>> ways;  // as KeptFailure has them; the first is the mechanism's
+  std::string found_in;                        // the agent that failed so
+  std::string smallest, world;                 // paths of scenario files, from the findings file on
+  NeighbourCounts neighbours;                  // in the software in which it was found
+};
+
+// A findings file, a TOML file in the user's repository: one [[finding]] for each.
+class FindingsFile {
+ public:
+  // A file that does not exist has no findings. Throws InputError with the line of what is wrong.
+  explicit FindingsFile(std::string path);
+  const std::vector<KeptFinding>& findings() const { return findings_; }
+  const KeptFinding* find(std::string_view id) const;
+  // The scenarios of a finding. Throws InputError if there is no such file.
+  KeptFailure failure(const KeptFinding& finding) const;
+  std::string path_beside(const std::string& name) const;
+
+ private:
+  std::string path_;
+  std::vector<KeptFinding> findings_;
+};
+
+// Appended to a findings file, it is one more finding.
+std::string toml_of(const KeptFinding& finding);
+
+// What a finding of a campaign is to the user, on a day ("2026-11-23"): "new", "known", "waived until 2027-01-31",
+// "known (waived until 2026-10-31)", "back".
+std::string standing_of(const KeptFinding* kept, std::string_view today);
+// Whether someone has to look at it: it is new, back, or its waiver is over.
+bool needs_attention(const KeptFinding* kept, std::string_view today);
+
+}  // namespace fleetproof

@@ -1,0 +1,109 @@
+#include "campaign/findings/neighbourhood.hpp"
+
+#include <algorithm>
+
+#include "campaign/shrink/all_runs.hpp"
+#include "campaign/shrink/other_luck.hpp"
+#include "core/base/random.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr Duration kShift = std::chrono::seconds(1);
+constexpr double kFreeCallCost_s = 0.0002;
+constexpr std::uint32_t kEveryCase = 4, kNeighbourKey = 7;
+constexpr std::size_t kFewAlike = 5;
+
+// Draws in [0, 1) for one neighbour.
+class Dice {
+ public:
+  Dice(std::uint64_t seed, std::uint32_t number) : seed_(seed), number_(number) {}
+  double next() { return unit_interval(word64(philox(seed_, {number_, drawn_++, kNeighbourKey, 0}), 0)); }
+
+ private:
+  std::uint64_t seed_;
+  std::uint32_t number_, drawn_ = 0;
+};
+
+// One shift for each AGV: what belongs together stays together.
+Scenario shifted(Scenario scenario, Dice& dice) {
+  const auto later = [](Duration at, Duration by) { return std::max(Duration::zero(), at + by); };
+  std::vector<Duration> shifts;
+  for (AgvSetup& agv : scenario.agvs) {
+    shifts.push_back(seconds(to_seconds(kShift) * (2.0 * dice.next() - 1.0)));
+    for (TransportOrder& order : agv.transports) order.release = later(order.release, shifts.back());
+  }
+  for (Fault& fault : scenario.faults) {
+    if (!fault.transport) fault.at = later(fault.at, shifts[fault.agv.index()]);
+  }
+  return scenario;
+}
+
+void think_otherwise(Scenario& scenario, Dice& dice) {
+  double& cost_s = scenario.agent_clock.call_cost_s;
+  cost_s = cost_s > 0.0 ? cost_s * (0.5 + 1.5 * dice.next()) : kFreeCallCost_s * dice.next();
+}
+
+}  // namespace
+
+Neighbourhood::Neighbourhood(CaseHost& host, const KeptFailure& kept) : kept_(kept) {
+  const CaseRun run = host(kept.smallest, Fates::Kept);
+  const auto failure = failure_of(run);
+  for (const MessageFate& message : run.fates) {
+    if (!message.fate.lost && (!failure || kStart + message.fate.sent < failure->at)) messages_.push_back(message.fate);
+  }
+}
+
+void Neighbourhood::lose_one_more(Scenario& scenario, double draw) const {
+  if (messages_.empty()) return;
+  GivenFate lost = messages_[static_cast<std::size_t>(draw * static_cast<double>(messages_.size()))];
+  lost.lost = true;
+  lost.copied = false;
+  lost.delay = lost.copy_delay = Duration::zero();
+  std::erase_if(scenario.fates, [&](const GivenFate& fate) {
+    return fate.sender == lost.sender && fate.receiver == lost.receiver && fate.sent == lost.sent &&
+           fate.ordinal == lost.ordinal;
+  });
+  scenario.fates.push_back(lost);
+}
+
+Scenario Neighbourhood::at(std::uint32_t number) const {
+  Dice dice(kept_.world.seed, number);
+  const bool of_case = number % kEveryCase == 0;
+  Scenario beside = of_case ? shifted(kept_.smallest, dice) : with_other_course(kept_.world, number, kShift);
+  if (of_case) lose_one_more(beside, dice.next());
+  if (number % 2 == 1) think_otherwise(beside, dice);
+  return beside;
+}
+
+NeighbourCounts try_neighbours(CaseHost& host, const KeptFailure& kept, const Neighbourhood& neighbourhood,
+                               std::uint32_t count) {
+  const auto runs = all_runs(
+      host, {count, [&](std::size_t i) { return std::optional(neighbourhood.at(static_cast<std::uint32_t>(i))); }});
+  NeighbourCounts counts;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    ++counts.of;
+    const auto failure = failure_of(*runs[i]);
+    if (!failure) continue;
+    const std::string end = end_of(*failure);
+    if (end != kept.end) {
+      ++counts.otherwise[end];
+      continue;
+    }
+    ++counts.alike;
+    if (counts.first_alike.size() < kFewAlike) counts.first_alike.push_back(static_cast<std::uint32_t>(i));
+  }
+  return counts;
+}
+
+std::vector<std::vector<std::string>> ways_of(CaseHost& host, const Neighbourhood& neighbourhood,
+                                              const NeighbourCounts& counts) {
+  std::vector<std::vector<std::string>> ways;
+  for (const std::uint32_t number : counts.first_alike) {
+    auto needs = needs_of(host, neighbourhood.at(number));
+    if (needs && std::ranges::count(ways, needs->needs) == 0) ways.push_back(std::move(needs->needs));
+  }
+  return ways;
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "campaign/findings/failure_needs.hpp"
+
+namespace fleetproof {
+
+// A failure as it is kept: the smallest case, and the world that it was cut from, which still draws its luck. Software
+// that sends one message more meets other luck in the world; the case has nothing for it but the messages it names.
+struct KeptFailure {
+  Scenario smallest, world;
+  std::string end;  // as end_of has it
+  // What its finding needs, and what the first neighbours need that fail with the same end: each as FailureNeeds has
+  // it.
+  std::vector<std::vector<std::string>> ways;
+};
+
+inline constexpr std::uint32_t kNeighbours = 1000;
+
+// The scenarios beside a kept failure. Of the world: orders and faults up to 1 s later, other draws of radio, agents
+// and motion. Every fourth is of the smallest case instead: orders and faults up to 1 s earlier or later, and one more
+// message lost. In every second, the software thinks half to twice as long; where calls cost nothing, each costs up to
+// 0.2 ms.
+class Neighbourhood {
+ public:
+  // Plays the smallest case, to learn which messages the software sends in it. `kept` outlives the object.
+  Neighbourhood(CaseHost& host, const KeptFailure& kept);
+  Scenario at(std::uint32_t number) const;
+
+ private:
+  void lose_one_more(Scenario& scenario, double draw) const;
+
+  const KeptFailure& kept_;
+  std::vector<GivenFate> messages_;  // that arrive in the smallest case, before it fails
+};
+
+// How the software fares there.
+struct NeighbourCounts {
+  std::size_t of = 0;                            // were simulated
+  std::size_t alike = 0;                         // fail with the same end
+  std::map<std::string, std::size_t> otherwise;  // by the end with which they fail
+  std::vector<std::uint32_t> first_alike;        // the first few of these
+};
+// On all workers; the same for any number.
+NeighbourCounts try_neighbours(CaseHost& host, const KeptFailure& kept, const Neighbourhood& neighbourhood,
+                               std::uint32_t count);
+
+// What the first of those that fail with the same end need, each set once.
+std::vector<std::vector<std::string>> ways_of(CaseHost& host, const Neighbourhood& neighbourhood,
+                                              const NeighbourCounts& counts);
+
+}  // namespace fleetproof

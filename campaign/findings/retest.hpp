@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "campaign/findings/neighbourhood.hpp"
+
+namespace fleetproof {
+
+// What became of a finding in other software.
+enum class RetestVerdict : std::uint8_t {
+  Fixed,       // neither the case nor any neighbour fails so, and many neighbours failed before
+  Dodged,      // the case passes, and neighbours fail as it did, about as often as before
+  StillThere,  // the case fails as it did; or neighbours do, but much more seldom than before
+  NewKind,     // it does not fail as it did, but otherwise, and more often than before
+  NotKnown,    // nothing fails, but before, too, hardly any neighbour did
+};
+constexpr const char* name_of(RetestVerdict verdict) {
+  switch (verdict) {
+    case RetestVerdict::Fixed:
+      return "fixed";
+    case RetestVerdict::Dodged:
+      return "dodged";
+    case RetestVerdict::StillThere:
+      return "still there";
+    case RetestVerdict::NewKind:
+      return "new kind";
+    case RetestVerdict::NotKnown:
+      return "not known";
+  }
+  return kNoWord;
+}
+
+struct Retest {
+  RetestVerdict verdict = RetestVerdict::NotKnown;
+  NeighbourCounts now;
+  double upper_bound = 1.0;  // of the share of neighbours that fail so, 95 % sure
+  std::string new_kind;      // how else it fails: an end, and what that needs
+};
+
+// `before`: how the software in which the failure was found fared.
+Retest retest(CaseHost& host, const KeptFailure& kept, const NeighbourCounts& before,
+              std::uint32_t neighbours = kNeighbours);
+
+}  // namespace fleetproof

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "campaign/findings/finding.hpp"
+#include "campaign/plan/plan.hpp"
+#include "campaign/run/agent_programs.hpp"
+#include "campaign/shrink/case_host.hpp"
+#include "storage/archive_reader.hpp"
+
+namespace fleetproof {
+
+struct FailingRun {
+  std::uint64_t run = 0;
+  std::string agent;
+};
+
+struct FailingRuns {
+  std::vector<FailingRun> looked_at;  // in order of run index
+  std::size_t all = 0;
+};
+// The runs that failed, at most `most` of each agent, evenly spread over the campaign.
+FailingRuns failing_runs(const ArchiveReader& archive, const CampaignPlan& plan, std::size_t most);
+
+// One host for each agent of a campaign that has failing runs. Make it before threads are started.
+class AgentHosts {
+ public:
+  AgentHosts(const CampaignPlan& plan, const AgentPrograms& programs, std::span<const FailingRun> runs, int workers);
+  CaseHost& of(const std::string& agent) { return *hosts_.at(agent); }
+  int workers() const { return workers_; }
+
+ private:
+  std::map<std::string, std::unique_ptr<CaseHost>> hosts_;
+  int workers_;
+};
+
+struct Survey {
+  std::vector<KnownFailure> failures;
+  std::vector<std::uint64_t> not_again;  // runs that did not fail when they were simulated again
+};
+// What each of the runs needs. The result is the same for any number of workers. `on_done` hears how many are done.
+Survey survey(const CampaignPlan& plan, std::span<const FailingRun> runs, AgentHosts& hosts,
+              const std::function<void(std::size_t done)>& on_done);
+
+}  // namespace fleetproof

@@ -1,0 +1,59 @@
+// A reference agent that thinks 5 ms longer at each event: a change of its timing, and of nothing else. Its parameters
+// begin with the name of that agent.
+#include <cstdint>
+#include <string>
+
+#include "core/agents/agents.h"
+
+namespace {
+
+constexpr std::int64_t kLonger_ns = 5'000'000;
+
+struct Retouched {
+  const fp_agent_type* type = nullptr;
+  void* inner = nullptr;
+  const fp_host* host = nullptr;
+  fp_controller* controller = nullptr;
+};
+
+const fp_agent_type* named(const std::string& name) {
+  for (std::uint32_t i = 0; i < fp_faulty_agent_count; ++i) {
+    if (name == fp_faulty_agents[i]->name) return fp_faulty_agents[i];
+  }
+  return nullptr;
+}
+
+void* create(const fp_host* host, fp_controller* controller, const fp_briefing* briefing) {
+  const std::string config = briefing->config;
+  const fp_agent_type* type = named(config.substr(0, config.find(' ')));
+  if (type == nullptr) return nullptr;
+  return new Retouched{type, type->create(host, controller, briefing), host, controller};
+}
+
+void on_event(void* instance, const fp_event* event) {
+  const auto& agent = *static_cast<Retouched*>(instance);
+  agent.host->declare_cost_ns(agent.controller, kLonger_ns);
+  agent.type->on_event(agent.inner, event);
+}
+
+void destroy(void* instance) {
+  auto* agent = static_cast<Retouched*>(instance);
+  agent->type->destroy(agent->inner);
+  delete agent;
+}
+
+}  // namespace
+
+extern "C" [[gnu::visibility("default")]] const fp_agent_type* fp_agent_query(uint32_t) {
+  static fp_agent_type type = {};
+  type.struct_size = sizeof type;
+  type.abi_major = FP_ABI_MAJOR;
+  type.abi_minor = FP_ABI_MINOR;
+  type.flags = FP_DETERMINISTIC;
+  type.name = "retouched";
+  type.description = "a reference agent that thinks 5 ms longer";
+  type.create = create;
+  type.on_event = on_event;
+  type.destroy = destroy;
+  return &type;
+}
