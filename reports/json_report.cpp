@@ -351,6 +351,8 @@ std::string render_json(const ReportInput& input) {
   json["incidents"] = incidents_json(input);
   const auto& sensitivity = input.sensitivity.record;
   json["sensitivity"] = sensitivity ? Json::parse(sensitivity_text(*sensitivity)) : Json(nullptr);
+  const auto& found = input.findings.record;
+  json["findings"] = found ? Json::parse(findings_text(*found)) : Json(nullptr);
   const auto& audits = input.audits.agents();
   json["audits"] = list_of(audits.size(), [&](std::size_t i) { return audit_json(audits[i]); });
   json["weak_points"] = weak_points(input);

@@ -133,24 +133,60 @@ std::string properties(const ReportInput& input) {
          "    </properties>\n";
 }
 
-}  // namespace
+struct Counts {
+  std::size_t tests = 0, failures = 0, errors = 0, skipped = 0;
+  std::string text() const {
+    return fmt::format("tests=\"{}\" failures=\"{}\" errors=\"{}\"", tests, failures, errors);
+  }
+};
 
-std::string render_junit(const ReportInput& input) {
-  std::size_t failures = 0, errors = 0, skipped = 0;
+std::string suite(std::string_view name, std::size_t id, const Counts& counts, const std::string& content) {
+  return fmt::format("  <testsuite name=\"{}\" {} skipped=\"{}\" id=\"{}\">\n{}  </testsuite>\n", escaped(name),
+                     counts.text(), counts.skipped, id, content);
+}
+
+std::string gate_suite(const ReportInput& input, Counts& counts) {
   std::string cases;
   for (std::size_t i = 0; i < input.gates.size(); ++i) {
     const Ending ending = ending_of(input, i);
-    failures += ending == Ending::Failed ? 1 : 0;
-    errors += ending == Ending::Error ? 1 : 0;
-    skipped += ending == Ending::Skipped ? 1 : 0;
+    ++counts.tests;
+    counts.failures += ending == Ending::Failed ? 1 : 0;
+    counts.errors += ending == Ending::Error ? 1 : 0;
+    counts.skipped += ending == Ending::Skipped ? 1 : 0;
     cases += case_element(input, i);
   }
-  const std::string counts =
-      fmt::format("tests=\"{}\" failures=\"{}\" errors=\"{}\"", input.gates.size(), failures, errors);
+  return suite(input.campaign.name, 0, counts, properties(input) + cases);
+}
+
+// Known failures are skipped: the gates tell whether they are acceptable.
+std::string finding_suite(const ReportInput& input, Counts& counts) {
+  std::string cases;
+  for (const FoundFinding& finding : input.findings.record->findings) {
+    const std::string message =
+        fmt::format("{}: {}; {}", finding.standing, count_text(finding.failures, "failure"), finding.mechanism);
+    const std::string outcome = finding.needs_attention
+                                    ? fmt::format("      <failure type=\"finding\" message=\"{}\">{}</failure>\n",
+                                                  escaped(message), escaped_lines(replay_line(input, finding.run)))
+                                    : fmt::format("      <skipped message=\"{}\"/>\n", escaped(message));
+    cases +=
+        fmt::format("    <testcase name=\"{}\" classname=\"fleetproof.findings.{}\" time=\"0\">\n{}    </testcase>\n",
+                    escaped(finding.id + " " + finding.mechanism), escaped(class_step(finding.agent)), outcome);
+    ++counts.tests;
+    ++(finding.needs_attention ? counts.failures : counts.skipped);
+  }
+  return suite("findings", 1, counts, cases);
+}
+
+}  // namespace
+
+std::string render_junit(const ReportInput& input) {
+  Counts of_gates, of_findings;
+  std::string suites = gate_suite(input, of_gates);
+  if (input.findings.record) suites += finding_suite(input, of_findings);
+  const Counts all{of_gates.tests + of_findings.tests, of_gates.failures + of_findings.failures, of_gates.errors, 0};
   return fmt::format(
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"fleetproof\" {0}>\n"
-      "  <testsuite name=\"{1}\" {0} skipped=\"{2}\" id=\"0\">\n{3}{4}  </testsuite>\n</testsuites>\n",
-      counts, escaped(input.campaign.name), skipped, properties(input), cases);
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"fleetproof\" {}>\n{}</testsuites>\n", all.text(),
+      suites);
 }
 
 }  // namespace fleetproof

@@ -13,6 +13,7 @@
 #include "reports/condition_table.hpp"
 #include "reports/coverage_section.hpp"
 #include "reports/failure_section.hpp"
+#include "reports/findings/found_section.hpp"
 #include "reports/gate_section.hpp"
 #include "reports/plan_conditions.hpp"
 #include "reports/sample_sentence.hpp"
@@ -162,6 +163,7 @@ Page build_page(const ReportInput& input, std::size_t most_rows) {
   add(Topic::Audit, audit_section(input));
   add(Topic::WeakPoints, weak_point_section(input));
   add(Topic::Failures, failure_section(input, std::min(most_rows, kMostGroups)));
+  add(Topic::Failures, findings_section(input));
   add(Topic::Attempts, attempt_section(input));
   add(Topic::Provenance, provenance_section(input));
   add(Topic::Method, method_section(input));

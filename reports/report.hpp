@@ -13,6 +13,7 @@
 #include "reports/evidence/breakdown.hpp"
 #include "reports/evidence/evidence.hpp"
 #include "reports/evidence/failure_groups.hpp"
+#include "reports/findings/found_record.hpp"
 #include "reports/sensitivity/sensitivity_record.hpp"
 #include "storage/archive_reader.hpp"
 
@@ -34,6 +35,7 @@ struct ReportInput {
   AttemptHistory attempts{};
   std::optional<std::uint64_t> looks{};  // absent: not known
   SensitivityFile sensitivity{};
+  FoundFile findings{};
   std::string overrides{};  // options of a session that changed the plan, as typed
 };
 

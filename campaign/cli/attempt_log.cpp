@@ -77,6 +77,7 @@ void add_history(ReportInput& input, const std::string& ledger) {
   }
   input.looks = looks_at(input.archive_path);
   input.sensitivity = sensitivity_beside(input.archive_path, input.campaign);
+  input.findings = findings_beside(input.archive_path, input.campaign.plan_hash, input.stored_runs);
   input.overrides = remembered_overrides(input.archive_path);
 }
 

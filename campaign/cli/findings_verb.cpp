@@ -4,7 +4,6 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "campaign/cli/campaign_words.hpp"
 #include "campaign/cli/output_file.hpp"
@@ -18,6 +17,7 @@
 #include "core/base/error.hpp"
 #include "generators/scenario_file/scenario_text.hpp"
 #include "generators/text/text_file.hpp"
+#include "reports/findings/found_record.hpp"
 #include "reports/wording.hpp"
 
 namespace fleetproof::cli {
@@ -26,7 +26,7 @@ namespace {
 constexpr std::uint64_t kMostFailures = 100, kShrinkTrials = 4000;
 
 struct FindingsWords {
-  std::string archive, file;
+  std::string archive, file, out;
   std::vector<std::string> plugins;
   std::optional<std::uint64_t> most, jobs, trials;
   bool add = false, json = false;
@@ -42,9 +42,11 @@ class FindingsDesk {
         archive_(words.archive),
         plan_(parse_plan(archive_.campaign().plan_json)),
         file_(words.file),
+        out_(words.out.empty() ? findings_path(words.archive) : words.out),
         runs_(failing_runs(archive_, plan_, words.most.value_or(kMostFailures))) {
     meet_plugins(words.archive, archive_.campaign(), plan_.agents, words.plugins, programs_, &AgentPrograms::know);
     if (words.add) require_writable({words.file, "--file", OutputKind::Findings});
+    require_writable({out_, "--output", OutputKind::FoundFindings});
   }
 
   int find() {
@@ -55,7 +57,13 @@ class FindingsDesk {
     survey_ = survey(plan_, runs_.looked_at, hosts, tell);
     findings_ = findings_of(survey_.failures);
     if (words_.add) add_new(hosts);
-    words_.json ? put_json() : put_lines();
+    const std::string text = findings_text(record());
+    if (words_.json) {
+      put_text(text);
+    } else {
+      put_lines();
+    }
+    write_whole({out_, "--output", OutputKind::FoundFindings}, text);
     const auto is_open = [&](const Finding& f) { return needs_attention(kept(f), today()); };
     const bool all_seen = words_.add || std::ranges::none_of(findings_, is_open);
     return all_seen ? kDemonstrated : kViolated;
@@ -124,32 +132,18 @@ class FindingsDesk {
           fmt::format("{}", fmt::join(survey_.not_again, ", ")));
   }
 
-  void put_json() const {
-    nlohmann::ordered_json json = {{"schema_version", 1},
-                                   {"failing_runs", runs_.all},
-                                   {"looked_at", runs_.looked_at.size()},
-                                   {"not_again", survey_.not_again}};
-    json["findings"] = nlohmann::ordered_json::array();
-    for (const Finding& finding : findings_) {
-      nlohmann::ordered_json one = {{"id", finding.id()},
-                                    {"standing", standing_of(kept(finding), today())},
-                                    {"agent", finding.agent},
-                                    {"mechanism", finding.mechanism.text()},
-                                    {"end", finding.mechanism.end},
-                                    {"needs", finding.mechanism.needs},
-                                    {"traits", finding.mechanism.traits},
-                                    {"representative", representative(finding).run}};
-      one["failures"] = nlohmann::ordered_json::array();
-      for (const std::size_t member : finding.members) {
-        const KnownFailure& failure = survey_.failures[member];
-        one["failures"].push_back({{"run", failure.run},
-                                   {"needs", failure.needs.needs},
-                                   {"traits", failure.needs.traits},
-                                   {"replays", failure.needs.replays}});
-      }
-      json["findings"].push_back(std::move(one));
-    }
-    put_text(printable_json(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) + "\n");
+  FoundRecord record() const {
+    FoundRecord record;
+    record.plan_hash = archive_.campaign().plan_hash;
+    record.stored_runs = archive_.run_count();
+    record.failing_runs = runs_.all;
+    record.looked_at = runs_.looked_at.size();
+    record.not_again = survey_.not_again;
+    for (const Finding& finding : findings_)
+      record.findings.push_back({finding.id(), finding.agent, finding.mechanism.text(),
+                                 standing_of(kept(finding), today()), needs_attention(kept(finding), today()),
+                                 finding.members.size(), representative(finding).run});
+    return record;
   }
 
   const FindingsWords& words_;
@@ -157,6 +151,7 @@ class FindingsDesk {
   CampaignPlan plan_;
   AgentPrograms programs_;
   FindingsFile file_;
+  std::string out_;
   FailingRuns runs_;
   Survey survey_;
   std::vector<Finding> findings_;
@@ -174,6 +169,8 @@ Action prepare_findings(Options& options) {
   options.positional("DB", words->archive, "campaign file");
   options.option("--file", words->file, "findings file (TOML) that says what is known, fixed or waived");
   options.flag("--add", words->add, "add what is new to it, with its smallest case and its explanation beside it");
+  options.option("-o,--output", words->out,
+                 "write the findings to this file (default: NAME.findings.json, where reports of NAME.db look)");
   options.option("--max-failures", words->most, "look at so many failing runs of each agent at most (default: 100)");
   options.option("--max-trials", words->trials, "of each smallest case, at most (default: 4000)");
   options.option("--plugin", words->plugins,

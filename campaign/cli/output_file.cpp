@@ -58,6 +58,7 @@ bool is_replay_page(std::string_view text) {
 bool is_findings(std::string_view text) {
   return text.starts_with("# findings") || text.find("[[finding]]") != std::string_view::npos;
 }
+bool is_found_findings(std::string_view text) { return has_key(text, "findings") && has_key(text, "looked_at"); }
 bool is_explanation(std::string_view text) { return text.starts_with("# F-"); }
 bool is_fleet(std::string_view text) { return text.starts_with("# vehicles of "); }
 
@@ -81,6 +82,7 @@ constexpr Kind kKinds[] = {{"a layout file", is_layout},
                            {"a replay page", is_replay_page},
                            {"a file of vehicles", is_fleet},
                            {"a findings file", is_findings},
+                           {"findings of a campaign", is_found_findings},
                            {"an explanation", is_explanation}};
 
 std::string remedy_of(const OutputFile& file) { return "choose another path for " + file.option; }

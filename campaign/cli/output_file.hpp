@@ -22,6 +22,7 @@ enum class OutputKind : std::uint8_t {
   ReplayPage,
   Fleet,
   Findings,
+  FoundFindings,
   Explanation
 };
 

@@ -17,6 +17,7 @@
 #include "campaign/cli/render.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
+#include "campaign/findings/known_cases.hpp"
 #include "campaign/plan/campaign_file.hpp"
 #include "campaign/plan/plan_check.hpp"
 #include "core/base/error.hpp"
@@ -29,7 +30,7 @@ struct RunWords {
   std::string campaign, archive;
   std::optional<std::uint64_t> jobs, replicates, seed;
   std::optional<std::uint64_t> fail_fast;
-  std::string max_time, until, ledger;
+  std::string max_time, until, ledger, findings;
   bool overwrite = false, allow_drift = false, until_verdict = false, exit_zero = false, json = false;
 };
 
@@ -117,6 +118,22 @@ int finish(const CampaignResult& result, const RunWords& words, AttemptLog& atte
   return words.exit_zero && input.exit_code != 3 ? kDemonstrated : input.exit_code;
 }
 
+// Before the campaign, and apart from it.
+void play_findings(const RunWords& words, const CampaignPlan& plan, const AgentPrograms& programs) {
+  if (words.findings.empty()) return;
+  const FindingsFile file(words.findings);
+  if (file.findings().empty()) throw InputError("--findings", fmt::format("there is no finding in {}", words.findings));
+  std::size_t failing = 0, all = 0;
+  for (const PlayedCase& played : play_known_cases(file, plan, programs, worker_count(words.jobs))) {
+    ++all;
+    if (!played.fails_so) continue;
+    ++failing;
+    talk("{} {} with {}: {}\n", played.id, played.status == FindingStatus::Fixed ? "is back" : "fails as it did",
+         played.agent, played.outcome);
+  }
+  talk("{} of {} known cases fail as they did; they count in no claim\n", failing, all);
+}
+
 int run(RunWords words) {
   AgentPrograms programs;
   CampaignFile file = load_campaign(words.campaign, programs);
@@ -125,6 +142,7 @@ int run(RunWords words) {
   if (words.replicates) check_plan(file.plan, "--replicates");
   if (words.archive.empty()) words.archive = archive_name_of(file.plan.name);
   const RunOptions options = run_options(words);
+  play_findings(words, file.plan, programs);
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   std::signal(SIGHUP, on_signal);
@@ -165,6 +183,8 @@ Action prepare_run(Options& options) {
   options.option("--until", words->until, "stop cleanly at this time of day, as in 06:00");
   options.option("--fail-fast", words->fail_fast, "stop after so many failed runs, in order of run index");
   options.flag("--until-verdict", words->until_verdict, "stop when the gates have given the verdict");
+  options.option("--findings", words->findings,
+                 "first play the smallest cases of this findings file; they count in no claim");
   options.option("--ledger", words->ledger,
                  "ledger of the attempts to make a claim (default: attempts.jsonl beside the campaign file)");
   options.flag("--overwrite", words->overwrite, "begin again, and replace an existing campaign file");

@@ -1,0 +1,90 @@
+#include "reports/findings/found_record.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "core/base/outside_text.hpp"
+#include "reports/wording.hpp"
+
+namespace fleetproof {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kSchemaVersion = 1;
+constexpr const char* kEnding = ".findings.json";
+
+Json json_of(const FoundFinding& finding) {
+  return {{"id", finding.id},
+          {"agent", finding.agent},
+          {"mechanism", finding.mechanism},
+          {"standing", finding.standing},
+          {"needs_attention", finding.needs_attention},
+          {"failures", finding.failures},
+          {"run", finding.run}};
+}
+
+FoundFinding finding_from(const Json& json) {
+  FoundFinding finding;
+  finding.id = json.at("id");
+  finding.agent = json.at("agent");
+  finding.mechanism = json.at("mechanism");
+  finding.standing = json.at("standing");
+  finding.needs_attention = json.at("needs_attention");
+  finding.failures = json.at("failures");
+  finding.run = json.at("run");
+  return finding;
+}
+
+FoundRecord record_from(const Json& json) {
+  FoundRecord record;
+  record.plan_hash = std::stoull(json.at("plan_hash").get<std::string>(), nullptr, 16);
+  record.stored_runs = json.at("stored_runs");
+  record.failing_runs = json.at("failing_runs");
+  record.looked_at = json.at("looked_at");
+  record.not_again = json.at("not_again").get<std::vector<std::uint64_t>>();
+  for (const Json& finding : json.at("findings")) record.findings.push_back(finding_from(finding));
+  return record;
+}
+
+}  // namespace
+
+std::string findings_text(const FoundRecord& record) {
+  Json json = {{"schema_version", kSchemaVersion},  {"plan_hash", hex_text(record.plan_hash)},
+               {"stored_runs", record.stored_runs}, {"failing_runs", record.failing_runs},
+               {"looked_at", record.looked_at},     {"not_again", record.not_again},
+               {"findings", Json::array()}};
+  for (const FoundFinding& finding : record.findings) json["findings"].push_back(json_of(finding));
+  return printable_json(json.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n";
+}
+
+std::optional<FoundRecord> parse_findings(const std::string& text) {
+  const Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object() || json.value("schema_version", Json()) != kSchemaVersion) return std::nullopt;
+  try {
+    return record_from(json);
+  } catch (const Json::exception&) {
+    return std::nullopt;
+  } catch (const std::logic_error&) {  // no number
+    return std::nullopt;
+  }
+}
+
+std::string findings_path(const std::string& archive_path) {
+  return std::filesystem::path(archive_path).replace_extension().string() + kEnding;
+}
+
+FoundFile findings_beside(const std::string& archive_path, std::uint64_t plan_hash, std::uint64_t stored_runs) {
+  const std::string path = findings_path(archive_path);
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return {};
+  auto record = parse_findings({std::istreambuf_iterator<char>(file), {}});
+  if (!record) return {{}, path + " is damaged, or of another version of fleetproof: look for the findings again."};
+  if (record->plan_hash != plan_hash || record->stored_runs != stored_runs)
+    return {{}, path + " is of another campaign, or of fewer of its runs: look for the findings again."};
+  return {std::move(record), {}};
+}
+
+}  // namespace fleetproof

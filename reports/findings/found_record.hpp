@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "storage/records.hpp"
+
+namespace fleetproof {
+
+// The failures of one agent that come about in one way.
+struct FoundFinding {
+  std::string id, agent;
+  std::string mechanism;        // in words
+  std::string standing;         // to the user: "new", "known", "back", "waived until 2027-01-31"
+  bool needs_attention = true;  // someone has to look at it
+  std::uint64_t failures = 0;   // of those that were looked at
+  std::uint64_t run = 0;        // the simplest of them
+
+  friend bool operator==(const FoundFinding&, const FoundFinding&) = default;
+};
+
+// The findings of a campaign, as `fleetproof findings` found them.
+struct FoundRecord {
+  std::uint64_t plan_hash = 0, stored_runs = 0;   // of the campaign file
+  std::uint64_t failing_runs = 0, looked_at = 0;  // all, and those that were simulated again
+  std::vector<std::uint64_t> not_again;           // of these: runs that did not fail when they were simulated again
+  std::vector<FoundFinding> findings;             // with most failures first
+
+  friend bool operator==(const FoundRecord&, const FoundRecord&) = default;
+};
+
+// The record as JSON, and back. None: this is no such text.
+std::string findings_text(const FoundRecord& record);
+std::optional<FoundRecord> parse_findings(const std::string& text);
+
+// NAME.findings.json beside the campaign file NAME.db.
+std::string findings_path(const std::string& archive_path);
+
+// What stands beside a campaign file. `trouble`: why the file there tells nothing of this campaign.
+struct FoundFile {
+  std::optional<FoundRecord> record;
+  std::string trouble;
+};
+FoundFile findings_beside(const std::string& archive_path, std::uint64_t plan_hash, std::uint64_t stored_runs);
+
+}  // namespace fleetproof

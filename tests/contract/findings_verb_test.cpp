@@ -1,0 +1,147 @@
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/program.hpp"
+
+namespace fleetproof {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr const char* kCampaign = R"(
+name = "a"
+seed = 11
+replicates = 4
+horizon_s = 60
+[factors]
+agents = ["hull-lock", "timeout-grant"]
+layouts = ["aisle-grid"]
+fleet_sizes = [4]
+loss = [0.4]
+delay_s = [2]
+[world]
+transports_per_agv_hour = 120
+)";
+
+class FindingsVerb : public test::ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    write("a.toml", kCampaign);
+    run("run a.toml --db a.db");
+  }
+  nlohmann::json found(const std::string& words) {
+    return nlohmann::json::parse(run("findings a.db --json " + words).out);
+  }
+  void change(const std::string& file, const std::string& from, const std::string& to) {
+    std::string text = read(path(file));
+    const auto at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    write(file, text.replace(at, from.size(), to));
+  }
+};
+
+TEST_F(FindingsVerb, WhatIsNewIsAddedAndKnownFromThenOn) {
+  const auto first = run("findings a.db --file known/findings.toml");
+  EXPECT_EQ(first.exit_code, 1);
+  EXPECT_THAT(first.out, HasSubstr("  new  "));
+  EXPECT_THAT(first.out, HasSubstr("of timeout-grant\n  too close, two AGVs; needs"));
+  EXPECT_THAT(first.out, HasSubstr("fleetproof explain a.db "));
+  EXPECT_FALSE(std::filesystem::exists(path("known")));
+
+  std::filesystem::create_directory(path("known"));
+  const auto added = run("findings a.db --file known/findings.toml --add");
+  ASSERT_EQ(added.exit_code, 0) << added.err;
+  const auto findings = found("--file known/findings.toml")["findings"];
+  ASSERT_FALSE(findings.empty());
+  EXPECT_EQ(findings[0]["standing"], "known");
+  const std::string id = findings[0]["id"];
+  EXPECT_THAT(read(path("known/" + id + ".md")), HasSubstr("\n- The smallest case fails at "));
+  EXPECT_THAT(run("simulate known/" + id + ".case.json").out, HasSubstr("as expected: "));
+  EXPECT_EQ(run("findings a.db --file known/findings.toml").exit_code, 0);
+
+  const std::string before = read(path("known/findings.toml"));
+  change("known/findings.toml", "status = \"known\"", "status = \"fixed\"");
+  const auto back = run("findings a.db --file known/findings.toml");
+  EXPECT_EQ(back.exit_code, 1);
+  EXPECT_THAT(back.out, HasSubstr(id + "  back  "));
+  write("known/findings.toml", before);
+  change("known/findings.toml", "status = \"known\"", "status = \"waived\"\nuntil = \"2020-01-01\"\nreason = \"x\"");
+  EXPECT_THAT(run("findings a.db --file known/findings.toml").out, HasSubstr("known (waived until 2020-01-01)"));
+}
+
+TEST_F(FindingsVerb, TheReportSpeaksOfThem) {
+  EXPECT_THAT(run("report a.db").out, HasSubstr("Not looked for."));
+  const auto findings = found("")["findings"];
+  const std::string id = findings[0]["id"];
+  EXPECT_THAT(run("report a.db").out, HasSubstr(id));
+  EXPECT_EQ(nlohmann::json::parse(run("report a.db --json").out)["findings"]["findings"], findings);
+  const std::string junit = run("report a.db --format junit").out;
+  EXPECT_THAT(junit, HasSubstr("<testsuite name=\"findings\""));
+  EXPECT_THAT(junit, HasSubstr("<testcase name=\"" + id));
+  run("run a.toml --db a.db --replicates 5");
+  EXPECT_THAT(run("report a.db").out, HasSubstr("is of another campaign, or of fewer of its runs"));
+}
+
+TEST_F(FindingsVerb, TheyAreTheSameForAnyNumberOfWorkersAndOtherSeeds) {
+  const auto one = found("--jobs 1"), seven = found("--jobs 7");
+  EXPECT_EQ(one, seven);
+  run("run a.toml --db b.db --seed 12");
+  const auto other = nlohmann::json::parse(run("findings b.db --json").out);
+  EXPECT_EQ(one["findings"][0]["id"], other["findings"][0]["id"]);
+}
+
+TEST_F(FindingsVerb, OtherSoftwareIsRetested) {
+  ASSERT_EQ(run("findings a.db --file findings.toml --add").exit_code, 0);
+  const auto sound = run("retest findings.toml --agent hull-lock --neighbours 100");
+  EXPECT_EQ(sound.exit_code, 0) << sound.out << sound.err;
+  EXPECT_THAT(sound.out, HasSubstr("  fixed\n"));
+  EXPECT_THAT(sound.out, HasSubstr("0 of 100 neighbours fail so (below 2.95 %, 95 % sure)"));
+  const auto faulty = run("retest findings.toml --agent timeout-grant --neighbours 100 --bisect");
+  EXPECT_EQ(faulty.exit_code, 1);
+  EXPECT_THAT(faulty.out, HasSubstr("  still there\n"));
+  const auto missing = run("retest findings.toml --agent none --bisect");
+  EXPECT_EQ(missing.exit_code, 125);
+  EXPECT_THAT(missing.err, HasSubstr("cannot test"));
+  EXPECT_EQ(run("retest findings.toml --agent none").exit_code, 2);
+  EXPECT_EQ(run("retest findings.toml --agent hull-lock --finding F-0").exit_code, 2);
+  EXPECT_EQ(run("retest none.toml --agent hull-lock").exit_code, 2);
+  std::filesystem::remove(path(
+      nlohmann::json::parse(read(path("a.findings.json")))["findings"][0]["id"].get<std::string>() + ".case.json"));
+  EXPECT_THAT(run("retest findings.toml --agent hull-lock").err, HasSubstr(".case.json"));
+}
+
+TEST_F(FindingsVerb, KnownCasesArePlayedBeforeACampaign) {
+  ASSERT_EQ(run("findings a.db --file findings.toml --add").exit_code, 0);
+  const std::string digest = run("report a.db --digest").out;
+  const auto again = run("run a.toml --db a.db --overwrite --findings findings.toml");
+  EXPECT_THAT(again.err, HasSubstr("fails as it did with timeout-grant: "));
+  EXPECT_THAT(again.err, Not(HasSubstr("with hull-lock")));
+  EXPECT_THAT(again.err, HasSubstr("known cases fail as they did; they count in no claim"));
+  EXPECT_EQ(run("report a.db --digest").out, digest);
+  EXPECT_EQ(run("run a.toml --db a.db --overwrite --findings none.toml").exit_code, 2);
+}
+
+TEST_F(FindingsVerb, ACrashOfAPlugInIsAFinding) {
+  const std::string plugin = FLEETPROOF_FAILING_AGENT;
+  write("c.toml", "name = \"c\"\nreplicates = 2\nhorizon_s = 20\n[factors]\nagents = [{ file = \"" + plugin +
+                      "\", config = \"segfault 1\" }]\nlayouts = [\"aisle-grid\"]\nfleet_sizes = [2]\n");
+  run("run c.toml --db c.db");
+  const auto found = nlohmann::json::parse(run("findings c.db --json").out);
+  ASSERT_EQ(found["findings"].size(), 1U) << found.dump(1);
+  EXPECT_THAT(found["findings"][0]["mechanism"].get<std::string>(), HasSubstr("crash; needs nothing"));
+}
+
+TEST_F(FindingsVerb, BadWordsAreRefused) {
+  for (const char* words : {"a.db --add", "a.toml", "none.db", "a.db --file a.toml --add", "a.db -o a.toml"}) {
+    const auto finished = run(std::string("findings ") + words);
+    EXPECT_EQ(finished.exit_code, 2) << words << finished.out << finished.err;
+    EXPECT_NE(finished.err, "") << words;
+  }
+}
+
+}  // namespace
+}  // namespace fleetproof
