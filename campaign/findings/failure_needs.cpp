@@ -149,10 +149,11 @@ class Reduction {
   }
 
   void add_traits() {
-    std::set<std::string> traits;
+    std::set<std::string> doings, traits;
     for (const std::string& doing : simulate(best_.scenario).doing) {
-      if (std::string trait = trait_of_doing(doing); !trait.empty()) traits.insert(std::move(trait));
+      if (std::string trait = trait_of_doing(doing); !trait.empty()) doings.insert(std::move(trait));
     }
+    found_.doings.assign(doings.begin(), doings.end());
     for (const std::string& word : likeness_.words) traits.insert(trait_of_word(word));
     if (needs_third_) traits.insert(kThirdAgvTrait);
     found_.traits.assign(traits.begin(), traits.end());

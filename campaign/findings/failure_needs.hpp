@@ -20,7 +20,8 @@ inline constexpr std::uint32_t kOtherRuns = 16;
 struct FailureNeeds {
   std::string end;                  // "too close, two AGVs"
   std::vector<std::string> needs;   // ingredients, in the order of ingredients_of
-  std::vector<std::string> traits;  // what was true when `reduced` failed: "one turns"; sorted
+  std::vector<std::string> doings;  // what the bodies did when `reduced` failed, beside driving on: "one turns"; sorted
+  std::vector<std::string> traits;  // what else was true then: its agents said a word, there was a third AGV; sorted
   FailingCase reduced;              // fails with nothing but what it needs
   std::uint32_t failing_lucks = 0;  // of kOtherRuns runs of the scenario with other luck: that end alike
   std::uint64_t replays = 0;

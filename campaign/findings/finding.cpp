@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -16,14 +17,9 @@ namespace {
 using Needs = std::vector<std::string>;
 using Members = std::vector<std::size_t>;
 
-// Shares of failures: with a trait that tells them from others, and with one that belongs to the mechanism.
-constexpr std::size_t kTellingPercent = 90, kCommonPercent = 75;
-
-// What the bodies did is never chance in three of four failures; words and company may be.
-std::size_t common_percent(const std::string& trait) {
-  const bool is_doing = trait != kThirdAgvTrait && trait.find('"') == std::string::npos;
-  return is_doing ? kCommonPercent : kTellingPercent;
-}
+// Shares of failures: with a trait that is part of the mechanism, and of drives without anything special that leave
+// open what the bodies have to do.
+constexpr std::size_t kCommonPercent = 90, kDrivenOnPercent = 10;
 
 // Below this, a set of needs may be an accident of the luck with which it was looked for.
 constexpr std::size_t kFewMembers = 3, kRareShare = 20;
@@ -40,45 +36,92 @@ std::vector<std::string> common_traits(std::span<const KnownFailure> failures, c
   }
   std::vector<std::string> common;
   for (const auto& [trait, count] : having) {
-    if (100 * count >= common_percent(trait) * members.size()) common.push_back(trait);
+    if (100 * count >= kCommonPercent * members.size()) common.push_back(trait);
   }
   return common;
 }
 
-// The failures of one agent with one end, by what they need.
+// Failures with the same needs, by what the bodies did.
+std::map<std::string, Members> parted(std::span<const KnownFailure> failures, Members members) {
+  const auto drove_on =
+      std::ranges::count_if(members, [&](std::size_t member) { return failures[member].needs.doings.empty(); });
+  if (100 * static_cast<std::size_t>(drove_on) >= kDrivenOnPercent * members.size()) return {{"", std::move(members)}};
+  std::map<std::string, Members> parts;
+  while (!members.empty()) {
+    std::map<std::string, std::size_t> counts;
+    for (const std::size_t member : members) {
+      for (const std::string& doing : failures[member].needs.doings) ++counts[doing];
+    }
+    // What all the others did may have been chance in the few that drove on.
+    if (counts.empty()) {
+      Members& most = std::ranges::max_element(parts, {}, [](const auto& part) { return part.second.size(); })->second;
+      most.insert(most.end(), members.begin(), members.end());
+      break;
+    }
+    const std::string doing = std::ranges::max_element(counts, {}, [](const auto& c) { return c.second; })->first;
+    const auto did = [&](std::size_t member) { return contains(failures[member].needs.doings, {doing}); };
+    std::ranges::copy_if(members, std::back_inserter(parts[doing]), did);
+    std::erase_if(members, did);
+  }
+  return parts;
+}
+
+struct Home {
+  Needs needs;
+  std::string doing;
+  std::vector<std::string> words;
+  std::size_t size = 0;
+
+  // Who just drove on where nearly all others did something may have done so a little later.
+  bool takes(const FailureNeeds& failure) const {
+    const bool did_so =
+        doing.empty() || contains(failure.doings, {doing}) || (failure.doings.empty() && failure.needs == needs);
+    return did_so && contains(failure.needs, needs) && contains(failure.traits, words);
+  }
+};
+
+// The failures of one agent with one end, by needs and doing.
 class Gathering {
  public:
+  using Key = std::pair<Needs, std::string>;
+
   explicit Gathering(std::span<const KnownFailure> failures) : failures_(failures) {}
   void add(std::size_t member) { by_needs_[failures_[member].needs.needs].push_back(member), ++count_; }
 
-  std::map<Needs, Members> gathered() const {
-    std::vector<Home> homes;
+  std::map<Key, Members> gathered() const {
+    const std::vector<Home> all = homes();
+    std::map<Key, Members> gathered;
     for (const auto& [needs, members] : by_needs_) {
-      const bool is_rare = members.size() < kFewMembers || kRareShare * members.size() < count_;
-      if (is_rare) continue;
-      homes.push_back({needs, common_traits(failures_, members), members.size()});
-      std::erase(homes.back().traits, kThirdAgvTrait);  // whoever needs less company needs nothing else
+      Members others;
+      for (const std::size_t member : members) {
+        const auto home = std::ranges::find_if(all, [&](const Home& h) { return h.takes(failures_[member].needs); });
+        if (home != all.end()) {
+          gathered[{home->needs, home->doing}].push_back(member);
+        } else {
+          others.push_back(member);
+        }
+      }
+      for (auto& [doing, part] : parted(failures_, std::move(others))) {
+        if (!part.empty()) gathered[{needs, doing}] = std::move(part);
+      }
     }
-    std::ranges::stable_sort(homes, {}, [](const Home& home) { return std::pair(home.needs.size(), ~home.size); });
-    std::map<Needs, Members> gathered;
-    for (const auto& [needs, members] : by_needs_) {
-      for (const std::size_t member : members) gathered[home_of(failures_[member].needs, homes)].push_back(member);
-    }
-    for (auto& [needs, members] : gathered) std::ranges::sort(members);
+    for (auto& [key, members] : gathered) std::ranges::sort(members);
     return gathered;
   }
 
  private:
-  struct Home {
-    Needs needs;
-    std::vector<std::string> traits;
-    std::size_t size = 0;
-  };
-  static Needs home_of(const FailureNeeds& failure, const std::vector<Home>& homes) {
-    for (const Home& home : homes) {
-      if (contains(failure.needs, home.needs) && contains(failure.traits, home.traits)) return home.needs;
+  // Frequent mechanisms, the simplest first.
+  std::vector<Home> homes() const {
+    std::vector<Home> homes;
+    for (const auto& [needs, members] : by_needs_) {
+      for (const auto& [doing, part] : parted(failures_, members)) {
+        if (part.size() < kFewMembers || kRareShare * part.size() < count_) continue;
+        homes.push_back({needs, doing, common_traits(failures_, part), part.size()});
+        std::erase(homes.back().words, kThirdAgvTrait);  // whoever needs less company needs nothing else
+      }
     }
-    return failure.needs;
+    std::ranges::stable_sort(homes, {}, [](const Home& home) { return std::pair(home.needs.size(), ~home.size); });
+    return homes;
   }
 
   std::span<const KnownFailure> failures_;
@@ -101,22 +144,27 @@ std::size_t simplest(std::span<const KnownFailure> failures, const Members& memb
 std::string Mechanism::text() const {
   std::string text = end;
   text += needs.empty() ? "; needs nothing" : fmt::format("; needs {}", fmt::join(needs, ", "));
+  if (!doing.empty()) text += "; " + doing;
   if (!traits.empty()) text += fmt::format("; {}", fmt::join(traits, "; "));
   return text;
 }
 
-std::string Finding::id() const { return fmt::format("F-{:08x}", name_hash(agent + ": " + mechanism.text()) >> 32); }
+std::string Finding::id() const {
+  const Mechanism named{mechanism.end, mechanism.needs, mechanism.doing, {}};
+  return fmt::format("F-{:08x}", name_hash(agent + ": " + named.text()) >> 32);
+}
 
 std::vector<Finding> findings_of(std::span<const KnownFailure> failures) {
   std::map<std::pair<std::string, std::string>, Gathering> gatherings;
   for (std::size_t i = 0; i < failures.size(); ++i)
     gatherings.try_emplace({failures[i].agent, failures[i].needs.end}, failures).first->second.add(i);
   std::vector<Finding> findings;
-  for (const auto& [key, gathering] : gatherings) {
-    for (const auto& [needs, members] : gathering.gathered()) {
+  for (const auto& [of, gathering] : gatherings) {
+    for (const auto& [key, members] : gathering.gathered()) {
+      const auto& [needs, doing] = key;
       Finding finding;
-      finding.agent = key.first;
-      finding.mechanism = {key.second, needs, common_traits(failures, members)};
+      finding.agent = of.first;
+      finding.mechanism = {of.second, needs, doing, common_traits(failures, members)};
       finding.members = members;
       finding.representative = simplest(failures, members, needs);
       findings.push_back(std::move(finding));

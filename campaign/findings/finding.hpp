@@ -12,8 +12,10 @@ namespace fleetproof {
 
 // Why a failure comes about, in words that do not depend on seeds, places or names of AGVs.
 struct Mechanism {
-  std::string end;                         // "too close, two AGVs"
-  std::vector<std::string> needs, traits;  // as FailureNeeds has them
+  std::string end;                  // "too close, two AGVs"
+  std::vector<std::string> needs;   // as FailureNeeds has them
+  std::string doing;                // "one turns"; empty: what the bodies did is not part of it
+  std::vector<std::string> traits;  // what else is true of nine in ten of its failures
 
   // "too close, two AGVs; needs lost messages, GRANT messages; one turns"
   std::string text() const;
@@ -34,13 +36,13 @@ struct Finding {
   std::vector<std::size_t> members;  // places in the list of failures, in its order
   std::size_t representative = 0;    // one of them: the simplest
 
-  // "F-1c2d3e4f": the same for the same agent and the same mechanism on any machine, in any campaign.
+  // "F-1c2d3e4f": the same for the same agent, end, needs and doing on any machine, in any campaign.
   std::string id() const;
 };
 
 // Failures of one agent with the same end and the same needs are one finding. A set of needs that is rare joins the
-// most frequent one that it contains: all that the other needs, it needs, too. A trait belongs to a finding if nine in
-// ten of its failures have it. Findings are in order of how many failures they have.
+// simplest frequent one that it contains: all that the other needs, it needs, too. Unless one in ten of them just drove
+// on, they are parted by what the bodies did. Findings are in order of how many failures they have.
 std::vector<Finding> findings_of(std::span<const KnownFailure> failures);
 
 }  // namespace fleetproof

@@ -42,7 +42,7 @@ std::string other_mechanism(CaseHost& host, const KeptFailure& kept, const Neigh
   const auto ways = ways_of(host, neighbourhood, now);
   if (ways.empty() || std::ranges::any_of(ways, [&](const auto& needs) { return is_one_of(kept.ways, needs); }))
     return {};
-  return Mechanism{kept.end, ways.front(), {}}.text();
+  return Mechanism{kept.end, ways.front(), {}, {}}.text();
 }
 
 // Where neighbours failed often, less than half of that is no accident of timing: something was mended, not all.
@@ -74,7 +74,7 @@ Retest retest(CaseHost& host, const KeptFailure& kept, const NeighbourCounts& be
   if (of_case && is_kept_one(kept, *of_case)) {
     result.verdict = RetestVerdict::StillThere;
   } else if (of_case && of_case->end == kept.end) {
-    result.new_kind = Mechanism{of_case->end, of_case->needs, of_case->traits}.text();
+    result.new_kind = Mechanism{of_case->end, of_case->needs, {}, {}}.text();
     result.verdict = RetestVerdict::NewKind;
   } else if (now.alike > 0) {
     result.new_kind = other_mechanism(host, kept, neighbourhood, now);

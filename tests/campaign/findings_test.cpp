@@ -7,53 +7,20 @@
 #include "campaign/findings/findings_file.hpp"
 #include "campaign/findings/ingredients.hpp"
 #include "campaign/findings/keeper.hpp"
-#include "campaign/findings/retest.hpp"
 #include "core/base/error.hpp"
 #include "core/scenario/canonical_bytes.hpp"
 #include "generators/scenario_file/scenario_text.hpp"
-#include "generators/worlds/world_maker.hpp"
+#include "tests/support/case_bench.hpp"
 
 namespace fleetproof {
 namespace {
 
+using test::bad_night;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
-
-// A warehouse at the contract's worst radio, with restarts.
-Scenario bad_night(std::uint64_t seed) {
-  WorldSpec spec;
-  spec.fleet_size = 5;
-  spec.horizon = std::chrono::seconds(60);
-  spec.demand.transports_per_agv_hour = 60.0;
-  RejectionCounts ignored;
-  Scenario scenario = generate_world(spec, seed, ignored);
-  scenario.radio.loss = 0.4;
-  scenario.radio.delay_s = 2.0;
-  scenario.radio.delay_model = RadioSetup::DelayModel::Uniform;
-  scenario.radio.duplicates = 0.1;
-  for (std::uint32_t agv = 0; agv < 5; ++agv)
-    scenario.faults.push_back({.kind = Fault::Kind::Restart,
-                               .agv = AgvId{agv},
-                               .at = seconds(7.0 * agv),
-                               .transport = {},
-                               .lasts = seconds(0.5)});
-  return scenario;
-}
-
-struct Bench {
-  explicit Bench(const std::string& agent, int workers = 2) : host({agent, ""}, programs, workers) {}
-  Scenario failing(std::uint64_t seed) {
-    for (;; ++seed) {
-      Scenario scenario = bad_night(seed);
-      if (failure_of(host(scenario))) return scenario;
-    }
-  }
-
-  AgentPrograms programs;
-  CaseHost host;
-};
+using Bench = test::CaseBench;
 
 // ---- ingredients
 
@@ -112,14 +79,14 @@ TEST(FailureNeeds, OfARunWithoutAFailureThereAreNone) {
 
 // ---- findings
 
-KnownFailure failure(const std::string& agent, std::vector<std::string> needs, std::vector<std::string> traits = {},
+KnownFailure failure(const std::string& agent, std::vector<std::string> needs, std::vector<std::string> doings = {},
                      std::uint64_t run = 0) {
   KnownFailure known;
   known.run = run;
   known.agent = agent;
   known.needs.end = "too close, two AGVs";
   known.needs.needs = std::move(needs);
-  known.needs.traits = std::move(traits);
+  known.needs.doings = std::move(doings);
   return known;
 }
 
@@ -156,8 +123,32 @@ TEST(Findings, WhatTheBodiesDidTellsFindingsApart) {
   const auto findings = findings_of(failures);
   ASSERT_EQ(findings.size(), 2U);
   EXPECT_EQ(findings[0].members.size(), 13U);
-  EXPECT_THAT(findings[0].mechanism.traits, ElementsAre("one turns"));
-  EXPECT_TRUE(findings[1].mechanism.traits.empty());
+  EXPECT_EQ(findings[0].mechanism.doing, "one turns");
+  EXPECT_EQ(findings[1].mechanism.doing, "");
+}
+
+TEST(Findings, TwoGeometricFaultsOfOneAgentAreTwoFindings) {
+  auto failures = times(20, failure("a", {}, {"one turns"}));
+  add(failures, times(10, failure("a", {}, {"one is on a bend"})));
+  add(failures, times(1, failure("a", {})));
+  const auto findings = findings_of(failures);
+  ASSERT_EQ(findings.size(), 2U);
+  EXPECT_EQ(findings[0].mechanism.text(), "too close, two AGVs; needs nothing; one turns");
+  EXPECT_EQ(findings[1].mechanism.text(), "too close, two AGVs; needs nothing; one is on a bend");
+  EXPECT_EQ(findings[0].members.size() + findings[1].members.size(), 31U);
+  add(failures, times(4, failure("a", {})));
+  EXPECT_EQ(findings_of(failures).size(), 1U) << "one in ten just drove on";
+}
+
+TEST(Findings, WordsTellFindingsApartButGiveNoName) {
+  auto failures = times(10, failure("a", {}));
+  const std::string id = findings_of(failures)[0].id();
+  for (KnownFailure& known : failures) known.needs.traits = {"says \"oops\""};
+  add(failures, times(5, failure("a", {"restart"})));
+  const auto findings = findings_of(failures);
+  ASSERT_EQ(findings.size(), 2U) << "who did not say it is no such failure";
+  EXPECT_EQ(findings[0].id(), id);
+  EXPECT_EQ(findings[0].mechanism.text(), "too close, two AGVs; needs nothing; says \"oops\"");
 }
 
 TEST(Findings, EachAgentHasItsOwn) {
@@ -246,69 +237,23 @@ TEST_F(FindingsFiles, AWaiverEnds) {
   EXPECT_TRUE(needs_attention(&kept, "2026-11-23"));
 }
 
-// ---- retest
+// ---- record
 
-struct Known {
-  KeptFailure kept;
-  NeighbourCounts before;
-};
-
-Known known_failure(Bench& bench) {
+FindingRecord recorded(Bench& bench) {
   const auto needs = needs_of(bench.host, bench.failing(100));
   Finding finding;
-  finding.mechanism = {needs->end, needs->needs, needs->traits};
-  const FindingRecord record = record_of(bench.host, finding, *needs, 4000);
-  return {record.kept, record.neighbours};
+  finding.mechanism = {needs->end, needs->needs, {}, {}};
+  return record_of(bench.host, finding, *needs, 400);
 }
 
-constexpr std::uint32_t kSome = 200;
-
-TEST(Retest, TellsAFixFromALuckyEscape) {
-  Bench bench("timeout-grant");
-  const Known known = known_failure(bench);
-  EXPECT_GE(known.before.alike, 100U) << "of 1000";
-  const Retest same = retest(bench.host, known.kept, known.before, kSome);
-  EXPECT_EQ(same.verdict, RetestVerdict::StillThere);
-
-  Bench sound("hull-lock");
-  const Retest fixed = retest(sound.host, known.kept, known.before, kSome);
-  EXPECT_EQ(fixed.verdict, RetestVerdict::Fixed) << fixed.new_kind;
-  EXPECT_EQ(fixed.now.alike, 0U);
-  EXPECT_NEAR(fixed.upper_bound, 0.0149, 0.0001) << "1 - 0.05^(1/200)";
-
-  AgentPrograms programs;
-  const std::string name = programs.know(FLEETPROOF_RETOUCHED_AGENT);
-  CaseHost retouched({name, "timeout-grant"}, programs, 2);
-  const Retest dodged = retest(retouched, known.kept, known.before, kSome);
-  EXPECT_EQ(dodged.verdict, RetestVerdict::Dodged) << dodged.new_kind;
-  EXPECT_GT(dodged.now.alike, 0U);
-}
-
-TEST(Retest, SaysWhetherTheNeighboursCouldTell) {
-  Bench bench("timeout-grant");
-  Known known = known_failure(bench);
-  known.before.alike = 3;
-  Bench sound("hull-lock");
-  EXPECT_EQ(retest(sound.host, known.kept, known.before, kSome).verdict, RetestVerdict::NotKnown);
-}
-
-TEST(Retest, ANewFaultInPlaceOfTheOldOneIsANewKind) {
-  Bench bench("timeout-grant");
-  const Known known = known_failure(bench);
-  Bench other("reckless");
-  const Retest result = retest(other.host, known.kept, known.before, kSome);
-  EXPECT_EQ(result.verdict, RetestVerdict::NewKind);
-  EXPECT_GT(result.now.alike, 0U);
-  EXPECT_THAT(result.new_kind, HasSubstr("needs"));
-}
-
-TEST(Retest, IsTheSameForAnyNumberOfWorkers) {
+TEST(FindingRecords, AreTheSameForAnyNumberOfWorkers) {
   Bench one("timeout-grant", 1), seven("timeout-grant", 7);
-  const Known known = known_failure(one), again = known_failure(seven);
-  EXPECT_EQ(to_text(known.kept.smallest), to_text(again.kept.smallest));
-  EXPECT_EQ(to_text(known.kept.world), to_text(again.kept.world));
-  EXPECT_EQ(known.before.alike, again.before.alike);
-  EXPECT_EQ(known.before.otherwise, again.before.otherwise);
+  const FindingRecord record = recorded(one), again = recorded(seven);
+  EXPECT_EQ(to_text(record.kept.smallest), to_text(again.kept.smallest));
+  EXPECT_EQ(to_text(record.kept.world), to_text(again.kept.world));
+  EXPECT_EQ(record.kept.ways, again.kept.ways);
+  EXPECT_EQ(record.neighbours.alike, again.neighbours.alike);
+  EXPECT_EQ(record.neighbours.otherwise, again.neighbours.otherwise);
 }
 
 }  // namespace

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+
+#include "campaign/shrink/case_host.hpp"
+#include "generators/worlds/world_maker.hpp"
+
+namespace fleetproof::test {
+
+// A warehouse at the contract's worst radio, with restarts.
+inline Scenario bad_night(std::uint64_t seed) {
+  WorldSpec spec;
+  spec.fleet_size = 5;
+  spec.horizon = std::chrono::seconds(60);
+  spec.demand.transports_per_agv_hour = 60.0;
+  RejectionCounts ignored;
+  Scenario scenario = generate_world(spec, seed, ignored);
+  scenario.radio.loss = 0.4;
+  scenario.radio.delay_s = 2.0;
+  scenario.radio.delay_model = RadioSetup::DelayModel::Uniform;
+  scenario.radio.duplicates = 0.1;
+  for (std::uint32_t agv = 0; agv < 5; ++agv)
+    scenario.faults.push_back({.kind = Fault::Kind::Restart,
+                               .agv = AgvId{agv},
+                               .at = seconds(7.0 * agv),
+                               .transport = {},
+                               .lasts = seconds(0.5)});
+  return scenario;
+}
+
+// An agent and its cases.
+struct CaseBench {
+  explicit CaseBench(const std::string& agent, int workers = 2) : host({agent, ""}, programs, workers) {}
+  // The first from this seed on that fails.
+  Scenario failing(std::uint64_t seed) {
+    for (;; ++seed) {
+      Scenario scenario = bad_night(seed);
+      if (failure_of(host(scenario))) return scenario;
+    }
+  }
+
+  AgentPrograms programs;
+  CaseHost host;
+};
+
+}  // namespace fleetproof::test
