@@ -103,7 +103,7 @@ std::string faults_text(const Json& faults) {
   std::vector<std::string> words;
   for (const auto& [key, value] : faults.items()) {
     const bool is_rate = key.find("_per_") != std::string::npos || key.starts_with("clock_") ||
-                         key.starts_with("position_") || key == "low_battery_share";
+                         key.starts_with("position_") || key.ends_with("_share");
     if (is_rate && value.is_number() && value.get<double>() != 0.0) {
       std::string name = printable(key, 60);
       std::ranges::replace(name, '_', ' ');

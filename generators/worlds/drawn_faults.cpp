@@ -19,7 +19,8 @@ enum class Topic : std::uint32_t {
   Freeze,
   Clock,
   Battery,
-  PowerFailure
+  PowerFailure,
+  ClocksAgree
 };
 
 constexpr double kHour_s = 3600.0;
@@ -32,7 +33,9 @@ constexpr double kLowBattery = 0.12, kLowBatteryMost = 0.20;
 class FaultDraws {
  public:
   FaultDraws(Scenario& scenario, const FaultRates& rates, std::uint64_t key)
-      : scenario_(scenario), rates_(rates), key_(key) {}
+      : scenario_(scenario), rates_(rates), key_(key) {
+    clocks_agree_ = draws(Topic::ClocksAgree, 0).uniform() < rates.clocks_agree_share;
+  }
 
   void run() {
     for (std::size_t i = 0; i < scenario_.agvs.size(); ++i) agv(AgvId{i});
@@ -99,9 +102,11 @@ class FaultDraws {
 
   void sensing(AgvId id) {
     Draws clock = draws(Topic::Clock, id.value);
-    scenario_.agvs[id.index()].sensing = {clock.uniform(0.0, rates_.clock_offset_s),
-                                          clock.uniform(-rates_.clock_drift_ppm, rates_.clock_drift_ppm) + 0.0,
-                                          rates_.position_error_m, rates_.position_late_s};
+    SensingSetup& sensing = scenario_.agvs[id.index()].sensing;
+    sensing = {clock.uniform(0.0, rates_.clock_offset_s),
+               clock.uniform(-rates_.clock_drift_ppm, rates_.clock_drift_ppm) + 0.0, rates_.position_error_m,
+               rates_.position_late_s};
+    if (clocks_agree_) sensing.clock_offset_s = sensing.clock_drift_ppm = 0.0;
   }
 
   void obstacles() {
@@ -126,6 +131,7 @@ class FaultDraws {
   Scenario& scenario_;
   const FaultRates& rates_;
   std::uint64_t key_;
+  bool clocks_agree_ = false;
 };
 
 }  // namespace

@@ -21,10 +21,11 @@ struct FaultRates {
   double freezes_per_agv_hour = 0.0;
   double freeze_least_s = 0.2, freeze_most_s = 5.0;
   double power_failures_per_agv_hour = 0.0;
-  double power_back_s = 60.0;     // mean, exponential
-  double clock_offset_s = 0.0;    // each AGV's clock is ahead by up to this
-  double clock_drift_ppm = 0.0;   // each AGV's clock is too fast or too slow by up to this
-  double position_error_m = 0.0;  // as in SensingSetup, for every AGV
+  double power_back_s = 60.0;       // mean, exponential
+  double clock_offset_s = 0.0;      // each AGV's clock is ahead by up to this
+  double clock_drift_ppm = 0.0;     // each AGV's clock is too fast or too slow by up to this
+  double clocks_agree_share = 0.0;  // probability that the clocks of a world have no offset and no drift
+  double position_error_m = 0.0;    // as in SensingSetup, for every AGV
   double position_late_s = 0.0;
   double low_battery_share = 0.0;  // probability that an AGV starts with 12 to 20 %
 

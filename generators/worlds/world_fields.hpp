@@ -12,6 +12,9 @@
 // The fields of what a campaign fixes about its worlds.
 namespace fleetproof {
 
+inline constexpr Field kClocksAgree{
+    .key = "clocks_agree_share",
+    .text = "chance that the clocks of a world agree: no offset, no drift; AGVs then begin at one instant"};
 inline constexpr Field kPlacement{.key = "placement", .text = "how the fleet stands at the start"};
 
 template <FieldsOf<Demand> Given, class Visit>
@@ -32,8 +35,8 @@ void visit_fields(Rates& rates, Visit&& visit) {
   auto& [breakdowns_per_agv_hour, breakdowns_per_transport, repair_s, protective_stops_per_agv_hour,
          protective_stop_least_s, protective_stop_most_s, load_drops_per_transport, load_lies_s, obstacles_per_hour,
          obstacle_stays_s, restarts_per_agv_hour, restart_s, freezes_per_agv_hour, freeze_least_s, freeze_most_s,
-         power_failures_per_agv_hour, power_back_s, clock_offset_s, clock_drift_ppm, position_error_m, position_late_s,
-         low_battery_share] = rates;
+         power_failures_per_agv_hour, power_back_s, clock_offset_s, clock_drift_ppm, clocks_agree_share,
+         position_error_m, position_late_s, low_battery_share] = rates;
   const auto rate = [](std::string_view key, std::string_view text) {
     return Field{.key = key, .text = text, .high = 3600.0};
   };
@@ -67,6 +70,7 @@ void visit_fields(Rates& rates, Visit&& visit) {
         clock_offset_s);
   visit(Field{.key = "clock_drift_ppm", .text = "each AGV's clock is too fast or too slow by up to this", .high = 1e5},
         clock_drift_ppm);
+  visit(kClocksAgree.left_out_if(clocks_agree_share == 0.0), clocks_agree_share);
   visit(Field{.key = "position_error_m",
               .text = "each coordinate of getPosition is wrong by up to this",
               .high = kLargestBody_m},
