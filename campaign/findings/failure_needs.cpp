@@ -60,6 +60,7 @@ class Reduction {
     take_out_ingredients(ingredients_of(original_, adverse_kinds(run.fates)));
     add_traits();
     found_.reduced = std::move(best_);
+    found_.is_rare = !failed_otherwise_ && failing_lucks_.empty();
     found_.failing_lucks = static_cast<std::uint32_t>(failing_lucks_.size());
     found_.replays = replays_;
     return std::move(found_);
@@ -138,14 +139,12 @@ class Reduction {
       return failure.has_value();
     };
     if (fails(less)) return true;
-    std::uint32_t tried = 1;
-    for (std::size_t i = 0; i < failing_lucks_.size() && tried < tries; ++i, ++tried) {
-      if (fails(another(less, failing_lucks_[i]))) return true;
-    }
-    for (std::uint32_t luck = kOtherRuns + 1; tried < tries; ++luck, ++tried) {
-      if (fails(another(less, luck))) return true;
-    }
-    return false;
+    std::vector<std::uint32_t> lucks = failing_lucks_;
+    for (std::uint32_t luck = kOtherRuns + 1; lucks.size() < tries; ++luck) lucks.push_back(luck);
+    lucks.resize(tries - 1);
+    const bool failed = std::ranges::any_of(lucks, [&](std::uint32_t luck) { return fails(another(less, luck)); });
+    failed_otherwise_ |= failed;
+    return failed;
   }
 
   void add_traits() {
@@ -166,7 +165,7 @@ class Reduction {
   FailureNeeds found_;
   std::vector<std::uint32_t> failing_lucks_;
   std::uint64_t replays_ = 0;
-  bool needs_third_ = false;
+  bool needs_third_ = false, failed_otherwise_ = false;
 };
 
 }  // namespace

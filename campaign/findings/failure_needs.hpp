@@ -24,9 +24,11 @@ struct FailureNeeds {
   std::vector<std::string> traits;  // what else was true then: its agents said a word, there was a third AGV; sorted
   FailingCase reduced;              // fails with nothing but what it needs
   std::uint32_t failing_lucks = 0;  // of kOtherRuns runs of the scenario with other luck: that end alike
+  bool is_rare = false;             // with no other luck it failed alike, so what it needs is not known
   std::uint64_t replays = 0;
 };
 
+inline constexpr const char* kNotKnown = "not known: it failed with this luck only";
 inline constexpr const char* kThirdAgvTrait = "needs a third AGV";
 
 // How a failure ends, without what is chance: how close two bodies came, and at what speed.

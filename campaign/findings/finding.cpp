@@ -86,24 +86,30 @@ class Gathering {
   using Key = std::pair<Needs, std::string>;
 
   explicit Gathering(std::span<const KnownFailure> failures) : failures_(failures) {}
-  void add(std::size_t member) { by_needs_[failures_[member].needs.needs].push_back(member), ++count_; }
+  void add(std::size_t member) {
+    by_needs_[failures_[member].needs.needs].push_back(member);
+    ++count_;
+  }
 
   std::map<Key, Members> gathered() const {
     const std::vector<Home> all = homes();
     std::map<Key, Members> gathered;
     for (const auto& [needs, members] : by_needs_) {
-      Members others;
+      Members others, rare;
       for (const std::size_t member : members) {
         const auto home = std::ranges::find_if(all, [&](const Home& h) { return h.takes(failures_[member].needs); });
         if (home != all.end()) {
           gathered[{home->needs, home->doing}].push_back(member);
         } else {
-          others.push_back(member);
+          (failures_[member].needs.is_rare ? rare : others).push_back(member);
         }
       }
       for (auto& [doing, part] : parted(failures_, std::move(others))) {
         if (!part.empty()) gathered[{needs, doing}] = std::move(part);
       }
+      if (rare.empty()) continue;
+      Members& unknown = gathered[{{kNotKnown}, ""}];
+      unknown.insert(unknown.end(), rare.begin(), rare.end());
     }
     for (auto& [key, members] : gathered) std::ranges::sort(members);
     return gathered;
@@ -114,14 +120,45 @@ class Gathering {
   std::vector<Home> homes() const {
     std::vector<Home> homes;
     for (const auto& [needs, members] : by_needs_) {
-      for (const auto& [doing, part] : parted(failures_, members)) {
+      for (auto [doing, part] : parted(failures_, members)) {
+        std::erase_if(part, [&](std::size_t member) { return failures_[member].needs.is_rare; });
         if (part.size() < kFewMembers || kRareShare * part.size() < count_) continue;
         homes.push_back({needs, doing, common_traits(failures_, part), part.size()});
         std::erase(homes.back().words, kThirdAgvTrait);  // whoever needs less company needs nothing else
       }
     }
+    add_cores(homes);
     std::ranges::stable_sort(homes, {}, [](const Home& home) { return std::pair(home.needs.size(), ~home.size); });
     return homes;
+  }
+
+  // Of failures that no home takes, each with needs of its own: what several of them have in common.
+  void add_cores(std::vector<Home>& homes) const {
+    Members left;
+    for (const auto& [needs, members] : by_needs_) {
+      for (const std::size_t member : members) {
+        const FailureNeeds& failure = failures_[member].needs;
+        const bool is_taken = std::ranges::any_of(homes, [&](const Home& home) { return home.takes(failure); });
+        if (!is_taken && !failure.is_rare) left.push_back(member);
+      }
+    }
+    for (;;) {
+      std::map<std::string, std::size_t> counts;
+      for (const std::size_t member : left) {
+        for (const std::string& need : failures_[member].needs.needs) ++counts[need];
+      }
+      const auto most = std::ranges::max_element(counts, {}, [](const auto& count) { return count.second; });
+      if (most == counts.end() || most->second < kFewMembers) return;
+      const std::string common = most->first;
+      const auto has_it = [&](std::size_t member) { return contains(failures_[member].needs.needs, {common}); };
+      Needs core = failures_[*std::ranges::find_if(left, has_it)].needs.needs;
+      for (const std::size_t member : left) {
+        if (!has_it(member)) continue;
+        std::erase_if(core, [&](const std::string& need) { return !contains(failures_[member].needs.needs, {need}); });
+      }
+      homes.push_back({core, "", {}, most->second});
+      std::erase_if(left, has_it);
+    }
   }
 
   std::span<const KnownFailure> failures_;

@@ -151,6 +151,31 @@ TEST(Findings, WordsTellFindingsApartButGiveNoName) {
   EXPECT_EQ(findings[0].mechanism.text(), "too close, two AGVs; needs nothing; says \"oops\"");
 }
 
+TEST(Findings, WhatFailedWithOneLuckOnlyJoinsOrIsNotKnown) {
+  auto rare = failure("a", {"restart", "lost messages"});
+  rare.needs.is_rare = true;
+  auto failures = times(4, rare);
+  rare.needs.needs = {"late messages"};
+  add(failures, times(2, rare));
+  const auto alone = findings_of(failures);
+  ASSERT_EQ(alone.size(), 1U);
+  EXPECT_EQ(alone[0].mechanism.text(), "too close, two AGVs; needs not known: it failed with this luck only");
+  add(failures, times(3, failure("a", {"lost messages"})));
+  const auto joined = findings_of(failures);
+  ASSERT_EQ(joined.size(), 2U);
+  EXPECT_EQ(joined[0].members.size(), 7U);
+}
+
+TEST(Findings, WhoNeedsNothingInParticularSharesACore) {
+  std::vector<KnownFailure> failures = {
+      failure("a", {"restart", "late messages", "GRANT messages"}), failure("a", {"restart", "lost messages"}),
+      failure("a", {"obstacles", "restart", "late messages"}), failure("a", {"low batteries"})};
+  const auto findings = findings_of(failures);
+  ASSERT_EQ(findings.size(), 2U);
+  EXPECT_EQ(findings[0].mechanism.text(), "too close, two AGVs; needs restart");
+  EXPECT_EQ(findings[0].members.size(), 3U);
+}
+
 TEST(Findings, EachAgentHasItsOwn) {
   auto failures = times(4, failure("a", {}));
   add(failures, times(4, failure("b", {})));
