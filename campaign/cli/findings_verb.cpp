@@ -158,6 +158,7 @@ class FindingsDesk {
 };
 
 int find_findings(const FindingsWords& words) {
+  if (words.most && *words.most < 1) throw InputError("--max-failures", "is 0; it is at least 1");
   if (words.add && words.file.empty()) throw InputError("--add", "name the findings file with --file");
   return FindingsDesk(words).find();
 }

@@ -1,8 +1,11 @@
 #include "campaign/cli/output_file.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <filesystem>
+#include <system_error>
 
 #include "core/base/error.hpp"
 #include "generators/text/json_value.hpp"
@@ -87,11 +90,20 @@ constexpr Kind kKinds[] = {{"a layout file", is_layout},
 
 std::string remedy_of(const OutputFile& file) { return "choose another path for " + file.option; }
 
+// A new file needs a folder in which files can be made.
+void require_place(const OutputFile& file) {
+  const std::string folder = std::filesystem::path(file.path).parent_path().string();
+  if (::access(folder.empty() ? "." : (folder + "/.").c_str(), W_OK | X_OK) == 0) return;
+  const std::string why = std::generic_category().message(errno);
+  throw InputError(file.path, fmt::format("cannot be written ({}); {}", why, remedy_of(file)));
+}
+
 }  // namespace
 
 void require_writable(const OutputFile& file) {
   const Kind& kind = kKinds[static_cast<std::size_t>(file.kind)];
   std::error_code ignored;
+  if (!std::filesystem::exists(file.path, ignored)) return require_place(file);
   if (!std::filesystem::is_regular_file(file.path, ignored)) return;
   const std::string before = read_text_file(file.path);
   if (before.empty() || kind.is_one(before)) return;

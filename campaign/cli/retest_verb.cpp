@@ -16,6 +16,7 @@ namespace {
 
 // What `git bisect run` takes as "this revision cannot be tested".
 constexpr int kCannotTest = 125;
+constexpr std::uint64_t kMostNeighbours = 1'000'000;
 
 struct RetestWords {
   std::string file, agent, config;
@@ -70,6 +71,9 @@ void put_json(const std::vector<Retested>& all) {
 }
 
 int retest_findings(const RetestWords& words) {
+  if (words.agent.empty()) throw InputError("--agent", "name the control software to test");
+  if (words.neighbours && (*words.neighbours < 1 || *words.neighbours > kMostNeighbours))
+    throw InputError("--neighbours", fmt::format("is {}; it is from 1 to {}", *words.neighbours, kMostNeighbours));
   AgentPrograms programs;
   for (const std::string& plugin : words.plugins) programs.know(plugin);
   const FindingsFile file(words.file);

@@ -15,8 +15,8 @@ namespace fleetproof {
 namespace {
 
 constexpr double kNewKindChance = 0.001;
-// If fewer neighbours failed before, that none fails now says little: with 10 of 1000, it is chance once in 20 000
-// times.
+// If software that fails as before had fewer failing neighbours than this in the mean, that none fails says little:
+// with 10, it is chance once in 20 000 times.
 constexpr std::size_t kEnoughBefore = 10, kOften = 10;
 
 bool contains(const std::vector<std::string>& larger, const std::vector<std::string>& smaller) {
@@ -83,7 +83,7 @@ Retest retest(CaseHost& host, const KeptFailure& kept, const NeighbourCounts& be
                                               : RetestVerdict::Dodged;
   } else {
     result.new_kind = more_often(now, before);
-    const bool is_telling = before.alike >= kEnoughBefore;
+    const bool is_telling = before.of > 0 && now.of * before.alike >= kEnoughBefore * before.of;
     result.verdict = !result.new_kind.empty() ? RetestVerdict::NewKind
                      : is_telling             ? RetestVerdict::Fixed
                                               : RetestVerdict::NotKnown;

@@ -109,6 +109,9 @@ TEST_F(FindingsVerb, OtherSoftwareIsRetested) {
   EXPECT_EQ(run("retest findings.toml --agent none").exit_code, 2);
   EXPECT_EQ(run("retest findings.toml --agent hull-lock --finding F-0").exit_code, 2);
   EXPECT_EQ(run("retest none.toml --agent hull-lock").exit_code, 2);
+  EXPECT_EQ(run("retest findings.toml").exit_code, 2);
+  EXPECT_EQ(run("retest findings.toml --agent hull-lock --neighbours 0").exit_code, 2);
+  EXPECT_EQ(run("retest findings.toml --agent hull-lock --neighbours 2").exit_code, 4) << "too few to tell";
   std::filesystem::remove(path(
       nlohmann::json::parse(read(path("a.findings.json")))["findings"][0]["id"].get<std::string>() + ".case.json"));
   EXPECT_THAT(run("retest findings.toml --agent hull-lock").err, HasSubstr(".case.json"));
@@ -136,7 +139,8 @@ TEST_F(FindingsVerb, ACrashOfAPlugInIsAFinding) {
 }
 
 TEST_F(FindingsVerb, BadWordsAreRefused) {
-  for (const char* words : {"a.db --add", "a.toml", "none.db", "a.db --file a.toml --add", "a.db -o a.toml"}) {
+  for (const char* words : {"a.db --add", "a.toml", "none.db", "a.db --file a.toml --add", "a.db -o a.toml",
+                            "a.db --max-failures 0", "a.db -o none/o.json", "a.db --file none/f.toml --add"}) {
     const auto finished = run(std::string("findings ") + words);
     EXPECT_EQ(finished.exit_code, 2) << words << finished.out << finished.err;
     EXPECT_NE(finished.err, "") << words;
