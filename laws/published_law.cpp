@@ -35,7 +35,10 @@ void PublishedLaw::piece_ended(const Piece& piece) {
 void PublishedLaw::finish(SimTime) {
   for (const auto& pieces : timelines_) {
     for (const Piece& piece : pieces) {
-      if (piece.manner == Manner::Drive) inspect(piece);
+      if (piece.manner != Manner::Drive) continue;
+      const std::uint64_t before = perimeter_checks_;
+      inspect(piece);
+      drives_.push_back({piece.entity, piece.begin, piece.end, perimeter_checks_ - before});
     }
   }
   stretches_ = joined(std::move(stretches_), step_);
@@ -46,6 +49,7 @@ LawFindings PublishedLaw::findings() const {
   findings.violations = filed(stretches_);
   findings.perimeter_checks = perimeter_checks_;
   findings.distance_evaluations = distance_evaluations_;
+  findings.drives = drives_;
   return findings;
 }
 

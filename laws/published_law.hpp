@@ -50,6 +50,7 @@ class PublishedLaw : public Law {
   Duration step_;
   std::vector<std::vector<Piece>> timelines_;  // by entity: its pieces, as they happened, not as planned
   std::vector<Stretch> stretches_;
+  std::vector<DriveChecks> drives_;
   std::uint64_t perimeter_checks_ = 0;
   std::uint64_t distance_evaluations_ = 0;
 };

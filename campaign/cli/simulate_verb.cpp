@@ -126,6 +126,17 @@ Observers observers_of(const std::string& name, const Scenario& scenario) {
 // Only a judge of clearances measures the smallest clearance.
 bool measures_clearance(const SimulateWords& words) { return find_law(words.law) == &laws().front(); }
 
+// What a published law counted for each drive activity, as the paper tells it; empty for all other laws.
+nlohmann::ordered_json drives_json(const Scenario& scenario, const std::vector<DriveChecks>& drives) {
+  auto json = nlohmann::ordered_json::array();
+  for (const auto& [agv, begin, end, perimeter_checks] : drives)
+    json.push_back({{"agv", body_name(scenario, agv)},
+                    {"begin_s", to_seconds(begin)},
+                    {"end_s", to_seconds(end)},
+                    {"perimeter_checks", perimeter_checks}});
+  return json;
+}
+
 void print_json(const Scenario& scenario, const Outcome& outcome, const SimulateWords& words,
                 const Observers& observers, const ExpectedOutcome& found) {
   nlohmann::ordered_json json;
@@ -168,6 +179,7 @@ void print_json(const Scenario& scenario, const Outcome& outcome, const Simulate
     json["min_clearance_um"] = *outcome.min_clearance_um;
   }
   for (const CounterInfo& counter : kCounters) json["counters"][counter.name] = outcome.counters.*counter.member;
+  json["drives"] = drives_json(scenario, observers.laws.front()->findings().drives);
   json["digest"] = fmt::format("{:016x}", outcome.digest);
   if (!outcome.message.empty()) json["message"] = outcome.message;
   put_text(printable_json(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) + "\n");

@@ -15,6 +15,13 @@
 
 namespace fleetproof {
 
+// The perimeter checks that a published law makes for one drive activity.
+struct DriveChecks {
+  EntityId agv;
+  SimTime begin{}, end{};
+  std::uint64_t perimeter_checks = 0;
+};
+
 struct LawFindings {
   std::vector<Violation> violations;      // ordered by (first, a, b); one entry per uninterrupted stretch
   std::vector<Incident> incidents;        // everything else that the law accuses
@@ -22,6 +29,7 @@ struct LawFindings {
   std::optional<double> min_clearance_m;  // exact below 0.5 m, otherwise absent; always absent in snapshot laws
   std::uint64_t perimeter_checks = 0;
   std::uint64_t distance_evaluations = 0;
+  std::vector<DriveChecks> drives;  // from a law that looks at drive activities one after the other
 };
 
 // The kinds of trace records that a law wants to read.

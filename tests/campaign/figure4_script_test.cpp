@@ -13,6 +13,12 @@ class Figure4Program : public test::ProgramTest {
     EXPECT_EQ(finished.exit_code, expected_exit) << finished.err;
     return nlohmann::json::parse(finished.out);
   }
+  // The AGVs of the paper drive once each.
+  static std::map<std::string, int> checks_of_drives(const nlohmann::json& json) {
+    std::map<std::string, int> checks;
+    for (const auto& drive : json["drives"]) checks[drive["agv"]] += drive["perimeter_checks"].get<int>();
+    return checks;
+  }
   static void expect_only_a_and_d(const nlohmann::json& json) {
     ASSERT_EQ(json["violations"].size(), 1U) << json.dump(1);
     EXPECT_EQ(json["violations"][0]["entities"], (nlohmann::json{"A", "D"}));
@@ -24,12 +30,18 @@ TEST_F(Figure4Program, ThePublishedLawMakes4020Checks) {
   const auto json = simulate("figure4.json", "paper", 1);
   EXPECT_EQ(json["counters"]["perimeter_checks"], 4020);
   expect_only_a_and_d(json);
+  EXPECT_EQ(checks_of_drives(json),
+            (std::map<std::string, int>{{"A", 1204}, {"B", 804}, {"C", 804}, {"D", 1204}, {"E", 4}}));
+  EXPECT_EQ(json["drives"][0]["begin_s"], 2.0);
+  EXPECT_EQ(json["drives"][0]["end_s"], 10.0);
 }
 
 TEST_F(Figure4Program, AGlobalTimeStepMakes38400Checks) {
   const auto json = simulate("figure4.json", "global-step", 1);
   EXPECT_EQ(json["counters"]["perimeter_checks"], 38400);
   expect_only_a_and_d(json);
+  EXPECT_EQ(checks_of_drives(json),
+            (std::map<std::string, int>{{"A", 12800}, {"B", 8000}, {"C", 8000}, {"D", 4800}, {"E", 4800}}));
 }
 
 TEST_F(Figure4Program, TheExactLawFindsTheInstants) {
@@ -41,6 +53,7 @@ TEST_F(Figure4Program, TheExactLawFindsTheInstants) {
   EXPECT_NEAR(violation["min_clearance_m"], 0.0148, 0.0001);
   EXPECT_NEAR(violation["at_s"], 8.080, 0.001);
   EXPECT_LE(json["counters"]["perimeter_checks"], 200);
+  EXPECT_TRUE(json["drives"].empty());
 }
 
 TEST_F(Figure4Program, TheHoleInThePublishedLaw) {
