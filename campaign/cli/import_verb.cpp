@@ -85,7 +85,17 @@ void write_vehicles(const ImportWords& words) {
   write_whole({words.vehicles, "--vehicles", OutputKind::Fleet}, fleet_text(vehicles, source));
 }
 
-int import_file(const ImportWords& words) {
+// One word is the file; its name and its keys say what it is.
+void find_format(ImportWords& words) {
+  if (!words.file.empty()) return;
+  if (find_entry(importers(), words.format) != nullptr)
+    throw InputError("FILE", fmt::format("is missing; name the file after \"{}\"", words.format));
+  words.file = words.format;
+  words.format = importer_of_file(words.file);
+}
+
+int import_file(ImportWords words) {
+  find_format(words);
   const auto& entry = importer(words.format);
   const ImportChoice choice = choice_of(words);
   expect_vehicles(words);
@@ -115,8 +125,9 @@ int import_file(const ImportWords& words) {
 Action prepare_import(Options& options) {
   auto words = std::make_shared<ImportWords>();
   options.positional("FORMAT", words->format,
-                     "opentcs, lif, rmf, grid, csv or layout (see: fleetproof list importers)");
-  options.positional("FILE", words->file, "file to read");
+                     "opentcs, lif, rmf, grid, csv, layout or scenario (see: fleetproof list importers); may be left "
+                     "out if the name of the file ends as usual");
+  options.optional_positional("FILE", words->file, "file to read");
   options.option("-o,--output", words->out,
                  "write to this file instead of standard output: LIF if it ends in .lif.json, tables if in .csv, else "
                  "our layout file");

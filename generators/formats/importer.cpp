@@ -46,6 +46,8 @@ constexpr Entry<ReadLayout> kImporters[] = {
      }},
     {"layout", "fleetproof's own layout file (.json)",
      [](const std::string& path, const ImportChoice&, Warnings&) { return read_layout(path); }},
+    {"scenario", "the layout in a scenario file (.json)",
+     [](const std::string& path, const ImportChoice&, Warnings&) { return read_layout_of_scenario(path); }},
 };
 
 struct Extension {
@@ -59,9 +61,11 @@ const Extension* extension_of(std::string_view path) {
   return found == std::end(kExtensions) ? nullptr : &*found;
 }
 
-bool is_lif(const std::string& path) {
+std::string_view importer_of_json(const std::string& path) {
+  if (path.ends_with(".lif.json")) return "lif";
   const auto root = parse_json(read_text_file(path), path);
-  return root.find("metaInformation") != nullptr || root.find("layouts") != nullptr;
+  if (root.find("metaInformation") != nullptr || root.find("layouts") != nullptr) return "lif";
+  return root.find("agvs") != nullptr ? "scenario" : "layout";
 }
 
 }  // namespace
@@ -83,8 +87,7 @@ std::string_view importer_of_file(const std::string& path) {
   const auto* extension = extension_of(path);
   if (extension == nullptr)
     throw InputError(path, "has no extension of a layout file; known: .xml .json .yaml .yml .map .csv");
-  const bool lif = extension->importer == "layout" && (path.ends_with(".lif.json") || is_lif(path));
-  return lif ? "lif" : extension->importer;
+  return extension->importer == "layout" ? importer_of_json(path) : extension->importer;
 }
 
 Layout import_layout(const Entry<ReadLayout>& importer, const std::string& path, const ImportChoice& choice,

@@ -38,7 +38,8 @@ const Entry<ReadLayout>& importer(std::string_view name);
 // Whether a file of this name is a layout file, by its extension.
 bool is_layout_file(std::string_view path);
 
-// The importer for the extension of a file. The keys of a .json file decide between LIF and our own layout format.
+// The importer for the extension of a file. The keys of a .json file decide between LIF, scenarios and our own layout
+// format.
 std::string_view importer_of_file(const std::string& path);
 
 // Reads a layout with an importer. Lifts permissions and cuts stations off if the choice asks for it; `warnings`

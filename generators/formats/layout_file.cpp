@@ -203,6 +203,11 @@ Layout parse_layout(std::string_view text, std::string_view source) {
   return read_layout(reader.at("layout"));
 }
 
+Layout read_layout_of_scenario(const std::string& path) {
+  const JsonValue root = parse_json(read_text_file(path), path);
+  return read_layout(JsonReader(root, path).at("layout"));
+}
+
 Layout read_layout(const JsonReader& reader) {
   reader.expect_object(kLayoutKeys);
   Layout layout;

@@ -15,6 +15,9 @@ class JsonWriter;
 Layout read_layout(const std::string& path);
 Layout parse_layout(std::string_view text, std::string_view source);
 
+// The layout inside a scenario file (generators/scenario_file). Nothing else of the file is read.
+Layout read_layout_of_scenario(const std::string& path);
+
 // The canonical text: a fixed order of keys, and the shortest decimals that read back as the same doubles. Parsing and
 // writing it again gives the same text.
 std::string to_text(const Layout& layout);

@@ -8,12 +8,12 @@
 
 #include "core/base/markup_text.hpp"
 #include "core/base/outside_text.hpp"
+#include "core/base/round_step.hpp"
 
 namespace fleetproof {
 namespace {
 
-constexpr double kWidth_px = 960.0, kMargin_px = 24.0, kHead_px = 40.0, kFoot_px = 56.0;
-constexpr double kLargestScale = 40.0;  // pixels per metre
+constexpr double kFoot_px = 56.0;
 constexpr double kArrowEvery_m = 12.0;
 constexpr std::size_t kFewStations = 150;  // up to here every name is written
 
@@ -51,27 +51,21 @@ struct Written {
 
 class Picture {
  public:
-  explicit Picture(const Layout& layout) : layout_(layout) {
-    const Vec2 size = layout.floor_high_m - layout.floor_low_m;
-    scale_ = std::min(kLargestScale, (kWidth_px - 2.0 * kMargin_px) / std::max(1.0, size.x()));
-    width_px_ = kWidth_px;
-    height_px_ = kHead_px + std::max(1.0, size.y()) * scale_ + kFoot_px;
-    left_px_ = 0.5 * (kWidth_px - size.x() * scale_);
-  }
+  Picture(const Layout& layout, const FloorView& view) : layout_(layout), view_(view), scale_(view.scale()) {}
 
-  std::string draw() {
+  std::string draw(const OnFloor& on_floor) {
     add(R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0:.0f}" height="{1:.0f}" )"
         R"(viewBox="0 0 {0:.0f} {1:.0f}" font-family="sans-serif">)",
-        width_px_, height_px_);
-    const auto size = Vec2(layout_.floor_high_m - layout_.floor_low_m);
-    const auto title = fmt::format("{}: {} stations, {} segment{}", shown(layout_.name), layout_.stations.size(),
-                                   layout_.segments.size(), layout_.segments.size() == 1 ? "" : "s");
+        view_.width_px(), view_.height_px());
+    const auto title = on_floor.title.empty() ? title_of_layout() : shown(on_floor.title);
     add("<title>{}</title>", title);
-    add(R"(<rect width="{:.0f}" height="{:.0f}" fill="#ffffff"/>)", width_px_, height_px_);
-    add(R"(<text x="{:.0f}" y="26" font-size="16" fill="#222222">{}</text>)", kMargin_px, title);
+    add(R"(<rect width="{:.0f}" height="{:.0f}" fill="#ffffff"/>)", view_.width_px(), view_.height_px());
+    add(R"(<text x="{:.0f}" y="22" font-size="16" fill="#222222">{}</text>)", view_.margin_px(), title);
     const Vec2 corner = pixel({layout_.floor_low_m.x(), layout_.floor_high_m.y()});
+    const Vec2 size_px = scale_ * (layout_.floor_high_m - layout_.floor_low_m);
     add(R"(<rect x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}" fill="#f7f7f5" stroke="#cccccc"/>)", corner.x(),
-        corner.y(), size.x() * scale_, size.y() * scale_);
+        corner.y(), size_px.x(), size_px.y());
+    text_ += view_.axes() + "\n" + on_floor.under_the_map;
     for (const auto& segment : layout_.segments) lane(segment);
     for (const auto& segment : layout_.segments) {
       if (!segment.bidirectional) arrows(segment);
@@ -81,6 +75,7 @@ class Picture {
       mark(look_of(station).purpose, pixel(station.position_m), radius_px());
       add("</g>");
     }
+    text_ += on_floor.on_the_map;
     for (const auto& station : layout_.stations) label(station);
     scale_bar();
     legend();
@@ -95,10 +90,12 @@ class Picture {
     text_ += '\n';
   }
 
-  Vec2 pixel(const Vec2& p_m) const {
-    return {left_px_ + (p_m.x() - layout_.floor_low_m.x()) * scale_,
-            kHead_px + (layout_.floor_high_m.y() - p_m.y()) * scale_};
+  std::string title_of_layout() const {
+    return fmt::format("{}: {} stations, {} segment{}", shown(layout_.name), layout_.stations.size(),
+                       layout_.segments.size(), layout_.segments.size() == 1 ? "" : "s");
   }
+
+  Vec2 pixel(const Vec2& p_m) const { return view_.pixel(p_m); }
 
   double radius_px() const { return std::clamp(0.28 * scale_, 4.0, 8.0); }
 
@@ -175,20 +172,18 @@ class Picture {
         shown(station.name));
   }
 
-  // The longest of 1, 2, 5, 10, ... m that takes no more than a fifth of the width.
+  // A twelfth to a fifth of the width, unless the floor is small.
   void scale_bar() {
-    double length_m = 1.0;
-    constexpr double kFactors[] = {2.0, 2.5, 2.0};
-    for (int i = 0; length_m * kFactors[i % 3] * scale_ <= 0.2 * kWidth_px; ++i) length_m *= kFactors[i % 3];
-    const double x = kMargin_px, y = height_px_ - 24.0, end = x + length_m * scale_;
+    const double length_m = round_step(view_.width_px() / 12.0 / scale_);
+    const double x = view_.margin_px(), y = foot_px() + 32.0, end = x + length_m * scale_;
     add(R"(<path d="M{0:.1f} {1:.1f}V{2:.1f}H{3:.1f}V{1:.1f}" fill="none" stroke="#222222" stroke-width="1.5"/>)", x,
         y - 6.0, y, end);
     add(R"(<text x="{:.1f}" y="{:.1f}" font-size="12" fill="#222222">{:g} m</text>)", end + 6.0, y + 2.0, length_m);
   }
 
   void legend() {
-    const double y = height_px_ - 28.0;
-    double x = kWidth_px - 540.0;
+    const double y = foot_px() + 28.0;
+    double x = view_.width_px() - 540.0;
     for (const auto& look : kLooks) {
       mark(look.purpose, {x, y}, 7.0);
       add(R"(<text x="{:.1f}" y="{:.1f}" font-size="12" fill="#222222">{}</text>)", x + 14.0, y + 4.0, look.name);
@@ -203,14 +198,27 @@ class Picture {
     add(R"(<text x="{:.1f}" y="{:.1f}" font-size="12" fill="#222222">two-way</text>)", x + 26.0, y + 4.0);
   }
 
+  double foot_px() const { return view_.foot_top_px(); }
+
   const Layout& layout_;
+  const FloorView& view_;
   std::vector<Written> written_;
-  double scale_ = 1.0, width_px_ = 0.0, height_px_ = 0.0, left_px_ = 0.0;
+  double scale_;
   std::string text_;
 };
 
 }  // namespace
 
-std::string layout_svg(const Layout& layout) { return Picture(layout).draw(); }
+FloorView view_of(const Layout& layout, double words_px) {
+  return {layout.floor_low_m, layout.floor_high_m, kFoot_px + words_px};
+}
+
+double words_top_px(const FloorView& view) { return view.foot_top_px() + kFoot_px; }
+
+std::string layout_svg(const Layout& layout) { return floor_svg(layout, view_of(layout), {}); }
+
+std::string floor_svg(const Layout& layout, const FloorView& view, const OnFloor& on_floor) {
+  return Picture(layout, view).draw(on_floor);
+}
 
 }  // namespace fleetproof

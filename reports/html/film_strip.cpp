@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/round_step.hpp"
 #include "reports/wording.hpp"
 
 namespace fleetproof::html {
@@ -70,18 +71,8 @@ Element note_at(const std::string& text, double x, double y, const char* anchor,
                        {"fill", "currentColor"}});
 }
 
-// A round step of the axes: four to eight of them in a window.
-double step_of(double side_m) {
-  double step_m = 1.0;
-  for (const double factor : {2.0, 2.5, 2.0, 2.0, 2.5}) {
-    if (side_m / step_m <= 8.0) break;
-    step_m *= factor;
-  }
-  return step_m;
-}
-
 void add_axes(Element& svg, const Window& window) {
-  const double step_m = step_of(window.side_m);
+  const double step_m = round_step(window.side_m / 8.0);  // three to eight of them
   const auto ticks = [&](double low_m, const auto& mark) {
     int number = 0;
     for (double at = std::ceil(low_m / step_m) * step_m; at <= low_m + window.side_m + 1e-9; at += step_m)

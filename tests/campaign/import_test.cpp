@@ -46,6 +46,24 @@ TEST_F(ImportTest, DrawsWhatItRead) {
               HasSubstr("no/where.svg: cannot be written (No such file or directory); choose another path for --svg"));
 }
 
+// The picture of the layout inside a scenario file is that of the same layout in a file of its own.
+TEST_F(ImportTest, DrawsTheLayoutOfAScenario) {
+  const std::string figure4 = "'" + test::source("tests/scenarios/figure4.json") + "'";
+  const auto finished = run("import " + figure4 + " --svg a.svg -o layout.json");
+  EXPECT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_THAT(finished.err, HasSubstr("figure4.json: 10 stations, 12 segments, 0 warnings"));
+  EXPECT_THAT(read(path("a.svg")), HasSubstr(">Fig. 4: 10 stations, 12 segments</text>"));
+  EXPECT_EQ(run("import scenario " + figure4 + " --svg b.svg").out, read(path("layout.json")));
+  ASSERT_EQ(run("import layout.json --svg c.svg").exit_code, 0);
+  EXPECT_EQ(read(path("a.svg")), read(path("b.svg")));
+  EXPECT_EQ(read(path("a.svg")), read(path("c.svg")));
+  write("poor.json", R"({"agvs": [], "layout": {"name": "x", "stations": []}})");
+  EXPECT_THAT(run("import poor.json --svg d.svg").err, HasSubstr("poor.json:1"));
+  EXPECT_FALSE(std::filesystem::exists(path("d.svg")));
+  EXPECT_THAT(run("import opentcs").err, HasSubstr("FILE: is missing; name the file after \"opentcs\""));
+  EXPECT_THAT(run("import plant.dwg").err, HasSubstr("plant.dwg: has no extension of a layout file"));
+}
+
 TEST_F(ImportTest, TellsWhatItGuessed) {
   write("m.map", "height 1\nwidth 3\nmap\n.S.\n");
   const auto finished = run("import grid m.map --cell-pitch 1.5");

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <pugixml.hpp>
+#include <sstream>
 
 #include "generators/families/layout_family.hpp"
 #include "generators/map/layout_check.hpp"
@@ -61,6 +63,52 @@ TEST(LayoutSvg, HigherIsHigherAndRightIsRight) {
   ASSERT_EQ(low.size() + high.size(), 2U);
   EXPECT_GT(low[0].attribute("y").as_double(), high[0].attribute("y").as_double() + 50.0);
   EXPECT_LT(low[0].attribute("x").as_double(), high[0].attribute("x").as_double() - 50.0);
+}
+
+// A reader who measures a station on the axes finds its coordinates.
+TEST(LayoutSvg, TheAxesAreInMetres) {
+  for (const double far_m : {3.0, 40.0, 2000.0}) {
+    Layout layout;
+    layout.name = "far";
+    layout.stations = {{"low", {-0.25 * far_m, -1.5}, Purpose::Storage},
+                       {"high", {far_m, 0.7 * far_m}, Purpose::Storage}};
+    layout.segments = {{"low-high", StationId{0U}, StationId{1U}, true, {}}};
+    fit_floor(layout, 3.0);
+    const auto document = parsed(layout_svg(layout));
+    const auto axes = document.child("svg").children("g");
+    std::vector<std::array<double, 4>> ends;  // the first and the last number of each axis: pixel, metres
+    for (const auto& axis : {*axes.begin(), *std::next(axes.begin())}) {
+      const bool is_x = ends.empty();
+      std::vector<std::pair<double, double>> ticks;
+      for (auto line = axis.child("path"); line; line = line.next_sibling("path")) {
+        double x = 0.0, y = 0.0;
+        std::istringstream(std::string(line.attribute("d").value()).substr(1)) >> x >> y;
+        ticks.emplace_back(is_x ? x : y, line.next_sibling("text").text().as_double());
+      }
+      ASSERT_GE(ticks.size(), 3U) << far_m;
+      EXPECT_LE(ticks.size(), 25U) << far_m;
+      ends.push_back({ticks.front().first, ticks.front().second, ticks.back().first, ticks.back().second});
+    }
+    const auto metres = [&](std::size_t axis, double px) {
+      const auto& [a_px, a_m, b_px, b_m] = ends[axis];
+      return a_m + (px - a_px) * (b_m - a_m) / (b_px - a_px);
+    };
+    std::vector<std::array<double, 2>> marks;  // diamonds: their top has the x, their right the y
+    for (const auto& group : document.child("svg").children("g")) {
+      if (!group.child("title")) continue;
+      std::string d = group.child("path").attribute("d").value();
+      std::ranges::replace_if(
+          d, [](char c) { return c == 'M' || c == 'L' || c == 'Z'; }, ' ');
+      double top_x = 0.0, top_y = 0.0, right_x = 0.0, right_y = 0.0;
+      std::istringstream(d) >> top_x >> top_y >> right_x >> right_y;
+      marks.push_back({metres(0, top_x), metres(1, right_y)});
+    }
+    ASSERT_EQ(marks.size(), 2U);
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_NEAR(marks[i][0], layout.stations[i].position_m.x(), 2e-3 * far_m);
+      EXPECT_NEAR(marks[i][1], layout.stations[i].position_m.y(), 2e-3 * far_m);
+    }
+  }
 }
 
 TEST(LayoutSvg, NamesAreEscaped) {
