@@ -6,6 +6,7 @@
 
 #include "campaign/cli/chrome_trace.hpp"
 #include "campaign/cli/command_line.hpp"
+#include "campaign/cli/moment.hpp"
 #include "campaign/cli/pieces_file.hpp"
 #include "campaign/cli/replay_file.hpp"
 #include "campaign/cli/trace_words.hpp"
@@ -15,11 +16,13 @@ namespace fleetproof::cli {
 // What the user wants to see or keep of one run, besides its outcome.
 struct ObserverWords {
   TraceWords trace;
-  std::string pieces, poses, chrome, html;
+  std::string pieces, poses, chrome, html, svg;
   std::optional<std::uint64_t> every_ms;
+  std::optional<double> at_s;  // of the picture
 
   bool wanted() const {
-    return trace.wanted() || !pieces.empty() || !poses.empty() || !chrome.empty() || !html.empty();
+    return trace.wanted() || !pieces.empty() || !poses.empty() || !chrome.empty() || !html.empty() || !svg.empty() ||
+           at_s.has_value();
   }
 };
 
@@ -36,7 +39,8 @@ class RunObservers final : public TraceSink {
   void record(const TraceRecord& record, std::string_view text) override;
   void piece_started(const Piece& piece) override;
   void piece_ended(const Piece& piece) override;
-  // Call this after the run: writes the files. `remark` is for the replay page.
+  // Call this after the run: writes the files. `remark` is for the replay page. Throws InputError if the run ended
+  // before the instant of the picture.
   void finish(const Outcome& outcome, const std::string& remark = {});
 
  private:
@@ -47,6 +51,7 @@ class RunObservers final : public TraceSink {
   std::optional<ChromeTrace> chrome_;
   ReplayWords replay_;
   std::optional<FilmRecorder> film_;
+  std::optional<MomentKeeper> moment_;
 };
 
 }  // namespace fleetproof::cli

@@ -50,6 +50,13 @@ class HostileNames : public test::ProgramTest {
       std::filesystem::remove(path("page.html"));
     }
   }
+  void expect_sound_picture(const std::string& file) const {
+    const std::string picture = read(path(file));
+    EXPECT_EQ(printable_lines(picture), picture);
+    EXPECT_EQ(shell("xmllint --noout --nonet " + file).exit_code, 0);
+    EXPECT_THAT(picture, HasSubstr("&lt;/script&gt;]]&gt;&amp;lt;"));
+    for (const char* markup : {"<b>", "<!-- ", "<script"}) EXPECT_THAT(picture, Not(HasSubstr(markup)));
+  }
   // The names are text on the page and in its data, and no markup.
   void expect_sound_replay_page(const std::string& file) const {
     const std::string page = read(path(file));
@@ -106,16 +113,22 @@ TEST_F(HostileNames, ACampaignFromTheFirstRunToTheLastReport) {
 TEST_F(HostileNames, AScenarioThroughReplayAndSimulate) {
   write_campaign();
   checked("\"$FLEETPROOF\" run a.toml --db a.db");
-  const auto replayed = checked("\"$FLEETPROOF\" replay a.db 0 --trace --scenario s.json --html p.html");
+  const auto replayed = checked(
+      "\"$FLEETPROOF\" replay a.db 0 --trace --scenario s.json --html p.html "
+      "--at 2.5 --svg p.svg");
   EXPECT_EQ(replayed.exit_code, 0) << replayed.err;
   EXPECT_EQ(printable_lines(read(path("s.json"))), read(path("s.json")));
   expect_sound_replay_page("p.html");
+  expect_sound_picture("p.svg");
   checked("\"$FLEETPROOF\" replay a.db 0 --json");
-  const auto simulated = checked("\"$FLEETPROOF\" simulate s.json --agent reckless --trace --html q.html");
+  const auto simulated = checked(
+      "\"$FLEETPROOF\" simulate s.json --agent reckless --trace --html q.html "
+      "--at 2.5 --svg q.svg");
   EXPECT_THAT(simulated.exit_code, testing::AnyOf(0, 1, 4)) << simulated.err;
   EXPECT_EQ(nlohmann::json::parse(checked("\"$FLEETPROOF\" simulate s.json --agent reckless --json").out)["scenario"],
             nlohmann::json::parse(read(path("s.json")))["name"]);
   expect_sound_replay_page("q.html");
+  expect_sound_picture("q.svg");
   checked("\"$FLEETPROOF\" check s.json");
 }
 
@@ -124,8 +137,7 @@ TEST_F(HostileNames, ALayoutThroughImportAndBack) {
   const auto imported = checked("\"$FLEETPROOF\" import layout plant.json --svg p.svg");
   EXPECT_EQ(imported.exit_code, 0) << imported.err;
   EXPECT_EQ(nlohmann::json::parse(imported.out)["layout"]["name"], kPlain);
-  EXPECT_EQ(printable_lines(read(path("p.svg"))), read(path("p.svg")));
-  EXPECT_THAT(read(path("p.svg")), Not(HasSubstr("<b>")));
+  expect_sound_picture("p.svg");
   checked("\"$FLEETPROOF\" import layout plant.json -o p.lif.json && \"$FLEETPROOF\" import lif p.lif.json");
   checked("\"$FLEETPROOF\" import layout plant.json -o p.csv && \"$FLEETPROOF\" import csv p.csv");
 }

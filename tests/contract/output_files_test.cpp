@@ -44,6 +44,7 @@ TEST_F(OutputFiles, ReplaceOnlyTheirOwnKind) {
                             {"import layout layout.json --svg ", {"picture.svg"}},
                             {"replay a.db 0 --scenario ", {"scenario.json"}},
                             {"replay a.db 0 --html ", {"case.html"}},
+                            {"replay a.db 0 --at 5 --svg ", {"picture.svg"}},
                             {"report a.db -o ", {"report.txt", "report.md", "report.json", "report.html"}},
                             {"report a.db --html ", {"report.txt", "report.md", "report.json", "report.html"}},
                             {"report a.db --json -o ", {"report.txt", "report.md", "report.json", "report.html"}}};

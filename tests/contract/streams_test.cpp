@@ -72,10 +72,15 @@ TEST_F(Streams, DataThatCannotBeWrittenIsExit3) {
                                           "new campaign",
                                           "replay expected.db 0",
                                           "replay expected.db 0 --json",
+                                          "replay expected.db 0 --html h.html",
+                                          "replay expected.db 0 --at 2.5 --svg h.svg",
                                           "simulate s.json --agent reckless",
                                           "simulate s.json --json",
+                                          "simulate s.json --html h.html",
+                                          "simulate s.json --at 2.5 --svg h.svg --json",
                                           "generate fishbone",
                                           "import opentcs '" + test::source("tests/layouts/crossdock.xml") + "'",
+                                          "import s.json --svg h.svg",
                                           "check a.toml",
                                           "check s.json",
                                           "evidence",
@@ -110,6 +115,33 @@ TEST_F(Streams, APageIsWrittenWhateverTheStreamsAre) {
   EXPECT_EQ(cut.exit_code, 3) << cut.err;
   EXPECT_THAT(cut.err, HasSubstr("p.html: cannot be written (File too large)"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "p.html"));
+}
+
+// Page and picture of one run: the same bytes as with open streams, whole or not at all.
+TEST_F(Streams, PageAndPictureOfARunAreWrittenWhateverTheStreamsAre) {
+  for (const std::string verb : {"replay expected.db 0", "simulate s.json"}) {
+    ASSERT_LE(run("replay expected.db 0 --scenario s.json").exit_code, 1);
+    const std::string words = "\"$FLEETPROOF\" " + verb + " --html h.html --at 2.5 --svg h.svg ";
+    const int exit_code = shell(words).exit_code;
+    const std::string page = read(path("h.html")), picture = read(path("h.svg"));
+    ASSERT_TRUE(page.ends_with("</html>\n") && picture.ends_with("</svg>\n")) << verb;
+    for (const auto& [to, expected] : {std::pair(">/dev/full", 3),
+                                       {">&-", 3},
+                                       {"2>/dev/full", exit_code},
+                                       {"2>&-", exit_code},
+                                       {"<&- >&- 2>&-", 3},
+                                       {"| true; exit ${PIPESTATUS[0]}", 3}}) {
+      const auto finished = shell("rm -f h.html h.svg; " + words + to);
+      EXPECT_EQ(finished.exit_code, expected) << verb << to << finished.err;
+      EXPECT_TRUE(read(path("h.html")) == page && read(path("h.svg")) == picture) << verb << to;
+    }
+    for (const auto& [option, file] : {std::pair("--html h.html", "h.html"), {"--at 2.5 --svg h.svg", "h.svg"}}) {
+      const auto cut = shell("rm -f h.html h.svg; ulimit -f 4; \"$FLEETPROOF\" " + verb + " " + option);
+      EXPECT_EQ(cut.exit_code, 3) << cut.err;
+      EXPECT_THAT(cut.err, HasSubstr(std::string(file) + ": cannot be written (File too large)"));
+      EXPECT_FALSE(std::filesystem::exists(folder_ / file));
+    }
+  }
 }
 
 TEST_F(Streams, AReaderThatLeavesEndsTheVerbQuietly) {
