@@ -20,6 +20,7 @@
 #include "laws/comparison.hpp"
 #include "laws/exact_law.hpp"
 #include "laws/laws.hpp"
+#include "reports/wording.hpp"
 
 namespace fleetproof::cli {
 namespace {
@@ -251,6 +252,9 @@ int simulate_scenario(SimulateWords words) {
       put_text(differences_text(scenario, observers.differences(scenario), find_law(words.law)->name));
   }
   if (!words.json && is_saved_case) put_text(expectation_text(scenario.expected, found));
+  if (words.agent == "scripted" && outcome.counters.refused_calls > 0)
+    talk("note: the controller refused {} of the script; see --trace --trace-kind refused\n",
+         count_text(outcome.counters.refused_calls, "call"));
   if (outcome.engine_error) return kEngineFault;
   if (outcome.violation || outcome.contact) return kViolated;
   return outcome.outcome_class() == OutcomeClass::Clean ? kDemonstrated : kNotDemonstrated;

@@ -102,7 +102,9 @@ Scenario with_segments(const Scenario& scenario, const Keeps& keeps) {
       stations.renumber(order.from);
       stations.renumber(order.to);
     }
-    for (ScriptedCall& call : agv.script) segments.renumber(call.segment);
+    for (ScriptedCall& call : agv.script) {
+      if (call.segment.valid()) segments.renumber(call.segment);
+    }
   }
   return less;
 }

@@ -127,6 +127,7 @@ void Briefings::describe_fleet(const Scenario& scenario) {
   for (const AgvSetup& agv : scenario.agvs) {
     fleet_.push_back(c_agv(scenario.type_of(agv), agv.type));
     auto& script = scripts_.emplace_back();
+    static_assert(SegmentId{}.value == FP_HERE, "a call without a segment is for where the AGV stands");
     for (const ScriptedCall& call : agv.script)
       script.push_back({call.at.count(), static_cast<std::uint32_t>(call.action),
                         call.segment.value | (call.backward ? FP_BACKWARD : 0U)});

@@ -27,7 +27,7 @@ struct ScriptedCall {
   enum class Action : std::uint8_t { Move, Pick, Drop, Park, Charge };
   Duration at{};
   Action action = Action::Move;
-  SegmentId segment;
+  SegmentId segment;  // invalid, but not of a move: the AGV does not drive first
   bool backward = false;
 };
 constexpr const char* name_of(ScriptedCall::Action action) {

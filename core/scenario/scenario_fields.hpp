@@ -58,7 +58,11 @@ void visit_fields(Call& call, Visit&& visit) {
   auto& [at, action, segment, backward] = call;
   visit(Field{.key = "at_s", .text = "when the call is made", .high = kLongest_s, .needed = true}, at);
   visit(Field{.key = "action", .text = "the controller call", .needed = true}, action);
-  visit(Field{.key = "segment", .text = "name of the segment that the call is about", .needed = true}, segment);
+  visit(Field{.key = "segment",
+              .text = "name of the segment that the AGV drives first; left out of pick, drop, park or charge: it stays "
+                      "where it stands",
+              .left_out = !segment.valid()},
+        segment);
   visit(Field{.key = "backward", .text = "whether the AGV drives the segment backward", .left_out = !backward},
         backward);
 }

@@ -18,6 +18,7 @@
 #include "generators/map/permitted_types.hpp"
 #include "generators/scenario_file/exempt_pairs.hpp"
 #include "generators/scenario_file/field_rules.hpp"
+#include "generators/scenario_file/script_check.hpp"
 #include "generators/text/text_file.hpp"
 
 namespace fleetproof {
@@ -210,37 +211,7 @@ class MeaningCheck {
     if (a.type >= scenario_.vehicle_types.size()) unknown("type", "there is no such vehicle type");
     if (!has_station(a.start)) unknown("start", "there is no such station");
     for (std::size_t k = 0; k < a.transports.size(); ++k) transport(i, k, a.transports[k]);
-    Duration last{};
-    for (std::size_t k = 0; k < a.script.size(); ++k) {
-      const auto& call = a.script[k];
-      if (call.segment.index() >= scenario_.map->segment_count())
-        unknown(fmt::format("script/{}/segment", k), "there is no such segment");
-      else if (call.backward)
-        backward_call(i, k);
-      if (call.at < last)
-        add(ProblemKind::NumberOutOfRange, fmt::format("/agvs/{}/script/{}/at_ns", i, k),
-            fmt::format("{} s: calls are listed in order of time", to_seconds(call.at)));
-      last = call.at;
-    }
-  }
-
-  // The first call begins at the AGV's start. Where a later one begins depends on the run.
-  void backward_call(std::size_t i, std::size_t k) {
-    const auto& map = *scenario_.map;
-    const auto& agv = scenario_.agvs[i];
-    const auto id = agv.script[k].segment;
-    const Segment& segment = map.segment(id);
-    const bool first = k == 0 && (agv.start == segment.from || agv.start == segment.to);
-    const bool there = map.backward_lane(id, segment.from) != nullptr,
-               back = map.backward_lane(id, segment.to) != nullptr;
-    if (first ? (agv.start == segment.from ? there : back) : there || back) return;
-    add(ProblemKind::UnknownReference, fmt::format("/agvs/{}/script/{}/backward", i, k),
-        fmt::format(
-            "{} cannot drive segment {} backward{}; leave backward out, or set {} of the segment to backward or "
-            "either",
-            in_quotes(agv.name), in_quotes(segment.name),
-            first ? " from " + in_quotes(map.station(agv.start).name) : "",
-            first && agv.start == segment.to ? "back_travel" : "travel"));
+    check_script(scenario_, i, problems_);
   }
 
   void transport(std::size_t i, std::size_t k, const TransportOrder& order) {

@@ -77,7 +77,8 @@ Scenario unusual() {
   if (layout.segments[3].bidirectional) layout.segments[3].back_travel = Travel::Either;
   s.map = std::make_shared<const LogicalMap>(layout);
   s.agvs[2].script = {{Duration{5}, ScriptedCall::Action::Charge, SegmentId{3U}, true},
-                      {Duration{6}, ScriptedCall::Action::Drop, SegmentId{2U}}};
+                      {Duration{6}, ScriptedCall::Action::Drop, SegmentId{2U}},
+                      {Duration{7}, ScriptedCall::Action::Pick, SegmentId{}}};
   s.agvs[1].sensing = {0.5, -40.0, 0.01, 0.3};
   s.obstacles = {{"rack", {0.5, 3.25}, {Vec2(-30.5, 40.25), Vec2::UnitY()}, Duration{9}, Duration{10}}};
   s.faults = {{Fault::Kind::Breakdown, AgvId{1U}, Duration{11}, std::nullopt, Duration{12}, {}, 0.0, 0.0},
@@ -156,6 +157,13 @@ TEST(ScenarioFile, EveryFieldComesBack) {
   EXPECT_EQ(back.faults[1].left_m, 0.4);
   EXPECT_EQ(back.scanner, s.scanner);
   EXPECT_EQ(back.operator_help, s.operator_help);
+}
+
+// A call for the place where the AGV stands has no segment, in the file and in memory.
+TEST(ScenarioFile, ACallWithoutASegmentComesBack) {
+  const std::string text = to_text(unusual());
+  EXPECT_NE(text.find(R"({"at_ns": 7, "action": "pick"})"), std::string::npos);
+  EXPECT_FALSE(parse_scenario(text, "text").agvs[2].script.at(2).segment.valid());
 }
 
 TEST(ScenarioFile, GeneratedScenariosComeBackToTheByte) {

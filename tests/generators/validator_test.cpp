@@ -133,7 +133,15 @@ const Plant kPlants[] = {
      [](Scenario& s) { s.agvs[0].transports[0].release = Duration{-1}; }},
     {"script", ProblemKind::UnknownReference, "/agvs/0/script/0/segment",
      [](Scenario& s) {
+       s.agvs[0].script = {{Duration{}, ScriptedCall::Action::Move, SegmentId{1'000'000U}}};
+     }},
+    {"script_move", ProblemKind::UnknownReference, "/agvs/0/script/0/action",
+     [](Scenario& s) {
        s.agvs[0].script = {{Duration{}, ScriptedCall::Action::Move, SegmentId{}}};
+     }},
+    {"script_backward", ProblemKind::UnknownReference, "/agvs/0/script/0/backward",
+     [](Scenario& s) {
+       s.agvs[0].script = {{Duration{}, ScriptedCall::Action::Drop, SegmentId{}, true}};
      }},
     {"script_order", ProblemKind::NumberOutOfRange, "/agvs/0/script/1/at_ns",
      [](Scenario& s) {
