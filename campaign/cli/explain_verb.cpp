@@ -25,9 +25,10 @@ struct ExplainWords {
   bool json = false;
 };
 
-std::string file_of_claim(const std::string& folder, std::size_t number) {
-  return (std::filesystem::path(folder) / fmt::format("{:03}.json", number)).string();
+std::string file_in(const std::string& folder, const std::string& name) {
+  return (std::filesystem::path(folder) / (name + ".json")).string();
 }
+std::string name_of_claim(std::size_t number) { return fmt::format("{:03}", number); }
 
 nlohmann::ordered_json to_json(const Explanation& explanation) {
   const Scenario& small = explanation.small.scenario;
@@ -60,11 +61,14 @@ nlohmann::ordered_json to_json(const Explanation& explanation) {
         {{"number", json["runs"].size() + 1}, {"what", claim->sentence}, {"outcome", claim->outcome}});
   json["shares"] = nlohmann::ordered_json::array();
   for (const Share& share : explanation.shares)
-    json["shares"].push_back({{"if", share.what}, {"failing", share.failing}, {"of", share.of}});
+    json["shares"].push_back(
+        {{"if", share.what}, {"failing", share.failing()}, {"of", share.of}, {"failing_lucks", share.failing_lucks}});
   json["branches_each"] = kBranches;
   json["curve_of_no_return"] = nlohmann::ordered_json::array();
   for (const Branching& branching : explanation.no_return.curve)
-    json["curve_of_no_return"].push_back({{"at_s", to_seconds(branching.at - kStart)}, {"failing", branching.failing}});
+    json["curve_of_no_return"].push_back({{"at_s", to_seconds(branching.at - kStart)},
+                                          {"failing", branching.failing()},
+                                          {"failing_radio_lucks", branching.failing_lucks}});
   json["open_until_s"] = to_seconds(explanation.no_return.open_until - kStart);
   json["likely_from_s"] = json["certain_from_s"] = nullptr;
   if (const auto at = explanation.no_return.likely_from) json["likely_from_s"] = to_seconds(*at - kStart);
@@ -72,28 +76,40 @@ nlohmann::ordered_json to_json(const Explanation& explanation) {
   return json;
 }
 
-// Each run that a sentence names, as a scenario file.
+// Each run that a sentence names, as a scenario file; shares and branches with their own luck.
 void save_runs(const ExplainWords& words, const CaseSource& source, CaseHost& host, const Explanation& explanation) {
   if (words.runs.empty()) return;
   std::error_code error;
   std::filesystem::create_directories(words.runs, error);
   if (error) throw InputError("--runs", fmt::format("{} cannot be made: {}", words.runs, error.message()));
-  std::size_t number = 0;
-  for (const Claim* claim : claims_of(explanation)) {
-    Scenario scenario = claim->run;
+  const auto save = [&](Scenario scenario, const std::string& name, bool is_expected) {
     scenario.agent = source.agent.program;
     scenario.agent_config = source.agent.config;
-    scenario.expected = expectation_of(host(scenario));
-    write_whole({file_of_claim(words.runs, ++number), "--runs", OutputKind::Scenario},
-                printable_json(to_text(scenario)));
-  }
+    if (is_expected) scenario.expected = expectation_of(host(scenario));
+    write_whole({file_in(words.runs, name), "--runs", OutputKind::Scenario}, printable_json(to_text(scenario)));
+  };
+  std::size_t number = 0;
+  for (const Claim* claim : claims_of(explanation)) save(claim->run, name_of_claim(++number), true);
+  number = 0;
+  for (const Share& share : explanation.shares) save(share.run, fmt::format("share-{}", ++number), false);
+  number = 0;
+  for (const Branching& branching : explanation.no_return.curve)
+    save(branching.run, fmt::format("branch-{}", ++number), false);
+}
+
+void put_runs(const std::string& folder) {
+  if (folder.empty()) return put("\n[n]: the run that shows it; --runs DIR writes each as a scenario file\n");
+  put("\n[n]:       fleetproof simulate {}, and so on\n", file_in(folder, name_of_claim(1)));
+  put("[share n]: fleetproof simulate {} --luck N, N from 1 to {}\n", file_in(folder, "share-1"), kLuckRuns);
+  put("branches:  fleetproof simulate {} --radio-luck N, N from 1 to {}\n", file_in(folder, "branch-1"), kBranches);
 }
 
 void put_curve(const NoReturn& curve) {
   put("\nbranches that fail, of {} with a new radio from then on:\n", kBranches);
-  for (const Branching& branching : curve.curve) {
-    const std::size_t width = 40 * branching.failing / kBranches;
-    put("  {:10.2f} s  {:2}  {}\n", to_seconds(branching.at - kStart), branching.failing, std::string(width, '#'));
+  for (std::size_t i = 0; i < curve.curve.size(); ++i) {
+    const Branching& branching = curve.curve[i];
+    put("  {:2}  {:10.2f} s  {:2}  {}\n", i + 1, to_seconds(branching.at - kStart), branching.failing(),
+        std::string(40 * branching.failing() / kBranches, '#'));
   }
 }
 
@@ -118,9 +134,7 @@ int explain_case(const ExplainWords& words) {
   put("{}: {}\n", source.name, text_of(pattern.kind));
   for (const std::string& sentence : sentences_of(explanation)) put("- {}\n", sentence);
   put_curve(explanation.no_return);
-  put("\n[n]: the run that shows it; {}\n", words.runs.empty()
-                                                ? "--runs DIR writes each as a scenario file"
-                                                : "fleetproof simulate " + file_of_claim(words.runs, 1) + " and so on");
+  put_runs(words.runs);
   return kDemonstrated;
 }
 
@@ -129,7 +143,7 @@ int explain_case(const ExplainWords& words) {
 Action prepare_explain(Options& options) {
   auto words = std::make_shared<ExplainWords>();
   add_case_options(options, words->from);
-  options.option("--runs", words->runs, "write each run that shows a claim to this folder, as a scenario file");
+  options.option("--runs", words->runs, "write the runs that show what is said to this folder, as scenario files");
   options.option("--max-time", words->max_time, "look for the smallest case so long at most (default: 60)");
   options.option("--max-trials", words->trials, "and with so many trials; the result is the same on any machine");
   options.option("-j,--jobs", words->jobs, "worker threads (default: one per core)");

@@ -10,8 +10,8 @@
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "campaign/explain/sentences.hpp"
+#include "campaign/findings/finding_record.hpp"
 #include "campaign/findings/findings_file.hpp"
-#include "campaign/findings/keeper.hpp"
 #include "campaign/findings/survey.hpp"
 #include "campaign/plan/plan_text.hpp"
 #include "core/base/error.hpp"
@@ -70,6 +70,7 @@ class FindingsDesk {
   }
 
  private:
+  std::uint64_t trials() const { return words_.trials.value_or(kShrinkTrials); }
   const KeptFinding* kept(const Finding& finding) const { return file_.find(finding.id()); }
   const KnownFailure& representative(const Finding& finding) const { return survey_.failures[finding.representative]; }
 
@@ -88,8 +89,7 @@ class FindingsDesk {
   // Writes its scenarios and its explanation beside the findings file.
   KeptFinding keep(CaseHost& host, const Finding& finding) {
     const std::string id = finding.id();
-    FindingRecord record =
-        record_of(host, finding, representative(finding).needs, words_.trials.value_or(kShrinkTrials));
+    FindingRecord record = record_of(host, finding, representative(finding).needs, trials());
     const AgentFactor& agent = plan_.agent_of_cell(representative(finding).run);
     for (Scenario* scenario : {&record.kept.smallest, &record.kept.world}) {
       scenario->agent = agent.program;
@@ -111,6 +111,8 @@ class FindingsDesk {
     std::string text = fmt::format("# {}: {}\n\n", id, printable(finding.mechanism.text()));
     for (const std::string& sentence : sentences_of(record.explanation))
       text += fmt::format("- {}\n", printable(sentence));
+    text += fmt::format("\n`fleetproof explain {} --max-trials {} --runs DIR` writes the runs in brackets.\n",
+                        kept.world, trials());
     write_beside(id + ".md", OutputKind::Explanation, text);
     return kept;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <iterator>
+#include <limits>
 
 #include <nlohmann/json.hpp>
 
@@ -12,6 +13,7 @@
 #include "campaign/cli/verbs.hpp"
 #include "campaign/run/agent_programs.hpp"
 #include "campaign/run/case_run.hpp"
+#include "campaign/shrink/other_luck.hpp"
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
 #include "core/engine/simulation.hpp"
@@ -29,6 +31,7 @@ struct SimulateWords {
   std::string scenario, agent, law, config;
   std::vector<std::string> plugins;
   std::string granularity;
+  std::optional<std::uint64_t> luck, radio_luck;
   ObserverWords observed;
   bool json = false;
 };
@@ -216,18 +219,36 @@ std::vector<Violation> violations_before(const SimulateWords& words, const Scena
   return simulate(scenario, agent, observers.laws, nullptr, words.config.c_str()).violations;
 }
 
+std::uint32_t luck_number(std::uint64_t number, const char* option) {
+  constexpr auto kMost = std::numeric_limits<std::uint32_t>::max();
+  if (number < 1 || number > kMost) throw InputError(option, fmt::format("is {}; it lies from 1 to {}", number, kMost));
+  return static_cast<std::uint32_t>(number);
+}
+
+// Other draws than the scenario's own. Then nothing is expected of it.
+Scenario with_luck(const SimulateWords& words, Scenario scenario) {
+  if (!words.luck && !words.radio_luck) return scenario;
+  if (words.luck) scenario = with_other_luck(std::move(scenario), luck_number(*words.luck, "--luck"));
+  if (words.radio_luck)
+    scenario = with_other_radio(std::move(scenario), luck_number(*words.radio_luck, "--radio-luck"));
+  scenario.expected = {};
+  return scenario;
+}
+
 // What a replay page says of the run of a scenario file. A word that was not given is not in the command.
 ReplayWords page_words(const SimulateWords& words) {
   std::string command = "fleetproof simulate " + shell_word(words.scenario) + " --agent " + shell_word(words.agent);
   for (const std::string& plugin : words.plugins) command += " --plugin " + shell_word(plugin);
   if (!words.config.empty()) command += " --agent-config " + shell_word(words.config);
   if (words.law != laws().front().name) command += " --law " + shell_word(words.law);
+  if (words.luck) command += fmt::format(" --luck {}", *words.luck);
+  if (words.radio_luck) command += fmt::format(" --radio-luck {}", *words.radio_luck);
   if (!words.granularity.empty()) command += " --granularity " + shell_word(words.granularity);
   return {command, {{"agent", words.agent}}};
 }
 
 int simulate_scenario(SimulateWords words) {
-  Scenario scenario = read_scenario(words.scenario);
+  Scenario scenario = with_luck(words, read_scenario(words.scenario));
   if (!words.granularity.empty()) scenario.law.snapshot_s = granularity_s(words.granularity);
   AgentPrograms programs;
   for (const std::string& plugin : words.plugins) programs.load(plugin);
@@ -274,6 +295,8 @@ Action prepare_simulate(Options& options) {
   options.option("--law", words->law, "law that judges (default: safety-distance, also called exact)");
   options.option("--granularity", words->granularity,
                  "snapshot step of the published laws: 1s, 2.5ms or plain seconds (default: the scenario's, 0.0025)");
+  options.option("--luck", words->luck, "draw radio and agents anew: each number gives another run");
+  options.option("--radio-luck", words->radio_luck, "draw the radio anew, and nothing else");
   options.flag("--json", words->json, "print JSON");
   add_observer_options(options, words->observed);
   return [words] { return simulate_scenario(*words); };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,10 +16,14 @@ struct Claim {
   std::string outcome;  // of the run: "contact, two AGVs (driving, driving)", or "none"
 };
 
-// How often a changed scenario fails in the same way, each time with other luck.
+// How often a changed scenario fails in the same way with other luck: with_other_luck, by its numbers from 1 on.
 struct Share {
-  std::string what;  // "without faults"
-  std::size_t failing = 0, of = 0;
+  std::string what;  // "no message is late"
+  Scenario run;      // with its own luck
+  std::vector<std::uint32_t> failing_lucks;
+  std::size_t of = 0;
+
+  std::size_t failing() const { return failing_lucks.size(); }
 };
 
 // Whether a changed run avoids the failure: if bodies came too close, none do in any way; otherwise it does not fail in

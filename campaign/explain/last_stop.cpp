@@ -42,6 +42,7 @@ LastStop last_stop_of(CaseHost& host, const FailingCase& failing, const FailureP
     found.claims.push_back(stop_claim(host, failing, agv, at(i)));
     if (i > 0) found.claims.push_back(stop_claim(host, failing, agv, at(i - 1)));
   }
+  if (!found.at) found.claims.push_back(stop_claim(host, failing, agv, at(count - 1)));
   return found;
 }
 

@@ -11,7 +11,7 @@ namespace fleetproof {
 struct LastStop {
   std::string agv;
   std::optional<SimTime> at;  // absent: no stop of this AGV that was tried avoids it
-  std::vector<Claim> claims;  // the stop that avoids it, and the next one, which does not
+  std::vector<Claim> claims;  // the stop that avoids it, and the next one, which does not; or the earliest of all
 };
 std::vector<LastStop> last_stops(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern);
 

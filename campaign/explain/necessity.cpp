@@ -28,10 +28,6 @@ GivenFate arriving_after(GivenFate fate, Duration delay) {
   return fate;
 }
 
-bool same_message(const GivenFate& a, const GivenFate& b) {
-  return a.sender == b.sender && a.receiver == b.receiver && a.sent == b.sent && a.ordinal == b.ordinal;
-}
-
 // By halving.
 std::optional<LatestArrival> latest_that_saves(CaseHost& host, const FailingCase& failing,
                                                const FailurePattern& pattern, std::size_t i) {
@@ -94,7 +90,7 @@ std::vector<MessageNeed> needs_of_messages(CaseHost& host, const FailingCase& fa
   for (std::size_t i = 0; i < failing.scenario.fates.size(); ++i) {
     const GivenFate& fate = failing.scenario.fates[i];
     const auto sent =
-        std::ranges::find_if(messages, [&](const MessageFate& message) { return same_message(message.fate, fate); });
+        std::ranges::find_if(messages, [&](const MessageFate& message) { return is_same_message(message.fate, fate); });
     if (sent == messages.end()) continue;  // it was never sent, so its fate changed nothing
     MessageNeed need;
     need.message = *sent;

@@ -42,29 +42,29 @@ NoReturn curve_of_no_return(CaseHost& host, const FailingCase& failing, const Fa
   Scenario scenario = failing.scenario;
   scenario.horizon = std::min(scenario.horizon, failing.failure.seen - kStart + kAfterwards);
   const auto messages = host(scenario, Fates::Kept).fates;
-  const auto instants = instants_before(failing.failure.at);
-  const auto branch = [&](std::size_t rank) {
-    const SimTime at = instants[rank / kBranches];
-    Scenario other = with_other_radio(scenario, static_cast<std::uint32_t>(rank % kBranches + 1));
-    other.fates.clear();
-    for (const MessageFate& message : messages) {
-      if (kStart + message.fate.sent < at) other.fates.push_back(message.fate);
-    }
-    return std::optional(std::move(other));
-  };
-  const auto runs = all_runs(host, {instants.size() * kBranches, branch});
   NoReturn found;
-  for (std::size_t i = 0; i < instants.size(); ++i) {
-    Branching& branching = found.curve.emplace_back(Branching{instants[i], 0});
-    for (std::size_t k = 0; k < kBranches; ++k) branching.failing += pattern.match(*runs[i * kBranches + k]) ? 1 : 0;
+  for (const SimTime at : instants_before(failing.failure.at)) {
+    Branching& branching = found.curve.emplace_back(Branching{at, scenario, {}});
+    branching.run.fates.clear();
+    for (const MessageFate& message : messages) {
+      if (kStart + message.fate.sent < at) branching.run.fates.push_back(message.fate);
+    }
+  }
+  const auto luck = [](std::size_t rank) { return static_cast<std::uint32_t>(rank % kBranches + 1); };
+  const auto branch = [&](std::size_t rank) {
+    return std::optional(with_other_radio(found.curve[rank / kBranches].run, luck(rank)));
+  };
+  const auto runs = all_runs(host, {found.curve.size() * kBranches, branch});
+  for (std::size_t rank = 0; rank < runs.size(); ++rank) {
+    if (pattern.match(*runs[rank])) found.curve[rank / kBranches].failing_lucks.push_back(luck(rank));
   }
   found.open_until = found.curve.front().at;
   for (const Branching& branching : found.curve) {
-    if (is_as_before(branching.failing, found.curve.front().failing)) found.open_until = branching.at;
-    if (2 * branching.failing < kBranches) found.likely_from.reset();
-    if (2 * branching.failing >= kBranches && !found.likely_from) found.likely_from = branching.at;
-    if (branching.failing < kBranches) found.certain_from.reset();
-    if (branching.failing == kBranches && !found.certain_from) found.certain_from = branching.at;
+    if (is_as_before(branching.failing(), found.curve.front().failing())) found.open_until = branching.at;
+    if (2 * branching.failing() < kBranches) found.likely_from.reset();
+    if (2 * branching.failing() >= kBranches && !found.likely_from) found.likely_from = branching.at;
+    if (branching.failing() < kBranches) found.certain_from.reset();
+    if (branching.failing() == kBranches && !found.certain_from) found.certain_from = branching.at;
   }
   return found;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -11,10 +12,13 @@ namespace fleetproof {
 // So many branches leave the run at each instant. If none of them fails, less than 5 % do (95 %): 1 - 0.05^(1/59).
 inline constexpr std::size_t kBranches = 59, kInstants = 20;
 
-// What becomes of a run if the radio draws anew from an instant on.
+// What becomes of a run if the radio draws anew from an instant on: with_other_radio, numbers 1 to kBranches.
 struct Branching {
   SimTime at{};
-  std::size_t failing = 0;  // of kBranches: in the same way, not later than a while after the run itself
+  Scenario run;                              // whatever is sent before `at` has its fate given
+  std::vector<std::uint32_t> failing_lucks;  // in the same way, not later than a while after the run itself
+
+  std::size_t failing() const { return failing_lucks.size(); }
 };
 
 // The curve of no return, in order of time: when the failure became likely, and when it became certain.

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <span>
 
 namespace fleetproof {
 namespace {
@@ -76,8 +75,9 @@ class Words {
   }
 
   void last_stop(const LastStop& stop) {
-    if (!stop.at) return say("No brake of {} in the last 30 s avoids it.", stop.agv);
     const std::size_t count = stop.claims.size();
+    if (!stop.at)
+      return say("No brake of {} in the last 30 s avoids it, not even the first {}.", stop.agv, runs(count));
     if (count == 1)
       return say("{} avoids it by braking at {:.1f} s, 0.1 s before it {}.", stop.agv, seconds_of(*stop.at),
                  runs(count));
@@ -120,16 +120,18 @@ class Words {
   void shares() {
     if (of_.shares.empty()) return;
     const Share& base = of_.shares.front();
-    say("With other luck, the run fails in the same way in {} of {}.", base.failing, base.of);
-    for (const Share& share : std::span(of_.shares).subspan(1))
-      say("If {}: {} of {}{}.", share.what, share.failing, share.of, verdict(share, base));
+    say("With other luck, the run fails in the same way in {} of {} [share 1].", base.failing(), base.of);
+    for (std::size_t i = 1; i < of_.shares.size(); ++i) {
+      const Share& share = of_.shares[i];
+      say("If {}: {} of {}{} [share {}].", share.what, share.failing(), share.of, verdict(share, base), i + 1);
+    }
   }
 
   // Only said where the run as it is fails often enough to compare.
   static const char* verdict(const Share& share, const Share& base) {
-    if (base.failing < kEnoughToCompare) return "";
-    if (share.failing == 0) return " (below 5 %, 95 % sure): the failure needs this to be otherwise";
-    return 2 * share.failing >= base.failing ? ": that does not decide it" : ": that makes it rarer";
+    if (base.failing() < kEnoughToCompare) return "";
+    if (share.failing() == 0) return " (below 5 %, 95 % sure): the failure needs this to be otherwise";
+    return 2 * share.failing() >= base.failing() ? ": that does not decide it" : ": that makes it rarer";
   }
 
   void no_return() {
@@ -142,7 +144,7 @@ class Words {
           "branches with a new radio fail so.",
           seconds_of(at), seconds_of(*curve.certain_from), kBranches);
     say("The run itself fails at {:.3f} s. From {:.2f} s before that, {} of {} branches with a new radio fail.",
-        seconds_of(at), to_seconds(at - curve.curve.front().at), curve.curve.front().failing, kBranches);
+        seconds_of(at), to_seconds(at - curve.curve.front().at), curve.curve.front().failing(), kBranches);
     if (curve.likely_from)
       say("It is likely from {:.2f} s on ({:.2f} s before).", seconds_of(*curve.likely_from),
           to_seconds(at - *curve.likely_from));

@@ -73,23 +73,19 @@ std::vector<Share> shares_of(CaseHost& host, const FailingCase& failing, const F
     changes.push_back({failing.scenario.agvs[i].name + " is not there",
                        [i](Scenario& s) { s = with_agvs(s, [i](std::size_t other) { return other != i; }); }});
   }
-  const auto make = [&](std::size_t rank) -> std::optional<Scenario> {
-    Scenario changed = failing.scenario;
-    changes[rank / kLuckRuns].edit(changed);
-    if (!is_fair(changed)) return std::nullopt;
-    return with_other_luck(std::move(changed), static_cast<std::uint32_t>(rank % kLuckRuns + 1));
-  };
-  const auto runs = all_runs(host, {changes.size() * kLuckRuns, make});
   std::vector<Share> shares;
-  for (std::size_t i = 0; i < changes.size(); ++i) {
-    Share share;
-    share.what = changes[i].what;
-    for (std::size_t k = 0; k < kLuckRuns; ++k) {
-      const auto& run = runs[i * kLuckRuns + k];
-      share.of += run ? 1 : 0;
-      share.failing += run && pattern.match(*run) ? 1 : 0;
-    }
-    if (share.of > 0) shares.push_back(std::move(share));
+  for (const Change& change : changes) {
+    Share share{.what = change.what, .run = failing.scenario, .failing_lucks = {}, .of = kLuckRuns};
+    change.edit(share.run);
+    if (is_fair(share.run)) shares.push_back(std::move(share));
+  }
+  const auto luck = [](std::size_t rank) { return static_cast<std::uint32_t>(rank % kLuckRuns + 1); };
+  const auto make = [&](std::size_t rank) {
+    return std::optional(with_other_luck(shares[rank / kLuckRuns].run, luck(rank)));
+  };
+  const auto runs = all_runs(host, {shares.size() * kLuckRuns, make});
+  for (std::size_t rank = 0; rank < runs.size(); ++rank) {
+    if (pattern.match(*runs[rank])) shares[rank / kLuckRuns].failing_lucks.push_back(luck(rank));
   }
   return shares;
 }

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "campaign/findings/ingredients.hpp"
 #include "core/base/random.hpp"
 
 namespace fleetproof {
@@ -24,10 +25,6 @@ constexpr std::size_t kCommonPercent = 90, kDrivenOnPercent = 10;
 // Below this, a set of needs may be an accident of the luck with which it was looked for.
 constexpr std::size_t kFewMembers = 3, kRareShare = 20;
 constexpr std::uint32_t kSomeLucks = 4;
-
-bool contains(const std::vector<std::string>& larger, const std::vector<std::string>& smaller) {
-  return std::ranges::all_of(smaller, [&](const std::string& word) { return std::ranges::count(larger, word) > 0; });
-}
 
 std::vector<std::string> common_traits(std::span<const KnownFailure> failures, const Members& members) {
   std::map<std::string, std::size_t> having;
@@ -59,7 +56,7 @@ std::map<std::string, Members> parted(std::span<const KnownFailure> failures, Me
       break;
     }
     const std::string doing = std::ranges::max_element(counts, {}, [](const auto& c) { return c.second; })->first;
-    const auto did = [&](std::size_t member) { return contains(failures[member].needs.doings, {doing}); };
+    const auto did = [&](std::size_t member) { return names_all(failures[member].needs.doings, {doing}); };
     std::ranges::copy_if(members, std::back_inserter(parts[doing]), did);
     std::erase_if(members, did);
   }
@@ -75,12 +72,12 @@ struct Home {
   // Who just drove on where nearly all others did something may have done so a little later.
   bool takes(const FailureNeeds& failure) const {
     const bool did_so =
-        doing.empty() || contains(failure.doings, {doing}) || (failure.doings.empty() && failure.needs == needs);
-    return did_so && contains(failure.needs, needs) && contains(failure.traits, words);
+        doing.empty() || names_all(failure.doings, {doing}) || (failure.doings.empty() && failure.needs == needs);
+    return did_so && names_all(failure.needs, needs) && names_all(failure.traits, words);
   }
 };
 
-// The failures of one agent with one end, by needs and doing.
+// Puts failures of one agent with one end together: those with the same needs whose bodies did the same.
 class Gathering {
  public:
   using Key = std::pair<Needs, std::string>;
@@ -124,7 +121,7 @@ class Gathering {
         std::erase_if(part, [&](std::size_t member) { return failures_[member].needs.is_rare; });
         if (part.size() < kFewMembers || kRareShare * part.size() < count_) continue;
         homes.push_back({needs, doing, common_traits(failures_, part), part.size()});
-        std::erase(homes.back().words, kThirdAgvTrait);  // whoever needs less company needs nothing else
+        std::erase(homes.back().words, kThirdAgvTrait);  // who fails without a third AGV fails in the same way
       }
     }
     add_cores(homes);
@@ -150,11 +147,11 @@ class Gathering {
       const auto most = std::ranges::max_element(counts, {}, [](const auto& count) { return count.second; });
       if (most == counts.end() || most->second < kFewMembers) return;
       const std::string common = most->first;
-      const auto has_it = [&](std::size_t member) { return contains(failures_[member].needs.needs, {common}); };
+      const auto has_it = [&](std::size_t member) { return names_all(failures_[member].needs.needs, {common}); };
       Needs core = failures_[*std::ranges::find_if(left, has_it)].needs.needs;
       for (const std::size_t member : left) {
         if (!has_it(member)) continue;
-        std::erase_if(core, [&](const std::string& need) { return !contains(failures_[member].needs.needs, {need}); });
+        std::erase_if(core, [&](const std::string& need) { return !names_all(failures_[member].needs.needs, {need}); });
       }
       homes.push_back({core, "", {}, most->second});
       std::erase_if(left, has_it);

@@ -19,7 +19,6 @@ struct Mechanism {
 
   // "too close, two AGVs; needs lost messages, GRANT messages; one turns"
   std::string text() const;
-  friend bool operator==(const Mechanism&, const Mechanism&) = default;
 };
 
 // A failing run of a campaign, and what it needs.
@@ -29,7 +28,7 @@ struct KnownFailure {
   FailureNeeds needs;
 };
 
-// The failures of one agent that come about in one way.
+// Failures of one agent that have one mechanism.
 struct Finding {
   std::string agent;
   Mechanism mechanism;

@@ -44,7 +44,7 @@ class FindingsFile {
   explicit FindingsFile(std::string path);
   const std::vector<KeptFinding>& findings() const { return findings_; }
   const KeptFinding* find(std::string_view id) const;
-  // The scenarios of a finding. Throws InputError if there is no such file.
+  // Reads the scenario files of a finding. Throws InputError if one is missing.
   KeptFailure failure(const KeptFinding& finding) const;
   std::string path_beside(const std::string& name) const;
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "campaign/shrink/number_edits.hpp"
 #include "core/scenario/canonical_bytes.hpp"
 
 namespace fleetproof {
@@ -78,6 +77,10 @@ std::vector<Ingredient> ingredients_of(const Scenario& scenario, std::span<const
   for (const std::string& kind : kinds)
     all.push_back({kind + std::string(kKindEnd), [kind](Scenario& s) { no_kind(s, kind); }});
   return all;
+}
+
+bool names_all(const std::vector<std::string>& needs, const std::vector<std::string>& some) {
+  return std::ranges::all_of(some, [&](const std::string& word) { return std::ranges::count(needs, word) > 0; });
 }
 
 std::vector<std::string> without_kinds(std::vector<std::string> needs) {

@@ -23,6 +23,9 @@ std::vector<Ingredient> ingredients_of(const Scenario& scenario, std::span<const
 inline constexpr const char *kLateMessages = "late messages", *kLostMessages = "lost messages",
                             *kCopiedMessages = "doubled messages";
 
+// Whether `needs` names all that `some` does.
+bool names_all(const std::vector<std::string>& needs, const std::vector<std::string>& some);
+
 // Of needs: those that name no kind of message.
 std::vector<std::string> without_kinds(std::vector<std::string> needs);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "campaign/shrink/adverse_fates.hpp"
 #include "campaign/shrink/all_runs.hpp"
 #include "campaign/shrink/other_luck.hpp"
 #include "core/base/random.hpp"
@@ -60,10 +61,7 @@ void Neighbourhood::lose_one_more(Scenario& scenario, double draw) const {
   lost.lost = true;
   lost.copied = false;
   lost.delay = lost.copy_delay = Duration::zero();
-  std::erase_if(scenario.fates, [&](const GivenFate& fate) {
-    return fate.sender == lost.sender && fate.receiver == lost.receiver && fate.sent == lost.sent &&
-           fate.ordinal == lost.ordinal;
-  });
+  std::erase_if(scenario.fates, [&](const GivenFate& fate) { return is_same_message(fate, lost); });
   scenario.fates.push_back(lost);
 }
 

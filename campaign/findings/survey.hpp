@@ -26,7 +26,7 @@ struct FailingRuns {
   std::vector<FailingRun> looked_at;  // in order of run index
   std::size_t all = 0;
 };
-// The runs that failed, at most `most` of each agent, evenly spread over the campaign.
+// Of each agent, at most `most` of the runs that failed, spread evenly over the campaign.
 FailingRuns failing_runs(const ArchiveReader& archive, const CampaignPlan& plan, std::size_t most);
 
 // One host for each agent of a campaign that has failing runs. Make it before threads are started.

@@ -6,6 +6,10 @@
 
 namespace fleetproof {
 
+bool is_same_message(const GivenFate& a, const GivenFate& b) {
+  return a.sender == b.sender && a.receiver == b.receiver && a.sent == b.sent && a.ordinal == b.ordinal;
+}
+
 std::vector<MessageFate> adverse_of(const std::vector<MessageFate>& fates) {
   std::vector<MessageFate> adverse;
   std::ranges::copy_if(fates, std::back_inserter(adverse), &MessageFate::is_adverse);

@@ -7,6 +7,9 @@
 
 namespace fleetproof {
 
+// Whether both are fates of one message on its way to one receiver.
+bool is_same_message(const GivenFate& a, const GivenFate& b);
+
 std::vector<MessageFate> adverse_of(const std::vector<MessageFate>& fates);
 
 // A radio on which every message arrives at once and once, as far as it did.

@@ -4,9 +4,9 @@
 #include <fstream>
 
 #include "campaign/findings/finding.hpp"
+#include "campaign/findings/finding_record.hpp"
 #include "campaign/findings/findings_file.hpp"
 #include "campaign/findings/ingredients.hpp"
-#include "campaign/findings/keeper.hpp"
 #include "core/base/error.hpp"
 #include "core/scenario/canonical_bytes.hpp"
 #include "generators/scenario_file/scenario_text.hpp"

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "campaign/findings/keeper.hpp"
+#include "campaign/findings/finding_record.hpp"
 #include "tests/support/case_bench.hpp"
 
 namespace fleetproof {

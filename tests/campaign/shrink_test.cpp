@@ -14,34 +14,22 @@
 #include "core/engine/simulation.hpp"
 #include "core/scenario/canonical_bytes.hpp"
 #include "generators/scenario_file/scenario_text.hpp"
-#include "generators/worlds/world_maker.hpp"
+#include "tests/support/case_bench.hpp"
 
 namespace fleetproof {
 namespace {
 
-// A warehouse at the contract's worst radio.
-Scenario bad_night(std::uint64_t seed, std::uint32_t fleet_size = 5) {
-  WorldSpec spec;
-  spec.fleet_size = fleet_size;
-  spec.horizon = std::chrono::seconds(60);
-  spec.demand.transports_per_agv_hour = 60.0;
-  RejectionCounts ignored;
-  Scenario scenario = generate_world(spec, seed, ignored);
-  scenario.radio.loss = 0.4;
-  scenario.radio.delay_s = 2.0;
-  scenario.radio.delay_model = RadioSetup::DelayModel::Uniform;
-  return scenario;
-}
+using test::bad_radio;
 
 const OnSmaller kNobody = [](const FailingCase&, std::string_view) {};
 
-struct Bench {
-  explicit Bench(const std::string& agent, int workers = 2) : host({agent, ""}, programs, workers) {}
+struct Bench : test::CaseBench {
+  using CaseBench::CaseBench;
 
   // The first seed from `seed` on whose run fails.
   FailingCase failing(std::uint64_t seed) {
     for (;; ++seed) {
-      const Scenario scenario = bad_night(seed);
+      const Scenario scenario = bad_radio(seed);
       if (const auto failure = failure_of(host(scenario))) return {scenario, *failure};
     }
   }
@@ -49,9 +37,6 @@ struct Bench {
     TrialCache own;
     return shrink(host, cache != nullptr ? *cache : own, failing, pattern_of(host, failing), limits, kNobody);
   }
-
-  AgentPrograms programs;
-  CaseHost host;
 };
 
 TEST(Shrink, ASmallCaseFailsInTheSameWay) {
@@ -160,7 +145,7 @@ TEST(Shrink, EndsInTime) {
 TEST(WrittenFates, GiveTheSameRun) {
   Bench bench("hull-lock");
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
-    Scenario scenario = bad_night(seed);
+    Scenario scenario = bad_radio(seed);
     scenario.radio.duplicates = 0.1;
     const CaseRun drawn = bench.host(scenario, Fates::Kept);
     std::vector<GivenFate> fates;
@@ -177,7 +162,7 @@ TEST(WrittenFates, GiveTheSameRun) {
 // Where agents do not hear each other, an AGV does the same with and without the others.
 TEST(DrawNumbers, AnAgvKeepsItsDrawsWithoutTheOthers) {
   Bench bench("reckless");
-  Scenario scenario = bad_night(5, 4);
+  Scenario scenario = bad_radio(5, 4);
   scenario.contact_stops = false;
   scenario.vehicle_types[0].speed_deviation = 0.1;
   scenario.vehicle_types[0].settle_s = 1.0;
@@ -192,7 +177,7 @@ TEST(DrawNumbers, AnAgvKeepsItsDrawsWithoutTheOthers) {
 
 TEST(AdverseScope, NothingOfASparedKindIsLostOrLate) {
   Bench bench("hull-lock");
-  Scenario scenario = bad_night(4);
+  Scenario scenario = bad_radio(4);
   scenario.radio.adverse.spared_kinds = {"GRANT", "REQUEST"};
   std::map<std::string, std::size_t> adverse, all;
   const CaseRun run = bench.host(scenario, Fates::Kept);
@@ -210,7 +195,7 @@ TEST(AdverseScope, NothingOfASparedKindIsLostOrLate) {
 
 TEST(AdverseScope, NothingIsLostOrLateOutsideItsTime) {
   Bench bench("hull-lock");
-  Scenario scenario = bad_night(4);
+  Scenario scenario = bad_radio(4);
   scenario.radio.adverse.adverse_from_s = 20.0;
   scenario.radio.adverse.adverse_until_s = 25.0;
   std::size_t inside = 0;
@@ -223,7 +208,7 @@ TEST(AdverseScope, NothingIsLostOrLateOutsideItsTime) {
 }
 
 TEST(Surgery, WhatReferredToAnAgvGoesWithIt) {
-  Scenario scenario = bad_night(1);
+  Scenario scenario = bad_radio(1);
   for (std::uint32_t agv = 0; agv < 5; ++agv) scenario.faults.push_back({.agv = AgvId{agv}, .transport = 0U});
   scenario.fates = {{AgvId{0U}, AgvId{1U}, {}, 0, true}, {AgvId{3U}, AgvId{4U}, {}, 0, true}};
   const Scenario less = with_agvs(scenario, [](std::size_t agv) { return agv >= 3; });
@@ -240,7 +225,7 @@ TEST(Surgery, WhatReferredToAnAgvGoesWithIt) {
 }
 
 TEST(Surgery, FaultsFollowTheirTransport) {
-  Scenario scenario = bad_night(1);
+  Scenario scenario = bad_radio(1);
   ASSERT_GE(scenario.agvs[1].transports.size(), 1U);
   scenario.agvs[1].transports.resize(3, scenario.agvs[1].transports[0]);
   for (std::uint32_t number = 0; number < 3; ++number)
@@ -254,7 +239,7 @@ TEST(Surgery, FaultsFollowTheirTransport) {
 }
 
 TEST(Surgery, StationsKeepTheirNamesWhenOthersGo) {
-  const Scenario scenario = bad_night(1);
+  const Scenario scenario = bad_radio(1);
   const auto name_at = [](const Scenario& s, StationId id) { return s.map->station(id).name; };
   const std::size_t half = scenario.map->segment_count() / 2;
   const Scenario less = with_segments(scenario, [&](std::size_t i) { return i < half; });

@@ -7,10 +7,10 @@
 
 namespace fleetproof::test {
 
-// A warehouse at the contract's worst radio, with restarts.
-inline Scenario bad_night(std::uint64_t seed) {
+// A warehouse at the contract's worst radio.
+inline Scenario bad_radio(std::uint64_t seed, std::uint32_t fleet_size = 5) {
   WorldSpec spec;
-  spec.fleet_size = 5;
+  spec.fleet_size = fleet_size;
   spec.horizon = std::chrono::seconds(60);
   spec.demand.transports_per_agv_hour = 60.0;
   RejectionCounts ignored;
@@ -18,6 +18,12 @@ inline Scenario bad_night(std::uint64_t seed) {
   scenario.radio.loss = 0.4;
   scenario.radio.delay_s = 2.0;
   scenario.radio.delay_model = RadioSetup::DelayModel::Uniform;
+  return scenario;
+}
+
+// With copies of messages and restarts, too.
+inline Scenario bad_night(std::uint64_t seed) {
+  Scenario scenario = bad_radio(seed);
   scenario.radio.duplicates = 0.1;
   for (std::uint32_t agv = 0; agv < 5; ++agv)
     scenario.faults.push_back({.kind = Fault::Kind::Restart,

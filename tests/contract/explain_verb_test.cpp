@@ -1,0 +1,98 @@
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/support/program.hpp"
+
+namespace fleetproof {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+// Silence for a few seconds is taken for consent: the radio decides which runs fail.
+class ExplainVerb : public test::ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    write("a.toml", R"(
+name = "a"
+seed = 11
+horizon_s = 30
+replicates = 4
+[factors]
+agents = ["timeout-grant"]
+layouts = ["aisle-grid"]
+loss = [0.3]
+delay_s = [1]
+[world]
+transports_per_agv_hour = 60
+)");
+    run("run a.toml --db a.db");
+    for (int index = 0; index < 4; ++index) {
+      run("replay a.db " + std::to_string(index) + " --scenario case.json");
+      if (simulate("case.json") == "contact") return;
+    }
+    FAIL() << "no run fails";
+  }
+
+  std::string simulate(const std::string& words) {
+    const json run_json = json::parse(run("simulate " + words + " --json --agent timeout-grant").out);
+    return run_json["outcome"];
+  }
+};
+
+// The numbers that the page gives are those of the files: each share and each branch is simulated again by hand.
+TEST_F(ExplainVerb, EverySentenceHasItsRuns) {
+  const auto explained = run("explain case.json --agent timeout-grant --max-trials 1500 --runs runs --json");
+  ASSERT_EQ(explained.exit_code, 0) << explained.err;
+  const json page = json::parse(explained.out);
+  std::size_t number = 0;
+  for (const json& of : page["runs"]) {
+    ++number;
+    const std::string file = "runs/" + std::string(number < 10 ? "00" : "0") + std::to_string(number) + ".json";
+    const json scenario = json::parse(read(path(file)));
+    EXPECT_EQ(scenario["expected"]["failure"], of["outcome"]) << file;
+    EXPECT_THAT(run("simulate " + file).out, HasSubstr("  as expected: ")) << file;
+  }
+  ASSERT_GT(number, 3U);
+  std::size_t passes = 0, fails_otherwise = 0;
+  const auto check = [&](const json& failing, const std::string& words) {
+    for (const int luck : {1, 2, 3, 58, 59}) {
+      const bool fails = std::find(failing.begin(), failing.end(), luck) != failing.end();
+      const std::string outcome = simulate("runs/" + words + std::to_string(luck));
+      EXPECT_FALSE(fails && outcome == "clean") << words << luck;
+      fails_otherwise += !fails && outcome != "clean" ? 1 : 0;
+      passes += outcome == "clean" ? 1 : 0;
+    }
+  };
+  number = 0;
+  for (const json& share : page["shares"])
+    check(share["failing_lucks"], "share-" + std::to_string(++number) + ".json --luck ");
+  EXPECT_GT(number, 3U);
+  number = 0;
+  for (const json& branch : page["curve_of_no_return"])
+    check(branch["failing_radio_lucks"], "branch-" + std::to_string(++number) + ".json --radio-luck ");
+  EXPECT_EQ(number, 20U);
+  EXPECT_GT(passes, 20U);
+  EXPECT_LT(4 * fails_otherwise, passes);  // a run may fail in another way
+  EXPECT_EQ(page["curve_of_no_return"][19]["failing"], page["curve_of_no_return"][19]["failing_radio_lucks"].size());
+}
+
+TEST_F(ExplainVerb, ThePageTellsHowToSimulateThem) {
+  const auto explained = run("explain case.json --agent timeout-grant --max-trials 300 --runs runs");
+  EXPECT_THAT(explained.out, HasSubstr(" of 59 [share 1]."));
+  EXPECT_THAT(explained.out, HasSubstr("fleetproof simulate runs/share-1.json --luck N"));
+  EXPECT_THAT(explained.out, HasSubstr("fleetproof simulate runs/branch-1.json --radio-luck N"));
+}
+
+TEST_F(ExplainVerb, ALuckIsACountingNumber) {
+  for (const std::string words : {"--luck 0", "--radio-luck 4294967296"}) {
+    const auto refused = run("simulate case.json --agent reckless " + words);
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_THAT(refused.err, HasSubstr("it lies from 1 to 4294967295"));
+  }
+}
+
+}  // namespace
+}  // namespace fleetproof
