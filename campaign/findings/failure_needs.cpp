@@ -22,7 +22,6 @@ constexpr std::uint32_t kEnoughToCompare = 4, kFewestTries = 8, kMostTries = 24;
 // first.
 constexpr std::size_t kFewLucks = 2;
 constexpr std::uint32_t kTriesForNothing = 40;
-constexpr Duration kLater = std::chrono::seconds(5);
 // What keeps a fleet from its work is told apart by who waits for whom, which is chance.
 constexpr std::array kStandstills = {"deadlock", "livelock", "starvation", "standstill-in-contract", "stuck"};
 
@@ -68,35 +67,39 @@ class Reduction {
 
  private:
   static Scenario another(const Scenario& scenario, std::uint32_t luck) {
-    return with_other_course(scenario, luck, kLater);
+    return with_other_course(scenario, luck, kLatest);
   }
   CaseRun simulate(const Scenario& scenario, Fates fates = Fates::Ignored) {
     ++replays_;
     return host_(scenario, fates);
   }
 
-  // Words that its agents say in each run that ends so, and not in nearly each run without a failure.
+  // Words that its agents say in each run that ends so.
   void learn_words(const CaseRun& run) {
-    std::vector<std::string> words = run.words;
-    std::map<std::string, std::uint32_t> saying;
-    std::uint32_t passing = 0;
+    words_ = run.words;
     const CaseRun lucky = simulate(with_fates_only(original_, {}));
     if (!failure_of(lucky))
-      std::erase_if(words, [&](const std::string& w) { return std::ranges::binary_search(lucky.all_words, w); });
+      std::erase_if(words_, [&](const std::string& w) { return std::ranges::binary_search(lucky.all_words, w); });
     for (std::uint32_t luck = 1; luck <= kOtherRuns; ++luck) {
       const CaseRun other = simulate(another(original_, luck));
       const auto failure = failure_of(other);
-      if (!failure) {
-        ++passing;
-        for (const std::string& word : other.all_words) ++saying[word];
-      }
+      if (!failure) hear_passing(other);
       if (!failure || end_of(*failure) != likeness_.end) continue;
       failing_lucks_.push_back(luck);
-      std::erase_if(words, [&](const std::string& w) { return !std::ranges::binary_search(other.words, w); });
+      std::erase_if(words_, [&](const std::string& w) { return !std::ranges::binary_search(other.words, w); });
     }
-    if (passing < kEnoughToCompare) return;
-    std::erase_if(words, [&](const std::string& word) { return 10 * saying[word] > 9 * passing; });
-    likeness_.words = std::move(words);
+    likeness_.words = telling_words();
+  }
+  void hear_passing(const CaseRun& run) {
+    ++passing_;
+    for (const std::string& word : run.all_words) ++saying_[word];
+  }
+  // Without those that nearly each run without a failure says, too.
+  std::vector<std::string> telling_words() {
+    if (passing_ < kEnoughToCompare) return {};
+    std::vector<std::string> telling = words_;
+    std::erase_if(telling, [&](const std::string& word) { return 10 * saying_[word] > 9 * passing_; });
+    return telling;
   }
 
   void take_out_ingredients(const std::vector<Ingredient>& ingredients) {
@@ -134,8 +137,10 @@ class Reduction {
     if (!is_fair(less)) return false;
     const auto fails = [&](Scenario scenario) {
       if (replays_ >= kReplaysPerFailure - 1) return false;
-      auto failure = likeness_.match(simulate(scenario));
+      const CaseRun run = simulate(scenario);
+      auto failure = likeness_.match(run);
       if (failure) best_ = {std::move(scenario), *std::move(failure)};
+      if (!failure_of(run)) hear_passing(run);
       return failure.has_value();
     };
     if (fails(less)) return true;
@@ -149,11 +154,14 @@ class Reduction {
 
   void add_traits() {
     std::set<std::string> doings, traits;
-    for (const std::string& doing : simulate(best_.scenario).doing) {
+    const CaseRun reduced = simulate(best_.scenario);
+    for (const std::string& doing : reduced.doing) {
       if (std::string trait = trait_of_doing(doing); !trait.empty()) doings.insert(std::move(trait));
     }
     found_.doings.assign(doings.begin(), doings.end());
-    for (const std::string& word : likeness_.words) traits.insert(trait_of_word(word));
+    for (const std::string& word : telling_words()) {
+      if (std::ranges::binary_search(reduced.words, word)) traits.insert(trait_of_word(word));
+    }
     if (needs_third_) traits.insert(kThirdAgvTrait);
     found_.traits.assign(traits.begin(), traits.end());
   }
@@ -164,6 +172,9 @@ class Reduction {
   FailingCase best_;
   FailureNeeds found_;
   std::vector<std::uint32_t> failing_lucks_;
+  std::vector<std::string> words_;
+  std::map<std::string, std::uint32_t> saying_;  // of the runs without a failure
+  std::uint32_t passing_ = 0;
   std::uint64_t replays_ = 0;
   bool needs_third_ = false, failed_otherwise_ = false;
 };

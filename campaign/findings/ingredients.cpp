@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "campaign/shrink/adverse_fates.hpp"
 #include "core/scenario/canonical_bytes.hpp"
 
 namespace fleetproof {
@@ -31,15 +32,8 @@ void no_delay(Scenario& scenario) {
   for (GivenFate& fate : scenario.fates) fate.delay = Duration::zero();
 }
 
-// A recording has losses and delays in one; without it, the models draw.
 void no_loss(Scenario& scenario) {
-  RadioSetup& radio = scenario.radio;
-  radio.loss = radio.asymmetry = radio.range_falloff_m = 0.0;
-  radio.outages = {};
-  radio.places = {};
-  radio.contention = {};
-  radio.sources.clear();
-  radio.trace = nullptr;
+  scenario.radio = without_loss(scenario.radio);
   for (GivenFate& fate : scenario.fates) fate.lost = false;
 }
 

@@ -24,6 +24,16 @@ RadioSetup perfect(const RadioSetup& radio) {
   return perfect;
 }
 
+RadioSetup without_loss(RadioSetup radio) {
+  radio.loss = radio.asymmetry = radio.range_falloff_m = 0.0;
+  radio.outages = {};
+  radio.places = {};
+  radio.contention = {};
+  radio.sources.clear();
+  radio.trace = nullptr;
+  return radio;
+}
+
 Scenario with_fates_only(const Scenario& scenario, std::vector<GivenFate> fates) {
   Scenario given = scenario;
   given.radio = perfect(scenario.radio);

@@ -26,25 +26,6 @@ std::vector<GivenFate> fates_of(const std::vector<MessageFate>& messages) {
   return fates;
 }
 
-// What may happen to one message: it is lost, or as late as the latest one. The messages shortly before the failure
-// come first.
-std::vector<GivenFate> troubles_of(const std::vector<MessageFate>& messages, SimTime until, Duration latest) {
-  std::vector<GivenFate> troubles;
-  for (const MessageFate& message : messages) {
-    if (kStart + message.fate.sent > until) break;
-    GivenFate fate = message.fate;
-    fate.lost = true;
-    fate.delay = Duration::zero();
-    troubles.push_back(fate);
-    if (latest == Duration::zero()) continue;
-    fate.lost = false;
-    fate.delay = latest;
-    troubles.push_back(fate);
-  }
-  std::ranges::reverse(troubles);
-  return troubles;
-}
-
 // The way from front to back: the messages before `from_` have their fates, those behind it are drawn.
 class FrontToBack {
  public:
@@ -160,6 +141,23 @@ bool weaken_fates(Shrinker& shrinker) {
 }
 
 }  // namespace
+
+std::vector<GivenFate> troubles_of(const std::vector<MessageFate>& messages, SimTime until, Duration late) {
+  std::vector<GivenFate> troubles;
+  for (const MessageFate& message : messages) {
+    if (kStart + message.fate.sent > until) break;
+    GivenFate fate = message.fate;
+    fate.lost = true;
+    fate.delay = Duration::zero();
+    troubles.push_back(fate);
+    if (late == Duration::zero()) continue;
+    fate.lost = false;
+    fate.delay = late;
+    troubles.push_back(fate);
+  }
+  std::ranges::reverse(troubles);
+  return troubles;
+}
 
 bool write_fates_down(Shrinker& shrinker) {
   const auto messages = adverse_of(shrinker.trials().host()(shrinker.best().scenario, Fates::Kept).fates);

@@ -4,6 +4,9 @@
 
 namespace fleetproof {
 
+// What may happen to one message: it is lost, or `late`. The messages shortly before `until` come first.
+std::vector<GivenFate> troubles_of(const std::vector<MessageFate>& messages, SimTime until, Duration late);
+
 // Passes on the fates of messages and on numbers. Each says whether it found a smaller case.
 
 // The radio is perfect, and the fates that it had drawn are given.

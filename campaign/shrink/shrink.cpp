@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "campaign/shrink/adverse_fates.hpp"
 #include "campaign/shrink/fate_passes.hpp"
 #include "campaign/shrink/other_luck.hpp"
 #include "campaign/shrink/shrinker.hpp"
@@ -29,14 +30,21 @@ namespace {
 // So many ways in which the failure comes about are compared: with sparse luck, and with as much luck as there was.
 constexpr std::size_t kSparseStarts = 4;
 constexpr std::uint32_t kOtherStarts = 6;
-constexpr std::size_t kFew = 2;  // adverse messages: fewer are not looked for elsewhere
+constexpr std::uint32_t kCourses = 12;  // on which a single adverse message is looked for
+constexpr std::size_t kFew = 2;         // adverse messages: fewer are not looked for elsewhere
 
-// While the radio draws, a run that takes another course meets bad luck again.
+// While the radio draws, a run that takes another course meets bad luck again. The shorter run comes last: on other
+// courses, it may fail later.
 FailingCase with_luck_drawn(Trials& trials, const FailingCase& original, const OnSmaller& on_smaller) {
-  Shrinker shrinker(trials, original, on_smaller);
-  shrinker.shorten_with_slack();
+  Shrinker shrinker(trials, original, on_smaller, Shrinker::Courses::Free);
+  shrinker.end_with_slack();
+  shrinker.improve_radio();
   shrinker.keep_the_involved();
-  shrinker.take_out_things();
+  for (bool smaller = true; smaller && !trials.ended();) {
+    smaller = shrinker.take_out_things();
+    smaller |= shrinker.improve_radio();
+    shrinker.end_with_slack();
+  }
   shrinker.shorten();
   return shrinker.best();
 }
@@ -52,14 +60,16 @@ FailingCase with_luck_written(Trials& trials, const FailingCase& drawn, const On
 class LeastBadLuck {
  public:
   LeastBadLuck(Trials& trials, const FailingCase& drawn, const OnSmaller& on_smaller)
-      : trials_(trials), drawn_(drawn), on_smaller_(on_smaller), best_(with_luck_written(trials, drawn, on_smaller)) {}
+      : trials_(trials), drawn_(drawn), on_smaller_(on_smaller), best_(drawn) {}
 
   FailingCase find() {
     if (!CaseSize::of(drawn_.scenario).fates_are_drawn) return best_;
+    try_single_messages();
+    if (!is_enough()) compare(drawn_);
     try_sparse_luck();
     for (std::uint32_t luck = 1; luck <= kOtherStarts && !is_enough(); ++luck) {
       const auto start = trials_.first_failing(
-          {1, [&](std::size_t) { return std::optional(with_other_luck(drawn_.scenario, luck)); }});
+          {1, [&](std::size_t) { return std::optional(with_other_course(drawn_.scenario, luck, kLatest)); }});
       if (start) compare(start->is);
     }
     return best_;
@@ -73,14 +83,32 @@ class LeastBadLuck {
     return size.fates_are_drawn ? ~std::size_t{0} : size.fates;
   }
 
-  // A run with less bad luck may fail later.
+  void try_single_messages() {
+    for (std::uint32_t course = 0; course < kCourses && !is_enough(); ++course) {
+      Scenario lucky = with_fates_only(drawn_.scenario, {});
+      lucky.horizon = longer(lucky.horizon);
+      if (course > 0) lucky = with_other_course(std::move(lucky), course, kLatest);
+      const auto troubles = troubles_of(trials_.host()(lucky, Fates::Kept).fates, kStart + lucky.horizon,
+                                        seconds(drawn_.scenario.radio.delay_s));
+      const auto found = trials_.first_failing({troubles.size(), [&](std::size_t rank) {
+                                                  Scenario unlucky = lucky;
+                                                  unlucky.fates = {troubles[rank]};
+                                                  return std::optional(std::move(unlucky));
+                                                }});
+      if (found) compare(found->is);
+    }
+  }
+
+  // With less bad luck, a run may fail later.
+  static Duration longer(Duration horizon) { return horizon * 5 / 4; }
+
   void try_sparse_luck() {
     const auto cases = with_sparse_luck(drawn_.scenario, drawn_.failure.at);
     std::size_t from = 0;
     for (std::size_t start = 0; start < kSparseStarts && from < cases.size() && !is_enough(); ++start) {
       auto found = trials_.first_failing({cases.size() - from, [&](std::size_t rank) {
                                             Scenario sparse = cases[from + rank];
-                                            sparse.horizon = drawn_.scenario.horizon * 5 / 4;
+                                            sparse.horizon = longer(drawn_.scenario.horizon);
                                             return std::optional(std::move(sparse));
                                           }});
       if (!found) return;

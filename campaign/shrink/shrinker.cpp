@@ -3,15 +3,17 @@
 #include <algorithm>
 #include <utility>
 
+#include "campaign/shrink/adverse_fates.hpp"
 #include "campaign/shrink/fitness.hpp"
 #include "campaign/shrink/other_luck.hpp"
+#include "core/scenario/canonical_bytes.hpp"
 
 namespace fleetproof {
 namespace {
 
-// While the radio draws: a case that is smaller is tried with so many other draws before it is given up. Whether others
-// are involved is asked more often: it decides most.
-constexpr std::size_t kOtherLuck = 23, kLuckOfInvolved = 64;
+// A smaller case is tried with so many other courses before it is given up. Whether others are involved, and whether
+// the radio is, is asked more often: that decides most.
+constexpr std::size_t kOtherCourses = 23, kCoursesOfTheFew = 64;
 constexpr Duration kAfterwards = std::chrono::milliseconds(1), kShortest = std::chrono::milliseconds(10);
 constexpr std::int64_t kSteps = 16;  // of a stretch of time that is narrowed
 
@@ -20,6 +22,11 @@ std::optional<Scenario> if_fair(Scenario scenario) {
 }
 
 Duration since_start(SimTime t) { return t - kStart; }
+
+// Course 0 is the present one.
+Scenario on_course(Scenario scenario, std::size_t course) {
+  return course == 0 ? scenario : with_other_course(std::move(scenario), static_cast<std::uint32_t>(course), kLatest);
+}
 
 }  // namespace
 
@@ -30,21 +37,17 @@ bool Shrinker::accept(std::optional<Trials::Found> found, std::string_view pass)
   return true;
 }
 
-std::size_t Shrinker::attempts() const { return CaseSize::of(best_.scenario).fates_are_drawn ? 1 + kOtherLuck : 1; }
-
-// Attempt 0 keeps the draws.
-Scenario Shrinker::with_other_luck(Scenario scenario, std::size_t attempt) const {
-  return attempt == 0 ? scenario
-                      : fleetproof::with_other_luck(std::move(scenario), static_cast<std::uint32_t>(attempt));
+std::size_t Shrinker::attempts() const {
+  const bool is_free = courses_ == Courses::Free || CaseSize::of(best_.scenario).fates_are_drawn;
+  return is_free ? 1 + kOtherCourses : 1;
 }
 
 // ---- time
 
-bool Shrinker::shorten_with_slack() {
-  const Duration seen = since_start(best_.failure.seen),
-                 end = std::min(best_.scenario.horizon, seen + seen / 2 + std::chrono::seconds(10));
+bool Shrinker::end_with_slack() {
+  const Duration seen = since_start(best_.failure.seen), end = seen + seen / 2 + std::chrono::seconds(10);
   if (end == best_.scenario.horizon) return false;
-  return try_each("shorter run", 1, [&](Scenario& scenario, std::size_t) { scenario.horizon = end; });
+  return try_each("another end", 1, [&](Scenario& scenario, std::size_t) { scenario.horizon = end; });
 }
 
 bool Shrinker::shorten() {
@@ -87,11 +90,34 @@ bool Shrinker::narrow_bad_luck() {
                                           Scenario later = best_.scenario;
                                           const auto number = static_cast<std::int64_t>(rank / attempts());
                                           later.radio.adverse.adverse_from_s = to_seconds(high - step * (number + 1));
-                                          return std::optional(with_other_luck(std::move(later), rank % attempts()));
+                                          return std::optional(on_course(std::move(later), rank % attempts()));
                                         }});
     smaller |= accept(std::move(found), "perfect radio at first");
     high = since_start(best_.failure.at);
   }
+  return smaller;
+}
+
+// ---- radio
+
+bool Shrinker::try_with_courses(std::string_view pass, const Scenario& smaller) {
+  if (scenario_digest(smaller) == scenario_digest(best_.scenario)) return false;
+  const auto make = [&](std::size_t course) { return std::optional(on_course(smaller, course)); };
+  return accept(trials_.first_failing({kCoursesOfTheFew, make}), pass);
+}
+
+bool Shrinker::improve_radio() {
+  if (!CaseSize::of(best_.scenario).fates_are_drawn) return false;
+  if (try_with_courses("perfect radio", with_fates_only(best_.scenario, {}))) return true;
+  bool smaller = false;
+  const auto without = [&](std::string_view pass, const std::function<void(RadioSetup&)>& edit) {
+    Scenario better = best_.scenario;
+    edit(better.radio);
+    smaller |= try_with_courses(pass, better);
+  };
+  without("no copies", [](RadioSetup& radio) { radio.duplicates = 0.0; });
+  without("no delay", [](RadioSetup& radio) { radio.delay_s = 0.0; });
+  without("no loss", [](RadioSetup& radio) { radio = without_loss(std::move(radio)); });
   return smaller;
 }
 
@@ -119,14 +145,14 @@ bool Shrinker::keep_the_involved() {
   for (std::size_t agv = 0; agv < fleet; ++agv) {
     if (!involved(agv)) others.push_back(agv);
   }
-  const std::size_t tries = attempts() == 1 ? 1 : kLuckOfInvolved;
+  const std::size_t tries = attempts() == 1 ? 1 : kCoursesOfTheFew;
   return accept(trials_.first_failing({others.size() * tries,
                                        [&](std::size_t rank) {
                                          const std::size_t also = others[rank / tries];
                                          Scenario few = with_agvs(best_.scenario, [&](std::size_t agv) {
                                            return involved(agv) || agv == also;
                                          });
-                                         return if_fair(with_other_luck(std::move(few), rank % tries));
+                                         return if_fair(on_course(std::move(few), rank % tries));
                                        }}),
                 "fewer AGVs");
 }
@@ -147,7 +173,7 @@ bool Shrinker::take_out(std::string_view pass, const Count& count, const Edit& e
                                             Scenario less = edit(best_.scenario, [from = from, to = to](std::size_t i) {
                                               return i < from || i >= to;
                                             });
-                                            return if_fair(with_other_luck(std::move(less), rank % tries));
+                                            return if_fair(on_course(std::move(less), rank % tries));
                                           }});
       if (!found) break;
       end = run_of(found->rank).first;

@@ -13,14 +13,18 @@ namespace fleetproof {
 // The passes of shrink(). Each tries smaller cases, keeps what fails in the same way, and says whether it kept any.
 class Shrinker {
  public:
-  // Requires: trials and on_smaller outlive the object.
-  Shrinker(Trials& trials, FailingCase original, const OnSmaller& on_smaller)
-      : trials_(trials), best_(std::move(original)), on_smaller_(on_smaller) {}
+  // Requires: trials and on_smaller outlive the object. Courses::Free: each smaller case is tried with other courses,
+  // too. Courses::Kept: only where the radio draws.
+  enum class Courses : bool { Kept, Free };
+  Shrinker(Trials& trials, FailingCase original, const OnSmaller& on_smaller, Courses courses = Courses::Kept)
+      : trials_(trials), best_(std::move(original)), on_smaller_(on_smaller), courses_(courses) {}
 
-  // Ends the run some time after the failure: a case that takes another course may fail later.
-  bool shorten_with_slack();
+  // Ends the run some time after the failure, perhaps later than before: on another course, it may fail later.
+  bool end_with_slack();
   // Ends the run with the failure.
   bool shorten();
+  // A perfect radio; if that is too much, one on which no message is copied, late, or lost.
+  bool improve_radio();
   // Leaves only the AGVs of the failure, or these and one more.
   bool keep_the_involved();
   // AGVs, transports, faults, obstacles, sources of radio noise.
@@ -43,12 +47,13 @@ class Shrinker {
 
  private:
   bool end_earliest(std::string_view pass);
-  Scenario with_other_luck(Scenario scenario, std::size_t attempt) const;
+  bool try_with_courses(std::string_view pass, const Scenario& smaller);
   std::size_t attempts() const;
 
   Trials& trials_;
   FailingCase best_;
   const OnSmaller& on_smaller_;
+  Courses courses_;
 };
 
 }  // namespace fleetproof
