@@ -15,10 +15,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// The rows of a body, from above.
+// The rows of a body, from above. Stretches below the safety distance that lie across each other have a row each.
 enum RowNumber : int { kDoes = 1, kSays, kRadio, kHappens, kDistanceRow };
 constexpr const char* kRowNames[] = {"", "does", "agent says", "radio", "happens", "below the safety distance"};
-constexpr Duration kMessageBar = std::chrono::microseconds(100);  // an arrow begins and ends at a bar
+constexpr std::uint64_t kRowsOfABody = 1000;
 
 // The format counts in microseconds; three digits more keep the nanosecond.
 double microseconds(SimTime t) { return static_cast<double>(to_ns(t)) / 1e3; }
@@ -27,8 +27,19 @@ std::string text_of(const Json& json) {
   return printable_json(json.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
+// A process 0 is the idle one, and a thread with the number of its process is its main thread: none of them is a row.
 Json event(const char* phase, EntityId body, int row, SimTime at, const std::string& name) {
-  return {{"ph", phase}, {"pid", body.value}, {"tid", row}, {"ts", microseconds(at)}, {"name", name}};
+  const std::uint64_t process = body.value + std::uint64_t{1};
+  return {{"ph", phase},
+          {"pid", process},
+          {"tid", kRowsOfABody * process + static_cast<std::uint64_t>(row)},
+          {"ts", microseconds(at)},
+          {"name", name}};
+}
+
+std::vector<Violation> in_order_of_begin(std::vector<Violation> violations) {
+  std::ranges::stable_sort(violations, {}, &Violation::first);
+  return violations;
 }
 
 }  // namespace
@@ -49,7 +60,7 @@ void ChromeTrace::end(const Row& row, SimTime at) {
 
 void ChromeTrace::bar(const Row& row, SimTime from, SimTime to, const std::string& name, const std::string& details) {
   Json json = event("X", row.first, row.second, from, name);
-  json["dur"] = microseconds(to) - microseconds(from);
+  json["dur"] = static_cast<double>((to - from).count()) / 1e3;
   json["args"] = {{"details", details}};
   events_.push_back(text_of(json));
 }
@@ -61,23 +72,21 @@ void ChromeTrace::point(const Row& row, SimTime at, const std::string& name, con
   events_.push_back(text_of(json));
 }
 
-// An arrow needs a number of its own, because a message may have many receivers, and a copy.
+// A message that is sent or received is a bar without length: such bars never lie across each other, however many there
+// are at one instant. The number binds all receptions to the bar of the sender, each by an arrow.
 void ChromeTrace::message(const TraceRecord& record) {
   const TracedMessage& message = context_.message_of(record);
   const std::string details = trace_details(record, {}, context_);
-  const Row row{record.entity, kRadio};
-  if (record.kind == TraceKind::Sent) return bar(row, record.at, record.at + kMessageBar, message.kind, details);
-  if (record.kind != TraceKind::Received) return point(row, record.at, name_of(record.kind), details);
-  bar(row, record.at, record.at + kMessageBar, message.kind, details);
-  ++arrows_;
-  for (const bool starts : {true, false}) {
-    Json json = starts ? event("s", message.sender, kRadio, message.sent, message.kind)
-                       : event("f", record.entity, kRadio, record.at, message.kind);
-    json["cat"] = "message";
-    json["id"] = arrows_;
-    if (!starts) json["bp"] = "e";
-    events_.push_back(text_of(json));
-  }
+  const bool is_sent = record.kind == TraceKind::Sent;
+  if (!is_sent && record.kind != TraceKind::Received)
+    return point({record.entity, kRadio}, record.at, name_of(record.kind), details);
+  Json json = event("X", record.entity, kRadio, record.at, message.kind);
+  json["dur"] = 0;
+  json["cat"] = "message";
+  json["bind_id"] = message.number;
+  json[is_sent ? "flow_out" : "flow_in"] = true;
+  json["args"] = {{"details", details}};
+  events_.push_back(text_of(json));
 }
 
 void ChromeTrace::record(const TraceRecord& record, std::string_view text) {
@@ -109,29 +118,37 @@ void ChromeTrace::record(const TraceRecord& record, std::string_view text) {
   }
 }
 
-void ChromeTrace::name_rows() {
-  const Scenario& scenario = context_.scenario();
-  for (std::size_t i = 0; i < scenario.body_count(); ++i) {
+void ChromeTrace::name_rows(const std::map<EntityId, std::vector<SimTime>>& distance_rows) {
+  const auto name = [&](const char* what, EntityId body, int row, const char* key, const Json& value) {
+    Json json = event("M", body, row, kStart, what);
+    json["args"] = {{key, value}};
+    events_.push_back(text_of(json));
+  };
+  for (std::size_t i = 0; i < context_.scenario().body_count(); ++i) {
     const EntityId body{i};
-    Json name = event("M", body, 0, kStart, "process_name");
-    name["args"] = {{"name", body_name(scenario, body)}};
-    events_.push_back(text_of(name));
-    for (int row = kDoes; row <= kDistanceRow; ++row) {
-      Json thread = event("M", body, row, kStart, "thread_name");
-      thread["args"] = {{"name", kRowNames[row]}};
-      events_.push_back(text_of(thread));
+    name("process_name", body, kDoes, "name", body_name(context_.scenario(), body));
+    name("process_sort_index", body, kDoes, "sort_index", i);
+    const auto found = distance_rows.find(body);
+    const int more = found == distance_rows.end() ? 0 : static_cast<int>(found->second.size()) - 1;
+    for (int row = kDoes; row <= kDistanceRow + more; ++row) {
+      name("thread_name", body, row, "name", kRowNames[std::min<int>(row, kDistanceRow)]);
+      name("thread_sort_index", body, row, "sort_index", row);
     }
   }
 }
 
 std::string ChromeTrace::text(const std::vector<Violation>& violations, SimTime end_of_run) {
   while (!open_.empty()) end(open_.begin()->first, end_of_run);
-  for (const Violation& v : violations) {
-    const std::string other = body_name(context_.scenario(), v.b);
-    bar({v.a, kDistanceRow}, v.first, v.last, "to " + other,
+  std::map<EntityId, std::vector<SimTime>> rows;  // of a body: until when each is taken
+  for (const Violation& v : in_order_of_begin(violations)) {
+    auto& taken = rows[v.a];
+    const auto row = std::ranges::find_if(taken, [&](SimTime until) { return until <= v.first; }) - taken.begin();
+    if (row == std::ssize(taken)) taken.emplace_back();
+    taken[static_cast<std::size_t>(row)] = v.last;
+    bar({v.a, kDistanceRow + static_cast<int>(row)}, v.first, v.last, "to " + body_name(context_.scenario(), v.b),
         fmt::format("closest at {} s: {} um", nanosecond_text(v.closest_at), v.min_clearance_um));
   }
-  name_rows();
+  name_rows(rows);
   std::string text = "{\"displayTimeUnit\":\"ms\",\"traceEvents\":[\n";
   for (const std::string& event : events_) text += event + (&event == &events_.back() ? "\n" : ",\n");
   return text + "]}\n";

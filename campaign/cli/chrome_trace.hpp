@@ -36,12 +36,11 @@ class ChromeTrace final : public TraceSink {
   void bar(const Row& row, SimTime from, SimTime to, const std::string& name, const std::string& details);
   void point(const Row& row, SimTime at, const std::string& name, const std::string& details);
   void message(const TraceRecord& record);
-  void name_rows();
+  void name_rows(const std::map<EntityId, std::vector<SimTime>>& distance_rows);
 
   TraceContext context_;
   std::vector<std::string> events_;  // JSON objects
   std::map<Row, Open> open_;
-  std::uint64_t arrows_ = 0;
 };
 
 }  // namespace fleetproof::cli
