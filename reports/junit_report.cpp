@@ -163,7 +163,7 @@ std::string finding_suite(const ReportInput& input, Counts& counts) {
   std::string cases;
   for (const FoundFinding& finding : input.findings.record->findings) {
     const std::string message =
-        fmt::format("{}: {}; {}", finding.standing, count_text(finding.failures, "failure"), finding.mechanism);
+        fmt::format("{}: {}; {}", finding.standing, count_text(finding.runs.size(), "failure"), finding.mechanism);
     const std::string outcome = finding.needs_attention
                                     ? fmt::format("      <failure type=\"finding\" message=\"{}\">{}</failure>\n",
                                                   escaped(message), escaped_lines(replay_line(input, finding.run)))

@@ -141,10 +141,12 @@ class FindingsDesk {
     record.failing_runs = runs_.all;
     record.looked_at = runs_.looked_at.size();
     record.not_again = survey_.not_again;
-    for (const Finding& finding : findings_)
-      record.findings.push_back({finding.id(), finding.agent, finding.mechanism.text(),
-                                 standing_of(kept(finding), today()), needs_attention(kept(finding), today()),
-                                 finding.members.size(), representative(finding).run});
+    for (const Finding& finding : findings_) {
+      FoundFinding& found = record.findings.emplace_back(
+          FoundFinding{finding.id(), finding.agent, finding.mechanism.text(), standing_of(kept(finding), today()),
+                       needs_attention(kept(finding), today()), representative(finding).run});
+      for (const std::size_t member : finding.members) found.runs.push_back(survey_.failures[member].run);
+    }
     return record;
   }
 

@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kSchemaVersion = 1;
+constexpr int kSchemaVersion = 2;
 constexpr const char* kEnding = ".findings.json";
 
 Json json_of(const FoundFinding& finding) {
@@ -22,8 +22,9 @@ Json json_of(const FoundFinding& finding) {
           {"mechanism", finding.mechanism},
           {"standing", finding.standing},
           {"needs_attention", finding.needs_attention},
-          {"failures", finding.failures},
-          {"run", finding.run}};
+          {"failures", finding.runs.size()},
+          {"run", finding.run},
+          {"runs", finding.runs}};
 }
 
 FoundFinding finding_from(const Json& json) {
@@ -33,8 +34,8 @@ FoundFinding finding_from(const Json& json) {
   finding.mechanism = json.at("mechanism");
   finding.standing = json.at("standing");
   finding.needs_attention = json.at("needs_attention");
-  finding.failures = json.at("failures");
   finding.run = json.at("run");
+  finding.runs = json.at("runs").get<std::vector<std::uint64_t>>();
   return finding;
 }
 

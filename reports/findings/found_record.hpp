@@ -12,11 +12,11 @@ namespace fleetproof {
 // The failures of one agent that come about in one way.
 struct FoundFinding {
   std::string id, agent;
-  std::string mechanism;        // in words
-  std::string standing;         // to the user: "new", "known", "back", "waived until 2027-01-31"
-  bool needs_attention = true;  // someone has to look at it
-  std::uint64_t failures = 0;   // of those that were looked at
-  std::uint64_t run = 0;        // the simplest of them
+  std::string mechanism;              // in words
+  std::string standing;               // to the user: "new", "known", "back", "waived until 2027-01-31"
+  bool needs_attention = true;        // someone has to look at it
+  std::uint64_t run = 0;              // the simplest of its failures
+  std::vector<std::uint64_t> runs{};  // all of them that were looked at, in order
 
   friend bool operator==(const FoundFinding&, const FoundFinding&) = default;
 };

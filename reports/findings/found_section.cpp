@@ -34,7 +34,7 @@ Section findings_section(const ReportInput& input) {
                    {}};
   for (const FoundFinding& finding : record->findings)
     section.table.rows.push_back({printable(finding.id, 20), printable(finding.standing, 60),
-                                  printable(finding.agent, 40), std::to_string(finding.failures),
+                                  printable(finding.agent, 40), std::to_string(finding.runs.size()),
                                   printable(finding.mechanism, 300), std::to_string(finding.run)});
   section.remarks.push_back({fmt::format("{}. {} of {} failing runs were simulated again without what they may need.",
                                          findings_sentence(*record), record->looked_at, record->failing_runs),
