@@ -34,7 +34,7 @@ nlohmann::ordered_json to_json(const Explanation& explanation) {
   const Scenario& small = explanation.small.scenario;
   nlohmann::ordered_json json = {{"schema_version", 1},
                                  {"failure", text_of(explanation.pattern.kind)},
-                                 {"telling_words", explanation.pattern.telling_words},
+                                 {"telling_words", explanation.pattern.words.telling},
                                  {"at_s", to_seconds(explanation.original.failure.at - kStart)},
                                  {"small_at_s", to_seconds(explanation.small.failure.at - kStart)},
                                  {"sentences", sentences_of(explanation)}};

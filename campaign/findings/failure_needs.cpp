@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <set>
 #include <utility>
 
@@ -74,32 +73,27 @@ class Reduction {
     return host_(scenario, fates);
   }
 
-  // Words that its agents say in each run that ends so.
+  // What its agents say when it ends so, and the lucks with which it does.
   void learn_words(const CaseRun& run) {
-    words_ = run.words;
+    learner_.emplace(run);
     const CaseRun lucky = simulate(with_fates_only(original_, {}));
-    if (!failure_of(lucky))
-      std::erase_if(words_, [&](const std::string& w) { return std::ranges::binary_search(lucky.all_words, w); });
+    if (!failure_of(lucky)) learner_->hear_lucky(lucky);
+    std::vector<CaseRun> others;
     for (std::uint32_t luck = 1; luck <= kOtherRuns; ++luck) {
-      const CaseRun other = simulate(another(original_, luck));
-      const auto failure = failure_of(other);
-      if (!failure) hear_passing(other);
-      if (!failure || end_of(*failure) != likeness_.end) continue;
-      failing_lucks_.push_back(luck);
-      std::erase_if(words_, [&](const std::string& w) { return !std::ranges::binary_search(other.words, w); });
+      others.push_back(simulate(another(original_, luck)));
+      if (!failure_of(others.back())) learner_->hear_passing(others.back());
     }
-    likeness_.words = telling_words();
+    likeness_.words = {{}, learner_->pattern().usual};
+    for (std::uint32_t luck = 1; luck <= kOtherRuns; ++luck) {
+      if (!likeness_.match(others[luck - 1])) continue;
+      failing_lucks_.push_back(luck);
+      learner_->hear_failing(others[luck - 1]);
+    }
+    likeness_.words.telling = telling_words();
   }
-  void hear_passing(const CaseRun& run) {
-    ++passing_;
-    for (const std::string& word : run.all_words) ++saying_[word];
-  }
-  // Without those that nearly each run without a failure says, too.
-  std::vector<std::string> telling_words() {
-    if (passing_ < kEnoughToCompare) return {};
-    std::vector<std::string> telling = words_;
-    std::erase_if(telling, [&](const std::string& word) { return 10 * saying_[word] > 9 * passing_; });
-    return telling;
+  std::vector<std::string> telling_words() const {
+    if (learner_->passing() < kEnoughToCompare) return {};
+    return learner_->pattern().telling;
   }
 
   void take_out_ingredients(const std::vector<Ingredient>& ingredients) {
@@ -140,7 +134,7 @@ class Reduction {
       const CaseRun run = simulate(scenario);
       auto failure = likeness_.match(run);
       if (failure) best_ = {std::move(scenario), *std::move(failure)};
-      if (!failure_of(run)) hear_passing(run);
+      if (!failure_of(run)) learner_->hear_passing(run);
       return failure.has_value();
     };
     if (fails(less)) return true;
@@ -172,9 +166,7 @@ class Reduction {
   FailingCase best_;
   FailureNeeds found_;
   std::vector<std::uint32_t> failing_lucks_;
-  std::vector<std::string> words_;
-  std::map<std::string, std::uint32_t> saying_;  // of the runs without a failure
-  std::uint32_t passing_ = 0;
+  std::optional<WordLearner> learner_;
   std::uint64_t replays_ = 0;
   bool needs_third_ = false, failed_otherwise_ = false;
 };
@@ -191,7 +183,7 @@ std::string end_of(const Failure& failure) {
 
 std::optional<Failure> FailureLikeness::match(const CaseRun& run) const {
   auto failure = failure_of(run);
-  if (!failure || end_of(*failure) != end || !std::ranges::includes(run.words, words)) return std::nullopt;
+  if (!failure || end_of(*failure) != end || !words.match(run.words)) return std::nullopt;
   return failure;
 }
 

@@ -34,10 +34,10 @@ inline constexpr const char* kThirdAgvTrait = "needs a third AGV";
 // How a failure ends, without what is chance: how close two bodies came, and at what speed.
 std::string end_of(const Failure& failure);
 
-// Whether a run fails as another one did: with the same end, and with the words that its agents always say then.
+// Whether a run fails as another one did: with the same end, and with the words that its agents say then.
 struct FailureLikeness {
   std::string end;
-  std::vector<std::string> words{};  // sorted
+  WordPattern words{};
   std::optional<Failure> match(const CaseRun& run) const;
 };
 

@@ -1,7 +1,6 @@
 #include "campaign/shrink/failure_pattern.hpp"
 
 #include <algorithm>
-#include <map>
 #include <utility>
 
 #include "campaign/shrink/adverse_fates.hpp"
@@ -16,28 +15,27 @@ constexpr std::uint32_t kOtherRuns = 16;
 
 std::optional<Failure> FailurePattern::match(const CaseRun& run) const {
   auto failure = failure_of(run);
-  if (!failure || !(failure->kind == kind) || !std::ranges::includes(run.words, telling_words)) return std::nullopt;
+  if (!failure || !(failure->kind == kind) || !words.match(run.words)) return std::nullopt;
   return failure;
 }
 
 FailurePattern pattern_of(CaseHost& host, const FailingCase& failing) {
-  FailurePattern pattern{failing.failure.kind};
-  std::vector<std::string> words = host(failing.scenario).words;
+  const CaseRun run = host(failing.scenario);
+  WordLearner learner(run);
   const CaseRun lucky = host(with_fates_only(failing.scenario, {}));
   const bool lucky_fails = failure_of(lucky).has_value();
-  if (!lucky_fails)
-    std::erase_if(words, [&](const std::string& word) { return std::ranges::binary_search(lucky.all_words, word); });
-  std::map<std::string, std::size_t> saying;
-  std::size_t others = 0;
-  for (std::uint32_t i = 1; i <= kOtherRuns && !words.empty(); ++i) {
-    const CaseRun other = host(with_other_luck(failing.scenario, i));
-    if (failure_of(other)) continue;
-    ++others;
-    for (const std::string& word : other.all_words) ++saying[word];
+  if (!lucky_fails) learner.hear_lucky(lucky);
+  std::vector<CaseRun> others;
+  for (std::uint32_t i = 1; i <= kOtherRuns && !run.words.empty(); ++i) {
+    others.push_back(host(with_other_course(failing.scenario, i, kLatest)));
+    if (!failure_of(others.back())) learner.hear_passing(others.back());
   }
-  if (lucky_fails && others == 0) words.clear();  // nothing to compare with
-  std::erase_if(words, [&](const std::string& word) { return 10 * saying[word] > 9 * others; });
-  pattern.telling_words = std::move(words);
+  FailurePattern pattern{failing.failure.kind, {{}, learner.pattern().usual}};
+  for (const CaseRun& other : others) {
+    if (pattern.match(other)) learner.hear_failing(other);
+  }
+  pattern.words = learner.pattern();
+  if (lucky_fails && learner.passing() == 0) pattern.words.telling.clear();  // nothing to compare with
   return pattern;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "campaign/shrink/case_host.hpp"
+#include "campaign/shrink/word_pattern.hpp"
 
 namespace fleetproof {
 
@@ -14,16 +15,16 @@ struct FailingCase {
   Failure failure;
 };
 
-// What counts as the same failure: its kind, and words of its agents that not every run without a failure has.
+// What counts as the same failure: its kind, and what its agents declared before it.
 struct FailurePattern {
   FailureKind kind;
-  std::vector<std::string> telling_words{};  // sorted
+  WordPattern words{};
   // The failure of the run, if it is this one.
   std::optional<Failure> match(const CaseRun& run) const;
 };
 
-// The pattern of this failure. Telling are the words that its agents declared before it, unless a run of the same
-// scenario without a failure declares them too: on a perfect radio, or nine in ten of such runs with other luck.
+// The pattern of this failure. Its words are compared with runs of the same scenario without a failure: on a perfect
+// radio, and with other luck.
 FailurePattern pattern_of(CaseHost& host, const FailingCase& failing);
 
 }  // namespace fleetproof
