@@ -21,9 +21,13 @@ struct P {
 };
 using Points = std::vector<P>;
 
-std::vector<std::smatch> all(const std::string& text, const std::string& pattern) {
+// Of each match: all of it, and its groups.
+std::vector<std::vector<std::string>> all(const std::string& text, const std::string& pattern) {
   const std::regex regex(pattern);
-  return {std::sregex_iterator(text.begin(), text.end(), regex), std::sregex_iterator()};
+  std::vector<std::vector<std::string>> matches;
+  for (std::sregex_iterator match(text.begin(), text.end(), regex); match != std::sregex_iterator(); ++match)
+    matches.emplace_back(match->begin(), match->end());
+  return matches;
 }
 
 // Pixels to metres along one axis, by its first and its last number.
