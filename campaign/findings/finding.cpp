@@ -102,11 +102,9 @@ class Gathering {
         }
       }
       for (auto& [doing, part] : parted(failures_, std::move(others))) {
-        if (!part.empty()) gathered[{needs, doing}] = std::move(part);
+        if (!part.empty()) std::ranges::copy(part, std::back_inserter(gathered[{needs, doing}]));
       }
-      if (rare.empty()) continue;
-      Members& unknown = gathered[{{kNotKnown}, ""}];
-      unknown.insert(unknown.end(), rare.begin(), rare.end());
+      if (!rare.empty()) std::ranges::copy(rare, std::back_inserter(gathered[{{kNotKnown}, ""}]));
     }
     for (auto& [key, members] : gathered) std::ranges::sort(members);
     return gathered;

@@ -176,6 +176,17 @@ TEST(Findings, WhoNeedsNothingInParticularSharesACore) {
   EXPECT_EQ(findings[0].members.size(), 3U);
 }
 
+// Two of thirty do not say what the others say.
+TEST(Findings, LoseNoFailure) {
+  KnownFailure saying = failure("a", {"breakdown"});
+  saying.needs.traits = {"says \"gone\""};
+  auto failures = times(28, saying);
+  add(failures, times(2, failure("a", {"breakdown"})));
+  const auto findings = findings_of(failures);
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_EQ(findings[0].members.size(), 30U);
+}
+
 TEST(Findings, EachAgentHasItsOwn) {
   auto failures = times(4, failure("a", {}));
   add(failures, times(4, failure("b", {})));
