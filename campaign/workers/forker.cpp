@@ -176,6 +176,7 @@ Forker::Forker(const Work& work) {
 }
 
 Forker::~Forker() {
+  ::shutdown(control_, SHUT_RDWR);  // forkers that were made later hold copies of this end
   ::close(control_);
   while (::waitpid(forker_, nullptr, 0) < 0 && errno == EINTR) {
   }

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <csignal>
 #include <fstream>
+#include <optional>
 #include <set>
 
 #include "core/base/error.hpp"
@@ -117,6 +118,16 @@ TEST(Forker, LeavesNoProcessBehind) {
   }
   EXPECT_FALSE(is_alive(one) || is_alive(other));
   expect_group_ends(other);
+}
+
+TEST(Forker, EndsWhileALaterOneLives) {
+  std::optional<Forker> first(std::in_place, echo);
+  Forker second(echo);
+  auto of_first = first->start(0), of_second = second.start(1);
+  EXPECT_EQ(ask(of_first, "hello"), "0hello");
+  first.reset();
+  EXPECT_FALSE(is_alive(of_first.pid));
+  EXPECT_EQ(ask(of_second, "hello"), "1hello");
 }
 
 // What the main process, killed, cannot do any more.
