@@ -8,6 +8,7 @@
 
 #include "campaign/batch/session_log.hpp"
 #include "campaign/cli/streams.hpp"
+#include "campaign/plan/campaign_agents.hpp"
 #include "campaign/plan/default_gates.hpp"
 #include "campaign/plan/plan_check.hpp"
 #include "campaign/run/agent_inspection.hpp"
@@ -107,6 +108,18 @@ void meet_plugins(const std::string& archive_path, const CampaignRecord& campaig
     }
     (programs.*meet)(remembered, agent.global_symbols);
   }
+}
+
+std::string meet_agent(const std::string& word, std::vector<std::string>& plugins, AgentPrograms& programs,
+                       MeetPlugin meet) {
+  const bool is_path = is_path_of_object(word);
+  if (is_path && std::ranges::find(plugins, word) == plugins.end()) plugins.push_back(word);
+  std::string name = word;
+  for (const std::string& path : plugins) {
+    const std::string met = (programs.*meet)(path, false);
+    if (is_path && path == word) name = met;
+  }
+  return name;
 }
 
 int worker_count(const std::optional<std::uint64_t>& jobs) {

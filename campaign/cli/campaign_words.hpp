@@ -26,6 +26,11 @@ using MeetPlugin = std::string (AgentPrograms::*)(const std::string& path, bool 
 void meet_plugins(const std::string& archive_path, const CampaignRecord& campaign, std::span<const AgentFactor> agents,
                   const std::vector<std::string>& named, AgentPrograms& programs, MeetPlugin meet);
 
+// The name of the agent that `word` names: a name, or the path of a shared object. A path is added to `plugins`, and
+// all of them are met. Throws what `meet` throws.
+std::string meet_agent(const std::string& word, std::vector<std::string>& plugins, AgentPrograms& programs,
+                       MeetPlugin meet);
+
 // The number that --jobs asks for; without it, one worker for each core. Throws InputError.
 int worker_count(const std::optional<std::uint64_t>& jobs);
 

@@ -42,11 +42,12 @@ CaseSource of_run(const CaseWords& words, AgentPrograms& programs) {
 }
 
 CaseSource of_file(const CaseWords& words, AgentPrograms& programs) {
-  for (const std::string& plugin : words.plugins) programs.know(plugin);
   CaseSource source;
   source.scenario = read_scenario(words.source);
   source.name = std::filesystem::path(words.source).stem().string();
-  source.agent.program = words.agent.empty() ? source.scenario.agent : words.agent;
+  std::vector<std::string> plugins = words.plugins;
+  const std::string& named = words.agent.empty() ? source.scenario.agent : words.agent;
+  source.agent.program = meet_agent(named, plugins, programs, &AgentPrograms::know);
   source.agent.config = words.config.empty() ? source.scenario.agent_config : words.config;
   if (source.agent.program.empty())
     throw InputError("--agent", "neither the scenario file nor the command line names an agent; name one");

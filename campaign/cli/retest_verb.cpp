@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -75,13 +76,26 @@ int retest_findings(const RetestWords& words) {
   if (words.neighbours && (*words.neighbours < 1 || *words.neighbours > kMostNeighbours))
     throw InputError("--neighbours", fmt::format("is {}; it is from 1 to {}", *words.neighbours, kMostNeighbours));
   AgentPrograms programs;
-  for (const std::string& plugin : words.plugins) programs.know(plugin);
+  std::vector<std::string> plugins = words.plugins;
+  const std::string agent = meet_agent(words.agent, plugins, programs, &AgentPrograms::know);
   const FindingsFile file(words.file);
-  CaseHost host({words.agent, words.config}, programs, worker_count(words.jobs));
+  std::vector<KeptFailure> failures;
+  const auto config_of = [&](const KeptFailure& failure) {
+    return words.config.empty() ? failure.smallest.agent_config : words.config;
+  };
+  std::map<std::string, std::unique_ptr<CaseHost>> hosts;  // by the configuration of the agent; made before any thread
+  const auto findings = chosen(file, words.ids);
+  for (const KeptFinding* finding : findings) {
+    failures.push_back(file.failure(*finding));
+    const std::string config = config_of(failures.back());
+    auto& host = hosts[config];
+    if (!host) host = std::make_unique<CaseHost>(CaseAgent{agent, config}, programs, worker_count(words.jobs));
+  }
   std::vector<Retested> all;
-  for (const KeptFinding* finding : chosen(file, words.ids)) {
-    const auto neighbours = static_cast<std::uint32_t>(words.neighbours.value_or(kNeighbours));
-    all.push_back({*finding, retest(host, file.failure(*finding), finding->neighbours, neighbours)});
+  const auto neighbours = static_cast<std::uint32_t>(words.neighbours.value_or(kNeighbours));
+  for (std::size_t i = 0; i < findings.size(); ++i) {
+    CaseHost& host = *hosts.at(config_of(failures[i]));
+    all.push_back({*findings[i], retest(host, failures[i], findings[i]->neighbours, neighbours)});
     if (!words.json) put_line(all.back());
   }
   if (words.json) put_json(all);
@@ -107,8 +121,8 @@ int retest_or_skip(const RetestWords& words) {
 Action prepare_retest(Options& options) {
   auto words = std::make_shared<RetestWords>();
   options.positional("FINDINGS", words->file, "findings file, with the scenario files that it names");
-  options.option("--agent", words->agent, "the control software to test");
-  options.option("--agent-config", words->config, "text handed to the agent");
+  options.option("--agent", words->agent, "the control software to test: a name, or a shared object");
+  options.option("--agent-config", words->config, "text handed to the agent (default: as when the finding was found)");
   options.option("--plugin", words->plugins, "shared object with the agent; may be repeated");
   options.option("--finding", words->ids, "only this finding, as F-1c2d3e4f; may be repeated");
   options.option("--neighbours", words->neighbours, "scenarios beside each case (default: 1000)");

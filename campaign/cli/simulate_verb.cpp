@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "campaign/cli/campaign_words.hpp"
 #include "campaign/cli/run_observers.hpp"
 #include "campaign/cli/run_text.hpp"
 #include "campaign/cli/streams.hpp"
@@ -189,11 +190,12 @@ void print_json(const Scenario& scenario, const Outcome& outcome, const Simulate
   put_text(printable_json(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) + "\n");
 }
 
-// The command line decides, then the scenario file, then whether it has a script.
+// The command line decides, then the scenario file, then whether it has a script, then the one plug-in.
 std::string agent_of(const SimulateWords& words, const Scenario& scenario, const AgentPrograms& programs) {
   if (!words.agent.empty()) return words.agent;
   if (!scenario.agent.empty()) return scenario.agent;
   if (std::ranges::any_of(scenario.agvs, [](const AgvSetup& agv) { return !agv.script.empty(); })) return "scripted";
+  if (words.plugins.size() == 1) return words.plugins.front();
   std::vector<std::string> names;
   for (const AgentProgram& program : programs.all()) names.push_back(program.name);
   throw InputError("--agent",
@@ -251,8 +253,8 @@ int simulate_scenario(SimulateWords words) {
   Scenario scenario = with_luck(words, read_scenario(words.scenario));
   if (!words.granularity.empty()) scenario.law.snapshot_s = granularity_s(words.granularity);
   AgentPrograms programs;
-  for (const std::string& plugin : words.plugins) programs.load(plugin);
   words.agent = agent_of(words, scenario, programs);
+  words.agent = meet_agent(words.agent, words.plugins, programs, &AgentPrograms::load);
   if (words.config.empty()) words.config = scenario.agent_config;
   const fp_agent_type& agent = programs.find(words.agent, "--agent");
   const Observers observers = observers_of(words.law, scenario);

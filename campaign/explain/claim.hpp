@@ -13,7 +13,9 @@ namespace fleetproof {
 struct Claim {
   std::string sentence;
   Scenario run;
-  std::string outcome;  // of the run: "contact, two AGVs (driving, driving)", or "none"
+  std::string outcome;               // of the run: "contact, two AGVs (driving, driving)", or "none"
+  bool avoids = false;               // the failure
+  std::vector<std::string> words{};  // all that the fleet declared in the run, sorted; of runs without a thing only
 };
 
 // How often a changed scenario fails in the same way with other luck: with_other_luck, by its numbers from 1 on.

@@ -33,7 +33,9 @@ Explanation explain(CaseHost& host, const FailingCase& original, const FailingCa
   found.messages = needs_of_messages(host, found.small, pattern);
   found.things = without_each_thing(host, found.small, pattern);
   found.stops = last_stops(host, found.small, pattern);
-  found.notes = host(found.small.scenario, Fates::Kept).notes;
+  CaseRun run = host(found.small.scenario, Fates::Kept);
+  found.notes = std::move(run.notes);
+  found.doing = std::move(run.doing);
   CaseRun lucky = host(with_fates_only(found.small.scenario, {}));
   if (!failure_of(lucky)) found.lucky_words = std::move(lucky.all_words);
   found.shares = shares_of(host, original, pattern);

@@ -17,7 +17,8 @@ struct Explanation {
   std::vector<MessageNeed> messages;
   std::vector<Claim> things;
   std::vector<LastStop> stops;
-  CaseNotes notes;  // of the smallest case
+  CaseNotes notes;                 // of the smallest case
+  std::vector<std::string> doing;  // what its AGVs did when it failed, as CaseRun has it
   // All words of its agents on a perfect radio, sorted; none if it fails there, too.
   std::vector<std::string> lucky_words;
   std::vector<Share> shares;

@@ -98,7 +98,10 @@ std::vector<MessageNeed> needs_of_messages(CaseHost& host, const FailingCase& fa
     const CaseRun run = host(arrived);
     need.is_needed = avoids(run, failing, pattern);
     need.claims.push_back({fmt::format("{} arrived at once", message_text(failing.scenario, need.message)),
-                           std::move(arrived), outcome_text(failure_of(run))});
+                           std::move(arrived),
+                           outcome_text(failure_of(run)),
+                           need.is_needed,
+                           {}});
     if (need.is_needed) need.latest = latest_that_saves(host, failing, pattern, i);
     if (need.latest) {
       for (const Duration late : {need.latest->in_time, need.latest->too_late}) {
@@ -124,10 +127,12 @@ std::vector<Claim> without_each_thing(CaseHost& host, const FailingCase& failing
   for (std::size_t i = 0; i < things.size(); ++i) {
     if (!runs[i]) continue;
     const auto failure = failure_of(*runs[i]);
-    const char* how = pattern.match(*runs[i])              ? "fails in the same way"
-                      : avoids(*runs[i], failing, pattern) ? "does not fail so"
-                                                           : "fails a little otherwise";
-    claims.push_back({fmt::format("{} without {}", how, things[i].what), *make(i), outcome_text(failure)});
+    const bool avoided = avoids(*runs[i], failing, pattern);
+    const char* how = pattern.match(*runs[i]) ? "fails in the same way"
+                      : avoided               ? "does not fail so"
+                                              : "fails a little otherwise";
+    claims.push_back({fmt::format("{} without {}", how, things[i].what), *make(i), outcome_text(failure), avoided,
+                      runs[i]->all_words});
   }
   return claims;
 }

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <set>
 
 namespace fleetproof {
 namespace {
@@ -54,6 +55,18 @@ class Words {
     if (failure.a.valid()) who = " of " + name_of_body(scenario_, failure.a);
     if (failure.b.valid()) who += " and " + name_of_body(scenario_, failure.b);
     say("The smallest case fails at {:.3f} s: {}{}.", seconds_of(failure.at), failure.kind.what, who);
+    std::vector<std::string> doings;
+    for (std::size_t i = 0; i < std::min(involved().size(), of_.doing.size()); ++i)
+      doings.push_back(fmt::format("{} {}", name_of_body(scenario_, involved()[i]), past_of(of_.doing[i])));
+    if (!doings.empty()) say("Then {}.", fmt::join(doings, ", and "));
+  }
+
+  static std::string past_of(const std::string& doing) {
+    if (doing == kTurning) return "turned";
+    if (doing == kOnABend) return "drove on a bend";
+    if (doing == kBackward) return "drove backward";
+    if (doing == kDriving) return "drove";
+    return doing == kTransferring ? "moved a load" : "stood";
   }
 
   void message(const MessageNeed& need) {
@@ -71,7 +84,12 @@ class Words {
   }
 
   void things() {
-    for (const Claim& claim : of_.things) say("It {} {}.", claim.sentence, runs(1));
+    for (const Claim& claim : of_.things) {
+      say("It {} {}.", claim.sentence, runs(1));
+      if (!claim.avoids) continue;
+      avoiding_.push_back(claim_);
+      said_when_avoided_.insert(claim.words.begin(), claim.words.end());
+    }
   }
 
   void last_stop(const LastStop& stop) {
@@ -89,10 +107,14 @@ class Words {
   void knowledge(EntityId agv) {
     const std::string name = name_of_body(scenario_, agv);
     for (const Declared& declared : of_.notes.declared) {
-      if (declared.agv == agv && !of_.lucky_words.empty() &&
-          !std::ranges::binary_search(of_.lucky_words, declared.word))
+      if (declared.agv != agv) continue;
+      if (!of_.lucky_words.empty() && !std::ranges::binary_search(of_.lucky_words, declared.word)) {
         say("{} said \"{}\" at {:.3f} s; on a perfect radio, nobody says it.", name, declared.word,
             seconds_of(declared.at));
+      } else if (!avoiding_.empty() && !said_when_avoided_.contains(declared.word)) {
+        say("{} said \"{}\" at {:.3f} s; nobody says it in [{}].", name, declared.word, seconds_of(declared.at),
+            fmt::join(avoiding_, ", "));
+      }
     }
     for (const EntityId other : involved()) {
       if (other != agv) heard(agv, other);
@@ -160,6 +182,8 @@ class Words {
   const Scenario& scenario_;
   std::vector<std::string> lines_;
   std::size_t claim_ = 0;
+  std::vector<std::size_t> avoiding_;  // runs without a thing that avoid the failure, and all that is said in them
+  std::set<std::string> said_when_avoided_;
 };
 
 }  // namespace

@@ -47,9 +47,10 @@ std::string other_mechanism(CaseHost& host, const KeptFailure& kept, const Neigh
   return Mechanism{kept.end, ways.front(), {}, {}}.text();
 }
 
-// Where neighbours failed often, less than half of that is no accident of timing: something was mended, not all.
-bool is_halved(const NeighbourCounts& now, const NeighbourCounts& before) {
-  return before.of > 0 && kOften * before.alike >= before.of && 2 * now.alike * before.of < before.alike * now.of;
+// Where neighbours failed often, less than three quarters of that is no accident of timing: something was mended, not
+// all.
+bool is_rarer(const NeighbourCounts& now, const NeighbourCounts& before) {
+  return before.of > 0 && kOften * before.alike >= before.of && 4 * now.alike * before.of < 3 * before.alike * now.of;
 }
 
 // More often than before, of the runs that did not fail as the kept one did.
@@ -81,7 +82,7 @@ Retest retest(CaseHost& host, const KeptFailure& kept, const NeighbourCounts& be
   } else if (now.alike > 0) {
     result.new_kind = other_mechanism(host, kept, neighbourhood, now);
     result.verdict = !result.new_kind.empty() ? RetestVerdict::NewKind
-                     : is_halved(now, before) ? RetestVerdict::StillThere
+                     : is_rarer(now, before)  ? RetestVerdict::StillThere
                                               : RetestVerdict::Dodged;
   } else {
     result.new_kind = more_often(now, before);

@@ -8,8 +8,6 @@
 namespace fleetproof {
 namespace {
 
-bool is_object(const std::string& word) { return word.find('/') != std::string::npos || word.ends_with(".so"); }
-
 void take_symbols(TomlTable& table, AgentFactor& agent) {
   const auto given = table.given("symbols");
   if (!given) return;
@@ -41,6 +39,10 @@ AgentFactor agent_from_table(TomlTable& table, std::string& file) {
 
 }  // namespace
 
+bool is_path_of_object(std::string_view word) {
+  return word.find('/') != std::string_view::npos || word.ends_with(".so");
+}
+
 void read_agents(TomlTable& factors, std::string_view key, const std::string& campaign_path,
                  std::vector<AgentFactor>& agents, std::vector<std::string>& files) {
   for (TomlTable::Item& item : factors.words_or_tables(key)) {
@@ -48,7 +50,7 @@ void read_agents(TomlTable& factors, std::string_view key, const std::string& ca
     AgentFactor agent;
     if (item.table) {
       agent = agent_from_table(*item.table, file);
-    } else if (is_object(item.word)) {
+    } else if (is_path_of_object(item.word)) {
       file = item.word;
     } else {
       agent = AgentFactor(item.word);

@@ -9,6 +9,9 @@
 
 namespace fleetproof {
 
+// Whether a word where an agent is named is the path of a shared object.
+bool is_path_of_object(std::string_view word);
+
 // Reads factors.agents: "hull-lock", "my.so", { file = "my.so", name = "candidate", config = "patience=3" }, or
 // { agent = "hull-lock", ... }, with role = "candidate" or "reference". `files` gets the path of the shared object of
 // each agent, beside the campaign file; empty for a reference agent. An agent of a shared object has no program yet:

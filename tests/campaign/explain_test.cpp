@@ -79,13 +79,43 @@ TEST(Explain, TheSentencesNameTheFault) {
   EXPECT_TRUE(says(" [1, "));
 }
 
+TEST(Explain, TheSentencesTellWhatTheBodiesDid) {
+  Explained explained("timeout-grant", 1);
+  const CaseRun run = explained.host(explained.is.small.scenario);
+  ASSERT_EQ(run.doing, (std::vector<std::string>{kDriving, kTurning}));
+  EXPECT_EQ(sentences_of(explained.is)[1],
+            "Then " + name_of_body(explained.small.scenario, explained.small.failure.a) + " drove, and " +
+                name_of_body(explained.small.scenario, explained.small.failure.b) + " turned.");
+}
+
+// Where a perfect radio does not help, the runs that avoid the failure are what a word is compared with.
+TEST(Explain, AWordIsComparedWithRunsThatAvoidTheFailure) {
+  Explained explained("timeout-grant", 1);
+  Explanation is;
+  is.small = explained.small;
+  const EntityId agv = is.small.failure.a;
+  is.doing = {kTurning, kStanding};
+  is.notes.declared = {{agv, "driving", kStart}, {agv, "granted-by-count", kStart + std::chrono::seconds(2)}};
+  is.things = {{"fails in the same way without A", {}, "", false, {"driving", "granted-by-count"}},
+               {"does not fail so without B", {}, "none", true, {"driving"}},
+               {"does not fail so without C", {}, "none", true, {"driving", "idle"}}};
+  const auto sentences = sentences_of(is);
+  const auto count = [&](std::string_view words) {
+    return std::ranges::count_if(sentences, [&](const std::string& s) { return s.find(words) != std::string::npos; });
+  };
+  EXPECT_EQ(count(" turned, and AGV "), 1);
+  EXPECT_EQ(count(" said \"granted-by-count\" at 2.000 s; nobody says it in [2, 3]."), 1);
+  EXPECT_EQ(count("said \"driving\""), 0);
+}
+
 // The last numbers in brackets are those of the last claims: no claim is told twice or left out.
 TEST(Explain, TheSentencesNumberTheirRuns) {
   Explained explained("timeout-grant", 1);
   std::size_t highest = 0;
   for (const std::string& sentence : sentences_of(explained.is)) {
     const auto open = sentence.find(" [");
-    if (open == std::string::npos || sentence.substr(open).starts_with(" [share")) continue;
+    const bool refers_back = sentence.find("nobody says it in [") != std::string::npos;
+    if (open == std::string::npos || refers_back || sentence.substr(open).starts_with(" [share")) continue;
     std::size_t number = 0;
     for (const char c : sentence.substr(open + 2)) {
       if (c >= '0' && c <= '9') {

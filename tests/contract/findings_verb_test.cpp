@@ -136,6 +136,11 @@ TEST_F(FindingsVerb, ACrashOfAPlugInIsAFinding) {
   const auto found = nlohmann::json::parse(run("findings c.db --json").out);
   ASSERT_EQ(found["findings"].size(), 1U) << found.dump(1);
   EXPECT_THAT(found["findings"][0]["mechanism"].get<std::string>(), HasSubstr("crash; needs nothing"));
+  // Without other words it is played with the configuration with which it crashed, and it is named by its path.
+  ASSERT_EQ(run("findings c.db --file c-findings.toml --add").exit_code, 0);
+  const std::string retest = "retest c-findings.toml --neighbours 20 --agent '" + plugin + "'";
+  EXPECT_THAT(run(retest).out, HasSubstr("  still there\n"));
+  EXPECT_THAT(run(retest + " --agent-config 'segfault 100000'").out, HasSubstr("  fixed\n"));
 }
 
 TEST_F(FindingsVerb, BadWordsAreRefused) {

@@ -75,7 +75,7 @@ TEST_F(ShrinkVerb, APlugInIsShrunkInWorkers) {
   write("alone.toml", alone);
   run("run alone.toml --db alone.db");
   ASSERT_EQ(run("replay alone.db 0 --scenario alone.json").exit_code, 0);
-  const std::string plugin = std::string(" --plugin '") + FLEETPROOF_FAILING_AGENT + "' --agent failing";
+  const std::string plugin = std::string(" --agent '") + FLEETPROOF_FAILING_AGENT + "'";
   const auto shrunk = run("shrink alone.json -o small.json --max-trials 900 --agent-config 'segfault 1'" + plugin);
   ASSERT_EQ(shrunk.exit_code, 0) << shrunk.err;
   EXPECT_THAT(shrunk.out, HasSubstr("crash\n"));
