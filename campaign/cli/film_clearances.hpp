@@ -17,7 +17,8 @@ PiecesOfBodies pieces_of_bodies(std::span<const Piece> pieces);
 const Piece* piece_at(const PiecesOfBodies& bodies, EntityId body, SimTime t);
 
 // Clearance over time of the pairs of the first violations, around them: exact at every point, and at the instants at
-// which a violation begins, is closest and ends.
+// which a violation begins, is closest and ends. Without a violation: of the pair that came closest, around its closest
+// instant, and film.nearest.
 void add_clearances(web::Film& film, const PiecesOfBodies& bodies, const Outcome& outcome);
 
 }  // namespace fleetproof::cli

@@ -72,10 +72,18 @@ std::vector<Still> blank_stills(const StripSubject& subject, SimTime end) {
   std::set<SimTime> instants;
   const double pace = subject.is_quick ? 1.0 : 10.0;
   const double before_s = std::min(3.0 * pace, to_seconds(subject.at));
-  for (const double part : {1.0, 2.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0, 0.0})
-    instants.insert(std::max(kStart, subject.at - seconds(part * before_s)));
-  // At the end of a run nothing comes after: one instant more before it.
-  instants.insert(subject.at < end ? std::min(end, subject.at + seconds(pace)) : subject.at - seconds(0.5 * before_s));
+  // A jam right from the start has no approach: it is shown as it lasts.
+  if (!subject.is_quick && before_s < pace) {
+    instants = {kStart, subject.at};
+    for (const double after_s : {10.0, 30.0, 60.0, 120.0})
+      instants.insert(std::min(end, subject.at + seconds(after_s)));
+  } else {
+    for (const double part : {1.0, 2.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0, 0.0})
+      instants.insert(std::max(kStart, subject.at - seconds(part * before_s)));
+    // At the end of a run nothing comes after: one instant more before it.
+    instants.insert(subject.at < end ? std::min(end, subject.at + seconds(pace))
+                                     : subject.at - seconds(0.5 * before_s));
+  }
   std::vector<Still> stills;
   for (const SimTime at : instants) stills.push_back({at, {}});
   return stills;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <numeric>
 
 #include "campaign/cli/film_floor.hpp"
@@ -36,6 +37,12 @@ web::Fate fate_of(TraceKind kind) {
     default:
       return web::Fate::Received;
   }
+}
+
+// From -179 to 180 degrees, without a minus before a zero.
+std::string goal_text(double goal_deg) {
+  const auto degrees = static_cast<int>(std::lround(goal_deg));
+  return fmt::format("to {}\u00b0", degrees <= -180 ? degrees + 360 : degrees);
 }
 
 // The transports of a scenario have one number after the other.
@@ -107,7 +114,7 @@ void FilmRecorder::note_activity(const TraceRecord& record) {
   const ActivityKind kind = traced::activity_of(record);
   web::ActivityBar bar{body, film_us(record.at), 0, name_of(kind), {}};
   if (kind == ActivityKind::Drive) bar.details = way_of_[record.entity];
-  if (kind == ActivityKind::Turn) bar.details = fmt::format("to {:.0f}\u00b0", context_.turn_goal_deg(record.entity));
+  if (kind == ActivityKind::Turn) bar.details = goal_text(context_.turn_goal_deg(record.entity));
   open_[body] = std::move(bar);
 }
 

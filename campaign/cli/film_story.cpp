@@ -15,7 +15,7 @@
 namespace fleetproof::cli {
 namespace {
 
-constexpr std::int64_t kBeforeViolation_us = 3'000'000, kBeforeJam_us = 5'000'000;
+constexpr std::int64_t kBeforeViolation_us = 3'000'000;
 constexpr std::size_t kMostInvolved = 8;
 
 // Cut, not rounded: no digit differs from the full number.
@@ -33,6 +33,12 @@ class Storyteller {
   void tell() {
     film_.failed = outcome_.outcome_class() != OutcomeClass::Clean;
     if (!outcome_.violations.empty()) return tell_violation(outcome_.violations.front());
+    tell_without_violation();
+    if (film_.nearest) add(nearest_text(*film_.nearest));
+  }
+
+ private:
+  void tell_without_violation() {
     if (const web::Happening* end = crash()) return tell_crash(*end);
     for (const IncidentKind kind : {IncidentKind::Deadlock, IncidentKind::Livelock, IncidentKind::Starvation}) {
       if (const Incident* incident = longest(kind)) return tell_stall(*incident);
@@ -43,7 +49,11 @@ class Storyteller {
     tell_end();
   }
 
- private:
+  std::string nearest_text(const web::Nearest& nearest) const {
+    return fmt::format("The two that came closest: {} and {}, {:.3f} m at {:.3f} s.", name(EntityId{nearest.a}),
+                       name(EntityId{nearest.b}), millimetres(nearest.clearance_um),
+                       static_cast<double>(nearest.at_us / 1000) / 1e3);
+  }
   std::string name(EntityId id) const { return printable(body_name(scenario_, id)); }
   void add(std::string sentence) { film_.story.push_back(std::move(sentence)); }
   void look_at(SimTime focus, std::int64_t before_us) {
@@ -128,7 +138,7 @@ class Storyteller {
   }
 
   void tell_stall(const Incident& incident) {
-    look_at(incident.first, kBeforeJam_us);
+    look_at(incident.first, 0);
     const auto involve = [&](EntityId id) {
       if (!id.valid() || film_.involved.size() == kMostInvolved) return;
       if (std::ranges::find(film_.involved, id.index()) == film_.involved.end()) film_.involved.push_back(id.index());
@@ -183,12 +193,14 @@ class Storyteller {
   }
 
   void tell_end() {
-    look_at(film_.failed ? at_ns(static_cast<std::int64_t>(outcome_.simulated_ns)) : kStart, kBeforeViolation_us);
+    const std::int64_t nearest_us = film_.nearest ? film_.nearest->at_us : 0;
+    look_at(at_ns(film_.failed ? static_cast<std::int64_t>(outcome_.simulated_ns) : nearest_us * 1000),
+            kBeforeViolation_us);
     film_.title = fmt::format("{}: {}", printable(scenario_.name), name_of(outcome_.outcome_class()));
     add(film_.failed ? fmt::format("The run ended at {:.2f} s: {}.",
                                    in_hundredths(at_ns(static_cast<std::int64_t>(outcome_.simulated_ns))),
                                    name_of(outcome_.outcome_class()))
-                     : "No two bodies came closer than the safety distance, and the run came to its end.");
+                     : "No violation of the safety distance was filed, and the run came to its end.");
     if (!outcome_.message.empty()) add(printable(outcome_.message, 300));
   }
 

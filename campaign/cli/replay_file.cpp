@@ -51,6 +51,9 @@ void add_strip(web::Film& film, const Scenario& scenario, const std::vector<Piec
     subject.a = EntityId{film.involved[0]};
     subject.b = EntityId{film.involved[1]};
   }
+  if (film.is_about_nearest()) {
+    subject = {at_ns(film.nearest->at_us * 1000), EntityId{film.nearest->a}, EntityId{film.nearest->b}, true};
+  }
   if (!outcome.violations.empty()) {
     subject.at = outcome.violations.front().closest_at;
     subject.is_quick = true;

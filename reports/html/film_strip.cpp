@@ -16,8 +16,8 @@ constexpr double kWidth_px = kLeft_px + kSide_px + 2.0;
 constexpr double kBottomOfFloor_px = kTop_px + kSide_px;
 constexpr double kRoom_m = 1.5, kMostSide_m = 120.0;
 constexpr double kNamesUpTo_m = 24.0;
-constexpr double kLetter_px = 5.4;  // of a name, bold
-constexpr double kTouch_m = 1e-5;   // as near as the judge measures
+constexpr double kNameHeight_px = 9.0, kLetter_px = 5.4;  // of a name, bold
+constexpr double kTouch_m = 1e-5;                         // as near as the judge measures
 constexpr std::size_t kMostLanes = 300, kMostStations = 200;
 
 // The square part of the floor that the frames show.
@@ -155,7 +155,7 @@ std::string nose(const FilmBody& body, const Window& window) {
   return fmt::format("M{}L{}L{}Z", point(front_m, 0.0), point(back_m, half_m), point(back_m, -half_m));
 }
 
-void add_body(Element& svg, const FilmBody& body, double safety_distance_m, bool name_above, const Window& window) {
+void add_body(Element& svg, const FilmBody& body, double safety_distance_m, const Window& window) {
   if (body.is_involved && safety_distance_m > 0.0) {
     svg.add(Element("path", {{"d", outline(body, safety_distance_m, window)},
                              {"fill", "none"},
@@ -169,14 +169,35 @@ void add_body(Element& svg, const FilmBody& body, double safety_distance_m, bool
                            {"stroke", "#2b3138"},
                            {"stroke-width", body.is_involved ? 1.4 : 0.7}}));
   if (body.is_agv) svg.add(Element("path", {{"d", nose(body, window)}, {"fill", "#2b3138"}}));
-  if (window.side_m > kNamesUpTo_m || !window.has(body.centre)) return;
-  const double reach_m = std::hypot(body.length_m, body.width_m) / 2.0;
-  const double y = name_above ? window.y(body.centre.y_m + reach_m) - 2.0 : window.y(body.centre.y_m - reach_m) + 9.0;
-  // Near an edge a name moves inwards, so that it is not cut.
-  const double half_px = std::min(kLetter_px * static_cast<double>(body.name.size()), kSide_px) / 2.0;
-  const double x = std::clamp(window.x(body.centre.x_m), kLeft_px + half_px, kLeft_px + kSide_px - half_px);
-  svg.add(note_at(body.name, x, y, "middle", 9, body.is_involved ? "600" : "400"));
 }
+
+// The names in one frame. A name that would cover one before it is left out.
+class Names {
+ public:
+  explicit Names(const Window& window) : window_(window) {}
+
+  void add(Element& svg, const FilmBody& body, bool above) {
+    if (window_.side_m > kNamesUpTo_m || !window_.has(body.centre)) return;
+    const double reach_m = std::hypot(body.length_m, body.width_m) / 2.0;
+    const double y = above ? window_.y(body.centre.y_m + reach_m) - 2.0 : window_.y(body.centre.y_m - reach_m) + 9.0;
+    // Near an edge a name moves inwards, so that it is not cut.
+    const double half_px = std::min(kLetter_px * static_cast<double>(body.name.size()), kSide_px) / 2.0;
+    const double x = std::clamp(window_.x(body.centre.x_m), kLeft_px + half_px, kLeft_px + kSide_px - half_px);
+    const bool is_free = std::ranges::none_of(taken_, [&](const Place& place) {
+      return std::abs(place.x - x) < place.half_px + half_px && std::abs(place.y - y) < kNameHeight_px;
+    });
+    if (!is_free && !body.is_involved) return;
+    taken_.push_back({x, y, half_px});
+    svg.add(note_at(body.name, x, y, "middle", 9, body.is_involved ? "600" : "400"));
+  }
+
+ private:
+  struct Place {
+    double x, y, half_px;
+  };
+  const Window& window_;
+  std::vector<Place> taken_;
+};
 
 // Of two bodies side by side, one has its name above it and one below, so that the names do not cover each other.
 void add_bodies(Element& svg, const FilmStrip& strip, const FilmFrame& frame, const Window& window) {
@@ -184,12 +205,16 @@ void add_bodies(Element& svg, const FilmStrip& strip, const FilmFrame& frame, co
   for (const auto& body : frame.bodies) {
     if (body.is_involved && (highest == nullptr || body.centre.y_m > highest->centre.y_m)) highest = &body;
   }
-  for (const bool involved : {false, true}) {
+  const auto each = [&](bool involved, auto draw_it) {
     for (const auto& body : frame.bodies) {
-      if (body.is_involved == involved && window.is_near(body))
-        add_body(svg, body, strip.safety_distance_m, &body == highest, window);
+      if (body.is_involved == involved && window.is_near(body)) draw_it(body);
     }
-  }
+  };
+  for (const bool involved : {false, true})
+    each(involved, [&](const FilmBody& body) { add_body(svg, body, strip.safety_distance_m, window); });
+  Names names(window);
+  for (const bool involved : {true, false})
+    each(involved, [&](const FilmBody& body) { names.add(svg, body, &body == highest); });
 }
 
 std::string clearance_line(const FilmFrame& frame) {

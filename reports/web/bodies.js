@@ -177,9 +177,10 @@ const drawMessages = (context, all, t_s, label) => {
 };
 
 // The pair that the page is about at this instant: of the violation under way, else of the next one, else of the last.
+// Without a violation: the two that came closest.
 const pairAt = t_s => {
   const near = film.violations.find(v => v.last_us / 1e6 + 2 >= t_s) || film.violations[film.violations.length - 1];
-  return near ? [near.a, near.b] : film.clearances.length ? [film.clearances[0].a, film.clearances[0].b] : null;
+  return near ? [near.a, near.b] : film.nearest ? [film.nearest.a, film.nearest.b] : null;
 };
 const gapAt = (all, pair) =>
   pair && all[pair[0]] && all[pair[1]] ? closestPoints(all[pair[0]].box, all[pair[1]].box) : null;
@@ -196,14 +197,15 @@ const drawFloor = t_s => {
   there.sort((a, b) => isInvolved(a.body) - isInvolved(b.body));
   for (const one of there) drawBody(context, one, isBrokenAt(one.body, t_s), t_s);
   if (gap && gap.apart_m < 5) {
-    context.strokeStyle = colours.bad;
+    const colour = film.violations.length ? colours.bad : colours.accent;
+    context.strokeStyle = colour;
     context.lineWidth = 2;
     context.beginPath();
     context.moveTo(toX(gap.from[0]), toY(gap.from[1]));
     context.lineTo(toX(gap.to[0]), toY(gap.to[1]));
     context.stroke();
     label(gap.apart_m.toFixed(3) + ' m', toX((gap.from[0] + gap.to[0]) / 2), toY((gap.from[1] + gap.to[1]) / 2) - 9,
-          colours.bad, true);
+          colour, true);
   }
   if (shown.names) {
     for (const {body, box} of there.reverse()) {

@@ -33,7 +33,8 @@ struct Scale {
 Scale scale_of(const Film& film, const ClearanceCurve& curve) {
   Scale scale{curve.points.front().at_us, curve.points.back().at_us, 2 * film.safety_distance_um};
   for (const ClearancePoint& p : curve.points) scale.top_um = std::max(scale.top_um, p.clearance_um);
-  scale.top_um = std::min(scale.top_um, std::max(kMostShown_um, 2 * film.safety_distance_um));
+  const auto least = std::ranges::min_element(curve.points, {}, &ClearancePoint::clearance_um)->clearance_um;
+  scale.top_um = std::min(scale.top_um, std::max({kMostShown_um, 2 * film.safety_distance_um, 2 * least}));
   const auto first = std::ranges::find_if(curve.points, [&](const auto& p) { return p.clearance_um <= scale.top_um; });
   if (first != curve.points.end()) scale.from_us = std::max(scale.from_us, first->at_us - kLead_us);
   scale.to_us = std::max(scale.to_us, scale.from_us + 1);
@@ -123,7 +124,7 @@ Element draw_clearance(const Film& film, std::size_t index) {
   const std::string words =
       fmt::format("{}: smallest clearance {:.3f} m at {:.3f} s", names,
                   in_seconds(std::max<std::int64_t>(0, least->clearance_um - least->clearance_um % 1000)),
-                  in_seconds(least->at_us));
+                  in_seconds(least->at_us - least->at_us % 1000));
   Element svg("svg", {{"xmlns", "http://www.w3.org/2000/svg"},
                       {"role", "img"},
                       {"aria-label", words},

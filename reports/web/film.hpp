@@ -129,6 +129,12 @@ struct ClearanceCurve {
   std::vector<ClearancePoint> points;
 };
 
+// The two bodies of a run without a violation that came closest.
+struct Nearest {
+  std::size_t a = 0, b = 0;
+  std::int64_t at_us = 0, clearance_um = 0;
+};
+
 struct Order {
   std::size_t body = 0;
   std::uint32_t number = 0;
@@ -171,11 +177,15 @@ struct Film {
   std::vector<Belief> beliefs;
   std::vector<Happening> happenings;
   std::vector<TooClose> violations;
-  std::vector<ClearanceCurve> clearances;
+  std::vector<ClearanceCurve> clearances;  // of the first violations; without one, of the nearest pair
+  std::optional<Nearest> nearest;
   std::vector<Order> orders;
-  Kept kept_messages, kept_beliefs, kept_waits;
+  Kept kept_messages, kept_beliefs, kept_states, kept_waits;
   std::vector<std::string> left_out;  // what the page does not have of the run, in sentences
   html::FilmStrip strip;
+
+  // Nothing went wrong: the pair that came closest is all there is to show.
+  bool is_about_nearest() const { return !failed && involved.empty() && nearest.has_value(); }
 };
 
 }  // namespace fleetproof::web

@@ -53,13 +53,19 @@ for (const arrival of arrivals) {
   if (arrival.receiver !== arrival.sender) arrivalsOf[arrival.receiver].push(arrival);
 }
 
-// Whether the page has all "messages", "beliefs" or "waits" of a body at an instant. A large fleet has too many.
-const isKept = (what, body, t_s) => {
+// Whether the page has all "messages", "beliefs", "states" or "waits" of a body at an instant. A large fleet has too
+// many.
+const keptOf = (what, body) => {
   const [from_ms, to_ms] = isInvolved(body) ? film.kept_ms[what] : film.kept_ms[what].slice(2);
-  return from_ms / 1e3 <= t_s + 1e-3 && t_s <= to_ms / 1e3 + 1e-3;
+  return [from_ms / 1e3, to_ms / 1e3];
+};
+const isKept = (what, body, t_s) => {
+  const [from_s, to_s] = keptOf(what, body);
+  return from_s <= t_s + 1e-3 && t_s <= to_s + 1e-3;
 };
 
 const stateOf = (body, t_s) => {
+  if (!isKept('states', body, t_s)) return '';
   const row = lastUpTo(statesOf[body], r => r[1], t_s * 1e3 + 0.5);
   return row ? word(row[2]) : '';
 };

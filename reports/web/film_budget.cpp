@@ -116,6 +116,10 @@ void keep_within(Film& film, const FilmBudget& budget) {
         [](const Happening& h) { return 16 + h.details.size(); },
         [&](const Happening& h) { return h.is_note == notes; });
   }
+  film.kept_states = keep_nearest(
+      film, film.states, "words of agents about what they do", budget.state_bytes,
+      [&](const Declared& s) { return distance.of(s.at_us, distance.is_involved(s.body)); },
+      [](const Declared& s) { return 16 + s.word.size(); }, [](const Declared&) { return true; });
   film.kept_waits = keep_nearest(
       film, film.waits, "declarations of whom an AGV waits for", budget.wait_bytes,
       [&](const Waiting& w) { return distance.of(w.at_us, distance.is_involved(w.body)); },

@@ -135,6 +135,10 @@ void add_failure(Members& members, const Film& film) {
                        {"level", v.level}};
     return json.dump();
   });
+  members.add("nearest", film.nearest
+                             ? fmt::format(R"({{"a":{},"b":{},"at_us":{},"clearance_um":{}}})", film.nearest->a,
+                                           film.nearest->b, film.nearest->at_us, film.nearest->clearance_um)
+                             : "null");
   members.rows("clearances", film.clearances, [](const ClearanceCurve& curve) {
     std::string points;
     for (const auto& [at_us, clearance_um] : curve.points)
@@ -150,9 +154,9 @@ std::string kept_json(const Film& film, const Kept& kept) {
 }
 
 void add_what_happened(Members& members, const Film& film, Words& words) {
-  members.add("kept_ms",
-              fmt::format("{{\"messages\":{},\"beliefs\":{},\"waits\":{}}}", kept_json(film, film.kept_messages),
-                          kept_json(film, film.kept_beliefs), kept_json(film, film.kept_waits)));
+  members.add("kept_ms", fmt::format("{{\"messages\":{},\"beliefs\":{},\"states\":{},\"waits\":{}}}",
+                                     kept_json(film, film.kept_messages), kept_json(film, film.kept_beliefs),
+                                     kept_json(film, film.kept_states), kept_json(film, film.kept_waits)));
   members.rows("activities_ms", film.activities, [&](const ActivityBar& a) {
     return row(a.body, thousandth(a.begin_us), thousandth(a.end_us), words.index_of(a.kind), words.index_of(a.details));
   });

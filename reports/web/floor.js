@@ -73,15 +73,21 @@ const drawAxes = context => {
   }
   context.stroke();
   return () => {  // above all else
+    const write = (text, x, y) => {
+      context.strokeText(text, x, y);
+      context.fillText(text, x, y);
+    };
     context.fillStyle = colours.soft;
+    context.strokeStyle = colours.floor;
+    context.lineWidth = 3;
     context.font = '11px system-ui, sans-serif';
     context.textAlign = 'center';
     for (let x = Math.ceil(left_m / step_m) * step_m; x <= right_m; x += step_m) {
-      if (toX(x) > 40 && toX(x) < width - 10) context.fillText(x + ' m', toX(x), height - 5);
+      if (toX(x) > 40 && toX(x) < width - 10) write(x + ' m', toX(x), height - 5);
     }
     context.textAlign = 'left';
     for (let y = Math.ceil(bottom_m / step_m) * step_m; y <= top_m; y += step_m) {
-      if (toY(y) > 14 && toY(y) < height - 18) context.fillText(y + ' m', 5, toY(y) + 4);
+      if (toY(y) > 14 && toY(y) < height - 18) write(y + ' m', 5, toY(y) + 4);
     }
   };
 };

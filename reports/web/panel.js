@@ -31,7 +31,8 @@ const tellPair = (t_s, all) => {
     pairBox.append(element('span', film.involved.map(nameOf).join(', ') || 'No pair came too close.', 'soft'));
     return;
   }
-  pairBox.append(element('span', nameOf(pair[0]) + ' to ' + nameOf(pair[1]), 'soft'), element('br'));
+  const whose = film.nearest ? ', the closest pair of the run' : '';
+  pairBox.append(element('span', nameOf(pair[0]) + ' to ' + nameOf(pair[1]) + whose, 'soft'), element('br'));
   if (!gap) return void pairBox.append(element('span', 'not both on the floor', 'soft'));
   const broken = gap.apart_m < kSafety_m - 2e-6;
   pairBox.append(element('b', gap.apart_m === 0 ? 'contact' : gap.apart_m.toFixed(3) + ' m', broken ? 'bad' : ''));

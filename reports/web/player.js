@@ -71,8 +71,9 @@ const play = on => {
   requestAnimationFrame(step);
 };
 
-// Instants that one jumps to: shortly before each violation; without any, before the end point.
-const kJumps_s = film.violations.length ? film.violations.map(v => v.first_us / 1e6) : [kFocus_s];
+// Instants that one jumps to: each violation; without any, the end point and the closest approach.
+const kJumps_s = film.violations.length ? film.violations.map(v => v.first_us / 1e6)
+  : [kFocus_s, ...(film.nearest ? [film.nearest.at_us / 1e6] : [])].sort((a, b) => a - b);
 const jump = forward => {
   const ahead = kJumps_s.filter(at => (forward ? at > player.t_s + 0.011 : at < player.t_s - 0.011));
   if (!ahead.length) return;
@@ -80,8 +81,9 @@ const jump = forward => {
   goTo(forward ? ahead[0] : ahead[ahead.length - 1]);
 };
 
+const kSubject = film.involved.length || !film.nearest ? film.involved : [film.nearest.a, film.nearest.b];
 const showFailure = () => {
-  const pieces = film.involved.map(body => pieceAt(body, kFocus_s)).filter(Boolean);
+  const pieces = kSubject.map(body => pieceAt(body, kFocus_s)).filter(Boolean);
   const places = pieces.map(piece => poseAt(piece, kFocus_s));
   if (!places.length) return wholeFloor();
   const xs = places.map(p => p.x_m), ys = places.map(p => p.y_m), room_m = 7;
@@ -191,6 +193,12 @@ addEventListener('hashchange', () => { readAddress(); drawAll(); });
 addEventListener('resize', drawAll);
 matchMedia('(prefers-color-scheme: dark)').addEventListener('change', drawAll);
 
+if (!film.violations.length) {
+  byId('previous').textContent = 'Previous mark';
+  byId('next').textContent = 'Next mark';
+}
+if (!film.involved.length) byId('failure').textContent = 'Closest pair';
+byId('failure').hidden = !kSubject.length;
 byId('player').hidden = false;
 readAddress();
 showFailure();

@@ -55,12 +55,13 @@ Element clearance_part(const Film& film) {
   part.add(html::paragraph(
       "Between the footprints of the two bodies, to the micrometre. Below the dashed line the safety distance is "
       "broken."));
+  if (film.nearest) part.add(html::paragraph("No violation was filed: this pair came closest of all."));
   for (std::size_t i = 0; i < film.clearances.size(); ++i) part.add(draw_clearance(film, i));
   return part;
 }
 
 Element pictures_part(const Film& film) {
-  Element part = titled("The failure in pictures");
+  Element part = titled(film.is_about_nearest() ? "The closest approach in pictures" : "The failure in pictures");
   return part.add(html::draw(film.strip));
 }
 

@@ -41,9 +41,9 @@ const drawActivities = (context, body, y) => {
   }
 };
 const drawStates = (context, body, y) => {
-  const list = statesOf[body], top = y + 4 + kRow_px * 0.38;
+  const list = statesOf[body], top = y + 4 + kRow_px * 0.38, kept_s = keptOf('states', body)[1];
   for (let i = Math.max(0, countUpTo(list, r => r[1], window_s.from * 1e3) - 1); i < list.length; ++i) {
-    const from_s = list[i][1] / 1e3, to_s = i + 1 < list.length ? list[i + 1][1] / 1e3 : kEnd_s;
+    const from_s = list[i][1] / 1e3, to_s = Math.min(i + 1 < list.length ? list[i + 1][1] / 1e3 : kEnd_s, kept_s);
     if (from_s > window_s.to) break;
     const x0 = Math.max(nameWidth(), rowX(from_s)), x1 = rowX(Math.min(to_s, window_s.to));
     if (x1 <= x0) continue;

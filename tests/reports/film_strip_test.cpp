@@ -111,8 +111,8 @@ TEST(FilmStrip, a_frame_without_a_clearance_says_why) {
 TEST(FilmStrip, names_near_an_edge_are_not_cut) {
   auto strip = two_agvs();
   strip.least_side_m = 20.0;
-  strip.frames[0].bodies[2] = agv("load of AGV 22", 95.5, 50.0, false);  // the window is from 95 m to 115 m
-  strip.frames[0].bodies.push_back(agv("load of AGV 23", 114.5, 50.0, false));
+  strip.frames[0].bodies[2] = agv("load of AGV 22", 95.5, 56.0, false);  // the window is from 95 m to 115 m
+  strip.frames[0].bodies.push_back(agv("load of AGV 23", 114.5, 56.0, false));
   int found = 0;
   for (const auto& each : parsed(draw(strip)).select_nodes("//svg/text")) {
     if (!std::string(each.node().text().get()).starts_with("load")) continue;
@@ -121,6 +121,19 @@ TEST(FilmStrip, names_near_an_edge_are_not_cut) {
     EXPECT_LE(each.node().attribute("x").as_double(), 30.0 + 156.0 - 14 * 5.0 / 2.0);
   }
   EXPECT_EQ(found, 2);
+}
+
+// AGV 3 stands where AGV 2 does, AGV 4 far from both; the AGVs of the failure are named in any case.
+TEST(FilmStrip, a_name_covers_no_other) {
+  auto strip = two_agvs();
+  strip.least_side_m = 20.0;
+  strip.frames[0].bodies = {agv("AGV 2", 104.0, 55.0, false), agv("AGV 3", 104.5, 55.0, false),
+                            agv("AGV 4", 104.0, 44.0, false), agv("AGV 0", 100.0, 50.0, true),
+                            agv("AGV 1", 100.2, 50.0, true)};
+  std::vector<std::string> names;
+  for (const auto& each : parsed(draw(strip)).select_nodes("//svg/svg/text"))
+    names.emplace_back(each.node().text().get());
+  EXPECT_THAT(names, testing::UnorderedElementsAre("AGV 0", "AGV 1", "AGV 2", "AGV 4"));
 }
 
 TEST(FilmStrip, only_what_reaches_into_the_window_is_drawn) {

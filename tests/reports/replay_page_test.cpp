@@ -146,6 +146,23 @@ TEST(ReplayPage, HostileNamesStayText) {
   EXPECT_EQ(data["stations"][0]["name"], hostile);
 }
 
+TEST(ReplayPage, WithoutAViolationItShowsThePairThatCameClosest) {
+  Film film = small_film();
+  film.violations.clear();
+  film.nearest = Nearest{0, 1, 20'000'999, 3'400'567};
+  film.clearances = {{0, 1, {{17'000'000, 9'000'000}, {20'000'999, 3'400'567}, {22'000'000, 7'000'000}}}};
+  const std::string page = replay_page(film);
+  EXPECT_THAT(page, HasSubstr("this pair came closest of all"));
+  EXPECT_THAT(page, HasSubstr("smallest clearance 3.400 m at 20.000 s"));
+  EXPECT_EQ(data_of(page)["nearest"], Json({{"a", 0}, {"b", 1}, {"at_us", 20'000'999}, {"clearance_um", 3'400'567}}));
+  // The curve goes on above 2 m, where others are cut.
+  pugi::xml_document document;
+  ASSERT_TRUE(document.load_buffer(page.data(), page.size(), pugi::parse_full));
+  const auto dot = document.select_node("//figure[@class='clearance']//circle").node();
+  EXPECT_NEAR(dot.attribute("cy").as_double(), 210.0 - 34.0 - (210.0 - 34.0 - 14.0) / 2.0, 1.0) << "half way up";
+  EXPECT_THAT(replay_page(small_film()), Not(HasSubstr("this pair came closest of all")));
+}
+
 // What a fleet of 50 does in ten minutes with a protocol that floods the radio.
 Film flooded_film() {
   Film film = small_film();
@@ -182,6 +199,9 @@ Film flooded_film() {
       film.messages.push_back(sent);
       film.happenings.push_back({sender, sent.sent_us, "probe", "negotiation", false, true});
       film.waits.push_back({sender, sent.sent_us, (sender + number) % kAgvs});
+      for (int word = 0; word < 3; ++word)
+        film.states.push_back(
+            {sender, sent.sent_us, fmt::format("step {} of message {} of a long plan", word, number)});
     }
   }
   return film;
@@ -202,7 +222,7 @@ TEST(ReplayPage, LeavesNothingOutWhereItSaysSo) {
   const Film whole = flooded_film();
   Film film = whole;
   keep_within(film);
-  ASSERT_EQ(film.left_out.size(), 4U);
+  ASSERT_EQ(film.left_out.size(), 5U);
   const auto is_promised = [&](const Kept& kept, std::int64_t at_us, bool involved) {
     return involved ? kept.involved_from_us <= at_us && at_us <= kept.involved_to_us
                     : kept.others_from_us <= at_us && at_us <= kept.others_to_us;
@@ -230,6 +250,13 @@ TEST(ReplayPage, LeavesNothingOutWhereItSaysSo) {
   };
   EXPECT_EQ(count(film.beliefs), count(whole.beliefs));
   EXPECT_GT(count(film.beliefs), 1000);
+  const auto states = [&](const std::vector<Declared>& all) {
+    return std::ranges::count_if(all,
+                                 [&](const Declared& s) { return is_promised(film.kept_states, s.at_us, s.body < 2); });
+  };
+  EXPECT_EQ(states(film.states), states(whole.states));
+  EXPECT_GT(states(film.states), 100);
+  EXPECT_LT(film.states.size(), whole.states.size());
 }
 
 }  // namespace
