@@ -104,19 +104,25 @@ class Doings {
 
 class CaseSink final : public TraceSink {
  public:
-  CaseSink(const Scenario& scenario, Fates wanted) : doings(*scenario.map), fates(scenario), wanted_(wanted) {}
+  CaseSink(const Scenario& scenario, Fates wanted)
+      : doings(*scenario.map), fates(scenario), whereabouts(scenario), wanted_(wanted) {}
   void record(const TraceRecord& record, std::string_view text) override {
     declared.record(record, text);
     doings.record(record);
     if (wanted_ != Fates::Kept) return;
     fates.record(record, text);
     notes.record(record, text);
+    whereabouts.record(record, text);
+  }
+  void piece_started(const Piece& piece) override {
+    if (wanted_ == Fates::Kept) whereabouts.piece_started(piece);
   }
 
   Declarations declared;
   Doings doings;
   FateKeeper fates;
   NoteKeeper notes;
+  WhereaboutsKeeper whereabouts;
 
  private:
   Fates wanted_;
@@ -141,7 +147,10 @@ CaseRun run_case(const Scenario& scenario, const fp_agent_type& agent, const std
   CaseSink sink(scenario, fates);
   const auto laws = make_default_laws(scenario, laws_left_out);
   run.outcome = simulate(scenario, agent, laws, &sink, agent_config.c_str(), watch);
-  if (fates == Fates::Kept) run.fates = sink.fates.fates();
+  if (fates == Fates::Kept) {
+    run.fates = sink.fates.fates();
+    run.whereabouts = sink.whereabouts.take();
+  }
   run.all_words = sink.declared.words({}, kForever);
   const auto cause = first_cause(run.outcome);
   if (!cause) return run;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "campaign/run/case_notes.hpp"
+#include "campaign/run/departures.hpp"
 #include "campaign/run/message_fates.hpp"
 #include "core/engine/run_watch.hpp"
 #include "core/outcome/outcome.hpp"
@@ -30,6 +31,7 @@ struct CaseRun {
   std::vector<std::string> words, all_words;
   std::vector<MessageFate> fates;  // of all messages, if they were asked for
   CaseNotes notes;                 // until the failure, likewise
+  Whereabouts whereabouts;         // of the whole run, likewise
 };
 enum class Fates : bool { Ignored, Kept };
 

@@ -15,7 +15,9 @@ constexpr std::uint32_t kOtherRuns = 16;
 
 std::optional<Failure> FailurePattern::match(const CaseRun& run) const {
   auto failure = failure_of(run);
-  if (!failure || !(failure->kind == kind) || !words.match(run.words)) return std::nullopt;
+  if (!failure || failure->kind.what != kind.what || !std::ranges::includes(failure->kind.states, states) ||
+      !words.match(run.words))
+    return std::nullopt;
   return failure;
 }
 
@@ -30,7 +32,8 @@ FailurePattern pattern_of(CaseHost& host, const FailingCase& failing) {
     others.push_back(host(with_other_course(failing.scenario, i, kLatest)));
     if (!failure_of(others.back())) learner.hear_passing(others.back());
   }
-  FailurePattern pattern{failing.failure.kind, {{}, learner.pattern().usual}};
+  FailurePattern pattern{failing.failure.kind, failing.failure.kind.states, {{}, learner.pattern().usual}};
+  std::erase_if(pattern.states, [&](const std::string& state) { return learner.is_ordinary(state); });
   for (const CaseRun& other : others) {
     if (pattern.match(other)) learner.hear_failing(other);
   }

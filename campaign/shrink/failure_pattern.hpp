@@ -15,9 +15,12 @@ struct FailingCase {
   Failure failure;
 };
 
-// What counts as the same failure: its kind, and what its agents declared before it.
+// What counts as the same failure: what went wrong between which bodies, and what their agents declared before it.
 struct FailurePattern {
-  FailureKind kind;
+  FailureKind kind;  // of the failure that was looked at
+  // Of its states, those that an AGV must be in again: what agents also say when all is well ("driving") is not asked
+  // for.
+  std::vector<std::string> states{};
   WordPattern words{};
   // The failure of the run, if it is this one.
   std::optional<Failure> match(const CaseRun& run) const;

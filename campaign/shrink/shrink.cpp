@@ -1,6 +1,8 @@
 #include "campaign/shrink/shrink.hpp"
 
 #include <algorithm>
+#include <array>
+#include <vector>
 
 #include "campaign/shrink/adverse_fates.hpp"
 #include "campaign/shrink/fate_passes.hpp"
@@ -33,16 +35,27 @@ constexpr std::uint32_t kOtherStarts = 6;
 constexpr std::uint32_t kCourses = 12;  // on which a single adverse message is looked for
 constexpr std::size_t kFew = 2;         // adverse messages: fewer are not looked for elsewhere
 
+// So long before the failure, at least, a run may start later. A failure that comes soon after the start may need more
+// bad luck at once, so all of them are tried: the last is the run from its beginning.
+constexpr std::array<Duration, 3> kLeadUps = {std::chrono::seconds(10), std::chrono::seconds(3), kLongestDuration};
+
+const OnSmaller kQuietly = [](const FailingCase&, std::string_view) {};
+
+bool has_luck(const FailingCase& failing) { return CaseSize::of(failing.scenario).fates_are_drawn; }
+
 // While the radio draws, a run that takes another course meets bad luck again. The shorter run comes last: on other
 // courses, it may fail later.
-FailingCase with_luck_drawn(Trials& trials, const FailingCase& original, const OnSmaller& on_smaller) {
+FailingCase with_luck_drawn(Trials& trials, const FailingCase& original, Duration lead_up,
+                            const OnSmaller& on_smaller) {
   Shrinker shrinker(trials, original, on_smaller, Shrinker::Courses::Free);
   shrinker.end_with_slack();
+  shrinker.start_later(lead_up);
   shrinker.improve_radio();
   shrinker.keep_the_involved();
   for (bool smaller = true; smaller && !trials.ended();) {
     smaller = shrinker.take_out_things();
     smaller |= shrinker.improve_radio();
+    smaller |= shrinker.start_later(lead_up);
     shrinker.end_with_slack();
   }
   shrinker.shorten();
@@ -56,22 +69,22 @@ FailingCase with_luck_written(Trials& trials, const FailingCase& drawn, const On
   return shrinker.best();
 }
 
-// Of the ways in which the failure comes about, the one that needs the fewest adverse messages.
+// Of the ways in which the failure comes about, the one that needs the fewest adverse messages. What is quick comes
+// first.
 class LeastBadLuck {
  public:
-  LeastBadLuck(Trials& trials, const FailingCase& drawn, const OnSmaller& on_smaller)
-      : trials_(trials), drawn_(drawn), on_smaller_(on_smaller), best_(drawn) {}
+  LeastBadLuck(Trials& trials, const FailingCase& original, const OnSmaller& on_smaller)
+      : trials_(trials), on_smaller_(on_smaller), best_(original) {}
 
   FailingCase find() {
-    if (!CaseSize::of(drawn_.scenario).fates_are_drawn) return best_;
-    try_single_messages();
-    if (!is_enough()) compare(drawn_);
-    try_sparse_luck();
-    for (std::uint32_t luck = 1; luck <= kOtherStarts && !is_enough(); ++luck) {
-      const auto start = trials_.first_failing(
-          {1, [&](std::size_t) { return std::optional(with_other_course(drawn_.scenario, luck, kLatest)); }});
-      if (start) compare(start->is);
+    const FailingCase original = best_;
+    try_lead_up(original, 0);
+    for (std::size_t i = 1; i < kLeadUps.size() && !is_enough(); ++i) try_lead_up(original, i);
+    for (const FailingCase& way : ways_) {
+      if (!is_enough()) compare(way);
     }
+    for (const FailingCase& way : ways_) try_sparse_luck(way);
+    for (const FailingCase& way : ways_) try_other_starts(way);
     return best_;
   }
 
@@ -79,17 +92,36 @@ class LeastBadLuck {
   bool is_enough() const { return trials_.ended() || fates_of(best_) <= kFew; }
   // While they are drawn, more than any list has.
   static std::size_t fates_of(const FailingCase& failing) {
-    const CaseSize size = CaseSize::of(failing.scenario);
-    return size.fates_are_drawn ? ~std::size_t{0} : size.fates;
+    return has_luck(failing) ? ~std::size_t{0} : failing.scenario.fates.size();
   }
 
-  void try_single_messages() {
+  void try_lead_up(const FailingCase& original, std::size_t i) {
+    const FailingCase way = with_luck_drawn(trials_, original, kLeadUps[i], i == 0 ? on_smaller_ : kQuietly);
+    if (i == 0) best_ = way;
+    if (i > 0 && fates_of(way) < fates_of(best_)) {
+      best_ = way;
+      on_smaller_(best_, "perfect radio");
+    }
+    if (!has_luck(way)) return;
+    ways_.push_back(way);
+    try_single_messages(way);
+  }
+
+  void try_other_starts(const FailingCase& way) {
+    for (std::uint32_t luck = 1; luck <= kOtherStarts && !is_enough(); ++luck) {
+      const auto start = trials_.first_failing(
+          {1, [&](std::size_t) { return std::optional(with_other_course(way.scenario, luck, kLatest)); }});
+      if (start) compare(start->is);
+    }
+  }
+
+  void try_single_messages(const FailingCase& way) {
     for (std::uint32_t course = 0; course < kCourses && !is_enough(); ++course) {
-      Scenario lucky = with_fates_only(drawn_.scenario, {});
+      Scenario lucky = with_fates_only(way.scenario, {});
       lucky.horizon = longer(lucky.horizon);
       if (course > 0) lucky = with_other_course(std::move(lucky), course, kLatest);
       const auto troubles = troubles_of(trials_.host()(lucky, Fates::Kept).fates, kStart + lucky.horizon,
-                                        seconds(drawn_.scenario.radio.delay_s));
+                                        seconds(way.scenario.radio.delay_s));
       const auto found = trials_.first_failing({troubles.size(), [&](std::size_t rank) {
                                                   Scenario unlucky = lucky;
                                                   unlucky.fates = {troubles[rank]};
@@ -102,13 +134,13 @@ class LeastBadLuck {
   // With less bad luck, a run may fail later.
   static Duration longer(Duration horizon) { return horizon * 5 / 4; }
 
-  void try_sparse_luck() {
-    const auto cases = with_sparse_luck(drawn_.scenario, drawn_.failure.at);
+  void try_sparse_luck(const FailingCase& way) {
+    const auto cases = with_sparse_luck(way.scenario, way.failure.at);
     std::size_t from = 0;
     for (std::size_t start = 0; start < kSparseStarts && from < cases.size() && !is_enough(); ++start) {
       auto found = trials_.first_failing({cases.size() - from, [&](std::size_t rank) {
                                             Scenario sparse = cases[from + rank];
-                                            sparse.horizon = longer(drawn_.scenario.horizon);
+                                            sparse.horizon = longer(way.scenario.horizon);
                                             return std::optional(std::move(sparse));
                                           }});
       if (!found) return;
@@ -118,15 +150,14 @@ class LeastBadLuck {
   }
 
   void compare(const FailingCase& start) {
-    const OnSmaller quietly = [](const FailingCase&, std::string_view) {};
-    FailingCase other = with_luck_written(trials_, start, quietly);
+    FailingCase other = with_luck_written(trials_, start, kQuietly);
     if (fates_of(other) >= fates_of(best_)) return;
     best_ = std::move(other);
     on_smaller_(best_, "fewer adverse messages");
   }
 
   Trials& trials_;
-  const FailingCase& drawn_;
+  std::vector<FailingCase> ways_;  // with luck still drawn
   const OnSmaller& on_smaller_;
   FailingCase best_;
 };
@@ -147,8 +178,7 @@ std::string why_not_known(const ShrinkResult& result, bool ended) {
 ShrinkResult shrink(CaseHost& host, TrialCache& cache, const FailingCase& original, const FailurePattern& pattern,
                     const TrialLimits& limits, const OnSmaller& on_smaller) {
   Trials trials(host, cache, pattern, limits);
-  const FailingCase drawn = with_luck_drawn(trials, original, on_smaller);
-  Shrinker shrinker(trials, LeastBadLuck(trials, drawn, on_smaller).find(), on_smaller);
+  Shrinker shrinker(trials, LeastBadLuck(trials, original, on_smaller).find(), on_smaller);
   for (bool smaller = true; smaller && !trials.ended();) {
     smaller = take_out_fates(shrinker);
     smaller |= find_fewer_fates(shrinker);

@@ -5,6 +5,7 @@
 
 #include "campaign/shrink/adverse_fates.hpp"
 #include "campaign/shrink/fitness.hpp"
+#include "campaign/shrink/later_start.hpp"
 #include "campaign/shrink/other_luck.hpp"
 #include "core/scenario/canonical_bytes.hpp"
 
@@ -22,6 +23,9 @@ std::optional<Scenario> if_fair(Scenario scenario) {
 }
 
 Duration since_start(SimTime t) { return t - kStart; }
+
+// On another course, a run may fail later.
+Duration with_slack(Duration seen) { return seen + seen / 2 + std::chrono::seconds(10); }
 
 // Course 0 is the present one.
 Scenario on_course(Scenario scenario, std::size_t course) {
@@ -45,9 +49,39 @@ std::size_t Shrinker::attempts() const {
 // ---- time
 
 bool Shrinker::end_with_slack() {
-  const Duration seen = since_start(best_.failure.seen), end = seen + seen / 2 + std::chrono::seconds(10);
+  const Duration end = with_slack(since_start(best_.failure.seen));
   if (end == best_.scenario.horizon) return false;
   return try_each("another end", 1, [&](Scenario& scenario, std::size_t) { scenario.horizon = end; });
+}
+
+// With the AGVs of the failure alone, and then with all. The latest start first.
+bool Shrinker::start_later(Duration lead_up) {
+  const auto has_script = [](const AgvSetup& agv) { return !agv.script.empty(); };
+  if (std::ranges::any_of(best_.scenario.agvs, has_script)) return false;
+  const Duration at = since_start(best_.failure.at), seen = since_start(best_.failure.seen);
+  shortest_ = std::min(shortest_, best_.scenario.horizon);
+  std::vector<Duration> starts;
+  for (Duration before = lead_up; before < at; before *= 2) {
+    if (10 * with_slack(seen - at + before) < 9 * shortest_) starts.push_back(at - before);
+  }
+  if (starts.empty()) return false;
+  const Whereabouts whereabouts = trials_.host()(best_.scenario, Fates::Kept).whereabouts;
+  const std::size_t tries = attempts() == 1 ? 1 : kCoursesOfTheFew, count = starts.size() * 2 * tries;
+  const auto make = [&](std::size_t rank) {
+    const Duration from = starts[rank % count / tries / 2];
+    const Between between = rank / tries % 2 == 0 ? Between::Behind : Between::Ahead;
+    Scenario later = with_later_start(best_.scenario, whereabouts, from, between);
+    later.horizon = with_slack(seen - from);
+    if (rank < count) later = with_agvs(later, [&](std::size_t agv) { return is_involved(agv); });
+    return if_fair(on_course(std::move(later), rank % tries));
+  };
+  auto found = trials_.first_failing({2 * count, make});
+  if (found) shortest_ = found->is.scenario.horizon;
+  return accept(std::move(found), "later start");
+}
+
+bool Shrinker::is_involved(std::size_t agv) const {
+  return EntityId{agv} == best_.failure.a || EntityId{agv} == best_.failure.b;
 }
 
 bool Shrinker::shorten() {
@@ -136,21 +170,18 @@ bool Shrinker::try_each(std::string_view pass, std::size_t count,
 
 bool Shrinker::keep_the_involved() {
   const std::size_t fleet = best_.scenario.agvs.size();
-  const auto involved = [&](std::size_t agv) {
-    return EntityId{agv} == best_.failure.a || EntityId{agv} == best_.failure.b;
-  };
   if (!best_.failure.a.valid() || fleet < 3) return false;
   // Rank 0: nobody else. Then each other AGV beside them.
   std::vector<std::size_t> others{fleet};
   for (std::size_t agv = 0; agv < fleet; ++agv) {
-    if (!involved(agv)) others.push_back(agv);
+    if (!is_involved(agv)) others.push_back(agv);
   }
   const std::size_t tries = attempts() == 1 ? 1 : kCoursesOfTheFew;
   return accept(trials_.first_failing({others.size() * tries,
                                        [&](std::size_t rank) {
                                          const std::size_t also = others[rank / tries];
                                          Scenario few = with_agvs(best_.scenario, [&](std::size_t agv) {
-                                           return involved(agv) || agv == also;
+                                           return is_involved(agv) || agv == also;
                                          });
                                          return if_fair(on_course(std::move(few), rank % tries));
                                        }}),

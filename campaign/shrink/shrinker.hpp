@@ -21,6 +21,8 @@ class Shrinker {
 
   // Ends the run some time after the failure, perhaps later than before: on another course, it may fail later.
   bool end_with_slack();
+  // Starts the run before the failure, at least by `lead_up`, from where the AGVs were then.
+  bool start_later(Duration lead_up);
   // Ends the run with the failure.
   bool shorten();
   // A perfect radio; if that is too much, one on which no message is copied, late, or lost.
@@ -49,11 +51,13 @@ class Shrinker {
   bool end_earliest(std::string_view pass);
   bool try_with_courses(std::string_view pass, const Scenario& smaller);
   std::size_t attempts() const;
+  bool is_involved(std::size_t agv) const;
 
   Trials& trials_;
   FailingCase best_;
   const OnSmaller& on_smaller_;
   Courses courses_;
+  Duration shortest_ = kLongestDuration;  // of the runs that began later; they may end later again
 };
 
 }  // namespace fleetproof

@@ -23,6 +23,7 @@ bool WordPattern::match(const Words& words) const {
 void WordLearner::hear_lucky(const CaseRun& run) {
   std::erase_if(telling_, [&](const std::string& word) { return has(run.all_words, word); });
   for (const std::string& word : run.all_words) add(usual_, word);
+  lucky_.insert(run.all_words.begin(), run.all_words.end());
 }
 
 void WordLearner::hear_passing(const CaseRun& run) {
@@ -32,6 +33,11 @@ void WordLearner::hear_passing(const CaseRun& run) {
 
 void WordLearner::hear_failing(const CaseRun& run) {
   std::erase_if(telling_, [&](const std::string& word) { return !has(run.words, word); });
+}
+
+bool WordLearner::is_ordinary(const std::string& word) const {
+  const auto said = saying_.find(word);
+  return lucky_.contains(word) || (said != saying_.end() && 2 * said->second >= passing_);
 }
 
 WordPattern WordLearner::pattern() const {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -30,9 +31,12 @@ class WordLearner {
   void hear_failing(const CaseRun& run);
   std::uint32_t passing() const { return passing_; }
   WordPattern pattern() const;
+  // Whether the fleet says the word without a failure: on a perfect radio, or in at least half of the other runs.
+  bool is_ordinary(const std::string& word) const;
 
  private:
   std::vector<std::string> telling_, usual_;
+  std::set<std::string> lucky_;
   std::map<std::string, std::uint32_t> saying_;  // of the runs without a failure
   std::uint32_t passing_ = 0;
 };

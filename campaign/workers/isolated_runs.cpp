@@ -52,8 +52,9 @@ RunRecord IsolatedRuns::operator()(std::uint64_t run_index, bool record_calls) {
 
 CaseRun IsolatedRuns::of_case(const Scenario& scenario, Fates fates) {
   RunAnswer answer = answer_of({0, {}, false, to_text(scenario), fates == Fates::Kept});
-  return {std::move(answer.outcome),   std::move(answer.states), std::move(answer.doing), std::move(answer.words),
-          std::move(answer.all_words), std::move(answer.fates),  std::move(answer.notes)};
+  return {std::move(answer.outcome), std::move(answer.states),     std::move(answer.doing),
+          std::move(answer.words),   std::move(answer.all_words),  std::move(answer.fates),
+          std::move(answer.notes),   std::move(answer.whereabouts)};
 }
 
 RunAnswer IsolatedRuns::answer_of(RunOrder order) {

@@ -82,6 +82,7 @@ std::string encode(const RunAnswer& answer) {
   put(sink, answer.words);
   put(sink, answer.all_words);
   put(sink, answer.notes);
+  put(sink, answer.whereabouts);
   sink.u32(static_cast<std::uint32_t>(answer.fates.size()));
   for (const MessageFate& message : answer.fates) put(sink, message);
   return sink.take();
@@ -101,6 +102,7 @@ RunAnswer decode_answer(std::string_view bytes) {
   answer.words = take_texts(source);
   answer.all_words = take_texts(source);
   answer.notes = take_notes(source);
+  answer.whereabouts = take_whereabouts(source);
   answer.fates.resize(source.count(kShortestFateBytes));
   for (MessageFate& message : answer.fates) take(source, message);
   source.end();

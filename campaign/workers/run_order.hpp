@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "campaign/run/case_notes.hpp"
+#include "campaign/run/departures.hpp"
 #include "campaign/run/message_fates.hpp"
 #include "core/engine/run_watch.hpp"
 #include "core/outcome/outcome.hpp"
@@ -34,6 +35,7 @@ struct RunAnswer {
   std::vector<std::string> states, doing, words, all_words;  // of a scenario: see CaseRun
   CaseNotes notes;                                           // likewise
   std::vector<MessageFate> fates;                            // likewise
+  Whereabouts whereabouts;                                   // likewise
 };
 std::string encode(const RunAnswer& answer);
 RunAnswer decode_answer(std::string_view bytes);  // throws EngineError on bytes that `encode` did not write

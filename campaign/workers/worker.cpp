@@ -83,6 +83,7 @@ RunAnswer answer_to(const RunOrder& order, const Stage& stage, WorkerSlot& slot)
     answer.all_words = std::move(run.all_words);
     answer.fates = std::move(run.fates);
     answer.notes = std::move(run.notes);
+    answer.whereabouts = std::move(run.whereabouts);
   }
   if (order.record && answer.outcome.is_failure()) answer.recording = tape.take();
   answer.cpu_ns = cpu_ns() - begin_ns;

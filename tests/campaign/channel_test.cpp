@@ -73,6 +73,9 @@ TEST(RunAnswer, IsWhatWasEncodedAndNothingShorter) {
   message.fate = {AgvId{1U}, AgvId{2U}, Duration{3}, 4, true, Duration{5}, true, Duration{6}};
   message.kind = "GRANT";
   message.number = 7;
+  const Departure departure{AgvId{1U}, at_ns(8), at_ns(9), StationId{2U}, StationId{3U}, {0.6, 0.8}, {-1.0, 0.0}};
+  answer.whereabouts.departures = {departure};
+  answer.whereabouts.deliveries = {{AgvId{2U}, 4, at_ns(10)}};
   const std::string bytes = encode(answer);
   const RunAnswer decoded = decode_answer(bytes);
   EXPECT_TRUE(decoded.failed);
@@ -86,6 +89,15 @@ TEST(RunAnswer, IsWhatWasEncodedAndNothingShorter) {
   ASSERT_EQ(decoded.fates.size(), 1U);
   EXPECT_EQ(decoded.fates[0].fate, message.fate);
   EXPECT_EQ(std::tuple(decoded.fates[0].kind, decoded.fates[0].number), std::tuple(message.kind, message.number));
+  ASSERT_EQ(decoded.whereabouts.departures.size(), 1U);
+  const Departure& there = decoded.whereabouts.departures[0];
+  EXPECT_EQ(std::tuple(there.agv, there.at, there.arrives, there.from, there.to),
+            std::tuple(departure.agv, departure.at, departure.arrives, departure.from, departure.to));
+  EXPECT_EQ(there.heading, departure.heading);
+  EXPECT_EQ(there.heading_there, departure.heading_there);
+  ASSERT_EQ(decoded.whereabouts.deliveries.size(), 1U);
+  const auto& [agv, transport, at] = decoded.whereabouts.deliveries[0];
+  EXPECT_EQ(std::tuple(agv, transport, at), std::tuple(AgvId{2U}, 4U, at_ns(10)));
   for (std::size_t length = 0; length < bytes.size(); ++length)
     EXPECT_THROW(decode_answer(std::string_view(bytes).substr(0, length)), EngineError) << length;
   EXPECT_THROW(decode_answer(bytes + "x"), EngineError);

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 
 #include "campaign/explain/sentences.hpp"
@@ -82,10 +83,14 @@ TEST(Explain, TheSentencesNameTheFault) {
 TEST(Explain, TheSentencesTellWhatTheBodiesDid) {
   Explained explained("timeout-grant", 1);
   const CaseRun run = explained.host(explained.is.small.scenario);
-  ASSERT_EQ(run.doing, (std::vector<std::string>{kDriving, kTurning}));
+  const std::map<std::string, std::string> past = {{kDriving, "drove"}, {kTurning, "turned"}, {kStanding, "stood"}};
+  ASSERT_EQ(run.doing.size(), 2U);
+  const Failure& failure = explained.is.small.failure;
+  const auto did = [&](EntityId body, const std::string& doing) {
+    return name_of_body(explained.small.scenario, body) + " " + past.at(doing);
+  };
   EXPECT_EQ(sentences_of(explained.is)[1],
-            "Then " + name_of_body(explained.small.scenario, explained.small.failure.a) + " drove, and " +
-                name_of_body(explained.small.scenario, explained.small.failure.b) + " turned.");
+            "Then " + did(failure.a, run.doing[0]) + ", and " + did(failure.b, run.doing[1]) + ".");
 }
 
 // Where a perfect radio does not help, the runs that avoid the failure are what a word is compared with.

@@ -1,0 +1,93 @@
+#include "campaign/run/departures.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include "core/motion/piece.hpp"
+#include "core/outcome/trace_records.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr std::size_t kDepartureBytes = 3 * 4 + 2 * 8 + 4 * 8, kDeliveryBytes = 2 * 4 + 8;
+
+void put(ByteSink& sink, const Vec2& v) {
+  for (const double value : {v.x(), v.y()}) sink.u64(std::bit_cast<std::uint64_t>(value));
+}
+
+Vec2 take_vector(ByteSource& source) {
+  const double x = std::bit_cast<double>(source.u64());
+  return {x, std::bit_cast<double>(source.u64())};
+}
+
+}  // namespace
+
+void WhereaboutsKeeper::record(const TraceRecord& record, std::string_view) {
+  if (record.kind != TraceKind::TransportDone) return;
+  std::uint32_t number = read<traced::TransportDone>(record).transport.value;
+  for (std::size_t agv = 0; agv < record.entity.index(); ++agv)
+    number -= static_cast<std::uint32_t>(scenario_.agvs[agv].transports.size());
+  found_.deliveries.push_back({record.entity, number, record.at});
+}
+
+void WhereaboutsKeeper::piece_started(const Piece& piece) {
+  if (piece.manner != Manner::Drive || piece.entity.index() >= scenario_.agvs.size()) return;
+  auto& departures = found_.departures;
+  const auto last = std::ranges::find(departures.rbegin(), departures.rend(), piece.entity, &Departure::agv);
+  if (piece.way_begin_m > 0.0) {  // on the way, it brakes, or need not brake after all
+    if (last != departures.rend()) last->arrives = piece.end;
+    return;
+  }
+  const LogicalMap& map = *scenario_.map;
+  const Segment& segment = map.segment(piece.segment);
+  const auto distance = [&](StationId station) {
+    return (map.station(station).position_m - piece.start.position_m).squaredNorm();
+  };
+  const bool along = distance(segment.from) <= distance(segment.to);
+  const StationId from = along ? segment.from : segment.to, to = along ? segment.to : segment.from;
+  const Departure departure{
+      piece.entity, piece.begin, piece.end, from, to, piece.start.heading, piece.pose_at(piece.end).heading};
+  if (last != departures.rend() && last->at == departure.at) {  // planned anew before it moved
+    *last = departure;
+  } else {
+    departures.push_back(departure);
+  }
+}
+
+void put(ByteSink& sink, const Whereabouts& whereabouts) {
+  sink.u32(static_cast<std::uint32_t>(whereabouts.departures.size()));
+  for (const Departure& departure : whereabouts.departures) {
+    for (const std::uint32_t id : {departure.agv.value, departure.from.value, departure.to.value}) sink.u32(id);
+    for (const SimTime time : {departure.at, departure.arrives}) sink.i64(to_ns(time));
+    put(sink, departure.heading);
+    put(sink, departure.heading_there);
+  }
+  sink.u32(static_cast<std::uint32_t>(whereabouts.deliveries.size()));
+  for (const auto& [agv, transport, at] : whereabouts.deliveries) {
+    sink.u32(agv.value);
+    sink.u32(transport);
+    sink.i64(to_ns(at));
+  }
+}
+
+Whereabouts take_whereabouts(ByteSource& source) {
+  Whereabouts whereabouts;
+  whereabouts.departures.resize(source.count(kDepartureBytes));
+  for (Departure& departure : whereabouts.departures) {
+    departure.agv.value = source.u32();
+    departure.from.value = source.u32();
+    departure.to.value = source.u32();
+    for (SimTime* time : {&departure.at, &departure.arrives}) *time = at_ns(source.i64());
+    departure.heading = take_vector(source);
+    departure.heading_there = take_vector(source);
+  }
+  whereabouts.deliveries.resize(source.count(kDeliveryBytes));
+  for (auto& [agv, transport, at] : whereabouts.deliveries) {
+    agv.value = source.u32();
+    transport = source.u32();
+    at = at_ns(source.i64());
+  }
+  return whereabouts;
+}
+
+}  // namespace fleetproof

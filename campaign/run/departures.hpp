@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/base/byte_text.hpp"
+#include "core/outcome/trace.hpp"
+#include "core/scenario/scenario.hpp"
+
+namespace fleetproof {
+
+// An AGV sets out from one station for the next. It may be stopped on the way.
+struct Departure {
+  AgvId agv;
+  SimTime at{}, arrives{};  // arrives: as planned, at last; a stop may have come after it
+  StationId from, to;
+  Vec2 heading = Vec2::UnitX(), heading_there = Vec2::UnitX();
+};
+// A load is where it was to be brought.
+struct Delivery {
+  AgvId agv;
+  std::uint32_t transport = 0;  // its number among those of the AGV
+  SimTime at{};
+};
+
+// Where the AGVs of a run were, and what they had done by then.
+struct Whereabouts {
+  std::vector<Departure> departures;
+  std::vector<Delivery> deliveries;
+};
+void put(ByteSink& sink, const Whereabouts& whereabouts);
+Whereabouts take_whereabouts(ByteSource& source);
+
+// Keeps them while the run goes on. Requires: the scenario outlives the object.
+class WhereaboutsKeeper final : public TraceSink {
+ public:
+  explicit WhereaboutsKeeper(const Scenario& scenario) : scenario_(scenario) {}
+  void record(const TraceRecord& record, std::string_view text) override;
+  void piece_started(const Piece& piece) override;
+  Whereabouts take() { return std::move(found_); }
+
+ private:
+  const Scenario& scenario_;
+  Whereabouts found_;
+};
+
+}  // namespace fleetproof

@@ -1,0 +1,65 @@
+#include "campaign/shrink/later_start.hpp"
+
+#include <algorithm>
+
+#include "campaign/shrink/number_edits.hpp"
+#include "campaign/shrink/surgery.hpp"
+
+namespace fleetproof {
+namespace {
+
+void start_at(AgvSetup& agv, StationId station, const Vec2& heading) {
+  agv.start = station;
+  agv.heading = heading;
+}
+
+// An AGV that has arrived looks where it sets out to next: it need not turn first.
+void place(AgvSetup& setup, AgvId agv, const Whereabouts& whereabouts, SimTime t, Between between) {
+  for (const Departure& departure : whereabouts.departures) {
+    if (departure.agv != agv) continue;
+    if (departure.at > t) {
+      if (setup.start == departure.from) setup.heading = departure.heading;
+      return;
+    }
+    const bool behind = departure.arrives > t && between == Between::Behind;
+    start_at(setup, behind ? departure.from : departure.to, behind ? departure.heading : departure.heading_there);
+  }
+}
+
+Scenario without_delivered(const Scenario& scenario, const Whereabouts& whereabouts, SimTime t) {
+  const auto transports = transports_of(scenario);
+  return with_transports(scenario, [&](std::size_t i) {
+    return std::ranges::none_of(whereabouts.deliveries, [&](const Delivery& delivery) {
+      return delivery.at <= t && delivery.agv.index() == transports[i].agv &&
+             delivery.transport == transports[i].number;
+    });
+  });
+}
+
+// What was over has no effect; what was under way lasts as long as was left.
+void shorten_faults(Scenario& scenario, Duration from) {
+  std::erase_if(scenario.faults,
+                [from](const Fault& fault) { return !fault.transport && fault.at + fault.lasts <= from; });
+  for (Fault& fault : scenario.faults) {
+    if (!fault.transport && fault.at < from) fault.lasts -= from - fault.at;
+  }
+}
+
+}  // namespace
+
+Scenario with_later_start(const Scenario& scenario, const Whereabouts& whereabouts, Duration from, Between between) {
+  const SimTime t = kStart + from;
+  Scenario later = without_delivered(scenario, whereabouts, t);
+  for (std::size_t i = 0; i < later.agvs.size(); ++i) place(later.agvs[i], AgvId{i}, whereabouts, t, between);
+  shorten_faults(later, from);
+  std::erase_if(later.obstacles, [from](const ObstacleSetup& obstacle) { return obstacle.leaves <= from; });
+  std::erase_if(later.fates, [from](const GivenFate& fate) { return fate.sent < from; });
+  auto& adverse = later.radio.adverse;
+  adverse.adverse_from_s = std::max(0.0, adverse.adverse_from_s - to_seconds(from));
+  if (adverse.adverse_until_s > 0.0)  // 0 would be no end
+    adverse.adverse_until_s = std::max(1e-3, adverse.adverse_until_s - to_seconds(from));
+  later.horizon -= from;
+  return earlier_by(later, from);
+}
+
+}  // namespace fleetproof
