@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "campaign/shrink/all_runs.hpp"
 #include "campaign/shrink/other_luck.hpp"
@@ -38,13 +39,28 @@ bool is_as_before(std::size_t failing, std::size_t before) {
 
 }  // namespace
 
+NoReturn judged(std::vector<Branching> curve) {
+  NoReturn found;
+  found.open_until = curve.front().at;
+  for (const Branching& branching : curve) {
+    const bool is_certain = branching.failing() == kBranches;
+    if (!is_certain && is_as_before(branching.failing(), curve.front().failing())) found.open_until = branching.at;
+    if (2 * branching.failing() < kBranches) found.likely_from.reset();
+    if (2 * branching.failing() >= kBranches && !found.likely_from) found.likely_from = branching.at;
+    if (!is_certain) found.certain_from.reset();
+    if (is_certain && !found.certain_from) found.certain_from = branching.at;
+  }
+  found.curve = std::move(curve);
+  return found;
+}
+
 NoReturn curve_of_no_return(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern) {
   Scenario scenario = failing.scenario;
   scenario.horizon = std::min(scenario.horizon, failing.failure.seen - kStart + kAfterwards);
   const auto messages = host(scenario, Fates::Kept).fates;
-  NoReturn found;
+  std::vector<Branching> curve;
   for (const SimTime at : instants_before(failing.failure.at)) {
-    Branching& branching = found.curve.emplace_back(Branching{at, scenario, {}});
+    Branching& branching = curve.emplace_back(Branching{at, scenario, {}});
     branching.run.fates.clear();
     for (const MessageFate& message : messages) {
       if (kStart + message.fate.sent < at) branching.run.fates.push_back(message.fate);
@@ -52,21 +68,13 @@ NoReturn curve_of_no_return(CaseHost& host, const FailingCase& failing, const Fa
   }
   const auto luck = [](std::size_t rank) { return static_cast<std::uint32_t>(rank % kBranches + 1); };
   const auto branch = [&](std::size_t rank) {
-    return std::optional(with_other_radio(found.curve[rank / kBranches].run, luck(rank)));
+    return std::optional(with_other_radio(curve[rank / kBranches].run, luck(rank)));
   };
-  const auto runs = all_runs(host, {found.curve.size() * kBranches, branch});
+  const auto runs = all_runs(host, {curve.size() * kBranches, branch});
   for (std::size_t rank = 0; rank < runs.size(); ++rank) {
-    if (pattern.match(*runs[rank])) found.curve[rank / kBranches].failing_lucks.push_back(luck(rank));
+    if (pattern.match(*runs[rank])) curve[rank / kBranches].failing_lucks.push_back(luck(rank));
   }
-  found.open_until = found.curve.front().at;
-  for (const Branching& branching : found.curve) {
-    if (is_as_before(branching.failing(), found.curve.front().failing())) found.open_until = branching.at;
-    if (2 * branching.failing() < kBranches) found.likely_from.reset();
-    if (2 * branching.failing() >= kBranches && !found.likely_from) found.likely_from = branching.at;
-    if (branching.failing() < kBranches) found.certain_from.reset();
-    if (branching.failing() == kBranches && !found.certain_from) found.certain_from = branching.at;
-  }
-  return found;
+  return judged(std::move(curve));
 }
 
 }  // namespace fleetproof

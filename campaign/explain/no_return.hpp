@@ -27,10 +27,12 @@ struct NoReturn {
   // Behind the last instant from which less than half of the branches fail, the failure is likely; from the first
   // instant on, behind which all fail, it is certain. Absent: not in the time that was looked at.
   std::optional<SimTime> likely_from, certain_from;
-  // The last instant at which no more branches fail than at the first, as far as their number can tell (two standard
-  // errors): what decided it lies between there and certain_from.
+  // The last instant at which not all branches fail, and no more than at the first, as far as their number can tell
+  // (two standard errors): what decided it lies between there and certain_from.
   SimTime open_until{};
 };
+// Requires: a curve that is not empty.
+NoReturn judged(std::vector<Branching> curve);
 
 // Branches a run whose radio draws. The instants lie before the failure, the last ones close to it; each branch keeps
 // all that was sent before its instant as it was.

@@ -136,6 +136,26 @@ TEST(Explain, TheSentencesNumberTheirRuns) {
   EXPECT_EQ(highest, claims_of(explained.is).size());
 }
 
+TEST(NoReturn, WhatDecidedItLiesBeforeItWasCertain) {
+  const auto judged_counts = [](const std::vector<std::uint32_t>& counts) {
+    std::vector<Branching> curve;
+    for (const std::uint32_t count : counts) {
+      Branching& branching = curve.emplace_back();
+      branching.at = kStart + std::chrono::seconds(curve.size());
+      for (std::uint32_t luck = 1; luck <= count; ++luck) branching.failing_lucks.push_back(luck);
+    }
+    const NoReturn found = judged(std::move(curve));
+    const auto second = [](SimTime at) { return (at - kStart) / std::chrono::seconds(1); };
+    return std::tuple(second(found.open_until), found.likely_from ? second(*found.likely_from) : -1,
+                      found.certain_from ? second(*found.certain_from) : -1);
+  };
+  EXPECT_EQ(judged_counts({5, 6, 20, 40, 59, 59}), std::tuple(2, 4, 5));
+  EXPECT_EQ(judged_counts({56, 57, 59, 53, 58, 59, 59}), std::tuple(5, 1, 6)) << "nearly certain from the beginning";
+  EXPECT_EQ(judged_counts({0, 0, 59, 10, 59}), std::tuple(2, 5, 5));
+  EXPECT_EQ(judged_counts({3, 4, 20}), std::tuple(2, -1, -1));
+  EXPECT_EQ(judged_counts({59, 59}), std::tuple(1, 1, 1));
+}
+
 // Before the message that decides it is sent, nothing is decided; from then on, it is.
 TEST(NoReturn, IsAtTheMessageThatDecidesIt) {
   AgentPrograms programs;
