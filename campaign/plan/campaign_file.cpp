@@ -81,6 +81,8 @@ class CampaignReader {
       return member(root, field, vehicles.front());
     }
     auto tables = root.tables(field.key);
+    if (tables.empty() && root.has(field.key))
+      throw InputError(root.place(field.key), "vehicle is empty; give a [[vehicle]], or remove the key");
     if (tables.empty()) return;
     vehicles.clear();
     for (TomlTable& table : tables) {

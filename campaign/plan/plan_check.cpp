@@ -11,6 +11,7 @@
 #include "core/base/outside_text.hpp"
 #include "core/outcome/probe_names.hpp"
 #include "core/outcome/probes.hpp"
+#include "generators/map/layout_check.hpp"
 #include "generators/map/permitted_types.hpp"
 #include "generators/scenario_file/exempt_pairs.hpp"
 #include "generators/scenario_file/field_rules.hpp"
@@ -203,7 +204,12 @@ void check_radio(const CampaignPlan& plan, const PlanPlaces& places) {
 void check_vehicles(const CampaignPlan& plan, const PlanPlaces& places) {
   demand(!plan.vehicles.empty(), places, "vehicle", "vehicle is empty; a fleet needs at least one type");
   std::vector<std::string> names;
-  for (const auto& [type, share] : plan.vehicles) names.push_back(type.name);
+  for (const auto& [type, share] : plan.vehicles) {
+    const char* fault = fault_of_name(type.name);
+    demand(fault == nullptr, places, "vehicle",
+           fmt::format("vehicle.name: {} is refused: {}", in_quotes(type.name), fault == nullptr ? "" : fault));
+    names.push_back(type.name);
+  }
   demand(!has_duplicates(names), places, "vehicle", "two vehicles have one name; give each its own");
   for (const auto& factor : plan.layouts) {
     if (factor.map == nullptr) continue;

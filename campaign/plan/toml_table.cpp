@@ -39,6 +39,10 @@ const char* kind_of(const toml::node& node) {
       return "a number";
     case toml::node_type::boolean:
       return "true or false";
+    case toml::node_type::date:
+    case toml::node_type::time:
+    case toml::node_type::date_time:
+      return "a date or a time";
     default:
       return "something else";
   }

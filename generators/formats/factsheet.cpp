@@ -8,6 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/geometry/rectangle.hpp"
 #include "core/scenario/vehicle_fields.hpp"
+#include "generators/formats/factsheet_loads.hpp"
 #include "generators/formats/left_out.hpp"
 #include "generators/map/layout_check.hpp"
 #include "generators/text/json_value.hpp"
@@ -19,7 +20,7 @@ namespace {
 constexpr Topic kOther{"{0} parts of the factsheet are left out ({1})"};
 constexpr double kSameSize = 0.01;  // share by which a body and its envelope may differ
 
-constexpr std::string_view kSize = "physicalParameters", kType = "typeSpecification";
+constexpr std::string_view kSize = "physicalParameters", kType = "typeSpecification", kLoads = "loadSpecification";
 constexpr std::string_view kGeometry[] = {"agvGeometry", "mobileRobotGeometry"};
 
 // A number under physicalParameters, as versions 2 and 3 call it.
@@ -52,19 +53,17 @@ class FactsheetReader {
   ForeignVehicle read() {
     const auto size = root_.find(kSize);
     if (!size) root_.refuse("has no physicalParameters; expected a VDA 5050 factsheet");
-    if (const auto type = root_.find(kType)) {
-      if (const auto name = type->find("seriesName"); name && name->is_text()) {
-        vehicle_.type.name = name->text();
-        if (const char* fault = fault_of_name(vehicle_.type.name)) name->refuse(fault);
-      }
-    }
+    expect_an_object(*size);
+    name_vehicle();
     vehicle_.vehicles.push_back(vehicle_.type.name);
     for (const auto& parameter : kParameters) take(*size, parameter);
-    for (const auto key : kGeometry) {
-      if (const auto geometry = root_.find(key)) envelopes(*geometry);
+    if (const auto geometry = either_spelling(root_, kGeometry[0], kGeometry[1])) {
+      expect_an_object(*geometry);
+      envelopes(*geometry);
     }
     if (!gives("length_m") || !gives("width_m"))
       size->refuse("gives no length and width, and there is no envelope; add them");
+    if (const auto loads = root_.find(kLoads)) read_load_sets(*loads, vehicle_, warnings_);
     note_left_out(*size);
     return std::move(vehicle_);
   }
@@ -75,16 +74,21 @@ class FactsheetReader {
     warnings_.push_back(fmt::format("{}: {}", at.place(), sentence));
   }
 
+  void name_vehicle() {
+    const auto type = root_.find(kType);
+    if (type) expect_an_object(*type);
+    const auto name = type ? type->find("seriesName") : std::nullopt;
+    if (!name) return warn(root_, fmt::format("gives no seriesName; the vehicle is called {}", vehicle_.type.name));
+    vehicle_.type.name = name->text();
+    if (const char* fault = fault_of_name(vehicle_.type.name)) name->refuse(fault);
+  }
+
   void take(const JsonReader& size, const Parameter& parameter) {
-    auto found = size.find(parameter.old_key);
-    if (!found) found = size.find(parameter.new_key);
+    const auto found = either_spelling(size, parameter.old_key, parameter.new_key);
     double& target = parameter.of(vehicle_.type);
     if (!found)
       return warn(size, fmt::format("gives no {}; {} stays {:g}", parameter.new_key, parameter.field, target));
-    const double value = found->number();
-    if (!(value >= parameter.low && value <= parameter.high))
-      found->refuse(fmt::format("expected {:g} to {:g}", parameter.low, parameter.high));
-    vehicle_.give(parameter.field, target, value);
+    vehicle_.give(parameter.field, target, number_within(*found, parameter.low, parameter.high));
   }
 
   // The first of them. The body is the rectangle around it and around length and width.
@@ -93,11 +97,14 @@ class FactsheetReader {
     if (!list || list->items().empty()) return;
     const auto all = list->items();
     if (all.size() > 1) warn(*list, fmt::format("the first of {} envelopes is read", all.size()));
-    auto points = all[0].find("polygonPoints");
-    if (!points) points = all[0].find("vertices");
-    if (!points) return;
+    expect_an_object(all[0]);
+    const auto points = either_spelling(all[0], "polygonPoints", "vertices");
+    if (!points) all[0].refuse("has no polygonPoints; add them, or remove the envelope");
+    const auto coordinate = [](const JsonReader& point, const char* axis) {
+      return number_within(point.at(axis), -kLargestBody_m, kLargestBody_m);
+    };
     Box box;
-    for (const auto& point : points->items()) box.add(Vec2(point.at("x").number(), point.at("y").number()));
+    for (const auto& point : points->items()) box.add(Vec2(coordinate(point, "x"), coordinate(point, "y")));
     if (points->items().size() < 3) points->refuse("an envelope has 3 points or more");
     auto& [length_m, width_m, centre_ahead_m] = vehicle_.type.footprint;
     const double ahead_m = (box.low_m.x() + box.high_m.x()) / 2.0;
@@ -118,10 +125,18 @@ class FactsheetReader {
     gives(key) ? void(size_m = envelope_m) : vehicle_.give(key, size_m, envelope_m);
   }
 
+  void note_loads_left_out(LeftOutThings& things) {
+    const JsonReader loads = root_.at(kLoads);
+    for (const auto& inner : loads.value().keys) {
+      if (inner != "loadSets") things.add(kOther, loads.at(inner).place(), fmt::format("{}.{}", kLoads, inner));
+    }
+  }
+
   void note_left_out(const JsonReader& size) {
     LeftOutThings things;
     for (const auto& key : root_.value().keys) {
-      if (key == kSize || std::ranges::find(kGeometry, key) != std::end(kGeometry)) continue;
+      if (key == kLoads) note_loads_left_out(things);
+      if (key == kSize || key == kLoads || std::ranges::find(kGeometry, key) != std::end(kGeometry)) continue;
       if (key != kType) {
         things.add(kOther, root_.at(key).place(), key);
         continue;

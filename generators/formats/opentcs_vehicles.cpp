@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <pugixml.hpp>
+#include <set>
 
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
@@ -63,9 +65,18 @@ class VehicleReader {
     return value_m;
   }
 
+  double offset_m(const pugi::xml_node& box, const char* name) const {
+    const double value_m = xml_.has(box, name) ? xml_.number(box, name) / 1000.0 : 0.0;
+    if (!(std::abs(value_m) <= kLargestBody_m))
+      xml_.refuse(box, fmt::format("{} is {} m; expected -100000 to 100000 mm", name, value_m));
+    return value_m;
+  }
+
   // The reference offset leads from the middle of the box to the point that follows the track.
   void body(const pugi::xml_node& node, ForeignVehicle& vehicle) {
     const auto box = node.child("boundingBox");
+    if (const auto second = box.next_sibling("boundingBox"))
+      xml_.refuse(second, "is the second boundingBox of this vehicle; remove one of them");
     const auto lengths_in = box ? box : node;
     auto& [length_m, width_m, centre_ahead_m] = vehicle.type.footprint;
     if (xml_.has(lengths_in, "length")) {
@@ -79,23 +90,26 @@ class VehicleReader {
       note(kWidths, node);
     }
     if (xml_.has(box, "height")) things_.add(kOther, xml_.place(box), "height");
-    if (xml_.has(box, "referenceOffsetX") && xml_.number(box, "referenceOffsetX") != 0.0)
-      vehicle.give("centre_ahead_m", centre_ahead_m, -xml_.number(box, "referenceOffsetX") / 1000.0);
-    if (xml_.has(box, "referenceOffsetY") && xml_.number(box, "referenceOffsetY") != 0.0) note(kBeside, node);
+    const double ahead_m = offset_m(box, "referenceOffsetX");
+    if (ahead_m != 0.0) vehicle.give("centre_ahead_m", centre_ahead_m, -ahead_m);
+    if (offset_m(box, "referenceOffsetY") != 0.0) note(kBeside, node);
   }
 
   void speeds(const pugi::xml_node& node, ForeignVehicle& vehicle) {
     const auto speed_mps = [&](const char* name) {
-      return xml_.has(node, name) ? xml_.number(node, name) / 1000.0 : 0.0;
+      const double value_mps = xml_.has(node, name) ? xml_.number(node, name) / 1000.0 : 0.0;
+      if (!(value_mps == 0.0 || (value_mps >= kSlowest && value_mps <= kFastest)))
+        xml_.refuse(node, fmt::format("{} is {} m/s; expected 1 to 100000 mm/s, or 0", name, value_mps));
+      return value_mps;
     };
     const double forward_mps = speed_mps("maxVelocity"), backward_mps = speed_mps("maxReverseVelocity");
     if (forward_mps > 0.0) {
-      vehicle.give("speed_mps", vehicle.type.drive.speed_mps, std::min(forward_mps, kFastest));
+      vehicle.give("speed_mps", vehicle.type.drive.speed_mps, forward_mps);
     } else {
       note(kSpeeds, node);
     }
     if (backward_mps > 0.0) {
-      vehicle.give("reverse_speed_mps", vehicle.type.reverse_speed_mps, std::min(backward_mps, kFastest));
+      vehicle.give("reverse_speed_mps", vehicle.type.reverse_speed_mps, backward_mps);
     } else {
       note(kNoReverse, node);
     }
@@ -121,7 +135,13 @@ std::vector<ForeignVehicle> parse_opentcs_vehicles(std::string_view text, std::s
     throw InputError(source, "has no <vehicle>; write the [[vehicle]] tables of the campaign by hand");
   LeftOutThings things;
   std::vector<ForeignVehicle> vehicles;
-  for (const auto node : model.children("vehicle")) vehicles.push_back(VehicleReader(xml, things).read(node));
+  std::set<std::string> names;
+  for (const auto node : model.children("vehicle")) {
+    vehicles.push_back(VehicleReader(xml, things).read(node));
+    const std::string& name = vehicles.back().type.name;
+    if (!names.insert(name).second)
+      xml.refuse(node, fmt::format("name {} is there twice; rename one vehicle", in_quotes(name)));
+  }
   things.tell(warnings);
   return joined(vehicles);
 }

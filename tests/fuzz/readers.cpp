@@ -8,10 +8,12 @@
 #include "campaign/plan/plan_text.hpp"
 #include "core/scenario/scenario.hpp"
 #include "generators/formats/csv_layout.hpp"
+#include "generators/formats/factsheet.hpp"
 #include "generators/formats/grid_map.hpp"
 #include "generators/formats/layout_file.hpp"
 #include "generators/formats/lif.hpp"
 #include "generators/formats/opentcs.hpp"
+#include "generators/formats/opentcs_vehicles.hpp"
 #include "generators/formats/rmf.hpp"
 #include "generators/scenario_file/field_rules.hpp"
 #include "generators/scenario_file/radio_trace.hpp"
@@ -73,6 +75,37 @@ bool accepts_scenario(std::string_view bytes, Depth depth) {
   if (depth == Depth::Judged) return true;
   const auto text = to_text(*scenario);
   require(to_text(parse_scenario(text, "written.json")) == text, "the scenario file is not the same after reading it");
+  return true;
+}
+
+// What is accepted can be used: a campaign with these tables has these types.
+void require_usable(const std::vector<ForeignVehicle>& vehicles) {
+  const auto text = "kind = \"search\"\n[factors]\nagents = [\"hull-lock\"]\nlayouts = [\"aisle-grid\"]\n" +
+                    fleet_text(vehicles, kFile);
+  const auto fleet = parse_campaign_file(text, source_file("tests/campaigns/fuzzed.toml")).plan.vehicles;
+  require(fleet.size() == vehicles.size(), "a campaign has another number of vehicle types");
+  for (std::size_t i = 0; i < fleet.size(); ++i) {
+    require(fleet[i].type.name == vehicles[i].type.name, "a vehicle type has another name in the campaign");
+    require(fleet[i].type.footprint == vehicles[i].type.footprint, "a vehicle has another body in the campaign");
+    require(fleet[i].type.loaded == vehicles[i].type.loaded, "a load has another effect in the campaign");
+  }
+}
+
+bool accepts_factsheet(std::string_view bytes, Depth) {
+  std::vector<std::string> warnings;
+  const auto vehicle = accepted([&] { return parse_factsheet(bytes, kFile, warnings); }, kFile);
+  if (!vehicle) return false;
+  for (const auto& warning : warnings) require_sentence(warning, kFile);
+  require_usable({*vehicle});
+  return true;
+}
+
+bool accepts_opentcs_vehicles(std::string_view bytes, Depth) {
+  std::vector<std::string> warnings;
+  const auto vehicles = accepted([&] { return parse_opentcs_vehicles(bytes, kFile, warnings); }, kFile);
+  if (!vehicles) return false;
+  for (const auto& warning : warnings) require_sentence(warning, kFile);
+  require_usable(*vehicles);
   return true;
 }
 
@@ -143,6 +176,8 @@ constexpr Reader kReaders[] = {
     {"csv", accepts_csv_layout, csv_layout_seeds, kCsvSpice, kCsvWords},
     {"layout", accepts_layout_file, layout_seeds, kJsonSpice, kJsonWords},
     {"scenario", accepts_scenario, scenario_seeds, kJsonSpice, kJsonWords},
+    {"factsheet", accepts_factsheet, factsheet_seeds, kJsonSpice, kJsonWords},
+    {"opentcs-vehicles", accepts_opentcs_vehicles, opentcs_vehicle_seeds, kXmlSpice, kXmlWords},
     {"radio-trace", accepts_radio_trace, radio_trace_seeds, kCsvSpice, kCsvWords},
     {"orders", accepts_orders, order_seeds, kCsvSpice, kCsvWords},
     {"campaign", accepts_campaign, campaign_seeds, kTomlSpice, kTomlWords},

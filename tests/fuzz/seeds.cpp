@@ -190,6 +190,23 @@ std::vector<std::string> scenario_seeds() {
   return {text_of("tests/scenarios/figure4.json"), text_of("tests/scenarios/parked_then_leaves.json"), busy_scenario()};
 }
 
+std::vector<std::string> factsheet_seeds() {
+  return {R"({"headerId": 1, "typeSpecification": {"seriesName": "H"}, "physicalParameters": {"speedMax": 1.8,
+"accelerationMax": 0.6, "decelerationMax": 0.9, "width": 0.8, "length": 2.0}, "agvGeometry": {"envelopes2d": [{"set":
+"s", "polygonPoints": [{"x": -0.5, "y": -0.4}, {"x": 1.5, "y": 0.4}, {"x": 0.5, "y": 0.5}]}]}, "loadSpecification":
+{"loadSets": [{"setName": "pallet", "loadType": "EPAL", "boundingBoxReference": {"x": 0.5, "y": 0, "z": 0, "theta":
+1.5708}, "loadDimensions": {"length": 1.2, "width": 0.8}, "maxWeight": 900, "agvSpeedLimit": 1.2,
+"agvAccelerationLimit": 0.3, "agvDecelerationLimit": 0.5, "pickTime": 7, "dropTime": 6.5}]}})",
+          R"({"physicalParameters": {"maximumSpeed": 1, "length": 1.5, "width": 1}, "mobileRobotGeometry": {},
+"loadSpecification": {"loadSets": [{"loadDimensions": {"length": 2, "width": 1}}, {"maximumSpeed": 0.01}]}})"};
+}
+
+std::vector<std::string> opentcs_vehicle_seeds() {
+  return {R"(<model version="7.0.0"><vehicle name="a" maxVelocity="1500" maxReverseVelocity="500" envelopeKey="e">
+<boundingBox length="2100" width="900" height="1" referenceOffsetX="-300" referenceOffsetY="5"/></vehicle>
+<vehicle name="b" length="1000"/></model>)"};
+}
+
 std::vector<std::string> radio_trace_seeds() {
   return {
       "\xEF\xBB\xBF# hall 3\r\nsender,receiver,t_send_s,t_recv_s\r\n1,0,1700000000.250000001,1700000000.3\r\n0, 1, "

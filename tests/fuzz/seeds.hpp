@@ -16,6 +16,8 @@ std::vector<std::string> grid_map_seeds();
 std::vector<std::string> csv_layout_seeds();
 std::vector<std::string> layout_seeds();
 std::vector<std::string> scenario_seeds();
+std::vector<std::string> factsheet_seeds();
+std::vector<std::string> opentcs_vehicle_seeds();
 std::vector<std::string> radio_trace_seeds();
 std::vector<std::string> order_seeds();
 std::vector<std::string> campaign_seeds();

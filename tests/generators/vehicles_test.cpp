@@ -71,6 +71,29 @@ TEST(OpenTcsVehicles, AreRefusedWithTheirPlace) {
   independent::bear_damage(import_model, two, 300, "<>\"= -.0");
 }
 
+TEST(OpenTcsVehicles, EachMalformedValueHasOneError) {
+  const auto with = [](const std::string& attributes, const std::string& box = "") {
+    return independent::refusal(import_model, "<vehicle name=\"a\" " + attributes + ">" + box + "</vehicle>");
+  };
+  const std::string speeds = "expected 1 to 100000 mm/s, or 0";
+  EXPECT_THAT(with("maxVelocity=\"-5\""), AllOf(HasSubstr("m.xml:2: maxVelocity is -0.005 m/s"), HasSubstr(speeds)));
+  EXPECT_THAT(with("maxReverseVelocity=\"1e9\""),
+              AllOf(HasSubstr("maxReverseVelocity is 1000000 m/s"), HasSubstr(speeds)));
+  EXPECT_THAT(with("maxVelocity=\"NaN\""), HasSubstr("maxVelocity of <vehicle> is \"NaN\"; expected a finite number"));
+  EXPECT_THAT(with("maxVelocity=\"\""), HasSubstr("expected a finite number"));
+  EXPECT_THAT(with("length=\"1e308\""), HasSubstr("expected 1 to 100000 mm"));
+  EXPECT_THAT(with("", "<boundingBox length=\"1000\" width=\"inf\"/>"), HasSubstr("width of <boundingBox> is \"inf\""));
+  EXPECT_THAT(with("", "<boundingBox referenceOffsetX=\"200000\"/>"),
+              HasSubstr("referenceOffsetX is 200 m; expected -100000 to 100000 mm"));
+  EXPECT_THAT(with("", "<boundingBox referenceOffsetY=\"-1e200\"/>"), HasSubstr("referenceOffsetY is -1"));
+  EXPECT_THAT(with("", "<boundingBox/>\n<boundingBox/>"), HasSubstr("m.xml:3: is the second boundingBox"));
+  EXPECT_EQ(independent::refusal(import_model, vehicle("a", kBox) + "\n" + vehicle("a", "")),
+            "m.xml:3: name \"a\" is there twice; rename one vehicle");
+  EXPECT_THAT(independent::refusal(import_model, "<vehicle name=\"\"/>"), HasSubstr("name"));
+  EXPECT_THAT(independent::refusal(import_model, "<vehicle/>"), HasSubstr("name"));
+  EXPECT_THAT(independent::refusal(import_model, "<vehicle name=\"\xff\"/>"), HasSubstr("m.xml:2"));
+}
+
 const std::string kSheet = R"({"headerId": 1, "typeSpecification": {"seriesName": "Hauler 7", "agvClass": "TUGGER"},
 "physicalParameters": {"speedMin": 0.1, "speedMax": 1.8, "accelerationMax": 0.6, "decelerationMax": 0.9, "width": 0.8,
 "length": 2.0, "heightMax": 1}, "agvGeometry": {"envelopes2d": [{"set": "s", "polygonPoints": [{"x": -0.5, "y": -0.4},
@@ -101,6 +124,38 @@ TEST(Factsheet, TheLargerOfBodyAndEnvelopeCounts) {
   const auto fleet = import_sheet(text.replace(text.find("\"y\": 0.4"), 8, "\"y\": 0.6"));
   EXPECT_THAT(fleet.text, HasSubstr("width_m = 1.2\n"));
   EXPECT_THAT(fleet.sentences, HasSubstr("width_m is 0.8 m, and the envelope has 1.2 m; the larger counts"));
+}
+
+TEST(Factsheet, EachMalformedValueHasOneError) {
+  const auto size = [](const std::string& more) {
+    return independent::refusal(import_sheet, R"({"physicalParameters": {"length": 2, "width": 1)" + more + "}}");
+  };
+  EXPECT_EQ(size(""), "accepted");
+  EXPECT_THAT(size(R"(, "speedMax": NaN)"), HasSubstr("f.json:1"));
+  EXPECT_THAT(size(R"(, "speedMax": 1e999)"), HasSubstr("f.json:1"));
+  EXPECT_THAT(size(R"(, "speedMax": null)"), HasSubstr("f.json:1: /physicalParameters/speedMax: null is refused"));
+  EXPECT_THAT(size(R"(, "speedMax": "2")"), HasSubstr("/physicalParameters/speedMax"));
+  EXPECT_THAT(size(R"(, "speedMax": 2, "speedMax": 2)"), HasSubstr("speedMax"));
+  EXPECT_THAT(size(R"(, "speedMax": 2, "maximumSpeed": 2)"),
+              HasSubstr("/physicalParameters/maximumSpeed: 2 is refused: speedMax is there, too; remove one of them"));
+  const auto root = [](const std::string& more) {
+    return independent::refusal(import_sheet, R"({"physicalParameters": {"length": 2, "width": 1},)" + more + "}");
+  };
+  EXPECT_THAT(independent::refusal(import_sheet, R"({"physicalParameters": []})"),
+              HasSubstr("/physicalParameters: [] is refused: expected an object {...}"));
+  EXPECT_THAT(root(R"("typeSpecification": 3)"), HasSubstr("/typeSpecification: 3 is refused: expected an object"));
+  EXPECT_THAT(root(R"("typeSpecification": {"seriesName": 3})"), HasSubstr("/typeSpecification/seriesName"));
+  EXPECT_THAT(root(R"("typeSpecification": {"seriesName": ""})"), HasSubstr("the name is empty"));
+  EXPECT_THAT(root(R"("agvGeometry": {}, "mobileRobotGeometry": {})"), HasSubstr("agvGeometry is there, too"));
+  EXPECT_THAT(root(R"("agvGeometry": {"envelopes2d": {}})"), HasSubstr("/agvGeometry/envelopes2d"));
+  EXPECT_THAT(root(R"("agvGeometry": {"envelopes2d": [{}]})"), HasSubstr("has no polygonPoints"));
+  EXPECT_THAT(root(R"("agvGeometry": {"envelopes2d": [{"polygonPoints": [{"x": 1e9, "y": 0}]}]})"),
+              HasSubstr("/agvGeometry/envelopes2d/0/polygonPoints/0/x"));
+  EXPECT_THAT(root(R"("loadSpecification": [])"), HasSubstr("/loadSpecification"));
+  EXPECT_THAT(independent::refusal(import_sheet, std::string(100'000, '[')), HasSubstr("f.json:1"));
+  EXPECT_THAT(independent::refusal(import_sheet, std::string("\xff\xfe{\0}\0", 6)), HasSubstr("f.json:1"));
+  EXPECT_THAT(import_sheet(R"({"physicalParameters": {"length": 2, "width": 1}})").sentences,
+              HasSubstr("f.json:1: gives no seriesName; the vehicle is called pallet-agv"));
 }
 
 TEST(Factsheet, IsRefusedWithItsPlace) {
