@@ -44,7 +44,7 @@ HullLock::HullLock(const fp_host& host, fp_controller* handle, const fp_briefing
       geometry_(map_, briefing, options.hulls),
       neighbours_(map_, geometry_, briefing, settings_, options),
       protocol_(map_, geometry_, neighbours_, controller_, options, options.consent.epochs_name_boot ? boot_ : 0),
-      planner_(map_, geometry_, neighbours_, agv_of(briefing, briefing.self)),
+      planner_(map_, geometry_, neighbours_, agv_of(briefing, briefing.self), options.progress),
       right_of_way_(geometry_, neighbours_, controller_, options.progress),
       way_(map_, agv_of(briefing, briefing.self)),
       has_chargers_(map_.has_chargers()),

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/agents/aisles.hpp"
+
 namespace fleetproof::agents {
 namespace {
 
@@ -14,6 +16,9 @@ constexpr double kArrivingCost_s = 8.0;
 constexpr double kIdleCost_s = 10.0;
 constexpr double kWaitingCost_s = 20.0;
 constexpr double kNoWayCost_s = 1000.0;
+// So much dearer is a lane against the convention of aisles. Back to a goal that it has just passed, an AGV drives
+// against it.
+constexpr double kAgainstAisle = 8.0;
 // In a row of chargers, wide AGVs cannot turn beside each other. An AGV would rather hold up others there than run
 // empty.
 constexpr double kUnsafeChargerCost_s = 30.0;
@@ -113,7 +118,8 @@ struct StretchPlanner::Walk {
   }
 };
 
-StretchPlanner::StretchPlanner(const MapView& map, HullGeometry& geometry, Neighbours& neighbours, const fp_agv& self)
+StretchPlanner::StretchPlanner(const MapView& map, HullGeometry& geometry, Neighbours& neighbours, const fp_agv& self,
+                               const ProgressOptions& options)
     : map_(map),
       geometry_(geometry),
       neighbours_(neighbours),
@@ -122,6 +128,12 @@ StretchPlanner::StretchPlanner(const MapView& map, HullGeometry& geometry, Neigh
       routes_(map, rules_) {
   lane_times_s_.reserve(map.lane_count());
   for (std::uint32_t id = 0; id < map.lane_count(); ++id) lane_times_s_.push_back(agents::lane_time_s(map, id, self));
+  usual_costs_s_ = lane_times_s_;
+  if (!options.one_way_aisles || neighbours.fleet_count() < 2) return;
+  const Aisles aisles(map, neighbours.fleet_count());
+  for (std::uint32_t id = 0; id < map.lane_count(); ++id) {
+    if (aisles.is_against(id)) usual_costs_s_[id] *= kAgainstAisle;
+  }
 }
 
 Stretch StretchPlanner::towards(const Path& standing, Budget budget, std::span<const Goal> goals) {
@@ -200,7 +212,7 @@ bool StretchPlanner::follow(Walk& walk, std::uint32_t to) {
 }
 
 void StretchPlanner::price_lanes(bool loaded, double waiting_s, double idle_s, const GoesFirst& goes_first) {
-  costs_s_ = lane_times_s_;
+  costs_s_ = usual_costs_s_;
   for (std::uint32_t lane = 0; rules_.any() && lane < map_.lane_count(); ++lane) {
     if (!rules_.is_usable(lane, loaded)) costs_s_[lane] = INFINITY;
   }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/agents/hull.hpp"
+#include "core/agents/lock_options.hpp"
 #include "core/agents/neighbours.hpp"
 #include "core/agents/path.hpp"
 #include "core/agents/routes.hpp"
@@ -71,7 +72,8 @@ class StretchPlanner {
  public:
   using GoesFirst = std::function<bool(std::uint32_t agv, const Neighbour&)>;
 
-  StretchPlanner(const MapView& map, HullGeometry& geometry, Neighbours& neighbours, const fp_agv& self);
+  StretchPlanner(const MapView& map, HullGeometry& geometry, Neighbours& neighbours, const fp_agv& self,
+                 const ProgressOptions& options = {});
 
   WaitingPlaces& places() { return places_; }
   double lane_time_s(std::uint32_t lane) const { return lane_times_s_[lane]; }
@@ -105,8 +107,9 @@ class StretchPlanner {
   WaitingPlaces places_;
   DriveRules rules_;
   Routes routes_;
-  std::vector<double> lane_times_s_;  // by lane
-  std::vector<double> costs_s_;       // by lane: the time, and a price for other AGVs on the lane
+  std::vector<double> lane_times_s_;   // by lane
+  std::vector<double> usual_costs_s_;  // by lane: the time, and a price against the convention of aisles
+  std::vector<double> costs_s_;        // by lane: likewise, and a price for other AGVs on the lane
 };
 
 }  // namespace fleetproof::agents
