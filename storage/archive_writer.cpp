@@ -11,6 +11,7 @@
 #include "storage/archive_reader.hpp"
 #include "storage/canonical_file.hpp"
 #include "storage/checksum.hpp"
+#include "storage/durable_file.hpp"
 #include "storage/live_file.hpp"
 #include "storage/row_store.hpp"
 #include "storage/rows.hpp"
@@ -263,6 +264,12 @@ void ArchiveWriter::publish(std::uint64_t stop_index) {
   move_durably(unfinished, impl_->path);
   remove_live_file(impl_->live_path);
   remove_live_file(new_live_name(impl_->path));  // of a program that was killed at its start
+  impl_->lock.reset();
+}
+
+void ArchiveWriter::discard() {
+  impl_->drop();
+  remove_live_file(impl_->live_path);
   impl_->lock.reset();
 }
 

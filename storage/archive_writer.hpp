@@ -50,6 +50,8 @@ class ArchiveWriter {
   // `add`. Then renames the file to `path`, removes the live file and releases the lock. The writer is closed
   // afterwards.
   void publish(std::uint64_t stop_index);
+  // Instead: removes the live file and all that was added. The writer is closed afterwards.
+  void discard();
 
  private:
   struct Impl;

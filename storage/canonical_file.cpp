@@ -3,18 +3,13 @@
 #include <SQLiteCpp/Database.h>
 #include <SQLiteCpp/Statement.h>
 #include <SQLiteCpp/Transaction.h>
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <bit>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <limits>
 
-#include "core/base/machine_error.hpp"
 #include "storage/checksum.hpp"
 #include "storage/opened_file.hpp"
 #include "storage/rows.hpp"
@@ -83,17 +78,6 @@ void seal(SQLite::Database& db) {
   update.exec();
 }
 
-void sync_to_disk(const std::string& path, int flags) {
-  const int fd = ::open(path.c_str(), flags | O_CLOEXEC);
-  const bool synced = fd >= 0 && ::fsync(fd) == 0;
-  const int error = errno;
-  if (fd >= 0) ::close(fd);
-  if (!synced)
-    throw MachineError(
-        fmt::format("{}: cannot be brought to the disk ({}); look at the disk, then the same command goes on", path,
-                    std::strerror(error)));
-}
-
 void remove_with_journal(const std::string& path) {
   std::error_code ignored;
   std::filesystem::remove(path, ignored);
@@ -120,18 +104,6 @@ void write_canonical_file(const std::string& live_path, const std::string& targe
     remove_with_journal(target);
     throw_archive_error(target);
   }
-}
-
-void move_durably(const std::string& from, const std::string& to) {
-  sync_to_disk(from, O_RDONLY);
-  std::error_code error;
-  std::filesystem::rename(from, to, error);
-  if (error)
-    throw MachineError(
-        fmt::format("{}: cannot be renamed to {} ({}); look at the folder, then the same command goes on", from, to,
-                    error.message()));
-  const auto folder = std::filesystem::path(to).parent_path();
-  sync_to_disk(folder.empty() ? "." : folder.string(), O_RDONLY | O_DIRECTORY);
 }
 
 }  // namespace fleetproof

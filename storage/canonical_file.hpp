@@ -11,7 +11,4 @@ namespace fleetproof {
 // Requires: the live file is closed. It is not changed. Throws MachineError if the disk fails.
 void write_canonical_file(const std::string& live_path, const std::string& target, std::uint64_t stop_index);
 
-// Brings all bytes of `from` to the disk and renames it to `to`, at one instant.
-void move_durably(const std::string& from, const std::string& to);
-
 }  // namespace fleetproof

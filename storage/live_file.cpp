@@ -9,7 +9,7 @@
 #include <filesystem>
 
 #include "core/base/machine_error.hpp"
-#include "storage/canonical_file.hpp"
+#include "storage/durable_file.hpp"
 #include "storage/sqlite_errors.hpp"
 #include "storage/target_file.hpp"
 

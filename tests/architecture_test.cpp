@@ -63,11 +63,12 @@ const std::map<std::string, std::set<std::string>> kMayInclude = [] {
                                                         "reports/evidence", "campaign/plan"});
   rooms["campaign/workers"] = with(rooms["campaign/run"], {"campaign/run"});
   rooms["campaign/batch"] = with(rooms["campaign/workers"], {"campaign/workers"});
+  rooms["campaign/shards"] = with(rooms["campaign/batch"], {"campaign/batch"});
   rooms["campaign/shrink"] = with(rooms["campaign/batch"], {"campaign/batch"});
   rooms["campaign/explain"] = with(rooms["campaign/shrink"], {"campaign/shrink"});
   rooms["campaign/findings"] = with(rooms["campaign/explain"], {"campaign/explain"});
-  rooms["campaign/cli"] =
-      with(rooms["campaign/findings"], {"campaign/findings", "reports", "reports/html", "reports/web"});
+  rooms["campaign/cli"] = with(rooms["campaign/findings"],
+                               {"campaign/findings", "campaign/shards", "reports", "reports/html", "reports/web"});
   return rooms;
 }();
 

@@ -40,13 +40,14 @@ AuditDesk::~AuditDesk() {
   for (std::thread& thread : threads_) thread.join();
 }
 
-void AuditDesk::offer(const RunRecord& run, std::uint64_t slowest_cpu_ns) {
-  if (!runs_ || !share_.contains(run)) return;
+bool AuditDesk::offer(const RunRecord& run, std::uint64_t slowest_cpu_ns) {
+  if (!runs_ || !share_.contains(run)) return false;
   runs_->expect_cpu_ns(slowest_cpu_ns);
   const std::lock_guard lock(mutex_);
-  if (abandoned_) return;
+  if (abandoned_) return false;
   waiting_.emplace(run.run_index, row_checksum(run));
   if (waiting_.size() >= wanted_) more_.notify_one();
+  return true;
 }
 
 void AuditDesk::start() {
@@ -57,6 +58,13 @@ void AuditDesk::start() {
 void AuditDesk::no_more_runs() {
   const std::lock_guard lock(mutex_);
   closing_ = true;
+  more_.notify_all();
+}
+
+void AuditDesk::hurry() {
+  const std::lock_guard lock(mutex_);
+  if (waiting_.empty()) return;
+  wanted_ = 1;
   more_.notify_all();
 }
 
@@ -95,6 +103,7 @@ AuditDesk::Batch AuditDesk::next_batch() {
   Batch batch;
   for (auto next = waiting_.begin(); next != waiting_.end() && batch.size() < kBatch; next = waiting_.erase(next))
     batch.emplace_back(*next);
+  if (waiting_.empty()) wanted_ = found_ >= kAuditsToPass ? kBatch : kFirstBatch;
   under_way_ += batch.size();
   std::ranges::sort(batch, {}, [](const auto& run) { return Draws(run.first).next(); });
   return batch;

@@ -35,12 +35,14 @@ class AuditDesk {
 
   // Takes the run in if it belongs to the share. `slowest_cpu_ns`: what a run of the campaign took at most so far, so
   // that no audit has a lower limit than its run had.
-  void offer(const RunRecord& run, std::uint64_t slowest_cpu_ns = 0);
+  // True: it will be audited, unless the desk fails or is told to abandon.
+  bool offer(const RunRecord& run, std::uint64_t slowest_cpu_ns = 0);
   // An earlier session has audited the run. Call this before start().
   void forget(std::uint64_t run_index) { waiting_.erase(run_index); }
   void start();
 
   void no_more_runs();  // what waits is audited, in batches of any size
+  void hurry();         // the same once, for what waits now
   void abandon();       // nothing more is audited; the audits under way end within a second
   bool idle() const;    // nothing waits and nothing is under way
   std::uint64_t open_count() const;

@@ -27,15 +27,15 @@ constexpr std::uint64_t kLiveWindow = 65'536;
 
 constexpr std::uint64_t kAuditsAhead = 65'536;
 
-bool must_stop(const RunOptions& options, double elapsed_s) {
-  const bool interrupted = options.interrupted != nullptr && options.interrupted->load() != 0;
-  return interrupted || (options.max_time && elapsed_s >= static_cast<double>(options.max_time->count()));
-}
-
 constexpr std::chrono::seconds kDrain{4};  // what runs under way get after the stop; then they are abandoned
 constexpr std::size_t kLossesKept = 1000;
 
 }  // namespace
+
+bool must_stop(const RunOptions& options, double elapsed_s) {
+  const bool interrupted = options.interrupted != nullptr && options.interrupted->load() != 0;
+  return interrupted || (options.max_time && elapsed_s >= static_cast<double>(options.max_time->count()));
+}
 
 void build_first_worlds(const CampaignPlan& plan) {
   const ScenarioSource scenarios(plan);
@@ -96,7 +96,7 @@ class Session {
         audit_book_(plan, programs),
         runs_(plan, programs, {.workers = options.workers, .log_prefix = options.worker_logs}),
         audits_(plan, programs, options.audit_program, options.workers),
-        verdict_(campaign_record(plan, programs), plan, resolved_gates(plan, programs)),
+        verdict_(campaign_record(plan, programs), plan.cells(), resolved_gates(plan, programs)),
         archive_(path, campaign_record(plan, programs), plan.cells(), resolved_gates(plan, programs),
                  options.overwrite ? Existing::Replace : Existing::Resume, resumption(path)) {
     result_.progress.planned = plan.run_count();

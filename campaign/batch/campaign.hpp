@@ -65,6 +65,9 @@ struct CampaignListener {
 CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& path,
                             const RunOptions& options, const CampaignListener& listener);
 
+// Whether a signal or the time budget ends a session that lasts so long.
+bool must_stop(const RunOptions& options, double elapsed_s);
+
 // Draws one world for each layout and fleet size. Throws InputError if a layout has no room for its fleet.
 void build_first_worlds(const CampaignPlan& plan);
 

@@ -9,6 +9,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "campaign/batch/machine_facts.hpp"
+#include "campaign/run/engine_identity.hpp"
 #include "core/base/error.hpp"
 #include "storage/line_log.hpp"
 
@@ -17,6 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr const char *kFresh = "fresh", *kFixed = "fixed";
 constexpr std::string_view kFirstWords = "{\"started_utc\":";
 
 std::string line_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"; }
@@ -59,26 +62,43 @@ void SessionLog::begin(const RunOptions& options, const AgentPrograms& programs,
   for (const AgentProgram& program : programs.all()) {
     if (program.is_plugin()) plugins[program.name] = {{"file", program.file}, {"sha256", program.sha256}};
   }
-  append_lines(path_, line_of({{"started_utc", utc_now()},
-                               {"host", host.data()},
-                               {"pid", ::getpid()},
-                               {"jobs", options.workers},
-                               {"ledger", facts.ledger},
-                               {"overrides", facts.overrides},
-                               {"plugins", plugins}}));
+  const MachineFacts machine = machine_facts();
+  Json line = {{"started_utc", utc_now()},
+               {"host", host.data()},
+               {"pid", ::getpid()},
+               {"jobs", options.workers},
+               {"ledger", facts.ledger},
+               {"overrides", facts.overrides},
+               {"plugins", plugins},
+               {"cpu", machine.cpu},
+               {"cpu_has", machine.instructions},
+               {"libraries", engine_identity().libraries + ", " + machine.c_library}};
+  if (!facts.shard.empty()) {
+    line["shard"] = facts.shard;
+    line["shard_source"] = facts.shard_source;
+    line["release"] = facts.release;
+    line["seed"] = facts.fresh_seed ? kFresh : kFixed;
+  }
+  append_lines(path_, line_of(line));
 }
 
-void SessionLog::end(const CampaignResult& result, int signal_number) const {
-  std::string lines = line_of({{"ended_utc", utc_now()},
-                               {"pid", ::getpid()},
-                               {"elapsed_s", result.progress.elapsed_s},
-                               {"runs_simulated", result.progress.simulated},
-                               {"runs_stored", result.stored},
-                               {"runs_planned", result.progress.planned},
-                               {"workers_lost", result.loss_count},
-                               {"runs_audited", result.progress.audited},
-                               {"audits_differing", result.audits_differing},
-                               {"signal", signal_number}});
+void SessionLog::end(const CampaignResult& result, int signal_number, const std::optional<ShardChunks>& chunks) const {
+  Json line = {{"ended_utc", utc_now()},
+               {"pid", ::getpid()},
+               {"elapsed_s", result.progress.elapsed_s},
+               {"runs_simulated", result.progress.simulated},
+               {"runs_planned", result.progress.planned},
+               {"workers_lost", result.loss_count},
+               {"runs_audited", result.progress.audited},
+               {"audits_differing", result.audits_differing},
+               {"signal", signal_number}};
+  if (chunks) {
+    line["chunks"] = chunks->owned;
+    line["chunks_published"] = chunks->published;
+  } else {
+    line["runs_stored"] = result.stored;
+  }
+  std::string lines = line_of(line);
   for (const WorkerLoss& loss : result.losses) lines += line_of(json_of(loss));
   append_lines(path_, lines);
 }
@@ -100,6 +120,12 @@ std::string last_text(const std::string& archive_path, const char* key) {
 }  // namespace
 
 std::string remembered_ledger(const std::string& archive_path) { return last_text(archive_path, "ledger"); }
+
+std::string remembered_shard(const std::string& archive_path) { return last_text(archive_path, "shard"); }
+
+std::string remembered_release(const std::string& archive_path) { return last_text(archive_path, "release"); }
+
+bool remembers_fresh_seed(const std::string& archive_path) { return last_text(archive_path, "seed") == kFresh; }
 
 std::string remembered_overrides(const std::string& archive_path) { return last_text(archive_path, "overrides"); }
 

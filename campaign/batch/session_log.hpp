@@ -1,15 +1,24 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 
 #include "campaign/batch/campaign.hpp"
 
 namespace fleetproof {
 
-// What a session log keeps beside the options: the ledger of attempts, and the options that changed the plan of the
-// campaign file, as typed.
+// What a session log keeps beside the options: the ledger of attempts, the options that changed the plan of the
+// campaign file, as typed. Of a shard also: which ("3/8"), how it was found, and what the ledger will need.
 struct SessionFacts {
-  std::string ledger, overrides;
+  std::string ledger, overrides, shard{}, shard_source{};
+  std::string release{};  // campaign/run/release.hpp
+  bool fresh_seed = false;
+};
+
+// Of a shard: how many chunks it has, and how many of them are published.
+struct ShardChunks {
+  std::uint64_t owned = 0, published = 0;
 };
 
 // NAME.sessions.jsonl beside the campaign file says where, when and with which files runs were made: one line when a
@@ -21,7 +30,8 @@ class SessionLog {
   explicit SessionLog(const std::string& archive_path);
   // Both throw MachineError if the log cannot be written.
   void begin(const RunOptions& options, const AgentPrograms& programs, const SessionFacts& facts) const;
-  void end(const CampaignResult& result, int signal_number) const;
+  // A shard stores no runs in a campaign file; it says what it published.
+  void end(const CampaignResult& result, int signal_number, const std::optional<ShardChunks>& chunks = {}) const;
 
  private:
   std::string path_;
@@ -32,6 +42,11 @@ std::string remembered_plugin(const std::string& archive_path, const std::string
 
 // The ledger that the last session wrote to; empty: no session says so.
 std::string remembered_ledger(const std::string& archive_path);
+// The shard of the last session, as "3/8"; empty: it was none.
+std::string remembered_shard(const std::string& archive_path);
+// The release that the last shard tested, and whether its seed was a fresh one. Empty: no shard says so.
+std::string remembered_release(const std::string& archive_path);
+bool remembers_fresh_seed(const std::string& archive_path);
 // The options with which the last session changed the plan of the campaign file, as typed. Empty: there were none.
 std::string remembered_overrides(const std::string& archive_path);
 

@@ -31,7 +31,8 @@ constexpr std::size_t kMostUntaken = 512;
 
 struct TaskPool::Impl {
   const int workers;
-  const std::uint64_t end, window;
+  std::uint64_t end;
+  const std::uint64_t window;
   const Simulate simulate;
 
   mutable std::mutex mutex;
@@ -158,6 +159,13 @@ TaskPool::~TaskPool() {
 void TaskPool::stop() {
   const std::lock_guard lock(impl_->mutex);
   impl_->stopping = true;
+  impl_->room.notify_all();
+}
+
+void TaskPool::stop_after_stretch(std::uint64_t length) {
+  const std::lock_guard lock(impl_->mutex);
+  const std::uint64_t stretches = (impl_->next_index + length - 1) / length;
+  impl_->end = std::min(impl_->end, stretches * length);
   impl_->room.notify_all();
 }
 

@@ -40,7 +40,9 @@ class TaskPool {
   std::optional<RunRecord> next(std::chrono::milliseconds patience);
   // Whether all runs that were handed out have been taken, and no more will come.
   bool finished() const;
-  void stop();                                 // hands out no more runs
+  void stop();  // hands out no more runs
+  // The same, after the runs that belong to the last stretch which was begun: stretches of this length, from run 0 on.
+  void stop_after_stretch(std::uint64_t length);
   std::vector<RunUnderWay> under_way() const;  // in order of run index
   int threads_seen() const;                    // the number of different threads that have simulated so far
 

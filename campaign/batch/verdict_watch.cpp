@@ -2,9 +2,9 @@
 
 namespace fleetproof {
 
-VerdictWatch::VerdictWatch(const CampaignRecord& campaign, const CampaignPlan& plan,
+VerdictWatch::VerdictWatch(const CampaignRecord& campaign, const std::vector<CellRecord>& cells,
                            const std::vector<GateRecord>& gates)
-    : evidence_(campaign, plan.cells(), gates) {}
+    : evidence_(campaign, cells, gates) {}
 
 void VerdictWatch::add(const RunRecord& run) {
   if (decided_length_) return;

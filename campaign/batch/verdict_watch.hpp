@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <vector>
 
-#include "campaign/plan/plan.hpp"
 #include "reports/evidence/evidence.hpp"
 #include "storage/records.hpp"
 
@@ -14,7 +14,8 @@ namespace fleetproof {
 // their index, whatever the order in which they finish: otherwise short runs would be over-represented. Threads: one.
 class VerdictWatch {
  public:
-  VerdictWatch(const CampaignRecord& campaign, const CampaignPlan& plan, const std::vector<GateRecord>& gates);
+  VerdictWatch(const CampaignRecord& campaign, const std::vector<CellRecord>& cells,
+               const std::vector<GateRecord>& gates);
 
   void add(const RunRecord& run);
   // How many runs the campaign needed to be demonstrated or violated, in whole replicates. Empty until then.

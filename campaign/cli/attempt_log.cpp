@@ -6,9 +6,8 @@
 #include <filesystem>
 #include <random>
 
-#include "campaign/batch/campaign.hpp"
 #include "campaign/batch/session_log.hpp"
-#include "campaign/run/release.hpp"
+#include "campaign/plan/plan.hpp"
 #include "core/base/error.hpp"
 #include "reports/attempts/looks.hpp"
 #include "storage/line_log.hpp"
@@ -33,13 +32,13 @@ std::string random_id() {
 
 AttemptLog::AttemptLog(const std::string& ledger, const Campaign& campaign)
     : ledger_(named_ledger(ledger, campaign.archive)),
-      attempt_(attempt_of(campaign_record(campaign.plan, campaign.programs))),
-      is_claim_(campaign.plan.kind == CampaignKind::Claim),
+      attempt_(attempt_of(campaign.record)),
+      is_claim_(campaign.record.kind == name_of(CampaignKind::Claim)),
       goes_on_(!campaign.overwrite && has_runs(campaign.archive)),
       overwrites_(campaign.overwrite && has_runs(campaign.archive)) {
   attempt_.archive = std::filesystem::absolute(campaign.archive).lexically_normal().string();
-  attempt_.release = release_digest(campaign.plan, campaign.programs);
-  attempt_.planned_runs = campaign.plan.run_count();
+  attempt_.release = campaign.release;
+  attempt_.planned_runs = campaign.planned_runs;
   attempt_.fresh_seed = campaign.fresh_seed;
 }
 

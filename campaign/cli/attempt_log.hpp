@@ -1,11 +1,11 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
-#include "campaign/plan/plan.hpp"
-#include "campaign/run/agent_programs.hpp"
 #include "reports/attempts/attempt_history.hpp"
 #include "reports/report.hpp"
+#include "storage/records.hpp"
 
 namespace fleetproof::cli {
 
@@ -13,9 +13,9 @@ namespace fleetproof::cli {
 class AttemptLog {
  public:
   struct Campaign {
-    const CampaignPlan& plan;
-    const AgentPrograms& programs;
-    std::string archive;
+    CampaignRecord record;
+    std::uint64_t planned_runs = 0;
+    std::string archive, release;  // release: see campaign/run/release.hpp
     bool fresh_seed = false, overwrite = false;
   };
   // `ledger`: as the user named it; empty: attempts.jsonl beside the campaign file. Throws InputError if the file is no

@@ -11,6 +11,10 @@ int main(int argc, char** argv) {
   constexpr std::array verbs = {
       Verb{"run", "run a campaign and leave its results in a file",
            "fleetproof run tests/campaigns/demo.toml --db demo.db", prepare_run},
+      Verb{"merge", "put the shards of a campaign together to one campaign file, and judge it",
+           "fleetproof merge out --db night.db", prepare_merge},
+      Verb{"missing", "say which shards of a campaign have to run again", "fleetproof missing out --array",
+           prepare_missing},
       Verb{"report", "judge a campaign file and tell what it shows", "fleetproof report demo.db --format markdown",
            prepare_report},
       Verb{"replay", "simulate one run of a campaign again and compare it to the bit", "fleetproof replay demo.db 17",

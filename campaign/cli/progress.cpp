@@ -49,10 +49,11 @@ void ProgressTalk::run_finished(const RunRecord& record) {
   if (std::ranges::find(told_agents_, cell.agent) != told_agents_.end()) return;
   told_agents_.push_back(cell.agent);
   clear_line();
+  talk("first failure of {}: {} in run {} ({}, {} AGVs, {})\n", cell.agent, name_of(outcome.outcome_class()),
+       record.run_index, cell.layout, cell.fleet_size, factors_text(record.factors));
+  if (archive_path_.empty()) return;
   const std::string replay = replay_command(archive_path_, record.run_index);
-  talk("first failure of {}: {} in run {} ({}, {} AGVs, {})\n  replay: {}\n", cell.agent,
-       name_of(outcome.outcome_class()), record.run_index, cell.layout, cell.fleet_size, factors_text(record.factors),
-       replay);
+  talk("  replay: {}\n", replay);
   const bool plugin = std::ranges::find(plugins_, cell.agent) != plugins_.end();
   if (plugin && (outcome.crash || outcome.hang)) talk("  debug: gdb --args {} --in-process\n", replay);
 }

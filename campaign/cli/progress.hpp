@@ -12,7 +12,7 @@ namespace fleetproof::cli {
 // line.
 class ProgressTalk {
  public:
-  // `plugins`: the agents that come from shared objects.
+  // `plugins`: the agents that come from shared objects. `archive_path` empty: there is none, and no replay line.
   ProgressTalk(const CampaignPlan& plan, std::vector<std::string> plugins, std::string archive_path, int workers);
   ~ProgressTalk();
   ProgressTalk(const ProgressTalk&) = delete;

@@ -15,22 +15,30 @@
 #include "campaign/cli/ci_summary.hpp"
 #include "campaign/cli/progress.hpp"
 #include "campaign/cli/render.hpp"
+#include "campaign/cli/shard_words.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "campaign/findings/known_cases.hpp"
 #include "campaign/plan/campaign_file.hpp"
 #include "campaign/plan/plan_check.hpp"
+#include "campaign/run/release.hpp"
 #include "core/base/error.hpp"
 #include "reports/report.hpp"
 
 namespace fleetproof::cli {
 namespace {
 
+struct TimeWords {
+  std::string max_time, until;
+};
+
 struct RunWords {
   std::string campaign, archive;
   std::optional<std::uint64_t> jobs, replicates, seed;
   std::optional<std::uint64_t> fail_fast;
-  std::string max_time, until, ledger, findings;
+  std::string ledger, findings;
+  TimeWords time;
+  ShardWords shard;
   bool overwrite = false, allow_drift = false, until_verdict = false, exit_zero = false, json = false;
 };
 
@@ -50,9 +58,9 @@ void on_signal(int number) {
 // The shorter of two budgets; none if neither is given.
 std::optional<std::chrono::seconds> time_budget(const RunWords& words) {
   std::optional<std::chrono::seconds> budget;
-  if (!words.max_time.empty()) budget = duration_of(words.max_time, "--max-time");
-  if (!words.until.empty()) {
-    const auto until = time_until(words.until, std::time(nullptr), "--until");
+  if (!words.time.max_time.empty()) budget = duration_of(words.time.max_time, "--max-time");
+  if (!words.time.until.empty()) {
+    const auto until = time_until(words.time.until, std::time(nullptr), "--until");
     budget = budget ? std::min(*budget, until) : until;
   }
   return budget;
@@ -75,7 +83,8 @@ RunOptions run_options(const RunWords& words) {
 
 // The command that goes on with the campaign, with the words that say what the campaign is.
 std::string resume_command(const RunWords& words) {
-  std::string command = fmt::format("fleetproof run {} --db {}", shell_word(words.campaign), shell_word(words.archive));
+  std::string command = fmt::format("fleetproof run {}", shell_word(words.campaign));
+  if (!words.shard.given()) command += fmt::format(" --db {}", shell_word(words.archive));
   if (words.replicates) command += fmt::format(" --replicates {}", *words.replicates);
   if (words.seed) command += fmt::format(" --seed {}", *words.seed);
   if (words.allow_drift) command += " --allow-drift";
@@ -134,22 +143,61 @@ void play_findings(const RunWords& words, const CampaignPlan& plan, const AgentP
   talk("{} of {} known cases fail as they did; they count in no claim\n", failing, all);
 }
 
+// What a shard does not do, by name.
+void refuse_beside_shard(const RunWords& words) {
+  struct Refused {
+    bool given;
+    const char *option, *remedy;
+  };
+  for (const auto& [given, option, remedy] :
+       {Refused{!words.archive.empty(), "--db", "a shard writes to the folder --out; give --db to `fleetproof merge`"},
+        Refused{words.until_verdict, "--until-verdict",
+                "a shard sees a part of the runs; give it to `fleetproof merge`"},
+        Refused{words.fail_fast.has_value(), "--fail-fast",
+                "a shard sees a part of the runs; give it to `fleetproof merge`"},
+        Refused{!words.findings.empty(), "--findings", "play them once, with `fleetproof retest`"},
+        Refused{!words.ledger.empty(), "--ledger", "`fleetproof merge` writes the ledger; give it to that"},
+        Refused{words.overwrite, "--overwrite", "a published chunk is never replaced; begin in another folder --out"},
+        Refused{words.allow_drift, "--allow-drift",
+                "all shards are made by one program; begin in another folder --out"},
+        Refused{words.exit_zero, "--exit-zero", "a shard gives no verdict; give it to `fleetproof merge`"},
+        Refused{words.json, "--json", "a shard has no report; give it to `fleetproof merge`"}}) {
+    if (given) throw InputError(option, fmt::format("cannot stand beside --shard: {}", remedy));
+  }
+}
+
+void listen_to_signals() {
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  std::signal(SIGHUP, on_signal);
+  std::signal(SIGUSR1, on_status_signal);
+}
+
 int run(RunWords words) {
+  if (words.shard.given()) refuse_beside_shard(words);
   AgentPrograms programs;
   CampaignFile file = load_campaign(words.campaign, programs);
   if (words.replicates) file.plan.replicates = *words.replicates;
   if (words.seed) file.plan.seed = *words.seed;
   if (words.replicates) check_plan(file.plan, "--replicates");
+  if (words.shard.given()) {
+    listen_to_signals();
+    return simulate_shard(words.shard, {.file = file,
+                                        .programs = programs,
+                                        .options = run_options(words),
+                                        .overrides = overrides(words),
+                                        .resume_command = resume_command(words),
+                                        .fresh_seed = file.fresh_seed && !words.seed,
+                                        .wants_status = [] { return status_wanted.exchange(false); }});
+  }
   if (words.archive.empty()) words.archive = archive_name_of(file.plan.name);
   const RunOptions options = run_options(words);
   play_findings(words, file.plan, programs);
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
-  std::signal(SIGHUP, on_signal);
-  std::signal(SIGUSR1, on_status_signal);
-  AttemptLog attempt(words.ledger, {.plan = file.plan,
-                                    .programs = programs,
+  listen_to_signals();
+  AttemptLog attempt(words.ledger, {.record = campaign_record(file.plan, programs),
+                                    .planned_runs = file.plan.run_count(),
                                     .archive = words.archive,
+                                    .release = release_digest(file.plan, programs),
                                     .fresh_seed = file.fresh_seed && !words.seed,
                                     .overwrite = words.overwrite});
   CampaignResult result;
@@ -179,14 +227,15 @@ Action prepare_run(Options& options) {
   options.option("-j,--jobs", words->jobs, "worker threads (default: one per core)");
   options.option("--replicates", words->replicates, "instead of the file's number of replicates");
   options.option("--seed", words->seed, "instead of the file's seed");
-  options.option("--max-time", words->max_time, "stop cleanly after this time, as in 90, 45m or 5h30m");
-  options.option("--until", words->until, "stop cleanly at this time of day, as in 06:00");
+  options.option("--max-time", words->time.max_time, "stop cleanly after this time, as in 90, 45m or 5h30m");
+  options.option("--until", words->time.until, "stop cleanly at this time of day, as in 06:00");
   options.option("--fail-fast", words->fail_fast, "stop after so many failed runs, in order of run index");
   options.flag("--until-verdict", words->until_verdict, "stop when the gates have given the verdict");
   options.option("--findings", words->findings,
                  "first play the smallest cases of this findings file; they count in no claim");
   options.option("--ledger", words->ledger,
                  "ledger of the attempts to make a claim (default: attempts.jsonl beside the campaign file)");
+  add_shard_options(options, words->shard);
   options.flag("--overwrite", words->overwrite, "begin again, and replace an existing campaign file");
   options.flag("--allow-drift", words->allow_drift, "go on in a file of another build or plug-in, and record it");
   options.flag("--exit-zero", words->exit_zero, "end with exit code 0 whatever the verdict is; 3 stays 3");

@@ -105,5 +105,22 @@ TEST(TaskPool, PassesOnWhatARunThrows) {
   EXPECT_THROW(drain(pool), std::runtime_error);
 }
 
+// A stop lets the stretch that was begun come to its end, and begins no other.
+TEST(TaskPool, StopsAfterTheStretchThatWasBegun) {
+  for (const std::uint64_t held : {0ULL, 9ULL, 12ULL, 95ULL}) {
+    std::atomic<bool> begun{false}, release{false};
+    TaskPool pool(1, 0, 97, 1000, [&](std::uint64_t index) {
+      begun = begun || index == held;
+      while (index == held && !release) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      return record_of(index);
+    });
+    while (!begun) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    pool.stop_after_stretch(10);
+    pool.stop_after_stretch(10);
+    release = true;
+    EXPECT_EQ(drain(pool).size(), std::min<std::uint64_t>(97, (held / 10 + 1) * 10)) << held;
+  }
+}
+
 }  // namespace
 }  // namespace fleetproof

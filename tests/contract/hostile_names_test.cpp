@@ -160,8 +160,8 @@ TEST_F(HostileNames, AnAgentOfASharedObject) {
 
 TEST_F(HostileNames, ErrorsAboutFilesAndWords) {
   const std::string file = "\"$(printf 'x\\033[2J\\n\\302\\233.toml')\"";
-  for (const std::string verb :
-       {"run", "check", "plan", "sensitivity", "simulate", "report", "verify", "import layout", "import opentcs"}) {
+  for (const std::string verb : {"run", "check", "plan", "sensitivity", "simulate", "report", "verify", "merge",
+                                 "missing", "import layout", "import opentcs"}) {
     const auto missing = checked("\"$FLEETPROOF\" " + verb + " " + file);
     EXPECT_EQ(missing.exit_code, 2) << missing.err;
     EXPECT_THAT(missing.err, HasSubstr("x\\x1b[2J\\n\\u009b.toml"));

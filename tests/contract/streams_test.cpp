@@ -57,7 +57,14 @@ TEST_F(Streams, ClosedStreamsAreNotTakenForFiles) {
 
 TEST_F(Streams, DataThatCannotBeWrittenIsExit3) {
   ASSERT_EQ(run("replay expected.db 0 --scenario s.json").exit_code, 0);
-  const std::vector<std::string> verbs = {"run a.toml --db b.db --overwrite",
+  ASSERT_EQ(run("run a.toml --shard 1/1 --out shards").exit_code, 0);
+  const std::vector<std::string> verbs = {"run a.toml --shard 1/1 --out shards",
+                                          "merge shards --db b.db --overwrite",
+                                          "merge shards --db b.db --overwrite --json",
+                                          "missing shards",
+                                          "missing shards --array",
+                                          "missing shards --json",
+                                          "run a.toml --db b.db --overwrite",
                                           "run a.toml --db b.db --overwrite --json",
                                           "report expected.db",
                                           "report expected.db --format json",

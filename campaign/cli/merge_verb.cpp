@@ -1,0 +1,107 @@
+#include <fmt/format.h>
+
+#include <fstream>
+#include <memory>
+#include <sstream>
+
+#include "campaign/batch/session_log.hpp"
+#include "campaign/cli/archive_name.hpp"
+#include "campaign/cli/attempt_log.hpp"
+#include "campaign/cli/ci_summary.hpp"
+#include "campaign/cli/render.hpp"
+#include "campaign/cli/streams.hpp"
+#include "campaign/cli/verbs.hpp"
+#include "campaign/shards/merge.hpp"
+#include "core/base/error.hpp"
+#include "reports/report.hpp"
+#include "reports/wording.hpp"
+#include "storage/line_log.hpp"
+
+namespace fleetproof::cli {
+namespace {
+
+struct MergeWords {
+  std::vector<std::string> folders;
+  std::string archive, ledger;
+  std::optional<std::uint64_t> fail_fast;
+  bool overwrite = false, until_verdict = false, exit_zero = false, json = false;
+};
+
+// What the shards noted goes on beside the campaign file.
+void copy_session_logs(const PublishedChunks& chunks, const std::string& archive) {
+  for (const std::string& session : chunks.sessions()) {
+    std::ostringstream text;
+    text << std::ifstream(session_log_path(session), std::ios::binary).rdbuf();
+    std::string lines = text.str();
+    if (!lines.empty() && lines.back() != '\n') lines += '\n';
+    append_lines(session_log_path(archive), lines);
+  }
+}
+
+AttemptLog::Campaign attempt_words(const PublishedChunks& chunks, const MergeWords& words) {
+  AttemptLog::Campaign attempt{.record = chunks.campaign(),
+                               .planned_runs = chunks.grid().runs(),
+                               .archive = words.archive,
+                               .release = {},
+                               .fresh_seed = false,
+                               .overwrite = words.overwrite};
+  for (const std::string& session : chunks.sessions()) {
+    attempt.release = remembered_release(session);
+    attempt.fresh_seed = remembers_fresh_seed(session);
+  }
+  return attempt;
+}
+
+int finish(const MergeWords& words, AttemptLog& attempt) {
+  ReportInput input = read_report_input(ArchiveReader(words.archive), words.archive);
+  attempt.end(input);
+  add_history(input, attempt.path());
+  if (words.json) {
+    put_text(render(input, "json"));
+  } else {
+    put_text(render(input, "summary"));
+    put("report: fleetproof report {}\n", shell_word(words.archive));
+  }
+  tell_ci(input);
+  return words.exit_zero && input.exit_code != kEngineFault ? kDemonstrated : input.exit_code;
+}
+
+int merge(MergeWords words) {
+  if (words.fail_fast && *words.fail_fast < 1) throw InputError("--fail-fast", "is 0; it is at least 1");
+  const PublishedChunks chunks(words.folders);
+  if (words.archive.empty()) words.archive = archive_name_of(chunks.campaign().name);
+  AttemptLog attempt(words.ledger, attempt_words(chunks, words));
+  const SessionLog session(words.archive);
+  CampaignResult result;
+  result.progress.planned = chunks.grid().runs();
+  result.stored = result.progress.done = merge_chunks(
+      chunks, words.archive,
+      {.overwrite = words.overwrite, .until_verdict = words.until_verdict, .fail_fast = words.fail_fast.value_or(0)});
+  copy_session_logs(chunks, words.archive);
+  session.begin({}, AgentPrograms(), {.ledger = attempt.path(), .overrides = remembered_overrides(words.archive)});
+  session.end(result, 0);
+  attempt.begin();
+  talk("{} of {} put together in {}\n", result.stored, count_text(result.progress.planned, "run"), words.archive);
+  return finish(words, attempt);
+}
+
+}  // namespace
+
+Action prepare_merge(Options& options) {
+  auto words = std::make_shared<MergeWords>();
+  options.positionals("DIR", words->folders,
+                      "folder of the shards; several, if the shards had no common disk and each wrote to its own");
+  options.option("--db", words->archive,
+                 "campaign file to write (default: the campaign's name and .db, in this folder)");
+  options.option("--fail-fast", words->fail_fast, "keep the runs up to so many failed ones, in order of run index");
+  options.flag("--until-verdict", words->until_verdict,
+               "keep the runs up to where the gates had given the verdict; chunks after it may be missing");
+  options.option("--ledger", words->ledger,
+                 "ledger of the attempts to make a claim (default: attempts.jsonl beside the campaign file)");
+  options.flag("--overwrite", words->overwrite, "replace an existing campaign file");
+  options.flag("--exit-zero", words->exit_zero, "end with exit code 0 whatever the verdict is; 2 and 3 stay");
+  options.flag("--json", words->json, "print the report as JSON");
+  return [words] { return merge(*words); };
+}
+
+}  // namespace fleetproof::cli

@@ -1,0 +1,198 @@
+#include "campaign/shards/merge.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "campaign/batch/run_ledger.hpp"
+#include "campaign/batch/verdict_watch.hpp"
+#include "campaign/run/engine_identity.hpp"
+#include "campaign/shards/canary.hpp"
+#include "campaign/shards/shard_run.hpp"
+#include "core/base/error.hpp"
+#include "storage/archive_writer.hpp"
+#include "storage/durable_file.hpp"
+
+namespace fleetproof {
+namespace {
+
+std::vector<ShardFolder> folders_of(const std::vector<std::string>& names) {
+  ensure(!names.empty(), "chunks lie in a folder");
+  std::vector<ShardFolder> folders;
+  for (const std::string& name : names) {
+    folders.emplace_back(name);
+    folders.back().require_plan();
+  }
+  return folders;
+}
+
+std::uint64_t runs_of(const ArchiveReader& plan) {
+  const std::uint64_t runs = plan.campaign().replicates * plan.cells().size();
+  ensure(runs >= 1, "a campaign has at least one run");
+  return runs;
+}
+
+[[noreturn]] void throw_missing(const PublishedChunks& chunks) {
+  const auto missing = chunks.missing();
+  throw InputError("merge", fmt::format("{} of {} chunks are missing: {}; `fleetproof missing` with the same folders "
+                                        "says what to run again",
+                                        missing.size(), chunks.grid().count(), ranges_text(missing)));
+}
+
+}  // namespace
+
+PublishedChunks::PublishedChunks(const std::vector<std::string>& folders)
+    : PublishedChunks(folders_of(folders), ArchiveReader(folders_of(folders).front().plan_file())) {}
+
+PublishedChunks::PublishedChunks(std::vector<ShardFolder> folders, const ArchiveReader& plan)
+    : folders_(std::move(folders)),
+      campaign_(plan.campaign()),
+      cells_(plan.cells()),
+      gates_(plan.gates()),
+      grid_(runs_of(plan)) {
+  require_one_campaign();
+  for (const ShardFolder& folder : folders_) find_chunks(folder);
+}
+
+void PublishedChunks::require_one_campaign() const {
+  for (const ShardFolder& folder : folders_) {
+    if (&folder == &folders_.front()) continue;
+    require_same_plan(folder.plan_file(), ArchiveReader(folder.plan_file()).campaign(), campaign_);
+    require_same_canary(folders_.front(), folder);
+  }
+}
+
+void PublishedChunks::find_chunks(const ShardFolder& folder) {
+  for (const std::string& file : folder.differing_files())
+    throw EngineError(
+        fmt::format("{}: a shard computed other results for this chunk than another shard before; find "
+                    "out which machine is at fault (sessions/ names them), remove both files and run "
+                    "the shard again",
+                    file));
+  for (const auto& [chunk, file] : folder.chunk_files()) {
+    if (chunk >= grid_.count())
+      throw InputError(file, fmt::format("the campaign has the chunks 0 to {}; this one belongs to another campaign, "
+                                         "move it away",
+                                         grid_.count() - 1));
+    const auto [before, fresh] = files_.emplace(chunk, file);
+    if (!fresh && !same_bytes(before->second, file))
+      throw EngineError(
+          fmt::format("{}: the same runs ended in two ways: {} has other results for them; find out "
+                      "which machine is at fault, remove its file and run the shard again",
+                      file, before->second));
+  }
+}
+
+std::vector<std::uint64_t> PublishedChunks::missing() const {
+  std::vector<std::uint64_t> numbers;
+  for (std::uint64_t chunk = 0; chunk < grid_.count(); ++chunk) {
+    if (!files_.contains(chunk)) numbers.push_back(chunk);
+  }
+  return numbers;
+}
+
+ChunkFile PublishedChunks::opened(std::uint64_t chunk) const {
+  const std::string& path = files_.at(chunk);
+  ChunkFile file(path);
+  ChunkLabel expected = common_label(campaign_, cells_, gates_);
+  const ChunkLabel& found = file.label();
+  if (found.plan != expected.plan)
+    throw InputError(path, fmt::format("this chunk belongs to another plan (of the campaign {}); move it away, "
+                                       "`fleetproof missing` then says what to run again",
+                                       found.campaign));
+  if (found.program != expected.program)
+    throw InputError(path, fmt::format("another program made this chunk ({}, the others {}); move it away, and run it "
+                                       "again with the program of the others",
+                                       found.program, expected.program));
+  expected.chunk = chunk;
+  expected.first_run = grid_.first_run(chunk);
+  expected.run_count = grid_.run_count(chunk);
+  if (found != expected)
+    throw InputError(path,
+                     fmt::format("this chunk overlaps others: it holds {} runs from {} on, and under this name belong "
+                                 "{} runs from {} on; move it away, `fleetproof missing` then says what to run again",
+                                 found.run_count, found.first_run, expected.run_count, expected.first_run));
+  return file;
+}
+
+std::map<std::uint64_t, std::string> PublishedChunks::unusable() const {
+  std::map<std::uint64_t, std::string> reasons;
+  for (const auto& [chunk, file] : files_) {
+    try {
+      (void)opened(chunk);
+    } catch (const InputError& error) {
+      reasons.emplace(chunk, error.what());
+    } catch (const EngineError& error) {
+      reasons.emplace(chunk, error.what());
+    }
+  }
+  return reasons;
+}
+
+void PublishedChunks::read(std::uint64_t chunk, const std::function<void(const RunRecord&)>& run,
+                           const std::function<void(const AuditRecord&)>& audit) const {
+  ChunkFile file = opened(chunk);
+  file.require_intact();
+  file.for_each_run(run);
+  for (const AuditRecord& each : file.audits()) audit(each);
+}
+
+std::vector<std::string> PublishedChunks::sessions() const {
+  std::vector<std::string> names;
+  for (const ShardFolder& folder : folders_) {
+    for (std::string& name : folder.sessions()) names.push_back(std::move(name));
+  }
+  return names;
+}
+
+std::uint64_t merge_chunks(const PublishedChunks& chunks, const std::string& path, const MergeOptions& options) {
+  if (chunks.campaign().engine.program_sha256 != engine_identity().program_sha256)
+    throw InputError("merge", fmt::format("another program made these chunks (fleetproof {}, sha256 {}); merge with "
+                                          "that program",
+                                          chunks.campaign().engine.version, chunks.campaign().engine.program_sha256));
+  const bool may_end_early = options.until_verdict || options.fail_fast > 0;
+  const auto missing = chunks.missing();
+  if (!missing.empty() && !may_end_early) throw_missing(chunks);
+  VerdictWatch verdict(chunks.campaign(), chunks.cells(), chunks.gates());
+  RunLedger ledger;
+  std::optional<std::uint64_t> stop;
+  ArchiveWriter archive(path, chunks.campaign(), chunks.cells(), chunks.gates(),
+                        options.overwrite ? Existing::Replace : Existing::Refuse);
+  try {
+    for (std::uint64_t chunk = 0; chunk < chunks.grid().count() && !stop; ++chunk) {
+      if (std::ranges::binary_search(missing, chunk)) throw_missing(chunks);
+      chunks.read(
+          chunk,
+          [&](const RunRecord& run) {
+            archive.add(run);
+            if (options.fail_fast > 0) ledger.add(run.run_index, run.outcome.is_failure());
+            if (options.until_verdict) verdict.add(run);
+          },
+          [&](const AuditRecord& audit) { archive.add(audit); });
+      if (options.fail_fast > 0) stop = ledger.length_with_failures(options.fail_fast);
+      if (const auto decided = verdict.decided_length(); decided) stop = std::min(stop.value_or(*decided), *decided);
+    }
+  } catch (...) {
+    archive.discard();
+    throw;
+  }
+  const std::uint64_t stored = stop.value_or(chunks.grid().runs());
+  archive.publish(stored);
+  return stored;
+}
+
+std::string ranges_text(const std::vector<std::uint64_t>& numbers, const std::string& separator) {
+  std::string text;
+  for (auto first = numbers.begin(); first != numbers.end();) {
+    auto last = first;
+    while (std::next(last) != numbers.end() && *std::next(last) == *last + 1) ++last;
+    text += fmt::format("{}{}", text.empty() ? "" : separator, *first);
+    if (last != first) text += fmt::format("-{}", *last);
+    first = std::next(last);
+  }
+  return text;
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,84 @@
+#include "storage/durable_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <stdio.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "core/base/machine_error.hpp"
+
+namespace fleetproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+void sync_to_disk(const std::string& path, int flags) {
+  const int fd = ::open(path.c_str(), flags | O_CLOEXEC);
+  const bool synced = fd >= 0 && ::fsync(fd) == 0;
+  const int error = errno;
+  if (fd >= 0) ::close(fd);
+  if (!synced)
+    throw MachineError(
+        fmt::format("{}: cannot be brought to the disk ({}); look at the disk, then the same command goes on", path,
+                    std::strerror(error)));
+}
+
+void sync_folder_of(const std::string& path) {
+  const auto folder = fs::path(path).parent_path();
+  sync_to_disk(folder.empty() ? "." : folder.string(), O_RDONLY | O_DIRECTORY);
+}
+
+// 0, or why the name was not given. Some file systems have no hard links: there the file is renamed.
+int give_name(const std::string& from, const std::string& to) {
+  if (::link(from.c_str(), to.c_str()) == 0) return 0;
+  if (errno != EPERM && errno != ENOTSUP && errno != EMLINK && errno != ENOSYS) return errno;
+  return ::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0 ? 0 : errno;
+}
+
+}  // namespace
+
+bool same_bytes(const std::string& one, const std::string& other) {
+  std::ifstream first(one, std::ios::binary), second(other, std::ios::binary);
+  std::array<char, 65536> from_first, from_second;
+  while (first && second) {
+    first.read(from_first.data(), from_first.size());
+    second.read(from_second.data(), from_second.size());
+    if (first.gcount() != second.gcount() ||
+        std::memcmp(from_first.data(), from_second.data(), static_cast<std::size_t>(first.gcount())) != 0)
+      return false;
+  }
+  return first.eof() && second.eof();
+}
+
+void move_durably(const std::string& from, const std::string& to) {
+  sync_to_disk(from, O_RDONLY);
+  std::error_code error;
+  fs::rename(from, to, error);
+  if (error)
+    throw MachineError(
+        fmt::format("{}: cannot be renamed to {} ({}); look at the folder, then the same command goes on", from, to,
+                    error.message()));
+  sync_folder_of(to);
+}
+
+Publication publish_once(const std::string& from, const std::string& to) {
+  sync_to_disk(from, O_RDONLY);
+  const int error = give_name(from, to);
+  if (error != 0 && error != EEXIST)
+    throw MachineError(fmt::format("{}: cannot get its name {} ({}); look at the folder, then the same command goes on",
+                                   from, to, std::strerror(error)));
+  // A network file system may answer EEXIST to a link that it made: the bytes are then the same.
+  if (error == EEXIST && !same_bytes(from, to)) return Publication::Differs;
+  std::error_code ignored;
+  fs::remove(from, ignored);
+  sync_folder_of(to);
+  return error == 0 ? Publication::First : Publication::Again;
+}
+
+}  // namespace fleetproof

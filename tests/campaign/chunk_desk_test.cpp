@@ -1,0 +1,94 @@
+#include "campaign/shards/chunk_desk.hpp"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+
+#include "core/base/error.hpp"
+#include "tests/storage/refusal.hpp"
+#include "tests/storage/sample_records.hpp"
+
+namespace fleetproof {
+namespace {
+
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+class ChunkDesks : public testing::Test {
+ protected:
+  ChunkDesk desk() const { return {folder_, grid_, label_}; }
+  std::vector<bool> published() const {
+    std::vector<bool> all;
+    for (std::uint64_t chunk = 0; chunk < grid_.count(); ++chunk) all.push_back(fs::exists(folder_.chunk_file(chunk)));
+    return all;
+  }
+
+  const samples::TemporaryFolder place_;
+  const ShardFolder folder_{place_ / "out"};
+  const ChunkGrid grid_{40};  // chunks of 16, 16 and 8 runs
+  const ChunkLabel label_{7, "nightly", "ab12", 0, 0, 0};
+  std::vector<RunRecord> runs_ = samples::runs(40);
+};
+
+TEST_F(ChunkDesks, PublishAChunkWhenItsLastRunIsThere) {
+  ChunkDesk desk = this->desk();
+  for (std::size_t i = runs_.size(); i-- > 16;) desk.add(runs_[i], false);
+  for (std::size_t i = 1; i < 16; ++i) desk.add(runs_[i], false);
+  desk.publish();
+  EXPECT_EQ(published(), (std::vector<bool>{false, true, true}));
+  EXPECT_EQ(desk.open_runs(), 15U);
+  desk.add(runs_[0], false);
+  desk.publish();
+  EXPECT_EQ(published(), (std::vector<bool>{true, true, true}));
+  EXPECT_EQ(desk.published(), 3U);
+  ChunkFile last(folder_.chunk_file(2));
+  last.require_intact();
+  std::uint64_t next = 32;
+  last.for_each_run([&](const RunRecord& run) { EXPECT_TRUE(run.outcome == runs_.at(next++).outcome); });
+  EXPECT_EQ(next, 40U);
+}
+
+TEST_F(ChunkDesks, WaitForAudits) {
+  ChunkDesk desk = this->desk();
+  for (const RunRecord& run : runs_) desk.add(run, run.run_index == 3 || run.run_index == 9 || run.run_index == 20);
+  desk.publish();
+  EXPECT_EQ(published(), (std::vector<bool>{false, false, true}));
+  EXPECT_TRUE(desk.waits_for_audits());
+  desk.add(AuditRecord{9, 99});
+  desk.publish();
+  EXPECT_FALSE(published()[0]);
+  desk.add(AuditRecord{3, 33});
+  desk.publish();
+  EXPECT_TRUE(published()[0]);
+  ChunkFile first(folder_.chunk_file(0));
+  first.for_each_run([](const RunRecord&) {});
+  EXPECT_EQ(first.audits(), (std::vector<AuditRecord>{{3, 33}, {9, 99}}));
+  desk.audits_end();
+  desk.add(AuditRecord{20, 1});
+  desk.publish();
+  EXPECT_FALSE(desk.waits_for_audits());
+  EXPECT_EQ(published(), (std::vector<bool>{true, true, true}));
+}
+
+TEST_F(ChunkDesks, OtherResultsForAPublishedChunkAreTheAlarm) {
+  ChunkDesk first = desk(), again = desk(), other = desk();
+  for (const RunRecord& run : runs_) {
+    first.add(run, false);
+    again.add(run, false);
+    RunRecord changed = run;
+    changed.outcome.digest += run.run_index == 18 ? 1 : 0;
+    other.add(changed, false);
+  }
+  first.publish();
+  const std::string before = samples::bytes_of(folder_.chunk_file(1));
+  EXPECT_NO_THROW(again.publish());
+  const std::string alarm = test::sentence_of<EngineError>([&] { other.publish(); });
+  EXPECT_THAT(alarm, HasSubstr("000001.chunk: the same runs ended in two ways"));
+  EXPECT_THAT(alarm, HasSubstr("run 18 is the first that differs"));
+  EXPECT_EQ(samples::bytes_of(folder_.chunk_file(1)), before) << "the first stays";
+  ASSERT_EQ(folder_.differing_files().size(), 1U);
+  EXPECT_EQ(folder_.chunk_files().size(), 3U);
+}
+
+}  // namespace
+}  // namespace fleetproof
