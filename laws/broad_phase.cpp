@@ -105,7 +105,8 @@ std::span<const std::uint32_t> BroadPhase::overlapping(const Box& box) {
     look_into(heads_.size() - 1, box);
     const auto found = std::span(found_).first(count_);
     std::ranges::sort(found);
-    count_ -= std::ranges::unique(found).size();  // cells may share a bucket
+    count_ =
+        static_cast<std::size_t>(std::unique(found.begin(), found.end()) - found.begin());  // cells may share a bucket
   } else {
     scan(box);
   }

@@ -13,8 +13,7 @@ using Neighbours = std::vector<std::vector<std::uint32_t>>;
 
 void once(std::vector<std::uint32_t>& stations) {
   std::ranges::sort(stations);
-  const auto again = std::ranges::unique(stations);
-  stations.erase(again.begin(), again.end());
+  stations.erase(std::unique(stations.begin(), stations.end()), stations.end());
 }
 
 // The search for cut stations (Hopcroft and Tarjan 1973), which also counts what each of them cuts off.

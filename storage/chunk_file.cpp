@@ -138,6 +138,7 @@ ChunkFile::ChunkFile(const std::string& path) : path_(path), file_(path, std::io
 }
 
 std::string ChunkFile::take(std::uint64_t count) {
+  if (body_at_ > 0 && count > size_) damaged("a run is longer than the file");
   std::string bytes(count, '\0');
   if (!file_.read(bytes.data(), static_cast<std::streamsize>(count)))
     throw MachineError(fmt::format("{}: cannot be read to its end; look at the disk", path_));
@@ -172,7 +173,9 @@ void ChunkFile::for_each_run(const std::function<void(const RunRecord&)>& visit)
 
 std::vector<AuditRecord> ChunkFile::audits() {
   const std::string count = take(8);
-  std::vector<AuditRecord> audits(ByteSource(count, "a chunk").u64());
+  const std::uint64_t length = ByteSource(count, "a chunk").u64();
+  if (length > size_ / kAuditBytes) damaged("it has room for fewer audits than it says");
+  std::vector<AuditRecord> audits(length);
   for (AuditRecord& audit : audits) {
     const std::string bytes = take(kAuditBytes);
     ByteSource source(bytes, "an audit of a chunk");

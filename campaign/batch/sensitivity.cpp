@@ -41,8 +41,7 @@ std::vector<std::string> accusations_of(const Outcome& outcome) {
     names.emplace_back(info_of(incident.kind).name);
   }
   std::ranges::sort(names);
-  const auto repeated = std::ranges::unique(names);
-  names.erase(repeated.begin(), repeated.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;
 }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <chrono>
 #include <fstream>
 #include <memory>
 #include <sstream>
@@ -52,6 +53,16 @@ AttemptLog::Campaign attempt_words(const PublishedChunks& chunks, const MergeWor
   return attempt;
 }
 
+// A line every 30 s.
+std::function<void(std::uint64_t)> counter_talk(std::uint64_t chunks) {
+  return [chunks, last = std::chrono::steady_clock::now()](std::uint64_t done) mutable {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - last < std::chrono::seconds(30)) return;
+    last = now;
+    talk("{} of {} read\n", done, count_text(chunks, "chunk"));
+  };
+}
+
 int finish(const MergeWords& words, AttemptLog& attempt) {
   ReportInput input = read_report_input(ArchiveReader(words.archive), words.archive);
   attempt.end(input);
@@ -74,9 +85,11 @@ int merge(MergeWords words) {
   const SessionLog session(words.archive);
   CampaignResult result;
   result.progress.planned = chunks.grid().runs();
-  result.stored = result.progress.done = merge_chunks(
-      chunks, words.archive,
-      {.overwrite = words.overwrite, .until_verdict = words.until_verdict, .fail_fast = words.fail_fast.value_or(0)});
+  result.stored = result.progress.done = merge_chunks(chunks, words.archive,
+                                                      {.overwrite = words.overwrite,
+                                                       .until_verdict = words.until_verdict,
+                                                       .fail_fast = words.fail_fast.value_or(0),
+                                                       .tick = counter_talk(chunks.grid().count())});
   copy_session_logs(chunks, words.archive);
   session.begin({}, AgentPrograms(), {.ledger = attempt.path(), .overrides = remembered_overrides(words.archive)});
   session.end(result, 0);

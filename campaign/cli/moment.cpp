@@ -67,7 +67,8 @@ Moment MomentKeeper::moment() const {
       if (meeting) moment.meetings.push_back(*meeting);
     }
   }
-  std::ranges::stable_partition(moment.meetings, &Meeting::is_too_close);
+  std::stable_partition(moment.meetings.begin(), moment.meetings.end(),
+                        [](const Meeting& meeting) { return meeting.is_too_close; });
   return moment;
 }
 

@@ -92,10 +92,15 @@ void ChunkDesk::publish(std::uint64_t chunk, const OpenChunk& open) {
   label.chunk = chunk;
   label.first_run = grid_.first_run(chunk);
   label.run_count = grid_.run_count(chunk);
-  write_chunk_file(temporary, label,
-                   {.run_bytes = open.runs.bytes(),
-                    .encoded = [&](std::uint64_t place) { return open.runs.at(place); },
-                    .audits = open.audits});
+  try {
+    write_chunk_file(temporary, label,
+                     {.run_bytes = open.runs.bytes(),
+                      .encoded = [&](std::uint64_t place) { return open.runs.at(place); },
+                      .audits = open.audits});
+  } catch (const MachineError&) {
+    fs::remove(temporary, error);
+    throw;
+  }
   if (publish_once(temporary, target) == Publication::Differs) {
     const std::string kept = folder_.differing_file(chunk);
     move_durably(temporary, kept);

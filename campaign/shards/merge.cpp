@@ -171,6 +171,7 @@ std::uint64_t merge_chunks(const PublishedChunks& chunks, const std::string& pat
             if (options.until_verdict) verdict.add(run);
           },
           [&](const AuditRecord& audit) { archive.add(audit); });
+      options.tick(chunk + 1);
       if (options.fail_fast > 0) stop = ledger.length_with_failures(options.fail_fast);
       if (const auto decided = verdict.decided_length(); decided) stop = std::min(stop.value_or(*decided), *decided);
     }

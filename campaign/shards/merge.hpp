@@ -55,6 +55,7 @@ struct MergeOptions {
   bool overwrite = false;       // replace an existing campaign file
   bool until_verdict = false;   // keep the runs up to the verdict, as `run` does
   std::uint64_t fail_fast = 0;  // keep the runs up to so many failed ones; 0: all
+  std::function<void(std::uint64_t chunks)> tick = [](std::uint64_t) {};  // so many have been read
 };
 
 // Puts the chunks together to the campaign file that one machine would have written, byte for byte, and returns the

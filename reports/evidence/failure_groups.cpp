@@ -36,7 +36,8 @@ std::vector<FailureGroup> FailureGroups::list(const std::vector<GateRecord>& gat
   }
   std::ranges::stable_sort(all,
                            [](const FailureGroup& a, const FailureGroup& b) { return more_serious(a.worst, b.worst); });
-  std::ranges::stable_partition(all, [&](const FailureGroup& group) { return is_under_test(gates, group.agent); });
+  std::stable_partition(all.begin(), all.end(),
+                        [&](const FailureGroup& group) { return is_under_test(gates, group.agent); });
   return all;
 }
 

@@ -119,7 +119,7 @@ std::vector<std::string> agents_in_order(const Evidence& evidence) {
   for (const auto& cell : evidence.cells()) {
     if (std::ranges::find(agents, cell.agent) == agents.end()) agents.push_back(cell.agent);
   }
-  std::ranges::stable_partition(agents, [&](const std::string& agent) {
+  std::stable_partition(agents.begin(), agents.end(), [&](const std::string& agent) {
     return std::ranges::any_of(evidence.gates(),
                                [&](const GateRecord& gate) { return gate.decides && gate.agent == agent; });
   });

@@ -43,7 +43,7 @@ class ShardedCampaign : public ProgramTest {
     std::size_t count = 0;
     if (!std::filesystem::exists(folder_ / out / "chunks")) return 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_ / out / "chunks"))
-      count += entry.path().extension() == ".chunk" ? 1 : 0;
+      count += entry.path().extension() == ".chunk" && entry.path().stem().string().front() != '.' ? 1 : 0;
     return count;
   }
   std::string session_lines(const std::string& out) const {

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "storage/archive_reader.hpp"
 #include "tests/contract/sharded_campaign.hpp"
 
 namespace fleetproof {
@@ -35,12 +36,13 @@ TEST_F(Shards, OneThreeAndEightInAnyOrderAreTheFileOfOneMachine) {
   EXPECT_EQ(run("report m8.db --digest").out, run("report single.db --digest").out);
 }
 
-// With 15 replicates no agent has passed its audits, so that recordings are kept; with 40 it has.
+// After 8 replicates of two cells the agent has not passed its audits, so that recordings are kept; after 40 it has.
 TEST_F(Shards, PluginsRecordingsAndAuditsAreTheSameToo) {
   fs::copy_file(FLEETPROOF_FAILING_AGENT, path("failing.so"));
-  for (const int replicates : {15, 40}) {
+  for (const int replicates : {8, 40}) {
     write_campaign("c.toml", replicates, "\"failing.so\", \"reckless\"", "agent_config = \"mixed 20\"\n");
     const std::string single = single_file("--overwrite");
+    EXPECT_EQ(ArchiveReader(path("single.db")).recording_count("failing") > 0, replicates == 8);
     const std::string out = "out" + std::to_string(replicates);
     for (const char* shard : {"2/3", "3/3", "1/3"}) EXPECT_EQ(run_shard(out, shard).exit_code, 0);
     EXPECT_EQ(merge(out, "m.db", "--overwrite"), single_code_);
@@ -52,13 +54,15 @@ TEST_F(Shards, PluginsRecordingsAndAuditsAreTheSameToo) {
 TEST_F(Shards, AKilledShardGoesOnWithItsNextChunk) {
   write_campaign("c.toml", 2000);
   const std::string single = single_file();
-  std::size_t killed_with_chunks = 0;
-  for (int round = 0; round < 5; ++round) {
-    shell("\"$FLEETPROOF\" run c.toml --shard 1/2 --out out & pid=$!\nsleep 0." + std::to_string(4 + 2 * round) +
-          "; kill -9 $pid; wait $pid");
-    killed_with_chunks += chunk_count("out") > 0 && chunk_count("out") < 62 ? 1 : 0;
+  for (std::size_t round = 1; round <= 5; ++round) {  // each time after some more chunks
+    shell(
+        fmt::format("\"$FLEETPROOF\" run c.toml --shard 1/2 --out out & pid=$!\n"
+                    "until [ $(ls out/chunks/000 2>/dev/null | wc -l) -ge {} ]; do sleep 0.01; done\n"
+                    "kill -9 $pid; wait $pid",
+                    6 * round));
+    EXPECT_GT(chunk_count("out"), 5 * round - 5) << "it went on where it was killed";
+    ASSERT_LT(chunk_count("out"), 62U) << "a kill struck before the last chunk";
   }
-  EXPECT_GT(killed_with_chunks, 0U) << "a kill struck between the first chunk and the last";
   const std::size_t before = chunk_count("out");
   const auto resumed = run_shard("out", "1/2");
   EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
@@ -125,6 +129,19 @@ TEST_F(Shards, FoldersOfMachinesWithoutACommonDiskAreMergedToo) {
   EXPECT_EQ(run("merge a --db m.db").exit_code, 2);
   EXPECT_EQ(merge("a b c", "m.db"), single_code_) << "what two folders have is the same";
   EXPECT_TRUE(read(path("m.db")) == single);
+}
+
+TEST_F(Shards, AFullDiskPublishesNothingHalf) {
+  write_campaign("c.toml", 40);
+  EXPECT_EQ(run_shard("out", "1/2").exit_code, 0);
+  const auto full = shell("ulimit -f 5; \"$FLEETPROOF\" run c.toml --shard 2/2 --out out");
+  EXPECT_EQ(full.exit_code, 3);
+  EXPECT_THAT(full.err, HasSubstr("free some space"));
+  EXPECT_EQ(chunk_count("out"), 5U) << "of the first shard";
+  for (const auto& file : fs::recursive_directory_iterator(folder_ / "out/chunks"))
+    EXPECT_FALSE(file.path().filename().string().starts_with(".tmp")) << file.path();
+  EXPECT_EQ(run_shard("out", "2/2").exit_code, 0);
+  EXPECT_EQ(run("missing out").exit_code, 0);
 }
 
 TEST_F(Shards, SessionsSayWhichMachinesTookPart) {
