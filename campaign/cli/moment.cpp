@@ -58,7 +58,7 @@ Moment MomentKeeper::moment() const {
   for (const auto& [entity, pieces] : pieces_) {
     MomentBody body{entity, pieces.back().body_at(at_), false, {}};
     for (const Piece& piece : pieces) body.pieces.push_back({piece, hull_of(piece)});
-    body.is_loaded = std::ranges::any_of(carriers_, [&](const auto& one) { return one.second == entity; });
+    body.is_loaded = std::ranges::any_of(carriers_, [&](const auto& one) { return one.second == body.entity; });
     moment.bodies.push_back(std::move(body));
   }
   for (std::size_t i = 0; i < moment.bodies.size(); ++i) {

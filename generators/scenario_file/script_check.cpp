@@ -13,7 +13,7 @@ class ScriptCheck {
   ScriptCheck(const Scenario& scenario, std::size_t agv, Problems& problems)
       : map_(*scenario.map),
         agv_(scenario.agvs[agv]),
-        type_(agv_.type < scenario.vehicle_types.size() ? scenario.type_of(agv_).name : ""),
+        type_(agv_.type < scenario.vehicle_types.size() ? std::string_view(scenario.type_of(agv_).name) : ""),
         place_(fmt::format("/agvs/{}/script", agv)),
         problems_(problems) {}
 

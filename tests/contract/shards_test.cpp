@@ -105,6 +105,22 @@ TEST_F(Shards, TwoProgramsMayDoTheSameShardAtOnce) {
   EXPECT_TRUE(read(path("m.db")) == single);
 }
 
+// A node that was given up comes back when another one has done its work.
+TEST_F(Shards, AnOrphanThatFinishesLateChangesNothing) {
+  write_campaign("c.toml", 1000);
+  const std::string single = single_file();
+  const auto orphan = shell(
+      "\"$FLEETPROOF\" run c.toml --shard 1/1 --out out 2>orphan.txt & pid=$!\n"
+      "until [ $(ls out/chunks/000 2>/dev/null | wc -l) -ge 3 ]; do sleep 0.01; done\n"
+      "kill -STOP $pid; ls out/chunks/000 | wc -l; \"$FLEETPROOF\" run c.toml --shard 1/1 --out out; "
+      "sha256sum out/chunks/000/* >before; kill -CONT $pid; wait $pid; echo orphan $?; sha256sum -c --quiet before");
+  EXPECT_EQ(orphan.exit_code, 0) << "no chunk was replaced" << orphan.err;
+  EXPECT_THAT(orphan.out, HasSubstr("orphan 0\n"));
+  EXPECT_LT(std::stoi(orphan.out), 60) << "the orphan was stopped before its end";
+  EXPECT_EQ(merge("out", "m.db"), single_code_);
+  EXPECT_TRUE(read(path("m.db")) == single);
+}
+
 TEST_F(Shards, MergeStopsWhereOneMachineStops) {
   write_campaign("c.toml", 200);
   const std::string fail_fast = single_file("--fail-fast 5");
