@@ -21,15 +21,12 @@ namespace {
 std::vector<ShardFolder> folders_of(const std::vector<std::string>& names) {
   ensure(!names.empty(), "chunks lie in a folder");
   std::vector<ShardFolder> folders;
-  for (const std::string& name : names) {
-    folders.emplace_back(name);
-    folders.back().require_plan();
-  }
+  for (const std::string& name : names) folders.emplace_back(name);
   return folders;
 }
 
-std::uint64_t runs_of(const ArchiveReader& plan) {
-  const std::uint64_t runs = plan.campaign().replicates * plan.cells().size();
+std::uint64_t runs_of(const StoredPlan& plan) {
+  const std::uint64_t runs = plan.campaign.replicates * plan.cells.size();
   ensure(runs >= 1, "a campaign has at least one run");
   return runs;
 }
@@ -44,14 +41,7 @@ std::uint64_t runs_of(const ArchiveReader& plan) {
 }  // namespace
 
 PublishedChunks::PublishedChunks(const std::vector<std::string>& folders)
-    : PublishedChunks(folders_of(folders), ArchiveReader(folders_of(folders).front().plan_file())) {}
-
-PublishedChunks::PublishedChunks(std::vector<ShardFolder> folders, const ArchiveReader& plan)
-    : folders_(std::move(folders)),
-      campaign_(plan.campaign()),
-      cells_(plan.cells()),
-      gates_(plan.gates()),
-      grid_(runs_of(plan)) {
+    : folders_(folders_of(folders)), plan_(read_plan(folders_.front())), grid_(runs_of(plan_)) {
   require_one_campaign();
   for (const ShardFolder& folder : folders_) find_chunks(folder);
 }
@@ -59,7 +49,7 @@ PublishedChunks::PublishedChunks(std::vector<ShardFolder> folders, const Archive
 void PublishedChunks::require_one_campaign() const {
   for (const ShardFolder& folder : folders_) {
     if (&folder == &folders_.front()) continue;
-    require_same_plan(folder.plan_file(), ArchiveReader(folder.plan_file()).campaign(), campaign_);
+    require_same_plan(folder.plan_file(), read_plan(folder).campaign, plan_.campaign);
     require_same_canary(folders_.front(), folder);
   }
 }
@@ -96,7 +86,7 @@ std::vector<std::uint64_t> PublishedChunks::missing() const {
 ChunkFile PublishedChunks::opened(std::uint64_t chunk) const {
   const std::string& path = files_.at(chunk);
   ChunkFile file(path);
-  ChunkLabel expected = common_label(campaign_, cells_, gates_);
+  ChunkLabel expected = common_label(plan_);
   const ChunkLabel& found = file.label();
   if (found.plan != expected.plan)
     throw InputError(path, fmt::format("this chunk belongs to another plan (of the campaign {}); move it away, "
@@ -148,18 +138,19 @@ std::vector<std::string> PublishedChunks::sessions() const {
 }
 
 std::uint64_t merge_chunks(const PublishedChunks& chunks, const std::string& path, const MergeOptions& options) {
-  if (chunks.campaign().engine.program_sha256 != engine_identity().program_sha256)
+  const EngineIdentity& engine = chunks.campaign().engine;
+  if (engine.program_sha256 != engine_identity().program_sha256)
     throw InputError("merge", fmt::format("another program made these chunks (fleetproof {}, sha256 {}); merge with "
                                           "that program",
-                                          chunks.campaign().engine.version, chunks.campaign().engine.program_sha256));
+                                          engine.version, engine.program_sha256));
   const bool may_end_early = options.until_verdict || options.fail_fast > 0;
   const auto missing = chunks.missing();
   if (!missing.empty() && !may_end_early) throw_missing(chunks);
-  VerdictWatch verdict(chunks.campaign(), chunks.cells(), chunks.gates());
+  const auto& [campaign, cells, gates] = chunks.plan();
+  VerdictWatch verdict(campaign, cells, gates);
   RunLedger ledger;
   std::optional<std::uint64_t> stop;
-  ArchiveWriter archive(path, chunks.campaign(), chunks.cells(), chunks.gates(),
-                        options.overwrite ? Existing::Replace : Existing::Refuse);
+  ArchiveWriter archive(path, campaign, cells, gates, options.overwrite ? Existing::Replace : Existing::Refuse);
   try {
     for (std::uint64_t chunk = 0; chunk < chunks.grid().count() && !stop; ++chunk) {
       if (std::ranges::binary_search(missing, chunk)) throw_missing(chunks);

@@ -8,7 +8,7 @@
 
 #include "campaign/shards/chunk_grid.hpp"
 #include "campaign/shards/shard_folder.hpp"
-#include "storage/archive_reader.hpp"
+#include "campaign/shards/stored_plan.hpp"
 #include "storage/chunk_file.hpp"
 #include "storage/records.hpp"
 
@@ -22,9 +22,8 @@ class PublishedChunks {
   // a chunk. Requires: there is at least one folder.
   explicit PublishedChunks(const std::vector<std::string>& folders);
 
-  const CampaignRecord& campaign() const { return campaign_; }
-  const std::vector<CellRecord>& cells() const { return cells_; }
-  const std::vector<GateRecord>& gates() const { return gates_; }
+  const StoredPlan& plan() const { return plan_; }
+  const CampaignRecord& campaign() const { return plan_.campaign; }
   const ChunkGrid& grid() const { return grid_; }
   // Chunks that no folder has, in their order.
   std::vector<std::uint64_t> missing() const;
@@ -38,15 +37,12 @@ class PublishedChunks {
   std::vector<std::string> sessions() const;
 
  private:
-  PublishedChunks(std::vector<ShardFolder> folders, const ArchiveReader& plan);
   void require_one_campaign() const;
   void find_chunks(const ShardFolder& folder);
   ChunkFile opened(std::uint64_t chunk) const;
 
   std::vector<ShardFolder> folders_;
-  CampaignRecord campaign_;
-  std::vector<CellRecord> cells_;
-  std::vector<GateRecord> gates_;
+  StoredPlan plan_;
   ChunkGrid grid_;
   std::map<std::uint64_t, std::string> files_;  // by chunk
 };

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <thread>
@@ -16,11 +15,7 @@
 #include "campaign/shards/chunk_desk.hpp"
 #include "campaign/workers/run_host.hpp"
 #include "core/base/error.hpp"
-#include "core/base/machine_error.hpp"
-#include "storage/archive_reader.hpp"
-#include "storage/archive_writer.hpp"
 #include "storage/checksum.hpp"
-#include "storage/durable_file.hpp"
 
 namespace fleetproof {
 namespace {
@@ -32,43 +27,6 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kLiveWindow = 4096;
 constexpr std::uint64_t kAuditsAhead = 65'536;
 constexpr std::size_t kLossesKept = 1000;
-
-// A folder of this machine, which goes with the object: SQLite locks files, and a network file system may not.
-class LocalFolder {
- public:
-  LocalFolder() : path_((fs::temp_directory_path() / "fleetproof-plan-XXXXXX").string()) {
-    if (::mkdtemp(path_.data()) == nullptr)
-      throw MachineError(fmt::format("{}: no folder can be made here; name another place with TMPDIR", path_));
-  }
-  ~LocalFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  LocalFolder(const LocalFolder&) = delete;
-  LocalFolder& operator=(const LocalFolder&) = delete;
-  std::string file(const std::string& name) const { return path_ + "/" + name; }
-
- private:
-  std::string path_;
-};
-
-// The campaign without runs. Its bytes are the same on every machine.
-void publish_plan(const ShardFolder& folder, const CampaignPlan& plan, const CampaignRecord& campaign,
-                  const std::vector<GateRecord>& gates) {
-  const std::string target = folder.plan_file();
-  if (!fs::exists(target)) {
-    const LocalFolder local;
-    ArchiveWriter(local.file("plan.db"), campaign, plan.cells(), gates).publish(0);
-    const std::string temporary = ShardFolder::temporary_name(target);
-    std::error_code error;
-    if (!fs::copy_file(local.file("plan.db"), temporary, error))
-      throw MachineError(fmt::format("{}: cannot be written ({}); free some space, or name another folder with --out",
-                                     temporary, error.message()));
-    if (publish_once(temporary, target) != Publication::Differs) return;
-    fs::remove(temporary, error);
-  }
-  require_same_plan(target, ArchiveReader(target).campaign(), campaign);
-}
 
 // One session of a shard. It counts, publishes and reports on the caller's thread.
 class ShardSession {
@@ -82,7 +40,7 @@ class ShardSession {
         runs_(plan, programs, {.workers = options.workers, .log_prefix = options.worker_logs}),
         audits_(plan, programs, options.audit_program, options.workers),
         desk_(folder, grid_,
-              common_label(campaign_record(plan, programs), plan.cells(), resolved_gates(plan, programs))) {
+              common_label({campaign_record(plan, programs), plan.cells(), resolved_gates(plan, programs)})) {
     // Which failed runs may be simulated again is known when all shards are put together.
     for (std::size_t agent = 0; agent < plan.agents.size(); ++agent)
       runs_.record(agent, plan.audit.share > 0.0 && programs.is_plugin(plan.agents[agent].program));
@@ -212,15 +170,14 @@ class ShardSession {
 
 }  // namespace
 
-ChunkLabel common_label(const CampaignRecord& campaign, const std::vector<CellRecord>& cells,
-                        const std::vector<GateRecord>& gates) {
-  CampaignRecord without_engine = campaign;
+ChunkLabel common_label(const StoredPlan& plan) {
+  CampaignRecord without_engine = plan.campaign;
   without_engine.engine = {};
+  const EngineIdentity& engine = plan.campaign.engine;
   ChunkLabel label;
-  label.plan = plan_checksum(without_engine, cells, gates);
-  label.campaign = campaign.name;
-  label.program = fmt::format("fleetproof {} sha256 {} ({})", campaign.engine.version, campaign.engine.program_sha256,
-                              campaign.engine.libraries);
+  label.plan = plan_checksum(without_engine, plan.cells, plan.gates);
+  label.campaign = plan.campaign.name;
+  label.program = fmt::format("fleetproof {} sha256 {} ({})", engine.version, engine.program_sha256, engine.libraries);
   return label;
 }
 
@@ -243,7 +200,9 @@ ShardResult run_shard(const CampaignPlan& plan, const AgentPrograms& programs, c
   for (const AgentFactor& agent : plan.agents) (void)programs.program(agent.program, "factors.agents");
   build_first_worlds(plan);  // what cannot be built at all is said before anything is written
   folder.make();
-  publish_plan(folder, plan, campaign_record(plan, programs), resolved_gates(plan, programs));
+  const StoredPlan ours{campaign_record(plan, programs), plan.cells(), resolved_gates(plan, programs)};
+  publish_plan(folder, ours);
+  require_same_plan(folder.plan_file(), read_plan(folder).campaign, ours.campaign);
   check_canary(folder, canary_text(plan, programs, options.workers));
   return ShardSession(plan, programs, folder, shard, options, listener).run();
 }

@@ -3,11 +3,11 @@
 #include <cstdint>
 #include <functional>
 #include <string>
-#include <vector>
 
 #include "campaign/batch/campaign.hpp"
 #include "campaign/shards/chunk_grid.hpp"
 #include "campaign/shards/shard_folder.hpp"
+#include "campaign/shards/stored_plan.hpp"
 #include "storage/chunk_file.hpp"
 #include "storage/records.hpp"
 
@@ -36,8 +36,7 @@ ShardResult run_shard(const CampaignPlan& plan, const AgentPrograms& programs, c
                       const RunOptions& options, const ShardListener& listener);
 
 // What the chunks of a campaign have in common.
-ChunkLabel common_label(const CampaignRecord& campaign, const std::vector<CellRecord>& cells,
-                        const std::vector<GateRecord>& gates);
+ChunkLabel common_label(const StoredPlan& plan);
 
 // Throws InputError with the reason if the campaign in `where` is not the same as `now`.
 void require_same_plan(const std::string& where, const CampaignRecord& stored, const CampaignRecord& now);

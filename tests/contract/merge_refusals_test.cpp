@@ -144,6 +144,15 @@ TEST_F(MergeRefusals, AnExistingFileStays) {
   merge("out", "m.db", "--overwrite");
 }
 
+TEST_F(MergeRefusals, ADamagedPlan) {
+  flip(path("out/plan.db"), read(path("out/plan.db")).find("aisle-grid"));
+  expect_refused(3, {"out/plan.db: this plan is damaged; remove it"});
+  EXPECT_EQ(run_shard("out", "1/1").exit_code, 3);
+  fs::remove(path("out/plan.db"));
+  EXPECT_EQ(run_shard("out", "1/1").exit_code, 0) << "the remedy";
+  merge("out", "m.db");
+}
+
 // What was not published does not count.
 TEST_F(MergeRefusals, UnfinishedFilesAreIgnored) {
   write("out/chunks/000/.tmp-77-000003.chunk", "half a chunk");
