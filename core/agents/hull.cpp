@@ -25,6 +25,7 @@ HullGeometry::HullGeometry(const MapView& map, const fp_briefing& briefing, Hull
   double reach_m = 0.0;
   for (const Body& kind : kinds_) reach_m = std::max(reach_m, kind.reach_m());
   clearance_m_ += std::max(kHullTolerance_m, 2.0 * kArcHeading_rad * reach_m);
+  lanes_near_.emplace(map, 2.0 * reach_m + clearance_m_);
   parts_.reserve(kinds_.size() * parts_per_kind_);
   for (const Body& kind : kinds_) bound_parts(kind);
   known_pairs_.resize(parts_.size());

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
+#include "core/agents/lanes_near.hpp"
 #include "core/agents/lock_options.hpp"
 #include "core/agents/path.hpp"
 #include "core/sdk/fleetproof/agent.h"
@@ -34,6 +37,8 @@ class HullGeometry {
   }
   // True if, for some pair of AGV types, turning at `station` conflicts with driving on `lane`.
   bool turning_blocks_lane(std::uint32_t station, std::uint32_t lane);
+  // All lanes for which that may be true, and some others, by ascending number.
+  std::span<const std::uint32_t> lanes_near(std::uint32_t station) const { return lanes_near_->around(station); }
   // The same for standing at `station` with this heading.
   bool standing_blocks_lane(std::uint32_t station, Vec heading, std::uint32_t lane);
   // A lower bound of the distance from `point_m` to the hull.
@@ -83,6 +88,7 @@ class HullGeometry {
   double clearance_m_;
   std::vector<Part> parts_;
   std::vector<Shape> shapes_;
+  std::optional<LanesNear> lanes_near_;         // always there
   std::vector<std::vector<Pair>> known_pairs_;  // by the smaller part number; ordered by the other
 };
 

@@ -9,10 +9,11 @@
 namespace fleetproof::agents {
 namespace {
 
-enum Timer : std::uint32_t { kBeaconTimer = 1, kAskTimer = 2 };
-enum Draws : std::uint32_t { kBeaconDraws = 10, kPlaceDraws = 12 };
+enum Timer : std::uint32_t { kTickTimer = 1, kRepeatTimer = 2 };
+enum Draws : std::uint32_t { kTickDraws = 10, kPlaceDraws = 12, kRepeatDraws = 13 };
 
-constexpr double kBeacon_s = 1.0;
+constexpr double kTick_s = 1.0;
+constexpr double kRepeat_s = 0.5;
 constexpr double kLongestLead_s = 8.0;  // how long before the end of a stretch the next one is asked for, at most
 constexpr double kRetryPlanning_s = 2.0;
 constexpr double kOverdue_s = 5.0;         // an action that takes this much longer than expected may have been stopped
@@ -63,7 +64,8 @@ void HullLock::on_event(const fp_event& event) {
           [&](std::uint32_t sender, std::span<const std::byte> bytes) { protocol_.receive(sender, bytes); });
       break;
     case FP_EVENT_TIMER:
-      if (event.timer == kBeaconTimer) tick();
+      if (event.timer == kTickTimer) tick();
+      if (event.timer == kRepeatTimer) repeat();
       break;
     case FP_EVENT_ACTION_DONE:
       action_done(event.result);
@@ -83,6 +85,7 @@ void HullLock::start() {
   started_s_ = now_s();
   if (boot_ > 0 && options_.holding.lanes_over_restarts) start_again(standing);
   tick();
+  repeat();
 }
 
 // The AGV may still carry out actions of the former self. The agent holds the floor of these actions until they end.
@@ -114,8 +117,8 @@ bool HullLock::append_lane(Path& path, std::uint32_t segment) const {
 }
 
 void HullLock::tick() {
-  const double pause_s = kBeacon_s * (0.8 + 0.4 * controller_.random(kBeaconDraws));
-  controller_.set_timer(kBeaconTimer, controller_.now_ns() + static_cast<std::int64_t>(pause_s * 1e9));
+  const double pause_s = kTick_s * (0.8 + 0.4 * controller_.random(kTickDraws));
+  controller_.set_timer(kTickTimer, controller_.now_ns() + static_cast<std::int64_t>(pause_s * 1e9));
   release_early();
   find_own_place();
   look_for_inherited_action();
@@ -123,8 +126,13 @@ void HullLock::tick() {
   if (has_chargers_) look_at_battery();
   protocol_.describe(is_waiting(), is_idle(), out_of_order_);
   reconsider();
-  protocol_.broadcast_state();
-  protocol_.repeat_grants();
+}
+
+void HullLock::repeat() {
+  const double pause_s = kRepeat_s * (0.8 + 0.4 * controller_.random(kRepeatDraws));
+  controller_.set_timer(kRepeatTimer, controller_.now_ns() + static_cast<std::int64_t>(pause_s * 1e9));
+  protocol_.describe(is_waiting(), is_idle(), out_of_order_);
+  protocol_.repeat();
 }
 
 void HullLock::action_done(std::int32_t result) {
@@ -226,10 +234,6 @@ void HullLock::advance() {
     }
   }
   controller_.declare_state(state());
-  const std::int64_t ask_at_ns = protocol_.ask_again();
-  if (ask_at_ns < 0 || ask_at_ns == ask_timer_ns_) return;
-  ask_timer_ns_ = ask_at_ns;
-  controller_.set_timer(kAskTimer, ask_at_ns);
 }
 
 void HullLock::act() {

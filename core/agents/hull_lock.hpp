@@ -40,6 +40,7 @@ class HullLock {
   bool append_lane(Path& path, std::uint32_t segment) const;
   void action_done(std::int32_t result);
   void tick();
+  void repeat();
   void find_own_place();
   void look_for_inherited_action();
   void look_whether_out_of_order();
@@ -107,7 +108,6 @@ class HullLock {
   double locking_takes_s_ = 1.0;
   double braking_s_;  // from top speed
   double plan_after_s_ = 0.0;
-  std::int64_t ask_timer_ns_ = -1;
 };
 
 // For the C table. Returns null if the map is too large for the messages.

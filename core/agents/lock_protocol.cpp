@@ -1,34 +1,33 @@
 // Proof that two AGVs i and j never hold conflicting hulls.
 //
 // Terms
-// - An epoch of i is the time in which i requests one fixed path. It ends when i locks the request, withdraws it or
-//   steps back, or when the computer of i restarts. Its number contains the boot and is never used again.
-// - i decides to grant an epoch f of j only under two conditions. (1) Nothing that i holds conflicts with the request
-// of
-//   j. (2) i is not inside an epoch of its own whose request conflicts, or i ends that epoch at once.
+// - An epoch of i towards j is the time in which i asks j for its consent to one fixed path. It ends when i locks the
+//   path, withdraws the request or steps back from j, or when the computer of i restarts. Its number consists of the
+//   boot, the request and the attempt, and is never used again.
+// - i decides to grant an epoch f of j (towards i) only under two conditions. (1) Nothing that i holds conflicts with
+//   the request of j. (2) i is not inside an epoch towards j whose request conflicts, or i ends that epoch at once.
 // - A GRANT for f says that i decided so at some instant during f. Repeated GRANTs refer to the first decision that i
 //   remembers.
-// - i locks an epoch e only if every other AGV has granted e or is excluded. An AGV is excluded if i has proved at that
-//   instant that it is far away: nothing that it then holds or requests can conflict (Neighbours::surely_beyond). The
-//   proof covers every epoch, because a claim is never longer than longest_claim_m.
+// - i locks a path only if every other AGV j has granted the epoch e of i towards j, or is excluded. An AGV is excluded
+//   if i has proved at that instant that it is far away: nothing that it then holds or requests can conflict
+//   (Neighbours::surely_beyond). This covers every request, because a claim is never longer than longest_claim_m.
 //
-// Proof by contradiction. Suppose there is a first instant at which two AGVs hold conflicting hulls. i locked e at t_i
-// and still holds it when j locks f at t_j >= t_i.
+// Proof by contradiction. Suppose there is a first instant at which two AGVs hold conflicting hulls: i locked at t_i
+// and still holds it when j locks at t_j >= t_i. Let f be the epoch of j towards i that ends at t_j.
 // - If j excluded i at t_j, nothing that i held at t_j conflicts: contradiction. So i decided to grant f, at an instant
 //   s_i during f, and s_i <= t_j.
-// - i holds the conflicting hull from t_i to t_j, so s_i < t_i by (1). By (2), s_i is not inside e, because e would
-// have
-//   ended there. So s_i lies before the beginning of e. Hence f began before e began, and f lasts until t_j. At every
-//   instant of e, j is inside f and requests what conflicts.
-// - If i excluded j at t_i, nothing that j requested at t_i conflicts: contradiction. So j decided to grant e, at an
-//   instant s_j inside e, and thus inside f. By (2), j ended f at s_j <= t_i <= t_j. So j could not lock f at t_j:
+// - i holds the conflicting hull from t_i to t_j, so s_i < t_i by (1), and f lasts from s_i or before until t_j. At
+//   t_i, j thus requests what conflicts. So i did not exclude j at t_i, and j decided to grant the epoch e of i towards
+//   j that ends at t_i, at an instant s_j inside e.
+// - By (2), s_i is not inside e, because e would have ended there. So s_i lies before the beginning of e, and e lies
+//   inside f. With it, s_j is inside f. By (2), j ended f at s_j <= t_i <= t_j. So j could not lock at t_j with f:
 //   contradiction. (If all three are one instant, the activations of j still have an order.)
 //
 // The proof uses no assumption about the delay, the order or the number of messages, about clocks or keys, or about
-// which of several GRANTs was used. Keys, retransmission, the pause after a step back and making way serve progress
-// only. Time releases nothing. The first hulls are the bodies at the start, and the warehouse keeps those apart. It
-// does so without their loads; an AGV takes a load there only when it has locked its way from there, and with it the
-// floor under the load (HullLock::must_lock_first).
+// which of several GRANTs was used and which message carried it. Keys, repetition and making way serve progress only.
+// Time releases nothing. The first hulls are the bodies at the start, and the warehouse keeps those apart. It does so
+// without their loads; an AGV takes a load there only when it has locked its way from there, and with it the floor
+// under the load (HullLock::must_lock_first).
 //
 // What i holds contains its body. The proof above is about held paths; these rules tie the body to the held path:
 // - At the start and at a restart, i holds the standing body or the lanes to be driven (see Restarts).
@@ -44,6 +43,9 @@
 //   lane goes straight on: then the body at the end of one lane is the body at the beginning of the next one. A move
 //   that ends otherwise, or does not end, releases nothing: an AGV that is stopped, broken down or empty in the middle
 //   of a lane holds that lane.
+//
+// Why does i step back from j alone? The proof speaks of two AGVs and their epochs towards each other. What a third one
+// granted to i stays true.
 //
 // Why may a GRANT be repeated without stepping back, asked for again or not? Because the first decision counts: every
 // later epoch of i asks j, and j is inside f until it has ended f. If i did not remember its grants, each repeated
@@ -75,15 +77,6 @@
 namespace fleetproof::agents {
 namespace {
 
-constexpr std::int64_t kAskAgain_ns = 700'000'000;
-constexpr std::int64_t kAskAgainLatest_ns = 2 * kSecond_ns;
-constexpr std::int64_t kAskDeferredAgain_ns = 1'500'000'000;
-// After a step back, the new epoch asks nobody for this long. Suppose n AGVs want the same floor over a radio without
-// delay. If each asked at once, every new epoch of one would make all later ones step back again: 2^n epochs at one
-// instant. With the pause, an AGV asks once in each pause.
-constexpr std::int64_t kStepBackPause_ns = 200'000'000;
-constexpr std::uint32_t kQuickAsks = 10;
-constexpr std::uint32_t kJitterDraws = 1;
 constexpr double kRounding_m = 1e-6;  // of sums of lengths; the proof of distance has a margin of a metre
 
 }  // namespace
@@ -108,12 +101,13 @@ bool LockProtocol::continues_held(const Path& stretch) const {
 }
 
 void LockProtocol::open_epoch() {
-  ++epoch_;
-  if (!options_.consent.epochs_grow && number_of(epoch_) > 0xffU) {
+  epoch_ = next_request(epoch_);
+  if (!options_.consent.epochs_grow && number_of(epoch_) >= 256 * kAttempts) {
     controller_.sometimes("number-wrapped");
     epoch_ = first_epoch(boot_of(epoch_));
   }
   asked_ = false;
+  look_at_all_ = true;
   repeated_grants_ = 0;
   answers_may_change_ = true;
   blocked_is_known_ = false;
@@ -152,33 +146,49 @@ bool LockProtocol::receive(std::uint32_t sender, std::span<const std::byte> byte
     answers_may_change_ = true;
     blocked_is_known_ = false;
   }
+  if (message->has_request()) receive_request(sender, *message);
   switch (message->kind) {
     case MessageKind::State:
       controller_.believe(sender, message->status.position_m, std::int64_t{message->status.stamp_ms} * 1'000'000);
+      for (const Answers::Answer& answer : message->answers.all()) {
+        if (answer.agv == neighbours_.self()) receive_answer(sender, answer.echo, answer.granted);
+      }
       break;
     case MessageKind::Request:
-      if (message->status.epoch == neighbours_.of(sender).request_epoch && neighbours_.of(sender).request_is_open())
-        answer_request(sender);
       break;
     case MessageKind::Grant:
     case MessageKind::Defer:
-      receive_answer(sender, *message);
+      receive_answer(sender, message->echo, message->kind == MessageKind::Grant);
       break;
   }
+  note_consent(sender);
   return true;
+}
+
+void LockProtocol::receive_request(std::uint32_t sender, const Message& message) {
+  const Neighbour& n = neighbours_.of(sender);
+  const Asked::Entry* const us = message.asked.of(neighbours_.self());
+  if (us != nullptr && message.status.epoch + us->attempt == n.request_epoch && n.request_is_open())
+    answer_request(sender);
 }
 
 void LockProtocol::answer_request(std::uint32_t sender) {
   Neighbour& n = neighbours_.of(sender);
-  const bool granted = options_.grants.grants_name_epoch ? n.granted_epoch == n.request_epoch : n.granted_epoch > 0;
-  if (granted) {  // a repeated request: the grant was lost or is still under way
+  if (has_granted(n)) {  // the grant was lost or is still under way; the next STATE repeats it
     controller_.sometimes("grant-lost");
-    return send(MessageKind::Grant, sender, n.request_epoch);
+    return;
   }
   const Answer answer = answer_to(sender, n);
   if (answer != Answer::Defer) return grant(sender, n, answer);
+  if (n.deferred_epoch == n.request_epoch) return;
   controller_.sometimes("deferred");
-  send(MessageKind::Defer, sender, n.request_epoch);
+  n.deferred_epoch = n.request_epoch;
+  n.answer_repeats = {};
+  send_answer(MessageKind::Defer, sender, n.request_epoch);
+}
+
+bool LockProtocol::has_granted(const Neighbour& n) const {
+  return options_.grants.grants_name_epoch ? n.granted_epoch == n.request_epoch : n.granted_epoch > 0;
 }
 
 LockProtocol::Answer LockProtocol::answer_to(std::uint32_t agv, const Neighbour& neighbour) {
@@ -230,29 +240,30 @@ bool LockProtocol::is_held(const Path& path) {
 
 void LockProtocol::grant(std::uint32_t agv, Neighbour& neighbour, Answer answer) {
   neighbour.granted_epoch = neighbour.request_epoch;
+  neighbour.answer_repeats = {};
   if (answer == Answer::GrantAndStepBack) {
     controller_.sometimes("overtaken");
     give_way_to(neighbour);
   }
-  send(MessageKind::Grant, agv, neighbour.request_epoch);
+  send_answer(MessageKind::Grant, agv, neighbour.request_epoch);
 }
 
+// The other AGV is asked again when it is time to repeat. If each asked at once over a radio without delay, AGVs that
+// want the same floor would let each other pass without end at one instant.
 void LockProtocol::give_way_to(Neighbour& neighbour) {
-  const bool granted = neighbour.granted_us_epoch == epoch_;
-  if (options_.grants.overtaken == Overtaken::StepsBack ||
-      (options_.grants.overtaken == Overtaken::StepsBackIfGranted && granted)) {
-    open_epoch();
-    ask_from_ns_ = controller_.now_ns() + jittered(kStepBackPause_ns);
-    return;
-  }
+  const bool granted = has_consent(neighbour);
   if (options_.grants.overtaken == Overtaken::DropsThatGrant) neighbour.granted_us_epoch = 0;
+  const bool steps_back = options_.grants.overtaken == Overtaken::StepsBack ||
+                          (options_.grants.overtaken == Overtaken::StepsBackIfGranted && granted);
+  if (!steps_back || !is_asked(neighbour)) return;
+  if (request_of(neighbour.asked_epoch + 1) != epoch_) return open_epoch();
+  ++neighbour.asked_epoch;
+  neighbour.request_repeats = {};
+  look_at_all_ = true;
 }
 
-void LockProtocol::repeat_grants() {
-  neighbours_.for_each([&](std::uint32_t agv, const Neighbour& n) {
-    if (n.request_is_open() && n.granted_epoch == n.request_epoch) send(MessageKind::Grant, agv, n.request_epoch);
-  });
-}
+bool LockProtocol::is_asked(const Neighbour& n) const { return requesting_ && request_of(n.asked_epoch) == epoch_; }
+bool LockProtocol::has_consent(const Neighbour& n) const { return is_asked(n) && n.granted_us_epoch == n.asked_epoch; }
 
 void LockProtocol::answer_those_deferred() {
   if (!answers_may_change_) return;
@@ -264,58 +275,65 @@ void LockProtocol::answer_those_deferred() {
   });
 }
 
-void LockProtocol::receive_answer(std::uint32_t sender, const Message& message) {
-  if (!requesting_ || (options_.consent.answers_name_epoch && message.echo != epoch_)) {
-    if (message.kind == MessageKind::Grant && requesting_) controller_.sometimes("late-grant");
+void LockProtocol::receive_answer(std::uint32_t sender, Epoch echo, bool granted) {
+  Neighbour& n = neighbours_.of(sender);
+  if (!is_asked(n) || (options_.consent.answers_name_epoch && echo != n.asked_epoch)) {
+    if (granted && requesting_) controller_.sometimes("late-grant");
     return;
   }
-  Neighbour& n = neighbours_.of(sender);
-  if (message.kind == MessageKind::Grant) {
-    if (n.granted_us_epoch == epoch_) ++repeated_grants_;
-    n.granted_us_epoch = epoch_;
+  if (granted) {
+    if (has_consent(n)) ++repeated_grants_;
+    n.granted_us_epoch = n.asked_epoch;
   } else {
-    // The sender knows the request and will grant it without a question. Asking again is only needed if that grant is
-    // lost.
-    n.silent_since_ns = controller_.now_ns();
-    if (n.deferred_us_epoch != epoch_) n.ask_at_ns += kAskDeferredAgain_ns - kAskAgain_ns;
-    n.deferred_us_epoch = epoch_;
+    n.deferred_us_epoch = n.asked_epoch;
     controller_.waiting_for(sender);
   }
 }
 
 bool LockProtocol::settle() {
   answer_those_deferred();
-  if (!requesting_ || !own_place_known_ || controller_.now_ns() < ask_from_ns_ || !all_consent()) return false;
+  if (!requesting_ || !own_place_known_ || !all_consent()) return false;
   for (const std::uint32_t lane : request_.lanes()) held_.append(lane);
   if (options_.grants.locks_end_after_ns > 0) locked_at_ns_ = controller_.now_ns();
   withdraw();
   return true;
 }
 
+// Whose consent was missing at the last look at all AGVs can only give it by a message. Whether the others still
+// consent matters when no consent is missing any more; `broadcast_state` orders a look from time to time, too.
 bool LockProtocol::all_consent() {
+  if (!look_at_all_ && options_.consent.senders_count && options_.consent.silence_consents_after_ns == 0) return false;
+  look_at_all_ = false;
   const std::int64_t now_ns = controller_.now_ns();
   const bool first = !asked_;
-  std::uint32_t missing = 0;
-  bool asked_anybody = false;
+  missing_ = 0;
   neighbours_.for_each([&](std::uint32_t agv, Neighbour& n) {
-    if (consents(agv, n, now_ns)) return;
-    ++missing;
-    if (n.asked_epoch == epoch_) return;
-    if (first && !asked_anybody) controller_.sometimes("negotiation");
-    asked_anybody = true;
+    n.is_missing = !consents(agv, n, now_ns);
+    if (!n.is_missing) return;
+    ++missing_;
+    if (is_asked(n)) return;
     if (!first) controller_.sometimes("newcomer");
     n.asked_epoch = epoch_;
-    n.times_asked = 0;
     n.silent_since_ns = now_ns;
-    ask(agv, n, now_ns);
+    n.request_repeats = {};
+    to_ask_.push_back(agv);
   });
+  if (first && !to_ask_.empty()) controller_.sometimes("negotiation");
   asked_ = true;
-  return missing == 0 || (!options_.consent.senders_count && missing <= repeated_grants_);
+  ask();
+  return missing_ == 0 || (!options_.consent.senders_count && missing_ <= repeated_grants_);
+}
+
+void LockProtocol::note_consent(std::uint32_t agv) {
+  Neighbour& n = neighbours_.of(agv);
+  if (!is_asked(n) || !n.is_missing || !consents(agv, n, controller_.now_ns())) return;
+  n.is_missing = false;
+  look_at_all_ = --missing_ == 0;
 }
 
 bool LockProtocol::consents(std::uint32_t agv, const Neighbour& neighbour, std::int64_t now_ns) {
-  if (neighbour.granted_us_epoch == epoch_) return true;
-  if (options_.consent.silence_consents_after_ns > 0 && neighbour.asked_epoch == epoch_ &&
+  if (has_consent(neighbour)) return true;
+  if (options_.consent.silence_consents_after_ns > 0 && is_unanswered(neighbour) &&
       now_ns - neighbour.silent_since_ns >= options_.consent.silence_consents_after_ns) {
     controller_.sometimes("silence-taken-for-consent");
     return true;
@@ -323,75 +341,14 @@ bool LockProtocol::consents(std::uint32_t agv, const Neighbour& neighbour, std::
   return neighbours_.surely_beyond(agv, request_, now_ns);
 }
 
-void LockProtocol::ask(std::uint32_t agv, Neighbour& neighbour, std::int64_t now_ns) {
-  send(MessageKind::Request, agv, 0);
-  std::int64_t pause_ns = kAskAgain_ns;
-  if (neighbour.deferred_us_epoch == epoch_) {
-    pause_ns = kAskDeferredAgain_ns;
-  } else {
-    for (std::uint32_t i = kQuickAsks; i <= neighbour.times_asked && pause_ns < kAskAgainLatest_ns; ++i) pause_ns *= 2;
-  }
-  ++neighbour.times_asked;
-  neighbour.ask_at_ns = now_ns + jittered(std::min(pause_ns, kAskAgainLatest_ns));
+// Whether this epoch has asked it and got no answer.
+bool LockProtocol::is_unanswered(const Neighbour& n) const {
+  return is_asked(n) && !has_consent(n) && n.deferred_us_epoch != n.asked_epoch;
 }
 
-std::int64_t LockProtocol::jittered(std::int64_t pause_ns) {
-  return static_cast<std::int64_t>(static_cast<double>(pause_ns) * (0.8 + 0.4 * controller_.random(kJitterDraws)));
-}
-
-std::int64_t LockProtocol::ask_again() {
-  if (!requesting_) return -1;
-  const std::int64_t now_ns = controller_.now_ns();
-  if (now_ns < ask_from_ns_) return ask_from_ns_;
-  std::int64_t next_ns = -1;
-  neighbours_.for_each([&](std::uint32_t agv, Neighbour& n) {
-    if (n.asked_epoch != epoch_ || n.granted_us_epoch == epoch_) return;
-    if (n.ask_at_ns <= now_ns && consents(agv, n, now_ns)) n.ask_at_ns = now_ns + kAskAgainLatest_ns;
-    if (n.ask_at_ns <= now_ns && options_.progress.asks_again) {
-      controller_.sometimes("retransmission");
-      ask(agv, n, now_ns);
-    }
-    if (next_ns < 0 || n.ask_at_ns < next_ns) next_ns = n.ask_at_ns;
-  });
-  return next_ns;
-}
-
-void LockProtocol::broadcast_state() {
-  Message message;
-  fill_in(message.status);
-  // Others take the table as proof that the position is newer than what it acknowledges.
-  if (position_at_ns_ == controller_.now_ns()) neighbours_.tell_heard_from(message.heard);
-  controller_.describe(name_of(message.kind));
-  controller_.broadcast(WireMessage(message).bytes());
-}
-
-void LockProtocol::send(MessageKind kind, std::uint32_t receiver, Epoch echo) {
-  Message message;
-  message.kind = kind;
-  fill_in(message.status);
-  message.demand_ns = demand_ns_;
-  if (kind == MessageKind::Request) message.request = request_;
-  message.echo = echo;
-  controller_.describe(name_of(kind));
-  controller_.send(WireMessage(message).bytes(), receiver);
-}
-
-void LockProtocol::fill_in(Status& status) {
-  const std::int64_t now_ns = controller_.now_ns();
-  fp_pose pose{};
-  if (position_at_ns_ != now_ns && controller_.pose(pose)) {
-    position_m_ = {pose.x_m, pose.y_m};
-    position_at_ns_ = now_ns;
-  }
-  status.stamp_ms = Neighbours::stamp_ms(now_ns);
-  status.position_m = position_m_;
-  status.epoch = epoch_;
-  status.requesting = requesting_;
-  status.blocked = is_blocked();
-  status.waiting = waiting_;
-  status.idle = idle_;
-  status.out_of_order = out_of_order_;
-  status.held = held_;
+bool LockProtocol::owes_answer(const Neighbour& n) const {
+  if (!n.request_is_open() || !n.asks_us) return false;
+  return has_granted(n) || (n.deferred_epoch == n.request_epoch && !n.knows_defer);
 }
 
 }  // namespace fleetproof::agents

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "core/agents/controller.hpp"
 #include "core/agents/hull.hpp"
@@ -55,12 +56,10 @@ class LockProtocol {
   // Call this at the end of every activation. It answers requests that can be answered now, and asks AGVs that have not
   // been asked. True if the request is locked: the held path then contains it.
   bool settle();
-  // Asks AGVs that have not granted again, if it is time. Returns when to call next; negative if no request is open.
-  std::int64_t ask_again();
-  void broadcast_state();
-  // Sends the GRANT for every open request again that this AGV has granted. Call this about once a second: the
-  // requester then gets its GRANT when the radio recovers in one direction, and need not be heard again.
-  void repeat_grants();
+  // Sends again what may have been lost: the open request to those who have not answered, and answers to requests that
+  // are open. From time to time, and if that is shorter, it tells all AGVs the own state, and all this with it. Call
+  // this about once a second.
+  void repeat();
 
   // An AGV that stands and waits inside the hull of `path`; FP_NONE if none is known.
   std::uint32_t waiting_inside(const Path& path);
@@ -68,11 +67,18 @@ class LockProtocol {
   bool is_held(const Path& path);
 
  private:
+  // What is to be sent again.
+  struct Due {
+    std::uint32_t agv;
+    bool request, answer;
+  };
   enum class Answer : std::uint8_t { Grant, GrantAndStepBack, Defer };
 
   bool continues_held(const Path& stretch) const;
   void open_epoch();
+  void receive_request(std::uint32_t sender, const Message& message);
   void answer_request(std::uint32_t sender);
+  bool has_granted(const Neighbour& neighbour) const;
   Answer answer_to(std::uint32_t agv, const Neighbour& neighbour);
   bool lock_is_over();
   bool comes_first(std::uint32_t agv, const Neighbour& neighbour);
@@ -80,13 +86,25 @@ class LockProtocol {
   void grant(std::uint32_t agv, Neighbour& neighbour, Answer answer);
   void give_way_to(Neighbour& neighbour);
   void answer_those_deferred();
-  void receive_answer(std::uint32_t sender, const Message& message);
+  void broadcast_state();
+  void fill_in_lists(Message& message);
+  double longest_quiet_s() const;
+  bool is_unanswered(const Neighbour& neighbour) const;
+  bool owes_answer(const Neighbour& neighbour) const;
+  void receive_answer(std::uint32_t sender, Epoch echo, bool granted);
   bool consents(std::uint32_t agv, const Neighbour& neighbour, std::int64_t now_ns);
   bool all_consent();
-  void ask(std::uint32_t agv, Neighbour& neighbour, std::int64_t now_ns);
-  std::int64_t jittered(std::int64_t pause_ns);
-  void send(MessageKind kind, std::uint32_t receiver, Epoch echo);
+  void note_consent(std::uint32_t agv);
+  void ask();
+  bool is_asked(const Neighbour& neighbour) const;
+  bool has_consent(const Neighbour& neighbour) const;
+  Asked::Entry entry_of(std::uint32_t agv) const;
+  void send_request(std::uint32_t receiver);
+  Message request_message();
+  void send_answer(MessageKind kind, std::uint32_t receiver, Epoch echo);
+  void send(const Message& message, std::uint32_t receiver);
   void fill_in(Status& status);
+  void fill_in_request(Message& message);
 
   const MapView& map_;
   HullGeometry& geometry_;
@@ -100,9 +118,14 @@ class LockProtocol {
   Path request_;
   std::int64_t demand_ns_ = 0;
   Epoch epoch_;
-  std::int64_t ask_from_ns_ = 0;       // this epoch asks nobody before this instant
   bool asked_ = false;                 // every AGV that had to be asked when this epoch began has been asked
+  bool look_at_all_ = true;            // consent may be complete, or somebody else may have to be asked
+  std::uint32_t missing_ = 0;          // AGVs whose consent this epoch lacks
   std::uint32_t repeated_grants_ = 0;  // of this epoch
+  std::vector<std::uint32_t> to_ask_;  // AGVs that must consent and have not been asked by this epoch
+  std::vector<Due> due_;
+  std::int64_t state_sent_ns_ = -1;
+  std::uint32_t first_in_lists_ = 0;  // of a STATE
   std::int64_t locked_at_ns_ = 0;
   bool answers_may_change_ = false;  // something changed since the deferred requests were last examined
 

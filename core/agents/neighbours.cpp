@@ -7,7 +7,7 @@
 namespace fleetproof::agents {
 namespace {
 
-constexpr double kUsualClaim_m = 40.0;
+constexpr double kUsualClaim_m = 30.0;
 constexpr double kPositionMargin_m = 1.0;  // at least: rounding on the wire, deviation from the track
 constexpr double kSpeedMargin = 1.1;       // clocks that run wrong by up to 1 % are within it
 
@@ -41,11 +41,13 @@ Neighbours::News Neighbours::note(std::uint32_t sender, const Message& message, 
   const Status& status = message.status;
   if (sender >= fleet_count() || sender == self_ || !is_driveable(map_, status.held)) return News::Refused;
   if (status.requesting && number_of(status.epoch) == 0) return News::Refused;
-  if (message.kind == MessageKind::Request && !is_driveable(map_, message.request)) return News::Refused;
+  if (message.has_request() && !is_driveable(map_, message.request)) return News::Refused;
   Neighbour& n = neighbours_[sender];
   News news = News::Same;
   const std::uint32_t boot = boot_of(status.epoch), newest_boot = boot_of(n.status.epoch);
-  if (!n.known || boot > newest_boot || (boot == newest_boot && status.stamp_ms >= n.status.stamp_ms)) {
+  const bool is_newest =
+      !n.known || boot > newest_boot || (boot == newest_boot && status.stamp_ms >= n.status.stamp_ms);
+  if (is_newest) {
     const Status& before = n.status;
     const bool same = n.known && before.waiting == status.waiting && before.blocked == status.blocked &&
                       before.out_of_order == status.out_of_order && before.held == status.held;
@@ -53,15 +55,26 @@ Neighbours::News Neighbours::note(std::uint32_t sender, const Message& message, 
     n.status = status;
   }
   n.known = true;
-  const Epoch closed = status.requesting ? status.epoch - 1 : status.epoch;
+  const Epoch closed = status.requesting ? status.epoch - 1 : next_request(status.epoch) - 1;
   n.closed_epoch = std::max(n.closed_epoch, closed);
-  if (message.kind == MessageKind::Request && status.epoch > n.closed_epoch && status.epoch > n.request_epoch) {
-    n.request_epoch = status.epoch;
-    n.demand_ns = message.demand_ns;
-    n.request = message.request;
-  }
+  if (message.has_request()) note_request(n, message, is_newest);
   if (message.kind == MessageKind::State) note_acknowledgement(n, message, now_ns);
   return news;
+}
+
+void Neighbours::note_request(Neighbour& neighbour, const Message& message, bool is_newest) {
+  const Asked::Entry* const us = message.asked.of(self_);
+  const Epoch epoch = message.status.epoch + (us != nullptr ? us->attempt : 0);
+  if (epoch > neighbour.closed_epoch && epoch > neighbour.request_epoch) {
+    neighbour.request_epoch = epoch;
+    neighbour.demand_ns = message.demand_ns;
+    neighbour.request = message.request;
+    neighbour.asks_us = us != nullptr;
+    neighbour.knows_defer = false;
+  } else if (is_newest && request_of(epoch) == request_of(neighbour.request_epoch)) {
+    neighbour.asks_us = us != nullptr;
+    neighbour.knows_defer = us != nullptr && message.asked.has_deferred(*us);
+  }
 }
 
 void Neighbours::note_acknowledgement(Neighbour& neighbour, const Message& message, std::int64_t now_ns) {

@@ -17,6 +17,17 @@ namespace fleetproof::agents {
 // far its hulls extend.
 double longest_claim_m(const MapView& map);
 
+// When a message that may have been lost is sent again: at each of the first calls of `is_due`, then at every fourth.
+struct Repeats {
+  static constexpr std::uint32_t kQuick = 6;
+  std::uint32_t calls = 0;
+
+  bool is_due() {
+    ++calls;
+    return calls <= kQuick || calls % 4 == 0;
+  }
+};
+
 // What this AGV knows about another AGV of the fleet.
 struct Neighbour {
   bool known = false;
@@ -37,14 +48,18 @@ struct Neighbour {
   std::int64_t demand_ns = 0;
   Path request;
   bool request_is_open() const { return request_epoch > closed_epoch; }
+  bool asks_us = false;      // the newest message about that request names this AGV among those that must consent
+  bool knows_defer = false;  // and says that this AGV has deferred
+  Epoch deferred_epoch = 0;  // the newest epoch to which this AGV answered DEFER
+  Repeats answer_repeats;
 
   // Its answers to the request of this AGV.
-  Epoch asked_epoch = 0;
+  Epoch asked_epoch = 0;    // the newest epoch of this AGV towards it
+  bool is_missing = false;  // its consent to that epoch
   Epoch granted_us_epoch = 0;
   Epoch deferred_us_epoch = 0;
-  std::uint32_t times_asked = 0;
-  std::int64_t ask_at_ns = 0;
   std::int64_t silent_since_ns = 0;
+  Repeats request_repeats;
 };
 
 class Neighbours {
@@ -61,6 +76,15 @@ class Neighbours {
   template <class F>
   void for_each(F f) {
     for (std::uint32_t agv = 0; agv < fleet_count(); ++agv) {
+      if (agv != self_) f(agv, neighbours_[agv]);
+    }
+  }
+
+  // The same, from this AGV on and round.
+  template <class F>
+  void for_each_from(std::uint32_t first, F f) {
+    for (std::uint32_t i = 0; i < fleet_count(); ++i) {
+      const std::uint32_t agv = (first + i) % fleet_count();
       if (agv != self_) f(agv, neighbours_[agv]);
     }
   }
@@ -86,6 +110,7 @@ class Neighbours {
   }
 
  private:
+  void note_request(Neighbour& neighbour, const Message& message, bool is_newest);
   void note_acknowledgement(Neighbour& neighbour, const Message& message, std::int64_t now_ns);
 
   const MapView& map_;

@@ -1,6 +1,9 @@
 #include "core/agents/protocol_messages.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstring>
 
 namespace fleetproof::agents {
 namespace {
@@ -11,6 +14,7 @@ constexpr double kPerUnit = 32767.0;   // headings as 15-bit fractions
 
 constexpr std::uint64_t kRequesting = 1, kWaiting = 2, kIdle = 4, kOutOfOrder = 8, kBlocked = 16;  // bits of the flags
 constexpr std::uint64_t kEpochHasBoot = 32, kEchoHasBoot = 64;
+constexpr std::uint64_t kGranted = 1;  // of an answer; beside kEchoHasBoot
 
 std::uint64_t flags_of(const Message& message) {
   const Status& s = message.status;
@@ -25,45 +29,76 @@ std::uint64_t rounded(double value) {
       static_cast<std::int64_t>(std::floor(std::fmin(std::fmax(value, -2e9), 2e9) + 0.5)));
 }
 
+// To or from the byte order of the wire.
+template <class Value>
+Value little_endian(Value value) {
+  if constexpr (std::endian::native == std::endian::big) {
+    auto* const bytes = reinterpret_cast<std::byte*>(&value);
+    std::reverse(bytes, bytes + sizeof(Value));
+  }
+  return value;
+}
+
 class Reader {
  public:
   explicit Reader(std::span<const std::byte> bytes) : rest_(bytes) {}
 
-  std::uint64_t take(std::uint32_t size) {
-    if (rest_.size() < size) {
+  template <class Value>
+  Value take() {
+    Value value{};
+    if (rest_.size() < sizeof(Value)) {
       failed_ = true;
-      return 0;
+      return value;
     }
-    std::uint64_t value = 0;
-    for (std::uint32_t i = 0; i < size; ++i) value |= std::to_integer<std::uint64_t>(rest_[i]) << (8 * i);
-    rest_ = rest_.subspan(size);
-    return value;
+    std::memcpy(&value, rest_.data(), sizeof(Value));
+    rest_ = rest_.subspan(sizeof(Value));
+    return little_endian(value);
   }
-  std::uint32_t take32() { return static_cast<std::uint32_t>(take(4)); }
   Epoch take_epoch(bool has_boot) {
-    const std::uint32_t number = take32();
-    return has_boot ? first_epoch(take32()) | number : number;
+    const auto number = take<std::uint32_t>();
+    return has_boot ? first_epoch(take<std::uint32_t>()) | number : number;
   }
-  double take_metres() { return static_cast<std::int32_t>(take32()) / kPerMetre; }
-  double take_fraction() { return static_cast<std::int16_t>(take(2)) / kPerUnit; }
+  double take_metres() { return static_cast<std::int32_t>(take<std::uint32_t>()) / kPerMetre; }
+  double take_fraction() { return static_cast<std::int16_t>(take<std::uint16_t>()) / kPerUnit; }
 
   void take_path(Path& path) {
-    path.station = static_cast<std::uint32_t>(take(2));
+    path.station = take<std::uint16_t>();
     const double x = take_fraction(), y = take_fraction();
     const Vec heading{x, y};
     const double norm = length(heading);
     if (!(norm > 0.99 && norm < 1.01)) return fail();
     path.heading = heading * (1.0 / norm);
-    const std::uint64_t count = take(1);
+    const std::uint64_t count = take<std::uint8_t>();
     if (count > kPathLanesMax) return fail();
-    for (std::uint64_t i = 0; i < count; ++i) path.append(static_cast<std::uint32_t>(take(2)));
+    for (std::uint64_t i = 0; i < count; ++i) path.append(take<std::uint16_t>());
   }
 
   void take_heard(HeardFrom& heard) {
-    heard.first = static_cast<std::uint32_t>(take(2));
-    heard.count = static_cast<std::uint32_t>(take(1));
+    heard.first = take<std::uint16_t>();
+    heard.count = take<std::uint8_t>();
     if (heard.count > HeardFrom::kMax) return fail();
-    for (std::uint32_t i = 0; i < heard.count; ++i) heard.stamps_ms[i] = take32();
+    for (std::uint32_t i = 0; i < heard.count; ++i) heard.stamps_ms[i] = take<std::uint32_t>();
+  }
+
+  void take_request(Message& message) {
+    message.demand_ns = static_cast<std::int64_t>(take<std::uint64_t>());
+    take_path(message.request);
+    const std::uint32_t count = take<std::uint8_t>(), unanswered = take<std::uint8_t>();
+    if (count > Asked::kMax || unanswered > count) return fail();
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const std::uint32_t agv = take<std::uint16_t>(), attempt = take<std::uint8_t>();
+      message.asked.add({agv, attempt}, i >= unanswered);
+    }
+  }
+
+  void take_answers(Answers& answers) {
+    const std::uint64_t count = take<std::uint8_t>();
+    if (count > Answers::kMax) return fail();
+    for (std::uint64_t i = 0; i < count; ++i) {
+      const auto agv = take<std::uint16_t>();
+      const std::uint64_t flags = take<std::uint8_t>();
+      answers.add({agv, take_epoch((flags & kEchoHasBoot) != 0), (flags & kGranted) != 0});
+    }
   }
 
   void fail() { failed_ = true; }
@@ -76,25 +111,33 @@ class Reader {
 
 }  // namespace
 
+template <class Value>
+void WireMessage::put(std::uint64_t value) {
+  const Value little = little_endian(static_cast<Value>(value));
+  std::memcpy(bytes_.data() + size_, &little, sizeof(Value));
+  size_ += sizeof(Value);
+}
+
 WireMessage::WireMessage(const Message& message) {
   const Status& status = message.status;
-  put(kMark, 1);
-  put(static_cast<std::uint64_t>(message.kind), 1);
-  put(status.stamp_ms, 4);
-  put(rounded(status.position_m.x * kPerMetre), 4);
-  put(rounded(status.position_m.y * kPerMetre), 4);
-  put(flags_of(message), 1);
+  put<std::uint8_t>(kMark);
+  put<std::uint8_t>(static_cast<std::uint64_t>(message.kind));
+  put<std::uint32_t>(status.stamp_ms);
+  put<std::uint32_t>(rounded(status.position_m.x * kPerMetre));
+  put<std::uint32_t>(rounded(status.position_m.y * kPerMetre));
+  put<std::uint8_t>(flags_of(message));
   put_epoch(status.epoch);
   put_path(status.held);
   switch (message.kind) {
     case MessageKind::State:
-      put(message.heard.first, 2);
-      put(message.heard.count, 1);
-      for (std::uint32_t i = 0; i < message.heard.count; ++i) put(message.heard.stamps_ms[i], 4);
+      put<std::uint16_t>(message.heard.first);
+      put<std::uint8_t>(message.heard.count);
+      for (std::uint32_t i = 0; i < message.heard.count; ++i) put<std::uint32_t>(message.heard.stamps_ms[i]);
+      put_answers(message.answers);
+      if (status.requesting) put_request(message);
       break;
     case MessageKind::Request:
-      put(static_cast<std::uint64_t>(message.demand_ns), 8);
-      put_path(message.request);
+      put_request(message);
       break;
     case MessageKind::Grant:
     case MessageKind::Defer:
@@ -103,34 +146,50 @@ WireMessage::WireMessage(const Message& message) {
   }
 }
 
-void WireMessage::put(std::uint64_t value, std::uint32_t size) {
-  for (std::uint32_t i = 0; i < size; ++i) bytes_[size_++] = static_cast<std::byte>(value >> (8 * i));
+void WireMessage::put_request(const Message& message) {
+  put<std::uint64_t>(static_cast<std::uint64_t>(message.demand_ns));
+  put_path(message.request);
+  put<std::uint8_t>(message.asked.count);
+  put<std::uint8_t>(message.asked.unanswered);
+  for (const Asked::Entry& entry : message.asked.all()) {
+    put<std::uint16_t>(entry.agv);
+    put<std::uint8_t>(entry.attempt);
+  }
+}
+
+void WireMessage::put_answers(const Answers& answers) {
+  put<std::uint8_t>(answers.count);
+  for (const Answers::Answer& answer : answers.all()) {
+    put<std::uint16_t>(answer.agv);
+    put<std::uint8_t>((answer.granted ? kGranted : 0U) | (boot_of(answer.echo) > 0 ? kEchoHasBoot : 0U));
+    put_epoch(answer.echo);
+  }
 }
 
 void WireMessage::put_epoch(Epoch epoch) {
-  put(number_of(epoch), 4);
-  if (boot_of(epoch) > 0) put(boot_of(epoch), 4);
+  put<std::uint32_t>(number_of(epoch));
+  if (boot_of(epoch) > 0) put<std::uint32_t>(boot_of(epoch));
 }
 
 void WireMessage::put_path(const Path& path) {
-  put(path.station, 2);
-  put(rounded(path.heading.x * kPerUnit), 2);
-  put(rounded(path.heading.y * kPerUnit), 2);
-  put(path.count, 1);
-  for (const std::uint32_t lane : path.lanes()) put(lane, 2);
+  put<std::uint16_t>(path.station);
+  put<std::uint16_t>(rounded(path.heading.x * kPerUnit));
+  put<std::uint16_t>(rounded(path.heading.y * kPerUnit));
+  put<std::uint8_t>(path.count);
+  for (const std::uint32_t lane : path.lanes()) put<std::uint16_t>(lane);
 }
 
 std::optional<Message> decode(std::span<const std::byte> bytes) {
   Reader reader(bytes);
   std::optional<Message> decoded(std::in_place);
   Message& message = *decoded;
-  if (reader.take(1) != kMark) return std::nullopt;
-  message.kind = static_cast<MessageKind>(reader.take(1));
+  if (reader.take<std::uint8_t>() != kMark) return std::nullopt;
+  message.kind = static_cast<MessageKind>(reader.take<std::uint8_t>());
   Status& status = message.status;
-  status.stamp_ms = reader.take32();
+  status.stamp_ms = reader.take<std::uint32_t>();
   status.position_m.x = reader.take_metres();
   status.position_m.y = reader.take_metres();
-  const std::uint64_t flags = reader.take(1);
+  const std::uint64_t flags = reader.take<std::uint8_t>();
   status.requesting = (flags & kRequesting) != 0;
   status.waiting = (flags & kWaiting) != 0;
   status.idle = (flags & kIdle) != 0;
@@ -141,10 +200,11 @@ std::optional<Message> decode(std::span<const std::byte> bytes) {
   switch (message.kind) {
     case MessageKind::State:
       reader.take_heard(message.heard);
+      reader.take_answers(message.answers);
+      if (status.requesting) reader.take_request(message);
       break;
     case MessageKind::Request:
-      message.demand_ns = static_cast<std::int64_t>(reader.take(8));
-      reader.take_path(message.request);
+      reader.take_request(message);
       break;
     case MessageKind::Grant:
     case MessageKind::Defer:

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -25,10 +26,14 @@ constexpr const char* name_of(MessageKind kind) {
   return "?";
 }
 
-// The number of a request: the boot of the AGV's computer, then the number of the request since that boot. Numbers only
-// grow and none is used twice, because the number of the boot survives a restart. Compare whole numbers, never modulo.
+// The number of a request: the boot of the AGV's computer, then the number of the request since that boot, then the
+// number of the attempt: each AGV that is asked has its own attempts. Numbers only grow and none is used twice, because
+// the number of the boot survives a restart. Compare whole numbers, never modulo.
 using Epoch = std::uint64_t;
+inline constexpr Epoch kAttempts = 256;                                        // of one request
 constexpr Epoch first_epoch(std::uint32_t boot) { return Epoch{boot} << 32; }  // before any request
+constexpr Epoch next_request(Epoch epoch) { return (epoch / kAttempts + 1) * kAttempts; }
+constexpr Epoch request_of(Epoch epoch) { return epoch / kAttempts * kAttempts; }  // its first attempt
 constexpr std::uint32_t boot_of(Epoch epoch) { return static_cast<std::uint32_t>(epoch >> 32); }
 constexpr std::uint32_t number_of(Epoch epoch) { return static_cast<std::uint32_t>(epoch); }
 
@@ -36,7 +41,7 @@ constexpr std::uint32_t number_of(Epoch epoch) { return static_cast<std::uint32_
 struct Status {
   std::uint32_t stamp_ms = 0;  // the sender's clock at the instant of sending
   Vec position_m;
-  Epoch epoch = 0;          // the epoch of its newest request
+  Epoch epoch = 0;          // of its newest request
   bool requesting = false;  // that request is still open
   bool blocked = false;     // an AGV stands and waits inside the hull of that request
   bool waiting = false;     // it stands and can only wait for a lock
@@ -47,18 +52,73 @@ struct Status {
 
 // The newest stamps that the sender has seen on messages of the AGVs first, first + 1, ...; 0: no message yet.
 struct HeardFrom {
-  static constexpr std::uint32_t kMax = 128;
+  static constexpr std::uint32_t kMax = 64;
   std::uint32_t first = 0, count = 0;
   std::array<std::uint32_t, kMax> stamps_ms;
 };
 
+// The AGVs whose consent the sender still needs for its request. The first ones have not answered, the others have
+// deferred.
+struct Asked {
+  struct Entry {
+    std::uint32_t agv;
+    std::uint32_t attempt;  // the number of the epoch is that of the request and this
+  };
+  static constexpr std::uint32_t kMax = 64;
+  std::uint32_t count = 0, unanswered = 0;
+  std::array<Entry, kMax> list;
+
+  // Requires: all that have not answered are added first. False if the list is full.
+  bool add(const Entry& entry, bool has_deferred = false) {
+    if (count == kMax) return false;
+    list[count++] = entry;
+    if (!has_deferred) unanswered = count;
+    return true;
+  }
+  std::span<const Entry> all() const { return {list.data(), count}; }
+  // Null if this AGV is not asked.
+  const Entry* of(std::uint32_t agv) const {
+    const auto entry = std::ranges::find(all(), agv, &Entry::agv);
+    return entry == all().end() ? nullptr : &*entry;
+  }
+  bool has_deferred(const Entry& entry) const { return &entry >= list.data() + unanswered; }
+};
+
+// What the sender answered to open requests.
+struct Answers {
+  struct Answer {
+    std::uint32_t agv;  // the one that asked
+    Epoch echo;         // the epoch of the answered request
+    bool granted;
+  };
+  static constexpr std::uint32_t kMax = 24;
+  std::uint32_t count = 0;
+  std::array<Answer, kMax> list;
+
+  bool add(const Answer& answer) {
+    if (count == kMax) return false;
+    list[count++] = answer;
+    return true;
+  }
+  std::span<const Answer> all() const { return {list.data(), count}; }
+};
+
 struct Message {
+  Message() {}  // leaves the lists as they are: setting them to zero would cost more than reading a message
+
   MessageKind kind = MessageKind::State;
   Status status;
-  HeardFrom heard;             // State
-  std::int64_t demand_ns = 0;  // Request: since when the sender has wanted to go on
-  Path request;                // Request: the path to lock, from the end of the held path. Its epoch is status.epoch
-  Epoch echo = 0;              // Grant, Defer: the epoch of the answered request
+  // State, if the status says that a request is open, and Request
+  std::int64_t demand_ns = 0;  // since when the sender has wanted to go on
+  Path request;                // the path to lock, from the end of the held path. Its epoch is status.epoch
+  Asked asked;
+  // State
+  HeardFrom heard;
+  Answers answers;
+  // Grant, Defer
+  Epoch echo = 0;  // the epoch of the answered request
+
+  bool has_request() const { return kind == MessageKind::Request || (kind == MessageKind::State && status.requesting); }
 };
 
 // A message as bytes: little-endian fields of fixed size. The boot of an epoch is written only if it is not the first.
@@ -69,9 +129,12 @@ class WireMessage {
   std::span<const std::byte> bytes() const { return {bytes_.data(), size_}; }
 
  private:
-  void put(std::uint64_t value, std::uint32_t size);
+  template <class Value>
+  void put(std::uint64_t value);
   void put_epoch(Epoch epoch);
   void put_path(const Path& path);
+  void put_request(const Message& message);
+  void put_answers(const Answers& answers);
 
   std::array<std::byte, 1024> bytes_;
   std::size_t size_ = 0;

@@ -231,7 +231,7 @@ void StretchPlanner::price_station(std::uint32_t station, double extra_s) {
     for (const std::uint32_t lane : map_.lanes_from(station)) costs_s_[lane] += extra_s;
     return;
   }
-  for (std::uint32_t lane = 0; lane < map_.lane_count(); ++lane) {
+  for (const std::uint32_t lane : geometry_.lanes_near(station)) {
     if (geometry_.turning_blocks_lane(station, lane)) costs_s_[lane] += extra_s;
   }
 }

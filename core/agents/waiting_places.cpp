@@ -10,10 +10,15 @@ WaitingPlaces::WaitingPlaces(const MapView& map, HullGeometry& geometry)
       burdens_(map.station_count(), kUnknown),
       goals_(map.station_count()),
       marks_(map.station_count()),
-      blocked_(map.lane_count()) {
+      blocked_(map.lane_count()),
+      seen_(map.station_count(), 0),
+      cut_off_(map.station_count(), 0) {
   for (std::uint32_t id = 0; id < map.station_count(); ++id) goals_[id] = map.station(id).purposes != FP_ROUTING;
   if (std::ranges::count(goals_, true) == 0) goals_.assign(map.station_count(), true);
   goal_count_ = static_cast<std::uint32_t>(std::ranges::count(goals_, true));
+  const auto first = static_cast<std::uint32_t>(std::ranges::find(goals_, true) - goals_.begin());
+  goals_are_connected_ = goal_count_ > 1 && mark_part(first, FP_NONE) == goal_count_;
+  if (goals_are_connected_) free_marks_ = marks_;
 }
 
 std::uint32_t WaitingPlaces::burden(std::uint32_t station) {
@@ -27,10 +32,83 @@ std::uint32_t WaitingPlaces::work_out(std::uint32_t station) {
   const bool holds_up_followers_only = is_all_one_way(station);
   if (holds_up_followers_only && blocked_list_.empty()) return 0;
   const std::uint32_t others = goal_count_ - (goals_[station] ? 1 : 0);
-  const std::uint32_t connected = mark_largest_part(station, others);
+  const bool only_pieces = goals_are_connected_ && cuts_off_pieces_only(station, others);
+  const std::uint32_t cut_off = only_pieces ? goals_in_pieces_ : others - mark_largest_part(station, others);
   const bool misses_lanes =
-      std::ranges::any_of(blocked_list_, [&](std::uint32_t lane) { return is_missed(station, lane); });
-  return (holds_up_followers_only ? 0 : others - connected) + (misses_lanes ? kFoulsLanes : 0);
+      std::ranges::any_of(blocked_list_, [&](std::uint32_t lane) { return is_missed(station, lane, only_pieces); });
+  return (holds_up_followers_only ? 0 : cut_off) + (misses_lanes ? kFoulsLanes : 0);
+}
+
+// True if it is easily seen what the station cuts off: small pieces, such as bays, that no lane connects with the rest,
+// while every other way through the station and every other blocked lane has a way round. Then the rest of the map
+// reaches all that it reached before. False says nothing.
+bool WaitingPlaces::cuts_off_pieces_only(std::uint32_t station, std::uint32_t others) {
+  ++judged_;
+  goals_in_pieces_ = 0;
+  std::uint32_t largest = 0;
+  const auto is_no_riddle = [&](std::uint32_t from) {
+    if (from == station || is_cut_off(from) || !explore(from, station, false)) return true;
+    const std::vector<std::uint32_t> piece = queue_;
+    if (!explore(from, station, true) || queue_.size() != piece.size()) return false;
+    std::uint32_t goals = 0;
+    for (const std::uint32_t id : piece) {
+      if (seen_[id] != look_) return false;
+      cut_off_[id] = judged_;
+      goals += goals_[id] ? 1U : 0U;
+    }
+    goals_in_pieces_ += goals;
+    largest = std::max(largest, goals);
+    return true;
+  };
+  const auto ends = [&](std::uint32_t lane) {
+    return is_no_riddle(map_.lane(lane).from) && is_no_riddle(map_.lane(lane).to);
+  };
+  return std::ranges::all_of(map_.lanes_from(station), ends) && std::ranges::all_of(map_.lanes_to(station), ends) &&
+         std::ranges::all_of(blocked_list_, ends) && others - goals_in_pieces_ > largest && has_detours(station);
+}
+
+// Collects the stations that `from` reaches, or that reach it, in queue_. False if there are many.
+bool WaitingPlaces::explore(std::uint32_t from, std::uint32_t without, bool backwards) {
+  begin_look(from);
+  for (std::size_t next = 0; next < queue_.size(); ++next) {
+    if (queue_.size() > kSmallPiece) return false;
+    look_on(queue_[next], without, backwards);
+  }
+  return true;
+}
+
+bool WaitingPlaces::has_detours(std::uint32_t station) {
+  const auto has_detour = [&](std::uint32_t from, std::uint32_t to) {
+    return from == to || from == station || to == station || is_cut_off(from) || is_cut_off(to) ||
+           reaches(from, to, station);
+  };
+  for (const std::uint32_t arriving : map_.lanes_to(station)) {
+    for (const std::uint32_t leaving : map_.lanes_from(station)) {
+      if (!has_detour(map_.lane(arriving).from, map_.lane(leaving).to)) return false;
+    }
+  }
+  return std::ranges::all_of(blocked_list_,
+                             [&](std::uint32_t lane) { return has_detour(map_.lane(lane).from, map_.lane(lane).to); });
+}
+
+bool WaitingPlaces::reaches(std::uint32_t from, std::uint32_t to, std::uint32_t without) {
+  begin_look(from);
+  for (std::size_t next = 0; next < queue_.size() && seen_[to] != look_; ++next) look_on(queue_[next], without, false);
+  return seen_[to] == look_;
+}
+
+void WaitingPlaces::begin_look(std::uint32_t from) {
+  seen_[from] = ++look_;
+  queue_.assign(1, from);
+}
+
+void WaitingPlaces::look_on(std::uint32_t at, std::uint32_t without, bool backwards) {
+  for (const std::uint32_t lane : backwards ? map_.lanes_to(at) : map_.lanes_from(at)) {
+    const std::uint32_t to = backwards ? map_.lane(lane).from : map_.lane(lane).to;
+    if (to == without || blocked_[lane] || seen_[to] == look_) continue;
+    seen_[to] = look_;
+    queue_.push_back(to);
+  }
 }
 
 bool WaitingPlaces::is_all_one_way(std::uint32_t station) const {
@@ -43,7 +121,7 @@ bool WaitingPlaces::is_all_one_way(std::uint32_t station) const {
 void WaitingPlaces::block_lanes(std::uint32_t station) {
   for (const std::uint32_t lane : blocked_list_) blocked_[lane] = false;
   blocked_list_.clear();
-  for (std::uint32_t id = 0; id < map_.lane_count(); ++id) {
+  for (const std::uint32_t id : geometry_.lanes_near(station)) {
     const fp_lane& lane = map_.lane(id);
     if (lane.from == station || lane.to == station || !geometry_.turning_blocks_lane(station, id)) continue;
     blocked_[id] = true;
@@ -54,9 +132,12 @@ void WaitingPlaces::block_lanes(std::uint32_t station) {
 // An AGV that comes from the largest part would wait before such a lane to get back there. On a one-way lane it cannot
 // turn back: it misses the lane whatever else is cut off, if an AGV that stands here blocks it. A two-way lane that
 // leads into a part that is cut off anyway, as in front of a bay, is not missed.
-bool WaitingPlaces::is_missed(std::uint32_t station, std::uint32_t lane) {
+bool WaitingPlaces::is_missed(std::uint32_t station, std::uint32_t lane, bool only_pieces) {
   if (!map_.two_way(lane) && blocks_while_waiting(station, lane)) return true;
-  return (marks_[map_.lane(lane).from] & kReached) != 0 && (marks_[map_.lane(lane).to] & kReaches) != 0;
+  const std::uint32_t from = map_.lane(lane).from, to = map_.lane(lane).to;
+  if (only_pieces && (is_cut_off(from) || is_cut_off(to))) return false;
+  const std::vector<std::uint8_t>& marks = only_pieces ? free_marks_ : marks_;
+  return (marks[from] & kReached) != 0 && (marks[to] & kReaches) != 0;
 }
 
 // An AGV that comes by one lane and leaves straight on by another one does not turn.

@@ -26,12 +26,20 @@ class WaitingPlaces {
 
  private:
   static constexpr std::uint32_t kUnknown = ~0U;
+  static constexpr std::size_t kSmallPiece = 60;  // stations
   enum Mark : std::uint8_t { kReached = 1, kReaches = 2, kInPart = 3, kInLargest = 4 };
 
   std::uint32_t work_out(std::uint32_t station);
   bool is_all_one_way(std::uint32_t station) const;
   void block_lanes(std::uint32_t station);
-  bool is_missed(std::uint32_t station, std::uint32_t lane);
+  bool cuts_off_pieces_only(std::uint32_t station, std::uint32_t others);
+  bool is_cut_off(std::uint32_t station) const { return cut_off_[station] == judged_; }
+  bool explore(std::uint32_t from, std::uint32_t without, bool backwards);
+  bool has_detours(std::uint32_t station);
+  bool reaches(std::uint32_t from, std::uint32_t to, std::uint32_t without);
+  void begin_look(std::uint32_t from);
+  void look_on(std::uint32_t at, std::uint32_t without, bool backwards);
+  bool is_missed(std::uint32_t station, std::uint32_t lane, bool only_pieces);
   bool blocks_while_waiting(std::uint32_t station, std::uint32_t lane);
   std::uint32_t mark_largest_part(std::uint32_t without, std::uint32_t all);
   std::uint32_t mark_part(std::uint32_t from, std::uint32_t without);
@@ -42,11 +50,18 @@ class WaitingPlaces {
   std::vector<std::uint32_t> burdens_;  // by station
   std::vector<bool> goals_;             // by station
   std::uint32_t goal_count_ = 0;
+  bool goals_are_connected_ = false;      // if nothing is blocked
+  std::vector<std::uint8_t> free_marks_;  // by station: of the part with the goals, if nothing is blocked
 
   // Of the station that is being judged.
   std::vector<std::uint8_t> marks_;  // by station
   std::vector<bool> blocked_;        // by lane
   std::vector<std::uint32_t> blocked_list_, stack_;
+  std::vector<std::uint32_t> seen_;  // by station: the last look that came there
+  std::uint32_t look_ = 0;
+  std::vector<std::uint32_t> queue_;    // the stations of that look
+  std::vector<std::uint32_t> cut_off_;  // by station: the last judgement by which it was in a small piece
+  std::uint32_t judged_ = 0, goals_in_pieces_ = 0;
 };
 
 }  // namespace fleetproof::agents

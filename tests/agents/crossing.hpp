@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <deque>
 #include <memory>
 #include <utility>
@@ -42,7 +43,13 @@ class Crossing : public ::testing::Test {
       member(c).test->sent.push_back({member(c).id, to, *decode(span), {span.begin(), span.end()}});
       return FP_OK;
     };
-    host.send_broadcast = [](fp_controller*, const void*, std::uint32_t) -> std::int32_t { return FP_OK; };
+    host.send_broadcast = [](fp_controller* c, const void* bytes, std::uint32_t size) -> std::int32_t {
+      const Member& self = member(c);
+      for (std::uint32_t to = 0; to < self.test->members.size(); ++to) {
+        if (to != self.id) self.test->host.send_unicast(c, bytes, size, to);
+      }
+      return FP_OK;
+    };
   }
 
   static Member& member(fp_controller* c) { return *reinterpret_cast<Member*>(c); }
@@ -83,6 +90,12 @@ class Crossing : public ::testing::Test {
     p.append(drawn.lane_between(p.station, 0));
     p.append(drawn.lane_between(0, to));
     members[id]->protocol->request(p, demand_ns);
+  }
+  // Whether a message is under way that asks this AGV.
+  bool is_asked(std::uint32_t id) const {
+    return std::ranges::any_of(sent, [&](const Sent& s) {
+      return s.to == id && s.message.has_request() && s.message.asked.of(id) != nullptr;
+    });
   }
   bool settle(std::uint32_t id) { return members[id]->protocol->settle(); }
   // The oldest undelivered message of this kind from one to the other; it stays in the air if `keep`.

@@ -52,6 +52,12 @@ class Crowd : public ::testing::Test {
       member(c).test->air.push_back({member(c).id, to, {first, first + size}});
       return FP_OK;
     };
+    host.send_broadcast = [](fp_controller* c, const void* bytes, std::uint32_t size) -> std::int32_t {
+      for (std::uint32_t to = 0; to < kAgvs; ++to) {
+        if (to != member(c).id) member(c).test->host.send_unicast(c, bytes, size, to);
+      }
+      return FP_OK;
+    };
     members.resize(kAgvs);
     for (std::uint32_t id = 0; id < kAgvs; ++id) join(id);
   }

@@ -114,6 +114,50 @@ TEST_F(LockProtocolTest, WhoLetsAnElderPassStepsBackEvenFromGrantsInFlight) {
   EXPECT_FALSE(settle(0));
 }
 
+// Every pair of AGVs has its own epochs: the consent of the others is not lost.
+TEST_F(LockProtocolTest, WhoStepsBackAsksOnlyThatAgvAgain) {
+  fleet_of(3);
+  want(0, 4, 100);
+  settle(0);
+  ASSERT_TRUE(deliver(MessageKind::Request, 0, 2));
+  ASSERT_TRUE(deliver(MessageKind::Grant, 2, 0));
+  want(1, 4, 50);  // the elder demand
+  settle(1);
+  ASSERT_TRUE(deliver(MessageKind::Request, 1, 0));
+  ASSERT_TRUE(deliver(MessageKind::Grant, 0, 1));
+  sent.clear();
+  members[0]->protocol->repeat();
+  EXPECT_TRUE(is_asked(1));
+  EXPECT_FALSE(is_asked(2));
+  ASSERT_TRUE(deliver(MessageKind::State, 0, 1));
+  EXPECT_TRUE(deliver(MessageKind::Defer, 1, 0)) << "1 wants it, too, and comes first";
+  members[1]->protocol->withdraw();
+  settle(1);
+  ASSERT_TRUE(deliver(MessageKind::Grant, 1, 0));
+  EXPECT_TRUE(settle(0)) << "with the old grant of 2";
+}
+
+TEST_F(LockProtocolTest, AnEpochOfMoreAttemptsThanItHasNumbersBeginsAnew) {
+  fleet_of(2);
+  want(0, 3, 100);
+  settle(0);
+  for (int i = 0; i < 300; ++i) {
+    sent.clear();
+    want(1, 4, 50);
+    settle(1);
+    ASSERT_TRUE(deliver(MessageKind::Request, 1, 0)) << i;
+    ASSERT_TRUE(deliver(MessageKind::Grant, 0, 1)) << i;
+    members[1]->protocol->withdraw();
+    settle(0);
+  }
+  EXPECT_GT(members[0]->protocol->epoch(), next_request(first_epoch(0)));
+  sent.clear();
+  members[0]->protocol->repeat();
+  ASSERT_TRUE(deliver(MessageKind::State, 0, 1));
+  ASSERT_TRUE(deliver(MessageKind::Grant, 1, 0));
+  EXPECT_TRUE(settle(0));
+}
+
 TEST_F(LockProtocolTest, DuplicateOfAGrantedRequestIsGrantedAgainWithoutSteppingBack) {
   fleet_of(2);
   want(1, 4, 50);
@@ -174,13 +218,16 @@ TEST_F(LockProtocolTest, WhoIsBlockedByAWaitingAgvLetsItPass) {
 TEST_F(LockProtocolTest, SilenceIsNeverConsent) {
   fleet_of(2);
   want(0, 3, 0);
+  int asked = 0;
   for (int i = 0; i < 1000; ++i) {
     EXPECT_FALSE(settle(0));
-    members[0]->protocol->ask_again();
-    now_ns += kSecond_ns;
+    sent.clear();
+    members[0]->protocol->repeat();
+    asked += is_asked(1) ? 1 : 0;
+    now_ns += kSecond_ns / 2;
   }
-  EXPECT_GT(sent.size(), 100U) << "but it goes on asking";
-  EXPECT_LT(sent.size(), 600U) << "but not every second";
+  EXPECT_GT(asked, 200) << "but it goes on asking";
+  EXPECT_LT(asked, 600) << "but not every time";
 }
 
 TEST_F(LockProtocolTest, TheFaultTakesSilenceForConsent) {
@@ -284,7 +331,7 @@ TEST_F(LockProtocolTest, NoBytesFromAnybodyLeadOutOfBounds) {
     if (draws() % 10 == 0) bytes.resize(draws() % 64);
     members[id]->protocol->receive(static_cast<std::uint32_t>(draws() % 5), bytes);
     if (draws() % 8 == 0) members[id]->protocol->lane_passed();
-    members[id]->protocol->ask_again();
+    members[id]->protocol->repeat();
     now_ns += kSecond_ns / 10;
     ASSERT_TRUE(is_driveable(*map, members[id]->protocol->held()));
   }

@@ -25,6 +25,10 @@ Message sample(MessageKind kind) {
   m.request.station = 301;
   m.request.heading = {0.0, 1.0};
   m.request.append(8);
+  m.asked.add({7, 0});
+  m.asked.add({65'000, 255}, true);
+  m.answers.add({9, first_epoch(3) + 2 * kAttempts + 1, true});
+  m.answers.add({10, 5, false});
   m.echo = 41;
   return m;
 }
@@ -46,14 +50,26 @@ TEST(ProtocolMessages, ComeBackAsTheyWere) {
     EXPECT_TRUE(m->status.held == sent.status.held);
     EXPECT_NEAR(m->status.held.heading.x, 0.6, 1e-4);
     EXPECT_NEAR(m->status.held.heading.y, -0.8, 1e-4);
+    if (kind == MessageKind::State || kind == MessageKind::Request) {
+      EXPECT_EQ(m->demand_ns, sent.demand_ns);
+      EXPECT_TRUE(m->request == sent.request);
+      ASSERT_EQ(m->asked.count, 2U);
+      ASSERT_NE(m->asked.of(65'000), nullptr);
+      EXPECT_EQ(m->asked.of(65'000)->attempt, 255U);
+      EXPECT_TRUE(m->asked.has_deferred(*m->asked.of(65'000)));
+      EXPECT_FALSE(m->asked.has_deferred(*m->asked.of(7)));
+      EXPECT_EQ(m->asked.of(9), nullptr);
+    }
     if (kind == MessageKind::State) {
+      ASSERT_EQ(m->answers.count, 2U);
+      EXPECT_EQ(m->answers.list[0].agv, 9U);
+      EXPECT_EQ(m->answers.list[0].echo, sent.answers.list[0].echo);
+      EXPECT_TRUE(m->answers.list[0].granted);
+      EXPECT_FALSE(m->answers.list[1].granted);
       EXPECT_EQ(m->heard.first, 2U);
       ASSERT_EQ(m->heard.count, 3U);
       EXPECT_EQ(m->heard.stamps_ms[2], 4'000'000'000U);
-    } else if (kind == MessageKind::Request) {
-      EXPECT_EQ(m->demand_ns, sent.demand_ns);
-      EXPECT_TRUE(m->request == sent.request);
-    } else {
+    } else if (kind != MessageKind::Request) {
       EXPECT_EQ(m->echo, 41U);
     }
   }
@@ -84,6 +100,10 @@ TEST(ProtocolMessages, LargestFitsTheRadio) {
   while (m.request.append(1)) {
   }
   EXPECT_LE(WireMessage(m).bytes().size(), 1024U);
+  while (m.asked.add({1, 1})) {
+  }
+  while (m.answers.add({1, first_epoch(1) + 1, true})) {
+  }
   m.kind = MessageKind::State;
   m.heard.count = HeardFrom::kMax;
   EXPECT_LE(WireMessage(m).bytes().size(), 1024U);
@@ -115,6 +135,9 @@ TEST(ProtocolMessages, GarbageIsRefusedOrWithinBounds) {
     ASSERT_LE(m->status.held.count, kPathLanesMax);
     ASSERT_LE(m->request.count, kPathLanesMax);
     ASSERT_LE(m->heard.count, HeardFrom::kMax);
+    ASSERT_LE(m->asked.count, Asked::kMax);
+    ASSERT_LE(m->asked.unanswered, m->asked.count);
+    ASSERT_LE(m->answers.count, Answers::kMax);
     ASSERT_NEAR(length(m->status.held.heading), 1.0, 1e-9);
   }
   EXPECT_GT(accepted, 1000);
