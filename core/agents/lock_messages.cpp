@@ -42,7 +42,7 @@ void LockProtocol::repeat() {
   due_.clear();
   neighbours_.for_each([&](std::uint32_t agv, Neighbour& n) {
     const bool request = options_.progress.asks_again && is_unanswered(n) && n.request_repeats.is_due();
-    const bool answer = owes_answer(n) && n.answer_repeats.is_due();
+    const bool answer = owes_answer(n) && (has_granted(n) || !n.knows_defer) && n.answer_repeats.is_due();
     if (request || answer) due_.push_back({agv, request, answer});
   });
   if (std::any_of(due_.begin(), due_.end(), [](const Due& due) { return due.request; }))

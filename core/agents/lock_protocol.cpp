@@ -259,6 +259,7 @@ void LockProtocol::give_way_to(Neighbour& neighbour) {
   if (request_of(neighbour.asked_epoch + 1) != epoch_) return open_epoch();
   ++neighbour.asked_epoch;
   neighbour.request_repeats = {};
+  neighbour.silent_since_ns = controller_.now_ns();
   look_at_all_ = true;
 }
 
@@ -285,6 +286,7 @@ void LockProtocol::receive_answer(std::uint32_t sender, Epoch echo, bool granted
     if (has_consent(n)) ++repeated_grants_;
     n.granted_us_epoch = n.asked_epoch;
   } else {
+    n.silent_since_ns = controller_.now_ns();
     n.deferred_us_epoch = n.asked_epoch;
     controller_.waiting_for(sender);
   }
@@ -333,7 +335,7 @@ void LockProtocol::note_consent(std::uint32_t agv) {
 
 bool LockProtocol::consents(std::uint32_t agv, const Neighbour& neighbour, std::int64_t now_ns) {
   if (has_consent(neighbour)) return true;
-  if (options_.consent.silence_consents_after_ns > 0 && is_unanswered(neighbour) &&
+  if (options_.consent.silence_consents_after_ns > 0 && is_asked(neighbour) &&
       now_ns - neighbour.silent_since_ns >= options_.consent.silence_consents_after_ns) {
     controller_.sometimes("silence-taken-for-consent");
     return true;
@@ -347,8 +349,7 @@ bool LockProtocol::is_unanswered(const Neighbour& n) const {
 }
 
 bool LockProtocol::owes_answer(const Neighbour& n) const {
-  if (!n.request_is_open() || !n.asks_us) return false;
-  return has_granted(n) || (n.deferred_epoch == n.request_epoch && !n.knows_defer);
+  return n.request_is_open() && n.asks_us && (has_granted(n) || n.deferred_epoch == n.request_epoch);
 }
 
 }  // namespace fleetproof::agents

@@ -9,15 +9,14 @@ WaitingPlaces::WaitingPlaces(const MapView& map, HullGeometry& geometry)
       geometry_(geometry),
       burdens_(map.station_count(), kUnknown),
       goals_(map.station_count()),
+      without_(map),
       marks_(map.station_count()),
-      blocked_(map.lane_count()),
-      seen_(map.station_count(), 0),
       cut_off_(map.station_count(), 0) {
   for (std::uint32_t id = 0; id < map.station_count(); ++id) goals_[id] = map.station(id).purposes != FP_ROUTING;
   if (std::ranges::count(goals_, true) == 0) goals_.assign(map.station_count(), true);
   goal_count_ = static_cast<std::uint32_t>(std::ranges::count(goals_, true));
   const auto first = static_cast<std::uint32_t>(std::ranges::find(goals_, true) - goals_.begin());
-  goals_are_connected_ = goal_count_ > 1 && mark_part(first, FP_NONE) == goal_count_;
+  goals_are_connected_ = goal_count_ > 1 && mark_part(first) == goal_count_;
   if (goals_are_connected_) free_marks_ = marks_;
 }
 
@@ -30,12 +29,12 @@ std::uint32_t WaitingPlaces::burden(std::uint32_t station) {
 std::uint32_t WaitingPlaces::work_out(std::uint32_t station) {
   block_lanes(station);
   const bool holds_up_followers_only = is_all_one_way(station);
-  if (holds_up_followers_only && blocked_list_.empty()) return 0;
+  if (holds_up_followers_only && without_.blocked().empty()) return 0;
   const std::uint32_t others = goal_count_ - (goals_[station] ? 1 : 0);
   const bool only_pieces = goals_are_connected_ && cuts_off_pieces_only(station, others);
   const std::uint32_t cut_off = only_pieces ? goals_in_pieces_ : others - mark_largest_part(station, others);
-  const bool misses_lanes =
-      std::ranges::any_of(blocked_list_, [&](std::uint32_t lane) { return is_missed(station, lane, only_pieces); });
+  const bool misses_lanes = std::ranges::any_of(
+      without_.blocked(), [&](std::uint32_t lane) { return is_missed(station, lane, only_pieces); });
   return (holds_up_followers_only ? 0 : cut_off) + (misses_lanes ? kFoulsLanes : 0);
 }
 
@@ -47,12 +46,12 @@ bool WaitingPlaces::cuts_off_pieces_only(std::uint32_t station, std::uint32_t ot
   goals_in_pieces_ = 0;
   std::uint32_t largest = 0;
   const auto is_no_riddle = [&](std::uint32_t from) {
-    if (from == station || is_cut_off(from) || !explore(from, station, false)) return true;
-    const std::vector<std::uint32_t> piece = queue_;
-    if (!explore(from, station, true) || queue_.size() != piece.size()) return false;
+    if (from == station || is_cut_off(from) || !without_.explore(from, false, kSmallPiece)) return true;
+    const std::vector<std::uint32_t> piece(without_.found().begin(), without_.found().end());
+    if (!without_.explore(from, true, kSmallPiece) || without_.found().size() != piece.size()) return false;
     std::uint32_t goals = 0;
     for (const std::uint32_t id : piece) {
-      if (seen_[id] != look_) return false;
+      if (!without_.was_found(id)) return false;
       cut_off_[id] = judged_;
       goals += goals_[id] ? 1U : 0U;
     }
@@ -64,51 +63,21 @@ bool WaitingPlaces::cuts_off_pieces_only(std::uint32_t station, std::uint32_t ot
     return is_no_riddle(map_.lane(lane).from) && is_no_riddle(map_.lane(lane).to);
   };
   return std::ranges::all_of(map_.lanes_from(station), ends) && std::ranges::all_of(map_.lanes_to(station), ends) &&
-         std::ranges::all_of(blocked_list_, ends) && others - goals_in_pieces_ > largest && has_detours(station);
-}
-
-// Collects the stations that `from` reaches, or that reach it, in queue_. False if there are many.
-bool WaitingPlaces::explore(std::uint32_t from, std::uint32_t without, bool backwards) {
-  begin_look(from);
-  for (std::size_t next = 0; next < queue_.size(); ++next) {
-    if (queue_.size() > kSmallPiece) return false;
-    look_on(queue_[next], without, backwards);
-  }
-  return true;
+         std::ranges::all_of(without_.blocked(), ends) && others - goals_in_pieces_ > largest && has_detours(station);
 }
 
 bool WaitingPlaces::has_detours(std::uint32_t station) {
   const auto has_detour = [&](std::uint32_t from, std::uint32_t to) {
     return from == to || from == station || to == station || is_cut_off(from) || is_cut_off(to) ||
-           reaches(from, to, station);
+           without_.reaches(from, to);
   };
   for (const std::uint32_t arriving : map_.lanes_to(station)) {
     for (const std::uint32_t leaving : map_.lanes_from(station)) {
       if (!has_detour(map_.lane(arriving).from, map_.lane(leaving).to)) return false;
     }
   }
-  return std::ranges::all_of(blocked_list_,
+  return std::ranges::all_of(without_.blocked(),
                              [&](std::uint32_t lane) { return has_detour(map_.lane(lane).from, map_.lane(lane).to); });
-}
-
-bool WaitingPlaces::reaches(std::uint32_t from, std::uint32_t to, std::uint32_t without) {
-  begin_look(from);
-  for (std::size_t next = 0; next < queue_.size() && seen_[to] != look_; ++next) look_on(queue_[next], without, false);
-  return seen_[to] == look_;
-}
-
-void WaitingPlaces::begin_look(std::uint32_t from) {
-  seen_[from] = ++look_;
-  queue_.assign(1, from);
-}
-
-void WaitingPlaces::look_on(std::uint32_t at, std::uint32_t without, bool backwards) {
-  for (const std::uint32_t lane : backwards ? map_.lanes_to(at) : map_.lanes_from(at)) {
-    const std::uint32_t to = backwards ? map_.lane(lane).from : map_.lane(lane).to;
-    if (to == without || blocked_[lane] || seen_[to] == look_) continue;
-    seen_[to] = look_;
-    queue_.push_back(to);
-  }
 }
 
 bool WaitingPlaces::is_all_one_way(std::uint32_t station) const {
@@ -119,13 +88,11 @@ bool WaitingPlaces::is_all_one_way(std::uint32_t station) const {
 
 // The lanes that do not touch the station and are too near to it.
 void WaitingPlaces::block_lanes(std::uint32_t station) {
-  for (const std::uint32_t lane : blocked_list_) blocked_[lane] = false;
-  blocked_list_.clear();
+  without_.take_away(station);
   for (const std::uint32_t id : geometry_.lanes_near(station)) {
     const fp_lane& lane = map_.lane(id);
     if (lane.from == station || lane.to == station || !geometry_.turning_blocks_lane(station, id)) continue;
-    blocked_[id] = true;
-    blocked_list_.push_back(id);
+    without_.block(id);
   }
 }
 
@@ -160,7 +127,7 @@ std::uint32_t WaitingPlaces::mark_largest_part(std::uint32_t without, std::uint3
   bool any = false;
   const auto try_from = [&](std::uint32_t station) {
     if (station == without || (any && largest == all) || marks_[station] == kInLargest) return;
-    const std::uint32_t found = mark_part(station, without);
+    const std::uint32_t found = mark_part(station);
     const bool better = !any || found > largest;
     if (better) largest = found, any = true;
     for (std::uint8_t& mark : marks_) {
@@ -171,35 +138,22 @@ std::uint32_t WaitingPlaces::mark_largest_part(std::uint32_t without, std::uint3
   };
   for (const std::uint32_t lane : map_.lanes_from(without)) try_from(map_.lane(lane).to);
   for (const std::uint32_t lane : map_.lanes_to(without)) try_from(map_.lane(lane).from);
-  for (const std::uint32_t lane : blocked_list_) try_from(map_.lane(lane).from), try_from(map_.lane(lane).to);
+  for (const std::uint32_t lane : without_.blocked()) try_from(map_.lane(lane).from), try_from(map_.lane(lane).to);
   const auto inside = std::ranges::find(marks_, std::uint8_t{kInLargest});
-  if (inside != marks_.end()) mark_part(static_cast<std::uint32_t>(inside - marks_.begin()), without);
+  if (inside != marks_.end()) mark_part(static_cast<std::uint32_t>(inside - marks_.begin()));
   return largest;
 }
 
 // Marks the stations that `from` reaches, and that reach `from`. Returns the number of goals among them.
-std::uint32_t WaitingPlaces::mark_part(std::uint32_t from, std::uint32_t without) {
-  mark_reachable(from, without, false);
-  mark_reachable(from, without, true);
+std::uint32_t WaitingPlaces::mark_part(std::uint32_t from) {
+  for (const bool backwards : {false, true}) {
+    without_.explore(from, backwards);
+    for (const std::uint32_t id : without_.found())
+      marks_[id] = static_cast<std::uint8_t>(marks_[id] | (backwards ? kReaches : kReached));
+  }
   std::uint32_t goals = 0;
   for (std::uint32_t id = 0; id < map_.station_count(); ++id) goals += goals_[id] && (marks_[id] & kInPart) == kInPart;
   return goals;
-}
-
-void WaitingPlaces::mark_reachable(std::uint32_t from, std::uint32_t without, bool backwards) {
-  const std::uint8_t mark = backwards ? kReaches : kReached;
-  marks_[from] = static_cast<std::uint8_t>(marks_[from] | mark);
-  stack_.assign(1, from);
-  while (!stack_.empty()) {
-    const std::uint32_t at = stack_.back();
-    stack_.pop_back();
-    for (const std::uint32_t lane : backwards ? map_.lanes_to(at) : map_.lanes_from(at)) {
-      const std::uint32_t next = backwards ? map_.lane(lane).from : map_.lane(lane).to;
-      if (next == without || blocked_[lane] || (marks_[next] & mark) != 0) continue;
-      marks_[next] = static_cast<std::uint8_t>(marks_[next] | mark);
-      stack_.push_back(next);
-    }
-  }
 }
 
 }  // namespace fleetproof::agents

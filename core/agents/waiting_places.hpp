@@ -5,6 +5,7 @@
 
 #include "core/agents/hull.hpp"
 #include "core/agents/map_view.hpp"
+#include "core/agents/map_without.hpp"
 
 namespace fleetproof::agents {
 
@@ -34,16 +35,11 @@ class WaitingPlaces {
   void block_lanes(std::uint32_t station);
   bool cuts_off_pieces_only(std::uint32_t station, std::uint32_t others);
   bool is_cut_off(std::uint32_t station) const { return cut_off_[station] == judged_; }
-  bool explore(std::uint32_t from, std::uint32_t without, bool backwards);
   bool has_detours(std::uint32_t station);
-  bool reaches(std::uint32_t from, std::uint32_t to, std::uint32_t without);
-  void begin_look(std::uint32_t from);
-  void look_on(std::uint32_t at, std::uint32_t without, bool backwards);
   bool is_missed(std::uint32_t station, std::uint32_t lane, bool only_pieces);
   bool blocks_while_waiting(std::uint32_t station, std::uint32_t lane);
   std::uint32_t mark_largest_part(std::uint32_t without, std::uint32_t all);
-  std::uint32_t mark_part(std::uint32_t from, std::uint32_t without);
-  void mark_reachable(std::uint32_t from, std::uint32_t without, bool backwards);
+  std::uint32_t mark_part(std::uint32_t from);
 
   const MapView& map_;
   HullGeometry& geometry_;
@@ -54,12 +50,8 @@ class WaitingPlaces {
   std::vector<std::uint8_t> free_marks_;  // by station: of the part with the goals, if nothing is blocked
 
   // Of the station that is being judged.
-  std::vector<std::uint8_t> marks_;  // by station
-  std::vector<bool> blocked_;        // by lane
-  std::vector<std::uint32_t> blocked_list_, stack_;
-  std::vector<std::uint32_t> seen_;  // by station: the last look that came there
-  std::uint32_t look_ = 0;
-  std::vector<std::uint32_t> queue_;    // the stations of that look
+  MapWithout without_;
+  std::vector<std::uint8_t> marks_;     // by station
   std::vector<std::uint32_t> cut_off_;  // by station: the last judgement by which it was in a small piece
   std::uint32_t judged_ = 0, goals_in_pieces_ = 0;
 };

@@ -19,7 +19,7 @@ class ExplainVerb : public test::ProgramTest {
 name = "a"
 seed = 11
 horizon_s = 30
-replicates = 4
+replicates = 12
 [factors]
 agents = ["timeout-grant"]
 layouts = ["aisle-grid"]
@@ -29,7 +29,7 @@ delay_s = [1]
 transports_per_agv_hour = 60
 )");
     run("run a.toml --db a.db");
-    for (int index = 0; index < 4; ++index) {
+    for (int index = 0; index < 12; ++index) {
       run("replay a.db " + std::to_string(index) + " --scenario case.json");
       if (simulate("case.json") == "contact") return;
     }
