@@ -1,74 +1,3 @@
-// Proof that two AGVs i and j never hold conflicting hulls.
-//
-// Terms
-// - An epoch of i towards j is the time in which i asks j for its consent to one fixed path. It ends when i locks the
-//   path, withdraws the request or steps back from j, or when the computer of i restarts. Its number consists of the
-//   boot, the request and the attempt, and is never used again.
-// - i decides to grant an epoch f of j (towards i) only under two conditions. (1) Nothing that i holds conflicts with
-//   the request of j. (2) i is not inside an epoch towards j whose request conflicts, or i ends that epoch at once.
-// - A GRANT for f says that i decided so at some instant during f. Repeated GRANTs refer to the first decision that i
-//   remembers.
-// - i locks a path only if every other AGV j has granted the epoch e of i towards j, or is excluded. An AGV is excluded
-//   if i has proved at that instant that it is far away: nothing that it then holds or requests can conflict
-//   (Neighbours::surely_beyond). This covers every request, because a claim is never longer than longest_claim_m.
-//
-// Proof by contradiction. Suppose there is a first instant at which two AGVs hold conflicting hulls: i locked at t_i
-// and still holds it when j locks at t_j >= t_i. Let f be the epoch of j towards i that ends at t_j.
-// - If j excluded i at t_j, nothing that i held at t_j conflicts: contradiction. So i decided to grant f, at an instant
-//   s_i during f, and s_i <= t_j.
-// - i holds the conflicting hull from t_i to t_j, so s_i < t_i by (1), and f lasts from s_i or before until t_j. At
-//   t_i, j thus requests what conflicts. So i did not exclude j at t_i, and j decided to grant the epoch e of i towards
-//   j that ends at t_i, at an instant s_j inside e.
-// - By (2), s_i is not inside e, because e would have ended there. So s_i lies before the beginning of e, and e lies
-//   inside f. With it, s_j is inside f. By (2), j ended f at s_j <= t_i <= t_j. So j could not lock at t_j with f:
-//   contradiction. (If all three are one instant, the activations of j still have an order.)
-//
-// The proof uses no assumption about the delay, the order or the number of messages, about clocks or keys, or about
-// which of several GRANTs was used and which message carried it. Keys, repetition and making way serve progress only.
-// Time releases nothing. The first hulls are the bodies at the start, and the warehouse keeps those apart. It does so
-// without their loads; an AGV takes a load there only when it has locked its way from there, and with it the floor
-// under the load (HullLock::must_lock_first).
-//
-// What i holds contains its body. The proof above is about held paths; these rules tie the body to the held path:
-// - At the start and at a restart, i holds the standing body or the lanes to be driven (see Restarts).
-// - The held path is always one way that can be driven: it grows only by a stretch that begins where it ends
-//   (continues_held), and loses only its first lane.
-// - i moves only over the first held lane (may_drive), and gives no action while another one may be under way, but for
-//   one: while i drives the first held lane, it may give the move over the second one (may_drive_next). That move
-//   begins when the first one ends, so i drives the held lanes in their order, with a stop between them or without. A
-//   call that is refused moves nothing. So whatever stops, delays or frees the AGV, its body covers the first held
-//   lane, the turn before it, or the place where it stands. Which leg the agent had in mind, and why, plays no part.
-// - That lane is released when its move ends with FP_OK, so the AGV stands at its end or passes it. What the AGV still
-//   covers then belongs to the next lane, to a turn, or to the standing body. An AGV passes a station only if the next
-//   lane goes straight on: then the body at the end of one lane is the body at the beginning of the next one. A move
-//   that ends otherwise, or does not end, releases nothing: an AGV that is stopped, broken down or empty in the middle
-//   of a lane holds that lane.
-//
-// Why does i step back from j alone? The proof speaks of two AGVs and their epochs towards each other. What a third one
-// granted to i stays true.
-//
-// Why may a GRANT be repeated without stepping back, asked for again or not? Because the first decision counts: every
-// later epoch of i asks j, and j is inside f until it has ended f. If i did not remember its grants, each repeated
-// REQUEST would make i step back again. At 40 % loss no AGV would then make progress.
-//
-// Restarts. A restarted i has forgotten its knowledge of other AGVs, and the requests that it granted. No step above
-// needs this memory:
-// - The restart of i ends its epoch. i then holds only what the AGV covers until its actions end: the lane under way
-// and
-//   the lane of a move that has been given already, or the standing body. This part of the locked floor is held without
-//   a gap, by the former self and by the new self from its first instant, because the new self answers no message
-//   before. So (1) is true of every s_i in [t_i, t_j], with or without a restart between them. The new self may also
-//   hold the turn before the lane without having locked it. That only makes it defer more often.
-// - A GRANT of the former self for f may still be in the air, or j may have it. It stays true, because s_i lies before
-//   every epoch of the new self. When the new self requests e, there are two cases. If f is over, the GRANT has no
-//   effect. If j is still inside f, the new self must ask j, in an epoch of the new boot. To grant it, j ends f, and
-//   with f every GRANT for f from any boot. So there is nothing to wait for.
-// - A restart of j between s_i and t_j ends f, so j does not lock f. A late GRANT for an epoch of a former boot names
-//   that boot, and is not an answer.
-// - The new self decides again about an f that the former self granted. That is a second decision under the same rules,
-//   and any decision during f is sufficient.
-// - The new self must know its own place. If positions may be late, it knows the heading of its AGV only after that
-//   time. Until then it grants nothing (know_own_place).
 #include "core/agents/lock_protocol.hpp"
 
 #include <algorithm>
@@ -78,6 +7,12 @@ namespace fleetproof::agents {
 namespace {
 
 constexpr double kRounding_m = 1e-6;  // of sums of lengths; the proof of distance has a margin of a metre
+
+// More than a third of the fleet gets one message together.
+constexpr std::size_t kFewerMessages = 3;
+// A STATE is sent at the latest after this time. It is longer in large fleets, so that an AGV hears about as many of
+// them a second.
+constexpr double kQuiet_s = 1.0, kQuietPerAgv_s = 0.05, kLongestQuiet_s = 30.0;
 
 }  // namespace
 
@@ -129,12 +64,6 @@ void LockProtocol::lane_passed() {
   if (held_.empty()) return;
   pass_first_lane(map_, held_);
   answers_may_change_ = true;
-}
-
-void LockProtocol::describe(bool waiting, bool idle, bool out_of_order) {
-  waiting_ = waiting;
-  idle_ = idle;
-  out_of_order_ = out_of_order;
 }
 
 bool LockProtocol::receive(std::uint32_t sender, std::span<const std::byte> bytes) {
@@ -350,6 +279,118 @@ bool LockProtocol::is_unanswered(const Neighbour& n) const {
 
 bool LockProtocol::owes_answer(const Neighbour& n) const {
   return n.request_is_open() && n.asks_us && (has_granted(n) || n.deferred_epoch == n.request_epoch);
+}
+
+// ---- what it says
+
+// One message to all if it has enough addressees: it is one transmission.
+void LockProtocol::ask() {
+  if (to_ask_.size() * kFewerMessages <= neighbours_.fleet_count()) {
+    for (const std::uint32_t agv : to_ask_) send_request(agv);
+  } else {
+    Message message = request_message();
+    for (const std::uint32_t agv : to_ask_) {
+      if (message.asked.add(entry_of(agv))) continue;
+      transmitter_.send(message, FP_NONE);
+      message.asked = {};
+      message.asked.add(entry_of(agv));
+    }
+    transmitter_.send(message, FP_NONE);
+  }
+  to_ask_.clear();
+}
+
+// What a REQUEST says to this AGV.
+Asked::Entry LockProtocol::entry_of(std::uint32_t agv) const {
+  return {agv, static_cast<std::uint32_t>(neighbours_.of(agv).asked_epoch - epoch_)};
+}
+
+// Few repetitions go to their addressees, many go out with the STATE.
+void LockProtocol::repeat() {
+  look_at_all_ = true;
+  due_.clear();
+  neighbours_.for_each([&](std::uint32_t agv, Neighbour& n) {
+    const bool request = options_.progress.asks_again && is_unanswered(n) && n.request_repeats.is_due();
+    const bool answer = owes_answer(n) && (has_granted(n) || !n.knows_defer) && n.answer_repeats.is_due();
+    if (request || answer) due_.push_back({agv, request, answer});
+  });
+  if (std::any_of(due_.begin(), due_.end(), [](const Due& due) { return due.request; }))
+    controller_.sometimes("retransmission");
+  const double quiet_s = static_cast<double>(controller_.now_ns() - state_sent_ns_) * 1e-9;
+  if (due_.size() * kFewerMessages > neighbours_.fleet_count() || quiet_s > longest_quiet_s() || state_sent_ns_ < 0)
+    return broadcast_state();
+  for (const Due& due : due_) {
+    const Neighbour& n = neighbours_.of(due.agv);
+    if (due.request) send_request(due.agv);
+    if (due.answer) send_answer(has_granted(n) ? MessageKind::Grant : MessageKind::Defer, due.agv, n.request_epoch);
+  }
+}
+
+double LockProtocol::longest_quiet_s() const {
+  return std::clamp(kQuietPerAgv_s * neighbours_.fleet_count(), kQuiet_s, kLongestQuiet_s);
+}
+
+void LockProtocol::broadcast_state() {
+  state_sent_ns_ = controller_.now_ns();
+  Message message;
+  fill_in(message.status);
+  // Others take the table as proof that the position is newer than what it acknowledges.
+  if (transmitter_.knows_position()) neighbours_.tell_heard_from(message.heard);
+  if (requesting_) fill_in_request(message);
+  fill_in_lists(message);
+  transmitter_.send(message, FP_NONE);
+}
+
+// The next STATE begins with those that this one has no room for.
+void LockProtocol::fill_in_lists(Message& message) {
+  std::uint32_t left_out = FP_NONE;
+  const auto say = [&](std::uint32_t agv, bool fits) {
+    if (!fits && left_out == FP_NONE) left_out = agv;
+  };
+  neighbours_.for_each_from(first_in_lists_, [&](std::uint32_t agv, const Neighbour& n) {
+    if (options_.progress.asks_again && is_unanswered(n)) say(agv, message.asked.add(entry_of(agv)));
+    if (owes_answer(n)) say(agv, message.answers.add({agv, n.request_epoch, has_granted(n)}));
+  });
+  neighbours_.for_each_from(first_in_lists_, [&](std::uint32_t agv, const Neighbour& n) {
+    const bool has_deferred = is_asked(n) && !has_consent(n) && n.deferred_us_epoch == n.asked_epoch;
+    if (has_deferred) say(agv, message.asked.add(entry_of(agv), true));
+  });
+  if (left_out != FP_NONE) first_in_lists_ = left_out;
+}
+
+void LockProtocol::send_answer(MessageKind kind, std::uint32_t receiver, Epoch echo) {
+  Message message;
+  message.kind = kind;
+  fill_in(message.status);
+  message.echo = echo;
+  transmitter_.send(message, receiver);
+}
+
+void LockProtocol::send_request(std::uint32_t receiver) {
+  Message message = request_message();
+  message.asked.add(entry_of(receiver));
+  transmitter_.send(message, receiver);
+}
+
+Message LockProtocol::request_message() {
+  Message message;
+  message.kind = MessageKind::Request;
+  fill_in(message.status);
+  fill_in_request(message);
+  return message;
+}
+
+void LockProtocol::fill_in_request(Message& message) {
+  message.demand_ns = demand_ns_;
+  message.request = request_;
+}
+
+void LockProtocol::fill_in(Status& status) {
+  transmitter_.fill_in(status);
+  status.epoch = epoch_;
+  status.requesting = requesting_;
+  status.blocked = is_blocked();
+  status.held = held_;
 }
 
 }  // namespace fleetproof::agents

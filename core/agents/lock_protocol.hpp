@@ -1,3 +1,74 @@
+// Proof that two AGVs i and j never hold conflicting hulls.
+//
+// Terms
+// - An epoch of i towards j is the time in which i asks j for its consent to one fixed path. It ends when i locks the
+//   path, withdraws the request or steps back from j, or when the computer of i restarts. Its number consists of the
+//   boot, the request and the attempt, and is never used again.
+// - i decides to grant an epoch f of j (towards i) only under two conditions. (1) Nothing that i holds conflicts with
+//   the request of j. (2) i is not inside an epoch towards j whose request conflicts, or i ends that epoch at once.
+// - A GRANT for f says that i decided so at some instant during f. Repeated GRANTs refer to the first decision that i
+//   remembers.
+// - i locks a path only if every other AGV j has granted the epoch e of i towards j, or is excluded. An AGV is excluded
+//   if i has proved at that instant that it is far away: nothing that it then holds or requests can conflict
+//   (Neighbours::surely_beyond). This covers every request, because a claim is never longer than longest_claim_m.
+//
+// Proof by contradiction. Suppose there is a first instant at which two AGVs hold conflicting hulls: i locked at t_i
+// and still holds it when j locks at t_j >= t_i. Let f be the epoch of j towards i that ends at t_j.
+// - If j excluded i at t_j, nothing that i held at t_j conflicts: contradiction. So i decided to grant f, at an instant
+//   s_i during f, and s_i <= t_j.
+// - i holds the conflicting hull from t_i to t_j, so s_i < t_i by (1), and f lasts from s_i or before until t_j. At
+//   t_i, j thus requests what conflicts. So i did not exclude j at t_i, and j decided to grant the epoch e of i towards
+//   j that ends at t_i, at an instant s_j inside e.
+// - By (2), s_i is not inside e, because e would have ended there. So s_i lies before the beginning of e, and e lies
+//   inside f. With it, s_j is inside f. By (2), j ended f at s_j <= t_i <= t_j. So j could not lock at t_j with f:
+//   contradiction. (If all three are one instant, the activations of j still have an order.)
+//
+// The proof uses no assumption about the delay, the order or the number of messages, about clocks or keys, or about
+// which of several GRANTs was used and which message carried it. Keys, repetition and making way serve progress only.
+// Time releases nothing. The first hulls are the bodies at the start, and the warehouse keeps those apart. It does so
+// without their loads; an AGV takes a load there only when it has locked its way from there, and with it the floor
+// under the load (HullLock::must_lock_first).
+//
+// What i holds contains its body. The proof above is about held paths; these rules tie the body to the held path:
+// - At the start and at a restart, i holds the standing body or the lanes to be driven (see Restarts).
+// - The held path is always one way that can be driven: it grows only by a stretch that begins where it ends
+//   (continues_held), and loses only its first lane.
+// - i moves only over the first held lane (may_drive), and gives no action while another one may be under way, but for
+//   one: while i drives the first held lane, it may give the move over the second one (may_drive_next). That move
+//   begins when the first one ends, so i drives the held lanes in their order, with a stop between them or without. A
+//   call that is refused moves nothing. So whatever stops, delays or frees the AGV, its body covers the first held
+//   lane, the turn before it, or the place where it stands. Which leg the agent had in mind, and why, plays no part.
+// - That lane is released when its move ends with FP_OK, so the AGV stands at its end or passes it. What the AGV still
+//   covers then belongs to the next lane, to a turn, or to the standing body. An AGV passes a station only if the next
+//   lane goes straight on: then the body at the end of one lane is the body at the beginning of the next one. A move
+//   that ends otherwise, or does not end, releases nothing: an AGV that is stopped, broken down or empty in the middle
+//   of a lane holds that lane.
+//
+// Why does i step back from j alone? The proof speaks of two AGVs and their epochs towards each other. What a third one
+// granted to i stays true.
+//
+// Why may a GRANT be repeated without stepping back, asked for again or not? Because the first decision counts: every
+// later epoch of i asks j, and j is inside f until it has ended f. If i did not remember its grants, each repeated
+// REQUEST would make i step back again. At 40 % loss no AGV would then make progress.
+//
+// Restarts. A restarted i has forgotten its knowledge of other AGVs, and the requests that it granted. No step above
+// needs this memory:
+// - The restart of i ends its epoch. i then holds only what the AGV covers until its actions end: the lane under way
+// and
+//   the lane of a move that has been given already, or the standing body. This part of the locked floor is held without
+//   a gap, by the former self and by the new self from its first instant, because the new self answers no message
+//   before. So (1) is true of every s_i in [t_i, t_j], with or without a restart between them. The new self may also
+//   hold the turn before the lane without having locked it. That only makes it defer more often.
+// - A GRANT of the former self for f may still be in the air, or j may have it. It stays true, because s_i lies before
+//   every epoch of the new self. When the new self requests e, there are two cases. If f is over, the GRANT has no
+//   effect. If j is still inside f, the new self must ask j, in an epoch of the new boot. To grant it, j ends f, and
+//   with f every GRANT for f from any boot. So there is nothing to wait for.
+// - A restart of j between s_i and t_j ends f, so j does not lock f. A late GRANT for an epoch of a former boot names
+//   that boot, and is not an answer.
+// - The new self decides again about an f that the former self granted. That is a second decision under the same rules,
+//   and any decision during f is sufficient.
+// - The new self must know its own place. If positions may be late, it knows the heading of its AGV only after that
+//   time. Until then it grants nothing (know_own_place).
 #pragma once
 
 #include <cstdint>
@@ -9,12 +80,13 @@
 #include "core/agents/neighbours.hpp"
 #include "core/agents/path.hpp"
 #include "core/agents/protocol_messages.hpp"
+#include "core/agents/transmitter.hpp"
 
 namespace fleetproof::agents {
 
 // Mutual exclusion of hulls, by messages that may be lost, late, reordered or doubled. If all AGVs of a fleet run this
 // protocol, no two of them ever hold conflicting hulls. An AGV always holds the path on which it stands or drives, and
-// it may request a longer one. The proof is at the beginning of lock_protocol.cpp.
+// it may request a longer one. The proof is at the beginning of this file.
 class LockProtocol {
  public:
   LockProtocol(const MapView& map, HullGeometry& geometry, Neighbours& neighbours, Controller& controller,
@@ -23,6 +95,7 @@ class LockProtocol {
         geometry_(geometry),
         neighbours_(neighbours),
         controller_(controller),
+        transmitter_(controller),
         options_(options),
         epoch_(first_epoch(boot)) {}
 
@@ -49,7 +122,7 @@ class LockProtocol {
   // The AGV has reached the end of the first held lane, and releases that lane. No effect if no lane is held.
   void lane_passed();
   // The state of the AGV that the next messages contain.
-  void describe(bool waiting, bool idle, bool out_of_order);
+  void describe(bool waiting, bool idle, bool out_of_order) { transmitter_.describe(waiting, idle, out_of_order); }
 
   // False if the bytes are not a message of this protocol.
   bool receive(std::uint32_t sender, std::span<const std::byte> bytes);
@@ -102,7 +175,6 @@ class LockProtocol {
   void send_request(std::uint32_t receiver);
   Message request_message();
   void send_answer(MessageKind kind, std::uint32_t receiver, Epoch echo);
-  void send(const Message& message, std::uint32_t receiver);
   void fill_in(Status& status);
   void fill_in_request(Message& message);
 
@@ -110,6 +182,7 @@ class LockProtocol {
   HullGeometry& geometry_;
   Neighbours& neighbours_;
   Controller& controller_;
+  Transmitter transmitter_;
   LockOptions options_;
 
   Path held_;
@@ -130,9 +203,6 @@ class LockProtocol {
   bool answers_may_change_ = false;  // something changed since the deferred requests were last examined
 
   bool blocked_ = false, blocked_is_known_ = false;  // an AGV waits inside the requested hull
-  bool waiting_ = true, idle_ = true, out_of_order_ = false;
-  Vec position_m_;
-  std::int64_t position_at_ns_ = -1;
 };
 
 }  // namespace fleetproof::agents

@@ -20,8 +20,8 @@ struct Lucks {
     spec.demand.transports_per_agv_hour = 120.0;
     RejectionCounts ignored;
     scenario = generate_world(spec, 3, ignored);
-    scenario.radio.loss = 0.4;
-    scenario.radio.delay_s = 2.0;
+    scenario.radio.loss = 0.3;
+    scenario.radio.delay_s = 1.0;
   }
   Candidates from(std::size_t first) const {
     return {kLucks - first, [this, first](std::size_t rank) {

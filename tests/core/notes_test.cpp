@@ -231,7 +231,7 @@ TEST(Notes, AreOnTheTapeEvenIfNobodyLookedWhenItWasRecorded) {
 
 TEST(Notes, OfHullLock) {
   Scenario scenario = row_of_tens({0, 2}, 120.0);
-  scenario.agvs[0].transports = {{StationId{0U}, StationId{2U}, seconds(20.0)}};
+  scenario.agvs[0].transports = {{StationId{0U}, StationId{1U}, seconds(20.0)}};
   const auto type = std::find_if(fp_reference_agents, fp_reference_agents + fp_reference_agent_count,
                                  [](const fp_agent_type* t) { return std::string_view(t->name) == "hull-lock"; });
   Notebook notebook;

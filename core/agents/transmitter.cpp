@@ -1,0 +1,36 @@
+#include "core/agents/transmitter.hpp"
+
+#include "core/agents/neighbours.hpp"
+
+namespace fleetproof::agents {
+
+void Transmitter::describe(bool waiting, bool idle, bool out_of_order) {
+  waiting_ = waiting;
+  idle_ = idle;
+  out_of_order_ = out_of_order;
+}
+
+void Transmitter::fill_in(Status& status) {
+  const std::int64_t now_ns = controller_.now_ns();
+  fp_pose pose{};
+  if (position_at_ns_ != now_ns && controller_.pose(pose)) {
+    position_m_ = {pose.x_m, pose.y_m};
+    position_at_ns_ = now_ns;
+  }
+  status.stamp_ms = Neighbours::stamp_ms(now_ns);
+  status.position_m = position_m_;
+  status.waiting = waiting_;
+  status.idle = idle_;
+  status.out_of_order = out_of_order_;
+}
+
+void Transmitter::send(const Message& message, std::uint32_t receiver) {
+  controller_.describe(name_of(message.kind));
+  if (receiver == FP_NONE) {
+    controller_.broadcast(WireMessage(message).bytes());
+  } else {
+    controller_.send(WireMessage(message).bytes(), receiver);
+  }
+}
+
+}  // namespace fleetproof::agents
