@@ -6,6 +6,7 @@
 #include <memory>
 #include <sstream>
 
+#include "campaign/cli/manual.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/run/engine_identity.hpp"
 #include "core/base/catalogue.hpp"
@@ -127,6 +128,12 @@ int bad_usage(const CLI::App& app, const CLI::ParseError& error, std::span<const
 }  // namespace
 
 int run_command_line(std::span<const Verb> verbs, int argc, const char* const* argv) {
+  if (argc == 2) {  // for the package, not for people
+    const std::string_view word = argv[1];
+    if (word == "--man-page") return put_text(man_page(verbs, engine_identity().version)), kDemonstrated;
+    if (word == "--bash-completion") return put_text(bash_completion(verbs)), kDemonstrated;
+    if (word == "--zsh-completion") return put_text(zsh_completion(verbs)), kDemonstrated;
+  }
   CLI::App app(
       "Test campaigns for AGV control software: how often is the 10 cm safety distance broken when messages are lost "
       "and late?",
