@@ -48,12 +48,12 @@ TEST_F(NeighboursTest, AProvedPositionExcludesUntilItIsTooOld) {
   ASSERT_TRUE(state_from_1(100.0, 10 * kSecond_ns, 12 * kSecond_ns, 11'000));
   EXPECT_TRUE(neighbours.surely_beyond(1, here, 12 * kSecond_ns));
   EXPECT_TRUE(neighbours.surely_beyond(1, here, 30 * kSecond_ns));
-  // 100 m away from a hull that reaches to 4.8 m; claims of 30 m; 2.2 m/s: gone after some 28 s.
-  EXPECT_FALSE(neighbours.surely_beyond(1, here, 41 * kSecond_ns));
+  // 100 m away from a hull that reaches to 4.8 m; claims of 40 m; 2.2 m/s: gone after some 24 s.
+  EXPECT_FALSE(neighbours.surely_beyond(1, here, 36 * kSecond_ns));
 }
 
 TEST_F(NeighboursTest, NearIsNeverExcluded) {
-  ASSERT_TRUE(state_from_1(34.0, 10 * kSecond_ns, 10 * kSecond_ns, 10'000));
+  ASSERT_TRUE(state_from_1(44.0, 10 * kSecond_ns, 10 * kSecond_ns, 10'000));
   EXPECT_FALSE(neighbours.surely_beyond(1, here, 10 * kSecond_ns));
 }
 
@@ -100,7 +100,7 @@ TEST_F(NeighboursTest, RequestsThatAreHistoryStayClosed) {
   EXPECT_FALSE(neighbours.of(1).request_is_open()) << "a late duplicate";
 }
 
-// 90 m away; claims of 30 m; the hull reaches to 4.8 m: 54 m are left, of which late positions and errors take theirs.
+// 100 m away; claims of 40 m; the hull reaches to 4.8 m: 54 m are left, of which late positions and errors take theirs.
 TEST_F(NeighboursTest, LatePositionsAndFasterDrivesShortenTheProof) {
   const auto beyond = [&](double late_s, double error_m, double deviation, std::int64_t age_s) {
     fp_agv agv = testing::kTestAgv;
@@ -111,7 +111,7 @@ TEST_F(NeighboursTest, LatePositionsAndFasterDrivesShortenTheProof) {
     settings.position_error_m = error_m;
     Neighbours n(map, geometry, two.briefing(0, 0), settings);
     Message m;
-    m.status.position_m = {90.0, 0.0};
+    m.status.position_m = {100.0, 0.0};
     m.status.held.station = 1;
     m.heard.count = 1;
     m.heard.stamps_ms[0] = Neighbours::stamp_ms(0);
