@@ -17,7 +17,7 @@ struct Known {
 };
 
 Known known_failure(Bench& bench) {
-  const auto needs = needs_of(bench.host, bench.failing(100));
+  const auto needs = needs_of(bench.host, bench.failing(125));
   Finding finding;
   finding.mechanism = {needs->end, needs->needs, {}, {}};
   const FindingRecord record = record_of(bench.host, finding, *needs, 4000);
