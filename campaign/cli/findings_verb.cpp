@@ -102,6 +102,8 @@ class FindingsDesk {
                            .reason = {},
                            .end = finding.mechanism.end,
                            .ways = record.kept.ways,
+                           .doings = record.kept.doings,
+                           .says = record.kept.says,
                            .found_in = finding.agent,
                            .smallest = id + ".case.json",
                            .world = id + ".world.json",

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -53,6 +54,7 @@ void put_line(const Retested& retested) {
   put("  {} of {} neighbours fail so (below {:.2f} %, 95 % sure); {} of {} when it was found in {}\n", result.now.alike,
       result.now.of, 100.0 * result.upper_bound, finding.neighbours.alike, finding.neighbours.of, finding.found_in);
   if (!result.new_kind.empty()) put("  new: {}\n", result.new_kind);
+  if (!result.standing.empty()) put("  hardly drives: {}\n", result.standing);
 }
 
 void put_json(const std::vector<Retested>& all) {
@@ -66,6 +68,7 @@ void put_json(const std::vector<Retested>& all) {
                                 {"upper_bound", result.upper_bound},
                                 {"otherwise", result.now.otherwise},
                                 {"new_kind", result.new_kind},
+                                {"hardly_drives", result.standing},
                                 {"failing_before", finding.neighbours.alike},
                                 {"neighbours_before", finding.neighbours.of}});
   put_text(printable_json(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) + "\n");
@@ -92,10 +95,14 @@ int retest_findings(const RetestWords& words) {
     if (!host) host = std::make_unique<CaseHost>(CaseAgent{agent, config}, programs, worker_count(words.jobs));
   }
   std::vector<Retested> all;
-  const auto neighbours = static_cast<std::uint32_t>(words.neighbours.value_or(kNeighbours));
+  // As many as when it was found: there, so many were needed for some of them to fail.
+  const auto neighbours_of = [&](const KeptFinding& finding) {
+    const auto usual = std::clamp<std::uint64_t>(finding.neighbours.of, kNeighbours, kMostNeighbours);
+    return static_cast<std::uint32_t>(words.neighbours.value_or(usual));
+  };
   for (std::size_t i = 0; i < findings.size(); ++i) {
     CaseHost& host = *hosts.at(config_of(failures[i]));
-    all.push_back({*findings[i], retest(host, failures[i], findings[i]->neighbours, neighbours)});
+    all.push_back({*findings[i], retest(host, failures[i], findings[i]->neighbours, neighbours_of(*findings[i]))});
     if (!words.json) put_line(all.back());
   }
   if (words.json) put_json(all);
@@ -125,7 +132,8 @@ Action prepare_retest(Options& options) {
   options.option("--agent-config", words->config, "text handed to the agent (default: as when the finding was found)");
   options.option("--plugin", words->plugins, "shared object with the agent; may be repeated");
   options.option("--finding", words->ids, "only this finding, as F-1c2d3e4f; may be repeated");
-  options.option("--neighbours", words->neighbours, "scenarios beside each case (default: 1000)");
+  options.option("--neighbours", words->neighbours,
+                 "scenarios beside each case (default: as when it was found, at least 1000)");
   options.flag("--bisect", words->bisect, "exit as git bisect run wants it: 0 fixed, 1 not, 125 cannot be tested");
   options.option("-j,--jobs", words->jobs, "worker threads (default: one per core)");
   options.flag("--json", words->json, "print JSON");

@@ -33,6 +33,7 @@ Explanation explain(CaseHost& host, const FailingCase& original, const FailingCa
   found.messages = needs_of_messages(host, found.small, pattern);
   found.things = without_each_thing(host, found.small, pattern);
   found.stops = last_stops(host, found.small, pattern);
+  found.set_offs = set_offs(host, found.small, pattern);
   CaseRun run = host(found.small.scenario, Fates::Kept);
   found.notes = std::move(run.notes);
   found.doing = std::move(run.doing);
@@ -51,6 +52,13 @@ std::vector<const Claim*> claims_of(const Explanation& explanation) {
   for (const MessageNeed& need : explanation.messages) add(need.claims);
   add(explanation.things);
   for (const LastStop& stop : explanation.stops) add(stop.claims);
+  for (const SetOff& set_off : explanation.set_offs) {
+    for (const Leave& leave : set_off.leaves) {
+      add(leave.claims);
+      if (leave.without_others) claims.push_back(&*leave.without_others);
+      for (const GoAhead& key : leave.keys) claims.push_back(&key.claim);
+    }
+  }
   return claims;
 }
 

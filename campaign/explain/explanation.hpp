@@ -5,18 +5,20 @@
 #include "campaign/explain/last_stop.hpp"
 #include "campaign/explain/necessity.hpp"
 #include "campaign/explain/no_return.hpp"
+#include "campaign/explain/set_offs.hpp"
 #include "campaign/explain/shares.hpp"
 
 namespace fleetproof {
 
-// Why a run fails. All that is said of single messages, things and stops is about `small`, the smallest case that fails
-// in the same way; shares and the curve are about the run itself.
+// Why a run fails. All that is said of single messages, things, stops and drives is about `small`, the smallest case
+// that fails in the same way; shares and the curve are about the run itself.
 struct Explanation {
   FailingCase original, small;
   FailurePattern pattern;
   std::vector<MessageNeed> messages;
   std::vector<Claim> things;
   std::vector<LastStop> stops;
+  std::vector<SetOff> set_offs;
   CaseNotes notes;                 // of the smallest case
   std::vector<std::string> doing;  // what its AGVs did when it failed, as CaseRun has it
   // All words of its agents on a perfect radio, sorted; none if it fails there, too.
@@ -29,7 +31,7 @@ struct Explanation {
 Explanation explain(CaseHost& host, const FailingCase& original, const FailingCase& small,
                     const FailurePattern& pattern);
 
-// The runs that show what is said of single messages, things and stops, in this order.
+// The runs that show what is said of single messages, things, stops and drives, in this order.
 std::vector<const Claim*> claims_of(const Explanation& explanation);
 
 }  // namespace fleetproof

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 
 #include "campaign/shrink/adverse_fates.hpp"
 #include "campaign/shrink/all_runs.hpp"
 #include "campaign/shrink/fitness.hpp"
 #include "campaign/shrink/surgery.hpp"
+#include "core/scenario/canonical_bytes.hpp"
 
 namespace fleetproof {
 namespace {
@@ -49,6 +51,30 @@ struct Without {
   std::function<Scenario(const Scenario&)> edit;
 };
 
+// What is no thing, but can be left out like one.
+void add_properties(const Scenario& scenario, std::vector<Without>& things) {
+  const std::vector<Without> properties = {{"the change of bodies and speeds with a load",
+                                            [](const Scenario& s) {
+                                              Scenario less = s;
+                                              for (VehicleType& type : less.vehicle_types) type.loaded = {};
+                                              return less;
+                                            }},
+                                           {"wrong clocks and positions",
+                                            [](const Scenario& s) {
+                                              Scenario less = s;
+                                              for (AgvSetup& agv : less.agvs) agv.sensing = {};
+                                              return less;
+                                            }},
+                                           {"low batteries", [](const Scenario& s) {
+                                              Scenario less = s;
+                                              for (AgvSetup& agv : less.agvs) agv.battery = 1.0;
+                                              return less;
+                                            }}};
+  const std::uint64_t digest = scenario_digest(scenario);
+  std::ranges::copy_if(properties, std::back_inserter(things),
+                       [&](const Without& property) { return scenario_digest(property.edit(scenario)) != digest; });
+}
+
 std::vector<Without> things_of(const Scenario& scenario) {
   std::vector<Without> things;
   const auto but = [](std::size_t i) { return [i](std::size_t other) { return other != i; }; };
@@ -79,6 +105,7 @@ std::vector<Without> things_of(const Scenario& scenario) {
                         return less;
                       }});
   }
+  add_properties(scenario, things);
   return things;
 }
 

@@ -10,6 +10,7 @@ namespace fleetproof {
 namespace {
 
 constexpr std::size_t kEnoughToCompare = 12;
+constexpr Duration kNotable = std::chrono::milliseconds(10);  // so late a message is worth a word
 
 double seconds_of(SimTime t) { return to_seconds(t - kStart); }
 
@@ -22,6 +23,7 @@ class Words {
     for (const MessageNeed& need : of_.messages) message(need);
     things();
     for (const LastStop& stop : of_.stops) last_stop(stop);
+    for (const SetOff& drive : of_.set_offs) set_off(drive);
     for (const EntityId agv : involved()) knowledge(agv);
     shares();
     no_return();
@@ -101,6 +103,79 @@ class Words {
                  runs(count));
     say("{} avoids it by braking at {:.1f} s at the latest; 0.1 s later is too late {}.", stop.agv,
         seconds_of(*stop.at), runs(count));
+  }
+
+  void set_off(const SetOff& is) {
+    const std::string name = name_of_body(scenario_, is.agv);
+    const auto station = [&](StationId id) { return scenario_.map->station(id).name; };
+    say("{} set off from {} for {} at {:.3f} s, {:.2f} s before.", name, station(is.drive.from), station(is.drive.to),
+        seconds_of(is.drive.at), to_seconds(of_.small.failure.at - is.drive.at));
+    for (std::size_t i = 0; i < scenario_.agvs.size(); ++i) {
+      const bool is_silent = std::ranges::count(is.leaves, EntityId{i}, &Leave::from) == 0;
+      if (EntityId{i} != is.agv && is_silent)
+        say("In the {} s before that, nothing of {} reached it.", kLookedAt / std::chrono::seconds(1),
+            scenario_.agvs[i].name);
+    }
+    for (const Leave& of : is.leaves) leave(is, of);
+  }
+
+  void leave(const SetOff& is, const Leave& of) {
+    const std::string from = name_of_body(scenario_, of.from);
+    const auto looked_at_s = kLookedAt / std::chrono::seconds(1);
+    for (std::size_t i = 0; i < of.claims.size(); ++i)
+      say("Without any {}message of {} in the {} s before, it does not set off then{} {}.",
+          of.kinds[i].empty() ? "" : of.kinds[i] + " ", from, looked_at_s, and_then(of.claims[i]), runs(1));
+    if (of.without_others)
+      say("It needed nothing {}of {} for that: without {} in the {} s before, it sets off all the same {}.",
+          of.kinds.empty() ? "" : "else ", from, of.kinds.empty() ? "any message of it" : "any other message of it",
+          looked_at_s, runs(1));
+    for (const GoAhead& one : of.keys) key(is, one);
+  }
+
+  static const char* and_then(const Claim& claim) { return claim.avoids ? ", and nothing fails" : ""; }
+
+  void key(const SetOff& is, const GoAhead& key) {
+    const GivenFate& fate = key.message.fate;
+    const std::string name = name_of_body(scenario_, is.agv), from = name_of_body(scenario_, fate.sender);
+    say("Without {} alone, it does not either{} {}.", message_text(scenario_, key.message), and_then(key.claim),
+        runs(1));
+    if (fate.delay >= kNotable) say("That message was {:.2f} s late.", to_seconds(fate.delay));
+    said_with(fate);
+    if (!key.asked) {
+      say("{} had heard nothing of {} when it sent it.", from, name);
+    } else {
+      say("When {} sent it, the last to reach it of {} was message {} ({}, {:.3f} s){}.", from, name, key.asked->number,
+          key.asked->kind.empty() ? "not described" : key.asked->kind, to_seconds(key.asked->fate.sent),
+          key.asked_again == 0
+              ? ""
+              : fmt::format("; {} sent {} more of that kind before it set off", name, key.asked_again));
+      faults_between(is.agv, key.asked->fate.sent, is.drive.at - kStart, "after it had sent that");
+    }
+    if (!key.sender_drive || std::ranges::count(involved(), fate.sender) == 0) return;
+    const auto& map = *scenario_.map;
+    say("{} had last set off from {} for {} then, at {:.3f} s{}.", from, map.station(key.sender_drive->from).name,
+        map.station(key.sender_drive->to).name, seconds_of(key.sender_drive->at),
+        key.is_last_drive ? "; it was on that drive, or behind it, when it failed" : "");
+    faults_between(fate.sender, key.sender_drive->at - kStart, fate.sent, "between that and the message");
+  }
+
+  // What the sender of a message declared when it sent it.
+  void said_with(const GivenFate& fate) {
+    std::vector<std::string> words;
+    for (const Declared& declared : of_.notes.declared) {
+      if (declared.agv == fate.sender && declared.at == kStart + fate.sent)
+        words.push_back(fmt::format("\"{}\"", declared.word));
+    }
+    if (!words.empty())
+      say("At that instant, {} said {}.", name_of_body(scenario_, fate.sender), fmt::join(words, " and "));
+  }
+
+  void faults_between(EntityId agv, Duration from, Duration to, std::string_view when) {
+    for (const Fault& fault : scenario_.faults) {
+      if (fault.agv == agv && !fault.transport && from <= fault.at && fault.at <= to)
+        say("The {} of {} at {:.2f} s was {}.", name_of(fault.kind), name_of_body(scenario_, agv), to_seconds(fault.at),
+            when);
+    }
   }
 
   // What it said last, and what it had from the other.

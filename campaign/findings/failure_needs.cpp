@@ -147,17 +147,15 @@ class Reduction {
   }
 
   void add_traits() {
-    std::set<std::string> doings, traits;
+    std::set<std::string> traits;
     const CaseRun reduced = simulate(best_.scenario);
-    for (const std::string& doing : reduced.doing) {
-      if (std::string trait = trait_of_doing(doing); !trait.empty()) doings.insert(std::move(trait));
-    }
-    found_.doings.assign(doings.begin(), doings.end());
+    found_.doings = doings_of(reduced);
     for (const std::string& word : telling_words()) {
       if (std::ranges::binary_search(reduced.words, word)) traits.insert(trait_of_word(word));
     }
     if (needs_third_) traits.insert(kThirdAgvTrait);
     found_.traits.assign(traits.begin(), traits.end());
+    found_.said = reduced.words;
   }
 
   CaseHost& host_;
@@ -179,6 +177,14 @@ std::string end_of(const Failure& failure) {
   if (std::ranges::count(kStandstills, what) > 0) return "no progress";
   if (!failure.is_violation) return failure.kind.what;
   return "too close" + (comma == std::string::npos ? "" : failure.kind.what.substr(comma));
+}
+
+std::vector<std::string> doings_of(const CaseRun& run) {
+  std::set<std::string> doings;
+  for (const std::string& doing : run.doing) {
+    if (std::string trait = trait_of_doing(doing); !trait.empty()) doings.insert(std::move(trait));
+  }
+  return {doings.begin(), doings.end()};
 }
 
 std::optional<Failure> FailureLikeness::match(const CaseRun& run) const {

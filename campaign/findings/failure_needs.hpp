@@ -22,6 +22,7 @@ struct FailureNeeds {
   std::vector<std::string> needs;   // ingredients, in the order of ingredients_of
   std::vector<std::string> doings;  // what the bodies did when `reduced` failed, beside driving on: "one turns"; sorted
   std::vector<std::string> traits;  // what else was true then: its agents said a word, there was a third AGV; sorted
+  std::vector<std::string> said;    // all that the agents of its bodies had declared then; sorted
   FailingCase reduced;              // fails with nothing but what it needs
   std::uint32_t failing_lucks = 0;  // of kOtherRuns runs of the scenario with other luck: that end alike
   bool is_rare = false;             // with no other luck it failed alike, so what it needs is not known
@@ -40,6 +41,9 @@ struct FailureLikeness {
   WordPattern words{};
   std::optional<Failure> match(const CaseRun& run) const;
 };
+
+// What the bodies of a failure did, beside driving on: "one turns"; sorted.
+std::vector<std::string> doings_of(const CaseRun& run);
 
 // Absent if the scenario does not fail. Threads: may be called from several, for one host.
 std::optional<FailureNeeds> needs_of(CaseHost& host, const Scenario& scenario);

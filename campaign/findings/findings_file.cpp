@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <utility>
 
 #include "campaign/plan/toml_table.hpp"
@@ -47,16 +48,23 @@ std::string needed(TomlTable& table, std::string_view key) {
   return value;
 }
 
+std::string text_in(const TomlTable::Given& given) {
+  const auto* text = std::get_if<std::string>(&given.value);
+  if (text == nullptr) given.refuse("expected a text");
+  return *text;
+}
+
+std::vector<std::string> texts(TomlTable& table, std::string_view key) {
+  std::vector<std::string> texts;
+  const auto items = table.array(key);
+  if (items) std::ranges::transform(*items, std::back_inserter(texts), text_in);
+  return texts;
+}
+
 std::vector<std::vector<std::string>> lists(TomlTable& table, std::string_view key) {
   std::vector<std::vector<std::string>> lists;
-  for (const TomlTable::Row& row : table.arrays(key)) {
-    lists.emplace_back();
-    for (const TomlTable::Given& given : row.items) {
-      const auto* text = std::get_if<std::string>(&given.value);
-      if (text == nullptr) given.refuse("expected a text");
-      lists.back().push_back(*text);
-    }
-  }
+  for (const TomlTable::Row& row : table.arrays(key))
+    std::ranges::transform(row.items, std::back_inserter(lists.emplace_back()), text_in);
   return lists;
 }
 
@@ -66,7 +74,13 @@ void read_neighbours(TomlTable& table, NeighbourCounts& counts) {
   table.get("neighbours_failing", alike);
   counts.of = of;
   counts.alike = alike;
-  if (counts.alike > counts.of)
+  std::uint64_t of_world = 0, alike_of_world = 0;
+  table.get("world_neighbours", of_world);
+  table.get("world_neighbours_failing", alike_of_world);
+  counts.of_world = of_world;
+  counts.alike_of_world = alike_of_world;
+  table.get("neighbours_driven_m", counts.driven_m);
+  if (counts.alike > counts.of || counts.alike_of_world > counts.of_world)
     throw InputError(table.place("neighbours_failing"), "more neighbours failed than were tried");
   auto otherwise = table.table("neighbours_otherwise");
   if (!otherwise) return;
@@ -93,6 +107,8 @@ KeptFinding read_finding(TomlTable& table) {
                      "a waiver has a last day and a reason: until = \"2027-01-31\" and reason = \"...\"");
   finding.end = needed(table, "end");
   finding.ways = lists(table, "ways");
+  finding.doings = texts(table, "doings");
+  finding.says = texts(table, "says");
   finding.found_in = needed(table, "found_in");
   finding.smallest = needed(table, "case");
   finding.world = needed(table, "world");
@@ -125,8 +141,12 @@ std::string FindingsFile::path_beside(const std::string& name) const {
 }
 
 KeptFailure FindingsFile::failure(const KeptFinding& finding) const {
-  return {read_scenario(path_beside(finding.smallest)), read_scenario(path_beside(finding.world)), finding.end,
-          finding.ways};
+  return {read_scenario(path_beside(finding.smallest)),
+          read_scenario(path_beside(finding.world)),
+          finding.end,
+          finding.ways,
+          finding.doings,
+          finding.says};
 }
 
 std::string toml_of(const KeptFinding& finding) {
@@ -134,10 +154,14 @@ std::string toml_of(const KeptFinding& finding) {
                                  toml_text(finding.mechanism), name_of(finding.status));
   std::vector<std::string> ways;
   for (const auto& way : finding.ways) ways.push_back(list_of(way));
+  if (!finding.doings.empty()) text += fmt::format("doings = {}\n", list_of(finding.doings));
+  if (!finding.says.empty()) text += fmt::format("says = {}\n", list_of(finding.says));
   text += fmt::format("end = {}\nways = [{}]\nfound_in = {}\ncase = {}\nworld = {}\n", toml_text(finding.end),
                       fmt::join(ways, ", "), toml_text(finding.found_in), toml_text(finding.smallest),
                       toml_text(finding.world));
   text += fmt::format("neighbours = {}\nneighbours_failing = {}\n", finding.neighbours.of, finding.neighbours.alike);
+  text += fmt::format("world_neighbours = {}\nworld_neighbours_failing = {}\nneighbours_driven_m = {}\n",
+                      finding.neighbours.of_world, finding.neighbours.alike_of_world, finding.neighbours.driven_m);
   if (finding.neighbours.otherwise.empty()) return text;
   std::vector<std::string> ends;
   for (const auto& [end, count] : finding.neighbours.otherwise)

@@ -32,6 +32,7 @@ struct KeptFinding {
   std::string until, reason;  // of a waiver: "2027-01-31", its last day
   std::string end;
   std::vector<std::vector<std::string>> ways;  // as KeptFailure has them; the first is the mechanism's
+  std::vector<std::string> doings, says;       // likewise
   std::string found_in;                        // the agent that failed so
   std::string smallest, world;                 // paths of scenario files, from the findings file on
   NeighbourCounts neighbours;                  // in the software in which it was found

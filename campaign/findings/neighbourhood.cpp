@@ -79,8 +79,12 @@ NeighbourCounts try_neighbours(CaseHost& host, const KeptFailure& kept, const Ne
   const auto runs = all_runs(
       host, {count, [&](std::size_t i) { return std::optional(neighbourhood.at(static_cast<std::uint32_t>(i))); }});
   NeighbourCounts counts;
+  std::uint64_t driven_um = 0;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     ++counts.of;
+    driven_um += runs[i]->outcome.counters.distance_um;
+    const bool is_of_world = i % kEveryCase != 0;
+    if (is_of_world) ++counts.of_world;
     const auto failure = failure_of(*runs[i]);
     if (!failure) continue;
     const std::string end = end_of(*failure);
@@ -89,19 +93,27 @@ NeighbourCounts try_neighbours(CaseHost& host, const KeptFailure& kept, const Ne
       continue;
     }
     ++counts.alike;
+    if (is_of_world) ++counts.alike_of_world;
     if (counts.first_alike.size() < kFewAlike) counts.first_alike.push_back(static_cast<std::uint32_t>(i));
   }
+  counts.driven_m = driven_um / 1'000'000;
   return counts;
 }
 
-std::vector<std::vector<std::string>> ways_of(CaseHost& host, const Neighbourhood& neighbourhood,
-                                              const NeighbourCounts& counts) {
-  std::vector<std::vector<std::string>> ways;
-  for (const std::uint32_t number : counts.first_alike) {
-    auto needs = needs_of(host, neighbourhood.at(number));
-    if (needs && std::ranges::count(ways, needs->needs) == 0) ways.push_back(std::move(needs->needs));
+NeighbourCounts try_enough_neighbours(CaseHost& host, const KeptFailure& kept, const Neighbourhood& neighbourhood) {
+  for (std::uint32_t count = kNeighbours;; count *= 2) {
+    NeighbourCounts counts = try_neighbours(host, kept, neighbourhood, count);
+    if (counts.alike >= kEnoughAlike || count >= kMostKept) return counts;
   }
-  return ways;
+}
+
+std::vector<FailureNeeds> needs_of_first(CaseHost& host, const Neighbourhood& neighbourhood,
+                                         const NeighbourCounts& counts) {
+  std::vector<FailureNeeds> all;
+  for (const std::uint32_t number : counts.first_alike) {
+    if (auto needs = needs_of(host, neighbourhood.at(number))) all.push_back(*std::move(needs));
+  }
+  return all;
 }
 
 }  // namespace fleetproof

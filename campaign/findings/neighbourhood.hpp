@@ -17,9 +17,13 @@ struct KeptFailure {
   // What its finding needs, and what the first neighbours need that fail with the same end: each as FailureNeeds has
   // it.
   std::vector<std::vector<std::string>> ways;
+  // What the smallest case also shows: what its bodies do ("one turns"), and words that tell its failure from others.
+  std::vector<std::string> doings{}, says{};
 };
 
-inline constexpr std::uint32_t kNeighbours = 1000;
+// So many are tried, and more if hardly any fails: until kEnoughAlike do, or kMostKept were tried.
+inline constexpr std::uint32_t kNeighbours = 1000, kMostKept = 8000;
+inline constexpr std::size_t kEnoughAlike = 20;
 
 // The scenarios beside a kept failure. Of the world: orders and faults up to 1 s later, other draws of radio, agents
 // and motion. Every fourth is of the smallest case instead: orders and faults up to 1 s earlier or later, and one more
@@ -44,13 +48,19 @@ struct NeighbourCounts {
   std::size_t alike = 0;                         // fail with the same end
   std::map<std::string, std::size_t> otherwise;  // by the end with which they fail
   std::vector<std::uint32_t> first_alike;        // the first few of these
+  // Of them, those of the world: software with another timing meets them as before. None: not known.
+  std::size_t of_world = 0, alike_of_world = 0;
+  std::uint64_t driven_m = 0;  // by the fleets of all of them; 0: not known
 };
 // On all workers; the same for any number.
 NeighbourCounts try_neighbours(CaseHost& host, const KeptFailure& kept, const Neighbourhood& neighbourhood,
                                std::uint32_t count);
 
-// What the first of those that fail with the same end need, each set once.
-std::vector<std::vector<std::string>> ways_of(CaseHost& host, const Neighbourhood& neighbourhood,
-                                              const NeighbourCounts& counts);
+// As many as it takes that some fail.
+NeighbourCounts try_enough_neighbours(CaseHost& host, const KeptFailure& kept, const Neighbourhood& neighbourhood);
+
+// What the first of those that fail with the same end need.
+std::vector<FailureNeeds> needs_of_first(CaseHost& host, const Neighbourhood& neighbourhood,
+                                         const NeighbourCounts& counts);
 
 }  // namespace fleetproof

@@ -1,6 +1,7 @@
 #include "campaign/findings/retest.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <utility>
@@ -13,7 +14,7 @@
 namespace fleetproof {
 namespace {
 
-constexpr double kNewKindChance = 0.001;
+constexpr double kNewKindChance = 0.001, kRarerChance = 0.001;
 // If software that fails as before had fewer failing neighbours than this in the mean, that none fails says little:
 // with 10, it is chance once in 20 000 times.
 constexpr std::size_t kEnoughBefore = 10, kOften = 10;
@@ -28,9 +29,24 @@ bool is_of_radio(const std::string& need) {
   return need == kLateMessages || need == kLostMessages || need == kCopiedMessages;
 }
 
+// Whether it shows what the kept one does, beside its needs.
+bool shows_the_same(const KeptFailure& kept, const FailureNeeds& found) {
+  return names_all(found.doings, kept.doings) && names_all(found.said, kept.says);
+}
+
+// What sets it apart from the kept one, in words.
+std::string text_of_new(const KeptFailure& kept, const FailureNeeds& found) {
+  std::string text = Mechanism{found.end, found.needs, fmt::format("{}", fmt::join(found.doings, "; ")), {}}.text();
+  for (const std::string& word : kept.says) {
+    if (!names_all(found.said, {word})) text += fmt::format("; never says \"{}\"", word);
+  }
+  return text;
+}
+
 // The smallest case names the messages that are lost or late in it, but not their kinds.
 bool is_kept_one(const KeptFailure& kept, const FailureNeeds& of_case) {
-  return of_case.end == kept.end && std::ranges::any_of(kept.ways, [&](const std::vector<std::string>& way) {
+  return of_case.end == kept.end && shows_the_same(kept, of_case) &&
+         std::ranges::any_of(kept.ways, [&](const std::vector<std::string>& way) {
            const auto named = without_kinds(way);
            const bool any_bad_luck = named.empty() && !way.empty();
            if (any_bad_luck) return !of_case.needs.empty() && std::ranges::all_of(of_case.needs, is_of_radio);
@@ -41,15 +57,19 @@ bool is_kept_one(const KeptFailure& kept, const FailureNeeds& of_case) {
 // What neighbours need that fail with the same end, if the failure that was kept is not among them. Empty: it is.
 std::string other_mechanism(CaseHost& host, const KeptFailure& kept, const Neighbourhood& neighbourhood,
                             const NeighbourCounts& now) {
-  const auto ways = ways_of(host, neighbourhood, now);
-  if (ways.empty() || std::ranges::any_of(ways, [&](const auto& needs) { return is_one_of(kept.ways, needs); }))
-    return {};
-  return Mechanism{kept.end, ways.front(), {}, {}}.text();
+  const auto first = needs_of_first(host, neighbourhood, now);
+  const auto is_kept = [&](const FailureNeeds& found) {
+    return shows_the_same(kept, found) && is_one_of(kept.ways, found.needs);
+  };
+  return first.empty() || std::ranges::any_of(first, is_kept) ? "" : text_of_new(kept, first.front());
 }
 
-// Where neighbours failed often, less than three quarters of that is no accident of timing: something was mended, not
-// all.
+// Something was mended, not all. Worlds draw their luck, so their share does not change with the timing of the
+// software. Where only all neighbours were counted: below three quarters is no accident of timing.
 bool is_rarer(const NeighbourCounts& now, const NeighbourCounts& before) {
+  if (before.of_world > 0)
+    return fisher_exact(now.alike_of_world, now.of_world, before.alike_of_world, before.of_world).first_smaller <
+           kRarerChance;
   return before.of > 0 && kOften * before.alike >= before.of && 4 * now.alike * before.of < 3 * before.alike * now.of;
 }
 
@@ -65,6 +85,13 @@ std::string more_often(const NeighbourCounts& now, const NeighbourCounts& before
   return {};
 }
 
+// Fleets that stand fail nowhere, so nothing is shown about the fault.
+std::string hardly_drives(const NeighbourCounts& now, const NeighbourCounts& before) {
+  if (before.of == 0 || 2 * now.driven_m * before.of >= before.driven_m * now.of) return {};
+  return fmt::format("the fleets drive {} m in each neighbour in the mean, {} m before", now.driven_m / now.of,
+                     before.driven_m / before.of);
+}
+
 }  // namespace
 
 Retest retest(CaseHost& host, const KeptFailure& kept, const NeighbourCounts& before, std::uint32_t neighbours) {
@@ -77,7 +104,7 @@ Retest retest(CaseHost& host, const KeptFailure& kept, const NeighbourCounts& be
   if (of_case && is_kept_one(kept, *of_case)) {
     result.verdict = RetestVerdict::StillThere;
   } else if (of_case && of_case->end == kept.end) {
-    result.new_kind = Mechanism{of_case->end, of_case->needs, {}, {}}.text();
+    result.new_kind = text_of_new(kept, *of_case);
     result.verdict = RetestVerdict::NewKind;
   } else if (now.alike > 0) {
     result.new_kind = other_mechanism(host, kept, neighbourhood, now);
@@ -86,10 +113,11 @@ Retest retest(CaseHost& host, const KeptFailure& kept, const NeighbourCounts& be
                                               : RetestVerdict::Dodged;
   } else {
     result.new_kind = more_often(now, before);
+    result.standing = hardly_drives(now, before);
     const bool is_telling = before.of > 0 && now.of * before.alike >= kEnoughBefore * before.of;
-    result.verdict = !result.new_kind.empty() ? RetestVerdict::NewKind
-                     : is_telling             ? RetestVerdict::Fixed
-                                              : RetestVerdict::NotKnown;
+    result.verdict = !result.new_kind.empty()                ? RetestVerdict::NewKind
+                     : is_telling && result.standing.empty() ? RetestVerdict::Fixed
+                                                             : RetestVerdict::NotKnown;
   }
   return result;
 }

@@ -7,6 +7,7 @@
 namespace fleetproof {
 
 // Simulates all candidates on all workers. In their order; none for those that make no sense.
-std::vector<std::optional<CaseRun>> all_runs(CaseHost& host, const Candidates& candidates);
+std::vector<std::optional<CaseRun>> all_runs(CaseHost& host, const Candidates& candidates,
+                                             Fates fates = Fates::Ignored);
 
 }  // namespace fleetproof

@@ -68,6 +68,76 @@ TEST(Explain, NoClaimIsFalse) {
   }
 }
 
+// What is said to hold a drive back does so, and what is not needed is not.
+TEST(Explain, WhatLetItSetOffIsSimulated) {
+  std::size_t keys = 0, not_needed = 0;
+  for (const std::uint64_t seed : {1U, 11U}) {
+    Explained explained("timeout-grant", seed);
+    ASSERT_FALSE(explained.is.set_offs.empty());
+    for (const SetOff& set_off : explained.is.set_offs) {
+      const auto sets_off = [&](const Claim& claim) {
+        return sets_off_then(explained.host(claim.run, Fates::Kept), set_off.drive);
+      };
+      EXPECT_TRUE(sets_off_then(explained.host(explained.is.small.scenario, Fates::Kept), set_off.drive));
+      for (const Leave& leave : set_off.leaves) {
+        ASSERT_EQ(leave.kinds.size(), leave.claims.size());
+        for (const Claim& claim : leave.claims) EXPECT_FALSE(sets_off(claim)) << claim.sentence;
+        if (leave.without_others) {
+          ++not_needed;
+          EXPECT_TRUE(sets_off(*leave.without_others)) << leave.without_others->sentence;
+        }
+        for (const GoAhead& key : leave.keys) {
+          ++keys;
+          EXPECT_FALSE(sets_off(key.claim)) << key.claim.sentence;
+          EXPECT_EQ(key.message.fate.receiver, set_off.agv);
+          EXPECT_LE(kStart + key.message.fate.sent, set_off.drive.at);
+        }
+      }
+    }
+  }
+  EXPECT_GT(keys, 0U);
+  EXPECT_GT(not_needed, 0U);
+}
+
+TEST(Explain, TheSentencesTellWhatLetItSetOff) {
+  Explained explained("timeout-grant", 1);
+  Explanation is;
+  is.small = explained.small;
+  const EntityId agv = is.small.failure.a, other = is.small.failure.b;
+  const auto name = [&](EntityId body) { return name_of_body(is.small.scenario, body); };
+  is.small.scenario.faults = {
+      {.kind = Fault::Kind::Restart, .agv = agv, .at = seconds(1.5), .transport = {}, .lasts = seconds(0.5)}};
+  Departure drive;
+  drive.agv = agv;
+  drive.at = kStart + std::chrono::seconds(4);
+  drive.from = drive.to = StationId{0U};
+  MessageFate grant, asked;
+  grant.kind = "GRANT";
+  grant.number = 7;
+  grant.fate = {.sender = other, .receiver = agv, .sent = seconds(2.0), .delay = seconds(1.5)};
+  asked.kind = "REQUEST";
+  asked.number = 5;
+  asked.fate = {.sender = agv, .receiver = other, .sent = seconds(1.0)};
+  const Claim held{"", {}, "none", true, {}};
+  is.set_offs = {{agv, drive, {{other, {"GRANT"}, {held}, held, {{grant, held, asked, 2, drive, true}}}}}};
+  is.notes.declared = {{other, "gave-way", kStart + std::chrono::seconds(2)}};
+  const auto sentences = sentences_of(is);
+  const auto says = [&](const std::string& words) {
+    return std::ranges::any_of(sentences, [&](const std::string& s) { return s.find(words) != std::string::npos; });
+  };
+  EXPECT_TRUE(says(name(agv) + " set off from "));
+  EXPECT_TRUE(says("Without any GRANT message of " + name(other) +
+                   " in the 10 s before, it does not set off then, and nothing fails [1]."));
+  EXPECT_TRUE(says("It needed nothing else of " + name(other)));
+  EXPECT_TRUE(says("all the same [2]."));
+  EXPECT_TRUE(says("alone, it does not either, and nothing fails [3]."));
+  EXPECT_TRUE(says("That message was 1.50 s late."));
+  EXPECT_TRUE(says("At that instant, " + name(other) + " said \"gave-way\"."));
+  EXPECT_TRUE(says("was message 5 (REQUEST, 1.000 s); " + name(agv) + " sent 2 more of that kind before it set off."));
+  EXPECT_TRUE(says("The restart of " + name(agv) + " at 1.50 s was after it had sent that."));
+  EXPECT_EQ(claims_of(is).size(), 3U);
+}
+
 TEST(Explain, TheSentencesNameTheFault) {
   Explained explained("timeout-grant", 1);
   const auto sentences = sentences_of(explained.is);

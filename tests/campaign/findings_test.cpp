@@ -220,7 +220,9 @@ class FindingsFiles : public testing::Test {
     finding.found_in = "a\tb";
     finding.smallest = "c.json";
     finding.world = "w.json";
-    finding.neighbours = {1000, 17, {{"no progress", 3}, {"a \"b\"", 4}}, {}};
+    finding.doings = {"one turns"};
+    finding.says = {"oops", "a \"b\""};
+    finding.neighbours = {1000, 17, {{"no progress", 3}, {"a \"b\"", 4}}, {}, 750, 9, 12345};
     return finding;
   }
   std::string error_of(const std::string& text) const {
@@ -241,6 +243,11 @@ TEST_F(FindingsFiles, WhatIsWrittenIsRead) {
   ASSERT_NE(read, nullptr);
   EXPECT_EQ(toml_of(*read), toml_of(odd()));
   EXPECT_EQ(read->ways, odd().ways);
+  EXPECT_EQ(read->doings, odd().doings);
+  EXPECT_EQ(read->says, odd().says);
+  EXPECT_EQ(read->neighbours.of_world, 750U);
+  EXPECT_EQ(read->neighbours.alike_of_world, 9U);
+  EXPECT_EQ(read->neighbours.driven_m, 12345U);
   EXPECT_EQ(read->neighbours.otherwise, odd().neighbours.otherwise);
   EXPECT_EQ(file.find("F-00000002"), nullptr);
   EXPECT_TRUE(FindingsFile((folder_ / "none.toml").string()).findings().empty());

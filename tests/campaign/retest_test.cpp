@@ -55,6 +55,66 @@ TEST(Retest, SaysWhetherTheNeighboursCouldTell) {
   EXPECT_EQ(retest(sound.host, known.kept, known.before, kSome).verdict, RetestVerdict::NotKnown);
 }
 
+// On a better radio the same software fails in fewer worlds, as one does in which a part of the fault was mended.
+TEST(Retest, ComparesTheWorldsThatDrawTheirLuck) {
+  Bench bench("timeout-grant");
+  Known known = known_failure(bench);
+  EXPECT_EQ(known.before.of_world, 3 * known.before.of / 4);
+  EXPECT_LE(known.before.alike_of_world, known.before.alike);
+  EXPECT_GT(known.before.driven_m, 0U);
+  AgentPrograms programs;
+  const std::string name = programs.know(FLEETPROOF_RETOUCHED_AGENT);
+  CaseHost retouched({name, "timeout-grant"}, programs, 2);
+  EXPECT_EQ(retest(retouched, known.kept, known.before, kSome).verdict, RetestVerdict::Dodged);
+  known.kept.world.radio.loss = 0.1;
+  EXPECT_EQ(retest(retouched, known.kept, known.before, kSome).verdict, RetestVerdict::StillThere);
+}
+
+TEST(Retest, AFleetThatStandsShowsNothing) {
+  Bench bench("timeout-grant");
+  Known known = known_failure(bench);
+  Bench sound("hull-lock");
+  EXPECT_EQ(retest(sound.host, known.kept, known.before, kSome).standing, "");
+  known.before.driven_m *= 100;
+  const Retest result = retest(sound.host, known.kept, known.before, kSome);
+  EXPECT_EQ(result.verdict, RetestVerdict::NotKnown);
+  EXPECT_THAT(result.standing, HasSubstr(" m in each neighbour"));
+}
+
+// The same end and the same needs, but it never says what the kept failure always says.
+TEST(Retest, AFailureWithoutItsWordsIsANewKind) {
+  Bench bench("timeout-grant");
+  Known known = known_failure(bench);
+  EXPECT_THAT(known.kept.says, testing::Contains("silence-taken-for-consent"));
+  known.kept.says = {"never-heard-of"};
+  const Retest result = retest(bench.host, known.kept, known.before, kSome);
+  EXPECT_EQ(result.verdict, RetestVerdict::NewKind);
+  EXPECT_THAT(result.new_kind, HasSubstr("never says \"never-heard-of\""));
+  known.kept.says.clear();
+  known.kept.doings = {"one flies"};
+  EXPECT_EQ(retest(bench.host, known.kept, known.before, kSome).verdict, RetestVerdict::NewKind);
+}
+
+// What the smallest case needs is one of the ways, even where that is less than the finding needs.
+TEST(Retest, ASmallestCaseThatNeedsLessIsStillThere) {
+  Bench bench("timeout-grant");
+  const auto needs = needs_of(bench.host, bench.failing(125));
+  Finding finding;
+  finding.mechanism = {needs->end, needs->needs, {}, {}};
+  finding.mechanism.needs.insert(finding.mechanism.needs.begin(), "obstacles");
+  const FindingRecord record = record_of(bench.host, finding, *needs, 400);
+  EXPECT_EQ(retest(bench.host, record.kept, record.neighbours, kSome).verdict, RetestVerdict::StillThere);
+}
+
+TEST(Neighbours, AreMoreWhereHardlyAnyFails) {
+  Bench bench("timeout-grant");
+  const Scenario failing = bench.failing(125);
+  KeptFailure kept{failing, failing, "no such end", {}};
+  kept.smallest.horizon = kept.world.horizon = std::chrono::seconds(1);
+  const Neighbourhood neighbourhood(bench.host, kept);
+  EXPECT_EQ(try_enough_neighbours(bench.host, kept, neighbourhood).of, kMostKept);
+}
+
 TEST(Retest, ANewFaultInPlaceOfTheOldOneIsANewKind) {
   Bench bench("timeout-grant");
   const Known known = known_failure(bench);

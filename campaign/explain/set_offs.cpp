@@ -1,0 +1,199 @@
+#include "campaign/explain/set_offs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <set>
+#include <utility>
+
+#include "campaign/shrink/adverse_fates.hpp"
+#include "campaign/shrink/all_runs.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr Duration kThen = std::chrono::milliseconds(5);
+constexpr std::size_t kMostAlone = 40, kMostKeys = 2, kMostRounds = 50;
+
+SimTime arrival_of(const MessageFate& message) { return kStart + message.fate.sent + message.fate.delay; }
+
+Scenario without_messages(const Scenario& scenario, const std::vector<MessageFate>& messages) {
+  Scenario less = scenario;
+  for (const MessageFate& message : messages) {
+    GivenFate lost = message.fate;
+    lost.lost = true;
+    lost.copied = false;
+    lost.delay = lost.copy_delay = Duration::zero();
+    std::erase_if(less.fates, [&](const GivenFate& fate) { return is_same_message(fate, lost); });
+    less.fates.push_back(lost);
+  }
+  return less;
+}
+
+std::vector<MessageFate> those(const std::vector<MessageFate>& messages, auto&& is_meant) {
+  std::vector<MessageFate> found;
+  std::ranges::copy_if(messages, std::back_inserter(found), is_meant);
+  return found;
+}
+
+// Asks what let one drive begin.
+class Inquiry {
+ public:
+  Inquiry(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern, const CaseRun& run,
+          const Departure& drive)
+      : host_(host),
+        failing_(failing),
+        pattern_(pattern),
+        all_(run.fates),
+        departures_(run.whereabouts.departures),
+        drive_(drive) {
+    heard_ = those(all_, [&](const MessageFate& m) { return reaches_it(m); });
+    std::ranges::stable_sort(heard_, std::ranges::greater(), arrival_of);
+  }
+
+  SetOff find() {
+    SetOff found{drive_.agv, drive_, {}};
+    std::set<EntityId> senders;
+    for (const MessageFate& message : heard_) senders.insert(message.fate.sender);
+    for (const EntityId sender : senders) found.leaves.push_back(leave_of(sender));
+    add_keys(found.leaves);
+    return found;
+  }
+
+ private:
+  struct Without {
+    bool sets_off = false;
+    Claim claim;
+  };
+
+  bool reaches_it(const MessageFate& m) const {
+    return m.fate.receiver == drive_.agv && !m.fate.lost && arrival_of(m) <= drive_.at &&
+           arrival_of(m) + kLookedAt > drive_.at;
+  }
+
+  // One run without these messages, and what it shows.
+  Without without(const std::vector<MessageFate>& messages, const CaseRun& run, const std::string& what) const {
+    const bool sets_off = sets_off_then(run, drive_);
+    return {sets_off,
+            {fmt::format("without {}, it {} then", what, sets_off ? "sets off" : "does not set off"),
+             without_messages(failing_.scenario, messages),
+             outcome_text(failure_of(run)),
+             avoids(run, failing_, pattern_),
+             {}}};
+  }
+
+  // Without all messages that are meant, among them those that are sent in place of lost ones. Absent: there is none,
+  // or no end of them.
+  std::optional<Without> without_all(const std::function<bool(const MessageFate&)>& is_meant, const std::string& what) {
+    std::vector<MessageFate> lost = those(heard_, is_meant);
+    if (lost.empty()) return std::nullopt;
+    for (std::size_t round = 0; round < kMostRounds; ++round) {
+      const CaseRun run = host_(without_messages(failing_.scenario, lost), Fates::Kept);
+      const auto more = those(run.fates, [&](const MessageFate& m) { return reaches_it(m) && is_meant(m); });
+      if (more.empty()) return without(lost, run, what);
+      lost.insert(lost.end(), more.begin(), more.end());
+    }
+    return std::nullopt;
+  }
+
+  Leave leave_of(EntityId sender) {
+    Leave leave{sender, {}, {}, {}, {}};
+    std::set<std::string> kinds;
+    for (const MessageFate& message : heard_) {
+      if (message.fate.sender == sender) kinds.insert(message.kind);
+    }
+    const std::string from = name_of_body(failing_.scenario, sender);
+    for (const std::string& kind : kinds) {
+      auto one = without_all([&](const MessageFate& m) { return m.fate.sender == sender && m.kind == kind; },
+                             fmt::format("the {} messages of {}", kind.empty() ? "other" : kind, from));
+      if (!one || one->sets_off) continue;
+      leave.kinds.push_back(kind);
+      leave.claims.push_back(std::move(one->claim));
+    }
+    auto others =
+        without_all([&](const MessageFate& m) { return m.fate.sender == sender && !names(leave.kinds, m.kind); },
+                    fmt::format("{} messages of {}", leave.kinds.empty() ? "the" : "all other", from));
+    if (others && others->sets_off) leave.without_others = std::move(others->claim);
+    return leave;
+  }
+
+  void add_keys(std::vector<Leave>& leaves) {
+    const std::size_t count = std::min(kMostAlone, heard_.size());
+    const auto runs = all_runs(
+        host_, {count, [&](std::size_t i) { return std::optional(without_messages(failing_.scenario, {heard_[i]})); }},
+        Fates::Kept);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (sets_off_then(*runs[i], drive_)) continue;
+      const MessageFate& message = heard_[i];
+      Leave& leave = *std::ranges::find(leaves, message.fate.sender, &Leave::from);
+      if (leave.keys.size() == kMostKeys || !names(leave.kinds, message.kind)) continue;
+      Without alone = without({message}, *runs[i], message_text(failing_.scenario, message));
+      GoAhead key{message, std::move(alone.claim), {}, 0, {}, false};
+      add_question(key);
+      add_sender_drive(key);
+      leave.keys.push_back(std::move(key));
+    }
+  }
+
+  static bool names(const std::vector<std::string>& kinds, const std::string& kind) {
+    return std::ranges::count(kinds, kind) > 0;
+  }
+
+  void add_question(GoAhead& key) const {
+    const EntityId sender = key.message.fate.sender;
+    for (const MessageFate& m : all_) {
+      const bool heard = m.fate.sender == drive_.agv && m.fate.receiver == sender && !m.fate.lost &&
+                         arrival_of(m) <= kStart + key.message.fate.sent;
+      if (heard && (!key.asked || arrival_of(*key.asked) <= arrival_of(m))) key.asked = m;
+    }
+    if (!key.asked) return;
+    key.asked_again = static_cast<std::size_t>(std::ranges::count_if(all_, [&](const MessageFate& m) {
+      return m.fate.sender == drive_.agv && m.fate.receiver == sender && m.kind == key.asked->kind &&
+             m.fate.sent > key.asked->fate.sent && kStart + m.fate.sent <= drive_.at;
+    }));
+  }
+
+  void add_sender_drive(GoAhead& key) const {
+    for (const Departure& departure : departures_) {
+      if (departure.agv != key.message.fate.sender || departure.at > failing_.failure.at) continue;
+      const bool is_before = departure.at <= kStart + key.message.fate.sent;
+      if (is_before) key.sender_drive = departure;
+      key.is_last_drive = is_before;
+    }
+  }
+
+  CaseHost& host_;
+  const FailingCase& failing_;
+  const FailurePattern& pattern_;
+  const std::vector<MessageFate>& all_;
+  const std::vector<Departure>& departures_;
+  Departure drive_;
+  std::vector<MessageFate> heard_;  // the last to arrive first
+};
+
+}  // namespace
+
+bool sets_off_then(const CaseRun& run, const Departure& drive) {
+  return std::ranges::any_of(run.whereabouts.departures, [&](const Departure& other) {
+    return other.agv == drive.agv && other.from == drive.from && other.to == drive.to && other.at <= drive.at + kThen &&
+           other.at + kThen >= drive.at;
+  });
+}
+
+std::vector<SetOff> set_offs(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern) {
+  const CaseRun run = host(failing.scenario, Fates::Kept);
+  std::vector<SetOff> found;
+  for (const EntityId body : {failing.failure.a, failing.failure.b}) {
+    if (!body.valid() || body.index() >= failing.scenario.agvs.size()) continue;
+    const Departure* last = nullptr;
+    for (const Departure& departure : run.whereabouts.departures) {
+      if (departure.agv == body && departure.at <= failing.failure.at) last = &departure;
+    }
+    if (last != nullptr && last->arrives >= failing.failure.at)
+      found.push_back(Inquiry(host, failing, pattern, run, *last).find());
+  }
+  return found;
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "campaign/explain/claim.hpp"
+
+namespace fleetproof {
+
+// A message that held the key to a drive: without it alone, the AGV does not set off then.
+struct GoAhead {
+  MessageFate message;
+  Claim claim;
+  // The last message of the AGV that the sender had heard when it sent this one: what it may be an answer to. None: it
+  // had heard nothing. And how many more of the same kind the AGV sent before it set off.
+  std::optional<MessageFate> asked;
+  std::size_t asked_again = 0;
+  std::optional<Departure> sender_drive;  // the last of its sender before it was sent
+  bool is_last_drive = false;             // and before the failure
+};
+
+// What an AGV that set off had from one other AGV.
+struct Leave {
+  EntityId from;
+  std::vector<std::string> kinds;  // without all its messages of this kind, it does not set off then; "" is no word
+  std::vector<Claim> claims;       // one for each kind
+  // It sets off without any other of its messages. Absent: it does not, or there were no others.
+  std::optional<Claim> without_others;
+  std::vector<GoAhead> keys;  // the latest first
+};
+
+// The drive on which an AGV of the failure was, and what let it begin.
+struct SetOff {
+  EntityId agv;
+  Departure drive;
+  std::vector<Leave> leaves;  // of each other AGV that sent it anything in the time that is looked at
+};
+
+// So long before a drive its messages are looked at.
+inline constexpr Duration kLookedAt = std::chrono::seconds(10);
+
+// Messages are lost one by one, and all of a kind from one sender, also those that it sends because others are lost;
+// each in a run of its own. "Then" is within 5 ms.
+std::vector<SetOff> set_offs(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern);
+
+// Whether the AGV begins this drive in the run then.
+bool sets_off_then(const CaseRun& run, const Departure& drive);
+
+}  // namespace fleetproof
