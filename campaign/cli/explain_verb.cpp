@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -30,6 +31,29 @@ std::string file_in(const std::string& folder, const std::string& name) {
 }
 std::string name_of_claim(std::size_t number) { return fmt::format("{:03}", number); }
 
+// The drives that the AGVs of the failure were on, and the numbers of the runs in which each begins as it did, or not.
+nlohmann::ordered_json set_offs_json(const Explanation& explanation) {
+  const auto claims = claims_of(explanation);
+  const auto number_of = [&](const Claim& claim) { return std::ranges::find(claims, &claim) - claims.begin() + 1; };
+  const auto& map = *explanation.small.scenario.map;
+  auto all = nlohmann::ordered_json::array();
+  for (const SetOff& set_off : explanation.set_offs) {
+    auto held = nlohmann::ordered_json::array(), begins = held;
+    for (const Leave& leave : set_off.leaves) {
+      for (const Claim& claim : leave.claims) held.push_back(number_of(claim));
+      if (leave.without_others) begins.push_back(number_of(*leave.without_others));
+      for (const GoAhead& key : leave.keys) held.push_back(number_of(key.claim));
+    }
+    all.push_back({{"agv", name_of_body(explanation.small.scenario, set_off.agv)},
+                   {"from", map.station(set_off.drive.from).name},
+                   {"to", map.station(set_off.drive.to).name},
+                   {"at_s", to_seconds(set_off.drive.at - kStart)},
+                   {"runs_without_it", std::move(held)},
+                   {"runs_with_it", std::move(begins)}});
+  }
+  return all;
+}
+
 nlohmann::ordered_json to_json(const Explanation& explanation) {
   const Scenario& small = explanation.small.scenario;
   nlohmann::ordered_json json = {{"schema_version", 1},
@@ -59,6 +83,7 @@ nlohmann::ordered_json to_json(const Explanation& explanation) {
   for (const Claim* claim : claims_of(explanation))
     json["runs"].push_back(
         {{"number", json["runs"].size() + 1}, {"what", claim->sentence}, {"outcome", claim->outcome}});
+  json["set_offs"] = set_offs_json(explanation);
   json["shares"] = nlohmann::ordered_json::array();
   for (const Share& share : explanation.shares)
     json["shares"].push_back(

@@ -108,8 +108,11 @@ class Words {
   void set_off(const SetOff& is) {
     const std::string name = name_of_body(scenario_, is.agv);
     const auto station = [&](StationId id) { return scenario_.map->station(id).name; };
-    say("{} set off from {} for {} at {:.3f} s, {:.2f} s before.", name, station(is.drive.from), station(is.drive.to),
-        seconds_of(is.drive.at), to_seconds(of_.small.failure.at - is.drive.at));
+    const std::string what = is.is_turn()
+                                 ? "began to turn at " + station(is.drive.from)
+                                 : fmt::format("set off from {} for {}", station(is.drive.from), station(is.drive.to));
+    say("{} {} at {:.3f} s, {:.2f} s before.", name, what, seconds_of(is.drive.at),
+        to_seconds(of_.small.failure.at - is.drive.at));
     for (std::size_t i = 0; i < scenario_.agvs.size(); ++i) {
       const bool is_silent = std::ranges::count(is.leaves, EntityId{i}, &Leave::from) == 0;
       if (EntityId{i} != is.agv && is_silent)
@@ -123,12 +126,13 @@ class Words {
     const std::string from = name_of_body(scenario_, of.from);
     const auto looked_at_s = kLookedAt / std::chrono::seconds(1);
     for (std::size_t i = 0; i < of.claims.size(); ++i)
-      say("Without any {}message of {} in the {} s before, it does not set off then{} {}.",
-          of.kinds[i].empty() ? "" : of.kinds[i] + " ", from, looked_at_s, and_then(of.claims[i]), runs(1));
+      say("Without any {}message of {} in the {} s before, it does not {} then{} {}.",
+          of.kinds[i].empty() ? "" : of.kinds[i] + " ", from, looked_at_s, is.is_turn() ? "turn" : "set off",
+          and_then(of.claims[i]), runs(1));
     if (of.without_others)
-      say("It needed nothing {}of {} for that: without {} in the {} s before, it sets off all the same {}.",
+      say("It needed nothing {}of {} for that: without {} in the {} s before, it {} all the same {}.",
           of.kinds.empty() ? "" : "else ", from, of.kinds.empty() ? "any message of it" : "any other message of it",
-          looked_at_s, runs(1));
+          looked_at_s, is.is_turn() ? "turns" : "sets off", runs(1));
     for (const GoAhead& one : of.keys) key(is, one);
   }
 
@@ -139,6 +143,7 @@ class Words {
     const std::string name = name_of_body(scenario_, is.agv), from = name_of_body(scenario_, fate.sender);
     say("Without {} alone, it does not either{} {}.", message_text(scenario_, key.message), and_then(key.claim),
         runs(1));
+    if (fate.copied) say("That message arrived twice.");
     if (fate.delay >= kNotable) say("That message was {:.2f} s late.", to_seconds(fate.delay));
     said_with(fate);
     if (!key.asked) {
@@ -148,7 +153,7 @@ class Words {
           key.asked->kind.empty() ? "not described" : key.asked->kind, to_seconds(key.asked->fate.sent),
           key.asked_again == 0
               ? ""
-              : fmt::format("; {} sent {} more of that kind before it set off", name, key.asked_again));
+              : fmt::format("; {} sent {} more of that kind before that drive or turn", name, key.asked_again));
       faults_between(is.agv, key.asked->fate.sent, is.drive.at - kStart, "after it had sent that");
     }
     if (!key.sender_drive || std::ranges::count(involved(), fate.sender) == 0) return;

@@ -14,7 +14,7 @@ namespace fleetproof {
 namespace {
 
 constexpr Duration kThen = std::chrono::milliseconds(5);
-constexpr std::size_t kMostAlone = 40, kMostKeys = 2, kMostRounds = 50;
+constexpr std::size_t kMostAlone = 60, kMostKeys = 2, kMostRounds = 50;
 
 SimTime arrival_of(const MessageFate& message) { return kStart + message.fate.sent + message.fate.delay; }
 
@@ -119,15 +119,18 @@ class Inquiry {
   }
 
   void add_keys(std::vector<Leave>& leaves) {
-    const std::size_t count = std::min(kMostAlone, heard_.size());
+    const auto held = those(heard_, [&](const MessageFate& m) {
+      return names(std::ranges::find(leaves, m.fate.sender, &Leave::from)->kinds, m.kind);
+    });
+    const std::size_t count = std::min(kMostAlone, held.size());
     const auto runs = all_runs(
-        host_, {count, [&](std::size_t i) { return std::optional(without_messages(failing_.scenario, {heard_[i]})); }},
+        host_, {count, [&](std::size_t i) { return std::optional(without_messages(failing_.scenario, {held[i]})); }},
         Fates::Kept);
     for (std::size_t i = 0; i < count; ++i) {
       if (sets_off_then(*runs[i], drive_)) continue;
-      const MessageFate& message = heard_[i];
+      const MessageFate& message = held[i];
       Leave& leave = *std::ranges::find(leaves, message.fate.sender, &Leave::from);
-      if (leave.keys.size() == kMostKeys || !names(leave.kinds, message.kind)) continue;
+      if (leave.keys.size() == kMostKeys) continue;
       Without alone = without({message}, *runs[i], message_text(failing_.scenario, message));
       GoAhead key{message, std::move(alone.claim), {}, 0, {}, false};
       add_question(key);
@@ -175,7 +178,8 @@ class Inquiry {
 }  // namespace
 
 bool sets_off_then(const CaseRun& run, const Departure& drive) {
-  return std::ranges::any_of(run.whereabouts.departures, [&](const Departure& other) {
+  const auto& begun = drive.from == drive.to ? run.whereabouts.turns : run.whereabouts.departures;
+  return std::ranges::any_of(begun, [&](const Departure& other) {
     return other.agv == drive.agv && other.from == drive.from && other.to == drive.to && other.at <= drive.at + kThen &&
            other.at + kThen >= drive.at;
   });
@@ -187,8 +191,11 @@ std::vector<SetOff> set_offs(CaseHost& host, const FailingCase& failing, const F
   for (const EntityId body : {failing.failure.a, failing.failure.b}) {
     if (!body.valid() || body.index() >= failing.scenario.agvs.size()) continue;
     const Departure* last = nullptr;
-    for (const Departure& departure : run.whereabouts.departures) {
-      if (departure.agv == body && departure.at <= failing.failure.at) last = &departure;
+    for (const auto* begun : {&run.whereabouts.departures, &run.whereabouts.turns}) {
+      for (const Departure& departure : *begun) {
+        const bool is_later = last == nullptr || departure.at >= last->at;
+        if (departure.agv == body && departure.at <= failing.failure.at && is_later) last = &departure;
+      }
     }
     if (last != nullptr && last->arrives >= failing.failure.at)
       found.push_back(Inquiry(host, failing, pattern, run, *last).find());

@@ -29,11 +29,13 @@ struct Leave {
   std::vector<GoAhead> keys;  // the latest first
 };
 
-// The drive on which an AGV of the failure was, and what let it begin.
+// The drive on which an AGV of the failure was, or its turn on the spot, and what let it begin.
 struct SetOff {
   EntityId agv;
-  Departure drive;
+  Departure drive;            // of a turn, from and to are one station
   std::vector<Leave> leaves;  // of each other AGV that sent it anything in the time that is looked at
+
+  bool is_turn() const { return drive.from == drive.to; }
 };
 
 // So long before a drive its messages are looked at.

@@ -40,8 +40,6 @@ std::string trait_of_doing(const std::string& doing) {
   return "";
 }
 
-std::string trait_of_word(const std::string& word) { return fmt::format("says \"{}\"", word); }
-
 // Takes things out of one failing scenario.
 class Reduction {
  public:
@@ -170,6 +168,8 @@ class Reduction {
 };
 
 }  // namespace
+
+std::string trait_of_word(const std::string& word) { return fmt::format("says \"{}\"", word); }
 
 std::string end_of(const Failure& failure) {
   const auto comma = failure.kind.what.find(',');

@@ -32,6 +32,9 @@ struct FailureNeeds {
 inline constexpr const char* kNotKnown = "not known: it failed with this luck only";
 inline constexpr const char* kThirdAgvTrait = "needs a third AGV";
 
+// "says "x"": as traits have it.
+std::string trait_of_word(const std::string& word);
+
 // How a failure ends, without what is chance: how close two bodies came, and at what speed.
 std::string end_of(const Failure& failure);
 

@@ -25,6 +25,8 @@ constexpr std::size_t kCommonPercent = 90, kDrivenOnPercent = 10;
 // Below this, a set of needs may be an accident of the luck with which it was looked for.
 constexpr std::size_t kFewMembers = 3, kRareShare = 20;
 constexpr std::uint32_t kSomeLucks = 4;
+// Fewer failures that say the same have too few sets of needs for one of them to be frequent.
+constexpr std::size_t kEnoughToCount = 10;
 
 std::vector<std::string> common_traits(std::span<const KnownFailure> failures, const Members& members) {
   std::map<std::string, std::size_t> having;
@@ -63,6 +65,11 @@ std::map<std::string, Members> parted(std::span<const KnownFailure> failures, Me
   return parts;
 }
 
+// Whether its agents had said what the trait names, though it may be too seldom compared to tell.
+bool says(const FailureNeeds& failure, const std::string& trait) {
+  return std::ranges::any_of(failure.said, [&](const std::string& word) { return trait == trait_of_word(word); });
+}
+
 struct Home {
   Needs needs;
   std::string doing;
@@ -73,9 +80,13 @@ struct Home {
   bool takes(const FailureNeeds& failure) const {
     const bool did_so =
         doing.empty() || names_all(failure.doings, {doing}) || (failure.doings.empty() && failure.needs == needs);
-    return did_so && names_all(failure.needs, needs) && names_all(failure.traits, words);
+    return did_so && names_all(failure.needs, needs) && std::ranges::all_of(words, [&](const std::string& word) {
+             return names_all(failure.traits, {word}) || says(failure, word);
+           });
   }
 };
+
+bool is_sure(const FailureNeeds& failure) { return !failure.is_rare; }
 
 // Puts failures of one agent with one end together: those with the same needs whose bodies did the same.
 class Gathering {
@@ -122,9 +133,41 @@ class Gathering {
         std::erase(homes.back().words, kThirdAgvTrait);  // who fails without a third AGV fails in the same way
       }
     }
+    add_cores_of_words(homes);
     add_cores(homes);
     std::ranges::stable_sort(homes, {}, [](const Home& home) { return std::pair(home.needs.size(), ~home.size); });
     return homes;
+  }
+
+  // An agent with few failures, most of which say the same telling word: each shows that the others do without what it
+  // does not need. Where they are many, the frequent needs say more: a failure may come about in one of several ways.
+  void add_cores_of_words(std::vector<Home>& homes) const {
+    std::map<std::string, Members> saying;
+    for (const auto& [needs, members] : by_needs_) {
+      for (const std::size_t member : members) {
+        for (const std::string& trait : failures_[member].needs.traits) {
+          if (trait != kThirdAgvTrait && is_sure(failures_[member].needs)) saying[trait].push_back(member);
+        }
+      }
+    }
+    for (const auto& [word, members] : saying) {
+      const bool is_rule = members.size() >= 2 && 2 * members.size() >= count_;
+      if (!is_rule || members.size() >= kEnoughToCount) continue;
+      const Needs core = without_kinds(in_common(members));  // so few do not tell which kinds are chance
+      const auto needs_no_more = [&](std::size_t member) { return failures_[member].needs.needs == core; };
+      if (core.empty() && std::ranges::none_of(members, needs_no_more)) continue;
+      for (const auto& [doing, part] : parted(failures_, members)) {
+        if (!part.empty()) homes.push_back({core, doing, {word}, part.size()});
+      }
+    }
+  }
+
+  // What all of them need.
+  Needs in_common(const Members& members) const {
+    Needs core = failures_[members.front()].needs.needs;
+    for (const std::size_t member : members)
+      std::erase_if(core, [&](const std::string& need) { return !names_all(failures_[member].needs.needs, {need}); });
+    return core;
   }
 
   // Of failures that no home takes, each with needs of its own: what several of them have in common.
@@ -146,12 +189,9 @@ class Gathering {
       if (most == counts.end() || most->second < kFewMembers) return;
       const std::string common = most->first;
       const auto has_it = [&](std::size_t member) { return names_all(failures_[member].needs.needs, {common}); };
-      Needs core = failures_[*std::ranges::find_if(left, has_it)].needs.needs;
-      for (const std::size_t member : left) {
-        if (!has_it(member)) continue;
-        std::erase_if(core, [&](const std::string& need) { return !names_all(failures_[member].needs.needs, {need}); });
-      }
-      homes.push_back({core, "", {}, most->second});
+      Members sharing;
+      std::ranges::copy_if(left, std::back_inserter(sharing), has_it);
+      homes.push_back({in_common(sharing), "", {}, most->second});
       std::erase_if(left, has_it);
     }
   }

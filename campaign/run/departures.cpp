@@ -23,11 +23,24 @@ Vec2 take_vector(ByteSource& source) {
 }  // namespace
 
 void WhereaboutsKeeper::record(const TraceRecord& record, std::string_view) {
+  if (record.kind == TraceKind::ActivityBegins || record.kind == TraceKind::ActivityEnds) turned(record);
   if (record.kind != TraceKind::TransportDone) return;
   std::uint32_t number = read<traced::TransportDone>(record).transport.value;
   for (std::size_t agv = 0; agv < record.entity.index(); ++agv)
     number -= static_cast<std::uint32_t>(scenario_.agvs[agv].transports.size());
   found_.deliveries.push_back({record.entity, number, record.at});
+}
+
+void WhereaboutsKeeper::turned(const TraceRecord& record) {
+  if (traced::activity_of(record) != ActivityKind::Turn) return;
+  if (record.kind == TraceKind::ActivityBegins) {
+    const auto station = traced::id_in<StationId>(read<traced::ActivityBegins>(record).subject);
+    const Departure turn{.agv = record.entity, .at = record.at, .arrives = kForever, .from = station, .to = station};
+    found_.turns.push_back(turn);
+  } else {
+    const auto last = std::ranges::find(found_.turns.rbegin(), found_.turns.rend(), record.entity, &Departure::agv);
+    if (last != found_.turns.rend()) last->arrives = record.at;
+  }
 }
 
 void WhereaboutsKeeper::piece_started(const Piece& piece) {
@@ -54,14 +67,36 @@ void WhereaboutsKeeper::piece_started(const Piece& piece) {
   }
 }
 
-void put(ByteSink& sink, const Whereabouts& whereabouts) {
-  sink.u32(static_cast<std::uint32_t>(whereabouts.departures.size()));
-  for (const Departure& departure : whereabouts.departures) {
+namespace {
+
+void put(ByteSink& sink, const std::vector<Departure>& departures) {
+  sink.u32(static_cast<std::uint32_t>(departures.size()));
+  for (const Departure& departure : departures) {
     for (const std::uint32_t id : {departure.agv.value, departure.from.value, departure.to.value}) sink.u32(id);
     for (const SimTime time : {departure.at, departure.arrives}) sink.i64(to_ns(time));
     put(sink, departure.heading);
     put(sink, departure.heading_there);
   }
+}
+
+std::vector<Departure> take_departures(ByteSource& source) {
+  std::vector<Departure> departures(source.count(kDepartureBytes));
+  for (Departure& departure : departures) {
+    departure.agv.value = source.u32();
+    departure.from.value = source.u32();
+    departure.to.value = source.u32();
+    for (SimTime* time : {&departure.at, &departure.arrives}) *time = at_ns(source.i64());
+    departure.heading = take_vector(source);
+    departure.heading_there = take_vector(source);
+  }
+  return departures;
+}
+
+}  // namespace
+
+void put(ByteSink& sink, const Whereabouts& whereabouts) {
+  put(sink, whereabouts.departures);
+  put(sink, whereabouts.turns);
   sink.u32(static_cast<std::uint32_t>(whereabouts.deliveries.size()));
   for (const auto& [agv, transport, at] : whereabouts.deliveries) {
     sink.u32(agv.value);
@@ -72,15 +107,8 @@ void put(ByteSink& sink, const Whereabouts& whereabouts) {
 
 Whereabouts take_whereabouts(ByteSource& source) {
   Whereabouts whereabouts;
-  whereabouts.departures.resize(source.count(kDepartureBytes));
-  for (Departure& departure : whereabouts.departures) {
-    departure.agv.value = source.u32();
-    departure.from.value = source.u32();
-    departure.to.value = source.u32();
-    for (SimTime* time : {&departure.at, &departure.arrives}) *time = at_ns(source.i64());
-    departure.heading = take_vector(source);
-    departure.heading_there = take_vector(source);
-  }
+  whereabouts.departures = take_departures(source);
+  whereabouts.turns = take_departures(source);
   whereabouts.deliveries.resize(source.count(kDeliveryBytes));
   for (auto& [agv, transport, at] : whereabouts.deliveries) {
     agv.value = source.u32();

@@ -28,6 +28,7 @@ struct Delivery {
 // Where the AGVs of a run were, and what they had done by then.
 struct Whereabouts {
   std::vector<Departure> departures;
+  std::vector<Departure> turns;  // on the spot: from and to are one station, and the headings are not known
   std::vector<Delivery> deliveries;
 };
 void put(ByteSink& sink, const Whereabouts& whereabouts);
@@ -42,6 +43,8 @@ class WhereaboutsKeeper final : public TraceSink {
   Whereabouts take() { return std::move(found_); }
 
  private:
+  void turned(const TraceRecord& record);
+
   const Scenario& scenario_;
   Whereabouts found_;
 };

@@ -1,4 +1,4 @@
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <map>
@@ -110,11 +110,12 @@ TEST(Explain, TheSentencesTellWhatLetItSetOff) {
   Departure drive;
   drive.agv = agv;
   drive.at = kStart + std::chrono::seconds(4);
-  drive.from = drive.to = StationId{0U};
+  drive.from = StationId{0U};
+  drive.to = StationId{1U};
   MessageFate grant, asked;
   grant.kind = "GRANT";
   grant.number = 7;
-  grant.fate = {.sender = other, .receiver = agv, .sent = seconds(2.0), .delay = seconds(1.5)};
+  grant.fate = {.sender = other, .receiver = agv, .sent = seconds(2.0), .delay = seconds(1.5), .copied = true};
   asked.kind = "REQUEST";
   asked.number = 5;
   asked.fate = {.sender = agv, .receiver = other, .sent = seconds(1.0)};
@@ -132,10 +133,15 @@ TEST(Explain, TheSentencesTellWhatLetItSetOff) {
   EXPECT_TRUE(says("all the same [2]."));
   EXPECT_TRUE(says("alone, it does not either, and nothing fails [3]."));
   EXPECT_TRUE(says("That message was 1.50 s late."));
+  EXPECT_TRUE(says("That message arrived twice."));
   EXPECT_TRUE(says("At that instant, " + name(other) + " said \"gave-way\"."));
-  EXPECT_TRUE(says("was message 5 (REQUEST, 1.000 s); " + name(agv) + " sent 2 more of that kind before it set off."));
+  EXPECT_TRUE(
+      says("was message 5 (REQUEST, 1.000 s); " + name(agv) + " sent 2 more of that kind before that drive or turn."));
   EXPECT_TRUE(says("The restart of " + name(agv) + " at 1.50 s was after it had sent that."));
   EXPECT_EQ(claims_of(is).size(), 3U);
+  is.set_offs.front().drive.to = drive.from;
+  EXPECT_THAT(sentences_of(is), testing::Contains(testing::HasSubstr(" began to turn at ")));
+  EXPECT_THAT(sentences_of(is), testing::Contains(testing::HasSubstr(", it does not turn then")));
 }
 
 TEST(Explain, TheSentencesNameTheFault) {

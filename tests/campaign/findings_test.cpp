@@ -176,6 +176,34 @@ TEST(Findings, WhoNeedsNothingInParticularSharesACore) {
   EXPECT_EQ(findings[0].members.size(), 3U);
 }
 
+// With few failures, each shows what the others that say the same do without.
+TEST(Findings, FewThatSayTheSameShareACore) {
+  std::vector<KnownFailure> failures = {failure("a", {"restart", "late messages", "GRANT messages"}),
+                                        failure("a", {"restart", "late messages", "lost messages"})};
+  for (KnownFailure& known : failures) known.needs.traits = {"says \"oops\""};
+  const auto apart = findings_of(times(1, failures[0]));
+  EXPECT_EQ(apart[0].mechanism.needs.size(), 3U);
+  const auto findings = findings_of(failures);
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_EQ(findings[0].mechanism.text(), "too close, two AGVs; needs restart, late messages; says \"oops\"");
+  // One failure in four says something of its own: that is no word of the mechanism.
+  add(failures, {failure("a", {"obstacles"}), failure("a", {"low batteries"}), failure("a", {"breakdown"})});
+  EXPECT_EQ(findings_of(failures).size(), 5U);
+}
+
+// Too few runs to compare with, so its word was not seen to tell.
+TEST(Findings, WhoHadSaidTheWordJoinsThem) {
+  KnownFailure saying = failure("a", {});
+  saying.needs.traits = {"says \"oops\""};
+  KnownFailure other = failure("a", {"late messages"});
+  other.needs.said = {"driving", "oops"};
+  auto failures = times(20, saying);
+  add(failures, times(1, other));
+  EXPECT_EQ(findings_of(failures).size(), 1U);
+  failures.back().needs.said = {"driving"};
+  EXPECT_EQ(findings_of(failures).size(), 2U);
+}
+
 // Two of thirty do not say what the others say.
 TEST(Findings, LoseNoFailure) {
   KnownFailure saying = failure("a", {"breakdown"});

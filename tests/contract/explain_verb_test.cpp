@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "tests/support/program.hpp"
 
@@ -36,6 +38,26 @@ transports_per_agv_hour = 60
     FAIL() << "no run fails";
   }
 
+  // Whether the trace of that run has the drive, within 5 ms.
+  bool begins_then(int claim, const json& drive) {
+    const std::string agv = drive["agv"];
+    const std::string file = "runs/" + std::string(claim < 10 ? "00" : "0") + std::to_string(claim) + ".json";
+    run("simulate " + file + " --trace-format json --trace-kind begins --trace-output t.jsonl --trace-body '" + agv +
+        "'");
+    const bool turns = drive["from"] == drive["to"];
+    const std::string from = drive["from"], where = "from station " + from + " to " + drive["to"].get<std::string>();
+    std::istringstream lines(read(path("t.jsonl")));
+    for (std::string line; std::getline(lines, line);) {
+      const json event = json::parse(line);
+      const double at_s = 1e-9 * event["t_ns"].get<double>(), planned_s = drive["at_s"];
+      const std::string details = event["details"];
+      const bool is_it = details.starts_with(turns ? "turn" : "drive") &&
+                         (turns || event["motion"]["where"].get<std::string>().ends_with(where));
+      if (is_it && std::abs(at_s - planned_s) <= 0.0051) return true;
+    }
+    return false;
+  }
+
   std::string simulate(const std::string& words) {
     const json run_json = json::parse(run("simulate " + words + " --json --agent timeout-grant").out);
     return run_json["outcome"];
@@ -56,6 +78,12 @@ TEST_F(ExplainVerb, EverySentenceHasItsRuns) {
     EXPECT_THAT(run("simulate " + file).out, HasSubstr("  as expected: ")) << file;
   }
   ASSERT_GT(number, 3U);
+  ASSERT_FALSE(page["set_offs"].empty());
+  for (const json& drive : page["set_offs"]) {
+    for (const auto& [key, begins] : {std::pair("runs_with_it", true), std::pair("runs_without_it", false)}) {
+      for (const int claim : drive[key]) EXPECT_EQ(begins_then(claim, drive), begins) << claim << drive.dump();
+    }
+  }
   std::size_t passes = 0, fails_otherwise = 0;
   const auto check = [&](const json& failing, const std::string& words) {
     for (const int luck : {1, 2, 3, 58, 59}) {
