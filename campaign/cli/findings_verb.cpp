@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "campaign/cli/campaign_words.hpp"
+#include "campaign/cli/interrupts.hpp"
 #include "campaign/cli/output_file.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
@@ -51,8 +52,10 @@ class FindingsDesk {
 
   int find() {
     AgentHosts hosts(plan_, programs_, runs_.looked_at, worker_count(words_.jobs));
-    const auto tell = [&](std::size_t done) {
-      if (done % 50 == 0) talk("{} of {} failures looked at\n", done, runs_.looked_at.size());
+    listen_to_interrupts();
+    const auto tell = [&, told = std::size_t{0}](std::size_t done) mutable {
+      if (done >= told + 50) talk("{} of {} failures looked at\n", told = done / 50 * 50, runs_.looked_at.size());
+      return interrupted() == 0;
     };
     survey_ = survey(plan_, runs_.looked_at, hosts, tell);
     findings_ = findings_of(survey_.failures);
@@ -64,6 +67,11 @@ class FindingsDesk {
       put_lines();
     }
     write_whole({out_, "--output", OutputKind::FoundFindings}, text);
+    if (interrupted() != 0) {
+      talk("interrupted: {} of {} failures were looked at; the findings are those of these\n", survey_.looked_at,
+           runs_.looked_at.size());
+      return 128 + interrupted();
+    }
     const auto is_open = [&](const Finding& f) { return needs_attention(kept(f), today()); };
     const bool all_seen = words_.add || std::ranges::none_of(findings_, is_open);
     return all_seen ? kDemonstrated : kViolated;
@@ -79,6 +87,7 @@ class FindingsDesk {
                                                             : "# findings: what is known about failures\n";
     for (const Finding& finding : findings_) {
       const std::string id = finding.id();
+      if (interrupted() != 0) break;
       if (kept(finding) != nullptr) continue;
       talk("{}: looking for its smallest case\n", id);
       text += toml_of(keep(hosts.of(finding.agent), finding));
@@ -123,7 +132,7 @@ class FindingsDesk {
   }
 
   void put_lines() const {
-    put("{}: {} of {} failing runs looked at; {}\n", words_.archive, runs_.looked_at.size(), runs_.all,
+    put("{}: {} of {} failing runs looked at; {}\n", words_.archive, survey_.looked_at, runs_.all,
         count_text(findings_.size(), "finding"));
     for (const Finding& finding : findings_) {
       put("\n{}  {}  {} of {}\n", finding.id(), standing_of(kept(finding), today()),
@@ -141,7 +150,7 @@ class FindingsDesk {
     record.plan_hash = archive_.campaign().plan_hash;
     record.stored_runs = archive_.run_count();
     record.failing_runs = runs_.all;
-    record.looked_at = runs_.looked_at.size();
+    record.looked_at = survey_.looked_at;
     record.not_again = survey_.not_again;
     for (const Finding& finding : findings_) {
       FoundFinding& found = record.findings.emplace_back(

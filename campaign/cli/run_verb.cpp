@@ -13,6 +13,7 @@
 #include "campaign/cli/attempt_log.hpp"
 #include "campaign/cli/campaign_words.hpp"
 #include "campaign/cli/ci_summary.hpp"
+#include "campaign/cli/interrupts.hpp"
 #include "campaign/cli/progress.hpp"
 #include "campaign/cli/render.hpp"
 #include "campaign/cli/shard_words.hpp"
@@ -44,16 +45,9 @@ struct RunWords {
 
 constexpr const char* kOwnProgram = "/proc/self/exe";
 
-std::atomic<int> interrupted{0};
 std::atomic<bool> status_wanted{false};
 
 void on_status_signal(int) { status_wanted = true; }
-
-// First signal: finish the runs that are under way and keep them. Second signal: exit at once; the live file stays as
-// it was at its last commit.
-void on_signal(int number) {
-  if (interrupted.exchange(number) != 0) std::_Exit(128 + number);
-}
 
 // The shorter of two budgets; none if neither is given.
 std::optional<std::chrono::seconds> time_budget(const RunWords& words) {
@@ -75,7 +69,7 @@ RunOptions run_options(const RunWords& words) {
   options.allow_drift = words.allow_drift;
   options.until_verdict = words.until_verdict;
   options.overwrite = words.overwrite;
-  options.interrupted = &interrupted;
+  options.interrupted = &interrupted();
   options.audit_program = kOwnProgram;
   options.worker_logs = std::filesystem::path(words.archive).replace_extension().string();
   return options;
@@ -104,7 +98,7 @@ int finish(const CampaignResult& result, const RunWords& words, AttemptLog& atte
   talk("{} of {} runs stored in {} after {:.1f} s ({:.0f} runs/s)\n", result.stored, result.progress.planned,
        words.archive, result.progress.elapsed_s,
        static_cast<double>(result.progress.simulated) / std::max(1e-9, result.progress.elapsed_s));
-  const int signal_number = interrupted.load();
+  const int signal_number = interrupted().load();
   if (!result.complete())
     talk("{}: the file says that it is incomplete; go on: {}\n", signal_number != 0 ? "interrupted" : "stopped early",
          resume_command(words));
@@ -167,9 +161,7 @@ void refuse_beside_shard(const RunWords& words) {
 }
 
 void listen_to_signals() {
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
-  std::signal(SIGHUP, on_signal);
+  listen_to_interrupts();
   std::signal(SIGUSR1, on_status_signal);
 }
 
@@ -212,7 +204,7 @@ int run(RunWords words) {
     };
     listener.wants_status = [] { return status_wanted.exchange(false); };
     result = run_campaign(file.plan, programs, words.archive, options, listener);
-    session.end(result, interrupted.load());
+    session.end(result, interrupted().load());
   }
   return finish(result, words, attempt);
 }

@@ -40,8 +40,9 @@ AgentHosts::AgentHosts(const CampaignPlan& plan, const AgentPrograms& programs, 
 
 // Each task writes to its own place.
 Survey survey(const CampaignPlan& plan, std::span<const FailingRun> runs, AgentHosts& hosts,
-              const std::function<void(std::size_t done)>& on_done) {
+              const std::function<bool(std::size_t done)>& go_on) {
   std::vector<std::optional<FailureNeeds>> needs(runs.size());
+  std::vector<bool> is_done(runs.size());
   const ScenarioSource scenarios(plan);
   {
     std::size_t done = 0;
@@ -52,11 +53,17 @@ Survey survey(const CampaignPlan& plan, std::span<const FailingRun> runs, AgentH
       return std::optional(std::move(finished));
     });
     while (!pool.finished()) {
-      if (pool.next(std::chrono::milliseconds(50))) on_done(++done);
+      if (const auto finished = pool.next(std::chrono::milliseconds(50))) {
+        ++done;
+        is_done[finished->run_index] = true;
+      }
+      if (!go_on(done)) pool.stop();
     }
   }
   Survey result;
   for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (!is_done[i]) continue;
+    ++result.looked_at;
     if (needs[i]) {
       result.failures.push_back({runs[i].run, runs[i].agent, *std::move(needs[i])});
     } else {

@@ -43,10 +43,12 @@ class AgentHosts {
 
 struct Survey {
   std::vector<KnownFailure> failures;
+  std::size_t looked_at = 0;             // all of the runs, unless it was to end before
   std::vector<std::uint64_t> not_again;  // runs that did not fail when they were simulated again
 };
-// What each of the runs needs. The result is the same for any number of workers. `on_done` hears how many are done.
+// What each of the runs needs. The result is the same for any number of workers. `go_on` hears how many are done, at
+// least every 50 ms; once it says no, the runs under way are finished, and no other is begun.
 Survey survey(const CampaignPlan& plan, std::span<const FailingRun> runs, AgentHosts& hosts,
-              const std::function<void(std::size_t done)>& on_done);
+              const std::function<bool(std::size_t done)>& go_on);
 
 }  // namespace fleetproof

@@ -143,6 +143,29 @@ TEST_F(FindingsVerb, ACrashOfAPlugInIsAFinding) {
   EXPECT_THAT(run(retest + " --agent-config 'segfault 100000'").out, HasSubstr("  fixed\n"));
 }
 
+// Interrupted, it leaves the findings of the failures that it had looked at by then.
+TEST_F(FindingsVerb, AnInterruptKeepsWhatIsKnown) {
+  write("b.toml",
+        std::string(kCampaign).replace(std::string(kCampaign).find("replicates = 4"), 14, "replicates = 900"));
+  ASSERT_NE(run("run b.toml --db b.db").exit_code, 2);
+  const auto all = R"(
+"$FLEETPROOF" findings b.db --jobs 1 --max-failures 900 --file f.toml --add & pid=$!
+for i in $(seq 600); do grep -q 'failures looked at' "../$(basename "$PWD")/stderr.txt" && break; sleep 0.1; done
+kill -INT $pid; wait $pid)";
+  const auto finished = shell(all);
+  EXPECT_EQ(finished.exit_code, 130) << finished.err;
+  EXPECT_THAT(finished.err, HasSubstr("interrupted: "));
+  const auto left = nlohmann::json::parse(read(path("b.findings.json")));
+  EXPECT_GE(left["looked_at"], 50);
+  EXPECT_LT(left["looked_at"], left["failing_runs"]);
+  ASSERT_FALSE(left["findings"].empty());
+  std::size_t members = 0;
+  for (const auto& finding : left["findings"]) members += finding["runs"].size();
+  EXPECT_EQ(members, left["looked_at"]) << "what was not looked at counts nowhere";
+  EXPECT_TRUE(left["not_again"].empty());
+  EXPECT_THAT(finished.out, HasSubstr(left["looked_at"].dump() + " of "));
+}
+
 TEST_F(FindingsVerb, BadWordsAreRefused) {
   for (const char* words : {"a.db --add", "a.toml", "none.db", "a.db --file a.toml --add", "a.db -o a.toml",
                             "a.db --max-failures 0", "a.db -o none/o.json", "a.db --file none/f.toml --add"}) {
