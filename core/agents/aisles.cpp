@@ -158,4 +158,19 @@ std::vector<std::uint32_t> Aisles::lanes_beside(std::uint32_t lane) const {
   return found;
 }
 
+std::span<const std::uint8_t> lanes_against_aisles(const fp_facts& facts) {
+  return ask<std::uint8_t>(
+      facts,
+      [](const fp_facts* from, std::uint64_t, fp_answer* to) {
+        const MapView map(*from);
+        std::vector<std::uint8_t> against(map.lane_count(), 0);
+        if (from->fleet_count > 1) {
+          const Aisles aisles(map, from->fleet_count);
+          for (std::uint32_t id = 0; id < map.lane_count(); ++id) against[id] = aisles.is_against(id) ? 1 : 0;
+        }
+        answer(*from, to, against);
+      },
+      0);
+}
+
 }  // namespace fleetproof::agents

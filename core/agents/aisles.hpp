@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "core/agents/facts.hpp"
 #include "core/agents/map_view.hpp"
 
 namespace fleetproof::agents {
@@ -48,5 +50,8 @@ class Aisles {
   std::vector<bool> dead_end_;    // by station
   std::vector<double> so_far_m_;  // by station
 };
+
+// By lane: whether it is against the convention, worked out once for all AGVs.
+std::span<const std::uint8_t> lanes_against_aisles(const fp_facts& facts);
 
 }  // namespace fleetproof::agents

@@ -6,6 +6,7 @@
 #include "core/agents/agent_type.hpp"
 #include "core/agents/controller.hpp"
 #include "core/agents/errands.hpp"
+#include "core/agents/facts.hpp"
 #include "core/agents/hull.hpp"
 #include "core/agents/lock_options.hpp"
 #include "core/agents/lock_protocol.hpp"
@@ -79,6 +80,7 @@ class HullLock {
   std::uint32_t boot_, start_station_, start_segment_, next_segment_;
   Controller controller_;
   Errands errands_;
+  Facts facts_;
   MapView map_;
   HullGeometry geometry_;
   Neighbours neighbours_;

@@ -5,30 +5,54 @@
 
 namespace fleetproof::agents {
 
-MapView::MapView(const fp_map& map)
-    : map_(map),
-      rules_known_(map.lane_stride >= offsetof(fp_lane, permissions) + sizeof(fp_lane::permissions) &&
-                   map.station_stride >= offsetof(fp_station, heading_y) + sizeof(fp_station::heading_y)),
-      two_way_(map.segment_count, false) {
-  std::vector<std::uint32_t> first_from(map.segment_count, FP_NONE);
-  start_headings_.reserve(lane_count());
-  end_headings_.reserve(lane_count());
-  arriving_begin_.assign(station_count() + 1, 0);
+namespace {
+
+bool tells_minor_2(const fp_map& map) {
+  return map.lane_stride >= offsetof(fp_lane, permissions) + sizeof(fp_lane::permissions) &&
+         map.station_stride >= offsetof(fp_station, heading_y) + sizeof(fp_station::heading_y);
+}
+
+}  // namespace
+
+MapView::MapView(const fp_map& map) : map_(map), rules_known_(tells_minor_2(map)), own_(work_out()) { read(own_); }
+
+MapView::MapView(const fp_facts& facts) : map_(*facts.map), rules_known_(tells_minor_2(*facts.map)) {
+  read(ask<std::byte>(
+      facts, [](const fp_facts* from, std::uint64_t, fp_answer* to) { answer(*from, to, MapView(*from->map).own_); },
+      0));
+}
+
+std::vector<std::byte> MapView::work_out() const {
+  std::vector<Vec> start_headings, end_headings;
+  std::vector<std::uint8_t> two_way(map_.segment_count, 0);
+  std::vector<std::uint32_t> first_from(map_.segment_count, FP_NONE), arriving_begin(station_count() + 1, 0);
   for (std::uint32_t id = 0; id < lane_count(); ++id) {
     const fp_lane& l = lane(id);
     const fp_pose& start = arc(l, 0).start;
     const fp_pose end = end_of(arc(l, l.arc_count - 1));
     const double nose = is_backward(id) ? -1.0 : 1.0;
-    start_headings_.push_back({nose * start.heading_x, nose * start.heading_y});
-    end_headings_.push_back({nose * end.heading_x, nose * end.heading_y});
+    start_headings.push_back({nose * start.heading_x, nose * start.heading_y});
+    end_headings.push_back({nose * end.heading_x, nose * end.heading_y});
     if (first_from[l.segment] == FP_NONE) first_from[l.segment] = l.from;
-    two_way_[l.segment] = two_way_[l.segment] || first_from[l.segment] != l.from;
-    ++arriving_begin_[l.to + 1];
+    if (first_from[l.segment] != l.from) two_way[l.segment] = 1;
+    ++arriving_begin[l.to + 1];
   }
-  for (std::uint32_t s = 0; s < station_count(); ++s) arriving_begin_[s + 1] += arriving_begin_[s];
-  arriving_.resize(lane_count());
-  std::vector<std::uint32_t> next = arriving_begin_;
-  for (std::uint32_t id = 0; id < lane_count(); ++id) arriving_[next[lane(id).to]++] = id;
+  for (std::uint32_t s = 0; s < station_count(); ++s) arriving_begin[s + 1] += arriving_begin[s];
+  std::vector<std::uint32_t> arriving(lane_count()), next = arriving_begin;
+  for (std::uint32_t id = 0; id < lane_count(); ++id) arriving[next[lane(id).to]++] = id;
+  TableWriter tables;
+  tables.add(start_headings), tables.add(end_headings), tables.add(two_way);
+  tables.add(arriving), tables.add(arriving_begin);
+  return tables.bytes();
+}
+
+void MapView::read(std::span<const std::byte> tables) {
+  TableReader reader(tables);
+  start_headings_ = reader.next<Vec>();
+  end_headings_ = reader.next<Vec>();
+  two_way_ = reader.next<std::uint8_t>();
+  arriving_ = reader.next<std::uint32_t>();
+  arriving_begin_ = reader.next<std::uint32_t>();
 }
 
 bool MapView::has_chargers() const {
@@ -39,8 +63,7 @@ bool MapView::has_chargers() const {
 }
 
 std::span<const std::uint32_t> MapView::lanes_to(std::uint32_t station_id) const {
-  return std::span(arriving_).subspan(arriving_begin_[station_id],
-                                      arriving_begin_[station_id + 1] - arriving_begin_[station_id]);
+  return arriving_.subspan(arriving_begin_[station_id], arriving_begin_[station_id + 1] - arriving_begin_[station_id]);
 }
 
 fp_arc chord_of(const MapView& map, std::uint32_t lane_id) {

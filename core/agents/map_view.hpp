@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/agents/facts.hpp"
 #include "core/agents/shapes.hpp"
 #include "core/sdk/fleetproof/agent.h"
 
@@ -15,10 +16,14 @@ inline bool same_heading(Vec a, Vec b) {
   return dot(a, b) > 1.0 - 1e-6;
 }  // 1.4 mrad: 1.4 mm at the corner of a 2 m long AGV
 
-// The logical map by index, with the headings at the ends of its lanes. Requires: the map of the briefing outlives it.
+// The logical map by index, with the headings at the ends of its lanes. Requires: the map outlives it, and the facts.
 class MapView {
  public:
   explicit MapView(const fp_map& map);
+  // Uses the tables that the AGVs of a run share.
+  explicit MapView(const fp_facts& facts);
+  MapView(const MapView&) = delete;
+  MapView& operator=(const MapView&) = delete;
 
   std::uint32_t station_count() const { return map_.station_count; }
   std::uint32_t lane_count() const { return map_.lane_count; }
@@ -41,7 +46,7 @@ class MapView {
     return is_backward(lane_id) ? lane(lane_id).segment | FP_BACKWARD : lane(lane_id).segment;
   }
   // Whether the segment of this lane also has a lane in the other direction.
-  bool two_way(std::uint32_t lane_id) const { return two_way_[lane(lane_id).segment]; }
+  bool two_way(std::uint32_t lane_id) const { return two_way_[lane(lane_id).segment] != 0; }
 
   // Whether the host tells limits and rules: since minor 2 of the header. Before, everything is allowed.
   bool tells_rules() const { return rules_known_; }
@@ -58,11 +63,15 @@ class MapView {
     return *reinterpret_cast<const T*>(reinterpret_cast<const char*>(first) + std::size_t{stride} * i);
   }
 
+  std::vector<std::byte> work_out() const;
+  void read(std::span<const std::byte> tables);
+
   const fp_map& map_;
-  std::vector<Vec> start_headings_, end_headings_;  // by lane
   bool rules_known_;
-  std::vector<bool> two_way_;                             // by segment
-  std::vector<std::uint32_t> arriving_, arriving_begin_;  // lanes, ordered by the station at which they end
+  std::vector<std::byte> own_;                                // the tables, if they are not shared
+  std::span<const Vec> start_headings_, end_headings_;        // by lane
+  std::span<const std::uint8_t> two_way_;                     // by segment
+  std::span<const std::uint32_t> arriving_, arriving_begin_;  // lanes, ordered by the station at which they end
 };
 
 // The straight line from the beginning of a lane to its end.

@@ -5,7 +5,9 @@
 
 #include "core/agents/agent_type.hpp"
 #include "core/agents/controller.hpp"
+#include "core/agents/facts.hpp"
 #include "core/agents/fleet.hpp"
+#include "core/agents/lane_costs.hpp"
 #include "core/agents/map_view.hpp"
 #include "core/agents/routes.hpp"
 
@@ -16,14 +18,15 @@ class Reckless {
  public:
   Reckless(const fp_host& host, fp_controller* handle, const fp_briefing& briefing)
       : controller_(host, handle),
-        map_(*briefing.map),
+        facts_(briefing),
+        map_(facts_.shared()),
         rules_(map_, map_.tells_rules() ? agv_of(briefing, briefing.self).vehicle_type : 0),
         routes_(map_, rules_),
         station_(briefing.start_station) {
-    const fp_agv& self = agv_of(briefing, briefing.self);
+    const auto times_s = lane_times_s(facts_.shared(), briefing.self);
     for (const bool loaded : {false, true}) {
       for (std::uint32_t id = 0; id < map_.lane_count(); ++id)
-        lane_times_s_[loaded].push_back(rules_.is_usable(id, loaded) ? lane_time_s(map_, id, self) : INFINITY);
+        lane_times_s_[loaded].push_back(rules_.is_usable(id, loaded) ? times_s[id] : INFINITY);
     }
   }
 
@@ -75,6 +78,7 @@ class Reckless {
   }
 
   Controller controller_;
+  Facts facts_;
   MapView map_;
   DriveRules rules_;
   Routes routes_;

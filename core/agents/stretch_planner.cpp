@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/agents/aisles.hpp"
+#include "core/agents/lane_costs.hpp"
 
 namespace fleetproof::agents {
 namespace {
@@ -16,9 +16,6 @@ constexpr double kArrivingCost_s = 8.0;
 constexpr double kIdleCost_s = 10.0;
 constexpr double kWaitingCost_s = 20.0;
 constexpr double kNoWayCost_s = 1000.0;
-// So much dearer is a lane against the convention of aisles. Back to a goal that it has just passed, an AGV drives
-// against it.
-constexpr double kAgainstAisle = 8.0;
 // In a row of chargers, wide AGVs cannot turn beside each other. An AGV would rather hold up others there than run
 // empty.
 constexpr double kUnsafeChargerCost_s = 30.0;
@@ -118,23 +115,17 @@ struct StretchPlanner::Walk {
   }
 };
 
-StretchPlanner::StretchPlanner(const MapView& map, HullGeometry& geometry, Neighbours& neighbours, const fp_agv& self,
-                               const ProgressOptions& options)
+StretchPlanner::StretchPlanner(const MapView& map, HullGeometry& geometry, Neighbours& neighbours,
+                               std::uint32_t vehicle_type, const ProgressOptions& options)
     : map_(map),
       geometry_(geometry),
       neighbours_(neighbours),
       places_(map, geometry),
-      rules_(map, map.tells_rules() ? self.vehicle_type : 0),
-      routes_(map, rules_) {
-  lane_times_s_.reserve(map.lane_count());
-  for (std::uint32_t id = 0; id < map.lane_count(); ++id) lane_times_s_.push_back(agents::lane_time_s(map, id, self));
-  usual_costs_s_ = lane_times_s_;
-  if (!options.one_way_aisles || neighbours.fleet_count() < 2) return;
-  const Aisles aisles(map, neighbours.fleet_count());
-  for (std::uint32_t id = 0; id < map.lane_count(); ++id) {
-    if (aisles.is_against(id)) usual_costs_s_[id] *= kAgainstAisle;
-  }
-}
+      rules_(map, vehicle_type),
+      routes_(map, rules_),
+      lane_times_s_(agents::lane_times_s(geometry.parts().facts(), neighbours.self())),
+      usual_costs_s_(options.one_way_aisles ? lane_costs_s(geometry.parts().facts(), neighbours.self())
+                                            : lane_times_s_) {}
 
 Stretch StretchPlanner::towards(const Path& standing, Budget budget, std::span<const Goal> goals) {
   bool loaded = carries_load(goals);
@@ -212,7 +203,7 @@ bool StretchPlanner::follow(Walk& walk, std::uint32_t to) {
 }
 
 void StretchPlanner::price_lanes(bool loaded, double waiting_s, double idle_s, const GoesFirst& goes_first) {
-  costs_s_ = usual_costs_s_;
+  costs_s_.assign(usual_costs_s_.begin(), usual_costs_s_.end());
   for (std::uint32_t lane = 0; rules_.any() && lane < map_.lane_count(); ++lane) {
     if (!rules_.is_usable(lane, loaded)) costs_s_[lane] = INFINITY;
   }
@@ -226,14 +217,12 @@ void StretchPlanner::price_lanes(bool loaded, double waiting_s, double idle_s, c
 }
 
 void StretchPlanner::price_station(std::uint32_t station, double extra_s) {
-  if (places_.burden(station) < WaitingPlaces::kFoulsLanes) {
+  if (places_.burden(station) < PlaceJudge::kFoulsLanes) {
     for (const std::uint32_t lane : map_.lanes_to(station)) costs_s_[lane] += extra_s;
     for (const std::uint32_t lane : map_.lanes_from(station)) costs_s_[lane] += extra_s;
     return;
   }
-  for (const std::uint32_t lane : geometry_.lanes_near(station)) {
-    if (geometry_.turning_blocks_lane(station, lane)) costs_s_[lane] += extra_s;
-  }
+  for (const std::uint32_t lane : geometry_.parts().lanes_blocked_by_turning(station)) costs_s_[lane] += extra_s;
 }
 
 // Afterwards, the routes are those from there.

@@ -72,7 +72,8 @@ class StretchPlanner {
  public:
   using GoesFirst = std::function<bool(std::uint32_t agv, const Neighbour&)>;
 
-  StretchPlanner(const MapView& map, HullGeometry& geometry, Neighbours& neighbours, const fp_agv& self,
+  // `vehicle_type`: of the own AGV, by which the plant permits lanes.
+  StretchPlanner(const MapView& map, HullGeometry& geometry, Neighbours& neighbours, std::uint32_t vehicle_type,
                  const ProgressOptions& options = {});
 
   WaitingPlaces& places() { return places_; }
@@ -107,9 +108,9 @@ class StretchPlanner {
   WaitingPlaces places_;
   DriveRules rules_;
   Routes routes_;
-  std::vector<double> lane_times_s_;   // by lane
-  std::vector<double> usual_costs_s_;  // by lane: the time, and a price against the convention of aisles
-  std::vector<double> costs_s_;        // by lane: likewise, and a price for other AGVs on the lane
+  std::span<const double> lane_times_s_;   // by lane
+  std::span<const double> usual_costs_s_;  // by lane: the time, and a price against the convention of aisles
+  std::vector<double> costs_s_;            // by lane: likewise, and a price for other AGVs on the lane
 };
 
 }  // namespace fleetproof::agents

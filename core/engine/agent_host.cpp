@@ -21,7 +21,7 @@ AgentHost::AgentHost(RunContext& run, const Ports& ports, const fp_agent_type& t
                      const RunWatch& watch)
     : run_(run),
       ports_(ports),
-      briefings_(run.scenario, agent_config),
+      briefings_(run.scenario, agent_config, watch.share_facts),
       caller_(type, watch),
       activations_max_(kActivationsPerRun +
                        kActivationsPerSecond * static_cast<std::uint64_t>(to_seconds(run.scenario.horizon))),

@@ -42,7 +42,7 @@ std::uint32_t segment_of(const Lane* lane) {
 
 }  // namespace
 
-Briefings::Briefings(const Scenario& scenario, const char* agent_config) {
+Briefings::Briefings(const Scenario& scenario, const char* agent_config, bool share_facts) {
   describe_permissions(scenario);
   describe_map(*scenario.map);
   describe_fleet(scenario);
@@ -63,6 +63,8 @@ Briefings::Briefings(const Scenario& scenario, const char* agent_config) {
     briefing.boot = 0;
     briefing.start_segment = FP_NONE;
     briefing.next_segment = FP_NONE;
+    if (facts_.empty() || !share_facts) facts_.emplace_back(briefing);
+    briefing.facts = &facts_.back().facts();
     briefings_.push_back(briefing);
   }
 }

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <deque>
 #include <vector>
 
 #include "core/scenario/scenario.hpp"
+#include "core/sdk/fact_store.hpp"
 #include "core/sdk/fleetproof/agent.h"
 
 namespace fleetproof {
@@ -11,7 +13,8 @@ namespace fleetproof {
 // memory that the C structs point into.
 class Briefings {
  public:
-  Briefings(const Scenario& scenario, const char* agent_config);
+  // `share_facts`: the agents ask one store for what follows from map and fleet. Else each has its own.
+  Briefings(const Scenario& scenario, const char* agent_config, bool share_facts = true);
   Briefings(const Briefings&) = delete;
   Briefings& operator=(const Briefings&) = delete;
 
@@ -34,6 +37,7 @@ class Briefings {
   fp_map map_{};
   std::vector<fp_agv> fleet_;
   std::vector<std::vector<fp_scripted_call>> scripts_;
+  std::deque<FactStore> facts_;
   std::vector<fp_briefing> briefings_;
 };
 

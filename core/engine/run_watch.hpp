@@ -44,6 +44,7 @@ struct RunWatch {
   // of the tape, and needs no known ends. If the bytes are damaged or belong to another run, simulate() throws
   // EngineError.
   std::string_view play{};
+  bool share_facts = true;  // false: each agent works out for itself what follows from map and fleet (fp_facts)
 };
 
 // The caller wanted no outcome any more.

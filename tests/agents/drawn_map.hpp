@@ -109,7 +109,8 @@ struct TestFleet {
             "",
             0,
             FP_NONE,
-            FP_NONE};
+            FP_NONE,
+            nullptr};
   }
 
   const fp_map& map;

@@ -49,7 +49,7 @@ TEST(WaitingPlaces, AreNotBesideALaneTooNear) {
   const TestFleet fleet(drawn.map(), 2);
   HullGeometry geometry(map, fleet.briefing(0, 0));
   WaitingPlaces places(map, geometry);
-  EXPECT_GE(places.burden(c), WaitingPlaces::kFoulsLanes) << "turning there would reach into the lane a-b";
+  EXPECT_GE(places.burden(c), PlaceJudge::kFoulsLanes) << "turning there would reach into the lane a-b";
   EXPECT_TRUE(places.is_safe(e));
 }
 
@@ -135,7 +135,7 @@ class Planning : public ::testing::Test {
   TestFleet fleet{street.drawn.map(), 3};
   HullGeometry geometry{map, fleet.briefing(0, 0)};
   Neighbours neighbours{map, geometry, fleet.briefing(0, 0)};
-  StretchPlanner planner{map, geometry, neighbours, fleet.agvs[0]};
+  StretchPlanner planner{map, geometry, neighbours, 0};
   std::uint32_t stamp = 0;
 };
 

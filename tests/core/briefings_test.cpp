@@ -35,6 +35,19 @@ TEST(Briefings, HoldMapFleetAndScript) {
   EXPECT_EQ(second.script[0].segment, 1U);
 }
 
+TEST(Briefings, TheAgentsShareTheirFactsUnlessTheyMustNot) {
+  Scenario scenario = test::row_scenario(3, {2, 0});
+  scenario.law.safety_distance_m = 0.2;
+  const Briefings shared(scenario, ""), apart(scenario, "", false);
+  const fp_facts& facts = *shared.of(AgvId{0U}).facts;
+  EXPECT_EQ(shared.of(AgvId{1U}).facts, &facts);
+  EXPECT_NE(apart.of(AgvId{1U}).facts, apart.of(AgvId{0U}).facts);
+  EXPECT_EQ(facts.map, shared.of(AgvId{0U}).map);
+  EXPECT_EQ(facts.fleet, shared.of(AgvId{0U}).fleet);
+  EXPECT_EQ(facts.fleet_count, 2U);
+  EXPECT_EQ(facts.safety_distance_m, 0.2);
+}
+
 TEST(Briefings, TellLimitsAndBlocksOfTheLanes) {
   Layout layout = test::row_scenario(3, {0}).map->layout();
   layout.blocks = {{"dock", BlockKind::OneVehicle}, {"aisle", BlockKind::SameDirection}};

@@ -37,6 +37,7 @@
 
 #include <stdint.h>
 
+#include "facts.h"
 #include "map.h"
 
 #ifdef __cplusplus
@@ -44,7 +45,7 @@ extern "C" {
 #endif
 
 #define FP_ABI_MAJOR 1u
-#define FP_ABI_MINOR 2u
+#define FP_ABI_MINOR 3u
 
 #define FP_NONE 0xffffffffu /* no station, no segment, no AGV */
 #define FP_HERE FP_NONE     /* as the segment of pick, drop, park and charge: where the AGV stands, without driving */
@@ -80,22 +81,6 @@ typedef enum fp_action {
 
 /* ---- the briefing ---------------------------------------------------------------------------------------- */
 
-/* An AGV of the fleet; the fleet contains the agent's own AGV. The length of the footprint is along the heading. The
- * reference point follows the lanes, and the AGV turns about it. Before minor 2 it was the centre of the footprint. */
-typedef struct fp_agv {
-  double length_m, width_m;
-  double speed_mps, acceleration_mps2, deceleration_mps2;
-  double turn_speed_radps, turn_acceleration_radps2, turn_deceleration_radps2;
-  /* Since minor 1: the size with a load, and the share by which a drive may be faster or slower. */
-  double loaded_length_m, loaded_width_m;
-  double speed_deviation;
-  /* Since minor 2: the centre of the footprint, ahead of the reference point; the top speed of driving backward; and
-   * the number of its vehicle type, for permissions. */
-  double centre_ahead_m;
-  double reverse_speed_mps;
-  uint32_t vehicle_type;
-} fp_agv;
-
 /* A controller call at a fixed time, for the `scripted` agent. */
 typedef struct fp_scripted_call {
   int64_t at_ns;
@@ -128,6 +113,7 @@ typedef struct fp_briefing {
   uint32_t boot;
   uint32_t start_segment;
   uint32_t next_segment;
+  const fp_facts* facts; /* since minor 3 */
 } fp_briefing;
 
 /* ---- events ---------------------------------------------------------------------------------------------- */

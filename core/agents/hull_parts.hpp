@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/agents/facts.hpp"
+#include "core/agents/hull_tables.hpp"
+#include "core/agents/map_view.hpp"
+#include "core/agents/shapes.hpp"
+
+namespace fleetproof::agents {
+
+// Which parts of hulls conflict. That follows from the facts alone, so the AGVs of a run share it. Requires: map and
+// facts outlive the object.
+class HullParts {
+ public:
+  HullParts(const MapView& map, const fp_facts& facts, const HullKey& key)
+      : map_(map), facts_(facts), key_(key), tables_(facts, key), per_kind_(map.lane_count() + map.station_count()) {}
+  HullParts(const HullParts&) = delete;
+  HullParts& operator=(const HullParts&) = delete;
+
+  const fp_facts& facts() const { return facts_; }
+  const HullKey& key() const { return key_; }
+  double clearance_m() const { return tables_.clearance_m(); }
+  const Body& body(std::uint32_t agv) const { return tables_.body(tables_.kind_of(agv)); }
+  std::uint32_t of_lane(std::uint32_t agv, std::uint32_t lane) const { return tables_.kind_of(agv) * per_kind_ + lane; }
+  std::uint32_t of_turn(std::uint32_t agv, std::uint32_t station) const {
+    return tables_.kind_of(agv) * per_kind_ + map_.lane_count() + station;
+  }
+  // A lower bound of the distance from the point to this part.
+  double distance_bound_m(Vec point_m, std::uint32_t number) const {
+    return length(point_m - tables_.part(number).centre_m) - tables_.part(number).reach_m;
+  }
+
+  // True if they come closer than the clearance.
+  bool conflict(std::uint32_t a, std::uint32_t b);
+  bool conflicts_with_body(std::uint32_t number, const Shape& body) const;
+  // The lanes on which some AGV conflicts with some AGV that turns at this station, by ascending number.
+  std::span<const std::uint32_t> lanes_blocked_by_turning(std::uint32_t station) const;
+  // Whether some AGV on the lane conflicts with some AGV that stands at the station with this heading.
+  bool standing_blocks_lane(std::uint32_t station, Vec heading, std::uint32_t lane) const;
+
+ private:
+  struct Remembered {
+    std::uint32_t number = FP_NONE;  // of a part
+    std::span<const std::uint32_t> conflicts;
+  };
+  static constexpr std::size_t kRemembered = 256;
+
+  bool is_turn(std::uint32_t number) const { return number % per_kind_ >= map_.lane_count(); }
+  std::span<const std::uint32_t> conflicts_of(std::uint32_t number) const;
+  std::span<const std::uint32_t> remembered_conflicts_of(std::uint32_t number);
+  std::vector<std::uint32_t> find_conflicts(std::uint32_t number) const;
+  std::vector<std::uint32_t> find_blocked_lanes(std::uint32_t station) const;
+
+  const MapView& map_;
+  const fp_facts& facts_;
+  HullKey key_;
+  HullTables tables_;
+  std::uint32_t per_kind_;
+  std::vector<Remembered> remembered_;  // by the last digits of the number
+};
+
+}  // namespace fleetproof::agents

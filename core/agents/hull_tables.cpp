@@ -1,0 +1,137 @@
+#include "core/agents/hull_tables.hpp"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "core/agents/facts.hpp"
+#include "core/agents/fleet.hpp"
+
+namespace fleetproof::agents {
+namespace {
+
+// Where a question names them.
+constexpr unsigned kSelfBit = 32, kOptionsBit = 56;
+
+constexpr std::array kOptions{&HullOptions::loads_count,   &HullOptions::sizes_differ, &HullOptions::turns_count,
+                              &HullOptions::corners_count, &HullOptions::bends_count,  &HullOptions::margin_is_whole,
+                              &HullOptions::shapes_decide};
+
+HullOptions options_of(std::uint64_t bits) {
+  HullOptions options;
+  for (std::size_t i = 0; i < kOptions.size(); ++i) options.*kOptions[i] = (bits >> i & 1U) != 0;
+  return options;
+}
+
+// Always with a load: an AGV does not know whether another AGV is loaded.
+Body body_of(const fp_facts& facts, std::uint32_t id, const HullOptions& options) {
+  const fp_agv& agv = agv_of(facts, id);
+  const double length_m = options.loads_count ? std::max(agv.length_m, agv.loaded_length_m) : agv.length_m,
+               width_m = options.loads_count ? std::max(agv.width_m, agv.loaded_width_m) : agv.width_m;
+  return {length_m, width_m, tells_minor_2(facts) ? agv.centre_ahead_m : 0.0};
+}
+
+// Works the tables out.
+class Sweeps {
+ public:
+  Sweeps(const fp_facts& facts, const HullKey& key) : map_(facts), options_(key.options) {
+    for (std::uint32_t id = 0; id < facts.fleet_count; ++id) {
+      const Body body = body_of(facts, key.self == HullKey::kNobody ? id : key.self, options_);
+      const auto known = std::ranges::find(kinds_, body);
+      kind_of_.push_back(static_cast<std::uint32_t>(known - kinds_.begin()));
+      if (known == kinds_.end()) kinds_.push_back(body);
+    }
+    double reach_m = 0.0;
+    for (const Body& kind : kinds_) reach_m = std::max(reach_m, kind.reach_m());
+    clearance_m_ = (options_.margin_is_whole ? 1.0 : 0.5) * facts.safety_distance_m +
+                   std::max(kHullTolerance_m, 2.0 * kArcHeading_rad * reach_m);
+    for (const Body& kind : kinds_) sweep(kind);
+  }
+
+  std::vector<std::byte> tables() const {
+    TableWriter tables;
+    tables.add(std::vector{clearance_m_});
+    tables.add(kinds_), tables.add(kind_of_), tables.add(parts_), tables.add(shapes_);
+    tables.add(PartsNear(boxes(), clearance_m_).bytes());
+    return tables.bytes();
+  }
+
+ private:
+  void sweep(const Body& kind) {
+    for (std::uint32_t lane = 0; lane < map_.lane_count(); ++lane) sweep_lane(kind, lane);
+    for (std::uint32_t station = 0; station < map_.station_count(); ++station) {
+      const double reach_m = options_.corners_count ? kind.reach_m() : kind.length_m / 2.0;
+      const Vec at = map_.position_m(station);
+      parts_.push_back({static_cast<std::uint32_t>(shapes_.size()), 1, at, kind.reach_m()});
+      shapes_.push_back(disc_at(at, reach_m));
+    }
+  }
+
+  // No point of a lane is further from the middle between its ends than half the length of the lane.
+  void sweep_lane(const Body& kind, std::uint32_t id) {
+    const fp_lane& lane = map_.lane(id);
+    const fp_pose& start = map_.arc(lane, 0).start;
+    const fp_pose end = end_of(map_.arc(lane, lane.arc_count - 1));
+    HullPart part{static_cast<std::uint32_t>(shapes_.size()), 0, Vec{start.x_m + end.x_m, start.y_m + end.y_m} * 0.5,
+                  0.0};
+    if (!options_.bends_count) append_sweep(chord_of(map_, id), map_.is_backward(id), kind, shapes_);
+    double length_m = 0.0;
+    for (std::uint32_t i = 0; i < lane.arc_count; ++i) {
+      length_m += map_.arc(lane, i).length_m;
+      if (options_.bends_count) append_sweep(map_.arc(lane, i), map_.is_backward(id), kind, shapes_);
+    }
+    part.count = static_cast<std::uint32_t>(shapes_.size()) - part.first;
+    part.reach_m = length_m / 2.0 + kind.reach_m();
+    parts_.push_back(part);
+  }
+
+  std::vector<Box> boxes() const {
+    std::vector<Box> boxes;
+    boxes.reserve(parts_.size());
+    for (const HullPart& part : parts_) {
+      Box& box = boxes.emplace_back(Box::around(shapes_[part.first]));
+      for (std::uint32_t i = 1; i < part.count; ++i) box.extend(Box::around(shapes_[part.first + i]));
+    }
+    return boxes;
+  }
+
+  MapView map_;
+  HullOptions options_;
+  double clearance_m_ = 0.0;
+  std::vector<Body> kinds_;
+  std::vector<std::uint32_t> kind_of_;
+  std::vector<HullPart> parts_;
+  std::vector<Shape> shapes_;
+};
+
+std::span<const std::byte> tables_of(const fp_facts& facts, const HullKey& key) {
+  return ask<std::byte>(
+      facts,
+      [](const fp_facts* from, std::uint64_t question, fp_answer* to) {
+        answer(*from, to, Sweeps(*from, HullKey(question)).tables());
+      },
+      key.question(0));
+}
+
+}  // namespace
+
+HullKey::HullKey(std::uint64_t question)
+    : options(options_of(question >> kOptionsBit)), self(static_cast<std::uint32_t>(question >> kSelfBit) & kNobody) {}
+
+std::uint64_t HullKey::question(std::uint64_t item) const {
+  std::uint64_t number = item | std::uint64_t{self} << kSelfBit;
+  for (std::size_t i = 0; i < kOptions.size(); ++i) number |= std::uint64_t{options.*kOptions[i]} << (kOptionsBit + i);
+  return number;
+}
+
+HullTables::HullTables(const fp_facts& facts, const HullKey& key) : HullTables(TableReader(tables_of(facts, key))) {}
+
+HullTables::HullTables(TableReader tables)
+    : clearance_m_(tables.next<double>().front()),
+      kinds_(tables.next<Body>()),
+      kind_of_(tables.next<std::uint32_t>()),
+      parts_(tables.next<HullPart>()),
+      shapes_(tables.next<Shape>()),
+      near_(tables.next<std::byte>()) {}
+
+}  // namespace fleetproof::agents

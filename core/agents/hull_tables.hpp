@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/agents/facts.hpp"
+#include "core/agents/lock_options.hpp"
+#include "core/agents/map_view.hpp"
+#include "core/agents/parts_near.hpp"
+#include "core/agents/shapes.hpp"
+
+namespace fleetproof::agents {
+
+// Hulls keep this distance in addition to the safety distance. It covers rounding in messages, turns that are too small
+// to count, and arcs that are not quite the track, of bodies that reach 4.5 m from their reference points.
+inline constexpr double kHullTolerance_m = 0.02;
+// By this angle a body may point elsewhere than the arcs say (the map gives arcs to 2e-3 rad). Two bodies that reach
+// further need more distance.
+inline constexpr double kArcHeading_rad = 2.2e-3;
+
+// What hulls depend on, besides map and fleet. It is a part of every question about them.
+struct HullKey {
+  static constexpr std::uint32_t kNobody = 0xffffff;
+
+  HullOptions options{};
+  std::uint32_t self = kNobody;  // whose body every AGV has, if sizes do not differ
+
+  HullKey(const HullOptions& of, std::uint32_t agv) : options(of), self(of.sizes_differ ? kNobody : agv) {}
+  explicit HullKey(std::uint64_t question);
+  // `item`: below 2^32.
+  std::uint64_t question(std::uint64_t item) const;
+  static std::uint32_t item_of(std::uint64_t question) { return static_cast<std::uint32_t>(question); }
+};
+
+struct HullPart {
+  std::uint32_t first = 0, count = 0;  // of its shapes
+  Vec centre_m;                        // of a disc that contains the part
+  double reach_m = 0.0;
+};
+
+// The parts of all hulls in a plant: for every kind of body in the fleet, the sweep of each lane, then a disc for the
+// turn on the spot at each station. Requires: the facts outlive the object.
+class HullTables {
+ public:
+  HullTables(const fp_facts& facts, const HullKey& key);
+
+  double clearance_m() const { return clearance_m_; }
+  std::uint32_t kind_count() const { return static_cast<std::uint32_t>(kinds_.size()); }
+  std::uint32_t kind_of(std::uint32_t agv) const { return kind_of_[agv]; }
+  const Body& body(std::uint32_t kind) const { return kinds_[kind]; }
+  const HullPart& part(std::uint32_t number) const { return parts_[number]; }
+  std::span<const Shape> shapes(std::uint32_t number) const {
+    return shapes_.subspan(parts_[number].first, parts_[number].count);
+  }
+  const PartsNear& near() const { return near_; }
+
+ private:
+  explicit HullTables(TableReader tables);
+
+  double clearance_m_;
+  std::span<const Body> kinds_;             // different footprints
+  std::span<const std::uint32_t> kind_of_;  // by AGV
+  std::span<const HullPart> parts_;
+  std::span<const Shape> shapes_;
+  PartsNear near_;
+};
+
+}  // namespace fleetproof::agents

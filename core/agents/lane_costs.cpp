@@ -1,0 +1,60 @@
+#include "core/agents/lane_costs.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <vector>
+
+#include "core/agents/aisles.hpp"
+#include "core/agents/fleet.hpp"
+#include "core/agents/map_view.hpp"
+#include "core/agents/routes.hpp"
+
+namespace fleetproof::agents {
+namespace {
+
+// So much dearer is a lane against the convention of aisles. Back to a goal that it has just passed, an AGV drives
+// against it.
+constexpr double kAgainstAisle = 8.0;
+
+// The first AGV of the fleet that is like this one.
+std::uint32_t model_of(const fp_facts& facts, std::uint32_t agv) {
+  constexpr std::size_t kMembers = offsetof(fp_agv, vehicle_type) + sizeof(fp_agv::vehicle_type);
+  const std::size_t size = std::min<std::size_t>(facts.agv_stride, kMembers);
+  std::uint32_t model = 0;
+  while (std::memcmp(&agv_of(facts, model), &agv_of(facts, agv), size) != 0) ++model;
+  return model;
+}
+
+}  // namespace
+
+std::span<const double> lane_times_s(const fp_facts& facts, std::uint32_t agv) {
+  return ask<double>(
+      facts,
+      [](const fp_facts* from, std::uint64_t model, fp_answer* to) {
+        const MapView map(*from);
+        const fp_agv& like = agv_of(*from, static_cast<std::uint32_t>(model));
+        std::vector<double> times_s;
+        for (std::uint32_t id = 0; id < map.lane_count(); ++id) times_s.push_back(lane_time_s(map, id, like));
+        answer(*from, to, times_s);
+      },
+      model_of(facts, agv));
+}
+
+std::span<const double> lane_costs_s(const fp_facts& facts, std::uint32_t agv) {
+  return ask<double>(
+      facts,
+      [](const fp_facts* from, std::uint64_t model, fp_answer* to) {
+        const MapView map(*from);
+        const auto times_s = lane_times_s(*from, static_cast<std::uint32_t>(model));
+        std::vector<double> costs_s(times_s.begin(), times_s.end());
+        const auto against = lanes_against_aisles(*from);
+        for (std::uint32_t id = 0; id < map.lane_count(); ++id) {
+          if (against[id] != 0) costs_s[id] *= kAgainstAisle;
+        }
+        answer(*from, to, costs_s);
+      },
+      model_of(facts, agv));
+}
+
+}  // namespace fleetproof::agents

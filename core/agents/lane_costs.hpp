@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/agents/facts.hpp"
+
+namespace fleetproof::agents {
+
+// Of one AGV, by lane; the AGVs of a run share them.
+// The time from rest to rest.
+std::span<const double> lane_times_s(const fp_facts& facts, std::uint32_t agv);
+// The same, and a price against the convention of aisles.
+std::span<const double> lane_costs_s(const fp_facts& facts, std::uint32_t agv);
+
+}  // namespace fleetproof::agents

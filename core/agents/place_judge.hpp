@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/agents/hull_parts.hpp"
+#include "core/agents/map_view.hpp"
+#include "core/agents/map_without.hpp"
+
+namespace fleetproof::agents {
+
+// The stations between which AGVs carry: those with a purpose other than routing, or all if there are none.
+struct Goals {
+  std::span<const std::uint8_t> is_goal;     // by station
+  std::span<const std::uint8_t> free_marks;  // by station: of the part with all goals, if nothing is blocked
+  std::uint32_t count = 0;
+  bool are_connected = false;  // if nothing is blocked
+};
+
+// Judges a station as a place to stand for long. A standing AGV blocks its station and all lanes that are too near to
+// it. The goals must still reach each other, and lanes between them must not be blocked. A lane that leads into a part
+// without goals, as in front of a bay, may be blocked. A station whose lanes are all one-way is a waiting place too:
+// there the AGV only holds up those behind it. Requires: map and parts outlive the object.
+class PlaceJudge {
+ public:
+  PlaceJudge(const MapView& map, const HullParts& parts);
+
+  // The number of goals that an AGV cuts off which stands here, and kFoulsLanes more if it blocks lanes. 0: a safe
+  // place.
+  std::uint32_t burden(std::uint32_t station);
+
+  static constexpr std::uint32_t kFoulsLanes = 10'000;
+
+ private:
+  static constexpr std::size_t kSmallPiece = 60;  // stations
+
+  bool is_all_one_way(std::uint32_t station) const;
+  void block_lanes(std::uint32_t station);
+  bool cuts_off_pieces_only(std::uint32_t station, std::uint32_t others);
+  bool is_cut_off(std::uint32_t station) const { return cut_off_[station]; }
+  bool has_detours(std::uint32_t station);
+  bool is_missed(std::uint32_t station, std::uint32_t lane, bool only_pieces);
+  bool blocks_while_waiting(std::uint32_t station, std::uint32_t lane);
+  std::uint32_t mark_largest_part(std::uint32_t without, std::uint32_t all);
+
+  const MapView& map_;
+  const HullParts& parts_;
+  Goals goals_;
+
+  // Of the station that is being judged.
+  MapWithout without_;
+  std::vector<std::uint8_t> marks_;  // by station
+  std::vector<bool> cut_off_;        // by station: it is in a small piece
+  std::uint32_t goals_in_pieces_ = 0;
+};
+
+// What PlaceJudge says, worked out once for all AGVs.
+std::uint32_t burden_of(const HullParts& parts, std::uint32_t station);
+
+}  // namespace fleetproof::agents
