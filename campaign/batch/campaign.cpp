@@ -93,6 +93,7 @@ class Session {
           const CampaignListener& listener)
       : options_(options),
         listener_(listener),
+        stretch_(plan.cells_per_world()),
         audit_book_(plan, programs),
         runs_(plan, programs, {.workers = options.workers, .log_prefix = options.worker_logs}),
         audits_(plan, programs, options.audit_program, options.workers),
@@ -121,7 +122,7 @@ class Session {
   void simulate() {
     TaskPool pool(
         options_.workers, ledger_.prefix_length(), result_.progress.planned, kLiveWindow,
-        [this](std::uint64_t index) { return runs_(index); }, ledger_.ahead());
+        [this](std::uint64_t index) { return runs_(index); }, ledger_.ahead(), stretch_);
     while (!pool.finished()) {
       if (audits_.open_count() >= kAuditsAhead && !stopped_) {  // with a large share the audits set the pace
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -241,6 +242,7 @@ class Session {
   const RunOptions& options_;
   const CampaignListener& listener_;
   CampaignResult result_;
+  const std::uint64_t stretch_;  // of runs in one world
   RunLedger ledger_;
   bool stored_runs_are_ours_ = true;
   AuditBook audit_book_;

@@ -32,12 +32,14 @@ constexpr std::size_t kMostUntaken = 512;
 struct TaskPool::Impl {
   const int workers;
   std::uint64_t end;
-  const std::uint64_t window;
+  const std::uint64_t window, stretch;
   const Simulate simulate;
 
   mutable std::mutex mutex;
   std::condition_variable room, results;
-  std::uint64_t next_index;                                                  // to hand out
+  std::uint64_t next_index;                      // the next stretch begins here
+  std::map<std::uint64_t, std::uint64_t> open;   // by number of a stretch that was begun: its next run to hand out
+  std::map<std::thread::id, std::uint64_t> own;  // the stretch that a thread began last
   std::map<std::uint64_t, std::chrono::steady_clock::time_point> under_way;  // handed out when, not yet finished
   const std::set<std::uint64_t> done_before;
   std::deque<RunRecord> done;
@@ -48,15 +50,16 @@ struct TaskPool::Impl {
   std::thread crew;
 
   Impl(int worker_count, std::uint64_t begin, std::uint64_t end_index, std::uint64_t window_size, Simulate function,
-       std::set<std::uint64_t> finished)
+       std::set<std::uint64_t> finished, std::uint64_t stretch_length)
       : workers(worker_count),
         end(end_index),
         window(window_size),
+        stretch(stretch_length),
         simulate(std::move(function)),
         next_index(begin),
         done_before(std::move(finished)) {
-    skip_done();
-    ensure(workers >= 1 && window >= 1, "a pool has at least one worker and room for one run");
+    next_index = not_done(next_index);
+    ensure(workers >= 1 && window >= 1 && stretch >= 1, "a pool has at least one worker and room for one run");
     crew = std::thread([this] { feed(); });
   }
 
@@ -89,10 +92,45 @@ struct TaskPool::Impl {
     results.notify_all();
   }
 
-  void skip_done() {
-    while (done_before.contains(next_index)) ++next_index;
+  std::uint64_t not_done(std::uint64_t index) const {
+    while (done_before.contains(index)) ++index;
+    return index;
   }
-  bool more_to_do() const { return !stopping && next_index < end; }
+  bool more_to_do() const { return !stopping && (next_index < end || !open.empty()); }
+
+  // Not handed out, or not finished.
+  std::uint64_t oldest() const {
+    std::uint64_t index = next_index;
+    if (!under_way.empty()) index = std::min(index, under_way.begin()->first);
+    for (const auto& [number, next] : open) index = std::min(index, next);
+    return index;
+  }
+
+  // The stretch from which this thread takes its next run: its own, else a new one. If there is no room or none left,
+  // it helps with the oldest. `open.end()`: it must wait.
+  std::map<std::uint64_t, std::uint64_t>::iterator choose() {
+    const std::uint64_t within = oldest() + window;
+    const auto mine = own.find(std::this_thread::get_id());
+    auto chosen = mine == own.end() ? open.end() : open.find(mine->second);
+    if (chosen != open.end() && chosen->second < within) return chosen;
+    if (next_index < std::min(end, within)) return begin_stretch();
+    return !open.empty() && open.begin()->second < within ? open.begin() : open.end();
+  }
+
+  std::map<std::uint64_t, std::uint64_t>::iterator begin_stretch() {
+    const std::uint64_t number = next_index / stretch;
+    const auto begun = open.emplace(number, next_index).first;
+    own[std::this_thread::get_id()] = number;
+    next_index = not_done(std::min(end, (number + 1) * stretch));
+    return begun;
+  }
+
+  std::uint64_t hand_out(std::map<std::uint64_t, std::uint64_t>::iterator from) {
+    const std::uint64_t index = from->second;
+    from->second = not_done(index + 1);
+    if (from->second >= std::min(end, (from->first + 1) * stretch)) open.erase(from);
+    return index;
+  }
 
   bool wait_for_room() {
     std::unique_lock lock(mutex);
@@ -117,11 +155,10 @@ struct TaskPool::Impl {
     std::uint64_t index = 0;
     {
       std::unique_lock lock(mutex);
-      room.wait(lock,
-                [&] { return !more_to_do() || under_way.empty() || next_index - under_way.begin()->first < window; });
+      auto from = open.end();
+      room.wait(lock, [&] { return !more_to_do() || (from = choose()) != open.end(); });
       if (!more_to_do()) return task_ends();
-      index = next_index++;
-      skip_done();
+      index = hand_out(from);
       under_way.emplace(index, std::chrono::steady_clock::now());
       threads.insert(std::this_thread::get_id());
     }
@@ -148,8 +185,8 @@ struct TaskPool::Impl {
 };
 
 TaskPool::TaskPool(int workers, std::uint64_t begin, std::uint64_t end, std::uint64_t window, Simulate simulate,
-                   std::set<std::uint64_t> done)
-    : impl_(std::make_unique<Impl>(workers, begin, end, window, std::move(simulate), std::move(done))) {}
+                   std::set<std::uint64_t> done, std::uint64_t stretch)
+    : impl_(std::make_unique<Impl>(workers, begin, end, window, std::move(simulate), std::move(done), stretch)) {}
 
 TaskPool::~TaskPool() {
   stop();

@@ -27,10 +27,11 @@ class TaskPool {
   using Simulate = std::function<std::optional<RunRecord>(std::uint64_t run_index)>;
 
   // Starts `workers` threads on the runs [begin, end). At most `window` runs lie between the oldest unfinished run and
-  // the newest run that was handed out. The runs in `done` are not handed out.
+  // the newest run that was handed out. The runs in `done` are not handed out. Runs of one stretch of this length, from
+  // run 0 on, have much in common: a thread stays with its stretch, unless another one has nothing else to do.
   // Workers wait while 512 results are not taken.
   TaskPool(int workers, std::uint64_t begin, std::uint64_t end, std::uint64_t window, Simulate simulate,
-           std::set<std::uint64_t> done = {});
+           std::set<std::uint64_t> done = {}, std::uint64_t stretch = 1);
   // Hands out no more runs and waits for the runs under way.
   ~TaskPool();
   TaskPool(const TaskPool&) = delete;

@@ -42,7 +42,12 @@ Scenario ScenarioSource::scenario(std::uint64_t run_index) const {
 }
 
 Scenario ScenarioSource::scenario(std::uint64_t run_index, RejectionCounts& rejected) const {
-  const auto [replicate, cell, values] = place(run_index);
+  return in_world(world(run_index, rejected), run_index);
+}
+
+Scenario ScenarioSource::world(std::uint64_t run_index, RejectionCounts& rejected) const {
+  const std::uint64_t replicate = run_index / cells_.size();
+  const CellRecord& cell = cells_[run_index % cells_.size()];
   const LayoutFactor& layout = *std::ranges::find(plan_.layouts, cell.layout, &LayoutFactor::name);
   WorldSpec spec;
   if (layout.map != nullptr) {
@@ -61,7 +66,11 @@ Scenario ScenarioSource::scenario(std::uint64_t run_index, RejectionCounts& reje
   spec.horizon = seconds(plan_.horizon_s);
   const std::uint64_t factors = name_hash(fmt::format("{}/{}", cell.layout, cell.fleet_size));
   spec.held = {plan_.held_streams, world_seed(plan_.seed, plan_.held_replicate, factors)};
-  Scenario scenario = generate_world(spec, world_seed(plan_.seed, replicate, factors), rejected);
+  return generate_world(spec, world_seed(plan_.seed, replicate, factors), rejected);
+}
+
+Scenario ScenarioSource::in_world(const Scenario& world, std::uint64_t run_index) const {
+  Scenario scenario = world;
   // without characters that a scenario file refuses
   scenario.name = fmt::format("{} run {}", printable(plan_.name), run_index);
   scenario.radio = plan_.radio;
@@ -69,7 +78,7 @@ Scenario ScenarioSource::scenario(std::uint64_t run_index, RejectionCounts& reje
   scenario.agent_clock = plan_.agent_clock;
   scenario.scanner = plan_.scanner;
   scenario.operator_help = plan_.operator_help;
-  set_factors(scenario, values);
+  set_factors(scenario, place(run_index).factors);
   scenario.contact_stops = plan_.contact_stops;
   scenario.stuck_after = seconds(plan_.stuck_after_s);
   return scenario;

@@ -24,6 +24,11 @@ class ScenarioSource {
   Scenario scenario(std::uint64_t run_index) const;
   Scenario scenario(std::uint64_t run_index, RejectionCounts& rejected) const;  // adds the worlds that were rejected
 
+  // The same in two steps. Runs that differ in factors or agent alone have the same world, and the same number of it.
+  std::uint64_t world_number(std::uint64_t run_index) const { return run_index / plan_.cells_per_world(); }
+  Scenario world(std::uint64_t run_index, RejectionCounts& rejected) const;
+  Scenario in_world(const Scenario& world, std::uint64_t run_index) const;
+
  private:
   const CampaignPlan& plan_;
   std::vector<CellRecord> cells_;

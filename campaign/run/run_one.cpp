@@ -1,6 +1,5 @@
 #include "campaign/run/run_one.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "core/base/error.hpp"
@@ -26,15 +25,19 @@ RunRecord RunOne::empty_record(std::uint64_t run_index) const {
 RunRecord RunOne::operator()(std::uint64_t run_index, TraceSink* sink, const RunWatch& watch,
                              std::unique_ptr<Law> also) const {
   RunRecord record = empty_record(run_index);
-  Scenario scenario;
+  WorldShelf::Loan world;
   try {
-    scenario = scenarios_.scenario(run_index);
+    world = worlds_.borrow(scenarios_.world_number(run_index), [&] {
+      RejectionCounts ignored;
+      return scenarios_.world(run_index, ignored);
+    });
   } catch (const InputError& no_world) {
     // This seed found no room for the fleet. The run stays in the count, as one of which nothing is known.
     record.outcome.indeterminate = true;
     record.outcome.message = no_world.what();
     return record;
   }
+  const Scenario scenario = scenarios_.in_world(world->scenario, run_index);
   const AgentFactor& factor = plan_.agent_of_cell(record.cell);
   // A tape plays for every agent: any type will do.
   const bool played = !watch.play.empty();
@@ -44,7 +47,9 @@ RunRecord RunOne::operator()(std::uint64_t run_index, TraceSink* sink, const Run
   auto laws = make_default_laws(scenario, plan_.laws_left_out);
   if (also) laws.push_back(std::move(also));
   record.scenario_digest = scenario_digest(scenario);
-  record.outcome = simulate(scenario, *type, laws, sink, plan_.config_of(factor).c_str(), watch);
+  RunWatch in_plant = watch;
+  in_plant.plant = &world->plant;
+  record.outcome = simulate(scenario, *type, laws, sink, plan_.config_of(factor).c_str(), in_plant);
   return record;
 }
 

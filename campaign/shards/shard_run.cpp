@@ -35,6 +35,7 @@ class ShardSession {
                const RunOptions& options, const ShardListener& listener)
       : options_(options),
         listener_(listener),
+        stretch_(plan.cells_per_world()),
         grid_(plan.run_count()),
         owned_(grid_.of(shard)),
         runs_(plan, programs, {.workers = options.workers, .log_prefix = options.worker_logs}),
@@ -77,8 +78,9 @@ class ShardSession {
   }
 
   void simulate() {
-    TaskPool pool(options_.workers, 0, runs_to_do_, std::max(kLiveWindow, grid_.chunk_runs()),
-                  [this](std::uint64_t place) { return runs_(run_at(place)); });
+    TaskPool pool(
+        options_.workers, 0, runs_to_do_, std::max(kLiveWindow, grid_.chunk_runs()),
+        [this](std::uint64_t place) { return runs_(run_at(place)); }, {}, stretch_);
     while (!pool.finished()) {
       if (audits_.open_count() >= kAuditsAhead) {  // with a large share the audits set the pace
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -157,6 +159,7 @@ class ShardSession {
   const RunOptions& options_;
   const ShardListener& listener_;
   ShardResult result_;
+  const std::uint64_t stretch_;  // of runs in one world
   ChunkGrid grid_;
   ChunkRange owned_;
   std::vector<std::uint64_t> to_do_;  // chunks, in their order

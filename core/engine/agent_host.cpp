@@ -15,13 +15,16 @@ constexpr std::uint64_t kActivationsPerRun = 2'000'000, kActivationsPerSecond = 
 
 constexpr std::size_t kLongestMessage = 200;  // characters: an agent may throw any text
 
+bool is_usable(const ToldPlant* plant, const Scenario& scenario) { return plant != nullptr && plant->fits(scenario); }
+
 }  // namespace
 
 AgentHost::AgentHost(RunContext& run, const Ports& ports, const fp_agent_type& type, const char* agent_config,
                      const RunWatch& watch)
     : run_(run),
       ports_(ports),
-      briefings_(run.scenario, agent_config, watch.share_facts),
+      own_plant_(is_usable(watch.plant, run.scenario) ? nullptr : std::make_unique<ToldPlant>(run.scenario)),
+      briefings_(run.scenario, agent_config, own_plant_ ? *own_plant_ : *watch.plant, watch.share_facts),
       caller_(type, watch),
       activations_max_(kActivationsPerRun +
                        kActivationsPerSecond * static_cast<std::uint64_t>(to_seconds(run.scenario.horizon))),

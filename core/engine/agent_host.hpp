@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -83,6 +84,7 @@ class AgentHost {
 
   RunContext& run_;
   Ports ports_;
+  std::unique_ptr<ToldPlant> own_plant_;  // null: that of the watch
   Briefings briefings_;
   AgentCaller caller_;
   std::uint64_t activations_max_;  // of one agent in this run

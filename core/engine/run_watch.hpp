@@ -13,6 +13,7 @@
 namespace fleetproof {
 
 class CallTape;
+class ToldPlant;
 
 // The last call into an agent: create, on_event or destroy. It may lie in memory that another process reads, so that it
 // outlives a run whose agent ends the process. Threads: one writes, any number read.
@@ -44,7 +45,10 @@ struct RunWatch {
   // of the tape, and needs no known ends. If the bytes are damaged or belong to another run, simulate() throws
   // EngineError.
   std::string_view play{};
-  bool share_facts = true;  // false: each agent works out for itself what follows from map and fleet (fp_facts)
+  // From which the agents learn what follows from map and fleet, and in which it is kept for later runs. Null, or if it
+  // is another plant: the run makes its own.
+  ToldPlant* plant = nullptr;
+  bool share_facts = true;  // false: each agent works out for itself what follows from map and fleet
 };
 
 // The caller wanted no outcome any more.

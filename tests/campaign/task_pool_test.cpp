@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
+#include <map>
+#include <mutex>
 #include <set>
 #include <stdexcept>
 #include <thread>
@@ -120,6 +123,45 @@ TEST(TaskPool, StopsAfterTheStretchThatWasBegun) {
     release = true;
     EXPECT_EQ(drain(pool).size(), std::min<std::uint64_t>(97, (held / 10 + 1) * 10)) << held;
   }
+}
+
+// Each thread that is at work when all of them are has one stretch, from its first run on.
+TEST(TaskPool, AThreadStaysWithItsStretch) {
+  std::mutex mutex;
+  std::map<std::uint64_t, std::set<std::thread::id>> threads;  // by stretch
+  TaskPool pool(
+      2, 0, 400, 1000,
+      [&](std::uint64_t index) {
+        std::this_thread::sleep_for(std::chrono::microseconds(200));
+        const std::lock_guard lock(mutex);
+        threads[index / 8].insert(std::this_thread::get_id());
+        return record_of(index);
+      },
+      {}, 8);
+  EXPECT_EQ(drain(pool).size(), 400U);
+  EXPECT_EQ(threads.size(), 50U);
+  const auto shared = std::ranges::count_if(threads, [](const auto& stretch) { return stretch.second.size() > 1; });
+  EXPECT_LE(shared, 2) << "only the last ones are shared";
+}
+
+TEST(TaskPool, OneSlowRunDoesNotHoldUpItsStretch) {
+  std::atomic<bool> release{false};
+  TaskPool pool(
+      2, 0, 1000, 50,
+      [&](std::uint64_t index) {
+        while (index == 0 && !release) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        return record_of(index);
+      },
+      {7, 8, 30}, 10);
+  std::set<std::uint64_t> before;
+  while (before.size() < 46) {
+    if (const auto record = pool.next(std::chrono::milliseconds(50))) before.insert(record->run_index);
+  }
+  EXPECT_FALSE(pool.next(std::chrono::milliseconds(50))) << "run 50 would be more than a window ahead of run 0";
+  EXPECT_EQ(*before.begin(), 1U);
+  EXPECT_EQ(*before.rbegin(), 49U);
+  release = true;
+  EXPECT_EQ(drain(pool).size(), 951U);
 }
 
 }  // namespace

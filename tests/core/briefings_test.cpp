@@ -11,7 +11,8 @@ TEST(Briefings, HoldMapFleetAndScript) {
   Scenario scenario = test::row_scenario(3, {2, 0});
   scenario.law.safety_distance_m = 0.2;
   scenario.agvs[1].script = {{seconds(1.5), ScriptedCall::Action::Pick, SegmentId{1U}}};
-  const Briefings briefings(scenario, "config");
+  const ToldPlant plant(scenario);
+  const Briefings briefings(scenario, "config", plant);
   const fp_briefing& first = briefings.of(AgvId{0U});
   EXPECT_EQ(first.self, 0U);
   EXPECT_EQ(first.start_station, 2U);
@@ -38,7 +39,8 @@ TEST(Briefings, HoldMapFleetAndScript) {
 TEST(Briefings, TheAgentsShareTheirFactsUnlessTheyMustNot) {
   Scenario scenario = test::row_scenario(3, {2, 0});
   scenario.law.safety_distance_m = 0.2;
-  const Briefings shared(scenario, ""), apart(scenario, "", false);
+  const ToldPlant plant(scenario);
+  const Briefings shared(scenario, "", plant), apart(scenario, "", plant, false);
   const fp_facts& facts = *shared.of(AgvId{0U}).facts;
   EXPECT_EQ(shared.of(AgvId{1U}).facts, &facts);
   EXPECT_NE(apart.of(AgvId{1U}).facts, apart.of(AgvId{0U}).facts);
@@ -57,7 +59,8 @@ TEST(Briefings, TellLimitsAndBlocksOfTheLanes) {
   layout.segments[1].blocks = {0, 1};
   Scenario scenario = test::row_scenario(3, {0});
   scenario.map = std::make_shared<const LogicalMap>(layout);
-  const Briefings briefings(scenario, "");
+  const ToldPlant plant(scenario);
+  const Briefings briefings(scenario, "", plant);
   const fp_map& map = *briefings.of(AgvId{0U}).map;
   ASSERT_EQ(map.block_count, 2U);
   EXPECT_STREQ(map.blocks[0].name, "dock");
@@ -74,7 +77,8 @@ TEST(Briefings, TellLimitsAndBlocksOfTheLanes) {
 
 TEST(Briefings, AfterARestartTellWhereTheAgvIs) {
   const Scenario scenario = test::row_scenario(3, {0, 2});
-  Briefings briefings(scenario, "");
+  const ToldPlant plant(scenario);
+  Briefings briefings(scenario, "", plant);
   const Lane *lane = scenario.map->lane(SegmentId{0U}, StationId{0U}),
              *next = scenario.map->lane(SegmentId{1U}, StationId{1U});
   briefings.renew(AgvId{0U}, 3, StationId{0U}, lane, next);
