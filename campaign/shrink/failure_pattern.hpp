@@ -18,8 +18,8 @@ struct FailingCase {
 // What counts as the same failure: what went wrong between which bodies, and what their agents declared before it.
 struct FailurePattern {
   FailureKind kind;  // of the failure that was looked at
-  // Of its states, those that an AGV must be in again: what agents also say when all is well ("driving") is not asked
-  // for.
+  // Of its states, those that an AGV must be in again, each once: if both AGVs said it, one of them is enough. What
+  // agents also say when all is well ("driving") is not asked for.
   std::vector<std::string> states{};
   WordPattern words{};
   // The failure of the run, if it is this one.

@@ -142,6 +142,24 @@ TEST(Shrink, EndsInTime) {
 // ---- what it rests on
 
 // The run is the same when its luck is written down instead of drawn.
+// Two AGVs that make the same mistake at once are rarer than one that makes it.
+TEST(FailurePatterns, AskForAStateOfBothAgvsOnce) {
+  test::CaseBench bench("counts-messages");
+  const Scenario scenario = test::bad_night(2);
+  const CaseRun run = bench.host(scenario);
+  const auto failure = failure_of(run);
+  ASSERT_TRUE(failure);
+  ASSERT_EQ(failure->kind.states, (std::vector<std::string>{"driving", "driving"}));
+  const FailurePattern pattern = pattern_of(bench.host, {scenario, *failure});
+  ASSERT_EQ(pattern.states, std::vector<std::string>{"driving"});
+  CaseRun one = run, none = run;
+  one.states = {"driving", "waiting"};
+  none.states = {"waiting", "waiting"};
+  EXPECT_TRUE(pattern.match(run));
+  EXPECT_TRUE(pattern.match(one));
+  EXPECT_FALSE(pattern.match(none));
+}
+
 TEST(WrittenFates, GiveTheSameRun) {
   Bench bench("hull-lock");
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
