@@ -14,12 +14,11 @@
 namespace fleetproof::cli {
 namespace {
 
-constexpr std::int64_t kTalk_us = 20'000'000;
 constexpr std::int64_t kFaultsBefore_us = 120'000'000;
-constexpr std::size_t kMostFaults = 4, kMostKinds = 6;
+constexpr std::size_t kMostFaults = 4;
 
-// Cut to hundredths, as everywhere on the page.
-double in_seconds(std::int64_t us) { return static_cast<double>(us / 10'000) / 1e2; }
+// Cut to milliseconds, as everywhere on the page.
+double in_seconds(std::int64_t us) { return static_cast<double>(us / 1000) / 1e3; }
 double in_metres(std::int64_t um) { return static_cast<double>(um) / 1e6; }
 
 // The last row of `body` at or before an instant; null if there is none.
@@ -33,6 +32,19 @@ const Row* last_until(const std::vector<Row>& rows, std::size_t body, std::int64
 }
 
 }  // namespace
+
+std::string given_fates_text(std::span<const GivenFate> fates) {
+  if (fates.empty()) return {};
+  const auto count = [&](auto is_meant) { return static_cast<std::size_t>(std::ranges::count_if(fates, is_meant)); };
+  const std::size_t lost = count([](const GivenFate& f) { return f.lost; });
+  const std::size_t doubled = count([](const GivenFate& f) { return !f.lost && f.copied; });
+  std::vector<std::string> kinds;
+  if (lost > 0) kinds.push_back(fmt::format("{} lost", lost));
+  if (doubled > 0) kinds.push_back(fmt::format("{} delivered twice", doubled));
+  if (fates.size() > lost + doubled)
+    kinds.push_back(fmt::format("{} with a given delay", fates.size() - lost - doubled));
+  return fmt::format("{} ({})", count_text(fates.size(), "message"), joined(kinds));
+}
 
 std::string FilmEvidence::name(EntityId id) const { return printable(body_name(scenario_, id)); }
 
@@ -58,7 +70,7 @@ std::string FilmEvidence::doing(EntityId body, SimTime at) const {
   }
   if (const web::Declared* state = last_until(film_.states, body.index(), at_us);
       state != nullptr && !state->word.empty())
-    text += fmt::format("; its agent said \"{}\" since {:.2f} s", state->word, in_seconds(state->at_us));
+    text += fmt::format("; its agent said \"{}\" since {:.3f} s", state->word, in_seconds(state->at_us));
   if (const web::Waiting* wait = last_until(film_.waits, body.index(), at_us); wait != nullptr && wait->for_whom)
     text += fmt::format(" and that it waited for {}", name(EntityId{*wait->for_whom}));
   return text + ".";
@@ -77,66 +89,13 @@ std::vector<std::string> FilmEvidence::belief(EntityId agv, EntityId other, SimT
   if (last == nullptr)
     return {fmt::format("The agent of {} had no belief about where {} was.", name(agv), name(other))};
   std::string text = fmt::format(
-      "The agent of {} believed {} to be at ({:.2f}, {:.2f}) m, as of {:.2f} s: {:.1f} s old", name(agv), name(other),
+      "The agent of {} believed {} to be at ({:.2f}, {:.2f}) m, as of {:.3f} s: {:.1f} s old", name(agv), name(other),
       in_metres(last->x_um), in_metres(last->y_um), in_seconds(last->as_of_us), in_seconds(at_us - last->as_of_us));
   if (const Piece* piece = piece_at(bodies_, other, at)) {
     const Vec2 believed(in_metres(last->x_um), in_metres(last->y_um));
     text += fmt::format(", {:.1f} m from where it was", (piece->pose_at(at).position_m - believed).norm());
   }
   return {text + "."};
-}
-
-namespace {
-
-// The messages of one kind from one AGV to another.
-struct OneKind {
-  std::size_t sent = 0, lost = 0, under_way = 0;  // of late
-  const web::Message* last = nullptr;             // that has arrived, ever
-  std::int64_t last_arrived_us = -1;
-
-  void count(const web::Message& message, const web::Arrival& arrival, std::int64_t at_us) {
-    const bool received = arrival.fate == web::Fate::Received;
-    const std::int64_t arrives_us = message.sent_us + arrival.after_us;
-    if (message.sent_us >= at_us - kTalk_us) {
-      ++sent;
-      lost += received ? 0 : 1;
-      under_way += received && arrives_us > at_us ? 1 : 0;
-    }
-    if (!received || arrives_us > at_us || arrives_us < last_arrived_us) return;
-    last = &message;
-    last_arrived_us = arrives_us;
-  }
-  std::string counts(const std::string& kind) const {
-    std::string text = fmt::format("{} {}", sent, kind);
-    if (lost + under_way == 0) return text;
-    return text + fmt::format(" ({}{}{})", lost > 0 ? fmt::format("{} lost", lost) : "",
-                              lost > 0 && under_way > 0 ? ", " : "",
-                              under_way > 0 ? fmt::format("{} under way", under_way) : "");
-  }
-};
-
-}  // namespace
-
-std::string FilmEvidence::messages_between(EntityId sender, EntityId receiver, SimTime at) const {
-  const std::int64_t at_us = film_us(at);
-  std::map<std::string, OneKind> kinds;
-  for (const web::Message& message : film_.messages) {
-    if (message.sender != sender.index() || message.sent_us > at_us) continue;
-    for (const web::Arrival& arrival : message.arrivals) {
-      if (arrival.receiver == receiver.index()) kinds[message.kind].count(message, arrival, at_us);
-    }
-  }
-  std::vector<std::string> recent, last;
-  for (const auto& [kind, one] : kinds) {
-    if (one.sent > 0) recent.push_back(one.counts(kind));
-    if (one.last != nullptr && last.size() < kMostKinds)
-      last.push_back(fmt::format("{} #{} (sent {:.2f} s, received {:.2f} s)", kind, one.last->number,
-                                 in_seconds(one.last->sent_us), in_seconds(one.last_arrived_us)));
-  }
-  return fmt::format(
-      "In the {:.0f} s before, {} sent to {}: {}. {}", in_seconds(kTalk_us), name(sender), name(receiver),
-      recent.empty() ? "nothing" : joined(recent),
-      last.empty() ? "None had ever arrived." : "The last of each kind that arrived: " + joined(last) + ".");
 }
 
 std::vector<std::string> FilmEvidence::messages(EntityId one, EntityId other, SimTime at) const {
@@ -148,7 +107,7 @@ std::vector<std::string> FilmEvidence::messages(EntityId one, EntityId other, Si
   };
   if (!sends(one) && !sends(other))
     return {fmt::format("Until then, neither {} nor {} had sent a message.", name(one), name(other))};
-  return {messages_between(one, other, at), messages_between(other, one, at)};
+  return {};  // what they sent each other stands in the reasons of the page
 }
 
 std::string FilmEvidence::faults(const std::vector<std::size_t>& bodies, SimTime at) const {
@@ -158,20 +117,22 @@ std::string FilmEvidence::faults(const std::vector<std::size_t>& bodies, SimTime
     if (!h.is_fault || h.at_us > at_us || h.at_us < at_us - kFaultsBefore_us) continue;
     if (std::ranges::find(bodies, h.body) == bodies.end()) continue;
     if (h.details.empty()) {  // no injected fault
-      found.push_back(fmt::format("{}: {} {:.2f} s before ({:.2f} s)", name(EntityId{h.body}), h.what,
+      found.push_back(fmt::format("{}: {} {:.3f} s before ({:.3f} s)", name(EntityId{h.body}), h.what,
                                   in_seconds(at_us - h.at_us), in_seconds(h.at_us)));
       continue;
     }
     const bool is_end = h.what == name_of(TraceKind::FaultOver);
-    found.push_back(fmt::format("{}{} of {} {:.2f} s before ({:.2f} s)", is_end ? "end of the " : "", h.details,
+    found.push_back(fmt::format("{}{} of {} {:.3f} s before ({:.3f} s)", is_end ? "end of the " : "", h.details,
                                 name(EntityId{h.body}), in_seconds(at_us - h.at_us), in_seconds(h.at_us)));
   }
-  if (found.empty()) return "No injected fault struck them in the two minutes before.";
+  const std::string fates = given_fates_text(scenario_.fates);
+  const std::string radio = fates.empty() ? "" : " The scenario gives the fate of " + fates + ".";
+  if (found.empty()) return "No injected fault struck them in the two minutes before." + radio;
   std::ranges::reverse(found);
   const std::size_t more = found.size() > kMostFaults ? found.size() - kMostFaults : 0;
   found.resize(found.size() - more);
   return "Faults before it, the latest first: " + joined(found, "; ") +
-         (more > 0 ? fmt::format("; and {} more", more) : "") + ".";
+         (more > 0 ? fmt::format("; and {} more", more) : "") + "." + radio;
 }
 
 }  // namespace fleetproof::cli

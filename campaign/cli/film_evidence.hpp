@@ -10,6 +10,9 @@
 
 namespace fleetproof::cli {
 
+// "2 messages (1 lost, 1 delivered twice)"; empty: the scenario gives no fates.
+std::string given_fates_text(std::span<const GivenFate> fates);
+
 // What speaks for the cause of a failure, each in a sentence: what the bodies did, what their agents believed and said
 // to each other, which faults struck them before. An empty sentence or list: there is nothing to say.
 class FilmEvidence {
@@ -21,14 +24,13 @@ class FilmEvidence {
   std::string doing(EntityId body, SimTime at) const;
   // Where the agent of `agv` took `other` to be.
   std::vector<std::string> belief(EntityId agv, EntityId other, SimTime at) const;
-  // What the two sent each other.
+  // That the two sent each other nothing, if it is so.
   std::vector<std::string> messages(EntityId one, EntityId other, SimTime at) const;
   std::string faults(const std::vector<std::size_t>& bodies, SimTime at) const;
 
  private:
   std::string name(EntityId id) const;
   bool is_agv(EntityId id) const { return id.index() < scenario_.agvs.size(); }
-  std::string messages_between(EntityId sender, EntityId receiver, SimTime at) const;
 
   const web::Film& film_;
   const Scenario& scenario_;

@@ -10,6 +10,7 @@ namespace fleetproof::cli {
 namespace {
 
 constexpr int kPointsOfACurve = 10;
+constexpr double kLeastAfter = 0.2;  // of a step: less than that looks the same
 
 void add_map(html::FilmStrip& strip, const LogicalMap& map) {
   for (const Lane& lane : map.lanes()) {
@@ -80,9 +81,9 @@ std::vector<Still> blank_stills(const StripSubject& subject, SimTime end) {
   } else {
     for (const double part : {1.0, 2.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0, 0.0})
       instants.insert(std::max(kStart, subject.at - seconds(part * before_s)));
-    // At the end of a run nothing comes after: one instant more before it.
-    instants.insert(subject.at < end ? std::min(end, subject.at + seconds(pace))
-                                     : subject.at - seconds(0.5 * before_s));
+    // If nothing comes after, or next to nothing before the run ends: one instant more before it.
+    const bool goes_on = !subject.stops_there && end - subject.at > seconds(kLeastAfter * pace);
+    instants.insert(goes_on ? std::min(end, subject.at + seconds(pace)) : subject.at - seconds(0.5 * before_s));
   }
   std::vector<Still> stills;
   for (const SimTime at : instants) stills.push_back({at, {}});

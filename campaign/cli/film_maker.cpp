@@ -17,7 +17,7 @@ namespace fleetproof::cli {
 namespace {
 
 StripSubject subject_of(const FailingRun& run, const RunRecord& stored) {
-  if (run.worst) return {run.worst->closest_at, run.worst->a, run.worst->b, true};
+  if (run.worst) return {run.worst->closest_at, run.worst->a, run.worst->b};
   if (run.incident) return {run.incident->last, run.incident->a, run.incident->b, false};
   return {at_ns(static_cast<std::int64_t>(stored.outcome.simulated_ns)), {}, {}, false};
 }
@@ -31,7 +31,8 @@ class FilmMaker {
   html::FilmStrip strip(const FailingRun& run) {
     const auto stored = archive_.run(run.run_index);
     ensure(stored.has_value(), "a failing run is in its archive");
-    const StripSubject subject = subject_of(run, *stored);
+    StripSubject subject = subject_of(run, *stored);
+    subject.stops_there = run.worst && run.worst->contact && plan_.contact_stops;
     auto stills = blank_stills(subject, at_ns(static_cast<std::int64_t>(stored->outcome.simulated_ns)));
     const ReplayResult result = compare_runs(*stored, simulate_again(run.run_index, stills));
     html::FilmStrip strip;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -55,7 +56,7 @@ const TransportOrder& order_of(const Scenario& scenario, std::size_t number) {
 }  // namespace
 
 FilmRecorder::FilmRecorder(const Scenario& scenario)
-    : scenario_(scenario), context_(scenario), pieces_(*scenario.map) {}
+    : scenario_(scenario), context_(scenario), pieces_(*scenario.map), fates_(scenario.fates) {}
 
 void FilmRecorder::piece_started(const Piece& piece) {
   context_.note(piece);
@@ -67,6 +68,7 @@ void FilmRecorder::piece_started(const Piece& piece) {
 
 void FilmRecorder::record(const TraceRecord& record, std::string_view text) {
   context_.note(record, text);
+  ++order_;
   switch (record.kind) {
     case TraceKind::ActivityBegins:
     case TraceKind::ActivityEnds:
@@ -83,10 +85,11 @@ void FilmRecorder::record(const TraceRecord& record, std::string_view text) {
     case TraceKind::WaitingFor:
       return note_waiting(record);
     case TraceKind::AgentState:
-      film_.states.push_back({record.entity.index(), film_us(record.at), printable(text, kLongestText)});
+      film_.states.push_back({record.entity.index(), film_us(record.at), printable(text, kLongestText), order_});
       return;
-    case TraceKind::Described:
     case TraceKind::FateDecided:
+      return note_fate(record);
+    case TraceKind::Described:
     case TraceKind::TimerWentOff:
       return;
     case TraceKind::LoadMoves:
@@ -103,6 +106,7 @@ void FilmRecorder::end_activity(std::size_t body, SimTime at) {
   const auto open = open_.find(body);
   if (open == open_.end()) return;
   open->second.end_us = film_us(at);
+  open->second.end_order = order_;
   film_.activities.push_back(std::move(open->second));
   open_.erase(open);
 }
@@ -112,7 +116,7 @@ void FilmRecorder::note_activity(const TraceRecord& record) {
   end_activity(body, record.at);
   if (record.kind == TraceKind::ActivityEnds) return;
   const ActivityKind kind = traced::activity_of(record);
-  web::ActivityBar bar{body, film_us(record.at), 0, name_of(kind), {}};
+  web::ActivityBar bar{body, film_us(record.at), 0, name_of(kind), {}, order_};
   if (kind == ActivityKind::Drive) bar.details = way_of_[record.entity];
   if (kind == ActivityKind::Turn) bar.details = goal_text(context_.turn_goal_deg(record.entity));
   open_[body] = std::move(bar);
@@ -129,10 +133,34 @@ void FilmRecorder::note_message(const TraceRecord& record) {
     if (traced.receiver.valid()) message.receiver = traced.receiver.index();
     message.sent_us = film_us(record.at);
     message.kind = printable(traced.kind, kLongestText);
+    message.order = order_;
     return;
   }
-  web::Message& message = film_.messages[message_of_.at(traced.number)];
-  message.arrivals.push_back({record.entity.index(), fate_of(record.kind), film_us(record.at) - message.sent_us});
+  note_arrival(record, film_.messages[message_of_.at(traced.number)]);
+}
+
+void FilmRecorder::note_arrival(const TraceRecord& record, web::Message& message) {
+  const Reception reception{message.number, record.entity.index()};
+  web::Arrival arrival{record.entity.index(), fate_of(record.kind), film_us(record.at) - message.sent_us, order_};
+  if (arrival.fate == web::Fate::LostByChance && given_.contains(reception)) arrival.fate = web::Fate::LostAsGiven;
+  message.arrivals.push_back(arrival);
+  const auto known = under_way_.find(reception);
+  if (known == under_way_.end()) return;
+  // Of two copies, the one that was due is here.
+  auto& due_us = known->second;
+  if (arrival.fate == web::Fate::Received && due_us.size() > 1) {
+    due_us.erase(std::ranges::min_element(due_us));
+  } else {
+    under_way_.erase(known);
+  }
+}
+
+void FilmRecorder::note_fate(const TraceRecord& record) {
+  const auto decided = read<traced::FateDecided>(record);
+  const AgvId receiver{record.entity.index()};
+  const Reception reception{decided.number, receiver.index()};
+  if (!decided.lost) under_way_[reception].push_back(film_us(decided.due_after));
+  if (fates_.of({decided.sender, receiver, record.at, decided.ordinal}) != nullptr) given_.insert(reception);
 }
 
 void FilmRecorder::note_belief(const TraceRecord& record) {
@@ -161,7 +189,7 @@ void FilmRecorder::note_waiting(const TraceRecord& record) {
   const auto [known, fresh] = waits_.emplace(body, std::nullopt);
   if (known->second == for_whom) return;
   known->second = for_whom;
-  film_.waits.push_back({body, film_us(record.at), for_whom});
+  film_.waits.push_back({body, film_us(record.at), for_whom, order_});
 }
 
 void FilmRecorder::note_load(const TraceRecord& record) {
@@ -190,7 +218,7 @@ void FilmRecorder::note_order(const TraceRecord& record) {
   const auto known = order_of_.find(transport.index());
   if (!released && known != order_of_.end()) film_.orders[known->second].done_us = film_us(record.at);
   film_.happenings.push_back({record.entity.index(), film_us(record.at), released ? "order" : "transport done",
-                              fmt::format("{}: {} to {}", transport.value, from, to)});
+                              fmt::format("{}: {} to {}", transport.value, from, to), false, false, order_});
 }
 
 void FilmRecorder::note_happening(const TraceRecord& record, std::string_view text) {
@@ -198,11 +226,18 @@ void FilmRecorder::note_happening(const TraceRecord& record, std::string_view te
                            printable(trace_details(record, text, context_), kLongestText)};
   happening.is_fault = is_fault(record.kind);
   happening.is_note = is_note(record.kind);
+  happening.order = order_;
   film_.happenings.push_back(std::move(happening));
 }
 
 web::Film FilmRecorder::take(SimTime end) {
+  ++order_;
   while (!open_.empty()) end_activity(open_.begin()->first, end);
+  for (const auto& [reception, due_us] : under_way_) {
+    const auto& [number, receiver] = reception;
+    for (const std::int64_t after_us : due_us)
+      film_.messages[message_of_.at(number)].arrivals.push_back({receiver, web::Fate::Received, after_us, order_});
+  }
   std::ranges::stable_sort(film_.activities, {}, &web::ActivityBar::begin_us);
   film_.end_us = film_us(end);
   return std::move(film_);

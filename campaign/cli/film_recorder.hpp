@@ -1,12 +1,15 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "campaign/cli/pieces_file.hpp"
 #include "campaign/cli/trace_context.hpp"
 #include "core/outcome/trace.hpp"
+#include "core/radio/given_fates.hpp"
 #include "core/scenario/scenario.hpp"
 #include "reports/web/film.hpp"
 
@@ -29,6 +32,8 @@ class FilmRecorder final : public TraceSink {
  private:
   void note_activity(const TraceRecord& record);
   void note_message(const TraceRecord& record);
+  void note_fate(const TraceRecord& record);
+  void note_arrival(const TraceRecord& record, web::Message& message);
   void note_belief(const TraceRecord& record);
   void note_waiting(const TraceRecord& record);
   void note_load(const TraceRecord& record);
@@ -39,10 +44,16 @@ class FilmRecorder final : public TraceSink {
   const Scenario& scenario_;
   TraceContext context_;
   PieceKeeper pieces_;
+  GivenFates fates_;
   web::Film film_;
-  std::map<std::size_t, web::ActivityBar> open_;     // by body
-  std::map<std::size_t, std::size_t> order_of_;      // a transport's place in film_.orders
-  std::map<std::uint32_t, std::size_t> message_of_;  // a number's place in film_.messages
+  std::uint64_t order_ = 0;  // of the record that is told
+  // A message by its number, at one receiver.
+  using Reception = std::pair<std::uint32_t, std::size_t>;
+  std::map<Reception, std::vector<std::int64_t>> under_way_;  // when it will arrive, since it was sent
+  std::set<Reception> given_;                                 // the scenario gives its fate
+  std::map<std::size_t, web::ActivityBar> open_;              // by body
+  std::map<std::size_t, std::size_t> order_of_;               // a transport's place in film_.orders
+  std::map<std::uint32_t, std::size_t> message_of_;           // a number's place in film_.messages
   std::map<std::size_t, std::optional<std::size_t>> waits_;
   std::map<EntityId, std::string> way_of_;  // "A to B", of the drive that an AGV began last
   std::map<LoadId, std::size_t> carrier_of_;

@@ -20,9 +20,8 @@ constexpr std::size_t kMostInvolved = 8;
 
 // Cut, not rounded: no digit differs from the full number.
 double millimetres(std::int64_t um) { return static_cast<double>(um - um % 1000) / 1e6; }
-double in_milliseconds(SimTime t) { return static_cast<double>(film_us(t) / 1000) / 1e3; }
-double in_hundredths(std::int64_t us) { return static_cast<double>(us / 10'000) / 1e2; }
-double in_hundredths(SimTime t) { return in_hundredths(film_us(t)); }
+double in_milliseconds(std::int64_t us) { return static_cast<double>(us / 1000) / 1e3; }
+double in_milliseconds(SimTime t) { return in_milliseconds(film_us(t)); }
 
 // Tells one story, into one film.
 class Storyteller {
@@ -65,7 +64,7 @@ class Storyteller {
     look_at(v.first, kBeforeViolation_us);
     film_.involved = {v.a.index(), v.b.index()};
     const char* what = v.contact ? "Contact" : "Safety distance broken";
-    film_.title = fmt::format("{}: {} and {} at {:.2f} s", what, name(v.a), name(v.b), in_hundredths(v.first));
+    film_.title = fmt::format("{}: {} and {} at {:.3f} s", what, name(v.a), name(v.b), in_milliseconds(v.first));
     const std::string limit = distance_text(scenario_.law.safety_distance_m);
     const double speed_mps = millimetres(v.relative_speed_um_s);
     const std::string where =
@@ -85,8 +84,9 @@ class Storyteller {
     const web::Happening* end = crash();
     if (end != nullptr && end->at_us <= film_us(v.first)) add(crash_text(*end));
     for (const auto& [one, other] : {std::pair(v.a, v.b), std::pair(v.b, v.a)}) {
-      add(evidence_.doing(one, v.first));
-      for (std::string& sentence : evidence_.belief(one, other, v.first)) add(std::move(sentence));
+      std::string told = evidence_.doing(one, v.first);
+      for (const std::string& sentence : evidence_.belief(one, other, v.first)) told += " " + sentence;
+      add(std::move(told));
     }
     for (std::string& sentence : evidence_.messages(v.a, v.b, v.first)) add(std::move(sentence));
     add(evidence_.faults(film_.involved, v.first));
@@ -97,8 +97,8 @@ class Storyteller {
     const std::size_t more = outcome_.violations.size() - 1;
     if (more == 0) return;
     const Violation& next = outcome_.violations[1];
-    add(fmt::format("{} after it, the next between {} and {} at {:.2f} s. They may follow from the first.",
-                    count_text(more, "more violation"), name(next.a), name(next.b), in_hundredths(next.first)));
+    add(fmt::format("{} after it, the next between {} and {} at {:.3f} s. They may follow from the first.",
+                    count_text(more, "more violation"), name(next.a), name(next.b), in_milliseconds(next.first)));
   }
 
   const web::Happening* crash() const {
@@ -110,8 +110,8 @@ class Storyteller {
   }
   std::string crash_text(const web::Happening& end) const {
     const bool hung = end.what == name_of(TraceKind::AgentHung);
-    return fmt::format("The agent of {} {} at {:.2f} s{}{}.", name(EntityId{end.body}),
-                       hung ? "did not return from a call" : "crashed", in_hundredths(end.at_us),
+    return fmt::format("The agent of {} {} at {:.3f} s{}{}.", name(EntityId{end.body}),
+                       hung ? "did not return from a call" : "crashed", in_milliseconds(end.at_us),
                        outcome_.message.empty() ? "" : ": ", printable(outcome_.message, 300));
   }
   void tell_crash(const web::Happening& end) {
@@ -119,8 +119,8 @@ class Storyteller {
     film_.open_us = std::max<std::int64_t>(0, end.at_us - kBeforeViolation_us);
     film_.involved = {end.body};
     const EntityId agv{end.body};
-    film_.title = fmt::format("{} of the agent of {} at {:.2f} s", outcome_.crash ? "Crash" : "Hang", name(agv),
-                              in_hundredths(end.at_us));
+    film_.title = fmt::format("{} of the agent of {} at {:.3f} s", outcome_.crash ? "Crash" : "Hang", name(agv),
+                              in_milliseconds(end.at_us));
     add(crash_text(end));
     const SimTime at = at_ns(end.at_us * 1000);
     add(evidence_.doing(agv, at));
@@ -160,8 +160,8 @@ class Storyteller {
     std::string whom;
     for (const std::size_t body : film_.involved) whom += (whom.empty() ? "" : ", ") + name(EntityId{body});
     film_.title =
-        fmt::format("{}{}{} from {:.2f} s on", word, whom.empty() ? "" : ": ", whom, in_hundredths(incident.first));
-    add(fmt::format("From {:.2f} s to {:.2f} s: {}.", in_hundredths(incident.first), in_hundredths(incident.last),
+        fmt::format("{}{}{} from {:.3f} s on", word, whom.empty() ? "" : ": ", whom, in_milliseconds(incident.first));
+    add(fmt::format("From {:.3f} s to {:.3f} s: {}.", in_milliseconds(incident.first), in_milliseconds(incident.last),
                     info.meaning));
     for (const Incident* wait : waits) {
       add(fmt::format("{} waits for {}{}.", name(wait->a), name(wait->b),
@@ -188,7 +188,7 @@ class Storyteller {
     }
     const auto waiting = std::ranges::count_if(waits, [](const auto& entry) { return entry.second; });
     if (waiting > 0)
-      add(fmt::format("At {:.2f} s, {} of {} AGVs declared that they waited for another.", in_hundredths(at), waiting,
+      add(fmt::format("At {:.3f} s, {} of {} AGVs declared that they waited for another.", in_milliseconds(at), waiting,
                       scenario_.agvs.size()));
   }
 
@@ -197,8 +197,8 @@ class Storyteller {
     look_at(at_ns(film_.failed ? static_cast<std::int64_t>(outcome_.simulated_ns) : nearest_us * 1000),
             kBeforeViolation_us);
     film_.title = fmt::format("{}: {}", printable(scenario_.name), name_of(outcome_.outcome_class()));
-    add(film_.failed ? fmt::format("The run ended at {:.2f} s: {}.",
-                                   in_hundredths(at_ns(static_cast<std::int64_t>(outcome_.simulated_ns))),
+    add(film_.failed ? fmt::format("The run ended at {:.3f} s: {}.",
+                                   in_milliseconds(at_ns(static_cast<std::int64_t>(outcome_.simulated_ns))),
                                    name_of(outcome_.outcome_class()))
                      : "No violation of the safety distance was filed, and the run came to its end.");
     if (!outcome_.message.empty()) add(printable(outcome_.message, 300));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "campaign/cli/film_clearances.hpp"
+#include "campaign/cli/film_evidence.hpp"
 #include "campaign/cli/film_floor.hpp"
 #include "campaign/cli/film_frames.hpp"
 #include "campaign/cli/film_story.hpp"
@@ -18,7 +19,9 @@ void add_facts(web::Film& film, const Scenario& scenario, const Outcome& outcome
   add("layout", scenario.map->layout().name);
   add("AGVs", fmt::format("{}", scenario.agvs.size()));
   add("horizon", fmt::format("{:g} s", to_seconds(scenario.horizon)));
-  add("loss", percent(scenario.radio.loss));
+  const std::string fates = given_fates_text(scenario.fates);
+  add("loss", percent(scenario.radio.loss) + (fates.empty() ? "" : ", but of messages with a given fate"));
+  if (!fates.empty()) add("given fates", fates);
   add("delay", fmt::format("{:g} s ({})", scenario.radio.delay_s, name_of(scenario.radio.delay_model)));
   if (scenario.radio.outages.mean_outage_s > 0.0)
     add("outages of", fmt::format("{:g} s", scenario.radio.outages.mean_outage_s));
@@ -57,6 +60,7 @@ void add_strip(web::Film& film, const Scenario& scenario, const std::vector<Piec
   if (!outcome.violations.empty()) {
     subject.at = outcome.violations.front().closest_at;
     subject.is_quick = true;
+    subject.stops_there = outcome.violations.front().contact && scenario.contact_stops;
   }
   std::vector<Still> stills = blank_stills(subject, end);
   StillCamera camera(stills);

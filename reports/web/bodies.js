@@ -72,7 +72,7 @@ const drawBody = (context, {body, box}, isBroken, t_s) => {
 const drawBeliefs = (context, agent, all, t_s, label) => {
   if (!isKept('beliefs', agent, t_s)) return;
   for (const [about, rows] of beliefsOf[agent]) {
-    const row = lastUpTo(rows, r => r[2], t_s * 1e3 + 0.5), real = all[about];
+    const row = lastUpTo(rows, r => r[2], t_s * 1e3 + 1e-6), real = all[about];
     if (!row || (shown.whose === 'some' && selected === null && !isInvolved(about))) continue;
     const pose = {x_m: row[4] / 1e3, y_m: row[5] / 1e3, heading_rad: (row[6] || 0) / 1e3};
     const x = toX(pose.x_m), y = toY(pose.y_m), age_s = t_s - row[3] / 1e3;
@@ -171,7 +171,8 @@ const drawMessages = (context, all, t_s, label) => {
       context.fill();
     }
     context.globalAlpha = 1;
-    const age = lost ? a.fate : Math.min(t_s - a.sent_s, a.age_s).toFixed(1) + ' s old';
+    const old = seconds(Math.min(t_s - a.sent_s, a.age_s)) + ' old' + (a.again ? ', a copy' : '');
+    const age = lost ? a.fate : old;
     if (!crowded || between) label(a.kind + ', ' + age, x, y - 6, lost ? colours.bad : colours.message);
   }
 };
@@ -187,8 +188,15 @@ const gapAt = (all, pair) =>
 const isBrokenAt = (body, t_s) =>
   film.violations.some(v => (v.a === body || v.b === body) && v.first_us / 1e6 <= t_s && t_s <= v.last_us / 1e6);
 
+// Boxes on the canvas that labels had better leave free.
+const footprintsOnCanvas = t_s => bodiesAt(t_s).filter(Boolean).map(({box}) => {
+  const xs = cornersOf(box).map(p => toX(p[0])), ys = cornersOf(box).map(p => toY(p[1]));
+  return [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];
+});
+
 const drawFloor = t_s => {
-  const context = contextOf(floor, floor.clientWidth, floor.clientHeight), label = makeLabels(context);
+  const context = contextOf(floor, floor.clientWidth, floor.clientHeight);
+  const label = makeLabels(context, footprintsOnCanvas(t_s));
   context.fillStyle = colours.floor;
   context.fillRect(0, 0, floor.clientWidth, floor.clientHeight);
   const axes = drawAxes(context), stationNames = drawMap(context, label, shown.names), all = bodiesAt(t_s);

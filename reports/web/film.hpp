@@ -60,10 +60,12 @@ struct MotionPiece {
   std::vector<Phase> phases;
 };
 
+// `order`: the place in the trace of the run. Of two things at one instant, the cause has the smaller one.
 struct ActivityBar {
   std::size_t body = 0;
   std::int64_t begin_us = 0, end_us = 0;
   std::string kind, details;
+  std::uint64_t begin_order = 0, end_order = 0;
 };
 
 // What an agent says of itself from this instant on. An empty word: nothing.
@@ -71,11 +73,13 @@ struct Declared {
   std::size_t body = 0;
   std::int64_t at_us = 0;
   std::string word;
+  std::uint64_t order = 0;
 };
 struct Waiting {
   std::size_t body = 0;
   std::int64_t at_us = 0;
   std::optional<std::size_t> for_whom;
+  std::uint64_t order = 0;
 };
 // Whether an AGV has a load from this instant on.
 struct Loaded {
@@ -84,11 +88,14 @@ struct Loaded {
   bool on = false;
 };
 
-enum class Fate : std::uint8_t { Received, LostByChance, LostInOutage, LostByInterference, LostToSource };
+enum class Fate : std::uint8_t { Received, LostByChance, LostInOutage, LostByInterference, LostToSource, LostAsGiven };
+// A message that arrives twice at one receiver has two arrivals there. An arrival after the end of the run: the message
+// is still under way.
 struct Arrival {
   std::size_t receiver = 0;
   Fate fate = Fate::Received;
   std::int64_t after_us = 0;  // since the message was sent, also of a loss
+  std::uint64_t order = 0;
 };
 struct Message {
   std::uint32_t number = 0, bytes = 0;
@@ -97,6 +104,7 @@ struct Message {
   std::int64_t sent_us = 0;
   std::string kind;
   std::vector<Arrival> arrivals;
+  std::uint64_t order = 0;
 };
 
 // Where an agent believes another AGV to have been at `as_of_us`, from `at_us` on.
@@ -111,6 +119,7 @@ struct Happening {
   std::int64_t at_us = 0;
   std::string what, details;
   bool is_fault = false, is_note = false;  // a note: what an agent wrote for its authors
+  std::uint64_t order = 0;
 };
 
 struct TooClose {
@@ -186,6 +195,11 @@ struct Film {
 
   // Nothing went wrong: the pair that came closest is all there is to show.
   bool is_about_nearest() const { return !failed && involved.empty() && nearest.has_value(); }
+  // The bodies that the page is about.
+  std::vector<std::size_t> subject() const {
+    if (!involved.empty() || !nearest) return involved;
+    return {nearest->a, nearest->b};
+  }
 };
 
 }  // namespace fleetproof::web

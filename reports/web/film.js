@@ -1,8 +1,11 @@
 // The film: what the page knows of the run, and the questions that the drawings ask of it. Seconds and metres.
 'use strict';
+const byId = id => document.getElementById(id);
 const film = JSON.parse(document.getElementById('film').textContent);
 const kSafety_m = film.safety_distance_um / 1e6, kEnd_s = film.end_us / 1e6, kFocus_s = film.focus_us / 1e6;
 const word = index => film.words[index];
+// Cut to milliseconds as in the tables.
+const seconds = value_s => (Math.floor(value_s * 1e3 + 1e-6) / 1e3).toFixed(3) + ' s';
 const nameOf = body => film.bodies[body].name;
 const isInvolved = body => film.involved.includes(body);
 
@@ -36,13 +39,15 @@ const beliefsOf = byBody(film.beliefs_ms_mm_mrad).map(rows => {
   return about;
 });
 
-// Every arrival of a message at one receiver, in order of sending. `age_s` null: lost.
-const kFates = ['received', 'lost by chance', 'lost in an outage', 'lost by interference', 'lost to a source'];
-const arrivals = [];
+// Every arrival of a message at one receiver, in order of sending. `age_s` null: lost. `again`: its second copy.
+const kFates = ['received', 'lost by chance', 'lost in an outage', 'lost by interference', 'lost to a source',
+                'lost, its fate is given'];
+const arrivals = [], whole = new Set();
 for (const [number, sender, to, sent_ms, kind, bytes, ...pairs] of film.messages_ms) {
   for (let i = 0; i < pairs.length; i += 2) {
-    const lost = pairs[i + 1] < 0;
-    arrivals.push({number, sender, receiver: pairs[i], sent_s: sent_ms / 1e3, kind: word(kind), bytes, to,
+    const lost = pairs[i + 1] < 0, key = number * 65536 + pairs[i], again = whole.has(key);
+    whole.add(key);
+    arrivals.push({again, number, sender, receiver: pairs[i], sent_s: sent_ms / 1e3, kind: word(kind), bytes, to,
                    age_s: lost ? null : pairs[i + 1] / 1e3, fate: kFates[lost ? -pairs[i + 1] : 0]});
   }
 }
@@ -66,19 +71,22 @@ const isKept = (what, body, t_s) => {
 
 const stateOf = (body, t_s) => {
   if (!isKept('states', body, t_s)) return '';
-  const row = lastUpTo(statesOf[body], r => r[1], t_s * 1e3 + 0.5);
+  const row = lastUpTo(statesOf[body], r => r[1], t_s * 1e3 + 1e-6);
   return row ? word(row[2]) : '';
 };
 const waitOf = (body, t_s) => {
   if (!isKept('waits', body, t_s)) return null;
-  const row = lastUpTo(waitsOf[body], r => r[1], t_s * 1e3 + 0.5);
+  const row = lastUpTo(waitsOf[body], r => r[1], t_s * 1e3 + 1e-6);
   return row && row[2] >= 0 ? row[2] : null;
 };
 const isLoaded = (body, t_s) => {
-  const row = lastUpTo(loadsOf[body], r => r[1], t_s * 1e3 + 0.5);
+  const row = lastUpTo(loadsOf[body], r => r[1], t_s * 1e3 + 1e-6);
   return Boolean(row && row[2]);
 };
 const activityOf = (body, t_s) => {
-  const row = lastUpTo(activitiesOf[body], r => r[1], t_s * 1e3);
+  const row = lastActivityOf(body, t_s);
   return row && row[2] >= t_s * 1e3 ? row : null;
 };
+// Why an activity may have been begun; undefined: the page has it only for those nearest to the failure.
+const reasons = new Map(film.reasons.map(reason => [film.activities_ms[reason.activity], reason]));
+const lastActivityOf = (body, t_s) => lastUpTo(activitiesOf[body], r => r[1], t_s * 1e3 + 1e-6);

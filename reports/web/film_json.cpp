@@ -17,7 +17,9 @@ using Json = nlohmann::ordered_json;
 
 std::string in_json(const std::string& text) { return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace); }
 
-// To the nearest thousand: microseconds become milliseconds.
+// Cut, as every instant of the page: what is said to have happened at an instant has happened by then.
+std::int64_t milliseconds(std::int64_t us) { return us / 1000; }
+// Of places and directions: to the nearest thousand.
 std::int64_t thousandth(std::int64_t value) { return (value >= 0 ? value + 500 : value - 500) / 1000; }
 
 // Texts that occur often, each once.
@@ -90,17 +92,18 @@ std::string piece_json(const MotionPiece& p) {
 // Of each arrival the receiver, and the age in milliseconds; of a loss minus the number of its kind.
 std::string message_json(const Message& message, Words& words) {
   std::string text = fmt::format("[{},{},{},{},{},{}", message.number, message.sender, or_none(message.receiver),
-                                 thousandth(message.sent_us), words.index_of(message.kind), message.bytes);
+                                 milliseconds(message.sent_us), words.index_of(message.kind), message.bytes);
   for (const Arrival& arrival : message.arrivals) {
     const bool received = arrival.fate == Fate::Received;
     text += fmt::format(",{},{}", arrival.receiver,
-                        received ? thousandth(arrival.after_us) : -static_cast<std::int64_t>(arrival.fate));
+                        received ? milliseconds(message.sent_us + arrival.after_us) - milliseconds(message.sent_us)
+                                 : -static_cast<std::int64_t>(arrival.fate));
   }
   return text + "]";
 }
 
 std::string belief_json(const Belief& b) {
-  std::string text = fmt::format("[{},{},{},{},{},{}", b.body, b.about, thousandth(b.at_us), thousandth(b.as_of_us),
+  std::string text = fmt::format("[{},{},{},{},{},{}", b.body, b.about, milliseconds(b.at_us), milliseconds(b.as_of_us),
                                  thousandth(b.x_um), thousandth(b.y_um));
   return text + (b.heading_urad ? fmt::format(",{}]", thousandth(*b.heading_urad)) : "]");
 }
@@ -148,8 +151,8 @@ void add_failure(Members& members, const Film& film) {
 }
 
 std::string kept_json(const Film& film, const Kept& kept) {
-  const auto until = [&](std::int64_t to_us) { return thousandth(std::min(to_us, film.end_us)); };
-  return row(thousandth(kept.involved_from_us), until(kept.involved_to_us), thousandth(kept.others_from_us),
+  const auto until = [&](std::int64_t to_us) { return milliseconds(std::min(to_us, film.end_us)); };
+  return row(milliseconds(kept.involved_from_us), until(kept.involved_to_us), milliseconds(kept.others_from_us),
              until(kept.others_to_us));
 }
 
@@ -158,19 +161,30 @@ void add_what_happened(Members& members, const Film& film, Words& words) {
                                      kept_json(film, film.kept_messages), kept_json(film, film.kept_beliefs),
                                      kept_json(film, film.kept_states), kept_json(film, film.kept_waits)));
   members.rows("activities_ms", film.activities, [&](const ActivityBar& a) {
-    return row(a.body, thousandth(a.begin_us), thousandth(a.end_us), words.index_of(a.kind), words.index_of(a.details));
+    return row(a.body, milliseconds(a.begin_us), milliseconds(a.end_us), words.index_of(a.kind),
+               words.index_of(a.details));
   });
   members.rows("states_ms", film.states,
-               [&](const Declared& s) { return row(s.body, thousandth(s.at_us), words.index_of(s.word)); });
+               [&](const Declared& s) { return row(s.body, milliseconds(s.at_us), words.index_of(s.word)); });
   members.rows("waits_ms", film.waits,
-               [](const Waiting& w) { return row(w.body, thousandth(w.at_us), or_none(w.for_whom)); });
-  members.rows("loads_ms", film.loads, [](const Loaded& l) { return row(l.body, thousandth(l.at_us), l.on ? 1 : 0); });
+               [](const Waiting& w) { return row(w.body, milliseconds(w.at_us), or_none(w.for_whom)); });
+  members.rows("loads_ms", film.loads,
+               [](const Loaded& l) { return row(l.body, milliseconds(l.at_us), l.on ? 1 : 0); });
   members.rows("messages_ms", film.messages, [&](const Message& m) { return message_json(m, words); });
   members.rows("beliefs_ms_mm_mrad", film.beliefs, belief_json);
   members.rows("happenings_ms", film.happenings, [&](const Happening& h) {
-    return row(h.body, thousandth(h.at_us), words.index_of(h.what), words.index_of(h.details),
+    return row(h.body, milliseconds(h.at_us), words.index_of(h.what), words.index_of(h.details),
                (h.is_fault ? 1 : 0) + (h.is_note ? 2 : 0));
   });
+}
+
+std::string reason_json(const Reason& reason) {
+  std::string lines;
+  for (const ReasonLine& line : reason.lines)
+    lines += fmt::format("{}[{},{},{}]", lines.empty() ? "" : ",", static_cast<int>(line.rank) + (line.marked ? 4 : 0),
+                         line.at_us, in_json(line.text));
+  return fmt::format("{{\"activity\":{},\"title\":{},\"lines_us\":[{}]}}",
+                     reason.activity ? static_cast<std::int64_t>(*reason.activity) : -1, in_json(reason.title), lines);
 }
 
 // Outside of strings, JSON has none of these characters.
@@ -189,7 +203,7 @@ std::string without_markup(const std::string& json) {
 
 }  // namespace
 
-std::string film_json(const Film& film) {
+std::string film_json(const Film& film, const std::vector<Reason>& reasons) {
   Members members;
   Words words;
   members.add("schema_version", "1");
@@ -201,6 +215,7 @@ std::string film_json(const Film& film) {
   add_floor(members, film);
   add_failure(members, film);
   add_what_happened(members, film, words);
+  members.rows("reasons", reasons, reason_json);
   members.rows("words", words.all(), in_json);
   return without_markup(printable_json(members.text()));
 }

@@ -1,13 +1,15 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "reports/web/drive_reasons.hpp"
 #include "reports/web/film.hpp"
 
 namespace fleetproof::web {
 
 // The film as the JSON that the scripts of the page read; README.md has the members. It stands inside an element of the
 // page, so it has no character that starts markup: < > & are written as \u escapes, within strings only.
-std::string film_json(const Film& film);
+std::string film_json(const Film& film, const std::vector<Reason>& reasons);
 
 }  // namespace fleetproof::web

@@ -38,20 +38,28 @@ const wholeFloor = () => {
   fitTo([x0 - 1, y0 - 1], [x1 + 1, y1 + 1]);
 };
 
-// Names that cover none before them.
-const makeLabels = context => {
-  const taken = [];
+// Names that cover none before them, and no body if there is room beside it. What finds no place is left out.
+const makeLabels = (context, bodies) => {
+  const taken = [[floor.clientWidth - 250, 0, floor.clientWidth, 44]];  // the buttons
+  const meets = (box, others) => others.some(t => t[0] < box[2] && box[0] < t[2] && t[1] < box[3] && box[1] < t[3]);
   return (text, x, y, colour, bold) => {
     context.font = (bold ? '600 ' : '') + '11px system-ui, sans-serif';
-    const width = context.measureText(text).width, box = [x - width / 2 - 2, y - 10, x + width / 2 + 2, y + 3];
-    if (taken.some(t => t[0] < box[2] && box[0] < t[2] && t[1] < box[3] && box[1] < t[3])) return;
-    taken.push(box);
+    const half = context.measureText(text).width / 2 + 2, middle = [];
+    for (const [dx, dy] of [[0, 0], [half + 14, 4], [-half - 14, 4], [0, 15], [0, -15], [half + 14, 19],
+                            [-half - 14, 19], [half + 14, -11], [-half - 14, -11], [half + 40, 4], [-half - 40, 4]]) {
+      const cx = Math.min(Math.max(x + dx, half + 4), floor.clientWidth - half - 4), cy = y + dy;
+      middle.push({cx, cy, box: [cx - half, cy - 10, cx + half, cy + 3]});
+    }
+    const free = middle.filter(({box}) => !meets(box, taken));
+    const place = free.find(({box}) => !meets(box, bodies)) || (bold ? free[0] : undefined);
+    if (!place) return;
+    taken.push(place.box);
     context.textAlign = 'center';
     context.lineWidth = 3;
     context.strokeStyle = colours.floor;
-    context.strokeText(text, x, y);
+    context.strokeText(text, place.cx, place.cy);
     context.fillStyle = colour;
-    context.fillText(text, x, y);
+    context.fillText(text, place.cx, place.cy);
   };
 };
 

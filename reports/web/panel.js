@@ -16,7 +16,6 @@ const tableOf = lines => {
   }
   return table;
 };
-const seconds = value_s => value_s.toFixed(2) + ' s';
 const place = pose => '(' + pose.x_m.toFixed(2) + ', ' + pose.y_m.toFixed(2) + ') m';
 // From -179 to 180 degrees, without a minus before a zero.
 const heading = pose => {
@@ -47,12 +46,12 @@ const aboutActivity = (body, t_s) => {
 const aboutBeliefs = (body, t_s, all) => {
   const lines = [];
   for (const [about, list] of beliefsOf[body]) {
-    const row = lastUpTo(list, r => r[2], t_s * 1e3 + 0.5), real = all[about];
+    const row = lastUpTo(list, r => r[2], t_s * 1e3 + 1e-6), real = all[about];
     if (!row) continue;
     const away_m = real ? Math.hypot(real.pose.x_m - row[4] / 1e3, real.pose.y_m - row[5] / 1e3) : 0;
     const near_m = real && all[body] ? Math.hypot(real.pose.x_m - all[body].pose.x_m,
                                                   real.pose.y_m - all[body].pose.y_m) : 1e9;
-    lines.push([near_m, [nameOf(about), (t_s - row[3] / 1e3).toFixed(1) + ' s old',
+    lines.push([near_m, [nameOf(about), seconds(t_s - row[3] / 1e3) + ' old',
                          [away_m.toFixed(1) + ' m off', away_m > 1 ? 'bad' : 'soft']]]);
   }
   return lines.sort((a, b) => a[0] - b[0]).slice(0, 6).map(line => line[1]);
@@ -66,13 +65,14 @@ const aboutMessages = (body, t_s) => {
     const arrived = a.age_s !== null && a.sent_s + a.age_s <= t_s;
     const toAll = sends && a.to === -1;
     const whom = !sends ? 'from ' + nameOf(a.sender) : toAll ? 'to all' : 'to ' + nameOf(a.to);
-    const fate = a.age_s === null ? a.fate : arrived ? 'after ' + seconds(a.age_s) : 'under way';
-    lines.push([seconds(a.sent_s), whom, a.kind, toAll ? '' : [fate, a.age_s === null ? 'bad' : 'soft']]);
+    const fate = a.age_s === null ? a.fate : (a.again ? 'again, ' : '') +
+      (arrived ? 'after ' + seconds(a.age_s) : 'under way');
+    lines.push([seconds(a.sent_s), whom, a.kind, toAll ? '' : [fate, a.age_s === null || a.again ? 'bad' : 'soft']]);
   }
   return lines;
 };
 const aboutEvents = (body, t_s) => {
-  const list = happeningsOf[body], last = countUpTo(list, r => r[1], t_s * 1e3 + 0.5);
+  const list = happeningsOf[body], last = countUpTo(list, r => r[1], t_s * 1e3 + 1e-6);
   return list.slice(Math.max(0, last - 5), last).reverse().map(
     ([, at_ms, what, details, flags]) => [seconds(at_ms / 1e3), [word(what), flags === 1 ? 'bad' : ''], word(details)]);
 };
@@ -101,15 +101,43 @@ const tellDetails = (body, t_s, all, box) => {
   }
 };
 
+// Why the AGV began what it does, or did last.
+const tellReason = (body, t_s, box) => {
+  const row = lastActivityOf(body, t_s), reason = reasons.get(row);
+  if (!row) return;
+  const part = element('div', undefined, 'reason');
+  const title = reason ? reason.title : 'It began to ' + word(row[3]) + ' at ' + seconds(row[1] / 1e3);
+  part.append(element('h3', title));
+  if (!reason) part.append(element('p', 'The page has this only for activities nearer to the failure.', 'soft'));
+  for (const [flags, at_us, text] of reason ? reason.lines_us : []) {
+    const line = element('p', text, ['sentence', 'head-line', 'item'][flags % 4] + (flags >= 4 ? ' marked' : ''));
+    line.dataset.us = at_us;
+    part.append(line);
+  }
+  box.append(part);
+};
+
+// On a wide screen the reasons of what is fatal stand beside the floor, unless an AGV is selected.
+const reasonsBox = document.getElementById('reasons'), kWide = matchMedia('(min-width: 1150px)');
+const placeReasons = () => {
+  const home = kWide.matches ? panel.parentElement : byId('player').parentElement;
+  if (reasonsBox.parentElement !== home) home.insertBefore(reasonsBox, kWide.matches ? panel : byId('player'));
+  reasonsBox.hidden = selected !== null && kWide.matches;
+};
+
 // The selected AGV with all details; without one, those involved in short.
 const tell = (t_s, all) => {
+  placeReasons();
   tellPair(t_s, all);
   const box = document.createDocumentFragment();
   const bodies = selected === null ? film.involved.slice(0, 6) : [selected];
   for (const body of bodies) {
     tellBody(body, t_s, all, box);
+    if (body === selected) tellReason(body, t_s, box);
     if (bodies.length <= 2) tellDetails(body, t_s, all, box);
   }
+  if (bodies.length && selected === null)
+    box.append(element('p', 'Select an AGV to read why it began what it does: click on it, or press 1 to 9.', 'soft'));
   if (!bodies.length) box.append(element('p', 'Select an AGV: click on it, or press 1 to 9.', 'soft'));
   panel.replaceChildren(box);
 };

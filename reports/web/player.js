@@ -1,7 +1,6 @@
 // Time, keys, mouse and the address of the page.
-const byId = id => document.getElementById(id);
 const slider = byId('slider'), clock = byId('clock');
-const player = {t_s: film.open_us / 1e6, playing: false, speed: 1, before_ms: 0};
+const player = {t_s: film.open_us / 1e6, playing: false, speed: 1, before_ms: 0, line: null};
 const kStill = matchMedia('(prefers-reduced-motion: reduce)');
 
 const movePlayhead = () => { playhead.style.left = rowX(player.t_s) + 'px'; };
@@ -26,6 +25,7 @@ const draw = () => {
   movePlayhead();
   moveCharts();
   tell(t_s, all);
+  markLine(t_s);
   slider.value = t_s;
   clock.textContent = seconds(t_s);
 };
@@ -37,10 +37,11 @@ const drawAll = () => {
 };
 
 const remember = () => {
-  const address = '#t=' + player.t_s.toFixed(2) + (selected === null ? '' : '&agv=' + selected);
+  const address = '#t=' + +player.t_s.toFixed(6) + (selected === null ? '' : '&agv=' + selected);
   try { history.replaceState(null, '', address); } catch (refused) { /* a viewer may forbid it */ }
 };
-const goTo = t_s => {
+const goTo = (t_s, line = null) => {
+  player.line = line;
   player.t_s = Math.min(Math.max(0, t_s), kEnd_s);
   draw();
   if (!player.playing) remember();
@@ -75,20 +76,25 @@ const play = on => {
 const kJumps_s = film.violations.length ? film.violations.map(v => v.first_us / 1e6)
   : [kFocus_s, ...(film.nearest ? [film.nearest.at_us / 1e6] : [])].sort((a, b) => a - b);
 const jump = forward => {
-  const ahead = kJumps_s.filter(at => (forward ? at > player.t_s + 0.011 : at < player.t_s - 0.011));
+  const ahead = kJumps_s.filter(at => (forward ? at > player.t_s + 5e-7 : at < player.t_s - 5e-7));
   if (!ahead.length) return;
   play(false);
   goTo(forward ? ahead[0] : ahead[ahead.length - 1]);
 };
 
 const kSubject = film.involved.length || !film.nearest ? film.involved : [film.nearest.a, film.nearest.b];
-const showFailure = () => {
-  const pieces = kSubject.map(body => pieceAt(body, kFocus_s)).filter(Boolean);
-  const places = pieces.map(piece => poseAt(piece, kFocus_s));
+// Shows the footprints of the pair at some instants, as near as fits.
+const showPair = instants_s => {
+  const places = [];
+  for (const t_s of instants_s) {
+    for (const piece of kSubject.map(body => pieceAt(body, t_s)).filter(Boolean))
+      places.push(...cornersOf(boxOf(piece, poseAt(piece, t_s), kSafety_m)));
+  }
   if (!places.length) return wholeFloor();
-  const xs = places.map(p => p.x_m), ys = places.map(p => p.y_m), room_m = 7;
+  const xs = places.map(p => p[0]), ys = places.map(p => p[1]), room_m = 0.8;
   fitTo([Math.min(...xs) - room_m, Math.min(...ys) - room_m], [Math.max(...xs) + room_m, Math.max(...ys) + room_m]);
 };
+const showFailure = () => showPair([kFocus_s]);
 const zoom = (factor, x = floor.clientWidth / 2, y = floor.clientHeight / 2) => {
   const [x_m, y_m] = toFloor(x, y);
   view.scale = Math.min(800, Math.max(1, view.scale * factor));
@@ -104,6 +110,10 @@ const kKeys = {
   p: () => jump(false),
   ArrowRight: () => goTo(player.t_s + 1),
   ArrowLeft: () => goTo(player.t_s - 1),
+  j: () => stepLine(1),
+  k: () => stepLine(-1),
+  '>': () => goTo(player.t_s + 0.001),
+  '<': () => goTo(player.t_s - 0.001),
   '.': () => goTo(player.t_s + 0.02),
   ',': () => goTo(player.t_s - 0.02),
   w: () => { wholeFloor(); draw(); },
@@ -115,6 +125,7 @@ const kKeys = {
 addEventListener('keydown', event => {
   if (event.ctrlKey || event.metaKey || event.altKey || byId('help').open) return;
   if (event.target.tagName === 'SELECT') return;
+  if (event.key === ' ' && event.target.tagName === 'SUMMARY') return;
   if (event.key === ' ' && event.target.tagName === 'BUTTON') return;
   const number = Number(event.key);
   const action = kKeys[event.key] || (number >= 1 && number <= kAgvs.length ? () => select(kAgvs[number - 1]) : null);
@@ -167,6 +178,8 @@ rows.addEventListener('click', event => {
 slider.max = kEnd_s;
 slider.addEventListener('input', () => { play(false); goTo(Number(slider.value)); });
 byId('play').addEventListener('click', () => play(!player.playing));
+byId('event-after').addEventListener('click', kKeys.j);
+byId('event-before').addEventListener('click', kKeys.k);
 byId('next').addEventListener('click', () => jump(true));
 byId('previous').addEventListener('click', () => jump(false));
 byId('speed').addEventListener('change', event => { player.speed = Number(event.target.value); });
@@ -201,6 +214,7 @@ if (!film.involved.length) byId('failure').textContent = 'Closest pair';
 byId('failure').hidden = !kSubject.length;
 byId('player').hidden = false;
 readAddress();
-showFailure();
+showPair([kFocus_s, player.t_s]);
 drawAll();
 document.documentElement.dataset.ready = 'yes';
+document.documentElement.classList.add('ready');

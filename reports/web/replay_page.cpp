@@ -2,12 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "reports/html/section_tables.hpp"
 #include "reports/web/assets.hpp"
 #include "reports/web/clearance_chart.hpp"
+#include "reports/web/course_part.hpp"
+#include "reports/web/drive_reasons.hpp"
 #include "reports/web/film_budget.hpp"
 #include "reports/web/film_json.hpp"
 #include "reports/web/film_tables.hpp"
+#include "reports/web/reasons_part.hpp"
 
 namespace fleetproof::web {
 namespace {
@@ -39,15 +44,31 @@ Element facts_of(const Film& film) {
   return list;
 }
 
+// "fleetproof replay, layout ring, AGVs 5, loss 40 %": what one wants to know of the run before its story.
+std::string kicker_of(const Film& film) {
+  std::string text = "fleetproof replay";
+  for (const char* wanted : {"layout", "AGVs", "loss", "delay"}) {
+    const auto fact = std::ranges::find(film.facts, wanted, &FilmFact::name);
+    if (fact != film.facts.end()) text += fmt::format(" \u00b7 {} {}", fact->name, fact->value);
+  }
+  return text;
+}
+
 Element header_of(const Film& film) {
   Element header("header");
-  header.add(text_element("p", "fleetproof replay", {{"class", "kicker"}}));
+  header.add(text_element("p", kicker_of(film), {{"class", "kicker"}}));
   header.add(text_element("h1", film.title));
   Element story("div", {{"class", film.failed ? "story failed" : "story"}});
   for (const std::string& sentence : film.story) story.add(text_element("p", sentence));
-  header.add(Element("div", {{"class", "head"}}).add(story).add(facts_of(film)));
+  return header.add(story);
+}
+
+// At the bottom: names of files may tell a cause that one wants to see first.
+Element run_part(const Film& film) {
+  Element part = titled("This run");
+  part.add(facts_of(film));
   Element command("p", {{"class", "again"}});
-  return header.add(command.add(text_element("span", "Again: ")).add(text_element("code", film.command)));
+  return part.add(command.add(text_element("span", "Again: ")).add(text_element("code", film.command)));
 }
 
 Element clearance_part(const Film& film) {
@@ -89,22 +110,25 @@ std::string script_of(const std::string& json) {
 }  // namespace
 
 std::string replay_page(Film film) {
+  const std::vector<Reason> reasons = drive_reasons(film);
   Element tables("div", {{"id", "record"}});
+  const Course course = course_of(film);
+  if (!course.lines.empty()) tables.add(course_part(course));
+  if (!film.clearances.empty()) tables.add(clearance_part(film));
   if (!film.strip.frames.empty()) tables.add(pictures_part(film));
   for (const Element& part : table_parts(film)) tables.add(part);
   keep_within(film);
   if (!film.left_out.empty()) tables.add(left_out_part(film));
   std::string body = header_of(film).str();
-  body +=
-      Element("noscript")
-          .add(text_element("p", "Scripts are off. The pictures, the clearance and the tables below show the failure.",
-                            {{"class", "note"}}))
-          .str();
+  body += Element("noscript")
+              .add(text_element("p", "Scripts are off. The words, the pictures and the tables show the failure.",
+                                {{"class", "note"}}))
+              .str();
+  body += reasons_part(reasons).str();
   body += player_markup();
-  if (!film.clearances.empty()) body += clearance_part(film).str();
-  body += tables.str() + reading_part().str();
+  body += tables.str() + run_part(film).str() + reading_part().str();
   return fmt::format("<!DOCTYPE html>\n<html lang=\"en\">{}<body><main>{}</main>{}</body></html>\n", head_of(film),
-                     body, script_of(film_json(film)));
+                     body, script_of(film_json(film, reasons)));
 }
 
 }  // namespace fleetproof::web

@@ -141,13 +141,13 @@ const drawRows = () => {
   context.fillRect(0, 0, width, height);
   context.font = '11px system-ui, sans-serif';
   context.textAlign = 'left';
-  const step_s = [1, 2, 5, 10, 20, 60, 120, 300, 600, 1800].find(
+  const step_s = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 60, 120, 300, 600, 1800].find(
     step => step / (window_s.to - window_s.from) * (width - nameWidth()) >= 55) || 3600;
   for (let t = Math.ceil(window_s.from / step_s) * step_s; t <= window_s.to; t += step_s) {
     context.fillStyle = colours.line;
     context.fillRect(rowX(t), kAxis_px - 4, 1, height);
     context.fillStyle = colours.soft;
-    if (rowX(t) < width - 24) context.fillText(t + ' s', rowX(t) + 3, 12);
+    if (rowX(t) < width - 24) context.fillText(+t.toFixed(3) + ' s', rowX(t) + 3, 12);
   }
   kOrder.forEach((body, i) => {
     const y = kAxis_px + i * kRow_px;

@@ -1,0 +1,204 @@
+#include "reports/web/drive_answers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "reports/wording.hpp"
+
+namespace fleetproof::web {
+namespace {
+
+constexpr std::int64_t kLongestDelay_us = 30'000'000, kAtOnce_us = 20'000;
+constexpr std::size_t kMostMarked = 3;
+
+bool is_answer(const FilmTalk& talk, const Delivery& delivery) {
+  return delivery.is_to_one() || !talk.has_messages_to_one();
+}
+bool is_in_time(const Delivery& delivery, const Setting& setting) {
+  return !delivery.is_lost() && delivery.arrives < setting.begin;
+}
+bool is_marked(const Delivery& delivery, const Setting& setting) {
+  return !is_in_time(delivery, setting) || (delivery.again && *delivery.again < setting.begin);
+}
+
+// The last message of this kind that had reached `receiver` before an instant; of any kind if it is empty.
+const Delivery* last_heard(const FilmTalk& talk, std::size_t sender, std::size_t receiver, Moment before,
+                           const std::string& kind) {
+  const Delivery* last = nullptr;
+  const auto& link = talk.between(sender, receiver);
+  for (const Delivery& d : sent_within(link, before.at_us - kLongestDelay_us, before)) {
+    if (d.is_lost() || d.arrives >= before || (!kind.empty() && d.message->kind != kind)) continue;
+    if (last == nullptr || last->arrives < d.arrives) last = &d;
+  }
+  return last;
+}
+
+// Which of its requests an answer can refer to.
+std::string reference(const Setting& setting, const Film& film, const FilmTalk& talk, const Delivery& answer) {
+  if (setting.ask.empty()) return {};
+  const std::size_t sender = answer.message->sender;
+  const Delivery* asked = last_heard(talk, setting.body, sender, answer.sent, setting.ask);
+  const std::string& who = film.bodies[sender].name;
+  if (asked == nullptr)
+    return fmt::format("; no {} of {} had reached {} by then", setting.ask, film.bodies[setting.body].name, who);
+  std::size_t newer = 0;
+  for (const Message* m : talk.sent_by(setting.body)) {
+    const Moment sent{m->sent_us, m->order};
+    const bool is_for_it = !m->receiver || *m->receiver == sender;
+    newer += m->kind == setting.ask && is_for_it && asked->sent < sent && sent < setting.begin ? 1 : 0;
+  }
+  return fmt::format("; {} then had {} #{} (sent {} s){}", who, setting.ask, asked->message->number,
+                     time_text(asked->sent.at_us), newer > 0 ? fmt::format(", not the {} newer", newer) : "");
+}
+
+}  // namespace
+
+std::string ask_kind(const Film& film, const FilmTalk& talk, const Setting& setting) {
+  std::map<std::string, std::size_t> at_once, ever;
+  if (!talk.has_messages_to_one()) return {};
+  for (std::size_t sender = 0; sender < film.bodies.size(); ++sender) {
+    for (const Delivery& d : sent_within(talk.between(sender, setting.body), setting.from_us, setting.begin)) {
+      if (!d.is_to_one()) continue;
+      const Delivery* asked = last_heard(talk, setting.body, sender, d.sent, "");
+      if (asked == nullptr) continue;
+      ++ever[asked->message->kind];
+      if (d.sent.at_us - asked->arrives.at_us <= kAtOnce_us) ++at_once[asked->message->kind];
+    }
+  }
+  const auto& counts = at_once.empty() ? ever : at_once;
+  const auto most = std::ranges::max_element(counts, {}, [](const auto& entry) { return entry.second; });
+  return most == counts.end() ? std::string() : most->first;
+}
+
+namespace {
+
+// Which of the requests to the other did not reach it in time. One that is sent at the very beginning has had no time.
+std::string lost_asks(const FilmTalk& talk, const Setting& setting, std::size_t receiver) {
+  std::map<std::string, std::size_t> fates;
+  std::size_t sent = 0;
+  for (const Delivery& d : sent_within(talk.between(setting.body, receiver), setting.from_us, setting.begin)) {
+    if (d.message->kind != setting.ask) continue;
+    ++sent;
+    if (d.is_lost()) ++fates[word_of(d.fate)];
+    if (!d.is_lost() && d.arrives >= setting.begin && d.sent.at_us < setting.begin.at_us)
+      ++fates["still under way then"];
+  }
+  std::vector<std::string> texts;
+  for (const auto& [fate, count] : fates) texts.push_back(fmt::format("{} {}", count, fate));
+  return texts.empty() ? std::string() : fmt::format("Of {} {} to it: {}.", sent, setting.ask, joined(texts));
+}
+
+// Once is no silence: the answer may be under way.
+std::string silence_after(const Delivery& last, const FilmTalk& talk, const Setting& setting) {
+  std::size_t heard = 0;
+  for (const Delivery& d : sent_within(talk.between(setting.body, last.message->sender), 0, setting.begin)) {
+    const bool is_after = !d.is_lost() && d.arrives > last.sent && d.arrives < setting.begin;
+    heard += d.message->kind == setting.ask && is_after ? 1 : 0;
+  }
+  if (heard < 2) return {};
+  return fmt::format("After that #{}, it received {} {} and answered none of them until then.", last.message->number,
+                     heard, setting.ask);
+}
+
+}  // namespace
+
+SenderAnswers answers_of(const FilmTalk& talk, const Setting& setting, std::size_t sender) {
+  SenderAnswers answers;
+  answers.sender = sender;
+  for (const Delivery& d : sent_within(talk.between(sender, setting.body), 0, setting.begin)) {
+    if (!is_answer(talk, d)) continue;
+    if (d.arrives.at_us >= setting.from_us) {
+      answers.received.push_back(d);
+    } else if (!d.is_lost()) {
+      answers.last_before = &d;
+    }
+  }
+  answers.lost_asks = lost_asks(talk, setting, sender);
+  if (!answers.received.empty()) answers.silence = silence_after(answers.received.back(), talk, setting);
+  for (const Delivery& d : answers.received) {
+    answers.is_doubled = answers.is_doubled || d.again.has_value();
+    if (is_in_time(d, setting)) answers.in_time = d.message->kind;
+  }
+  answers.is_plain = !answers.received.empty() && answers.lost_asks.empty() &&
+                     std::ranges::none_of(answers.received, [&](const Delivery& d) {
+                       return is_marked(d, setting) || d.message->kind != answers.received.front().message->kind;
+                     });
+  return answers;
+}
+
+std::string told(const Setting& setting, const Film& film, const FilmTalk& talk, const Delivery& d) {
+  std::string text = fmt::format("{} #{}, sent {} s", d.message->kind, d.message->number, time_text(d.sent.at_us));
+  if (d.is_lost()) {
+    text += fmt::format(": {}", word_of(d.fate));
+  } else if (d.arrives.at_us > film.end_us) {
+    text += ": still under way at the end of the run";
+  } else if (d.arrives >= setting.begin) {
+    const std::int64_t late_us = d.arrives.at_us - setting.begin.at_us;
+    text += fmt::format(": received {} s, {} it began", time_text(d.arrives.at_us),
+                        late_us == 0 ? "right after" : time_text(late_us) + " s after");
+  } else {
+    text += fmt::format(", received {} s", time_text(d.arrives.at_us));
+    if (d.again) text += fmt::format(" and again {} s: one message, delivered twice", time_text(d.again->at_us));
+    text += fmt::format("; {} s old then", time_text(setting.begin.at_us - d.sent.at_us));
+  }
+  return text + reference(setting, film, talk, d);
+}
+
+std::vector<AnswerLine> lines_of(const SenderAnswers& answers, const Setting& setting, const Film& film,
+                                 const FilmTalk& talk) {
+  struct Kind {
+    std::vector<const Delivery*> marked, plain;
+  };
+  std::map<std::string, Kind> kinds;
+  for (const Delivery& d : answers.received) {
+    Kind& kind = kinds[d.message->kind];
+    (is_marked(d, setting) ? kind.marked : kind.plain).push_back(&d);
+  }
+  std::vector<AnswerLine> lines;
+  const auto more = [&](std::size_t count, const char* which) {
+    return count == 0 ? std::string() : fmt::format("; {} more {}", count, which);
+  };
+  for (const auto& [word, kind] : kinds) {
+    const std::size_t skipped = kind.marked.size() > kMostMarked ? kind.marked.size() - kMostMarked : 0;
+    for (std::size_t i = skipped; i < kind.marked.size(); ++i) {
+      const std::string rest = i == skipped ? more(skipped, "lost, late or doubled before it") : "";
+      lines.push_back({kind.marked[i]->sent.at_us, told(setting, film, talk, *kind.marked[i]) + rest + ".", true});
+    }
+    if (!kind.plain.empty())
+      lines.push_back({kind.plain.back()->sent.at_us,
+                       told(setting, film, talk, *kind.plain.back()) + more(kind.plain.size() - 1, "before it") + ".",
+                       false});
+  }
+  std::ranges::stable_sort(lines, {}, &AnswerLine::at_us);
+  return lines;
+}
+
+std::string heard_to_all(const FilmTalk& talk, const Setting& setting, std::size_t sender) {
+  if (!talk.has_messages_to_one()) return {};
+  struct Kind {
+    std::size_t sent = 0, lost = 0;
+    const Delivery* last = nullptr;
+  };
+  std::map<std::string, Kind> kinds;
+  for (const Delivery& d : sent_within(talk.between(sender, setting.body), setting.from_us, setting.begin)) {
+    if (d.is_to_one()) continue;
+    Kind& kind = kinds[d.message->kind];
+    ++kind.sent;
+    kind.lost += d.is_lost() ? 1 : 0;
+    if (is_in_time(d, setting) && (kind.last == nullptr || kind.last->arrives < d.arrives)) kind.last = &d;
+  }
+  std::vector<std::string> texts;
+  for (const auto& [word, kind] : kinds) {
+    std::string text =
+        fmt::format("{} {}{}", word, times_text(kind.sent), kind.lost > 0 ? fmt::format(" ({} lost)", kind.lost) : "");
+    if (kind.last != nullptr)
+      text += fmt::format(", the last received sent {} s, {} s old then", time_text(kind.last->sent.at_us),
+                          time_text(setting.begin.at_us - kind.last->sent.at_us));
+    texts.push_back(std::move(text));
+  }
+  return texts.empty() ? std::string() : fmt::format("To all it sent: {}.", joined(texts, "; "));
+}
+
+}  // namespace fleetproof::web

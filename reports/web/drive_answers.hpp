@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "reports/web/film_talk.hpp"
+
+namespace fleetproof::web {
+
+// The activity whose reason is asked, and the kind of message by which its AGV asks.
+struct Setting {
+  std::size_t body = 0;
+  std::int64_t from_us = 0;  // messages before it count as old
+  Moment begin;              // the activity begins
+  std::string ask;           // see ask_kind; may be empty
+};
+
+// The kind of message of the AGV that the others sent it theirs upon, most often: the last that they had received, at
+// once if that ever happens. Empty: none.
+std::string ask_kind(const Film& film, const FilmTalk& talk, const Setting& setting);
+
+// What one other AGV sent to this AGV alone. If nobody sends to one alone: what it sent at all.
+struct SenderAnswers {
+  std::size_t sender = 0;
+  std::vector<Delivery> received;         // sent before the beginning, and lost or received since Setting::from_us
+  const Delivery* last_before = nullptr;  // the last one received before that, if there is one
+  std::string lost_asks;                  // how many messages of the asking kind did not reach it; empty: none
+  std::string silence;                    // how often this AGV asked in vain after its last answer; empty: not
+  std::string in_time;                    // the kind of the last one received before the beginning; empty: none
+  bool is_doubled = false;                // some of them arrived twice
+  bool is_plain = false;                  // messages of one kind, and none of them lost, late or doubled
+};
+SenderAnswers answers_of(const FilmTalk& talk, const Setting& setting, std::size_t sender);
+
+// A message in words: "GRANT #2, sent 0.001 s, received 0.002 s and again 0.002 s: one message, delivered twice".
+std::string told(const Setting& setting, const Film& film, const FilmTalk& talk, const Delivery& delivery);
+
+struct AnswerLine {
+  std::int64_t at_us = 0;
+  std::string text;
+  bool marked = false;
+};
+// The answers in words, in order of time: of each kind what did not go well, and the last one that did.
+std::vector<AnswerLine> lines_of(const SenderAnswers& answers, const Setting& setting, const Film& film,
+                                 const FilmTalk& talk);
+
+// What the sender told everybody, as far as this AGV heard it. Empty: nothing.
+std::string heard_to_all(const FilmTalk& talk, const Setting& setting, std::size_t sender);
+
+}  // namespace fleetproof::web

@@ -1,0 +1,294 @@
+#include "reports/web/drive_reason.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "reports/web/drive_answers.hpp"
+#include "reports/wording.hpp"
+
+namespace fleetproof::web {
+namespace {
+
+constexpr std::int64_t kContiguous_us = 1'000, kRolling_us = 20'000'000, kStanding_us = 120'000'000,
+                       kLeast_us = 5'000'000;
+constexpr std::size_t kMostSenders = 5, kMostWords = 5, kMostNamed = 4, kMostAfter = 6;
+
+bool is_motion(const ActivityBar& bar) { return bar.kind == "drive" || bar.kind == "turn"; }
+
+// From when on messages may have to do with the activity: since the AGV began to stand before it set off, or since its
+// last pick or drop.
+std::int64_t window_of(const Film& film, const ActivityBar& drive, std::size_t activity) {
+  std::int64_t begin_us = drive.begin_us, from_us = 0, longest_us = kStanding_us;
+  for (std::size_t i = activity; i-- > 0;) {
+    const ActivityBar& bar = film.activities[i];
+    if (bar.body != drive.body) continue;
+    from_us = bar.begin_us;
+    if (!is_motion(bar)) break;
+    if (bar.end_us + kContiguous_us < begin_us) {
+      from_us = bar.end_us;
+      break;
+    }
+    begin_us = bar.begin_us;
+    longest_us = kRolling_us;
+  }
+  const std::int64_t least_us = std::max<std::int64_t>(0, drive.begin_us - kLeast_us);
+  return std::clamp(from_us, std::min(least_us, std::max<std::int64_t>(0, drive.begin_us - longest_us)), least_us);
+}
+
+// "AGV 3, AGV 4 and 12 more".
+std::string names_text(const Film& film, const std::vector<std::size_t>& bodies) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(bodies.size(), kMostNamed); ++i)
+    text += (i == 0 ? "" : ", ") + film.bodies[bodies[i]].name;
+  return bodies.size() > kMostNamed ? fmt::format("{} and {} more", text, bodies.size() - kMostNamed) : text;
+}
+
+class ReasonTeller {
+ public:
+  ReasonTeller(const Film& film, const FilmTalk& talk, std::size_t activity, std::optional<std::size_t> partner)
+      : film_(film),
+        talk_(talk),
+        drive_(film.activities[activity]),
+        activity_(activity),
+        partner_(partner),
+        setting_{drive_.body, window_of(film, drive_, activity), {drive_.begin_us, drive_.begin_order}, {}} {
+    setting_.ask = ask_kind(film, talk, setting_);
+  }
+
+  Reason tell() {
+    Reason reason;
+    reason.activity = activity_;
+    reason.title = fmt::format("{} began to {}{} at {} s", name(drive_.body), drive_.kind,
+                               drive_.details.empty() ? "" : " " + drive_.details, time_text(drive_.begin_us));
+    lines_.clear();
+    tell_itself();
+    tell_senders();
+    tell_after();
+    reason.lines = std::move(lines_);
+    return reason;
+  }
+
+ private:
+  std::string name(std::size_t body) const { return film_.bodies[body].name; }
+  void add(ReasonLine::Rank rank, std::int64_t at_us, std::string text, bool marked = false) {
+    lines_.push_back({rank, marked, at_us, std::move(text)});
+  }
+  void sentence(std::int64_t at_us, std::string text, bool marked = false) {
+    add(ReasonLine::Rank::Sentence, at_us, std::move(text), marked);
+  }
+  void item(std::int64_t at_us, std::string text, bool marked = false) {
+    add(ReasonLine::Rank::Item, at_us, std::move(text), marked);
+  }
+
+  // What the AGV itself sent and said, and the faults that struck it.
+  void tell_itself() {
+    struct Kind {
+      std::size_t count = 0;
+      std::int64_t first_us = 0, last_us = 0;
+    };
+    std::map<std::string, Kind> kinds;
+    for (const Message* message : talk_.sent_by(drive_.body)) {
+      if (message->sent_us < setting_.from_us || Moment{message->sent_us, message->order} >= setting_.begin) continue;
+      Kind& kind = kinds[message->kind];
+      if (kind.count++ == 0) kind.first_us = message->sent_us;
+      kind.last_us = message->sent_us;
+    }
+    std::vector<std::string> texts;
+    const auto told = [&](const std::string& word, const Kind& kind) {
+      const std::string when = kind.count == 1
+                                   ? time_text(kind.first_us) + " s"
+                                   : fmt::format("{} s to {} s", time_text(kind.first_us), time_text(kind.last_us));
+      return fmt::format("{} {} ({})", word, times_text(kind.count), when);
+    };
+    for (const bool asks : {true, false}) {
+      for (const auto& [word, kind] : kinds) {
+        if ((word == setting_.ask) == asks) texts.push_back(told(word, kind));
+      }
+    }
+    sentence(setting_.from_us, fmt::format("From {} s until then, {} had sent {}.", time_text(setting_.from_us),
+                                           name(drive_.body), texts.empty() ? "nothing" : joined(texts)));
+    tell_words();
+    for (const std::string& fault : faults_text(drive_.body, setting_.from_us, setting_.begin.at_us))
+      item(setting_.from_us, fault, true);
+  }
+
+  void tell_words() {
+    std::vector<const Declared*> words;
+    for (const Declared& state : film_.states) {
+      if (state.body == drive_.body && Moment{state.at_us, state.order} < setting_.begin && !state.word.empty())
+        words.push_back(&state);
+    }
+    std::erase_if(words,
+                  [&](const Declared* state) { return state != words.back() && state->at_us < setting_.from_us; });
+    if (words.empty()) return;
+    const std::size_t skipped = words.size() > kMostWords ? words.size() - kMostWords : 0;
+    std::vector<std::string> texts;
+    for (std::size_t i = skipped; i < words.size(); ++i)
+      texts.push_back(fmt::format("\"{}\" ({} s)", words[i]->word, time_text(words[i]->at_us)));
+    item(words.back()->at_us, fmt::format("Its agent said {}.", joined(texts)));
+  }
+
+  std::vector<std::string> faults_text(std::size_t body, std::int64_t from_us, std::int64_t to_us) const {
+    std::vector<std::string> texts;
+    for (const Happening& h : film_.happenings) {
+      if (h.is_fault && h.body == body && from_us <= h.at_us && h.at_us <= to_us)
+        texts.push_back(fmt::format("{} s: {}{} of {}.", time_text(h.at_us), h.what,
+                                    h.details.empty() ? "" : " (" + h.details + ")", name(body)));
+    }
+    return texts;
+  }
+
+  // The other of the pair first, then those of which something was doubled, lost or late, then the rest in short.
+  void tell_senders() {
+    std::vector<SenderAnswers> all;
+    for (std::size_t body = 0; body < film_.bodies.size(); ++body) {
+      if (body != drive_.body && film_.bodies[body].kind == BodyKind::Agv)
+        all.push_back(answers_of(talk_, setting_, body));
+    }
+    tell_in_short(all);
+    std::vector<SenderAnswers> own, plain;
+    for (SenderAnswers& answers : all) {
+      if (answers.sender != partner_ && answers.received.empty()) continue;
+      (answers.sender != partner_ && answers.is_plain ? plain : own).push_back(std::move(answers));
+    }
+    std::ranges::stable_sort(own, {}, [&](const SenderAnswers& answers) {
+      return answers.sender == partner_ ? 0 : answers.is_doubled ? 1 : 2;
+    });
+    for (std::size_t i = 0; i < std::min(own.size(), kMostSenders); ++i) tell_sender(own[i]);
+    if (own.size() > kMostSenders)
+      sentence(drive_.begin_us,
+               fmt::format("Likewise lost, late or doubled: messages of {} more AGVs.", own.size() - kMostSenders));
+    tell_plain(plain);
+  }
+
+  // How many answered in time, of all.
+  void tell_in_short(const std::vector<SenderAnswers>& all) {
+    std::map<std::string, std::vector<std::size_t>> in_time;
+    std::vector<std::size_t> not_in_time, silent;
+    for (const SenderAnswers& answers : all) {
+      if (!answers.in_time.empty()) {
+        in_time[answers.in_time].push_back(answers.sender);
+      } else {
+        (answers.received.empty() ? silent : not_in_time).push_back(answers.sender);
+      }
+    }
+    std::vector<std::string> texts;
+    for (const auto& [kind, senders] : in_time)
+      texts.push_back(fmt::format("{} from {}", kind, names_text(film_, senders)));
+    std::string text =
+        fmt::format("{} of {} others had answered in time{}{}.", all.size() - not_in_time.size() - silent.size(),
+                    all.size(), texts.empty() ? "" : ": ", joined(texts, "; "));
+    if (!not_in_time.empty()) text += fmt::format(" Lost or late: {}.", names_text(film_, not_in_time));
+    if (!silent.empty())
+      text += fmt::format(" Nothing sent{}: {}.", talk_.has_messages_to_one() ? " to it alone" : "",
+                          names_text(film_, silent));
+    const bool all_answered = not_in_time.empty() && silent.empty();
+    if (all.size() > 1) sentence(drive_.begin_us, text, !all_answered);
+  }
+
+  void tell_plain(const std::vector<SenderAnswers>& plain) {
+    std::map<std::string, std::vector<const Delivery*>> kinds;
+    for (const SenderAnswers& answers : plain)
+      kinds[answers.received.back().message->kind].push_back(&answers.received.back());
+    for (const auto& [kind, last] : kinds) {
+      std::vector<std::size_t> senders;
+      std::int64_t first_us = last.front()->sent.at_us, last_us = first_us;
+      for (const Delivery* delivery : last) {
+        senders.push_back(delivery->message->sender);
+        first_us = std::min(first_us, delivery->sent.at_us);
+        last_us = std::max(last_us, delivery->sent.at_us);
+      }
+      const std::string when = senders.size() == 1 ? told(setting_, film_, talk_, *last.front())
+                                                   : fmt::format("the last of each sent {} s to {} s, received in time",
+                                                                 time_text(first_us), time_text(last_us));
+      sentence(first_us, senders.size() == 1 ? fmt::format("{}: {}.", names_text(film_, senders), when)
+                                             : fmt::format("{}: {}, {}.", names_text(film_, senders), kind, when));
+    }
+  }
+
+  void tell_sender(const SenderAnswers& answers) {
+    const std::string who = name(answers.sender);
+    if (answers.received.empty()) {
+      std::string before;
+      if (answers.last_before != nullptr)
+        before = fmt::format(" The last before: {}.", told(setting_, film_, talk_, *answers.last_before));
+      sentence(drive_.begin_us,
+               fmt::format("{} had sent nothing to {}{} in this time.{}", who, name(drive_.body),
+                           talk_.has_messages_to_one() ? " alone" : "", before),
+               true);
+    } else {
+      add(ReasonLine::Rank::Head, answers.received.front().sent.at_us,
+          fmt::format("{} to {}:", who, name(drive_.body)));
+    }
+    for (const AnswerLine& line : lines_of(answers, setting_, film_, talk_)) item(line.at_us, line.text, line.marked);
+    if (!answers.lost_asks.empty()) item(setting_.from_us, answers.lost_asks, true);
+    if (!answers.silence.empty()) item(setting_.begin.at_us, answers.silence, true);
+    if (answers.sender != partner_) return;
+    if (const std::string heard = heard_to_all(talk_, setting_, answers.sender); !heard.empty())
+      item(drive_.begin_us, heard);
+    item(drive_.begin_us, doing_text(answers.sender));
+    for (const std::string& fault : faults_text(answers.sender, setting_.from_us, setting_.begin.at_us))
+      item(setting_.from_us, fault, true);
+  }
+
+  // What another AGV did when this one set off.
+  std::string doing_text(std::size_t body) const {
+    const ActivityBar* doing = nullptr;
+    for (const ActivityBar& bar : film_.activities) {
+      if (bar.body == body && Moment{bar.begin_us, bar.begin_order} < setting_.begin &&
+          setting_.begin < Moment{bar.end_us, bar.end_order})
+        doing = &bar;
+    }
+    const Declared* state = nullptr;
+    for (const Declared& s : film_.states) {
+      if (s.body == body && Moment{s.at_us, s.order} < setting_.begin) state = &s;
+    }
+    std::string text = fmt::format("{} itself at {} s: ", name(body), time_text(drive_.begin_us));
+    text += doing == nullptr
+                ? "idle"
+                : fmt::format("{}{}, since {} s", doing->kind, doing->details.empty() ? "" : " " + doing->details,
+                              time_text(doing->begin_us));
+    if (state != nullptr && !state->word.empty()) text += fmt::format("; its agent said \"{}\"", state->word);
+    return text + ".";
+  }
+
+  // What came before the failure, or before the end of the activity, but too late to be asked.
+  void tell_after() {
+    const std::int64_t until_us = std::min(drive_.end_us, film_.focus_us);
+    std::vector<std::string> texts;
+    for (std::size_t body = 0; body < film_.bodies.size() && texts.size() < kMostAfter; ++body) {
+      if (body == drive_.body) continue;
+      std::map<std::string, std::pair<const Delivery*, std::size_t>> kinds;
+      for (const Delivery& d : sent_within(talk_.between(body, drive_.body), drive_.begin_us, {until_us + 1, 0})) {
+        const bool counts = d.sent > setting_.begin && !d.is_lost() && d.arrives.at_us <= until_us;
+        if (!counts || (talk_.has_messages_to_one() && !d.is_to_one())) continue;
+        auto& [first, count] = kinds[d.message->kind];
+        if (count++ == 0) first = &d;
+      }
+      for (const auto& [kind, heard] : kinds)
+        texts.push_back(fmt::format("{} from {} ({} s{})", kind, name(body), time_text(heard.first->arrives.at_us),
+                                    heard.second > 1 ? fmt::format(", and {} more", heard.second - 1) : ""));
+    }
+    if (!texts.empty()) sentence(drive_.begin_us, fmt::format("After that it received {}.", joined(texts)));
+    for (const std::string& fault : faults_text(drive_.body, setting_.begin.at_us + 1, until_us))
+      item(drive_.begin_us, fault, true);
+  }
+
+  const Film& film_;
+  const FilmTalk& talk_;
+  const ActivityBar& drive_;
+  std::size_t activity_;
+  std::optional<std::size_t> partner_;
+  Setting setting_;
+  std::vector<ReasonLine> lines_;
+};
+
+}  // namespace
+
+Reason reason_of(const Film& film, const FilmTalk& talk, std::size_t activity, std::optional<std::size_t> partner) {
+  return ReasonTeller(film, talk, activity, partner).tell();
+}
+
+}  // namespace fleetproof::web

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reports/web/film.hpp"
+
+namespace fleetproof::web {
+
+// A sentence of a reason. `at_us`: the instant that it is about.
+struct ReasonLine {
+  enum class Rank : std::uint8_t { Sentence, Head, Item };  // an item stands under the head or sentence before it
+  Rank rank = Rank::Sentence;
+  bool marked = false;  // something that a protocol must survive: lost, late, doubled, never sent
+  std::int64_t at_us = 0;
+  std::string text;
+};
+
+// Why an agent may have believed that it was allowed to begin an activity: what it had sent and heard until then, from
+// whom, and how old that was; what it said of itself. Nothing here knows a protocol: a message has the kind that its
+// agent describes, and the order in which messages were sent and received.
+struct Reason {
+  std::optional<std::size_t> activity;  // an index into Film::activities; none: the AGV had begun nothing
+  bool is_fatal = false;                // the last one that a body of the failing pair began before the failure
+  std::string title;
+  std::vector<ReasonLine> lines;
+};
+
+// Of the activities of AGVs that are nearest to the failure, at most `most`: those that are fatal first, else in order
+// of time.
+std::vector<Reason> drive_reasons(const Film& film, std::size_t most = 200);
+
+}  // namespace fleetproof::web

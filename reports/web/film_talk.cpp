@@ -1,0 +1,40 @@
+#include "reports/web/film_talk.hpp"
+
+#include <algorithm>
+
+namespace fleetproof::web {
+
+FilmTalk::FilmTalk(const Film& film) : sent_by_(film.bodies.size()) {
+  for (const Message& message : film.messages) {
+    sent_by_[message.sender].push_back(&message);
+    has_messages_to_one_ = has_messages_to_one_ || message.receiver.has_value();
+    for (const Arrival& arrival : message.arrivals) {
+      std::vector<Delivery>& link = links_[{message.sender, arrival.receiver}];
+      const Moment arrives{message.sent_us + arrival.after_us, arrival.order};
+      const bool is_copy = !link.empty() && link.back().message == &message;
+      if (!is_copy) {
+        link.push_back({&message, arrival.fate, {message.sent_us, message.order}, arrives, {}});
+      } else if (link.back().is_lost() || arrival.fate != Fate::Received) {
+        link.back().fate = arrival.fate;
+        link.back().arrives = arrives;
+      } else {
+        link.back().again = std::max(link.back().arrives, arrives);
+        link.back().arrives = std::min(link.back().arrives, arrives);
+      }
+    }
+  }
+}
+
+const std::vector<Delivery>& FilmTalk::between(std::size_t sender, std::size_t receiver) const {
+  static const std::vector<Delivery> kNone;
+  const auto found = links_.find({sender, receiver});
+  return found == links_.end() ? kNone : found->second;
+}
+
+std::span<const Delivery> sent_within(const std::vector<Delivery>& list, std::int64_t from_us, Moment until) {
+  const auto from = std::ranges::lower_bound(list, Moment{from_us, 0}, {}, &Delivery::sent);
+  const auto to = std::ranges::lower_bound(list, until, {}, &Delivery::sent);
+  return from < to ? std::span<const Delivery>(from, to) : std::span<const Delivery>{};
+}
+
+}  // namespace fleetproof::web

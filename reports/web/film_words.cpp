@@ -1,0 +1,29 @@
+#include "reports/web/film_words.hpp"
+
+#include <fmt/format.h>
+
+namespace fleetproof::web {
+namespace {
+
+std::string thousandths(std::int64_t millionths) {
+  return fmt::format("{:.3f}", static_cast<double>(millionths - millionths % 1000) / 1e6);
+}
+
+}  // namespace
+
+std::string time_text(std::int64_t us) { return thousandths(us); }
+std::string metres_text(std::int64_t um) { return thousandths(um); }
+
+const char* word_of(Fate fate) {
+  constexpr const char* kWords[] = {"received",          "lost by chance",
+                                    "lost in an outage", "lost by interference",
+                                    "lost to a source",  "lost, its fate is given"};
+  return kWords[static_cast<std::size_t>(fate)];
+}
+
+std::string times_text(std::size_t count) {
+  if (count == 1) return "once";
+  return count == 2 ? "twice" : fmt::format("{} times", count);
+}
+
+}  // namespace fleetproof::web
