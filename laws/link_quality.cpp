@@ -42,14 +42,19 @@ std::uint32_t losses_that_reject(std::uint32_t receptions) {
       std::ceil(kContractLoss * n + kNormalQuantile * std::sqrt(n * kContractLoss * (1.0 - kContractLoss)) + 0.5));
 }
 
-LinkQuality::LinkQuality(std::size_t agvs) : agvs_(agvs), seconds_(agvs * agvs), last_second_(agvs, -1), sent_(agvs) {}
+LinkQuality::LinkQuality(std::size_t agvs)
+    : agvs_(agvs), places_(agvs * agvs, kSilent), broken_(agvs, 0), sent_(agvs) {}
 
 LinkQuality::Link& LinkQuality::now(std::size_t sender, std::size_t receiver, SimTime at) {
-  const std::int64_t number = to_ns(at) / 1'000'000'000;
-  Second& second = seconds_[receiver * agvs_ + sender][static_cast<std::size_t>(number % kQualityWindow_s)];
-  if (second.number != number) second = {number, {}};
-  last_second_[receiver] = std::max(last_second_[receiver], number);
-  return second.link;
+  std::uint32_t& place = places_[receiver * agvs_ + sender];
+  if (place == kSilent) {
+    place = static_cast<std::uint32_t>(links_.size());
+    links_.push_back({static_cast<std::uint32_t>(receiver), true, {}, {}});
+  }
+  const std::size_t second = slot_of(to_ns(at) / 1'000'000'000);
+  Link& link = links_[place].seconds[second];
+  if (link.receptions == 0) received_[second].push_back(place);
+  return link;
 }
 
 void LinkQuality::note(const TraceRecord& record) {
@@ -73,30 +78,52 @@ void LinkQuality::note(const TraceRecord& record) {
   if (sent != SimTime::min()) link.longest = std::max(link.longest, record.at - sent);
 }
 
-LinkQuality::Link LinkQuality::link(std::size_t sender, std::size_t receiver, std::int64_t second) const {
-  Link sum;
-  for (const Second& one : seconds_[receiver * agvs_ + sender]) {
-    if (one.number < 0 || one.number > second || one.number <= second - kQualityWindow_s) continue;
-    sum.receptions += one.link.receptions;
-    sum.lost += one.link.lost;
-    sum.longest = std::max(sum.longest, one.link.longest);
+// Only links that received in the second that leaves the window, or in the one that comes into it, can have changed.
+void LinkQuality::end_second(std::int64_t second) {
+  auto& leaves = received_[slot_of(second - kQualityWindow_s)];
+  for (const std::uint32_t place : leaves) {
+    take_out(links_[place], second - kQualityWindow_s);
+    judge(links_[place]);
   }
-  return sum;
+  leaves.clear();
+  for (const std::uint32_t place : received_[slot_of(second)]) {
+    Active& link = links_[place];
+    const Link& comes = link.seconds[slot_of(second)];
+    link.sum.receptions += comes.receptions;
+    link.sum.lost += comes.lost;
+    link.sum.longest = std::max(link.sum.longest, comes.longest);
+    judge(link);
+  }
 }
 
-bool LinkQuality::all_in_contract(std::size_t receiver, std::int64_t second) const {
-  // Without this line, a fleet that sends nothing would spend half of its run here, on links without a reception.
-  if (last_second_[receiver] <= second - kQualityWindow_s) return true;
-  for (std::size_t sender = 0; sender < agvs_; ++sender) {
-    if (sender != receiver && !link(sender, receiver, second).in_contract()) return false;
-  }
-  return true;
+void LinkQuality::take_out(Active& link, std::int64_t second) {
+  Link& leaves = link.seconds[slot_of(second)];
+  link.sum.receptions -= leaves.receptions;
+  link.sum.lost -= leaves.lost;
+  const bool was_longest = leaves.longest == link.sum.longest;
+  leaves = {};
+  if (!was_longest) return;
+  link.sum.longest = {};
+  for (std::int64_t i = 1; i < kQualityWindow_s; ++i)
+    link.sum.longest = std::max(link.sum.longest, link.seconds[slot_of(second + i)].longest);
 }
 
-std::int64_t LinkQuality::worst_loss_ppm(std::size_t receiver, std::int64_t second) const {
+void LinkQuality::judge(Active& link) {
+  const bool kept = link.sum.in_contract();
+  if (kept == link.in_contract) return;
+  link.in_contract = kept;
+  kept ? --broken_[link.receiver] : ++broken_[link.receiver];
+}
+
+LinkQuality::Link LinkQuality::link(std::size_t sender, std::size_t receiver) const {
+  const std::uint32_t place = places_[receiver * agvs_ + sender];
+  return place == kSilent ? Link{} : links_[place].sum;
+}
+
+std::int64_t LinkQuality::worst_loss_ppm(std::size_t receiver) const {
   std::int64_t worst = 0;
   for (std::size_t sender = 0; sender < agvs_; ++sender) {
-    const Link one = link(sender, receiver, second);
+    const Link one = link(sender, receiver);
     if (one.receptions > 0) worst = std::max(worst, std::int64_t{1'000'000} * one.lost / one.receptions);
   }
   return worst;

@@ -25,29 +25,49 @@ class LinkQuality {
   explicit LinkQuality(std::size_t agvs);
 
   static TraceKinds reads() { return kMessageKinds; }
+  // Requires: the record is no more than a second after the end of the last second.
   void note(const TraceRecord& record);
+  // All that happened in the second that begins at `second` has been noted. The functions below now speak of this
+  // second and the nine before it. Requires: one second after the other, from 0 on.
+  void end_second(std::int64_t second);
 
   struct Link {
     std::uint32_t receptions = 0, lost = 0;
     Duration longest{};
-    bool in_contract() const { return longest <= kContractDelay && lost < losses_that_reject(receptions); }
+    // What the contract allows on average rejects nothing.
+    bool in_contract() const {
+      return longest <= kContractDelay && (lost <= kContractLoss * receptions || lost < losses_that_reject(receptions));
+    }
   };
-  // The link over the second that begins at `second`, and the nine seconds before it.
-  Link link(std::size_t sender, std::size_t receiver, std::int64_t second) const;
+  Link link(std::size_t sender, std::size_t receiver) const;
   // Whether every link to `receiver` kept the contract; the largest share lost on one of these links, in millionths.
-  bool all_in_contract(std::size_t receiver, std::int64_t second) const;
-  std::int64_t worst_loss_ppm(std::size_t receiver, std::int64_t second) const;
+  bool all_in_contract(std::size_t receiver) const { return broken_[receiver] == 0; }
+  std::int64_t worst_loss_ppm(std::size_t receiver) const;
 
  private:
-  struct Second {
-    std::int64_t number = -1;
-    Link link;
+  // Those of the window, the one that leaves it, and the one under way.
+  static constexpr std::int64_t kSeconds = kQualityWindow_s + 2;
+  static constexpr std::uint32_t kSilent = 0xffffffff;
+
+  // A link on which something was received or lost.
+  struct Active {
+    std::uint32_t receiver = 0;
+    bool in_contract = true;
+    Link sum;                            // over the window
+    std::array<Link, kSeconds> seconds;  // by number, modulo the length
   };
+  static std::size_t slot_of(std::int64_t second) {
+    return static_cast<std::size_t>((second + kSeconds) % kSeconds);  // not below -kSeconds
+  }
   Link& now(std::size_t sender, std::size_t receiver, SimTime at);
+  void take_out(Active& link, std::int64_t second);
+  void judge(Active& link);
 
   std::size_t agvs_;
-  std::vector<std::array<Second, kQualityWindow_s>> seconds_;  // by receiver x AGVs + sender
-  std::vector<std::int64_t> last_second_;                      // by receiver: of its newest reception; -1: none
+  std::vector<std::uint32_t> places_;  // in links_, by receiver x AGVs + sender; or kSilent
+  std::vector<Active> links_;
+  std::array<std::vector<std::uint32_t>, kSeconds> received_;  // places of the links that received in a second
+  std::vector<std::uint32_t> broken_;                          // by receiver: links to it out of the contract
   std::vector<SentMessages> sent_;                             // by sender
 };
 

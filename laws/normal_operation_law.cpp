@@ -43,7 +43,7 @@ class NormalOperationLaw final : public Law {
 
   void seconds_before(SimTime t);
   void look(SimTime now);
-  void look_at_safe_mode(std::size_t agv, SimTime now, std::int64_t second);
+  void look_at_safe_mode(std::size_t agv, SimTime now);
   void look_at_standstill(SimTime now);
 
   const Scenario& scenario_;
@@ -102,26 +102,26 @@ void NormalOperationLaw::seconds_before(SimTime t) {
 }
 
 void NormalOperationLaw::look(SimTime now) {
-  const std::int64_t second = (to_ns(now) - 1) / 1'000'000'000;  // the one that ends now
+  quality_.end_second((to_ns(now) - 1) / 1'000'000'000);
   bool all = true;
   for (std::size_t i = 0; i < agvs_.size(); ++i) {
-    const bool kept = quality_.all_in_contract(i, second);
+    const bool kept = quality_.all_in_contract(i);
     if (!kept) agvs_[i].in_contract_since = now;
     all = all && kept;
-    look_at_safe_mode(i, now, second);
+    look_at_safe_mode(i, now);
   }
   if (!all) all_in_contract_since_ = now;
   always_in_contract_ = always_in_contract_ && all;
   look_at_standstill(now);
 }
 
-void NormalOperationLaw::look_at_safe_mode(std::size_t agv, SimTime now, std::int64_t second) {
+void NormalOperationLaw::look_at_safe_mode(std::size_t agv, SimTime now) {
   AgvState& state = agvs_[agv];
   if (!state.safe || now - state.in_contract_since <= reaction_) {
     state.incident.reset();
     return;
   }
-  const std::int64_t loss_ppm = quality_.worst_loss_ppm(agv, second);
+  const std::int64_t loss_ppm = quality_.worst_loss_ppm(agv);
   if (!state.incident) {
     state.incident = incidents_.size();
     incidents_.push_back({IncidentKind::SafeModeInContract, EntityId{agv}, {}, now, now, loss_ppm});

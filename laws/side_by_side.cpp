@@ -23,8 +23,8 @@ struct Gaps {
   double along_m = 1e300;  // smallest where they run along each other
 };
 
-// From the points of one track to the middle line of the other one.
-void measure(const Track& a, const Track& b, double within_m, Gaps& gaps) {
+// From the points of one track to the middle line of the other one. False as soon as the bands overlap.
+bool measure(const Track& a, const Track& b, double within_m, Gaps& gaps) {
   const double widths_m = 0.5 * (a.footprint.width_m + b.footprint.width_m);
   const Box near = b.box.grown(widths_m + within_m);
   for (const auto& p : a.points) {
@@ -32,10 +32,12 @@ void measure(const Track& a, const Track& b, double within_m, Gaps& gaps) {
     for (std::size_t i = 0; i + 1 < b.points.size(); ++i) {
       const auto& q = b.points[i];
       const double gap_m = distance_m(p.position_m, q.position_m, b.points[i + 1].position_m) - widths_m;
+      if (gap_m < -kSlack_m) return false;
       gaps.bands_m = std::min(gaps.bands_m, gap_m);
       if (std::abs(p.heading.dot(q.heading)) >= kAlong) gaps.along_m = std::min(gaps.along_m, gap_m);
     }
   }
+  return true;
 }
 
 // Of the bodies, wherever they are on their tracks. The halves of a track beyond its ends are no places of a body.
@@ -64,9 +66,8 @@ SideBySide side_by_side(const Track& a, const Track& b, double margin_m) {
   const double ends_m = 0.5 * std::max(a.footprint.length_m, b.footprint.length_m);
   if (!a.box.grown(widths_m + kBesideACurve_m + ends_m).overlaps(b.box)) return met;
   Gaps gaps;
-  measure(a, b, kBesideACurve_m + ends_m, gaps);
-  measure(b, a, kBesideACurve_m + ends_m, gaps);
-  if (gaps.bands_m < -kSlack_m) return met;
+  const double within_m = kBesideACurve_m + ends_m;
+  if (!measure(a, b, within_m, gaps) || !measure(b, a, within_m, gaps)) return met;
   met.tight_gap = gaps.along_m <= kTightGap_m + kSlack_m;
   if (!a.bends && !b.bends) return met;
   const double bodies_m = bodies_apart_m(a, b, kBesideACurve_m + kSlack_m);

@@ -23,8 +23,15 @@ std::int64_t AgentClock::shows_ns(SimTime t) const {
 SimTime AgentClock::when_it_shows(std::int64_t ns) const {
   ns = std::min(ns, kLongestDuration.count());  // an agent may ask for the end of time
   if (drift_ppb_ == 0) return at_ns(std::max<std::int64_t>(0, ns - offset_ns_));
-  std::int64_t low = -1, high = std::max<std::int64_t>(1, std::min(ns, kLongestDuration.count() / 2));
-  while (shows_ns(at_ns(high)) < ns && high < kLongestDuration.count() / 2) high *= 2;
+  // By the inverse of the drift, and then around it until the instant lies between.
+  const std::int64_t guess = ns - offset_ns_ - (shows_ns(at_ns(ns - offset_ns_)) - ns);
+  const auto within = [](std::int64_t instant_ns) {
+    return std::clamp<std::int64_t>(instant_ns, -1, kLongestDuration.count() / 2);
+  };
+  std::int64_t low = within(guess - 1), high = std::max(within(guess + 1), low + 1);
+  for (std::int64_t step = 2; low >= 0 && shows_ns(at_ns(low)) >= ns; step *= 2) low = within(low - step);
+  for (std::int64_t step = 2; shows_ns(at_ns(high)) < ns && high < kLongestDuration.count() / 2; step *= 2)
+    high = within(high + step);
   while (high - low > 1) {
     const std::int64_t middle = low + (high - low) / 2;
     (shows_ns(at_ns(middle)) >= ns ? high : low) = middle;

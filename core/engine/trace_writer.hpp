@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -28,8 +29,7 @@ class TraceWriter {
  private:
   TraceDigest digest_;
   TraceSink* sink_;
-  std::vector<std::pair<Law*, TraceKinds>> readers_;
-  TraceKinds read_by_laws_;
+  std::array<std::vector<Law*>, 64> readers_;  // by kind
 };
 
 }  // namespace fleetproof

@@ -20,10 +20,6 @@ void put(unsigned char*& at, Integer value) {
 
 XXH3_state_t* hash(void* state) { return static_cast<XXH3_state_t*>(state); }
 
-}  // namespace
-
-namespace {
-
 const char* name_of_note(TraceKind kind) {
   return kind == TraceKind::Described      ? "described"
          : kind == TraceKind::AgentState   ? "state"
@@ -114,7 +110,7 @@ void TraceDigest::append(const TraceRecord& record) {
   put(at, record.b);
   used_ += 32;
   ++count_;
-  if (std::has_single_bit(count_)) {
+  if ((count_ & (count_ - 1)) == 0) {  // std::has_single_bit counts bits, which costs a call
     running_.push_back(value());
   } else if (used_ == buffer_.size()) {
     flush();

@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <random>
+#include <tuple>
+#include <vector>
+
 #include "tests/support/at_seconds.hpp"
 
 namespace fleetproof {
@@ -27,6 +32,31 @@ TEST(EventQueue, OrdersByTimeThenEntityThenSequence) {
     EXPECT_EQ(event.kind, Event::Kind::TimerGoesOff);
   }
   EXPECT_TRUE(queue.empty());
+}
+
+// Against a sorted list: many events at few instants, pushed and taken in turns.
+TEST(EventQueue, TakesEventsInTheSameOrderAsASortedList) {
+  std::mt19937 random(5);
+  EventQueue queue;
+  std::vector<std::tuple<std::int64_t, std::uint32_t, std::uint64_t>> sorted;  // the sequence is the payload, too
+  std::uint64_t pushed = 0;
+  for (int round = 0; round < 20'000; ++round) {
+    if (random() % 5 < (round < 10'000 ? 3U : 2U)) {
+      const auto at = static_cast<std::int64_t>(random() % 50);
+      const auto entity = static_cast<std::uint32_t>(random() % 4 == 3 ? EntityId{}.value : random() % 4);
+      queue.push(at_ns(at), EntityId{entity}, Event::Kind::TimerGoesOff, pushed, 3 * pushed);
+      sorted.emplace_back(at, entity, pushed++);
+      std::ranges::sort(sorted);
+    } else if (!sorted.empty()) {
+      const Event event = queue.pop();
+      EXPECT_EQ(std::tuple(to_ns(event.at), event.entity.value, event.payload), sorted.front());
+      EXPECT_EQ(event.sequence, event.payload);
+      EXPECT_EQ(event.stamp, 3 * event.payload);
+      sorted.erase(sorted.begin());
+    }
+    ASSERT_EQ(queue.empty(), sorted.empty());
+  }
+  EXPECT_GT(pushed, 8'000U);
 }
 
 }  // namespace

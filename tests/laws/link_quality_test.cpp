@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
+#include <vector>
 
 #include "core/outcome/trace_records.hpp"
 
@@ -11,28 +13,76 @@ namespace {
 
 constexpr std::size_t kAgvs = 4;
 
-// A fleet receives in bursts, with silences that are shorter and longer than the window.
-TEST(LinkQuality, AllLinksKeepTheContractExactlyIfEachLinkDoes) {
+struct Heard {
+  std::int64_t second;
+  std::size_t sender, receiver;
+  bool lost;
+};
+
+// Counted anew from all that was ever heard.
+LinkQuality::Link counted(const std::vector<Heard>& all, std::size_t sender, std::size_t receiver, std::int64_t last) {
+  LinkQuality::Link link;
+  for (const Heard& one : all) {
+    if (one.sender != sender || one.receiver != receiver || one.second > last || one.second < last - 9) continue;
+    ++link.receptions;
+    link.lost += one.lost ? 1 : 0;
+  }
+  return link;
+}
+
+// A fleet receives in bursts, with silences that are shorter and longer than the window. What arrives at the very end
+// of a second belongs to the next one, and is noted before the second is looked at.
+TEST(LinkQuality, TheLinksOfTheLastTenSeconds) {
   std::mt19937 random(7);
   LinkQuality quality(kAgvs);
-  int broken = 0;
-  for (std::int64_t second = 0; second < 2000; ++second) {
+  std::vector<Heard> all;
+  const auto hear = [&](std::int64_t second, Duration later) {
+    const auto sender = static_cast<std::uint32_t>(random() % kAgvs),
+               receiver = static_cast<std::uint32_t>(random() % kAgvs);
+    const bool lost = random() % 10 < 8;
+    all.push_back({second, sender, receiver, lost});
+    quality.note(trace_record(kStart + std::chrono::seconds(second) + later, AgvId{receiver},
+                              traced::Reception{lost ? TraceKind::Lost : TraceKind::Received, AgvId{sender}, 0}));
+  };
+  int broken = 0, kept = 0;
+  for (std::int64_t second = 0; second < 1000; ++second) {
     const bool burst = second / 17 % 3 == 0;
-    for (int i = 0; burst && i < 60; ++i) {
-      const std::uint32_t sender = random() % kAgvs, receiver = random() % kAgvs;
-      const TraceKind fate = random() % 10 < 8 ? TraceKind::Lost : TraceKind::Received;
-      quality.note(trace_record(kStart + std::chrono::seconds(second), AgvId{receiver},
-                                traced::Reception{fate, AgvId{sender}, 0}));
-    }
+    for (int i = 0; burst && i < 60; ++i) hear(second, Duration{i});
+    if (random() % 2 == 0) hear(second + 1, {});
+    std::erase_if(all, [&](const Heard& one) { return one.second < second - 20; });
+    quality.end_second(second);
     for (std::size_t receiver = 0; receiver < kAgvs; ++receiver) {
       bool each = true;
-      for (std::size_t sender = 0; sender < kAgvs; ++sender)
-        each = each && (sender == receiver || quality.link(sender, receiver, second).in_contract());
-      EXPECT_EQ(quality.all_in_contract(receiver, second), each) << second;
-      broken += each ? 0 : 1;
+      for (std::size_t sender = 0; sender < kAgvs; ++sender) {
+        const auto expected = counted(all, sender, receiver, second), link = quality.link(sender, receiver);
+        ASSERT_EQ(link.receptions, expected.receptions) << second;
+        ASSERT_EQ(link.lost, expected.lost) << second;
+        each = each && expected.in_contract();
+      }
+      EXPECT_EQ(quality.all_in_contract(receiver), each) << second;
+      ++(each ? kept : broken);
     }
   }
   EXPECT_GT(broken, 100);
+  EXPECT_GT(kept, 100);
+}
+
+// Of ten seconds of delays of 1 s, 2 s, ... the longest leaves the window when its second does.
+TEST(LinkQuality, TheLongestDelayOfTheWindow) {
+  LinkQuality quality(kAgvs);
+  for (std::int64_t second = 0; second < 60; ++second) {
+    const std::int64_t delay_s = 1 + second * 7 % 13;
+    const SimTime there = kStart + std::chrono::seconds(second) + std::chrono::milliseconds(500);
+    quality.note(trace_record(there - std::chrono::seconds(delay_s), AgvId{0U},
+                              traced::Sent{AgvId{1U}, static_cast<std::uint64_t>(second), 0}));
+    quality.note(trace_record(there, AgvId{1U},
+                              traced::Reception{TraceKind::Received, AgvId{0U}, static_cast<std::uint64_t>(second)}));
+    quality.end_second(second);
+    std::int64_t longest_s = 0;
+    for (std::int64_t i = std::max<std::int64_t>(0, second - 9); i <= second; ++i)
+      longest_s = std::max(longest_s, 1 + i * 7 % 13);
+    EXPECT_EQ(quality.link(0, 1).longest, std::chrono::seconds(longest_s)) << second;
+  }
 }
 
 // However much a sender says in between, and although it says the same to another receiver.
@@ -44,10 +94,12 @@ TEST(LinkQuality, NoDelayIsForgotten) {
   sends(1, 7);
   for (std::uint64_t i = 0; i < 10'000; ++i) sends(2, 1000 + i);
   quality.note(trace_record(kStart + std::chrono::seconds(4), AgvId{0U}, traced::Sent{AgvId{2U}, 7, 0}));
+  for (std::int64_t second = 0; second < 5; ++second) quality.end_second(second);
   const SimTime there = kStart + std::chrono::seconds(5);
   quality.note(trace_record(there, AgvId{1U}, traced::Reception{TraceKind::Received, AgvId{0U}, 7}));
-  EXPECT_EQ(quality.link(0, 1, 5).longest, std::chrono::seconds(5));
-  EXPECT_FALSE(quality.all_in_contract(1, 5));
+  quality.end_second(5);
+  EXPECT_EQ(quality.link(0, 1).longest, std::chrono::seconds(5));
+  EXPECT_FALSE(quality.all_in_contract(1));
 }
 
 }  // namespace
