@@ -39,7 +39,7 @@ ReportInput read_report_input(const ArchiveReader& archive, std::string archive_
                     {},
                     0,
                     4};
-  archive.for_each_run([&](const RunRecord& run) {
+  const auto count = [&](const RunRecord& run) {
     ++input.stored_runs;
     input.audits.add_run(run);
     if (run.run_index != input.evidence.runs()) return;
@@ -47,7 +47,8 @@ ReportInput read_report_input(const ArchiveReader& archive, std::string archive_
     input.breakdown.add(run);
     input.failures.add(run, input.evidence.cells()[run.cell].agent);
     if (also) also(run, input.evidence);
-  });
+  };
+  archive.for_each_run(count, [&](std::uint32_t cell, const auto& met) { input.evidence.add_met(cell, met); });
   archive.for_each_audit([&](const AuditRecord& audit, bool same) {
     if (audit.run_index < input.evidence.runs()) input.audits.add_audit(audit.run_index, same);
   });

@@ -3,7 +3,6 @@
 #include <SQLiteCpp/Database.h>
 #include <SQLiteCpp/Statement.h>
 #include <fmt/format.h>
-#include <sqlite3.h>
 
 #include <array>
 #include <bit>
@@ -11,30 +10,14 @@
 #include "core/base/error.hpp"
 #include "storage/checksum.hpp"
 #include "storage/opened_file.hpp"
+#include "storage/plan_rows.hpp"
 #include "storage/rows.hpp"
 #include "storage/schema.hpp"
+#include "storage/snapshot.hpp"
 #include "storage/sqlite_errors.hpp"
 
 namespace fleetproof {
 namespace {
-
-// All statements see one state of the file, even while a campaign writes it. A snapshot inside a snapshot is the same
-// state.
-class Snapshot {
- public:
-  explicit Snapshot(SQLite::Database& db) : db_(db), outermost_(sqlite3_get_autocommit(db.getHandle()) != 0) {
-    if (outermost_) db_.exec("BEGIN");
-  }
-  ~Snapshot() {
-    if (outermost_) db_.tryExec("ROLLBACK");
-  }
-  Snapshot(const Snapshot&) = delete;
-  Snapshot& operator=(const Snapshot&) = delete;
-
- private:
-  SQLite::Database& db_;
-  bool outermost_;
-};
 
 // A table that holds parts of runs, by run and ordinal.
 struct PartTable {
@@ -77,6 +60,7 @@ struct ArchiveReader::Impl {
   std::int32_t schema = kSchemaVersion;
   bool published = false;
   std::optional<std::uint64_t> sealed_count, seal;  // absent in a live file
+  std::optional<FoldedContent> fold;                // absent if all runs have rows
 
   void open();
   void read_plan();
@@ -84,8 +68,13 @@ struct ArchiveReader::Impl {
   void take_part(const PartTable& table, const SQLite::Statement& row, StoredRun& stored) const;
   void verify(const StoredRun& stored) const;
   void require_sealed(std::uint64_t count, const RowsDigest& rows, SealedContent& content) const;
-  void require_chunks(const std::vector<ChunkRecord>& chunks) const;
-  std::uint64_t read_all(const std::function<void(const RunRecord&)>& visit) const;
+  std::vector<ChunkRecord> stored_chunks() const;
+  void require_content(std::uint64_t count, std::uint64_t content) const;
+  void add_rest(SealedContent& content) const;
+  std::uint64_t read_all(const std::function<void(const RunRecord&)>& visit, const VisitMet& visit_met = {}) const;
+  std::uint64_t read_rows(const std::function<void(const RunRecord&)>& visit) const;
+  class Rows;
+  std::uint64_t read_folded_file(const std::function<void(const RunRecord&)>& visit, const VisitMet& visit_met) const;
 
   // Turns errors of SQLite into errors of this program.
   template <class Action>
@@ -112,13 +101,17 @@ void ArchiveReader::Impl::open() {
 }
 
 void ArchiveReader::Impl::read_plan() {
-  SQLite::Statement row(*db, fmt::format("SELECT {}, run_count, {} AS seal FROM campaign", campaign_values(schema),
-                                         schema < kFirstSealed ? "rows_digest" : "seal"));
+  const char* const fold_values = schema < kFirstFolded ? "NULL AS all_rows, NULL AS repeated"
+                                                        : "rows_digest AS all_rows, repeated_traces AS repeated";
+  SQLite::Statement row(*db, fmt::format("SELECT {}, run_count, {}, {} AS seal FROM campaign", campaign_values(schema),
+                                         fold_values, schema < kFirstSealed ? "rows_digest" : "seal"));
   if (!row.executeStep()) damaged("it holds no plan");
   campaign = read_campaign(row);
   if (campaign.chunk_runs == 0) damaged("its chunks have no runs");
   plan = read_plan_checksum(row);
   sealed_count = maybe(row.getColumn("run_count"));
+  if (const auto all_rows = maybe(row.getColumn("all_rows")))
+    fold = {0, *all_rows, maybe(row.getColumn("repeated")).value_or(0), 0, 0};
   seal = maybe(row.getColumn("seal"));
   if (published && !(sealed_count && seal)) damaged("it was published, but has no seal");
   SQLite::Statement cell_rows(*db, fmt::format("SELECT {} FROM cells ORDER BY cell", cell_values(schema)));
@@ -156,64 +149,131 @@ void ArchiveReader::Impl::verify(const StoredRun& stored) const {
   if (!sound) damaged(fmt::format("run {} does not match its checksum", run.run_index));
 }
 
-void ArchiveReader::Impl::require_chunks(const std::vector<ChunkRecord>& chunks) const {
+std::vector<ChunkRecord> ArchiveReader::Impl::stored_chunks() const {
   std::vector<ChunkRecord> stored;
   SQLite::Statement rows(*db, fmt::format("SELECT {} FROM chunks ORDER BY chunk", kChunkColumns));
   while (rows.executeStep()) stored.push_back(read_chunk(rows));
-  if (stored != chunks) damaged("its chunks are not those that were published");
+  return stored;
+}
+
+void ArchiveReader::Impl::add_rest(SealedContent& content) const {
+  try {
+    content.add_rest(*db);
+  } catch (const EngineError& e) {
+    damaged(e.what());
+  }
+}
+
+void ArchiveReader::Impl::require_content(std::uint64_t count, std::uint64_t content) const {
+  if (count != *sealed_count) damaged(fmt::format("it was published with {} runs and holds {}", *sealed_count, count));
+  if (schema >= kFirstSealed) content = seal_of(schema_text(*db), plan, count, content);
+  if (content != seal) damaged("its tables, views, plan or runs are not those that were published");
 }
 
 void ArchiveReader::Impl::require_sealed(std::uint64_t count, const RowsDigest& rows, SealedContent& content) const {
-  if (count != *sealed_count) damaged(fmt::format("it was published with {} runs and holds {}", *sealed_count, count));
-  std::uint64_t now = rows.value();
-  if (schema >= kFirstChunked) {
-    try {
-      content.add_rest(*db);
-    } catch (const EngineError& e) {
-      damaged(e.what());
-    }
-    require_chunks(content.chunks());
-    now = content.digest();
-  }
-  if (schema >= kFirstSealed) now = seal_of(schema_text(*db), plan, count, now);
-  if (now != seal) damaged("its tables, views, plan or runs are not those that were published");
+  if (schema < kFirstChunked) return require_content(count, rows.value());
+  add_rest(content);
+  if (stored_chunks() != content.chunks()) damaged("its chunks are not those that were published");
+  require_content(count, content.digest());
 }
 
-// The tables are stored in the order of their keys, so one pass over each is enough. Returns the digest of the rows.
-std::uint64_t ArchiveReader::Impl::read_all(const std::function<void(const RunRecord&)>& visit) const {
-  const Snapshot snapshot(*db);
-  SQLite::Statement runs(*db, fmt::format("SELECT {} FROM runs ORDER BY run_index", run_values(schema)));
-  struct Cursor {
+// The rows of runs with their parts. The tables are stored in the order of their keys, so one pass over each is enough.
+class ArchiveReader::Impl::Rows {
+ public:
+  explicit Rows(const Impl& file)
+      : file_(file), runs_(*file.db, fmt::format("SELECT {} FROM runs ORDER BY run_index", run_values(file.schema))) {
+    for (const auto& table : part_tables()) {
+      SQLite::Statement rows(*file.db, fmt::format("SELECT {} FROM {} ORDER BY run_index, ordinal",
+                                                   table.values(file.schema), table.name));
+      const bool more = rows.executeStep();
+      parts_.push_back({table, std::move(rows), more});
+    }
+  }
+
+  // Nothing after the last. The checksum was right.
+  std::optional<StoredRun> next() {
+    if (!runs_.executeStep()) {
+      require_end();
+      return std::nullopt;
+    }
+    auto stored = file_.take_run(runs_);
+    for (auto& part : parts_) {
+      for (; part.more && run_of(part.rows) == stored.run.run_index; part.more = part.rows.executeStep())
+        file_.take_part(part.table, part.rows, stored);
+    }
+    file_.verify(stored);
+    digest_.add(stored.checksum);
+    return stored;
+  }
+  const RowsDigest& digest() const { return digest_; }
+
+ private:
+  struct Part {
     const PartTable& table;
     SQLite::Statement rows;
     bool more;
   };
-  std::vector<Cursor> parts;
-  for (const auto& table : part_tables()) {
-    SQLite::Statement rows(
-        *db, fmt::format("SELECT {} FROM {} ORDER BY run_index, ordinal", table.values(schema), table.name));
-    const bool more = rows.executeStep();
-    parts.push_back({table, std::move(rows), more});
+  void require_end() const {
+    for (const auto& part : parts_) {
+      if (part.more)
+        file_.damaged(fmt::format("it holds {} of run {}, but not the run", part.table.name, run_of(part.rows)));
+    }
   }
-  RowsDigest digest;
+
+  const Impl& file_;
+  SQLite::Statement runs_;
+  std::vector<Part> parts_;
+  RowsDigest digest_;
+};
+
+// Returns the digest of the rows, also of those that are folded.
+std::uint64_t ArchiveReader::Impl::read_all(const std::function<void(const RunRecord&)>& visit,
+                                            const VisitMet& visit_met) const {
+  const Snapshot snapshot(*db);
+  if (!fold) return read_rows(visit);
+  try {
+    return read_folded_file(visit, visit_met);
+  } catch (const BrokenFold& e) {
+    damaged(e.what());
+  }
+}
+
+std::uint64_t ArchiveReader::Impl::read_rows(const std::function<void(const RunRecord&)>& visit) const {
+  Rows rows(*this);
   SealedContent content(campaign.chunk_runs);
   std::uint64_t count = 0;
-  for (; runs.executeStep(); ++count) {
-    auto stored = take_run(runs);
-    for (auto& part : parts) {
-      for (; part.more && run_of(part.rows) == stored.run.run_index; part.more = part.rows.executeStep())
-        take_part(part.table, part.rows, stored);
+  for (; const auto stored = rows.next(); ++count) {
+    content.add_run(count, stored->checksum);
+    visit(stored->run);
+  }
+  if (sealed_count) require_sealed(count, rows.digest(), content);
+  return rows.digest().value();
+}
+
+std::uint64_t ArchiveReader::Impl::read_folded_file(const std::function<void(const RunRecord&)>& visit,
+                                                    const VisitMet& visit_met) const {
+  if (!sealed_count) damaged("it is folded, but has no seal");
+  Rows rows(*this);
+  FoldedRows folded(*db, cells, visit_met);
+  auto kept = rows.next();
+  std::uint64_t index = 0;
+  for (; index < *sealed_count; ++index) {
+    if (const auto known = folded.next(index)) {
+      visit(*known);
+      continue;
     }
-    verify(stored);
-    digest.add(stored.checksum);
-    content.add_run(count, stored.checksum);
-    visit(stored.run);
+    if (!kept || kept->run.run_index != index) damaged(fmt::format("run {} is neither folded nor kept", index));
+    visit(kept->run);
+    kept = rows.next();
   }
-  for (const auto& part : parts) {
-    if (part.more) damaged(fmt::format("it holds {} of run {}, but not the run", part.table.name, run_of(part.rows)));
-  }
-  if (sealed_count) require_sealed(count, digest, content);
-  return digest.value();
+  if (kept) damaged(fmt::format("run {} is beside the folded runs", kept->run.run_index));
+  SealedContent content(campaign.chunk_runs);
+  for (const ChunkRecord& chunk : stored_chunks()) content.add_chunk(chunk);
+  add_rest(content);
+  const FoldedContent found{content.digest(), fold->rows, fold->repeated_traces, rows.digest().value(),
+                            folded.digest()};
+  require_content(index, digest_of(found));
+  return fold->rows;
 }
 
 ArchiveReader::ArchiveReader(const std::string& path, Checksums checksums) : impl_(std::make_unique<Impl>()) {
@@ -233,6 +293,23 @@ std::uint64_t ArchiveReader::run_count() const {
   if (impl_->sealed_count) return *impl_->sealed_count;
   return impl_->guarded(
       [&] { return static_cast<std::uint64_t>(impl_->db->execAndGet("SELECT count(*) FROM runs").getInt64()); });
+}
+
+bool ArchiveReader::is_folded() const { return impl_->fold.has_value(); }
+
+std::optional<std::uint64_t> ArchiveReader::repeated_traces() const {
+  return impl_->fold ? std::optional(impl_->fold->repeated_traces) : std::nullopt;
+}
+
+std::optional<KnownRun> ArchiveReader::folded_run(std::uint64_t run_index) const {
+  if (!is_folded()) return std::nullopt;
+  return impl_->guarded([&] {
+    try {
+      return find_folded(*impl_->db, impl_->cells, run_index);
+    } catch (const BrokenFold& e) {
+      impl_->damaged(e.what());
+    }
+  });
 }
 
 std::optional<RunRecord> ArchiveReader::run(std::uint64_t run_index) const {
@@ -258,9 +335,10 @@ void ArchiveReader::for_each_audit(const std::function<void(const AuditRecord&, 
   if (impl_->schema < kFirstChunked) return;
   impl_->guarded([&] {
     const Snapshot snapshot(*impl_->db);
-    SQLite::Statement rows(*impl_->db,
-                           "SELECT a.run_index, a.checksum, a.checksum = r.checksum FROM audits a JOIN runs r ON "
-                           "r.run_index = a.run_index ORDER BY a.run_index");
+    SQLite::Statement rows(
+        *impl_->db, fmt::format("SELECT a.run_index, a.checksum, coalesce(a.checksum = r.checksum, 1) FROM audits a "
+                                "{} JOIN runs r ON r.run_index = a.run_index ORDER BY a.run_index",
+                                is_folded() ? "LEFT" : ""));
     while (rows.executeStep()) visit(read_audit(rows), rows.getColumn(2).getInt() != 0);
   });
 }
@@ -290,8 +368,8 @@ std::uint64_t ArchiveReader::recording_count(const std::string& agent) const {
   });
 }
 
-void ArchiveReader::for_each_run(const std::function<void(const RunRecord&)>& visit) const {
-  impl_->guarded([&] { impl_->read_all(visit); });
+void ArchiveReader::for_each_run(const std::function<void(const RunRecord&)>& visit, const VisitMet& visit_met) const {
+  impl_->guarded([&] { impl_->read_all(visit, visit_met); });
 }
 
 std::uint64_t ArchiveReader::content_digest() const {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "storage/folded_rows.hpp"
 #include "storage/records.hpp"
 
 namespace fleetproof {
@@ -30,9 +31,16 @@ class ArchiveReader {
   const std::vector<CellRecord>& cells() const;
   const std::vector<GateRecord>& gates() const;
   std::uint64_t run_count() const;
+  // Whether runs in which nothing went wrong have no rows of their own.
+  bool is_folded() const;
+  // Of a folded file: how many runs have the trace that another run of their cell had before.
+  std::optional<std::uint64_t> repeated_traces() const;
+  // Nothing if the file does not have the run, or if it is folded.
   std::optional<RunRecord> run(std::uint64_t run_index) const;
-  // All runs with all their parts, in order of run index.
-  void for_each_run(const std::function<void(const RunRecord&)>& visit) const;
+  std::optional<KnownRun> folded_run(std::uint64_t run_index) const;
+  // All runs with all their parts, in order of run index; of a folded run, what is known of it. What folded runs met is
+  // known of many runs together: `visit_met`.
+  void for_each_run(const std::function<void(const RunRecord&)>& visit, const VisitMet& visit_met = {}) const;
   // The audits of stored runs, in order of run index. `same`: the audit came out as the run did.
   void for_each_audit(const std::function<void(const AuditRecord& audit, bool same)>& visit) const;
   // What the agents of a run did. Throws EngineError if it is damaged.

@@ -13,6 +13,7 @@
 #include "storage/checksum.hpp"
 #include "storage/durable_file.hpp"
 #include "storage/live_file.hpp"
+#include "storage/plan_rows.hpp"
 #include "storage/row_store.hpp"
 #include "storage/rows.hpp"
 #include "storage/schema.hpp"
@@ -122,6 +123,10 @@ void ArchiveWriter::Impl::create(const CampaignRecord& campaign, const std::vect
 void ArchiveWriter::Impl::go_on(CampaignRecord campaign, const std::vector<CellRecord>& cell_records,
                                 const std::vector<GateRecord>& gates, const Resumption& resumption) {
   auto stored = std::make_unique<ArchiveReader>(live_path);
+  if (stored->is_folded())
+    throw InputError(path,
+                     "its runs without a failure are folded (keep = \"failing\"), so this campaign cannot go on; "
+                     "give another name with --db, or --overwrite to begin again");
   resumption.check(stored->campaign(), campaign);
   stored->for_each_run(resumption.visit);
   stored->for_each_audit(resumption.visit_audit);
@@ -250,11 +255,11 @@ void ArchiveWriter::commit() {
   impl_->or_drop([&] { impl_->commit(); });
 }
 
-void ArchiveWriter::publish(std::uint64_t stop_index) {
+void ArchiveWriter::publish(std::uint64_t stop_index, const MayFold& may_fold) {
   ensure(impl_->db != nullptr, "an archive is published once, and not after an error");
   const auto unfinished = impl_->path + ".unfinished";
   impl_->or_drop([&] { impl_->close(); });
-  write_canonical_file(impl_->live_path, unfinished, stop_index);
+  write_canonical_file(impl_->live_path, unfinished, stop_index, may_fold);
   try {
     require_free_name(impl_->path, impl_->existing);
   } catch (const InputError&) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "storage/fold.hpp"
 #include "storage/records.hpp"
 
 namespace fleetproof {
@@ -47,9 +48,10 @@ class ArchiveWriter {
 
   // Writes the canonical file: only rows below `stop_index`, with fixed page size and order, without a journal, and
   // without the recordings of agents that came out the same in every audit. The bytes do not depend on the order of
-  // `add`. Then renames the file to `path`, removes the live file and releases the lock. The writer is closed
-  // afterwards.
-  void publish(std::uint64_t stop_index);
+  // `add`. With `may_fold`, a campaign whose file keeps the failing runs only (Keep) folds the others; the campaign
+  // must then be complete, for a folded file cannot go on. Then renames the file to `path`, removes the live file and
+  // releases the lock. The writer is closed afterwards.
+  void publish(std::uint64_t stop_index, const MayFold& may_fold = {});
   // Instead: removes the live file and all that was added. The writer is closed afterwards.
   void discard();
 

@@ -9,6 +9,7 @@
 #include <bit>
 #include <filesystem>
 #include <limits>
+#include <optional>
 
 #include "storage/checksum.hpp"
 #include "storage/opened_file.hpp"
@@ -28,53 +29,95 @@ void fix_format(SQLite::Database& db) {
   db.exec("PRAGMA journal_mode=DELETE; PRAGMA synchronous=FULL");
 }
 
-void copy_rows(SQLite::Database& db, std::uint64_t stop_index) {
+void copy_plan(SQLite::Database& db) {
   db.exec(fmt::format("INSERT INTO campaign ({0}) SELECT {0} FROM live.campaign ORDER BY id", kCampaignColumns));
   db.exec(fmt::format("INSERT INTO cells ({0}) SELECT {0} FROM live.cells ORDER BY cell", cell_columns()));
   db.exec(fmt::format("INSERT INTO gates ({0}) SELECT {0} FROM live.gates ORDER BY gate", gate_columns()));
-  const auto copy_below_stop = [&](const std::string& table, const std::string& columns, const std::string& key) {
-    SQLite::Statement copy(
-        db, fmt::format("INSERT INTO {0} ({1}) SELECT {1} FROM live.{0} WHERE run_index < ? ORDER BY {2}", table,
-                        columns, key));
-    copy.bind(1,
-              static_cast<std::int64_t>(std::min<std::uint64_t>(stop_index, std::numeric_limits<std::int64_t>::max())));
-    copy.exec();
-  };
-  copy_below_stop("runs", run_columns(), "run_index");
-  copy_below_stop("violations", violation_columns(), "run_index, ordinal");
-  copy_below_stop("incidents", kIncidentColumns, "run_index, ordinal");
-  copy_below_stop("probes", kProbeColumns, "run_index, ordinal");
-  copy_below_stop("audits", kAuditColumns, "run_index");
-  // Runs of software that has passed its audits are replayed from their seeds. A row that is never written
-  // leaves no trace in the file, one that is deleted would.
-  db.exec(
-      fmt::format("INSERT INTO recordings ({}) SELECT x.run_index, x.calls, x.checksum FROM live.recordings x JOIN "
-                  "main.runs r ON r.run_index = x.run_index JOIN main.cells c ON c.cell = r.cell WHERE c.agent NOT "
-                  "IN (SELECT agent FROM main.v1_audits GROUP BY agent HAVING min(same) = 1 AND count(*) >= {}) "
-                  "ORDER BY x.run_index",
-                  kRecordingColumns, kAuditsToPass));
 }
 
-// With the count and the seal, a lost or added row and a changed view are noticed too, not only a changed row.
-void seal(SQLite::Database& db) {
-  const auto number = [&](const char* query) { return std::bit_cast<std::uint64_t>(db.execAndGet(query).getInt64()); };
-  SealedContent content(number("SELECT chunk_runs FROM main.campaign"));
-  std::int64_t count = 0;
-  SQLite::Statement rows(db, "SELECT checksum FROM main.runs ORDER BY run_index");
-  for (; rows.executeStep(); ++count)
-    content.add_run(static_cast<std::uint64_t>(count), std::bit_cast<std::uint64_t>(rows.getColumn(0).getInt64()));
-  content.add_rest(db);
+// As SQL: rows below the stop; of folded runs, only those that are kept.
+class CopiedRows {
+ public:
+  CopiedRows(SQLite::Database& db, std::uint64_t stop_index, bool folded)
+      : db_(db),
+        below_stop_(fmt::format("run_index < {}", std::min<std::uint64_t>(stop_index, kLargest))),
+        kept_(below_stop_ + (folded ? " AND run_index IN (SELECT run_index FROM temp.kept)" : "")) {}
+
+  void copy() {
+    copy("runs", run_columns(), "run_index", kept_);
+    copy("violations", violation_columns(), "run_index, ordinal", kept_);
+    copy("incidents", kIncidentColumns, "run_index, ordinal", kept_);
+    copy("probes", kProbeColumns, "run_index, ordinal", kept_);
+    copy("audits", kAuditColumns, "run_index", below_stop_);
+    // Runs of software that has passed its audits are replayed from their seeds. A row that is never written
+    // leaves no trace in the file, one that is deleted would.
+    db_.exec(fmt::format(
+        "INSERT INTO recordings ({}) SELECT x.run_index, x.calls, x.checksum FROM live.recordings x JOIN main.runs r "
+        "ON r.run_index = x.run_index JOIN main.cells c ON c.cell = r.cell WHERE c.agent NOT IN (SELECT agent FROM "
+        "main.v1_audits GROUP BY agent HAVING min(same) = 1 AND count(*) >= {}) ORDER BY x.run_index",
+        kRecordingColumns, kAuditsToPass));
+  }
+  const std::string& below_stop() const { return below_stop_; }
+
+ private:
+  static constexpr std::uint64_t kLargest = std::numeric_limits<std::int64_t>::max();
+
+  void copy(const std::string& table, const std::string& columns, const std::string& key, const std::string& which) {
+    db_.exec(fmt::format("INSERT INTO {0} ({1}) SELECT {1} FROM live.{0} WHERE {2} ORDER BY {3}", table, columns, which,
+                         key));
+  }
+
+  SQLite::Database& db_;
+  std::string below_stop_, kept_;
+};
+
+std::uint64_t number(const SQLite::Statement& row) { return std::bit_cast<std::uint64_t>(row.getColumn(0).getInt64()); }
+
+std::uint64_t checksums_digest(SQLite::Database& db, const char* checksums) {
+  RowsDigest digest;
+  SQLite::Statement rows(db, checksums);
+  while (rows.executeStep()) digest.add(number(rows));
+  return digest.value();
+}
+
+void insert_chunks(SQLite::Database& db, const std::vector<ChunkRecord>& chunks) {
   SQLite::Statement insert(db, fmt::format("INSERT INTO main.chunks ({}) VALUES (?, ?, ?)", kChunkColumns));
-  for (const ChunkRecord& chunk : content.chunks()) {
+  for (const ChunkRecord& chunk : chunks) {
     insert.reset();
     bind_chunk(insert, chunk);
     insert.exec();
   }
-  const auto seal = seal_of(schema_text(db), number("SELECT plan_checksum FROM main.campaign"),
-                            static_cast<std::uint64_t>(count), content.digest());
-  SQLite::Statement update(db, "UPDATE main.campaign SET run_count = ?, seal = ?");
-  update.bind(1, count);
-  update.bind(2, std::bit_cast<std::int64_t>(seal));
+}
+
+// With the count and the seal, a lost or added row and a changed view are noticed too, not only a changed row. The
+// chunks are those of all runs, folded or not.
+void seal(SQLite::Database& db, const std::string& below_stop, bool folded) {
+  const auto one = [&](const char* query) { return std::bit_cast<std::uint64_t>(db.execAndGet(query).getInt64()); };
+  SealedContent content(one("SELECT chunk_runs FROM main.campaign"));
+  RowsDigest all;
+  std::uint64_t count = 0;
+  SQLite::Statement rows(db, fmt::format("SELECT checksum FROM live.runs WHERE {} ORDER BY run_index", below_stop));
+  for (; rows.executeStep(); ++count) {
+    content.add_run(count, number(rows));
+    all.add(number(rows));
+  }
+  content.add_rest(db);
+  insert_chunks(db, content.chunks());
+  std::optional<FoldedContent> fold;
+  if (folded)
+    fold = {content.digest(), all.value(), repeated_traces(db),
+            checksums_digest(db, "SELECT checksum FROM main.runs ORDER BY run_index"),
+            checksums_digest(db, "SELECT checksum FROM main.folded ORDER BY place")};
+  const auto seal = seal_of(schema_text(db), one("SELECT plan_checksum FROM main.campaign"), count,
+                            fold ? digest_of(*fold) : content.digest());
+  SQLite::Statement update(db,
+                           "UPDATE main.campaign SET run_count = ?, rows_digest = ?, repeated_traces = ?, seal = ?");
+  update.bind(1, static_cast<std::int64_t>(count));
+  if (fold) {
+    update.bind(2, std::bit_cast<std::int64_t>(fold->rows));
+    update.bind(3, static_cast<std::int64_t>(fold->repeated_traces));
+  }
+  update.bind(4, std::bit_cast<std::int64_t>(seal));
   update.exec();
 }
 
@@ -86,7 +129,8 @@ void remove_with_journal(const std::string& path) {
 
 }  // namespace
 
-void write_canonical_file(const std::string& live_path, const std::string& target, std::uint64_t stop_index) {
+void write_canonical_file(const std::string& live_path, const std::string& target, std::uint64_t stop_index,
+                          const MayFold& may_fold) {
   remove_with_journal(target);
   try {
     SQLite::Database db(target, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
@@ -97,8 +141,12 @@ void write_canonical_file(const std::string& live_path, const std::string& targe
     SQLite::Transaction transaction(db);
     db.exec(fmt::format("PRAGMA main.application_id={}; PRAGMA main.user_version={}", kApplicationId, kSchemaVersion));
     db.exec(schema_ddl());
-    copy_rows(db, stop_index);
-    seal(db);
+    copy_plan(db);
+    const bool folded = may_fold != nullptr;
+    if (folded) fold_runs(db, live_path, may_fold);
+    CopiedRows rows(db, stop_index, folded);
+    rows.copy();
+    seal(db, rows.below_stop(), folded);
     transaction.commit();
   } catch (const SQLite::Exception&) {
     remove_with_journal(target);

@@ -111,6 +111,14 @@ std::uint64_t plan_checksum(const CampaignRecord& campaign, const std::vector<Ce
 
 std::uint64_t recording_checksum(const std::string& calls) { return XXH3_64bits(calls.data(), calls.size()); }
 
+std::uint64_t folded_checksum(const FoldedRow& row) {
+  Bytes bytes;
+  bytes << row.place << std::uint64_t{row.cell} << row.runs << row.transports_done << row.simulated_ns
+        << std::uint64_t{row.agv_count} << std::uint64_t{row.min_clearance_um.has_value()}
+        << static_cast<std::uint64_t>(row.min_clearance_um.value_or(0)) << row.content;
+  return bytes.hash();
+}
+
 struct RowsDigest::State {
   XXH3_state_t* hash = XXH3_createState();
   State() {
@@ -135,6 +143,11 @@ std::uint64_t RowsDigest::value() const { return XXH3_64bits_digest(state_->hash
 void RowsDigest::reset() { XXH3_64bits_reset(state_->hash); }
 
 std::uint64_t content_digest_of(std::uint64_t plan, std::uint64_t rows) { return (Bytes{} << plan << rows).hash(); }
+
+std::uint64_t digest_of(const FoldedContent& content) {
+  return (Bytes{} << content.content << content.rows << content.repeated_traces << content.kept << content.folded)
+      .hash();
+}
 
 std::uint64_t seal_of(const std::string& schema_text, std::uint64_t plan, std::uint64_t run_count,
                       std::uint64_t content) {

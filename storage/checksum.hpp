@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "storage/folded_cell.hpp"
 #include "storage/records.hpp"
 #include "storage/schema.hpp"
 
@@ -18,8 +19,17 @@ std::uint64_t row_checksum(const RunRecord& run, std::int32_t schema = kSchemaVe
 std::uint64_t plan_checksum(const CampaignRecord& campaign, const std::vector<CellRecord>& cells,
                             const std::vector<GateRecord>& gates, std::int32_t schema = kSchemaVersion);
 
+// Two runs of a cell with the same trace have the same key.
+constexpr std::uint64_t trace_key(std::uint32_t cell, std::uint64_t trace_digest) {
+  constexpr std::uint64_t kOdd = 0x9E3779B97F4A7C15;
+  return trace_digest ^ (cell * kOdd);
+}
+
 // XXH3 over the bytes of a recording.
 std::uint64_t recording_checksum(const std::string& calls);
+
+// XXH3 over a row of folded runs.
+std::uint64_t folded_checksum(const FoldedRow& row);
 
 // One digest over the checksums of many rows. Requires: the rows come in order of run index.
 class RowsDigest {
@@ -40,6 +50,15 @@ class RowsDigest {
 
 // A digest of the whole content: the plan's checksum and all rows.
 std::uint64_t content_digest_of(std::uint64_t plan, std::uint64_t rows);
+
+// What a folded file is sealed with instead of its content.
+struct FoldedContent {
+  std::uint64_t content = 0;           // of the file with all rows
+  std::uint64_t rows = 0;              // digest of all rows
+  std::uint64_t repeated_traces = 0;   // runs whose trace another run of their cell had before
+  std::uint64_t kept = 0, folded = 0;  // digests of the rows that it keeps, and of its folded rows
+};
+std::uint64_t digest_of(const FoldedContent& content);
 
 // What a published file is sealed with: the text of all its tables and views, the plan's checksum, the number of runs
 // and its content (sealed_content.hpp; in schema 6 the rows of runs). `schema_text` comes from the file itself.

@@ -37,6 +37,20 @@ struct EngineIdentity {
 
 inline constexpr std::uint64_t kChunkRuns = 4096;
 
+// Which runs a published file keeps as rows of their own. Failing: those in which something went wrong, and a few
+// others; the rest is folded (fold.hpp). It decides no outcome and no figure, so it is not part of the campaign's
+// identity.
+enum class Keep : std::uint8_t { All, Failing };
+constexpr const char* name_of(Keep keep) {
+  switch (keep) {
+    case Keep::All:
+      return "all";
+    case Keep::Failing:
+      return "failing";
+  }
+  return kNoWord;
+}
+
 struct CampaignRecord {
   std::string name, kind;  // kind: "claim" (rates and bounds) or "search" (counts only)
   std::uint64_t seed = 0, replicates = 0;
@@ -60,6 +74,7 @@ struct CampaignRecord {
   // Runs [k x chunk_runs, (k + 1) x chunk_runs) are chunk k: what one machine does of a campaign that many share. Part
   // of the campaign's identity; the number of runs is not, so that a campaign can grow.
   std::uint64_t chunk_runs = kChunkRuns;
+  Keep keep = Keep::All;
   friend bool operator==(const CampaignRecord&, const CampaignRecord&) = default;
 };
 
@@ -71,6 +86,9 @@ struct RunRecord {
   std::uint64_t scenario_digest = 0;  // of the canonical scenario text
   FactorValues factors;               // the cell's, or what the replicate drew within its bounds
   Outcome outcome;
+  // The run was folded: of its outcome only transports, safe mode, smallest clearance, time and AGVs are known. All
+  // else is as in a run in which nothing went wrong.
+  bool folded = false;
   // What the agents did, as a CallTape (core/engine) has it; empty: nothing was recorded. Not part of the outcome.
   std::string recording{};
 };

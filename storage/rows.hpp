@@ -3,8 +3,10 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "storage/folded_cell.hpp"
 #include "storage/records.hpp"
 #include "storage/sealed_content.hpp"
 
@@ -16,9 +18,6 @@ namespace fleetproof {
 
 // Conversion between records and rows. Binds a record to an INSERT, and reads a record from a SELECT. Both use the
 // column lists of schema.hpp. What is bound is not copied: the record must live until the statement has run.
-void bind_campaign(SQLite::Statement& insert, const CampaignRecord& campaign, std::uint64_t plan_checksum);
-void bind_cell(SQLite::Statement& insert, const CellRecord& cell);
-void bind_gate(SQLite::Statement& insert, const GateRecord& gate);
 void bind_run(SQLite::Statement& insert, const RunRecord& run, std::uint64_t checksum);
 // `first`: the parameter to begin with. One statement may take several of them.
 void bind_incident(SQLite::Statement& insert, int first, std::uint64_t run_index, std::size_t ordinal,
@@ -32,12 +31,7 @@ void bind_recording(SQLite::Statement& insert, std::uint64_t run_index, const st
 
 void bind_audit(SQLite::Statement& insert, const AuditRecord& audit);
 void bind_chunk(SQLite::Statement& insert, const ChunkRecord& chunk);
-
-CampaignRecord read_campaign(const SQLite::Statement& row);
-std::uint64_t read_plan_checksum(const SQLite::Statement& row);
-CellRecord read_cell(const SQLite::Statement& row);
-// Throws EngineError if the word is not a word of a gate.
-GateRecord read_gate(const SQLite::Statement& row);
+void bind_folded(SQLite::Statement& insert, const FoldedRow& row, std::uint64_t checksum);
 
 // A row as stored. Its outcome has no violations, incidents and probes yet.
 struct StoredRun {
@@ -52,5 +46,7 @@ Incident read_incident(const SQLite::Statement& row);
 ProbeCount read_probe(const SQLite::Statement& row);
 AuditRecord read_audit(const SQLite::Statement& row);
 ChunkRecord read_chunk(const SQLite::Statement& row);
+// And the checksum that is stored with it.
+std::pair<FoldedRow, std::uint64_t> read_folded(const SQLite::Statement& row);
 
 }  // namespace fleetproof

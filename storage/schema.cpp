@@ -37,7 +37,10 @@ CREATE TABLE campaign (
   plugin_agents TEXT NOT NULL,
   plan_checksum INTEGER NOT NULL,
   chunk_runs INTEGER NOT NULL,
+  keep TEXT NOT NULL,
   run_count INTEGER,
+  rows_digest INTEGER,
+  repeated_traces INTEGER,
   seal INTEGER
 ) STRICT, WITHOUT ROWID;
 CREATE TABLE cells (
@@ -138,6 +141,17 @@ CREATE TABLE chunks (
   run_count INTEGER NOT NULL,
   digest INTEGER NOT NULL
 ) STRICT, WITHOUT ROWID;
+CREATE TABLE folded (
+  place INTEGER PRIMARY KEY,
+  cell INTEGER NOT NULL,
+  runs INTEGER NOT NULL,
+  transports_done INTEGER NOT NULL,
+  simulated_ns INTEGER NOT NULL,
+  agv_count INTEGER NOT NULL,
+  min_clearance_um INTEGER,
+  content BLOB NOT NULL,
+  checksum INTEGER NOT NULL
+) STRICT;
 )sql";
 
 // A column of a view keeps its place: factors that are newer than these views stand at the end. The bounds of the
@@ -148,7 +162,7 @@ CREATE VIEW v1_cells AS
 SELECT c.cell, c.agent, c.layout, c.fleet_size, c.loss, c.delay_s,
        c.loss_to <= {loss} AND c.delay_to_s <= {delay} AS in_contract,
        c.loss = {loss} AND c.loss_to = {loss} AND c.delay_s = {delay} AND c.delay_to_s = {delay} AS is_worst_case,
-       count(r.run_index) AS runs,
+       count(r.run_index) + coalesce(max(f.runs), 0) AS runs,
        coalesce(sum(r.violation), 0) AS violation_runs,
        coalesce(sum(r.contact), 0) AS contact_runs,
        coalesce(sum(r.stuck), 0) AS stuck_runs,
@@ -156,11 +170,17 @@ SELECT c.cell, c.agent, c.layout, c.fleet_size, c.loss, c.delay_s,
        coalesce(sum(r.hang), 0) AS hang_runs,
        coalesce(sum(r.indeterminate), 0) AS indeterminate_runs,
        coalesce(sum(r.engine_error), 0) AS engine_error_runs,
-       min(r.min_clearance_um) AS min_clearance_um,
-       coalesce(sum(r.transports_done), 0) AS transports_done,
-       total(r.simulated_ns / 1e9 * r.agv_count / 3600.0) AS agv_hours,
+       coalesce(min(min(r.min_clearance_um), max(f.min_clearance_um)), min(r.min_clearance_um),
+                max(f.min_clearance_um)) AS min_clearance_um,
+       coalesce(sum(r.transports_done), 0) + coalesce(max(f.transports_done), 0) AS transports_done,
+       (coalesce(sum(r.simulated_ns / 1000 * r.agv_count), 0) + coalesce(max(f.agv_us), 0)) / 3.6e9 AS agv_hours,
        c.mean_outage_s, c.loss_to, c.delay_to_s, c.mean_outage_to_s{later_bounds}
-FROM cells c LEFT JOIN runs r ON r.cell = c.cell GROUP BY c.cell;
+FROM cells c LEFT JOIN runs r ON r.cell = c.cell LEFT JOIN
+     (SELECT cell, sum(runs) AS runs, sum(transports_done) AS transports_done,
+             min(min_clearance_um) AS min_clearance_um,
+             sum(simulated_ns / 1000 * agv_count * runs) AS agv_us
+      FROM folded GROUP BY cell) f ON f.cell = c.cell
+GROUP BY c.cell;
 CREATE VIEW v1_runs AS
 SELECT r.run_index, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, r.loss, r.delay_s,
        r.loss <= {loss} AND r.delay_s <= {delay} AS in_contract,
@@ -191,8 +211,10 @@ SELECT p.run_index, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, r.loss
        CASE p.source WHEN 0 THEN '{world}' ELSE '{agent}' END AS source, CAST(p.name AS TEXT) AS name, p.count
 FROM probes p JOIN runs r ON r.run_index = p.run_index JOIN cells c ON c.cell = r.cell;
 CREATE VIEW v1_audits AS
-SELECT a.run_index, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, a.checksum = r.checksum AS same
-FROM audits a JOIN runs r ON r.run_index = a.run_index JOIN cells c ON c.cell = r.cell;
+SELECT a.run_index, c.cell, a.run_index / n.count AS replicate, c.agent, c.layout, c.fleet_size,
+       coalesce(a.checksum = r.checksum, 1) AS same
+FROM audits a JOIN (SELECT count(*) AS count FROM cells) n JOIN cells c ON c.cell = a.run_index % n.count
+     LEFT JOIN runs r ON r.run_index = a.run_index;
 )sql";
 
 constexpr const char* kGateRule =
@@ -301,9 +323,12 @@ std::string run_values(std::int32_t schema) { return run_list("", factor_values(
 
 std::string campaign_values(std::int32_t schema) {
   std::string columns = kCampaignColumns;
-  if (schema >= kFirstChunked) return columns;
-  const std::string_view newer = "chunk_runs";
-  return columns.replace(columns.find(newer), newer.size(), fmt::format("{} AS chunk_runs", kChunkRuns));
+  const auto give = [&](std::int32_t first, std::string_view newer, const std::string& value) {
+    if (schema < first) columns.replace(columns.find(newer), newer.size(), fmt::format("{} AS {}", value, newer));
+  };
+  give(kFirstChunked, "chunk_runs", std::to_string(kChunkRuns));
+  give(kFirstFolded, "keep", fmt::format("'{}'", name_of(Keep::All)));
+  return columns;
 }
 
 std::string gate_columns() { return gate_values(kSchemaVersion); }

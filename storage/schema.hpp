@@ -9,14 +9,15 @@ inline constexpr std::int32_t kApplicationId = 0x464C5046;  // "FLPF": marks an 
 
 // What each version added: 2 incidents and probes, 3 bounds of factors, 4 exempt pairs and external sources, 5 the call
 // cost as a factor, 6 the seal, 7 audits, recordings and chunks, 8 gates with their method and tables, 9 the normal
-// speed of violations, 10 gates on cells of a fleet size or of values of the factors.
-inline constexpr std::int32_t kSchemaVersion = 10;
+// speed of violations, 10 gates on cells of a fleet size or of values of the factors, 11 folded runs.
+inline constexpr std::int32_t kSchemaVersion = 11;
 inline constexpr std::int32_t kOldestReadable = 4;
 inline constexpr std::int32_t kFirstSealed = 6;  // a published file of an earlier schema has the digest of its rows
 inline constexpr std::int32_t kFirstChunked = 7;
 inline constexpr std::int32_t kFirstTabled = 8;           // gates of an earlier schema are of the method "fixed"
 inline constexpr std::int32_t kFirstWithNormalSpeed = 9;  // 0 in violations of an earlier schema
 inline constexpr std::int32_t kFirstOfOneCell = 10;       // gates of an earlier schema name no fleet and no factor
+inline constexpr std::int32_t kFirstFolded = 11;
 inline constexpr std::int32_t kPageSize = 4096;
 
 // The tables and the public views of the canonical file, as one script. Each counter of an outcome
@@ -43,11 +44,13 @@ inline constexpr const char* kCampaignColumns =
     "id, name, kind, seed, replicates, plan_json, plan_hash, engine_version, program_sha256, compiler, flags, "
     "libraries, required_probes, "
     "sampling, held_streams, held_replicate, exempt_purposes, exempt_radius_m, exempt_pairs, plugin_agents, "
-    "plan_checksum, chunk_runs";
+    "plan_checksum, chunk_runs, keep";
 std::string campaign_values(std::int32_t schema);
 inline constexpr const char* kAuditColumns = "run_index, checksum";
 inline constexpr const char* kRecordingColumns = "run_index, calls, checksum";
 inline constexpr const char* kChunkColumns = "chunk, run_count, digest";
+inline constexpr const char* kFoldedColumns =
+    "place, cell, runs, transports_done, simulated_ns, agv_count, min_clearance_um, content, checksum";
 
 // "?, ?, ?": one for each name in a comma-separated list.
 std::string placeholders(const std::string& columns);

@@ -28,11 +28,15 @@ void SealedContent::add_run(std::uint64_t run_index, std::uint64_t checksum) {
 }
 
 void SealedContent::end_chunk() {
-  chunks_.push_back({chunks_.size(), in_chunk_, chunk_.value()});
-  all_.add(in_chunk_);
-  all_.add(chunks_.back().digest);
+  add_chunk({chunks_.size(), in_chunk_, chunk_.value()});
   chunk_.reset();
   in_chunk_ = 0;
+}
+
+void SealedContent::add_chunk(const ChunkRecord& chunk) {
+  chunks_.push_back(chunk);
+  all_.add(chunk.run_count);
+  all_.add(chunk.digest);
 }
 
 void SealedContent::add_rest(SQLite::Database& db) {

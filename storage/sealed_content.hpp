@@ -27,6 +27,7 @@ class SealedContent {
   explicit SealedContent(std::uint64_t chunk_runs);
 
   void add_run(std::uint64_t run_index, std::uint64_t checksum);  // in order of run index, without gaps
+  void add_chunk(const ChunkRecord& chunk);  // instead of its runs, which the file no longer has as rows
   // Takes the audits and recordings of the file. Call this after the last run. Throws EngineError if a recording does
   // not match its checksum. Throws SQLite::Exception.
   void add_rest(SQLite::Database& db);

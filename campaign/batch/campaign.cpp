@@ -1,6 +1,7 @@
 #include "campaign/batch/campaign.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <thread>
 
 #include "campaign/batch/audit_book.hpp"
@@ -17,6 +18,8 @@
 #include "generators/formats/purpose_words.hpp"
 #include "generators/scenario_file/exempt_pairs.hpp"
 #include "reports/evidence/evidence.hpp"
+#include "reports/evidence/quiet_run.hpp"
+#include "storage/archive_reader.hpp"
 #include "storage/archive_writer.hpp"
 
 namespace fleetproof {
@@ -78,6 +81,7 @@ CampaignRecord campaign_record(const CampaignPlan& plan, const AgentPrograms& pr
   record.exempt_radius_m = plan.law.exempt_radius_m;
   for (const ExemptPair& pair : plan.law.exempt_pairs) record.exempt_pairs.push_back(text_of(pair));
   record.plugin_agents = plugin_agents(plan, programs);
+  record.keep = plan.keep;
   record.engine = engine_identity();
   for (const std::string& plugin : programs.plugin_identities()) record.engine.libraries += ", plug-in " + plugin;
   return record;
@@ -105,14 +109,15 @@ class Session {
       runs_.record(agent, audit_book_.needs_recordings(agent));
   }
 
-  CampaignResult run() {
+  CampaignResult run(Keep keep) {
     listener_.started();
     audits_.start();
     simulate();
     finish_audits();
     keep_losses();
     result_.stored = stop_length().value_or(ledger_.prefix_length());
-    archive_.publish(result_.stored);
+    const bool goes_on = !result_.complete() || result_.progress.audits_open > 0;
+    archive_.publish(result_.stored, keep == Keep::Failing && !goes_on ? MayFold(is_quiet) : MayFold());
     return std::move(result_);
   }
 
@@ -257,11 +262,31 @@ class Session {
 
 }  // namespace
 
+namespace {
+
+// Nothing is left to do in a folded file: the campaign was complete.
+std::optional<CampaignResult> folded_before(const CampaignPlan& plan, const AgentPrograms& programs,
+                                            const std::string& path, const RunOptions& options) {
+  std::error_code ignored;
+  namespace fs = std::filesystem;
+  if (options.overwrite || !fs::exists(path, ignored) || fs::exists(path + ".partial", ignored)) return std::nullopt;
+  const ArchiveReader archive(path);
+  if (!archive.is_folded() || archive.campaign().replicates != plan.replicates) return std::nullopt;
+  CampaignRecord now = campaign_record(plan, programs);
+  require_same_campaign(path, archive.campaign(), now, options.allow_drift);
+  CampaignResult result;
+  result.stored = result.progress.done = result.progress.planned = plan.run_count();
+  return result;
+}
+
+}  // namespace
+
 CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& path,
                             const RunOptions& options, const CampaignListener& listener) {
   for (const AgentFactor& agent : plan.agents) (void)programs.program(agent.program, "factors.agents");
+  if (auto result = folded_before(plan, programs, path, options)) return *std::move(result);
   build_first_worlds(plan);  // what cannot be built at all is said before anything is written
-  return Session(plan, programs, path, options, listener).run();
+  return Session(plan, programs, path, options, listener).run(plan.keep);
 }
 
 }  // namespace fleetproof

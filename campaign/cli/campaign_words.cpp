@@ -15,6 +15,7 @@
 #include "campaign/run/release.hpp"
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
+#include "core/scenario/field.hpp"
 #include "generators/map/permitted_types.hpp"
 
 namespace fleetproof::cli {
@@ -127,6 +128,13 @@ int worker_count(const std::optional<std::uint64_t>& jobs) {
   if (workers < 1 || workers > 1024)
     throw InputError("--jobs", fmt::format("is {}; it lies between 1 and 1024", workers));
   return static_cast<int>(workers);
+}
+
+std::optional<Keep> keep_of(const std::string& word) {
+  if (word.empty()) return std::nullopt;
+  if (const auto keep = value_of<Keep>(word)) return keep;
+  throw InputError("--keep",
+                   fmt::format("{} is not one of its words; {}", in_quotes(word), expected_word({}, kWordsOf<Keep>)));
 }
 
 }  // namespace fleetproof::cli

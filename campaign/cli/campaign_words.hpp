@@ -34,4 +34,7 @@ std::string meet_agent(const std::string& word, std::vector<std::string>& plugin
 // The number that --jobs asks for; without it, one worker for each core. Throws InputError.
 int worker_count(const std::optional<std::uint64_t>& jobs);
 
+// The Keep that an option names; nothing if it was left out. Throws InputError.
+std::optional<Keep> keep_of(const std::string& word);
+
 }  // namespace fleetproof::cli

@@ -8,6 +8,7 @@
 #include "campaign/batch/session_log.hpp"
 #include "campaign/cli/archive_name.hpp"
 #include "campaign/cli/attempt_log.hpp"
+#include "campaign/cli/campaign_words.hpp"
 #include "campaign/cli/ci_summary.hpp"
 #include "campaign/cli/render.hpp"
 #include "campaign/cli/streams.hpp"
@@ -23,7 +24,7 @@ namespace {
 
 struct MergeWords {
   std::vector<std::string> folders;
-  std::string archive, ledger;
+  std::string archive, ledger, keep;
   std::optional<std::uint64_t> fail_fast;
   bool overwrite = false, until_verdict = false, exit_zero = false, json = false;
 };
@@ -79,6 +80,7 @@ int finish(const MergeWords& words, AttemptLog& attempt) {
 
 int merge(MergeWords words) {
   if (words.fail_fast && *words.fail_fast < 1) throw InputError("--fail-fast", "is 0; it is at least 1");
+  const std::optional<Keep> keep = keep_of(words.keep);
   const PublishedChunks chunks(words.folders);
   if (words.archive.empty()) words.archive = archive_name_of(chunks.campaign().name);
   AttemptLog attempt(words.ledger, attempt_words(chunks, words));
@@ -89,6 +91,7 @@ int merge(MergeWords words) {
                                                       {.overwrite = words.overwrite,
                                                        .until_verdict = words.until_verdict,
                                                        .fail_fast = words.fail_fast.value_or(0),
+                                                       .keep = keep,
                                                        .tick = counter_talk(chunks.grid().count())});
   copy_session_logs(chunks, words.archive);
   session.begin({}, AgentPrograms(), {.ledger = attempt.path(), .overrides = remembered_overrides(words.archive)});
@@ -109,6 +112,7 @@ Action prepare_merge(Options& options) {
   options.option("--fail-fast", words->fail_fast, "keep the runs up to so many failed ones, in order of run index");
   options.flag("--until-verdict", words->until_verdict,
                "keep the runs up to where the gates had given the verdict; chunks after it may be missing");
+  options.option("--keep", words->keep, "rows that the file keeps: all or failing; instead of the shards' word");
   options.option("--ledger", words->ledger,
                  "ledger of the attempts to make a claim (default: attempts.jsonl beside the campaign file)");
   options.flag("--overwrite", words->overwrite, "replace an existing campaign file");

@@ -29,13 +29,20 @@
 namespace fleetproof::cli {
 namespace {
 
+// Instead of what the campaign file says.
+struct PlanWords {
+  std::optional<std::uint64_t> replicates, seed;
+  std::string keep;
+};
+
 struct TimeWords {
   std::string max_time, until;
 };
 
 struct RunWords {
   std::string campaign, archive;
-  std::optional<std::uint64_t> jobs, replicates, seed;
+  std::optional<std::uint64_t> jobs;
+  PlanWords plan;
   std::optional<std::uint64_t> fail_fast;
   std::string ledger, findings;
   TimeWords time;
@@ -79,8 +86,9 @@ RunOptions run_options(const RunWords& words) {
 std::string resume_command(const RunWords& words) {
   std::string command = fmt::format("fleetproof run {}", shell_word(words.campaign));
   if (!words.shard.given()) command += fmt::format(" --db {}", shell_word(words.archive));
-  if (words.replicates) command += fmt::format(" --replicates {}", *words.replicates);
-  if (words.seed) command += fmt::format(" --seed {}", *words.seed);
+  if (words.plan.replicates) command += fmt::format(" --replicates {}", *words.plan.replicates);
+  if (words.plan.seed) command += fmt::format(" --seed {}", *words.plan.seed);
+  if (!words.plan.keep.empty()) command += " --keep " + words.plan.keep;
   if (words.allow_drift) command += " --allow-drift";
   return command;
 }
@@ -88,8 +96,8 @@ std::string resume_command(const RunWords& words) {
 // The options that change the plan of the file, as typed.
 std::string overrides(const RunWords& words) {
   std::string text;
-  if (words.seed) text += fmt::format("--seed {} ", *words.seed);
-  if (words.replicates) text += fmt::format("--replicates {} ", *words.replicates);
+  if (words.plan.seed) text += fmt::format("--seed {} ", *words.plan.seed);
+  if (words.plan.replicates) text += fmt::format("--replicates {} ", *words.plan.replicates);
   if (!text.empty()) text.pop_back();
   return text;
 }
@@ -169,9 +177,10 @@ int run(RunWords words) {
   if (words.shard.given()) refuse_beside_shard(words);
   AgentPrograms programs;
   CampaignFile file = load_campaign(words.campaign, programs);
-  if (words.replicates) file.plan.replicates = *words.replicates;
-  if (words.seed) file.plan.seed = *words.seed;
-  if (words.replicates) check_plan(file.plan, "--replicates");
+  if (words.plan.replicates) file.plan.replicates = *words.plan.replicates;
+  if (words.plan.seed) file.plan.seed = *words.plan.seed;
+  if (words.plan.replicates) check_plan(file.plan, "--replicates");
+  file.plan.keep = keep_of(words.plan.keep).value_or(file.plan.keep);
   if (words.shard.given()) {
     listen_to_signals();
     return simulate_shard(words.shard, {.file = file,
@@ -179,7 +188,7 @@ int run(RunWords words) {
                                         .options = run_options(words),
                                         .overrides = overrides(words),
                                         .resume_command = resume_command(words),
-                                        .fresh_seed = file.fresh_seed && !words.seed,
+                                        .fresh_seed = file.fresh_seed && !words.plan.seed,
                                         .wants_status = [] { return status_wanted.exchange(false); }});
   }
   if (words.archive.empty()) words.archive = archive_name_of(file.plan.name);
@@ -190,7 +199,7 @@ int run(RunWords words) {
                                     .planned_runs = file.plan.run_count(),
                                     .archive = words.archive,
                                     .release = release_digest(file.plan, programs),
-                                    .fresh_seed = file.fresh_seed && !words.seed,
+                                    .fresh_seed = file.fresh_seed && !words.plan.seed,
                                     .overwrite = words.overwrite});
   CampaignResult result;
   {
@@ -217,12 +226,14 @@ Action prepare_run(Options& options) {
   options.option("--db", words->archive,
                  "campaign file to write, or to go on with (default: the campaign's name and .db, in this folder)");
   options.option("-j,--jobs", words->jobs, "worker threads (default: one per core)");
-  options.option("--replicates", words->replicates, "instead of the file's number of replicates");
-  options.option("--seed", words->seed, "instead of the file's seed");
+  options.option("--replicates", words->plan.replicates, "instead of the file's number of replicates");
+  options.option("--seed", words->plan.seed, "instead of the file's seed");
   options.option("--max-time", words->time.max_time, "stop cleanly after this time, as in 90, 45m or 5h30m");
   options.option("--until", words->time.until, "stop cleanly at this time of day, as in 06:00");
   options.option("--fail-fast", words->fail_fast, "stop after so many failed runs, in order of run index");
   options.flag("--until-verdict", words->until_verdict, "stop when the gates have given the verdict");
+  options.option("--keep", words->plan.keep,
+                 "rows that the published file keeps: all or failing; instead of the file's");
   options.option("--findings", words->findings,
                  "first play the smallest cases of this findings file; they count in no claim");
   options.option("--ledger", words->ledger,

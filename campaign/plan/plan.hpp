@@ -92,7 +92,7 @@ struct AuditSetup {
   friend bool operator==(const AuditSetup&, const AuditSetup&) = default;
 };
 
-// Everything that decides the outcomes of a campaign, and nothing else: no path, no number of jobs.
+// Everything that decides the outcomes of a campaign: no path, no number of jobs. And `keep`, which decides nothing.
 struct CampaignPlan {
   std::string name = "campaign";
   CampaignKind kind = CampaignKind::Claim;
@@ -127,6 +127,7 @@ struct CampaignPlan {
   bool contact_stops = true;
   LimitSetup limits;
   AuditSetup audit;
+  Keep keep = Keep::All;  // not in the plan text: the same runs, the same figures
   std::vector<GateRecord> gates;
   bool default_gates = true;  // a claim without gates gets those of default_gates.hpp
 

@@ -20,6 +20,11 @@ void visit_fields(const FieldTable<Members>& table, Visit&& visit) {
   table.members(visit);
 }
 
+// Of campaign files only: it decides no outcome.
+inline constexpr Field kKeep{.key = "keep",
+                             .text = "rows of the published file: all runs, or failing ones, the others folded",
+                             .left_out = true};
+
 inline constexpr double kLargestFleet = 1000.0;
 inline constexpr double kMostRuns = 1e12;  // a thousand years of this engine; beyond it run indices would wrap
 
@@ -104,7 +109,7 @@ void visit_fields(Plan& plan, Visit&& visit) {
   [[maybe_unused]] auto& [name, kind, seed, replicates, horizon_s, stuck_after_s, agents, agent_config, factors,
                           sampling, layouts, fleet_sizes, held_streams, held_replicate, demand, placement, orders,
                           vehicles, faults, scanner, operator_help, radio, sources, agent_clock, law, laws_left_out,
-                          required_probes, contact_stops, limits, audit, gates, default_gates] = plan;
+                          required_probes, contact_stops, limits, audit, keep, gates, default_gates] = plan;
   visit(Field{.key = "name", .text = "name of the campaign; left out: that of the file"}, name);
   visit(Field{.key = "kind", .text = "claim: rates and bounds; search: counts only"}, kind);
   visit(kSeed, seed);
@@ -113,6 +118,7 @@ void visit_fields(Plan& plan, Visit&& visit) {
               .low = 1.0,
               .high = kMostRuns},
         replicates);
+  visit(kKeep, keep);
   visit(kHorizon, horizon_s);
   visit(kStuckAfter, stuck_after_s);
   visit(kContactStops, contact_stops);

@@ -10,6 +10,7 @@
 #include "campaign/run/run_one.hpp"
 #include "core/base/error.hpp"
 #include "core/base/random.hpp"
+#include "storage/checksum.hpp"
 
 namespace fleetproof {
 namespace {
@@ -154,14 +155,35 @@ void require_run(const CampaignPlan& plan, std::uint64_t run_index) {
                      fmt::format("{} does not exist; the campaign has runs 0 to {}", run_index, plan.run_count() - 1));
 }
 
-RunRecord stored_run(const ArchiveReader& archive, const CampaignPlan& plan, std::uint64_t run_index) {
-  require_run(plan, run_index);
-  auto stored = archive.run(run_index);
-  if (!stored) {
-    throw InputError("run", fmt::format("{} is not in the file; it holds runs 0 to {} of {} planned", run_index,
-                                        archive.run_count() - 1, plan.run_count()));
+[[noreturn]] void throw_not_stored(const ArchiveReader& archive, const CampaignPlan& plan, std::uint64_t run_index) {
+  throw InputError("run", fmt::format("{} is not in the file; it holds runs 0 to {} of {} planned", run_index,
+                                      archive.run_count() - 1, plan.run_count()));
+}
+
+ReplayResult compare_folded(KnownRun known, RunRecord recomputed) {
+  ReplayResult result;
+  if (static_cast<std::uint16_t>(row_checksum(recomputed)) == known.check) {
+    result.explanation =
+        "the file has no row of this run: nothing went wrong in it, and it is folded; the 16 bits that "
+        "are kept of its checksum match";
+    result.stored = recomputed;
+  } else {
+    result.verdict = ReplayVerdict::Diverged;
+    result.explanation =
+        "the file has no row of this run: nothing went wrong in it, and it is folded; the 16 bits that "
+        "are kept of its checksum do not match";
+    result.stored = std::move(known.run);
   }
-  return *std::move(stored);
+  result.recomputed = std::move(recomputed);
+  return result;
+}
+
+ReplayResult compare_with_file(const ArchiveReader& archive, const CampaignPlan& plan, std::uint64_t run_index,
+                               const Resimulate& simulate) {
+  require_run(plan, run_index);
+  if (auto stored = archive.run(run_index)) return compare_runs(*std::move(stored), simulate(run_index));
+  if (auto known = archive.folded_run(run_index)) return compare_folded(*std::move(known), simulate(run_index));
+  throw_not_stored(archive, plan, run_index);
 }
 
 }  // namespace
@@ -175,20 +197,22 @@ ReplayResult replay(const ArchiveReader& archive, std::uint64_t run_index, const
 
 std::optional<ReplayResult> replay_recording(const ArchiveReader& archive, const CampaignPlan& plan,
                                              std::uint64_t run_index, TraceSink* sink) {
-  RunRecord stored = stored_run(archive, plan, run_index);
+  require_run(plan, run_index);
   const auto recording = archive.recording(run_index);
   if (!recording) return std::nullopt;
+  auto stored = archive.run(run_index);
+  if (!stored) throw_not_stored(archive, plan, run_index);
   RunWatch watch;
   watch.play = *recording;
   const AgentPrograms none;
-  ReplayResult result = compare_runs(std::move(stored), RunOne(plan, none)(run_index, sink, watch));
+  ReplayResult result = compare_runs(*std::move(stored), RunOne(plan, none)(run_index, sink, watch));
   result.from_recording = true;
   return of_intact_plan(std::move(result), archive.campaign());
 }
 
 ReplayResult replay(const ArchiveReader& archive, const CampaignPlan& plan, std::uint64_t run_index,
                     const AgentPrograms& programs, const Resimulate& simulate) {
-  ReplayResult result = compare_runs(stored_run(archive, plan, run_index), simulate(run_index));
+  ReplayResult result = compare_with_file(archive, plan, run_index, simulate);
   if (result.verdict == ReplayVerdict::Reproduced) return of_intact_plan(std::move(result), archive.campaign());
   const AgentFactor& factor = plan.agent_of_cell(run_index);
   const AgentProgram& agent = programs.program(factor.program, "replay");

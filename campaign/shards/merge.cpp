@@ -12,6 +12,7 @@
 #include "campaign/shards/canary.hpp"
 #include "campaign/shards/shard_run.hpp"
 #include "core/base/error.hpp"
+#include "reports/evidence/quiet_run.hpp"
 #include "storage/archive_writer.hpp"
 #include "storage/durable_file.hpp"
 
@@ -146,7 +147,8 @@ std::uint64_t merge_chunks(const PublishedChunks& chunks, const std::string& pat
   const bool may_end_early = options.until_verdict || options.fail_fast > 0;
   const auto missing = chunks.missing();
   if (!missing.empty() && !may_end_early) throw_missing(chunks);
-  const auto& [campaign, cells, gates] = chunks.plan();
+  auto [campaign, cells, gates] = chunks.plan();
+  campaign.keep = options.keep.value_or(campaign.keep);
   VerdictWatch verdict(campaign, cells, gates);
   RunLedger ledger;
   std::optional<std::uint64_t> stop;
@@ -171,7 +173,8 @@ std::uint64_t merge_chunks(const PublishedChunks& chunks, const std::string& pat
     throw;
   }
   const std::uint64_t stored = stop.value_or(chunks.grid().runs());
-  archive.publish(stored);
+  const bool folds = campaign.keep == Keep::Failing && stored == chunks.grid().runs();
+  archive.publish(stored, folds ? MayFold(is_quiet) : MayFold());
   return stored;
 }
 

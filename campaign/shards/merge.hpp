@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,7 @@ struct MergeOptions {
   bool overwrite = false;       // replace an existing campaign file
   bool until_verdict = false;   // keep the runs up to the verdict, as `run` does
   std::uint64_t fail_fast = 0;  // keep the runs up to so many failed ones; 0: all
+  std::optional<Keep> keep;     // instead of that of the shards
   std::function<void(std::uint64_t chunks)> tick = [](std::uint64_t) {};  // so many have been read
 };
 

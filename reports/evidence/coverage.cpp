@@ -38,6 +38,16 @@ void Coverage::add(const Coverage& other) {
   }
 }
 
+void Coverage::add(const std::vector<MetTotal>& met) {
+  for (const MetTotal& total : met) {
+    const bool world = total.source == ProbeSource::World;
+    if (!world && is_world_probe(total.name)) continue;
+    Seen& seen = (world ? by_the_world_ : by_agents_)[total.name];
+    seen.runs += total.runs;
+    seen.times += total.times;
+  }
+}
+
 Seen Coverage::seen(std::string_view probe) const {
   const auto& told = is_world_probe(probe) ? by_the_world_ : by_agents_;
   const auto found = told.find(probe);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/outcome/outcome.hpp"
+#include "storage/folded_cell.hpp"
 
 namespace fleetproof {
 
@@ -24,6 +25,8 @@ class Coverage {
  public:
   void add(const Outcome& outcome);
   void add(const Coverage& other);
+  // What runs met that were added already, but without their probes: they were folded.
+  void add(const std::vector<MetTotal>& met);
 
   std::uint64_t runs() const { return runs_; }
   bool agents_declare_anything() const { return !by_agents_.empty(); }

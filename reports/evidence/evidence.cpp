@@ -98,6 +98,11 @@ void Evidence::add(const RunRecord& run) {
   if (run.cell + 1 == cells_.size()) finish_replicate();
 }
 
+void Evidence::add_met(std::uint32_t cell, const std::vector<MetTotal>& met) {
+  ensure(cell < cells_.size(), "folded runs belong to a cell of the campaign");
+  for (const auto pool : pools_of_cell_[cell]) coverage_[pool].add(met);
+}
+
 void Evidence::add_to(RunsByAgent& runs, const FailingRun& run) const {
   const auto& agent = cells_[run.cell].agent;
   AgentRuns& of_agent = runs.try_emplace(agent, AgentRuns{agent, 0, run}).first->second;

@@ -51,6 +51,8 @@ class Evidence {
 
   // Adds the next run. Requires: its run_index == runs().
   void add(const RunRecord& run);
+  // What folded runs of the cell met. Requires: they belong to complete replicates.
+  void add_met(std::uint32_t cell, const std::vector<MetTotal>& met);
 
   bool counts_only() const { return counts_only_; }  // a campaign of kind "search"
   std::uint64_t runs() const { return runs_; }       // read so far

@@ -9,6 +9,7 @@
 #include "reports/evidence/binomial.hpp"
 #include "reports/evidence/poisson_rate.hpp"
 #include "reports/wording.hpp"
+#include "storage/checksum.hpp"
 
 namespace fleetproof {
 namespace {
@@ -38,8 +39,8 @@ bool estimators_give_known_answers() {
 
 void DuplicateCheck::add(const RunRecord& run) {
   ++runs_;
-  const std::uint64_t key = run.outcome.digest ^ (std::uint64_t{run.cell} * 0x9e3779b97f4a7c15ULL);
-  repeated_ += seen_[key]++ > 0 ? 1 : 0;
+  if (run.folded) return;
+  repeated_ += seen_[trace_key(run.cell, run.outcome.digest)]++ > 0 ? 1 : 0;
 }
 
 std::string validity_text(const ReportInput& input, const DuplicateCheck& duplicates) {

@@ -13,6 +13,8 @@ namespace fleetproof {
 class DuplicateCheck {
  public:
   void add(const RunRecord& run);
+  // Of a folded file, whose traces were compared when it was published.
+  void know_repeated(std::uint64_t runs) { repeated_ = runs; }
   std::uint64_t runs() const { return runs_; }
   // Runs whose trace another run of the same cell had before.
   std::uint64_t repeated() const { return repeated_; }

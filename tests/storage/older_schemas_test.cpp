@@ -1,4 +1,4 @@
-// Campaign files of earlier versions of this program: archives/schema4.fp to schema9.fp. The programs of
+// Campaign files of earlier versions of this program: archives/schema4.fp to schema10.fp. The programs of
 // their time wrote them, from one campaign file with a call cost of 10 ms.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -81,7 +81,7 @@ TEST_P(OlderSchemas, AreCheckedByTheRulesOfTheirTime) {
   const std::string whole = samples::bytes_of(path_);
   for (const char* change :
        {"UPDATE runs SET transports_done = transports_done + 1 WHERE run_index = 3", "UPDATE cells SET loss = 0.1",
-        "UPDATE campaign SET run_count = 11", "UPDATE campaign SET run_count = NULL", "PRAGMA user_version = 10",
+        "UPDATE campaign SET run_count = 11", "UPDATE campaign SET run_count = NULL", "PRAGMA user_version = 11",
         "DELETE FROM runs WHERE run_index = 11; DELETE FROM violations WHERE run_index = 11; DELETE FROM incidents "
         "WHERE "
         "run_index = 11; DELETE FROM probes WHERE run_index = 11"}) {
@@ -140,7 +140,7 @@ TEST_P(OlderSchemas, GoOnFromALiveFileWithALog) {
   EXPECT_FALSE(std::filesystem::exists(other + ".partial-wal"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, OlderSchemas, testing::Values(4, 5, 6, 7, 8, 9));
+INSTANTIATE_TEST_SUITE_P(Each, OlderSchemas, testing::Values(4, 5, 6, 7, 8, 9, 10));
 
 }  // namespace
 }  // namespace fleetproof

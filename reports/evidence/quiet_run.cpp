@@ -1,0 +1,22 @@
+#include "reports/evidence/quiet_run.hpp"
+
+#include <algorithm>
+
+#include "reports/evidence/failing_run.hpp"
+#include "reports/evidence/foreign_bodies.hpp"
+#include "reports/evidence/run_result.hpp"
+
+namespace fleetproof {
+
+bool is_quiet(const RunRecord& run) {
+  const Outcome& outcome = run.outcome;
+  const bool accused =
+      std::ranges::any_of(outcome.incidents, [](const Incident& incident) { return accuses(incident.kind); });
+  if (accused || outcome.outcome_class() != OutcomeClass::Clean || !outcome.violations.empty()) return false;
+  if (FailingRun::of(run) || met_foreign_bodies(outcome)) return false;
+  return std::ranges::all_of(kValuesOf<EndPoint>, [&](EndPoint end_point) {
+    return end_point == EndPoint::Throughput || result_of(outcome, end_point) == RunResult::Passed;
+  });
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "storage/records.hpp"
+
+namespace SQLite {
+class Database;
+}
+
+namespace fleetproof {
+
+// Whether nothing of a run stands on a page by itself: it may then be counted together with others.
+using MayFold = std::function<bool(const RunRecord& run)>;
+
+// Folds the runs of a complete live file: fills the table `folded` of the canonical file `db`, and the table
+// `temp.kept` with the indices of all other runs. Besides the runs that may not be folded, those are kept that a page
+// could still name: the first of an agent that meets something, and those that an audit or a recording belongs to that
+// says more than the row. Requires: the live file is closed and
+// attached to `db` as `live`. Throws SQLite::Exception, and what ArchiveReader throws.
+void fold_runs(SQLite::Database& db, const std::string& live_path, const MayFold& may_fold);
+
+// The number of runs of the live file whose trace another run of their cell had before.
+std::uint64_t repeated_traces(SQLite::Database& db);
+
+}  // namespace fleetproof

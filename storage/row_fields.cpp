@@ -1,0 +1,104 @@
+#include "storage/row_fields.hpp"
+
+#include <SQLiteCpp/Column.h>
+#include <SQLiteCpp/Statement.h>
+
+#include <bit>
+#include <utility>
+
+#include "core/base/error.hpp"
+
+namespace fleetproof {
+namespace {
+
+std::uint32_t in_range(std::int64_t value) {
+  if (value < 0 || value > 0xffffffffLL) throw EngineError("a row holds a number out of range");
+  return static_cast<std::uint32_t>(value);
+}
+
+}  // namespace
+
+Binder& Binder::operator<<(std::int64_t value) { return statement_.bind(next_++, value), *this; }
+Binder& Binder::operator<<(std::uint64_t value) { return *this << std::bit_cast<std::int64_t>(value); }
+Binder& Binder::operator<<(double value) { return statement_.bind(next_++, value), *this; }
+Binder& Binder::operator<<(const std::string& value) { return statement_.bindNoCopy(next_++, value), *this; }
+Binder& Binder::operator<<(std::string&& value) { return statement_.bind(next_++, std::move(value)), *this; }
+Binder& Binder::operator<<(const char* value) { return statement_.bindNoCopy(next_++, value), *this; }
+Binder& Binder::null() { return statement_.bind(next_++), *this; }
+
+void Binder::bytes(const std::string& value) {
+  statement_.bindNoCopy(next_++, static_cast<const void*>(value.data()), static_cast<int>(value.size()));
+}
+
+Binder& Binder::operator<<(const std::vector<std::uint64_t>& digests) {
+  if constexpr (std::endian::native == std::endian::little) {  // the memory holds what is stored
+    if (!digests.empty()) {
+      statement_.bindNoCopy(next_++, static_cast<const void*>(digests.data()),
+                            static_cast<int>(digests.size() * sizeof(std::uint64_t)));
+      return *this;
+    }
+  }
+  std::string bytes;
+  for (const auto digest : digests) {
+    for (int i = 0; i < 8; ++i) bytes.push_back(static_cast<char>(static_cast<std::uint8_t>(digest >> (8 * i))));
+  }
+  statement_.bind(next_++, static_cast<const void*>(bytes.data()), static_cast<int>(bytes.size()));
+  return *this;
+}
+
+std::int64_t Taker::i64() { return row_.getColumn(next_++).getInt64(); }
+std::uint64_t Taker::u64() { return std::bit_cast<std::uint64_t>(i64()); }
+std::uint32_t Taker::u32() { return in_range(i64()); }
+
+bool Taker::flag() {
+  const auto value = i64();
+  if (value != 0 && value != 1) throw EngineError("a row holds a yes-or-no field with neither");
+  return value == 1;
+}
+
+double Taker::real() { return row_.getColumn(next_++).getDouble(); }
+
+FactorValues Taker::factors() {
+  FactorValues factors;
+  for (double& value : factors.values) value = real();
+  return factors;
+}
+
+PerFactor<std::optional<double>> Taker::named_factors() {
+  PerFactor<std::optional<double>> named;
+  for (auto& value : named.values) value = maybe_real();
+  return named;
+}
+
+std::string Taker::text() { return row_.getColumn(next_++).getString(); }
+
+std::optional<std::int64_t> Taker::maybe_i64() {
+  const auto column = row_.getColumn(next_++);
+  return column.isNull() ? std::nullopt : std::optional<std::int64_t>(column.getInt64());
+}
+
+std::optional<double> Taker::maybe_real() {
+  const auto column = row_.getColumn(next_++);
+  return column.isNull() ? std::nullopt : std::optional(column.getDouble());
+}
+
+std::optional<std::uint32_t> Taker::maybe_u32() {
+  const auto value = maybe_i64();
+  return value ? std::optional(in_range(*value)) : std::nullopt;
+}
+
+EntityId Taker::entity() {
+  const auto value = maybe_u32();
+  return value ? EntityId{*value} : EntityId{};
+}
+
+std::vector<std::uint64_t> Taker::digests() {
+  const auto bytes = text();
+  if (bytes.size() % 8 != 0) throw EngineError("a row holds running digests of a broken length");
+  std::vector<std::uint64_t> values(bytes.size() / 8);
+  for (std::size_t i = 0; i < bytes.size(); ++i)
+    values[i / 8] |= std::uint64_t{static_cast<unsigned char>(bytes[i])} << (8 * (i % 8));
+  return values;
+}
+
+}  // namespace fleetproof

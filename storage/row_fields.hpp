@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/strong_id.hpp"
+#include "storage/factors.hpp"
+
+namespace SQLite {
+class Statement;
+}
+
+// The values of a row, for the files that turn records into rows and back.
+namespace fleetproof {
+
+// Fills the parameters of a statement from left to right. Requires: texts and digests live until the statement has run,
+// but for temporary texts, which are copied.
+class Binder {
+ public:
+  explicit Binder(SQLite::Statement& statement, int first = 1) : statement_(statement), next_(first) {}
+
+  Binder& operator<<(std::int64_t value);
+  Binder& operator<<(std::uint64_t value);  // SQLite has only signed 64-bit integers; the bits stay the same
+  Binder& operator<<(std::uint32_t value) { return *this << std::int64_t{value}; }
+  Binder& operator<<(bool value) { return *this << std::int64_t{value ? 1 : 0}; }
+  Binder& operator<<(double value);
+  Binder& operator<<(const std::string& value);
+  Binder& operator<<(std::string&& value);
+  Binder& operator<<(const char* value);
+  Binder& operator<<(const std::vector<std::uint64_t>& digests);
+  template <class Value>
+  Binder& operator<<(const PerFactor<Value>& factors) {
+    for (const Value& value : factors.values) *this << value;
+    return *this;
+  }
+  template <class Value>
+  Binder& operator<<(const std::optional<Value>& value) {
+    return value ? *this << *value : null();
+  }
+  void bytes(const std::string& value);  // names that an agent gives are bytes, not text
+
+ private:
+  Binder& null();
+
+  SQLite::Statement& statement_;
+  int next_;
+};
+
+// Takes the columns of a row from left to right. Throws EngineError for a value that no program of ours writes.
+class Taker {
+ public:
+  explicit Taker(const SQLite::Statement& row) : row_(row) {}
+
+  std::int64_t i64();
+  std::uint64_t u64();
+  std::uint32_t u32();
+  bool flag();
+  double real();
+  FactorValues factors();
+  PerFactor<std::optional<double>> named_factors();
+  std::string text();
+  std::optional<std::int64_t> maybe_i64();
+  std::optional<double> maybe_real();
+  std::optional<std::uint32_t> maybe_u32();
+  EntityId entity();
+  std::vector<std::uint64_t> digests();
+
+ private:
+  const SQLite::Statement& row_;
+  int next_ = 0;
+};
+
+}  // namespace fleetproof
