@@ -45,41 +45,55 @@ std::uint32_t losses_that_reject(std::uint32_t receptions) {
 LinkQuality::LinkQuality(std::size_t agvs)
     : agvs_(agvs), places_(agvs * agvs, kSilent), broken_(agvs, 0), sent_(agvs) {}
 
-LinkQuality::Link& LinkQuality::now(std::size_t sender, std::size_t receiver, SimTime at) {
+LinkQuality::Link& LinkQuality::now(std::size_t sender, std::size_t receiver, std::int64_t second) {
   std::uint32_t& place = places_[receiver * agvs_ + sender];
   if (place == kSilent) {
     place = static_cast<std::uint32_t>(links_.size());
     links_.push_back({static_cast<std::uint32_t>(receiver), true, {}, {}});
   }
-  const std::size_t second = slot_of(to_ns(at) / 1'000'000'000);
-  Link& link = links_[place].seconds[second];
-  if (link.receptions == 0) received_[second].push_back(place);
+  Link& link = links_[place].seconds[slot_of(second)];
+  if (link.receptions == 0) received_[slot_of(second)].push_back(place);
   return link;
 }
 
 void LinkQuality::note(const TraceRecord& record) {
   if (record.kind == TraceKind::Sent) {
     const auto sent = read<traced::Sent>(record);
-    sent_[record.entity.index()].note(sent.message_hash, sent.receiver, record.at);
+    waiting_.push_back({record.at, sent.message_hash, AgvId{record.entity.value}, sent.receiver, record.kind});
     return;
   }
   const auto reception = read<traced::Reception>(record);
-  const std::size_t sender = reception.sender.index();
-  if (sender >= agvs_ || record.entity.index() >= agvs_) return;
-  Link& link = now(sender, record.entity.index(), record.at);
+  if (reception.sender.index() >= agvs_ || record.entity.index() >= agvs_) return;
+  const TraceKind kind = reception.is_lost() ? TraceKind::Lost : TraceKind::Received;
+  waiting_.push_back({record.at, reception.message_hash, reception.sender, AgvId{record.entity.value}, kind});
+}
+
+void LinkQuality::take(const Noted& noted, std::int64_t second) {
+  SentMessages& by_sender = sent_[noted.sender.index()];
+  if (noted.kind == TraceKind::Sent) {
+    by_sender.note(noted.message_hash, noted.receiver, noted.at);
+    return;
+  }
+  Link& link = now(noted.sender.index(), noted.receiver.index(), second);
   ++link.receptions;
-  if (reception.is_lost()) {
+  if (noted.kind == TraceKind::Lost) {
     ++link.lost;
     return;
   }
-  const SentMessages& by_sender = sent_[sender];
-  const SimTime sent = std::max(by_sender.last_sent(reception.message_hash, AgvId{record.entity.value}),
-                                by_sender.last_sent(reception.message_hash, AgvId{}));
-  if (sent != SimTime::min()) link.longest = std::max(link.longest, record.at - sent);
+  const SimTime sent = std::max(by_sender.last_sent(noted.message_hash, noted.receiver),
+                                by_sender.last_sent(noted.message_hash, AgvId{}));
+  if (sent != SimTime::min()) link.longest = std::max(link.longest, noted.at - sent);
 }
 
 // Only links that received in the second that leaves the window, or in the one that comes into it, can have changed.
 void LinkQuality::end_second(std::int64_t second) {
+  const SimTime end = kStart + std::chrono::seconds(second + 1);
+  for (; next_waiting_ < waiting_.size() && waiting_[next_waiting_].at < end; ++next_waiting_)
+    take(waiting_[next_waiting_], second);
+  if (2 * next_waiting_ >= waiting_.size()) {  // seldom enough to cost nothing
+    waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(next_waiting_));
+    next_waiting_ = 0;
+  }
   auto& leaves = received_[slot_of(second - kQualityWindow_s)];
   for (const std::uint32_t place : leaves) {
     take_out(links_[place], second - kQualityWindow_s);

@@ -19,14 +19,15 @@ std::uint32_t losses_that_reject(std::uint32_t receptions);
 
 // The links of a fleet over the last ten whole seconds, from the records of the trace. A loss counts at the instant of
 // sending, a reception at its arrival, however late it comes. If several messages of a sender have equal bytes, the
-// last one that was sent counts as the one received. The delay is therefore never too large.
+// last one that was sent counts as the one received. The delay is therefore never too large. Records wait until a
+// second is ended: whoever does not ask about the links pays only for keeping them.
 class LinkQuality {
  public:
   explicit LinkQuality(std::size_t agvs);
 
   static TraceKinds reads() { return kMessageKinds; }
-  // Requires: the record is no more than a second after the end of the last second.
   void note(const TraceRecord& record);
+  std::size_t waiting() const { return waiting_.size() - next_waiting_; }  // records of seconds that are not ended
   // All that happened in the second that begins at `second` has been noted. The functions below now speak of this
   // second and the nine before it. Requires: one second after the other, from 0 on.
   void end_second(std::int64_t second);
@@ -45,8 +46,7 @@ class LinkQuality {
   std::int64_t worst_loss_ppm(std::size_t receiver) const;
 
  private:
-  // Those of the window, the one that leaves it, and the one under way.
-  static constexpr std::int64_t kSeconds = kQualityWindow_s + 2;
+  static constexpr std::int64_t kSeconds = kQualityWindow_s + 1;  // those of the window, and the one that leaves it
   static constexpr std::uint32_t kSilent = 0xffffffff;
 
   // A link on which something was received or lost.
@@ -56,10 +56,18 @@ class LinkQuality {
     Link sum;                            // over the window
     std::array<Link, kSeconds> seconds;  // by number, modulo the length
   };
+  // A message that was sent, received or lost.
+  struct Noted {
+    SimTime at;
+    std::uint64_t message_hash = 0;
+    AgvId sender, receiver;
+    TraceKind kind = TraceKind::Sent;
+  };
+  void take(const Noted& noted, std::int64_t second);
   static std::size_t slot_of(std::int64_t second) {
     return static_cast<std::size_t>((second + kSeconds) % kSeconds);  // not below -kSeconds
   }
-  Link& now(std::size_t sender, std::size_t receiver, SimTime at);
+  Link& now(std::size_t sender, std::size_t receiver, std::int64_t second);
   void take_out(Active& link, std::int64_t second);
   void judge(Active& link);
 
@@ -69,6 +77,8 @@ class LinkQuality {
   std::array<std::vector<std::uint32_t>, kSeconds> received_;  // places of the links that received in a second
   std::vector<std::uint32_t> broken_;                          // by receiver: links to it out of the contract
   std::vector<SentMessages> sent_;                             // by sender
+  std::vector<Noted> waiting_;                                 // in order of time
+  std::size_t next_waiting_ = 0;                               // those before it were taken
 };
 
 }  // namespace fleetproof

@@ -13,6 +13,7 @@ namespace fleetproof {
 namespace {
 
 constexpr Duration kSecond = std::chrono::seconds(1);
+constexpr std::size_t kMostWaiting = 65'536;  // messages: two megabytes
 
 class NormalOperationLaw final : public Law {
  public:
@@ -42,6 +43,9 @@ class NormalOperationLaw final : public Law {
   };
 
   void seconds_before(SimTime t);
+  bool needs_quality(SimTime now) const;
+  bool stands_still(SimTime now) const;
+  void follow_links(SimTime now);
   void look(SimTime now);
   void look_at_safe_mode(std::size_t agv, SimTime now);
   void look_at_standstill(SimTime now);
@@ -52,7 +56,7 @@ class NormalOperationLaw final : public Law {
   std::vector<AgvState> agvs_;
   FaultWatch faults_;
   std::uint64_t open_ = 0, done_ = 0;
-  SimTime active_at_ = kStart, all_in_contract_since_ = kStart, next_ = kStart + kSecond;
+  SimTime active_at_ = kStart, all_in_contract_since_ = kStart, next_ = kStart + kSecond, followed_ = kStart;
   bool always_in_contract_ = true;
   std::optional<std::size_t> standstill_;
   std::vector<Incident> incidents_;
@@ -101,17 +105,36 @@ void NormalOperationLaw::seconds_before(SimTime t) {
   for (; next_ < t; next_ += kSecond) look(next_);
 }
 
-void NormalOperationLaw::look(SimTime now) {
-  quality_.end_second((to_ns(now) - 1) / 1'000'000'000);
-  bool all = true;
-  for (std::size_t i = 0; i < agvs_.size(); ++i) {
-    const bool kept = quality_.all_in_contract(i);
-    if (!kept) agvs_[i].in_contract_since = now;
-    all = all && kept;
-    look_at_safe_mode(i, now);
+// Whether it matters now how good the links are, and have been.
+bool NormalOperationLaw::needs_quality(SimTime now) const {
+  return scenario_.law.min_transports_per_agv_hour > 0.0 || stands_still(now) ||
+         std::ranges::any_of(agvs_, &AgvState::safe) || quality_.waiting() >= kMostWaiting;
+}
+
+bool NormalOperationLaw::stands_still(SimTime now) const {
+  return open_ > 0 && !faults_.holds_anybody() && now - std::max(active_at_, faults_.last()) >= scenario_.stuck_after &&
+         std::ranges::none_of(agvs_, &AgvState::busy);
+}
+
+// Second by second.
+void NormalOperationLaw::follow_links(SimTime now) {
+  while (followed_ < now) {
+    followed_ += kSecond;
+    quality_.end_second((to_ns(followed_) - 1) / 1'000'000'000);
+    bool all = true;
+    for (std::size_t i = 0; i < agvs_.size(); ++i) {
+      const bool kept = quality_.all_in_contract(i);
+      if (!kept) agvs_[i].in_contract_since = followed_;
+      all = all && kept;
+    }
+    if (!all) all_in_contract_since_ = followed_;
+    always_in_contract_ = always_in_contract_ && all;
   }
-  if (!all) all_in_contract_since_ = now;
-  always_in_contract_ = always_in_contract_ && all;
+}
+
+void NormalOperationLaw::look(SimTime now) {
+  if (needs_quality(now)) follow_links(now);
+  for (std::size_t i = 0; i < agvs_.size(); ++i) look_at_safe_mode(i, now);
   look_at_standstill(now);
 }
 
@@ -133,8 +156,7 @@ void NormalOperationLaw::look_at_safe_mode(std::size_t agv, SimTime now) {
 
 void NormalOperationLaw::look_at_standstill(SimTime now) {
   const SimTime since = std::max({active_at_, all_in_contract_since_, faults_.last()});
-  const bool busy = std::ranges::any_of(agvs_, &AgvState::busy);
-  if (open_ == 0 || busy || faults_.holds_anybody() || now - since < scenario_.stuck_after) {
+  if (!stands_still(now) || now - since < scenario_.stuck_after) {
     standstill_.reset();
     return;
   }

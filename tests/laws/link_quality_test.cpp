@@ -34,28 +34,36 @@ LinkQuality::Link counted(const std::vector<Heard>& all, std::size_t sender, std
 // of a second belongs to the next one, and is noted before the second is looked at.
 TEST(LinkQuality, TheLinksOfTheLastTenSeconds) {
   std::mt19937 random(7);
-  LinkQuality quality(kAgvs);
+  LinkQuality quality(kAgvs), late(kAgvs);  // the second one ends its seconds in batches
   std::vector<Heard> all;
   const auto hear = [&](std::int64_t second, Duration later) {
     const auto sender = static_cast<std::uint32_t>(random() % kAgvs),
                receiver = static_cast<std::uint32_t>(random() % kAgvs);
     const bool lost = random() % 10 < 8;
     all.push_back({second, sender, receiver, lost});
-    quality.note(trace_record(kStart + std::chrono::seconds(second) + later, AgvId{receiver},
-                              traced::Reception{lost ? TraceKind::Lost : TraceKind::Received, AgvId{sender}, 0}));
+    const TraceRecord record =
+        trace_record(kStart + std::chrono::seconds(second) + later, AgvId{receiver},
+                     traced::Reception{lost ? TraceKind::Lost : TraceKind::Received, AgvId{sender}, 0});
+    quality.note(record);
+    late.note(record);
   };
   int broken = 0, kept = 0;
+  std::int64_t late_second = 0;
   for (std::int64_t second = 0; second < 1000; ++second) {
     const bool burst = second / 17 % 3 == 0;
     for (int i = 0; burst && i < 60; ++i) hear(second, Duration{i});
     if (random() % 2 == 0) hear(second + 1, {});
     std::erase_if(all, [&](const Heard& one) { return one.second < second - 20; });
     quality.end_second(second);
+    for (; second % 37 == 0 && late_second <= second; ++late_second) late.end_second(late_second);
     for (std::size_t receiver = 0; receiver < kAgvs; ++receiver) {
       bool each = true;
       for (std::size_t sender = 0; sender < kAgvs; ++sender) {
         const auto expected = counted(all, sender, receiver, second), link = quality.link(sender, receiver);
         ASSERT_EQ(link.receptions, expected.receptions) << second;
+        if (second % 37 == 0) {
+          ASSERT_EQ(late.link(sender, receiver).lost, link.lost) << second;
+        }
         ASSERT_EQ(link.lost, expected.lost) << second;
         each = each && expected.in_contract();
       }
