@@ -18,7 +18,8 @@ using Json = nlohmann::ordered_json;
 // The rows of a body, from above. Stretches below the safety distance that lie across each other have a row each.
 enum RowNumber : int { kDoes = 1, kSays, kRadio, kHappens, kDistanceRow };
 constexpr const char* kRowNames[] = {"", "does", "agent says", "radio", "happens", "below the safety distance"};
-constexpr std::uint64_t kRowsOfABody = 1000;
+constexpr int kMostAtOnce = 200, kGoesOn = 10'000;  // things at one instant on one row; from it to the row that goes on
+constexpr std::uint64_t kRowsOfABody = 1'000'000;
 
 // The format counts in microseconds; three digits more keep the nanosecond.
 double microseconds(SimTime t) { return static_cast<double>(to_ns(t)) / 1e3; }
@@ -58,6 +59,15 @@ void ChromeTrace::end(const Row& row, SimTime at) {
   open_.erase(open);
 }
 
+ChromeTrace::Row ChromeTrace::with_room(const Row& row, SimTime at) {
+  auto& [last, count] = at_once_.try_emplace(row, at, 0).first->second;
+  if (last != at) count = 0;
+  last = at;
+  const Row found{row.first, row.second + kGoesOn * (count++ / kMostAtOnce)};
+  if (found != row) more_rows_.insert(found);
+  return found;
+}
+
 void ChromeTrace::bar(const Row& row, SimTime from, SimTime to, const std::string& name, const std::string& details) {
   Json json = event("X", row.first, row.second, from, name);
   json["dur"] = static_cast<double>((to - from).count()) / 1e3;
@@ -66,7 +76,8 @@ void ChromeTrace::bar(const Row& row, SimTime from, SimTime to, const std::strin
 }
 
 void ChromeTrace::point(const Row& row, SimTime at, const std::string& name, const std::string& details) {
-  Json json = event("i", row.first, row.second, at, name);
+  const Row free = with_room(row, at);
+  Json json = event("i", free.first, free.second, at, name);
   json["s"] = "t";
   json["args"] = {{"details", details}};
   events_.push_back(text_of(json));
@@ -80,7 +91,8 @@ void ChromeTrace::message(const TraceRecord& record) {
   const bool is_sent = record.kind == TraceKind::Sent;
   if (!is_sent && record.kind != TraceKind::Received)
     return point({record.entity, kRadio}, record.at, name_of(record.kind), details);
-  Json json = event("X", record.entity, kRadio, record.at, message.kind);
+  const Row row = with_room({record.entity, kRadio}, record.at);
+  Json json = event("X", row.first, row.second, record.at, message.kind);
   json["dur"] = 0;
   json["cat"] = "message";
   json["bind_id"] = message.number;
@@ -134,6 +146,10 @@ void ChromeTrace::name_rows(const std::map<EntityId, std::vector<SimTime>>& dist
       name("thread_name", body, row, "name", kRowNames[std::min<int>(row, kDistanceRow)]);
       name("thread_sort_index", body, row, "sort_index", row);
     }
+  }
+  for (const auto& [body, row] : more_rows_) {
+    name("thread_name", body, row, "name", std::string(kRowNames[row % kGoesOn]) + ", more at one instant");
+    name("thread_sort_index", body, row, "sort_index", row);
   }
 }
 
