@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "campaign/cli/film_floor.hpp"
@@ -46,6 +47,11 @@ std::string given_fates_text(std::span<const GivenFate> fates) {
   return fmt::format("{} ({})", count_text(fates.size(), "message"), joined(kinds));
 }
 
+std::string place_text(const Vec2& place_m) {
+  const auto shown = [](double at_m) { return std::round(at_m * 100.0) == 0.0 ? 0.0 : at_m; };
+  return fmt::format("({:.2f}, {:.2f}) m", shown(place_m.x()), shown(place_m.y()));
+}
+
 std::string FilmEvidence::name(EntityId id) const { return printable(body_name(scenario_, id)); }
 
 std::string FilmEvidence::doing(EntityId body, SimTime at) const {
@@ -63,9 +69,9 @@ std::string FilmEvidence::doing(EntityId body, SimTime at) const {
     text += fmt::format("was driving from {} at {:.2f} m/s", activity == nullptr ? "" : activity->details,
                         piece->speed_at(at));
   } else if (piece->manner == Manner::Turn) {
-    text += fmt::format("was turning on the spot at ({:.2f}, {:.2f}) m", pose.position_m.x(), pose.position_m.y());
+    text += "was turning on the spot at " + place_text(pose.position_m);
   } else {
-    text += fmt::format("stood at ({:.2f}, {:.2f}) m{}", pose.position_m.x(), pose.position_m.y(),
+    text += fmt::format("stood at {}{}", place_text(pose.position_m),
                         activity == nullptr ? "" : ", activity " + activity->kind);
   }
   if (const web::Declared* state = last_until(film_.states, body.index(), at_us);
@@ -88,13 +94,12 @@ std::vector<std::string> FilmEvidence::belief(EntityId agv, EntityId other, SimT
   if (!any) return {};
   if (last == nullptr)
     return {fmt::format("The agent of {} had no belief about where {} was.", name(agv), name(other))};
-  std::string text = fmt::format(
-      "The agent of {} believed {} to be at ({:.2f}, {:.2f}) m, as of {:.3f} s: {:.1f} s old", name(agv), name(other),
-      in_metres(last->x_um), in_metres(last->y_um), in_seconds(last->as_of_us), in_seconds(at_us - last->as_of_us));
-  if (const Piece* piece = piece_at(bodies_, other, at)) {
-    const Vec2 believed(in_metres(last->x_um), in_metres(last->y_um));
+  const Vec2 believed(in_metres(last->x_um), in_metres(last->y_um));
+  std::string text =
+      fmt::format("The agent of {} believed {} to be at {}, as of {:.3f} s: {:.1f} s old", name(agv), name(other),
+                  place_text(believed), in_seconds(last->as_of_us), in_seconds(at_us - last->as_of_us));
+  if (const Piece* piece = piece_at(bodies_, other, at))
     text += fmt::format(", {:.1f} m from where it was", (piece->pose_at(at).position_m - believed).norm());
-  }
   return {text + "."};
 }
 

@@ -13,6 +13,9 @@ namespace fleetproof::cli {
 // "2 messages (1 lost, 1 delivered twice)"; empty: the scenario gives no fates.
 std::string given_fates_text(std::span<const GivenFate> fates);
 
+// "(30.53, 0.00) m", without a minus before a zero.
+std::string place_text(const Vec2& place_m);
+
 // What speaks for the cause of a failure, each in a sentence: what the bodies did, what their agents believed and said
 // to each other, which faults struck them before. An empty sentence or list: there is nothing to say.
 class FilmEvidence {

@@ -68,7 +68,7 @@ class Storyteller {
     const std::string limit = distance_text(scenario_.law.safety_distance_m);
     const double speed_mps = millimetres(v.relative_speed_um_s);
     const std::string where =
-        fmt::format("near ({:.2f}, {:.2f}) m", static_cast<double>(v.x_um) / 1e6, static_cast<double>(v.y_um) / 1e6);
+        "near " + place_text({static_cast<double>(v.x_um) / 1e6, static_cast<double>(v.y_um) / 1e6});
     if (v.contact) {
       add(
           fmt::format("{} and {} come closer than {} at {:.3f} s and touch, {}, with {:.2f} m/s between their closest "
@@ -154,6 +154,7 @@ class Storyteller {
       involve(wait.a);
       involve(wait.b);
     }
+    open_when_all_wait(waits);
     const IncidentKindInfo& info = info_of(incident.kind);
     std::string word(info.name);
     word.front() = static_cast<char>(word.front() - 'a' + 'A');
@@ -179,6 +180,23 @@ class Storyteller {
         others.insert(std::string(info_of(other.kind).name));
     }
     if (!others.empty()) add("The run was also filed for: " + joined({others.begin(), others.end()}) + ".");
+  }
+
+  // A deadlock is known from when it began, often before its AGVs say for whom they wait: the page opens when they do,
+  // so that the circle shows.
+  void open_when_all_wait(const std::vector<const Incident*>& waits) {
+    std::map<std::size_t, std::optional<std::size_t>> now;
+    const auto holds = [&](const Incident* wait) {
+      const auto found = now.find(wait->a.index());
+      return wait->kind == IncidentKind::WaitsInferred ||
+             (found != now.end() && found->second == std::optional(wait->b.index()));
+    };
+    for (const web::Waiting& w : film_.waits) {
+      now[w.body] = w.for_whom;
+      if (w.at_us < film_.focus_us || !std::ranges::all_of(waits, holds)) continue;
+      if (!waits.empty()) film_.open_us = w.at_us;
+      return;
+    }
   }
 
   void tell_waiting_fleet(SimTime at) {

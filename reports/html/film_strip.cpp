@@ -220,8 +220,22 @@ void add_bodies(Element& svg, const FilmStrip& strip, const FilmFrame& frame, co
 std::string clearance_line(const FilmFrame& frame) {
   if (!frame.clearance_m) return frame.without_clearance;
   if (*frame.clearance_m <= kTouch_m) return "they touch";
-  // As the archive files it, in whole micrometres rounded down, and then as every page does.
-  return metres_text(static_cast<std::int64_t>(std::floor(*frame.clearance_m * 1e6))) + " apart";
+  // As the archive files it, in whole micrometres rounded down, and then as every page does. A sum of doubles may miss
+  // the micrometre by its last digits.
+  constexpr double kLastDigits_um = 1e-5;
+  return metres_text(static_cast<std::int64_t>(std::floor(*frame.clearance_m * 1e6 + kLastDigits_um))) + " apart";
+}
+
+// A drawing in a drawing shows nothing outside its own borders.
+Element floor_of(const FilmStrip& strip, const FilmFrame& frame, const Window& window) {
+  Element floor("svg", {{"x", kLeft_px},
+                        {"y", kTop_px},
+                        {"width", kSide_px},
+                        {"height", kSide_px},
+                        {"viewBox", fmt::format("{} {} {} {}", kLeft_px, kTop_px, kSide_px, kSide_px)}});
+  add_map(floor, strip, window);
+  add_bodies(floor, strip, frame, window);
+  return floor;
 }
 
 Element frame_of(const FilmStrip& strip, const FilmFrame& frame, const Window& window) {
@@ -235,15 +249,7 @@ Element frame_of(const FilmStrip& strip, const FilmFrame& frame, const Window& w
                       {"viewBox", fmt::format("0 0 {} {}", kWidth_px, kBottomOfFloor_px + kBottom_px)},
                       {"font-family", "system-ui, sans-serif"}});
   add_axes(svg, window);
-  // A drawing in a drawing shows nothing outside its own borders.
-  Element floor("svg", {{"x", kLeft_px},
-                        {"y", kTop_px},
-                        {"width", kSide_px},
-                        {"height", kSide_px},
-                        {"viewBox", fmt::format("{} {} {} {}", kLeft_px, kTop_px, kSide_px, kSide_px)}});
-  add_map(floor, strip, window);
-  add_bodies(floor, strip, frame, window);
-  svg.add(floor);
+  svg.add(floor_of(strip, frame, window));
   svg.add(Element("rect", {{"x", kLeft_px},
                            {"y", kTop_px},
                            {"width", kSide_px},
@@ -259,12 +265,35 @@ Element frame_of(const FilmStrip& strip, const FilmFrame& frame, const Window& w
   return svg;
 }
 
+// Of frames in a row that show the same, the worst instant, else the first one.
+std::vector<const FilmFrame*> frames_that_differ(const FilmStrip& strip, const Window& window) {
+  std::vector<const FilmFrame*> kept;
+  std::string before;
+  for (const FilmFrame& frame : strip.frames) {
+    std::string now = floor_of(strip, frame, window).str() + clearance_line(frame);
+    if (kept.empty() || now != before) {
+      kept.push_back(&frame);
+    } else if (frame.is_worst) {
+      kept.back() = &frame;
+    }
+    before = std::move(now);
+  }
+  return kept;
+}
+
 }  // namespace
 
 Element draw(const FilmStrip& strip) {
   Element whole("div", {{"class", "film"}});
   const Window window = window_of(strip);
-  for (const auto& frame : strip.frames) whole.add(frame_of(strip, frame, window));
+  const std::vector<const FilmFrame*> kept = frames_that_differ(strip, window);
+  for (const FilmFrame* frame : kept) whole.add(frame_of(strip, *frame, window));
+  if (kept.size() < strip.frames.size())
+    whole.add(text_element("p",
+                           fmt::format("From {:.2f} s to {:.2f} s. While nothing moves here, there is no further "
+                                       "picture.",
+                                       strip.frames.front().time_s, strip.frames.back().time_s),
+                           {{"class", "key"}}));
   if (!strip.note.empty()) whole.add(text_element("p", strip.note, {{"class", "key"}}));
   return whole;
 }

@@ -41,7 +41,7 @@ struct FilmStrip {
 };
 
 // All frames show the same part of the floor, so that one sees what moved: the bodies involved with some room around
-// them, or all AGVs if no body is involved.
+// them, or all AGVs if no body is involved. Of frames in a row that would look the same, one is drawn.
 Element draw(const FilmStrip& strip);
 
 }  // namespace fleetproof::html

@@ -171,17 +171,20 @@ const drawMessages = (context, all, t_s, label) => {
       context.fill();
     }
     context.globalAlpha = 1;
-    const old = seconds(Math.min(t_s - a.sent_s, a.age_s)) + ' old' + (a.again ? ', a copy' : '');
+    const old_s = Math.min(t_s - a.sent_s, a.age_s);
+    const old = (old_s < 0.1 ? seconds(old_s) : old_s.toFixed(1) + ' s') + ' old' + (a.again ? ', a copy' : '');
     const age = lost ? a.fate : old;
     if (!crowded || between) label(a.kind + ', ' + age, x, y - 6, lost ? colours.bad : colours.message);
   }
 };
 
 // The pair that the page is about at this instant: of the violation under way, else of the next one, else of the last.
-// Without a violation: the two that came closest.
+// Without a violation: the two involved, as in a deadlock; if nothing went wrong, the two that came closest.
 const pairAt = t_s => {
   const near = film.violations.find(v => v.last_us / 1e6 + 2 >= t_s) || film.violations[film.violations.length - 1];
-  return near ? [near.a, near.b] : film.nearest ? [film.nearest.a, film.nearest.b] : null;
+  if (near) return [near.a, near.b];
+  if (film.involved.length) return film.involved.length === 2 ? film.involved : null;
+  return film.nearest ? [film.nearest.a, film.nearest.b] : null;
 };
 const gapAt = (all, pair) =>
   pair && all[pair[0]] && all[pair[1]] ? closestPoints(all[pair[0]].box, all[pair[1]].box) : null;
@@ -193,6 +196,8 @@ const footprintsOnCanvas = t_s => bodiesAt(t_s).filter(Boolean).map(({box}) => {
   const xs = cornersOf(box).map(p => toX(p[0])), ys = cornersOf(box).map(p => toY(p[1]));
   return [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];
 });
+
+const isOnCanvas = box => toX(box.x_m) > -40 && toX(box.x_m) < floor.clientWidth + 40;
 
 const drawFloor = t_s => {
   const context = contextOf(floor, floor.clientWidth, floor.clientHeight);
@@ -218,7 +223,7 @@ const drawFloor = t_s => {
   if (shown.names) {
     for (const {body, box} of there.reverse()) {
       const reach_m = Math.abs(box.uy) * box.long_m + Math.abs(box.ux) * box.wide_m;
-      if (view.scale > 5 || isInvolved(body) || body === selected)
+      if (isOnCanvas(box) && (view.scale > 5 || isInvolved(body) || body === selected))
         label(nameOf(body), toX(box.x_m), toY(box.y_m - reach_m) + 13, colours.ink, isInvolved(body));
     }
   }

@@ -4,13 +4,14 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 
 #include "reports/wording.hpp"
 
 namespace fleetproof::web {
 namespace {
 
-constexpr std::int64_t kLongestDelay_us = 30'000'000, kAtOnce_us = 20'000;
+constexpr std::int64_t kLongestDelay_us = 30'000'000, kAtOnce_us = 20'000, kRemembered_us = 60'000'000;
 constexpr std::size_t kMostMarked = 3;
 
 bool is_answer(const FilmTalk& talk, const Delivery& delivery) {
@@ -56,20 +57,30 @@ std::string reference(const Setting& setting, const Film& film, const FilmTalk& 
 }  // namespace
 
 std::string ask_kind(const Film& film, const FilmTalk& talk, const Setting& setting) {
-  std::map<std::string, std::size_t> at_once, ever;
+  struct Kind {
+    std::size_t heard = 0, answered = 0, before_others = 0;
+    double share() const {
+      return static_cast<double>(answered) / static_cast<double>(std::max<std::size_t>(1, heard));
+    }
+  };
+  std::map<std::string, Kind> kinds;
   if (!talk.has_messages_to_one()) return {};
+  const std::int64_t from_us = std::max<std::int64_t>(0, setting.begin.at_us - kRemembered_us);
   for (std::size_t sender = 0; sender < film.bodies.size(); ++sender) {
-    for (const Delivery& d : sent_within(talk.between(sender, setting.body), setting.from_us, setting.begin)) {
+    for (const Delivery& d : sent_within(talk.between(setting.body, sender), from_us, setting.begin))
+      kinds[d.message->kind].heard += !d.is_lost() && d.arrives < setting.begin ? 1 : 0;
+    for (const Delivery& d : sent_within(talk.between(sender, setting.body), from_us, setting.begin)) {
       if (!d.is_to_one()) continue;
       const Delivery* asked = last_heard(talk, setting.body, sender, d.sent, "");
       if (asked == nullptr) continue;
-      ++ever[asked->message->kind];
-      if (d.sent.at_us - asked->arrives.at_us <= kAtOnce_us) ++at_once[asked->message->kind];
+      Kind& kind = kinds[asked->message->kind];
+      ++kind.before_others;
+      kind.answered += d.sent.at_us - asked->arrives.at_us <= kAtOnce_us ? 1 : 0;
     }
   }
-  const auto& counts = at_once.empty() ? ever : at_once;
-  const auto most = std::ranges::max_element(counts, {}, [](const auto& entry) { return entry.second; });
-  return most == counts.end() ? std::string() : most->first;
+  const auto most = std::ranges::max_element(
+      kinds, {}, [](const auto& entry) { return std::tuple(entry.second.share(), entry.second.before_others); });
+  return most == kinds.end() || most->second.before_others == 0 ? std::string() : most->first;
 }
 
 namespace {
@@ -119,6 +130,8 @@ SenderAnswers answers_of(const FilmTalk& talk, const Setting& setting, std::size
   if (!answers.received.empty()) answers.silence = silence_after(answers.received.back(), talk, setting);
   for (const Delivery& d : answers.received) {
     answers.is_doubled = answers.is_doubled || d.again.has_value();
+    if (d.message->kind == setting.ask) continue;
+    answers.has_answers = true;
     if (is_in_time(d, setting)) answers.in_time = d.message->kind;
   }
   answers.is_plain = !answers.received.empty() && answers.lost_asks.empty() &&
@@ -136,8 +149,8 @@ std::string told(const Setting& setting, const Film& film, const FilmTalk& talk,
     text += ": still under way at the end of the run";
   } else if (d.arrives >= setting.begin) {
     const std::int64_t late_us = d.arrives.at_us - setting.begin.at_us;
-    text += fmt::format(": received {} s, {} it began", time_text(d.arrives.at_us),
-                        late_us == 0 ? "right after" : time_text(late_us) + " s after");
+    text += fmt::format(": received {} s, {}", time_text(d.arrives.at_us),
+                        late_us == 0 ? "right after that" : time_text(late_us) + " s too late");
   } else {
     text += fmt::format(", received {} s", time_text(d.arrives.at_us));
     if (d.again) text += fmt::format(" and again {} s: one message, delivered twice", time_text(d.again->at_us));

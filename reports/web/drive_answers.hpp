@@ -16,8 +16,8 @@ struct Setting {
   std::string ask;           // see ask_kind; may be empty
 };
 
-// The kind of message of the AGV that the others sent it theirs upon, most often: the last that they had received, at
-// once if that ever happens. Empty: none.
+// The kind of message by which the AGV asks: the one that the others most often answer at once, of those that they
+// receive. If they never answer at once: the one that they had received last, most often. Empty: none.
 std::string ask_kind(const Film& film, const FilmTalk& talk, const Setting& setting);
 
 // What one other AGV sent to this AGV alone. If nobody sends to one alone: what it sent at all.
@@ -27,7 +27,8 @@ struct SenderAnswers {
   const Delivery* last_before = nullptr;  // the last one received before that, if there is one
   std::string lost_asks;                  // how many messages of the asking kind did not reach it; empty: none
   std::string silence;                    // how often this AGV asked in vain after its last answer; empty: not
-  std::string in_time;                    // the kind of the last one received before the beginning; empty: none
+  bool has_answers = false;               // one that asks itself is no answer
+  std::string in_time;                    // the kind of the last answer received before the beginning; empty: none
   bool is_doubled = false;                // some of them arrived twice
   bool is_plain = false;                  // messages of one kind, and none of them lost, late or doubled
 };

@@ -6,35 +6,50 @@
 #include <map>
 
 #include "reports/web/drive_answers.hpp"
+#include "reports/web/setting_off.hpp"
 #include "reports/wording.hpp"
 
 namespace fleetproof::web {
 namespace {
 
-constexpr std::int64_t kContiguous_us = 1'000, kRolling_us = 20'000'000, kStanding_us = 120'000'000,
-                       kLeast_us = 5'000'000;
+constexpr std::int64_t kRolling_us = 20'000'000, kStanding_us = 120'000'000, kLeast_us = 5'000'000;
 constexpr std::size_t kMostSenders = 5, kMostWords = 5, kMostNamed = 4, kMostAfter = 6;
 
-bool is_motion(const ActivityBar& bar) { return bar.kind == "drive" || bar.kind == "turn"; }
+// When the last activity of the AGV before this one ended; of a pick or a drop: when it began. Zero: there is none.
+std::int64_t rest_began_us(const Film& film, std::size_t activity) {
+  for (std::size_t i = activity; i-- > 0;) {
+    const ActivityBar& bar = film.activities[i];
+    if (bar.body == film.activities[activity].body) return is_motion(bar) ? bar.end_us : bar.begin_us;
+  }
+  return 0;
+}
 
 // From when on messages may have to do with the activity: since the AGV began to stand before it set off, or since its
 // last pick or drop.
-std::int64_t window_of(const Film& film, const ActivityBar& drive, std::size_t activity) {
-  std::int64_t begin_us = drive.begin_us, from_us = 0, longest_us = kStanding_us;
-  for (std::size_t i = activity; i-- > 0;) {
-    const ActivityBar& bar = film.activities[i];
-    if (bar.body != drive.body) continue;
-    from_us = bar.begin_us;
-    if (!is_motion(bar)) break;
-    if (bar.end_us + kContiguous_us < begin_us) {
-      from_us = bar.end_us;
-      break;
-    }
-    begin_us = bar.begin_us;
-    longest_us = kRolling_us;
-  }
-  const std::int64_t least_us = std::max<std::int64_t>(0, drive.begin_us - kLeast_us);
-  return std::clamp(from_us, std::min(least_us, std::max<std::int64_t>(0, drive.begin_us - longest_us)), least_us);
+std::int64_t window_of(const Film& film, std::size_t activity) {
+  std::size_t first = activity;
+  for (std::size_t before = rolled_from(film, first); before != first; before = rolled_from(film, first))
+    first = before;
+  const std::int64_t begin_us = film.activities[activity].begin_us;
+  const std::int64_t least_us = std::max<std::int64_t>(0, begin_us - kLeast_us);
+  const std::int64_t longest_us = first == activity ? kStanding_us : kRolling_us;
+  return std::clamp(rest_began_us(film, first), std::min(least_us, std::max<std::int64_t>(0, begin_us - longest_us)),
+                    least_us);
+}
+
+Setting setting_of(const Film& film, const FilmTalk& talk, std::size_t activity) {
+  const ActivityBar& bar = film.activities[activity];
+  Setting setting{bar.body, window_of(film, activity), {bar.begin_us, bar.begin_order}, {}};
+  setting.ask = ask_kind(film, talk, setting);
+  return setting;
+}
+
+// Whether the AGV sent a message of the asking kind in the meantime: then what it knew when it set off is not all.
+bool asked_again(const FilmTalk& talk, const Setting& setting, Moment until) {
+  return std::ranges::any_of(talk.sent_by(setting.body), [&](const Message* message) {
+    const Moment sent{message->sent_us, message->order};
+    return message->kind == setting.ask && setting.begin < sent && sent < until;
+  });
 }
 
 // "AGV 3, AGV 4 and 12 more".
@@ -52,17 +67,18 @@ class ReasonTeller {
         talk_(talk),
         drive_(film.activities[activity]),
         activity_(activity),
+        off_(decided_at(film, talk, activity)),
         partner_(partner),
-        setting_{drive_.body, window_of(film, drive_, activity), {drive_.begin_us, drive_.begin_order}, {}} {
-    setting_.ask = ask_kind(film, talk, setting_);
-  }
+        setting_(setting_of(film, talk, off_)) {}
 
   Reason tell() {
     Reason reason;
     reason.activity = activity_;
     reason.title = fmt::format("{} began to {}{} at {} s", name(drive_.body), drive_.kind,
                                drive_.details.empty() ? "" : " " + drive_.details, time_text(drive_.begin_us));
+    reason.decided_us = setting_.begin.at_us;
     lines_.clear();
+    tell_setting_off();
     tell_itself();
     tell_senders();
     tell_after();
@@ -80,6 +96,16 @@ class ReasonTeller {
   }
   void item(std::int64_t at_us, std::string text, bool marked = false) {
     add(ReasonLine::Rank::Item, at_us, std::move(text), marked);
+  }
+
+  // If it was on its way for long: since when, and that all below is about that instant.
+  void tell_setting_off() {
+    if (off_ == activity_) return;
+    const ActivityBar& off = film_.activities[off_];
+    sentence(off.begin_us, fmt::format("It set off at {} s ({}{}), has moved since, and its agent has said the same "
+                                       "since. So this is what it knew at {} s:",
+                                       time_text(off.begin_us), off.kind, off.details.empty() ? "" : " " + off.details,
+                                       time_text(off.begin_us)));
   }
 
   // What the AGV itself sent and said, and the faults that struck it.
@@ -158,7 +184,7 @@ class ReasonTeller {
     });
     for (std::size_t i = 0; i < std::min(own.size(), kMostSenders); ++i) tell_sender(own[i]);
     if (own.size() > kMostSenders)
-      sentence(drive_.begin_us,
+      sentence(setting_.begin.at_us,
                fmt::format("Likewise lost, late or doubled: messages of {} more AGVs.", own.size() - kMostSenders));
     tell_plain(plain);
   }
@@ -171,7 +197,7 @@ class ReasonTeller {
       if (!answers.in_time.empty()) {
         in_time[answers.in_time].push_back(answers.sender);
       } else {
-        (answers.received.empty() ? silent : not_in_time).push_back(answers.sender);
+        (answers.has_answers ? not_in_time : silent).push_back(answers.sender);
       }
     }
     std::vector<std::string> texts;
@@ -182,10 +208,10 @@ class ReasonTeller {
                     all.size(), texts.empty() ? "" : ": ", joined(texts, "; "));
     if (!not_in_time.empty()) text += fmt::format(" Lost or late: {}.", names_text(film_, not_in_time));
     if (!silent.empty())
-      text += fmt::format(" Nothing sent{}: {}.", talk_.has_messages_to_one() ? " to it alone" : "",
+      text += fmt::format(" No answer sent{}: {}.", talk_.has_messages_to_one() ? " to it alone" : "",
                           names_text(film_, silent));
     const bool all_answered = not_in_time.empty() && silent.empty();
-    if (all.size() > 1) sentence(drive_.begin_us, text, !all_answered);
+    if (all.size() > 1) sentence(setting_.begin.at_us, text, !all_answered);
   }
 
   void tell_plain(const std::vector<SenderAnswers>& plain) {
@@ -214,7 +240,7 @@ class ReasonTeller {
       std::string before;
       if (answers.last_before != nullptr)
         before = fmt::format(" The last before: {}.", told(setting_, film_, talk_, *answers.last_before));
-      sentence(drive_.begin_us,
+      sentence(setting_.begin.at_us,
                fmt::format("{} had sent nothing to {}{} in this time.{}", who, name(drive_.body),
                            talk_.has_messages_to_one() ? " alone" : "", before),
                true);
@@ -227,8 +253,8 @@ class ReasonTeller {
     if (!answers.silence.empty()) item(setting_.begin.at_us, answers.silence, true);
     if (answers.sender != partner_) return;
     if (const std::string heard = heard_to_all(talk_, setting_, answers.sender); !heard.empty())
-      item(drive_.begin_us, heard);
-    item(drive_.begin_us, doing_text(answers.sender));
+      item(setting_.begin.at_us, heard);
+    item(setting_.begin.at_us, doing_text(answers.sender));
     for (const std::string& fault : faults_text(answers.sender, setting_.from_us, setting_.begin.at_us))
       item(setting_.from_us, fault, true);
   }
@@ -245,7 +271,7 @@ class ReasonTeller {
     for (const Declared& s : film_.states) {
       if (s.body == body && Moment{s.at_us, s.order} < setting_.begin) state = &s;
     }
-    std::string text = fmt::format("{} itself at {} s: ", name(body), time_text(drive_.begin_us));
+    std::string text = fmt::format("{} itself at {} s: ", name(body), time_text(setting_.begin.at_us));
     text += doing == nullptr
                 ? "idle"
                 : fmt::format("{}{}, since {} s", doing->kind, doing->details.empty() ? "" : " " + doing->details,
@@ -261,7 +287,7 @@ class ReasonTeller {
     for (std::size_t body = 0; body < film_.bodies.size() && texts.size() < kMostAfter; ++body) {
       if (body == drive_.body) continue;
       std::map<std::string, std::pair<const Delivery*, std::size_t>> kinds;
-      for (const Delivery& d : sent_within(talk_.between(body, drive_.body), drive_.begin_us, {until_us + 1, 0})) {
+      for (const Delivery& d : sent_within(talk_.between(body, drive_.body), setting_.begin.at_us, {until_us + 1, 0})) {
         const bool counts = d.sent > setting_.begin && !d.is_lost() && d.arrives.at_us <= until_us;
         if (!counts || (talk_.has_messages_to_one() && !d.is_to_one())) continue;
         auto& [first, count] = kinds[d.message->kind];
@@ -271,21 +297,29 @@ class ReasonTeller {
         texts.push_back(fmt::format("{} from {} ({} s{})", kind, name(body), time_text(heard.first->arrives.at_us),
                                     heard.second > 1 ? fmt::format(", and {} more", heard.second - 1) : ""));
     }
-    if (!texts.empty()) sentence(drive_.begin_us, fmt::format("After that it received {}.", joined(texts)));
+    if (!texts.empty()) sentence(setting_.begin.at_us, fmt::format("After that it received {}.", joined(texts)));
     for (const std::string& fault : faults_text(drive_.body, setting_.begin.at_us + 1, until_us))
-      item(drive_.begin_us, fault, true);
+      item(setting_.begin.at_us, fault, true);
   }
 
   const Film& film_;
   const FilmTalk& talk_;
   const ActivityBar& drive_;
-  std::size_t activity_;
+  std::size_t activity_, off_;  // the activity, and the one with which the AGV set off
   std::optional<std::size_t> partner_;
   Setting setting_;
   std::vector<ReasonLine> lines_;
 };
 
 }  // namespace
+
+std::size_t decided_at(const Film& film, const FilmTalk& talk, std::size_t activity) {
+  const std::size_t off = setting_off(film, activity);
+  const ActivityBar& bar = film.activities[activity];
+  const bool is_whole =
+      off != activity && !asked_again(talk, setting_of(film, talk, off), {bar.begin_us, bar.begin_order});
+  return is_whole ? off : activity;
+}
 
 Reason reason_of(const Film& film, const FilmTalk& talk, std::size_t activity, std::optional<std::size_t> partner) {
   return ReasonTeller(film, talk, activity, partner).tell();

@@ -55,8 +55,6 @@ std::vector<Reason> drive_reasons(const Film& film, std::size_t most) {
       }
     }
   }
-  // The one that set off later met the other on its way.
-  std::ranges::stable_sort(fatal, std::greater{}, [&](std::size_t i) { return film.activities[i].begin_us; });
   std::erase_if(rest, [&](std::size_t i) { return std::ranges::find(fatal, i) != fatal.end(); });
   rest.resize(std::min(rest.size(), most > fatal.size() ? most - fatal.size() : 0));
   std::ranges::sort(rest);
@@ -69,6 +67,8 @@ std::vector<Reason> drive_reasons(const Film& film, std::size_t most) {
       reasons.back().is_fatal = activities == &fatal;
     }
   }
+  // The one that set off later met the other on its way.
+  std::ranges::stable_sort(reasons.begin(), reasons.begin() + std::ssize(fatal), std::greater{}, &Reason::decided_us);
   for (const std::size_t body : idle) {
     Reason none;
     none.is_fatal = true;

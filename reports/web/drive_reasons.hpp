@@ -24,6 +24,7 @@ struct ReasonLine {
 struct Reason {
   std::optional<std::size_t> activity;  // an index into Film::activities; none: the AGV had begun nothing
   bool is_fatal = false;                // the last one that a body of the failing pair began before the failure
+  std::int64_t decided_us = 0;          // when the AGV set off: the instant that the reason is about
   std::string title;
   std::vector<ReasonLine> lines;
 };

@@ -40,14 +40,15 @@ const wholeFloor = () => {
 
 // Names that cover none before them, and no body if there is room beside it. What finds no place is left out.
 const makeLabels = (context, bodies) => {
-  const taken = [[floor.clientWidth - 250, 0, floor.clientWidth, 44]];  // the buttons
+  const width = floor.clientWidth, height = floor.clientHeight;
+  const taken = [[width - 250, 0, width, 44], [0, 0, 38, height], [0, height - 18, width, height]];  // buttons and axes
   const meets = (box, others) => others.some(t => t[0] < box[2] && box[0] < t[2] && t[1] < box[3] && box[1] < t[3]);
   return (text, x, y, colour, bold) => {
     context.font = (bold ? '600 ' : '') + '11px system-ui, sans-serif';
     const half = context.measureText(text).width / 2 + 2, middle = [];
     for (const [dx, dy] of [[0, 0], [half + 14, 4], [-half - 14, 4], [0, 15], [0, -15], [half + 14, 19],
                             [-half - 14, 19], [half + 14, -11], [-half - 14, -11], [half + 40, 4], [-half - 40, 4]]) {
-      const cx = Math.min(Math.max(x + dx, half + 4), floor.clientWidth - half - 4), cy = y + dy;
+      const cx = Math.min(Math.max(x + dx, half + 40), width - half - 4), cy = y + dy;
       middle.push({cx, cy, box: [cx - half, cy - 10, cx + half, cy + 3]});
     }
     const free = middle.filter(({box}) => !meets(box, taken));

@@ -30,7 +30,7 @@ const tellPair = (t_s, all) => {
     pairBox.append(element('span', film.involved.map(nameOf).join(', ') || 'No pair came too close.', 'soft'));
     return;
   }
-  const whose = film.nearest ? ', the closest pair of the run' : '';
+  const whose = film.nearest && !film.involved.length ? ', the closest pair of the run' : '';
   pairBox.append(element('span', nameOf(pair[0]) + ' to ' + nameOf(pair[1]) + whose, 'soft'), element('br'));
   if (!gap) return void pairBox.append(element('span', 'not both on the floor', 'soft'));
   const broken = gap.apart_m < kSafety_m - 2e-6;
@@ -71,10 +71,17 @@ const aboutMessages = (body, t_s) => {
   }
   return lines;
 };
+// The last five that differ; what happened again has a number.
 const aboutEvents = (body, t_s) => {
-  const list = happeningsOf[body], last = countUpTo(list, r => r[1], t_s * 1e3 + 1e-6);
-  return list.slice(Math.max(0, last - 5), last).reverse().map(
-    ([, at_ms, what, details, flags]) => [seconds(at_ms / 1e3), [word(what), flags === 1 ? 'bad' : ''], word(details)]);
+  const list = happeningsOf[body], found = new Map();
+  for (let i = countUpTo(list, r => r[1], t_s * 1e3 + 1e-6) - 1; i >= 0; --i) {
+    const [, at_ms, what, details, flags] = list[i], key = what + ' ' + details, known = found.get(key);
+    if (known) ++known.times;
+    else if (found.size < 5) found.set(key, {at_ms, what, details, flags, times: 1});
+  }
+  return [...found.values()].map(({at_ms, what, details, flags, times}) => [
+    seconds(at_ms / 1e3), [word(what) === 'probe' ? 'agent notes' : word(what), flags === 1 ? 'bad' : ''],
+    word(details) + (times > 1 ? ', ' + times + ' times' : '')]);
 };
 
 const tellBody = (body, t_s, all, box) => {
@@ -117,11 +124,12 @@ const tellReason = (body, t_s, box) => {
   box.append(part);
 };
 
-// On a wide screen the reasons of what is fatal stand beside the floor, unless an AGV is selected.
+// On a wide screen the reasons of what is fatal stand beside the floor, unless an AGV is selected; else below it.
 const reasonsBox = document.getElementById('reasons'), kWide = matchMedia('(min-width: 1150px)');
 const placeReasons = () => {
-  const home = kWide.matches ? panel.parentElement : byId('player').parentElement;
-  if (reasonsBox.parentElement !== home) home.insertBefore(reasonsBox, kWide.matches ? panel : byId('player'));
+  const player = byId('player'), home = kWide.matches ? panel.parentElement : player.parentElement;
+  const next = kWide.matches ? panel : player.nextElementSibling;
+  if (next !== reasonsBox && reasonsBox.nextElementSibling !== next) home.insertBefore(reasonsBox, next);
   reasonsBox.hidden = selected !== null && kWide.matches;
 };
 

@@ -213,8 +213,8 @@ if (!film.violations.length) {
 if (!film.involved.length) byId('failure').textContent = 'Closest pair';
 byId('failure').hidden = !kSubject.length;
 byId('player').hidden = false;
+document.documentElement.classList.add('ready');  // before the first drawing: then the course is as high as it stays
 readAddress();
 showPair([kFocus_s, player.t_s]);
 drawAll();
 document.documentElement.dataset.ready = 'yes';
-document.documentElement.classList.add('ready');

@@ -71,9 +71,10 @@ TEST_F(ReplayReasons, SaysWhatWasDoubledLostLateAndMissing) {
       ElementsAre(
           "From 0.000 s until then, M had sent REQUEST 3 times (1.000 s to 3.000 s).",
           "Its agent said \"asking\" (1.000 s), \"driving\" (5.000 s).",
-          "1 of 3 others had answered in time: GRANT from T. Lost or late: P. Nothing sent to it alone: Q.", "P to M:",
+          "1 of 3 others had answered in time: GRANT from T. Lost or late: P. No answer sent to it alone: Q.",
+          "P to M:",
           "DEFER #3, sent 1.600 s: lost, its fate is given; P then had REQUEST #1 (sent 1.000 s), not the 2 newer.",
-          "DEFER #6, sent 4.900 s: received 5.500 s, 0.500 s after it began; P then had REQUEST #5 (sent 3.000 s).",
+          "DEFER #6, sent 4.900 s: received 5.500 s, 0.500 s too late; P then had REQUEST #5 (sent 3.000 s).",
           "P itself at 5.000 s: idle.", "T to M:",
           "GRANT #2, sent 1.500 s, received 1.600 s and again 1.900 s: one message, delivered twice; 3.500 s old then; "
           "T then had REQUEST #1 (sent 1.000 s), not the 2 newer.",
@@ -103,7 +104,7 @@ TEST_F(ReplayReasons, SaysNothingOfTheKindIfAllArrived) {
       texts(document, of_m("/p")),
       ElementsAre("From 0.000 s until then, M had sent REQUEST 3 times (1.000 s to 3.000 s).",
                   "Its agent said \"asking\" (1.000 s), \"driving\" (5.000 s).",
-                  "2 of 3 others had answered in time: DEFER from P; GRANT from T. Nothing sent to it alone: Q.",
+                  "2 of 3 others had answered in time: DEFER from P; GRANT from T. No answer sent to it alone: Q.",
                   "P to M:",
                   "DEFER #6, sent 4.900 s, received 4.901 s; 0.100 s old then; P then had REQUEST #5 (sent 3.000 "
                   "s); 1 more before it.",
@@ -166,7 +167,7 @@ TEST_F(ReplayReasons, AtOneInstantTheOrderOfTheTraceDecides) {
   ASSERT_TRUE(std::regex_search(trace, begins, std::regex(" 5\\.000000000 +M +begins")));
   ASSERT_TRUE(std::regex_search(trace, received, std::regex(" 5\\.000000000 +M +received +#6")));
   EXPECT_THAT(page, HasSubstr(begins.position() < received.position()
-                                  ? "DEFER #6, sent 4.900 s: received 5.000 s, right after it began"
+                                  ? "DEFER #6, sent 4.900 s: received 5.000 s, right after that"
                                   : "DEFER #6, sent 4.900 s, received 5.000 s; 0.100 s old then"));
 }
 

@@ -92,6 +92,8 @@ TEST(FilmStrip, clearances_are_rounded_down) {
   EXPECT_THAT(draw(strip).str(), HasSubstr("0.09 m apart"));
   strip.frames[0].clearance_m = 0.1 - 1e-9;  // 99 999 micrometres in the archive
   EXPECT_THAT(draw(strip).str(), HasSubstr("0.09 m apart"));
+  strip.frames[0].clearance_m = 1.55 - 1e-15;
+  EXPECT_THAT(draw(strip).str(), HasSubstr("1.55 m apart"));
   strip.frames[0].clearance_m = 0.0;
   EXPECT_THAT(draw(strip).str(), HasSubstr("they touch"));
 }
@@ -162,6 +164,24 @@ TEST(FilmStrip, without_frames_it_says_why) {
   const auto document = parsed(draw(strip));
   EXPECT_EQ(document.select_nodes("//svg").size(), 0u);
   EXPECT_STREQ(document.select_node("//p").node().text().get(), "No film strip: the software is gone");
+}
+
+// Far away, something moves: the picture is the same.
+TEST(FilmStrip, frames_that_look_the_same_are_drawn_once) {
+  auto strip = two_agvs();
+  strip.frames.assign(4, strip.frames[0]);
+  for (std::size_t i = 0; i < 4; ++i) {
+    strip.frames[i].time_s = 1.0 + static_cast<double>(i);
+    strip.frames[i].is_worst = i == 1;
+    strip.frames[i].bodies[2].centre.x_m += static_cast<double>(i);
+  }
+  strip.frames[3].bodies[0].centre.x_m += 1.0;
+  std::vector<std::string> times;
+  const auto document = parsed(draw(strip));
+  for (const auto& frame : document.select_nodes("//div/svg"))
+    times.emplace_back(frame.node().attribute("aria-label").value());
+  EXPECT_THAT(times, testing::ElementsAre("at 2.00 s, 8.00 m apart", "at 4.00 s, 8.00 m apart"));
+  EXPECT_THAT(document.select_node("//p").node().text().get(), HasSubstr("From 1.00 s to 4.00 s"));
 }
 
 TEST(FilmStrip, a_strip_of_nothing_is_drawn) {
