@@ -124,7 +124,7 @@ class Storyteller {
     add(crash_text(end));
     const SimTime at = at_ns(end.at_us * 1000);
     add(evidence_.doing(agv, at));
-    add(evidence_.faults(film_.involved, at));
+    add(evidence_.faults(film_.involved, at - std::chrono::microseconds(1)));  // the crash itself stands above
   }
 
   // The one that was there longest, the first of equals.

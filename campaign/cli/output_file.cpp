@@ -16,6 +16,9 @@
 namespace fleetproof::cli {
 namespace {
 
+// A file larger than that is known by its beginning.
+constexpr std::size_t kMostRead = std::size_t{64} << 20, kBeginning = 4096;
+
 // Whether `text` is a JSON object with this key. False if it is no JSON.
 bool has_key(std::string_view text, std::string_view key) {
   try {
@@ -23,6 +26,13 @@ bool has_key(std::string_view text, std::string_view key) {
   } catch (const InputError&) {
     return false;
   }
+}
+
+// Likewise, of a key that stands in the beginning of a file that the program has written.
+bool begins_with_key(std::string_view text, std::string_view key) {
+  if (text.size() < kMostRead) return has_key(text, key);
+  return text.starts_with('{') &&
+         text.substr(0, kBeginning).find(fmt::format("\"{}\":", key)) != std::string_view::npos;
 }
 
 bool is_layout(std::string_view text) { return has_key(text, "layout") && !has_key(text, "agvs"); }
@@ -50,8 +60,10 @@ bool is_trace(std::string_view text) {
   return text.starts_with("{\"t_ns\":") || (point != std::string_view::npos && point > digits && text[point] == '.' &&
                                             text.find_first_not_of("0123456789", point + 1) == point + 10);
 }
-bool is_pieces(std::string_view text) { return has_key(text, "bodies") && has_key(text, "safety_distance_m"); }
-bool is_chrome_trace(std::string_view text) { return has_key(text, "traceEvents"); }
+bool is_pieces(std::string_view text) {
+  return begins_with_key(text, "bodies") && begins_with_key(text, "safety_distance_m");
+}
+bool is_chrome_trace(std::string_view text) { return begins_with_key(text, "traceEvents"); }
 bool is_poses(std::string_view text) { return text.starts_with("body,t_s,"); }
 bool is_sensitivity(std::string_view text) { return has_key(text, "worlds") && has_key(text, "faults"); }
 
@@ -105,7 +117,7 @@ void require_writable(const OutputFile& file) {
   std::error_code ignored;
   if (!std::filesystem::exists(file.path, ignored)) return require_place(file);
   if (!std::filesystem::is_regular_file(file.path, ignored)) return;
-  const std::string before = read_text_file(file.path);
+  const std::string before = read_beginning(file.path, kMostRead);
   if (before.empty() || kind.is_one(before)) return;
   throw InputError(
       file.path, fmt::format("is there already and is not {}; it is not overwritten; {}", kind.noun, remedy_of(file)));

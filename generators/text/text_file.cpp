@@ -105,7 +105,7 @@ std::string_view what_else_stands_at(const std::string& path) {
   }
 }
 
-std::string read_text_file(const std::string& path) {
+std::string read_beginning(const std::string& path, std::size_t most) {
   if (const auto what = what_else_stands_at(path); !what.empty())
     throw InputError(path, fmt::format("{}; name a regular file", what));
   // A pipe may have replaced the file since the check. Without O_NONBLOCK, open() would then wait for a writer.
@@ -118,16 +118,22 @@ std::string read_text_file(const std::string& path) {
     throw InputError(path, "is no regular file; name one");
   std::string text;
   char buffer[65536];
-  for (;;) {
-    const auto count = ::read(file.number(), buffer, sizeof buffer);
+  while (text.size() < most) {
+    const auto count = ::read(file.number(), buffer, std::min(sizeof buffer, most - text.size()));
     if (count < 0 && errno == EINTR) continue;
     if (count < 0)
       throw InputError(path, fmt::format("cannot be read to its end ({}); check the disk", std::strerror(errno)));
-    if (count == 0) return text;
+    if (count == 0) break;
     text.append(buffer, static_cast<std::size_t>(count));
-    if (text.size() > kLargestFile)
-      throw InputError(path, "is larger than 64 MiB, which no layout or scenario is; check the file name");
   }
+  return text;
+}
+
+std::string read_text_file(const std::string& path) {
+  std::string text = read_beginning(path, kLargestFile + 1);
+  if (text.size() > kLargestFile)
+    throw InputError(path, "is larger than 64 MiB, which no layout or scenario is; check the file name");
+  return text;
 }
 
 void write_text_file(const std::string& path, std::string_view text, std::string_view remedy) {

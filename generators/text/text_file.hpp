@@ -15,6 +15,8 @@ std::string_view what_else_stands_at(const std::string& path);
 
 // The whole file. InputError if there is no such regular file, if it cannot be read, or if it is larger than 64 MiB.
 std::string read_text_file(const std::string& path);
+// Its first bytes, `most` of them if it has so many. InputError as above, but of no size.
+std::string read_beginning(const std::string& path, std::size_t most);
 
 // Writes `text` to `path`, whole or not at all. The text goes into a new file in the same folder and is brought to the
 // disk. Then the new file takes the name at one instant. A link stays, and the file behind it is replaced. InputError,

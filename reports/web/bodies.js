@@ -217,8 +217,8 @@ const drawFloor = t_s => {
     context.moveTo(toX(gap.from[0]), toY(gap.from[1]));
     context.lineTo(toX(gap.to[0]), toY(gap.to[1]));
     context.stroke();
-    label(gap.apart_m.toFixed(3) + ' m', toX((gap.from[0] + gap.to[0]) / 2), toY((gap.from[1] + gap.to[1]) / 2) - 9,
-          colour, true);
+    const x = toX((gap.from[0] + gap.to[0]) / 2), y = toY((gap.from[1] + gap.to[1]) / 2);
+    if (x > 0 && x < floor.clientWidth) label(gap.apart_m.toFixed(3) + ' m', x, y - 9, colour, true);
   }
   if (shown.names) {
     for (const {body, box} of there.reverse()) {

@@ -26,6 +26,7 @@ const heading = pose => {
 const tellPair = (t_s, all) => {
   const pair = pairAt(t_s), gap = gapAt(all, pair);
   pairBox.replaceChildren();
+  pairBox.hidden = !pair && film.involved.length === 1;
   if (!pair) {
     pairBox.append(element('span', film.involved.map(nameOf).join(', ') || 'No pair came too close.', 'soft'));
     return;

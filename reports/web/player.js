@@ -83,15 +83,15 @@ const jump = forward => {
 };
 
 const kSubject = film.involved.length || !film.nearest ? film.involved : [film.nearest.a, film.nearest.b];
-// Shows the footprints of the pair at some instants, as near as fits.
-const showPair = instants_s => {
+// Shows the footprints of the pair, or of others, at some instants, as near as fits.
+const showPair = (instants_s, bodies = kSubject, room_m = 0.8) => {
   const places = [];
   for (const t_s of instants_s) {
-    for (const piece of kSubject.map(body => pieceAt(body, t_s)).filter(Boolean))
+    for (const piece of bodies.map(body => pieceAt(body, t_s)).filter(Boolean))
       places.push(...cornersOf(boxOf(piece, poseAt(piece, t_s), kSafety_m)));
   }
   if (!places.length) return wholeFloor();
-  const xs = places.map(p => p[0]), ys = places.map(p => p[1]), room_m = 0.8;
+  const xs = places.map(p => p[0]), ys = places.map(p => p[1]);
   fitTo([Math.min(...xs) - room_m, Math.min(...ys) - room_m], [Math.max(...xs) + room_m, Math.max(...ys) + room_m]);
 };
 const showFailure = () => showPair([kFocus_s]);
@@ -215,6 +215,7 @@ byId('failure').hidden = !kSubject.length;
 byId('player').hidden = false;
 document.documentElement.classList.add('ready');  // before the first drawing: then the course is as high as it stays
 readAddress();
-showPair([kFocus_s, player.t_s]);
+if (selected === null || kSubject.includes(selected)) showPair([kFocus_s, player.t_s]);
+else showPair([player.t_s], [selected], 6);
 drawAll();
 document.documentElement.dataset.ready = 'yes';

@@ -71,6 +71,22 @@ TEST_F(OutputFiles, ReplaceOnlyTheirOwnKind) {
   EXPECT_EQ(run("import layout layout.json -o mine.csv").exit_code, 2);
 }
 
+// The second run of a command replaces what the first one left, however large that is.
+TEST_F(OutputFiles, ReplaceTheirOwnKindAboveTheLimitOfInputs) {
+  const std::string much((std::size_t{64} << 20) + 1, ' ');
+  for (const char* option : {"--chrome-trace", "--pieces", "--trace-output"}) {
+    const std::string replay = std::string("replay a.db 0 ") + option + " large";
+    ASSERT_EQ(run(replay).exit_code, 0);
+    const std::string first = read(path("large"));
+    write("large", first + much);
+    EXPECT_EQ(run(replay).exit_code, 0) << option;
+    EXPECT_EQ(read(path("large")), first) << option;
+    write("large", "{\"mine\": true}" + much);
+    EXPECT_THAT(run(replay).err, HasSubstr("large: is there already and is not ")) << option;
+    std::filesystem::remove(path("large"));
+  }
+}
+
 TEST_F(OutputFiles, KeepTheirLinkAndTheirPermissions) {
   std::filesystem::create_symlink("layout.json", path("link.json"));
   std::filesystem::permissions(path("layout.json"), std::filesystem::perms(0640));
