@@ -112,7 +112,12 @@ void AgentHost::call_agent(AgvId agv, const fp_event& event) {
 
 const AgentFailure* AgentHost::start_agent(AgvId agv, const fp_event& event) {
   Slice& slice = slices_[agv.index()];
-  if (slice.boot > 0) renew_briefing(agv);
+  if (slice.boot > 0) {
+    renew_briefing(agv);
+    // An agent whose computer freezes starts later than it was started. Actions that ended by then are over in its
+    // briefing: they were none of its own.
+    std::erase_if(slice.waiting_events, [](const fp_event& waiting) { return waiting.kind == FP_EVENT_ACTION_DONE; });
+  }
   slice.controller = ports_.controller.handle_of(agv);
   return caller_.start({agv, run_.now, &event, slice.controller, &briefings_.of(agv)}, slice.agent);
 }

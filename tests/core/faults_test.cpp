@@ -235,6 +235,29 @@ TEST(Restart, BackBeforeTheDriveIsOverItIsToldWhatIsUnderWay) {
   EXPECT_EQ(done, (std::vector<std::int64_t>{8'000'000'000}));
 }
 
+// Its briefing is of the instant at which it starts. What ended before is over there: no event tells of it once more.
+TEST(Restart, InAFreezeItStartsWhenThatIsOverAndHearsNothingOfTheTimeBefore) {
+  Scenario scenario = row_of_tens({0}, 60.0);
+  scenario.faults = {fault(Fault::Kind::Freeze, 1.0, 9.0), fault(Fault::Kind::Restart, 2.0, 1.0)};
+  std::vector<fp_event> events;
+  std::uint32_t station = FP_NONE, segment = 7;
+  test::simulate_with(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
+    if (b.boot == 0) host.move(c, 0);  // over at 8 s
+    if (b.boot == 0) return;
+    events.push_back(e);
+    if (e.kind != FP_EVENT_START) return;
+    station = b.start_station;
+    segment = b.start_segment;
+    EXPECT_EQ(host.move(c, 1), FP_OK);
+  });
+  EXPECT_EQ(station, 1U);
+  EXPECT_EQ(segment, FP_NONE);
+  ASSERT_EQ(events.size(), 2U) << "the start, and the end of its own drive";
+  EXPECT_EQ(events[0].now_ns, 10'000'000'000);
+  EXPECT_EQ(events[1].kind, static_cast<std::uint32_t>(FP_EVENT_ACTION_DONE));
+  EXPECT_EQ(events[1].now_ns, 18'000'000'000);
+}
+
 TEST(Restart, WhatTheAgentWasAboutToDoIsLost) {
   Scenario scenario = row_of_tens({0});
   scenario.agent_clock.call_cost_s = 1.0;
