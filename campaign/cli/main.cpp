@@ -15,6 +15,8 @@ int main(int argc, char** argv) {
            "fleetproof merge out --db night.db", prepare_merge},
       Verb{"missing", "say which shards of a campaign have to run again", "fleetproof missing out --array",
            prepare_missing},
+      Verb{"submit", "give the shards of a campaign to the job engine of a cluster, and the merge after them",
+           "fleetproof submit tests/campaigns/demo.toml --shards 8 --out shards --go", prepare_submit},
       Verb{"report", "judge a campaign file and tell what it shows", "fleetproof report demo.db --format markdown",
            prepare_report},
       Verb{"replay", "simulate one run of a campaign again and compare it to the bit", "fleetproof replay demo.db 17",

@@ -8,6 +8,7 @@ namespace fleetproof::cli {
 Action prepare_run(Options& options);
 Action prepare_merge(Options& options);
 Action prepare_missing(Options& options);
+Action prepare_submit(Options& options);
 Action prepare_report(Options& options);
 Action prepare_replay(Options& options);
 Action prepare_explain(Options& options);
