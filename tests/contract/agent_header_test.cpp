@@ -168,7 +168,7 @@ TEST(AgentHeader, AfterARestartNoOrderIsSentThatIsDoneByThen) {
     if (b.boot == 0 && e.kind == FP_EVENT_ORDER && e.order_id == 0) host.pick(c, FP_HERE);
     if (b.boot == 0 && e.kind == FP_EVENT_ACTION_DONE) host.drop(c, 0);
   });
-  EXPECT_THAT(told, testing::ElementsAre("start", "order 1", "order 2", "done"));
+  EXPECT_THAT(told, testing::ElementsAre("start", "order 1", "order 2")) << "the drop was over before it started";
 }
 
 }  // namespace
