@@ -23,7 +23,7 @@ class Package : public test::ProgramTest {
 };
 
 TEST_F(Package, BuildsAndTriesAgentsOutsideTheSources) {
-  ASSERT_EQ(shell("cp -r root/usr/share/doc/fleetproof/examples agents"), 0) << read(path("said"));
+  ASSERT_EQ(shell("cp -r root/usr/share/fleetproof/examples agents"), 0) << read(path("said"));
   ASSERT_EQ(shell("cmake -S agents -B agents/build -DCMAKE_PREFIX_PATH=" + path("root/usr")), 0) << read(path("said"));
   ASSERT_EQ(shell("cmake --build agents/build"), 0) << read(path("said"));
   EXPECT_EQ(shell("cd agents && ! fleetproof run rover.toml"), 0) << read(path("said"));
@@ -64,6 +64,31 @@ ask fleetproof run --sha
 )");
   ASSERT_EQ(shell("bash try.bash"), 0) << read(path("said"));
   EXPECT_EQ(read(path("said")), "report replay\n--shard --shards\n");
+}
+
+// A shell in a terminal of its own, in which somebody presses the tabulator.
+TEST_F(Package, ZshCompletesVerbsAndOptions) {
+  write("try.zsh", R"(
+zmodload zsh/zpty
+zpty terminal zsh -f -i
+zpty -w terminal 'PS1=; fpath=(root/usr/share/zsh/vendor-completions $fpath); autoload -U compinit'
+zpty -w terminal 'compinit -u -d known; stty cols 200; print rea""dy'
+zpty -r terminal heard '*ready*'
+ask() {
+  zpty -w -n terminal "$1"$'\t\t'
+  zpty -r terminal heard "*$2*$3*"
+  print -r -- "${heard//$'\e'\[[0-9;]#[A-Za-z]/}"
+  zpty -w terminal $'\x15'
+}
+ask 'fleetproof rep' 'simulate one run of a campaign again' 'judge a campaign file'
+ask 'fleetproof run --sha' 'simulate one part of the campaign: i/n' 'the number of shards'
+)");
+  ASSERT_EQ(shell("timeout 60 zsh -f try.zsh"), 0) << read(path("said"));
+  const std::string said = read(path("said"));
+  for (const char* offered : {"replay  -- ", "report  -- ", "--shard   -- ", "--shards  -- "}) {
+    EXPECT_NE(said.find(offered), std::string::npos) << offered << said;
+  }
+  EXPECT_EQ(said.find("retest"), std::string::npos) << said;
 }
 
 }  // namespace
