@@ -58,8 +58,8 @@ std::string agents_text(const Json& agents) {
   std::vector<std::string> words;
   for (const Json& agent : agents) {
     std::string text = word(agent);
-    if (const std::string program = word(part(agent, "program")); !program.empty() && program != text)
-      text += fmt::format(" ({})", program);
+    if (const Json& program = part(agent, "program"); program.is_string() && word(program) != text)
+      text += fmt::format(" ({})", word(program));
     words.push_back(std::move(text));
   }
   return joined(words);

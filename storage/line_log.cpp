@@ -45,6 +45,16 @@ void require_log(const std::string& path, std::string_view first_words, std::str
   if (std::getline(file, line) && !line.starts_with(first_words)) throw InputError(path, std::string(sentence));
 }
 
+void require_appendable(const std::string& path, std::string_view remedy) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC | O_NONBLOCK);
+  int error = file < 0 ? errno : 0;
+  if (file >= 0) ::close(file);
+  const auto folder = std::filesystem::path(path).parent_path();
+  if (error == ENOENT) error = ::access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) == 0 ? 0 : errno;
+  if (error == EACCES || error == EPERM || error == EROFS)
+    throw InputError(path, fmt::format("this user may not write here ({}); {}", std::strerror(error), remedy));
+}
+
 std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
 
 }  // namespace fleetproof

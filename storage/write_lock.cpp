@@ -27,7 +27,10 @@ WriteLock::WriteLock(const std::string& path) : lock_path_(path + ".lock") {
 
 // False if the former holder removed the file between our open and our lock: no other program would then see our lock.
 bool WriteLock::try_lock(const std::string& path) {
-  const int fd = ::open(lock_path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0644);
+  constexpr int kFlags = O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
+  int fd = ::open(lock_path_.c_str(), O_RDWR | O_CREAT | kFlags, 0644);
+  if (fd < 0 && errno == EACCES) fd = ::open(lock_path_.c_str(), O_RDONLY | kFlags);  // another user's, who may hold it
+  if (fd < 0 && errno == ENOENT) errno = EACCES;  // there is none, and none may be made
   if (fd < 0) throw_cannot_make(lock_path_, errno);
   const int error = ::flock(fd, LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
   struct stat opened {

@@ -40,6 +40,7 @@ AttemptLog::AttemptLog(const std::string& ledger, const Campaign& campaign)
   attempt_.release = campaign.release;
   attempt_.planned_runs = campaign.planned_runs;
   attempt_.fresh_seed = campaign.fresh_seed;
+  if (is_claim_) require_appendable(ledger_.path(), "change the permissions, or name another ledger by --ledger");
 }
 
 void AttemptLog::begin() {

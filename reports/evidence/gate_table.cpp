@@ -74,10 +74,16 @@ bool passes(const GateTable& table, std::uint64_t failing, std::uint64_t units) 
   return failing < table.passes_from.size() && units >= table.passes_from[failing];
 }
 
-// More failures than the table has refute at least as much as its last row does.
+// More failures than the table has refute in proportion to its last row. With m times its failures and its units, m >=
+// 1, each likelihood ratio of the evidence is raised to the power of m, and the mean of the powers is at least the
+// power of the mean (Jensen), which is above the threshold already. The rate of events per hour has a mean over other
+// ratios, of the same form.
 bool refutes(const GateTable& table, std::uint64_t failing, std::uint64_t units) {
   if (table.refuted_up_to.empty() || units == 0) return false;
-  return units <= table.refuted_up_to[std::min<std::uint64_t>(failing, table.refuted_up_to.size() - 1)];
+  const std::uint64_t last = table.refuted_up_to.size() - 1;
+  if (failing <= last) return units <= table.refuted_up_to[failing];
+  __extension__ using Wide = unsigned __int128;
+  return Wide{units} * last <= Wide{table.refuted_up_to[last]} * failing;
 }
 
 }  // namespace fleetproof

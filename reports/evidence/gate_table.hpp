@@ -11,7 +11,8 @@ namespace fleetproof {
 // The decisions of a gate of the method any-time, as whole numbers: release_gate.hpp says when it passes,
 // refutation.hpp when it is refuted. `cells` of the gate: if each is judged for itself (unit Run), they share the risk
 // of a wrong refutation. The table ends where more failures need 16 times the planned replicates, or after 256
-// failures; a gate with more failures than that does not pass. Empty for the method Fixed.
+// failures; a gate with more failures than that does not pass, and is refuted in proportion to the last row. Empty for
+// the method Fixed.
 GateTable gate_table(const GateRecord& gate, std::size_t cells, std::uint64_t planned_replicates);
 
 bool passes(const GateTable& table, std::uint64_t failing, std::uint64_t units);

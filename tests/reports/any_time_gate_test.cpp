@@ -4,9 +4,12 @@
 
 #include <cmath>
 
+#include "reports/evidence/confidence_sequence.hpp"
 #include "reports/evidence/evidence.hpp"
+#include "reports/evidence/exposure.hpp"
 #include "reports/evidence/gate_bounds.hpp"
 #include "reports/evidence/gate_table.hpp"
+#include "reports/evidence/refutation.hpp"
 #include "tests/reports/sample_campaign.hpp"
 
 namespace fleetproof {
@@ -81,6 +84,31 @@ TEST(AnyTimeGate, IsRefutedWhileTheEvidenceAgainstItsLimitIsTwentyfold) {
   }
   EXPECT_FALSE(refutes(table, 0, 1));
   EXPECT_TRUE(refutes(table, 10, 30)) << "ten of thirty worlds deadlock";
+}
+
+// Far more failures than the table has. The evidence is looked at in logarithms: as a number it is too great.
+TEST(AnyTimeGate, IsRefutedBeyondItsTable) {
+  const GateTable table = gate_table(any_time(0.2), 1, 20);
+  const std::uint64_t last = table.refuted_up_to.size() - 1;
+  ASSERT_LT(last, 300U);
+  EXPECT_TRUE(refutes(table, 3023, 4000));
+  EXPECT_FALSE(refutes(table, 700, 4000)) << "fewer than the limit allows";
+  for (std::uint64_t failing = last + 1; failing < 40 * last; failing += 17) {
+    std::uint64_t most = failing;
+    while (refutes(table, failing, most + 1)) ++most;
+    EXPECT_GE(log_refutation(failing, most, 0.2), std::log(20.0)) << failing << " of " << most;
+    EXPECT_LT(log_refutation(failing, most + most / 5, 0.2), std::log(20.0)) << "a fifth more could not be refuted";
+  }
+  GateRecord rate = any_time(0.2);
+  rate.unit = GateUnit::AgvHour;
+  const GateTable rates = gate_table(rate, 1, 20);
+  const std::uint64_t end = rates.refuted_up_to.size() - 1;
+  for (const std::uint64_t times : {2, 10, 1000}) {
+    const std::uint64_t agv_us = rates.refuted_up_to[end] * times;
+    EXPECT_TRUE(refutes(rates, end * times, agv_us));
+    EXPECT_FALSE(refutes(rates, end * times, agv_us + times));
+    EXPECT_GT(any_time_rate(end * times, agv_hours(agv_us), 0.95).lower, 0.2);
+  }
 }
 
 TEST(AnyTimeGate, SaysWhatAStoppedNightCarries) {

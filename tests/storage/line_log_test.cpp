@@ -1,6 +1,11 @@
 #include "storage/line_log.hpp"
 
 #include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdio>
 
 #include "core/base/error.hpp"
 #include "core/base/machine_error.hpp"
@@ -47,6 +52,34 @@ TEST(LineLog, AFileThatIsNotThereIsBegun) {
 TEST(LineLog, AFolderIsNeverWrittenTo) {
   const TemporaryFolder folder;
   EXPECT_THROW(append_lines(folder / ".", "{}\n"), MachineError);
+}
+
+// Says what comes out for a user who may write neither the file nor its folder.
+std::string said_to_another_user(const std::string& path) {
+  try {
+    require_appendable(path, "name another");
+  } catch (const InputError& refused) {
+    return refused.what();
+  }
+  return "appendable";
+}
+
+TEST(LineLogOfAnotherUser, IsRefusedBeforeTheWork) {
+  const TemporaryFolder folder;
+  EXPECT_NO_THROW(require_appendable(folder / "new.jsonl", "name another"));
+  append_lines(folder / "log.jsonl", "{}\n");
+  EXPECT_NO_THROW(require_appendable(folder / "log.jsonl", "name another"));
+  EXPECT_EQ(samples::bytes_of(folder / "log.jsonl"), "{}\n");
+  ASSERT_EQ(::chmod((folder / "log.jsonl").c_str(), 0444), 0);
+  ASSERT_EQ(::chmod((folder / ".").c_str(), 0555), 0);
+  const auto ask = [&](const std::string& path) {
+    if (::geteuid() == 0 && ::setuid(65534) != 0) ::_exit(2);
+    std::fputs(said_to_another_user(path).c_str(), stderr);
+    ::_exit(0);
+  };
+  EXPECT_EXIT(ask(folder / "log.jsonl"), testing::ExitedWithCode(0), "log.jsonl.*may not write here.*name another");
+  EXPECT_EXIT(ask(folder / "new.jsonl"), testing::ExitedWithCode(0), "new.jsonl.*may not write here.*name another");
+  ASSERT_EQ(::chmod((folder / ".").c_str(), 0755), 0);
 }
 
 TEST(LineLog, TheSessionLogStandsBesideTheArchive) {

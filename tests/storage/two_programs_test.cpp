@@ -1,16 +1,19 @@
 // Two programs at one campaign file: two writers, or a writer and its readers.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 
 #include "core/base/error.hpp"
 #include "storage/archive_reader.hpp"
 #include "storage/archive_writer.hpp"
+#include "storage/write_lock.hpp"
 #include "tests/storage/sample_records.hpp"
 
 namespace fleetproof {
@@ -24,6 +27,29 @@ constexpr int kWon = 0, kRefused = 1, kSlow = 2, kOtherError = 3;
 int number_of(const char* variable, int quick) {
   const char* wanted = std::getenv(variable);
   return wanted != nullptr ? std::atoi(wanted) : quick;
+}
+
+// The lock file of a campaign belongs to the user who began it; others can read it, and that is enough to ask for it.
+TEST(TwoUsers, LearnThatTheOtherIsWriting) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "night.db";
+  ASSERT_EQ(::chmod((folder / ".").c_str(), 0755), 0);
+  const WriteLock held(path);
+  ASSERT_EQ(::chmod((path + ".lock").c_str(), 0444), 0);
+  const auto ask = [&](const std::string& name) {
+    if (::geteuid() == 0 && ::setuid(65534) != 0) ::_exit(2);
+    try {
+      const WriteLock other(name);
+      std::fputs("locked", stderr);
+    } catch (const InputError& refused) {
+      std::fputs(refused.what(), stderr);
+    }
+    ::_exit(0);
+  };
+  EXPECT_EXIT(ask(path), testing::ExitedWithCode(0), "another fleetproof run is writing this file");
+  ASSERT_EQ(::chmod((folder / ".").c_str(), 0555), 0);
+  EXPECT_EXIT(ask(folder / "mine.db"), testing::ExitedWithCode(0), "mine.db.lock.*may not be made here");
+  ASSERT_EQ(::chmod((folder / ".").c_str(), 0755), 0);
 }
 
 // Both ends in this process; the children inherit them.
