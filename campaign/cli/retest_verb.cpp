@@ -57,6 +57,13 @@ void put_line(const Retested& retested) {
   if (!result.standing.empty()) put("  hardly drives: {}\n", result.standing);
 }
 
+nlohmann::ordered_json shares_of_worlds(const NeighbourCounts& now, const NeighbourCounts& before) {
+  return {{"neighbours", now.of_world},
+          {"failing", now.alike_of_world},
+          {"failing_before", before.alike_of_world},
+          {"neighbours_before", before.of_world}};
+}
+
 void put_json(const std::vector<Retested>& all) {
   nlohmann::ordered_json json = {{"schema_version", 1}};
   json["findings"] = nlohmann::ordered_json::array();
@@ -70,7 +77,8 @@ void put_json(const std::vector<Retested>& all) {
                                 {"new_kind", result.new_kind},
                                 {"hardly_drives", result.standing},
                                 {"failing_before", finding.neighbours.alike},
-                                {"neighbours_before", finding.neighbours.of}});
+                                {"neighbours_before", finding.neighbours.of},
+                                {"of_worlds", shares_of_worlds(result.now, finding.neighbours)}});
   put_text(printable_json(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) + "\n");
 }
 

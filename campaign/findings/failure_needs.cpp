@@ -21,6 +21,8 @@ constexpr std::uint32_t kEnoughToCompare = 4, kFewestTries = 8, kMostTries = 24;
 // first.
 constexpr std::size_t kFewLucks = 2;
 constexpr std::uint32_t kTriesForNothing = 40;
+// With more of them, what seems needed was tried often enough.
+constexpr std::size_t kManyLucks = 4;
 // What keeps a fleet from its work is told apart by who waits for whom, which is chance.
 constexpr std::array kStandstills = {"deadlock", "livelock", "starvation", "standstill-in-contract", "stuck"};
 
@@ -53,7 +55,9 @@ class Reduction {
     best_ = {original_, *failure};
     learn_words(run);
     found_.end = likeness_.end;
-    take_out_ingredients(ingredients_of(original_, adverse_kinds(run.fates)));
+    const auto ingredients = ingredients_of(original_, adverse_kinds(run.fates));
+    take_out_ingredients(ingredients);
+    if (failing_lucks_.size() <= kManyLucks) try_again(ingredients);
     add_traits();
     found_.reduced = std::move(best_);
     found_.is_rare = !failed_otherwise_ && failing_lucks_.empty();
@@ -111,6 +115,17 @@ class Reduction {
     needs_third_ = !fails_after(leave_the_two, tries);
   }
 
+  // A failure that seldom comes about may have been missed: what seems needed is tried with the replays that are left.
+  void try_again(const std::vector<Ingredient>& ingredients) {
+    for (const Ingredient& ingredient : ingredients) {
+      const auto place = std::ranges::find(found_.needs, ingredient.name);
+      if (place == found_.needs.end()) continue;
+      const auto left = static_cast<std::uint32_t>(kReplaysPerFailure - 2 - replays_);
+      const auto tries = left / static_cast<std::uint32_t>(found_.needs.end() - place);
+      if (fails_with_new_luck(ingredient.take_out, tries)) found_.needs.erase(place);
+    }
+  }
+
   static std::function<void(Scenario&)> all_of(const std::vector<Ingredient>& ingredients) {
     return [&](Scenario& scenario) {
       for (const Ingredient& ingredient : ingredients) ingredient.take_out(scenario);
@@ -127,14 +142,6 @@ class Reduction {
     Scenario less = best_.scenario;
     edit(less);
     if (!is_fair(less)) return false;
-    const auto fails = [&](Scenario scenario) {
-      if (replays_ >= kReplaysPerFailure - 1) return false;
-      const CaseRun run = simulate(scenario);
-      auto failure = likeness_.match(run);
-      if (failure) best_ = {std::move(scenario), *std::move(failure)};
-      if (!failure_of(run)) learner_->hear_passing(run);
-      return failure.has_value();
-    };
     if (fails(less)) return true;
     std::vector<std::uint32_t> lucks = failing_lucks_;
     for (std::uint32_t luck = kOtherRuns + 1; lucks.size() < tries; ++luck) lucks.push_back(luck);
@@ -142,6 +149,25 @@ class Reduction {
     const bool failed = std::ranges::any_of(lucks, [&](std::uint32_t luck) { return fails(another(less, luck)); });
     failed_otherwise_ |= failed;
     return failed;
+  }
+  // With lucks that no other step has tried.
+  bool fails_with_new_luck(const std::function<void(Scenario&)>& edit, std::uint32_t tries) {
+    Scenario less = best_.scenario;
+    edit(less);
+    if (!is_fair(less)) return false;
+    bool failed = false;
+    for (std::uint32_t i = 0; i < tries && !failed; ++i) failed = fails(another(less, next_new_luck_++));
+    failed_otherwise_ |= failed;
+    return failed;
+  }
+  // Keeps the scenario if it does.
+  bool fails(Scenario scenario) {
+    if (replays_ >= kReplaysPerFailure - 1) return false;
+    const CaseRun run = simulate(scenario);
+    auto failure = likeness_.match(run);
+    if (failure) best_ = {std::move(scenario), *std::move(failure)};
+    if (!failure_of(run)) learner_->hear_passing(run);
+    return failure.has_value();
   }
 
   void add_traits() {
@@ -164,6 +190,7 @@ class Reduction {
   std::vector<std::uint32_t> failing_lucks_;
   std::optional<WordLearner> learner_;
   std::uint64_t replays_ = 0;
+  std::uint32_t next_new_luck_ = kOtherRuns + kTriesForNothing + 1;
   bool needs_third_ = false, failed_otherwise_ = false;
 };
 

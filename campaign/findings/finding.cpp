@@ -11,6 +11,7 @@
 
 #include "campaign/findings/ingredients.hpp"
 #include "core/base/random.hpp"
+#include "reports/evidence/binomial.hpp"
 
 namespace fleetproof {
 namespace {
@@ -21,6 +22,11 @@ using Members = std::vector<std::size_t>;
 // Shares of failures: with a trait that is part of the mechanism, and of drives without anything special that leave
 // open what the bodies have to do.
 constexpr std::size_t kCommonPercent = 90, kDrivenOnPercent = 10;
+// Where they did several things, it is to be 95 % sure that so few just drove on: of few failures, all may by chance
+// have done something.
+constexpr double kFewDroveOn = 0.2;
+// One failure in four may have come about in another way than the others.
+constexpr std::size_t kMostPercent = 75;
 
 // Below this, a set of needs may be an accident of the luck with which it was looked for.
 constexpr std::size_t kFewMembers = 3, kRareShare = 20;
@@ -40,11 +46,28 @@ std::vector<std::string> common_traits(std::span<const KnownFailure> failures, c
   return common;
 }
 
+// What nine in ten of them did; empty if there is no such thing.
+std::string common_doing(std::span<const KnownFailure> failures, const Members& members) {
+  std::map<std::string, std::size_t> counts;
+  for (const std::size_t member : members) {
+    for (const std::string& doing : failures[member].needs.doings) ++counts[doing];
+  }
+  const auto most = std::ranges::max_element(counts, {}, [](const auto& count) { return count.second; });
+  return most != counts.end() && 100 * most->second >= kCommonPercent * members.size() ? most->first : "";
+}
+
+// Whether what the bodies did tells these failures apart.
+bool tells_apart(std::span<const KnownFailure> failures, const Members& members) {
+  const auto drove_on = static_cast<std::size_t>(
+      std::ranges::count_if(members, [&](std::size_t member) { return failures[member].needs.doings.empty(); }));
+  if (100 * drove_on >= kDrivenOnPercent * members.size()) return false;
+  return !common_doing(failures, members).empty() ||
+         upper_bound(drove_on, members.size(), Confidence{0.95}) < kFewDroveOn;
+}
+
 // Failures with the same needs, by what the bodies did.
 std::map<std::string, Members> parted(std::span<const KnownFailure> failures, Members members) {
-  const auto drove_on =
-      std::ranges::count_if(members, [&](std::size_t member) { return failures[member].needs.doings.empty(); });
-  if (100 * static_cast<std::size_t>(drove_on) >= kDrivenOnPercent * members.size()) return {{"", std::move(members)}};
+  if (!tells_apart(failures, members)) return {{"", std::move(members)}};
   std::map<std::string, Members> parts;
   while (!members.empty()) {
     std::map<std::string, std::size_t> counts;
@@ -75,12 +98,14 @@ struct Home {
   std::string doing;
   std::vector<std::string> words;
   std::size_t size = 0;
+  bool is_told_by_words = false;  // whatever else a failure needs or does without
 
   // Who just drove on where nearly all others did something may have done so a little later.
   bool takes(const FailureNeeds& failure) const {
     const bool did_so =
         doing.empty() || names_all(failure.doings, {doing}) || (failure.doings.empty() && failure.needs == needs);
-    return did_so && names_all(failure.needs, needs) && std::ranges::all_of(words, [&](const std::string& word) {
+    return did_so && (is_told_by_words || names_all(failure.needs, needs)) &&
+           std::ranges::all_of(words, [&](const std::string& word) {
              return names_all(failure.traits, {word}) || says(failure, word);
            });
   }
@@ -129,18 +154,19 @@ class Gathering {
       for (auto [doing, part] : parted(failures_, members)) {
         std::erase_if(part, [&](std::size_t member) { return failures_[member].needs.is_rare; });
         if (part.size() < kFewMembers || kRareShare * part.size() < count_) continue;
-        homes.push_back({needs, doing, common_traits(failures_, part), part.size()});
+        homes.push_back({needs, doing, common_traits(failures_, part), part.size(), false});
         std::erase(homes.back().words, kThirdAgvTrait);  // who fails without a third AGV fails in the same way
       }
     }
     add_cores_of_words(homes);
+    add_core_of_few(homes);
     add_cores(homes);
     std::ranges::stable_sort(homes, {}, [](const Home& home) { return std::pair(home.needs.size(), ~home.size); });
     return homes;
   }
 
-  // An agent with few failures, most of which say the same telling word: each shows that the others do without what it
-  // does not need. Where they are many, the frequent needs say more: a failure may come about in one of several ways.
+  // Most failures of the agent say the same telling word, and they are few, or no set of needs is that of most: what
+  // most of them need. Otherwise the frequent needs say more: a failure may come about in one of several ways.
   void add_cores_of_words(std::vector<Home>& homes) const {
     std::map<std::string, Members> saying;
     for (const auto& [needs, members] : by_needs_) {
@@ -151,15 +177,58 @@ class Gathering {
       }
     }
     for (const auto& [word, members] : saying) {
-      const bool is_rule = members.size() >= 2 && 2 * members.size() >= count_;
-      if (!is_rule || members.size() >= kEnoughToCount) continue;
-      const Needs core = without_kinds(in_common(members));  // so few do not tell which kinds are chance
+      const bool is_rule = 2 * members.size() >= count_;
+      if (!is_rule || (members.size() >= kEnoughToCount && have_a_rule(members))) continue;
+      const Needs core = without_kinds(needed_by_most(members));  // so few do not tell which kinds are chance
       const auto needs_no_more = [&](std::size_t member) { return failures_[member].needs.needs == core; };
       if (core.empty() && std::ranges::none_of(members, needs_no_more)) continue;
       for (const auto& [doing, part] : parted(failures_, members)) {
-        if (!part.empty()) homes.push_back({core, doing, {word}, part.size()});
+        if (!part.empty()) homes.push_back({core, doing, {word}, part.size(), true});
       }
     }
+  }
+
+  // An agent with few failures, in all of which the bodies did the same: if one of them needs no more than all do, the
+  // others do without the rest.
+  void add_core_of_few(std::vector<Home>& homes) const {
+    Members sure;
+    for (const auto& [needs, members] : by_needs_)
+      std::ranges::copy_if(members, std::back_inserter(sure),
+                           [&](std::size_t i) { return is_sure(failures_[i].needs); });
+    if (sure.empty() || sure.size() >= kEnoughToCount) return;
+    const std::string doing = common_doing(failures_, sure);
+    const Needs core = in_common(sure);
+    const auto needs_no_more = [&](std::size_t member) { return failures_[member].needs.needs == core; };
+    if (!doing.empty() && std::ranges::any_of(sure, needs_no_more))
+      homes.push_back({core, doing, {}, sure.size(), false});
+  }
+
+  // Whether half of them need the same.
+  bool have_a_rule(const Members& members) const {
+    std::map<Needs, std::size_t> counts;
+    for (const std::size_t member : members) ++counts[failures_[member].needs.needs];
+    return 2 * std::ranges::max_element(counts, {}, [](const auto& count) { return count.second; })->second >=
+           members.size();
+  }
+
+  Needs needed_by_most(const Members& members) const {
+    std::map<std::string, std::size_t> counts;
+    for (const std::size_t member : members) {
+      for (const std::string& need : failures_[member].needs.needs) ++counts[need];
+    }
+    std::erase_if(counts, [&](const auto& count) { return 100 * count.second < kMostPercent * members.size(); });
+    // In the order of the failure that names most of them.
+    const auto named = [&](std::size_t member) {
+      Needs needs = failures_[member].needs.needs;
+      std::erase_if(needs, [&](const std::string& need) { return !counts.contains(need); });
+      return needs;
+    };
+    Needs core =
+        named(*std::ranges::max_element(members, {}, [&](std::size_t member) { return named(member).size(); }));
+    for (const auto& [need, count] : counts) {
+      if (!names_all(core, {need})) core.push_back(need);
+    }
+    return core;
   }
 
   // What all of them need.
@@ -191,7 +260,7 @@ class Gathering {
       const auto has_it = [&](std::size_t member) { return names_all(failures_[member].needs.needs, {common}); };
       Members sharing;
       std::ranges::copy_if(left, std::back_inserter(sharing), has_it);
-      homes.push_back({in_common(sharing), "", {}, most->second});
+      homes.push_back({in_common(sharing), "", {}, most->second, false});
       std::erase_if(left, has_it);
     }
   }

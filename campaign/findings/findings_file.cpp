@@ -80,6 +80,7 @@ void read_neighbours(TomlTable& table, NeighbourCounts& counts) {
   counts.of_world = of_world;
   counts.alike_of_world = alike_of_world;
   table.get("neighbours_driven_m", counts.driven_m);
+  counts.always_said = texts(table, "always_said");
   if (counts.alike > counts.of || counts.alike_of_world > counts.of_world)
     throw InputError(table.place("neighbours_failing"), "more neighbours failed than were tried");
   auto otherwise = table.table("neighbours_otherwise");
@@ -162,6 +163,8 @@ std::string toml_of(const KeptFinding& finding) {
   text += fmt::format("neighbours = {}\nneighbours_failing = {}\n", finding.neighbours.of, finding.neighbours.alike);
   text += fmt::format("world_neighbours = {}\nworld_neighbours_failing = {}\nneighbours_driven_m = {}\n",
                       finding.neighbours.of_world, finding.neighbours.alike_of_world, finding.neighbours.driven_m);
+  if (!finding.neighbours.always_said.empty())
+    text += fmt::format("always_said = {}\n", list_of(finding.neighbours.always_said));
   if (finding.neighbours.otherwise.empty()) return text;
   std::vector<std::string> ends;
   for (const auto& [end, count] : finding.neighbours.otherwise)

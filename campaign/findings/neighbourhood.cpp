@@ -1,6 +1,7 @@
 #include "campaign/findings/neighbourhood.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "campaign/shrink/adverse_fates.hpp"
 #include "campaign/shrink/all_runs.hpp"
@@ -40,6 +41,20 @@ Scenario shifted(Scenario scenario, Dice& dice) {
   return scenario;
 }
 
+using Words = std::vector<std::string>;  // sorted, each once
+
+Words all_of(const Words& a, const Words& b) {
+  Words all;
+  std::ranges::set_union(a, b, std::back_inserter(all));
+  return all;
+}
+
+Words shared_by(const Words& a, const Words& b) {
+  Words shared;
+  std::ranges::set_intersection(a, b, std::back_inserter(shared));
+  return shared;
+}
+
 void think_otherwise(Scenario& scenario, Dice& dice) {
   double& cost_s = scenario.agent_clock.call_cost_s;
   cost_s = cost_s > 0.0 ? cost_s * (0.5 + 1.5 * dice.next()) : kFreeCallCost_s * dice.next();
@@ -74,36 +89,54 @@ Scenario Neighbourhood::at(std::uint32_t number) const {
   return beside;
 }
 
+namespace {
+
+void count_in(NeighbourCounts& counts, const CaseRun& run, std::uint32_t number, const std::string& end) {
+  ++counts.of;
+  const bool is_of_world = number % kEveryCase != 0;
+  if (is_of_world) ++counts.of_world;
+  counts.ever_said = all_of(counts.ever_said, run.all_words);
+  const auto failure = failure_of(run);
+  if (!failure) return;
+  if (end_of(*failure) != end) {
+    ++counts.otherwise[end_of(*failure)];
+    return;
+  }
+  counts.always_said = counts.alike == 0 ? run.words : shared_by(counts.always_said, run.words);
+  ++counts.alike;
+  if (is_of_world) ++counts.alike_of_world;
+  if (counts.first_alike.size() < kFewAlike) counts.first_alike.push_back(number);
+}
+
+// As if all up to number `to` had been tried at once.
+void try_up_to(std::uint32_t to, CaseHost& host, const KeptFailure& kept, const Neighbourhood& neighbourhood,
+               NeighbourCounts& counts) {
+  const auto from = static_cast<std::uint32_t>(counts.of);
+  const auto runs = all_runs(host, {to - from, [&](std::size_t i) {
+                                      return std::optional(neighbourhood.at(from + static_cast<std::uint32_t>(i)));
+                                    }});
+  std::uint64_t driven_um = 0;
+  for (std::uint32_t i = 0; i < to - from; ++i) {
+    driven_um += runs[i]->outcome.counters.distance_um;
+    count_in(counts, *runs[i], from + i, kept.end);
+  }
+  counts.driven_m += driven_um / 1'000'000;
+}
+
+}  // namespace
+
 NeighbourCounts try_neighbours(CaseHost& host, const KeptFailure& kept, const Neighbourhood& neighbourhood,
                                std::uint32_t count) {
-  const auto runs = all_runs(
-      host, {count, [&](std::size_t i) { return std::optional(neighbourhood.at(static_cast<std::uint32_t>(i))); }});
   NeighbourCounts counts;
-  std::uint64_t driven_um = 0;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    ++counts.of;
-    driven_um += runs[i]->outcome.counters.distance_um;
-    const bool is_of_world = i % kEveryCase != 0;
-    if (is_of_world) ++counts.of_world;
-    const auto failure = failure_of(*runs[i]);
-    if (!failure) continue;
-    const std::string end = end_of(*failure);
-    if (end != kept.end) {
-      ++counts.otherwise[end];
-      continue;
-    }
-    ++counts.alike;
-    if (is_of_world) ++counts.alike_of_world;
-    if (counts.first_alike.size() < kFewAlike) counts.first_alike.push_back(static_cast<std::uint32_t>(i));
-  }
-  counts.driven_m = driven_um / 1'000'000;
+  try_up_to(count, host, kept, neighbourhood, counts);
   return counts;
 }
 
 NeighbourCounts try_enough_neighbours(CaseHost& host, const KeptFailure& kept, const Neighbourhood& neighbourhood) {
+  NeighbourCounts counts;
   for (std::uint32_t count = kNeighbours;; count *= 2) {
-    NeighbourCounts counts = try_neighbours(host, kept, neighbourhood, count);
-    if (counts.alike >= kEnoughAlike || count >= kMostKept) return counts;
+    try_up_to(count, host, kept, neighbourhood, counts);
+    if (counts.alike_of_world >= kEnoughAlike || count >= kMostKept) return counts;
   }
 }
 

@@ -14,7 +14,7 @@
 namespace fleetproof {
 namespace {
 
-constexpr double kNewKindChance = 0.001, kRarerChance = 0.001;
+constexpr double kNewKindChance = 0.001, kRarerChance = 0.01;
 // If software that fails as before had fewer failing neighbours than this in the mean, that none fails says little:
 // with 10, it is chance once in 20 000 times.
 constexpr std::size_t kEnoughBefore = 10, kOften = 10;
@@ -52,6 +52,17 @@ bool is_kept_one(const KeptFailure& kept, const FailureNeeds& of_case) {
            if (any_bad_luck) return !of_case.needs.empty() && std::ranges::all_of(of_case.needs, is_of_radio);
            return is_one_of({named}, of_case.needs);
          });
+}
+
+// What the AGVs of each failure had said before, and no fleet ever says now: the software no longer does what the word
+// names. None if all such words are gone: it speaks another language.
+std::vector<std::string> words_no_longer_said(const NeighbourCounts& now, const std::optional<FailureNeeds>& of_case,
+                                              const NeighbourCounts& before) {
+  std::vector<std::string> gone = before.always_said;
+  std::erase_if(gone, [&](const std::string& word) {
+    return names_all(now.ever_said, {word}) || (of_case && names_all(of_case->said, {word}));
+  });
+  return gone.size() < before.always_said.size() ? gone : std::vector<std::string>{};
 }
 
 // What neighbours need that fail with the same end, if the failure that was kept is not among them. Empty: it is.
@@ -94,12 +105,16 @@ std::string hardly_drives(const NeighbourCounts& now, const NeighbourCounts& bef
 
 }  // namespace
 
-Retest retest(CaseHost& host, const KeptFailure& kept, const NeighbourCounts& before, std::uint32_t neighbours) {
+Retest retest(CaseHost& host, const KeptFailure& found, const NeighbourCounts& before, std::uint32_t neighbours) {
   Retest result;
-  const auto of_case = needs_of(host, kept.smallest);
-  const Neighbourhood neighbourhood(host, kept);
-  result.now = try_neighbours(host, kept, neighbourhood, neighbours);
+  const auto of_case = needs_of(host, found.smallest);
+  const Neighbourhood neighbourhood(host, found);
+  result.now = try_neighbours(host, found, neighbourhood, neighbours);
   const NeighbourCounts& now = result.now;
+  KeptFailure kept = found;
+  for (std::string& word : words_no_longer_said(now, of_case, before)) {
+    if (!names_all(kept.says, {word})) kept.says.push_back(std::move(word));
+  }
   result.upper_bound = upper_bound(now.alike, now.of, Confidence{0.95});
   if (of_case && is_kept_one(kept, *of_case)) {
     result.verdict = RetestVerdict::StillThere;

@@ -72,6 +72,22 @@ TEST(FailureNeeds, AForgottenLaneNeedsARestart) {
   EXPECT_THAT(found->needs, Not(Contains(kCopiedMessages)));
 }
 
+// Of a failure that hardly another luck meets, a need is believed only after all replays that are allowed.
+TEST(FailureNeeds, WhatARareFailureSeemsToNeedIsTriedAgain) {
+  Bench bench("timeout-grant");
+  std::size_t rare = 0;
+  for (std::uint64_t seed = 1; seed < 400 && rare < 3; ++seed) {
+    Scenario scenario = bad_night(seed);
+    scenario.radio.loss = 0.15;
+    const auto found = needs_of(bench.host, scenario);
+    if (!found || found->failing_lucks > 4 || found->needs.empty()) continue;
+    ++rare;
+    EXPECT_GE(found->replays, kReplaysPerFailure - 3);
+    EXPECT_LE(found->replays, kReplaysPerFailure);
+  }
+  EXPECT_GT(rare, 0U);
+}
+
 TEST(FailureNeeds, OfARunWithoutAFailureThereAreNone) {
   Bench bench("hull-lock");
   EXPECT_FALSE(needs_of(bench.host, bad_night(1)));
@@ -140,6 +156,33 @@ TEST(Findings, TwoGeometricFaultsOfOneAgentAreTwoFindings) {
   EXPECT_EQ(findings_of(failures).size(), 1U) << "one in ten just drove on";
 }
 
+// Of twelve that did several things, none just drove on; of the next twelve, two may.
+TEST(Findings, FewThatDidSeveralThingsAreNotParted) {
+  auto few = times(10, failure("a", {}, {"one turns"}));
+  add(few, times(2, failure("a", {}, {"one is on a bend"})));
+  ASSERT_EQ(findings_of(few).size(), 1U);
+  EXPECT_EQ(findings_of(few)[0].mechanism.doing, "");
+  auto many = few;
+  for (int i = 0; i < 3; ++i) add(many, few);
+  EXPECT_EQ(findings_of(many).size(), 2U);
+}
+
+// Three failures of an agent: a bend is all that they share, and one of them shows that it is enough.
+TEST(Findings, FewThatDidTheSameShareACore) {
+  const std::vector<KnownFailure> failures = {failure("a", {}, {"one is on a bend", "one turns"}),
+                                              failure("a", {"low batteries"}, {"one is on a bend"}),
+                                              failure("a", {"breakdown", "low batteries"}, {"one is on a bend"})};
+  const auto findings = findings_of(failures);
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_EQ(findings[0].mechanism.text(), "too close, two AGVs; needs nothing; one is on a bend");
+  auto apart = failures;
+  apart[1].needs.doings.clear();
+  EXPECT_GT(findings_of(apart).size(), 1U) << "one just drove on";
+  apart = failures;
+  apart[0].needs.needs = {"late messages"};
+  EXPECT_GT(findings_of(apart).size(), 1U) << "that the bend is enough is not shown";
+}
+
 TEST(Findings, WordsTellFindingsApartButGiveNoName) {
   auto failures = times(10, failure("a", {}));
   const std::string id = findings_of(failures)[0].id();
@@ -182,13 +225,38 @@ TEST(Findings, FewThatSayTheSameShareACore) {
                                         failure("a", {"restart", "late messages", "lost messages"})};
   for (KnownFailure& known : failures) known.needs.traits = {"says \"oops\""};
   const auto apart = findings_of(times(1, failures[0]));
-  EXPECT_EQ(apart[0].mechanism.needs.size(), 3U);
+  EXPECT_EQ(apart[0].mechanism.needs.size(), 2U) << "one does not tell which kinds of messages are chance";
   const auto findings = findings_of(failures);
   ASSERT_EQ(findings.size(), 1U);
   EXPECT_EQ(findings[0].mechanism.text(), "too close, two AGVs; needs restart, late messages; says \"oops\"");
   // One failure in four says something of its own: that is no word of the mechanism.
   add(failures, {failure("a", {"obstacles"}), failure("a", {"low batteries"}), failure("a", {"breakdown"})});
   EXPECT_EQ(findings_of(failures).size(), 5U);
+}
+
+// What came about otherwise once, in one campaign, does not change the name.
+TEST(Findings, WhatMostOfTheFewNeedGivesTheName) {
+  std::vector<KnownFailure> failures = {failure("a", {"restart", "late messages", "GRANT messages"}),
+                                        failure("a", {"restart", "late messages", "lost messages"}),
+                                        failure("a", {"doubled messages", "restart", "late messages"})};
+  for (KnownFailure& known : failures) known.needs.traits = {"says \"oops\""};
+  const std::string id = findings_of(failures)[0].id();
+  add(failures, {failure("a", {"restart"})});
+  failures.back().needs.traits = {"says \"oops\""};
+  const auto findings = findings_of(failures);
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_EQ(findings[0].id(), id);
+  EXPECT_EQ(findings[0].mechanism.text(), "too close, two AGVs; needs restart, late messages; says \"oops\"");
+}
+
+// The same holds for many, if no set of needs is that of half of them.
+TEST(Findings, ManyWithoutARuleShareACore) {
+  std::vector<KnownFailure> failures;
+  for (const char* kind : {"GRANT messages", "REQUEST messages", "STATE messages", "DEFER messages"})
+    add(failures, times(4, failure("a", {"restart", "late messages", kind})));
+  for (KnownFailure& known : failures) known.needs.traits = {"says \"oops\""};
+  ASSERT_EQ(findings_of(failures).size(), 1U);
+  EXPECT_EQ(findings_of(failures)[0].mechanism.needs, (std::vector<std::string>{"restart", "late messages"}));
 }
 
 // Too few runs to compare with, so its word was not seen to tell.
@@ -250,7 +318,7 @@ class FindingsFiles : public testing::Test {
     finding.world = "w.json";
     finding.doings = {"one turns"};
     finding.says = {"oops", "a \"b\""};
-    finding.neighbours = {1000, 17, {{"no progress", 3}, {"a \"b\"", 4}}, {}, 750, 9, 12345};
+    finding.neighbours = {1000, 17, {{"no progress", 3}, {"a \"b\"", 4}}, {}, 750, 9, 12345, {"a", "b \"c\""}};
     return finding;
   }
   std::string error_of(const std::string& text) const {
@@ -276,6 +344,7 @@ TEST_F(FindingsFiles, WhatIsWrittenIsRead) {
   EXPECT_EQ(read->neighbours.of_world, 750U);
   EXPECT_EQ(read->neighbours.alike_of_world, 9U);
   EXPECT_EQ(read->neighbours.driven_m, 12345U);
+  EXPECT_EQ(read->neighbours.always_said, odd().neighbours.always_said);
   EXPECT_EQ(read->neighbours.otherwise, odd().neighbours.otherwise);
   EXPECT_EQ(file.find("F-00000002"), nullptr);
   EXPECT_TRUE(FindingsFile((folder_ / "none.toml").string()).findings().empty());

@@ -96,6 +96,21 @@ TEST(Retest, AFailureWithoutItsWordsIsANewKind) {
   EXPECT_EQ(retest(bench.host, known.kept, known.before, kSome).verdict, RetestVerdict::NewKind);
 }
 
+// A word that each failure had said, and that no fleet says any more, names what the software no longer does.
+TEST(Retest, AWordThatIsGoneShowsANewKind) {
+  Bench bench("timeout-grant");
+  Known known = known_failure(bench);
+  EXPECT_THAT(known.before.always_said, testing::Contains("silence-taken-for-consent"));
+  EXPECT_EQ(retest(bench.host, known.kept, known.before, kSome).verdict, RetestVerdict::StillThere);
+  known.before.always_said.push_back("now-mended");
+  const Retest gone = retest(bench.host, known.kept, known.before, kSome);
+  EXPECT_EQ(gone.verdict, RetestVerdict::NewKind);
+  EXPECT_THAT(gone.new_kind, HasSubstr("never says \"now-mended\""));
+  known.before.always_said = {"ahoi", "belay"};
+  EXPECT_EQ(retest(bench.host, known.kept, known.before, kSome).verdict, RetestVerdict::StillThere)
+      << "software that names nothing as before";
+}
+
 // What the smallest case needs is one of the ways, even where that is less than the finding needs. No neighbour fails
 // with this end, so none of them adds it.
 TEST(Retest, KnowsWhatTheSmallestCaseNeeds) {
