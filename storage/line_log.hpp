@@ -16,8 +16,8 @@ void append_lines(const std::string& path, const std::string& lines);
 // first line does not begin with these words.
 void require_log(const std::string& path, std::string_view first_words, std::string_view sentence);
 
-// Before work whose lines belong there. Throws InputError with `remedy` if this user may neither write the file nor make
-// it: it may be another user's.
+// Before work whose lines belong there. Throws InputError with `remedy` if this user may neither write the file nor
+// make it: it may be another user's.
 void require_appendable(const std::string& path, std::string_view remedy);
 
 // "2026-11-21T22:04:05Z".
