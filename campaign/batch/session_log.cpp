@@ -53,7 +53,8 @@ SessionLog::SessionLog(const std::string& archive_path) : path_(session_log_path
   require_log(path_, kFirstWords,
               "this is no session log of fleetproof, and nothing is appended to it; give the campaign file another "
               "name, or move this file away");
-  require_appendable(path_, "change the permissions, or give the campaign file another name");
+  if (std::filesystem::exists(path_))  // else it is made beside the campaign file, whose place is looked at by itself
+    require_appendable(path_, "change the permissions, or give the campaign file another name");
 }
 
 void SessionLog::begin(const RunOptions& options, const AgentPrograms& programs, const SessionFacts& facts) const {
