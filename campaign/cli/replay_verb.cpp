@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "campaign/cli/campaign_words.hpp"
+#include "campaign/cli/known_ends.hpp"
 #include "campaign/cli/output_file.hpp"
 #include "campaign/cli/run_observers.hpp"
 #include "campaign/cli/run_text.hpp"
@@ -60,15 +61,28 @@ void tell_other_software(const ArchiveReader& archive, const AgentProgram& agent
   if (!difference.empty()) put("  note: {}\n", difference);
 }
 
-// By the software itself.
+// Of the agent of the run.
+void meet_agent_of(const ReplayVerbWords& words, const ArchiveReader& archive, const CampaignPlan& plan,
+                   AgentPrograms& programs, MeetPlugin meet) {
+  meet_plugins(words.archive, archive.campaign(), {&plan.agent_of_cell(words.run), 1}, words.plugins, programs, meet);
+}
+
+// By the software itself. A run is watched in this process: where the software crashes, it is not called.
 ReplayResult replay_software(const ReplayVerbWords& words, const ArchiveReader& archive, const CampaignPlan& plan,
                              AgentPrograms& programs, TraceSink* sink) {
-  // A trace is printed while the run goes on, so it needs the agent in this process.
   const bool in_process = words.in_process || sink != nullptr;
-  meet_plugins(words.archive, archive.campaign(), {&plan.agent_of_cell(words.run), 1}, words.plugins, programs,
-               in_process ? &AgentPrograms::load : &AgentPrograms::know);
-  return in_process ? replay(archive, words.run, programs, sink)
-                    : replay(archive, plan, words.run, programs, isolated_simulation(plan, programs));
+  std::vector<KnownEnd> ends;
+  if (in_process && !words.in_process) {
+    AgentPrograms known;
+    meet_agent_of(words, archive, plan, known, &AgentPrograms::know);
+    const AgentFactor& agent = plan.agent_of_cell(words.run);
+    ends = known_ends(ScenarioSource(plan).scenario(words.run), agent.program, plan.config_of(agent), plan, known);
+  }
+  meet_agent_of(words, archive, plan, programs, in_process ? &AgentPrograms::load : &AgentPrograms::know);
+  if (!in_process) return replay(archive, plan, words.run, programs, isolated_simulation(plan, programs));
+  RunWatch watch;
+  watch.known_ends = ends;
+  return replay(archive, words.run, programs, sink, watch);
 }
 
 // By the software, if it is at hand and the audits found nothing against it; else from the recording, if there is one.
@@ -76,8 +90,7 @@ ReplayResult replay_either_way(const ReplayVerbWords& words, const ArchiveReader
                                AgentPrograms& programs, TraceSink* sink) {
   const bool wants_software = words.in_process || !words.plugins.empty();
   if (wants_software || !archive.recording(words.run)) return replay_software(words, archive, plan, programs, sink);
-  // Files about the run need all of it: software that crashes in this process would leave none. A trace is printed
-  // while the run goes on, so it ends where the software crashed.
+  // Files about the run need all of it, as it was.
   if (sink != nullptr && !words.observed.trace.wanted()) return *replay_recording(archive, plan, words.run, sink);
   if (audits_of(archive, plan, plan.agent_of_cell(words.run)).differing == 0) {
     try {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "campaign/cli/campaign_words.hpp"
+#include "campaign/cli/known_ends.hpp"
 #include "campaign/cli/run_observers.hpp"
 #include "campaign/cli/run_text.hpp"
 #include "campaign/cli/streams.hpp"
@@ -34,7 +35,7 @@ struct SimulateWords {
   std::string granularity;
   std::optional<std::uint64_t> luck, radio_luck;
   ObserverWords observed;
-  bool json = false;
+  bool json = false, in_process = false;
 };
 
 // Divided, not multiplied: the double nearest to the decimal number.
@@ -213,12 +214,21 @@ std::string expectation_text(const ExpectedOutcome& expected, const ExpectedOutc
 }
 
 // The run is simulated once before its trace is printed, so that lines about the safety distance stand where they
-// belong. A plug-in runs once: it may crash, and then its trace is wanted.
+// belong. In a debugger, a plug-in runs once.
 std::vector<Violation> violations_before(const SimulateWords& words, const Scenario& scenario,
-                                         const fp_agent_type& agent) {
-  if (!words.observed.trace.wanted() || !words.plugins.empty()) return {};
+                                         const fp_agent_type& agent, const RunWatch& watch) {
+  if (!words.observed.trace.wanted() || words.in_process) return {};
   const Observers observers = observers_of(words.law, scenario);
-  return simulate(scenario, agent, observers.laws, nullptr, words.config.c_str()).violations;
+  return simulate(scenario, agent, observers.laws, nullptr, words.config.c_str(), watch).violations;
+}
+
+// A plug-in runs in a worker process first: where it crashes or hangs there, it is not called here.
+std::vector<KnownEnd> ends_of_plugin(SimulateWords words, const Scenario& scenario) {
+  if (words.in_process) return {};
+  AgentPrograms known;
+  words.agent = meet_agent(words.agent, words.plugins, known, &AgentPrograms::know);
+  known.program(words.agent, "--agent");
+  return known_ends(scenario, words.agent, words.config, {}, known);
 }
 
 std::uint32_t luck_number(std::uint64_t number, const char* option) {
@@ -254,19 +264,23 @@ int simulate_scenario(SimulateWords words) {
   if (!words.granularity.empty()) scenario.law.snapshot_s = granularity_s(words.granularity);
   AgentPrograms programs;
   words.agent = agent_of(words, scenario, programs);
-  words.agent = meet_agent(words.agent, words.plugins, programs, &AgentPrograms::load);
   if (words.config.empty()) words.config = scenario.agent_config;
+  const std::vector<KnownEnd> ends = ends_of_plugin(words, scenario);
+  words.agent = meet_agent(words.agent, words.plugins, programs, &AgentPrograms::load);
+  RunWatch watch;
+  watch.known_ends = ends;
   const fp_agent_type& agent = programs.find(words.agent, "--agent");
   const Observers observers = observers_of(words.law, scenario);
   std::optional<RunObservers> observed;
   if (words.observed.wanted())
-    observed.emplace(words.observed, scenario, violations_before(words, scenario, agent), page_words(words));
+    observed.emplace(words.observed, scenario, violations_before(words, scenario, agent, watch), page_words(words));
   const Outcome outcome =
-      simulate(scenario, agent, observers.laws, observed ? &*observed : nullptr, words.config.c_str());
+      simulate(scenario, agent, observers.laws, observed ? &*observed : nullptr, words.config.c_str(), watch);
   if (observed) observed->finish(outcome);
   const bool is_saved_case = scenario.expected != ExpectedOutcome{};
-  const ExpectedOutcome found =
-      is_saved_case ? expectation_of(run_case(scenario, agent, words.config)) : ExpectedOutcome{};
+  const ExpectedOutcome found = is_saved_case
+                                    ? expectation_of(run_case(scenario, agent, words.config, {}, Fates::Ignored, watch))
+                                    : ExpectedOutcome{};
   if (words.json) {
     print_json(scenario, outcome, words, observers, found);
   } else {
@@ -299,6 +313,7 @@ Action prepare_simulate(Options& options) {
                  "snapshot step of the published laws: 1s, 2.5ms or plain seconds (default: the scenario's, 0.0025)");
   options.option("--luck", words->luck, "draw radio and agents anew: each number gives another run");
   options.option("--radio-luck", words->radio_luck, "draw the radio anew, and nothing else");
+  options.flag("--in-process", words->in_process, "run the agent in this process at once, for a debugger");
   options.flag("--json", words->json, "print JSON");
   add_observer_options(options, words->observed);
   return [words] { return simulate_scenario(*words); };

@@ -189,10 +189,10 @@ ReplayResult compare_with_file(const ArchiveReader& archive, const CampaignPlan&
 }  // namespace
 
 ReplayResult replay(const ArchiveReader& archive, std::uint64_t run_index, const AgentPrograms& programs,
-                    TraceSink* sink) {
+                    TraceSink* sink, const RunWatch& watch) {
   const CampaignPlan plan = parse_plan(archive.campaign().plan_json);
   return replay(archive, plan, run_index, programs,
-                [&](std::uint64_t index) { return RunOne(plan, programs)(index, sink); });
+                [&](std::uint64_t index) { return RunOne(plan, programs)(index, sink, watch); });
 }
 
 std::optional<ReplayResult> replay_recording(const ArchiveReader& archive, const CampaignPlan& plan,

@@ -8,6 +8,7 @@
 
 #include "campaign/plan/plan.hpp"
 #include "campaign/run/agent_programs.hpp"
+#include "core/engine/run_watch.hpp"
 #include "core/outcome/trace.hpp"
 #include "storage/archive_reader.hpp"
 
@@ -32,7 +33,7 @@ ReplayResult replay(const ArchiveReader& archive, const CampaignPlan& plan, std:
                     const AgentPrograms& programs, const Resimulate& simulate);
 // The same with the plan in the archive, on this thread. Throws InputError if the agent of the run is not loaded.
 ReplayResult replay(const ArchiveReader& archive, std::uint64_t run_index, const AgentPrograms& programs,
-                    TraceSink* sink = nullptr);
+                    TraceSink* sink = nullptr, const RunWatch& watch = {});
 // The same from what the agents did, as the archive recorded it: their software is not needed. Empty: the archive has
 // no recording of this run.
 std::optional<ReplayResult> replay_recording(const ArchiveReader& archive, const CampaignPlan& plan,

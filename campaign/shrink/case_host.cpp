@@ -21,4 +21,9 @@ CaseRun CaseHost::operator()(const Scenario& scenario, Fates fates) {
                   plan_.laws_left_out, fates);
 }
 
+std::optional<std::vector<KnownEnd>> CaseHost::ends_in(const Scenario& scenario) {
+  if (!isolated_) return std::vector<KnownEnd>();
+  return isolated_->ends_in(scenario);
+}
+
 }  // namespace fleetproof

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,8 @@ class CaseHost {
   CaseHost(const CaseAgent& agent, const AgentPrograms& programs, int workers);
 
   CaseRun operator()(const Scenario& scenario, Fates fates = Fates::Ignored);
+  // As IsolatedRuns::ends_in; none of a reference agent.
+  std::optional<std::vector<KnownEnd>> ends_in(const Scenario& scenario);
   int workers() const { return workers_; }
 
  private:

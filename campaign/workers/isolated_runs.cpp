@@ -43,7 +43,8 @@ IsolatedRuns::IsolatedRuns(const CampaignPlan& plan, const AgentPrograms& progra
 
 RunRecord IsolatedRuns::operator()(std::uint64_t run_index, bool record_calls) {
   RunRecord record = run_one_.empty_record(run_index);
-  RunAnswer answer = answer_of({run_index, {}, record_calls, {}, false});
+  RunOrder order{run_index, {}, record_calls, {}, false};
+  RunAnswer answer = answer_of(order);
   record.scenario_digest = answer.scenario_digest;
   record.outcome = std::move(answer.outcome);
   record.recording = std::move(answer.recording);
@@ -51,16 +52,23 @@ RunRecord IsolatedRuns::operator()(std::uint64_t run_index, bool record_calls) {
 }
 
 CaseRun IsolatedRuns::of_case(const Scenario& scenario, Fates fates) {
-  RunAnswer answer = answer_of({0, {}, false, to_text(scenario), fates == Fates::Kept});
+  RunOrder order{0, {}, false, to_text(scenario), fates == Fates::Kept};
+  RunAnswer answer = answer_of(order);
   return {std::move(answer.outcome), std::move(answer.states),     std::move(answer.doing),
           std::move(answer.words),   std::move(answer.all_words),  std::move(answer.fates),
           std::move(answer.notes),   std::move(answer.whereabouts)};
 }
 
-RunAnswer IsolatedRuns::answer_of(RunOrder order) {
+std::optional<std::vector<KnownEnd>> IsolatedRuns::ends_in(const Scenario& scenario) {
+  RunOrder order{0, {}, false, to_text(scenario), false};
+  if (!answer_of(order).explained) return std::nullopt;
+  return std::move(order.known_ends);
+}
+
+RunAnswer IsolatedRuns::answer_of(RunOrder& order) {
   Member member = take_member();
   try {
-    RunAnswer answer = answer_of(member, std::move(order));
+    RunAnswer answer = answer_of(member, order);
     if (member.runs_left == 0) retire(member);
     give_back(std::move(member));
     return answer;
@@ -70,14 +78,14 @@ RunAnswer IsolatedRuns::answer_of(RunOrder order) {
   }
 }
 
-RunAnswer IsolatedRuns::answer_of(Member& member, RunOrder order) {
+RunAnswer IsolatedRuns::answer_of(Member& member, RunOrder& order) {
   Attempt first = attempt(member, order, cpu_limit_s(order.run_index));
-  return first.answer ? std::move(*first.answer) : repeat(member, std::move(order));
+  return first.answer ? std::move(*first.answer) : repeat(member, order);
 }
 
 // Each attempt happens in a worker that has hosted nothing before, and learns at which calls agents ended the attempts
 // before it. Every such call is later than the one before, or the software does not do the same thing twice.
-RunAnswer IsolatedRuns::repeat(Member& member, RunOrder order) {
+RunAnswer IsolatedRuns::repeat(Member& member, RunOrder& order) {
   const double limit_s = kRepeatFactor * cpu_limit_s(order.run_index);
   for (int killed = 0;;) {
     Attempt again = attempt(member, order, limit_s);
@@ -96,6 +104,7 @@ RunAnswer IsolatedRuns::unexplained(const RunOrder& order, const CauseOfDeath& c
   const Scenario scenario = order.scenario.empty() ? run_one_.scenarios().scenario(order.run_index)
                                                    : parse_scenario(order.scenario, "an order to a worker");
   RunAnswer answer;
+  answer.explained = false;
   answer.scenario_digest = scenario_digest(scenario);
   answer.outcome.crash = !cause.hang;
   answer.outcome.hang = cause.hang;

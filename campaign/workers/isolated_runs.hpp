@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,9 @@ class IsolatedRuns {
   RunRecord operator()(std::uint64_t run_index, bool record = false);
   // The same for one scenario and the first agent of the plan.
   CaseRun of_case(const Scenario& scenario, Fates fates);
+  // The calls at which the agents' software crashes or hangs in it, in their order: where these are known, the scenario
+  // can be simulated in this process. Nothing if the software does not end at the same call twice.
+  std::optional<std::vector<KnownEnd>> ends_in(const Scenario& scenario);
   // All runs under way end within a second.
   void abandon() { abandoned_ = true; }
   // The CPU time of the slowest run so far; the limit of each run follows it. A higher one may come from elsewhere.
@@ -79,9 +83,9 @@ class IsolatedRuns {
   bool start(Member& member);
   void retire(Member& member);
   Attempt lost(Member& member, std::uint64_t run_index, WorkerState state);
-  RunAnswer repeat(Member& member, RunOrder order);
-  RunAnswer answer_of(Member& member, RunOrder order);
-  RunAnswer answer_of(RunOrder order);
+  RunAnswer repeat(Member& member, RunOrder& order);
+  RunAnswer answer_of(Member& member, RunOrder& order);
+  RunAnswer answer_of(RunOrder& order);  // leaves in it the ends that were found
   RunAnswer unexplained(const RunOrder& order, const CauseOfDeath& cause) const;
   double cpu_limit_s(std::uint64_t run_index) const;
 

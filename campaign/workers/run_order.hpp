@@ -27,6 +27,7 @@ RunOrder decode_order(std::string_view bytes);  // throws EngineError on bytes t
 // What a worker answers. Failed: `message` says why no run can be simulated in a worker.
 struct RunAnswer {
   bool failed = false;
+  bool explained = true;  // not sent: false if no worker brought the run to its end, and nobody knows why
   std::string message;
   std::uint64_t cpu_ns = 0;  // used by the worker process for this run
   std::uint64_t scenario_digest = 0;

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "campaign/plan/plan.hpp"
+#include "campaign/run/agent_programs.hpp"
+#include "core/engine/run_watch.hpp"
+#include "core/scenario/scenario.hpp"
+
+namespace fleetproof::cli {
+
+// The calls at which the agents of one run end the process or never return, found out in a worker process. Where these
+// are known, the run can be simulated, and watched, in this process (RunWatch::known_ends). None of a reference agent.
+// Call this before threads are started and files are opened. `known`: the agent is known, and not loaded. Throws
+// InputError if it does not end at the same call twice.
+std::vector<KnownEnd> known_ends(const Scenario& scenario, const std::string& program, const std::string& config,
+                                 const CampaignPlan& plan, const AgentPrograms& known);
+
+}  // namespace fleetproof::cli
