@@ -114,7 +114,7 @@ std::uint64_t repeated_traces(SQLite::Database& db) {
   SQLite::Statement rows(db, "SELECT cell, digest FROM live.runs");
   while (rows.executeStep()) keys.push_back(trace_key(static_cast<std::uint32_t>(number(rows, 0)), number(rows, 1)));
   std::ranges::sort(keys);
-  return static_cast<std::uint64_t>(std::ranges::unique(keys).size());
+  return static_cast<std::uint64_t>(keys.end() - std::unique(keys.begin(), keys.end()));
 }
 
 void fold_runs(SQLite::Database& db, const std::string& live_path, const MayFold& may_fold) {

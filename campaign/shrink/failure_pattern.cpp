@@ -34,8 +34,8 @@ FailurePattern pattern_of(CaseHost& host, const FailingCase& failing) {
   }
   FailurePattern pattern{failing.failure.kind, failing.failure.kind.states, {{}, learner.pattern().usual}};
   std::erase_if(pattern.states, [&](const std::string& state) { return learner.is_ordinary(state); });
-  const auto again = std::ranges::unique(pattern.states);  // they are sorted
-  pattern.states.erase(again.begin(), again.end());
+  auto& states = pattern.states;  // they are sorted
+  states.erase(std::unique(states.begin(), states.end()), states.end());
   for (const CaseRun& other : others) {
     if (pattern.match(other)) learner.hear_failing(other);
   }

@@ -67,7 +67,7 @@ std::vector<std::uint32_t> HullParts::find_blocked_lanes(std::uint32_t station) 
     }
   }
   std::ranges::sort(found);
-  found.erase(std::ranges::unique(found).begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
 

@@ -67,7 +67,7 @@ std::vector<std::uint32_t> PartsNear::around(std::uint32_t part) const {
     }
   });
   std::ranges::sort(found);
-  found.erase(std::ranges::unique(found).begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
 

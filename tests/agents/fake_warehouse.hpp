@@ -74,7 +74,8 @@ class FakeWarehouse {
       agv.agent = type_.create(&host_, reinterpret_cast<fp_controller*>(&agv.handle), &agv.briefing);
       tell(id, fp_event{});
       std::deque<FakeOrder> orders = agv.orders;
-      std::ranges::stable_partition(orders, [&](const FakeOrder& o) { return agv.loaded && o.id == agv.carried; });
+      std::stable_partition(orders.begin(), orders.end(),
+                            [&](const FakeOrder& o) { return agv.loaded && o.id == agv.carried; });
       for (const FakeOrder& order : orders) tell_order(id, order);
     });
   }
