@@ -48,7 +48,16 @@ ReportInput read_report_input(const ArchiveReader& archive, std::string archive_
     input.failures.add(run, input.evidence.cells()[run.cell].agent);
     if (also) also(run, input.evidence);
   };
-  archive.for_each_run(count, [&](std::uint32_t cell, const auto& met) { input.evidence.add_met(cell, met); });
+  VisitFolded folded;
+  folded.met = [&](std::uint32_t cell, const auto& met) { input.evidence.add_met(cell, met); };
+  if (input.evidence.quiet_counts() && !also) {
+    folded.quiet = [&](const QuietReplicates& quiet) {
+      input.stored_runs += quiet.replicates * quiet.by_cell.size();
+      input.evidence.add(quiet);
+      input.breakdown.add(quiet);
+    };
+  }
+  archive.for_each_run(count, folded);
   archive.for_each_audit([&](const AuditRecord& audit, bool same) {
     if (audit.run_index < input.evidence.runs()) input.audits.add_audit(audit.run_index, same);
   });

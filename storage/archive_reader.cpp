@@ -71,10 +71,12 @@ struct ArchiveReader::Impl {
   std::vector<ChunkRecord> stored_chunks() const;
   void require_content(std::uint64_t count, std::uint64_t content) const;
   void add_rest(SealedContent& content) const;
-  std::uint64_t read_all(const std::function<void(const RunRecord&)>& visit, const VisitMet& visit_met = {}) const;
+  std::uint64_t read_all(const std::function<void(const RunRecord&)>& visit,
+                         const VisitFolded& visit_folded = {}) const;
   std::uint64_t read_rows(const std::function<void(const RunRecord&)>& visit) const;
   class Rows;
-  std::uint64_t read_folded_file(const std::function<void(const RunRecord&)>& visit, const VisitMet& visit_met) const;
+  std::uint64_t read_folded_file(const std::function<void(const RunRecord&)>& visit,
+                                 const VisitFolded& visit_folded) const;
 
   // Turns errors of SQLite into errors of this program.
   template <class Action>
@@ -228,11 +230,11 @@ class ArchiveReader::Impl::Rows {
 
 // Returns the digest of the rows, also of those that are folded.
 std::uint64_t ArchiveReader::Impl::read_all(const std::function<void(const RunRecord&)>& visit,
-                                            const VisitMet& visit_met) const {
+                                            const VisitFolded& visit_folded) const {
   const Snapshot snapshot(*db);
   if (!fold) return read_rows(visit);
   try {
-    return read_folded_file(visit, visit_met);
+    return read_folded_file(visit, visit_folded);
   } catch (const BrokenFold& e) {
     damaged(e.what());
   }
@@ -251,20 +253,30 @@ std::uint64_t ArchiveReader::Impl::read_rows(const std::function<void(const RunR
 }
 
 std::uint64_t ArchiveReader::Impl::read_folded_file(const std::function<void(const RunRecord&)>& visit,
-                                                    const VisitMet& visit_met) const {
+                                                    const VisitFolded& visit_folded) const {
   if (!sealed_count) damaged("it is folded, but has no seal");
   Rows rows(*this);
-  FoldedRows folded(*db, cells, visit_met);
+  FoldedRows folded(*db, cells, visit_folded.met);
   auto kept = rows.next();
   std::uint64_t index = 0;
-  for (; index < *sealed_count; ++index) {
+  while (index < *sealed_count) {
+    if (visit_folded.quiet && index % cells.size() == 0) {
+      const QuietReplicates quiet = folded.skip_quiet(index);
+      if (quiet.replicates > 0) {
+        visit_folded.quiet(quiet);
+        index += quiet.replicates * cells.size();
+        continue;
+      }
+    }
     if (const auto known = folded.next(index)) {
       visit(*known);
+      ++index;
       continue;
     }
     if (!kept || kept->run.run_index != index) damaged(fmt::format("run {} is neither folded nor kept", index));
     visit(kept->run);
     kept = rows.next();
+    ++index;
   }
   if (kept) damaged(fmt::format("run {} is beside the folded runs", kept->run.run_index));
   SealedContent content(campaign.chunk_runs);
@@ -368,8 +380,9 @@ std::uint64_t ArchiveReader::recording_count(const std::string& agent) const {
   });
 }
 
-void ArchiveReader::for_each_run(const std::function<void(const RunRecord&)>& visit, const VisitMet& visit_met) const {
-  impl_->guarded([&] { impl_->read_all(visit, visit_met); });
+void ArchiveReader::for_each_run(const std::function<void(const RunRecord&)>& visit,
+                                 const VisitFolded& visit_folded) const {
+  impl_->guarded([&] { impl_->read_all(visit, visit_folded); });
 }
 
 std::uint64_t ArchiveReader::content_digest() const {

@@ -16,6 +16,12 @@ namespace fleetproof {
 // was changed.
 enum class Checksums : std::uint8_t { Verify, Ignore };
 
+// How folded runs are visited; each may be left out.
+struct VisitFolded {
+  VisitMet met;
+  VisitQuiet quiet;
+};
+
 // Reads a published (or live) campaign file. Threads: one.
 class ArchiveReader {
  public:
@@ -39,8 +45,9 @@ class ArchiveReader {
   std::optional<RunRecord> run(std::uint64_t run_index) const;
   std::optional<KnownRun> folded_run(std::uint64_t run_index) const;
   // All runs with all their parts, in order of run index; of a folded run, what is known of it. What folded runs met is
-  // known of many runs together: `visit_met`.
-  void for_each_run(const std::function<void(const RunRecord&)>& visit, const VisitMet& visit_met = {}) const;
+  // known of many runs together. With VisitFolded::quiet, that is called instead for replicates of which all runs are
+  // folded.
+  void for_each_run(const std::function<void(const RunRecord&)>& visit, const VisitFolded& visit_folded = {}) const;
   // The audits of stored runs, in order of run index. `same`: the audit came out as the run did.
   void for_each_audit(const std::function<void(const AuditRecord& audit, bool same)>& visit) const;
   // What the agents of a run did. Throws EngineError if it is damaged.

@@ -85,6 +85,7 @@ class UnfoldedCell {
   const std::vector<MetTotal>& met() const { return met_; }
   // Of the next replicate; nothing if its run was kept.
   std::optional<FoldedRun> next();
+  bool next_is_folded() const { return !at_end() && content_[at_] != '\0'; }
   bool at_end() const { return at_ == content_.size(); }
 
  private:

@@ -4,6 +4,7 @@
 #include <SQLiteCpp/Statement.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <utility>
 
@@ -42,6 +43,14 @@ RunRecord known_of(const FoldedRun& run, const CellRecord& cell, std::uint64_t r
 
 }  // namespace
 
+void QuietRuns::add(const FoldedRun& run) {
+  ++runs;
+  transports_done += run.transports_done;
+  in_safe_mode += run.safe_mode_ns > 0 ? 1 : 0;
+  if (run.min_clearance_um)
+    min_clearance_um = std::min(min_clearance_um.value_or(*run.min_clearance_um), *run.min_clearance_um);
+}
+
 struct FoldedRows::Impl {
   // The folded runs of one cell in the block that is read.
   struct Open {
@@ -54,6 +63,7 @@ struct FoldedRows::Impl {
   SQLite::Statement rows;
   bool more;
   std::vector<std::optional<Open>> block;  // by cell
+  std::optional<std::uint64_t> open_number;
   RowsDigest digest;
 
   Impl(SQLite::Database& db, const std::vector<CellRecord>& of, const VisitMet& visit)
@@ -71,7 +81,9 @@ struct FoldedRows::Impl {
   }
 
   void open_block(std::uint64_t number) {
+    if (open_number == number) return;
     close_block();
+    open_number = number;
     for (; more; more = rows.executeStep()) {
       auto [row, checksum] = sound_row(rows);
       if (row.place / cells.size() > number) break;
@@ -98,6 +110,25 @@ std::optional<RunRecord> FoldedRows::next(std::uint64_t run_index) {
   const auto run = open->runs.next();
   if (!run) return std::nullopt;
   return known_of(*run, impl_->cells[cell], replicate, run_index, open->row);
+}
+
+QuietReplicates FoldedRows::skip_quiet(std::uint64_t run_index) {
+  const std::uint64_t replicate = run_index / impl_->cells.size();
+  impl_->open_block(replicate / kReplicatesPerFold);
+  auto& block = impl_->block;
+  QuietReplicates quiet;
+  const auto is_quiet = [](const auto& open) { return open && open->runs.next_is_folded(); };
+  for (std::uint64_t left = kReplicatesPerFold - replicate % kReplicatesPerFold;
+       left > 0 && std::ranges::all_of(block, is_quiet); --left) {
+    quiet.by_cell.resize(block.size());
+    for (std::size_t cell = 0; cell < block.size(); ++cell) quiet.by_cell[cell].add(*block[cell]->runs.next());
+    ++quiet.replicates;
+  }
+  for (std::size_t cell = 0; cell < quiet.by_cell.size(); ++cell) {
+    quiet.by_cell[cell].simulated_ns = block[cell]->row.simulated_ns;
+    quiet.by_cell[cell].agv_count = block[cell]->row.agv_count;
+  }
+  return quiet;
 }
 
 std::uint64_t FoldedRows::digest() {

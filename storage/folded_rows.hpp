@@ -18,6 +18,23 @@ namespace fleetproof {
 // What folded runs of a cell met, all of one block of replicates.
 using VisitMet = std::function<void(std::uint32_t cell, const std::vector<MetTotal>& met)>;
 
+// The folded runs of one cell in some replicates.
+struct QuietRuns {
+  std::uint64_t runs = 0, transports_done = 0;
+  std::uint64_t in_safe_mode = 0;  // runs
+  std::uint64_t simulated_ns = 0;  // of each run
+  std::uint32_t agv_count = 0;     // of each run
+  std::optional<std::int64_t> min_clearance_um;
+
+  void add(const FoldedRun& run);  // one more, of the same time and as many AGVs
+};
+// Consecutive replicates of which all runs are folded: nothing went wrong in any of them.
+struct QuietReplicates {
+  std::uint64_t replicates = 0;
+  std::vector<QuietRuns> by_cell;
+};
+using VisitQuiet = std::function<void(const QuietReplicates& quiet)>;
+
 // The folded rows of a file, in order of run index. Its functions throw BrokenFold and SQLite::Exception. Threads: one.
 class FoldedRows {
  public:
@@ -29,6 +46,9 @@ class FoldedRows {
 
   // What is known of the run (RunRecord::folded); nothing if it was kept. Ask for all runs, in order of run index.
   std::optional<RunRecord> next(std::uint64_t run_index);
+  // Instead, for whole replicates: as many as follow from this run on, perhaps none. Requires: it is the first of its
+  // replicate.
+  QuietReplicates skip_quiet(std::uint64_t run_index);
   // Of all rows. Throws if a row has not been asked for to its end.
   std::uint64_t digest();
 

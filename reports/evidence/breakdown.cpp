@@ -69,6 +69,14 @@ void Breakdown::add(const RunRecord& run) {
   if (run.cell + 1 == groups_of_cell_.size()) finish_replicate();
 }
 
+void Breakdown::add(const QuietReplicates& quiet) {
+  replicates_ += quiet.replicates;
+  for (Group& group : groups_) group.events.add(quiet);
+  for (std::size_t cell = 0; cell < groups_of_cell_.size(); ++cell) {
+    for (const std::size_t index : groups_of_cell_[cell]) groups_[index].tally.add(quiet.by_cell[cell]);
+  }
+}
+
 void Breakdown::finish_replicate() {
   ++replicates_;
   for (Group& group : groups_) {

@@ -35,6 +35,7 @@ class Breakdown {
   explicit Breakdown(const std::vector<CellRecord>& cells);
   // Runs in order of their index, without gaps.
   void add(const RunRecord& run);
+  void add(const QuietReplicates& quiet);  // instead of their runs
   // Agents in the order of the campaign; per agent all, then layouts, then fleets in the order of the cells.
   std::vector<BreakdownRow> rows() const;
 

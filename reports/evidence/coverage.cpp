@@ -38,6 +38,14 @@ void Coverage::add(const Coverage& other) {
   }
 }
 
+void Coverage::add(const QuietRuns& quiet) {
+  runs_ += quiet.runs;
+  if (quiet.in_safe_mode == 0) return;
+  Seen& seen = by_the_world_[std::string(kSafeModeProbe)];
+  seen.runs += quiet.in_safe_mode;
+  seen.times += quiet.in_safe_mode;
+}
+
 void Coverage::add(const std::vector<MetTotal>& met) {
   for (const MetTotal& total : met) {
     const bool world = total.source == ProbeSource::World;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/outcome/outcome.hpp"
-#include "storage/folded_cell.hpp"
+#include "storage/folded_rows.hpp"
 
 namespace fleetproof {
 
@@ -25,6 +25,8 @@ class Coverage {
  public:
   void add(const Outcome& outcome);
   void add(const Coverage& other);
+  // Without what they met, which follows apart.
+  void add(const QuietRuns& quiet);
   // What runs met that were added already, but without their probes: they were folded.
   void add(const std::vector<MetTotal>& met);
 

@@ -98,6 +98,21 @@ void Evidence::add(const RunRecord& run) {
   if (run.cell + 1 == cells_.size()) finish_replicate();
 }
 
+bool Evidence::quiet_counts() const {
+  return std::ranges::none_of(gates_, [](const GateRecord& gate) { return gate.end_point == EndPoint::Throughput; });
+}
+
+void Evidence::add(const QuietReplicates& quiet) {
+  ensure(runs_ % cells_.size() == 0, "whole replicates follow whole replicates");
+  runs_ += quiet.replicates * cells_.size();
+  replicates_ += quiet.replicates;
+  for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
+    tallies_[cell].add(quiet.by_cell[cell]);
+    for (const auto pool : pools_of_cell_[cell]) coverage_[pool].add(quiet.by_cell[cell]);
+  }
+  for (PoolCounter& pool : pools_) pool.add(quiet);
+}
+
 void Evidence::add_met(std::uint32_t cell, const std::vector<MetTotal>& met) {
   ensure(cell < cells_.size(), "folded runs belong to a cell of the campaign");
   for (const auto pool : pools_of_cell_[cell]) coverage_[pool].add(met);

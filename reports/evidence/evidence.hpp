@@ -51,6 +51,10 @@ class Evidence {
 
   // Adds the next run. Requires: its run_index == runs().
   void add(const RunRecord& run);
+  // Instead, for whole replicates. Requires: quiet_counts().
+  void add(const QuietReplicates& quiet);
+  // Whether it is enough to know many quiet runs together: no gate asks whether a single one was slow.
+  bool quiet_counts() const;
   // What folded runs of the cell met. Requires: they belong to complete replicates.
   void add_met(std::uint32_t cell, const std::vector<MetTotal>& met);
 

@@ -7,6 +7,7 @@
 #include "core/outcome/work_and_progress.hpp"
 #include "reports/evidence/exposure.hpp"
 #include "reports/evidence/foreign_bodies.hpp"
+#include "reports/evidence/tally.hpp"
 
 namespace fleetproof {
 namespace {
@@ -74,6 +75,19 @@ void PoolCounter::finish_replicate() {
   pool_.failing_or_unknown = world.failing_or_unknown;
   if (pool_.rule.unit == GateUnit::Run) count_cells();
   pending_ = Pending{};
+}
+
+void PoolCounter::add(const QuietReplicates& quiet) {
+  ensure(pool_.rule.end_point != EndPoint::Throughput, "whether a run was slow is not known of many together");
+  ensure(pending_.by_cell.empty(), "whole replicates follow whole replicates");
+  if (pool_.cells.empty()) return;
+  if (pool_.rule.unit != GateUnit::AgvHour) {
+    pool_.units += quiet.replicates;
+    return;
+  }
+  Tally exposure;
+  for (const std::uint32_t cell : pool_.cells) exposure.add(quiet.by_cell[cell]);
+  pool_.units += exposure.agv_us;
 }
 
 void PoolCounter::count_cells() {

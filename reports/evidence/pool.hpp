@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "reports/evidence/run_result.hpp"
+#include "storage/folded_rows.hpp"
 #include "storage/records.hpp"
 
 namespace fleetproof {
@@ -38,6 +39,8 @@ class PoolCounter {
   RunResult add(const RunRecord& run);
   // All runs of the replicate were added.
   void finish_replicate();
+  // Instead, for whole replicates in which nothing went wrong. Requires: the end point is not Throughput.
+  void add(const QuietReplicates& quiet);
   const Pool& pool() const { return pool_; }
 
  private:

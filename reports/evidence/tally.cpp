@@ -38,6 +38,17 @@ void Tally::add(const Tally& other) {
     min_clearance_um = std::min(min_clearance_um.value_or(*other.min_clearance_um), *other.min_clearance_um);
 }
 
+void Tally::add(const QuietRuns& quiet) {
+  Tally all;
+  all.runs = quiet.runs;
+  all.transports_done = quiet.transports_done;
+  all.agv_us = quiet.runs * (quiet.simulated_ns / 1000 * quiet.agv_count);
+  all.longest_ns = quiet.simulated_ns;
+  all.agvs = quiet.agv_count;
+  all.min_clearance_um = quiet.min_clearance_um;
+  add(all);
+}
+
 std::optional<double> Tally::transports_per_agv_hour() const {
   if (agv_us == 0) return std::nullopt;
   return fleetproof::transports_per_agv_hour(transports_done, agv_hours());

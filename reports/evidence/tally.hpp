@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "reports/evidence/run_result.hpp"
+#include "storage/folded_rows.hpp"
 #include "storage/records.hpp"
 
 namespace fleetproof {
@@ -24,6 +25,7 @@ struct Tally {
 
   void add(const Outcome& outcome);
   void add(const Tally& other);
+  void add(const QuietRuns& quiet);
   double agv_hours() const { return static_cast<double>(agv_us) / 3.6e9; }
   // Absent if there is no simulated time.
   std::optional<double> transports_per_agv_hour() const;

@@ -33,6 +33,7 @@ std::vector<CellRecord> cells() {
 struct Case {
   std::uint64_t replicates;
   double trouble;
+  bool throughput = true;  // gates that look at every single run
 };
 
 class FoldedReports : public testing::TestWithParam<Case> {
@@ -47,13 +48,16 @@ class FoldedReports : public testing::TestWithParam<Case> {
   void write(const std::string& name, const MayFold& may_fold) {
     std::vector<GateRecord> gates = samples::gates_of_every_kind("mine", "ring");
     for (GateRecord& gate : gates) gate.min_transports_per_agv_hour = 2.0;
+    if (!GetParam().throughput)
+      std::erase_if(gates, [](const GateRecord& gate) { return gate.end_point == EndPoint::Throughput; });
     ArchiveWriter writer(folder_ / name, campaign_, cells(), gates);
     samples::DrawnRuns drawn(GetParam().trouble);
+    runs_.clear();
     for (std::uint64_t i = 0; i < GetParam().replicates * cells().size(); ++i) {
       RunRecord run = drawn(i, cells());
       const CellRecord& cell = cells()[run.cell];
       if (i % 5 == 0) run.factors = cell.highest;
-      if (i % 7 != 0) run.outcome.simulated_ns = 600'000'000'000;  // others cannot be folded with these
+      if (i % 13 != 12) run.outcome.simulated_ns = 600'000'000'000;  // others cannot be folded with these
       runs_.push_back(run);
       writer.add(run);
       if (i % 10 == 0) writer.add(AuditRecord{i, row_checksum(run) + (i == 20 ? 1 : 0)});
@@ -97,6 +101,40 @@ TEST_P(FoldedReports, ChecksOfEvidenceAndComparisonsSeeTheSame) {
   }
 }
 
+TEST_P(FoldedReports, AddUpWhatEveryRunOfAQuietReplicateDid) {
+  const ArchiveReader folded(folder_ / "folded.fp");
+  const std::size_t width = cells().size();
+  std::uint64_t next = 0, together = 0;
+  VisitFolded visit;
+  visit.quiet = [&](const QuietReplicates& quiet) {
+    ASSERT_EQ(quiet.by_cell.size(), width);
+    ASSERT_EQ(next % width, 0U);
+    for (std::size_t cell = 0; cell < width; ++cell) {
+      QuietRuns expected;
+      for (std::uint64_t i = 0; i < quiet.replicates; ++i) {
+        const Outcome& of_run = runs_[next + i * width + cell].outcome;
+        expected.transports_done += of_run.counters.transports_done;
+        expected.in_safe_mode += of_run.counters.safe_mode_ns > 0 ? 1 : 0;
+        if (of_run.min_clearance_um.value_or(INT64_MAX) < expected.min_clearance_um.value_or(INT64_MAX))
+          expected.min_clearance_um = of_run.min_clearance_um;
+        EXPECT_EQ(quiet.by_cell[cell].simulated_ns, of_run.simulated_ns);
+        EXPECT_EQ(quiet.by_cell[cell].agv_count, of_run.agv_count);
+      }
+      EXPECT_EQ(quiet.by_cell[cell].runs, quiet.replicates);
+      EXPECT_EQ(quiet.by_cell[cell].transports_done, expected.transports_done);
+      EXPECT_EQ(quiet.by_cell[cell].in_safe_mode, expected.in_safe_mode);
+      EXPECT_EQ(quiet.by_cell[cell].min_clearance_um, expected.min_clearance_um);
+    }
+    together += quiet.replicates;
+    next += quiet.replicates * width;
+  };
+  folded.for_each_run([&](const RunRecord& run) { EXPECT_EQ(run.run_index, next++); }, visit);
+  EXPECT_EQ(next, runs_.size());
+  if (GetParam().trouble < 0.1) {
+    EXPECT_GT(together, GetParam().replicates / 10);
+  }
+}
+
 // Whatever is on a page by itself has a row; all others are counted, and can be simulated and compared again.
 TEST_P(FoldedReports, KeepRowsOfAllThatWentWrong) {
   const ArchiveReader folded(folder_ / "folded.fp");
@@ -127,7 +165,7 @@ TEST_P(FoldedReports, KeepRowsOfAllThatWentWrong) {
 
 INSTANTIATE_TEST_SUITE_P(Campaigns, FoldedReports,
                          testing::Values(Case{4, 0.3}, Case{600, 0.02}, Case{1030, 0.3}, Case{100, 0.95},
-                                         Case{512, 0.0}));
+                                         Case{512, 0.0}, Case{600, 0.02, false}, Case{1030, 0.1, false}));
 
 }  // namespace
 }  // namespace fleetproof

@@ -57,12 +57,14 @@ TEST_F(FoldedFile, VisitsAllRunsInTheirOrderAndWhatTheyMetBesides) {
         EXPECT_EQ(run.replicate * 6 + run.cell, run.run_index);
         folded += run.folded ? 1 : 0;
       },
-      [&](std::uint32_t, const std::vector<MetTotal>& totals) {
-        for (const MetTotal& total : totals) {
-          met += total.runs;
-          EXPECT_EQ(total.times, 2 * total.runs);
-        }
-      });
+      {.met =
+           [&](std::uint32_t, const std::vector<MetTotal>& totals) {
+             for (const MetTotal& total : totals) {
+               met += total.runs;
+               EXPECT_EQ(total.times, 2 * total.runs);
+             }
+           },
+       .quiet = {}});
   EXPECT_EQ(next, kReplicates * 6);
   EXPECT_EQ(met, folded);
   EXPECT_EQ(folded, kReplicates * 6 * 4 / 5);
