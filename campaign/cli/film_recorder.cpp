@@ -133,6 +133,7 @@ void FilmRecorder::note_message(const TraceRecord& record) {
     if (traced.receiver.valid()) message.receiver = traced.receiver.index();
     message.sent_us = film_us(record.at);
     message.kind = printable(traced.kind, kLongestText);
+    message.content = printable(traced.content, kLongestText);
     message.order = order_;
     return;
   }

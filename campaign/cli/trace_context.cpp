@@ -41,7 +41,9 @@ Piece with_curve_of(const LogicalMap& map, const Piece& piece) {
   return own;
 }
 
-std::string TracedMessage::text() const { return fmt::format("#{} {} ({} bytes)", number, kind, bytes); }
+std::string TracedMessage::text() const {
+  return fmt::format("#{} {}{}{} ({} bytes)", number, kind, content.empty() ? "" : ": ", content, bytes);
+}
 
 // An agent describes a message before it is sent.
 void TraceContext::note(const TraceRecord& record, std::string_view text) {
@@ -51,8 +53,10 @@ void TraceContext::note(const TraceRecord& record, std::string_view text) {
   if (record.kind != TraceKind::Sent) return;
   const auto sent = read<traced::Sent>(record);
   const auto known = described_.find(sent.message_hash);
-  messages_[sent.number] = {sent.number, record.entity, sent.receiver,
-                            record.at,   sent.bytes,    known == described_.end() ? first_bytes(text) : known->second};
+  const std::string described = known == described_.end() ? first_bytes(text) : known->second;
+  const auto [kind, content] = message_words(described);
+  messages_[sent.number] = {sent.number, record.entity,     sent.receiver,       record.at,
+                            sent.bytes,  std::string(kind), std::string(content)};
 }
 
 void TraceContext::note(const Piece& started) {

@@ -19,9 +19,10 @@ struct TracedMessage {
   AgvId sender, receiver;    // no receiver: all AGVs in range
   SimTime sent{};
   std::uint32_t bytes = 0;
-  std::string kind;  // what its agent calls it; else its first bytes in hexadecimal digits
+  std::string kind;     // what its agent calls it; else its first bytes in hexadecimal digits
+  std::string content;  // in the words of its agent; may be empty
 
-  std::string text() const;  // "#118 GRANT (48 bytes)"
+  std::string text() const;  // "#118 GRANT: answers 7 (48 bytes)"
 };
 
 // How a body moves at an instant.

@@ -33,6 +33,7 @@ Json json_of(const TracedMotion& motion) {
 Json json_of(const TracedMessage& message, const Scenario& scenario, SimTime now) {
   return {{"number", message.number},
           {"kind", message.kind},
+          {"content", message.content.empty() ? Json(nullptr) : Json(message.content)},
           {"bytes", message.bytes},
           {"sender", body_name(scenario, message.sender)},
           {"receiver", message.receiver.valid() ? Json(body_name(scenario, message.receiver)) : Json(nullptr)},

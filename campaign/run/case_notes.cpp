@@ -29,7 +29,7 @@ void NoteKeeper::record(const TraceRecord& record, std::string_view text) {
       if (!text.empty()) declared_.push_back({record.entity, std::string(text), record.at});
       return;
     case TraceKind::Described:
-      kinds_[read<traced::Described>(record).message_hash] = text;
+      kinds_[read<traced::Described>(record).message_hash] = message_words(text).kind;
       return;
     case TraceKind::Sent: {
       const auto sent = read<traced::Sent>(record);

@@ -5,7 +5,7 @@ namespace fleetproof {
 // The records of a message come in this order: what it is, that it was sent, its fate at each receiver.
 void FateKeeper::record(const TraceRecord& record, std::string_view text) {
   if (record.kind == TraceKind::Described) {
-    kinds_[read<traced::Described>(record).message_hash] = text;
+    kinds_[read<traced::Described>(record).message_hash] = message_words(text).kind;
   } else if (record.kind == TraceKind::Sent) {
     const auto sent = read<traced::Sent>(record);
     const auto kind = kinds_.find(sent.message_hash);

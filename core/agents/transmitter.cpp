@@ -1,5 +1,6 @@
 #include "core/agents/transmitter.hpp"
 
+#include "core/agents/message_text.hpp"
 #include "core/agents/neighbours.hpp"
 
 namespace fleetproof::agents {
@@ -25,7 +26,7 @@ void Transmitter::fill_in(Status& status) {
 }
 
 void Transmitter::send(const Message& message, std::uint32_t receiver) {
-  controller_.describe(name_of(message.kind));
+  controller_.describe(MessageText(message).c_str());
   if (receiver == FP_NONE) {
     controller_.broadcast(WireMessage(message).bytes());
   } else {

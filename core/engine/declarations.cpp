@@ -43,7 +43,7 @@ bool Declarations::message_sent(AgvId agv, std::uint64_t hash) {
   if (kind.empty()) return false;
   run_.note(agv, traced::Described{hash}, kind);
   const auto& spared = run_.scenario.radio.adverse.spared_kinds;
-  const bool is_spared = std::ranges::find(spared, kind) != spared.end();
+  const bool is_spared = std::ranges::find(spared, message_words(kind).kind) != spared.end();
   kind.clear();
   return is_spared;
 }

@@ -1,10 +1,23 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 #include "core/outcome/trace_records.hpp"
 
 namespace fleetproof {
+
+// What an agent says of a message, "KIND" or "KIND: content": messages are counted and sought by their kind, and a
+// reader sees the content, too. Without a kind it is all kind.
+struct MessageWords {
+  std::string_view kind, content;
+};
+constexpr MessageWords message_words(std::string_view described) {
+  constexpr std::string_view kBetween = ": ";
+  const std::size_t end = described.find(kBetween);
+  if (end == described.npos || end == 0) return {described, {}};
+  return {described.substr(0, end), described.substr(end + kBetween.size())};
+}
 
 // A place as notes keep it.
 struct NotedPose {

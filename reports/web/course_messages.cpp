@@ -107,13 +107,13 @@ class MessageLines {
     line.kind = CourseLine::Kind::Message;
     line.marked = std::ranges::any_of(places, [](const Place& p) { return !is_plain(p); });
     line.who = fmt::format("{} \u2192 {}", name(message.sender), message.receiver ? name(*message.receiver) : "all");
-    line.what = fmt::format("{} #{}", message.kind, message.number);
+    line.what = text_of(message);
     line.details = message.receiver && !places.empty() ? fate_text(places.front()) : fates_text(places);
     // Of messages to one receiver, only those with the same fate are alike: nothing that went wrong is folded away.
     std::string fate;
     if (message.receiver && !places.empty())
       fate = fmt::format("{} {}", word_of(places.front().fate), places.front().received.size());
-    line.alike = fmt::format("{}\n{}\n{}", line.who, message.kind, fate);
+    line.alike = fmt::format("{}\n{}\n{}\n{}", line.who, message.kind, message.content, fate);
     lines_.push_back(std::move(line));
   }
 
@@ -127,9 +127,9 @@ class MessageLines {
       line.kind = CourseLine::Kind::Message;
       line.marked = i > 0;
       line.who = fmt::format("{} \u2190 {}", name(place.receiver), name(message.sender));
-      line.what = fmt::format("{} #{}", message.kind, message.number);
+      line.what = text_of(message);
       line.details = fmt::format("received{}, {} s old", i > 0 ? " again" : "", time_text(at.at_us - message.sent_us));
-      line.alike = fmt::format("{}\n{}\n{}", line.who, message.kind, i);
+      line.alike = fmt::format("{}\n{}\n{}\n{}", line.who, message.kind, message.content, i);
       lines_.push_back(std::move(line));
     }
   }

@@ -142,7 +142,7 @@ SenderAnswers answers_of(const FilmTalk& talk, const Setting& setting, std::size
 }
 
 std::string told(const Setting& setting, const Film& film, const FilmTalk& talk, const Delivery& d) {
-  std::string text = fmt::format("{} #{}, sent {} s", d.message->kind, d.message->number, time_text(d.sent.at_us));
+  std::string text = fmt::format("{}, sent {} s", text_of(*d.message), time_text(d.sent.at_us));
   if (d.is_lost()) {
     text += fmt::format(": {}", word_of(d.fate));
   } else if (d.arrives.at_us > film.end_us) {

@@ -103,6 +103,7 @@ struct Message {
   std::optional<std::size_t> receiver;  // none: all in range
   std::int64_t sent_us = 0;
   std::string kind;
+  std::string content;  // in the words of its sender; may be empty
   std::vector<Arrival> arrivals;
   std::uint64_t order = 0;
 };

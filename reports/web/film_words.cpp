@@ -21,6 +21,11 @@ const char* word_of(Fate fate) {
   return kWords[static_cast<std::size_t>(fate)];
 }
 
+std::string text_of(const Message& message) {
+  const std::string name = fmt::format("{} #{}", message.kind, message.number);
+  return message.content.empty() ? name : fmt::format("{} ({})", name, message.content);
+}
+
 std::string times_text(std::size_t count) {
   if (count == 1) return "once";
   return count == 2 ? "twice" : fmt::format("{} times", count);

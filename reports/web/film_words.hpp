@@ -15,6 +15,9 @@ std::string metres_text(std::int64_t um);  // likewise, "0.034"
 // "received", "lost by chance".
 const char* word_of(Fate fate);
 
+// "GRANT #118", and its content if there is one: "GRANT #118 (answers 7.0)".
+std::string text_of(const Message& message);
+
 // "once", "twice", "3 times".
 std::string times_text(std::size_t count);
 

@@ -12,6 +12,7 @@ namespace {
 
 using Json = nlohmann::json;
 using testing::HasSubstr;
+using testing::StartsWith;
 
 class ReadableTrace : public test::ProgramTest {
  protected:
@@ -48,11 +49,15 @@ TEST_F(ReadableTrace, EveryMessageIsTheOneThatWasSent) {
       EXPECT_EQ(number, sent.size() + 1) << "numbered in the order of sending";
       EXPECT_EQ(message["sender"], line["body"]);
       EXPECT_EQ(message["sent_ns"], line["t_ns"]);
+      if (message["kind"] == "GRANT") {
+        EXPECT_THAT(message["content"], StartsWith("answers "));
+      }
       sent[number] = message;
       continue;
     }
     ASSERT_TRUE(sent.contains(number));
-    for (const char* key : {"kind", "bytes", "sender", "sent_ns"}) EXPECT_EQ(message[key], sent[number][key]);
+    for (const char* key : {"kind", "content", "bytes", "sender", "sent_ns"})
+      EXPECT_EQ(message[key], sent[number][key]);
     EXPECT_EQ(message["age_ns"].get<std::int64_t>(),
               line["t_ns"].get<std::int64_t>() - message["sent_ns"].get<std::int64_t>());
     EXPECT_NE(line["body"], message["sender"]);

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -201,6 +202,20 @@ TEST(Notes, DescribeTheNextMessageOfTheirActivationOnly) {
   EXPECT_THAT(notebook.words_of(TraceKind::Described), testing::ElementsAre("B"));
 }
 
+TEST(Notes, OfAMessageAreItsKindAndItsContent) {
+  for (const auto& [described, kind, content] :
+       std::vector<std::array<std::string_view, 3>>{{"GRANT", "GRANT", ""},
+                                                    {"GRANT: answers 7", "GRANT", "answers 7"},
+                                                    {"a: b: c", "a", "b: c"},
+                                                    {"10:30", "10:30", ""},
+                                                    {"GRANT:", "GRANT:", ""},
+                                                    {": 7", ": 7", ""},
+                                                    {"", "", ""}}) {
+    EXPECT_EQ(message_words(described).kind, kind) << described;
+    EXPECT_EQ(message_words(described).content, content) << described;
+  }
+}
+
 // ---- tapes
 
 TEST(Notes, AreOnTheTapeEvenIfNobodyLookedWhenItWasRecorded) {
@@ -237,8 +252,10 @@ TEST(Notes, OfHullLock) {
   Notebook notebook;
   simulate(scenario, **type, {}, &notebook);
   EXPECT_EQ(notebook.of(TraceKind::Described).size(), notebook.of(TraceKind::Sent).size());
-  for (const char* kind : {"STATE", "REQUEST", "GRANT"})
-    EXPECT_THAT(notebook.words_of(TraceKind::Described), testing::Contains(kind));
+  const std::vector<std::string> described = notebook.words_of(TraceKind::Described);
+  EXPECT_THAT(described, testing::Contains("STATE"));
+  EXPECT_THAT(described, testing::Contains("REQUEST: asks AGV 1 with 1.0"));
+  EXPECT_THAT(described, testing::Contains("GRANT: answers 1.0"));
   for (const char* state : {"idle", "picking", "requesting", "driving"})
     EXPECT_THAT(notebook.words_of(TraceKind::AgentState), testing::Contains(state));
   const auto beliefs = notebook.of(TraceKind::Belief);

@@ -54,6 +54,7 @@ Film small_film() {
   film.states = {{0, 15'000'000, "driving"}};
   film.waits = {{1, 12'000'000, 0}};
   film.messages = {message(1, 0, 1, 18'000'000, Fate::Received), message(2, 1, 0, 19'000'000, Fate::LostInOutage)};
+  film.messages[0].content = "answers 7";
   film.happenings = {{1, 14'000'000, "fault", "restart", true, false}};
   TooClose close;
   close.b = 1;
@@ -112,7 +113,7 @@ TEST(ReplayPage, SaysWithoutScriptsWhatHappened) {
     course += std::string(cell.node().text().get()) + "|";
   EXPECT_EQ(course,
             "12.000|AGV 1|says it waits|for AGV 0|14.000|AGV 1|fault|restart|15.000|AGV 0|its agent says|\"driving\"|"
-            "16.000|AGV 0|begins drive|A to B|18.000|AGV 0 \u2192 all|GRANT #1|received 19.500 s|"
+            "16.000|AGV 0|begins drive|A to B|18.000|AGV 0 \u2192 all|GRANT #1 (answers 7)|received 19.500 s|"
             "19.000|AGV 1 \u2192 all|GRANT #2|lost in an outage|20.000|AGV 0|ends drive||"
             "20.000|AGV 0|too close|to AGV 1|");
   EXPECT_STREQ(document.select_node("//section[@id='player']").node().attribute("hidden").value(), "hidden");

@@ -212,7 +212,9 @@ typedef struct fp_host {
   /* Since minor 2. Notes for people who look at a trace. A note changes nothing and takes no simulated time; if nobody
      traces, it is ignored. Notes do not count as calls and return nothing. A trace keeps the first 1 000 notes of an
      activation, and 64 bytes of each text. */
-  void (*describe)(fp_controller*, const char* kind);       /* the next message of this activation, e.g. "GRANT" */
+  /* The next message of this activation: its kind, e.g. "GRANT". What follows ": " is its content, for readers, and no
+     part of the kind: "GRANT: answers 7". */
+  void (*describe)(fp_controller*, const char* kind);
   void (*declare_state)(fp_controller*, const char* state); /* what the agent does, in its own word, e.g. "waiting" */
   /* Where another AGV was at `as_of_ns`, as far as the agent knows. Heading (0, 0): not known. */
   void (*believe)(fp_controller*, uint32_t agv, const fp_pose* where, int64_t as_of_ns);
