@@ -37,20 +37,16 @@ void MessageText::put_epoch(Epoch epoch) {
 }
 
 void MessageText::put_asked(Epoch request, const Asked& asked) {
-  if (asked.count == 0) {
-    put("nobody with ");
-    put_epoch(request_of(request));
-    return;
+  if (asked.count == 0) put("nobody ");
+  put("with ");
+  std::uint32_t named = 0;
+  for (std::uint32_t i = 0; i < std::max(asked.count, 1U) && named < kNamed; ++i) {
+    const std::uint32_t attempt = asked.count == 0 ? 0 : asked.list[i].attempt;
+    const auto same = [&](const Asked::Entry& entry) { return entry.attempt == attempt; };
+    if (std::ranges::any_of(asked.all().first(i), same)) continue;
+    if (named++ > 0) put(", ");
+    put_epoch(request_of(request) + attempt);
   }
-  const std::uint32_t named = std::min(asked.count, kNamed);
-  for (std::uint32_t i = 0; i < named; ++i) {
-    if (i > 0) put(", ");
-    put("AGV ");
-    put(asked.list[i].agv);
-    put(" with ");
-    put_epoch(request_of(request) + asked.list[i].attempt);
-  }
-  if (asked.count > named) put(", ...");
 }
 
 }  // namespace fleetproof::agents

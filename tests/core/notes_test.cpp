@@ -254,7 +254,7 @@ TEST(Notes, OfHullLock) {
   EXPECT_EQ(notebook.of(TraceKind::Described).size(), notebook.of(TraceKind::Sent).size());
   const std::vector<std::string> described = notebook.words_of(TraceKind::Described);
   EXPECT_THAT(described, testing::Contains("STATE"));
-  EXPECT_THAT(described, testing::Contains("REQUEST: asks AGV 1 with 1.0"));
+  EXPECT_THAT(described, testing::Contains("REQUEST: asks with 1.0"));
   EXPECT_THAT(described, testing::Contains("GRANT: answers 1.0"));
   for (const char* state : {"idle", "picking", "requesting", "driving"})
     EXPECT_THAT(notebook.words_of(TraceKind::AgentState), testing::Contains(state));
