@@ -50,8 +50,10 @@ std::string reference(const Setting& setting, const Film& film, const FilmTalk& 
     const bool is_for_it = !m->receiver || *m->receiver == sender;
     newer += m->kind == setting.ask && is_for_it && asked->sent < sent && sent < setting.begin ? 1 : 0;
   }
-  return fmt::format("; {} then had {} #{} (sent {} s){}", who, setting.ask, asked->message->number,
-                     time_text(asked->sent.at_us), newer > 0 ? fmt::format(", not the {} newer", newer) : "");
+  const std::string& content = asked->message->content;
+  return fmt::format("; {} then had {} #{} ({}sent {} s){}", who, setting.ask, asked->message->number,
+                     content.empty() ? "" : content + ", ", time_text(asked->sent.at_us),
+                     newer > 0 ? fmt::format(", not the {} newer", newer) : "");
 }
 
 }  // namespace

@@ -87,6 +87,15 @@ TEST(SettingOff, TheReasonSaysWhatWasKnownThen) {
                               "1.000 s)."));
 }
 
+TEST(SettingOff, TheReasonSaysWhatTheMessagesSaid) {
+  Film film = rolling_film();
+  film.messages[0].content = "for 7";
+  film.messages[1].content = "to 7";
+  EXPECT_THAT(lines_of(drive_reasons(film).front()),
+              Contains("NO #2 (to 7), sent 2.000 s: received 4.000 s, 1.000 s too late; B then had ASK #1 (for 7, sent "
+                       "1.000 s)."));
+}
+
 TEST(SettingOff, AnAgvThatAsksOnItsWayDecidesAnew) {
   Film film = rolling_film();
   Message again = film.messages[0];
