@@ -4,8 +4,24 @@
 
 namespace fleetproof::agents {
 
-DriveRules::DriveRules(const MapView& map, std::uint32_t vehicle_type) : map_(map), vehicle_type_(vehicle_type) {
+DriveRules::DriveRules(const MapView& map, std::uint32_t vehicle_type, WorkOut)
+    : map_(map), vehicle_type_(vehicle_type) {
   if (has_rules()) keep_those_that_lead_back();
+}
+
+DriveRules::DriveRules(const MapView& map, std::uint32_t vehicle_type) : map_(map), vehicle_type_(vehicle_type) {
+  if (map.facts() == nullptr) {
+    own_ = DriveRules(map, vehicle_type, WorkOut{}).own_;
+    usable_ = own_;
+    return;
+  }
+  usable_ = ask<std::uint8_t>(
+      *map.facts(),
+      [](const fp_facts* from, std::uint64_t type, fp_answer* to) {
+        const MapView shared(*from);
+        answer(*from, to, DriveRules(shared, static_cast<std::uint32_t>(type), WorkOut{}).own_);
+      },
+      vehicle_type);
 }
 
 bool DriveRules::has_rules() const {
@@ -59,13 +75,13 @@ void DriveRules::keep_those_that_lead_back() {
       both[i] = both[i] && back[i];
       judged[i] = judged[i] || both[i];
     }
-    const auto size = std::ranges::count(both, true);
+    const auto size = std::ranges::count(both, 1);
     if (size <= largest) continue;
     largest = size;
-    usable_ = std::move(both);
+    own_ = std::move(both);
     if (2 * largest >= static_cast<std::ptrdiff_t>(judged.size())) break;
   }
-  for (std::uint32_t state = 0; state < judged.size(); ++state) usable_[state] = usable_[state] && permits(state);
+  for (std::uint32_t state = 0; state < judged.size(); ++state) own_[state] = own_[state] && permits(state);
 }
 
 }  // namespace fleetproof::agents

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/agents/map_view.hpp"
@@ -12,11 +13,13 @@ namespace fleetproof::agents {
 class DriveRules {
  public:
   DriveRules(const MapView& map, std::uint32_t vehicle_type);
+  DriveRules(const DriveRules&) = delete;
+  DriveRules& operator=(const DriveRules&) = delete;
 
   // False for most plants: then everything below is allowed.
   bool any() const { return !usable_.empty(); }
   // Whether the AGV may drive the lane, with a load or without one, and can come back to where it was.
-  bool is_usable(std::uint32_t lane, bool loaded) const { return !any() || usable_[2 * lane + (loaded ? 1 : 0)]; }
+  bool is_usable(std::uint32_t lane, bool loaded) const { return !any() || usable_[2 * lane + (loaded ? 1 : 0)] != 0; }
   // Whether an AGV with this heading may leave by this lane.
   bool may_leave(Vec heading, std::uint32_t lane) const {
     return !any() || map_.may_turn(map_.lane(lane).from) || same_heading(heading, map_.start_heading(lane));
@@ -24,7 +27,10 @@ class DriveRules {
 
  private:
   // A state is the lane by which the AGV has come, and whether it now carries a load: 2 * lane + loaded.
-  using States = std::vector<bool>;
+  using States = std::vector<std::uint8_t>;
+
+  struct WorkOut {};
+  DriveRules(const MapView& map, std::uint32_t vehicle_type, WorkOut);
 
   bool has_rules() const;
   bool permits(std::uint32_t state) const { return map_.permits(state / 2, vehicle_type_, state % 2 == 1); }
@@ -34,7 +40,8 @@ class DriveRules {
 
   const MapView& map_;
   std::uint32_t vehicle_type_;
-  States usable_;  // empty: no rules
+  States own_;                            // the states, if they are not shared
+  std::span<const std::uint8_t> usable_;  // by state; empty: no rules
 };
 
 }  // namespace fleetproof::agents

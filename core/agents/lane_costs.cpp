@@ -17,7 +17,8 @@ namespace {
 // against it.
 constexpr double kAgainstAisle = 8.0;
 
-// The first AGV of the fleet that is like this one.
+}  // namespace
+
 std::uint32_t model_of(const fp_facts& facts, std::uint32_t agv) {
   constexpr std::size_t kMembers = offsetof(fp_agv, vehicle_type) + sizeof(fp_agv::vehicle_type);
   const std::size_t size = std::min<std::size_t>(facts.agv_stride, kMembers);
@@ -25,8 +26,6 @@ std::uint32_t model_of(const fp_facts& facts, std::uint32_t agv) {
   while (std::memcmp(&agv_of(facts, model), &agv_of(facts, agv), size) != 0) ++model;
   return model;
 }
-
-}  // namespace
 
 std::span<const double> lane_times_s(const fp_facts& facts, std::uint32_t agv) {
   return ask<double>(

@@ -7,6 +7,9 @@
 
 namespace fleetproof::agents {
 
+// The first AGV of the fleet that is like this one: what is worked out for it holds for both.
+std::uint32_t model_of(const fp_facts& facts, std::uint32_t agv);
+
 // Of one AGV, by lane; the AGVs of a run share them.
 // The time from rest to rest.
 std::span<const double> lane_times_s(const fp_facts& facts, std::uint32_t agv);

@@ -16,7 +16,7 @@ bool tells_minor_2(const fp_map& map) {
 
 MapView::MapView(const fp_map& map) : map_(map), rules_known_(tells_minor_2(map)), own_(work_out()) { read(own_); }
 
-MapView::MapView(const fp_facts& facts) : map_(*facts.map), rules_known_(tells_minor_2(*facts.map)) {
+MapView::MapView(const fp_facts& facts) : map_(*facts.map), facts_(&facts), rules_known_(tells_minor_2(*facts.map)) {
   read(ask<std::byte>(
       facts, [](const fp_facts* from, std::uint64_t, fp_answer* to) { answer(*from, to, MapView(*from->map).own_); },
       0));

@@ -25,6 +25,9 @@ class MapView {
   MapView(const MapView&) = delete;
   MapView& operator=(const MapView&) = delete;
 
+  // From which others can derive what follows from the map; null: there are none.
+  const fp_facts* facts() const { return facts_; }
+
   std::uint32_t station_count() const { return map_.station_count; }
   std::uint32_t lane_count() const { return map_.lane_count; }
   const fp_station& station(std::uint32_t id) const { return *fp_station_at(&map_, id); }
@@ -67,6 +70,7 @@ class MapView {
   void read(std::span<const std::byte> tables);
 
   const fp_map& map_;
+  const fp_facts* facts_ = nullptr;
   bool rules_known_;
   std::vector<std::byte> own_;                                // the tables, if they are not shared
   std::span<const Vec> start_headings_, end_headings_;        // by lane

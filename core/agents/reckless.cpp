@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <deque>
+#include <optional>
 
 #include "core/agents/agent_type.hpp"
 #include "core/agents/controller.hpp"
@@ -9,6 +10,7 @@
 #include "core/agents/fleet.hpp"
 #include "core/agents/lane_costs.hpp"
 #include "core/agents/map_view.hpp"
+#include "core/agents/quickest_way.hpp"
 #include "core/agents/routes.hpp"
 
 namespace fleetproof::agents {
@@ -23,6 +25,10 @@ class Reckless {
         rules_(map_, map_.tells_rules() ? agv_of(briefing, briefing.self).vehicle_type : 0),
         routes_(map_, rules_),
         station_(briefing.start_station) {
+    if (!rules_.any()) {
+      way_.emplace(facts_.shared(), map_, routes_, briefing.self);
+      return;
+    }
     const auto times_s = lane_times_s(facts_.shared(), briefing.self);
     for (const bool loaded : {false, true}) {
       for (std::uint32_t id = 0; id < map_.lane_count(); ++id)
@@ -54,21 +60,34 @@ class Reckless {
       bool last = true;
       if (rules_.any() && !heading_known_) look();
       if (station_ != task.station || !map_.may_stay(station_, heading_)) {
-        routes_.search(station_, heading_, lane_times_s_[task.pick ? 0 : 1], task.station);
-        const auto lanes = routes_.lanes(task.station);
-        if (lanes.empty()) {
+        const auto [lane, is_last] = next_lane(task);
+        if (lane == FP_NONE) {
           tasks_.pop_front();  // the station cannot be reached
           continue;
         }
-        segment = map_.action_segment(lanes.front());
-        station_ = map_.lane(lanes.front()).to;
-        heading_ = map_.end_heading(lanes.front());
-        last = lanes.size() == 1;
+        segment = map_.action_segment(lane);
+        station_ = map_.lane(lane).to;
+        heading_ = map_.end_heading(lane);
+        last = is_last;
       }
       acting_ = !last ? controller_.move(segment) : task.pick ? controller_.pick(segment) : controller_.drop(segment);
       if (last) tasks_.pop_front();
       return;
     }
+  }
+
+  struct Next {
+    std::uint32_t lane;  // FP_NONE: there is none
+    bool is_last;
+  };
+  Next next_lane(const Task& task) {
+    if (way_) {
+      const std::uint32_t lane = way_->next_lane(station_, task.station);
+      return {lane, lane != FP_NONE && map_.lane(lane).to == task.station};
+    }
+    routes_.search(station_, heading_, lane_times_s_[task.pick ? 0 : 1], task.station);
+    const auto lanes = routes_.lanes(task.station);
+    return {lanes.empty() ? FP_NONE : lanes.front(), lanes.size() == 1};
   }
 
   void look() {
@@ -82,7 +101,8 @@ class Reckless {
   MapView map_;
   DriveRules rules_;
   Routes routes_;
-  std::array<std::vector<double>, 2> lane_times_s_;  // without a load, with one
+  std::optional<QuickestWay> way_;                   // in plants without rules
+  std::array<std::vector<double>, 2> lane_times_s_;  // in others: without a load, with one
   std::deque<Task> tasks_;
   std::uint32_t station_;  // where the AGV stands, or where its action ends
   Vec heading_{1.0, 0.0};  // likewise; only plants with rules ask for it

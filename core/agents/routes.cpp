@@ -34,13 +34,33 @@ constexpr auto is_dearer = [](const auto& a, const auto& b) {
 };
 
 Routes::Routes(const MapView& map, const DriveRules& rules) : map_(map), rules_(rules) {
-  hops_.reserve(map.lane_count());
-  first_hops_.reserve(map.station_count() + 1);
-  for (std::uint32_t station = 0; station < map.station_count(); ++station) {
-    first_hops_.push_back(static_cast<std::uint32_t>(hops_.size()));
-    for (const std::uint32_t lane : map.lanes_from(station)) hops_.push_back({lane, map.lane(lane).to});
+  if (map.facts() == nullptr) {
+    own_ = hops_of(map);
+    read(own_);
+    return;
   }
-  first_hops_.push_back(static_cast<std::uint32_t>(hops_.size()));
+  read(ask<std::byte>(
+      *map.facts(),
+      [](const fp_facts* from, std::uint64_t, fp_answer* to) { answer(*from, to, hops_of(MapView(*from))); }, 0));
+}
+
+std::vector<std::byte> Routes::hops_of(const MapView& map) {
+  std::vector<Hop> hops;
+  std::vector<std::uint32_t> first_hops;
+  for (std::uint32_t station = 0; station < map.station_count(); ++station) {
+    first_hops.push_back(static_cast<std::uint32_t>(hops.size()));
+    for (const std::uint32_t lane : map.lanes_from(station)) hops.push_back({lane, map.lane(lane).to});
+  }
+  first_hops.push_back(static_cast<std::uint32_t>(hops.size()));
+  TableWriter tables;
+  tables.add(hops), tables.add(first_hops);
+  return tables.bytes();
+}
+
+void Routes::read(std::span<const std::byte> tables) {
+  TableReader reader(tables);
+  hops_ = reader.next<Hop>();
+  first_hops_ = reader.next<std::uint32_t>();
 }
 
 void Routes::push(Open open) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -31,6 +32,14 @@ class Routes {
   void search(std::uint32_t from, Vec heading, std::span<const double> cost_s, std::uint32_t until = FP_NONE);
   // Infinite if there is no way.
   double cost_s(std::uint32_t to) const { return cost_s_[to]; }
+  // A lane that leaves a station. In a plant, the lanes of the map are too far apart in memory for a search.
+  struct Hop {
+    std::uint32_t lane, to;
+  };
+  std::span<const Hop> hops_from(std::uint32_t station) const {
+    return hops_.subspan(first_hops_[station], first_hops_[station + 1] - first_hops_[station]);
+  }
+
   // The lanes to drive; empty if there is no way, or if `to` is where the search began. Valid until the next call.
   std::span<const std::uint32_t> lanes(std::uint32_t to);
 
@@ -40,11 +49,8 @@ class Routes {
     std::uint32_t place;  // a station; in a plant with rules, a lane that has been driven
   };
 
-  // A lane that leaves a station. In a plant, the lanes of the map are too far apart in memory for a search.
-  struct Hop {
-    std::uint32_t lane, to;
-  };
-
+  static std::vector<std::byte> hops_of(const MapView& map);
+  void read(std::span<const std::byte> tables);
   void search_stations(std::uint32_t from, std::span<const double> cost_s, std::uint32_t until);
   void search_lanes(std::uint32_t from, Vec heading, std::span<const double> cost_s, std::uint32_t until);
   void reach(std::uint32_t lane, double cost_s, std::uint32_t before);
@@ -53,13 +59,14 @@ class Routes {
 
   const MapView& map_;
   const DriveRules& rules_;
-  std::vector<Hop> hops_;                  // by station
-  std::vector<std::uint32_t> first_hops_;  // by station, and one more: where its hops begin
-  std::vector<double> cost_s_;             // by station
-  std::vector<std::uint32_t> arrival_;     // by station: the lane by which the way arrives
-  std::vector<double> driven_s_;           // in a plant with rules, by lane: the cost up to its end
-  std::vector<std::uint32_t> before_;      // likewise: the lane before it
-  std::vector<Open> open_;                 // heap, cheapest first
+  std::vector<std::byte> own_;                 // the hops, if they are not shared
+  std::span<const Hop> hops_;                  // by station
+  std::span<const std::uint32_t> first_hops_;  // by station, and one more: where its hops begin
+  std::vector<double> cost_s_;                 // by station
+  std::vector<std::uint32_t> arrival_;         // by station: the lane by which the way arrives
+  std::vector<double> driven_s_;               // in a plant with rules, by lane: the cost up to its end
+  std::vector<std::uint32_t> before_;          // likewise: the lane before it
+  std::vector<Open> open_;                     // heap, cheapest first
   std::vector<std::uint32_t> lanes_;
 };
 
