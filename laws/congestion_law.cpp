@@ -21,13 +21,16 @@ class CongestionLaw final : public Law {
 
   void piece_ended(const Piece&) override {}
   TraceKinds reads() const override { return kMessageKinds; }
-  void happened(const TraceRecord& record) override {
-    windows_before(record.at);
-    if (record.kind == TraceKind::Sent) {
-      offered_ += radio_.air_time(read<traced::Sent>(record).bytes);
-    } else {
-      ++receptions_;
-      destroyed_ += record.kind == TraceKind::LostByInterference ? 1 : 0;
+  bool hears_messages_together() const override { return true; }
+  void messages(std::span<const TraceRecord> records) override {
+    for (const TraceRecord& record : records) {
+      if (record.at >= window_ + kWindow) windows_before(record.at);
+      if (record.kind == TraceKind::Sent) {
+        offered_ += air_time(read<traced::Sent>(record).bytes);
+      } else {
+        ++receptions_;
+        destroyed_ += record.kind == TraceKind::LostByInterference ? 1 : 0;
+      }
     }
   }
   void finish(SimTime end) override { windows_before(end + kWindow); }
@@ -38,6 +41,13 @@ class CongestionLaw final : public Law {
   }
 
  private:
+  // Messages often have the length of the one before.
+  Duration air_time(std::uint32_t bytes) {
+    if (bytes != last_bytes_) last_air_time_ = radio_.air_time(bytes);
+    last_bytes_ = bytes;
+    return last_air_time_;
+  }
+
   // Closes every window that ends at or before `t`.
   void windows_before(SimTime t) {
     for (; window_ + kWindow <= t; window_ += kWindow) {
@@ -70,7 +80,8 @@ class CongestionLaw final : public Law {
 
   const RadioSetup& radio_;
   SimTime window_ = kStart;
-  Duration offered_{};
+  Duration offered_{}, last_air_time_{};
+  std::uint32_t last_bytes_ = ~0U;
   std::uint64_t receptions_ = 0, destroyed_ = 0;
   std::optional<std::size_t> saturated_, interfered_;
   std::vector<Incident> incidents_;

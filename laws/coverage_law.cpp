@@ -4,9 +4,11 @@
 #include <array>
 #include <deque>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "core/clearance/clearance_over_time.hpp"
+#include "core/geometry/broad_phase.hpp"
 #include "core/outcome/trace_records.hpp"
 #include "laws/encounter.hpp"
 #include "laws/map_places.hpp"
@@ -26,10 +28,10 @@ class CoverageLaw final : public Law {
   explicit CoverageLaw(const Scenario& scenario)
       : margin_m_(violation_threshold_m(scenario.law)),
         map_(*scenario.map),
-        places_(map_),
         bodies_(scenario),
         swept_(scenario.agvs.size()),
-        drives_(scenario.agvs.size()) {}
+        drives_(scenario.agvs.size()),
+        driven_(scenario.agvs.size()) {}
 
   void piece_started(const Piece& piece) override;
   void piece_ended(const Piece& piece) override;
@@ -44,24 +46,30 @@ class CoverageLaw final : public Law {
     SimTime until = kStart;
     double clearance_m = 0.0;
   };
-  // A drive as planned, and the station at which its segment ends; none if it drives no segment of the map.
+  // A drive as planned. Its track is found when it may meet another one.
   struct Drive {
-    Track track;
-    SegmentId segment;
-    StationId to;
+    Piece piece;
+    Box box;  // of the track
+    std::optional<Track> track;
+    StationId to;  // at which its segment ends; none if it drives no segment of the map
   };
   Drive drive_of(const Piece& piece) const;
+  void find_track(Drive& drive) const;
+  const MapPlaces& places();
   void meet(Drive drive);
+  void forget_before(std::size_t agv, SimTime t);
   void meet(const Drive& earlier, const Drive& later);
   void look_closer(const Piece& a, const Piece& b, Interval within);
   void close(const Near& near) { near_misses_ += near.clearance_m >= margin_m_; }
 
   double margin_m_;
   const LogicalMap& map_;
-  MapPlaces places_;
+  std::optional<MapPlaces> places_;  // found when two drives first end at one station
   Whereabouts bodies_;
-  std::vector<Box> swept_;                 // by AGV, as planned; empty between a piece and the next
-  std::vector<std::deque<Drive>> drives_;  // by AGV: the drives that ended recently or are under way
+  BroadPhase swept_;                         // AGVs by their pieces, as planned; none between a piece and the next
+  std::vector<std::deque<Drive>> drives_;    // by AGV: the drives that ended recently or are under way
+  BroadPhase driven_;                        // AGVs by these drives
+  double widest_m_ = 0.0, longest_m_ = 0.0;  // of the bodies that have driven
   std::array<std::uint64_t, kEncounterKinds> encounters_{};
   std::array<std::uint64_t, kSceneKinds> scenes_{};
   std::map<std::pair<EntityId, EntityId>, Near> near_;
@@ -72,53 +80,89 @@ class CoverageLaw final : public Law {
 
 void CoverageLaw::piece_started(const Piece& piece) {
   bodies_.note(piece);
-  if (piece.entity.index() >= swept_.size()) return;
-  swept_[piece.entity.index()] = piece.planned_box;
+  if (piece.entity.index() >= bodies_.agv_count()) return;
+  swept_.place(piece.entity.index(), piece.planned_box);
   if (piece.manner == Manner::Drive) meet(drive_of(piece));
 }
 
 CoverageLaw::Drive CoverageLaw::drive_of(const Piece& piece) const {
-  Drive drive{Track::of(piece), piece.segment, {}};
-  if (!piece.segment.valid() || piece.segment.index() >= map_.segment_count()) return drive;
+  Drive drive{piece, {}, {}, {}};
+  if (piece.curve->is_straight()) {
+    drive.box = Track::box_of_straight(piece);
+  } else {
+    find_track(drive);
+    drive.box = drive.track->box;
+  }
+  return drive;
+}
+
+void CoverageLaw::find_track(Drive& drive) const {
+  if (drive.track) return;
+  const Piece& piece = drive.piece;
+  drive.track = Track::of(piece);
+  if (!piece.segment.valid() || piece.segment.index() >= map_.segment_count()) return;
   const Segment& segment = map_.segment(piece.segment);
   const Vec2 end_m = piece.curve->pose_at(piece.curve->length_m()).position_m;
   const auto apart = [&](StationId station) { return (map_.station(station).position_m - end_m).squaredNorm(); };
   drive.to = apart(segment.to) <= apart(segment.from) ? segment.to : segment.from;
-  return drive;
 }
 
+// Tracks that do not come as near to each other as `side_by_side` looks meet in no way.
 void CoverageLaw::meet(Drive drive) {
-  const Track& track = drive.track;
-  for (std::size_t other = 0; other < drives_.size(); ++other) {
-    if (other == track.agv.index()) continue;
-    auto& drives = drives_[other];
-    while (!drives.empty() && drives.front().track.end + kLookAhead < track.begin) drives.pop_front();
-    for (const Drive& earlier : drives) meet(earlier, drive);
+  const Piece& piece = drive.piece;
+  const std::size_t mine = piece.entity.index();
+  widest_m_ = std::max(widest_m_, piece.footprint.width_m);
+  longest_m_ = std::max(longest_m_, piece.footprint.length_m);
+  const double reach_m = widest_m_ + 0.5 * longest_m_ + std::max(kBesideACurve_m, margin_m_);
+  const Box near = drive.box.grown(reach_m);
+  for (const std::uint32_t other : driven_.overlapping(near)) {
+    if (other == mine) continue;
+    forget_before(other, piece.begin);
+    for (Drive& earlier : drives_[other]) {
+      if (!near.overlaps(earlier.box)) continue;
+      find_track(earlier), find_track(drive);
+      meet(earlier, drive);
+    }
   }
-  drives_[track.agv.index()].push_back(std::move(drive));
+  forget_before(mine, piece.begin);
+  drives_[mine].push_back(std::move(drive));
+  Box driven;
+  for (const Drive& one : drives_[mine]) driven.add(one.box.low_m), driven.add(one.box.high_m);
+  driven_.remove(mine);
+  driven_.place(mine, driven);
+}
+
+const MapPlaces& CoverageLaw::places() {
+  if (!places_) places_.emplace(map_);
+  return *places_;
+}
+
+// Those that no drive from `t` on can meet.
+void CoverageLaw::forget_before(std::size_t agv, SimTime t) {
+  auto& drives = drives_[agv];
+  while (!drives.empty() && drives.front().piece.end + kLookAhead < t) drives.pop_front();
 }
 
 void CoverageLaw::meet(const Drive& earlier, const Drive& later) {
-  const auto kind = encounter_of(earlier.track, later.track, margin_m_);
+  const auto kind = encounter_of(*earlier.track, *later.track, margin_m_);
   if (kind) ++encounters_[static_cast<std::size_t>(*kind)];
   const auto scene = [&](SceneKind met, bool holds) { scenes_[static_cast<std::size_t>(met)] += holds ? 1 : 0; };
-  scene(SceneKind::BackIn, kind && (earlier.track.tail_first || later.track.tail_first));
-  const SideBySide passing = side_by_side(earlier.track, later.track, margin_m_);
+  scene(SceneKind::BackIn, kind && (earlier.track->tail_first || later.track->tail_first));
+  const SideBySide passing = side_by_side(*earlier.track, *later.track, margin_m_);
   scene(SceneKind::TightGap, passing.tight_gap);
   scene(SceneKind::CurveBesideLane, passing.curve_beside_lane);
   scene(SceneKind::OverhangPass, passing.overhang_pass);
-  if (!later.to.valid() || earlier.to != later.to || earlier.segment == later.segment) return;
-  scene(SceneKind::Bottleneck, places_.bottleneck[later.to.index()]);
-  scene(SceneKind::FourWay, places_.four_way[later.to.index()]);
+  if (!later.to.valid() || earlier.to != later.to || earlier.piece.segment == later.piece.segment) return;
+  scene(SceneKind::Bottleneck, places().bottleneck[later.to.index()]);
+  scene(SceneKind::FourWay, places().four_way[later.to.index()]);
 }
 
 void CoverageLaw::piece_ended(const Piece& piece) {
   const std::size_t mine = piece.entity.index();
-  if (mine >= swept_.size()) return;
-  const Box near = swept_[mine].grown(kNearMiss_m);
-  swept_[mine] = Box{};
-  for (std::size_t i = 0; i < swept_.size(); ++i) {
-    if (!near.overlaps(swept_[i])) continue;
+  if (mine >= bodies_.agv_count()) return;
+  const Box near = swept_.box_of(mine).grown(kNearMiss_m);
+  swept_.remove(mine);
+  for (const std::uint32_t i : swept_.overlapping(near)) {
     const Piece& other = bodies_.of(EntityId{i});
     const Interval common{std::max(piece.begin, other.begin), piece.end};
     if (common.begin >= common.end || (piece.manner == Manner::Rest && other.manner == Manner::Rest)) continue;

@@ -8,6 +8,8 @@ namespace {
 
 constexpr double kStep_m = 0.4;   // between points of a track: well below any width
 constexpr double kSameWay = 0.5;  // cosine of 60 degrees
+constexpr double kRounding_m = 1e-6;
+constexpr double kStraight_m = 1e-3;  // a straight curve does not leave the line between its ends by so much
 
 struct Closest {
   double distance_m = 0.0;
@@ -20,9 +22,13 @@ std::optional<Closest> closest_points(const Track& a, const Track& b, double rea
   Closest closest{reach_m, nullptr, nullptr, 1e300, 1e300};
   for (const auto& p : a.points) {
     if (!b.box.grown(reach_m).overlaps({p.position_m, p.position_m})) continue;
-    for (const auto& q : b.points) {
+    for (std::size_t i = 0; i < b.points.size(); ++i) {
+      const auto& q = b.points[i];
       const double distance_m = (p.position_m - q.position_m).norm();
-      if (distance_m >= reach_m) continue;
+      if (distance_m >= reach_m) {
+        i += b.points_beyond(distance_m, reach_m);
+        continue;
+      }
       closest.first_a_m = std::min(closest.first_a_m, p.s_m);
       closest.first_b_m = std::min(closest.first_b_m, q.s_m);
       if (distance_m < closest.distance_m) {
@@ -44,14 +50,25 @@ bool at_end(const Track& track, double s_m) {
 
 }  // namespace
 
+namespace {
+
+// Where the centre of the body is when its reference point is at the start of the track, along the travel.
+double centre_of(const Piece& drive) {
+  return (drive.curve->is_tail_first() ? -1.0 : 1.0) * drive.footprint.centre_ahead_m;
+}
+
+}  // namespace
+
 Track Track::of(const Piece& drive) {
-  Track track{drive.entity, drive.begin, drive.end, drive.curve->length_m(), drive.footprint, {}, {}, {}};
+  Track track{drive.entity, drive.begin, drive.end, drive.curve->length_m(), drive.footprint, {}, {}};
   track.bends = !drive.curve->is_straight();
   track.tail_first = drive.curve->is_tail_first();
-  track.centre_m = (track.tail_first ? -1.0 : 1.0) * drive.footprint.centre_ahead_m;
+  track.centre_m = centre_of(drive);
   const double first_m = track.centre_m - 0.5 * drive.footprint.length_m,
                whole_m = track.length_m + drive.footprint.length_m;
   const int steps = std::max(1, static_cast<int>(std::ceil(whole_m / kStep_m)));
+  track.step_m = whole_m / steps + kRounding_m;
+  track.points.reserve(static_cast<std::size_t>(steps) + 1);
   for (int i = 0; i <= steps; ++i) {
     const double s_m = first_m + whole_m * i / steps;
     const Pose pose = drive.curve->pose_at(s_m);
@@ -61,6 +78,16 @@ Track Track::of(const Piece& drive) {
     track.box.add(track.points.back().position_m);
   }
   return track;
+}
+
+Box Track::box_of_straight(const Piece& drive) {
+  const double length_m = drive.curve->length_m(), first_m = centre_of(drive) - 0.5 * drive.footprint.length_m;
+  const Pose start = drive.curve->pose_at(0.0);
+  const Vec2 travel = drive.curve->is_tail_first() ? Vec2(-start.heading) : start.heading;
+  Box box;
+  box.add(start.position_m + first_m * travel);
+  box.add(start.position_m + (first_m + length_m + drive.footprint.length_m) * travel);
+  return box.grown(kStraight_m);
 }
 
 std::optional<EncounterKind> encounter_of(const Track& a, const Track& b, double margin_m) {

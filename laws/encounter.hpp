@@ -22,11 +22,18 @@ struct Track {
   Footprint footprint;
   Box box;
   std::vector<Point> points;
+  double step_m = 0.0;      // from one point to the next, at most
   bool bends = false;       // its curve is not one straight line
   bool tail_first = false;  // the nose points against the travel
   double centre_m = 0.0;    // of the body, from its reference point, along the travel
 
   static Track of(const Piece& drive);
+  // A box that contains the points of such a track; it is found without them.
+  static Box box_of_straight(const Piece& drive);
+  // How many of the points after one at this distance from something cannot be as near to it as `reach_m`.
+  std::size_t points_beyond(double distance_m, double reach_m) const {
+    return distance_m > reach_m ? static_cast<std::size_t>((distance_m - reach_m) / step_m) : 0;
+  }
   OrientedRectangle body_at(const Point& point) const {
     return placed(footprint, {point.position_m, tail_first ? Vec2(-point.heading) : point.heading});
   }

@@ -4,7 +4,7 @@
 
 #include "core/base/error.hpp"
 #include "core/clearance/clearance_over_time.hpp"
-#include "laws/broad_phase.hpp"
+#include "core/geometry/broad_phase.hpp"
 #include "laws/judged_stretch.hpp"
 #include "laws/second_opinion.hpp"
 #include "laws/stretch.hpp"

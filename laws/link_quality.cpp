@@ -42,11 +42,12 @@ std::uint32_t losses_that_reject(std::uint32_t receptions) {
       std::ceil(kContractLoss * n + kNormalQuantile * std::sqrt(n * kContractLoss * (1.0 - kContractLoss)) + 0.5));
 }
 
-LinkQuality::LinkQuality(std::size_t agvs)
-    : agvs_(agvs), places_(agvs * agvs, kSilent), broken_(agvs, 0), sent_(agvs) {}
+LinkQuality::LinkQuality(std::size_t agvs) : agvs_(agvs), places_(agvs), broken_(agvs, 0), sent_(agvs) {}
 
 LinkQuality::Link& LinkQuality::now(std::size_t sender, std::size_t receiver, std::int64_t second) {
-  std::uint32_t& place = places_[receiver * agvs_ + sender];
+  auto& row = places_[receiver];
+  if (row.empty()) row.resize(agvs_, kSilent);
+  std::uint32_t& place = row[sender];
   if (place == kSilent) {
     place = static_cast<std::uint32_t>(links_.size());
     links_.push_back({static_cast<std::uint32_t>(receiver), true, {}, {}});
@@ -56,33 +57,24 @@ LinkQuality::Link& LinkQuality::now(std::size_t sender, std::size_t receiver, st
   return link;
 }
 
-void LinkQuality::note(const TraceRecord& record) {
+void LinkQuality::take(const TraceRecord& record, std::int64_t second) {
   if (record.kind == TraceKind::Sent) {
     const auto sent = read<traced::Sent>(record);
-    waiting_.push_back({record.at, sent.message_hash, AgvId{record.entity.value}, sent.receiver, record.kind});
+    sent_[record.entity.index()].note(sent.message_hash, sent.receiver, record.at);
     return;
   }
   const auto reception = read<traced::Reception>(record);
   if (reception.sender.index() >= agvs_ || record.entity.index() >= agvs_) return;
-  const TraceKind kind = reception.is_lost() ? TraceKind::Lost : TraceKind::Received;
-  waiting_.push_back({record.at, reception.message_hash, reception.sender, AgvId{record.entity.value}, kind});
-}
-
-void LinkQuality::take(const Noted& noted, std::int64_t second) {
-  SentMessages& by_sender = sent_[noted.sender.index()];
-  if (noted.kind == TraceKind::Sent) {
-    by_sender.note(noted.message_hash, noted.receiver, noted.at);
-    return;
-  }
-  Link& link = now(noted.sender.index(), noted.receiver.index(), second);
+  Link& link = now(reception.sender.index(), record.entity.index(), second);
   ++link.receptions;
-  if (noted.kind == TraceKind::Lost) {
+  if (reception.is_lost()) {
     ++link.lost;
     return;
   }
-  const SimTime sent = std::max(by_sender.last_sent(noted.message_hash, noted.receiver),
-                                by_sender.last_sent(noted.message_hash, AgvId{}));
-  if (sent != SimTime::min()) link.longest = std::max(link.longest, noted.at - sent);
+  const SentMessages& by_sender = sent_[reception.sender.index()];
+  const SimTime sent = std::max(by_sender.last_sent(reception.message_hash, record.entity),
+                                by_sender.last_sent(reception.message_hash, AgvId{}));
+  if (sent != SimTime::min()) link.longest = std::max(link.longest, record.at - sent);
 }
 
 // Only links that received in the second that leaves the window, or in the one that comes into it, can have changed.
@@ -130,7 +122,7 @@ void LinkQuality::judge(Active& link) {
 }
 
 LinkQuality::Link LinkQuality::link(std::size_t sender, std::size_t receiver) const {
-  const std::uint32_t place = places_[receiver * agvs_ + sender];
+  const std::uint32_t place = places_[receiver].empty() ? kSilent : places_[receiver][sender];
   return place == kSilent ? Link{} : links_[place].sum;
 }
 

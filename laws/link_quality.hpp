@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/base/contract.hpp"
@@ -26,7 +27,7 @@ class LinkQuality {
   explicit LinkQuality(std::size_t agvs);
 
   static TraceKinds reads() { return kMessageKinds; }
-  void note(const TraceRecord& record);
+  void note(std::span<const TraceRecord> records) { waiting_.insert(waiting_.end(), records.begin(), records.end()); }
   std::size_t waiting() const { return waiting_.size() - next_waiting_; }  // records of seconds that are not ended
   // All that happened in the second that begins at `second` has been noted. The functions below now speak of this
   // second and the nine before it. Requires: one second after the other, from 0 on.
@@ -56,14 +57,7 @@ class LinkQuality {
     Link sum;                            // over the window
     std::array<Link, kSeconds> seconds;  // by number, modulo the length
   };
-  // A message that was sent, received or lost.
-  struct Noted {
-    SimTime at;
-    std::uint64_t message_hash = 0;
-    AgvId sender, receiver;
-    TraceKind kind = TraceKind::Sent;
-  };
-  void take(const Noted& noted, std::int64_t second);
+  void take(const TraceRecord& record, std::int64_t second);
   static std::size_t slot_of(std::int64_t second) {
     return static_cast<std::size_t>((second + kSeconds) % kSeconds);  // not below -kSeconds
   }
@@ -72,12 +66,12 @@ class LinkQuality {
   void judge(Active& link);
 
   std::size_t agvs_;
-  std::vector<std::uint32_t> places_;  // in links_, by receiver x AGVs + sender; or kSilent
+  std::vector<std::vector<std::uint32_t>> places_;  // in links_, by receiver and sender; or kSilent. No row: all silent
   std::vector<Active> links_;
   std::array<std::vector<std::uint32_t>, kSeconds> received_;  // places of the links that received in a second
   std::vector<std::uint32_t> broken_;                          // by receiver: links to it out of the contract
   std::vector<SentMessages> sent_;                             // by sender
-  std::vector<Noted> waiting_;                                 // in order of time
+  std::vector<TraceRecord> waiting_;                           // in order of time
   std::size_t next_waiting_ = 0;                               // those before it were taken
 };
 

@@ -13,7 +13,8 @@ namespace fleetproof {
 namespace {
 
 constexpr Duration kSecond = std::chrono::seconds(1);
-constexpr std::size_t kMostWaiting = 65'536;  // messages: two megabytes
+// Records of messages that wait: less than three megabytes, or 82 kilobytes for each AGV.
+constexpr std::size_t kMostWaiting = 65'536, kMostWaitingOfAgv = 2'048;
 
 class NormalOperationLaw final : public Law {
  public:
@@ -21,6 +22,7 @@ class NormalOperationLaw final : public Law {
       : scenario_(scenario),
         reaction_(seconds(scenario.law.reaction_s)),
         quality_(scenario.agvs.size()),
+        most_waiting_(std::max(kMostWaiting, kMostWaitingOfAgv * scenario.agvs.size())),
         agvs_(scenario.agvs.size()),
         faults_(scenario) {}
 
@@ -32,6 +34,11 @@ class NormalOperationLaw final : public Law {
            FaultWatch::reads();
   }
   void happened(const TraceRecord& record) override;
+  bool hears_messages_together() const override { return true; }
+  void messages(std::span<const TraceRecord> records) override {
+    quality_.note(records);
+    if (quality_.waiting() >= most_waiting_) seconds_before(records.back().at);
+  }
   void finish(SimTime end) override;
   LawFindings findings() const override;
 
@@ -53,6 +60,7 @@ class NormalOperationLaw final : public Law {
   const Scenario& scenario_;
   Duration reaction_;
   LinkQuality quality_;
+  std::size_t most_waiting_;
   std::vector<AgvState> agvs_;
   FaultWatch faults_;
   std::uint64_t open_ = 0, done_ = 0;
@@ -66,14 +74,6 @@ void NormalOperationLaw::happened(const TraceRecord& record) {
   seconds_before(record.at);
   if (faults_.note(record)) return;
   switch (record.kind) {
-    case TraceKind::Sent:
-    case TraceKind::Lost:
-    case TraceKind::LostInOutage:
-    case TraceKind::LostByInterference:
-    case TraceKind::LostToSource:
-    case TraceKind::Received:
-      quality_.note(record);
-      break;
     case TraceKind::SafeMode:
       agvs_[record.entity.index()].safe = read<traced::SafeMode>(record).on;
       break;
@@ -108,7 +108,7 @@ void NormalOperationLaw::seconds_before(SimTime t) {
 // Whether it matters now how good the links are, and have been.
 bool NormalOperationLaw::needs_quality(SimTime now) const {
   return scenario_.law.min_transports_per_agv_hour > 0.0 || stands_still(now) ||
-         std::ranges::any_of(agvs_, &AgvState::safe) || quality_.waiting() >= kMostWaiting;
+         std::ranges::any_of(agvs_, &AgvState::safe) || quality_.waiting() >= most_waiting_;
 }
 
 bool NormalOperationLaw::stands_still(SimTime now) const {

@@ -23,8 +23,9 @@ struct Gaps {
   double along_m = 1e300;  // smallest where they run along each other
 };
 
-// From the points of one track to the middle line of the other one. False as soon as the bands overlap.
-bool measure(const Track& a, const Track& b, double within_m, Gaps& gaps) {
+// From the points of one track to the middle line of the other one. False as soon as the bands overlap. Gaps of
+// `matters_m` and more are left out where that is quicker.
+bool measure(const Track& a, const Track& b, double within_m, double matters_m, Gaps& gaps) {
   const double widths_m = 0.5 * (a.footprint.width_m + b.footprint.width_m);
   const Box near = b.box.grown(widths_m + within_m);
   for (const auto& p : a.points) {
@@ -35,6 +36,7 @@ bool measure(const Track& a, const Track& b, double within_m, Gaps& gaps) {
       if (gap_m < -kSlack_m) return false;
       gaps.bands_m = std::min(gaps.bands_m, gap_m);
       if (std::abs(p.heading.dot(q.heading)) >= kAlong) gaps.along_m = std::min(gaps.along_m, gap_m);
+      i += b.points_beyond(gap_m, matters_m);
     }
   }
   return true;
@@ -50,8 +52,11 @@ double bodies_apart_m(const Track& a, const Track& b, double within_m) {
   for (const auto& p : a.points) {
     if (!is_place(a, p)) continue;
     const auto body = a.body_at(p);
-    for (const auto& q : b.points) {
-      if (!is_place(b, q) || (p.position_m - q.position_m).norm() > reach_m) continue;
+    for (std::size_t i = 0; i < b.points.size(); ++i) {
+      const auto& q = b.points[i];
+      const double distance_m = (p.position_m - q.position_m).norm();
+      if (distance_m > reach_m) i += b.points_beyond(distance_m, reach_m);
+      if (!is_place(b, q) || distance_m > reach_m) continue;
       least_m = std::min(least_m, clearance_m(body, b.body_at(q)));
     }
   }
@@ -67,7 +72,8 @@ SideBySide side_by_side(const Track& a, const Track& b, double margin_m) {
   if (!a.box.grown(widths_m + kBesideACurve_m + ends_m).overlaps(b.box)) return met;
   Gaps gaps;
   const double within_m = kBesideACurve_m + ends_m;
-  if (!measure(a, b, within_m, gaps) || !measure(b, a, within_m, gaps)) return met;
+  const double matters_m = std::max(margin_m, kTightGap_m) + 1e-3;
+  if (!measure(a, b, within_m, matters_m, gaps) || !measure(b, a, within_m, matters_m, gaps)) return met;
   met.tight_gap = gaps.along_m <= kTightGap_m + kSlack_m;
   if (!a.bends && !b.bends) return met;
   const double bodies_m = bodies_apart_m(a, b, kBesideACurve_m + kSlack_m);

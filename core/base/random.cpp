@@ -1,6 +1,9 @@
 #include "core/base/random.hpp"
 
 #include <Random123/philox.h>
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
 
 #include <algorithm>
 #include <bit>
@@ -15,6 +18,66 @@ Block philox(std::uint64_t key, const Block& counter) {
   const auto out = r123::Philox4x32{}(ctr, k);
   return {out[0], out[1], out[2], out[3]};
 }
+
+#ifdef __SSE2__
+
+namespace {
+
+// Two counters: each word of both in the lower halves of two lanes. What the upper halves hold does not matter.
+struct TwoCounters {
+  __m128i word0, word1, word2, word3;
+
+  TwoCounters(std::uint64_t first_words, const std::uint64_t* rest)
+      : word0(_mm_set1_epi32(static_cast<std::int32_t>(first_words))),
+        word1(_mm_set1_epi32(static_cast<std::int32_t>(first_words >> 32))),
+        word2(_mm_loadu_si128(reinterpret_cast<const __m128i*>(rest))),
+        word3(_mm_srli_epi64(word2, 32)) {}
+
+  void round(__m128i key0, __m128i key1) {
+    const __m128i product0 = _mm_mul_epu32(word0, _mm_set1_epi64x(PHILOX_M4x32_0));
+    const __m128i product1 = _mm_mul_epu32(word2, _mm_set1_epi64x(PHILOX_M4x32_1));
+    word0 = _mm_xor_si128(_mm_xor_si128(_mm_srli_epi64(product1, 32), word1), key0);
+    word2 = _mm_xor_si128(_mm_xor_si128(_mm_srli_epi64(product0, 32), word3), key1);
+    word1 = product1;
+    word3 = product0;
+  }
+
+  void store(Block& first, Block& second) const {
+    const __m128i of_first01 = _mm_unpacklo_epi32(word0, word1), of_first23 = _mm_unpacklo_epi32(word2, word3);
+    const __m128i of_second01 = _mm_unpackhi_epi32(word0, word1), of_second23 = _mm_unpackhi_epi32(word2, word3);
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(first.data()), _mm_unpacklo_epi64(of_first01, of_first23));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(second.data()), _mm_unpacklo_epi64(of_second01, of_second23));
+  }
+};
+
+}  // namespace
+
+void philox_of_four(std::uint64_t key, std::uint64_t first_words, const std::uint64_t* rest, Block* blocks) {
+  TwoCounters one(first_words, rest), other(first_words, rest + 2);
+  __m128i key0 = _mm_set1_epi32(static_cast<std::int32_t>(key)),
+          key1 = _mm_set1_epi32(static_cast<std::int32_t>(key >> 32));
+  const __m128i step0 = _mm_set1_epi32(static_cast<std::int32_t>(PHILOX_W32_0)),
+                step1 = _mm_set1_epi32(static_cast<std::int32_t>(PHILOX_W32_1));
+  for (int i = 0; i < PHILOX4x32_DEFAULT_ROUNDS; ++i) {
+    one.round(key0, key1);
+    other.round(key0, key1);
+    key0 = _mm_add_epi32(key0, step0);
+    key1 = _mm_add_epi32(key1, step1);
+  }
+  one.store(blocks[0], blocks[1]);
+  other.store(blocks[2], blocks[3]);
+}
+
+#else
+
+void philox_of_four(std::uint64_t key, std::uint64_t first_words, const std::uint64_t* rest, Block* blocks) {
+  for (int i = 0; i < 4; ++i) {
+    blocks[i] = philox(key, {static_cast<std::uint32_t>(first_words), static_cast<std::uint32_t>(first_words >> 32),
+                             static_cast<std::uint32_t>(rest[i]), static_cast<std::uint32_t>(rest[i] >> 32)});
+  }
+}
+
+#endif
 
 namespace {
 

@@ -24,7 +24,8 @@ const AgentFailure* AgentCaller::destroy(const AgentCall& call, void* agent) {
   return make_otherwise(call, counter_.next(call.agv, call.kind(), call.at), agent);
 }
 
-const AgentFailure* AgentCaller::make_otherwise(const AgentCall& call, const KnownEnd* known, void*& agent) {
+[[gnu::noinline]] const AgentFailure* AgentCaller::make_otherwise(const AgentCall& call, const KnownEnd* known,
+                                                                  void*& agent) {
   if (player_) {
     const auto failure = player_->play(call, agent);
     return failure ? failed(failure->hang, failure->message) : nullptr;
@@ -66,7 +67,7 @@ const AgentFailure* AgentCaller::create_and_start(const AgentCall& call, void*& 
 }
 
 // An agent may throw a text of any length. What is filed are its first 200 characters, which are at most 800 bytes.
-const AgentFailure* AgentCaller::failed(bool hang, std::string_view message) {
+[[gnu::noinline]] const AgentFailure* AgentCaller::failed(bool hang, std::string_view message) {
   failure_ = {hang, std::string(message.substr(0, 1024))};
   return &failure_;
 }

@@ -41,20 +41,19 @@ void AgentHost::close() {
 
 // ---- activations
 
-void AgentHost::tell(AgvId agv, const fp_event& event) {
+// An event costs little more than the calls on its way, so they are inlined.
+[[gnu::flatten, gnu::noinline]] void AgentHost::tell(AgvId agv, const fp_event& event) {
   Slice& slice = slices_[agv.index()];
   if (slice.failed || slice.away > 0) return;
   if (slice.in_activation || run_.now < slice.free_at || !slice.waiting_events.empty()) {
     slice.waiting_events.push_back(event);
-    if (!slice.in_activation) wake(agv);
+    if (!slice.in_activation) wake(agv, slice);
     return;
   }
-  activate(agv, event);
+  activate(agv, slice, event);
 }
 
-void AgentHost::wake(AgvId agv) {
-  Slice& slice = slices_[agv.index()];
-  if (slice.wake_scheduled || slice.waiting_events.empty()) return;
+[[gnu::noinline]] void AgentHost::schedule_wake(AgvId agv, Slice& slice) {
   slice.wake_scheduled = true;
   run_.queue.push(std::max(run_.now, slice.free_at), agv, Event::Kind::AgentIsFree);
 }
@@ -63,11 +62,11 @@ void AgentHost::becomes_free(AgvId agv) {
   Slice& slice = slices_[agv.index()];
   slice.wake_scheduled = false;
   if (slice.failed || slice.waiting_events.empty()) return;
-  if (run_.now < slice.free_at) return wake(agv);  // frozen since
+  if (run_.now < slice.free_at) return wake(agv, slice);  // frozen since
   const fp_event event = slice.waiting_events.front();
   slice.waiting_events.pop_front();
-  if (event.kind == FP_EVENT_ORDER && is_over(TransportId{event.order_id})) return wake(agv);  // done meanwhile
-  activate(agv, event);
+  if (event.kind == FP_EVENT_ORDER && is_over(TransportId{event.order_id})) return wake(agv, slice);  // done meanwhile
+  activate(agv, slice, event);
 }
 
 void AgentHost::freeze_until(AgvId agv, SimTime until) {
@@ -75,8 +74,7 @@ void AgentHost::freeze_until(AgvId agv, SimTime until) {
   slice.free_at = std::max(slice.free_at, until);
 }
 
-void AgentHost::activate(AgvId agv, const fp_event& what) {
-  Slice& slice = slices_[agv.index()];
+void AgentHost::activate(AgvId agv, Slice& slice, const fp_event& what) {
   if (const char* limit = broken_limit(slice)) return give_up(agv, true, limit);
   ++run_.counters.activations;
   fp_event event = what;
@@ -84,13 +82,13 @@ void AgentHost::activate(AgvId agv, const fp_event& what) {
   event.now_ns = ports_.timers.now_ns(agv);
   slice.in_activation = true;
   ports_.controller.begin_activation(agv);
-  call_agent(agv, event);
+  if (const AgentFailure* failure = call_agent(agv, slice, event)) give_up(agv, failure->hang, failure->message);
   const ActivationUse use = ports_.controller.end_activation(agv);
   slice.in_activation = false;
   if (use.broken_limit != nullptr) give_up(agv, true, use.broken_limit);
   slice.free_at = std::max(slice.free_at, run_.now + use.cost);
   if (event.kind == FP_EVENT_START && slice.boot > 0) tell_open_orders(agv);
-  wake(agv);
+  wake(agv, slice);
 }
 
 // Counts an activation. Null: the agent may have it.
@@ -102,15 +100,12 @@ const char* AgentHost::broken_limit(Slice& slice) const {
   return nullptr;
 }
 
-void AgentHost::call_agent(AgvId agv, const fp_event& event) {
-  Slice& slice = slices_[agv.index()];
-  const AgentFailure* failure = event.kind == FP_EVENT_START
-                                    ? start_agent(agv, event)
-                                    : caller_.tell({agv, run_.now, &event, slice.controller}, slice.agent);
-  if (failure != nullptr) give_up(agv, failure->hang, failure->message);
+const AgentFailure* AgentHost::call_agent(AgvId agv, Slice& slice, const fp_event& event) {
+  if (event.kind == FP_EVENT_START) return start_agent(agv, event);
+  return caller_.tell({agv, run_.now, &event, slice.controller}, slice.agent);
 }
 
-const AgentFailure* AgentHost::start_agent(AgvId agv, const fp_event& event) {
+[[gnu::noinline]] const AgentFailure* AgentHost::start_agent(AgvId agv, const fp_event& event) {
   Slice& slice = slices_[agv.index()];
   if (slice.boot > 0) {
     renew_briefing(agv);
@@ -122,7 +117,7 @@ const AgentFailure* AgentHost::start_agent(AgvId agv, const fp_event& event) {
   return caller_.start({agv, run_.now, &event, slice.controller, &briefings_.of(agv)}, slice.agent);
 }
 
-void AgentHost::give_up(AgvId agv, bool hang, std::string_view message) {
+[[gnu::noinline]] void AgentHost::give_up(AgvId agv, bool hang, std::string_view message) {
   if (!file_failure(agv, hang, message)) return;
   if (hang) {
     run_.trace(agv, traced::AgentHung{});
@@ -194,7 +189,7 @@ void AgentHost::comes_back(AgvId agv) {
 
 // The agent has been started again, perhaps long after its computer was back. The transports that are not done by now
 // are handed out again, that of the load on board first, and before all that has arrived since.
-void AgentHost::tell_open_orders(AgvId agv) {
+[[gnu::noinline]] void AgentHost::tell_open_orders(AgvId agv) {
   auto& waiting = slices_[agv.index()].waiting_events;
   std::erase_if(waiting, [](const fp_event& event) { return event.kind == FP_EVENT_ORDER; });
   const auto arrived = std::exchange(waiting, {});

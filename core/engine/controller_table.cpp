@@ -56,7 +56,8 @@ std::int32_t get_battery_level(fp_controller* controller, double* out) {
   });
 }
 
-std::int32_t get_message(fp_controller* controller, fp_message* out) {
+// An agent calls it at least twice for each message.
+[[gnu::flatten]] std::int32_t get_message(fp_controller* controller, fp_message* out) {
   return admitted(controller, [&](AgvController& part, AgvId agv) -> std::int32_t {
     if (out == nullptr || out->struct_size < sizeof(fp_message)) return FP_INVALID;
     return part.ports().messenger.read(agv, *out) ? FP_OK : FP_EMPTY;

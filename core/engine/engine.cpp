@@ -15,9 +15,9 @@ Engine::Engine(const Scenario& scenario, const fp_agent_type& agent, std::span<c
 void Engine::run() {
   start();
   const SimTime end = kStart + run_.scenario.horizon;
-  while (!run_.queue.empty() && run_.queue.next_at() <= end) {
+  Event event;
+  while (run_.queue.pop_until(end, event)) {
     if (abandon_ != nullptr && abandon_->load(std::memory_order_relaxed)) throw RunAbandoned();
-    const Event event = run_.queue.pop();
     ensure(event.at >= run_.now, "time goes forward");
     run_.now = event.at;
     handle(event);
@@ -25,6 +25,7 @@ void Engine::run() {
   run_.now = end;
   parts_.declarations.close_books();
   parts_.battery.close_books();
+  run_.writer.hand_over();
   run_.world.finish(end);
 }
 

@@ -1,6 +1,7 @@
 #include "core/engine/messenger.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace fleetproof {
 namespace {
@@ -12,14 +13,23 @@ constexpr std::uint32_t kAirTimeEnds = 0x80000000U, kCopy = 0x40000000U, kSlot =
 static_assert(kLongestMessage_bytes == FP_MESSAGE_BYTES_MAX);
 
 // Reception needs a range test only where the floor is larger than the range.
-bool covers_floor(const RadioSetup& radio, const LogicalMap& map) {
+bool covers(const Box& floor, double range_m) { return range_m > (floor.high_m - floor.low_m).norm(); }
+
+Box floor_of(const LogicalMap& map) {
   Box box;
   for (const Station& station : map.layout().stations) box.add(station.position_m);
   for (const Segment& segment : map.layout().segments) {
     for (const Vec2& point : segment.control_points_m) box.add(point);
   }
-  return radio.range_m > (box.high_m - box.low_m).norm();
+  return box;
 }
+
+TraceKind cause_of(const Fate& lost) {
+  if (lost.to_source) return TraceKind::LostToSource;
+  return lost.in_outage ? TraceKind::LostInOutage : TraceKind::Lost;
+}
+
+constexpr std::size_t kBits = 64;  // of a word
 
 }  // namespace
 
@@ -28,10 +38,18 @@ Messenger::Messenger(RunContext& run, AgentHostPort agents)
       agents_(agents),
       radio_(run.scenario.radio, run.scenario.seed_of(Stream::Radio), run.scenario.fates, run.draw_numbers),
       channel_(run.scenario.radio, run.scenario.seed_of(Stream::Radio), run.draw_numbers),
-      unlimited_range_(covers_floor(run.scenario.radio, *run.scenario.map)),
+      unlimited_range_(covers(floor_of(*run.scenario.map), run.scenario.radio.range_m)),
       needs_places_(!unlimited_range_ || radio_.depends_on_place()),
       slices_(run.agvs.size()),
-      links_(run.agvs.size() * run.agvs.size()) {}
+      links_(run.agvs.size() * run.agvs.size()),
+      hearers_(run.agvs.size()),
+      draws_(run.agvs.size() + 3),
+      arriving_(run.agvs.size()) {
+  if (unlimited_range_) return;
+  reach_.emplace(run.agvs.size(), run.scenario.radio.range_m, floor_of(*run.scenario.map));
+  for (std::size_t i = 0; i < run.agvs.size(); ++i) reach_->piece_begins(run.world.body(AgvId{i}).piece);
+  in_range_.resize((run.agvs.size() + kBits - 1) / kBits);
+}
 
 // ---- sending
 
@@ -39,8 +57,7 @@ std::optional<std::uint32_t> Messenger::accept(AgvId sender, std::string_view by
   const bool broadcast = receiver == FP_NONE;
   if (bytes.size() > FP_MESSAGE_BYTES_MAX || (!broadcast && (receiver >= slices_.size() || receiver == sender.value)))
     return std::nullopt;
-  // One copy more than receivers: the message is held until it has been sent.
-  return pool_.add(sender, bytes, broadcast ? static_cast<std::uint32_t>(slices_.size()) : 2U);
+  return pool_.add(sender, bytes, 1);  // it is held until it has been sent
 }
 
 void Messenger::transmit(AgvId sender, std::uint32_t slot, std::uint32_t receiver) {
@@ -51,48 +68,104 @@ void Messenger::transmit(AgvId sender, std::uint32_t slot, std::uint32_t receive
   pool_.set_number(slot, static_cast<std::uint32_t>(run_.counters.messages_sent));
   run_.trace(sender, traced::Sent{AgvId{receiver}, message.hash, static_cast<std::uint32_t>(size), message.number},
              message.bytes);
-  const Pose from = needs_places_ ? run_.pose_now(sender) : Pose{};
+  const Vec2 from_m = needs_places_ ? run_.pose_now(sender).position_m : Vec2::Zero();
   const Duration air_time = run_.scenario.radio.air_time(size);
   const bool contended = run_.scenario.radio.contention.interference;
   pool_.goes_out(slot, contended ? channel_.contend(sender, run_.now, ordinal, air_time)
                                  : AirInterval{run_.now, run_.now + air_time});
-  if (receiver != FP_NONE) {
-    transmit_to(sender, AgvId{receiver}, slot, from);
+  find_hearers(sender, receiver, from_m);
+  radio_.draw(sender, run_.now, {hearers_.data(), hearing_}, draws_.data());
+  if (radio_.is_plain() && !contended && !message.spared && !run_.writer.has_sink()) {
+    deliver_plainly(slot);
   } else {
-    for (std::size_t i = 0; i < slices_.size(); ++i) {
-      if (AgvId{i} != sender) transmit_to(sender, AgvId{i}, slot, from);
-    }
+    for (std::size_t i = 0; i < hearing_; ++i) deliver(sender, i, slot, from_m);
   }
   pool_.release(slot);
 }
 
-void Messenger::transmit_to(AgvId sender, AgvId receiver, std::uint32_t slot, const Pose& from) {
-  Counters& counters = run_.counters;
-  LinkPlaces places{from.position_m, {}};
-  if (needs_places_) places.receiver_m = run_.pose_now(receiver).position_m;
-  if (!unlimited_range_ && (places.receiver_m - places.sender_m).norm() > run_.scenario.radio.range_m) {
-    ++counters.out_of_range;
-    return pool_.release(slot);
+// Those in range, in ascending order.
+void Messenger::find_hearers(AgvId sender, std::uint32_t receiver, const Vec2& from_m) {
+  hearing_ = 0;
+  if (receiver != FP_NONE) {
+    if (unlimited_range_ || is_in_range(AgvId{receiver}, from_m)) {
+      hears(sender, AgvId{receiver});
+    } else {
+      ++run_.counters.out_of_range;
+    }
+  } else if (unlimited_range_) {
+    for (std::size_t i = 0; i < slices_.size(); ++i) {
+      if (AgvId{i} != sender) hears(sender, AgvId{i});
+    }
+  } else {
+    find_hearers_in_range(sender, from_m);
   }
-  const std::uint32_t ordinal = links_[sender.index() * slices_.size() + receiver.index()].next(run_.now);
-  const Fate fate = radio_.fate(sender, receiver, run_.now, ordinal, places, pool_[slot].spared);
+}
+
+void Messenger::find_hearers_in_range(AgvId sender, const Vec2& from_m) {
+  reach_->for_each_near(from_m, [&](AgvId agv) {
+    if (agv != sender && is_in_range(agv, from_m))
+      in_range_[agv.index() / kBits] |= std::uint64_t{1} << agv.index() % kBits;
+  });
+  for (std::size_t word = 0; word < in_range_.size(); ++word) {
+    for (std::uint64_t& bits = in_range_[word]; bits != 0; bits &= bits - 1)
+      hears(sender, AgvId{kBits * word + static_cast<std::size_t>(std::countr_zero(bits))});
+  }
+  run_.counters.out_of_range += slices_.size() - 1 - hearing_;
+}
+
+bool Messenger::is_in_range(AgvId receiver, const Vec2& from_m) const {
+  return (run_.pose_now(receiver).position_m - from_m).norm() <= run_.scenario.radio.range_m;
+}
+
+// As deliver() for each hearer, if nothing but its draws decides its fate, and nobody notes it.
+void Messenger::deliver_plainly(std::uint32_t slot) {
+  Counters& counters = run_.counters;
+  const Message& message = pool_[slot];
+  const SimTime on_air_until = message.on_air.end;
+  const bool alike = radio_.delays_alike();
+  SimTime arrival = alike ? std::max(run_.now + radio_.delay({}), on_air_until) : kStart;
+  std::uint32_t arrives = 0;
+  for (std::size_t i = 0; i < hearing_; ++i) {
+    if (!alike) arrival = std::max(run_.now + radio_.delay(draws_[i]), on_air_until);
+    counters.delay_sum_ns += static_cast<std::uint64_t>((arrival - run_.now).count());
+    const AgvId receiver = hearers_[i].receiver;
+    if (radio_.loses(draws_[i])) {
+      run_.trace(receiver, traced::Reception{TraceKind::Lost, message.sender, message.hash, message.number});
+      continue;
+    }
+    arriving_[arrives++] = receiver;
+    if (!alike) run_.queue.push_arrivals(arrival, {&receiver, 1}, slot);
+  }
+  if (alike) run_.queue.push_arrivals(arrival, {arriving_.data(), arrives}, slot);
+  counters.receptions += hearing_;
+  counters.receptions_lost += hearing_ - arrives;
+  pool_.hold(slot, arrives);
+}
+
+void Messenger::deliver(AgvId sender, std::size_t hearer, std::uint32_t slot, const Vec2& from_m) {
+  const AgvId receiver = hearers_[hearer].receiver;
+  Counters& counters = run_.counters;
+  LinkPlaces places{from_m, {}};
+  if (needs_places_) places.receiver_m = run_.pose_now(receiver).position_m;
+  const Fate fate = radio_.fate(sender, hearers_[hearer], run_.now, draws_[hearer], places, pool_[slot].spared);
   const SimTime on_air_until = pool_[slot].on_air.end;
   const SimTime arrival = std::max(run_.now + fate.delay, on_air_until);
   ++counters.receptions;
   counters.delay_sum_ns += static_cast<std::uint64_t>((arrival - run_.now).count());
-  if (run_.writer.has_sink()) note_fate(sender, receiver, ordinal, slot, fate);
-  if (fate.lost) return lose(receiver, slot, fate);
+  if (run_.writer.has_sink()) note_fate(sender, hearers_[hearer], slot, fate);
+  if (fate.lost) return lose(receiver, slot, cause_of(fate));
   if (run_.scenario.radio.contention.interference && !fate.given)
     run_.queue.push(on_air_until, receiver, Event::Kind::MessageArrives, slot | kAirTimeEnds);
-  run_.queue.push(arrival, receiver, Event::Kind::MessageArrives, slot);
+  run_.queue.push_arrivals(arrival, {&receiver, 1}, slot);
+  pool_.hold(slot, fate.copy_delay ? 2 : 1);
   if (fate.copy_delay) {
-    pool_.hold(slot);
     run_.queue.push(std::max(run_.now + *fate.copy_delay, on_air_until), receiver, Event::Kind::MessageArrives,
                     slot | kCopy);
   }
 }
 
-void Messenger::note_fate(AgvId sender, AgvId receiver, std::uint32_t ordinal, std::uint32_t slot, const Fate& fate) {
+void Messenger::note_fate(AgvId sender, const Hearer& hearer, std::uint32_t slot, const Fate& fate) {
+  const auto& [receiver, ordinal] = hearer;
   const Duration least = pool_[slot].on_air.end - run_.now;
   traced::FateDecided decided{.sender = sender, .ordinal = ordinal, .lost = fate.lost, .number = pool_[slot].number};
   decided.due_after = std::max(fate.delay, least);
@@ -103,20 +176,16 @@ void Messenger::note_fate(AgvId sender, AgvId receiver, std::uint32_t ordinal, s
   run_.note(receiver, decided);
 }
 
-void Messenger::lose(AgvId receiver, std::uint32_t slot, const Fate& fate) {
+void Messenger::lose(AgvId receiver, std::uint32_t slot, TraceKind cause) {
   Counters& counters = run_.counters;
   ++counters.receptions_lost;
-  const TraceKind cause = fate.to_source   ? TraceKind::LostToSource
-                          : fate.in_outage ? TraceKind::LostInOutage
-                                           : TraceKind::Lost;
   counters.lost_in_outage += cause == TraceKind::LostInOutage ? 1 : 0;
   counters.lost_to_sources += cause == TraceKind::LostToSource ? 1 : 0;
   run_.trace(receiver, traced::Reception{cause, pool_[slot].sender, pool_[slot].hash, pool_[slot].number});
-  pool_.release(slot);
 }
 
 // At the end of its air time a message is destroyed at this receiver, or nothing can happen to it any more.
-void Messenger::air_time_ends(AgvId receiver, std::uint32_t slot) {
+[[gnu::noinline]] void Messenger::air_time_ends(AgvId receiver, std::uint32_t slot) {
   const Message& message = pool_[slot];
   if (!is_drowned(receiver, message)) return;
   ++run_.counters.receptions_lost;
@@ -134,7 +203,7 @@ bool Messenger::is_drowned(AgvId receiver, const Message& message) const {
 
 // ---- receiving
 
-void Messenger::arrives(AgvId receiver, std::uint64_t payload) {
+[[gnu::flatten]] void Messenger::arrives(AgvId receiver, std::uint64_t payload) {
   const auto bits = static_cast<std::uint32_t>(payload);
   const std::uint32_t slot = bits & kSlot;
   if ((bits & kAirTimeEnds) != 0) return air_time_ends(receiver, slot);
@@ -154,8 +223,8 @@ void Messenger::arrives(AgvId receiver, std::uint64_t payload) {
 }
 
 bool Messenger::read(AgvId agv, fp_message& out) {
-  put_down(agv);
   Slice& slice = slice_of(agv);
+  put_down(slice);
   if (!slice.has_unread()) return false;
   slice.in_hand = slice.inbox[slice.read++];
   if (!slice.has_unread()) {
@@ -169,8 +238,7 @@ bool Messenger::read(AgvId agv, fp_message& out) {
   return true;
 }
 
-void Messenger::put_down(AgvId agv) {
-  Slice& slice = slice_of(agv);
+void Messenger::put_down(Slice& slice) {
   if (slice.in_hand == FP_NONE) return;
   pool_.release(slice.in_hand);
   slice.in_hand = FP_NONE;

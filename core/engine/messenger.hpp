@@ -8,6 +8,7 @@
 #include "core/engine/run_context.hpp"
 #include "core/radio/radio.hpp"
 #include "core/radio/radio_channel.hpp"
+#include "core/radio/radio_reach.hpp"
 
 namespace fleetproof {
 
@@ -18,8 +19,14 @@ class Messenger {
   Messenger(RunContext& run, AgentHostPort agents);
 
   // Call this for each piece of an AGV that begins after time zero: roaming depends on the path of the AGV.
-  void piece_begins(const Piece& piece) { radio_.piece_begins(piece); }
-  void forget_path(AgvId agv) { radio_.forget_path(agv); }
+  void piece_begins(const Piece& piece) {
+    radio_.piece_begins(piece);
+    if (reach_) reach_->piece_begins(piece);
+  }
+  void forget_path(AgvId agv) {
+    radio_.forget_path(agv);
+    if (reach_) reach_->forget(agv);
+  }
 
   // Takes a message in hand that is going to be sent to `receiver`, or to all AGVs if that is FP_NONE. Returns its
   // slot, or nothing if the message is too long or there is no such receiver. Requires: `transmit` or `withdraw`.
@@ -34,19 +41,19 @@ class Messenger {
 
   // The oldest message of the inbox, whose bytes stay valid until `put_down` or the next `read`; false: there is none.
   bool read(AgvId agv, fp_message& out);
-  void put_down(AgvId agv);
+  void put_down(AgvId agv) { put_down(slice_of(agv)); }
   void forget_inbox(AgvId agv);
 
  private:
   // How many messages have been sent at the last instant of sending.
   struct SentCount {
-    SimTime at = SimTime::min();
+    SimTime at = kStart;
     std::uint32_t count = 0;
     // The number of a further message among those of its instant, from 0 on.
     std::uint32_t next(SimTime now) {
-      count = at == now ? count + 1 : 0;
+      if (at != now) count = 0;
       at = now;
-      return count;
+      return count++;
     }
   };
   struct Slice {
@@ -57,10 +64,18 @@ class Messenger {
     bool has_unread() const { return read < inbox.size(); }
   };
   Slice& slice_of(AgvId agv) { return slices_[agv.index()]; }
-  void transmit_to(AgvId sender, AgvId receiver, std::uint32_t slot, const Pose& from);
+  void put_down(Slice& slice);
+  void find_hearers(AgvId sender, std::uint32_t receiver, const Vec2& from_m);
+  void find_hearers_in_range(AgvId sender, const Vec2& from_m);
+  bool is_in_range(AgvId receiver, const Vec2& from_m) const;
+  void hears(AgvId sender, AgvId receiver) {
+    hearers_[hearing_++] = {receiver, links_[sender.index() * slices_.size() + receiver.index()].next(run_.now)};
+  }
+  void deliver_plainly(std::uint32_t slot);
+  void deliver(AgvId sender, std::size_t hearer, std::uint32_t slot, const Vec2& from_m);
   // For an observer that wants to write the run's fates down.
-  void note_fate(AgvId sender, AgvId receiver, std::uint32_t ordinal, std::uint32_t slot, const Fate& fate);
-  void lose(AgvId receiver, std::uint32_t slot, const Fate& fate);
+  void note_fate(AgvId sender, const Hearer& hearer, std::uint32_t slot, const Fate& fate);
+  void lose(AgvId receiver, std::uint32_t slot, TraceKind cause);
   void air_time_ends(AgvId receiver, std::uint32_t slot);
   bool is_drowned(AgvId receiver, const Message& message) const;
 
@@ -70,9 +85,17 @@ class Messenger {
   RadioChannel channel_;
   MessagePool pool_;
   bool unlimited_range_;
-  bool needs_places_;             // the fate of a message depends on where its ends are
-  std::vector<Slice> slices_;     // by AGV
-  std::vector<SentCount> links_;  // by sender and receiver: of messages from the one to the other
+  bool needs_places_;                // the fate of a message depends on where its ends are
+  std::optional<RadioReach> reach_;  // if the range is limited
+  std::vector<Slice> slices_;        // by AGV
+  std::vector<SentCount> links_;     // by sender and receiver: of messages from the one to the other
+  // Of the message being sent: who hears it, in order, in the first `hearing_` places; the draws of each; and room for
+  // those at which it arrives.
+  std::vector<Hearer> hearers_;
+  std::size_t hearing_ = 0;
+  std::vector<Block> draws_;
+  std::vector<AgvId> arriving_;
+  std::vector<std::uint64_t> in_range_;  // of its sender: a bit for each AGV
 };
 
 }  // namespace fleetproof

@@ -1,5 +1,6 @@
 #include "core/engine/run_context.hpp"
 
+#include "core/base/error.hpp"
 #include "core/base/random.hpp"
 #include "core/outcome/work_and_progress.hpp"
 
@@ -11,7 +12,9 @@ RunContext::RunContext(const Scenario& of, std::span<const std::unique_ptr<Law>>
       writer(laws, sink),
       agvs(of.agvs.size()),
       motion_key(stream_key(of.seed_of(Stream::Motion), Stream::Motion)),
-      draw_numbers(of) {
+      draw_numbers(of),
+      hears_notes_(sink != nullptr || !of.radio.adverse.spared_kinds.empty()) {
+  ensure(of.body_count() < EventQueue::kNoEntity, "every body has a place in the order of events");
   std::uint64_t transports = 0;
   for (std::size_t i = 0; i < agvs.size(); ++i) {
     agvs[i].station = of.agvs[i].start;
@@ -40,7 +43,7 @@ std::uint64_t RunContext::own_number(AgvId agv, TransportId transport) const {
 bool RunContext::transports_are_open() const { return open_transports(counters) > 0; }
 
 void RunContext::move_load(LoadId load, Holder to) {
-  world.load(load).holder = to;
+  world.move_load(load, to);
   trace_load(load);
 }
 

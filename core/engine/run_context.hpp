@@ -66,7 +66,7 @@ struct RunContext {
 
   // Whether anything becomes of the notes of agents: an observer hears them, or the radio spares messages by their
   // kind.
-  bool hears_notes() const { return writer.has_sink() || !scenario.radio.adverse.spared_kinds.empty(); }
+  bool hears_notes() const { return hears_notes_; }
   // Likewise, a note of an agent.
   template <class What>
   void note(AgvId agv, const What& what, std::string_view text = {}) {
@@ -74,6 +74,7 @@ struct RunContext {
   }
 
  private:
+  bool hears_notes_;
   std::vector<std::uint64_t> first_transport_;  // by AGV
 };
 

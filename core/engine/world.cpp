@@ -8,8 +8,14 @@
 namespace fleetproof {
 
 World::World(const Scenario& scenario, std::span<const std::unique_ptr<Law>> laws, TraceSink* sink)
-    : scenario_(scenario), laws_(laws), sink_(sink) {
-  bodies_.resize(scenario.body_count());
+    : scenario_(scenario),
+      laws_(laws),
+      sink_(sink),
+      bodies_(scenario.body_count()),
+      planned_(scenario.body_count()),
+      carried_(scenario.agvs.size()),
+      loads_of_(scenario.agvs.size()),
+      touched_(scenario.body_count()) {
   for (std::size_t i = 0; i < scenario.agvs.size(); ++i) {
     const AgvSetup& agv = scenario.agvs[i];
     bodies_[i].is_agv = true;
@@ -37,6 +43,7 @@ void World::announce_end(const Piece& piece) {
 void World::take_off_floor(EntityId id, SimTime t) {
   Body& body = bodies_[id.index()];
   body.on_floor = false;
+  planned_.remove(id.index());
   body.piece.end = t;
   announce_end(body.piece);
 }
@@ -60,6 +67,8 @@ void World::begin(Body& body, const Piece& piece) {
   body.piece = piece;
   body.piece.number = pieces_++;
   body.piece.planned_box = piece.swept_box(piece.end);
+  planned_.remove(piece.entity.index());
+  planned_.place(piece.entity.index(), body.piece.planned_box);
   for (const auto& law : laws_) law->piece_started(body.piece);
   if (sink_ != nullptr) sink_->piece_started(body.piece);
 }
@@ -75,11 +84,10 @@ void World::continue_with(EntityId id, const Piece& next) {
 void World::predict_touches(EntityId id, std::vector<TouchPrediction>& out) {
   const Body& mine = body(id);
   const Box reach = mine.piece.planned_box.grown(kTouch_m);
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+  for (const std::uint32_t i : planned_.overlapping(reach)) {
     const Body& other = bodies_[i];
     const EntityId other_id{i};
-    if (other_id == id || !other.on_floor || !reach.overlaps(other.piece.planned_box)) continue;
-    if (have_touched(id, other_id)) continue;
+    if (other_id == id || have_touched(id, other_id)) continue;
     const Interval common{std::max(mine.piece.begin, other.piece.begin),
                           std::min({mine.piece.end, other.piece.end, kStart + scenario_.horizon})};
     if (common.begin > common.end) continue;
@@ -89,14 +97,18 @@ void World::predict_touches(EntityId id, std::vector<TouchPrediction>& out) {
   }
 }
 
-void World::remember_touch(EntityId a, EntityId b) { touched_.emplace_back(std::min(a, b), std::max(a, b)); }
+void World::remember_touch(EntityId a, EntityId b) {
+  touched_[a.index()].push_back(b);
+  touched_[b.index()].push_back(a);
+}
 
 bool World::have_touched(EntityId a, EntityId b) const {
-  return std::ranges::find(touched_, std::pair{std::min(a, b), std::max(a, b)}) != touched_.end();
+  return std::ranges::find(touched_[a.index()], b) != touched_[a.index()].end();
 }
 
 void World::forget_touches(EntityId id) {
-  std::erase_if(touched_, [&](const auto& pair) { return pair.first == id || pair.second == id; });
+  for (const EntityId other : touched_[id.index()]) std::erase(touched_[other.index()], id);
+  touched_[id.index()].clear();
 }
 
 void World::finish(SimTime end) {
@@ -109,13 +121,24 @@ void World::finish(SimTime end) {
 }
 
 LoadId World::add_load(TransportId transport, AgvId carrier, StationId at, StationId destination) {
+  const LoadId load{loads_.size()};
   loads_.push_back({transport, carrier, {Holder::Kind::Station, at.value}, destination});
-  return LoadId{loads_.size() - 1};
+  loads_of_[carrier.index()].push_back(load);
+  if (load_of_.size() <= transport.index()) load_of_.resize(transport.index() + 1);
+  load_of_[transport.index()] = load;
+  return load;
+}
+
+void World::move_load(LoadId id, Holder to) {
+  Holder& holder = loads_[id.index()].holder;
+  if (holder.kind == Holder::Kind::Agv) carried_[holder.index] = {};
+  holder = to;
+  if (holder.kind == Holder::Kind::Agv) carried_[holder.index] = id;
 }
 
 LoadId World::waiting_load(AgvId agv, StationId station) const {
-  for (std::size_t i = 0; i < loads_.size(); ++i) {
-    if (is_waiting(LoadId{i}, agv, station)) return LoadId{i};
+  for (const LoadId load : loads_of_[agv.index()]) {
+    if (is_waiting(load, agv, station)) return load;
   }
   return {};
 }
@@ -126,16 +149,8 @@ bool World::is_waiting(LoadId id, AgvId agv, StationId station) const {
          load.destination != station;
 }
 
-LoadId World::carried_load(AgvId agv) const {
-  for (std::size_t i = 0; i < loads_.size(); ++i) {
-    if (loads_[i].holder == Holder{Holder::Kind::Agv, agv.value}) return LoadId{i};
-  }
-  return {};
-}
-
 LoadId World::load_of(TransportId transport) const {
-  const auto found = std::ranges::find(loads_, transport, &Load::transport);
-  return found == loads_.end() ? LoadId{} : LoadId{static_cast<std::size_t>(found - loads_.begin())};
+  return transport.index() < load_of_.size() ? load_of_[transport.index()] : LoadId{};
 }
 
 }  // namespace fleetproof

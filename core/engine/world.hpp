@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/clearance/clearance_over_time.hpp"
+#include "core/geometry/broad_phase.hpp"
 #include "core/motion/activity.hpp"
 #include "core/outcome/law.hpp"
 #include "core/scenario/scenario.hpp"
@@ -65,11 +66,12 @@ class World {
 
   std::span<const Load> loads() const { return loads_; }
   LoadId add_load(TransportId transport, AgvId carrier, StationId at, StationId destination);
-  Load& load(LoadId id) { return loads_[id.index()]; }
+  const Load& load(LoadId id) const { return loads_[id.index()]; }
+  void move_load(LoadId load, Holder to);
   // The oldest load that `agv` has to fetch at `station`; invalid if there is none.
   LoadId waiting_load(AgvId agv, StationId station) const;
   bool is_waiting(LoadId load, AgvId agv, StationId station) const;
-  LoadId carried_load(AgvId agv) const;
+  LoadId carried_load(AgvId agv) const { return carried_[agv.index()]; }
   // Invalid if the transport has not been released.
   LoadId load_of(TransportId transport) const;
 
@@ -81,8 +83,12 @@ class World {
   std::span<const std::unique_ptr<Law>> laws_;
   TraceSink* sink_;
   std::vector<Body> bodies_;
+  BroadPhase planned_;  // the boxes of the pieces under way
   std::vector<Load> loads_;
-  std::vector<std::pair<EntityId, EntityId>> touched_;
+  std::vector<LoadId> carried_;                 // by AGV; invalid: none
+  std::vector<std::vector<LoadId>> loads_of_;   // by AGV: those of its transports, oldest first
+  std::vector<LoadId> load_of_;                 // by transport; invalid: not released
+  std::vector<std::vector<EntityId>> touched_;  // by body
   std::uint64_t pieces_ = 0;
   EvaluationCount evaluations_;
 };

@@ -39,6 +39,11 @@ class TraceKinds {
   constexpr TraceKinds(std::initializer_list<TraceKind> kinds) {
     for (const TraceKind kind : kinds) bits_ |= bit(kind);
   }
+  static constexpr TraceKinds all() {
+    TraceKinds kinds;
+    kinds.bits_ = ~std::uint64_t{0};
+    return kinds;
+  }
   constexpr bool has(TraceKind kind) const { return (bits_ & bit(kind)) != 0; }
   constexpr bool empty() const { return bits_ == 0; }
   constexpr TraceKinds operator|(TraceKinds other) const {
@@ -76,6 +81,10 @@ class Law {
   virtual void piece_ended(const Piece& piece) = 0;
   virtual TraceKinds reads() const { return {}; }  // called once, before the run
   virtual void happened(const TraceRecord& record) { (void)record; }
+  // Most records are about messages. If a law returns true here, it hears those of kMessageKinds by `messages`, several
+  // together: in their order, later than pieces, and before the next record of another kind and `finish`.
+  virtual bool hears_messages_together() const { return false; }
+  virtual void messages(std::span<const TraceRecord> records) { (void)records; }
   virtual void finish(SimTime end) { (void)end; }
   virtual LawFindings findings() const = 0;
 };

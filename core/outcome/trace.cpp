@@ -1,22 +1,11 @@
 #include "core/outcome/trace.hpp"
 
+// Compiled here, for the instructions of this build.
+#define XXH_INLINE_ALL
 #include <xxhash.h>
-
-#include <bit>
-#include <cstring>
 
 namespace fleetproof {
 namespace {
-
-template <class Integer>
-void put(unsigned char*& at, Integer value) {
-  if constexpr (std::endian::native == std::endian::little) {
-    std::memcpy(at, &value, sizeof(Integer));
-    at += sizeof(Integer);
-  } else {
-    for (std::size_t i = 0; i < sizeof(Integer); ++i) *at++ = static_cast<unsigned char>(value >> (8 * i));
-  }
-}
 
 XXH3_state_t* hash(void* state) { return static_cast<XXH3_state_t*>(state); }
 
@@ -101,18 +90,10 @@ const char* name_of(TraceKind kind) {
 TraceDigest::TraceDigest() : state_(XXH3_createState()) { XXH3_64bits_reset(hash(state_)); }
 TraceDigest::~TraceDigest() { XXH3_freeState(hash(state_)); }
 
-void TraceDigest::append(const TraceRecord& record) {
-  unsigned char* at = buffer_.data() + used_;
-  put(at, static_cast<std::uint64_t>(to_ns(record.at)));
-  put(at, record.entity.value);
-  put(at, static_cast<std::uint32_t>(record.kind));
-  put(at, record.a);
-  put(at, record.b);
-  used_ += 32;
-  ++count_;
+void TraceDigest::pause() {
   if ((count_ & (count_ - 1)) == 0) {  // std::has_single_bit counts bits, which costs a call
     running_.push_back(value());
-  } else if (used_ == buffer_.size()) {
+  } else if (count_ % kRecords == 0) {
     flush();
   }
 }
@@ -122,9 +103,11 @@ std::uint64_t TraceDigest::value() {
   return XXH3_64bits_digest(hash(state_));
 }
 
+// Of the buffer, what was not flushed before. It is flushed whenever it is full.
 void TraceDigest::flush() {
-  XXH3_64bits_update(hash(state_), buffer_.data(), used_);
-  used_ = 0;
+  XXH3_64bits_update(hash(state_), buffer_.data() + flushed_ % kRecords * kRecordBytes,
+                     (count_ - flushed_) * kRecordBytes);
+  flushed_ = count_;
 }
 
 }  // namespace fleetproof

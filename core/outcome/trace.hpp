@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
+#include <cstring>
 #include <string_view>
 #include <vector>
 
@@ -90,18 +92,39 @@ class TraceDigest {
   TraceDigest(const TraceDigest&) = delete;
   TraceDigest& operator=(const TraceDigest&) = delete;
 
-  void append(const TraceRecord& record);
+  void append(const TraceRecord& record) {
+    write(record, buffer_.data() + count_ % kRecords * kRecordBytes);
+    ++count_;
+    if (count_ % kRecords == 0 || count_ < kRecords) [[unlikely]]
+      pause();
+  }
   std::uint64_t value();
   std::uint64_t record_count() const { return count_; }
   const std::vector<std::uint64_t>& running() const { return running_; }
 
  private:
+  static constexpr std::size_t kRecordBytes = 32, kRecords = 128;  // in the buffer
+
+  static void write(const TraceRecord& record, unsigned char* to) {
+    put(to, static_cast<std::uint64_t>(to_ns(record.at)));
+    put(to + 8, static_cast<std::uint64_t>(record.kind) << 32 | record.entity.value);
+    put(to + 16, record.a);
+    put(to + 24, record.b);
+  }
+  static void put(unsigned char* to, std::uint64_t word) {
+    if constexpr (std::endian::native == std::endian::little) {
+      std::memcpy(to, &word, sizeof word);
+    } else {
+      for (std::size_t i = 0; i < sizeof word; ++i) to[i] = static_cast<unsigned char>(word >> 8 * i);
+    }
+  }
+  // The buffer is full, or the digest of the first records is to be kept.
+  void pause();
   void flush();
 
   void* state_;
-  std::array<unsigned char, 128 * 32> buffer_;
-  std::size_t used_ = 0;
-  std::uint64_t count_ = 0;
+  std::array<unsigned char, kRecords * kRecordBytes> buffer_;
+  std::uint64_t count_ = 0, flushed_ = 0;  // records
   std::vector<std::uint64_t> running_;
 };
 

@@ -13,7 +13,7 @@ double lomax(double share, double shape) { return natural_exp(-natural_log(1.0 -
 }  // namespace
 
 DelayModel::DelayModel(const RadioSetup& setup)
-    : model_(setup.delay_model), delay_s_(setup.delay_s), tail_(setup.delay_tail) {
+    : model_(setup.delay_model), delay_s_(setup.delay_s), constant_(seconds(setup.delay_s)), tail_(setup.delay_tail) {
   scale_ = (tail_.median_share - tail_.min_share) / lomax(0.5, tail_.shape);
 }
 

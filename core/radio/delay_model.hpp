@@ -12,8 +12,8 @@ class DelayModel {
   explicit DelayModel(const RadioSetup& setup);
   // Requires: share in [0, 1).
   Duration at(double share) const {
-    if (model_ == RadioSetup::DelayModel::HeavyTail) return heavy_tail(share);
-    return seconds(delay_s_ * (model_ == RadioSetup::DelayModel::Uniform ? share : 1.0));
+    if (model_ == RadioSetup::DelayModel::Constant) return constant_;
+    return model_ == RadioSetup::DelayModel::Uniform ? seconds(delay_s_ * share) : heavy_tail(share);
   }
 
  private:
@@ -21,6 +21,7 @@ class DelayModel {
 
   RadioSetup::DelayModel model_;
   double delay_s_;
+  Duration constant_;
   DelayTailSetup tail_;
   double scale_ = 0.0;  // scale of the Lomax part, as a share of delay_s
 };

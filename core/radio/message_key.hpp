@@ -15,10 +15,12 @@ struct MessageKey {
   std::uint32_t ordinal = 0;  // among the messages from this sender to this receiver at that instant, from 0 on
 };
 
-inline Block draw_for(const MessageKey& message, std::uint64_t key) {
+inline Block counter_of(const MessageKey& message) {
   const auto t = static_cast<std::uint64_t>(to_ns(message.sent));
-  return philox(key, {static_cast<std::uint32_t>(t), static_cast<std::uint32_t>(t >> 32),
-                      (message.sender.value << 16) | message.receiver.value, message.ordinal});
+  return {static_cast<std::uint32_t>(t), static_cast<std::uint32_t>(t >> 32),
+          (message.sender.value << 16) | message.receiver.value, message.ordinal};
 }
+
+inline Block draw_for(const MessageKey& message, std::uint64_t key) { return philox(key, counter_of(message)); }
 
 }  // namespace fleetproof

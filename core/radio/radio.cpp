@@ -11,6 +11,7 @@ namespace {
 
 // The kinds of processes and draws under the key of radio states. RadioPlaces uses 1 to 3, RadioCrossings uses 10.
 constexpr std::uint32_t kLinkProcess = 8, kAsymmetryDraw = 9;
+constexpr std::size_t kDrawnAtOnce = 4;
 
 // The loss of a message that is lost with probability `loss` near its sender. Of the messages that would arrive there,
 // distance takes a share of its own.
@@ -38,26 +39,49 @@ Radio::Radio(const RadioSetup& setup, std::uint64_t world_seed, std::span<const 
       recorded_(setup.trace),
       places_(setup.places, outage_law(setup.loss), state_key_),
       crossings_(setup.places, state_key_),
-      sources_(setup.sources, stream_key(world_seed, Stream::RadioSources)) {}
+      sources_(setup.sources, stream_key(world_seed, Stream::RadioSources)),
+      is_plain_(!has_states_ && !depends_on_place_ && given_.empty() && recorded_.empty() && setup.duplicates == 0.0 &&
+                setup.adverse.adverse_from_s == 0.0 && setup.adverse.adverse_until_s == 0.0) {}
 
 Fate Radio::fate(AgvId sender, AgvId receiver, SimTime sent, std::uint32_t ordinal, const LinkPlaces& places,
                  bool spared) {
+  const Hearer hearer{receiver, ordinal};
+  return fate(sender, hearer, sent, draw_for(key_of(sender, hearer, sent), key_), places, spared);
+}
+
+void Radio::draw(AgvId sender, SimTime sent, std::span<const Hearer> hearers, Block* draws) const {
+  if (hearers.size() == 1) {
+    *draws = draw_for(key_of(sender, hearers.front(), sent), key_);
+    return;
+  }
+  const Block first = counter_of({numbers_.of(sender), AgvId{0U}, sent, 0});
+  std::array<std::uint64_t, kDrawnAtOnce> rest{};
+  for (std::size_t i = 0; i < hearers.size(); i += kDrawnAtOnce) {
+    const std::size_t count = std::min(kDrawnAtOnce, hearers.size() - i);
+    for (std::size_t k = 0; k < count; ++k)
+      rest[k] = std::uint64_t{hearers[i + k].ordinal} << 32 | first[2] | numbers_.of(hearers[i + k].receiver).value;
+    philox_of_four(key_, word64(first, 0), rest.data(), draws + i);
+  }
+}
+
+Fate Radio::fate(AgvId sender, const Hearer& hearer, SimTime sent, const Block& draws, const LinkPlaces& places,
+                 bool spared) {
+  const auto& [receiver, ordinal] = hearer;
   if (const GivenFate* given = given_.empty() ? nullptr : given_.of({sender, receiver, sent, ordinal})) {
     Fate fate{.lost = given->lost, .delay = given->delay, .given = true};
     if (given->copied) fate.copy_delay = given->copy_delay;
     return fate;
   }
   if (spared || !setup_.adverse.contains(sent)) return {};
-  return drawn_fate({numbers_.of(sender), numbers_.of(receiver), sent, ordinal}, places);
+  return drawn_fate(key_of(sender, hearer, sent), draws, places);
 }
 
-Fate Radio::drawn_fate(const MessageKey& message, const LinkPlaces& places) {
+Fate Radio::drawn_fate(const MessageKey& message, const Block& draws, const LinkPlaces& places) {
   const auto& [sender, receiver, sent, ordinal] = message;
-  const Block block = draw_for(message, key_);
-  const double loss_draw = unit_interval(word64(block, 0));
+  const double loss_draw = unit_interval(word64(draws, 0));
   Fate fate;
   fate.lost = loss_draw < loss_at_distance(setup_.loss, setup_, places);
-  fate.delay = delay_.at(unit_interval(word64(block, 1)));
+  fate.delay = delay(draws);
   if (has_states_) weigh_states(fate, loss_draw, sender, receiver, sent, places);
   if (!recorded_.empty()) {
     if (const auto* recorded = recorded_.at(sender, receiver, sent)) {
@@ -150,10 +174,6 @@ std::uint32_t MessagePool::add(AgvId sender, std::string_view bytes, std::uint32
   message.spared = false;
   message.destroyed_at.clear();
   return slot;
-}
-
-void MessagePool::release(std::uint32_t slot) {
-  if (--messages_[slot].copies == 0) free_.push_back(slot);
 }
 
 void MessagePool::release_unsent(std::uint32_t slot) {

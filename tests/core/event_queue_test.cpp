@@ -23,7 +23,6 @@ TEST(EventQueue, OrdersByTimeThenEntityThenSequence) {
   push(1.0, 5, 5);
   push(1.0, 3, 3);
   push(0.5, 9, 1);
-  EXPECT_EQ(queue.next_at(), at_seconds(0.5));
   for (std::uint64_t expected = 1; expected <= 6; ++expected) {
     ASSERT_FALSE(queue.empty());
     const Event event = queue.pop();
@@ -57,6 +56,44 @@ TEST(EventQueue, TakesEventsInTheSameOrderAsASortedList) {
     ASSERT_EQ(queue.empty(), sorted.empty());
   }
   EXPECT_GT(pushed, 8'000U);
+}
+
+// Arrivals that are equally late stand in the lane; others, and those of an instant that has begun, cannot.
+TEST(EventQueue, ArrivalsComeInTheSameOrderAsASortedList) {
+  for (const bool equally_late : {true, false}) {
+    std::mt19937 random(6);
+    EventQueue queue;
+    std::vector<std::tuple<std::int64_t, std::uint32_t, std::uint64_t, std::uint64_t>> sorted;
+    std::uint64_t pushed = 0;
+    std::int64_t now = 0;
+    for (int round = 0; round < 20'000; ++round) {
+      if (random() % 3 == 0) {
+        const std::int64_t at = now + (equally_late && random() % 20 != 0 ? 30 : random() % 40);
+        std::vector<EntityId> entities;
+        for (std::uint32_t entity = 0; entity < 6; ++entity) {
+          if (random() % 3 == 0) entities.emplace_back(entity);
+        }
+        queue.push_arrivals(at_ns(at), entities, static_cast<std::uint32_t>(round));
+        for (const EntityId entity : entities) sorted.emplace_back(at, entity.value, pushed++, round);
+      } else if (random() % 4 == 0) {
+        const std::int64_t at = now + random() % 40;
+        queue.push(at_ns(at), EntityId{3U}, Event::Kind::TimerGoesOff, static_cast<std::uint64_t>(round));
+        sorted.emplace_back(at, 3, pushed++, round);
+      }
+      std::ranges::sort(sorted);
+      Event event;
+      for (int taken = 0; taken < 2 && !sorted.empty(); ++taken) {
+        const auto [at, entity, sequence, payload] = sorted.front();
+        EXPECT_FALSE(queue.pop_until(at_ns(at - 1), event));
+        ASSERT_TRUE(queue.pop_until(at_ns(at), event));
+        ASSERT_EQ(std::tuple(to_ns(event.at), event.entity.value, event.sequence, event.payload), sorted.front());
+        now = at;
+        sorted.erase(sorted.begin());
+      }
+      ASSERT_EQ(queue.empty(), sorted.empty());
+    }
+    EXPECT_GT(pushed, 10'000U);
+  }
 }
 
 }  // namespace

@@ -114,7 +114,7 @@ TEST(FaultDeskPart, AFallenLoadLiesOnTheFloorUntilItIsClearedAway) {
   world.parts.faults.strikes(kFirst, 0);
   EXPECT_EQ(world.run.counters.faults, 0U) << "an empty AGV loses nothing";
   const LoadId load = world.run.world.add_load(TransportId{0U}, kFirst, StationId{0U}, StationId{2U});
-  world.run.world.load(load).holder = {Holder::Kind::Agv, kFirst.value};
+  world.run.world.move_load(load, {Holder::Kind::Agv, kFirst.value});
   world.parts.faults.strikes(kFirst, 0);
   const EntityId body{1U};
   EXPECT_TRUE(world.run.world.body(body).on_floor);

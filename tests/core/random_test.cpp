@@ -15,6 +15,22 @@ TEST(Philox, KnownAnswers) {  // from the Random123 distribution's kat_vectors, 
             (Block{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}));
 }
 
+TEST(Philox, FourAtOnceAreTheSameAsOneByOne) {
+  for (std::uint64_t round = 0; round < 1000; ++round) {
+    const std::uint64_t key = word64(philox(1, {static_cast<std::uint32_t>(round)}), 0);
+    const std::uint64_t first = word64(philox(2, {static_cast<std::uint32_t>(round)}), 0);
+    std::array<std::uint64_t, 4> rest{};
+    for (std::uint32_t i = 0; i < 4; ++i) rest[i] = word64(philox(key, {i}), 1);
+    std::array<Block, 4> blocks{};
+    philox_of_four(key, first, rest.data(), blocks.data());
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Block counter{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(first >> 32),
+                          static_cast<std::uint32_t>(rest[i]), static_cast<std::uint32_t>(rest[i] >> 32)};
+      ASSERT_EQ(blocks[i], philox(key, counter)) << round << " " << i;
+    }
+  }
+}
+
 TEST(Keys, DifferPerReplicateFactorsAndStream) {
   std::set<std::uint64_t> keys;
   for (std::uint64_t replicate = 0; replicate < 100; ++replicate) {

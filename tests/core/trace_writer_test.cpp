@@ -42,5 +42,44 @@ TEST(TraceWriter, HandsEachLawTheKindsThatItReads) {
     EXPECT_EQ(sink.of(kind).size(), 1U);
 }
 
+// Hears messages together, and a contact on its own.
+class Listens final : public Reads {
+ public:
+  Listens() : Reads(kMessageKinds | TraceKinds{TraceKind::Contact}) {}
+  bool hears_messages_together() const override { return true; }
+  void messages(std::span<const TraceRecord> records) override {
+    for (const TraceRecord& record : records) heard.push_back(record.kind);
+    ++times;
+  }
+  int times = 0;
+};
+
+TEST(TraceWriter, HandsMessagesOverTogetherAndInOrder) {
+  std::vector<std::unique_ptr<Law>> laws;
+  laws.push_back(std::make_unique<Listens>());
+  laws.push_back(std::make_unique<Reads>(TraceKinds{TraceKind::Lost, TraceKind::Contact}));
+  TraceWriter writer(laws, nullptr);
+  std::vector<TraceKind> all, lost;
+  const auto write = [&](TraceKind kind) {
+    TraceRecord record;
+    record.kind = kind;
+    writer.write(record, "");
+    if (kind != TraceKind::Log) all.push_back(kind);
+    if (kind == TraceKind::Lost || kind == TraceKind::Contact) lost.push_back(kind);
+  };
+  for (int round = 0; round < 3; ++round) {
+    for (int i = 0; i < 300; ++i)
+      for (const TraceKind kind : {TraceKind::Sent, TraceKind::Lost, TraceKind::Received}) write(kind);
+    write(TraceKind::Log);
+    if (round < 2) write(TraceKind::Contact);
+  }
+  const auto& listens = static_cast<const Listens&>(*laws[0]);
+  EXPECT_LT(listens.heard.size(), all.size());
+  writer.hand_over();
+  EXPECT_EQ(listens.heard, all);
+  EXPECT_LT(listens.times, 20);
+  EXPECT_EQ(static_cast<const Reads&>(*laws[1]).heard, lost);
+}
+
 }  // namespace
 }  // namespace fleetproof

@@ -43,10 +43,10 @@ TEST(World, ContainmentFollowsALoad) {
   EXPECT_EQ(world.waiting_load(AgvId{0U}, StationId{1U}), load);
   EXPECT_FALSE(world.waiting_load(AgvId{1U}, StationId{1U}).valid()) << "assigned to the other AGV";
   EXPECT_FALSE(world.carried_load(AgvId{0U}).valid());
-  world.load(load).holder = {Holder::Kind::Agv, 0};
+  world.move_load(load, {Holder::Kind::Agv, 0});
   EXPECT_EQ(world.carried_load(AgvId{0U}), load);
   EXPECT_FALSE(world.waiting_load(AgvId{0U}, StationId{1U}).valid());
-  world.load(load).holder = {Holder::Kind::Station, 2};
+  world.move_load(load, {Holder::Kind::Station, 2});
   EXPECT_FALSE(world.waiting_load(AgvId{0U}, StationId{2U}).valid()) << "arrived: nobody fetches it again";
   ASSERT_EQ(world.loads().size(), 1U);
   EXPECT_EQ(world.loads()[0].transport, TransportId{7U});

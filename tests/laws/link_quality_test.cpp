@@ -19,6 +19,8 @@ struct Heard {
   bool lost;
 };
 
+void note(LinkQuality& quality, const TraceRecord& record) { quality.note({&record, 1}); }
+
 // Counted anew from all that was ever heard.
 LinkQuality::Link counted(const std::vector<Heard>& all, std::size_t sender, std::size_t receiver, std::int64_t last) {
   LinkQuality::Link link;
@@ -44,8 +46,8 @@ TEST(LinkQuality, TheLinksOfTheLastTenSeconds) {
     const TraceRecord record =
         trace_record(kStart + std::chrono::seconds(second) + later, AgvId{receiver},
                      traced::Reception{lost ? TraceKind::Lost : TraceKind::Received, AgvId{sender}, 0});
-    quality.note(record);
-    late.note(record);
+    note(quality, record);
+    note(late, record);
   };
   int broken = 0, kept = 0;
   std::int64_t late_second = 0;
@@ -81,10 +83,10 @@ TEST(LinkQuality, TheLongestDelayOfTheWindow) {
   for (std::int64_t second = 0; second < 60; ++second) {
     const std::int64_t delay_s = 1 + second * 7 % 13;
     const SimTime there = kStart + std::chrono::seconds(second) + std::chrono::milliseconds(500);
-    quality.note(trace_record(there - std::chrono::seconds(delay_s), AgvId{0U},
-                              traced::Sent{AgvId{1U}, static_cast<std::uint64_t>(second), 0}));
-    quality.note(trace_record(there, AgvId{1U},
-                              traced::Reception{TraceKind::Received, AgvId{0U}, static_cast<std::uint64_t>(second)}));
+    note(quality, trace_record(there - std::chrono::seconds(delay_s), AgvId{0U},
+                               traced::Sent{AgvId{1U}, static_cast<std::uint64_t>(second), 0}));
+    note(quality, trace_record(there, AgvId{1U},
+                               traced::Reception{TraceKind::Received, AgvId{0U}, static_cast<std::uint64_t>(second)}));
     quality.end_second(second);
     std::int64_t longest_s = 0;
     for (std::int64_t i = std::max<std::int64_t>(0, second - 9); i <= second; ++i)
@@ -97,14 +99,14 @@ TEST(LinkQuality, TheLongestDelayOfTheWindow) {
 TEST(LinkQuality, NoDelayIsForgotten) {
   LinkQuality quality(kAgvs);
   const auto sends = [&](std::uint32_t receiver, std::uint64_t hash) {
-    quality.note(trace_record(kStart, AgvId{0U}, traced::Sent{AgvId{receiver}, hash, 0}));
+    note(quality, trace_record(kStart, AgvId{0U}, traced::Sent{AgvId{receiver}, hash, 0}));
   };
   sends(1, 7);
   for (std::uint64_t i = 0; i < 10'000; ++i) sends(2, 1000 + i);
-  quality.note(trace_record(kStart + std::chrono::seconds(4), AgvId{0U}, traced::Sent{AgvId{2U}, 7, 0}));
+  note(quality, trace_record(kStart + std::chrono::seconds(4), AgvId{0U}, traced::Sent{AgvId{2U}, 7, 0}));
   for (std::int64_t second = 0; second < 5; ++second) quality.end_second(second);
   const SimTime there = kStart + std::chrono::seconds(5);
-  quality.note(trace_record(there, AgvId{1U}, traced::Reception{TraceKind::Received, AgvId{0U}, 7}));
+  note(quality, trace_record(there, AgvId{1U}, traced::Reception{TraceKind::Received, AgvId{0U}, 7}));
   quality.end_second(5);
   EXPECT_EQ(quality.link(0, 1).longest, std::chrono::seconds(5));
   EXPECT_FALSE(quality.all_in_contract(1));

@@ -33,7 +33,12 @@ class Told {
   template <class What>
   Told& record(double at_s, std::uint32_t entity, const What& what) {
     const TraceRecord record = trace_record(at_seconds(at_s), EntityId{entity}, what);
-    if (kinds_.has(record.kind)) law_->happened(record);
+    if (!kinds_.has(record.kind)) return *this;
+    if (law_->hears_messages_together() && kMessageKinds.has(record.kind)) {
+      law_->messages({&record, 1});
+    } else {
+      law_->happened(record);
+    }
     return *this;
   }
   Told& begins(double at_s, std::uint32_t agv, ActivityKind kind, std::uint64_t subject = 0) {

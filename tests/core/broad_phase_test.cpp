@@ -1,4 +1,4 @@
-#include "laws/broad_phase.hpp"
+#include "core/geometry/broad_phase.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,85 @@
+#include "core/radio/radio_reach.hpp"
+
+#include <gtest/gtest.h>
+
+#include <deque>
+#include <random>
+#include <set>
+
+#include "core/geometry/rotation.hpp"
+#include "tests/support/at_seconds.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr std::uint32_t kAgvs = 60;
+
+// AGVs rest, turn, and drive short, long and winding ways on a floor and beside it.
+class MovingFleet {
+ public:
+  explicit MovingFleet(double range_m) : reach(kAgvs, range_m, {Vec2(0.0, 0.0), Vec2(80.0, 50.0)}), pieces_(kAgvs) {
+    for (std::uint32_t i = 0; i < kAgvs; ++i) begin(i);
+  }
+
+  double within(double low, double high) { return low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53; }
+  std::uint32_t any_agv() { return static_cast<std::uint32_t>(random_() % kAgvs); }
+  Vec2 place() { return {within(-20.0, 100.0), within(-20.0, 70.0)}; }
+  Vec2 position_m(std::uint32_t agv) const { return pieces_[agv].pose_at(now).position_m; }
+
+  void begin(std::uint32_t agv) {
+    Piece piece = rest_piece(AgvId{agv}, {}, {place(), unit_vector(within(-3.0, 3.0))}, now);
+    if (random_() % 3 != 0) {
+      const double length_m = random_() % 5 == 0 ? within(20.0, 90.0) : within(0.5, 8.0);
+      const Vec2 to = piece.start.position_m + length_m * piece.start.heading,
+                 aside = length_m * unit_vector(within(-3.0, 3.0));
+      curves_.push_back(Curve::bezier(
+          piece.start.position_m, piece.start.position_m + 0.5 * length_m * piece.start.heading, to + 0.3 * aside, to));
+      piece.manner = Manner::Drive;
+      piece.curve = &curves_.back();
+      piece.way_begin_m = random_() % 2 == 0 ? 0.0 : within(0.0, piece.curve->length_m());
+      piece.profile = MotionProfile(piece.curve->length_m() - piece.way_begin_m, {});
+      piece.end = now + piece.profile.duration();
+    }
+    pieces_[agv] = piece;
+    reach.piece_begins(piece);
+  }
+  // To a place of which the file learns nothing.
+  void carry(std::uint32_t agv) {
+    reach.forget(AgvId{agv});
+    pieces_[agv] = rest_piece(AgvId{agv}, {}, {place(), Vec2::UnitX()}, now);
+  }
+
+  RadioReach reach;
+  SimTime now = kStart;
+
+ private:
+  std::mt19937_64 random_{3};
+  std::deque<Curve> curves_;
+  std::vector<Piece> pieces_;
+};
+
+TEST(RadioReach, FindsAllThatAreInRange) {
+  for (const double range_m : {0.5, 7.0, 25.0, 60.0}) {
+    MovingFleet fleet(range_m);
+    std::size_t in_range = 0, looked_at = 0, rounds = 0;
+    for (; rounds < 800; ++rounds) {
+      fleet.now += seconds(fleet.within(0.0, 0.5));
+      rounds % 50 == 0 ? fleet.carry(fleet.any_agv()) : fleet.begin(fleet.any_agv());
+      const Vec2 from_m = rounds % 2 == 0 ? fleet.place() : fleet.position_m(fleet.any_agv());
+      std::multiset<std::uint32_t> near;
+      fleet.reach.for_each_near(from_m, [&](AgvId agv) { near.insert(agv.value); });
+      looked_at += near.size();
+      for (std::uint32_t agv = 0; agv < kAgvs; ++agv) {
+        EXPECT_LE(near.count(agv), 1U);
+        if ((fleet.position_m(agv) - from_m).norm() > range_m) continue;
+        ++in_range;
+        ASSERT_EQ(near.count(agv), 1U) << range_m << " " << rounds;
+      }
+    }
+    EXPECT_GT(in_range, 0U);
+    if (range_m < 10.0) EXPECT_LT(looked_at, rounds * kAgvs / 3) << range_m;
+  }
+}
+
+}  // namespace
+}  // namespace fleetproof
