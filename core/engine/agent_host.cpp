@@ -53,7 +53,8 @@ void AgentHost::close() {
   activate(agv, slice, event);
 }
 
-[[gnu::noinline]] void AgentHost::schedule_wake(AgvId agv, Slice& slice) {
+[[gnu::noinline]] void AgentHost::wake(AgvId agv, Slice& slice) {
+  if (slice.wake_scheduled || slice.waiting_events.empty()) return;
   slice.wake_scheduled = true;
   run_.queue.push(std::max(run_.now, slice.free_at), agv, Event::Kind::AgentIsFree);
 }
@@ -88,7 +89,7 @@ void AgentHost::activate(AgvId agv, Slice& slice, const fp_event& what) {
   if (use.broken_limit != nullptr) give_up(agv, true, use.broken_limit);
   slice.free_at = std::max(slice.free_at, run_.now + use.cost);
   if (event.kind == FP_EVENT_START && slice.boot > 0) tell_open_orders(agv);
-  wake(agv, slice);
+  if (!slice.waiting_events.empty()) wake(agv, slice);
 }
 
 // Counts an activation. Null: the agent may have it.

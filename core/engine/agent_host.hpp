@@ -68,10 +68,7 @@ class AgentHost {
     std::uint64_t activations = 0;        // in this run
     std::deque<fp_event> waiting_events;  // arrived while the agent was busy
   };
-  void wake(AgvId agv, Slice& slice) {
-    if (!slice.wake_scheduled && !slice.waiting_events.empty()) schedule_wake(agv, slice);
-  }
-  void schedule_wake(AgvId agv, Slice& slice);
+  void wake(AgvId agv, Slice& slice);
   void activate(AgvId agv, Slice& slice, const fp_event& event);
   const char* broken_limit(Slice& slice) const;
   const AgentFailure* call_agent(AgvId agv, Slice& slice, const fp_event& event);
