@@ -46,7 +46,7 @@ constexpr Entry<MakeLayout> kFamilies[] = {
      "the edge",
      make_dense_crossing},
     {"plant",
-     "zones of aisles inside rings of two one-way lanes, with docks, buffer lanes and charger rows; 20-5000 stations, "
+     "zones of aisles inside rings of two one-way lanes, with docks, buffer lanes and charger rows; 20-10000 stations, "
      "as in plant/2000, else 40 for each AGV",
      make_plant},
 };

@@ -142,7 +142,8 @@ std::string name_of_plant(const PlantWish& wish) {
 }  // namespace
 
 std::uint32_t plant_stations(std::uint32_t fleet_size) {
-  return std::clamp(std::min(fleet_size, kMostStations) * kStationsPerAgv, kFewestStations, kMostStations);
+  return std::clamp(std::min(fleet_size, kMostStationsOfFleet) * kStationsPerAgv, kFewestStations,
+                    kMostStationsOfFleet);
 }
 
 // The stops fill up what the rest of the plant leaves of its stations. A first plant, without stops, counts the rest.

@@ -40,9 +40,9 @@ constexpr const char* name_of(Provocation provocation) {
   return kNoWord;
 }
 
-inline constexpr std::uint32_t kFewestStations = 20, kMostStations = 5000;
-// A plant that belongs to a fleet has so many stations for each AGV, within the two limits.
-inline constexpr std::uint32_t kStationsPerAgv = 40;
+inline constexpr std::uint32_t kFewestStations = 20, kMostStations = 10'000;
+// A plant that belongs to a fleet has so many stations for each AGV, but at least the fewest, and at most so many.
+inline constexpr std::uint32_t kStationsPerAgv = 40, kMostStationsOfFleet = 5000;
 
 struct PlantWish {
   Range range = Range::Normal;

@@ -12,10 +12,11 @@
 #include <chrono>
 #include <cstdlib>
 #include <deque>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "campaign/run/agent_programs.hpp"
+#include "core/agents/agents.h"
 #include "core/engine/simulation.hpp"
 #include "generators/worlds/world_maker.hpp"
 #include "laws/laws.hpp"
@@ -56,6 +57,15 @@ std::deque<Scenario> draw_worlds(std::uint32_t fleet, double horizon_s, std::uin
   return drawn;
 }
 
+// Null if there is none of this name.
+const fp_agent_type* agent_named(std::string_view name) {
+  if (name == kNullAgent.name) return &kNullAgent;
+  for (const fp_agent_type* agent : std::span(fp_reference_agents, fp_reference_agent_count)) {
+    if (name == agent->name) return agent;
+  }
+  return nullptr;
+}
+
 double seconds_of_this_thread() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
@@ -81,16 +91,15 @@ extern "C" __attribute__((noinline)) Counters cost_of_runs(const std::deque<Scen
 int main(int argc, char** argv) {
   using namespace fleetproof;
   if (argc < 5) return fmt::print("run_cost AGENT FLEET HORIZON_S WORLDS [RANGE_M] [none]\n"), 2;
-  const std::string name = argv[1];
+  const fp_agent_type* const agent = agent_named(argv[1]);
+  if (agent == nullptr) return fmt::print("there is no agent {}\n", argv[1]), 2;
   const auto fleet = static_cast<std::uint32_t>(std::atoi(argv[2]));
   const double horizon_s = std::atof(argv[3]);
   const auto worlds = draw_worlds(fleet, horizon_s, static_cast<std::uint64_t>(std::atoll(argv[4])),
                                   argc > 5 ? std::atof(argv[5]) : 0.0);
-  const AgentPrograms programs;
-  const fp_agent_type& agent = name == "null" ? kNullAgent : programs.find(name, "bench");
   const std::uint64_t allocated_before = allocations();
   const double begun_s = seconds_of_this_thread();
-  const Counters sum = cost_of_runs(worlds, agent, std::string_view(argv[argc - 1]) != "none");
+  const Counters sum = cost_of_runs(worlds, *agent, std::string_view(argv[argc - 1]) != "none");
   const double spent_s = seconds_of_this_thread() - begun_s;
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
