@@ -8,6 +8,7 @@
 #include "core/agents/aisles.hpp"
 #include "core/agents/fleet.hpp"
 #include "core/agents/map_view.hpp"
+#include "core/agents/opposite_lanes.hpp"
 #include "core/agents/routes.hpp"
 
 namespace fleetproof::agents {
@@ -40,20 +41,22 @@ std::span<const double> lane_times_s(const fp_facts& facts, std::uint32_t agv) {
       model_of(facts, agv));
 }
 
-std::span<const double> lane_costs_s(const fp_facts& facts, std::uint32_t agv) {
+std::span<const double> lane_costs_s(const HullParts& parts, std::uint32_t agv) {
   return ask<double>(
-      facts,
-      [](const fp_facts* from, std::uint64_t model, fp_answer* to) {
+      parts.facts(),
+      [](const fp_facts* from, std::uint64_t question, fp_answer* to) {
         const MapView map(*from);
-        const auto times_s = lane_times_s(*from, static_cast<std::uint32_t>(model));
+        const auto times_s = lane_times_s(*from, HullKey::item_of(question));
         std::vector<double> costs_s(times_s.begin(), times_s.end());
-        const auto against = lanes_against_aisles(*from);
+        const auto against_aisle = lanes_against_aisles(*from);
+        const auto against_opposite = lanes_against_opposite(HullParts(map, *from, HullKey(question)));
         for (std::uint32_t id = 0; id < map.lane_count(); ++id) {
-          if (against[id] != 0) costs_s[id] *= kAgainstAisle;
+          if (against_aisle[id] != 0) costs_s[id] *= kAgainstAisle;
+          if (against_opposite[id] != 0) costs_s[id] *= OppositeLanes::kPrice;
         }
         answer(*from, to, costs_s);
       },
-      model_of(facts, agv));
+      parts.key().question(model_of(parts.facts(), agv)));
 }
 
 }  // namespace fleetproof::agents

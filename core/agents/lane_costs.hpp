@@ -4,6 +4,7 @@
 #include <span>
 
 #include "core/agents/facts.hpp"
+#include "core/agents/hull_parts.hpp"
 
 namespace fleetproof::agents {
 
@@ -13,7 +14,7 @@ std::uint32_t model_of(const fp_facts& facts, std::uint32_t agv);
 // Of one AGV, by lane; the AGVs of a run share them.
 // The time from rest to rest.
 std::span<const double> lane_times_s(const fp_facts& facts, std::uint32_t agv);
-// The same, and a price against the convention of aisles.
-std::span<const double> lane_costs_s(const fp_facts& facts, std::uint32_t agv);
+// The same, and a price against the conventions of aisles and of opposite lanes.
+std::span<const double> lane_costs_s(const HullParts& parts, std::uint32_t agv);
 
 }  // namespace fleetproof::agents

@@ -19,6 +19,8 @@ constexpr double kNoWayCost_s = 1000.0;
 // In a row of chargers, wide AGVs cannot turn beside each other. An AGV would rather hold up others there than run
 // empty.
 constexpr double kUnsafeChargerCost_s = 30.0;
+// As bad as to cut off one goal.
+constexpr std::uint32_t kCrampedBurden = 1;
 
 }  // namespace
 
@@ -53,7 +55,6 @@ struct StretchPlanner::Walk {
   double length_m = 0.0;
   bool blocked = false;  // it reaches floor that another AGV is known to hold
   End here, best, least_bad;
-  bool best_is_roomy = false;
   std::uint32_t least_burden = ~0U;
 
   std::uint32_t station() const { return end_of(planner.map_, stretch.path).station; }
@@ -81,12 +82,11 @@ struct StretchPlanner::Walk {
   void note_end() {
     here.legs = stretch.legs.size();
     if (here.lanes == 0) return;
-    const std::uint32_t burden = planner.places_.burden(station());
-    if (burden == 0 && (best.lanes == 0 || (!blocked && !(best_is_roomy && planner.is_cramped(station()))))) {
-      best = here;
-      best_is_roomy = !blocked && !planner.is_cramped(station());
-    }
-    if (burden <= least_burden) {
+    std::uint32_t burden = planner.places_.burden(station());
+    // Two AGVs that stand so near to each other that none of them can turn may stay for ever.
+    if (burden == 0 && planner.may_turn_back(station()) && planner.is_cramped(station())) burden = kCrampedBurden;
+    if (burden == 0 && (best.lanes == 0 || !blocked)) best = here;
+    if (burden < least_burden || (burden == least_burden && !blocked)) {
       least_burden = burden;
       least_bad = here;
     }
@@ -124,8 +124,7 @@ StretchPlanner::StretchPlanner(const MapView& map, HullGeometry& geometry, Neigh
       rules_(map, vehicle_type),
       routes_(map, rules_),
       lane_times_s_(agents::lane_times_s(geometry.parts().facts(), neighbours.self())),
-      usual_costs_s_(options.one_way_aisles ? lane_costs_s(geometry.parts().facts(), neighbours.self())
-                                            : lane_times_s_) {}
+      usual_costs_s_(options.one_way_aisles ? lane_costs_s(geometry.parts(), neighbours.self()) : lane_times_s_) {}
 
 Stretch StretchPlanner::towards(const Path& standing, Budget budget, std::span<const Goal> goals) {
   bool loaded = carries_load(goals);
@@ -257,6 +256,10 @@ std::uint32_t StretchPlanner::best_place(const Path& standing, bool prefer_parki
   return best;
 }
 
+bool StretchPlanner::may_turn_back(std::uint32_t station) const {
+  return std::ranges::any_of(map_.lanes_from(station), [&](std::uint32_t lane) { return map_.two_way(lane); });
+}
+
 // Whether the other AGV, at the end of its way, could not turn while this AGV turns at `station`: each could lock the
 // other in.
 bool StretchPlanner::is_cramped(std::uint32_t station) {
@@ -268,8 +271,7 @@ bool StretchPlanner::is_cramped(std::uint32_t station) {
 
 bool StretchPlanner::is_cramped(std::uint32_t station, std::uint32_t agv, const Neighbour& n) {
   const std::uint32_t self = neighbours_.self();
-  return geometry_.turns_conflict(self, station, agv, end_of(map_, n.status.held).station) ||
-         (n.request_is_open() && geometry_.turns_conflict(self, station, agv, end_of(map_, n.request).station));
+  return geometry_.turns_conflict(self, station, agv, end_of(map_, n.status.held).station);
 }
 
 }  // namespace fleetproof::agents

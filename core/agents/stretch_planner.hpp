@@ -97,6 +97,7 @@ class StretchPlanner {
   void price_lanes(bool loaded, double waiting_s, double idle_s, const GoesFirst& goes_first);
   void price_station(std::uint32_t station, double extra_s);
   std::uint32_t best_place(const Path& standing, bool prefer_parking, double draw, const GoesFirst& goes_first);
+  bool may_turn_back(std::uint32_t station) const;
   bool is_cramped(std::uint32_t station);
   bool is_cramped(std::uint32_t station, std::uint32_t agv, const Neighbour& n);
   bool is_taken(std::uint32_t station);

@@ -114,6 +114,31 @@ TEST(WaitingPlaces, AreNotWhereABodyBlocksAOneWayLane) {
   }
 }
 
+// Beside a place where an AGV stands there is no room to turn: if it wants to turn as well, both stay for ever.
+TEST(CrampedPlaces, AreNoEndOfAStretch) {
+  DrawnMap drawn;
+  for (const double x_m : {0.0, 12.5, 16.0, 28.0}) drawn.station(x_m, 0);
+  const auto east = drawn.station(28, -20), west = drawn.station(0, -20), beside = drawn.station(12.5, 1.95),
+             north = drawn.station(12.5, 8);
+  for (const auto& [from, to] :
+       {std::pair(0U, 1U), {1, 2}, {2, 3}, {3, east}, {east, west}, {west, 0}, {beside, north}})
+    drawn.segment(from, to);
+  drawn.segment(north, 3);
+  const MapView map(drawn.map());
+  const TestFleet fleet(drawn.map(), 2);
+  HullGeometry geometry(map, fleet.briefing(0, 0));
+  Neighbours neighbours(map, geometry, fleet.briefing(0, 0));
+  StretchPlanner planner(map, geometry, neighbours, 0);
+  const std::vector<Goal> goals{{3, Leg::Kind::Pick}};
+  const auto end = [&] { return end_of(map, planner.towards({}, {40.0, kPathLanesMax}, goals).path).station; };
+  EXPECT_EQ(end(), 1U);
+  Message message;
+  message.status.stamp_ms = 1;
+  message.status.held.station = beside;
+  ASSERT_NE(neighbours.note(1, message, 0), Neighbours::News::Refused);
+  EXPECT_EQ(end(), 2U);
+}
+
 class Planning : public ::testing::Test {
  protected:
   Stretch towards(std::uint32_t from, std::vector<Goal> goals, double budget_m = 40.0) {
