@@ -8,6 +8,7 @@
 
 #include "core/outcome/trace_records.hpp"
 #include "core/outcome/work_and_progress.hpp"
+#include "laws/approach.hpp"
 #include "laws/fault_watch.hpp"
 #include "laws/standing_in_the_way.hpp"
 
@@ -16,6 +17,7 @@ namespace {
 
 constexpr int kLooksPerStuckAfter = 12;
 constexpr Duration kShortestLook = std::chrono::seconds(1);
+constexpr double kWayTakes = 2.0;        // times the time at top speed that a way may take without success
 constexpr std::uint64_t kOvertaken = 2;  // transports finished by each of the others, on average
 
 struct AgvState {
@@ -61,11 +63,13 @@ class ProgressLaw final : public Law {
  private:
   using Key = std::pair<IncidentKind, EntityId>;
 
+  void activity_began(const TraceRecord& record);
   void activity_ended(const TraceRecord& record);
   void order_released(const TraceRecord& record);
   void load_moves(const TraceRecord& record);
   void transport_over(TransportId transport, bool done, SimTime at);
   void advanced(AgvState& agv, SimTime at);
+  void fleet_advances(SimTime at);
   void look_before(SimTime t);
   void look(SimTime now);
   bool is_stalled(const AgvState& agv, SimTime now) const {
@@ -75,6 +79,7 @@ class ProgressLaw final : public Law {
   SimTime still_since(const AgvState& agv) const { return std::max(agv.still_since(), faults_.last()); }
   void look_for_deadlocks(SimTime now);
   void look_for_livelock(SimTime now);
+  Duration longest_way();
   void look_for_starvation(SimTime now);
   Wait wait_of(EntityId agv, SimTime now) const;
   void file_circle(const std::vector<EntityId>& circle, const std::map<EntityId, Wait>& waits, SimTime now);
@@ -87,6 +92,7 @@ class ProgressLaw final : public Law {
   Duration stuck_after_, look_every_;
   Whereabouts bodies_;
   FaultWatch faults_;
+  Approach approach_;
   std::vector<AgvState> agvs_;
   std::vector<TransportOrder> orders_;  // by number of the transport
   std::vector<std::uint32_t> owner_;    // likewise
@@ -105,6 +111,7 @@ ProgressLaw::ProgressLaw(const Scenario& scenario)
       look_every_(std::max(kShortestLook, stuck_after_ / kLooksPerStuckAfter)),
       bodies_(scenario),
       faults_(scenario),
+      approach_(scenario),
       agvs_(scenario.agvs.size()),
       next_look_(kStart + look_every_) {
   for (std::size_t i = 0; i < scenario.agvs.size(); ++i) {
@@ -139,6 +146,7 @@ void ProgressLaw::happened(const TraceRecord& record) {
       agv.busy = record.kind == TraceKind::ActivityBegins;
       agv.active_at = record.at;
       motions_ += agv.busy ? 1 : 0;
+      activity_began(record);
       break;
     }
     case TraceKind::Appears:
@@ -148,6 +156,12 @@ void ProgressLaw::happened(const TraceRecord& record) {
     default:
       break;
   }
+}
+
+void ProgressLaw::activity_began(const TraceRecord& record) {
+  if (record.kind != TraceKind::ActivityBegins) return;
+  const auto begins = read<traced::ActivityBegins>(record);
+  if (begins.activity == ActivityKind::Drive) approach_.drive_begins(record.entity, begins.segment());
 }
 
 void ProgressLaw::activity_ended(const TraceRecord& record) {
@@ -162,7 +176,11 @@ void ProgressLaw::comes_or_goes(const TraceRecord& record) {
   AgvState& agv = agvs_[record.entity.index()];
   agv.off_floor = record.kind == TraceKind::Leaves;
   agv.active_at = record.at;
-  if (agv.off_floor) bodies_.note_leaving(record.entity);
+  if (agv.off_floor) {
+    bodies_.note_leaving(record.entity);
+  } else {
+    approach_.set_down(record.entity, read<traced::Appears>(record).station);
+  }
 }
 
 void ProgressLaw::order_released(const TraceRecord& record) {
@@ -173,8 +191,7 @@ void ProgressLaw::order_released(const TraceRecord& record) {
     agv.others_done_then = done_ - agv.done;
   }
   if (fleet_idle) {
-    fleet_advanced_at_ = record.at;
-    motions_then_ = motions_;
+    fleet_advances(record.at);
   }
   released_ = read<traced::OrderReleased>(record).transport;
   agv.open.push_back(*released_);
@@ -205,9 +222,15 @@ void ProgressLaw::transport_over(TransportId transport, bool done, SimTime at) {
 }
 
 void ProgressLaw::advanced(AgvState& agv, SimTime at) {
-  agv.advanced_at = fleet_advanced_at_ = at;
+  agv.advanced_at = at;
   agv.others_done_then = done_ - agv.done;
+  fleet_advances(at);
+}
+
+void ProgressLaw::fleet_advances(SimTime at) {
+  fleet_advanced_at_ = at;
   motions_then_ = motions_;
+  approach_.begin_anew();
 }
 
 // A look sees everything that happens at its instant, in any order of the records.
@@ -308,11 +331,26 @@ void ProgressLaw::look_for_livelock(SimTime now) {
   const bool any_work = std::ranges::any_of(agvs_, &AgvState::has_work);
   const bool still =
       std::ranges::none_of(agvs_, [&](const AgvState& agv) { return agv.busy || now - agv.active_at < stuck_after_; });
-  if (!any_work || still || now - std::max(fleet_advanced_at_, faults_.last()) < 2 * stuck_after_ ||
-      motions_ == motions_then_)
-    return;
+  const Duration without_success = now - std::max(fleet_advanced_at_, faults_.last());
+  if (!any_work || still || without_success < 2 * stuck_after_ || motions_ == motions_then_) return;
+  if (without_success < 2 * stuck_after_ + longest_way()) return;
   goes_on(
       {IncidentKind::Livelock, {}, {}, fleet_advanced_at_, now, static_cast<std::int64_t>(motions_ - motions_then_)});
+}
+
+// The time that the fleet may take for the way by which one of its AGVs has come nearer to its goal. An AGV that is on
+// a long way gets on, even if it picks and delivers nothing meanwhile.
+Duration ProgressLaw::longest_way() {
+  double longest_s = 0.0;
+  for (std::size_t i = 0; i < agvs_.size(); ++i) {
+    const AgvState& agv = agvs_[i];
+    if (!agv.has_work()) continue;
+    const TransportOrder& order = orders_[agv.carried.value_or(agv.open.front()).index()];
+    const double gained_m = approach_.gained_m(EntityId{i}, agv.carried ? order.to : order.from);
+    const double speed_mps = scenario_.type_of(scenario_.agvs[i]).drive_with(agv.carried.has_value()).speed_mps;
+    longest_s = std::max(longest_s, kWayTakes * gained_m / speed_mps);
+  }
+  return seconds(longest_s);
 }
 
 void ProgressLaw::look_for_starvation(SimTime now) {

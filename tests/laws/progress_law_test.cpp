@@ -151,6 +151,25 @@ TEST_F(Progress, MovingToAndFroWithoutALoadIsALivelock) {
   EXPECT_EQ(found[0].value, 29);
 }
 
+// Twice the time of the way by which it came nearer, at 0.05 m/s: 240 s and 320 s for the 8 m to station 3, and nothing
+// for the way from there to station 4 and back.
+TEST_F(Progress, WhoIsOnALongWayHasTimeForIt) {
+  scenario_.vehicle_types[0].drive.speed_mps = 0.05;
+  for (const auto& [segments, finish_s, is_livelock] :
+       {std::tuple(std::vector<std::uint64_t>{1, 2, 3}, 545.0, false), {{1, 2, 3}, 590.0, true}, {{0}, 545.0, true}}) {
+    Told law = told();
+    both_released(law);
+    for (std::size_t i = 0; 15.0 + 20.0 * static_cast<double>(i) < finish_s; ++i) {
+      const std::uint64_t segment = segments[std::min(i, segments.size() - 1)];
+      const double at_s = 10.0 + 20.0 * static_cast<double>(i);
+      law.begins(at_s, 0, ActivityKind::Drive, segment).ends(at_s + 5.0, 0, ActivityKind::Drive);
+    }
+    const auto found = law.finish(finish_s).incidents;
+    EXPECT_EQ(!found.empty(), is_livelock) << finish_s;
+    EXPECT_TRUE(found.empty() || found[0].kind == Livelock);
+  }
+}
+
 // The same, but the AGV charges to the end in between; a charge that is cut short is no progress.
 TEST_F(Progress, AChargeToTheEndIsProgressAndOneThatIsCutShortIsNot) {
   for (const bool to_the_end : {true, false}) {

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "core/scenario/scenario.hpp"
+
+namespace fleetproof {
+
+// How much nearer AGVs have come to where they have to go, by the shortest way over the lanes of the map. Driving to
+// and fro brings nobody nearer.
+class Approach {
+ public:
+  // Requires: the scenario outlives the object.
+  explicit Approach(const Scenario& scenario);
+
+  // The AGV sets out along a segment. It counts as being at the other end already: a drive may take long.
+  void drive_begins(EntityId agv, SegmentId segment);
+  void set_down(EntityId agv, StationId at);
+  // From here on, what was gained before does not count.
+  void begin_anew();
+
+  // From the station where the AGV was then, to the one nearest to the goal that it has been at since. 0 if no way
+  // leads to the goal.
+  double gained_m(EntityId agv, StationId goal);
+
+ private:
+  double length_m(StationId from, StationId to);
+
+  const LogicalMap& map_;
+  std::vector<std::vector<StationId>> been_at_;  // by AGV, each station once; the first: at begin_anew()
+  std::vector<StationId> here_;                  // by AGV
+  std::map<std::pair<StationId, StationId>, double> lengths_m_;
+};
+
+}  // namespace fleetproof

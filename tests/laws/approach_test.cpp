@@ -1,0 +1,41 @@
+#include "laws/approach.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/worlds.hpp"
+
+namespace fleetproof::test {
+namespace {
+
+// Six stations in a row, 4 m apart; the AGV starts at station 1.
+class OnItsWay : public testing::Test {
+ protected:
+  Scenario scenario_ = row_scenario(6, {1, 5}, 600.0);
+  Approach approach_{scenario_};
+  const EntityId agv_{0U};
+};
+
+TEST_F(OnItsWay, DrivingToAndFroGainsNothing) {
+  for (int i = 0; i < 2; ++i) approach_.drive_begins(agv_, SegmentId{0U});
+  EXPECT_EQ(approach_.gained_m(agv_, StationId{4U}), 0.0);
+  EXPECT_EQ(approach_.gained_m(EntityId{1U}, StationId{4U}), 0.0);
+}
+
+TEST_F(OnItsWay, TheNearestPlaceSoFarCounts) {
+  approach_.drive_begins(agv_, SegmentId{1U});
+  approach_.drive_begins(agv_, SegmentId{2U});
+  approach_.drive_begins(agv_, SegmentId{2U});
+  EXPECT_DOUBLE_EQ(approach_.gained_m(agv_, StationId{4U}), 8.0);
+  approach_.begin_anew();
+  EXPECT_EQ(approach_.gained_m(agv_, StationId{4U}), 0.0) << "from station 2, where it is now";
+}
+
+TEST_F(OnItsWay, WhereTheOperatorSetsItDownItBeginsAnew) {
+  approach_.set_down(agv_, StationId{3U});
+  EXPECT_EQ(approach_.gained_m(agv_, StationId{4U}), 0.0);
+  approach_.drive_begins(agv_, SegmentId{3U});
+  EXPECT_DOUBLE_EQ(approach_.gained_m(agv_, StationId{4U}), 4.0);
+}
+
+}  // namespace
+}  // namespace fleetproof::test
