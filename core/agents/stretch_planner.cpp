@@ -55,6 +55,7 @@ struct StretchPlanner::Walk {
   double length_m = 0.0;
   bool blocked = false;  // it reaches floor that another AGV is known to hold
   End here, best, least_bad;
+  bool best_is_roomy = false;
   std::uint32_t least_burden = ~0U;
 
   std::uint32_t station() const { return end_of(planner.map_, stretch.path).station; }
@@ -84,9 +85,13 @@ struct StretchPlanner::Walk {
     if (here.lanes == 0) return;
     std::uint32_t burden = planner.places_.burden(station());
     // Two AGVs that stand so near to each other that none of them can turn may stay for ever.
-    if (burden == 0 && planner.may_turn_back(station()) && planner.is_cramped(station())) burden = kCrampedBurden;
-    if (burden == 0 && (best.lanes == 0 || !blocked)) best = here;
-    if (burden < least_burden || (burden == least_burden && !blocked)) {
+    const bool roomy = burden != 0 || !planner.is_cramped(station());
+    if (!roomy && planner.may_turn_back(station())) burden = kCrampedBurden;
+    if (burden == 0 && (best.lanes == 0 || (!blocked && (roomy || !best_is_roomy)))) {
+      best = here;
+      best_is_roomy = !blocked && roomy;
+    }
+    if (burden <= least_burden) {
       least_burden = burden;
       least_bad = here;
     }
