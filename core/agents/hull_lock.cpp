@@ -84,6 +84,7 @@ void HullLock::start() {
   fp_pose pose{};
   if (controller_.pose(pose)) standing.heading = {pose.heading_x, pose.heading_y};
   protocol_.stand(standing);
+  if (boot_ > 0) neighbours_.restarted_at(controller_.now_ns());
   started_s_ = now_s();
   if (boot_ > 0 && options_.holding.lanes_over_restarts) start_again(standing);
   tick();
@@ -352,7 +353,7 @@ void HullLock::request(Stretch stretch, Purpose purpose, std::int64_t demand_ns)
   purpose_ = purpose;
   requested_at_s_ = now_s();
   if (demand_ns < 0) demand_ns = demand_ns_;
-  if (!protocol_.request(stretch_.path, demand_ns < 0 ? controller_.now_ns() : demand_ns))
+  if (!protocol_.request(stretch_.path, demand_ns < 0 ? controller_.now_ns() : demand_ns, stretch_.onward))
     plan_after_s_ = now_s() + kRetryPlanning_s;
 }
 

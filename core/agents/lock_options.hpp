@@ -26,6 +26,7 @@ struct ConsentOptions {
   bool places_spread = true;                   // false: it has gone on as it did between its last two positions
   bool epochs_name_boot = true;                // false: a restarted AGV uses the numbers of its requests again
   bool epochs_grow = true;                     // false: 0 comes after 255
+  bool ways_are_heard = true;                  // an AGV counts on the newest way that it has heard of
 };
 
 // What a request does that has granted a conflicting one.

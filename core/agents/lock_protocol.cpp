@@ -8,15 +8,30 @@ namespace {
 
 constexpr double kRounding_m = 1e-6;  // of sums of lengths; the proof of distance has a margin of a metre
 
-// More than a third of the fleet gets one message together.
-constexpr std::size_t kFewerMessages = 3;
+// More than a third of the fleet gets one message together. Of repetitions, a STATE to all takes more than a twelfth:
+// it tells the others news as well.
+constexpr std::size_t kFewerMessages = 3, kFewerRepetitions = 12;
+// Stamps are ahead of the clock by less than this.
+constexpr std::uint32_t kFormerSelf_ms = 100;
 // A STATE is sent at the latest after this time. It is longer in large fleets, so that an AGV hears about as many of
 // them a second.
 constexpr double kQuiet_s = 1.0, kQuietPerAgv_s = 0.05, kLongestQuiet_s = 30.0;
 
 }  // namespace
 
-bool LockProtocol::request(const Path& stretch, std::int64_t demand_ns) {
+void LockProtocol::stand(const Path& standing) {
+  held_ = standing;
+  replace_way(end_of(map_, held_));
+}
+
+// A former self may have used stamps of the first instants of this boot.
+void LockProtocol::replace_way(const Path& way) {
+  const std::uint32_t first_ms = transmitter_.begin_new_stamp();
+  if (first_unused_ms_ == 0) first_unused_ms_ = boot_of(epoch_) > 0 ? first_ms + kFormerSelf_ms : first_ms;
+  way_.replace(way, std::max(first_ms, first_unused_ms_));
+}
+
+bool LockProtocol::request(const Path& stretch, std::int64_t demand_ns, std::span<const std::uint32_t> onward) {
   if (!continues_held(stretch)) {
     withdraw();
     return false;
@@ -25,8 +40,23 @@ bool LockProtocol::request(const Path& stretch, std::int64_t demand_ns) {
   request_.heading = end_of(map_, held_).heading;
   demand_ns_ = demand_ns;
   requesting_ = true;
+  announce(onward);
   open_epoch();
   return true;
+}
+
+// As far as the messages have room.
+void LockProtocol::announce(std::span<const std::uint32_t> onward) {
+  Path way = request_;
+  for (const std::uint32_t lane : onward) {
+    if (held_.count + way.count < kPathLanesMax) way.append(lane);
+  }
+  replace_way(way);
+}
+
+// Whether it has heard the way that contains the request. Then it counts on nothing that was announced before.
+bool LockProtocol::knows_request(const Neighbour& n) const {
+  return !options_.consent.ways_are_heard || n.heard_us_ms >= way_.since_ms(request_.count);
 }
 
 bool LockProtocol::continues_held(const Path& stretch) const {
@@ -225,6 +255,7 @@ bool LockProtocol::settle() {
   answer_those_deferred();
   if (!requesting_ || !own_place_known_ || !all_consent()) return false;
   for (const std::uint32_t lane : request_.lanes()) held_.append(lane);
+  way_.shorten(map_, request_.count);
   if (options_.grants.locks_end_after_ns > 0) locked_at_ns_ = controller_.now_ns();
   withdraw();
   return true;
@@ -269,7 +300,8 @@ bool LockProtocol::consents(std::uint32_t agv, const Neighbour& neighbour, std::
     controller_.sometimes("silence-taken-for-consent");
     return true;
   }
-  return neighbours_.surely_beyond(agv, request_, now_ns);
+  return knows_request(neighbour) &&
+         (neighbours_.surely_beyond(agv, request_, now_ns) || neighbours_.is_apart(agv, request_, epoch_));
 }
 
 // Whether this epoch has asked it and got no answer.
@@ -317,8 +349,8 @@ void LockProtocol::repeat() {
   if (std::any_of(due_.begin(), due_.end(), [](const Due& due) { return due.request; }))
     controller_.sometimes("retransmission");
   const double quiet_s = static_cast<double>(controller_.now_ns() - state_sent_ns_) * 1e-9;
-  if (due_.size() * kFewerMessages > neighbours_.fleet_count() || quiet_s > longest_quiet_s() || state_sent_ns_ < 0)
-    return broadcast_state();
+  const bool many = due_.size() > 1 && due_.size() * kFewerRepetitions > neighbours_.fleet_count();
+  if (many || quiet_s > longest_quiet_s() || state_sent_ns_ < 0) return broadcast_state();
   for (const Due& due : due_) {
     const Neighbour& n = neighbours_.of(due.agv);
     if (due.request) send_request(due.agv);
@@ -334,8 +366,7 @@ void LockProtocol::broadcast_state() {
   state_sent_ns_ = controller_.now_ns();
   Message message;
   fill_in(message.status);
-  // Others take the table as proof that the position is newer than what it acknowledges.
-  if (transmitter_.knows_position()) neighbours_.tell_heard_from(message.heard);
+  neighbours_.tell_heard_from(message.heard);
   if (requesting_) fill_in_request(message);
   fill_in_lists(message);
   transmitter_.send(message, FP_NONE);
@@ -362,6 +393,7 @@ void LockProtocol::send_answer(MessageKind kind, std::uint32_t receiver, Epoch e
   Message message;
   message.kind = kind;
   fill_in(message.status);
+  neighbours_.tell_heard_from(message.heard, receiver);
   message.echo = echo;
   transmitter_.send(message, receiver);
 }
@@ -369,6 +401,7 @@ void LockProtocol::send_answer(MessageKind kind, std::uint32_t receiver, Epoch e
 void LockProtocol::send_request(std::uint32_t receiver) {
   Message message = request_message();
   message.asked.add(entry_of(receiver));
+  neighbours_.tell_heard_from(message.heard, receiver);
   transmitter_.send(message, receiver);
 }
 
@@ -391,6 +424,7 @@ void LockProtocol::fill_in(Status& status) {
   status.requesting = requesting_;
   status.blocked = is_blocked();
   status.held = held_;
+  status.ahead = way_.path();
 }
 
 }  // namespace fleetproof::agents

@@ -8,17 +8,33 @@
 //   the request of j. (2) i is not inside an epoch towards j whose request conflicts, or i ends that epoch at once.
 // - A GRANT for f says that i decided so at some instant during f. Repeated GRANTs refer to the first decision that i
 //   remembers.
-// - i locks a path only if every other AGV j has granted the epoch e of i towards j, or is excluded. An AGV is excluded
-//   if i has proved at that instant that it is far away: nothing that it then holds or requests can conflict
-//   (Neighbours::surely_beyond). This covers every request, because a claim is never longer than longest_claim_m.
+// - Every message contains what its sender holds, and the way that it announces from there. The way begins with the
+//   request, if there is one.
+// - i locks a path only if every other AGV j has granted the epoch e of i towards j, or is excluded. To be excluded, j
+//   must have heard of the path: it has acknowledged a stamp of i from which on each message of i contained the path.
+//   And at that instant one of two things must be true:
+//   (far) i has proved that nothing that j then holds or requests can conflict (Neighbours::surely_beyond). This covers
+//   every request, because a claim is never longer than longest_claim_m.
+//   (apart) In the newest message of j that i knows, neither the held path nor the announced way conflicts. If i has
+//   restarted, j sent that message since (Neighbours::is_apart).
+//
+// What the newest message says
+// (N) j has asked i for its consent to Q in f, or has acknowledged nothing less: suppose that from the stamp s on, each
+//   message of j contained the lane Q until the instant t, as request, way or held path, and that i heard one of them
+//   before t. Then the newest message of j that i knows at t has the stamp s or a later one, so it contains Q, and j is
+//   not apart from a path of i that conflicts with Q. If i has restarted since it heard that message, what the new self
+//   takes as newest was sent after the restart, and so after s.
 //
 // Proof by contradiction. Suppose there is a first instant at which two AGVs hold conflicting hulls: i locked at t_i
 // and still holds it when j locks at t_j >= t_i. Let f be the epoch of j towards i that ends at t_j.
-// - If j excluded i at t_j, nothing that i held at t_j conflicts: contradiction. So i decided to grant f, at an instant
-//   s_i during f, and s_i <= t_j.
+// - j did not exclude i at t_j. It was not far, because it held what conflicts. Nor was it apart: before t_i, j had
+//   heard of the path that i then locked, because it had granted it or acknowledged it. Since then each message of i
+//   contained what i still holds of it at t_j, so (N) is true. So i decided to grant f, at an instant s_i during f, and
+//   s_i <= t_j.
 // - i holds the conflicting hull from t_i to t_j, so s_i < t_i by (1), and f lasts from s_i or before until t_j. At
-//   t_i, j thus requests what conflicts. So i did not exclude j at t_i, and j decided to grant the epoch e of i towards
-//   j that ends at t_i, at an instant s_j inside e.
+//   t_i, j thus requests what conflicts, and i had heard of it at s_i, so j was neither far nor, by (N), apart. So i
+//   did not exclude j at t_i, and j decided to grant the epoch e of i towards j that ends at t_i, at an instant s_j
+//   inside e.
 // - By (2), s_i is not inside e, because e would have ended there. So s_i lies before the beginning of e, and e lies
 //   inside f. With it, s_j is inside f. By (2), j ended f at s_j <= t_i <= t_j. So j could not lock at t_j with f:
 //   contradiction. (If all three are one instant, the activations of j still have an order.)
@@ -74,6 +90,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/agents/announced_way.hpp"
 #include "core/agents/controller.hpp"
 #include "core/agents/hull.hpp"
 #include "core/agents/lock_options.hpp"
@@ -101,7 +118,7 @@ class LockProtocol {
 
   // Call once at the start: the place where the AGV stands, and the lane that it is driving, if any. The AGV holds this
   // path.
-  void stand(const Path& standing) { held_ = standing; }
+  void stand(const Path& standing);
   // While the AGV does not know for certain what it covers, it grants nothing. Requires: nothing is requested
   // meanwhile.
   void know_own_place(bool known);
@@ -111,9 +128,10 @@ class LockProtocol {
   Epoch epoch() const { return epoch_; }
 
   // Requests `stretch` in addition to the held path. Replaces an open request. `demand_ns`: since when the AGV has
-  // wanted to go on. If two AGVs wait for each other, the older demand comes first.
+  // wanted to go on. If two AGVs wait for each other, the older demand comes first. `onward`: the lanes that the AGV
+  // means to drive afterwards. Announced early, they need no consent of AGVs with other ways.
   // False if `stretch` does not begin where the held path ends, or is too long. Nothing is requested then.
-  bool request(const Path& stretch, std::int64_t demand_ns);
+  bool request(const Path& stretch, std::int64_t demand_ns, std::span<const std::uint32_t> onward = {});
   void withdraw();
   // True if the held path begins with this lane. The AGV must drive no other lane.
   bool may_drive(std::uint32_t lane) const { return !held_.empty() && held_.lane_ids[0] == lane; }
@@ -148,6 +166,9 @@ class LockProtocol {
   enum class Answer : std::uint8_t { Grant, GrantAndStepBack, Defer };
 
   bool continues_held(const Path& stretch) const;
+  void announce(std::span<const std::uint32_t> onward);
+  void replace_way(const Path& way);
+  bool knows_request(const Neighbour& neighbour) const;
   void open_epoch();
   void receive_request(std::uint32_t sender, const Message& message);
   void answer_request(std::uint32_t sender);
@@ -189,6 +210,8 @@ class LockProtocol {
   bool own_place_known_ = true;
   bool requesting_ = false;
   Path request_;
+  std::uint32_t first_unused_ms_ = 0;  // the first stamp of which it is certain that no former self used it
+  AnnouncedWay way_;                   // from the end of the held path; begins with the request
   std::int64_t demand_ns_ = 0;
   Epoch epoch_;
   bool asked_ = false;                 // every AGV that had to be asked when this epoch began has been asked

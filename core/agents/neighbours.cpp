@@ -42,6 +42,9 @@ Neighbours::News Neighbours::note(std::uint32_t sender, const Message& message, 
   if (sender >= fleet_count() || sender == self_ || !is_driveable(map_, status.held)) return News::Refused;
   if (status.requesting && number_of(status.epoch) == 0) return News::Refused;
   if (message.has_request() && !is_driveable(map_, message.request)) return News::Refused;
+  Path ahead = end_of(map_, status.held);
+  for (const std::uint32_t lane : status.ahead.lanes()) ahead.append(lane);
+  if (!is_driveable(map_, ahead)) return News::Refused;
   Neighbour& n = neighbours_[sender];
   News news = News::Same;
   const std::uint32_t boot = boot_of(status.epoch), newest_boot = boot_of(n.status.epoch);
@@ -49,16 +52,19 @@ Neighbours::News Neighbours::note(std::uint32_t sender, const Message& message, 
       !n.known || boot > newest_boot || (boot == newest_boot && status.stamp_ms >= n.status.stamp_ms);
   if (is_newest) {
     const Status& before = n.status;
-    const bool same = n.known && before.waiting == status.waiting && before.blocked == status.blocked &&
-                      before.out_of_order == status.out_of_order && before.held == status.held;
+    const bool same_held = n.known && before.held == status.held;
+    const bool same = same_held && before.waiting == status.waiting && before.blocked == status.blocked &&
+                      before.out_of_order == status.out_of_order;
     if (!same) news = News::Changed;
+    if (!same_held || !(before.ahead == ahead)) ++n.way_changes;
     n.status = status;
+    n.status.ahead = ahead;
   }
   n.known = true;
   const Epoch closed = status.requesting ? status.epoch - 1 : next_request(status.epoch) - 1;
   n.closed_epoch = std::max(n.closed_epoch, closed);
   if (message.has_request()) note_request(n, message, is_newest);
-  if (message.kind == MessageKind::State) note_acknowledgement(n, message, now_ns);
+  note_acknowledgement(n, message, now_ns);
   return news;
 }
 
@@ -82,7 +88,14 @@ void Neighbours::note_acknowledgement(Neighbour& neighbour, const Message& messa
   if (self_ < heard.first || self_ - heard.first >= heard.count) return;
   const std::int64_t stamp_ms = heard.stamps_ms[self_ - heard.first];
   const std::int64_t sent_ns = (stamp_ms - 1) * 1'000'000;
-  if (stamp_ms == 0 || sent_ns > now_ns || sent_ns < neighbour.proved.after_ns) return;
+  neighbour.heard_us_ms = std::max(neighbour.heard_us_ms, static_cast<std::uint32_t>(stamp_ms));
+  if (stamp_ms == 0 || sent_ns > now_ns) return;
+  neighbour.is_fresh = neighbour.is_fresh || stamp_ms >= fresh_from_ms_;
+  if (message.status.position_is_new) note_place(neighbour, message, sent_ns);
+}
+
+void Neighbours::note_place(Neighbour& neighbour, const Message& message, std::int64_t sent_ns) {
+  if (sent_ns < neighbour.proved.after_ns) return;
   if (!places_spread_ && neighbour.proved.after_ns >= 0 && sent_ns > neighbour.proved.after_ns) {
     const double apart_s = static_cast<double>(sent_ns - neighbour.proved.after_ns) * 1e-9;
     neighbour.proved.velocity_mps = (message.status.position_m - neighbour.proved.position_m) * (1.0 / apart_s);
@@ -102,6 +115,23 @@ bool Neighbours::surely_beyond(std::uint32_t agv, const Path& path, std::int64_t
   if (length(position_m - map_.position_m(path.station)) <= needed_m)
     return false;  // mostly; saves looking at all parts
   return geometry_.distance_bound_m(position_m, self_, path) > needed_m;
+}
+
+bool Neighbours::is_apart(std::uint32_t agv, const Path& path, Epoch request) {
+  Neighbour& n = neighbours_[agv];
+  if (!n.known || !(n.is_fresh || fresh_from_ms_ == 0)) return false;
+  if (n.apart.request != request || n.apart.way_changes != n.way_changes) {
+    n.apart = {request, n.way_changes, false};
+    n.apart.is = !geometry_.conflict(self_, path, agv, n.status.held) &&
+                 (n.status.ahead.empty() || !geometry_.conflict(self_, path, agv, n.status.ahead));
+  }
+  return n.apart.is;
+}
+
+void Neighbours::tell_heard_from(HeardFrom& heard, std::uint32_t agv) const {
+  heard.first = agv;
+  heard.count = 1;
+  heard.stamps_ms[0] = neighbours_[agv].status.stamp_ms;
 }
 
 void Neighbours::tell_heard_from(HeardFrom& heard) {

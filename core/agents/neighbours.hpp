@@ -41,6 +41,18 @@ struct Neighbour {
   };
   ProvedPlace proved;
 
+  // What it knows about the way of this AGV, and this AGV about its way.
+  std::uint32_t heard_us_ms = 0;  // the newest stamp of this AGV that it says to have heard
+  bool is_fresh = false;          // its newest status was sent since this boot of this AGV
+  std::uint32_t way_changes = 0;  // how often its held or its announced way changed
+  // The last answer of is_apart, and of what.
+  struct Apart {
+    Epoch request = 0;
+    std::uint32_t way_changes = 0;
+    bool is = false;
+  };
+  Apart apart;
+
   // Its newest request, and the answer of this AGV.
   Epoch request_epoch = 0;
   Epoch closed_epoch = 0;  // requests up to this epoch are over
@@ -101,6 +113,15 @@ class Neighbours {
   // clock, and the error and the delay of the position that the other AGV perceived.
   bool surely_beyond(std::uint32_t agv, const Path& path, std::int64_t now_ns);
 
+  // True only if the held path and the announced way of `agv`, as it told them since this boot, keep clear of the own
+  // hull of `path`. `request`: the epoch in which this AGV requests `path`.
+  bool is_apart(std::uint32_t agv, const Path& path, Epoch request);
+  // After a restart: what other AGVs sent before they heard a message of this instant or later may be older than this
+  // boot. Then it does not say where they may drive now.
+  void restarted_at(std::int64_t now_ns) { fresh_from_ms_ = stamp_ms(now_ns); }
+
+  // Fills in the newest stamp of one AGV.
+  void tell_heard_from(HeardFrom& heard, std::uint32_t agv) const;
   // Fills in the next part of the table of newest stamps. The table of a large fleet needs several messages.
   void tell_heard_from(HeardFrom& heard);
 
@@ -111,7 +132,9 @@ class Neighbours {
 
  private:
   void note_request(Neighbour& neighbour, const Message& message, bool is_newest);
+  void note_status(Neighbour& neighbour, const Status& status);
   void note_acknowledgement(Neighbour& neighbour, const Message& message, std::int64_t now_ns);
+  void note_place(Neighbour& neighbour, const Message& message, std::int64_t sent_ns);
 
   const MapView& map_;
   HullGeometry& geometry_;
@@ -121,6 +144,7 @@ class Neighbours {
   double position_margin_m_, position_late_s_;
   double claim_m_;
   bool proofs_age_, places_spread_;
+  std::uint32_t fresh_from_ms_ = 0;
   std::uint32_t next_heard_ = 0;
 };
 

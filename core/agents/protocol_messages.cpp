@@ -13,13 +13,13 @@ constexpr double kPerMetre = 1000.0;   // positions travel as millimetres
 constexpr double kPerUnit = 32767.0;   // headings as 15-bit fractions
 
 constexpr std::uint64_t kRequesting = 1, kWaiting = 2, kIdle = 4, kOutOfOrder = 8, kBlocked = 16;  // bits of the flags
-constexpr std::uint64_t kEpochHasBoot = 32, kEchoHasBoot = 64;
+constexpr std::uint64_t kEpochHasBoot = 32, kEchoHasBoot = 64, kPositionIsNew = 128;
 constexpr std::uint64_t kGranted = 1;  // of an answer; beside kEchoHasBoot
 
 std::uint64_t flags_of(const Message& message) {
   const Status& s = message.status;
   return (s.requesting ? kRequesting : 0U) | (s.waiting ? kWaiting : 0U) | (s.idle ? kIdle : 0U) |
-         (s.out_of_order ? kOutOfOrder : 0U) | (s.blocked ? kBlocked : 0U) |
+         (s.out_of_order ? kOutOfOrder : 0U) | (s.blocked ? kBlocked : 0U) | (s.position_is_new ? kPositionIsNew : 0U) |
          (boot_of(s.epoch) > 0 ? kEpochHasBoot : 0U) | (boot_of(message.echo) > 0 ? kEchoHasBoot : 0U);
 }
 
@@ -68,9 +68,13 @@ class Reader {
     const double norm = length(heading);
     if (!(norm > 0.99 && norm < 1.01)) return fail();
     path.heading = heading * (1.0 / norm);
-    const std::uint64_t count = take<std::uint8_t>();
-    if (count > kPathLanesMax) return fail();
-    for (std::uint64_t i = 0; i < count; ++i) path.append(take<std::uint16_t>());
+    take_lanes(path, kPathLanesMax);
+  }
+
+  void take_lanes(Path& path, std::uint32_t most) {
+    const std::uint32_t count = take<std::uint8_t>();
+    if (count > most) return fail();
+    for (std::uint32_t i = 0; i < count; ++i) path.append(take<std::uint16_t>());
   }
 
   void take_heard(HeardFrom& heard) {
@@ -128,11 +132,10 @@ WireMessage::WireMessage(const Message& message) {
   put<std::uint8_t>(flags_of(message));
   put_epoch(status.epoch);
   put_path(status.held);
+  put_lanes(status.ahead);
+  put_heard(message.heard);
   switch (message.kind) {
     case MessageKind::State:
-      put<std::uint16_t>(message.heard.first);
-      put<std::uint8_t>(message.heard.count);
-      for (std::uint32_t i = 0; i < message.heard.count; ++i) put<std::uint32_t>(message.heard.stamps_ms[i]);
       put_answers(message.answers);
       if (status.requesting) put_request(message);
       break;
@@ -175,8 +178,18 @@ void WireMessage::put_path(const Path& path) {
   put<std::uint16_t>(path.station);
   put<std::uint16_t>(rounded(path.heading.x * kPerUnit));
   put<std::uint16_t>(rounded(path.heading.y * kPerUnit));
+  put_lanes(path);
+}
+
+void WireMessage::put_lanes(const Path& path) {
   put<std::uint8_t>(path.count);
   for (const std::uint32_t lane : path.lanes()) put<std::uint16_t>(lane);
+}
+
+void WireMessage::put_heard(const HeardFrom& heard) {
+  put<std::uint16_t>(heard.first);
+  put<std::uint8_t>(heard.count);
+  for (std::uint32_t i = 0; i < heard.count; ++i) put<std::uint32_t>(heard.stamps_ms[i]);
 }
 
 std::optional<Message> decode(std::span<const std::byte> bytes) {
@@ -195,11 +208,13 @@ std::optional<Message> decode(std::span<const std::byte> bytes) {
   status.idle = (flags & kIdle) != 0;
   status.out_of_order = (flags & kOutOfOrder) != 0;
   status.blocked = (flags & kBlocked) != 0;
+  status.position_is_new = (flags & kPositionIsNew) != 0;
   status.epoch = reader.take_epoch((flags & kEpochHasBoot) != 0);
   reader.take_path(status.held);
+  reader.take_lanes(status.ahead, kPathLanesMax - status.held.count);
+  reader.take_heard(message.heard);
   switch (message.kind) {
     case MessageKind::State:
-      reader.take_heard(message.heard);
       reader.take_answers(message.answers);
       if (status.requesting) reader.take_request(message);
       break;

@@ -41,13 +41,15 @@ constexpr std::uint32_t number_of(Epoch epoch) { return static_cast<std::uint32_
 struct Status {
   std::uint32_t stamp_ms = 0;  // the sender's clock at the instant of sending
   Vec position_m;
-  Epoch epoch = 0;          // of its newest request
-  bool requesting = false;  // that request is still open
-  bool blocked = false;     // an AGV stands and waits inside the hull of that request
-  bool waiting = false;     // it stands and can only wait for a lock
-  bool idle = false;        // it is waiting and has no transport
+  bool position_is_new = true;  // perceived at the instant of sending
+  Epoch epoch = 0;              // of its newest request
+  bool requesting = false;      // that request is still open
+  bool blocked = false;         // an AGV stands and waits inside the hull of that request
+  bool waiting = false;         // it stands and can only wait for a lock
+  bool idle = false;            // it is waiting and has no transport
   bool out_of_order = false;
-  Path held;  // the path whose hull it holds
+  Path held;   // the path whose hull it holds
+  Path ahead;  // the way that it announces from there. On the wire only its lanes
 };
 
 // The newest stamps that the sender has seen on messages of the AGVs first, first + 1, ...; 0: no message yet.
@@ -112,8 +114,8 @@ struct Message {
   std::int64_t demand_ns = 0;  // since when the sender has wanted to go on
   Path request;                // the path to lock, from the end of the held path. Its epoch is status.epoch
   Asked asked;
+  HeardFrom heard;  // in a message to one AGV: only of that one
   // State
-  HeardFrom heard;
   Answers answers;
   // Grant, Defer
   Epoch echo = 0;  // the epoch of the answered request
@@ -133,6 +135,8 @@ class WireMessage {
   void put(std::uint64_t value);
   void put_epoch(Epoch epoch);
   void put_path(const Path& path);
+  void put_lanes(const Path& path);
+  void put_heard(const HeardFrom& heard);
   void put_request(const Message& message);
   void put_answers(const Answers& answers);
 

@@ -10,11 +10,14 @@ namespace {
 
 constexpr double kLookAhead_m = 12.0;
 constexpr std::uint32_t kLookAheadLanes = 3;
+constexpr double kOnward_m = 40.0;  // what is announced beyond a stretch
 
 // The price of a place at which another AGV stands or arrives: roughly the time until that AGV has moved.
 constexpr double kArrivingCost_s = 8.0;
 constexpr double kIdleCost_s = 10.0;
 constexpr double kWaitingCost_s = 20.0;
+// Of a lane on which it would meet an AGV that has announced the other direction: one of them would have to go back.
+constexpr double kMeetingCost_s = 60.0;
 constexpr double kNoWayCost_s = 1000.0;
 // In a row of chargers, wide AGVs cannot turn beside each other. An AGV would rather hold up others there than run
 // empty.
@@ -132,6 +135,30 @@ StretchPlanner::StretchPlanner(const MapView& map, HullGeometry& geometry, Neigh
       usual_costs_s_(options.one_way_aisles ? lane_costs_s(geometry.parts(), neighbours.self()) : lane_times_s_) {}
 
 Stretch StretchPlanner::towards(const Path& standing, Budget budget, std::span<const Goal> goals) {
+  Stretch stretch = first_stretch(standing, budget, goals);
+  if (!stretch.empty()) stretch.onward = way_on(end_of(map_, stretch.path), goals.subspan(stretch.goals));
+  return stretch;
+}
+
+// Beyond a stretch, as far as it is worth announcing.
+std::vector<std::uint32_t> StretchPlanner::way_on(Path from, std::span<const Goal> goals) {
+  std::vector<std::uint32_t> lanes;
+  double length_m = 0.0;
+  for (const Goal& goal : goals) {
+    if (length_m >= kOnward_m) break;
+    routes_.search(from.station, from.heading, costs_s_, goal.station);
+    for (const std::uint32_t lane : routes_.lanes(goal.station)) {
+      if (length_m >= kOnward_m) break;
+      lanes.push_back(lane);
+      length_m += map_.lane(lane).length_m;
+      from.heading = map_.end_heading(lane);
+    }
+    from.station = goal.station;
+  }
+  return lanes;
+}
+
+Stretch StretchPlanner::first_stretch(const Path& standing, Budget budget, std::span<const Goal> goals) {
   bool loaded = carries_load(goals);
   price_lanes(loaded, kWaitingCost_s, kIdleCost_s, {});
   Walk walk(*this, standing, budget);
@@ -217,7 +244,18 @@ void StretchPlanner::price_lanes(bool loaded, double waiting_s, double idle_s, c
     const bool wall = status.out_of_order || (status.waiting && goes_first && goes_first(agv, n));
     const double extra_s = wall ? kNoWayCost_s : !status.waiting ? kArrivingCost_s : status.idle ? idle_s : waiting_s;
     price_station(end_of(map_, status.held).station, extra_s);
+    price_meetings(status.held);
+    price_meetings(status.ahead);
   });
+}
+
+void StretchPlanner::price_meetings(const Path& other) {
+  for (const std::uint32_t lane : other.lanes()) {
+    const fp_lane& driven = map_.lane(lane);
+    for (const std::uint32_t back : map_.lanes_from(driven.to)) {
+      if (map_.lane(back).segment == driven.segment) costs_s_[back] += kMeetingCost_s;
+    }
+  }
 }
 
 void StretchPlanner::price_station(std::uint32_t station, double extra_s) {

@@ -52,7 +52,8 @@ bool carries_load(std::span<const Goal> goals);
 struct Stretch {
   Path path;
   std::vector<Leg> legs;
-  std::uint32_t goals = 0;  // the number of goals that the stretch reaches
+  std::uint32_t goals = 0;            // the number of goals that the stretch reaches
+  std::vector<std::uint32_t> onward;  // the lanes that the AGV means to drive afterwards
   bool empty() const { return path.empty(); }
 };
 
@@ -79,7 +80,7 @@ class StretchPlanner {
   WaitingPlaces& places() { return places_; }
   double lane_time_s(std::uint32_t lane) const { return lane_times_s_[lane]; }
 
-  // A stretch from `standing` towards the goals. Empty if there is no way to the first goal.
+  // A stretch from `standing` towards the goals, and the way on. Empty if there is no way to the first goal.
   Stretch towards(const Path& standing, Budget budget, std::span<const Goal> goals);
   // A stretch to a place where the AGV blocks no other AGV, as far as is known. Empty if there is none. `draw` in [0,
   // 1) varies the choice. The place keeps clear of the requests of all AGVs that go first, and the way keeps clear of
@@ -94,8 +95,12 @@ class StretchPlanner {
  private:
   struct Walk;
 
+  Stretch first_stretch(const Path& standing, Budget budget, std::span<const Goal> goals);
+  std::vector<std::uint32_t> way_on(Path from, std::span<const Goal> goals);
+
   void price_lanes(bool loaded, double waiting_s, double idle_s, const GoesFirst& goes_first);
   void price_station(std::uint32_t station, double extra_s);
+  void price_meetings(const Path& other);
   std::uint32_t best_place(const Path& standing, bool prefer_parking, double draw, const GoesFirst& goes_first);
   bool may_turn_back(std::uint32_t station) const;
   bool is_cramped(std::uint32_t station);

@@ -1,5 +1,7 @@
 #include "core/agents/transmitter.hpp"
 
+#include <algorithm>
+
 #include "core/agents/message_text.hpp"
 #include "core/agents/neighbours.hpp"
 
@@ -18,11 +20,17 @@ void Transmitter::fill_in(Status& status) {
     position_m_ = {pose.x_m, pose.y_m};
     position_at_ns_ = now_ns;
   }
-  status.stamp_ms = Neighbours::stamp_ms(now_ns);
+  status.stamp_ms = stamp_ms_ = std::max(stamp_ms_, Neighbours::stamp_ms(now_ns));
   status.position_m = position_m_;
+  status.position_is_new = position_at_ns_ == now_ns;
   status.waiting = waiting_;
   status.idle = idle_;
   status.out_of_order = out_of_order_;
+}
+
+std::uint32_t Transmitter::begin_new_stamp() {
+  stamp_ms_ = std::max(stamp_ms_ + 1, Neighbours::stamp_ms(controller_.now_ns()));
+  return stamp_ms_;
 }
 
 void Transmitter::send(const Message& message, std::uint32_t receiver) {

@@ -16,8 +16,9 @@ class Transmitter {
   void describe(bool waiting, bool idle, bool out_of_order);
   // Fills in that state, the instant and the position.
   void fill_in(Status& status);
-  // Whether the position in messages is that of this instant.
-  bool knows_position() { return position_at_ns_ == controller_.now_ns(); }
+  // The next messages say something new: they get a stamp that no message had before. It is returned, and may be
+  // ahead of the clock by a few milliseconds.
+  std::uint32_t begin_new_stamp();
   // To all AGVs if the receiver is FP_NONE.
   void send(const Message& message, std::uint32_t receiver);
 
@@ -26,6 +27,7 @@ class Transmitter {
   bool waiting_ = true, idle_ = true, out_of_order_ = false;
   Vec position_m_;
   std::int64_t position_at_ns_ = -1;
+  std::uint32_t stamp_ms_ = 0;  // the next message has this one or a later one
 };
 
 }  // namespace fleetproof::agents

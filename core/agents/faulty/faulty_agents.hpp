@@ -33,6 +33,7 @@ extern const fp_agent_type kStaleGrant;
 extern const fp_agent_type kStraightOn;
 extern const fp_agent_type kTieWithoutNumber;
 extern const fp_agent_type kTimeoutGrant;
+extern const fp_agent_type kUnheardWay;
 extern const fp_agent_type kWrapsAt256;
 
 }  // namespace fleetproof::agents
