@@ -1,7 +1,7 @@
 #include "storage/archive_reader.hpp"
 
 #include <SQLiteCpp/Database.h>
-#include <SQLiteCpp/Statement.h>
+#include <SQLiteCpp/Exception.h>
 #include <fmt/format.h>
 
 #include <array>
@@ -11,10 +11,12 @@
 #include "storage/checksum.hpp"
 #include "storage/opened_file.hpp"
 #include "storage/plan_rows.hpp"
+#include "storage/query.hpp"
 #include "storage/rows.hpp"
 #include "storage/schema.hpp"
 #include "storage/snapshot.hpp"
 #include "storage/sqlite_errors.hpp"
+#include "storage/table_pages.hpp"
 
 namespace fleetproof {
 namespace {
@@ -23,28 +25,25 @@ namespace {
 struct PartTable {
   const char* name;
   std::string (*values)(std::int32_t schema);
-  void (*take)(const SQLite::Statement& row, Outcome& outcome);
+  void (*take)(const Row& row, Outcome& outcome);
 };
 
 const std::array<PartTable, 3>& part_tables() {
   static const std::array<PartTable, 3> tables{{
-      {"violations", violation_values,
-       [](const SQLite::Statement& row, Outcome& o) { o.violations.push_back(read_violation(row)); }},
+      {"violations", violation_values, [](const Row& row, Outcome& o) { o.violations.push_back(read_violation(row)); }},
       {"incidents", [](std::int32_t) { return std::string(kIncidentColumns); },
-       [](const SQLite::Statement& row, Outcome& o) { o.incidents.push_back(read_incident(row)); }},
+       [](const Row& row, Outcome& o) { o.incidents.push_back(read_incident(row)); }},
       {"probes", [](std::int32_t) { return std::string(kProbeColumns); },
-       [](const SQLite::Statement& row, Outcome& o) { o.probes.push_back(read_probe(row)); }},
+       [](const Row& row, Outcome& o) { o.probes.push_back(read_probe(row)); }},
   }};
   return tables;
 }
 
-std::uint64_t run_of(const SQLite::Statement& part) {
-  return std::bit_cast<std::uint64_t>(part.getColumn(0).getInt64());
-}
+std::uint64_t run_of(const Row& part) { return std::bit_cast<std::uint64_t>(part.number(0)); }
 
-std::optional<std::uint64_t> maybe(const SQLite::Column& column) {
-  if (column.isNull()) return std::nullopt;
-  return std::bit_cast<std::uint64_t>(column.getInt64());
+std::optional<std::uint64_t> maybe(const Query& row, const char* name) {
+  const int column = row.column_of(name);
+  return row.is_null(column) ? std::nullopt : std::optional(std::bit_cast<std::uint64_t>(row.number(column)));
 }
 
 }  // namespace
@@ -64,19 +63,18 @@ struct ArchiveReader::Impl {
 
   void open();
   void read_plan();
-  StoredRun take_run(const SQLite::Statement& row) const;
-  void take_part(const PartTable& table, const SQLite::Statement& row, StoredRun& stored) const;
+  StoredRun take_run(const Row& row) const;
+  void take_part(const PartTable& table, const Row& row, StoredRun& stored) const;
   void verify(const StoredRun& stored) const;
   void require_sealed(std::uint64_t count, const RowsDigest& rows, SealedContent& content) const;
   std::vector<ChunkRecord> stored_chunks() const;
   void require_content(std::uint64_t count, std::uint64_t content) const;
   void add_rest(SealedContent& content) const;
-  std::uint64_t read_all(const std::function<void(const RunRecord&)>& visit,
-                         const VisitFolded& visit_folded = {}) const;
-  std::uint64_t read_rows(const std::function<void(const RunRecord&)>& visit) const;
+  std::uint64_t read_all(const VisitRun& visit, const VisitFolded& visit_folded = {}) const;
+  std::uint64_t read_rows(const VisitRun& visit) const;
   class Rows;
-  std::uint64_t read_folded_file(const std::function<void(const RunRecord&)>& visit,
-                                 const VisitFolded& visit_folded) const;
+  std::unique_ptr<RowSource> rows_of(const char* table, const std::string& values, const char* key) const;
+  std::uint64_t read_folded_file(const VisitRun& visit, const VisitFolded& visit_folded) const;
 
   // Turns errors of SQLite into errors of this program.
   template <class Action>
@@ -105,34 +103,33 @@ void ArchiveReader::Impl::open() {
 void ArchiveReader::Impl::read_plan() {
   const char* const fold_values = schema < kFirstFolded ? "NULL AS all_rows, NULL AS repeated"
                                                         : "rows_digest AS all_rows, repeated_traces AS repeated";
-  SQLite::Statement row(*db, fmt::format("SELECT {}, run_count, {}, {} AS seal FROM campaign", campaign_values(schema),
-                                         fold_values, schema < kFirstSealed ? "rows_digest" : "seal"));
-  if (!row.executeStep()) damaged("it holds no plan");
+  Query row(*db, fmt::format("SELECT {}, run_count, {}, {} AS seal FROM campaign", campaign_values(schema), fold_values,
+                             schema < kFirstSealed ? "rows_digest" : "seal"));
+  if (!row.step()) damaged("it holds no plan");
   campaign = read_campaign(row);
   if (campaign.chunk_runs == 0) damaged("its chunks have no runs");
   plan = read_plan_checksum(row);
-  sealed_count = maybe(row.getColumn("run_count"));
-  if (const auto all_rows = maybe(row.getColumn("all_rows")))
-    fold = {0, *all_rows, maybe(row.getColumn("repeated")).value_or(0), 0, 0};
-  seal = maybe(row.getColumn("seal"));
+  sealed_count = maybe(row, "run_count");
+  if (const auto all_rows = maybe(row, "all_rows")) fold = {0, *all_rows, maybe(row, "repeated").value_or(0), 0, 0};
+  seal = maybe(row, "seal");
   if (published && !(sealed_count && seal)) damaged("it was published, but has no seal");
-  SQLite::Statement cell_rows(*db, fmt::format("SELECT {} FROM cells ORDER BY cell", cell_values(schema)));
-  while (cell_rows.executeStep()) cells.push_back(read_cell(cell_rows));
-  SQLite::Statement gate_rows(*db, fmt::format("SELECT {} FROM gates ORDER BY gate", gate_values(schema)));
-  while (gate_rows.executeStep()) gates.push_back(read_gate(gate_rows));
+  Query cell_rows(*db, fmt::format("SELECT {} FROM cells ORDER BY cell", cell_values(schema)));
+  while (cell_rows.step()) cells.push_back(read_cell(cell_rows));
+  Query gate_rows(*db, fmt::format("SELECT {} FROM gates ORDER BY gate", gate_values(schema)));
+  while (gate_rows.step()) gates.push_back(read_gate(gate_rows));
   if (checksums == Checksums::Verify && plan_checksum(campaign, cells, gates, schema) != plan)
     damaged("its plan (campaign, cells, gates) does not match its checksum");
 }
 
-StoredRun ArchiveReader::Impl::take_run(const SQLite::Statement& row) const {
+StoredRun ArchiveReader::Impl::take_run(const Row& row) const {
   try {
     return read_run(row);
   } catch (const EngineError& e) {
-    damaged(fmt::format("run {}: {}", row.getColumn(0).getInt64(), e.what()));
+    damaged(fmt::format("run {}: {}", row.number(0), e.what()));
   }
 }
 
-void ArchiveReader::Impl::take_part(const PartTable& table, const SQLite::Statement& row, StoredRun& stored) const {
+void ArchiveReader::Impl::take_part(const PartTable& table, const Row& row, StoredRun& stored) const {
   try {
     table.take(row, stored.run.outcome);
   } catch (const EngineError& e) {
@@ -153,8 +150,8 @@ void ArchiveReader::Impl::verify(const StoredRun& stored) const {
 
 std::vector<ChunkRecord> ArchiveReader::Impl::stored_chunks() const {
   std::vector<ChunkRecord> stored;
-  SQLite::Statement rows(*db, fmt::format("SELECT {} FROM chunks ORDER BY chunk", kChunkColumns));
-  while (rows.executeStep()) stored.push_back(read_chunk(rows));
+  Query rows(*db, fmt::format("SELECT {} FROM chunks ORDER BY chunk", kChunkColumns));
+  while (rows.step()) stored.push_back(read_chunk(rows));
   return stored;
 }
 
@@ -179,29 +176,36 @@ void ArchiveReader::Impl::require_sealed(std::uint64_t count, const RowsDigest& 
   require_content(count, content.digest());
 }
 
+// A live file has a log beside it, and an older schema has other columns.
+std::unique_ptr<RowSource> ArchiveReader::Impl::rows_of(const char* table, const std::string& values,
+                                                        const char* key) const {
+  if (published && schema == kSchemaVersion) {
+    if (auto pages = TablePages::open(*db, path, table, values)) return pages;
+  }
+  return std::make_unique<Query>(*db, fmt::format("SELECT {} FROM {} ORDER BY {}", values, table, key));
+}
+
 // The rows of runs with their parts. The tables are stored in the order of their keys, so one pass over each is enough.
 class ArchiveReader::Impl::Rows {
  public:
-  explicit Rows(const Impl& file)
-      : file_(file), runs_(*file.db, fmt::format("SELECT {} FROM runs ORDER BY run_index", run_values(file.schema))) {
+  explicit Rows(const Impl& file) : file_(file), runs_(file.rows_of("runs", run_values(file.schema), "run_index")) {
     for (const auto& table : part_tables()) {
-      SQLite::Statement rows(*file.db, fmt::format("SELECT {} FROM {} ORDER BY run_index, ordinal",
-                                                   table.values(file.schema), table.name));
-      const bool more = rows.executeStep();
+      auto rows = file.rows_of(table.name, table.values(file.schema), "run_index, ordinal");
+      const bool more = rows->step();
       parts_.push_back({table, std::move(rows), more});
     }
   }
 
   // Nothing after the last. The checksum was right.
   std::optional<StoredRun> next() {
-    if (!runs_.executeStep()) {
+    if (!runs_->step()) {
       require_end();
       return std::nullopt;
     }
-    auto stored = file_.take_run(runs_);
+    auto stored = file_.take_run(*runs_);
     for (auto& part : parts_) {
-      for (; part.more && run_of(part.rows) == stored.run.run_index; part.more = part.rows.executeStep())
-        file_.take_part(part.table, part.rows, stored);
+      for (; part.more && run_of(*part.rows) == stored.run.run_index; part.more = part.rows->step())
+        file_.take_part(part.table, *part.rows, stored);
     }
     file_.verify(stored);
     digest_.add(stored.checksum);
@@ -212,25 +216,24 @@ class ArchiveReader::Impl::Rows {
  private:
   struct Part {
     const PartTable& table;
-    SQLite::Statement rows;
+    std::unique_ptr<RowSource> rows;
     bool more;
   };
   void require_end() const {
     for (const auto& part : parts_) {
       if (part.more)
-        file_.damaged(fmt::format("it holds {} of run {}, but not the run", part.table.name, run_of(part.rows)));
+        file_.damaged(fmt::format("it holds {} of run {}, but not the run", part.table.name, run_of(*part.rows)));
     }
   }
 
   const Impl& file_;
-  SQLite::Statement runs_;
+  std::unique_ptr<RowSource> runs_;
   std::vector<Part> parts_;
   RowsDigest digest_;
 };
 
 // Returns the digest of the rows, also of those that are folded.
-std::uint64_t ArchiveReader::Impl::read_all(const std::function<void(const RunRecord&)>& visit,
-                                            const VisitFolded& visit_folded) const {
+std::uint64_t ArchiveReader::Impl::read_all(const VisitRun& visit, const VisitFolded& visit_folded) const {
   const Snapshot snapshot(*db);
   if (!fold) return read_rows(visit);
   try {
@@ -240,7 +243,7 @@ std::uint64_t ArchiveReader::Impl::read_all(const std::function<void(const RunRe
   }
 }
 
-std::uint64_t ArchiveReader::Impl::read_rows(const std::function<void(const RunRecord&)>& visit) const {
+std::uint64_t ArchiveReader::Impl::read_rows(const VisitRun& visit) const {
   Rows rows(*this);
   SealedContent content(campaign.chunk_runs);
   std::uint64_t count = 0;
@@ -252,8 +255,7 @@ std::uint64_t ArchiveReader::Impl::read_rows(const std::function<void(const RunR
   return rows.digest().value();
 }
 
-std::uint64_t ArchiveReader::Impl::read_folded_file(const std::function<void(const RunRecord&)>& visit,
-                                                    const VisitFolded& visit_folded) const {
+std::uint64_t ArchiveReader::Impl::read_folded_file(const VisitRun& visit, const VisitFolded& visit_folded) const {
   if (!sealed_count) damaged("it is folded, but has no seal");
   Rows rows(*this);
   FoldedRows folded(*db, cells, visit_folded.met);
@@ -327,16 +329,15 @@ std::optional<KnownRun> ArchiveReader::folded_run(std::uint64_t run_index) const
 std::optional<RunRecord> ArchiveReader::run(std::uint64_t run_index) const {
   return impl_->guarded([&]() -> std::optional<RunRecord> {
     const Snapshot snapshot(*impl_->db);
-    SQLite::Statement rows(*impl_->db,
-                           fmt::format("SELECT {} FROM runs WHERE run_index = ?", run_values(impl_->schema)));
+    Query rows(*impl_->db, fmt::format("SELECT {} FROM runs WHERE run_index = ?", run_values(impl_->schema)));
     rows.bind(1, std::bit_cast<std::int64_t>(run_index));
-    if (!rows.executeStep()) return std::nullopt;
+    if (!rows.step()) return std::nullopt;
     auto stored = impl_->take_run(rows);
     for (const auto& table : part_tables()) {
-      SQLite::Statement parts(*impl_->db, fmt::format("SELECT {} FROM {} WHERE run_index = ? ORDER BY ordinal",
-                                                      table.values(impl_->schema), table.name));
+      Query parts(*impl_->db, fmt::format("SELECT {} FROM {} WHERE run_index = ? ORDER BY ordinal",
+                                          table.values(impl_->schema), table.name));
       parts.bind(1, std::bit_cast<std::int64_t>(run_index));
-      while (parts.executeStep()) impl_->take_part(table, parts, stored);
+      while (parts.step()) impl_->take_part(table, parts, stored);
     }
     impl_->verify(stored);
     return std::move(stored.run);
@@ -347,22 +348,22 @@ void ArchiveReader::for_each_audit(const std::function<void(const AuditRecord&, 
   if (impl_->schema < kFirstChunked) return;
   impl_->guarded([&] {
     const Snapshot snapshot(*impl_->db);
-    SQLite::Statement rows(
-        *impl_->db, fmt::format("SELECT a.run_index, a.checksum, coalesce(a.checksum = r.checksum, 1) FROM audits a "
-                                "{} JOIN runs r ON r.run_index = a.run_index ORDER BY a.run_index",
-                                is_folded() ? "LEFT" : ""));
-    while (rows.executeStep()) visit(read_audit(rows), rows.getColumn(2).getInt() != 0);
+    Query rows(*impl_->db,
+               fmt::format("SELECT a.run_index, a.checksum, coalesce(a.checksum = r.checksum, 1) FROM audits a "
+                           "{} JOIN runs r ON r.run_index = a.run_index ORDER BY a.run_index",
+                           is_folded() ? "LEFT" : ""));
+    while (rows.step()) visit(read_audit(rows), rows.number(2) != 0);
   });
 }
 
 std::optional<std::string> ArchiveReader::recording(std::uint64_t run_index) const {
   if (impl_->schema < kFirstChunked) return std::nullopt;
   return impl_->guarded([&]() -> std::optional<std::string> {
-    SQLite::Statement rows(*impl_->db, "SELECT calls, checksum FROM recordings WHERE run_index = ?");
+    Query rows(*impl_->db, "SELECT calls, checksum FROM recordings WHERE run_index = ?");
     rows.bind(1, std::bit_cast<std::int64_t>(run_index));
-    if (!rows.executeStep()) return std::nullopt;
-    std::string calls = rows.getColumn(0).getString();
-    if (recording_checksum(calls) != std::bit_cast<std::uint64_t>(rows.getColumn(1).getInt64()))
+    if (!rows.step()) return std::nullopt;
+    std::string calls(rows.bytes(0));
+    if (recording_checksum(calls) != std::bit_cast<std::uint64_t>(rows.number(1)))
       impl_->damaged(fmt::format("the recording of run {} does not match its checksum", run_index));
     return calls;
   });
@@ -371,17 +372,16 @@ std::optional<std::string> ArchiveReader::recording(std::uint64_t run_index) con
 std::uint64_t ArchiveReader::recording_count(const std::string& agent) const {
   if (impl_->schema < kFirstChunked) return 0;
   return impl_->guarded([&] {
-    SQLite::Statement rows(*impl_->db,
-                           "SELECT count(*) FROM recordings x JOIN runs r ON r.run_index = x.run_index JOIN cells c ON "
-                           "c.cell = r.cell WHERE c.agent = ?");
+    Query rows(*impl_->db,
+               "SELECT count(*) FROM recordings x JOIN runs r ON r.run_index = x.run_index JOIN cells c ON "
+               "c.cell = r.cell WHERE c.agent = ?");
     rows.bind(1, agent);
-    rows.executeStep();
-    return static_cast<std::uint64_t>(rows.getColumn(0).getInt64());
+    rows.step();
+    return static_cast<std::uint64_t>(rows.number(0));
   });
 }
 
-void ArchiveReader::for_each_run(const std::function<void(const RunRecord&)>& visit,
-                                 const VisitFolded& visit_folded) const {
+void ArchiveReader::for_each_run(const VisitRun& visit, const VisitFolded& visit_folded) const {
   impl_->guarded([&] { impl_->read_all(visit, visit_folded); });
 }
 

@@ -16,6 +16,7 @@ namespace fleetproof {
 // was changed.
 enum class Checksums : std::uint8_t { Verify, Ignore };
 
+using VisitRun = std::function<void(const RunRecord& run)>;
 // How folded runs are visited; each may be left out.
 struct VisitFolded {
   VisitMet met;
@@ -47,7 +48,7 @@ class ArchiveReader {
   // All runs with all their parts, in order of run index; of a folded run, what is known of it. What folded runs met is
   // known of many runs together. With VisitFolded::quiet, that is called instead for replicates of which all runs are
   // folded.
-  void for_each_run(const std::function<void(const RunRecord&)>& visit, const VisitFolded& visit_folded = {}) const;
+  void for_each_run(const VisitRun& visit, const VisitFolded& visit_folded = {}) const;
   // The audits of stored runs, in order of run index. `same`: the audit came out as the run did.
   void for_each_audit(const std::function<void(const AuditRecord& audit, bool same)>& visit) const;
   // What the agents of a run did. Throws EngineError if it is damaged.

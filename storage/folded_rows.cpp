@@ -1,7 +1,6 @@
 #include "storage/folded_rows.hpp"
 
 #include <SQLiteCpp/Database.h>
-#include <SQLiteCpp/Statement.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include <utility>
 
 #include "storage/checksum.hpp"
+#include "storage/query.hpp"
 #include "storage/rows.hpp"
 #include "storage/schema.hpp"
 
@@ -18,7 +18,7 @@ namespace {
 std::string name_of_row(const FoldedRow& row) { return fmt::format("the folded runs {}", row.place); }
 
 // A row and its checksum, which was right.
-std::pair<FoldedRow, std::uint64_t> sound_row(const SQLite::Statement& statement) {
+std::pair<FoldedRow, std::uint64_t> sound_row(const Query& statement) {
   auto found = read_folded(statement);
   if (folded_checksum(found.first) != found.second)
     throw BrokenFold(fmt::format("{} do not match their checksum", name_of_row(found.first)));
@@ -60,7 +60,7 @@ struct FoldedRows::Impl {
 
   const std::vector<CellRecord>& cells;
   const VisitMet& visit_met;
-  SQLite::Statement rows;
+  Query rows;
   bool more;
   std::vector<std::optional<Open>> block;  // by cell
   std::optional<std::uint64_t> open_number;
@@ -70,7 +70,7 @@ struct FoldedRows::Impl {
       : cells(of),
         visit_met(visit),
         rows(db, fmt::format("SELECT {} FROM folded ORDER BY place", kFoldedColumns)),
-        more(rows.executeStep()),
+        more(rows.step()),
         block(of.size()) {}
 
   void close_block() {
@@ -84,7 +84,7 @@ struct FoldedRows::Impl {
     if (open_number == number) return;
     close_block();
     open_number = number;
-    for (; more; more = rows.executeStep()) {
+    for (; more; more = rows.step()) {
       auto [row, checksum] = sound_row(rows);
       if (row.place / cells.size() > number) break;
       if (row.place / cells.size() < number || row.place % cells.size() != row.cell || block[row.cell])
@@ -140,9 +140,9 @@ std::uint64_t FoldedRows::digest() {
 std::optional<KnownRun> find_folded(SQLite::Database& db, const std::vector<CellRecord>& cells,
                                     std::uint64_t run_index) {
   const std::uint64_t replicate = run_index / cells.size(), cell = run_index % cells.size();
-  SQLite::Statement rows(db, fmt::format("SELECT {} FROM folded WHERE place = ?", kFoldedColumns));
+  Query rows(db, fmt::format("SELECT {} FROM folded WHERE place = ?", kFoldedColumns));
   rows.bind(1, static_cast<std::int64_t>(replicate / kReplicatesPerFold * cells.size() + cell));
-  if (!rows.executeStep()) return std::nullopt;
+  if (!rows.step()) return std::nullopt;
   const FoldedRow row = sound_row(rows).first;
   UnfoldedCell runs(row.content);
   for (std::uint64_t before = replicate % kReplicatesPerFold; before > 0; --before) (void)runs.next();

@@ -8,6 +8,7 @@
 #include <charconv>
 
 #include "core/base/error.hpp"
+#include "storage/query.hpp"
 #include "storage/row_fields.hpp"
 
 namespace fleetproof {
@@ -75,7 +76,7 @@ void bind_gate(SQLite::Statement& insert, const GateRecord& gate) {
                  << gate.where.fleet_size << gate.where.factors;
 }
 
-CampaignRecord read_campaign(const SQLite::Statement& row) {
+CampaignRecord read_campaign(const Row& row) {
   Taker from(row);
   CampaignRecord campaign;
   from.i64();
@@ -104,11 +105,11 @@ CampaignRecord read_campaign(const SQLite::Statement& row) {
   return campaign;
 }
 
-std::uint64_t read_plan_checksum(const SQLite::Statement& row) {
-  return std::bit_cast<std::uint64_t>(row.getColumn("plan_checksum").getInt64());
+std::uint64_t read_plan_checksum(const Query& row) {
+  return std::bit_cast<std::uint64_t>(row.number(row.column_of("plan_checksum")));
 }
 
-CellRecord read_cell(const SQLite::Statement& row) {
+CellRecord read_cell(const Row& row) {
   Taker from(row);
   CellRecord cell;
   cell.index = from.u32();
@@ -120,7 +121,7 @@ CellRecord read_cell(const SQLite::Statement& row) {
   return cell;
 }
 
-GateRecord read_gate(const SQLite::Statement& row) {
+GateRecord read_gate(const Row& row) {
   Taker from(row);
   GateRecord gate;
   gate.index = from.u32();

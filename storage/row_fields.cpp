@@ -1,12 +1,12 @@
 #include "storage/row_fields.hpp"
 
-#include <SQLiteCpp/Column.h>
 #include <SQLiteCpp/Statement.h>
 
 #include <bit>
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "storage/row_source.hpp"
 
 namespace fleetproof {
 namespace {
@@ -46,7 +46,7 @@ Binder& Binder::operator<<(const std::vector<std::uint64_t>& digests) {
   return *this;
 }
 
-std::int64_t Taker::i64() { return row_.getColumn(next_++).getInt64(); }
+std::int64_t Taker::i64() { return row_.number(next_++); }
 std::uint64_t Taker::u64() { return std::bit_cast<std::uint64_t>(i64()); }
 std::uint32_t Taker::u32() { return in_range(i64()); }
 
@@ -56,7 +56,7 @@ bool Taker::flag() {
   return value == 1;
 }
 
-double Taker::real() { return row_.getColumn(next_++).getDouble(); }
+double Taker::real() { return row_.real(next_++); }
 
 FactorValues Taker::factors() {
   FactorValues factors;
@@ -70,16 +70,16 @@ PerFactor<std::optional<double>> Taker::named_factors() {
   return named;
 }
 
-std::string Taker::text() { return row_.getColumn(next_++).getString(); }
+std::string Taker::text() { return std::string(row_.bytes(next_++)); }
 
 std::optional<std::int64_t> Taker::maybe_i64() {
-  const auto column = row_.getColumn(next_++);
-  return column.isNull() ? std::nullopt : std::optional<std::int64_t>(column.getInt64());
+  const int column = next_++;
+  return row_.is_null(column) ? std::nullopt : std::optional<std::int64_t>(row_.number(column));
 }
 
 std::optional<double> Taker::maybe_real() {
-  const auto column = row_.getColumn(next_++);
-  return column.isNull() ? std::nullopt : std::optional(column.getDouble());
+  const int column = next_++;
+  return row_.is_null(column) ? std::nullopt : std::optional(row_.real(column));
 }
 
 std::optional<std::uint32_t> Taker::maybe_u32() {
@@ -93,7 +93,7 @@ EntityId Taker::entity() {
 }
 
 std::vector<std::uint64_t> Taker::digests() {
-  const auto bytes = text();
+  const std::string_view bytes = row_.bytes(next_++);
   if (bytes.size() % 8 != 0) throw EngineError("a row holds running digests of a broken length");
   std::vector<std::uint64_t> values(bytes.size() / 8);
   for (std::size_t i = 0; i < bytes.size(); ++i)

@@ -15,6 +15,8 @@ class Statement;
 // The values of a row, for the files that turn records into rows and back.
 namespace fleetproof {
 
+class Row;
+
 // Fills the parameters of a statement from left to right. Requires: texts and digests live until the statement has run,
 // but for temporary texts, which are copied.
 class Binder {
@@ -51,7 +53,7 @@ class Binder {
 // Takes the columns of a row from left to right. Throws EngineError for a value that no program of ours writes.
 class Taker {
  public:
-  explicit Taker(const SQLite::Statement& row) : row_(row) {}
+  explicit Taker(const Row& row) : row_(row) {}
 
   std::int64_t i64();
   std::uint64_t u64();
@@ -68,7 +70,7 @@ class Taker {
   std::vector<std::uint64_t> digests();
 
  private:
-  const SQLite::Statement& row_;
+  const Row& row_;
   int next_ = 0;
 };
 

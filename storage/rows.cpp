@@ -70,7 +70,7 @@ void bind_folded(SQLite::Statement& insert, const FoldedRow& row, std::uint64_t 
   to << checksum;
 }
 
-StoredRun read_run(const SQLite::Statement& row) {
+StoredRun read_run(const Row& row) {
   Taker from(row);
   StoredRun stored;
   auto& run = stored.run;
@@ -96,7 +96,7 @@ StoredRun read_run(const SQLite::Statement& row) {
   return stored;
 }
 
-Violation read_violation(const SQLite::Statement& row) {
+Violation read_violation(const Row& row) {
   Taker from(row);
   Violation v;
   from.i64();  // run_index
@@ -115,7 +115,7 @@ Violation read_violation(const SQLite::Statement& row) {
   return v;
 }
 
-Incident read_incident(const SQLite::Statement& row) {
+Incident read_incident(const Row& row) {
   Taker from(row);
   Incident incident;
   from.i64();  // run_index
@@ -131,7 +131,7 @@ Incident read_incident(const SQLite::Statement& row) {
   return incident;
 }
 
-ProbeCount read_probe(const SQLite::Statement& row) {
+ProbeCount read_probe(const Row& row) {
   Taker from(row);
   ProbeCount probe;
   from.i64();  // run_index
@@ -142,7 +142,7 @@ ProbeCount read_probe(const SQLite::Statement& row) {
   return probe;
 }
 
-AuditRecord read_audit(const SQLite::Statement& row) {
+AuditRecord read_audit(const Row& row) {
   Taker from(row);
   AuditRecord audit;
   audit.run_index = from.u64();
@@ -150,7 +150,7 @@ AuditRecord read_audit(const SQLite::Statement& row) {
   return audit;
 }
 
-std::pair<FoldedRow, std::uint64_t> read_folded(const SQLite::Statement& row) {
+std::pair<FoldedRow, std::uint64_t> read_folded(const Row& row) {
   Taker from(row);
   FoldedRow folded;
   folded.place = from.u64();
@@ -165,7 +165,7 @@ std::pair<FoldedRow, std::uint64_t> read_folded(const SQLite::Statement& row) {
   return {std::move(folded), checksum};
 }
 
-ChunkRecord read_chunk(const SQLite::Statement& row) {
+ChunkRecord read_chunk(const Row& row) {
   Taker from(row);
   ChunkRecord chunk;
   chunk.chunk = from.u64();

@@ -16,6 +16,8 @@ class Statement;
 
 namespace fleetproof {
 
+class Row;
+
 // Conversion between records and rows. Binds a record to an INSERT, and reads a record from a SELECT. Both use the
 // column lists of schema.hpp. What is bound is not copied: the record must live until the statement has run.
 void bind_run(SQLite::Statement& insert, const RunRecord& run, std::uint64_t checksum);
@@ -40,13 +42,13 @@ struct StoredRun {
   std::uint64_t checksum = 0;
 };
 // Throws EngineError if a field contains a value that this program never writes.
-StoredRun read_run(const SQLite::Statement& row);
-Violation read_violation(const SQLite::Statement& row);
-Incident read_incident(const SQLite::Statement& row);
-ProbeCount read_probe(const SQLite::Statement& row);
-AuditRecord read_audit(const SQLite::Statement& row);
-ChunkRecord read_chunk(const SQLite::Statement& row);
+StoredRun read_run(const Row& row);
+Violation read_violation(const Row& row);
+Incident read_incident(const Row& row);
+ProbeCount read_probe(const Row& row);
+AuditRecord read_audit(const Row& row);
+ChunkRecord read_chunk(const Row& row);
 // And the checksum that is stored with it.
-std::pair<FoldedRow, std::uint64_t> read_folded(const SQLite::Statement& row);
+std::pair<FoldedRow, std::uint64_t> read_folded(const Row& row);
 
 }  // namespace fleetproof

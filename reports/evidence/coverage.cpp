@@ -1,6 +1,7 @@
 #include "reports/evidence/coverage.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/outcome/probe_names.hpp"
 
@@ -34,6 +35,20 @@ void Coverage::add(const Coverage& other) {
     for (const auto& [name, seen] : *theirs) {
       (*mine)[name].runs += seen.runs;
       (*mine)[name].times += seen.times;
+    }
+  }
+}
+
+void Coverage::empty_into(Coverage& other) {
+  other.runs_ += std::exchange(runs_, 0);
+  for (const auto& [mine, theirs] :
+       {std::pair(&by_the_world_, &other.by_the_world_), std::pair(&by_agents_, &other.by_agents_)}) {
+    for (auto& [name, seen] : *mine) {
+      if (seen.runs == 0) continue;
+      Seen& all = (*theirs)[name];
+      all.runs += seen.runs;
+      all.times += seen.times;
+      seen = {};
     }
   }
 }

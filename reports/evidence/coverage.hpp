@@ -25,6 +25,8 @@ class Coverage {
  public:
   void add(const Outcome& outcome);
   void add(const Coverage& other);
+  // Adds all to `other` and counts from zero again. Keeps its names: the next replicate meets the same.
+  void empty_into(Coverage& other);
   // Without what they met, which follows apart.
   void add(const QuietRuns& quiet);
   // What runs met that were added already, but without their probes: they were folded.

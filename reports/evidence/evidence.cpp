@@ -155,7 +155,7 @@ void Evidence::finish_replicate() {
   ++replicates_;
   for (std::size_t i = 0; i < tallies_.size(); ++i) tallies_[i].add(std::exchange(pending_tallies_[i], Tally{}));
   for (std::size_t i = 0; i < pools_.size(); ++i) {
-    coverage_[i].add(std::exchange(pending_coverage_[i], Coverage{}));
+    pending_coverage_[i].empty_into(coverage_[i]);
     pools_[i].finish_replicate();
   }
 }
