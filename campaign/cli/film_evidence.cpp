@@ -10,6 +10,7 @@
 #include "campaign/cli/run_text.hpp"
 #include "core/base/outside_text.hpp"
 #include "core/outcome/trace.hpp"
+#include "reports/web/body_then.hpp"
 #include "reports/wording.hpp"
 
 namespace fleetproof::cli {
@@ -71,9 +72,15 @@ std::string FilmEvidence::doing(EntityId body, SimTime at) const {
   } else if (piece->manner == Manner::Turn) {
     text += "was turning on the spot at " + place_text(pose.position_m);
   } else {
-    text += fmt::format("stood at {}{}", place_text(pose.position_m),
-                        activity == nullptr ? "" : ", activity " + activity->kind);
+    text += "stood at " + place_text(pose.position_m);
+    if (const auto since_us = web::stood_there_since(film_, body.index(), at_us))
+      text += fmt::format(" since {:.3f} s", in_seconds(*since_us));
+    if (activity != nullptr)
+      text += fmt::format(", in the middle of its {}{}", activity->kind,
+                          activity->details.empty() ? "" : " " + activity->details);
   }
+  if (const std::string faults = web::faults_under_way(film_, body.index(), {at_us, 0}); !faults.empty())
+    text += "; " + faults;
   if (const web::Declared* state = last_until(film_.states, body.index(), at_us);
       state != nullptr && !state->word.empty())
     text += fmt::format("; its agent said \"{}\" since {:.3f} s", state->word, in_seconds(state->at_us));

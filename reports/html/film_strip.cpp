@@ -71,8 +71,11 @@ Element note_at(const std::string& text, double x, double y, const char* anchor,
                        {"fill", "currentColor"}});
 }
 
+// Three to eight squares of the grid fit into the window.
+double step_of(const Window& window) { return round_step(window.side_m / 8.0); }
+
 void add_axes(Element& svg, const Window& window) {
-  const double step_m = round_step(window.side_m / 8.0);  // three to eight of them
+  const double step_m = step_of(window);
   const auto ticks = [&](double low_m, const auto& mark) {
     int number = 0;
     for (double at = std::ceil(low_m / step_m) * step_m; at <= low_m + window.side_m + 1e-9; at += step_m)
@@ -92,6 +95,19 @@ void add_axes(Element& svg, const Window& window) {
                              {"stroke-opacity", "0.1"}}));
     if (named) svg.add(note_at(fmt::format("{:g}", y_m + 0.0), kLeft_px - 4.0, y + 3.5, "end", 10, "400"));
   });
+}
+
+// A bar as long as a square of the grid, above the frame: how large the bodies are, without reading the axes.
+void add_scale(Element& svg, const Window& window) {
+  constexpr double kAbove_px = 11.5, kTick_px = 3.0;
+  const double length_m = step_of(window), right = kLeft_px + kSide_px, left = right - length_m * window.scale();
+  const double y = kTop_px - kAbove_px;
+  svg.add(Element("path", {{"class", "scale"},
+                           {"d", fmt::format("M{0:.1f} {2}v{3}M{0:.1f} {4}H{1:.1f}M{1:.1f} {2}v{3}", left, right,
+                                             y - kTick_px, 2.0 * kTick_px, y)},
+                           {"fill", "none"},
+                           {"stroke", "currentColor"}}));
+  svg.add(note_at(fmt::format("{:g} m", length_m), left - 4.0, y + 3.5, "end", 10, "400"));
 }
 
 // A lane that reaches into the window; what is outside is clipped.
@@ -249,6 +265,7 @@ Element frame_of(const FilmStrip& strip, const FilmFrame& frame, const Window& w
                       {"viewBox", fmt::format("0 0 {} {}", kWidth_px, kBottomOfFloor_px + kBottom_px)},
                       {"font-family", "system-ui, sans-serif"}});
   add_axes(svg, window);
+  add_scale(svg, window);
   svg.add(floor_of(strip, frame, window));
   svg.add(Element("rect", {{"x", kLeft_px},
                            {"y", kTop_px},

@@ -92,7 +92,7 @@ const drawBeliefs = (context, agent, all, t_s, label) => {
     context.stroke();
     context.setLineDash([]);
     const away_m = real ? Math.hypot(real.pose.x_m - pose.x_m, real.pose.y_m - pose.y_m) : 0;
-    if (away_m > 0.3 || (age_s > 3 && about !== agent && isInvolved(about)))
+    if (isInView(x, y) && (away_m > 0.3 || (age_s > 3 && about !== agent && isInvolved(about))))
       label(nameOf(agent) + ' believes ' + nameOf(about) + ', ' + age_s.toFixed(1) + ' s old', x, y - 8, colours.ghost);
   }
 };
@@ -123,6 +123,7 @@ const drawWaits = (context, all, t_s) => {
   }
 };
 
+const isInView = (x, y) => x > 0 && y > 0 && x < floor.clientWidth && y < floor.clientHeight;
 const kLossShown_s = 0.8, kLate_s = 1;
 // Messages that are under way, and losses for a moment: [arrival, share of its way].
 const underWay = t_s => {
@@ -174,7 +175,8 @@ const drawMessages = (context, all, t_s, label) => {
     const old_s = Math.min(t_s - a.sent_s, a.age_s);
     const old = (old_s < 0.1 ? seconds(old_s) : old_s.toFixed(1) + ' s') + ' old' + (a.again ? ', a copy' : '');
     const age = lost ? a.fate : old;
-    if (!crowded || between) label(a.kind + ', ' + age, x, y - 6, lost ? colours.bad : colours.message);
+    if ((!crowded || between) && isInView(x, y))
+      label(a.kind + ', ' + age, x, y - 6, lost ? colours.bad : colours.message);
   }
 };
 

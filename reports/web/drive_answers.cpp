@@ -115,6 +115,16 @@ std::string silence_after(const Delivery& last, const FilmTalk& talk, const Sett
                      heard, setting.ask);
 }
 
+// What the sender answered last before this answer, if it was of another kind: it has changed its mind.
+std::optional<Delivery> answered_otherwise(const FilmTalk& talk, const Setting& setting, const Delivery& answer) {
+  std::optional<Delivery> before;
+  for (const Delivery& d : sent_within(talk.between(answer.message->sender, setting.body), 0, answer.sent)) {
+    if (is_answer(talk, d) && d.message->kind != setting.ask) before = d;
+  }
+  const bool is_other = before && before->message->kind != answer.message->kind;
+  return is_other ? before : std::nullopt;
+}
+
 }  // namespace
 
 SenderAnswers answers_of(const FilmTalk& talk, const Setting& setting, std::size_t sender) {
@@ -134,8 +144,10 @@ SenderAnswers answers_of(const FilmTalk& talk, const Setting& setting, std::size
     answers.is_doubled = answers.is_doubled || d.again.has_value();
     if (d.message->kind == setting.ask) continue;
     answers.has_answers = true;
-    if (is_in_time(d, setting)) answers.in_time = d.message->kind;
+    const bool is_last = !answers.in_time || answers.in_time->arrives < d.arrives;
+    if (is_in_time(d, setting) && is_last) answers.in_time = d;
   }
+  if (answers.in_time) answers.otherwise = answered_otherwise(talk, setting, *answers.in_time);
   answers.is_plain = !answers.received.empty() && answers.lost_asks.empty() &&
                      std::ranges::none_of(answers.received, [&](const Delivery& d) {
                        return is_marked(d, setting) || d.message->kind != answers.received.front().message->kind;

@@ -28,7 +28,8 @@ struct SenderAnswers {
   std::string lost_asks;                  // how many messages of the asking kind did not reach it; empty: none
   std::string silence;                    // how often this AGV asked in vain after its last answer; empty: not
   bool has_answers = false;               // one that asks itself is no answer
-  std::string in_time;                    // the kind of the last answer received before the beginning; empty: none
+  std::optional<Delivery> in_time;        // the last answer received before the beginning
+  std::optional<Delivery> otherwise;      // its last answer of another kind before that one, received or not
   bool is_doubled = false;                // some of them arrived twice
   bool is_plain = false;                  // messages of one kind, and none of them lost, late or doubled
 };

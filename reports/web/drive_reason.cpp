@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "reports/web/body_then.hpp"
 #include "reports/web/drive_answers.hpp"
 #include "reports/web/setting_off.hpp"
 #include "reports/wording.hpp"
@@ -136,6 +137,7 @@ class ReasonTeller {
     sentence(setting_.from_us, fmt::format("From {} s until then, {} had sent {}.", time_text(setting_.from_us),
                                            name(drive_.body), texts.empty() ? "nothing" : joined(texts)));
     tell_words();
+    tell_notes();
     for (const std::string& fault : faults_text(drive_.body, setting_.from_us, setting_.begin.at_us))
       item(setting_.from_us, fault, true);
   }
@@ -154,6 +156,22 @@ class ReasonTeller {
     for (std::size_t i = skipped; i < words.size(); ++i)
       texts.push_back(fmt::format("\"{}\" ({} s)", words[i]->word, time_text(words[i]->at_us)));
     item(words.back()->at_us, fmt::format("Its agent said {}.", joined(texts)));
+  }
+
+  // Of notes that are alike, the last one.
+  void tell_notes() {
+    std::map<std::string, std::int64_t> last_us;
+    for (const Happening& h : film_.happenings) {
+      const bool counts = h.is_note && h.body == drive_.body && setting_.from_us <= h.at_us;
+      if (counts && Moment{h.at_us, h.order} < setting_.begin) last_us[h.details] = h.at_us;
+    }
+    std::vector<std::pair<std::int64_t, std::string>> notes;
+    for (const auto& [note, at_us] : last_us) notes.emplace_back(at_us, note);
+    std::ranges::stable_sort(notes);
+    if (notes.size() > kMostWords) notes.erase(notes.begin(), notes.end() - kMostWords);
+    std::vector<std::string> texts;
+    for (const auto& [at_us, note] : notes) texts.push_back(fmt::format("{} ({} s)", note, time_text(at_us)));
+    if (!texts.empty()) item(notes.back().first, fmt::format("Its agent noted {}.", joined(texts)));
   }
 
   std::vector<std::string> faults_text(std::size_t body, std::int64_t from_us, std::int64_t to_us) const {
@@ -194,8 +212,8 @@ class ReasonTeller {
     std::map<std::string, std::vector<std::size_t>> in_time;
     std::vector<std::size_t> not_in_time, silent;
     for (const SenderAnswers& answers : all) {
-      if (!answers.in_time.empty()) {
-        in_time[answers.in_time].push_back(answers.sender);
+      if (answers.in_time) {
+        in_time[answers.in_time->message->kind].push_back(answers.sender);
       } else {
         (answers.has_answers ? not_in_time : silent).push_back(answers.sender);
       }
@@ -254,30 +272,46 @@ class ReasonTeller {
     if (answers.sender != partner_) return;
     if (const std::string heard = heard_to_all(talk_, setting_, answers.sender); !heard.empty())
       item(setting_.begin.at_us, heard);
-    item(setting_.begin.at_us, doing_text(answers.sender));
+    tell_other(answers);
     for (const std::string& fault : faults_text(answers.sender, setting_.from_us, setting_.begin.at_us))
       item(setting_.from_us, fault, true);
   }
 
-  // What another AGV did when this one set off.
-  std::string doing_text(std::size_t body) const {
-    const ActivityBar* doing = nullptr;
-    for (const ActivityBar& bar : film_.activities) {
-      if (bar.body == body && Moment{bar.begin_us, bar.begin_order} < setting_.begin &&
-          setting_.begin < Moment{bar.end_us, bar.end_order})
-        doing = &bar;
+  // What the other of the pair did when it sent the answer on which this AGV may have relied, and when this one set
+  // off.
+  void tell_other(const SenderAnswers& answers) {
+    const std::string who = name(answers.sender);
+    if (answers.in_time) {
+      const Moment sent = answers.in_time->sent;
+      item(sent.at_us,
+           fmt::format("When {} sent {} #{}: {}.", who, answers.in_time->message->kind,
+                       answers.in_time->message->number, text_of_body_then(film_, answers.sender, sent)),
+           stood_there_since(film_, answers.sender, sent.at_us).has_value());
+      if (answers.otherwise) tell_change(*answers.otherwise, *answers.in_time);
     }
-    const Declared* state = nullptr;
-    for (const Declared& s : film_.states) {
-      if (s.body == body && Moment{s.at_us, s.order} < setting_.begin) state = &s;
+    tell_own_answer(answers.sender);
+    item(setting_.begin.at_us, fmt::format("{} itself at {} s: {}.", who, time_text(setting_.begin.at_us),
+                                           text_of_body_then(film_, answers.sender, setting_.begin)));
+  }
+
+  // What this AGV had answered the other, which may rely on it.
+  void tell_own_answer(std::size_t other) {
+    const Delivery* last = nullptr;
+    for (const Delivery& d : sent_within(talk_.between(drive_.body, other), 0, setting_.begin)) {
+      if (d.is_to_one() && d.message->kind != setting_.ask) last = &d;
     }
-    std::string text = fmt::format("{} itself at {} s: ", name(body), time_text(setting_.begin.at_us));
-    text += doing == nullptr
-                ? "idle"
-                : fmt::format("{}{}, since {} s", doing->kind, doing->details.empty() ? "" : " " + doing->details,
-                              time_text(doing->begin_us));
-    if (state != nullptr && !state->word.empty()) text += fmt::format("; its agent said \"{}\"", state->word);
-    return text + ".";
+    if (last == nullptr) return;
+    const std::string fate =
+        last->is_lost() ? word_of(last->fate) : fmt::format("received {} s", time_text(last->arrives.at_us));
+    item(last->sent.at_us, fmt::format("{} itself had last answered {} with {}, sent {} s, {}.", name(drive_.body),
+                                       name(other), text_of(*last->message), time_text(last->sent.at_us), fate));
+  }
+
+  void tell_change(const Delivery& before, const Delivery& answer) {
+    const std::size_t sender = answer.message->sender;
+    item(before.sent.at_us,
+         fmt::format("Its answer before that was {}, sent {} s. Between the two, {}.", text_of(*before.message),
+                     time_text(before.sent.at_us), changes_between(film_, sender, before.sent, answer.sent)));
   }
 
   // What came before the failure, or before the end of the activity, but too late to be asked.

@@ -9,6 +9,7 @@ namespace fleetproof::web {
 namespace {
 
 constexpr std::int64_t kOthersCount = 8, kAfterCounts = 3;
+constexpr std::size_t kMostBytes = 400'000;  // of a fleet of 50, a reason has four thousand
 
 // The last activity that the body began before the failure.
 std::optional<std::size_t> last_before(const Film& film, std::size_t body, std::int64_t at_us) {
@@ -57,16 +58,20 @@ std::vector<Reason> drive_reasons(const Film& film, std::size_t most) {
   }
   std::erase_if(rest, [&](std::size_t i) { return std::ranges::find(fatal, i) != fatal.end(); });
   rest.resize(std::min(rest.size(), most > fatal.size() ? most - fatal.size() : 0));
-  std::ranges::sort(rest);
   const FilmTalk talk(film);
   const std::vector<std::size_t> subject = film.subject();
   std::vector<Reason> reasons;
+  std::size_t bytes = 0;
   for (const auto* activities : {&fatal, &rest}) {
     for (const std::size_t i : *activities) {
-      reasons.push_back(reason_of(film, talk, i, other_of(subject, film.activities[i].body)));
-      reasons.back().is_fatal = activities == &fatal;
+      Reason reason = reason_of(film, talk, i, other_of(subject, film.activities[i].body));
+      reason.is_fatal = activities == &fatal;
+      for (const ReasonLine& line : reason.lines) bytes += line.text.size();
+      if (bytes > kMostBytes && !reason.is_fatal) break;
+      reasons.push_back(std::move(reason));
     }
   }
+  std::ranges::sort(reasons.begin() + std::ssize(fatal), reasons.end(), {}, &Reason::activity);
   // The one that set off later met the other on its way.
   std::ranges::stable_sort(reasons.begin(), reasons.begin() + std::ssize(fatal), std::greater{}, &Reason::decided_us);
   for (const std::size_t body : idle) {

@@ -29,8 +29,8 @@ struct Reason {
   std::vector<ReasonLine> lines;
 };
 
-// Of the activities of AGVs that are nearest to the failure, at most `most`: those that are fatal first, else in order
-// of time.
+// Of the activities of AGVs that are nearest to the failure, at most `most` and not more than a page can carry: those
+// that are fatal first, else in order of time.
 std::vector<Reason> drive_reasons(const Film& film, std::size_t most = 200);
 
 }  // namespace fleetproof::web

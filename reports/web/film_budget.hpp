@@ -9,7 +9,7 @@ namespace fleetproof::web {
 // How many bytes the page may spend on what a run can have without limit. A fleet of 50 sends and believes a million
 // things in ten minutes, of which nobody looks at more than a few.
 struct FilmBudget {
-  std::size_t message_bytes = 1'500'000, belief_bytes = 800'000, happening_bytes = 350'000, state_bytes = 350'000,
+  std::size_t message_bytes = 1'300'000, belief_bytes = 800'000, happening_bytes = 350'000, state_bytes = 350'000,
               wait_bytes = 250'000;
 };
 

@@ -169,10 +169,15 @@ floor.addEventListener('wheel', event => {
   zoom(Math.exp(-event.deltaY / 500), event.offsetX, event.offsetY);
 }, {passive: false});
 rows.addEventListener('click', event => {
-  const row = Math.floor((event.offsetY - kAxis_px) / kRow_px);
-  if (event.offsetX < nameWidth()) return void (row in kOrder && select(kOrder[row]));
-  const share = (event.offsetX - nameWidth()) / (rows.clientWidth - nameWidth());
-  goTo(window_s.from + share * (window_s.to - window_s.from));
+  const body = rowAt(event.offsetY);
+  if (event.offsetX < nameWidth()) return void (body !== undefined && select(body));
+  goTo(timeAt(event.offsetX));
+});
+// What has no room in a row: as the browser shows titles.
+rows.addEventListener('pointermove', event => {
+  const body = rowAt(event.offsetY), t_s = timeAt(event.offsetX);
+  rows.title = body === undefined || event.offsetX < nameWidth() ? '' : nameOf(body) + ' at ' + seconds(t_s) + ': ' +
+    aboutActivity(body, t_s) + (stateOf(body, t_s) ? '; its agent says "' + stateOf(body, t_s) + '"' : '');
 });
 
 slider.max = kEnd_s;
@@ -212,6 +217,7 @@ if (!film.violations.length) {
 }
 if (!film.involved.length) byId('failure').textContent = 'Closest pair';
 byId('failure').hidden = !kSubject.length;
+byId('flat').hidden = kOrder.every(body => lookOf(body) === kTall);
 byId('player').hidden = false;
 document.documentElement.classList.add('ready');  // before the first drawing: then the course is as high as it stays
 readAddress();

@@ -58,7 +58,7 @@ Element header_of(const Film& film) {
   Element header("header");
   header.add(text_element("p", kicker_of(film), {{"class", "kicker"}}));
   header.add(text_element("h1", film.title));
-  Element story("div", {{"class", film.failed ? "story failed" : "story"}});
+  Element story("div", {{"class", film.failed || !film.involved.empty() ? "story failed" : "story"}});
   for (const std::string& sentence : film.story) story.add(text_element("p", sentence));
   return header.add(story);
 }

@@ -2,9 +2,13 @@
 const rows = document.getElementById('rows'), rowsBox = document.getElementById('rows-box');
 const playhead = document.getElementById('playhead');
 const kAgvs = film.bodies.map((body, i) => i).filter(i => film.bodies[i].kind === 'AGV');
-const kRow_px = kAgvs.length > 12 ? 26 : 40, kAxis_px = 20;
+const kAxis_px = 20;
 // Those involved stand first.
 const kOrder = [...kAgvs.filter(isInvolved), ...kAgvs.filter(i => !isInvolved(i))];
+// Of many AGVs, only those involved and the selected one have rows with room for what their agents say.
+const kTall = {row_px: 40, bar_px: 15, says_px: 12, font: '11px system-ui, sans-serif', says: true};
+const kFlat = {row_px: 22, bar_px: 11, says_px: 2, font: '9.5px system-ui, sans-serif', says: false};
+const lookOf = body => (kAgvs.length <= 12 || isInvolved(body) || body === selected ? kTall : kFlat);
 const window_s = {from: 0, to: 1, length: 40};
 const kBarColours = {drive: 'drive', turn: 'turn', pick: 'transfer', drop: 'transfer', charge: 'charge',
                      dock: 'charge'};
@@ -27,30 +31,31 @@ const textIn = (context, text, x, y, most_px) => {
 };
 
 const drawActivities = (context, body, y) => {
-  const list = activitiesOf[body], height = kRow_px * 0.38;
+  const list = activitiesOf[body], look = lookOf(body);
+  context.font = look.font;
   for (let i = Math.max(0, countUpTo(list, r => r[1], window_s.from * 1e3) - 1); i < list.length; ++i) {
     const [, begin_ms, end_ms, kind, details] = list[i];
     if (begin_ms > window_s.to * 1e3) break;
     const x0 = Math.max(nameWidth(), rowX(begin_ms / 1e3)), x1 = Math.max(x0 + 1, rowX(end_ms / 1e3));
     if (end_ms / 1e3 < window_s.from) continue;
     context.fillStyle = colours[kBarColours[word(kind)] || 'other'];
-    context.fillRect(x0, y + 3, x1 - x0 - 0.5, height);
+    context.fillRect(x0, y + 3, x1 - x0 - 0.5, look.bar_px);
     if (x1 - x0 < 26) continue;
     context.fillStyle = colours.ink;
-    textIn(context, word(details) || word(kind), x0 + 3, y + 3 + height * 0.5 + 4, x1 - x0 - 6);
+    textIn(context, word(details) || word(kind), x0 + 3, y + look.bar_px / 2 + 6.5, x1 - x0 - 6);
   }
 };
 const drawStates = (context, body, y) => {
-  const list = statesOf[body], top = y + 4 + kRow_px * 0.38, kept_s = keptOf('states', body)[1];
+  const list = statesOf[body], look = lookOf(body), top = y + 4 + look.bar_px, kept_s = keptOf('states', body)[1];
   for (let i = Math.max(0, countUpTo(list, r => r[1], window_s.from * 1e3) - 1); i < list.length; ++i) {
     const from_s = list[i][1] / 1e3, to_s = Math.min(i + 1 < list.length ? list[i + 1][1] / 1e3 : kEnd_s, kept_s);
     if (from_s > window_s.to) break;
     const x0 = Math.max(nameWidth(), rowX(from_s)), x1 = rowX(Math.min(to_s, window_s.to));
     if (x1 <= x0) continue;
-    context.fillStyle = colours.grid;
-    context.fillRect(x0, top, x1 - x0 - 0.5, kRow_px * 0.3);
+    context.fillStyle = colours[look.says ? 'grid' : 'line'];
+    context.fillRect(x0, top, x1 - x0 - 0.5, look.says_px);
     context.fillStyle = colours.soft;
-    if (kRow_px > 30 && x1 - x0 > 20) textIn(context, word(list[i][2]), x0 + 3, top + 10, x1 - x0 - 6);
+    if (look.says && x1 - x0 > 20) textIn(context, word(list[i][2]), x0 + 3, top + 10, x1 - x0 - 6);
   }
 };
 // The arrivals of which there are marks: all, or those between bodies involved if all would be a band.
@@ -60,7 +65,7 @@ const markedArrivals = body => {
   return there.length < 400 ? there : there.filter(a => isInvolved(a.sender) && isInvolved(a.receiver));
 };
 const drawMarks = (context, body, y) => {
-  const bottom = y + kRow_px - 2, list = window_s.to - window_s.from <= 130 ? markedArrivals(body) : [];
+  const bottom = y + lookOf(body).row_px - 1, list = window_s.to - window_s.from <= 130 ? markedArrivals(body) : [];
   const seen = new Set();
   for (const a of list) {
     const sends = a.sender === body, lost = !sends && a.age_s === null;
@@ -88,7 +93,7 @@ const drawMarks = (context, body, y) => {
     if (!isInWindow(at_ms / 1e3) || flags >= 2) continue;
     context.fillStyle = flags === 1 ? colours.bad : colours.accent;
     context.font = flags === 1 ? '600 15px system-ui' : '600 10px system-ui';
-    context.fillText(flags === 1 ? '⚑' : '◆', rowX(at_ms / 1e3) - 4, y + kRow_px * 0.38 + 2);
+    context.fillText(flags === 1 ? '⚑' : '◆', rowX(at_ms / 1e3) - 4, y + lookOf(body).bar_px + 2);
     context.font = '11px system-ui, sans-serif';
   }
 };
@@ -117,7 +122,7 @@ const drawBroken = (context, body, y) => {
     if (v.first_us / 1e6 > window_s.to || v.last_us / 1e6 < window_s.from) continue;
     context.fillStyle = colours.bad;
     context.globalAlpha = 0.22;
-    context.fillRect(x0, y + 1, Math.min(x1, rows.clientWidth) - x0, kRow_px - 2);
+    context.fillRect(x0, y + 1, Math.min(x1, rows.clientWidth) - x0, lookOf(body).row_px - 2);
     context.globalAlpha = 1;
   }
 };
@@ -133,7 +138,8 @@ const tellMissing = () => {
 
 const drawRows = () => {
   tellMissing();
-  const width = rowsBox.clientWidth, height = kAxis_px + kOrder.length * kRow_px;
+  const width = rowsBox.clientWidth;
+  const height = kOrder.reduce((sum, body) => sum + lookOf(body).row_px, kAxis_px);
   rows.style.height = height + 'px';
   playhead.style.height = height + 'px';
   const context = contextOf(rows, width, height);
@@ -149,11 +155,12 @@ const drawRows = () => {
     context.fillStyle = colours.soft;
     if (rowX(t) < width - 24) context.fillText(+t.toFixed(3) + ' s', rowX(t) + 3, 12);
   }
-  kOrder.forEach((body, i) => {
-    const y = kAxis_px + i * kRow_px;
+  let y = kAxis_px;
+  for (const body of kOrder) {
+    const {row_px} = lookOf(body);
     context.save();
     context.beginPath();
-    context.rect(nameWidth(), y, width, kRow_px);
+    context.rect(nameWidth(), y, width, row_px);
     context.clip();
     drawActivities(context, body, y);
     drawStates(context, body, y);
@@ -163,13 +170,22 @@ const drawRows = () => {
     context.restore();
     if (body === selected) {
       context.fillStyle = colours.accent;
-      context.fillRect(0, y, 4, kRow_px);
+      context.fillRect(0, y, 4, row_px);
     }
     context.fillStyle = isInvolved(body) ? colours.bad : colours.ink;
     context.font = (isInvolved(body) ? '650 ' : '') + '12px system-ui, sans-serif';
-    textIn(context, nameOf(body), 8, y + kRow_px / 2 + 4, nameWidth() - 12);
+    textIn(context, nameOf(body), 8, y + row_px / 2 + 4, nameWidth() - 12);
     context.font = '11px system-ui, sans-serif';
     context.fillStyle = colours.line;
     context.fillRect(0, y, width, 1);
-  });
+    y += row_px;
+  }
 };
+// The AGV whose row is there, if one is.
+const rowAt = y => {
+  let below = kAxis_px;
+  return y < kAxis_px ? undefined : kOrder.find(body => (below += lookOf(body).row_px) > y);
+};
+const timeAt = x => window_s.from +
+  (x - nameWidth()) / (rows.clientWidth - nameWidth()) * (window_s.to - window_s.from);
+

@@ -75,7 +75,7 @@ TEST_F(ReplayReasons, SaysWhatWasDoubledLostLateAndMissing) {
           "P to M:",
           "DEFER #3, sent 1.600 s: lost, its fate is given; P then had REQUEST #1 (sent 1.000 s), not the 2 newer.",
           "DEFER #6, sent 4.900 s: received 5.500 s, 0.500 s too late; P then had REQUEST #5 (sent 3.000 s).",
-          "P itself at 5.000 s: idle.", "T to M:",
+          "P itself at 5.000 s: idle; it stood where M then met it, since 0.000 s.", "T to M:",
           "GRANT #2, sent 1.500 s, received 1.600 s and again 1.900 s: one message, delivered twice; 3.500 s old then; "
           "T then had REQUEST #1 (sent 1.000 s), not the 2 newer.",
           "After that #2, it received 2 REQUEST and answered none of them until then.",
@@ -108,7 +108,8 @@ TEST_F(ReplayReasons, SaysNothingOfTheKindIfAllArrived) {
                   "P to M:",
                   "DEFER #6, sent 4.900 s, received 4.901 s; 0.100 s old then; P then had REQUEST #5 (sent 3.000 "
                   "s); 1 more before it.",
-                  "P itself at 5.000 s: idle.",
+                  "When P sent DEFER #6: idle; it stood where M then met it, since 0.000 s.",
+                  "P itself at 5.000 s: idle; it stood where M then met it, since 0.000 s.",
                   "T: GRANT #2, sent 1.500 s, received 1.501 s; 3.500 s old then; T then had REQUEST #1 (sent "
                   "1.000 s), not the 2 newer.",
                   "After that it received GRANT from T (6.001 s)."));

@@ -86,6 +86,18 @@ TEST(FilmStrip, has_axes_in_metres_time_and_clearance) {
   EXPECT_THAT(texts, testing::Contains("98"));
 }
 
+TEST(FilmStrip, has_a_bar_of_its_scale) {
+  const auto document = parsed(draw(two_agvs()));
+  std::vector<std::string> texts;
+  for (const auto& text : document.select_nodes("//svg/text")) texts.emplace_back(text.node().text().get());
+  EXPECT_THAT(texts, testing::Contains("2 m"));
+  const auto bar = corners(document.select_node("//svg/path[@class='scale']").node().attribute("d").value());
+  ASSERT_EQ(bar.size(), 3u) << "two ends, and one of them once more";
+  const auto bodies = bodies_of(document);
+  const double px_per_m = (corners(bodies[1])[0].x_m - corners(bodies[0])[0].x_m) / 10.0;
+  EXPECT_NEAR(bar[2].x_m - bar[0].x_m, 2.0 * px_per_m, 0.2);
+}
+
 TEST(FilmStrip, clearances_are_rounded_down) {
   auto strip = two_agvs();
   strip.frames[0].clearance_m = 0.0999;

@@ -108,6 +108,26 @@ TEST(SettingOff, AnAgvThatAsksOnItsWayDecidesAnew) {
   EXPECT_THAT(lines_of(reason), Not(Contains(HasSubstr("set off"))));
 }
 
+// A fleet that says a lot: those nearest to the failure stay.
+TEST(DriveReasons, AreNotMoreThanAPageCanCarry) {
+  Film film = rolling_film();
+  film.states.clear();
+  for (Message& message : film.messages) message.content = std::string(20'000, 'x');
+  film.activities.clear();
+  for (std::int64_t i = 0; i < 60; ++i)
+    film.activities.push_back({0, 5'000'000 + 20'000 * i, 5'010'000 + 20'000 * i, "drive", "s to t"});
+  const auto reasons = drive_reasons(film);
+  ASSERT_GE(reasons.size(), 4U);
+  std::size_t bytes = 0;
+  for (const Reason& reason : reasons) {
+    for (const ReasonLine& line : reason.lines) bytes += line.text.size();
+  }
+  EXPECT_LE(bytes, 400'000U);
+  EXPECT_TRUE(reasons[0].is_fatal);
+  EXPECT_TRUE(reasons[1].is_fatal) << "B had begun nothing";
+  for (std::size_t i = 2; i < reasons.size(); ++i) EXPECT_EQ(reasons[i].activity, 59 - reasons.size() + i);
+}
+
 // What an AGV sends all the time is heard before most answers, but is not what they answer.
 TEST(SettingOff, AKindSentAllTheTimeIsNotTheOneThatAsks) {
   Film film = rolling_film();
