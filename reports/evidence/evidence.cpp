@@ -89,10 +89,8 @@ void Evidence::add(const RunRecord& run) {
     ++tally.runs;
     tally.incidents += count;
   }
-  Coverage met;
-  met.add(run.outcome);
   for (const auto pool : pools_of_cell_[run.cell]) {
-    pending_coverage_[pool].add(met);
+    pending_coverage_[pool].add(run.outcome);
     add_to_pool(pool, run);
   }
   if (run.cell + 1 == cells_.size()) finish_replicate();

@@ -223,10 +223,11 @@ const drawFloor = t_s => {
     if (x > 0 && x < floor.clientWidth) label(gap.apart_m.toFixed(3) + ' m', x, y - 9, colour, true);
   }
   if (shown.names) {
+    const margin_m = shown.perimeters ? kSafety_m : 0;
     for (const {body, box} of there.reverse()) {
       const reach_m = Math.abs(box.uy) * box.long_m + Math.abs(box.ux) * box.wide_m;
       if (isOnCanvas(box) && (view.scale > 5 || isInvolved(body) || body === selected))
-        label(nameOf(body), toX(box.x_m), toY(box.y_m - reach_m) + 13, colours.ink, isInvolved(body));
+        label(nameOf(body), toX(box.x_m), toY(box.y_m - reach_m - margin_m) + 13, colours.ink, isInvolved(body));
     }
   }
   if (shown.waits) drawWaits(context, all, t_s);
