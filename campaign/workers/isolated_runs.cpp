@@ -12,8 +12,6 @@
 #include "campaign/workers/worker_watch.hpp"
 #include "core/base/error.hpp"
 #include "core/scenario/canonical_bytes.hpp"
-#include "generators/scenario_file/scenario_file.hpp"
-#include "generators/scenario_file/scenario_text.hpp"
 
 namespace fleetproof {
 namespace {
@@ -52,7 +50,7 @@ RunRecord IsolatedRuns::operator()(std::uint64_t run_index, bool record_calls) {
 }
 
 CaseRun IsolatedRuns::of_case(const Scenario& scenario, Fates fates) {
-  RunOrder order{0, {}, false, to_text(scenario), fates == Fates::Kept};
+  RunOrder order{0, {}, false, cases_.write(scenario), fates == Fates::Kept};
   RunAnswer answer = answer_of(order);
   return {std::move(answer.outcome), std::move(answer.states),     std::move(answer.doing),
           std::move(answer.words),   std::move(answer.all_words),  std::move(answer.fates),
@@ -60,7 +58,7 @@ CaseRun IsolatedRuns::of_case(const Scenario& scenario, Fates fates) {
 }
 
 std::optional<std::vector<KnownEnd>> IsolatedRuns::ends_in(const Scenario& scenario) {
-  RunOrder order{0, {}, false, to_text(scenario), false};
+  RunOrder order{0, {}, false, cases_.write(scenario), false};
   if (!answer_of(order).explained) return std::nullopt;
   return std::move(order.known_ends);
 }
@@ -101,8 +99,8 @@ RunAnswer IsolatedRuns::repeat(Member& member, RunOrder& order) {
 }
 
 RunAnswer IsolatedRuns::unexplained(const RunOrder& order, const CauseOfDeath& cause) const {
-  const Scenario scenario = order.scenario.empty() ? run_one_.scenarios().scenario(order.run_index)
-                                                   : parse_scenario(order.scenario, "an order to a worker");
+  const Scenario scenario =
+      order.scenario.is_empty() ? run_one_.scenarios().scenario(order.run_index) : CaseReader().read(order.scenario);
   RunAnswer answer;
   answer.explained = false;
   answer.scenario_digest = scenario_digest(scenario);

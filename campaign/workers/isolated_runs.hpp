@@ -97,6 +97,7 @@ class IsolatedRuns {
   SharedSlots slots_;
   WorkerLogs logs_;
   Forker forker_;
+  CaseWriter cases_;
   std::atomic<bool> abandoned_ = false;
   std::atomic<std::uint64_t> slowest_ns_ = 0;
 

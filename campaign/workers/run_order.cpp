@@ -47,7 +47,9 @@ std::string encode(const RunOrder& order) {
     sink.text(end.message);
   }
   sink.u8(order.record ? 1 : 0);
-  sink.text(order.scenario);
+  sink.u64(order.scenario.layout_digest);
+  sink.text(order.scenario.layout);
+  sink.text(order.scenario.scenario);
   sink.u8(order.fates ? 1 : 0);
   return sink.take();
 }
@@ -63,7 +65,9 @@ RunOrder decode_order(std::string_view bytes) {
     end.message = source.text();
   }
   order.record = source.flag();
-  order.scenario = source.text();
+  order.scenario.layout_digest = source.u64();
+  order.scenario.layout = source.text();
+  order.scenario.scenario = source.text();
   order.fates = source.flag();
   source.end();
   return order;

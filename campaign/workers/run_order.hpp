@@ -8,6 +8,7 @@
 #include "campaign/run/case_notes.hpp"
 #include "campaign/run/departures.hpp"
 #include "campaign/run/message_fates.hpp"
+#include "campaign/workers/case_text.hpp"
 #include "core/engine/run_watch.hpp"
 #include "core/outcome/outcome.hpp"
 
@@ -17,9 +18,9 @@ namespace fleetproof {
 struct RunOrder {
   std::uint64_t run_index = 0;
   std::vector<KnownEnd> known_ends;
-  bool record = false;     // what the agents do, in case the run fails
-  std::string scenario{};  // a scenario file; empty: the run of the plan
-  bool fates = false;      // of a scenario: of its messages
+  bool record = false;  // what the agents do, in case the run fails
+  CaseText scenario{};  // empty: the run of the plan
+  bool fates = false;   // of a scenario: of its messages
 };
 std::string encode(const RunOrder& order);
 RunOrder decode_order(std::string_view bytes);  // throws EngineError on bytes that `encode` did not write

@@ -17,7 +17,6 @@
 #include "campaign/workers/run_order.hpp"
 #include "core/base/error.hpp"
 #include "core/engine/call_tape.hpp"
-#include "generators/scenario_file/scenario_file.hpp"
 
 namespace fleetproof {
 namespace {
@@ -56,6 +55,7 @@ void set_limits(std::uint64_t memory_mb) {
 struct Stage {
   const CampaignPlan& plan;
   const AgentPrograms& programs;
+  CaseReader& cases;
   RunOne run_one{plan, programs};
 };
 
@@ -67,15 +67,15 @@ RunAnswer answer_to(const RunOrder& order, const Stage& stage, WorkerSlot& slot)
   watch.known_ends = order.known_ends;
   CallTape tape;
   if (order.record) watch.record = &tape;
-  if (order.scenario.empty()) {
+  if (order.scenario.is_empty()) {
     RunRecord record = stage.run_one(order.run_index, nullptr, watch);
     answer.scenario_digest = record.scenario_digest;
     answer.outcome = std::move(record.outcome);
   } else {
     const AgentFactor& agent = stage.plan.agents.front();
-    CaseRun run = run_case(parse_scenario(order.scenario, "an order to a worker"),
-                           stage.programs.find(agent.program, "agent"), stage.plan.config_of(agent),
-                           stage.plan.laws_left_out, order.fates ? Fates::Kept : Fates::Ignored, watch);
+    CaseRun run = run_case(stage.cases.read(order.scenario), stage.programs.find(agent.program, "agent"),
+                           stage.plan.config_of(agent), stage.plan.laws_left_out,
+                           order.fates ? Fates::Kept : Fates::Ignored, watch);
     answer.outcome = std::move(run.outcome);
     answer.states = std::move(run.states);
     answer.doing = std::move(run.doing);
@@ -94,7 +94,8 @@ RunAnswer answer_to(const RunOrder& order, const Stage& stage, WorkerSlot& slot)
 
 void take_orders(const CampaignPlan& plan, const AgentPrograms& programs, WorkerSlot& slot, Channel& channel,
                  const std::function<void(const RunOrder& order)>& before_each) {
-  const Stage stage{plan, programs};
+  CaseReader cases;
+  const Stage stage{plan, programs, cases};
   for (;;) {
     Channel::Wait state = Channel::Wait::NotYet;
     while (state == Channel::Wait::NotYet) state = channel.wait(std::chrono::hours(1));

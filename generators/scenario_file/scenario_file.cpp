@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "core/base/catalogue.hpp"
 #include "core/base/tolerances.hpp"
@@ -60,9 +61,11 @@ RecordedMessage recorded_message(const JsonReader& reader) {
 // are used: layout and vehicle types come first.
 class ScenarioReader {
  public:
-  Scenario read(const JsonReader& root) {
+  // Null: the map is that of the layout in the text.
+  Scenario read(const JsonReader& root, std::shared_ptr<const LogicalMap> map) {
     Scenario scenario;
-    scenario.map = std::make_shared<const LogicalMap>(read_layout(root.at("layout")));
+    if (!map) map = std::make_shared<const LogicalMap>(read_layout(root.at("layout")));
+    scenario.map = std::move(map);
     stations_.emplace("station", scenario.map->layout().stations);
     segments_.emplace("segment", scenario.map->layout().segments);
     if (const auto types = root.find("vehicle_types")) value({}, *types, scenario.vehicle_types);
@@ -155,11 +158,7 @@ class ScenarioReader {
   std::optional<Names> stations_, segments_, types_, agvs_;
 };
 
-}  // namespace
-
-Scenario read_scenario(const std::string& path) { return parse_scenario(read_text_file(path), path); }
-
-Scenario parse_scenario(std::string_view text, std::string_view source) {
+Scenario scenario_of(std::string_view text, std::string_view source, std::shared_ptr<const LogicalMap> map) {
   const JsonValue root = parse_json(text, source);
   const JsonReader reader(root, source);
   KnownKeys known;
@@ -171,10 +170,20 @@ Scenario parse_scenario(std::string_view text, std::string_view source) {
   known.expect(reader);
   if (const auto version = reader.at("version"); version.integer() != kScenarioFileVersion)
     version.refuse(fmt::format("this program reads scenario files of version {}", kScenarioFileVersion));
-  Scenario scenario = ScenarioReader().read(reader);
+  Scenario scenario = ScenarioReader().read(reader, std::move(map));
   const auto problems = unusable_problems(scenario);
   if (!problems.empty()) reader.refuse_below(problems[0].pointer, problems[0].sentence);
   return scenario;
+}
+
+}  // namespace
+
+Scenario read_scenario(const std::string& path) { return parse_scenario(read_text_file(path), path); }
+
+Scenario parse_scenario(std::string_view text, std::string_view source) { return scenario_of(text, source, nullptr); }
+
+Scenario parse_scenario_on(std::shared_ptr<const LogicalMap> map, std::string_view text, std::string_view source) {
+  return scenario_of(text, source, std::move(map));
 }
 
 }  // namespace fleetproof

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -19,5 +20,7 @@ inline constexpr std::int64_t kScenarioFileVersion = 1;
 // lists. A scenario that is only a poor test (for example, with a weakly connected layout) is accepted.
 Scenario read_scenario(const std::string& path);
 Scenario parse_scenario(std::string_view text, std::string_view source);
+// A text without a layout (`text_without_layout`), on the map that its scenario had.
+Scenario parse_scenario_on(std::shared_ptr<const LogicalMap> map, std::string_view text, std::string_view source);
 
 }  // namespace fleetproof

@@ -20,7 +20,8 @@ std::string seed_text(std::uint64_t seed) { return fmt::format("0x{:016x}", seed
 // Writes a struct by its list of fields.
 class ScenarioWriter {
  public:
-  explicit ScenarioWriter(const Scenario& scenario) : scenario_(scenario) {}
+  enum class Layouts : bool { LeftOut, Written };
+  explicit ScenarioWriter(const Scenario& scenario, Layouts layouts) : scenario_(scenario), layouts_(layouts) {}
 
   std::string write() {
     ensure(scenario_.map != nullptr, "a scenario has a map");
@@ -57,6 +58,12 @@ class ScenarioWriter {
   }
   void member(std::string_view key, Duration value) {
     json_.key(std::string(key.substr(0, key.size() - 1)) + "ns").value(std::int64_t{value.count()});
+  }
+
+  void member(std::string_view key, const std::shared_ptr<const LogicalMap>& map) {
+    if (layouts_ == Layouts::LeftOut) return;
+    json_.key(key);
+    write_layout(json_, map->layout());
   }
 
   // Short structs stand on one line.
@@ -121,14 +128,20 @@ class ScenarioWriter {
     }
     json_.close();
   }
-  void write(const std::shared_ptr<const LogicalMap>& map) { write_layout(json_, map->layout()); }
 
   const Scenario& scenario_;
+  Layouts layouts_;
   JsonWriter json_;
 };
 
 }  // namespace
 
-std::string to_text(const Scenario& scenario) { return ScenarioWriter(scenario).write(); }
+std::string to_text(const Scenario& scenario) {
+  return ScenarioWriter(scenario, ScenarioWriter::Layouts::Written).write();
+}
+
+std::string text_without_layout(const Scenario& scenario) {
+  return ScenarioWriter(scenario, ScenarioWriter::Layouts::LeftOut).write();
+}
 
 }  // namespace fleetproof

@@ -50,12 +50,14 @@ TEST(Channel, RefusesWhatIsNoFrame) {
 }
 
 TEST(RunOrder, IsWhatWasEncoded) {
-  const RunOrder order{4711, {{17, false, "stack overflow"}, {18, true, ""}}, true, "{}", true};
+  const RunOrder order{4711, {{17, false, "stack overflow"}, {18, true, ""}}, true, {5, "a plant", "{}"}, true};
   const RunOrder decoded = decode_order(encode(order));
   EXPECT_EQ(decoded.run_index, order.run_index);
   EXPECT_EQ(decoded.known_ends, order.known_ends);
   EXPECT_TRUE(decoded.record && decoded.fates);
-  EXPECT_EQ(decoded.scenario, "{}");
+  EXPECT_EQ(decoded.scenario.layout_digest, 5U);
+  EXPECT_EQ(decoded.scenario.layout, "a plant");
+  EXPECT_EQ(decoded.scenario.scenario, "{}");
 }
 
 TEST(RunAnswer, IsWhatWasEncodedAndNothingShorter) {
