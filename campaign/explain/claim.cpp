@@ -17,10 +17,15 @@ std::string name_of_body(const Scenario& scenario, EntityId body) {
   return "a fallen load";
 }
 
+std::string words_of(const MessageFate& message) {
+  if (message.kind.empty()) return "not described";
+  return message.content.empty() ? message.kind : message.kind + ": " + message.content;
+}
+
 std::string message_text(const Scenario& scenario, const MessageFate& message) {
   const GivenFate& fate = message.fate;
   return fmt::format("message {} ({}{} to {}, {:.3f} s)", message.number,
-                     message.kind.empty() ? "" : message.kind + ", ", name_of_body(scenario, fate.sender),
+                     message.kind.empty() ? "" : words_of(message) + ", ", name_of_body(scenario, fate.sender),
                      name_of_body(scenario, fate.receiver), to_seconds(fate.sent));
 }
 

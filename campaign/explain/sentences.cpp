@@ -146,22 +146,26 @@ class Words {
     if (fate.copied) say("That message arrived twice.");
     if (fate.delay >= kNotable) say("That message was {:.2f} s late.", to_seconds(fate.delay));
     said_with(fate);
-    if (!key.asked) {
-      say("{} had heard nothing of {} when it sent it.", from, name);
-    } else {
-      say("When {} sent it, the last to reach it of {} was message {} ({}, {:.3f} s){}.", from, name, key.asked->number,
-          key.asked->kind.empty() ? "not described" : key.asked->kind, to_seconds(key.asked->fate.sent),
-          key.asked_again == 0
-              ? ""
-              : fmt::format("; {} sent {} more of that kind before that drive or turn", name, key.asked_again));
-      faults_between(is.agv, key.asked->fate.sent, is.drive.at - kStart, "after it had sent that");
-    }
+    if (key.asked.empty()) say("{} had heard nothing of {} when it sent it.", from, name);
+    for (const Question& asked : key.asked) question(is, asked, name, from);
     if (!key.sender_drive || std::ranges::count(involved(), fate.sender) == 0) return;
     const auto& map = *scenario_.map;
     say("{} had last set off from {} for {} then, at {:.3f} s{}.", from, map.station(key.sender_drive->from).name,
         map.station(key.sender_drive->to).name, seconds_of(key.sender_drive->at),
         key.is_last_drive ? "; it was on that drive, or behind it, when it failed" : "");
     faults_between(fate.sender, key.sender_drive->at - kStart, fate.sent, "between that and the message");
+  }
+
+  void question(const SetOff& is, const Question& asked, const std::string& name, const std::string& from) {
+    const auto& [message, again, last] = asked;
+    std::string since;
+    if (again > 0)
+      since = fmt::format("; {} sent {} more of that kind before that drive or turn, at last message {} ({}, {:.3f} s)",
+                          name, again, last->number, words_of(*last), to_seconds(last->fate.sent));
+    say("When {} sent it, the last {}to reach it of {} was message {} ({}, {:.3f} s){}.", from,
+        message.kind.empty() ? "" : message.kind + " ", name, message.number, words_of(message),
+        to_seconds(message.fate.sent), since);
+    faults_between(is.agv, message.fate.sent, is.drive.at - kStart, "after it had sent that");
   }
 
   // What the sender of a message declared when it sent it.

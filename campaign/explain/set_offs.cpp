@@ -14,9 +14,7 @@ namespace fleetproof {
 namespace {
 
 constexpr Duration kThen = std::chrono::milliseconds(5);
-constexpr std::size_t kMostAlone = 60, kMostKeys = 2, kMostRounds = 50;
-
-SimTime arrival_of(const MessageFate& message) { return kStart + message.fate.sent + message.fate.delay; }
+constexpr std::size_t kMostAlone = 60, kMostKeys = 2, kMostRounds = 50, kMostQuestions = 3;
 
 Scenario without_messages(const Scenario& scenario, const std::vector<MessageFate>& messages) {
   Scenario less = scenario;
@@ -49,7 +47,7 @@ class Inquiry {
         departures_(run.whereabouts.departures),
         drive_(drive) {
     heard_ = those(all_, [&](const MessageFate& m) { return reaches_it(m); });
-    std::ranges::stable_sort(heard_, std::ranges::greater(), arrival_of);
+    std::ranges::stable_sort(heard_, std::ranges::greater(), &MessageFate::arrives);
   }
 
   SetOff find() {
@@ -68,8 +66,8 @@ class Inquiry {
   };
 
   bool reaches_it(const MessageFate& m) const {
-    return m.fate.receiver == drive_.agv && !m.fate.lost && arrival_of(m) <= drive_.at &&
-           arrival_of(m) + kLookedAt > drive_.at;
+    return m.fate.receiver == drive_.agv && !m.fate.lost && m.arrives() <= drive_.at &&
+           m.arrives() + kLookedAt > drive_.at;
   }
 
   // One run without these messages, and what it shows.
@@ -132,8 +130,7 @@ class Inquiry {
       Leave& leave = *std::ranges::find(leaves, message.fate.sender, &Leave::from);
       if (leave.keys.size() == kMostKeys) continue;
       Without alone = without({message}, *runs[i], message_text(failing_.scenario, message));
-      GoAhead key{message, std::move(alone.claim), {}, 0, {}, false};
-      add_question(key);
+      GoAhead key{message, std::move(alone.claim), questions_before(message), {}, false};
       add_sender_drive(key);
       leave.keys.push_back(std::move(key));
     }
@@ -143,18 +140,24 @@ class Inquiry {
     return std::ranges::count(kinds, kind) > 0;
   }
 
-  void add_question(GoAhead& key) const {
-    const EntityId sender = key.message.fate.sender;
-    for (const MessageFate& m : all_) {
-      const bool heard = m.fate.sender == drive_.agv && m.fate.receiver == sender && !m.fate.lost &&
-                         arrival_of(m) <= kStart + key.message.fate.sent;
-      if (heard && (!key.asked || arrival_of(*key.asked) <= arrival_of(m))) key.asked = m;
+  // The AGV's messages to the sender that had reached it when it sent this one.
+  std::vector<Question> questions_before(const MessageFate& answer) const {
+    std::vector<MessageFate> to_sender = those(all_, [&](const MessageFate& m) {
+      return m.fate.sender == drive_.agv && m.fate.receiver == answer.fate.sender && kStart + m.fate.sent <= drive_.at;
+    });
+    std::vector<MessageFate> heard = those(to_sender, [&](const MessageFate& m) {
+      return !m.fate.lost && m.arrives() <= kStart + answer.fate.sent && m.number < answer.number;
+    });
+    std::ranges::stable_sort(heard, std::ranges::greater(), &MessageFate::arrives);
+    std::vector<Question> questions;
+    for (const MessageFate& m : heard) {
+      const auto is_of_kind = [&](const Question& question) { return question.message.kind == m.kind; };
+      if (questions.size() == kMostQuestions || std::ranges::any_of(questions, is_of_kind)) continue;
+      const auto again = those(
+          to_sender, [&](const MessageFate& later) { return later.kind == m.kind && later.fate.sent > m.fate.sent; });
+      questions.push_back({m, again.size(), again.empty() ? std::nullopt : std::optional(again.back())});
     }
-    if (!key.asked) return;
-    key.asked_again = static_cast<std::size_t>(std::ranges::count_if(all_, [&](const MessageFate& m) {
-      return m.fate.sender == drive_.agv && m.fate.receiver == sender && m.kind == key.asked->kind &&
-             m.fate.sent > key.asked->fate.sent && kStart + m.fate.sent <= drive_.at;
-    }));
+    return questions;
   }
 
   void add_sender_drive(GoAhead& key) const {

@@ -7,14 +7,18 @@
 
 namespace fleetproof {
 
+// What a message may be an answer to: the last of its kind that had reached the sender.
+struct Question {
+  MessageFate message;
+  std::size_t again = 0;                  // so many more of its kind were sent before the drive
+  std::optional<MessageFate> last_again;  // the last of them
+};
+
 // A message that held the key to a drive: without it alone, the AGV does not set off then.
 struct GoAhead {
   MessageFate message;
   Claim claim;
-  // The last message of the AGV that the sender had heard when it sent this one: what it may be an answer to. None: it
-  // had heard nothing. And how many more of the same kind the AGV sent before it set off.
-  std::optional<MessageFate> asked;
-  std::size_t asked_again = 0;
+  std::vector<Question> asked;  // of the AGV, one for each kind, the latest first; empty: the sender had heard nothing
   std::optional<Departure> sender_drive;  // the last of its sender before it was sent
   bool is_last_drive = false;             // and before the failure
 };

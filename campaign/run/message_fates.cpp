@@ -5,11 +5,11 @@ namespace fleetproof {
 // The records of a message come in this order: what it is, that it was sent, its fate at each receiver.
 void FateKeeper::record(const TraceRecord& record, std::string_view text) {
   if (record.kind == TraceKind::Described) {
-    kinds_[read<traced::Described>(record).message_hash] = message_words(text).kind;
+    texts_[read<traced::Described>(record).message_hash] = text;
   } else if (record.kind == TraceKind::Sent) {
     const auto sent = read<traced::Sent>(record);
-    const auto kind = kinds_.find(sent.message_hash);
-    kind_ = kind == kinds_.end() ? "" : kind->second;
+    const auto described = texts_.find(sent.message_hash);
+    text_ = described == texts_.end() ? "" : described->second;
     bytes_ = sent.bytes;
   } else if (record.kind == TraceKind::FateDecided) {
     decided(record);
@@ -37,8 +37,12 @@ void FateKeeper::decided(const TraceRecord& record) {
   message.fate.sent = record.at - kStart;
   message.fate.ordinal = ordinal;
   message.fate.lost = lost;
-  if (!lost) message.fate.delay = delay;
-  message.kind = kind_;
+  if (!lost) {
+    message.fate.delay = delay;
+    message.on_its_way = due_after;
+  }
+  message.kind = message_words(text_).kind;
+  message.content = message_words(text_).content;
   message.number = number;
   first_of_.emplace(number, fates_.size());
   fates_.push_back(std::move(message));

@@ -15,7 +15,10 @@ struct MessageFate {
   GivenFate fate;
   std::string kind;          // as its sender describes it; empty if it does not
   std::uint32_t number = 0;  // of the message in its run
+  std::string content{};     // what it says, as its sender describes it; may be empty
+  Duration on_its_way{};     // until it arrives, also on a perfect radio; of a lost one: zero
 
+  SimTime arrives() const { return kStart + fate.sent + on_its_way; }  // requires: it is not lost
   // Lost, or later than the air takes, or twice.
   bool is_adverse() const { return fate.lost || fate.copied || fate.delay > Duration::zero(); }
 };
@@ -33,8 +36,8 @@ class FateKeeper final : public TraceSink {
   RadioSetup radio_;
   std::vector<MessageFate> fates_;
   std::map<std::uint32_t, std::size_t> first_of_;  // by message number: its first fate
-  std::map<std::uint64_t, std::string> kinds_;     // by hash of the message
-  std::string kind_;
+  std::map<std::uint64_t, std::string> texts_;     // what a message is, by its hash
+  std::string text_;
   std::size_t bytes_ = 0;  // of the message that was sent last
 };
 

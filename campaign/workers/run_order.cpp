@@ -6,7 +6,7 @@ namespace fleetproof {
 namespace {
 
 constexpr std::size_t kShortestEndBytes = 8 + 1 + 4, kShortestTextBytes = 4,
-                      kShortestFateBytes = 3 * 4 + 3 * 8 + 2 + 4 + 4;
+                      kShortestFateBytes = 4 * 4 + 4 * 8 + 2 + 4 + 4;
 
 void put(ByteSink& sink, const std::vector<std::string>& texts) {
   sink.u32(static_cast<std::uint32_t>(texts.size()));
@@ -25,6 +25,8 @@ void put(ByteSink& sink, const MessageFate& message) {
   for (const Duration time : {sent, delay, copy_delay}) sink.i64(time.count());
   for (const bool flag : {lost, copied}) sink.u8(flag ? 1 : 0);
   sink.text(message.kind);
+  sink.text(message.content);
+  sink.i64(message.on_its_way.count());
 }
 
 void take(ByteSource& source, MessageFate& message) {
@@ -33,6 +35,8 @@ void take(ByteSource& source, MessageFate& message) {
   for (Duration* time : {&sent, &delay, &copy_delay}) *time = Duration{source.i64()};
   for (bool* flag : {&lost, &copied}) *flag = source.flag();
   message.kind = source.text();
+  message.content = source.text();
+  message.on_its_way = Duration{source.i64()};
 }
 
 }  // namespace

@@ -75,6 +75,8 @@ TEST(RunAnswer, IsWhatWasEncodedAndNothingShorter) {
   message.fate = {AgvId{1U}, AgvId{2U}, Duration{3}, 4, true, Duration{5}, true, Duration{6}};
   message.kind = "GRANT";
   message.number = 7;
+  message.content = "answers 1";
+  message.on_its_way = Duration{8};
   const Departure departure{AgvId{1U}, at_ns(8), at_ns(9), StationId{2U}, StationId{3U}, {0.6, 0.8}, {-1.0, 0.0}};
   answer.whereabouts.departures = {departure};
   answer.whereabouts.deliveries = {{AgvId{2U}, 4, at_ns(10)}};
@@ -91,6 +93,8 @@ TEST(RunAnswer, IsWhatWasEncodedAndNothingShorter) {
   ASSERT_EQ(decoded.fates.size(), 1U);
   EXPECT_EQ(decoded.fates[0].fate, message.fate);
   EXPECT_EQ(std::tuple(decoded.fates[0].kind, decoded.fates[0].number), std::tuple(message.kind, message.number));
+  EXPECT_EQ(decoded.fates[0].content, message.content);
+  EXPECT_EQ(decoded.fates[0].arrives(), kStart + message.fate.sent + Duration{8});
   ASSERT_EQ(decoded.whereabouts.departures.size(), 1U);
   const Departure& there = decoded.whereabouts.departures[0];
   EXPECT_EQ(std::tuple(there.agv, there.at, there.arrives, there.from, there.to),

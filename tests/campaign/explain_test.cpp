@@ -70,7 +70,7 @@ TEST(Explain, NoClaimIsFalse) {
 
 // What is said to hold a drive back does so, and what is not needed is not.
 TEST(Explain, WhatLetItSetOffIsSimulated) {
-  std::size_t keys = 0, not_needed = 0;
+  std::size_t keys = 0, not_needed = 0, questions = 0;
   for (const std::uint64_t seed : {1U, 11U}) {
     Explained explained("timeout-grant", seed);
     ASSERT_FALSE(explained.is.set_offs.empty());
@@ -91,11 +91,17 @@ TEST(Explain, WhatLetItSetOffIsSimulated) {
           EXPECT_FALSE(sets_off(key.claim)) << key.claim.sentence;
           EXPECT_EQ(key.message.fate.receiver, set_off.agv);
           EXPECT_LE(kStart + key.message.fate.sent, set_off.drive.at);
+          for (const Question& asked : key.asked) {
+            ++questions;
+            EXPECT_LE(asked.message.arrives(), kStart + key.message.fate.sent);
+            EXPECT_GT(asked.message.arrives(), kStart + asked.message.fate.sent) << "the air takes a millisecond";
+          }
         }
       }
     }
   }
   EXPECT_GT(keys, 0U);
+  EXPECT_GT(questions, 0U);
   EXPECT_GT(not_needed, 0U);
 }
 
@@ -120,7 +126,13 @@ TEST(Explain, TheSentencesTellWhatLetItSetOff) {
   asked.number = 5;
   asked.fate = {.sender = agv, .receiver = other, .sent = seconds(1.0)};
   const Claim held{"", {}, "none", true, {}};
-  is.set_offs = {{agv, drive, {{other, {"GRANT"}, {held}, held, {{grant, held, asked, 2, drive, true}}}}}};
+  grant.content = "answers 7";
+  MessageFate last = asked;
+  last.number = 6;
+  last.content = "asks with 8";
+  last.fate.sent = seconds(3.0);
+  const Question question{asked, 2, last};
+  is.set_offs = {{agv, drive, {{other, {"GRANT"}, {held}, held, {{grant, held, {question}, drive, true}}}}}};
   is.notes.declared = {{other, "gave-way", kStart + std::chrono::seconds(2)}};
   const auto sentences = sentences_of(is);
   const auto says = [&](const std::string& words) {
@@ -135,8 +147,10 @@ TEST(Explain, TheSentencesTellWhatLetItSetOff) {
   EXPECT_TRUE(says("That message was 1.50 s late."));
   EXPECT_TRUE(says("That message arrived twice."));
   EXPECT_TRUE(says("At that instant, " + name(other) + " said \"gave-way\"."));
-  EXPECT_TRUE(
-      says("was message 5 (REQUEST, 1.000 s); " + name(agv) + " sent 2 more of that kind before that drive or turn."));
+  EXPECT_TRUE(says("Without message 7 (GRANT: answers 7, "));
+  EXPECT_TRUE(says("the last REQUEST to reach it of " + name(agv) + " was message 5 (REQUEST, 1.000 s); " + name(agv) +
+                   " sent 2 more of that kind before that drive or turn, at last message 6 (REQUEST: asks with 8, " +
+                   "3.000 s)."));
   EXPECT_TRUE(says("The restart of " + name(agv) + " at 1.50 s was after it had sent that."));
   EXPECT_EQ(claims_of(is).size(), 3U);
   is.set_offs.front().drive.to = drive.from;
