@@ -25,6 +25,12 @@ void keep_what_it_shows(CaseHost& host, const Finding& finding, const FailurePat
 
 }  // namespace
 
+void keep_words_of_all(KeptFailure& kept, const NeighbourCounts& neighbours) {
+  if (neighbours.alike == 0) return;
+  std::erase_if(kept.says,
+                [&](const std::string& word) { return std::ranges::count(neighbours.always_said, word) == 0; });
+}
+
 FindingRecord record_of(CaseHost& host, const Finding& finding, const FailureNeeds& representative,
                         std::uint64_t trials) {
   const FailingCase world = with_less_time(representative.reduced);
@@ -38,6 +44,7 @@ FindingRecord record_of(CaseHost& host, const Finding& finding, const FailureNee
   keep_what_it_shows(host, finding, pattern, record.kept);
   const Neighbourhood neighbourhood(host, record.kept);
   record.neighbours = try_enough_neighbours(host, record.kept, neighbourhood);
+  keep_words_of_all(record.kept, record.neighbours);
   const auto add_way = [&](std::vector<std::string> needs) {
     if (std::ranges::count(record.kept.ways, needs) == 0) record.kept.ways.push_back(std::move(needs));
   };

@@ -22,4 +22,8 @@ struct FindingRecord {
 FindingRecord record_of(CaseHost& host, const Finding& finding, const FailureNeeds& representative,
                         std::uint64_t trials);
 
+// Leaves the words that each of these failing neighbours had said: what some do without tells nothing, and its absence
+// in other software is chance.
+void keep_words_of_all(KeptFailure& kept, const NeighbourCounts& neighbours);
+
 }  // namespace fleetproof

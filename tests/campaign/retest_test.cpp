@@ -123,6 +123,18 @@ TEST(Retest, KnowsWhatTheSmallestCaseNeeds) {
               testing::ElementsAre(finding.mechanism.needs, needs_of(bench.host, record.kept.smallest)->needs));
 }
 
+TEST(Retest, KeepsNoWordThatFailingNeighboursDoWithout) {
+  KeptFailure kept;
+  kept.says = {"retreat", "silence-taken-for-consent"};
+  NeighbourCounts counts;
+  keep_words_of_all(kept, counts);
+  EXPECT_EQ(kept.says.size(), 2U) << "none failed: nothing is known";
+  counts.alike = 5;
+  counts.always_said = {"driving", "silence-taken-for-consent"};
+  keep_words_of_all(kept, counts);
+  EXPECT_THAT(kept.says, testing::ElementsAre("silence-taken-for-consent"));
+}
+
 TEST(Neighbours, AreMoreWhereHardlyAnyFails) {
   Bench bench("timeout-grant");
   const Scenario failing = bench.failing(125);
