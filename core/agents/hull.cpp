@@ -4,9 +4,19 @@
 #include <cmath>
 
 namespace fleetproof::agents {
+namespace {
+
+constexpr double kSlack_m = 1.0;  // shapes are a little larger than what a body sweeps
+
+bool further_than(Vec apart_m, double distance_m) { return dot(apart_m, apart_m) > distance_m * distance_m; }
+
+}  // namespace
 
 bool HullGeometry::conflict(std::uint32_t agv_a, const Path& a, std::uint32_t agv_b, const Path& b) {
   if (!parts_.key().options.shapes_decide) return share_a_station(map_, a, b);
+  // Most paths of a large fleet are far from each other.
+  const Vec apart_m = map_.position_m(a.station) - map_.position_m(b.station);
+  if (further_than(apart_m, extent_m(agv_a, a) + extent_m(agv_b, b) + clearance_m())) return false;
   Parts of_a, of_b;
   collect(agv_a, a, of_a);
   collect(agv_b, b, of_b);
@@ -19,12 +29,14 @@ bool HullGeometry::conflict(std::uint32_t agv_a, const Path& a, std::uint32_t ag
 }
 
 bool HullGeometry::lane_conflict(std::uint32_t agv_a, std::uint32_t lane, std::uint32_t agv_b, const Path& b) {
+  if (is_far(parts_.of_lane(agv_a, lane), agv_b, b)) return false;
   Parts of_b;
   collect(agv_b, b, of_b);
   return part_conflicts(parts_.of_lane(agv_a, lane), of_b);
 }
 
 bool HullGeometry::turn_conflict(std::uint32_t agv_a, std::uint32_t station, std::uint32_t agv_b, const Path& b) {
+  if (is_far(parts_.of_turn(agv_a, station), agv_b, b)) return false;
   Parts of_b;
   collect(agv_b, b, of_b);
   return part_conflicts(parts_.of_turn(agv_a, station), of_b);
@@ -38,6 +50,14 @@ double HullGeometry::distance_bound_m(Vec point_m, std::uint32_t agv, const Path
   for (std::uint32_t i = 0; i < parts.count; ++i)
     least_m = std::min(least_m, parts_.distance_bound_m(point_m, parts.numbers[i]));
   return least_m;
+}
+
+double HullGeometry::extent_m(std::uint32_t agv, const Path& path) const {
+  return length_m(map_, path) + reach_m(agv) + kSlack_m;
+}
+
+bool HullGeometry::is_far(std::uint32_t number, std::uint32_t agv, const Path& path) const {
+  return parts_.distance_bound_m(map_.position_m(path.station), number) > extent_m(agv, path) + clearance_m();
 }
 
 void HullGeometry::collect(std::uint32_t agv, const Path& path, Parts& parts) const {

@@ -42,6 +42,9 @@ class HullGeometry {
     Shape body;
   };
 
+  // From its first station; the hull of the path lies within.
+  double extent_m(std::uint32_t agv, const Path& path) const;
+  bool is_far(std::uint32_t number, std::uint32_t agv, const Path& path) const;
   void collect(std::uint32_t agv, const Path& path, Parts& parts) const;
   bool part_conflicts(std::uint32_t number, const Parts& others);
 

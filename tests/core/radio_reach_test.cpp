@@ -77,7 +77,9 @@ TEST(RadioReach, FindsAllThatAreInRange) {
       }
     }
     EXPECT_GT(in_range, 0U);
-    if (range_m < 10.0) EXPECT_LT(looked_at, rounds * kAgvs / 3) << range_m;
+    if (range_m < 10.0) {
+      EXPECT_LT(looked_at, rounds * kAgvs / 3) << range_m;
+    }
   }
 }
 
