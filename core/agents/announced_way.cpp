@@ -1,7 +1,6 @@
 #include "core/agents/announced_way.hpp"
 
 #include <algorithm>
-#include <ranges>
 
 namespace fleetproof::agents {
 
@@ -17,11 +16,6 @@ void AnnouncedWay::replace(const Path& way, std::uint32_t first_ms) {
 void AnnouncedWay::shorten(const MapView& map, std::uint32_t lanes) {
   std::copy(since_ms_.begin() + lanes, since_ms_.begin() + path_.count, since_ms_.begin());
   for (std::uint32_t i = 0; i < lanes; ++i) pass_first_lane(map, path_);
-}
-
-bool AnnouncedWay::begins_with(const Path& path) const {
-  return path.station == path_.station && path.count <= path_.count &&
-         std::equal(path.lanes().begin(), path.lanes().end(), path_.lanes().begin());
 }
 
 }  // namespace fleetproof::agents

@@ -21,8 +21,6 @@ class AnnouncedWay {
   void shorten(const MapView& map, std::uint32_t lanes);
   // Each message with this stamp or a later one contains the first `lanes` of the way. Requires: the way has so many.
   std::uint32_t since_ms(std::uint32_t lanes) const { return lanes == 0 ? 0 : since_ms_[lanes - 1]; }
-  // Whether the way begins with this path.
-  bool begins_with(const Path& path) const;
 
  private:
   Path path_;

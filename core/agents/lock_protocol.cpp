@@ -11,8 +11,6 @@ constexpr double kRounding_m = 1e-6;  // of sums of lengths; the proof of distan
 // More than a third of the fleet gets one message together. Of repetitions, a STATE to all takes more than a twelfth:
 // it tells the others news as well.
 constexpr std::size_t kFewerMessages = 3, kFewerRepetitions = 12;
-// Stamps are ahead of the clock by less than this.
-constexpr std::uint32_t kFormerSelf_ms = 100;
 // A STATE is sent at the latest after this time. It is longer in large fleets, so that an AGV hears about as many of
 // them a second.
 constexpr double kQuiet_s = 1.0, kQuietPerAgv_s = 0.05, kLongestQuiet_s = 30.0;
@@ -21,14 +19,7 @@ constexpr double kQuiet_s = 1.0, kQuietPerAgv_s = 0.05, kLongestQuiet_s = 30.0;
 
 void LockProtocol::stand(const Path& standing) {
   held_ = standing;
-  replace_way(end_of(map_, held_));
-}
-
-// A former self may have used stamps of the first instants of this boot.
-void LockProtocol::replace_way(const Path& way) {
-  const std::uint32_t first_ms = transmitter_.begin_new_stamp();
-  if (first_unused_ms_ == 0) first_unused_ms_ = boot_of(epoch_) > 0 ? first_ms + kFormerSelf_ms : first_ms;
-  way_.replace(way, std::max(first_ms, first_unused_ms_));
+  way_.replace(end_of(map_, held_), transmitter_.begin_new_stamp());
 }
 
 bool LockProtocol::request(const Path& stretch, std::int64_t demand_ns, std::span<const std::uint32_t> onward) {
@@ -51,12 +42,7 @@ void LockProtocol::announce(std::span<const std::uint32_t> onward) {
   for (const std::uint32_t lane : onward) {
     if (held_.count + way.count < kPathLanesMax) way.append(lane);
   }
-  replace_way(way);
-}
-
-// Whether it has heard the way that contains the request. Then it counts on nothing that was announced before.
-bool LockProtocol::knows_request(const Neighbour& n) const {
-  return !options_.consent.ways_are_heard || n.heard_us_ms >= way_.since_ms(request_.count);
+  way_.replace(way, transmitter_.begin_new_stamp());
 }
 
 bool LockProtocol::continues_held(const Path& stretch) const {
@@ -180,23 +166,6 @@ bool LockProtocol::is_blocked() {
   return blocked_;
 }
 
-std::uint32_t LockProtocol::waiting_inside(const Path& path) {
-  std::uint32_t found = FP_NONE;
-  neighbours_.for_each([&](std::uint32_t agv, const Neighbour& n) {
-    const bool stands = n.known && (n.status.waiting || n.status.out_of_order);
-    if (found == FP_NONE && stands && geometry_.conflict(neighbours_.self(), path, agv, n.status.held)) found = agv;
-  });
-  return found;
-}
-
-bool LockProtocol::is_held(const Path& path) {
-  bool held = false;
-  neighbours_.for_each([&](std::uint32_t agv, const Neighbour& n) {
-    held = held || (n.known && geometry_.conflict(neighbours_.self(), path, agv, n.status.held));
-  });
-  return held;
-}
-
 void LockProtocol::grant(std::uint32_t agv, Neighbour& neighbour, Answer answer) {
   neighbour.granted_epoch = neighbour.request_epoch;
   neighbour.answer_repeats = {};
@@ -214,7 +183,8 @@ void LockProtocol::give_way_to(Neighbour& neighbour) {
   if (options_.grants.overtaken == Overtaken::DropsThatGrant) neighbour.granted_us_epoch = 0;
   const bool steps_back = options_.grants.overtaken == Overtaken::StepsBack ||
                           (options_.grants.overtaken == Overtaken::StepsBackIfGranted && granted);
-  if (!steps_back || !is_asked(neighbour)) return;
+  if (!steps_back) return;
+  if (!is_asked(neighbour)) neighbour.asked_epoch = epoch_;  // it may have granted that one without being asked
   if (request_of(neighbour.asked_epoch + 1) != epoch_) return open_epoch();
   ++neighbour.asked_epoch;
   neighbour.request_repeats = {};

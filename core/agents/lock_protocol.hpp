@@ -1,9 +1,11 @@
 // Proof that two AGVs i and j never hold conflicting hulls.
 //
 // Terms
-// - An epoch of i towards j is the time in which i asks j for its consent to one fixed path. It ends when i locks the
-//   path, withdraws the request or steps back from j, or when the computer of i restarts. Its number consists of the
-//   boot, the request and the attempt, and is never used again.
+// - An epoch of i towards j is the time in which i requests one fixed path, whether it asks j for its consent or not.
+// It
+//   ends when i locks the path, withdraws the request or steps back from j, or when the computer of i restarts;
+//   stepping back begins the next one. Its number consists of the boot, the request and the attempt, and is never used
+//   again.
 // - i decides to grant an epoch f of j (towards i) only under two conditions. (1) Nothing that i holds conflicts with
 //   the request of j. (2) i is not inside an epoch towards j whose request conflicts, or i ends that epoch at once.
 // - A GRANT for f says that i decided so at some instant during f. Repeated GRANTs refer to the first decision that i
@@ -19,7 +21,7 @@
 //   restarted, j sent that message since (Neighbours::is_apart).
 //
 // What the newest message says
-// (N) j has asked i for its consent to Q in f, or has acknowledged nothing less: suppose that from the stamp s on, each
+// (N) Suppose that from the stamp s on, each
 //   message of j contained the lane Q until the instant t, as request, way or held path, and that i heard one of them
 //   before t. Then the newest message of j that i knows at t has the stamp s or a later one, so it contains Q, and j is
 //   not apart from a path of i that conflicts with Q. If i has restarted since it heard that message, what the new self
@@ -112,7 +114,7 @@ class LockProtocol {
         geometry_(geometry),
         neighbours_(neighbours),
         controller_(controller),
-        transmitter_(controller),
+        transmitter_(controller, boot),
         options_(options),
         epoch_(first_epoch(boot)) {}
 
@@ -153,9 +155,9 @@ class LockProtocol {
   void repeat();
 
   // An AGV that stands and waits inside the hull of `path`; FP_NONE if none is known.
-  std::uint32_t waiting_inside(const Path& path);
+  std::uint32_t waiting_inside(const Path& path) const { return neighbours_.waiting_inside(path); }
   // Whether another AGV is known to hold floor inside the hull of `path`.
-  bool is_held(const Path& path);
+  bool is_held(const Path& path) const { return neighbours_.hold_inside(path); }
 
  private:
   // What is to be sent again.
@@ -167,8 +169,10 @@ class LockProtocol {
 
   bool continues_held(const Path& stretch) const;
   void announce(std::span<const std::uint32_t> onward);
-  void replace_way(const Path& way);
-  bool knows_request(const Neighbour& neighbour) const;
+  // Whether it has heard the way that contains the request. Then it counts on nothing that was announced before.
+  bool knows_request(const Neighbour& neighbour) const {
+    return !options_.consent.ways_are_heard || neighbour.heard_us_ms >= way_.since_ms(request_.count);
+  }
   void open_epoch();
   void receive_request(std::uint32_t sender, const Message& message);
   void answer_request(std::uint32_t sender);
@@ -210,8 +214,7 @@ class LockProtocol {
   bool own_place_known_ = true;
   bool requesting_ = false;
   Path request_;
-  std::uint32_t first_unused_ms_ = 0;  // the first stamp of which it is certain that no former self used it
-  AnnouncedWay way_;                   // from the end of the held path; begins with the request
+  AnnouncedWay way_;  // from the end of the held path; begins with the request
   std::int64_t demand_ns_ = 0;
   Epoch epoch_;
   bool asked_ = false;                 // every AGV that had to be asked when this epoch began has been asked

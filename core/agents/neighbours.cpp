@@ -128,6 +128,23 @@ bool Neighbours::is_apart(std::uint32_t agv, const Path& path, Epoch request) {
   return n.apart.is;
 }
 
+std::uint32_t Neighbours::waiting_inside(const Path& path) {
+  std::uint32_t found = FP_NONE;
+  for_each([&](std::uint32_t agv, const Neighbour& n) {
+    const bool stands = n.known && (n.status.waiting || n.status.out_of_order);
+    if (found == FP_NONE && stands && geometry_.conflict(self_, path, agv, n.status.held)) found = agv;
+  });
+  return found;
+}
+
+bool Neighbours::hold_inside(const Path& path) {
+  bool held = false;
+  for_each([&](std::uint32_t agv, const Neighbour& n) {
+    held = held || (n.known && geometry_.conflict(self_, path, agv, n.status.held));
+  });
+  return held;
+}
+
 void Neighbours::tell_heard_from(HeardFrom& heard, std::uint32_t agv) const {
   heard.first = agv;
   heard.count = 1;

@@ -120,6 +120,11 @@ class Neighbours {
   // boot. Then it does not say where they may drive now.
   void restarted_at(std::int64_t now_ns) { fresh_from_ms_ = stamp_ms(now_ns); }
 
+  // An AGV that is known to stand and wait inside the hull of `path`; FP_NONE if there is none.
+  std::uint32_t waiting_inside(const Path& path);
+  // Whether an AGV is known to hold floor inside the hull of `path`.
+  bool hold_inside(const Path& path);
+
   // Fills in the newest stamp of one AGV.
   void tell_heard_from(HeardFrom& heard, std::uint32_t agv) const;
   // Fills in the next part of the table of newest stamps. The table of a large fleet needs several messages.
@@ -132,7 +137,6 @@ class Neighbours {
 
  private:
   void note_request(Neighbour& neighbour, const Message& message, bool is_newest);
-  void note_status(Neighbour& neighbour, const Status& status);
   void note_acknowledgement(Neighbour& neighbour, const Message& message, std::int64_t now_ns);
   void note_place(Neighbour& neighbour, const Message& message, std::int64_t sent_ns);
 

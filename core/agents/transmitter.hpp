@@ -10,20 +10,24 @@ namespace fleetproof::agents {
 // Sends messages of the lock protocol, with what each of them says about the AGV itself.
 class Transmitter {
  public:
-  explicit Transmitter(Controller& controller) : controller_(controller) {}
+  // `boot`: of the computer.
+  Transmitter(Controller& controller, std::uint32_t boot) : controller_(controller), boot_(boot) {}
 
   // The state of the AGV that the next messages contain.
   void describe(bool waiting, bool idle, bool out_of_order);
   // Fills in that state, the instant and the position.
   void fill_in(Status& status);
-  // The next messages say something new: they get a stamp that no message had before. It is returned, and may be
-  // ahead of the clock by a few milliseconds.
+  // The next messages say something new: they get a stamp that no message of this boot had before, which may be ahead
+  // of the clock by a few milliseconds. Returns the first stamp of which it is certain that no message had it, those of
+  // a former self included.
   std::uint32_t begin_new_stamp();
   // To all AGVs if the receiver is FP_NONE.
   void send(const Message& message, std::uint32_t receiver);
 
  private:
   Controller& controller_;
+  std::uint32_t boot_;
+  std::uint32_t first_unused_ms_ = 0;  // by a former self; 0: not known yet
   bool waiting_ = true, idle_ = true, out_of_order_ = false;
   Vec position_m_;
   std::int64_t position_at_ns_ = -1;

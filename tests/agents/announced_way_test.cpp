@@ -45,8 +45,6 @@ TEST(AnnouncedWayStamps, MoveUpWhenLanesAreHeld) {
   EXPECT_TRUE(announced.path() == way(1, {second, third}));
   EXPECT_EQ(announced.since_ms(1), 100U);
   EXPECT_EQ(announced.since_ms(2), 200U);
-  EXPECT_TRUE(announced.begins_with(way(1, {second})));
-  EXPECT_FALSE(announced.begins_with(way(1, {third})));
 }
 
 // AGV 0 at station 1, AGV 1 at station 2, and so on, around station 0.
@@ -116,6 +114,42 @@ TEST_F(AnnouncedWays, NeedConsentOfAnAgvWhoseOwnWayIsNear) {
   members[1]->protocol->withdraw();
   tell(1, 0);
   EXPECT_FALSE(settle(0)) << "it still announces that way";
+}
+
+// AGV 1 knows of the request of AGV 0, and grants it although it keeps clear and is not asked. Later it asks for the
+// same floor, and AGV 0 lets it pass: the early GRANT is over then.
+TEST_F(AnnouncedWays, AGrantWithoutAQuestionEndsWithItsEpoch) {
+  fleet_of(3);
+  for (std::uint32_t id : {1U, 2U}) {
+    tell(0, id);
+    tell(id, 0);
+  }
+  request(0, {lane(1, 0)}, {});  // asks both: they have not heard of it
+  settle(0);
+  now_ns += 2 * kSecond_ns;
+  members[0]->protocol->repeat();
+  ASSERT_TRUE(deliver(MessageKind::State, 0, 1));
+  tell(1, 0);
+  settle(0);
+  request(0, {lane(1, 0)}, {});  // another epoch, of which AGV 1 has heard: it is not asked
+  sent.clear();
+  EXPECT_FALSE(settle(0));
+  EXPECT_FALSE(is_asked(1));
+  members[0]->protocol->repeat();
+  ASSERT_TRUE(deliver(MessageKind::State, 0, 1));
+  settle(1);
+  ASSERT_TRUE(deliver(MessageKind::Grant, 1, 0)) << "without being asked";
+  request(1, {lane(2, 0)}, {});  // its demand is older
+  settle(1);
+  ASSERT_TRUE(deliver(MessageKind::Request, 1, 0));
+  ASSERT_TRUE(deliver(MessageKind::Grant, 0, 1));
+  sent.clear();
+  settle(0);
+  members[0]->protocol->repeat();
+  EXPECT_TRUE(is_asked(1));
+  ASSERT_TRUE(deliver(MessageKind::State, 0, 1) || deliver(MessageKind::Request, 0, 1));
+  EXPECT_TRUE(deliver(MessageKind::Defer, 1, 0));
+  EXPECT_FALSE(deliver(MessageKind::Grant, 1, 0));
 }
 
 // The newest message that a restarted AGV knows may be one that was on its way since before the restart.
