@@ -2,9 +2,8 @@
 //
 // Terms
 // - An epoch of i towards j is the time in which i requests one fixed path, whether it asks j for its consent or not.
-// It
-//   ends when i locks the path, withdraws the request or steps back from j, or when the computer of i restarts;
-//   stepping back begins the next one. Its number consists of the boot, the request and the attempt, and is never used
+//   It ends when i locks the path, withdraws the request or steps back from j, or when the computer of i restarts.
+//   Stepping back begins the next one. Its number consists of the boot, the request and the attempt, and is never used
 //   again.
 // - i decides to grant an epoch f of j (towards i) only under two conditions. (1) Nothing that i holds conflicts with
 //   the request of j. (2) i is not inside an epoch towards j whose request conflicts, or i ends that epoch at once.
@@ -21,11 +20,11 @@
 //   restarted, j sent that message since (Neighbours::is_apart).
 //
 // What the newest message says
-// (N) Suppose that from the stamp s on, each
-//   message of j contained the lane Q until the instant t, as request, way or held path, and that i heard one of them
-//   before t. Then the newest message of j that i knows at t has the stamp s or a later one, so it contains Q, and j is
-//   not apart from a path of i that conflicts with Q. If i has restarted since it heard that message, what the new self
-//   takes as newest was sent after the restart, and so after s.
+// (N) Suppose that from the stamp s on, each message of j contained the lane Q until the instant t, as request, way or
+//   held path, and that i heard one of them before t. Then the newest message of j that i knows at t has the stamp s or
+//   a later one, so it contains Q, and j is not apart from a path of i that conflicts with Q. If i has restarted since
+//   it heard that message, what the new self takes as newest was sent after the restart, and so after s. A new way
+//   begins with a stamp that no message had before, so messages of one stamp do not differ in what they announce.
 //
 // Proof by contradiction. Suppose there is a first instant at which two AGVs hold conflicting hulls: i locked at t_i
 // and still holds it when j locks at t_j >= t_i. Let f be the epoch of j towards i that ends at t_j.

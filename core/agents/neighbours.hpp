@@ -76,6 +76,9 @@ struct Neighbour {
 
 class Neighbours {
  public:
+  // Stamps are ahead of the clock by less than this, those of a former self too.
+  static constexpr std::uint32_t kStampsAhead_ms = 100;
+
   Neighbours(const MapView& map, HullGeometry& geometry, const fp_briefing& briefing, const Settings& settings = {},
              const LockOptions& options = {});
 
@@ -118,7 +121,7 @@ class Neighbours {
   bool is_apart(std::uint32_t agv, const Path& path, Epoch request);
   // After a restart: what other AGVs sent before they heard a message of this instant or later may be older than this
   // boot. Then it does not say where they may drive now.
-  void restarted_at(std::int64_t now_ns) { fresh_from_ms_ = stamp_ms(now_ns); }
+  void restarted_at(std::int64_t now_ns) { fresh_from_ms_ = stamp_ms(now_ns) + kStampsAhead_ms; }
 
   // An AGV that is known to stand and wait inside the hull of `path`; FP_NONE if there is none.
   std::uint32_t waiting_inside(const Path& path);

@@ -6,11 +6,6 @@
 #include "core/agents/neighbours.hpp"
 
 namespace fleetproof::agents {
-namespace {
-
-constexpr std::uint32_t kFormerSelf_ms = 100;  // its stamps were ahead of the clock by less than this
-
-}  // namespace
 
 void Transmitter::describe(bool waiting, bool idle, bool out_of_order) {
   waiting_ = waiting;
@@ -35,7 +30,7 @@ void Transmitter::fill_in(Status& status) {
 
 std::uint32_t Transmitter::begin_new_stamp() {
   stamp_ms_ = std::max(stamp_ms_ + 1, Neighbours::stamp_ms(controller_.now_ns()));
-  if (first_unused_ms_ == 0) first_unused_ms_ = stamp_ms_ + (boot_ > 0 ? kFormerSelf_ms : 0);
+  if (first_unused_ms_ == 0) first_unused_ms_ = stamp_ms_ + (boot_ > 0 ? Neighbours::kStampsAhead_ms : 0);
   return std::max(stamp_ms_, first_unused_ms_);
 }
 
