@@ -5,6 +5,7 @@
 
 #include "core/agents/agent_type.hpp"
 #include "core/agents/controller.hpp"
+#include "core/agents/demand.hpp"
 #include "core/agents/errands.hpp"
 #include "core/agents/facts.hpp"
 #include "core/agents/hull.hpp"
@@ -106,7 +107,7 @@ class HullLock {
   Stretch stretch_;  // the requested stretch
   Purpose purpose_ = Purpose::Transport;
   double requested_at_s_ = 0.0;
-  std::int64_t demand_ns_ = -1;  // since when the AGV has wanted to go on with its transports; negative: it does not
+  Demand demand_;  // to go on with its transports
   double locking_takes_s_ = 1.0;
   double braking_s_;  // from top speed
   double plan_after_s_ = 0.0;
