@@ -291,7 +291,7 @@ void HullLock::adopt_stretch() {
   for (const Leg& leg : stretch_.legs) way_.append(leg);
   errands_.reached(stretch_.goals);
   has_locked_ = true;
-  if (stretch_.goals > 0) demand_.meet();  // an AGV that gets on only step by step stays old
+  if (stretch_.goals > 0) seniority_.meet();  // an AGV that gets on only step by step stays old
   right_of_way_.got_on();
   charging_ = false;  // of the AGVs that charge, only one that makes way locks floor
   const double took_s = std::min(now_s() - requested_at_s_, kLongestLead_s);
@@ -319,7 +319,7 @@ void HullLock::plan() {
 
 void HullLock::plan_transport() {
   if (way_.time_left_s(protocol_.held().heading, now_s()) > locking_takes_s_ + braking_s_ && !must_lock_first()) return;
-  demand_.raise(controller_.now_ns());
+  seniority_.raise(controller_.now_ns());
   request(way_on(), Purpose::Transport);
 }
 
@@ -337,7 +337,7 @@ Stretch HullLock::way_on() { return planner_.towards(end_of(map_, protocol_.held
 Stretch HullLock::way_out(Yields to) {
   if (!options_.progress.makes_way) return {};
   const auto goes_first = [&](std::uint32_t agv, const Neighbour& n) {
-    return right_of_way_.goes_first(to, demand_.since_ns(), agv, n);
+    return right_of_way_.goes_first(to, seniority_.since_ns(), agv, n);
   };
   return planner_.out_of_the_way(end_of(map_, protocol_.held()), budget(), carries_load(errands_.goals()), is_idle(),
                                  controller_.random(kPlaceDraws), goes_first);
@@ -352,7 +352,7 @@ void HullLock::request(Stretch stretch, Purpose purpose, std::int64_t demand_ns)
   stretch_ = std::move(stretch);
   purpose_ = purpose;
   requested_at_s_ = now_s();
-  if (demand_ns < 0) demand_ns = demand_.since_ns();
+  if (demand_ns < 0) demand_ns = seniority_.since_ns();
   if (!protocol_.request(stretch_.path, demand_ns < 0 ? controller_.now_ns() : demand_ns, stretch_.onward))
     plan_after_s_ = now_s() + kRetryPlanning_s;
 }
@@ -368,13 +368,13 @@ void HullLock::reconsider() {
     return request(std::move(other), purpose);
   }
   if (protocol_.waiting_inside(protocol_.requested()) == FP_NONE) return;
-  const Yields to = right_of_way_.when_blocked(protocol_.held(), demand_.since_ns());
+  const Yields to = right_of_way_.when_blocked(protocol_.held(), seniority_.since_ns());
   if (to == Yields::ToNobody) return;
   Stretch retreat = way_out(to);
   if (retreat.empty() || retreat.path == protocol_.requested()) return;
   controller_.sometimes("retreat");
-  const std::int64_t eldest_ns = right_of_way_.eldest_demand_ns(protocol_.held(), demand_.since_ns());
-  if (to == Yields::ToAll) demand_.stand_back(controller_.now_ns());
+  const std::int64_t eldest_ns = right_of_way_.eldest_demand_ns(protocol_.held(), seniority_.since_ns());
+  if (to == Yields::ToAll) seniority_.stand_back(controller_.now_ns());
   request(std::move(retreat), Purpose::MakeWay, to == Yields::ToElders ? eldest_ns : -1);
 }
 

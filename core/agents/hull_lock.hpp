@@ -5,7 +5,6 @@
 
 #include "core/agents/agent_type.hpp"
 #include "core/agents/controller.hpp"
-#include "core/agents/demand.hpp"
 #include "core/agents/errands.hpp"
 #include "core/agents/facts.hpp"
 #include "core/agents/hull.hpp"
@@ -14,6 +13,7 @@
 #include "core/agents/map_view.hpp"
 #include "core/agents/neighbours.hpp"
 #include "core/agents/right_of_way.hpp"
+#include "core/agents/seniority.hpp"
 #include "core/agents/settings.hpp"
 #include "core/agents/stretch_planner.hpp"
 #include "core/agents/way_ahead.hpp"
@@ -107,7 +107,7 @@ class HullLock {
   Stretch stretch_;  // the requested stretch
   Purpose purpose_ = Purpose::Transport;
   double requested_at_s_ = 0.0;
-  Demand demand_;  // to go on with its transports
+  Seniority seniority_;  // to go on with its transports
   double locking_takes_s_ = 1.0;
   double braking_s_;  // from top speed
   double plan_after_s_ = 0.0;

@@ -1,8 +1,12 @@
 #include "core/agents/lane_costs.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <functional>
+#include <queue>
+#include <utility>
 #include <vector>
 
 #include "core/agents/aisles.hpp"
@@ -17,6 +21,35 @@ namespace {
 // So much dearer is a lane against the convention of aisles. Back to a goal that it has just passed, an AGV drives
 // against it.
 constexpr double kAgainstAisle = 8.0;
+
+// Both fit: a map for hull-lock has at most 2^16 stations, and a campaign not so many AGVs.
+constexpr std::uint32_t kModelShift = 16;
+
+float rounded_down(double value) {
+  const auto near = static_cast<float>(value);
+  return near > value ? std::nextafter(near, 0.0F) : near;
+}
+
+// Dijkstra's search from the goal backwards.
+std::vector<double> costs_to(const MapView& map, std::uint32_t goal, std::span<const double> lane_costs_s) {
+  std::vector<double> remains_s(map.station_count(), INFINITY);
+  using Open = std::pair<double, std::uint32_t>;
+  std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
+  remains_s[goal] = 0.0;
+  open.push({0.0, goal});
+  while (!open.empty()) {
+    const auto [so_far_s, here] = open.top();
+    open.pop();
+    if (so_far_s > remains_s[here]) continue;
+    for (const std::uint32_t lane : map.lanes_to(here)) {
+      const std::uint32_t before = map.lane(lane).from;
+      if (so_far_s + lane_costs_s[lane] >= remains_s[before]) continue;
+      remains_s[before] = so_far_s + lane_costs_s[lane];
+      open.push({remains_s[before], before});
+    }
+  }
+  return remains_s;
+}
 
 }  // namespace
 
@@ -57,6 +90,21 @@ std::span<const double> lane_costs_s(const HullParts& parts, std::uint32_t agv) 
         answer(*from, to, costs_s);
       },
       parts.key().question(model_of(parts.facts(), agv)));
+}
+
+std::span<const float> remaining_costs_s(const HullParts& parts, std::uint32_t model, std::uint32_t goal) {
+  return ask<float>(
+      parts.facts(),
+      [](const fp_facts* from, std::uint64_t question, fp_answer* to) {
+        const MapView map(*from);
+        const std::uint32_t item = HullKey::item_of(question);
+        const auto costs_s = lane_costs_s(HullParts(map, *from, HullKey(question)), item >> kModelShift);
+        const auto exact_s = costs_to(map, item & ((1U << kModelShift) - 1U), costs_s);
+        std::vector<float> table_s;
+        for (const double value : exact_s) table_s.push_back(rounded_down(value));
+        answer(*from, to, table_s);
+      },
+      parts.key().question(goal | (model << kModelShift)));
 }
 
 }  // namespace fleetproof::agents

@@ -76,57 +76,76 @@ Routes::Open Routes::pop() {
 }
 
 void Routes::search(std::uint32_t from, Vec heading, std::span<const double> cost_s, std::uint32_t until) {
+  search(from, heading, cost_s, Aim{until, {}, nullptr});
+}
+
+void Routes::search_towards(std::uint32_t until, std::span<const float> remains_s, std::uint32_t from, Vec heading,
+                            std::span<const double> cost_s) {
+  search(from, heading, cost_s, Aim{until, remains_s, nullptr});
+}
+
+void Routes::search_until(const Enough& enough, std::uint32_t from, Vec heading, std::span<const double> cost_s) {
+  search(from, heading, cost_s, Aim{FP_NONE, {}, &enough});
+}
+
+void Routes::search(std::uint32_t from, Vec heading, std::span<const double> cost_s, const Aim& aim) {
   cost_s_.assign(map_.station_count(), INFINITY);
   arrival_.assign(map_.station_count(), FP_NONE);
   open_.clear();
   // With a heading with which it may not stay, an AGV is not there yet.
   cost_s_[from] = map_.may_stay(from, heading) ? 0.0 : INFINITY;
-  rules_.any() ? search_lanes(from, heading, cost_s, until) : search_stations(from, cost_s, until);
+  rules_.any() ? search_lanes(from, heading, cost_s, aim) : search_stations(from, cost_s, aim);
 }
 
-void Routes::search_stations(std::uint32_t from, std::span<const double> cost_s, std::uint32_t until) {
-  push({0.0, from});
+void Routes::search_stations(std::uint32_t from, std::span<const double> cost_s, const Aim& aim) {
+  if (aim.is_reached(from, 0.0)) return;
+  leave(from, 0.0, cost_s, aim);
   while (!open_.empty()) {
-    const auto [so_far_s, here] = pop();
-    if (here == until) return;
-    if (so_far_s > cost_s_[here]) continue;
-    for (std::uint32_t hop = first_hops_[here]; hop < first_hops_[here + 1]; ++hop) {
-      const auto [lane, to] = hops_[hop];
-      const double cost = so_far_s + cost_s[lane];
-      if (cost >= cost_s_[to]) continue;
-      cost_s_[to] = cost;
-      arrival_[to] = lane;
-      push({cost, to});
-    }
+    const auto [bound_s, here] = pop();
+    if (bound_s > cost_s_[here] + aim.remains(here)) continue;
+    if (aim.is_reached(here, cost_s_[here])) return;
+    leave(here, cost_s_[here], cost_s, aim);
   }
 }
 
-void Routes::search_lanes(std::uint32_t from, Vec heading, std::span<const double> cost_s, std::uint32_t until) {
+void Routes::leave(std::uint32_t station, double so_far_s, std::span<const double> cost_s, const Aim& aim) {
+  for (std::uint32_t hop = first_hops_[station]; hop < first_hops_[station + 1]; ++hop) {
+    const auto [lane, to] = hops_[hop];
+    const double cost = so_far_s + cost_s[lane];
+    if (cost >= cost_s_[to]) continue;
+    cost_s_[to] = cost;
+    arrival_[to] = lane;
+    push({cost + aim.remains(to), to});
+  }
+}
+
+void Routes::search_lanes(std::uint32_t from, Vec heading, std::span<const double> cost_s, const Aim& aim) {
   driven_s_.assign(map_.lane_count(), INFINITY);
   before_.assign(map_.lane_count(), FP_NONE);
   for (const std::uint32_t lane : map_.lanes_from(from)) {
-    if (rules_.may_leave(heading, lane)) reach(lane, cost_s[lane], FP_NONE);
+    if (rules_.may_leave(heading, lane)) reach(lane, cost_s[lane], FP_NONE, aim);
   }
   while (!open_.empty()) {
-    const auto [so_far_s, here] = pop();
-    if (so_far_s > driven_s_[here]) continue;
+    const auto [bound_s, here] = pop();
     const std::uint32_t station = map_.lane(here).to;
+    const double so_far_s = driven_s_[here];
+    if (bound_s > so_far_s + aim.remains(station)) continue;
     if (so_far_s < cost_s_[station] && map_.may_stay(station, map_.end_heading(here))) {
       cost_s_[station] = so_far_s;
       arrival_[station] = here;
-      if (station == until) return;
+      if (aim.is_reached(station, so_far_s)) return;
     }
     for (const std::uint32_t next : map_.lanes_from(station)) {
-      if (rules_.may_leave(map_.end_heading(here), next)) reach(next, so_far_s + cost_s[next], here);
+      if (rules_.may_leave(map_.end_heading(here), next)) reach(next, so_far_s + cost_s[next], here, aim);
     }
   }
 }
 
-void Routes::reach(std::uint32_t lane, double cost_s, std::uint32_t before) {
+void Routes::reach(std::uint32_t lane, double cost_s, std::uint32_t before, const Aim& aim) {
   if (cost_s >= driven_s_[lane]) return;
   driven_s_[lane] = cost_s;
   before_[lane] = before;
-  push({cost_s, lane});
+  push({cost_s + aim.remains(map_.lane(lane).to), lane});
 }
 
 std::span<const std::uint32_t> Routes::lanes(std::uint32_t to) {

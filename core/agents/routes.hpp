@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -30,6 +31,14 @@ class Routes {
   // `cost_s` by lane; infinite where the AGV must not drive. `heading`: of the AGV at the beginning. With `until`, no
   // further than to that station: its way is the same as that of a whole search, and only its way may be asked for.
   void search(std::uint32_t from, Vec heading, std::span<const double> cost_s, std::uint32_t until = FP_NONE);
+  // The same, but of several ways that cost the same it finds any. `remains_s`, by station: the way from there to
+  // `until` costs so much at least. The nearer this is to the truth, the fewer stations are looked at (A*).
+  void search_towards(std::uint32_t until, std::span<const float> remains_s, std::uint32_t from, Vec heading,
+                      std::span<const double> cost_s);
+  // Shows the stations that can be reached, the cheapest first, until `enough` says true. Afterwards, the ways to the
+  // stations that were shown may be asked for.
+  using Enough = std::function<bool(std::uint32_t station, double cost_s)>;
+  void search_until(const Enough& enough, std::uint32_t from, Vec heading, std::span<const double> cost_s);
   // Infinite if there is no way.
   double cost_s(std::uint32_t to) const { return cost_s_[to]; }
   // A lane that leaves a station. In a plant, the lanes of the map are too far apart in memory for a search.
@@ -45,15 +54,28 @@ class Routes {
 
  private:
   struct Open {
-    double cost_s;
+    double cost_s;        // of the way there, and what remains at least
     std::uint32_t place;  // a station; in a plant with rules, a lane that has been driven
+  };
+  // What a search looks for.
+  struct Aim {
+    std::uint32_t until = FP_NONE;
+    std::span<const float> remains_s;  // by station; may be empty
+    const Enough* enough = nullptr;
+
+    double remains(std::uint32_t station) const { return remains_s.empty() ? 0.0 : remains_s[station]; }
+    bool is_reached(std::uint32_t station, double cost_s) const {
+      return station == until || (enough != nullptr && (*enough)(station, cost_s));
+    }
   };
 
   static std::vector<std::byte> hops_of(const MapView& map);
   void read(std::span<const std::byte> tables);
-  void search_stations(std::uint32_t from, std::span<const double> cost_s, std::uint32_t until);
-  void search_lanes(std::uint32_t from, Vec heading, std::span<const double> cost_s, std::uint32_t until);
-  void reach(std::uint32_t lane, double cost_s, std::uint32_t before);
+  void search(std::uint32_t from, Vec heading, std::span<const double> cost_s, const Aim& aim);
+  void search_stations(std::uint32_t from, std::span<const double> cost_s, const Aim& aim);
+  void leave(std::uint32_t station, double so_far_s, std::span<const double> cost_s, const Aim& aim);
+  void search_lanes(std::uint32_t from, Vec heading, std::span<const double> cost_s, const Aim& aim);
+  void reach(std::uint32_t lane, double cost_s, std::uint32_t before, const Aim& aim);
   void push(Open open);
   Open pop();
 

@@ -22,6 +22,9 @@ constexpr double kNoWayCost_s = 1000.0;
 // In a row of chargers, wide AGVs cannot turn beside each other. An AGV would rather hold up others there than run
 // empty.
 constexpr double kUnsafeChargerCost_s = 30.0;
+// Of a place that another AGV asks for, and of one at which the two lock each other in.
+constexpr double kAskedForCost_s = 60.0;
+constexpr double kCrampedCost_s = 60.0;
 // As bad as to cut off one goal.
 constexpr std::uint32_t kCrampedBurden = 1;
 
@@ -132,7 +135,9 @@ StretchPlanner::StretchPlanner(const MapView& map, HullGeometry& geometry, Neigh
       rules_(map, vehicle_type),
       routes_(map, rules_),
       lane_times_s_(agents::lane_times_s(geometry.parts().facts(), neighbours.self())),
-      usual_costs_s_(options.one_way_aisles ? lane_costs_s(geometry.parts(), neighbours.self()) : lane_times_s_) {}
+      usual_costs_s_(options.one_way_aisles ? lane_costs_s(geometry.parts(), neighbours.self()) : lane_times_s_),
+      model_(model_of(geometry.parts().facts(), neighbours.self())),
+      knows_remaining_costs_(options.one_way_aisles) {}
 
 Stretch StretchPlanner::towards(const Path& standing, Budget budget, std::span<const Goal> goals) {
   Stretch stretch = first_stretch(standing, budget, goals);
@@ -146,7 +151,7 @@ std::vector<std::uint32_t> StretchPlanner::way_on(Path from, std::span<const Goa
   double length_m = 0.0;
   for (const Goal& goal : goals) {
     if (length_m >= kOnward_m) break;
-    routes_.search(from.station, from.heading, costs_s_, goal.station);
+    search(from, goal.station);
     for (const std::uint32_t lane : routes_.lanes(goal.station)) {
       if (length_m >= kOnward_m) break;
       lanes.push_back(lane);
@@ -158,6 +163,12 @@ std::vector<std::uint32_t> StretchPlanner::way_on(Path from, std::span<const Goa
   return lanes;
 }
 
+void StretchPlanner::search(const Path& from, std::uint32_t goal) {
+  if (!knows_remaining_costs_) return routes_.search(from.station, from.heading, costs_s_, goal);
+  const auto remains_s = remaining_costs_s(geometry_.parts(), model_, goal);
+  routes_.search_towards(goal, remains_s, from.station, from.heading, costs_s_);
+}
+
 Stretch StretchPlanner::first_stretch(const Path& standing, Budget budget, std::span<const Goal> goals) {
   bool loaded = carries_load(goals);
   price_lanes(loaded, kWaitingCost_s, kIdleCost_s, {});
@@ -165,7 +176,7 @@ Stretch StretchPlanner::first_stretch(const Path& standing, Budget budget, std::
   for (const Goal& goal : goals) {
     const Path here = end_of(map_, walk.stretch.path);
     if (here.station != goal.station || !map_.may_stay(here.station, here.heading)) {
-      routes_.search(here.station, here.heading, costs_s_, goal.station);
+      search(here, goal.station);
       if (!follow(walk, goal.station)) return walk.take();
     }
     walk.transfer(goal);
@@ -267,36 +278,41 @@ void StretchPlanner::price_station(std::uint32_t station, double extra_s) {
   for (const std::uint32_t lane : geometry_.parts().lanes_blocked_by_turning(station)) costs_s_[lane] += extra_s;
 }
 
-// Afterwards, the routes are those from there.
+// Afterwards, the way there may be asked for.
 std::uint32_t StretchPlanner::best_place(const Path& standing, bool prefer_parking, double draw,
                                          const GoesFirst& goes_first) {
-  routes_.search(standing.station, standing.heading, costs_s_);
   std::uint32_t best = FP_NONE;
   double best_s = INFINITY;
-  for (std::uint32_t station = 0; station < map_.station_count(); ++station) {
-    double cost_s = routes_.cost_s(station);
-    if (station == standing.station || cost_s >= kNoWayCost_s) continue;
+  const auto look_at = [&](std::uint32_t station, double way_s) {
+    if (way_s >= std::min(best_s, kNoWayCost_s)) return true;
+    if (station == standing.station) return false;
+    double cost_s = way_s;
     if (prefer_parking && (map_.station(station).purposes & FP_PARKING) == 0) cost_s += 10.0;
     // Every draw prefers other stations, so that two AGVs that block each other do not repeat the same choice.
     cost_s += 12.0 * draw * ((station * 7 + 3) % 5) / 4.0;
-    if (cost_s >= best_s) continue;
-    cost_s += std::min(5.0 * places_.burden(station), 200.0);
-    if (cost_s >= best_s) continue;
-    bool held = false;
-    neighbours_.for_each([&](std::uint32_t agv, const Neighbour& n) {
-      if (held || !n.known || cost_s >= best_s) return;
-      held = geometry_.turn_conflict(neighbours_.self(), station, agv, n.status.held);
-      if (!held && n.request_is_open() && geometry_.turn_conflict(neighbours_.self(), station, agv, n.request)) {
-        cost_s += 60.0;
-        held = goes_first && goes_first(agv, n);
-      }
-      if (!held && is_cramped(station, agv, n)) cost_s += 60.0;
-    });
-    if (held || cost_s >= best_s) continue;
-    best = station;
-    best_s = cost_s;
-  }
+    if (cost_s < best_s) cost_s += std::min(5.0 * places_.burden(station), 200.0);
+    if (cost_s < best_s) cost_s += price_of_staying(station, best_s - cost_s, goes_first);
+    if (cost_s < best_s) best = station, best_s = cost_s;
+    return false;
+  };
+  routes_.search_until(look_at, standing.station, standing.heading, costs_s_);
   return best;
+}
+
+// Infinite if another AGV holds the place. Beyond `limit_s`, it is not worked out further.
+double StretchPlanner::price_of_staying(std::uint32_t station, double limit_s, const GoesFirst& goes_first) {
+  double price_s = 0.0;
+  neighbours_.for_each([&](std::uint32_t agv, const Neighbour& n) {
+    if (!n.known || price_s >= limit_s) return;
+    bool held = geometry_.turn_conflict(neighbours_.self(), station, agv, n.status.held);
+    if (!held && n.request_is_open() && geometry_.turn_conflict(neighbours_.self(), station, agv, n.request)) {
+      price_s += kAskedForCost_s;
+      held = goes_first && goes_first(agv, n);
+    }
+    if (held) price_s = INFINITY;
+    if (!held && is_cramped(station, agv, n)) price_s += kCrampedCost_s;
+  });
+  return price_s;
 }
 
 bool StretchPlanner::may_turn_back(std::uint32_t station) const {

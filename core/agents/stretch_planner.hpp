@@ -98,10 +98,13 @@ class StretchPlanner {
   Stretch first_stretch(const Path& standing, Budget budget, std::span<const Goal> goals);
   std::vector<std::uint32_t> way_on(Path from, std::span<const Goal> goals);
 
+  // From there to a goal, at the costs of the lanes.
+  void search(const Path& from, std::uint32_t goal);
   void price_lanes(bool loaded, double waiting_s, double idle_s, const GoesFirst& goes_first);
   void price_station(std::uint32_t station, double extra_s);
   void price_meetings(const Path& other);
   std::uint32_t best_place(const Path& standing, bool prefer_parking, double draw, const GoesFirst& goes_first);
+  double price_of_staying(std::uint32_t station, double limit_s, const GoesFirst& goes_first);
   bool may_turn_back(std::uint32_t station) const;
   bool is_cramped(std::uint32_t station);
   bool is_cramped(std::uint32_t station, std::uint32_t agv, const Neighbour& n);
@@ -117,6 +120,8 @@ class StretchPlanner {
   std::span<const double> lane_times_s_;   // by lane
   std::span<const double> usual_costs_s_;  // by lane: the time, and a price against the convention of aisles
   std::vector<double> costs_s_;            // by lane: likewise, and a price for other AGVs on the lane
+  std::uint32_t model_;                    // of the own AGV
+  bool knows_remaining_costs_;             // the usual costs are those of remaining_costs_s()
 };
 
 }  // namespace fleetproof::agents

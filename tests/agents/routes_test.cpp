@@ -63,5 +63,52 @@ TEST(Routes, CostsAreTheLeastOfAllWays) {
   }
 }
 
+// Half of what remains, and nothing at some stations: a bound that is neither exact nor consistent.
+TEST(Routes, ASearchWithABoundFindsAWayThatCostsTheLeast) {
+  TiedGrid grid;
+  const MapView view(grid.map.map());
+  const DriveRules rules(view, 0);
+  Routes whole(view, rules), bounded(view, rules);
+  for (std::uint32_t to = 0; to < 30; ++to) {
+    std::vector<float> remains(30);
+    for (std::uint32_t from = 0; from < 30; ++from) {
+      whole.search(from, {1.0, 0.0}, grid.cost_s);
+      remains[from] = from % 4 == 1 ? 0.0F : static_cast<float>(whole.cost_s(to)) / (from % 3 == 0 ? 1.0F : 2.0F);
+    }
+    for (std::uint32_t from = 0; from < 30; ++from) {
+      whole.search(from, {1.0, 0.0}, grid.cost_s);
+      bounded.search_towards(to, remains, from, {1.0, 0.0}, grid.cost_s);
+      EXPECT_EQ(whole.cost_s(to), bounded.cost_s(to)) << from << " to " << to;
+      double sum = 0.0;
+      for (const std::uint32_t lane : bounded.lanes(to)) sum += grid.cost_s[lane];
+      EXPECT_EQ(sum, whole.cost_s(to)) << from << " to " << to;
+    }
+  }
+}
+
+TEST(Routes, ShowsTheCheapestStationsFirstUntilItIsEnough) {
+  TiedGrid grid;
+  const MapView view(grid.map.map());
+  const DriveRules rules(view, 0);
+  Routes whole(view, rules), some(view, rules);
+  whole.search(7, {1.0, 0.0}, grid.cost_s);
+  std::vector<std::uint32_t> shown;
+  const auto enough = [&](std::uint32_t station, double cost_s) {
+    EXPECT_EQ(cost_s, whole.cost_s(station));
+    EXPECT_TRUE(shown.empty() || cost_s >= whole.cost_s(shown.back()));
+    shown.push_back(station);
+    return shown.size() == 12;
+  };
+  some.search_until(enough, 7, {1.0, 0.0}, grid.cost_s);
+  ASSERT_EQ(shown.size(), 12U);
+  EXPECT_EQ(shown.front(), 7U);
+  for (std::uint32_t station = 0; station < 30; ++station) {
+    const bool was_shown = std::ranges::find(shown, station) != shown.end();
+    EXPECT_TRUE(was_shown || whole.cost_s(station) >= whole.cost_s(shown.back())) << station;
+    const auto a = whole.lanes(station), b = some.lanes(station);
+    EXPECT_TRUE(!was_shown || std::equal(a.begin(), a.end(), b.begin(), b.end())) << station;
+  }
+}
+
 }  // namespace
 }  // namespace fleetproof::agents

@@ -7,7 +7,7 @@ namespace fleetproof::agents {
 // Since when an AGV has wanted to reach its next goal: among AGVs that block each other, the older demand goes first.
 // An AGV that lets all others pass counts as young, so that it does not come back before they have passed. A while
 // later its demand is as old as it was: an AGV that lets others pass again and again would never arrive.
-class Demand {
+class Seniority {
  public:
   // Negative: the AGV wants nothing.
   std::int64_t since_ns() const { return since_ns_; }

@@ -1,12 +1,12 @@
-#include "core/agents/demand.hpp"
+#include "core/agents/seniority.hpp"
 
 #include <gtest/gtest.h>
 
 namespace fleetproof::agents {
 namespace {
 
-TEST(DemandTest, IsAsOldAsTheWishToGoOn) {
-  Demand demand;
+TEST(SeniorityTest, IsAsOldAsTheWishToGoOn) {
+  Seniority demand;
   EXPECT_LT(demand.since_ns(), 0);
   demand.raise(10);
   demand.raise(20);
@@ -17,38 +17,38 @@ TEST(DemandTest, IsAsOldAsTheWishToGoOn) {
   EXPECT_EQ(demand.since_ns(), 30);
 }
 
-TEST(DemandTest, AnAgvThatLetsAllPassIsYoungForAWhileAndThenAsOldAsBefore) {
-  Demand demand;
+TEST(SeniorityTest, AnAgvThatLetsAllPassIsYoungForAWhileAndThenAsOldAsBefore) {
+  Seniority demand;
   demand.raise(10);
   demand.stand_back(100);
   EXPECT_LT(demand.since_ns(), 0);
   demand.raise(200);
   EXPECT_EQ(demand.since_ns(), 200);
-  demand.raise(100 + Demand::kYoung_ns - 1);
+  demand.raise(100 + Seniority::kYoung_ns - 1);
   EXPECT_EQ(demand.since_ns(), 200);
-  demand.raise(100 + Demand::kYoung_ns);
+  demand.raise(100 + Seniority::kYoung_ns);
   EXPECT_EQ(demand.since_ns(), 10);
 }
 
-TEST(DemandTest, LettingOthersPassTwiceDoesNotMakeItYounger) {
-  Demand demand;
+TEST(SeniorityTest, LettingOthersPassTwiceDoesNotMakeItYounger) {
+  Seniority demand;
   demand.raise(10);
   demand.stand_back(100);
   demand.raise(200);
   demand.stand_back(300);
   demand.raise(400);
   EXPECT_EQ(demand.since_ns(), 400);
-  demand.raise(300 + Demand::kYoung_ns);
+  demand.raise(300 + Seniority::kYoung_ns);
   EXPECT_EQ(demand.since_ns(), 10);
 }
 
-TEST(DemandTest, AReachedGoalMakesYoung) {
-  Demand demand;
+TEST(SeniorityTest, AReachedGoalMakesYoung) {
+  Seniority demand;
   demand.raise(10);
   demand.stand_back(100);
   demand.meet();
-  demand.raise(100 + 2 * Demand::kYoung_ns);
-  EXPECT_EQ(demand.since_ns(), 100 + 2 * Demand::kYoung_ns);
+  demand.raise(100 + 2 * Seniority::kYoung_ns);
+  EXPECT_EQ(demand.since_ns(), 100 + 2 * Seniority::kYoung_ns);
 }
 
 }  // namespace
