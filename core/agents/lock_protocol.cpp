@@ -19,6 +19,7 @@ constexpr double kQuiet_s = 1.0, kQuietPerAgv_s = 0.05, kLongestQuiet_s = 30.0;
 
 void LockProtocol::stand(const Path& standing) {
   held_ = standing;
+  ++held_version_;
   way_.replace(end_of(map_, held_), transmitter_.begin_new_stamp());
 }
 
@@ -29,6 +30,7 @@ bool LockProtocol::request(const Path& stretch, std::int64_t demand_ns, std::spa
   }
   request_ = stretch;
   request_.heading = end_of(map_, held_).heading;
+  ++request_version_;
   demand_ns_ = demand_ns;
   requesting_ = true;
   announce(onward);
@@ -61,13 +63,13 @@ void LockProtocol::open_epoch() {
   look_at_all_ = true;
   repeated_grants_ = 0;
   answers_may_change_ = true;
-  blocked_is_known_ = false;
+  blocker_.forget();
 }
 
 void LockProtocol::withdraw() {
   requesting_ = false;
   answers_may_change_ = true;
-  blocked_is_known_ = false;
+  blocker_.forget();
   controller_.waiting_for(FP_NONE);
 }
 
@@ -79,6 +81,7 @@ void LockProtocol::know_own_place(bool known) {
 void LockProtocol::lane_passed() {
   if (held_.empty()) return;
   pass_first_lane(map_, held_);
+  ++held_version_;
   answers_may_change_ = true;
 }
 
@@ -89,7 +92,7 @@ bool LockProtocol::receive(std::uint32_t sender, std::span<const std::byte> byte
   if (news == Neighbours::News::Refused) return false;
   if (news == Neighbours::News::Changed) {
     answers_may_change_ = true;
-    blocked_is_known_ = false;
+    if (requesting_) blocker_.look_at(sender, request_);
   }
   if (message->has_request()) receive_request(sender, *message);
   switch (message->kind) {
@@ -136,11 +139,11 @@ bool LockProtocol::has_granted(const Neighbour& n) const {
   return options_.grants.grants_name_epoch ? n.granted_epoch == n.request_epoch : n.granted_epoch > 0;
 }
 
-LockProtocol::Answer LockProtocol::answer_to(std::uint32_t agv, const Neighbour& neighbour) {
-  const std::uint32_t self = neighbours_.self();
+LockProtocol::Answer LockProtocol::answer_to(std::uint32_t agv, Neighbour& neighbour) {
   if (!own_place_known_) return options_.grants.unknown_place_defers ? Answer::Defer : Answer::Grant;
-  if (!lock_is_over() && geometry_.conflict(self, held_, agv, neighbour.request)) return Answer::Defer;
-  if (!requesting_ || !geometry_.conflict(self, request_, agv, neighbour.request)) return Answer::Grant;
+  if (!lock_is_over() && neighbours_.clashes(agv, neighbour.with_held, held_, held_version_)) return Answer::Defer;
+  if (!requesting_ || !neighbours_.clashes(agv, neighbour.with_request, request_, request_version_))
+    return Answer::Grant;
   return comes_first(agv, neighbour) ? Answer::Defer : Answer::GrantAndStepBack;
 }
 
@@ -154,16 +157,10 @@ bool LockProtocol::comes_first(std::uint32_t agv, const Neighbour& neighbour) {
   // A blocked request cannot be locked before another AGV moves. It must not stop that AGV, or the AGVs for which that
   // AGV waits. Both sides must find the same order; otherwise two requests would step back from each other for ever.
   // Therefore every message contains `blocked`.
-  const bool mine_blocked = is_blocked();
+  const bool mine_blocked = requesting_ && blocker_.is_inside(request_);
   const bool other_blocked = neighbour.status.blocked && options_.progress.order_is_common;
   const std::uint32_t self = options_.progress.smaller_number_first ? neighbours_.self() : agv;
   return std::tie(mine_blocked, demand_ns_, self) < std::tie(other_blocked, neighbour.demand_ns, agv);
-}
-
-bool LockProtocol::is_blocked() {
-  if (!blocked_is_known_) blocked_ = requesting_ && waiting_inside(request_) != FP_NONE;
-  blocked_is_known_ = true;
-  return blocked_;
 }
 
 void LockProtocol::grant(std::uint32_t agv, Neighbour& neighbour, Answer answer) {
@@ -225,6 +222,7 @@ bool LockProtocol::settle() {
   answer_those_deferred();
   if (!requesting_ || !own_place_known_ || !all_consent()) return false;
   for (const std::uint32_t lane : request_.lanes()) held_.append(lane);
+  ++held_version_;
   way_.shorten(map_, request_.count);
   if (options_.grants.locks_end_after_ns > 0) locked_at_ns_ = controller_.now_ns();
   withdraw();
@@ -392,7 +390,7 @@ void LockProtocol::fill_in(Status& status) {
   transmitter_.fill_in(status);
   status.epoch = epoch_;
   status.requesting = requesting_;
-  status.blocked = is_blocked();
+  status.blocked = requesting_ && blocker_.is_inside(request_);
   status.held = held_;
   status.ahead = way_.path();
 }

@@ -92,6 +92,7 @@
 #include <vector>
 
 #include "core/agents/announced_way.hpp"
+#include "core/agents/blocker.hpp"
 #include "core/agents/controller.hpp"
 #include "core/agents/hull.hpp"
 #include "core/agents/lock_options.hpp"
@@ -115,7 +116,8 @@ class LockProtocol {
         controller_(controller),
         transmitter_(controller, boot),
         options_(options),
-        epoch_(first_epoch(boot)) {}
+        epoch_(first_epoch(boot)),
+        blocker_(neighbours) {}
 
   // Call once at the start: the place where the AGV stands, and the lane that it is driving, if any. The AGV holds this
   // path.
@@ -176,10 +178,9 @@ class LockProtocol {
   void receive_request(std::uint32_t sender, const Message& message);
   void answer_request(std::uint32_t sender);
   bool has_granted(const Neighbour& neighbour) const;
-  Answer answer_to(std::uint32_t agv, const Neighbour& neighbour);
+  Answer answer_to(std::uint32_t agv, Neighbour& neighbour);
   bool lock_is_over();
   bool comes_first(std::uint32_t agv, const Neighbour& neighbour);
-  bool is_blocked();
   void grant(std::uint32_t agv, Neighbour& neighbour, Answer answer);
   void give_way_to(Neighbour& neighbour);
   void answer_those_deferred();
@@ -210,6 +211,7 @@ class LockProtocol {
   LockOptions options_;
 
   Path held_;
+  std::uint32_t held_version_ = 0, request_version_ = 0;  // how often each has changed
   bool own_place_known_ = true;
   bool requesting_ = false;
   Path request_;
@@ -227,7 +229,7 @@ class LockProtocol {
   std::int64_t locked_at_ns_ = 0;
   bool answers_may_change_ = false;  // something changed since the deferred requests were last examined
 
-  bool blocked_ = false, blocked_is_known_ = false;  // an AGV waits inside the requested hull
+  Blocker blocker_;  // of the request
 };
 
 }  // namespace fleetproof::agents

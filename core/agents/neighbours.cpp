@@ -128,13 +128,25 @@ bool Neighbours::is_apart(std::uint32_t agv, const Path& path, Epoch request) {
   return n.apart.is;
 }
 
+bool Neighbours::waits_inside(std::uint32_t agv, const Path& path) {
+  const Neighbour& n = neighbours_[agv];
+  const bool stands = n.known && (n.status.waiting || n.status.out_of_order);
+  return stands && geometry_.conflict(self_, path, agv, n.status.held);
+}
+
 std::uint32_t Neighbours::waiting_inside(const Path& path) {
   std::uint32_t found = FP_NONE;
-  for_each([&](std::uint32_t agv, const Neighbour& n) {
-    const bool stands = n.known && (n.status.waiting || n.status.out_of_order);
-    if (found == FP_NONE && stands && geometry_.conflict(self_, path, agv, n.status.held)) found = agv;
+  for_each([&](std::uint32_t agv, const Neighbour&) {
+    if (found == FP_NONE && waits_inside(agv, path)) found = agv;
   });
   return found;
+}
+
+bool Neighbours::clashes(std::uint32_t agv, Neighbour::Clash& known, const Path& path, std::uint32_t version) {
+  const Neighbour& n = neighbours_[agv];
+  if (known.request != n.request_epoch || known.version != version)
+    known = {n.request_epoch, version, geometry_.conflict(self_, path, agv, n.request)};
+  return known.is;
 }
 
 bool Neighbours::hold_inside(const Path& path) {

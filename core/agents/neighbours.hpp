@@ -60,9 +60,16 @@ struct Neighbour {
   std::int64_t demand_ns = 0;
   Path request;
   bool request_is_open() const { return request_epoch > closed_epoch; }
-  bool asks_us = false;      // the newest message about that request names this AGV among those that must consent
-  bool knows_defer = false;  // and says that this AGV has deferred
-  Epoch deferred_epoch = 0;  // the newest epoch to which this AGV answered DEFER
+  // Whether a request conflicts with a path of this AGV, for one version of that path.
+  struct Clash {
+    Epoch request = 0;
+    std::uint32_t version = 0;
+    bool is = false;
+  };
+  Clash with_held, with_request;  // the last answers
+  bool asks_us = false;           // the newest message about that request names this AGV among those that must consent
+  bool knows_defer = false;       // and says that this AGV has deferred
+  Epoch deferred_epoch = 0;       // the newest epoch to which this AGV answered DEFER
   Repeats answer_repeats;
 
   // Its answers to the request of this AGV.
@@ -125,6 +132,9 @@ class Neighbours {
 
   // An AGV that is known to stand and wait inside the hull of `path`; FP_NONE if there is none.
   std::uint32_t waiting_inside(const Path& path);
+  bool waits_inside(std::uint32_t agv, const Path& path);
+  // Whether the newest request of `agv` conflicts with a path of this AGV. `known`: the answer for an earlier version.
+  bool clashes(std::uint32_t agv, Neighbour::Clash& known, const Path& path, std::uint32_t version);
   // Whether an AGV is known to hold floor inside the hull of `path`.
   bool hold_inside(const Path& path);
 

@@ -54,6 +54,17 @@ class Reader {
     rest_ = rest_.subspan(sizeof(Value));
     return little_endian(value);
   }
+  // Many values at once: the length is looked at only once.
+  template <class Value>
+  void take_row(std::uint32_t* to, std::size_t count) {
+    if (rest_.size() < count * sizeof(Value)) return fail();
+    for (std::size_t i = 0; i < count; ++i) {
+      Value value;
+      std::memcpy(&value, rest_.data() + i * sizeof(Value), sizeof(Value));
+      to[i] = little_endian(value);
+    }
+    rest_ = rest_.subspan(count * sizeof(Value));
+  }
   Epoch take_epoch(bool has_boot) {
     const auto number = take<std::uint32_t>();
     return has_boot ? first_epoch(take<std::uint32_t>()) | number : number;
@@ -74,14 +85,15 @@ class Reader {
   void take_lanes(Path& path, std::uint32_t most) {
     const std::uint32_t count = take<std::uint8_t>();
     if (count > most) return fail();
-    for (std::uint32_t i = 0; i < count; ++i) path.append(take<std::uint16_t>());
+    take_row<std::uint16_t>(path.lane_ids.data(), count);
+    path.count = failed_ ? 0 : count;
   }
 
   void take_heard(HeardFrom& heard) {
     heard.first = take<std::uint16_t>();
     heard.count = take<std::uint8_t>();
     if (heard.count > HeardFrom::kMax) return fail();
-    for (std::uint32_t i = 0; i < heard.count; ++i) heard.stamps_ms[i] = take<std::uint32_t>();
+    take_row<std::uint32_t>(heard.stamps_ms.data(), heard.count);
   }
 
   void take_request(Message& message) {
