@@ -43,6 +43,55 @@ class Reader {
  public:
   explicit Reader(std::span<const std::byte> bytes) : rest_(bytes) {}
 
+  // False if these are not the bytes of a message.
+  bool read(Message& message) {
+    if (take<std::uint8_t>() != kMark) return false;
+    message.kind = static_cast<MessageKind>(take<std::uint8_t>());
+    const std::uint64_t flags = read_status(message.status);
+    take_heard(message.heard);
+    switch (message.kind) {
+      case MessageKind::State:
+        take_answers(message.answers);
+        if (message.status.requesting) take_request(message);
+        return complete();
+      case MessageKind::Request:
+        take_request(message);
+        return complete();
+      case MessageKind::Grant:
+      case MessageKind::Defer:
+        message.echo = take_epoch((flags & kEchoHasBoot) != 0);
+        return complete();
+    }
+    return false;
+  }
+
+ private:
+  static constexpr std::size_t kEntryBytes = sizeof(std::uint16_t) + sizeof(std::uint8_t);  // of Asked
+
+  template <class Value>
+  static Value value_at(std::span<const std::byte> row, std::size_t at) {
+    Value value;
+    std::memcpy(&value, row.data() + at, sizeof(Value));
+    return little_endian(value);
+  }
+
+  std::uint64_t read_status(Status& status) {
+    status.stamp_ms = take<std::uint32_t>();
+    status.position_m.x = take_metres();
+    status.position_m.y = take_metres();
+    const std::uint64_t flags = take<std::uint8_t>();
+    status.requesting = (flags & kRequesting) != 0;
+    status.waiting = (flags & kWaiting) != 0;
+    status.idle = (flags & kIdle) != 0;
+    status.out_of_order = (flags & kOutOfOrder) != 0;
+    status.blocked = (flags & kBlocked) != 0;
+    status.position_is_new = (flags & kPositionIsNew) != 0;
+    status.epoch = take_epoch((flags & kEpochHasBoot) != 0);
+    take_path(status.held);
+    take_lanes(status.ahead, kPathLanesMax - status.held.count);
+    return flags;
+  }
+
   template <class Value>
   Value take() {
     Value value{};
@@ -57,13 +106,22 @@ class Reader {
   // Many values at once: the length is looked at only once.
   template <class Value>
   void take_row(std::uint32_t* to, std::size_t count) {
-    if (rest_.size() < count * sizeof(Value)) return fail();
-    for (std::size_t i = 0; i < count; ++i) {
-      Value value;
-      std::memcpy(&value, rest_.data() + i * sizeof(Value), sizeof(Value));
-      to[i] = little_endian(value);
+    const std::span<const std::byte> row = take_bytes(count * sizeof(Value));
+    if constexpr (std::endian::native == std::endian::little && sizeof(Value) == sizeof(*to)) {
+      if (!row.empty()) std::memcpy(to, row.data(), row.size());
+    } else {
+      for (std::size_t at = 0; at < row.size(); at += sizeof(Value)) *to++ = value_at<Value>(row, at);
     }
-    rest_ = rest_.subspan(count * sizeof(Value));
+  }
+  // Empty if there are not so many.
+  std::span<const std::byte> take_bytes(std::size_t count) {
+    if (rest_.size() < count) {
+      failed_ = true;
+      return {};
+    }
+    const std::span<const std::byte> taken = rest_.first(count);
+    rest_ = rest_.subspan(count);
+    return taken;
   }
   Epoch take_epoch(bool has_boot) {
     const auto number = take<std::uint32_t>();
@@ -101,10 +159,13 @@ class Reader {
     take_path(message.request);
     const std::uint32_t count = take<std::uint8_t>(), unanswered = take<std::uint8_t>();
     if (count > Asked::kMax || unanswered > count) return fail();
-    for (std::uint32_t i = 0; i < count; ++i) {
-      const std::uint32_t agv = take<std::uint16_t>(), attempt = take<std::uint8_t>();
-      message.asked.add({agv, attempt}, i >= unanswered);
+    const std::span<const std::byte> row = take_bytes(count * kEntryBytes);
+    for (std::size_t at = 0; at < row.size(); at += kEntryBytes) {
+      const std::uint32_t attempt = std::to_integer<std::uint8_t>(row[at + sizeof(std::uint16_t)]);
+      message.asked.list[at / kEntryBytes] = {value_at<std::uint16_t>(row, at), attempt};
     }
+    message.asked.count = failed_ ? 0 : count;
+    message.asked.unanswered = failed_ ? 0 : unanswered;
   }
 
   void take_answers(Answers& answers) {
@@ -120,7 +181,6 @@ class Reader {
   void fail() { failed_ = true; }
   bool complete() const { return !failed_ && rest_.empty(); }
 
- private:
   std::span<const std::byte> rest_;
   bool failed_ = false;
 };
@@ -205,42 +265,8 @@ void WireMessage::put_heard(const HeardFrom& heard) {
 }
 
 std::optional<Message> decode(std::span<const std::byte> bytes) {
-  Reader reader(bytes);
-  std::optional<Message> decoded(std::in_place);
-  Message& message = *decoded;
-  if (reader.take<std::uint8_t>() != kMark) return std::nullopt;
-  message.kind = static_cast<MessageKind>(reader.take<std::uint8_t>());
-  Status& status = message.status;
-  status.stamp_ms = reader.take<std::uint32_t>();
-  status.position_m.x = reader.take_metres();
-  status.position_m.y = reader.take_metres();
-  const std::uint64_t flags = reader.take<std::uint8_t>();
-  status.requesting = (flags & kRequesting) != 0;
-  status.waiting = (flags & kWaiting) != 0;
-  status.idle = (flags & kIdle) != 0;
-  status.out_of_order = (flags & kOutOfOrder) != 0;
-  status.blocked = (flags & kBlocked) != 0;
-  status.position_is_new = (flags & kPositionIsNew) != 0;
-  status.epoch = reader.take_epoch((flags & kEpochHasBoot) != 0);
-  reader.take_path(status.held);
-  reader.take_lanes(status.ahead, kPathLanesMax - status.held.count);
-  reader.take_heard(message.heard);
-  switch (message.kind) {
-    case MessageKind::State:
-      reader.take_answers(message.answers);
-      if (status.requesting) reader.take_request(message);
-      break;
-    case MessageKind::Request:
-      reader.take_request(message);
-      break;
-    case MessageKind::Grant:
-    case MessageKind::Defer:
-      message.echo = reader.take_epoch((flags & kEchoHasBoot) != 0);
-      break;
-    default:
-      return std::nullopt;
-  }
-  if (!reader.complete()) return std::nullopt;
+  std::optional<Message> decoded(std::in_place);  // the only one that is returned, so that nothing is copied
+  if (!Reader(bytes).read(*decoded)) decoded.reset();
   return decoded;
 }
 
