@@ -154,11 +154,12 @@ bool LockProtocol::lock_is_over() {
 }
 
 bool LockProtocol::comes_first(std::uint32_t agv, const Neighbour& neighbour) {
+  if (!options_.progress.order_is_common) return false;
   // A blocked request cannot be locked before another AGV moves. It must not stop that AGV, or the AGVs for which that
   // AGV waits. Both sides must find the same order; otherwise two requests would step back from each other for ever.
   // Therefore every message contains `blocked`.
   const bool mine_blocked = requesting_ && blocker_.is_inside(request_);
-  const bool other_blocked = neighbour.status.blocked && options_.progress.order_is_common;
+  const bool other_blocked = neighbour.status.blocked;
   const std::uint32_t self = options_.progress.smaller_number_first ? neighbours_.self() : agv;
   return std::tie(mine_blocked, demand_ns_, self) < std::tie(other_blocked, neighbour.demand_ns, agv);
 }

@@ -1,5 +1,4 @@
-// FAULT: an AGV whose request is blocked gives way to every request, also to a blocked one. Otherwise this agent is
-// hull-lock.
+// FAULT: of two AGVs that request the same floor, each lets the other go first. Otherwise this agent is hull-lock.
 #include "core/agents/faulty/faulty_agents.hpp"
 #include "core/agents/hull_lock.hpp"
 
@@ -9,6 +8,6 @@ constexpr LockOptions kFault{.progress = {.order_is_common = false}};
 }
 
 constinit const fp_agent_type kBothStepBack = faulty_hull_lock<kFault>(
-    "both-step-back", "hull-lock with a fault: does not look whether the other request is blocked");
+    "both-step-back", "hull-lock with a fault: of two requests, each AGV lets the other go first");
 
 }  // namespace fleetproof::agents
