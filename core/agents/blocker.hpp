@@ -15,10 +15,16 @@ class Blocker {
 
   // The path is another one.
   void forget() { is_known_ = false; }
-  // The AGV waits elsewhere, or does not wait any more.
-  void look_at(std::uint32_t agv, const Path& path) {
-    if (agv_ == agv) forget();
-    if (is_known_ && agv_ == FP_NONE && neighbours_.waits_inside(agv, path)) agv_ = agv;
+  // The AGV has begun to wait, waits elsewhere, or waits no more. True if an answer that was given may now be another.
+  bool look_at(std::uint32_t agv, const Path& path) {
+    if (!is_known_) return false;
+    if (agv_ == agv) {
+      forget();
+      return true;
+    }
+    if (agv_ != FP_NONE || !neighbours_.waits_inside(agv, path)) return false;
+    agv_ = agv;
+    return true;
   }
   // Requires: the same path as at all calls since `forget`.
   bool is_inside(const Path& path) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 namespace fleetproof::agents {
 namespace {
@@ -91,8 +92,8 @@ bool LockProtocol::receive(std::uint32_t sender, std::span<const std::byte> byte
   const Neighbours::News news = neighbours_.note(sender, *message, controller_.now_ns());
   if (news == Neighbours::News::Refused) return false;
   if (news == Neighbours::News::Changed) {
-    answers_may_change_ = true;
-    if (requesting_) blocker_.look_at(sender, request_);
+    changed_.push_back(sender);
+    if (requesting_ && blocker_.look_at(sender, request_)) answers_may_change_ = true;
   }
   if (message->has_request()) receive_request(sender, *message);
   switch (message->kind) {
@@ -190,17 +191,21 @@ void LockProtocol::give_way_to(Neighbour& neighbour) {
   look_at_all_ = true;
 }
 
-bool LockProtocol::is_asked(const Neighbour& n) const { return requesting_ && request_of(n.asked_epoch) == epoch_; }
-bool LockProtocol::has_consent(const Neighbour& n) const { return is_asked(n) && n.granted_us_epoch == n.asked_epoch; }
-
 void LockProtocol::answer_those_deferred() {
-  if (!answers_may_change_) return;
-  answers_may_change_ = false;
-  neighbours_.for_each([&](std::uint32_t agv, Neighbour& n) {
-    if (!n.request_is_open() || n.granted_epoch == n.request_epoch) return;
-    const Answer answer = answer_to(agv, n);
-    if (answer != Answer::Defer) grant(agv, n, answer);
-  });
+  std::ranges::sort(changed_);
+  if (std::exchange(answers_may_change_, false)) {  // an answer may change it again
+    neighbours_.for_each([&](std::uint32_t agv, Neighbour&) { answer_if_asked(agv); });
+  } else {
+    for (const std::uint32_t agv : changed_) answer_if_asked(agv);
+  }
+  changed_.clear();
+}
+
+void LockProtocol::answer_if_asked(std::uint32_t agv) {
+  Neighbour& n = neighbours_.of(agv);
+  if (!n.request_is_open() || !n.asks_us || n.granted_epoch == n.request_epoch) return;
+  const Answer answer = answer_to(agv, n);
+  if (answer != Answer::Defer) grant(agv, n, answer);
 }
 
 void LockProtocol::receive_answer(std::uint32_t sender, Epoch echo, bool granted) {
@@ -271,15 +276,6 @@ bool LockProtocol::consents(std::uint32_t agv, const Neighbour& neighbour, std::
   }
   return knows_request(neighbour) &&
          (neighbours_.surely_beyond(agv, request_, now_ns) || neighbours_.is_apart(agv, request_, epoch_));
-}
-
-// Whether this epoch has asked it and got no answer.
-bool LockProtocol::is_unanswered(const Neighbour& n) const {
-  return is_asked(n) && !has_consent(n) && n.deferred_us_epoch != n.asked_epoch;
-}
-
-bool LockProtocol::owes_answer(const Neighbour& n) const {
-  return n.request_is_open() && n.asks_us && (has_granted(n) || n.deferred_epoch == n.request_epoch);
 }
 
 // ---- what it says

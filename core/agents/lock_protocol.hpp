@@ -184,18 +184,24 @@ class LockProtocol {
   void grant(std::uint32_t agv, Neighbour& neighbour, Answer answer);
   void give_way_to(Neighbour& neighbour);
   void answer_those_deferred();
+  void answer_if_asked(std::uint32_t agv);
   void broadcast_state();
   void fill_in_lists(Message& message);
   double longest_quiet_s() const;
-  bool is_unanswered(const Neighbour& neighbour) const;
-  bool owes_answer(const Neighbour& neighbour) const;
+  // Whether this epoch has asked it and got no answer.
+  bool is_unanswered(const Neighbour& n) const {
+    return is_asked(n) && !has_consent(n) && n.deferred_us_epoch != n.asked_epoch;
+  }
+  bool owes_answer(const Neighbour& n) const {
+    return n.request_is_open() && n.asks_us && (has_granted(n) || n.deferred_epoch == n.request_epoch);
+  }
   void receive_answer(std::uint32_t sender, Epoch echo, bool granted);
   bool consents(std::uint32_t agv, const Neighbour& neighbour, std::int64_t now_ns);
   bool all_consent();
   void note_consent(std::uint32_t agv);
   void ask();
-  bool is_asked(const Neighbour& neighbour) const;
-  bool has_consent(const Neighbour& neighbour) const;
+  bool is_asked(const Neighbour& n) const { return requesting_ && request_of(n.asked_epoch) == epoch_; }
+  bool has_consent(const Neighbour& n) const { return is_asked(n) && n.granted_us_epoch == n.asked_epoch; }
   Asked::Entry entry_of(std::uint32_t agv) const;
   void send_request(std::uint32_t receiver);
   Message request_message();
@@ -227,7 +233,9 @@ class LockProtocol {
   std::int64_t state_sent_ns_ = -1;
   std::uint32_t first_in_lists_ = 0;  // of a STATE
   std::int64_t locked_at_ns_ = 0;
-  bool answers_may_change_ = false;  // something changed since the deferred requests were last examined
+  // Since the deferred requests were last examined: something changed that concerns all of them, and who changed.
+  bool answers_may_change_ = false;
+  std::vector<std::uint32_t> changed_;
 
   Blocker blocker_;  // of the request
 };

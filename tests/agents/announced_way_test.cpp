@@ -65,9 +65,14 @@ class AnnouncedWays : public testing::Crossing {
     sent.clear();
     now_ns += 2 * kSecond_ns;
     members[from]->protocol->repeat();
+    for (const Sent& s : sent) {
+      if (s.to == to && s.message.kind == MessageKind::State) told = s.message;
+    }
     ASSERT_TRUE(deliver(MessageKind::State, from, to));
     sent.clear();
   }
+
+  Message told;  // the last STATE that was told
 };
 
 TEST_F(AnnouncedWays, NeedNoConsentOfAnAgvThatHeardOfThemAndKeepsClear) {
@@ -116,9 +121,9 @@ TEST_F(AnnouncedWays, NeedConsentOfAnAgvWhoseOwnWayIsNear) {
   EXPECT_FALSE(settle(0)) << "it still announces that way";
 }
 
-// AGV 1 knows of the request of AGV 0, and grants it although it keeps clear and is not asked. Later it asks for the
-// same floor, and AGV 0 lets it pass: the early GRANT is over then.
-TEST_F(AnnouncedWays, AGrantWithoutAQuestionEndsWithItsEpoch) {
+// AGV 1 knows of the request of AGV 0, and is not asked: so it says nothing. If it granted the request all the same,
+// and later asks for the same floor, so that AGV 0 lets it pass, then the early GRANT is over.
+TEST_F(AnnouncedWays, AGrantWithoutAQuestionIsNotSentAndEndsWithItsEpoch) {
   fleet_of(3);
   for (std::uint32_t id : {1U, 2U}) {
     tell(0, id);
@@ -137,8 +142,14 @@ TEST_F(AnnouncedWays, AGrantWithoutAQuestionEndsWithItsEpoch) {
   EXPECT_FALSE(is_asked(1));
   members[0]->protocol->repeat();
   ASSERT_TRUE(deliver(MessageKind::State, 0, 1));
+  sent.clear();
+  members[1]->protocol->withdraw();  // everything is looked at again
   settle(1);
-  ASSERT_TRUE(deliver(MessageKind::Grant, 1, 0)) << "without being asked";
+  EXPECT_FALSE(deliver(MessageKind::Grant, 1, 0)) << "without being asked";
+  tell(1, 0);
+  Message early = told;
+  early.kind = MessageKind::Grant;
+  early.echo = members[0]->protocol->epoch();
   request(1, {lane(2, 0)}, {});  // its demand is older
   settle(1);
   ASSERT_TRUE(deliver(MessageKind::Request, 1, 0));
@@ -150,6 +161,9 @@ TEST_F(AnnouncedWays, AGrantWithoutAQuestionEndsWithItsEpoch) {
   ASSERT_TRUE(deliver(MessageKind::State, 0, 1) || deliver(MessageKind::Request, 0, 1));
   EXPECT_TRUE(deliver(MessageKind::Defer, 1, 0));
   EXPECT_FALSE(deliver(MessageKind::Grant, 1, 0));
+  members[0]->protocol->receive(1, WireMessage(early).bytes());
+  members[0]->protocol->receive(2, WireMessage(early).bytes());
+  EXPECT_FALSE(settle(0)) << "1 granted what is over";
 }
 
 // The newest message that a restarted AGV knows may be one that was on its way since before the restart.
