@@ -98,27 +98,33 @@ class FindingsDesk {
   // Writes its scenarios and its explanation beside the findings file.
   KeptFinding keep(CaseHost& host, const Finding& finding) {
     const std::string id = finding.id();
-    FindingRecord record = record_of(host, finding, representative(finding).needs, trials());
+    FindingRecord record =
+        record_of(host, finding, representative(finding).needs, trials(), others_of(finding, survey_.failures));
     const AgentFactor& agent = plan_.agent_of_cell(representative(finding).run);
-    for (Scenario* scenario : {&record.kept.smallest, &record.kept.world}) {
-      scenario->agent = agent.program;
-      scenario->agent_config = plan_.config_of(agent);
-      scenario->expected = expectation_of(host(*scenario));
+    const auto write_case = [&](Scenario scenario, const std::string& name) {
+      scenario.agent = agent.program;
+      scenario.agent_config = plan_.config_of(agent);
+      scenario.expected = expectation_of(host(scenario));
+      write_beside(name, OutputKind::Scenario, printable_json(to_text(scenario)));
+    };
+    KeptFinding kept{.id = id,
+                     .mechanism = finding.mechanism.text(),
+                     .until = {},
+                     .reason = {},
+                     .end = finding.mechanism.end,
+                     .ways = record.kept.ways,
+                     .doings = record.kept.doings,
+                     .says = record.kept.says,
+                     .found_in = finding.agent,
+                     .smallest = id + ".case.json",
+                     .world = id + ".world.json",
+                     .neighbours = record.neighbours};
+    write_case(record.kept.smallest, kept.smallest);
+    write_case(record.kept.world, kept.world);
+    for (const Scenario& world : record.kept.other_worlds) {
+      kept.other_worlds.push_back(fmt::format("{}.world-{}.json", id, kept.other_worlds.size() + 2));
+      write_case(world, kept.other_worlds.back());
     }
-    const KeptFinding kept{.id = id,
-                           .mechanism = finding.mechanism.text(),
-                           .until = {},
-                           .reason = {},
-                           .end = finding.mechanism.end,
-                           .ways = record.kept.ways,
-                           .doings = record.kept.doings,
-                           .says = record.kept.says,
-                           .found_in = finding.agent,
-                           .smallest = id + ".case.json",
-                           .world = id + ".world.json",
-                           .neighbours = record.neighbours};
-    write_beside(kept.smallest, OutputKind::Scenario, printable_json(to_text(record.kept.smallest)));
-    write_beside(kept.world, OutputKind::Scenario, printable_json(to_text(record.kept.world)));
     std::string text = fmt::format("# {}: {}\n\n", id, printable(finding.mechanism.text()));
     for (const std::string& sentence : sentences_of(record.explanation))
       text += fmt::format("- {}\n", printable(sentence));

@@ -48,13 +48,40 @@ bool is_bad(const Retested& retested) {
   return retested.result.verdict != RetestVerdict::Fixed && retested.result.verdict != RetestVerdict::NotKnown;
 }
 
+double share_of(const NeighbourCounts& counts) {
+  return counts.of == 0 ? 0.0 : static_cast<double>(counts.alike) / static_cast<double>(counts.of);
+}
+
+// What the verdict rests on, in a sentence.
+std::string reason(const Retest& result, const NeighbourCounts& before) {
+  const std::size_t alike = result.now.alike, of = result.now.of;
+  switch (result.verdict) {
+    case RetestVerdict::Fixed:
+      return fmt::format("neither the case nor any of {} neighbours fails so (below {:.2f} %, 95 % sure)", of,
+                         100.0 * result.upper_bound);
+    case RetestVerdict::Dodged:
+      return fmt::format("the case passes, but {} of {} neighbours fail so", alike, of);
+    case RetestVerdict::StillThere:
+      return result.case_fails ? fmt::format("the case fails, and {} of {} neighbours", alike, of)
+                               : fmt::format("the case passes, but {} of {} neighbours still fail so", alike, of);
+    case RetestVerdict::NewKind:
+      return "it fails, but not as it did: " + result.new_kind;
+    case RetestVerdict::NotKnown:
+      if (!result.standing.empty())
+        return fmt::format("neither the case nor any of {} neighbours fails so, but the fleets hardly drive", of);
+      return fmt::format("neither the case nor any of {} neighbours fails so, but of so many, only {:.1f} would before",
+                         of, share_of(before) * static_cast<double>(of));
+  }
+  invariant_violated("a retest has a verdict");
+}
+
 void put_line(const Retested& retested) {
   const auto& [finding, result] = retested;
-  put("{}  {}\n  {}\n", finding.id, name_of(result.verdict), finding.mechanism);
-  put("  {} of {} neighbours fail so (below {:.2f} %, 95 % sure); {} of {} when it was found in {}\n", result.now.alike,
-      result.now.of, 100.0 * result.upper_bound, finding.neighbours.alike, finding.neighbours.of, finding.found_in);
-  if (!result.new_kind.empty()) put("  new: {}\n", result.new_kind);
-  if (!result.standing.empty()) put("  hardly drives: {}\n", result.standing);
+  put("{}  {}\n  {}\n  {}\n", finding.id, name_of(result.verdict), finding.mechanism,
+      reason(result, finding.neighbours));
+  put("  in {}, where it was found, {} of {} neighbours fail so\n", finding.found_in, finding.neighbours.alike,
+      finding.neighbours.of);
+  if (!result.standing.empty()) put("  the fleets drive {}\n", result.standing);
 }
 
 nlohmann::ordered_json shares_of_worlds(const NeighbourCounts& now, const NeighbourCounts& before) {
@@ -70,6 +97,7 @@ void put_json(const std::vector<Retested>& all) {
   for (const auto& [finding, result] : all)
     json["findings"].push_back({{"id", finding.id},
                                 {"verdict", name_of(result.verdict)},
+                                {"case_fails", result.case_fails},
                                 {"neighbours", result.now.of},
                                 {"failing", result.now.alike},
                                 {"upper_bound", result.upper_bound},

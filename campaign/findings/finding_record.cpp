@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "campaign/findings/elsewhere.hpp"
+#include "campaign/findings/ingredients.hpp"
 #include "campaign/shrink/shrink.hpp"
 
 namespace fleetproof {
@@ -17,10 +19,14 @@ FailingCase with_less_time(FailingCase reduced) {
 
 // Other software that fails without this fails for another reason. Shrinking keeps the words; what the bodies do may
 // have changed on its way.
-void keep_what_it_shows(CaseHost& host, const Finding& finding, const FailurePattern& pattern, KeptFailure& kept) {
+void keep_what_it_shows(const std::optional<FailureNeeds>& of_case, const Finding& finding,
+                        const FailurePattern& pattern, KeptFailure& kept) {
   kept.says = pattern.words.telling;
-  const auto done = doings_of(host(kept.smallest));
-  if (std::ranges::count(done, finding.mechanism.doing) > 0) kept.doings = {finding.mechanism.doing};
+  if (!of_case) return;
+  if (names_all(of_case->doings, {finding.mechanism.doing})) kept.doings.push_back(finding.mechanism.doing);
+  const bool third =
+      names_all(of_case->traits, {kThirdAgvTrait}) && names_all(finding.mechanism.traits, {kThirdAgvTrait});
+  if (third) kept.doings.emplace_back(kThirdAgvTrait);
 }
 
 }  // namespace
@@ -32,7 +38,7 @@ void keep_words_of_all(KeptFailure& kept, const NeighbourCounts& neighbours) {
 }
 
 FindingRecord record_of(CaseHost& host, const Finding& finding, const FailureNeeds& representative,
-                        std::uint64_t trials) {
+                        std::uint64_t trials, const std::vector<FailingCase>& others) {
   const FailingCase world = with_less_time(representative.reduced);
   FindingRecord record;
   const FailurePattern pattern = pattern_of(host, world);
@@ -41,17 +47,34 @@ FindingRecord record_of(CaseHost& host, const Finding& finding, const FailureNee
       shrink(host, cache, world, pattern, {{}, trials}, [](const FailingCase&, std::string_view) {}).best;
   record.explanation = explain(host, world, smallest, pattern);
   record.kept = {smallest.scenario, world.scenario, finding.mechanism.end, {finding.mechanism.needs}};
-  keep_what_it_shows(host, finding, pattern, record.kept);
+  auto of_case = needs_of(host, record.kept.smallest);
+  keep_what_it_shows(of_case, finding, pattern, record.kept);
+  const auto add_world = [&](const FailingCase& other) {
+    record.kept.other_worlds.push_back(with_less_time(other).scenario);
+  };
+  std::ranges::for_each(others, add_world);
+  std::ranges::for_each(same_failure_elsewhere(host, record.kept, kOtherWorlds - others.size()), add_world);
   const Neighbourhood neighbourhood(host, record.kept);
   record.neighbours = try_enough_neighbours(host, record.kept, neighbourhood);
+  record.neighbours.driven_elsewhere_m = driven_elsewhere_m(host, record.kept);
   keep_words_of_all(record.kept, record.neighbours);
   const auto add_way = [&](std::vector<std::string> needs) {
     if (std::ranges::count(record.kept.ways, needs) == 0) record.kept.ways.push_back(std::move(needs));
   };
   for (FailureNeeds& found : needs_of_first(host, neighbourhood, record.neighbours)) add_way(std::move(found.needs));
   // The smallest case may do with less than its finding needs. With the same software, it is one of them.
-  if (auto of_case = needs_of(host, record.kept.smallest)) add_way(std::move(of_case->needs));
+  if (of_case) add_way(std::move(of_case->needs));
   return record;
+}
+
+std::vector<FailingCase> others_of(const Finding& finding, std::span<const KnownFailure> failures) {
+  std::vector<std::size_t> members = finding.members;
+  std::erase_if(members, [&](std::size_t i) { return i == finding.representative || failures[i].needs.is_rare; });
+  std::vector<FailingCase> others;
+  const std::size_t count = std::min(kOtherWorlds, members.size());
+  for (std::size_t i = 0; i < count; ++i)
+    others.push_back(failures[members[(2 * i + 1) * members.size() / (2 * count)]].needs.reduced);
+  return others;
 }
 
 }  // namespace fleetproof

@@ -80,6 +80,7 @@ void read_neighbours(TomlTable& table, NeighbourCounts& counts) {
   counts.of_world = of_world;
   counts.alike_of_world = alike_of_world;
   table.get("neighbours_driven_m", counts.driven_m);
+  table.get("driven_elsewhere_m", counts.driven_elsewhere_m);
   counts.always_said = texts(table, "always_said");
   if (counts.alike > counts.of || counts.alike_of_world > counts.of_world)
     throw InputError(table.place("neighbours_failing"), "more neighbours failed than were tried");
@@ -113,6 +114,7 @@ KeptFinding read_finding(TomlTable& table) {
   finding.found_in = needed(table, "found_in");
   finding.smallest = needed(table, "case");
   finding.world = needed(table, "world");
+  finding.other_worlds = texts(table, "other_worlds");
   read_neighbours(table, finding.neighbours);
   table.finish();
   return finding;
@@ -142,12 +144,14 @@ std::string FindingsFile::path_beside(const std::string& name) const {
 }
 
 KeptFailure FindingsFile::failure(const KeptFinding& finding) const {
-  return {read_scenario(path_beside(finding.smallest)),
-          read_scenario(path_beside(finding.world)),
-          finding.end,
-          finding.ways,
-          finding.doings,
-          finding.says};
+  KeptFailure kept{read_scenario(path_beside(finding.smallest)),
+                   read_scenario(path_beside(finding.world)),
+                   finding.end,
+                   finding.ways,
+                   finding.doings,
+                   finding.says};
+  for (const std::string& world : finding.other_worlds) kept.other_worlds.push_back(read_scenario(path_beside(world)));
+  return kept;
 }
 
 std::string toml_of(const KeptFinding& finding) {
@@ -160,9 +164,13 @@ std::string toml_of(const KeptFinding& finding) {
   text += fmt::format("end = {}\nways = [{}]\nfound_in = {}\ncase = {}\nworld = {}\n", toml_text(finding.end),
                       fmt::join(ways, ", "), toml_text(finding.found_in), toml_text(finding.smallest),
                       toml_text(finding.world));
+  if (!finding.other_worlds.empty()) text += fmt::format("other_worlds = {}\n", list_of(finding.other_worlds));
   text += fmt::format("neighbours = {}\nneighbours_failing = {}\n", finding.neighbours.of, finding.neighbours.alike);
-  text += fmt::format("world_neighbours = {}\nworld_neighbours_failing = {}\nneighbours_driven_m = {}\n",
-                      finding.neighbours.of_world, finding.neighbours.alike_of_world, finding.neighbours.driven_m);
+  text += fmt::format(
+      "world_neighbours = {}\nworld_neighbours_failing = {}\nneighbours_driven_m = {}\n"
+      "driven_elsewhere_m = {}\n",
+      finding.neighbours.of_world, finding.neighbours.alike_of_world, finding.neighbours.driven_m,
+      finding.neighbours.driven_elsewhere_m);
   if (!finding.neighbours.always_said.empty())
     text += fmt::format("always_said = {}\n", list_of(finding.neighbours.always_said));
   if (finding.neighbours.otherwise.empty()) return text;

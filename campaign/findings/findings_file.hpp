@@ -35,6 +35,7 @@ struct KeptFinding {
   std::vector<std::string> doings, says;       // likewise
   std::string found_in;                        // the agent that failed so
   std::string smallest, world;                 // paths of scenario files, from the findings file on
+  std::vector<std::string> other_worlds{};     // likewise
   NeighbourCounts neighbours;                  // in the software in which it was found
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "campaign/findings/ingredients.hpp"
 #include "campaign/shrink/adverse_fates.hpp"
 #include "campaign/shrink/all_runs.hpp"
 #include "campaign/shrink/other_luck.hpp"
@@ -62,6 +63,22 @@ void think_otherwise(Scenario& scenario, Dice& dice) {
 
 }  // namespace
 
+bool is_one_of(const std::vector<std::vector<std::string>>& ways, const std::vector<std::string>& needs) {
+  return std::ranges::any_of(
+      ways, [&](const std::vector<std::string>& way) { return way.empty() ? needs.empty() : names_all(needs, way); });
+}
+
+bool shows_the_same(const KeptFailure& kept, const FailureNeeds& found) {
+  const auto is_shown = [&](const std::string& doing) {
+    return names_all(found.doings, {doing}) || names_all(found.traits, {doing});
+  };
+  return std::ranges::all_of(kept.doings, is_shown) && names_all(found.said, kept.says);
+}
+
+bool is_one_of(const KeptFailure& kept, const FailureNeeds& found) {
+  return shows_the_same(kept, found) && is_one_of(kept.ways, found.needs);
+}
+
 Neighbourhood::Neighbourhood(CaseHost& host, const KeptFailure& kept) : kept_(kept) {
   const CaseRun run = host(kept.smallest, Fates::Kept);
   const auto failure = failure_of(run);
@@ -83,7 +100,8 @@ void Neighbourhood::lose_one_more(Scenario& scenario, double draw) const {
 Scenario Neighbourhood::at(std::uint32_t number) const {
   Dice dice(kept_.world.seed, number);
   const bool of_case = number % kEveryCase == 0;
-  Scenario beside = of_case ? shifted(kept_.smallest, dice) : with_other_course(kept_.world, number, kShift);
+  Scenario beside =
+      of_case ? shifted(kept_.smallest, dice) : with_other_course(kept_.world_of(number / kEveryCase), number, kShift);
   if (of_case) lose_one_more(beside, dice.next());
   if (number % 2 == 1) think_otherwise(beside, dice);
   return beside;

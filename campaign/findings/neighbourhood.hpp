@@ -17,16 +17,31 @@ struct KeptFailure {
   // What its finding needs, and what the first neighbours need that fail with the same end: each as FailureNeeds has
   // it.
   std::vector<std::vector<std::string>> ways;
-  // What the smallest case also shows: what its bodies do ("one turns"), and words that tell its failure from others.
+  // What the smallest case also shows: what its bodies do ("one turns"), that it needs a third AGV, and words that tell
+  // its failure from others.
   std::vector<std::string> doings{}, says{};
+  // Of other failures of the finding.
+  std::vector<Scenario> other_worlds{};
+
+  // `world` and the others, in turn.
+  const Scenario& world_of(std::uint32_t number) const {
+    const auto place = number % (other_worlds.size() + 1);
+    return place == 0 ? world : other_worlds[place - 1];
+  }
 };
+
+// Whether a failure is the kept one, as far as its needs and what it shows can tell; its end is not looked at.
+bool is_one_of(const KeptFailure& kept, const FailureNeeds& found);
+bool is_one_of(const std::vector<std::vector<std::string>>& ways, const std::vector<std::string>& needs);
+// Whether it shows what the kept one does, beside its needs.
+bool shows_the_same(const KeptFailure& kept, const FailureNeeds& found);
 
 // So many are tried, and more if hardly any fails: until kEnoughAlike of the world do, or kMostKept were tried. With
 // 40, software that fails half as often is told from the same software three times in four.
 inline constexpr std::uint32_t kNeighbours = 1000, kMostKept = 8000;
 inline constexpr std::size_t kEnoughAlike = 40;
 
-// The scenarios beside a kept failure. Of the world: orders and faults up to 1 s later, other draws of radio, agents
+// The scenarios beside a kept failure. Of its worlds: orders and faults up to 1 s later, other draws of radio, agents
 // and motion. Every fourth is of the smallest case instead: orders and faults up to 1 s earlier or later, and one more
 // message lost. In every second, the software thinks half to twice as long; where calls cost nothing, each costs up to
 // 0.2 ms.
@@ -49,9 +64,10 @@ struct NeighbourCounts {
   std::size_t alike = 0;                         // fail with the same end
   std::map<std::string, std::size_t> otherwise;  // by the end with which they fail
   std::vector<std::uint32_t> first_alike;        // the first few of these
-  // Of them, those of the world: software with another timing meets them as before. None: not known.
+  // Of them, those of the worlds: software with another timing meets them as before. None: not known.
   std::size_t of_world = 0, alike_of_world = 0;
-  std::uint64_t driven_m = 0;  // by the fleets of all of them; 0: not known
+  std::uint64_t driven_m = 0;            // by the fleets of all of them; 0: not known
+  std::uint64_t driven_elsewhere_m = 0;  // as driven_elsewhere_m has it; 0: not known
   // Words and probes, sorted: those of the AGVs of each failure alike, and those of any fleet of these runs.
   std::vector<std::string> always_said{}, ever_said{};
 };

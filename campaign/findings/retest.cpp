@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "campaign/findings/elsewhere.hpp"
 #include "campaign/findings/finding.hpp"
 #include "campaign/findings/ingredients.hpp"
 #include "reports/evidence/binomial.hpp"
@@ -19,24 +20,15 @@ constexpr double kNewKindChance = 0.001, kRarerChance = 0.01;
 // with 10, it is chance once in 20 000 times.
 constexpr std::size_t kEnoughBefore = 10, kOften = 10;
 
-// Whether a failure that needs this may be the one that was kept.
-bool is_one_of(const std::vector<std::vector<std::string>>& ways, const std::vector<std::string>& needs) {
-  return std::ranges::any_of(
-      ways, [&](const std::vector<std::string>& way) { return way.empty() ? needs.empty() : names_all(needs, way); });
-}
-
 bool is_of_radio(const std::string& need) {
   return need == kLateMessages || need == kLostMessages || need == kCopiedMessages;
-}
-
-// Whether it shows what the kept one does, beside its needs.
-bool shows_the_same(const KeptFailure& kept, const FailureNeeds& found) {
-  return names_all(found.doings, kept.doings) && names_all(found.said, kept.says);
 }
 
 // What sets it apart from the kept one, in words.
 std::string text_of_new(const KeptFailure& kept, const FailureNeeds& found) {
   std::string text = Mechanism{found.end, found.needs, fmt::format("{}", fmt::join(found.doings, "; ")), {}}.text();
+  if (names_all(kept.doings, {kThirdAgvTrait}) && !names_all(found.traits, {kThirdAgvTrait}))
+    text += "; needs no third AGV";
   for (const std::string& word : kept.says) {
     if (!names_all(found.said, {word})) text += fmt::format("; never says \"{}\"", word);
   }
@@ -69,9 +61,7 @@ std::vector<std::string> words_no_longer_said(const NeighbourCounts& now, const 
 std::string other_mechanism(CaseHost& host, const KeptFailure& kept, const Neighbourhood& neighbourhood,
                             const NeighbourCounts& now) {
   const auto first = needs_of_first(host, neighbourhood, now);
-  const auto is_kept = [&](const FailureNeeds& found) {
-    return shows_the_same(kept, found) && is_one_of(kept.ways, found.needs);
-  };
+  const auto is_kept = [&](const FailureNeeds& found) { return is_one_of(kept, found); };
   return first.empty() || std::ranges::any_of(first, is_kept) ? "" : text_of_new(kept, first.front());
 }
 
@@ -96,11 +86,30 @@ std::string more_often(const NeighbourCounts& now, const NeighbourCounts& before
   return {};
 }
 
-// Fleets that stand fail nowhere, so nothing is shown about the fault.
-std::string hardly_drives(const NeighbourCounts& now, const NeighbourCounts& before) {
-  if (before.of == 0 || 2 * now.driven_m * before.of >= before.driven_m * now.of) return {};
-  return fmt::format("the fleets drive {} m in each neighbour in the mean, {} m before", now.driven_m / now.of,
-                     before.driven_m / before.of);
+bool is_half_as_far(std::uint64_t driven, std::uint64_t of, std::uint64_t driven_before, std::uint64_t of_before) {
+  return of_before > 0 && driven_before > 0 && 2 * driven * of_before >= driven_before * of;
+}
+
+// Fleets that stand fail nowhere. If they stand elsewhere, too, nothing is shown about the fault; if not, they wait.
+struct StandingFleets {
+  std::string text;
+  bool is_everywhere = false;
+};
+StandingFleets standing_fleets(CaseHost& host, const KeptFailure& kept, const NeighbourCounts& now,
+                               const NeighbourCounts& before) {
+  if (before.driven_m == 0 || is_half_as_far(now.driven_m, now.of, before.driven_m, before.of)) return {};
+  const auto mean_m = [](std::uint64_t driven, std::size_t of) {
+    return static_cast<double>(driven) / static_cast<double>(of);
+  };
+  StandingFleets standing{fmt::format("in each neighbour in the mean {:.1f} m, {:.1f} m before",
+                                      mean_m(now.driven_m, now.of), mean_m(before.driven_m, before.of)),
+                          true};
+  if (before.driven_elsewhere_m == 0) return standing;
+  const std::uint64_t elsewhere_m = driven_elsewhere_m(host, kept);
+  standing.text +=
+      fmt::format("; from other stations on a perfect radio {} m, {} m before", elsewhere_m, before.driven_elsewhere_m);
+  standing.is_everywhere = !is_half_as_far(elsewhere_m, 1, before.driven_elsewhere_m, 1);
+  return standing;
 }
 
 }  // namespace
@@ -116,7 +125,8 @@ Retest retest(CaseHost& host, const KeptFailure& found, const NeighbourCounts& b
     if (!names_all(kept.says, {word})) kept.says.push_back(std::move(word));
   }
   result.upper_bound = upper_bound(now.alike, now.of, Confidence{0.95});
-  if (of_case && is_kept_one(kept, *of_case)) {
+  result.case_fails = of_case && is_kept_one(kept, *of_case);
+  if (result.case_fails) {
     result.verdict = RetestVerdict::StillThere;
   } else if (of_case && of_case->end == kept.end) {
     result.new_kind = text_of_new(kept, *of_case);
@@ -128,10 +138,11 @@ Retest retest(CaseHost& host, const KeptFailure& found, const NeighbourCounts& b
                                               : RetestVerdict::Dodged;
   } else {
     result.new_kind = more_often(now, before);
-    result.standing = hardly_drives(now, before);
+    const StandingFleets standing = standing_fleets(host, kept, now, before);
+    result.standing = standing.text;
     const bool is_telling = before.of > 0 && now.of * before.alike >= kEnoughBefore * before.of;
     result.verdict = !result.new_kind.empty()                ? RetestVerdict::NewKind
-                     : is_telling && result.standing.empty() ? RetestVerdict::Fixed
+                     : is_telling && !standing.is_everywhere ? RetestVerdict::Fixed
                                                              : RetestVerdict::NotKnown;
   }
   return result;

@@ -14,7 +14,7 @@ enum class RetestVerdict : std::uint8_t {
   Dodged,      // the case passes, and neighbours fail as it did, about as often as before
   StillThere,  // the case fails as it did; or neighbours do, but much more seldom than before
   NewKind,     // it does not fail as it did, but otherwise, and more often than before
-  NotKnown,    // nothing fails, but before, too, hardly any neighbour did; or the fleets hardly drive now
+  NotKnown,    // nothing fails, but before, too, hardly any neighbour did; or the fleets hardly drive anywhere now
 };
 constexpr const char* name_of(RetestVerdict verdict) {
   switch (verdict) {
@@ -34,10 +34,11 @@ constexpr const char* name_of(RetestVerdict verdict) {
 
 struct Retest {
   RetestVerdict verdict = RetestVerdict::NotKnown;
+  bool case_fails = false;  // as the kept one did
   NeighbourCounts now;
   double upper_bound = 1.0;  // of the share of neighbours that fail so, 95 % sure
   std::string new_kind;      // how else it fails: an end, and what that needs
-  std::string standing;      // how little the fleets drive, if less than half as far as before
+  std::string standing;      // how little the fleets drive there, if less than half as far as before
 };
 
 // `before`: how the software in which the failure was found fared.

@@ -316,9 +316,10 @@ class FindingsFiles : public testing::Test {
     finding.found_in = "a\tb";
     finding.smallest = "c.json";
     finding.world = "w.json";
+    finding.other_worlds = {"v.json", "u.json"};
     finding.doings = {"one turns"};
     finding.says = {"oops", "a \"b\""};
-    finding.neighbours = {1000, 17, {{"no progress", 3}, {"a \"b\"", 4}}, {}, 750, 9, 12345, {"a", "b \"c\""}};
+    finding.neighbours = {1000, 17, {{"no progress", 3}, {"a \"b\"", 4}}, {}, 750, 9, 12345, 678, {"a", "b \"c\""}};
     return finding;
   }
   std::string error_of(const std::string& text) const {
@@ -339,11 +340,10 @@ TEST_F(FindingsFiles, WhatIsWrittenIsRead) {
   ASSERT_NE(read, nullptr);
   EXPECT_EQ(toml_of(*read), toml_of(odd()));
   EXPECT_EQ(read->ways, odd().ways);
-  EXPECT_EQ(read->doings, odd().doings);
-  EXPECT_EQ(read->says, odd().says);
-  EXPECT_EQ(read->neighbours.of_world, 750U);
-  EXPECT_EQ(read->neighbours.alike_of_world, 9U);
-  EXPECT_EQ(read->neighbours.driven_m, 12345U);
+  EXPECT_EQ(std::pair(read->doings, read->says), std::pair(odd().doings, odd().says));
+  EXPECT_EQ(read->other_worlds, odd().other_worlds);
+  EXPECT_EQ(std::pair(read->neighbours.of_world, read->neighbours.alike_of_world), std::pair(750UL, 9UL));
+  EXPECT_EQ(std::pair(read->neighbours.driven_m, read->neighbours.driven_elsewhere_m), std::pair(12345UL, 678UL));
   EXPECT_EQ(read->neighbours.always_said, odd().neighbours.always_said);
   EXPECT_EQ(read->neighbours.otherwise, odd().neighbours.otherwise);
   EXPECT_EQ(file.find("F-00000002"), nullptr);

@@ -2,13 +2,18 @@
 
 #include <gmock/gmock.h>
 
+#include "campaign/findings/elsewhere.hpp"
 #include "campaign/findings/finding_record.hpp"
+#include "campaign/findings/ingredients.hpp"
+#include "campaign/shrink/adverse_fates.hpp"
+#include "campaign/shrink/fitness.hpp"
 #include "tests/support/case_bench.hpp"
 
 namespace fleetproof {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 using Bench = test::CaseBench;
 
 struct Known {
@@ -67,19 +72,91 @@ TEST(Retest, ComparesTheWorldsThatDrawTheirLuck) {
   CaseHost retouched({name, "timeout-grant"}, programs, 2);
   EXPECT_EQ(retest(retouched, known.kept, known.before, kSome).verdict, RetestVerdict::Dodged);
   known.kept.world.radio.loss = 0.1;
+  for (Scenario& world : known.kept.other_worlds) world.radio.loss = 0.1;
   known.before.alike = known.before.of / 10;  // neighbours of the case tell nothing
   EXPECT_EQ(retest(retouched, known.kept, known.before, kSome).verdict, RetestVerdict::StillThere);
 }
 
-TEST(Retest, AFleetThatStandsShowsNothing) {
+// A fleet may stand beside a failure because it has to. If it stands elsewhere, too, it just stands.
+TEST(Retest, AFleetThatStandsEverywhereShowsNothing) {
   Bench bench("timeout-grant");
   Known known = known_failure(bench);
   Bench sound("hull-lock");
   EXPECT_EQ(retest(sound.host, known.kept, known.before, kSome).standing, "");
+  EXPECT_GT(known.before.driven_elsewhere_m, 1000U);
   known.before.driven_m *= 100;
-  const Retest result = retest(sound.host, known.kept, known.before, kSome);
-  EXPECT_EQ(result.verdict, RetestVerdict::NotKnown);
-  EXPECT_THAT(result.standing, HasSubstr(" m in each neighbour"));
+  const Retest waits = retest(sound.host, known.kept, known.before, kSome);
+  EXPECT_EQ(waits.verdict, RetestVerdict::Fixed);
+  EXPECT_THAT(waits.standing, HasSubstr("in each neighbour"));
+  EXPECT_THAT(waits.standing, HasSubstr("from other stations"));
+  known.before.driven_elsewhere_m *= 100;
+  EXPECT_EQ(retest(sound.host, known.kept, known.before, kSome).verdict, RetestVerdict::NotKnown);
+  known.before.driven_elsewhere_m = 0;
+  const Retest not_asked = retest(sound.host, known.kept, known.before, kSome);
+  EXPECT_EQ(not_asked.verdict, RetestVerdict::NotKnown);
+  EXPECT_THAT(not_asked.standing, Not(HasSubstr("from other stations"))) << "a file that does not say it";
+}
+
+TEST(Elsewhere, IsAFairStartAtOtherStations) {
+  const Scenario world = test::bad_night(125);
+  std::size_t moved = 0;
+  for (std::uint32_t number = 0; number < 20; ++number) {
+    const auto there = elsewhere(world, number);
+    ASSERT_TRUE(there) << number;
+    EXPECT_TRUE(is_fair(*there));
+    EXPECT_EQ(there->faults.size(), world.faults.size());
+    for (std::size_t agv = 0; agv < world.agvs.size(); ++agv)
+      moved += there->agvs[agv].start != world.agvs[agv].start ? 1 : 0;
+  }
+  EXPECT_GT(moved, 80U) << "of 100";
+}
+
+// A finding with one failure gets worlds in which its fleet stands elsewhere and fails so.
+TEST(Elsewhere, TheSameFailureIsFoundThere) {
+  Bench bench("timeout-grant");
+  const Known known = known_failure(bench);
+  ASSERT_FALSE(known.kept.other_worlds.empty());
+  EXPECT_LE(known.kept.other_worlds.size(), kOtherWorlds);
+  for (const Scenario& world : known.kept.other_worlds) {
+    const auto needs = needs_of(bench.host, world);
+    ASSERT_TRUE(needs);
+    EXPECT_EQ(needs->end, known.kept.end);
+    EXPECT_TRUE(is_one_of(known.kept, *needs));
+  }
+}
+
+// What was mended where the failure was found may be left elsewhere.
+TEST(Retest, AFaultThatIsLeftInAnotherWorldIsFound) {
+  Bench bench("timeout-grant");
+  Known known = known_failure(bench);
+  ASSERT_FALSE(known.kept.other_worlds.empty());
+  for (Scenario* mended : {&known.kept.smallest, &known.kept.world}) {
+    *mended = with_fates_only(*mended, {});
+    mended->horizon = std::chrono::seconds(1);
+  }
+  const Retest left = retest(bench.host, known.kept, known.before, kSome);
+  EXPECT_GT(left.now.alike, 0U);
+  EXPECT_NE(left.verdict, RetestVerdict::Fixed);
+  known.kept.other_worlds.clear();
+  EXPECT_EQ(retest(bench.host, known.kept, known.before, kSome).now.alike, 0U);
+}
+
+TEST(Retest, OtherWorldsAreThoseOfMembersThatAreNotRare) {
+  std::vector<KnownFailure> failures(12);
+  Finding finding;
+  for (std::size_t i = 0; i < failures.size(); ++i) {
+    failures[i].needs.reduced.scenario.seed = i;
+    failures[i].needs.is_rare = i == 5;
+    if (i > 1) finding.members.push_back(i);
+  }
+  finding.representative = 2;
+  std::vector<std::uint64_t> seeds;
+  for (const FailingCase& other : others_of(finding, failures)) seeds.push_back(other.scenario.seed);
+  EXPECT_THAT(seeds, testing::ElementsAre(4U, 7U, 9U, 11U));
+  finding.members = {2, 5, 6};
+  EXPECT_EQ(others_of(finding, failures).size(), 1U);
+  finding.members = {2};
+  EXPECT_TRUE(others_of(finding, failures).empty());
 }
 
 // The same end and the same needs, but it never says what the kept failure always says.
@@ -94,6 +171,23 @@ TEST(Retest, AFailureWithoutItsWordsIsANewKind) {
   known.kept.says.clear();
   known.kept.doings = {"one flies"};
   EXPECT_EQ(retest(bench.host, known.kept, known.before, kSome).verdict, RetestVerdict::NewKind);
+}
+
+// Where three had to meet before, two alone fail for another reason.
+TEST(Retest, AFailureOfTwoAgvsAloneIsNotThatOfThree) {
+  Bench bench("counts-messages");
+  std::uint64_t seed = 100;
+  std::optional<FailureNeeds> needs;
+  while (!needs || !names_all(needs->traits, {kThirdAgvTrait})) needs = needs_of(bench.host, bench.failing(++seed));
+  Finding finding;
+  finding.mechanism = {needs->end, needs->needs, {}, {kThirdAgvTrait}};
+  const FindingRecord record = record_of(bench.host, finding, *needs, 1000);
+  EXPECT_THAT(record.kept.doings, testing::ElementsAre(kThirdAgvTrait));
+  EXPECT_EQ(retest(bench.host, record.kept, record.neighbours, kSome).verdict, RetestVerdict::StillThere);
+  Bench other("reckless");
+  const Retest result = retest(other.host, record.kept, record.neighbours, kSome);
+  EXPECT_EQ(result.verdict, RetestVerdict::NewKind);
+  EXPECT_THAT(result.new_kind, HasSubstr("needs no third AGV"));
 }
 
 // A word that each failure had said, and that no fleet says any more, names what the software no longer does.
