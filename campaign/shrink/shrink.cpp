@@ -27,6 +27,11 @@ CaseSize CaseSize::of(const Scenario& scenario) {
           .horizon = scenario.horizon};
 }
 
+std::size_t CaseSize::price() const {
+  constexpr std::size_t few_agvs = 3, of_an_agv = 4;
+  return fates_are_drawn ? ~std::size_t{0} : fates + of_an_agv * (std::max(agvs, few_agvs) - few_agvs);
+}
+
 namespace {
 
 // So many ways in which the failure comes about are compared: with sparse luck, and with as much luck as there was.
@@ -69,8 +74,8 @@ FailingCase with_luck_written(Trials& trials, const FailingCase& drawn, const On
   return shrinker.best();
 }
 
-// Of the ways in which the failure comes about, the one that needs the fewest adverse messages. What is quick comes
-// first.
+// Of the ways in which the failure comes about, the one that needs the fewest adverse messages, and not many AGVs
+// instead. What is quick comes first.
 class LeastBadLuck {
  public:
   LeastBadLuck(Trials& trials, const FailingCase& original, const OnSmaller& on_smaller)
@@ -89,16 +94,13 @@ class LeastBadLuck {
   }
 
  private:
-  bool is_enough() const { return trials_.ended() || fates_of(best_) <= kFew; }
-  // While they are drawn, more than any list has.
-  static std::size_t fates_of(const FailingCase& failing) {
-    return has_luck(failing) ? ~std::size_t{0} : failing.scenario.fates.size();
-  }
+  bool is_enough() const { return trials_.ended() || price_of(best_) <= kFew; }
+  static std::size_t price_of(const FailingCase& failing) { return CaseSize::of(failing.scenario).price(); }
 
   void try_lead_up(const FailingCase& original, std::size_t i) {
     const FailingCase way = with_luck_drawn(trials_, original, kLeadUps[i], i == 0 ? on_smaller_ : kQuietly);
     if (i == 0) best_ = way;
-    if (i > 0 && fates_of(way) < fates_of(best_)) {
+    if (i > 0 && price_of(way) < price_of(best_)) {
       best_ = way;
       on_smaller_(best_, "perfect radio");
     }
@@ -151,7 +153,7 @@ class LeastBadLuck {
 
   void compare(const FailingCase& start) {
     FailingCase other = with_luck_written(trials_, start, kQuietly);
-    if (fates_of(other) >= fates_of(best_)) return;
+    if (price_of(other) >= price_of(best_)) return;
     best_ = std::move(other);
     on_smaller_(best_, "fewer adverse messages");
   }

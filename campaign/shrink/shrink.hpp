@@ -15,6 +15,9 @@ struct CaseSize {
   bool fates_are_drawn = true;
   Duration horizon{};
   static CaseSize of(const Scenario& scenario);
+  // How hard it is to see through, in adverse messages: each AGV beyond the third is as hard as four. While fates are
+  // drawn, more than any list of them.
+  std::size_t price() const;
 };
 
 // The smallest case that was found. `one_minimal`: each single AGV, transport, fault, obstacle, segment and message

@@ -39,6 +39,22 @@ struct Bench : test::CaseBench {
   }
 };
 
+// On a perfect radio, it may take a larger fleet to fail. Two AGVs and a lost message are easier to see through.
+TEST(Shrink, AFewMessagesArePreferredToALargeFleet) {
+  const auto price = [](std::size_t agvs, std::size_t fates) {
+    CaseSize size;
+    size.agvs = agvs;
+    size.fates = fates;
+    size.fates_are_drawn = false;
+    return size.price();
+  };
+  EXPECT_LT(price(2, 1), price(4, 0));
+  EXPECT_LT(price(3, 3), price(4, 0));
+  EXPECT_LT(price(4, 0), price(3, 8));
+  EXPECT_LT(price(3, 0), price(2, 1));
+  EXPECT_LT(price(5, 99), CaseSize{}.price()) << "the radio still draws";
+}
+
 TEST(Shrink, ASmallCaseFailsInTheSameWay) {
   Bench bench("timeout-grant");
   for (const std::uint64_t seed : {1U, 20U, 40U}) {
