@@ -70,6 +70,7 @@ class FindingsDesk {
     if (interrupted() != 0) {
       talk("interrupted: {} of {} failures were looked at; the findings are those of these\n", survey_.looked_at,
            runs_.looked_at.size());
+      if (words_.add) talk("{} of {} new findings were added\n", added_, new_);
       return 128 + interrupted();
     }
     const auto is_open = [&](const Finding& f) { return needs_attention(kept(f), today()); };
@@ -86,17 +87,29 @@ class FindingsDesk {
     std::string text = std::filesystem::exists(words_.file) ? read_text_file(words_.file)
                                                             : "# findings: what is known about failures\n";
     for (const Finding& finding : findings_) {
-      const std::string id = finding.id();
-      if (interrupted() != 0) break;
       if (kept(finding) != nullptr) continue;
-      talk("{}: looking for its smallest case\n", id);
-      text += toml_of(keep(hosts.of(finding.agent), finding));
+      ++new_;
+      if (interrupted() != 0) continue;
+      talk("{}: looking for its smallest case\n", finding.id());
+      if (const auto added = keep_unless_interrupted(hosts.of(finding.agent), finding)) {
+        text += toml_of(*added);
+        ++added_;
+      }
     }
     write_whole({words_.file, "--file", OutputKind::Findings}, text);
   }
 
+  std::optional<KeptFinding> keep_unless_interrupted(CaseHost& host, const Finding& finding) const {
+    host.simulate_while([] { return interrupted() == 0; });
+    try {
+      return keep(host, finding);
+    } catch (const GivenUp&) {
+      return std::nullopt;
+    }
+  }
+
   // Writes its scenarios and its explanation beside the findings file.
-  KeptFinding keep(CaseHost& host, const Finding& finding) {
+  KeptFinding keep(CaseHost& host, const Finding& finding) const {
     const std::string id = finding.id();
     FindingRecord record =
         record_of(host, finding, representative(finding).needs, trials(), others_of(finding, survey_.failures));
@@ -176,6 +189,7 @@ class FindingsDesk {
   FailingRuns runs_;
   Survey survey_;
   std::vector<Finding> findings_;
+  std::size_t new_ = 0, added_ = 0;  // of the findings: not in the findings file, and added to it
 };
 
 int find_findings(const FindingsWords& words) {

@@ -16,6 +16,7 @@ CaseHost::CaseHost(const CaseAgent& agent, const AgentPrograms& programs, int wo
 }
 
 CaseRun CaseHost::operator()(const Scenario& scenario, Fates fates) {
+  if (!go_on_()) throw GivenUp("no more cases are simulated");
   if (isolated_) return isolated_->of_case(scenario, fates);
   return run_case(scenario, programs_.find(plan_.agents.front().program, "agent"), plan_.agent_config,
                   plan_.laws_left_out, fates);

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "campaign/plan/plan.hpp"
@@ -19,6 +22,12 @@ struct CaseAgent {
   LimitSetup limits{};
 };
 
+// A case was to be simulated after the time for that was over.
+class GivenUp : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 // Simulates cases: a reference agent on the thread of the caller, a plug-in in worker processes, so that a crash costs
 // one case. Threads: as many as there are workers.
 class CaseHost {
@@ -31,12 +40,16 @@ class CaseHost {
   // As IsolatedRuns::ends_in; none of a reference agent.
   std::optional<std::vector<KnownEnd>> ends_in(const Scenario& scenario);
   int workers() const { return workers_; }
+  // From now on, a call throws GivenUp once `go_on` says no. That ends whatever the cases were needed for. Call it
+  // while no case is simulated. Several threads call `go_on` at once.
+  void simulate_while(std::function<bool()> go_on) { go_on_ = std::move(go_on); }
 
  private:
   CampaignPlan plan_;  // its one agent; no layouts
   const AgentPrograms& programs_;
   int workers_;
   std::unique_ptr<IsolatedRuns> isolated_;  // null: a reference agent
+  std::function<bool()> go_on_ = [] { return true; };
 };
 
 }  // namespace fleetproof

@@ -166,6 +166,19 @@ kill -INT $pid; wait $pid)";
   EXPECT_THAT(finished.out, HasSubstr(left["looked_at"].dump() + " of "));
 }
 
+// The search for a smallest case ends at once, too. What is not complete is not kept.
+TEST_F(FindingsVerb, AnInterruptEndsTheSearchForASmallestCase) {
+  const auto finished = shell(R"(
+"$FLEETPROOF" findings a.db --file f.toml --add & pid=$!
+for i in $(seq 600); do grep -q 'smallest case' "../$(basename "$PWD")/stderr.txt" && break; sleep 0.1; done
+kill -TERM $pid; wait $pid)");
+  EXPECT_EQ(finished.exit_code, 143) << finished.err;
+  EXPECT_THAT(finished.err, HasSubstr("\n0 of "));
+  EXPECT_THAT(finished.err, HasSubstr(" new findings were added\n"));
+  EXPECT_FALSE(nlohmann::json::parse(read(path("a.findings.json")))["findings"].empty());
+  EXPECT_EQ(run("findings a.db --file f.toml").exit_code, 1) << "they are still new";
+}
+
 TEST_F(FindingsVerb, BadWordsAreRefused) {
   for (const char* words : {"a.db --add", "a.toml", "none.db", "a.db --file a.toml --add", "a.db -o a.toml",
                             "a.db --max-failures 0", "a.db -o none/o.json", "a.db --file none/f.toml --add"}) {
