@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "campaign/findings/ingredients.hpp"
+#include "campaign/findings/naming_words.hpp"
 #include "core/base/random.hpp"
 #include "reports/evidence/binomial.hpp"
 
@@ -28,8 +29,14 @@ constexpr double kFewDroveOn = 0.2;
 // One failure in four may have come about in another way than the others.
 constexpr std::size_t kMostPercent = 75;
 
+// Two in three failures that need a kind of messages tell that it is no chance.
+constexpr std::size_t kKindShare = 2, kKindOf = 3;
+
 // Below this, a set of needs may be an accident of the luck with which it was looked for.
 constexpr std::size_t kFewMembers = 3, kRareShare = 20;
+// Of the failures that need something, so many have to need nothing else, or the others have another cause. Few
+// failures do not tell.
+constexpr double kRuleShare = 0.3;
 constexpr std::uint32_t kSomeLucks = 4;
 // Fewer failures that say the same have too few sets of needs for one of them to be frequent.
 constexpr std::size_t kEnoughToCount = 10;
@@ -88,41 +95,72 @@ std::map<std::string, Members> parted(std::span<const KnownFailure> failures, Me
   return parts;
 }
 
-// Whether its agents had said what the trait names, though it may be too seldom compared to tell.
-bool says(const FailureNeeds& failure, const std::string& trait) {
-  return std::ranges::any_of(failure.said, [&](const std::string& word) { return trait == trait_of_word(word); });
-}
-
 struct Home {
   Needs needs;
   std::string doing;
   std::vector<std::string> words;
   std::size_t size = 0;
   bool is_told_by_words = false;  // whatever else a failure needs or does without
+  bool takes_more = true;         // failures that need more, too
+  bool is_last = false;           // only failures that no other home takes
 
-  // Who just drove on where nearly all others did something may have done so a little later.
-  bool takes(const FailureNeeds& failure) const {
+  // `needed`: what it needs, without kinds of messages that are chance. Who just drove on where nearly all others did
+  // something may have done so a little later.
+  bool takes(const FailureNeeds& failure, const Needs& needed) const {
     const bool did_so =
-        doing.empty() || names_all(failure.doings, {doing}) || (failure.doings.empty() && failure.needs == needs);
-    return did_so && (is_told_by_words || names_all(failure.needs, needs)) &&
-           std::ranges::all_of(words, [&](const std::string& word) {
-             return names_all(failure.traits, {word}) || says(failure, word);
-           });
+        doing.empty() || names_all(failure.doings, {doing}) || (failure.doings.empty() && needed == needs);
+    const bool needs_so = is_told_by_words || needed == needs || (takes_more && names_all(needed, needs));
+    return did_so && needs_so &&
+           std::ranges::all_of(words, [&](const std::string& word) { return says(failure, word); });
   }
 };
 
+// The first of the simplest that take it; of these, the one with what was tried first and is needed all the same.
+const Home* home_of(const FailureNeeds& failure, const Needs& needed, const std::vector<Home>& homes) {
+  const auto place = [&](const Home& home) {
+    return home.needs.empty() ? 0 : std::ranges::find(needed, home.needs.front()) - needed.begin();
+  };
+  const Home* best = nullptr;
+  for (const Home& home : homes) {
+    if (!home.takes(failure, needed) || (home.is_last && best != nullptr)) continue;
+    const bool is_as_simple = best != nullptr && home.needs.size() == best->needs.size();
+    if (best == nullptr || (is_as_simple && place(home) < place(*best))) best = &home;
+  }
+  return best;
+}
+
 bool is_sure(const FailureNeeds& failure) { return !failure.is_rare; }
+
+// What each failure needs, without the kinds of messages that are chance: most failures that need the same beside them
+// do without these. A kind that most of them need, the others need, too.
+std::map<Needs, Members> by_needs(std::span<const KnownFailure> failures, const Members& members) {
+  std::map<Needs, Members> alike, found;
+  for (const std::size_t member : members) alike[without_kinds(failures[member].needs.needs)].push_back(member);
+  for (const auto& [rest, those] : alike) {
+    std::map<std::string, std::size_t> counts;
+    std::size_t sure = 0;
+    for (const std::size_t member : those) {
+      if (failures[member].needs.is_rare) continue;
+      ++sure;
+      for (const std::string& need : failures[member].needs.needs) ++counts[need];
+    }
+    Needs needs = rest;
+    for (const auto& [need, count] : counts) {
+      if (!names_all(rest, {need}) && kKindOf * count >= kKindShare * sure) needs.push_back(need);
+    }
+    Members& all = found[needs];
+    all.insert(all.end(), those.begin(), those.end());
+  }
+  return found;
+}
 
 // Puts failures of one agent with one end together: those with the same needs whose bodies did the same.
 class Gathering {
  public:
   using Key = std::pair<Needs, std::string>;
 
-  explicit Gathering(std::span<const KnownFailure> failures) : failures_(failures) {}
-  void add(std::size_t member) {
-    by_needs_[failures_[member].needs.needs].push_back(member);
-    ++count_;
-  }
+  Gathering(std::span<const KnownFailure> failures, const Members& members)
+      : failures_(failures), by_needs_(by_needs(failures, members)), count_(members.size()) {}
 
   std::map<Key, Members> gathered() const {
     const std::vector<Home> all = homes();
@@ -130,8 +168,7 @@ class Gathering {
     for (const auto& [needs, members] : by_needs_) {
       Members others, rare;
       for (const std::size_t member : members) {
-        const auto home = std::ranges::find_if(all, [&](const Home& h) { return h.takes(failures_[member].needs); });
-        if (home != all.end()) {
+        if (const Home* home = home_of(failures_[member].needs, needs, all)) {
           gathered[{home->needs, home->doing}].push_back(member);
         } else {
           (failures_[member].needs.is_rare ? rare : others).push_back(member);
@@ -154,15 +191,27 @@ class Gathering {
       for (auto [doing, part] : parted(failures_, members)) {
         std::erase_if(part, [&](std::size_t member) { return failures_[member].needs.is_rare; });
         if (part.size() < kFewMembers || kRareShare * part.size() < count_) continue;
-        homes.push_back({needs, doing, common_traits(failures_, part), part.size(), false});
+        homes.push_back({needs, doing, common_traits(failures_, part), part.size(), false, is_rule(needs)});
         std::erase(homes.back().words, kThirdAgvTrait);  // who fails without a third AGV fails in the same way
       }
     }
     add_cores_of_words(homes);
     add_core_of_few(homes);
-    add_cores(homes);
     std::ranges::stable_sort(homes, {}, [](const Home& home) { return std::pair(home.needs.size(), ~home.size); });
+    add_cores(homes);
     return homes;
+  }
+
+  // Whether so many need just this that those that need more may need the rest by chance. Where an agent has many
+  // faults, those of one of them, which needs little, are few beside all the others.
+  bool is_rule(const Needs& needs) const {
+    std::size_t all = 0, just_this = 0;
+    for (const auto& [needed, members] : by_needs_) {
+      if (!names_all(needed, needs)) continue;
+      all += members.size();
+      if (needed == needs) just_this += members.size();
+    }
+    return upper_bound(just_this, all, Confidence{0.95}) >= kRuleShare;
   }
 
   // Most failures of the agent say the same telling word, and they are few, or no set of needs is that of most: what
@@ -179,11 +228,12 @@ class Gathering {
     for (const auto& [word, members] : saying) {
       const bool is_rule = 2 * members.size() >= count_;
       if (!is_rule || (members.size() >= kEnoughToCount && have_a_rule(members))) continue;
-      const Needs core = without_kinds(needed_by_most(members));  // so few do not tell which kinds are chance
+      const Needs most = needed_by_most(members);
+      const Needs core = members.size() < kFewMembers ? without_kinds(most) : most;  // two do not tell what is chance
       const auto needs_no_more = [&](std::size_t member) { return failures_[member].needs.needs == core; };
       if (core.empty() && std::ranges::none_of(members, needs_no_more)) continue;
       for (const auto& [doing, part] : parted(failures_, members)) {
-        if (!part.empty()) homes.push_back({core, doing, {word}, part.size(), true});
+        if (!part.empty()) homes.push_back({core, doing, {word}, part.size(), true, true});
       }
     }
   }
@@ -200,7 +250,7 @@ class Gathering {
     const Needs core = in_common(sure);
     const auto needs_no_more = [&](std::size_t member) { return failures_[member].needs.needs == core; };
     if (!doing.empty() && std::ranges::any_of(sure, needs_no_more))
-      homes.push_back({core, doing, {}, sure.size(), false});
+      homes.push_back({core, doing, {}, sure.size(), false, true});
   }
 
   // Whether half of them need the same.
@@ -245,7 +295,7 @@ class Gathering {
     for (const auto& [needs, members] : by_needs_) {
       for (const std::size_t member : members) {
         const FailureNeeds& failure = failures_[member].needs;
-        const bool is_taken = std::ranges::any_of(homes, [&](const Home& home) { return home.takes(failure); });
+        const bool is_taken = std::ranges::any_of(homes, [&](const Home& home) { return home.takes(failure, needs); });
         if (!is_taken && !failure.is_rare) left.push_back(member);
       }
     }
@@ -260,7 +310,7 @@ class Gathering {
       const auto has_it = [&](std::size_t member) { return names_all(failures_[member].needs.needs, {common}); };
       Members sharing;
       std::ranges::copy_if(left, std::back_inserter(sharing), has_it);
-      homes.push_back({in_common(sharing), "", {}, most->second, false});
+      homes.push_back({in_common(sharing), "", {}, most->second, false, true, true});
       std::erase_if(left, has_it);
     }
   }
@@ -280,37 +330,59 @@ std::size_t simplest(std::span<const KnownFailure> failures, const Members& memb
   return *std::ranges::min_element(members, {}, effort);
 }
 
+// A naming word is part of the name only where another finding would have the same. Of few failures, it is not known.
+void drop_needless_words(std::vector<Finding>& findings) {
+  const auto name_of = [](const Finding& finding) {
+    const Mechanism& is = finding.mechanism;
+    return std::tuple(finding.agent, is.end, is.needs, is.doing);
+  };
+  std::map<decltype(name_of(findings.front())), std::size_t> times;
+  for (const Finding& finding : findings) ++times[name_of(finding)];
+  for (Finding& finding : findings) {
+    if (times[name_of(finding)] > 1) continue;
+    std::vector<std::string> traits;
+    std::ranges::set_union(finding.mechanism.traits, finding.mechanism.words, std::back_inserter(traits));
+    finding.mechanism.traits = std::move(traits);
+    finding.mechanism.words.clear();
+  }
+}
+
 }  // namespace
 
 std::string Mechanism::text() const {
   std::string text = end;
   text += needs.empty() ? "; needs nothing" : fmt::format("; needs {}", fmt::join(needs, ", "));
   if (!doing.empty()) text += "; " + doing;
-  if (!traits.empty()) text += fmt::format("; {}", fmt::join(traits, "; "));
+  for (const std::string& word : words) text += "; " + word;
+  for (const std::string& trait : traits) {
+    if (!names_all(words, {trait})) text += "; " + trait;
+  }
   return text;
 }
 
 std::string Finding::id() const {
-  const Mechanism named{mechanism.end, mechanism.needs, mechanism.doing, {}};
+  const Mechanism named{mechanism.end, mechanism.needs, mechanism.doing, mechanism.words, {}};
   return fmt::format("F-{:08x}", name_hash(agent + ": " + named.text()) >> 32);
 }
 
 std::vector<Finding> findings_of(std::span<const KnownFailure> failures) {
-  std::map<std::pair<std::string, std::string>, Gathering> gatherings;
-  for (std::size_t i = 0; i < failures.size(); ++i)
-    gatherings.try_emplace({failures[i].agent, failures[i].needs.end}, failures).first->second.add(i);
+  std::map<std::pair<std::string, std::string>, Members> alike;
+  for (std::size_t i = 0; i < failures.size(); ++i) alike[{failures[i].agent, failures[i].needs.end}].push_back(i);
   std::vector<Finding> findings;
-  for (const auto& [of, gathering] : gatherings) {
-    for (const auto& [key, members] : gathering.gathered()) {
-      const auto& [needs, doing] = key;
-      Finding finding;
-      finding.agent = of.first;
-      finding.mechanism = {of.second, needs, doing, common_traits(failures, members)};
-      finding.members = members;
-      finding.representative = simplest(failures, members, needs);
-      findings.push_back(std::move(finding));
+  for (const auto& [of, all] : alike) {
+    for (const auto& [words, members] : by_naming_words(failures, all)) {
+      for (const auto& [key, those] : Gathering(failures, members).gathered()) {
+        const auto& [needs, doing] = key;
+        Finding finding;
+        finding.agent = of.first;
+        finding.mechanism = {of.second, needs, doing, words, common_traits(failures, those)};
+        finding.members = those;
+        finding.representative = simplest(failures, those, needs);
+        findings.push_back(std::move(finding));
+      }
     }
   }
+  drop_needless_words(findings);
   std::ranges::stable_sort(findings, std::ranges::greater(), [](const Finding& f) { return f.members.size(); });
   return findings;
 }

@@ -12,10 +12,11 @@ namespace fleetproof {
 
 // Why a failure comes about, in words that do not depend on seeds, places or names of AGVs.
 struct Mechanism {
-  std::string end;                  // "too close, two AGVs"
-  std::vector<std::string> needs;   // as FailureNeeds has them
-  std::string doing;                // "one turns"; empty: what the bodies did is not part of it
-  std::vector<std::string> traits;  // what else is true of nine in ten of its failures
+  std::string end;                    // "too close, two AGVs"
+  std::vector<std::string> needs;     // as FailureNeeds has them
+  std::string doing;                  // "one turns"; empty: what the bodies did is not part of it
+  std::vector<std::string> words{};   // traits of words that tell it from other failures; sorted
+  std::vector<std::string> traits{};  // what else is true of nine in ten of its failures
 
   // "too close, two AGVs; needs lost messages, GRANT messages; one turns"
   std::string text() const;

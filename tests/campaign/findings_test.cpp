@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <atomic>
 #include <filesystem>
 #include <fstream>
 
@@ -234,6 +235,16 @@ TEST(Findings, FewThatSayTheSameShareACore) {
   EXPECT_EQ(findings_of(failures).size(), 5U);
 }
 
+// A short campaign and a long one give the same name.
+TEST(Findings, FewAndManyThatSayTheSameHaveOneName) {
+  KnownFailure saying = failure("a", {"lost messages", "STATE messages"});
+  saying.needs.traits = {"says \"oops\""};
+  const auto few = findings_of(times(4, saying)), many = findings_of(times(40, saying));
+  ASSERT_EQ(few.size(), 1U);
+  ASSERT_EQ(many.size(), 1U);
+  EXPECT_EQ(few[0].id(), many[0].id());
+}
+
 // What came about otherwise once, in one campaign, does not change the name.
 TEST(Findings, WhatMostOfTheFewNeedGivesTheName) {
   std::vector<KnownFailure> failures = {failure("a", {"restart", "late messages", "GRANT messages"}),
@@ -281,6 +292,62 @@ TEST(Findings, LoseNoFailure) {
   const auto findings = findings_of(failures);
   ASSERT_EQ(findings.size(), 1U);
   EXPECT_EQ(findings[0].members.size(), 30U);
+}
+
+// A failure may need that one of several messages is lost: which of them is chance.
+TEST(Findings, KindsOfMessagesThatAreChanceDoNotPart) {
+  std::vector<KnownFailure> failures;
+  for (const char* kind : {"GRANT messages", "REQUEST messages", "DEFER messages"})
+    add(failures, times(5, failure("a", {"lost messages", kind})));
+  ASSERT_EQ(findings_of(failures).size(), 1U);
+  EXPECT_EQ(findings_of(failures)[0].mechanism.text(), "too close, two AGVs; needs lost messages");
+  add(failures, times(40, failure("a", {"lost messages", "GRANT messages"})));
+  EXPECT_EQ(findings_of(failures)[0].mechanism.text(), "too close, two AGVs; needs lost messages, GRANT messages");
+  EXPECT_EQ(findings_of(failures)[0].members.size(), 55U) << "the others may do without it by chance";
+}
+
+// One fault of five needs nothing. The other failures would need nothing either if it were theirs, too.
+TEST(Findings, AFaultThatNeedsLittleDoesNotTakeThoseOfManyOthers) {
+  auto failures = times(11, failure("a", {}));
+  for (const char* need : {"doubled messages", "restart", "late messages", "lost messages"})
+    add(failures, times(12, failure("a", {need})));
+  EXPECT_EQ(findings_of(failures).size(), 5U);
+  add(failures, times(12, failure("a", {})));
+  EXPECT_EQ(findings_of(failures).size(), 1U) << "so many need nothing that the others may need theirs by chance";
+}
+
+// Without the restart, no luck failed; with it, some of them did without lost messages.
+TEST(Findings, WhatWasTriedFirstAndIsNeededDecides) {
+  auto failures = times(20, failure("a", {"lost messages"}));
+  add(failures, times(10, failure("a", {"restart"})));
+  add(failures, times(2, failure("a", {"restart", "lost messages"})));
+  const auto findings = findings_of(failures);
+  ASSERT_EQ(findings.size(), 2U);
+  EXPECT_EQ(findings[1].mechanism.text(), "too close, two AGVs; needs restart");
+  EXPECT_EQ(findings[1].members.size(), 12U);
+}
+
+// Two faults of one agent need lost messages. A word that tells nearly always, where it is said, is that of one of
+// them.
+TEST(Findings, AWordThatTellsWhereverItIsSaidPartsAndNames) {
+  KnownFailure saying = failure("a", {"lost messages"});
+  saying.needs.said = {"driving", "oops"};
+  KnownFailure telling = saying;
+  telling.needs.traits = {"says \"oops\""};
+  KnownFailure silent = failure("a", {"lost messages"});
+  silent.needs.said = {"driving"};
+  auto failures = times(9, telling);
+  add(failures, times(1, saying));
+  const std::string alone = findings_of(failures)[0].id();
+  EXPECT_EQ(alone, findings_of(times(5, silent))[0].id()) << "of few, the word is not known";
+  add(failures, times(10, silent));
+  const auto findings = findings_of(failures);
+  ASSERT_EQ(findings.size(), 2U);
+  EXPECT_EQ(findings[0].members.size(), 10U);
+  EXPECT_EQ(findings[1].members.size(), 10U);
+  EXPECT_NE(findings[0].id(), findings[1].id());
+  add(failures, times(5, saying));
+  EXPECT_EQ(findings_of(failures).size(), 1U) << "the word is said where it does not tell";
 }
 
 TEST(Findings, EachAgentHasItsOwn) {
@@ -394,6 +461,20 @@ TEST(FindingRecords, AreTheSameForAnyNumberOfWorkers) {
   EXPECT_EQ(record.kept.ways, again.kept.ways);
   EXPECT_EQ(record.neighbours.alike, again.neighbours.alike);
   EXPECT_EQ(record.neighbours.otherwise, again.neighbours.otherwise);
+}
+
+// Whatever it is about to do then: shrinking, explaining, trying neighbours.
+TEST(FindingRecords, AreGivenUpWhenTheirHostIsToldTo) {
+  Bench bench("timeout-grant");
+  const auto needs = needs_of(bench.host, bench.failing(100));
+  Finding finding;
+  finding.mechanism = {needs->end, needs->needs, {}, {}};
+  for (const int most : {0, 100, 1000, 2000}) {
+    std::atomic<int> simulated = 0;
+    bench.host.simulate_while([&] { return ++simulated <= most; });
+    EXPECT_THROW(record_of(bench.host, finding, *needs, 400), GivenUp) << most;
+    EXPECT_LE(simulated, most + bench.host.workers());
+  }
 }
 
 }  // namespace
