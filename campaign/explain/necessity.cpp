@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <functional>
 #include <iterator>
+#include <memory>
+#include <set>
 
 #include "campaign/shrink/adverse_fates.hpp"
 #include "campaign/shrink/all_runs.hpp"
@@ -73,6 +75,38 @@ void add_properties(const Scenario& scenario, std::vector<Without>& things) {
   const std::uint64_t digest = scenario_digest(scenario);
   std::ranges::copy_if(properties, std::back_inserter(things),
                        [&](const Without& property) { return scenario_digest(property.edit(scenario)) != digest; });
+}
+
+Scenario with_straight_lane(const Scenario& scenario, std::size_t segment) {
+  Layout layout = scenario.map->layout();
+  layout.segments[segment].control_points_m.clear();
+  Scenario straight = scenario;
+  straight.map = std::make_shared<const LogicalMap>(layout);
+  return straight;
+}
+
+// Of the lanes on which the bodies of the failure were. Straight lanes have none.
+void add_bends(CaseHost& host, const FailingCase& failing, std::vector<Without>& things) {
+  const CaseRun run = host(failing.scenario, Fates::Kept);
+  const LogicalMap& map = *failing.scenario.map;
+  const auto& segments = map.layout().segments;
+  std::set<std::size_t> driven;
+  for (const EntityId body : {failing.failure.a, failing.failure.b}) {
+    const Departure* last = nullptr;
+    for (const Departure& departure : run.whereabouts.departures) {
+      if (departure.agv == body && departure.at <= failing.failure.at) last = &departure;
+    }
+    if (last == nullptr || last->arrives < failing.failure.at) continue;
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+      const auto joins = [&](StationId a, StationId b) { return segments[i].from == a && segments[i].to == b; };
+      const bool is_this = joins(last->from, last->to) || joins(last->to, last->from);
+      if (is_this && !segments[i].control_points_m.empty()) driven.insert(i);
+    }
+  }
+  for (const std::size_t i : driven)
+    things.push_back({fmt::format("the bend of the lane between {} and {}", map.station(segments[i].from).name,
+                                  map.station(segments[i].to).name),
+                      [=](const Scenario& s) { return with_straight_lane(s, i); }});
 }
 
 std::vector<Without> things_of(const Scenario& scenario) {
@@ -144,7 +178,8 @@ std::vector<MessageNeed> needs_of_messages(CaseHost& host, const FailingCase& fa
 }
 
 std::vector<Claim> without_each_thing(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern) {
-  const auto things = things_of(failing.scenario);
+  auto things = things_of(failing.scenario);
+  add_bends(host, failing, things);
   const auto make = [&](std::size_t i) -> std::optional<Scenario> {
     Scenario less = things[i].edit(failing.scenario);
     return is_fair(less) ? std::optional(std::move(less)) : std::nullopt;

@@ -20,7 +20,8 @@ struct MessageNeed {
 };
 std::vector<MessageNeed> needs_of_messages(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern);
 
-// For each AGV, order, fault and obstacle of the case: the run without it.
+// For each AGV, order, fault and obstacle of the case, and for each bend on which a body of the failure was: the run
+// without it.
 std::vector<Claim> without_each_thing(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern);
 
 }  // namespace fleetproof

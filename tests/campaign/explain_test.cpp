@@ -6,6 +6,7 @@
 
 #include "campaign/explain/sentences.hpp"
 #include "campaign/shrink/shrink.hpp"
+#include "generators/scenario_file/scenario_file.hpp"
 #include "generators/worlds/world_maker.hpp"
 
 namespace fleetproof {
@@ -224,6 +225,38 @@ TEST(Explain, TheSentencesNumberTheirRuns) {
     }
   }
   EXPECT_EQ(highest, claims_of(explained.is).size());
+}
+
+// One AGV drives a bow around which it would miss the other if the lane were straight.
+TEST(Explain, ABendThatItNeedsIsNamed) {
+  const auto parked_at = [](const std::string& place_m) {
+    return parse_scenario(R"({"version": 1, "horizon_s": 30, "vehicle_types": [{"name": "pallet-agv"}],
+      "agvs": [{"name": "driver", "start": "a", "script": [{"at_s": 1, "action": "move", "segment": "bow"}]},
+               {"name": "parked", "start": "c"}],
+      "layout": {"name": "bow", "floor_low_m": [-3, -3], "floor_high_m": [23, 13],
+        "stations": [{"name": "a", "position_m": [0, 0]}, {"name": "b", "position_m": [10, 0]},
+                     {"name": "c", "position_m": )" +
+                              place_m + R"(}, {"name": "d", "position_m": [20, 10]}],
+        "segments": [{"name": "bow", "from": "a", "to": "b", "control_points_m": [[2, 4], [8, 4]]},
+                     {"name": "away", "from": "c", "to": "d"}]}})",
+                          "bow.json");
+  };
+  AgentPrograms programs;
+  CaseHost host({"scripted", ""}, programs, 1);
+  for (const bool needs_it : {true, false}) {
+    const Scenario scenario = needs_it ? parked_at("[5, 3]") : parked_at("[2, 0.8]");
+    const auto failure = failure_of(host(scenario));
+    ASSERT_TRUE(failure) << needs_it;
+    const FailingCase failing{scenario, *failure};
+    const auto claims = without_each_thing(host, failing, pattern_of(host, failing));
+    const auto of_bend = std::ranges::find_if(claims, [](const Claim& claim) {
+      return claim.sentence.ends_with("without the bend of the lane between a and b");
+    });
+    ASSERT_NE(of_bend, claims.end());
+    EXPECT_THAT(of_bend->sentence, testing::StartsWith(needs_it ? "does not fail so" : "fails"));
+    EXPECT_EQ(of_bend->avoids, needs_it);
+    EXPECT_EQ(failure_of(host(of_bend->run)) == std::nullopt, needs_it);
+  }
 }
 
 TEST(NoReturn, WhatDecidedItLiesBeforeItWasCertain) {
