@@ -114,7 +114,7 @@ class LockProtocol {
         geometry_(geometry),
         neighbours_(neighbours),
         controller_(controller),
-        transmitter_(controller, boot),
+        transmitter_(map, controller, boot),
         options_(options),
         epoch_(first_epoch(boot)),
         blocker_(neighbours) {}

@@ -12,6 +12,17 @@ bool tells_minor_2(const fp_map& map) {
          map.station_stride >= offsetof(fp_station, heading_y) + sizeof(fp_station::heading_y);
 }
 
+std::vector<ShortName> short_names(const MapView& map) {
+  std::vector<ShortName> names(map.station_count());
+  for (std::uint32_t id = 0; id < map.station_count(); ++id) {
+    ShortName& name = names[id];
+    const std::string_view whole = station_name(map, id);
+    name.size = whole.size() <= name.text.size() ? static_cast<std::uint8_t>(whole.size()) : ShortName::kIsLong;
+    if (name.size != ShortName::kIsLong) std::copy(whole.begin(), whole.end(), name.text.begin());
+  }
+  return names;
+}
+
 }  // namespace
 
 MapView::MapView(const fp_map& map) : map_(map), rules_known_(tells_minor_2(map)), own_(work_out()) { read(own_); }
@@ -43,6 +54,7 @@ std::vector<std::byte> MapView::work_out() const {
   TableWriter tables;
   tables.add(start_headings), tables.add(end_headings), tables.add(two_way);
   tables.add(arriving), tables.add(arriving_begin);
+  tables.add(short_names(*this));
   return tables.bytes();
 }
 
@@ -53,6 +65,12 @@ void MapView::read(std::span<const std::byte> tables) {
   two_way_ = reader.next<std::uint8_t>();
   arriving_ = reader.next<std::uint32_t>();
   arriving_begin_ = reader.next<std::uint32_t>();
+  short_names_ = reader.next<ShortName>();
+}
+
+std::string_view station_name(const MapView& map, std::uint32_t station_id) {
+  const char* const name = map.station(station_id).name;
+  return name == nullptr ? std::string_view() : name;
 }
 
 bool MapView::has_chargers() const {

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "core/agents/facts.hpp"
@@ -15,6 +17,13 @@ namespace fleetproof::agents {
 inline bool same_heading(Vec a, Vec b) {
   return dot(a, b) > 1.0 - 1e-6;
 }  // 1.4 mrad: 1.4 mm at the corner of a 2 m long AGV
+
+// The name of a station, if it is short: copied without a call, because AGVs name stations in every message.
+struct ShortName {
+  static constexpr std::uint8_t kIsLong = 0xff;
+  std::array<char, 15> text{};
+  std::uint8_t size = 0;
+};
 
 // The logical map by index, with the headings at the ends of its lanes. Requires: the map outlives it, and the facts.
 class MapView {
@@ -35,6 +44,7 @@ class MapView {
   const fp_arc& arc(const fp_lane& lane, std::uint32_t i) const { return at(lane.arcs, map_.arc_stride, i); }
 
   bool has_chargers() const;
+  const ShortName& short_name(std::uint32_t station_id) const { return short_names_[station_id]; }
   Vec position_m(std::uint32_t station_id) const { return {station(station_id).x_m, station(station_id).y_m}; }
   std::span<const std::uint32_t> lanes_from(std::uint32_t station_id) const {
     return {station(station_id).lanes, station(station_id).lane_count};
@@ -76,7 +86,10 @@ class MapView {
   std::span<const Vec> start_headings_, end_headings_;        // by lane
   std::span<const std::uint8_t> two_way_;                     // by segment
   std::span<const std::uint32_t> arriving_, arriving_begin_;  // lanes, ordered by the station at which they end
+  std::span<const ShortName> short_names_;                    // by station
 };
+
+std::string_view station_name(const MapView& map, std::uint32_t station_id);
 
 // The straight line from the beginning of a lane to its end.
 fp_arc chord_of(const MapView& map, std::uint32_t lane_id);

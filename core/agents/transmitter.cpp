@@ -35,7 +35,7 @@ std::uint32_t Transmitter::begin_new_stamp() {
 }
 
 void Transmitter::send(const Message& message, std::uint32_t receiver) {
-  controller_.describe(MessageText(message).c_str());
+  controller_.describe(MessageText(message, map_).c_str());
   if (receiver == FP_NONE) {
     controller_.broadcast(WireMessage(message).bytes());
   } else {

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "core/agents/controller.hpp"
+#include "core/agents/map_view.hpp"
 #include "core/agents/protocol_messages.hpp"
 
 namespace fleetproof::agents {
@@ -10,8 +11,9 @@ namespace fleetproof::agents {
 // Sends messages of the lock protocol, with what each of them says about the AGV itself.
 class Transmitter {
  public:
-  // `boot`: of the computer.
-  Transmitter(Controller& controller, std::uint32_t boot) : controller_(controller), boot_(boot) {}
+  // `boot`: of the computer. Requires: the map outlives the object.
+  Transmitter(const MapView& map, Controller& controller, std::uint32_t boot)
+      : map_(map), controller_(controller), boot_(boot) {}
 
   // The state of the AGV that the next messages contain.
   void describe(bool waiting, bool idle, bool out_of_order);
@@ -25,6 +27,7 @@ class Transmitter {
   void send(const Message& message, std::uint32_t receiver);
 
  private:
+  const MapView& map_;
   Controller& controller_;
   std::uint32_t boot_;
   std::uint32_t first_unused_ms_ = 0;  // by a former self; 0: not known yet

@@ -16,8 +16,8 @@ inline constexpr fp_agv kTestAgv{1.6, 1.0, 2.0, 0.5, 1.0, 1.0, 1.0, 1.0, 1.6, 1.
 // Stations and segments by number, in the order in which they were added. Finish with map().
 class DrawnMap {
  public:
-  std::uint32_t station(double x_m, double y_m, std::uint32_t purposes = FP_ROUTING) {
-    stations_.push_back({"", x_m, y_m, purposes, 0, nullptr, 0, 0.0, 0.0});
+  std::uint32_t station(double x_m, double y_m, std::uint32_t purposes = FP_ROUTING, const char* name = "") {
+    stations_.push_back({name, x_m, y_m, purposes, 0, nullptr, 0, 0.0, 0.0});
     return static_cast<std::uint32_t>(stations_.size() - 1);
   }
 

@@ -1,0 +1,36 @@
+#include "core/agents/vocabulary.hpp"
+
+namespace fleetproof::agents {
+namespace {
+
+constexpr Word kWords[] = {
+    {"asks with", "the number of a request: 3.0 is the first attempt of the AGV's 3rd request, 3.1 the second one"},
+    {"asks nobody", "its request is open, and no AGV that it asked still owes it an answer"},
+    {"for", "the first and the last station of the way that it asks for"},
+    {"answers", "the number of the request that it answers"},
+    {"holds", "the way that is its own: where it stands or drives, until it has passed it"},
+    {"of boot", "the number counts from a restart of the computer on: boot 1 is after the first one"},
+    {"requesting", "it has asked for the next stretch of its way"},
+    {"waiting", "it stands, and cannot go on yet"},
+    {"out of order", "it is broken down, empty or stopped by a contact"},
+    {"negotiation", "it asked the AGVs whose consent it needs"},
+    {"newcomer", "it asked one more AGV for a request that is open"},
+    {"deferred", "it answered a request with DEFER: not now"},
+    {"grant-lost", "it was asked again for what it has granted already"},
+    {"retransmission", "it asked again, because no answer came"},
+    {"overtaken", "it granted a request that comes first, and has to ask that AGV again for its own"},
+    {"late-grant", "it received a GRANT for another request or attempt than its open one"},
+    {"silence-taken-for-consent", "it took silence for a GRANT"},
+    {"restarted", "its computer has started anew"},
+    {"makes-way", "it has nothing to do, and leaves a place that another AGV asks for"},
+    {"another-way-round", "an AGV holds what it asks for, and it asks for another way"},
+    {"retreat", "it asks for a way back, to let others pass"},
+    {"drives-to-charger", "its battery is low"},
+    {"number-wrapped", "its requests began again with number 1"},
+};
+
+}  // namespace
+
+std::span<const Word> vocabulary() { return kWords; }
+
+}  // namespace fleetproof::agents
