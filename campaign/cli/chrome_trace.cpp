@@ -122,6 +122,7 @@ void ChromeTrace::record(const TraceRecord& record, std::string_view text) {
       return message(record);
     case TraceKind::Described:
     case TraceKind::FateDecided:
+    case TraceKind::CallAccepted:
     case TraceKind::Belief:
     case TraceKind::TimerWentOff:
       return;

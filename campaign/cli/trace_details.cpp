@@ -154,6 +154,7 @@ std::string trace_details(const TraceRecord& record, std::string_view text, cons
     case TraceKind::NotesLeftOut:
       return note_details(record, text, context);
     case TraceKind::FateDecided:
+    case TraceKind::CallAccepted:
     case TraceKind::AgentCrashed:
     case TraceKind::AgentHung:
     case TraceKind::BatteryEmpty:

@@ -15,6 +15,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// Notes that stand in the lines of others, or that only pages have.
+bool is_line(TraceKind kind) {
+  return kind != TraceKind::Described && kind != TraceKind::FateDecided && kind != TraceKind::CallAccepted;
+}
+
 double to_millimetre(std::int64_t value_um) { return static_cast<double>(value_um - value_um % 1000) / 1e6; }
 
 std::string text_of(const TracedMotion& motion) {
@@ -63,7 +68,7 @@ TracePrinter::TracePrinter(const Scenario& scenario, TraceFormat format, TraceFi
 
 void TracePrinter::record(const TraceRecord& record, std::string_view text) {
   context_.note(record, text);
-  if (record.kind == TraceKind::Described || record.kind == TraceKind::FateDecided) return;
+  if (!is_line(record.kind)) return;
   print_distances(record.at);
   Line line{record.at, record.entity, name_of(record.kind), trace_details(record, text, context_), {}};
   const bool of_message = record.kind == TraceKind::Sent || record.kind == TraceKind::Received || is_loss(record.kind);
@@ -109,9 +114,7 @@ std::vector<std::string> trace_kind_words() {
   std::vector<std::string> words{kDistance};
   for (std::uint32_t number = 1; number < 64; ++number) {
     const std::string word = name_of(static_cast<TraceKind>(number));
-    const bool is_line =
-        word != kNoWord && word != name_of(TraceKind::Described) && word != name_of(TraceKind::FateDecided);
-    if (is_line) words.push_back(word);
+    if (word != kNoWord && is_line(static_cast<TraceKind>(number))) words.push_back(word);
   }
   return words;
 }

@@ -7,6 +7,7 @@
 #include "core/base/error.hpp"
 #include "core/base/tolerances.hpp"
 #include "core/geometry/rotation.hpp"
+#include "core/outcome/note_records.hpp"
 #include "core/scenario/lane_rules.hpp"
 
 namespace fleetproof {
@@ -58,12 +59,13 @@ Actions::Actions(RunContext& run, const Ports& ports) : run_(run), ports_(ports)
 // ---- calls
 
 bool Actions::accept(AgvId agv, fp_call call, std::uint32_t segment, LoadId load) {
+  const SegmentId called{segment == FP_HERE ? segment : segment & ~FP_BACKWARD};
   if (!is_possible(agv, call, segment, load)) {
     ++run_.counters.refused_calls;
-    const SegmentId refused{segment == FP_HERE ? segment : segment & ~FP_BACKWARD};
-    run_.trace(agv, traced::CallRefused{static_cast<std::uint32_t>(call), refused});
+    run_.trace(agv, traced::CallRefused{static_cast<std::uint32_t>(call), called});
     return false;
   }
+  if (run_.hears_notes()) run_.note(agv, traced::CallAccepted{static_cast<std::uint32_t>(call), called});
   slices_[agv.index()].committed = slices_[agv.index()].accepted = true;
   return true;
 }

@@ -98,5 +98,16 @@ struct FateDecided {
   }
 };
 
+struct CallAccepted {
+  static constexpr TraceKind kKind = TraceKind::CallAccepted;
+  std::uint32_t call = 0;  // an fp_call
+  SegmentId segment;       // invalid: where the AGV stands
+
+  constexpr void put(TraceRecord& r) const { r.a = call, r.b = segment.value; }
+  static constexpr CallAccepted of(const TraceRecord& r) {
+    return {static_cast<std::uint32_t>(r.a), id_in<SegmentId>(r.b)};
+  }
+};
+
 }  // namespace traced
 }  // namespace fleetproof

@@ -14,6 +14,7 @@ const char* name_of_note(TraceKind kind) {
          : kind == TraceKind::AgentState   ? "state"
          : kind == TraceKind::Belief       ? "believes"
          : kind == TraceKind::NotesLeftOut ? "notes left out"
+         : kind == TraceKind::CallAccepted ? "accepted"
                                            : "fate";
 }
 
@@ -82,6 +83,7 @@ const char* name_of(TraceKind kind) {
     case TraceKind::Belief:
     case TraceKind::NotesLeftOut:
     case TraceKind::FateDecided:
+    case TraceKind::CallAccepted:
       return name_of_note(kind);
   }
   return "?";
