@@ -89,6 +89,8 @@ void FilmRecorder::record(const TraceRecord& record, std::string_view text) {
       return;
     case TraceKind::FateDecided:
       return note_fate(record);
+    case TraceKind::CallAccepted:
+      return note_command(record);
     case TraceKind::Described:
     case TraceKind::TimerWentOff:
       return;
@@ -119,7 +121,26 @@ void FilmRecorder::note_activity(const TraceRecord& record) {
   web::ActivityBar bar{body, film_us(record.at), 0, name_of(kind), {}, order_};
   if (kind == ActivityKind::Drive) bar.details = way_of_[record.entity];
   if (kind == ActivityKind::Turn) bar.details = goal_text(context_.turn_goal_deg(record.entity));
+  if (kind == ActivityKind::Drive) set_command(bar, read<traced::ActivityBegins>(record).segment());
+  if (kind == ActivityKind::Turn) set_command(bar, {});
   open_[body] = std::move(bar);
+}
+
+void FilmRecorder::note_command(const TraceRecord& record) {
+  const SegmentId segment = read<traced::CallAccepted>(record).segment;
+  if (segment.valid()) commands_[record.entity.index()].push_back({film_us(record.at), order_, segment});
+}
+
+// A drive goes along the segment of its command. A turn stands before the drive of the last command: while an AGV
+// turns, it has no other one.
+void FilmRecorder::set_command(web::ActivityBar& bar, SegmentId driven) {
+  std::vector<Command>& given = commands_[bar.body];
+  const auto command =
+      driven.valid() ? std::ranges::find(given, driven, &Command::segment) : given.end() - (given.empty() ? 0 : 1);
+  if (command == given.end()) return;
+  bar.commanded_us = command->at_us;
+  bar.commanded_order = command->order;
+  if (driven.valid()) given.erase(given.begin(), command + 1);
 }
 
 void FilmRecorder::note_message(const TraceRecord& record) {
@@ -143,7 +164,8 @@ void FilmRecorder::note_message(const TraceRecord& record) {
 void FilmRecorder::note_arrival(const TraceRecord& record, web::Message& message) {
   const Reception reception{message.number, record.entity.index()};
   web::Arrival arrival{record.entity.index(), fate_of(record.kind), film_us(record.at) - message.sent_us, order_};
-  if (arrival.fate == web::Fate::LostByChance && given_.contains(reception)) arrival.fate = web::Fate::LostAsGiven;
+  arrival.is_given = given_.contains(reception);
+  if (arrival.fate == web::Fate::LostByChance && arrival.is_given) arrival.fate = web::Fate::LostAsGiven;
   message.arrivals.push_back(arrival);
   const auto known = under_way_.find(reception);
   if (known == under_way_.end()) return;
@@ -237,7 +259,8 @@ web::Film FilmRecorder::take(SimTime end) {
   for (const auto& [reception, due_us] : under_way_) {
     const auto& [number, receiver] = reception;
     for (const std::int64_t after_us : due_us)
-      film_.messages[message_of_.at(number)].arrivals.push_back({receiver, web::Fate::Received, after_us, order_});
+      film_.messages[message_of_.at(number)].arrivals.push_back(
+          {receiver, web::Fate::Received, after_us, order_, given_.contains(reception)});
   }
   std::ranges::stable_sort(film_.activities, {}, &web::ActivityBar::begin_us);
   film_.end_us = film_us(end);

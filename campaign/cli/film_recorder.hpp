@@ -39,7 +39,15 @@ class FilmRecorder final : public TraceSink {
   void note_load(const TraceRecord& record);
   void note_order(const TraceRecord& record);
   void note_happening(const TraceRecord& record, std::string_view text);
+  void note_command(const TraceRecord& record);
+  void set_command(web::ActivityBar& bar, SegmentId driven);
   void end_activity(std::size_t body, SimTime at);
+
+  struct Command {
+    std::int64_t at_us = 0;
+    std::uint64_t order = 0;
+    SegmentId segment;
+  };
 
   const Scenario& scenario_;
   TraceContext context_;
@@ -52,6 +60,7 @@ class FilmRecorder final : public TraceSink {
   std::map<Reception, std::vector<std::int64_t>> under_way_;  // when it will arrive, since it was sent
   std::set<Reception> given_;                                 // the scenario gives its fate
   std::map<std::size_t, web::ActivityBar> open_;              // by body
+  std::map<std::size_t, std::vector<Command>> commands_;      // by body: those that have not led to a drive yet
   std::map<std::size_t, std::size_t> order_of_;               // a transport's place in film_.orders
   std::map<std::uint32_t, std::size_t> message_of_;           // a number's place in film_.messages
   std::map<std::size_t, std::optional<std::size_t>> waits_;

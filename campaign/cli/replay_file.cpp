@@ -6,6 +6,7 @@
 #include "campaign/cli/film_evidence.hpp"
 #include "campaign/cli/film_floor.hpp"
 #include "campaign/cli/film_frames.hpp"
+#include "campaign/cli/film_glossary.hpp"
 #include "campaign/cli/film_story.hpp"
 #include "reports/web/replay_page.hpp"
 #include "reports/wording.hpp"
@@ -84,6 +85,7 @@ std::string replay_html(FilmRecorder& recorder, const Scenario& scenario, const 
   add_clearances(film, bodies, outcome);
   tell_story(film, scenario, bodies, outcome);
   if (!remark.empty()) film.story.insert(film.story.begin(), remark);
+  add_glossary(film);
   add_strip(film, scenario, recorder.pieces(), outcome);
   return web::replay_page(std::move(film));
 }

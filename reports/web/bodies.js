@@ -176,7 +176,7 @@ const drawMessages = (context, all, t_s, label) => {
     const old = (old_s < 0.1 ? seconds(old_s) : old_s.toFixed(1) + ' s') + ' old' + (a.again ? ', a copy' : '');
     const age = lost ? a.fate : old;
     if ((!crowded || between) && isInView(x, y))
-      label(a.kind + ', ' + age, x, y - 6, lost ? colours.bad : colours.message);
+      label(a.kind + contentOf(a.number) + ', ' + age, x, y - 6, lost ? colours.bad : colours.message);
   }
 };
 

@@ -33,7 +33,7 @@ const stepLine = by => {
 };
 document.addEventListener('click', event => {
   const line = event.target.closest('[data-us]');
-  if (!line || !line.closest('#course, .reason')) return;
+  if (!line || !line.closest('#course, .reason, .story')) return;
   play(false);
   goTo(usOf(line) / 1e6, course && course.contains(line) ? line : null);
 });

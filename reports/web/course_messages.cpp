@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 
+#include "reports/web/message_numbers.hpp"
 #include "reports/wording.hpp"
 
 namespace fleetproof::web {
@@ -29,6 +30,7 @@ class MessageLines {
 
   std::vector<CourseLine> all() {
     for (const Message& message : film_.messages) {
+      note_request(message);
       if (message.sent_us < from_us_ || message.sent_us > to_us_) continue;
       const std::vector<Place> places = places_of(message);
       const bool counts = is_subject_[message.sender] ||
@@ -113,7 +115,9 @@ class MessageLines {
     std::string fate;
     if (message.receiver && !places.empty())
       fate = fmt::format("{} {}", word_of(places.front().fate), places.front().received.size());
-    line.alike = fmt::format("{}\n{}\n{}\n{}", line.who, message.kind, message.content, fate);
+    // After a new request, another line begins: the first answer to it is not folded into answers before it.
+    const std::size_t asked = message.receiver ? requests_[*message.receiver].count : 0;
+    line.alike = fmt::format("{}\n{}\n{}\n{}\n{}", line.who, message.kind, message.content, fate, asked);
     lines_.push_back(std::move(line));
   }
 
@@ -134,7 +138,22 @@ class MessageLines {
     }
   }
 
+  // A body asks with other numbers than before.
+  void note_request(const Message& message) {
+    const MessageNumbers numbers = numbers_asked(message.content);
+    Requests& own = requests_[message.sender];
+    if (numbers.list.empty() || numbers.list == own.numbers) return;
+    own.numbers = numbers.list;
+    ++own.count;
+  }
+
+  struct Requests {
+    std::size_t count = 0;
+    std::vector<std::string> numbers;  // of the newest one
+  };
+
   const Film& film_;
+  std::map<std::size_t, Requests> requests_;  // by body
   std::int64_t from_us_, to_us_;
   std::vector<bool> is_subject_;
   std::vector<CourseLine> lines_;

@@ -34,12 +34,19 @@ Element plain_line(const CourseLine& line) {
 // The lines that are folded stand below, the first of them too.
 Element folded_line(const CourseLine& line) {
   const auto marked = std::ranges::count_if(line.folded, &CourseLine::marked);
-  const std::string kind = line.what.substr(0, line.what.rfind(" #"));
+  // "STATE #17 (holds C2)": what they have in common is all but the number.
+  const auto number = line.what.find(" #");
+  const auto content = number == line.what.npos ? number : line.what.find(" (", number);
+  std::string kind = line.what.substr(0, number);
+  if (line.kind == CourseLine::Kind::Event) kind += " " + line.details;
   const std::string details =
       fmt::format("until {} s{}", time_text(line.folded.back().at.at_us),
                   marked > 0 ? fmt::format("; {} of them lost, doubled or under way at the end", marked) : "");
   Element summary("summary", {{"class", class_of(line)}, {"data-us", fmt::format("{}", line.at.at_us)}});
-  add_cells(summary, line, fmt::format("{} \u00d7 {}", kind, line.folded.size()), details);
+  add_cells(summary, line,
+            fmt::format("{} \u00d7 {}{}", kind, line.folded.size(),
+                        content == line.what.npos ? "" : line.what.substr(content)),
+            details);
   Element whole("details");
   whole.add(summary);
   for (const CourseLine& one : line.folded) whole.add(plain_line(one));

@@ -24,6 +24,8 @@ bool is_marked(const Delivery& delivery, const Setting& setting) {
   return !is_in_time(delivery, setting) || (delivery.again && *delivery.again < setting.begin);
 }
 
+const char* were(std::size_t count) { return count == 1 ? "was" : "were"; }
+
 // The last message of this kind that had reached `receiver` before an instant; of any kind if it is empty.
 const Delivery* last_heard(const FilmTalk& talk, std::size_t sender, std::size_t receiver, Moment before,
                            const std::string& kind) {
@@ -36,24 +38,47 @@ const Delivery* last_heard(const FilmTalk& talk, std::size_t sender, std::size_t
   return last;
 }
 
+// Of the messages of the asking kind from this AGV to another: what had become of them at an instant.
+struct Requests {
+  const Delivery* newest = nullptr;                // that had been received
+  std::size_t lost = 0, under_way = 0, later = 0;  // newer ones: lost or on their way then, or sent after it
+};
+Requests requests_at(const Setting& setting, const FilmTalk& talk, std::size_t receiver, Moment then) {
+  Requests requests;
+  const auto sent = sent_within(talk.between(setting.body, receiver), 0, setting.begin);
+  for (std::size_t i = sent.size(); i-- > 0 && requests.newest == nullptr;) {
+    const Delivery& d = sent[i];
+    if (d.message->kind != setting.ask) continue;
+    if (d.sent >= then) {
+      ++requests.later;
+    } else if (d.is_lost()) {
+      ++requests.lost;
+    } else if (d.arrives >= then) {
+      ++requests.under_way;
+    } else {
+      requests.newest = &d;
+    }
+  }
+  return requests;
+}
+
 // Which of its requests an answer can refer to.
 std::string reference(const Setting& setting, const Film& film, const FilmTalk& talk, const Delivery& answer) {
   if (setting.ask.empty()) return {};
   const std::size_t sender = answer.message->sender;
-  const Delivery* asked = last_heard(talk, setting.body, sender, answer.sent, setting.ask);
-  const std::string& who = film.bodies[sender].name;
-  if (asked == nullptr)
-    return fmt::format("; no {} of {} had reached {} by then", setting.ask, film.bodies[setting.body].name, who);
-  std::size_t newer = 0;
-  for (const Message* m : talk.sent_by(setting.body)) {
-    const Moment sent{m->sent_us, m->order};
-    const bool is_for_it = !m->receiver || *m->receiver == sender;
-    newer += m->kind == setting.ask && is_for_it && asked->sent < sent && sent < setting.begin ? 1 : 0;
-  }
-  const std::string& content = asked->message->content;
-  return fmt::format("; {} then had {} #{} ({}sent {} s){}", who, setting.ask, asked->message->number,
-                     content.empty() ? "" : content + ", ", time_text(asked->sent.at_us),
-                     newer > 0 ? fmt::format(", not the {} newer", newer) : "");
+  const Requests requests = requests_at(setting, talk, sender, answer.sent);
+  const std::string &asking = film.bodies[setting.body].name, &who = film.bodies[sender].name;
+  if (requests.newest == nullptr) return fmt::format("; no {} of {} had reached {} by then", setting.ask, asking, who);
+  const std::string& content = requests.newest->message->content;
+  std::string text = fmt::format("; the newest {} of {} that {} had received by then was #{} ({}sent {} s)",
+                                 setting.ask, asking, who, requests.newest->message->number,
+                                 content.empty() ? "" : content + ", ", time_text(requests.newest->sent.at_us));
+  std::vector<std::string> newer;
+  if (requests.lost > 0) newer.push_back(fmt::format("{} newer {} lost", requests.lost, were(requests.lost)));
+  if (requests.under_way > 0)
+    newer.push_back(fmt::format("{} newer {} on the way", requests.under_way, were(requests.under_way)));
+  if (requests.later > 0) newer.push_back(fmt::format("{} {} sent later", requests.later, were(requests.later)));
+  return newer.empty() ? text : text + "; " + joined(newer);
 }
 
 }  // namespace
@@ -87,20 +112,39 @@ std::string ask_kind(const Film& film, const FilmTalk& talk, const Setting& sett
 
 namespace {
 
-// Which of the requests to the other did not reach it in time. One that is sent at the very beginning has had no time.
-std::string lost_asks(const FilmTalk& talk, const Setting& setting, std::size_t receiver) {
-  std::map<std::string, std::size_t> fates;
+// The requests to the other that did not reach it in time, by name. One that is sent at the very beginning has had no
+// time.
+std::vector<AnswerLine> lost_asks(const FilmTalk& talk, const Setting& setting, std::size_t receiver) {
+  std::vector<AnswerLine> lines;
   std::size_t sent = 0;
   for (const Delivery& d : sent_within(talk.between(setting.body, receiver), setting.from_us, setting.begin)) {
     if (d.message->kind != setting.ask) continue;
     ++sent;
-    if (d.is_lost()) ++fates[word_of(d.fate)];
-    if (!d.is_lost() && d.arrives >= setting.begin && d.sent.at_us < setting.begin.at_us)
-      ++fates["still under way then"];
+    const bool is_late = !d.is_lost() && d.arrives >= setting.begin && d.sent.at_us < setting.begin.at_us;
+    if (!d.is_lost() && !is_late) continue;
+    lines.push_back({d.sent.at_us,
+                     fmt::format("{}, sent {} s: {}", text_of(*d.message), time_text(d.sent.at_us),
+                                 d.is_lost() ? word_of(d.fate) : "still under way then"),
+                     true});
   }
-  std::vector<std::string> texts;
-  for (const auto& [fate, count] : fates) texts.push_back(fmt::format("{} {}", count, fate));
-  return texts.empty() ? std::string() : fmt::format("Of {} {} to it: {}.", sent, setting.ask, joined(texts));
+  if (lines.empty()) return lines;
+  const std::size_t skipped = lines.size() > kMostMarked ? lines.size() - kMostMarked : 0;
+  std::string others;
+  if (skipped > 0) others = fmt::format("; {} more before it did not reach it either", skipped);
+  const std::string of_all = sent == 1 ? "the only" : fmt::format("{} of {}", lines.size(), sent);
+  lines.erase(lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(skipped));
+  lines.front().text += others;
+  lines.back().text += fmt::format(" ({} {} since {} s)", of_all, setting.ask, time_text(setting.from_us));
+  for (AnswerLine& line : lines) line.text += '.';
+  return lines;
+}
+
+WasAsked was_asked(const FilmTalk& talk, const Setting& setting, std::size_t receiver) {
+  WasAsked asked = WasAsked::Not;
+  for (const Delivery& d : sent_within(talk.between(setting.body, receiver), setting.from_us, setting.begin)) {
+    if (d.message->kind == setting.ask) asked = std::max(asked, d.is_to_one() ? WasAsked::Alone : WasAsked::WithAll);
+  }
+  return asked;
 }
 
 // Once is no silence: the answer may be under way.
@@ -134,11 +178,12 @@ SenderAnswers answers_of(const FilmTalk& talk, const Setting& setting, std::size
     if (!is_answer(talk, d)) continue;
     if (d.arrives.at_us >= setting.from_us) {
       answers.received.push_back(d);
-    } else if (!d.is_lost()) {
+    } else if (!d.is_lost() && d.arrives.at_us >= setting.knows_since_us) {
       answers.last_before = &d;
     }
   }
   answers.lost_asks = lost_asks(talk, setting, sender);
+  answers.was_asked = was_asked(talk, setting, sender);
   if (!answers.received.empty()) answers.silence = silence_after(answers.received.back(), talk, setting);
   for (const Delivery& d : answers.received) {
     answers.is_doubled = answers.is_doubled || d.again.has_value();
@@ -170,8 +215,25 @@ std::string told(const Setting& setting, const Film& film, const FilmTalk& talk,
     if (d.again) text += fmt::format(" and again {} s: one message, delivered twice", time_text(d.again->at_us));
     text += fmt::format("; {} s old then", time_text(setting.begin.at_us - d.sent.at_us));
   }
+  const auto restarted_us = talk.restarted_us(d.message->sender, setting.begin);
+  if (restarted_us && *restarted_us > d.sent.at_us)
+    text +=
+        fmt::format("; {} has restarted since ({} s)", film.bodies[d.message->sender].name, time_text(*restarted_us));
   return text + reference(setting, film, talk, d);
 }
+
+namespace {
+
+// When this AGV sent the other its newest message of the asking kind; if it sent none: after all answers.
+Moment last_asked(const FilmTalk& talk, const Setting& setting, std::size_t receiver) {
+  Moment asked = setting.begin;
+  for (const Delivery& d : sent_within(talk.between(setting.body, receiver), 0, setting.begin)) {
+    if (!setting.ask.empty() && d.message->kind == setting.ask) asked = d.sent;
+  }
+  return asked;
+}
+
+}  // namespace
 
 std::vector<AnswerLine> lines_of(const SenderAnswers& answers, const Setting& setting, const Film& film,
                                  const FilmTalk& talk) {
@@ -184,6 +246,7 @@ std::vector<AnswerLine> lines_of(const SenderAnswers& answers, const Setting& se
     (is_marked(d, setting) ? kind.marked : kind.plain).push_back(&d);
   }
   std::vector<AnswerLine> lines;
+  const Moment asked = last_asked(talk, setting, answers.sender);
   const auto more = [&](std::size_t count, const char* which) {
     return count == 0 ? std::string() : fmt::format("; {} more {}", count, which);
   };
@@ -193,10 +256,17 @@ std::vector<AnswerLine> lines_of(const SenderAnswers& answers, const Setting& se
       const std::string rest = i == skipped ? more(skipped, "lost, late or doubled before it") : "";
       lines.push_back({kind.marked[i]->sent.at_us, told(setting, film, talk, *kind.marked[i]) + rest + ".", true});
     }
-    if (!kind.plain.empty())
-      lines.push_back({kind.plain.back()->sent.at_us,
-                       told(setting, film, talk, *kind.plain.back()) + more(kind.plain.size() - 1, "before it") + ".",
-                       false});
+    if (kind.plain.empty()) continue;
+    const auto first = std::ranges::find_if(kind.plain, [&](const Delivery* d) { return d->sent > asked; });
+    const bool shows_first = first != kind.plain.end() && *first != kind.plain.back();
+    if (shows_first)
+      lines.push_back(
+          {(*first)->sent.at_us,
+           told(setting, film, talk, **first) + fmt::format("; the first after the newest {}.", setting.ask), false});
+    lines.push_back({kind.plain.back()->sent.at_us,
+                     told(setting, film, talk, *kind.plain.back()) +
+                         more(kind.plain.size() - (shows_first ? 2 : 1), "before it") + ".",
+                     false});
   }
   std::ranges::stable_sort(lines, {}, &AnswerLine::at_us);
   return lines;
@@ -221,8 +291,9 @@ std::string heard_to_all(const FilmTalk& talk, const Setting& setting, std::size
     std::string text =
         fmt::format("{} {}{}", word, times_text(kind.sent), kind.lost > 0 ? fmt::format(" ({} lost)", kind.lost) : "");
     if (kind.last != nullptr)
-      text += fmt::format(", the last received sent {} s, {} s old then", time_text(kind.last->sent.at_us),
-                          time_text(setting.begin.at_us - kind.last->sent.at_us));
+      text += fmt::format(", the last received was #{} ({}sent {} s, {} s old then)", kind.last->message->number,
+                          kind.last->message->content.empty() ? "" : kind.last->message->content + ", ",
+                          time_text(kind.last->sent.at_us), time_text(setting.begin.at_us - kind.last->sent.at_us));
     texts.push_back(std::move(text));
   }
   return texts.empty() ? std::string() : fmt::format("To all it sent: {}.", joined(texts, "; "));

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <map>
 
+#include "reports/web/answers_in_short.hpp"
 #include "reports/web/body_then.hpp"
 #include "reports/web/drive_answers.hpp"
+#include "reports/web/own_request.hpp"
 #include "reports/web/setting_off.hpp"
 #include "reports/wording.hpp"
 
@@ -14,7 +16,7 @@ namespace fleetproof::web {
 namespace {
 
 constexpr std::int64_t kRolling_us = 20'000'000, kStanding_us = 120'000'000, kLeast_us = 5'000'000;
-constexpr std::size_t kMostSenders = 5, kMostWords = 5, kMostNamed = 4, kMostAfter = 6;
+constexpr std::size_t kMostSenders = 5, kMostWords = 5, kMostAfter = 6;
 
 // When the last activity of the AGV before this one ended; of a pick or a drop: when it began. Zero: there is none.
 std::int64_t rest_began_us(const Film& film, std::size_t activity) {
@@ -40,7 +42,9 @@ std::int64_t window_of(const Film& film, std::size_t activity) {
 
 Setting setting_of(const Film& film, const FilmTalk& talk, std::size_t activity) {
   const ActivityBar& bar = film.activities[activity];
-  Setting setting{bar.body, window_of(film, activity), {bar.begin_us, bar.begin_order}, {}};
+  Setting setting{bar.body, window_of(film, activity), decision_on(bar), {}, 0};
+  setting.knows_since_us = talk.restarted_us(bar.body, setting.begin).value_or(0);
+  setting.from_us = std::max(setting.from_us, setting.knows_since_us);
   setting.ask = ask_kind(film, talk, setting);
   return setting;
 }
@@ -51,14 +55,6 @@ bool asked_again(const FilmTalk& talk, const Setting& setting, Moment until) {
     const Moment sent{message->sent_us, message->order};
     return message->kind == setting.ask && setting.begin < sent && sent < until;
   });
-}
-
-// "AGV 3, AGV 4 and 12 more".
-std::string names_text(const Film& film, const std::vector<std::size_t>& bodies) {
-  std::string text;
-  for (std::size_t i = 0; i < std::min(bodies.size(), kMostNamed); ++i)
-    text += (i == 0 ? "" : ", ") + film.bodies[bodies[i]].name;
-  return bodies.size() > kMostNamed ? fmt::format("{} and {} more", text, bodies.size() - kMostNamed) : text;
 }
 
 class ReasonTeller {
@@ -75,11 +71,13 @@ class ReasonTeller {
   Reason tell() {
     Reason reason;
     reason.activity = activity_;
-    reason.title = fmt::format("{} began to {}{} at {} s", name(drive_.body), drive_.kind,
-                               drive_.details.empty() ? "" : " " + drive_.details, time_text(drive_.begin_us));
+    reason.title =
+        fmt::format("{} began to {}{} at {} s{}", name(drive_.body), drive_.kind,
+                    drive_.details.empty() ? "" : " " + drive_.details, time_text(drive_.begin_us), commanded_text());
     reason.decided_us = setting_.begin.at_us;
     lines_.clear();
     tell_setting_off();
+    tell_own_request();
     tell_itself();
     tell_senders();
     tell_after();
@@ -90,7 +88,7 @@ class ReasonTeller {
  private:
   std::string name(std::size_t body) const { return film_.bodies[body].name; }
   void add(ReasonLine::Rank rank, std::int64_t at_us, std::string text, bool marked = false) {
-    lines_.push_back({rank, marked, at_us, std::move(text)});
+    lines_.push_back({rank, marked, at_us, std::move(text), static_cast<std::uint8_t>(marked ? 1 : 0)});
   }
   void sentence(std::int64_t at_us, std::string text, bool marked = false) {
     add(ReasonLine::Rank::Sentence, at_us, std::move(text), marked);
@@ -99,14 +97,32 @@ class ReasonTeller {
     add(ReasonLine::Rank::Item, at_us, std::move(text), marked);
   }
 
+  // A movement that is called for during another one begins when that one ends.
+  std::string commanded_text() const {
+    const std::int64_t at_us = decision_on(drive_).at_us;
+    const bool differs = time_text(at_us) != time_text(drive_.begin_us);
+    return differs ? fmt::format(", commanded at {} s", time_text(at_us)) : "";
+  }
+
+  // What it had asked the other of the pair.
+  void tell_own_request() {
+    if (!partner_ || film_.bodies[*partner_].kind != BodyKind::Agv) return;
+    const auto own = own_request(film_, talk_, setting_, activity_, *partner_);
+    if (!own) return;
+    sentence(own->at_us, own->text, own->weight > 2);
+    lines_.back().weight = own->weight;
+  }
+
   // If it was on its way for long: since when, and that all below is about that instant.
   void tell_setting_off() {
     if (off_ == activity_) return;
     const ActivityBar& off = film_.activities[off_];
-    sentence(off.begin_us, fmt::format("It set off at {} s ({}{}), has moved since, and its agent has said the same "
-                                       "since. So this is what it knew at {} s:",
-                                       time_text(off.begin_us), off.kind, off.details.empty() ? "" : " " + off.details,
-                                       time_text(off.begin_us)));
+    const std::string decided = time_text(setting_.begin.at_us), began = time_text(off.begin_us);
+    sentence(off.begin_us,
+             fmt::format("It set off at {} s ({}{}{}), has moved since, and its agent has said the same since. So this "
+                         "is what it knew at {} s:",
+                         began, off.kind, off.details.empty() ? "" : " " + off.details,
+                         decided == began ? "" : fmt::format(", commanded at {} s", decided), decided));
   }
 
   // What the AGV itself sent and said, and the faults that struck it.
@@ -136,6 +152,9 @@ class ReasonTeller {
     }
     sentence(setting_.from_us, fmt::format("From {} s until then, {} had sent {}.", time_text(setting_.from_us),
                                            name(drive_.body), texts.empty() ? "nothing" : joined(texts)));
+    if (setting_.knows_since_us > 0)
+      item(setting_.knows_since_us, fmt::format("The agent of {} began anew at {} s, without what it knew before.",
+                                                name(drive_.body), time_text(setting_.knows_since_us)));
     tell_words();
     tell_notes();
     for (const std::string& fault : faults_text(drive_.body, setting_.from_us, setting_.begin.at_us))
@@ -191,7 +210,8 @@ class ReasonTeller {
       if (body != drive_.body && film_.bodies[body].kind == BodyKind::Agv)
         all.push_back(answers_of(talk_, setting_, body));
     }
-    tell_in_short(all);
+    if (const AnswersInShort brief = answers_in_short(film_, setting_, all); !brief.text.empty())
+      sentence(setting_.begin.at_us, brief.text, brief.owes);
     std::vector<SenderAnswers> own, plain;
     for (SenderAnswers& answers : all) {
       if (answers.sender != partner_ && answers.received.empty()) continue;
@@ -205,31 +225,6 @@ class ReasonTeller {
       sentence(setting_.begin.at_us,
                fmt::format("Likewise lost, late or doubled: messages of {} more AGVs.", own.size() - kMostSenders));
     tell_plain(plain);
-  }
-
-  // How many answered in time, of all.
-  void tell_in_short(const std::vector<SenderAnswers>& all) {
-    std::map<std::string, std::vector<std::size_t>> in_time;
-    std::vector<std::size_t> not_in_time, silent;
-    for (const SenderAnswers& answers : all) {
-      if (answers.in_time) {
-        in_time[answers.in_time->message->kind].push_back(answers.sender);
-      } else {
-        (answers.has_answers ? not_in_time : silent).push_back(answers.sender);
-      }
-    }
-    std::vector<std::string> texts;
-    for (const auto& [kind, senders] : in_time)
-      texts.push_back(fmt::format("{} from {}", kind, names_text(film_, senders)));
-    std::string text =
-        fmt::format("{} of {} others had answered in time{}{}.", all.size() - not_in_time.size() - silent.size(),
-                    all.size(), texts.empty() ? "" : ": ", joined(texts, "; "));
-    if (!not_in_time.empty()) text += fmt::format(" Lost or late: {}.", names_text(film_, not_in_time));
-    if (!silent.empty())
-      text += fmt::format(" No answer sent{}: {}.", talk_.has_messages_to_one() ? " to it alone" : "",
-                          names_text(film_, silent));
-    const bool all_answered = not_in_time.empty() && silent.empty();
-    if (all.size() > 1) sentence(setting_.begin.at_us, text, !all_answered);
   }
 
   void tell_plain(const std::vector<SenderAnswers>& plain) {
@@ -267,7 +262,7 @@ class ReasonTeller {
           fmt::format("{} to {}:", who, name(drive_.body)));
     }
     for (const AnswerLine& line : lines_of(answers, setting_, film_, talk_)) item(line.at_us, line.text, line.marked);
-    if (!answers.lost_asks.empty()) item(setting_.from_us, answers.lost_asks, true);
+    for (const AnswerLine& line : answers.lost_asks) item(line.at_us, line.text, line.marked);
     if (!answers.silence.empty()) item(setting_.begin.at_us, answers.silence, true);
     if (answers.sender != partner_) return;
     if (const std::string heard = heard_to_all(talk_, setting_, answers.sender); !heard.empty())
@@ -284,9 +279,10 @@ class ReasonTeller {
     if (answers.in_time) {
       const Moment sent = answers.in_time->sent;
       item(sent.at_us,
-           fmt::format("When {} sent {} #{}: {}.", who, answers.in_time->message->kind,
-                       answers.in_time->message->number, text_of_body_then(film_, answers.sender, sent)),
+           fmt::format("When {} sent {}: {}.", who, text_of(*answers.in_time->message),
+                       text_of_body_then(film_, answers.sender, sent)),
            stood_there_since(film_, answers.sender, sent.at_us).has_value());
+      if (lines_.back().marked) lines_.back().weight = 2;
       if (answers.otherwise) tell_change(*answers.otherwise, *answers.in_time);
     }
     tell_own_answer(answers.sender);
@@ -350,8 +346,7 @@ class ReasonTeller {
 std::size_t decided_at(const Film& film, const FilmTalk& talk, std::size_t activity) {
   const std::size_t off = setting_off(film, activity);
   const ActivityBar& bar = film.activities[activity];
-  const bool is_whole =
-      off != activity && !asked_again(talk, setting_of(film, talk, off), {bar.begin_us, bar.begin_order});
+  const bool is_whole = off != activity && !asked_again(talk, setting_of(film, talk, off), decision_on(bar));
   return is_whole ? off : activity;
 }
 

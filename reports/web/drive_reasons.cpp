@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <utility>
 
 #include "reports/web/drive_reason.hpp"
 
@@ -45,6 +46,11 @@ std::vector<std::size_t> nearest_first(const Film& film) {
 
 }  // namespace
 
+const ReasonLine* Reason::decisive() const {
+  const auto heaviest = std::ranges::max_element(lines, {}, &ReasonLine::weight);
+  return heaviest == lines.end() || heaviest->weight < 2 ? nullptr : &*heaviest;
+}
+
 std::vector<Reason> drive_reasons(const Film& film, std::size_t most) {
   std::vector<std::size_t> fatal, idle, rest = nearest_first(film);
   if (!film.violations.empty()) {
@@ -72,8 +78,11 @@ std::vector<Reason> drive_reasons(const Film& film, std::size_t most) {
     }
   }
   std::ranges::sort(reasons.begin() + std::ssize(fatal), reasons.end(), {}, &Reason::activity);
-  // The one that set off later met the other on its way.
-  std::ranges::stable_sort(reasons.begin(), reasons.begin() + std::ssize(fatal), std::greater{}, &Reason::decided_us);
+  // What says most of why stands first. Of equals, the one that set off later met the other on its way.
+  std::ranges::stable_sort(reasons.begin(), reasons.begin() + std::ssize(fatal), std::greater{}, [](const Reason& r) {
+    const ReasonLine* decisive = r.decisive();
+    return std::pair(decisive == nullptr ? 0 : static_cast<int>(decisive->weight), r.decided_us);
+  });
   for (const std::size_t body : idle) {
     Reason none;
     none.is_fatal = true;

@@ -16,6 +16,7 @@ struct ReasonLine {
   bool marked = false;  // something that a protocol must survive: lost, late, doubled, never sent
   std::int64_t at_us = 0;
   std::string text;
+  std::uint8_t weight = 0;  // how much it says of why: 2 and 3 are what a reader should see first
 };
 
 // Why an agent may have believed that it was allowed to begin an activity: what it had sent and heard until then, from
@@ -27,10 +28,13 @@ struct Reason {
   std::int64_t decided_us = 0;          // when the AGV set off: the instant that the reason is about
   std::string title;
   std::vector<ReasonLine> lines;
+
+  // The first of the lines with the largest weight, if that is at least 2; else null.
+  const ReasonLine* decisive() const;
 };
 
 // Of the activities of AGVs that are nearest to the failure, at most `most` and not more than a page can carry: those
-// that are fatal first, else in order of time.
+// that are fatal first, of these the one with the weightiest line, else in order of time.
 std::vector<Reason> drive_reasons(const Film& film, std::size_t most = 200);
 
 }  // namespace fleetproof::web

@@ -66,6 +66,8 @@ struct ActivityBar {
   std::int64_t begin_us = 0, end_us = 0;
   std::string kind, details;
   std::uint64_t begin_order = 0, end_order = 0;
+  std::optional<std::int64_t> commanded_us = std::nullopt;  // when the agent called for it, if that is known
+  std::uint64_t commanded_order = 0;
 };
 
 // What an agent says of itself from this instant on. An empty word: nothing.
@@ -96,6 +98,7 @@ struct Arrival {
   Fate fate = Fate::Received;
   std::int64_t after_us = 0;  // since the message was sent, also of a loss
   std::uint64_t order = 0;
+  bool is_given = false;  // the scenario gives this fate
 };
 struct Message {
   std::uint32_t number = 0, bytes = 0;
@@ -153,7 +156,7 @@ struct Order {
   std::optional<std::int64_t> done_us;
 };
 
-// A line of the head of the page.
+// A name and what it is: a line of the head of the page, or of its glossary.
 struct FilmFact {
   std::string name, value;
 };
@@ -170,6 +173,7 @@ struct Film {
   bool failed = false;
   std::vector<std::string> story;  // what happened, in sentences, the most important first
   std::vector<FilmFact> facts;
+  std::vector<FilmFact> glossary;                      // what words of agents mean, if somebody says so
   std::int64_t end_us = 0, focus_us = 0, open_us = 0;  // of the run; of the failure; what the page shows first
   std::vector<std::size_t> involved;                   // in the failure
   std::int64_t safety_distance_um = 0;

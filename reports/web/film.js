@@ -41,7 +41,7 @@ const beliefsOf = byBody(film.beliefs_ms_mm_mrad).map(rows => {
 
 // Every arrival of a message at one receiver, in order of sending. `age_s` null: lost. `again`: its second copy.
 const kFates = ['received', 'lost by chance', 'lost in an outage', 'lost by interference', 'lost to a source',
-                'lost, its fate is given'];
+                'lost on purpose by the scenario'];
 const arrivals = [], whole = new Set();
 for (const [number, sender, to, sent_ms, kind, bytes, ...pairs] of film.messages_ms) {
   for (let i = 0; i < pairs.length; i += 2) {
@@ -51,6 +51,18 @@ for (const [number, sender, to, sent_ms, kind, bytes, ...pairs] of film.messages
                    age_s: lost ? null : pairs[i + 1] / 1e3, fate: kFates[lost ? -pairs[i + 1] : 0]});
   }
 }
+// The kinds of messages. Each has a colour, and a letter or two that no other kind has.
+const kKinds = [...new Set(film.messages_ms.map(row => row[4]))].map(word).filter(Boolean).sort();
+const kLetters = new Map(kKinds.map(kind => {
+  const others = kKinds.filter(other => other !== kind);
+  const size = [1, 2, 3].find(n => others.every(other => other.slice(0, n) !== kind.slice(0, n))) || 3;
+  return [kind, kind.slice(0, size)];
+}));
+const kKindColours = 6;
+const colourOfKind = kind => 'kind-' + Math.max(0, kKinds.indexOf(kind)) % kKindColours;
+// What a message says, if the page has it.
+const contents = new Map(film.contents.map(([number, content]) => [number, word(content)]));
+const contentOf = number => (contents.has(number) ? ': ' + contents.get(number) : '');
 const kLongestAge_s = arrivals.reduce((most, a) => Math.max(most, a.age_s || 0), 1);
 const arrivalsOf = film.bodies.map(() => []);
 for (const arrival of arrivals) {

@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::int64_t kBefore_us = 30'000'000, kAfter_us = 5'000'000;
 constexpr std::size_t kMostEvents = 250, kMostMessages = 600;
+const std::string kRefused = "refused";  // as the trace calls it
 constexpr std::uint64_t kAfterAll = std::numeric_limits<std::uint64_t>::max();
 
 using Kind = CourseLine::Kind;
@@ -41,6 +42,7 @@ class EventLines {
     for (const Happening& h : film_.happenings) {
       if (h.is_note || (!h.is_fault && !subject_.contains(h.body))) continue;
       add({h.at_us, h.order}, h.is_fault ? Kind::Fault : Kind::Event, h.body, h.what, h.details);
+      if (h.what == kRefused) lines_.back().alike = fmt::format("{}\n{}\n{}", h.body, h.what, h.details);
     }
     for (const TooClose& v : film_.violations)
       add({v.first_us, kAfterAll}, Kind::Failure, v.a, "too close", "to " + film_.bodies[v.b].name);
@@ -64,6 +66,26 @@ class EventLines {
   std::set<std::size_t> subject_;
   std::vector<CourseLine> lines_;
 };
+
+// A flood of calls that are refused is one line, until the AGV does something else.
+std::vector<CourseLine> fold_refused(std::vector<CourseLine> lines) {
+  std::ranges::stable_sort(lines, {}, &CourseLine::at);
+  std::vector<CourseLine> folded;
+  std::map<std::string, std::size_t> last_of;  // by name of the AGV
+  for (CourseLine& line : lines) {
+    const auto last = last_of.find(line.who);
+    if (!line.alike.empty() && last != last_of.end() && folded[last->second].alike == line.alike) {
+      CourseLine& first = folded[last->second];
+      if (first.folded.empty()) first.folded.push_back(first);
+      first.folded.push_back(std::move(line));
+      continue;
+    }
+    last_of[line.who] = folded.size();
+    folded.push_back(std::move(line));
+  }
+  for (CourseLine& line : folded) line.alike.clear();
+  return folded;
+}
 
 // Of the lines in time, those nearest to the failure; returns how many are left out.
 std::size_t keep_nearest(std::vector<CourseLine>& lines, const Course& course, std::int64_t focus_us,
@@ -108,7 +130,7 @@ Course course_of(const Film& film) {
   Course course;
   course.from_us = std::max<std::int64_t>(0, film.focus_us - kBefore_us);
   course.to_us = std::min(film.end_us, film.focus_us + kAfter_us);
-  std::vector<CourseLine> events = EventLines(film).all();
+  std::vector<CourseLine> events = fold_refused(EventLines(film).all());
   course.left_out = keep_nearest(events, course, film.focus_us, kMostEvents);
   std::vector<CourseLine> messages = message_lines(film, course.from_us, course.to_us);
   course.left_out += keep_nearest(messages, course, film.focus_us, kMostMessages);

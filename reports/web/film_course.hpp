@@ -15,7 +15,7 @@ struct CourseLine {
   Kind kind = Kind::Event;
   bool marked = false;  // a fault, a failure; a message that was lost or doubled
   std::string who, what, details;
-  std::string alike;               // of a message: what lines have that may be folded into one; else empty
+  std::string alike;               // what lines have that may be folded into one; empty: this one may not
   std::vector<CourseLine> folded;  // lines of the same kind that this one stands for, itself included
 };
 
@@ -26,7 +26,8 @@ struct Course {
 };
 
 // Around the failure: what the bodies that the page is about did and said, all faults, and every message to or from
-// these bodies. Between two events, messages of one kind from one sender to one receiver are one line.
+// these bodies. Between two events, messages of one kind from one sender to one receiver are one line, but for the
+// first answer after a new request. Calls that are refused again and again are one line, too.
 Course course_of(const Film& film);
 
 }  // namespace fleetproof::web

@@ -156,6 +156,17 @@ std::string kept_json(const Film& film, const Kept& kept) {
              until(kept.others_to_us));
 }
 
+// What messages of the bodies involved say, by their numbers: a fleet says too much for all of it.
+void add_contents(Members& members, const Film& film, Words& words) {
+  const std::vector<std::size_t> subject = film.subject();
+  const auto counts = [&](std::size_t body) { return std::ranges::find(subject, body) != subject.end(); };
+  std::vector<const Message*> told;
+  for (const Message& m : film.messages) {
+    if (!m.content.empty() && (counts(m.sender) || (m.receiver && counts(*m.receiver)))) told.push_back(&m);
+  }
+  members.rows("contents", told, [&](const Message* m) { return row(m->number, words.index_of(m->content)); });
+}
+
 void add_what_happened(Members& members, const Film& film, Words& words) {
   members.add("kept_ms", fmt::format("{{\"messages\":{},\"beliefs\":{},\"states\":{},\"waits\":{}}}",
                                      kept_json(film, film.kept_messages), kept_json(film, film.kept_beliefs),
@@ -171,6 +182,7 @@ void add_what_happened(Members& members, const Film& film, Words& words) {
   members.rows("loads_ms", film.loads,
                [](const Loaded& l) { return row(l.body, milliseconds(l.at_us), l.on ? 1 : 0); });
   members.rows("messages_ms", film.messages, [&](const Message& m) { return message_json(m, words); });
+  add_contents(members, film, words);
   members.rows("beliefs_ms_mm_mrad", film.beliefs, belief_json);
   members.rows("happenings_ms", film.happenings, [&](const Happening& h) {
     return row(h.body, milliseconds(h.at_us), words.index_of(h.what), words.index_of(h.details),

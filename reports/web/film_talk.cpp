@@ -2,12 +2,20 @@
 
 #include <algorithm>
 
+#include "reports/web/message_numbers.hpp"
+
 namespace fleetproof::web {
 
-FilmTalk::FilmTalk(const Film& film) : sent_by_(film.bodies.size()) {
+FilmTalk::FilmTalk(const Film& film) : sent_by_(film.bodies.size()), restarts_(film.bodies.size()) {
+  for (const Happening& h : film.happenings) {
+    const bool is_new_agent = h.is_fault ? h.what.ends_with(" over") && h.details == "restart"
+                                         : h.details.find("restarts the agent") != h.details.npos;
+    if (is_new_agent) restarts_[h.body].push_back({h.at_us, h.order});
+  }
   for (const Message& message : film.messages) {
     sent_by_[message.sender].push_back(&message);
     has_messages_to_one_ = has_messages_to_one_ || message.receiver.has_value();
+    has_numbered_answers_ = has_numbered_answers_ || !numbers_answered(message.content).list.empty();
     for (const Arrival& arrival : message.arrivals) {
       std::vector<Delivery>& link = links_[{message.sender, arrival.receiver}];
       const Moment arrives{message.sent_us + arrival.after_us, arrival.order};
@@ -23,6 +31,12 @@ FilmTalk::FilmTalk(const Film& film) : sent_by_(film.bodies.size()) {
       }
     }
   }
+}
+
+std::optional<std::int64_t> FilmTalk::restarted_us(std::size_t body, Moment before) const {
+  const auto& restarts = restarts_[body];
+  const auto after = std::ranges::lower_bound(restarts, before);
+  return after == restarts.begin() ? std::nullopt : std::optional((after - 1)->at_us);
 }
 
 const std::vector<Delivery>& FilmTalk::between(std::size_t sender, std::size_t receiver) const {

@@ -29,13 +29,18 @@ class FilmTalk {
 
   const std::vector<const Message*>& sent_by(std::size_t body) const { return sent_by_[body]; }
   const std::vector<Delivery>& between(std::size_t sender, std::size_t receiver) const;
+  // When the agent of the AGV began anew last before a moment, without what it knew.
+  std::optional<std::int64_t> restarted_us(std::size_t body, Moment before) const;
+  // Some content says which number it answers.
+  bool has_numbered_answers() const { return has_numbered_answers_; }
   // Some message of the run was for one receiver. If none was, answers are among those to all.
   bool has_messages_to_one() const { return has_messages_to_one_; }
 
  private:
   std::vector<std::vector<const Message*>> sent_by_;
   std::map<std::pair<std::size_t, std::size_t>, std::vector<Delivery>> links_;
-  bool has_messages_to_one_ = false;
+  std::vector<std::vector<Moment>> restarts_;  // by body
+  bool has_messages_to_one_ = false, has_numbered_answers_ = false;
 };
 
 // The messages of the list that were sent in an interval: [from, until).

@@ -17,7 +17,7 @@ std::string metres_text(std::int64_t um) { return thousandths(um); }
 const char* word_of(Fate fate) {
   constexpr const char* kWords[] = {"received",          "lost by chance",
                                     "lost in an outage", "lost by interference",
-                                    "lost to a source",  "lost, its fate is given"};
+                                    "lost to a source",  "lost on purpose by the scenario"};
   return kWords[static_cast<std::size_t>(fate)];
 }
 

@@ -5,7 +5,7 @@ let colours = {};
 const kColours = ['ink', 'soft', 'floor', 'grid', 'lane', 'station', 'agv', 'agv-line', 'hot', 'hot-line', 'thing',
                   'load', 'hull', 'ghost', 'wait',
                   'message', 'bad', 'accent', 'paper', 'line', 'drive', 'turn', 'transfer',
-                  'charge', 'other', 'panel'];
+                  'charge', 'other', 'panel', 'kind-0', 'kind-1', 'kind-2', 'kind-3', 'kind-4', 'kind-5'];
 const readColours = () => {
   const style = getComputedStyle(document.documentElement);
   colours = Object.fromEntries(kColours.map(name => [name, style.getPropertyValue('--' + name).trim()]));

@@ -68,7 +68,8 @@ const aboutMessages = (body, t_s) => {
     const whom = !sends ? 'from ' + nameOf(a.sender) : toAll ? 'to all' : 'to ' + nameOf(a.to);
     const fate = a.age_s === null ? a.fate : (a.again ? 'again, ' : '') +
       (arrived ? 'after ' + seconds(a.age_s) : 'under way');
-    lines.push([seconds(a.sent_s), whom, a.kind, toAll ? '' : [fate, a.age_s === null || a.again ? 'bad' : 'soft']]);
+    const end = toAll ? '' : [fate, a.age_s === null || a.again ? 'bad' : 'soft'];
+    lines.push([seconds(a.sent_s), whom, a.kind + contentOf(a.number), end]);
   }
   return lines;
 };

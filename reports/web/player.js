@@ -211,6 +211,12 @@ addEventListener('hashchange', () => { readAddress(); drawAll(); });
 addEventListener('resize', drawAll);
 matchMedia('(prefers-color-scheme: dark)').addEventListener('change', drawAll);
 
+// The kinds of messages in the legend: a letter of its colour, and the kind.
+for (const kind of kKinds.slice(0, 12)) {
+  const letters = element('b', ' ' + kLetters.get(kind) + ' ');
+  letters.style.color = 'var(--' + colourOfKind(kind) + ')';
+  byId('kinds').append(letters, kind + ' ');
+}
 if (!film.violations.length) {
   byId('previous').textContent = 'Previous mark';
   byId('next').textContent = 'Next mark';

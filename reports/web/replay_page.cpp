@@ -12,6 +12,7 @@
 #include "reports/web/film_budget.hpp"
 #include "reports/web/film_json.hpp"
 #include "reports/web/film_tables.hpp"
+#include "reports/web/given_fate_lines.hpp"
 #include "reports/web/reasons_part.hpp"
 
 namespace fleetproof::web {
@@ -54,12 +55,19 @@ std::string kicker_of(const Film& film) {
   return text;
 }
 
-Element header_of(const Film& film) {
+Element header_of(const Film& film, const ReasonLine* decisive) {
   Element header("header");
   header.add(text_element("p", kicker_of(film), {{"class", "kicker"}}));
   header.add(text_element("h1", film.title));
   Element story("div", {{"class", film.failed || !film.involved.empty() ? "story failed" : "story"}});
-  for (const std::string& sentence : film.story) story.add(text_element("p", sentence));
+  const auto instant = [&](const ReasonLine& line, const char* name) {
+    return text_element("p", line.text, {{"class", name}, {"data-us", fmt::format("{}", line.at_us)}});
+  };
+  for (std::size_t i = 0; i < film.story.size(); ++i) {
+    story.add(text_element("p", film.story[i]));
+    if (i == 0 && decisive != nullptr) story.add(instant(*decisive, "decisive"));
+  }
+  for (const ReasonLine& line : given_fate_lines(film)) story.add(instant(line, "given"));
   return header.add(story);
 }
 
@@ -93,13 +101,25 @@ Element left_out_part(const Film& film) {
   return part.add(html::paragraph("The option --trace of the command above prints everything."));
 }
 
-Element reading_part() {
-  return text_element("p",
-                      "Words of this page. Safety perimeter: the footprint, widened by the safety distance. Hull "
-                      "(envelope): what an AGV sweeps during the drive or turn under way, widened likewise. Belief: "
-                      "where an agent, the control software under test, says another AGV was. Age: time since then, or "
-                      "since a message was sent.",
-                      {{"class", "words"}});
+Element words_part(const Film& film) {
+  Element part = titled("Words of this page"), list("dl", {{"class", "words"}});
+  const auto add = [&](const std::string& word, const std::string& meaning) {
+    list.add(Element("div").add(text_element("dt", word)).add(text_element("dd", meaning)));
+  };
+  add("safety perimeter", "the footprint, widened by the safety distance");
+  add("hull (envelope)", "what an AGV sweeps during the drive or turn under way, widened likewise");
+  add("belief", "where an agent, the control software under test, says another AGV was");
+  add("age", "time since then, or since a message was sent");
+  for (const auto& [word, meaning] : film.glossary) add(word, meaning);
+  if (!film.glossary.empty())
+    part.add(html::paragraph("Words of agents are explained as the agents of this project use them."));
+  return part.add(list);
+}
+
+// Where the decision fell; without one, as the story says.
+void open_at_decision(Film& film, const std::vector<Reason>& reasons) {
+  if (!film.violations.empty() && !reasons.empty() && reasons.front().is_fatal && reasons.front().activity)
+    film.open_us = std::min(film.open_us, reasons.front().decided_us);
 }
 
 std::string script_of(const std::string& json) {
@@ -111,6 +131,8 @@ std::string script_of(const std::string& json) {
 
 std::string replay_page(Film film) {
   const std::vector<Reason> reasons = drive_reasons(film);
+  const ReasonLine* decisive = reasons.empty() || !reasons.front().is_fatal ? nullptr : reasons.front().decisive();
+  open_at_decision(film, reasons);
   Element tables("div", {{"id", "record"}});
   const Course course = course_of(film);
   if (!course.lines.empty()) tables.add(course_part(course));
@@ -119,14 +141,14 @@ std::string replay_page(Film film) {
   for (const Element& part : table_parts(film)) tables.add(part);
   keep_within(film);
   if (!film.left_out.empty()) tables.add(left_out_part(film));
-  std::string body = header_of(film).str();
+  std::string body = header_of(film, decisive).str();
   body += Element("noscript")
               .add(text_element("p", "Scripts are off. The words, the pictures and the tables show the failure.",
                                 {{"class", "note"}}))
               .str();
   body += reasons_part(reasons).str();
   body += player_markup();
-  body += tables.str() + run_part(film).str() + reading_part().str();
+  body += tables.str() + run_part(film).str() + words_part(film).str();
   return fmt::format("<!DOCTYPE html>\n<html lang=\"en\">{}<body><main>{}</main>{}</body></html>\n", head_of(film),
                      body, script_of(film_json(film, reasons)));
 }

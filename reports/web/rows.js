@@ -66,14 +66,15 @@ const markedArrivals = body => {
 };
 const drawMarks = (context, body, y) => {
   const bottom = y + lookOf(body).row_px - 1, list = window_s.to - window_s.from <= 130 ? markedArrivals(body) : [];
-  const seen = new Set();
+  const seen = new Set(), drawn = [];
   for (const a of list) {
     const sends = a.sender === body, lost = !sends && a.age_s === null;
     const at_s = sends || lost ? a.sent_s : a.sent_s + a.age_s, x = Math.round(rowX(at_s));
-    const key = x * 4 + (sends ? 0 : lost ? 1 : 2);
+    const key = a.kind + ' ' + (x * 4 + (sends ? 0 : lost ? 1 : 2));
     if (!isInWindow(at_s) || seen.has(key)) continue;
     seen.add(key);
-    context.fillStyle = context.strokeStyle = lost ? colours.bad : colours.message;
+    drawn.push({x, kind: a.kind, lost});
+    context.fillStyle = context.strokeStyle = lost ? colours.bad : colours[colourOfKind(a.kind)];
     context.beginPath();
     if (lost) {
       context.moveTo(x - 2.5, bottom - 5);
@@ -89,13 +90,39 @@ const drawMarks = (context, body, y) => {
       context.fill();
     }
   }
-  for (const [, at_ms, , , flags] of happeningsOf[body]) {
-    if (!isInWindow(at_ms / 1e3) || flags >= 2) continue;
+  if (lookOf(body).says) drawLetters(context, drawn, bottom - 6);
+  drawHappenings(context, body, y);
+};
+// The letters of the kinds, where they have room.
+const drawLetters = (context, marks, y) => {
+  context.font = '600 9px system-ui, sans-serif';
+  let free = -1e9;
+  for (const {x, kind, lost} of marks.sort((a, b) => a.x - b.x)) {
+    const letters = kLetters.get(kind) || '', half = context.measureText(letters).width / 2;
+    if (!letters || x - half < free) continue;
+    free = x + half + 1;
+    context.fillStyle = lost ? colours.bad : colours[colourOfKind(kind)];
+    context.fillText(letters, x - half, y);
+  }
+};
+// What happens again and again, as a call that is refused, is one mark with a line to the last time.
+const drawHappenings = (context, body, y) => {
+  const marks = [];
+  for (const [, at_ms, what, details, flags] of happeningsOf[body]) {
+    const last = marks[marks.length - 1];
+    if (flags >= 2) continue;
+    if (flags === 0 && last && last.what === what && last.details === details) last.to_s = at_ms / 1e3;
+    else marks.push({from_s: at_ms / 1e3, to_s: at_ms / 1e3, what, details, flags});
+  }
+  for (const {from_s, to_s, flags} of marks) {
+    if (to_s < window_s.from || from_s > window_s.to) continue;
+    const x0 = Math.max(nameWidth(), rowX(from_s)), x1 = rowX(to_s);
     context.fillStyle = flags === 1 ? colours.bad : colours.accent;
     context.font = flags === 1 ? '600 15px system-ui' : '600 10px system-ui';
-    context.fillText(flags === 1 ? '⚑' : '◆', rowX(at_ms / 1e3) - 4, y + lookOf(body).bar_px + 2);
-    context.font = '11px system-ui, sans-serif';
+    context.fillText(flags === 1 ? '⚑' : '◆', x0 - 4, y + lookOf(body).bar_px + 2);
+    if (x1 - x0 > 4) context.fillRect(x0, y + lookOf(body).bar_px - 2, x1 - x0, 2);
   }
+  context.font = '11px system-ui, sans-serif';
 };
 // From the strike of a fault to its end: a line along the upper edge of the row.
 const drawFaults = (context, body, y) => {

@@ -3,8 +3,6 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "reports/web/film_words.hpp"
-
 namespace fleetproof::web {
 namespace {
 
@@ -20,6 +18,10 @@ const Declared* last_word(const Film& film, const ActivityBar& bar) {
 }
 
 }  // namespace
+
+Moment decision_on(const ActivityBar& bar) {
+  return bar.commanded_us ? Moment{*bar.commanded_us, bar.commanded_order} : Moment{bar.begin_us, bar.begin_order};
+}
 
 bool is_motion(const ActivityBar& bar) { return bar.kind == "drive" || bar.kind == "turn"; }
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "reports/web/film.hpp"
+#include "reports/web/film_words.hpp"
 
 namespace fleetproof::web {
 
@@ -10,6 +11,9 @@ namespace fleetproof::web {
 // earlier one if the AGV has moved without a rest since, and its agent still says the word that it said then. A word
 // that was said at another instant, or never, tells nothing: then it is the activity itself.
 std::size_t setting_off(const Film& film, std::size_t activity);
+
+// When the agent called for an activity. If that is not known: when it began.
+Moment decision_on(const ActivityBar& bar);
 
 // Whether the AGV drives or turns.
 bool is_motion(const ActivityBar& bar);

@@ -71,13 +71,16 @@ TEST_F(ReplayReasons, SaysWhatWasDoubledLostLateAndMissing) {
       ElementsAre(
           "From 0.000 s until then, M had sent REQUEST 3 times (1.000 s to 3.000 s).",
           "Its agent said \"asking\" (1.000 s), \"driving\" (5.000 s).",
-          "1 of 3 others had answered in time: GRANT from T. Lost or late: P. No answer sent to it alone: Q.",
+          "Since 0.000 s, M had sent REQUEST to all. Answers in time: GRANT from T. Lost or late: P. No answer sent to "
+          "it alone: Q.",
           "P to M:",
-          "DEFER #3, sent 1.600 s: lost, its fate is given; P then had REQUEST #1 (sent 1.000 s), not the 2 newer.",
-          "DEFER #6, sent 4.900 s: received 5.500 s, 0.500 s too late; P then had REQUEST #5 (sent 3.000 s).",
+          "DEFER #3, sent 1.600 s: lost on purpose by the scenario; the newest REQUEST of M that P had received by "
+          "then was #1 (sent 1.000 s); 2 were sent later.",
+          "DEFER #6, sent 4.900 s: received 5.500 s, 0.500 s too late; the newest REQUEST of M that P had received by "
+          "then was #5 (sent 3.000 s).",
           "P itself at 5.000 s: idle; it stood where M then met it, since 0.000 s.", "T to M:",
           "GRANT #2, sent 1.500 s, received 1.600 s and again 1.900 s: one message, delivered twice; 3.500 s old then; "
-          "T then had REQUEST #1 (sent 1.000 s), not the 2 newer.",
+          "the newest REQUEST of M that T had received by then was #1 (sent 1.000 s); 2 were sent later.",
           "After that #2, it received 2 REQUEST and answered none of them until then.",
           "After that it received GRANT from T (6.001 s)."));
   // What a protocol must survive is marked, nothing else.
@@ -104,14 +107,15 @@ TEST_F(ReplayReasons, SaysNothingOfTheKindIfAllArrived) {
       texts(document, of_m("/p")),
       ElementsAre("From 0.000 s until then, M had sent REQUEST 3 times (1.000 s to 3.000 s).",
                   "Its agent said \"asking\" (1.000 s), \"driving\" (5.000 s).",
-                  "2 of 3 others had answered in time: DEFER from P; GRANT from T. No answer sent to it alone: Q.",
+                  "Since 0.000 s, M had sent REQUEST to all. Answers in time: DEFER from P; GRANT from T. No answer "
+                  "sent to it alone: Q.",
                   "P to M:",
-                  "DEFER #6, sent 4.900 s, received 4.901 s; 0.100 s old then; P then had REQUEST #5 (sent 3.000 "
-                  "s); 1 more before it.",
+                  "DEFER #6, sent 4.900 s, received 4.901 s; 0.100 s old then; the newest REQUEST of M that P had "
+                  "received by then was #5 (sent 3.000 s); 1 more before it.",
                   "When P sent DEFER #6: idle; it stood where M then met it, since 0.000 s.",
                   "P itself at 5.000 s: idle; it stood where M then met it, since 0.000 s.",
-                  "T: GRANT #2, sent 1.500 s, received 1.501 s; 3.500 s old then; T then had REQUEST #1 (sent "
-                  "1.000 s), not the 2 newer.",
+                  "T: GRANT #2, sent 1.500 s, received 1.501 s; 3.500 s old then; the newest REQUEST of M that T had "
+                  "received by then was #1 (sent 1.000 s); 2 were sent later.",
                   "After that it received GRANT from T (6.001 s)."));
 }
 
@@ -125,7 +129,7 @@ TEST_F(ReplayReasons, TheCourseHasThirdAgvsInCausalOrder) {
   };
   place("1.500|T \u2192 M|GRANT #2|received 1.600 s and again 1.900 s: delivered twice");
   place("1.900|M \u2190 T|GRANT #2|received again, 0.400 s old");
-  place("1.600|P \u2192 M|DEFER #3|lost, its fate is given");
+  place("1.600|P \u2192 M|DEFER #3|lost on purpose by the scenario");
   EXPECT_LT(place("5.000|M|its agent says|\"driving\""), place("5.000|M|begins drive|a to b"));
   EXPECT_LT(place("5.000|M|begins drive|a to b"), place("5.500|M \u2190 P|DEFER #6|received, 0.600 s old"));
   // Three requests with no event between them are one line; opened, they stand below it.
@@ -133,6 +137,21 @@ TEST_F(ReplayReasons, TheCourseHasThirdAgvsInCausalOrder) {
   EXPECT_LT(place("1.000|M|its agent says|\"asking\""), fold);
   EXPECT_EQ(place("1.000|M \u2192 all|REQUEST #1|received 1.001 s"), fold + 1);
   EXPECT_EQ(place("3.000|M \u2192 all|REQUEST #5|received 3.001 s"), fold + 3);
+}
+
+// A flood of refused calls is one line, until the AGV does something else.
+TEST_F(ReplayReasons, CallsThatAreRefusedAgainAndAgainAreOneLine) {
+  const auto document = page("0 1000 move 3;0 1100 move 3;0 1200 move 3;0 2000 say asking;0 2100 move 3;0 5000 move 0");
+  const auto lines = texts(document, "//div[@id='course']//summary[contains(@class, 'event')]");
+  EXPECT_THAT(lines, ElementsAre("1.000|M|refused move tq \u00d7 3|until 1.200 s"));
+}
+
+// The AGV turns before it drives.
+TEST_F(ReplayReasons, SaysWhenADriveWasCommandedBeforeItBegan) {
+  (void)page("0 100 move 0;3 1000 move 4");
+  const std::string text = read(path("p.html"));
+  EXPECT_THAT(text, testing::ContainsRegex("Q began to drive q to a at 3.5[0-9]* s, commanded at 1.000 s\""));
+  EXPECT_THAT(text, HasSubstr("M began to drive a to b at 0.100 s<")) << "at once";
 }
 
 TEST_F(ReplayReasons, SaysHowManyMessagesHaveAGivenFate) {

@@ -83,7 +83,8 @@ TEST(SettingOff, TheReasonSaysWhatWasKnownThen) {
   EXPECT_EQ(reason.decided_us, 3'000'000);
   const auto lines = lines_of(reason);
   EXPECT_THAT(lines.front(), StartsWith("It set off at 3.000 s (drive s to t), has moved since"));
-  EXPECT_THAT(lines, Contains("NO #2, sent 2.000 s: received 4.000 s, 1.000 s too late; B then had ASK #1 (sent "
+  EXPECT_THAT(lines, Contains("NO #2, sent 2.000 s: received 4.000 s, 1.000 s too late; the newest ASK of A that B had "
+                              "received by then was #1 (sent "
                               "1.000 s)."));
 }
 
@@ -92,7 +93,8 @@ TEST(SettingOff, TheReasonSaysWhatTheMessagesSaid) {
   film.messages[0].content = "for 7";
   film.messages[1].content = "to 7";
   EXPECT_THAT(lines_of(drive_reasons(film).front()),
-              Contains("NO #2 (to 7), sent 2.000 s: received 4.000 s, 1.000 s too late; B then had ASK #1 (for 7, sent "
+              Contains("NO #2 (to 7), sent 2.000 s: received 4.000 s, 1.000 s too late; the newest ASK of A that B had "
+                       "received by then was #1 (for 7, sent "
                        "1.000 s)."));
 }
 
@@ -148,7 +150,8 @@ TEST(SettingOff, AKindSentAllTheTimeIsNotTheOneThatAsks) {
   more.sent_us = 2'000'500;
   news.push_back(more);
   film.messages = news;
-  EXPECT_THAT(lines_of(drive_reasons(film).front()), Contains(HasSubstr("B then had ASK #1")));
+  EXPECT_THAT(lines_of(drive_reasons(film).front()),
+              Contains(HasSubstr("the newest ASK of A that B had received by then was #1")));
 }
 
 }  // namespace

@@ -1,0 +1,200 @@
+#include "reports/web/own_request.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "reports/web/message_numbers.hpp"
+#include "reports/web/setting_off.hpp"
+
+namespace fleetproof::web {
+namespace {
+
+constexpr std::int64_t kRemembered_us = 120'000'000;
+
+struct Asking {
+  const Message* message = nullptr;
+  MessageNumbers numbers;
+  Moment sent;
+};
+
+class OwnRequestFinder {
+ public:
+  OwnRequestFinder(const Film& film, const FilmTalk& talk, const Setting& setting, std::size_t activity,
+                   std::size_t other)
+      : film_(film),
+        talk_(talk),
+        setting_(setting),
+        until_(std::max(setting.begin, decision_on(film.activities[activity]))),
+        other_(other) {
+    const std::int64_t since_us = std::max(setting.knows_since_us, film.activities[activity].begin_us - kRemembered_us);
+    knows_all_ = since_us == setting.knows_since_us;
+    for (const Message* m : talk.sent_by(setting.body)) {
+      const Moment sent{m->sent_us, m->order};
+      const bool counts = m->sent_us >= since_us && sent < until_ && (!m->receiver || *m->receiver == other);
+      if (!counts) continue;
+      MessageNumbers numbers = numbers_asked(m->content);
+      if (!numbers.list.empty()) askings_.push_back({m, std::move(numbers), sent});
+    }
+    for (std::size_t i = 0; i < film.activities.size(); ++i) {
+      const ActivityBar& bar = film.activities[i];
+      if (bar.body == setting.body && bar.kind == "drive" && bar.begin_us >= since_us) drives_.push_back(&bar);
+    }
+  }
+
+  std::optional<OwnRequest> find(std::size_t activity) {
+    if (askings_.empty() || !talk_.has_numbered_answers()) return std::nullopt;
+    const ActivityBar& bar = film_.activities[activity];
+    const Found found = asked_for(bar);
+    const Asking& asking = found.asking != nullptr ? *found.asking : askings_.back();
+    if (found.ended != nullptr) return went_on(asking, *found.ended);
+    if (found.asking == nullptr && bar.kind == "drive" && is_certainly_unasked()) return unasked();
+    look_at_answers(asking);
+    if (may_be_answered_) return std::nullopt;
+    if (answer_ != nullptr) return found.asking == nullptr ? std::nullopt : std::optional(answered(asking));
+    return unanswered(asking, found.asking != nullptr);
+  }
+
+ private:
+  const std::string& name(std::size_t body) const { return film_.bodies[body].name; }
+
+  struct Found {
+    const Asking* asking = nullptr;
+    const ActivityBar* ended = nullptr;  // the drive with which that way had ended before
+  };
+  // The newest request that begins where the drive begins, or where an earlier drive of that request began. Of a turn:
+  // of the drive after it, or if there is none, before it.
+  Found asked_for(const ActivityBar& bar) const {
+    if (drives_.empty()) return {};
+    auto drive = std::ranges::find_if(drives_, [&](const ActivityBar* d) { return d->begin_us >= bar.begin_us; });
+    if (drive == drives_.end()) --drive;
+    const auto last = drive;
+    for (;; --drive) {
+      if (const Asking* asking = asked_for_first(**drive)) {
+        const auto end = std::find_if(
+            drive, last, [&](const ActivityBar* d) { return asks_to_end_of(asking->message->content, d->details); });
+        return {asking, end == last ? nullptr : *end};
+      }
+      if (drive == drives_.begin()) return {};
+    }
+  }
+  // A request is for the first drive from its place.
+  const Asking* asked_for_first(const ActivityBar& drive) const {
+    const Asking* found = nullptr;
+    for (const Asking& asking : askings_) {
+      if (asking.sent.at_us <= drive.begin_us && asks_from_beginning_of(asking.message->content, drive.details))
+        found = &asking;
+    }
+    if (found == nullptr) return nullptr;
+    const bool is_over = std::ranges::any_of(drives_, [&](const ActivityBar* before) {
+      return found->sent.at_us < before->begin_us && before->begin_us < drive.begin_us &&
+             asks_from_beginning_of(found->message->content, before->details);
+    });
+    if (is_over) return nullptr;
+    // The first message that said so: later ones repeat it.
+    const auto same = std::ranges::find_if(askings_, [&](const Asking& asking) {
+      return asking.numbers.list == found->numbers.list &&
+             asks_from_beginning_of(asking.message->content, drive.details);
+    });
+    return &*same;
+  }
+
+  // All of its requests since it began are here, and all name their places.
+  bool is_certainly_unasked() const {
+    return knows_all_ && !drives_.empty() &&
+           std::ranges::all_of(askings_, [](const Asking& asking) { return names_a_place(asking.message->content); });
+  }
+  OwnRequest unasked() const {
+    const Asking& newest = askings_.back();
+    return {newest.sent.at_us,
+            fmt::format("{} had not asked {} for this: since {} s, none of its requests to {} or to all begins where "
+                        "this drive begins, or one before it. The newest was {}, sent {} s.",
+                        name(setting_.body), name(other_), time_text(setting_.knows_since_us), name(other_),
+                        text_of(*newest.message), time_text(newest.sent.at_us)),
+            2};
+  }
+
+  // The way that it had asked for was over. Nothing is said if it has asked for another one since.
+  std::optional<OwnRequest> went_on(const Asking& asking, const ActivityBar& ended) const {
+    if (asking.numbers.list != askings_.back().numbers.list) return std::nullopt;
+    return OwnRequest{
+        asking.sent.at_us,
+        fmt::format("The last that {} had asked {} was {}, sent {} s. It reached the end of that way at {} "
+                    "s and went on: it had asked neither {} nor all for more.",
+                    name(setting_.body), name(other_), text_of(*asking.message), time_text(asking.sent.at_us),
+                    time_text(ended.end_us), name(other_)),
+        2};
+  }
+
+  void look_at_answers(const Asking& asking) {
+    for (const Delivery& d : sent_within(talk_.between(other_, setting_.body), 0, until_)) {
+      const bool was_known = !d.is_lost() && d.arrives < until_ && d.arrives.at_us >= setting_.knows_since_us;
+      if (!was_known) continue;
+      const MessageNumbers answered = numbers_answered(d.message->content);
+      if (answered.meets(asking.numbers)) answer_ = &d;
+      may_be_answered_ = may_be_answered_ || ((answered.has_more || asking.numbers.has_more) && asking.sent < d.sent);
+      if (!answered.list.empty() && d.is_to_one()) last_ = &d;
+    }
+  }
+
+  std::string text_of_asking(const Asking& asking) const {
+    std::string text = fmt::format("{}, sent {} s", text_of(*asking.message), time_text(asking.sent.at_us));
+    for (const Delivery& d : sent_within(talk_.between(setting_.body, other_), asking.sent.at_us, until_)) {
+      if (d.message != asking.message) continue;
+      if (d.is_lost()) return text + ": " + word_of(d.fate);
+      return text + (d.arrives < until_ ? fmt::format(", received {} s", time_text(d.arrives.at_us))
+                                        : ": still under way then");
+    }
+    return text;
+  }
+
+  OwnRequest answered(const Asking& asking) const {
+    return {asking.sent.at_us,
+            fmt::format("{} had asked for this with {}. {} had answered that with {}, received {} s.",
+                        name(setting_.body), text_of_asking(asking), name(other_), text_of(*answer_->message),
+                        time_text(answer_->arrives.at_us)),
+            0};
+  }
+
+  OwnRequest unanswered(const Asking& asking, bool is_for_this) const {
+    std::string text = is_for_this ? fmt::format("{} had asked for this with ", name(setting_.body))
+                                   : fmt::format("What {} was then asking {}: ", name(setting_.body), name(other_));
+    text += text_of_asking(asking);
+    text += fmt::format(". By {} s, no answer to {} from {} had reached it", time_text(until_.at_us),
+                        asking.numbers.text(), name(other_));
+    MessageNumbers last;
+    if (last_ != nullptr) {
+      last = numbers_answered(last_->message->content);
+      text += fmt::format("; the last that had, {} #{}, answers {}", last_->message->kind, last_->message->number,
+                          last.text());
+    }
+    return {until_.at_us, text + ".", static_cast<std::uint8_t>(is_for_this && !is_of_others(asking, last) ? 3 : 0)};
+  }
+
+  // The number of another attempt, in a message to all, may be meant for a third one.
+  bool is_of_others(const Asking& asking, const MessageNumbers& last) const {
+    const auto agvs = std::ranges::count(film_.bodies, BodyKind::Agv, &Body::kind);
+    return !asking.message->receiver && agvs > 2 && (last.list.empty() || are_of_one_request(asking.numbers, last));
+  }
+
+  const Film& film_;
+  const FilmTalk& talk_;
+  const Setting& setting_;
+  Moment until_;  // the activity itself was called for; requests until then count
+  std::size_t other_;
+  std::vector<Asking> askings_;             // to the other or to all, in order of sending
+  std::vector<const ActivityBar*> drives_;  // of this AGV, in order of time
+  const Delivery* answer_ = nullptr;        // the last one to that
+  const Delivery* last_ = nullptr;          // the last one to anything
+  bool may_be_answered_ = false, knows_all_ = false;
+};
+
+}  // namespace
+
+std::optional<OwnRequest> own_request(const Film& film, const FilmTalk& talk, const Setting& setting,
+                                      std::size_t activity, std::size_t other) {
+  return OwnRequestFinder(film, talk, setting, activity, other).find(activity);
+}
+
+}  // namespace fleetproof::web
