@@ -112,7 +112,7 @@ class OwnRequestFinder {
                         "this drive begins, or one before it. The newest was {}, sent {} s.",
                         name(setting_.body), name(other_), time_text(setting_.knows_since_us), name(other_),
                         text_of(*newest.message), time_text(newest.sent.at_us)),
-            2};
+            0};
   }
 
   // The way that it had asked for was over. Nothing is said if it has asked for another one since.
@@ -121,10 +121,11 @@ class OwnRequestFinder {
     return OwnRequest{
         asking.sent.at_us,
         fmt::format("The last that {} had asked {} was {}, sent {} s. It reached the end of that way at {} "
-                    "s and went on: it had asked neither {} nor all for more.",
+                    "s and went on without asking {} or all for more. It need not ask again where the rules of its "
+                    "agent say so.",
                     name(setting_.body), name(other_), text_of(*asking.message), time_text(asking.sent.at_us),
                     time_text(ended.end_us), name(other_)),
-        2};
+        0};
   }
 
   void look_at_answers(const Asking& asking) {

@@ -13,8 +13,8 @@ namespace fleetproof::web {
 struct OwnRequest {
   std::int64_t at_us = 0;
   std::string text;
-  // As ReasonLine::weight. 3: it went where it had asked to go, and no answer to that had reached it. 2: it went where
-  // it had not asked to go.
+  // As ReasonLine::weight. 3: it went where it had asked to go, and no answer to that had reached it. That it went
+  // where it had not asked to go says little: an agent may know without asking that the others keep clear.
   std::uint8_t weight = 0;
 };
 // Nothing if the contents of messages do not tell: they name no numbers, or may name others than they say.

@@ -1,0 +1,139 @@
+#include "campaign/findings/findings_file.hpp"
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <utility>
+
+#include "campaign/findings/finding_record.hpp"
+#include "core/base/error.hpp"
+#include "generators/scenario_file/scenario_text.hpp"
+#include "tests/support/case_bench.hpp"
+
+namespace fleetproof {
+namespace {
+
+using testing::HasSubstr;
+using Bench = test::CaseBench;
+
+class FindingsFiles : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() / ("fleetproof-findings-" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::string written(const std::string& text) const {
+    const auto path = folder_ / "findings.toml";
+    std::ofstream(path) << text;
+    return path.string();
+  }
+  static KeptFinding odd() {
+    KeptFinding finding;
+    finding.id = "F-00000001";
+    finding.mechanism = "too close; says \"a\\b\"";
+    finding.end = "too close";
+    finding.ways = {{"lost messages", "the \"x\" messages"}, {}};
+    finding.found_in = "a\tb";
+    finding.smallest = "c.json";
+    finding.world = "w.json";
+    finding.other_worlds = {"v.json", "u.json"};
+    finding.doings = {"one turns"};
+    finding.says = {"oops", "a \"b\""};
+    finding.neighbours = {1000, 17, {{"no progress", 3}, {"a \"b\"", 4}}, {}, 750, 9, 12345, 678, {"a", "b \"c\""}};
+    return finding;
+  }
+  std::string error_of(const std::string& text) const {
+    try {
+      FindingsFile file(written(text));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(FindingsFiles, WhatIsWrittenIsRead) {
+  const FindingsFile file(written(toml_of(odd())));
+  const KeptFinding* read = file.find("F-00000001");
+  ASSERT_NE(read, nullptr);
+  EXPECT_EQ(toml_of(*read), toml_of(odd()));
+  EXPECT_EQ(read->ways, odd().ways);
+  EXPECT_EQ(std::pair(read->doings, read->says), std::pair(odd().doings, odd().says));
+  EXPECT_EQ(read->other_worlds, odd().other_worlds);
+  EXPECT_EQ(std::pair(read->neighbours.of_world, read->neighbours.alike_of_world), std::pair(750UL, 9UL));
+  EXPECT_EQ(std::pair(read->neighbours.driven_m, read->neighbours.driven_elsewhere_m), std::pair(12345UL, 678UL));
+  EXPECT_EQ(read->neighbours.always_said, odd().neighbours.always_said);
+  EXPECT_EQ(read->neighbours.otherwise, odd().neighbours.otherwise);
+  EXPECT_EQ(file.find("F-00000002"), nullptr);
+  EXPECT_TRUE(FindingsFile((folder_ / "none.toml").string()).findings().empty());
+}
+
+TEST_F(FindingsFiles, ErrorsNameTheLineAndTheRemedy) {
+  const std::string good = toml_of(odd());
+  EXPECT_EQ(error_of(good), "");
+  EXPECT_THAT(error_of(good + good), HasSubstr("twice"));
+  EXPECT_THAT(error_of("[[finding]]\nid = \"F-1\"\n"), HasSubstr("mechanism"));
+  EXPECT_THAT(error_of(good + "stats = 3\n"), HasSubstr("stats"));
+  auto waived = odd();
+  waived.status = FindingStatus::Waived;
+  EXPECT_THAT(error_of(toml_of(waived)), HasSubstr("until"));
+  EXPECT_THAT(error_of(toml_of(waived)), HasSubstr("findings.toml:5"));
+}
+
+TEST_F(FindingsFiles, AWaiverEnds) {
+  KeptFinding kept = odd();
+  EXPECT_EQ(standing_of(nullptr, "2026-11-23"), "new");
+  EXPECT_EQ(standing_of(&kept, "2026-11-23"), "known");
+  EXPECT_FALSE(needs_attention(&kept, "2026-11-23"));
+  kept.status = FindingStatus::Waived;
+  kept.until = "2026-11-23";
+  EXPECT_FALSE(needs_attention(&kept, "2026-11-23"));
+  EXPECT_TRUE(needs_attention(&kept, "2026-11-24"));
+  EXPECT_EQ(standing_of(&kept, "2026-11-24"), "known (waived until 2026-11-23)");
+  kept.status = FindingStatus::Fixed;
+  EXPECT_EQ(standing_of(&kept, "2026-11-23"), "back");
+  EXPECT_TRUE(needs_attention(&kept, "2026-11-23"));
+}
+
+// ---- record
+
+FindingRecord recorded(Bench& bench) {
+  const auto needs = needs_of(bench.host, bench.failing(100));
+  Finding finding;
+  finding.mechanism = {needs->end, needs->needs, {}, {}};
+  return record_of(bench.host, finding, *needs, 400);
+}
+
+TEST(FindingRecords, AreTheSameForAnyNumberOfWorkers) {
+  Bench one("timeout-grant", 1), seven("timeout-grant", 7);
+  const FindingRecord record = recorded(one), again = recorded(seven);
+  EXPECT_EQ(to_text(record.kept.smallest), to_text(again.kept.smallest));
+  EXPECT_EQ(to_text(record.kept.world), to_text(again.kept.world));
+  EXPECT_EQ(record.kept.ways, again.kept.ways);
+  EXPECT_EQ(record.neighbours.alike, again.neighbours.alike);
+  EXPECT_EQ(record.neighbours.otherwise, again.neighbours.otherwise);
+}
+
+// Whatever it is about to do then: shrinking, explaining, trying neighbours.
+TEST(FindingRecords, AreGivenUpWhenTheirHostIsToldTo) {
+  Bench bench("timeout-grant");
+  const auto needs = needs_of(bench.host, bench.failing(100));
+  Finding finding;
+  finding.mechanism = {needs->end, needs->needs, {}, {}};
+  for (const int most : {0, 100, 1000, 2000}) {
+    std::atomic<int> simulated = 0;
+    bench.host.simulate_while([&] { return ++simulated <= most; });
+    EXPECT_THROW(record_of(bench.host, finding, *needs, 400), GivenUp) << most;
+    EXPECT_LE(simulated, most + bench.host.workers());
+  }
+}
+
+}  // namespace
+}  // namespace fleetproof
