@@ -180,7 +180,7 @@ TEST(Retest, AFailureOfTwoAgvsAloneIsNotThatOfThree) {
   std::optional<FailureNeeds> needs;
   while (!needs || !names_all(needs->traits, {kThirdAgvTrait})) needs = needs_of(bench.host, bench.failing(++seed));
   Finding finding;
-  finding.mechanism = {needs->end, needs->needs, {}, {kThirdAgvTrait}};
+  finding.mechanism = {.end = needs->end, .needs = needs->needs, .doing = {}, .traits = {kThirdAgvTrait}};
   const FindingRecord record = record_of(bench.host, finding, *needs, 1000);
   EXPECT_THAT(record.kept.doings, testing::ElementsAre(kThirdAgvTrait));
   EXPECT_EQ(retest(bench.host, record.kept, record.neighbours, kSome).verdict, RetestVerdict::StillThere);

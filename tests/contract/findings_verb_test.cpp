@@ -89,7 +89,7 @@ TEST_F(FindingsVerb, TheReportSpeaksOfThem) {
 TEST_F(FindingsVerb, TheyAreTheSameForAnyNumberOfWorkersAndOtherSeeds) {
   const auto one = found("--jobs 1"), seven = found("--jobs 7");
   EXPECT_EQ(one, seven);
-  run("run a.toml --db b.db --seed 12");
+  run("run a.toml --db b.db --seed 12 --replicates 8");
   const auto other = nlohmann::json::parse(run("findings b.db --json").out);
   EXPECT_EQ(one["findings"][0]["id"], other["findings"][0]["id"]);
 }
