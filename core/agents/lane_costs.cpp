@@ -4,9 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
-#include <functional>
-#include <queue>
-#include <utility>
 #include <vector>
 
 #include "core/agents/aisles.hpp"
@@ -28,27 +25,6 @@ constexpr std::uint32_t kModelShift = 16;
 float rounded_down(double value) {
   const auto near = static_cast<float>(value);
   return near > value ? std::nextafter(near, 0.0F) : near;
-}
-
-// Dijkstra's search from the goal backwards.
-std::vector<double> costs_to(const MapView& map, std::uint32_t goal, std::span<const double> lane_costs_s) {
-  std::vector<double> remains_s(map.station_count(), INFINITY);
-  using Open = std::pair<double, std::uint32_t>;
-  std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
-  remains_s[goal] = 0.0;
-  open.push({0.0, goal});
-  while (!open.empty()) {
-    const auto [so_far_s, here] = open.top();
-    open.pop();
-    if (so_far_s > remains_s[here]) continue;
-    for (const std::uint32_t lane : map.lanes_to(here)) {
-      const std::uint32_t before = map.lane(lane).from;
-      if (so_far_s + lane_costs_s[lane] >= remains_s[before]) continue;
-      remains_s[before] = so_far_s + lane_costs_s[lane];
-      open.push({remains_s[before], before});
-    }
-  }
-  return remains_s;
 }
 
 }  // namespace
@@ -99,7 +75,7 @@ std::span<const float> remaining_costs_s(const HullParts& parts, std::uint32_t m
         const MapView map(*from);
         const std::uint32_t item = HullKey::item_of(question);
         const auto costs_s = lane_costs_s(HullParts(map, *from, HullKey(question)), item >> kModelShift);
-        const auto exact_s = costs_to(map, item & ((1U << kModelShift) - 1U), costs_s);
+        const auto exact_s = least_costs_s(map, costs_s, item & ((1U << kModelShift) - 1U), true);
         std::vector<float> table_s;
         for (const double value : exact_s) table_s.push_back(rounded_down(value));
         answer(*from, to, table_s);

@@ -52,7 +52,7 @@ struct HoldingOptions {
 struct ProgressOptions {
   bool asks_again = true;            // a REQUEST without an answer is sent again
   bool makes_way = true;             // an AGV leaves a place that others need
-  bool order_is_common = true;       // of two requests, both AGVs let the same one go first; false: each the other's
+  bool order_is_common = true;       // of two requests, both AGVs let the same one go first, not each the other's
   bool smaller_number_first = true;  // of two demands of the same age
   bool one_way_aisles = true;        // AGVs of a crowded fleet prefer one direction of a long aisle
   bool whole_stretches = true;       // an AGV locks the way to a waiting place at once, not lane by lane

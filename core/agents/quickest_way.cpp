@@ -17,32 +17,6 @@ constexpr auto is_later = [](const auto& a, const auto& b) {
   return a.bound_s != b.bound_s ? a.bound_s > b.bound_s : a.station > b.station;
 };
 
-// The times from a station to all stations, or from all stations to it.
-std::vector<double> times_of_all(const MapView& map, std::span<const double> lane_s, std::uint32_t station, bool back) {
-  struct Reached {
-    double bound_s;
-    std::uint32_t station;
-  };
-  std::vector<double> time_s(map.station_count(), INFINITY);
-  std::vector<Reached> open{{0.0, station}};
-  time_s[station] = 0.0;
-  while (!open.empty()) {
-    std::ranges::pop_heap(open, is_later);
-    const auto [so_far_s, here] = open.back();
-    open.pop_back();
-    if (so_far_s > time_s[here]) continue;
-    for (const std::uint32_t lane : back ? map.lanes_to(here) : map.lanes_from(here)) {
-      const std::uint32_t there = back ? map.lane(lane).from : map.lane(lane).to;
-      const double sum_s = so_far_s + lane_s[lane];
-      if (sum_s >= time_s[there]) continue;
-      time_s[there] = sum_s;
-      open.push_back({sum_s, there});
-      std::ranges::push_heap(open, is_later);
-    }
-  }
-  return time_s;
-}
-
 // Each landmark is the station that is farthest from all landmarks before it, of those that they reach.
 void derive_landmarks(const fp_facts* from, std::uint64_t agv, fp_answer* to) {
   const MapView map(*from);
@@ -51,7 +25,8 @@ void derive_landmarks(const fp_facts* from, std::uint64_t agv, fp_answer* to) {
   std::vector<double> apart_s(map.station_count(), INFINITY);
   std::uint32_t landmark = 0;
   for (std::uint32_t i = 0; i < kLandmarks; ++i) {
-    const auto there_s = times_of_all(map, lane_s, landmark, false), back_s = times_of_all(map, lane_s, landmark, true);
+    const auto there_s = least_costs_s(map, lane_s, landmark, false),
+               back_s = least_costs_s(map, lane_s, landmark, true);
     for (std::uint32_t station = 0; station < map.station_count(); ++station) {
       double* row = table.data() + std::size_t{2} * (std::size_t{kLandmarks} * station + i);
       row[0] = there_s[station], row[1] = back_s[station];

@@ -33,6 +33,32 @@ constexpr auto is_dearer = [](const auto& a, const auto& b) {
   return a.cost_s > b.cost_s || (a.cost_s == b.cost_s && a.place > b.place);
 };
 
+std::vector<double> least_costs_s(const MapView& map, std::span<const double> lane_costs_s, std::uint32_t station,
+                                  bool back) {
+  struct Open {
+    double cost_s;
+    std::uint32_t place;
+  };
+  std::vector<double> least_s(map.station_count(), INFINITY);
+  std::vector<Open> open{{0.0, station}};
+  least_s[station] = 0.0;
+  while (!open.empty()) {
+    std::ranges::pop_heap(open, is_dearer);
+    const auto [so_far_s, here] = open.back();
+    open.pop_back();
+    if (so_far_s > least_s[here]) continue;
+    for (const std::uint32_t lane : back ? map.lanes_to(here) : map.lanes_from(here)) {
+      const std::uint32_t there = back ? map.lane(lane).from : map.lane(lane).to;
+      const double sum_s = so_far_s + lane_costs_s[lane];
+      if (sum_s >= least_s[there]) continue;
+      least_s[there] = sum_s;
+      open.push_back({sum_s, there});
+      std::ranges::push_heap(open, is_dearer);
+    }
+  }
+  return least_s;
+}
+
 Routes::Routes(const MapView& map, const DriveRules& rules) : map_(map), rules_(rules) {
   if (map.facts() == nullptr) {
     own_ = hops_of(map);

@@ -22,6 +22,10 @@ double lane_speed_mps(const MapView& map, std::uint32_t lane, const fp_agv& agv)
 // The time for a lane, from rest to rest.
 double lane_time_s(const MapView& map, std::uint32_t lane, const fp_agv& agv);
 
+// By station: the least cost from `station` to there, or from there to it if `back`; infinite where there is no way.
+std::vector<double> least_costs_s(const MapView& map, std::span<const double> lane_costs_s, std::uint32_t station,
+                                  bool back);
+
 // The quickest ways from one station to all others (Dijkstra). A search reuses the memory of the search before it. In a
 // plant with rules, the ways keep them: what comes next then depends on the lane by which the AGV has come.
 class Routes {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <initializer_list>
-#include <optional>
 
 namespace fleetproof::web {
 namespace {
@@ -11,15 +10,6 @@ namespace {
 constexpr std::string_view kCut = "\u2026", kTo = " to ", kFor = " for ";
 
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
-
-// What follows a word of the content; nothing if the word is not there.
-std::optional<std::string_view> after_word(std::string_view content, std::string_view word) {
-  for (auto at = content.find(word); at != content.npos; at = content.find(word, at + 1)) {
-    const bool begins = at == 0 || content[at - 1] == ' ', ends = at + word.size() == content.size();
-    if (begins && (ends || content[at + word.size()] == ' ')) return content.substr(at + word.size());
-  }
-  return std::nullopt;
-}
 
 bool take(std::string_view& rest, std::string_view text) {
   if (!rest.starts_with(text)) return false;
@@ -68,6 +58,14 @@ std::string request_of(const std::string& number) {
 }
 
 }  // namespace
+
+std::optional<std::string_view> after_word(std::string_view content, std::string_view word) {
+  for (auto at = content.find(word); at != content.npos; at = content.find(word, at + 1)) {
+    const bool begins = at == 0 || content[at - 1] == ' ', ends = at + word.size() == content.size();
+    if (begins && (ends || content[at + word.size()] == ' ')) return content.substr(at + word.size());
+  }
+  return std::nullopt;
+}
 
 bool MessageNumbers::contains(const std::string& number) const { return std::ranges::find(list, number) != list.end(); }
 bool MessageNumbers::meets(const MessageNumbers& other) const {

@@ -1,10 +1,14 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace fleetproof::web {
+
+// What follows a word, or words, in the content of a message; nothing if they do not stand there as whole words.
+std::optional<std::string_view> after_word(std::string_view content, std::string_view word);
 
 // The numbers by which contents of messages refer to each other. Of "asks with 3.0, 3.1 for C12 to C14" they are 3.0
 // and 3.1; of "answers 1.0 of boot 1, holds C2" it is "1.0 of boot 1".
