@@ -8,6 +8,7 @@
 
 #include "campaign/cli/film_evidence.hpp"
 #include "campaign/cli/film_floor.hpp"
+#include "campaign/cli/film_shapes.hpp"
 #include "campaign/cli/run_text.hpp"
 #include "core/base/outside_text.hpp"
 #include "reports/wording.hpp"
@@ -27,7 +28,7 @@ double in_milliseconds(SimTime t) { return in_milliseconds(film_us(t)); }
 class Storyteller {
  public:
   Storyteller(web::Film& film, const Scenario& scenario, const PiecesOfBodies& bodies, const Outcome& outcome)
-      : film_(film), scenario_(scenario), outcome_(outcome), evidence_(film, scenario, bodies) {}
+      : film_(film), scenario_(scenario), bodies_(bodies), outcome_(outcome), evidence_(film, scenario, bodies) {}
 
   void tell() {
     film_.failed = outcome_.outcome_class() != OutcomeClass::Clean;
@@ -81,6 +82,8 @@ class Storyteller {
                       name(v.a), name(v.b), limit, in_milliseconds(v.first), in_milliseconds(v.last),
                       millimetres(v.min_clearance_um), in_milliseconds(v.closest_at), where, speed_mps));
     }
+    const SimTime over = at_ns(static_cast<std::int64_t>(outcome_.simulated_ns));
+    for (std::string& sentence : shape_sentences(scenario_, bodies_, v, over)) add(std::move(sentence));
     const web::Happening* end = crash();
     if (end != nullptr && end->at_us <= film_us(v.first)) add(crash_text(*end));
     for (const auto& [one, other] : {std::pair(v.a, v.b), std::pair(v.b, v.a)}) {
@@ -224,6 +227,7 @@ class Storyteller {
 
   web::Film& film_;
   const Scenario& scenario_;
+  const PiecesOfBodies& bodies_;
   const Outcome& outcome_;
   FilmEvidence evidence_;
 };

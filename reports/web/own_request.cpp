@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <vector>
 
 #include "reports/web/message_numbers.hpp"
@@ -52,7 +53,7 @@ class OwnRequestFinder {
     if (found.asking == nullptr && bar.kind == "drive" && is_certainly_unasked()) return unasked();
     look_at_answers(asking);
     if (may_be_answered_) return std::nullopt;
-    if (answer_ != nullptr) return found.asking == nullptr ? std::nullopt : std::optional(answered(asking));
+    if (!answers_.empty()) return found.asking == nullptr ? std::nullopt : std::optional(answered(asking));
     return unanswered(asking, found.asking != nullptr);
   }
 
@@ -66,8 +67,11 @@ class OwnRequestFinder {
   // The newest request that begins where the drive begins, or where an earlier drive of that request began. Of a turn:
   // of the drive after it, or if there is none, before it.
   Found asked_for(const ActivityBar& bar) const {
-    if (drives_.empty()) return {};
     auto drive = std::ranges::find_if(drives_, [&](const ActivityBar* d) { return d->begin_us >= bar.begin_us; });
+    if (drive == drives_.end()) {
+      if (const Asking* asking = asked_for_turn(bar)) return {asking, nullptr};
+    }
+    if (drives_.empty()) return {};
     if (drive == drives_.end()) --drive;
     const auto last = drive;
     for (;; --drive) {
@@ -91,13 +95,36 @@ class OwnRequestFinder {
       return found->sent.at_us < before->begin_us && before->begin_us < drive.begin_us &&
              asks_from_beginning_of(found->message->content, before->details);
     });
-    if (is_over) return nullptr;
-    // The first message that said so: later ones repeat it.
-    const auto same = std::ranges::find_if(askings_, [&](const Asking& asking) {
-      return asking.numbers.list == found->numbers.list &&
-             asks_from_beginning_of(asking.message->content, drive.details);
+    return is_over ? nullptr : &first_like(*found, drive.details);
+  }
+  // The first message that said so: later ones repeat it.
+  const Asking& first_like(const Asking& found, const std::string& drive) const {
+    return *std::ranges::find_if(askings_, [&](const Asking& asking) {
+      return asking.numbers.list == found.numbers.list && asks_from_beginning_of(asking.message->content, drive);
     });
-    return &*same;
+  }
+  // Of a turn with which a way begins, and of which no drive has begun: the newest request from that station.
+  const Asking* asked_for_turn(const ActivityBar& bar) const {
+    const FilmStation* station = station_of_turn(bar);
+    if (station == nullptr) return nullptr;
+    const std::string from_here = station->name + " to " + station->name;
+    const Asking* found = nullptr;
+    for (const Asking& asking : askings_) {
+      const bool is_after_drives = drives_.empty() || asking.sent.at_us > drives_.back()->begin_us;
+      if (is_after_drives && asks_from_beginning_of(asking.message->content, from_here)) found = &asking;
+    }
+    return found == nullptr ? nullptr : &first_like(*found, from_here);
+  }
+  const FilmStation* station_of_turn(const ActivityBar& bar) const {
+    const auto piece = std::ranges::find_if(film_.pieces, [&](const MotionPiece& p) {
+      return p.body == bar.body && p.moving == Moving::Turns && p.begin_us == bar.begin_us;
+    });
+    if (piece == film_.pieces.end()) return nullptr;
+    constexpr std::int64_t kThere_um = 1000;
+    const auto station = std::ranges::find_if(film_.stations, [&](const FilmStation& s) {
+      return std::abs(s.x_um - piece->x_um) <= kThere_um && std::abs(s.y_um - piece->y_um) <= kThere_um;
+    });
+    return station == film_.stations.end() ? nullptr : &*station;
   }
 
   // All of its requests since it began are here, and all name their places.
@@ -133,10 +160,22 @@ class OwnRequestFinder {
       const bool was_known = !d.is_lost() && d.arrives < until_ && d.arrives.at_us >= setting_.knows_since_us;
       if (!was_known) continue;
       const MessageNumbers answered = numbers_answered(d.message->content);
-      if (answered.meets(asking.numbers)) answer_ = &d;
+      if (answered.meets(asking.numbers)) answers_.push_back(&d);
       may_be_answered_ = may_be_answered_ || ((answered.has_more || asking.numbers.has_more) && asking.sent < d.sent);
       if (!answered.list.empty() && d.is_to_one()) last_ = &d;
     }
+    std::ranges::stable_sort(answers_, {}, [](const Delivery* d) { return d->arrives; });
+  }
+  // Of answers of one kind that follow each other, the last.
+  std::string answers_text() const {
+    std::string text;
+    for (std::size_t i = 0; i < answers_.size(); ++i) {
+      const Delivery& d = *answers_[i];
+      if (i + 1 < answers_.size() && answers_[i + 1]->message->kind == d.message->kind) continue;
+      text += fmt::format("{}with {}, received {} s", text.empty() ? "" : ", then ", text_of(*d.message),
+                          time_text(d.arrives.at_us));
+    }
+    return text;
   }
 
   std::string text_of_asking(const Asking& asking) const {
@@ -152,9 +191,8 @@ class OwnRequestFinder {
 
   OwnRequest answered(const Asking& asking) const {
     return {asking.sent.at_us,
-            fmt::format("{} had asked for this with {}. {} had answered that with {}, received {} s.",
-                        name(setting_.body), text_of_asking(asking), name(other_), text_of(*answer_->message),
-                        time_text(answer_->arrives.at_us)),
+            fmt::format("{} had asked for this with {}. {} had answered that {}.", name(setting_.body),
+                        text_of_asking(asking), name(other_), answers_text()),
             0};
   }
 
@@ -186,7 +224,7 @@ class OwnRequestFinder {
   std::size_t other_;
   std::vector<Asking> askings_;             // to the other or to all, in order of sending
   std::vector<const ActivityBar*> drives_;  // of this AGV, in order of time
-  const Delivery* answer_ = nullptr;        // the last one to that
+  std::vector<const Delivery*> answers_;    // to that, in order of arrival
   const Delivery* last_ = nullptr;          // the last one to anything
   bool may_be_answered_ = false, knows_all_ = false;
 };

@@ -77,6 +77,33 @@ TEST(OwnRequest, AnAnswerInTimeIsSaidWithoutRed) {
             "scenario. B had answered that with GRANT #4 (answers 3.0, holds u), received 18.001 s.");
 }
 
+// An answer that was taken back is not hidden by the last one, nor does it hide it.
+TEST(OwnRequest, SaysHowAnswersChanged) {
+  Film film = film_of("answers 3.0, holds u");
+  film.messages.push_back(message(5, 1, "GRANT", "answers 3.0, holds u", 18'020'000));
+  film.messages.push_back(message(6, 1, "DEFER", "answers 3.0, holds t to u", 18'050'000));
+  EXPECT_THAT(reason_for(film).lines.front().text,
+              HasSubstr("B had answered that with GRANT #5 (answers 3.0, holds u), received 18.021 s, then with DEFER "
+                        "#6 (answers 3.0, holds t to u), received 18.051 s."));
+}
+
+// It meets B in the turn with which a way begins: no drive names that way.
+TEST(OwnRequest, ATurnBelongsToTheRequestFromItsStation) {
+  Film film = film_of("answers 3.0, holds u");
+  film.stations = {{"s", 0, 0}, {"t", 9'000'000, 0}};
+  film.activities[1].kind = "turn";
+  film.activities[1].details = "to 90\u00b0";
+  MotionPiece turn;
+  turn.moving = Moving::Turns;
+  turn.begin_us = 20'000'000, turn.end_us = 24'000'000;
+  turn.x_um = 9'000'000;
+  film.pieces.push_back(turn);
+  EXPECT_THAT(reason_for(film).lines.front().text,
+              HasSubstr("A had asked for this with REQUEST #3 (asks with 3.0 for t to u)"));
+  film.pieces.back().x_um = 5'000'000;  // at no station: what belongs to it is not known
+  EXPECT_THAT(reason_for(film).lines.front().text, Not(HasSubstr("had asked for this with REQUEST #3")));
+}
+
 // What is not known is not said.
 TEST(OwnRequest, SaysNothingIfAnAnswerMayBeAmongOthers) {
   const Film film = film_of("answers 2.0, 5.0, ...");
