@@ -210,6 +210,9 @@ std::vector<std::string> shape_sentences(const Scenario& scenario, const PiecesO
   for (std::string& sentence : ShapeStory(scenario, bodies, v, v.b, v.a, end).sentences())
     told.push_back(std::move(sentence));
   tell_places(scenario, bodies, v, told);
+  if (2.0 * static_cast<double>(v.min_clearance_um) > scenario.law.safety_distance_m * 1e6)
+    told.push_back(fmt::format("They keep more than half of the safety distance: {:.3f} m of {:.2f} m.",
+                               static_cast<double>(v.min_clearance_um / 1000) / 1e3, scenario.law.safety_distance_m));
   return told;
 }
 

@@ -13,6 +13,7 @@ namespace fleetproof::web {
 namespace {
 
 constexpr std::int64_t kRemembered_us = 120'000'000;
+constexpr std::size_t kMostAnswers = 3;  // of those that differ, the last
 
 struct Asking {
   const Message* message = nullptr;
@@ -166,15 +167,19 @@ class OwnRequestFinder {
     }
     std::ranges::stable_sort(answers_, {}, [](const Delivery* d) { return d->arrives; });
   }
-  // Of answers of one kind that follow each other, the last.
+  // Of answers of one kind that follow each other, the last. What is sent to all repeats what was said to one.
   std::string answers_text() const {
-    std::string text;
-    for (std::size_t i = 0; i < answers_.size(); ++i) {
-      const Delivery& d = *answers_[i];
-      if (i + 1 < answers_.size() && answers_[i + 1]->message->kind == d.message->kind) continue;
-      text += fmt::format("{}with {}, received {} s", text.empty() ? "" : ", then ", text_of(*d.message),
-                          time_text(d.arrives.at_us));
+    std::vector<const Delivery*> told;
+    const bool any_to_one = std::ranges::any_of(answers_, &Delivery::is_to_one);
+    for (const Delivery* d : answers_) {
+      if (any_to_one && !d->is_to_one()) continue;
+      if (!told.empty() && told.back()->message->kind == d->message->kind) told.pop_back();
+      told.push_back(d);
     }
+    std::string text;
+    for (std::size_t i = told.size() - std::min(told.size(), kMostAnswers); i < told.size(); ++i)
+      text += fmt::format("{}with {}, received {} s", text.empty() ? "" : ", then ", text_of(*told[i]->message),
+                          time_text(told[i]->arrives.at_us));
     return text;
   }
 

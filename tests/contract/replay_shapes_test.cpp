@@ -45,7 +45,8 @@ class ReplayShapes : public test::ProgramTest {
     std::vector<std::string> said;
     for (const auto& found : document.select_nodes("//div[starts-with(@class, 'story')]/p")) {
       const std::string sentence = found.node().text().get();
-      if (sentence.starts_with("This needs") || sentence.find("share no station") != sentence.npos)
+      if (sentence.starts_with("This needs") || sentence.starts_with("They keep") ||
+          sentence.find("share no station") != sentence.npos)
         said.push_back(sentence);
     }
     return said;
@@ -96,11 +97,12 @@ TEST_F(ReplayShapes, ALoadThatIsNeeded) {
 // A passes beside B, 0.055 m apart; 0.3 m more if it were as narrow.
 TEST_F(ReplayShapes, ASizeThatIsNeeded) {
   EXPECT_THAT(
-      said_of({.other = "[5, 1.355]", .vehicle = R"(, "width_m": 1.6)"}),
+      said_of({.other = "[5, 1.3552]", .vehicle = R"(, "width_m": 1.6)"}),
       ElementsAre("This needs the size of A: with the size of B, it would keep 0.35 m from it. A is 1.60 m by "
                   "1.60 m, B is 1.60 m by 1.00 m.",
                   "A was on the lane between a and b, B at p: these share no station and no segment. Only their "
-                  "shapes on the floor come too close."));
+                  "shapes on the floor come too close.",
+                  "They keep more than half of the safety distance: 0.055 m of 0.10 m."));
 }
 
 // Nothing in the shapes decides: A drives over B, who stands where A goes, whatever their sizes.

@@ -82,6 +82,8 @@ TEST(OwnRequest, SaysHowAnswersChanged) {
   Film film = film_of("answers 3.0, holds u");
   film.messages.push_back(message(5, 1, "GRANT", "answers 3.0, holds u", 18'020'000));
   film.messages.push_back(message(6, 1, "DEFER", "answers 3.0, holds t to u", 18'050'000));
+  film.messages.push_back(message(7, 1, "STATE", "answers 3.0, holds t to u", 18'060'000));
+  film.messages.back().receiver.reset();  // to all
   EXPECT_THAT(reason_for(film).lines.front().text,
               HasSubstr("B had answered that with GRANT #5 (answers 3.0, holds u), received 18.021 s, then with DEFER "
                         "#6 (answers 3.0, holds t to u), received 18.051 s."));
