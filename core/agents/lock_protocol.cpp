@@ -254,6 +254,7 @@ bool LockProtocol::all_consent() {
     n.request_repeats = {};
     to_ask_.push_back(agv);
   });
+  if (first && missing_ == 0) controller_.sometimes("unasked");
   if (first && !to_ask_.empty()) controller_.sometimes("negotiation");
   asked_ = true;
   ask();

@@ -278,10 +278,12 @@ class ReasonTeller {
     const std::string who = name(answers.sender);
     if (answers.in_time) {
       const Moment sent = answers.in_time->sent;
+      const bool stood = stood_there_since(film_, answers.sender, sent.at_us).has_value();
+      const std::string from_there = fmt::format(" from the place where {} then met it", name(drive_.body));
       item(sent.at_us,
-           fmt::format("When {} sent {}: {}.", who, text_of(*answers.in_time->message),
+           fmt::format("{} sent {}{}: {}.", who, text_of(*answers.in_time->message), stood ? from_there : "",
                        text_of_body_then(film_, answers.sender, sent)),
-           stood_there_since(film_, answers.sender, sent.at_us).has_value());
+           stood);
       if (lines_.back().marked) lines_.back().weight = 2;
       if (answers.otherwise) tell_change(*answers.otherwise, *answers.in_time);
     }

@@ -13,7 +13,7 @@ namespace fleetproof::web {
 namespace {
 
 constexpr std::int64_t kBefore_us = 30'000'000, kAfter_us = 5'000'000;
-constexpr std::size_t kMostEvents = 250, kMostMessages = 600;
+constexpr std::size_t kMostEvents = 250, kMostNotes = 100, kMostMessages = 600;
 const std::string kRefused = "refused";  // as the trace calls it
 constexpr std::uint64_t kAfterAll = std::numeric_limits<std::uint64_t>::max();
 
@@ -46,6 +46,17 @@ class EventLines {
     }
     for (const TooClose& v : film_.violations)
       add({v.first_us, kAfterAll}, Kind::Failure, v.a, "too close", "to " + film_.bodies[v.b].name);
+    return std::move(lines_);
+  }
+
+  // What the agents noted for their authors. Notes that are alike fold, and part no messages.
+  std::vector<CourseLine> notes() {
+    lines_.clear();
+    for (const Happening& h : film_.happenings) {
+      if (!h.is_note || !subject_.contains(h.body)) continue;
+      add({h.at_us, h.order}, Kind::Said, h.body, "its agent notes", h.details);
+      lines_.back().alike = fmt::format("{}\nnote\n{}", h.body, h.details);
+    }
     return std::move(lines_);
   }
 
@@ -132,9 +143,12 @@ Course course_of(const Film& film) {
   course.to_us = std::min(film.end_us, film.focus_us + kAfter_us);
   std::vector<CourseLine> events = fold_refused(EventLines(film).all());
   course.left_out = keep_nearest(events, course, film.focus_us, kMostEvents);
+  std::vector<CourseLine> notes = EventLines(film).notes();
+  course.left_out += keep_nearest(notes, course, film.focus_us, kMostNotes);
   std::vector<CourseLine> messages = message_lines(film, course.from_us, course.to_us);
   course.left_out += keep_nearest(messages, course, film.focus_us, kMostMessages);
-  events.insert(events.end(), std::make_move_iterator(messages.begin()), std::make_move_iterator(messages.end()));
+  for (std::vector<CourseLine>* more : {&notes, &messages})
+    events.insert(events.end(), std::make_move_iterator(more->begin()), std::make_move_iterator(more->end()));
   std::ranges::stable_sort(events, {}, &CourseLine::at);
   course.lines = fold(std::move(events));
   return course;

@@ -105,18 +105,19 @@ TEST_F(ReplayReasons, SaysNothingOfTheKindIfAllArrived) {
   EXPECT_TRUE(texts(document, "//dt[text() = 'given fates']").empty());
   EXPECT_THAT(
       texts(document, of_m("/p")),
-      ElementsAre("From 0.000 s until then, M had sent REQUEST 3 times (1.000 s to 3.000 s).",
-                  "Its agent said \"asking\" (1.000 s), \"driving\" (5.000 s).",
-                  "Since 0.000 s, M had sent REQUEST to all. Answers in time: DEFER from P; GRANT from T. No answer "
-                  "sent to it alone: Q.",
-                  "P to M:",
-                  "DEFER #6, sent 4.900 s, received 4.901 s; 0.100 s old then; the newest REQUEST of M that P had "
-                  "received by then was #5 (sent 3.000 s); 1 more before it.",
-                  "When P sent DEFER #6: idle; it stood where M then met it, since 0.000 s.",
-                  "P itself at 5.000 s: idle; it stood where M then met it, since 0.000 s.",
-                  "T: GRANT #2, sent 1.500 s, received 1.501 s; 3.500 s old then; the newest REQUEST of M that T had "
-                  "received by then was #1 (sent 1.000 s); 2 were sent later.",
-                  "After that it received GRANT from T (6.001 s)."));
+      ElementsAre(
+          "From 0.000 s until then, M had sent REQUEST 3 times (1.000 s to 3.000 s).",
+          "Its agent said \"asking\" (1.000 s), \"driving\" (5.000 s).",
+          "Since 0.000 s, M had sent REQUEST to all. Answers in time: DEFER from P; GRANT from T. No answer "
+          "sent to it alone: Q.",
+          "P to M:",
+          "DEFER #6, sent 4.900 s, received 4.901 s; 0.100 s old then; the newest REQUEST of M that P had "
+          "received by then was #5 (sent 3.000 s); 1 more before it.",
+          "P sent DEFER #6 from the place where M then met it: idle; it stood where M then met it, since 0.000 s.",
+          "P itself at 5.000 s: idle; it stood where M then met it, since 0.000 s.",
+          "T: GRANT #2, sent 1.500 s, received 1.501 s; 3.500 s old then; the newest REQUEST of M that T had "
+          "received by then was #1 (sent 1.000 s); 2 were sent later.",
+          "After that it received GRANT from T (6.001 s)."));
 }
 
 TEST_F(ReplayReasons, TheCourseHasThirdAgvsInCausalOrder) {

@@ -68,7 +68,8 @@ class BodyThen : public testing::Test {
 
 TEST_F(BodyThen, SaysYesWhereItIsMet) {
   const std::string text =
-      "When B sent YES #3: drive p to q, since 1.000 s; its agent said \"driving\"; breakdown since 2.000 s, not over; "
+      "B sent YES #3 from the place where A then met it: drive p to q, since 1.000 s; its agent said \"driving\"; "
+      "breakdown since 2.000 s, not over; "
       "it stood where A then met it, since 2.500 s.";
   const auto said = lines();
   const auto found = std::ranges::find(said, text, &ReasonLine::text);
@@ -82,7 +83,7 @@ TEST_F(BodyThen, MovesOnAfterItsAnswer) {
   film_.pieces.push_back(moving(1, 6'000'000, 7'000'000));
   film_.happenings.push_back(happening(1, 3'500'000, "fault over", "breakdown"));
   EXPECT_THAT(texts(), Not(Contains(HasSubstr("it stood where"))));
-  EXPECT_THAT(texts(), Contains("When B sent YES #3: drive p to q, since 1.000 s; its agent said \"driving\"."));
+  EXPECT_THAT(texts(), Contains("B sent YES #3: drive p to q, since 1.000 s; its agent said \"driving\"."));
   EXPECT_THAT(texts(), Contains(HasSubstr("it did not move; its agent said \"broken\" (4.000 s); fault over: breakdown "
                                           "(3.500 s)")));
   EXPECT_EQ(stood_there_since(film_, 1, 7'500'000), 7'000'000);
