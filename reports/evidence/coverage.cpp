@@ -8,6 +8,8 @@
 namespace fleetproof {
 namespace {
 
+constexpr std::size_t kPlaces = 64, kLookAhead = 8;
+
 void note(Seen& seen, std::uint64_t times) {
   ++seen.runs;
   seen.times += times;
@@ -15,17 +17,33 @@ void note(Seen& seen, std::uint64_t times) {
 
 }  // namespace
 
+const Coverage::Place* Coverage::place_of(const ProbeCount& probe, std::size_t& next) {
+  std::vector<Place>& list = places_.list;
+  for (std::size_t i = next; i < std::min(list.size(), next + kLookAhead); ++i) {
+    if (list[i].source == probe.source && *list[i].name == probe.name) return next = i + 1, &list[i];
+  }
+  const bool world = probe.source == ProbeSource::World;
+  if (!world && is_world_probe(probe.name)) return nullptr;
+  if (list.size() == kPlaces) list.clear(), next = 0;
+  const auto at = (world ? by_the_world_ : by_agents_).try_emplace(probe.name).first;
+  const Place place{probe.source, &at->first, &at->second, world && is_encounter_probe(probe.name)};
+  return &*list.insert(list.begin() + static_cast<std::ptrdiff_t>(next++), place);
+}
+
 void Coverage::add(const Outcome& outcome) {
   ++runs_;
   std::uint64_t encounters = 0;
+  std::size_t next = 0;
   for (const ProbeCount& probe : outcome.probes) {
-    const bool world = probe.source == ProbeSource::World;
-    if (!world && is_world_probe(probe.name)) continue;
-    note((world ? by_the_world_ : by_agents_)[probe.name], probe.count);
-    if (world && is_encounter_probe(probe.name)) encounters += probe.count;
+    const Place* const place = place_of(probe, next);
+    if (place == nullptr) continue;
+    note(*place->seen, probe.count);
+    if (place->is_encounter) encounters += probe.count;
   }
-  if (encounters > 0) note(by_the_world_[std::string(kEncounterProbe)], encounters);
-  if (outcome.counters.safe_mode_ns > 0) note(by_the_world_[std::string(kSafeModeProbe)], 1);
+  static const ProbeCount kEncounter{ProbeSource::World, std::string(kEncounterProbe), 1},
+      kSafeMode{ProbeSource::World, std::string(kSafeModeProbe), 1};
+  if (encounters > 0) note(*place_of(kEncounter, next)->seen, encounters);
+  if (outcome.counters.safe_mode_ns > 0) note(*place_of(kSafeMode, next)->seen, 1);
 }
 
 void Coverage::add(const Coverage& other) {

@@ -39,8 +39,31 @@ class Coverage {
   const std::map<std::string, Seen, std::less<>>& by_agents() const { return by_agents_; }
 
  private:
+  // Where a probe of the world or of agents is counted. Runs meet much the same probes in much the same order, so the
+  // place after the last one is most often the next one.
+  struct Place {
+    ProbeSource source = ProbeSource::World;
+    const std::string* name = nullptr;
+    Seen* seen = nullptr;
+    bool is_encounter = false;
+  };
+  // They lie in the maps of one object. A copy begins without them.
+  struct Places {
+    Places() = default;
+    Places(const Places&) {}  // NOLINT: nothing is copied
+    Places(Places&& other) noexcept { other.list.clear(); }
+    Places& operator=(const Places&) { return list.clear(), *this; }
+    Places& operator=(Places&& other) noexcept { return list.clear(), other.list.clear(), *this; }
+    ~Places() = default;
+
+    std::vector<Place> list;
+  };
+  // None: an agent declares a name of the world.
+  const Place* place_of(const ProbeCount& probe, std::size_t& next);
+
   std::uint64_t runs_ = 0;
   std::map<std::string, Seen, std::less<>> by_the_world_, by_agents_;
+  Places places_;
 };
 
 // A required probe that no run met, or too few runs.

@@ -40,6 +40,48 @@ std::string render(const char* format, const ReportInput& input) {
 
 void meet_nobody(RunRecord& run) { run.outcome.probes.clear(); }
 
+// A copy, a moved one, and one that has forgotten its runs count for themselves, whatever they met before.
+TEST(Coverage, ACopyCountsForItself) {
+  const Outcome both = with({{ProbeSource::World, "crossing", 1}, {ProbeSource::Agent, "negotiation", 1}});
+  const Outcome other = with({{ProbeSource::World, "following", 1}, {ProbeSource::World, "crossing", 1}});
+  Coverage first, total;
+  first.add(both), first.add(other), first.add(both);
+  Coverage copy = first;
+  copy.add(both), copy.add(other);
+  EXPECT_EQ(first.seen("crossing").runs, 3u);
+  EXPECT_EQ(copy.seen("crossing").runs, 5u);
+  Coverage moved = std::move(copy);
+  moved.add(both);
+  copy = first;
+  copy.add(other);
+  EXPECT_EQ(moved.seen("negotiation").runs, 4u);
+  EXPECT_EQ(copy.seen("following").runs, 2u);
+  first.empty_into(total);
+  first.add(other);
+  EXPECT_EQ(first.seen("crossing").runs, 1u);
+  EXPECT_EQ(total.seen("crossing").runs, 3u);
+}
+
+// More names than a run has, in another order each time.
+TEST(Coverage, CountsWhateverTheOrder) {
+  Coverage coverage;
+  for (int run = 0; run < 50; ++run) {
+    std::vector<ProbeCount> met;
+    for (int i = 0; i < 30; ++i) met.push_back({ProbeSource::Agent, "p" + std::to_string((run * 7 + i * 11) % 100), 1});
+    met.push_back({ProbeSource::Agent, "crossing", 1});  // a name of the world
+    met.push_back({ProbeSource::World, "crossing", 2});
+    Outcome outcome;
+    outcome.probes = std::move(met);
+    coverage.add(outcome);
+  }
+  std::uint64_t times = 0;
+  for (const auto& [name, seen] : coverage.by_agents()) times += seen.times;
+  EXPECT_EQ(times, 50u * 30u);
+  EXPECT_EQ(coverage.by_agents().count("crossing"), 0u);
+  EXPECT_EQ(coverage.seen("crossing").times, 100u);
+  EXPECT_EQ(coverage.seen("p0").runs, 15u);
+}
+
 TEST(Coverage, CountsRunsAndTimes) {
   Coverage coverage;
   coverage.add(with({{ProbeSource::World, "crossing", 2},
