@@ -54,7 +54,7 @@ class EventLines {
     lines_.clear();
     for (const Happening& h : film_.happenings) {
       if (!h.is_note || !subject_.contains(h.body)) continue;
-      add({h.at_us, h.order}, Kind::Said, h.body, "its agent notes", h.details);
+      add({h.at_us, h.order}, Kind::Said, h.body, "its agent notes " + h.details);
       lines_.back().alike = fmt::format("{}\nnote\n{}", h.body, h.details);
     }
     return std::move(lines_);

@@ -53,7 +53,7 @@ class OwnRequestFinder {
     if (found.ended != nullptr) return went_on(asking, *found.ended);
     if (found.asking == nullptr && bar.kind == "drive" && is_certainly_unasked()) return unasked();
     look_at_answers(asking);
-    if (may_be_answered_) return std::nullopt;
+    if (may_be_answered_ && answers_.empty()) return std::nullopt;
     if (!answers_.empty()) return found.asking == nullptr ? std::nullopt : std::optional(answered(asking));
     return unanswered(asking, found.asking != nullptr);
   }
@@ -161,12 +161,21 @@ class OwnRequestFinder {
       const bool was_known = !d.is_lost() && d.arrives < until_ && d.arrives.at_us >= setting_.knows_since_us;
       if (!was_known) continue;
       const MessageNumbers answered = numbers_answered(d.message->content);
-      if (answered.meets(asking.numbers)) answers_.push_back(&d);
-      may_be_answered_ = may_be_answered_ || ((answered.has_more || asking.numbers.has_more) && asking.sent < d.sent);
+      const bool comes_after = asking.sent < d.sent, meets = answered.meets(asking.numbers);
+      if (meets && is_for_this_one(d)) {
+        answers_.push_back(&d);
+        continue;
+      }
+      const bool may_meet = answered.has_more || asking.numbers.has_more || meets;
+      may_be_answered_ = may_be_answered_ || (may_meet && comes_after);
       if (!answered.list.empty() && d.is_to_one()) last_ = &d;
     }
     std::ranges::stable_sort(answers_, {}, [](const Delivery* d) { return d->arrives; });
   }
+  // What answers all does not say whose requests they are: each AGV counts its own.
+  bool is_for_this_one(const Delivery& d) const { return d.is_to_one() || agv_count() == 2; }
+  std::ptrdiff_t agv_count() const { return std::ranges::count(film_.bodies, BodyKind::Agv, &Body::kind); }
+
   // Of answers of one kind that follow each other, the last. What is sent to all repeats what was said to one.
   std::string answers_text() const {
     std::vector<const Delivery*> told;
@@ -218,8 +227,8 @@ class OwnRequestFinder {
 
   // The number of another attempt, in a message to all, may be meant for a third one.
   bool is_of_others(const Asking& asking, const MessageNumbers& last) const {
-    const auto agvs = std::ranges::count(film_.bodies, BodyKind::Agv, &Body::kind);
-    return !asking.message->receiver && agvs > 2 && (last.list.empty() || are_of_one_request(asking.numbers, last));
+    return !asking.message->receiver && agv_count() > 2 &&
+           (last.list.empty() || are_of_one_request(asking.numbers, last));
   }
 
   const Film& film_;

@@ -36,8 +36,8 @@ TEST(FilmCourse, NotesStandInTheirPlaceAndThoseThatAreAlikeFold) {
                          note(0, 13'000'000, "again"), note(0, 15'000'000, "again")});
   film.activities = {{1, 14'000'000, 21'000'000, "drive", "s to t"}};
   const Course course = course_of(film);
-  EXPECT_THAT(texts(course), ElementsAre("A|its agent notes|again", "B|its agent notes|unasked",
-                                         "B|begins drive|s to t", "A|its agent notes|again"));
+  EXPECT_THAT(texts(course), ElementsAre("A|its agent notes again|", "B|its agent notes unasked|",
+                                         "B|begins drive|s to t", "A|its agent notes again|"));
   EXPECT_THAT(course.lines.front().folded, SizeIs(2));
 }
 
@@ -48,7 +48,7 @@ TEST(FilmCourse, NotesHaveTheirOwnRoom) {
   flood.push_back({1, 9'000'000, "order", "1: s to t"});
   const Course course = course_of(film_with(flood));
   EXPECT_EQ(course.left_out, 400U);
-  EXPECT_THAT(texts(course), ElementsAre("B|order|1: s to t", "A|its agent notes|tick", "A|its agent notes|tock"));
+  EXPECT_THAT(texts(course), ElementsAre("B|order|1: s to t", "A|its agent notes tick|", "A|its agent notes tock|"));
 }
 
 }  // namespace

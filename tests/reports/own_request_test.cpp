@@ -89,6 +89,21 @@ TEST(OwnRequest, SaysHowAnswersChanged) {
                         "#6 (answers 3.0, holds t to u), received 18.051 s."));
 }
 
+// A STATE to all answers a 3.0; with a third AGV, that may be the request of the third one.
+TEST(OwnRequest, WhatAnswersAllMayAnswerAnother) {
+  Film film = film_of("answers 2.0, holds u");
+  film.messages.push_back(message(5, 1, "STATE", "answers 3.0, holds u", 18'020'000));
+  film.messages.back().receiver.reset();
+  EXPECT_THAT(reason_for(film).lines.front().text, HasSubstr("B had answered that with STATE #5"));
+  film.bodies.push_back({"C", BodyKind::Agv});
+  for (const ReasonLine& line : reason_for(film).lines) {
+    EXPECT_THAT(line.text, Not(HasSubstr("had answered that")));
+    EXPECT_THAT(line.text, Not(HasSubstr("no answer to 3.0"))) << "it may be one";
+  }
+  film.messages.back().sent_us = 16'000'000;  // before A asked
+  EXPECT_THAT(reason_for(film).lines.front().text, HasSubstr("no answer to 3.0 from B had reached it"));
+}
+
 // It meets B in the turn with which a way begins: no drive names that way.
 TEST(OwnRequest, ATurnBelongsToTheRequestFromItsStation) {
   Film film = film_of("answers 3.0, holds u");
