@@ -42,7 +42,7 @@ class ShrinkVerb : public test::ProgramTest {
 };
 
 TEST_F(ShrinkVerb, TheCaseIsAFileThatSimulatePlays) {
-  const auto shrunk = run("shrink a.db " + failing_ + " -o small.json --max-time 30");
+  const auto shrunk = run("shrink a.db " + failing_ + " -o small.json --max-trials 40000 --max-time 600");
   ASSERT_EQ(shrunk.exit_code, 0) << shrunk.err;
   EXPECT_THAT(shrunk.out, HasSubstr("  after:  "));
   EXPECT_THAT(shrunk.out, HasSubstr("fleetproof simulate small.json"));
