@@ -15,6 +15,7 @@
 #include "campaign/findings/findings_file.hpp"
 #include "campaign/findings/survey.hpp"
 #include "campaign/plan/plan_text.hpp"
+#include "campaign/plan/scenario_source.hpp"
 #include "core/base/error.hpp"
 #include "generators/scenario_file/scenario_text.hpp"
 #include "generators/text/text_file.hpp"
@@ -111,8 +112,7 @@ class FindingsDesk {
   // Writes its scenarios and its explanation beside the findings file.
   KeptFinding keep(CaseHost& host, const Finding& finding) const {
     const std::string id = finding.id();
-    FindingRecord record =
-        record_of(host, finding, representative(finding).needs, trials(), others_of(finding, survey_.failures));
+    const FindingRecord record = record_of(host, finding, representative(finding).needs, trials(), worlds_of(finding));
     const AgentFactor& agent = plan_.agent_of_cell(representative(finding).run);
     const auto write_case = [&](Scenario scenario, const std::string& name) {
       scenario.agent = agent.program;
@@ -131,21 +131,38 @@ class FindingsDesk {
                      .found_in = finding.agent,
                      .smallest = id + ".case.json",
                      .world = id + ".world.json",
-                     .neighbours = record.neighbours};
+                     .neighbours = record.neighbours,
+                     .whole = {{}, record.whole_runs, record.others_need}};
     write_case(record.kept.smallest, kept.smallest);
     write_case(record.kept.world, kept.world);
-    for (const Scenario& world : record.kept.other_worlds) {
-      kept.other_worlds.push_back(fmt::format("{}.world-{}.json", id, kept.other_worlds.size() + 2));
-      write_case(world, kept.other_worlds.back());
-    }
-    std::string text = fmt::format("# {}: {}\n\n", id, printable(finding.mechanism.text()));
-    for (const std::string& sentence : sentences_of(record.explanation))
-      text += fmt::format("- {}\n", printable(sentence));
-    text += fmt::format("\n`fleetproof explain {} --max-trials {} --runs DIR` writes the runs in brackets.\n",
-                        kept.world, trials());
-    write_beside(id + ".md", OutputKind::Explanation, text);
+    const auto write_all = [&](const std::vector<Scenario>& scenarios, std::string_view what, std::size_t first,
+                               std::vector<std::string>& names) {
+      for (const Scenario& scenario : scenarios) {
+        names.push_back(fmt::format("{}.{}-{}.json", id, what, first++));
+        write_case(scenario, names.back());
+      }
+    };
+    write_all(record.kept.other_worlds, "world", 2, kept.other_worlds);
+    write_all(record.kept.runs, "run", 1, kept.whole.files);
+    write_beside(id + ".md", OutputKind::Explanation, explanation_text(kept, record.explanation));
     return kept;
   }
+
+  std::string explanation_text(const KeptFinding& kept, const Explanation& explanation) const {
+    std::string text = fmt::format("# {}: {}\n\n", kept.id, printable(kept.mechanism));
+    for (const std::string& sentence : sentences_of(explanation)) text += fmt::format("- {}\n", printable(sentence));
+    return text + fmt::format("\n`fleetproof explain {} --max-trials {} --runs DIR` writes the runs in brackets.\n",
+                              kept.world, trials());
+  }
+
+  FindingWorlds worlds_of(const Finding& finding) const {
+    const ScenarioSource scenarios(plan_);
+    FindingWorlds worlds{others_of(finding, survey_.failures), {scenarios.scenario(representative(finding).run)}};
+    for (const std::size_t member : other_members(finding, survey_.failures))
+      worlds.runs.push_back(scenarios.scenario(survey_.failures[member].run));
+    return worlds;
+  }
+
   void write_beside(const std::string& name, OutputKind kind, std::string_view text) const {
     write_whole({file_.path_beside(name), "--file", kind}, text);
   }

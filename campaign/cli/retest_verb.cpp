@@ -62,6 +62,9 @@ std::string reason(const Retest& result, const NeighbourCounts& before) {
     case RetestVerdict::Dodged:
       return fmt::format("the case passes, but {} of {} neighbours fail so", alike, of);
     case RetestVerdict::StillThere:
+      if (!result.case_fails && alike == 0)
+        return fmt::format("neither the case nor any of {} neighbours fails so, but {} of {} runs of its campaign", of,
+                           result.whole_runs.alike, result.whole_runs.of);
       return result.case_fails ? fmt::format("the case fails, and {} of {} neighbours", alike, of)
                                : fmt::format("the case passes, but {} of {} neighbours still fail so", alike, of);
     case RetestVerdict::NewKind:
@@ -81,6 +84,9 @@ void put_line(const Retested& retested) {
       reason(result, finding.neighbours));
   put("  in {}, where it was found, {} of {} neighbours fail so\n", finding.found_in, finding.neighbours.alike,
       finding.neighbours.of);
+  if (result.whole_runs.of > 0)
+    put("  of runs of its campaign with other luck, {} of {} end so, {} of {} before\n", result.whole_runs.alike,
+        result.whole_runs.of, finding.whole.counts.alike, finding.whole.counts.of);
   if (!result.standing.empty()) put("  the fleets drive {}\n", result.standing);
 }
 
@@ -89,6 +95,9 @@ nlohmann::ordered_json shares_of_worlds(const NeighbourCounts& now, const Neighb
           {"failing", now.alike_of_world},
           {"failing_before", before.alike_of_world},
           {"neighbours_before", before.of_world}};
+}
+nlohmann::ordered_json shares_of_runs(const NeighbourCounts& now, const NeighbourCounts& before) {
+  return {{"runs", now.of}, {"failing", now.alike}, {"failing_before", before.alike}, {"runs_before", before.of}};
 }
 
 void put_json(const std::vector<Retested>& all) {
@@ -106,7 +115,8 @@ void put_json(const std::vector<Retested>& all) {
                                 {"hardly_drives", result.standing},
                                 {"failing_before", finding.neighbours.alike},
                                 {"neighbours_before", finding.neighbours.of},
-                                {"of_worlds", shares_of_worlds(result.now, finding.neighbours)}});
+                                {"of_worlds", shares_of_worlds(result.now, finding.neighbours)},
+                                {"of_runs", shares_of_runs(result.whole_runs, finding.whole.counts)}});
   put_text(printable_json(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) + "\n");
 }
 
@@ -138,7 +148,8 @@ int retest_findings(const RetestWords& words) {
   };
   for (std::size_t i = 0; i < findings.size(); ++i) {
     CaseHost& host = *hosts.at(config_of(failures[i]));
-    all.push_back({*findings[i], retest(host, failures[i], findings[i]->neighbours, neighbours_of(*findings[i]))});
+    all.push_back({*findings[i], retest(host, failures[i], findings[i]->neighbours, neighbours_of(*findings[i]),
+                                        file.known_runs(*findings[i]))});
     if (!words.json) put_line(all.back());
   }
   if (words.json) put_json(all);

@@ -38,7 +38,7 @@ void keep_words_of_all(KeptFailure& kept, const NeighbourCounts& neighbours) {
 }
 
 FindingRecord record_of(CaseHost& host, const Finding& finding, const FailureNeeds& representative,
-                        std::uint64_t trials, const std::vector<FailingCase>& others) {
+                        std::uint64_t trials, const FindingWorlds& worlds) {
   const FailingCase world = with_less_time(representative.reduced);
   FindingRecord record;
   const FailurePattern pattern = pattern_of(host, world);
@@ -52,8 +52,8 @@ FindingRecord record_of(CaseHost& host, const Finding& finding, const FailureNee
   const auto add_world = [&](const FailingCase& other) {
     record.kept.other_worlds.push_back(with_less_time(other).scenario);
   };
-  std::ranges::for_each(others, add_world);
-  std::ranges::for_each(same_failure_elsewhere(host, record.kept, kOtherWorlds - others.size()), add_world);
+  std::ranges::for_each(worlds.others, add_world);
+  std::ranges::for_each(same_failure_elsewhere(host, record.kept, kOtherWorlds - worlds.others.size()), add_world);
   const Neighbourhood neighbourhood(host, record.kept);
   record.neighbours = try_enough_neighbours(host, record.kept, neighbourhood);
   record.neighbours.driven_elsewhere_m = driven_elsewhere_m(host, record.kept);
@@ -64,16 +64,24 @@ FindingRecord record_of(CaseHost& host, const Finding& finding, const FailureNee
   for (FailureNeeds& found : needs_of_first(host, neighbourhood, record.neighbours)) add_way(std::move(found.needs));
   // The smallest case may do with less than its finding needs. With the same software, it is one of them.
   if (of_case) add_way(std::move(of_case->needs));
+  record.kept.runs = worlds.runs;
+  record.whole_runs = try_whole_runs(host, record.kept);
+  record.others_need = needs_of_others(host, record.kept, record.whole_runs);
   return record;
 }
 
-std::vector<FailingCase> others_of(const Finding& finding, std::span<const KnownFailure> failures) {
+std::vector<std::size_t> other_members(const Finding& finding, std::span<const KnownFailure> failures) {
   std::vector<std::size_t> members = finding.members;
   std::erase_if(members, [&](std::size_t i) { return i == finding.representative || failures[i].needs.is_rare; });
-  std::vector<FailingCase> others;
+  std::vector<std::size_t> others;
   const std::size_t count = std::min(kOtherWorlds, members.size());
-  for (std::size_t i = 0; i < count; ++i)
-    others.push_back(failures[members[(2 * i + 1) * members.size() / (2 * count)]].needs.reduced);
+  for (std::size_t i = 0; i < count; ++i) others.push_back(members[(2 * i + 1) * members.size() / (2 * count)]);
+  return others;
+}
+
+std::vector<FailingCase> others_of(const Finding& finding, std::span<const KnownFailure> failures) {
+  std::vector<FailingCase> others;
+  for (const std::size_t member : other_members(finding, failures)) others.push_back(failures[member].needs.reduced);
   return others;
 }
 

@@ -68,6 +68,28 @@ std::vector<std::vector<std::string>> lists(TomlTable& table, std::string_view k
   return lists;
 }
 
+void read_ends(TomlTable& table, std::string_view key, NeighbourCounts& counts) {
+  auto ends = table.table(key);
+  if (!ends) return;
+  for (const std::string& end : ends->keys()) {
+    std::uint64_t count = 0;
+    ends->get(end, count);
+    counts.otherwise[end] = count;
+  }
+  ends->finish();
+}
+
+void read_whole_runs(TomlTable& table, KeptFinding& finding) {
+  std::uint64_t of = 0, alike = 0;
+  table.get("whole_runs", of);
+  table.get("whole_runs_failing", alike);
+  if (alike > of) throw InputError(table.place("whole_runs_failing"), "more runs failed than were tried");
+  finding.whole.counts.of = of;
+  finding.whole.counts.alike = alike;
+  read_ends(table, "whole_runs_otherwise", finding.whole.counts);
+  finding.whole.others_need = lists(table, "others_need");
+}
+
 void read_neighbours(TomlTable& table, NeighbourCounts& counts) {
   std::uint64_t of = 0, alike = 0;
   table.get("neighbours", of);
@@ -84,14 +106,29 @@ void read_neighbours(TomlTable& table, NeighbourCounts& counts) {
   counts.always_said = texts(table, "always_said");
   if (counts.alike > counts.of || counts.alike_of_world > counts.of_world)
     throw InputError(table.place("neighbours_failing"), "more neighbours failed than were tried");
-  auto otherwise = table.table("neighbours_otherwise");
-  if (!otherwise) return;
-  for (const std::string& end : otherwise->keys()) {
-    std::uint64_t count = 0;
-    otherwise->get(end, count);
-    counts.otherwise[end] = count;
-  }
-  otherwise->finish();
+  read_ends(table, "neighbours_otherwise", counts);
+}
+
+std::string text_of_ends(std::string_view key, const NeighbourCounts& counts) {
+  if (counts.otherwise.empty()) return {};
+  std::vector<std::string> ends;
+  for (const auto& [end, count] : counts.otherwise) ends.push_back(toml_text(end) + fmt::format(" = {}", count));
+  return fmt::format("{} = {{ {} }}\n", key, fmt::join(ends, ", "));
+}
+
+std::string lists_of(const std::vector<std::vector<std::string>>& lists) {
+  std::vector<std::string> items;
+  for (const auto& list : lists) items.push_back(list_of(list));
+  return fmt::format("[{}]", fmt::join(items, ", "));
+}
+
+std::string text_of_whole_runs(const KeptFinding& finding) {
+  if (finding.whole.files.empty()) return {};
+  std::string text = fmt::format("runs = {}\nwhole_runs = {}\nwhole_runs_failing = {}\n", list_of(finding.whole.files),
+                                 finding.whole.counts.of, finding.whole.counts.alike);
+  if (!finding.whole.others_need.empty())
+    text += fmt::format("others_need = {}\n", lists_of(finding.whole.others_need));
+  return text + text_of_ends("whole_runs_otherwise", finding.whole.counts);
 }
 
 KeptFinding read_finding(TomlTable& table) {
@@ -115,7 +152,9 @@ KeptFinding read_finding(TomlTable& table) {
   finding.smallest = needed(table, "case");
   finding.world = needed(table, "world");
   finding.other_worlds = texts(table, "other_worlds");
+  finding.whole.files = texts(table, "runs");
   read_neighbours(table, finding.neighbours);
+  read_whole_runs(table, finding);
   table.finish();
   return finding;
 }
@@ -151,18 +190,29 @@ KeptFailure FindingsFile::failure(const KeptFinding& finding) const {
                    finding.doings,
                    finding.says};
   for (const std::string& world : finding.other_worlds) kept.other_worlds.push_back(read_scenario(path_beside(world)));
+  for (const std::string& run : finding.whole.files) kept.runs.push_back(read_scenario(path_beside(run)));
   return kept;
+}
+
+KnownRuns FindingsFile::known_runs(const KeptFinding& finding) const {
+  KnownRuns known{finding.whole.counts, {}};
+  if (!finding.whole.others_need.empty())
+    known.others.push_back({{.end = finding.end, .ways = finding.whole.others_need, .doings = {}, .says = {}}});
+  for (const KeptFinding& other : findings_) {
+    if (other.found_in != finding.found_in || other.id == finding.id) continue;
+    known.others.push_back({{.end = other.end, .ways = other.ways, .doings = other.doings, .says = other.says},
+                            other.neighbours.always_said});
+  }
+  return known;
 }
 
 std::string toml_of(const KeptFinding& finding) {
   std::string text = fmt::format("\n[[finding]]\nid = {}\nmechanism = {}\nstatus = \"{}\"\n", toml_text(finding.id),
                                  toml_text(finding.mechanism), name_of(finding.status));
-  std::vector<std::string> ways;
-  for (const auto& way : finding.ways) ways.push_back(list_of(way));
   if (!finding.doings.empty()) text += fmt::format("doings = {}\n", list_of(finding.doings));
   if (!finding.says.empty()) text += fmt::format("says = {}\n", list_of(finding.says));
-  text += fmt::format("end = {}\nways = [{}]\nfound_in = {}\ncase = {}\nworld = {}\n", toml_text(finding.end),
-                      fmt::join(ways, ", "), toml_text(finding.found_in), toml_text(finding.smallest),
+  text += fmt::format("end = {}\nways = {}\nfound_in = {}\ncase = {}\nworld = {}\n", toml_text(finding.end),
+                      lists_of(finding.ways), toml_text(finding.found_in), toml_text(finding.smallest),
                       toml_text(finding.world));
   if (!finding.other_worlds.empty()) text += fmt::format("other_worlds = {}\n", list_of(finding.other_worlds));
   text += fmt::format("neighbours = {}\nneighbours_failing = {}\n", finding.neighbours.of, finding.neighbours.alike);
@@ -173,11 +223,7 @@ std::string toml_of(const KeptFinding& finding) {
       finding.neighbours.driven_elsewhere_m);
   if (!finding.neighbours.always_said.empty())
     text += fmt::format("always_said = {}\n", list_of(finding.neighbours.always_said));
-  if (finding.neighbours.otherwise.empty()) return text;
-  std::vector<std::string> ends;
-  for (const auto& [end, count] : finding.neighbours.otherwise)
-    ends.push_back(toml_text(end) + fmt::format(" = {}", count));
-  return text + fmt::format("neighbours_otherwise = {{ {} }}\n", fmt::join(ends, ", "));
+  return text + text_of_ends("neighbours_otherwise", finding.neighbours) + text_of_whole_runs(finding);
 }
 
 std::string standing_of(const KeptFinding* kept, std::string_view today) {

@@ -7,6 +7,7 @@
 
 #include "campaign/findings/finding.hpp"
 #include "campaign/findings/neighbourhood.hpp"
+#include "campaign/findings/whole_failures.hpp"
 #include "campaign/shrink/case_host.hpp"
 
 namespace fleetproof {
@@ -25,6 +26,13 @@ constexpr const char* name_of(FindingStatus status) {
   return kNoWord;
 }
 
+// Runs of the campaign of a finding, and what became of them with other luck, in the software in which it was found.
+struct KeptRuns {
+  std::vector<std::string> files{};  // of scenarios
+  NeighbourCounts counts{};
+  std::vector<std::vector<std::string>> others_need{};  // as FindingRecord has it
+};
+
 // One finding of a findings file, with the scenario files beside it.
 struct KeptFinding {
   std::string id, mechanism;  // "F-1c2d3e4f", and in words
@@ -37,6 +45,7 @@ struct KeptFinding {
   std::string smallest, world;                 // paths of scenario files, from the findings file on
   std::vector<std::string> other_worlds{};     // likewise
   NeighbourCounts neighbours;                  // in the software in which it was found
+  KeptRuns whole{};
 };
 
 // A findings file, a TOML file in the user's repository: one [[finding]] for each.
@@ -48,6 +57,8 @@ class FindingsFile {
   const KeptFinding* find(std::string_view id) const;
   // Reads the scenario files of a finding. Throws InputError if one is missing.
   KeptFailure failure(const KeptFinding& finding) const;
+  // How the software failed in which it was found, as far as the file says.
+  KnownRuns known_runs(const KeptFinding& finding) const;
   std::string path_beside(const std::string& name) const;
 
  private:

@@ -42,14 +42,6 @@ Scenario shifted(Scenario scenario, Dice& dice) {
   return scenario;
 }
 
-using Words = std::vector<std::string>;  // sorted, each once
-
-Words all_of(const Words& a, const Words& b) {
-  Words all;
-  std::ranges::set_union(a, b, std::back_inserter(all));
-  return all;
-}
-
 Words shared_by(const Words& a, const Words& b) {
   Words shared;
   std::ranges::set_intersection(a, b, std::back_inserter(shared));
@@ -62,6 +54,12 @@ void think_otherwise(Scenario& scenario, Dice& dice) {
 }
 
 }  // namespace
+
+Words all_of(const Words& a, const Words& b) {
+  Words all;
+  std::ranges::set_union(a, b, std::back_inserter(all));
+  return all;
+}
 
 bool is_one_of(const std::vector<std::vector<std::string>>& ways, const std::vector<std::string>& needs) {
   return std::ranges::any_of(
@@ -97,11 +95,14 @@ void Neighbourhood::lose_one_more(Scenario& scenario, double draw) const {
   scenario.fates.push_back(lost);
 }
 
+bool Neighbourhood::is_of_case(std::uint32_t number) const { return !is_of_runs_ && number % kEveryCase == 0; }
+
 Scenario Neighbourhood::at(std::uint32_t number) const {
   Dice dice(kept_.world.seed, number);
-  const bool of_case = number % kEveryCase == 0;
-  Scenario beside =
-      of_case ? shifted(kept_.smallest, dice) : with_other_course(kept_.world_of(number / kEveryCase), number, kShift);
+  const bool of_case = is_of_case(number);
+  const Scenario& world =
+      is_of_runs_ ? kept_.runs[number / 2 % kept_.runs.size()] : kept_.world_of(number / kEveryCase);
+  Scenario beside = of_case ? shifted(kept_.smallest, dice) : with_other_course(world, number, kShift);
   if (of_case) lose_one_more(beside, dice.next());
   if (number % 2 == 1) think_otherwise(beside, dice);
   return beside;
@@ -109,9 +110,9 @@ Scenario Neighbourhood::at(std::uint32_t number) const {
 
 namespace {
 
-void count_in(NeighbourCounts& counts, const CaseRun& run, std::uint32_t number, const std::string& end) {
+void count_in(NeighbourCounts& counts, const CaseRun& run, std::uint32_t number, bool is_of_world,
+              const std::string& end) {
   ++counts.of;
-  const bool is_of_world = number % kEveryCase != 0;
   if (is_of_world) ++counts.of_world;
   counts.ever_said = all_of(counts.ever_said, run.all_words);
   const auto failure = failure_of(run);
@@ -136,7 +137,7 @@ void try_up_to(std::uint32_t to, CaseHost& host, const KeptFailure& kept, const 
   std::uint64_t driven_um = 0;
   for (std::uint32_t i = 0; i < to - from; ++i) {
     driven_um += runs[i]->outcome.counters.distance_um;
-    count_in(counts, *runs[i], from + i, kept.end);
+    count_in(counts, *runs[i], from + i, !neighbourhood.is_of_case(from + i), kept.end);
   }
   counts.driven_m += driven_um / 1'000'000;
 }

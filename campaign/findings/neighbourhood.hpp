@@ -12,16 +12,19 @@ namespace fleetproof {
 // A failure as it is kept: the smallest case, and the world that it was cut from, which still draws its luck. Software
 // that sends one message more meets other luck in the world; the case has nothing for it but the messages it names.
 struct KeptFailure {
-  Scenario smallest, world;
-  std::string end;  // as end_of has it
+  Scenario smallest{}, world{};
+  std::string end{};  // as end_of has it
   // What its finding needs, and what the first neighbours need that fail with the same end: each as FailureNeeds has
   // it.
-  std::vector<std::vector<std::string>> ways;
+  std::vector<std::vector<std::string>> ways{};
   // What the smallest case also shows: what its bodies do ("one turns"), that it needs a third AGV, and words that tell
   // its failure from others.
   std::vector<std::string> doings{}, says{};
   // Of other failures of the finding.
   std::vector<Scenario> other_worlds{};
+  // Failing runs of the finding as their campaign had them: with all that the worlds have lost, so that faults show
+  // which have nothing to work with in the worlds.
+  std::vector<Scenario> runs{};
 
   // `world` and the others, in turn.
   const Scenario& world_of(std::uint32_t number) const {
@@ -29,6 +32,9 @@ struct KeptFailure {
     return place == 0 ? world : other_worlds[place - 1];
   }
 };
+
+using Words = std::vector<std::string>;  // sorted, each once
+Words all_of(const Words& a, const Words& b);
 
 // Whether a failure is the kept one, as far as its needs and what it shows can tell; its end is not looked at.
 bool is_one_of(const KeptFailure& kept, const FailureNeeds& found);
@@ -49,13 +55,18 @@ class Neighbourhood {
  public:
   // Plays the smallest case, to learn which messages the software sends in it. `kept` outlives the object.
   Neighbourhood(CaseHost& host, const KeptFailure& kept);
+  // Beside its runs instead, which there are: with other luck, as its worlds.
+  static Neighbourhood of_runs(const KeptFailure& kept) { return Neighbourhood(kept); }
   Scenario at(std::uint32_t number) const;
+  bool is_of_case(std::uint32_t number) const;
 
  private:
+  explicit Neighbourhood(const KeptFailure& kept) : kept_(kept), is_of_runs_(true) {}
   void lose_one_more(Scenario& scenario, double draw) const;
 
   const KeptFailure& kept_;
-  std::vector<GivenFate> messages_;  // that arrive in the smallest case, before it fails
+  bool is_of_runs_ = false;
+  std::vector<GivenFate> messages_{};  // that arrive in the smallest case, before it fails
 };
 
 // How the software fares there.

@@ -15,10 +15,12 @@
 namespace fleetproof {
 namespace {
 
-constexpr double kNewKindChance = 0.001, kRarerChance = 0.01;
+constexpr double kNewKindChance = 0.001, kRarerChance = 0.005;
 // If software that fails as before had fewer failing neighbours than this in the mean, that none fails says little:
 // with 10, it is chance once in 20 000 times.
 constexpr std::size_t kEnoughBefore = 10, kOften = 10;
+// Whole runs that fail in a new way: fewer may have failed so before, unseen among all others that failed.
+constexpr std::size_t kFewestNew = 3;
 
 bool is_of_radio(const std::string& need) {
   return need == kLateMessages || need == kLostMessages || need == kCopiedMessages;
@@ -48,13 +50,19 @@ bool is_kept_one(const KeptFailure& kept, const FailureNeeds& of_case) {
 
 // What the AGVs of each failure had said before, and no fleet ever says now: the software no longer does what the word
 // names. None if all such words are gone: it speaks another language.
-std::vector<std::string> words_no_longer_said(const NeighbourCounts& now, const std::optional<FailureNeeds>& of_case,
-                                              const NeighbourCounts& before) {
-  std::vector<std::string> gone = before.always_said;
-  std::erase_if(gone, [&](const std::string& word) {
-    return names_all(now.ever_said, {word}) || (of_case && names_all(of_case->said, {word}));
-  });
-  return gone.size() < before.always_said.size() ? gone : std::vector<std::string>{};
+std::vector<std::string> words_no_longer_said(const std::vector<std::string>& ever_said,
+                                              const std::vector<std::string>& always_said_before) {
+  std::vector<std::string> gone = always_said_before;
+  std::erase_if(gone, [&](const std::string& word) { return names_all(ever_said, {word}); });
+  return gone.size() < always_said_before.size() ? gone : std::vector<std::string>{};
+}
+
+// It says them in each failure that is the kept one.
+KeptFailure with_words(KeptFailure kept, const std::vector<std::string>& words) {
+  for (const std::string& word : words) {
+    if (!names_all(kept.says, {word})) kept.says.push_back(word);
+  }
+  return kept;
 }
 
 // What neighbours need that fail with the same end, if the failure that was kept is not among them. Empty: it is.
@@ -65,12 +73,15 @@ std::string other_mechanism(CaseHost& host, const KeptFailure& kept, const Neigh
   return first.empty() || std::ranges::any_of(first, is_kept) ? "" : text_of_new(kept, first.front());
 }
 
+bool is_rarer_share(std::size_t alike, std::size_t of, std::size_t alike_before, std::size_t of_before) {
+  return of_before > 0 && fisher_exact(alike, of, alike_before, of_before).first_smaller < kRarerChance;
+}
+
 // Something was mended, not all. Worlds draw their luck, so their share does not change with the timing of the
 // software. Where only all neighbours were counted: below three quarters is no accident of timing.
 bool is_rarer(const NeighbourCounts& now, const NeighbourCounts& before) {
   if (before.of_world > 0)
-    return fisher_exact(now.alike_of_world, now.of_world, before.alike_of_world, before.of_world).first_smaller <
-           kRarerChance;
+    return is_rarer_share(now.alike_of_world, now.of_world, before.alike_of_world, before.of_world);
   return before.of > 0 && kOften * before.alike >= before.of && 4 * now.alike * before.of < 3 * before.alike * now.of;
 }
 
@@ -112,18 +123,80 @@ StandingFleets standing_fleets(CaseHost& host, const KeptFailure& kept, const Ne
   return standing;
 }
 
+// What most of the first whole runs show that fail with the same end: the kept failure, or a new one. Others that were
+// known do not count.
+void look_at_whole_failures(CaseHost& host, const KeptFailure& kept, const std::vector<KeptFailure>& others,
+                            Retest& result) {
+  std::string new_kind;
+  std::size_t kept_ones = 0, new_ones = 0;
+  for (const FailureNeeds& found : needs_of_first(host, Neighbourhood::of_runs(kept), result.whole_runs)) {
+    if (found.is_rare) continue;
+    if (may_be(kept, found)) {
+      ++kept_ones;
+    } else if (std::ranges::none_of(others, [&](const KeptFailure& other) { return may_be(other, found); })) {
+      ++new_ones;
+      if (new_kind.empty()) new_kind = text_of_new(kept, found);
+    }
+  }
+  if (new_ones > kept_ones && result.whole_runs.alike >= kFewestNew) {
+    result.new_kind = std::move(new_kind);
+    result.verdict = RetestVerdict::NewKind;
+  } else if (kept_ones > 0) {
+    result.verdict = RetestVerdict::StillThere;
+  }
+}
+
+// Neighbours that pass, or fail as often as before, may have nothing left with which other faults or half a mend show.
+void judge_whole_runs(CaseHost& host, const KeptFailure& found, const NeighbourCounts& before, const KnownRuns& known,
+                      Retest& result) {
+  const NeighbourCounts& now = result.whole_runs = try_whole_runs(host, found);
+  if (now.of == 0) return;
+  if (result.verdict == RetestVerdict::Dodged) {
+    const auto worlds = [](const NeighbourCounts& all) { return std::pair(all.alike_of_world, all.of_world); };
+    const auto [alike, of] = worlds(result.now);
+    const auto [alike_before, of_before] = worlds(before);
+    const NeighbourCounts& then = known.counts;
+    if (then.of == 0) return;
+    if (is_rarer_share(now.alike, now.of, then.alike, then.of) ||
+        is_rarer_share(now.alike + alike, now.of + of, then.alike + alike_before, then.of + of_before))
+      result.verdict = RetestVerdict::StillThere;
+    return;
+  }
+  result.new_kind = more_often(now, known.counts);
+  if (!result.new_kind.empty()) {
+    result.verdict = RetestVerdict::NewKind;
+    return;
+  }
+  const auto kept_now = [&](const KeptFailure& kept, const std::vector<std::string>& always_said) {
+    return with_words(kept, words_no_longer_said(all_of(now.ever_said, result.now.ever_said), always_said));
+  };
+  std::vector<KeptFailure> others;
+  for (const OtherKind& other : known.others) others.push_back(kept_now(other.failure, other.always_said));
+  look_at_whole_failures(host, kept_now(found, before.always_said), others, result);
+}
+
+RetestVerdict verdict_of_none(CaseHost& host, const KeptFailure& kept, const NeighbourCounts& before, Retest& result) {
+  const NeighbourCounts& now = result.now;
+  result.new_kind = more_often(now, before);
+  const StandingFleets standing = standing_fleets(host, kept, now, before);
+  result.standing = standing.text;
+  const bool is_telling = before.of > 0 && now.of * before.alike >= kEnoughBefore * before.of;
+  return !result.new_kind.empty()                ? RetestVerdict::NewKind
+         : is_telling && !standing.is_everywhere ? RetestVerdict::Fixed
+                                                 : RetestVerdict::NotKnown;
+}
+
 }  // namespace
 
-Retest retest(CaseHost& host, const KeptFailure& found, const NeighbourCounts& before, std::uint32_t neighbours) {
+Retest retest(CaseHost& host, const KeptFailure& found, const NeighbourCounts& before, std::uint32_t neighbours,
+              const KnownRuns& known) {
   Retest result;
   const auto of_case = needs_of(host, found.smallest);
   const Neighbourhood neighbourhood(host, found);
   result.now = try_neighbours(host, found, neighbourhood, neighbours);
   const NeighbourCounts& now = result.now;
-  KeptFailure kept = found;
-  for (std::string& word : words_no_longer_said(now, of_case, before)) {
-    if (!names_all(kept.says, {word})) kept.says.push_back(std::move(word));
-  }
+  const auto ever_said = of_case ? all_of(now.ever_said, of_case->said) : now.ever_said;
+  const KeptFailure kept = with_words(found, words_no_longer_said(ever_said, before.always_said));
   result.upper_bound = upper_bound(now.alike, now.of, Confidence{0.95});
   result.case_fails = of_case && is_kept_one(kept, *of_case);
   if (result.case_fails) {
@@ -137,14 +210,10 @@ Retest retest(CaseHost& host, const KeptFailure& found, const NeighbourCounts& b
                      : is_rarer(now, before)  ? RetestVerdict::StillThere
                                               : RetestVerdict::Dodged;
   } else {
-    result.new_kind = more_often(now, before);
-    const StandingFleets standing = standing_fleets(host, kept, now, before);
-    result.standing = standing.text;
-    const bool is_telling = before.of > 0 && now.of * before.alike >= kEnoughBefore * before.of;
-    result.verdict = !result.new_kind.empty()                ? RetestVerdict::NewKind
-                     : is_telling && !standing.is_everywhere ? RetestVerdict::Fixed
-                                                             : RetestVerdict::NotKnown;
+    result.verdict = verdict_of_none(host, kept, before, result);
   }
+  const bool is_sure = result.verdict == RetestVerdict::StillThere || result.verdict == RetestVerdict::NewKind;
+  if (!is_sure) judge_whole_runs(host, found, before, known, result);
   return result;
 }
 

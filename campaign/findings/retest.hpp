@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "campaign/findings/neighbourhood.hpp"
+#include "campaign/findings/whole_failures.hpp"
 
 namespace fleetproof {
 
@@ -36,13 +37,14 @@ struct Retest {
   RetestVerdict verdict = RetestVerdict::NotKnown;
   bool case_fails = false;  // as the kept one did
   NeighbourCounts now;
-  double upper_bound = 1.0;  // of the share of neighbours that fail so, 95 % sure
-  std::string new_kind;      // how else it fails: an end, and what that needs
-  std::string standing;      // how little the fleets drive there, if less than half as far as before
+  NeighbourCounts whole_runs;  // none if the case fails, or its neighbours in another way
+  double upper_bound = 1.0;    // of the share of neighbours that fail so, 95 % sure
+  std::string new_kind;        // how else it fails: an end, and what that needs
+  std::string standing;        // how little the fleets drive there, if less than half as far as before
 };
 
-// `before`: how the software in which the failure was found fared.
+// `before`: how the software in which the failure was found fared; `known`: likewise, in its whole runs.
 Retest retest(CaseHost& host, const KeptFailure& kept, const NeighbourCounts& before,
-              std::uint32_t neighbours = kNeighbours);
+              std::uint32_t neighbours = kNeighbours, const KnownRuns& known = {});
 
 }  // namespace fleetproof

@@ -45,6 +45,9 @@ class FindingsFiles : public testing::Test {
     finding.doings = {"one turns"};
     finding.says = {"oops", "a \"b\""};
     finding.neighbours = {1000, 17, {{"no progress", 3}, {"a \"b\"", 4}}, {}, 750, 9, 12345, 678, {"a", "b \"c\""}};
+    finding.whole.files = {"r.json", "s.json"};
+    finding.whole.counts = {250, 130, {{"a \"d\"", 5}}, {}};
+    finding.whole.others_need = {{"restart"}, {}};
     return finding;
   }
   std::string error_of(const std::string& text) const {
@@ -71,6 +74,10 @@ TEST_F(FindingsFiles, WhatIsWrittenIsRead) {
   EXPECT_EQ(std::pair(read->neighbours.driven_m, read->neighbours.driven_elsewhere_m), std::pair(12345UL, 678UL));
   EXPECT_EQ(read->neighbours.always_said, odd().neighbours.always_said);
   EXPECT_EQ(read->neighbours.otherwise, odd().neighbours.otherwise);
+  EXPECT_EQ(read->whole.files, odd().whole.files);
+  EXPECT_EQ(std::pair(read->whole.counts.of, read->whole.counts.alike), std::pair(250UL, 130UL));
+  EXPECT_EQ(read->whole.counts.otherwise, odd().whole.counts.otherwise);
+  EXPECT_EQ(read->whole.others_need, odd().whole.others_need);
   EXPECT_EQ(file.find("F-00000002"), nullptr);
   EXPECT_TRUE(FindingsFile((folder_ / "none.toml").string()).findings().empty());
 }
@@ -81,10 +88,31 @@ TEST_F(FindingsFiles, ErrorsNameTheLineAndTheRemedy) {
   EXPECT_THAT(error_of(good + good), HasSubstr("twice"));
   EXPECT_THAT(error_of("[[finding]]\nid = \"F-1\"\n"), HasSubstr("mechanism"));
   EXPECT_THAT(error_of(good + "stats = 3\n"), HasSubstr("stats"));
+  auto many = odd();
+  many.whole.counts.alike = 251;
+  EXPECT_THAT(error_of(toml_of(many)), HasSubstr("more runs failed"));
   auto waived = odd();
   waived.status = FindingStatus::Waived;
   EXPECT_THAT(error_of(toml_of(waived)), HasSubstr("until"));
   EXPECT_THAT(error_of(toml_of(waived)), HasSubstr("findings.toml:5"));
+}
+
+// What the whole runs of a finding showed, and the other findings of the same software.
+TEST_F(FindingsFiles, SaysHowElseTheSoftwareFailed) {
+  KeptFinding other = odd(), elsewhere = odd();
+  other.id = "F-00000002";
+  other.ways = {{"breakdown"}};
+  elsewhere.id = "F-00000003";
+  elsewhere.found_in = "another agent";
+  const FindingsFile file(written(toml_of(odd()) + toml_of(other) + toml_of(elsewhere)));
+  const KnownRuns known = file.known_runs(*file.find("F-00000001"));
+  EXPECT_EQ(known.counts.of, 250U);
+  ASSERT_EQ(known.others.size(), 2U);
+  EXPECT_EQ(known.others[0].failure.ways, odd().whole.others_need);
+  EXPECT_TRUE(known.others[0].failure.says.empty());
+  EXPECT_EQ(known.others[1].failure.ways, other.ways);
+  EXPECT_EQ(known.others[1].failure.says, other.says);
+  EXPECT_EQ(known.others[1].always_said, other.neighbours.always_said);
 }
 
 TEST_F(FindingsFiles, AWaiverEnds) {
