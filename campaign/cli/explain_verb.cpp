@@ -95,9 +95,10 @@ nlohmann::ordered_json to_json(const Explanation& explanation) {
                                           {"failing", branching.failing()},
                                           {"failing_radio_lucks", branching.failing_lucks}});
   json["open_until_s"] = to_seconds(explanation.no_return.open_until - kStart);
-  json["likely_from_s"] = json["certain_from_s"] = nullptr;
+  json["likely_from_s"] = json["certain_from_s"] = json["acted_by_s"] = nullptr;
   if (const auto at = explanation.no_return.likely_from) json["likely_from_s"] = to_seconds(*at - kStart);
   if (const auto at = explanation.no_return.certain_from) json["certain_from_s"] = to_seconds(*at - kStart);
+  if (const auto at = explanation.no_return.acted_by) json["acted_by_s"] = to_seconds(*at - kStart);
   return json;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "campaign/explain/set_offs.hpp"
 #include "campaign/shrink/all_runs.hpp"
 #include "campaign/shrink/other_luck.hpp"
 
@@ -37,6 +38,17 @@ bool is_as_before(std::size_t failing, std::size_t before) {
   return more * more * 2 * kBranches <= 4 * sum * (2 * kBranches - sum);
 }
 
+// A run in which many fail, at any time, says nothing about what decided this failure.
+bool is_of_same_bodies(const Failure& a, const Failure& b) {
+  return (a.a == b.a && a.b == b.b) || (a.a == b.b && a.b == b.a);
+}
+
+std::optional<SimTime> last_set_off(const CaseRun& run, const Failure& failure) {
+  std::optional<SimTime> last;
+  for (const Departure& drive : failed_drives(run, failure)) last = std::max(last.value_or(drive.at), drive.at);
+  return last;
+}
+
 }  // namespace
 
 NoReturn judged(std::vector<Branching> curve) {
@@ -57,12 +69,12 @@ NoReturn judged(std::vector<Branching> curve) {
 NoReturn curve_of_no_return(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern) {
   Scenario scenario = failing.scenario;
   scenario.horizon = std::min(scenario.horizon, failing.failure.seen - kStart + kAfterwards);
-  const auto messages = host(scenario, Fates::Kept).fates;
+  const CaseRun whole = host(scenario, Fates::Kept);
   std::vector<Branching> curve;
   for (const SimTime at : instants_before(failing.failure.at)) {
     Branching& branching = curve.emplace_back(Branching{at, scenario, {}});
     branching.run.fates.clear();
-    for (const MessageFate& message : messages) {
+    for (const MessageFate& message : whole.fates) {
       if (kStart + message.fate.sent < at) branching.run.fates.push_back(message.fate);
     }
   }
@@ -72,9 +84,14 @@ NoReturn curve_of_no_return(CaseHost& host, const FailingCase& failing, const Fa
   };
   const auto runs = all_runs(host, {curve.size() * kBranches, branch});
   for (std::size_t rank = 0; rank < runs.size(); ++rank) {
-    if (pattern.match(*runs[rank])) curve[rank / kBranches].failing_lucks.push_back(luck(rank));
+    const auto failure = pattern.match(*runs[rank]);
+    if (failure && is_of_same_bodies(*failure, failing.failure))
+      curve[rank / kBranches].failing_lucks.push_back(luck(rank));
   }
-  return judged(std::move(curve));
+  NoReturn found = judged(std::move(curve));
+  const auto set_off = last_set_off(whole, failing.failure);
+  if (set_off && found.certain_from && *set_off > *found.certain_from) found.acted_by = set_off;
+  return found;
 }
 
 }  // namespace fleetproof

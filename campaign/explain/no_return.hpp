@@ -16,7 +16,7 @@ inline constexpr std::size_t kBranches = 59, kInstants = 20;
 struct Branching {
   SimTime at{};
   Scenario run;                              // whatever is sent before `at` has its fate given
-  std::vector<std::uint32_t> failing_lucks;  // in the same way, not later than a while after the run itself
+  std::vector<std::uint32_t> failing_lucks;  // in the same way, the same bodies, soon after the run itself at last
 
   std::size_t failing() const { return failing_lucks.size(); }
 };
@@ -30,6 +30,9 @@ struct NoReturn {
   // The last instant at which not all branches fail, and no more than at the first, as far as their number can tell
   // (two standard errors): what decided it lies between there and certain_from.
   SimTime open_until{};
+  // Where that is later than certain_from: when the last of the drives began that failed. What decides them is sent
+  // before it is certain, and acted upon by then.
+  std::optional<SimTime> acted_by{};
 };
 // Requires: a curve that is not empty.
 NoReturn judged(std::vector<Branching> curve);

@@ -255,8 +255,9 @@ class Words {
       say("It is likely from {:.2f} s on ({:.2f} s before).", seconds_of(*curve.likely_from),
           to_seconds(at - *curve.likely_from));
     if (curve.certain_from) {
-      say("It is certain from {:.2f} s on ({:.2f} s before): what decided it happened between {:.2f} s and then.",
-          seconds_of(*curve.certain_from), to_seconds(at - *curve.certain_from), seconds_of(curve.open_until));
+      say("It is certain from {:.2f} s on ({:.2f} s before): what decided it happened between {:.2f} s and then{}.",
+          seconds_of(*curve.certain_from), to_seconds(at - *curve.certain_from), seconds_of(curve.open_until),
+          curve.acted_by ? fmt::format(", and was acted upon by {:.2f} s", seconds_of(*curve.acted_by)) : "");
     } else {
       say("Until {:.2f} s before it, a new radio could still avoid it.", to_seconds(at - curve.curve.back().at));
     }

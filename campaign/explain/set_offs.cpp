@@ -188,21 +188,26 @@ bool sets_off_then(const CaseRun& run, const Departure& drive) {
   });
 }
 
-std::vector<SetOff> set_offs(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern) {
-  const CaseRun run = host(failing.scenario, Fates::Kept);
-  std::vector<SetOff> found;
-  for (const EntityId body : {failing.failure.a, failing.failure.b}) {
-    if (!body.valid() || body.index() >= failing.scenario.agvs.size()) continue;
+std::vector<Departure> failed_drives(const CaseRun& run, const Failure& failure) {
+  std::vector<Departure> found;
+  for (const EntityId body : {failure.a, failure.b}) {
     const Departure* last = nullptr;
     for (const auto* begun : {&run.whereabouts.departures, &run.whereabouts.turns}) {
       for (const Departure& departure : *begun) {
         const bool is_later = last == nullptr || departure.at >= last->at;
-        if (departure.agv == body && departure.at <= failing.failure.at && is_later) last = &departure;
+        if (departure.agv == body && departure.at <= failure.at && is_later) last = &departure;
       }
     }
-    if (last != nullptr && last->arrives >= failing.failure.at)
-      found.push_back(Inquiry(host, failing, pattern, run, *last).find());
+    if (last != nullptr && last->arrives >= failure.at) found.push_back(*last);
   }
+  return found;
+}
+
+std::vector<SetOff> set_offs(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern) {
+  const CaseRun run = host(failing.scenario, Fates::Kept);
+  std::vector<SetOff> found;
+  for (const Departure& drive : failed_drives(run, failing.failure))
+    found.push_back(Inquiry(host, failing, pattern, run, drive).find());
   return found;
 }
 

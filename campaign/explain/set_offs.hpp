@@ -49,6 +49,9 @@ inline constexpr Duration kLookedAt = std::chrono::seconds(10);
 // each in a run of its own. "Then" is within 5 ms.
 std::vector<SetOff> set_offs(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern);
 
+// The drives, or turns on the spot, on which the bodies of the failure were when it came: at most one of each.
+std::vector<Departure> failed_drives(const CaseRun& run, const Failure& failure);
+
 // Whether the AGV begins this drive in the run then.
 bool sets_off_then(const CaseRun& run, const Departure& drive);
 
