@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "campaign/explain/sentences.hpp"
+#include "campaign/shrink/other_luck.hpp"
 #include "campaign/shrink/shrink.hpp"
 #include "generators/scenario_file/scenario_file.hpp"
 #include "generators/worlds/world_maker.hpp"
@@ -279,11 +280,20 @@ TEST(NoReturn, WhatDecidedItLiesBeforeItWasCertain) {
   EXPECT_EQ(judged_counts({59, 59}), std::tuple(1, 1, 1));
 }
 
+// Where many fail, another failure of the run says nothing about this one.
+void expect_the_same_bodies(CaseHost& host, const Branching& branching, const Failure& failure) {
+  for (const std::uint32_t luck : branching.failing_lucks) {
+    const auto found = failure_of(host(with_other_radio(branching.run, luck)));
+    ASSERT_TRUE(found);
+    EXPECT_EQ(std::minmax(found->a.value, found->b.value), std::minmax(failure.a.value, failure.b.value));
+  }
+}
+
 // Before the message that decides it is sent, nothing is decided; from then on, it is.
 TEST(NoReturn, IsAtTheMessageThatDecidesIt) {
   AgentPrograms programs;
   CaseHost host({"timeout-grant", ""}, programs, 2);
-  std::size_t with_end = 0, in_window = 0, before_certain = 0;
+  std::size_t with_end = 0, in_window = 0, before_certain = 0, acted_by = 0;
   for (std::uint64_t seed = 1; with_end < 10 && seed < 400; ++seed) {
     WorldSpec spec;
     spec.horizon = std::chrono::seconds(60);
@@ -299,6 +309,7 @@ TEST(NoReturn, IsAtTheMessageThatDecidesIt) {
     ASSERT_EQ(curve.curve.size(), kInstants);
     EXPECT_TRUE(std::ranges::is_sorted(curve.curve, {}, &Branching::at));
     EXPECT_LE(curve.curve.back().at, failure->at);
+    expect_the_same_bodies(host, curve.curve.front(), *failure);
     if (!curve.certain_from || 3 * curve.curve.front().failing() > kBranches) continue;
     ++with_end;
     // The silence that it takes for consent overlaps the window that the curve marks.
@@ -315,10 +326,14 @@ TEST(NoReturn, IsAtTheMessageThatDecidesIt) {
     const SimTime silent_from = *first_said - std::chrono::seconds(4);
     before_certain += silent_from <= *curve.certain_from ? 1 : 0;
     in_window += *said >= curve.open_until ? 1 : 0;
+    acted_by += *first_said <= curve.acted_by.value_or(*curve.certain_from) ? 1 : 0;
+    EXPECT_GE(curve.acted_by.value_or(failure->at), *curve.certain_from);
+    EXPECT_LE(curve.acted_by.value_or(failure->at), failure->at);
   }
   EXPECT_EQ(with_end, 10U);
   EXPECT_GE(before_certain, 9U);  // in another one, each luck has a silence of its own
   EXPECT_GE(in_window, 7U);       // in others, what came after the silence could still have helped
+  EXPECT_EQ(acted_by, 10U) << "it sets off when it has taken silence for consent";
 }
 
 }  // namespace
