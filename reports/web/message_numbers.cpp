@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
+#include <cstdint>
 #include <initializer_list>
 
 namespace fleetproof::web {
@@ -57,6 +59,14 @@ std::string request_of(const std::string& number) {
   return number.substr(0, std::min(dot, boot)) + suffix;
 }
 
+// 1 of "3.1 of boot 1"; 0 of "3".
+std::uint64_t attempt_of(const std::string& number) {
+  const auto dot = number.find('.');
+  std::uint64_t attempt = 0;
+  if (dot != number.npos) std::from_chars(number.data() + dot + 1, number.data() + number.size(), attempt);
+  return attempt;
+}
+
 }  // namespace
 
 std::optional<std::string_view> after_word(std::string_view content, std::string_view word) {
@@ -83,6 +93,14 @@ MessageNumbers numbers_answered(std::string_view content) { return numbers_after
 bool are_of_one_request(const MessageNumbers& a, const MessageNumbers& b) {
   return std::ranges::any_of(a.list, [&](const std::string& one) {
     return std::ranges::any_of(b.list, [&](const std::string& other) { return request_of(one) == request_of(other); });
+  });
+}
+
+bool is_later_attempt(const MessageNumbers& later, const MessageNumbers& first) {
+  return std::ranges::any_of(later.list, [&](const std::string& number) {
+    return std::ranges::any_of(first.list, [&](const std::string& before) {
+      return request_of(number) == request_of(before) && attempt_of(number) > attempt_of(before);
+    });
   });
 }
 

@@ -28,6 +28,8 @@ MessageNumbers numbers_answered(std::string_view content);
 
 // 3.0 and 3.1 belong to one request: attempts of it.
 bool are_of_one_request(const MessageNumbers& a, const MessageNumbers& b);
+// 3.1 is a later attempt than 3.0 of the same request.
+bool is_later_attempt(const MessageNumbers& later, const MessageNumbers& first);
 
 // Whether what the content asks for begins where a drive begins: "for C12 to C14" and "C12 to C13". A name of which
 // only the end is there, as "for ...12 to C14" with one character for the dots, is compared as far as it is there.

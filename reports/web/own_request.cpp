@@ -161,7 +161,9 @@ class OwnRequestFinder {
       const bool was_known = !d.is_lost() && d.arrives < until_ && d.arrives.at_us >= setting_.knows_since_us;
       if (!was_known) continue;
       const MessageNumbers answered = numbers_answered(d.message->content);
-      const bool comes_after = asking.sent < d.sent, meets = answered.meets(asking.numbers);
+      // A later attempt was asked for in a message that does not name the place, or that is not at hand.
+      const bool meets = answered.meets(asking.numbers) || is_later_attempt(answered, asking.numbers),
+                 comes_after = asking.sent < d.sent;
       if (meets && is_for_this_one(d)) {
         answers_.push_back(&d);
         continue;
@@ -204,10 +206,27 @@ class OwnRequestFinder {
   }
 
   OwnRequest answered(const Asking& asking) const {
+    const std::string early = early_answer();
     return {asking.sent.at_us,
-            fmt::format("{} had asked for this with {}. {} had answered that {}.", name(setting_.body),
-                        text_of_asking(asking), name(other_), answers_text()),
-            0};
+            fmt::format("{} had asked for this with {}. {} had answered that {}.{}", name(setting_.body),
+                        text_of_asking(asking), name(other_), answers_text(), early),
+            static_cast<std::uint8_t>(early.empty() ? 0 : 3)};
+  }
+  // An answer to a number with which the AGV had not asked by then: one of its former self, from before it began anew.
+  std::string early_answer() const {
+    const bool all_named = std::ranges::none_of(askings_, [](const Asking& a) { return a.numbers.has_more; });
+    if (!knows_all_ || !all_named) return {};
+    for (const Delivery* d : answers_) {
+      if (!d->is_to_one() || d->message->kind != answers_.back()->message->kind) continue;
+      for (const std::string& number : numbers_answered(d->message->content).list) {
+        const auto first = std::ranges::find_if(askings_, [&](const Asking& a) { return a.numbers.contains(number); });
+        if (first != askings_.end() && first->sent < d->sent) continue;
+        return fmt::format(" But {} #{} was sent {} s, and from {} s until then {} had not asked it with {}.",
+                           d->message->kind, d->message->number, time_text(d->sent.at_us),
+                           time_text(setting_.knows_since_us), name(setting_.body), number);
+      }
+    }
+    return {};
   }
 
   OwnRequest unanswered(const Asking& asking, bool is_for_this) const {

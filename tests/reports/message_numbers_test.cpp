@@ -43,5 +43,15 @@ TEST(MessageNumbers, APlaceIsComparedWithTheBeginningOfADrive) {
   EXPECT_FALSE(asks_from_beginning_of("asks with 3.0", "C12 to C13"));
 }
 
+TEST(MessageNumbers, ALaterAttemptIsOfTheSameRequest) {
+  const MessageNumbers first = numbers_asked("asks with 3.1 of boot 1 for C2");
+  EXPECT_TRUE(is_later_attempt(numbers_answered("answers 3.2 of boot 1"), first));
+  EXPECT_TRUE(is_later_attempt(numbers_answered("answers 3.12 of boot 1"), numbers_asked("asks with 3.9 of boot 1")));
+  EXPECT_FALSE(is_later_attempt(numbers_answered("answers 3.1 of boot 1"), first));
+  EXPECT_FALSE(is_later_attempt(numbers_answered("answers 3.0 of boot 1"), first));
+  EXPECT_FALSE(is_later_attempt(numbers_answered("answers 3.2"), first)) << "before the restart";
+  EXPECT_FALSE(is_later_attempt(numbers_answered("answers 4.2 of boot 1"), first));
+}
+
 }  // namespace
 }  // namespace fleetproof::web

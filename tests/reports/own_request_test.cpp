@@ -11,6 +11,7 @@
 namespace fleetproof::web {
 namespace {
 
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -87,6 +88,27 @@ TEST(OwnRequest, SaysHowAnswersChanged) {
   EXPECT_THAT(reason_for(film).lines.front().text,
               HasSubstr("B had answered that with GRANT #5 (answers 3.0, holds u), received 18.021 s, then with DEFER "
                         "#6 (answers 3.0, holds t to u), received 18.051 s."));
+}
+
+// It asked B again with 3.1, in a message that names no place.
+TEST(OwnRequest, AnAnswerToALaterAttemptIsOne) {
+  Film film = film_of("answers 3.1, holds u");
+  film.messages.push_back(message(5, 0, "STATE", "asks with 3.1", 17'500'000));
+  const Reason reason = reason_for(film);
+  EXPECT_EQ(reason.decisive(), nullptr);
+  EXPECT_THAT(reason.lines.front().text, EndsWith("B had answered that with GRANT #4 (answers 3.1, holds u), received "
+                                                  "18.001 s."));
+}
+
+// A number that B has from before A began anew.
+TEST(OwnRequest, AnAnswerToWhatWasNotAskedYetIsDecisive) {
+  Film film = film_of("answers 3.1, holds u");
+  film.happenings = {{0, 16'500'000, "fault over", "restart", true, false, 40}};
+  film.messages.push_back(message(5, 0, "STATE", "asks with 3.1", 18'050'000));
+  const Reason reason = reason_for(film);
+  ASSERT_NE(reason.decisive(), nullptr);
+  EXPECT_THAT(reason.decisive()->text,
+              EndsWith("But GRANT #4 was sent 18.000 s, and from 16.500 s until then A had not asked it with 3.1."));
 }
 
 // A STATE to all answers a 3.0; with a third AGV, that may be the request of the third one.
