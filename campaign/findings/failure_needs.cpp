@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "campaign/findings/ingredients.hpp"
+#include "campaign/findings/word_comparison.hpp"
 #include "campaign/shrink/adverse_fates.hpp"
 #include "campaign/shrink/fitness.hpp"
 #include "campaign/shrink/other_luck.hpp"
@@ -86,11 +87,16 @@ class Reduction {
       if (!failure_of(others.back())) learner_->hear_passing(others.back());
     }
     likeness_.words = {{}, learner_->pattern().usual};
+    WordComparison comparison(best_.failure);
     for (std::uint32_t luck = 1; luck <= kOtherRuns; ++luck) {
-      if (!likeness_.match(others[luck - 1])) continue;
+      const CaseRun& other = others[luck - 1];
+      if (!failure_of(other)) comparison.add_passing(other);
+      if (!likeness_.match(other)) continue;
       failing_lucks_.push_back(luck);
-      learner_->hear_failing(others[luck - 1]);
+      learner_->hear_failing(other);
+      comparison.add_failing();
     }
+    learner_->keep_telling([&](const std::string& word) { return comparison.is_telling(word); });
     likeness_.words.telling = telling_words();
   }
   std::vector<std::string> telling_words() const {

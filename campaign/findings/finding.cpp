@@ -9,8 +9,10 @@
 #include <tuple>
 #include <utility>
 
+#include "campaign/findings/home.hpp"
 #include "campaign/findings/ingredients.hpp"
 #include "campaign/findings/naming_words.hpp"
+#include "campaign/findings/word_comparison.hpp"
 #include "core/base/random.hpp"
 #include "reports/evidence/binomial.hpp"
 
@@ -41,6 +43,8 @@ constexpr std::uint32_t kSomeLucks = 4;
 // Fewer failures that say the same have too few sets of needs for one of them to be frequent.
 constexpr std::size_t kEnoughToCount = 10;
 
+// A word tells few failures apart by itself where passing runs often say it, too. It is that of them all if it tells
+// more of them than chance would let it.
 std::vector<std::string> common_traits(std::span<const KnownFailure> failures, const Members& members) {
   std::map<std::string, std::size_t> having;
   for (const std::size_t member : members) {
@@ -48,7 +52,10 @@ std::vector<std::string> common_traits(std::span<const KnownFailure> failures, c
   }
   std::vector<std::string> common;
   for (const auto& [trait, count] : having) {
-    if (100 * count >= kCommonPercent * members.size()) common.push_back(trait);
+    const auto said = static_cast<std::size_t>(std::ranges::count_if(
+        members, [&, &word = trait](std::size_t member) { return says(failures[member].needs, word); }));
+    const bool is_chance = lower_bound(count, members.size(), Confidence{0.95}) <= kRareChance;
+    if (100 * (is_chance ? count : said) >= kCommonPercent * members.size()) common.push_back(trait);
   }
   return common;
 }
@@ -95,40 +102,6 @@ std::map<std::string, Members> parted(std::span<const KnownFailure> failures, Me
   return parts;
 }
 
-struct Home {
-  Needs needs;
-  std::string doing;
-  std::vector<std::string> words;
-  std::size_t size = 0;
-  bool is_told_by_words = false;  // whatever else a failure needs or does without
-  bool takes_more = true;         // failures that need more, too
-  bool is_last = false;           // only failures that no other home takes
-
-  // `needed`: what it needs, without kinds of messages that are chance. Who just drove on where nearly all others did
-  // something may have done so a little later.
-  bool takes(const FailureNeeds& failure, const Needs& needed) const {
-    const bool did_so =
-        doing.empty() || names_all(failure.doings, {doing}) || (failure.doings.empty() && needed == needs);
-    const bool needs_so = is_told_by_words || needed == needs || (takes_more && names_all(needed, needs));
-    return did_so && needs_so &&
-           std::ranges::all_of(words, [&](const std::string& word) { return says(failure, word); });
-  }
-};
-
-// The first of the simplest that take it; of these, the one with what was tried first and is needed all the same.
-const Home* home_of(const FailureNeeds& failure, const Needs& needed, const std::vector<Home>& homes) {
-  const auto place = [&](const Home& home) {
-    return home.needs.empty() ? 0 : std::ranges::find(needed, home.needs.front()) - needed.begin();
-  };
-  const Home* best = nullptr;
-  for (const Home& home : homes) {
-    if (!home.takes(failure, needed) || (home.is_last && best != nullptr)) continue;
-    const bool is_as_simple = best != nullptr && home.needs.size() == best->needs.size();
-    if (best == nullptr || (is_as_simple && place(home) < place(*best))) best = &home;
-  }
-  return best;
-}
-
 bool is_sure(const FailureNeeds& failure) { return !failure.is_rare; }
 
 // What each failure needs, without the kinds of messages that are chance: most failures that need the same beside them
@@ -168,7 +141,9 @@ class Gathering {
     for (const auto& [needs, members] : by_needs_) {
       Members others, rare;
       for (const std::size_t member : members) {
-        if (const Home* home = home_of(failures_[member].needs, needs, all)) {
+        const Home* home = home_of(failures_[member].needs, needs, all);
+        if (home == nullptr && members.size() < kFewMembers) home = related_home(failures_[member].needs, all);
+        if (home != nullptr) {
           gathered[{home->needs, home->doing}].push_back(member);
         } else {
           (failures_[member].needs.is_rare ? rare : others).push_back(member);

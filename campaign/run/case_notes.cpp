@@ -17,7 +17,7 @@ void keep_last(std::vector<Note>& kept, const Note& note, KeyOf key_of) {
   kept.push_back(note);
 }
 
-constexpr std::size_t kShortestDeclared = 4 + 4 + 8, kShortestHeard = 3 * 4 + 4 + 2 * 8,
+constexpr std::size_t kShortestDeclared = 4 + 4 + 8, kShortestHeard = 3 * 4 + 2 * 4 + 2 * 8,
                       kShortestBelieved = 2 * 4 + 3 * 4 + 8;
 
 }  // namespace
@@ -29,18 +29,20 @@ void NoteKeeper::record(const TraceRecord& record, std::string_view text) {
       if (!text.empty()) declared_.push_back({record.entity, std::string(text), record.at});
       return;
     case TraceKind::Described:
-      kinds_[read<traced::Described>(record).message_hash] = message_words(text).kind;
+      texts_[read<traced::Described>(record).message_hash] = text;
       return;
     case TraceKind::Sent: {
       const auto sent = read<traced::Sent>(record);
-      const auto kind = kinds_.find(sent.message_hash);
-      messages_[sent.number] = {kind == kinds_.end() ? "" : kind->second, record.at};
+      const auto text_of = texts_.find(sent.message_hash);
+      messages_[sent.number] = {text_of == texts_.end() ? "" : text_of->second, record.at};
       return;
     }
     case TraceKind::Received: {
       const auto received = read<traced::Reception>(record);
       const Message& message = messages_[received.number];
-      heard_.push_back({record.entity, received.sender, received.number, message.kind, message.sent, record.at});
+      const auto [kind, content] = message_words(message.text);
+      heard_.push_back({record.entity, received.sender, received.number, std::string(kind), std::string(content),
+                        message.sent, record.at});
       return;
     }
     case TraceKind::Belief: {
@@ -67,18 +69,33 @@ CaseNotes NoteKeeper::until(SimTime t) const {
   return notes;
 }
 
-void put(ByteSink& sink, const CaseNotes& notes) {
-  const auto count = [&](const auto& list) { sink.u32(static_cast<std::uint32_t>(list.size())); };
-  count(notes.declared);
-  for (const auto& [agv, word, at] : notes.declared) {
+void put(ByteSink& sink, const std::vector<Declared>& all) {
+  sink.u32(static_cast<std::uint32_t>(all.size()));
+  for (const auto& [agv, word, at] : all) {
     sink.u32(agv.value);
     sink.text(word);
     sink.i64(to_ns(at));
   }
+}
+
+std::vector<Declared> take_declared(ByteSource& source) {
+  std::vector<Declared> all(source.count(kShortestDeclared));
+  for (auto& [agv, word, at] : all) {
+    agv.value = source.u32();
+    word = source.text();
+    at = at_ns(source.i64());
+  }
+  return all;
+}
+
+void put(ByteSink& sink, const CaseNotes& notes) {
+  const auto count = [&](const auto& list) { sink.u32(static_cast<std::uint32_t>(list.size())); };
+  put(sink, notes.declared);
   count(notes.heard);
-  for (const auto& [by, of, number, kind, sent, received] : notes.heard) {
+  for (const auto& [by, of, number, kind, content, sent, received] : notes.heard) {
     for (const std::uint32_t value : {by.value, of.value, number}) sink.u32(value);
     sink.text(kind);
+    sink.text(content);
     for (const SimTime time : {sent, received}) sink.i64(to_ns(time));
   }
   count(notes.believed);
@@ -93,16 +110,12 @@ void put(ByteSink& sink, const CaseNotes& notes) {
 
 CaseNotes take_notes(ByteSource& source) {
   CaseNotes notes;
-  notes.declared.resize(source.count(kShortestDeclared));
-  for (auto& [agv, word, at] : notes.declared) {
-    agv.value = source.u32();
-    word = source.text();
-    at = at_ns(source.i64());
-  }
+  notes.declared = take_declared(source);
   notes.heard.resize(source.count(kShortestHeard));
-  for (auto& [by, of, number, kind, sent, received] : notes.heard) {
+  for (auto& [by, of, number, kind, content, sent, received] : notes.heard) {
     for (std::uint32_t* value : {&by.value, &of.value, &number}) *value = source.u32();
     kind = source.text();
+    content = source.text();
     for (SimTime* time : {&sent, &received}) *time = at_ns(source.i64());
   }
   notes.believed.resize(source.count(kShortestBelieved));

@@ -12,17 +12,20 @@
 
 namespace fleetproof {
 
-// A state or a probe that an agent declared: the last time before the failure.
+// A state or a probe that an agent declared. Of a note: the last time before the failure.
 struct Declared {
   EntityId agv;
   std::string word;
   SimTime at{};
 };
+void put(ByteSink& sink, const std::vector<Declared>& all);
+std::vector<Declared> take_declared(ByteSource& source);
 // The last message that one AGV received from another before the failure.
 struct Heard {
   EntityId by, of;
   std::uint32_t number = 0;
-  std::string kind;  // empty: its sender did not describe it
+  std::string kind;     // empty: its sender did not describe it
+  std::string content;  // what it says, as its sender describes it; may be empty
   SimTime sent{}, received{};
 };
 // Where one AGV last believed another to be before the failure. `as_of` is by its own clock.
@@ -49,13 +52,13 @@ class NoteKeeper {
 
  private:
   struct Message {
-    std::string kind;
+    std::string text;
     SimTime sent{};
   };
   std::vector<Declared> declared_;
   std::vector<Heard> heard_;
   std::vector<std::pair<SimTime, Believed>> believed_;
-  std::map<std::uint64_t, std::string> kinds_;  // by hash
+  std::map<std::uint64_t, std::string> texts_;  // what a message is, by its hash
   std::map<std::uint32_t, Message> messages_;   // by number
 };
 

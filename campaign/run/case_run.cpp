@@ -38,6 +38,14 @@ class Declarations {
     return {said.begin(), said.end()};
   }
 
+  std::vector<Declared> first() const {
+    std::vector<Declared> first;
+    for (const auto& [key, at] : first_) {
+      if (!key.second.empty()) first.push_back({key.first, key.second, at});
+    }
+    return first;
+  }
+
   // Empty if it had declared nothing.
   std::string state(EntityId agv, SimTime t) const {
     const auto found = states_.find(agv);
@@ -152,6 +160,7 @@ CaseRun run_case(const Scenario& scenario, const fp_agent_type& agent, const std
     run.whereabouts = sink.whereabouts.take();
   }
   run.all_words = sink.declared.words({}, kForever);
+  run.first_said = sink.declared.first();
   const auto cause = first_cause(run.outcome);
   if (!cause) return run;
   std::vector<EntityId> agvs;

@@ -29,9 +29,10 @@ struct CaseRun {
   // All states and probes that these agents had declared until then, sorted, each once; of the whole fleet if none of
   // its AGVs is known to have failed. And those of the whole fleet in the whole run.
   std::vector<std::string> words, all_words;
-  std::vector<MessageFate> fates;  // of all messages, if they were asked for
-  CaseNotes notes;                 // until the failure, likewise
-  Whereabouts whereabouts;         // of the whole run, likewise
+  std::vector<Declared> first_said;  // by each AGV, in the whole run: the first time that it declared each word
+  std::vector<MessageFate> fates;    // of all messages, if they were asked for
+  CaseNotes notes;                   // until the failure, likewise
+  Whereabouts whereabouts;           // of the whole run, likewise
 };
 enum class Fates : bool { Ignored, Kept };
 

@@ -35,6 +35,10 @@ void WordLearner::hear_failing(const CaseRun& run) {
   std::erase_if(telling_, [&](const std::string& word) { return !has(run.words, word); });
 }
 
+void WordLearner::keep_telling(const std::function<bool(const std::string& word)>& tells) {
+  std::erase_if(telling_, [&](const std::string& word) { return !tells(word); });
+}
+
 bool WordLearner::is_ordinary(const std::string& word) const {
   const auto said = saying_.find(word);
   return lucky_.contains(word) || (said != saying_.end() && 2 * said->second >= passing_);

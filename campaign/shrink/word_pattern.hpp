@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -29,6 +30,8 @@ class WordLearner {
   void hear_lucky(const CaseRun& run);
   void hear_passing(const CaseRun& run);
   void hear_failing(const CaseRun& run);
+  // Other words do not tell.
+  void keep_telling(const std::function<bool(const std::string& word)>& tells);
   std::uint32_t passing() const { return passing_; }
   WordPattern pattern() const;
   // Whether the fleet says the word without a failure: on a perfect radio, or in at least half of the other runs.

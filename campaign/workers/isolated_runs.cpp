@@ -52,9 +52,9 @@ RunRecord IsolatedRuns::operator()(std::uint64_t run_index, bool record_calls) {
 CaseRun IsolatedRuns::of_case(const Scenario& scenario, Fates fates) {
   RunOrder order{0, {}, false, cases_.write(scenario), fates == Fates::Kept};
   RunAnswer answer = answer_of(order);
-  return {std::move(answer.outcome), std::move(answer.states),     std::move(answer.doing),
-          std::move(answer.words),   std::move(answer.all_words),  std::move(answer.fates),
-          std::move(answer.notes),   std::move(answer.whereabouts)};
+  return {std::move(answer.outcome), std::move(answer.states),    std::move(answer.doing),
+          std::move(answer.words),   std::move(answer.all_words), std::move(answer.first_said),
+          std::move(answer.fates),   std::move(answer.notes),     std::move(answer.whereabouts)};
 }
 
 std::optional<std::vector<KnownEnd>> IsolatedRuns::ends_in(const Scenario& scenario) {

@@ -89,6 +89,7 @@ std::string encode(const RunAnswer& answer) {
   put(sink, answer.doing);
   put(sink, answer.words);
   put(sink, answer.all_words);
+  put(sink, answer.first_said);
   put(sink, answer.notes);
   put(sink, answer.whereabouts);
   sink.u32(static_cast<std::uint32_t>(answer.fates.size()));
@@ -109,6 +110,7 @@ RunAnswer decode_answer(std::string_view bytes) {
   answer.doing = take_texts(source);
   answer.words = take_texts(source);
   answer.all_words = take_texts(source);
+  answer.first_said = take_declared(source);
   answer.notes = take_notes(source);
   answer.whereabouts = take_whereabouts(source);
   answer.fates.resize(source.count(kShortestFateBytes));

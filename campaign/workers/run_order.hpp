@@ -35,6 +35,7 @@ struct RunAnswer {
   Outcome outcome;
   std::string recording;  // of a failed run, if the order asks for it; empty: there is none, or it is too long
   std::vector<std::string> states, doing, words, all_words;  // of a scenario: see CaseRun
+  std::vector<Declared> first_said;                          // likewise
   CaseNotes notes;                                           // likewise
   std::vector<MessageFate> fates;                            // likewise
   Whereabouts whereabouts;                                   // likewise

@@ -81,6 +81,7 @@ RunAnswer answer_to(const RunOrder& order, const Stage& stage, WorkerSlot& slot)
     answer.doing = std::move(run.doing);
     answer.words = std::move(run.words);
     answer.all_words = std::move(run.all_words);
+    answer.first_said = std::move(run.first_said);
     answer.fates = std::move(run.fates);
     answer.notes = std::move(run.notes);
     answer.whereabouts = std::move(run.whereabouts);

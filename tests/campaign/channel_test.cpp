@@ -71,6 +71,7 @@ TEST(RunAnswer, IsWhatWasEncodedAndNothingShorter) {
   answer.states = {"driving"};
   answer.words = {"driving", "late"};
   answer.all_words = {"late"};
+  answer.first_said = {{AgvId{3U}, "late", at_ns(9)}};
   MessageFate& message = answer.fates.emplace_back();
   message.fate = {AgvId{1U}, AgvId{2U}, Duration{3}, 4, true, Duration{5}, true, Duration{6}};
   message.kind = "GRANT";
@@ -90,6 +91,9 @@ TEST(RunAnswer, IsWhatWasEncodedAndNothingShorter) {
   EXPECT_EQ(decoded.states, answer.states);
   EXPECT_EQ(decoded.words, answer.words);
   EXPECT_EQ(decoded.all_words, answer.all_words);
+  ASSERT_EQ(decoded.first_said.size(), 1U);
+  EXPECT_EQ(std::tuple(decoded.first_said[0].agv, decoded.first_said[0].word, decoded.first_said[0].at),
+            std::tuple(EntityId{AgvId{3U}}, "late", at_ns(9)));
   ASSERT_EQ(decoded.fates.size(), 1U);
   EXPECT_EQ(decoded.fates[0].fate, message.fate);
   EXPECT_EQ(std::tuple(decoded.fates[0].kind, decoded.fates[0].number), std::tuple(message.kind, message.number));

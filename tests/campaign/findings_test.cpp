@@ -121,6 +121,44 @@ TEST(Findings, WhoNeedsMoreJoinsWhoNeedsLess) {
   EXPECT_EQ(findings[1].members.size(), 4U);
 }
 
+// One such failure does without the late messages; another was tried too seldom to tell which message is late.
+TEST(Findings, WhoSharesTheRarestNeedJoinsThoseOfWhichThereAreMany) {
+  auto failures = times(30, failure("a", {"restart", "late messages", "STATE messages"}));
+  auto rare = failure("a", {"restart", "low batteries", "late messages", "STATE messages", "GRANT messages"});
+  rare.needs.is_rare = true;
+  add(failures, {failure("a", {"restart"}), failure("a", {"breakdown", "restart"}), rare});
+  ASSERT_EQ(findings_of(failures).size(), 1U);
+  EXPECT_EQ(findings_of(failures)[0].mechanism.needs,
+            (std::vector<std::string>{"restart", "late messages", "STATE messages"}));
+  add(failures, {failure("a", {"late messages", "STATE messages"})});
+  EXPECT_EQ(findings_of(failures).size(), 2U) << "that one may need anything";
+  add(failures, times(2, failure("a", {"breakdown", "restart"})));
+  EXPECT_EQ(findings_of(failures).size(), 3U) << "three that need the same may have a fault of their own";
+}
+
+// Which kinds of messages are chance is not known of those that failed with one luck only. They join all the same.
+TEST(Findings, WhatFailedWithOneLuckOnlyKeepsItsKindsOfMessages) {
+  auto rare = failure("a", {"restart", "late messages", "STATE messages"});
+  rare.needs.is_rare = true;
+  auto failures = times(4, rare);
+  add(failures, times(30, failure("a", {"late messages", "STATE messages"})));
+  EXPECT_EQ(findings_of(failures).size(), 1U);
+}
+
+// Where most runs say a word, few failures can show that it tells. Of many that say it, more than chance do.
+TEST(Findings, AWordIsThatOfAllIfItTellsMoreThanChance) {
+  KnownFailure saying = failure("a", {"lost messages"});
+  saying.needs.said = {"oops"};
+  KnownFailure telling = saying;
+  telling.needs.traits = {"says \"oops\""};
+  auto failures = times(20, saying);
+  add(failures, times(2, telling));
+  ASSERT_EQ(findings_of(failures).size(), 1U);
+  EXPECT_EQ(findings_of(failures)[0].mechanism.text(), "too close, two AGVs; needs lost messages");
+  add(failures, times(6, telling));
+  EXPECT_EQ(findings_of(failures)[0].mechanism.text(), "too close, two AGVs; needs lost messages; says \"oops\"");
+}
+
 TEST(Findings, ARareSetOfNeedsTakesNobodyIn) {
   auto failures = times(2, failure("a", {}));
   add(failures, times(60, failure("a", {"lost messages"})));
