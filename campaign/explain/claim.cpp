@@ -17,10 +17,12 @@ std::string name_of_body(const Scenario& scenario, EntityId body) {
   return "a fallen load";
 }
 
-std::string words_of(const MessageFate& message) {
-  if (message.kind.empty()) return "not described";
-  return message.content.empty() ? message.kind : message.kind + ": " + message.content;
+std::string words_of(const std::string& kind, const std::string& content) {
+  if (kind.empty()) return "not described";
+  return content.empty() ? kind : kind + ": " + content;
 }
+
+std::string words_of(const MessageFate& message) { return words_of(message.kind, message.content); }
 
 std::string message_text(const Scenario& scenario, const MessageFate& message) {
   const GivenFate& fate = message.fate;

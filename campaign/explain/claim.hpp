@@ -38,6 +38,7 @@ std::string outcome_text(const std::optional<Failure>& failure);
 // "AGV 3": as its scenario names it.
 std::string name_of_body(const Scenario& scenario, EntityId body);
 // "GRANT: answers 7.0"
+std::string words_of(const std::string& kind, const std::string& content);
 std::string words_of(const MessageFate& message);
 // "message 118 (GRANT: answers 7.0, 5 to 2, 61.204 s)"
 std::string message_text(const Scenario& scenario, const MessageFate& message);

@@ -22,6 +22,20 @@ FailingCase with_more_time(CaseHost& host, const FailingCase& small, const Faili
   return longer;
 }
 
+// Of the AGVs of the failure that were on no drive then.
+std::vector<Departure> past_drives(const Explanation& of, const Whereabouts& whereabouts) {
+  std::vector<Departure> found;
+  for (const EntityId body : {of.small.failure.a, of.small.failure.b}) {
+    if (!body.valid() || std::ranges::count(of.set_offs, body, &SetOff::agv) > 0) continue;
+    const Departure* last = nullptr;
+    for (const Departure& departure : whereabouts.departures) {
+      if (departure.agv == body && departure.at <= of.small.failure.at) last = &departure;
+    }
+    if (last != nullptr) found.push_back(*last);
+  }
+  return found;
+}
+
 }  // namespace
 
 Explanation explain(CaseHost& host, const FailingCase& original, const FailingCase& small,
@@ -35,6 +49,7 @@ Explanation explain(CaseHost& host, const FailingCase& original, const FailingCa
   found.stops = last_stops(host, found.small, pattern);
   found.set_offs = set_offs(host, found.small, pattern);
   CaseRun run = host(found.small.scenario, Fates::Kept);
+  found.past_drives = past_drives(found, run.whereabouts);
   found.notes = std::move(run.notes);
   found.doing = std::move(run.doing);
   CaseRun lucky = host(with_fates_only(found.small.scenario, {}));

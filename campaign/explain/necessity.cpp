@@ -11,6 +11,7 @@
 #include "campaign/shrink/adverse_fates.hpp"
 #include "campaign/shrink/all_runs.hpp"
 #include "campaign/shrink/fitness.hpp"
+#include "campaign/shrink/shrink.hpp"
 #include "campaign/shrink/surgery.hpp"
 #include "core/scenario/canonical_bytes.hpp"
 
@@ -19,9 +20,18 @@ namespace {
 
 constexpr Duration kGrain = std::chrono::milliseconds(10);
 
-Scenario with_fate(const Scenario& scenario, std::size_t i, const GivenFate& fate) {
+// While the radio draws, so many of the messages before the failure are asked for, and so many are told.
+constexpr std::size_t kMostAsked = 60, kMostTold = 4;
+
+Scenario with_fate(const Scenario& scenario, const GivenFate& fate) {
   Scenario changed = scenario;
-  changed.fates[i] = fate;
+  const auto given =
+      std::ranges::find_if(changed.fates, [&](const GivenFate& other) { return is_same_message(other, fate); });
+  if (given == changed.fates.end()) {
+    changed.fates.push_back(fate);
+  } else {
+    *given = fate;
+  }
   return changed;
 }
 
@@ -34,10 +44,9 @@ GivenFate arriving_after(GivenFate fate, Duration delay) {
 
 // By halving.
 std::optional<LatestArrival> latest_that_saves(CaseHost& host, const FailingCase& failing,
-                                               const FailurePattern& pattern, std::size_t i) {
-  const GivenFate& fate = failing.scenario.fates[i];
+                                               const FailurePattern& pattern, const GivenFate& fate) {
   const auto saves = [&](Duration delay) {
-    return avoids(host(with_fate(failing.scenario, i, arriving_after(fate, delay))), failing, pattern);
+    return avoids(host(with_fate(failing.scenario, arriving_after(fate, delay))), failing, pattern);
   };
   Duration low{}, high = fate.lost ? failing.failure.at - kStart - fate.sent : fate.delay;
   if (high <= kGrain || saves(high)) return std::nullopt;
@@ -46,6 +55,57 @@ std::optional<LatestArrival> latest_that_saves(CaseHost& host, const FailingCase
     (saves(middle) ? low : high) = middle;
   }
   return LatestArrival{low, high};
+}
+
+Scenario at_once(const Scenario& scenario, const MessageFate& message) {
+  return with_fate(scenario, arriving_after(message.fate, Duration::zero()));
+}
+
+MessageNeed need_of(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern,
+                    const MessageFate& message) {
+  const GivenFate& fate = message.fate;
+  MessageNeed need;
+  need.message = message;
+  Scenario arrived = at_once(failing.scenario, message);
+  const CaseRun run = host(arrived);
+  need.is_needed = avoids(run, failing, pattern);
+  need.claims.push_back({fmt::format("{} arrived at once", message_text(failing.scenario, message)),
+                         std::move(arrived),
+                         outcome_text(failure_of(run)),
+                         need.is_needed,
+                         {}});
+  if (need.is_needed) need.latest = latest_that_saves(host, failing, pattern, fate);
+  if (!need.latest) return need;
+  for (const Duration late : {need.latest->in_time, need.latest->too_late}) {
+    Scenario later = with_fate(failing.scenario, arriving_after(fate, late));
+    std::string outcome = outcome_text(failure_of(host(later)));
+    need.claims.push_back(
+        {fmt::format("it arrived at {:.3f} s", to_seconds(fate.sent + late)), std::move(later), std::move(outcome)});
+  }
+  return need;
+}
+
+// Bad luck that the radio draws: of the last such messages between its two bodies, those that it needs. Any other run
+// has other messages later, so of those that are needed the last are told.
+void add_drawn(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern,
+               const std::vector<MessageFate>& messages, std::vector<MessageNeed>& needs) {
+  const auto is_of_it = [&](EntityId body) { return body == failing.failure.a || body == failing.failure.b; };
+  std::vector<MessageFate> asked;
+  std::ranges::copy_if(messages, std::back_inserter(asked), [&](const MessageFate& m) {
+    return m.is_adverse() && kStart + m.fate.sent < failing.failure.at && is_of_it(m.fate.sender) &&
+           is_of_it(m.fate.receiver) && std::ranges::none_of(needs, [&](const MessageNeed& need) {
+             return is_same_message(need.message.fate, m.fate);
+           });
+  });
+  if (asked.size() > kMostAsked) asked.erase(asked.begin(), asked.end() - kMostAsked);
+  const auto runs =
+      all_runs(host, {asked.size(), [&](std::size_t i) { return std::optional(at_once(failing.scenario, asked[i])); }});
+  std::vector<MessageFate> needed;
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    if (avoids(*runs[i], failing, pattern)) needed.push_back(asked[i]);
+  }
+  if (needed.size() > kMostTold) needed.erase(needed.begin(), needed.end() - kMostTold);
+  for (const MessageFate& message : needed) needs.push_back(need_of(host, failing, pattern, message));
 }
 
 struct Without {
@@ -148,32 +208,12 @@ std::vector<Without> things_of(const Scenario& scenario) {
 std::vector<MessageNeed> needs_of_messages(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern) {
   const auto messages = host(failing.scenario, Fates::Kept).fates;
   std::vector<MessageNeed> needs;
-  for (std::size_t i = 0; i < failing.scenario.fates.size(); ++i) {
-    const GivenFate& fate = failing.scenario.fates[i];
+  for (const GivenFate& fate : failing.scenario.fates) {
     const auto sent =
         std::ranges::find_if(messages, [&](const MessageFate& message) { return is_same_message(message.fate, fate); });
-    if (sent == messages.end()) continue;  // it was never sent, so its fate changed nothing
-    MessageNeed need;
-    need.message = *sent;
-    Scenario arrived = with_fate(failing.scenario, i, arriving_after(fate, Duration::zero()));
-    const CaseRun run = host(arrived);
-    need.is_needed = avoids(run, failing, pattern);
-    need.claims.push_back({fmt::format("{} arrived at once", message_text(failing.scenario, need.message)),
-                           std::move(arrived),
-                           outcome_text(failure_of(run)),
-                           need.is_needed,
-                           {}});
-    if (need.is_needed) need.latest = latest_that_saves(host, failing, pattern, i);
-    if (need.latest) {
-      for (const Duration late : {need.latest->in_time, need.latest->too_late}) {
-        Scenario later = with_fate(failing.scenario, i, arriving_after(fate, late));
-        std::string outcome = outcome_text(failure_of(host(later)));
-        need.claims.push_back({fmt::format("it arrived at {:.3f} s", to_seconds(fate.sent + late)), std::move(later),
-                               std::move(outcome)});
-      }
-    }
-    needs.push_back(std::move(need));
+    if (sent != messages.end()) needs.push_back(need_of(host, failing, pattern, *sent));  // or it changed nothing
   }
+  if (CaseSize::of(failing.scenario).fates_are_drawn) add_drawn(host, failing, pattern, messages, needs);
   return needs;
 }
 

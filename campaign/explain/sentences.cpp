@@ -24,6 +24,7 @@ class Words {
     things();
     for (const LastStop& stop : of_.stops) last_stop(stop);
     for (const SetOff& drive : of_.set_offs) set_off(drive);
+    for (const Departure& drive : of_.past_drives) past_drive(drive);
     for (const EntityId agv : involved()) knowledge(agv);
     shares();
     no_return();
@@ -81,7 +82,7 @@ class Words {
     if (!need.is_needed) return say("It does not need {} of {} {}.", trouble, name, runs(count));
     if (!need.latest)
       return say("It needs {} of {}: had it arrived at once, no failure {}.", trouble, name, runs(count));
-    say("It needs {} of {}. Had it arrived by {:.2f} s, no failure; at {:.2f} s, it fails {}.", trouble, name,
+    say("It needs {} of {}. Had it arrived by {:.3f} s, no failure; at {:.3f} s, it fails {}.", trouble, name,
         to_seconds(fate.sent + need.latest->in_time), to_seconds(fate.sent + need.latest->too_late), runs(count));
   }
 
@@ -122,6 +123,15 @@ class Words {
     for (const Leave& of : is.leaves) leave(is, of);
   }
 
+  // It stands at the end of it, or where a fault has stopped it.
+  void past_drive(const Departure& drive) {
+    const auto& map = *scenario_.map;
+    const Duration at = drive.at - kStart;
+    say("{} had last set off from {} for {}, at {:.3f} s.", name_of_body(scenario_, drive.agv),
+        map.station(drive.from).name, map.station(drive.to).name, seconds_of(drive.at));
+    faults_between(drive.agv, at, of_.small.failure.at - kStart, "after that");
+  }
+
   void leave(const SetOff& is, const Leave& of) {
     const std::string from = name_of_body(scenario_, of.from);
     const auto looked_at_s = kLookedAt / std::chrono::seconds(1);
@@ -134,6 +144,12 @@ class Words {
           of.kinds.empty() ? "" : "else ", from, of.kinds.empty() ? "any message of it" : "any other message of it",
           looked_at_s, is.is_turn() ? "turns" : "sets off", runs(1));
     for (const GoAhead& one : of.keys) key(is, one);
+    if (of.keys.size() == 2) two_answers(name_of_body(scenario_, is.agv), of.keys[0].message, of.keys[1].message);
+  }
+
+  void two_answers(const std::string& name, const MessageFate& a, const MessageFate& b) {
+    if (a.content.empty() || words_of(a) != words_of(b)) return;
+    say("Messages {} and {} say the same ({}), and {} needed both.", b.number, a.number, words_of(a), name);
   }
 
   static const char* and_then(const Claim& claim) { return claim.avoids ? ", and nothing fails" : ""; }
@@ -213,8 +229,8 @@ class Words {
       say("{} had never heard {}.", name, from);
     } else {
       say("The last that {} had heard of {} was message {}{}, sent at {:.3f} s: {:.2f} s old at the failure.", name,
-          from, last->number, last->kind.empty() ? "" : " (" + last->kind + ")", seconds_of(last->sent),
-          to_seconds(of_.small.failure.at - last->sent));
+          from, last->number, last->kind.empty() ? "" : " (" + words_of(last->kind, last->content) + ")",
+          seconds_of(last->sent), to_seconds(of_.small.failure.at - last->sent));
     }
     const auto belief =
         std::ranges::find_if(of_.notes.believed, [&](const Believed& b) { return b.by == agv && b.about == other; });

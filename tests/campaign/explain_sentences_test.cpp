@@ -1,0 +1,120 @@
+#include <gmock/gmock.h>
+
+#include <string>
+#include <utility>
+
+#include "campaign/explain/sentences.hpp"
+#include "generators/scenario_file/scenario_file.hpp"
+#include "tests/support/case_bench.hpp"
+
+namespace fleetproof {
+namespace {
+
+// A case whose luck is not written down: had one of these messages arrived, it would not fail.
+TEST(Explain, MessagesThatTheRadioDrewAreAskedForToo) {
+  AgentPrograms programs;
+  CaseHost host({"timeout-grant", ""}, programs, 2);
+  std::size_t needed = 0, failures = 0;
+  for (std::uint64_t seed = 1; failures < 3; ++seed) {
+    const Scenario scenario = test::bad_radio(seed);
+    const auto failure = failure_of(host(scenario));
+    if (!failure) continue;
+    ++failures;
+    const FailingCase failing{scenario, *failure};
+    const auto needs = needs_of_messages(host, failing, pattern_of(host, failing));
+    needed += needs.size();
+    EXPECT_LE(needs.size(), 4U);
+    for (const MessageNeed& need : needs) {
+      EXPECT_TRUE(need.is_needed);
+      EXPECT_TRUE(need.message.is_adverse());
+      EXPECT_LT(kStart + need.message.fate.sent, failure->at);
+      EXPECT_TRUE(host(need.claims[0].run).outcome.violations.empty()) << need.claims[0].sentence;
+    }
+  }
+  EXPECT_GT(needed, 0U);
+}
+
+// One AGV has arrived when the other runs into it.
+TEST(Explain, TheLastDriveOfAnAgvThatStandsIsKept) {
+  const Scenario scenario = parse_scenario(R"({"version": 1, "horizon_s": 60, "vehicle_types": [{"name": "pallet-agv"}],
+      "agvs": [{"name": "first", "start": "a", "script": [{"at_s": 1, "action": "move", "segment": "there"}]},
+               {"name": "second", "start": "c", "script": [{"at_s": 30, "action": "move", "segment": "back"}]}],
+      "layout": {"name": "line", "floor_low_m": [-3, -3], "floor_high_m": [23, 13],
+        "stations": [{"name": "a", "position_m": [0, 0]}, {"name": "b", "position_m": [10, 0]},
+                     {"name": "c", "position_m": [20, 0]}],
+        "segments": [{"name": "there", "from": "a", "to": "b"}, {"name": "back", "from": "c", "to": "b"}]}})",
+                                           "line.json");
+  AgentPrograms programs;
+  CaseHost host({"scripted", ""}, programs, 1);
+  const auto failure = failure_of(host(scenario));
+  ASSERT_TRUE(failure);
+  const FailingCase failing{scenario, *failure};
+  const Explanation is = explain(host, failing, failing, pattern_of(host, failing));
+  ASSERT_EQ(is.set_offs.size(), 1U);
+  EXPECT_EQ(is.set_offs[0].agv, EntityId{1U});
+  ASSERT_EQ(is.past_drives.size(), 1U);
+  EXPECT_EQ(is.past_drives[0].agv, EntityId{0U});
+  EXPECT_THAT(sentences_of(is), testing::Contains("first had last set off from a for b, at 1.000 s."));
+}
+
+// Two AGVs of a case, and what is made up about them.
+struct MadeUp {
+  MadeUp() {
+    is.small.scenario = test::bad_radio(1);
+    is.small.failure.at = kStart + std::chrono::seconds(9);
+    is.small.failure.a = a;
+    is.small.failure.b = b;
+  }
+  std::string name(EntityId body) const { return name_of_body(is.small.scenario, body); }
+
+  EntityId a{0U}, b{1U};
+  Explanation is;
+};
+
+// An AGV that a restart has stopped on its way, and what was heard of it.
+TEST(Explain, TheSentencesTellWhereWhoStandsHadDriven) {
+  MadeUp made;
+  made.is.small.scenario.faults = {
+      {.kind = Fault::Kind::Restart, .agv = made.a, .at = seconds(4.5), .transport = {}, .lasts = seconds(0.5)}};
+  Departure drive;
+  drive.agv = made.a;
+  drive.at = kStart + std::chrono::seconds(4);
+  drive.from = StationId{0U};
+  drive.to = StationId{1U};
+  made.is.past_drives = {drive};
+  const SimTime then = kStart + std::chrono::seconds(8);
+  made.is.notes.heard = {{made.b, made.a, 7, "STATE", "holds R1", then, then}};
+  const auto& map = *made.is.small.scenario.map;
+  EXPECT_THAT(
+      sentences_of(made.is),
+      testing::IsSupersetOf({made.name(made.a) + " had last set off from " + map.station(drive.from).name + " for " +
+                                 map.station(drive.to).name + ", at 4.000 s.",
+                             "The restart of " + made.name(made.a) + " at 4.50 s was after that.",
+                             "The last that " + made.name(made.b) + " had heard of " + made.name(made.a) +
+                                 " was message 7 (STATE: holds R1), sent at 8.000 s: 1.00 s old at the failure."}));
+}
+
+// Counting messages instead of senders: two GRANTs of one AGV.
+TEST(Explain, TheSentencesTellThatTwoMessagesSayTheSame) {
+  MadeUp made;
+  MessageFate second;
+  second.kind = "GRANT";
+  second.content = "answers 7";
+  second.number = 9;
+  second.fate = {.sender = made.b, .receiver = made.a, .sent = seconds(2.0)};
+  MessageFate first = second;
+  first.number = 8;
+  const Claim held{"", {}, "none", true, {}};
+  const auto is_told = [&] {
+    const Leave leave{made.b, {}, {}, {}, {{second, held, {}, {}, false}, {first, held, {}, {}, false}}};
+    made.is.set_offs = {{made.a, {made.a, kStart, kStart, StationId{0U}, StationId{1U}}, {leave}}};
+    return std::ranges::count(sentences_of(made.is), "Messages 8 and 9 say the same (GRANT: answers 7), and " +
+                                                         made.name(made.a) + " needed both.");
+  };
+  EXPECT_EQ(is_told(), 1);
+  first.content = "answers 6";
+  EXPECT_EQ(is_told(), 0);
+}
+
+}  // namespace
+}  // namespace fleetproof
