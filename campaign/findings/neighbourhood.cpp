@@ -7,6 +7,7 @@
 #include "campaign/shrink/adverse_fates.hpp"
 #include "campaign/shrink/all_runs.hpp"
 #include "campaign/shrink/other_luck.hpp"
+#include "campaign/shrink/surgery.hpp"
 #include "core/base/random.hpp"
 
 namespace fleetproof {
@@ -103,6 +104,7 @@ Scenario Neighbourhood::at(std::uint32_t number) const {
   const Scenario& world =
       is_of_runs_ ? kept_.runs[number / 2 % kept_.runs.size()] : kept_.world_of(number / kEveryCase);
   Scenario beside = of_case ? shifted(kept_.smallest, dice) : with_other_course(world, number, kShift);
+  if (is_of_runs_ && number / 2 / kept_.runs.size() % 2 == 1) beside = with_fleet_reversed(beside);
   if (of_case) lose_one_more(beside, dice.next());
   if (number % 2 == 1) think_otherwise(beside, dice);
   return beside;

@@ -55,7 +55,8 @@ class Neighbourhood {
  public:
   // Plays the smallest case, to learn which messages the software sends in it. `kept` outlives the object.
   Neighbourhood(CaseHost& host, const KeptFailure& kept);
-  // Beside its runs instead, which there are: with other luck, as its worlds.
+  // Beside its runs instead, which there are: with other luck, as its worlds. In half of them, the fleet is numbered
+  // the other way round: a mend may help the first AGV of a fleet, and not the last.
   static Neighbourhood of_runs(const KeptFailure& kept) { return Neighbourhood(kept); }
   Scenario at(std::uint32_t number) const;
   bool is_of_case(std::uint32_t number) const;

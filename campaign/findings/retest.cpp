@@ -65,12 +65,19 @@ KeptFailure with_words(KeptFailure kept, const std::vector<std::string>& words) 
   return kept;
 }
 
-// What neighbours need that fail with the same end, if the failure that was kept is not among them. Empty: it is.
+// What neighbours need that fail with the same end, if the failure that was kept is not among them, or cannot be most
+// of them. Empty: it is.
 std::string other_mechanism(CaseHost& host, const KeptFailure& kept, const Neighbourhood& neighbourhood,
                             const NeighbourCounts& now) {
   const auto first = needs_of_first(host, neighbourhood, now);
   const auto is_kept = [&](const FailureNeeds& found) { return is_one_of(kept, found); };
-  return first.empty() || std::ranges::any_of(first, is_kept) ? "" : text_of_new(kept, first.front());
+  const auto is_other = [&](const FailureNeeds& found) {
+    return !found.is_rare && !is_kept(found) && !may_be(kept, found);
+  };
+  const auto others = static_cast<std::size_t>(std::ranges::count_if(first, is_other));
+  if (first.empty()) return "";
+  if (2 * others > first.size()) return text_of_new(kept, *std::ranges::find_if(first, is_other));
+  return std::ranges::any_of(first, is_kept) ? "" : text_of_new(kept, first.front());
 }
 
 bool is_rarer_share(std::size_t alike, std::size_t of, std::size_t alike_before, std::size_t of_before) {

@@ -49,6 +49,22 @@ Scenario with_agvs(const Scenario& scenario, const Keeps& keeps) {
   return less;
 }
 
+Scenario with_fleet_reversed(const Scenario& scenario) {
+  const DrawNumbers numbers(scenario);
+  Scenario reversed = scenario;
+  for (std::size_t i = 0; i < reversed.agvs.size(); ++i) reversed.agvs[i].draws_as = numbers.of(AgvId{i}).value;
+  std::ranges::reverse(reversed.agvs);
+  const auto renumber = [last = reversed.agvs.size() - 1](auto& id) {
+    id = std::remove_reference_t<decltype(id)>{last - id.index()};
+  };
+  for (Fault& fault : reversed.faults) renumber(fault.agv);
+  for (GivenFate& fate : reversed.fates) {
+    renumber(fate.sender);
+    renumber(fate.receiver);
+  }
+  return reversed;
+}
+
 std::vector<TransportPlace> transports_of(const Scenario& scenario) {
   std::vector<TransportPlace> places;
   for (std::size_t agv = 0; agv < scenario.agvs.size(); ++agv) {

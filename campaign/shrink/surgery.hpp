@@ -16,6 +16,9 @@ using Keeps = std::function<bool(std::size_t place)>;
 // AGVs with their orders, faults and messages. The others keep the numbers under which they draw.
 Scenario with_agvs(const Scenario& scenario, const Keeps& keeps);
 
+// The same fleet, numbered from its other end: with its orders, faults, messages and draws.
+Scenario with_fleet_reversed(const Scenario& scenario);
+
 // A transport of the fleet: the AGV and its number there.
 struct TransportPlace {
   std::size_t agv = 0, number = 0;
