@@ -86,6 +86,7 @@ void read_whole_runs(TomlTable& table, KeptFinding& finding) {
   if (alike > of) throw InputError(table.place("whole_runs_failing"), "more runs failed than were tried");
   finding.whole.counts.of = of;
   finding.whole.counts.alike = alike;
+  finding.whole.counts.always_said = texts(table, "whole_runs_always_said");
   read_ends(table, "whole_runs_otherwise", finding.whole.counts);
   finding.whole.others_need = lists(table, "others_need");
 }
@@ -128,6 +129,8 @@ std::string text_of_whole_runs(const KeptFinding& finding) {
                                  finding.whole.counts.of, finding.whole.counts.alike);
   if (!finding.whole.others_need.empty())
     text += fmt::format("others_need = {}\n", lists_of(finding.whole.others_need));
+  if (!finding.whole.counts.always_said.empty())
+    text += fmt::format("whole_runs_always_said = {}\n", list_of(finding.whole.counts.always_said));
   return text + text_of_ends("whole_runs_otherwise", finding.whole.counts);
 }
 
@@ -197,7 +200,8 @@ KeptFailure FindingsFile::failure(const KeptFinding& finding) const {
 KnownRuns FindingsFile::known_runs(const KeptFinding& finding) const {
   KnownRuns known{finding.whole.counts, {}};
   if (!finding.whole.others_need.empty())
-    known.others.push_back({{.end = finding.end, .ways = finding.whole.others_need, .doings = {}, .says = {}}});
+    known.others.push_back({{.end = finding.end, .ways = finding.whole.others_need, .doings = {}, .says = {}},
+                            finding.whole.counts.always_said});
   for (const KeptFinding& other : findings_) {
     if (other.found_in != finding.found_in || other.id == finding.id) continue;
     known.others.push_back({{.end = other.end, .ways = other.ways, .doings = other.doings, .says = other.says},

@@ -178,7 +178,13 @@ void judge_whole_runs(CaseHost& host, const KeptFailure& found, const NeighbourC
     return with_words(kept, words_no_longer_said(all_of(now.ever_said, result.now.ever_said), always_said));
   };
   std::vector<KeptFailure> others;
-  for (const OtherKind& other : known.others) others.push_back(kept_now(other.failure, other.always_said));
+  // What was known before does not explain that many more fail now.
+  const bool is_more =
+      known.counts.of > 0 &&
+      fisher_exact(known.counts.alike, known.counts.of, now.alike, now.of).first_smaller < kNewKindChance;
+  if (!is_more) {
+    for (const OtherKind& other : known.others) others.push_back(kept_now(other.failure, other.always_said));
+  }
   look_at_whole_failures(host, kept_now(found, before.always_said), others, result);
 }
 

@@ -47,6 +47,7 @@ class FindingsFiles : public testing::Test {
     finding.neighbours = {1000, 17, {{"no progress", 3}, {"a \"b\"", 4}}, {}, 750, 9, 12345, 678, {"a", "b \"c\""}};
     finding.whole.files = {"r.json", "s.json"};
     finding.whole.counts = {250, 130, {{"a \"d\"", 5}}, {}};
+    finding.whole.counts.always_said = {"c", "d"};
     finding.whole.others_need = {{"restart"}, {}};
     return finding;
   }
@@ -110,6 +111,7 @@ TEST_F(FindingsFiles, SaysHowElseTheSoftwareFailed) {
   ASSERT_EQ(known.others.size(), 2U);
   EXPECT_EQ(known.others[0].failure.ways, odd().whole.others_need);
   EXPECT_TRUE(known.others[0].failure.says.empty());
+  EXPECT_EQ(known.others[0].always_said, odd().whole.counts.always_said);
   EXPECT_EQ(known.others[1].failure.ways, other.ways);
   EXPECT_EQ(known.others[1].failure.says, other.says);
   EXPECT_EQ(known.others[1].always_said, other.neighbours.always_said);

@@ -284,6 +284,11 @@ TEST(WholeRuns, ShowWhatIsBrokenInstead) {
   const KnownRuns of_two_faults{{}, {{{.end = known.kept.end, .ways = {{}}}}}};
   EXPECT_EQ(retest(other.host, known.kept, known.before, kSome, of_two_faults).verdict, RetestVerdict::Fixed)
       << "the software failed so before, too";
+  KnownRuns of_rare_ones = of_two_faults;
+  of_rare_ones.counts.of = kWholeRuns;
+  of_rare_ones.counts.alike = 5;
+  EXPECT_EQ(retest(other.host, known.kept, known.before, kSome, of_rare_ones).verdict, RetestVerdict::NewKind)
+      << "that explains only so many";
 }
 
 // Half a mend may change nothing in the worlds.
