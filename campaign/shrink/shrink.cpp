@@ -39,6 +39,7 @@ constexpr std::size_t kSparseStarts = 4;
 constexpr std::uint32_t kOtherStarts = 6;
 constexpr std::uint32_t kCourses = 12;  // on which a single adverse message is looked for
 constexpr std::size_t kFew = 2;         // adverse messages: fewer are not looked for elsewhere
+constexpr std::size_t kFewAgvs = 3;
 
 // So long before the failure, at least, a run may start later. A failure that comes soon after the start may need more
 // bad luck at once, so all of them are tried: the last is the run from its beginning.
@@ -46,16 +47,20 @@ constexpr std::array<Duration, 3> kLeadUps = {std::chrono::seconds(10), std::chr
 
 const OnSmaller kQuietly = [](const FailingCase&, std::string_view) {};
 
+bool is_large(const FailingCase& failing) { return failing.scenario.agvs.size() > kFewAgvs; }
 bool has_luck(const FailingCase& failing) { return CaseSize::of(failing.scenario).fates_are_drawn; }
+
+// What is taken away first: what is left then may need all of the other.
+enum class First : bool { BadLuck, Fleet };
 
 // While the radio draws, a run that takes another course meets bad luck again. The shorter run comes last: on other
 // courses, it may fail later.
-FailingCase with_luck_drawn(Trials& trials, const FailingCase& original, Duration lead_up,
+FailingCase with_luck_drawn(Trials& trials, const FailingCase& original, Duration lead_up, First first,
                             const OnSmaller& on_smaller) {
   Shrinker shrinker(trials, original, on_smaller, Shrinker::Courses::Free);
   shrinker.end_with_slack();
   shrinker.start_later(lead_up);
-  shrinker.improve_radio();
+  if (first == First::BadLuck) shrinker.improve_radio();
   shrinker.keep_the_involved();
   for (bool smaller = true; smaller && !trials.ended();) {
     smaller = shrinker.take_out_things();
@@ -85,6 +90,8 @@ class LeastBadLuck {
     const FailingCase original = best_;
     try_lead_up(original, 0);
     for (std::size_t i = 1; i < kLeadUps.size() && !is_enough(); ++i) try_lead_up(original, i);
+    for (std::size_t i = 0; i < kLeadUps.size() && is_large(best_) && !is_enough(); ++i)
+      try_lead_up(original, i, First::Fleet);
     for (const FailingCase& way : ways_) {
       if (!is_enough()) compare(way);
     }
@@ -97,10 +104,11 @@ class LeastBadLuck {
   bool is_enough() const { return trials_.ended() || price_of(best_) <= kFew; }
   static std::size_t price_of(const FailingCase& failing) { return CaseSize::of(failing.scenario).price(); }
 
-  void try_lead_up(const FailingCase& original, std::size_t i) {
-    const FailingCase way = with_luck_drawn(trials_, original, kLeadUps[i], i == 0 ? on_smaller_ : kQuietly);
-    if (i == 0) best_ = way;
-    if (i > 0 && price_of(way) < price_of(best_)) {
+  void try_lead_up(const FailingCase& original, std::size_t i, First first = First::BadLuck) {
+    const bool is_first = i == 0 && first == First::BadLuck;
+    const FailingCase way = with_luck_drawn(trials_, original, kLeadUps[i], first, is_first ? on_smaller_ : kQuietly);
+    if (is_first) best_ = way;
+    if (!is_first && price_of(way) < price_of(best_)) {
       best_ = way;
       on_smaller_(best_, "perfect radio");
     }

@@ -7,6 +7,8 @@
 #include <fstream>
 #include <map>
 
+#include "campaign/plan/campaign_file.hpp"
+#include "campaign/plan/scenario_source.hpp"
 #include "campaign/shrink/adverse_fates.hpp"
 #include "campaign/shrink/other_luck.hpp"
 #include "campaign/shrink/surgery.hpp"
@@ -53,6 +55,53 @@ TEST(Shrink, AFewMessagesArePreferredToALargeFleet) {
   EXPECT_LT(price(4, 0), price(3, 8));
   EXPECT_LT(price(3, 0), price(2, 1));
   EXPECT_LT(price(5, 99), CaseSize{}.price()) << "the radio still draws";
+}
+
+// With the radio made perfect first, this one needs four AGVs and all of its faults; with the fleet made small first, a
+// lost message.
+TEST(Shrink, AFleetThatStaysLargeIsMadeSmallBeforeTheRadioIsMadePerfect) {
+  const CampaignPlan plan = parse_campaign_file(R"(
+name = "night"
+seed = 921
+replicates = 40
+horizon_s = 60
+[factors]
+agents = ["stale-grant"]
+layouts = ["aisle-grid/stress", "fishbone/stress", "plant/crossing", "plant/curve-beside-lane"]
+fleet_sizes = [5]
+loss = [0.4]
+delay_s = [2]
+[world]
+transports_per_agv_hour = 240
+placement = "mixed"
+[vehicle]
+speed_mps = 3
+acceleration_mps2 = 2
+deceleration_mps2 = 2
+turn_speed_radps = 2
+turn_acceleration_radps2 = 2
+turn_deceleration_radps2 = 2
+pick_s = 2
+drop_s = 2
+loaded_extra_length_m = 0.6
+loaded_extra_width_m = 0.3
+[faults]
+breakdowns_per_agv_hour = 30
+repair_s = 15
+restarts_per_agv_hour = 120
+restart_s = 0.5
+[radio]
+delay_model = "uniform"
+duplicates = 0.1
+)",
+                                                "night.toml")
+                                .plan;
+  Bench bench("stale-grant");
+  const Scenario scenario = ScenarioSource(plan).scenario(57);
+  const auto failure = failure_of(bench.host(scenario));
+  ASSERT_TRUE(failure.has_value());
+  const ShrinkResult result = bench.shrunk({scenario, *failure}, {.deadline = {}, .trials = 12000});
+  EXPECT_LE(result.best.scenario.agvs.size(), 3U);
 }
 
 TEST(Shrink, ASmallCaseFailsInTheSameWay) {
