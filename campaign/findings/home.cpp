@@ -27,8 +27,9 @@ bool Home::takes(const FailureNeeds& failure, const std::vector<std::string>& ne
   return did_so && needs_so && says_its_words(*this, failure);
 }
 
-bool Home::shares_the_rarest(const FailureNeeds& failure) const {
-  return !is_last && !needs.empty() && names_all(failure.needs, {needs.front()}) && did_its_doing(*this, failure) &&
+bool Home::is_like(const FailureNeeds& failure) const {
+  const bool shares_the_rarest = !needs.empty() && names_all(failure.needs, {needs.front()});
+  return !is_last && (shares_the_rarest || !words.empty()) && did_its_doing(*this, failure) &&
          says_its_words(*this, failure);
 }
 
@@ -47,7 +48,7 @@ const Home* home_of(const FailureNeeds& failure, const std::vector<std::string>&
 }
 
 const Home* related_home(const FailureNeeds& failure, const std::vector<Home>& homes) {
-  const auto home = std::ranges::find_if(homes, [&](const Home& h) { return h.shares_the_rarest(failure); });
+  const auto home = std::ranges::find_if(homes, [&](const Home& h) { return h.is_like(failure); });
   return home == homes.end() ? nullptr : &*home;
 }
 

@@ -21,8 +21,9 @@ struct Home {
   // `needed`: what it needs, without kinds of messages that are chance. Who just drove on where nearly all others did
   // something may have done so a little later.
   bool takes(const FailureNeeds& failure, const std::vector<std::string>& needed) const;
-  // Whether it needs what was tried first of what this one needs: hardly any failure needs that by chance.
-  bool shares_the_rarest(const FailureNeeds& failure) const;
+  // Whether it says the words that tell this one, or needs what was tried first of what this one needs: hardly any
+  // failure needs that by chance.
+  bool is_like(const FailureNeeds& failure) const;
 };
 
 // The first of the simplest that take it; of these, the one with what was tried first and is needed all the same.
@@ -30,7 +31,7 @@ struct Home {
 const Home* home_of(const FailureNeeds& failure, const std::vector<std::string>& needed,
                     const std::vector<Home>& homes);
 
-// Of a failure with needs that hardly another has: one that it shares the rarest of them with. Null: there is none.
+// Of a failure with needs that hardly another has: one that it is like. Null: there is none.
 const Home* related_home(const FailureNeeds& failure, const std::vector<Home>& homes);
 
 }  // namespace fleetproof

@@ -127,9 +127,7 @@ TEST(Findings, WhoSharesTheRarestNeedJoinsThoseOfWhichThereAreMany) {
   auto rare = failure("a", {"restart", "low batteries", "late messages", "STATE messages", "GRANT messages"});
   rare.needs.is_rare = true;
   add(failures, {failure("a", {"restart"}), failure("a", {"breakdown", "restart"}), rare});
-  ASSERT_EQ(findings_of(failures).size(), 1U);
-  EXPECT_EQ(findings_of(failures)[0].mechanism.needs,
-            (std::vector<std::string>{"restart", "late messages", "STATE messages"}));
+  EXPECT_EQ(findings_of(failures)[0].members.size(), 33U);
   add(failures, {failure("a", {"late messages", "STATE messages"})});
   EXPECT_EQ(findings_of(failures).size(), 2U) << "that one may need anything";
   add(failures, times(2, failure("a", {"breakdown", "restart"})));
@@ -153,9 +151,11 @@ TEST(Findings, AWordIsThatOfAllIfItTellsMoreThanChance) {
   telling.needs.traits = {"says \"oops\""};
   auto failures = times(20, saying);
   add(failures, times(2, telling));
-  ASSERT_EQ(findings_of(failures).size(), 1U);
-  EXPECT_EQ(findings_of(failures)[0].mechanism.text(), "too close, two AGVs; needs lost messages");
+  add(failures, {saying});
+  failures.back().needs.needs = {"restart"};
+  EXPECT_EQ(findings_of(failures).size(), 2U);
   add(failures, times(6, telling));
+  EXPECT_EQ(findings_of(failures).size(), 1U) << "one that says it came about in another way";
   EXPECT_EQ(findings_of(failures)[0].mechanism.text(), "too close, two AGVs; needs lost messages; says \"oops\"");
 }
 
