@@ -52,6 +52,7 @@ Explanation explain(CaseHost& host, const FailingCase& original, const FailingCa
   found.past_drives = past_drives(found, run.whereabouts);
   found.notes = std::move(run.notes);
   found.doing = std::move(run.doing);
+  found.ended = std::move(run.outcome.message);
   CaseRun lucky = host(with_fates_only(found.small.scenario, {}));
   if (!failure_of(lucky)) found.lucky_words = std::move(lucky.all_words);
   found.shares = shares_of(host, original, pattern);

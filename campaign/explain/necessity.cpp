@@ -89,7 +89,9 @@ MessageNeed need_of(CaseHost& host, const FailingCase& failing, const FailurePat
 // has other messages later, so of those that are needed the last are told.
 void add_drawn(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern,
                const std::vector<MessageFate>& messages, std::vector<MessageNeed>& needs) {
-  const auto is_of_it = [&](EntityId body) { return body == failing.failure.a || body == failing.failure.b; };
+  const auto is_of_it = [&](EntityId body) {
+    return !failing.failure.a.valid() || body == failing.failure.a || body == failing.failure.b;
+  };
   std::vector<MessageFate> asked;
   std::ranges::copy_if(messages, std::back_inserter(asked), [&](const MessageFate& m) {
     return m.is_adverse() && kStart + m.fate.sent < failing.failure.at && is_of_it(m.fate.sender) &&

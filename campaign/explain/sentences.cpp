@@ -20,6 +20,7 @@ class Words {
 
   std::vector<std::string> all() {
     what_happens();
+    if (!of_.ended.empty()) say("The {}.", of_.ended);
     for (const MessageNeed& need : of_.messages) message(need);
     things();
     for (const LastStop& stop : of_.stops) last_stop(stop);

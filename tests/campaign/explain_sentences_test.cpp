@@ -94,6 +94,12 @@ TEST(Explain, TheSentencesTellWhereWhoStandsHadDriven) {
                                  " was message 7 (STATE: holds R1), sent at 8.000 s: 1.00 s old at the failure."}));
 }
 
+TEST(Explain, TheSentencesTellWhichAgentCrashed) {
+  MadeUp made;
+  made.is.ended = "agent of " + made.name(made.a) + ": aborted (SIGABRT) in event message at 7.5 s";
+  EXPECT_THAT(sentences_of(made.is), testing::Contains("The " + made.is.ended + "."));
+}
+
 // Counting messages instead of senders: two GRANTs of one AGV.
 TEST(Explain, TheSentencesTellThatTwoMessagesSayTheSame) {
   MadeUp made;
