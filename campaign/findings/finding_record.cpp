@@ -61,7 +61,10 @@ FindingRecord record_of(CaseHost& host, const Finding& finding, const FailureNee
   const auto add_way = [&](std::vector<std::string> needs) {
     if (std::ranges::count(record.kept.ways, needs) == 0) record.kept.ways.push_back(std::move(needs));
   };
-  for (FailureNeeds& found : needs_of_first(host, neighbourhood, record.neighbours)) add_way(std::move(found.needs));
+  const NeighbourCounts& neighbours = record.neighbours;
+  for (const auto* first : {&neighbours.first_alike, &neighbours.first_alike_of_world}) {
+    for (FailureNeeds& found : needs_of_neighbours(host, neighbourhood, *first)) add_way(std::move(found.needs));
+  }
   // The smallest case may do with less than its finding needs. With the same software, it is one of them.
   if (of_case) add_way(std::move(of_case->needs));
   record.kept.runs = worlds.runs;

@@ -127,6 +127,7 @@ void count_in(NeighbourCounts& counts, const CaseRun& run, std::uint32_t number,
   ++counts.alike;
   if (is_of_world) ++counts.alike_of_world;
   if (counts.first_alike.size() < kFewAlike) counts.first_alike.push_back(number);
+  if (is_of_world && counts.first_alike_of_world.size() < kFewAlike) counts.first_alike_of_world.push_back(number);
 }
 
 // As if all up to number `to` had been tried at once.
@@ -161,10 +162,10 @@ NeighbourCounts try_enough_neighbours(CaseHost& host, const KeptFailure& kept, c
   }
 }
 
-std::vector<FailureNeeds> needs_of_first(CaseHost& host, const Neighbourhood& neighbourhood,
-                                         const NeighbourCounts& counts) {
+std::vector<FailureNeeds> needs_of_neighbours(CaseHost& host, const Neighbourhood& neighbourhood,
+                                              std::span<const std::uint32_t> numbers) {
   std::vector<FailureNeeds> all;
-  for (const std::uint32_t number : counts.first_alike) {
+  for (const std::uint32_t number : numbers) {
     if (auto needs = needs_of(host, neighbourhood.at(number))) all.push_back(*std::move(needs));
   }
   return all;

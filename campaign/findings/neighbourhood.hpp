@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,8 @@ namespace fleetproof {
 struct KeptFailure {
   Scenario smallest{}, world{};
   std::string end{};  // as end_of has it
-  // What its finding needs, and what the first neighbours need that fail with the same end: each as FailureNeeds has
-  // it.
+  // What its finding needs, and what the first neighbours need that fail with the same end, of the case and of the
+  // worlds: each as FailureNeeds has it.
   std::vector<std::vector<std::string>> ways{};
   // What the smallest case also shows: what its bodies do ("one turns"), that it needs a third AGV, and words that tell
   // its failure from others.
@@ -75,7 +76,8 @@ struct NeighbourCounts {
   std::size_t of = 0;                            // were simulated
   std::size_t alike = 0;                         // fail with the same end
   std::map<std::string, std::size_t> otherwise;  // by the end with which they fail
-  std::vector<std::uint32_t> first_alike;        // the first few of these
+  // The first few of these, and the first few of them that are of the worlds.
+  std::vector<std::uint32_t> first_alike{}, first_alike_of_world{};
   // Of them, those of the worlds: software with another timing meets them as before. None: not known.
   std::size_t of_world = 0, alike_of_world = 0;
   std::uint64_t driven_m = 0;            // by the fleets of all of them; 0: not known
@@ -90,8 +92,8 @@ NeighbourCounts try_neighbours(CaseHost& host, const KeptFailure& kept, const Ne
 // As many as it takes that some fail.
 NeighbourCounts try_enough_neighbours(CaseHost& host, const KeptFailure& kept, const Neighbourhood& neighbourhood);
 
-// What the first of those that fail with the same end need.
-std::vector<FailureNeeds> needs_of_first(CaseHost& host, const Neighbourhood& neighbourhood,
-                                         const NeighbourCounts& counts);
+// What the neighbours need that have these numbers.
+std::vector<FailureNeeds> needs_of_neighbours(CaseHost& host, const Neighbourhood& neighbourhood,
+                                              std::span<const std::uint32_t> numbers);
 
 }  // namespace fleetproof

@@ -69,7 +69,7 @@ KeptFailure with_words(KeptFailure kept, const std::vector<std::string>& words) 
 // of them. Empty: it is.
 std::string other_mechanism(CaseHost& host, const KeptFailure& kept, const Neighbourhood& neighbourhood,
                             const NeighbourCounts& now) {
-  const auto first = needs_of_first(host, neighbourhood, now);
+  const auto first = needs_of_neighbours(host, neighbourhood, now.first_alike);
   const auto is_kept = [&](const FailureNeeds& found) { return is_one_of(kept, found); };
   const auto is_other = [&](const FailureNeeds& found) {
     return !found.is_rare && !is_kept(found) && !may_be(kept, found);
@@ -136,7 +136,8 @@ void look_at_whole_failures(CaseHost& host, const KeptFailure& kept, const std::
                             Retest& result) {
   std::string new_kind;
   std::size_t kept_ones = 0, new_ones = 0;
-  for (const FailureNeeds& found : needs_of_first(host, Neighbourhood::of_runs(kept), result.whole_runs)) {
+  for (const FailureNeeds& found :
+       needs_of_neighbours(host, Neighbourhood::of_runs(kept), result.whole_runs.first_alike)) {
     if (found.is_rare) continue;
     if (may_be(kept, found)) {
       ++kept_ones;

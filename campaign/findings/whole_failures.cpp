@@ -25,7 +25,7 @@ bool may_be(const KeptFailure& kept, const FailureNeeds& found) {
 std::vector<std::vector<std::string>> needs_of_others(CaseHost& host, const KeptFailure& kept,
                                                       const NeighbourCounts& counts) {
   std::vector<std::vector<std::string>> all;
-  for (FailureNeeds& found : needs_of_first(host, Neighbourhood::of_runs(kept), counts)) {
+  for (FailureNeeds& found : needs_of_neighbours(host, Neighbourhood::of_runs(kept), counts.first_alike)) {
     if (!found.is_rare && !may_be(kept, found) && std::ranges::count(all, found.needs) == 0)
       all.push_back(std::move(found.needs));
   }

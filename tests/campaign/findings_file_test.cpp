@@ -44,7 +44,7 @@ class FindingsFiles : public testing::Test {
     finding.other_worlds = {"v.json", "u.json"};
     finding.doings = {"one turns"};
     finding.says = {"oops", "a \"b\""};
-    finding.neighbours = {1000, 17, {{"no progress", 3}, {"a \"b\"", 4}}, {}, 750, 9, 12345, 678, {"a", "b \"c\""}};
+    finding.neighbours = {1000, 17, {{"no progress", 3}, {"a \"b\"", 4}}, {}, {}, 750, 9, 12345, 678, {"a", "b \"c\""}};
     finding.whole.files = {"r.json", "s.json"};
     finding.whole.counts = {250, 130, {{"a \"d\"", 5}}, {}};
     finding.whole.counts.always_said = {"c", "d"};
@@ -134,8 +134,8 @@ TEST_F(FindingsFiles, AWaiverEnds) {
 
 // ---- record
 
-FindingRecord recorded(Bench& bench) {
-  const auto needs = needs_of(bench.host, bench.failing(100));
+FindingRecord recorded(Bench& bench, std::uint64_t seed = 100) {
+  const auto needs = needs_of(bench.host, bench.failing(seed));
   Finding finding;
   finding.mechanism = {needs->end, needs->needs, {}, {}};
   return record_of(bench.host, finding, *needs, 400);
@@ -149,6 +149,19 @@ TEST(FindingRecords, AreTheSameForAnyNumberOfWorkers) {
   EXPECT_EQ(record.kept.ways, again.kept.ways);
   EXPECT_EQ(record.neighbours.alike, again.neighbours.alike);
   EXPECT_EQ(record.neighbours.otherwise, again.neighbours.otherwise);
+}
+
+// Where most failing neighbours are of the smallest case, the first few of all are, too.
+TEST(FindingRecords, KnowWhatNeighboursOfTheWorldsNeed) {
+  Bench bench("stale-grant");
+  const FindingRecord record = recorded(bench, 121);
+  const Neighbourhood neighbourhood(bench.host, record.kept);
+  const auto& of_worlds = record.neighbours.first_alike_of_world;
+  ASSERT_EQ(of_worlds.size(), 5U);
+  EXPECT_TRUE(std::ranges::none_of(of_worlds, [&](std::uint32_t number) { return neighbourhood.is_of_case(number); }));
+  EXPECT_GT(of_worlds.back(), record.neighbours.first_alike.back()) << "else it tells nothing";
+  for (const FailureNeeds& found : needs_of_neighbours(bench.host, neighbourhood, of_worlds))
+    EXPECT_EQ(std::ranges::count(record.kept.ways, found.needs), 1) << found.needs.size();
 }
 
 // Whatever it is about to do then: shrinking, explaining, trying neighbours.
