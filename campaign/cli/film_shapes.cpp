@@ -67,7 +67,7 @@ class ShapeStory {
       if (other != nullptr && piece_at(bodies_, one_, t) != nullptr)
         least_m = std::min(least_m, distance_m(otherwise(t), other->body_at(t)));
       if (least_m < scenario_.law.safety_distance_m) return std::nullopt;
-      if (t >= to) return least_m;
+      if (t >= to) return least_m < std::numeric_limits<double>::infinity() ? std::optional(least_m) : std::nullopt;
     }
   }
   std::optional<double> kept_in_piece_m(const Otherwise& otherwise) const {
@@ -82,9 +82,8 @@ class ShapeStory {
     const auto kept = kept_in_piece_m([&](SimTime) { return Shapes{{stands, will_stand}}; });
     if (kept)
       told_.push_back(fmt::format(
-          "This needs the sweep of the turn on the spot of {}: with the heading before the turn, and with the one "
-          "after "
-          "it, {} keeps {} from {}. As it turns, its corners reach {} from its axis.",
+          "This needs the sweep of the turn on the spot of {}: with the heading before the turn, and with that "
+          "after it, {} keeps {} from {}. As it turns, its corners reach {} from its axis.",
           name(one_), name(one_), in_centimetres(*kept), name(other_), in_centimetres(turn.footprint.reach_m())));
     const double radius_m = turn.footprint.length_m / 2.0 + std::abs(turn.footprint.centre_ahead_m);
     const OrientedRectangle axis{turn.start.position_m, Vec2::UnitX(), 0.0, 0.0};
@@ -92,7 +91,7 @@ class ShapeStory {
     if (disc)
       told_.push_back(fmt::format(
           "This needs the corners of {} in its turn on the spot: a disc about its axis that reaches to the ends of {}, "
-          "{}, keeps {} from {}. The corners reach {} from the axis.",
+          "{}, keeps {} from {}. Its corners are {} from the axis.",
           name(one_), name(one_), in_centimetres(radius_m), in_centimetres(*disc), name(other_),
           in_centimetres(turn.footprint.reach_m())));
   }

@@ -27,10 +27,7 @@ std::vector<Departure> past_drives(const Explanation& of, const Whereabouts& whe
   std::vector<Departure> found;
   for (const EntityId body : {of.small.failure.a, of.small.failure.b}) {
     if (!body.valid() || std::ranges::count(of.set_offs, body, &SetOff::agv) > 0) continue;
-    const Departure* last = nullptr;
-    for (const Departure& departure : whereabouts.departures) {
-      if (departure.agv == body && departure.at <= of.small.failure.at) last = &departure;
-    }
+    const Departure* last = last_departure(whereabouts.departures, body, of.small.failure.at);
     if (last != nullptr) found.push_back(*last);
   }
   return found;

@@ -188,16 +188,20 @@ bool sets_off_then(const CaseRun& run, const Departure& drive) {
   });
 }
 
+const Departure* last_departure(std::span<const Departure> departures, EntityId agv, SimTime until) {
+  const Departure* last = nullptr;
+  for (const Departure& departure : departures) {
+    if (departure.agv == agv && departure.at <= until) last = &departure;
+  }
+  return last;
+}
+
 std::vector<Departure> failed_drives(const CaseRun& run, const Failure& failure) {
   std::vector<Departure> found;
   for (const EntityId body : {failure.a, failure.b}) {
-    const Departure* last = nullptr;
-    for (const auto* begun : {&run.whereabouts.departures, &run.whereabouts.turns}) {
-      for (const Departure& departure : *begun) {
-        const bool is_later = last == nullptr || departure.at >= last->at;
-        if (departure.agv == body && departure.at <= failure.at && is_later) last = &departure;
-      }
-    }
+    const Departure* last = last_departure(run.whereabouts.departures, body, failure.at);
+    const Departure* turn = last_departure(run.whereabouts.turns, body, failure.at);
+    if (turn != nullptr && (last == nullptr || turn->at >= last->at)) last = turn;
     if (last != nullptr && last->arrives >= failure.at) found.push_back(*last);
   }
   return found;

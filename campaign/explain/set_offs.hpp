@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,9 @@ inline constexpr Duration kLookedAt = std::chrono::seconds(10);
 // Messages are lost one by one, and all of a kind from one sender, also those that it sends because others are lost;
 // each in a run of its own. "Then" is within 5 ms.
 std::vector<SetOff> set_offs(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern);
+
+// The last that an AGV began until then. Null: none. Requires: departures in order of time.
+const Departure* last_departure(std::span<const Departure> departures, EntityId agv, SimTime until);
 
 // The drives, or turns on the spot, on which the bodies of the failure were when it came: at most one of each.
 std::vector<Departure> failed_drives(const CaseRun& run, const Failure& failure);

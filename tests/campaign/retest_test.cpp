@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <map>
+
 #include "campaign/findings/elsewhere.hpp"
 #include "campaign/findings/finding_record.hpp"
 #include "campaign/findings/ingredients.hpp"
@@ -262,6 +264,34 @@ Known with_mended_worlds(Bench& bench) {
   return known;
 }
 
+// Few of the first failing neighbours need what the kept failure needs.
+TEST(Retest, MostOfTheFirstNeighboursSayOfWhatKindTheyAre) {
+  Bench bench("stale-grant");
+  const auto needs = needs_of(bench.host, bench.failing(121));
+  Finding finding;
+  finding.mechanism = {needs->end, needs->needs, {}, {}};
+  FindingRecord record = record_of(bench.host, finding, *needs, 400);
+  record.kept.smallest = with_fates_only(record.kept.smallest, {});
+  record.kept.smallest.faults.clear();
+  ASSERT_FALSE(failure_of(bench.host(record.kept.smallest)).has_value()) << "the case passes";
+  const Neighbourhood neighbourhood(bench.host, record.kept);
+  const NeighbourCounts now = try_neighbours(bench.host, record.kept, neighbourhood, kSome);
+  const auto first = needs_of_neighbours(bench.host, neighbourhood, now.first_alike);
+  std::map<std::string, int> needing;
+  for (const FailureNeeds& found : first) {
+    for (const std::string& need : without_kinds(found.needs)) ++needing[need];
+  }
+  const auto of_few = std::ranges::find_if(needing, [](const auto& need) { return need.second <= 2; });
+  ASSERT_NE(of_few, needing.end());
+  record.kept.doings.clear();
+  record.kept.says.clear();
+  record.neighbours.always_said.clear();
+  const auto verdict = [&] { return retest(bench.host, record.kept, record.neighbours, kSome).verdict; };
+  EXPECT_NE(verdict(), RetestVerdict::NewKind) << "all of them are the kept one";
+  record.kept.ways = {{of_few->first}};
+  EXPECT_EQ(verdict(), RetestVerdict::NewKind) << of_few->first;
+}
+
 // Reduced worlds have nothing left with which another fault shows.
 TEST(WholeRuns, ShowWhatIsBrokenInstead) {
   Bench bench("timeout-grant");
@@ -304,6 +334,22 @@ TEST(WholeRuns, ThatFailMoreSeldomAreNoDodge) {
   EXPECT_EQ(dodged.verdict, RetestVerdict::Dodged);
   runs.counts.alike = runs.counts.of;
   EXPECT_EQ(retest(retouched, known.kept, known.before, kSome, runs).verdict, RetestVerdict::StillThere);
+}
+
+// A mend may help the first AGV of a fleet, and not the last.
+TEST(WholeRuns, NumberTheFleetFromEitherEnd) {
+  KeptFailure kept;
+  kept.runs = {test::bad_night(1), test::bad_night(2)};
+  const Neighbourhood runs = Neighbourhood::of_runs(kept);
+  const auto start = [&](std::uint32_t number, std::size_t agv) { return runs.at(number).agvs[agv].start; };
+  const auto own = [&](std::size_t run, std::size_t agv) { return kept.runs[run].agvs[agv].start; };
+  for (std::size_t agv = 0; agv < 5; ++agv) {
+    EXPECT_EQ(start(0, agv), own(0, agv));
+    EXPECT_EQ(start(2, agv), own(1, agv));
+    EXPECT_EQ(start(4, agv), own(0, 4 - agv));
+    EXPECT_EQ(start(7, agv), own(1, 4 - agv));
+  }
+  EXPECT_NE(own(0, 0), own(0, 4)) << "else it tells nothing";
 }
 
 TEST(WholeRuns, MayBeTheKeptFailureOrNot) {

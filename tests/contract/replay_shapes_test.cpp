@@ -24,7 +24,7 @@ struct Scene {
 
 class ReplayShapes : public test::ProgramTest {
  protected:
-  // The sentences about shapes. A heads along x, and B, 1.6 m by 1 m, stands likewise.
+  // The sentences about shapes. A and B head along x; B is 1.6 m by 1 m.
   std::vector<std::string> said_of(const Scene& scene) const {
     write("s.json", R"({"version": 1, "name": "scene", "horizon_s": 30, "vehicle_types": [{"name": "mine")" +
                         scene.vehicle +
@@ -60,7 +60,7 @@ constexpr const char* kApart =
 TEST_F(ReplayShapes, ASweepThatIsNeeded) {
   EXPECT_THAT(said_of({.b = "[0, 9]", .other = "[1.425, 1.125]"}),
               ElementsAre("This needs the sweep of the turn on the spot of A: with the heading before the turn, and "
-                          "with the one after it, A keeps 0.12 m from B. As it turns, its corners reach 0.94 m from "
+                          "with that after it, A keeps 0.12 m from B. As it turns, its corners reach 0.94 m from "
                           "its axis.",
                           kApart));
 }
@@ -69,10 +69,10 @@ TEST_F(ReplayShapes, ASweepThatIsNeeded) {
 TEST_F(ReplayShapes, CornersThatAreNeeded) {
   EXPECT_THAT(said_of({.b = "[0, 9]", .other = "[1.465, 1.165]"}),
               ElementsAre("This needs the sweep of the turn on the spot of A: with the heading before the turn, and "
-                          "with the one after it, A keeps 0.16 m from B. As it turns, its corners reach 0.94 m from "
+                          "with that after it, A keeps 0.16 m from B. As it turns, its corners reach 0.94 m from "
                           "its axis.",
                           "This needs the corners of A in its turn on the spot: a disc about its axis that reaches to "
-                          "the ends of A, 0.80 m, keeps 0.14 m from B. The corners reach 0.94 m from the axis.",
+                          "the ends of A, 0.80 m, keeps 0.14 m from B. Its corners are 0.94 m from the axis.",
                           kApart));
 }
 
@@ -105,12 +105,19 @@ TEST_F(ReplayShapes, ASizeThatIsNeeded) {
                   "They keep more than half of the safety distance: 0.055 m of 0.10 m."));
 }
 
+// 0.04 m is less than half of it.
+TEST_F(ReplayShapes, LessThanHalfOfTheSafetyDistanceIsNotPraised) {
+  EXPECT_THAT(said_of({.other = "[5, 1.3402]", .vehicle = R"(, "width_m": 1.6)"}), testing::SizeIs(2));
+}
+
 // Nothing in the shapes decides: A drives over B, who stands where A goes, whatever their sizes.
 TEST_F(ReplayShapes, NothingIsSaidIfNothingOfThemDecides) {
   EXPECT_THAT(
       said_of({.other = "[9.5, 0]", .vehicle = R"(, "width_m": 1.6, "loaded": {"extra_length_m": 0.6})"}),
       ElementsAre("A was on the lane between a and b, B at p: these share no station and no segment. Only their "
                   "shapes on the floor come too close."));
+  // At 90 degrees, A would stand in B: the sweep alone decides nothing.
+  EXPECT_THAT(said_of({.b = "[0, 9]", .other = "[0, 1.25]"}), ElementsAre(kApart));
   EXPECT_THAT(said_of({.b = "[5, 0]", .other = "[5.5, 0]", .vehicle = R"(, "width_m": 1.6)"}), testing::SizeIs(1));
 }
 

@@ -88,6 +88,9 @@ TEST(OwnRequest, SaysHowAnswersChanged) {
   EXPECT_THAT(reason_for(film).lines.front().text,
               HasSubstr("B had answered that with GRANT #5 (answers 3.0, holds u), received 18.021 s, then with DEFER "
                         "#6 (answers 3.0, holds t to u), received 18.051 s."));
+  film.messages.push_back(message(8, 1, "GRANT", "answers 3.0, holds u", 18'070'000));
+  film.messages.push_back(message(9, 1, "DEFER", "answers 3.0, holds u", 18'080'000));
+  EXPECT_THAT(reason_for(film).lines.front().text, HasSubstr("B had answered that with DEFER #6")) << "the last three";
 }
 
 // It asked B again with 3.1, in a message that names no place.
