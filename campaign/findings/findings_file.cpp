@@ -54,6 +54,13 @@ std::string text_in(const TomlTable::Given& given) {
   return *text;
 }
 
+double number_in(const TomlTable::Given& given) {
+  double value = 0.0;
+  const auto sentence = take(Field{.key = "", .text = "", .low = 0.0, .high = kNever_s}, given.value, value);
+  if (!sentence.empty()) given.refuse(sentence);
+  return value;
+}
+
 std::vector<std::string> texts(TomlTable& table, std::string_view key) {
   std::vector<std::string> texts;
   const auto items = table.array(key);
@@ -79,6 +86,19 @@ void read_ends(TomlTable& table, std::string_view key, NeighbourCounts& counts) 
   ends->finish();
 }
 
+// Of each figure ten numbers.
+void read_circumstances(TomlTable& table, std::string_view key, Circumstances& circumstances) {
+  auto figures = table.table(key);
+  if (!figures) return;
+  for (const std::string& figure : figures->keys()) {
+    const auto values = figures->array(figure);
+    if (!values || values->size() != kCircumstanceValues)
+      throw InputError(figures->place(figure), fmt::format("expected {} numbers", kCircumstanceValues));
+    std::ranges::transform(*values, std::back_inserter(circumstances[figure]), number_in);
+  }
+  figures->finish();
+}
+
 void read_whole_runs(TomlTable& table, KeptFinding& finding) {
   std::uint64_t of = 0, alike = 0;
   table.get("whole_runs", of);
@@ -89,6 +109,7 @@ void read_whole_runs(TomlTable& table, KeptFinding& finding) {
   finding.whole.counts.always_said = texts(table, "whole_runs_always_said");
   read_ends(table, "whole_runs_otherwise", finding.whole.counts);
   finding.whole.others_need = lists(table, "others_need");
+  read_circumstances(table, "whole_runs_circumstances", finding.whole.counts.circumstances);
 }
 
 void read_neighbours(TomlTable& table, NeighbourCounts& counts) {
@@ -108,6 +129,7 @@ void read_neighbours(TomlTable& table, NeighbourCounts& counts) {
   if (counts.alike > counts.of || counts.alike_of_world > counts.of_world)
     throw InputError(table.place("neighbours_failing"), "more neighbours failed than were tried");
   read_ends(table, "neighbours_otherwise", counts);
+  read_circumstances(table, "circumstances", counts.circumstances);
 }
 
 std::string text_of_ends(std::string_view key, const NeighbourCounts& counts) {
@@ -115,6 +137,14 @@ std::string text_of_ends(std::string_view key, const NeighbourCounts& counts) {
   std::vector<std::string> ends;
   for (const auto& [end, count] : counts.otherwise) ends.push_back(toml_text(end) + fmt::format(" = {}", count));
   return fmt::format("{} = {{ {} }}\n", key, fmt::join(ends, ", "));
+}
+
+std::string text_of_circumstances(std::string_view key, const Circumstances& circumstances) {
+  if (circumstances.empty()) return {};
+  std::vector<std::string> figures;
+  for (const auto& [figure, values] : circumstances)
+    figures.push_back(fmt::format("{} = [{}]", toml_text(figure), fmt::join(values, ", ")));
+  return fmt::format("{} = {{ {} }}\n", key, fmt::join(figures, ", "));
 }
 
 std::string lists_of(const std::vector<std::vector<std::string>>& lists) {
@@ -131,7 +161,8 @@ std::string text_of_whole_runs(const KeptFinding& finding) {
     text += fmt::format("others_need = {}\n", lists_of(finding.whole.others_need));
   if (!finding.whole.counts.always_said.empty())
     text += fmt::format("whole_runs_always_said = {}\n", list_of(finding.whole.counts.always_said));
-  return text + text_of_ends("whole_runs_otherwise", finding.whole.counts);
+  return text + text_of_ends("whole_runs_otherwise", finding.whole.counts) +
+         text_of_circumstances("whole_runs_circumstances", finding.whole.counts.circumstances);
 }
 
 KeptFinding read_finding(TomlTable& table) {
@@ -227,7 +258,8 @@ std::string toml_of(const KeptFinding& finding) {
       finding.neighbours.driven_elsewhere_m);
   if (!finding.neighbours.always_said.empty())
     text += fmt::format("always_said = {}\n", list_of(finding.neighbours.always_said));
-  return text + text_of_ends("neighbours_otherwise", finding.neighbours) + text_of_whole_runs(finding);
+  return text + text_of_ends("neighbours_otherwise", finding.neighbours) +
+         text_of_circumstances("circumstances", finding.neighbours.circumstances) + text_of_whole_runs(finding);
 }
 
 std::string standing_of(const KeptFinding* kept, std::string_view today) {

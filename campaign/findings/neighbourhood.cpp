@@ -16,7 +16,7 @@ namespace {
 constexpr Duration kShift = std::chrono::seconds(1);
 constexpr double kFreeCallCost_s = 0.0002;
 constexpr std::uint32_t kEveryCase = 4, kNeighbourKey = 7;
-constexpr std::size_t kFewAlike = 5;
+constexpr std::size_t kFewAlike = 5, kMostLookedAt = 40;
 
 // Draws in [0, 1) for one neighbour.
 class Dice {
@@ -128,6 +128,7 @@ void count_in(NeighbourCounts& counts, const CaseRun& run, std::uint32_t number,
   if (is_of_world) ++counts.alike_of_world;
   if (counts.first_alike.size() < kFewAlike) counts.first_alike.push_back(number);
   if (is_of_world && counts.first_alike_of_world.size() < kFewAlike) counts.first_alike_of_world.push_back(number);
+  if (is_of_world && counts.looked_at.size() < kMostLookedAt) counts.looked_at.push_back(number);
 }
 
 // As if all up to number `to` had been tried at once.
@@ -145,12 +146,23 @@ void try_up_to(std::uint32_t to, CaseHost& host, const KeptFailure& kept, const 
   counts.driven_m += driven_um / 1'000'000;
 }
 
+void look_closer(CaseHost& host, const Neighbourhood& neighbourhood, NeighbourCounts& counts) {
+  const auto& numbers = counts.looked_at;
+  const auto make = [&](std::size_t i) { return std::optional(neighbourhood.at(numbers[i])); };
+  const auto runs = all_runs(host, {numbers.size(), make}, Fates::Kept);
+  std::vector<std::map<std::string, double>> all;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    all.push_back(circumstances_of(*runs[i], neighbourhood.at(numbers[i])));
+  counts.circumstances = circumstances_of(all);
+}
+
 }  // namespace
 
 NeighbourCounts try_neighbours(CaseHost& host, const KeptFailure& kept, const Neighbourhood& neighbourhood,
                                std::uint32_t count) {
   NeighbourCounts counts;
   try_up_to(count, host, kept, neighbourhood, counts);
+  look_closer(host, neighbourhood, counts);
   return counts;
 }
 
@@ -158,8 +170,10 @@ NeighbourCounts try_enough_neighbours(CaseHost& host, const KeptFailure& kept, c
   NeighbourCounts counts;
   for (std::uint32_t count = kNeighbours;; count *= 2) {
     try_up_to(count, host, kept, neighbourhood, counts);
-    if (counts.alike_of_world >= kEnoughAlike || count >= kMostKept) return counts;
+    if (counts.alike_of_world >= kEnoughAlike || count >= kMostKept) break;
   }
+  look_closer(host, neighbourhood, counts);
+  return counts;
 }
 
 std::vector<FailureNeeds> needs_of_neighbours(CaseHost& host, const Neighbourhood& neighbourhood,

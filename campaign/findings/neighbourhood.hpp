@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "campaign/findings/circumstances.hpp"
 #include "campaign/findings/failure_needs.hpp"
 
 namespace fleetproof {
@@ -84,6 +85,9 @@ struct NeighbourCounts {
   std::uint64_t driven_elsewhere_m = 0;  // as driven_elsewhere_m has it; 0: not known
   // Words and probes, sorted: those of the AGVs of each failure alike, and those of any fleet of these runs.
   std::vector<std::string> always_said{}, ever_said{};
+  // Of the first failures of the worlds that end alike, so that what other neighbours do does not count.
+  std::vector<std::uint32_t> looked_at{};
+  Circumstances circumstances{};
 };
 // On all workers; the same for any number.
 NeighbourCounts try_neighbours(CaseHost& host, const KeptFailure& kept, const Neighbourhood& neighbourhood,

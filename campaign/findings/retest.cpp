@@ -19,7 +19,7 @@ constexpr double kNewKindChance = 0.001, kRarerChance = 0.005;
 // If software that fails as before had fewer failing neighbours than this in the mean, that none fails says little:
 // with 10, it is chance once in 20 000 times.
 constexpr std::size_t kEnoughBefore = 10, kOften = 10;
-// Whole runs that fail in a new way: fewer may have failed so before, unseen among all others that failed.
+// Runs that fail in a new way: fewer may have failed so before, unseen among all others that failed.
 constexpr std::size_t kFewestNew = 3;
 
 bool is_of_radio(const std::string& need) {
@@ -65,17 +65,20 @@ KeptFailure with_words(KeptFailure kept, const std::vector<std::string>& words) 
   return kept;
 }
 
-// What neighbours need that fail with the same end, if the failure that was kept is not among them, or cannot be most
-// of them. Empty: it is.
-std::string other_mechanism(CaseHost& host, const KeptFailure& kept, const Neighbourhood& neighbourhood,
-                            const NeighbourCounts& now) {
+// What neighbours need that fail with the same end, if no failure that was known is among them, or cannot be most of
+// them. Empty: it is.
+std::string other_mechanism(CaseHost& host, const KeptFailure& kept, const std::vector<OtherKind>& others_known,
+                            const Neighbourhood& neighbourhood, const NeighbourCounts& now) {
+  if (now.alike < kFewestNew) return "";
   const auto first = needs_of_neighbours(host, neighbourhood, now.first_alike);
-  const auto is_kept = [&](const FailureNeeds& found) { return is_one_of(kept, found); };
+  const auto is_kept = [&](const FailureNeeds& found) {
+    return is_one_of(kept, found) ||
+           std::ranges::any_of(others_known, [&](const OtherKind& known) { return is_one_of(known.failure, found); });
+  };
   const auto is_other = [&](const FailureNeeds& found) {
     return !found.is_rare && !is_kept(found) && !may_be(kept, found);
   };
   const auto others = static_cast<std::size_t>(std::ranges::count_if(first, is_other));
-  if (first.empty()) return "";
   if (2 * others > first.size()) return text_of_new(kept, *std::ranges::find_if(first, is_other));
   return std::ranges::any_of(first, is_kept) ? "" : text_of_new(kept, first.front());
 }
@@ -154,6 +157,14 @@ void look_at_whole_failures(CaseHost& host, const KeptFailure& kept, const std::
   }
 }
 
+// What fails needs what the kept failure needs, and comes about in another way.
+void compare_circumstances(const NeighbourCounts& before, Retest& result, const NeighbourCounts& now) {
+  const std::string apart = told_apart_by(before.circumstances, now.circumstances);
+  if (apart.empty()) return;
+  result.new_kind = fmt::format("in the median of the first that fail, {}", apart);
+  result.verdict = RetestVerdict::NewKind;
+}
+
 // Neighbours that pass, or fail as often as before, may have nothing left with which other faults or half a mend show.
 void judge_whole_runs(CaseHost& host, const KeptFailure& found, const NeighbourCounts& before, const KnownRuns& known,
                       Retest& result) {
@@ -165,6 +176,8 @@ void judge_whole_runs(CaseHost& host, const KeptFailure& found, const NeighbourC
     const auto [alike_before, of_before] = worlds(before);
     const NeighbourCounts& then = known.counts;
     if (then.of == 0) return;
+    if (known.others.empty()) compare_circumstances(then, result, now);
+    if (result.verdict == RetestVerdict::NewKind) return;
     if (is_rarer_share(now.alike, now.of, then.alike, then.of) ||
         is_rarer_share(now.alike + alike, now.of + of, then.alike + alike_before, then.of + of_before))
       result.verdict = RetestVerdict::StillThere;
@@ -187,6 +200,8 @@ void judge_whole_runs(CaseHost& host, const KeptFailure& found, const NeighbourC
     for (const OtherKind& other : known.others) others.push_back(kept_now(other.failure, other.always_said));
   }
   look_at_whole_failures(host, kept_now(found, before.always_said), others, result);
+  if (result.verdict == RetestVerdict::StillThere && known.others.empty())
+    compare_circumstances(known.counts, result, now);
 }
 
 RetestVerdict verdict_of_none(CaseHost& host, const KeptFailure& kept, const NeighbourCounts& before, Retest& result) {
@@ -219,13 +234,14 @@ Retest retest(CaseHost& host, const KeptFailure& found, const NeighbourCounts& b
     result.new_kind = text_of_new(kept, *of_case);
     result.verdict = RetestVerdict::NewKind;
   } else if (now.alike > 0) {
-    result.new_kind = other_mechanism(host, kept, neighbourhood, now);
+    result.new_kind = other_mechanism(host, kept, known.others, neighbourhood, now);
     result.verdict = !result.new_kind.empty() ? RetestVerdict::NewKind
                      : is_rarer(now, before)  ? RetestVerdict::StillThere
                                               : RetestVerdict::Dodged;
   } else {
     result.verdict = verdict_of_none(host, kept, before, result);
   }
+  if (result.verdict != RetestVerdict::NewKind && now.alike > 0) compare_circumstances(before, result, now);
   const bool is_sure = result.verdict == RetestVerdict::StillThere || result.verdict == RetestVerdict::NewKind;
   if (!is_sure) judge_whole_runs(host, found, before, known, result);
   return result;

@@ -10,7 +10,7 @@ namespace fleetproof {
 
 // The runs of a kept failure, played with other luck. A world has only what its failure needs: often no third AGV,
 // no restart, a perfect radio. Software in which another thing is broken may pass there, and fails in these.
-inline constexpr std::uint32_t kWholeRuns = 250;
+inline constexpr std::uint32_t kWholeRuns = 1000;
 // None if the failure has no runs.
 NeighbourCounts try_whole_runs(CaseHost& host, const KeptFailure& kept);
 

@@ -45,9 +45,11 @@ class FindingsFiles : public testing::Test {
     finding.doings = {"one turns"};
     finding.says = {"oops", "a \"b\""};
     finding.neighbours = {1000, 17, {{"no progress", 3}, {"a \"b\"", 4}}, {}, {}, 750, 9, 12345, 678, {"a", "b \"c\""}};
+    finding.neighbours.circumstances = {{"came (s)", {0, 1, 2, 3, 4, 5, 6, 7.125, 8, kNever_s}}};
     finding.whole.files = {"r.json", "s.json"};
     finding.whole.counts = {250, 130, {{"a \"d\"", 5}}, {}};
     finding.whole.counts.always_said = {"c", "d"};
+    finding.whole.counts.circumstances = {{"other: \"x\"", {9, 1, 2, 3, 4, 5, 6, 7, 8, 9}}};
     finding.whole.others_need = {{"restart"}, {}};
     return finding;
   }
@@ -79,6 +81,8 @@ TEST_F(FindingsFiles, WhatIsWrittenIsRead) {
   EXPECT_EQ(std::pair(read->whole.counts.of, read->whole.counts.alike), std::pair(250UL, 130UL));
   EXPECT_EQ(read->whole.counts.otherwise, odd().whole.counts.otherwise);
   EXPECT_EQ(read->whole.others_need, odd().whole.others_need);
+  EXPECT_EQ(read->neighbours.circumstances, odd().neighbours.circumstances);
+  EXPECT_EQ(read->whole.counts.circumstances, odd().whole.counts.circumstances);
   EXPECT_EQ(file.find("F-00000002"), nullptr);
   EXPECT_TRUE(FindingsFile((folder_ / "none.toml").string()).findings().empty());
 }
@@ -92,6 +96,11 @@ TEST_F(FindingsFiles, ErrorsNameTheLineAndTheRemedy) {
   auto many = odd();
   many.whole.counts.alike = 251;
   EXPECT_THAT(error_of(toml_of(many)), HasSubstr("more runs failed"));
+  auto few = odd();
+  few.neighbours.circumstances["came (s)"].pop_back();
+  EXPECT_THAT(error_of(toml_of(few)), HasSubstr("expected 10 numbers"));
+  few.neighbours.circumstances["came (s)"].push_back(-1.0);
+  EXPECT_THAT(error_of(toml_of(few)), HasSubstr("-1"));
   auto waived = odd();
   waived.status = FindingStatus::Waived;
   EXPECT_THAT(error_of(toml_of(waived)), HasSubstr("until"));

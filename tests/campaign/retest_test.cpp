@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <map>
+#include <utility>
 
 #include "campaign/findings/elsewhere.hpp"
 #include "campaign/findings/finding_record.hpp"
@@ -208,6 +209,30 @@ TEST(Retest, AWordThatIsGoneShowsANewKind) {
       << "software that names nothing as before";
 }
 
+// The same end, needs and words; but the failures come about otherwise.
+TEST(Retest, OtherCircumstancesShowANewKind) {
+  Bench bench("timeout-grant");
+  Known known = known_failure(bench);
+  ASSERT_EQ(known.before.circumstances.count("other: stood (s)"), 1U);
+  EXPECT_EQ(retest(bench.host, known.kept, known.before, kSome).verdict, RetestVerdict::StillThere);
+  known.before.circumstances["other: stood (s)"] = std::vector<double>(kCircumstanceValues, 5000.0);
+  const Retest result = retest(bench.host, known.kept, known.before, kSome);
+  EXPECT_EQ(result.verdict, RetestVerdict::NewKind);
+  EXPECT_THAT(result.new_kind, HasSubstr("other: stood (s)"));
+  EXPECT_THAT(result.new_kind, HasSubstr("before 5000.0"));
+}
+
+// What the software was known for beside the finding is nothing new in its neighbours.
+TEST(Retest, AKnownFailureOfTheSameSoftwareIsNotNew) {
+  Bench bench("timeout-grant");
+  Known known = known_failure(bench);
+  known.kept.smallest = with_fates_only(known.kept.smallest, {});  // the case passes
+  const auto ways = std::exchange(known.kept.ways, {{"obstacles"}});
+  EXPECT_EQ(retest(bench.host, known.kept, known.before, kSome).verdict, RetestVerdict::NewKind);
+  const KnownRuns also{{}, {{{.end = known.kept.end, .ways = ways}}}};
+  EXPECT_NE(retest(bench.host, known.kept, known.before, kSome, also).verdict, RetestVerdict::NewKind);
+}
+
 // What the smallest case needs is one of the ways, even where that is less than the finding needs. No neighbour fails
 // with this end, so none of them adds it.
 TEST(Retest, KnowsWhatTheSmallestCaseNeeds) {
@@ -332,8 +357,16 @@ TEST(WholeRuns, ThatFailMoreSeldomAreNoDodge) {
   KnownRuns runs{try_whole_runs(bench.host, known.kept), {}};
   const Retest dodged = retest(retouched, known.kept, known.before, kSome, runs);
   EXPECT_EQ(dodged.verdict, RetestVerdict::Dodged);
-  runs.counts.alike = runs.counts.of;
-  EXPECT_EQ(retest(retouched, known.kept, known.before, kSome, runs).verdict, RetestVerdict::StillThere);
+  NeighbourCounts more = runs.counts;
+  more.alike = more.of;
+  EXPECT_EQ(retest(retouched, known.kept, known.before, kSome, {more, {}}).verdict, RetestVerdict::StillThere);
+
+  runs.counts.circumstances["came (s)"] = std::vector<double>(kCircumstanceValues, 5000.0);
+  EXPECT_EQ(retest(retouched, known.kept, known.before, kSome, runs).verdict, RetestVerdict::NewKind)
+      << "they come about otherwise";
+  runs.others.push_back({known.kept, {}});
+  EXPECT_EQ(retest(retouched, known.kept, known.before, kSome, runs).verdict, RetestVerdict::Dodged)
+      << "unless some of them were of another finding";
 }
 
 // A mend may help the first AGV of a fleet, and not the last.
