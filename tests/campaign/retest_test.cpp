@@ -11,7 +11,7 @@
 #include "campaign/findings/whole_failures.hpp"
 #include "campaign/shrink/adverse_fates.hpp"
 #include "campaign/shrink/fitness.hpp"
-#include "tests/support/case_bench.hpp"
+#include "tests/support/known_failure.hpp"
 
 namespace fleetproof {
 namespace {
@@ -19,19 +19,8 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 using Bench = test::CaseBench;
-
-struct Known {
-  KeptFailure kept;
-  NeighbourCounts before;
-};
-
-Known known_failure(Bench& bench) {
-  const auto needs = needs_of(bench.host, bench.failing(125));
-  Finding finding;
-  finding.mechanism = {needs->end, needs->needs, {}, {}};
-  const FindingRecord record = record_of(bench.host, finding, *needs, 4000);
-  return {record.kept, record.neighbours};
-}
+using test::Known;
+using test::known_failure;
 
 constexpr std::uint32_t kSome = 200;
 
@@ -276,19 +265,6 @@ TEST(Retest, ANewFaultInPlaceOfTheOldOneIsANewKind) {
   EXPECT_THAT(result.new_kind, HasSubstr("needs"));
 }
 
-// A finding of timeout-grant whose case and worlds show nothing any more, but whose runs are whole.
-Known with_mended_worlds(Bench& bench) {
-  Known known = known_failure(bench);
-  known.kept.other_worlds.clear();
-  for (Scenario* mended : {&known.kept.smallest, &known.kept.world}) {
-    *mended = with_fates_only(*mended, {});
-    mended->horizon = std::chrono::seconds(1);
-  }
-  known.kept.runs = {bench.failing(125)};
-  known.before.driven_m = 0;
-  return known;
-}
-
 // Few of the first failing neighbours need what the kept failure needs.
 TEST(Retest, MostOfTheFirstNeighboursSayOfWhatKindTheyAre) {
   Bench bench("stale-grant");
@@ -315,105 +291,6 @@ TEST(Retest, MostOfTheFirstNeighboursSayOfWhatKindTheyAre) {
   EXPECT_NE(verdict(), RetestVerdict::NewKind) << "all of them are the kept one";
   record.kept.ways = {{of_few->first}};
   EXPECT_EQ(verdict(), RetestVerdict::NewKind) << of_few->first;
-}
-
-// Reduced worlds have nothing left with which another fault shows.
-TEST(WholeRuns, ShowWhatIsBrokenInstead) {
-  Bench bench("timeout-grant");
-  const Known known = with_mended_worlds(bench);
-  const Retest left = retest(bench.host, known.kept, known.before, kSome);
-  EXPECT_EQ(left.verdict, RetestVerdict::StillThere);
-  EXPECT_EQ(left.now.alike, 0U);
-  EXPECT_GT(left.whole_runs.alike, 0U);
-
-  Bench sound("hull-lock");
-  const Retest fixed = retest(sound.host, known.kept, known.before, kSome);
-  EXPECT_EQ(fixed.verdict, RetestVerdict::Fixed);
-  EXPECT_EQ(fixed.whole_runs.of, kWholeRuns);
-
-  Bench other("reckless");
-  const Retest broken = retest(other.host, known.kept, known.before, kSome);
-  EXPECT_EQ(broken.now.alike, 0U);
-  EXPECT_EQ(broken.verdict, RetestVerdict::NewKind);
-  EXPECT_THAT(broken.new_kind, HasSubstr("needs nothing"));
-  const KnownRuns of_two_faults{{}, {{{.end = known.kept.end, .ways = {{}}}}}};
-  EXPECT_EQ(retest(other.host, known.kept, known.before, kSome, of_two_faults).verdict, RetestVerdict::Fixed)
-      << "the software failed so before, too";
-  KnownRuns of_rare_ones = of_two_faults;
-  of_rare_ones.counts.of = kWholeRuns;
-  of_rare_ones.counts.alike = 5;
-  EXPECT_EQ(retest(other.host, known.kept, known.before, kSome, of_rare_ones).verdict, RetestVerdict::NewKind)
-      << "that explains only so many";
-}
-
-// Half a mend may change nothing in the worlds.
-TEST(WholeRuns, ThatFailMoreSeldomAreNoDodge) {
-  Bench bench("timeout-grant");
-  Known known = known_failure(bench);
-  known.kept.runs = {bench.failing(125)};
-  AgentPrograms programs;
-  const std::string name = programs.know(FLEETPROOF_RETOUCHED_AGENT);
-  CaseHost retouched({name, "timeout-grant"}, programs, 2);
-  KnownRuns runs{try_whole_runs(bench.host, known.kept), {}};
-  const Retest dodged = retest(retouched, known.kept, known.before, kSome, runs);
-  EXPECT_EQ(dodged.verdict, RetestVerdict::Dodged);
-  NeighbourCounts more = runs.counts;
-  more.alike = more.of;
-  EXPECT_EQ(retest(retouched, known.kept, known.before, kSome, {more, {}}).verdict, RetestVerdict::StillThere);
-
-  runs.counts.circumstances["came (s)"] = std::vector<double>(kCircumstanceValues, 5000.0);
-  EXPECT_EQ(retest(retouched, known.kept, known.before, kSome, runs).verdict, RetestVerdict::NewKind)
-      << "they come about otherwise";
-  runs.others.push_back({known.kept, {}});
-  EXPECT_EQ(retest(retouched, known.kept, known.before, kSome, runs).verdict, RetestVerdict::Dodged)
-      << "unless some of them were of another finding";
-}
-
-// A mend may help the first AGV of a fleet, and not the last.
-TEST(WholeRuns, NumberTheFleetFromEitherEnd) {
-  KeptFailure kept;
-  kept.runs = {test::bad_night(1), test::bad_night(2)};
-  const Neighbourhood runs = Neighbourhood::of_runs(kept);
-  const auto start = [&](std::uint32_t number, std::size_t agv) { return runs.at(number).agvs[agv].start; };
-  const auto own = [&](std::size_t run, std::size_t agv) { return kept.runs[run].agvs[agv].start; };
-  for (std::size_t agv = 0; agv < 5; ++agv) {
-    EXPECT_EQ(start(0, agv), own(0, agv));
-    EXPECT_EQ(start(2, agv), own(1, agv));
-    EXPECT_EQ(start(4, agv), own(0, 4 - agv));
-    EXPECT_EQ(start(7, agv), own(1, 4 - agv));
-  }
-  EXPECT_NE(own(0, 0), own(0, 4)) << "else it tells nothing";
-}
-
-TEST(WholeRuns, MayBeTheKeptFailureOrNot) {
-  const KeptFailure kept{.end = "too close", .ways = {{"restart", kLostMessages, "GRANT messages"}}};
-  FailureNeeds found;
-  found.end = "too close";
-  found.needs = {"restart", kLostMessages, "DEFER messages"};
-  EXPECT_TRUE(may_be(kept, found)) << "which kinds are lost is chance";
-  found.needs = {"restart"};
-  EXPECT_FALSE(may_be(kept, found));
-  EXPECT_FALSE(may_be({.end = "too close", .ways = {{}}}, found)) << "that one needs nothing";
-  EXPECT_TRUE(may_be({.end = "too close", .ways = {{}, {"restart"}}}, found));
-  EXPECT_FALSE(may_be({.end = "no progress", .ways = {{"restart"}}}, found));
-  EXPECT_FALSE(may_be({.end = "too close", .ways = {{"restart"}}, .says = {"oops"}}, found));
-  EXPECT_FALSE(may_be({.end = "too close", .ways = {{"restart"}}, .doings = {kThirdAgvTrait}}, found));
-  EXPECT_TRUE(may_be({.end = "too close", .ways = {{"restart"}}, .doings = {"one turns"}}, found));
-}
-
-// With the software in which it was found, they fail as it did.
-TEST(WholeRuns, AreKeptWithTheFinding) {
-  Bench bench("timeout-grant");
-  const auto needs = needs_of(bench.host, bench.failing(125));
-  Finding finding;
-  finding.mechanism = {needs->end, needs->needs, {}, {}};
-  const FindingRecord record = record_of(bench.host, finding, *needs, 400, {{}, {bench.failing(125)}});
-  EXPECT_EQ(record.whole_runs.of, kWholeRuns);
-  EXPECT_GT(record.whole_runs.alike, kWholeRuns / 4);
-  EXPECT_TRUE(record.others_need.empty());
-  KeptFailure strange = record.kept;
-  strange.ways = {{"obstacles"}};
-  EXPECT_FALSE(needs_of_others(bench.host, strange, record.whole_runs).empty());
 }
 
 }  // namespace
