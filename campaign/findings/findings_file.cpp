@@ -236,7 +236,8 @@ KnownRuns FindingsFile::known_runs(const KeptFinding& finding) const {
   for (const KeptFinding& other : findings_) {
     if (other.found_in != finding.found_in || other.id == finding.id) continue;
     known.others.push_back({{.end = other.end, .ways = other.ways, .doings = other.doings, .says = other.says},
-                            other.neighbours.always_said});
+                            other.neighbours.always_said,
+                            other.whole.counts.circumstances});
   }
   return known;
 }

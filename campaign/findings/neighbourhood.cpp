@@ -15,7 +15,7 @@ namespace {
 
 constexpr Duration kShift = std::chrono::seconds(1);
 constexpr double kFreeCallCost_s = 0.0002;
-constexpr std::uint32_t kEveryCase = 4, kNeighbourKey = 7;
+constexpr std::uint32_t kEveryCase = 4, kEveryThird = 3, kNeighbourKey = 7;
 constexpr std::size_t kFewAlike = 5, kMostLookedAt = 40;
 
 // Draws in [0, 1) for one neighbour.
@@ -98,13 +98,22 @@ void Neighbourhood::lose_one_more(Scenario& scenario, double draw) const {
 
 bool Neighbourhood::is_of_case(std::uint32_t number) const { return !is_of_runs_ && number % kEveryCase == 0; }
 
+// Of whole runs, each AGV is the first equally often. Of worlds, another one than in the world is in every third: a
+// failure may need that one of two AGVs goes first.
+std::size_t Neighbourhood::first_agv_of(std::uint32_t number, std::size_t fleet) const {
+  if (is_of_runs_) return number / 2 / kept_.runs.size() % fleet;
+  const std::size_t round = number / kEveryCase / (kept_.other_worlds.size() + 1);
+  return is_of_case(number) || round % kEveryThird > 0 || fleet < 2 ? 0 : 1 + round / kEveryThird % (fleet - 1);
+}
+
 Scenario Neighbourhood::at(std::uint32_t number) const {
   Dice dice(kept_.world.seed, number);
   const bool of_case = is_of_case(number);
   const Scenario& world =
       is_of_runs_ ? kept_.runs[number / 2 % kept_.runs.size()] : kept_.world_of(number / kEveryCase);
   Scenario beside = of_case ? shifted(kept_.smallest, dice) : with_other_course(world, number, kShift);
-  if (is_of_runs_ && number / 2 / kept_.runs.size() % 2 == 1) beside = with_fleet_reversed(beside);
+  if (const std::size_t first = first_agv_of(number, beside.agvs.size()); first > 0)
+    beside = with_fleet_renumbered(beside, first);
   if (of_case) lose_one_more(beside, dice.next());
   if (number % 2 == 1) think_otherwise(beside, dice);
   return beside;

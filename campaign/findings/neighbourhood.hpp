@@ -52,19 +52,19 @@ inline constexpr std::size_t kEnoughAlike = 40;
 // The scenarios beside a kept failure. Of its worlds: orders and faults up to 1 s later, other draws of radio, agents
 // and motion. Every fourth is of the smallest case instead: orders and faults up to 1 s earlier or later, and one more
 // message lost. In every second, the software thinks half to twice as long; where calls cost nothing, each costs up to
-// 0.2 ms.
+// 0.2 ms. In some, the fleet is numbered otherwise: a mend may help some AGVs of a fleet, and not the others.
 class Neighbourhood {
  public:
   // Plays the smallest case, to learn which messages the software sends in it. `kept` outlives the object.
   Neighbourhood(CaseHost& host, const KeptFailure& kept);
-  // Beside its runs instead, which there are: with other luck, as its worlds. In half of them, the fleet is numbered
-  // the other way round: a mend may help the first AGV of a fleet, and not the last.
+  // Beside its runs instead, which there are: with other luck, as its worlds.
   static Neighbourhood of_runs(const KeptFailure& kept) { return Neighbourhood(kept); }
   Scenario at(std::uint32_t number) const;
   bool is_of_case(std::uint32_t number) const;
 
  private:
   explicit Neighbourhood(const KeptFailure& kept) : kept_(kept), is_of_runs_(true) {}
+  std::size_t first_agv_of(std::uint32_t number, std::size_t fleet) const;
   void lose_one_more(Scenario& scenario, double draw) const;
 
   const KeptFailure& kept_;

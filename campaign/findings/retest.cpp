@@ -18,7 +18,7 @@ namespace {
 constexpr double kNewKindChance = 0.001, kRarerChance = 0.005;
 // If software that fails as before had fewer failing neighbours than this in the mean, that none fails says little:
 // with 10, it is chance once in 20 000 times.
-constexpr std::size_t kEnoughBefore = 10, kOften = 10;
+constexpr std::size_t kEnoughBefore = 10, kOften = 10, kManyTimes = 4;
 // Runs that fail in a new way: fewer may have failed so before, unseen among all others that failed.
 constexpr std::size_t kFewestNew = 3;
 
@@ -158,10 +158,28 @@ void look_at_whole_failures(CaseHost& host, const KeptFailure& kept, const std::
 }
 
 // What fails needs what the kept failure needs, and comes about in another way.
-void compare_circumstances(const NeighbourCounts& before, Retest& result, const NeighbourCounts& now) {
+void compare_circumstances(const NeighbourCounts& before, Retest& result, const NeighbourCounts& now,
+                           const std::vector<OtherKind>& others = {}) {
+  const auto is_other = [&](const OtherKind& other) {
+    return told_apart_by(other.circumstances, now.circumstances).empty();
+  };
+  if (std::ranges::any_of(others, is_other)) return;
   const std::string apart = told_apart_by(before.circumstances, now.circumstances);
   if (apart.empty()) return;
   result.new_kind = fmt::format("in the median of the first that fail, {}", apart);
+  result.verdict = RetestVerdict::NewKind;
+}
+
+// Software that fails so many times as often as before has another fault that needs the same.
+void compare_shares(const NeighbourCounts& before, Retest& result) {
+  const NeighbourCounts& now = result.now;
+  if (before.of_world == 0 ||
+      now.alike_of_world * before.of_world < kManyTimes * before.alike_of_world * now.of_world ||
+      fisher_exact(before.alike_of_world, before.of_world, now.alike_of_world, now.of_world).first_smaller >=
+          kNewKindChance)
+    return;
+  result.new_kind = fmt::format("in {} of {} neighbours of its worlds ({} of {} before)", now.alike_of_world,
+                                now.of_world, before.alike_of_world, before.of_world);
   result.verdict = RetestVerdict::NewKind;
 }
 
@@ -176,7 +194,7 @@ void judge_whole_runs(CaseHost& host, const KeptFailure& found, const NeighbourC
     const auto [alike_before, of_before] = worlds(before);
     const NeighbourCounts& then = known.counts;
     if (then.of == 0) return;
-    if (known.others.empty()) compare_circumstances(then, result, now);
+    compare_circumstances(then, result, now, known.others);
     if (result.verdict == RetestVerdict::NewKind) return;
     if (is_rarer_share(now.alike, now.of, then.alike, then.of) ||
         is_rarer_share(now.alike + alike, now.of + of, then.alike + alike_before, then.of + of_before))
@@ -200,8 +218,7 @@ void judge_whole_runs(CaseHost& host, const KeptFailure& found, const NeighbourC
     for (const OtherKind& other : known.others) others.push_back(kept_now(other.failure, other.always_said));
   }
   look_at_whole_failures(host, kept_now(found, before.always_said), others, result);
-  if (result.verdict == RetestVerdict::StillThere && known.others.empty())
-    compare_circumstances(known.counts, result, now);
+  if (result.verdict == RetestVerdict::StillThere) compare_circumstances(known.counts, result, now, known.others);
 }
 
 RetestVerdict verdict_of_none(CaseHost& host, const KeptFailure& kept, const NeighbourCounts& before, Retest& result) {
@@ -241,7 +258,10 @@ Retest retest(CaseHost& host, const KeptFailure& found, const NeighbourCounts& b
   } else {
     result.verdict = verdict_of_none(host, kept, before, result);
   }
-  if (result.verdict != RetestVerdict::NewKind && now.alike > 0) compare_circumstances(before, result, now);
+  if (result.verdict != RetestVerdict::NewKind && now.alike > 0) {
+    compare_circumstances(before, result, now);
+    compare_shares(before, result);
+  }
   const bool is_sure = result.verdict == RetestVerdict::StillThere || result.verdict == RetestVerdict::NewKind;
   if (!is_sure) judge_whole_runs(host, found, before, known, result);
   return result;

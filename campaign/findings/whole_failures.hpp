@@ -26,6 +26,7 @@ std::vector<std::vector<std::string>> needs_of_others(CaseHost& host, const Kept
 struct OtherKind {
   KeptFailure failure;  // without scenarios
   std::vector<std::string> always_said{};
+  Circumstances circumstances{};  // of its whole runs; empty: not known
 };
 struct KnownRuns {
   NeighbourCounts counts;

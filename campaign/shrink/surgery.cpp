@@ -49,20 +49,21 @@ Scenario with_agvs(const Scenario& scenario, const Keeps& keeps) {
   return less;
 }
 
-Scenario with_fleet_reversed(const Scenario& scenario) {
+Scenario with_fleet_renumbered(const Scenario& scenario, std::size_t first) {
   const DrawNumbers numbers(scenario);
-  Scenario reversed = scenario;
-  for (std::size_t i = 0; i < reversed.agvs.size(); ++i) reversed.agvs[i].draws_as = numbers.of(AgvId{i}).value;
-  std::ranges::reverse(reversed.agvs);
-  const auto renumber = [last = reversed.agvs.size() - 1](auto& id) {
-    id = std::remove_reference_t<decltype(id)>{last - id.index()};
+  Scenario other = scenario;
+  const std::size_t fleet = other.agvs.size();
+  for (std::size_t i = 0; i < fleet; ++i) other.agvs[i].draws_as = numbers.of(AgvId{i}).value;
+  std::rotate(other.agvs.begin(), other.agvs.begin() + static_cast<std::ptrdiff_t>(first), other.agvs.end());
+  const auto renumber = [&](auto& id) {
+    id = std::remove_reference_t<decltype(id)>{(id.index() + fleet - first) % fleet};
   };
-  for (Fault& fault : reversed.faults) renumber(fault.agv);
-  for (GivenFate& fate : reversed.fates) {
+  for (Fault& fault : other.faults) renumber(fault.agv);
+  for (GivenFate& fate : other.fates) {
     renumber(fate.sender);
     renumber(fate.receiver);
   }
-  return reversed;
+  return other;
 }
 
 std::vector<TransportPlace> transports_of(const Scenario& scenario) {

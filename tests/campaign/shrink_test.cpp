@@ -307,16 +307,17 @@ TEST(Surgery, WhatReferredToAnAgvGoesWithIt) {
   EXPECT_EQ(one.agvs[0].draws_as, 4U);
 }
 
-TEST(Surgery, AFleetThatIsNumberedTheOtherWayRoundKeepsWhatItHad) {
+TEST(Surgery, AFleetThatIsNumberedOtherwiseKeepsWhatItHad) {
   Scenario scenario = test::bad_night(125);
   scenario.fates.push_back({.sender = AgvId{0U}, .receiver = AgvId{3U}, .sent = std::chrono::seconds(1), .lost = true});
-  const Scenario reversed = with_fleet_reversed(scenario);
-  EXPECT_EQ(reversed.agvs[4].start, scenario.agvs[0].start);
-  EXPECT_EQ(reversed.agvs[4].draws_as, 0U);
-  EXPECT_EQ(reversed.faults[0].agv.index(), 4U);
-  EXPECT_EQ(reversed.fates.back().sender.index(), 4U);
-  EXPECT_EQ(reversed.fates.back().receiver.index(), 1U);
-  EXPECT_EQ(scenario_digest(with_fleet_reversed(reversed)),
+  const Scenario other = with_fleet_renumbered(scenario, 2);
+  EXPECT_EQ(other.agvs[0].start, scenario.agvs[2].start);
+  EXPECT_EQ(other.agvs[3].start, scenario.agvs[0].start);
+  EXPECT_EQ(other.agvs[3].draws_as, 0U);
+  EXPECT_EQ(other.faults[0].agv.index(), 3U);
+  EXPECT_EQ(other.fates.back().sender.index(), 3U);
+  EXPECT_EQ(other.fates.back().receiver.index(), 1U);
+  EXPECT_EQ(scenario_digest(with_fleet_renumbered(other, 3)),
             scenario_digest(with_agvs(scenario, [](std::size_t) { return true; })));
 }
 

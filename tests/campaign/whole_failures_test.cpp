@@ -77,13 +77,16 @@ TEST(WholeRuns, ThatFailMoreSeldomAreNoDodge) {
   runs.counts.circumstances["came (s)"] = std::vector<double>(kCircumstanceValues, 5000.0);
   EXPECT_EQ(retest(retouched, known.kept, known.before, kSome, runs).verdict, RetestVerdict::NewKind)
       << "they come about otherwise";
-  runs.others.push_back({known.kept, {}});
+  runs.others.push_back({known.kept, {}, runs.counts.circumstances});
+  EXPECT_EQ(retest(retouched, known.kept, known.before, kSome, runs).verdict, RetestVerdict::NewKind)
+      << "nor are they another finding";
+  runs.others.back().circumstances = dodged.whole_runs.circumstances;
   EXPECT_EQ(retest(retouched, known.kept, known.before, kSome, runs).verdict, RetestVerdict::Dodged)
       << "unless some of them were of another finding";
 }
 
-// A mend may help the first AGV of a fleet, and not the last.
-TEST(WholeRuns, NumberTheFleetFromEitherEnd) {
+// A mend may help some AGVs of a fleet, and not the others.
+TEST(WholeRuns, NumberTheFleetFromEachAgv) {
   KeptFailure kept;
   kept.runs = {test::bad_night(1), test::bad_night(2)};
   const Neighbourhood runs = Neighbourhood::of_runs(kept);
@@ -92,10 +95,28 @@ TEST(WholeRuns, NumberTheFleetFromEitherEnd) {
   for (std::size_t agv = 0; agv < 5; ++agv) {
     EXPECT_EQ(start(0, agv), own(0, agv));
     EXPECT_EQ(start(2, agv), own(1, agv));
-    EXPECT_EQ(start(4, agv), own(0, 4 - agv));
-    EXPECT_EQ(start(7, agv), own(1, 4 - agv));
+    EXPECT_EQ(start(4, agv), own(0, (agv + 1) % 5));
+    EXPECT_EQ(start(7, agv), own(1, (agv + 1) % 5));
+    EXPECT_EQ(start(19, agv), own(1, (agv + 4) % 5));
+    EXPECT_EQ(start(20, agv), own(0, agv));
   }
-  EXPECT_NE(own(0, 0), own(0, 4)) << "else it tells nothing";
+  EXPECT_NE(own(0, 0), own(0, 1)) << "else it tells nothing";
+}
+
+TEST(Neighbours, NumberTheFleetOfEveryThirdWorldOtherwise) {
+  Bench bench("reckless");
+  const Scenario world = test::bad_night(1), other_world = test::bad_night(2);
+  const KeptFailure kept{.smallest = world, .world = world, .other_worlds = {other_world}};
+  const Neighbourhood neighbourhood(bench.host, kept);
+  const auto is_first = [&](std::uint32_t number, const Scenario& of, std::size_t agv) {
+    return neighbourhood.at(number).agvs[0].start == of.agvs[agv].start;
+  };
+  for (const std::uint32_t of_world : {9U, 10U, 11U, 17U}) EXPECT_TRUE(is_first(of_world, world, 0)) << of_world;
+  for (const std::uint32_t of_other : {13U, 14U, 21U}) EXPECT_TRUE(is_first(of_other, other_world, 0)) << of_other;
+  EXPECT_TRUE(is_first(1, world, 1) && is_first(5, other_world, 1));
+  EXPECT_TRUE(is_first(25, world, 2) && is_first(29, other_world, 2) && is_first(73, world, 4) &&
+              is_first(97, world, 1));
+  EXPECT_TRUE(is_first(0, world, 0)) << "the case names its messages by their senders";
 }
 
 TEST(WholeRuns, MayBeTheKeptFailureOrNot) {
