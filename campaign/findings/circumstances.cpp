@@ -10,7 +10,7 @@
 namespace fleetproof {
 namespace {
 
-constexpr std::size_t kFewest = 10;
+constexpr std::size_t kFewest = 8;
 constexpr double kNearlyAlways = 0.95, kAlike = 0.25;
 
 // The drive or turn that an AGV began last; absent: none.
@@ -61,19 +61,15 @@ class Observer {
 
   void look_at_messages(EntityId agv, EntityId other, SimTime until, const std::string& who) {
     const MessageFate* last = nullptr;
-    std::size_t heard = 0, sent = 0;
+    std::size_t heard = 0;
     for (const MessageFate& message : run_.fates) {
       const GivenFate& fate = message.fate;
-      if (fate.sender == agv && fate.receiver == other && kStart + fate.sent <= until) ++sent;
       if (fate.sender != other || fate.receiver != agv || fate.lost || message.arrives() > until) continue;
       ++heard;
       if (last == nullptr || message.arrives() >= last->arrives()) last = &message;
     }
     found_[who + ": heard (s before)"] = last == nullptr ? kNever_s : to_seconds(until - last->arrives());
-    found_[who + ": age of what it heard (s)"] =
-        last == nullptr ? kNever_s : to_seconds(until - kStart - last->fate.sent);
     found_[who + ": messages heard"] = static_cast<double>(heard);
-    found_[who + ": messages sent"] = static_cast<double>(sent);
   }
 
   const CaseRun& run_;
@@ -118,11 +114,11 @@ Circumstances circumstances_of(std::span<const std::map<std::string, double>> fa
   std::erase_if(all, [](const auto& figure) { return figure.second.size() < kFewest; });
   for (auto& [figure, values] : all) {
     std::ranges::sort(values);
-    std::vector<double> tenths;
+    std::vector<double> fifths;
     for (std::size_t i = 0; i < kCircumstanceValues; ++i)
-      tenths.push_back(values[(2 * i + 1) * values.size() / (2 * kCircumstanceValues)]);
-    for (double& value : tenths) value = std::round(1000.0 * value) / 1000.0;  // as files have it
-    values = std::move(tenths);
+      fifths.push_back(values[(2 * i + 1) * values.size() / (2 * kCircumstanceValues)]);
+    for (double& value : fifths) value = std::round(1000.0 * value) / 1000.0;  // as files have it
+    values = std::move(fifths);
   }
   return all;
 }
@@ -143,6 +139,17 @@ std::string told_apart_by(const Circumstances& before, const Circumstances& now)
     text = fmt::format("{}: {}, before {}", figure, median(found->second), median(then));
   }
   return text;
+}
+
+std::string told_apart_by(std::span<const Circumstances> before, std::span<const Circumstances> now) {
+  std::string first;
+  for (std::size_t world = 0; world < std::min(before.size(), now.size()); ++world) {
+    if (before[world].empty() || now[world].empty()) continue;
+    std::string text = told_apart_by(before[world], now[world]);
+    if (text.empty()) return {};
+    if (first.empty()) first = std::move(text);
+  }
+  return first;
 }
 
 }  // namespace fleetproof

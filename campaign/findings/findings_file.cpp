@@ -86,17 +86,17 @@ void read_ends(TomlTable& table, std::string_view key, NeighbourCounts& counts) 
   ends->finish();
 }
 
-// Of each figure ten numbers.
-void read_circumstances(TomlTable& table, std::string_view key, Circumstances& circumstances) {
-  auto figures = table.table(key);
-  if (!figures) return;
-  for (const std::string& figure : figures->keys()) {
-    const auto values = figures->array(figure);
-    if (!values || values->size() != kCircumstanceValues)
-      throw InputError(figures->place(figure), fmt::format("expected {} numbers", kCircumstanceValues));
-    std::ranges::transform(*values, std::back_inserter(circumstances[figure]), number_in);
+void read_circumstances(TomlTable& table, std::string_view key, std::vector<Circumstances>& worlds) {
+  for (TomlTable& figures : table.tables(key)) {
+    Circumstances& circumstances = worlds.emplace_back();
+    for (const std::string& figure : figures.keys()) {
+      const auto values = figures.array(figure);
+      if (!values || values->size() != kCircumstanceValues)
+        throw InputError(figures.place(figure), fmt::format("expected {} numbers", kCircumstanceValues));
+      std::ranges::transform(*values, std::back_inserter(circumstances[figure]), number_in);
+    }
+    figures.finish();
   }
-  figures->finish();
 }
 
 void read_whole_runs(TomlTable& table, KeptFinding& finding) {
@@ -139,12 +139,15 @@ std::string text_of_ends(std::string_view key, const NeighbourCounts& counts) {
   return fmt::format("{} = {{ {} }}\n", key, fmt::join(ends, ", "));
 }
 
-std::string text_of_circumstances(std::string_view key, const Circumstances& circumstances) {
-  if (circumstances.empty()) return {};
-  std::vector<std::string> figures;
-  for (const auto& [figure, values] : circumstances)
-    figures.push_back(fmt::format("{} = [{}]", toml_text(figure), fmt::join(values, ", ")));
-  return fmt::format("{} = {{ {} }}\n", key, fmt::join(figures, ", "));
+std::string text_of_circumstances(std::string_view key, const std::vector<Circumstances>& worlds) {
+  std::vector<std::string> tables;
+  for (const Circumstances& circumstances : worlds) {
+    std::vector<std::string> figures;
+    for (const auto& [figure, values] : circumstances)
+      figures.push_back(fmt::format("{} = [{}]", toml_text(figure), fmt::join(values, ", ")));
+    tables.push_back(fmt::format("  {{ {} }},\n", fmt::join(figures, ", ")));
+  }
+  return tables.empty() ? std::string() : fmt::format("{} = [\n{}]\n", key, fmt::join(tables, ""));
 }
 
 std::string lists_of(const std::vector<std::vector<std::string>>& lists) {

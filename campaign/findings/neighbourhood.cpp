@@ -16,7 +16,7 @@ namespace {
 constexpr Duration kShift = std::chrono::seconds(1);
 constexpr double kFreeCallCost_s = 0.0002;
 constexpr std::uint32_t kEveryCase = 4, kEveryThird = 3, kNeighbourKey = 7;
-constexpr std::size_t kFewAlike = 5, kMostLookedAt = 40;
+constexpr std::size_t kFewAlike = 5, kMostLookedAt = 20;
 
 // Draws in [0, 1) for one neighbour.
 class Dice {
@@ -98,6 +98,10 @@ void Neighbourhood::lose_one_more(Scenario& scenario, double draw) const {
 
 bool Neighbourhood::is_of_case(std::uint32_t number) const { return !is_of_runs_ && number % kEveryCase == 0; }
 
+std::size_t Neighbourhood::world_of(std::uint32_t number) const {
+  return is_of_runs_ ? number / 2 % kept_.runs.size() : number / kEveryCase % (kept_.other_worlds.size() + 1);
+}
+
 // Of whole runs, each AGV is the first equally often. Of worlds, another one than in the world is in every third: a
 // failure may need that one of two AGVs goes first.
 std::size_t Neighbourhood::first_agv_of(std::uint32_t number, std::size_t fleet) const {
@@ -109,8 +113,7 @@ std::size_t Neighbourhood::first_agv_of(std::uint32_t number, std::size_t fleet)
 Scenario Neighbourhood::at(std::uint32_t number) const {
   Dice dice(kept_.world.seed, number);
   const bool of_case = is_of_case(number);
-  const Scenario& world =
-      is_of_runs_ ? kept_.runs[number / 2 % kept_.runs.size()] : kept_.world_of(number / kEveryCase);
+  const Scenario& world = is_of_runs_ ? kept_.runs[world_of(number)] : kept_.world_of(number / kEveryCase);
   Scenario beside = of_case ? shifted(kept_.smallest, dice) : with_other_course(world, number, kShift);
   if (const std::size_t first = first_agv_of(number, beside.agvs.size()); first > 0)
     beside = with_fleet_renumbered(beside, first);
@@ -121,8 +124,9 @@ Scenario Neighbourhood::at(std::uint32_t number) const {
 
 namespace {
 
-void count_in(NeighbourCounts& counts, const CaseRun& run, std::uint32_t number, bool is_of_world,
+void count_in(NeighbourCounts& counts, const CaseRun& run, std::uint32_t number, const Neighbourhood& neighbourhood,
               const std::string& end) {
+  const bool is_of_world = !neighbourhood.is_of_case(number);
   ++counts.of;
   if (is_of_world) ++counts.of_world;
   counts.ever_said = all_of(counts.ever_said, run.all_words);
@@ -137,7 +141,10 @@ void count_in(NeighbourCounts& counts, const CaseRun& run, std::uint32_t number,
   if (is_of_world) ++counts.alike_of_world;
   if (counts.first_alike.size() < kFewAlike) counts.first_alike.push_back(number);
   if (is_of_world && counts.first_alike_of_world.size() < kFewAlike) counts.first_alike_of_world.push_back(number);
-  if (is_of_world && counts.looked_at.size() < kMostLookedAt) counts.looked_at.push_back(number);
+  if (!is_of_world) return;
+  const std::size_t world = neighbourhood.world_of(number);
+  if (counts.looked_at.size() <= world) counts.looked_at.resize(world + 1);
+  if (counts.looked_at[world].size() < kMostLookedAt) counts.looked_at[world].push_back(number);
 }
 
 // As if all up to number `to` had been tried at once.
@@ -150,19 +157,20 @@ void try_up_to(std::uint32_t to, CaseHost& host, const KeptFailure& kept, const 
   std::uint64_t driven_um = 0;
   for (std::uint32_t i = 0; i < to - from; ++i) {
     driven_um += runs[i]->outcome.counters.distance_um;
-    count_in(counts, *runs[i], from + i, !neighbourhood.is_of_case(from + i), kept.end);
+    count_in(counts, *runs[i], from + i, neighbourhood, kept.end);
   }
   counts.driven_m += driven_um / 1'000'000;
 }
 
 void look_closer(CaseHost& host, const Neighbourhood& neighbourhood, NeighbourCounts& counts) {
-  const auto& numbers = counts.looked_at;
-  const auto make = [&](std::size_t i) { return std::optional(neighbourhood.at(numbers[i])); };
-  const auto runs = all_runs(host, {numbers.size(), make}, Fates::Kept);
-  std::vector<std::map<std::string, double>> all;
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-    all.push_back(circumstances_of(*runs[i], neighbourhood.at(numbers[i])));
-  counts.circumstances = circumstances_of(all);
+  for (const auto& numbers : counts.looked_at) {
+    const auto make = [&](std::size_t i) { return std::optional(neighbourhood.at(numbers[i])); };
+    const auto runs = all_runs(host, {numbers.size(), make}, Fates::Kept);
+    std::vector<std::map<std::string, double>> failures;
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      failures.push_back(circumstances_of(*runs[i], neighbourhood.at(numbers[i])));
+    counts.circumstances.push_back(circumstances_of(failures));
+  }
 }
 
 }  // namespace

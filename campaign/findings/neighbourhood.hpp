@@ -61,6 +61,8 @@ class Neighbourhood {
   static Neighbourhood of_runs(const KeptFailure& kept) { return Neighbourhood(kept); }
   Scenario at(std::uint32_t number) const;
   bool is_of_case(std::uint32_t number) const;
+  // Which of its worlds, or runs, it is beside. Requires: it is not of the case.
+  std::size_t world_of(std::uint32_t number) const;
 
  private:
   explicit Neighbourhood(const KeptFailure& kept) : kept_(kept), is_of_runs_(true) {}
@@ -85,9 +87,9 @@ struct NeighbourCounts {
   std::uint64_t driven_elsewhere_m = 0;  // as driven_elsewhere_m has it; 0: not known
   // Words and probes, sorted: those of the AGVs of each failure alike, and those of any fleet of these runs.
   std::vector<std::string> always_said{}, ever_said{};
-  // Of the first failures of the worlds that end alike, so that what other neighbours do does not count.
-  std::vector<std::uint32_t> looked_at{};
-  Circumstances circumstances{};
+  // Of each world, the first failures that end alike, and how they come about.
+  std::vector<std::vector<std::uint32_t>> looked_at{};
+  std::vector<Circumstances> circumstances{};
 };
 // On all workers; the same for any number.
 NeighbourCounts try_neighbours(CaseHost& host, const KeptFailure& kept, const Neighbourhood& neighbourhood,

@@ -160,10 +160,15 @@ void look_at_whole_failures(CaseHost& host, const KeptFailure& kept, const std::
 // What fails needs what the kept failure needs, and comes about in another way.
 void compare_circumstances(const NeighbourCounts& before, Retest& result, const NeighbourCounts& now,
                            const std::vector<OtherKind>& others = {}) {
-  const auto is_other = [&](const OtherKind& other) {
-    return told_apart_by(other.circumstances, now.circumstances).empty();
+  // Where nothing is known of another finding, it may be that one.
+  const auto may_be_other = [&](const OtherKind& other) {
+    return other.circumstances.empty() || std::ranges::any_of(other.circumstances, [&](const Circumstances& known) {
+             return std::ranges::any_of(now.circumstances, [&](const Circumstances& some) {
+               return !some.empty() && told_apart_by(known, some).empty();
+             });
+           });
   };
-  if (std::ranges::any_of(others, is_other)) return;
+  if (std::ranges::any_of(others, may_be_other)) return;
   const std::string apart = told_apart_by(before.circumstances, now.circumstances);
   if (apart.empty()) return;
   result.new_kind = fmt::format("in the median of the first that fail, {}", apart);

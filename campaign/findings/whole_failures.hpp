@@ -26,7 +26,7 @@ std::vector<std::vector<std::string>> needs_of_others(CaseHost& host, const Kept
 struct OtherKind {
   KeptFailure failure;  // without scenarios
   std::vector<std::string> always_said{};
-  Circumstances circumstances{};  // of its whole runs; empty: not known
+  std::vector<Circumstances> circumstances{};  // of its whole runs
 };
 struct KnownRuns {
   NeighbourCounts counts;

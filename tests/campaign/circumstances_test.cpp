@@ -67,13 +67,9 @@ TEST(Circumstances, AreThoseOfTheTwoUntilItCame) {
   EXPECT_EQ(found.at("later: drives"), 2.0);
   EXPECT_EQ(found.at("later: restarted (s before)"), kNever_s);
   EXPECT_EQ(found.at("later: heard (s before)"), 1.0);
-  EXPECT_EQ(found.at("later: age of what it heard (s)"), 1.5);
   EXPECT_EQ(found.at("later: messages heard"), 2.0);
-  EXPECT_EQ(found.at("later: messages sent"), 3.0);
   EXPECT_EQ(found.at("later, setting off: heard (s before)"), 0.5);
-  EXPECT_EQ(found.at("later, setting off: age of what it heard (s)"), 2.0);
   EXPECT_EQ(found.at("later, setting off: messages heard"), 1.0);
-  EXPECT_EQ(found.at("later, setting off: messages sent"), 2.0);
   EXPECT_EQ(found.at("other: stood (s)"), 7.0);
   EXPECT_EQ(found.at("other: drives"), 1.0);
   EXPECT_EQ(found.at("other: restarted (s before)"), 4.0);
@@ -103,19 +99,19 @@ Circumstances of_values(std::size_t count, double from, double step) {
   return circumstances_of(failures);
 }
 
-TEST(Circumstances, AreTenValuesOfManyFailures) {
-  EXPECT_TRUE(of_values(9, 1.0, 1.0).empty()) << "too few";
-  EXPECT_THAT(of_values(10, 1.0, 1.0).at("came (s)"), testing::ElementsAre(1, 2, 3, 4, 5, 6, 7, 8, 9, 10));
-  EXPECT_THAT(of_values(40, 0.0, 1.0).at("came (s)"), testing::ElementsAre(2, 6, 10, 14, 18, 22, 26, 30, 34, 38));
+TEST(Circumstances, AreFiveValuesOfManyFailures) {
+  EXPECT_TRUE(of_values(7, 1.0, 1.0).empty()) << "too few";
+  EXPECT_THAT(of_values(10, 1.0, 1.0).at("came (s)"), testing::ElementsAre(2, 4, 6, 8, 10));
+  EXPECT_THAT(of_values(40, 0.0, 1.0).at("came (s)"), testing::ElementsAre(4, 12, 20, 28, 36));
 }
 
 TEST(Circumstances, TellFailuresApartIfOneKindHasMoreNearlyAlways) {
   const Circumstances before = of_values(20, 0.0, 1.0);
-  EXPECT_THAT(told_apart_by(before, of_values(20, 19.0, 1.0)), HasSubstr("came (s): 30.0, before 11.0"));
+  EXPECT_THAT(told_apart_by(before, of_values(20, 19.0, 1.0)), HasSubstr("came (s): 29.0, before 10.0"));
   EXPECT_NE(told_apart_by(of_values(20, 19.0, 1.0), before), "") << "less tells, too";
   EXPECT_EQ(told_apart_by(before, before), "");
   EXPECT_EQ(told_apart_by(before, of_values(20, 10.0, 1.0)), "") << "seven in eight";
-  EXPECT_EQ(told_apart_by(before, of_values(9, 1000.0, 0.0)), "") << "too few to tell";
+  EXPECT_EQ(told_apart_by(before, of_values(7, 1000.0, 0.0)), "") << "too few to tell";
   EXPECT_EQ(told_apart_by({}, before), "");
 }
 
@@ -123,6 +119,20 @@ TEST(Circumstances, TellFailuresApartIfOneKindHasMoreNearlyAlways) {
 TEST(Circumstances, SmallDifferencesAreThoseOfTiming) {
   EXPECT_EQ(told_apart_by(of_values(20, 2.0, 0.0), of_values(20, 2.02, 0.0)), "");
   EXPECT_NE(told_apart_by(of_values(20, 2.0, 0.0), of_values(20, 2.5, 0.0)), "");
+}
+
+// Half a mend may leave failures in one world only: they are as they were there.
+TEST(Circumstances, AreComparedWorldByWorld) {
+  const Circumstances early = of_values(20, 0.0, 1.0), late = of_values(20, 100.0, 1.0),
+                      later = of_values(20, 200.0, 1.0);
+  const auto told = [](const std::vector<Circumstances>& before, const std::vector<Circumstances>& now) {
+    return told_apart_by(before, now);
+  };
+  EXPECT_EQ(told({early, late}, {{}, late}), "");
+  EXPECT_NE(told({early, late}, {{}, later}), "");
+  EXPECT_NE(told({early, late}, {late, later}), "");
+  EXPECT_EQ(told({early, late}, {late, late}), "") << "some are as they were";
+  EXPECT_EQ(told({{}, late}, {late}), "") << "nothing can be compared";
 }
 
 TEST(Circumstances, WhatNeverHappenedIsSaid) {

@@ -45,11 +45,12 @@ class FindingsFiles : public testing::Test {
     finding.doings = {"one turns"};
     finding.says = {"oops", "a \"b\""};
     finding.neighbours = {1000, 17, {{"no progress", 3}, {"a \"b\"", 4}}, {}, {}, 750, 9, 12345, 678, {"a", "b \"c\""}};
-    finding.neighbours.circumstances = {{"came (s)", {0, 1, 2, 3, 4, 5, 6, 7.125, 8, kNever_s}}};
+    finding.neighbours.circumstances = {
+        {{"came (s)", {0, 1, 2, 7.125, kNever_s}}}, {}, {{"a", {0, 0, 0, 0, 1}}, {"b", {0, 0, 0, 0, 2}}}};
     finding.whole.files = {"r.json", "s.json"};
     finding.whole.counts = {250, 130, {{"a \"d\"", 5}}, {}};
     finding.whole.counts.always_said = {"c", "d"};
-    finding.whole.counts.circumstances = {{"other: \"x\"", {9, 1, 2, 3, 4, 5, 6, 7, 8, 9}}};
+    finding.whole.counts.circumstances = {{{"other: \"x\"", {9, 1, 2, 3, 4}}}};
     finding.whole.others_need = {{"restart"}, {}};
     return finding;
   }
@@ -97,9 +98,9 @@ TEST_F(FindingsFiles, ErrorsNameTheLineAndTheRemedy) {
   many.whole.counts.alike = 251;
   EXPECT_THAT(error_of(toml_of(many)), HasSubstr("more runs failed"));
   auto few = odd();
-  few.neighbours.circumstances["came (s)"].pop_back();
-  EXPECT_THAT(error_of(toml_of(few)), HasSubstr("expected 10 numbers"));
-  few.neighbours.circumstances["came (s)"].push_back(-1.0);
+  few.neighbours.circumstances[0]["came (s)"].pop_back();
+  EXPECT_THAT(error_of(toml_of(few)), HasSubstr("expected 5 numbers"));
+  few.neighbours.circumstances[0]["came (s)"].push_back(-1.0);
   EXPECT_THAT(error_of(toml_of(few)), HasSubstr("-1"));
   auto waived = odd();
   waived.status = FindingStatus::Waived;
@@ -124,6 +125,7 @@ TEST_F(FindingsFiles, SaysHowElseTheSoftwareFailed) {
   EXPECT_EQ(known.others[1].failure.ways, other.ways);
   EXPECT_EQ(known.others[1].failure.says, other.says);
   EXPECT_EQ(known.others[1].always_said, other.neighbours.always_said);
+  EXPECT_EQ(known.others[1].circumstances, other.whole.counts.circumstances);
 }
 
 TEST_F(FindingsFiles, AWaiverEnds) {

@@ -74,7 +74,8 @@ TEST(WholeRuns, ThatFailMoreSeldomAreNoDodge) {
   more.alike = more.of;
   EXPECT_EQ(retest(retouched, known.kept, known.before, kSome, {more, {}}).verdict, RetestVerdict::StillThere);
 
-  runs.counts.circumstances["came (s)"] = std::vector<double>(kCircumstanceValues, 5000.0);
+  ASSERT_EQ(runs.counts.circumstances.size(), 1U) << "of one run";
+  runs.counts.circumstances[0]["came (s)"] = std::vector<double>(kCircumstanceValues, 5000.0);
   EXPECT_EQ(retest(retouched, known.kept, known.before, kSome, runs).verdict, RetestVerdict::NewKind)
       << "they come about otherwise";
   runs.others.push_back({known.kept, {}, runs.counts.circumstances});
