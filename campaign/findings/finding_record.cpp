@@ -34,7 +34,7 @@ void keep_what_it_shows(const std::optional<FailureNeeds>& of_case, const Findin
 void keep_words_of_all(KeptFailure& kept, const NeighbourCounts& neighbours) {
   if (neighbours.alike == 0) return;
   std::erase_if(kept.says,
-                [&](const std::string& word) { return std::ranges::count(neighbours.always_said, word) == 0; });
+                [&](const std::string& word) { return std::ranges::count(neighbours.said.always, word) == 0; });
 }
 
 FindingRecord record_of(CaseHost& host, const Finding& finding, const FailureNeeds& representative,

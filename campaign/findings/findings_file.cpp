@@ -106,7 +106,9 @@ void read_whole_runs(TomlTable& table, KeptFinding& finding) {
   if (alike > of) throw InputError(table.place("whole_runs_failing"), "more runs failed than were tried");
   finding.whole.counts.of = of;
   finding.whole.counts.alike = alike;
-  finding.whole.counts.always_said = texts(table, "whole_runs_always_said");
+  finding.whole.counts.said.always = texts(table, "whole_runs_always_said");
+  finding.whole.counts.said.usually = texts(table, "whole_runs_usually_said");
+  finding.whole.counts.said.ever = texts(table, "whole_runs_ever_said");
   read_ends(table, "whole_runs_otherwise", finding.whole.counts);
   finding.whole.others_need = lists(table, "others_need");
   read_circumstances(table, "whole_runs_circumstances", finding.whole.counts.circumstances);
@@ -125,7 +127,9 @@ void read_neighbours(TomlTable& table, NeighbourCounts& counts) {
   counts.alike_of_world = alike_of_world;
   table.get("neighbours_driven_m", counts.driven_m);
   table.get("driven_elsewhere_m", counts.driven_elsewhere_m);
-  counts.always_said = texts(table, "always_said");
+  counts.said.always = texts(table, "always_said");
+  counts.said.usually = texts(table, "usually_said");
+  counts.said.ever = texts(table, "ever_said");
   if (counts.alike > counts.of || counts.alike_of_world > counts.of_world)
     throw InputError(table.place("neighbours_failing"), "more neighbours failed than were tried");
   read_ends(table, "neighbours_otherwise", counts);
@@ -150,6 +154,17 @@ std::string text_of_circumstances(std::string_view key, const std::vector<Circum
   return tables.empty() ? std::string() : fmt::format("{} = [\n{}]\n", key, fmt::join(tables, ""));
 }
 
+std::string text_of_words(std::string_view prefix, const NeighbourCounts& counts) {
+  std::string text;
+  const auto put = [&](const char* key, const std::vector<std::string>& words) {
+    if (!words.empty()) text += fmt::format("{}{} = {}\n", prefix, key, list_of(words));
+  };
+  put("always_said", counts.said.always);
+  put("usually_said", counts.said.usually);
+  put("ever_said", counts.said.ever);
+  return text;
+}
+
 std::string lists_of(const std::vector<std::vector<std::string>>& lists) {
   std::vector<std::string> items;
   for (const auto& list : lists) items.push_back(list_of(list));
@@ -162,8 +177,7 @@ std::string text_of_whole_runs(const KeptFinding& finding) {
                                  finding.whole.counts.of, finding.whole.counts.alike);
   if (!finding.whole.others_need.empty())
     text += fmt::format("others_need = {}\n", lists_of(finding.whole.others_need));
-  if (!finding.whole.counts.always_said.empty())
-    text += fmt::format("whole_runs_always_said = {}\n", list_of(finding.whole.counts.always_said));
+  text += text_of_words("whole_runs_", finding.whole.counts);
   return text + text_of_ends("whole_runs_otherwise", finding.whole.counts) +
          text_of_circumstances("whole_runs_circumstances", finding.whole.counts.circumstances);
 }
@@ -235,11 +249,13 @@ KnownRuns FindingsFile::known_runs(const KeptFinding& finding) const {
   KnownRuns known{finding.whole.counts, {}};
   if (!finding.whole.others_need.empty())
     known.others.push_back({{.end = finding.end, .ways = finding.whole.others_need, .doings = {}, .says = {}},
-                            finding.whole.counts.always_said});
+                            finding.whole.counts.said.always,
+                            finding.whole.counts.said.usually});
   for (const KeptFinding& other : findings_) {
     if (other.found_in != finding.found_in || other.id == finding.id) continue;
     known.others.push_back({{.end = other.end, .ways = other.ways, .doings = other.doings, .says = other.says},
-                            other.neighbours.always_said,
+                            other.neighbours.said.always,
+                            other.neighbours.said.usually,
                             other.whole.counts.circumstances});
   }
   return known;
@@ -260,9 +276,7 @@ std::string toml_of(const KeptFinding& finding) {
       "driven_elsewhere_m = {}\n",
       finding.neighbours.of_world, finding.neighbours.alike_of_world, finding.neighbours.driven_m,
       finding.neighbours.driven_elsewhere_m);
-  if (!finding.neighbours.always_said.empty())
-    text += fmt::format("always_said = {}\n", list_of(finding.neighbours.always_said));
-  return text + text_of_ends("neighbours_otherwise", finding.neighbours) +
+  return text + text_of_words("", finding.neighbours) + text_of_ends("neighbours_otherwise", finding.neighbours) +
          text_of_circumstances("circumstances", finding.neighbours.circumstances) + text_of_whole_runs(finding);
 }
 

@@ -16,7 +16,7 @@ namespace {
 constexpr Duration kShift = std::chrono::seconds(1);
 constexpr double kFreeCallCost_s = 0.0002;
 constexpr std::uint32_t kEveryCase = 4, kEveryThird = 3, kNeighbourKey = 7;
-constexpr std::size_t kFewAlike = 5, kMostLookedAt = 20;
+constexpr std::size_t kFewAlike = 5, kMostLookedAt = 20, kEnoughPassing = 10;
 
 // Draws in [0, 1) for one neighbour.
 class Dice {
@@ -129,14 +129,18 @@ void count_in(NeighbourCounts& counts, const CaseRun& run, std::uint32_t number,
   const bool is_of_world = !neighbourhood.is_of_case(number);
   ++counts.of;
   if (is_of_world) ++counts.of_world;
-  counts.ever_said = all_of(counts.ever_said, run.all_words);
+  counts.said.ever = all_of(counts.said.ever, run.all_words);
   const auto failure = failure_of(run);
-  if (!failure) return;
+  if (!failure) {
+    ++counts.said.passing;
+    for (const std::string& word : run.all_words) ++counts.said.by_passing[word];
+    return;
+  }
   if (end_of(*failure) != end) {
     ++counts.otherwise[end_of(*failure)];
     return;
   }
-  counts.always_said = counts.alike == 0 ? run.words : shared_by(counts.always_said, run.words);
+  counts.said.always = counts.alike == 0 ? run.words : shared_by(counts.said.always, run.words);
   ++counts.alike;
   if (is_of_world) ++counts.alike_of_world;
   if (counts.first_alike.size() < kFewAlike) counts.first_alike.push_back(number);
@@ -162,6 +166,17 @@ void try_up_to(std::uint32_t to, CaseHost& host, const KeptFailure& kept, const 
   counts.driven_m += driven_um / 1'000'000;
 }
 
+// What AGVs also say when all is well: another timing may be enough for them not to say it.
+void set_usual_words_apart(NeighbourCounts& counts) {
+  if (counts.said.passing < kEnoughPassing) return;
+  const auto is_usual = [&](const std::string& word) {
+    const auto said = counts.said.by_passing.find(word);
+    return said != counts.said.by_passing.end() && 10 * said->second > 9 * counts.said.passing;
+  };
+  std::ranges::copy_if(counts.said.always, std::back_inserter(counts.said.usually), is_usual);
+  std::erase_if(counts.said.always, is_usual);
+}
+
 void look_closer(CaseHost& host, const Neighbourhood& neighbourhood, NeighbourCounts& counts) {
   for (const auto& numbers : counts.looked_at) {
     const auto make = [&](std::size_t i) { return std::optional(neighbourhood.at(numbers[i])); };
@@ -179,6 +194,7 @@ NeighbourCounts try_neighbours(CaseHost& host, const KeptFailure& kept, const Ne
                                std::uint32_t count) {
   NeighbourCounts counts;
   try_up_to(count, host, kept, neighbourhood, counts);
+  set_usual_words_apart(counts);
   look_closer(host, neighbourhood, counts);
   return counts;
 }
@@ -189,6 +205,7 @@ NeighbourCounts try_enough_neighbours(CaseHost& host, const KeptFailure& kept, c
     try_up_to(count, host, kept, neighbourhood, counts);
     if (counts.alike_of_world >= kEnoughAlike || count >= kMostKept) break;
   }
+  set_usual_words_apart(counts);
   look_closer(host, neighbourhood, counts);
   return counts;
 }

@@ -74,6 +74,15 @@ class Neighbourhood {
   std::vector<GivenFate> messages_{};  // that arrive in the smallest case, before it fails
 };
 
+// Words and probes of some runs, each list sorted.
+struct WordsSaid {
+  Words always{};           // by the AGVs of each failure alike, and not by nearly every fleet that does not fail
+  Words usually{};          // likewise, but also by these
+  Words ever{};             // by any fleet
+  std::size_t passing = 0;  // runs that do not fail at all
+  std::map<std::string, std::size_t> by_passing{};  // how many of these say a word
+};
+
 // How the software fares there.
 struct NeighbourCounts {
   std::size_t of = 0;                            // were simulated
@@ -85,8 +94,7 @@ struct NeighbourCounts {
   std::size_t of_world = 0, alike_of_world = 0;
   std::uint64_t driven_m = 0;            // by the fleets of all of them; 0: not known
   std::uint64_t driven_elsewhere_m = 0;  // as driven_elsewhere_m has it; 0: not known
-  // Words and probes, sorted: those of the AGVs of each failure alike, and those of any fleet of these runs.
-  std::vector<std::string> always_said{}, ever_said{};
+  WordsSaid said{};
   // Of each world, the first failures that end alike, and how they come about.
   std::vector<std::vector<std::uint32_t>> looked_at{};
   std::vector<Circumstances> circumstances{};

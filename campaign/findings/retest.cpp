@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "campaign/findings/elsewhere.hpp"
@@ -49,12 +51,29 @@ bool is_kept_one(const KeptFailure& kept, const FailureNeeds& of_case) {
 }
 
 // What the AGVs of each failure had said before, and no fleet ever says now: the software no longer does what the word
-// names. None if all such words are gone: it speaks another language.
-std::vector<std::string> words_no_longer_said(const std::vector<std::string>& ever_said,
-                                              const std::vector<std::string>& always_said_before) {
-  std::vector<std::string> gone = always_said_before;
-  std::erase_if(gone, [&](const std::string& word) { return names_all(ever_said, {word}); });
-  return gone.size() < always_said_before.size() ? gone : std::vector<std::string>{};
+// names. None if no fleet says any word as before: it speaks another language.
+Words words_no_longer_said(const Words& ever_said, const Words& always_said_before, const Words& usually_said_before) {
+  const auto is_gone = [&](const std::string& word) { return !names_all(ever_said, {word}); };
+  Words gone;
+  std::ranges::copy_if(always_said_before, std::back_inserter(gone), is_gone);
+  const bool is_other_language =
+      gone.size() == always_said_before.size() && std::ranges::all_of(usually_said_before, is_gone);
+  return is_other_language ? Words{} : gone;
+}
+
+// What the AGVs of each failure say now, and no fleet said before; nor does nearly every fleet say it that does not
+// fail (those words stand apart), or it would be chance that all that fail do. Empty if nothing is known of before.
+std::string new_word(const NeighbourCounts& now, const Words& ever_said_before) {
+  if (now.alike < kFewestNew || ever_said_before.empty()) return {};
+  const auto is_new = [&](const std::string& word) {
+    const auto said = now.said.by_passing.find(word);
+    const double share = said == now.said.by_passing.end()
+                             ? 0.0
+                             : static_cast<double>(said->second) / static_cast<double>(now.said.passing);
+    return !names_all(ever_said_before, {word}) && std::pow(share, static_cast<double>(now.alike)) < kNewKindChance;
+  };
+  const auto found = std::ranges::find_if(now.said.always, is_new);
+  return found == now.said.always.end() ? std::string() : fmt::format("it {}", trait_of_word(*found));
 }
 
 // It says them in each failure that is the kept one.
@@ -157,9 +176,9 @@ void look_at_whole_failures(CaseHost& host, const KeptFailure& kept, const std::
   }
 }
 
-// What fails needs what the kept failure needs, and comes about in another way.
-void compare_circumstances(const NeighbourCounts& before, Retest& result, const NeighbourCounts& now,
-                           const std::vector<OtherKind>& others = {}) {
+// What fails needs what the kept failure needs, and comes about in another way, or says a word of its own.
+void compare_signs(const NeighbourCounts& before, Retest& result, const NeighbourCounts& now,
+                   const std::vector<OtherKind>& others = {}) {
   // Where nothing is known of another finding, it may be that one.
   const auto may_be_other = [&](const OtherKind& other) {
     return other.circumstances.empty() || std::ranges::any_of(other.circumstances, [&](const Circumstances& known) {
@@ -168,10 +187,13 @@ void compare_circumstances(const NeighbourCounts& before, Retest& result, const 
              });
            });
   };
-  if (std::ranges::any_of(others, may_be_other)) return;
-  const std::string apart = told_apart_by(before.circumstances, now.circumstances);
-  if (apart.empty()) return;
-  result.new_kind = fmt::format("in the median of the first that fail, {}", apart);
+  std::string sign = new_word(now, before.said.ever);
+  if (sign.empty() && std::ranges::none_of(others, may_be_other)) {
+    const std::string apart = told_apart_by(before.circumstances, now.circumstances);
+    if (!apart.empty()) sign = fmt::format("in the median of the first that fail, {}", apart);
+  }
+  if (sign.empty()) return;
+  result.new_kind = std::move(sign);
   result.verdict = RetestVerdict::NewKind;
 }
 
@@ -199,7 +221,7 @@ void judge_whole_runs(CaseHost& host, const KeptFailure& found, const NeighbourC
     const auto [alike_before, of_before] = worlds(before);
     const NeighbourCounts& then = known.counts;
     if (then.of == 0) return;
-    compare_circumstances(then, result, now, known.others);
+    compare_signs(then, result, now, known.others);
     if (result.verdict == RetestVerdict::NewKind) return;
     if (is_rarer_share(now.alike, now.of, then.alike, then.of) ||
         is_rarer_share(now.alike + alike, now.of + of, then.alike + alike_before, then.of + of_before))
@@ -211,8 +233,9 @@ void judge_whole_runs(CaseHost& host, const KeptFailure& found, const NeighbourC
     result.verdict = RetestVerdict::NewKind;
     return;
   }
-  const auto kept_now = [&](const KeptFailure& kept, const std::vector<std::string>& always_said) {
-    return with_words(kept, words_no_longer_said(all_of(now.ever_said, result.now.ever_said), always_said));
+  const auto kept_now = [&](const KeptFailure& kept, const Words& always_said, const Words& usually_said) {
+    return with_words(kept,
+                      words_no_longer_said(all_of(now.said.ever, result.now.said.ever), always_said, usually_said));
   };
   std::vector<KeptFailure> others;
   // What was known before does not explain that many more fail now.
@@ -220,10 +243,11 @@ void judge_whole_runs(CaseHost& host, const KeptFailure& found, const NeighbourC
       known.counts.of > 0 &&
       fisher_exact(known.counts.alike, known.counts.of, now.alike, now.of).first_smaller < kNewKindChance;
   if (!is_more) {
-    for (const OtherKind& other : known.others) others.push_back(kept_now(other.failure, other.always_said));
+    for (const OtherKind& other : known.others)
+      others.push_back(kept_now(other.failure, other.always_said, other.usually_said));
   }
-  look_at_whole_failures(host, kept_now(found, before.always_said), others, result);
-  if (result.verdict == RetestVerdict::StillThere) compare_circumstances(known.counts, result, now, known.others);
+  look_at_whole_failures(host, kept_now(found, before.said.always, before.said.usually), others, result);
+  if (result.verdict == RetestVerdict::StillThere) compare_signs(known.counts, result, now, known.others);
 }
 
 RetestVerdict verdict_of_none(CaseHost& host, const KeptFailure& kept, const NeighbourCounts& before, Retest& result) {
@@ -246,8 +270,8 @@ Retest retest(CaseHost& host, const KeptFailure& found, const NeighbourCounts& b
   const Neighbourhood neighbourhood(host, found);
   result.now = try_neighbours(host, found, neighbourhood, neighbours);
   const NeighbourCounts& now = result.now;
-  const auto ever_said = of_case ? all_of(now.ever_said, of_case->said) : now.ever_said;
-  const KeptFailure kept = with_words(found, words_no_longer_said(ever_said, before.always_said));
+  const auto ever_said = of_case ? all_of(now.said.ever, of_case->said) : now.said.ever;
+  const KeptFailure kept = with_words(found, words_no_longer_said(ever_said, before.said.always, before.said.usually));
   result.upper_bound = upper_bound(now.alike, now.of, Confidence{0.95});
   result.case_fails = of_case && is_kept_one(kept, *of_case);
   if (result.case_fails) {
@@ -264,7 +288,7 @@ Retest retest(CaseHost& host, const KeptFailure& found, const NeighbourCounts& b
     result.verdict = verdict_of_none(host, kept, before, result);
   }
   if (result.verdict != RetestVerdict::NewKind && now.alike > 0) {
-    compare_circumstances(before, result, now);
+    compare_signs(before, result, now);
     compare_shares(before, result);
   }
   const bool is_sure = result.verdict == RetestVerdict::StillThere || result.verdict == RetestVerdict::NewKind;

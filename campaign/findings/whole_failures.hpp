@@ -25,7 +25,7 @@ std::vector<std::vector<std::string>> needs_of_others(CaseHost& host, const Kept
 // How software failed in which a finding was found, beside the finding itself.
 struct OtherKind {
   KeptFailure failure;  // without scenarios
-  std::vector<std::string> always_said{};
+  Words always_said{}, usually_said{};
   std::vector<Circumstances> circumstances{};  // of its whole runs
 };
 struct KnownRuns {

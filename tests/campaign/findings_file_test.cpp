@@ -44,12 +44,17 @@ class FindingsFiles : public testing::Test {
     finding.other_worlds = {"v.json", "u.json"};
     finding.doings = {"one turns"};
     finding.says = {"oops", "a \"b\""};
-    finding.neighbours = {1000, 17, {{"no progress", 3}, {"a \"b\"", 4}}, {}, {}, 750, 9, 12345, 678, {"a", "b \"c\""}};
+    finding.neighbours = {1000, 17, {{"no progress", 3}, {"a \"b\"", 4}}, {}, {}, 750, 9, 12345, 678};
+    finding.neighbours.said.always = {"a", "b \"c\""};
     finding.neighbours.circumstances = {
         {{"came (s)", {0, 1, 2, 7.125, kNever_s}}}, {}, {{"a", {0, 0, 0, 0, 1}}, {"b", {0, 0, 0, 0, 2}}}};
+    finding.neighbours.said.usually = {"u", "v"};
+    finding.neighbours.said.ever = {"w \"x\"", "y"};
     finding.whole.files = {"r.json", "s.json"};
     finding.whole.counts = {250, 130, {{"a \"d\"", 5}}, {}};
-    finding.whole.counts.always_said = {"c", "d"};
+    finding.whole.counts.said.always = {"c", "d"};
+    finding.whole.counts.said.usually = {"e"};
+    finding.whole.counts.said.ever = {"f", "g"};
     finding.whole.counts.circumstances = {{{"other: \"x\"", {9, 1, 2, 3, 4}}}};
     finding.whole.others_need = {{"restart"}, {}};
     return finding;
@@ -76,7 +81,11 @@ TEST_F(FindingsFiles, WhatIsWrittenIsRead) {
   EXPECT_EQ(read->other_worlds, odd().other_worlds);
   EXPECT_EQ(std::pair(read->neighbours.of_world, read->neighbours.alike_of_world), std::pair(750UL, 9UL));
   EXPECT_EQ(std::pair(read->neighbours.driven_m, read->neighbours.driven_elsewhere_m), std::pair(12345UL, 678UL));
-  EXPECT_EQ(read->neighbours.always_said, odd().neighbours.always_said);
+  EXPECT_EQ(read->neighbours.said.always, odd().neighbours.said.always);
+  EXPECT_EQ(read->neighbours.said.usually, odd().neighbours.said.usually);
+  EXPECT_EQ(read->neighbours.said.ever, odd().neighbours.said.ever);
+  EXPECT_EQ(read->whole.counts.said.usually, odd().whole.counts.said.usually);
+  EXPECT_EQ(read->whole.counts.said.ever, odd().whole.counts.said.ever);
   EXPECT_EQ(read->neighbours.otherwise, odd().neighbours.otherwise);
   EXPECT_EQ(read->whole.files, odd().whole.files);
   EXPECT_EQ(std::pair(read->whole.counts.of, read->whole.counts.alike), std::pair(250UL, 130UL));
@@ -121,10 +130,11 @@ TEST_F(FindingsFiles, SaysHowElseTheSoftwareFailed) {
   ASSERT_EQ(known.others.size(), 2U);
   EXPECT_EQ(known.others[0].failure.ways, odd().whole.others_need);
   EXPECT_TRUE(known.others[0].failure.says.empty());
-  EXPECT_EQ(known.others[0].always_said, odd().whole.counts.always_said);
+  EXPECT_EQ(known.others[0].always_said, odd().whole.counts.said.always);
   EXPECT_EQ(known.others[1].failure.ways, other.ways);
   EXPECT_EQ(known.others[1].failure.says, other.says);
-  EXPECT_EQ(known.others[1].always_said, other.neighbours.always_said);
+  EXPECT_EQ(known.others[1].always_said, other.neighbours.said.always);
+  EXPECT_EQ(known.others[1].usually_said, other.neighbours.said.usually);
   EXPECT_EQ(known.others[1].circumstances, other.whole.counts.circumstances);
 }
 

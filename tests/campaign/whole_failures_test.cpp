@@ -78,7 +78,7 @@ TEST(WholeRuns, ThatFailMoreSeldomAreNoDodge) {
   runs.counts.circumstances[0]["came (s)"] = std::vector<double>(kCircumstanceValues, 5000.0);
   EXPECT_EQ(retest(retouched, known.kept, known.before, kSome, runs).verdict, RetestVerdict::NewKind)
       << "they come about otherwise";
-  runs.others.push_back({known.kept, {}, runs.counts.circumstances});
+  runs.others.push_back({known.kept, {}, {}, runs.counts.circumstances});
   EXPECT_EQ(retest(retouched, known.kept, known.before, kSome, runs).verdict, RetestVerdict::NewKind)
       << "nor are they another finding";
   runs.others.back().circumstances = dodged.whole_runs.circumstances;
