@@ -20,7 +20,7 @@ namespace {
 constexpr double kNewKindChance = 0.001, kRarerChance = 0.005;
 // If software that fails as before had fewer failing neighbours than this in the mean, that none fails says little:
 // with 10, it is chance once in 20 000 times.
-constexpr std::size_t kEnoughBefore = 10, kOften = 10, kManyTimes = 4;
+constexpr std::size_t kEnoughBefore = 10, kOften = 10;
 // Runs that fail in a new way: fewer may have failed so before, unseen among all others that failed.
 constexpr std::size_t kFewestNew = 3;
 
@@ -197,19 +197,6 @@ void compare_signs(const NeighbourCounts& before, Retest& result, const Neighbou
   result.verdict = RetestVerdict::NewKind;
 }
 
-// Software that fails so many times as often as before has another fault that needs the same.
-void compare_shares(const NeighbourCounts& before, Retest& result) {
-  const NeighbourCounts& now = result.now;
-  if (before.of_world == 0 ||
-      now.alike_of_world * before.of_world < kManyTimes * before.alike_of_world * now.of_world ||
-      fisher_exact(before.alike_of_world, before.of_world, now.alike_of_world, now.of_world).first_smaller >=
-          kNewKindChance)
-    return;
-  result.new_kind = fmt::format("in {} of {} neighbours of its worlds ({} of {} before)", now.alike_of_world,
-                                now.of_world, before.alike_of_world, before.of_world);
-  result.verdict = RetestVerdict::NewKind;
-}
-
 // Neighbours that pass, or fail as often as before, may have nothing left with which other faults or half a mend show.
 void judge_whole_runs(CaseHost& host, const KeptFailure& found, const NeighbourCounts& before, const KnownRuns& known,
                       Retest& result) {
@@ -287,10 +274,7 @@ Retest retest(CaseHost& host, const KeptFailure& found, const NeighbourCounts& b
   } else {
     result.verdict = verdict_of_none(host, kept, before, result);
   }
-  if (result.verdict != RetestVerdict::NewKind && now.alike > 0) {
-    compare_signs(before, result, now);
-    compare_shares(before, result);
-  }
+  if (result.verdict != RetestVerdict::NewKind && now.alike > 0) compare_signs(before, result, now);
   const bool is_sure = result.verdict == RetestVerdict::StillThere || result.verdict == RetestVerdict::NewKind;
   if (!is_sure) judge_whole_runs(host, found, before, known, result);
   return result;

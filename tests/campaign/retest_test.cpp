@@ -241,21 +241,6 @@ TEST(Retest, AWordThatNobodySaidBeforeShowsANewKind) {
   EXPECT_EQ(retest(bench.host, known.kept, known.before, kSome).verdict, RetestVerdict::StillThere) << "not known";
 }
 
-// Half a mend makes fewer fail, another timing about as many. Four times as many is more than either can do.
-TEST(Retest, FourTimesAsManyFailuresAreANewKind) {
-  Bench bench("timeout-grant");
-  Known known = known_failure(bench);
-  const Retest same = retest(bench.host, known.kept, known.before, kSome);
-  EXPECT_EQ(same.verdict, RetestVerdict::StillThere);
-  known.before.of_world = known.before.of = 10 * same.now.of_world;
-  known.before.alike_of_world = known.before.alike = 3 * same.now.alike_of_world;
-  EXPECT_EQ(retest(bench.host, known.kept, known.before, kSome).verdict, RetestVerdict::StillThere);
-  known.before.alike_of_world = known.before.alike = 2 * same.now.alike_of_world;
-  const Retest more = retest(bench.host, known.kept, known.before, kSome);
-  EXPECT_EQ(more.verdict, RetestVerdict::NewKind);
-  EXPECT_THAT(more.new_kind, HasSubstr("neighbours of its worlds"));
-}
-
 // What the software was known for beside the finding is nothing new in its neighbours.
 TEST(Retest, AKnownFailureOfTheSameSoftwareIsNotNew) {
   Bench bench("timeout-grant");
