@@ -1,17 +1,14 @@
 #include "laws/coverage_law.hpp"
 
 #include <algorithm>
-#include <array>
 #include <deque>
 #include <map>
-#include <optional>
 #include <string>
 
 #include "core/clearance/clearance_over_time.hpp"
 #include "core/geometry/broad_phase.hpp"
 #include "core/outcome/trace_records.hpp"
-#include "laws/encounter.hpp"
-#include "laws/map_places.hpp"
+#include "laws/driven_ways.hpp"
 #include "laws/side_by_side.hpp"
 #include "laws/stretch.hpp"
 #include "laws/whereabouts.hpp"
@@ -27,9 +24,9 @@ class CoverageLaw final : public Law {
  public:
   explicit CoverageLaw(const Scenario& scenario)
       : margin_m_(violation_threshold_m(scenario.law)),
-        map_(*scenario.map),
         bodies_(scenario),
         swept_(scenario.agvs.size()),
+        ways_(*scenario.map, margin_m_),
         drives_(scenario.agvs.size()),
         driven_(scenario.agvs.size()) {}
 
@@ -46,32 +43,22 @@ class CoverageLaw final : public Law {
     SimTime until = kStart;
     double clearance_m = 0.0;
   };
-  // A drive as planned. Its track is found when it may meet another one.
   struct Drive {
-    Piece piece;
-    Box box;  // of the track
-    std::optional<Track> track;
-    StationId to;  // at which its segment ends; none if it drives no segment of the map
+    DrivenWays::Number way;
+    SimTime end;  // as planned
   };
-  Drive drive_of(const Piece& piece) const;
-  void find_track(Drive& drive) const;
-  const MapPlaces& places();
-  void meet(Drive drive);
+  void meet(const Piece& drive);
   void forget_before(std::size_t agv, SimTime t);
-  void meet(const Drive& earlier, const Drive& later);
   void look_closer(const Piece& a, const Piece& b, Interval within);
   void close(const Near& near) { near_misses_ += near.clearance_m >= margin_m_; }
 
   double margin_m_;
-  const LogicalMap& map_;
-  std::optional<MapPlaces> places_;  // found when two drives first end at one station
   Whereabouts bodies_;
-  BroadPhase swept_;                         // AGVs by their pieces, as planned; none between a piece and the next
+  BroadPhase swept_;  // AGVs by their pieces, as planned; none between a piece and the next
+  DrivenWays ways_;
   std::vector<std::deque<Drive>> drives_;    // by AGV: the drives that ended recently or are under way
   BroadPhase driven_;                        // AGVs by these drives
   double widest_m_ = 0.0, longest_m_ = 0.0;  // of the bodies that have driven
-  std::array<std::uint64_t, kEncounterKinds> encounters_{};
-  std::array<std::uint64_t, kSceneKinds> scenes_{};
   std::map<std::pair<EntityId, EntityId>, Near> near_;
   std::uint64_t near_misses_ = 0;
   std::map<Fault::Kind, std::uint64_t> faults_;
@@ -82,79 +69,37 @@ void CoverageLaw::piece_started(const Piece& piece) {
   bodies_.note(piece);
   if (piece.entity.index() >= bodies_.agv_count()) return;
   swept_.place(piece.entity.index(), piece.planned_box);
-  if (piece.manner == Manner::Drive) meet(drive_of(piece));
-}
-
-CoverageLaw::Drive CoverageLaw::drive_of(const Piece& piece) const {
-  Drive drive{piece, {}, {}, {}};
-  if (piece.curve->is_straight()) {
-    drive.box = Track::box_of_straight(piece);
-  } else {
-    find_track(drive);
-    drive.box = drive.track->box;
-  }
-  return drive;
-}
-
-void CoverageLaw::find_track(Drive& drive) const {
-  if (drive.track) return;
-  const Piece& piece = drive.piece;
-  drive.track = Track::of(piece);
-  if (!piece.segment.valid() || piece.segment.index() >= map_.segment_count()) return;
-  const Segment& segment = map_.segment(piece.segment);
-  const Vec2 end_m = piece.curve->pose_at(piece.curve->length_m()).position_m;
-  const auto apart = [&](StationId station) { return (map_.station(station).position_m - end_m).squaredNorm(); };
-  drive.to = apart(segment.to) <= apart(segment.from) ? segment.to : segment.from;
+  if (piece.manner == Manner::Drive) meet(piece);
 }
 
 // Tracks that do not come as near to each other as `side_by_side` looks meet in no way.
-void CoverageLaw::meet(Drive drive) {
-  const Piece& piece = drive.piece;
-  const std::size_t mine = piece.entity.index();
-  widest_m_ = std::max(widest_m_, piece.footprint.width_m);
-  longest_m_ = std::max(longest_m_, piece.footprint.length_m);
+void CoverageLaw::meet(const Piece& drive) {
+  const std::size_t mine = drive.entity.index();
+  const DrivenWays::Number way = ways_.number_of(drive);
+  widest_m_ = std::max(widest_m_, drive.footprint.width_m);
+  longest_m_ = std::max(longest_m_, drive.footprint.length_m);
   const double reach_m = widest_m_ + 0.5 * longest_m_ + std::max(kBesideACurve_m, margin_m_);
-  const Box near = drive.box.grown(reach_m);
+  const Box near = ways_.box_of(way).grown(reach_m);
   for (const std::uint32_t other : driven_.overlapping(near)) {
     if (other == mine) continue;
-    forget_before(other, piece.begin);
-    for (Drive& earlier : drives_[other]) {
-      if (!near.overlaps(earlier.box)) continue;
-      find_track(earlier), find_track(drive);
-      meet(earlier, drive);
+    forget_before(other, drive.begin);
+    for (const Drive& earlier : drives_[other]) {
+      if (near.overlaps(ways_.box_of(earlier.way))) ways_.meet(earlier.way, way);
     }
   }
-  forget_before(mine, piece.begin);
-  drives_[mine].push_back(std::move(drive));
+  forget_before(mine, drive.begin);
+  drives_[mine].push_back({way, drive.end});
   Box driven;
-  for (const Drive& one : drives_[mine]) driven.add(one.box.low_m), driven.add(one.box.high_m);
+  for (const Drive& one : drives_[mine])
+    driven.add(ways_.box_of(one.way).low_m), driven.add(ways_.box_of(one.way).high_m);
   driven_.remove(mine);
   driven_.place(mine, driven);
-}
-
-const MapPlaces& CoverageLaw::places() {
-  if (!places_) places_.emplace(map_);
-  return *places_;
 }
 
 // Those that no drive from `t` on can meet.
 void CoverageLaw::forget_before(std::size_t agv, SimTime t) {
   auto& drives = drives_[agv];
-  while (!drives.empty() && drives.front().piece.end + kLookAhead < t) drives.pop_front();
-}
-
-void CoverageLaw::meet(const Drive& earlier, const Drive& later) {
-  const auto kind = encounter_of(*earlier.track, *later.track, margin_m_);
-  if (kind) ++encounters_[static_cast<std::size_t>(*kind)];
-  const auto scene = [&](SceneKind met, bool holds) { scenes_[static_cast<std::size_t>(met)] += holds ? 1 : 0; };
-  scene(SceneKind::BackIn, kind && (earlier.track->tail_first || later.track->tail_first));
-  const SideBySide passing = side_by_side(*earlier.track, *later.track, margin_m_);
-  scene(SceneKind::TightGap, passing.tight_gap);
-  scene(SceneKind::CurveBesideLane, passing.curve_beside_lane);
-  scene(SceneKind::OverhangPass, passing.overhang_pass);
-  if (!later.to.valid() || earlier.to != later.to || earlier.piece.segment == later.piece.segment) return;
-  scene(SceneKind::Bottleneck, places().bottleneck[later.to.index()]);
-  scene(SceneKind::FourWay, places().four_way[later.to.index()]);
+  while (!drives.empty() && drives.front().end + kLookAhead < t) drives.pop_front();
 }
 
 void CoverageLaw::piece_ended(const Piece& piece) {
@@ -197,9 +142,10 @@ LawFindings CoverageLaw::findings() const {
   const auto met = [&](std::string name, std::uint64_t count) {
     findings.met.push_back({ProbeSource::World, std::move(name), count});
   };
-  for (std::size_t i = 0; i < kEncounterKinds; ++i) met(name_of(static_cast<EncounterKind>(i)), encounters_[i]);
+  const auto [encounters, scenes] = ways_.meetings();
+  for (std::size_t i = 0; i < kEncounterKinds; ++i) met(name_of(static_cast<EncounterKind>(i)), encounters[i]);
   for (std::size_t i = 0; i < kSceneKinds; ++i) {
-    if (scenes_[i] > 0) met(name_of(static_cast<SceneKind>(i)), scenes_[i]);
+    if (scenes[i] > 0) met(name_of(static_cast<SceneKind>(i)), scenes[i]);
   }
   met(std::string(kNearMissProbe), near_misses_);
   for (const auto& [fault, count] : faults_) met(probe_name(fault), count);

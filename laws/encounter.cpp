@@ -9,7 +9,7 @@ namespace {
 constexpr double kStep_m = 0.4;   // between points of a track: well below any width
 constexpr double kSameWay = 0.5;  // cosine of 60 degrees
 constexpr double kRounding_m = 1e-6;
-constexpr double kStraight_m = 1e-3;  // a straight curve does not leave the line between its ends by so much
+constexpr double kBoxRounding_m = 1e-3;  // lengths and poses of curves are more accurate than that
 
 struct Closest {
   double distance_m = 0.0;
@@ -48,46 +48,56 @@ bool at_end(const Track& track, double s_m) {
   return s_m >= track.length_m + track.centre_m - 0.5 * track.footprint.length_m;
 }
 
-}  // namespace
-
-namespace {
-
 // Where the centre of the body is when its reference point is at the start of the track, along the travel.
-double centre_of(const Piece& drive) {
-  return (drive.curve->is_tail_first() ? -1.0 : 1.0) * drive.footprint.centre_ahead_m;
+double centre_of(const Curve& curve, const Footprint& footprint) {
+  return (curve.is_tail_first() ? -1.0 : 1.0) * footprint.centre_ahead_m;
 }
 
 }  // namespace
 
-Track Track::of(const Piece& drive) {
-  Track track{drive.entity, drive.begin, drive.end, drive.curve->length_m(), drive.footprint, {}, {}};
-  track.bends = !drive.curve->is_straight();
-  track.tail_first = drive.curve->is_tail_first();
-  track.centre_m = centre_of(drive);
-  const double first_m = track.centre_m - 0.5 * drive.footprint.length_m,
-               whole_m = track.length_m + drive.footprint.length_m;
+Track Track::of(const Curve& curve, const Footprint& footprint) {
+  Track track{curve.length_m(), footprint, {}, {}};
+  track.bends = !curve.is_straight();
+  track.tail_first = curve.is_tail_first();
+  track.centre_m = centre_of(curve, footprint);
+  const double first_m = track.centre_m - 0.5 * footprint.length_m, whole_m = track.length_m + footprint.length_m;
   const int steps = std::max(1, static_cast<int>(std::ceil(whole_m / kStep_m)));
   track.step_m = whole_m / steps + kRounding_m;
   track.points.reserve(static_cast<std::size_t>(steps) + 1);
+  const Pose start = curve.pose_at(0.0);
+  Pose pose = start;
+  Vec2 travel = track.tail_first ? Vec2(-start.heading) : start.heading;
   for (int i = 0; i <= steps; ++i) {
     const double s_m = first_m + whole_m * i / steps;
-    const Pose pose = drive.curve->pose_at(s_m);
-    const Vec2 travel = track.tail_first ? Vec2(-pose.heading) : pose.heading;
-    const double beyond_m = s_m - std::clamp(s_m, 0.0, track.length_m);
-    track.points.push_back({s_m, pose.position_m + beyond_m * travel, travel});
+    const double on_curve_m = std::clamp(s_m, 0.0, track.length_m);
+    if (track.bends) {
+      pose = curve.pose_at(on_curve_m);
+      travel = track.tail_first ? Vec2(-pose.heading) : pose.heading;
+    } else {
+      pose.position_m = start.position_m + on_curve_m * travel;  // what pose_at() says, to the bit
+    }
+    track.points.push_back({s_m, pose.position_m + (s_m - on_curve_m) * travel, travel});
     track.box.add(track.points.back().position_m);
   }
   return track;
 }
 
-Box Track::box_of_straight(const Piece& drive) {
-  const double length_m = drive.curve->length_m(), first_m = centre_of(drive) - 0.5 * drive.footprint.length_m;
-  const Pose start = drive.curve->pose_at(0.0);
-  const Vec2 travel = drive.curve->is_tail_first() ? Vec2(-start.heading) : start.heading;
+Box Track::box_of(const Curve& curve, const Footprint& footprint) {
+  const double length_m = curve.length_m(), first_m = centre_of(curve, footprint) - 0.5 * footprint.length_m,
+               last_m = first_m + length_m + footprint.length_m;
+  const Pose start = curve.pose_at(0.0);
+  const Vec2 travel = curve.is_tail_first() ? Vec2(-start.heading) : start.heading;
   Box box;
-  box.add(start.position_m + first_m * travel);
-  box.add(start.position_m + (first_m + length_m + drive.footprint.length_m) * travel);
-  return box.grown(kStraight_m);
+  if (curve.is_straight()) {
+    box.add(start.position_m + first_m * travel);
+    box.add(start.position_m + last_m * travel);
+    return box.grown(kBoxRounding_m);
+  }
+  // The ways from a point of the curve to both ends are together at most as long as the curve. So the point is within
+  // half the length of the middle between the ends.
+  const double beyond_m = std::max({-first_m, last_m - length_m, 0.0});
+  box.add(0.5 * (start.position_m + curve.pose_at(length_m).position_m));
+  return box.grown(0.5 * length_m + beyond_m + kBoxRounding_m);
 }
 
 std::optional<EncounterKind> encounter_of(const Track& a, const Track& b, double margin_m) {

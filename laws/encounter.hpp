@@ -3,21 +3,20 @@
 #include <optional>
 #include <vector>
 
-#include "core/motion/piece.hpp"
+#include "core/geometry/curve.hpp"
+#include "core/geometry/rectangle.hpp"
 #include "core/outcome/probe_names.hpp"
 
 namespace fleetproof {
 
-// The track of one drive with its width: what is needed to judge encounters. It does not refer to the piece from which
-// it was made.
+// The track of a drive with its width: what is needed to judge encounters. It does not refer to the curve from which it
+// was made.
 struct Track {
   struct Point {
     // along the track of the reference point; below 0 and above the length where the body reaches beyond it
     double s_m = 0.0;
     Vec2 position_m, heading;  // of the travel
   };
-  EntityId agv;
-  SimTime begin, end;  // as planned
   double length_m = 0.0;
   Footprint footprint;
   Box box;
@@ -27,9 +26,10 @@ struct Track {
   bool tail_first = false;  // the nose points against the travel
   double centre_m = 0.0;    // of the body, from its reference point, along the travel
 
-  static Track of(const Piece& drive);
-  // A box that contains the points of such a track; it is found without them.
-  static Box box_of_straight(const Piece& drive);
+  static Track of(const Curve& curve, const Footprint& footprint);
+  // A box that contains the points of such a track; it is found without them. For a bend it is up to half its length
+  // too large.
+  static Box box_of(const Curve& curve, const Footprint& footprint);
   // How many of the points after one at this distance from something cannot be as near to it as `reach_m`.
   std::size_t points_beyond(double distance_m, double reach_m) const {
     return distance_m > reach_m ? static_cast<std::size_t>((distance_m - reach_m) / step_m) : 0;

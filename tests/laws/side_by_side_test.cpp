@@ -2,18 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/laws/timeline.hpp"
-
 namespace fleetproof::test {
 namespace {
 
 constexpr double kMargin_m = 0.1;
 
-Track track(std::uint32_t agv, const Curve& curve, const Footprint& footprint = {}) {
-  Timeline body(EntityId{agv}, curve.pose_at(0.0), footprint);
-  body.drive(curve);
-  return Track::of(body.until(at_seconds(60.0)).front());
-}
+Track track(const Curve& curve, const Footprint& footprint = {}) { return Track::of(curve, footprint); }
 
 Curve line(double y_m) { return Curve::straight({0.0, y_m}, {20.0, y_m}); }
 
@@ -26,7 +20,7 @@ Curve quarter(double radius_m) {
 // Comes from above and ends along the x axis at this height.
 Curve swing_down_to(double y_m) { return Curve::bezier({5.0, y_m + 3.0}, {5.0, y_m + 1.3}, {6.3, y_m}, {8.0, y_m}); }
 
-SideBySide beside(const Curve& a, const Curve& b) { return side_by_side(track(0, a), track(1, b), kMargin_m); }
+SideBySide beside(const Curve& a, const Curve& b) { return side_by_side(track(a), track(b), kMargin_m); }
 
 TEST(TightGap, IsZeroToTwelveCentimetresBetweenBandsThatRunAlongEachOther) {
   EXPECT_FALSE(beside(line(0.0), line(0.99)).tight_gap) << "the bands overlap";
@@ -37,9 +31,9 @@ TEST(TightGap, IsZeroToTwelveCentimetresBetweenBandsThatRunAlongEachOther) {
 }
 
 TEST(TightGap, DependsOnTheWidthsOfTheBodies) {
-  const Track wide = track(0, line(0.0), {1.6, 1.3});
-  EXPECT_TRUE(side_by_side(wide, track(1, line(1.2)), kMargin_m).tight_gap);
-  EXPECT_FALSE(side_by_side(wide, track(1, line(1.3)), kMargin_m).tight_gap);
+  const Track wide = track(line(0.0), {1.6, 1.3});
+  EXPECT_TRUE(side_by_side(wide, track(line(1.2)), kMargin_m).tight_gap);
+  EXPECT_FALSE(side_by_side(wide, track(line(1.3)), kMargin_m).tight_gap);
 }
 
 TEST(TightGap, IsNotBetweenLanesAtAnAngle) {
