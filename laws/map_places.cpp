@@ -9,12 +9,20 @@ namespace {
 constexpr std::size_t kCutOffOneIn = 10;  // stations
 constexpr std::size_t kSides = 4;
 
-using Neighbours = std::vector<std::vector<std::uint32_t>>;
-
-void once(std::vector<std::uint32_t>& stations) {
-  std::ranges::sort(stations);
-  stations.erase(std::unique(stations.begin(), stations.end()), stations.end());
-}
+// The stations at the other ends of the segments of each station, one list after the other.
+struct Neighbours {
+  explicit Neighbours(const Layout& layout) : begin(layout.stations.size() + 1), stations(2 * layout.segments.size()) {
+    for (const Segment& segment : layout.segments) ++begin[segment.from.index()], ++begin[segment.to.index()];
+    for (std::size_t s = 1; s < begin.size(); ++s) begin[s] += begin[s - 1];
+    // Filled from behind: at the end, `begin` is where each list begins.
+    for (const Segment& segment : layout.segments) {
+      stations[--begin[segment.from.index()]] = segment.to.value;
+      stations[--begin[segment.to.index()]] = segment.from.value;
+    }
+  }
+  std::vector<std::uint32_t> begin;  // by station, and the end of the last list
+  std::vector<std::uint32_t> stations;
+};
 
 // The search for cut stations (Hopcroft and Tarjan 1973), which also counts what each of them cuts off.
 class CutSearch {
@@ -22,9 +30,9 @@ class CutSearch {
   CutSearch(const Neighbours& neighbours, std::vector<bool>& bottleneck)
       : neighbours_(neighbours),
         bottleneck_(bottleneck),
-        number_(neighbours.size()),
-        low_(neighbours.size()),
-        below_(neighbours.size(), 1) {}
+        number_(bottleneck.size()),
+        low_(bottleneck.size()),
+        below_(bottleneck.size(), 1) {}
 
   void run() {
     for (std::uint32_t s = 0; s < number_.size(); ++s) {
@@ -34,20 +42,21 @@ class CutSearch {
 
  private:
   struct Step {
-    std::uint32_t station, before;
-    std::size_t next = 0;
+    std::uint32_t station, before, next;
   };
 
+  Step step(std::uint32_t station, std::uint32_t before) const { return {station, before, neighbours_.begin[station]}; }
+
   void from(std::uint32_t root) {
-    std::vector<Step> way{{root, root}};
+    std::vector<Step> way{step(root, root)};
     number_[root] = low_[root] = ++numbered_;
     while (!way.empty()) {
       Step& here = way.back();
-      if (here.next < neighbours_[here.station].size()) {
-        const std::uint32_t to = neighbours_[here.station][here.next++];
+      if (here.next < neighbours_.begin[here.station + 1]) {
+        const std::uint32_t to = neighbours_.stations[here.next++];
         if (number_[to] == 0) {
           number_[to] = low_[to] = ++numbered_;
-          way.push_back({to, here.station});
+          way.push_back(step(to, here.station));
         } else if (to != here.before) {
           low_[here.station] = std::min(low_[here.station], number_[to]);
         }
@@ -78,7 +87,7 @@ class CutSearch {
     for (const auto& [station, size] : parts_) {
       const std::size_t above = below_[root] - 1 - sum[station];
       const std::size_t rest = sum[station] + above - std::max(largest[station], above);
-      if (rest * kCutOffOneIn >= neighbours_.size()) bottleneck_[station] = true;
+      if (rest * kCutOffOneIn >= bottleneck_.size()) bottleneck_[station] = true;
     }
     parts_.clear();
   }
@@ -99,18 +108,17 @@ class CutSearch {
 }  // namespace
 
 MapPlaces::MapPlaces(const LogicalMap& map) : bottleneck(map.station_count()), four_way(map.station_count()) {
-  Neighbours before(map.station_count()), beside(map.station_count());
-  for (const Lane& lane : map.lanes()) {
-    before[lane.to.index()].push_back(lane.from.value);
-    beside[lane.from.index()].push_back(lane.to.value);
-    beside[lane.to.index()].push_back(lane.from.value);
+  CutSearch(Neighbours(map.layout()), bottleneck).run();
+  std::vector<std::size_t> sides(map.station_count());
+  std::vector<StationId> last(map.station_count());  // of the stations counted as a side of a station
+  for (std::size_t s = 0; s < map.station_count(); ++s) {
+    for (const std::uint32_t lane : map.lanes_from(StationId{s})) {
+      const std::size_t to = map.lanes()[lane].to.index();
+      if (last[to] != StationId{s}) ++sides[to];
+      last[to] = StationId{s};
+    }
   }
-  for (std::size_t s = 0; s < before.size(); ++s) {
-    once(before[s]);
-    once(beside[s]);
-    four_way[s] = before[s].size() >= kSides;
-  }
-  CutSearch(beside, bottleneck).run();
+  for (std::size_t s = 0; s < map.station_count(); ++s) four_way[s] = sides[s] >= kSides;
 }
 
 }  // namespace fleetproof
