@@ -17,21 +17,24 @@ constexpr std::uint64_t kFewestInterfered = 5;
 
 class CongestionLaw final : public Law {
  public:
-  explicit CongestionLaw(const Scenario& scenario) : radio_(scenario.radio) {}
+  explicit CongestionLaw(const Scenario& scenario)
+      : radio_(scenario.radio),
+        interference_(radio_.contention.interference),
+        bytes_matter_(radio_.air_time_per_byte_s != 0.0),
+        last_air_time_(radio_.air_time(0)) {}
 
   void piece_ended(const Piece&) override {}
-  TraceKinds reads() const override { return kMessageKinds; }
-  bool hears_messages_together() const override { return true; }
-  void messages(std::span<const TraceRecord> records) override {
-    for (const TraceRecord& record : records) {
-      if (record.at >= window_ + kWindow) windows_before(record.at);
-      if (record.kind == TraceKind::Sent) {
-        offered_ += air_time(read<traced::Sent>(record).bytes);
-      } else {
-        ++receptions_;
-        destroyed_ += record.kind == TraceKind::LostByInterference ? 1 : 0;
-      }
+  bool hears_together() const override { return true; }
+  void together(const TracePart& part) override {
+    std::uint32_t place = part.begin;
+    for (const TraceBlock::Sent& sent : part.block->sent()) {
+      if (sent.place < part.begin || sent.place >= part.end) continue;
+      if (interference_) receptions(*part.block, place, sent.place);
+      place = sent.place + 1;
+      enters(part.block->at(sent.place));
+      offered_ += bytes_matter_ ? air_time(sent.bytes) : last_air_time_;
     }
+    if (interference_) receptions(*part.block, place, part.end);
   }
   void finish(SimTime end) override { windows_before(end + kWindow); }
   LawFindings findings() const override {
@@ -41,6 +44,22 @@ class CongestionLaw final : public Law {
   }
 
  private:
+  // Without interference, no transmission can destroy a reception, and their number does not matter.
+  void receptions(const TraceBlock& block, std::uint32_t begin, std::uint32_t end) {
+    for (; begin < end; ++begin) {
+      const TraceKind kind = block.kind(begin);
+      if (!kMessageKinds.has(kind)) continue;
+      enters(block.at(begin));
+      ++receptions_;
+      destroyed_ += kind == TraceKind::LostByInterference ? 1 : 0;
+    }
+  }
+
+  void enters(SimTime t) {
+    if (t >= window_ + kWindow) [[unlikely]]
+      windows_before(t);
+  }
+
   // Messages often have the length of the one before.
   Duration air_time(std::uint32_t bytes) {
     if (bytes != last_bytes_) last_air_time_ = radio_.air_time(bytes);
@@ -79,9 +98,10 @@ class CongestionLaw final : public Law {
   }
 
   const RadioSetup& radio_;
+  bool interference_, bytes_matter_;
   SimTime window_ = kStart;
-  Duration offered_{}, last_air_time_{};
-  std::uint32_t last_bytes_ = ~0U;
+  Duration offered_{}, last_air_time_;
+  std::uint32_t last_bytes_ = 0;  // to which last_air_time_ belongs
   std::uint64_t receptions_ = 0, destroyed_ = 0;
   std::optional<std::size_t> saturated_, interfered_;
   std::vector<Incident> incidents_;

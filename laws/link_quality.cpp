@@ -77,15 +77,27 @@ void LinkQuality::take(const TraceRecord& record, std::int64_t second) {
   if (sent != SimTime::min()) link.longest = std::max(link.longest, record.at - sent);
 }
 
+void LinkQuality::take_before(SimTime end, std::int64_t second) {
+  for (; next_waiting_ < waiting_.size(); ++next_waiting_) {
+    TracePart& part = waiting_[next_waiting_];
+    const std::uint32_t begin = part.begin;
+    while (part.begin < part.end && part.block->at(part.begin) < end) {
+      if (kMessageKinds.has(part.block->kind(part.begin))) take(part.block->record(part.begin), second);
+      ++part.begin;
+    }
+    waiting_records_ -= part.begin - begin;
+    if (part.begin < part.end) break;
+    part.block.reset();
+  }
+  if (2 * next_waiting_ < waiting_.size()) return;
+  waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(next_waiting_));
+  next_waiting_ = 0;  // seldom enough to cost nothing
+}
+
 // Only links that received in the second that leaves the window, or in the one that comes into it, can have changed.
 void LinkQuality::end_second(std::int64_t second) {
   const SimTime end = kStart + std::chrono::seconds(second + 1);
-  for (; next_waiting_ < waiting_.size() && waiting_[next_waiting_].at < end; ++next_waiting_)
-    take(waiting_[next_waiting_], second);
-  if (2 * next_waiting_ >= waiting_.size()) {  // seldom enough to cost nothing
-    waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(next_waiting_));
-    next_waiting_ = 0;
-  }
+  take_before(end, second);
   auto& leaves = received_[slot_of(second - kQualityWindow_s)];
   for (const std::uint32_t place : leaves) {
     take_out(links_[place], second - kQualityWindow_s);

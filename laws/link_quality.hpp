@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "core/base/contract.hpp"
@@ -26,9 +25,11 @@ class LinkQuality {
  public:
   explicit LinkQuality(std::size_t agvs);
 
-  static TraceKinds reads() { return kMessageKinds; }
-  void note(std::span<const TraceRecord> records) { waiting_.insert(waiting_.end(), records.begin(), records.end()); }
-  std::size_t waiting() const { return waiting_.size() - next_waiting_; }  // records of seconds that are not ended
+  void note(const TracePart& part) {
+    waiting_.push_back(part);
+    waiting_records_ += part.end - part.begin;
+  }
+  std::size_t waiting() const { return waiting_records_; }  // records of seconds that are not ended, about anything
   // All that happened in the second that begins at `second` has been noted. The functions below now speak of this
   // second and the nine before it. Requires: one second after the other, from 0 on.
   void end_second(std::int64_t second);
@@ -57,6 +58,7 @@ class LinkQuality {
     Link sum;                            // over the window
     std::array<Link, kSeconds> seconds;  // by number, modulo the length
   };
+  void take_before(SimTime end, std::int64_t second);
   void take(const TraceRecord& record, std::int64_t second);
   static std::size_t slot_of(std::int64_t second) {
     return static_cast<std::size_t>((second + kSeconds) % kSeconds);  // not below -kSeconds
@@ -71,8 +73,9 @@ class LinkQuality {
   std::array<std::vector<std::uint32_t>, kSeconds> received_;  // places of the links that received in a second
   std::vector<std::uint32_t> broken_;                          // by receiver: links to it out of the contract
   std::vector<SentMessages> sent_;                             // by sender
-  std::vector<TraceRecord> waiting_;                           // in order of time
+  std::vector<TracePart> waiting_;                             // in order of time
   std::size_t next_waiting_ = 0;                               // those before it were taken
+  std::size_t waiting_records_ = 0;
 };
 
 }  // namespace fleetproof

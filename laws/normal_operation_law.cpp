@@ -13,8 +13,22 @@ namespace fleetproof {
 namespace {
 
 constexpr Duration kSecond = std::chrono::seconds(1);
-// Records of messages that wait: less than three megabytes, or 82 kilobytes for each AGV.
-constexpr std::size_t kMostWaiting = 65'536, kMostWaitingOfAgv = 2'048;
+// Records that wait: four megabytes, or 168 kilobytes for each AGV.
+constexpr std::size_t kMostWaiting = 98'304, kMostWaitingOfAgv = 4'096;
+
+// Of the instants a second apart from `next` on, the last one before `t`. Requires: next < t.
+SimTime last_of(SimTime next, SimTime t) { return next + (t - next - Duration{1}) / kSecond * kSecond; }
+
+struct AgvState {
+  bool safe = false, busy = false;
+  SimTime in_contract_since = kStart;
+  std::optional<std::size_t> incident;  // its safe mode, being accused
+};
+
+struct Fleet {
+  std::vector<AgvState> agvs;
+  std::size_t safe = 0, busy = 0;  // AGVs
+};
 
 class NormalOperationLaw final : public Law {
  public:
@@ -23,33 +37,29 @@ class NormalOperationLaw final : public Law {
         reaction_(seconds(scenario.law.reaction_s)),
         quality_(scenario.agvs.size()),
         most_waiting_(std::max(kMostWaiting, kMostWaitingOfAgv * scenario.agvs.size())),
-        agvs_(scenario.agvs.size()),
+        fleet_{std::vector<AgvState>(scenario.agvs.size())},
         faults_(scenario) {}
 
   void piece_ended(const Piece&) override {}
   TraceKinds reads() const override {
-    return LinkQuality::reads() |
-           TraceKinds{TraceKind::SafeMode,       TraceKind::OrderReleased, TraceKind::TransportDone,
+    return TraceKinds{TraceKind::SafeMode,       TraceKind::OrderReleased, TraceKind::TransportDone,
                       TraceKind::ActivityBegins, TraceKind::ActivityEnds,  TraceKind::LoadMoves} |
            FaultWatch::reads();
   }
   void happened(const TraceRecord& record) override;
-  bool hears_messages_together() const override { return true; }
-  void messages(std::span<const TraceRecord> records) override {
-    quality_.note(records);
-    if (quality_.waiting() >= most_waiting_) seconds_before(records.back().at);
+  bool hears_together() const override { return true; }
+  void together(const TracePart& part) override {
+    if (part.begin == part.end) return;
+    quality_.note(part);
+    if (quality_.waiting() >= most_waiting_) seconds_before(part.block->at(part.end - 1));
   }
+  bool must_hear_before(SimTime t) const override { return next_ < t && needs_quality(last_of(next_, t)); }
   void finish(SimTime end) override;
   LawFindings findings() const override;
 
  private:
-  struct AgvState {
-    bool safe = false, busy = false;
-    SimTime in_contract_since = kStart;
-    std::optional<std::size_t> incident;  // its safe mode, being accused
-  };
-
   void seconds_before(SimTime t);
+  void nothing_goes_on();
   bool needs_quality(SimTime now) const;
   bool stands_still(SimTime now) const;
   void follow_links(SimTime now);
@@ -61,7 +71,7 @@ class NormalOperationLaw final : public Law {
   Duration reaction_;
   LinkQuality quality_;
   std::size_t most_waiting_;
-  std::vector<AgvState> agvs_;
+  Fleet fleet_;
   FaultWatch faults_;
   std::uint64_t open_ = 0, done_ = 0;
   SimTime active_at_ = kStart, all_in_contract_since_ = kStart, next_ = kStart + kSecond, followed_ = kStart;
@@ -70,12 +80,18 @@ class NormalOperationLaw final : public Law {
   std::vector<Incident> incidents_;
 };
 
+// How many AGVs are in a state that one of them enters or leaves.
+void count(std::size_t& agvs, bool& is_in_it, bool now) {
+  if (is_in_it != now) now ? ++agvs : --agvs;
+  is_in_it = now;
+}
+
 void NormalOperationLaw::happened(const TraceRecord& record) {
   seconds_before(record.at);
   if (faults_.note(record)) return;
   switch (record.kind) {
     case TraceKind::SafeMode:
-      agvs_[record.entity.index()].safe = read<traced::SafeMode>(record).on;
+      count(fleet_.safe, fleet_.agvs[record.entity.index()].safe, read<traced::SafeMode>(record).on);
       break;
     case TraceKind::OrderReleased:
       if (open_++ == 0) active_at_ = record.at;  // from now on there are open transports
@@ -91,7 +107,7 @@ void NormalOperationLaw::happened(const TraceRecord& record) {
     case TraceKind::ActivityBegins:
     case TraceKind::ActivityEnds: {
       if (!is_work(traced::activity_of(record))) break;
-      agvs_[record.entity.index()].busy = record.kind == TraceKind::ActivityBegins;
+      count(fleet_.busy, fleet_.agvs[record.entity.index()].busy, record.kind == TraceKind::ActivityBegins);
       active_at_ = record.at;
       break;
     }
@@ -100,20 +116,35 @@ void NormalOperationLaw::happened(const TraceRecord& record) {
   }
 }
 
-// A look at the end of every second that is over before `t`.
+// A look at the end of every second that is over before `t`. Most runs are in order: what could be wrong at the last of
+// these seconds was not there at the ones before either, so that they need no look each.
 void NormalOperationLaw::seconds_before(SimTime t) {
-  for (; next_ < t; next_ += kSecond) look(next_);
+  if (next_ >= t) return;
+  const SimTime last = last_of(next_, t);
+  if (needs_quality(last)) {
+    for (; next_ < t; next_ += kSecond) look(next_);
+  } else {
+    nothing_goes_on();
+    next_ = last + kSecond;
+  }
 }
 
-// Whether it matters now how good the links are, and have been.
+// Whether it matters now how good the links are, and have been. If it does, and nothing happens, it does so from now
+// on.
 bool NormalOperationLaw::needs_quality(SimTime now) const {
-  return scenario_.law.min_transports_per_agv_hour > 0.0 || stands_still(now) ||
-         std::ranges::any_of(agvs_, &AgvState::safe) || quality_.waiting() >= most_waiting_;
+  return fleet_.safe > 0 || stands_still(now) || quality_.waiting() >= most_waiting_ ||
+         scenario_.law.min_transports_per_agv_hour > 0.0;
 }
 
 bool NormalOperationLaw::stands_still(SimTime now) const {
-  return open_ > 0 && !faults_.holds_anybody() && now - std::max(active_at_, faults_.last()) >= scenario_.stuck_after &&
-         std::ranges::none_of(agvs_, &AgvState::busy);
+  return fleet_.busy == 0 && open_ > 0 && !faults_.holds_anybody() &&
+         now - std::max(active_at_, faults_.last()) >= scenario_.stuck_after;
+}
+
+void NormalOperationLaw::nothing_goes_on() {
+  if (incidents_.empty()) return;
+  for (AgvState& agv : fleet_.agvs) agv.incident.reset();
+  standstill_.reset();
 }
 
 // Second by second.
@@ -122,9 +153,9 @@ void NormalOperationLaw::follow_links(SimTime now) {
     followed_ += kSecond;
     quality_.end_second((to_ns(followed_) - 1) / 1'000'000'000);
     bool all = true;
-    for (std::size_t i = 0; i < agvs_.size(); ++i) {
+    for (std::size_t i = 0; i < fleet_.agvs.size(); ++i) {
       const bool kept = quality_.all_in_contract(i);
-      if (!kept) agvs_[i].in_contract_since = followed_;
+      if (!kept) fleet_.agvs[i].in_contract_since = followed_;
       all = all && kept;
     }
     if (!all) all_in_contract_since_ = followed_;
@@ -134,12 +165,12 @@ void NormalOperationLaw::follow_links(SimTime now) {
 
 void NormalOperationLaw::look(SimTime now) {
   if (needs_quality(now)) follow_links(now);
-  for (std::size_t i = 0; i < agvs_.size(); ++i) look_at_safe_mode(i, now);
+  for (std::size_t i = 0; i < fleet_.agvs.size(); ++i) look_at_safe_mode(i, now);
   look_at_standstill(now);
 }
 
 void NormalOperationLaw::look_at_safe_mode(std::size_t agv, SimTime now) {
-  AgvState& state = agvs_[agv];
+  AgvState& state = fleet_.agvs[agv];
   if (!state.safe || now - state.in_contract_since <= reaction_) {
     state.incident.reset();
     return;
@@ -170,7 +201,7 @@ void NormalOperationLaw::look_at_standstill(SimTime now) {
 
 void NormalOperationLaw::finish(SimTime end) {
   seconds_before(end + Duration{1});
-  const double agv_hours = to_seconds(end) * static_cast<double>(agvs_.size()) / 3600.0;
+  const double agv_hours = to_seconds(end) * static_cast<double>(fleet_.agvs.size()) / 3600.0;
   if (!(scenario_.law.min_transports_per_agv_hour > 0.0) || open_ == 0 || !always_in_contract_ || !(agv_hours > 0.0))
     return;
   const double rate = transports_per_agv_hour(done_, agv_hours);

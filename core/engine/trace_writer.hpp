@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -16,11 +17,12 @@ class TraceWriter {
  public:
   // `sink` may be null. Laws and sink outlive the writer.
   TraceWriter(std::span<const std::unique_ptr<Law>> laws, TraceSink* sink);
+  TraceWriter(const TraceWriter&) = delete;
+  TraceWriter& operator=(const TraceWriter&) = delete;
 
   // `text` are the words of a probe or a log line, else empty.
   void write(const TraceRecord& record, std::string_view text) {
     digest_.append(record);
-    if (kept_.has(record.kind)) keep(record);
     if (read_.has(record.kind)) tell(record, text);
   }
   // Hands a note of an agent to the sink and to nothing else.
@@ -30,24 +32,18 @@ class TraceWriter {
   bool has_sink() const { return sink_ != nullptr; }
   TraceDigest& digest() { return digest_; }
 
-  // Laws that hear messages together hear those that they have not heard yet. Call it before the end of the run.
+  // Laws that hear records together hear those that they have not heard yet. Call it before the end of the run.
   void hand_over();
 
  private:
-  void keep(const TraceRecord& record) {
-    messages_[waiting_++] = record;
-    if (waiting_ == messages_.size()) hand_over();
-  }
   void tell(const TraceRecord& record, std::string_view text);
 
   TraceDigest digest_;
   TraceSink* sink_;
-  TraceKinds read_;                            // by a law, or all of them by the sink
-  std::array<std::vector<Law*>, 64> readers_;  // by kind
-  TraceKinds kept_;                            // of messages, if a law hears them together
-  std::vector<Law*> together_;                 // those laws
-  std::vector<TraceRecord> messages_;          // room; the first `waiting_` have not been handed over
-  std::size_t waiting_ = 0;
+  TraceKinds read_;  // by a law, or all of them by the sink
+  std::vector<Law*> laws_;
+  std::array<std::uint64_t, 64> readers_{};  // by kind: a bit for each law
+  std::vector<Law*> together_;               // those that hear records together
 };
 
 }  // namespace fleetproof

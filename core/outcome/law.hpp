@@ -72,19 +72,26 @@ inline constexpr TraceKinds kMessageKinds{TraceKind::Sent,         TraceKind::Lo
 // The pieces of a body are contiguous while the body is on the floor. An obstacle is there from its appearance until it
 // leaves. An AGV is there from kStart to the end of the run, except between `Leaves` and `Appears`, when the operator
 // carries it to another place. A piece is announced when it begins, with its planned end, and again when it ends, with
-// its true end. Pieces that end at the same instant are announced one after the other. At the end of the run, all open
+// its true end. It stays where the law was told of it until the next piece of the body begins; a law may keep pointing
+// at it. Pieces that end at the same instant are announced one after the other. At the end of the run, all open
 // pieces are ended first. Then `finish` is called once.
 class Law {
  public:
   virtual ~Law() = default;
+  // How far from a piece the law looks for other bodies, from box to box: nearer ones are its company (Piece). Called
+  // once, before the run.
+  virtual double looks_within_m() const { return 0.0; }
   virtual void piece_started(const Piece& piece) { (void)piece; }
   virtual void piece_ended(const Piece& piece) = 0;
   virtual TraceKinds reads() const { return {}; }  // called once, before the run
   virtual void happened(const TraceRecord& record) { (void)record; }
-  // Most records are about messages. If a law returns true here, it hears those of kMessageKinds by `messages`, several
-  // together: in their order, later than pieces, and before the next record of another kind and `finish`.
-  virtual bool hears_messages_together() const { return false; }
-  virtual void messages(std::span<const TraceRecord> records) { (void)records; }
+  // Most records are about messages, and most of those matter little. If a law returns true here, it also hears all
+  // records together: in their order, a part of the trace at a time, later than pieces and `happened`, but before
+  // `finish`.
+  virtual bool hears_together() const { return false; }
+  virtual void together(const TracePart& part) { (void)part; }
+  // Such a law is asked before `happened`: whether it must hear of all before this instant first.
+  virtual bool must_hear_before(SimTime t) const { return (void)t, false; }
   virtual void finish(SimTime end) { (void)end; }
   virtual LawFindings findings() const = 0;
 };

@@ -89,15 +89,31 @@ const char* name_of(TraceKind kind) {
   return "?";
 }
 
-TraceDigest::TraceDigest() : state_(XXH3_createState()) { XXH3_64bits_reset(hash(state_)); }
+TraceDigest::TraceDigest() : state_(XXH3_createState()), block_(std::make_shared_for_overwrite<TraceBlock>()) {
+  XXH3_64bits_reset(hash(state_));
+}
 TraceDigest::~TraceDigest() { XXH3_freeState(hash(state_)); }
 
 void TraceDigest::pause() {
-  if ((count_ & (count_ - 1)) == 0) {  // std::has_single_bit counts bits, which costs a call
-    running_.push_back(value());
-  } else if (count_ % kRecords == 0) {
-    flush();
-  }
+  if ((count_ & (count_ - 1)) == 0) running_.push_back(value());  // std::has_single_bit counts bits, which costs a call
+  if (count_ % TraceBlock::kRecords == 0) end_block();
+  // A block ends at each later power of two.
+  pause_at_ = count_ < TraceBlock::kRecords ? 2 * count_ : count_ + TraceBlock::kRecords;
+}
+
+void TraceDigest::end_block() {
+  flush();
+  if (full_ != nullptr) full_(reader_);
+  if (block_.use_count() > 1) block_ = std::make_shared_for_overwrite<TraceBlock>();  // somebody keeps it
+  block_->begin_anew();
+  taken_ = count_;
+}
+
+TracePart TraceDigest::take_newest() {
+  const std::uint64_t first = taken_ / TraceBlock::kRecords * TraceBlock::kRecords;  // of the block
+  const TracePart part{block_, static_cast<std::uint32_t>(taken_ - first), static_cast<std::uint32_t>(count_ - first)};
+  taken_ = count_;
+  return part;
 }
 
 std::uint64_t TraceDigest::value() {
@@ -105,10 +121,10 @@ std::uint64_t TraceDigest::value() {
   return XXH3_64bits_digest(hash(state_));
 }
 
-// Of the buffer, what was not flushed before. It is flushed whenever it is full.
+// Of the block, what was not flushed before. It is flushed whenever it is full.
 void TraceDigest::flush() {
-  XXH3_64bits_update(hash(state_), buffer_.data() + flushed_ % kRecords * kRecordBytes,
-                     (count_ - flushed_) * kRecordBytes);
+  XXH3_64bits_update(hash(state_), block_->bytes_from(flushed_ % TraceBlock::kRecords),
+                     (count_ - flushed_) * TraceBlock::kRecordBytes);
   flushed_ = count_;
 }
 

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <memory>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -83,6 +85,71 @@ class TraceSink {
   virtual void piece_ended(const Piece& piece) { (void)piece; }
 };
 
+// Records of a trace one after the other, as the digest encodes them. They are written once, and laws read them where
+// they are.
+class TraceBlock {
+ public:
+  static constexpr std::size_t kRecords = 512, kRecordBytes = 32;  // a power of two of them
+
+  // The record at this place. Of what is not part of the digest it has nothing.
+  TraceRecord record(std::size_t place) const {
+    const unsigned char* const from = bytes_from(place);
+    TraceRecord record;
+    record.at = at(place);
+    record.entity = EntityId{static_cast<std::uint32_t>(word(from + 8))};
+    record.kind = kind(place);
+    record.a = word(from + 16);
+    record.b = word(from + 24);
+    return record;
+  }
+  SimTime at(std::size_t place) const { return SimTime{Duration{static_cast<std::int64_t>(word(bytes_from(place)))}}; }
+  TraceKind kind(std::size_t place) const { return static_cast<TraceKind>(word(bytes_from(place) + 8) >> 32); }
+  // The messages that were sent, in their order, and how long they are.
+  struct Sent {
+    std::uint32_t place, bytes;
+  };
+  std::span<const Sent> sent() const { return std::span(sent_).first(sent_count_); }
+
+  void write(std::size_t place, const TraceRecord& record) {
+    unsigned char* const to = bytes_.data() + place * kRecordBytes;
+    put(to, static_cast<std::uint64_t>(to_ns(record.at)));
+    put(to + 8, static_cast<std::uint64_t>(record.kind) << 32 | record.entity.value);
+    put(to + 16, record.a);
+    put(to + 24, record.b);
+    if (record.kind == TraceKind::Sent) sent_[sent_count_++] = {static_cast<std::uint32_t>(place), record.bytes};
+  }
+  void begin_anew() { sent_count_ = 0; }
+  const unsigned char* bytes_from(std::size_t place) const { return bytes_.data() + place * kRecordBytes; }
+
+ private:
+  static void put(unsigned char* to, std::uint64_t word) {
+    if constexpr (std::endian::native == std::endian::little) {
+      std::memcpy(to, &word, sizeof word);
+    } else {
+      for (std::size_t i = 0; i < sizeof word; ++i) to[i] = static_cast<unsigned char>(word >> 8 * i);
+    }
+  }
+  static std::uint64_t word(const unsigned char* from) {
+    std::uint64_t word = 0;
+    if constexpr (std::endian::native == std::endian::little) {
+      std::memcpy(&word, from, sizeof word);
+    } else {
+      for (std::size_t i = 0; i < sizeof word; ++i) word |= std::uint64_t{from[i]} << 8 * i;
+    }
+    return word;
+  }
+
+  std::array<unsigned char, kRecords * kRecordBytes> bytes_;
+  std::array<Sent, kRecords> sent_;
+  std::size_t sent_count_ = 0;
+};
+
+// Some records of a block. Whoever keeps the part keeps its block.
+struct TracePart {
+  std::shared_ptr<const TraceBlock> block;
+  std::uint32_t begin = 0, end = 0;  // places
+};
+
 // XXH3 (64 bits) over the records as they happen. Encoding of a record, little-endian: at in ns (8 bytes), entity (4),
 // kind (4), a (8), b (8). Keeps the digest after records 1, 2, 4, 8, ..., so that two runs that differ show between
 // which records they part.
@@ -94,38 +161,31 @@ class TraceDigest {
   TraceDigest& operator=(const TraceDigest&) = delete;
 
   void append(const TraceRecord& record) {
-    write(record, buffer_.data() + count_ % kRecords * kRecordBytes);
-    ++count_;
-    if (count_ % kRecords == 0 || count_ < kRecords) [[unlikely]]
+    block_->write(count_ % TraceBlock::kRecords, record);
+    if (++count_ == pause_at_) [[unlikely]]
       pause();
   }
   std::uint64_t value();
   std::uint64_t record_count() const { return count_; }
   const std::vector<std::uint64_t>& running() const { return running_; }
 
- private:
-  static constexpr std::size_t kRecordBytes = 32, kRecords = 128;  // in the buffer
+  // The newest records, since the last call; none if there are none. A reader that wants all calls it when `full` says
+  // that a block is full, and at the end.
+  TracePart take_newest();
+  // Called when a block is full, before the next record. Null: nobody reads.
+  void when_full(void (*full)(void*), void* reader) { full_ = full, reader_ = reader; }
 
-  static void write(const TraceRecord& record, unsigned char* to) {
-    put(to, static_cast<std::uint64_t>(to_ns(record.at)));
-    put(to + 8, static_cast<std::uint64_t>(record.kind) << 32 | record.entity.value);
-    put(to + 16, record.a);
-    put(to + 24, record.b);
-  }
-  static void put(unsigned char* to, std::uint64_t word) {
-    if constexpr (std::endian::native == std::endian::little) {
-      std::memcpy(to, &word, sizeof word);
-    } else {
-      for (std::size_t i = 0; i < sizeof word; ++i) to[i] = static_cast<unsigned char>(word >> 8 * i);
-    }
-  }
-  // The buffer is full, or the digest of the first records is to be kept.
+ private:
+  // The block is full, or the digest of the records so far is to be kept.
   void pause();
+  void end_block();
   void flush();
 
   void* state_;
-  std::array<unsigned char, kRecords * kRecordBytes> buffer_;
-  std::uint64_t count_ = 0, flushed_ = 0;  // records
+  std::shared_ptr<TraceBlock> block_;
+  std::uint64_t count_ = 0, pause_at_ = 1, flushed_ = 0, taken_ = 0;  // records
+  void (*full_)(void*) = nullptr;
+  void* reader_ = nullptr;
   std::vector<std::uint64_t> running_;
 };
 

@@ -42,43 +42,81 @@ TEST(TraceWriter, HandsEachLawTheKindsThatItReads) {
     EXPECT_EQ(sink.of(kind).size(), 1U);
 }
 
-// Hears messages together, and a contact on its own.
-class Listens final : public Reads {
+// Keeps every part, and reads it at the end.
+class Keeps final : public Reads {
  public:
-  Listens() : Reads(kMessageKinds | TraceKinds{TraceKind::Contact}) {}
-  bool hears_messages_together() const override { return true; }
-  void messages(std::span<const TraceRecord> records) override {
-    for (const TraceRecord& record : records) heard.push_back(record.kind);
-    ++times;
+  Keeps() : Reads(TraceKinds{TraceKind::Contact}) {}
+  bool hears_together() const override { return true; }
+  void together(const TracePart& part) override { parts.push_back(part); }
+  bool must_hear_before(SimTime t) const override { return t >= curious_from; }
+  void happened(const TraceRecord&) override { heard_before_contact.push_back(records().size()); }
+
+  std::vector<TraceRecord> records() const {
+    std::vector<TraceRecord> all;
+    for (const TracePart& part : parts) {
+      for (std::uint32_t place = part.begin; place < part.end; ++place) all.push_back(part.block->record(place));
+    }
+    return all;
   }
-  int times = 0;
+
+  SimTime curious_from = kForever;
+  std::vector<TracePart> parts;
+  std::vector<std::size_t> heard_before_contact;
 };
 
-TEST(TraceWriter, HandsMessagesOverTogetherAndInOrder) {
+TraceRecord record_number(std::uint32_t i) {
+  TraceRecord record;
+  record.at = kStart + Duration{i};
+  record.entity = EntityId{i % 7};
+  record.kind = i % 50 == 49 ? TraceKind::Contact : i % 3 == 0 ? TraceKind::Sent : TraceKind::Received;
+  record.a = 3 * i;
+  record.b = std::uint64_t{i} << 40;
+  record.bytes = record.kind == TraceKind::Sent ? i : 0;
+  return record;
+}
+
+TEST(TraceWriter, HandsAllRecordsOverTogetherAndInOrder) {
   std::vector<std::unique_ptr<Law>> laws;
-  laws.push_back(std::make_unique<Listens>());
-  laws.push_back(std::make_unique<Reads>(TraceKinds{TraceKind::Lost, TraceKind::Contact}));
+  laws.push_back(std::make_unique<Keeps>());
+  laws.push_back(std::make_unique<Keeps>());
+  auto &calm = static_cast<Keeps&>(*laws[0]), &curious = static_cast<Keeps&>(*laws[1]);
   TraceWriter writer(laws, nullptr);
-  std::vector<TraceKind> all, lost;
-  const auto write = [&](TraceKind kind) {
-    TraceRecord record;
-    record.kind = kind;
-    writer.write(record, "");
-    if (kind != TraceKind::Log) all.push_back(kind);
-    if (kind == TraceKind::Lost || kind == TraceKind::Contact) lost.push_back(kind);
-  };
-  for (int round = 0; round < 3; ++round) {
-    for (int i = 0; i < 300; ++i)
-      for (const TraceKind kind : {TraceKind::Sent, TraceKind::Lost, TraceKind::Received}) write(kind);
-    write(TraceKind::Log);
-    if (round < 2) write(TraceKind::Contact);
+  constexpr std::uint32_t kAll = 3010;
+  for (std::uint32_t i = 0; i < kAll; ++i) {
+    if (i == 1500) curious.curious_from = kStart + Duration{1600};
+    writer.write(record_number(i), "");
   }
-  const auto& listens = static_cast<const Listens&>(*laws[0]);
-  EXPECT_LT(listens.heard.size(), all.size());
+  EXPECT_LT(calm.records().size(), kAll);
   writer.hand_over();
-  EXPECT_EQ(listens.heard, all);
-  EXPECT_LT(listens.times, 20);
-  EXPECT_EQ(static_cast<const Reads&>(*laws[1]).heard, lost);
+  const auto heard = calm.records();
+  ASSERT_EQ(heard.size(), kAll);
+  for (std::uint32_t i = 0; i < kAll; ++i) {
+    const TraceRecord written = record_number(i);
+    EXPECT_EQ(heard[i].at, written.at);
+    EXPECT_EQ(heard[i].entity, written.entity);
+    EXPECT_EQ(heard[i].kind, written.kind);
+    EXPECT_EQ(heard[i].a, written.a);
+    EXPECT_EQ(heard[i].b, written.b);
+  }
+  const auto& before = curious.heard_before_contact;  // at 49, 99, ...
+  ASSERT_EQ(before.size(), kAll / 50);
+  EXPECT_EQ(before[11], 512U) << "as many as filled a block";
+  EXPECT_EQ(before[32], 1650U) << "all, because the law asked for them";
+  EXPECT_LT(calm.parts.size(), 50U);
+}
+
+TEST(TraceBlock, KnowsHowLongItsMessagesAre) {
+  TraceDigest digest;
+  for (std::uint32_t i = 0; i < 100; ++i) digest.append(record_number(i));
+  const TracePart part = digest.take_newest();
+  std::vector<std::uint32_t> bytes;
+  for (const TraceBlock::Sent& sent : part.block->sent()) {
+    EXPECT_EQ(part.block->kind(sent.place), TraceKind::Sent);
+    bytes.push_back(sent.bytes);
+  }
+  ASSERT_EQ(bytes.size(), 33U);
+  EXPECT_EQ(bytes[1], 3U);
+  EXPECT_EQ(bytes.back(), 96U);
 }
 
 }  // namespace

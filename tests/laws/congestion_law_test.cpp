@@ -20,6 +20,7 @@ void send(Told& told, int from_s, int to_s, int rate) {
 std::vector<Incident> congestion(const std::function<void(Told&)>& story) {
   Scenario scenario = row_scenario(2, {0, 1}, 60.0);
   scenario.radio.air_time_s = 0.01;
+  scenario.radio.contention.interference = true;
   Told told(scenario, "congestion");
   story(told);
   return told.finish(60.0).incidents;

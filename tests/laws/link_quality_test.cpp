@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/outcome/trace_records.hpp"
+#include "tests/support/trace_parts.hpp"
 
 namespace fleetproof::test {
 namespace {
@@ -19,7 +20,7 @@ struct Heard {
   bool lost;
 };
 
-void note(LinkQuality& quality, const TraceRecord& record) { quality.note({&record, 1}); }
+void note(LinkQuality& quality, const TraceRecord& record) { quality.note(part_of(record)); }
 
 // Counted anew from all that was ever heard.
 LinkQuality::Link counted(const std::vector<Heard>& all, std::size_t sender, std::size_t receiver, std::int64_t last) {

@@ -7,6 +7,7 @@
 #include "core/outcome/trace_records.hpp"
 #include "laws/laws.hpp"
 #include "tests/support/at_seconds.hpp"
+#include "tests/support/trace_parts.hpp"
 
 // A law that is told by hand what happens, record by record.
 namespace fleetproof::test {
@@ -33,12 +34,8 @@ class Told {
   template <class What>
   Told& record(double at_s, std::uint32_t entity, const What& what) {
     const TraceRecord record = trace_record(at_seconds(at_s), EntityId{entity}, what);
-    if (!kinds_.has(record.kind)) return *this;
-    if (law_->hears_messages_together() && kMessageKinds.has(record.kind)) {
-      law_->messages({&record, 1});
-    } else {
-      law_->happened(record);
-    }
+    if (law_->hears_together()) law_->together(part_of(record));
+    if (kinds_.has(record.kind)) law_->happened(record);
     return *this;
   }
   Told& begins(double at_s, std::uint32_t agv, ActivityKind kind, std::uint64_t subject = 0) {
@@ -102,8 +99,8 @@ class Told {
     }
     piece.number = number_++;
     piece.planned_box = piece.swept_box(piece.end);
-    law_->piece_started(piece);
     open_[piece.entity] = piece;
+    law_->piece_started(open_[piece.entity]);
     return *this;
   }
 

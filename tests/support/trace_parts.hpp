@@ -1,0 +1,16 @@
+#pragma once
+
+#include <memory>
+
+#include "core/outcome/trace.hpp"
+
+namespace fleetproof::test {
+
+// A part of a trace that is one record.
+inline TracePart part_of(const TraceRecord& record) {
+  const auto block = std::make_shared<TraceBlock>();
+  block->write(0, record);
+  return {block, 0, 1};
+}
+
+}  // namespace fleetproof::test
