@@ -1,8 +1,8 @@
 #include "laws/coverage_law.hpp"
 
 #include <algorithm>
-#include <deque>
 #include <map>
+#include <span>
 #include <string>
 
 #include "core/clearance/clearance_over_time.hpp"
@@ -30,6 +30,7 @@ class CoverageLaw final : public Law {
         drives_(scenario.agvs.size()),
         driven_(scenario.agvs.size()) {}
 
+  double looks_within_m() const override { return kNearMiss_m; }
   void piece_started(const Piece& piece) override;
   void piece_ended(const Piece& piece) override;
   TraceKinds reads() const override { return {TraceKind::FaultStrikes}; }
@@ -44,11 +45,19 @@ class CoverageLaw final : public Law {
     double clearance_m = 0.0;
   };
   struct Drive {
-    DrivenWays::Number way;
+    Box box;      // of its way
     SimTime end;  // as planned
+    DrivenWays::Number way;
+  };
+  // Those of one AGV that ended recently or are under way. The ones before `first` are forgotten.
+  struct Drives {
+    std::vector<Drive> all;
+    std::size_t first = 0;
+    Box box;  // of those that are not forgotten
+    std::span<const Drive> recent() const { return std::span(all).subspan(first); }
+    void forget_before(SimTime t);
   };
   void meet(const Piece& drive);
-  void forget_before(std::size_t agv, SimTime t);
   void look_closer(const Piece& a, const Piece& b, Interval within);
   void close(const Near& near) { near_misses_ += near.clearance_m >= margin_m_; }
 
@@ -56,7 +65,7 @@ class CoverageLaw final : public Law {
   Whereabouts bodies_;
   BroadPhase swept_;  // AGVs by their pieces, as planned; none between a piece and the next
   DrivenWays ways_;
-  std::vector<std::deque<Drive>> drives_;    // by AGV: the drives that ended recently or are under way
+  std::vector<Drives> drives_;               // by AGV
   BroadPhase driven_;                        // AGVs by these drives
   double widest_m_ = 0.0, longest_m_ = 0.0;  // of the bodies that have driven
   std::map<std::pair<EntityId, EntityId>, Near> near_;
@@ -79,27 +88,34 @@ void CoverageLaw::meet(const Piece& drive) {
   widest_m_ = std::max(widest_m_, drive.footprint.width_m);
   longest_m_ = std::max(longest_m_, drive.footprint.length_m);
   const double reach_m = widest_m_ + 0.5 * longest_m_ + std::max(kBesideACurve_m, margin_m_);
-  const Box near = ways_.box_of(way).grown(reach_m);
+  const Box box = ways_.box_of(way), near = box.grown(reach_m);
   for (const std::uint32_t other : driven_.overlapping(near)) {
     if (other == mine) continue;
-    forget_before(other, drive.begin);
-    for (const Drive& earlier : drives_[other]) {
-      if (near.overlaps(ways_.box_of(earlier.way))) ways_.meet(earlier.way, way);
+    drives_[other].forget_before(drive.begin);
+    for (const Drive& earlier : drives_[other].recent()) {
+      if (near.overlaps(earlier.box)) ways_.meet(earlier.way, way);
     }
   }
-  forget_before(mine, drive.begin);
-  drives_[mine].push_back({way, drive.end});
-  Box driven;
-  for (const Drive& one : drives_[mine])
-    driven.add(ways_.box_of(one.way).low_m), driven.add(ways_.box_of(one.way).high_m);
+  Drives& own = drives_[mine];
+  own.forget_before(drive.begin);
+  own.all.push_back({box, drive.end, way});
+  own.box.add(box.low_m), own.box.add(box.high_m);
   driven_.remove(mine);
-  driven_.place(mine, driven);
+  driven_.place(mine, own.box);
 }
 
 // Those that no drive from `t` on can meet.
-void CoverageLaw::forget_before(std::size_t agv, SimTime t) {
-  auto& drives = drives_[agv];
-  while (!drives.empty() && drives.front().end + kLookAhead < t) drives.pop_front();
+void CoverageLaw::Drives::forget_before(SimTime t) {
+  if (first == all.size() || all[first].end + kLookAhead >= t) return;
+  do {
+    ++first;
+  } while (first < all.size() && all[first].end + kLookAhead < t);
+  if (2 * first >= all.size()) {  // seldom enough to cost nothing
+    all.erase(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(first));
+    first = 0;
+  }
+  box = {};
+  for (const Drive& drive : recent()) box.add(drive.box.low_m), box.add(drive.box.high_m);
 }
 
 void CoverageLaw::piece_ended(const Piece& piece) {
@@ -107,6 +123,7 @@ void CoverageLaw::piece_ended(const Piece& piece) {
   if (mine >= bodies_.agv_count()) return;
   const Box near = swept_.box_of(mine).grown(kNearMiss_m);
   swept_.remove(mine);
+  if (!piece.has_company) return;
   for (const std::uint32_t i : swept_.overlapping(near)) {
     const Piece& other = bodies_.of(EntityId{i});
     const Interval common{std::max(piece.begin, other.begin), piece.end};

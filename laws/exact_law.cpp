@@ -26,6 +26,7 @@ class ExactLaw final : public Law {
         bodies_(current_.size()),
         swept_(current_.size()) {}
 
+  double looks_within_m() const override { return std::max(kMeasuredBelow_m, threshold_m_); }
   void piece_started(const Piece& piece) override;
   void piece_ended(const Piece& piece) override;
   void finish(SimTime end) override;
@@ -43,7 +44,7 @@ class ExactLaw final : public Law {
   std::size_t agv_count_;
   double threshold_m_;
   double smallest_m_ = kMeasuredBelow_m;
-  std::vector<Piece> current_;
+  std::vector<const Piece*> current_;
   // Since when a body is on the floor without a break, and the end of its last piece.
   struct OnFloor {
     SimTime since = SimTime::min(), until = SimTime::min();
@@ -57,7 +58,7 @@ class ExactLaw final : public Law {
 
 void ExactLaw::piece_started(const Piece& piece) {
   ensure(piece.entity.index() < current_.size(), "a law hears only of the bodies of its scenario");
-  current_[piece.entity.index()] = piece;
+  current_[piece.entity.index()] = &piece;
   OnFloor& body = bodies_[piece.entity.index()];
   if (body.until != piece.begin) body.since = piece.begin;
   swept_.place(piece.entity.index(), piece.planned_box);
@@ -69,9 +70,10 @@ void ExactLaw::piece_ended(const Piece& piece) {
   const Box near = swept_.box_of(mine).grown(reach_m);
   swept_.remove(mine);
   bodies_[mine].until = piece.end;
+  if (!piece.has_company) return;
   for (const std::size_t i : swept_.overlapping(near)) {
     if (mine >= agv_count_ && i >= agv_count_) continue;  // two obstacles cannot violate anything
-    const Piece& other = current_[i];
+    const Piece& other = *current_[i];
     const Interval common{std::max(piece.begin, other.begin), piece.end};
     // The same order of the pair whichever piece ends first, so that the order of announcements leaves no trace in the
     // arithmetic.

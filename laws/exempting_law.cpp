@@ -23,6 +23,7 @@ class ExemptingLaw final : public Law {
     }
   }
 
+  double looks_within_m() const override { return exact_->looks_within_m(); }
   void piece_started(const Piece& piece) override { exact_->piece_started(piece); }
   void piece_ended(const Piece& piece) override {
     exact_->piece_ended(piece);

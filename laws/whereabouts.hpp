@@ -7,14 +7,14 @@
 
 namespace fleetproof {
 
-// What every body on the floor does now, as the engine announced it.
+// What every body on the floor does now, as the engine announced it. It points at pieces; none is copied.
 class Whereabouts {
  public:
   explicit Whereabouts(const Scenario& scenario)
       : scenario_(scenario), current_(scenario.body_count()), on_floor_(scenario.body_count()) {}
 
   void note(const Piece& piece) {
-    current_[piece.entity.index()] = piece;
+    current_[piece.entity.index()] = &piece;
     on_floor_[piece.entity.index()] = true;
   }
   // A body that is not an AGV has one piece and leaves the floor at its end. An AGV leaves only with note_leaving().
@@ -25,7 +25,8 @@ class Whereabouts {
   bool on_floor(EntityId body) const { return on_floor_[body.index()]; }
   std::size_t agv_count() const { return scenario_.agvs.size(); }
   std::size_t body_count() const { return current_.size(); }
-  const Piece& of(EntityId body) const { return current_[body.index()]; }
+  // Requires: the body has been on the floor.
+  const Piece& of(EntityId body) const { return *current_[body.index()]; }
   bool moves(EntityId body) const { return of(body).manner != Manner::Rest; }
   Vec2 position_m(EntityId body, SimTime t) const { return of(body).pose_at(t).position_m; }
   bool stands_at(EntityId body, StationId station, SimTime t) const {
@@ -35,7 +36,7 @@ class Whereabouts {
 
  private:
   const Scenario& scenario_;
-  std::vector<Piece> current_;
+  std::vector<const Piece*> current_;
   std::vector<bool> on_floor_;
 };
 

@@ -6,6 +6,11 @@
 #include "core/base/tolerances.hpp"
 
 namespace fleetproof {
+namespace {
+
+constexpr double kRounding_m = 1e-6;  // whichever of two boxes is grown
+
+}  // namespace
 
 World::World(const Scenario& scenario, std::span<const std::unique_ptr<Law>> laws, TraceSink* sink)
     : scenario_(scenario),
@@ -16,6 +21,7 @@ World::World(const Scenario& scenario, std::span<const std::unique_ptr<Law>> law
       carried_(scenario.agvs.size()),
       loads_of_(scenario.agvs.size()),
       touched_(scenario.body_count()) {
+  for (const auto& law : laws) company_m_ = std::max(company_m_, law->looks_within_m());
   for (std::size_t i = 0; i < scenario.agvs.size(); ++i) {
     const AgvSetup& agv = scenario.agvs[i];
     bodies_[i].is_agv = true;
@@ -69,8 +75,19 @@ void World::begin(Body& body, const Piece& piece) {
   body.piece.planned_box = piece.swept_box(piece.end);
   planned_.remove(piece.entity.index());
   planned_.place(piece.entity.index(), body.piece.planned_box);
+  find_company(body);
   for (const auto& law : laws_) law->piece_started(body.piece);
   if (sink_ != nullptr) sink_->piece_started(body.piece);
+}
+
+// Of two bodies that come near each other, one began its piece later, and finds the other here.
+void World::find_company(Body& body) {
+  const auto near = planned_.overlapping(body.piece.planned_box.grown(std::max(company_m_, kTouch_m) + kRounding_m));
+  body.piece.has_company = near.size() > 1;
+  alone_.reset();
+  if (near.size() == 1) alone_ = body.piece.number;  // it finds itself
+  if (!body.piece.has_company) return;
+  for (const std::uint32_t i : near) bodies_[i].piece.has_company = true;
 }
 
 void World::continue_with(EntityId id, const Piece& next) {
@@ -83,6 +100,7 @@ void World::continue_with(EntityId id, const Piece& next) {
 
 void World::predict_touches(EntityId id, std::vector<TouchPrediction>& out) {
   const Body& mine = body(id);
+  if (alone_ == mine.piece.number) return;
   const Box reach = mine.piece.planned_box.grown(kTouch_m);
   for (const std::uint32_t i : planned_.overlapping(reach)) {
     const Body& other = bodies_[i];

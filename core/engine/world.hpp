@@ -77,6 +77,7 @@ class World {
 
  private:
   void begin(Body& body, const Piece& piece);
+  void find_company(Body& body);
   void announce_end(const Piece& piece);
 
   const Scenario& scenario_;
@@ -89,7 +90,9 @@ class World {
   std::vector<std::vector<LoadId>> loads_of_;   // by AGV: those of its transports, oldest first
   std::vector<LoadId> load_of_;                 // by transport; invalid: not released
   std::vector<std::vector<EntityId>> touched_;  // by body
+  double company_m_ = 0.0;                      // as near as any law looks
   std::uint64_t pieces_ = 0;
+  std::optional<std::uint64_t> alone_;  // the newest piece, if it began far from every body
   EvaluationCount evaluations_;
 };
 

@@ -200,11 +200,12 @@ TEST(RelativeSpeed, IsThatOfTheAgvIfAnObstacleAppearsOnIt) {
   scene.obstacle(facing(2.25, 0.0, 1.0, 0.0));
   const auto pieces = scene.bodies[0].until(scene.end);
   const auto law = make_exact_law(scene.scenario);
-  law->piece_started(announced(pieces[0], kForever));
+  const Piece drives = announced(pieces[0], kForever), stands = announced(pieces[1], kForever);
+  law->piece_started(drives);
   Piece obstacle = announced(rest_piece(EntityId{1U}, {}, scene.bodies[1].pose(), at_seconds(3.0)), kForever);
   law->piece_started(obstacle);
   law->piece_ended(pieces[0]);
-  law->piece_started(announced(pieces[1], kForever));
+  law->piece_started(stands);
   obstacle.end = scene.end;
   law->piece_ended(obstacle);
   law->piece_ended(pieces[1]);

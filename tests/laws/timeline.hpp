@@ -125,6 +125,7 @@ class Announcer {
   Announcer(const Scene& scene, Law& law) : law_(law), end_(scene.end) {
     for (const Timeline& body : scene.bodies) pieces_.push_back(body.until(scene.end));
     current_.resize(pieces_.size());
+    announced_.resize(pieces_.size());
   }
 
   void announce(Order order) {
@@ -144,7 +145,8 @@ class Announcer {
   bool is_last(std::size_t body) const { return current_[body] + 1 == pieces_[body].size(); }
 
   void start(std::size_t body) {
-    Piece planned = piece(body);
+    Piece& planned = announced_[body];  // it stays there, as the world's does
+    planned = piece(body);
     planned.number = number_++;
     planned.end = planned.manner == Manner::Rest ? kForever : planned.begin + planned.profile.duration();
     planned.planned_box = planned.swept_box(planned.end);
@@ -187,6 +189,7 @@ class Announcer {
   SimTime end_;
   std::vector<std::vector<Piece>> pieces_;
   std::vector<std::size_t> current_;
+  std::vector<Piece> announced_;  // by body
   std::uint64_t number_ = 0;
 };
 
