@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/agents/lane_chains.hpp"
 #include "core/agents/lane_costs.hpp"
+#include "core/agents/near_queue.hpp"
 
 namespace fleetproof::agents {
 namespace {
@@ -11,23 +13,105 @@ namespace {
 // Sums of the same times in another order differ by less.
 constexpr double kRounding = 1e-9;
 // Small maps are searched sooner than their landmarks.
-constexpr std::uint32_t kFewestStations = 1000, kLandmarks = 8;
+constexpr std::uint32_t kFewestStations = 1000, kLandmarks = 4;
+constexpr std::size_t kWidthsInALane = 4;
 
-constexpr auto is_later = [](const auto& a, const auto& b) {
-  return a.bound_s != b.bound_s ? a.bound_s > b.bound_s : a.station > b.station;
+struct Open {
+  double cost_s;
+  std::uint32_t station;
 };
 
-// Each landmark is the station that is farthest from all landmarks before it, of those that they reach.
+constexpr auto is_later = [](const Open& a, const Open& b) {
+  return a.cost_s != b.cost_s ? a.cost_s > b.cost_s : a.station > b.station;
+};
+
+void push(std::vector<Open>& open, Open next) {
+  open.push_back(next);
+  std::ranges::push_heap(open, is_later);
+}
+
+Open pop(std::vector<Open>& open) {
+  std::ranges::pop_heap(open, is_later);
+  const Open least = open.back();
+  open.pop_back();
+  return least;
+}
+
+// For a NearQueue: few stations lie within it.
+double width_s(std::span<const double> times_s) {
+  double sum_s = 0.0;
+  for (const double time_s : times_s) sum_s += time_s;
+  return sum_s > 0.0 ? sum_s / static_cast<double>(kWidthsInALane * times_s.size()) : 1.0;
+}
+
+bool is_quick(double with_lane_s, double all_s) { return with_lane_s <= all_s * (1.0 + kRounding); }
+
+// By which a search goes on from a station that is in no chain: lanes and chains.
+struct Steps {
+  std::vector<QuickestWay::Step> steps;
+  std::vector<std::uint32_t> first;  // by station, and one more
+
+  Steps(const LaneChains& chains, bool back) : steps(chains.arcs.size()), first(chains.places.size() + 1) {
+    for (const ChainArc& arc : chains.arcs) ++first[(back ? arc.to : arc.from) + 1];
+    for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
+    std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+    for (const ChainArc& arc : chains.arcs)
+      steps[next[back ? arc.to : arc.from]++] = {arc.time_s, back ? arc.from : arc.to};
+  }
+};
+
+void derive_plant(const fp_facts* from, std::uint64_t agv, fp_answer* to) {
+  const auto lane_s = lane_times_s(*from, static_cast<std::uint32_t>(agv));
+  const LaneChains chains(MapView(*from), lane_s);
+  const Steps back(chains, true);
+  TableWriter tables;
+  tables.add(chains.places), tables.add(back.steps), tables.add(back.first);
+  tables.add(std::vector<double>{width_s(lane_s)});
+  answer(*from, to, tables.bytes());
+}
+
+// By station, of those that are in no chain; infinite where there is no way.
+std::vector<double> least_times_s(NearQueue& open, double width_s, const Steps& steps, std::uint32_t begin) {
+  std::vector<double> least_s(steps.first.size() - 1, INFINITY), looked_from_s = least_s;
+  open.begin(0.0, width_s);
+  open.push(0.0, begin);
+  least_s[begin] = 0.0;
+  while (open.find_next()) {
+    const std::uint32_t here = open.pop();
+    const double so_far_s = least_s[here];
+    if (so_far_s >= looked_from_s[here]) continue;
+    looked_from_s[here] = so_far_s;
+    for (std::uint32_t i = steps.first[here]; i < steps.first[here + 1]; ++i) {
+      const auto& [time_s, there] = steps.steps[i];
+      const double sum_s = so_far_s + time_s;
+      if (sum_s >= least_s[there]) continue;
+      least_s[there] = sum_s;
+      open.push(sum_s, there);
+    }
+  }
+  return least_s;
+}
+
+// Each landmark is the station that is farthest from all landmarks before it, of those that they reach and that are in
+// no chain. Searches ask for those only.
 void derive_landmarks(const fp_facts* from, std::uint64_t agv, fp_answer* to) {
   const MapView map(*from);
   const auto lane_s = lane_times_s(*from, static_cast<std::uint32_t>(agv));
+  const LaneChains chains(map, lane_s);
+  const Steps onward(chains, false), back(chains, true);
   std::vector<double> table(std::size_t{2} * kLandmarks * map.station_count());
   std::vector<double> apart_s(map.station_count(), INFINITY);
-  std::uint32_t landmark = 0;
+  NearQueue open;
+  const double width = width_s(lane_s);
+  std::uint32_t landmark = chains.places.front().end[0];
   for (std::uint32_t i = 0; i < kLandmarks; ++i) {
-    const auto there_s = least_costs_s(map, lane_s, landmark, false),
-               back_s = least_costs_s(map, lane_s, landmark, true);
+    const auto there_s = least_times_s(open, width, onward, landmark),
+               back_s = least_times_s(open, width, back, landmark);
     for (std::uint32_t station = 0; station < map.station_count(); ++station) {
+      if (chains.places[station].is_inside()) {
+        apart_s[station] = 0.0;
+        continue;
+      }
       double* row = table.data() + std::size_t{2} * (std::size_t{kLandmarks} * station + i);
       row[0] = there_s[station], row[1] = back_s[station];
       if (there_s[station] < INFINITY) apart_s[station] = std::min(apart_s[station], there_s[station]);
@@ -40,120 +124,215 @@ void derive_landmarks(const fp_facts* from, std::uint64_t agv, fp_answer* to) {
 
 }  // namespace
 
+// Where searches work, and what the searches under way have found out about a station: the time that remains from it,
+// by the search backward; the time up to it and the lane by which the way arrives, by the search forward. All AGVs of a
+// thread share it: one of each would be as large as the map, and most of the map is never looked at.
+struct QuickestWay::Desk {
+  struct Station {
+    std::uint64_t back = 0, forward = 0;  // the searches that found this out; it is worth nothing to others
+    double remains_s = INFINITY, looked_from_s = INFINITY;  // and what remained when the search went on from here
+    double cost_s = INFINITY;
+    std::uint32_t arrival = FP_NONE;
+  };
+  std::vector<Station> stations;
+  NearQueue open_back;
+  std::vector<Open> open;                // heap, least first, of the search forward
+  std::uint64_t searches = 0, back = 0;  // so far; the last search backward
+
+  static Desk& of_this_thread(std::uint32_t station_count) {
+    thread_local Desk desk;
+    if (desk.stations.size() < station_count) desk.stations.resize(station_count);
+    return desk;
+  }
+  void begin_back(double nearest_s, double width_s) {
+    open_back.begin(nearest_s, width_s);
+    back = ++searches;
+  }
+  void begin_forward() {
+    open.clear();
+    ++searches;
+  }
+  Station& known_back(std::uint32_t number) {
+    Station& station = stations[number];
+    if (station.back != back) station.back = back, station.remains_s = station.looked_from_s = INFINITY;
+    return station;
+  }
+  Station& known_forward(std::uint32_t number) {
+    Station& station = stations[number];
+    if (station.forward != searches) station.forward = searches, station.cost_s = INFINITY;
+    return station;
+  }
+  double remains_s(std::uint32_t number) const {
+    return stations[number].back == back ? stations[number].remains_s : INFINITY;
+  }
+};
+
 QuickestWay::QuickestWay(const fp_facts& facts, const MapView& map, const Routes& routes, std::uint32_t agv)
     : map_(map),
       routes_(routes),
       times_s_(lane_times_s(facts, agv)),
-      landmark_count_(map.station_count() < kFewestStations ? 0 : kLandmarks),
-      known_(map.station_count()) {
-  if (landmark_count_ > 0) landmarks_s_ = ask<double>(facts, derive_landmarks, model_of(facts, agv));
+      landmark_count_(map.station_count() < kFewestStations ? 0 : kLandmarks) {
+  const std::uint32_t model = model_of(facts, agv);
+  TableReader tables(ask<std::byte>(facts, derive_plant, model));
+  places_ = tables.next<ChainPlace>();
+  steps_back_ = tables.next<Step>();
+  first_steps_ = tables.next<std::uint32_t>();
+  width_s_ = tables.next<double>().front();
+  if (landmark_count_ > 0) landmarks_s_ = ask<double>(facts, derive_landmarks, model);
 }
 
-void QuickestWay::Known::clear() {
-  for (const Station& station : stations_) places_[station.number] = 0;
-  stations_.clear();
+// The time from a landmark, or to it. The tables know it of stations that are in no chain.
+double QuickestWay::landmark_s(std::uint32_t column, std::uint32_t station) const {
+  const ChainPlace& place = places_[station];
+  const auto& beside_s = column % 2 == 0 ? place.from_end_s : place.to_end_s;
+  const double* rows = landmarks_s_.data() + column;
+  const auto of = [&](std::size_t i) { return beside_s[i] + rows[std::size_t{2} * landmark_count_ * place.end[i]]; };
+  return place.is_inside() ? std::min(of(0), of(1)) : of(0);
 }
 
-void QuickestWay::Known::forget_costs() {
-  for (Station& station : stations_) station.cost_s = INFINITY;
-}
-
-void QuickestWay::push(Open open) {
-  open_.push_back(open);
-  std::ranges::push_heap(open_, is_later);
-}
-
-QuickestWay::Open QuickestWay::pop() {
-  std::ranges::pop_heap(open_, is_later);
-  const Open least = open_.back();
-  open_.pop_back();
-  return least;
-}
-
-// A way that begins at a landmark, or ends there, is not shorter for a detour.
-double QuickestWay::least_s(std::uint32_t from, std::uint32_t station) const {
-  double least_s = 0.0;
-  const double* here = landmarks_s_.data() + std::size_t{2} * landmark_count_ * from;
-  const double* there = landmarks_s_.data() + std::size_t{2} * landmark_count_ * station;
-  for (std::uint32_t i = 0; i < 2 * landmark_count_; i += 2) {
-    least_s = std::max(least_s, there[i] - here[i]);
-    least_s = std::max(least_s, here[i + 1] - there[i + 1]);
+// A way that begins at a landmark, or ends there, is not shorter for a detour. The few landmarks that know most about
+// the whole way know nearly as much about its parts as all together.
+QuickestWay::Bound QuickestWay::bound_between(std::uint32_t from, std::uint32_t to) const {
+  Bound bound;
+  std::array<double, Bound::kTerms> best_s{};  // the best first
+  for (std::uint32_t column = 0; column < 2 * landmark_count_; ++column) {
+    Bound::Term term{column % 2 == 0 ? 1.0 : -1.0, 0.0, column};
+    term.here_s = term.sign * landmark_s(column, from);
+    double least_s = term.sign * landmark_s(column, to) - term.here_s;
+    for (std::size_t i = 0; i < Bound::kTerms; ++i) {
+      if (!(least_s > best_s[i])) continue;
+      std::swap(least_s, best_s[i]);
+      std::swap(term, bound.terms[i]);
+    }
   }
+  return bound;
+}
+
+double QuickestWay::least_s(const Bound& bound, std::uint32_t station) const {
+  if (landmark_count_ == 0) return 0.0;
+  double least_s = 0.0;
+  const double* there = landmarks_s_.data() + std::size_t{2} * landmark_count_ * station;
+  for (const auto& [sign, here_s, column] : bound.terms) least_s = std::max(least_s, sign * there[column] - here_s);
   return least_s * (1.0 - kRounding);
 }
 
-void QuickestWay::search_back(std::uint32_t from, std::uint32_t to) {
-  known_.clear();
-  open_.clear();
-  known_.at(to).remains_s = 0.0;
-  push({0.0, 0.0, to});
-  double until_s = INFINITY;
-  while (!open_.empty()) {
-    const auto [bound_s, so_far_s, here] = pop();
-    if (bound_s > until_s) break;
-    if (so_far_s > remains_s(here)) continue;
-    if (here == from) {
-      until_s = so_far_s * (1.0 + 10.0 * kRounding);  // and a little farther: everything that may be as quick
-      continue;
-    }
-    for (const std::uint32_t lane : map_.lanes_to(here)) {
-      const std::uint32_t before = map_.lane(lane).from;
-      const double sum_s = so_far_s + times_s_[lane];
-      Station& station = known_.at(before);
-      if (sum_s >= station.remains_s) continue;
-      const double with_start_s = sum_s + least_s(from, before);
-      if (with_start_s > until_s) continue;
-      station.remains_s = sum_s;
-      push({with_start_s, sum_s, before});
-    }
+void QuickestWay::search_back(Desk& desk, std::uint32_t from, std::uint32_t to) const {
+  const Bound bound = bound_between(from, to);
+  const auto until = [](double way_s) { return way_s * (1.0 + 10.0 * kRounding); };  // all that may be as quick
+  const auto reach = [&](std::uint32_t station, double remains_s, double until_s) {
+    Desk::Station& known = desk.known_back(station);
+    if (remains_s >= known.remains_s) return;
+    const double with_start_s = remains_s + least_s(bound, station);
+    if (with_start_s > until_s) return;
+    known.remains_s = remains_s;
+    desk.open_back.push(with_start_s, station);
+  };
+  const ChainPlace &start = places_[from], &goal = places_[to];
+  double nearest_s = INFINITY;
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (goal.from_end_s[i] < INFINITY)
+      nearest_s = std::min(nearest_s, goal.from_end_s[i] + least_s(bound, goal.end[i]));
   }
-}
-
-bool QuickestWay::is_quick(double lane_s, std::uint32_t to, double remains_s) const {
-  return lane_s + this->remains_s(to) <= remains_s * (1.0 + kRounding);
+  desk.begin_back(nearest_s, width_s_);
+  double until_s = until(along_chain_s(from, to));
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (goal.from_end_s[i] < INFINITY) reach(goal.end[i], goal.from_end_s[i], until_s);
+  }
+  while (desk.open_back.find_next() && desk.open_back.next_distance() <= until_s) {
+    const std::uint32_t here = desk.open_back.pop();
+    Desk::Station& station = desk.stations[here];
+    const double so_far_s = station.remains_s;
+    if (so_far_s >= station.looked_from_s) continue;
+    station.looked_from_s = so_far_s;
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (here == start.end[i]) until_s = std::min(until_s, until(so_far_s + start.to_end_s[i]));
+    }
+    if (here == from) continue;
+    for (std::uint32_t i = first_steps_[here]; i < first_steps_[here + 1]; ++i)
+      reach(steps_back_[i].to, so_far_s + steps_back_[i].time_s, until_s);
+  }
 }
 
 std::uint32_t QuickestWay::next_lane(std::uint32_t from, std::uint32_t to) {
-  if (goal_ != to || at_ != from) search_back(from, to);
+  if (goal_ != to || at_ != from || way_.empty()) plan(from, to);
   goal_ = to;
   at_ = from;
-  const double all_s = remains_s(from);
-  if (all_s == INFINITY) return FP_NONE;
-  std::uint32_t next = FP_NONE, quick = 0;
-  for (const auto& [lane, end] : routes_.hops_from(from)) {
-    if (!is_quick(times_s_[lane], end, all_s)) continue;
-    next = lane;
-    ++quick;
-  }
-  if (quick > 1) next = search_forward(from, to);
+  if (way_.empty()) return FP_NONE;
+  const std::uint32_t next = way_.back();
+  way_.pop_back();
   at_ = map_.lane(next).to;
   return next;
 }
 
+void QuickestWay::plan(std::uint32_t from, std::uint32_t to) {
+  way_.clear();
+  Desk& desk = Desk::of_this_thread(map_.station_count());
+  search_back(desk, from, to);
+  if (remains_s(desk, from, to) == INFINITY) return;
+  // A way passes no station twice. If it seems to, the rest is asked for later.
+  for (std::uint32_t at = from; at != to && way_.size() < map_.station_count(); at = map_.lane(way_.back()).to)
+    way_.push_back(quick_lane(desk, at, to));
+  std::ranges::reverse(way_);
+}
+
+// Without leaving the chain; infinite if they are not in one.
+double QuickestWay::along_chain_s(std::uint32_t from, std::uint32_t to) const {
+  if (from == to) return 0.0;
+  const ChainPlace &here = places_[from], &there = places_[to];
+  double least_s = INFINITY;
+  if (!here.is_inside() || here.chain != there.chain) return least_s;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double time_s = there.from_end_s[i] - here.from_end_s[i];
+    if (time_s >= 0.0) least_s = std::min(least_s, time_s);
+  }
+  return least_s;
+}
+
+// The search has found out about stations that are in no chain.
+double QuickestWay::remains_s(const Desk& desk, std::uint32_t station, std::uint32_t to) const {
+  const ChainPlace& here = places_[station];
+  if (!here.is_inside()) return desk.remains_s(station);
+  double least_s = along_chain_s(station, to);
+  for (std::size_t i = 0; i < 2; ++i) least_s = std::min(least_s, here.to_end_s[i] + desk.remains_s(here.end[i]));
+  return least_s;
+}
+
+std::uint32_t QuickestWay::quick_lane(Desk& desk, std::uint32_t from, std::uint32_t to) const {
+  const auto hops = routes_.hops_from(from);
+  if (hops.size() == 1) return hops.front().lane;
+  const double all_s = remains_s(desk, from, to);
+  std::uint32_t next = FP_NONE, quick = 0;
+  for (const auto& [lane, end] : hops) {
+    if (!is_quick(times_s_[lane] + remains_s(desk, end, to), all_s)) continue;
+    next = lane;
+    ++quick;
+  }
+  return quick > 1 ? search_forward(desk, from, to) : next;
+}
+
 // The search of Routes::search, but only over stations that lie on a quickest way. All others make no difference to
 // the way: whatever it holds for a station on a quickest way, a lane from another station does not give so little.
-std::uint32_t QuickestWay::search_forward(std::uint32_t from, std::uint32_t to) {
-  known_.forget_costs();
-  open_.clear();
-  const double all_s = remains_s(from);
-  known_.at(from).cost_s = 0.0;
-  push({0.0, 0.0, from});
-  while (!open_.empty()) {
-    const auto [bound_s, so_far_s, here] = pop();
+std::uint32_t QuickestWay::search_forward(Desk& desk, std::uint32_t from, std::uint32_t to) const {
+  desk.begin_forward();
+  const double all_s = remains_s(desk, from, to);
+  desk.known_forward(from).cost_s = 0.0;
+  push(desk.open, {0.0, from});
+  while (!desk.open.empty()) {
+    const auto [so_far_s, here] = pop(desk.open);
     if (here == to) break;
-    if (so_far_s > known_.at(here).cost_s) continue;
+    if (so_far_s > desk.known_forward(here).cost_s) continue;
     for (const auto& [lane, end] : routes_.hops_from(here)) {
       const double sum_s = so_far_s + times_s_[lane];
-      if (!is_quick(sum_s, end, all_s)) continue;
-      Station& station = known_.at(end);
+      if (!is_quick(sum_s + remains_s(desk, end, to), all_s)) continue;
+      Desk::Station& station = desk.known_forward(end);
       if (sum_s >= station.cost_s) continue;
       station.cost_s = sum_s;
       station.arrival = lane;
-      push({sum_s, sum_s, end});
+      push(desk.open, {sum_s, end});
     }
   }
-  std::uint32_t first = known_.at(to).arrival;
-  while (map_.lane(first).from != from) first = known_.at(map_.lane(first).from).arrival;
+  std::uint32_t first = desk.known_forward(to).arrival;
+  while (map_.lane(first).from != from) first = desk.known_forward(map_.lane(first).from).arrival;
   return first;
 }
 

@@ -1,11 +1,13 @@
 #pragma once
 
-#include <cmath>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "core/agents/facts.hpp"
+#include "core/agents/lane_chains.hpp"
 #include "core/agents/map_view.hpp"
 #include "core/agents/routes.hpp"
 
@@ -17,6 +19,7 @@ namespace fleetproof::agents {
 //   lie on a quickest way. It looks towards the AGV first: landmarks bound the time to each station from below.
 // * Only one lane of most stations leaves that time unchanged. If several do, a search forward along such lanes decides
 //   as Routes::search does.
+// * The whole way is written down at once, so that nothing of the search has to be kept.
 // Not for plants with rules. Requires: facts, map and routes outlive it.
 class QuickestWay {
  public:
@@ -25,62 +28,45 @@ class QuickestWay {
   // FP_NONE: there is no way. Requires: the stations differ.
   std::uint32_t next_lane(std::uint32_t from, std::uint32_t to);
 
- private:
-  struct Open {
-    double bound_s, so_far_s;
-    std::uint32_t station;
+  // A lane or a chain. They lie side by side: the lanes of the map are too far apart in memory for a search.
+  struct Step {
+    double time_s;
+    std::uint32_t to;
   };
-  // What the searches have found out about a station: the time that remains from it, by the search backward; the time
-  // up to it and the lane by which the way arrives, by the search forward.
-  struct Station {
-    std::uint32_t number = FP_NONE;
-    std::uint32_t arrival = FP_NONE;
-    double remains_s = INFINITY, cost_s = INFINITY;
-  };
-  // The stations that the last searches have seen: few of a large map.
-  class Known {
-   public:
-    explicit Known(std::uint32_t station_count) : places_(station_count) {}
-    void clear();
-    // Adds the station if it is not known. Valid until the next station is added.
-    Station& at(std::uint32_t number) {
-      std::uint32_t& place = places_[number];
-      if (place == 0) {
-        stations_.push_back({number});
-        place = static_cast<std::uint32_t>(stations_.size());
-      }
-      return stations_[place - 1];
-    }
-    const Station* find(std::uint32_t number) const {  // null: it is not known
-      return places_[number] == 0 ? nullptr : &stations_[places_[number] - 1];
-    }
-    void forget_costs();
 
-   private:
-    std::vector<std::uint32_t> places_;  // by station: in stations_, from 1 on; 0: not known
-    std::vector<Station> stations_;
+ private:
+  struct Desk;
+  // What the landmarks know of the time from the station where a way begins.
+  struct Bound {
+    static constexpr std::size_t kTerms = 4;
+    struct Term {
+      double sign = 0.0, here_s = 0.0;
+      std::uint32_t column = 0;
+    };
+    std::array<Term, kTerms> terms{};
   };
-  double remains_s(std::uint32_t station) const {
-    const Station* known = known_.find(station);
-    return known == nullptr ? INFINITY : known->remains_s;
-  }
-  void search_back(std::uint32_t from, std::uint32_t to);
-  double least_s(std::uint32_t from, std::uint32_t station) const;
-  std::uint32_t search_forward(std::uint32_t from, std::uint32_t to);
-  // Whether a lane to a station, and what remains from there, is as quick as anything from the place where this much
-  // remains.
-  bool is_quick(double lane_s, std::uint32_t to, double remains_s) const;
-  void push(Open open);
-  Open pop();
+
+  void plan(std::uint32_t from, std::uint32_t to);
+  Bound bound_between(std::uint32_t from, std::uint32_t to) const;
+  double landmark_s(std::uint32_t column, std::uint32_t station) const;
+  double least_s(const Bound& bound, std::uint32_t station) const;
+  void search_back(Desk& desk, std::uint32_t from, std::uint32_t to) const;
+  double along_chain_s(std::uint32_t from, std::uint32_t to) const;
+  double remains_s(const Desk& desk, std::uint32_t station, std::uint32_t to) const;
+  std::uint32_t quick_lane(Desk& desk, std::uint32_t from, std::uint32_t to) const;
+  std::uint32_t search_forward(Desk& desk, std::uint32_t from, std::uint32_t to) const;
 
   const MapView& map_;
   const Routes& routes_;
   std::span<const double> times_s_;              // by lane
+  double width_s_;                               // of the queue of a search backward
+  std::span<const Step> steps_back_;             // by station where they end
+  std::span<const std::uint32_t> first_steps_;   // by station, and one more
+  std::span<const ChainPlace> places_;           // by station
   std::span<const double> landmarks_s_;          // by station: from each landmark, and to it
   std::uint32_t landmark_count_;                 // 0: the map is small
   std::uint32_t goal_ = FP_NONE, at_ = FP_NONE;  // of the last answer, and the station to which it leads
-  Known known_;
-  std::vector<Open> open_;  // heap, least bound first
+  std::vector<std::uint32_t> way_;               // the lanes from there on, the last first
 };
 
 }  // namespace fleetproof::agents
