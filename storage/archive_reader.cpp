@@ -4,7 +4,6 @@
 #include <SQLiteCpp/Exception.h>
 #include <fmt/format.h>
 
-#include <array>
 #include <bit>
 
 #include "core/base/error.hpp"
@@ -13,6 +12,7 @@
 #include "storage/plan_rows.hpp"
 #include "storage/query.hpp"
 #include "storage/rows.hpp"
+#include "storage/run_parts.hpp"
 #include "storage/schema.hpp"
 #include "storage/snapshot.hpp"
 #include "storage/sqlite_errors.hpp"
@@ -20,24 +20,6 @@
 
 namespace fleetproof {
 namespace {
-
-// A table that holds parts of runs, by run and ordinal.
-struct PartTable {
-  const char* name;
-  std::string (*values)(std::int32_t schema);
-  void (*take)(const Row& row, Outcome& outcome);
-};
-
-const std::array<PartTable, 3>& part_tables() {
-  static const std::array<PartTable, 3> tables{{
-      {"violations", violation_values, [](const Row& row, Outcome& o) { o.violations.push_back(read_violation(row)); }},
-      {"incidents", [](std::int32_t) { return std::string(kIncidentColumns); },
-       [](const Row& row, Outcome& o) { o.incidents.push_back(read_incident(row)); }},
-      {"probes", [](std::int32_t) { return std::string(kProbeColumns); },
-       [](const Row& row, Outcome& o) { o.probes.push_back(read_probe(row)); }},
-  }};
-  return tables;
-}
 
 std::uint64_t run_of(const Row& part) { return std::bit_cast<std::uint64_t>(part.number(0)); }
 
@@ -63,8 +45,8 @@ struct ArchiveReader::Impl {
 
   void open();
   void read_plan();
-  StoredRun take_run(const Row& row) const;
-  void take_part(const PartTable& table, const Row& row, StoredRun& stored) const;
+  void take_run(const Row& row, StoredRun& stored) const;
+  void take_part(const PartTable& table, const Row& row, StoredRun& stored, std::size_t ordinal) const;
   void verify(const StoredRun& stored) const;
   void require_sealed(std::uint64_t count, const RowsDigest& rows, SealedContent& content) const;
   std::vector<ChunkRecord> stored_chunks() const;
@@ -121,17 +103,18 @@ void ArchiveReader::Impl::read_plan() {
     damaged("its plan (campaign, cells, gates) does not match its checksum");
 }
 
-StoredRun ArchiveReader::Impl::take_run(const Row& row) const {
+void ArchiveReader::Impl::take_run(const Row& row, StoredRun& stored) const {
   try {
-    return read_run(row);
+    read_run(row, stored);
   } catch (const EngineError& e) {
     damaged(fmt::format("run {}: {}", row.number(0), e.what()));
   }
 }
 
-void ArchiveReader::Impl::take_part(const PartTable& table, const Row& row, StoredRun& stored) const {
+void ArchiveReader::Impl::take_part(const PartTable& table, const Row& row, StoredRun& stored,
+                                    std::size_t ordinal) const {
   try {
-    table.take(row, stored.run.outcome);
+    table.take(row, stored.run.outcome, ordinal);
   } catch (const EngineError& e) {
     damaged(fmt::format("{} of run {}: {}", table.name, stored.run.run_index, e.what()));
   }
@@ -196,20 +179,22 @@ class ArchiveReader::Impl::Rows {
     }
   }
 
-  // Nothing after the last. The checksum was right.
-  std::optional<StoredRun> next() {
+  // Null after the last. The checksum was right. Valid until the next call, which writes over it.
+  const StoredRun* next() {
     if (!runs_->step()) {
       require_end();
-      return std::nullopt;
+      return nullptr;
     }
-    auto stored = file_.take_run(*runs_);
+    file_.take_run(*runs_, stored_);
     for (auto& part : parts_) {
-      for (; part.more && run_of(*part.rows) == stored.run.run_index; part.more = part.rows->step())
-        file_.take_part(part.table, *part.rows, stored);
+      std::size_t count = 0;
+      for (; part.more && run_of(*part.rows) == stored_.run.run_index; part.more = part.rows->step())
+        file_.take_part(part.table, *part.rows, stored_, count++);
+      part.table.cut(stored_.run.outcome, count);
     }
-    file_.verify(stored);
-    digest_.add(stored.checksum);
-    return stored;
+    file_.verify(stored_);
+    digest_.add(stored_.checksum);
+    return &stored_;
   }
   const RowsDigest& digest() const { return digest_; }
 
@@ -229,6 +214,7 @@ class ArchiveReader::Impl::Rows {
   const Impl& file_;
   std::unique_ptr<RowSource> runs_;
   std::vector<Part> parts_;
+  StoredRun stored_;
   RowsDigest digest_;
 };
 
@@ -247,7 +233,7 @@ std::uint64_t ArchiveReader::Impl::read_rows(const VisitRun& visit) const {
   Rows rows(*this);
   SealedContent content(campaign.chunk_runs);
   std::uint64_t count = 0;
-  for (; const auto stored = rows.next(); ++count) {
+  for (; const StoredRun* stored = rows.next(); ++count) {
     content.add_run(count, stored->checksum);
     visit(stored->run);
   }
@@ -259,7 +245,7 @@ std::uint64_t ArchiveReader::Impl::read_folded_file(const VisitRun& visit, const
   if (!sealed_count) damaged("it is folded, but has no seal");
   Rows rows(*this);
   FoldedRows folded(*db, cells, visit_folded.met);
-  auto kept = rows.next();
+  const StoredRun* kept = rows.next();
   std::uint64_t index = 0;
   while (index < *sealed_count) {
     if (visit_folded.quiet && index % cells.size() == 0) {
@@ -275,12 +261,13 @@ std::uint64_t ArchiveReader::Impl::read_folded_file(const VisitRun& visit, const
       ++index;
       continue;
     }
-    if (!kept || kept->run.run_index != index) damaged(fmt::format("run {} is neither folded nor kept", index));
+    if (kept == nullptr || kept->run.run_index != index)
+      damaged(fmt::format("run {} is neither folded nor kept", index));
     visit(kept->run);
     kept = rows.next();
     ++index;
   }
-  if (kept) damaged(fmt::format("run {} is beside the folded runs", kept->run.run_index));
+  if (kept != nullptr) damaged(fmt::format("run {} is beside the folded runs", kept->run.run_index));
   SealedContent content(campaign.chunk_runs);
   for (const ChunkRecord& chunk : stored_chunks()) content.add_chunk(chunk);
   add_rest(content);
@@ -332,12 +319,13 @@ std::optional<RunRecord> ArchiveReader::run(std::uint64_t run_index) const {
     Query rows(*impl_->db, fmt::format("SELECT {} FROM runs WHERE run_index = ?", run_values(impl_->schema)));
     rows.bind(1, std::bit_cast<std::int64_t>(run_index));
     if (!rows.step()) return std::nullopt;
-    auto stored = impl_->take_run(rows);
+    StoredRun stored;
+    impl_->take_run(rows, stored);
     for (const auto& table : part_tables()) {
       Query parts(*impl_->db, fmt::format("SELECT {} FROM {} WHERE run_index = ? ORDER BY ordinal",
                                           table.values(impl_->schema), table.name));
       parts.bind(1, std::bit_cast<std::int64_t>(run_index));
-      while (parts.step()) impl_->take_part(table, parts, stored);
+      for (std::size_t ordinal = 0; parts.step(); ++ordinal) impl_->take_part(table, parts, stored, ordinal);
     }
     impl_->verify(stored);
     return std::move(stored.run);

@@ -2,46 +2,43 @@
 
 #include <xxhash.h>
 
-#include <array>
 #include <bit>
 
+#include "core/base/byte_text.hpp"
 #include "core/base/error.hpp"
+#include "core/outcome/outcome_bytes.hpp"
 
 namespace fleetproof {
 namespace {
 
-std::array<char, 8> little_endian(std::uint64_t value) {
-  std::array<char, 8> bytes{};
-  for (std::size_t i = 0; i < bytes.size(); ++i)
-    bytes[i] = static_cast<char>(static_cast<std::uint8_t>(value >> (8 * i)));
-  return bytes;
-}
-
 // The length of every text comes before the text, so that no two different records have the same bytes.
 class Bytes {
  public:
-  Bytes& operator<<(std::uint64_t value) {
-    const auto bytes = little_endian(value);
-    text_.append(bytes.data(), bytes.size());
-    return *this;
-  }
+  Bytes& operator<<(std::uint64_t value) { return sink_.u64(value), *this; }
   // 2.0 and 2 are stored alike, and -0.0 comes back as 0: fold the two zeros.
   Bytes& operator<<(double value) { return *this << std::bit_cast<std::uint64_t>(value == 0.0 ? 0.0 : value); }
   Bytes& operator<<(const std::string& value) {
     *this << std::uint64_t{value.size()};
-    text_ += value;
-    return *this;
+    return sink_.raw(value), *this;
   }
   void factors(const FactorValues& factors, std::int32_t schema) {
     for (const FactorInfo& factor : kFactors) {
       if (factor.first_schema <= schema) *this << factors[factor.id];
     }
   }
-  void reserve(std::size_t size) { text_.reserve(size); }
-  std::uint64_t hash() const { return XXH3_64bits(text_.data(), text_.size()); }
+  // As the text that `encode` makes of it.
+  void outcome(const Outcome& outcome, std::uint32_t version) {
+    const std::size_t length_at = sink_.size();
+    sink_.u64(0);
+    const std::size_t begin = sink_.size();
+    encode(outcome, sink_, version);
+    sink_.u64_at(length_at, sink_.size() - begin);
+  }
+  void clear() { sink_.clear(); }
+  std::uint64_t hash() const { return XXH3_64bits(sink_.bytes().data(), sink_.size()); }
 
  private:
-  std::string text_;
+  ByteSink sink_;
 };
 
 void add_method(Bytes& bytes, const GateRecord& gate) {
@@ -65,13 +62,12 @@ void add_cells(Bytes& bytes, const CellFilter& filter, std::int32_t schema) {
 }  // namespace
 
 std::uint64_t row_checksum(const RunRecord& run, std::int32_t schema) {
-  const std::string outcome =
-      encode(run.outcome, schema < kFirstWithNormalSpeed ? kEncodingWithoutNormalSpeed : kEncodingVersion);
-  Bytes bytes;
-  bytes.reserve(outcome.size() + 128);
+  // Its memory serves the next row: a campaign has millions, and each would ask for it and give it back.
+  thread_local Bytes bytes;
+  bytes.clear();
   bytes << run.run_index << std::uint64_t{run.cell} << run.replicate << run.scenario_digest;
   bytes.factors(run.factors, schema);
-  bytes << outcome;
+  bytes.outcome(run.outcome, schema < kFirstWithNormalSpeed ? kEncodingWithoutNormalSpeed : kEncodingVersion);
   return bytes.hash();
 }
 
@@ -120,7 +116,11 @@ std::uint64_t folded_checksum(const FoldedRow& row) {
 }
 
 struct RowsDigest::State {
+  // The hash takes many checksums in one call: a call costs as much as all else that a row costs here.
+  static constexpr std::size_t kMostWaiting = 64;
   XXH3_state_t* hash = XXH3_createState();
+  ByteSink waiting;
+
   State() {
     ensure(hash != nullptr, "there is memory for a digest");
     XXH3_64bits_reset(hash);
@@ -128,19 +128,30 @@ struct RowsDigest::State {
   State(const State&) = delete;
   State& operator=(const State&) = delete;
   ~State() { XXH3_freeState(hash); }
+
+  void take_waiting() {
+    XXH3_64bits_update(hash, waiting.bytes().data(), waiting.size());
+    waiting.clear();
+  }
 };
 
 RowsDigest::RowsDigest() : state_(std::make_unique<State>()) {}
 RowsDigest::~RowsDigest() = default;
 
 void RowsDigest::add(std::uint64_t checksum) {
-  const auto bytes = little_endian(checksum);
-  XXH3_64bits_update(state_->hash, bytes.data(), bytes.size());
+  state_->waiting.u64(checksum);
+  if (state_->waiting.size() == State::kMostWaiting * sizeof(checksum)) state_->take_waiting();
 }
 
-std::uint64_t RowsDigest::value() const { return XXH3_64bits_digest(state_->hash); }
+std::uint64_t RowsDigest::value() const {
+  state_->take_waiting();
+  return XXH3_64bits_digest(state_->hash);
+}
 
-void RowsDigest::reset() { XXH3_64bits_reset(state_->hash); }
+void RowsDigest::reset() {
+  state_->waiting.clear();
+  XXH3_64bits_reset(state_->hash);
+}
 
 std::uint64_t content_digest_of(std::uint64_t plan, std::uint64_t rows) { return (Bytes{} << plan << rows).hash(); }
 

@@ -3,6 +3,7 @@
 #include <SQLiteCpp/Statement.h>
 
 #include <bit>
+#include <cstring>
 #include <utility>
 
 #include "core/base/error.hpp"
@@ -50,6 +51,11 @@ std::int64_t Taker::i64() { return row_.number(next_++); }
 std::uint64_t Taker::u64() { return std::bit_cast<std::uint64_t>(i64()); }
 std::uint32_t Taker::u32() { return in_range(i64()); }
 
+void Taker::numbers(std::span<std::int64_t> into) {
+  row_.numbers(next_, into);
+  next_ += static_cast<int>(into.size());
+}
+
 bool Taker::flag() {
   const auto value = i64();
   if (value != 0 && value != 1) throw EngineError("a row holds a yes-or-no field with neither");
@@ -71,6 +77,7 @@ PerFactor<std::optional<double>> Taker::named_factors() {
 }
 
 std::string Taker::text() { return std::string(row_.bytes(next_++)); }
+void Taker::text(std::string& into) { into = row_.bytes(next_++); }
 
 std::optional<std::int64_t> Taker::maybe_i64() {
   const int column = next_++;
@@ -92,13 +99,16 @@ EntityId Taker::entity() {
   return value ? EntityId{*value} : EntityId{};
 }
 
-std::vector<std::uint64_t> Taker::digests() {
+void Taker::digests(std::vector<std::uint64_t>& into) {
   const std::string_view bytes = row_.bytes(next_++);
   if (bytes.size() % 8 != 0) throw EngineError("a row holds running digests of a broken length");
-  std::vector<std::uint64_t> values(bytes.size() / 8);
+  into.assign(bytes.size() / 8, 0);
+  if constexpr (std::endian::native == std::endian::little) {  // the memory holds what is stored
+    if (!bytes.empty()) std::memcpy(into.data(), bytes.data(), bytes.size());
+    return;
+  }
   for (std::size_t i = 0; i < bytes.size(); ++i)
-    values[i / 8] |= std::uint64_t{static_cast<unsigned char>(bytes[i])} << (8 * (i % 8));
-  return values;
+    into[i / 8] |= std::uint64_t{static_cast<unsigned char>(bytes[i])} << (8 * (i % 8));
 }
 
 }  // namespace fleetproof

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -58,16 +59,19 @@ class Taker {
   std::int64_t i64();
   std::uint64_t u64();
   std::uint32_t u32();
+  // As many numbers as there is room for. One call of a row that is read from pages costs more than its number.
+  void numbers(std::span<std::int64_t> into);
   bool flag();
   double real();
   FactorValues factors();
   PerFactor<std::optional<double>> named_factors();
   std::string text();
+  void text(std::string& into);  // keeps its memory
   std::optional<std::int64_t> maybe_i64();
   std::optional<double> maybe_real();
   std::optional<std::uint32_t> maybe_u32();
   EntityId entity();
-  std::vector<std::uint64_t> digests();
+  void digests(std::vector<std::uint64_t>& into);
 
  private:
   const Row& row_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string_view>
 
 namespace fleetproof {
@@ -13,6 +14,10 @@ class Row {
   virtual double real(int column) const = 0;
   virtual std::string_view bytes(int column) const = 0;
   virtual bool is_null(int column) const = 0;
+  // Several numbers side by side, from this column on.
+  virtual void numbers(int column, std::span<std::int64_t> into) const {
+    for (std::int64_t& value : into) value = number(column++);
+  }
 };
 
 // Rows, one after the other.

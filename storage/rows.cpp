@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <bit>
+
 #include "core/base/error.hpp"
 #include "storage/row_fields.hpp"
 
@@ -70,17 +73,16 @@ void bind_folded(SQLite::Statement& insert, const FoldedRow& row, std::uint64_t 
   to << checksum;
 }
 
-StoredRun read_run(const Row& row) {
+void read_run(const Row& row, StoredRun& into) {
   Taker from(row);
-  StoredRun stored;
-  auto& run = stored.run;
+  auto& run = into.run;
   auto& o = run.outcome;
   run.run_index = from.u64();
   run.cell = from.u32();
   run.replicate = from.u64();
   run.scenario_digest = from.u64();
   run.factors = from.factors();
-  stored.outcome_class = from.text();
+  from.text(into.outcome_class);
   for (const auto flag : {&Outcome::violation, &Outcome::contact, &Outcome::stuck, &Outcome::crash, &Outcome::hang,
                           &Outcome::indeterminate, &Outcome::engine_error}) {
     o.*flag = from.flag();
@@ -89,11 +91,13 @@ StoredRun read_run(const Row& row) {
   o.simulated_ns = from.u64();
   o.agv_count = from.u32();
   o.digest = from.u64();
-  o.running_digests = from.digests();
-  o.message = from.text();
-  for (const auto& counter : kCounters) o.counters.*counter.member = from.u64();
-  stored.checksum = from.u64();
-  return stored;
+  from.digests(o.running_digests);
+  from.text(o.message);
+  std::array<std::int64_t, kCounters.size()> counters{};
+  from.numbers(counters);
+  for (std::size_t i = 0; i < counters.size(); ++i)
+    o.counters.*kCounters[i].member = std::bit_cast<std::uint64_t>(counters[i]);
+  into.checksum = from.u64();
 }
 
 Violation read_violation(const Row& row) {
@@ -131,15 +135,13 @@ Incident read_incident(const Row& row) {
   return incident;
 }
 
-ProbeCount read_probe(const Row& row) {
+void read_probe(const Row& row, ProbeCount& into) {
   Taker from(row);
-  ProbeCount probe;
   from.i64();  // run_index
   from.i64();  // ordinal
-  probe.source = from.flag() ? ProbeSource::Agent : ProbeSource::World;
-  probe.name = from.text();
-  probe.count = from.u64();
-  return probe;
+  into.source = from.flag() ? ProbeSource::Agent : ProbeSource::World;
+  from.text(into.name);
+  into.count = from.u64();
 }
 
 AuditRecord read_audit(const Row& row) {

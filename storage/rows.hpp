@@ -35,17 +35,18 @@ void bind_audit(SQLite::Statement& insert, const AuditRecord& audit);
 void bind_chunk(SQLite::Statement& insert, const ChunkRecord& chunk);
 void bind_folded(SQLite::Statement& insert, const FoldedRow& row, std::uint64_t checksum);
 
-// A row as stored. Its outcome has no violations, incidents and probes yet.
+// A row as stored. The violations, incidents and probes of its outcome are rows of their own.
 struct StoredRun {
   RunRecord run;
   std::string outcome_class;
   std::uint64_t checksum = 0;
 };
-// Throws EngineError if a field contains a value that this program never writes.
-StoredRun read_run(const Row& row);
+// Throws EngineError if a field contains a value that this program never writes. Those that read into something replace
+// all that a row holds, and use the memory that is there: a campaign has millions of rows.
+void read_run(const Row& row, StoredRun& into);
 Violation read_violation(const Row& row);
 Incident read_incident(const Row& row);
-ProbeCount read_probe(const Row& row);
+void read_probe(const Row& row, ProbeCount& into);
 AuditRecord read_audit(const Row& row);
 ChunkRecord read_chunk(const Row& row);
 // And the checksum that is stored with it.

@@ -1,6 +1,8 @@
 #include "storage/stored_record.hpp"
 
+#include <array>
 #include <bit>
+#include <cstring>
 
 namespace fleetproof {
 namespace {
@@ -57,6 +59,34 @@ void read_short(std::uint64_t type, std::string_view& from, StoredValue& value) 
   }
 }
 
+void read_other(std::uint64_t type, std::string_view& from, StoredValue& value) {
+  constexpr std::uint64_t kFirstBytes = 12;  // even: bytes, odd: text
+  if (type < kFirstBytes) return read_short(type, from, value);
+  value.kind = StoredValue::Kind::Bytes;
+  value.bytes = take(from, (type - kFirstBytes) / 2);
+}
+
+// Most values of a row are 0 or 1, which their type says, or numbers with bytes. A number is cut out of the eight bytes
+// that begin with it: a loop over its bytes took a report longer than all else of a row. False: the value is another,
+// or the record ends sooner.
+inline bool read_number(std::uint64_t type, const char*& from, const char* end, StoredValue& value) {
+  constexpr std::array<std::uint8_t, 7> kSizes{0, 1, 2, 3, 4, 6, 8};
+  constexpr std::uint64_t kZero = 8;
+  if (type - kZero <= 1) {
+    value.number = static_cast<std::int64_t>(type - kZero);
+  } else if (type - 1 < kSizes.size() - 1 && end - from >= 8) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, from, sizeof(word));
+    if constexpr (std::endian::native == std::endian::little) word = __builtin_bswap64(word);
+    value.number = std::bit_cast<std::int64_t>(word) >> (64 - 8 * kSizes[type]);  // with its sign
+    from += kSizes[type];
+  } else {
+    return false;
+  }
+  value.kind = StoredValue::Kind::Number;
+  return true;
+}
+
 }  // namespace
 
 std::uint64_t take_long_varint(std::string_view& from) {
@@ -77,18 +107,15 @@ void read_record(std::string_view record, std::vector<StoredValue>& values) {
   const std::uint64_t head = take_varint(types);
   if (head > record.size() || head < record.size() - types.size()) broken();
   types = types.substr(0, head - (record.size() - types.size()));
-  std::string_view from = record.substr(head);
-  constexpr std::uint64_t kFirstBytes = 12;  // even: bytes, odd: text
+  const char *from = record.data() + head, *const end = record.data() + record.size();
   for (StoredValue& value : values) {
     const std::uint64_t type = take_varint(types);
-    if (type < kFirstBytes) {
-      read_short(type, from, value);
-    } else {
-      value.kind = StoredValue::Kind::Bytes;
-      value.bytes = take(from, (type - kFirstBytes) / 2);
-    }
+    if (read_number(type, from, end, value)) continue;
+    std::string_view rest(from, static_cast<std::size_t>(end - from));
+    read_other(type, rest, value);
+    from = end - rest.size();
   }
-  if (!types.empty() || !from.empty()) broken();
+  if (!types.empty() || from != end) broken();
 }
 
 }  // namespace fleetproof

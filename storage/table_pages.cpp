@@ -191,6 +191,10 @@ std::int64_t TablePages::number(int column) const {
   return found.number;
 }
 
+void TablePages::numbers(int column, std::span<std::int64_t> into) const {
+  for (std::int64_t& number : into) number = TablePages::number(column++);
+}
+
 // A real number without a fraction is stored as a whole one.
 double TablePages::real(int column) const {
   const StoredValue& found = value(column);

@@ -31,6 +31,7 @@ class TablePages final : public RowSource {
 
   bool step() override;
   std::int64_t number(int column) const override;
+  void numbers(int column, std::span<std::int64_t> into) const override;
   double real(int column) const override;
   std::string_view bytes(int column) const override;
   bool is_null(int column) const override { return value(column).kind == StoredValue::Kind::Null; }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -21,12 +22,31 @@ class ByteSink {
   void u32(std::uint32_t value) { put(little_endian(value)); }
   void u64(std::uint64_t value) { put(little_endian(value)); }
   void i64(std::int64_t value) { u64(std::bit_cast<std::uint64_t>(value)); }
+  // The same as one after the other, without a test for room in between.
+  void u64s(std::span<const std::uint64_t> values) {
+    if constexpr (std::endian::native == std::endian::little) {  // the memory holds what is put
+      if (!values.empty()) raw({reinterpret_cast<const char*>(values.data()), values.size_bytes()});
+    } else {
+      for (const std::uint64_t value : values) u64(value);
+    }
+  }
   void text(std::string_view value) {
     u32(static_cast<std::uint32_t>(value.size()));
-    make_room(value.size());
-    std::memcpy(bytes_.data() + used_, value.data(), value.size());
-    used_ += value.size();
+    raw(value);
   }
+  void raw(std::string_view bytes) {  // without their number
+    make_room(bytes.size());
+    std::memcpy(bytes_.data() + used_, bytes.data(), bytes.size());
+    used_ += bytes.size();
+  }
+  // Over a u64 that was put at this place.
+  void u64_at(std::size_t place, std::uint64_t value) {
+    const auto bytes = little_endian(value);
+    std::memcpy(bytes_.data() + place, bytes.data(), bytes.size());
+  }
+  std::size_t size() const { return used_; }
+  std::string_view bytes() const { return {bytes_.data(), used_}; }
+  void clear() { used_ = 0; }  // keeps its memory
   std::string take() {
     bytes_.resize(std::exchange(used_, 0));
     return std::exchange(bytes_, {});

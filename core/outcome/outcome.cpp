@@ -4,8 +4,8 @@
 #include <array>
 #include <tuple>
 
-#include "core/base/byte_text.hpp"
 #include "core/base/error.hpp"
+#include "core/outcome/outcome_bytes.hpp"
 
 namespace fleetproof {
 namespace {
@@ -141,16 +141,23 @@ OutcomeClass Outcome::outcome_class() const {
 
 std::string encode(const Outcome& outcome, std::uint32_t version) {
   ByteSink sink;
+  encode(outcome, sink, version);
+  return sink.take();
+}
+
+void encode(const Outcome& outcome, ByteSink& sink, std::uint32_t version) {
   sink.u32(version);
   for (const auto flag : kFlags) sink.u8(outcome.*flag ? 1 : 0);
   sink.u8(outcome.min_clearance_um ? 1 : 0);
   if (outcome.min_clearance_um) sink.i64(*outcome.min_clearance_um);
-  for (const auto& counter : kCounters) sink.u64(outcome.counters.*counter.member);
+  std::array<std::uint64_t, kCounters.size()> counters{};
+  for (std::size_t i = 0; i < counters.size(); ++i) counters[i] = outcome.counters.*kCounters[i].member;
+  sink.u64s(counters);
   sink.u64(outcome.simulated_ns);
   sink.u32(outcome.agv_count);
   sink.u64(outcome.digest);
   sink.u32(static_cast<std::uint32_t>(outcome.running_digests.size()));
-  for (const auto digest : outcome.running_digests) sink.u64(digest);
+  sink.u64s(outcome.running_digests);
   sink.text(outcome.message);
   sink.u32(static_cast<std::uint32_t>(outcome.violations.size()));
   for (const auto& violation : outcome.violations) put(sink, violation, version);
@@ -158,7 +165,6 @@ std::string encode(const Outcome& outcome, std::uint32_t version) {
   for (const auto& incident : outcome.incidents) put(sink, incident);
   sink.u32(static_cast<std::uint32_t>(outcome.probes.size()));
   for (const auto& probe : outcome.probes) put(sink, probe);
-  return sink.take();
 }
 
 Outcome decode_outcome(std::string_view bytes) {

@@ -46,7 +46,8 @@ std::vector<std::pair<BreakdownKey, std::vector<std::uint32_t>>> grouped_cells(c
 
 }  // namespace
 
-Breakdown::Breakdown(const std::vector<CellRecord>& cells) : groups_of_cell_(cells.size()) {
+Breakdown::Breakdown(const std::vector<CellRecord>& cells)
+    : tallies_(cells.size()), pending_tallies_(cells.size()), groups_of_cell_(cells.size()) {
   for (auto& [key, members] : grouped_cells(cells)) {
     for (const std::uint32_t cell : members) groups_of_cell_[cell].push_back(groups_.size());
     Pool hours;
@@ -57,13 +58,12 @@ Breakdown::Breakdown(const std::vector<CellRecord>& cells) : groups_of_cell_(cel
 }
 
 void Breakdown::add(const RunRecord& run) {
-  Tally one;
-  one.add(run.outcome);
+  const RunResult violation = result_of(run.outcome, EndPoint::Violation);
+  pending_tallies_[run.cell] = Tally::of(run.outcome, violation);
   const bool stalled = stalls(run.outcome);
   for (const std::size_t index : groups_of_cell_[run.cell]) {
     Group& group = groups_[index];
-    group.events.add(run);
-    group.pending.add(one);
+    group.events.add(run, violation);
     group.stalls |= stalled;
   }
   if (run.cell + 1 == groups_of_cell_.size()) finish_replicate();
@@ -72,16 +72,14 @@ void Breakdown::add(const RunRecord& run) {
 void Breakdown::add(const QuietReplicates& quiet) {
   replicates_ += quiet.replicates;
   for (Group& group : groups_) group.events.add(quiet);
-  for (std::size_t cell = 0; cell < groups_of_cell_.size(); ++cell) {
-    for (const std::size_t index : groups_of_cell_[cell]) groups_[index].tally.add(quiet.by_cell[cell]);
-  }
+  for (std::size_t cell = 0; cell < tallies_.size(); ++cell) tallies_[cell].add(quiet.by_cell[cell]);
 }
 
 void Breakdown::finish_replicate() {
   ++replicates_;
+  for (std::size_t cell = 0; cell < tallies_.size(); ++cell) tallies_[cell].add(pending_tallies_[cell]);
   for (Group& group : groups_) {
     group.events.finish_replicate();
-    group.tally.add(std::exchange(group.pending, Tally{}));
     group.stalled += std::exchange(group.stalls, false) ? 1 : 0;
   }
 }
@@ -89,11 +87,13 @@ void Breakdown::finish_replicate() {
 std::vector<BreakdownRow> Breakdown::rows() const {
   std::vector<BreakdownRow> list;
   for (const Group& group : groups_) {
+    Tally tally;
+    for (const std::uint32_t cell : group.events.pool().cells) tally.add(tallies_[cell]);
     Pool worlds = group.events.pool();
     worlds.rule.unit = GateUnit::World;
     worlds.units = replicates_;
-    list.push_back({group.key, group.tally, std::move(worlds), group.events.pool(), group.stalled,
-                    static_cast<double>(group.tally.longest_ns) / 1e9});
+    list.push_back({group.key, tally, std::move(worlds), group.events.pool(), group.stalled,
+                    static_cast<double>(tally.longest_ns) / 1e9});
   }
   return list;
 }

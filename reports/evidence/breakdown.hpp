@@ -43,13 +43,13 @@ class Breakdown {
   struct Group {
     BreakdownKey key;
     PoolCounter events;  // of the unit AgvHour: its events are worlds
-    Tally tally{}, pending{};
     std::uint64_t stalled = 0;
     bool stalls = false;  // in the replicate that is not complete yet
   };
   void finish_replicate();
 
   std::uint64_t replicates_ = 0;
+  std::vector<Tally> tallies_, pending_tallies_;  // by cell: a run adds once, and not to each of its groups
   std::vector<Group> groups_;
   std::vector<std::vector<std::size_t>> groups_of_cell_;
 };

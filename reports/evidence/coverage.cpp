@@ -15,6 +15,12 @@ void note(Seen& seen, std::uint64_t times) {
   seen.times += times;
 }
 
+void move_all(Seen& from, Seen& to) {
+  to.runs += from.runs;
+  to.times += from.times;
+  from = {};
+}
+
 }  // namespace
 
 const Coverage::Place* Coverage::place_of(const ProbeCount& probe, std::size_t& next) {
@@ -24,7 +30,7 @@ const Coverage::Place* Coverage::place_of(const ProbeCount& probe, std::size_t& 
   }
   const bool world = probe.source == ProbeSource::World;
   if (!world && is_world_probe(probe.name)) return nullptr;
-  if (list.size() == kPlaces) list.clear(), next = 0;
+  if (list.size() == kPlaces) places_.lose(), next = 0;
   const auto at = (world ? by_the_world_ : by_agents_).try_emplace(probe.name).first;
   const Place place{probe.source, &at->first, &at->second, world && is_encounter_probe(probe.name)};
   return &*list.insert(list.begin() + static_cast<std::ptrdiff_t>(next++), place);
@@ -47,6 +53,7 @@ void Coverage::add(const Outcome& outcome) {
 }
 
 void Coverage::add(const Coverage& other) {
+  places_.all = false;
   runs_ += other.runs_;
   for (const auto& [mine, theirs] :
        {std::pair(&by_the_world_, &other.by_the_world_), std::pair(&by_agents_, &other.by_agents_)}) {
@@ -57,22 +64,34 @@ void Coverage::add(const Coverage& other) {
   }
 }
 
+// Replicates meet the same again and again: to find each name in `other` costs more than all else here.
 void Coverage::empty_into(Coverage& other) {
   other.runs_ += std::exchange(runs_, 0);
+  if (!places_.all) return empty_by_name(other);
+  if (std::exchange(places_.into, &other) != &other) {
+    for (Place& place : places_.list) place.total = nullptr;
+  }
+  for (Place& place : places_.list) {
+    if (place.seen->runs == 0) continue;
+    auto& theirs = place.source == ProbeSource::World ? other.by_the_world_ : other.by_agents_;
+    if (place.total == nullptr) place.total = &theirs[*place.name];
+    move_all(*place.seen, *place.total);
+  }
+}
+
+void Coverage::empty_by_name(Coverage& other) {
   for (const auto& [mine, theirs] :
        {std::pair(&by_the_world_, &other.by_the_world_), std::pair(&by_agents_, &other.by_agents_)}) {
     for (auto& [name, seen] : *mine) {
-      if (seen.runs == 0) continue;
-      Seen& all = (*theirs)[name];
-      all.runs += seen.runs;
-      all.times += seen.times;
-      seen = {};
+      if (seen.runs > 0) move_all(seen, (*theirs)[name]);
     }
   }
+  places_.all = true;  // nothing is counted
 }
 
 void Coverage::add(const QuietRuns& quiet) {
   runs_ += quiet.runs;
+  places_.all = false;
   if (quiet.in_safe_mode == 0) return;
   Seen& seen = by_the_world_[std::string(kSafeModeProbe)];
   seen.runs += quiet.in_safe_mode;
@@ -80,6 +99,7 @@ void Coverage::add(const QuietRuns& quiet) {
 }
 
 void Coverage::add(const std::vector<MetTotal>& met) {
+  places_.all = false;
   for (const MetTotal& total : met) {
     const bool world = total.source == ProbeSource::World;
     if (!world && is_world_probe(total.name)) continue;

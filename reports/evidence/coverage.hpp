@@ -25,7 +25,8 @@ class Coverage {
  public:
   void add(const Outcome& outcome);
   void add(const Coverage& other);
-  // Adds all to `other` and counts from zero again. Keeps its names: the next replicate meets the same.
+  // Adds all to `other` and counts from zero again. Keeps its names: the next replicate meets the same. Requires: if it
+  // was emptied into `other` before, the names of `other` are where they were (it was not copied to or moved).
   void empty_into(Coverage& other);
   // Without what they met, which follows apart.
   void add(const QuietRuns& quiet);
@@ -46,18 +47,24 @@ class Coverage {
     const std::string* name = nullptr;
     Seen* seen = nullptr;
     bool is_encounter = false;
+    Seen* total = nullptr;  // where `empty_into` adds it; null: not found yet
   };
   // They lie in the maps of one object. A copy begins without them.
   struct Places {
     Places() = default;
-    Places(const Places&) {}  // NOLINT: nothing is copied
-    Places(Places&& other) noexcept { other.list.clear(); }
-    Places& operator=(const Places&) { return list.clear(), *this; }
-    Places& operator=(Places&& other) noexcept { return list.clear(), other.list.clear(), *this; }
+    Places(const Places&) { lose(); }
+    Places(Places&& other) noexcept { lose(), other.lose(); }
+    Places& operator=(const Places&) { return lose(), *this; }
+    Places& operator=(Places&& other) noexcept { return lose(), other.lose(), *this; }
     ~Places() = default;
 
+    void lose() { list.clear(), all = false; }
+
     std::vector<Place> list;
+    bool all = true;                 // whatever was counted has a place
+    const Coverage* into = nullptr;  // to which the totals belong
   };
+  void empty_by_name(Coverage& other);
   // None: an agent declares a name of the world.
   const Place* place_of(const ProbeCount& probe, std::size_t& next);
 

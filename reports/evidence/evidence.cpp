@@ -71,14 +71,23 @@ void Evidence::add(const RunRecord& run) {
          "run_index = replicate x cells + cell");
   ++runs_;
   engine_errors_ += run.outcome.engine_error;
-  pending_tallies_[run.cell].add(run.outcome);
+  const RunResult violation = result_of(run.outcome, EndPoint::Violation);
+  pending_tallies_[run.cell] = Tally::of(run.outcome, violation);
   if (const auto failing = FailingRun::of(run)) {
     (run.factors.in_contract() ? worst_inside_ : worst_outside_).add(*failing);
     if (run.factors.in_contract() && (run.outcome.violation || run.outcome.contact)) {
-      const bool failed = result_of(run.outcome, EndPoint::Violation) == RunResult::Failed;
-      add_to(failed ? contract_failures_ : foreign_body_runs_, *failing);
+      add_to(violation == RunResult::Failed ? contract_failures_ : foreign_body_runs_, *failing);
     }
   }
+  add_incidents(run);
+  for (const auto pool : pools_of_cell_[run.cell]) {
+    pending_coverage_[pool].add(run.outcome);
+    add_to_pool(pool, run, violation);
+  }
+  if (run.cell + 1 == cells_.size()) finish_replicate();
+}
+
+void Evidence::add_incidents(const RunRecord& run) {
   std::map<IncidentKind, std::uint64_t> incidents;
   for (const auto& incident : run.outcome.incidents) {
     if (accuses(incident.kind)) ++incidents[incident.kind];
@@ -89,11 +98,6 @@ void Evidence::add(const RunRecord& run) {
     ++tally.runs;
     tally.incidents += count;
   }
-  for (const auto pool : pools_of_cell_[run.cell]) {
-    pending_coverage_[pool].add(run.outcome);
-    add_to_pool(pool, run);
-  }
-  if (run.cell + 1 == cells_.size()) finish_replicate();
 }
 
 bool Evidence::quiet_counts() const {
@@ -134,8 +138,8 @@ std::vector<AgentRuns> Evidence::in_order(const RunsByAgent& runs) const {
   return list;
 }
 
-void Evidence::add_to_pool(std::size_t index, const RunRecord& run) {
-  const RunResult result = pools_[index].add(run);
+void Evidence::add_to_pool(std::size_t index, const RunRecord& run, RunResult violation) {
+  const RunResult result = pools_[index].add(run, violation);
   if (result == RunResult::Passed) return;
   const auto failing = FailingRun::of(run);
   if (!failing) return;  // a slow run is none
@@ -151,7 +155,7 @@ std::optional<FailingRun> Evidence::worst_of(std::size_t pool) const {
 
 void Evidence::finish_replicate() {
   ++replicates_;
-  for (std::size_t i = 0; i < tallies_.size(); ++i) tallies_[i].add(std::exchange(pending_tallies_[i], Tally{}));
+  for (std::size_t i = 0; i < tallies_.size(); ++i) tallies_[i].add(pending_tallies_[i]);
   for (std::size_t i = 0; i < pools_.size(); ++i) {
     pending_coverage_[i].empty_into(coverage_[i]);
     pools_[i].finish_replicate();

@@ -90,8 +90,9 @@ class Evidence {
   using RunsByAgent = std::map<std::string, AgentRuns>;
   void add_to(RunsByAgent& runs, const FailingRun& run) const;
   std::vector<AgentRuns> in_order(const RunsByAgent& runs) const;
-  void add_to_pool(std::size_t index, const RunRecord& run);
+  void add_to_pool(std::size_t index, const RunRecord& run, RunResult violation);
   std::optional<FailingRun> worst_of(std::size_t pool) const;  // that failed; else that stayed unknown
+  void add_incidents(const RunRecord& run);
   void finish_replicate();
 
   bool counts_only_ = false;

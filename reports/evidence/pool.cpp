@@ -30,16 +30,18 @@ PoolCounter::PoolCounter(Pool pool) : pool_(std::move(pool)) {
   if (pool_.rule.unit == GateUnit::Run) by_cell_.resize(pool_.cells.size());
 }
 
-RunResult PoolCounter::add(const RunRecord& run) {
+RunResult PoolCounter::add(const RunRecord& run, RunResult violation) {
   if (pending_.result == RunResult::Passed) pending_.exposure_us += agv_us(run.outcome);
-  const RunResult result = result_of_run(run.outcome);
+  const RunResult result = result_of_run(run.outcome, violation);
   pending_.result = worse(pending_.result, result);
-  pending_.by_cell.push_back(result);
+  ++pending_.runs;
+  if (pool_.rule.unit == GateUnit::Run) pending_.by_cell.push_back(result);
   if (result == RunResult::Failed) ++pool_.failing_runs;
   return result;
 }
 
-RunResult PoolCounter::result_of_run(const Outcome& outcome) {
+RunResult PoolCounter::result_of_run(const Outcome& outcome, RunResult violation) {
+  if (pool_.rule.end_point == EndPoint::Violation) return violation;
   if (pool_.rule.end_point != EndPoint::Throughput) return result_of(outcome, pool_.rule.end_point);
   // A crashed or hung AGV delivers nothing: that the fleet was slow then says nothing about its speed.
   if (result_of(outcome, EndPoint::Crash) != RunResult::Passed) return RunResult::Unknown;
@@ -62,7 +64,7 @@ RunResult PoolCounter::throughput_result(std::uint64_t transports_done, std::uin
 
 void PoolCounter::finish_replicate() {
   if (pool_.cells.empty()) return;
-  ensure(pending_.by_cell.size() == pool_.cells.size(), "a complete replicate has a run in every cell");
+  ensure(pending_.runs == pool_.cells.size(), "a complete replicate has a run in every cell");
   if (pool_.rule.end_point == EndPoint::Throughput && pool_.rule.unit == GateUnit::World &&
       pending_.result == RunResult::Passed) {
     pending_.result = throughput_result(pending_.transports_done, pending_.agv_us, pending_.foreign_body_lay);
@@ -79,7 +81,7 @@ void PoolCounter::finish_replicate() {
 
 void PoolCounter::add(const QuietReplicates& quiet) {
   ensure(pool_.rule.end_point != EndPoint::Throughput, "whether a run was slow is not known of many together");
-  ensure(pending_.by_cell.empty(), "whole replicates follow whole replicates");
+  ensure(pending_.runs == 0, "whole replicates follow whole replicates");
   if (pool_.cells.empty()) return;
   if (pool_.rule.unit != GateUnit::AgvHour) {
     pool_.units += quiet.replicates;

@@ -35,8 +35,9 @@ class PoolCounter {
   explicit PoolCounter(Pool pool);
 
   // The next run of one of the pool's cells, in order of run index. Returns what it says about the end point; the
-  // throughput of a world is not known before the replicate is complete.
-  RunResult add(const RunRecord& run);
+  // throughput of a world is not known before the replicate is complete. `violation`: what it says about the end point
+  // Violation, which is that of most pools.
+  RunResult add(const RunRecord& run, RunResult violation);
   // All runs of the replicate were added.
   void finish_replicate();
   // Instead, for whole replicates in which nothing went wrong. Requires: the end point is not Throughput.
@@ -53,10 +54,11 @@ class PoolCounter {
     RunResult result = RunResult::Passed;  // the worst so far: Failed, then Unknown
     std::uint64_t exposure_us = 0, transports_done = 0, agv_us = 0;
     bool foreign_body_lay = false;  // a low throughput is then no finding
-    std::vector<RunResult> by_cell;
+    std::size_t runs = 0;
+    std::vector<RunResult> by_cell;  // of the unit Run
   };
 
-  RunResult result_of_run(const Outcome& outcome);
+  RunResult result_of_run(const Outcome& outcome, RunResult violation);
   RunResult throughput_result(std::uint64_t transports_done, std::uint64_t agv_us, bool foreign_body_lay) const;
   void count_cells();
 

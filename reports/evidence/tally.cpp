@@ -4,12 +4,11 @@
 
 namespace fleetproof {
 
-void Tally::add(const Outcome& outcome) {
-  const auto result = result_of(outcome, EndPoint::Violation);
+Tally Tally::of(const Outcome& outcome, RunResult violation) {
   Tally one;
   one.runs = 1;
-  one.violating_runs = result == RunResult::Failed;
-  one.unknown_runs = result == RunResult::Unknown;
+  one.violating_runs = violation == RunResult::Failed;
+  one.unknown_runs = violation == RunResult::Unknown;
   one.contact_runs = outcome.contact;
   one.hazardous_contact_runs = std::ranges::any_of(
       outcome.violations, [](const Violation& v) { return level_of(v) == ViolationLevel::HazardousContact; });
@@ -23,7 +22,7 @@ void Tally::add(const Outcome& outcome) {
   one.longest_ns = outcome.simulated_ns;
   one.agvs = outcome.agv_count;
   one.min_clearance_um = outcome.min_clearance_um;
-  add(one);
+  return one;
 }
 
 void Tally::add(const Tally& other) {

@@ -23,7 +23,8 @@ struct Tally {
   std::uint32_t agvs = 0;        // the largest fleet
   std::optional<std::int64_t> min_clearance_um;
 
-  void add(const Outcome& outcome);
+  // Of one run. `violation`: what it says about the end point Violation, which its reader asks for more than once.
+  static Tally of(const Outcome& outcome, RunResult violation);
   void add(const Tally& other);
   void add(const QuietRuns& quiet);
   double agv_hours() const { return static_cast<double>(agv_us) / 3.6e9; }

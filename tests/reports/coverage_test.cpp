@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "tests/reports/sample_campaign.hpp"
@@ -60,6 +61,35 @@ TEST(Coverage, ACopyCountsForItself) {
   first.add(other);
   EXPECT_EQ(first.seen("crossing").runs, 1u);
   EXPECT_EQ(total.seen("crossing").runs, 3u);
+}
+
+// Replicate after replicate, with more names than are remembered, and into another total in between.
+TEST(Coverage, EmptiesAllThatItCounted) {
+  Coverage pending;
+  std::array<Coverage, 2> totals, wanted;
+  for (int replicate = 0; replicate < 60; ++replicate) {
+    const std::size_t into = replicate % 11 == 5 ? 1 : 0;
+    for (int run = 0; run < 3; ++run) {
+      std::vector<ProbeCount> met{{ProbeSource::World, "crossing", 2}};
+      const int names = replicate < 20 ? 5 : 40;
+      for (int i = 0; i < names; ++i)
+        met.push_back({ProbeSource::Agent, "p" + std::to_string((replicate * 3 + run * 37 + i) % 90), 1});
+      const Outcome outcome = with(std::move(met));
+      pending.add(outcome);
+      wanted[into].add(outcome);
+    }
+    pending.empty_into(totals[into]);
+    EXPECT_EQ(pending.seen("crossing").runs, 0u);
+  }
+  for (std::size_t i = 0; i < totals.size(); ++i) {
+    EXPECT_EQ(totals[i].runs(), wanted[i].runs());
+    EXPECT_EQ(totals[i].seen("encounter").times, 2 * wanted[i].runs());
+    ASSERT_EQ(totals[i].by_agents().size(), wanted[i].by_agents().size());
+    for (const auto& [name, seen] : wanted[i].by_agents()) {
+      EXPECT_EQ(totals[i].seen(name).runs, seen.runs) << name;
+      EXPECT_EQ(totals[i].seen(name).times, seen.times) << name;
+    }
+  }
 }
 
 // More names than a run has, in another order each time.
