@@ -136,7 +136,7 @@ std::string told_apart_by(const Circumstances& before, const Circumstances& now)
       const double value = values[values.size() / 2];
       return value == kNever_s ? std::string("never") : fmt::format("{:.1f}", value);
     };
-    text = fmt::format("{}: {}, before {}", figure, median(found->second), median(then));
+    text = fmt::format("\"{}\" is {}, and was {}", figure, median(found->second), median(then));
   }
   return text;
 }

@@ -190,7 +190,7 @@ void compare_signs(const NeighbourCounts& before, Retest& result, const Neighbou
   std::string sign = new_word(now, before.said.ever);
   if (sign.empty() && std::ranges::none_of(others, may_be_other)) {
     const std::string apart = told_apart_by(before.circumstances, now.circumstances);
-    if (!apart.empty()) sign = fmt::format("in the median of the first that fail, {}", apart);
+    if (!apart.empty()) sign = fmt::format("{} (medians; \"later\" is the AGV that set off last)", apart);
   }
   if (sign.empty()) return;
   result.new_kind = std::move(sign);

@@ -107,7 +107,7 @@ TEST(Circumstances, AreFiveValuesOfManyFailures) {
 
 TEST(Circumstances, TellFailuresApartIfOneKindHasMoreNearlyAlways) {
   const Circumstances before = of_values(20, 0.0, 1.0);
-  EXPECT_THAT(told_apart_by(before, of_values(20, 19.0, 1.0)), HasSubstr("came (s): 29.0, before 10.0"));
+  EXPECT_THAT(told_apart_by(before, of_values(20, 19.0, 1.0)), testing::StrEq("\"came (s)\" is 29.0, and was 10.0"));
   EXPECT_NE(told_apart_by(of_values(20, 19.0, 1.0), before), "") << "less tells, too";
   EXPECT_EQ(told_apart_by(before, before), "");
   EXPECT_EQ(told_apart_by(before, of_values(20, 10.0, 1.0)), "") << "seven in eight";
@@ -136,7 +136,7 @@ TEST(Circumstances, AreComparedWorldByWorld) {
 }
 
 TEST(Circumstances, WhatNeverHappenedIsSaid) {
-  EXPECT_THAT(told_apart_by(of_values(10, 2.0, 0.0), of_values(10, kNever_s, 0.0)), HasSubstr("never, before 2.0"));
+  EXPECT_THAT(told_apart_by(of_values(10, 2.0, 0.0), of_values(10, kNever_s, 0.0)), HasSubstr("is never, and was 2.0"));
 }
 
 }  // namespace
