@@ -275,7 +275,8 @@ Retest retest(CaseHost& host, const KeptFailure& found, const NeighbourCounts& b
     result.verdict = verdict_of_none(host, kept, before, result);
   }
   if (result.verdict != RetestVerdict::NewKind && now.alike > 0) compare_signs(before, result, now);
-  const bool is_sure = result.verdict == RetestVerdict::StillThere || result.verdict == RetestVerdict::NewKind;
+  const bool is_sure = result.verdict == RetestVerdict::NewKind ||
+                       (result.verdict == RetestVerdict::StillThere && (result.case_fails || now.alike >= kFewestNew));
   if (!is_sure) judge_whole_runs(host, found, before, known, result);
   return result;
 }

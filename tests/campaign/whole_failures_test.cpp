@@ -59,6 +59,29 @@ TEST(WholeRuns, ShowWhatIsBrokenInstead) {
       << "that explains only so many";
 }
 
+// One or two failures of neighbours do not say of what kind they are: the whole runs do.
+TEST(WholeRuns, AreAskedWhereHardlyAnyNeighbourFails) {
+  Bench bench("timeout-grant");
+  Known known = known_failure(bench);
+  known.kept.smallest = with_fates_only(known.kept.smallest, {});
+  const auto lose = [&](double share) {
+    known.kept.world.radio.loss = share;
+    for (Scenario& world : known.kept.other_worlds) world.radio.loss = share;
+    return retest(bench.host, known.kept, known.before, kSome);
+  };
+  double share = 0.4;
+  Retest few = lose(share);
+  while (few.now.alike > 2) few = lose(share *= 0.8);
+  ASSERT_GT(few.now.alike, 0U);
+  EXPECT_EQ(few.verdict, RetestVerdict::StillThere);
+  known.kept.runs = {bench.failing(125)};
+  EXPECT_EQ(lose(share).verdict, RetestVerdict::StillThere);
+  known.kept.ways = {{"obstacles"}};
+  const Retest other = lose(share);
+  EXPECT_EQ(other.whole_runs.of, kWholeRuns);
+  EXPECT_EQ(other.verdict, RetestVerdict::NewKind);
+}
+
 // Half a mend may change nothing in the worlds.
 TEST(WholeRuns, ThatFailMoreSeldomAreNoDodge) {
   Bench bench("timeout-grant");
