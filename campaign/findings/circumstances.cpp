@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
+
+#include "campaign/explain/set_offs.hpp"
 
 namespace fleetproof {
 namespace {
@@ -13,15 +14,11 @@ namespace {
 constexpr std::size_t kFewest = 8;
 constexpr double kNearlyAlways = 0.95, kAlike = 0.25;
 
-// The drive or turn that an AGV began last; absent: none.
-std::optional<Departure> last_begun(const Whereabouts& whereabouts, EntityId agv, SimTime until) {
-  std::optional<Departure> last;
-  for (const auto* begun : {&whereabouts.departures, &whereabouts.turns}) {
-    for (const Departure& one : *begun) {
-      if (one.agv == agv && one.at <= until && (!last || one.at > last->at)) last = one;
-    }
-  }
-  return last;
+// The drive or turn that an AGV began last. Null: none.
+const Departure* last_begun(const Whereabouts& whereabouts, EntityId agv, SimTime until) {
+  const Departure* const drive = last_departure(whereabouts.departures, agv, until);
+  const Departure* const turn = last_departure(whereabouts.turns, agv, until);
+  return drive == nullptr || (turn != nullptr && turn->at > drive->at) ? turn : drive;
 }
 
 class Observer {
@@ -31,14 +28,14 @@ class Observer {
   }
 
   void look_at(EntityId agv, EntityId other, const std::string& who) {
-    const auto begun = last_begun(run_.whereabouts, agv, at_);
-    const SimTime rests_since = begun ? begun->arrives : kStart;
+    const Departure* const begun = last_begun(run_.whereabouts, agv, at_);
+    const SimTime rests_since = begun != nullptr ? begun->arrives : kStart;
     found_[who + ": stood (s)"] = std::max(0.0, to_seconds(at_ - rests_since));
-    found_[who + ": set off (s before)"] = begun ? to_seconds(at_ - begun->at) : kNever_s;
+    found_[who + ": set off (s before)"] = begun != nullptr ? to_seconds(at_ - begun->at) : kNever_s;
     found_[who + ": restarted (s before)"] = since_restart_s(agv);
     found_[who + ": drives"] = static_cast<double>(count_drives(agv));
     look_at_messages(agv, other, at_, who);
-    if (begun) look_at_messages(agv, other, begun->at, who + ", setting off");
+    if (begun != nullptr) look_at_messages(agv, other, begun->at, who + ", setting off");
   }
   std::map<std::string, double> take() { return std::move(found_); }
 
@@ -46,9 +43,8 @@ class Observer {
   double since_restart_s(EntityId agv) const {
     double since_s = kNever_s;
     for (const Fault& fault : scenario_.faults) {
-      const bool restarts = fault.kind == Fault::Kind::Restart || fault.kind == Fault::Kind::PowerFailure;
       const SimTime began = kStart + fault.at;
-      if (restarts && fault.agv == agv && !fault.transport && began <= at_)
+      if (stops_computer(fault.kind) && fault.agv == agv && !fault.transport && began <= at_)
         since_s = std::min(since_s, to_seconds(at_ - began));
     }
     return since_s;
@@ -96,8 +92,8 @@ std::map<std::string, double> circumstances_of(const CaseRun& run, const Scenari
   if (!failure || !is_agv(failure->a) || !is_agv(failure->b)) return {};
   EntityId later = failure->a, other = failure->b;
   const auto begun_at = [&](EntityId agv) {
-    const auto begun = last_begun(run.whereabouts, agv, failure->at);
-    return begun ? begun->at : SimTime::min();
+    const Departure* const begun = last_begun(run.whereabouts, agv, failure->at);
+    return begun != nullptr ? begun->at : SimTime::min();
   };
   if (begun_at(other) > begun_at(later)) std::swap(later, other);
   Observer observer(run, scenario, failure->at);

@@ -15,8 +15,8 @@ namespace fleetproof::agents {
 // both. Such stations form chains. No quickest way turns round in a chain: it enters at one end and leaves at the
 // other. A search that knows the chains looks at their ends only.
 struct ChainPlace {
-  // The stations beside the chain, and the time to each of them and from it along the chain; infinite against the
-  // lanes. Of a station that is in no chain: the station itself, and nothing.
+  // The two stations at which the chain ends, and the time along the chain to each of them and from it; infinite
+  // where the lanes lead the other way. Of a station that is in no chain: the station itself, and nothing.
   std::array<std::uint32_t, 2> end{FP_NONE, FP_NONE};
   std::array<double, 2> to_end_s{INFINITY, INFINITY}, from_end_s{INFINITY, INFINITY};
   std::uint32_t chain = FP_NONE;  // the lane by which it is entered from the first end; FP_NONE: it is in none

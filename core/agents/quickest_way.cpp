@@ -181,7 +181,7 @@ QuickestWay::QuickestWay(const fp_facts& facts, const MapView& map, const Routes
   if (landmark_count_ > 0) landmarks_s_ = ask<double>(facts, derive_landmarks, model);
 }
 
-// The time from a landmark, or to it. The tables know it of stations that are in no chain.
+// The time from a landmark, or to it. The tables hold it for stations outside of chains only.
 double QuickestWay::landmark_s(std::uint32_t column, std::uint32_t station) const {
   const ChainPlace& place = places_[station];
   const auto& beside_s = column % 2 == 0 ? place.from_end_s : place.to_end_s;

@@ -13,9 +13,6 @@ Halt::Reason halt_of(Fault::Kind kind) {
   return kind == Fault::Kind::ProtectiveStop ? Halt::Reason::ProtectiveStop : Halt::Reason::Breakdown;
 }
 
-// The agent is destroyed when the fault strikes, and made again when it is over.
-bool stops_computer(Fault::Kind kind) { return kind == Fault::Kind::Restart || kind == Fault::Kind::PowerFailure; }
-
 bool concerns_agent(Fault::Kind kind) { return kind == Fault::Kind::Restart || kind == Fault::Kind::Freeze; }
 
 }  // namespace

@@ -104,7 +104,7 @@ class TraceBlock {
   }
   SimTime at(std::size_t place) const { return SimTime{Duration{static_cast<std::int64_t>(word(bytes_from(place)))}}; }
   TraceKind kind(std::size_t place) const { return static_cast<TraceKind>(word(bytes_from(place) + 8) >> 32); }
-  // The messages that were sent, in their order, and how long they are.
+  // The messages sent, in their order, with their sizes.
   struct Sent {
     std::uint32_t place, bytes;
   };
@@ -144,7 +144,7 @@ class TraceBlock {
   std::size_t sent_count_ = 0;
 };
 
-// Some records of a block. Whoever keeps the part keeps its block.
+// Some records of a block, which lives as long as the part.
 struct TracePart {
   std::shared_ptr<const TraceBlock> block;
   std::uint32_t begin = 0, end = 0;  // places

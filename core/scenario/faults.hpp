@@ -54,6 +54,10 @@ constexpr const char* name_of(Fault::Kind kind) {
 constexpr bool holds_agv(Fault::Kind kind) {
   return kind == Fault::Kind::Breakdown || kind == Fault::Kind::ProtectiveStop || kind == Fault::Kind::PowerFailure;
 }
+// Whether the agent is away while the fault lasts, and starts anew after it.
+constexpr bool stops_computer(Fault::Kind kind) {
+  return kind == Fault::Kind::Restart || kind == Fault::Kind::PowerFailure;
+}
 
 // The laser scanner of an AGV. It stops the AGV when a body is in its protective field, and lets the AGV go on some
 // time after the field is clear. The field is a rectangle before the front of the AGV. Its length is v * reaction + v^2
