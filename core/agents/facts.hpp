@@ -47,10 +47,11 @@ void answer(const fp_facts& facts, fp_answer* to, const std::vector<T>& table) {
 // Several tables in one answer. They are read in the order in which they were added.
 class TableWriter {
  public:
-  template <class T>
-  void add(const std::vector<T>& table) {
-    static_assert(std::is_trivially_copyable_v<T> && alignof(T) <= kAlignment);
-    add_bytes(table.data(), table.size(), table.size() * sizeof(T));
+  template <class... Ts>
+  void add(const std::vector<Ts>&... tables) {
+    static_assert(((std::is_trivially_copyable_v<Ts> && alignof(Ts) <= kAlignment) && ...));
+    bytes_.reserve(bytes_.size() + (... + (sizeof(std::uint64_t) + kAlignment + tables.size() * sizeof(Ts))));
+    (add_bytes(tables.data(), tables.size(), tables.size() * sizeof(Ts)), ...);
   }
   const std::vector<std::byte>& bytes() const { return bytes_; }
 
@@ -58,10 +59,13 @@ class TableWriter {
 
  private:
   void add_bytes(const void* first, std::uint64_t count, std::size_t size) {
-    const std::size_t at = bytes_.size();
-    bytes_.resize(at + sizeof(count) + (size + kAlignment - 1) / kAlignment * kAlignment);
-    std::memcpy(bytes_.data() + at, &count, sizeof(count));
-    if (size > 0) std::memcpy(bytes_.data() + at + sizeof(count), first, size);
+    const auto put = [&](const void* from, std::size_t length) {
+      const auto* bytes = static_cast<const std::byte*>(from);
+      bytes_.insert(bytes_.end(), bytes, bytes + length);
+    };
+    put(&count, sizeof(count));
+    if (size > 0) put(first, size);
+    bytes_.resize((bytes_.size() + kAlignment - 1) / kAlignment * kAlignment);
   }
 
   std::vector<std::byte> bytes_;

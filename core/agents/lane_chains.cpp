@@ -29,12 +29,16 @@ std::uint32_t lane_on(const MapView& map, std::uint32_t station, std::uint32_t b
 
 }  // namespace
 
-LaneChains::LaneChains(const MapView& map, std::span<const double> times_s) : places(map.station_count()) {
+LaneChains::LaneChains(const MapView& map, std::span<const double> times_s)
+    : places(map.station_count()), may_be_inside_(map.station_count()) {
+  arcs.reserve(map.lane_count());
+  for (std::uint32_t station = 0; station < map.station_count(); ++station)
+    may_be_inside_[station] = may_be_inside(map, station) ? 1 : 0;
   for (std::uint32_t head = 0; head < map.station_count(); ++head) {
-    if (may_be_inside(map, head)) continue;
+    if (may_be_inside_[head] != 0) continue;
     for (const std::uint32_t lane : map.lanes_from(head)) {
       const std::uint32_t next = map.lane(lane).to;
-      if (may_be_inside(map, next) && !places[next].is_inside()) follow(map, times_s, lane);
+      if (may_be_inside_[next] != 0 && !places[next].is_inside()) follow(map, times_s, lane);
     }
   }
   // A ring of stations that could be inside has no end, and is no chain.
@@ -53,7 +57,7 @@ void LaneChains::follow(const MapView& map, std::span<const double> times_s, std
   std::vector<std::uint32_t> inside;
   double there_s = times_s[first], back_s = 0.0;
   std::uint32_t before = head, station = map.lane(first).to;
-  while (may_be_inside(map, station)) {
+  while (may_be_inside_[station] != 0) {
     const std::uint32_t back = lane_between(map, station, before);
     back_s += back == FP_NONE ? INFINITY : times_s[back];
     inside.push_back(station);

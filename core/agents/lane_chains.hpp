@@ -39,6 +39,8 @@ struct LaneChains {
 
  private:
   void follow(const MapView& map, std::span<const double> times_s, std::uint32_t first);
+
+  std::vector<std::uint8_t> may_be_inside_;  // by station
 };
 
 }  // namespace fleetproof::agents

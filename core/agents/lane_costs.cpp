@@ -44,6 +44,7 @@ std::span<const double> lane_times_s(const fp_facts& facts, std::uint32_t agv) {
         const MapView map(*from);
         const fp_agv& like = agv_of(*from, static_cast<std::uint32_t>(model));
         std::vector<double> times_s;
+        times_s.reserve(map.lane_count());
         for (std::uint32_t id = 0; id < map.lane_count(); ++id) times_s.push_back(lane_time_s(map, id, like));
         answer(*from, to, times_s);
       },

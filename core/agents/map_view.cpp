@@ -37,6 +37,7 @@ std::vector<std::byte> MapView::work_out() const {
   std::vector<Vec> start_headings, end_headings;
   std::vector<std::uint8_t> two_way(map_.segment_count, 0);
   std::vector<std::uint32_t> first_from(map_.segment_count, FP_NONE), arriving_begin(station_count() + 1, 0);
+  start_headings.reserve(lane_count()), end_headings.reserve(lane_count());
   for (std::uint32_t id = 0; id < lane_count(); ++id) {
     const fp_lane& l = lane(id);
     const fp_pose& start = arc(l, 0).start;
@@ -52,9 +53,7 @@ std::vector<std::byte> MapView::work_out() const {
   std::vector<std::uint32_t> arriving(lane_count()), next = arriving_begin;
   for (std::uint32_t id = 0; id < lane_count(); ++id) arriving[next[lane(id).to]++] = id;
   TableWriter tables;
-  tables.add(start_headings), tables.add(end_headings), tables.add(two_way);
-  tables.add(arriving), tables.add(arriving_begin);
-  tables.add(short_names(*this));
+  tables.add(start_headings, end_headings, two_way, arriving, arriving_begin, short_names(*this));
   return tables.bytes();
 }
 

@@ -8,36 +8,35 @@
 namespace fleetproof::agents {
 
 // Places of a search, the nearest first to within a width: a heap that sorts them exactly costs several times as much
-// as all else that a search does with a place. Of places within one width, those come first that were put first. A
+// as all else that a search does with a place. Of places within one width, those come first that were put last. A
 // search that looks at a place again when it finds it nearer ends with the same figures for any such order.
 class NearQueue {
  public:
   // Forgets what it holds. Requires: width > 0; no place is nearer than `nearest`, but for rounding.
   void begin(double nearest, double width) {
-    std::fill_n(buckets_.begin(), used_, Bucket{});
-    entries_.clear();
+    std::fill_n(newest_.begin(), used_, kNone);
+    count_ = 0;
     far_.clear();
     nearest_ = nearest;
     width_ = width;
+    per_width_ = 1.0 / width;
     current_ = used_ = 0;
   }
 
   // Nearer than places that were taken already: it comes next.
   void push(double distance, std::uint32_t place) {
-    const double widths = (distance - nearest_) / width_;
+    const double widths = (distance - nearest_) * per_width_;
     if (!(widths < static_cast<double>(kBuckets))) return push_far(distance, place);
-    const auto number = std::max(current_, static_cast<std::uint32_t>(std::max(widths, 0.0)));
-    const auto entry = static_cast<std::uint32_t>(entries_.size());
-    entries_.push_back({place, kNone});
-    Bucket& bucket = buckets_[number];
-    (bucket.first == kNone ? bucket.first : entries_[bucket.last].next) = entry;
-    bucket.last = entry;
-    used_ = std::max(used_, number + 1);
+    const auto bucket = static_cast<std::uint32_t>(std::max<std::int64_t>(current_, static_cast<std::int64_t>(widths)));
+    if (count_ == entries_.size()) grow();
+    entries_[count_] = {place, newest_[bucket]};
+    newest_[bucket] = count_++;
+    used_ = std::max(used_, bucket + 1);
   }
 
   // False: there is none. The next place is at least so far.
   bool find_next() {
-    while (current_ < used_ && buckets_[current_].first == kNone) ++current_;
+    while (current_ < used_ && newest_[current_] == kNone) ++current_;
     return current_ < used_ || !far_.empty();
   }
   // Requires: find_next() was true after the last change.
@@ -46,19 +45,15 @@ class NearQueue {
   }
   std::uint32_t pop() {
     if (current_ == used_) return pop_far();
-    Bucket& bucket = buckets_[current_];
-    const auto [place, next] = entries_[bucket.first];
-    bucket.first = next;
+    const auto [place, before] = entries_[newest_[current_]];
+    newest_[current_] = before;
     return place;
   }
 
  private:
   static constexpr std::uint32_t kBuckets = 4096, kNone = ~std::uint32_t{0};
   struct Entry {
-    std::uint32_t place, next;
-  };
-  struct Bucket {
-    std::uint32_t first = kNone, last = kNone;
+    std::uint32_t place, before;
   };
   struct Far {
     double distance;
@@ -66,21 +61,24 @@ class NearQueue {
   };
   static bool is_later(const Far& a, const Far& b) { return a.distance > b.distance; }
 
-  void push_far(double distance, std::uint32_t place) {
+  // Seldom, and not inline: push() is small.
+  [[gnu::noinline]] void grow() { entries_.resize(2 * entries_.size() + 64); }
+  [[gnu::noinline]] void push_far(double distance, std::uint32_t place) {
     far_.push_back({distance, place});
     std::ranges::push_heap(far_, is_later);
   }
-  std::uint32_t pop_far() {
+  [[gnu::noinline]] std::uint32_t pop_far() {
     std::ranges::pop_heap(far_, is_later);
     const std::uint32_t place = far_.back().place;
     far_.pop_back();
     return place;
   }
 
-  double nearest_ = 0.0, width_ = 1.0;
-  std::uint32_t current_ = 0, used_ = 0;  // buckets
-  std::vector<Bucket> buckets_ = std::vector<Bucket>(kBuckets);
-  std::vector<Entry> entries_;
+  double nearest_ = 0.0, width_ = 1.0, per_width_ = 1.0;
+  std::uint32_t current_ = 0, used_ = 0;                                             // buckets
+  std::vector<std::uint32_t> newest_ = std::vector<std::uint32_t>(kBuckets, kNone);  // entry of each bucket
+  std::vector<Entry> entries_;                                                       // the first count_
+  std::uint32_t count_ = 0;
   std::vector<Far> far_;  // heap of what lies beyond all buckets
 };
 

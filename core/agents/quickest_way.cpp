@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "core/agents/lane_chains.hpp"
 #include "core/agents/lane_costs.hpp"
@@ -12,8 +14,9 @@ namespace {
 
 // Sums of the same times in another order differ by less.
 constexpr double kRounding = 1e-9;
+constexpr double kSurelyTakes_s = 1e-3;  // more than rounding, on any way of less than a week
 // Small maps are searched sooner than their landmarks.
-constexpr std::uint32_t kFewestStations = 1000, kLandmarks = 4;
+constexpr std::uint32_t kFewestStations = 1000, kLandmarks = QuickestWay::kLandmarks;
 constexpr std::size_t kWidthsInALane = 4;
 
 struct Open {
@@ -51,22 +54,20 @@ struct Steps {
   std::vector<QuickestWay::Step> steps;
   std::vector<std::uint32_t> first;  // by station, and one more
 
-  Steps(const LaneChains& chains, bool back) : steps(chains.arcs.size()), first(chains.places.size() + 1) {
-    for (const ChainArc& arc : chains.arcs) ++first[(back ? arc.to : arc.from) + 1];
+  Steps(std::span<const ChainArc> arcs, std::size_t stations, bool back) : steps(arcs.size()), first(stations + 1) {
+    for (const ChainArc& arc : arcs) ++first[(back ? arc.to : arc.from) + 1];
     for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
     std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
-    for (const ChainArc& arc : chains.arcs)
-      steps[next[back ? arc.to : arc.from]++] = {arc.time_s, back ? arc.from : arc.to};
+    for (const ChainArc& arc : arcs) steps[next[back ? arc.to : arc.from]++] = {arc.time_s, back ? arc.from : arc.to};
   }
 };
 
 void derive_plant(const fp_facts* from, std::uint64_t agv, fp_answer* to) {
   const auto lane_s = lane_times_s(*from, static_cast<std::uint32_t>(agv));
   const LaneChains chains(MapView(*from), lane_s);
-  const Steps back(chains, true);
+  const Steps back(chains.arcs, chains.places.size(), true);
   TableWriter tables;
-  tables.add(chains.places), tables.add(back.steps), tables.add(back.first);
-  tables.add(std::vector<double>{width_s(lane_s)});
+  tables.add(chains.places, back.steps, back.first, std::vector<double>{width_s(lane_s)}, chains.arcs);
   answer(*from, to, tables.bytes());
 }
 
@@ -95,25 +96,26 @@ std::vector<double> least_times_s(NearQueue& open, double width_s, const Steps& 
 // Each landmark is the station that is farthest from all landmarks before it, of those that they reach and that are in
 // no chain. Searches ask for those only.
 void derive_landmarks(const fp_facts* from, std::uint64_t agv, fp_answer* to) {
-  const MapView map(*from);
-  const auto lane_s = lane_times_s(*from, static_cast<std::uint32_t>(agv));
-  const LaneChains chains(map, lane_s);
-  const Steps onward(chains, false), back(chains, true);
-  std::vector<double> table(std::size_t{2} * kLandmarks * map.station_count());
-  std::vector<double> apart_s(map.station_count(), INFINITY);
+  TableReader plant(ask<std::byte>(*from, derive_plant, agv));
+  const auto places = plant.next<ChainPlace>();
+  plant.next<QuickestWay::Step>(), plant.next<std::uint32_t>();
+  const double width = plant.next<double>().front();
+  const auto arcs = plant.next<ChainArc>();
+  const Steps onward(arcs, places.size(), false), back(arcs, places.size(), true);
+  std::vector<double> table(std::size_t{2} * kLandmarks * places.size());
+  std::vector<double> apart_s(places.size(), INFINITY);
   NearQueue open;
-  const double width = width_s(lane_s);
-  std::uint32_t landmark = chains.places.front().end[0];
+  std::uint32_t landmark = places.front().end[0];
   for (std::uint32_t i = 0; i < kLandmarks; ++i) {
     const auto there_s = least_times_s(open, width, onward, landmark),
                back_s = least_times_s(open, width, back, landmark);
-    for (std::uint32_t station = 0; station < map.station_count(); ++station) {
-      if (chains.places[station].is_inside()) {
+    for (std::uint32_t station = 0; station < places.size(); ++station) {
+      if (places[station].is_inside()) {
         apart_s[station] = 0.0;
         continue;
       }
       double* row = table.data() + std::size_t{2} * (std::size_t{kLandmarks} * station + i);
-      row[0] = there_s[station], row[1] = back_s[station];
+      row[0] = there_s[station], row[1] = -back_s[station];
       if (there_s[station] < INFINITY) apart_s[station] = std::min(apart_s[station], there_s[station]);
       if (apart_s[station] == INFINITY) apart_s[station] = 0.0;
     }
@@ -171,61 +173,56 @@ QuickestWay::QuickestWay(const fp_facts& facts, const MapView& map, const Routes
     : map_(map),
       routes_(routes),
       times_s_(lane_times_s(facts, agv)),
-      landmark_count_(map.station_count() < kFewestStations ? 0 : kLandmarks) {
+      has_landmarks_(map.station_count() >= kFewestStations) {
   const std::uint32_t model = model_of(facts, agv);
   TableReader tables(ask<std::byte>(facts, derive_plant, model));
   places_ = tables.next<ChainPlace>();
   steps_back_ = tables.next<Step>();
   first_steps_ = tables.next<std::uint32_t>();
   width_s_ = tables.next<double>().front();
-  if (landmark_count_ > 0) landmarks_s_ = ask<double>(facts, derive_landmarks, model);
+  if (has_landmarks_) landmarks_s_ = ask<double>(facts, derive_landmarks, model);
 }
 
-// The time from a landmark, or to it. The tables hold it for stations outside of chains only.
+// The time from a landmark, or to it below zero. The tables hold it for stations outside of chains only.
 double QuickestWay::landmark_s(std::uint32_t column, std::uint32_t station) const {
   const ChainPlace& place = places_[station];
-  const auto& beside_s = column % 2 == 0 ? place.from_end_s : place.to_end_s;
-  const double* rows = landmarks_s_.data() + column;
-  const auto of = [&](std::size_t i) { return beside_s[i] + rows[std::size_t{2} * landmark_count_ * place.end[i]]; };
-  return place.is_inside() ? std::min(of(0), of(1)) : of(0);
+  const auto at_end_s = [&](std::size_t i) {
+    return landmarks_s_[std::size_t{2} * kLandmarks * place.end[i] + column];
+  };
+  if (!place.is_inside()) return at_end_s(0);
+  if (column % 2 == 0) return std::min(place.from_end_s[0] + at_end_s(0), place.from_end_s[1] + at_end_s(1));
+  return std::max(at_end_s(0) - place.to_end_s[0], at_end_s(1) - place.to_end_s[1]);
 }
 
-// A way that begins at a landmark, or ends there, is not shorter for a detour. The few landmarks that know most about
-// the whole way know nearly as much about its parts as all together.
-QuickestWay::Bound QuickestWay::bound_between(std::uint32_t from, std::uint32_t to) const {
-  Bound bound;
-  std::array<double, Bound::kTerms> best_s{};  // the best first
-  for (std::uint32_t column = 0; column < 2 * landmark_count_; ++column) {
-    Bound::Term term{column % 2 == 0 ? 1.0 : -1.0, 0.0, column};
-    term.here_s = term.sign * landmark_s(column, from);
-    double least_s = term.sign * landmark_s(column, to) - term.here_s;
-    for (std::size_t i = 0; i < Bound::kTerms; ++i) {
-      if (!(least_s > best_s[i])) continue;
-      std::swap(least_s, best_s[i]);
-      std::swap(term, bound.terms[i]);
-    }
-  }
+QuickestWay::Bound QuickestWay::bound_from(std::uint32_t station) const {
+  Bound bound{};
+  for (std::uint32_t column = 0; has_landmarks_ && column < bound.size(); ++column)
+    bound[column] = landmark_s(column, station);
   return bound;
 }
 
-double QuickestWay::least_s(const Bound& bound, std::uint32_t station) const {
-  if (landmark_count_ == 0) return 0.0;
+// A way that begins at a landmark, or ends there, is not shorter for a detour.
+inline double QuickestWay::least_s(const Bound& bound, std::uint32_t station) const {
+  if (!has_landmarks_) return 0.0;
   double least_s = 0.0;
-  const double* there = landmarks_s_.data() + std::size_t{2} * landmark_count_ * station;
-  for (const auto& [sign, here_s, column] : bound.terms) least_s = std::max(least_s, sign * there[column] - here_s);
+  const double* there = landmarks_s_.data() + bound.size() * station;
+#pragma GCC unroll 8
+  for (std::size_t column = 0; column < bound.size(); ++column)
+    least_s = std::max(least_s, there[column] - bound[column]);
   return least_s * (1.0 - kRounding);
 }
 
 void QuickestWay::search_back(Desk& desk, std::uint32_t from, std::uint32_t to) const {
-  const Bound bound = bound_between(from, to);
+  const Bound bound = bound_from(from);
   const auto until = [](double way_s) { return way_s * (1.0 + 10.0 * kRounding); };  // all that may be as quick
-  const auto reach = [&](std::uint32_t station, double remains_s, double until_s) {
+  NearQueue& open = desk.open_back;
+  const auto reach = [&, bound](std::uint32_t station, double remains_s, double until_s) {
     Desk::Station& known = desk.known_back(station);
     if (remains_s >= known.remains_s) return;
     const double with_start_s = remains_s + least_s(bound, station);
     if (with_start_s > until_s) return;
     known.remains_s = remains_s;
-    desk.open_back.push(with_start_s, station);
+    open.push(with_start_s, station);
   };
   const ChainPlace &start = places_[from], &goal = places_[to];
   double nearest_s = INFINITY;
@@ -238,8 +235,8 @@ void QuickestWay::search_back(Desk& desk, std::uint32_t from, std::uint32_t to) 
   for (std::size_t i = 0; i < 2; ++i) {
     if (goal.from_end_s[i] < INFINITY) reach(goal.end[i], goal.from_end_s[i], until_s);
   }
-  while (desk.open_back.find_next() && desk.open_back.next_distance() <= until_s) {
-    const std::uint32_t here = desk.open_back.pop();
+  while (open.find_next() && open.next_distance() <= until_s) {
+    const std::uint32_t here = open.pop();
     Desk::Station& station = desk.stations[here];
     const double so_far_s = station.remains_s;
     if (so_far_s >= station.looked_from_s) continue;
@@ -248,8 +245,8 @@ void QuickestWay::search_back(Desk& desk, std::uint32_t from, std::uint32_t to) 
       if (here == start.end[i]) until_s = std::min(until_s, until(so_far_s + start.to_end_s[i]));
     }
     if (here == from) continue;
-    for (std::uint32_t i = first_steps_[here]; i < first_steps_[here + 1]; ++i)
-      reach(steps_back_[i].to, so_far_s + steps_back_[i].time_s, until_s);
+    const auto [first, end] = std::tie(first_steps_[here], first_steps_[here + 1]);
+    for (const Step& step : steps_back_.subspan(first, end - first)) reach(step.to, so_far_s + step.time_s, until_s);
   }
 }
 
@@ -270,8 +267,12 @@ void QuickestWay::plan(std::uint32_t from, std::uint32_t to) {
   search_back(desk, from, to);
   if (remains_s(desk, from, to) == INFINITY) return;
   // A way passes no station twice. If it seems to, the rest is asked for later.
-  for (std::uint32_t at = from; at != to && way_.size() < map_.station_count(); at = map_.lane(way_.back()).to)
-    way_.push_back(quick_lane(desk, at, to));
+  std::uint32_t before = FP_NONE;
+  for (std::uint32_t at = from; at != to && way_.size() < map_.station_count();) {
+    const Hop next = quick_hop(desk, before, at, to);
+    way_.push_back(next.lane);
+    before = std::exchange(at, next.to);
+  }
   std::ranges::reverse(way_);
 }
 
@@ -297,17 +298,24 @@ double QuickestWay::remains_s(const Desk& desk, std::uint32_t station, std::uint
   return least_s;
 }
 
-std::uint32_t QuickestWay::quick_lane(Desk& desk, std::uint32_t from, std::uint32_t to) const {
+// Back to the station before, which lies on the way, is never quick.
+QuickestWay::Hop QuickestWay::quick_hop(Desk& desk, std::uint32_t before, std::uint32_t from, std::uint32_t to) const {
   const auto hops = routes_.hops_from(from);
-  if (hops.size() == 1) return hops.front().lane;
+  if (hops.size() == 1) return hops.front();
+  const auto is_back = [&](const Hop& hop) { return hop.to == before && times_s_[hop.lane] > kSurelyTakes_s; };
+  if (hops.size() == 2 && is_back(hops[0])) return hops[1];
+  if (hops.size() == 2 && is_back(hops[1])) return hops[0];
   const double all_s = remains_s(desk, from, to);
-  std::uint32_t next = FP_NONE, quick = 0;
-  for (const auto& [lane, end] : hops) {
-    if (!is_quick(times_s_[lane] + remains_s(desk, end, to), all_s)) continue;
-    next = lane;
+  Hop next{FP_NONE, FP_NONE};
+  std::uint32_t quick = 0;
+  for (const Hop& hop : hops) {
+    if (is_back(hop) || !is_quick(times_s_[hop.lane] + remains_s(desk, hop.to, to), all_s)) continue;
+    next = hop;
     ++quick;
   }
-  return quick > 1 ? search_forward(desk, from, to) : next;
+  if (quick <= 1) return next;
+  const std::uint32_t lane = search_forward(desk, from, to);
+  return {lane, map_.lane(lane).to};
 }
 
 // The search of Routes::search, but only over stations that lie on a quickest way. All others make no difference to

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -33,27 +34,22 @@ class QuickestWay {
     double time_s;
     std::uint32_t to;
   };
+  static constexpr std::uint32_t kLandmarks = 4;
 
  private:
   struct Desk;
-  // What the landmarks know of the time from the station where a way begins.
-  struct Bound {
-    static constexpr std::size_t kTerms = 4;
-    struct Term {
-      double sign = 0.0, here_s = 0.0;
-      std::uint32_t column = 0;
-    };
-    std::array<Term, kTerms> terms{};
-  };
+  using Hop = Routes::Hop;
+  // What the landmarks know of the station where a way begins: the time from each, and to it below zero.
+  using Bound = std::array<double, 2 * kLandmarks>;
 
   void plan(std::uint32_t from, std::uint32_t to);
-  Bound bound_between(std::uint32_t from, std::uint32_t to) const;
+  Bound bound_from(std::uint32_t station) const;
   double landmark_s(std::uint32_t column, std::uint32_t station) const;
   double least_s(const Bound& bound, std::uint32_t station) const;
   void search_back(Desk& desk, std::uint32_t from, std::uint32_t to) const;
   double along_chain_s(std::uint32_t from, std::uint32_t to) const;
   double remains_s(const Desk& desk, std::uint32_t station, std::uint32_t to) const;
-  std::uint32_t quick_lane(Desk& desk, std::uint32_t from, std::uint32_t to) const;
+  Hop quick_hop(Desk& desk, std::uint32_t before, std::uint32_t from, std::uint32_t to) const;
   std::uint32_t search_forward(Desk& desk, std::uint32_t from, std::uint32_t to) const;
 
   const MapView& map_;
@@ -63,8 +59,8 @@ class QuickestWay {
   std::span<const Step> steps_back_;             // by station where they end
   std::span<const std::uint32_t> first_steps_;   // by station, and one more
   std::span<const ChainPlace> places_;           // by station
-  std::span<const double> landmarks_s_;          // by station: from each landmark, and to it
-  std::uint32_t landmark_count_;                 // 0: the map is small
+  std::span<const double> landmarks_s_;          // by station: from each landmark, and to it below zero
+  bool has_landmarks_;                           // else the map is small
   std::uint32_t goal_ = FP_NONE, at_ = FP_NONE;  // of the last answer, and the station to which it leads
   std::vector<std::uint32_t> way_;               // the lanes from there on, the last first
 };

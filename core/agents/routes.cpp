@@ -73,13 +73,14 @@ Routes::Routes(const MapView& map, const DriveRules& rules) : map_(map), rules_(
 std::vector<std::byte> Routes::hops_of(const MapView& map) {
   std::vector<Hop> hops;
   std::vector<std::uint32_t> first_hops;
+  hops.reserve(map.lane_count()), first_hops.reserve(map.station_count() + 1);
   for (std::uint32_t station = 0; station < map.station_count(); ++station) {
     first_hops.push_back(static_cast<std::uint32_t>(hops.size()));
     for (const std::uint32_t lane : map.lanes_from(station)) hops.push_back({lane, map.lane(lane).to});
   }
   first_hops.push_back(static_cast<std::uint32_t>(hops.size()));
   TableWriter tables;
-  tables.add(hops), tables.add(first_hops);
+  tables.add(hops, first_hops);
   return tables.bytes();
 }
 

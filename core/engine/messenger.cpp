@@ -41,7 +41,7 @@ Messenger::Messenger(RunContext& run, AgentHostPort agents)
       unlimited_range_(covers(floor_of(*run.scenario.map), run.scenario.radio.range_m)),
       needs_places_(!unlimited_range_ || radio_.depends_on_place()),
       slices_(run.agvs.size()),
-      links_(run.agvs.size() * run.agvs.size()),
+      links_(run.agvs.size()),
       hearers_(run.agvs.size()),
       draws_(run.agvs.size() + 3),
       arriving_(run.agvs.size()) {
@@ -86,6 +86,7 @@ void Messenger::transmit(AgvId sender, std::uint32_t slot, std::uint32_t receive
 // Those in range, in ascending order.
 void Messenger::find_hearers(AgvId sender, std::uint32_t receiver, const Vec2& from_m) {
   hearing_ = 0;
+  if (links_[sender.index()].empty()) links_[sender.index()].resize(slices_.size());
   if (receiver != FP_NONE) {
     if (unlimited_range_ || is_in_range(AgvId{receiver}, from_m)) {
       hears(sender, AgvId{receiver});

@@ -69,7 +69,7 @@ class Messenger {
   void find_hearers_in_range(AgvId sender, const Vec2& from_m);
   bool is_in_range(AgvId receiver, const Vec2& from_m) const;
   void hears(AgvId sender, AgvId receiver) {
-    hearers_[hearing_++] = {receiver, links_[sender.index() * slices_.size() + receiver.index()].next(run_.now)};
+    hearers_[hearing_++] = {receiver, links_[sender.index()][receiver.index()].next(run_.now)};
   }
   void deliver_plainly(std::uint32_t slot);
   void deliver(AgvId sender, std::size_t hearer, std::uint32_t slot, const Vec2& from_m);
@@ -88,7 +88,8 @@ class Messenger {
   bool needs_places_;                // the fate of a message depends on where its ends are
   std::optional<RadioReach> reach_;  // if the range is limited
   std::vector<Slice> slices_;        // by AGV
-  std::vector<SentCount> links_;     // by sender and receiver: of messages from the one to the other
+  // By sender and receiver: of messages from the one to the other. A row is empty until its AGV sends.
+  std::vector<std::vector<SentCount>> links_;
   // Of the message being sent: who hears it, in order, in the first `hearing_` places; the draws of each; and room for
   // those at which it arrives.
   std::vector<Hearer> hearers_;

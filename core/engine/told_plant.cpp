@@ -76,6 +76,7 @@ std::unique_ptr<FactStore> ToldPlant::empty_store() const {
 }
 
 void ToldPlant::describe_permissions(const Scenario& scenario) {
+  permissions_.reserve(scenario.map->segment_count());
   for (const Segment& segment : scenario.map->layout().segments) {
     auto& permissions = permissions_.emplace_back();
     for (const auto& [vehicle_type, load] : segment.permissions)
@@ -88,6 +89,7 @@ void ToldPlant::describe_map() {
   std::size_t arc_count = 0;
   for (const Lane& lane : map.lanes()) arc_count += lane.arcs.size();
   arcs_.reserve(arc_count);  // the lanes point into it
+  lanes_.reserve(map.lanes().size()), stations_.reserve(map.station_count());
   for (const Lane& lane : map.lanes()) describe_lane(lane);
   for (const SegmentBlock& block : map.layout().blocks)
     blocks_.push_back({block.name.c_str(), static_cast<std::uint32_t>(block.kind)});

@@ -47,11 +47,11 @@ TEST(NearQueue, BeginsAnew) {
   EXPECT_FALSE(queue.find_next());
 }
 
-TEST(NearQueue, OfPlacesWithinOneWidthTheFirstComesFirst) {
+TEST(NearQueue, OfPlacesWithinOneWidthTheLastComesFirst) {
   NearQueue queue;
   queue.begin(0.0, 1.0);
   queue.push(0.9, 7), queue.push(0.1, 8), queue.push(0.5, 9);
-  for (const std::uint32_t place : {7U, 8U, 9U}) {
+  for (const std::uint32_t place : {9U, 8U, 7U}) {
     ASSERT_TRUE(queue.find_next());
     EXPECT_EQ(queue.pop(), place);
   }
