@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
 
 namespace fleetproof {
 namespace {
@@ -10,7 +12,7 @@ namespace {
 // Sizes of the cells: for drives of one segment, for long drives, for ways across a hall.
 constexpr std::array kCell_m = {12.0, 48.0, 192.0};
 // Half a cell, less what rounding can do to the middle of a box.
-constexpr double kHalf = 0.49;
+constexpr double kHalf = 0.49, kRounding = 0.01;
 // A question over more cells is answered by a scan.
 constexpr std::int64_t kMostCells = 32;
 
@@ -23,36 +25,27 @@ std::int64_t cell(std::uint32_t level, double at_m) {
   return towards_zero - (cells < static_cast<double>(towards_zero));
 }
 
-std::uint32_t level_of(const Box& box) {
+double half_m(const Box& box) {
   const Vec2 size_m = box.high_m - box.low_m;
-  const double half_m = 0.5 * std::max(size_m.x(), size_m.y());
+  return 0.5 * std::max(size_m.x(), size_m.y());
+}
+
+std::uint32_t level_of(double half_m) {
   std::uint32_t level = 0;
   while (level < kCell_m.size() && !(half_m <= kHalf * kCell_m[level])) ++level;
   return level;
 }
 
-using Both [[gnu::vector_size(16)]] = double;
-
-Both both(const std::array<double, 2>& of) {
-  Both result;
-  std::memcpy(&result, of.data(), sizeof result);
-  return result;
-}
-
 }  // namespace
 
-BroadPhase::BroadPhase(std::size_t bodies, std::size_t scanned) : boxes_(bodies), twos_((bodies + 1) / 2) {
-  for (std::size_t i = 0; i < 2 * twos_.size(); ++i) set_scanned(i, Box{});
-  found_.resize(bodies + 2);
-  if (bodies <= scanned) return;
-  heads_.assign(std::bit_ceil(2 * bodies) + 1, kNobody);
+BroadPhase::BroadPhase(std::size_t bodies, std::size_t scanned) : found_(bodies + 2) {
+  if (bodies <= scanned) {
+    twos_.resize((bodies + 1) / 2);
+    return;
+  }
+  boxes_.resize(bodies);
   links_.resize(bodies);
-}
-
-void BroadPhase::set_scanned(std::size_t body, const Box& box) {
-  Two& two = twos_[body / 2];
-  two.left[body % 2] = box.low_m.x(), two.bottom[body % 2] = box.low_m.y();
-  two.right[body % 2] = box.high_m.x(), two.top[body % 2] = box.high_m.y();
+  heads_.assign(std::bit_ceil(2 * bodies) + 1, kNobody);
 }
 
 inline void BroadPhase::look_into(std::size_t chain, const Box& box) {
@@ -69,71 +62,124 @@ inline std::size_t BroadPhase::chain_of(std::uint32_t level, std::int64_t x, std
   return (mixed ^ mixed >> 32) & (heads_.size() - 2);
 }
 
-void BroadPhase::place(std::size_t body, const Box& box) {
-  boxes_[body] = box;
-  set_scanned(body, box);
-  if (!files()) return;
-  const auto id = static_cast<std::uint32_t>(body);
-  const std::uint32_t level = level_of(box);
+inline std::size_t BroadPhase::chain_of(const Box& box, std::uint32_t level) const {
+  if (level == kLevels) return heads_.size() - 1;
   const Vec2 middle_m = 0.5 * (box.low_m + box.high_m);
-  const std::size_t chain =
-      level == kLevels ? heads_.size() - 1 : chain_of(level, cell(level, middle_m.x()), cell(level, middle_m.y()));
+  return chain_of(level, cell(level, middle_m.x()), cell(level, middle_m.y()));
+}
+
+// The next box of a body often belongs where the one before is filed.
+void BroadPhase::file(std::size_t body, const Box& box) {
+  const auto id = static_cast<std::uint32_t>(body);
+  const double half = half_m(box);
+  const std::uint32_t level = level_of(half);
+  widest_m_[level] = std::max(widest_m_[level], half);
+  const std::size_t chain = chain_of(box, level);
+  const bool was_placed = is_placed(body);
+  boxes_[body] = box;
+  if (was_placed) {
+    if (links_[body].chain == chain && links_[body].level == level) return;
+    unlink(id);
+  }
+  link(id, chain, level);
+}
+
+void BroadPhase::take_out(std::size_t body) {
+  if (is_placed(body)) unlink(static_cast<std::uint32_t>(body));
+  boxes_[body] = Box{};
+}
+
+void BroadPhase::link(std::uint32_t body, std::size_t chain, std::uint32_t level) {
   std::uint32_t& head = heads_[chain];
   links_[body] = {kNobody, head, static_cast<std::uint32_t>(chain), level};
-  if (head != kNobody) links_[head].before = id;
-  head = id;
+  if (head != kNobody) links_[head].before = body;
+  head = body;
   ++filed_[level];
 }
 
-void BroadPhase::remove(std::size_t body) {
-  const bool was_placed = boxes_[body].low_m.x() <= boxes_[body].high_m.x();
-  boxes_[body] = Box{};
-  set_scanned(body, Box{});
-  if (!files() || !was_placed) return;
+void BroadPhase::unlink(std::uint32_t body) {
   const auto [before, after, chain, level] = links_[body];
   (before == kNobody ? heads_[chain] : links_[before].after) = after;
   if (after != kNobody) links_[after].before = before;
   --filed_[level];
 }
 
-std::span<const std::uint32_t> BroadPhase::overlapping(const Box& box) {
+void BroadPhase::find_filed(const Box& box) {
   count_ = 0;
-  bool found_all = files();
-  for (std::uint32_t level = 0; found_all && level < kLevels; ++level)
-    found_all = filed_[level] == 0 || look_around(level, box);
-  if (found_all) {
-    look_into(heads_.size() - 1, box);
-    const auto found = std::span(found_).first(count_);
-    std::ranges::sort(found);
-    count_ =
-        static_cast<std::size_t>(std::unique(found.begin(), found.end()) - found.begin());  // cells may share a bucket
-  } else {
-    scan(box);
+  for (std::uint32_t level = 0; level < kLevels; ++level) {
+    if (filed_[level] > 0 && !look_around(level, box)) return scan_filed(box);
   }
-  return std::span(found_).first(count_);
+  if (filed_[kLevels] > 0) look_into(heads_.size() - 1, box);
+  const auto found = std::span(found_).first(count_);
+  std::ranges::sort(found);
+  count_ =
+      static_cast<std::size_t>(std::unique(found.begin(), found.end()) - found.begin());  // cells may share a bucket
 }
 
+void BroadPhase::scan_filed(const Box& box) {
+  count_ = 0;
+  for (std::uint32_t body = 0; body < boxes_.size(); ++body) {
+    if (!box.overlaps(boxes_[body])) continue;
+    if (count_ == found_.size()) found_.resize(2 * count_);
+    found_[count_++] = body;
+  }
+}
+
+// One comparison tests two bodies. 1: the first one, 2: the second one, 3: both.
+#ifdef __SSE2__
+class BroadPhase::Question {
+ public:
+  explicit Question(const Box& box)
+      : left_(_mm_set1_pd(box.low_m.x())),
+        bottom_(_mm_set1_pd(box.low_m.y())),
+        right_(_mm_set1_pd(box.high_m.x())),
+        top_(_mm_set1_pd(box.high_m.y())) {}
+  int meets(const Two& two) const {
+    const __m128d across = _mm_and_pd(_mm_cmple_pd(_mm_load_pd(two.left.data()), right_),
+                                      _mm_cmpge_pd(_mm_load_pd(two.right.data()), left_));
+    const __m128d along = _mm_and_pd(_mm_cmple_pd(_mm_load_pd(two.bottom.data()), top_),
+                                     _mm_cmpge_pd(_mm_load_pd(two.top.data()), bottom_));
+    return _mm_movemask_pd(_mm_and_pd(across, along));
+  }
+
+ private:
+  __m128d left_, bottom_, right_, top_;
+};
+#else
+class BroadPhase::Question {
+ public:
+  explicit Question(const Box& box) : box_(box) {}
+  int meets(const Two& two) const { return meets(two, 0) + 2 * meets(two, 1); }
+
+ private:
+  int meets(const Two& two, std::size_t i) const {
+    return box_.overlaps({{two.left[i], two.bottom[i]}, {two.right[i], two.top[i]}}) ? 1 : 0;
+  }
+
+  Box box_;
+};
+#endif
+
 void BroadPhase::scan(const Box& box) {
-  const double left_m = box.low_m.x(), bottom_m = box.low_m.y(), right_m = box.high_m.x(), top_m = box.high_m.y();
-  const Both left = {left_m, left_m}, bottom = {bottom_m, bottom_m}, right = {right_m, right_m}, top = {top_m, top_m};
-  // Without branches: every body is written to the list, and the end of the list moves on only if the boxes overlap.
+  const Question question(box);
   std::uint32_t* last = found_.data();
   std::uint32_t body = 0;
   for (const Two& two : twos_) {
-    const auto meets =
-        (both(two.left) <= right) & (left <= both(two.right)) & (both(two.bottom) <= top) & (bottom <= both(two.top));
-    *last = body++;
-    last -= meets[0];
-    *last = body++;
-    last -= meets[1];
+    if (const int which = question.meets(two); which != 0) [[unlikely]] {
+      *last = body;
+      last += which & 1;
+      *last = body + 1;
+      last += which >> 1;
+    }
+    body += 2;
   }
   count_ = static_cast<std::size_t>(last - found_.data());
 }
 
-// Looks at the bodies that are filed with cells of this size. The middle of such a body is at most half a cell from its
-// rim, so it looks half a cell beyond the box. False if there would be too many cells.
+// Looks at the bodies that are filed with cells of this size. It looks as far beyond the box as the middle of such a
+// body can be from its rim, which is at most half a cell. False if there would be too many cells.
 bool BroadPhase::look_around(std::uint32_t level, const Box& box) {
-  const double beyond_m = 0.5 * kCell_m[level];
+  const double beyond_m = widest_m_[level] + kRounding * kCell_m[level];
   const std::int64_t left = cell(level, box.low_m.x() - beyond_m), right = cell(level, box.high_m.x() + beyond_m);
   const std::int64_t bottom = cell(level, box.low_m.y() - beyond_m), top = cell(level, box.high_m.y() + beyond_m);
   if (right - left >= kMostCells || top - bottom >= kMostCells || (right - left + 1) * (top - bottom + 1) > kMostCells)

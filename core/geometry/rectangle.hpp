@@ -51,6 +51,10 @@ struct Box {
     high_m = high_m.cwiseMax(point_m);
   }
   void add(const OrientedRectangle& rectangle);
+  void add(const Box& other) {
+    low_m = low_m.cwiseMin(other.low_m);
+    high_m = high_m.cwiseMax(other.high_m);
+  }
   Box grown(double margin_m) const { return {low_m - Vec2::Constant(margin_m), high_m + Vec2::Constant(margin_m)}; }
   bool overlaps(const Box& other) const {
     return low_m.x() <= other.high_m.x() && other.low_m.x() <= high_m.x() && low_m.y() <= other.high_m.y() &&
