@@ -7,7 +7,8 @@
 
 namespace fleetproof {
 
-Approach::Approach(const Scenario& scenario) : map_(*scenario.map), been_at_(scenario.agvs.size()) {
+Approach::Approach(const Scenario& scenario) : map_(*scenario.map), last_(scenario.agvs.size()) {
+  here_.reserve(last_.size()), passed_.reserve(4 * last_.size());
   for (const AgvSetup& agv : scenario.agvs) here_.push_back(agv.start);
   begin_anew();
 }
@@ -18,24 +19,27 @@ void Approach::drive_begins(EntityId agv, SegmentId segment) {
   StationId& here = here_[agv.index()];
   if (here != driven.from && here != driven.to) return;
   here = here == driven.from ? driven.to : driven.from;
-  std::vector<StationId>& been_at = been_at_[agv.index()];
-  if (std::ranges::find(been_at, here) == been_at.end()) been_at.push_back(here);
+  std::uint32_t& last = last_[agv.index()];
+  passed_.push_back({here, last});
+  last = static_cast<std::uint32_t>(passed_.size() - 1);
 }
 
 void Approach::set_down(EntityId agv, StationId at) {
-  here_[agv.index()] = at;
-  been_at_[agv.index()] = {at};
+  here_[agv.index()] = was_[agv.index()] = at;
+  last_[agv.index()] = kNone;
 }
 
 void Approach::begin_anew() {
-  for (std::size_t i = 0; i < here_.size(); ++i) been_at_[i] = {here_[i]};
+  was_ = here_;
+  passed_.clear();
+  std::ranges::fill(last_, kNone);
 }
 
 double Approach::gained_m(EntityId agv, StationId goal) {
-  const std::vector<StationId>& been_at = been_at_[agv.index()];
-  double nearest_m = std::numeric_limits<double>::infinity();
-  for (const StationId station : been_at) nearest_m = std::min(nearest_m, length_m(station, goal));
-  const double before_m = length_m(been_at.front(), goal);
+  const double before_m = length_m(was_[agv.index()], goal);
+  double nearest_m = before_m;
+  for (std::uint32_t at = last_[agv.index()]; at != kNone; at = passed_[at].before)
+    nearest_m = std::min(nearest_m, length_m(passed_[at].station, goal));
   return before_m < std::numeric_limits<double>::infinity() ? before_m - nearest_m : 0.0;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <utility>
 #include <vector>
@@ -29,8 +30,14 @@ class Approach {
   double length_m(StationId from, StationId to);
 
   const LogicalMap& map_;
-  std::vector<std::vector<StationId>> been_at_;  // by AGV, each station once; the first: at begin_anew()
-  std::vector<StationId> here_;                  // by AGV
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  struct Passed {
+    StationId station;
+    std::uint32_t before = kNone;  // place in passed_: the one before it, of the same AGV
+  };
+  std::vector<Passed> passed_;         // since begin_anew()
+  std::vector<std::uint32_t> last_;    // by AGV: place in passed_
+  std::vector<StationId> was_, here_;  // by AGV: at begin_anew(), and now
   std::map<std::pair<StationId, StationId>, double> lengths_m_;
 };
 

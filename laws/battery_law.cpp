@@ -14,11 +14,13 @@ class BatteryLaw final : public Law {
  public:
   explicit BatteryLaw(const Scenario& scenario) : scenario_(scenario), bodies_(scenario) {}
 
+  Pieces hears_pieces() const override { return Pieces::Beginnings; }
   void piece_started(const Piece& piece) override { bodies_.note(piece); }
   void piece_ended(const Piece&) override {}
   TraceKinds reads() const override {
     return {TraceKind::BatteryEmpty, TraceKind::ActivityBegins, TraceKind::OperatorAssists};
   }
+  ActivityKinds reads_about() const override { return {ActivityKind::Charge}; }
   void happened(const TraceRecord& record) override;
   void finish(SimTime end) override;
   LawFindings findings() const override;

@@ -23,9 +23,41 @@ class CongestionLaw final : public Law {
         bytes_matter_(radio_.air_time_per_byte_s != 0.0),
         last_air_time_(radio_.air_time(0)) {}
 
+  Pieces hears_pieces() const override { return Pieces::None; }
   void piece_ended(const Piece&) override {}
   bool hears_together() const override { return true; }
   void together(const TracePart& part) override {
+    if (interference_ || bytes_matter_ || !stays_calm(part)) look_at_all(part);
+  }
+  void finish(SimTime end) override { windows_before(end + kWindow); }
+  LawFindings findings() const override {
+    LawFindings findings;
+    findings.incidents = incidents_;
+    return findings;
+  }
+
+ private:
+  // Whether all messages of the part together cannot saturate a window. Then only the last window counts on.
+  bool stays_calm(const TracePart& part) {
+    const auto all = part.block->sent();
+    const auto is_before = [](const TraceBlock::Sent& sent, std::uint32_t place) { return sent.place < place; };
+    const auto begin = std::lower_bound(all.begin(), all.end(), part.begin, is_before),
+               end = std::lower_bound(begin, all.end(), part.end, is_before);
+    if (begin == end) return true;
+    if (kWhole_ppm * (offered_ + (end - begin) * last_air_time_).count() >= kSaturated_ppm * kWindow.count())
+      return false;
+    const SimTime last = part.block->at((end - 1)->place);
+    if (last >= window_ + kWindow) {
+      window_ += (last - window_) / kWindow * kWindow;
+      offered_ = Duration::zero();
+      saturated_.reset();
+    }
+    for (auto sent = end; sent != begin && part.block->at((sent - 1)->place) >= window_; --sent)
+      offered_ += last_air_time_;
+    return true;
+  }
+
+  void look_at_all(const TracePart& part) {
     std::uint32_t place = part.begin;
     for (const TraceBlock::Sent& sent : part.block->sent()) {
       if (sent.place < part.begin || sent.place >= part.end) continue;
@@ -36,14 +68,7 @@ class CongestionLaw final : public Law {
     }
     if (interference_) receptions(*part.block, place, part.end);
   }
-  void finish(SimTime end) override { windows_before(end + kWindow); }
-  LawFindings findings() const override {
-    LawFindings findings;
-    findings.incidents = incidents_;
-    return findings;
-  }
 
- private:
   // Without interference, no transmission can destroy a reception, and their number does not matter.
   void receptions(const TraceBlock& block, std::uint32_t begin, std::uint32_t end) {
     for (; begin < end; ++begin) {

@@ -28,21 +28,23 @@ class ContainmentLaw final : public Law {
  public:
   explicit ContainmentLaw(const Scenario& scenario);
 
+  Pieces hears_pieces() const override { return Pieces::Beginnings; }
   void piece_started(const Piece& piece) override { bodies_.note(piece); }
   void piece_ended(const Piece&) override {}
   TraceKinds reads() const override {
     return {TraceKind::LoadMoves, TraceKind::OrderReleased, TraceKind::TransportDone, TraceKind::ActivityBegins,
             TraceKind::ActivityEnds};
   }
+  ActivityKinds reads_about() const override { return {ActivityKind::Pick, ActivityKind::Drop}; }
   void happened(const TraceRecord& record) override;
   void finish(SimTime end) override;
   LawFindings findings() const override;
 
  private:
   // `owner` is the AGV of the load's transport.
-  void appears(EntityId owner, LoadId number, const Holder& where, SimTime at);
-  void moves(EntityId owner, LoadId number, const Holder& to, SimTime at);
-  void check_put_down(EntityId owner, LoadId number, StationId station, SimTime at);
+  void appears(EntityId owner, LoadId number, Booked& load, const Holder& where, SimTime at);
+  void moves(EntityId owner, LoadId number, Booked& load, const Holder& to, SimTime at);
+  void check_put_down(EntityId owner, LoadId number, Booked& load, StationId station, SimTime at);
   void handling_ends(const TraceRecord& record);
   void transport_done(const TraceRecord& record);
   // Whether `agv` is handling the load in this way, at this station.
@@ -53,15 +55,20 @@ class ContainmentLaw final : public Law {
   }
 
   Whereabouts bodies_;
-  std::vector<TransportOrder> orders_;   // by number of the transport
-  std::optional<TransportId> released_;  // its load is about to appear
+  std::vector<const TransportOrder*> orders_;  // by number of the transport
+  std::optional<TransportId> released_;        // its load is about to appear
   std::map<LoadId, Booked> loads_;
   std::map<EntityId, Handling> handling_;
   std::vector<Incident> incidents_;
 };
 
 ContainmentLaw::ContainmentLaw(const Scenario& scenario) : bodies_(scenario) {
-  for (const AgvSetup& agv : scenario.agvs) orders_.insert(orders_.end(), agv.transports.begin(), agv.transports.end());
+  std::size_t transports = 0;
+  for (const AgvSetup& agv : scenario.agvs) transports += agv.transports.size();
+  orders_.reserve(transports);
+  for (const AgvSetup& agv : scenario.agvs) {
+    for (const TransportOrder& order : agv.transports) orders_.push_back(&order);
+  }
 }
 
 void ContainmentLaw::happened(const TraceRecord& record) {
@@ -83,10 +90,11 @@ void ContainmentLaw::happened(const TraceRecord& record) {
     }
     case TraceKind::LoadMoves: {
       const auto [load, to] = read<traced::LoadMoves>(record);
-      if (loads_.contains(load)) {
-        moves(record.entity, load, to, record.at);
+      const auto [known, is_new] = loads_.try_emplace(load);
+      if (is_new) {
+        appears(record.entity, load, known->second, to, record.at);
       } else {
-        appears(record.entity, load, to, record.at);
+        moves(record.entity, load, known->second, to, record.at);
       }
       break;
     }
@@ -95,18 +103,16 @@ void ContainmentLaw::happened(const TraceRecord& record) {
   }
 }
 
-void ContainmentLaw::appears(EntityId owner, LoadId number, const Holder& where, SimTime at) {
-  Booked& load = loads_[number];
+void ContainmentLaw::appears(EntityId owner, LoadId number, Booked& load, const Holder& where, SimTime at) {
   load.holder = where;
   load.transport = std::exchange(released_, std::nullopt);
   if (!load.transport || load.transport->index() >= orders_.size() || where.kind != Holder::Kind::Station) {
     return accuse(IncidentKind::LoadMovedByNobody, owner, {}, at, number);
   }
-  check_put_down(owner, number, StationId{where.index}, at);
+  check_put_down(owner, number, load, StationId{where.index}, at);
 }
 
-void ContainmentLaw::moves(EntityId owner, LoadId number, const Holder& to, SimTime at) {
-  Booked& load = loads_[number];
+void ContainmentLaw::moves(EntityId owner, LoadId number, Booked& load, const Holder& to, SimTime at) {
   if (load.misplaced) incidents_[*load.misplaced].last = at;
   load.misplaced.reset();
   const Holder from = std::exchange(load.holder, to);
@@ -128,15 +134,14 @@ void ContainmentLaw::moves(EntityId owner, LoadId number, const Holder& to, SimT
   }
   if (to.kind == Holder::Kind::Agv && carries_another(agv, number))
     accuse(IncidentKind::LoadPickedByFullAgv, agv, {}, at, number);
-  if (to.kind == Holder::Kind::Station) check_put_down(owner, number, StationId{to.index}, at);
+  if (to.kind == Holder::Kind::Station) check_put_down(owner, number, load, StationId{to.index}, at);
   if (const auto handling = handling_.find(agv); handling != handling_.end() && handling->second.load == number)
     handling->second.moved = true;
 }
 
-void ContainmentLaw::check_put_down(EntityId owner, LoadId number, StationId station, SimTime at) {
-  Booked& load = loads_[number];
+void ContainmentLaw::check_put_down(EntityId owner, LoadId number, Booked& load, StationId station, SimTime at) {
   if (!load.transport || load.transport->index() >= orders_.size()) return;
-  const TransportOrder& order = orders_[load.transport->index()];
+  const TransportOrder& order = *orders_[load.transport->index()];
   if (station == order.from || station == order.to) return;
   load.misplaced = incidents_.size();
   accuse(IncidentKind::LoadAtWrongStation, owner, {}, at, number);
@@ -159,7 +164,7 @@ void ContainmentLaw::transport_done(const TraceRecord& record) {
     if (load.delivered) accuse(IncidentKind::LoadDeliveredTwice, record.entity, {}, record.at, number);
     load.delivered = true;
     const bool there =
-        done.index() < orders_.size() && load.holder == Holder{Holder::Kind::Station, orders_[done.index()].to.value};
+        done.index() < orders_.size() && load.holder == Holder{Holder::Kind::Station, orders_[done.index()]->to.value};
     if (!there && !load.misplaced) accuse(IncidentKind::LoadAtWrongStation, record.entity, {}, record.at, number);
   }
 }

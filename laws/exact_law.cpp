@@ -66,11 +66,10 @@ void ExactLaw::piece_started(const Piece& piece) {
 
 void ExactLaw::piece_ended(const Piece& piece) {
   const std::size_t mine = piece.entity.index();
-  const double reach_m = std::max(smallest_m_, threshold_m_);
-  const Box near = swept_.box_of(mine).grown(reach_m);
-  swept_.remove(mine);
   bodies_[mine].until = piece.end;
-  if (!piece.has_company) return;
+  if (!piece.has_company) return swept_.remove(mine);
+  const Box near = swept_.box_of(mine).grown(std::max(smallest_m_, threshold_m_));
+  swept_.remove(mine);
   for (const std::size_t i : swept_.overlapping(near)) {
     if (mine >= agv_count_ && i >= agv_count_) continue;  // two obstacles cannot violate anything
     const Piece& other = *current_[i];

@@ -13,7 +13,7 @@ class FaultRecordLaw final : public Law {
   explicit FaultRecordLaw(const Scenario& scenario)
       : agv_count_(scenario.agvs.size()), with_obstacles_(agv_count_ + scenario.obstacles.size()) {}
 
-  void piece_started(const Piece&) override {}
+  Pieces hears_pieces() const override { return Pieces::None; }
   void piece_ended(const Piece&) override {}
   TraceKinds reads() const override {
     return {TraceKind::FaultStrikes, TraceKind::FaultOver, TraceKind::Appears, TraceKind::Leaves};

@@ -81,6 +81,7 @@ const Entry<MakeLaw>* find_law(std::string_view name) {
 
 std::vector<std::unique_ptr<Law>> make_default_laws(const Scenario& scenario, std::span<const std::string> left_out) {
   std::vector<std::unique_ptr<Law>> set;
+  set.reserve(default_laws().size());
   for (const auto& entry : default_laws()) {
     if (std::ranges::find(left_out, entry.name) == left_out.end()) set.push_back(entry.make(scenario));
   }

@@ -11,6 +11,7 @@ namespace {
 constexpr double kSignificance = 1e-4;
 constexpr double kNormalQuantile = 3.7190164854556804;  // of 1 - 1e-4
 constexpr std::uint32_t kExactUpTo = 512;
+constexpr std::size_t kFirstParts = 16;  // of a short run
 
 std::uint32_t exact_rejection(std::uint32_t n) {
   // Starts at the largest k: the tail P(X >= k) grows term by term until it exceeds the significance.
@@ -42,7 +43,9 @@ std::uint32_t losses_that_reject(std::uint32_t receptions) {
       std::ceil(kContractLoss * n + kNormalQuantile * std::sqrt(n * kContractLoss * (1.0 - kContractLoss)) + 0.5));
 }
 
-LinkQuality::LinkQuality(std::size_t agvs) : agvs_(agvs), places_(agvs), broken_(agvs, 0), sent_(agvs) {}
+LinkQuality::LinkQuality(std::size_t agvs) : agvs_(agvs) {
+  waiting_.reserve(kFirstParts);
+}
 
 LinkQuality::Link& LinkQuality::now(std::size_t sender, std::size_t receiver, std::int64_t second) {
   auto& row = places_[receiver];
@@ -96,6 +99,7 @@ void LinkQuality::take_before(SimTime end, std::int64_t second) {
 
 // Only links that received in the second that leaves the window, or in the one that comes into it, can have changed.
 void LinkQuality::end_second(std::int64_t second) {
+  if (places_.empty()) places_.resize(agvs_), broken_.resize(agvs_), sent_.resize(agvs_);
   const SimTime end = kStart + std::chrono::seconds(second + 1);
   take_before(end, second);
   auto& leaves = received_[slot_of(second - kQualityWindow_s)];
@@ -134,7 +138,7 @@ void LinkQuality::judge(Active& link) {
 }
 
 LinkQuality::Link LinkQuality::link(std::size_t sender, std::size_t receiver) const {
-  const std::uint32_t place = places_[receiver].empty() ? kSilent : places_[receiver][sender];
+  const std::uint32_t place = places_.empty() || places_[receiver].empty() ? kSilent : places_[receiver][sender];
   return place == kSilent ? Link{} : links_[place].sum;
 }
 

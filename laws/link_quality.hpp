@@ -44,7 +44,7 @@ class LinkQuality {
   };
   Link link(std::size_t sender, std::size_t receiver) const;
   // Whether every link to `receiver` kept the contract; the largest share lost on one of these links, in millionths.
-  bool all_in_contract(std::size_t receiver) const { return broken_[receiver] == 0; }
+  bool all_in_contract(std::size_t receiver) const { return broken_.empty() || broken_[receiver] == 0; }
   std::int64_t worst_loss_ppm(std::size_t receiver) const;
 
  private:
@@ -68,6 +68,7 @@ class LinkQuality {
   void judge(Active& link);
 
   std::size_t agvs_;
+  // Whoever does not ask about the links needs none of these: they are empty until the first second is ended.
   std::vector<std::vector<std::uint32_t>> places_;  // in links_, by receiver and sender; or kSilent. No row: all silent
   std::vector<Active> links_;
   std::array<std::vector<std::uint32_t>, kSeconds> received_;  // places of the links that received in a second

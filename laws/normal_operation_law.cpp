@@ -34,12 +34,12 @@ class NormalOperationLaw final : public Law {
  public:
   explicit NormalOperationLaw(const Scenario& scenario)
       : scenario_(scenario),
-        reaction_(seconds(scenario.law.reaction_s)),
         quality_(scenario.agvs.size()),
         most_waiting_(std::max(kMostWaiting, kMostWaitingOfAgv * scenario.agvs.size())),
         fleet_{std::vector<AgvState>(scenario.agvs.size())},
         faults_(scenario) {}
 
+  Pieces hears_pieces() const override { return Pieces::None; }
   void piece_ended(const Piece&) override {}
   TraceKinds reads() const override {
     return TraceKinds{TraceKind::SafeMode,       TraceKind::OrderReleased, TraceKind::TransportDone,
@@ -53,7 +53,7 @@ class NormalOperationLaw final : public Law {
     quality_.note(part);
     if (quality_.waiting() >= most_waiting_) seconds_before(part.block->at(part.end - 1));
   }
-  bool must_hear_before(SimTime t) const override { return next_ < t && needs_quality(last_of(next_, t)); }
+  void hears_from(TraceSource& source) override { source_ = &source; }
   void finish(SimTime end) override;
   LawFindings findings() const override;
 
@@ -68,7 +68,7 @@ class NormalOperationLaw final : public Law {
   void look_at_standstill(SimTime now);
 
   const Scenario& scenario_;
-  Duration reaction_;
+  TraceSource* source_ = nullptr;
   LinkQuality quality_;
   std::size_t most_waiting_;
   Fleet fleet_;
@@ -87,7 +87,16 @@ void count(std::size_t& agvs, bool& is_in_it, bool now) {
 }
 
 void NormalOperationLaw::happened(const TraceRecord& record) {
-  seconds_before(record.at);
+  if (next_ < record.at) {
+    if (source_ != nullptr && needs_quality(last_of(next_, record.at))) source_->hand_over();
+    seconds_before(record.at);
+  }
+  if (record.kind == TraceKind::ActivityBegins || record.kind == TraceKind::ActivityEnds) {
+    if (!is_work(traced::activity_of(record))) return;
+    count(fleet_.busy, fleet_.agvs[record.entity.index()].busy, record.kind == TraceKind::ActivityBegins);
+    active_at_ = record.at;
+    return;
+  }
   if (faults_.note(record)) return;
   switch (record.kind) {
     case TraceKind::SafeMode:
@@ -104,13 +113,6 @@ void NormalOperationLaw::happened(const TraceRecord& record) {
       if (read<traced::LoadMoves>(record).to.kind == Holder::Kind::ClearedAway)
         open_ -= open_ > 0 ? 1 : 0;  // no AGV can carry it out any more
       break;
-    case TraceKind::ActivityBegins:
-    case TraceKind::ActivityEnds: {
-      if (!is_work(traced::activity_of(record))) break;
-      count(fleet_.busy, fleet_.agvs[record.entity.index()].busy, record.kind == TraceKind::ActivityBegins);
-      active_at_ = record.at;
-      break;
-    }
     default:
       break;
   }
@@ -171,7 +173,7 @@ void NormalOperationLaw::look(SimTime now) {
 
 void NormalOperationLaw::look_at_safe_mode(std::size_t agv, SimTime now) {
   AgvState& state = fleet_.agvs[agv];
-  if (!state.safe || now - state.in_contract_since <= reaction_) {
+  if (!state.safe || now - state.in_contract_since <= seconds(scenario_.law.reaction_s)) {
     state.incident.reset();
     return;
   }

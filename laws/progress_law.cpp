@@ -1,10 +1,10 @@
 #include "laws/progress_law.hpp"
 
 #include <algorithm>
-#include <deque>
 #include <map>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "core/outcome/trace_records.hpp"
 #include "core/outcome/work_and_progress.hpp"
@@ -21,7 +21,7 @@ constexpr double kWayTakes = 2.0;        // times the time at top speed that a w
 constexpr std::uint64_t kOvertaken = 2;  // transports finished by each of the others, on average
 
 struct AgvState {
-  std::deque<TransportId> open;        // transports released and not done
+  std::vector<TransportId> open;       // transports released and not done
   std::optional<TransportId> carried;  // transport of the load on it
   SimTime open_since = kStart, active_at = kStart, advanced_at = kStart;
   bool busy = false, off_floor = false;          // off: in the hands of the operator
@@ -46,6 +46,7 @@ class ProgressLaw final : public Law {
     look_before(piece.begin);
     bodies_.note(piece);
   }
+  // The piece is still there to be looked at.
   void piece_ended(const Piece& piece) override {
     look_before(piece.end);
     bodies_.note_end(piece);
@@ -63,8 +64,7 @@ class ProgressLaw final : public Law {
  private:
   using Key = std::pair<IncidentKind, EntityId>;
 
-  void activity_began(const TraceRecord& record);
-  void activity_ended(const TraceRecord& record);
+  void goes_on_with(const TraceRecord& record);
   void order_released(const TraceRecord& record);
   void load_moves(const TraceRecord& record);
   void transport_over(TransportId transport, bool done, SimTime at);
@@ -94,9 +94,12 @@ class ProgressLaw final : public Law {
   FaultWatch faults_;
   Approach approach_;
   std::vector<AgvState> agvs_;
-  std::vector<TransportOrder> orders_;  // by number of the transport
-  std::vector<std::uint32_t> owner_;    // likewise
-  std::map<LoadId, TransportId> transport_of_load_;
+  struct Order {
+    const TransportOrder* what;
+    std::uint32_t owner;
+  };
+  std::vector<Order> orders_;                   // by number of the transport
+  std::vector<TransportId> transport_of_load_;  // invalid: the load comes from nowhere
   std::optional<TransportId> released_;
   std::uint64_t done_ = 0, motions_ = 0, motions_then_ = 0;  // then: when the fleet last advanced
   SimTime fleet_advanced_at_ = kStart, next_look_ = kStart;
@@ -114,16 +117,18 @@ ProgressLaw::ProgressLaw(const Scenario& scenario)
       approach_(scenario),
       agvs_(scenario.agvs.size()),
       next_look_(kStart + look_every_) {
+  std::size_t transports = 0;
+  for (const AgvSetup& agv : scenario.agvs) transports += agv.transports.size();
+  orders_.reserve(transports), transport_of_load_.reserve(transports);
   for (std::size_t i = 0; i < scenario.agvs.size(); ++i) {
-    for (const TransportOrder& order : scenario.agvs[i].transports) {
-      orders_.push_back(order);
-      owner_.push_back(static_cast<std::uint32_t>(i));
-    }
+    for (const TransportOrder& order : scenario.agvs[i].transports)
+      orders_.push_back({&order, static_cast<std::uint32_t>(i)});
   }
 }
 
 void ProgressLaw::happened(const TraceRecord& record) {
   look_before(record.at);
+  if (record.kind == TraceKind::ActivityBegins || record.kind == TraceKind::ActivityEnds) return goes_on_with(record);
   if (faults_.note(record)) return;
   switch (record.kind) {
     case TraceKind::OrderReleased:
@@ -138,17 +143,6 @@ void ProgressLaw::happened(const TraceRecord& record) {
     case TraceKind::WaitingFor:
       agvs_[record.entity.index()].declared = read<traced::WaitingFor>(record).agv;
       break;
-    case TraceKind::ActivityBegins:
-    case TraceKind::ActivityEnds: {
-      if (record.kind == TraceKind::ActivityEnds) activity_ended(record);
-      if (!is_work(traced::activity_of(record))) break;
-      AgvState& agv = agvs_[record.entity.index()];
-      agv.busy = record.kind == TraceKind::ActivityBegins;
-      agv.active_at = record.at;
-      motions_ += agv.busy ? 1 : 0;
-      activity_began(record);
-      break;
-    }
     case TraceKind::Appears:
     case TraceKind::Leaves:
       comes_or_goes(record);
@@ -158,15 +152,18 @@ void ProgressLaw::happened(const TraceRecord& record) {
   }
 }
 
-void ProgressLaw::activity_began(const TraceRecord& record) {
-  if (record.kind != TraceKind::ActivityBegins) return;
-  const auto begins = read<traced::ActivityBegins>(record);
-  if (begins.activity == ActivityKind::Drive) approach_.drive_begins(record.entity, begins.segment());
-}
-
-void ProgressLaw::activity_ended(const TraceRecord& record) {
-  const auto [activity, as_planned] = read<traced::ActivityEnds>(record);
-  if (is_progress(activity, as_planned)) advanced(agvs_[record.entity.index()], record.at);
+// An activity begins or ends.
+void ProgressLaw::goes_on_with(const TraceRecord& record) {
+  AgvState& agv = agvs_[record.entity.index()];
+  const ActivityKind activity = traced::activity_of(record);
+  const bool begins = record.kind == TraceKind::ActivityBegins;
+  if (!begins && is_progress(activity, read<traced::ActivityEnds>(record).as_planned)) advanced(agv, record.at);
+  if (!is_work(activity)) return;
+  agv.busy = begins;
+  agv.active_at = record.at;
+  motions_ += begins ? 1 : 0;
+  if (begins && activity == ActivityKind::Drive)
+    approach_.drive_begins(record.entity, read<traced::ActivityBegins>(record).segment());
 }
 
 // An AGV that the operator takes off the floor waits for no AGV and blocks no AGV. It starts anew where the operator
@@ -201,20 +198,22 @@ void ProgressLaw::load_moves(const TraceRecord& record) {
   AgvState& agv = agvs_[record.entity.index()];
   const auto [load, to] = read<traced::LoadMoves>(record);
   if (released_) {
-    transport_of_load_[load] = *std::exchange(released_, std::nullopt);
+    if (load.index() >= transport_of_load_.size()) transport_of_load_.resize(load.index() + 1);
+    transport_of_load_[load.index()] = *std::exchange(released_, std::nullopt);
     return;
   }
-  const auto known = transport_of_load_.find(load);
-  if (known == transport_of_load_.end()) return;  // the law of containment files a load that comes from nowhere
-  if (to.kind == Holder::Kind::ClearedAway) return transport_over(known->second, false, record.at);
+  if (load.index() >= transport_of_load_.size()) return;
+  const TransportId transport = transport_of_load_[load.index()];
+  if (!transport.valid()) return;  // the law of containment files a load that comes from nowhere
+  if (to.kind == Holder::Kind::ClearedAway) return transport_over(transport, false, record.at);
   agv.carried.reset();
-  if (to.kind == Holder::Kind::Agv) agv.carried = known->second;
+  if (to.kind == Holder::Kind::Agv) agv.carried = transport;
   if (advances_transport(to)) advanced(agv, record.at);
 }
 
 void ProgressLaw::transport_over(TransportId transport, bool done, SimTime at) {
-  if (transport.index() >= owner_.size()) return;
-  AgvState& agv = agvs_[owner_[transport.index()]];
+  if (transport.index() >= orders_.size()) return;
+  AgvState& agv = agvs_[orders_[transport.index()].owner];
   std::erase(agv.open, transport);
   agv.done += done ? 1 : 0;
   done_ += done ? 1 : 0;
@@ -239,7 +238,7 @@ void ProgressLaw::look_before(SimTime t) {
 }
 
 void ProgressLaw::look(SimTime now) {
-  before_ = std::exchange(under_way_, {});
+  if (!under_way_.empty() || !before_.empty()) before_ = std::exchange(under_way_, {});
   if (faults_.holds_anybody()) return;
   look_for_deadlocks(now);
   look_for_livelock(now);
@@ -265,7 +264,7 @@ Wait ProgressLaw::wait_of(EntityId agv, SimTime now) const {
   if (state.declared.valid()) return {state.declared, false};
   const StationId here = station_of(*scenario_.map, bodies_.position_m(agv, now));
   if (!here.valid()) return {};
-  const TransportOrder& order = orders_[state.carried.value_or(state.open.front()).index()];
+  const TransportOrder& order = *orders_[state.carried.value_or(state.open.front()).index()].what;
   const LaneRules rules{*scenario_.map, scenario_.type_of(scenario_.agvs[agv.index()]).name, state.carried.has_value()};
   const Lane* lane = first_lane_of_way(rules, here, state.carried ? order.to : order.from);
   return lane == nullptr ? Wait{} : Wait{first_in_the_way(scenario_, bodies_, agv, *lane, now), true};
@@ -328,11 +327,12 @@ void ProgressLaw::file_waits(const std::vector<EntityId>& agvs, const std::map<E
 }
 
 void ProgressLaw::look_for_livelock(SimTime now) {
+  const Duration without_success = now - std::max(fleet_advanced_at_, faults_.last());
+  if (without_success < 2 * stuck_after_ || motions_ == motions_then_) return;
   const bool any_work = std::ranges::any_of(agvs_, &AgvState::has_work);
   const bool still =
       std::ranges::none_of(agvs_, [&](const AgvState& agv) { return agv.busy || now - agv.active_at < stuck_after_; });
-  const Duration without_success = now - std::max(fleet_advanced_at_, faults_.last());
-  if (!any_work || still || without_success < 2 * stuck_after_ || motions_ == motions_then_) return;
+  if (!any_work || still) return;
   if (without_success < 2 * stuck_after_ + longest_way()) return;
   goes_on(
       {IncidentKind::Livelock, {}, {}, fleet_advanced_at_, now, static_cast<std::int64_t>(motions_ - motions_then_)});
@@ -345,7 +345,7 @@ Duration ProgressLaw::longest_way() {
   for (std::size_t i = 0; i < agvs_.size(); ++i) {
     const AgvState& agv = agvs_[i];
     if (!agv.has_work()) continue;
-    const TransportOrder& order = orders_[agv.carried.value_or(agv.open.front()).index()];
+    const TransportOrder& order = *orders_[agv.carried.value_or(agv.open.front()).index()].what;
     const double gained_m = approach_.gained_m(EntityId{i}, agv.carried ? order.to : order.from);
     const double speed_mps = scenario_.type_of(scenario_.agvs[i]).drive_with(agv.carried.has_value()).speed_mps;
     longest_s = std::max(longest_s, kWayTakes * gained_m / speed_mps);

@@ -10,23 +10,19 @@ namespace fleetproof {
 // What every body on the floor does now, as the engine announced it. It points at pieces; none is copied.
 class Whereabouts {
  public:
-  explicit Whereabouts(const Scenario& scenario)
-      : scenario_(scenario), current_(scenario.body_count()), on_floor_(scenario.body_count()) {}
+  explicit Whereabouts(const Scenario& scenario) : scenario_(scenario), bodies_(scenario.body_count()) {}
 
-  void note(const Piece& piece) {
-    current_[piece.entity.index()] = &piece;
-    on_floor_[piece.entity.index()] = true;
-  }
+  void note(const Piece& piece) { bodies_[piece.entity.index()] = {&piece, true}; }
   // A body that is not an AGV has one piece and leaves the floor at its end. An AGV leaves only with note_leaving().
   void note_end(const Piece& piece) {
-    if (piece.entity.index() >= agv_count()) on_floor_[piece.entity.index()] = false;
+    if (piece.entity.index() >= agv_count()) bodies_[piece.entity.index()].on_floor = false;
   }
-  void note_leaving(EntityId body) { on_floor_[body.index()] = false; }
-  bool on_floor(EntityId body) const { return on_floor_[body.index()]; }
+  void note_leaving(EntityId body) { bodies_[body.index()].on_floor = false; }
+  bool on_floor(EntityId body) const { return bodies_[body.index()].on_floor; }
   std::size_t agv_count() const { return scenario_.agvs.size(); }
-  std::size_t body_count() const { return current_.size(); }
+  std::size_t body_count() const { return bodies_.size(); }
   // Requires: the body has been on the floor.
-  const Piece& of(EntityId body) const { return *current_[body.index()]; }
+  const Piece& of(EntityId body) const { return *bodies_[body.index()].piece; }
   bool moves(EntityId body) const { return of(body).manner != Manner::Rest; }
   Vec2 position_m(EntityId body, SimTime t) const { return of(body).pose_at(t).position_m; }
   bool stands_at(EntityId body, StationId station, SimTime t) const {
@@ -36,8 +32,11 @@ class Whereabouts {
 
  private:
   const Scenario& scenario_;
-  std::vector<const Piece*> current_;
-  std::vector<bool> on_floor_;
+  struct Body {
+    const Piece* piece = nullptr;  // the last one
+    bool on_floor = false;
+  };
+  std::vector<Body> bodies_;
 };
 
 }  // namespace fleetproof

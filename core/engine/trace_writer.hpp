@@ -13,7 +13,7 @@
 namespace fleetproof {
 
 // Hands each trace record to the digest, to the sink and to the laws that read its kind.
-class TraceWriter {
+class TraceWriter final : public TraceSource {
  public:
   // `sink` may be null. Laws and sink outlive the writer.
   TraceWriter(std::span<const std::unique_ptr<Law>> laws, TraceSink* sink);
@@ -33,7 +33,7 @@ class TraceWriter {
   TraceDigest& digest() { return digest_; }
 
   // Laws that hear records together hear those that they have not heard yet. Call it before the end of the run.
-  void hand_over();
+  void hand_over() override;
 
  private:
   void tell(const TraceRecord& record, std::string_view text);
@@ -43,6 +43,7 @@ class TraceWriter {
   TraceKinds read_;  // by a law, or all of them by the sink
   std::vector<Law*> laws_;
   std::array<std::uint64_t, 64> readers_{};  // by kind: a bit for each law
+  std::array<std::uint64_t, 16> about_{};    // likewise, by activity: those that read about it
   std::vector<Law*> together_;               // those that hear records together
 };
 

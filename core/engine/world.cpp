@@ -21,7 +21,13 @@ World::World(const Scenario& scenario, std::span<const std::unique_ptr<Law>> law
       carried_(scenario.agvs.size()),
       loads_of_(scenario.agvs.size()),
       touched_(scenario.body_count()) {
-  for (const auto& law : laws) company_m_ = std::max(company_m_, law->looks_within_m());
+  listeners_.to_beginnings.reserve(laws.size()), listeners_.to_ends.reserve(laws.size());
+  for (const auto& law : laws) {
+    company_m_ = std::max(company_m_, law->looks_within_m());
+    const Law::Pieces pieces = law->hears_pieces();
+    if (pieces != Law::Pieces::None) listeners_.to_beginnings.push_back(law.get());
+    if (pieces == Law::Pieces::All) listeners_.to_ends.push_back(law.get());
+  }
   for (std::size_t i = 0; i < scenario.agvs.size(); ++i) {
     const AgvSetup& agv = scenario.agvs[i];
     bodies_[i].is_agv = true;
@@ -42,7 +48,7 @@ void World::put_on_floor(EntityId id, const Footprint& footprint, const Pose& po
 }
 
 void World::announce_end(const Piece& piece) {
-  for (const auto& law : laws_) law->piece_ended(piece);
+  for (Law* law : listeners_.to_ends) law->piece_ended(piece);
   if (sink_ != nullptr) sink_->piece_ended(piece);
 }
 
@@ -50,6 +56,7 @@ void World::take_off_floor(EntityId id, SimTime t) {
   Body& body = bodies_[id.index()];
   body.on_floor = false;
   planned_.remove(id.index());
+  newest_.piece.reset();
   body.piece.end = t;
   announce_end(body.piece);
 }
@@ -73,19 +80,18 @@ void World::begin(Body& body, const Piece& piece) {
   body.piece = piece;
   body.piece.number = pieces_++;
   body.piece.planned_box = piece.swept_box(piece.end);
-  planned_.remove(piece.entity.index());
   planned_.place(piece.entity.index(), body.piece.planned_box);
   find_company(body);
-  for (const auto& law : laws_) law->piece_started(body.piece);
+  for (Law* law : listeners_.to_beginnings) law->piece_started(body.piece);
   if (sink_ != nullptr) sink_->piece_started(body.piece);
 }
 
 // Of two bodies that come near each other, one began its piece later, and finds the other here.
 void World::find_company(Body& body) {
   const auto near = planned_.overlapping(body.piece.planned_box.grown(std::max(company_m_, kTouch_m) + kRounding_m));
-  body.piece.has_company = near.size() > 1;
-  alone_.reset();
-  if (near.size() == 1) alone_ = body.piece.number;  // it finds itself
+  body.piece.has_company = near.size() > 1;  // it finds itself
+  newest_.piece = body.piece.number;
+  newest_.near.assign(near.begin(), near.end());
   if (!body.piece.has_company) return;
   for (const std::uint32_t i : near) bodies_[i].piece.has_company = true;
 }
@@ -100,12 +106,13 @@ void World::continue_with(EntityId id, const Piece& next) {
 
 void World::predict_touches(EntityId id, std::vector<TouchPrediction>& out) {
   const Body& mine = body(id);
-  if (alone_ == mine.piece.number) return;
   const Box reach = mine.piece.planned_box.grown(kTouch_m);
-  for (const std::uint32_t i : planned_.overlapping(reach)) {
+  const auto near =
+      newest_.piece == mine.piece.number ? std::span<const std::uint32_t>(newest_.near) : planned_.overlapping(reach);
+  for (const std::uint32_t i : near) {
     const Body& other = bodies_[i];
     const EntityId other_id{i};
-    if (other_id == id || have_touched(id, other_id)) continue;
+    if (other_id == id || !reach.overlaps(other.piece.planned_box) || have_touched(id, other_id)) continue;
     const Interval common{std::max(mine.piece.begin, other.piece.begin),
                           std::min({mine.piece.end, other.piece.end, kStart + scenario_.horizon})};
     if (common.begin > common.end) continue;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -82,6 +83,10 @@ class World {
 
   const Scenario& scenario_;
   std::span<const std::unique_ptr<Law>> laws_;
+  struct Listeners {
+    std::vector<Law*> to_beginnings, to_ends;  // of pieces
+  };
+  Listeners listeners_;
   TraceSink* sink_;
   std::vector<Body> bodies_;
   BroadPhase planned_;  // the boxes of the pieces under way
@@ -92,7 +97,12 @@ class World {
   std::vector<std::vector<EntityId>> touched_;  // by body
   double company_m_ = 0.0;                      // as near as any law looks
   std::uint64_t pieces_ = 0;
-  std::optional<std::uint64_t> alone_;  // the newest piece, if it began far from every body
+  // The bodies near the newest piece when it began, itself among them. No piece: a body has left the floor since.
+  struct Newest {
+    std::optional<std::uint64_t> piece;
+    std::vector<std::uint32_t> near;
+  };
+  Newest newest_;
   EvaluationCount evaluations_;
 };
 

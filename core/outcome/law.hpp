@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/catalogue.hpp"
+#include "core/motion/activity.hpp"
 #include "core/motion/piece.hpp"
 #include "core/outcome/outcome.hpp"
 #include "core/outcome/trace.hpp"
@@ -32,36 +33,50 @@ struct LawFindings {
   std::vector<DriveChecks> drives;  // from a law that looks at drive activities one after the other
 };
 
-// The kinds of trace records that a law wants to read.
-class TraceKinds {
+// A set of kinds, of which the numbers are below 64.
+template <class Kind>
+class KindSet {
  public:
-  constexpr TraceKinds() = default;
-  constexpr TraceKinds(std::initializer_list<TraceKind> kinds) {
-    for (const TraceKind kind : kinds) bits_ |= bit(kind);
+  constexpr KindSet() = default;
+  constexpr KindSet(std::initializer_list<Kind> kinds) {
+    for (const Kind kind : kinds) bits_ |= bit(kind);
   }
-  static constexpr TraceKinds all() {
-    TraceKinds kinds;
+  static constexpr KindSet all() {
+    KindSet kinds;
     kinds.bits_ = ~std::uint64_t{0};
     return kinds;
   }
-  constexpr bool has(TraceKind kind) const { return (bits_ & bit(kind)) != 0; }
+  constexpr bool has(Kind kind) const { return (bits_ & bit(kind)) != 0; }
   constexpr bool empty() const { return bits_ == 0; }
-  constexpr TraceKinds operator|(TraceKinds other) const {
+  constexpr std::uint64_t bits() const { return bits_; }  // that of a kind is 1 << its number
+  constexpr KindSet operator|(KindSet other) const {
     other.bits_ |= bits_;
     return other;
   }
 
  private:
-  static constexpr std::uint64_t bit(TraceKind kind) {
-    return std::uint64_t{1} << (static_cast<std::uint32_t>(kind) & 63U);
-  }
+  static constexpr std::uint64_t bit(Kind kind) { return std::uint64_t{1} << (static_cast<std::uint32_t>(kind) & 63U); }
   std::uint64_t bits_ = 0;
 };
+
+// Of trace records that a law wants to read; and of activities.
+using TraceKinds = KindSet<TraceKind>;
+using ActivityKinds = KindSet<ActivityKind>;
 
 // All kinds of records about messages.
 inline constexpr TraceKinds kMessageKinds{TraceKind::Sent,         TraceKind::Lost,
                                           TraceKind::LostInOutage, TraceKind::LostByInterference,
                                           TraceKind::LostToSource, TraceKind::Received};
+
+// Where laws hear records together.
+class TraceSource {
+ public:
+  // They hear now all that has happened so far. A law calls it in `happened` if it must know that first.
+  virtual void hand_over() = 0;
+
+ protected:
+  ~TraceSource() = default;
+};
 
 // A rule about what must never happen: a read-only observer of the pieces of a run, and of the records of its trace. A
 // law cannot change the world or the trace.
@@ -81,17 +96,23 @@ class Law {
   // How far from a piece the law looks for other bodies, from box to box: nearer ones are its company (Piece). Called
   // once, before the run.
   virtual double looks_within_m() const { return 0.0; }
+  // The pieces of which the law is told: some laws ask for records only, and some only where a body is now. Called
+  // once, before the run.
+  enum class Pieces : std::uint8_t { None, Beginnings, All };
+  virtual Pieces hears_pieces() const { return Pieces::All; }
   virtual void piece_started(const Piece& piece) { (void)piece; }
   virtual void piece_ended(const Piece& piece) = 0;
   virtual TraceKinds reads() const { return {}; }  // called once, before the run
+  // Of the records about activities that it reads: those about activities of these kinds. Called likewise.
+  virtual ActivityKinds reads_about() const { return ActivityKinds::all(); }
   virtual void happened(const TraceRecord& record) { (void)record; }
   // Most records are about messages, and most of those matter little. If a law returns true here, it also hears all
   // records together: in their order, a part of the trace at a time, later than pieces and `happened`, but before
   // `finish`.
   virtual bool hears_together() const { return false; }
   virtual void together(const TracePart& part) { (void)part; }
-  // Such a law is asked before `happened`: whether it must hear of all before this instant first.
-  virtual bool must_hear_before(SimTime t) const { return (void)t, false; }
+  // Called once for such a law, before the run. The source outlives the run, not the law.
+  virtual void hears_from(TraceSource& source) { (void)source; }
   virtual void finish(SimTime end) { (void)end; }
   virtual LawFindings findings() const = 0;
 };

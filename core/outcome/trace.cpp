@@ -1,5 +1,7 @@
 #include "core/outcome/trace.hpp"
 
+#include <algorithm>
+
 // Compiled here, for the instructions of this build.
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -16,6 +18,25 @@ const char* name_of_note(TraceKind kind) {
          : kind == TraceKind::NotesLeftOut ? "notes left out"
          : kind == TraceKind::CallAccepted ? "accepted"
                                            : "fate";
+}
+
+// A block that nobody keeps. Each thread has some that are used again and again: they are so large that the allocator
+// takes long for them, and laws keep all of a run.
+std::shared_ptr<TraceBlock> free_block() {
+  constexpr std::size_t kMost = 64;  // 1.3 MB
+  thread_local std::vector<std::shared_ptr<TraceBlock>> blocks;
+  thread_local std::size_t newest = 0;  // the block that was given last; those after it were given longest ago
+  for (const std::size_t next : {newest, newest + 1 < blocks.size() ? newest + 1 : 0}) {
+    if (next >= blocks.size() || blocks[next].use_count() > 1) continue;
+    newest = next;
+    blocks[next]->begin_anew();
+    return blocks[next];
+  }
+  auto block = std::make_shared_for_overwrite<TraceBlock>();
+  if (blocks.size() == kMost) return block;
+  newest = std::min(newest + 1, blocks.size());
+  blocks.insert(blocks.begin() + static_cast<std::ptrdiff_t>(newest), block);
+  return block;
 }
 
 }  // namespace
@@ -89,9 +110,7 @@ const char* name_of(TraceKind kind) {
   return "?";
 }
 
-TraceDigest::TraceDigest() : state_(XXH3_createState()), block_(std::make_shared_for_overwrite<TraceBlock>()) {
-  XXH3_64bits_reset(hash(state_));
-}
+TraceDigest::TraceDigest() : state_(XXH3_createState()), block_(free_block()) { XXH3_64bits_reset(hash(state_)); }
 TraceDigest::~TraceDigest() { XXH3_freeState(hash(state_)); }
 
 void TraceDigest::pause() {
@@ -104,8 +123,8 @@ void TraceDigest::pause() {
 void TraceDigest::end_block() {
   flush();
   if (full_ != nullptr) full_(reader_);
-  if (block_.use_count() > 1) block_ = std::make_shared_for_overwrite<TraceBlock>();  // somebody keeps it
-  block_->begin_anew();
+  block_.reset();
+  block_ = free_block();  // another one, if somebody keeps that
   taken_ = count_;
 }
 

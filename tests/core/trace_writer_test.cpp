@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/outcome/trace_records.hpp"
 #include "tests/support/worlds.hpp"
 
@@ -42,14 +44,43 @@ TEST(TraceWriter, HandsEachLawTheKindsThatItReads) {
     EXPECT_EQ(sink.of(kind).size(), 1U);
 }
 
+class ReadsAboutTurns final : public Reads {
+ public:
+  ReadsAboutTurns() : Reads(TraceKinds{TraceKind::ActivityBegins, TraceKind::ActivityEnds, TraceKind::Contact}) {}
+  ActivityKinds reads_about() const override { return {ActivityKind::Turn}; }
+};
+
+TEST(TraceWriter, HandsALawRecordsAboutTheActivitiesThatItNames) {
+  std::vector<std::unique_ptr<Law>> laws;
+  laws.push_back(std::make_unique<ReadsAboutTurns>());
+  laws.push_back(std::make_unique<Reads>(TraceKinds{TraceKind::ActivityBegins, TraceKind::Contact}));
+  TraceWriter writer(laws, nullptr);
+  for (const ActivityKind activity : {ActivityKind::Drive, ActivityKind::Turn, ActivityKind::Dock}) {
+    writer.write(trace_record(kStart, EntityId{0U}, traced::ActivityBegins{activity, 0}), "");
+    writer.write(trace_record(kStart, EntityId{0U}, traced::ActivityEnds{activity, true}), "");
+    writer.write(trace_record(kStart, EntityId{0U}, traced::Contact{EntityId{1U}}), "");
+  }
+  const auto heard = [&](std::size_t law, TraceKind kind) {
+    return std::ranges::count(static_cast<const Reads&>(*laws[law]).heard, kind);
+  };
+  EXPECT_EQ(heard(0, TraceKind::ActivityBegins), 1);
+  EXPECT_EQ(heard(0, TraceKind::ActivityEnds), 1);
+  EXPECT_EQ(heard(0, TraceKind::Contact), 3);
+  EXPECT_EQ(heard(1, TraceKind::ActivityBegins), 3);
+  EXPECT_EQ(heard(1, TraceKind::ActivityEnds), 0);
+}
+
 // Keeps every part, and reads it at the end.
 class Keeps final : public Reads {
  public:
   Keeps() : Reads(TraceKinds{TraceKind::Contact}) {}
   bool hears_together() const override { return true; }
   void together(const TracePart& part) override { parts.push_back(part); }
-  bool must_hear_before(SimTime t) const override { return t >= curious_from; }
-  void happened(const TraceRecord&) override { heard_before_contact.push_back(records().size()); }
+  void hears_from(TraceSource& source) override { source_ = &source; }
+  void happened(const TraceRecord& record) override {
+    if (record.at >= curious_from) source_->hand_over();
+    heard_before_contact.push_back(records().size());
+  }
 
   std::vector<TraceRecord> records() const {
     std::vector<TraceRecord> all;
@@ -62,6 +93,9 @@ class Keeps final : public Reads {
   SimTime curious_from = kForever;
   std::vector<TracePart> parts;
   std::vector<std::size_t> heard_before_contact;
+
+ private:
+  TraceSource* source_ = nullptr;
 };
 
 TraceRecord record_number(std::uint32_t i) {

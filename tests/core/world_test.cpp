@@ -14,9 +14,8 @@ Scenario with_obstacle() {
   return scenario;
 }
 
-TEST(World, HoldsEveryBodyAndItsPlace) {
-  const Scenario scenario = with_obstacle();
-  World world(scenario, {});
+// Of the first AGV along the first segment, from 1 s on.
+Piece first_drive(const Scenario& scenario) {
   Piece drive;
   drive.entity = AgvId{0U};
   drive.manner = Manner::Drive;
@@ -25,7 +24,13 @@ TEST(World, HoldsEveryBodyAndItsPlace) {
   drive.curve = &scenario.map->lane(SegmentId{0U}, StationId{0U})->curve;
   drive.profile = MotionProfile(4.0, {});
   drive.end = drive.begin + drive.profile.duration();
-  world.continue_with(AgvId{0U}, drive);
+  return drive;
+}
+
+TEST(World, HoldsEveryBodyAndItsPlace) {
+  const Scenario scenario = with_obstacle();
+  World world(scenario, {});
+  world.continue_with(AgvId{0U}, first_drive(scenario));
   ASSERT_EQ(world.body_count(), 3U);
   for (std::uint32_t i = 0; i < 3; ++i) EXPECT_TRUE(world.body(EntityId{i}).on_floor);
   EXPECT_TRUE(world.body(EntityId{0U}).is_agv && world.body(EntityId{0U}).piece.manner == Manner::Drive);
@@ -62,6 +67,58 @@ TEST(World, ADriveIntoAnObstacleIsForeseen) {
   EXPECT_TRUE(outcome.contact);
   // Nose at 0.8 m, crate from 2.3 m on: 1.5 m to drive.
   EXPECT_NEAR(static_cast<double>(outcome.counters.distance_um) * 1e-6, 1.5, 1e-5);
+}
+
+// Whether or not another piece has begun since, and only with what is still on the floor.
+TEST(World, ForeseesTouchesWithWhatIsOnTheFloor) {
+  Scenario scenario = test::row_scenario(3, {0, 2}, 60.0);
+  scenario.obstacles.push_back({"crate", {1.0, 1.0}, {Vec2{2.8, 0.0}, Vec2::UnitX()}});
+  const AgvId first{0U}, second{1U};
+  const EntityId crate{2U};
+  const auto touched = [&](World& world) {
+    std::vector<TouchPrediction> touches;
+    world.predict_touches(first, touches);
+    std::vector<EntityId> others;
+    for (const TouchPrediction& touch : touches) others.push_back(touch.b);
+    return others;
+  };
+  World newest(scenario, {});
+  newest.continue_with(first, first_drive(scenario));
+  EXPECT_EQ(touched(newest), std::vector{crate});
+  newest.continue_with(second, rest_piece(second, {}, newest.pose_of(second, kStart), at_seconds(1.0)));
+  EXPECT_EQ(touched(newest), std::vector{crate}) << "another piece is the newest";
+  World left(scenario, {});
+  left.continue_with(first, first_drive(scenario));
+  left.take_off_floor(crate, at_seconds(1.0));
+  EXPECT_EQ(touched(left), std::vector<EntityId>{});
+}
+
+class Counts final : public Law {
+ public:
+  explicit Counts(Pieces pieces) : pieces_(pieces) {}
+  Pieces hears_pieces() const override { return pieces_; }
+  void piece_started(const Piece&) override { ++begun; }
+  void piece_ended(const Piece&) override { ++ended; }
+  LawFindings findings() const override { return {}; }
+
+  int begun = 0, ended = 0;
+
+ private:
+  Pieces pieces_;
+};
+
+TEST(World, TellsLawsOfThePiecesThatTheyWantToHear) {
+  const Scenario scenario = with_obstacle();
+  std::vector<std::unique_ptr<Law>> laws;
+  for (const auto pieces : {Law::Pieces::None, Law::Pieces::Beginnings, Law::Pieces::All})
+    laws.push_back(std::make_unique<Counts>(pieces));
+  World world(scenario, laws);
+  world.continue_with(AgvId{0U}, first_drive(scenario));
+  world.finish(at_seconds(60.0));
+  const auto counted = [&](std::size_t law) { return static_cast<const Counts&>(*laws[law]); };
+  EXPECT_EQ(std::pair(counted(0).begun, counted(0).ended), std::pair(0, 0));
+  EXPECT_EQ(std::pair(counted(1).begun, counted(1).ended), std::pair(4, 0));
+  EXPECT_EQ(std::pair(counted(2).begun, counted(2).ended), std::pair(4, 4));
 }
 
 }  // namespace

@@ -16,10 +16,13 @@ class Eager final : public Law {
   void piece_started(const Piece& piece) override { law_->piece_started(told(piece)); }
   void piece_ended(const Piece& piece) override { law_->piece_ended(told(piece)); }
   TraceKinds reads() const override { return law_->reads(); }
-  void happened(const TraceRecord& record) override { law_->happened(record); }
+  void happened(const TraceRecord& record) override {
+    if (source_ != nullptr) source_->hand_over();
+    law_->happened(record);
+  }
   bool hears_together() const override { return law_->hears_together(); }
   void together(const TracePart& part) override { law_->together(part); }
-  bool must_hear_before(SimTime) const override { return true; }
+  void hears_from(TraceSource& source) override { law_->hears_from(*(source_ = &source)); }
   void finish(SimTime end) override { law_->finish(end); }
   LawFindings findings() const override { return law_->findings(); }
 
@@ -32,6 +35,7 @@ class Eager final : public Law {
   }
   std::unique_ptr<Law> law_;
   std::vector<Piece> pieces_;
+  TraceSource* source_ = nullptr;
 };
 
 struct Judged {
