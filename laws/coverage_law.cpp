@@ -2,21 +2,18 @@
 
 #include <algorithm>
 #include <map>
-#include <span>
 #include <string>
 
 #include "core/clearance/clearance_over_time.hpp"
 #include "core/geometry/broad_phase.hpp"
 #include "core/outcome/trace_records.hpp"
 #include "laws/driven_ways.hpp"
-#include "laws/side_by_side.hpp"
 #include "laws/stretch.hpp"
 #include "laws/whereabouts.hpp"
 
 namespace fleetproof {
 namespace {
 
-constexpr Duration kLookAhead = std::chrono::seconds(10);
 constexpr double kNearMiss_m = 0.3;
 constexpr Duration kSameNearMiss = std::chrono::seconds(1);
 
@@ -26,9 +23,7 @@ class CoverageLaw final : public Law {
       : margin_m_(violation_threshold_m(scenario.law)),
         bodies_(scenario),
         swept_(scenario.agvs.size()),
-        ways_(*scenario.map, margin_m_),
-        drives_(scenario.agvs.size()),
-        driven_(scenario.agvs.size()) {}
+        ways_(*scenario.map, scenario.agvs.size(), margin_m_) {}
 
   double looks_within_m() const override { return kNearMiss_m; }
   void piece_started(const Piece& piece) override;
@@ -44,20 +39,6 @@ class CoverageLaw final : public Law {
     SimTime until = kStart;
     double clearance_m = 0.0;
   };
-  struct Drive {
-    Box box;      // of its way
-    SimTime end;  // as planned
-    DrivenWays::Number way;
-  };
-  // Those of one AGV that ended recently or are under way. The ones before `first` are forgotten.
-  struct Drives {
-    std::vector<Drive> all;
-    std::size_t first = 0;
-    Box box;  // of those that are not forgotten
-    std::span<const Drive> recent() const { return std::span(all).subspan(first); }
-    void forget_before(SimTime t);
-  };
-  void meet(const Piece& drive);
   void look_closer(const Piece& a, const Piece& b, Interval within);
   void close(const Near& near) { near_misses_ += near.clearance_m >= margin_m_; }
 
@@ -65,9 +46,6 @@ class CoverageLaw final : public Law {
   Whereabouts bodies_;
   BroadPhase swept_;  // AGVs by their pieces, as planned; none between a piece and the next
   DrivenWays ways_;
-  std::vector<Drives> drives_;               // by AGV
-  BroadPhase driven_;                        // AGVs by these drives
-  double widest_m_ = 0.0, longest_m_ = 0.0;  // of the bodies that have driven
   std::map<std::pair<EntityId, EntityId>, Near> near_;
   std::uint64_t near_misses_ = 0;
   std::map<Fault::Kind, std::uint64_t> faults_;
@@ -78,52 +56,15 @@ void CoverageLaw::piece_started(const Piece& piece) {
   bodies_.note(piece);
   if (piece.entity.index() >= bodies_.agv_count()) return;
   swept_.place(piece.entity.index(), piece.planned_box);
-  if (piece.manner == Manner::Drive) meet(piece);
-}
-
-// Tracks that do not come as near to each other as `side_by_side` looks meet in no way.
-void CoverageLaw::meet(const Piece& drive) {
-  const std::size_t mine = drive.entity.index();
-  const DrivenWays::Number way = ways_.number_of(drive);
-  widest_m_ = std::max(widest_m_, drive.footprint.width_m);
-  longest_m_ = std::max(longest_m_, drive.footprint.length_m);
-  const double reach_m = widest_m_ + 0.5 * longest_m_ + std::max(kBesideACurve_m, margin_m_);
-  const Box box = ways_.box_of(way), near = box.grown(reach_m);
-  for (const std::uint32_t other : driven_.overlapping(near)) {
-    if (other == mine) continue;
-    drives_[other].forget_before(drive.begin);
-    for (const Drive& earlier : drives_[other].recent()) {
-      if (near.overlaps(earlier.box)) ways_.meet(earlier.way, way);
-    }
-  }
-  Drives& own = drives_[mine];
-  own.forget_before(drive.begin);
-  own.all.push_back({box, drive.end, way});
-  own.box.add(box.low_m), own.box.add(box.high_m);
-  driven_.remove(mine);
-  driven_.place(mine, own.box);
-}
-
-// Those that no drive from `t` on can meet.
-void CoverageLaw::Drives::forget_before(SimTime t) {
-  if (first == all.size() || all[first].end + kLookAhead >= t) return;
-  do {
-    ++first;
-  } while (first < all.size() && all[first].end + kLookAhead < t);
-  if (2 * first >= all.size()) {  // seldom enough to cost nothing
-    all.erase(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(first));
-    first = 0;
-  }
-  box = {};
-  for (const Drive& drive : recent()) box.add(drive.box.low_m), box.add(drive.box.high_m);
+  if (piece.manner == Manner::Drive) ways_.begins(piece);
 }
 
 void CoverageLaw::piece_ended(const Piece& piece) {
   const std::size_t mine = piece.entity.index();
   if (mine >= bodies_.agv_count()) return;
+  if (!piece.has_company) return swept_.remove(mine);
   const Box near = swept_.box_of(mine).grown(kNearMiss_m);
   swept_.remove(mine);
-  if (!piece.has_company) return;
   for (const std::uint32_t i : swept_.overlapping(near)) {
     const Piece& other = bodies_.of(EntityId{i});
     const Interval common{std::max(piece.begin, other.begin), piece.end};
@@ -156,6 +97,7 @@ void CoverageLaw::finish(SimTime) {
 
 LawFindings CoverageLaw::findings() const {
   LawFindings findings;
+  findings.met.reserve(kEncounterKinds + kSceneKinds + 1 + faults_.size());
   const auto met = [&](std::string name, std::uint64_t count) {
     findings.met.push_back({ProbeSource::World, std::move(name), count});
   };

@@ -1,20 +1,75 @@
 #include "laws/driven_ways.hpp"
 
 #include <algorithm>
+#include <deque>
 #include <optional>
+#include <utility>
 
 #include "laws/map_places.hpp"
+#include "laws/middle_line.hpp"
 #include "laws/side_by_side.hpp"
 
 namespace fleetproof {
 namespace {
 
 constexpr double kRounding_m = 1e-3;
+constexpr std::size_t kFirst = 24;
 
 }  // namespace
 
-DrivenWays::DrivenWays(const LogicalMap& map, double margin_m)
-    : map_(map), margin_m_(margin_m), first_(map.segment_count() + 1, kNone) {}
+DrivenWays::DrivenWays(const LogicalMap& map, std::size_t agvs, double margin_m)
+    : map_(map), margin_m_(margin_m), first_(map.segment_count() + 1, kNone), agvs_(agvs), boxes_(agvs) {
+  // Short runs of few AGVs need no more.
+  ways_.reserve(kFirst), pairs_.reserve(kFirst), drives_.reserve(kFirst);
+}
+
+// Ways whose boxes are not as near to each other as `side_by_side` looks meet in no way.
+void DrivenWays::begins(const Piece& drive) {
+  const Number way = number_of(drive);
+  const double reach_m = widest_m_ + 0.5 * longest_m_ + std::max(kBesideACurve_m, margin_m_) + kRounding_m;
+  const Box near = ways_[way].box.grown(reach_m);
+  for (const std::uint32_t other : boxes_.overlapping(near)) {
+    if (other == drive.entity.index()) continue;
+    forget_before(drive.begin, agvs_[other]);
+    for (std::uint32_t at = agvs_[other].oldest; at != kNone; at = drives_[at].next) {
+      const Number earlier = drives_[at].way;
+      if (near.overlaps(ways_[earlier].box)) meet(earlier, way);
+    }
+  }
+  remember(drive, way);
+}
+
+// The box shrinks when half of it is forgotten: seldom enough to cost little.
+void DrivenWays::forget_before(SimTime t, OfAgv& agv) {
+  if (agv.oldest == kNone || drives_[agv.oldest].until >= t) return;
+  do {
+    const std::uint32_t place = std::exchange(agv.oldest, drives_[agv.oldest].next);
+    drives_[place].next = std::exchange(free_, place);
+    --agv.count, ++agv.forgotten;
+  } while (agv.oldest != kNone && drives_[agv.oldest].until < t);
+  if (agv.forgotten < agv.count) return;
+  agv.forgotten = 0;
+  agv.box = {};
+  for (std::uint32_t at = agv.oldest; at != kNone; at = drives_[at].next) agv.box.add(ways_[drives_[at].way].box);
+}
+
+// A drive can be met as long as those before it of the same AGV: it may take the place of one that was cut short.
+void DrivenWays::remember(const Piece& drive, Number way) {
+  OfAgv& agv = agvs_[drive.entity.index()];
+  forget_before(drive.begin, agv);
+  agv.until = std::max(agv.until, drive.end + kLookAhead);
+  if (free_ == kNone) {
+    free_ = static_cast<std::uint32_t>(drives_.size());
+    drives_.emplace_back();
+  }
+  const std::uint32_t place = std::exchange(free_, drives_[free_].next);
+  drives_[place] = {agv.until, way};
+  (agv.oldest == kNone ? agv.oldest : drives_[agv.newest].next) = place;
+  agv.newest = place;
+  ++agv.count;
+  agv.box.add(ways_[way].box);
+  boxes_.place(drive.entity.index(), agv.box);
+}
 
 DrivenWays::Number DrivenWays::number_of(const Piece& drive) {
   Number& first = first_[std::min<std::size_t>(drive.segment.index(), map_.segment_count())];
@@ -23,6 +78,8 @@ DrivenWays::Number DrivenWays::number_of(const Piece& drive) {
     if (known.curve == drive.curve && known.segment == drive.segment && known.footprint == drive.footprint) return way;
   }
   ways_.push_back({drive.curve, drive.segment, drive.footprint, Track::box_of(*drive.curve, drive.footprint), first});
+  widest_m_ = std::max(widest_m_, drive.footprint.width_m);
+  longest_m_ = std::max(longest_m_, drive.footprint.length_m);
   return first = static_cast<Number>(ways_.size() - 1);
 }
 
@@ -45,12 +102,16 @@ StationId DrivenWays::end_of(const Way& way) const {
 // Adds up what each pair of ways is.
 class DrivenWays::Judge {
  public:
-  explicit Judge(const DrivenWays& ways) : ways_(ways), tracks_(ways.ways_.size()) {}
+  explicit Judge(const DrivenWays& ways) : ways_(ways), tracks_(ways.ways_.size(), nullptr) {}
 
   void add(const Pair& pair) {
     const Way &earlier = ways_.ways_[pair.earlier], &later = ways_.ways_[pair.later];
-    if (may_meet(earlier, later)) add_meeting(track_of(pair.earlier), track_of(pair.later), pair.times);
     add_place(earlier, later, pair.times);
+    if (!may_meet(earlier, later)) return;
+    if (earlier.curve->is_straight() && later.curve->is_straight()) return add_straight(pair, earlier, later);
+    const Track &a = track_of(pair.earlier), &b = track_of(pair.later);
+    add_encounter(earlier, later, encounter_of(a, b, ways_.margin_m_), pair.times);
+    add_passing(a, b, pair.times);
   }
   const Meetings& sum() const { return sum_; }
 
@@ -65,16 +126,32 @@ class DrivenWays::Judge {
     return a.box.grown(widths_m + std::max(ways_.margin_m_, beside_m) + kRounding_m).overlaps(b.box);
   }
 
-  const Track& track_of(Number number) {
-    const Way& way = ways_.ways_[number];
-    if (tracks_[number].points.empty()) tracks_[number] = Track::of(*way.curve, way.footprint);
-    return tracks_[number];
+  // Most of these need no points of tracks.
+  void add_straight(const Pair& pair, const Way& earlier, const Way& later) {
+    const auto a = MiddleLine::of(*earlier.curve, earlier.footprint), b = MiddleLine::of(*later.curve, later.footprint);
+    const double widths_m = 0.5 * (earlier.footprint.width_m + later.footprint.width_m);
+    if (MiddleLine::are_apart(a, b, widths_m + std::max(ways_.margin_m_, kTightGap_m) + kRounding_m)) return;
+    const bool follows = surely_following(a, b, widths_m + ways_.margin_m_);
+    const auto kind = follows ? EncounterKind::Following
+                              : encounter_of(track_of(pair.earlier), track_of(pair.later), ways_.margin_m_);
+    add_encounter(earlier, later, kind, pair.times);
+    if (surely_not_side_by_side(a, b, widths_m)) return;
+    add_passing(track_of(pair.earlier), track_of(pair.later), pair.times);
   }
 
-  void add_meeting(const Track& earlier, const Track& later, std::uint64_t times) {
-    const auto kind = encounter_of(earlier, later, ways_.margin_m_);
-    if (kind) sum_.encounters[static_cast<std::size_t>(*kind)] += times;
-    add(SceneKind::BackIn, kind && (earlier.tail_first || later.tail_first), times);
+  const Track& track_of(Number number) {
+    const Way& way = ways_.ways_[number];
+    if (tracks_[number] == nullptr) tracks_[number] = &made_.emplace_back(Track::of(*way.curve, way.footprint));
+    return *tracks_[number];
+  }
+
+  void add_encounter(const Way& earlier, const Way& later, std::optional<EncounterKind> kind, std::uint64_t times) {
+    if (!kind) return;
+    sum_.encounters[static_cast<std::size_t>(*kind)] += times;
+    add(SceneKind::BackIn, earlier.curve->is_tail_first() || later.curve->is_tail_first(), times);
+  }
+
+  void add_passing(const Track& earlier, const Track& later, std::uint64_t times) {
     const SideBySide passing = side_by_side(earlier, later, ways_.margin_m_);
     add(SceneKind::TightGap, passing.tight_gap, times);
     add(SceneKind::CurveBesideLane, passing.curve_beside_lane, times);
@@ -97,8 +174,9 @@ class DrivenWays::Judge {
   }
 
   const DrivenWays& ways_;
-  std::vector<Track> tracks_;        // by way, where they are needed; else without points
-  std::optional<MapPlaces> places_;  // if two ways end at one station
+  std::deque<Track> made_;
+  std::vector<const Track*> tracks_;  // by way; null where they are not needed
+  std::optional<MapPlaces> places_;   // if two ways end at one station
   Meetings sum_;
 };
 

@@ -83,8 +83,8 @@ Track Track::of(const Curve& curve, const Footprint& footprint) {
 }
 
 Box Track::box_of(const Curve& curve, const Footprint& footprint) {
-  const double length_m = curve.length_m(), first_m = centre_of(curve, footprint) - 0.5 * footprint.length_m,
-               last_m = first_m + length_m + footprint.length_m;
+  const double length_m = curve.length_m(), tail_m = centre_of(curve, footprint) - 0.5 * footprint.length_m,
+               first_m = std::min(tail_m, 0.0), last_m = std::max(tail_m + footprint.length_m, 0.0) + length_m;
   const Pose start = curve.pose_at(0.0);
   const Vec2 travel = curve.is_tail_first() ? Vec2(-start.heading) : start.heading;
   Box box;
@@ -98,6 +98,15 @@ Box Track::box_of(const Curve& curve, const Footprint& footprint) {
   const double beyond_m = std::max({-first_m, last_m - length_m, 0.0});
   box.add(0.5 * (start.position_m + curve.pose_at(length_m).position_m));
   return box.grown(0.5 * length_m + beyond_m + kBoxRounding_m);
+}
+
+// The first point of a track lies beside the other one. The points of that are so dense that one of them is near, too.
+// The drives run in one direction, and where one of them comes near the other first, it is at its start.
+bool surely_following(const MiddleLine& a, const MiddleLine& b, double reach_m) {
+  if (a.travel.dot(b.travel) < kSameWay) return false;
+  const double surely_m = reach_m - kRounding_m;
+  const double square_m2 = surely_m * surely_m - 0.25 * kStep_m * kStep_m;
+  return b.square_distance_m2(a.begin_m) < square_m2 || a.square_distance_m2(b.begin_m) < square_m2;
 }
 
 std::optional<EncounterKind> encounter_of(const Track& a, const Track& b, double margin_m) {

@@ -6,6 +6,7 @@
 #include "core/geometry/curve.hpp"
 #include "core/geometry/rectangle.hpp"
 #include "core/outcome/probe_names.hpp"
+#include "laws/middle_line.hpp"
 
 namespace fleetproof {
 
@@ -27,8 +28,8 @@ struct Track {
   double centre_m = 0.0;    // of the body, from its reference point, along the travel
 
   static Track of(const Curve& curve, const Footprint& footprint);
-  // A box that contains the points of such a track; it is found without them. For a bend it is up to half its length
-  // too large.
+  // A box that contains the points of such a track, and its curve; it is found without them. For a bend it is up to
+  // half its length too large.
   static Box box_of(const Curve& curve, const Footprint& footprint);
   // How many of the points after one at this distance from something cannot be as near to it as `reach_m`.
   std::size_t points_beyond(double distance_m, double reach_m) const {
@@ -47,5 +48,8 @@ struct Track {
 //   merging:   the tracks come from different sides and continue in the same direction, or end at the same place;
 //   crossing:  any other case.
 std::optional<EncounterKind> encounter_of(const Track& a, const Track& b, double margin_m);
+// True only if encounter_of() says `following` of two straight tracks: one begins beside the other, in its direction.
+// `reach_m`: `margin_m` and half their widths.
+bool surely_following(const MiddleLine& a, const MiddleLine& b, double reach_m);
 
 }  // namespace fleetproof

@@ -28,80 +28,76 @@ struct Neighbours {
 class CutSearch {
  public:
   CutSearch(const Neighbours& neighbours, std::vector<bool>& bottleneck)
-      : neighbours_(neighbours),
-        bottleneck_(bottleneck),
-        number_(bottleneck.size()),
-        low_(bottleneck.size()),
-        below_(bottleneck.size(), 1) {}
+      : neighbours_(neighbours), bottleneck_(bottleneck), found_(bottleneck.size()) {}
 
   void run() {
-    for (std::uint32_t s = 0; s < number_.size(); ++s) {
-      if (number_[s] == 0) from(s);
+    for (std::uint32_t s = 0; s < found_.size(); ++s) {
+      if (found_[s].number == 0) from(s);
     }
   }
 
  private:
+  struct Found {
+    std::uint32_t number = 0, low = 0;   // 0: not found yet
+    std::uint32_t below = 1;             // stations found through it, with itself
+    std::uint32_t largest = 0, sum = 0;  // of the parts that are cut off without it
+  };
   struct Step {
-    std::uint32_t station, before, next;
+    std::uint32_t station, before, next, end;
   };
 
-  Step step(std::uint32_t station, std::uint32_t before) const { return {station, before, neighbours_.begin[station]}; }
+  Step step(std::uint32_t station, std::uint32_t before) {
+    found_[station].number = found_[station].low = ++numbered_;
+    return {station, before, neighbours_.begin[station], neighbours_.begin[station + 1]};
+  }
 
   void from(std::uint32_t root) {
-    std::vector<Step> way{step(root, root)};
-    number_[root] = low_[root] = ++numbered_;
-    while (!way.empty()) {
-      Step& here = way.back();
-      if (here.next < neighbours_.begin[here.station + 1]) {
-        const std::uint32_t to = neighbours_.stations[here.next++];
-        if (number_[to] == 0) {
-          number_[to] = low_[to] = ++numbered_;
-          way.push_back(step(to, here.station));
+    way_.assign(1, step(root, root));
+    while (!way_.empty()) {
+      Step& here = way_.back();
+      if (here.next < here.end) {
+        const std::uint32_t to = neighbours_.stations[here.next++], number = found_[to].number;
+        if (number == 0) {
+          way_.push_back(step(to, here.station));
         } else if (to != here.before) {
-          low_[here.station] = std::min(low_[here.station], number_[to]);
+          found_[here.station].low = std::min(found_[here.station].low, number);
         }
         continue;
       }
       const Step done = here;
-      way.pop_back();
-      if (!way.empty()) leave(done);
+      way_.pop_back();
+      if (!way_.empty()) leave(done);
     }
     judge_all(root);
   }
 
   // A part below `before` whose stations lead nowhere above it is cut off without `before`.
   void leave(const Step& done) {
-    below_[done.before] += below_[done.station];
-    low_[done.before] = std::min(low_[done.before], low_[done.station]);
-    if (low_[done.station] < number_[done.before]) return;
-    parts_.push_back({done.before, below_[done.station]});
+    Found &before = found_[done.before], &part = found_[done.station];
+    before.below += part.below;
+    before.low = std::min(before.low, part.low);
+    if (part.low < before.number) return;
+    if (before.sum == 0) cut_.push_back(done.before);
+    before.largest = std::max(before.largest, part.below);
+    before.sum += part.below;
   }
 
   // The largest part is what remains; all the other parts are cut off from it.
   void judge_all(std::uint32_t root) {
-    std::vector<std::size_t> largest(number_.size()), sum(number_.size());
-    for (const auto& [station, size] : parts_) {
-      largest[station] = std::max(largest[station], size);
-      sum[station] += size;
-    }
-    for (const auto& [station, size] : parts_) {
-      const std::size_t above = below_[root] - 1 - sum[station];
-      const std::size_t rest = sum[station] + above - std::max(largest[station], above);
+    for (const std::uint32_t station : cut_) {
+      const Found& found = found_[station];
+      const std::uint32_t above = found_[root].below - 1 - found.sum;
+      const std::size_t rest = found.sum + above - std::max(found.largest, above);
       if (rest * kCutOffOneIn >= bottleneck_.size()) bottleneck_[station] = true;
     }
-    parts_.clear();
+    cut_.clear();
   }
-
-  struct Part {
-    std::uint32_t station;
-    std::size_t size;
-  };
 
   const Neighbours& neighbours_;
   std::vector<bool>& bottleneck_;
-  std::vector<std::uint32_t> number_, low_;  // by station; 0: not found yet
-  std::vector<std::size_t> below_;           // stations found through it, with itself
-  std::vector<Part> parts_;
+  std::vector<Found> found_;  // by station
+  std::vector<Step> way_;
+  std::vector<std::uint32_t> cut_;  // stations without which a part is cut off
   std::uint32_t numbered_ = 0;
 };
 
@@ -109,16 +105,20 @@ class CutSearch {
 
 MapPlaces::MapPlaces(const LogicalMap& map) : bottleneck(map.station_count()), four_way(map.station_count()) {
   CutSearch(Neighbours(map.layout()), bottleneck).run();
-  std::vector<std::size_t> sides(map.station_count());
-  std::vector<StationId> last(map.station_count());  // of the stations counted as a side of a station
+  struct Sides {
+    std::uint32_t count = 0;
+    StationId last;  // that was counted
+  };
+  std::vector<Sides> sides(map.station_count());
+  const auto& lanes = map.lanes();
   for (std::size_t s = 0; s < map.station_count(); ++s) {
     for (const std::uint32_t lane : map.lanes_from(StationId{s})) {
-      const std::size_t to = map.lanes()[lane].to.index();
-      if (last[to] != StationId{s}) ++sides[to];
-      last[to] = StationId{s};
+      const std::size_t to = lanes[lane].to.index();
+      if (sides[to].last == StationId{s}) continue;
+      sides[to].last = StationId{s};
+      if (++sides[to].count == kSides) four_way[to] = true;
     }
   }
-  for (std::size_t s = 0; s < map.station_count(); ++s) four_way[s] = sides[s] >= kSides;
 }
 
 }  // namespace fleetproof

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kAlong = 0.985;  // cosine of 10 degrees
 constexpr double kSlack_m = 1e-6;
+constexpr double kSurely_m = 1e-3;  // more than slack and rounding
 
 double distance_m(const Vec2& p, const Vec2& a, const Vec2& b) {
   const Vec2 way = b - a;
@@ -64,6 +65,13 @@ double bodies_apart_m(const Track& a, const Track& b, double within_m) {
 }
 
 }  // namespace
+
+bool surely_not_side_by_side(const MiddleLine& a, const MiddleLine& b, double widths_m) {
+  if (std::abs(a.travel.dot(b.travel)) < kAlong) return true;
+  const double within_m = std::max(0.0, widths_m - kSurely_m), square_m2 = within_m * within_m;
+  return b.square_distance_m2(a.begin_m) < square_m2 || a.square_distance_m2(b.begin_m) < square_m2 ||
+         b.square_distance_m2(a.end_m()) < square_m2 || a.square_distance_m2(b.end_m()) < square_m2;
+}
 
 SideBySide side_by_side(const Track& a, const Track& b, double margin_m) {
   SideBySide met;

@@ -20,5 +20,8 @@ struct SideBySide {
 
 // Nothing is met if the bands overlap somewhere: then the tracks cross, merge or are one track.
 SideBySide side_by_side(const Track& a, const Track& b, double margin_m);
+// True only if side_by_side() finds nothing between two straight tracks: they run in different directions, or one ends
+// within the band of the other. `widths_m`: half their widths.
+bool surely_not_side_by_side(const MiddleLine& a, const MiddleLine& b, double widths_m);
 
 }  // namespace fleetproof

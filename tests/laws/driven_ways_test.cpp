@@ -41,13 +41,20 @@ void add(const Piece& earlier, const Piece& later, StationId to, bool one_place,
   scene(SceneKind::FourWay, one_place && places.four_way[to.index()]);
 }
 
+StationId end_of(const LogicalMap& map, const Piece& drive) {
+  for (const Lane& lane : map.lanes()) {
+    if (&lane.curve == drive.curve) return lane.to;
+  }
+  return {};
+}
+
 class WaysOfFamily : public testing::TestWithParam<const char*> {};
 
 // Every lane after every other one, by bodies of two sizes.
 TEST_P(WaysOfFamily, MeetAsTheirTracksDo) {
   const auto map = map_of(GetParam(), 3);
   const MapPlaces places(*map);
-  DrivenWays ways(*map, kMargin_m);
+  DrivenWays ways(*map, 1, kMargin_m);
   DrivenWays::Meetings expected;
   for (const Footprint& footprint : {Footprint{}, Footprint{2.2, 1.3, 0.4}}) {
     for (const Lane& a : map->lanes()) {
@@ -60,6 +67,39 @@ TEST_P(WaysOfFamily, MeetAsTheirTracksDo) {
   }
   EXPECT_EQ(ways.meetings().encounters, expected.encounters);
   EXPECT_EQ(ways.meetings().scenes, expected.scenes);
+}
+
+// Many drives of many AGVs, some of them cut short, against every one before them.
+TEST_P(WaysOfFamily, MeetThoseThatBeganBeforeThemAndMayStillBeNear) {
+  constexpr std::uint32_t kAgvs = 40;
+  const auto map = map_of(GetParam(), 4);
+  const MapPlaces places(*map);
+  DrivenWays ways(*map, kAgvs, kMargin_m);
+  DrivenWays::Meetings expected;
+  std::vector<Piece> drives;
+  std::vector<SimTime> met_until, latest(kAgvs, kStart);
+  Draws draws(7);
+  for (int i = 0; i < 400; ++i) {
+    const Lane& lane = map->lanes()[draws.below(static_cast<std::uint32_t>(map->lanes().size()))];
+    Piece drive = drive_on(lane, draws.below(3) == 0 ? Footprint{2.2, 1.3, 0.4} : Footprint{});
+    drive.entity = EntityId{static_cast<std::uint32_t>(draws.below(kAgvs))};
+    drive.begin = kStart + i * std::chrono::milliseconds(200);
+    drive.end = drive.begin + std::chrono::seconds(1 + draws.below(i % 20 == 0 ? 40 : 6));
+    for (std::size_t k = 0; k < drives.size(); ++k) {
+      if (drives[k].entity == drive.entity || met_until[k] < drive.begin) continue;
+      const StationId to = lane.to;
+      const bool one_place = end_of(*map, drives[k]) == to && drives[k].segment != drive.segment;
+      add(drives[k], drive, to, one_place, places, expected);
+    }
+    SimTime& until = latest[drive.entity.index()];
+    until = std::max(until, drive.end + DrivenWays::kLookAhead);
+    drives.push_back(drive);
+    met_until.push_back(until);
+    ways.begins(drive);
+  }
+  EXPECT_EQ(ways.meetings().encounters, expected.encounters);
+  EXPECT_EQ(ways.meetings().scenes, expected.scenes);
+  EXPECT_GT(expected.encounters[static_cast<std::size_t>(EncounterKind::Following)], 0U);
 }
 
 TEST_P(WaysOfFamily, LieInTheirBoxes) {
@@ -92,7 +132,7 @@ INSTANTIATE_TEST_SUITE_P(All, WaysOfFamily,
 TEST(DrivenWays, CountEveryMeetingOfTheirDrives) {
   const auto map = map_of("aisle-grid", 1);
   const Lane& lane = map->lanes().front();
-  DrivenWays ways(*map, kMargin_m);
+  DrivenWays ways(*map, 1, kMargin_m);
   const auto small = ways.number_of(drive_on(lane, Footprint{})), large = ways.number_of(drive_on(lane, {2.0, 1.2}));
   EXPECT_NE(small, large);
   EXPECT_EQ(ways.number_of(drive_on(lane, Footprint{})), small);
