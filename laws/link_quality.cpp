@@ -43,9 +43,7 @@ std::uint32_t losses_that_reject(std::uint32_t receptions) {
       std::ceil(kContractLoss * n + kNormalQuantile * std::sqrt(n * kContractLoss * (1.0 - kContractLoss)) + 0.5));
 }
 
-LinkQuality::LinkQuality(std::size_t agvs) : agvs_(agvs) {
-  waiting_.reserve(kFirstParts);
-}
+LinkQuality::LinkQuality(std::size_t agvs) : agvs_(agvs) { waiting_.reserve(kFirstParts); }
 
 LinkQuality::Link& LinkQuality::now(std::size_t sender, std::size_t receiver, std::int64_t second) {
   auto& row = places_[receiver];

@@ -128,6 +128,8 @@ void BroadPhase::scan_filed(const Box& box) {
 // One comparison tests two bodies. 1: the first one, 2: the second one, 3: both.
 #ifdef __SSE2__
 class BroadPhase::Question {
+  static_assert(__STDCPP_DEFAULT_NEW_ALIGNMENT__ >= 16 && sizeof(Two) % 16 == 0, "a vector of them is aligned");
+
  public:
   explicit Question(const Box& box)
       : left_(_mm_set1_pd(box.low_m.x())),

@@ -45,7 +45,7 @@ class BroadPhase {
 
  private:
   // The boxes of two bodies.
-  struct [[gnu::aligned(16)]] Two {
+  struct Two {
     std::array<double, 2> left{Box{}.low_m.x(), Box{}.low_m.x()}, bottom{}, right{Box{}.high_m.x(), Box{}.high_m.x()},
         top{};
   };
