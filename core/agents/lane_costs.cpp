@@ -8,6 +8,7 @@
 
 #include "core/agents/aisles.hpp"
 #include "core/agents/fleet.hpp"
+#include "core/agents/least_costs.hpp"
 #include "core/agents/map_view.hpp"
 #include "core/agents/opposite_lanes.hpp"
 #include "core/agents/routes.hpp"
@@ -25,6 +26,18 @@ constexpr std::uint32_t kModelShift = 16;
 float rounded_down(double value) {
   const auto near = static_cast<float>(value);
   return near > value ? std::nextafter(near, 0.0F) : near;
+}
+
+// For LeastCosts. The question names the model of the AGV.
+std::span<const std::byte> costs_back(const fp_facts& facts, std::uint64_t question) {
+  return ask<std::byte>(
+      facts,
+      [](const fp_facts* from, std::uint64_t of, fp_answer* to) {
+        const MapView map(*from);
+        const auto costs_s = lane_costs_s(HullParts(map, *from, HullKey(of)), HullKey::item_of(of));
+        answer(*from, to, LeastCosts(map, costs_s, true).bytes());
+      },
+      question);
 }
 
 }  // namespace
@@ -73,12 +86,10 @@ std::span<const float> remaining_costs_s(const HullParts& parts, std::uint32_t m
   return ask<float>(
       parts.facts(),
       [](const fp_facts* from, std::uint64_t question, fp_answer* to) {
-        const MapView map(*from);
         const std::uint32_t item = HullKey::item_of(question);
-        const auto costs_s = lane_costs_s(HullParts(map, *from, HullKey(question)), item >> kModelShift);
-        const auto exact_s = least_costs_s(map, costs_s, item & ((1U << kModelShift) - 1U), true);
+        const LeastCosts least(costs_back(*from, HullKey(question).question(item >> kModelShift)));
         std::vector<float> table_s;
-        for (const double value : exact_s) table_s.push_back(rounded_down(value));
+        for (const double value : least.from(item & ((1U << kModelShift) - 1U))) table_s.push_back(rounded_down(value));
         answer(*from, to, table_s);
       },
       parts.key().question(goal | (model << kModelShift)));

@@ -1,6 +1,44 @@
 #include "core/agents/map_without.hpp"
 
+#include <algorithm>
+
+#include "core/agents/facts.hpp"
+
 namespace fleetproof::agents {
+
+MapWithout::MapWithout(const MapView& map) : blocked_(map.lane_count(), false), seen_(map.station_count(), 0) {
+  std::span<const std::byte> bytes;
+  if (map.facts() == nullptr) {
+    own_ = work_out(map);
+    bytes = own_;
+  } else {
+    bytes = ask<std::byte>(
+        *map.facts(),
+        [](const fp_facts* from, std::uint64_t, fp_answer* to) { answer(*from, to, work_out(MapView(*from))); }, 0);
+  }
+  TableReader tables(bytes);
+  for (Hops* const hops : {&onward_, &back_}) {
+    hops->all = tables.next<Hop>();
+    hops->first = tables.next<std::uint32_t>();
+  }
+}
+
+std::vector<std::byte> MapWithout::work_out(const MapView& map) {
+  TableWriter tables;
+  for (const bool back : {false, true}) {
+    std::vector<Hop> hops;
+    std::vector<std::uint32_t> first;
+    hops.reserve(map.lane_count()), first.reserve(map.station_count() + 1);
+    for (std::uint32_t station = 0; station < map.station_count(); ++station) {
+      first.push_back(static_cast<std::uint32_t>(hops.size()));
+      for (const std::uint32_t lane : back ? map.lanes_to(station) : map.lanes_from(station))
+        hops.push_back({lane, back ? map.lane(lane).from : map.lane(lane).to});
+    }
+    first.push_back(static_cast<std::uint32_t>(hops.size()));
+    tables.add(hops), tables.add(first);
+  }
+  return tables.bytes();
+}
 
 void MapWithout::take_away(std::uint32_t station) {
   without_ = station;
@@ -13,10 +51,13 @@ void MapWithout::block(std::uint32_t lane) {
   blocked_list_.push_back(lane);
 }
 
-bool MapWithout::reaches(std::uint32_t from, std::uint32_t to) {
+bool MapWithout::reaches(std::uint32_t from, std::span<const std::uint32_t> all, bool backwards) {
   begin_look(from);
-  for (std::size_t next = 0; next < found_.size() && !was_found(to); ++next) look_on(found_[next], false);
-  return was_found(to);
+  std::size_t next = 0;
+  return std::ranges::all_of(all, [&](std::uint32_t to) {
+    while (next < found_.size() && !was_found(to)) look_on(found_[next++], backwards);
+    return was_found(to);
+  });
 }
 
 bool MapWithout::explore(std::uint32_t from, bool backwards, std::size_t most) {
@@ -34,9 +75,10 @@ void MapWithout::begin_look(std::uint32_t from) {
 }
 
 void MapWithout::look_on(std::uint32_t at, bool backwards) {
-  for (const std::uint32_t lane : backwards ? map_.lanes_to(at) : map_.lanes_from(at)) {
-    const std::uint32_t next = backwards ? map_.lane(lane).from : map_.lane(lane).to;
-    if (next == without_ || blocked_[lane] || was_found(next)) continue;
+  const Hops& hops = backwards ? back_ : onward_;
+  for (std::uint32_t hop = hops.first[at]; hop < hops.first[at + 1]; ++hop) {
+    const auto [lane, next] = hops.all[hop];
+    if (next == without_ || was_found(next) || blocked_[lane]) continue;
     seen_[next] = look_;
     found_.push_back(next);
   }

@@ -12,6 +12,9 @@ namespace fleetproof::agents {
 // search that looks at a place again when it finds it nearer ends with the same figures for any such order.
 class NearQueue {
  public:
+  // Places further away than so many widths cost more.
+  explicit NearQueue(std::uint32_t buckets = 4096) : newest_(buckets, kNone) {}
+
   // Forgets what it holds. Requires: width > 0; no place is nearer than `nearest`, but for rounding.
   void begin(double nearest, double width) {
     std::fill_n(newest_.begin(), used_, kNone);
@@ -26,7 +29,7 @@ class NearQueue {
   // Nearer than places that were taken already: it comes next.
   void push(double distance, std::uint32_t place) {
     const double widths = (distance - nearest_) * per_width_;
-    if (!(widths < static_cast<double>(kBuckets))) return push_far(distance, place);
+    if (!(widths < static_cast<double>(newest_.size()))) return push_far(distance, place);
     const auto bucket = static_cast<std::uint32_t>(std::max<std::int64_t>(current_, static_cast<std::int64_t>(widths)));
     if (count_ == entries_.size()) grow();
     entries_[count_] = {place, newest_[bucket]};
@@ -51,7 +54,7 @@ class NearQueue {
   }
 
  private:
-  static constexpr std::uint32_t kBuckets = 4096, kNone = ~std::uint32_t{0};
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
   struct Entry {
     std::uint32_t place, before;
   };
@@ -75,9 +78,9 @@ class NearQueue {
   }
 
   double nearest_ = 0.0, width_ = 1.0, per_width_ = 1.0;
-  std::uint32_t current_ = 0, used_ = 0;                                             // buckets
-  std::vector<std::uint32_t> newest_ = std::vector<std::uint32_t>(kBuckets, kNone);  // entry of each bucket
-  std::vector<Entry> entries_;                                                       // the first count_
+  std::uint32_t current_ = 0, used_ = 0;  // buckets
+  std::vector<std::uint32_t> newest_;     // entry of each bucket
+  std::vector<Entry> entries_;            // the first count_
   std::uint32_t count_ = 0;
   std::vector<Far> far_;  // heap of what lies beyond all buckets
 };

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/agents/drive_rules.hpp"
+#include "core/agents/least_costs.hpp"
 #include "core/agents/routes.hpp"
 
 namespace fleetproof::agents {
@@ -79,13 +80,19 @@ double OppositeLanes::ways_m(std::uint32_t main, std::uint32_t other) {
   for (std::uint32_t lane = 0; lane < map_.lane_count(); ++lane)
     costs_m.push_back(map_.lane(lane).length_m * (against_[lane] ? kPrice : 1.0));
   against_ = before;
-  const DriveRules rules(map_, 0);
-  Routes routes(map_, rules);
   double sum_m = 0.0;
   const std::vector<std::uint32_t> ends = goals();
+  const DriveRules rules(map_, 0);
+  const LeastCosts least(map_, costs_m, false);
+  Routes routes(map_, rules);
   for (const std::uint32_t from : ends) {
-    routes.search(from, {1.0, 0.0}, costs_m);
-    for (const std::uint32_t to : ends) sum_m += routes.cost_s(to) < INFINITY ? routes.cost_s(to) : 0.0;
+    std::vector<double> ways_m;
+    if (!rules.any()) ways_m = least.from(from);
+    if (rules.any()) routes.search(from, {1.0, 0.0}, costs_m);
+    for (const std::uint32_t to : ends) {
+      const double way_m = rules.any() ? routes.cost_s(to) : ways_m[to];
+      sum_m += way_m < INFINITY ? way_m : 0.0;
+    }
   }
   return sum_m;
 }

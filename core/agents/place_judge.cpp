@@ -8,18 +8,19 @@ namespace fleetproof::agents {
 
 namespace {
 
-enum Mark : std::uint8_t { kReached = 1, kReaches = 2, kInPart = 3, kInLargest = 4 };
+enum Mark : std::uint8_t { kReached = 1, kReaches = 2, kInPart = 3 };
 
-// Marks the stations that `from` reaches, and that reach `from`. Returns the number of goals among them.
+// Marks the stations that `from` reaches, which were just found, and those that reach `from`. Returns the number of
+// goals that are both.
 std::uint32_t mark_part(MapWithout& map, std::uint32_t from, std::span<const std::uint8_t> is_goal,
                         std::vector<std::uint8_t>& marks) {
-  for (const bool backwards : {false, true}) {
-    map.explore(from, backwards);
-    for (const std::uint32_t id : map.found())
-      marks[id] = static_cast<std::uint8_t>(marks[id] | (backwards ? kReaches : kReached));
-  }
+  for (const std::uint32_t id : map.found()) marks[id] = kReached;
+  map.explore(from, true);
   std::uint32_t goals = 0;
-  for (std::uint32_t id = 0; id < marks.size(); ++id) goals += is_goal[id] != 0 && (marks[id] & kInPart) == kInPart;
+  for (const std::uint32_t id : map.found()) {
+    goals += is_goal[id] != 0 && marks[id] == kReached;
+    marks[id] = static_cast<std::uint8_t>(marks[id] | kReaches);
+  }
   return goals;
 }
 
@@ -30,6 +31,7 @@ std::vector<std::byte> work_out_goals(const MapView& map) {
   const auto count = static_cast<std::uint32_t>(std::ranges::count(is_goal, 1));
   const auto first = static_cast<std::uint32_t>(std::ranges::find(is_goal, 1) - is_goal.begin());
   MapWithout whole(map);
+  whole.explore(first, false);
   const bool are_connected = count > 1 && mark_part(whole, first, is_goal, marks) == count;
   TableWriter tables;
   tables.add(is_goal), tables.add(marks), tables.add(std::vector<std::uint32_t>{count, are_connected ? 1U : 0U});
@@ -51,7 +53,12 @@ Goals goals_of(const fp_facts& facts) {
 }  // namespace
 
 PlaceJudge::PlaceJudge(const MapView& map, const HullParts& parts)
-    : map_(map), parts_(parts), goals_(goals_of(parts.facts())), without_(map), marks_(map.station_count()) {}
+    : map_(map),
+      parts_(parts),
+      goals_(goals_of(parts.facts())),
+      without_(map),
+      marks_(map.station_count()),
+      sides_(map.station_count()) {}
 
 std::uint32_t burden_of(const HullParts& parts, std::uint32_t station) {
   return ask<std::uint32_t>(
@@ -77,46 +84,51 @@ std::uint32_t PlaceJudge::burden(std::uint32_t station) {
   return (holds_up_followers_only ? 0 : cut_off) + (misses_lanes ? kFoulsLanes : 0);
 }
 
-// True if it is easily seen what the station cuts off: small pieces, such as bays, that no lane connects with the rest,
-// while every other way through the station and every other blocked lane has a way round. Then the rest of the map
-// reaches all that it reached before. False says nothing.
+// True if it is easily seen what the station cuts off: small pieces that reach the rest of the map no more, or are not
+// reached from there, such as bays and the lanes that only lead to them, while the rest stays connected. False says
+// nothing.
 bool PlaceJudge::cuts_off_pieces_only(std::uint32_t station, std::uint32_t others) {
-  cut_off_.assign(map_.station_count(), false);
-  goals_in_pieces_ = 0;
-  std::uint32_t largest = 0;
-  const auto is_no_riddle = [&](std::uint32_t from) {
-    if (from == station || is_cut_off(from) || !without_.explore(from, false, kSmallPiece)) return true;
-    const std::vector<std::uint32_t> piece(without_.found().begin(), without_.found().end());
-    if (!without_.explore(from, true, kSmallPiece) || without_.found().size() != piece.size()) return false;
-    std::uint32_t goals = 0;
-    for (const std::uint32_t id : piece) {
-      if (!without_.was_found(id)) return false;
-      cut_off_[id] = true;
-      goals += goals_.is_goal[id];
-    }
-    goals_in_pieces_ += goals;
-    largest = std::max(largest, goals);
-    return true;
+  for (const std::uint32_t id : seen_) sides_[id] = 0;
+  for (const std::uint32_t id : pieces_) sides_[id] = 0;
+  seen_.clear(), pieces_.clear();
+  goals_in_pieces_ = largest_piece_ = 0;
+  const auto visit = [&](std::uint32_t end) {
+    if (end != station) cut_off_around(end);
   };
-  const auto ends = [&](std::uint32_t lane) {
-    return is_no_riddle(map_.lane(lane).from) && is_no_riddle(map_.lane(lane).to);
-  };
-  return std::ranges::all_of(map_.lanes_from(station), ends) && std::ranges::all_of(map_.lanes_to(station), ends) &&
-         std::ranges::all_of(without_.blocked(), ends) && others - goals_in_pieces_ > largest && has_detours(station);
+  for (const std::uint32_t lane : map_.lanes_to(station)) visit(map_.lane(lane).from);
+  for (const std::uint32_t lane : map_.lanes_from(station)) visit(map_.lane(lane).to);
+  for (const std::uint32_t lane : without_.blocked()) visit(map_.lane(lane).from), visit(map_.lane(lane).to);
+  if (std::ranges::all_of(seen_, [&](std::uint32_t id) { return is_cut_off(id); })) return false;
+  for (std::size_t next = 0; next < pieces_.size(); ++next) {
+    for (const std::uint32_t lane : map_.lanes_to(pieces_[next])) visit(map_.lane(lane).from);
+    for (const std::uint32_t lane : map_.lanes_from(pieces_[next])) visit(map_.lane(lane).to);
+  }
+  return others - goals_in_pieces_ > largest_piece_ && rest_is_connected();
 }
 
-bool PlaceJudge::has_detours(std::uint32_t station) {
-  const auto has_detour = [&](std::uint32_t from, std::uint32_t to) {
-    return from == to || from == station || to == station || is_cut_off(from) || is_cut_off(to) ||
-           without_.reaches(from, to);
-  };
-  for (const std::uint32_t arriving : map_.lanes_to(station)) {
-    for (const std::uint32_t leaving : map_.lanes_from(station)) {
-      if (!has_detour(map_.lane(arriving).from, map_.lane(leaving).to)) return false;
+// Looks at a station beside what is missing or cut off, and marks the small pieces there.
+void PlaceJudge::cut_off_around(std::uint32_t end) {
+  if ((sides_[end] & kSeen) != 0) return;
+  sides_[end] |= kSeen;
+  seen_.push_back(end);
+  for (const bool backwards : {false, true}) {
+    if (!without_.explore(end, backwards, kSmallPiece)) continue;
+    for (const std::uint32_t id : without_.found()) {
+      if (!is_cut_off(id)) {
+        pieces_.push_back(id);
+        goals_in_pieces_ += goals_.is_goal[id];
+      }
+      sides_[id] = static_cast<std::uint8_t>(sides_[id] | (backwards ? kUnreached : kDoomed));
     }
+    largest_piece_ = std::max(largest_piece_, goals_found());
   }
-  return std::ranges::all_of(without_.blocked(),
-                             [&](std::uint32_t lane) { return has_detour(map_.lane(lane).from, map_.lane(lane).to); });
+}
+
+// Every way through what is missing or cut off left the rest at a station that was seen, and came back at another one:
+// the rest stays connected if these still reach each other.
+bool PlaceJudge::rest_is_connected() {
+  std::erase_if(seen_, [&](std::uint32_t id) { return is_cut_off(id); });  // pieces_ contains them
+  return without_.reaches(seen_.front(), seen_, false) && without_.reaches(seen_.front(), seen_, true);
 }
 
 bool PlaceJudge::is_all_one_way(std::uint32_t station) const {
@@ -139,7 +151,7 @@ void PlaceJudge::block_lanes(std::uint32_t station) {
 bool PlaceJudge::is_missed(std::uint32_t station, std::uint32_t lane, bool only_pieces) {
   if (!map_.two_way(lane) && blocks_while_waiting(station, lane)) return true;
   const std::uint32_t from = map_.lane(lane).from, to = map_.lane(lane).to;
-  if (only_pieces && (is_cut_off(from) || is_cut_off(to))) return false;
+  if (only_pieces && ((sides_[from] & kUnreached) != 0 || (sides_[to] & kDoomed) != 0)) return false;
   const std::span<const std::uint8_t> marks = only_pieces ? goals_.free_marks : std::span<const std::uint8_t>(marks_);
   return (marks[from] & kReached) != 0 && (marks[to] & kReaches) != 0;
 }
@@ -157,29 +169,33 @@ bool PlaceJudge::blocks_while_waiting(std::uint32_t station, std::uint32_t lane)
 
 // Marks the largest part of the map that stays connected. Every part was connected to the others by a lane that is now
 // missing: it is enough to look where such lanes began and ended. Returns the number of goals in the part. Afterwards,
-// the stations that the part reaches, and that reach it, are marked too.
+// the stations that the part reaches, and that reach it, are marked.
 std::uint32_t PlaceJudge::mark_largest_part(std::uint32_t without, std::uint32_t all) {
   std::ranges::fill(marks_, std::uint8_t{0});
   std::uint32_t largest = 0;
   bool any = false;
   const auto try_from = [&](std::uint32_t station) {
-    if (station == without || (any && largest == all) || marks_[station] == kInLargest) return;
-    const std::uint32_t found = mark_part(without_, station, goals_.is_goal, marks_);
-    const bool better = !any || found > largest;
-    if (better) largest = found, any = true;
-    for (std::uint8_t& mark : marks_) {
-      const bool in_part = (mark & kInPart) == kInPart;
-      const bool in_largest = better ? in_part : (mark & kInLargest) != 0;
-      mark = in_largest ? std::uint8_t{kInLargest} : std::uint8_t{0};
-    }
+    const bool is_certain = any && 2 * largest >= all;  // no part of the rest is larger
+    if (station == without || is_certain || (marks_[station] & kInPart) == kInPart) return;
+    without_.explore(station, false);
+    if (any && goals_found() <= largest) return;  // its part is not more than what it reaches
+    other_marks_.assign(marks_.size(), 0);
+    const std::uint32_t found = mark_part(without_, station, goals_.is_goal, other_marks_);
+    if (any && found <= largest) return;
+    largest = found;
+    any = true;
+    std::swap(marks_, other_marks_);
   };
   for (const std::uint32_t lane : map_.lanes_from(without)) try_from(map_.lane(lane).to);
   for (const std::uint32_t lane : map_.lanes_to(without)) try_from(map_.lane(lane).from);
   for (const std::uint32_t lane : without_.blocked()) try_from(map_.lane(lane).from), try_from(map_.lane(lane).to);
-  const auto inside = std::ranges::find(marks_, std::uint8_t{kInLargest});
-  if (inside != marks_.end())
-    mark_part(without_, static_cast<std::uint32_t>(inside - marks_.begin()), goals_.is_goal, marks_);
   return largest;
+}
+
+std::uint32_t PlaceJudge::goals_found() const {
+  std::uint32_t goals = 0;
+  for (const std::uint32_t id : without_.found()) goals += goals_.is_goal[id] != 0;
+  return goals;
 }
 
 }  // namespace fleetproof::agents

@@ -33,33 +33,8 @@ constexpr auto is_dearer = [](const auto& a, const auto& b) {
   return a.cost_s > b.cost_s || (a.cost_s == b.cost_s && a.place > b.place);
 };
 
-std::vector<double> least_costs_s(const MapView& map, std::span<const double> lane_costs_s, std::uint32_t station,
-                                  bool back) {
-  struct Open {
-    double cost_s;
-    std::uint32_t place;
-  };
-  std::vector<double> least_s(map.station_count(), INFINITY);
-  std::vector<Open> open{{0.0, station}};
-  least_s[station] = 0.0;
-  while (!open.empty()) {
-    std::ranges::pop_heap(open, is_dearer);
-    const auto [so_far_s, here] = open.back();
-    open.pop_back();
-    if (so_far_s > least_s[here]) continue;
-    for (const std::uint32_t lane : back ? map.lanes_to(here) : map.lanes_from(here)) {
-      const std::uint32_t there = back ? map.lane(lane).from : map.lane(lane).to;
-      const double sum_s = so_far_s + lane_costs_s[lane];
-      if (sum_s >= least_s[there]) continue;
-      least_s[there] = sum_s;
-      open.push_back({sum_s, there});
-      std::ranges::push_heap(open, is_dearer);
-    }
-  }
-  return least_s;
-}
-
-Routes::Routes(const MapView& map, const DriveRules& rules) : map_(map), rules_(rules) {
+Routes::Routes(const MapView& map, const DriveRules& rules)
+    : map_(map), rules_(rules), places_(map.station_count()), lanes_driven_(rules.any() ? map.lane_count() : 0) {
   if (map.facts() == nullptr) {
     own_ = hops_of(map);
     read(own_);
@@ -103,35 +78,43 @@ Routes::Open Routes::pop() {
 }
 
 void Routes::search(std::uint32_t from, Vec heading, std::span<const double> cost_s, std::uint32_t until) {
-  search(from, heading, cost_s, Aim{until, {}, nullptr});
+  search(from, heading, cost_s, Aim{until, {}, nullptr, {}});
 }
 
 void Routes::search_towards(std::uint32_t until, std::span<const float> remains_s, std::uint32_t from, Vec heading,
-                            std::span<const double> cost_s) {
-  search(from, heading, cost_s, Aim{until, remains_s, nullptr});
+                            std::span<const double> cost_s, double far_m) {
+  search(from, heading, cost_s, Aim{until, remains_s, nullptr, map_.position_m(from), far_m});
 }
 
 void Routes::search_until(const Enough& enough, std::uint32_t from, Vec heading, std::span<const double> cost_s) {
-  search(from, heading, cost_s, Aim{FP_NONE, {}, &enough});
+  search(from, heading, cost_s, Aim{FP_NONE, {}, &enough, {}});
 }
 
 void Routes::search(std::uint32_t from, Vec heading, std::span<const double> cost_s, const Aim& aim) {
-  cost_s_.assign(map_.station_count(), INFINITY);
-  arrival_.assign(map_.station_count(), FP_NONE);
+  ++searches_;
+  reached_ = FP_NONE;
   open_.clear();
   // With a heading with which it may not stay, an AGV is not there yet.
-  cost_s_[from] = map_.may_stay(from, heading) ? 0.0 : INFINITY;
+  if (map_.may_stay(from, heading)) places_[from] = {0.0, FP_NONE, searches_};
   rules_.any() ? search_lanes(from, heading, cost_s, aim) : search_stations(from, cost_s, aim);
 }
 
+bool Routes::is_reached(std::uint32_t station, double cost_s, const Aim& aim) {
+  const bool is_far = aim.far_m < INFINITY && length(map_.position_m(station) - aim.begin_m) >= aim.far_m;
+  if (station != aim.until && !is_far && (aim.enough == nullptr || !(*aim.enough)(station, cost_s))) return false;
+  reached_ = station;
+  return true;
+}
+
 void Routes::search_stations(std::uint32_t from, std::span<const double> cost_s, const Aim& aim) {
-  if (aim.is_reached(from, 0.0)) return;
+  if (is_reached(from, 0.0, aim)) return;
   leave(from, 0.0, cost_s, aim);
   while (!open_.empty()) {
     const auto [bound_s, here] = pop();
-    if (bound_s > cost_s_[here] + aim.remains(here)) continue;
-    if (aim.is_reached(here, cost_s_[here])) return;
-    leave(here, cost_s_[here], cost_s, aim);
+    const double so_far_s = places_[here].cost_s;
+    if (bound_s > so_far_s + aim.remains(here)) continue;
+    if (is_reached(here, so_far_s, aim)) return;
+    leave(here, so_far_s, cost_s, aim);
   }
 }
 
@@ -139,28 +122,24 @@ void Routes::leave(std::uint32_t station, double so_far_s, std::span<const doubl
   for (std::uint32_t hop = first_hops_[station]; hop < first_hops_[station + 1]; ++hop) {
     const auto [lane, to] = hops_[hop];
     const double cost = so_far_s + cost_s[lane];
-    if (cost >= cost_s_[to]) continue;
-    cost_s_[to] = cost;
-    arrival_[to] = lane;
+    if (cost >= this->cost_s(to)) continue;
+    places_[to] = {cost, lane, searches_};
     push({cost + aim.remains(to), to});
   }
 }
 
 void Routes::search_lanes(std::uint32_t from, Vec heading, std::span<const double> cost_s, const Aim& aim) {
-  driven_s_.assign(map_.lane_count(), INFINITY);
-  before_.assign(map_.lane_count(), FP_NONE);
   for (const std::uint32_t lane : map_.lanes_from(from)) {
     if (rules_.may_leave(heading, lane)) reach(lane, cost_s[lane], FP_NONE, aim);
   }
   while (!open_.empty()) {
     const auto [bound_s, here] = pop();
     const std::uint32_t station = map_.lane(here).to;
-    const double so_far_s = driven_s_[here];
+    const double so_far_s = lanes_driven_[here].cost_s;
     if (bound_s > so_far_s + aim.remains(station)) continue;
-    if (so_far_s < cost_s_[station] && map_.may_stay(station, map_.end_heading(here))) {
-      cost_s_[station] = so_far_s;
-      arrival_[station] = here;
-      if (aim.is_reached(station, so_far_s)) return;
+    if (so_far_s < this->cost_s(station) && map_.may_stay(station, map_.end_heading(here))) {
+      places_[station] = {so_far_s, here, searches_};
+      if (is_reached(station, so_far_s, aim)) return;
     }
     for (const std::uint32_t next : map_.lanes_from(station)) {
       if (rules_.may_leave(map_.end_heading(here), next)) reach(next, so_far_s + cost_s[next], here, aim);
@@ -169,16 +148,18 @@ void Routes::search_lanes(std::uint32_t from, Vec heading, std::span<const doubl
 }
 
 void Routes::reach(std::uint32_t lane, double cost_s, std::uint32_t before, const Aim& aim) {
-  if (cost_s >= driven_s_[lane]) return;
-  driven_s_[lane] = cost_s;
-  before_[lane] = before;
+  if (cost_s >= (is_driven(lane) ? lanes_driven_[lane].cost_s : INFINITY)) return;
+  lanes_driven_[lane] = {cost_s, before, searches_};
   push({cost_s + aim.remains(map_.lane(lane).to), lane});
 }
 
 std::span<const std::uint32_t> Routes::lanes(std::uint32_t to) {
   lanes_.clear();
-  const auto before = [&](std::uint32_t lane) { return rules_.any() ? before_[lane] : arrival_[map_.lane(lane).from]; };
-  for (std::uint32_t lane = arrival_[to]; lane != FP_NONE; lane = before(lane)) lanes_.push_back(lane);
+  const auto arrival = [&](std::uint32_t station) { return is_found(station) ? places_[station].arrival : FP_NONE; };
+  const auto before = [&](std::uint32_t lane) {
+    return rules_.any() ? lanes_driven_[lane].arrival : arrival(map_.lane(lane).from);
+  };
+  for (std::uint32_t lane = arrival(to); lane != FP_NONE; lane = before(lane)) lanes_.push_back(lane);
   std::ranges::reverse(lanes_);
   return lanes_;
 }

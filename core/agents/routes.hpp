@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -22,10 +23,6 @@ double lane_speed_mps(const MapView& map, std::uint32_t lane, const fp_agv& agv)
 // The time for a lane, from rest to rest.
 double lane_time_s(const MapView& map, std::uint32_t lane, const fp_agv& agv);
 
-// By station: the least cost from `station` to there, or from there to it if `back`; infinite where there is no way.
-std::vector<double> least_costs_s(const MapView& map, std::span<const double> lane_costs_s, std::uint32_t station,
-                                  bool back);
-
 // The quickest ways from one station to all others (Dijkstra). A search reuses the memory of the search before it. In a
 // plant with rules, the ways keep them: what comes next then depends on the lane by which the AGV has come.
 class Routes {
@@ -37,14 +34,17 @@ class Routes {
   void search(std::uint32_t from, Vec heading, std::span<const double> cost_s, std::uint32_t until = FP_NONE);
   // The same, but of several ways that cost the same it finds any. `remains_s`, by station: the way from there to
   // `until` costs so much at least. The nearer this is to the truth, the fewer stations are looked at (A*).
+  // It ends at the first station that is `far_m` away, if that is before `until`: then what remains decides.
   void search_towards(std::uint32_t until, std::span<const float> remains_s, std::uint32_t from, Vec heading,
-                      std::span<const double> cost_s);
+                      std::span<const double> cost_s, double far_m = INFINITY);
+  // Where the last search with an aim ended; FP_NONE if there is no way.
+  std::uint32_t reached() const { return reached_; }
   // Shows the stations that can be reached, the cheapest first, until `enough` says true. Afterwards, the ways to the
   // stations that were shown may be asked for.
   using Enough = std::function<bool(std::uint32_t station, double cost_s)>;
   void search_until(const Enough& enough, std::uint32_t from, Vec heading, std::span<const double> cost_s);
   // Infinite if there is no way.
-  double cost_s(std::uint32_t to) const { return cost_s_[to]; }
+  double cost_s(std::uint32_t to) const { return is_found(to) ? places_[to].cost_s : INFINITY; }
   // A lane that leaves a station. In a plant, the lanes of the map are too far apart in memory for a search.
   struct Hop {
     std::uint32_t lane, to;
@@ -66,13 +66,21 @@ class Routes {
     std::uint32_t until = FP_NONE;
     std::span<const float> remains_s;  // by station; may be empty
     const Enough* enough = nullptr;
+    Vec begin_m;
+    double far_m = INFINITY;
 
     double remains(std::uint32_t station) const { return remains_s.empty() ? 0.0 : remains_s[station]; }
-    bool is_reached(std::uint32_t station, double cost_s) const {
-      return station == until || (enough != nullptr && (*enough)(station, cost_s));
-    }
   };
 
+  // What a search has found. Those of earlier searches are forgotten by their number: a map has many.
+  struct Found {
+    double cost_s = 0.0;
+    std::uint32_t arrival = 0;  // of a station: the lane by which the way arrives; of a lane: the lane before it
+    std::uint32_t search = 0;
+  };
+
+  bool is_found(std::uint32_t station) const { return places_[station].search == searches_; }
+  bool is_driven(std::uint32_t lane) const { return lanes_driven_[lane].search == searches_; }
   static std::vector<std::byte> hops_of(const MapView& map);
   void read(std::span<const std::byte> tables);
   void search(std::uint32_t from, Vec heading, std::span<const double> cost_s, const Aim& aim);
@@ -80,6 +88,7 @@ class Routes {
   void leave(std::uint32_t station, double so_far_s, std::span<const double> cost_s, const Aim& aim);
   void search_lanes(std::uint32_t from, Vec heading, std::span<const double> cost_s, const Aim& aim);
   void reach(std::uint32_t lane, double cost_s, std::uint32_t before, const Aim& aim);
+  bool is_reached(std::uint32_t station, double cost_s, const Aim& aim);
   void push(Open open);
   Open pop();
 
@@ -88,11 +97,10 @@ class Routes {
   std::vector<std::byte> own_;                 // the hops, if they are not shared
   std::span<const Hop> hops_;                  // by station
   std::span<const std::uint32_t> first_hops_;  // by station, and one more: where its hops begin
-  std::vector<double> cost_s_;                 // by station
-  std::vector<std::uint32_t> arrival_;         // by station: the lane by which the way arrives
-  std::vector<double> driven_s_;               // in a plant with rules, by lane: the cost up to its end
-  std::vector<std::uint32_t> before_;          // likewise: the lane before it
-  std::vector<Open> open_;                     // heap, cheapest first
+  std::uint32_t searches_ = 0, reached_ = FP_NONE;
+  std::vector<Found> places_;        // by station
+  std::vector<Found> lanes_driven_;  // in a plant with rules, by lane: up to its end
+  std::vector<Open> open_;           // heap, cheapest first
   std::vector<std::uint32_t> lanes_;
 };
 

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/agents/facts.hpp"
+#include "core/agents/map_view.hpp"
+
+namespace fleetproof::agents {
+
+// What the ways to all stations cost at least, from one station or back from it. The lanes of the map are too far apart
+// in memory for many searches, so this keeps what they cost beside each other.
+class LeastCosts {
+ public:
+  // `lane_costs`: by lane, none below 0; infinite where nobody must drive. `back`: the ways end where they would begin.
+  LeastCosts(const MapView& map, std::span<const double> lane_costs, bool back);
+  // From the bytes of another one; they outlive it.
+  explicit LeastCosts(std::span<const std::byte> bytes);
+  LeastCosts(const LeastCosts&) = delete;
+  LeastCosts& operator=(const LeastCosts&) = delete;
+
+  std::vector<std::byte> bytes() const;
+  // By station; infinite where there is no way.
+  std::vector<double> from(std::uint32_t station) const;
+
+ private:
+  struct Step {
+    double cost;
+    std::uint32_t to;
+  };
+
+  std::vector<Step> own_steps_;
+  std::vector<std::uint32_t> own_first_;
+  std::span<const Step> steps_;           // by the station that they leave
+  std::span<const std::uint32_t> first_;  // by station, and one more
+  double width_ = 1.0;                    // few stations lie within it
+};
+
+}  // namespace fleetproof::agents
