@@ -29,6 +29,15 @@ class HullGeometry {
   // A lower bound of the distance from `point_m` to the hull.
   double distance_bound_m(Vec point_m, std::uint32_t agv, const Path& path);
 
+  // Calls `f(box)` for boxes that together contain the hull.
+  template <class F>
+  void for_each_box(std::uint32_t agv, const Path& path, F f) const {
+    Parts parts;
+    collect(agv, path, parts);
+    for (std::uint32_t i = 0; i < parts.count; ++i) f(parts_.box(parts.numbers[i]));
+    if (parts.count == 0) f(Box::around(parts.body));
+  }
+
   // From the reference point of the AGV to its farthest corner.
   double reach_m(std::uint32_t agv) const { return parts_.body(agv).reach_m(); }
   double clearance_m() const { return parts_.clearance_m(); }

@@ -359,7 +359,7 @@ void HullLock::request(Stretch stretch, Purpose purpose, std::int64_t demand_ns)
 
 // If the AGV waits for an AGV that only waits itself, it looks for another way. In the end it makes way.
 void HullLock::reconsider() {
-  if (!protocol_.requesting() || !is_waiting() || out_of_order_) return;
+  if (!protocol_.requesting() || !is_waiting() || out_of_order_ || !is_time_to_reconsider()) return;
   if (!protocol_.is_held(protocol_.requested())) return;
   const Purpose purpose = errands_.empty() ? Purpose::MakeWay : Purpose::Transport;
   Stretch other = purpose == Purpose::Transport ? way_on() : way_out(Yields::ToAll);
@@ -386,7 +386,7 @@ void* create_hull_lock(const fp_host* host, fp_controller* controller, const fp_
                        const LockOptions& options) {
   constexpr std::uint32_t kNumbersOnTheWire = 0xffff;
   const fp_map& map = *briefing->map;
-  if (map.station_count > kNumbersOnTheWire || map.lane_count > kNumbersOnTheWire) return nullptr;
+  if (std::max({map.station_count, map.lane_count, briefing->fleet_count}) > kNumbersOnTheWire) return nullptr;
   return new HullLock(*host, controller, *briefing, options);
 }
 

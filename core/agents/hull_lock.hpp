@@ -61,6 +61,8 @@ class HullLock {
   void plan_transport();
   void plan_making_way();
   void reconsider();
+  // In a large fleet, the way round is long to work out.
+  bool is_time_to_reconsider() { return !neighbours_.audience().is_divided() || ++ticks_waited_ % 3 == 0; }
   void request(Stretch stretch, Purpose purpose, std::int64_t demand_ns = -1);
   Stretch way_on();
   Stretch way_out(Yields to);
@@ -104,6 +106,7 @@ class HullLock {
   bool has_chargers_ = false, charging_ = false;
   std::uint32_t looks_ = 0;  // at the battery, since a charger was chosen
 
+  std::uint32_t ticks_waited_ = 0;
   Stretch stretch_;  // the requested stretch
   Purpose purpose_ = Purpose::Transport;
   double requested_at_s_ = 0.0;
@@ -113,7 +116,7 @@ class HullLock {
   double plan_after_s_ = 0.0;
 };
 
-// For the C table. Returns null if the map is too large for the messages.
+// For the C table. Returns null if map or fleet are too large for the messages.
 void* create_hull_lock(const fp_host* host, fp_controller* controller, const fp_briefing* briefing,
                        const LockOptions& options);
 

@@ -29,6 +29,8 @@ class HullParts {
   std::uint32_t of_turn(std::uint32_t agv, std::uint32_t station) const {
     return tables_.kind_of(agv) * per_kind_ + map_.lane_count() + station;
   }
+  // Contains the part.
+  const Box& box(std::uint32_t number) const { return tables_.near().box(number); }
   // A lower bound of the distance from the point to this part.
   double distance_bound_m(Vec point_m, std::uint32_t number) const {
     return length(point_m - tables_.part(number).centre_m) - tables_.part(number).reach_m;

@@ -16,8 +16,11 @@
 //   And at that instant one of two things must be true:
 //   (far) i has proved that nothing that j then holds or requests can conflict (Neighbours::surely_beyond). This covers
 //   every request, because a claim is never longer than longest_claim_m.
-//   (apart) In the newest message of j that i knows, neither the held path nor the announced way conflicts. If i has
-//   restarted, j sent that message since (Neighbours::is_apart).
+//   (apart) In the newest message of j that i knows, neither the held path nor the announced way conflicts, and j knows
+//   its own place. If i has restarted, j sent that message since (Neighbours::is_apart).
+//   In a fleet that is divided into zones, there is a third way, for which j need not have heard of the path:
+//   (elsewhere) i is a member of all zones of the path, and the newest message of j that i knows announces none of
+//   them, or no message is known. membership.hpp says what this is, and proves (Z1) and (Z2).
 //
 // What the newest message says
 // (N) Suppose that from the stamp s on, each message of j contained the lane Q until the instant t, as request, way or
@@ -30,12 +33,13 @@
 // and still holds it when j locks at t_j >= t_i. Let f be the epoch of j towards i that ends at t_j.
 // - j did not exclude i at t_j. It was not far, because it held what conflicts. Nor was it apart: before t_i, j had
 //   heard of the path that i then locked, because it had granted it or acknowledged it. Since then each message of i
-//   contained what i still holds of it at t_j, so (N) is true. So i decided to grant f, at an instant s_i during f, and
-//   s_i <= t_j.
+//   contained what i still holds of it at t_j, so (N) is true. In a divided fleet, (Z1) says that i was neither apart
+//   nor elsewhere. So i decided to grant f, at an instant s_i during f, and s_i <= t_j.
 // - i holds the conflicting hull from t_i to t_j, so s_i < t_i by (1), and f lasts from s_i or before until t_j. At
-//   t_i, j thus requests what conflicts, and i had heard of it at s_i, so j was neither far nor, by (N), apart. So i
-//   did not exclude j at t_i, and j decided to grant the epoch e of i towards j that ends at t_i, at an instant s_j
-//   inside e.
+//   t_i, j thus requests what conflicts, and i had heard of it at s_i, so j was neither far nor, by (N), apart or
+//   elsewhere: what contains a path announces its zones. (In a divided fleet, i has not restarted between s_i and t_i:
+//   (Z2). In another one, is_apart covers that.) So i did not exclude j at t_i, and j decided to grant the epoch e of i
+//   towards j that ends at t_i, at an instant s_j inside e.
 // - By (2), s_i is not inside e, because e would have ended there. So s_i lies before the beginning of e, and e lies
 //   inside f. With it, s_j is inside f. By (2), j ended f at s_j <= t_i <= t_j. So j could not lock at t_j with f:
 //   contradiction. (If all three are one instant, the activations of j still have an order.)
@@ -85,21 +89,24 @@
 // - The new self decides again about an f that the former self granted. That is a second decision under the same rules,
 //   and any decision during f is sufficient.
 // - The new self must know its own place. If positions may be late, it knows the heading of its AGV only after that
-//   time. Until then it grants nothing (know_own_place).
+//   time. Until then it grants nothing, and its messages say that what it holds is not known (know_own_place). Nobody
+//   takes it for apart.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
-#include "core/agents/announced_way.hpp"
 #include "core/agents/blocker.hpp"
 #include "core/agents/controller.hpp"
 #include "core/agents/hull.hpp"
+#include "core/agents/lock_claim.hpp"
+#include "core/agents/lock_messages.hpp"
 #include "core/agents/lock_options.hpp"
 #include "core/agents/neighbours.hpp"
 #include "core/agents/path.hpp"
 #include "core/agents/protocol_messages.hpp"
-#include "core/agents/transmitter.hpp"
+#include "core/agents/zone_talk.hpp"
 
 namespace fleetproof::agents {
 
@@ -109,15 +116,7 @@ namespace fleetproof::agents {
 class LockProtocol {
  public:
   LockProtocol(const MapView& map, HullGeometry& geometry, Neighbours& neighbours, Controller& controller,
-               LockOptions options, std::uint32_t boot = 0)
-      : map_(map),
-        geometry_(geometry),
-        neighbours_(neighbours),
-        controller_(controller),
-        transmitter_(map, controller, boot),
-        options_(options),
-        epoch_(first_epoch(boot)),
-        blocker_(neighbours) {}
+               LockOptions options, std::uint32_t boot = 0);
 
   // Call once at the start: the place where the AGV stands, and the lane that it is driving, if any. The AGV holds this
   // path.
@@ -125,10 +124,10 @@ class LockProtocol {
   // While the AGV does not know for certain what it covers, it grants nothing. Requires: nothing is requested
   // meanwhile.
   void know_own_place(bool known);
-  const Path& held() const { return held_; }
-  bool requesting() const { return requesting_; }
-  const Path& requested() const { return request_; }
-  Epoch epoch() const { return epoch_; }
+  const Path& held() const { return claim_.held; }
+  bool requesting() const { return claim_.requesting; }
+  const Path& requested() const { return claim_.request; }
+  Epoch epoch() const { return claim_.epoch; }
 
   // Requests `stretch` in addition to the held path. Replaces an open request. `demand_ns`: since when the AGV has
   // wanted to go on. If two AGVs wait for each other, the older demand comes first. `onward`: the lanes that the AGV
@@ -137,13 +136,13 @@ class LockProtocol {
   bool request(const Path& stretch, std::int64_t demand_ns, std::span<const std::uint32_t> onward = {});
   void withdraw();
   // True if the held path begins with this lane. The AGV must drive no other lane.
-  bool may_drive(std::uint32_t lane) const { return !held_.empty() && held_.lane_ids[0] == lane; }
+  bool may_drive(std::uint32_t lane) const { return !claim_.held.empty() && claim_.held.lane_ids[0] == lane; }
   // True if this is the second lane of the held path. While the AGV drives the first one, this move may be given.
-  bool may_drive_next(std::uint32_t lane) const { return held_.count > 1 && held_.lane_ids[1] == lane; }
+  bool may_drive_next(std::uint32_t lane) const { return claim_.held.count > 1 && claim_.held.lane_ids[1] == lane; }
   // The AGV has reached the end of the first held lane, and releases that lane. No effect if no lane is held.
   void lane_passed();
   // The state of the AGV that the next messages contain.
-  void describe(bool waiting, bool idle, bool out_of_order) { transmitter_.describe(waiting, idle, out_of_order); }
+  void describe(bool waiting, bool idle, bool out_of_order) { messages_.describe(waiting, idle, out_of_order); }
 
   // False if the bytes are not a message of this protocol.
   bool receive(std::uint32_t sender, std::span<const std::byte> bytes);
@@ -172,12 +171,14 @@ class LockProtocol {
   void announce(std::span<const std::uint32_t> onward);
   // Whether it has heard the way that contains the request. Then it counts on nothing that was announced before.
   bool knows_request(const Neighbour& neighbour) const {
-    return !options_.consent.ways_are_heard || neighbour.heard_us_ms >= way_.since_ms(request_.count);
+    return !options_.consent.ways_are_heard || neighbour.heard_us_ms >= claim_.way.since_ms(claim_.request.count);
   }
   void open_epoch();
   void receive_request(std::uint32_t sender, const Message& message);
   void answer_request(std::uint32_t sender);
-  bool has_granted(const Neighbour& neighbour) const;
+  void answer_again(std::uint32_t sender);
+  void send_answer_again(std::uint32_t agv);
+  void repeat_in_zones();
   Answer answer_to(std::uint32_t agv, Neighbour& neighbour);
   bool lock_is_over();
   bool comes_first(std::uint32_t agv, const Neighbour& neighbour);
@@ -185,59 +186,33 @@ class LockProtocol {
   void give_way_to(Neighbour& neighbour);
   void answer_those_deferred();
   void answer_if_asked(std::uint32_t agv);
-  void broadcast_state();
-  void fill_in_lists(Message& message);
-  double longest_quiet_s() const;
-  // Whether this epoch has asked it and got no answer.
-  bool is_unanswered(const Neighbour& n) const {
-    return is_asked(n) && !has_consent(n) && n.deferred_us_epoch != n.asked_epoch;
-  }
-  bool owes_answer(const Neighbour& n) const {
-    return n.request_is_open() && n.asks_us && (has_granted(n) || n.deferred_epoch == n.request_epoch);
-  }
-  void receive_answer(std::uint32_t sender, Epoch echo, bool granted);
+  void receive_answer(std::uint32_t sender, std::uint32_t boot, Epoch echo, bool granted);
   bool consents(std::uint32_t agv, const Neighbour& neighbour, std::int64_t now_ns);
   bool all_consent();
   void note_consent(std::uint32_t agv);
-  void ask();
-  bool is_asked(const Neighbour& n) const { return requesting_ && request_of(n.asked_epoch) == epoch_; }
-  bool has_consent(const Neighbour& n) const { return is_asked(n) && n.granted_us_epoch == n.asked_epoch; }
-  Asked::Entry entry_of(std::uint32_t agv) const;
-  void send_request(std::uint32_t receiver);
-  Message request_message();
-  void send_answer(MessageKind kind, std::uint32_t receiver, Epoch echo);
-  void fill_in(Status& status);
-  void fill_in_request(Message& message);
 
   const MapView& map_;
   HullGeometry& geometry_;
   Neighbours& neighbours_;
   Controller& controller_;
-  Transmitter transmitter_;
   LockOptions options_;
 
-  Path held_;
+  Claim claim_;
   std::uint32_t held_version_ = 0, request_version_ = 0;  // how often each has changed
-  bool own_place_known_ = true;
-  bool requesting_ = false;
-  Path request_;
-  AnnouncedWay way_;  // from the end of the held path; begins with the request
-  std::int64_t demand_ns_ = 0;
-  Epoch epoch_;
   bool asked_ = false;                 // every AGV that had to be asked when this epoch began has been asked
   bool look_at_all_ = true;            // consent may be complete, or somebody else may have to be asked
   std::uint32_t missing_ = 0;          // AGVs whose consent this epoch lacks
   std::uint32_t repeated_grants_ = 0;  // of this epoch
   std::vector<std::uint32_t> to_ask_;  // AGVs that must consent and have not been asked by this epoch
   std::vector<Due> due_;
-  std::int64_t state_sent_ns_ = -1;
-  std::uint32_t first_in_lists_ = 0;  // of a STATE
   std::int64_t locked_at_ns_ = 0;
   // Since the deferred requests were last examined: something changed that concerns all of them, and who changed.
   bool answers_may_change_ = false;
   std::vector<std::uint32_t> changed_;
 
   Blocker blocker_;  // of the request
+  LockMessages messages_;
+  std::optional<ZoneTalk> zones_;  // in a divided fleet
 };
 
 }  // namespace fleetproof::agents

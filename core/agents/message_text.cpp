@@ -159,6 +159,12 @@ MessageText::MessageText(const Message& message, const MapView& map) {
     case MessageKind::Defer:
       pen = put(put_epoch(put(pen, "DEFER: answers "), message.echo), ", ");
       break;
+    case MessageKind::Join:
+      pen = put(pen, "JOIN: ");
+      break;
+    case MessageKind::Roll:
+      pen = put(pen, "ROLL: ");
+      break;
   }
   pen = asks ? put_held_from(put_asked(pen, message, map), message.status.held, map)
              : put_held(pen, message.status.held, map);

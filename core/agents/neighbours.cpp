@@ -26,6 +26,7 @@ Neighbours::Neighbours(const MapView& map, HullGeometry& geometry, const fp_brie
       geometry_(geometry),
       self_(briefing.self),
       neighbours_(briefing.fleet_count),
+      audience_(briefing.self, briefing.fleet_count, briefing.fleet_count >= settings.zones_from),
       position_margin_m_(std::max(kPositionMargin_m, 2.0 * settings.position_error_m)),
       position_late_s_(settings.position_late_s),
       claim_m_(longest_claim_m(map)),
@@ -40,6 +41,7 @@ Neighbours::Neighbours(const MapView& map, HullGeometry& geometry, const fp_brie
 Neighbours::News Neighbours::note(std::uint32_t sender, const Message& message, std::int64_t now_ns) {
   const Status& status = message.status;
   if (sender >= fleet_count() || sender == self_ || !is_driveable(map_, status.held)) return News::Refused;
+  if (audience_.is_divided() != message.tells_zones) return News::Refused;
   if (status.requesting && number_of(status.epoch) == 0) return News::Refused;
   if (message.has_request() && !is_driveable(map_, message.request)) return News::Refused;
   Path ahead = end_of(map_, status.held);
@@ -52,20 +54,33 @@ Neighbours::News Neighbours::note(std::uint32_t sender, const Message& message, 
       !n.known || boot > newest_boot || (boot == newest_boot && status.stamp_ms >= n.status.stamp_ms);
   if (is_newest) {
     const Status& before = n.status;
-    const bool same_held = n.known && before.held == status.held;
+    const bool same_held = n.known && before.held == status.held && before.place_unknown == status.place_unknown &&
+                           same_heading(before.held.heading, status.held.heading);
     const bool same = same_held && before.waiting == status.waiting && before.blocked == status.blocked &&
                       before.out_of_order == status.out_of_order;
     if (!same) news = News::Changed;
     if (!same_held || !(before.ahead == ahead)) ++n.way_changes;
+    if (!(before.ahead == ahead) && status.ahead.count > 0) n.owes_acknowledgement = true;
+    // In a divided fleet, what a former self said does not count.
+    if (audience_.is_divided() && boot > newest_boot) n.heard_us_ms = 0, n.granted_us_epoch = n.deferred_us_epoch = 0;
     n.status = status;
     n.status.ahead = ahead;
   }
   n.known = true;
+  if (is_newest && audience_.is_divided()) {
+    n.zones = message.zones;
+    audience_.note(sender, n.zones);
+  }
   const Epoch closed = status.requesting ? status.epoch - 1 : next_request(status.epoch) - 1;
   n.closed_epoch = std::max(n.closed_epoch, closed);
   if (message.has_request()) note_request(n, message, is_newest);
-  note_acknowledgement(n, message, now_ns);
+  if (!audience_.is_divided() || boot >= boot_of(n.status.epoch)) note_acknowledgement(n, message, now_ns);
   return news;
+}
+
+void Neighbours::set_own_zones(const ZoneSet& zones) {
+  audience_.set_own_zones(zones);
+  for_each_known([&](std::uint32_t agv, const Neighbour& n) { audience_.note(agv, n.zones); });
 }
 
 void Neighbours::note_request(Neighbour& neighbour, const Message& message, bool is_newest) {
@@ -119,7 +134,7 @@ bool Neighbours::surely_beyond(std::uint32_t agv, const Path& path, std::int64_t
 
 bool Neighbours::is_apart(std::uint32_t agv, const Path& path, Epoch request) {
   Neighbour& n = neighbours_[agv];
-  if (!n.known || !(n.is_fresh || fresh_from_ms_ == 0)) return false;
+  if (!is_fresh(agv) || n.status.place_unknown) return false;
   if (n.apart.request != request || n.apart.way_changes != n.way_changes) {
     n.apart = {request, n.way_changes, false};
     n.apart.is = !geometry_.conflict(self_, path, agv, n.status.held) &&

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/agents/audience.hpp"
 #include "core/agents/hull.hpp"
 #include "core/agents/lock_options.hpp"
 #include "core/agents/path.hpp"
@@ -32,6 +33,7 @@ struct Repeats {
 struct Neighbour {
   bool known = false;
   Status status;  // the newest status that the other AGV sent
+  ZoneSet zones;  // that the same message announces, in a divided fleet
 
   // The other AGV was at this position after this instant of the own clock; negative: never proved.
   struct ProvedPlace {
@@ -79,7 +81,23 @@ struct Neighbour {
   Epoch deferred_us_epoch = 0;
   std::int64_t silent_since_ns = 0;
   Repeats request_repeats;
+
+  // In a divided fleet: the newest message of this AGV to it, and its condition then; whether the other AGV has
+  // announced another way since.
+  std::int64_t told_at_ns = -1;
+  std::uint8_t told_condition = 0;
+  bool owes_acknowledgement = false;
 };
+
+// Its newest message that is known. Requires: one is known.
+inline RollEntry newest_of(std::uint32_t agv, const Neighbour& n) {
+  return {agv, boot_of(n.status.epoch), n.status.stamp_ms};
+}
+
+// The stamp for a message that is sent now; never 0. A clock that shows less than zero counts as zero.
+inline std::uint32_t stamp_ms_at(std::int64_t now_ns) {
+  return static_cast<std::uint32_t>(std::max<std::int64_t>(now_ns, 0) / 1'000'000) + 1;
+}
 
 class Neighbours {
  public:
@@ -94,21 +112,36 @@ class Neighbours {
   double claim_limit_m() const { return claim_m_; }
   Neighbour& of(std::uint32_t agv) { return neighbours_[agv]; }
   const Neighbour& of(std::uint32_t agv) const { return neighbours_[agv]; }
-  // Calls `f(agv, neighbour)` for every other AGV.
+  // Calls `f(agv, neighbour)` for each AGV of the audience.
   template <class F>
   void for_each(F f) {
-    for (std::uint32_t agv = 0; agv < fleet_count(); ++agv) {
-      if (agv != self_) f(agv, neighbours_[agv]);
-    }
+    for (const std::uint32_t agv : audience_.agvs()) f(agv, neighbours_[agv]);
   }
 
   // The same, from this AGV on and round.
   template <class F>
   void for_each_from(std::uint32_t first, F f) {
-    for (std::uint32_t i = 0; i < fleet_count(); ++i) {
-      const std::uint32_t agv = (first + i) % fleet_count();
-      if (agv != self_) f(agv, neighbours_[agv]);
+    const auto agvs = audience_.agvs();
+    auto next = static_cast<std::size_t>(std::ranges::lower_bound(agvs, first) - agvs.begin());
+    for (std::size_t i = 0; i < agvs.size(); ++i, ++next) {
+      if (next == agvs.size()) next = 0;
+      f(agvs[next], neighbours_[agvs[next]]);
     }
+  }
+
+  // Calls `f(agv, neighbour)` for every other AGV of which a message is known.
+  template <class F>
+  void for_each_known(F f) const {
+    for (std::uint32_t agv = 0; agv < fleet_count(); ++agv) {
+      if (agv != self_ && neighbours_[agv].known) f(agv, neighbours_[agv]);
+    }
+  }
+
+  const Audience& audience() const { return audience_; }
+  void set_own_zones(const ZoneSet& zones);
+  // Whether a message is known that the AGV sent since this boot of this AGV.
+  bool is_fresh(std::uint32_t agv) const {
+    return neighbours_[agv].known && (neighbours_[agv].is_fresh || fresh_from_ms_ == 0);
   }
 
   enum class News : std::uint8_t { Refused, Same, Changed };
@@ -123,12 +156,12 @@ class Neighbours {
   // clock, and the error and the delay of the position that the other AGV perceived.
   bool surely_beyond(std::uint32_t agv, const Path& path, std::int64_t now_ns);
 
-  // True only if the held path and the announced way of `agv`, as it told them since this boot, keep clear of the own
-  // hull of `path`. `request`: the epoch in which this AGV requests `path`.
+  // True only if `agv` knows its place, and the held path and the announced way, as it told them since this boot, keep
+  // clear of the own hull of `path`. `request`: the epoch in which this AGV requests `path`.
   bool is_apart(std::uint32_t agv, const Path& path, Epoch request);
   // After a restart: what other AGVs sent before they heard a message of this instant or later may be older than this
   // boot. Then it does not say where they may drive now.
-  void restarted_at(std::int64_t now_ns) { fresh_from_ms_ = stamp_ms(now_ns) + kStampsAhead_ms; }
+  void restarted_at(std::int64_t now_ns) { fresh_from_ms_ = stamp_ms_at(now_ns) + kStampsAhead_ms; }
 
   // An AGV that is known to stand and wait inside the hull of `path`; FP_NONE if there is none.
   std::uint32_t waiting_inside(const Path& path);
@@ -138,15 +171,12 @@ class Neighbours {
   // Whether an AGV is known to hold floor inside the hull of `path`.
   bool hold_inside(const Path& path);
 
+  bool is_first_boot() const { return fresh_from_ms_ == 0; }
+
   // Fills in the newest stamp of one AGV.
   void tell_heard_from(HeardFrom& heard, std::uint32_t agv) const;
   // Fills in the next part of the table of newest stamps. The table of a large fleet needs several messages.
   void tell_heard_from(HeardFrom& heard);
-
-  // The stamp for a message that is sent now; never 0. A clock that shows less than zero counts as zero.
-  static std::uint32_t stamp_ms(std::int64_t now_ns) {
-    return static_cast<std::uint32_t>(std::max<std::int64_t>(now_ns, 0) / 1'000'000) + 1;
-  }
 
  private:
   void note_request(Neighbour& neighbour, const Message& message, bool is_newest);
@@ -157,7 +187,8 @@ class Neighbours {
   HullGeometry& geometry_;
   std::uint32_t self_;
   std::vector<Neighbour> neighbours_;  // by AGV; the own entry is not used
-  std::vector<double> fastest_mps_;    // by AGV; includes the error of a clock
+  Audience audience_;
+  std::vector<double> fastest_mps_;  // by AGV; includes the error of a clock
   double position_margin_m_, position_late_s_;
   double claim_m_;
   bool proofs_age_, places_spread_;

@@ -30,6 +30,7 @@ class PartsNear {
   PartsNear& operator=(const PartsNear&) = delete;
 
   std::vector<std::byte> bytes() const;
+  const Box& box(std::uint32_t part) const { return boxes_[part]; }
   // All parts whose boxes come within the distance of that of this part, and the part itself, by ascending number.
   std::vector<std::uint32_t> around(std::uint32_t part) const;
 

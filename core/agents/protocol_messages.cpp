@@ -15,6 +15,9 @@ constexpr double kPerUnit = 32767.0;   // headings as 15-bit fractions
 constexpr std::uint64_t kRequesting = 1, kWaiting = 2, kIdle = 4, kOutOfOrder = 8, kBlocked = 16;  // bits of the flags
 constexpr std::uint64_t kEpochHasBoot = 32, kEchoHasBoot = 64, kPositionIsNew = 128;
 constexpr std::uint64_t kGranted = 1;  // of an answer; beside kEchoHasBoot
+constexpr std::uint64_t kTellsZones = 0x80, kWantsAnswer = 0x40, kPlaceUnknown = 0x20;  // beside the kind
+constexpr std::uint64_t kKinds = 0x1f;
+constexpr std::uint32_t kNobody = 0xffff;
 
 std::uint64_t flags_of(const Message& message) {
   const Status& s = message.status;
@@ -46,8 +49,13 @@ class Reader {
   // False if these are not the bytes of a message.
   bool read(Message& message) {
     if (take<std::uint8_t>() != kMark) return false;
-    message.kind = static_cast<MessageKind>(take<std::uint8_t>());
+    const std::uint64_t kind = take<std::uint8_t>();
+    message.kind = static_cast<MessageKind>(kind & kKinds);
+    message.wants_answer = (kind & kWantsAnswer) != 0;
+    message.tells_zones = (kind & kTellsZones) != 0;
+    message.status.place_unknown = (kind & kPlaceUnknown) != 0;
     const std::uint64_t flags = read_status(message.status);
+    if (message.tells_zones) take_zones(message.zones);
     take_heard(message.heard);
     switch (message.kind) {
       case MessageKind::State:
@@ -60,6 +68,14 @@ class Reader {
       case MessageKind::Grant:
       case MessageKind::Defer:
         message.echo = take_epoch((flags & kEchoHasBoot) != 0);
+        return complete();
+      case MessageKind::Join:
+        take_zones(message.about);
+        message.roll.from = take<std::uint16_t>();
+        return complete();
+      case MessageKind::Roll:
+        take_zones(message.about);
+        take_roll(message.roll);
         return complete();
     }
     return false;
@@ -178,6 +194,32 @@ class Reader {
     }
   }
 
+  void take_zones(ZoneSet& zones) {
+    const std::uint32_t count = take<std::uint8_t>();
+    if (count > ZoneSet::kMax) return fail();
+    const std::span<const std::byte> row = take_bytes(count * sizeof(std::uint16_t));
+    for (std::size_t at = 0; at < row.size(); at += sizeof(std::uint16_t)) zones.add(value_at<std::uint16_t>(row, at));
+  }
+
+  void take_roll(Roll& roll) {
+    roll.stamp_ms = take<std::uint32_t>();
+    roll.from = take<std::uint16_t>();
+    roll.next = take_number();
+    const std::uint32_t count = take<std::uint8_t>();
+    if (count > Roll::kMax) return fail();
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const std::uint32_t agv = take<std::uint16_t>(), boot = take<std::uint32_t>();
+      roll.list[i] = {agv, boot, take<std::uint32_t>()};
+    }
+    roll.count = failed_ ? 0 : count;
+  }
+
+  // Of an AGV, or FP_NONE.
+  std::uint32_t take_number() {
+    const std::uint32_t number = take<std::uint16_t>();
+    return number == kNobody ? FP_NONE : number;
+  }
+
   void fail() { failed_ = true; }
   bool complete() const { return !failed_ && rest_.empty(); }
 
@@ -197,7 +239,8 @@ void WireMessage::put(std::uint64_t value) {
 WireMessage::WireMessage(const Message& message) {
   const Status& status = message.status;
   put<std::uint8_t>(kMark);
-  put<std::uint8_t>(static_cast<std::uint64_t>(message.kind));
+  put<std::uint8_t>(static_cast<std::uint64_t>(message.kind) | (message.tells_zones ? kTellsZones : 0U) |
+                    (message.wants_answer ? kWantsAnswer : 0U) | (status.place_unknown ? kPlaceUnknown : 0U));
   put<std::uint32_t>(status.stamp_ms);
   put<std::uint32_t>(rounded(status.position_m.x * kPerMetre));
   put<std::uint32_t>(rounded(status.position_m.y * kPerMetre));
@@ -205,6 +248,7 @@ WireMessage::WireMessage(const Message& message) {
   put_epoch(status.epoch);
   put_path(status.held);
   put_lanes(status.ahead);
+  if (message.tells_zones) put_zones(message.zones);
   put_heard(message.heard);
   switch (message.kind) {
     case MessageKind::State:
@@ -217,6 +261,14 @@ WireMessage::WireMessage(const Message& message) {
     case MessageKind::Grant:
     case MessageKind::Defer:
       put_epoch(message.echo);
+      break;
+    case MessageKind::Join:
+      put_zones(message.about);
+      put<std::uint16_t>(message.roll.from);
+      break;
+    case MessageKind::Roll:
+      put_zones(message.about);
+      put_roll(message.roll);
       break;
   }
 }
@@ -238,6 +290,23 @@ void WireMessage::put_answers(const Answers& answers) {
     put<std::uint16_t>(answer.agv);
     put<std::uint8_t>((answer.granted ? kGranted : 0U) | (boot_of(answer.echo) > 0 ? kEchoHasBoot : 0U));
     put_epoch(answer.echo);
+  }
+}
+
+void WireMessage::put_zones(const ZoneSet& zones) {
+  put<std::uint8_t>(zones.size());
+  for (const std::uint16_t zone : zones.all()) put<std::uint16_t>(zone);
+}
+
+void WireMessage::put_roll(const Roll& roll) {
+  put<std::uint32_t>(roll.stamp_ms);
+  put<std::uint16_t>(roll.from);
+  put<std::uint16_t>(roll.next == FP_NONE ? kNobody : roll.next);
+  put<std::uint8_t>(roll.count);
+  for (const RollEntry& entry : roll.all()) {
+    put<std::uint16_t>(entry.agv);
+    put<std::uint32_t>(entry.boot);
+    put<std::uint32_t>(entry.stamp_ms);
   }
 }
 

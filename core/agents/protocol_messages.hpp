@@ -8,10 +8,11 @@
 #include <span>
 
 #include "core/agents/path.hpp"
+#include "core/agents/zone_set.hpp"
 
 namespace fleetproof::agents {
 
-enum class MessageKind : std::uint8_t { State = 1, Request, Grant, Defer };
+enum class MessageKind : std::uint8_t { State = 1, Request, Grant, Defer, Join, Roll };
 constexpr const char* name_of(MessageKind kind) {
   switch (kind) {
     case MessageKind::State:
@@ -22,6 +23,10 @@ constexpr const char* name_of(MessageKind kind) {
       return "GRANT";
     case MessageKind::Defer:
       return "DEFER";
+    case MessageKind::Join:
+      return "JOIN";
+    case MessageKind::Roll:
+      return "ROLL";
   }
   return "?";
 }
@@ -48,8 +53,9 @@ struct Status {
   bool waiting = false;         // it stands and can only wait for a lock
   bool idle = false;            // it is waiting and has no transport
   bool out_of_order = false;
-  Path held;   // the path whose hull it holds
-  Path ahead;  // the way that it announces from there. On the wire only its lanes
+  bool place_unknown = false;  // since a restart, it does not know what it covers; `held` does not say it
+  Path held;                   // the path whose hull it holds
+  Path ahead;                  // the way that it announces from there. On the wire only its lanes
 };
 
 // The newest stamps that the sender has seen on messages of the AGVs first, first + 1, ...; 0: no message yet.
@@ -105,6 +111,27 @@ struct Answers {
   std::span<const Answer> all() const { return {list.data(), count}; }
 };
 
+// An AGV that announces a zone, and the newest message that is known of it: those of a boot are ordered by stamps.
+struct RollEntry {
+  std::uint32_t agv, boot, stamp_ms;
+  friend bool operator==(const RollEntry&, const RollEntry&) = default;
+};
+// Of the messages of one AGV.
+constexpr bool is_older(const RollEntry& a, const RollEntry& b) {
+  return a.boot < b.boot || (a.boot == b.boot && a.stamp_ms < b.stamp_ms);
+}
+
+// Of some zones, by ascending number of the AGVs from `from` on.
+struct Roll {
+  static constexpr std::uint32_t kMax = 64;
+  std::uint32_t stamp_ms = 0;  // of the message of the applicant that is known
+  std::uint32_t from = 0;
+  std::uint32_t next = 0;  // the rest begins with this AGV; FP_NONE: there is no more
+  std::uint32_t count = 0;
+  std::array<RollEntry, kMax> list;
+  std::span<const RollEntry> all() const { return {list.data(), count}; }
+};
+
 struct Message {
   Message() {}  // leaves the lists as they are: setting them to zero would cost more than reading a message
 
@@ -119,6 +146,12 @@ struct Message {
   Answers answers;
   // Grant, Defer
   Epoch echo = 0;  // the epoch of the answered request
+  // In a fleet that is divided into zones: those that the sender announces; whether it waits for an acknowledgement.
+  bool tells_zones = false, wants_answer = false;
+  ZoneSet zones;
+  // Join, Roll
+  ZoneSet about;  // the zones whose roll is asked for or shown
+  Roll roll;      // in a Join, only where it begins
 
   bool has_request() const { return kind == MessageKind::Request || (kind == MessageKind::State && status.requesting); }
 };
@@ -139,6 +172,8 @@ class WireMessage {
   void put_heard(const HeardFrom& heard);
   void put_request(const Message& message);
   void put_answers(const Answers& answers);
+  void put_zones(const ZoneSet& zones);
+  void put_roll(const Roll& roll);
 
   std::array<std::byte, 1024> bytes_;
   std::size_t size_ = 0;

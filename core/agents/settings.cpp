@@ -38,6 +38,7 @@ Settings read_settings(const char* config) {
     if (key == "position_late_s") settings.position_late_s = number_in(word, value, 3600.0);
     if (key == "charge_below") settings.charge_below = number_in(word, value, 1.0);
     if (key == "charge_to") settings.charge_to = number_in(word, value, 1.0);
+    if (key == "zones_from") settings.zones_from = number_in(word, value, 1e6);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 #include "core/agents/lane_costs.hpp"
 
@@ -9,8 +10,10 @@ namespace fleetproof::agents {
 namespace {
 
 constexpr double kLookAhead_m = 12.0;
+constexpr std::uint32_t kManyLanes = 1000;
+constexpr double kFar_m = 70.0;  // in a divided fleet, prices of what is further away are of others
 constexpr std::uint32_t kLookAheadLanes = 3;
-constexpr double kOnward_m = 40.0;  // what is announced beyond a stretch
+constexpr double kOnward_m = 40.0, kOnwardInZones_m = 25.0;  // what is announced beyond a stretch
 
 // The price of a place at which another AGV stands or arrives: roughly the time until that AGV has moved.
 constexpr double kArrivingCost_s = 8.0;
@@ -136,6 +139,7 @@ StretchPlanner::StretchPlanner(const MapView& map, HullGeometry& geometry, Neigh
       routes_(map, rules_),
       lane_times_s_(agents::lane_times_s(geometry.parts().facts(), neighbours.self())),
       usual_costs_s_(options.one_way_aisles ? lane_costs_s(geometry.parts(), neighbours.self()) : lane_times_s_),
+      remembers_prices_(map.lane_count() > kManyLanes),
       model_(model_of(geometry.parts().facts(), neighbours.self())),
       knows_remaining_costs_(options.one_way_aisles) {}
 
@@ -148,16 +152,18 @@ Stretch StretchPlanner::towards(const Path& standing, Budget budget, std::span<c
 // Beyond a stretch, as far as it is worth announcing.
 std::vector<std::uint32_t> StretchPlanner::way_on(Path from, std::span<const Goal> goals) {
   std::vector<std::uint32_t> lanes;
+  const double enough_m = neighbours_.audience().is_divided() ? kOnwardInZones_m : kOnward_m;
   double length_m = 0.0;
   for (const Goal& goal : goals) {
-    if (length_m >= kOnward_m) break;
+    if (length_m >= enough_m) break;
     search(from, goal.station);
-    for (const std::uint32_t lane : routes_.lanes(goal.station)) {
-      if (length_m >= kOnward_m) break;
+    for (const std::uint32_t lane : routes_.lanes(end_of_search(goal.station))) {
+      if (length_m >= enough_m) break;
       lanes.push_back(lane);
       length_m += map_.lane(lane).length_m;
       from.heading = map_.end_heading(lane);
     }
+    if (end_of_search(goal.station) != goal.station) break;
     from.station = goal.station;
   }
   return lanes;
@@ -166,7 +172,13 @@ std::vector<std::uint32_t> StretchPlanner::way_on(Path from, std::span<const Goa
 void StretchPlanner::search(const Path& from, std::uint32_t goal) {
   if (!knows_remaining_costs_) return routes_.search(from.station, from.heading, costs_s_, goal);
   const auto remains_s = remaining_costs_s(geometry_.parts(), model_, goal);
-  routes_.search_towards(goal, remains_s, from.station, from.heading, costs_s_);
+  routes_.search_towards(goal, remains_s, from.station, from.heading, costs_s_,
+                         neighbours_.audience().is_divided() ? kFar_m : INFINITY);
+}
+
+// A goal, or a station on the way to it, further away than what is planned now.
+std::uint32_t StretchPlanner::end_of_search(std::uint32_t goal) const {
+  return neighbours_.audience().is_divided() && routes_.reached() != FP_NONE ? routes_.reached() : goal;
 }
 
 Stretch StretchPlanner::first_stretch(const Path& standing, Budget budget, std::span<const Goal> goals) {
@@ -177,7 +189,8 @@ Stretch StretchPlanner::first_stretch(const Path& standing, Budget budget, std::
     const Path here = end_of(map_, walk.stretch.path);
     if (here.station != goal.station || !map_.may_stay(here.station, here.heading)) {
       search(here, goal.station);
-      if (!follow(walk, goal.station)) return walk.take();
+      const std::uint32_t end = end_of_search(goal.station);
+      if (!follow(walk, end) || end != goal.station) return walk.take();
     }
     walk.transfer(goal);
     if (goal.transfer == Leg::Kind::Charge) return walk.take_up_to_here();  // it stays there, and nothing is behind it
@@ -245,10 +258,7 @@ bool StretchPlanner::follow(Walk& walk, std::uint32_t to) {
 }
 
 void StretchPlanner::price_lanes(bool loaded, double waiting_s, double idle_s, const GoesFirst& goes_first) {
-  costs_s_.assign(usual_costs_s_.begin(), usual_costs_s_.end());
-  for (std::uint32_t lane = 0; rules_.any() && lane < map_.lane_count(); ++lane) {
-    if (!rules_.is_usable(lane, loaded)) costs_s_[lane] = INFINITY;
-  }
+  forget_prices(loaded);
   neighbours_.for_each([&](std::uint32_t agv, const Neighbour& n) {
     if (!n.known) return;
     const Status& status = n.status;
@@ -260,22 +270,38 @@ void StretchPlanner::price_lanes(bool loaded, double waiting_s, double idle_s, c
   });
 }
 
+// In a small map it is quickest to take all prices anew.
+void StretchPlanner::forget_prices(bool loaded) {
+  if (costs_s_.empty() || !remembers_prices_ || loaded != priced_loaded_) {
+    costs_s_.assign(usual_costs_s_.begin(), usual_costs_s_.end());
+    for (std::uint32_t lane = 0; rules_.any() && lane < map_.lane_count(); ++lane) {
+      if (!rules_.is_usable(lane, loaded)) costs_s_[lane] = INFINITY;
+    }
+  } else {
+    for (const auto& [lane, before_s] : dearer_ | std::views::reverse) costs_s_[lane] = before_s;
+  }
+  dearer_.clear();
+  priced_loaded_ = loaded;
+}
+
+void StretchPlanner::remember_price(std::uint32_t lane) { dearer_.push_back({lane, costs_s_[lane]}); }
+
 void StretchPlanner::price_meetings(const Path& other) {
   for (const std::uint32_t lane : other.lanes()) {
     const fp_lane& driven = map_.lane(lane);
     for (const std::uint32_t back : map_.lanes_from(driven.to)) {
-      if (map_.lane(back).segment == driven.segment) costs_s_[back] += kMeetingCost_s;
+      if (map_.lane(back).segment == driven.segment) make_dearer(back, kMeetingCost_s);
     }
   }
 }
 
 void StretchPlanner::price_station(std::uint32_t station, double extra_s) {
   if (places_.burden(station) < PlaceJudge::kFoulsLanes) {
-    for (const std::uint32_t lane : map_.lanes_to(station)) costs_s_[lane] += extra_s;
-    for (const std::uint32_t lane : map_.lanes_from(station)) costs_s_[lane] += extra_s;
+    for (const std::uint32_t lane : map_.lanes_to(station)) make_dearer(lane, extra_s);
+    for (const std::uint32_t lane : map_.lanes_from(station)) make_dearer(lane, extra_s);
     return;
   }
-  for (const std::uint32_t lane : geometry_.parts().lanes_blocked_by_turning(station)) costs_s_[lane] += extra_s;
+  for (const std::uint32_t lane : geometry_.parts().lanes_blocked_by_turning(station)) make_dearer(lane, extra_s);
 }
 
 // Afterwards, the way there may be asked for.

@@ -100,7 +100,14 @@ class StretchPlanner {
 
   // From there to a goal, at the costs of the lanes.
   void search(const Path& from, std::uint32_t goal);
+  std::uint32_t end_of_search(std::uint32_t goal) const;
   void price_lanes(bool loaded, double waiting_s, double idle_s, const GoesFirst& goes_first);
+  void forget_prices(bool loaded);
+  void make_dearer(std::uint32_t lane, double extra_s) {
+    if (remembers_prices_) remember_price(lane);
+    costs_s_[lane] += extra_s;
+  }
+  void remember_price(std::uint32_t lane);
   void price_station(std::uint32_t station, double extra_s);
   void price_meetings(const Path& other);
   std::uint32_t best_place(const Path& standing, bool prefer_parking, double draw, const GoesFirst& goes_first);
@@ -120,8 +127,15 @@ class StretchPlanner {
   std::span<const double> lane_times_s_;   // by lane
   std::span<const double> usual_costs_s_;  // by lane: the time, and a price against the convention of aisles
   std::vector<double> costs_s_;            // by lane: likewise, and a price for other AGVs on the lane
-  std::uint32_t model_;                    // of the own AGV
-  bool knows_remaining_costs_;             // the usual costs are those of remaining_costs_s()
+  struct Dearer {
+    std::uint32_t lane;
+    double before_s;
+  };
+  std::vector<Dearer> dearer_;  // what was added to the costs, in this order
+  bool priced_loaded_ = false;
+  bool remembers_prices_;       // dearer_ is kept
+  std::uint32_t model_;         // of the own AGV
+  bool knows_remaining_costs_;  // the usual costs are those of remaining_costs_s()
 };
 
 }  // namespace fleetproof::agents

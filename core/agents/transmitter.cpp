@@ -20,7 +20,7 @@ void Transmitter::fill_in(Status& status) {
     position_m_ = {pose.x_m, pose.y_m};
     position_at_ns_ = now_ns;
   }
-  status.stamp_ms = stamp_ms_ = std::max(stamp_ms_, Neighbours::stamp_ms(now_ns));
+  status.stamp_ms = stamp_ms_ = std::max(stamp_ms_, stamp_ms_at(now_ns));
   status.position_m = position_m_;
   status.position_is_new = position_at_ns_ == now_ns;
   status.waiting = waiting_;
@@ -29,7 +29,7 @@ void Transmitter::fill_in(Status& status) {
 }
 
 std::uint32_t Transmitter::begin_new_stamp() {
-  stamp_ms_ = std::max(stamp_ms_ + 1, Neighbours::stamp_ms(controller_.now_ns()));
+  stamp_ms_ = std::max(stamp_ms_ + 1, stamp_ms_at(controller_.now_ns()));
   if (first_unused_ms_ == 0) first_unused_ms_ = stamp_ms_ + (boot_ > 0 ? Neighbours::kStampsAhead_ms : 0);
   return std::max(stamp_ms_, first_unused_ms_);
 }

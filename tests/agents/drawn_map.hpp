@@ -106,7 +106,7 @@ struct TestFleet {
             nullptr,
             0.10,
             1000.0,
-            "",
+            config,
             0,
             FP_NONE,
             FP_NONE,
@@ -115,6 +115,7 @@ struct TestFleet {
 
   const fp_map& map;
   std::vector<fp_agv> agvs;
+  const char* config = "";
 };
 
 }  // namespace fleetproof::agents::testing

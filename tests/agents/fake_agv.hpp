@@ -34,11 +34,22 @@ struct FakeOrder {
   std::uint32_t id, from, to;
 };
 
+// Until an instant, an AGV perceives a heading that it had before.
+struct LateHeading {
+  std::int64_t until_ns = 0;
+  double x = 1.0, y = 0.0;
+};
+
 struct FakeAgv {
   FakeHandle handle{};
   fp_briefing briefing{};
   void* agent = nullptr;
   std::uint32_t station = 0;
+  LateHeading late;
+  fp_pose perceived(fp_pose as_it_is, std::int64_t now_ns) const {
+    if (now_ns < late.until_ns) as_it_is.heading_x = late.x, as_it_is.heading_y = late.y;
+    return as_it_is;
+  }
   fp_pose pose{};
   const fp_lane* lane = nullptr;  // being driven
   const fp_lane* next = nullptr;  // to be driven afterwards; the warehouse stops every AGV between two lanes

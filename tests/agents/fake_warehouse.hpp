@@ -46,6 +46,7 @@ class FakeWarehouse {
   void heading(std::uint32_t agv, double x, double y) {
     agvs_[agv]->pose.heading_x = x, agvs_[agv]->pose.heading_y = y;
   }
+  void late_heading(std::uint32_t id, LateHeading late) { agvs_[id]->late = late; }
   void script(std::uint32_t agv, std::span<const fp_scripted_call> calls) {
     agvs_[agv]->briefing.script = calls.data();
     agvs_[agv]->briefing.script_count = static_cast<std::uint32_t>(calls.size());
@@ -349,7 +350,8 @@ inline fp_host FakeWarehouse::make_host() {
     return FP_OK;
   };
   host.get_position = [](fp_controller* c, fp_pose* out) -> std::int32_t {
-    *out = handle(c).warehouse->pose_of(*handle(c).warehouse->agvs_[handle(c).id]);
+    const FakeAgv& agv = *handle(c).warehouse->agvs_[handle(c).id];
+    *out = agv.perceived(handle(c).warehouse->pose_of(agv), handle(c).warehouse->now_ns_);
     return FP_OK;
   };
   host.get_message = [](fp_controller* c, fp_message* out) -> std::int32_t {

@@ -22,7 +22,7 @@ class NeighboursTest : public ::testing::Test {
     m.status.position_m = {x_m, 0.0};
     m.status.held.station = 1;
     m.heard.count = 2;
-    m.heard.stamps_ms[0] = heard_sent_ns < 0 ? 0 : Neighbours::stamp_ms(heard_sent_ns);
+    m.heard.stamps_ms[0] = heard_sent_ns < 0 ? 0 : stamp_ms_at(heard_sent_ns);
     return neighbours.note(1, m, now_ns) != Neighbours::News::Refused;
   }
 
@@ -114,7 +114,7 @@ TEST_F(NeighboursTest, LatePositionsAndFasterDrivesShortenTheProof) {
     m.status.position_m = {100.0, 0.0};
     m.status.held.station = 1;
     m.heard.count = 1;
-    m.heard.stamps_ms[0] = Neighbours::stamp_ms(0);
+    m.heard.stamps_ms[0] = stamp_ms_at(0);
     EXPECT_NE(n.note(1, m, 0), Neighbours::News::Refused);
     return n.surely_beyond(1, here, age_s * kSecond_ns);
   };

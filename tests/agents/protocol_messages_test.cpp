@@ -35,6 +35,51 @@ Message sample(MessageKind kind) {
 
 constexpr MessageKind kKinds[] = {MessageKind::State, MessageKind::Request, MessageKind::Grant, MessageKind::Defer};
 
+Message sample_with_zones(MessageKind kind) {
+  Message m = sample(kind);
+  m.tells_zones = m.wants_answer = m.status.place_unknown = true;
+  for (const unsigned zone : {40'000U, 7U, 71U}) m.zones.add(static_cast<std::uint16_t>(zone));
+  m.about.add(7);
+  m.roll.stamp_ms = 4'000'000'001U;
+  m.roll.from = 12;
+  m.roll.next = FP_NONE;
+  m.roll.count = 2;
+  m.roll.list[0] = {12, 3, 99};
+  m.roll.list[1] = {500, 0, 4'000'000'002U};
+  return m;
+}
+
+TEST(ProtocolMessages, ZonesAndRollsComeBackAsTheyWere) {
+  for (const MessageKind kind : {MessageKind::State, MessageKind::Grant, MessageKind::Join, MessageKind::Roll}) {
+    const Message sent = sample_with_zones(kind);
+    const std::optional<Message> m = decode(WireMessage(sent).bytes());
+    ASSERT_TRUE(m) << name_of(kind);
+    EXPECT_EQ(m->kind, kind);
+    EXPECT_TRUE(m->tells_zones && m->wants_answer && m->status.place_unknown);
+    EXPECT_EQ(m->zones, sent.zones);
+    if (kind != MessageKind::Join && kind != MessageKind::Roll) continue;
+    EXPECT_EQ(m->about, sent.about);
+    EXPECT_EQ(m->roll.from, 12U);
+    if (kind == MessageKind::Join) continue;
+    EXPECT_EQ(m->roll.stamp_ms, sent.roll.stamp_ms);
+    EXPECT_EQ(m->roll.next, FP_NONE);
+    ASSERT_EQ(m->roll.count, 2U);
+    EXPECT_EQ(m->roll.list[0], sent.roll.list[0]);
+    EXPECT_EQ(m->roll.list[1], sent.roll.list[1]);
+  }
+}
+
+TEST(ProtocolMessages, TheLongestRollFitsIntoAMessage) {
+  Message m = sample_with_zones(MessageKind::Roll);
+  while (m.status.held.count < kPathLanesMax) m.status.held.append(9);
+  for (std::uint16_t zone = 0; zone < 1000; ++zone) m.zones.add(zone), m.about.add(zone);
+  m.heard.count = 1;
+  m.roll.count = Roll::kMax;
+  for (RollEntry& entry : m.roll.list) entry = {1, 2, 3};
+  EXPECT_LE(WireMessage(m).bytes().size(), 1000U);
+  ASSERT_TRUE(decode(WireMessage(m).bytes()));
+}
+
 TEST(ProtocolMessages, ComeBackAsTheyWere) {
   for (const MessageKind kind : kKinds) {
     const Message sent = sample(kind);

@@ -103,6 +103,26 @@ TEST(Restart, HoldsTheLanesThatTheAgvWillDriveFromItsFirstInstantAndNothingBeyon
   }
 }
 
+// A long AGV stands across, beside the lane of another one. Its computer restarts, and sees the heading of before.
+TEST(Restart, NobodyTakesAnAgvForOutOfTheWayThatDoesNotKnowItsHeading) {
+  for (const char* config : {"", "zones_from=2"}) {
+    DrawnMap drawn;
+    const auto from = drawn.station(0, 1.35, FP_STORAGE), to = drawn.station(14, 1.35, FP_STORAGE);
+    const auto beside = drawn.station(7, 0, FP_STORAGE), away = drawn.station(7, -9, FP_STORAGE);
+    drawn.segment(from, to), drawn.segment(beside, away);
+    TestFleet fleet(drawn.map(), 2);
+    fleet.config = config;
+    FakeWarehouse warehouse(drawn, fleet, {from, beside}, kHullLock, FakeRadio{0.0, 0.01, false, 0.0}, 1);
+    warehouse.heading(0, 1, 0), warehouse.heading(1, 0, 1);
+    warehouse.late_heading(1, {1'300'000'000, 1, 0});
+    warehouse.restart(1, 0.3, 0.1);
+    warehouse.order(0, 0.6, from, to);
+    warehouse.run(60.0);
+    EXPECT_GE(warehouse.least_clearance_m(), 0.1) << config;
+    EXPECT_EQ(warehouse.boot_of(1), 1U);
+  }
+}
+
 TEST(Restart, DuringATransferItWaitsForItsEndAndNeitherPicksNorDropsTwice) {
   Corridor corridor;
   const TestFleet fleet(corridor.drawn.map(), 1);

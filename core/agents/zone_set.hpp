@@ -1,0 +1,59 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+
+namespace fleetproof::agents {
+
+// Zones by ascending number, each once.
+class ZoneSet {
+ public:
+  static constexpr std::uint32_t kMax = 40;
+
+  bool empty() const { return count_ == 0; }
+  std::uint32_t size() const { return count_; }
+  std::span<const std::uint16_t> all() const { return {zones_.data(), count_}; }
+  bool contains(std::uint16_t zone) const { return may_contain(zone) && std::ranges::binary_search(all(), zone); }
+  bool contains_all(const ZoneSet& others) const {
+    return std::ranges::all_of(others.all(), [&](std::uint16_t zone) { return contains(zone); });
+  }
+  // Most sets of a large floor differ in the first look.
+  bool meets(const ZoneSet& other) const {
+    if ((some_ & other.some_) == 0) return false;
+    return std::ranges::any_of(all(), [&](std::uint16_t zone) { return other.contains(zone); });
+  }
+
+  // False if the set is full.
+  bool add(std::uint16_t zone) {
+    if (contains(zone)) return true;
+    if (count_ == kMax) return false;
+    std::uint32_t at = count_++;
+    for (; at > 0 && zones_[at - 1] > zone; --at) zones_[at] = zones_[at - 1];
+    zones_[at] = zone;
+    some_ |= bit_of(zone);
+    return true;
+  }
+  template <class Keep>
+  void keep_if(Keep keep) {
+    ZoneSet kept;
+    for (const std::uint16_t zone : all()) {
+      if (keep(zone)) kept.add(zone);
+    }
+    *this = kept;
+  }
+  void clear() { count_ = 0, some_ = 0; }
+
+  friend bool operator==(const ZoneSet& a, const ZoneSet& b) { return std::ranges::equal(a.all(), b.all()); }
+
+ private:
+  static std::uint64_t bit_of(std::uint16_t zone) { return std::uint64_t{1} << (zone % 64); }
+  bool may_contain(std::uint16_t zone) const { return (some_ & bit_of(zone)) != 0; }
+
+  std::uint64_t some_ = 0;  // a bit for each zone; several zones share one
+  std::uint32_t count_ = 0;
+  std::array<std::uint16_t, kMax> zones_;
+};
+
+}  // namespace fleetproof::agents
