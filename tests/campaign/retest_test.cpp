@@ -298,7 +298,7 @@ TEST(Retest, ANewFaultInPlaceOfTheOldOneIsANewKind) {
 // Few of the first failing neighbours need what the kept failure needs.
 TEST(Retest, MostOfTheFirstNeighboursSayOfWhatKindTheyAre) {
   Bench bench("stale-grant");
-  const auto needs = needs_of(bench.host, bench.failing(121));
+  const auto needs = needs_of(bench.host, bench.failing(320));
   Finding finding;
   finding.mechanism = {needs->end, needs->needs, {}, {}};
   FindingRecord record = record_of(bench.host, finding, *needs, 400);

@@ -100,7 +100,7 @@ duplicates = 0.1
   const Scenario scenario = ScenarioSource(plan).scenario(57);
   const auto failure = failure_of(bench.host(scenario));
   ASSERT_TRUE(failure.has_value());
-  const ShrinkResult result = bench.shrunk({scenario, *failure}, {.deadline = {}, .trials = 12000});
+  const ShrinkResult result = bench.shrunk({scenario, *failure}, {.deadline = {}, .trials = 60000});
   EXPECT_LE(result.best.scenario.agvs.size(), 3U);
 }
 
