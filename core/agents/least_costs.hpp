@@ -10,8 +10,8 @@
 
 namespace fleetproof::agents {
 
-// What the ways to all stations cost at least, from one station or back from it. The lanes of the map are too far apart
-// in memory for many searches, so this keeps what they cost beside each other.
+// The cost of the cheapest way from one station to each other one, or from each other one to it. Many searches follow,
+// so this copies what they read from the map into one table: lanes of the map are large.
 class LeastCosts {
  public:
   // `lane_costs`: by lane, none below 0; infinite where nobody must drive. `back`: the ways end where they would begin.

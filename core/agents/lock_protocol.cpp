@@ -152,20 +152,20 @@ void LockProtocol::answer_request(std::uint32_t sender) {
   Neighbour& n = neighbours_.of(sender);
   if (claim_.has_granted(n)) {  // the grant was lost or is still under way; the next STATE repeats it
     controller_.sometimes("grant-lost");
-    return answer_again(sender);
+    return answer_if_asked_again(sender);
   }
   const Answer answer = answer_to(sender, n);
   if (answer != Answer::Defer) return grant(sender, n, answer);
-  if (n.deferred_epoch == n.request_epoch) return answer_again(sender);
+  if (n.deferred_epoch == n.request_epoch) return answer_if_asked_again(sender);
   controller_.sometimes("deferred");
   n.deferred_epoch = n.request_epoch;
   n.answer_repeats = {};
   messages_.send_answer(MessageKind::Defer, sender);
 }
 
-void LockProtocol::answer_again(std::uint32_t sender) {
+void LockProtocol::answer_if_asked_again(std::uint32_t sender) {
   const Neighbour& n = neighbours_.of(sender);
-  if (zones_ && controller_.now_ns() - n.told_at_ns >= kAnswersAgain_ns) send_answer_again(sender);
+  if (zones_ && controller_.now_ns() - n.told_at_ns >= kAnswersAgain_ns) repeat_answer(sender);
 }
 
 LockProtocol::Answer LockProtocol::answer_to(std::uint32_t agv, Neighbour& neighbour) {
@@ -335,11 +335,11 @@ void LockProtocol::repeat() {
   if (many || messages_.quiet_s() > longest_quiet_s) return messages_.broadcast_state();
   for (const Due& due : due_) {
     if (due.request) messages_.send_request(due.agv);
-    if (due.answer) send_answer_again(due.agv);
+    if (due.answer) repeat_answer(due.agv);
   }
 }
 
-void LockProtocol::send_answer_again(std::uint32_t agv) {
+void LockProtocol::repeat_answer(std::uint32_t agv) {
   messages_.send_answer(claim_.has_granted(neighbours_.of(agv)) ? MessageKind::Grant : MessageKind::Defer, agv);
 }
 

@@ -176,8 +176,8 @@ class LockProtocol {
   void open_epoch();
   void receive_request(std::uint32_t sender, const Message& message);
   void answer_request(std::uint32_t sender);
-  void answer_again(std::uint32_t sender);
-  void send_answer_again(std::uint32_t agv);
+  void answer_if_asked_again(std::uint32_t sender);
+  void repeat_answer(std::uint32_t agv);
   void repeat_in_zones();
   Answer answer_to(std::uint32_t agv, Neighbour& neighbour);
   bool lock_is_over();

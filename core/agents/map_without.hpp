@@ -31,7 +31,7 @@ class MapWithout {
   struct Hop {
     std::uint32_t lane, to;
   };
-  // The hops from each station. In a plant, the lanes of the map are too far apart in memory for many looks.
+  // The hops from each station, in one table: lanes of the map are large, and each search reads many.
   struct Hops {
     std::span<const Hop> all;
     std::span<const std::uint32_t> first;  // by station, and one more

@@ -70,7 +70,7 @@ class Membership {
   // Requires: both outlive the object.
   Membership(const ZoneMap& map, Neighbours& neighbours) : map_(map), neighbours_(neighbours) {}
 
-  // The zones that each message must contain.
+  // Every message must announce these zones.
   const ZoneSet& announced() const { return announced_; }
   bool is_member_of_all(const ZoneSet& zones) const { return joined_.contains_all(zones); }
 

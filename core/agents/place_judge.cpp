@@ -127,7 +127,7 @@ void PlaceJudge::cut_off_around(std::uint32_t end) {
 // Every way through what is missing or cut off left the rest at a station that was seen, and came back at another one:
 // the rest stays connected if these still reach each other.
 bool PlaceJudge::rest_is_connected() {
-  std::erase_if(seen_, [&](std::uint32_t id) { return is_cut_off(id); });  // pieces_ contains them
+  std::erase_if(seen_, [&](std::uint32_t id) { return is_cut_off(id); });  // pieces_ contains them; others are left
   return without_.reaches(seen_.front(), seen_, false) && without_.reaches(seen_.front(), seen_, true);
 }
 
