@@ -16,9 +16,8 @@
 namespace fleetproof::agents {
 namespace {
 
-// So much dearer is a lane against the convention of aisles. Back to a goal that it has just passed, an AGV drives
-// against it.
-constexpr double kAgainstAisle = 8.0;
+// So much dearer is a lane against the convention of aisles. To a goal near by, an AGV drives against it.
+constexpr double kAgainstAisle = 2.0;
 
 // Both fit: a map for hull-lock has at most 2^16 stations, and a campaign not so many AGVs.
 constexpr std::uint32_t kModelShift = 16;

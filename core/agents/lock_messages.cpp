@@ -89,7 +89,7 @@ void LockMessages::tell(std::uint32_t receiver, bool wants_answer) {
 
 bool LockMessages::is_to_be_told(const Neighbour& n) {
   if (n.told_at_ns < 0) return true;
-  const bool is_news = n.owes_acknowledgement || n.told_condition != transmitter_.condition(is_blocked());
+  const bool is_news = n.owes_acknowledgement || n.told_condition != transmitter_.condition(is_blocked(), is_held_up());
   const bool knows_way = n.heard_us_ms >= claim_.way.since_ms(claim_.way.path().count);
   const double many = static_cast<double>(std::max(kFewAround, neighbours_.audience().agvs().size())) / kFewAround;
   const double since_ns = static_cast<double>(controller_.now_ns() - n.told_at_ns) / many;
@@ -104,6 +104,7 @@ Message LockMessages::begin(MessageKind kind) {
   status.epoch = claim_.epoch;
   status.requesting = claim_.requesting;
   status.blocked = is_blocked();
+  status.held_up = is_held_up();
   status.place_unknown = !claim_.knows_place;
   status.held = claim_.held;
   status.ahead = claim_.way.path();
@@ -121,7 +122,7 @@ void LockMessages::send_to(std::uint32_t receiver, Message& message) {
   neighbours_.tell_heard_from(message.heard, receiver);
   Neighbour& n = neighbours_.of(receiver);
   n.told_at_ns = controller_.now_ns();
-  n.told_condition = transmitter_.condition(message.status.blocked);
+  n.told_condition = transmitter_.condition(message.status.blocked, message.status.held_up);
   n.owes_acknowledgement = false;
   transmitter_.send(message, receiver);
 }

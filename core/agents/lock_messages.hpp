@@ -53,7 +53,8 @@ class LockMessages {
  private:
   void fill_in_request(Message& message) const;
   void fill_in_lists(Message& message);
-  bool is_blocked() { return claim_.requesting && blocker_.is_inside(claim_.request); }
+  bool is_blocked() { return claim_.requesting && blocker_.is_blocked(claim_.request); }
+  bool is_held_up() { return claim_.requesting && blocker_.is_held_up(claim_.request); }
 
   Controller& controller_;
   Transmitter transmitter_;

@@ -84,13 +84,13 @@ void LockProtocol::open_epoch() {
   look_at_all_ = true;
   repeated_grants_ = 0;
   answers_may_change_ = true;
-  blocker_.forget();
+  blocker_.ask(controller_.now_ns());
 }
 
 void LockProtocol::withdraw() {
   claim_.requesting = false;
   answers_may_change_ = true;
-  blocker_.forget();
+  blocker_.end();
   controller_.waiting_for(FP_NONE);
 }
 
@@ -186,12 +186,14 @@ bool LockProtocol::lock_is_over() {
 bool LockProtocol::comes_first(std::uint32_t agv, const Neighbour& neighbour) {
   if (!options_.progress.order_is_common) return false;
   // A blocked request cannot be locked before another AGV moves. It must not stop that AGV, or the AGVs for which that
-  // AGV waits. Both sides must find the same order; otherwise two requests would step back from each other for ever.
-  // Therefore every message contains `blocked`.
-  const bool mine_blocked = claim_.requesting && blocker_.is_inside(claim_.request);
-  const bool other_blocked = neighbour.status.blocked;
+  // AGV waits. One that is held up lets others pass meanwhile. Both sides must find the same order; otherwise two
+  // requests would step back from each other for ever. Therefore every message contains `blocked` and `held_up`.
+  const bool blocked = claim_.requesting && blocker_.is_blocked(claim_.request);
+  const bool held_up = claim_.requesting && blocker_.is_held_up(claim_.request);
+  const Status& other = neighbour.status;
   const std::uint32_t self = options_.progress.smaller_number_first ? neighbours_.self() : agv;
-  return std::tie(mine_blocked, claim_.demand_ns, self) < std::tie(other_blocked, neighbour.demand_ns, agv);
+  return std::tie(blocked, held_up, claim_.demand_ns, self) <
+         std::tie(other.blocked, other.held_up, neighbour.demand_ns, agv);
 }
 
 void LockProtocol::grant(std::uint32_t agv, Neighbour& neighbour, Answer answer) {
@@ -321,6 +323,7 @@ bool LockProtocol::consents(std::uint32_t agv, const Neighbour& neighbour, std::
 // Few repetitions go to their addressees, many go out with the STATE.
 void LockProtocol::repeat() {
   look_at_all_ = true;
+  if (claim_.requesting && blocker_.grow_old(controller_.now_ns())) answers_may_change_ = true;
   if (zones_) return repeat_in_zones();
   due_.clear();
   neighbours_.for_each([&](std::uint32_t agv, Neighbour& n) {

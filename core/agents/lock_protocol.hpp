@@ -155,9 +155,9 @@ class LockProtocol {
   void repeat();
 
   // An AGV that stands and waits inside the hull of `path`; FP_NONE if none is known.
-  std::uint32_t waiting_inside(const Path& path) const { return neighbours_.waiting_inside(path); }
+  std::uint32_t waiting_inside(const Path& path) const { return neighbours_.first_inside(path, Inside::Waiting); }
   // Whether another AGV is known to hold floor inside the hull of `path`.
-  bool is_held(const Path& path) const { return neighbours_.hold_inside(path); }
+  bool is_held(const Path& path) const { return neighbours_.first_inside(path, Inside::Holding) != FP_NONE; }
 
  private:
   // What is to be sent again.

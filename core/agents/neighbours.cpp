@@ -57,7 +57,7 @@ Neighbours::News Neighbours::note(std::uint32_t sender, const Message& message, 
     const bool same_held = n.known && before.held == status.held && before.place_unknown == status.place_unknown &&
                            same_heading(before.held.heading, status.held.heading);
     const bool same = same_held && before.waiting == status.waiting && before.blocked == status.blocked &&
-                      before.out_of_order == status.out_of_order;
+                      before.held_up == status.held_up && before.out_of_order == status.out_of_order;
     if (!same) news = News::Changed;
     if (!same_held || !(before.ahead == ahead)) ++n.way_changes;
     if (!(before.ahead == ahead) && status.ahead.count > 0) n.owes_acknowledgement = true;
@@ -143,16 +143,16 @@ bool Neighbours::is_apart(std::uint32_t agv, const Path& path, Epoch request) {
   return n.apart.is;
 }
 
-bool Neighbours::waits_inside(std::uint32_t agv, const Path& path) {
+bool Neighbours::is_inside(std::uint32_t agv, const Path& path, Inside what) {
   const Neighbour& n = neighbours_[agv];
-  const bool stands = n.known && (n.status.waiting || n.status.out_of_order);
-  return stands && geometry_.conflict(self_, path, agv, n.status.held);
+  const bool counts = n.known && (what == Inside::Holding || n.status.waiting || n.status.out_of_order);
+  return counts && geometry_.conflict(self_, path, agv, n.status.held);
 }
 
-std::uint32_t Neighbours::waiting_inside(const Path& path) {
+std::uint32_t Neighbours::first_inside(const Path& path, Inside what) {
   std::uint32_t found = FP_NONE;
   for_each([&](std::uint32_t agv, const Neighbour&) {
-    if (found == FP_NONE && waits_inside(agv, path)) found = agv;
+    if (found == FP_NONE && is_inside(agv, path, what)) found = agv;
   });
   return found;
 }
@@ -162,14 +162,6 @@ bool Neighbours::clashes(std::uint32_t agv, Neighbour::Clash& known, const Path&
   if (known.request != n.request_epoch || known.version != version)
     known = {n.request_epoch, version, geometry_.conflict(self_, path, agv, n.request)};
   return known.is;
-}
-
-bool Neighbours::hold_inside(const Path& path) {
-  bool held = false;
-  for_each([&](std::uint32_t agv, const Neighbour& n) {
-    held = held || (n.known && geometry_.conflict(self_, path, agv, n.status.held));
-  });
-  return held;
 }
 
 void Neighbours::tell_heard_from(HeardFrom& heard, std::uint32_t agv) const {

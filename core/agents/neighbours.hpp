@@ -99,6 +99,9 @@ inline std::uint32_t stamp_ms_at(std::int64_t now_ns) {
   return static_cast<std::uint32_t>(std::max<std::int64_t>(now_ns, 0) / 1'000'000) + 1;
 }
 
+// What another AGV does inside the hull of a path: it stands and waits, or it holds floor there.
+enum class Inside : std::uint8_t { Waiting, Holding };
+
 class Neighbours {
  public:
   // Stamps are ahead of the clock by less than this, those of a former self too.
@@ -163,13 +166,11 @@ class Neighbours {
   // boot. Then it does not say where they may drive now.
   void restarted_at(std::int64_t now_ns) { fresh_from_ms_ = stamp_ms_at(now_ns) + kStampsAhead_ms; }
 
-  // An AGV that is known to stand and wait inside the hull of `path`; FP_NONE if there is none.
-  std::uint32_t waiting_inside(const Path& path);
-  bool waits_inside(std::uint32_t agv, const Path& path);
+  // An AGV that is known to do this inside the hull of `path`; FP_NONE if there is none.
+  std::uint32_t first_inside(const Path& path, Inside what);
+  bool is_inside(std::uint32_t agv, const Path& path, Inside what);
   // Whether the newest request of `agv` conflicts with a path of this AGV. `known`: the answer for an earlier version.
   bool clashes(std::uint32_t agv, Neighbour::Clash& known, const Path& path, std::uint32_t version);
-  // Whether an AGV is known to hold floor inside the hull of `path`.
-  bool hold_inside(const Path& path);
 
   bool is_first_boot() const { return fresh_from_ms_ == 0; }
 

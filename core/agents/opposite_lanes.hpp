@@ -21,7 +21,7 @@ class OppositeLanes {
 
   bool is_against(std::uint32_t lane) const { return against_[lane]; }
 
-  static constexpr double kPrice = 8.0;      // so much longer counts a lane against the convention
+  static constexpr double kPrice = 4.0;      // so much longer counts a lane against the convention
   static constexpr std::size_t kGoals = 12;  // between so many goals the ways are measured
 
  private:

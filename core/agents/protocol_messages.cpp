@@ -15,8 +15,9 @@ constexpr double kPerUnit = 32767.0;   // headings as 15-bit fractions
 constexpr std::uint64_t kRequesting = 1, kWaiting = 2, kIdle = 4, kOutOfOrder = 8, kBlocked = 16;  // bits of the flags
 constexpr std::uint64_t kEpochHasBoot = 32, kEchoHasBoot = 64, kPositionIsNew = 128;
 constexpr std::uint64_t kGranted = 1;  // of an answer; beside kEchoHasBoot
-constexpr std::uint64_t kTellsZones = 0x80, kWantsAnswer = 0x40, kPlaceUnknown = 0x20;  // beside the kind
-constexpr std::uint64_t kKinds = 0x1f;
+// Beside the kind.
+constexpr std::uint64_t kTellsZones = 0x80, kWantsAnswer = 0x40, kPlaceUnknown = 0x20, kHeldUp = 0x10;
+constexpr std::uint64_t kKinds = 0x0f;
 constexpr std::uint32_t kNobody = 0xffff;
 
 std::uint64_t flags_of(const Message& message) {
@@ -54,6 +55,7 @@ class Reader {
     message.wants_answer = (kind & kWantsAnswer) != 0;
     message.tells_zones = (kind & kTellsZones) != 0;
     message.status.place_unknown = (kind & kPlaceUnknown) != 0;
+    message.status.held_up = (kind & kHeldUp) != 0;
     const std::uint64_t flags = read_status(message.status);
     if (message.tells_zones) take_zones(message.zones);
     take_heard(message.heard);
@@ -240,7 +242,8 @@ WireMessage::WireMessage(const Message& message) {
   const Status& status = message.status;
   put<std::uint8_t>(kMark);
   put<std::uint8_t>(static_cast<std::uint64_t>(message.kind) | (message.tells_zones ? kTellsZones : 0U) |
-                    (message.wants_answer ? kWantsAnswer : 0U) | (status.place_unknown ? kPlaceUnknown : 0U));
+                    (message.wants_answer ? kWantsAnswer : 0U) | (status.place_unknown ? kPlaceUnknown : 0U) |
+                    (status.held_up ? kHeldUp : 0U));
   put<std::uint32_t>(status.stamp_ms);
   put<std::uint32_t>(rounded(status.position_m.x * kPerMetre));
   put<std::uint32_t>(rounded(status.position_m.y * kPerMetre));

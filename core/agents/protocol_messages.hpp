@@ -50,6 +50,7 @@ struct Status {
   Epoch epoch = 0;              // of its newest request
   bool requesting = false;      // that request is still open
   bool blocked = false;         // an AGV stands and waits inside the hull of that request
+  bool held_up = false;         // that request is young, and an AGV holds floor inside its hull
   bool waiting = false;         // it stands and can only wait for a lock
   bool idle = false;            // it is waiting and has no transport
   bool out_of_order = false;

@@ -33,8 +33,7 @@ constexpr auto is_dearer = [](const auto& a, const auto& b) {
   return a.cost_s > b.cost_s || (a.cost_s == b.cost_s && a.place > b.place);
 };
 
-Routes::Routes(const MapView& map, const DriveRules& rules)
-    : map_(map), rules_(rules), places_(map.station_count()), lanes_driven_(rules.any() ? map.lane_count() : 0) {
+Routes::Routes(const MapView& map, const DriveRules& rules) : map_(map), rules_(rules) {
   if (map.facts() == nullptr) {
     own_ = hops_of(map);
     read(own_);
@@ -91,7 +90,10 @@ void Routes::search_until(const Enough& enough, std::uint32_t from, Vec heading,
 }
 
 void Routes::search(std::uint32_t from, Vec heading, std::span<const double> cost_s, const Aim& aim) {
-  ++searches_;
+  if (searches_++ == 0) {  // many never search: their ways come from elsewhere
+    places_.resize(map_.station_count());
+    lanes_driven_.resize(rules_.any() ? map_.lane_count() : 0);
+  }
   reached_ = FP_NONE;
   open_.clear();
   // With a heading with which it may not stay, an AGV is not there yet.

@@ -43,7 +43,7 @@ class Routes {
   // stations that were shown may be asked for.
   using Enough = std::function<bool(std::uint32_t station, double cost_s)>;
   void search_until(const Enough& enough, std::uint32_t from, Vec heading, std::span<const double> cost_s);
-  // Infinite if there is no way.
+  // Of the last search. Infinite if there is no way.
   double cost_s(std::uint32_t to) const { return is_found(to) ? places_[to].cost_s : INFINITY; }
   // A lane that leaves a station. In a plant, the lanes of the map are too far apart in memory for a search.
   struct Hop {

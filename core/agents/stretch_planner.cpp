@@ -19,8 +19,9 @@ constexpr double kOnward_m = 40.0, kOnwardInZones_m = 25.0;  // what is announce
 constexpr double kArrivingCost_s = 8.0;
 constexpr double kIdleCost_s = 10.0;
 constexpr double kWaitingCost_s = 20.0;
-// Of a lane on which it would meet an AGV that has announced the other direction: one of them would have to go back.
-constexpr double kMeetingCost_s = 60.0;
+// Of a lane on which it would meet an AGV that has announced the other direction, for one of them would have to go
+// back: for each metre, and at most.
+constexpr double kMeetingCost_spm = 15.0, kLargestMeetingCost_s = 60.0;
 constexpr double kNoWayCost_s = 1000.0;
 // In a row of chargers, wide AGVs cannot turn beside each other. An AGV would rather hold up others there than run
 // empty.
@@ -289,8 +290,9 @@ void StretchPlanner::remember_price(std::uint32_t lane) { dearer_.push_back({lan
 void StretchPlanner::price_meetings(const Path& other) {
   for (const std::uint32_t lane : other.lanes()) {
     const fp_lane& driven = map_.lane(lane);
+    const double extra_s = std::min(kMeetingCost_spm * driven.length_m, kLargestMeetingCost_s);
     for (const std::uint32_t back : map_.lanes_from(driven.to)) {
-      if (map_.lane(back).segment == driven.segment) make_dearer(back, kMeetingCost_s);
+      if (map_.lane(back).segment == driven.segment) make_dearer(back, extra_s);
     }
   }
 }

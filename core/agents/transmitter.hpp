@@ -17,10 +17,10 @@ class Transmitter {
 
   // The state of the AGV that the next messages contain.
   void describe(bool waiting, bool idle, bool out_of_order);
-  // That state as one number, with whether the request is blocked.
-  std::uint8_t condition(bool blocked) const {
+  // That state as one number, with whether the request is blocked or held up.
+  std::uint8_t condition(bool blocked, bool held_up) const {
     return static_cast<std::uint8_t>((waiting_ ? 1U : 0U) | (idle_ ? 2U : 0U) | (out_of_order_ ? 4U : 0U) |
-                                     (blocked ? 8U : 0U));
+                                     (blocked ? 8U : 0U) | (held_up ? 16U : 0U));
   }
   // Fills in that state, the instant and the position.
   void fill_in(Status& status);

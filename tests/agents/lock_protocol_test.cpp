@@ -215,6 +215,26 @@ TEST_F(LockProtocolTest, WhoIsBlockedByAWaitingAgvLetsItPass) {
   EXPECT_TRUE(settle(1));
 }
 
+// The elder waits for floor that an AGV holds which does not wait: meanwhile, the younger may pass. Not for ever.
+TEST_F(LockProtocolTest, WhoIsHeldUpLetsOthersPassForAWhile) {
+  for (const std::int64_t later_ns : {std::int64_t{0}, Blocker::kPatience_ns}) {
+    members.clear(), sent.clear();
+    fleet_of(3);
+    members[2]->protocol->describe(false, false, false);
+    members[2]->protocol->repeat();
+    ASSERT_TRUE(deliver(MessageKind::State, 2, 0));
+    want(0, 3, 1);  // to where 2 is
+    settle(0);
+    now_ns += later_ns;
+    members[0]->protocol->repeat();
+    want(1, 4, 9);
+    settle(1);
+    ASSERT_TRUE(deliver(MessageKind::Request, 1, 0));
+    EXPECT_EQ(deliver(MessageKind::Grant, 0, 1), later_ns == 0);
+    EXPECT_EQ(deliver(MessageKind::Defer, 0, 1), later_ns > 0);
+  }
+}
+
 TEST_F(LockProtocolTest, SilenceIsNeverConsent) {
   fleet_of(2);
   want(0, 3, 0);

@@ -37,7 +37,7 @@ constexpr MessageKind kKinds[] = {MessageKind::State, MessageKind::Request, Mess
 
 Message sample_with_zones(MessageKind kind) {
   Message m = sample(kind);
-  m.tells_zones = m.wants_answer = m.status.place_unknown = true;
+  m.tells_zones = m.wants_answer = m.status.place_unknown = m.status.held_up = true;
   for (const unsigned zone : {40'000U, 7U, 71U}) m.zones.add(static_cast<std::uint16_t>(zone));
   m.about.add(7);
   m.roll.stamp_ms = 4'000'000'001U;
@@ -55,7 +55,7 @@ TEST(ProtocolMessages, ZonesAndRollsComeBackAsTheyWere) {
     const std::optional<Message> m = decode(WireMessage(sent).bytes());
     ASSERT_TRUE(m) << name_of(kind);
     EXPECT_EQ(m->kind, kind);
-    EXPECT_TRUE(m->tells_zones && m->wants_answer && m->status.place_unknown);
+    EXPECT_TRUE(m->tells_zones && m->wants_answer && m->status.place_unknown && m->status.held_up);
     EXPECT_EQ(m->zones, sent.zones);
     if (kind != MessageKind::Join && kind != MessageKind::Roll) continue;
     EXPECT_EQ(m->about, sent.about);
@@ -91,7 +91,7 @@ TEST(ProtocolMessages, ComeBackAsTheyWere) {
     EXPECT_NEAR(m->status.position_m.y, 67.891, 5e-4);
     EXPECT_EQ(m->status.epoch, 77U);
     EXPECT_TRUE(m->status.requesting && m->status.idle);
-    EXPECT_FALSE(m->status.waiting || m->status.out_of_order || m->status.blocked);
+    EXPECT_FALSE(m->status.waiting || m->status.out_of_order || m->status.blocked || m->status.held_up);
     EXPECT_TRUE(m->status.held == sent.status.held);
     EXPECT_NEAR(m->status.held.heading.x, 0.6, 1e-4);
     EXPECT_NEAR(m->status.held.heading.y, -0.8, 1e-4);

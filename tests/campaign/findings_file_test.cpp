@@ -175,7 +175,7 @@ TEST(FindingRecords, AreTheSameForAnyNumberOfWorkers) {
 // Where most failing neighbours are of the smallest case, the first few of all are, too.
 TEST(FindingRecords, KnowWhatNeighboursOfTheWorldsNeed) {
   Bench bench("stale-grant");
-  const FindingRecord record = recorded(bench, 121);
+  const FindingRecord record = recorded(bench, 122);
   const Neighbourhood neighbourhood(bench.host, record.kept);
   const auto& of_worlds = record.neighbours.first_alike_of_world;
   ASSERT_EQ(of_worlds.size(), 5U);

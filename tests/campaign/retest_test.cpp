@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <map>
 #include <utility>
 
 #include "campaign/findings/elsewhere.hpp"
@@ -295,32 +294,21 @@ TEST(Retest, ANewFaultInPlaceOfTheOldOneIsANewKind) {
   EXPECT_THAT(result.new_kind, HasSubstr("needs"));
 }
 
-// Few of the first failing neighbours need what the kept failure needs.
-TEST(Retest, MostOfTheFirstNeighboursSayOfWhatKindTheyAre) {
-  Bench bench("stale-grant");
-  const auto needs = needs_of(bench.host, bench.failing(320));
-  Finding finding;
-  finding.mechanism = {needs->end, needs->needs, {}, {}};
-  FindingRecord record = record_of(bench.host, finding, *needs, 400);
-  record.kept.smallest = with_fates_only(record.kept.smallest, {});
-  record.kept.smallest.faults.clear();
-  ASSERT_FALSE(failure_of(bench.host(record.kept.smallest)).has_value()) << "the case passes";
-  const Neighbourhood neighbourhood(bench.host, record.kept);
-  const NeighbourCounts now = try_neighbours(bench.host, record.kept, neighbourhood, kSome);
-  const auto first = needs_of_neighbours(bench.host, neighbourhood, now.first_alike);
-  std::map<std::string, int> needing;
-  for (const FailureNeeds& found : first) {
-    for (const std::string& need : without_kinds(found.needs)) ++needing[need];
-  }
-  const auto of_few = std::ranges::find_if(needing, [](const auto& need) { return need.second <= 2; });
-  ASSERT_NE(of_few, needing.end());
-  record.kept.doings.clear();
-  record.kept.says.clear();
-  record.neighbours.said.always.clear();
-  const auto verdict = [&] { return retest(bench.host, record.kept, record.neighbours, kSome).verdict; };
-  EXPECT_NE(verdict(), RetestVerdict::NewKind) << "all of them are the kept one";
-  record.kept.ways = {{of_few->first}};
-  EXPECT_EQ(verdict(), RetestVerdict::NewKind) << of_few->first;
+// The case passes, so the first failing neighbours decide: what all of them need, and what none of them does.
+TEST(Retest, TheFirstNeighboursSayOfWhatKindTheyAre) {
+  Bench bench("timeout-grant");
+  Known known = known_failure(bench);
+  known.kept.smallest.horizon = std::chrono::seconds(1);
+  ASSERT_FALSE(failure_of(bench.host(known.kept.smallest)).has_value());
+  known.kept.doings.clear();
+  known.kept.says.clear();
+  known.before.said.always.clear();
+  const auto verdict = [&](std::vector<std::string> way) {
+    known.kept.ways = {std::move(way)};
+    return retest(bench.host, known.kept, known.before, kSome).verdict;
+  };
+  EXPECT_NE(verdict({"lost messages"}), RetestVerdict::NewKind);
+  EXPECT_EQ(verdict({"lost messages", "restart"}), RetestVerdict::NewKind);
 }
 
 }  // namespace
