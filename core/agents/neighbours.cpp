@@ -1,6 +1,7 @@
 #include "core/agents/neighbours.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/agents/fleet.hpp"
 
@@ -12,6 +13,11 @@ constexpr double kPositionMargin_m = 1.0;  // at least: rounding on the wire, de
 constexpr double kSpeedMargin = 1.1;       // clocks that run wrong by up to 1 % are within it
 
 }  // namespace
+
+const Neighbour& unknown_neighbour() {
+  static const Neighbour kUnknown{};
+  return kUnknown;
+}
 
 double longest_claim_m(const MapView& map) {
   double longest_lane_m = 0.0;
@@ -25,7 +31,7 @@ Neighbours::Neighbours(const MapView& map, HullGeometry& geometry, const fp_brie
     : map_(map),
       geometry_(geometry),
       self_(briefing.self),
-      neighbours_(briefing.fleet_count),
+      records_(briefing.fleet_count),
       audience_(briefing.self, briefing.fleet_count, briefing.fleet_count >= settings.zones_from),
       position_margin_m_(std::max(kPositionMargin_m, 2.0 * settings.position_error_m)),
       position_late_s_(settings.position_late_s),
@@ -47,7 +53,7 @@ Neighbours::News Neighbours::note(std::uint32_t sender, const Message& message, 
   Path ahead = end_of(map_, status.held);
   for (const std::uint32_t lane : status.ahead.lanes()) ahead.append(lane);
   if (!is_driveable(map_, ahead)) return News::Refused;
-  Neighbour& n = neighbours_[sender];
+  Neighbour& n = of(sender);
   News news = News::Same;
   const std::uint32_t boot = boot_of(status.epoch), newest_boot = boot_of(n.status.epoch);
   const bool is_newest =
@@ -120,7 +126,7 @@ void Neighbours::note_place(Neighbour& neighbour, const Message& message, std::i
 }
 
 bool Neighbours::surely_beyond(std::uint32_t agv, const Path& path, std::int64_t now_ns) {
-  const Neighbour& n = neighbours_[agv];
+  const Neighbour& n = of(agv);
   if (n.proved.after_ns < 0) return false;
   const double age_s = proofs_age_ ? static_cast<double>(now_ns - n.proved.after_ns) * 1e-9 : 0.0;
   const double hulls_m = claim_m_ + geometry_.reach_m(agv) + geometry_.clearance_m();
@@ -133,7 +139,7 @@ bool Neighbours::surely_beyond(std::uint32_t agv, const Path& path, std::int64_t
 }
 
 bool Neighbours::is_apart(std::uint32_t agv, const Path& path, Epoch request) {
-  Neighbour& n = neighbours_[agv];
+  Neighbour& n = of(agv);
   if (!is_fresh(agv) || n.status.place_unknown) return false;
   if (n.apart.request != request || n.apart.way_changes != n.way_changes) {
     n.apart = {request, n.way_changes, false};
@@ -144,7 +150,7 @@ bool Neighbours::is_apart(std::uint32_t agv, const Path& path, Epoch request) {
 }
 
 bool Neighbours::waits_inside(std::uint32_t agv, const Path& path) {
-  const Neighbour& n = neighbours_[agv];
+  const Neighbour& n = of(agv);
   const bool stands = n.known && (n.status.waiting || n.status.out_of_order);
   return stands && geometry_.conflict(self_, path, agv, n.status.held);
 }
@@ -158,7 +164,7 @@ std::uint32_t Neighbours::waiting_inside(const Path& path) {
 }
 
 bool Neighbours::clashes(std::uint32_t agv, Neighbour::Clash& known, const Path& path, std::uint32_t version) {
-  const Neighbour& n = neighbours_[agv];
+  const Neighbour& n = of(agv);
   if (known.request != n.request_epoch || known.version != version)
     known = {n.request_epoch, version, geometry_.conflict(self_, path, agv, n.request)};
   return known.is;
@@ -175,13 +181,14 @@ bool Neighbours::hold_inside(const Path& path) {
 void Neighbours::tell_heard_from(HeardFrom& heard, std::uint32_t agv) const {
   heard.first = agv;
   heard.count = 1;
-  heard.stamps_ms[0] = neighbours_[agv].status.stamp_ms;
+  heard.stamps_ms[0] = of(agv).status.stamp_ms;
 }
 
 void Neighbours::tell_heard_from(HeardFrom& heard) {
   heard.first = next_heard_;
   heard.count = std::min(HeardFrom::kMax, fleet_count() - next_heard_);
-  for (std::uint32_t i = 0; i < heard.count; ++i) heard.stamps_ms[i] = neighbours_[next_heard_ + i].status.stamp_ms;
+  for (std::uint32_t i = 0; i < heard.count; ++i)
+    heard.stamps_ms[i] = std::as_const(*this).of(next_heard_ + i).status.stamp_ms;
   next_heard_ = next_heard_ + heard.count == fleet_count() ? 0 : next_heard_ + heard.count;
 }
 
