@@ -29,7 +29,11 @@ class LeastCosts {
   struct Step {
     double cost;
     std::uint32_t to;
+    std::uint32_t is_dead_end;  // from there, one can only come back
   };
+  struct Search;
+
+  void mark_dead_ends();
 
   std::vector<Step> own_steps_;
   std::vector<std::uint32_t> own_first_;
