@@ -46,13 +46,19 @@ Neighbours::Neighbours(const MapView& map, HullGeometry& geometry, const fp_brie
 
 Neighbours::News Neighbours::note(std::uint32_t sender, const Message& message, std::int64_t now_ns) {
   const Status& status = message.status;
-  if (sender >= fleet_count() || sender == self_ || !is_driveable(map_, status.held)) return News::Refused;
+  if (sender >= fleet_count() || sender == self_) return News::Refused;
+  const Neighbour& known = std::as_const(*this).of(sender);  // its paths can be driven
+  if (!(known.known && known.status.held == status.held) && !is_driveable(map_, status.held)) return News::Refused;
   if (audience_.is_divided() != message.tells_zones) return News::Refused;
   if (status.requesting && number_of(status.epoch) == 0) return News::Refused;
-  if (message.has_request() && !is_driveable(map_, message.request)) return News::Refused;
+  if (message.has_request() && !(known.request_epoch > 0 && known.request == message.request) &&
+      !is_driveable(map_, message.request))
+    return News::Refused;
   Path ahead = end_of(map_, status.held);
-  for (const std::uint32_t lane : status.ahead.lanes()) ahead.append(lane);
-  if (!is_driveable(map_, ahead)) return News::Refused;
+  ahead.count = status.ahead.count;
+  std::ranges::copy(status.ahead.lanes(), ahead.lane_ids.begin());
+  const bool same_ahead = known.known && known.status.ahead == ahead;
+  if (!same_ahead && !is_driveable(map_, ahead)) return News::Refused;
   Neighbour& n = of(sender);
   News news = News::Same;
   const std::uint32_t boot = boot_of(status.epoch), newest_boot = boot_of(n.status.epoch);
@@ -65,8 +71,9 @@ Neighbours::News Neighbours::note(std::uint32_t sender, const Message& message, 
     const bool same = same_held && before.waiting == status.waiting && before.blocked == status.blocked &&
                       before.out_of_order == status.out_of_order;
     if (!same) news = News::Changed;
-    if (!same_held || !(before.ahead == ahead)) ++n.way_changes;
-    if (!(before.ahead == ahead) && status.ahead.count > 0) n.owes_acknowledgement = true;
+    const bool same_way = before.ahead == ahead;
+    if (!same_held || !same_way) ++n.way_changes;
+    if (!same_way && ahead.count > 0) n.owes_acknowledgement = true;
     // In a divided fleet, what a former self said does not count.
     if (audience_.is_divided() && boot > newest_boot) n.heard_us_ms = 0, n.granted_us_epoch = n.deferred_us_epoch = 0;
     n.status = status;
