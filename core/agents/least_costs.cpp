@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/agents/near_queue.hpp"
 
@@ -119,7 +120,8 @@ LeastCosts::Run LeastCosts::follow(std::uint32_t from, std::uint32_t step, std::
 
 // Any order of looking at stations ends with the same costs.
 std::vector<double> LeastCosts::from(std::uint32_t station) const {
-  std::vector<double> least(first_.size() - 1, INFINITY), looked_from = least;
+  std::vector<double> least(first_.size() - 1, INFINITY);
+  std::vector<std::uint8_t> is_open(least.size(), 0);
   NearQueue open(std::min(kMostBuckets, static_cast<std::uint32_t>(kBucketsPerStation * least.size())));
   const auto drive = [&](std::uint32_t from, std::span<const std::uint32_t> steps, bool branches) {
     double cost = least[from];
@@ -134,16 +136,18 @@ std::vector<double> LeastCosts::from(std::uint32_t station) const {
       least[to] = cost = cost + more;
       here = to;
     }
-    if (branches) open.push(cost, here);
+    if (!branches) return;
+    is_open[here] = 1;
+    open.push(cost, here);
   };
   open.begin(0.0, width_);
   open.push(0.0, station);
   least[station] = 0.0;
+  is_open[station] = 1;
   std::vector<std::uint32_t> unwritten;
   while (open.find_next()) {
     const std::uint32_t here = open.pop();
-    if (least[here] >= looked_from[here]) continue;
-    looked_from[here] = least[here];
+    if (std::exchange(is_open[here], std::uint8_t{0}) == 0) continue;
     for (std::uint32_t i = first_[here]; i < first_[here + 1]; ++i) {
       if (runs_[i].is_written()) {
         drive(here, run_steps_.subspan(runs_[i].first, runs_[i].end - runs_[i].first), runs_[i].branches != 0);

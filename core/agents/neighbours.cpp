@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/agents/facts.hpp"
 #include "core/agents/fleet.hpp"
 
 namespace fleetproof::agents {
@@ -12,6 +13,13 @@ constexpr double kUsualClaim_m = 40.0;
 constexpr double kPositionMargin_m = 1.0;  // at least: rounding on the wire, deviation from the track
 constexpr double kSpeedMargin = 1.1;       // clocks that run wrong by up to 1 % are within it
 
+double work_out_longest_claim_m(const MapView& map) {
+  double longest_lane_m = 0.0;
+  for (std::uint32_t id = 0; id < map.lane_count(); ++id)
+    longest_lane_m = std::max(longest_lane_m, map.lane(id).length_m);
+  return std::max(kUsualClaim_m, 2.0 * longest_lane_m);
+}
+
 }  // namespace
 
 const Neighbour& unknown_neighbour() {
@@ -19,11 +27,13 @@ const Neighbour& unknown_neighbour() {
   return kUnknown;
 }
 
+// Worked out once for all AGVs.
 double longest_claim_m(const MapView& map) {
-  double longest_lane_m = 0.0;
-  for (std::uint32_t id = 0; id < map.lane_count(); ++id)
-    longest_lane_m = std::max(longest_lane_m, map.lane(id).length_m);
-  return std::max(kUsualClaim_m, 2.0 * longest_lane_m);
+  if (map.facts() == nullptr) return work_out_longest_claim_m(map);
+  const auto derive = [](const fp_facts* from, std::uint64_t, fp_answer* to) {
+    answer(*from, to, std::vector{work_out_longest_claim_m(MapView(*from))});
+  };
+  return ask<double>(*map.facts(), derive, 0).front();
 }
 
 Neighbours::Neighbours(const MapView& map, HullGeometry& geometry, const fp_briefing& briefing,
