@@ -89,6 +89,7 @@ Neighbours::News Neighbours::note(std::uint32_t sender, const Message& message, 
     n.status = status;
     n.status.ahead = ahead;
   }
+  if (!n.known) known_.insert(std::ranges::lower_bound(known_, sender), sender);
   n.known = true;
   if (is_newest && audience_.is_divided()) {
     n.zones = message.zones;

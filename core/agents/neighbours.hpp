@@ -139,13 +139,10 @@ class Neighbours {
     }
   }
 
-  // Calls `f(agv, neighbour)` for every other AGV of which a message is known.
+  // Calls `f(agv, neighbour)` for every other AGV of which a message is known. Requires: `f` notes no message.
   template <class F>
   void for_each_known(F f) const {
-    for (std::uint32_t agv = 0; agv < fleet_count(); ++agv) {
-      const Neighbour* const n = records_[agv].get();
-      if (n != nullptr && n->known) f(agv, *n);
-    }
+    for (const std::uint32_t agv : known_) f(agv, of(agv));
   }
 
   const Audience& audience() const { return audience_; }
@@ -199,6 +196,7 @@ class Neighbours {
   HullGeometry& geometry_;
   std::uint32_t self_;
   std::vector<std::unique_ptr<Neighbour>> records_;  // by AGV
+  std::vector<std::uint32_t> known_;                 // those of which a message is known, by ascending number
   Audience audience_;
   std::vector<double> fastest_mps_;  // by AGV; includes the error of a clock
   double position_margin_m_, position_late_s_;
