@@ -1,6 +1,7 @@
 #include "core/agents/lane_costs.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -22,9 +23,10 @@ constexpr double kAgainstAisle = 2.0;
 // Both fit: a map for hull-lock has at most 2^16 stations, and a campaign not so many AGVs.
 constexpr std::uint32_t kModelShift = 16;
 
+// Requires: not below 0.
 float rounded_down(double value) {
   const auto near = static_cast<float>(value);
-  return near > value ? std::nextafter(near, 0.0F) : near;
+  return near > value ? std::bit_cast<float>(std::bit_cast<std::uint32_t>(near) - 1) : near;
 }
 
 // For LeastCosts. The question names the model of the AGV.
@@ -88,6 +90,7 @@ std::span<const float> remaining_costs_s(const HullParts& parts, std::uint32_t m
         const std::uint32_t item = HullKey::item_of(question);
         const LeastCosts least(costs_back(*from, HullKey(question).question(item >> kModelShift)));
         std::vector<float> table_s;
+        table_s.reserve(MapView(*from).station_count());
         for (const double value : least.from(item & ((1U << kModelShift) - 1U))) table_s.push_back(rounded_down(value));
         answer(*from, to, table_s);
       },

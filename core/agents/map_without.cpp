@@ -51,24 +51,6 @@ void MapWithout::block(std::uint32_t lane) {
   blocked_list_.push_back(lane);
 }
 
-bool MapWithout::reaches(std::uint32_t from, std::span<const std::uint32_t> all, bool backwards) {
-  begin_look(from);
-  std::size_t next = 0;
-  return std::ranges::all_of(all, [&](std::uint32_t to) {
-    while (next < found_.size() && !was_found(to)) look_on(found_[next++], backwards);
-    return was_found(to);
-  });
-}
-
-bool MapWithout::explore(std::uint32_t from, bool backwards, std::size_t most) {
-  begin_look(from);
-  for (std::size_t next = 0; next < found_.size(); ++next) {
-    if (found_.size() > most) return false;
-    look_on(found_[next], backwards);
-  }
-  return true;
-}
-
 void MapWithout::begin_look(std::uint32_t from) {
   seen_[from] = ++look_;
   found_.assign(1, from);

@@ -19,13 +19,26 @@ class MapWithout {
   void block(std::uint32_t lane);
   std::span<const std::uint32_t> blocked() const { return blocked_list_; }
 
-  // Whether `from` reaches all of these; backwards, whether all of them reach it.
-  bool reaches(std::uint32_t from, std::span<const std::uint32_t> all, bool backwards);
-  // Finds the stations that `from` reaches, or that reach it. False if there are more than `most`.
-  bool explore(std::uint32_t from, bool backwards, std::size_t most = SIZE_MAX);
-  // Of the last call of `explore`, if it returned true.
+  // What a search does at a station that it has found.
+  enum class Look : std::uint8_t { On, NotBeyond, Stop };
+
+  // Finds the stations that `from` reaches, or that reach it.
+  void explore(std::uint32_t from, bool backwards) {
+    explore(from, backwards, [](std::uint32_t) { return Look::On; });
+  }
+  // The same, but asks `look(station)` how to go on. False if it was told to stop.
+  template <class F>
+  bool explore(std::uint32_t from, bool backwards, F look) {
+    begin_look(from);
+    for (std::size_t next = 0; next < found_.size(); ++next) {
+      const Look how = look(found_[next]);
+      if (how == Look::Stop) return false;
+      if (how == Look::On) look_on(found_[next], backwards);
+    }
+    return true;
+  }
+  // Of the last search, if it was not told to stop.
   std::span<const std::uint32_t> found() const { return found_; }
-  bool was_found(std::uint32_t station) const { return seen_[station] == look_; }
 
  private:
   struct Hop {
@@ -38,6 +51,7 @@ class MapWithout {
   };
   static std::vector<std::byte> work_out(const MapView& map);
 
+  bool was_found(std::uint32_t station) const { return seen_[station] == look_; }
   void begin_look(std::uint32_t from);
   void look_on(std::uint32_t at, bool backwards);
 

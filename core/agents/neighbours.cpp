@@ -1,7 +1,9 @@
 #include "core/agents/neighbours.hpp"
 
 #include <algorithm>
+#include <utility>
 
+#include "core/agents/facts.hpp"
 #include "core/agents/fleet.hpp"
 
 namespace fleetproof::agents {
@@ -11,13 +13,27 @@ constexpr double kUsualClaim_m = 40.0;
 constexpr double kPositionMargin_m = 1.0;  // at least: rounding on the wire, deviation from the track
 constexpr double kSpeedMargin = 1.1;       // clocks that run wrong by up to 1 % are within it
 
-}  // namespace
-
-double longest_claim_m(const MapView& map) {
+double work_out_longest_claim_m(const MapView& map) {
   double longest_lane_m = 0.0;
   for (std::uint32_t id = 0; id < map.lane_count(); ++id)
     longest_lane_m = std::max(longest_lane_m, map.lane(id).length_m);
   return std::max(kUsualClaim_m, 2.0 * longest_lane_m);
+}
+
+}  // namespace
+
+const Neighbour& unknown_neighbour() {
+  static const Neighbour kUnknown{};
+  return kUnknown;
+}
+
+// Worked out once for all AGVs.
+double longest_claim_m(const MapView& map) {
+  if (map.facts() == nullptr) return work_out_longest_claim_m(map);
+  const auto derive = [](const fp_facts* from, std::uint64_t, fp_answer* to) {
+    answer(*from, to, std::vector{work_out_longest_claim_m(MapView(*from))});
+  };
+  return ask<double>(*map.facts(), derive, 0).front();
 }
 
 Neighbours::Neighbours(const MapView& map, HullGeometry& geometry, const fp_briefing& briefing,
@@ -25,7 +41,7 @@ Neighbours::Neighbours(const MapView& map, HullGeometry& geometry, const fp_brie
     : map_(map),
       geometry_(geometry),
       self_(briefing.self),
-      neighbours_(briefing.fleet_count),
+      records_(briefing.fleet_count),
       audience_(briefing.self, briefing.fleet_count, briefing.fleet_count >= settings.zones_from),
       position_margin_m_(std::max(kPositionMargin_m, 2.0 * settings.position_error_m)),
       position_late_s_(settings.position_late_s),
@@ -40,14 +56,20 @@ Neighbours::Neighbours(const MapView& map, HullGeometry& geometry, const fp_brie
 
 Neighbours::News Neighbours::note(std::uint32_t sender, const Message& message, std::int64_t now_ns) {
   const Status& status = message.status;
-  if (sender >= fleet_count() || sender == self_ || !is_driveable(map_, status.held)) return News::Refused;
+  if (sender >= fleet_count() || sender == self_) return News::Refused;
+  const Neighbour& known = std::as_const(*this).of(sender);  // its paths can be driven
+  if (!(known.known && known.status.held == status.held) && !is_driveable(map_, status.held)) return News::Refused;
   if (audience_.is_divided() != message.tells_zones) return News::Refused;
   if (status.requesting && number_of(status.epoch) == 0) return News::Refused;
-  if (message.has_request() && !is_driveable(map_, message.request)) return News::Refused;
+  if (message.has_request() && !(known.request_epoch > 0 && known.request == message.request) &&
+      !is_driveable(map_, message.request))
+    return News::Refused;
   Path ahead = end_of(map_, status.held);
-  for (const std::uint32_t lane : status.ahead.lanes()) ahead.append(lane);
-  if (!is_driveable(map_, ahead)) return News::Refused;
-  Neighbour& n = neighbours_[sender];
+  ahead.count = status.ahead.count;
+  std::ranges::copy(status.ahead.lanes(), ahead.lane_ids.begin());
+  const bool same_ahead = known.known && known.status.ahead == ahead;
+  if (!same_ahead && !is_driveable(map_, ahead)) return News::Refused;
+  Neighbour& n = of(sender);
   News news = News::Same;
   const std::uint32_t boot = boot_of(status.epoch), newest_boot = boot_of(n.status.epoch);
   const bool is_newest =
@@ -59,13 +81,15 @@ Neighbours::News Neighbours::note(std::uint32_t sender, const Message& message, 
     const bool same = same_held && before.waiting == status.waiting && before.blocked == status.blocked &&
                       before.held_up == status.held_up && before.out_of_order == status.out_of_order;
     if (!same) news = News::Changed;
-    if (!same_held || !(before.ahead == ahead)) ++n.way_changes;
-    if (!(before.ahead == ahead) && status.ahead.count > 0) n.owes_acknowledgement = true;
+    const bool same_way = before.ahead == ahead;
+    if (!same_held || !same_way) ++n.way_changes;
+    if (!same_way && ahead.count > 0) n.owes_acknowledgement = true;
     // In a divided fleet, what a former self said does not count.
     if (audience_.is_divided() && boot > newest_boot) n.heard_us_ms = 0, n.granted_us_epoch = n.deferred_us_epoch = 0;
     n.status = status;
     n.status.ahead = ahead;
   }
+  if (!n.known) known_.insert(std::ranges::lower_bound(known_, sender), sender);
   n.known = true;
   if (is_newest && audience_.is_divided()) {
     n.zones = message.zones;
@@ -120,7 +144,7 @@ void Neighbours::note_place(Neighbour& neighbour, const Message& message, std::i
 }
 
 bool Neighbours::surely_beyond(std::uint32_t agv, const Path& path, std::int64_t now_ns) {
-  const Neighbour& n = neighbours_[agv];
+  const Neighbour& n = of(agv);
   if (n.proved.after_ns < 0) return false;
   const double age_s = proofs_age_ ? static_cast<double>(now_ns - n.proved.after_ns) * 1e-9 : 0.0;
   const double hulls_m = claim_m_ + geometry_.reach_m(agv) + geometry_.clearance_m();
@@ -133,7 +157,7 @@ bool Neighbours::surely_beyond(std::uint32_t agv, const Path& path, std::int64_t
 }
 
 bool Neighbours::is_apart(std::uint32_t agv, const Path& path, Epoch request) {
-  Neighbour& n = neighbours_[agv];
+  Neighbour& n = of(agv);
   if (!is_fresh(agv) || n.status.place_unknown) return false;
   if (n.apart.request != request || n.apart.way_changes != n.way_changes) {
     n.apart = {request, n.way_changes, false};
@@ -144,7 +168,7 @@ bool Neighbours::is_apart(std::uint32_t agv, const Path& path, Epoch request) {
 }
 
 bool Neighbours::is_inside(std::uint32_t agv, const Path& path, Inside what) {
-  const Neighbour& n = neighbours_[agv];
+  const Neighbour& n = of(agv);
   const bool counts = n.known && (what == Inside::Holding || n.status.waiting || n.status.out_of_order);
   return counts && geometry_.conflict(self_, path, agv, n.status.held);
 }
@@ -158,7 +182,7 @@ std::uint32_t Neighbours::first_inside(const Path& path, Inside what) {
 }
 
 bool Neighbours::clashes(std::uint32_t agv, Neighbour::Clash& known, const Path& path, std::uint32_t version) {
-  const Neighbour& n = neighbours_[agv];
+  const Neighbour& n = of(agv);
   if (known.request != n.request_epoch || known.version != version)
     known = {n.request_epoch, version, geometry_.conflict(self_, path, agv, n.request)};
   return known.is;
@@ -167,13 +191,14 @@ bool Neighbours::clashes(std::uint32_t agv, Neighbour::Clash& known, const Path&
 void Neighbours::tell_heard_from(HeardFrom& heard, std::uint32_t agv) const {
   heard.first = agv;
   heard.count = 1;
-  heard.stamps_ms[0] = neighbours_[agv].status.stamp_ms;
+  heard.stamps_ms[0] = of(agv).status.stamp_ms;
 }
 
 void Neighbours::tell_heard_from(HeardFrom& heard) {
   heard.first = next_heard_;
   heard.count = std::min(HeardFrom::kMax, fleet_count() - next_heard_);
-  for (std::uint32_t i = 0; i < heard.count; ++i) heard.stamps_ms[i] = neighbours_[next_heard_ + i].status.stamp_ms;
+  for (std::uint32_t i = 0; i < heard.count; ++i)
+    heard.stamps_ms[i] = std::as_const(*this).of(next_heard_ + i).status.stamp_ms;
   next_heard_ = next_heard_ + heard.count == fleet_count() ? 0 : next_heard_ + heard.count;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "core/agents/audience.hpp"
@@ -89,6 +90,9 @@ struct Neighbour {
   bool owes_acknowledgement = false;
 };
 
+// The record of every AGV of which nothing is known.
+const Neighbour& unknown_neighbour();
+
 // Its newest message that is known. Requires: one is known.
 inline RollEntry newest_of(std::uint32_t agv, const Neighbour& n) {
   return {agv, boot_of(n.status.epoch), n.status.stamp_ms};
@@ -110,15 +114,21 @@ class Neighbours {
   Neighbours(const MapView& map, HullGeometry& geometry, const fp_briefing& briefing, const Settings& settings = {},
              const LockOptions& options = {});
 
-  std::uint32_t fleet_count() const { return static_cast<std::uint32_t>(neighbours_.size()); }
+  std::uint32_t fleet_count() const { return static_cast<std::uint32_t>(records_.size()); }
   std::uint32_t self() const { return self_; }
   double claim_limit_m() const { return claim_m_; }
-  Neighbour& of(std::uint32_t agv) { return neighbours_[agv]; }
-  const Neighbour& of(std::uint32_t agv) const { return neighbours_[agv]; }
+  // A record stays where it is. AGVs that this one never meets have none: it is made when somebody may change it.
+  Neighbour& of(std::uint32_t agv) {
+    if (records_[agv] == nullptr) records_[agv] = std::make_unique_for_overwrite<Neighbour>();
+    return *records_[agv];
+  }
+  const Neighbour& of(std::uint32_t agv) const {
+    return records_[agv] == nullptr ? unknown_neighbour() : *records_[agv];
+  }
   // Calls `f(agv, neighbour)` for each AGV of the audience.
   template <class F>
   void for_each(F f) {
-    for (const std::uint32_t agv : audience_.agvs()) f(agv, neighbours_[agv]);
+    for (const std::uint32_t agv : audience_.agvs()) f(agv, of(agv));
   }
 
   // The same, from this AGV on and round.
@@ -128,23 +138,22 @@ class Neighbours {
     auto next = static_cast<std::size_t>(std::ranges::lower_bound(agvs, first) - agvs.begin());
     for (std::size_t i = 0; i < agvs.size(); ++i, ++next) {
       if (next == agvs.size()) next = 0;
-      f(agvs[next], neighbours_[agvs[next]]);
+      f(agvs[next], of(agvs[next]));
     }
   }
 
-  // Calls `f(agv, neighbour)` for every other AGV of which a message is known.
+  // Calls `f(agv, neighbour)` for every other AGV of which a message is known. Requires: `f` notes no message.
   template <class F>
   void for_each_known(F f) const {
-    for (std::uint32_t agv = 0; agv < fleet_count(); ++agv) {
-      if (agv != self_ && neighbours_[agv].known) f(agv, neighbours_[agv]);
-    }
+    for (const std::uint32_t agv : known_) f(agv, of(agv));
   }
 
   const Audience& audience() const { return audience_; }
   void set_own_zones(const ZoneSet& zones);
   // Whether a message is known that the AGV sent since this boot of this AGV.
   bool is_fresh(std::uint32_t agv) const {
-    return neighbours_[agv].known && (neighbours_[agv].is_fresh || fresh_from_ms_ == 0);
+    const Neighbour* const n = records_[agv].get();
+    return n != nullptr && n->known && (n->is_fresh || fresh_from_ms_ == 0);
   }
 
   enum class News : std::uint8_t { Refused, Same, Changed };
@@ -187,7 +196,8 @@ class Neighbours {
   const MapView& map_;
   HullGeometry& geometry_;
   std::uint32_t self_;
-  std::vector<Neighbour> neighbours_;  // by AGV; the own entry is not used
+  std::vector<std::unique_ptr<Neighbour>> records_;  // by AGV
+  std::vector<std::uint32_t> known_;                 // those of which a message is known, by ascending number
   Audience audience_;
   std::vector<double> fastest_mps_;  // by AGV; includes the error of a clock
   double position_margin_m_, position_late_s_;

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <set>
 
-#include "core/agents/drive_rules.hpp"
-#include "core/agents/least_costs.hpp"
 #include "core/agents/routes.hpp"
 
 namespace fleetproof::agents {
@@ -20,6 +18,7 @@ OppositeLanes::OppositeLanes(const MapView& map, const HullParts& parts)
   find_pairs(parts);
   if (pairs_.empty()) return;
   find_mains();
+  goals_ = goals();
   std::set<Pair> seen;
   for (const auto& [lane, other] : pairs_) {
     const auto mains = std::minmax(main_of_[lane], main_of_[other]);
@@ -76,25 +75,41 @@ void OppositeLanes::choose(std::uint32_t main, std::uint32_t other) {
 double OppositeLanes::ways_m(std::uint32_t main, std::uint32_t other) {
   const std::vector<bool> before = against_;
   price(main, other, true);
-  std::vector<double> costs_m;
-  for (std::uint32_t lane = 0; lane < map_.lane_count(); ++lane)
-    costs_m.push_back(map_.lane(lane).length_m * (against_[lane] ? kPrice : 1.0));
-  against_ = before;
-  double sum_m = 0.0;
-  const std::vector<std::uint32_t> ends = goals();
   const DriveRules rules(map_, 0);
-  const LeastCosts least(map_, costs_m, false);
+  const double sum_m = rules.any() ? ways_m(rules) : ways_m();
+  against_ = before;
+  return sum_m;
+}
+
+double OppositeLanes::ways_m(const DriveRules& rules) const {
+  std::vector<double> costs_m;
+  for (std::uint32_t lane = 0; lane < map_.lane_count(); ++lane) costs_m.push_back(cost_m(lane));
   Routes routes(map_, rules);
-  for (const std::uint32_t from : ends) {
-    std::vector<double> ways_m;
-    if (!rules.any()) ways_m = least.from(from);
-    if (rules.any()) routes.search(from, {1.0, 0.0}, costs_m);
-    for (const std::uint32_t to : ends) {
-      const double way_m = rules.any() ? routes.cost_s(to) : ways_m[to];
-      sum_m += way_m < INFINITY ? way_m : 0.0;
-    }
+  double sum_m = 0.0;
+  for (const std::uint32_t from : goals_) {
+    routes.search(from, {1.0, 0.0}, costs_m);
+    for (const std::uint32_t to : goals_) sum_m += routes.cost_s(to) < INFINITY ? routes.cost_s(to) : 0.0;
   }
   return sum_m;
+}
+
+double OppositeLanes::ways_m() {
+  if (least_ == nullptr) {
+    std::vector<double> costs_m;
+    for (std::uint32_t lane = 0; lane < map_.lane_count(); ++lane) costs_m.push_back(map_.lane(lane).length_m);
+    least_ = std::make_unique<LeastCosts>(map_, costs_m, false);
+  }
+  for (const auto& [one, two] : pairs_) least_->change(one, cost_m(one)), least_->change(two, cost_m(two));
+  double sum_m = 0.0;
+  for (const std::uint32_t from : goals_) {
+    const std::vector<double> ways_m = least_->from(from);
+    for (const std::uint32_t to : goals_) sum_m += ways_m[to] < INFINITY ? ways_m[to] : 0.0;
+  }
+  return sum_m;
+}
+
+double OppositeLanes::cost_m(std::uint32_t lane) const {
+  return map_.lane(lane).length_m * (against_[lane] ? kPrice : 1.0);
 }
 
 void OppositeLanes::price(std::uint32_t main, std::uint32_t other, bool against) {

@@ -1,11 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "core/agents/drive_rules.hpp"
 #include "core/agents/hull_parts.hpp"
+#include "core/agents/least_costs.hpp"
 #include "core/agents/map_view.hpp"
 
 namespace fleetproof::agents {
@@ -32,6 +35,9 @@ class OppositeLanes {
   void find_mains();
   void choose(std::uint32_t main, std::uint32_t other);
   double ways_m(std::uint32_t main, std::uint32_t other);
+  double ways_m(const DriveRules& rules) const;
+  double ways_m();
+  double cost_m(std::uint32_t lane) const;
   void price(std::uint32_t main, std::uint32_t other, bool against);
   std::vector<std::uint32_t> goals() const;
 
@@ -39,6 +45,8 @@ class OppositeLanes {
   std::vector<Pair> pairs_;
   std::vector<std::uint32_t> main_of_;  // by lane: one-way lanes that go straight on belong to one main aisle
   std::vector<bool> against_;           // by lane
+  std::vector<std::uint32_t> goals_;    // between which ways are measured
+  std::unique_ptr<LeastCosts> least_;   // in a plant without rules
 };
 
 // By lane: whether it is against the convention, worked out once for all AGVs.

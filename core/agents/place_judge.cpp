@@ -8,6 +8,10 @@ namespace fleetproof::agents {
 
 namespace {
 
+constexpr std::size_t kRoots = 4;
+// So many stations are judged at once: what a judge needs for any of them costs as much as a few judgements.
+constexpr std::uint32_t kTogether = 16;
+
 enum Mark : std::uint8_t { kReached = 1, kReaches = 2, kInPart = 3 };
 
 // Marks the stations that `from` reaches, which were just found, and those that reach `from`. Returns the number of
@@ -50,6 +54,24 @@ Goals goals_of(const fp_facts& facts) {
   return goals;
 }
 
+// From and to goals that are far apart: their numbers are.
+std::span<const std::byte> sure_ways(const fp_facts& facts) {
+  return ask<std::byte>(
+      facts,
+      [](const fp_facts* from, std::uint64_t, fp_answer* to) {
+        const MapView map(*from);
+        const Goals goals = goals_of(*from);
+        std::vector<std::uint32_t> all, roots;
+        for (std::uint32_t id = 0; id < map.station_count(); ++id) {
+          if (goals.is_goal[id] != 0) all.push_back(id);
+        }
+        const std::size_t count = std::min(kRoots, all.size());
+        for (std::size_t i = 0; i < count; ++i) roots.push_back(all[(2 * i + 1) * all.size() / (2 * count)]);
+        answer(*from, to, SureWays::work_out(map, roots));
+      },
+      0);
+}
+
 }  // namespace
 
 PlaceJudge::PlaceJudge(const MapView& map, const HullParts& parts)
@@ -57,19 +79,23 @@ PlaceJudge::PlaceJudge(const MapView& map, const HullParts& parts)
       parts_(parts),
       goals_(goals_of(parts.facts())),
       without_(map),
-      marks_(map.station_count()),
+      sure_(map, sure_ways(parts.facts())),
       sides_(map.station_count()) {}
 
 std::uint32_t burden_of(const HullParts& parts, std::uint32_t station) {
   return ask<std::uint32_t>(
-             parts.facts(),
-             [](const fp_facts* facts, std::uint64_t question, fp_answer* to) {
-               const MapView map(*facts);
-               const HullParts of(map, *facts, HullKey(question));
-               answer(*facts, to, std::vector{PlaceJudge(map, of).burden(HullKey::item_of(question))});
-             },
-             parts.key().question(station))
-      .front();
+      parts.facts(),
+      [](const fp_facts* facts, std::uint64_t question, fp_answer* to) {
+        const MapView map(*facts);
+        const HullParts of(map, *facts, HullKey(question));
+        PlaceJudge judge(map, of);
+        const std::uint32_t first = HullKey::item_of(question) * kTogether;
+        std::vector<std::uint32_t> burdens;
+        for (std::uint32_t id = first; id < std::min(first + kTogether, map.station_count()); ++id)
+          burdens.push_back(judge.burden(id));
+        answer(*facts, to, burdens);
+      },
+      parts.key().question(station / kTogether))[station % kTogether];
 }
 
 std::uint32_t PlaceJudge::burden(std::uint32_t station) {
@@ -77,58 +103,57 @@ std::uint32_t PlaceJudge::burden(std::uint32_t station) {
   const bool holds_up_followers_only = is_all_one_way(station);
   if (holds_up_followers_only && without_.blocked().empty()) return 0;
   const std::uint32_t others = goals_.count - (goals_.is_goal[station] != 0 ? 1 : 0);
+  if (goals_.are_connected) sure_.take_away(station, without_.blocked());
   const bool only_pieces = goals_.are_connected && cuts_off_pieces_only(station, others);
-  const std::uint32_t cut_off = only_pieces ? goals_in_pieces_ : others - mark_largest_part(station, others);
+  const std::uint32_t cut_off = only_pieces ? goals_in_pieces_ : others - find_largest_part(station, others);
   const bool misses_lanes = std::ranges::any_of(
       without_.blocked(), [&](std::uint32_t lane) { return is_missed(station, lane, only_pieces); });
   return (holds_up_followers_only ? 0 : cut_off) + (misses_lanes ? kFoulsLanes : 0);
 }
 
-// True if it is easily seen what the station cuts off: small pieces that reach the rest of the map no more, or are not
-// reached from there, such as bays and the lanes that only lead to them, while the rest stays connected. False says
-// nothing.
+// True if it is easily seen what the station cuts off: pieces that reach the roots of the sure ways no more, or are not
+// reached from there, such as bays and the lanes that only lead to them. The rest stays connected, and is the largest
+// part. Every way that is broken left it at a station beside what is missing or cut off, or comes back at one, so the
+// pieces contain all that is cut off. False says nothing about the burden.
 bool PlaceJudge::cuts_off_pieces_only(std::uint32_t station, std::uint32_t others) {
   for (const std::uint32_t id : seen_) sides_[id] = 0;
   for (const std::uint32_t id : pieces_) sides_[id] = 0;
   seen_.clear(), pieces_.clear();
-  goals_in_pieces_ = largest_piece_ = 0;
+  goals_in_pieces_ = 0;
   const auto visit = [&](std::uint32_t end) {
     if (end != station) cut_off_around(end);
   };
   for (const std::uint32_t lane : map_.lanes_to(station)) visit(map_.lane(lane).from);
   for (const std::uint32_t lane : map_.lanes_from(station)) visit(map_.lane(lane).to);
   for (const std::uint32_t lane : without_.blocked()) visit(map_.lane(lane).from), visit(map_.lane(lane).to);
-  if (std::ranges::all_of(seen_, [&](std::uint32_t id) { return is_cut_off(id); })) return false;
+  if (std::ranges::all_of(seen_, [&](std::uint32_t id) { return (sides_[id] & kCutOff) != 0; })) return false;
   for (std::size_t next = 0; next < pieces_.size(); ++next) {
     for (const std::uint32_t lane : map_.lanes_to(pieces_[next])) visit(map_.lane(lane).from);
     for (const std::uint32_t lane : map_.lanes_from(pieces_[next])) visit(map_.lane(lane).to);
   }
-  return others - goals_in_pieces_ > largest_piece_ && rest_is_connected();
+  return others - goals_in_pieces_ > goals_in_pieces_;
 }
 
-// Looks at a station beside what is missing or cut off, and marks the small pieces there.
+// Looks at a station beside what is missing or cut off, and marks the pieces there.
 void PlaceJudge::cut_off_around(std::uint32_t end) {
   if ((sides_[end] & kSeen) != 0) return;
   sides_[end] |= kSeen;
   seen_.push_back(end);
   for (const bool backwards : {false, true}) {
-    if (!without_.explore(end, backwards, kSmallPiece)) continue;
+    const Side side = backwards ? kUnreached : kDoomed;
+    const auto look = [&](std::uint32_t id) {
+      if ((sides_[id] & side) != 0) return MapWithout::Look::NotBeyond;
+      return sure_.is_sure(id, backwards) ? MapWithout::Look::Stop : MapWithout::Look::On;
+    };
+    if (!without_.explore(end, backwards, look)) continue;
     for (const std::uint32_t id : without_.found()) {
-      if (!is_cut_off(id)) {
+      if ((sides_[id] & kCutOff) == 0) {
         pieces_.push_back(id);
         goals_in_pieces_ += goals_.is_goal[id];
       }
-      sides_[id] = static_cast<std::uint8_t>(sides_[id] | (backwards ? kUnreached : kDoomed));
+      sides_[id] = static_cast<std::uint8_t>(sides_[id] | side);
     }
-    largest_piece_ = std::max(largest_piece_, goals_found());
   }
-}
-
-// Every way through what is missing or cut off left the rest at a station that was seen, and came back at another one:
-// the rest stays connected if these still reach each other.
-bool PlaceJudge::rest_is_connected() {
-  std::erase_if(seen_, [&](std::uint32_t id) { return is_cut_off(id); });  // pieces_ contains them; others are left
-  return without_.reaches(seen_.front(), seen_, false) && without_.reaches(seen_.front(), seen_, true);
 }
 
 bool PlaceJudge::is_all_one_way(std::uint32_t station) const {
@@ -152,8 +177,8 @@ bool PlaceJudge::is_missed(std::uint32_t station, std::uint32_t lane, bool only_
   if (!map_.two_way(lane) && blocks_while_waiting(station, lane)) return true;
   const std::uint32_t from = map_.lane(lane).from, to = map_.lane(lane).to;
   if (only_pieces && ((sides_[from] & kUnreached) != 0 || (sides_[to] & kDoomed) != 0)) return false;
-  const std::span<const std::uint8_t> marks = only_pieces ? goals_.free_marks : std::span<const std::uint8_t>(marks_);
-  return (marks[from] & kReached) != 0 && (marks[to] & kReaches) != 0;
+  if (only_pieces) return (goals_.free_marks[from] & kReached) != 0 && (goals_.free_marks[to] & kReaches) != 0;
+  return part_ != FP_NONE && reaches(part_, from) && reaches(to, part_);
 }
 
 // An AGV that comes by one lane and leaves straight on by another one does not turn.
@@ -167,24 +192,18 @@ bool PlaceJudge::blocks_while_waiting(std::uint32_t station, std::uint32_t lane)
   });
 }
 
-// Marks the largest part of the map that stays connected. Every part was connected to the others by a lane that is now
-// missing: it is enough to look where such lanes began and ended. Returns the number of goals in the part. Afterwards,
-// the stations that the part reaches, and that reach it, are marked.
-std::uint32_t PlaceJudge::mark_largest_part(std::uint32_t without, std::uint32_t all) {
-  std::ranges::fill(marks_, std::uint8_t{0});
+// Looks for the largest part of the map that stays connected, where lanes that are missing now began and ended.
+// Returns the number of goals in the part.
+std::uint32_t PlaceJudge::find_largest_part(std::uint32_t without, std::uint32_t others) {
   std::uint32_t largest = 0;
-  bool any = false;
+  part_ = FP_NONE;
   const auto try_from = [&](std::uint32_t station) {
-    const bool is_certain = any && 2 * largest >= all;  // no part of the rest is larger
-    if (station == without || is_certain || (marks_[station] & kInPart) == kInPart) return;
-    without_.explore(station, false);
-    if (any && goals_found() <= largest) return;  // its part is not more than what it reaches
-    other_marks_.assign(marks_.size(), 0);
-    const std::uint32_t found = mark_part(without_, station, goals_.is_goal, other_marks_);
-    if (any && found <= largest) return;
-    largest = found;
-    any = true;
-    std::swap(marks_, other_marks_);
+    const bool is_certain = part_ != FP_NONE && 2 * largest >= others;  // no part of the rest is larger
+    if (station == without || is_certain) return;
+    const std::uint32_t goals = goals_connected_with(station, others);
+    if (part_ != FP_NONE && goals <= largest) return;
+    largest = goals;
+    part_ = station;
   };
   for (const std::uint32_t lane : map_.lanes_from(without)) try_from(map_.lane(lane).to);
   for (const std::uint32_t lane : map_.lanes_to(without)) try_from(map_.lane(lane).from);
@@ -192,10 +211,38 @@ std::uint32_t PlaceJudge::mark_largest_part(std::uint32_t without, std::uint32_t
   return largest;
 }
 
-std::uint32_t PlaceJudge::goals_found() const {
-  std::uint32_t goals = 0;
-  for (const std::uint32_t id : without_.found()) goals += goals_.is_goal[id] != 0;
-  return goals;
+// The goals that the station reaches, and that reach it. They lie within all that it reaches, and within all that
+// reaches it: one of the two is small, or the station is connected with the roots of the sure ways.
+std::uint32_t PlaceJudge::goals_connected_with(std::uint32_t station, std::uint32_t others) {
+  is_inside_.resize(map_.station_count());
+  for (const bool backwards : {false, true}) {
+    const auto look = [&](std::uint32_t id) {
+      return sure_.is_sure(id, backwards) ? MapWithout::Look::Stop : MapWithout::Look::On;
+    };
+    if (!without_.explore(station, backwards, look)) continue;
+    const std::vector<std::uint32_t> inside(without_.found().begin(), without_.found().end());
+    for (const std::uint32_t id : inside) is_inside_[id] = 1;
+    without_.explore(station, !backwards, [&](std::uint32_t id) {
+      return is_inside_[id] != 0 ? MapWithout::Look::On : MapWithout::Look::NotBeyond;
+    });
+    std::uint32_t goals = 0;
+    for (const std::uint32_t id : without_.found()) goals += goals_.is_goal[id] != 0 && is_inside_[id] != 0;
+    for (const std::uint32_t id : inside) is_inside_[id] = 0;
+    return goals;
+  }
+  return others - goals_in_pieces_;
+}
+
+bool PlaceJudge::reaches(std::uint32_t from, std::uint32_t to) {
+  bool found = false;
+  const auto look_for = [&](std::uint32_t station, bool backwards) {
+    return [this, station, backwards, &found](std::uint32_t id) {
+      found = found || id == station;
+      return found || sure_.is_sure(id, backwards) ? MapWithout::Look::Stop : MapWithout::Look::On;
+    };
+  };
+  if (without_.explore(from, false, look_for(to, false))) return false;
+  return found || !without_.explore(to, true, look_for(from, true));
 }
 
 }  // namespace fleetproof::agents

@@ -8,6 +8,7 @@
 #include "core/agents/hull_parts.hpp"
 #include "core/agents/map_view.hpp"
 #include "core/agents/map_without.hpp"
+#include "core/agents/sure_ways.hpp"
 
 namespace fleetproof::agents {
 
@@ -34,22 +35,19 @@ class PlaceJudge {
   static constexpr std::uint32_t kFoulsLanes = 10'000;
 
  private:
-  static constexpr std::size_t kSmallPiece = 60;  // stations
-
   // What is known of a station without the one that is judged: it reaches the rest of the map no more, is not reached
-  // from there, or was looked at.
+  // from there, or both were looked at.
   enum Side : std::uint8_t { kDoomed = 1, kUnreached = 2, kCutOff = 3, kSeen = 4 };
 
   bool is_all_one_way(std::uint32_t station) const;
   void block_lanes(std::uint32_t station);
   bool cuts_off_pieces_only(std::uint32_t station, std::uint32_t others);
   void cut_off_around(std::uint32_t end);
-  bool is_cut_off(std::uint32_t station) const { return (sides_[station] & kCutOff) != 0; }
-  bool rest_is_connected();
   bool is_missed(std::uint32_t station, std::uint32_t lane, bool only_pieces);
   bool blocks_while_waiting(std::uint32_t station, std::uint32_t lane);
-  std::uint32_t mark_largest_part(std::uint32_t without, std::uint32_t all);
-  std::uint32_t goals_found() const;
+  std::uint32_t find_largest_part(std::uint32_t without, std::uint32_t others);
+  std::uint32_t goals_connected_with(std::uint32_t station, std::uint32_t others);
+  bool reaches(std::uint32_t from, std::uint32_t to);
 
   const MapView& map_;
   const HullParts& parts_;
@@ -57,10 +55,12 @@ class PlaceJudge {
 
   // Of the station that is being judged.
   MapWithout without_;
-  std::vector<std::uint8_t> marks_, other_marks_;  // by station
-  std::vector<std::uint8_t> sides_;                // by station: whether it is in a small piece
-  std::vector<std::uint32_t> seen_, pieces_;       // stations beside what is missing, and those in small pieces
-  std::uint32_t goals_in_pieces_ = 0, largest_piece_ = 0;
+  SureWays sure_;
+  std::vector<std::uint8_t> sides_;           // by station: whether it is in a piece
+  std::vector<std::uint32_t> seen_, pieces_;  // stations beside what is missing, and those in pieces
+  std::uint32_t goals_in_pieces_ = 0;
+  std::uint32_t part_ = FP_NONE;         // a station of the largest part
+  std::vector<std::uint8_t> is_inside_;  // by station
 };
 
 // What PlaceJudge says, worked out once for all AGVs.

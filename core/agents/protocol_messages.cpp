@@ -238,6 +238,18 @@ void WireMessage::put(std::uint64_t value) {
   size_ += sizeof(Value);
 }
 
+// Many values at once.
+template <class Value, class From>
+void WireMessage::put_row(std::span<const From> values) {
+  std::byte* to = bytes_.data() + size_;
+  for (const From value : values) {
+    const Value little = little_endian(static_cast<Value>(value));
+    std::memcpy(to, &little, sizeof(Value));
+    to += sizeof(Value);
+  }
+  size_ += values.size() * sizeof(Value);
+}
+
 WireMessage::WireMessage(const Message& message) {
   const Status& status = message.status;
   put<std::uint8_t>(kMark);
@@ -298,7 +310,7 @@ void WireMessage::put_answers(const Answers& answers) {
 
 void WireMessage::put_zones(const ZoneSet& zones) {
   put<std::uint8_t>(zones.size());
-  for (const std::uint16_t zone : zones.all()) put<std::uint16_t>(zone);
+  put_row<std::uint16_t>(zones.all());
 }
 
 void WireMessage::put_roll(const Roll& roll) {
@@ -327,13 +339,13 @@ void WireMessage::put_path(const Path& path) {
 
 void WireMessage::put_lanes(const Path& path) {
   put<std::uint8_t>(path.count);
-  for (const std::uint32_t lane : path.lanes()) put<std::uint16_t>(lane);
+  put_row<std::uint16_t>(path.lanes());
 }
 
 void WireMessage::put_heard(const HeardFrom& heard) {
   put<std::uint16_t>(heard.first);
   put<std::uint8_t>(heard.count);
-  for (std::uint32_t i = 0; i < heard.count; ++i) put<std::uint32_t>(heard.stamps_ms[i]);
+  put_row<std::uint32_t>(std::span<const std::uint32_t>(heard.stamps_ms.data(), heard.count));
 }
 
 std::optional<Message> decode(std::span<const std::byte> bytes) {

@@ -64,12 +64,23 @@ void Routes::read(std::span<const std::byte> tables) {
   first_hops_ = reader.next<std::uint32_t>();
 }
 
+// The cheapest of what was pushed since the last pop is often the next one: it stays out of the heap.
 void Routes::push(Open open) {
+  if (!has_next_) {
+    has_next_ = true;
+    next_ = open;
+    return;
+  }
+  if (is_dearer(next_, open)) std::swap(next_, open);
   open_.push_back(open);
   std::ranges::push_heap(open_, is_dearer);
 }
 
 Routes::Open Routes::pop() {
+  if (has_next_ && (open_.empty() || is_dearer(open_.front(), next_))) {
+    has_next_ = false;
+    return next_;
+  }
   std::ranges::pop_heap(open_, is_dearer);
   const Open cheapest = open_.back();
   open_.pop_back();
@@ -96,6 +107,7 @@ void Routes::search(std::uint32_t from, Vec heading, std::span<const double> cos
   }
   reached_ = FP_NONE;
   open_.clear();
+  has_next_ = false;
   // With a heading with which it may not stay, an AGV is not there yet.
   if (map_.may_stay(from, heading)) places_[from] = {0.0, FP_NONE, searches_};
   rules_.any() ? search_lanes(from, heading, cost_s, aim) : search_stations(from, cost_s, aim);
@@ -111,7 +123,7 @@ bool Routes::is_reached(std::uint32_t station, double cost_s, const Aim& aim) {
 void Routes::search_stations(std::uint32_t from, std::span<const double> cost_s, const Aim& aim) {
   if (is_reached(from, 0.0, aim)) return;
   leave(from, 0.0, cost_s, aim);
-  while (!open_.empty()) {
+  while (has_next_ || !open_.empty()) {
     const auto [bound_s, here] = pop();
     const double so_far_s = places_[here].cost_s;
     if (bound_s > so_far_s + aim.remains(here)) continue;
@@ -134,7 +146,7 @@ void Routes::search_lanes(std::uint32_t from, Vec heading, std::span<const doubl
   for (const std::uint32_t lane : map_.lanes_from(from)) {
     if (rules_.may_leave(heading, lane)) reach(lane, cost_s[lane], FP_NONE, aim);
   }
-  while (!open_.empty()) {
+  while (has_next_ || !open_.empty()) {
     const auto [bound_s, here] = pop();
     const std::uint32_t station = map_.lane(here).to;
     const double so_far_s = lanes_driven_[here].cost_s;

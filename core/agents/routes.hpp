@@ -101,6 +101,8 @@ class Routes {
   std::vector<Found> places_;        // by station
   std::vector<Found> lanes_driven_;  // in a plant with rules, by lane: up to its end
   std::vector<Open> open_;           // heap, cheapest first
+  Open next_{};                      // and one outside it
+  bool has_next_ = false;
   std::vector<std::uint32_t> lanes_;
 };
 

@@ -25,9 +25,10 @@ class ZoneSet {
     return std::ranges::any_of(all(), [&](std::uint16_t zone) { return other.contains(zone); });
   }
 
-  // False if the set is full.
+  // False if the set is full. Zones are mostly added in order.
   bool add(std::uint16_t zone) {
-    if (contains(zone)) return true;
+    const bool is_last = count_ == 0 || zones_[count_ - 1] < zone;
+    if (!is_last && contains(zone)) return true;
     if (count_ == kMax) return false;
     std::uint32_t at = count_++;
     for (; at > 0 && zones_[at - 1] > zone; --at) zones_[at] = zones_[at - 1];

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "core/agents/controller.hpp"
 #include "tests/agents/drawn_map.hpp"
 
@@ -79,6 +82,30 @@ TEST_F(NeighboursTest, ImpossiblePathsAreRefused) {
   EXPECT_NE(neighbours.note(1, m, 0), Neighbours::News::Refused);
   EXPECT_EQ(neighbours.note(0, m, 0), Neighbours::News::Refused) << "from oneself";
   EXPECT_EQ(neighbours.note(2, m, 0), Neighbours::News::Refused) << "from nobody of the fleet";
+}
+
+// A record takes 1.3 kB: in a large fleet, most AGVs never hear of each other.
+TEST_F(NeighboursTest, ThereIsNoRecordOfAgvsThatAreNeverHeardOf) {
+  const testing::TestFleet many(drawn.map(), 200);
+  Neighbours n(map, geometry, many.briefing(0, 0));
+  const Neighbours& seen = n;
+  EXPECT_EQ(&seen.of(7), &seen.of(150)) << "all that are unknown share one record";
+  EXPECT_FALSE(seen.of(7).known);
+  Message m;
+  m.tells_zones = true;
+  m.status.stamp_ms = 10;
+  m.status.held.station = 1;
+  for (const std::uint32_t agv : {150U, 7U}) ASSERT_NE(n.note(agv, m, 0), Neighbours::News::Refused);
+  const Neighbour& kept = seen.of(7);
+  EXPECT_NE(&kept, &seen.of(150));
+  EXPECT_EQ(&seen.of(8), &seen.of(149));
+  for (std::uint32_t agv = 10; agv < 100; ++agv) ASSERT_NE(n.note(agv, m, 0), Neighbours::News::Refused);
+  EXPECT_EQ(&kept, &seen.of(7)) << "a record stays where it is";
+  std::vector<std::uint32_t> known;
+  n.for_each_known([&](std::uint32_t agv, const Neighbour&) { known.push_back(agv); });
+  ASSERT_EQ(known.size(), 92U);
+  EXPECT_TRUE(std::ranges::is_sorted(known));
+  EXPECT_EQ(known.front(), 7U);
 }
 
 TEST_F(NeighboursTest, RequestsThatAreHistoryStayClosed) {
