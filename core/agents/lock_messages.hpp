@@ -53,6 +53,7 @@ class LockMessages {
  private:
   void fill_in_request(Message& message) const;
   void fill_in_lists(Message& message);
+  void note_told(Neighbour& n, const Message& message);
   bool is_blocked() { return claim_.requesting && blocker_.is_inside(claim_.request); }
 
   Controller& controller_;
