@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/agents/protocol_messages.hpp"
 #include "core/agents/zone_set.hpp"
 
 namespace fleetproof::agents {
@@ -13,7 +14,8 @@ namespace fleetproof::agents {
 // other fleets all.
 class Audience {
  public:
-  Audience(std::uint32_t self, std::uint32_t fleet_count, bool divided) : divided_(divided) {
+  Audience(std::uint32_t self, std::uint32_t fleet_count, bool divided)
+      : divided_(divided), hears_of_all_(!divided || fleet_count <= HeardFrom::kMax) {
     for (std::uint32_t agv = 0; !divided && agv < fleet_count; ++agv) {
       if (agv != self) agvs_.push_back(agv);
     }
@@ -21,6 +23,9 @@ class Audience {
 
   // Whether the fleet is so large that an AGV only talks to those in its zones.
   bool is_divided() const { return divided_; }
+  // Whether an AGV hears of the whole fleet now and then: not in a divided fleet of more AGVs than one message has room
+  // to acknowledge.
+  bool hears_of_all() const { return hears_of_all_; }
   const ZoneSet& own_zones() const { return own_zones_; }
   // By ascending number.
   std::span<const std::uint32_t> agvs() const { return agvs_; }
@@ -38,7 +43,7 @@ class Audience {
   }
 
  private:
-  bool divided_;
+  bool divided_, hears_of_all_;
   ZoneSet own_zones_;
   std::vector<std::uint32_t> agvs_;
 };

@@ -48,6 +48,7 @@ void LockMessages::send_answer(MessageKind kind, std::uint32_t receiver) {
 void LockMessages::broadcast_state() {
   state_sent_ns_ = controller_.now_ns();
   Message message = begin(MessageKind::State);
+  if (message.tells_zones) neighbours_.for_each([&](std::uint32_t, Neighbour& n) { note_told(n, message); });
   neighbours_.tell_heard_from(message.heard);
   if (claim_.requesting) fill_in_request(message);
   fill_in_lists(message);
@@ -58,7 +59,7 @@ double LockMessages::quiet_s() const {
   return state_sent_ns_ < 0 ? INFINITY : static_cast<double>(controller_.now_ns() - state_sent_ns_) * 1e-9;
 }
 
-// The next STATE begins with those that this one has no room for.
+// The next STATE begins with those that this one has no room for. A message that tells zones has no room for answers.
 void LockMessages::fill_in_lists(Message& message) {
   std::uint32_t left_out = FP_NONE;
   const auto say = [&](std::uint32_t agv, bool fits) {
@@ -66,7 +67,8 @@ void LockMessages::fill_in_lists(Message& message) {
   };
   neighbours_.for_each_from(first_in_lists_, [&](std::uint32_t agv, const Neighbour& n) {
     if (asks_again_ && claim_.is_unanswered(n)) say(agv, message.asked.add(claim_.entry_for(agv, n)));
-    if (claim_.owes_answer(n)) say(agv, message.answers.add({agv, n.request_epoch, claim_.has_granted(n)}));
+    if (claim_.owes_answer(n) && !message.tells_zones)
+      say(agv, message.answers.add({agv, n.request_epoch, claim_.has_granted(n)}));
   });
   neighbours_.for_each_from(first_in_lists_, [&](std::uint32_t agv, const Neighbour& n) {
     if (claim_.has_deferred(n)) say(agv, message.asked.add(claim_.entry_for(agv, n), true));
@@ -120,11 +122,14 @@ void LockMessages::fill_in_request(Message& message) const {
 
 void LockMessages::send_to(std::uint32_t receiver, Message& message) {
   neighbours_.tell_heard_from(message.heard, receiver);
-  Neighbour& n = neighbours_.of(receiver);
+  note_told(neighbours_.of(receiver), message);
+  transmitter_.send(message, receiver);
+}
+
+void LockMessages::note_told(Neighbour& n, const Message& message) {
   n.told_at_ns = controller_.now_ns();
   n.told_condition = transmitter_.condition(message.status.blocked, message.status.held_up);
   n.owes_acknowledgement = false;
-  transmitter_.send(message, receiver);
 }
 
 }  // namespace fleetproof::agents

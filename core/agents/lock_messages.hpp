@@ -55,6 +55,7 @@ class LockMessages {
   void fill_in_lists(Message& message);
   bool is_blocked() { return claim_.requesting && blocker_.is_blocked(claim_.request); }
   bool is_held_up() { return claim_.requesting && blocker_.is_held_up(claim_.request); }
+  void note_told(Neighbour& n, const Message& message);
 
   Controller& controller_;
   Transmitter transmitter_;

@@ -13,8 +13,10 @@ constexpr double kRounding_m = 1e-6;  // of sums of lengths; the proof of distan
 // after a time that is longer in large fleets, so that an AGV hears about as many of them a second.
 constexpr std::size_t kFewerRepetitions = 12;
 constexpr double kQuiet_s = 1.0, kQuietPerAgv_s = 0.05, kLongestQuiet_s = 30.0;
-// In a divided fleet, an AGV that asks again gets its answer again, at most so often.
+// In a divided fleet, an AGV that asks again gets its answer again, at most so often. If the fleet is not large, a
+// STATE goes to all so often: ways are better if an AGV knows the ways of those far away.
 constexpr std::int64_t kAnswersAgain_ns = kSecond_ns / 3;
+constexpr double kTellsAll_s = 3.0;
 
 }  // namespace
 
@@ -346,18 +348,22 @@ void LockProtocol::repeat_answer(std::uint32_t agv) {
   messages_.send_answer(claim_.has_granted(neighbours_.of(agv)) ? MessageKind::Grant : MessageKind::Defer, agv);
 }
 
-// In a divided fleet nothing goes to all. An AGV that asks again gets its answer again: only what it does not ask for
-// is repeated, a GRANT that follows a DEFER.
+// A GRANT is repeated without being asked for again: a question and its answer would both have to arrive. One message
+// says what is due to an AGV.
 void LockProtocol::repeat_in_zones() {
   zones_->talk(true);
+  if (neighbours_.audience().hears_of_all() && messages_.quiet_s() >= kTellsAll_s) messages_.broadcast_state();
   neighbours_.for_each([&](std::uint32_t agv, Neighbour& n) {
-    if (options_.progress.asks_again && claim_.is_unanswered(n) && n.request_repeats.is_due()) {
-      controller_.sometimes("retransmission");
+    const bool request = options_.progress.asks_again && claim_.is_unanswered(n) && n.request_repeats.is_due();
+    const bool answer = claim_.owes_answer(n) && claim_.has_granted(n) && n.answer_repeats.is_due();
+    if (request) controller_.sometimes("retransmission");
+    if ((request && answer) || messages_.is_to_be_told(n)) {
+      messages_.tell(agv, false);
+    } else if (request) {
       messages_.send_request(agv);
+    } else if (answer) {
+      messages_.send_answer(MessageKind::Grant, agv);
     }
-    const bool unasked = claim_.owes_answer(n) && claim_.has_granted(n) && n.deferred_epoch == n.request_epoch;
-    if (unasked && n.answer_repeats.is_due()) messages_.send_answer(MessageKind::Grant, agv);
-    if (messages_.is_to_be_told(n)) messages_.tell(agv, false);
   });
 }
 

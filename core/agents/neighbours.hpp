@@ -207,4 +207,13 @@ class Neighbours {
   std::uint32_t next_heard_ = 0;
 };
 
+// Calls `f(agv, neighbour)` for each AGV that may matter to a way: the audience or, if a divided fleet is not large,
+// all of which something is known.
+template <class F>
+void for_each_on_the_way(const Neighbours& neighbours, F f) {
+  const Audience& audience = neighbours.audience();
+  if (audience.is_divided() && audience.hears_of_all()) return neighbours.for_each_known(f);
+  for (const std::uint32_t agv : audience.agvs()) f(agv, neighbours.of(agv));
+}
+
 }  // namespace fleetproof::agents

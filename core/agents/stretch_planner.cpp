@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kLookAhead_m = 12.0;
 constexpr std::uint32_t kManyLanes = 1000;
-constexpr double kFar_m = 70.0;  // in a divided fleet, prices of what is further away are of others
+constexpr double kFar_m = 70.0;  // if it does not hear of all, prices of what is further away are of others
 constexpr std::uint32_t kLookAheadLanes = 3;
 constexpr double kOnward_m = 40.0, kOnwardInZones_m = 25.0;  // what is announced beyond a stretch
 
@@ -77,7 +77,7 @@ struct StretchPlanner::Walk {
     stretch.legs.push_back({Leg::Kind::Drive, lane});
     ++here.lanes;
     const std::uint32_t self = planner.neighbours_.self();
-    planner.neighbours_.for_each([&](std::uint32_t agv, const Neighbour& n) {
+    for_each_on_the_way(planner.neighbours_, [&](std::uint32_t agv, const Neighbour& n) {
       blocked = blocked || (n.known && planner.geometry_.lane_conflict(self, lane, agv, n.status.held));
     });
     note_end();
@@ -174,12 +174,12 @@ void StretchPlanner::search(const Path& from, std::uint32_t goal) {
   if (!knows_remaining_costs_) return routes_.search(from.station, from.heading, costs_s_, goal);
   const auto remains_s = remaining_costs_s(geometry_.parts(), model_, goal);
   routes_.search_towards(goal, remains_s, from.station, from.heading, costs_s_,
-                         neighbours_.audience().is_divided() ? kFar_m : INFINITY);
+                         neighbours_.audience().hears_of_all() ? INFINITY : kFar_m);
 }
 
 // A goal, or a station on the way to it, further away than what is planned now.
 std::uint32_t StretchPlanner::end_of_search(std::uint32_t goal) const {
-  return neighbours_.audience().is_divided() && routes_.reached() != FP_NONE ? routes_.reached() : goal;
+  return !neighbours_.audience().hears_of_all() && routes_.reached() != FP_NONE ? routes_.reached() : goal;
 }
 
 Stretch StretchPlanner::first_stretch(const Path& standing, Budget budget, std::span<const Goal> goals) {
@@ -240,7 +240,7 @@ std::uint32_t StretchPlanner::free_charger(const Path& standing, bool loaded, bo
 
 bool StretchPlanner::is_taken(std::uint32_t station) {
   bool taken = false;
-  neighbours_.for_each([&](std::uint32_t agv, const Neighbour& n) {
+  for_each_on_the_way(neighbours_, [&](std::uint32_t agv, const Neighbour& n) {
     taken =
         taken || (n.known && geometry_.turn_conflict(neighbours_.self(), station, agv, end_of(map_, n.status.held)));
   });
@@ -260,7 +260,7 @@ bool StretchPlanner::follow(Walk& walk, std::uint32_t to) {
 
 void StretchPlanner::price_lanes(bool loaded, double waiting_s, double idle_s, const GoesFirst& goes_first) {
   forget_prices(loaded);
-  neighbours_.for_each([&](std::uint32_t agv, const Neighbour& n) {
+  for_each_on_the_way(neighbours_, [&](std::uint32_t agv, const Neighbour& n) {
     if (!n.known) return;
     const Status& status = n.status;
     const bool wall = status.out_of_order || (status.waiting && goes_first && goes_first(agv, n));
@@ -330,7 +330,7 @@ std::uint32_t StretchPlanner::best_place(const Path& standing, bool prefer_parki
 // Infinite if another AGV holds the place. Beyond `limit_s`, it is not worked out further.
 double StretchPlanner::price_of_staying(std::uint32_t station, double limit_s, const GoesFirst& goes_first) {
   double price_s = 0.0;
-  neighbours_.for_each([&](std::uint32_t agv, const Neighbour& n) {
+  for_each_on_the_way(neighbours_, [&](std::uint32_t agv, const Neighbour& n) {
     if (!n.known || price_s >= limit_s) return;
     bool held = geometry_.turn_conflict(neighbours_.self(), station, agv, n.status.held);
     if (!held && n.request_is_open() && geometry_.turn_conflict(neighbours_.self(), station, agv, n.request)) {
@@ -351,8 +351,9 @@ bool StretchPlanner::may_turn_back(std::uint32_t station) const {
 // other in.
 bool StretchPlanner::is_cramped(std::uint32_t station) {
   bool cramped = false;
-  neighbours_.for_each(
-      [&](std::uint32_t agv, const Neighbour& n) { cramped = cramped || (n.known && is_cramped(station, agv, n)); });
+  for_each_on_the_way(neighbours_, [&](std::uint32_t agv, const Neighbour& n) {
+    cramped = cramped || (n.known && is_cramped(station, agv, n));
+  });
   return cramped;
 }
 

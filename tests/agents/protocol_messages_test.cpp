@@ -154,6 +154,21 @@ TEST(ProtocolMessages, LargestFitsTheRadio) {
   EXPECT_LE(WireMessage(m).bytes().size(), 1024U);
 }
 
+TEST(ProtocolMessages, LargestOfADividedFleetFitsTheRadioWithoutAnswers) {
+  Message m = sample_with_zones(MessageKind::State);
+  m.status.epoch = first_epoch(1) + 1;
+  m.answers = {};
+  for (std::uint16_t zone = 0; zone < 1000; ++zone) m.zones.add(zone);
+  while (m.status.held.append(1)) {
+  }
+  while (m.request.append(1)) {
+  }
+  while (m.asked.add({1, 1})) {
+  }
+  m.heard.count = HeardFrom::kMax;
+  EXPECT_LE(WireMessage(m).bytes().size(), 1024U);
+}
+
 TEST(ProtocolMessages, AnyOtherLengthIsRefused) {
   for (const MessageKind kind : kKinds) {
     const WireMessage wire(sample(kind));

@@ -187,6 +187,27 @@ class MembershipTest : public ::testing::Test {
   static TestFleet divided(const Ladder& ladder) { return {const_cast<DrawnMap&>(ladder.drawn).map(), 3}; }
 };
 
+TEST_F(MembershipTest, AWayTakesAccountOfThoseElsewhereToo) {
+  hear(0, 700, none, 0);
+  std::vector<std::uint32_t> met, asked;
+  for_each_on_the_way(neighbours, [&](std::uint32_t agv, const Neighbour&) { met.push_back(agv); });
+  neighbours.for_each([&](std::uint32_t agv, const Neighbour&) { asked.push_back(agv); });
+  EXPECT_EQ(met, std::vector<std::uint32_t>{1}) << "nothing is known of AGV 0";
+  EXPECT_TRUE(asked.empty()) << "AGV 1 is in no zone of AGV 2";
+  EXPECT_TRUE(neighbours.audience().hears_of_all());
+}
+
+TEST(LargeFleet, AWayTakesAccountOfThoseAroundOnly) {
+  Ladder ladder;
+  TestFleet fleet(ladder.drawn.map(), HeardFrom::kMax + 1);
+  const fp_briefing briefing = fleet.briefing(2, 0);
+  const Facts facts(briefing);
+  const MapView map(facts.shared());
+  HullGeometry geometry(map, briefing);
+  EXPECT_FALSE(Neighbours(map, geometry, briefing, {.zones_from = 2}).audience().hears_of_all());
+  EXPECT_TRUE(Neighbours(map, geometry, briefing, {.zones_from = 128}).audience().hears_of_all());
+}
+
 TEST_F(MembershipTest, NeedsARollThatIsNewerThanItsStay) {
   membership.announce(own, 5000);
   take_roll({}, 4999);
