@@ -8,7 +8,7 @@ struct Settings {
   double position_late_s = 1.0;    // the largest age of a perceived position
   double charge_below = 0.3;       // the battery level at which the AGV drives to a charger
   double charge_to = 0.9;          // the battery level at which the AGV leaves the charger
-  double zones_from = 128.0;       // an AGV of a fleet of so many AGVs only talks to those in its zones
+  double zones_from = 16.0;        // an AGV of a fleet of so many AGVs only talks to those in its zones
 };
 
 // Throws std::invalid_argument with a sentence if a value is not a number or not possible.
