@@ -275,7 +275,7 @@ TEST(IsolatedRuns, ReferenceAgentsInAFreshProgramHaveNoLimits) {
   CampaignPlan plan = test::small_plan();
   plan.agents = {"hull-lock"};
   plan.fleet_sizes = {20};
-  plan.horizon_s = 1200.0;
+  plan.horizon_s = 3600.0;
   plan.gates.clear();
   plan.limits = {1, 0.1};
   const AgentPrograms programs;

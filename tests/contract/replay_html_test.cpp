@@ -243,7 +243,8 @@ TEST_F(ReplayHtml, OpensBeforeTheFirstViolationAndHasItsClearance) {
   EXPECT_THAT(page, HasSubstr(judged["digest"].get<std::string>()));
 }
 
-// Looked for in all pairs every 20 ms. Two AGVs come nearer by at most 4 m/s and by what their turns add.
+// Looked for in all pairs every 20 ms. Two AGVs come nearer by at most 4 m/s and by what their turns add. They may come
+// as near more than once.
 TEST_F(ReplayHtml, WithoutAViolationItHasThePairThatCameClosest) {
   write("n.toml",
         "kind = \"search\"\nreplicates = 1\nhorizon_s = 150\n[factors]\nagents = [\"hull-lock\"]\nlayouts = "
@@ -253,13 +254,10 @@ TEST_F(ReplayHtml, WithoutAViolationItHasThePairThatCameClosest) {
   const Json data = film("p.html");
   ASSERT_TRUE(data["violations"].empty());
   const Json& nearest = data["nearest"];
-  double least_m = 1e9, at_us = 0.0;
+  double least_m = 1e9;
   for (double t_us = 0.0; t_us < data["end_us"].get<double>(); t_us += 20'000.0) {
     for (std::size_t a = 0; a < 7; ++a) {
-      for (std::size_t b = a + 1; b < 7; ++b) {
-        const double apart = apart_m(data, a, b, t_us);
-        if (apart < least_m) least_m = apart, at_us = t_us;
-      }
+      for (std::size_t b = a + 1; b < 7; ++b) least_m = std::min(least_m, apart_m(data, a, b, t_us));
     }
   }
   const double told_m = nearest["clearance_um"].get<double>() / 1e6;
@@ -268,7 +266,6 @@ TEST_F(ReplayHtml, WithoutAViolationItHasThePairThatCameClosest) {
   const double told_at_us = nearest["at_us"].get<double>();
   EXPECT_NEAR(apart_m(data, nearest["a"], nearest["b"], told_at_us), told_m, 0.002);
   EXPECT_GT(told_at_us, 0.0) << "the fleet starts with more room than it has later";
-  EXPECT_NEAR(told_at_us, at_us, 40'000.0);
   const auto& points = data["clearances"][0]["points_us_um"];
   EXPECT_THAT(read(path("p.html")), HasSubstr(fmt::format("m at {:.3f} s", std::floor(told_at_us / 1e3) / 1e3)));
   EXPECT_LT(points.front().get<double>(), told_at_us);
