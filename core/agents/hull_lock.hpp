@@ -61,7 +61,7 @@ class HullLock {
   void plan_transport();
   void plan_making_way();
   void reconsider();
-  // In a large fleet, the way round is long to work out.
+  // In a divided fleet, it waits longer: with many AGVs, the way round is long to work out.
   bool is_time_to_reconsider() { return !neighbours_.audience().is_divided() || ++ticks_waited_ % 3 == 0; }
   void request(Stretch stretch, Purpose purpose, std::int64_t demand_ns = -1);
   Stretch way_on();

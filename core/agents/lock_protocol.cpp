@@ -349,14 +349,15 @@ void LockProtocol::repeat_answer(std::uint32_t agv) {
 }
 
 // A GRANT is repeated without being asked for again: a question and its answer would both have to arrive. In a large
-// fleet that would be dear, so only a GRANT is that follows a DEFER. One message says what is due to an AGV.
+// fleet that costs too much: there, only a GRANT that follows a DEFER is repeated. One message says what is due to an
+// AGV.
 void LockProtocol::repeat_in_zones() {
   zones_->talk(true);
-  const bool is_small = neighbours_.audience().hears_of_all();
-  if (is_small && messages_.quiet_s() >= kTellsAll_s) messages_.broadcast_state();
+  const bool hears_of_all = neighbours_.audience().hears_of_all();
+  if (hears_of_all && messages_.quiet_s() >= kTellsAll_s) messages_.broadcast_state();
   neighbours_.for_each([&](std::uint32_t agv, Neighbour& n) {
     const bool request = options_.progress.asks_again && claim_.is_unanswered(n) && n.request_repeats.is_due();
-    const bool unasked = claim_.has_granted(n) && (is_small || n.deferred_epoch == n.request_epoch);
+    const bool unasked = claim_.has_granted(n) && (hears_of_all || n.deferred_epoch == n.request_epoch);
     const bool answer = claim_.owes_answer(n) && unasked && n.answer_repeats.is_due();
     if (request) controller_.sometimes("retransmission");
     if ((request && answer) || messages_.is_to_be_told(n)) {

@@ -44,7 +44,7 @@ class MapWithout {
   struct Hop {
     std::uint32_t lane, to;
   };
-  // The hops from each station, in one table: lanes of the map are large, and each search reads many.
+  // The hops from each station, side by side: a search reads many, and the lanes of the map are large.
   struct Hops {
     std::span<const Hop> all;
     std::span<const std::uint32_t> first;  // by station, and one more

@@ -1,4 +1,4 @@
-// In a large fleet, an AGV only talks to those that it can meet. The floor is divided into zones (ZoneMap). Here is
+// In a divided fleet, an AGV only talks to those that it can meet. The floor is divided into zones (ZoneMap). Here is
 // what the proof of lock_protocol.hpp needs of that.
 //
 // Terms
@@ -94,7 +94,7 @@ class Membership {
 
  private:
   // When something is said again. Answers take a while, and most applications are made long before they matter. In a
-  // fleet that is not large, many are not, so it is always said again at first.
+  // fleet that is not large, many matter soon, so it is said again at each of the first calls.
   struct Repeats {
     static constexpr std::uint32_t kQuick = 4;
     std::uint32_t calls = 0;

@@ -76,12 +76,12 @@ double OppositeLanes::ways_m(std::uint32_t main, std::uint32_t other) {
   const std::vector<bool> before = against_;
   price(main, other, true);
   const DriveRules rules(map_, 0);
-  const double sum_m = rules.any() ? ways_m(rules) : ways_m();
+  const double sum_m = rules.any() ? ways_by_rules_m(rules) : ways_without_rules_m();
   against_ = before;
   return sum_m;
 }
 
-double OppositeLanes::ways_m(const DriveRules& rules) const {
+double OppositeLanes::ways_by_rules_m(const DriveRules& rules) const {
   std::vector<double> costs_m;
   for (std::uint32_t lane = 0; lane < map_.lane_count(); ++lane) costs_m.push_back(cost_m(lane));
   Routes routes(map_, rules);
@@ -93,7 +93,7 @@ double OppositeLanes::ways_m(const DriveRules& rules) const {
   return sum_m;
 }
 
-double OppositeLanes::ways_m() {
+double OppositeLanes::ways_without_rules_m() {
   if (least_ == nullptr) {
     std::vector<double> costs_m;
     for (std::uint32_t lane = 0; lane < map_.lane_count(); ++lane) costs_m.push_back(map_.lane(lane).length_m);

@@ -35,8 +35,8 @@ class OppositeLanes {
   void find_mains();
   void choose(std::uint32_t main, std::uint32_t other);
   double ways_m(std::uint32_t main, std::uint32_t other);
-  double ways_m(const DriveRules& rules) const;
-  double ways_m();
+  double ways_by_rules_m(const DriveRules& rules) const;
+  double ways_without_rules_m();
   double cost_m(std::uint32_t lane) const;
   void price(std::uint32_t main, std::uint32_t other, bool against);
   std::vector<std::uint32_t> goals() const;

@@ -211,8 +211,8 @@ std::uint32_t PlaceJudge::find_largest_part(std::uint32_t without, std::uint32_t
   return largest;
 }
 
-// The goals that the station reaches, and that reach it. They lie within all that it reaches, and within all that
-// reaches it: one of the two is small, or the station is connected with the roots of the sure ways.
+// How many goals the station reaches that also reach it. Either few stations are reached from it, or few reach it, or
+// it is connected with the roots of the sure ways.
 std::uint32_t PlaceJudge::goals_connected_with(std::uint32_t station, std::uint32_t others) {
   is_inside_.resize(map_.station_count());
   for (const bool backwards : {false, true}) {

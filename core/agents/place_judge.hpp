@@ -35,8 +35,8 @@ class PlaceJudge {
   static constexpr std::uint32_t kFoulsLanes = 10'000;
 
  private:
-  // What is known of a station without the one that is judged: it reaches the rest of the map no more, is not reached
-  // from there, or both were looked at.
+  // What is known of a station without the one that is judged: it reaches the rest of the map no more, or is not
+  // reached from there; and whether both are known.
   enum Side : std::uint8_t { kDoomed = 1, kUnreached = 2, kCutOff = 3, kSeen = 4 };
 
   bool is_all_one_way(std::uint32_t station) const;

@@ -17,7 +17,7 @@ constexpr Word kWords[] = {
     {"unasked", "it took a way without asking: to its knowledge, nothing that others hold or ask for is near it"},
     {"newcomer", "it asked one more AGV for a request that is open"},
     {"deferred", "it answered a request with DEFER: not now"},
-    {"joins", "in a large fleet, it asked who else is in the zones of its way"},
+    {"joins", "in a divided fleet, it asked who else is in the zones of its way"},
     {"grant-lost", "it was asked again for what it has granted already"},
     {"retransmission", "it asked again, because no answer came"},
     {"overtaken", "it granted a request that comes first, and has to ask that AGV again for its own"},

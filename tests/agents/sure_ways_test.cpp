@@ -35,6 +35,15 @@ void draw(DrawnMap& drawn, std::uint32_t seed) {
   }
 }
 
+template <class F>
+void for_each_map(F look) {
+  for (std::uint32_t seed = 0; seed < 40; ++seed) {
+    DrawnMap drawn;
+    draw(drawn, seed);
+    look(seed, drawn, MapView(drawn.map()));
+  }
+}
+
 // What `from` reaches, or what reaches it, without a station and some lanes.
 std::vector<bool> reached(const MapView& map, std::uint32_t from, bool backwards, std::uint32_t without,
                           const std::vector<std::uint32_t>& lanes = {}) {
@@ -56,22 +65,18 @@ std::vector<bool> reached(const MapView& map, std::uint32_t from, bool backwards
 
 TEST(SureWays, AreSureOfNothingThatASearchDenies) {
   std::size_t sure = 0, missed = 0;
-  for (std::uint32_t seed = 0; seed < 40; ++seed) {
-    DrawnMap drawn;
-    draw(drawn, seed);
-    const MapView map(drawn.map());
+  for_each_map([&](std::uint32_t seed, DrawnMap&, const MapView& map) {
     const auto there = reached(map, 40, false, FP_NONE), back = reached(map, 40, true, FP_NONE);
     std::vector<std::uint32_t> roots;
     for (std::uint32_t id = 0; id < map.station_count(); id += 20) {
       if (there[id] && back[id]) roots.push_back(id);
     }
-    if (roots.empty()) continue;
+    if (roots.empty()) return;
     const auto tables = SureWays::work_out(map, roots);
     SureWays ways(map, tables);
     for (std::uint32_t station = 0; station < map.station_count(); ++station) {
       const std::vector<std::uint32_t> lanes{station, (7 * station + 1) % map.lane_count()};
       ways.take_away(station, lanes);
-
       for (const std::uint32_t root : roots) {
         if (root == station || !ways.is_sure(root, false) || !ways.is_sure(root, true)) continue;
         const auto from = reached(map, root, false, station, lanes), to = reached(map, root, true, station, lanes);
@@ -84,17 +89,14 @@ TEST(SureWays, AreSureOfNothingThatASearchDenies) {
       }
       EXPECT_FALSE(ways.is_sure(station, false)) << "it is missing itself";
     }
-  }
+  });
   EXPECT_GT(sure, 20 * missed) << "else they spare no search";
 }
 
 // Whatever is known without a search: the burden is what no other station is connected with any more.
 TEST(SureWays, LeaveTheJudgementOfWaitingPlacesAsItIs) {
   std::size_t judged = 0, burdens = 0;
-  for (std::uint32_t seed = 0; seed < 40; ++seed) {
-    DrawnMap drawn;
-    draw(drawn, seed);
-    const MapView map(drawn.map());
+  for_each_map([&](std::uint32_t seed, DrawnMap& drawn, const MapView& map) {
     const TestFleet fleet(drawn.map(), 2);
     HullGeometry geometry(map, fleet.briefing(0, 0));
     WaitingPlaces places(map, geometry);
@@ -123,7 +125,7 @@ TEST(SureWays, LeaveTheJudgementOfWaitingPlacesAsItIs) {
       ++judged;
       burdens += two_way && others > largest ? 1 : 0;
     }
-  }
+  });
   EXPECT_GT(judged, 1'000U);
   EXPECT_GT(burdens, 100U);
 }
