@@ -16,11 +16,9 @@ constexpr double kTick_s = 1.0;
 constexpr double kRepeat_s = 0.5;
 constexpr double kLongestLead_s = 8.0;  // how long before the end of a stretch the next one is asked for, at most
 constexpr double kRetryPlanning_s = 2.0;
-constexpr double kOverdue_s = 5.0;         // an action that takes this much longer than expected may have been stopped
-constexpr double kClockMargin = 1.02;      // clocks may run wrong by up to 1 %
-constexpr double kFarEnoughCharged = 0.5;  // battery level at which it leaves the charger to other AGVs
+constexpr double kOverdue_s = 5.0;     // an action that takes this much longer than expected may have been stopped
+constexpr double kClockMargin = 1.02;  // clocks may run wrong by up to 1 %
 constexpr std::uint32_t kLooksPerChoice = 8;
-constexpr double kUrgent = 1.0 / 3.0;  // of `charge_below`: it goes to a charger with a load, and to any charger
 constexpr double kEarly_s = 2.0;
 
 // Members of the briefing that a host of minor version 0 does not have.
@@ -203,10 +201,10 @@ void HullLock::release_early() {
 void HullLock::look_at_battery() {
   const double level = controller_.battery_level();
   if (level >= settings_.charge_to) charging_ = false;
-  const bool urgent = level < kUrgent * settings_.charge_below;
+  const bool urgent = settings_.is_urgent(level, carries_load(errands_.goals()));
   const bool in_between = urgent || !errands_.next_is(Leg::Kind::Drop);
   const bool transfers = way_.contains(Leg::Kind::Pick) || (way_.acting() && way_.current().kind == Leg::Kind::Drop);
-  if (level < settings_.charge_below && !charging_ && in_between && !transfers && !way_.contains(Leg::Kind::Charge) &&
+  if (settings_.is_low(level) && !charging_ && in_between && !transfers && !way_.contains(Leg::Kind::Charge) &&
       place_known_ && !out_of_order_)
     drive_to_charger(urgent);
 }
@@ -308,7 +306,7 @@ void HullLock::plan() {
   }
   if (now_s() < plan_after_s_) return;
   if (charging_ || way_.contains(Leg::Kind::Charge)) {
-    if (charging_ && right_of_way_.is_asked_for(protocol_.held()) && controller_.battery_level() >= kFarEnoughCharged)
+    if (charging_ && right_of_way_.is_asked_for(protocol_.held()) && settings_.is_enough(controller_.battery_level()))
       plan_making_way();
   } else if (!errands_.empty()) {
     plan_transport();
