@@ -9,6 +9,7 @@ namespace fleetproof::agents {
 namespace {
 
 constexpr std::size_t kRoots = 4;
+constexpr double kOpposite = -0.9;  // the cosine between two directions
 // So many stations are judged at once: what a judge needs for any of them costs as much as a few judgements.
 constexpr std::uint32_t kTogether = 16;
 
@@ -170,19 +171,28 @@ void PlaceJudge::block_lanes(std::uint32_t station) {
   }
 }
 
-// An AGV that comes from the largest part would wait before such a lane to get back there. On a one-way lane it cannot
-// turn back: it misses the lane whatever else is cut off, if an AGV that stands here blocks it. A two-way lane that
-// leads into a part that is cut off anyway, as in front of a bay, is not missed.
+// An AGV that comes from the largest part would wait before such a lane to get back there. A two-way lane that leads
+// into a part that is cut off anyway, as in front of a bay, is not missed. Before a one-way lane, AGVs wait until the
+// way is free again, as behind this AGV. Only those that come the other way beside it could block its own way on, and
+// none of them can turn back.
 bool PlaceJudge::is_missed(std::uint32_t station, std::uint32_t lane, bool only_pieces) {
-  if (!map_.two_way(lane) && blocks_while_waiting(station, lane)) return true;
+  if (!map_.two_way(lane)) return runs_against(station, lane) && blocks_while_waiting(station, lane);
   const std::uint32_t from = map_.lane(lane).from, to = map_.lane(lane).to;
   if (only_pieces && ((sides_[from] & kUnreached) != 0 || (sides_[to] & kDoomed) != 0)) return false;
   if (only_pieces) return (goals_.free_marks[from] & kReached) != 0 && (goals_.free_marks[to] & kReaches) != 0;
   return part_ != FP_NONE && reaches(part_, from) && reaches(to, part_);
 }
 
+// Whether the lane leads the other way than one that ends at the station, from its beginning to its end.
+bool PlaceJudge::runs_against(std::uint32_t station, std::uint32_t lane) const {
+  return std::ranges::any_of(map_.lanes_to(station), [&](std::uint32_t arriving) {
+    const Vec heading = map_.end_heading(arriving);
+    return std::max(dot(map_.start_heading(lane), heading), dot(map_.end_heading(lane), heading)) < kOpposite;
+  });
+}
+
 // An AGV that comes by one lane and leaves straight on by another one does not turn.
-bool PlaceJudge::blocks_while_waiting(std::uint32_t station, std::uint32_t lane) {
+bool PlaceJudge::blocks_while_waiting(std::uint32_t station, std::uint32_t lane) const {
   return std::ranges::any_of(map_.lanes_to(station), [&](std::uint32_t arriving) {
     const Vec heading = map_.end_heading(arriving);
     const bool straight_on = std::ranges::any_of(map_.lanes_from(station), [&](std::uint32_t leaving) {

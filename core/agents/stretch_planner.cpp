@@ -298,12 +298,8 @@ void StretchPlanner::price_meetings(const Path& other) {
 }
 
 void StretchPlanner::price_station(std::uint32_t station, double extra_s) {
-  if (places_.burden(station) < PlaceJudge::kFoulsLanes) {
-    for (const std::uint32_t lane : map_.lanes_to(station)) make_dearer(lane, extra_s);
-    for (const std::uint32_t lane : map_.lanes_from(station)) make_dearer(lane, extra_s);
-    return;
-  }
-  for (const std::uint32_t lane : geometry_.parts().lanes_blocked_by_turning(station)) make_dearer(lane, extra_s);
+  for (const std::uint32_t lane : map_.lanes_to(station)) make_dearer(lane, extra_s);
+  for (const std::uint32_t lane : map_.lanes_from(station)) make_dearer(lane, extra_s);
 }
 
 // Afterwards, the way there may be asked for.

@@ -114,6 +114,29 @@ TEST(WaitingPlaces, AreNotWhereABodyBlocksAOneWayLane) {
   }
 }
 
+// From the dock in the west to the one in the east and back, each by its own street; `across` leads from the middle of
+// the street back over the way there, right in front of station 1. An AGV there holds up those that cross, until it
+// goes on.
+TEST(WaitingPlaces, MayBeInFrontOfAOneWayCrossing) {
+  DrawnMap drawn;
+  for (int i = 0; i < 4; ++i) drawn.station(8.0 * i, 0);
+  const auto north = drawn.station(9.3, 8), south = drawn.station(9.3, -8);
+  const auto east = drawn.station(30, 8, FP_STORAGE), west = drawn.station(-12, 8, FP_STORAGE);
+  for (std::uint32_t i = 0; i < 3; ++i) drawn.segment(i, i + 1, false);
+  drawn.segment(3, east, false), drawn.segment(west, 0, false);
+  drawn.segment(east, north, false), drawn.segment(north, west, false);
+  const auto across = drawn.segment(north, south, false);
+  drawn.segment(south, west, false);
+  const MapView map(drawn.map());
+  const TestFleet fleet(drawn.map(), 2);
+  HullGeometry geometry(map, fleet.briefing(0, 0));
+  bool blocks = false;
+  for (const std::uint32_t lane : map.lanes_from(north))
+    blocks = blocks || (map.lane(lane).segment == across && geometry.parts().standing_blocks_lane(1, {1.0, 0.0}, lane));
+  EXPECT_TRUE(blocks);
+  EXPECT_TRUE(WaitingPlaces(map, geometry).is_safe(1));
+}
+
 // Beside a place where an AGV stands there is no room to turn: if it wants to turn as well, both stay for ever.
 TEST(CrampedPlaces, AreNoEndOfAStretch) {
   DrawnMap drawn;
