@@ -173,21 +173,20 @@ void PlaceJudge::block_lanes(std::uint32_t station) {
 
 // An AGV that comes from the largest part would wait before such a lane to get back there. A two-way lane that leads
 // into a part that is cut off anyway, as in front of a bay, is not missed. Before a one-way lane, AGVs wait until the
-// way is free again, as behind this AGV. Only those that come the other way beside it could block its own way on, and
-// none of them can turn back.
+// way is free again, as behind this AGV. But those that are about to go on the other way could block its own way on,
+// and none of them can turn back.
 bool PlaceJudge::is_missed(std::uint32_t station, std::uint32_t lane, bool only_pieces) {
-  if (!map_.two_way(lane)) return runs_against(station, lane) && blocks_while_waiting(station, lane);
+  if (!map_.two_way(lane)) return leads_against(station, lane) && blocks_while_waiting(station, lane);
   const std::uint32_t from = map_.lane(lane).from, to = map_.lane(lane).to;
   if (only_pieces && ((sides_[from] & kUnreached) != 0 || (sides_[to] & kDoomed) != 0)) return false;
   if (only_pieces) return (goals_.free_marks[from] & kReached) != 0 && (goals_.free_marks[to] & kReaches) != 0;
   return part_ != FP_NONE && reaches(part_, from) && reaches(to, part_);
 }
 
-// Whether the lane leads the other way than one that ends at the station, from its beginning to its end.
-bool PlaceJudge::runs_against(std::uint32_t station, std::uint32_t lane) const {
+// Whether an AGV on the lane goes on the other way than one that arrives at the station.
+bool PlaceJudge::leads_against(std::uint32_t station, std::uint32_t lane) const {
   return std::ranges::any_of(map_.lanes_to(station), [&](std::uint32_t arriving) {
-    const Vec heading = map_.end_heading(arriving);
-    return std::max(dot(map_.start_heading(lane), heading), dot(map_.end_heading(lane), heading)) < kOpposite;
+    return dot(map_.end_heading(lane), map_.end_heading(arriving)) < kOpposite;
   });
 }
 

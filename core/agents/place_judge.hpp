@@ -23,8 +23,8 @@ struct Goals {
 // Judges a station as a place to stand for long. A standing AGV blocks its station and all lanes that are too near to
 // it. The goals must still reach each other, and two-way lanes between them must not be blocked. A lane that leads into
 // a part without goals, as in front of a bay, may be blocked. A station whose lanes are all one-way is a waiting place
-// too: there the AGV only holds up those behind it. Other one-way lanes may be blocked as well, unless they lead the
-// other way beside it. Requires: map and parts outlive the object.
+// too: there the AGV only holds up those behind it. Other one-way lanes may be blocked as well, unless AGVs go on
+// the other way from there. Requires: map and parts outlive the object.
 class PlaceJudge {
  public:
   PlaceJudge(const MapView& map, const HullParts& parts);
@@ -45,7 +45,7 @@ class PlaceJudge {
   bool cuts_off_pieces_only(std::uint32_t station, std::uint32_t others);
   void cut_off_around(std::uint32_t end);
   bool is_missed(std::uint32_t station, std::uint32_t lane, bool only_pieces);
-  bool runs_against(std::uint32_t station, std::uint32_t lane) const;
+  bool leads_against(std::uint32_t station, std::uint32_t lane) const;
   bool blocks_while_waiting(std::uint32_t station, std::uint32_t lane) const;
   std::uint32_t find_largest_part(std::uint32_t without, std::uint32_t others);
   std::uint32_t goals_connected_with(std::uint32_t station, std::uint32_t others);
