@@ -127,7 +127,6 @@ bool PlaceJudge::cuts_off_pieces_only(std::uint32_t station, std::uint32_t other
   for (const std::uint32_t lane : map_.lanes_to(station)) visit(map_.lane(lane).from);
   for (const std::uint32_t lane : map_.lanes_from(station)) visit(map_.lane(lane).to);
   for (const std::uint32_t lane : without_.blocked()) visit(map_.lane(lane).from), visit(map_.lane(lane).to);
-  if (std::ranges::all_of(seen_, [&](std::uint32_t id) { return (sides_[id] & kCutOff) != 0; })) return false;
   for (std::size_t next = 0; next < pieces_.size(); ++next) {
     for (const std::uint32_t lane : map_.lanes_to(pieces_[next])) visit(map_.lane(lane).from);
     for (const std::uint32_t lane : map_.lanes_from(pieces_[next])) visit(map_.lane(lane).to);
