@@ -1,8 +1,8 @@
 #include "core/base/random.hpp"
 
 #include <Random123/philox.h>
-#ifdef __SSE2__
-#include <emmintrin.h>
+#ifdef __x86_64__
+#include <immintrin.h>
 #endif
 
 #include <algorithm>
@@ -19,27 +19,39 @@ Block philox(std::uint64_t key, const Block& counter) {
   return {out[0], out[1], out[2], out[3]};
 }
 
-#ifdef __SSE2__
+RoundKeys::RoundKeys(std::uint64_t key) : key_(key) {
+  auto key0 = static_cast<std::uint32_t>(key), key1 = static_cast<std::uint32_t>(key >> 32);
+  for (std::size_t i = 0; i < numbers_.size(); i += 8, key0 += PHILOX_W32_0, key1 += PHILOX_W32_1) {
+    std::fill_n(numbers_.begin() + static_cast<std::ptrdiff_t>(i), 4, key0);
+    std::fill_n(numbers_.begin() + static_cast<std::ptrdiff_t>(i + 4), 4, key1);
+  }
+}
+
+// ---- four counters at once: each way gives the same numbers
 
 namespace {
+
+#ifdef __x86_64__
 
 // Two counters: each word of both in the lower halves of two lanes. What the upper halves hold does not matter.
 struct TwoCounters {
   __m128i word0, word1, word2, word3;
 
-  TwoCounters(std::uint64_t first_words, const std::uint64_t* rest)
+  TwoCounters(const std::uint64_t* keys, std::uint64_t first_words, const std::uint64_t* rest)
       : word0(_mm_set1_epi32(static_cast<std::int32_t>(first_words))),
         word1(_mm_set1_epi32(static_cast<std::int32_t>(first_words >> 32))),
         word2(_mm_loadu_si128(reinterpret_cast<const __m128i*>(rest))),
-        word3(_mm_srli_epi64(word2, 32)) {}
-
-  void round(__m128i key0, __m128i key1) {
-    const __m128i product0 = _mm_mul_epu32(word0, _mm_set1_epi64x(PHILOX_M4x32_0));
-    const __m128i product1 = _mm_mul_epu32(word2, _mm_set1_epi64x(PHILOX_M4x32_1));
-    word0 = _mm_xor_si128(_mm_xor_si128(_mm_srli_epi64(product1, 32), word1), key0);
-    word2 = _mm_xor_si128(_mm_xor_si128(_mm_srli_epi64(product0, 32), word3), key1);
-    word1 = product1;
-    word3 = product0;
+        word3(_mm_srli_epi64(word2, 32)) {
+    for (int i = 0; i < PHILOX4x32_DEFAULT_ROUNDS; ++i, keys += 8) {
+      const __m128i product0 = _mm_mul_epu32(word0, _mm_set1_epi64x(PHILOX_M4x32_0));
+      const __m128i product1 = _mm_mul_epu32(word2, _mm_set1_epi64x(PHILOX_M4x32_1));
+      const __m128i key0 = _mm_loadu_si128(reinterpret_cast<const __m128i*>(keys)),
+                    key1 = _mm_loadu_si128(reinterpret_cast<const __m128i*>(keys + 4));
+      word0 = _mm_xor_si128(_mm_xor_si128(_mm_srli_epi64(product1, 32), word1), key0);
+      word2 = _mm_xor_si128(_mm_xor_si128(_mm_srli_epi64(product0, 32), word3), key1);
+      word1 = product1;
+      word3 = product0;
+    }
   }
 
   void store(Block& first, Block& second) const {
@@ -50,34 +62,61 @@ struct TwoCounters {
   }
 };
 
-}  // namespace
-
-void philox_of_four(std::uint64_t key, std::uint64_t first_words, const std::uint64_t* rest, Block* blocks) {
-  TwoCounters one(first_words, rest), other(first_words, rest + 2);
-  __m128i key0 = _mm_set1_epi32(static_cast<std::int32_t>(key)),
-          key1 = _mm_set1_epi32(static_cast<std::int32_t>(key >> 32));
-  const __m128i step0 = _mm_set1_epi32(static_cast<std::int32_t>(PHILOX_W32_0)),
-                step1 = _mm_set1_epi32(static_cast<std::int32_t>(PHILOX_W32_1));
-  for (int i = 0; i < PHILOX4x32_DEFAULT_ROUNDS; ++i) {
-    one.round(key0, key1);
-    other.round(key0, key1);
-    key0 = _mm_add_epi32(key0, step0);
-    key1 = _mm_add_epi32(key1, step1);
+// The same for four counters, if the processor can do that.
+[[gnu::target("avx2")]] std::uint32_t four_below_at_once(const std::uint64_t* keys, std::uint64_t first_words,
+                                                         std::uint64_t common, const std::uint64_t* rest,
+                                                         std::uint64_t limit) {
+  __m256i word0 = _mm256_set1_epi32(static_cast<std::int32_t>(first_words)),
+          word1 = _mm256_set1_epi32(static_cast<std::int32_t>(first_words >> 32)),
+          word2 = _mm256_or_si256(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(rest)),
+                                  _mm256_set1_epi64x(static_cast<std::int64_t>(common))),
+          word3 = _mm256_srli_epi64(word2, 32);
+#pragma GCC unroll 10
+  for (int i = 0; i < PHILOX4x32_DEFAULT_ROUNDS; ++i, keys += 8) {
+    const __m256i product0 = _mm256_mul_epu32(word0, _mm256_set1_epi64x(PHILOX_M4x32_0));
+    const __m256i product1 = _mm256_mul_epu32(word2, _mm256_set1_epi64x(PHILOX_M4x32_1));
+    const __m256i key0 = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(keys)),
+                  key1 = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(keys + 4));
+    word0 = _mm256_xor_si256(_mm256_xor_si256(_mm256_srli_epi64(product1, 32), word1), key0);
+    word2 = _mm256_xor_si256(_mm256_xor_si256(_mm256_srli_epi64(product0, 32), word3), key1);
+    word1 = product1;
+    word3 = product0;
   }
-  one.store(blocks[0], blocks[1]);
-  other.store(blocks[2], blocks[3]);
-}
-
-#else
-
-void philox_of_four(std::uint64_t key, std::uint64_t first_words, const std::uint64_t* rest, Block* blocks) {
-  for (int i = 0; i < 4; ++i) {
-    blocks[i] = philox(key, {static_cast<std::uint32_t>(first_words), static_cast<std::uint32_t>(first_words >> 32),
-                             static_cast<std::uint32_t>(rest[i]), static_cast<std::uint32_t>(rest[i] >> 32)});
-  }
+  const __m256i bits = _mm256_blend_epi32(word0, _mm256_slli_epi64(word1, 32), 0b10101010);
+  const __m256i below =
+      _mm256_cmpgt_epi64(_mm256_set1_epi64x(static_cast<std::int64_t>(limit)), _mm256_srli_epi64(bits, 11));
+  return static_cast<std::uint32_t>(_mm256_movemask_pd(_mm256_castsi256_pd(below)));
 }
 
 #endif
+
+}  // namespace
+
+void philox_of_four(const RoundKeys& keys, std::uint64_t first_words, const std::uint64_t* rest, Block* blocks) {
+#ifdef __x86_64__
+  TwoCounters(keys.numbers(), first_words, rest).store(blocks[0], blocks[1]);
+  TwoCounters(keys.numbers(), first_words, rest + 2).store(blocks[2], blocks[3]);
+#else
+  for (int i = 0; i < 4; ++i) {
+    blocks[i] =
+        philox(keys.key(), {static_cast<std::uint32_t>(first_words), static_cast<std::uint32_t>(first_words >> 32),
+                            static_cast<std::uint32_t>(rest[i]), static_cast<std::uint32_t>(rest[i] >> 32)});
+  }
+#endif
+}
+
+std::uint32_t philox_of_four_below(const RoundKeys& keys, std::uint64_t first_words, std::uint64_t common,
+                                   const std::uint64_t* rest, std::uint64_t limit) {
+#ifdef __x86_64__
+  if (__builtin_cpu_supports("avx2")) return four_below_at_once(keys.numbers(), first_words, common, rest, limit);
+#endif
+  const std::array<std::uint64_t, 4> whole = {rest[0] | common, rest[1] | common, rest[2] | common, rest[3] | common};
+  std::array<Block, 4> blocks;
+  philox_of_four(keys, first_words, whole.data(), blocks.data());
+  std::uint32_t below = 0;
+  for (std::size_t i = 0; i < blocks.size(); ++i) below |= (word64(blocks[i], 0) >> 11 < limit ? 1U : 0U) << i;
+  return below;
+}
 
 namespace {
 

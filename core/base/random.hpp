@@ -40,9 +40,25 @@ struct StreamSeed {
 // Four 32-bit words, a pure function of key and counter (Philox4x32-10, Salmon et al. 2011).
 using Block = std::array<std::uint32_t, 4>;
 Block philox(std::uint64_t key, const Block& counter);
+// What a key adds in each round, for `philox_of_four`: work out once what serves many draws.
+class RoundKeys {
+ public:
+  explicit RoundKeys(std::uint64_t key);
+  std::uint64_t key() const { return key_; }
+  // Two numbers for each of ten rounds, each of them four times, in the lower halves of 64 bits.
+  const std::uint64_t* numbers() const { return numbers_.data(); }
+
+ private:
+  std::uint64_t key_;
+  std::array<std::uint64_t, 80> numbers_;
+};
 // The blocks of four counters that agree in their first two words; `rest`: their third word, and the fourth times 2^32.
 // It costs less than half of four single blocks.
-void philox_of_four(std::uint64_t key, std::uint64_t first_words, const std::uint64_t* rest, Block* blocks);
+void philox_of_four(const RoundKeys& keys, std::uint64_t first_words, const std::uint64_t* rest, Block* blocks);
+// The blocks of four such counters, whose last words have the bits of `common` set as well. Only one thing is asked of
+// them: bit i says whether unit_interval(word64(block i, 0)) is below `limit` times 2^-53.
+std::uint32_t philox_of_four_below(const RoundKeys& keys, std::uint64_t first_words, std::uint64_t common,
+                                   const std::uint64_t* rest, std::uint64_t limit);
 
 // The seed of a world: the same for every agent and every radio quality of a replicate (common random numbers).
 // `world_factors` is a hash of what shapes the world (layout, fleet), never of agent or radio.

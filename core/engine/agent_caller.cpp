@@ -12,7 +12,8 @@ AgentCaller::AgentCaller(const fp_agent_type& type, const RunWatch& watch)
       counter_(watch),
       tape_(watch.play.empty() ? watch.record : nullptr),
       host_(tape_ != nullptr ? &kRecordingHost : &kHost),
-      is_plain_(watch.record == nullptr && watch.play.empty()) {
+      is_plain_(watch.record == nullptr && watch.play.empty()),
+      is_watched_(!is_plain_ || watch.note != nullptr || !watch.known_ends.empty()) {
   if (!watch.play.empty()) player_.emplace(watch.play);
 }
 
@@ -22,6 +23,11 @@ const AgentFailure* AgentCaller::start(const AgentCall& call, void*& agent) {
 
 const AgentFailure* AgentCaller::destroy(const AgentCall& call, void* agent) {
   return make_otherwise(call, counter_.next(call.agv, call.kind(), call.at), agent);
+}
+
+[[gnu::noinline]] const AgentFailure* AgentCaller::tell_watched(const AgentCall& call, void* agent) {
+  const KnownEnd* known = counter_.next(call.agv, call.kind(), call.at);
+  return known != nullptr || !is_plain_ ? make_otherwise(call, known, agent) : hear(*call.event, agent);
 }
 
 [[gnu::noinline]] const AgentFailure* AgentCaller::make_otherwise(const AgentCall& call, const KnownEnd* known,
@@ -49,7 +55,7 @@ const AgentFailure* AgentCaller::record(const AgentCall& call, const KnownEnd* k
 
 const AgentFailure* AgentCaller::reach(const AgentCall& call, void*& agent) {
   if (call.is_start()) return create_and_start(call, agent);
-  if (call.event != nullptr) return hear(call, agent);
+  if (call.event != nullptr) return hear(*call.event, agent);
   try {
     type_.destroy(agent);
     return nullptr;
@@ -63,7 +69,7 @@ const AgentFailure* AgentCaller::create_and_start(const AgentCall& call, void*& 
     return failure;
   if (agent == nullptr) return failed(false, "create() returned null");
   if (tape_ != nullptr) tape_->agent_created();
-  return hear(call, agent);
+  return hear(*call.event, agent);
 }
 
 // An agent may throw a text of any length. What is filed are its first 200 characters, which are at most 800 bytes.

@@ -22,19 +22,18 @@ class AgentCaller {
   // Each of these makes one call. Null: it has returned. Else how it failed, valid until the next call. They throw
   // EngineError if the tape holds another call. `start` puts the agent into `agent` as soon as it exists.
   const AgentFailure* start(const AgentCall& call, void*& agent);
-  const AgentFailure* tell(const AgentCall& call, void* agent) {
-    const KnownEnd* known = counter_.next(call.agv, call.kind(), call.at);
-    if (known != nullptr || !is_plain_) [[unlikely]]
-      return make_otherwise(call, known, agent);
-    return hear(call, agent);
+  const AgentFailure* tell(AgvId agv, SimTime at, const fp_event& event, fp_controller* controller, void* agent) {
+    if (!is_watched_) [[likely]]
+      return hear(event, agent);
+    return tell_watched({agv, at, &event, controller}, agent);
   }
   const AgentFailure* destroy(const AgentCall& call, void* agent);
   // At the end of the run. Throws EngineError if the tape holds more calls.
   void finish() const;
 
  private:
-  const AgentFailure* hear(const AgentCall& call, void* agent) {
-    return guarded([&] { type_.on_event(agent, call.event); });
+  const AgentFailure* hear(const fp_event& event, void* agent) {
+    return guarded([&] { type_.on_event(agent, &event); });
   }
   // Calls a function of the agent, which may throw.
   template <class Function>
@@ -50,6 +49,7 @@ class AgentCaller {
       return failed(false, "unknown exception");
     }
   }
+  const AgentFailure* tell_watched(const AgentCall& call, void* agent);
   const AgentFailure* make_otherwise(const AgentCall& call, const KnownEnd* known, void*& agent);
   const AgentFailure* record(const AgentCall& call, const KnownEnd* known, void*& agent);
   const AgentFailure* reach(const AgentCall& call, void*& agent);
@@ -62,6 +62,7 @@ class AgentCaller {
   const fp_host* host_;  // what agents are given
   std::optional<TapePlayer> player_;
   bool is_plain_;         // no tape
+  bool is_watched_;       // there is a tape, a note of the last call, or a call that must not be made
   AgentFailure failure_;  // the last one
 };
 

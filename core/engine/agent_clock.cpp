@@ -1,7 +1,5 @@
 #include "core/engine/agent_clock.hpp"
 
-#include <algorithm>
-
 namespace fleetproof {
 namespace {
 
@@ -14,15 +12,12 @@ AgentClock::AgentClock(const SensingSetup& setup)
       drift_ppb_(static_cast<std::int64_t>(std::nearbyint(setup.clock_drift_ppm * 1000.0))) {}
 
 // Whole seconds and the rest are multiplied separately, so that no product exceeds 64 bits.
-std::int64_t AgentClock::shows_ns(SimTime t) const {
+std::int64_t AgentClock::shows_with_drift_ns(SimTime t) const {
   const std::int64_t ns = to_ns(t);
-  if (drift_ppb_ == 0) return ns + offset_ns_;
   return ns + offset_ns_ + ns / kBillion * drift_ppb_ + ns % kBillion * drift_ppb_ / kBillion;
 }
 
-SimTime AgentClock::when_it_shows(std::int64_t ns) const {
-  ns = std::min(ns, kLongestDuration.count());  // an agent may ask for the end of time
-  if (drift_ppb_ == 0) return at_ns(std::max<std::int64_t>(0, ns - offset_ns_));
+SimTime AgentClock::when_it_shows_with_drift(std::int64_t ns) const {
   // By the inverse of the drift, and then around it until the instant lies between.
   const std::int64_t guess = ns - offset_ns_ - (shows_ns(at_ns(ns - offset_ns_)) - ns);
   const auto within = [](std::int64_t instant_ns) {

@@ -28,7 +28,9 @@ AgentHost::AgentHost(RunContext& run, const Ports& ports, const fp_agent_type& t
       caller_(type, watch),
       activations_max_(kActivationsPerRun +
                        kActivationsPerSecond * static_cast<std::uint64_t>(to_seconds(run.scenario.horizon))),
-      slices_(run.agvs.size()) {}
+      slices_(run.agvs.size()) {
+  for (std::size_t i = 0; i < slices_.size(); ++i) slices_[i].controller = ports_.controller.handle_of(AgvId{i});
+}
 
 AgentHost::~AgentHost() {
   if (!caller_.plays()) close();  // a played run has no agents
@@ -42,15 +44,17 @@ void AgentHost::close() {
 // ---- activations
 
 // An event costs little more than the calls on its way, so they are inlined.
-[[gnu::flatten, gnu::noinline]] void AgentHost::tell(AgvId agv, const fp_event& event) {
+[[gnu::flatten, gnu::noinline]] void AgentHost::tell(AgvId agv, fp_event&& event) {
   Slice& slice = slices_[agv.index()];
-  if (slice.failed || slice.away > 0) return;
-  if (slice.in_activation || run_.now < slice.free_at || !slice.waiting_events.empty()) {
-    slice.waiting_events.push_back(event);
-    if (!slice.in_activation) wake(agv, slice);
-    return;
-  }
+  if (slice.away > 0) return;
+  if (slice.controller->in_activation || run_.now < slice.free_at || !slice.waiting_events.empty()) [[unlikely]]
+    return keep(agv, slice, event);
   activate(agv, slice, event);
+}
+
+[[gnu::noinline]] void AgentHost::keep(AgvId agv, Slice& slice, const fp_event& event) {
+  slice.waiting_events.push_back(event);
+  if (!slice.controller->in_activation) wake(agv, slice);
 }
 
 [[gnu::noinline]] void AgentHost::wake(AgvId agv, Slice& slice) {
@@ -64,7 +68,7 @@ void AgentHost::becomes_free(AgvId agv) {
   slice.wake_scheduled = false;
   if (slice.failed || slice.waiting_events.empty()) return;
   if (run_.now < slice.free_at) return wake(agv, slice);  // frozen since
-  const fp_event event = slice.waiting_events.front();
+  fp_event event = slice.waiting_events.front();
   slice.waiting_events.pop_front();
   if (event.kind == FP_EVENT_ORDER && is_over(TransportId{event.order_id})) return wake(agv, slice);  // done meanwhile
   activate(agv, slice, event);
@@ -75,19 +79,19 @@ void AgentHost::freeze_until(AgvId agv, SimTime until) {
   slice.free_at = std::max(slice.free_at, until);
 }
 
-void AgentHost::activate(AgvId agv, Slice& slice, const fp_event& what) {
+void AgentHost::activate(AgvId agv, Slice& slice, fp_event& event) {
   if (const char* limit = broken_limit(slice)) return give_up(agv, true, limit);
   ++run_.counters.activations;
-  fp_event event = what;
   event.struct_size = sizeof(fp_event);
   event.now_ns = ports_.timers.now_ns(agv);
-  slice.in_activation = true;
-  ports_.controller.begin_activation(agv);
-  if (const AgentFailure* failure = call_agent(agv, slice, event)) give_up(agv, failure->hang, failure->message);
-  const ActivationUse use = ports_.controller.end_activation(agv);
-  slice.in_activation = false;
+  ports_.controller.begin_activation(*slice.controller);
+  const AgentFailure* failure = event.kind == FP_EVENT_START
+                                    ? start_agent(agv, event)
+                                    : caller_.tell(agv, run_.now, event, slice.controller, slice.agent);
+  if (failure != nullptr) give_up(agv, failure->hang, failure->message);
+  const ActivationUse use = ports_.controller.end_activation(*slice.controller);
   if (use.broken_limit != nullptr) give_up(agv, true, use.broken_limit);
-  slice.free_at = std::max(slice.free_at, run_.now + use.cost);
+  if (use.cost > Duration::zero()) slice.free_at = std::max(slice.free_at, run_.now + use.cost);
   if (event.kind == FP_EVENT_START && slice.boot > 0) tell_open_orders(agv);
   if (!slice.waiting_events.empty()) wake(agv, slice);
 }
@@ -101,11 +105,6 @@ const char* AgentHost::broken_limit(Slice& slice) const {
   return nullptr;
 }
 
-const AgentFailure* AgentHost::call_agent(AgvId agv, Slice& slice, const fp_event& event) {
-  if (event.kind == FP_EVENT_START) return start_agent(agv, event);
-  return caller_.tell({agv, run_.now, &event, slice.controller}, slice.agent);
-}
-
 [[gnu::noinline]] const AgentFailure* AgentHost::start_agent(AgvId agv, const fp_event& event) {
   Slice& slice = slices_[agv.index()];
   if (slice.boot > 0) {
@@ -114,7 +113,6 @@ const AgentFailure* AgentHost::call_agent(AgvId agv, Slice& slice, const fp_even
     // briefing: they were none of its own.
     std::erase_if(slice.waiting_events, [](const fp_event& waiting) { return waiting.kind == FP_EVENT_ACTION_DONE; });
   }
-  slice.controller = ports_.controller.handle_of(agv);
   return caller_.start({agv, run_.now, &event, slice.controller, &briefings_.of(agv)}, slice.agent);
 }
 
@@ -132,6 +130,7 @@ bool AgentHost::file_failure(AgvId agv, bool hang, std::string_view message) {
   Slice& slice = slices_[agv.index()];
   if (slice.failed) return false;
   slice.failed = true;
+  ++slice.away;  // for good
   slice.waiting_events.clear();
   (hang ? hang_ : crash_) = true;
   if (message_.empty()) message_ = "agent of " + run_.setup(agv).name + ": " + printable(message, kLongestMessage);
@@ -149,7 +148,7 @@ void AgentHost::file_failures(Outcome& outcome) const {
 void AgentHost::start(AgvId agv) {
   fp_event event{};
   event.kind = FP_EVENT_START;
-  tell(agv, event);
+  tell(agv, std::move(event));
 }
 
 void AgentHost::order_released(AgvId agv, std::uint64_t own_number) {
@@ -168,7 +167,7 @@ void AgentHost::tell_order(AgvId agv, TransportId transport, StationId from, Sta
   event.order_id = transport.value;
   event.from = from.value;
   event.to = to.value;
-  tell(agv, event);
+  tell(agv, std::move(event));
 }
 
 // ---- restarts

@@ -31,8 +31,8 @@ class AgentHost {
   AgentHost& operator=(const AgentHost&) = delete;
 
   // Wakes the agent with this event, at once if it is free, else as soon as it is. An agent that is not up never sees
-  // the event.
-  void tell(AgvId agv, const fp_event& event);
+  // the event. Size and time of the event are filled in here.
+  void tell(AgvId agv, fp_event&& event);
   void start(AgvId agv);
   // `own_number`: of the transport among those of this AGV.
   void order_released(AgvId agv, std::uint64_t own_number);
@@ -40,7 +40,7 @@ class AgentHost {
   void becomes_free(AgvId agv);
 
   // It has neither failed nor is its computer down.
-  bool is_up(AgvId agv) const { return !slices_[agv.index()].failed && slices_[agv.index()].away == 0; }
+  bool is_up(AgvId agv) const { return slices_[agv.index()].away == 0; }
   bool has_events_waiting(AgvId agv) const { return !slices_[agv.index()].waiting_events.empty(); }
   void freeze_until(AgvId agv, SimTime until);
   // The computer goes down: what the agent knew, was told and was about to do is lost. Actions that have taken effect
@@ -56,11 +56,10 @@ class AgentHost {
  private:
   struct Slice {
     void* agent = nullptr;
-    fp_controller* controller = nullptr;  // since the first start
+    fp_controller* controller = nullptr;
     bool failed = false;
-    bool in_activation = false;
     bool wake_scheduled = false;
-    std::uint32_t away = 0;  // for so many reasons
+    std::uint32_t away = 0;  // for so many reasons, one of which is that it has failed
     std::uint32_t boot = 0;
     SimTime free_at = kStart;
     SimTime last_activation = SimTime::min();
@@ -68,10 +67,10 @@ class AgentHost {
     std::uint64_t activations = 0;        // in this run
     std::deque<fp_event> waiting_events;  // arrived while the agent was busy
   };
+  void keep(AgvId agv, Slice& slice, const fp_event& event);
   void wake(AgvId agv, Slice& slice);
-  void activate(AgvId agv, Slice& slice, const fp_event& event);
+  void activate(AgvId agv, Slice& slice, fp_event& event);
   const char* broken_limit(Slice& slice) const;
-  const AgentFailure* call_agent(AgvId agv, Slice& slice, const fp_event& event);
   const AgentFailure* start_agent(AgvId agv, const fp_event& event);
   void give_up(AgvId agv, bool hang, std::string_view message);
   bool file_failure(AgvId agv, bool hang, std::string_view message);

@@ -24,28 +24,25 @@ AgvController::AgvController(RunContext& run, const Ports& ports)
       call_cost_(seconds(run.scenario.agent_clock.call_cost_s)),
       random_key_(stream_key(run.scenario.seed_of(Stream::Agent), Stream::Agent)),
       slices_(run.agvs.size()) {
-  for (std::size_t i = 0; i < slices_.size(); ++i) slices_[i].handle = {this, AgvId{i}};
+  for (std::size_t i = 0; i < slices_.size(); ++i) slices_[i].handle = {.part = this, .agv = AgvId{i}};
 }
 
 // ---- activations
 
-void AgvController::begin_activation(AgvId agv) {
-  Slice& slice = slices_[agv.index()];
-  slice.in_activation = true;
-  slice.calls = slice.services = 0;
-  slice.cost = Duration::zero();
+void AgvController::begin_activation(fp_controller& handle) {
+  handle.in_activation = true;
+  handle.calls = handle.services = 0;
+  handle.cost = Duration::zero();
 }
 
-ActivationUse AgvController::end_activation(AgvId agv) {
-  Slice& slice = slices_[agv.index()];
-  ports_.messenger.put_down(agv);
-  if (run_.hears_notes()) ports_.declarations.end_activation(agv);
-  slice.in_activation = false;
-  run_.counters.agent_calls += slice.calls + slice.services;
-  const char* limit = slice.calls > kCallsMax         ? "10 000 controller calls in one activation"
-                      : slice.services > kServicesMax ? "ten million calls of random and now_ns in one activation"
-                                                      : nullptr;
-  return {.cost = slice.cost, .broken_limit = limit};
+ActivationUse AgvController::end_activation(fp_controller& handle) {
+  if (run_.hears_notes()) ports_.declarations.end_activation(handle.agv);
+  handle.in_activation = false;
+  run_.counters.agent_calls += handle.calls + handle.services;
+  const char* limit = handle.calls > kCallsMax         ? "10 000 controller calls in one activation"
+                      : handle.services > kServicesMax ? "ten million calls of random and now_ns in one activation"
+                                                       : nullptr;
+  return {.cost = handle.cost, .broken_limit = limit};
 }
 
 void AgvController::forget(AgvId agv) {
@@ -62,49 +59,29 @@ void AgvController::forget(AgvId agv) {
 
 // ---- calls
 
-bool AgvController::admit(AgvId agv) {
-  Slice& slice = slices_[agv.index()];
+bool AgvController::admit(fp_controller& handle) {
   // A call from outside an activation (another thread, a stored pointer) has no instant at which it could act.
-  if (!slice.in_activation || ++slice.calls > kCallsMax) return false;
-  slice.cost += call_cost_;
+  if (!handle.in_activation || ++handle.calls > kCallsMax) return false;
+  handle.cost += call_cost_;
   return true;
 }
 
-bool AgvController::admit_service(AgvId agv) {
-  Slice& slice = slices_[agv.index()];
-  if (!slice.in_activation || ++slice.services > kServicesMax) return false;
-  slice.cost += call_cost_;
+bool AgvController::admit_service(fp_controller& handle) {
+  if (!handle.in_activation || ++handle.services > kServicesMax) return false;
+  handle.cost += call_cost_;
   return true;
 }
 
 void AgvController::admit_services(AgvId agv, std::uint64_t count) {
-  Slice& slice = slices_[agv.index()];
-  const std::uint64_t left = kServicesMax - std::min<std::uint64_t>(kServicesMax, slice.services);
-  slice.cost += call_cost_ * static_cast<std::int64_t>(std::min(count, left));
-  add(count, slice.services);
+  fp_controller& handle = slices_[agv.index()].handle;
+  const std::uint64_t left = kServicesMax - std::min<std::uint64_t>(kServicesMax, handle.services);
+  handle.cost += call_cost_ * static_cast<std::int64_t>(std::min(count, left));
+  add(count, handle.services);
 }
 
-void AgvController::refuse(AgvId agv, std::uint64_t count) { add(count, slices_[agv.index()].calls); }
+void AgvController::refuse(AgvId agv, std::uint64_t count) { add(count, slices_[agv.index()].handle.calls); }
 
-std::int32_t AgvController::take_effect(AgvId agv, const PendingCall& call) {
-  Slice& slice = slices_[agv.index()];
-  if (slice.cost == Duration::zero()) {
-    carry_out(agv, call);
-  } else {
-    slice.pending.push_back(call);
-    run_.queue.push(run_.now + slice.cost, agv, Event::Kind::CallTakesEffect);
-  }
-  return FP_OK;
-}
-
-void AgvController::call_takes_effect(AgvId agv) {
-  auto& pending = slices_[agv.index()].pending;
-  const PendingCall call = pending.front();
-  pending.pop_front();
-  carry_out(agv, call);
-}
-
-void AgvController::carry_out(AgvId agv, const PendingCall& call) {
+inline void AgvController::carry_out(AgvId agv, const PendingCall& call) {
   switch (call.kind) {
     case PendingCall::Kind::Action:
       return ports_.actions.begin(agv, static_cast<fp_call>(call.what), call.segment, call.load);
@@ -121,6 +98,28 @@ void AgvController::carry_out(AgvId agv, const PendingCall& call) {
     case PendingCall::Kind::Nothing:
       return;
   }
+}
+
+inline std::int32_t AgvController::take_effect(AgvId agv, const PendingCall& call) {
+  Slice& slice = slices_[agv.index()];
+  if (slice.handle.cost == Duration::zero()) [[likely]] {
+    carry_out(agv, call);
+  } else {
+    slice.put_off(run_, PendingCall(call));  // a copy, so that a call that is carried out need not be in memory
+  }
+  return FP_OK;
+}
+
+[[gnu::noinline]] void AgvController::Slice::put_off(RunContext& run, const PendingCall& call) {
+  pending.push_back(call);
+  run.queue.push(run.now + handle.cost, handle.agv, Event::Kind::CallTakesEffect);
+}
+
+void AgvController::call_takes_effect(AgvId agv) {
+  auto& pending = slices_[agv.index()].pending;
+  const PendingCall call = pending.front();
+  pending.pop_front();
+  carry_out(agv, call);
 }
 
 std::int32_t AgvController::act(AgvId agv, fp_call call, std::uint32_t segment, LoadId load) {
@@ -180,7 +179,7 @@ std::int32_t AgvController::declare_waiting(AgvId agv, std::uint32_t other) {
 
 std::int32_t AgvController::declare_cost(AgvId agv, std::int64_t cost_ns) {
   if (cost_ns < 0 || cost_ns > kDeclaredCostMax_ns) return FP_INVALID;
-  slices_[agv.index()].cost += Duration{cost_ns};
+  slices_[agv.index()].handle.cost += Duration{cost_ns};
   return FP_OK;
 }
 

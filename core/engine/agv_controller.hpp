@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <string_view>
 #include <vector>
@@ -12,11 +13,14 @@ class AgvController;
 class CallTape;
 }  // namespace fleetproof
 
-// The handle that an agent holds: which AGV of which run.
+// The handle that an agent holds: which AGV of which run, and what the activation under way has used so far.
 struct fp_controller {
   fleetproof::AgvController* part = nullptr;
   fleetproof::AgvId agv;
-  fleetproof::CallTape* tape = nullptr;  // takes the calls of the activation under way; null: nobody records them
+  bool in_activation = false;
+  fleetproof::CallTape* tape = nullptr;   // takes the calls of the activation; null: nobody records them
+  fleetproof::Duration cost{};            // of its calls
+  std::uint64_t calls = 0, services = 0;  // so many
 };
 
 namespace fleetproof {
@@ -39,8 +43,8 @@ class AgvController {
 
   fp_controller* handle_of(AgvId agv) { return &slices_[agv.index()].handle; }
   // Calls are admitted between these two only.
-  void begin_activation(AgvId agv);
-  ActivationUse end_activation(AgvId agv);
+  void begin_activation(fp_controller& handle);
+  ActivationUse end_activation(fp_controller& handle);
   // The AGV's computer goes down: pending calls, timers, inbox and declarations are lost.
   void forget(AgvId agv);
   // The event. Pending calls take effect in the order in which they were made.
@@ -48,12 +52,12 @@ class AgvController {
 
   // ---- calls
   // Counts the call and its cost. False: the call is not carried out.
-  bool admit(AgvId agv);
+  bool admit(fp_controller& handle);
   // Likewise for `random` and `now_ns`, which have a limit of their own: they neither act nor perceive.
-  bool admit_service(AgvId agv);
+  bool admit_service(fp_controller& handle);
   // Likewise for notes, which do not count as calls. False if nobody hears them.
   bool admit_note(AgvId agv) {
-    return run_.hears_notes() && slices_[agv.index()].in_activation && ports_.declarations.admits_note(agv);
+    return run_.hears_notes() && slices_[agv.index()].handle.in_activation && ports_.declarations.admits_note(agv);
   }
   // So many calls of `admit_service`, and of `admit` when its limit is reached, in one.
   void admit_services(AgvId agv, std::uint64_t count);
@@ -85,14 +89,12 @@ class AgvController {
   };
   struct Slice {
     fp_controller handle;
-    bool in_activation = false;
-    Duration cost{};                        // of the calls of this activation
-    std::uint64_t calls = 0, services = 0;  // in this activation
     std::deque<PendingCall> pending;
+    void put_off(RunContext& run, const PendingCall& call);
   };
   // Carries the call out now, or later if the calls before it have cost time.
-  std::int32_t take_effect(AgvId agv, const PendingCall& call);
-  void carry_out(AgvId agv, const PendingCall& call);
+  [[gnu::always_inline]] std::int32_t take_effect(AgvId agv, const PendingCall& call);
+  [[gnu::always_inline]] void carry_out(AgvId agv, const PendingCall& call);
   void apply_stop(AgvId agv, bool on);
 
   RunContext& run_;

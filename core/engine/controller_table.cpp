@@ -9,9 +9,8 @@ namespace {
 template <class Call>
 std::int32_t admitted(fp_controller* controller, Call call) {
   AgvController& part = *controller->part;
-  const AgvId agv = controller->agv;
-  if (!part.admit(agv)) return FP_SUSPENDED;
-  return call(part, agv);
+  if (!part.admit(*controller)) return FP_SUSPENDED;
+  return call(part, controller->agv);
 }
 
 template <fp_call kCall>
@@ -91,7 +90,7 @@ std::int32_t get_action(fp_controller* controller, std::uint32_t* out) {
 // These two functions cannot refuse a call. They are counted, so that an agent that never stops calling them is
 // noticed.
 std::int64_t now_ns(fp_controller* controller) {
-  (void)controller->part->admit_service(controller->agv);
+  (void)controller->part->admit_service(*controller);
   return controller->part->ports().timers.now_ns(controller->agv);
 }
 
@@ -100,7 +99,7 @@ std::int32_t set_timer(fp_controller* controller, std::uint32_t timer, std::int6
 }
 
 std::uint64_t random_bits(fp_controller* controller, std::uint32_t purpose, std::uint64_t index) {
-  (void)controller->part->admit_service(controller->agv);
+  (void)controller->part->admit_service(*controller);
   return controller->part->random(controller->agv, purpose, index);
 }
 

@@ -16,17 +16,32 @@ void Engine::run() {
   start();
   const SimTime end = kStart + run_.scenario.horizon;
   Event event;
-  while (run_.queue.pop_until(end, event)) {
-    if (abandon_ != nullptr && abandon_->load(std::memory_order_relaxed)) throw RunAbandoned();
-    ensure(event.at >= run_.now, "time goes forward");
-    run_.now = event.at;
-    handle(event);
+  while (true) {
+    if (run_.queue.arrival_comes_first()) {
+      const auto& [at, order, payload] = run_.queue.first_arrival();
+      if (at > end) break;
+      goes_on_until(at);
+      const AgvId receiver = run_.queue.first_arrival().receiver();
+      const std::uint32_t of_message = payload;
+      run_.queue.drop_arrival();
+      parts_.messenger.arrives(receiver, of_message);
+    } else {
+      if (!run_.queue.pop_filed_until(end, event)) break;
+      goes_on_until(event.at);
+      handle(event);
+    }
   }
   run_.now = end;
   parts_.declarations.close_books();
   parts_.battery.close_books();
   run_.writer.hand_over();
   run_.world.finish(end);
+}
+
+inline void Engine::goes_on_until(SimTime at) {
+  if (abandon_ != nullptr && abandon_->load(std::memory_order_relaxed)) throw RunAbandoned();
+  ensure(at >= run_.now, "time goes forward");
+  run_.now = at;
 }
 
 void Engine::start() {

@@ -22,6 +22,7 @@ class Engine {
 
  private:
   void start();
+  void goes_on_until(SimTime at);
   void handle(const Event& event);
   bool is_stuck() const;
   void file_findings(Outcome& outcome) const;

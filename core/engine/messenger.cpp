@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 namespace fleetproof {
 namespace {
@@ -38,13 +39,13 @@ Messenger::Messenger(RunContext& run, AgentHostPort agents)
       agents_(agents),
       radio_(run.scenario.radio, run.scenario.seed_of(Stream::Radio), run.scenario.fates, run.draw_numbers),
       channel_(run.scenario.radio, run.scenario.seed_of(Stream::Radio), run.draw_numbers),
+      air_time_{0, run.scenario.radio.air_time(0)},
       unlimited_range_(covers(floor_of(*run.scenario.map), run.scenario.radio.range_m)),
       needs_places_(!unlimited_range_ || radio_.depends_on_place()),
       slices_(run.agvs.size()),
-      links_(run.agvs.size()),
-      hearers_(run.agvs.size()),
-      draws_(run.agvs.size() + 3),
-      arriving_(run.agvs.size()) {
+      sent_to_(run.agvs.size()),
+      hearers_(run.agvs.size() + 3),
+      draws_(run.agvs.size() + 3) {
   if (unlimited_range_) return;
   reach_.emplace(run.agvs.size(), run.scenario.radio.range_m, floor_of(*run.scenario.map));
   for (std::size_t i = 0; i < run.agvs.size(); ++i) reach_->piece_begins(run.world.body(AgvId{i}).piece);
@@ -69,36 +70,52 @@ void Messenger::transmit(AgvId sender, std::uint32_t slot, std::uint32_t receive
   run_.trace(sender, traced::Sent{AgvId{receiver}, message.hash, static_cast<std::uint32_t>(size), message.number},
              message.bytes);
   const Vec2 from_m = needs_places_ ? run_.pose_now(sender).position_m : Vec2::Zero();
-  const Duration air_time = run_.scenario.radio.air_time(size);
+  if (size != air_time_.bytes) air_time_ = {size, run_.scenario.radio.air_time(size)};
   const bool contended = run_.scenario.radio.contention.interference;
-  pool_.goes_out(slot, contended ? channel_.contend(sender, run_.now, ordinal, air_time)
-                                 : AirInterval{run_.now, run_.now + air_time});
-  find_hearers(sender, receiver, from_m);
-  radio_.draw(sender, run_.now, {hearers_.data(), hearing_}, draws_.data());
-  if (radio_.is_plain() && !contended && !message.spared && !run_.writer.has_sink()) {
-    deliver_plainly(slot);
+  pool_.goes_out(slot, contended ? channel_.contend(sender, run_.now, ordinal, air_time_.lasts)
+                                 : AirInterval{run_.now, run_.now + air_time_.lasts});
+  if (receiver == FP_NONE && unlimited_range_) {
+    all_hear(sender, ordinal);
   } else {
-    for (std::size_t i = 0; i < hearing_; ++i) deliver(sender, i, slot, from_m);
+    find_hearers(sender, ordinal, receiver, from_m);
+  }
+  const bool by_draws_alone = radio_.is_plain() && !contended && !message.spared && !run_.writer.has_sink();
+  if (by_draws_alone && radio_.only_loses()) {
+    deliver_together(sender, slot);
+  } else {
+    radio_.draw(sender, run_.now, {hearers_.data(), hearing_}, draws_.data());
+    if (by_draws_alone) {
+      deliver_plainly(slot);
+    } else {
+      for (std::size_t i = 0; i < hearing_; ++i) deliver(sender, i, slot, from_m);
+    }
   }
   pool_.release(slot);
 }
 
-// Those in range, in ascending order.
-void Messenger::find_hearers(AgvId sender, std::uint32_t receiver, const Vec2& from_m) {
+// The hearers in ascending order. `ordinal`: of the message among all that its AGV sends at this instant.
+void Messenger::all_hear(AgvId sender, std::uint32_t ordinal) {
+  std::vector<std::uint32_t>& sent = sent_to_[sender.index()];
+  if (sent.empty()) [[unlikely]]
+    sent.resize(slices_.size());
+  if (ordinal == 0) std::ranges::fill(sent, 0);
+  Hearer* hearer = hearers_.data();
+  std::uint32_t* count = sent.data();
+  for (std::uint32_t i = 0; i < sender.value; ++i) *hearer++ = {AgvId{i}, (*count++)++};
+  ++count;
+  for (std::uint32_t i = sender.value + 1; i < sent.size(); ++i) *hearer++ = {AgvId{i}, (*count++)++};
+  hearing_ = sent.size() - 1;
+}
+
+void Messenger::find_hearers(AgvId sender, std::uint32_t ordinal, std::uint32_t receiver, const Vec2& from_m) {
   hearing_ = 0;
-  if (links_[sender.index()].empty()) links_[sender.index()].resize(slices_.size());
-  if (receiver != FP_NONE) {
-    if (unlimited_range_ || is_in_range(AgvId{receiver}, from_m)) {
-      hears(sender, AgvId{receiver});
-    } else {
-      ++run_.counters.out_of_range;
-    }
-  } else if (unlimited_range_) {
-    for (std::size_t i = 0; i < slices_.size(); ++i) {
-      if (AgvId{i} != sender) hears(sender, AgvId{i});
-    }
-  } else {
+  if (ordinal == 0) sent_to_[sender.index()].assign(slices_.size(), 0);
+  if (receiver == FP_NONE) {
     find_hearers_in_range(sender, from_m);
+  } else if (unlimited_range_ || is_in_range(AgvId{receiver}, from_m)) {
+    hears(AgvId{receiver}, sent_to_[sender.index()]);
+  } else {
+    ++run_.counters.out_of_range;
   }
 }
 
@@ -109,7 +126,7 @@ void Messenger::find_hearers_in_range(AgvId sender, const Vec2& from_m) {
   });
   for (std::size_t word = 0; word < in_range_.size(); ++word) {
     for (std::uint64_t& bits = in_range_[word]; bits != 0; bits &= bits - 1)
-      hears(sender, AgvId{kBits * word + static_cast<std::size_t>(std::countr_zero(bits))});
+      hears(AgvId{kBits * word + static_cast<std::size_t>(std::countr_zero(bits))}, sent_to_[sender.index()]);
   }
   run_.counters.out_of_range += slices_.size() - 1 - hearing_;
 }
@@ -118,29 +135,49 @@ bool Messenger::is_in_range(AgvId receiver, const Vec2& from_m) const {
   return (run_.pose_now(receiver).position_m - from_m).norm() <= run_.scenario.radio.range_m;
 }
 
-// As deliver() for each hearer, if nothing but its draws decides its fate, and nobody notes it.
-void Messenger::deliver_plainly(std::uint32_t slot) {
-  Counters& counters = run_.counters;
+// As deliver() for each hearer, if nothing but its draws decides its fate, nobody notes it, and all are equally late.
+void Messenger::deliver_together(AgvId sender, std::uint32_t slot) {
   const Message& message = pool_[slot];
-  const SimTime on_air_until = message.on_air.end;
-  const bool alike = radio_.delays_alike();
-  SimTime arrival = alike ? std::max(run_.now + radio_.delay({}), on_air_until) : kStart;
-  std::uint32_t arrives = 0;
+  const SimTime arrival = std::max(run_.now + radio_.delay({}), message.on_air.end);
+  EventQueue::Arrival* const room = run_.queue.room_in_lane(arrival, hearing_);
+  std::size_t arrives = 0;
+  radio_.decide_losses(sender, run_.now, {hearers_.data(), hearing_}, [&](AgvId receiver, bool is_lost) {
+    if (is_lost) {
+      run_.trace(receiver, traced::Reception{TraceKind::Lost, sender, message.hash, message.number});
+    } else if (room != nullptr) {
+      room[arrives++] = run_.queue.arrival(arrival, receiver, slot);
+    } else {
+      run_.queue.push(arrival, receiver, Event::Kind::MessageArrives, slot);
+      ++arrives;
+    }
+  });
+  if (room != nullptr) run_.queue.stand_in_lane(arrives);
+  run_.counters.delay_sum_ns += hearing_ * static_cast<std::uint64_t>((arrival - run_.now).count());
+  count_receptions(slot, arrives);
+}
+
+// Likewise, but each has a delay of its own.
+void Messenger::deliver_plainly(std::uint32_t slot) {
+  const Message& message = pool_[slot];
+  std::size_t arrives = 0;
   for (std::size_t i = 0; i < hearing_; ++i) {
-    if (!alike) arrival = std::max(run_.now + radio_.delay(draws_[i]), on_air_until);
-    counters.delay_sum_ns += static_cast<std::uint64_t>((arrival - run_.now).count());
+    const SimTime arrival = std::max(run_.now + radio_.delay(draws_[i]), message.on_air.end);
+    run_.counters.delay_sum_ns += static_cast<std::uint64_t>((arrival - run_.now).count());
     const AgvId receiver = hearers_[i].receiver;
     if (radio_.loses(draws_[i])) {
       run_.trace(receiver, traced::Reception{TraceKind::Lost, message.sender, message.hash, message.number});
-      continue;
+    } else {
+      run_.queue.push_arrivals(arrival, {&receiver, 1}, slot);
+      ++arrives;
     }
-    arriving_[arrives++] = receiver;
-    if (!alike) run_.queue.push_arrivals(arrival, {&receiver, 1}, slot);
   }
-  if (alike) run_.queue.push_arrivals(arrival, {arriving_.data(), arrives}, slot);
-  counters.receptions += hearing_;
-  counters.receptions_lost += hearing_ - arrives;
-  pool_.hold(slot, arrives);
+  count_receptions(slot, arrives);
+}
+
+void Messenger::count_receptions(std::uint32_t slot, std::size_t arriving) {
+  run_.counters.receptions += hearing_;
+  run_.counters.receptions_lost += hearing_ - arriving;
+  pool_.hold(slot, static_cast<std::uint32_t>(arriving));
 }
 
 void Messenger::deliver(AgvId sender, std::size_t hearer, std::uint32_t slot, const Vec2& from_m) {
@@ -214,24 +251,20 @@ bool Messenger::is_drowned(AgvId receiver, const Message& message) const {
   run_.trace(receiver, traced::Reception{TraceKind::Received, message.sender, message.hash, message.number});
   ++run_.counters.received;
   if (!agents_.is_up(receiver)) return pool_.release(slot);
-  Slice& slice = slice_of(receiver);
-  const bool had_unread = slice.has_unread();
-  slice.inbox.push_back(slot);
+  Inbox& inbox = slice_of(receiver).inbox;
+  const bool had_unread = !inbox.empty();
+  inbox.push(slot);
   if (had_unread && agents_.has_events_waiting(receiver)) return;  // the agent will read its inbox anyway
   fp_event event{};
   event.kind = FP_EVENT_MESSAGE;
-  agents_.tell(receiver, event);
+  agents_.tell(receiver, std::move(event));
 }
 
 bool Messenger::read(AgvId agv, fp_message& out) {
   Slice& slice = slice_of(agv);
   put_down(slice);
-  if (!slice.has_unread()) return false;
-  slice.in_hand = slice.inbox[slice.read++];
-  if (!slice.has_unread()) {
-    slice.inbox.clear();
-    slice.read = 0;
-  }
+  if (slice.inbox.empty()) return false;
+  slice.in_hand = slice.inbox.take();
   const Message& message = pool_[slice.in_hand];
   out.sender = message.sender.value;
   out.size = static_cast<std::uint32_t>(message.bytes.size());
@@ -247,9 +280,9 @@ void Messenger::put_down(Slice& slice) {
 
 void Messenger::forget_inbox(AgvId agv) {
   Slice& slice = slice_of(agv);
-  for (std::size_t i = slice.read; i < slice.inbox.size(); ++i) pool_.release(slice.inbox[i]);
+  put_down(slice);
+  for (const std::uint32_t slot : slice.inbox.unread()) pool_.release(slot);
   slice.inbox.clear();
-  slice.read = 0;
 }
 
 }  // namespace fleetproof

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/engine/inbox.hpp"
 #include "core/engine/ports.hpp"
 #include "core/engine/run_context.hpp"
 #include "core/radio/radio.hpp"
@@ -39,9 +40,8 @@ class Messenger {
   // The event. `payload` is the messenger's own.
   void arrives(AgvId receiver, std::uint64_t payload);
 
-  // The oldest message of the inbox, whose bytes stay valid until `put_down` or the next `read`; false: there is none.
+  // The oldest message of the inbox, whose bytes stay valid until the next `read`; false: there is none.
   bool read(AgvId agv, fp_message& out);
-  void put_down(AgvId agv) { put_down(slice_of(agv)); }
   void forget_inbox(AgvId agv);
 
  private:
@@ -57,21 +57,23 @@ class Messenger {
     }
   };
   struct Slice {
-    std::vector<std::uint32_t> inbox;  // slots, oldest first, from `read` on
-    std::size_t read = 0;
+    Inbox inbox;
     std::uint32_t in_hand = FP_NONE;
     SentCount sent;  // to any receiver
-    bool has_unread() const { return read < inbox.size(); }
   };
   Slice& slice_of(AgvId agv) { return slices_[agv.index()]; }
   void put_down(Slice& slice);
-  void find_hearers(AgvId sender, std::uint32_t receiver, const Vec2& from_m);
+  void all_hear(AgvId sender, std::uint32_t ordinal);
+  void find_hearers(AgvId sender, std::uint32_t ordinal, std::uint32_t receiver, const Vec2& from_m);
   void find_hearers_in_range(AgvId sender, const Vec2& from_m);
   bool is_in_range(AgvId receiver, const Vec2& from_m) const;
-  void hears(AgvId sender, AgvId receiver) {
-    hearers_[hearing_++] = {receiver, links_[sender.index()][receiver.index()].next(run_.now)};
+  // `sent`: the row of the sender.
+  void hears(AgvId receiver, std::vector<std::uint32_t>& sent) {
+    hearers_[hearing_++] = {receiver, sent[receiver.index()]++};
   }
+  void deliver_together(AgvId sender, std::uint32_t slot);
   void deliver_plainly(std::uint32_t slot);
+  void count_receptions(std::uint32_t slot, std::size_t arriving);
   void deliver(AgvId sender, std::size_t hearer, std::uint32_t slot, const Vec2& from_m);
   // For an observer that wants to write the run's fates down.
   void note_fate(AgvId sender, const Hearer& hearer, std::uint32_t slot, const Fate& fate);
@@ -84,18 +86,21 @@ class Messenger {
   Radio radio_;
   RadioChannel channel_;
   MessagePool pool_;
+  struct AirTime {
+    std::size_t bytes;
+    Duration lasts;
+  } air_time_;  // of a message that is as long as the last one
   bool unlimited_range_;
   bool needs_places_;                // the fate of a message depends on where its ends are
   std::optional<RadioReach> reach_;  // if the range is limited
   std::vector<Slice> slices_;        // by AGV
-  // By sender and receiver: of messages from the one to the other. A row is empty until its AGV sends.
-  std::vector<std::vector<SentCount>> links_;
-  // Of the message being sent: who hears it, in order, in the first `hearing_` places; the draws of each; and room for
-  // those at which it arrives.
+  // By sender and receiver: the messages from the one to the other at the last instant of sending. A row is empty until
+  // its AGV sends.
+  std::vector<std::vector<std::uint32_t>> sent_to_;
+  // Of the message being sent: who hears it, in order, in the first `hearing_` places; and the draws of each.
   std::vector<Hearer> hearers_;
   std::size_t hearing_ = 0;
   std::vector<Block> draws_;
-  std::vector<AgvId> arriving_;
   std::vector<std::uint64_t> in_range_;  // of its sender: a bit for each AGV
 };
 

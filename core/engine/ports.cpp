@@ -1,5 +1,7 @@
 #include "core/engine/ports.hpp"
 
+#include <utility>
+
 #include "core/engine/actions.hpp"
 #include "core/engine/activities.hpp"
 #include "core/engine/agent_host.hpp"
@@ -43,7 +45,6 @@ void MessengerPort::transmit(AgvId sender, std::uint32_t slot, std::uint32_t rec
 }
 void MessengerPort::withdraw(std::uint32_t slot) const { part_->withdraw(slot); }
 bool MessengerPort::read(AgvId agv, fp_message& out) const { return part_->read(agv, out); }
-void MessengerPort::put_down(AgvId agv) const { part_->put_down(agv); }
 void MessengerPort::forget_inbox(AgvId agv) const { part_->forget_inbox(agv); }
 
 void ActivitiesPort::begin(AgvId agv, const Activity& activity, std::uint64_t subject) const {
@@ -113,11 +114,11 @@ void DeclarationsPort::end_activation(AgvId agv) const { part_->end_activation(a
 void DeclarationsPort::forget(AgvId agv) const { part_->forget(agv); }
 
 fp_controller* AgvControllerPort::handle_of(AgvId agv) const { return part_->handle_of(agv); }
-void AgvControllerPort::begin_activation(AgvId agv) const { part_->begin_activation(agv); }
-ActivationUse AgvControllerPort::end_activation(AgvId agv) const { return part_->end_activation(agv); }
+void AgvControllerPort::begin_activation(fp_controller& handle) const { part_->begin_activation(handle); }
+ActivationUse AgvControllerPort::end_activation(fp_controller& handle) const { return part_->end_activation(handle); }
 void AgvControllerPort::forget(AgvId agv) const { part_->forget(agv); }
 
-void AgentHostPort::tell(AgvId agv, const fp_event& event) const { part_->tell(agv, event); }
+void AgentHostPort::tell(AgvId agv, fp_event&& event) const { part_->tell(agv, std::move(event)); }
 bool AgentHostPort::is_up(AgvId agv) const { return part_->is_up(agv); }
 bool AgentHostPort::has_events_waiting(AgvId agv) const { return part_->has_events_waiting(agv); }
 void AgentHostPort::freeze_until(AgvId agv, SimTime until) const { part_->freeze_until(agv, until); }

@@ -82,7 +82,6 @@ class MessengerPort {
   void spare(std::uint32_t slot) const;
   void withdraw(std::uint32_t slot) const;
   bool read(AgvId agv, fp_message& out) const;
-  void put_down(AgvId agv) const;
   void forget_inbox(AgvId agv) const;
 
  private:
@@ -230,8 +229,8 @@ class AgvControllerPort {
  public:
   explicit AgvControllerPort(AgvController& part) : part_(&part) {}
   fp_controller* handle_of(AgvId agv) const;
-  void begin_activation(AgvId agv) const;
-  ActivationUse end_activation(AgvId agv) const;
+  void begin_activation(fp_controller& handle) const;
+  ActivationUse end_activation(fp_controller& handle) const;
   void forget(AgvId agv) const;
 
  private:
@@ -241,7 +240,7 @@ class AgvControllerPort {
 class AgentHostPort {
  public:
   explicit AgentHostPort(AgentHost& part) : part_(&part) {}
-  void tell(AgvId agv, const fp_event& event) const;
+  void tell(AgvId agv, fp_event&& event) const;
   bool is_up(AgvId agv) const;
   bool has_events_waiting(AgvId agv) const;
   void freeze_until(AgvId agv, SimTime until) const;

@@ -46,7 +46,7 @@ void TapePlayer::play_controller_call(TapeItem item, fp_controller* c) {
     case TapeItem::Services:
       return c->part->admit_services(c->agv, number());
     case TapeItem::NoEffect:
-      return void(c->part->admit(c->agv));
+      return void(c->part->admit(*c));
     case TapeItem::OverLimit:
       return c->part->refuse(c->agv, number());
     case TapeItem::Move:

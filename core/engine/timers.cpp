@@ -1,6 +1,7 @@
 #include "core/engine/timers.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace fleetproof {
 
@@ -27,7 +28,7 @@ void Timers::goes_off(AgvId agv, std::uint32_t number, std::uint64_t stamp) {
   fp_event event{};
   event.kind = FP_EVENT_TIMER;
   event.timer = number;
-  agents_.tell(agv, event);
+  agents_.tell(agv, std::move(event));
 }
 
 }  // namespace fleetproof

@@ -23,7 +23,8 @@ class TraceWriter final : public TraceSource {
   // `text` are the words of a probe or a log line, else empty.
   void write(const TraceRecord& record, std::string_view text) {
     digest_.append(record);
-    if (read_.has(record.kind)) tell(record, text);
+    if (read_.has(record.kind)) [[unlikely]]
+      tell(TraceRecord(record), text);  // a copy, so that the record itself need not be in memory
   }
   // Hands a note of an agent to the sink and to nothing else.
   void note(const TraceRecord& note, std::string_view text) {

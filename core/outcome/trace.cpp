@@ -2,9 +2,13 @@
 
 #include <algorithm>
 
-// Compiled here, for the instructions of this build.
+// The library's own choice of instructions for the processor, where it has one. The digest is the same with each.
+#if __has_include(<xxh_x86dispatch.h>)
+#include <xxh_x86dispatch.h>
+#else
 #define XXH_INLINE_ALL
 #include <xxhash.h>
+#endif
 
 namespace fleetproof {
 namespace {
@@ -110,28 +114,33 @@ const char* name_of(TraceKind kind) {
   return "?";
 }
 
-TraceDigest::TraceDigest() : state_(XXH3_createState()), block_(free_block()) { XXH3_64bits_reset(hash(state_)); }
+TraceDigest::TraceDigest()
+    : state_(XXH3_createState()), block_(free_block()), next_(block_->bytes_to(0)), pause_(block_->bytes_to(1)) {
+  XXH3_64bits_reset(hash(state_));
+}
 TraceDigest::~TraceDigest() { XXH3_freeState(hash(state_)); }
 
 void TraceDigest::pause() {
-  if ((count_ & (count_ - 1)) == 0) running_.push_back(value());  // std::has_single_bit counts bits, which costs a call
-  if (count_ % TraceBlock::kRecords == 0) end_block();
+  const std::uint64_t count = record_count();
+  if ((count & (count - 1)) == 0) running_.push_back(value());  // std::has_single_bit counts bits, which costs a call
+  if (count % TraceBlock::kRecords == 0) end_block();
   // A block ends at each later power of two.
-  pause_at_ = count_ < TraceBlock::kRecords ? 2 * count_ : count_ + TraceBlock::kRecords;
+  pause_ = block_->bytes_to(count < TraceBlock::kRecords ? 2 * count : TraceBlock::kRecords);
 }
 
 void TraceDigest::end_block() {
   flush();
   if (full_ != nullptr) full_(reader_);
+  taken_ = before_block_ = record_count();
   block_.reset();
   block_ = free_block();  // another one, if somebody keeps that
-  taken_ = count_;
+  next_ = block_->bytes_to(0);
 }
 
 TracePart TraceDigest::take_newest() {
-  const std::uint64_t first = taken_ / TraceBlock::kRecords * TraceBlock::kRecords;  // of the block
-  const TracePart part{block_, static_cast<std::uint32_t>(taken_ - first), static_cast<std::uint32_t>(count_ - first)};
-  taken_ = count_;
+  const std::uint64_t count = record_count(), first = taken_ / TraceBlock::kRecords * TraceBlock::kRecords;
+  const TracePart part{block_, static_cast<std::uint32_t>(taken_ - first), static_cast<std::uint32_t>(count - first)};
+  taken_ = count;
   return part;
 }
 
@@ -142,9 +151,10 @@ std::uint64_t TraceDigest::value() {
 
 // Of the block, what was not flushed before. It is flushed whenever it is full.
 void TraceDigest::flush() {
-  XXH3_64bits_update(hash(state_), block_->bytes_from(flushed_ % TraceBlock::kRecords),
-                     (count_ - flushed_) * TraceBlock::kRecordBytes);
-  flushed_ = count_;
+  const std::uint64_t count = record_count();
+  XXH3_64bits_update(hash(state_), block_->bytes_from(flushed_ - before_block_),
+                     (count - flushed_) * TraceBlock::kRecordBytes);
+  flushed_ = count;
 }
 
 }  // namespace fleetproof

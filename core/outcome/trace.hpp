@@ -89,7 +89,7 @@ class TraceSink {
 // they are.
 class TraceBlock {
  public:
-  static constexpr std::size_t kRecords = 512, kRecordBytes = 32;  // a power of two of them
+  static constexpr std::uint32_t kRecords = 512, kRecordBytes = 32;  // a power of two of them
 
   // The record at this place. Of what is not part of the digest it has nothing.
   TraceRecord record(std::size_t place) const {
@@ -110,14 +110,16 @@ class TraceBlock {
   };
   std::span<const Sent> sent() const { return std::span(sent_).first(sent_count_); }
 
-  void write(std::size_t place, const TraceRecord& record) {
-    unsigned char* const to = bytes_.data() + place * kRecordBytes;
+  // Writes the record where `to` points, which is the place of a record.
+  void write(unsigned char* to, const TraceRecord& record) {
     put(to, static_cast<std::uint64_t>(to_ns(record.at)));
     put(to + 8, static_cast<std::uint64_t>(record.kind) << 32 | record.entity.value);
     put(to + 16, record.a);
     put(to + 24, record.b);
-    if (record.kind == TraceKind::Sent) sent_[sent_count_++] = {static_cast<std::uint32_t>(place), record.bytes};
+    if (record.kind == TraceKind::Sent)
+      sent_[sent_count_++] = {static_cast<std::uint32_t>(to - bytes_.data()) / kRecordBytes, record.bytes};
   }
+  unsigned char* bytes_to(std::size_t place) { return bytes_.data() + place * kRecordBytes; }
   void begin_anew() { sent_count_ = 0; }
   const unsigned char* bytes_from(std::size_t place) const { return bytes_.data() + place * kRecordBytes; }
 
@@ -161,12 +163,15 @@ class TraceDigest {
   TraceDigest& operator=(const TraceDigest&) = delete;
 
   void append(const TraceRecord& record) {
-    block_->write(count_ % TraceBlock::kRecords, record);
-    if (++count_ == pause_at_) [[unlikely]]
+    block_->write(next_, record);
+    next_ += TraceBlock::kRecordBytes;
+    if (next_ == pause_) [[unlikely]]
       pause();
   }
   std::uint64_t value();
-  std::uint64_t record_count() const { return count_; }
+  std::uint64_t record_count() const {
+    return before_block_ + static_cast<std::uint64_t>(next_ - block_->bytes_from(0)) / TraceBlock::kRecordBytes;
+  }
   const std::vector<std::uint64_t>& running() const { return running_; }
 
   // The newest records, since the last call; none if there are none. A reader that wants all calls it when `full` says
@@ -183,7 +188,9 @@ class TraceDigest {
 
   void* state_;
   std::shared_ptr<TraceBlock> block_;
-  std::uint64_t count_ = 0, pause_at_ = 1, flushed_ = 0, taken_ = 0;  // records
+  std::uint64_t before_block_ = 0, flushed_ = 0, taken_ = 0;  // records
+  unsigned char* next_;                                       // where the next record will stand
+  const unsigned char* pause_;                                // before which of these places
   void (*full_)(void*) = nullptr;
   void* reader_ = nullptr;
   std::vector<std::uint64_t> running_;

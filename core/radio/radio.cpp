@@ -3,8 +3,7 @@
 #include <xxhash.h>
 
 #include <algorithm>
-
-#include "core/base/random.hpp"
+#include <cmath>
 
 namespace fleetproof {
 namespace {
@@ -12,6 +11,7 @@ namespace {
 // The kinds of processes and draws under the key of radio states. RadioPlaces uses 1 to 3, RadioCrossings uses 10.
 constexpr std::uint32_t kLinkProcess = 8, kAsymmetryDraw = 9;
 constexpr std::size_t kDrawnAtOnce = 4;
+constexpr double kDrawRange = 0x1p53;  // of the 53 bits of a draw, as a whole number
 
 // The loss of a message that is lost with probability `loss` near its sender. Of the messages that would arrive there,
 // distance takes a share of its own.
@@ -26,9 +26,9 @@ double loss_at_distance(double loss, const RadioSetup& setup, const LinkPlaces& 
 
 Radio::Radio(const RadioSetup& setup, std::uint64_t world_seed, std::span<const GivenFate> fates, DrawNumbers numbers)
     : setup_(setup),
-      key_(stream_key(world_seed, Stream::Radio)),
-      state_key_(stream_key(world_seed, Stream::RadioState)),
-      copy_key_(stream_key(world_seed, Stream::RadioCopy)),
+      keys_{.draws = RoundKeys(stream_key(world_seed, Stream::Radio)),
+            .states = stream_key(world_seed, Stream::RadioState),
+            .copies = stream_key(world_seed, Stream::RadioCopy)},
       delay_(setup),
       has_states_(setup.outages.mean_outage_s > 0.0 || setup.asymmetry > 0.0 || setup.places.roaming_border_m > 0.0 ||
                   setup.places.roaming_at_crossing),
@@ -37,21 +37,22 @@ Radio::Radio(const RadioSetup& setup, std::uint64_t world_seed, std::span<const 
       numbers_(std::move(numbers)),
       given_(fates),
       recorded_(setup.trace),
-      places_(setup.places, outage_law(setup.loss), state_key_),
-      crossings_(setup.places, state_key_),
+      places_(setup.places, outage_law(setup.loss), keys_.states),
+      crossings_(setup.places, keys_.states),
       sources_(setup.sources, stream_key(world_seed, Stream::RadioSources)),
       is_plain_(!has_states_ && !depends_on_place_ && given_.empty() && recorded_.empty() && setup.duplicates == 0.0 &&
-                setup.adverse.adverse_from_s == 0.0 && setup.adverse.adverse_until_s == 0.0) {}
+                setup.adverse.adverse_from_s == 0.0 && setup.adverse.adverse_until_s == 0.0),
+      loss_limit_(static_cast<std::uint64_t>(std::ceil(setup.loss * kDrawRange))) {}
 
 Fate Radio::fate(AgvId sender, AgvId receiver, SimTime sent, std::uint32_t ordinal, const LinkPlaces& places,
                  bool spared) {
   const Hearer hearer{receiver, ordinal};
-  return fate(sender, hearer, sent, draw_for(key_of(sender, hearer, sent), key_), places, spared);
+  return fate(sender, hearer, sent, draw_for(key_of(sender, hearer, sent), keys_.draws.key()), places, spared);
 }
 
 void Radio::draw(AgvId sender, SimTime sent, std::span<const Hearer> hearers, Block* draws) const {
   if (hearers.size() == 1) {
-    *draws = draw_for(key_of(sender, hearers.front(), sent), key_);
+    *draws = draw_for(key_of(sender, hearers.front(), sent), keys_.draws.key());
     return;
   }
   const Block first = counter_of({numbers_.of(sender), AgvId{0U}, sent, 0});
@@ -60,7 +61,7 @@ void Radio::draw(AgvId sender, SimTime sent, std::span<const Hearer> hearers, Bl
     const std::size_t count = std::min(kDrawnAtOnce, hearers.size() - i);
     for (std::size_t k = 0; k < count; ++k)
       rest[k] = std::uint64_t{hearers[i + k].ordinal} << 32 | first[2] | numbers_.of(hearers[i + k].receiver).value;
-    philox_of_four(key_, word64(first, 0), rest.data(), draws + i);
+    philox_of_four(keys_.draws, word64(first, 0), rest.data(), draws + i);
   }
 }
 
@@ -128,7 +129,7 @@ OutageLaw Radio::outage_law(double loss) const {
 
 double Radio::loss_of(AgvId sender, AgvId receiver) const {
   const auto [low, high] = std::minmax(sender.value, receiver.value);
-  const double draw = unit_interval(word64(philox(state_key_, {0, kAsymmetryDraw << 1, low, high}), 0));
+  const double draw = unit_interval(word64(philox(keys_.states, {0, kAsymmetryDraw << 1, low, high}), 0));
   const double shift = setup_.asymmetry * (2.0 * draw - 1.0) * setup_.loss * (1.0 - setup_.loss);
   return sender < receiver ? setup_.loss + shift : setup_.loss - shift;
 }
@@ -145,26 +146,25 @@ OutageProcess& Radio::process_of(AgvId sender, AgvId receiver) {
   auto& process = links_[row][column];
   if (!process) {
     const double loss = setup_.asymmetry > 0.0 ? loss_of(sender, receiver) : setup_.loss;
-    process.emplace(outage_law(loss), ProcessKey{state_key_, kLinkProcess, keyed_by_direction ? sender.value : low,
+    process.emplace(outage_law(loss), ProcessKey{keys_.states, kLinkProcess, keyed_by_direction ? sender.value : low,
                                                  keyed_by_direction ? receiver.value : high});
   }
   return *process;
 }
 
 std::optional<Duration> Radio::copy_of(const MessageKey& message) const {
-  const Block block = draw_for(message, copy_key_);
+  const Block block = draw_for(message, keys_.copies);
   if (unit_interval(word64(block, 0)) >= setup_.duplicates) return std::nullopt;
   return delay_.at(unit_interval(word64(block, 1)));
 }
 
 std::uint32_t MessagePool::add(AgvId sender, std::string_view bytes, std::uint32_t copies) {
-  std::uint32_t slot = 0;
-  if (free_.empty()) {
+  std::uint32_t slot = free_;
+  if (slot == kNone) {
     slot = static_cast<std::uint32_t>(messages_.size());
     messages_.emplace_back();
   } else {
-    slot = free_.back();
-    free_.pop_back();
+    free_ = messages_[slot].next_free;
   }
   Message& message = messages_[slot];
   message.sender = sender;

@@ -17,6 +17,8 @@ class DrawNumbers {
       numbers_.emplace_back(scenario.agvs[i].draws_as.value_or(static_cast<std::uint32_t>(i)));
   }
 
+  // Whether each AGV has its place in the fleet.
+  bool are_places() const { return numbers_.empty(); }
   AgvId of(AgvId agv) const { return numbers_.empty() ? agv : numbers_[agv.index()]; }
 
  private:

@@ -19,25 +19,25 @@ Scenario with_call_cost(double cost_s) {
 TEST(AgvControllerPart, AdmitsCallsInAnActivationOnly) {
   SmallWorld world(with_call_cost(0.0));
   auto& controller = world.parts.controller;
-  EXPECT_FALSE(controller.admit(kFirst));
-  controller.begin_activation(kFirst);
-  EXPECT_TRUE(controller.admit(kFirst));
-  EXPECT_FALSE(controller.admit(kSecond)) << "the other one's agent is not awake";
-  EXPECT_EQ(controller.end_activation(kFirst).broken_limit, nullptr);
-  EXPECT_FALSE(controller.admit(kFirst));
+  EXPECT_FALSE(controller.admit(*world.parts.controller.handle_of(kFirst)));
+  controller.begin_activation(*world.parts.controller.handle_of(kFirst));
+  EXPECT_TRUE(controller.admit(*world.parts.controller.handle_of(kFirst)));
+  EXPECT_FALSE(controller.admit(*world.parts.controller.handle_of(kSecond))) << "the other one's agent is not awake";
+  EXPECT_EQ(controller.end_activation(*world.parts.controller.handle_of(kFirst)).broken_limit, nullptr);
+  EXPECT_FALSE(controller.admit(*world.parts.controller.handle_of(kFirst)));
 }
 
 TEST(AgvControllerPart, ACallTakesEffectAfterTheCostsSoFar) {
   SmallWorld world(with_call_cost(0.1));
   started(world);
   auto& controller = world.parts.controller;
-  controller.begin_activation(kFirst);
-  ASSERT_TRUE(controller.admit(kFirst));
+  controller.begin_activation(*world.parts.controller.handle_of(kFirst));
+  ASSERT_TRUE(controller.admit(*world.parts.controller.handle_of(kFirst)));
   EXPECT_EQ(controller.declare_cost(kFirst, 900'000'000), FP_OK);
   EXPECT_EQ(controller.declare_cost(kFirst, -1), FP_INVALID);
-  ASSERT_TRUE(controller.admit(kFirst));
+  ASSERT_TRUE(controller.admit(*world.parts.controller.handle_of(kFirst)));
   EXPECT_EQ(controller.act(kFirst, FP_CALL_MOVE, 0), FP_OK);
-  EXPECT_DOUBLE_EQ(to_seconds(controller.end_activation(kFirst).cost), 1.1);
+  EXPECT_DOUBLE_EQ(to_seconds(controller.end_activation(*world.parts.controller.handle_of(kFirst)).cost), 1.1);
   EXPECT_FALSE(world.run.status(kFirst).activity);
   EXPECT_DOUBLE_EQ(to_seconds(world.next(Event::Kind::CallTakesEffect).at), 1.1);
   controller.call_takes_effect(kFirst);
@@ -47,7 +47,7 @@ TEST(AgvControllerPart, ACallTakesEffectAfterTheCostsSoFar) {
 TEST(AgvControllerPart, WithoutCostsACallTakesEffectAtOnce) {
   SmallWorld world(with_call_cost(0.0));
   started(world);
-  world.parts.controller.begin_activation(kFirst);
+  world.parts.controller.begin_activation(*world.parts.controller.handle_of(kFirst));
   EXPECT_EQ(world.parts.controller.act(kFirst, FP_CALL_MOVE, 77), FP_INVALID);
   EXPECT_EQ(world.parts.controller.act(kFirst, FP_CALL_MOVE, 0), FP_OK);
   EXPECT_TRUE(world.run.status(kFirst).is_driving());
@@ -57,11 +57,11 @@ TEST(AgvControllerPart, WhatIsPendingIsLostWithTheComputer) {
   SmallWorld world(with_call_cost(0.1));
   started(world);
   auto& controller = world.parts.controller;
-  controller.begin_activation(kFirst);
-  ASSERT_TRUE(controller.admit(kFirst));
+  controller.begin_activation(*world.parts.controller.handle_of(kFirst));
+  ASSERT_TRUE(controller.admit(*world.parts.controller.handle_of(kFirst)));
   EXPECT_EQ(controller.act(kFirst, FP_CALL_MOVE, 0), FP_OK);
   EXPECT_EQ(controller.send(kFirst, "hello", kSecond.value), FP_OK);
-  controller.end_activation(kFirst);
+  controller.end_activation(*world.parts.controller.handle_of(kFirst));
   controller.forget(kFirst);
   controller.call_takes_effect(kFirst);
   controller.call_takes_effect(kFirst);

@@ -96,5 +96,58 @@ TEST(EventQueue, ArrivalsComeInTheSameOrderAsASortedList) {
   }
 }
 
+// Broadcasts to a large fleet that arrive together, few or many at a time.
+TEST(EventQueue, ManyArrivalsOfOneInstantComeInOrder) {
+  std::mt19937 random(7);
+  EventQueue queue;
+  for (std::int64_t instant = 1; instant <= 200; ++instant) {
+    const std::size_t broadcasts = 2 + random() % 8, one_in = 1 + random() % 40;
+    std::vector<std::tuple<std::uint32_t, std::uint64_t>> expected;  // receiver, broadcast
+    for (std::uint64_t broadcast = 0; broadcast < broadcasts; ++broadcast) {
+      std::vector<EntityId> receivers;
+      for (std::uint32_t receiver = 0; receiver < 60; ++receiver) {
+        if (random() % one_in == 0) receivers.emplace_back(receiver);
+      }
+      queue.push_arrivals(at_ns(instant), receivers, static_cast<std::uint32_t>(broadcast));
+      for (const EntityId receiver : receivers) expected.emplace_back(receiver.value, broadcast);
+    }
+    std::ranges::sort(expected);
+    Event event;
+    for (const auto& [receiver, broadcast] : expected) {
+      ASSERT_TRUE(queue.pop_until(at_ns(instant), event));
+      ASSERT_EQ(std::tuple(event.entity.value, event.payload), std::tuple(receiver, broadcast)) << instant;
+    }
+    ASSERT_TRUE(queue.empty());
+  }
+}
+
+// Timers stand in a row while they are pushed in order; they, the heap and the lane take turns.
+TEST(EventQueue, TimersComeBetweenOtherEventsInOrder) {
+  std::mt19937 random(8);
+  EventQueue queue;
+  std::vector<std::tuple<std::int64_t, std::uint32_t, std::uint64_t>> sorted;
+  std::uint64_t pushed = 0;
+  std::int64_t now = 0;
+  for (int round = 0; round < 20'000; ++round) {
+    const auto kind = random() % 3 == 0 ? Event::Kind::ActivityEnds : Event::Kind::TimerGoesOff;
+    const auto entity = static_cast<std::uint32_t>(random() % 5);
+    const std::int64_t at = now + (random() % 4 == 0 ? random() % 40 : 20);
+    queue.push(at_ns(at), EntityId{entity}, kind, pushed);
+    sorted.emplace_back(at, entity, pushed++);
+    if (random() % 3 == 0) {
+      const EntityId receiver{entity};
+      queue.push_arrivals(at_ns(now + 10), {&receiver, 1}, static_cast<std::uint32_t>(pushed));
+      sorted.emplace_back(now + 10, entity, pushed++);
+    }
+    std::ranges::sort(sorted);
+    while (sorted.size() > 12) {
+      const Event event = queue.pop();
+      ASSERT_EQ(std::tuple(to_ns(event.at), event.entity.value, event.payload), sorted.front());
+      now = to_ns(event.at);
+      sorted.erase(sorted.begin());
+    }
+  }
+}
+
 }  // namespace
 }  // namespace fleetproof

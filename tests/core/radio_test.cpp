@@ -30,6 +30,28 @@ TEST(Radio, HigherLossOnlyAddsLosses) {
   EXPECT_NEAR(lost_harsh, 0.4 * n, 6 * 70);
 }
 
+TEST(Radio, LossesDecidedTogetherAreThoseOfSingleFates) {
+  for (const double loss : {0.0, 0.05, 0.4, 1.0}) {
+    Radio radio({.loss = loss, .delay_s = 1.0}, 7);
+    ASSERT_TRUE(radio.only_loses());
+    for (std::uint32_t count = 1; count < 12; ++count) {
+      std::vector<Hearer> hearers;
+      for (std::uint32_t i = 0; i < count; ++i) hearers.push_back({AgvId{3 * i + 1}, (i + count) % 3});
+      hearers.resize(count + 3);
+      for (int round = 0; round < 100; ++round) {
+        const SimTime at = at_ns(round * 7'000'000'001LL);
+        std::size_t next = 0;
+        radio.decide_losses(kA, at, std::span(hearers).first(count), [&](AgvId receiver, bool is_lost) {
+          const Hearer& hearer = hearers[next++];
+          EXPECT_EQ(receiver, hearer.receiver);
+          EXPECT_EQ(is_lost, radio.fate(kA, receiver, at, hearer.ordinal).lost) << loss << " " << count;
+        });
+        EXPECT_EQ(next, count);
+      }
+    }
+  }
+}
+
 TEST(Radio, FateDependsOnEveryPartOfItsKey) {
   Radio radio({.loss = 0.0, .delay_s = 1.0, .delay_model = RadioSetup::DelayModel::Uniform}, 7);
   Radio other_world({.loss = 0.0, .delay_s = 1.0, .delay_model = RadioSetup::DelayModel::Uniform}, 8);

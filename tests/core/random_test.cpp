@@ -22,11 +22,32 @@ TEST(Philox, FourAtOnceAreTheSameAsOneByOne) {
     std::array<std::uint64_t, 4> rest{};
     for (std::uint32_t i = 0; i < 4; ++i) rest[i] = word64(philox(key, {i}), 1);
     std::array<Block, 4> blocks{};
-    philox_of_four(key, first, rest.data(), blocks.data());
+    const RoundKeys keys(key);
+    philox_of_four(keys, first, rest.data(), blocks.data());
     for (std::size_t i = 0; i < 4; ++i) {
       const Block counter{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(first >> 32),
                           static_cast<std::uint32_t>(rest[i]), static_cast<std::uint32_t>(rest[i] >> 32)};
       ASSERT_EQ(blocks[i], philox(key, counter)) << round << " " << i;
+    }
+  }
+}
+
+TEST(Philox, FourBelowALimitAreThoseWhoseNumbersAreBelowIt) {
+  Draws draws(9);
+  for (int round = 0; round < 1000; ++round) {
+    const RoundKeys keys(draws.next());
+    const std::uint64_t first = draws.next(), common = draws.next();
+    std::array<std::uint64_t, 4> rest{}, whole{};
+    for (std::size_t i = 0; i < 4; ++i) whole[i] = (rest[i] = draws.next()) | common;
+    std::array<Block, 4> blocks{};
+    philox_of_four(keys, first, whole.data(), blocks.data());
+    const std::uint64_t of_first = word64(blocks[0], 0) >> 11;
+    for (const std::uint64_t limit :
+         {std::uint64_t{0}, std::uint64_t{1} << 53U, std::uint64_t{1} << 52U, of_first, of_first + 1}) {
+      std::uint32_t below = 0;
+      for (std::size_t i = 0; i < 4; ++i)
+        below |= (unit_interval(word64(blocks[i], 0)) < static_cast<double>(limit) * 0x1p-53 ? 1U : 0U) << i;
+      ASSERT_EQ(philox_of_four_below(keys, first, common, rest.data(), limit), below) << round << " " << limit;
     }
   }
 }

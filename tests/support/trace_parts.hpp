@@ -9,7 +9,7 @@ namespace fleetproof::test {
 // A part of a trace that is one record.
 inline TracePart part_of(const TraceRecord& record) {
   const auto block = std::make_shared<TraceBlock>();
-  block->write(0, record);
+  block->write(block->bytes_to(0), record);
   return {block, 0, 1};
 }
 
