@@ -111,7 +111,8 @@ void LockProtocol::lane_passed() {
 }
 
 bool LockProtocol::receive(std::uint32_t sender, std::span<const std::byte> bytes) {
-  const std::optional<Message> message = decode(bytes);
+  if (sender >= neighbours_.fleet_count()) return false;
+  const std::optional<Message> message = decode(bytes, std::as_const(neighbours_).of(sender).way_bytes);
   if (!message) return false;
   const Neighbours::News news = neighbours_.note(sender, *message, controller_.now_ns());
   if (news == Neighbours::News::Refused) return false;

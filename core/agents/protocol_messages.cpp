@@ -45,7 +45,7 @@ Value little_endian(Value value) {
 
 class Reader {
  public:
-  explicit Reader(std::span<const std::byte> bytes) : rest_(bytes) {}
+  Reader(std::span<const std::byte> bytes, const WayBytes& known) : rest_(bytes), known_(known) {}
 
   // False if these are not the bytes of a message.
   bool read(Message& message) {
@@ -56,8 +56,8 @@ class Reader {
     message.tells_zones = (kind & kTellsZones) != 0;
     message.status.place_unknown = (kind & kPlaceUnknown) != 0;
     message.status.held_up = (kind & kHeldUp) != 0;
-    const std::uint64_t flags = read_status(message.status);
-    if (message.tells_zones) take_zones(message.zones);
+    const std::uint64_t flags = read_condition(message.status);
+    take_way(message);
     take_heard(message.heard);
     switch (message.kind) {
       case MessageKind::State:
@@ -93,7 +93,7 @@ class Reader {
     return little_endian(value);
   }
 
-  std::uint64_t read_status(Status& status) {
+  std::uint64_t read_condition(Condition& status) {
     status.stamp_ms = take<std::uint32_t>();
     status.position_m.x = take_metres();
     status.position_m.y = take_metres();
@@ -105,9 +105,20 @@ class Reader {
     status.blocked = (flags & kBlocked) != 0;
     status.position_is_new = (flags & kPositionIsNew) != 0;
     status.epoch = take_epoch((flags & kEpochHasBoot) != 0);
-    take_path(status.held);
-    take_lanes(status.ahead, kPathLanesMax - status.held.count);
     return flags;
+  }
+
+  void take_way(Message& message) {
+    message.repeats_way = known_.begin(rest_, message.tells_zones);
+    if (message.repeats_way) {
+      rest_ = rest_.subspan(known_.size);
+      return;
+    }
+    const std::span<const std::byte> way = rest_;
+    take_path(message.status.held);
+    take_lanes(message.status.ahead, kPathLanesMax - message.status.held.count);
+    if (message.tells_zones) take_zones(message.zones);
+    message.way_bytes = way.first(way.size() - rest_.size());
   }
 
   template <class Value>
@@ -226,6 +237,7 @@ class Reader {
   bool complete() const { return !failed_ && rest_.empty(); }
 
   std::span<const std::byte> rest_;
+  const WayBytes& known_;
   bool failed_ = false;
 };
 
@@ -348,9 +360,9 @@ void WireMessage::put_heard(const HeardFrom& heard) {
   put_row<std::uint32_t>(std::span<const std::uint32_t>(heard.stamps_ms.data(), heard.count));
 }
 
-std::optional<Message> decode(std::span<const std::byte> bytes) {
+std::optional<Message> decode(std::span<const std::byte> bytes, const WayBytes& known) {
   std::optional<Message> decoded(std::in_place);  // the only one that is returned, so that nothing is copied
-  if (!Reader(bytes).read(*decoded)) decoded.reset();
+  if (!Reader(bytes, known).read(*decoded)) decoded.reset();
   return decoded;
 }
 
