@@ -263,7 +263,7 @@ void LockProtocol::receive_answer(std::uint32_t sender, std::uint32_t boot, Epoc
 
 bool LockProtocol::settle() {
   answer_those_deferred();
-  if (zones_) zones_->talk(false);
+  if (zones_ && zones_->has_news()) zones_->talk(false);
   if (!claim_.requesting || !claim_.knows_place || !all_consent()) return false;
   if (zones_ && !zones_->is_member_there()) {
     look_at_all_ = true;  // consent may change until it is

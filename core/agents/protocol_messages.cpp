@@ -49,14 +49,15 @@ class Reader {
 
   // False if these are not the bytes of a message.
   bool read(Message& message) {
-    if (take<std::uint8_t>() != kMark) return false;
-    const std::uint64_t kind = take<std::uint8_t>();
+    const std::span<const std::byte> begin = take_bytes(kConditionAt + kConditionBytes);
+    if (begin.empty() || value_at<std::uint8_t>(begin, 0) != kMark) return false;
+    const std::uint64_t kind = value_at<std::uint8_t>(begin, 1);
     message.kind = static_cast<MessageKind>(kind & kKinds);
     message.wants_answer = (kind & kWantsAnswer) != 0;
     message.tells_zones = (kind & kTellsZones) != 0;
     message.status.place_unknown = (kind & kPlaceUnknown) != 0;
     message.status.held_up = (kind & kHeldUp) != 0;
-    const std::uint64_t flags = read_condition(message.status);
+    const std::uint64_t flags = read_condition(begin.subspan(kConditionAt), message.status);
     take_way(message);
     take_heard(message.heard);
     switch (message.kind) {
@@ -85,6 +86,8 @@ class Reader {
 
  private:
   static constexpr std::size_t kEntryBytes = sizeof(std::uint16_t) + sizeof(std::uint8_t);  // of Asked
+  // Each message begins with mark and kind, then stamp, position, flags and the number of the epoch.
+  static constexpr std::size_t kConditionAt = 2, kConditionBytes = 17;
 
   template <class Value>
   static Value value_at(std::span<const std::byte> row, std::size_t at) {
@@ -93,18 +96,18 @@ class Reader {
     return little_endian(value);
   }
 
-  std::uint64_t read_condition(Condition& status) {
-    status.stamp_ms = take<std::uint32_t>();
-    status.position_m.x = take_metres();
-    status.position_m.y = take_metres();
-    const std::uint64_t flags = take<std::uint8_t>();
+  std::uint64_t read_condition(std::span<const std::byte> bytes, Condition& status) {
+    status.stamp_ms = value_at<std::uint32_t>(bytes, 0);
+    status.position_m = {metres_at(bytes, 4), metres_at(bytes, 8)};
+    const std::uint64_t flags = value_at<std::uint8_t>(bytes, 12);
     status.requesting = (flags & kRequesting) != 0;
     status.waiting = (flags & kWaiting) != 0;
     status.idle = (flags & kIdle) != 0;
     status.out_of_order = (flags & kOutOfOrder) != 0;
     status.blocked = (flags & kBlocked) != 0;
     status.position_is_new = (flags & kPositionIsNew) != 0;
-    status.epoch = take_epoch((flags & kEpochHasBoot) != 0);
+    status.epoch = value_at<std::uint32_t>(bytes, 13);
+    if ((flags & kEpochHasBoot) != 0) status.epoch |= first_epoch(take<std::uint32_t>());
     return flags;
   }
 
@@ -156,7 +159,9 @@ class Reader {
     const auto number = take<std::uint32_t>();
     return has_boot ? first_epoch(take<std::uint32_t>()) | number : number;
   }
-  double take_metres() { return static_cast<std::int32_t>(take<std::uint32_t>()) / kPerMetre; }
+  static double metres_at(std::span<const std::byte> bytes, std::size_t at) {
+    return static_cast<std::int32_t>(value_at<std::uint32_t>(bytes, at)) / kPerMetre;
+  }
   double take_fraction() { return static_cast<std::int16_t>(take<std::uint16_t>()) / kPerUnit; }
 
   void take_path(Path& path) {
@@ -254,10 +259,14 @@ void WireMessage::put(std::uint64_t value) {
 template <class Value, class From>
 void WireMessage::put_row(std::span<const From> values) {
   std::byte* to = bytes_.data() + size_;
-  for (const From value : values) {
-    const Value little = little_endian(static_cast<Value>(value));
-    std::memcpy(to, &little, sizeof(Value));
-    to += sizeof(Value);
+  if constexpr (std::endian::native == std::endian::little && sizeof(Value) == sizeof(From)) {
+    if (!values.empty()) std::memcpy(to, values.data(), values.size_bytes());
+  } else {
+    for (const From value : values) {
+      const Value little = little_endian(static_cast<Value>(value));
+      std::memcpy(to, &little, sizeof(Value));
+      to += sizeof(Value);
+    }
   }
   size_ += values.size() * sizeof(Value);
 }
