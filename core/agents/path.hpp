@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -17,6 +18,17 @@ struct Path {
   Vec heading{1.0, 0.0};
   std::uint32_t count = 0;
   std::array<std::uint32_t, kPathLanesMax> lane_ids;
+
+  Path() = default;
+  Path(const Path& other) { *this = other; }
+  // Most paths are short.
+  Path& operator=(const Path& other) {
+    station = other.station;
+    heading = other.heading;
+    count = other.count;
+    std::copy_n(other.lane_ids.begin(), count, lane_ids.begin());
+    return *this;
+  }
 
   std::span<const std::uint32_t> lanes() const { return {lane_ids.data(), count}; }
   bool empty() const { return count == 0; }
