@@ -17,7 +17,7 @@ struct Path {
   std::uint32_t station = 0;
   Vec heading{1.0, 0.0};
   std::uint32_t count = 0;
-  std::array<std::uint32_t, kPathLanesMax> lane_ids;
+  std::array<std::uint16_t, kPathLanesMax> lane_ids;  // as on the wire, where larger numbers have no room
 
   Path() = default;
   Path(const Path& other) { *this = other; }
@@ -30,12 +30,12 @@ struct Path {
     return *this;
   }
 
-  std::span<const std::uint32_t> lanes() const { return {lane_ids.data(), count}; }
+  std::span<const std::uint16_t> lanes() const { return {lane_ids.data(), count}; }
   bool empty() const { return count == 0; }
   // False if the path is full.
   bool append(std::uint32_t lane) {
     if (count == kPathLanesMax) return false;
-    lane_ids[count++] = lane;
+    lane_ids[count++] = static_cast<std::uint16_t>(lane);
     return true;
   }
 };

@@ -137,9 +137,9 @@ class Reader {
   }
   // Many values at once: the length is looked at only once.
   template <class Value>
-  void take_row(std::uint32_t* to, std::size_t count) {
+  void take_row(Value* to, std::size_t count) {
     const std::span<const std::byte> row = take_bytes(count * sizeof(Value));
-    if constexpr (std::endian::native == std::endian::little && sizeof(Value) == sizeof(*to)) {
+    if constexpr (std::endian::native == std::endian::little) {
       if (!row.empty()) std::memcpy(to, row.data(), row.size());
     } else {
       for (std::size_t at = 0; at < row.size(); at += sizeof(Value)) *to++ = value_at<Value>(row, at);
@@ -177,7 +177,7 @@ class Reader {
   void take_lanes(Path& path, std::uint32_t most) {
     const std::uint32_t count = take<std::uint8_t>();
     if (count > most) return fail();
-    take_row<std::uint16_t>(path.lane_ids.data(), count);
+    take_row(path.lane_ids.data(), count);
     path.count = failed_ ? 0 : count;
   }
 
@@ -185,7 +185,7 @@ class Reader {
     heard.first = take<std::uint16_t>();
     heard.count = take<std::uint8_t>();
     if (heard.count > HeardFrom::kMax) return fail();
-    take_row<std::uint32_t>(heard.stamps_ms.data(), heard.count);
+    take_row(heard.stamps_ms.data(), heard.count);
   }
 
   void take_request(Message& message) {
@@ -256,19 +256,19 @@ void WireMessage::put(std::uint64_t value) {
 }
 
 // Many values at once.
-template <class Value, class From>
-void WireMessage::put_row(std::span<const From> values) {
+template <class Value>
+void WireMessage::put_row(std::span<const Value> values) {
   std::byte* to = bytes_.data() + size_;
-  if constexpr (std::endian::native == std::endian::little && sizeof(Value) == sizeof(From)) {
+  if constexpr (std::endian::native == std::endian::little) {
     if (!values.empty()) std::memcpy(to, values.data(), values.size_bytes());
   } else {
-    for (const From value : values) {
-      const Value little = little_endian(static_cast<Value>(value));
+    for (const Value value : values) {
+      const Value little = little_endian(value);
       std::memcpy(to, &little, sizeof(Value));
       to += sizeof(Value);
     }
   }
-  size_ += values.size() * sizeof(Value);
+  size_ += values.size_bytes();
 }
 
 WireMessage::WireMessage(const Message& message) {
@@ -331,7 +331,7 @@ void WireMessage::put_answers(const Answers& answers) {
 
 void WireMessage::put_zones(const ZoneSet& zones) {
   put<std::uint8_t>(zones.size());
-  put_row<std::uint16_t>(zones.all());
+  put_row(zones.all());
 }
 
 void WireMessage::put_roll(const Roll& roll) {
@@ -360,13 +360,13 @@ void WireMessage::put_path(const Path& path) {
 
 void WireMessage::put_lanes(const Path& path) {
   put<std::uint8_t>(path.count);
-  put_row<std::uint16_t>(path.lanes());
+  put_row(path.lanes());
 }
 
 void WireMessage::put_heard(const HeardFrom& heard) {
   put<std::uint16_t>(heard.first);
   put<std::uint8_t>(heard.count);
-  put_row<std::uint32_t>(std::span<const std::uint32_t>(heard.stamps_ms.data(), heard.count));
+  put_row(std::span<const std::uint32_t>(heard.stamps_ms.data(), heard.count));
 }
 
 std::optional<Message> decode(std::span<const std::byte> bytes, const WayBytes& known) {

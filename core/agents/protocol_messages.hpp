@@ -195,8 +195,8 @@ class WireMessage {
  private:
   template <class Value>
   void put(std::uint64_t value);
-  template <class Value, class From>
-  void put_row(std::span<const From> values);
+  template <class Value>
+  void put_row(std::span<const Value> values);
   void put_epoch(Epoch epoch);
   void put_path(const Path& path);
   void put_lanes(const Path& path);
