@@ -6,6 +6,7 @@
 namespace fleetproof::agents {
 namespace {
 
+constexpr double kRounding_m = 1e-3;
 constexpr double kSlack_m = 1.0;  // shapes are a little larger than what a body sweeps
 
 bool further_than(Vec apart_m, double distance_m) { return dot(apart_m, apart_m) > distance_m * distance_m; }
@@ -25,7 +26,10 @@ bool HullGeometry::conflict(std::uint32_t agv_a, const Path& a, std::uint32_t ag
     return std::any_of(of_b.numbers, of_b.numbers + of_b.count,
                        [&](std::uint32_t n) { return parts_.conflicts_with_body(n, of_a.body); });
   }
-  return std::any_of(of_a.numbers, of_a.numbers + of_a.count, [&](std::uint32_t n) { return part_conflicts(n, of_b); });
+  const Box around_b = box_around(of_b);
+  return std::any_of(of_a.numbers, of_a.numbers + of_a.count, [&](std::uint32_t n) {
+    return parts_.box(n).comes_within(clearance_m() + kRounding_m, around_b) && part_conflicts(n, of_b);
+  });
 }
 
 bool HullGeometry::lane_conflict(std::uint32_t agv_a, std::uint32_t lane, std::uint32_t agv_b, const Path& b) {
@@ -69,6 +73,13 @@ void HullGeometry::collect(std::uint32_t agv, const Path& path, Parts& parts) co
     heading = map_.end_heading(lane);
   }
   if (parts.count == 0) parts.body = body_at(map_.position_m(path.station), path.heading, parts_.body(agv));
+}
+
+Box HullGeometry::box_around(const Parts& parts) const {
+  if (parts.count == 0) return Box::around(parts.body);
+  Box box = parts_.box(parts.numbers[0]);
+  for (std::uint32_t i = 1; i < parts.count; ++i) box.extend(parts_.box(parts.numbers[i]));
+  return box;
 }
 
 bool HullGeometry::part_conflicts(std::uint32_t number, const Parts& others) {

@@ -55,6 +55,7 @@ class HullGeometry {
   double extent_m(std::uint32_t agv, const Path& path) const;
   bool is_far(std::uint32_t number, std::uint32_t agv, const Path& path) const;
   void collect(std::uint32_t agv, const Path& path, Parts& parts) const;
+  Box box_around(const Parts& parts) const;
   bool part_conflicts(std::uint32_t number, const Parts& others);
 
   const MapView& map_;

@@ -111,7 +111,8 @@ void LockProtocol::lane_passed() {
 }
 
 bool LockProtocol::receive(std::uint32_t sender, std::span<const std::byte> bytes) {
-  const std::optional<Message> message = decode(bytes);
+  if (sender >= neighbours_.fleet_count()) return false;
+  const std::optional<Message> message = decode(bytes, std::as_const(neighbours_).of(sender).way_bytes);
   if (!message) return false;
   const Neighbours::News news = neighbours_.note(sender, *message, controller_.now_ns());
   if (news == Neighbours::News::Refused) return false;
@@ -262,7 +263,7 @@ void LockProtocol::receive_answer(std::uint32_t sender, std::uint32_t boot, Epoc
 
 bool LockProtocol::settle() {
   answer_those_deferred();
-  if (zones_) zones_->talk(false);
+  if (zones_ && zones_->has_news()) zones_->talk(false);
   if (!claim_.requesting || !claim_.knows_place || !all_consent()) return false;
   if (zones_ && !zones_->is_member_there()) {
     look_at_all_ = true;  // consent may change until it is

@@ -26,6 +26,7 @@ void Membership::announce(const ZoneSet& zones, std::uint32_t since_ms) {
 }
 
 void Membership::apply(const ZoneSet& zones, std::uint32_t since_ms) {
+  has_news_ = true;
   const std::size_t first = applications_.size();
   for (const std::uint16_t zone : zones.all()) {
     const std::uint32_t registrar = map_.registrar_of(zone);
@@ -88,6 +89,7 @@ void Membership::note_roll(std::uint32_t registrar, const Message& message) {
     for (const RollEntry& entry : message.roll.all()) {
       if (entry.agv < neighbours_.fleet_count()) add_contact(application, entry);
     }
+    has_news_ = true;
     application.from = message.roll.next;
     application.is_sent = false;
     application.repeats = {};
@@ -97,6 +99,7 @@ void Membership::note_roll(std::uint32_t registrar, const Message& message) {
 }
 
 void Membership::append_due(bool repeat, const ZoneSet& urgent, std::vector<Due>& due) {
+  has_news_ = false;
   const bool quickly = neighbours_.audience().hears_of_all();
   for (Application& application : applications_)
     append_due(application, repeat && application.repeats.is_due(application.zones.meets(urgent), quickly), due);

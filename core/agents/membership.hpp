@@ -81,6 +81,8 @@ class Membership {
   // What the registrar says.
   void note_roll(std::uint32_t registrar, const Message& message);
 
+  // Whether something has not been said yet.
+  bool has_news() const { return has_news_; }
   // What is to be said to one AGV.
   struct Due {
     std::uint32_t agv = FP_NONE;
@@ -131,6 +133,7 @@ class Membership {
   Neighbours& neighbours_;
   ZoneSet announced_, joined_;
   std::vector<Application> applications_;
+  bool has_news_ = false;                     // of them, something may not have been said
   std::vector<std::uint32_t> introductions_;  // to the registrars, by index: how often one might have been due
 };
 

@@ -20,6 +20,28 @@ double work_out_longest_claim_m(const MapView& map) {
   return std::max(kUsualClaim_m, 2.0 * longest_lane_m);
 }
 
+// What it says about its ways was possible if it was said before.
+bool is_possible(const MapView& map, bool is_divided, const Neighbour& known, const Message& message) {
+  const Status& status = message.status;
+  if (is_divided != message.tells_zones) return false;
+  if (status.requesting && number_of(status.epoch) == 0) return false;
+  if (message.has_request() && !(known.request_epoch > 0 && known.request == message.request) &&
+      !is_driveable(map, message.request))
+    return false;
+  if (message.repeats_way) return true;
+  return (known.known && known.status.held == status.held) || is_driveable(map, status.held);
+}
+
+// The announced way, with its beginning. Requires: the held path can be driven.
+Path way_ahead(const MapView& map, const Status& status) {
+  Path ahead = end_of(map, status.held);
+  ahead.count = status.ahead.count;
+  std::ranges::copy(status.ahead.lanes(), ahead.lane_ids.begin());
+  return ahead;
+}
+
+bool is_same(const Path& a, const Path& b) { return a == b && same_heading(a.heading, b.heading); }
+
 }  // namespace
 
 const Neighbour& unknown_neighbour() {
@@ -58,43 +80,34 @@ Neighbours::News Neighbours::note(std::uint32_t sender, const Message& message, 
   const Status& status = message.status;
   if (sender >= fleet_count() || sender == self_) return News::Refused;
   const Neighbour& known = std::as_const(*this).of(sender);  // its paths can be driven
-  if (!(known.known && known.status.held == status.held) && !is_driveable(map_, status.held)) return News::Refused;
-  if (audience_.is_divided() != message.tells_zones) return News::Refused;
-  if (status.requesting && number_of(status.epoch) == 0) return News::Refused;
-  if (message.has_request() && !(known.request_epoch > 0 && known.request == message.request) &&
-      !is_driveable(map_, message.request))
-    return News::Refused;
-  Path ahead = end_of(map_, status.held);
-  ahead.count = status.ahead.count;
-  std::ranges::copy(status.ahead.lanes(), ahead.lane_ids.begin());
-  const bool same_ahead = known.known && known.status.ahead == ahead;
-  if (!same_ahead && !is_driveable(map_, ahead)) return News::Refused;
+  if (!is_possible(map_, audience_.is_divided(), known, message)) return News::Refused;
+  Path ahead;
+  if (!message.repeats_way) ahead = way_ahead(map_, status);
+  const bool same_way = message.repeats_way || known.status.ahead == ahead;
+  if (!(known.known && same_way) && !is_driveable(map_, ahead)) return News::Refused;
   Neighbour& n = of(sender);
   News news = News::Same;
   const std::uint32_t boot = boot_of(status.epoch), newest_boot = boot_of(n.status.epoch);
   const bool is_newest =
       !n.known || boot > newest_boot || (boot == newest_boot && status.stamp_ms >= n.status.stamp_ms);
   if (is_newest) {
-    const Status& before = n.status;
-    const bool same_held = n.known && before.held == status.held && before.place_unknown == status.place_unknown &&
-                           same_heading(before.held.heading, status.held.heading);
-    const bool same = same_held && before.waiting == status.waiting && before.blocked == status.blocked &&
-                      before.held_up == status.held_up && before.out_of_order == status.out_of_order;
+    const bool same_held = n.known && n.status.place_unknown == status.place_unknown &&
+                           (message.repeats_way || is_same(n.status.held, status.held));
+    const bool same = same_held && n.status.waiting == status.waiting && n.status.blocked == status.blocked &&
+                      n.status.held_up == status.held_up && n.status.out_of_order == status.out_of_order;
     if (!same) news = News::Changed;
-    const bool same_way = before.ahead == ahead;
     if (!same_held || !same_way) ++n.way_changes;
     if (!same_way && ahead.count > 0) n.owes_acknowledgement = true;
     // In a divided fleet, what a former self said does not count.
     if (audience_.is_divided() && boot > newest_boot) n.heard_us_ms = 0, n.granted_us_epoch = n.deferred_us_epoch = 0;
-    n.status = status;
-    n.status.ahead = ahead;
+    static_cast<Condition&>(n.status) = status;
+    if (!message.repeats_way) {
+      n.take_way(message, ahead);
+      if (audience_.is_divided()) audience_.note(sender, n.zones);
+    }
   }
   if (!n.known) known_.insert(std::ranges::lower_bound(known_, sender), sender);
   n.known = true;
-  if (is_newest && audience_.is_divided()) {
-    n.zones = message.zones;
-    audience_.note(sender, n.zones);
-  }
   const Epoch closed = status.requesting ? status.epoch - 1 : next_request(status.epoch) - 1;
   n.closed_epoch = std::max(n.closed_epoch, closed);
   if (message.has_request()) note_request(n, message, is_newest);

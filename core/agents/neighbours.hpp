@@ -35,6 +35,14 @@ struct Neighbour {
   bool known = false;
   Status status;  // the newest status that the other AGV sent
   ZoneSet zones;  // that the same message announces, in a divided fleet
+  WayBytes way_bytes;
+  // Takes what the message says of its ways; `ahead`: the announced way, with its beginning.
+  void take_way(const Message& message, const Path& ahead) {
+    status.held = message.status.held;
+    status.ahead = ahead;
+    zones = message.zones;
+    way_bytes.keep(message.way_bytes, message.tells_zones);
+  }
 
   // The other AGV was at this position after this instant of the own clock; negative: never proved.
   struct ProvedPlace {

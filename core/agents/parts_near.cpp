@@ -20,16 +20,6 @@ Box Box::around(const Shape& shape) {
   return {shape.centre_m - half, shape.centre_m + half};
 }
 
-void Box::extend(const Box& other) {
-  low_m = {std::min(low_m.x, other.low_m.x), std::min(low_m.y, other.low_m.y)};
-  high_m = {std::max(high_m.x, other.high_m.x), std::max(high_m.y, other.high_m.y)};
-}
-
-bool Box::comes_within(double distance_m, const Box& other) const {
-  return low_m.x - distance_m <= other.high_m.x && other.low_m.x - distance_m <= high_m.x &&
-         low_m.y - distance_m <= other.high_m.y && other.low_m.y - distance_m <= high_m.y;
-}
-
 PartsNear::PartsNear(std::vector<Box> boxes, double distance_m) : own_boxes_(std::move(boxes)), boxes_(own_boxes_) {
   grid_.distance_m = distance_m + kRounding_m;
   choose_cells();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -14,8 +15,14 @@ struct Box {
   Vec low_m, high_m;
 
   static Box around(const Shape& shape);
-  void extend(const Box& other);
-  bool comes_within(double distance_m, const Box& other) const;
+  void extend(const Box& other) {
+    low_m = {std::min(low_m.x, other.low_m.x), std::min(low_m.y, other.low_m.y)};
+    high_m = {std::max(high_m.x, other.high_m.x), std::max(high_m.y, other.high_m.y)};
+  }
+  bool comes_within(double distance_m, const Box& other) const {
+    return low_m.x - distance_m <= other.high_m.x && other.low_m.x - distance_m <= high_m.x &&
+           low_m.y - distance_m <= other.high_m.y && other.low_m.y - distance_m <= high_m.y;
+  }
 };
 
 // Which parts of hulls come near each other: a square grid over their boxes, whose cells list the parts that come

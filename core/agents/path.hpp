@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -16,14 +17,25 @@ struct Path {
   std::uint32_t station = 0;
   Vec heading{1.0, 0.0};
   std::uint32_t count = 0;
-  std::array<std::uint32_t, kPathLanesMax> lane_ids;
+  std::array<std::uint16_t, kPathLanesMax> lane_ids;  // as on the wire, where larger numbers have no room
 
-  std::span<const std::uint32_t> lanes() const { return {lane_ids.data(), count}; }
+  Path() = default;
+  Path(const Path& other) { *this = other; }
+  // Most paths are short.
+  Path& operator=(const Path& other) {
+    station = other.station;
+    heading = other.heading;
+    count = other.count;
+    std::copy_n(other.lane_ids.begin(), count, lane_ids.begin());
+    return *this;
+  }
+
+  std::span<const std::uint16_t> lanes() const { return {lane_ids.data(), count}; }
   bool empty() const { return count == 0; }
   // False if the path is full.
   bool append(std::uint32_t lane) {
     if (count == kPathLanesMax) return false;
-    lane_ids[count++] = lane;
+    lane_ids[count++] = static_cast<std::uint16_t>(lane);
     return true;
   }
 };

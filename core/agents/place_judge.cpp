@@ -141,11 +141,16 @@ void PlaceJudge::cut_off_around(std::uint32_t end) {
   seen_.push_back(end);
   for (const bool backwards : {false, true}) {
     const Side side = backwards ? kUnreached : kDoomed;
+    const Side connected = backwards ? kStillReached : kStillReaches;
     const auto look = [&](std::uint32_t id) {
       if ((sides_[id] & side) != 0) return MapWithout::Look::NotBeyond;
-      return sure_.is_sure(id, backwards) ? MapWithout::Look::Stop : MapWithout::Look::On;
+      const bool is_connected = (sides_[id] & connected) != 0 || sure_.is_sure(id, backwards);
+      return is_connected ? MapWithout::Look::Stop : MapWithout::Look::On;
     };
-    if (!without_.explore(end, backwards, look)) continue;
+    if (!without_.explore(end, backwards, look)) {
+      sides_[end] = static_cast<std::uint8_t>(sides_[end] | connected);
+      continue;
+    }
     for (const std::uint32_t id : without_.found()) {
       if ((sides_[id] & kCutOff) == 0) {
         pieces_.push_back(id);

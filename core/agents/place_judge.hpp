@@ -37,8 +37,15 @@ class PlaceJudge {
 
  private:
   // What is known of a station without the one that is judged: it reaches the rest of the map no more, or is not
-  // reached from there; and whether both are known.
-  enum Side : std::uint8_t { kDoomed = 1, kUnreached = 2, kCutOff = 3, kSeen = 4 };
+  // reached from there; whether both are known; and that it does reach the rest, or is reached.
+  enum Side : std::uint8_t {
+    kDoomed = 1,
+    kUnreached = 2,
+    kCutOff = 3,
+    kSeen = 4,
+    kStillReaches = 8,
+    kStillReached = 16
+  };
 
   bool is_all_one_way(std::uint32_t station) const;
   void block_lanes(std::uint32_t station);

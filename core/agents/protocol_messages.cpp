@@ -45,19 +45,20 @@ Value little_endian(Value value) {
 
 class Reader {
  public:
-  explicit Reader(std::span<const std::byte> bytes) : rest_(bytes) {}
+  Reader(std::span<const std::byte> bytes, const WayBytes& known) : rest_(bytes), known_(known) {}
 
   // False if these are not the bytes of a message.
   bool read(Message& message) {
-    if (take<std::uint8_t>() != kMark) return false;
-    const std::uint64_t kind = take<std::uint8_t>();
+    const std::span<const std::byte> begin = take_bytes(kConditionAt + kConditionBytes);
+    if (begin.empty() || value_at<std::uint8_t>(begin, 0) != kMark) return false;
+    const std::uint64_t kind = value_at<std::uint8_t>(begin, 1);
     message.kind = static_cast<MessageKind>(kind & kKinds);
     message.wants_answer = (kind & kWantsAnswer) != 0;
     message.tells_zones = (kind & kTellsZones) != 0;
     message.status.place_unknown = (kind & kPlaceUnknown) != 0;
     message.status.held_up = (kind & kHeldUp) != 0;
-    const std::uint64_t flags = read_status(message.status);
-    if (message.tells_zones) take_zones(message.zones);
+    const std::uint64_t flags = read_condition(begin.subspan(kConditionAt), message.status);
+    take_way(message);
     take_heard(message.heard);
     switch (message.kind) {
       case MessageKind::State:
@@ -85,6 +86,8 @@ class Reader {
 
  private:
   static constexpr std::size_t kEntryBytes = sizeof(std::uint16_t) + sizeof(std::uint8_t);  // of Asked
+  // Each message begins with mark and kind, then stamp, position, flags and the number of the epoch.
+  static constexpr std::size_t kConditionAt = 2, kConditionBytes = 17;
 
   template <class Value>
   static Value value_at(std::span<const std::byte> row, std::size_t at) {
@@ -93,21 +96,32 @@ class Reader {
     return little_endian(value);
   }
 
-  std::uint64_t read_status(Status& status) {
-    status.stamp_ms = take<std::uint32_t>();
-    status.position_m.x = take_metres();
-    status.position_m.y = take_metres();
-    const std::uint64_t flags = take<std::uint8_t>();
+  std::uint64_t read_condition(std::span<const std::byte> bytes, Condition& status) {
+    status.stamp_ms = value_at<std::uint32_t>(bytes, 0);
+    status.position_m = {metres_at(bytes, 4), metres_at(bytes, 8)};
+    const std::uint64_t flags = value_at<std::uint8_t>(bytes, 12);
     status.requesting = (flags & kRequesting) != 0;
     status.waiting = (flags & kWaiting) != 0;
     status.idle = (flags & kIdle) != 0;
     status.out_of_order = (flags & kOutOfOrder) != 0;
     status.blocked = (flags & kBlocked) != 0;
     status.position_is_new = (flags & kPositionIsNew) != 0;
-    status.epoch = take_epoch((flags & kEpochHasBoot) != 0);
-    take_path(status.held);
-    take_lanes(status.ahead, kPathLanesMax - status.held.count);
+    status.epoch = value_at<std::uint32_t>(bytes, 13);
+    if ((flags & kEpochHasBoot) != 0) status.epoch |= first_epoch(take<std::uint32_t>());
     return flags;
+  }
+
+  void take_way(Message& message) {
+    message.repeats_way = known_.begin(rest_, message.tells_zones);
+    if (message.repeats_way) {
+      rest_ = rest_.subspan(known_.size);
+      return;
+    }
+    const std::span<const std::byte> way = rest_;
+    take_path(message.status.held);
+    take_lanes(message.status.ahead, kPathLanesMax - message.status.held.count);
+    if (message.tells_zones) take_zones(message.zones);
+    message.way_bytes = way.first(way.size() - rest_.size());
   }
 
   template <class Value>
@@ -123,9 +137,9 @@ class Reader {
   }
   // Many values at once: the length is looked at only once.
   template <class Value>
-  void take_row(std::uint32_t* to, std::size_t count) {
+  void take_row(Value* to, std::size_t count) {
     const std::span<const std::byte> row = take_bytes(count * sizeof(Value));
-    if constexpr (std::endian::native == std::endian::little && sizeof(Value) == sizeof(*to)) {
+    if constexpr (std::endian::native == std::endian::little) {
       if (!row.empty()) std::memcpy(to, row.data(), row.size());
     } else {
       for (std::size_t at = 0; at < row.size(); at += sizeof(Value)) *to++ = value_at<Value>(row, at);
@@ -145,7 +159,9 @@ class Reader {
     const auto number = take<std::uint32_t>();
     return has_boot ? first_epoch(take<std::uint32_t>()) | number : number;
   }
-  double take_metres() { return static_cast<std::int32_t>(take<std::uint32_t>()) / kPerMetre; }
+  static double metres_at(std::span<const std::byte> bytes, std::size_t at) {
+    return static_cast<std::int32_t>(value_at<std::uint32_t>(bytes, at)) / kPerMetre;
+  }
   double take_fraction() { return static_cast<std::int16_t>(take<std::uint16_t>()) / kPerUnit; }
 
   void take_path(Path& path) {
@@ -161,7 +177,7 @@ class Reader {
   void take_lanes(Path& path, std::uint32_t most) {
     const std::uint32_t count = take<std::uint8_t>();
     if (count > most) return fail();
-    take_row<std::uint16_t>(path.lane_ids.data(), count);
+    take_row(path.lane_ids.data(), count);
     path.count = failed_ ? 0 : count;
   }
 
@@ -169,7 +185,7 @@ class Reader {
     heard.first = take<std::uint16_t>();
     heard.count = take<std::uint8_t>();
     if (heard.count > HeardFrom::kMax) return fail();
-    take_row<std::uint32_t>(heard.stamps_ms.data(), heard.count);
+    take_row(heard.stamps_ms.data(), heard.count);
   }
 
   void take_request(Message& message) {
@@ -226,6 +242,7 @@ class Reader {
   bool complete() const { return !failed_ && rest_.empty(); }
 
   std::span<const std::byte> rest_;
+  const WayBytes& known_;
   bool failed_ = false;
 };
 
@@ -239,15 +256,19 @@ void WireMessage::put(std::uint64_t value) {
 }
 
 // Many values at once.
-template <class Value, class From>
-void WireMessage::put_row(std::span<const From> values) {
+template <class Value>
+void WireMessage::put_row(std::span<const Value> values) {
   std::byte* to = bytes_.data() + size_;
-  for (const From value : values) {
-    const Value little = little_endian(static_cast<Value>(value));
-    std::memcpy(to, &little, sizeof(Value));
-    to += sizeof(Value);
+  if constexpr (std::endian::native == std::endian::little) {
+    if (!values.empty()) std::memcpy(to, values.data(), values.size_bytes());
+  } else {
+    for (const Value value : values) {
+      const Value little = little_endian(value);
+      std::memcpy(to, &little, sizeof(Value));
+      to += sizeof(Value);
+    }
   }
-  size_ += values.size() * sizeof(Value);
+  size_ += values.size_bytes();
 }
 
 WireMessage::WireMessage(const Message& message) {
@@ -310,7 +331,7 @@ void WireMessage::put_answers(const Answers& answers) {
 
 void WireMessage::put_zones(const ZoneSet& zones) {
   put<std::uint8_t>(zones.size());
-  put_row<std::uint16_t>(zones.all());
+  put_row(zones.all());
 }
 
 void WireMessage::put_roll(const Roll& roll) {
@@ -339,18 +360,18 @@ void WireMessage::put_path(const Path& path) {
 
 void WireMessage::put_lanes(const Path& path) {
   put<std::uint8_t>(path.count);
-  put_row<std::uint16_t>(path.lanes());
+  put_row(path.lanes());
 }
 
 void WireMessage::put_heard(const HeardFrom& heard) {
   put<std::uint16_t>(heard.first);
   put<std::uint8_t>(heard.count);
-  put_row<std::uint32_t>(std::span<const std::uint32_t>(heard.stamps_ms.data(), heard.count));
+  put_row(std::span<const std::uint32_t>(heard.stamps_ms.data(), heard.count));
 }
 
-std::optional<Message> decode(std::span<const std::byte> bytes) {
+std::optional<Message> decode(std::span<const std::byte> bytes, const WayBytes& known) {
   std::optional<Message> decoded(std::in_place);  // the only one that is returned, so that nothing is copied
-  if (!Reader(bytes).read(*decoded)) decoded.reset();
+  if (!Reader(bytes, known).read(*decoded)) decoded.reset();
   return decoded;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <span>
 
@@ -42,8 +43,8 @@ constexpr Epoch request_of(Epoch epoch) { return epoch / kAttempts * kAttempts; 
 constexpr std::uint32_t boot_of(Epoch epoch) { return static_cast<std::uint32_t>(epoch >> 32); }
 constexpr std::uint32_t number_of(Epoch epoch) { return static_cast<std::uint32_t>(epoch); }
 
-// What every message says about its sender.
-struct Status {
+// What every message says about its sender, but for its ways.
+struct Condition {
   std::uint32_t stamp_ms = 0;  // the sender's clock at the instant of sending
   Vec position_m;
   bool position_is_new = true;  // perceived at the instant of sending
@@ -54,9 +55,32 @@ struct Status {
   bool waiting = false;         // it stands and can only wait for a lock
   bool idle = false;            // it is waiting and has no transport
   bool out_of_order = false;
-  bool place_unknown = false;  // since a restart, it does not know what it covers; `held` does not say it
-  Path held;                   // the path whose hull it holds
-  Path ahead;                  // the way that it announces from there. On the wire only its lanes
+  bool place_unknown = false;  // since a restart, it does not know what it covers; the held path does not say it
+};
+struct Status : Condition {
+  Path held;   // the path whose hull it holds
+  Path ahead;  // the way that it announces from there. On the wire only its lanes
+};
+
+// The bytes of a message that say what its sender holds, announces, and in which zones that lies. Most messages repeat
+// those of the message before.
+struct WayBytes {
+  static constexpr std::size_t kMax = 217;
+  bool tell_zones = false;
+  std::size_t size = 0;  // 0: none are known
+  std::array<std::byte, kMax> bytes;
+
+  // Requires: the bytes are those of a message that was read.
+  void keep(std::span<const std::byte> of, bool with_zones) {
+    tell_zones = with_zones;
+    size = of.size();
+    std::ranges::copy(of, bytes.begin());
+  }
+  // Whether a message that goes on like this says the same.
+  bool begin(std::span<const std::byte> rest, bool with_zones) const {
+    return size > 0 && with_zones == tell_zones && rest.size() >= size &&
+           std::memcmp(rest.data(), bytes.data(), size) == 0;
+  }
 };
 
 // The newest stamps that the sender has seen on messages of the AGVs first, first + 1, ...; 0: no message yet.
@@ -138,6 +162,10 @@ struct Message {
 
   MessageKind kind = MessageKind::State;
   Status status;
+  // Of a message that was read: it says the same as a message before about its ways and zones, and these are not filled
+  // in; otherwise their bytes, as long as those of the message last.
+  bool repeats_way = false;
+  std::span<const std::byte> way_bytes;
   // State, if the status says that a request is open, and Request
   std::int64_t demand_ns = 0;  // since when the sender has wanted to go on
   Path request;                // the path to lock, from the end of the held path. Its epoch is status.epoch
@@ -167,8 +195,8 @@ class WireMessage {
  private:
   template <class Value>
   void put(std::uint64_t value);
-  template <class Value, class From>
-  void put_row(std::span<const From> values);
+  template <class Value>
+  void put_row(std::span<const Value> values);
   void put_epoch(Epoch epoch);
   void put_path(const Path& path);
   void put_lanes(const Path& path);
@@ -182,7 +210,8 @@ class WireMessage {
   std::size_t size_ = 0;
 };
 
-// The message, if the bytes are exactly one message. The caller must check that the paths exist on its map.
-std::optional<Message> decode(std::span<const std::byte> bytes);
+// The message, if the bytes are exactly one message. The caller must check that the paths exist on its map. What it
+// repeats of `known` is not filled in.
+std::optional<Message> decode(std::span<const std::byte> bytes, const WayBytes& known = {});
 
 }  // namespace fleetproof::agents

@@ -113,11 +113,9 @@ void Routes::search(std::uint32_t from, Vec heading, std::span<const double> cos
   rules_.any() ? search_lanes(from, heading, cost_s, aim) : search_stations(from, cost_s, aim);
 }
 
-bool Routes::is_reached(std::uint32_t station, double cost_s, const Aim& aim) {
+bool Routes::is_enough(std::uint32_t station, double cost_s, const Aim& aim) const {
   const bool is_far = aim.far_m < INFINITY && length(map_.position_m(station) - aim.begin_m) >= aim.far_m;
-  if (station != aim.until && !is_far && (aim.enough == nullptr || !(*aim.enough)(station, cost_s))) return false;
-  reached_ = station;
-  return true;
+  return is_far || (aim.enough != nullptr && (*aim.enough)(station, cost_s));
 }
 
 void Routes::search_stations(std::uint32_t from, std::span<const double> cost_s, const Aim& aim) {

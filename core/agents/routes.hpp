@@ -70,6 +70,7 @@ class Routes {
     double far_m = INFINITY;
 
     double remains(std::uint32_t station) const { return remains_s.empty() ? 0.0 : remains_s[station]; }
+    bool is_station_only() const { return enough == nullptr && far_m == INFINITY; }
   };
 
   // What a search has found. Those of earlier searches are forgotten by their number: a map has many.
@@ -88,7 +89,12 @@ class Routes {
   void leave(std::uint32_t station, double so_far_s, std::span<const double> cost_s, const Aim& aim);
   void search_lanes(std::uint32_t from, Vec heading, std::span<const double> cost_s, const Aim& aim);
   void reach(std::uint32_t lane, double cost_s, std::uint32_t before, const Aim& aim);
-  bool is_reached(std::uint32_t station, double cost_s, const Aim& aim);
+  bool is_reached(std::uint32_t station, double cost_s, const Aim& aim) {
+    if (station != aim.until && (aim.is_station_only() || !is_enough(station, cost_s, aim))) return false;
+    reached_ = station;
+    return true;
+  }
+  bool is_enough(std::uint32_t station, double cost_s, const Aim& aim) const;
   void push(Open open);
   Open pop();
 

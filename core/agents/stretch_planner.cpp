@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 #include "core/agents/lane_costs.hpp"
 
@@ -10,8 +9,8 @@ namespace fleetproof::agents {
 namespace {
 
 constexpr double kLookAhead_m = 12.0;
-constexpr std::uint32_t kManyLanes = 1000;
-constexpr double kFar_m = 70.0;  // if it does not hear of all, prices of what is further away are of others
+constexpr std::uint32_t kFewAround = 8;  // if it does not hear of all, it knows the ways of so many
+constexpr double kFar_m = 70.0;          // if it does not hear of all, prices of what is further away are of others
 constexpr std::uint32_t kLookAheadLanes = 3;
 constexpr double kOnward_m = 40.0, kOnwardInZones_m = 25.0;  // what is announced beyond a stretch
 
@@ -19,9 +18,6 @@ constexpr double kOnward_m = 40.0, kOnwardInZones_m = 25.0;  // what is announce
 constexpr double kArrivingCost_s = 8.0;
 constexpr double kIdleCost_s = 10.0;
 constexpr double kWaitingCost_s = 20.0;
-// Of a lane on which it would meet an AGV that has announced the other direction, for one of them would have to go
-// back: for each metre, and at most.
-constexpr double kMeetingCost_spm = 15.0, kLargestMeetingCost_s = 60.0;
 constexpr double kNoWayCost_s = 1000.0;
 // In a row of chargers, wide AGVs cannot turn beside each other. An AGV would rather hold up others there than run
 // empty.
@@ -139,8 +135,8 @@ StretchPlanner::StretchPlanner(const MapView& map, HullGeometry& geometry, Neigh
       rules_(map, vehicle_type),
       routes_(map, rules_),
       lane_times_s_(agents::lane_times_s(geometry.parts().facts(), neighbours.self())),
-      usual_costs_s_(options.one_way_aisles ? lane_costs_s(geometry.parts(), neighbours.self()) : lane_times_s_),
-      remembers_prices_(map.lane_count() > kManyLanes),
+      prices_(map, rules_, options.one_way_aisles ? lane_costs_s(geometry.parts(), neighbours.self()) : lane_times_s_,
+              neighbours.audience().hears_of_all() ? neighbours.fleet_count() : kFewAround),
       model_(model_of(geometry.parts().facts(), neighbours.self())),
       knows_remaining_costs_(options.one_way_aisles) {}
 
@@ -171,9 +167,9 @@ std::vector<std::uint32_t> StretchPlanner::way_on(Path from, std::span<const Goa
 }
 
 void StretchPlanner::search(const Path& from, std::uint32_t goal) {
-  if (!knows_remaining_costs_) return routes_.search(from.station, from.heading, costs_s_, goal);
+  if (!knows_remaining_costs_) return routes_.search(from.station, from.heading, prices_.costs_s(), goal);
   const auto remains_s = remaining_costs_s(geometry_.parts(), model_, goal);
-  routes_.search_towards(goal, remains_s, from.station, from.heading, costs_s_,
+  routes_.search_towards(goal, remains_s, from.station, from.heading, prices_.costs_s(),
                          neighbours_.audience().hears_of_all() ? INFINITY : kFar_m);
 }
 
@@ -224,7 +220,7 @@ Stretch StretchPlanner::out_of_the_way(const Path& standing, Budget budget, bool
 
 std::uint32_t StretchPlanner::free_charger(const Path& standing, bool loaded, bool urgent) {
   price_lanes(loaded, kWaitingCost_s, kIdleCost_s, {});
-  routes_.search(standing.station, standing.heading, costs_s_);
+  routes_.search(standing.station, standing.heading, prices_.costs_s());
   std::uint32_t best = FP_NONE;
   double best_s = urgent ? 2.0 * kNoWayCost_s : kNoWayCost_s;
   for (std::uint32_t station = 0; station < map_.station_count(); ++station) {
@@ -259,47 +255,21 @@ bool StretchPlanner::follow(Walk& walk, std::uint32_t to) {
 }
 
 void StretchPlanner::price_lanes(bool loaded, double waiting_s, double idle_s, const GoesFirst& goes_first) {
-  forget_prices(loaded);
+  prices_.begin(loaded);
   for_each_on_the_way(neighbours_, [&](std::uint32_t agv, const Neighbour& n) {
     if (!n.known) return;
     const Status& status = n.status;
     const bool wall = status.out_of_order || (status.waiting && goes_first && goes_first(agv, n));
     const double extra_s = wall ? kNoWayCost_s : !status.waiting ? kArrivingCost_s : status.idle ? idle_s : waiting_s;
     price_station(end_of(map_, status.held).station, extra_s);
-    price_meetings(status.held);
-    price_meetings(status.ahead);
+    prices_.price_meetings(status.held);
+    prices_.price_meetings(status.ahead);
   });
 }
 
-// In a small map it is quickest to take all prices anew.
-void StretchPlanner::forget_prices(bool loaded) {
-  if (costs_s_.empty() || !remembers_prices_ || loaded != priced_loaded_) {
-    costs_s_.assign(usual_costs_s_.begin(), usual_costs_s_.end());
-    for (std::uint32_t lane = 0; rules_.any() && lane < map_.lane_count(); ++lane) {
-      if (!rules_.is_usable(lane, loaded)) costs_s_[lane] = INFINITY;
-    }
-  } else {
-    for (const auto& [lane, before_s] : dearer_ | std::views::reverse) costs_s_[lane] = before_s;
-  }
-  dearer_.clear();
-  priced_loaded_ = loaded;
-}
-
-void StretchPlanner::remember_price(std::uint32_t lane) { dearer_.push_back({lane, costs_s_[lane]}); }
-
-void StretchPlanner::price_meetings(const Path& other) {
-  for (const std::uint32_t lane : other.lanes()) {
-    const fp_lane& driven = map_.lane(lane);
-    const double extra_s = std::min(kMeetingCost_spm * driven.length_m, kLargestMeetingCost_s);
-    for (const std::uint32_t back : map_.lanes_from(driven.to)) {
-      if (map_.lane(back).segment == driven.segment) make_dearer(back, extra_s);
-    }
-  }
-}
-
 void StretchPlanner::price_station(std::uint32_t station, double extra_s) {
-  for (const std::uint32_t lane : map_.lanes_to(station)) make_dearer(lane, extra_s);
-  for (const std::uint32_t lane : map_.lanes_from(station)) make_dearer(lane, extra_s);
+  for (const std::uint32_t lane : map_.lanes_to(station)) prices_.make_dearer(lane, extra_s);
+  for (const std::uint32_t lane : map_.lanes_from(station)) prices_.make_dearer(lane, extra_s);
 }
 
 // Afterwards, the way there may be asked for.
@@ -319,7 +289,7 @@ std::uint32_t StretchPlanner::best_place(const Path& standing, bool prefer_parki
     if (cost_s < best_s) best = station, best_s = cost_s;
     return false;
   };
-  routes_.search_until(look_at, standing.station, standing.heading, costs_s_);
+  routes_.search_until(look_at, standing.station, standing.heading, prices_.costs_s());
   return best;
 }
 

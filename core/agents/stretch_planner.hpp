@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/agents/hull.hpp"
+#include "core/agents/lane_prices.hpp"
 #include "core/agents/lock_options.hpp"
 #include "core/agents/neighbours.hpp"
 #include "core/agents/path.hpp"
@@ -102,14 +103,7 @@ class StretchPlanner {
   void search(const Path& from, std::uint32_t goal);
   std::uint32_t end_of_search(std::uint32_t goal) const;
   void price_lanes(bool loaded, double waiting_s, double idle_s, const GoesFirst& goes_first);
-  void forget_prices(bool loaded);
-  void make_dearer(std::uint32_t lane, double extra_s) {
-    if (remembers_prices_) remember_price(lane);
-    costs_s_[lane] += extra_s;
-  }
-  void remember_price(std::uint32_t lane);
   void price_station(std::uint32_t station, double extra_s);
-  void price_meetings(const Path& other);
   std::uint32_t best_place(const Path& standing, bool prefer_parking, double draw, const GoesFirst& goes_first);
   double price_of_staying(std::uint32_t station, double limit_s, const GoesFirst& goes_first);
   bool may_turn_back(std::uint32_t station) const;
@@ -124,16 +118,8 @@ class StretchPlanner {
   WaitingPlaces places_;
   DriveRules rules_;
   Routes routes_;
-  std::span<const double> lane_times_s_;   // by lane
-  std::span<const double> usual_costs_s_;  // by lane: the time, and a price against the convention of aisles
-  std::vector<double> costs_s_;            // by lane: likewise, and a price for other AGVs on the lane
-  struct Dearer {
-    std::uint32_t lane;
-    double before_s;
-  };
-  std::vector<Dearer> dearer_;  // what was added to the costs, in this order
-  bool priced_loaded_ = false;
-  bool remembers_prices_;       // dearer_ is kept
+  std::span<const double> lane_times_s_;  // by lane
+  LanePrices prices_;
   std::uint32_t model_;         // of the own AGV
   bool knows_remaining_costs_;  // the usual costs are those of remaining_costs_s()
 };

@@ -19,9 +19,10 @@ class ZoneSet {
   bool contains_all(const ZoneSet& others) const {
     return std::ranges::all_of(others.all(), [&](std::uint16_t zone) { return contains(zone); });
   }
-  // Most sets of a large floor differ in the first look.
+  // Most sets of a large floor differ in the first look, and those of a small floor need no other.
   bool meets(const ZoneSet& other) const {
-    if ((some_ & other.some_) == 0) return false;
+    if (((some_[0] & other.some_[0]) | (some_[1] & other.some_[1])) == 0) return false;
+    if (has_own_bits() && other.has_own_bits()) return true;
     return std::ranges::any_of(all(), [&](std::uint16_t zone) { return other.contains(zone); });
   }
 
@@ -33,7 +34,7 @@ class ZoneSet {
     std::uint32_t at = count_++;
     for (; at > 0 && zones_[at - 1] > zone; --at) zones_[at] = zones_[at - 1];
     zones_[at] = zone;
-    some_ |= bit_of(zone);
+    some_[zone / 64 % 2] |= bit_of(zone);
     return true;
   }
   template <class Keep>
@@ -44,15 +45,17 @@ class ZoneSet {
     }
     *this = kept;
   }
-  void clear() { count_ = 0, some_ = 0; }
+  void clear() { count_ = 0, some_ = {}; }
 
   friend bool operator==(const ZoneSet& a, const ZoneSet& b) { return std::ranges::equal(a.all(), b.all()); }
 
  private:
   static std::uint64_t bit_of(std::uint16_t zone) { return std::uint64_t{1} << (zone % 64); }
-  bool may_contain(std::uint16_t zone) const { return (some_ & bit_of(zone)) != 0; }
+  bool may_contain(std::uint16_t zone) const { return (some_[zone / 64 % 2] & bit_of(zone)) != 0; }
+  bool has_own_bits() const { return count_ == 0 || zones_[count_ - 1] < kBits; }
 
-  std::uint64_t some_ = 0;  // a bit for each zone; several zones share one
+  static constexpr std::uint16_t kBits = 128;
+  std::array<std::uint64_t, kBits / 64> some_{};  // a bit for each zone; several zones share one
   std::uint32_t count_ = 0;
   std::array<std::uint16_t, kMax> zones_;
 };

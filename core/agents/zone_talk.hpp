@@ -40,6 +40,10 @@ class ZoneTalk {
 
   // Requires: the message has been noted.
   void hear(std::uint32_t sender, const Message& message);
+  // Whether something has come up.
+  bool has_news() const {
+    return membership_.has_news() || !applicants_.empty() || !to_answer_.empty() || !to_tell_.empty();
+  }
   // Says what has come up, and if it is time to `repeat`, what may have been lost.
   void talk(bool repeat);
 

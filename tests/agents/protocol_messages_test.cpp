@@ -120,6 +120,36 @@ TEST(ProtocolMessages, ComeBackAsTheyWere) {
   }
 }
 
+TEST(ProtocolMessages, AWayThatIsKnownIsNotReadAgain) {
+  for (const MessageKind kind : {MessageKind::State, MessageKind::Grant, MessageKind::Roll}) {
+    Message sent = sample_with_zones(kind);
+    sent.status.ahead.append(9);
+    const WireMessage wire(sent);
+    const std::optional<Message> first = decode(wire.bytes());
+    ASSERT_TRUE(first && !first->repeats_way);
+    WayBytes known;
+    known.keep(first->way_bytes, first->tells_zones);
+    sent.status.stamp_ms += 5;
+    const std::optional<Message> again = decode(WireMessage(sent).bytes(), known);
+    ASSERT_TRUE(again && again->repeats_way);
+    EXPECT_EQ(again->status.stamp_ms, sent.status.stamp_ms);
+    EXPECT_EQ(again->heard.stamps_ms[2], 4'000'000'000U);
+    for (int change = 0; change < 5; ++change) {
+      Message other = sent;
+      if (change == 0) other.status.held.lane_ids[2] = 3;
+      if (change == 1) other.status.held.heading = {-0.6, 0.8};
+      if (change == 2) other.status.ahead.append(10);
+      if (change == 3) other.zones.add(8);
+      if (change == 4) other.tells_zones = false;
+      const std::optional<Message> m = decode(WireMessage(other).bytes(), known);
+      ASSERT_TRUE(m && !m->repeats_way) << change;
+      EXPECT_TRUE(m->status.held == other.status.held && m->status.ahead.count == other.status.ahead.count) << change;
+    }
+    for (std::size_t size = 0; size < wire.bytes().size(); ++size)
+      EXPECT_FALSE(decode(wire.bytes().first(size), known)) << size;
+  }
+}
+
 TEST(ProtocolMessages, EpochsOfLaterBootsComeBackAsTheyWere) {
   for (const MessageKind kind : {MessageKind::Grant, MessageKind::Defer}) {
     for (const Epoch mine : {Epoch{7}, first_epoch(1), first_epoch(0xffffffff) + 9}) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <set>
 #include <tuple>
 
 #include "core/agents/agent_type.hpp"
@@ -72,6 +73,31 @@ TEST(ZoneMap, HullsThatConflictHaveAZoneInCommon) {
   }
   EXPECT_GT(conflicts, 2000U);
   EXPECT_GT(apart, 5000U);
+}
+
+TEST(ZoneSet, SetsMeetInAZoneOfBothHoweverLargeItsNumber) {
+  std::mt19937_64 draws(7);
+  for (const unsigned zones : {20U, 128U, 129U, 300U, 60'000U}) {
+    std::uint32_t met = 0;
+    for (int i = 0; i < 2000; ++i) {
+      ZoneSet one, other;
+      std::set<std::uint16_t> of_one, of_both;
+      for (int k = 0; k < 5; ++k) {
+        const auto zone = static_cast<std::uint16_t>(draws() % zones);
+        one.add(zone), of_one.insert(zone);
+      }
+      for (std::uint64_t k = draws() % 5; k > 0; --k) {
+        const auto zone = static_cast<std::uint16_t>(draws() % 3 == 0 ? *of_one.begin() : draws() % zones);
+        other.add(zone);
+        if (of_one.contains(zone)) of_both.insert(zone);
+      }
+      ASSERT_EQ(one.meets(other), !of_both.empty()) << zones;
+      ASSERT_EQ(other.meets(one), !of_both.empty()) << zones;
+      met += of_both.empty() ? 0 : 1;
+    }
+    EXPECT_GT(met, 500U);
+    EXPECT_LT(met, 2000U);
+  }
 }
 
 class DividedCells : public ::testing::TestWithParam<FakeRadio> {};
@@ -216,6 +242,20 @@ TEST_F(MembershipTest, NeedsARollThatIsNewerThanItsStay) {
   EXPECT_TRUE(is_member());
   membership.announce(none, 0);
   EXPECT_FALSE(is_member());
+}
+
+TEST_F(MembershipTest, HasNewsUntilItIsSaid) {
+  std::vector<Membership::Due> due;
+  EXPECT_FALSE(membership.has_news());
+  membership.announce(own, 5000);
+  EXPECT_TRUE(membership.has_news()) << "it must apply";
+  membership.append_due(false, none, due);
+  EXPECT_EQ(due.size(), 1U);
+  EXPECT_FALSE(membership.has_news());
+  take_roll({{1, 0, 700}}, 5000);
+  EXPECT_TRUE(membership.has_news()) << "AGV 1 must be told";
+  membership.append_due(false, none, due);
+  EXPECT_EQ(due.size(), 2U);
 }
 
 TEST_F(MembershipTest, NeedsTheAcknowledgementOfEverybodyOnTheRoll) {
