@@ -1,7 +1,6 @@
 #include "core/engine/messenger.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <utility>
 
 namespace fleetproof {
@@ -30,8 +29,6 @@ TraceKind cause_of(const Fate& lost) {
   return lost.in_outage ? TraceKind::LostInOutage : TraceKind::Lost;
 }
 
-constexpr std::size_t kBits = 64;  // of a word
-
 }  // namespace
 
 Messenger::Messenger(RunContext& run, AgentHostPort agents)
@@ -49,7 +46,6 @@ Messenger::Messenger(RunContext& run, AgentHostPort agents)
   if (unlimited_range_) return;
   reach_.emplace(run.agvs.size(), run.scenario.radio.range_m, floor_of(*run.scenario.map));
   for (std::size_t i = 0; i < run.agvs.size(); ++i) reach_->piece_begins(run.world.body(AgvId{i}).piece);
-  in_range_.resize((run.agvs.size() + kBits - 1) / kBits);
 }
 
 // ---- sending
@@ -95,7 +91,7 @@ void Messenger::transmit(AgvId sender, std::uint32_t slot, std::uint32_t receive
 
 // The hearers in ascending order. `ordinal`: of the message among all that its AGV sends at this instant.
 void Messenger::all_hear(AgvId sender, std::uint32_t ordinal) {
-  std::vector<std::uint32_t>& sent = sent_to_[sender.index()];
+  std::vector<std::uint32_t>& sent = sent_to_[sender.index()].counts;
   if (sent.empty()) [[unlikely]]
     sent.resize(slices_.size());
   if (ordinal == 0) std::ranges::fill(sent, 0);
@@ -109,24 +105,26 @@ void Messenger::all_hear(AgvId sender, std::uint32_t ordinal) {
 
 void Messenger::find_hearers(AgvId sender, std::uint32_t ordinal, std::uint32_t receiver, const Vec2& from_m) {
   hearing_ = 0;
-  if (ordinal == 0) sent_to_[sender.index()].assign(slices_.size(), 0);
+  SentTo& sent = sent_to_[sender.index()];
+  if (sent.counts.empty() || (ordinal == 0 && unlimited_range_)) {
+    sent.counts.assign(slices_.size(), 0);
+  } else if (ordinal == 0) {
+    for (const AgvId agv : sent.receivers) sent.counts[agv.index()] = 0;
+  }
+  if (ordinal == 0) sent.receivers.clear();
   if (receiver == FP_NONE) {
     find_hearers_in_range(sender, from_m);
   } else if (unlimited_range_ || is_in_range(AgvId{receiver}, from_m)) {
-    hears(AgvId{receiver}, sent_to_[sender.index()]);
+    hears(AgvId{receiver}, sent);
   } else {
     ++run_.counters.out_of_range;
   }
 }
 
 void Messenger::find_hearers_in_range(AgvId sender, const Vec2& from_m) {
-  reach_->for_each_near(from_m, [&](AgvId agv) {
-    if (agv != sender && is_in_range(agv, from_m))
-      in_range_[agv.index() / kBits] |= std::uint64_t{1} << agv.index() % kBits;
-  });
-  for (std::size_t word = 0; word < in_range_.size(); ++word) {
-    for (std::uint64_t& bits = in_range_[word]; bits != 0; bits &= bits - 1)
-      hears(AgvId{kBits * word + static_cast<std::size_t>(std::countr_zero(bits))}, sent_to_[sender.index()]);
+  for (const std::uint32_t near : reach_->near(sender, from_m)) {
+    const AgvId agv{near};
+    if (agv != sender && is_in_range(agv, from_m)) hears(agv, sent_to_[sender.index()]);
   }
   run_.counters.out_of_range += slices_.size() - 1 - hearing_;
 }

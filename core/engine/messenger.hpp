@@ -61,6 +61,12 @@ class Messenger {
     std::uint32_t in_hand = FP_NONE;
     SentCount sent;  // to any receiver
   };
+  // The messages of an AGV at the last instant at which it sent: how many to each receiver, and to whom any. Of those
+  // to all, not to whom.
+  struct SentTo {
+    std::vector<std::uint32_t> counts;
+    std::vector<AgvId> receivers;
+  };
   Slice& slice_of(AgvId agv) { return slices_[agv.index()]; }
   void put_down(Slice& slice);
   void all_hear(AgvId sender, std::uint32_t ordinal);
@@ -68,8 +74,10 @@ class Messenger {
   void find_hearers_in_range(AgvId sender, const Vec2& from_m);
   bool is_in_range(AgvId receiver, const Vec2& from_m) const;
   // `sent`: the row of the sender.
-  void hears(AgvId receiver, std::vector<std::uint32_t>& sent) {
-    hearers_[hearing_++] = {receiver, sent[receiver.index()]++};
+  void hears(AgvId receiver, SentTo& sent) {
+    std::uint32_t& count = sent.counts[receiver.index()];
+    if (count == 0) sent.receivers.push_back(receiver);
+    hearers_[hearing_++] = {receiver, count++};
   }
   void deliver_together(AgvId sender, std::uint32_t slot);
   void deliver_plainly(std::uint32_t slot);
@@ -94,14 +102,11 @@ class Messenger {
   bool needs_places_;                // the fate of a message depends on where its ends are
   std::optional<RadioReach> reach_;  // if the range is limited
   std::vector<Slice> slices_;        // by AGV
-  // By sender and receiver: the messages from the one to the other at the last instant of sending. A row is empty until
-  // its AGV sends.
-  std::vector<std::vector<std::uint32_t>> sent_to_;
+  std::vector<SentTo> sent_to_;      // by sender; a row is empty until its AGV sends
   // Of the message being sent: who hears it, in order, in the first `hearing_` places; and the draws of each.
   std::vector<Hearer> hearers_;
   std::size_t hearing_ = 0;
   std::vector<Block> draws_;
-  std::vector<std::uint64_t> in_range_;  // of its sender: a bit for each AGV
 };
 
 }  // namespace fleetproof

@@ -18,7 +18,7 @@ std::size_t cells_along(double floor_m, double side_m) {
 }  // namespace
 
 RadioReach::RadioReach(std::size_t agvs, double range_m, const Box& floor)
-    : range_m_(range_m), corner_m_(floor.low_m), circles_(agvs) {
+    : range_m_(range_m), corner_m_(floor.low_m), circles_(agvs), answers_(agvs) {
   const Vec2 size_m = floor.high_m - floor.low_m;
   side_m_ = std::max({range_m, size_m.maxCoeff() / kMostCells, kSmallestCell_m});
   columns_ = cells_along(size_m.x(), side_m_);
@@ -26,6 +26,7 @@ RadioReach::RadioReach(std::size_t agvs, double range_m, const Box& floor)
   cells_.resize(columns_ * rows_ + 1);
   for (std::uint32_t agv = 0; agv < agvs; ++agv) cells_.back().push_back(agv);
   filed_in_.assign(agvs, cells_.size() - 1);
+  changes_.assign(cells_.size(), 1);
 }
 
 // A point of a way is not farther from the middle between its ends than half the length of the way.
@@ -48,10 +49,60 @@ void RadioReach::forget(AgvId agv) { file(agv.value, cells_.size() - 1); }
 
 void RadioReach::file(std::uint32_t agv, std::size_t cell) {
   std::size_t& in = filed_in_[agv];
+  ++changes_[in];
   if (in == cell) return;
+  ++changes_[cell];
   std::erase(cells_[in], agv);
   cells_[cell].push_back(agv);
   in = cell;
+}
+
+std::span<const std::uint32_t> RadioReach::near(AgvId asker, const Vec2& place_m) {
+  Answer& answer = answers_[asker.index()];
+  const Block block = block_around(place_m);
+  const std::uint64_t changes = changes_in(block);
+  if (answer.changes == changes && answer.place_m == place_m) return answer.agvs;
+  answer.place_m = place_m;
+  answer.changes = changes;
+  find(place_m, block, answer.agvs);
+  std::ranges::sort(answer.agvs);
+  return answer.agvs;
+}
+
+RadioReach::Block RadioReach::block_around(const Vec2& place_m) const {
+  const double around_m = range_m_ + 0.5 * side_m_;
+  return {.left = column(place_m.x() - around_m),
+          .right = column(place_m.x() + around_m),
+          .low = row(place_m.y() - around_m),
+          .high = row(place_m.y() + around_m)};
+}
+
+// It grows with every change there. That of AGVs that may be anywhere belongs to every block.
+std::uint64_t RadioReach::changes_in(const Block& block) const {
+  std::uint64_t sum = changes_.back();
+  for (std::size_t y = block.low; y <= block.high; ++y) {
+    for (std::size_t x = block.left; x <= block.right; ++x) sum += changes_[y * columns_ + x];
+  }
+  return sum;
+}
+
+void RadioReach::find(const Vec2& place_m, const Block& block, std::vector<std::uint32_t>& near) const {
+  near = cells_.back();
+  for (std::size_t y = block.low; y <= block.high; ++y) {
+    for (std::size_t x = block.left; x <= block.right; ++x) {
+      for (const std::uint32_t agv : cells_[y * columns_ + x]) {
+        const Circle& circle = circles_[agv];
+        const double reach_m = range_m_ + circle.radius_m;
+        if ((circle.centre_m - place_m).squaredNorm() <= reach_m * reach_m) near.push_back(agv);
+      }
+    }
+  }
+}
+
+std::size_t RadioReach::cell(double from_m, double side_m, std::size_t count) {
+  const double number = from_m / side_m;
+  if (!(number > 0.0)) return 0;
+  return number < static_cast<double>(count) ? static_cast<std::size_t>(number) : count - 1;
 }
 
 }  // namespace fleetproof

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/motion/piece.hpp"
@@ -20,23 +21,9 @@ class RadioReach {
   // From now until its next piece the AGV may be anywhere.
   void forget(AgvId agv);
 
-  // Calls `look(agv)` for every AGV whose reference point may be within the range of this place, in any order.
-  template <class Look>
-  void for_each_near(const Vec2& place_m, Look look) const {
-    for (const std::uint32_t agv : anywhere()) look(AgvId{agv});
-    const double around_m = range_m_ + 0.5 * side_m_;
-    const std::size_t left = column(place_m.x() - around_m), right = column(place_m.x() + around_m);
-    const std::size_t top = row(place_m.y() + around_m);
-    for (std::size_t y = row(place_m.y() - around_m); y <= top; ++y) {
-      for (std::size_t x = left; x <= right; ++x) {
-        for (const std::uint32_t agv : cells_[y * columns_ + x]) {
-          const Circle& circle = circles_[agv];
-          const double reach_m = range_m_ + circle.radius_m;
-          if ((circle.centre_m - place_m).squaredNorm() <= reach_m * reach_m) look(AgvId{agv});
-        }
-      }
-    }
-  }
+  // Every AGV whose reference point may be within the range of this place, in ascending order. `asker`: who asks; while
+  // it asks from the same place and nothing changes around, it gets the same answer.
+  std::span<const std::uint32_t> near(AgvId asker, const Vec2& place_m);
 
  private:
   struct Circle {
@@ -45,25 +32,33 @@ class RadioReach {
   };
   static Circle circle_of(const Piece& piece);
 
+  // Cells in columns `left` to `right` and rows `low` to `high`.
+  struct Block {
+    std::size_t left, right, low, high;
+  };
+  struct Answer {
+    Vec2 place_m = Vec2::Zero();
+    std::uint64_t changes = 0;  // around it, when it was found; 0: not found yet
+    std::vector<std::uint32_t> agvs;
+  };
+
   // What lies beside the floor belongs to the cells at its rim.
   static std::size_t cell(double from_m, double side_m, std::size_t count);
   std::size_t column(double x_m) const { return cell(x_m - corner_m_.x(), side_m_, columns_); }
   std::size_t row(double y_m) const { return cell(y_m - corner_m_.y(), side_m_, rows_); }
-  const std::vector<std::uint32_t>& anywhere() const { return cells_.back(); }
+  Block block_around(const Vec2& place_m) const;
+  std::uint64_t changes_in(const Block& block) const;
+  void find(const Vec2& place_m, const Block& block, std::vector<std::uint32_t>& near) const;
   void file(std::uint32_t agv, std::size_t cell);
 
   double range_m_, side_m_;
   Vec2 corner_m_;
   std::size_t columns_, rows_;
   std::vector<std::vector<std::uint32_t>> cells_;  // the AGVs by cell; the last one: those that may be anywhere
+  std::vector<std::uint64_t> changes_;             // by cell: how often its AGVs or their circles have changed
   std::vector<Circle> circles_;                    // by AGV
   std::vector<std::size_t> filed_in_;              // likewise: the cell
+  std::vector<Answer> answers_;                    // by AGV that asked
 };
-
-inline std::size_t RadioReach::cell(double from_m, double side_m, std::size_t count) {
-  const double number = from_m / side_m;
-  if (!(number > 0.0)) return 0;
-  return number < static_cast<double>(count) ? static_cast<std::size_t>(number) : count - 1;
-}
 
 }  // namespace fleetproof
