@@ -65,7 +65,9 @@ struct Status : Condition {
 // The bytes of a message that say what its sender holds, announces, and in which zones that lies. Most messages repeat
 // those of the message before.
 struct WayBytes {
-  static constexpr std::size_t kMax = 217;
+  // Station, heading, the numbers of lanes and zones, and these.
+  static constexpr std::size_t kMax = 9 + 2 * std::size_t{kPathLanesMax} + 2 * std::size_t{ZoneSet::kMax};
+  static_assert(kMax == 217);
   bool tell_zones = false;
   std::size_t size = 0;  // 0: none are known
   std::array<std::byte, kMax> bytes;
