@@ -13,7 +13,7 @@ namespace fleetproof {
 namespace {
 
 constexpr double kRounding_m = 1e-3;
-constexpr std::size_t kFirst = 24;
+constexpr std::size_t kFirst = 64;
 
 }  // namespace
 
